@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace artus {
+
+/// A point or vector; metres unless the name says otherwise.
+using Vec3 = Eigen::Vector3d;
+
+/// A rigid pose X_AB: maps coordinates in frame B to coordinates in frame A.
+using Pose = Eigen::Isometry3d;
+
+/// A straight piece of line from `start` to `end`, metres, frame J (the joint's) unless named.
+struct Segment {
+  Vec3 start = Vec3::Zero();
+  Vec3 end = Vec3::Zero();
+};
+
+/// The pose whose z axis is along `z`, whose x axis is as near to `x_hint` as orthogonality
+/// allows, and whose origin is `p`. Requires: `z` not zero; a parallel or zero hint is replaced by
+/// a fixed deterministic one.
+[[nodiscard]] inline Pose make_pose(const Vec3& p, const Vec3& z, const Vec3& x_hint) {
+  const Vec3 ez = z.normalized();
+  Vec3 ex = x_hint - ez * ez.dot(x_hint);
+  if (ex.norm() < 1e-9 * (1 + x_hint.norm())) ex = ez.unitOrthogonal();
+  ex.normalize();
+  Pose pose = Pose::Identity();
+  pose.linear().col(0) = ex;
+  pose.linear().col(1) = ez.cross(ex);
+  pose.linear().col(2) = ez;
+  pose.translation() = p;
+  return pose;
+}
+
+}  // namespace artus

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "core/geometry.h"
+
+#include <gtest/gtest.h>
+
+namespace artus {
+namespace {
+
+TEST(MakePose, IsARotationWithZAlongTheRequestedAxis) {
+  const Vec3 z(1, 2, -0.5);
+  const Pose pose = make_pose(Vec3(3, 4, 5), z, Vec3(0, 0, 1));
+  EXPECT_NEAR(pose.linear().determinant(), 1, 1e-12);
+  EXPECT_LT((pose.linear() * pose.linear().transpose() - Eigen::Matrix3d::Identity()).norm(),
+            1e-12);
+  EXPECT_LT((pose.linear().col(2) - z.normalized()).norm(), 1e-12);
+  EXPECT_GT(pose.linear().col(0).z(), 0);
+  EXPECT_EQ(pose.translation(), Vec3(3, 4, 5));
+}
+
+TEST(MakePose, AParallelHintStillGivesARotation) {
+  const Pose pose = make_pose(Vec3::Zero(), Vec3(0, 0, 2), Vec3(0, 0, 1));
+  EXPECT_NEAR(pose.linear().determinant(), 1, 1e-12);
+}
+
+}  // namespace
+}  // namespace artus
