@@ -1,0 +1,16 @@
+# SPDX-License-Identifier: AGPL-3.0-or-later
+cmake_minimum_required(VERSION 3.25)
+# A mutable object with static storage lives in .data/.bss/.tdata/.tbss; constants live in .rodata/.data.rel.ro.
+execute_process(COMMAND objdump -t -C ${LIB} OUTPUT_VARIABLE out COMMAND_ERROR_IS_FATAL ANY)
+string(REPLACE ";" "," out "${out}")
+string(REPLACE "\n" ";" lines "${out}")
+set(hits "")
+foreach(line IN LISTS lines)
+  if(line MATCHES " \\.(bss|data|tbss|tdata)[._A-Za-z0-9]*[\t ]+0*[1-9a-f]" AND NOT line MATCHES "\\.data\\.rel\\.ro|std::__ioinit|DW\\.ref|guard variable| d[ ]+\\.")
+    list(APPEND hits "${line}")
+  endif()
+endforeach()
+if(hits)
+  string(REPLACE ";" "\n" hits "${hits}")
+  message(FATAL_ERROR "mutable globals in ${LIB}:\n${hits}")
+endif()
