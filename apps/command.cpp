@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "apps/command.h"
+
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+#include <string_view>
+#include <utility>
+
+#include <unistd.h>
+
+#include "anatomy/compile.h"
+
+namespace artus {
+
+CLI::App* add_command(CLI::App& app, const std::string& name, const std::string& description,
+                      const std::string& footer) {
+  CLI::App* command = app.add_subcommand(name, description);
+  command->footer(footer);
+  return command;
+}
+
+void on_run(CLI::App* command, ExitCode& code, std::function<ExitCode()> body) {
+  command->callback([&code, body = std::move(body)] { code = body(); });
+}
+
+ExitCode report_error(const Error& error, bool json) {
+  if (json) {
+    std::cout << nlohmann::json{{"error",
+                                 {{"code", to_string(error.code)},
+                                  {"message", error.message},
+                                  {"where", error.where}}}}
+                     .dump(2)
+              << '\n';
+  }
+  std::cerr << "artus: " << error.to_string() << '\n';
+  const bool flag = error.where.rfind("--", 0) == 0;
+  return flag ? ExitCode::usage : ExitCode::failed;
+}
+
+Progress make_progress_printer(bool quiet) {
+  if (quiet) return {};
+  const bool terminal = isatty(STDERR_FILENO) != 0;
+  return [terminal, last = std::string(), percent = -1](std::string_view stage,
+                                                        double fraction) mutable {
+    const int now = static_cast<int>(std::lround(100 * fraction));
+    if (terminal) {
+      if (stage == last && now == percent) return;
+      std::fprintf(stderr, "\r\033[K%.*s %d %%%s", static_cast<int>(stage.size()), stage.data(),
+                   now, now >= 100 ? "\n" : "");
+    } else if (stage != last) {
+      std::fprintf(stderr, "%.*s ...\n", static_cast<int>(stage.size()), stage.data());
+    }
+    last = stage;
+    percent = now;
+  };
+}
+
+void add_joint_options(CLI::App* command, JointOptions& options) {
+  command
+      ->add_option("--joint,-j", options.joint,
+                   "joint folder (with joint.toml) or compiled .artus file")
+      ->required();
+  command->add_option("--surfaces", options.surfaces,
+                      "folder of the surface files, when not the joint's own");
+  command->add_option("--cache", options.cache, "folder for compiled joints (default: user cache)");
+  command->add_flag("--skip-refused", options.skip_refused,
+                    "leave out structures that cannot be repaired instead of stopping");
+}
+
+Result<std::shared_ptr<const CompiledJoint>> load(const JointOptions& options,
+                                                  const Progress& progress) {
+  LoadOptions load_options;
+  load_options.surface_folder = options.surfaces;
+  load_options.cache_folder = options.cache;
+  load_options.compile.skip_refused = options.skip_refused;
+  auto joint = load_joint(options.joint, load_options, progress);
+  if (!joint) return tl::unexpected(joint.error());
+  return std::make_shared<const CompiledJoint>(std::move(*joint));
+}
+
+nlohmann::json to_json_mm(const Vec3& p) {
+  return {p.x() * 1e3, p.y() * 1e3, p.z() * 1e3};
+}
+
+}  // namespace artus

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include "anatomy/compiled_joint.h"
+#include "core/progress.h"
+#include "core/result.h"
+
+namespace artus {
+
+/// What the process returns. A script can tell a bad flag from a bad mesh.
+enum class ExitCode {
+  ok = 0,
+  failed = 1,   ///< the world is wrong: a file, a surface, a claim that does not hold
+  usage = 2,    ///< the command line is wrong
+  defects = 3,  ///< `check` found defects that repair cannot mend
+};
+
+/// Adds a subcommand whose body runs after parsing and returns the exit code.
+/// `footer` holds the examples that --help prints.
+CLI::App* add_command(CLI::App& app, const std::string& name, const std::string& description,
+                      const std::string& footer);
+
+/// Runs `body` when `command` was chosen and keeps its result in `code`.
+void on_run(CLI::App* command, ExitCode& code, std::function<ExitCode()> body);
+
+/// Prints an error for people on stderr, or as {"error": {...}} on stdout when `json`; returns
+/// ExitCode::failed (usage for a malformed flag).
+ExitCode report_error(const Error& error, bool json);
+
+/// A listener that prints stages and percentages on stderr: one line that is rewritten on a
+/// terminal, one line a stage otherwise. `quiet` gives one that prints nothing.
+[[nodiscard]] Progress make_progress_printer(bool quiet);
+
+/// --joint, --surfaces, --cache, --skip-refused: where a joint comes from.
+struct JointOptions {
+  std::filesystem::path joint;
+  std::filesystem::path surfaces;
+  std::filesystem::path cache;
+  bool skip_refused = false;
+};
+void add_joint_options(CLI::App* command, JointOptions& options);
+
+/// Loads a compiled file, or compiles a joint folder (kept for the next time).
+[[nodiscard]] Result<std::shared_ptr<const CompiledJoint>> load(const JointOptions& options,
+                                                                const Progress& progress);
+
+/// A point as [x, y, z] in millimetres.
+[[nodiscard]] nlohmann::json to_json_mm(const Vec3& p);
+
+// The subcommands, one file each.
+void add_check_command(CLI::App& app, ExitCode& code);
+void add_compile_command(CLI::App& app, ExitCode& code);
+void add_needle_command(CLI::App& app, ExitCode& code);
+void add_image_command(CLI::App& app, ExitCode& code);
+void add_slice_command(CLI::App& app, ExitCode& code);
+void add_run_command(CLI::App& app, ExitCode& code);
+
+}  // namespace artus

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <clocale>
+#include <cstdio>
+#include <exception>
+#include <string>
+
+#include "apps/command.h"
+
+namespace {
+
+int run(int argc, char** argv) {
+  using artus::ExitCode;
+  CLI::App app(
+      "artus - anatomy, B-mode echography and needle haptics from one layered model of a joint.\n"
+      "Not a medical device.");
+  app.set_version_flag("--version", std::string("artus ") + ARTUS_VERSION);
+  app.require_subcommand(1);
+  app.footer(
+      "Examples:\n"
+      "  artus check humerus.stl                                  what is wrong with a surface\n"
+      "  artus compile meshes/simple-shoulder -o simple.artus     surfaces -> compiled joint\n"
+      "  artus run three-injections --joint simple.artus --out out/run\n"
+      "  artus <command> --help                                   options and examples\n\n"
+      "Exit codes: 0 done, 1 something in the world is wrong (file, surface, claim),\n"
+      "            2 the command line is wrong, 3 check found what cannot be repaired.");
+  ExitCode code = ExitCode::ok;
+  artus::add_check_command(app, code);
+  artus::add_compile_command(app, code);
+  artus::add_needle_command(app, code);
+  artus::add_image_command(app, code);
+  artus::add_slice_command(app, code);
+  artus::add_run_command(app, code);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    // CLI11 prints help (code 0) or the mistake; its own many codes become one.
+    return app.exit(e) == 0 ? 0 : static_cast<int>(ExitCode::usage);
+  }
+  return static_cast<int>(code);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::setlocale(LC_ALL, "C");
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "artus: %s\n", e.what());
+  } catch (...) {
+    std::fprintf(stderr, "artus: an unknown failure stopped the program\n");
+  }
+  return 1;
+}

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include "core/units.h"
+#include "raycast/scene.h"
+
+#include "apps/arguments.h"
+#include "apps/command.h"
+
+namespace artus {
+namespace {
+
+struct NeedleOptions {
+  JointOptions joint;
+  std::string entry;
+  std::string tip;
+  bool json = false;
+};
+
+void print_table(const CompiledJoint& joint, const std::vector<TissueInterval>& intervals) {
+  std::printf("%-28s %-16s %10s %10s %10s\n", "region", "tissue", "entry mm", "exit mm",
+              "length mm");
+  for (const auto& interval : intervals)
+    std::printf("%-28s %-16s %10.3f %10.3f %10.3f\n", joint.regions[interval.region].name.c_str(),
+                joint.tissue_of(interval.region).name.c_str(), interval.entry / kMillimetre,
+                interval.exit / kMillimetre, (interval.exit - interval.entry) / kMillimetre);
+}
+
+nlohmann::json to_json(const CompiledJoint& joint, const std::vector<TissueInterval>& intervals) {
+  auto list = nlohmann::json::array();
+  for (const auto& interval : intervals)
+    list.push_back(
+        {{"region", joint.regions[interval.region].name},
+         {"tissue", joint.tissue_of(interval.region).name},
+         {"entry_mm", interval.entry / kMillimetre},
+         {"exit_mm", interval.exit / kMillimetre},
+         {"entry_normal",
+          {interval.entry_normal.x(), interval.entry_normal.y(), interval.entry_normal.z()}}});
+  return {{"joint", joint.name}, {"intervals", list}};
+}
+
+ExitCode run_needle(const NeedleOptions& options) {
+  const auto entry = parse_point_mm(options.entry, "--entry");
+  if (!entry) return report_error(entry.error(), options.json);
+  const auto tip = parse_point_mm(options.tip, "--tip");
+  if (!tip) return report_error(tip.error(), options.json);
+  const Segment needle{*entry, *tip};
+  if ((needle.end - needle.start).norm() < 1e-9)
+    return report_error({ErrorCode::invalid, "entry and tip are the same point", "--tip"},
+                        options.json);
+  const auto joint = load(options.joint, make_progress_printer(options.json));
+  if (!joint) return report_error(joint.error(), options.json);
+  const Scene scene(*joint);
+  const auto intervals = tissue_intervals(scene, needle);
+  if (options.json)
+    std::cout << to_json(**joint, intervals).dump(2) << '\n';
+  else
+    print_table(**joint, intervals);
+  return ExitCode::ok;
+}
+
+}  // namespace
+
+void add_needle_command(CLI::App& app, ExitCode& code) {
+  auto options = std::make_shared<NeedleOptions>();
+  CLI::App* command =
+      add_command(app, "needle", "What a straight needle passes through, layer by layer",
+                  "Points are x,y,z in millimetres of the joint frame.\n"
+                  "Examples:\n"
+                  "  artus needle -j meshes/simple-shoulder --entry 60,0,0 --tip 20,0,0\n"
+                  "  artus needle -j real.artus --entry=-235,-60,1330 --tip=-195,-50,1340 --json");
+  add_joint_options(command, options->joint);
+  command->add_option("--entry", options->entry, "start of the line, usually on the skin")
+      ->required();
+  command->add_option("--tip", options->tip, "needle tip")->required();
+  command->add_flag("--json", options->json, "machine-readable output");
+  on_run(command, code, [options] { return run_needle(*options); });
+}
+
+}  // namespace artus
