@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "anatomy/compiled_joint.h"
+#include "anatomy/tissue.h"
+#include "core/check.h"
+
+namespace artus {
+
+/// Which law gives the cutting force; all are selectable per run and per tissue.
+enum class CuttingLaw { tracking_wall, direct, spring, voigt };
+
+/// Which law gives the force of a surface that dimples before it is punctured.
+enum class PrepunctureLaw { membrane, simone_okamura, barbe };
+
+/// The names that files and flags use. find_ forms are empty for an unknown name.
+[[nodiscard]] const char* to_string(CuttingLaw law) noexcept;
+[[nodiscard]] const char* to_string(PrepunctureLaw law) noexcept;
+[[nodiscard]] Result<CuttingLaw> find_cutting_law(std::string_view name);
+[[nodiscard]] Result<PrepunctureLaw> find_prepuncture_law(std::string_view name);
+
+/// What the needle feels in one region: the tissue's values and the laws that use them.
+struct LayerHaptics {
+  Haptic tissue;
+  CuttingLaw cutting = CuttingLaw::tracking_wall;
+  PrepunctureLaw prepuncture = PrepunctureLaw::membrane;
+};
+
+/// The laws of a run: one for all, and exceptions by tissue name.
+struct LawSelection {
+  CuttingLaw cutting = CuttingLaw::tracking_wall;
+  PrepunctureLaw prepuncture = PrepunctureLaw::membrane;
+  std::map<std::string, CuttingLaw> cutting_of_tissue;
+  std::map<std::string, PrepunctureLaw> prepuncture_of_tissue;
+};
+
+/// A patient's deviation from the tissue library; each factor multiplies the tissue's value.
+struct PatientProfile {
+  double cutting = 1;
+  double friction = 1;
+  double attracted = 1;
+  double clamping = 1;
+  double puncture = 1;
+};
+
+/// Haptic values by region, so that the tick looks them up by index. Regions out of range feel like
+/// outside (nothing).
+class LayerTable {
+ public:
+  LayerTable() = default;
+  explicit LayerTable(std::vector<LayerHaptics> by_region) : by_region_(std::move(by_region)) {}
+  /// Requires: a joint whose regions index its tissues.
+  LayerTable(const CompiledJoint& joint, const LawSelection& laws, const PatientProfile& patient);
+
+  [[nodiscard]] ARTUS_REALTIME const LayerHaptics& operator[](RegionId region) const noexcept {
+    return region != kOutside && region < by_region_.size() ? by_region_[region] : outside_;
+  }
+
+ private:
+  std::vector<LayerHaptics> by_region_;
+  LayerHaptics outside_;
+};
+
+}  // namespace artus

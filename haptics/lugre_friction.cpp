@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "haptics/lugre_friction.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace artus {
+namespace {
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr std::array<LugreParams, 4> kSets{{
+    {1.326e3, 1.423e3, 1.04e-1, 0.628, 0.045, 0.256e3, 0.020, 2},
+    {1.419e3, 1.312e3, 1.0, 0.913, 0.033, 0.152e3, 0.020, 2},
+    {2.469e3, 0.845e3, 2.76e-1, 1.386, 0.084, 0.079e3, 0.040, 2},
+    {2.592e3, 0.879e3, 2.40, 1.763, 0.052, 0.075e3, 0.040, 2},
+}};
+}  // namespace
+
+const std::array<LugreParams, 4>& lugre_sets() noexcept {
+  return kSets;
+}
+
+double lugre_level(const LugreParams& params, double v) noexcept {
+  return params.mu_c + (params.mu_s - params.mu_c) * std::exp(-params.alpha * std::abs(v));
+}
+
+double LugreBristle::step(const LugreParams& params, double moved, double v, double dt,
+                          double sigma1) noexcept {
+  const double steady = std::copysign(lugre_level(params, v) / params.sigma0, moved);
+  const double z = steady + (z_ - steady) * std::exp(-std::abs(moved / steady));
+  const double rate = (z - z_) / dt;
+  z_ = z;
+  return params.sigma0 * z + std::min(sigma1, params.sigma1) * rate + params.sigma2 * moved / dt;
+}
+
+void LugreFriction::reset(double depth) noexcept {
+  bristle_.reset();
+  last_x_ = depth;
+}
+
+Wrench LugreFriction::step(const NeedleTick& tick) noexcept {
+  const double moved = tick.depth - last_x_;
+  last_x_ = tick.depth;
+  const double normal = tick.sum_over_shaft([](const Haptic& h) {
+    return h.hard ? 0.0 : h.cutting_force * h.friction;
+  }) / params_.length;
+  const double sigma1 = normal > 0 ? params_.damping_limit / normal : kInfinity;
+  const double ratio = bristle_.step(params_, moved, tick.velocity, tick.dt, sigma1);
+  return {-normal * ratio * tick.axis, Vec3::Zero()};
+}
+
+}  // namespace artus

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <array>
+#include <limits>
+
+#include "haptics/force_model.h"
+
+namespace artus {
+
+/// One published parameter set. mu_s < mu_c (stiction below Coulomb) is as published. The source
+/// states no units; they are millimetres and seconds: with metres the bristle would have to bend by
+/// half a metre before the needle slides. Here SI.
+struct LugreParams {
+  double sigma0 = 2.469e3;   ///< 1/m   (2.469 1/mm)
+  double sigma1 = 0.845e3;   ///< s/m   (0.845 s/mm)
+  double sigma2 = 2.76e-1;   ///< s/m   (2.76e-4 s/mm)
+  double mu_c = 1.386;       ///< -
+  double mu_s = 0.084;       ///< -
+  double alpha = 0.079e3;    ///< s/m   (0.079 s/mm)
+  double length = 0.040;     ///< m, shaft length the set was identified with; F_n grows with it
+  double damping_limit = 2;  ///< N s/m on F_n sigma1; assumed: the published value is above 1 kN
+                             ///< s/m, which no sampled device can render
+};
+
+/// The four sets, needle 20 mm at 0.025 and 0.05 Hz, 40 mm at 0.025 (the source's choice, default
+/// above) and 0.05 Hz. Source [Asadian2011] by [Alamilla2020] table 2.1.
+[[nodiscard]] const std::array<LugreParams, 4>& lugre_sets() noexcept;
+
+/// g(v) = mu_c + (mu_s - mu_c) exp(-alpha |v|), eq. 2.5.
+[[nodiscard]] ARTUS_REALTIME double lugre_level(const LugreParams& params, double v) noexcept;
+
+/// The bristle's state and force coefficient, for one contact. f / F_n = sigma0 z + sigma1 dz/dt +
+/// sigma2 v (2.4-2.6). The state is advanced by the exact solution for constant speed, so that
+/// |z| <= max(g) / sigma0 holds for any step.
+class LugreBristle {
+ public:
+  /// Advances over `moved` m in `dt` s with `v` for the level g; returns f / F_n, in the direction
+  /// of motion (the hand feels its opposite). `sigma1` replaces the set's when smaller.
+  ARTUS_REALTIME double step(const LugreParams& params, double moved, double v, double dt,
+                             double sigma1) noexcept;
+  ARTUS_REALTIME void reset() noexcept { z_ = 0; }
+  [[nodiscard]] double deflection() const noexcept { return z_; }  ///< z, m
+
+ private:
+  double z_ = 0;
+};
+
+/// Friction along the shaft: F_n is the sum over the layers of f_R * friction scale * shaft length
+/// in the layer / set's length. (The source's F_n is the cutting force itself, which would make
+/// friction vanish on withdrawal.)
+class LugreFriction final : public ForceModel {
+ public:
+  explicit LugreFriction(const LugreParams& params = {}) noexcept : params_(params) {}
+  ARTUS_REALTIME void reset(double depth) noexcept override;
+  ARTUS_REALTIME Wrench step(const NeedleTick& tick) noexcept override;
+
+ private:
+  LugreParams params_;
+  LugreBristle bristle_;
+  double last_x_ = 0;
+};
+
+}  // namespace artus

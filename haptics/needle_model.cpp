@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "haptics/needle_model.h"
+
+#include <algorithm>
+
+namespace artus {
+
+NeedleModel::NeedleModel(const NeedleParams& params, const LayerTable& table, double dt) noexcept
+    : params_(params),
+      contact_(params.contact, params.prepuncture, table, dt),
+      wall_(params.wall),
+      voigt_(params.voigt),
+      prepuncture_(params.prepuncture),
+      friction_(params.friction),
+      hard_(params.hard),
+      orientation_(params.orientation) {}
+
+void NeedleModel::reset() noexcept {
+  contact_.reset();
+  start_laws();
+  forces_ = NeedleForces{};
+}
+
+// A new line: what is felt starts from rest at this depth, or, at a puncture, from no more than the
+// membrane's force, with nothing cut yet.
+void NeedleModel::start_laws() noexcept {
+  const NeedleTick& tick = contact_.tick();
+  const double x = tick.depth;
+  const bool puncture = (contact_.events() & ContactEvent::kSkinPunctured) != 0;
+  const double membrane = tick.layer.tissue.puncture_force;
+  const double stiffness = std::max(tick.layer.tissue.wall_stiffness, 1e-6);
+  double w0 = x;
+  if (puncture) w0 = membrane > 0 ? std::max(0.0, x - membrane / stiffness) : 0.0;
+  wall_.start(w0, x);
+  direct_.reset(x);
+  spring_.reset(x);
+  voigt_.reset(x);
+  prepuncture_.reset(x);
+  friction_.reset(x);
+  hard_.reset(x);
+  clamping_.reset(x);
+  orientation_.reset(x);
+}
+
+double NeedleModel::cutting_force(const NeedleTick& tick) noexcept {
+  const double wall = wall_.step(tick).force.dot(tick.axis);  // keeps its memory in every law
+  const bool on_bone = tick.depth > tick.bone_depth;
+  switch (on_bone ? CuttingLaw::tracking_wall : tick.layer.cutting) {
+    case CuttingLaw::direct:
+      return direct_.step(tick).force.dot(tick.axis);
+    case CuttingLaw::spring:
+      return spring_.step(tick).force.dot(tick.axis);
+    case CuttingLaw::voigt:
+      return voigt_.step(tick).force.dot(tick.axis);
+    case CuttingLaw::tracking_wall:
+      break;
+  }
+  return wall;
+}
+
+const NeedleForces& NeedleModel::step(const Pose& X_JN,
+                                      std::span<const TissueInterval> intervals) noexcept {
+  contact_.update(X_JN, intervals);
+  const NeedleTick& tick = contact_.tick();
+  forces_ = NeedleForces{};
+  forces_.prepuncture = prepuncture_.step(tick).force.dot(tick.axis);
+  if (contact_.inserted()) {
+    constexpr std::uint32_t kNewLine =
+        ContactEvent::kSkinPunctured | ContactEvent::kAdopted | ContactEvent::kRedirected;
+    if ((contact_.events() & kNewLine) != 0) start_laws();
+    const double cutting = cutting_force(tick);
+    forces_.cutting = std::min(cutting, 0.0);
+    forces_.attracted = std::max(cutting, 0.0);
+    forces_.friction = friction_.step(tick).force.dot(tick.axis);
+    forces_.hard = hard_.step(tick).force.dot(tick.axis);
+    forces_.clamping = clamping_.step(tick).force;
+    forces_.torque = orientation_.step(tick).torque;
+  }
+  const double axial =
+      forces_.prepuncture + forces_.cutting + forces_.attracted + forces_.friction + forces_.hard;
+  forces_.total.force = axial * tick.axis + forces_.clamping;
+  forces_.total.torque = forces_.torque;
+  return forces_;
+}
+
+}  // namespace artus

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "haptics/needle_renderer.h"
+
+#include <utility>
+
+namespace artus {
+
+NeedleRenderer::NeedleRenderer(std::shared_ptr<const Scene> scene, LayerTable table,
+                               const NeedleParams& params, const GuardParams& guard,
+                               const DeviceLimits& device, double rate_hz)
+    : scene_(std::move(scene)),
+      table_(std::move(table)),
+      dt_(1 / rate_hz),
+      model_(params, table_, dt_),
+      input_guard_(guard, dt_),
+      output_guard_(guard, device, dt_) {
+  ARTUS_REQUIRE(scene_ != nullptr, "there must be a scene");
+  ARTUS_REQUIRE(rate_hz >= 100 && rate_hz <= 20000, "the rate must be 100 to 20000 Hz");
+}
+
+const RenderedNeedle& NeedleRenderer::step(const TimedPose& pose) noexcept {
+  rendered_.status = 0;
+  const std::uint32_t faults = input_guard_.check(pose);
+  if (faults == 0) {
+    const QueryCount count = scene_->find_intervals(model_.query_segment(pose.X_JN), intervals_);
+    rendered_.forces =
+        model_.step(pose.X_JN, std::span<const TissueInterval>(intervals_.data(), count.size));
+  } else {
+    model_.reset();
+    rendered_.forces = NeedleForces{};
+  }
+  rendered_.command = output_guard_.apply(rendered_.forces.total, faults, rendered_.status);
+  if ((rendered_.status & TickStatus::kFaults) != 0 && faults == 0) model_.reset();
+  return rendered_;
+}
+
+}  // namespace artus

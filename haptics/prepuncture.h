@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include "haptics/force_model.h"
+
+namespace artus {
+
+/// A second-order polynomial in the dimple's depth, fitted on bovine liver. Source
+/// [Simone2002] by [Alamilla2020] eq. 2.1 (printed for mm; here SI).
+struct SimoneOkamuraParams {
+  double a1 = 48.0;    ///< N/m   (0.0480 N/mm)
+  double a2 = 5200.0;  ///< N/m^2 (0.0052 N/mm^2)
+};
+
+/// mu d^n + lambda d v, fitted in vivo on a human abdomen. Source [Barbe2006] by [Alamilla2020]
+/// eq. 2.2.
+struct BarbeParams {
+  double mu = 240;      ///< N/m^n
+  double lambda = 1.5;  ///< N s/m^2
+  double n = 1.3;       ///< -
+};
+
+/// The polynomial's shape, scaled so that a membrane reaches its own puncture force at this dimple.
+struct MembraneParams {
+  double dimple = 0.8e-3;  ///< m; assumed: thinner than the skin (1.8 mm) and the bursa (1-2 mm),
+                           ///< whose geometry does not follow the needle
+};
+
+struct PrepunctureParams {
+  MembraneParams membrane;
+  SimoneOkamuraParams simone_okamura;
+  BarbeParams barbe;
+};
+
+/// The force against insertion, >= 0 N, of a surface pushed in by `d` m at speed `v` m/s (inward),
+/// by the law that `layer` selects. Zero for d <= 0.
+[[nodiscard]] ARTUS_REALTIME double prepuncture_force(const PrepunctureParams& params,
+                                                      const LayerHaptics& layer, double d,
+                                                      double v) noexcept;
+
+/// The membrane that still holds: NeedleTick::dimple and membrane. Stateless; whether it has popped
+/// is the contact state's business.
+class Prepuncture final : public ForceModel {
+ public:
+  explicit Prepuncture(const PrepunctureParams& params = {}) noexcept : params_(params) {}
+  ARTUS_REALTIME void reset(double depth) noexcept override;
+  ARTUS_REALTIME Wrench step(const NeedleTick& tick) noexcept override;
+
+ private:
+  PrepunctureParams params_;
+};
+
+}  // namespace artus

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "haptics/tracking_wall.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace artus {
+
+void TrackingWall::reset(double depth) noexcept {
+  start(depth, depth);
+}
+
+void TrackingWall::start(double w0, double depth) noexcept {
+  wall_ = w0;
+  cut_ = w0;
+  stiffness_ = 0;
+  settling_ = false;
+  last_x_ = depth;
+  last_force_ = 0;
+  energy_ = 0;
+}
+
+void TrackingWall::settle(const NeedleTick& tick, double x) noexcept {
+  if (tick.motion != Motion::still) {
+    settling_ = false;
+    return;
+  }
+  if (!settling_) {
+    settling_ = true;
+    settle_left_ = params_.settling_time;
+    settle_rate_ = (x - wall_) / std::max(params_.settling_time, tick.dt);
+  }
+  const double time = std::min(tick.dt, settle_left_);
+  wall_ += settle_rate_ * time;
+  settle_left_ -= time;
+}
+
+double TrackingWall::soft_force(const NeedleTick& tick, double x) noexcept {
+  const Haptic& layer = tick.layer.tissue;
+  const double stiffness = std::max(layer.wall_stiffness, 1e-6);
+  if (stiffness_ > 0 && stiffness != stiffness_) {
+    wall_ = x + (wall_ - x) * stiffness_ / stiffness;  // keep the force, move the wall
+  }
+  stiffness_ = stiffness;
+  settle(tick, x);
+  const double floor = x <= cut_ ? x : std::max(cut_, x - layer.cutting_force / stiffness);
+  const double ceiling = x + layer.attracted_force / stiffness;
+  wall_ = std::min(std::max(wall_, floor), ceiling);
+  cut_ = std::max(cut_, std::min(wall_, x));
+  return stiffness * (wall_ - x);
+}
+
+Wrench TrackingWall::step(const NeedleTick& tick) noexcept {
+  const double x = tick.depth;
+  const double moved = x - last_x_;
+  energy_ -= last_force_ * moved;
+  const double beyond = std::max(0.0, x - tick.bone_depth);
+  double force = soft_force(tick, x - beyond);
+  if (beyond > 0) {
+    const Haptic& bone = tick.bone.tissue;
+    force = std::max(force - bone.wall_stiffness * beyond, std::min(force, -bone.cutting_force));
+  }
+  if (x < 0) force = 0;
+  // On the way back a sampled spring gives more than it took; the account forbids it.
+  if (force * moved > 0) {
+    const double allowed = std::max(0.0, energy_) / (2 * std::abs(moved));
+    force = std::clamp(force, -allowed, allowed);
+  }
+  last_x_ = x;
+  last_force_ = force;
+  return {force * tick.axis, Vec3::Zero()};
+}
+
+}  // namespace artus
