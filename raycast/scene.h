@@ -4,6 +4,7 @@
 #include <limits>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "anatomy/compiled_joint.h"
@@ -12,6 +13,9 @@
 #include "core/result.h"
 
 namespace artus {
+
+/// Interface index of what no interface marks.
+inline constexpr std::uint32_t kNoInterface = std::numeric_limits<std::uint32_t>::max();
 
 /// Where a directed segment passes through an interface.
 struct Crossing {
@@ -28,7 +32,7 @@ struct TissueInterval {
   double exit = 0;   ///< m; the segment's length when it ends inside
   RegionId region = kOutside;
   Vec3 entry_normal = Vec3::Zero();  ///< unit, against travel; zero when it starts inside
-  std::uint32_t entry_interface = std::numeric_limits<std::uint32_t>::max();
+  std::uint32_t entry_interface = kNoInterface;
 };
 
 /// The nearest interface to a point.
@@ -46,13 +50,34 @@ struct QueryCount {
   bool truncated = false;
 };
 
+/// How a scene is built.
+struct SceneOptions {
+  /// Instruction set Embree may use: "sse2", "sse4.2", "avx", "avx2", "avx512"; empty: the best of
+  /// this machine. Pin it where results must agree to the byte between machines.
+  std::string isa;
+};
+
 /// Where lines meet the body: the interfaces of one compiled joint, indexed. Immutable; any number
 /// of threads may query one scene. Real-time forms write into the caller's span and never allocate.
+///
+/// Depths are exact to about 1e-9 m for joints of human size anywhere within metres of the frame's
+/// origin. A line through a shared edge or vertex, along an interface or touching one still gives a
+/// consistent answer: each crossing leaves the region that the one before entered. A crossing at
+/// depth d counts when 0 <= d < length: a segment that starts on an interface crosses it, one that
+/// ends on it does not, and two halves of a cut segment share no crossing. A touch that leads back
+/// into the same region is no crossing.
+///
+/// The body is meshed only inside its region of interest. A line that leaves it as "beyond" may
+/// return as "outside" (or the reverse) though no interface lies between; the intervals then
+/// change region in the middle of the gap with entry_interface = kNoInterface, the crossings show
+/// only the surfaces. A query with a coordinate that is not finite finds nothing.
 class Scene {
  public:
-  /// Builds the index. Requires: a joint from resolve or read_compiled_joint. Cost: about 0.3 us a
-  /// triangle.
-  explicit Scene(std::shared_ptr<const CompiledJoint> joint);
+  /// Builds the index. Requires: a joint from resolve or read_compiled_joint (indices in range,
+  /// finite vertices, different regions on the two sides of each interface; std::invalid_argument
+  /// otherwise), a known `isa`. Errors: std::runtime_error when Embree refuses (no memory, a CPU
+  /// without the instruction set). Cost: about 0.3 us a triangle.
+  explicit Scene(std::shared_ptr<const CompiledJoint> joint, const SceneOptions& options = {});
   ~Scene();
   Scene(const Scene&) = delete;
   Scene& operator=(const Scene&) = delete;
@@ -67,19 +92,21 @@ class Scene {
                                            std::span<Crossing> out) const noexcept;
 
   /// The segment cut into stretches of one region each: sorted, contiguous, covering the whole
-  /// segment (also its parts outside the body). At least one interval for a segment of any length.
+  /// segment (also its parts outside the body). At least one interval for a segment of any length,
+  /// also zero; no interval of zero length otherwise.
   ARTUS_REALTIME QueryCount find_intervals(const Segment& segment,
                                            std::span<TissueInterval> out) const noexcept;
 
-  /// The region at a point.
+  /// The region at a point; on an interface one of its two regions, always the same. Outside the
+  /// meshed part: the one of outside and beyond that the nearest surface has on this side.
   [[nodiscard]] ARTUS_REALTIME RegionId region_at(const Vec3& p_J) const noexcept;
 
   /// The interface nearest to a point within `max_distance`.
   [[nodiscard]] ARTUS_REALTIME NearestInterface find_nearest(const Vec3& p_J,
                                                              double max_distance) const noexcept;
 
-  /// Distance to the body's outer surface, m: negative inside, positive outside; +-infinity beyond
-  /// `max_distance`.
+  /// Distance to the body's outer surface (interfaces with "outside" on one side), m: negative
+  /// inside, positive outside; +-infinity beyond `max_distance`.
   [[nodiscard]] ARTUS_REALTIME double signed_distance_to_skin(const Vec3& p_J,
                                                               double max_distance) const noexcept;
 

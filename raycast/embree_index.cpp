@@ -1,0 +1,315 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "raycast/embree_index.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+
+#include <Eigen/Geometry>
+
+#include "raycast/closest_point.h"
+#include "raycast/embree_api.h"
+
+namespace artus {
+namespace {
+
+/// Below this cosine a line lies in the facet's plane for all that rounding can tell.
+constexpr double kCoplanar = 1e-12;
+/// Below this cosine a depth is kept within the facet's own extent along the line.
+constexpr double kGrazing = 0.05;
+/// Barycentric distance to an edge above which single precision cannot have taken the wrong facet.
+constexpr float kCleanBarycentric = 1e-4F;
+
+double clamp_to_extent(const EmbreeIndex& index, std::uint32_t i, const Vec3& origin,
+                       const Vec3& direction, double depth) noexcept {
+  const std::array<Vec3, 3> corners = index.corners(i);
+  const double a = direction.dot(corners[0] - origin);
+  const double b = direction.dot(corners[1] - origin);
+  const double c = direction.dot(corners[2] - origin);
+  return std::clamp(depth, std::min({a, b, c}), std::max({a, b, c}));
+}
+
+struct Passage {
+  double cosine = 0;  // of direction and normal
+  double depth = 0;
+};
+
+Passage pass(const EmbreeIndex& index, std::uint32_t i, const Line& line) noexcept {
+  const Facet& facet = index.facet(i);
+  Passage passage;
+  passage.cosine = facet.normal.dot(line.direction);
+  passage.depth = (facet.offset - facet.normal.dot(line.origin)) / passage.cosine;
+  if (std::abs(passage.cosine) < kGrazing) [[unlikely]] {
+    passage.depth = clamp_to_extent(index, i, line.origin, line.direction, passage.depth);
+  }
+  return passage;
+}
+
+RTCRay make_ray(const Line& line) noexcept {
+  RTCRay ray{};
+  const Vec3 start = line.origin + line.near * line.direction;
+  ray.org_x = static_cast<float>(start.x());
+  ray.org_y = static_cast<float>(start.y());
+  ray.org_z = static_cast<float>(start.z());
+  ray.dir_x = static_cast<float>(line.direction.x());
+  ray.dir_y = static_cast<float>(line.direction.y());
+  ray.dir_z = static_cast<float>(line.direction.z());
+  ray.tfar = static_cast<float>(line.far - line.near);
+  ray.mask = std::numeric_limits<unsigned>::max();
+  return ray;
+}
+
+/// A query's state; Embree hands the context back to the filter, so it must come first.
+struct GatherQuery {
+  EmbreeContext context;
+  const EmbreeIndex* index;
+  const Line* line;
+  HitBuffer* out;
+};
+
+void keep_nearest(HitBuffer& out, const Hit& hit) noexcept {
+  out.overflow = true;
+  Hit& farthest = *std::max_element(out.hits.begin(), out.hits.end(),
+                                    [](const Hit& a, const Hit& b) { return a.depth < b.depth; });
+  if (hit.depth < farthest.depth) farthest = hit;
+}
+
+/// Occlusion filter: notes the hit and lets the ray go on.
+void gather_hit(const RTCFilterFunctionNArguments* args) noexcept {
+  args->valid[0] = 0;
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): Embree's way to pass state.
+  const auto& query = *reinterpret_cast<const GatherQuery*>(args->context);
+  const std::uint32_t i = RTCHitN_primID(args->hit, args->N, 0);
+  const Passage passage = pass(*query.index, i, *query.line);
+  if (!(std::abs(passage.cosine) > kCoplanar)) [[unlikely]]
+    return;
+  const Facet& facet = query.index->facet(i);
+  const bool inward = passage.cosine < 0;
+  const Hit hit{passage.depth, i, inward ? facet.front : facet.back,
+                inward ? facet.back : facet.front};
+  HitBuffer& out = *query.out;
+  if (out.size < kMaxHits) [[likely]] {
+    out.hits[out.size++] = hit;
+  } else {
+    keep_nearest(out, hit);
+  }
+}
+
+struct FirstHitQuery {
+  EmbreeContext context;
+  const EmbreeIndex* index;
+  const Line* line;
+};
+
+/// Intersection filter: refuses facets at or before the line's origin, as double precision sees it.
+void accept_beyond_origin(const RTCFilterFunctionNArguments* args) noexcept {
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): Embree's way to pass state.
+  const auto& query = *reinterpret_cast<const FirstHitQuery*>(args->context);
+  const Passage passage = pass(*query.index, RTCHitN_primID(args->hit, args->N, 0), *query.line);
+  if (!(std::abs(passage.cosine) > kCoplanar && passage.depth > 0)) args->valid[0] = 0;
+}
+
+struct NearestQuery {
+  const EmbreeIndex* index;
+  std::span<const std::uint32_t> members;  // primitive -> interface; empty: the same
+  Vec3 p;
+  double max_squared;
+  NearestFacet best;
+  double side;  // |distance of p to best's plane|
+};
+
+/// Single-precision search radius that surely holds everything within `distance` of the rounded
+/// query point.
+float search_radius(double distance) noexcept {
+  return static_cast<float>(distance * (1 + 1e-6) + 1e-7);
+}
+
+bool consider_facet(RTCPointQueryFunctionArguments* args) noexcept {
+  auto& query = *static_cast<NearestQuery*>(args->userPtr);
+  const std::uint32_t i = query.members.empty() ? args->primID : query.members[args->primID];
+  const Vec3 q = closest_point_on_triangle(query.p, query.index->corners(i));
+  const double squared = (query.p - q).squaredNorm();
+  if (squared > query.max_squared) return false;
+  const Facet& facet = query.index->facet(i);
+  const double side = std::abs(facet.normal.dot(query.p) - facet.offset);
+  const double tie = 1e-12 * query.best.squared_distance + 1e-26;
+  const double gain = query.best.squared_distance - squared;
+  const bool nearer = gain > tie;
+  const bool same = std::abs(gain) <= tie;
+  const bool clearer =
+      same && (side > query.side || (side == query.side && i < query.best.interface));
+  if (!nearer && !clearer) return false;
+  query.best = {std::min(squared, query.best.squared_distance), q, i};
+  query.side = side;
+  args->query->radius = search_radius(std::sqrt(query.best.squared_distance));
+  return true;
+}
+
+void throw_on_error(RTCDevice device, const char* what) {
+  const RTCError error = rtcGetDeviceError(device);
+  if (error == RTC_ERROR_NONE) return;
+  throw std::runtime_error(std::string("Embree cannot ") + what + " (error " +
+                           std::to_string(static_cast<int>(error)) + ")");
+}
+
+EmbreeDevice make_device(const std::string& isa) {
+  constexpr std::array<const char*, 6> kKnown = {"", "sse2", "sse4.2", "avx", "avx2", "avx512"};
+  ARTUS_REQUIRE(std::find(kKnown.begin(), kKnown.end(), isa) != kKnown.end(),
+                "unknown instruction set: " + isa);
+  // Embree's own thread count stays alone: setting it would limit TBB in the whole process.
+  const std::string config = isa.empty() ? "set_affinity=0" : "set_affinity=0,isa=" + isa;
+  EmbreeDevice device(rtcNewDevice(config.c_str()));
+  if (device == nullptr) throw_on_error(nullptr, ("make a device with " + config).c_str());
+  return device;
+}
+
+Facet make_facet(const Interface& interface, const std::array<Vec3, 3>& corners) {
+  Facet facet;
+  facet.normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
+  facet.offset = facet.normal.dot(corners[0]);
+  facet.front = interface.front;
+  facet.back = interface.back;
+  return facet;
+}
+
+bool touches(const Facet& facet, RegionId last) noexcept {
+  return facet.front <= last || facet.back <= last;
+}
+
+}  // namespace
+
+EmbreeIndex::EmbreeIndex(std::span<const Vec3> vertices, std::span<const Interface> interfaces,
+                         const std::string& isa) {
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity());
+  Vec3 high = -low;
+  for (const Interface& interface : interfaces) {
+    ARTUS_REQUIRE(interface.front != interface.back, "an interface has one region on both sides");
+    for (const std::uint32_t v : interface.vertices) {
+      ARTUS_REQUIRE(v < vertices.size(), "vertex index out of range");
+      ARTUS_REQUIRE(vertices[v].allFinite(), "a vertex is not finite");
+      low = low.cwiseMin(vertices[v]);
+      high = high.cwiseMax(vertices[v]);
+    }
+  }
+  if (!interfaces.empty()) {
+    centre_ = 0.5 * (low + high);
+    radius_ = 0.5 * (high - low).norm();
+  }
+  vertices_.reserve(vertices.size());
+  for (const Vec3& v : vertices) vertices_.emplace_back(v - centre_);
+  triangles_.reserve(interfaces.size());
+  facets_.reserve(interfaces.size());
+  for (const Interface& interface : interfaces) {
+    const auto i = static_cast<std::uint32_t>(triangles_.size());
+    triangles_.push_back(interface.vertices);
+    facets_.push_back(make_facet(interface, corners(i)));
+    if (touches(facets_.back(), kBeyond)) boundary_.push_back(i);
+    if (touches(facets_.back(), kOutside)) skin_.push_back(i);
+  }
+  std::vector<std::uint32_t> all(interfaces.size());
+  std::iota(all.begin(), all.end(), 0U);
+  device_ = make_device(isa);
+  scene_ = make_scene(all);
+  boundary_scene_ = make_scene(boundary_);
+  skin_scene_ = make_scene(skin_);
+  throw_on_error(device_.get(), "index the interfaces");
+}
+
+void EmbreeRelease::operator()(RTCDeviceTy* device) const noexcept {
+  rtcReleaseDevice(device);
+}
+
+void EmbreeRelease::operator()(RTCSceneTy* scene) const noexcept {
+  rtcReleaseScene(scene);
+}
+
+EmbreeScene EmbreeIndex::make_scene(std::span<const std::uint32_t> members) const {
+  EmbreeScene scene(rtcNewScene(device_.get()));
+  rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
+  rtcSetSceneBuildQuality(scene.get(), RTC_BUILD_QUALITY_MEDIUM);
+  RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+  if (!members.empty()) {
+    auto* coordinates = static_cast<float*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                3 * sizeof(float), vertices_.size()));
+    auto* indices = static_cast<std::uint32_t*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                3 * sizeof(std::uint32_t), members.size()));
+    throw_on_error(device_.get(), "store the interfaces");
+    for (const Vec3& v : vertices_) {
+      for (int k = 0; k < 3; ++k) *coordinates++ = static_cast<float>(v[k]);
+    }
+    for (const std::uint32_t i : members) indices = std::copy_n(triangles_[i].begin(), 3, indices);
+  }
+  rtcSetGeometryOccludedFilterFunction(geometry, gather_hit);
+  rtcSetGeometryIntersectFilterFunction(geometry, accept_beyond_origin);
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometry(scene.get(), geometry);
+  rtcReleaseGeometry(geometry);
+  rtcCommitScene(scene.get());
+  return scene;
+}
+
+std::array<Vec3, 3> EmbreeIndex::corners(std::uint32_t i) const noexcept {
+  const auto& [a, b, c] = triangles_[i];
+  return {vertices_[a], vertices_[b], vertices_[c]};
+}
+
+void EmbreeIndex::gather(const Line& line, HitBuffer& out) const noexcept {
+  out.size = 0;
+  out.overflow = false;
+  if (!(line.far > line.near)) return;
+  GatherQuery query{{}, this, &line, &out};
+  init_context(query.context);
+  RTCRay ray = make_ray(line);
+  find_occluded(scene_.get(), query.context, ray);
+}
+
+std::optional<FirstHit> EmbreeIndex::first_hit(const Line& line) const noexcept {
+  if (!(line.far > line.near)) return std::nullopt;
+  FirstHitQuery query{{}, this, &line};
+  init_context(query.context);
+  RTCRayHit ray{};
+  ray.ray = make_ray(line);
+  ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  find_intersection(scene_.get(), query.context, ray);
+  if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+  const Facet& facet = facets_[ray.hit.primID];
+  const double cosine = facet.normal.dot(line.direction);
+  FirstHit first;
+  first.interface = ray.hit.primID;
+  first.from = cosine < 0 ? facet.front : facet.back;
+  first.clean = std::min({ray.hit.u, ray.hit.v, 1 - ray.hit.u - ray.hit.v}) > kCleanBarycentric &&
+                std::abs(cosine) > kGrazing;
+  return first;
+}
+
+std::optional<NearestFacet> EmbreeIndex::nearest(const Vec3& p, double max_distance,
+                                                 Subset subset) const noexcept {
+  NearestQuery query{this, {}, p, max_distance * max_distance, {}, 0};
+  RTCScene scene = scene_.get();
+  if (subset == Subset::boundary) {
+    scene = boundary_scene_.get();
+    query.members = boundary_;
+  } else if (subset == Subset::skin) {
+    scene = skin_scene_.get();
+    query.members = skin_;
+  }
+  if (facets_.empty() || (subset != Subset::all && query.members.empty())) return std::nullopt;
+  constexpr double kNone = std::numeric_limits<double>::max();
+  query.best.squared_distance = kNone;
+  RTCPointQuery point{};
+  point.x = static_cast<float>(p.x());
+  point.y = static_cast<float>(p.y());
+  point.z = static_cast<float>(p.z());
+  point.radius = search_radius(std::min(max_distance, p.norm() + radius_));
+  RTCPointQueryContext context;  // NOLINT(cppcoreguidelines-pro-type-member-init): init follows
+  rtcInitPointQueryContext(&context);
+  rtcPointQuery(scene, &point, &context, consider_facet, &query);
+  if (query.best.squared_distance == kNone) return std::nullopt;
+  return query.best;
+}
+
+}  // namespace artus

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/check.h"
+#include "raycast/facet.h"
+
+struct RTCDeviceTy;
+struct RTCSceneTy;
+
+namespace artus {
+
+/// A piece of a line, p(t) = origin + t direction for t in [near, far], relative to the index's
+/// centre.
+struct Line {
+  Vec3 origin = Vec3::Zero();
+  Vec3 direction = Vec3::Zero();  ///< unit
+  double near = 0;                ///< m
+  double far = 0;                 ///< m
+};
+
+/// What one line met; filled by EmbreeIndex::gather. Large: keep it on the stack of one query.
+struct HitBuffer {
+  std::array<Hit, kMaxHits> hits;  ///< unsorted
+  std::size_t size;
+  bool overflow;  ///< more than kMaxHits were met; the nearest are kept
+};
+
+/// The first facet a line meets beyond t = 0.
+struct FirstHit {
+  std::uint32_t interface = 0;
+  RegionId from = kOutside;
+  bool clean = false;  ///< well inside the facet and not grazing, so rounding cannot have chosen it
+};
+
+/// The point of a set of facets that is nearest to a given point.
+struct NearestFacet {
+  double squared_distance = 0;  ///< m^2
+  Vec3 point = Vec3::Zero();    ///< relative to the index's centre
+  std::uint32_t interface = 0;
+};
+
+/// Releases what Embree counts.
+struct EmbreeRelease {
+  void operator()(RTCDeviceTy* device) const noexcept;
+  void operator()(RTCSceneTy* scene) const noexcept;
+};
+using EmbreeDevice = std::unique_ptr<RTCDeviceTy, EmbreeRelease>;
+using EmbreeScene = std::unique_ptr<RTCSceneTy, EmbreeRelease>;
+
+/// Triangles in an Embree bounding volume hierarchy (version 3 or 4), with their planes in double
+/// precision. Coordinates are taken relative to the centre of the triangles, so that a joint far
+/// from its frame's origin loses nothing in Embree's single precision; every reported number is
+/// recomputed in double. Traversal is robust (watertight at shared edges); hits do not depend on
+/// the hierarchy, so neither do they on the number of threads that built it. Immutable.
+class EmbreeIndex {
+ public:
+  /// `isa` as in SceneOptions. Requires: indices in range, front and back of each interface
+  /// differ. Errors: std::runtime_error when Embree refuses.
+  EmbreeIndex(std::span<const Vec3> vertices, std::span<const Interface> interfaces,
+              const std::string& isa);
+
+  [[nodiscard]] const Vec3& centre() const noexcept { return centre_; }
+  [[nodiscard]] double radius() const noexcept { return radius_; }  ///< m, of a ball around centre
+  [[nodiscard]] const Facet& facet(std::uint32_t i) const noexcept { return facets_[i]; }
+
+  /// All facets the line meets, in any order, depths in double.
+  ARTUS_REALTIME void gather(const Line& line, HitBuffer& out) const noexcept;
+
+  /// The nearest facet at t > 0 (decided in double) or none.
+  [[nodiscard]] ARTUS_REALTIME std::optional<FirstHit> first_hit(const Line& line) const noexcept;
+
+  /// Which facets a nearest query looks at.
+  enum class Subset {
+    all,
+    boundary,  ///< of the meshed part: outside or beyond on one side
+    skin       ///< outside on one side
+  };
+
+  /// The nearest facet of a subset within `max_distance` of `p` (relative to the centre). Where
+  /// several share the nearest point, the one whose plane is farthest from `p`, which is the one
+  /// that tells the side.
+  [[nodiscard]] ARTUS_REALTIME std::optional<NearestFacet> nearest(const Vec3& p,
+                                                                   double max_distance,
+                                                                   Subset subset) const noexcept;
+
+  /// The corners of facet `i`, relative to the centre.
+  [[nodiscard]] std::array<Vec3, 3> corners(std::uint32_t i) const noexcept;
+
+ private:
+  [[nodiscard]] EmbreeScene make_scene(std::span<const std::uint32_t> members) const;
+
+  Vec3 centre_ = Vec3::Zero();
+  double radius_ = 0;
+  std::vector<Vec3> vertices_;                           // relative to centre_
+  std::vector<std::array<std::uint32_t, 3>> triangles_;  // (n_interfaces)
+  std::vector<Facet> facets_;                            // (n_interfaces)
+  std::vector<std::uint32_t> boundary_;                  // members of boundary_scene_
+  std::vector<std::uint32_t> skin_;                      // members of skin_scene_
+  EmbreeDevice device_;
+  EmbreeScene scene_;
+  EmbreeScene boundary_scene_;
+  EmbreeScene skin_scene_;
+};
+
+}  // namespace artus

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <cstddef>
+#include <cstdint>
+
+#include "anatomy/tet_mesh.h"
+#include "core/geometry.h"
+
+namespace artus {
+
+/// One interface triangle as the queries use it: its plane in double precision, relative to the
+/// scene's centre, and the regions on its two sides. Kept to 40 bytes: a query reads a few of
+/// these at random places.
+struct Facet {
+  Vec3 normal = Vec3::Zero();  ///< unit, from back to front; zero for a triangle without area
+  double offset = 0;           ///< m, normal . p for the points p of the plane
+  RegionId front = kOutside;
+  RegionId back = kOutside;
+};
+
+/// One passage of a line through a facet.
+struct Hit {
+  double depth = 0;             ///< m along the line
+  std::uint32_t interface = 0;  ///< index into TetMesh::interfaces
+  RegionId from = kOutside;     ///< region before it
+  RegionId to = kOutside;       ///< region after it
+};
+
+/// Hits one query can hold; a line through more surfaces keeps the nearest.
+inline constexpr std::size_t kMaxHits = 256;
+
+}  // namespace artus
