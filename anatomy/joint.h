@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -101,15 +102,22 @@ struct JointFile {
   double cell_size = 0;       ///< m
   std::vector<Landmark> landmarks;
   Pose X_JP_default = Pose::Identity();      ///< default probe pose
-  Pose X_JN_default = Pose::Identity();      ///< default needle pose
+  Pose X_JN_default = Pose::Identity();      ///< default needle pose: tip at the target
   std::vector<PlannedInjection> injections;  ///< of the three-injections scenario
 };
 
-/// Reads `folder`/joint.toml. `surface_folder` replaces the file's own when not empty.
+/// Reads `folder`/joint.toml. `surface_folder` replaces the file's own when not empty; otherwise
+/// the environment's ARTUS_SURFACES_<NAME> does (joint name in capitals, '-' as '_') when set.
 /// Errors: not_found (file, surface folder, tissue library), malformed (with line and column),
 /// invalid (unknown key or tissue, duplicate name, missing value, construct of an unknown
 /// structure); every problem of the file is named in one message.
 [[nodiscard]] Result<JointFile> read_joint(const std::filesystem::path& folder,
                                            const std::filesystem::path& surface_folder = {});
+
+/// The same from memory, without looking whether the surface files exist: `text` is the content
+/// of `folder`/joint.toml. A tissue library that `text` names is read.
+[[nodiscard]] Result<JointFile> parse_joint(std::string_view text,
+                                            const std::filesystem::path& folder,
+                                            const std::filesystem::path& surface_folder = {});
 
 }  // namespace artus

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/result.h"
@@ -51,5 +52,12 @@ struct Tissue {
 /// The tissues of a library file in file order. Errors: not_found, malformed (with line), invalid
 /// (unknown key, missing value, value out of its physical range).
 [[nodiscard]] Result<std::vector<Tissue>> read_tissues(const std::filesystem::path& file);
+
+/// The same from memory; `name` stands in messages.
+[[nodiscard]] Result<std::vector<Tissue>> parse_tissues(std::string_view text,
+                                                        const std::string& name);
+
+/// The library that comes with artus (meshes/tissues.toml, built in).
+[[nodiscard]] Result<std::vector<Tissue>> read_bundled_tissues();
 
 }  // namespace artus
