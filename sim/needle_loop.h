@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <cmath>
+
+#include "core/check.h"
+#include "sim/simulated_device.h"
+#include "sim/simulated_hand.h"
+
+namespace artus {
+
+struct LoopParams {
+  double rate_hz = 1000;      ///< haptic ticks a second
+  double physics_hz = 20000;  ///< steps a second of hand and device; a multiple of rate_hz
+};
+
+/// Hand, device and force laws in a closed loop, so that forces really move the needle. The motor's
+/// wrench is held for a haptic period; hand and device move in finer steps.
+class NeedleLoop {
+ public:
+  /// Requires: physics_hz a multiple of rate_hz.
+  NeedleLoop(const LoopParams& params, const DeviceLimits& device, const HandParams& hand,
+             const Pose& start)
+      : dt_(1 / params.rate_hz),
+        steps_(static_cast<int>(std::lround(params.physics_hz / params.rate_hz))),
+        hand_(hand),
+        device_(device, hand.mass, hand.inertia, start) {
+    ARTUS_REQUIRE(steps_ >= 1 && std::abs(steps_ * params.rate_hz - params.physics_hz) < 1e-6,
+                  "the physics rate must be a multiple of the haptic rate");
+  }
+
+  [[nodiscard]] double time() const noexcept { return dt_ * static_cast<double>(ticks_); }
+  [[nodiscard]] double period() const noexcept { return dt_; }
+  [[nodiscard]] Pose measured() const noexcept { return device_.measured(); }
+  [[nodiscard]] const NeedleMotion& motion() const noexcept { return device_.motion(); }
+  [[nodiscard]] const Vec3& hand_force() const noexcept { return hand_force_; }
+  /// J given by the motor to hand and device since the start: a passivity observer's sum.
+  [[nodiscard]] double energy_to_hand() const noexcept { return energy_; }
+
+  /// One haptic period with the motor's wrench held. `intend(t)` gives the hand's intention.
+  template <class Intend>
+  void advance(const Wrench& motor, Intend intend) {
+    const double h = dt_ / steps_;
+    const double start = time();
+    const Vec3 before = device_.motion().X_JN.translation();
+    for (int i = 0; i < steps_; ++i) {
+      const double t = start + i * h;
+      const Wrench hand = hand_.wrench(t, intend(t), device_.motion());
+      hand_force_ = hand.force;
+      device_.step(hand, motor, h);
+      energy_ += motor.torque.dot(device_.motion().angular_velocity) * h;
+    }
+    energy_ += motor.force.dot(device_.motion().X_JN.translation() - before);
+    ++ticks_;
+  }
+
+ private:
+  double dt_;
+  int steps_;
+  SimulatedHand hand_;
+  SimulatedDevice device_;
+  Vec3 hand_force_ = Vec3::Zero();
+  double energy_ = 0;
+  long ticks_ = 0;
+};
+
+}  // namespace artus

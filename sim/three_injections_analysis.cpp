@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "sim/three_injections_analysis.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/units.h"
+#include "haptics/insertion_cone.h"
+
+namespace artus {
+namespace {
+
+constexpr double kPlateauShare = 0.02;    // the published layer forces hold within this
+constexpr double kAfterRise = 0.1e-3;     // m past the rise before the plateau counts
+constexpr double kNeedleAlongBeam = 0.2;  // sine of the angle below which no plane is defined
+
+bool cuts(ContactState state) noexcept {
+  return state == ContactState::inserting || state == ContactState::bone;
+}
+
+// Collects the rows in which a layer's force has built up: from where the tip entered the layer (or
+// set off again in it) over the distance that its stiffness needs.
+class PlateauFinder {
+ public:
+  PlateauFinder(const CompiledJoint& joint, const PatientProfile& patient)
+      : joint_(&joint), patient_(patient) {}
+
+  void add(const NeedleRow& row) {
+    if (!cuts(row.state) || row.region >= joint_->regions.size()) {
+      going_ = false;
+      return;
+    }
+    const Haptic& haptic = joint_->tissue_of(row.region).haptic;
+    const double level = haptic.cutting_force * patient_.cutting;
+    if (!going_ || row.region != region_) {
+      going_ = true;
+      region_ = row.region;
+      const double missing = std::max(0.0, level + row.forces.cutting);
+      from_ = row.depth;
+      rise_ = missing / std::max(haptic.wall_stiffness, 1e-6);
+    }
+    if (row.depth < from_ + rise_ + kAfterRise) return;
+    LayerPlateau& p = found_[joint_->tissue_of(row.region).name];
+    const double force = -row.forces.cutting;
+    p.least = p.rows == 0 ? force : std::min(p.least, force);
+    p.most = p.rows == 0 ? force : std::max(p.most, force);
+    p.mean += force;
+    ++p.rows;
+    p.rise = std::max(p.rise, rise_);
+  }
+
+  [[nodiscard]] std::vector<LayerPlateau> plateaus() const {
+    std::vector<LayerPlateau> out;
+    for (const Tissue& tissue : joint_->tissues) {
+      const auto found = found_.find(tissue.name);
+      if (found == found_.end()) continue;
+      LayerPlateau p = found->second;
+      p.tissue = tissue.name;
+      p.expected = tissue.haptic.cutting_force * patient_.cutting;
+      p.mean /= static_cast<double>(p.rows);
+      out.push_back(p);
+    }
+    return out;
+  }
+
+ private:
+  const CompiledJoint* joint_;
+  PatientProfile patient_;
+  bool going_ = false;
+  RegionId region_ = kOutside;
+  double from_ = 0;
+  double rise_ = 0;
+  std::map<std::string, LayerPlateau> found_;
+};
+
+std::vector<BoneTouch> find_touches(const std::vector<NeedleRow>& rows) {
+  std::vector<BoneTouch> touches;
+  for (const NeedleRow& row : rows) {
+    if ((row.events & ContactEvent::kBoneTouched) != 0 &&
+        (touches.empty() || touches.back().pass != row.pass)) {
+      touches.push_back({row.pass, row.time, row.incoming_speed, 0, 0});
+    }
+    if (touches.empty() || touches.back().pass != row.pass || row.forces.hard == 0) continue;
+    BoneTouch& touch = touches.back();
+    if (row.time - touch.time > 0.1) continue;  // a later touch of the same pass
+    touch.peak = std::max(touch.peak, std::abs(row.forces.hard));
+    touch.duration = row.time - touch.time;
+  }
+  return touches;
+}
+
+void claim_touches(ThreeInjections& run) {
+  for (const BoneTouch& t : run.touches) {
+    run.claims.push_back(claim_at_most(
+        "injection " + std::to_string(t.pass) + ": tap on bone lasts", t.duration, 0.055, "s"));
+  }
+  if (run.touches.size() != 3) {
+    run.claims.push_back(claim_at_least("injections that touch bone",
+                                        static_cast<double>(run.touches.size()), 3, ""));
+    return;
+  }
+  const auto gain = [&run](std::size_t i) {
+    return run.touches[i].peak / run.touches[i].incoming_speed;
+  };
+  const double slow = std::max(run.touches[0].peak, run.touches[1].peak);
+  run.claims.push_back(claim_at_least("tap of injection 3 over the stronger of 1 and 2",
+                                      run.touches[2].peak / slow, 1, ""));
+  for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) {
+    run.claims.push_back(claim_near(
+        "tap per incoming speed, injection " + std::to_string(i + 1) + " over injection 3",
+        gain(i) / gain(2), 1, 0.05, ""));
+  }
+}
+
+// alpha is 45 degrees at the skin, falls with depth, and every re-aim was inside it.
+void claim_cone(ThreeInjections& run) {
+  double at_skin = 0;
+  double deepest = 0;
+  double at_deepest = 0;
+  double worst = -90;
+  Vec3 first_axis = Vec3::Zero();
+  int pass = 0;
+  for (const NeedleRow& row : run.rows) {
+    if ((row.events & ContactEvent::kSkinPunctured) != 0 && row.pass != pass) {
+      pass = row.pass;
+      first_axis = row.axis;
+      at_skin = std::max(at_skin, insertion_cone(0, run.needle_length));
+    }
+    if (row.depth > deepest) {
+      deepest = row.depth;
+      at_deepest = row.cone;
+    }
+    if ((row.events & ContactEvent::kRedirected) != 0) {
+      const double turned = std::acos(std::clamp(row.axis.dot(first_axis), -1.0, 1.0));
+      worst = std::max(worst, (turned - row.cone) / kDegree);
+    }
+  }
+  run.claims.push_back(claim_near("alpha at the skin", at_skin / kDegree, 45, 1e-6, "degrees"));
+  run.claims.push_back(
+      claim_at_most("alpha at the deepest point", at_deepest / kDegree, 45, "degrees"));
+  if (worst > -90) {
+    run.claims.push_back(claim_at_most("re-aimed direction beyond alpha", worst, 0, "degrees"));
+  }
+}
+
+}  // namespace
+
+Pose probe_in_plane(const Scene& scene, const Pose& X_JN) {
+  const Pose& rest = scene.joint().X_JP_default;
+  const Vec3 z = rest.linear().col(2);
+  const Vec3 needle = X_JN.linear().col(2);
+  const Vec3 across = needle - needle.dot(z) * z;
+  if (across.norm() < kNeedleAlongBeam) return rest;
+  const Vec3 x = across.normalized() * (across.dot(rest.linear().col(0)) < 0 ? -1.0 : 1.0);
+  const Vec3 y = z.cross(x);
+  const Vec3 p = rest.translation() + y * y.dot(X_JN.translation() - rest.translation());
+  constexpr double kReach = 0.05;  // m that the skin may be away from the default footprint
+  for (const TissueInterval& s : tissue_intervals(scene, {p - kReach * z, p + kReach * z})) {
+    if (s.region != kOutside) return make_pose(p + (s.entry - kReach) * z, z, x);
+  }
+  return make_pose(p, z, x);
+}
+
+void analyze(const CompiledJoint& joint, bool reached, ThreeInjections& run) {
+  PlateauFinder finder(joint, run.options.patient);
+  for (const NeedleRow& row : run.rows) finder.add(row);
+  run.plateaus = finder.plateaus();
+  run.touches = find_touches(run.rows);
+  run.claims.push_back(
+      {"every step of the operator met its goal in time", reached ? 1.0 : 0.0, "1", reached});
+  for (const LayerPlateau& p : run.plateaus) {
+    run.claims.push_back(claim_near("mean cutting force on the plateau in " + p.tissue, p.mean,
+                                    p.expected, kPlateauShare, "N"));
+  }
+  claim_touches(run);
+  claim_cone(run);
+  for (std::size_t i = 0; i < run.rows.size(); ++i) {
+    const NeedleRow& row = run.rows[i];
+    if (i + 1 < run.rows.size() && run.rows[i + 1].pass == row.pass) continue;
+    run.claims.push_back(claim_at_most(
+        "injection " + std::to_string(row.pass) + ": energy given to the hand over the whole pass",
+        row.energy_to_hand, 0, "J"));
+  }
+}
+
+}  // namespace artus
