@@ -71,8 +71,8 @@ void add_joint_options(CLI::App* command, JointOptions& options) {
 Result<std::shared_ptr<const CompiledJoint>> load(const JointOptions& options,
                                                   const Progress& progress) {
   LoadOptions load_options;
-  load_options.surface_folder = options.surfaces;
-  load_options.cache_folder = options.cache;
+  load_options.surfaces = options.surfaces;
+  load_options.cache = options.cache;
   load_options.compile.skip_refused = options.skip_refused;
   auto joint = load_joint(options.joint, load_options, progress);
   if (!joint) return tl::unexpected(joint.error());

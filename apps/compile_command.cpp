@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <algorithm>
+#include <cstdio>
+#include <iostream>
+#include <memory>
+
+#include "anatomy/compile.h"
+#include "core/text_file.h"
+#include "core/units.h"
+
+#include "apps/command.h"
+
+namespace artus {
+namespace {
+
+constexpr double kCubicCentimetre = 1e-6;  // m^3
+
+struct CompileCommandOptions {
+  std::filesystem::path joint;
+  std::filesystem::path surfaces;
+  std::filesystem::path out;
+  std::filesystem::path report;
+  bool skip_refused = false;
+  bool json = false;
+};
+
+void print_structures(const CompileReport& report) {
+  std::printf("%-42s %-8s %9s %9s %9s %7s %6s %6s %5s\n", "structure", "kind", "input cm3",
+              "lost cm3", "is cm3", "error %", "mean", "p95 mm", "parts");
+  for (const auto& s : report.structures) {
+    if (!s.refused.empty()) {
+      std::printf("%-42s refused: %s\n", s.name.c_str(), s.refused.c_str());
+      continue;
+    }
+    std::printf("%-42s %-8s %9.3f %9.3f %9.3f %7.2f %6.3f %6.3f %5zu\n", s.name.c_str(),
+                s.kind.c_str(), s.region_volume / kCubicCentimetre,
+                s.lost_volume / kCubicCentimetre, s.resolved_volume / kCubicCentimetre,
+                100 * s.volume_error(), s.distance.mean / kMillimetre,
+                s.distance.percentile95 / kMillimetre, s.parts);
+    for (const auto& repair : s.repairs) std::printf("    %s\n", repair.c_str());
+  }
+}
+
+void print_histogram(const TetQuality& quality) {
+  const auto most = *std::max_element(quality.histogram.begin(), quality.histogram.end());
+  std::printf("smallest dihedral angle of each tetrahedron:\n");
+  for (std::size_t i = 0; i < quality.histogram.size(); ++i) {
+    const auto count = quality.histogram[i];
+    if (count == 0) continue;
+    const int bar = static_cast<int>(50.0 * static_cast<double>(count) / static_cast<double>(most));
+    std::printf("  %3zu-%-3zu deg %9zu %s\n", i * 180 / quality.histogram.size(),
+                (i + 1) * 180 / quality.histogram.size(), static_cast<std::size_t>(count),
+                std::string(static_cast<std::size_t>(bar), '#').c_str());
+  }
+}
+
+ExitCode run_compile(const CompileCommandOptions& options) {
+  const Progress progress = make_progress_printer(options.json);
+  const auto file = read_joint(options.joint, options.surfaces);
+  if (!file) return report_error(file.error(), options.json);
+  const auto outcome = compile_joint(*file, {options.skip_refused}, progress);
+  if (!outcome) return report_error(outcome.error(), options.json);
+  const auto out = options.out.empty() ? std::filesystem::path(file->name + ".artus") : options.out;
+  if (const auto written = write_compiled_joint(outcome->joint, out); !written)
+    return report_error(written.error(), options.json);
+  const std::string report = to_json(outcome->report);
+  if (!options.report.empty())
+    if (const auto written = write_text(options.report, report + "\n"); !written)
+      return report_error(written.error(), options.json);
+  if (options.json) {
+    std::cout << report << '\n';
+    return ExitCode::ok;
+  }
+  print_structures(outcome->report);
+  print_histogram(outcome->report.quality);
+  std::printf(
+      "%s: %zu tetrahedra, %zu interface triangles, %zu vertices; %.3f %% of dihedral angles above "
+      "8 deg, none inverted: %s\n%.1f s, %.0f MB at most\n",
+      out.c_str(), outcome->report.tetrahedra, outcome->report.interfaces, outcome->report.vertices,
+      100 * outcome->report.quality.share_above_8_degrees,
+      outcome->report.quality.inverted == 0 ? "yes" : "NO", outcome->report.seconds,
+      outcome->report.peak_memory / 1e6);
+  return ExitCode::ok;
+}
+
+}  // namespace
+
+void add_compile_command(CLI::App& app, ExitCode& code) {
+  auto options = std::make_shared<CompileCommandOptions>();
+  CLI::App* command = add_command(
+      app, "compile", "Check, resolve and tetrahedralise a joint folder into one file",
+      "Prints what became of each structure: repairs, volume lost to others of higher priority,\n"
+      "distance of the resolved interfaces to the input surface, quality of the tetrahedra.\n"
+      "Examples:\n"
+      "  artus compile meshes/simple-shoulder -o simple.artus\n"
+      "  artus compile meshes/real-shoulder --surfaces ~/atlas --skip-refused -o real.artus\n"
+      "  artus compile my-joint --report report.json");
+  command->add_option("joint", options->joint, "folder with joint.toml")->required();
+  command->add_option("--surfaces", options->surfaces,
+                      "folder of the surface files, when not the joint's own");
+  command->add_option("-o,--out", options->out, "compiled file (default: <name>.artus)");
+  command->add_option("--report", options->report, "also write the report as JSON");
+  command->add_flag("--skip-refused", options->skip_refused,
+                    "leave out structures that cannot be repaired instead of stopping");
+  command->add_flag("--json", options->json, "print the report as JSON");
+  on_run(command, code, [options] { return run_compile(*options); });
+}
+
+}  // namespace artus

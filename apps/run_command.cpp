@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <cstdio>
+#include <iostream>
+#include <memory>
+
+#include "core/text_file.h"
+#include "sim/run_images.h"
+#include "sim/three_injections.h"
+
+#include "apps/view_options.h"
+
+namespace artus {
+namespace {
+
+struct RunOptions {
+  std::string scenario;
+  JointOptions joint;
+  ViewOptions view;
+  std::filesystem::path out;
+  double rate_hz = 1000;
+  std::string device = "virtuose_6d_desktop";
+  bool no_images = false;
+  bool no_video = false;
+  bool json = false;
+};
+
+bool all_hold(const ThreeInjections& run) {
+  bool all = true;
+  for (const auto& claim : run.claims) all = all && claim.pass;
+  return all;
+}
+
+void print_summary(const ThreeInjections& run, const RunImages& images,
+                   const std::filesystem::path& out) {
+  std::printf("%-14s %9s %9s %9s %9s %8s\n", "layer", "expected", "mean N", "least N", "most N",
+              "rise mm");
+  for (const auto& p : run.plateaus) {
+    if (p.rows == 0)
+      std::printf("%-14s %9.3f  no plateau: not crossed, or thinner than the force's rise\n",
+                  p.tissue.c_str(), p.expected);
+    else
+      std::printf("%-14s %9.3f %9.3f %9.3f %9.3f %8.2f\n", p.tissue.c_str(), p.expected, p.mean,
+                  p.least, p.most, p.rise * 1e3);
+  }
+  for (const auto& claim : run.claims)
+    std::printf("%s  %s: %.4g (%s)\n", claim.pass ? "holds" : "FAILS", claim.text.c_str(),
+                claim.value, claim.bound.c_str());
+  std::printf("%zu ticks, %zu images%s in %s\n", run.rows.size(), images.moments.size(),
+              images.video.empty() ? "" : " and a video", out.c_str());
+}
+
+/// summary.json is the run's own summary with what the images add.
+Result<nlohmann::json> write_summary(const ThreeInjections& run, const RunImages& images,
+                                     const std::string& joint, const std::filesystem::path& out) {
+  nlohmann::json summary = summarize(run);
+  summary["joint"] = joint;
+  summary.update(summarize(images));
+  if (const auto written = write_text(out / "summary.json", summary.dump(2) + "\n"); !written)
+    return tl::unexpected(written.error());
+  return summary;
+}
+
+ExitCode run_scenario(const RunOptions& options) {
+  const auto view = make_view(options.view);
+  if (!view) return report_error(view.error(), options.json);
+  const Progress progress = make_progress_printer(options.json);
+  const auto joint = load(options.joint, progress);
+  if (!joint) return report_error(joint.error(), options.json);
+  const auto scene = std::make_shared<const Scene>(*joint);
+
+  ThreeInjectionsOptions run_options;
+  run_options.rate_hz = options.rate_hz;
+  run_options.seed = options.view.seed;
+  run_options.device = options.device;
+  const auto run = run_three_injections(scene, (*joint)->injections, run_options, progress);
+  if (!run) return report_error(run.error(), options.json);
+  if (const auto written = write_three_injections(*run, options.out); !written)
+    return report_error(written.error(), options.json);
+
+  RunImages images;
+  if (!options.no_images) {
+    RunImagesOptions image_options{view->transducer, view->settings, view->needle_shape,
+                                   !options.no_video};
+    auto drawn = write_run_images(scene, *run, options.out, image_options, progress);
+    if (!drawn) return report_error(drawn.error(), options.json);
+    images = std::move(*drawn);
+  }
+  const auto summary = write_summary(*run, images, (*joint)->name, options.out);
+  if (!summary) return report_error(summary.error(), options.json);
+  if (options.json)
+    std::cout << summary->dump(2) << '\n';
+  else
+    print_summary(*run, images, options.out);
+  return all_hold(*run) ? ExitCode::ok : ExitCode::failed;
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& app, ExitCode& code) {
+  auto options = std::make_shared<RunOptions>();
+  CLI::App* command = add_command(
+      app, "run",
+      "Replay the published medical test with a simulated hand: forces, images, video, verdicts",
+      "three-injections: two slow injections to the bursa with a change of direction and a touch\n"
+      "of bone, then a fast straight one. Writes trace.csv, forces.png, summary.json, a B-mode "
+      "and\n"
+      "a label image for each named moment, and a video. Exit code 1 when a claim does not hold.\n"
+      "Examples:\n"
+      "  artus run three-injections -j meshes/simple-shoulder --out out/run\n"
+      "  artus run three-injections -j meshes/shoulder --out out/run --rate 10000 --no-video "
+      "--json");
+  command->add_option("scenario", options->scenario, "three-injections")
+      ->required()
+      ->check(CLI::IsMember({"three-injections"}));
+  add_joint_options(command, options->joint);
+  add_view_options(command, options->view);
+  command->add_option("-o,--out", options->out, "folder for the results")->required();
+  command->add_option("--rate", options->rate_hz, "haptic rate, Hz")
+      ->check(CLI::Range(100, 20000))
+      ->capture_default_str();
+  command->add_option("--device", options->device, "device whose force limits apply")
+      ->capture_default_str();
+  command->add_flag("--no-images", options->no_images, "forces alone");
+  command->add_flag("--no-video", options->no_video, "images of the named moments, but no video");
+  command->add_flag("--json", options->json, "print the summary as JSON");
+  on_run(command, code, [options] { return run_scenario(*options); });
+}
+
+}  // namespace artus

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <filesystem>
+#include <string_view>
+
+#include "core/result.h"
+
+namespace artus {
+
+/// Writes `text` as the whole content of `file`; folders on the way are made. Errors: unreadable
+/// (no permission, disk full), naming the file.
+[[nodiscard]] Result<void> write_text(const std::filesystem::path& file, std::string_view text);
+
+}  // namespace artus
