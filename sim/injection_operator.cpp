@@ -11,7 +11,7 @@ using Kind = OperatorPhase::Kind;
 using Goal = OperatorPhase::Goal;
 
 constexpr double kRelaxTime = 0.1;      // s for a hand to stop pushing; assumed
-constexpr double kBoneFeelTime = 0.06;  // s of full force until the operator is sure; assumed
+constexpr double kBoneFeelTime = 0.03;  // s of full force until the operator is sure; assumed
 constexpr double kBoneShare = 0.99;     // of the bone's force counts as full
 
 // Fraction 0 to 1 with zero speed at both ends.

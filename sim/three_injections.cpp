@@ -24,7 +24,8 @@ constexpr double kMinRemaining = 0.006;  // m that stay in at a withdrawal
 constexpr double kIntoTarget = 0.6e-3;   // m into the target layer at least
 constexpr double kHold = 0.8;            // s at a target; assumed
 constexpr double kTurn = 1.2;            // s to re-aim; assumed
-constexpr double kOutside = 1.0;         // s between injections; assumed
+constexpr double kPause = 1.0;           // s between injections; assumed
+constexpr double kReady = 0.5;           // s before the needle moves, while the guard ramps up
 
 // What a line through the body meets.
 struct LinePlan {
@@ -48,7 +49,7 @@ std::optional<LinePlan> plan_line(const Scene& scene, const Vec3& entry, const V
   for (const TissueInterval& s :
        tissue_intervals(scene, {entry - before * direction, entry + kSearch * direction})) {
     const double depth = s.entry - before;
-    if (s.region == artus::kOutside) {
+    if (s.region == kOutside) {
       if (entered) break;
       continue;
     }
@@ -57,9 +58,8 @@ std::optional<LinePlan> plan_line(const Scene& scene, const Vec3& entry, const V
       if (plan) plan->bone = depth;
       break;
     }
-    const bool wanted = target_region != artus::kOutside
-                            ? s.region == target_region
-                            : is_tissue(joint, s.region, target_tissue);
+    const bool wanted = target_region != kOutside ? s.region == target_region
+                                                  : is_tissue(joint, s.region, target_tissue);
     if (!plan && wanted && s.exit - s.entry > kIntoTarget) plan = LinePlan{depth, {}, s.region};
   }
   return plan;
@@ -142,12 +142,12 @@ void add_bone_and_exit(Pass& pass, const ThreeInjectionsOptions& options,
   pass.phases.push_back(wait(Kind::hold, 0.2));
   pass.phases.push_back(withdraw_to(-kStartOutside, std::max(speed, options.slow_speed * 2),
                                     pass.deepest, "needle out"));
-  pass.phases.push_back(wait(Kind::wait_outside, kOutside));
+  pass.phases.push_back(wait(Kind::wait_outside, kPause));
 }
 
 Pass plan_slow(const Scene& scene, const PlannedInjection& planned, const Vec3& direction,
                const LinePlan& first, const ThreeInjectionsOptions& options) {
-  Pass pass{planned.entry, direction, {}, first.target};
+  Pass pass{planned.entry, direction, {wait(Kind::hold, kReady)}, first.target};
   pass.phases.push_back(reach_target(options, first, options.target_tissue + " reached"));
   pass.phases.push_back(wait(Kind::hold, kHold));
   const double back = std::max(kMinRemaining, first.target - options.withdrawal);
@@ -185,10 +185,10 @@ Result<std::array<Pass, 3>> plan_passes(const Scene& scene,
       return fail(ErrorCode::invalid, "entry and target are the same point", planned.name);
     }
     const Vec3 direction = path.normalized();
-    auto first = plan_line(scene, planned.entry, direction, options.target_tissue, artus::kOutside);
+    auto first = plan_line(scene, planned.entry, direction, options.target_tissue, kOutside);
     if (!first) {
       const RegionId region = scene.region_at(planned.target);
-      if (region != artus::kOutside) {
+      if (region != kOutside) {
         first = plan_line(scene, planned.entry, direction, options.target_tissue, region);
       }
     }
@@ -201,7 +201,7 @@ Result<std::array<Pass, 3>> plan_passes(const Scene& scene,
     if (i < 2) {
       passes[i] = plan_slow(scene, planned, direction, *first, options);
     } else {
-      passes[i] = Pass{planned.entry, direction, {}, first->target};
+      passes[i] = Pass{planned.entry, direction, {wait(Kind::hold, kReady)}, first->target};
       if (!first->bone) passes[i].phases.push_back(reach_target(options, *first, "target reached"));
       add_bone_and_exit(passes[i], options, first->bone, options.fast_speed);
     }

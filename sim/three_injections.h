@@ -46,7 +46,7 @@ struct LayerPlateau {
   double mean = 0;       ///< N, over the plateau's rows
   double least = 0;      ///< N
   double most = 0;       ///< N
-  std::size_t rows = 0;  ///< 0: the layer was not crossed or is thinner than its rise
+  std::size_t rows = 0;  ///< 0: the layer is thinner than its rise
   double rise = 0;       ///< m, over which the force built up
 };
 

@@ -6,7 +6,6 @@
 #include <map>
 
 #include "core/units.h"
-#include "haptics/insertion_cone.h"
 
 namespace artus {
 namespace {
@@ -40,14 +39,14 @@ class PlateauFinder {
       from_ = row.depth;
       rise_ = missing / std::max(haptic.wall_stiffness, 1e-6);
     }
-    if (row.depth < from_ + rise_ + kAfterRise) return;
     LayerPlateau& p = found_[joint_->tissue_of(row.region).name];
+    p.rise = std::max(p.rise, rise_);
+    if (row.depth < from_ + rise_ + kAfterRise) return;
     const double force = -row.forces.cutting;
     p.least = p.rows == 0 ? force : std::min(p.least, force);
     p.most = p.rows == 0 ? force : std::max(p.most, force);
     p.mean += force;
     ++p.rows;
-    p.rise = std::max(p.rise, rise_);
   }
 
   [[nodiscard]] std::vector<LayerPlateau> plateaus() const {
@@ -58,7 +57,7 @@ class PlateauFinder {
       LayerPlateau p = found->second;
       p.tissue = tissue.name;
       p.expected = tissue.haptic.cutting_force * patient_.cutting;
-      p.mean /= static_cast<double>(p.rows);
+      if (p.rows > 0) p.mean /= static_cast<double>(p.rows);
       out.push_back(p);
     }
     return out;
@@ -125,7 +124,7 @@ void claim_cone(ThreeInjections& run) {
     if ((row.events & ContactEvent::kSkinPunctured) != 0 && row.pass != pass) {
       pass = row.pass;
       first_axis = row.axis;
-      at_skin = std::max(at_skin, insertion_cone(0, run.needle_length));
+      at_skin = row.cone;
     }
     if (row.depth > deepest) {
       deepest = row.depth;
@@ -136,7 +135,8 @@ void claim_cone(ThreeInjections& run) {
       worst = std::max(worst, (turned - row.cone) / kDegree);
     }
   }
-  run.claims.push_back(claim_near("alpha at the skin", at_skin / kDegree, 45, 1e-6, "degrees"));
+  run.claims.push_back(
+      claim_near("alpha where the skin gives way", at_skin / kDegree, 45, 0.05, "degrees"));
   run.claims.push_back(
       claim_at_most("alpha at the deepest point", at_deepest / kDegree, 45, "degrees"));
   if (worst > -90) {
@@ -170,6 +170,7 @@ void analyze(const CompiledJoint& joint, bool reached, ThreeInjections& run) {
   run.claims.push_back(
       {"every step of the operator met its goal in time", reached ? 1.0 : 0.0, "1", reached});
   for (const LayerPlateau& p : run.plateaus) {
+    if (p.rows == 0) continue;  // thinner than its rise: listed, but nothing can be claimed
     run.claims.push_back(claim_near("mean cutting force on the plateau in " + p.tissue, p.mean,
                                     p.expected, kPlateauShare, "N"));
   }
