@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <vector>
+
+#include "meshes/generate/surfacing.h"
+
+namespace artus {
+
+/// The sizes of a glenohumeral joint, m. Everything scales with the head; the thin layers keep
+/// their own thickness.
+struct ShoulderSize {
+  double head_radius = 24e-3;        ///< bony humeral head
+  double cartilage = 1.5e-3;         ///< on the head, and on the glenoid
+  double tendon_thickness = 5.6e-3;  ///< supraspinatus over the head
+  double bursa = 1.5e-3;             ///< subacromial-subdeltoid
+  double deltoid = 12.5e-3;
+  double fat = 6e-3;     ///< between deltoid and skin
+  double skin = 1.8e-3;  ///< the joint file makes this layer as a shell of the body surface
+};
+
+/// The solids of a right shoulder: `body` (outer skin) first, then bones, cartilage and soft
+/// tissue. They overlap; the joint file's priority decides. Frame J is centred on the humeral head,
+/// axes LPS (lateral is -x), m. Requires: all sizes > 0.
+[[nodiscard]] std::vector<Solid> make_shoulder(const ShoulderSize& size);
+
+/// The parts make_shoulder puts together, for tests: bones with cartilage and labrum; muscles,
+/// bursa, capsule and body; nerves and vessels.
+[[nodiscard]] std::vector<Solid> make_shoulder_bones(const ShoulderSize& size);
+[[nodiscard]] std::vector<Solid> make_shoulder_soft_tissue(const ShoulderSize& size);
+[[nodiscard]] std::vector<Solid> make_shoulder_vessels(const ShoulderSize& size);
+
+}  // namespace artus

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "meshes/generate/surfacing.h"
+
+#include <array>
+#include <cstdint>
+
+#include <CGAL/Complex_2_in_triangulation_3.h>
+#include <CGAL/IO/facets_in_complex_2_to_triangle_mesh.h>
+#include <CGAL/Implicit_surface_3.h>
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/Surface_mesh_default_criteria_3.h>
+#include <CGAL/Surface_mesh_default_triangulation_3.h>
+#include <CGAL/boost/graph/helpers.h>
+#include <CGAL/make_surface_mesh.h>
+
+namespace artus {
+namespace {
+
+using Triangulation = CGAL::Surface_mesh_default_triangulation_3;
+using Traits = Triangulation::Geom_traits;
+using Point = Traits::Point_3;
+using Complex = CGAL::Complex_2_in_triangulation_3<Triangulation>;
+using Facets = CGAL::Surface_mesh<Point>;
+
+// CGAL's default error bounds suit coordinates of the order of 1..1000, so it works in mm.
+constexpr double kMmPerM = 1e3;
+constexpr double kMinAngleDeg = 25;
+
+class FieldInMm {
+ public:
+  explicit FieldInMm(const Field& field) : field_(&field) {}
+  double operator()(const Point& p) const {
+    return kMmPerM * (*field_)(Vec3(p.x(), p.y(), p.z()) / kMmPerM);
+  }
+
+ private:
+  const Field* field_;
+};
+
+SurfaceMesh to_surface_mesh(const Facets& facets) {
+  SurfaceMesh mesh;
+  std::vector<std::uint32_t> index(facets.num_vertices());
+  for (const auto v : facets.vertices()) {
+    const Point& p = facets.point(v);
+    index[v.idx()] = static_cast<std::uint32_t>(mesh.vertices.size());
+    mesh.vertices.push_back(Vec3(p.x(), p.y(), p.z()) / kMmPerM);
+  }
+  for (const auto f : facets.faces()) {
+    Triangle triangle{};
+    std::size_t corner = 0;
+    for (const auto v : CGAL::vertices_around_face(facets.halfedge(f), facets)) {
+      triangle.at(corner++) = index[v.idx()];
+    }
+    mesh.triangles.push_back(triangle);
+  }
+  return mesh;
+}
+
+void wind_outward(SurfaceMesh& mesh) {
+  if (signed_volume(mesh) >= 0) return;
+  for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
+}
+
+}  // namespace
+
+Result<SurfaceMesh> compute_surface(const Solid& solid) {
+  if (!(solid.field(solid.seed) < 0)) {
+    return fail(ErrorCode::failed, "the seed lies outside the solid", solid.name);
+  }
+  const Vec3 seed = solid.seed * kMmPerM;
+  const double reach = solid.reach * kMmPerM;
+  const FieldInMm field(solid.field);
+  const CGAL::Implicit_surface_3<Traits, FieldInMm> surface(
+      field, Traits::Sphere_3(Point(seed.x(), seed.y(), seed.z()), reach * reach), 1e-6);
+  const CGAL::Surface_mesh_default_criteria_3<Triangulation> criteria(
+      kMinAngleDeg, solid.facet_size * kMmPerM, solid.facet_distance * kMmPerM);
+  Triangulation triangulation;
+  Complex complex(triangulation);
+  CGAL::make_surface_mesh(complex, surface, criteria, CGAL::Manifold_tag());
+  Facets facets;
+  CGAL::facets_in_complex_2_to_triangle_mesh(complex, facets);
+  if (facets.is_empty() || !CGAL::is_closed(facets)) {
+    return fail(ErrorCode::failed, "no closed surface was found; is the reach long enough?",
+                solid.name);
+  }
+  SurfaceMesh mesh = to_surface_mesh(facets);
+  wind_outward(mesh);
+  return mesh;
+}
+
+}  // namespace artus
