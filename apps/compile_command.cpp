@@ -48,8 +48,8 @@ void print_histogram(const TetQuality& quality) {
     const auto count = quality.histogram[i];
     if (count == 0) continue;
     const int bar = static_cast<int>(50.0 * static_cast<double>(count) / static_cast<double>(most));
-    std::printf("  %3zu-%-3zu deg %9zu %s\n", i * 180 / quality.histogram.size(),
-                (i + 1) * 180 / quality.histogram.size(), static_cast<std::size_t>(count),
+    std::printf("  %3.0f-%-3.0f deg %9zu %s\n", static_cast<double>(i) * TetQuality::kBin,
+                static_cast<double>(i + 1) * TetQuality::kBin, count,
                 std::string(static_cast<std::size_t>(bar), '#').c_str());
   }
 }
@@ -74,12 +74,11 @@ ExitCode run_compile(const CompileCommandOptions& options) {
   print_structures(outcome->report);
   print_histogram(outcome->report.quality);
   std::printf(
-      "%s: %zu tetrahedra, %zu interface triangles, %zu vertices; %.3f %% of dihedral angles above "
-      "8 deg, none inverted: %s\n%.1f s, %.0f MB at most\n",
+      "%s: %zu tetrahedra, %zu interface triangles, %zu vertices; %.3f %% without a dihedral "
+      "angle below 8 deg; inverted: %zu\n%.1f s, %.0f MB at most\n",
       out.c_str(), outcome->report.tetrahedra, outcome->report.interfaces, outcome->report.vertices,
-      100 * outcome->report.quality.share_above_8_degrees,
-      outcome->report.quality.inverted == 0 ? "yes" : "NO", outcome->report.seconds,
-      outcome->report.peak_memory / 1e6);
+      outcome->report.quality.above_8_deg_percent(), outcome->report.quality.inverted,
+      outcome->report.seconds, outcome->report.peak_memory / 1e6);
   return ExitCode::ok;
 }
 

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "apps/arguments.h"
+
+#include <gtest/gtest.h>
+
+namespace artus {
+namespace {
+
+TEST(Arguments, APointIsReadInMillimetres) {
+  const auto p = parse_point_mm("1,-2.5,3e1", "--tip");
+  ASSERT_TRUE(p.has_value());
+  EXPECT_LT((*p - Vec3(0.001, -0.0025, 0.03)).norm(), 1e-15);
+}
+
+TEST(Arguments, AnythingButThreeFiniteNumbersIsRefusedWithTheFlag) {
+  for (const char* text : {"", "1,2", "1,2,3,4", "1,2,x", "1,2,nan", "inf,0,0", "1,,3", "1 2 3"}) {
+    const auto p = parse_point_mm(text, "--tip");
+    ASSERT_FALSE(p.has_value()) << text;
+    EXPECT_EQ(p.error().where, "--tip");
+    EXPECT_EQ(p.error().code, ErrorCode::malformed);
+  }
+}
+
+TEST(Arguments, AProbeLooksAlongItsDirectionWithItsLateralAxis) {
+  const auto pose = parse_probe_pose("10,0,0/-1,0,0/0,0,1", "--probe");
+  ASSERT_TRUE(pose.has_value());
+  EXPECT_LT((pose->translation() - Vec3(0.01, 0, 0)).norm(), 1e-15);
+  EXPECT_LT((pose->linear().col(2) - Vec3(-1, 0, 0)).norm(), 1e-15);
+  EXPECT_LT((pose->linear().col(0) - Vec3(0, 0, 1)).norm(), 1e-15);
+}
+
+TEST(Arguments, AProbeWithParallelAxesIsRefused) {
+  EXPECT_FALSE(parse_probe_pose("0,0,0/0,0,1/0,0,-2", "--probe").has_value());
+  EXPECT_FALSE(parse_probe_pose("0,0,0/0,0,0", "--probe").has_value());
+  EXPECT_FALSE(parse_probe_pose("0,0,0", "--probe").has_value());
+}
+
+TEST(Arguments, ANeedlePointsFromEntryToTip) {
+  const auto pose = parse_needle_pose("0,0,0/0,0,-20", "--needle");
+  ASSERT_TRUE(pose.has_value());
+  EXPECT_LT((pose->translation() - Vec3(0, 0, -0.02)).norm(), 1e-15);
+  EXPECT_LT((pose->linear().col(2) - Vec3(0, 0, -1)).norm(), 1e-15);
+  EXPECT_FALSE(parse_needle_pose("1,1,1/1,1,1", "--needle").has_value());
+}
+
+}  // namespace
+}  // namespace artus

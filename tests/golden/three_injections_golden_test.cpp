@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// The main job on simple-shoulder against committed results. Each golden has a JSON sidecar with
+// what made it and how far a run may stray (another compiler or CGAL moves the mesh a little).
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "anatomy/compiled_joint.h"
+#include "echo/image_io.h"
+#include "echo/renderer.h"
+#include "sim/three_injections.h"
+
+namespace artus {
+namespace {
+
+const std::filesystem::path kExpected =
+    std::filesystem::path(ARTUS_SOURCE_DIR) / "tests/golden/expected";
+const std::filesystem::path kOutput = ARTUS_GOLDEN_OUTPUT;
+
+bool updating() {
+  return std::getenv("ARTUS_UPDATE_GOLDENS") != nullptr;
+}
+
+nlohmann::json sidecar(const std::string& name) {
+  return nlohmann::json::parse(std::ifstream(kExpected / (name + ".json")));
+}
+
+std::shared_ptr<const Scene> simple_shoulder() {
+  auto joint =
+      read_compiled_joint(std::filesystem::path(ARTUS_TEST_JOINTS) / "simple-shoulder.artus");
+  if (!joint) throw std::runtime_error(joint.error().to_string());
+  return std::make_shared<const Scene>(std::make_shared<const CompiledJoint>(std::move(*joint)));
+}
+
+const ThreeInjections& the_run() {
+  static const ThreeInjections run = [] {
+    const auto scene = simple_shoulder();
+    auto result = run_three_injections(scene, scene->joint().injections);
+    if (!result) throw std::runtime_error(result.error().to_string());
+    return *std::move(result);
+  }();
+  return run;
+}
+
+// ---- the force trace: every 25th millisecond, the components a reader would plot
+
+constexpr std::size_t kStride = 25;
+constexpr std::size_t kColumns = 9;
+const char* const kHeader =
+    "time_s,depth_mm,region,cutting_n,attracted_n,friction_n,clamping_n,hard_n,total_n";
+
+std::vector<std::array<double, kColumns>> sample_trace(const ThreeInjections& run) {
+  std::vector<std::array<double, kColumns>> rows;
+  for (std::size_t i = 0; i < run.rows.size(); i += kStride) {
+    const NeedleRow& r = run.rows[i];
+    rows.push_back({r.time, r.depth * 1e3, static_cast<double>(r.region), r.forces.cutting,
+                    r.forces.attracted, r.forces.friction, r.forces.clamping.norm(), r.forces.hard,
+                    r.command.force.norm()});
+  }
+  return rows;
+}
+
+void write_trace(const std::filesystem::path& file,
+                 const std::vector<std::array<double, kColumns>>& rows) {
+  std::ofstream out(file);
+  out << kHeader << '\n';
+  for (const auto& row : rows)
+    for (std::size_t c = 0; c < kColumns; ++c) {
+      char text[32];
+      std::snprintf(text, sizeof text, "%.5g", row[c]);
+      out << text << (c + 1 < kColumns ? ',' : '\n');
+    }
+}
+
+std::vector<std::array<double, kColumns>> read_trace(const std::filesystem::path& file) {
+  std::vector<std::array<double, kColumns>> rows;
+  std::ifstream in(file);
+  std::string line;
+  std::getline(in, line);
+  while (std::getline(in, line)) {
+    std::istringstream cells(line);
+    std::string cell;
+    std::array<double, kColumns> row{};
+    for (double& value : row) {
+      std::getline(cells, cell, ',');
+      value = std::stod(cell);
+    }
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+TEST(ThreeInjectionsGolden, ForceTraceIsTheCommittedOne) {
+  const auto actual = sample_trace(the_run());
+  const auto file = kExpected / "three-injections-trace.csv";
+  const auto old = read_trace(file);
+  std::array<double, kColumns> rms{};
+  const std::size_t n = std::min(actual.size(), old.size());
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t c = 0; c < kColumns; ++c) rms[c] += std::pow(actual[i][c] - old[i][c], 2);
+  for (double& value : rms) value = n > 0 ? std::sqrt(value / static_cast<double>(n)) : 0;
+  std::cout << "golden trace: " << old.size() << " -> " << actual.size() << " rows, rms change";
+  for (const double value : rms) std::cout << ' ' << value;
+  std::cout << '\n';
+  if (updating()) {
+    write_trace(file, actual);
+    return;
+  }
+  const auto tolerance = sidecar("three-injections-trace").at("tolerance");
+  bool good = std::abs(static_cast<double>(actual.size()) - static_cast<double>(old.size())) <=
+              tolerance.at("rows").get<double>();
+  good = good && rms[1] <= tolerance.at("depth_rms_mm").get<double>();
+  for (std::size_t c = 3; c < kColumns; ++c)
+    good = good && rms[c] <= tolerance.at("force_rms_n").get<double>();
+  if (!good) {
+    std::filesystem::create_directories(kOutput);
+    write_trace(kOutput / "three-injections-trace.csv", actual);
+  }
+  EXPECT_TRUE(good) << "actual trace in " << kOutput;
+}
+
+// ---- two images: the bursa reached, and the bone touched
+
+class ImageGolden : public testing::TestWithParam<const char*> {};
+
+TEST_P(ImageGolden, IsTheCommittedOne) {
+  const std::string label = GetParam();
+  const auto& run = the_run();
+  const NamedMoment* moment = nullptr;
+  for (const auto& m : run.moments)
+    if (moment == nullptr && m.label == label) moment = &m;
+  ASSERT_NE(moment, nullptr) << "no moment called " << label;
+  NeedleShape shape;
+  shape.length = run.needle_length;
+  const Frame frame =
+      render_bmode(simple_shoulder(), moment->X_JP, NeedleView{moment->X_JN, shape});
+  const cv::Mat actual = grey_image(frame);
+
+  std::string name = "bmode-" + label;
+  for (char& c : name)
+    if (c == ' ') c = '-';
+  const auto file = kExpected / (name + ".png");
+  const cv::Mat old = cv::imread(file.string(), cv::IMREAD_GRAYSCALE);
+  double mean_change = 255;
+  double share = 1;
+  cv::Mat diff;
+  if (old.size() == actual.size()) {
+    cv::absdiff(old, actual, diff);
+    mean_change = cv::mean(diff)[0];
+    share = static_cast<double>(cv::countNonZero(diff > 24)) / static_cast<double>(diff.total());
+  }
+  std::cout << "golden " << name << ": mean grey change " << mean_change
+            << ", share of pixels over 24: " << share << '\n';
+  if (updating()) {
+    ASSERT_TRUE(cv::imwrite(file.string(), actual));
+    return;
+  }
+  const auto tolerance = sidecar("bmode").at("tolerance");
+  const bool good = mean_change <= tolerance.at("mean_grey").get<double>() &&
+                    share <= tolerance.at("share_over_24").get<double>();
+  if (!good) {
+    std::filesystem::create_directories(kOutput);
+    cv::imwrite((kOutput / (name + "-actual.png")).string(), actual);
+    if (!old.empty()) cv::imwrite((kOutput / (name + "-expected.png")).string(), old);
+    if (!diff.empty()) cv::imwrite((kOutput / (name + "-diff.png")).string(), diff);
+  }
+  EXPECT_TRUE(good) << "actual, expected and difference in " << kOutput;
+}
+
+INSTANTIATE_TEST_SUITE_P(Moments, ImageGolden, testing::Values("bursa reached", "bone touched"),
+                         [](const auto& parameter) {
+                           return std::string(parameter.param) == "bursa reached" ? "BursaReached"
+                                                                                  : "BoneTouched";
+                         });
+
+}  // namespace
+}  // namespace artus

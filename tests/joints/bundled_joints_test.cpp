@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// The bars every compiled joint must meet, on the bundled joints as the tool compiled them.
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "anatomy/compiled_joint.h"
+#include "core/noise.h"
+#include "raycast/scene.h"
+
+namespace artus {
+namespace {
+
+class BundledJoint : public testing::TestWithParam<std::string> {
+ protected:
+  static std::filesystem::path file(const std::string& extension) {
+    return std::filesystem::path(ARTUS_TEST_JOINTS) / (GetParam() + extension);
+  }
+  static nlohmann::json report() { return nlohmann::json::parse(std::ifstream(file(".json"))); }
+  static std::shared_ptr<const CompiledJoint> joint() {
+    auto read = read_compiled_joint(file(".artus"));
+    if (!read) throw std::runtime_error(read.error().to_string());
+    return std::make_shared<const CompiledJoint>(std::move(*read));
+  }
+};
+
+TEST_P(BundledJoint, HasNoInvertedAndHardlyAnyFlatTetrahedra) {
+  const auto quality = report().at("quality");
+  EXPECT_EQ(quality.at("inverted").get<int>(), 0);
+  EXPECT_GE(quality.at("above_8_deg_percent").get<double>(), 99.9);
+}
+
+TEST_P(BundledJoint, KeepsTheVolumeOfEveryStructure) {
+  for (const auto& structure : report().at("structures"))
+    EXPECT_LT(std::abs(structure.at("volume_error_percent").get<double>()), 3)
+        << structure.at("name");
+}
+
+TEST_P(BundledJoint, KeepsItsInterfacesOnTheInputSurfaces) {
+  const auto distance = report().at("distance");
+  EXPECT_LT(distance.at("mean_mm").get<double>(), 0.2);
+  EXPECT_LT(distance.at("p95_mm").get<double>(), 0.5);
+}
+
+TEST_P(BundledJoint, FillsTheBodyWithTetrahedraOfOneRegionEach) {
+  const auto body = joint();
+  const Scene scene(body);
+  const auto& mesh = body->mesh;
+  ASSERT_EQ(mesh.regions.size(), mesh.tetrahedra.size());
+  // The centre of every tenth tetrahedron lies, for the ray index, in the tetrahedron's region.
+  std::size_t wrong = 0;
+  std::size_t asked = 0;
+  for (std::size_t i = 0; i < mesh.tetrahedra.size(); i += 10) {
+    Vec3 centre = Vec3::Zero();
+    for (const auto v : mesh.tetrahedra[i]) centre += mesh.vertices[v] / 4;
+    ++asked;
+    if (scene.region_at(centre) != mesh.regions[i]) ++wrong;
+  }
+  EXPECT_GT(asked, 1000U);
+  EXPECT_EQ(wrong, 0U) << "of " << asked;
+}
+
+TEST_P(BundledJoint, InjectionsStartOutsideAndEndInside) {
+  const auto body = joint();
+  const Scene scene(body);
+  ASSERT_GE(body->injections.size(), 3U);
+  for (const auto& injection : body->injections) {
+    EXPECT_EQ(scene.region_at(injection.entry - (injection.target - injection.entry) * 0.1),
+              kOutside)
+        << injection.name;
+    EXPECT_GE(scene.region_at(injection.target), kFirstRegion) << injection.name;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Joints, BundledJoint, testing::Values("simple-shoulder", "shoulder"),
+                         [](const auto& parameter) {
+                           return parameter.param == "shoulder" ? "Shoulder" : "SimpleShoulder";
+                         });
+
+}  // namespace
+}  // namespace artus
