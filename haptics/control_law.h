@@ -89,7 +89,8 @@ struct ControlParams {
   PidGains pid;
   IpcGains ipc;
   BacksteppingGains backstepping;
-  double force_filter = 30;      ///< Hz, low-pass of the force sensor in the admittance; assumed
+  double force_filter = 2;  ///< Hz, low-pass of the force sensor in the admittance; assumed: the
+                            ///< printed K_d with a 1 kg mass on the sensor chatters from 5 Hz
   double velocity_filter = 150;  ///< Hz, low-pass of the position's derivative; assumed
   double rate = 5000;            ///< Hz of the control tick; assumed: C_3 = 2100 1/s needs > 2 kHz
 };

@@ -40,6 +40,7 @@ double TrackingWall::soft_force(const NeedleTick& tick, double x) noexcept {
   const double stiffness = std::max(layer.wall_stiffness, 1e-6);
   if (stiffness_ > 0 && stiffness != stiffness_) {
     wall_ = x + (wall_ - x) * stiffness_ / stiffness;  // keep the force, move the wall
+    if (wall_ < x) cut_ = std::min(cut_, wall_);
   }
   stiffness_ = stiffness;
   settle(tick, x);

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "haptics/needle_contact.h"
+
+#include <array>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "haptics/insertion_cone.h"
+#include "haptics/needle_model.h"
+#include "tests/haptics/tick_builder.h"
+
+namespace artus {
+namespace {
+
+constexpr double kDt = 1e-3;
+
+// Layers along z from 0 down, as the flat block a scene would give, without a scene.
+class FlatBody {
+ public:
+  struct Layer {
+    double from;
+    RegionId region;
+  };
+  FlatBody(std::vector<Layer> layers, std::vector<Haptic> tissues)
+      : layers_(std::move(layers)), table_(test::table_of(tissues)) {}
+
+  [[nodiscard]] std::vector<TissueInterval> intervals(const Segment& s) const {
+    const Vec3 d = s.end - s.start;
+    const double length = d.norm();
+    const double slope = d.z() / length;
+    std::vector<TissueInterval> out;
+    double at = 0;
+    RegionId region = region_at(s.start.z());
+    for (const Layer& layer : layers_) {
+      if (slope <= 0) break;
+      const double depth = (layer.from - s.start.z()) / slope;
+      if (depth <= at || depth >= length) continue;
+      out.push_back({at, depth, region, Vec3::Zero(), 0});
+      at = depth;
+      region = layer.region;
+    }
+    out.push_back({at, length, region, Vec3::Zero(), 0});
+    return out;
+  }
+  [[nodiscard]] const LayerTable& table() const { return table_; }
+
+ private:
+  [[nodiscard]] RegionId region_at(double z) const {
+    RegionId region = kOutside;
+    for (const Layer& layer : layers_) {
+      if (z >= layer.from) region = layer.region;
+    }
+    return region;
+  }
+  std::vector<Layer> layers_;
+  LayerTable table_;
+};
+
+Haptic membrane(double cutting, double puncture) {
+  Haptic h = test::soft(cutting);
+  h.puncture_force = puncture;
+  return h;
+}
+
+Haptic bone() {
+  Haptic h = test::soft(4, 2000, 0);
+  h.hard = true;
+  return h;
+}
+
+FlatBody skin_muscle_bursa_bone() {
+  return {{{0, 2}, {0.004, 3}, {0.020, 4}, {0.023, 5}},
+          {membrane(1, 1.5), test::soft(2), membrane(1.5, 2), bone()}};
+}
+
+class ContactTest : public ::testing::Test {
+ protected:
+  ContactTest() : body(skin_muscle_bursa_bone()), model(NeedleParams{}, body.table(), kDt) {}
+
+  void step(const Vec3& tip, const Vec3& axis = Vec3::UnitZ()) {
+    const Pose pose = make_pose(tip, axis, Vec3::UnitX());
+    model.step(pose, body.intervals(model.query_segment(pose)));
+    states.push_back(model.contact().state());
+    events |= model.contact().events();
+  }
+  void move(double from, double to, double speed = 0.01) {
+    const int n = static_cast<int>(std::abs(to - from) / (speed * kDt));
+    for (int i = 1; i <= n; ++i) step(Vec3(0, 0, from + (to - from) * i / n));
+  }
+  [[nodiscard]] ContactState state() const { return model.contact().state(); }
+  [[nodiscard]] std::vector<ContactState> sequence() const {
+    std::vector<ContactState> out;
+    for (const ContactState s : states) {
+      if (out.empty() || out.back() != s) out.push_back(s);
+    }
+    return out;
+  }
+
+  FlatBody body;
+  NeedleModel model;
+  std::vector<ContactState> states;
+  std::uint32_t events = 0;
+};
+
+TEST_F(ContactTest, InsertionGoesThroughItsStatesInOrder) {
+  move(-0.002, 0.010);
+  for (int i = 0; i < 300; ++i) step(Vec3(0, 0, 0.010));
+  move(0.010, 0.006);
+  move(0.006, 0.012);
+  move(0.012, 0.0235);
+  move(0.0235, -0.001);
+  using S = ContactState;
+  const std::vector<S> expected{S::away,        S::touching,    S::punctured,   S::inserting,
+                                S::stopped,     S::withdrawing, S::reinserting, S::inserting,
+                                S::touching,    S::punctured,   S::inserting,   S::bone,
+                                S::withdrawing, S::away};
+  EXPECT_EQ(sequence(), expected);
+}
+
+TEST_F(ContactTest, SkinDimplesUntilItsPunctureForceThenPops) {
+  step(Vec3(0, 0, -0.001));
+  double top = 0;
+  double x = 0;
+  for (; state() == ContactState::away || state() == ContactState::touching; x += 1e-5) {
+    step(Vec3(0, 0, x));
+    top = std::max(top, -model.forces().prepuncture);
+    if (state() == ContactState::touching) {
+      EXPECT_EQ(model.forces().cutting, 0) << "nothing is cut while it dimples";
+    }
+  }
+  EXPECT_NEAR(top, 1.5, 0.05);
+  EXPECT_NE(events & ContactEvent::kSkinPunctured, 0U);
+  EXPECT_EQ(model.forces().prepuncture, 0);
+  EXPECT_LT(-model.forces().cutting, 1.5) << "the force drops at the puncture";
+}
+
+TEST_F(ContactTest, MembranePopsOnceInATrack) {
+  move(-0.001, 0.0215);
+  EXPECT_NE(events & ContactEvent::kMembranePopped, 0U);
+  events = 0;
+  move(0.0215, 0.015);
+  move(0.015, 0.0215);
+  EXPECT_EQ(events & ContactEvent::kMembranePopped, 0U);
+}
+
+TEST_F(ContactTest, EntryWorksAtAnyAngle) {
+  const Vec3 axis = Vec3(1, 0, 1).normalized();
+  for (int i = -100; i < 1000; ++i) step(1e-5 * i * axis, axis);
+  EXPECT_TRUE(model.contact().inserted());
+  EXPECT_LT((model.contact().tick().axis - axis).norm(), 1e-12);
+  EXPECT_LT(model.contact().tick().entry.norm(), 1e-9);
+  EXPECT_EQ(model.contact().region(), 3);
+}
+
+TEST_F(ContactTest, DirectionMayChangeInsideTheConeAfterAWithdrawalOnly) {
+  move(-0.001, 0.018);
+  const auto turn_to = [this](double degrees, double depth) {
+    for (int i = 0; i <= 200; ++i) {
+      const double a = degrees * kDegree * i / 200;
+      const Vec3 axis(std::sin(a), 0, std::cos(a));
+      step(depth * axis, axis);
+    }
+  };
+  turn_to(8, 0.018);
+  EXPECT_EQ(events & ContactEvent::kRedirected, 0U) << "not withdrawn";
+  EXPECT_GT(model.forces().clamping.norm(), 0.1);
+  step(Vec3(0, 0, 0.018));
+  move(0.018, 0.008);
+  turn_to(20, 0.008);
+  EXPECT_NE(events & ContactEvent::kRedirected, 0U);
+  const double angle = std::atan2(model.contact().tick().axis.x(), model.contact().tick().axis.z());
+  EXPECT_NEAR(angle / kDegree, 20, 2.1);
+  EXPECT_LT(model.forces().clamping.norm(), 0.02);
+  turn_to(44, 0.008);
+  const double held = std::atan2(model.contact().tick().axis.x(), model.contact().tick().axis.z());
+  EXPECT_LE(held, insertion_cone(0.008, 0.035) + 1e-9) << "the cone ends the turn";
+}
+
+TEST_F(ContactTest, NeedleFoundInsideStartsAtRestWithoutForce) {
+  step(Vec3(0, 0, 0.012));
+  EXPECT_NE(events & ContactEvent::kAdopted, 0U);
+  EXPECT_EQ(state(), ContactState::stopped);
+  EXPECT_EQ(model.forces().total.force.norm(), 0);
+}
+
+TEST_F(ContactTest, LeavingTheSkinForgetsTheLine) {
+  move(-0.001, 0.010);
+  move(0.010, -0.001);
+  EXPECT_EQ(state(), ContactState::away);
+  EXPECT_EQ(model.forces().total.force.norm(), 0);
+  events = 0;
+  move(-0.001, 0.005);
+  EXPECT_NE(events & ContactEvent::kSkinPunctured, 0U) << "a new puncture is needed";
+}
+
+TEST_F(ContactTest, TotalForceIsTheSumOfItsComponents) {
+  move(-0.001, 0.0235, 0.02);
+  const NeedleForces& f = model.forces();
+  const Vec3 axis = model.contact().tick().axis;
+  const Vec3 sum =
+      (f.prepuncture + f.cutting + f.attracted + f.friction + f.hard) * axis + f.clamping;
+  EXPECT_LT((f.total.force - sum).norm(), 1e-15);
+}
+
+}  // namespace
+}  // namespace artus
