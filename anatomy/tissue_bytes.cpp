@@ -9,20 +9,12 @@ namespace {
 // Every number of a tissue in file order, for writing and reading alike.
 template <class T, class Value = std::conditional_t<std::is_const_v<T>, const double, double>>
 std::array<Value*, 14> numbers(T& t) {
-  return {&t.acoustic.speed_of_sound,
-          &t.acoustic.density,
-          &t.acoustic.attenuation,
-          &t.acoustic.attenuation_power,
-          &t.acoustic.backscatter,
-          &t.acoustic.interface_roughness,
-          &t.mechanical.youngs_modulus,
-          &t.mechanical.poisson_ratio,
-          &t.haptic.cutting_force,
-          &t.haptic.wall_stiffness,
-          &t.haptic.attracted_force,
-          &t.haptic.friction,
-          &t.haptic.clamping_stiffness,
-          &t.haptic.puncture_force};
+  return {
+      &t.acoustic.speed_of_sound,    &t.acoustic.density,         &t.acoustic.attenuation,
+      &t.acoustic.attenuation_power, &t.acoustic.backscatter,     &t.acoustic.interface_roughness,
+      &t.mechanical.youngs_modulus,  &t.mechanical.poisson_ratio, &t.haptic.cutting_force,
+      &t.haptic.wall_stiffness,      &t.haptic.attracted_force,   &t.haptic.friction,
+      &t.haptic.clamping_stiffness,  &t.haptic.puncture_force};
 }
 
 }  // namespace

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "anatomy/compile_labels.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "anatomy/construct.h"
+
+namespace artus {
+namespace {
+
+// Spacing of a field: fine enough that the trilinear surface strays less than the mesh does.
+constexpr double kSpacingPerDistance = 2.5;    // of the facet distance
+constexpr double kSpacingPerThickness = 0.16;  // of the structure's thickness
+constexpr double kFinestPerDistance = 0.6;     // of the joint's facet distance
+constexpr double kBandPerSpacing = 3;
+// A triangle across a tube or plate must not be much longer than it is thick, and must stray from
+// its surface by a small part of its thickness.
+constexpr double kFacetPerThickness = 1.2;
+constexpr double kDistancePerThickness = 0.12;
+constexpr double kFinestFacet = 0.25;     // of the joint's facet size
+constexpr double kFinestDistance = 0.25;  // of the joint's facet distance
+
+RegionSizing sizing_of(const JointFile& file, const Structure& s, double thickness) {
+  RegionSizing size;
+  size.facet_size = s.facet_size > 0 ? s.facet_size : file.facet_size;
+  size.facet_distance = s.facet_distance > 0 ? s.facet_distance : file.facet_distance;
+  size.cell_size = file.cell_size;
+  if (thickness > 0) {
+    size.facet_size = std::min(
+        size.facet_size, std::max(kFinestFacet * file.facet_size, kFacetPerThickness * thickness));
+    size.facet_distance = std::min(
+        size.facet_distance,
+        std::max(kFinestDistance * file.facet_distance, kDistancePerThickness * thickness));
+  }
+  return size;
+}
+
+double spacing_of(const JointFile& file, const RegionSizing& size, double thickness) {
+  const double wanted =
+      std::min(kSpacingPerDistance * size.facet_distance, kSpacingPerThickness * thickness);
+  return std::max(wanted, kFinestPerDistance * file.facet_distance);
+}
+
+Box intersection(const Box& a, const Box& b) {
+  return {a.lower.cwiseMax(b.lower), a.upper.cwiseMin(b.upper)};
+}
+
+Box grown(const Vec3& lower, const Vec3& upper, double margin) {
+  return {lower - Vec3::Constant(margin), upper + Vec3::Constant(margin)};
+}
+
+Box box_of(const RegionOfInterest& roi) {
+  const Vec3 half = roi.half_extent.value_or(Vec3::Constant(roi.radius));
+  return {roi.centre - half, roi.centre + half};
+}
+
+double construct_thickness(const Structure& s) {
+  if (const auto* shell = std::get_if<ShellConstruct>(&s.shape)) return shell->thickness;
+  if (const auto* cap = std::get_if<CapConstruct>(&s.shape)) return cap->thickness;
+  if (const auto* gap = std::get_if<GapConstruct>(&s.shape)) return gap->thickness;
+  return 0;
+}
+
+std::vector<std::string> named_by(const Structure& s) {
+  if (const auto* shell = std::get_if<ShellConstruct>(&s.shape)) return {shell->inside};
+  if (const auto* end = std::get_if<EndConstruct>(&s.shape)) return {end->of, end->toward};
+  std::vector<std::string> names;
+  if (const auto* cap = std::get_if<CapConstruct>(&s.shape)) {
+    names = cap->near;
+    names.push_back(cap->on);
+  }
+  if (const auto* gap = std::get_if<GapConstruct>(&s.shape)) {
+    names = gap->roof;
+    names.insert(names.end(), gap->floor.begin(), gap->floor.end());
+  }
+  return names;
+}
+
+// Fields of all structures by index, surfaces first, then the constructs made from them.
+class FieldMaker {
+ public:
+  FieldMaker(const JointFile& file, const PreparedSurfaces& surfaces, const Box& box)
+      : file_(file),
+        surfaces_(surfaces),
+        box_(box),
+        bands_(construct_bands(file)),
+        fields_(file.structures.size()),
+        sizing_(file.structures.size()) {}
+
+  void make_surfaces() {
+    body_ = surface_field(surfaces_.body, "", sizing_of(file_, file_.body, 0));
+    named_[""] = &body_;
+    for (std::size_t i = 0; i < fields_.size(); ++i) {
+      if (!surfaces_.structures[i]) continue;
+      const PreparedSurface& surface = *surfaces_.structures[i];
+      const Structure& s = file_.structures[i];
+      sizing_[i] = sizing_of(file_, s, surface.thickness);
+      fields_[i] = surface_field(surface, s.name, sizing_[i]);
+      named_[s.name] = &*fields_[i];
+    }
+  }
+
+  // Constructs may name constructs: repeat until no further one can be made.
+  void make_constructs() {
+    for (bool progress = true; progress;) {
+      progress = false;
+      for (std::size_t i = 0; i < fields_.size(); ++i) {
+        if (fields_[i] || surfaces_.structures[i] || !is_ready(file_.structures[i])) continue;
+        make_construct(i);
+        progress = true;
+      }
+    }
+  }
+
+  DistanceField take_body() { return std::move(body_); }
+  std::optional<DistanceField>& field(std::size_t i) { return fields_[i]; }
+  [[nodiscard]] const RegionSizing& sizing(std::size_t i) const { return sizing_[i]; }
+
+ private:
+  DistanceField surface_field(const PreparedSurface& surface, const std::string& name,
+                              const RegionSizing& size) const {
+    const double spacing = spacing_of(file_, size, surface.thickness);
+    const auto needed = bands_.find(name);
+    const double band =
+        std::max(kBandPerSpacing * spacing, needed == bands_.end() ? 0.0 : needed->second);
+    const Box around = grown(surface.tree.lower(), surface.tree.upper(), band);
+    return DistanceField::compute(surface.tree, {intersection(box_, around), spacing, band});
+  }
+
+  [[nodiscard]] bool is_ready(const Structure& s) const {
+    if (std::holds_alternative<SurfaceFile>(s.shape)) return false;
+    const auto names = named_by(s);
+    return std::all_of(names.begin(), names.end(),
+                       [&](const std::string& n) { return named_.count(n) > 0; });
+  }
+
+  void make_construct(std::size_t i) {
+    Structure s = file_.structures[i];
+    const double thickness = construct_thickness(s);
+    sizing_[i] = sizing_of(file_, s, thickness);
+    if (auto* end = std::get_if<EndConstruct>(&s.shape)) {
+      if (!end->insertion) end->insertion = insertion_of(*end);
+    }
+    const double spacing =
+        spacing_of(file_, sizing_[i], thickness > 0 ? thickness : file_.facet_size);
+    fields_[i] = make_construct_field(s, named_, {box_, spacing, kBandPerSpacing * spacing});
+    named_[s.name] = &*fields_[i];
+  }
+
+  [[nodiscard]] Vec3 insertion_of(const EndConstruct& end) const {
+    for (std::size_t i = 0; i < fields_.size(); ++i) {
+      if (file_.structures[i].name == end.of && surfaces_.structures[i]) {
+        return find_insertion(surfaces_.structures[i]->mesh, *named_.at(end.toward));
+      }
+    }
+    return Vec3::Zero();
+  }
+
+  const JointFile& file_;
+  const PreparedSurfaces& surfaces_;
+  Box box_;
+  std::map<std::string, double> bands_;
+  DistanceField body_;
+  std::vector<std::optional<DistanceField>> fields_;
+  std::vector<RegionSizing> sizing_;
+  NamedFields named_;
+};
+
+// Priority order: the file's, but what takes its share from a structure comes before it.
+std::vector<std::size_t> priority_order(const JointFile& file) {
+  std::vector<std::size_t> order;
+  const auto is_placed = [&order](std::size_t i) {
+    return std::find(order.begin(), order.end(), i) != order.end();
+  };
+  for (std::size_t i = 0; i < file.structures.size(); ++i) {
+    for (std::size_t j = i + 1; j < file.structures.size(); ++j) {
+      const auto* end = std::get_if<EndConstruct>(&file.structures[j].shape);
+      if (end != nullptr && end->of == file.structures[i].name && !is_placed(j)) {
+        order.push_back(j);
+      }
+    }
+    if (!is_placed(i)) order.push_back(i);
+  }
+  return order;
+}
+
+}  // namespace
+
+Result<LabelledSpace> make_labelled_space(const JointFile& file, const PreparedSurfaces& surfaces) {
+  LabelledSpace space;
+  const double margin = file.facet_size;
+  Box box = grown(surfaces.body.tree.lower(), surfaces.body.tree.upper(), margin);
+  if (file.region_of_interest) {
+    const Box roi = box_of(*file.region_of_interest);
+    box = intersection(box, grown(roi.lower, roi.upper, margin));
+  }
+  if (!((box.upper - box.lower).minCoeff() > 0)) {
+    return fail(ErrorCode::failed, "the region of interest lies outside the body", file.name);
+  }
+  FieldMaker maker(file, surfaces, box);
+  maker.make_surfaces();
+  maker.make_constructs();
+  space.resolve.box = box;
+  space.resolve.sizing.resize(region_of_structure(file.structures.size()),
+                              sizing_of(file, file.body, 0));
+  double finest = file.facet_size;
+  for (const std::size_t i : priority_order(file)) {
+    if (!maker.field(i)) continue;
+    const RegionId region = region_of_structure(i);
+    space.resolve.sizing[region] = maker.sizing(i);
+    finest = std::min(finest, maker.sizing(i).facet_size);
+    space.labels.layers.push_back({region, std::move(*maker.field(i))});
+  }
+  space.labels.body = maker.take_body();
+  space.labels.region_of_interest = file.region_of_interest;
+  const double volume = (box.upper - box.lower).prod();
+  constexpr double kMostSeedPoints = 6e7;
+  space.resolve.seed_spacing = std::max(finest / 2, std::cbrt(volume / kMostSeedPoints));
+  return space;
+}
+
+}  // namespace artus

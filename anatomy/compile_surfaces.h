@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <optional>
+
+#include "anatomy/compile_report.h"
+#include "anatomy/distance_tree.h"
+#include "anatomy/joint.h"
+
+namespace artus {
+
+/// One structure's surface, ready to be resolved.
+struct PreparedSurface {
+  SurfaceMesh mesh;
+  DistanceTree tree{SurfaceMesh{}};
+  double thickness = 0;  ///< m, 2 volume / area: of a plate its thickness, of a tube its radius
+};
+
+/// The surfaces of a joint; empty for constructs and refused structures.
+struct PreparedSurfaces {
+  PreparedSurface body;
+  std::vector<std::optional<PreparedSurface>> structures;  ///< (n_structures)
+};
+
+/// Reads and repairs all surfaces; notes repairs and refusals in `reports` (n_structures).
+/// Errors: those of reading; defective when the body is refused.
+[[nodiscard]] Result<PreparedSurfaces> prepare_surfaces(const JointFile& file,
+                                                        std::vector<StructureReport>& reports);
+
+}  // namespace artus
