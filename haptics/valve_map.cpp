@@ -18,9 +18,14 @@ ValveMap::ValveMap(const ServovalveParams& valve, const CylinderParams& cylinder
     : stroke_(cylinder.stroke), low_(valve.exhaust / 2), flows_(kOpenings * kPressures) {
   const double high = 1.25 * valve.supply;
   step_ = (high - low_) / static_cast<double>(kPressures - 1);
+  const std::size_t centre = kOpenings / 2;
+  for (std::size_t i = 0; i <= centre; ++i) {
+    // Exactly symmetric, with exact ends.
+    const double share = static_cast<double>(i) / static_cast<double>(centre);
+    openings_[centre + i] = i == centre ? 1 : std::sinh(kDensity * share) / std::sinh(kDensity);
+    openings_[centre - i] = -openings_[centre + i];
+  }
   for (std::size_t i = 0; i < kOpenings; ++i) {
-    const double s = 2 * static_cast<double>(i) / static_cast<double>(kOpenings - 1) - 1;
-    openings_[i] = std::sinh(kDensity * s) / std::sinh(kDensity);
     for (std::size_t j = 0; j < kPressures; ++j) {
       const double p = low_ + step_ * static_cast<double>(j);
       flows_[i * kPressures + j] = port_flow(valve, openings_[i], p, cylinder.temperature);
