@@ -37,10 +37,10 @@ struct Passage {
 };
 
 Passage pass(const EmbreeIndex& index, std::uint32_t i, const Line& line) noexcept {
-  const Facet& facet = index.facet(i);
+  const FacetPlane& plane = index.plane(i);
   Passage passage;
-  passage.cosine = facet.normal.dot(line.direction);
-  passage.depth = (facet.offset - facet.normal.dot(line.origin)) / passage.cosine;
+  passage.cosine = plane.normal.dot(line.direction);
+  passage.depth = (plane.offset - plane.normal.dot(line.origin)) / passage.cosine;
   if (std::abs(passage.cosine) < kGrazing) [[unlikely]] {
     passage.depth = clamp_to_extent(index, i, line.origin, line.direction, passage.depth);
   }
@@ -61,39 +61,43 @@ RTCRay make_ray(const Line& line) noexcept {
   return ray;
 }
 
+/// What the filter notes of a hit: enough to keep the nearest when there are too many.
+struct Candidate {
+  std::uint32_t interface;
+  float depth;
+};
+
 /// A query's state; Embree hands the context back to the filter, so it must come first.
 struct GatherQuery {
   EmbreeContext context;
   const EmbreeIndex* index;
-  const Line* line;
-  HitBuffer* out;
+  std::size_t size;
+  bool overflow;
+  std::array<Candidate, kMaxHits> candidates;
 };
 
-void keep_nearest(HitBuffer& out, const Hit& hit) noexcept {
-  out.overflow = true;
-  Hit& farthest = *std::max_element(out.hits.begin(), out.hits.end(),
-                                    [](const Hit& a, const Hit& b) { return a.depth < b.depth; });
-  if (hit.depth < farthest.depth) farthest = hit;
+void keep_nearest(GatherQuery& query, const Candidate& candidate) noexcept {
+  query.overflow = true;
+  Candidate& farthest =
+      *std::max_element(query.candidates.begin(), query.candidates.end(),
+                        [](const Candidate& a, const Candidate& b) { return a.depth < b.depth; });
+  if (candidate.depth < farthest.depth) farthest = candidate;
 }
 
-/// Occlusion filter: notes the hit and lets the ray go on.
+/// Occlusion filter: notes the hit and lets the ray go on. The plane is only fetched here; it is
+/// used when the traversal is over and it has arrived.
 void gather_hit(const RTCFilterFunctionNArguments* args) noexcept {
   args->valid[0] = 0;
   // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): Embree's way to pass state.
-  const auto& query = *reinterpret_cast<const GatherQuery*>(args->context);
-  const std::uint32_t i = RTCHitN_primID(args->hit, args->N, 0);
-  const Passage passage = pass(*query.index, i, *query.line);
-  if (!(std::abs(passage.cosine) > kCoplanar)) [[unlikely]]
-    return;
-  const Facet& facet = query.index->facet(i);
-  const bool inward = passage.cosine < 0;
-  const Hit hit{passage.depth, i, inward ? facet.front : facet.back,
-                inward ? facet.back : facet.front};
-  HitBuffer& out = *query.out;
-  if (out.size < kMaxHits) [[likely]] {
-    out.hits[out.size++] = hit;
+  auto& query = *reinterpret_cast<GatherQuery*>(args->context);
+  const Candidate candidate{RTCHitN_primID(args->hit, args->N, 0),
+                            RTCRayN_tfar(args->ray, args->N, 0)};
+  __builtin_prefetch(&query.index->plane(candidate.interface));
+  __builtin_prefetch(&query.index->sides(candidate.interface));
+  if (query.size < kMaxHits) [[likely]] {
+    query.candidates[query.size++] = candidate;
   } else {
-    keep_nearest(out, hit);
+    keep_nearest(query, candidate);
   }
 }
 
@@ -132,8 +136,8 @@ bool consider_facet(RTCPointQueryFunctionArguments* args) noexcept {
   const Vec3 q = closest_point_on_triangle(query.p, query.index->corners(i));
   const double squared = (query.p - q).squaredNorm();
   if (squared > query.max_squared) return false;
-  const Facet& facet = query.index->facet(i);
-  const double side = std::abs(facet.normal.dot(query.p) - facet.offset);
+  const FacetPlane& plane = query.index->plane(i);
+  const double side = std::abs(plane.normal.dot(query.p) - plane.offset);
   const double tie = 1e-12 * query.best.squared_distance + 1e-26;
   const double gain = query.best.squared_distance - squared;
   const bool nearer = gain > tie;
@@ -159,23 +163,23 @@ EmbreeDevice make_device(const std::string& isa) {
   ARTUS_REQUIRE(std::find(kKnown.begin(), kKnown.end(), isa) != kKnown.end(),
                 "unknown instruction set: " + isa);
   // Embree's own thread count stays alone: setting it would limit TBB in the whole process.
-  const std::string config = isa.empty() ? "set_affinity=0" : "set_affinity=0,isa=" + isa;
+  // Huge pages spare random queries the page walks.
+  std::string config = "set_affinity=0,hugepages=1";
+  if (!isa.empty()) config += ",isa=" + isa;
   EmbreeDevice device(rtcNewDevice(config.c_str()));
   if (device == nullptr) throw_on_error(nullptr, ("make a device with " + config).c_str());
   return device;
 }
 
-Facet make_facet(const Interface& interface, const std::array<Vec3, 3>& corners) {
-  Facet facet;
-  facet.normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
-  facet.offset = facet.normal.dot(corners[0]);
-  facet.front = interface.front;
-  facet.back = interface.back;
-  return facet;
+FacetPlane make_plane(const std::array<Vec3, 3>& corners) {
+  FacetPlane plane;
+  plane.normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
+  plane.offset = plane.normal.dot(corners[0]);
+  return plane;
 }
 
-bool touches(const Facet& facet, RegionId last) noexcept {
-  return facet.front <= last || facet.back <= last;
+bool touches(const FacetSides& sides, RegionId last) noexcept {
+  return sides.front <= last || sides.back <= last;
 }
 
 }  // namespace
@@ -195,18 +199,20 @@ EmbreeIndex::EmbreeIndex(std::span<const Vec3> vertices, std::span<const Interfa
   }
   if (!interfaces.empty()) {
     centre_ = 0.5 * (low + high);
-    radius_ = 0.5 * (high - low).norm();
   }
   vertices_.reserve(vertices.size());
   for (const Vec3& v : vertices) vertices_.emplace_back(v - centre_);
   triangles_.reserve(interfaces.size());
-  facets_.reserve(interfaces.size());
+  planes_.reserve(interfaces.size());
+  sides_.reserve(interfaces.size());
   for (const Interface& interface : interfaces) {
     const auto i = static_cast<std::uint32_t>(triangles_.size());
     triangles_.push_back(interface.vertices);
-    facets_.push_back(make_facet(interface, corners(i)));
-    if (touches(facets_.back(), kBeyond)) boundary_.push_back(i);
-    if (touches(facets_.back(), kOutside)) skin_.push_back(i);
+    planes_.push_back(make_plane(corners(i)));
+    sides_.push_back({interface.front, interface.back});
+    for (const Vec3& corner : corners(i)) radius_ = std::max(radius_, corner.norm());
+    if (touches(sides_.back(), kBeyond)) boundary_.push_back(i);
+    if (touches(sides_.back(), kOutside)) skin_.push_back(i);
   }
   std::vector<std::uint32_t> all(interfaces.size());
   std::iota(all.begin(), all.end(), 0U);
@@ -261,10 +267,24 @@ void EmbreeIndex::gather(const Line& line, HitBuffer& out) const noexcept {
   out.size = 0;
   out.overflow = false;
   if (!(line.far > line.near)) return;
-  GatherQuery query{{}, this, &line, &out};
+  GatherQuery query;  // NOLINT(cppcoreguidelines-pro-type-member-init): written before read
+  query.index = this;
+  query.size = 0;
+  query.overflow = false;
   init_context(query.context);
   RTCRay ray = make_ray(line);
   find_occluded(scene_.get(), query.context, ray);
+  out.overflow = query.overflow;
+  for (std::size_t k = 0; k < query.size; ++k) {
+    const std::uint32_t i = query.candidates[k].interface;
+    const Passage passage = pass(*this, i, line);
+    if (!(std::abs(passage.cosine) > kCoplanar)) [[unlikely]]
+      continue;
+    const FacetSides sides = sides_[i];
+    const bool inward = passage.cosine < 0;
+    out.hits[out.size++] = {passage.depth, i, inward ? sides.front : sides.back,
+                            inward ? sides.back : sides.front};
+  }
 }
 
 std::optional<FirstHit> EmbreeIndex::first_hit(const Line& line) const noexcept {
@@ -276,11 +296,11 @@ std::optional<FirstHit> EmbreeIndex::first_hit(const Line& line) const noexcept 
   ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   find_intersection(scene_.get(), query.context, ray);
   if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-  const Facet& facet = facets_[ray.hit.primID];
-  const double cosine = facet.normal.dot(line.direction);
+  const FacetSides& sides = sides_[ray.hit.primID];
+  const double cosine = planes_[ray.hit.primID].normal.dot(line.direction);
   FirstHit first;
   first.interface = ray.hit.primID;
-  first.from = cosine < 0 ? facet.front : facet.back;
+  first.from = cosine < 0 ? sides.front : sides.back;
   first.clean = std::min({ray.hit.u, ray.hit.v, 1 - ray.hit.u - ray.hit.v}) > kCleanBarycentric &&
                 std::abs(cosine) > kGrazing;
   return first;
@@ -297,7 +317,7 @@ std::optional<NearestFacet> EmbreeIndex::nearest(const Vec3& p, double max_dista
     scene = skin_scene_.get();
     query.members = skin_;
   }
-  if (facets_.empty() || (subset != Subset::all && query.members.empty())) return std::nullopt;
+  if (planes_.empty() || (subset != Subset::all && query.members.empty())) return std::nullopt;
   constexpr double kNone = std::numeric_limits<double>::max();
   query.best.squared_distance = kNone;
   RTCPointQuery point{};

@@ -8,12 +8,15 @@
 
 namespace artus {
 
-/// One interface triangle as the queries use it: its plane in double precision, relative to the
-/// scene's centre, and the regions on its two sides. Kept to 40 bytes: a query reads a few of
-/// these at random places.
-struct Facet {
+/// The plane of one interface triangle in double precision, relative to the scene's centre. Half
+/// a cache line: a query reads a few of these at random places.
+struct alignas(32) FacetPlane {
   Vec3 normal = Vec3::Zero();  ///< unit, from back to front; zero for a triangle without area
   double offset = 0;           ///< m, normal . p for the points p of the plane
+};
+
+/// The regions on the two sides of one interface triangle.
+struct FacetSides {
   RegionId front = kOutside;
   RegionId back = kOutside;
 };

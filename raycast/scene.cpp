@@ -71,8 +71,8 @@ struct Scene::Impl {
     const auto nearest =
         index.nearest(p, std::numeric_limits<double>::infinity(), EmbreeIndex::Subset::boundary);
     if (!nearest) return kOutside;
-    const Facet& facet = index.facet(nearest->interface);
-    return std::min(facet.front, facet.back);
+    const FacetSides& sides = index.sides(nearest->interface);
+    return std::min(sides.front, sides.back);
   }
 
   /// The region at `p`, relative to the centre.
@@ -94,7 +94,7 @@ struct Scene::Impl {
   /// Unit normal of a hit's interface against the line's direction.
   [[nodiscard]] Vec3 normal_against(const Hit& hit, const Line& line) const noexcept {
     if (hit.interface == kNoInterface) return Vec3::Zero();
-    const Vec3& normal = index.facet(hit.interface).normal;
+    const Vec3& normal = index.plane(hit.interface).normal;
     return normal.dot(line.direction) > 0 ? Vec3(-normal) : normal;
   }
 
@@ -206,7 +206,7 @@ NearestInterface Scene::find_nearest(const Vec3& p_J, double max_distance) const
   if (!nearest) return result;
   result.distance = std::sqrt(nearest->squared_distance);
   result.point = nearest->point + impl_->index.centre();
-  result.normal = impl_->index.facet(nearest->interface).normal;
+  result.normal = impl_->index.plane(nearest->interface).normal;
   result.interface = nearest->interface;
   return result;
 }
@@ -221,10 +221,11 @@ double Scene::signed_distance_to_skin(const Vec3& p_J, double max_distance) cons
     const double infinity = std::numeric_limits<double>::infinity();
     return impl_->region_at(p) == kOutside ? infinity : -infinity;
   }
-  const Facet& facet = impl_->index.facet(nearest->interface);
-  const double side = facet.normal.dot(p) - facet.offset;
+  const FacetPlane& plane = impl_->index.plane(nearest->interface);
+  const FacetSides& sides = impl_->index.sides(nearest->interface);
+  const double side = plane.normal.dot(p) - plane.offset;
   const double distance = std::sqrt(nearest->squared_distance);
-  return (side >= 0) == (facet.front == kOutside) ? distance : -distance;
+  return (side >= 0) == (sides.front == kOutside) ? distance : -distance;
 }
 
 std::vector<TissueInterval> tissue_intervals(const Scene& scene, const Segment& segment) {
