@@ -11,13 +11,17 @@ namespace {
 
 /// How much denser the samples are at the centre than at the ends; assumed: resolves the leakage.
 constexpr double kDensity = 4;
+/// Samples below the exhaust's and above the supply's pressure.
+constexpr std::size_t kBeyond = 24;
 
 }  // namespace
 
 ValveMap::ValveMap(const ServovalveParams& valve, const CylinderParams& cylinder)
-    : stroke_(cylinder.stroke), low_(valve.exhaust / 2), flows_(kOpenings * kPressures) {
-  const double high = 1.25 * valve.supply;
-  step_ = (high - low_) / static_cast<double>(kPressures - 1);
+    : stroke_(cylinder.stroke),
+      // Exhaust and supply are samples themselves: the flow has its kinks there.
+      step_((valve.supply - valve.exhaust) / static_cast<double>(kPressures - 1 - 2 * kBeyond)),
+      flows_(kOpenings * kPressures) {
+  low_ = valve.exhaust - step_ * static_cast<double>(kBeyond);
   const std::size_t centre = kOpenings / 2;
   for (std::size_t i = 0; i <= centre; ++i) {
     // Exactly symmetric, with exact ends.

@@ -51,8 +51,8 @@ class ValveMap {
   [[nodiscard]] double interpolate(double opening, F value_at) const noexcept;
 
   double stroke_;
-  double low_;   // Pa
-  double step_;  // Pa
+  double step_;     // Pa
+  double low_ = 0;  // Pa
   std::array<double, kOpenings> openings_{};
   std::vector<double> flows_;  // (kOpenings, kPressures), pressure fastest, kg/s
 };
