@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "echo/beam_shape.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "echo/scatter_field.h"
+#include "echo/simd.h"
+
+namespace artus {
+namespace {
+
+constexpr double kOutermost = 0.9;  // widths from the axis: the beam is 20 dB down there
+constexpr double kSigmaPerWidth = 1 / 2.3548200450309493;
+constexpr double kTail = 3;        // standard deviations kept of a Gaussian
+constexpr double kLongest = 1.25;  // of the displayed depth, as far as beams are followed
+constexpr int kMaxReach = 16;      // lines
+
+ARTUS_SIMD
+void multiply_add(const float* weight, const float* in, float* out, std::size_t n) noexcept {
+  for (std::size_t i = 0; i < n; ++i) out[i] += weight[i] * in[i];
+}
+
+ARTUS_SIMD
+void scale_add(float weight, const float* in, float* out, std::size_t n) noexcept {
+  for (std::size_t i = 0; i < n; ++i) out[i] += weight * in[i];
+}
+
+}  // namespace
+
+BeamShape::BeamShape(const Transducer& transducer, const ImageSettings& settings)
+    : profile_(transducer, settings.depth * kLongest),
+      n_samples_(settings.n_samples),
+      sample_depth_(settings.depth / settings.n_samples) {
+  tabulate_pulse(transducer);
+  tabulate_lateral(transducer);
+  nodes_ = {0, std::min(transducer.elevation_focus, 0.5 * settings.depth * kLongest),
+            settings.depth * kLongest};
+  for (const double z : nodes_) node_width_.push_back(profile_.elevation_width(z));
+  tabulate_planes(settings);
+}
+
+void BeamShape::tabulate_pulse(const Transducer& transducer) {
+  const double width = transducer.pulse_cycles * transducer.wavelength() / 2;
+  const double sigma = width * kSigmaPerWidth / sample_depth_;
+  const int half = std::max(1, static_cast<int>(std::ceil(kTail * sigma)));
+  for (int k = -half; k <= half; ++k) {
+    pulse_.push_back(static_cast<float>(std::exp(-0.5 * k * k / (sigma * sigma))));
+  }
+}
+
+void BeamShape::tabulate_lateral(const Transducer& transducer) {
+  const double pitch = transducer.pitch();
+  double widest = 0;
+  for (int i = 0; i < n_samples_; ++i) {
+    widest = std::max(widest, profile_.lateral_width(i * sample_depth_));
+  }
+  reach_ = std::clamp(static_cast<int>(std::ceil(kTail * widest * kSigmaPerWidth / pitch)), 1,
+                      std::min(kMaxReach, std::max(1, transducer.n_lines - 1)));
+  const auto n = static_cast<std::size_t>(n_samples_);
+  kernel_.assign(static_cast<std::size_t>(reach_ + 1) * n, 0.0F);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double sigma =
+        profile_.lateral_width(static_cast<double>(i) * sample_depth_) * kSigmaPerWidth / pitch;
+    double sum = 0;
+    for (int k = -reach_; k <= reach_; ++k) sum += std::exp(-0.5 * k * k / (sigma * sigma));
+    for (int k = 0; k <= reach_; ++k) {
+      kernel_[static_cast<std::size_t>(k) * n + i] =
+          static_cast<float>(std::exp(-0.5 * k * k / (sigma * sigma)) / sum);
+    }
+  }
+}
+
+void BeamShape::tabulate_planes(const ImageSettings& settings) {
+  const int planes = settings.n_planes;
+  const auto n = static_cast<std::size_t>(n_samples_);
+  for (int p = 0; p < planes; ++p) {
+    offsets_.push_back(planes == 1 ? 0 : kOutermost * (2.0 * p / (planes - 1) - 1));
+  }
+  echo_weight_.assign(static_cast<std::size_t>(planes) * n, 0.0F);
+  speckle_weight_ = echo_weight_;
+  double pulse_power = 0;
+  for (const float w : pulse_) pulse_power += static_cast<double>(w) * w;
+  pulse_power *= ScatterField::axial_power(pulse_, sample_depth_);
+  std::vector<double> weight(static_cast<std::size_t>(planes));
+  for (std::size_t i = 0; i < n; ++i) {
+    const double z = static_cast<double>(i) * sample_depth_;
+    double sum = 0;
+    double squares = 0;
+    for (int p = 0; p < planes; ++p) {
+      const double w = std::max(1e-3, profile_.elevation_amplitude(plane_elevation(p, z), z));
+      weight[static_cast<std::size_t>(p)] = w;
+      sum += w;
+      squares += w * w;
+    }
+    double lateral_power = 0;
+    for (int k = -reach_; k <= reach_; ++k) {
+      const double w = kernel_[static_cast<std::size_t>(std::abs(k)) * n + i];
+      lateral_power += w * w;
+    }
+    const double unit = 1 / std::sqrt(squares * lateral_power * pulse_power);
+    for (std::size_t p = 0; p < weight.size(); ++p) {
+      echo_weight_[p * n + i] = static_cast<float>(weight[p] / sum);
+      speckle_weight_[p * n + i] = static_cast<float>(weight[p] * unit);
+    }
+  }
+}
+
+double BeamShape::plane_elevation(int p, double z) const noexcept {
+  const std::size_t i = z < nodes_[1] ? 0 : 1;
+  const double t = (z - nodes_[i]) / (nodes_[i + 1] - nodes_[i]);
+  return plane_offset(p) * (node_width_[i] + t * (node_width_[i + 1] - node_width_[i]));
+}
+
+std::span<const float> BeamShape::echo_weight(int p) const noexcept {
+  const auto n = static_cast<std::size_t>(n_samples_);
+  return {echo_weight_.data() + static_cast<std::size_t>(p) * n, n};
+}
+
+std::span<const float> BeamShape::speckle_weight(int p) const noexcept {
+  const auto n = static_cast<std::size_t>(n_samples_);
+  return {speckle_weight_.data() + static_cast<std::size_t>(p) * n, n};
+}
+
+double BeamShape::lateral_amplitude(double offset, double z) const noexcept {
+  const double u = offset / (profile_.lateral_width(z) * kSigmaPerWidth);
+  return std::exp(-0.5 * u * u);
+}
+
+void BeamShape::across(std::span<const float> lines, int n_lines, int line,
+                       std::span<float> out) const noexcept {
+  const auto n = static_cast<std::size_t>(n_samples_);
+  std::fill(out.begin(), out.end(), 0.0F);
+  for (int k = -reach_; k <= reach_; ++k) {
+    const int from = line + k;
+    if (from < 0 || from >= n_lines) continue;
+    multiply_add(kernel_.data() + static_cast<std::size_t>(std::abs(k)) * n,
+                 lines.data() + static_cast<std::size_t>(from) * n, out.data(), n);
+  }
+}
+
+void BeamShape::along(std::span<const float> in, std::span<float> out) const noexcept {
+  const std::size_t n = in.size();
+  const std::size_t half = pulse_.size() / 2;
+  std::fill(out.begin(), out.end(), 0.0F);
+  for (std::size_t k = 0; k < pulse_.size(); ++k) {
+    const std::size_t shift = k > half ? k - half : half - k;
+    if (shift >= n) continue;
+    if (k >= half) {
+      scale_add(pulse_[k], in.data(), out.data() + shift, n - shift);
+    } else {
+      scale_add(pulse_[k], in.data() + shift, out.data(), n - shift);
+    }
+  }
+}
+
+}  // namespace artus

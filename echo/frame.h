@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "core/geometry.h"
+
+namespace artus {
+
+/// One B-mode image with every stage that led to it.
+struct Frame {
+  int n_lines = 0;
+  int n_samples = 0;
+  double sample_depth = 0;          ///< m of displayed depth between samples
+  std::vector<float> in_phase;      ///< (n_lines, n_samples), sample fastest; before compensation
+  std::vector<float> quadrature;    ///< as in_phase
+  std::vector<float> envelope;      ///< as in_phase; after time gain compensation, mirror = 1
+  std::vector<float> decibel;       ///< as in_phase; 20 log10 envelope + gain
+  int width = 0;                    ///< pixels
+  int height = 0;                   ///< pixels
+  double pixel = 0;                 ///< m
+  std::vector<std::uint8_t> image;  ///< (height, width), x fastest; scan-converted grey
+  std::vector<float>
+      shadow_from;  ///< (n_lines) sample from which no sound returns; n_samples: none
+};
+
+/// Where a point of frame P lies in the image, pixels (x right, y down); geometric, without the
+/// displacement that the tissues' speeds of sound cause.
+struct PixelPoint {
+  double x = 0;
+  double y = 0;
+};
+
+}  // namespace artus

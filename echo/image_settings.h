@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "core/geometry.h"
+#include "core/result.h"
+
+namespace artus {
+
+/// What the person at the scanner sets, and how finely artus computes. Echo amplitudes are relative
+/// to a perfect mirror at the face, which is 0 dB; they never depend on the frame's own maximum.
+struct ImageSettings {
+  double depth = 40e-3;          ///< m, of the image at the display's speed of sound
+  int n_samples = 1024;          ///< along a scanline
+  int n_planes = 5;              ///< elevation planes that make up the slice's thickness
+  double dynamic_range_db = 60;  ///< dB shown between black and white
+  double gain_db = 0;            ///< dB
+  /// dB per cm of depth and MHz that time gain compensation adds, one way (doubled inside).
+  double tgc_db_cm_mhz = 0.6;
+  double tgc_limit_db = 70;  ///< dB, the receiver's largest compensation
+  /// rms speckle of muscle in dB. assumed: puts muscle at the grey of the reference images.
+  double speckle_db = -40;
+  double noise_db = -130;           ///< electronic noise before compensation, dB. assumed
+  double gel_limit = 5e-3;          ///< m, a wider gap between face and skin is air
+  double pixel = 0.1e-3;            ///< m, of the scan-converted image, square
+  double persistence = 0;           ///< 0 none .. <1 share of the previous image kept
+  bool refraction = true;           ///< bend scanlines by Snell's law
+  bool reverberation = true;        ///< first repeat between strong interfaces and the face
+  bool frequency_downshift = true;  ///< attenuation takes the pulse's high frequencies first
+  bool texture = true;              ///< septa, fascicles and fibres in the scattering
+  std::uint64_t seed = 1;           ///< of scatterers and noise
+  int n_threads = 0;  ///< 0: as many as the machine has; the image does not depend on it
+};
+
+/// Errors: invalid, naming the value and its range.
+[[nodiscard]] Result<void> validate(const ImageSettings& settings);
+
+/// A small reflector fixed in the body (wire phantoms, calcifications).
+struct PointReflector {
+  Vec3 p_J = Vec3::Zero();  ///< m
+  double amplitude = 1;     ///< echo of an unresolved point on the beam's axis, mirror = 1
+};
+
+}  // namespace artus

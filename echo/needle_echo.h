@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <span>
+
+#include "echo/beam_shape.h"
+#include "echo/needle_view.h"
+#include "echo/propagation.h"
+#include "echo/transducer.h"
+
+namespace artus {
+
+/// The echoes of a needle on the scanlines: the near wall of the shaft, the lines that ring between
+/// its walls, the repeat against the probe's face, the tip, and the shadow below.
+class NeedleEcho {
+ public:
+  /// Requires: `shape` outlives this object.
+  NeedleEcho(const NeedleView& needle, const Pose& X_JP, const Transducer& transducer,
+             const BeamShape& shape) noexcept;
+
+  /// Adds the needle to one scanline before the beam's shape is applied: darkens what lies below
+  /// the shaft and adds its echoes. `trace` and `path` are of the line's central beam.
+  void add(const Scanline& line, const Pose& X_JP, const BeamTrace& trace, const BeamPath& path,
+           std::span<float> re, std::span<float> im) const noexcept;
+
+ private:
+  struct Place;
+  [[nodiscard]] Place find_place(const Scanline& line, const Pose& X_JP,
+                                 const BeamPath& path) const noexcept;
+  [[nodiscard]] double elevation_share(double y, double z) const noexcept;
+
+  const BeamShape* shape_;
+  NeedleShape needle_;
+  Vec3 p_PTip_;
+  Vec3 axis_P_;   // unit, from tip to hub
+  double pitch_;  // m between scanlines
+};
+
+}  // namespace artus

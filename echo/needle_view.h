@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <optional>
+
+#include "core/geometry.h"
+
+namespace artus {
+
+/// The needle as sound meets it: a steel tube with a bore.
+struct NeedleShape {
+  double outer_diameter = 0.717e-3;  ///< m
+  double bore = 0.413e-3;            ///< m
+  double length = 80e-3;             ///< m, hub to tip
+  bool echogenic = false;            ///< dimpled shaft that scatters back at steep angles, too
+};
+
+/// Dimensions of a hypodermic gauge, 18, 20, 21, 22, 23 or 25; empty for any other.
+/// assumed: nominal catalogue values.
+[[nodiscard]] std::optional<NeedleShape> needle_of_gauge(int gauge);
+
+/// A needle in the body: X_JN has its origin at the tip and z from hub to tip.
+struct NeedleView {
+  Pose X_JN = Pose::Identity();
+  NeedleShape shape;
+};
+
+/// Spacing on screen of the lines below a needle seen from the side: one trip through wall, bore
+/// and wall, shown at the display's speed of sound, m.
+[[nodiscard]] double reverberation_pitch(const NeedleShape& shape) noexcept;
+
+/// Echo amplitude of a needle at angle `angle` (rad) between its axis and the probe's face, mirror
+/// = 1: dB fall in proportion to the angle, so grey does, too
+/// ([SchafhalterZoppoth2004], 0-65 degrees; slope from [Nichols2003] at 75 degrees).
+[[nodiscard]] double needle_reflectivity(const NeedleShape& shape, double angle) noexcept;
+
+}  // namespace artus

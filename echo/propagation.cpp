@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "echo/propagation.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/units.h"
+
+namespace artus {
+namespace {
+
+constexpr std::size_t kMaxIntervals = 128;
+constexpr double kThinnest = 2e-6;       // m, an interval shorter than this is rounding
+constexpr double kStraight = 2e-3;       // sine of a bend that is not worth another query
+constexpr double kPiece = 4e-3;          // m, longest run: the downshift curves the loss slowly
+constexpr double kSilence = -20;         // ln: 174 dB down, below any receiver
+constexpr double kMargin = 1.25;         // tissue as fast as tendon reaches deeper in the same time
+constexpr double kFaceReflection = 0.1;  // assumed: matching layers and lens send back -20 dB
+constexpr double kRepeatFrom = 0.02;     // echoes above -34 dB repeat
+constexpr double kAirPitch = 1.2e-3;  // m. assumed: lens thickness, pitch of lines without contact
+constexpr int kAirLines = 9;
+constexpr double kAirDecay = 0.45;  // assumed
+
+}  // namespace
+
+bool BeamTrace::find_sample(double path, double& sample, double& log_gain) const noexcept {
+  for (std::size_t i = 0; i < n_runs; ++i) {
+    const BeamRun& run = runs[i];
+    if (path > run.path_end) continue;
+    const double length = run.path_end - run.path_begin;
+    const double t = length > 0 ? std::clamp((path - run.path_begin) / length, 0.0, 1.0) : 0;
+    sample = run.begin + t * (run.end - run.begin);
+    log_gain = run.log_gain_begin + t * (run.log_gain_end - run.log_gain_begin);
+    return true;
+  }
+  return false;
+}
+
+Vec3 BeamPath::at(double length_m) const noexcept {
+  if (size < 2) return p_J[0];
+  std::size_t i = 0;
+  while (i + 2 < size && length_m > length[i + 1]) ++i;
+  const double t = (length_m - length[i]) / (length[i + 1] - length[i]);
+  return p_J[i] + t * (p_J[i + 1] - p_J[i]);
+}
+
+/// Where a beam is and what it has lost.
+struct BeamTracer::Walk {
+  BeamTrace& trace;
+  Vec3 wave;           // unit, direction of the wave
+  bool bends = false;  // whether `wave` follows Snell's law
+  RegionId region = kOutside;
+  bool started = false;  // whether `region` is known
+  bool touched = false;  // whether the beam has been inside the body
+  double sample = 0;
+  double path = 0;         // m
+  double attenuation = 0;  // Np, two-way
+  double slope = 0;        // Np/Hz, two-way
+  double log_transmission = 0;
+
+  [[nodiscard]] double log_gain(double sigma) const noexcept {
+    const double shift = slope * sigma;
+    return log_transmission - attenuation + 0.5 * shift * shift;
+  }
+};
+
+BeamTracer::BeamTracer(const Scene& scene, std::span<const RegionAcoustics> regions,
+                       const Transducer& transducer, const ImageSettings& settings) noexcept
+    : scene_(&scene),
+      regions_(regions),
+      sample_depth_(settings.depth / settings.n_samples),
+      n_samples_(settings.n_samples),
+      spectrum_sigma_(
+          settings.frequency_downshift ? transducer.frequency * transducer.bandwidth / 2.355 : 0),
+      gel_limit_(settings.gel_limit),
+      max_path_(settings.depth * kMargin),
+      refraction_(settings.refraction),
+      reverberation_(settings.reverberation) {}
+
+/// Crosses into the interval's region at `point`. False when no sound goes on.
+bool BeamTracer::enter(Walk& walk, const TissueInterval& interval,
+                       const Vec3& point) const noexcept {
+  BeamTrace& trace = walk.trace;
+  const RegionAcoustics& from = regions_[walk.region];
+  const RegionAcoustics& to = regions_[interval.region];
+  walk.region = interval.region;
+  if (interval.region == kBeyond) return false;
+  const bool air = walk.touched && interval.region == kOutside;
+  const double cosine = -walk.wave.dot(interval.entry_normal);
+  if (cosine <= 0) return !to.opaque && !air;
+  InterfaceResponse response = compute_interface(from, to, cosine);
+  if (air) response = {1, 0, 0};
+  const double sheath = sheath_reflection(from, to);
+  const double roughness = std::max(from.roughness, to.roughness);
+  if (trace.n_echoes < BeamTrace::kMax) {
+    const double strength = std::hypot(response.reflection, sheath);
+    const double share = returned_share(roughness, cosine);
+    const double diffuse = roughness * cosine;
+    trace.echoes[trace.n_echoes++] = {walk.sample,
+                                      strength * share * std::exp(walk.log_gain(spectrum_sigma_)),
+                                      share > 0 ? diffuse / share : 0, point};
+  }
+  if (to.opaque || response.transmission < 1e-4) return false;
+  walk.log_transmission += std::log(response.transmission);
+  if (walk.bends) {
+    const double ratio = to.speed / from.speed;
+    const Vec3 bent =
+        ratio * walk.wave + (ratio * cosine - response.cosine_out) * interval.entry_normal;
+    walk.wave = bent.normalized();
+  }
+  return true;
+}
+
+/// Follows one straight piece; `time_scale` is beam length per geometric length. Returns false when
+/// the sound ended; a bend ends the piece early with walk.wave off `direction`.
+bool BeamTracer::pass(Walk& walk, const Vec3& from, const Vec3& direction, double length,
+                      double time_scale) const noexcept {
+  std::array<TissueInterval, kMaxIntervals> intervals;
+  const QueryCount count = scene_->find_intervals({from, from + length * direction}, intervals);
+  for (std::size_t k = 0; k < count.size; ++k) {
+    const TissueInterval& interval = intervals[k];
+    const double thickness = interval.exit - interval.entry;
+    if (thickness < kThinnest) continue;
+    if (!walk.started) {
+      walk.started = true;
+      walk.region = interval.region;
+      walk.trace.contact = interval.region != kOutside || thickness * time_scale <= gel_limit_;
+      if (!walk.trace.contact || regions_[walk.region].opaque) return false;
+      if (walk.region == kBeyond) return false;
+    } else if (interval.region != walk.region) {
+      if (!enter(walk, interval, from + interval.entry * direction)) return false;
+      if (walk.bends && walk.wave.cross(direction).norm() > kStraight) return true;
+    }
+    walk.touched = walk.touched || walk.region >= kFirstRegion;
+    const RegionAcoustics& region = regions_[walk.region];
+    const double cosine = std::abs(walk.wave.dot(region.fibre));
+    const double loss = fibre_attenuation(region.kind, cosine);
+    const double samples_per_m = kDisplaySpeedOfSound / region.speed / sample_depth_;
+    const int pieces = static_cast<int>(std::ceil(thickness / kPiece));
+    const double piece = thickness / pieces;
+    for (int j = 0; j < pieces; ++j) {
+      if (walk.trace.n_runs == BeamTrace::kMax) return false;
+      BeamRun& run = walk.trace.runs[walk.trace.n_runs++];
+      run.begin = walk.sample;
+      run.p_J = from + (interval.entry + j * piece) * direction;
+      run.step_J = direction / (time_scale * samples_per_m);
+      run.direction_J = walk.wave;
+      run.region = walk.region;
+      run.log_gain_begin = walk.log_gain(spectrum_sigma_);
+      run.path_begin = walk.path;
+      const double beam = piece * time_scale;
+      walk.path += beam;
+      walk.sample += beam * samples_per_m;
+      walk.attenuation += beam * region.attenuation * loss;
+      walk.slope += beam * region.attenuation_slope * loss;
+      run.end = walk.sample;
+      run.path_end = walk.path;
+      run.log_gain_end = walk.log_gain(spectrum_sigma_);
+      if (walk.sample >= n_samples_ || run.log_gain_end < kSilence) return false;
+    }
+  }
+  return count.size > 0;
+}
+
+void BeamTracer::trace_bent(const Vec3& origin_J, const Vec3& direction_J, BeamTrace& trace,
+                            BeamPath& path) const noexcept {
+  trace.n_runs = 0;
+  trace.n_echoes = 0;
+  trace.contact = true;
+  path.size = 0;
+  Walk walk{trace, direction_J, refraction_};
+  Vec3 point = origin_J;
+  bool alive = true;
+  while (alive && walk.path < max_path_ && path.size + 2 < BeamPath::kMax) {
+    path.p_J[path.size] = point;
+    path.length[path.size++] = walk.path;
+    const Vec3 direction = walk.wave;
+    const double before = walk.path;
+    alive = pass(walk, point, direction, max_path_ - walk.path, 1);
+    point += (walk.path - before) * direction;
+    if (walk.path == before) break;
+  }
+  if (walk.path < max_path_) point += (max_path_ - walk.path) * walk.wave;
+  path.p_J[path.size] = point;
+  path.length[path.size++] = max_path_;
+  trace.shadow_from = std::max(walk.sample, 0.0);
+  add_repeats(trace);
+}
+
+void BeamTracer::trace_along(const BeamPath& path, const Vec3& elevation_axis_J,
+                             BeamTrace& trace) const noexcept {
+  trace.n_runs = 0;
+  trace.n_echoes = 0;
+  trace.contact = true;
+  Walk walk{trace, Vec3::UnitZ()};
+  bool alive = true;
+  for (std::size_t i = 0; alive && i + 1 < path.size; ++i) {
+    const Vec3 way = path.p_J[i + 1] - path.p_J[i];
+    const double geometric = way.norm();
+    const double beam = path.length[i + 1] - path.length[i];
+    if (geometric <= 0 || beam <= 0) continue;
+    walk.wave = (way - elevation_axis_J * elevation_axis_J.dot(way)).normalized();
+    alive = pass(walk, path.p_J[i], way / geometric, geometric, beam / geometric);
+  }
+  trace.shadow_from = walk.sample;
+  add_repeats(trace);
+}
+
+/// First repeats: sound that went from the face to a strong interface and back twice; without
+/// contact, the lens rings by itself.
+void BeamTracer::add_repeats(BeamTrace& trace) const noexcept {
+  if (!trace.contact) {
+    double amplitude = 1;
+    for (int k = 0; k < kAirLines; ++k, amplitude *= kAirDecay) {
+      trace.echoes[trace.n_echoes++] = {1 + k * kAirPitch / sample_depth_, amplitude, 0,
+                                        Vec3::Zero()};
+    }
+    return;
+  }
+  if (!reverberation_) return;
+  const std::size_t n = trace.n_echoes;
+  for (std::size_t i = 0; i < n && trace.n_echoes < BeamTrace::kMax; ++i) {
+    const BeamEcho& echo = trace.echoes[i];
+    if (echo.amplitude < kRepeatFrom || 2 * echo.sample >= n_samples_) continue;
+    trace.echoes[trace.n_echoes++] = {2 * echo.sample,
+                                      echo.amplitude * echo.amplitude * kFaceReflection,
+                                      echo.diffuse_share, echo.p_J};
+  }
+}
+
+}  // namespace artus

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "echo/image_settings.h"
+#include "echo/region_acoustics.h"
+#include "echo/transducer.h"
+#include "raycast/scene.h"
+
+namespace artus {
+
+/// A straight stretch of a beam inside one region, in displayed samples.
+struct BeamRun {
+  double begin = 0;                  ///< sample (time of flight shown at the display's speed)
+  double end = 0;                    ///< sample
+  Vec3 p_J = Vec3::Zero();           ///< m, where the beam is at `begin`
+  Vec3 step_J = Vec3::Zero();        ///< m per sample
+  Vec3 direction_J = Vec3::UnitZ();  ///< unit, of the wave (without the elevation tilt)
+  RegionId region = kOutside;
+  double log_gain_begin = 0;  ///< ln of the two-way amplitude at `begin`
+  double log_gain_end = 0;    ///< at `end`
+  double path_begin = 0;      ///< m along the beam from the face to `begin`
+  double path_end = 0;        ///< m, to `end`
+};
+
+/// An echo of an interface.
+struct BeamEcho {
+  double sample = 0;
+  double amplitude = 0;      ///< mirror = 1
+  double diffuse_share = 0;  ///< 0..1 of it comes from roughness and glitters
+  Vec3 p_J = Vec3::Zero();   ///< m
+};
+
+/// Everything one beam meets on its way.
+struct BeamTrace {
+  static constexpr std::size_t kMax = 192;
+  std::array<BeamRun, kMax> runs;
+  std::array<BeamEcho, kMax> echoes;
+  std::size_t n_runs = 0;
+  std::size_t n_echoes = 0;
+  double shadow_from = 0;  ///< sample behind which nothing returns; large when there is none
+  bool contact = true;     ///< false: air between face and skin
+
+  /// Displayed sample and ln gain at a distance along the beam; false behind the end of the sound.
+  [[nodiscard]] bool find_sample(double path, double& sample, double& log_gain) const noexcept;
+};
+
+/// A way through the body: points at increasing path length, straight in between.
+struct BeamPath {
+  static constexpr std::size_t kMax = 48;
+  std::array<Vec3, kMax> p_J;
+  std::array<double, kMax> length{};  ///< m from the face
+  std::size_t size = 0;
+
+  /// The point at `length`, on the last straight piece when it is beyond the end.
+  [[nodiscard]] Vec3 at(double length_m) const noexcept;
+};
+
+/// Follows beams through the tissue intervals of a scene: time of flight, two-way loss, echoes.
+class BeamTracer {
+ public:
+  BeamTracer(const Scene& scene, std::span<const RegionAcoustics> regions,
+             const Transducer& transducer, const ImageSettings& settings) noexcept;
+
+  /// The beam from `origin_J` along `direction_J` (unit), bent at the interfaces when refraction is
+  /// on. Fills `trace`, and `path` with the way it took. Cost: one query per bend.
+  void trace_bent(const Vec3& origin_J, const Vec3& direction_J, BeamTrace& trace,
+                  BeamPath& path) const noexcept;
+
+  /// The beam of another elevation plane: along the straight pieces of `path`, whose lengths (not
+  /// the geometric ones) tell the time. Cost: one query per piece.
+  void trace_along(const BeamPath& path, const Vec3& elevation_axis_J,
+                   BeamTrace& trace) const noexcept;
+
+ private:
+  struct Walk;
+  bool enter(Walk& walk, const TissueInterval& interval, const Vec3& point) const noexcept;
+  bool pass(Walk& walk, const Vec3& from, const Vec3& direction, double length,
+            double time_scale) const noexcept;
+  void add_repeats(BeamTrace& trace) const noexcept;
+
+  const Scene* scene_;
+  std::span<const RegionAcoustics> regions_;
+  double sample_depth_;  // m of displayed depth
+  double n_samples_;
+  double spectrum_sigma_;  // Hz
+  double gel_limit_;       // m
+  double max_path_;        // m, longest way a beam can go within the displayed time
+  bool refraction_;
+  bool reverberation_;
+};
+
+}  // namespace artus

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "core/result.h"
+
+namespace artus {
+
+/// Collects every value of a group of settings that is out of its range into one message.
+class RangeCheck {
+ public:
+  explicit RangeCheck(std::string group) : group_(std::move(group)) {}
+
+  /// Notes `value` unless it is finite and within [low, high].
+  void in_range(const char* name, double value, double low, double high) {
+    if (std::isfinite(value) && value >= low && value <= high) return;
+    if (!message_.empty()) message_ += "; ";
+    message_ += std::string(name) + " is " + std::to_string(value) + ", must be " +
+                std::to_string(low) + " .. " + std::to_string(high);
+  }
+
+  /// Errors: invalid when anything was noted.
+  [[nodiscard]] Result<void> result() const {
+    if (message_.empty()) return {};
+    return fail(ErrorCode::invalid, message_, group_);
+  }
+
+ private:
+  std::string group_;
+  std::string message_;
+};
+
+}  // namespace artus

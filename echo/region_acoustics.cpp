@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "echo/region_acoustics.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include "core/units.h"
+
+namespace artus {
+namespace {
+
+constexpr double kOpaqueAbove = 4e6;  // Rayl, between soft tissue (2) and cortical bone (6)
+constexpr double kOpaqueBelow = 1e5;  // Rayl, gas
+constexpr double kTendonDrop = 25;    // dB
+constexpr double kTendonTilt = 8.6;   // degrees: equals muscle (-6 dB) at 4.5
+constexpr double kLobe = 12;          // degrees, half the acceptance of an F/2 aperture
+constexpr double kGrazing = 0.12;     // cosine below which a faceted normal says nothing more
+constexpr double kEpimysium = 0.06;   // -24 dB. assumed: a fascia shows like fat on muscle
+constexpr double kBursaWall = 0.08;   // -22 dB. assumed: the walls show brighter than muscle
+constexpr double kEpineurium = 0.05;  // -26 dB. assumed
+
+TissueKind kind_of(std::string_view name) {
+  using Entry = std::pair<std::string_view, TissueKind>;
+  constexpr std::array<Entry, 12> kKinds{{{"muscle", TissueKind::muscle},
+                                          {"tendon", TissueKind::tendon},
+                                          {"ligament", TissueKind::tendon},
+                                          {"labrum", TissueKind::plain},
+                                          {"fat", TissueKind::fat},
+                                          {"nerve", TissueKind::nerve},
+                                          {"skin", TissueKind::skin},
+                                          {"bursa", TissueKind::fluid},
+                                          {"fluid", TissueKind::fluid},
+                                          {"blood", TissueKind::fluid},
+                                          {"gel", TissueKind::fluid},
+                                          {"bone", TissueKind::bone}}};
+  for (const auto& [word, kind] : kKinds) {
+    if (name.find(word) != std::string_view::npos) return kind;
+  }
+  return TissueKind::plain;
+}
+
+/// Coupling gel, taken as water: what fills the gap between face and skin.
+RegionAcoustics make_gel() {
+  RegionAcoustics gel;
+  gel.kind = TissueKind::fluid;
+  gel.speed = 1490;
+  gel.impedance = 1.49e6;
+  return gel;
+}
+
+bool is_pair(const RegionAcoustics& a, const RegionAcoustics& b, TissueKind kind) {
+  return a.kind == kind || b.kind == kind;
+}
+
+}  // namespace
+
+std::vector<RegionAcoustics> make_region_acoustics(const CompiledJoint& joint,
+                                                   const Transducer& transducer) {
+  std::vector<RegionAcoustics> table;
+  table.reserve(joint.regions.size());
+  for (const Region& region : joint.regions) {
+    const Tissue& tissue = joint.tissues[region.tissue];
+    const Acoustic& a = tissue.acoustic;
+    const double megahertz = transducer.frequency / 1e6;
+    RegionAcoustics out;
+    out.kind = kind_of(tissue.name);
+    out.speed = a.speed_of_sound;
+    out.impedance = a.impedance();
+    out.attenuation = 2 * a.attenuation * std::pow(megahertz, a.attenuation_power);
+    out.attenuation_slope = a.attenuation_power * out.attenuation / transducer.frequency;
+    out.backscatter = a.backscatter;
+    out.roughness = a.interface_roughness;
+    out.opaque = out.impedance > kOpaqueAbove || out.impedance < kOpaqueBelow;
+    out.fibre = region.fibre_axis;
+    table.push_back(out);
+  }
+  table[kOutside] = make_gel();
+  return table;
+}
+
+double fibre_backscatter(TissueKind kind, double cosine) noexcept {
+  const double tilt = std::asin(std::clamp(cosine, 0.0, 1.0)) / kDegree;
+  switch (kind) {
+    case TissueKind::tendon: {
+      const double u = tilt / kTendonTilt;
+      return std::pow(10.0, -kTendonDrop * (1 - std::exp(-u * u)) / 20);
+    }
+    case TissueKind::muscle:
+      return std::pow(10.0, -2.0 * cosine * cosine / 20);
+    case TissueKind::nerve:
+      return std::pow(10.0, -4.0 * cosine * cosine / 20);
+    default:
+      return 1;
+  }
+}
+
+double fibre_attenuation(TissueKind kind, double cosine) noexcept {
+  switch (kind) {
+    case TissueKind::muscle:
+      return 1 + 0.8 * cosine * cosine;
+    case TissueKind::tendon:
+      return 1 + 0.5 * cosine * cosine;
+    default:
+      return 1;
+  }
+}
+
+InterfaceResponse compute_interface(const RegionAcoustics& from, const RegionAcoustics& to,
+                                    double cosine) noexcept {
+  const double cos_in = std::clamp(cosine, kGrazing, 1.0);
+  const double sin_out = to.speed / from.speed * std::sqrt(1 - cos_in * cos_in);
+  if (sin_out >= 1) return {1, 0, 0};
+  const double cos_out = std::sqrt(1 - sin_out * sin_out);
+  const double a = to.impedance * cos_in;
+  const double b = from.impedance * cos_out;
+  const double r = (a - b) / (a + b);
+  return {std::abs(r), 1 - r * r, cos_out};
+}
+
+double returned_share(double roughness, double cosine) noexcept {
+  const double c = std::clamp(cosine, 0.0, 1.0);
+  const double u = std::acos(c) / kDegree / kLobe;
+  return (1 - roughness) * std::exp(-u * u) + roughness * c;
+}
+
+double sheath_reflection(const RegionAcoustics& a, const RegionAcoustics& b) noexcept {
+  if (a.opaque || b.opaque) return 0;
+  if (a.kind == TissueKind::muscle && b.kind == TissueKind::muscle) return kEpimysium;
+  if (is_pair(a, b, TissueKind::nerve)) return kEpineurium;
+  if (a.kind == TissueKind::fluid && b.kind == TissueKind::fluid) return 0;
+  if (is_pair(a, b, TissueKind::fluid) && !is_pair(a, b, TissueKind::skin)) return kBursaWall;
+  return 0;
+}
+
+}  // namespace artus

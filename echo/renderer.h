@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "echo/frame.h"
+#include "echo/image_settings.h"
+#include "echo/needle_view.h"
+#include "echo/transducer.h"
+#include "raycast/scene.h"
+
+namespace artus {
+
+/// Turns a probe pose into a B-mode image, again and again. Keeps its tables and buffers: build one
+/// per probe and settings. One thread at a time may render with one Renderer; it uses several
+/// threads inside, and the image does not depend on how many.
+class Renderer {
+ public:
+  /// Requires: valid transducer and settings (validate tells what is wrong). Cost: tens of ms.
+  Renderer(std::shared_ptr<const Scene> scene, const Transducer& transducer,
+           const ImageSettings& settings);
+  ~Renderer();
+  Renderer(const Renderer&) = delete;
+  Renderer& operator=(const Renderer&) = delete;
+  Renderer(Renderer&&) noexcept;
+  Renderer& operator=(Renderer&&) noexcept;
+
+  /// The image seen from X_JP, with `needle` when given. The frame stays valid until the next call.
+  /// A probe that does not touch the body gives a black image below a reverberating line.
+  /// Requires: a finite rigid pose. Cost: a few ms a frame; allocates nothing after the first call.
+  const Frame& render(const Pose& X_JP, const std::optional<NeedleView>& needle = std::nullopt);
+
+  /// Reflectors fixed in the body that later frames show.
+  void set_point_reflectors(std::vector<PointReflector> reflectors);
+
+  /// Swaps in a deformed copy of the body between frames.
+  void set_scene(std::shared_ptr<const Scene> scene);
+
+  [[nodiscard]] const Transducer& transducer() const noexcept;
+  [[nodiscard]] const ImageSettings& settings() const noexcept;
+
+  /// Seconds the last frame spent in each stage.
+  struct StageTimes {
+    double lines = 0;    ///< tracing, scattering and needle
+    double beam = 0;     ///< lateral and axial pulse shape, envelope, compression
+    double display = 0;  ///< scan conversion
+  };
+  [[nodiscard]] const StageTimes& stage_times() const noexcept;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// One-shot form for a first try.
+[[nodiscard]] Frame render_bmode(const std::shared_ptr<const Scene>& scene, const Pose& X_JP,
+                                 const std::optional<NeedleView>& needle = std::nullopt,
+                                 const Transducer& transducer = {},
+                                 const ImageSettings& settings = {});
+
+/// The pose of the probe in the joint when both are known in the world, rounded to a nanometre
+/// (and a billionth in rotation) so that moving body and probe together leaves the image's bytes
+/// unchanged.
+[[nodiscard]] Pose probe_in_joint(const Pose& X_WJ, const Pose& X_WP);
+
+}  // namespace artus
