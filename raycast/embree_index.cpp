@@ -61,6 +61,9 @@ RTCRay make_ray(const Line& line) noexcept {
   return ray;
 }
 
+/// Barycentric distance to an edge below which a neighbour's hit may be missing or double.
+constexpr float kDoubtfulBarycentric = 3e-5F;
+
 /// What the filter notes of a hit: enough to keep the nearest when there are too many.
 struct Candidate {
   std::uint32_t interface;
@@ -73,6 +76,7 @@ struct GatherQuery {
   const EmbreeIndex* index;
   std::size_t size;
   bool overflow;
+  bool doubtful;
   std::array<Candidate, kMaxHits> candidates;
 };
 
@@ -94,6 +98,9 @@ void gather_hit(const RTCFilterFunctionNArguments* args) noexcept {
                             RTCRayN_tfar(args->ray, args->N, 0)};
   __builtin_prefetch(&query.index->plane(candidate.interface));
   __builtin_prefetch(&query.index->sides(candidate.interface));
+  const float u = RTCHitN_u(args->hit, args->N, 0);
+  const float v = RTCHitN_v(args->hit, args->N, 0);
+  query.doubtful |= std::min({u, v, 1 - u - v}) < kDoubtfulBarycentric;
   if (query.size < kMaxHits) [[likely]] {
     query.candidates[query.size++] = candidate;
   } else {
@@ -266,15 +273,18 @@ std::array<Vec3, 3> EmbreeIndex::corners(std::uint32_t i) const noexcept {
 void EmbreeIndex::gather(const Line& line, HitBuffer& out) const noexcept {
   out.size = 0;
   out.overflow = false;
+  out.doubtful = false;
   if (!(line.far > line.near)) return;
   GatherQuery query;  // NOLINT(cppcoreguidelines-pro-type-member-init): written before read
   query.index = this;
   query.size = 0;
   query.overflow = false;
+  query.doubtful = false;
   init_context(query.context);
   RTCRay ray = make_ray(line);
   find_occluded(scene_.get(), query.context, ray);
   out.overflow = query.overflow;
+  out.doubtful = query.doubtful;
   for (std::size_t k = 0; k < query.size; ++k) {
     const std::uint32_t i = query.candidates[k].interface;
     const Passage passage = pass(*this, i, line);

@@ -30,6 +30,7 @@ struct HitBuffer {
   std::array<Hit, kMaxHits> hits;  ///< unsorted
   std::size_t size;
   bool overflow;  ///< more than kMaxHits were met; the nearest are kept
+  bool doubtful;  ///< a hit lies so near to an edge that its neighbours' hits may be missing
 };
 
 /// The first facet a line meets beyond t = 0.

@@ -41,23 +41,26 @@ bool unmeshed(std::optional<RegionId> region) noexcept {
   return region.has_value() && *region < kFirstRegion;
 }
 
-Gap find_gap(Cluster left, Cluster right, const RegionProbe& region_at) noexcept {
+/// A point inside the gap between two clusters (the range's end where there is no cluster); at the
+/// golden section, because symmetric lines have touches in the middle.
+double probe_depth(Cluster left, Cluster right, const TracedRange& range) noexcept {
+  const double begin = left.empty() ? std::min(range.near, right.front().depth) : left.back().depth;
+  const double end = right.empty() ? std::max(range.far, left.back().depth) : right.front().depth;
+  return begin + 0.381966 * (end - begin);
+}
+
+Gap find_gap(Cluster left, Cluster right, const TracedRange& range,
+             const RegionProbe& region_at) noexcept {
   const std::optional<RegionId> a = agreed(left, &Hit::to);
   const std::optional<RegionId> b = agreed(right, &Hit::from);
-  if (a.has_value() && b.has_value()) {
-    if (*a == *b || (unmeshed(a) && unmeshed(b))) return {*a, *b};
+  const bool seam = unmeshed(a) && unmeshed(b);
+  if (!range.doubtful) {
+    if (a.has_value() && b.has_value() && (*a == *b || seam)) return {*a, *b};
+    if (left.empty() && b.has_value()) return {*b, *b};
+    if (right.empty() && a.has_value()) return {*a, *a};
   }
-  if (left.empty() && b.has_value()) return {*b, *b};
-  if (right.empty() && a.has_value()) return {*a, *a};
-  double depth = 0;
-  if (left.empty()) {
-    depth = right.front().depth - kClusterWidth;
-  } else if (right.empty()) {
-    depth = left.back().depth + kClusterWidth;
-  } else {
-    depth = 0.5 * (left.back().depth + right.front().depth);
-  }
-  const RegionId region = region_at(depth);
+  const RegionId region = region_at(probe_depth(left, right, range));
+  if (seam && unmeshed(region)) return {*a, *b};
   return {region, region};
 }
 
@@ -114,15 +117,15 @@ bool is_chain(std::span<const Hit> sorted) noexcept {
   return consistent;
 }
 
-void repair_chain(std::span<const Hit> sorted, const RegionProbe& region_at,
-                  HitChain& out) noexcept {
+void repair_chain(std::span<const Hit> sorted, const TracedRange& range,
+                  const RegionProbe& region_at, HitChain& out) noexcept {
   out.size = 0;
   if (sorted.empty()) return;
   Cluster cluster = next_cluster(sorted, 0);
-  RegionId region = find_gap({}, cluster, region_at).last;
+  RegionId region = find_gap({}, cluster, range, region_at).last;
   for (std::size_t end = cluster.size();; end += cluster.size()) {
     const Cluster next = end < sorted.size() ? next_cluster(sorted, end) : Cluster();
-    const Gap gap = find_gap(cluster, next, region_at);
+    const Gap gap = find_gap(cluster, next, range, region_at);
     append_passage(cluster, region, gap.first, out);
     region = gap.last;
     if (gap.first != gap.last) {

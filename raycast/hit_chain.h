@@ -37,15 +37,23 @@ struct HitChain {
   std::size_t size;
 };
 
+/// The part of the line the hits were gathered on, and whether one of them may have lost its
+/// neighbours at an edge.
+struct TracedRange {
+  double near = 0;  ///< m
+  double far = 0;   ///< m
+  bool doubtful = false;
+};
+
 /// Makes a consistent chain of hits that are not one: several facets met at a shared edge or
 /// vertex, a double or missed hit, a grazing touch. Hits within kClusterWidth form a cluster; the
-/// region of a gap between clusters is what both sides agree on, otherwise what `region_at` finds
-/// there; each cluster then keeps the hit (or the pair of hits) that leads from the region before
-/// it to the region after it, and nothing when these are the same. Beyond the meshed part the line
-/// may leave as "beyond" and come back as "outside" (or the reverse): such a change stands in the
-/// middle of its gap with kNoInterface.
+/// region of a gap between clusters is what both sides agree on, otherwise (or when the range is
+/// doubtful) what `region_at` finds there; each cluster then keeps the hit (or the pair of hits)
+/// that leads from the region before it to the region after it, and nothing when these are the
+/// same. Beyond the meshed part the line may leave as "beyond" and come back as "outside" (or the
+/// reverse): such a change stands in the middle of its gap with kNoInterface.
 /// Requires: `sorted` is sorted and has at most kMaxHits hits.
-ARTUS_REALTIME void repair_chain(std::span<const Hit> sorted, const RegionProbe& region_at,
-                                 HitChain& out) noexcept;
+ARTUS_REALTIME void repair_chain(std::span<const Hit> sorted, const TracedRange& range,
+                                 const RegionProbe& region_at, HitChain& out) noexcept;
 
 }  // namespace artus

@@ -112,7 +112,7 @@ std::span<const Hit> Scene::Impl::trace(const Track& track, Trace& scratch) cons
   index.gather(track.line, buffer);
   const std::span<Hit> hits(buffer.hits.data(), buffer.size);
   sort_hits(hits);
-  if (is_chain(hits)) [[likely]]
+  if (!buffer.doubtful && is_chain(hits)) [[likely]]
     return hits;
   struct State {
     const Impl* impl;
@@ -125,7 +125,7 @@ std::span<const Hit> Scene::Impl::trace(const Track& track, Trace& scratch) cons
         return self.impl->region_at(self.line->origin + depth * self.line->direction);
       },
       &state};
-  repair_chain(hits, probe, scratch.chain);
+  repair_chain(hits, {track.line.near, track.line.far, buffer.doubtful}, probe, scratch.chain);
   return std::span<const Hit>(scratch.chain.hits).first(scratch.chain.size);
 }
 

@@ -18,9 +18,10 @@ struct Truth {
   }
 };
 
-std::vector<Hit> repaired(const std::vector<Hit>& hits, const Truth& truth = {}) {
+std::vector<Hit> repaired(const std::vector<Hit>& hits, const Truth& truth = {},
+                          bool doubtful = false) {
   const auto chain = std::make_unique<HitChain>();
-  repair_chain(hits, {Truth::at, &truth}, *chain);
+  repair_chain(hits, {0, 6, doubtful}, {Truth::at, &truth}, *chain);
   return {chain->hits.begin(), chain->hits.begin() + static_cast<std::ptrdiff_t>(chain->size)};
 }
 
@@ -68,10 +69,14 @@ TEST(RepairChain, HitsOfOnePlaceFindTheirOrder) {
 
 TEST(RepairChain, AMissedHitIsBridgedByWhatIsReallyThere) {
   // 0 -> 2 at 1, the hit 2 -> 3 lost, 3 -> 0 at 5.5.
-  const auto chain = repaired({{1, 1, 0, 2}, {5.5, 2, 3, 0}}, {{0, 2, 2, 3, 3, 3, 0}});
+  const auto chain = repaired({{1, 1, 0, 2}, {5.5, 2, 3, 0}}, {{0, 2, 3, 3, 3, 3, 0}});
   ASSERT_EQ(chain.size(), 2U);
   EXPECT_EQ(chain[0].to, chain[1].from);
   EXPECT_EQ(chain[0].to, 3);
+}
+
+TEST(RepairChain, HalfATouchAtAnEdgeIsNoCrossing) {
+  EXPECT_TRUE(repaired({{1.5, 8, 2, 0}}, {{0, 0, 0, 0, 0, 0, 0}}, true).empty());
 }
 
 TEST(RepairChain, LeavingAsBeyondAndReturningAsOutsideHasASeamInTheMiddle) {
