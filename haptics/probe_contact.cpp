@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "haptics/probe_contact.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace artus {
+namespace {
+
+constexpr double kNoSkin = -std::numeric_limits<double>::infinity();
+/// How far a pose's rotation may be from orthonormal.
+constexpr double kRigidTolerance = 1e-6;
+
+std::uint32_t check_pose(const Pose& X_JP) noexcept {
+  if (!X_JP.matrix().allFinite()) return TickStatus::kNotFinite;
+  const Eigen::Matrix3d r = X_JP.linear();
+  const bool rigid =
+      (r.transpose() * r - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < kRigidTolerance &&
+      r.determinant() > 0;
+  return rigid ? TickStatus::kOk : TickStatus::kNotRigid;
+}
+
+}  // namespace
+
+ProbeContactModel::ProbeContactModel(std::shared_ptr<const Scene> scene,
+                                     const ProbeContactParams& params)
+    : scene_(std::move(scene)), params_(params) {
+  const ProbeFootprint& f = params_.footprint;
+  ARTUS_REQUIRE(scene_ != nullptr, "there must be a scene");
+  ARTUS_REQUIRE(f.length > 0 && f.width > 0, "the footprint must have a size");
+  ARTUS_REQUIRE(f.columns_x > 0 && f.columns_y > 0 && f.elements > 0,
+                "the footprint needs columns and elements");
+  const CompiledJoint& joint = scene_->joint();
+  for (RegionId region = 0; region < joint.regions.size(); ++region) {
+    modulus_.push_back(joint.tissue_of(region).mechanical.youngs_modulus);
+    hard_.push_back(joint.tissue_of(region).haptic.hard ? 1 : 0);
+  }
+  for (std::size_t j = 0; j < f.columns_y; ++j) {
+    for (std::size_t i = 0; i < f.columns_x; ++i) {
+      const auto share = [](std::size_t k, std::size_t n) {
+        return (static_cast<double>(k) + 0.5) / static_cast<double>(n) - 0.5;
+      };
+      columns_.push_back(
+          {f.length * share(i, f.columns_x), f.width * share(j, f.columns_y), kNoSkin});
+    }
+  }
+  coverage_.resize(f.elements);
+}
+
+void ProbeContactModel::reset() noexcept {
+  have_last_ = false;
+  shear_.setZero();
+}
+
+void ProbeContactModel::clear(std::uint32_t status) noexcept {
+  contact_ = {};
+  contact_.status = status;
+}
+
+ColumnResponse ProbeContactModel::probe_column(const Pose& X_JP, Column& column) noexcept {
+  const double back = params_.max_indentation;
+  const Segment segment{X_JP * Vec3(column.x, column.y, -back),
+                        X_JP * Vec3(column.x, column.y, params_.column_depth)};
+  const QueryCount count = scene_->find_intervals(segment, intervals_);
+  const std::span<const TissueInterval> all(intervals_.data(), count.size);
+  const auto skin = std::find_if(all.begin(), all.end(),
+                                 [](const TissueInterval& t) { return t.region != kOutside; });
+  column.indentation = kNoSkin;
+  if (skin == all.end() || skin->region == kBeyond) return {};
+  column.indentation = back - skin->entry;
+  if (!(column.indentation > 0)) return {};
+
+  const double end = skin->entry + params_.column_depth;
+  std::size_t n = 0;
+  for (auto t = skin; t != all.end() && t->entry < end; ++t) {
+    const bool known = t->region != kOutside && t->region != kBeyond;
+    if (!known || hard_[t->region] != 0) break;
+    layers_[n++] = {std::min(t->exit, end) - t->entry, modulus_[t->region]};
+  }
+  return compress_column(params_.column, std::span<const ColumnLayer>(layers_.data(), n),
+                         column.indentation);
+}
+
+double ProbeContactModel::indentation_at(std::size_t row, double x) const noexcept {
+  const ProbeFootprint& f = params_.footprint;
+  const Column* columns = &columns_[row * f.columns_x];
+  if (f.columns_x == 1) return columns[0].indentation;
+  const double place = (x / f.length + 0.5) * static_cast<double>(f.columns_x) - 0.5;
+  const double floor = std::clamp(std::floor(place), 0.0, static_cast<double>(f.columns_x - 2));
+  const auto i = static_cast<std::size_t>(floor);
+  const double a = columns[i].indentation;
+  const double b = columns[i + 1].indentation;
+  const double w = place - floor;
+  if (!std::isfinite(a) || !std::isfinite(b)) return w < 0.5 ? a : b;
+  return a + w * (b - a);
+}
+
+void ProbeContactModel::update_coverage() noexcept {
+  const ProbeFootprint& f = params_.footprint;
+  const double gap = params_.gel ? params_.gel_gap : 0;
+  for (std::size_t e = 0; e < f.elements; ++e) {
+    const double x =
+        f.length * ((static_cast<double>(e) + 0.5) / static_cast<double>(f.elements) - 0.5);
+    std::size_t touching = 0;
+    for (std::size_t row = 0; row < f.columns_y; ++row) {
+      if (indentation_at(row, x) >= -gap) ++touching;
+    }
+    coverage_[e] = static_cast<float>(touching) / static_cast<float>(f.columns_y);
+  }
+}
+
+void ProbeContactModel::add_friction(const Pose& X_JP) noexcept {
+  const Vec3 axis = X_JP.linear().col(2);
+  const Vec3 position = X_JP.translation();
+  if (have_last_) shear_ += position - last_position_;
+  have_last_ = true;
+  last_position_ = position;
+  shear_ -= axis * axis.dot(shear_);
+  const double coefficient = params_.gel ? params_.gel_friction : params_.dry_friction;
+  const double most = coefficient * contact_.normal_force / params_.shear_stiffness;
+  const double dragged = shear_.norm();
+  if (dragged > most) shear_ *= most / dragged;
+  contact_.wrench.force -= params_.shear_stiffness * shear_;
+}
+
+const ProbeContact& ProbeContactModel::step(const Pose& X_JP) noexcept {
+  clear(check_pose(X_JP));
+  if (contact_.status != 0) {
+    reset();
+    std::fill(coverage_.begin(), coverage_.end(), 0.0F);
+    return contact_;
+  }
+  const ProbeFootprint& f = params_.footprint;
+  const double area = f.length * f.width / static_cast<double>(columns_.size());
+  const Vec3 axis = X_JP.linear().col(2);
+  std::size_t pressed = 0;
+  for (Column& column : columns_) {
+    const ColumnResponse response = probe_column(X_JP, column);
+    if (!(column.indentation > 0)) continue;
+    ++pressed;
+    const double force = response.pressure * area;
+    const Vec3 arm = X_JP.linear() * Vec3(column.x, column.y, 0);
+    contact_.normal_force += force;
+    contact_.stiffness += response.stiffness * area;
+    contact_.indentation = std::max(contact_.indentation, column.indentation);
+    contact_.wrench.torque -= arm.cross(axis) * force;
+  }
+  contact_.contact_share = static_cast<double>(pressed) / static_cast<double>(columns_.size());
+  update_coverage();
+  if (pressed == 0) {
+    reset();
+    return contact_;
+  }
+  contact_.wrench.force = -contact_.normal_force * axis;
+  add_friction(X_JP);
+  return contact_;
+}
+
+}  // namespace artus
