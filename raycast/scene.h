@@ -61,11 +61,14 @@ struct SceneOptions {
 /// of threads may query one scene. Real-time forms write into the caller's span and never allocate.
 ///
 /// Depths are exact to about 1e-9 m for joints of human size anywhere within metres of the frame's
-/// origin. A line through a shared edge or vertex, along an interface or touching one still gives a
-/// consistent answer: each crossing leaves the region that the one before entered. A crossing at
-/// depth d counts when 0 <= d < length: a segment that starts on an interface crosses it, one that
-/// ends on it does not, and two halves of a cut segment share no crossing. A touch that leads back
-/// into the same region is no crossing.
+/// origin; within 10 nm of an edge the neighbour's plane may be taken (about 1e-8 m). A line that
+/// runs within 10 nm of an interface's plane across several facets is given one of the adjoining
+/// regions, and may miss a change between regions that meet in that plane. A line through a shared
+/// edge or vertex, along an interface or touching one still gives a consistent answer: each
+/// crossing leaves the region that the one before entered. A crossing at depth d counts when 0 <= d
+/// < length: a segment that starts on an interface crosses it, one that ends on it does not, and
+/// two halves of a cut segment share no crossing. A touch that leads back into the same region is
+/// no crossing.
 ///
 /// The body is meshed only inside its region of interest. A line that leaves it as "beyond" may
 /// return as "outside" (or the reverse) though no interface lies between; the intervals then
