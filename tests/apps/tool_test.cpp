@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// The tool as a user meets it: exit codes, messages, files.
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <opencv2/imgcodecs.hpp>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/support/process.h"
+
+namespace artus {
+namespace {
+
+const std::string kSimple = std::string(ARTUS_TEST_JOINTS) + "/simple-shoulder.artus";
+
+test::ProcessResult artus(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), ARTUS_TOOL);
+  return test::run_process(arguments);
+}
+
+class Tool : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (std::filesystem::temp_directory_path() / "artus-tool-XXXXXX").string();
+    ASSERT_NE(mkdtemp(name.data()), nullptr);
+    folder_ = name;
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+  [[nodiscard]] std::string in(const std::string& file) const { return (folder_ / file).string(); }
+
+  std::filesystem::path folder_;
+};
+
+TEST_F(Tool, WithoutACommandSaysSoAndReturnsTwo) {
+  const auto r = artus({});
+  EXPECT_EQ(r.exit_code, 2);
+  EXPECT_NE((r.out + r.err).find("subcommand"), std::string::npos);
+}
+
+TEST_F(Tool, EveryCommandHasHelpWithExamples) {
+  for (const char* command : {"check", "compile", "needle", "image", "slice", "run"}) {
+    const auto r = artus({command, "--help"});
+    EXPECT_EQ(r.exit_code, 0) << command;
+    EXPECT_NE(r.out.find("Examples:"), std::string::npos) << command;
+    EXPECT_NE(r.out.find(std::string("artus ") + command), std::string::npos) << command;
+  }
+}
+
+TEST_F(Tool, AnUnknownFlagReturnsTwo) {
+  EXPECT_EQ(artus({"check", "--no-such-flag"}).exit_code, 2);
+}
+
+TEST_F(Tool, AMissingFileReturnsOneAndNamesIt) {
+  const auto r = artus({"check", in("absent.stl")});
+  EXPECT_EQ(r.exit_code, 1);
+  EXPECT_NE(r.err.find("absent.stl"), std::string::npos);
+}
+
+TEST_F(Tool, AMalformedPointReturnsTwoBeforeAnythingIsLoaded) {
+  const auto r = artus({"needle", "-j", in("absent"), "--entry", "1,2", "--tip", "0,0,0"});
+  EXPECT_EQ(r.exit_code, 2);
+  EXPECT_NE(r.err.find("--entry"), std::string::npos);
+}
+
+TEST_F(Tool, ACompiledFileThatIsCutShortIsRefused) {
+  std::filesystem::copy_file(kSimple, in("cut.artus"));
+  std::filesystem::resize_file(in("cut.artus"), std::filesystem::file_size(kSimple) / 2);
+  const auto r = artus({"needle", "-j", in("cut.artus"), "--entry", "90,0,0", "--tip", "0,0,0"});
+  EXPECT_EQ(r.exit_code, 1);
+  EXPECT_NE(r.err.find("cut.artus"), std::string::npos);
+}
+
+TEST_F(Tool, ChecksABundledSurfaceAsSound) {
+  const auto r =
+      artus({"check", std::string(ARTUS_SOURCE_DIR) + "/meshes/simple-shoulder/surfaces/bone.ply",
+             "--json"});
+  ASSERT_EQ(r.exit_code, 0) << r.err;
+  const auto report = nlohmann::json::parse(r.out);
+  EXPECT_TRUE(report.at("defects").empty());
+  EXPECT_GT(report.at("repair").at("volume_cm3").get<double>(), 1);
+}
+
+TEST_F(Tool, ChecksAnOpenSheetAsRefusedAndThickensItOnRequest) {
+  std::ofstream(in("sheet.off"))
+      << "OFF\n4 2 0\n0 0 0\n20 0 0\n20 20 0\n0 20 0\n3 0 1 2\n3 0 2 3\n";
+  EXPECT_EQ(artus({"check", in("sheet.off")}).exit_code, 3);
+  const auto r = artus({"check", in("sheet.off"), "--thicken", "1", "--repaired", in("plate.ply")});
+  EXPECT_EQ(r.exit_code, 0) << r.out << r.err;
+  EXPECT_TRUE(std::filesystem::exists(in("plate.ply")));
+}
+
+TEST_F(Tool, ANeedleListsContiguousIntervalsAsJson) {
+  const auto r = artus({"needle", "-j", kSimple, "--entry", "200,0,0", "--tip", "0,0,0", "--json"});
+  ASSERT_EQ(r.exit_code, 0) << r.err;
+  const auto intervals = nlohmann::json::parse(r.out).at("intervals");
+  ASSERT_GE(intervals.size(), 2U);
+  EXPECT_EQ(intervals.front().at("region"), "outside");
+  for (std::size_t i = 1; i < intervals.size(); ++i)
+    EXPECT_EQ(intervals[i - 1].at("exit_mm"), intervals[i].at("entry_mm"));
+  EXPECT_NEAR(intervals.back().at("exit_mm").get<double>(), 200, 1e-6);
+}
+
+TEST_F(Tool, DrawsAnImageAnEnvelopeAndTheLabelsBesideIt) {
+  const auto image = artus({"image", "-j", kSimple, "--needle", "default", "-o", in("b.png"),
+                            "--plain", "--envelope", in("e.tiff"), "--json"});
+  ASSERT_EQ(image.exit_code, 0) << image.err;
+  EXPECT_TRUE(nlohmann::json::parse(image.out).contains("needle"));
+  const auto slice =
+      artus({"slice", "-j", kSimple, "-o", in("l.png"), "--ids", in("ids.png"), "--json"});
+  ASSERT_EQ(slice.exit_code, 0) << slice.err;
+  EXPECT_GE(nlohmann::json::parse(slice.out).at("regions").size(), 4U);
+  const cv::Mat bmode = cv::imread(in("b.png"), cv::IMREAD_UNCHANGED);
+  const cv::Mat ids = cv::imread(in("ids.png"), cv::IMREAD_UNCHANGED);
+  EXPECT_EQ(bmode.size(), ids.size());
+  EXPECT_EQ(ids.type(), CV_16UC1);
+  EXPECT_EQ(cv::imread(in("e.tiff"), cv::IMREAD_UNCHANGED).type(), CV_32FC1);
+}
+
+TEST_F(Tool, TheImageIsTheSameAtAnyNumberOfThreads) {
+  std::vector<cv::Mat> images;
+  for (const char* threads : {"1", "2", "7"}) {
+    const auto r = artus(
+        {"image", "-j", kSimple, "--needle", "default", "-o", in("b.png"), "--threads", threads});
+    ASSERT_EQ(r.exit_code, 0) << r.err;
+    images.push_back(cv::imread(in("b.png"), cv::IMREAD_UNCHANGED));
+  }
+  for (const auto& image : images) EXPECT_EQ(cv::norm(image, images[0], cv::NORM_INF), 0);
+}
+
+TEST_F(Tool, RunsTheMainJobWithAllItsFilesAndEveryClaimHolds) {
+  const auto r =
+      artus({"run", "three-injections", "-j", kSimple, "--out", in("run"), "--no-video", "--json"});
+  ASSERT_EQ(r.exit_code, 0) << r.out << r.err;
+  const auto summary = nlohmann::json::parse(r.out);
+  EXPECT_TRUE(summary.at("pass").get<bool>());
+  for (const char* file : {"trace.csv", "forces.png", "summary.json"})
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "run" / file)) << file;
+  ASSERT_GE(summary.at("images").size(), 4U);
+  for (const auto& image : summary.at("images"))
+    for (const char* kind : {"bmode", "labels"})
+      EXPECT_TRUE(std::filesystem::exists(folder_ / "run" / image.at(kind).get<std::string>()));
+}
+
+TEST_F(Tool, HelloPrintsANeedleAndAScanline) {
+  const auto r = test::run_process({ARTUS_HELLO, kSimple});
+  EXPECT_EQ(r.exit_code, 0) << r.err;
+  EXPECT_NE(r.out.find("cutting force"), std::string::npos);
+  EXPECT_NE(r.out.find("reflects"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace artus
