@@ -115,13 +115,15 @@ EdgeCounts count_edges(const SurfaceMesh& mesh) {
 bool PieceMeasure::is_pillow() const noexcept {
   // A plate a thousand times wider than thick still has 3e-4 here, so this is rounding only.
   constexpr double kNoVolume = 1e-7;
-  return is_closed && std::abs(signed_volume) <= kNoVolume * std::pow(area, 1.5);
+  return is_closed &&
+         (n_faces == 2 || std::abs(signed_volume) <= kNoVolume * std::pow(area, 1.5));
 }
 
 bool PieceMeasure::is_sheet() const noexcept {
   // A flat disc has rim^2 / area = 4 pi, every other flat sheet more; a half ball has 2 pi.
   constexpr double kFlatRim = 10;
   constexpr double kThin = 0.01;
+  if (n_faces < 3) return !is_closed;
   return !is_closed && rim_length * rim_length >= kFlatRim * area &&
          std::abs(signed_volume) <= kThin * std::pow(area, 1.5);
 }
