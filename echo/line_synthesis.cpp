@@ -2,6 +2,7 @@
 #include "echo/line_synthesis.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "echo/simd.h"
@@ -9,9 +10,17 @@
 namespace artus {
 namespace {
 
-constexpr std::size_t kStride = 4;  // samples between exact values of gain and texture
+constexpr std::size_t kStride = 4;   // samples between exact values of gain and texture
+constexpr double kSteepest = 0.12;   // cosine: beyond, a faceted normal says nothing more
+constexpr double kGlitter = 0.5;     // assumed: rms variation of a fully diffuse interface
+constexpr double kTailShare = 0.35;  // assumed: scattering just behind a rough interface
+constexpr float kTailDecay = 0.8F;   // per sample
+constexpr std::size_t kTailGap = 3;  // samples behind the surface
+constexpr std::size_t kTail = 16;    // samples
+constexpr float kSheet = 1.6F;       // texture above which a sheet reflects coherently
+constexpr double kSheetEcho = 1.5;   // assumed: coherent amplitude over scattered, per unit above
 
-/// gain = weight * a line from `from` to `to` over kStride samples.
+/// gain = weight * a line from node to node over kStride samples.
 ARTUS_SIMD
 void interpolate_gain(const float* nodes, const float* weight, float* gain,
                       std::size_t n) noexcept {
@@ -22,16 +31,27 @@ void interpolate_gain(const float* nodes, const float* weight, float* gain,
   }
 }
 
+/// Adds a smooth echo given at the nodes, a triangle of kStride samples to each side.
+void add_nodes(const float* nodes, const float* weight, float* re, std::size_t n) noexcept {
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t k = i / kStride;
+    const float t = static_cast<float>(i % kStride) * (1.0F / kStride);
+    re[i] += weight[i] * (nodes[k] + t * (nodes[k + 1] - nodes[k]));
+  }
+}
+
 }  // namespace
 
 LineSynthesis::LineSynthesis(const BeamShape& shape, const ScatterField& scatter,
-                             const TissueTexture& texture, const ImageSettings& settings) noexcept
+                             const TissueTexture& texture, const Transducer& transducer,
+                             const ImageSettings& settings) noexcept
     : shape_(&shape),
       scatter_(&scatter),
       texture_(&texture),
       speckle_(std::pow(10.0, settings.speckle_db / 20)),
       has_texture_(settings.texture),
-      n_planes_(settings.n_planes) {}
+      n_planes_(settings.n_planes),
+      pitch_(transducer.pitch()) {}
 
 void LineSynthesis::add_run(const BeamRun& run, const RegionAcoustics& region,
                             std::span<const float> weight, std::span<float> gain,
@@ -50,6 +70,8 @@ void LineSynthesis::add_run(const BeamRun& run, const RegionAcoustics& region,
   const double ratio = std::exp(slope * kStride);
   const std::size_t n_nodes = (n - 1) / kStride + 2;
   const auto nodes = gain.subspan(re.size(), n_nodes);
+  const auto sheets = gain.subspan(re.size() + n_nodes, n_nodes);
+  const auto facing = static_cast<float>(1 - cosine * cosine) * static_cast<float>(kSheetEcho);
   const bool textured = has_texture_ && texture_->has(region.kind);
   const LatticeWalk walk =
       textured ? texture_->make_walk(region, p_J, run.step_J * kStride) : LatticeWalk{};
@@ -57,8 +79,10 @@ void LineSynthesis::add_run(const BeamRun& run, const RegionAcoustics& region,
     const float factor =
         textured ? texture_->at(region.kind, walk, static_cast<std::uint32_t>(k)) : 1.0F;
     nodes[k] = static_cast<float>(value) * factor;
+    sheets[k] = static_cast<float>(value) * facing * std::max(0.0F, factor - kSheet);
   }
   interpolate_gain(nodes.data(), weight.data() + first, gain.data(), n);
+  if (textured) add_nodes(sheets.data(), weight.data() + first, re.data() + first, n);
   scatter_->add(scatter_->make_walk(p_J, run.step_J), gain.first(n), re.subspan(first, n),
                 im.subspan(first, n));
 }
@@ -71,31 +95,52 @@ void LineSynthesis::add_plane(int plane, const BeamTrace& trace,
   for (std::size_t i = 0; i < trace.n_runs; ++i) {
     add_run(trace.runs[i], regions[trace.runs[i].region], speckle, gain, re, im);
   }
-  for (std::size_t i = 0; i < trace.n_echoes; ++i) {
-    const BeamEcho& echo = trace.echoes[i];
-    if (!(echo.sample >= 0) || echo.sample >= static_cast<double>(re.size()) - 1) continue;
-    const auto at = static_cast<std::size_t>(echo.sample);
-    const auto t = static_cast<float>(echo.sample - static_cast<double>(at));
-    // Roughness glitters: part of the diffuse share varies with the place on the interface.
-    float one = 1;
-    float n_re = 0;
-    float n_im = 0;
-    scatter_->add(scatter_->make_walk(echo.p_J, Vec3::Zero()), {&one, 1}, {&n_re, 1}, {&n_im, 1});
-    const auto glitter = static_cast<float>(0.5 * echo.diffuse_share);
-    const float a = static_cast<float>(echo.amplitude) * share[at];
-    const float a_re = a * (1 + glitter * n_re);
-    const float a_im = a * glitter * n_im;
+  for (std::size_t i = 0; i < trace.n_echoes; ++i) add_echo(trace.echoes[i], share, re, im);
+}
+
+/// An interface seen by one beam: steep ones reach over several samples within the beam's pitch,
+/// and rough ones glitter and scatter on from just behind their surface.
+void LineSynthesis::add_echo(const BeamEcho& echo, std::span<const float> share,
+                             std::span<float> re, std::span<float> im) const {
+  const auto end = static_cast<double>(re.size()) - 1;
+  if (!(echo.sample >= 0) || echo.sample >= end) return;
+  const auto first = static_cast<std::size_t>(echo.sample);
+  const double slope =
+      std::sqrt(std::max(0.0, 1 - echo.cosine * echo.cosine)) / std::max(kSteepest, echo.cosine);
+  const int n = std::max(1, static_cast<int>(std::lround(pitch_ * slope / shape_->sample_depth())));
+  const std::array<float, 1> one{1};
+  std::array<float, 1> n_re{};
+  std::array<float, 1> n_im{};
+  scatter_->add(scatter_->make_walk(echo.p_J, Vec3::Zero()), one, n_re, n_im);
+  const auto glitter = static_cast<float>(kGlitter * echo.diffuse_share);
+  const float amplitude = static_cast<float>(echo.amplitude) * share[first];
+  const float a_re = amplitude * (1 + glitter * n_re[0]) / static_cast<float>(n);
+  const float a_im = amplitude * glitter * n_im[0] / static_cast<float>(n);
+  for (int k = 0; k < n; ++k) {
+    const double sample = echo.sample + k - 0.5 * (n - 1);
+    if (!(sample >= 0) || sample >= end) continue;
+    const auto at = static_cast<std::size_t>(sample);
+    const auto t = static_cast<float>(sample - static_cast<double>(at));
     re[at] += (1 - t) * a_re;
     re[at + 1] += t * a_re;
     im[at] += (1 - t) * a_im;
     im[at + 1] += t * a_im;
   }
+  const std::size_t from = first + kTailGap;
+  if (echo.diffuse_share < 0.05 || from >= re.size()) return;
+  std::array<float, kTail> gain{};
+  float value = amplitude * static_cast<float>(kTailShare * echo.diffuse_share);
+  for (float& g : gain) g = value, value *= kTailDecay;
+  const std::size_t length = std::min(gain.size(), re.size() - from);
+  scatter_->add(
+      scatter_->make_walk(echo.p_J + static_cast<double>(kTailGap) * echo.step_J, echo.step_J),
+      std::span(gain).first(length), re.subspan(from, length), im.subspan(from, length));
 }
 
 void LineSynthesis::synthesise(const BeamTracer& tracer, std::span<const RegionAcoustics> regions,
                                const Scanline& line, const Pose& X_JP, LineScratch& scratch,
                                std::span<float> re, std::span<float> im) const {
-  scratch.gain.resize(2 * re.size() + 8);
+  scratch.gain.resize(3 * re.size() + 16);
   std::fill(re.begin(), re.end(), 0.0F);
   std::fill(im.begin(), im.end(), 0.0F);
   tracer.trace_bent(X_JP * line.origin, X_JP.linear() * line.direction, scratch.central,

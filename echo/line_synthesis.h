@@ -30,7 +30,7 @@ class LineSynthesis {
  public:
   /// Requires: the references outlive this object.
   LineSynthesis(const BeamShape& shape, const ScatterField& scatter, const TissueTexture& texture,
-                const ImageSettings& settings) noexcept;
+                const Transducer& transducer, const ImageSettings& settings) noexcept;
 
   /// Fills (re, im), n_samples each, and leaves the central beam in `scratch`.
   void synthesise(const BeamTracer& tracer, std::span<const RegionAcoustics> regions,
@@ -43,12 +43,16 @@ class LineSynthesis {
   void add_run(const BeamRun& run, const RegionAcoustics& region, std::span<const float> weight,
                std::span<float> gain, std::span<float> re, std::span<float> im) const;
 
+  void add_echo(const BeamEcho& echo, std::span<const float> share, std::span<float> re,
+                std::span<float> im) const;
+
   const BeamShape* shape_;
   const ScatterField* scatter_;
   const TissueTexture* texture_;
   double speckle_;  // rms of muscle, mirror = 1
   bool has_texture_;
   int n_planes_;
+  double pitch_;  // m between scanlines
 };
 
 }  // namespace artus

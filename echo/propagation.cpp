@@ -96,9 +96,13 @@ bool BeamTracer::enter(Walk& walk, const TissueInterval& interval,
     const double strength = std::hypot(response.reflection, sheath);
     const double share = returned_share(roughness, cosine);
     const double diffuse = roughness * cosine;
-    trace.echoes[trace.n_echoes++] = {walk.sample,
-                                      strength * share * std::exp(walk.log_gain(spectrum_sigma_)),
-                                      share > 0 ? diffuse / share : 0, point};
+    BeamEcho& echo = trace.echoes[trace.n_echoes++];
+    echo.sample = walk.sample;
+    echo.amplitude = strength * share * std::exp(walk.log_gain(spectrum_sigma_));
+    echo.diffuse_share = share > 0 ? diffuse / share : 0;
+    echo.cosine = cosine;
+    echo.p_J = point;
+    echo.step_J = walk.wave * (sample_depth_ * to.speed / kDisplaySpeedOfSound);
   }
   if (to.opaque || response.transmission < 1e-4) return false;
   walk.log_transmission += std::log(response.transmission);
@@ -212,19 +216,21 @@ void BeamTracer::add_repeats(BeamTrace& trace) const noexcept {
   if (!trace.contact) {
     double amplitude = 1;
     for (int k = 0; k < kAirLines; ++k, amplitude *= kAirDecay) {
-      trace.echoes[trace.n_echoes++] = {1 + k * kAirPitch / sample_depth_, amplitude, 0,
-                                        Vec3::Zero()};
+      BeamEcho& echo = trace.echoes[trace.n_echoes++];
+      echo = BeamEcho{};
+      echo.sample = 1 + k * kAirPitch / sample_depth_;
+      echo.amplitude = amplitude;
     }
     return;
   }
   if (!reverberation_) return;
   const std::size_t n = trace.n_echoes;
   for (std::size_t i = 0; i < n && trace.n_echoes < BeamTrace::kMax; ++i) {
-    const BeamEcho& echo = trace.echoes[i];
-    if (echo.amplitude < kRepeatFrom || 2 * echo.sample >= n_samples_) continue;
-    trace.echoes[trace.n_echoes++] = {2 * echo.sample,
-                                      echo.amplitude * echo.amplitude * kFaceReflection,
-                                      echo.diffuse_share, echo.p_J};
+    BeamEcho repeat = trace.echoes[i];
+    if (repeat.amplitude < kRepeatFrom || 2 * repeat.sample >= n_samples_) continue;
+    repeat.sample *= 2;
+    repeat.amplitude *= repeat.amplitude * kFaceReflection;
+    trace.echoes[trace.n_echoes++] = repeat;
   }
 }
 

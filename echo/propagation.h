@@ -29,9 +29,11 @@ struct BeamRun {
 /// An echo of an interface.
 struct BeamEcho {
   double sample = 0;
-  double amplitude = 0;      ///< mirror = 1
-  double diffuse_share = 0;  ///< 0..1 of it comes from roughness and glitters
-  Vec3 p_J = Vec3::Zero();   ///< m
+  double amplitude = 0;        ///< mirror = 1
+  double diffuse_share = 0;    ///< 0..1 of it comes from roughness and glitters
+  double cosine = 1;           ///< of the incidence angle
+  Vec3 p_J = Vec3::Zero();     ///< m
+  Vec3 step_J = Vec3::Zero();  ///< m per sample, onward
 };
 
 /// Everything one beam meets on its way.

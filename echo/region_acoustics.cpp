@@ -75,6 +75,8 @@ std::vector<RegionAcoustics> make_region_acoustics(const CompiledJoint& joint,
     out.roughness = a.interface_roughness;
     out.opaque = out.impedance > kOpaqueAbove || out.impedance < kOpaqueBelow;
     out.fibre = region.fibre_axis;
+    // Septa of subcutaneous fat lie along the skin, which faces the joint's usual probe.
+    if (out.kind == TissueKind::fat) out.fibre = joint.X_JP_default.linear().col(2);
     table.push_back(out);
   }
   table[kOutside] = make_gel();

@@ -20,7 +20,7 @@ struct RegionAcoustics {
   double backscatter = 0;        ///< rms speckle amplitude, muscle across its fibres = 1
   double roughness = 0;          ///< 0 mirror .. 1 diffuse
   bool opaque = false;           ///< bone or gas: no sound returns from inside
-  Vec3 fibre = Vec3::Zero();     ///< frame J, unit; zero: isotropic
+  Vec3 fibre = Vec3::Zero();     ///< frame J, unit; zero: isotropic. Of fat: across its layers
 };
 
 /// One entry per region of the joint. Kinds follow the tissues' names (muscle, tendon, fat, nerve,

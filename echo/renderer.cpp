@@ -63,7 +63,7 @@ struct Renderer::Impl {
         scatter(settings.seed),
         noise(mix_bits(settings.seed)),
         texture(settings.seed),
-        synthesis(shape, scatter, texture, settings),
+        synthesis(shape, scatter, texture, transducer, settings),
         converter(transducer, settings),
         time_gain(make_time_gain(transducer, settings)),
         noise_gain(static_cast<std::size_t>(settings.n_samples),

@@ -22,8 +22,8 @@ struct Recipe {
 };
 
 constexpr std::array<Recipe, 4> kRecipes{{
-    {TissueKind::muscle, 0.22e-3, 2.2e-3, 8, 0.10, 4.5},
-    {TissueKind::fat, 0.55e-3, 0.55e-3, 8, 0.05, 6.0},
+    {TissueKind::muscle, 0.20e-3, 2.4e-3, 8, 0.09, 5.0},
+    {TissueKind::fat, 1.0e-3, 0.25e-3, 8, 0.06, 5.0},  // along: across the layers
     {TissueKind::tendon, 0.10e-3, 2.0e-3, 4, 0.25, 2.5},
     {TissueKind::nerve, 0.12e-3, 3.0e-3, 8, 0.18, 4.0},
 }};
