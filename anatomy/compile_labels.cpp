@@ -14,6 +14,8 @@ constexpr double kSpacingPerDistance = 2.5;    // of the facet distance
 constexpr double kSpacingPerThickness = 0.16;  // of the structure's thickness
 constexpr double kFinestPerDistance = 0.6;     // of the joint's facet distance
 constexpr double kBandPerSpacing = 3;
+constexpr double kFarSpacing =
+    0.4;  // of the joint's facet size, where constructs measure from afar
 // A triangle across a tube or plate must not be much longer than it is thick, and must stray from
 // its surface by a small part of its thickness.
 constexpr double kFacetPerThickness = 1.2;
@@ -121,11 +123,15 @@ class FieldMaker {
   DistanceField surface_field(const PreparedSurface& surface, const std::string& name,
                               const RegionSizing& size) const {
     const double spacing = spacing_of(file_, size, surface.thickness);
+    const double band = kBandPerSpacing * spacing;
+    Box around = grown(surface.tree.lower(), surface.tree.upper(), band);
+    auto field = DistanceField::compute(surface.tree, {intersection(box_, around), spacing, band});
     const auto needed = bands_.find(name);
-    const double band =
-        std::max(kBandPerSpacing * spacing, needed == bands_.end() ? 0.0 : needed->second);
-    const Box around = grown(surface.tree.lower(), surface.tree.upper(), band);
-    return DistanceField::compute(surface.tree, {intersection(box_, around), spacing, band});
+    if (needed == bands_.end() || needed->second <= band) return field;
+    const double coarse = std::min(needed->second / 2, kFarSpacing * file_.facet_size);
+    around = grown(surface.tree.lower(), surface.tree.upper(), needed->second);
+    field.extend(surface.tree, {intersection(box_, around), coarse, needed->second});
+    return field;
   }
 
   [[nodiscard]] bool is_ready(const Structure& s) const {

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
+
+#include <tbb/parallel_for.h>
 
 #include "core/check.h"
 
@@ -90,9 +93,9 @@ class LargestPart {
       n_[a] = static_cast<std::int64_t>(std::max(0.0, (box.upper[i] - box.lower[i]) / spacing)) + 2;
     }
     part_.assign(static_cast<std::size_t>(n_[0] * n_[1] * n_[2]), kOutsidePart);
-    for (std::int64_t i = 0; i < size(); ++i) {
+    tbb::parallel_for(std::int64_t{0}, size(), [&](std::int64_t i) {
       if (f(point(i)) < 0) part_[static_cast<std::size_t>(i)] = kUnseen;
-    }
+    });
     find_largest();
   }
 
@@ -171,9 +174,10 @@ class LargestPart {
 };
 
 Function keep_largest_part(const Function& f, const FieldSampling& sampling) {
-  return [f, part = LargestPart(f, sampling.box, sampling.spacing)](const Vec3& p) {
+  return [f, part = std::make_shared<const LargestPart>(f, sampling.box, sampling.spacing)](
+             const Vec3& p) {
     const double d = f(p);
-    return d >= 0 || part.contains(p) ? d : -d;
+    return d >= 0 || part->contains(p) ? d : -d;
   };
 }
 

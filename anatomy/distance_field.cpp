@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numeric>
 
 #include <tbb/blocked_range.h>
@@ -18,6 +19,7 @@ constexpr int kSide = kCells + 1;      // samples along an axis: blocks share th
 constexpr int kRow = kSide;            // stride of y
 constexpr int kPlane = kSide * kSide;  // stride of z
 constexpr int kBlock = kSide * kSide * kSide;
+constexpr double kClampSlack = 1e-6;  // relative, of samples stored as float
 constexpr std::int32_t kOut = -1;
 constexpr std::int32_t kIn = -2;
 
@@ -28,11 +30,11 @@ double signed_by_winding(const DistanceTree& tree, const Vec3& p, double distanc
 // A sample farther from the surface than the spacing has the sign of its neighbours, so the
 // winding number is computed only next to the surface.
 double signed_at(const DistanceTree& tree, const Vec3& p, double distance, double spacing,
-                 const float* before, int x, int y, int z) {
-  const std::array<std::pair<int, int>, 3> steps{{{x, 1}, {y, kRow}, {z, kPlane}}};
+                 const float* here, const std::array<int, 3>& i) {
+  const std::array<std::pair<int, int>, 3> steps{{{i[0], 1}, {i[1], kRow}, {i[2], kPlane}}};
   for (const auto& [index, stride] : steps) {
     if (index == 0) continue;
-    const double neighbour = static_cast<double>(*(before - stride));
+    const double neighbour = static_cast<double>(*(here - stride));
     if (std::max(std::abs(neighbour), distance) > 1.001 * spacing) {
       return std::copysign(distance, neighbour);
     }
@@ -42,17 +44,19 @@ double signed_at(const DistanceTree& tree, const Vec3& p, double distance, doubl
 
 void fill_from_tree(const DistanceTree& tree, double spacing, double band, const Vec3& corner,
                     float* out) {
-  for (int z = 0; z < kSide; ++z) {
-    for (int y = 0; y < kSide; ++y) {
-      double previous = band;
-      for (int x = 0; x < kSide; ++x) {
-        const Vec3 p = corner + spacing * Vec3(x, y, z);
-        const double distance = tree.distance(p, std::min(band, previous + 1.001 * spacing));
-        float* here = out + x + kRow * y + kPlane * z;
-        *here = static_cast<float>(signed_at(tree, p, distance, spacing, here, x, y, z));
-        previous = distance;
-      }
+  for (int i = 0; i < kBlock; ++i) {
+    const std::array<int, 3> index{i % kSide, i / kSide % kSide, i / kPlane};
+    constexpr std::array<int, 3> kStrides{1, kRow, kPlane};
+    float* here = out + i;
+    double bound = band;
+    for (std::size_t a = 0; a < 3; ++a) {
+      if (index[a] == 0) continue;
+      const double neighbour = std::abs(static_cast<double>(*(here - kStrides[a])));
+      bound = std::min(bound, neighbour + 1.001 * spacing);
     }
+    const Vec3 p = corner + spacing * Vec3(index[0], index[1], index[2]);
+    const double distance = tree.distance(p, bound);
+    *here = static_cast<float>(signed_at(tree, p, distance, spacing, here, index));
   }
 }
 
@@ -133,6 +137,15 @@ DistanceField DistanceField::compute(const std::function<double(const Vec3&)>& f
 }
 
 double DistanceField::value(const Vec3& p) const noexcept {
+  const double near = near_value(p);
+  return far_ && std::abs(near) >= band_ * (1 - kClampSlack) ? far_->value(p) : near;
+}
+
+void DistanceField::extend(const DistanceTree& tree, const FieldSampling& sampling) {
+  far_ = std::make_shared<const DistanceField>(compute(tree, sampling));
+}
+
+double DistanceField::near_value(const Vec3& p) const noexcept {
   const Vec3 q = (p - origin_) / spacing_;
   const std::array<double, 3> cell{std::floor(q[0]), std::floor(q[1]), std::floor(q[2])};
   for (std::size_t a = 0; a < 3; ++a) {

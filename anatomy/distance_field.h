@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "anatomy/distance_tree.h"
@@ -38,6 +39,10 @@ class DistanceField {
   [[nodiscard]] static DistanceField compute(const std::function<double(const Vec3&)>& function,
                                              const FieldSampling& sampling);
 
+  /// Adds a coarser field of a wider band for where this one is clamped: distances far from a
+  /// surface are smooth. Requires: `sampling.band` larger than this band.
+  void extend(const DistanceTree& tree, const FieldSampling& sampling);
+
   /// Signed distance at `p`, m. Cost: constant, tens of nanoseconds.
   [[nodiscard]] double value(const Vec3& p) const noexcept;
 
@@ -57,6 +62,7 @@ class DistanceField {
   using BlockSource = std::function<double(const Vec3&, double)>;
   using BlockFiller = std::function<void(const Vec3&, float*)>;
 
+  [[nodiscard]] double near_value(const Vec3& p) const noexcept;
   void layout(const FieldSampling& sampling);
   void sample(const BlockSource& at_centre, const BlockFiller& fill);
   [[nodiscard]] Vec3 block_corner(std::size_t block) const noexcept;
@@ -65,8 +71,9 @@ class DistanceField {
   double spacing_ = 1;
   double band_ = 0;
   std::array<int, 3> blocks_{0, 0, 0};
-  std::vector<std::int32_t> slots_;  // (nx, ny, nz), x fastest: sample block, or kOut, kIn
-  std::vector<float> samples_;       // (n_slots, 9, 9, 9), x fastest
+  std::vector<std::int32_t> slots_;           // (nx, ny, nz), x fastest: sample block, or kOut, kIn
+  std::shared_ptr<const DistanceField> far_;  // coarser, of a wider band
+  std::vector<float> samples_;                // (n_slots, 9, 9, 9), x fastest
 };
 
 }  // namespace artus

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace artus {
 namespace {
@@ -42,7 +43,12 @@ double squared_distance(const Vec3& p, const std::array<Vec3, 3>& t) {
 }
 
 double squared_distance_to_box(const Vec3& p, const Vec3& lower, const Vec3& upper) {
-  return (lower - p).cwiseMax(p - upper).cwiseMax(Vec3::Zero()).squaredNorm();
+  double sum = 0;
+  for (Eigen::Index a = 0; a < 3; ++a) {
+    const double d = std::max({lower[a] - p[a], p[a] - upper[a], 0.0});
+    sum += d * d;
+  }
+  return sum;
 }
 
 // Signed solid angle over 4 pi [VanOosterom1983] eq. 8.
@@ -123,24 +129,28 @@ void DistanceTree::build(std::uint32_t node, std::uint32_t first, std::uint32_t 
 double DistanceTree::distance(const Vec3& p, double bound) const {
   if (empty()) return bound;
   double best = bound * bound;
-  std::array<std::uint32_t, 64> stack{};
+  std::array<std::pair<double, std::uint32_t>, 64> stack{};
   std::size_t depth = 0;
-  stack[depth++] = 0;
+  stack[depth++] = {0, 0};
   while (depth > 0) {
-    const Node& node = nodes_[stack[--depth]];
-    if (squared_distance_to_box(p, node.lower, node.upper) >= best) continue;
+    const auto [nearest, index] = stack[--depth];
+    if (nearest >= best) continue;
+    const Node& node = nodes_[index];
     if (node.count > 0) {
       for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
         best = std::min(best, squared_distance(p, triangles_[i]));
       }
       continue;
     }
-    const Node& left = nodes_[node.first];
-    const Node& right = nodes_[node.first + 1];
-    const bool left_nearer = squared_distance_to_box(p, left.lower, left.upper) <=
-                             squared_distance_to_box(p, right.lower, right.upper);
-    stack[depth++] = left_nearer ? node.first + 1 : node.first;
-    stack[depth++] = left_nearer ? node.first : node.first + 1;
+    std::array<std::pair<double, std::uint32_t>, 2> children;
+    for (std::uint32_t k = 0; k < 2; ++k) {
+      const Node& child = nodes_[node.first + k];
+      children[k] = {squared_distance_to_box(p, child.lower, child.upper), node.first + k};
+    }
+    if (children[0].first < children[1].first) std::swap(children[0], children[1]);
+    for (const auto& child : children) {
+      if (child.first < best) stack[depth++] = child;
+    }
   }
   return std::sqrt(best);
 }
