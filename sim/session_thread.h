@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/check.h"
+
+namespace artus {
+
+/// Monotonic clock, ns.
+[[nodiscard]] ARTUS_REALTIME std::int64_t monotonic_ns() noexcept;
+
+/// Wake-ups on an absolute schedule: a slow tick does not shift those after it. A tick that is late
+/// by a period or more re-bases the schedule instead of being made up for in a burst.
+class PeriodicSchedule {
+ public:
+  /// Requires: rate > 0 Hz.
+  explicit PeriodicSchedule(double rate_hz) noexcept;
+  /// Sleeps until the next tick is due; returns how late it woke, ns.
+  std::int64_t wait() noexcept;
+  [[nodiscard]] std::int64_t period_ns() const noexcept { return period_; }
+  [[nodiscard]] std::uint64_t overruns() const noexcept { return overruns_; }
+
+ private:
+  std::int64_t period_;
+  std::int64_t due_;
+  std::uint64_t overruns_ = 0;
+};
+
+/// What the system was asked for on behalf of the calling thread.
+struct RealtimeWishes {
+  int fifo_priority = 0;  ///< SCHED_FIFO priority; 0: ordinary scheduling
+  bool lock_memory = false;
+  int cpu = -1;  ///< the one processor to run on; -1: any
+};
+
+/// Asks and returns what was refused, in words; a refusal is no failure.
+[[nodiscard]] std::vector<std::string> request_realtime(const RealtimeWishes& wishes);
+
+}  // namespace artus
