@@ -10,10 +10,11 @@ namespace artus {
 namespace {
 
 // Spacing of a field: fine enough that the trilinear surface strays less than the mesh does.
-constexpr double kSpacingPerDistance = 2.5;    // of the facet distance
+constexpr double kSpacingPerDistance = 5;      // of the facet distance
+constexpr double kSpacingPerSize = 0.25;       // of the facet size
 constexpr double kSpacingPerThickness = 0.16;  // of the structure's thickness
 constexpr double kFinestPerDistance = 0.6;     // of the joint's facet distance
-constexpr double kBandPerSpacing = 3;
+constexpr double kBandPerSpacing = 2.2;
 constexpr double kFarSpacing =
     0.4;  // of the joint's facet size, where constructs measure from afar
 // A triangle across a tube or plate must not be much longer than it is thick, and must stray from
@@ -40,7 +41,8 @@ RegionSizing sizing_of(const JointFile& file, const Structure& s, double thickne
 
 double spacing_of(const JointFile& file, const RegionSizing& size, double thickness) {
   const double wanted =
-      std::min(kSpacingPerDistance * size.facet_distance, kSpacingPerThickness * thickness);
+      std::min({kSpacingPerDistance * size.facet_distance, kSpacingPerSize * size.facet_size,
+                kSpacingPerThickness * thickness});
   return std::max(wanted, kFinestPerDistance * file.facet_distance);
 }
 

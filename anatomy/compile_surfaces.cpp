@@ -1,30 +1,48 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "anatomy/compile_surfaces.h"
 
-#include <cmath>
+#include <utility>
 
+#include <tbb/parallel_for.h>
+
+#include "anatomy/repair.h"
 #include "anatomy/surface_io.h"
 
 namespace artus {
 namespace {
 
+RepairOptions repair_options(const SurfaceFile& surface) {
+  RepairOptions options;
+  options.thicken = surface.thicken;
+  if (surface.repair == "wrap") options.wrap = WrapPolicy::always;
+  return options;
+}
+
+// The surface as it is, or closed by the smallest change that does it.
+Result<SurfaceMesh> repaired(SurfaceMesh mesh, const SurfaceFile& surface,
+                             StructureReport& report) {
+  if (surface.repair == "none") return mesh;
+  Result<RepairOutcome> outcome = repair_surface(mesh, repair_options(surface));
+  if (!outcome) return tl::unexpected(outcome.error());
+  for (const RepairAction& action : outcome->actions) report.repairs.push_back(action.message);
+  return std::move(outcome->mesh);
+}
+
 Result<PreparedSurface> prepare(const JointFile& file, const SurfaceFile& surface,
                                 StructureReport& report) {
   Result<SurfaceMesh> mesh = read_surface(file.surface_folder / surface.file, surface.unit);
   if (!mesh) return tl::unexpected(mesh.error());
+  mesh = repaired(std::move(*mesh), surface, report);
+  if (!mesh) return tl::unexpected(mesh.error());
   PreparedSurface prepared;
   prepared.mesh = std::move(*mesh);
-  if (signed_volume(prepared.mesh) < 0) {
-    for (Triangle& t : prepared.mesh.triangles) std::swap(t[1], t[2]);
-    report.repairs.emplace_back("turned inside out");
-  }
   report.surface_volume = signed_volume(prepared.mesh);
   const double area = surface_area(prepared.mesh);
-  prepared.thickness = area > 0 ? 2 * report.surface_volume / area : 0;
-  prepared.tree = DistanceTree(prepared.mesh);
-  if (!(prepared.thickness > 0)) {
+  if (!(report.surface_volume > 0 && area > 0)) {
     return fail(ErrorCode::defective, "it encloses no volume", report.name);
   }
+  prepared.thickness = 2 * report.surface_volume / area;
+  prepared.tree = DistanceTree(prepared.mesh);
   return prepared;
 }
 
@@ -39,17 +57,21 @@ Result<PreparedSurfaces> prepare_surfaces(const JointFile& file,
   if (!body) return tl::unexpected(body.error());
   prepared.body = std::move(*body);
   prepared.structures.resize(file.structures.size());
-  for (std::size_t i = 0; i < file.structures.size(); ++i) {
+  std::vector<std::optional<Error>> errors(file.structures.size());
+  tbb::parallel_for(std::size_t{0}, file.structures.size(), [&](std::size_t i) {
     const auto* surface = std::get_if<SurfaceFile>(&file.structures[i].shape);
-    if (surface == nullptr) continue;
+    if (surface == nullptr) return;
     Result<PreparedSurface> result = prepare(file, *surface, reports[i]);
     if (result) {
       prepared.structures[i] = std::move(*result);
-    } else if (result.error().code == ErrorCode::defective) {
-      reports[i].refused = result.error().message;
     } else {
-      return tl::unexpected(result.error());
+      errors[i] = result.error();
     }
+  });
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    if (!errors[i]) continue;
+    if (errors[i]->code != ErrorCode::defective) return tl::unexpected(*errors[i]);
+    reports[i].refused = errors[i]->message;
   }
   return prepared;
 }

@@ -13,7 +13,7 @@ namespace {
 constexpr std::uint32_t kLeafSize = 4;
 constexpr double kOpeningRatio = 2.3;
 
-// Closest point of a triangle by its Voronoi regions [Ericson2005] section 5.1.5.
+// Closest point of a triangle by its Voronoi regions [Ericson2004] section 5.1.5.
 double squared_distance(const Vec3& p, const std::array<Vec3, 3>& t) {
   const Vec3 ab = t[1] - t[0];
   const Vec3 ac = t[2] - t[0];
