@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 
 #include "core/check.h"
 
@@ -119,10 +120,23 @@ std::vector<RibbonStation> round_stations(const std::vector<TubeStation>& statio
   return flat;
 }
 
+// The union of the spans, so that it changes continuously where the nearest span changes.
+double round_value(const std::vector<RibbonStation>& path, const Vec3& p) {
+  double value = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+    const RibbonStation& a = path[i];
+    const RibbonStation& b = path[i + 1];
+    const Vec3 along = b.centre - a.centre;
+    const double t = std::clamp(along.dot(p - a.centre) / along.squaredNorm(), 0.0, 1.0);
+    const double radius = (1 - t) * a.half_width + t * b.half_width;
+    value = std::min(value, (a.centre + t * along - p).norm() - radius);
+  }
+  return value;
+}
+
 Field make_round(std::vector<RibbonStation> path) {
   return [path = std::move(path)](const Vec3& p) {
-    const RibbonStation s = find_foot(path, p).station;
-    return (p - s.centre).norm() - s.half_width;
+    return round_value(path, p);
   };
 }
 

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// The committed surface files of the generated joints: sound, small, and the generator's own.
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "anatomy/surface_io.h"
+#include "core/units.h"
+#include "tests/meshes/topology.h"
+
+#include "meshes/generate/shoulder.h"
+#include "meshes/generate/simple_shoulder.h"
+
+namespace artus {
+namespace {
+
+const std::filesystem::path kMeshes = std::filesystem::path(ARTUS_SOURCE_DIR) / "meshes";
+
+struct Bundled {
+  std::filesystem::path file;
+  Solid solid;
+  SurfaceMesh mesh;
+};
+
+std::vector<Bundled> read_bundled() {
+  std::vector<Bundled> all;
+  const auto add = [&](const char* joint, const std::vector<Solid>& solids) {
+    for (const Solid& solid : solids) {
+      const auto file = kMeshes / joint / "surfaces" / (solid.name + ".ply");
+      auto mesh = read_surface(file, kMillimetre);
+      EXPECT_TRUE(mesh) << mesh.error().to_string();
+      if (mesh) all.push_back({file, solid, std::move(*mesh)});
+    }
+  };
+  add("simple-shoulder", make_simple_shoulder({}));
+  add("shoulder", make_shoulder({}));
+  return all;
+}
+
+TEST(BundledSurfaces, EachIsClosedManifoldOutwardAndFreeOfSelfIntersections) {
+  for (const Bundled& b : read_bundled()) {
+    const Topology topology = compute_topology(b.mesh);
+    EXPECT_TRUE(topology.manifold) << b.file;
+    EXPECT_TRUE(topology.closed) << b.file;
+    EXPECT_TRUE(topology.outward) << b.file;
+    EXPECT_FALSE(topology.self_intersecting) << b.file;
+  }
+}
+
+TEST(BundledSurfaces, EachLiesOnTheGeneratorsSolid) {
+  for (const Bundled& b : read_bundled()) {
+    double worst_corner = 0;
+    for (const Vec3& v : b.mesh.vertices) {
+      worst_corner = std::max(worst_corner, std::abs(b.solid.field(v)));
+    }
+    double worst_middle = 0;
+    for (const Triangle& t : b.mesh.triangles) {
+      const Vec3 middle =
+          (b.mesh.vertices[t[0]] + b.mesh.vertices[t[1]] + b.mesh.vertices[t[2]]) / 3;
+      worst_middle = std::max(worst_middle, std::abs(b.solid.field(middle)));
+    }
+    EXPECT_LT(worst_corner, 0.3 * b.solid.facet_distance) << b.file;
+    EXPECT_LT(worst_middle, 3 * b.solid.facet_distance) << b.file;
+  }
+}
+
+TEST(BundledSurfaces, GeneratorGivesTheCommittedTriangles) {
+  for (const Bundled& b : read_bundled()) {
+    if (b.solid.name != "joint_fluid" && b.solid.name != "bone") continue;
+    const auto again = compute_surface(b.solid);
+    ASSERT_TRUE(again) << again.error().to_string();
+    ASSERT_TRUE(again->triangles == b.mesh.triangles) << b.file;
+    for (std::size_t i = 0; i < again->vertices.size(); ++i) {
+      EXPECT_LT((again->vertices[i] - b.mesh.vertices[i]).norm(), 1e-9) << b.file;
+    }
+  }
+}
+
+TEST(BundledSurfaces, AllTogetherStayUnder20MegabytesAndEachUnderOne) {
+  std::uintmax_t total = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(kMeshes)) {
+    if (!entry.is_regular_file()) continue;
+    EXPECT_LT(entry.file_size(), 1000000U) << entry.path();
+    total += entry.file_size();
+  }
+  EXPECT_LT(total, 20000000U);
+}
+
+TEST(BundledSurfaces, ShoulderHasTheSizeOfAnAdults) {
+  const auto volume_cm3 = [](const char* name) {
+    const auto mesh = read_surface(kMeshes / "shoulder/surfaces" / name, kMillimetre);
+    return mesh ? 1e6 * signed_volume(*mesh) : 0.0;
+  };
+  // The real shoulder of the atlas has 29, 110, 35 and 331 cm3; the bellies here end medially.
+  EXPECT_NEAR(volume_cm3("supraspinatus.ply"), 27, 6);
+  EXPECT_NEAR(volume_cm3("subscapularis.ply"), 50, 20);
+  EXPECT_NEAR(volume_cm3("deltoid.ply"), 280, 80);
+  EXPECT_NEAR(volume_cm3("subacromial_bursa.ply"), 5.5, 1.5);
+}
+
+TEST(BundledSurfaces, SimpleShouldersLayersHaveTheirThicknessEverywhere) {
+  const SimpleShoulderSize size;
+  const std::vector<Solid> solids = make_simple_shoulder(size);
+  const std::vector<double> inward{size.skin, size.muscle, size.bursa, size.tendon, size.cartilage};
+  for (std::size_t i = 0; i < inward.size(); ++i) {
+    const auto outer =
+        read_surface(kMeshes / "simple-shoulder/surfaces" / (solids[i].name + ".ply"), kMillimetre);
+    ASSERT_TRUE(outer);
+    for (const Vec3& v : outer->vertices) {
+      ASSERT_NEAR(solids[i + 1].field(v), inward[i], 1e-6) << solids[i].name;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace artus
