@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "sim/probe_experiment.h"
+
+#include <array>
+#include <cstdio>
+#include <fstream>
+
+#include <nlohmann/json.hpp>
+
+#include "sim/probe_experiment_list.h"
+
+namespace artus {
+namespace {
+
+namespace fs = std::filesystem;
+
+using Run = ProbeExperiment (*)(std::uint64_t);
+
+constexpr std::array<std::string_view, 3> kNames{"probe-isp", "probe-ssp", "probe-study"};
+constexpr std::array<Run, kNames.size()> kRuns{run_probe_isp, run_probe_ssp, run_probe_study};
+
+Result<void> write_text(const fs::path& file, const std::string& text) {
+  std::ofstream out(file, std::ios::binary);
+  out << text;
+  out.close();
+  if (!out) return fail(ErrorCode::unreadable, "cannot be written", file.string());
+  return {};
+}
+
+std::string markdown_row(const std::vector<std::string>& cells) {
+  std::string line = "|";
+  for (const std::string& cell : cells) line += " " + cell + " |";
+  return line + "\n";
+}
+
+std::string markdown_table(const ProbeTable& table) {
+  std::string text = markdown_row(table.header) + "|";
+  for (std::size_t i = 0; i < table.header.size(); ++i) text += "---|";
+  text += "\n";
+  for (const auto& row : table.rows) text += markdown_row(row);
+  return text + "\n";
+}
+
+ProbeTable observation_table(const ProbeExperiment& e) {
+  ProbeTable table{{"observation", "published", "artus", "difference", "verdict", "likely cause"},
+                   {}};
+  for (const ProbeObservation& o : e.observations) {
+    table.rows.push_back({o.what, o.published, fixed(o.artus, 3) + " " + o.unit, o.difference,
+                          o.reproduced ? "reproduced" : "refuted", o.cause});
+  }
+  return table;
+}
+
+std::string make_report(const ProbeExperiment& e) {
+  std::string text = "# " + e.name + "\n\n" + e.title + "\n\n";
+  if (!e.observations.empty()) text += markdown_table(observation_table(e));
+  if (!e.table.header.empty()) text += markdown_table(e.table);
+  ProbeTable claims{{"must hold", "value", "bound", "verdict"}, {}};
+  for (const Claim& c : e.claims) {
+    claims.rows.push_back({c.text, fixed(c.value, 4), c.bound, c.pass ? "pass" : "FAIL"});
+  }
+  return text + markdown_table(claims);
+}
+
+nlohmann::json make_verdict(const ProbeExperiment& e) {
+  nlohmann::json json = verdict(e.claims);
+  json["experiment"] = e.name;
+  json["title"] = e.title;
+  nlohmann::json list = nlohmann::json::array();
+  for (const ProbeObservation& o : e.observations) {
+    list.push_back({{"observation", o.what},
+                    {"published", o.published},
+                    {"artus", o.artus},
+                    {"unit", o.unit},
+                    {"difference", o.difference},
+                    {"verdict", o.reproduced ? "reproduced" : "refuted"},
+                    {"cause", o.cause}});
+  }
+  json["observations"] = list;
+  return json;
+}
+
+std::string make_csv(const ProbeTable& table) {
+  std::string text;
+  const auto add = [&text](const std::vector<std::string>& cells) {
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      text += (i == 0 ? "\"" : ",\"") + cells[i] + "\"";
+    }
+    text += "\n";
+  };
+  add(table.header);
+  for (const auto& row : table.rows) add(row);
+  return text;
+}
+
+Result<void> write_texts(const ProbeExperiment& e, const fs::path& folder) {
+  for (const ProbeTrace& trace : e.traces) {
+    const auto written =
+        write_text(folder / (e.name + "-" + trace.label + ".csv"), probe_csv(trace.rows));
+    if (!written) return written;
+  }
+  const ProbeTable table = e.observations.empty() ? e.table : observation_table(e);
+  const auto table_written = write_text(folder / (e.name + "-table.csv"), make_csv(table));
+  if (!table_written) return table_written;
+  const auto report = write_text(folder / "report.md", make_report(e));
+  if (!report) return report;
+  return write_text(folder / "verdict.json", make_verdict(e).dump(2) + "\n");
+}
+
+}  // namespace
+
+std::string fixed(double value, int digits) {
+  std::array<char, 64> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), "%.*f", digits, value);
+  return buffer.data();
+}
+
+std::span<const std::string_view> probe_experiments() noexcept {
+  return kNames;
+}
+
+Result<ProbeExperiment> run_probe_experiment(std::string_view name, std::uint64_t seed) {
+  std::string all;
+  for (std::size_t i = 0; i < kNames.size(); ++i) {
+    if (kNames[i] == name) return kRuns[i](seed);
+    all += (all.empty() ? "" : ", ") + std::string(kNames[i]);
+  }
+  return fail(ErrorCode::not_found,
+              "no probe experiment \"" + std::string(name) + "\"; there are " + all);
+}
+
+Result<void> write_probe_experiment(const ProbeExperiment& e, const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) return fail(ErrorCode::unreadable, error.message(), folder.string());
+  const auto texts = write_texts(e, folder);
+  if (!texts) return texts;
+  for (const NamedPlot& plot : e.plots) {
+    const auto drawn = write_plot(folder / plot.file, plot.plot);
+    if (!drawn) return drawn;
+  }
+  return {};
+}
+
+}  // namespace artus

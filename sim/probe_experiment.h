@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/result.h"
+#include "sim/claim.h"
+#include "sim/plot.h"
+#include "sim/probe_experiment_bench.h"
+
+namespace artus {
+
+/// One run of one law.
+struct ProbeTrace {
+  std::string label;
+  std::vector<ProbeRow> rows;
+};
+
+/// One published observation beside what artus measures.
+struct ProbeObservation {
+  std::string what;
+  std::string published;  ///< as the source states it
+  double artus = 0;       ///< measured
+  std::string unit;
+  std::string difference;  ///< in words and figures
+  bool reproduced = false;
+  std::string cause;  ///< of a difference; empty when there is none
+};
+
+/// A plot and the file it goes to.
+struct NamedPlot {
+  std::string file;  ///< without folder
+  Plot plot;
+};
+
+/// A table: header and rows of text cells.
+struct ProbeTable {
+  std::vector<std::string> header;
+  std::vector<std::vector<std::string>> rows;
+};
+
+/// What a probe experiment gave.
+struct ProbeExperiment {
+  std::string name;
+  std::string title;
+  std::vector<ProbeTrace> traces;
+  std::vector<NamedPlot> plots;
+  std::vector<ProbeObservation> observations;  ///< published against artus; none in the study
+  ProbeTable table;                            ///< of the study
+  std::vector<Claim> claims;                   ///< what must hold whatever was published
+};
+
+/// probe-isp, probe-ssp, probe-study.
+[[nodiscard]] std::span<const std::string_view> probe_experiments() noexcept;
+
+/// Runs one; deterministic for its seed. Errors: not_found.
+[[nodiscard]] Result<ProbeExperiment> run_probe_experiment(std::string_view name,
+                                                           std::uint64_t seed = 1);
+
+/// Writes <name>-<label>.csv, the plots, <name>-table.csv, report.md and verdict.json into
+/// `folder` (made when missing). Errors: unreadable, not_found (gnuplot; all other files are then
+/// written all the same).
+[[nodiscard]] Result<void> write_probe_experiment(const ProbeExperiment& experiment,
+                                                  const std::filesystem::path& folder);
+
+}  // namespace artus
