@@ -150,9 +150,8 @@ class Repair {
       const double width = share * options_.crack_width;
       for (std::size_t more = weld_cracks(mesh(), width); more > 0;
            more = weld_cracks(mesh(), width)) {
-        n += more;
+        n += more;  // each weld takes a vertex away, so this ends; pinches are split afterwards
         widest = width;
-        split_pinches(mesh());
       }
     }
     const auto width = with_number(" up to %.2g mm wide", widest / kMillimetre);
@@ -184,7 +183,14 @@ class Repair {
 
   Result<void> fill() {
     const double area_before = surface_area(mesh());
-    const Filling holes = fill_holes(mesh());
+    constexpr int kMostRounds = 4;
+    Filling holes;
+    for (int round = 0; round < kMostRounds; ++round) {  // a split may open what a fill had closed
+      const Filling more = fill_holes(mesh());
+      holes.n += more.n;
+      holes.area += more.area;
+      if (split_pinches(mesh()) == 0) break;
+    }
     if (holes.area > options_.largest_fill_share * area_before)
       return fail(ErrorCode::defective,
                   with_number("its openings are too large to be closed safely (%.0f %% of the ",
