@@ -15,6 +15,7 @@ constexpr double kSpacingPerSize = 0.25;       // of the facet size
 constexpr double kSpacingPerThickness = 0.16;  // of the structure's thickness
 constexpr double kFinestPerDistance = 0.6;     // of the joint's facet distance
 constexpr double kBandPerSpacing = 2.2;
+constexpr double kExtendedBandPerSpacing = 4;  // where a coarser field takes over
 constexpr double kFarSpacing =
     0.4;  // of the joint's facet size, where constructs measure from afar
 // A triangle across a tube or plate must not be much longer than it is thick, and must stray from
@@ -125,14 +126,16 @@ class FieldMaker {
   DistanceField surface_field(const PreparedSurface& surface, const std::string& name,
                               const RegionSizing& size) const {
     const double spacing = spacing_of(file_, size, surface.thickness);
-    const double band = kBandPerSpacing * spacing;
+    const auto needed = bands_.find(name);
+    const bool extended = needed != bands_.end();
+    const double band = (extended ? kExtendedBandPerSpacing : kBandPerSpacing) * spacing;
     Box around = grown(surface.tree.lower(), surface.tree.upper(), band);
     auto field = DistanceField::compute(surface.tree, {intersection(box_, around), spacing, band});
-    const auto needed = bands_.find(name);
-    if (needed == bands_.end() || needed->second <= band) return field;
-    const double coarse = std::min(needed->second / 2, kFarSpacing * file_.facet_size);
-    around = grown(surface.tree.lower(), surface.tree.upper(), needed->second);
-    field.extend(surface.tree, {intersection(box_, around), coarse, needed->second});
+    if (!extended) return field;
+    const double coarse = kFarSpacing * file_.facet_size;
+    const double reach = std::max(needed->second + 2 * coarse, band + coarse);
+    around = grown(surface.tree.lower(), surface.tree.upper(), reach);
+    field.extend(surface.tree, {intersection(box_, around), coarse, reach});
     return field;
   }
 

@@ -19,7 +19,7 @@ constexpr int kSide = kCells + 1;      // samples along an axis: blocks share th
 constexpr int kRow = kSide;            // stride of y
 constexpr int kPlane = kSide * kSide;  // stride of z
 constexpr int kBlock = kSide * kSide * kSide;
-constexpr double kClampSlack = 1e-6;  // relative, of samples stored as float
+constexpr double kClampReach = 1.74;  // spacings; nearer to the band a clamped sample may take part
 constexpr std::int32_t kOut = -1;
 constexpr std::int32_t kIn = -2;
 
@@ -138,7 +138,7 @@ DistanceField DistanceField::compute(const std::function<double(const Vec3&)>& f
 
 double DistanceField::value(const Vec3& p) const noexcept {
   const double near = near_value(p);
-  return far_ && std::abs(near) >= band_ * (1 - kClampSlack) ? far_->value(p) : near;
+  return far_ && std::abs(near) >= band_ - kClampReach * spacing_ ? far_->value(p) : near;
 }
 
 void DistanceField::extend(const DistanceTree& tree, const FieldSampling& sampling) {
