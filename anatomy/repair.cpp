@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kSquareCentimetre = 1e-4;  // m^2
 /// Untangling takes time that grows fast with these; above them the intersections stay.
-constexpr std::size_t kMostTangledPairs = 400;
+constexpr std::size_t kMostTangledPairs = 30;
 constexpr std::size_t kMostUntangledFaces = 60'000;
 
 std::string with_number(const char* format, double value) {
