@@ -1,23 +1,55 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "meshes/generate/surfacing.h"
 
-#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <utility>
+#include <vector>
 
 #include <CGAL/Complex_2_in_triangulation_3.h>
+#include <CGAL/Delaunay_triangulation_3.h>
+#include <CGAL/Delaunay_triangulation_cell_base_with_circumcenter_3.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/IO/facets_in_complex_2_to_triangle_mesh.h>
 #include <CGAL/Implicit_surface_3.h>
+#include <CGAL/Random.h>
+#include <CGAL/Robust_circumcenter_traits_3.h>
 #include <CGAL/Surface_mesh.h>
+#include <CGAL/Surface_mesh_cell_base_3.h>
 #include <CGAL/Surface_mesh_default_criteria_3.h>
-#include <CGAL/Surface_mesh_default_triangulation_3.h>
+#include <CGAL/Surface_mesh_vertex_base_3.h>
 #include <CGAL/boost/graph/helpers.h>
 #include <CGAL/make_surface_mesh.h>
 
 namespace artus {
 namespace {
 
-using Triangulation = CGAL::Surface_mesh_default_triangulation_3;
-using Traits = Triangulation::Geom_traits;
+// A vertex or cell that knows when it was made: CGAL then orders handles by age and not by memory
+// address, and the same solid gives the same triangles in every process.
+template <class Base>
+class Stamped : public Base {
+ public:
+  using Has_timestamp = CGAL::Tag_true;
+  // CGAL asks for these names.
+  template <class Tds>
+  struct Rebind_TDS {  // NOLINT(readability-identifier-naming)
+    using Other = Stamped<typename Base::template Rebind_TDS<Tds>::Other>;
+  };
+  using Base::Base;
+  [[nodiscard]] std::size_t time_stamp() const { return stamp_; }
+  void set_time_stamp(std::size_t stamp) { stamp_ = stamp; }
+
+ private:
+  std::size_t stamp_ = static_cast<std::size_t>(-1);  // in no container yet
+};
+
+using Traits =
+    CGAL::Robust_circumcenter_traits_3<CGAL::Exact_predicates_inexact_constructions_kernel>;
+using Vertex = Stamped<CGAL::Surface_mesh_vertex_base_3<Traits>>;
+using Cell = Stamped<CGAL::Delaunay_triangulation_cell_base_with_circumcenter_3<
+    Traits, CGAL::Surface_mesh_cell_base_3<Traits>>>;
+using Triangulation =
+    CGAL::Delaunay_triangulation_3<Traits, CGAL::Triangulation_data_structure_3<Vertex, Cell>>;
 using Point = Traits::Point_3;
 using Complex = CGAL::Complex_2_in_triangulation_3<Triangulation>;
 using Facets = CGAL::Surface_mesh<Point>;
@@ -25,6 +57,7 @@ using Facets = CGAL::Surface_mesh<Point>;
 // CGAL's default error bounds suit coordinates of the order of 1..1000, so it works in mm.
 constexpr double kMmPerM = 1e3;
 constexpr double kMinAngleDeg = 25;
+constexpr unsigned kSeed = 1;
 
 class FieldInMm {
  public:
@@ -74,6 +107,7 @@ Result<SurfaceMesh> compute_surface(const Solid& solid) {
       field, Traits::Sphere_3(Point(seed.x(), seed.y(), seed.z()), reach * reach), 1e-6);
   const CGAL::Surface_mesh_default_criteria_3<Triangulation> criteria(
       kMinAngleDeg, solid.facet_size * kMmPerM, solid.facet_distance * kMmPerM);
+  CGAL::get_default_random() = CGAL::Random(kSeed);  // draws the first points on the surface
   Triangulation triangulation;
   Complex complex(triangulation);
   CGAL::make_surface_mesh(complex, surface, criteria, CGAL::Manifold_tag());
