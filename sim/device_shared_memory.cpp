@@ -32,7 +32,7 @@ DeviceSample PosReader::accept(bool whole, const artus_shm_pos& pos, std::int64_
   const bool fresh = whole && pos.sample != number_;
   if (fresh) {
     number_ = pos.sample;
-    const auto age = now_ns - static_cast<std::int64_t>(pos.time_ns);
+    const auto age = static_cast<std::int64_t>(static_cast<std::uint64_t>(now_ns) - pos.time_ns);
     DeviceSample sample;
     sample.X_WN = plain_pose(pos.needle_position, pos.needle_rotation);
     sample.X_WP = plain_pose(pos.probe_position, pos.probe_rotation);
@@ -42,16 +42,18 @@ DeviceSample PosReader::accept(bool whole, const artus_shm_pos& pos, std::int64_
     sample.has_needle = (pos.present & ARTUS_SHM_NEEDLE) != 0 ? 1 : 0;
     sample.has_probe = (pos.present & ARTUS_SHM_PROBE) != 0 ? 1 : 0;
     constexpr std::int64_t kClockSlack = 1'000'000;  // ns between reading the clock here and there
-    const bool timely = age > -kClockSlack && age < kPeerTimeout;
-    sample.state = timely && is_believable(pos, sample) ? PeerState::alive : PeerState::invalid;
-    if (sample.state == PeerState::invalid) {
+    const bool sound = age > -kClockSlack && is_believable(pos, sample);
+    sample.state = !sound               ? PeerState::invalid
+                   : age < kPeerTimeout ? PeerState::alive
+                                        : PeerState::lost;
+    if (!sound) {
       sample.X_WN = last_.X_WN;
       sample.X_WP = last_.X_WP;
     }
     last_ = sample;
     heard_ns_ = now_ns;
   }
-  if (last_.state == PeerState::alive && now_ns - heard_ns_ >= kPeerTimeout) {
+  if (last_.state != PeerState::absent && now_ns - heard_ns_ >= kPeerTimeout) {
     last_.state = PeerState::lost;
   }
   return last_;

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "sim/session_core.h"
 
+#include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
 
 #include "core/noise.h"
+#include "core/units.h"
 #include "sim/device_shared_memory.h"
 #include "tests/sim/session_support.h"
 #include "tests/support/no_alloc.h"
@@ -54,13 +56,14 @@ TEST_F(SessionCore, ANeedleInMuscleFeelsForceAgainstInsertion) {
 TEST_F(SessionCore, ForcesAreTurnedIntoTheWorldWithTheJoint) {
   const double along_z = insert_to(15e-3).feedback.force[2];
   SessionParams turned = params_;
-  turned.X_WJ.linear() = Eigen::AngleAxisd(EIGEN_PI / 2, Vec3::UnitY()).toRotationMatrix();
+  turned.X_WJ.linear() = Eigen::AngleAxisd(90 * kDegree, Vec3::UnitY()).toRotationMatrix();
   HapticCore core(scene_, turned);
   HapticSnapshot out;
   std::uint64_t n = 0;
   for (double z = -10e-3; z < 15e-3 + 20e-6; z += 20e-6) {
     TickInput input;
-    input.device = test::sample_at(0, static_cast<std::int64_t>(++n) * kTick, n);
+    ++n;
+    input.device = test::sample_at(0, static_cast<std::int64_t>(n) * kTick, n);
     input.device.X_WN = to_plain(make_pose(Vec3(z, 0, 0), Vec3::UnitX(), Vec3::UnitY()));
     input.tick = n;
     out = core.step(input);
