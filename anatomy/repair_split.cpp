@@ -55,7 +55,10 @@ void pair_crowded(const SurfaceMesh& mesh, const EdgeUse* first, const EdgeUse* 
   std::size_t best_start = 0;
   for (std::size_t start = 0; start < (n % 2 == 0 ? 2 : n); ++start) {
     double sum = 0;
-    for (std::size_t k = 0; k + 1 < n; k += 2) sum += wedge(start + k);
+    for (std::size_t k = 0; k + 1 < n; k += 2) {
+      constexpr double kOutside = 0.5;  // rad; a wedge of air counts as wider than one of body
+      sum += wedge(start + k) + (around[(start + k) % n].second->is_forward ? kOutside : 0);
+    }
     if (sum >= best) continue;
     best = sum;
     best_start = start;
