@@ -60,6 +60,24 @@ void fill_from_tree(const DistanceTree& tree, double spacing, double band, const
   }
 }
 
+// A function made from clamped fields is small also far from its zero: looks closer, on a lattice
+// so dense that no zero fits between its points, and then says `bound` when there is none.
+double value_for_block(const std::function<double(const Vec3&)>& function, const Vec3& centre,
+                       double bound, double spacing) {
+  const double middle = function(centre);
+  if (std::abs(middle) >= bound) return middle;
+  constexpr int kHalf = kCells / 4;
+  constexpr int kPoints = 2 * kHalf + 1;
+  const double step = 2 * spacing;
+  for (int i = 0; i < kPoints * kPoints * kPoints; ++i) {
+    const Vec3 index(i % kPoints - kHalf, i / kPoints % kPoints - kHalf,
+                     i / (kPoints * kPoints) - kHalf);
+    const double value = function(centre + step * index);
+    if (std::abs(value) < kClampReach * spacing || (value < 0) != (middle < 0)) return middle;
+  }
+  return std::copysign(bound, middle);
+}
+
 }  // namespace
 
 void DistanceField::layout(const FieldSampling& sampling) {
@@ -125,14 +143,17 @@ DistanceField DistanceField::compute(const std::function<double(const Vec3&)>& f
                                      const FieldSampling& sampling) {
   DistanceField field;
   field.layout(sampling);
-  field.sample([&function](const Vec3& p, double) { return function(p); },
-               [&](const Vec3& corner, float* out) {
-                 for (int i = 0; i < kBlock; ++i) {
-                   const Vec3 index(i % kSide, i / kSide % kSide, i / kPlane);
-                   const double value = function(corner + field.spacing_ * index);
-                   out[i] = static_cast<float>(std::clamp(value, -field.band_, field.band_));
-                 }
-               });
+  field.sample(
+      [&](const Vec3& centre, double bound) {
+        return value_for_block(function, centre, bound, field.spacing_);
+      },
+      [&](const Vec3& corner, float* out) {
+        for (int i = 0; i < kBlock; ++i) {
+          const Vec3 index(i % kSide, i / kSide % kSide, i / kPlane);
+          const double value = function(corner + field.spacing_ * index);
+          out[i] = static_cast<float>(std::clamp(value, -field.band_, field.band_));
+        }
+      });
   return field;
 }
 
