@@ -72,7 +72,7 @@ ExitCode run_scenario(const RunOptions& options) {
   run_options.rate_hz = options.rate_hz;
   run_options.seed = options.view.seed;
   run_options.device = options.device;
-  const auto run = run_three_injections(scene, (*joint)->injections, run_options, progress);
+  const auto run = run_three_injections(*scene, (*joint)->injections, run_options, progress);
   if (!run) return report_error(run.error(), options.json);
   if (const auto written = write_three_injections(*run, options.out); !written)
     return report_error(written.error(), options.json);

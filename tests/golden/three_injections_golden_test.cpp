@@ -47,7 +47,7 @@ std::shared_ptr<const Scene> simple_shoulder() {
 const ThreeInjections& the_run() {
   static const ThreeInjections run = [] {
     const auto scene = simple_shoulder();
-    auto result = run_three_injections(scene, scene->joint().injections);
+    auto result = run_three_injections(*scene, scene->joint().injections);
     if (!result) throw std::runtime_error(result.error().to_string());
     return *std::move(result);
   }();
