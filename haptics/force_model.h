@@ -33,9 +33,10 @@ struct NeedleTick {
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();    ///< q_c
   Eigen::Quaterniond orientation_0 = Eigen::Quaterniond::Identity();  ///< q_0, when line stored
   Motion motion = Motion::still;
-  double dimple = 0;      ///< m a membrane that still holds is pushed in; 0: none
-  LayerHaptics membrane;  ///< the layer behind that membrane
-  LayerHaptics layer;     ///< the soft layer the tip is cutting
+  Vec3 surface_normal = -Vec3::UnitZ();  ///< of the skin where the needle crosses it, outward
+  double dimple = 0;                     ///< m a membrane that still holds is pushed in; 0: none
+  LayerHaptics membrane;                 ///< the layer behind that membrane
+  LayerHaptics layer;                    ///< the soft layer the tip is cutting
   double bone_depth = std::numeric_limits<double>::infinity();  ///< m, where a hard layer begins
   LayerHaptics bone;
   std::span<const ShaftLayer> shaft;  ///< the layers from the skin to the tip

@@ -25,6 +25,8 @@ const char* to_string(PrepunctureLaw law) noexcept {
       return "simone_okamura";
     case PrepunctureLaw::barbe:
       return "barbe";
+    case PrepunctureLaw::god_object:
+      return "god_object";
   }
   return "";
 }
@@ -39,12 +41,13 @@ Result<CuttingLaw> find_cutting_law(std::string_view name) {
 }
 
 Result<PrepunctureLaw> find_prepuncture_law(std::string_view name) {
-  for (const PrepunctureLaw law :
-       {PrepunctureLaw::membrane, PrepunctureLaw::simone_okamura, PrepunctureLaw::barbe}) {
+  for (const PrepunctureLaw law : {PrepunctureLaw::membrane, PrepunctureLaw::simone_okamura,
+                                   PrepunctureLaw::barbe, PrepunctureLaw::god_object}) {
     if (name == to_string(law)) return law;
   }
-  return fail(ErrorCode::not_found, "no pre-puncture law \"" + std::string(name) +
-                                        "\"; there are membrane, simone_okamura, barbe");
+  return fail(ErrorCode::not_found,
+              "no pre-puncture law \"" + std::string(name) +
+                  "\"; there are membrane, simone_okamura, barbe, god_object");
 }
 
 LayerTable::LayerTable(const CompiledJoint& joint, const LawSelection& laws,

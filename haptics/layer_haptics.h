@@ -15,7 +15,7 @@ namespace artus {
 enum class CuttingLaw { tracking_wall, direct, spring, voigt };
 
 /// Which law gives the force of a surface that dimples before it is punctured.
-enum class PrepunctureLaw { membrane, simone_okamura, barbe };
+enum class PrepunctureLaw { membrane, simone_okamura, barbe, god_object };
 
 /// The names that files and flags use. find_ forms are empty for an unknown name.
 [[nodiscard]] const char* to_string(CuttingLaw law) noexcept;

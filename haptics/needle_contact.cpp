@@ -127,6 +127,7 @@ void NeedleContact::approach(const Pose& X_JN, std::span<const TissueInterval> i
   tick_.axis = X_JN.linear().col(2);
   tick_.entry = tick_.tip - depth * tick_.axis;
   tick_.depth = depth;
+  tick_.surface_normal = intervals[first].entry_normal;
   store_layers(intervals, intervals[first].entry);
   if (was_outside_) {
     depths_.reset(0);

@@ -13,7 +13,10 @@ NeedleModel::NeedleModel(const NeedleParams& params, const LayerTable& table, do
       prepuncture_(params.prepuncture),
       friction_(params.friction),
       hard_(params.hard),
-      orientation_(params.orientation) {}
+      orientation_(params.orientation),
+      plasticity_(params.plasticity),
+      god_object_(params.prepuncture.god_object),
+      workspace_(params.workspace) {}
 
 void NeedleModel::reset() noexcept {
   contact_.reset();
@@ -40,6 +43,7 @@ void NeedleModel::start_laws() noexcept {
   hard_.reset(x);
   clamping_.reset(x);
   orientation_.reset(x);
+  plasticity_.reset(x);
 }
 
 double NeedleModel::cutting_force(const NeedleTick& tick) noexcept {
@@ -63,7 +67,14 @@ const NeedleForces& NeedleModel::step(const Pose& X_JN,
   contact_.update(X_JN, intervals);
   const NeedleTick& tick = contact_.tick();
   forces_ = NeedleForces{};
-  forces_.prepuncture = prepuncture_.step(tick).force.dot(tick.axis);
+  const bool proxy =
+      !contact_.inserted() && tick.membrane.prepuncture == PrepunctureLaw::god_object;
+  if (proxy) {
+    forces_.surface = god_object_.step(tick).force;
+  } else {
+    forces_.prepuncture = prepuncture_.step(tick).force.dot(tick.axis);
+  }
+  if (params_.use_workspace) forces_.workspace = workspace_.step(tick).force;
   if (contact_.inserted()) {
     constexpr std::uint32_t kNewLine =
         ContactEvent::kSkinPunctured | ContactEvent::kAdopted | ContactEvent::kRedirected;
@@ -73,12 +84,13 @@ const NeedleForces& NeedleModel::step(const Pose& X_JN,
     forces_.attracted = std::max(cutting, 0.0);
     forces_.friction = friction_.step(tick).force.dot(tick.axis);
     forces_.hard = hard_.step(tick).force.dot(tick.axis);
-    forces_.clamping = clamping_.step(tick).force;
+    forces_.clamping = params_.clamping == ClampingLaw::projection ? clamping_.step(tick).force
+                                                                   : plasticity_.step(tick).force;
     forces_.torque = orientation_.step(tick).torque;
   }
   const double axial =
       forces_.prepuncture + forces_.cutting + forces_.attracted + forces_.friction + forces_.hard;
-  forces_.total.force = axial * tick.axis + forces_.clamping;
+  forces_.total.force = axial * tick.axis + forces_.clamping + forces_.surface + forces_.workspace;
   forces_.total.torque = forces_.torque;
   return forces_;
 }

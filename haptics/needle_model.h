@@ -6,13 +6,18 @@
 #include "haptics/clamping.h"
 #include "haptics/classic_cutting.h"
 #include "haptics/hard_contact.h"
+#include "haptics/hemisphere_workspace.h"
 #include "haptics/lugre_friction.h"
 #include "haptics/needle_contact.h"
 #include "haptics/orientation_torque.h"
+#include "haptics/plasticity_fixture.h"
 #include "haptics/prepuncture.h"
 #include "haptics/tracking_wall.h"
 
 namespace artus {
+
+/// Which law holds the needle on its line.
+enum class ClampingLaw { projection, plasticity };
 
 /// The parameters of every force law and of the contact; each default has its source where it is
 /// declared.
@@ -24,6 +29,10 @@ struct NeedleParams {
   LugreParams friction;
   HardContactParams hard;
   OrientationParams orientation;
+  ClampingLaw clamping = ClampingLaw::projection;
+  PlasticityParams plasticity;
+  bool use_workspace = false;  ///< whether the hemisphere pushes
+  HemisphereParams workspace;
 };
 
 /// The components of one tick, apart. Axial values are along the insertion axis, N, positive into
@@ -33,10 +42,12 @@ struct NeedleForces {
   double cutting = 0;    ///< of the selected cutting law, also on bone
   double attracted = 0;  ///< the wall's resistance to withdrawal, >= 0
   double friction = 0;
-  double hard = 0;               ///< the tap on bone
-  Vec3 clamping = Vec3::Zero();  ///< N, frame J
-  Vec3 torque = Vec3::Zero();    ///< N m, frame J
-  Wrench total;                  ///< sum of the above, before any device limit
+  double hard = 0;                ///< the tap on bone
+  Vec3 clamping = Vec3::Zero();   ///< N, frame J
+  Vec3 surface = Vec3::Zero();    ///< N, frame J, of the god-object on the skin
+  Vec3 workspace = Vec3::Zero();  ///< N, frame J, of the hemisphere
+  Vec3 torque = Vec3::Zero();     ///< N m, frame J
+  Wrench total;                   ///< sum of the above, before any device limit
 };
 
 /// Everything the needle makes the hand feel: contact state and force laws, summed as eq. 1.1 of
@@ -76,6 +87,9 @@ class NeedleModel {
   HardContact hard_;
   Clamping clamping_;
   OrientationTorque orientation_;
+  PlasticityFixture plasticity_;
+  GodObject god_object_;
+  HemisphereWorkspace workspace_;
   NeedleForces forces_;
 };
 

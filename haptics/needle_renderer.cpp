@@ -7,13 +7,15 @@ namespace artus {
 
 NeedleRenderer::NeedleRenderer(std::shared_ptr<const Scene> scene, LayerTable table,
                                const NeedleParams& params, const GuardParams& guard,
-                               const DeviceLimits& device, double rate_hz)
+                               const DeviceLimits& device, double rate_hz,
+                               const PassivityParams& passivity)
     : scene_(std::move(scene)),
       table_(std::move(table)),
       dt_(1 / rate_hz),
       model_(params, table_, dt_),
       input_guard_(guard, dt_),
-      output_guard_(guard, device, dt_) {
+      output_guard_(guard, device, dt_),
+      passivity_(passivity, dt_) {
   ARTUS_REQUIRE(scene_ != nullptr, "there must be a scene");
   ARTUS_REQUIRE(rate_hz >= 100 && rate_hz <= 20000, "the rate must be 100 to 20000 Hz");
 }
@@ -28,8 +30,13 @@ const RenderedNeedle& NeedleRenderer::step(const TimedPose& pose) noexcept {
   } else {
     model_.reset();
     rendered_.forces = NeedleForces{};
+    passivity_.pause();
   }
-  rendered_.command = output_guard_.apply(rendered_.forces.total, faults, rendered_.status);
+  Wrench wanted = rendered_.forces.total;
+  if (faults == 0) wanted.force = passivity_.step(pose.X_JN.translation(), wanted.force);
+  rendered_.command = output_guard_.apply(wanted, faults, rendered_.status);
+  passivity_.observe(rendered_.command.force);
+  rendered_.energy_to_hand = passivity_.energy_to_hand();
   if ((rendered_.status & TickStatus::kFaults) != 0 && faults == 0) model_.reset();
   return rendered_;
 }

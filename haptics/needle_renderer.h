@@ -5,14 +5,16 @@
 
 #include "haptics/guard.h"
 #include "haptics/needle_model.h"
+#include "haptics/passivity.h"
 
 namespace artus {
 
 /// One tick's result: what to send, and why.
 struct RenderedNeedle {
-  Wrench command;            ///< within the device's limits, safe to send
-  NeedleForces forces;       ///< the components before limits; zero on a fault
-  std::uint32_t status = 0;  ///< TickStatus bits
+  Wrench command;             ///< within the device's limits, safe to send
+  NeedleForces forces;        ///< the components before limits; zero on a fault
+  std::uint32_t status = 0;   ///< TickStatus bits
+  double energy_to_hand = 0;  ///< J given since the start, by the passivity observer
 };
 
 /// The complete haptic tick of the needle against one scene: input guard, scene query, force laws,
@@ -21,7 +23,8 @@ class NeedleRenderer {
  public:
   /// Requires: a scene; rate in [100, 20000] Hz.
   NeedleRenderer(std::shared_ptr<const Scene> scene, LayerTable table, const NeedleParams& params,
-                 const GuardParams& guard, const DeviceLimits& device, double rate_hz);
+                 const GuardParams& guard, const DeviceLimits& device, double rate_hz,
+                 const PassivityParams& passivity = {});
   NeedleRenderer(const NeedleRenderer&) = delete;
   NeedleRenderer& operator=(const NeedleRenderer&) = delete;
 
@@ -40,6 +43,7 @@ class NeedleRenderer {
   NeedleModel model_;
   InputGuard input_guard_;
   OutputGuard output_guard_;
+  PassivityObserver passivity_;
   std::array<TissueInterval, kMaxIntervals> intervals_{};
   RenderedNeedle rendered_;
 };

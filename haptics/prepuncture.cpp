@@ -16,6 +16,8 @@ double prepuncture_force(const PrepunctureParams& params, const LayerHaptics& la
     case PrepunctureLaw::barbe:
       return std::max(0.0,
                       params.barbe.mu * std::pow(d, params.barbe.n) + params.barbe.lambda * d * v);
+    case PrepunctureLaw::god_object:
+      return params.god_object.stiffness * d;
     case PrepunctureLaw::membrane:
       break;
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 #include "haptics/force_model.h"
+#include "haptics/god_object.h"
 
 namespace artus {
 
@@ -29,6 +30,7 @@ struct PrepunctureParams {
   MembraneParams membrane;
   SimoneOkamuraParams simone_okamura;
   BarbeParams barbe;
+  GodObjectParams god_object;  ///< skin only; deeper membranes take the same spring axially
 };
 
 /// The force against insertion, >= 0 N, of a surface pushed in by `d` m at speed `v` m/s (inward),

@@ -10,7 +10,6 @@ namespace {
 using Kind = OperatorPhase::Kind;
 using Goal = OperatorPhase::Goal;
 
-constexpr double kRelaxTime = 0.1;      // s for a hand to stop pushing; assumed
 constexpr double kBoneFeelTime = 0.03;  // s of full force until the operator is sure; assumed
 constexpr double kBoneShare = 0.99;     // of the bone's force counts as full
 
@@ -18,9 +17,6 @@ constexpr double kBoneShare = 0.99;     // of the bone's force counts as full
 double smooth(double s) noexcept {
   s = std::clamp(s, 0.0, 1.0);
   return s * s * (3 - 2 * s);
-}
-double smooth_rate(double s) noexcept {
-  return s < 0 || s > 1 ? 0 : 6 * s * (1 - s);
 }
 }  // namespace
 
@@ -35,7 +31,9 @@ InjectionOperator::InjectionOperator(const Vec3& entry, const Vec3& direction, d
 
 void InjectionOperator::begin_phase(double time, double depth) {
   phase_time_ = time;
-  hold_target_ = depth;
+  const bool stays = index_ < phases_.size() &&
+                     (phases_[index_].kind == Kind::hold || phases_[index_].kind == Kind::let_go);
+  if (started_ && stays) reference_ = depth;
   turn_from_ = direction_;
   bone_time_ = -1;
 }
@@ -48,6 +46,7 @@ bool InjectionOperator::goal_met(const OperatorPhase& phase, double time, double
   switch (phase.kind) {
     case Kind::hold:
     case Kind::turn:
+    case Kind::let_go:
     case Kind::wait_outside:
       return elapsed >= phase.duration;
     case Kind::withdraw:
@@ -77,8 +76,8 @@ const OperatorPhase* InjectionOperator::observe(double time, const Pose& X_JN,
   if (done()) return nullptr;
   const double depth = (X_JN.translation() - entry_).dot(direction_);
   if (!started_) {
-    started_ = true;
     begin_phase(time, depth);
+    started_ = true;
   }
   const OperatorPhase& phase = phases_[index_];
   const bool met = goal_met(phase, time, depth, model);
@@ -94,6 +93,7 @@ const OperatorPhase* InjectionOperator::observe(double time, const Pose& X_JN,
   }
   ++index_;
   const double along = (X_JN.translation() - entry_).dot(direction_);
+  if (phase.kind == Kind::let_go) reference_ = along;
   begin_phase(time, along);
   return &phase;
 }
@@ -110,9 +110,9 @@ Intention InjectionOperator::intention(double t) const noexcept {
       speed = phase.kind == Kind::advance ? phase.speed : -phase.speed;
       reference += speed * elapsed;
     } else if (phase.kind == Kind::hold) {
-      const double share = elapsed / kRelaxTime;
-      reference += (hold_target_ - reference_) * smooth(share);
-      speed = (hold_target_ - reference_) * smooth_rate(share) / kRelaxTime;
+      want.hold = true;
+    } else if (phase.kind == Kind::let_go) {
+      want.grip = false;
     } else if (phase.kind == Kind::turn) {
       const double share = smooth(elapsed / std::max(phase.duration, 1e-3));
       const Eigen::Quaterniond turn =

@@ -10,7 +10,7 @@ namespace artus {
 
 /// One thing the simulated operator does with the needle.
 struct OperatorPhase {
-  enum class Kind { advance, withdraw, hold, turn, wait_outside };
+  enum class Kind { advance, withdraw, hold, turn, let_go, wait_outside };
   enum class Goal { depth, region, bone };
   Kind kind = Kind::hold;
   Goal goal = Goal::depth;
@@ -49,7 +49,6 @@ class InjectionOperator {
   Vec3 turn_from_;  // direction at the start of a turn
   Vec3 x_hint_;
   double reference_;  // m along the line at phase_time_
-  double hold_target_ = 0;
   double phase_time_ = 0;
   double bone_time_ = -1;  // s, since when the bone's full force is felt
   std::vector<OperatorPhase> phases_;

@@ -44,7 +44,8 @@ class NeedleLoop {
     const Vec3 before = device_.motion().X_JN.translation();
     for (int i = 0; i < steps_; ++i) {
       const double t = start + i * h;
-      const Wrench hand = hand_.wrench(t, intend(t), device_.motion());
+      felt_ += h / hand_.params().reflex_time * (motor.force - felt_);
+      const Wrench hand = hand_.wrench(t, intend(t), device_.motion(), felt_);
       hand_force_ = hand.force;
       device_.step(hand, motor, h);
       energy_ += motor.torque.dot(device_.motion().angular_velocity) * h;
@@ -59,6 +60,7 @@ class NeedleLoop {
   SimulatedHand hand_;
   SimulatedDevice device_;
   Vec3 hand_force_ = Vec3::Zero();
+  Vec3 felt_ = Vec3::Zero();
   double energy_ = 0;
   long ticks_ = 0;
 };

@@ -33,14 +33,16 @@ Vec3 SimulatedHand::tremor(double t) const noexcept {
   return sum * (params_.tremor_rms * std::sqrt(2.0 / kSines));
 }
 
-Wrench SimulatedHand::wrench(double t, const Intention& intention,
-                             const NeedleMotion& needle) const noexcept {
+Wrench SimulatedHand::wrench(double t, const Intention& intention, const NeedleMotion& needle,
+                             const Vec3& felt) const noexcept {
   if (!intention.grip) return {};
   const Vec3 off = intention.X_JN.translation() + tremor(t) - needle.X_JN.translation();
   const Vec3 turn = orientation_error(Eigen::Quaterniond(needle.X_JN.linear()),
                                       Eigen::Quaterniond(intention.X_JN.linear()));
-  return {params_.stiffness * off + params_.damping * (intention.velocity - needle.velocity),
-          params_.turn_stiffness * turn - params_.turn_damping * needle.angular_velocity};
+  const Vec3 balance = intention.hold ? Vec3(-felt) : Vec3(Vec3::Zero());
+  return {
+      params_.stiffness * off + params_.damping * (intention.velocity - needle.velocity) + balance,
+      params_.turn_stiffness * turn - params_.turn_damping * needle.angular_velocity};
 }
 
 }  // namespace artus

@@ -20,6 +20,7 @@ struct HandParams {
   double tremor_rms = 20e-6;   ///< m per axis; [Riviere1996]: tens of micrometres in surgery
   double tremor_low_hz = 8;    ///< Hz
   double tremor_high_hz = 12;  ///< Hz
+  double reflex_time = 0.03;   ///< s, lag of balancing what is felt; a spinal reflex's, assumed
   std::uint64_t seed = 1;
 };
 
@@ -27,6 +28,7 @@ struct HandParams {
 struct Intention {
   Pose X_JN = Pose::Identity();  ///< intended needle pose
   Vec3 velocity = Vec3::Zero();  ///< m/s, of the intended tip
+  bool hold = false;             ///< means to stay: also balances what it feels
   bool grip = true;              ///< false: let go
 };
 
@@ -41,9 +43,10 @@ class SimulatedHand {
  public:
   explicit SimulatedHand(const HandParams& params);
 
-  /// What the hand does to the needle at time `t`, s.
-  [[nodiscard]] Wrench wrench(double t, const Intention& intention,
-                              const NeedleMotion& needle) const noexcept;
+  /// What the hand does to the needle at time `t`, s. `felt`: N, the device's force as felt,
+  /// lagged.
+  [[nodiscard]] Wrench wrench(double t, const Intention& intention, const NeedleMotion& needle,
+                              const Vec3& felt = Vec3::Zero()) const noexcept;
 
   /// The tremor's displacement at `t`, m: a sum of sines in the band, a pure function of the seed.
   [[nodiscard]] Vec3 tremor(double t) const noexcept;

@@ -10,6 +10,7 @@
 #include "core/progress.h"
 #include "sim/claim.h"
 #include "sim/needle_trace.h"
+#include "sim/plateau.h"
 #include "sim/simulated_hand.h"
 
 namespace artus {
@@ -37,17 +38,6 @@ struct NamedMoment {
   int pass = 0;       ///< which injection, from 1
   Pose X_JN = Pose::Identity();
   Pose X_JP = Pose::Identity();  ///< probe on the skin, its plane through the insertion line
-};
-
-/// The cutting component where a layer's force has built up.
-struct LayerPlateau {
-  std::string tissue;
-  double expected = 0;   ///< N, the tissue's cutting force
-  double mean = 0;       ///< N, over the plateau's rows
-  double least = 0;      ///< N
-  double most = 0;       ///< N
-  std::size_t rows = 0;  ///< 0: the layer is thinner than its rise
-  double rise = 0;       ///< m, over which the force built up
 };
 
 /// One touch of bone.

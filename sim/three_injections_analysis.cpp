@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <utility>
+#include <vector>
 
 #include "core/units.h"
 
@@ -11,67 +12,7 @@ namespace artus {
 namespace {
 
 constexpr double kPlateauShare = 0.02;    // the published layer forces hold within this
-constexpr double kAfterRise = 0.1e-3;     // m past the rise before the plateau counts
 constexpr double kNeedleAlongBeam = 0.2;  // sine of the angle below which no plane is defined
-
-bool cuts(ContactState state) noexcept {
-  return state == ContactState::inserting || state == ContactState::bone;
-}
-
-// Collects the rows in which a layer's force has built up: from where the tip entered the layer (or
-// set off again in it) over the distance that its stiffness needs.
-class PlateauFinder {
- public:
-  PlateauFinder(const CompiledJoint& joint, const PatientProfile& patient)
-      : joint_(&joint), patient_(patient) {}
-
-  void add(const NeedleRow& row) {
-    if (!cuts(row.state) || row.region >= joint_->regions.size()) {
-      going_ = false;
-      return;
-    }
-    const Haptic& haptic = joint_->tissue_of(row.region).haptic;
-    const double level = haptic.cutting_force * patient_.cutting;
-    if (!going_ || row.region != region_) {
-      going_ = true;
-      region_ = row.region;
-      const double missing = std::max(0.0, level + row.forces.cutting);
-      from_ = row.depth;
-      rise_ = missing / std::max(haptic.wall_stiffness, 1e-6);
-    }
-    LayerPlateau& p = found_[joint_->tissue_of(row.region).name];
-    p.rise = std::max(p.rise, rise_);
-    if (row.depth < from_ + rise_ + kAfterRise) return;
-    const double force = -row.forces.cutting;
-    p.least = p.rows == 0 ? force : std::min(p.least, force);
-    p.most = p.rows == 0 ? force : std::max(p.most, force);
-    p.mean += force;
-    ++p.rows;
-  }
-
-  [[nodiscard]] std::vector<LayerPlateau> plateaus() const {
-    std::vector<LayerPlateau> out;
-    for (const Tissue& tissue : joint_->tissues) {
-      const auto found = found_.find(tissue.name);
-      if (found == found_.end()) continue;
-      LayerPlateau p = found->second;
-      p.tissue = tissue.name;
-      p.expected = tissue.haptic.cutting_force * patient_.cutting;
-      if (p.rows > 0) p.mean /= static_cast<double>(p.rows);
-      out.push_back(p);
-    }
-    return out;
-  }
-
- private:
-  const CompiledJoint* joint_;
-  PatientProfile patient_;
-  bool going_ = false;
-  RegionId region_ = kOutside;
-  double from_ = 0;
-  double rise_ = 0;
-  std::map<std::string, LayerPlateau> found_;
-};
 
 std::vector<BoneTouch> find_touches(const std::vector<NeedleRow>& rows) {
   std::vector<BoneTouch> touches;
@@ -163,7 +104,13 @@ Pose probe_in_plane(const Scene& scene, const Pose& X_JN) {
 }
 
 void analyze(const CompiledJoint& joint, bool reached, ThreeInjections& run) {
-  PlateauFinder finder(joint, run.options.patient);
+  std::vector<PlateauFinder::Layer> layers;
+  for (const Region& region : joint.regions) {
+    const Tissue& tissue = joint.tissues[region.tissue];
+    layers.push_back({tissue.name, tissue.haptic});
+    layers.back().haptic.cutting_force *= run.options.patient.cutting;
+  }
+  PlateauFinder finder(std::move(layers));
   for (const NeedleRow& row : run.rows) finder.add(row);
   run.plateaus = finder.plateaus();
   run.touches = find_touches(run.rows);
