@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "echo/frame.h"
+#include "echo/image_settings.h"
+#include "echo/needle_view.h"
+#include "raycast/scene.h"
+#include "tests/support/layered_body.h"
+
+namespace artus::test {
+
+/// A layered block, 80 mm x 60 mm, its top in z = 0; `change` edits the joint before it is indexed.
+[[nodiscard]] std::shared_ptr<const Scene> make_block_scene(
+    std::span<const FlatLayer> layers, const std::function<void(CompiledJoint&)>& change = {});
+
+/// The acoustic values of a tissue of the joint. Requires: there is one of this name.
+[[nodiscard]] Acoustic& acoustic_of(CompiledJoint& joint, const std::string& tissue);
+
+/// Settings that show bare physics: no compensation, texture, repeats, downshift or noise.
+[[nodiscard]] ImageSettings bare_settings();
+
+/// A probe on the block's top looking along +z, moved by (x, y, z) m.
+[[nodiscard]] Pose probe_at(double x = 0, double y = 0, double z = 0);
+
+/// A needle whose tip is at (x, y, z) of the probe's frame, dipping by `angle` rad toward +x.
+[[nodiscard]] NeedleView needle_at(const Pose& X_JP, const Vec3& tip_P, double angle);
+
+/// Mean intensity (squared envelope) of the samples from depth `from` to `to`, m, of every line.
+[[nodiscard]] double mean_intensity(const Frame& frame, double from, double to);
+
+/// Sample of the largest envelope between two depths on one line.
+[[nodiscard]] int find_peak(const Frame& frame, int line, double from, double to);
+
+/// One line's envelope.
+[[nodiscard]] std::span<const float> envelope_line(const Frame& frame, int line);
+
+/// 20 log10.
+[[nodiscard]] double decibel(double amplitude);
+
+}  // namespace artus::test
