@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "sim/experiment.h"
+
+#include <array>
+#include <fstream>
+
+#include <nlohmann/json.hpp>
+
+#include "haptics/device.h"
+#include "sim/experiment_list.h"
+
+namespace artus {
+namespace {
+
+using Run = Experiment (*)(const ExperimentOptions&, const DeviceLimits&);
+
+constexpr std::array<std::string_view, 11> kNames{
+    "wall-vs-classic", "wall-move",           "wall-stop",      "wall-both",
+    "wall-nine",       "wall-seven",          "clamp-redirect", "wall-energy",
+    "rates",           "velocity-estimators", "layer-changes"};
+constexpr std::array<Run, kNames.size()> kRuns{
+    run_wall_vs_classic, run_wall_move,           run_wall_stop,      run_wall_both,
+    run_wall_nine,       run_wall_seven,          run_clamp_redirect, run_wall_energy,
+    run_rates,           run_velocity_estimators, run_layer_changes};
+
+void add_cells(std::string& out, const std::vector<std::string>& cells) {
+  for (std::size_t i = 0; i < cells.size(); ++i) out += (i == 0 ? "" : ",") + cells[i];
+  out += '\n';
+}
+
+Result<void> write_text(const std::filesystem::path& file, const std::string& text) {
+  std::ofstream out(file, std::ios::binary);
+  out << text;
+  out.close();
+  if (!out) return fail(ErrorCode::unreadable, "cannot be written", file.string());
+  return {};
+}
+
+}  // namespace
+
+std::span<const std::string_view> needle_experiments() noexcept {
+  return kNames;
+}
+
+Result<Experiment> run_needle_experiment(std::string_view name, const ExperimentOptions& options) {
+  const Result<DeviceLimits> device = find_device(options.device);
+  if (!device) return tl::unexpected<Error>(device.error());
+  std::string all;
+  for (std::size_t i = 0; i < kNames.size(); ++i) {
+    if (kNames[i] == name) {
+      Experiment experiment = kRuns[i](options, *device);
+      experiment.name = name;
+      return experiment;
+    }
+    all += (all.empty() ? "" : ", ") + std::string(kNames[i]);
+  }
+  return fail(ErrorCode::not_found,
+              "no experiment \"" + std::string(name) + "\"; there are " + all);
+}
+
+Result<void> write_experiment(const Experiment& e, const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) return fail(ErrorCode::unreadable, error.message(), folder.string());
+  for (const ExperimentTrace& trace : e.traces) {
+    const std::string file = e.name + (trace.label.empty() ? "" : "-" + trace.label) + ".csv";
+    const auto written = write_needle_csv(folder / file, trace.rows, trace.region_names);
+    if (!written) return written;
+  }
+  if (!e.table.header.empty()) {
+    std::string text;
+    add_cells(text, e.table.header);
+    for (const auto& row : e.table.rows) add_cells(text, row);
+    const auto written = write_text(folder / (e.name + "-table.csv"), text);
+    if (!written) return written;
+  }
+  nlohmann::json json = verdict(e.claims);
+  json["experiment"] = e.name;
+  json["title"] = e.title;
+  const auto written = write_text(folder / "verdict.json", json.dump(2) + "\n");
+  if (!written) return written;
+  return write_plot(folder / (e.name + ".png"), e.plot);
+}
+
+Result<std::vector<Claim>> run_experiment(std::string_view name,
+                                          const std::filesystem::path& folder,
+                                          const ExperimentOptions& options) {
+  const Result<Experiment> experiment = run_needle_experiment(name, options);
+  if (!experiment) return tl::unexpected<Error>(experiment.error());
+  const Result<void> written = write_experiment(*experiment, folder);
+  if (!written) return tl::unexpected<Error>(written.error());
+  return experiment->claims;
+}
+
+}  // namespace artus

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sim/claim.h"
+#include "sim/needle_trace.h"
+#include "sim/plot.h"
+
+namespace artus {
+
+struct ExperimentOptions {
+  std::uint64_t seed = 1;
+  std::string device = "virtuose_6d_desktop";  ///< a name of device_table()
+};
+
+/// A trace of an experiment that has one or several.
+struct ExperimentTrace {
+  std::string label;  ///< part of the file name; may be empty when there is one
+  std::vector<NeedleRow> rows;
+  std::vector<std::string> region_names;
+};
+
+/// A table for people and programs: a header and rows of text cells.
+struct ExperimentTable {
+  std::vector<std::string> header;
+  std::vector<std::vector<std::string>> rows;
+};
+
+/// What an experiment gave.
+struct Experiment {
+  std::string name;
+  std::string title;  ///< what it shows and the figure of the source it stands beside
+  std::vector<ExperimentTrace> traces;
+  ExperimentTable table;  ///< empty header: none
+  Plot plot;
+  std::vector<Claim> claims;
+};
+
+/// The names of all needle experiments, in the order of the report.
+[[nodiscard]] std::span<const std::string_view> needle_experiments() noexcept;
+
+/// Runs one, deterministic for its options. Errors: not_found (no such experiment or device).
+[[nodiscard]] Result<Experiment> run_needle_experiment(std::string_view name,
+                                                       const ExperimentOptions& options = {});
+
+/// Writes <name>[-label].csv, <name>-table.csv, <name>.png and verdict.json into `folder`. Errors:
+/// unreadable, not_found (gnuplot; all other files are then written all the same).
+[[nodiscard]] Result<void> write_experiment(const Experiment& experiment,
+                                            const std::filesystem::path& folder);
+
+/// Runs one and writes it into `folder`: the whole of `artus experiment <name> --out dir`.
+[[nodiscard]] Result<std::vector<Claim>> run_experiment(std::string_view name,
+                                                        const std::filesystem::path& folder,
+                                                        const ExperimentOptions& options = {});
+
+}  // namespace artus
