@@ -11,6 +11,10 @@ namespace {
 
 /// How far above critical the default damping is; assumed: keeps (3.41) true under rounding.
 constexpr double kDampingMargin = 1.05;
+/// Chamber pressures the wanted K_pneu may ask for, as shares of exhaust and supply; assumed:
+/// leaves the valves a pressure drop to work with.
+constexpr double kLeastPressure = 1.2;
+constexpr double kMostPressure = 0.9;
 /// Wanted speeds below this count as rest for the dry friction, m/s; assumed.
 constexpr double kRestSpeed = 1e-4;
 
@@ -88,12 +92,27 @@ double BacksteppingLaw::active_flow(const CylinderState& s, const ProbeTarget& t
   return rate * cylinder_.stroke / (2 * cylinder_.krt());
 }
 
+double BacksteppingLaw::feasible_stiffness(const CylinderState& s, double wanted) const noexcept {
+  const CylinderParams& c = cylinder_;
+  const double force = pneumatic_force(c, s);
+  const double least = kLeastPressure * valve_.exhaust;
+  const double most = kMostPressure * valve_.supply;
+  // At a given force one chamber pressure sets the other, and K_pneu rises with both.
+  const auto stiffness = [&](double p_N) {
+    const double push_N = p_N * c.area_N;
+    return c.polytropic * ((force + push_N) / c.length_P(s.y) + push_N / c.length_N(s.y));
+  };
+  const double low = stiffness(std::max(least, (least * c.area_P - force) / c.area_N));
+  const double high = stiffness(std::min(most, (most * c.area_P - force) / c.area_N));
+  return std::max(low, std::min(high, wanted));
+}
+
 double BacksteppingLaw::pressurisation_flow(const CylinderState& s, const ProbeTarget& target,
                                             double q_A) const noexcept {
   const CylinderParams& c = cylinder_;
   const double k = c.polytropic;
   const double stiffness = pneumatic_stiffness(c, s);
-  const double z_4 = stiffness - target.pneumatic;
+  const double z_4 = stiffness - feasible_stiffness(s, target.pneumatic);
   const double wanted =
       c.length_P(s.y) * c.length_N(s.y) * (target.pneumatic_rate - gains_.c_4 * z_4);
   const double moving =

@@ -38,10 +38,11 @@ struct BacksteppingErrors {
 };
 
 /// Backstepping in position and closed-loop stiffness with one valve (the flow map's inverse gives
-/// the voltage) or, with two, also in K_pneu. An unknown push is not compensated: it is what the
-/// closed-loop stiffness answers to; a known one (ProbeTarget::known_force) is. Dry friction is
-/// compensated along the wanted speed only, so a rod at rest is not chased across its friction.
-/// Source [Alamilla2020] (3.20)-(3.35), as corrected in docs/probe.md.
+/// the voltage) or, with two, also in K_pneu as far as the pressures allow. An unknown push is not
+/// compensated: it is what the closed-loop stiffness answers to; a known one
+/// (ProbeTarget::known_force) is. Dry friction is compensated along the wanted speed only, so a rod
+/// at rest is not chased across its friction. Source [Alamilla2020] (3.20)-(3.35), as corrected in
+/// docs/probe.md.
 class BacksteppingLaw final : public ControlLaw {
  public:
   /// Requires: the map outlives the law.
@@ -60,6 +61,9 @@ class BacksteppingLaw final : public ControlLaw {
   bool take_gains(const ProbeTarget& target) noexcept;
   [[nodiscard]] double pressurisation_flow(const CylinderState& s, const ProbeTarget& target,
                                            double q_A) const noexcept;
+  /// The K_pneu nearest to `wanted` that chambers between exhaust and supply can have at the
+  /// present position and force, N/m.
+  [[nodiscard]] double feasible_stiffness(const CylinderState& s, double wanted) const noexcept;
   [[nodiscard]] double dry_friction(double v_d) const noexcept;
 
   BacksteppingGains gains_;

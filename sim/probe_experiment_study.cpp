@@ -11,13 +11,34 @@ namespace artus {
 namespace {
 
 constexpr double kStiffness = 1000;  // N/m, a soft limb
+/// The published cylinder, and one with a low-friction seal (assumed).
+constexpr std::array<double, 2> kDryFrictions{5.2, 0.5};  // N
 constexpr std::array<ControlLawKind, 4> kLaws{
     ControlLawKind::admittance_pid, ControlLawKind::admittance_ipc,
     ControlLawKind::backstepping_one_valve, ControlLawKind::backstepping_two_valves};
 
-ProbeScenario make_scenario(ControlLawKind law, double duration, std::uint64_t seed) {
+/// The results of one law; the study's row.
+struct LawResult {
+  ControlLawKind law{};
+  double dry_friction = 0;       // N, of the cylinder
+  double step_settling = 0;      // s
+  double step_error = 0;         // m
+  double slope = 0;              // N/m, loading
+  double hysteresis = 0;         // N, between loading and unloading at half way
+  double render_error = 0;       // share, rms force error of a pressing hand
+  double release_overshoot = 0;  // m beyond x_0
+  double release_settling = 0;   // s
+  double noise_travel = 0;       // V/s at four times the noise
+  double lost_speed = 0;         // m/s, fastest after that
+  double lost_excursion = 0;     // m the rod moves after the force sensor is lost
+  std::uint32_t lost_status = 0;
+  double drop_error = 0;  // m, at 3 bar
+};
+
+ProbeScenario make_scenario(const LawResult& r, double duration, std::uint64_t seed) {
   ProbeScenario s;
-  s.law = law;
+  s.law = r.law;
+  s.plant.cylinder.dry_friction = r.dry_friction;
   s.duration = duration;
   s.seed = seed;
   s.target = [](double) {
@@ -45,25 +66,9 @@ RodLoad pushed(double force) {
   return load;
 }
 
-/// The results of one law; the study's row.
-struct LawResult {
-  ControlLawKind law{};
-  double step_settling = 0;      // s
-  double step_error = 0;         // m
-  double slope = 0;              // N/m, loading
-  double hysteresis = 0;         // N, between loading and unloading at half way
-  double render_error = 0;       // share, rms force error of a pressing hand
-  double release_overshoot = 0;  // m beyond x_0
-  double release_settling = 0;   // s
-  double noise_travel = 0;       // V/s at four times the noise
-  double lost_excursion = 0;     // m the rod moves after the force sensor is lost
-  std::uint32_t lost_status = 0;
-  double drop_error = 0;  // m, at 3 bar
-};
-
 /// 6 N, 10 N, 6 N, 0 N in steps: settling of the last 10 N step and its error.
 void measure_load_steps(LawResult& r, std::uint64_t seed, std::vector<ProbeRow>& rows) {
-  ProbeScenario s = make_scenario(r.law, 8, seed);
+  ProbeScenario s = make_scenario(r, 8, seed);
   s.load = [](double t, const CylinderState&) {
     return pushed(t < 1 ? 0 : t < 3 ? 6 : t < 5 ? 10 : t < 7 ? 6 : 0);
   };
@@ -85,7 +90,7 @@ void measure_load_steps(LawResult& r, std::uint64_t seed, std::vector<ProbeRow>&
 void measure_push(LawResult& r, std::uint64_t seed, std::vector<ProbeRow>& rows) {
   constexpr double kTop = 14;
   constexpr double kRise = 10;
-  ProbeScenario s = make_scenario(r.law, 0.5 + 2 * kRise, seed);
+  ProbeScenario s = make_scenario(r, 0.5 + 2 * kRise, seed);
   s.load = [](double t, const CylinderState&) {
     const double u = std::max(0.0, t - 0.5);
     return pushed(kTop * (u < kRise ? u / kRise : std::max(0.0, 2 - u / kRise)));
@@ -126,7 +131,7 @@ void measure_push(LawResult& r, std::uint64_t seed, std::vector<ProbeRow>& rows)
 
 /// A hand presses 0 to 20 mm deep at 0.5 Hz: rms of F - K (x_0 - y) over the rms of F.
 void measure_rendering(LawResult& r, std::uint64_t seed) {
-  ProbeScenario s = make_scenario(r.law, 7, seed);
+  ProbeScenario s = make_scenario(r, 7, seed);
   const Hand hand;
   s.load = [hand](double t, const CylinderState& state) {
     constexpr double kRate = 3.14159265358979;
@@ -146,7 +151,7 @@ void measure_rendering(LawResult& r, std::uint64_t seed) {
 
 /// A hand holds the rod 20 mm in and lets go at 3 s.
 void measure_release(LawResult& r, std::uint64_t seed, std::vector<ProbeRow>& rows) {
-  ProbeScenario s = make_scenario(r.law, 6, seed);
+  ProbeScenario s = make_scenario(r, 6, seed);
   const Hand hand;
   s.load = [hand](double t, const CylinderState& state) {
     return pushed(t < 3 ? hand.force(0.03 * std::min(1.0, t), t < 1 ? 0.03 : 0, state) : 0);
@@ -163,7 +168,7 @@ void measure_release(LawResult& r, std::uint64_t seed, std::vector<ProbeRow>& ro
 }
 
 void measure_noise(LawResult& r, std::uint64_t seed) {
-  ProbeScenario s = make_scenario(r.law, 3, seed);
+  ProbeScenario s = make_scenario(r, 3, seed);
   s.noise = 4;
   s.load = [](double t, const CylinderState&) {
     return pushed(t > 0.5 ? 8 : 0);
@@ -172,7 +177,7 @@ void measure_noise(LawResult& r, std::uint64_t seed) {
 }
 
 void measure_lost_sensor(LawResult& r, std::uint64_t seed) {
-  ProbeScenario s = make_scenario(r.law, 4, seed);
+  ProbeScenario s = make_scenario(r, 4, seed);
   s.load = [](double t, const CylinderState&) {
     return pushed(t > 0.5 ? 8 : 0);
   };
@@ -185,13 +190,14 @@ void measure_lost_sensor(LawResult& r, std::uint64_t seed) {
       before = row.y;
     } else {
       r.lost_excursion = std::max(r.lost_excursion, std::abs(row.y - before));
+      r.lost_speed = std::max(r.lost_speed, std::abs(row.v));
       r.lost_status |= row.status & ControlStatus::kFaults;
     }
   }
 }
 
 void measure_supply_drop(LawResult& r, std::uint64_t seed) {
-  ProbeScenario s = make_scenario(r.law, 5, seed);
+  ProbeScenario s = make_scenario(r, 5, seed);
   s.load = [](double t, const CylinderState&) {
     return pushed(t > 0.5 ? 10 : 0);
   };
@@ -201,7 +207,7 @@ void measure_supply_drop(LawResult& r, std::uint64_t seed) {
   r.drop_error = measure_window(run_probe_scenario(s), 4, 5).mean_error;
 }
 
-PlotSeries push_curve(const std::vector<ProbeRow>& rows, const char* label) {
+PlotSeries push_curve(const std::vector<ProbeRow>& rows, const std::string& label) {
   PlotSeries series;
   series.label = label;
   for (const ProbeRow& row : rows) {
@@ -213,6 +219,7 @@ PlotSeries push_curve(const std::vector<ProbeRow>& rows, const char* label) {
 
 std::vector<std::string> make_cells(const LawResult& r) {
   return {to_string(r.law),
+          fixed(r.dry_friction, 1),
           fixed(r.slope, 0),
           fixed(r.hysteresis, 2),
           fixed(100 * r.render_error, 1),
@@ -231,10 +238,12 @@ ProbeExperiment run_probe_study(std::uint64_t seed) {
   ProbeExperiment e;
   e.name = "probe-study";
   e.title =
-      "Which law renders tissue best? Every law that renders a stiffness, at 1000 N/m, under load "
+      "Which law renders tissue best? Every law that renders a stiffness, at 1000 N/m, with the "
+      "published dry friction and with little, under load "
       "steps, a slow push, a pressing hand, a hand that lets go, four times the sensor noise, loss "
       "of the force sensor, and supply falling from 4 to 3 bar.";
   e.table.header = {"law",
+                    "dry friction (N)",
                     "slope of a slow push (N/m)",
                     "hysteresis (N)",
                     "rms force error, pressing hand (%)",
@@ -254,25 +263,31 @@ ProbeExperiment run_probe_study(std::uint64_t seed) {
   const auto position = [](const ProbeRow& row) {
     return 1e3 * row.y;
   };
-  for (const ControlLawKind law : kLaws) {
-    LawResult r;
-    r.law = law;
-    std::vector<ProbeRow> rows;
-    measure_load_steps(r, seed, rows);
-    steps.panels[0].series.push_back(plot_probe_rows(rows, to_string(law), position));
-    measure_push(r, seed, rows);
-    push.panels[0].series.push_back(push_curve(rows, to_string(law)));
-    measure_release(r, seed, rows);
-    release.panels[0].series.push_back(plot_probe_rows(rows, to_string(law), position));
-    measure_rendering(r, seed);
-    measure_noise(r, seed);
-    measure_lost_sensor(r, seed);
-    measure_supply_drop(r, seed);
-    e.table.rows.push_back(make_cells(r));
-    e.claims.push_back(claim_near(std::string(to_string(law)) + ": slope of a slow push", r.slope,
-                                  kStiffness, 0.05, "N/m"));
-    e.claims.push_back(claim_at_most(std::string(to_string(law)) + ": way after sensor loss",
-                                     r.lost_excursion, 0.015, "m"));
+  for (const double friction : kDryFrictions) {
+    for (const ControlLawKind law : kLaws) {
+      LawResult r;
+      r.law = law;
+      r.dry_friction = friction;
+      const std::string label = std::string(to_string(law)) + ", " + fixed(friction, 1) + " N";
+      std::vector<ProbeRow> rows;
+      measure_load_steps(r, seed, rows);
+      steps.panels[0].series.push_back(plot_probe_rows(rows, label, position));
+      measure_push(r, seed, rows);
+      push.panels[0].series.push_back(push_curve(rows, label));
+      measure_release(r, seed, rows);
+      release.panels[0].series.push_back(plot_probe_rows(rows, label, position));
+      measure_rendering(r, seed);
+      measure_noise(r, seed);
+      measure_lost_sensor(r, seed);
+      measure_supply_drop(r, seed);
+      e.table.rows.push_back(make_cells(r));
+      if (!needs_force_sensor(law)) {
+        e.claims.push_back(
+            claim_near(label + ": slope of a slow push", r.slope, kStiffness, 0.05, "N/m"));
+      }
+      e.claims.push_back(claim_at_most(label + ": speed after loss of the force sensor",
+                                       r.lost_speed, 0.2, "m/s"));
+    }
   }
   PlotSeries ideal{"ideal spring", {0, 14}, {0, 14}};
   push.panels[0].series.push_back(ideal);
