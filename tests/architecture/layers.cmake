@@ -8,13 +8,13 @@ set(allowed_raycast core anatomy raycast)
 set(allowed_haptics core anatomy raycast haptics)
 set(allowed_echo core anatomy raycast echo)
 set(allowed_sim core anatomy raycast haptics echo sim)
-set(allowed_apps core anatomy raycast haptics echo sim apps)
+set(allowed_apps core anatomy raycast haptics echo sim viewer apps)
 set(allowed_viewer core anatomy raycast haptics echo sim viewer)
 set(allowed_meshes core anatomy meshes)
 
 # folder lists that may include headers starting with the pattern
 set(outside "embree:raycast" "CGAL/:anatomy,meshes" "tetgen:anatomy" "toml:anatomy,echo,haptics" "opencv2/:echo,sim,apps,viewer"
-  "CLI/:apps,meshes" "boost/interprocess:sim" "GLFW/:viewer" "imgui:viewer" "gtest/:tests" "nlohmann/:sim,apps,meshes,echo")
+  "CLI/:apps,meshes" "boost/interprocess:sim" "GLFW/:viewer" "imgui:viewer" "epoxy/:viewer" "gtest/:tests" "nlohmann/:sim,apps,meshes,echo")
 
 set(bad "")
 foreach(layer core anatomy raycast haptics echo sim meshes apps viewer)

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <cstdio>
+#include <iostream>
+#include <memory>
+
+#include "echo/image_io.h"
+#include "sim/replay.h"
+
+#include "apps/session_options.h"
+
+namespace artus {
+namespace {
+
+struct ReplayOptions {
+  JointOptions joint;
+  std::filesystem::path recording;
+  std::filesystem::path trace;
+  std::filesystem::path frames;
+  bool json = false;
+};
+
+struct TraceCloser {
+  void operator()(std::FILE* file) const noexcept { std::fclose(file); }
+};
+using Trace = std::unique_ptr<std::FILE, TraceCloser>;
+
+ReplayListener make_listener(const ReplayOptions& options, const CompiledJoint& joint,
+                             std::FILE* trace, double period) {
+  ReplayListener listener;
+  if (trace != nullptr) {
+    std::fprintf(trace, "time_s,depth_mm,force_x_n,force_y_n,force_z_n,region,status\n");
+    listener.on_tick = [trace, period, &joint](const HapticSnapshot& s) {
+      std::fprintf(trace, "%.6f,%.6f,%.9g,%.9g,%.9g,%s,%u\n",
+                   static_cast<double>(s.input.tick) * period, s.feedback.depth / kMillimetre,
+                   s.feedback.force[0], s.feedback.force[1], s.feedback.force[2],
+                   joint.regions[s.feedback.region].name.c_str(), s.status);
+    };
+  }
+  if (!options.frames.empty()) {
+    listener.on_frame = [folder = options.frames](const FrameRecord& record, const Frame& frame) {
+      const auto file = folder / ("frame-" + std::to_string(record.input.number) + ".png");
+      if (const auto written = write_image(grey_image(frame), file); !written)
+        std::fprintf(stderr, "%s\n", written.error().to_string().c_str());
+    };
+  }
+  return listener;
+}
+
+void print(const ReplayReport& r) {
+  std::printf("%llu ticks, %llu different; %llu images, %llu different\n",
+              static_cast<unsigned long long>(r.ticks),
+              static_cast<unsigned long long>(r.different_ticks),
+              static_cast<unsigned long long>(r.frames),
+              static_cast<unsigned long long>(r.different_frames));
+  if (r.first_different_tick)
+    std::printf("first different tick %llu\n",
+                static_cast<unsigned long long>(*r.first_different_tick));
+  if (r.dropped > 0)
+    std::printf("%llu records are missing in the recording\n",
+                static_cast<unsigned long long>(r.dropped));
+  if (!r.complete) std::printf("the recording was cut off\n");
+}
+
+nlohmann::json to_json(const ReplayReport& r) {
+  return {{"ticks", r.ticks},          {"different_ticks", r.different_ticks},
+          {"frames", r.frames},        {"different_frames", r.different_frames},
+          {"dropped", r.dropped},      {"complete", r.complete},
+          {"identical", r.identical()}};
+}
+
+ExitCode run_replay(const ReplayOptions& options) {
+  const auto recording = read_recording(options.recording);
+  if (!recording) return report_error(recording.error(), options.json);
+  const auto joint = load(options.joint, make_progress_printer(options.json));
+  if (!joint) return report_error(joint.error(), options.json);
+  SessionOptions session;
+  session.device = recording->head.device;
+  const auto base = make_session_params(session, **joint);
+  if (!base) return report_error(base.error(), options.json);
+  const auto params = params_of(recording->head, *base);
+  if (!params) return report_error(params.error(), options.json);
+  Trace trace;
+  if (!options.trace.empty()) {
+    trace.reset(std::fopen(options.trace.c_str(), "w"));
+    if (!trace)
+      return report_error({ErrorCode::unreadable, "cannot write the trace", options.trace},
+                          options.json);
+  }
+  if (!options.frames.empty()) std::filesystem::create_directories(options.frames);
+  const auto report = replay(*recording, std::make_shared<const Scene>(*joint), *params,
+                             make_listener(options, **joint, trace.get(), 1 / params->haptic_rate));
+  if (!report) return report_error(report.error(), options.json);
+  if (options.json)
+    std::cout << to_json(*report).dump(2) << '\n';
+  else
+    print(*report);
+  return report->identical() ? ExitCode::ok : ExitCode::failed;
+}
+
+}  // namespace
+
+void add_replay_command(CLI::App& app, ExitCode& code) {
+  auto options = std::make_shared<ReplayOptions>();
+  CLI::App* command = add_command(
+      app, "replay", "Run a recorded session again and compare every force and image",
+      "Exit code 1 when a force or an image is not the same bytes.\n"
+      "Examples:\n"
+      "  artus replay session.rec -j meshes/simple-shoulder\n"
+      "  artus replay session.rec -j real.artus --trace forces.csv --frames out/frames");
+  command->add_option("recording", options->recording, "file of --record")->required();
+  add_joint_options(command, options->joint);
+  command->add_option("--trace", options->trace, "write the forces as CSV");
+  command->add_option("--frames", options->frames, "write the images as PNG into this folder");
+  command->add_flag("--json", options->json, "machine-readable output");
+  on_run(command, code, [options] { return run_replay(*options); });
+}
+
+}  // namespace artus

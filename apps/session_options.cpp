@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "apps/session_options.h"
+
+#include <cstdio>
+
+#include "sim/device_shared_memory.h"
+
+namespace artus {
+namespace {
+
+constexpr double kUsToMs = 1e-3;
+
+std::vector<DeviceSample> samples_of(const Recording& recording) {
+  std::vector<DeviceSample> samples;
+  samples.reserve(recording.ticks.size());
+  for (const TickRecord& tick : recording.ticks) samples.push_back(tick.input.device);
+  return samples;
+}
+
+Result<std::unique_ptr<InputDevice>> make_injection_device(const SessionOptions& options,
+                                                           const CompiledJoint& joint) {
+  const auto i = static_cast<std::size_t>(options.injection - 1);
+  if (options.injection < 1 || i >= joint.injections.size())
+    return fail(ErrorCode::not_found,
+                "the joint plans " + std::to_string(joint.injections.size()) + " injections",
+                "--injection");
+  const PlannedInjection& plan = joint.injections[i];
+  return std::make_unique<ScriptedDevice>(make_injection(
+      plan.entry, plan.target, joint.X_JP_default, options.speed_mm_s * kMillimetre));
+}
+
+void print_line(const char* what, const LatencyHistogram& h) {
+  std::printf("%-18s %10llu %9.1f %9.1f %9.1f %9.1f %9.1f\n", what,
+              static_cast<unsigned long long>(h.count()), h.percentile_us(0.5),
+              h.percentile_us(0.95), h.percentile_us(0.99), h.percentile_us(0.999), h.max_us());
+}
+
+nlohmann::json to_json(const LatencyHistogram& h) {
+  return {{"count", h.count()},
+          {"p50_ms", kUsToMs * h.percentile_us(0.5)},
+          {"p95_ms", kUsToMs * h.percentile_us(0.95)},
+          {"p99_ms", kUsToMs * h.percentile_us(0.99)},
+          {"p999_ms", kUsToMs * h.percentile_us(0.999)},
+          {"max_ms", kUsToMs * h.max_us()}};
+}
+
+}  // namespace
+
+void add_session_options(CLI::App* command, SessionOptions& options,
+                         const std::string& default_input) {
+  options.input = default_input;
+  add_joint_options(command, options.joint);
+  command
+      ->add_option("--device", options.device,
+                   "whose force limits hold: touch, virtuose_6d_desktop, delta, ideal")
+      ->capture_default_str();
+  command->add_option("--haptic-rate", options.haptic_rate, "ticks a second, Hz")
+      ->capture_default_str();
+  command->add_option("--image-rate", options.image_rate, "images a second, Hz")
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--input", options.input,
+          "shared-memory, hand (mouse and keyboard), injection (a planned one), or a recording")
+      ->capture_default_str();
+  command->add_option("--prefix", options.prefix, "stands before the names POS, FORCE and IMAGE");
+  command->add_option("--record", options.recording, "keep all inputs in this file");
+  command->add_option("--injection", options.injection, "which planned injection, from 1")
+      ->capture_default_str();
+  command->add_option("--speed-mm-s", options.speed_mm_s, "of the planned injection")
+      ->capture_default_str();
+  command->add_option("--haptic-cpu", options.haptic_cpu, "processor of the haptic thread; -1: any")
+      ->capture_default_str();
+  command->add_option("--threads", options.threads, "of the imaging; 0: all processors")
+      ->capture_default_str();
+}
+
+Result<SessionParams> make_session_params(const SessionOptions& options,
+                                          const CompiledJoint& joint) {
+  SessionParams params;
+  const auto device = find_device(options.device);
+  if (!device) return tl::unexpected<Error>(device.error());
+  params.device = *device;
+  params.haptic_rate = options.haptic_rate;
+  params.image_rate = options.image_rate;
+  params.image.n_threads = options.threads;
+  params.needle_shape.length = params.needle.contact.needle_length;
+  if (!joint.injections.empty()) {
+    const PlannedInjection& plan = joint.injections.front();
+    params.gesture.p_W = plan.entry;
+    params.gesture.axis_W = (plan.target - plan.entry).normalized();
+  }
+  if (const auto valid = validate(params); !valid) return tl::unexpected<Error>(valid.error());
+  return params;
+}
+
+HandTarget first_target(const CompiledJoint& joint) {
+  constexpr double kAbove = 10e-3;  // m off the skin
+  HandTarget target;
+  target.X_WP = to_plain(joint.X_JP_default);
+  Pose X_JN = joint.X_JN_default;
+  if (!joint.injections.empty()) {
+    const PlannedInjection& plan = joint.injections.front();
+    const Vec3 axis = (plan.target - plan.entry).normalized();
+    X_JN = make_pose(plan.entry - kAbove * axis, axis, joint.X_JP_default.linear().col(1));
+  }
+  target.X_WN = to_plain(X_JN);
+  return target;
+}
+
+Result<std::unique_ptr<InputDevice>> make_device(const SessionOptions& options,
+                                                 const SessionParams& params,
+                                                 const CompiledJoint& joint, HandDevice** hand) {
+  *hand = nullptr;
+  if (options.input == "shared-memory") {
+    std::vector<std::string> names;
+    for (const Region& region : joint.regions) names.push_back(region.name);
+    auto device = SharedMemoryDevice::open(options.prefix, std::move(names));
+    if (!device) return tl::unexpected<Error>(device.error());
+    return std::unique_ptr<InputDevice>(std::move(*device));
+  }
+  if (options.input == "hand") {
+    auto device = std::make_unique<HandDevice>(first_target(joint), 1 / params.haptic_rate);
+    *hand = device.get();
+    return std::unique_ptr<InputDevice>(std::move(device));
+  }
+  if (options.input == "injection") return make_injection_device(options, joint);
+  const auto recording = read_recording(options.input);
+  if (!recording) return tl::unexpected<Error>(recording.error());
+  return std::unique_ptr<InputDevice>(std::make_unique<RecordedDevice>(samples_of(*recording)));
+}
+
+void print_times(const SessionTimes& times, const SessionParams& params) {
+  std::printf("%-18s %10s %9s %9s %9s %9s %9s\n", "us", "count", "p50", "p95", "p99", "p99.9",
+              "max");
+  print_line("haptic compute", times.haptic_compute);
+  print_line("haptic lateness", times.haptic_lateness);
+  print_line("image render", times.image_render);
+  print_line("image interval", times.image_interval);
+  print_line("pose to image", times.pose_to_image);
+  std::printf("haptic period %.0f us, image period %.0f us\n", 1e6 / params.haptic_rate,
+              1e6 / params.image_rate);
+}
+
+nlohmann::json to_json(const SessionTimes& times) {
+  return {{"haptic_compute", to_json(times.haptic_compute)},
+          {"haptic_lateness", to_json(times.haptic_lateness)},
+          {"image_render", to_json(times.image_render)},
+          {"image_interval", to_json(times.image_interval)},
+          {"pose_to_image", to_json(times.pose_to_image)}};
+}
+
+}  // namespace artus

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "sim/device_hand.h"
+#include "sim/session.h"
+
+#include "apps/command.h"
+
+namespace artus {
+
+/// The flags of every command that runs a session.
+struct SessionOptions {
+  JointOptions joint;
+  std::string device = "touch";
+  double haptic_rate = 1000;
+  double image_rate = 40;
+  std::string input = "shared-memory";
+  std::string prefix;
+  std::filesystem::path recording;
+  double speed_mm_s = 10;
+  int injection = 1;
+  int haptic_cpu = -1;
+  int threads = 0;
+};
+void add_session_options(CLI::App* command, SessionOptions& options,
+                         const std::string& default_input);
+
+/// The params that the flags mean for a joint. Errors: not_found (device), invalid (rates).
+[[nodiscard]] Result<SessionParams> make_session_params(const SessionOptions& options,
+                                                        const CompiledJoint& joint);
+
+/// Needle and probe at the start: the joint's default probe, the needle above the first planned
+/// entry.
+[[nodiscard]] HandTarget first_target(const CompiledJoint& joint);
+
+/// The device that --input names; `hand` is set when it is the hand of mouse and keyboard.
+[[nodiscard]] Result<std::unique_ptr<InputDevice>> make_device(const SessionOptions& options,
+                                                               const SessionParams& params,
+                                                               const CompiledJoint& joint,
+                                                               HandDevice** hand);
+
+/// Percentiles of a session's times, one line each, on stdout.
+void print_times(const SessionTimes& times, const SessionParams& params);
+[[nodiscard]] nlohmann::json to_json(const SessionTimes& times);
+
+}  // namespace artus

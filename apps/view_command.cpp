@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <memory>
+
+#include "viewer/window.h"
+
+#include "apps/session_options.h"
+
+namespace artus {
+namespace {
+
+struct ViewerOptions {
+  SessionOptions session;
+  WindowOptions window;
+  std::filesystem::path script;
+  bool report = false;
+};
+
+/// Where a user's window layout is kept between runs.
+std::filesystem::path layout_file() {
+  const char* config = std::getenv("XDG_CONFIG_HOME");  // NOLINT(concurrency-mt-unsafe): start-up
+  const char* home = std::getenv("HOME");               // NOLINT(concurrency-mt-unsafe)
+  std::filesystem::path folder;
+  if (config != nullptr && *config != '\0')
+    folder = config;
+  else if (home != nullptr)
+    folder = std::filesystem::path(home) / ".config";
+  else
+    return {};
+  std::error_code error;
+  std::filesystem::create_directories(folder / "artus", error);
+  return error ? std::filesystem::path() : folder / "artus" / "layout.ini";
+}
+
+Result<void> read_script(const ViewerOptions& options, WindowOptions& window) {
+  if (options.script.empty()) {
+    window.layout = layout_file();
+    return {};
+  }
+  std::ifstream in(options.script);
+  if (!in) return fail(ErrorCode::not_found, "cannot read the script", options.script);
+  const std::string text((std::istreambuf_iterator<char>(in)), {});
+  auto steps = parse_script(text, options.script);
+  if (!steps) return tl::unexpected<Error>(steps.error());
+  window.script = std::move(*steps);
+  window.quit_after_script = true;
+  return {};
+}
+
+ExitCode run_view(const ViewerOptions& options) {
+  WindowOptions window = options.window;
+  if (const auto script = read_script(options, window); !script)
+    return report_error(script.error(), false);
+  const auto joint = load(options.session.joint, make_progress_printer(false));
+  if (!joint) return report_error(joint.error(), false);
+  const auto params = make_session_params(options.session, **joint);
+  if (!params) return report_error(params.error(), false);
+  HandDevice* hand = nullptr;
+  auto device = make_device(options.session, *params, **joint, &hand);
+  if (!device) return report_error(device.error(), false);
+  Session::Options session_options;
+  session_options.haptic_wishes.cpu = options.session.haptic_cpu;
+  session_options.recording = options.session.recording;
+  session_options.share_images = options.session.input == "shared-memory";
+  session_options.image_segment_prefix = options.session.prefix;
+  const auto session = Session::start(std::make_shared<const Scene>(*joint), *params,
+                                      std::move(*device), session_options);
+  if (!session) return report_error(session.error(), false);
+  const auto shown = run_window(**session, hand, first_target(**joint), window);
+  if (options.report) print_times((*session)->times(), (*session)->params());
+  return shown ? ExitCode::ok : report_error(shown.error(), false);
+}
+
+}  // namespace
+
+void add_view_command(CLI::App& app, ExitCode& code) {
+  auto options = std::make_shared<ViewerOptions>();
+  CLI::App* command = add_command(app, "view", "The window: joint, B-mode image, forces, rates",
+                                  "Examples:\n"
+                                  "  artus view -j meshes/simple-shoulder                          "
+                                  "mouse and keyboard; F1 helps\n"
+                                  "  artus view -j real.artus --input shared-memory --expert\n"
+                                  "  xvfb-run artus view -j meshes/simple-shoulder --script "
+                                  "docs/view.script --screenshot out.png");
+  add_session_options(command, options->session, "hand");
+  WindowOptions& window = options->window;
+  command->add_option("--width", window.width, "pixels")->capture_default_str();
+  command->add_option("--height", window.height, "pixels")->capture_default_str();
+  command->add_option("--window-rate", window.rate, "pictures a second, at most")
+      ->capture_default_str();
+  command->add_flag("--expert", window.expert, "without the 3D view");
+  command->add_option("--script", options->script, "do what this file says, then end");
+  command->add_option("--screenshot", window.screenshot, "PNG of the window at the script's end");
+  command->add_option("--pictures", window.pictures, "folder of saved images")
+      ->capture_default_str();
+  command->add_flag("--report", options->report, "print where the time went at the end");
+  on_run(command, code, [options] { return run_view(*options); });
+}
+
+}  // namespace artus

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <deque>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/session.h"
+#include "viewer/hand_control.h"
+#include "viewer/joint_view.h"
+
+namespace artus {
+
+/// A point of the B-mode image in millimetres from its upper left corner.
+struct ImagePoint {
+  double x_mm = 0;
+  double y_mm = 0;
+};
+
+/// What the window remembers between two of its frames; the panels read and change it.
+struct ViewState {
+  bool expert = false;  ///< the 3D view is hidden, as in a real room
+  bool help = false;
+  bool quit = false;
+  bool true_scale = false;      ///< one millimetre of tissue is one millimetre of the screen
+  double pixels_per_mm = 3.78;  ///< of the screen
+  ImageControls controls;
+  std::vector<ImagePoint> calipers;  ///< pairs
+  std::deque<TracePoint> trace;      ///< the last seconds
+  double trace_seconds = 10;
+  bool wants_screenshot = false;  ///< of the B-mode image
+  bool recording_clip = false;
+  std::string message;  ///< last thing that was saved or refused
+};
+
+/// All that the panels show, gathered once a frame.
+struct PanelInput {
+  Session* session = nullptr;
+  HapticSnapshot now;
+  const ImageSnapshot* image = nullptr;
+  unsigned image_texture = 0;
+  unsigned joint_texture = 0;
+  Grab grab = Grab::nothing;
+  bool has_hand = false;
+  float scale = 1;         ///< of the fonts, for the screen's resolution
+  double window_rate = 0;  ///< Hz
+};
+
+/// Where the joint's picture goes; its size for the next frame.
+struct JointArea {
+  int width = 640;
+  int height = 400;
+  bool hovered = false;
+};
+
+/// Where the next panel stands before a person moves it, as shares of the window.
+void place_panel(float x, float y, float width, float height);
+
+void draw_joint_panel(const PanelInput& in, ViewState& state, JointArea& area);
+void draw_image_panel(const PanelInput& in, ViewState& state);
+void draw_scanner_panel(const PanelInput& in, ViewState& state);
+void draw_force_panel(const PanelInput& in, ViewState& state);
+void draw_rates_panel(const PanelInput& in, ViewState& state);
+void draw_session_panel(const PanelInput& in, ViewState& state);
+void draw_tissue_panel(const PanelInput& in, ViewState& state, JointView& view);
+void draw_help(const PanelInput& in, ViewState& state);
+
+/// What the bits of a tick's status say, for people; "all well" for none.
+[[nodiscard]] std::string describe_status(std::uint32_t status);
+
+}  // namespace artus

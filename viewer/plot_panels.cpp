@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include <imgui.h>
+
+#include "core/units.h"
+#include "echo/labels.h"
+#include "viewer/panels.h"
+
+namespace artus {
+namespace {
+
+constexpr ImU32 kAxis = IM_COL32(120, 125, 135, 255);
+constexpr ImU32 kGrid = IM_COL32(55, 60, 68, 255);
+constexpr ImU32 kText = IM_COL32(205, 205, 205, 255);
+constexpr ImU32 kForce = IM_COL32(255, 120, 90, 255);
+constexpr ImU32 kLateral = IM_COL32(110, 170, 255, 255);
+constexpr ImU32 kLimit = IM_COL32(255, 215, 80, 255);
+
+/// A rectangle of the screen with the values at its edges.
+struct Plot {
+  ImVec2 from;
+  ImVec2 to;
+  double x_low = 0;
+  double x_high = 1;
+  double y_low = 0;
+  double y_high = 1;
+  [[nodiscard]] ImVec2 at(double x, double y) const {
+    const double u = (x - x_low) / (x_high - x_low);
+    const double v = (y - y_low) / (y_high - y_low);
+    return {from.x + static_cast<float>(std::clamp(u, 0.0, 1.0)) * (to.x - from.x),
+            to.y - static_cast<float>(std::clamp(v, 0.0, 1.0)) * (to.y - from.y)};
+  }
+};
+
+void label(ImDrawList* list, const ImVec2& at, const char* format, double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), format, value);
+  list->AddText(at, kText, text.data());
+}
+
+void draw_frame(ImDrawList* list, const Plot& plot, double y_step, const char* y_format) {
+  const float font = ImGui::GetFontSize();
+  for (double y = std::ceil(plot.y_low / y_step) * y_step + 0.0; y <= plot.y_high + 1e-9; y += y_step) {
+    const ImVec2 p = plot.at(plot.x_low, y);
+    list->AddLine(p, ImVec2(plot.to.x, p.y), kGrid);
+    label(list, ImVec2(p.x - 2.3F * font, p.y - 0.5F * font), y_format, y + 0.0);
+  }
+  list->AddRect(plot.from, plot.to, kAxis);
+}
+
+double highest_force(const std::deque<TracePoint>& trace) {
+  double most = 3;
+  for (const TracePoint& p : trace) most = std::max<double>({most, p.force * 1.1, p.lateral * 1.1});
+  return most;
+}
+
+double step_for(double range) {
+  const double rough = range / 4;
+  for (const double step : {0.5, 1.0, 2.0, 5.0, 10.0, 20.0}) {
+    if (rough <= step) return step;
+  }
+  return 50;
+}
+
+ImU32 region_colour(const std::vector<std::array<std::uint8_t, 3>>& palette, std::size_t region,
+                    int alpha) {
+  if (region >= palette.size()) return kGrid;
+  const auto& c = palette[region];
+  return IM_COL32(c[0], c[1], c[2], alpha);
+}
+
+template <class X>
+void draw_curve(ImDrawList* list, const Plot& plot, const std::deque<TracePoint>& trace, X x_of,
+                float TracePoint::*value, ImU32 colour) {
+  std::vector<ImVec2> points;
+  points.reserve(trace.size());
+  for (const TracePoint& p : trace) {
+    const double x = x_of(p);
+    if (x < plot.x_low || x > plot.x_high) continue;
+    points.push_back(plot.at(x, p.*value));
+  }
+  list->AddPolyline(points.data(), static_cast<int>(points.size()), colour, 0, 1.5F);
+}
+
+/// Bands of the layers below a curve, with their names where there is room.
+template <class X>
+void draw_layers(ImDrawList* list, const Plot& plot, const PanelInput& in,
+                 const std::deque<TracePoint>& trace, X x_of) {
+  const CompiledJoint& joint = in.session->scene().joint();
+  const auto palette = region_palette(joint);
+  std::size_t i = 0;
+  while (i < trace.size()) {
+    std::size_t j = i;
+    double low = x_of(trace[i]);
+    double high = low;
+    while (j < trace.size() && trace[j].region == trace[i].region) {
+      low = std::min(low, x_of(trace[j]));
+      high = std::max(high, x_of(trace[j]));
+      ++j;
+    }
+    const std::size_t region = trace[i].region;
+    if (region != kOutside && high > plot.x_low) {
+      const ImVec2 a = plot.at(std::max(low, plot.x_low), plot.y_high);
+      const ImVec2 b = plot.at(std::min(high, plot.x_high), plot.y_low);
+      list->AddRectFilled(a, b, region_colour(palette, region, 60));
+      const std::string& name = joint.regions[region].name;
+      if (ImGui::CalcTextSize(name.c_str()).x < b.x - a.x)
+        list->AddText(ImVec2(a.x + 3, a.y + 1), kText, name.c_str());
+    }
+    i = j;
+  }
+}
+
+void draw_force_over_time(const PanelInput& in, const ViewState& state, Plot plot) {
+  ImDrawList* list = ImGui::GetWindowDrawList();
+  plot.x_high = state.trace.empty() ? state.trace_seconds : state.trace.back().time;
+  plot.x_low = plot.x_high - state.trace_seconds;
+  const auto x = [](const TracePoint& p) {
+    return p.time;
+  };
+  draw_layers(list, plot, in, state.trace, x);
+  draw_frame(list, plot, step_for(plot.y_high - plot.y_low), "%4.1f");
+  draw_curve(list, plot, state.trace, x, &TracePoint::lateral, kLateral);
+  draw_curve(list, plot, state.trace, x, &TracePoint::force, kForce);
+  const float font = ImGui::GetFontSize();
+  list->AddText(ImVec2(plot.from.x, plot.to.y + 2), kText, "force against insertion, N, over 10 s");
+  list->AddText(ImVec2(plot.to.x - 8 * font, plot.to.y + 2), kForce, "along");
+  list->AddText(ImVec2(plot.to.x - 5 * font, plot.to.y + 2), kLateral, "sideways");
+}
+
+void draw_force_over_depth(const PanelInput& in, const ViewState& state, Plot plot) {
+  ImDrawList* list = ImGui::GetWindowDrawList();
+  plot.x_low = 0;
+  plot.x_high = 35;
+  for (const TracePoint& p : state.trace)
+    plot.x_high = std::max(plot.x_high, p.depth / kMillimetre);
+  const auto x = [](const TracePoint& p) {
+    return p.depth / kMillimetre;
+  };
+  std::deque<TracePoint> inside;
+  for (const TracePoint& p : state.trace) {
+    if (p.region != kOutside) inside.push_back(p);
+  }
+  std::deque<TracePoint> sorted = inside;
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const TracePoint& a, const TracePoint& b) { return a.depth < b.depth; });
+  draw_layers(list, plot, in, sorted, x);
+  draw_frame(list, plot, step_for(plot.y_high - plot.y_low), "%4.1f");
+  draw_curve(list, plot, inside, x, &TracePoint::force, kForce);
+  label(list, ImVec2(plot.from.x, plot.to.y + 2), "over depth, 0 to %.0f mm", plot.x_high);
+}
+
+/// Bars of a histogram over time on a logarithmic axis, 1 us to 1 s.
+void draw_histogram(ImDrawList* list, const Plot& plot, const LatencyHistogram& histogram,
+                    ImU32 colour) {
+  std::array<double, 96> bars{};
+  for (int i = 0; i < LatencyHistogram::kBins; ++i) {
+    const double decades = std::log10(std::max(LatencyHistogram::upper_edge(i), 1e3) / 1e3);
+    const auto bar = static_cast<std::size_t>(std::clamp(decades / 6 * 96, 0.0, 95.0));
+    bars[bar] += histogram.bin(i);
+  }
+  const auto total = static_cast<double>(std::max<std::uint64_t>(histogram.count(), 1));
+  for (std::size_t i = 0; i < bars.size(); ++i) {
+    if (bars[i] <= 0) continue;
+    const double height = 1 + std::log10(bars[i] / total) / 6;  // six decades of share
+    const double x = static_cast<double>(i) / 96;
+    list->AddRectFilled(plot.at(x, std::max(height, 0.02)), plot.at(x + 1.0 / 96, 0), colour);
+  }
+}
+
+void draw_limit(ImDrawList* list, const Plot& plot, double us, const char* text) {
+  const double x = std::log10(us) / 6;
+  list->AddLine(plot.at(x, 0), plot.at(x, 1), kLimit);
+  const ImVec2 p = plot.at(x, 1);
+  list->AddText(ImVec2(p.x + 2, p.y), kLimit, text);
+}
+
+void draw_times(const char* title, const LatencyHistogram& first, const LatencyHistogram& second,
+                const Plot& plot, double limit_us, const char* limit) {
+  ImDrawList* list = ImGui::GetWindowDrawList();
+  list->AddRect(plot.from, plot.to, kAxis);
+  for (int decade = 1; decade < 6; ++decade)
+    list->AddLine(plot.at(decade / 6.0, 0), plot.at(decade / 6.0, 1), kGrid);
+  draw_histogram(list, plot, second, IM_COL32(110, 170, 255, 150));
+  draw_histogram(list, plot, first, IM_COL32(255, 120, 90, 170));
+  draw_limit(list, plot, limit_us, limit);
+  list->AddText(ImVec2(plot.from.x, plot.to.y + 1), kText, title);
+}
+
+Plot plot_in(const ImVec2& at, const ImVec2& size, float left) {
+  Plot plot;
+  const float font = ImGui::GetFontSize();
+  plot.from = ImVec2(at.x + left, at.y + 2);
+  plot.to = ImVec2(at.x + size.x - 4, at.y + size.y - 1.4F * font);
+  return plot;
+}
+
+}  // namespace
+
+void draw_force_panel(const PanelInput& in, ViewState& state) {
+  place_panel(0.0F, 0.60F, 0.50F, 0.40F);
+  ImGui::Begin("Force");
+  const ImVec2 room = ImGui::GetContentRegionAvail();
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float left = 2.5F * ImGui::GetFontSize();
+  const float split = 0.6F * room.x;
+  Plot time = plot_in(at, ImVec2(split, room.y), left);
+  Plot depth = plot_in(ImVec2(at.x + split, at.y), ImVec2(room.x - split, room.y), left);
+  time.y_low = depth.y_low = -1;
+  time.y_high = depth.y_high = highest_force(state.trace);
+  draw_force_over_time(in, state, time);
+  draw_force_over_depth(in, state, depth);
+  ImGui::Dummy(room);
+  ImGui::End();
+}
+
+void draw_rates_panel(const PanelInput& in, ViewState& /*state*/) {
+  place_panel(0.50F, 0.60F, 0.28F, 0.40F);
+  ImGui::Begin("Rates");
+  const SessionTimes& t = in.session->times();
+  const auto rate = [](const LatencyHistogram& h) {
+    return h.count() > 0 ? 1e6 / std::max(h.percentile_us(0.5), 1.0) : 0.0;
+  };
+  ImGui::Text("haptics %.0f Hz, compute p99.9 %.0f us   late p99 %.0f us",
+              in.session->params().haptic_rate, t.haptic_compute.percentile_us(0.999),
+              t.haptic_lateness.percentile_us(0.99));
+  ImGui::Text("images %.0f Hz, pose to image p95 %.0f ms   window %.0f Hz", rate(t.image_interval),
+              1e-3 * t.pose_to_image.percentile_us(0.95), in.window_rate);
+  const ImVec2 room = ImGui::GetContentRegionAvail();
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const Plot haptics = plot_in(at, ImVec2(room.x, room.y / 2), 2);
+  const Plot images = plot_in(ImVec2(at.x, at.y + room.y / 2), ImVec2(room.x, room.y / 2), 2);
+  draw_times("haptics: compute, lateness; 1 us .. 1 s", t.haptic_compute, t.haptic_lateness,
+             haptics, 1e3, "1000 Hz");
+  draw_times("images: render, interval; 1 us .. 1 s", t.image_render, t.image_interval, images,
+             1e6 / 30, "30 Hz");
+  ImGui::Dummy(room);
+  ImGui::End();
+}
+
+}  // namespace artus

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <filesystem>
+#include <vector>
+
+#include "core/result.h"
+#include "sim/session.h"
+#include "viewer/script.h"
+
+namespace artus {
+
+struct WindowOptions {
+  int width = 1280;  ///< pixels
+  int height = 720;  ///< pixels
+  bool expert = false;
+  double rate = 30;  ///< Hz, at most
+  std::vector<ScriptStep> script;
+  std::filesystem::path screenshot;  ///< at the end of the script; empty: none
+  bool quit_after_script = false;
+  std::filesystem::path layout;          ///< where the panels' places are kept; empty: nowhere
+  std::filesystem::path pictures = ".";  ///< folder of saved images and clips
+};
+
+/// Shows a running session until its window is closed or the script ends. Reads the session's
+/// snapshots only; what people do goes to `hand` when there is one (null for other devices). One
+/// window at a time, from the main thread. Errors: failed (no display, no OpenGL 3.3), unreadable
+/// (a picture cannot be written).
+[[nodiscard]] Result<void> run_window(Session& session, HandDevice* hand, const HandTarget& start,
+                                      const WindowOptions& options);
+
+}  // namespace artus
