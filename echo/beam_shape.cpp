@@ -12,9 +12,10 @@ namespace {
 
 constexpr double kOutermost = 0.9;  // widths from the axis: the beam is 20 dB down there
 constexpr double kSigmaPerWidth = 1 / 2.3548200450309493;
-constexpr double kTail = 3;        // standard deviations kept of a Gaussian
-constexpr double kLongest = 1.25;  // of the displayed depth, as far as beams are followed
-constexpr int kMaxReach = 16;      // lines
+constexpr double kTail = 3;          // standard deviations kept of a Gaussian
+constexpr double kLongest = 1.25;    // of the displayed depth, as far as beams are followed
+constexpr std::size_t kPadding = 8;  // floats behind the last weight that may be read
+constexpr int kMaxReach = 16;        // lines
 
 ARTUS_SIMD
 void multiply_add(const float* weight, const float* in, float* out, std::size_t n) noexcept {
@@ -78,7 +79,7 @@ void BeamShape::tabulate_planes(const ImageSettings& settings) {
     offsets_.push_back(planes == 1 ? 0 : kOutermost * (2.0 * p / (planes - 1) - 1));
   }
   echo_weight_.assign(static_cast<std::size_t>(planes) * n, 0.0F);
-  speckle_weight_ = echo_weight_;
+  speckle_weight_.assign(static_cast<std::size_t>(planes) * n + kPadding, 0.0F);
   double pulse_power = 0;
   for (const float w : pulse_) pulse_power += static_cast<double>(w) * w;
   pulse_power *= ScatterField::axial_power(pulse_, sample_depth_);

@@ -35,7 +35,7 @@ class BeamShape {
   /// Share of plane `p` in an echo that all planes see alike; the shares sum to one at each sample.
   [[nodiscard]] std::span<const float> echo_weight(int p) const noexcept;
   /// Weight of plane `p` on unit-power scatterers such that the sum over planes, after across() and
-  /// along(), has unit power.
+  /// along(), has unit power. Up to 8 floats behind the span may be read.
   [[nodiscard]] std::span<const float> speckle_weight(int p) const noexcept;
 
   /// Lines to either side that across() reaches.

@@ -20,24 +20,23 @@ constexpr std::size_t kTail = 16;    // samples
 constexpr float kSheet = 1.6F;       // texture above which a sheet reflects coherently
 constexpr double kSheetEcho = 1.5;   // assumed: coherent amplitude over scattered, per unit above
 
-/// gain = weight * a line from node to node over kStride samples.
+/// gain = weight * the straight lines between nodes kStride samples apart. Reads and writes up to
+/// the end of the last stride.
 ARTUS_SIMD
 void interpolate_gain(const float* nodes, const float* weight, float* gain,
-                      std::size_t n) noexcept {
-  for (std::size_t i = 0; i < n; ++i) {
-    const std::size_t k = i / kStride;
-    const float t = static_cast<float>(i % kStride) * (1.0F / kStride);
-    gain[i] = weight[i] * (nodes[k] + t * (nodes[k + 1] - nodes[k]));
+                      std::size_t n_strides) noexcept {
+  for (std::size_t k = 0; k < n_strides; ++k) {
+    const float from = nodes[k];
+    const float step = (nodes[k + 1] - from) * (1.0F / kStride);
+    for (std::size_t j = 0; j < kStride; ++j) {
+      gain[k * kStride + j] = weight[k * kStride + j] * (from + static_cast<float>(j) * step);
+    }
   }
 }
 
-/// Adds a smooth echo given at the nodes, a triangle of kStride samples to each side.
-void add_nodes(const float* nodes, const float* weight, float* re, std::size_t n) noexcept {
-  for (std::size_t i = 0; i < n; ++i) {
-    const std::size_t k = i / kStride;
-    const float t = static_cast<float>(i % kStride) * (1.0F / kStride);
-    re[i] += weight[i] * (nodes[k] + t * (nodes[k + 1] - nodes[k]));
-  }
+ARTUS_SIMD
+void accumulate(const float* in, float* out, std::size_t n) noexcept {
+  for (std::size_t i = 0; i < n; ++i) out[i] += in[i];
 }
 
 }  // namespace
@@ -69,10 +68,12 @@ void LineSynthesis::add_run(const BeamRun& run, const RegionAcoustics& region,
                  std::exp(run.log_gain_begin + into * slope);
   const double ratio = std::exp(slope * kStride);
   const std::size_t n_nodes = (n - 1) / kStride + 2;
-  const auto nodes = gain.subspan(re.size(), n_nodes);
-  const auto sheets = gain.subspan(re.size() + n_nodes, n_nodes);
+  const std::size_t behind = re.size() + kStride;  // the last stride may reach over the end
+  const auto nodes = gain.subspan(behind, n_nodes);
+  const auto sheets = gain.subspan(behind + n_nodes, n_nodes);
   const auto facing = static_cast<float>(1 - cosine * cosine) * static_cast<float>(kSheetEcho);
   const bool textured = has_texture_ && texture_->has(region.kind);
+  const bool reflects = textured && facing > 0.05F;
   const LatticeWalk walk =
       textured ? texture_->make_walk(region, p_J, run.step_J * kStride) : LatticeWalk{};
   for (std::size_t k = 0; k < n_nodes; ++k, value *= ratio) {
@@ -81,8 +82,12 @@ void LineSynthesis::add_run(const BeamRun& run, const RegionAcoustics& region,
     nodes[k] = static_cast<float>(value) * factor;
     sheets[k] = static_cast<float>(value) * facing * std::max(0.0F, factor - kSheet);
   }
-  interpolate_gain(nodes.data(), weight.data() + first, gain.data(), n);
-  if (textured) add_nodes(sheets.data(), weight.data() + first, re.data() + first, n);
+  const std::size_t n_strides = n_nodes - 1;
+  if (reflects) {
+    interpolate_gain(sheets.data(), weight.data() + first, gain.data(), n_strides);
+    accumulate(gain.data(), re.data() + first, n);
+  }
+  interpolate_gain(nodes.data(), weight.data() + first, gain.data(), n_strides);
   scatter_->add(scatter_->make_walk(p_J, run.step_J), gain.first(n), re.subspan(first, n),
                 im.subspan(first, n));
 }
@@ -140,7 +145,7 @@ void LineSynthesis::add_echo(const BeamEcho& echo, std::span<const float> share,
 void LineSynthesis::synthesise(const BeamTracer& tracer, std::span<const RegionAcoustics> regions,
                                const Scanline& line, const Pose& X_JP, LineScratch& scratch,
                                std::span<float> re, std::span<float> im) const {
-  scratch.gain.resize(3 * re.size() + 16);
+  scratch.gain.resize(3 * re.size() + 8 * kStride);
   std::fill(re.begin(), re.end(), 0.0F);
   std::fill(im.begin(), im.end(), 0.0F);
   tracer.trace_bent(X_JP * line.origin, X_JP.linear() * line.direction, scratch.central,

@@ -26,13 +26,16 @@ class NeedleEcho {
   struct Place;
   [[nodiscard]] Place find_place(const Scanline& line, const Pose& X_JP,
                                  const BeamPath& path) const noexcept;
+  void add_shaft(const Place& place, double sample, double amplitude,
+                 std::span<float> line) const noexcept;
   [[nodiscard]] double elevation_share(double y, double z) const noexcept;
 
   const BeamShape* shape_;
   NeedleShape needle_;
   Vec3 p_PTip_;
-  Vec3 axis_P_;   // unit, from tip to hub
-  double pitch_;  // m between scanlines
+  Vec3 axis_P_;         // unit, from tip to hub
+  double pitch_;        // m between scanlines
+  double pulse_sigma_;  // m, standard deviation of the pulse along depth
 };
 
 }  // namespace artus

@@ -74,14 +74,16 @@ TEST(Renderer, PointTargetsAreAsWideAsTheBeam) {
   for (const double depth : {10e-3, 20e-3, 30e-3}) {
     renderer.set_point_reflectors({{Vec3(0, 0, depth), 1}});
     const Frame& frame = renderer.render(test::probe_at());
+    const int middle = test::find_peak(frame, 500, depth - 1e-3, depth + 1e-3);
+    const float half = test::envelope_line(frame, 500)[static_cast<std::size_t>(middle)] / 2;
     int above = 0;
     for (int l = 400; l <= 600; ++l) {
       const int peak = test::find_peak(frame, l, depth - 1e-3, depth + 1e-3);
-      above += test::envelope_line(frame, l)[static_cast<std::size_t>(peak)] > 0.5F ? 1 : 0;
+      above += test::envelope_line(frame, l)[static_cast<std::size_t>(peak)] > half ? 1 : 0;
     }
     EXPECT_NEAR(above * 0.04e-3, 0.25e-3, 0.15 * 0.25e-3) << depth;  // 0.97 wavelengths * F/2
   }
-  for (const double depth : {10e-3, 20e-3, 30e-3}) {
+  for (const double depth : {20e-3, 30e-3}) {
     // elevation: half the amplitude where half the profile's width lies beside the plane
     renderer.set_point_reflectors({{Vec3(0, 0, depth), 1}});
     const double centre = amplitude(500, depth);
