@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "sim/experiment.h"
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 
@@ -8,6 +9,7 @@
 
 #include "haptics/device.h"
 #include "sim/experiment_list.h"
+#include "sim/probe_experiment.h"
 
 namespace artus {
 namespace {
@@ -45,14 +47,16 @@ std::span<const std::string_view> needle_experiments() noexcept {
 Result<Experiment> run_needle_experiment(std::string_view name, const ExperimentOptions& options) {
   const Result<DeviceLimits> device = find_device(options.device);
   if (!device) return tl::unexpected<Error>(device.error());
-  std::string all;
   for (std::size_t i = 0; i < kNames.size(); ++i) {
     if (kNames[i] == name) {
       Experiment experiment = kRuns[i](options, *device);
       experiment.name = name;
       return experiment;
     }
-    all += (all.empty() ? "" : ", ") + std::string(kNames[i]);
+  }
+  std::string all;
+  for (const std::string_view known : all_experiments()) {
+    all += (all.empty() ? "" : ", ") + std::string(known);
   }
   return fail(ErrorCode::not_found,
               "no experiment \"" + std::string(name) + "\"; there are " + all);
@@ -82,9 +86,20 @@ Result<void> write_experiment(const Experiment& e, const std::filesystem::path& 
   return write_plot(folder / (e.name + ".png"), e.plot);
 }
 
+std::vector<std::string_view> all_experiments() {
+  std::vector<std::string_view> names(kNames.begin(), kNames.end());
+  const auto probe = probe_experiments();
+  names.insert(names.end(), probe.begin(), probe.end());
+  return names;
+}
+
 Result<std::vector<Claim>> run_experiment(std::string_view name,
                                           const std::filesystem::path& folder,
                                           const ExperimentOptions& options) {
+  const auto probe = probe_experiments();
+  if (std::find(probe.begin(), probe.end(), name) != probe.end()) {
+    return run_and_write_probe_experiment(name, folder, options.seed);
+  }
   const Result<Experiment> experiment = run_needle_experiment(name, options);
   if (!experiment) return tl::unexpected<Error>(experiment.error());
   const Result<void> written = write_experiment(*experiment, folder);

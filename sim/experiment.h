@@ -43,7 +43,11 @@ struct Experiment {
 /// The names of all needle experiments, in the order of the report.
 [[nodiscard]] std::span<const std::string_view> needle_experiments() noexcept;
 
-/// Runs one, deterministic for its options. Errors: not_found (no such experiment or device).
+/// The names of all experiments of both hands.
+[[nodiscard]] std::vector<std::string_view> all_experiments();
+
+/// Runs a needle experiment, deterministic for its options. Errors: not_found (no such experiment
+/// or device).
 [[nodiscard]] Result<Experiment> run_needle_experiment(std::string_view name,
                                                        const ExperimentOptions& options = {});
 
@@ -52,7 +56,8 @@ struct Experiment {
 [[nodiscard]] Result<void> write_experiment(const Experiment& experiment,
                                             const std::filesystem::path& folder);
 
-/// Runs one and writes it into `folder`: the whole of `artus experiment <name> --out dir`.
+/// Runs any of all_experiments() and writes it into `folder`: the whole of `artus experiment <name>
+/// --out dir`.
 [[nodiscard]] Result<std::vector<Claim>> run_experiment(std::string_view name,
                                                         const std::filesystem::path& folder,
                                                         const ExperimentOptions& options = {});

@@ -142,4 +142,14 @@ Result<void> write_probe_experiment(const ProbeExperiment& e, const fs::path& fo
   return {};
 }
 
+Result<std::vector<Claim>> run_and_write_probe_experiment(std::string_view name,
+                                                          const fs::path& folder,
+                                                          std::uint64_t seed) {
+  const auto experiment = run_probe_experiment(name, seed);
+  if (!experiment) return tl::unexpected<Error>(experiment.error());
+  const auto written = write_probe_experiment(*experiment, folder);
+  if (!written) return tl::unexpected<Error>(written.error());
+  return experiment->claims;
+}
+
 }  // namespace artus

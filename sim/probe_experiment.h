@@ -67,4 +67,8 @@ struct ProbeExperiment {
 [[nodiscard]] Result<void> write_probe_experiment(const ProbeExperiment& experiment,
                                                   const std::filesystem::path& folder);
 
+/// Both, and the claims of what must hold.
+[[nodiscard]] Result<std::vector<Claim>> run_and_write_probe_experiment(
+    std::string_view name, const std::filesystem::path& folder, std::uint64_t seed = 1);
+
 }  // namespace artus
