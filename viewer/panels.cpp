@@ -116,7 +116,7 @@ void draw_joint_panel(const PanelInput& in, ViewState& state, JointArea& area) {
 
 void draw_image_panel(const PanelInput& in, ViewState& state) {
   if (state.expert)
-    place_panel(0.0F, 0.0F, 0.68F, 0.60F);
+    place_panel(0.0F, 0.0F, 0.50F, 1.0F);
   else
     place_panel(0.42F, 0.0F, 0.36F, 0.60F);
   ImGui::Begin(state.expert ? "B-mode##expert" : "B-mode");

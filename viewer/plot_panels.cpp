@@ -44,10 +44,11 @@ void label(ImDrawList* list, const ImVec2& at, const char* format, double value)
 
 void draw_frame(ImDrawList* list, const Plot& plot, double y_step, const char* y_format) {
   const float font = ImGui::GetFontSize();
-  for (double y = std::ceil(plot.y_low / y_step) * y_step + 0.0; y <= plot.y_high + 1e-9; y += y_step) {
+  for (double y = std::ceil(plot.y_low / y_step) * y_step; y <= plot.y_high + 1e-9; y += y_step) {
     const ImVec2 p = plot.at(plot.x_low, y);
     list->AddLine(p, ImVec2(plot.to.x, p.y), kGrid);
-    label(list, ImVec2(p.x - 2.3F * font, p.y - 0.5F * font), y_format, y + 0.0);
+    label(list, ImVec2(p.x - 2.3F * font, p.y - 0.5F * font), y_format,
+          std::abs(y) < 1e-9 ? 0.0 : y);
   }
   list->AddRect(plot.from, plot.to, kAxis);
 }
@@ -202,8 +203,11 @@ Plot plot_in(const ImVec2& at, const ImVec2& size, float left) {
 }  // namespace
 
 void draw_force_panel(const PanelInput& in, ViewState& state) {
-  place_panel(0.0F, 0.60F, 0.50F, 0.40F);
-  ImGui::Begin("Force");
+  if (state.expert)
+    place_panel(0.50F, 0.0F, 0.28F, 0.55F);
+  else
+    place_panel(0.0F, 0.60F, 0.50F, 0.40F);
+  ImGui::Begin(state.expert ? "Force##expert" : "Force");
   const ImVec2 room = ImGui::GetContentRegionAvail();
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float left = 2.5F * ImGui::GetFontSize();
@@ -218,9 +222,12 @@ void draw_force_panel(const PanelInput& in, ViewState& state) {
   ImGui::End();
 }
 
-void draw_rates_panel(const PanelInput& in, ViewState& /*state*/) {
-  place_panel(0.50F, 0.60F, 0.28F, 0.40F);
-  ImGui::Begin("Rates");
+void draw_rates_panel(const PanelInput& in, ViewState& state) {
+  if (state.expert)
+    place_panel(0.50F, 0.55F, 0.28F, 0.45F);
+  else
+    place_panel(0.50F, 0.60F, 0.28F, 0.40F);
+  ImGui::Begin(state.expert ? "Rates##expert" : "Rates");
   const SessionTimes& t = in.session->times();
   const auto rate = [](const LatencyHistogram& h) {
     return h.count() > 0 ? 1e6 / std::max(h.percentile_us(0.5), 1.0) : 0.0;
