@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: AGPL-3.0-or-later
  * A device program in 40 lines: pushes the needle 30 mm along the world's z axis at 10 mm/s, holds,
  * withdraws, and says what it felt. Usage: example_device [prefix] [x y z of the skin entry, m]. */
+#include "artus_shm.h" /* first: it asks the system's headers for clocks and shared memory */
+
 #include <math.h>
 #include <stdlib.h>
-#include "artus_shm.h"
 
 int main(int argc, char** argv) {
   const double entry[3] = {argc > 4 ? atof(argv[2]) : 0, argc > 4 ? atof(argv[3]) : 0,
