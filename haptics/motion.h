@@ -11,7 +11,9 @@ namespace artus {
 struct MotionParams {
   double band = 0.1e-3;  ///< m; assumed: above an encoder step (0.055 mm, Touch) and physiological
                          ///< tremor of a supported hand
-  double time = 0.05;    ///< s; the needle is still after this time within the band: eps = 2 mm/s
+  double wake_band = 0.15e-3;  ///< m off its rest before a still needle moves; assumed: tremor's
+                               ///< peak to peak
+  double time = 0.05;  ///< s; the needle is still after this time within the band: eps = 2 mm/s
 };
 
 /// Says whether the needle moves and which way from positions alone: it moves when it leaves a band
@@ -22,20 +24,25 @@ class MotionDetector {
   explicit MotionDetector(const MotionParams& params = {}) noexcept : params_(params) {}
 
   ARTUS_REALTIME void reset(double x, Motion motion) noexcept {
-    reference_ = x;
+    reference_ = std::round(x / params_.band) * params_.band;
     quiet_ = 0;
     motion_ = motion;
   }
 
   ARTUS_REALTIME Motion step(double x, double dt) noexcept {
-    if (std::abs(x - reference_) > params_.band) {
+    const double band = motion_ == Motion::still ? params_.wake_band : params_.band;
+    if (std::abs(x - reference_) > band) {
       motion_ = x > reference_ ? Motion::inward : Motion::outward;
-      reference_ = x;
+      // To the last line of a fixed grid that was crossed: where the samples fell does not matter.
+      reference_ += std::trunc((x - reference_) / params_.band) * params_.band;
       quiet_ = 0;
       return motion_;
     }
     quiet_ += dt;
-    if (quiet_ >= params_.time) motion_ = Motion::still;
+    if (quiet_ >= params_.time && motion_ != Motion::still) {
+      motion_ = Motion::still;
+      reference_ = x;
+    }
     return motion_;
   }
 

@@ -30,6 +30,10 @@ void TrackingWall::settle(const NeedleTick& tick, double x) noexcept {
     settle_left_ = params_.settling_time;
     settle_rate_ = (x - wall_) / std::max(params_.settling_time, tick.dt);
   }
+  if (settle_left_ <= 0) {  // settled: the tissue has relaxed round the needle
+    wall_ = x;
+    return;
+  }
   const double time = std::min(tick.dt, settle_left_);
   wall_ += settle_rate_ * time;
   settle_left_ -= time;

@@ -91,6 +91,7 @@ Experiment run_wall_vs_classic(const ExperimentOptions& options, const DeviceLim
       e.layers = {plain_layer(1, stiffness)};
       e.layers[0].cutting = law;
       e.entry = Vec3(0, 0, 0.12);
+      e.body = AnalyticBody::make_stack(e.entry, e.direction, {0});
       e.device = device;
       e.hand.seed = options.seed;
       e.phases = {stay(0.3),   push_to(kDepth, 0.01), stay(kHeld),

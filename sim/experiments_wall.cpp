@@ -82,6 +82,7 @@ Experiment run_wall_move(const ExperimentOptions& options, const DeviceLimits& d
 Experiment run_wall_stop(const ExperimentOptions& options, const DeviceLimits& device) {
   BodyExperiment e = one_layer(options, device, 0);
   e.entry = Vec3(0, 0, 0.15);
+  e.body = AnalyticBody::make_stack(e.entry, e.direction, {0});
   e.phases = {stay(kStateOfRest), push_to(12 * kMillimetre, kSpeed), stay(1.5),
               push_to(20 * kMillimetre, kSpeed)};
   Experiment out;
@@ -126,6 +127,7 @@ Experiment run_wall_stop(const ExperimentOptions& options, const DeviceLimits& d
 Experiment run_wall_both(const ExperimentOptions& options, const DeviceLimits& device) {
   BodyExperiment e = one_layer(options, device, 0.5);
   e.entry = Vec3(0, 0, 0.07);
+  e.body = AnalyticBody::make_stack(e.entry, e.direction, {0});
   e.phases = {stay(kStateOfRest), push_to(25 * kMillimetre, kSpeed), stay(2.5),
               pull_to(-4 * kMillimetre, 0.015), stay(0.3)};
   Experiment out;

@@ -24,13 +24,16 @@ void PlateauFinder::add(const NeedleRow& row) {
     going_ = true;
     region_ = row.region;
     from_ = row.depth;
+    deepest_ = row.depth;
     const double missing = std::max(0.0, layer.haptic.cutting_force + row.forces.cutting);
     rise_ = missing / std::max(layer.haptic.wall_stiffness, 1e-6);
   }
   LayerPlateau& p = found_[layer.name];
   p.expected = layer.haptic.cutting_force;
   p.rise = std::max(p.rise, rise_);
-  if (row.depth < from_ + rise_ + kAfterRise) return;
+  const bool deeper = row.depth >= deepest_;
+  deepest_ = std::max(deepest_, row.depth);
+  if (!deeper || row.depth < from_ + rise_ + kAfterRise) return;
   const double force = -row.forces.cutting;
   p.least = p.rows == 0 ? force : std::min(p.least, force);
   p.most = p.rows == 0 ? force : std::max(p.most, force);

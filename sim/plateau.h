@@ -20,7 +20,8 @@ struct LayerPlateau {
 };
 
 /// Collects the rows in which a layer's force has built up: from where the tip entered the layer
-/// (or set off again in it) over the distance that its stiffness needs for what is missing.
+/// (or set off again in it) over the distance that its stiffness needs for what is missing, as long
+/// as the tip goes deeper.
 class PlateauFinder {
  public:
   /// What a region is called and feels like, by region. Regions of one name are taken together.
@@ -40,6 +41,7 @@ class PlateauFinder {
   RegionId region_ = kOutside;
   double from_ = 0;
   double rise_ = 0;
+  double deepest_ = 0;
   std::map<std::string, LayerPlateau> found_;
 };
 
