@@ -28,15 +28,11 @@ void TrackingWall::settle(const NeedleTick& tick, double x) noexcept {
   if (!settling_) {
     settling_ = true;
     settle_left_ = params_.settling_time;
-    settle_rate_ = (x - wall_) / std::max(params_.settling_time, tick.dt);
   }
-  if (settle_left_ <= 0) {  // settled: the tissue has relaxed round the needle
-    wall_ = x;
-    return;
-  }
-  const double time = std::min(tick.dt, settle_left_);
-  wall_ += settle_rate_ * time;
-  settle_left_ -= time;
+  // A straight line for a needle at rest; one that trembles is met where it is, without a step.
+  const double share = settle_left_ > tick.dt ? tick.dt / settle_left_ : 1;
+  wall_ += (x - wall_) * share;
+  settle_left_ -= std::min(tick.dt, settle_left_);
 }
 
 double TrackingWall::soft_force(const NeedleTick& tick, double x) noexcept {

@@ -39,7 +39,6 @@ class TrackingWall final : public ForceModel {
   double wall_ = 0;
   double cut_ = 0;
   double stiffness_ = 0;    // of the layer the anchor was placed with
-  double settle_rate_ = 0;  // m/s of the wall while it moves onto the tip
   double settle_left_ = 0;  // s
   bool settling_ = false;
   double last_x_ = 0;

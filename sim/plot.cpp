@@ -39,7 +39,9 @@ void write_script(std::ostream& out, const Plot& plot, const fs::path& data, con
   const auto rows = plot.panels.size();
   out << "set terminal pngcairo size " << plot.width << ','
       << plot.panel_height * static_cast<int>(rows) + 40 << " noenhanced font 'sans,11'\n"
-      << "set output " << quoted(png.string()) << "\nset grid\nset key outside right top\n"
+      << "set output " << quoted(png.string())
+      << "\nset grid\nset offsets graph 0, graph 0, graph 0.05, graph 0.05\nset key outside right "
+         "top\n"
       << "set multiplot layout " << rows << ",1 title " << quoted(plot.title) << '\n';
   std::size_t index = 0;
   for (const PlotPanel& panel : plot.panels) {
