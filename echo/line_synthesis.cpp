@@ -74,13 +74,15 @@ void LineSynthesis::add_run(const BeamRun& run, const RegionAcoustics& region,
   const auto facing = static_cast<float>(1 - cosine * cosine) * static_cast<float>(kSheetEcho);
   const bool textured = has_texture_ && texture_->has(region.kind);
   const bool reflects = textured && facing > 0.05F;
-  const LatticeWalk walk =
-      textured ? texture_->make_walk(region, p_J, run.step_J * kStride) : LatticeWalk{};
+  if (textured) {
+    texture_->sample(region.kind, texture_->make_walk(region, p_J, run.step_J * kStride), nodes);
+  } else {
+    std::fill(nodes.begin(), nodes.end(), 1.0F);
+  }
   for (std::size_t k = 0; k < n_nodes; ++k, value *= ratio) {
-    const float factor =
-        textured ? texture_->at(region.kind, walk, static_cast<std::uint32_t>(k)) : 1.0F;
-    nodes[k] = static_cast<float>(value) * factor;
-    sheets[k] = static_cast<float>(value) * facing * std::max(0.0F, factor - kSheet);
+    const auto amplitude = static_cast<float>(value);
+    if (reflects) sheets[k] = amplitude * facing * std::max(0.0F, nodes[k] - kSheet);
+    nodes[k] *= amplitude;
   }
   const std::size_t n_strides = n_nodes - 1;
   if (reflects) {

@@ -10,11 +10,12 @@ namespace artus {
 namespace {
 
 constexpr std::size_t kMaxIntervals = 128;
-constexpr double kThinnest = 2e-6;       // m, an interval shorter than this is rounding
-constexpr double kStraight = 2e-3;       // sine of a bend that is not worth another query
-constexpr double kPiece = 4e-3;          // m, longest run: the downshift curves the loss slowly
-constexpr double kSilence = -20;         // ln: 174 dB down, below any receiver
-constexpr double kMargin = 1.25;         // tissue as fast as tendon reaches deeper in the same time
+constexpr double kThinnest = 2e-6;  // m, an interval shorter than this is rounding
+constexpr double kStraight = 2e-3;  // sine of a bend that is not worth another query
+constexpr double kPiece = 4e-3;     // m, longest run: the downshift curves the loss slowly
+constexpr double kGrazing = 0.17;   // cosine of 80 degrees: along a faceted surface, go straight
+constexpr double kSilence = -20;    // ln: 174 dB down, below any receiver
+constexpr double kMargin = 1.25;    // tissue as fast as tendon reaches deeper in the same time
 constexpr double kFaceReflection = 0.1;  // assumed: matching layers and lens send back -20 dB
 constexpr double kRepeatFrom = 0.02;     // echoes above -34 dB repeat
 constexpr double kAirPitch = 1.2e-3;  // m. assumed: lens thickness, pitch of lines without contact
@@ -87,7 +88,7 @@ bool BeamTracer::enter(Walk& walk, const TissueInterval& interval,
   if (interval.region == kBeyond) return false;
   const bool air = walk.touched && interval.region == kOutside;
   const double cosine = -walk.wave.dot(interval.entry_normal);
-  if (cosine <= 0) return !to.opaque && !air;
+  if (cosine < kGrazing) return !to.opaque && !air;
   InterfaceResponse response = compute_interface(from, to, cosine);
   if (air) response = {1, 0, 0};
   const double sheath = sheath_reflection(from, to);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "echo/texture.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/noise.h"
@@ -93,12 +94,35 @@ std::uint32_t to_fixed(double cells) noexcept {
 TissueTexture::TissueTexture(std::uint64_t seed) {
   for (const Recipe& recipe : kRecipes) {
     const auto kind = static_cast<std::size_t>(recipe.kind);
-    tiles_[kind] = make_tile(recipe, mix_bits(seed + 16 * kind));
+    const std::vector<float> values = make_tile(recipe, mix_bits(seed + 16 * kind));
+    Tile& tile = tiles_[kind];
+    tile.unit = *std::max_element(values.begin(), values.end()) / 255;
+    tile.values.reserve(values.size());
+    for (const float value : values) {
+      tile.values.push_back(static_cast<std::uint8_t>(std::lround(value / tile.unit)));
+    }
   }
 }
 
 bool TissueTexture::has(TissueKind kind) const noexcept {
-  return !tiles_[static_cast<std::size_t>(kind)].empty();
+  return !tiles_[static_cast<std::size_t>(kind)].values.empty();
+}
+
+void TissueTexture::sample(TissueKind kind, const LatticeWalk& walk,
+                           std::span<float> out) const noexcept {
+  const Tile& tile = tiles_[static_cast<std::size_t>(kind)];
+  const std::uint8_t* values = tile.values.data();
+  std::uint32_t x = walk.start[0];
+  std::uint32_t y = walk.start[1];
+  std::uint32_t z = walk.start[2];
+  for (float& factor : out) {
+    const std::uint32_t at =
+        (((((z >> 16U) & kMask) << kBits) | ((y >> 16U) & kMask)) << kBits) | ((x >> 16U) & kMask);
+    factor = tile.unit * static_cast<float>(values[at]);
+    x += walk.step[0];
+    y += walk.step[1];
+    z += walk.step[2];
+  }
 }
 
 LatticeWalk TissueTexture::make_walk(const RegionAcoustics& region, const Vec3& p_J,

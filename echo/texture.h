@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "echo/region_acoustics.h"
@@ -25,20 +26,20 @@ class TissueTexture {
   [[nodiscard]] LatticeWalk make_walk(const RegionAcoustics& region, const Vec3& p_J,
                                       const Vec3& step_J) const noexcept;
 
-  /// The factor after `i` steps of a walk. Requires: has(kind).
-  [[nodiscard]] float at(TissueKind kind, const LatticeWalk& walk, std::uint32_t i) const noexcept {
-    const std::uint32_t x = ((walk.start[0] + i * walk.step[0]) >> 16U) & kMask;
-    const std::uint32_t y = ((walk.start[1] + i * walk.step[1]) >> 16U) & kMask;
-    const std::uint32_t z = ((walk.start[2] + i * walk.step[2]) >> 16U) & kMask;
-    return tiles_[static_cast<std::size_t>(kind)][(((z << kBits) | y) << kBits) | x];
-  }
+  /// Factors at the first `out.size()` steps of a walk through the tile of `kind`.
+  /// Requires: has(kind).
+  void sample(TissueKind kind, const LatticeWalk& walk, std::span<float> out) const noexcept;
 
  private:
   static constexpr std::uint32_t kBits = 6;
   static constexpr std::uint32_t kMask = (1U << kBits) - 1;
   static constexpr std::size_t kKinds = 8;
 
-  std::array<std::vector<float>, kKinds> tiles_;  // each (64, 64, 64), x fastest, or empty
+  struct Tile {
+    std::vector<std::uint8_t> values;  // (64, 64, 64), x fastest, or empty
+    float unit = 1;                    // factor of one step
+  };
+  std::array<Tile, kKinds> tiles_;
 };
 
 }  // namespace artus
