@@ -71,7 +71,9 @@ void LineSynthesis::add_run(const BeamRun& run, const RegionAcoustics& region,
   const std::size_t behind = re.size() + kStride;  // the last stride may reach over the end
   const auto nodes = gain.subspan(behind, n_nodes);
   const auto sheets = gain.subspan(behind + n_nodes, n_nodes);
-  const auto facing = static_cast<float>(1 - cosine * cosine) * static_cast<float>(kSheetEcho);
+  const double square = cosine * cosine;  // sheets lie along fibres, and across fat's own axis
+  const auto facing =
+      static_cast<float>(kSheetEcho * (region.kind == TissueKind::fat ? square : 1 - square));
   const bool textured = has_texture_ && texture_->has(region.kind);
   const bool reflects = textured && facing > 0.05F;
   if (textured) {
@@ -79,10 +81,11 @@ void LineSynthesis::add_run(const BeamRun& run, const RegionAcoustics& region,
   } else {
     std::fill(nodes.begin(), nodes.end(), 1.0F);
   }
-  for (std::size_t k = 0; k < n_nodes; ++k, value *= ratio) {
+  for (std::size_t k = 0; k < n_nodes; ++k) {
     const auto amplitude = static_cast<float>(value);
     if (reflects) sheets[k] = amplitude * facing * std::max(0.0F, nodes[k] - kSheet);
     nodes[k] *= amplitude;
+    value *= ratio;
   }
   const std::size_t n_strides = n_nodes - 1;
   if (reflects) {
@@ -137,7 +140,10 @@ void LineSynthesis::add_echo(const BeamEcho& echo, std::span<const float> share,
   if (echo.diffuse_share < 0.05 || from >= re.size()) return;
   std::array<float, kTail> gain{};
   float value = amplitude * static_cast<float>(kTailShare * echo.diffuse_share);
-  for (float& g : gain) g = value, value *= kTailDecay;
+  for (float& g : gain) {
+    g = value;
+    value *= kTailDecay;
+  }
   const std::size_t length = std::min(gain.size(), re.size() - from);
   scatter_->add(
       scatter_->make_walk(echo.p_J + static_cast<double>(kTailGap) * echo.step_J, echo.step_J),

@@ -154,8 +154,9 @@ void NeedleEcho::add(const Scanline& line, const Pose& X_JP, const BeamTrace& tr
   const double off = angle / kDegree / kRingLobe;
   double ring = shaft * kFirstRing * std::exp(-off * off);
   const double pitch = reverberation_pitch(needle_) / sample_depth;
-  for (int k = 1; k <= kMaxRings && ring > 1e-9; ++k, ring *= kRingDecay) {
+  for (int k = 1; k <= kMaxRings && ring > 1e-9; ++k) {
     add_echo(sample + k * pitch, ring, re);
+    ring *= kRingDecay;
   }
 }
 

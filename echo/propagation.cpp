@@ -116,6 +116,45 @@ bool BeamTracer::enter(Walk& walk, const TissueInterval& interval,
   return true;
 }
 
+/// The first region of a beam. False when no sound enters the body.
+bool BeamTracer::start(Walk& walk, RegionId region, double length) const noexcept {
+  walk.started = true;
+  walk.region = region;
+  walk.trace.contact = region != kOutside || length <= gel_limit_;
+  return walk.trace.contact && !regions_[region].opaque && region != kBeyond;
+}
+
+/// Goes `length` (m of beam) through the current region from `point`. False when the sound ended.
+bool BeamTracer::cross(Walk& walk, const Vec3& point, const Vec3& direction, double length,
+                       double time_scale) const noexcept {
+  walk.touched = walk.touched || walk.region >= kFirstRegion;
+  const RegionAcoustics& region = regions_[walk.region];
+  const double loss = fibre_attenuation(region.kind, std::abs(walk.wave.dot(region.fibre)));
+  const double samples_per_m = kDisplaySpeedOfSound / region.speed / sample_depth_;
+  const int pieces = static_cast<int>(std::ceil(length / kPiece));
+  const double piece = length / pieces;
+  for (int j = 0; j < pieces; ++j) {
+    if (walk.trace.n_runs == BeamTrace::kMax) return false;
+    BeamRun& run = walk.trace.runs[walk.trace.n_runs++];
+    run.begin = walk.sample;
+    run.p_J = point + j * piece / time_scale * direction;
+    run.step_J = direction / (time_scale * samples_per_m);
+    run.direction_J = walk.wave;
+    run.region = walk.region;
+    run.log_gain_begin = walk.log_gain(spectrum_sigma_);
+    run.path_begin = walk.path;
+    walk.path += piece;
+    walk.sample += piece * samples_per_m;
+    walk.attenuation += piece * region.attenuation * loss;
+    walk.slope += piece * region.attenuation_slope * loss;
+    run.end = walk.sample;
+    run.path_end = walk.path;
+    run.log_gain_end = walk.log_gain(spectrum_sigma_);
+    if (walk.sample >= n_samples_ || run.log_gain_end < kSilence) return false;
+  }
+  return true;
+}
+
 /// Follows one straight piece; `time_scale` is beam length per geometric length. Returns false when
 /// the sound ended; a bend ends the piece early with walk.wave off `direction`.
 bool BeamTracer::pass(Walk& walk, const Vec3& from, const Vec3& direction, double length,
@@ -126,43 +165,14 @@ bool BeamTracer::pass(Walk& walk, const Vec3& from, const Vec3& direction, doubl
     const TissueInterval& interval = intervals[k];
     const double thickness = interval.exit - interval.entry;
     if (thickness < kThinnest) continue;
+    const Vec3 point = from + interval.entry * direction;
     if (!walk.started) {
-      walk.started = true;
-      walk.region = interval.region;
-      walk.trace.contact = interval.region != kOutside || thickness * time_scale <= gel_limit_;
-      if (!walk.trace.contact || regions_[walk.region].opaque) return false;
-      if (walk.region == kBeyond) return false;
+      if (!start(walk, interval.region, thickness * time_scale)) return false;
     } else if (interval.region != walk.region) {
-      if (!enter(walk, interval, from + interval.entry * direction)) return false;
+      if (!enter(walk, interval, point)) return false;
       if (walk.bends && walk.wave.cross(direction).norm() > kStraight) return true;
     }
-    walk.touched = walk.touched || walk.region >= kFirstRegion;
-    const RegionAcoustics& region = regions_[walk.region];
-    const double cosine = std::abs(walk.wave.dot(region.fibre));
-    const double loss = fibre_attenuation(region.kind, cosine);
-    const double samples_per_m = kDisplaySpeedOfSound / region.speed / sample_depth_;
-    const int pieces = static_cast<int>(std::ceil(thickness / kPiece));
-    const double piece = thickness / pieces;
-    for (int j = 0; j < pieces; ++j) {
-      if (walk.trace.n_runs == BeamTrace::kMax) return false;
-      BeamRun& run = walk.trace.runs[walk.trace.n_runs++];
-      run.begin = walk.sample;
-      run.p_J = from + (interval.entry + j * piece) * direction;
-      run.step_J = direction / (time_scale * samples_per_m);
-      run.direction_J = walk.wave;
-      run.region = walk.region;
-      run.log_gain_begin = walk.log_gain(spectrum_sigma_);
-      run.path_begin = walk.path;
-      const double beam = piece * time_scale;
-      walk.path += beam;
-      walk.sample += beam * samples_per_m;
-      walk.attenuation += beam * region.attenuation * loss;
-      walk.slope += beam * region.attenuation_slope * loss;
-      run.end = walk.sample;
-      run.path_end = walk.path;
-      run.log_gain_end = walk.log_gain(spectrum_sigma_);
-      if (walk.sample >= n_samples_ || run.log_gain_end < kSilence) return false;
-    }
+    if (!cross(walk, point, direction, thickness * time_scale, time_scale)) return false;
   }
   return count.size > 0;
 }
@@ -216,11 +226,12 @@ void BeamTracer::trace_along(const BeamPath& path, const Vec3& elevation_axis_J,
 void BeamTracer::add_repeats(BeamTrace& trace) const noexcept {
   if (!trace.contact) {
     double amplitude = 1;
-    for (int k = 0; k < kAirLines; ++k, amplitude *= kAirDecay) {
+    for (int k = 0; k < kAirLines; ++k) {
       BeamEcho& echo = trace.echoes[trace.n_echoes++];
       echo = BeamEcho{};
       echo.sample = 1 + k * kAirPitch / sample_depth_;
       echo.amplitude = amplitude;
+      amplitude *= kAirDecay;
     }
     return;
   }

@@ -79,6 +79,9 @@ class BeamTracer {
 
  private:
   struct Walk;
+  bool start(Walk& walk, RegionId region, double length) const noexcept;
+  bool cross(Walk& walk, const Vec3& point, const Vec3& direction, double length,
+             double time_scale) const noexcept;
   bool enter(Walk& walk, const TissueInterval& interval, const Vec3& point) const noexcept;
   bool pass(Walk& walk, const Vec3& from, const Vec3& direction, double length,
             double time_scale) const noexcept;

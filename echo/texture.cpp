@@ -65,7 +65,7 @@ std::vector<float> make_tile(const Recipe& recipe, std::uint64_t seed) {
       for (int x = 0; x < kSide; ++x) {
         const double shape = value_noise(seed, x, y, z, recipe.feature) +
                              0.3 * value_noise(seed + 1, x, y, z, recipe.feature / 2);
-        const double strength = 0.5 + 0.5 * value_noise(seed + 2, x, y, z, 2 * recipe.feature);
+        const double strength = 0.8 + 0.7 * value_noise(seed + 2, x, y, z, recipe.feature);
         const double ridge = std::exp(-shape * shape / (recipe.sheet * recipe.sheet));
         const double value = 1 + (recipe.bright - 1) * ridge * strength;
         squares += value * value;
