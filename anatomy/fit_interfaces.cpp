@@ -129,6 +129,17 @@ void move(TetMesh& mesh, const Incidence& tets, const std::vector<double>& small
   mesh.vertices[v] = start;
 }
 
+// Vertices of the cut by the region of interest stay: nothing is known beyond it that could balance
+// them, and no tetrahedron there keeps two folds of the cut from passing through each other.
+std::vector<bool> find_fixed_vertices(const TetMesh& mesh) {
+  std::vector<bool> fixed(mesh.vertices.size(), false);
+  for (const Interface& f : mesh.interfaces) {
+    if (f.front != kBeyond && f.back != kBeyond) continue;
+    for (const std::uint32_t v : f.vertices) fixed[v] = true;
+  }
+  return fixed;
+}
+
 }  // namespace
 
 void fit_interfaces(TetMesh& mesh, const RegionLabels& labels) {
@@ -141,6 +152,7 @@ void fit_interfaces(TetMesh& mesh, const RegionLabels& labels) {
   for (std::size_t t = 0; t < smallest.size(); ++t) {
     smallest[t] = kSmallestVolume * tet_volume(mesh, t);
   }
+  const std::vector<bool> fixed = find_fixed_vertices(mesh);
   std::vector<FacetBalance> balances(mesh.interfaces.size());
   std::vector<Vec3> steps(mesh.vertices.size());
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
@@ -149,7 +161,7 @@ void fit_interfaces(TetMesh& mesh, const RegionLabels& labels) {
     });
     tbb::parallel_for(std::size_t{0}, steps.size(), [&](std::size_t v) {
       const auto vertex = static_cast<std::uint32_t>(v);
-      steps[v] = around.first[v] == around.first[v + 1]
+      steps[v] = fixed[v] || around.first[v] == around.first[v + 1]
                      ? Vec3(Vec3::Zero())
                      : wanted_step(mesh, around, balances, vertex);
     });
