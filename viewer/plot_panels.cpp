@@ -59,6 +59,12 @@ double highest_force(const std::deque<TracePoint>& trace) {
   return most;
 }
 
+double lowest_force(const std::deque<TracePoint>& trace) {
+  double least = -1;
+  for (const TracePoint& p : trace) least = std::min<double>(least, p.force * 1.1);
+  return least;
+}
+
 double step_for(double range) {
   const double rough = range / 4;
   for (const double step : {0.5, 1.0, 2.0, 5.0, 10.0, 20.0}) {
@@ -128,9 +134,9 @@ void draw_force_over_time(const PanelInput& in, const ViewState& state, Plot plo
   draw_curve(list, plot, state.trace, x, &TracePoint::lateral, kLateral);
   draw_curve(list, plot, state.trace, x, &TracePoint::force, kForce);
   const float font = ImGui::GetFontSize();
-  list->AddText(ImVec2(plot.from.x, plot.to.y + 2), kText, "force against insertion, N, over 10 s");
-  list->AddText(ImVec2(plot.to.x - 8 * font, plot.to.y + 2), kForce, "along");
-  list->AddText(ImVec2(plot.to.x - 5 * font, plot.to.y + 2), kLateral, "sideways");
+  list->AddText(ImVec2(plot.from.x, plot.to.y + 2), kText, "against insertion, N, over 10 s");
+  list->AddText(ImVec2(plot.from.x + 4, plot.from.y + 1.2F * font), kForce, "along");
+  list->AddText(ImVec2(plot.from.x + 4, plot.from.y + 2.3F * font), kLateral, "sideways");
 }
 
 void draw_force_over_depth(const PanelInput& in, const ViewState& state, Plot plot) {
@@ -214,7 +220,7 @@ void draw_force_panel(const PanelInput& in, ViewState& state) {
   const float split = 0.6F * room.x;
   Plot time = plot_in(at, ImVec2(split, room.y), left);
   Plot depth = plot_in(ImVec2(at.x + split, at.y), ImVec2(room.x - split, room.y), left);
-  time.y_low = depth.y_low = -1;
+  time.y_low = depth.y_low = lowest_force(state.trace);
   time.y_high = depth.y_high = highest_force(state.trace);
   draw_force_over_time(in, state, time);
   draw_force_over_depth(in, state, depth);

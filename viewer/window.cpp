@@ -145,7 +145,8 @@ class WindowLoop {
       const auto now = std::chrono::steady_clock::now();
       const double elapsed = std::max(1e-4, std::chrono::duration<double>(now - before).count());
       before = now;
-      input_.window_rate += 0.1 * (1 / elapsed - input_.window_rate);
+      interval_ += 0.1 * (elapsed - interval_);
+      input_.window_rate = 1 / interval_;
       run_script(elapsed);
       draw(elapsed);
       if (const auto saved = save_window(); !saved) return saved;
@@ -186,6 +187,7 @@ class WindowLoop {
   ImageControls sent_controls_;
   std::size_t next_step_ = 0;
   double waited_ = 0;
+  double interval_ = 0.1;  // s between pictures, smoothed
   bool wants_final_ = true;
   std::vector<std::filesystem::path> wanted_pictures_;
   bool dragging_ = false;
