@@ -100,7 +100,7 @@ double BacksteppingLaw::feasible_stiffness(const CylinderState& s, double wanted
   // At a given force one chamber pressure sets the other, and K_pneu rises with both.
   const auto stiffness = [&](double p_N) {
     const double push_N = p_N * c.area_N;
-    return c.polytropic * ((force + push_N) / c.length_P(s.y) + push_N / c.length_N(s.y));
+    return c.polytropic * ((force + push_N) / c.length_p(s.y) + push_N / c.length_n(s.y));
   };
   const double low = stiffness(std::max(least, (least * c.area_P - force) / c.area_N));
   const double high = stiffness(std::min(most, (most * c.area_P - force) / c.area_N));
@@ -114,7 +114,7 @@ double BacksteppingLaw::pressurisation_flow(const CylinderState& s, const ProbeT
   const double stiffness = pneumatic_stiffness(c, s);
   const double z_4 = stiffness - feasible_stiffness(s, target.pneumatic);
   const double wanted =
-      c.length_P(s.y) * c.length_N(s.y) * (target.pneumatic_rate - gains_.c_4 * z_4);
+      c.length_p(s.y) * c.length_n(s.y) * (target.pneumatic_rate - gains_.c_4 * z_4);
   const double moving =
       k * (k + 1) * s.v * pneumatic_force(c, s) - 2 * (k + 1) * s.v * s.y * stiffness;
   return (wanted + moving) / (k * c.krt()) + 2 * s.y * q_A / c.stroke;

@@ -10,24 +10,24 @@ double pneumatic_force(const CylinderParams& c, const CylinderState& s) noexcept
 }
 
 double pneumatic_stiffness(const CylinderParams& c, const CylinderState& s) noexcept {
-  return c.polytropic * (s.p_P * c.area_P / c.length_P(s.y) + s.p_N * c.area_N / c.length_N(s.y));
+  return c.polytropic * (s.p_P * c.area_P / c.length_p(s.y) + s.p_N * c.area_N / c.length_n(s.y));
 }
 
 PressureRates pressure_rates(const CylinderParams& c, const CylinderState& s,
                              const ChamberFlows& q) noexcept {
   const double rt = c.gas_constant * c.temperature;
-  return {c.polytropic / (c.area_P * c.length_P(s.y)) * (rt * q.q_P - s.p_P * c.area_P * s.v),
-          c.polytropic / (c.area_N * c.length_N(s.y)) * (rt * q.q_N + s.p_N * c.area_N * s.v)};
+  return {c.polytropic / (c.area_P * c.length_p(s.y)) * (rt * q.q_P - s.p_P * c.area_P * s.v),
+          c.polytropic / (c.area_N * c.length_n(s.y)) * (rt * q.q_N + s.p_N * c.area_N * s.v)};
 }
 
 ActiveFlows to_active(const CylinderParams& c, double y, const ChamberFlows& q) noexcept {
-  const double a = q.q_P / c.length_P(y);
-  const double b = q.q_N / c.length_N(y);
+  const double a = q.q_P / c.length_p(y);
+  const double b = q.q_N / c.length_n(y);
   return {c.stroke / 2 * (a - b), c.stroke / 2 * (a + b)};
 }
 
 ChamberFlows to_chambers(const CylinderParams& c, double y, const ActiveFlows& q) noexcept {
-  return {c.length_P(y) / c.stroke * (q.q_T + q.q_A), c.length_N(y) / c.stroke * (q.q_T - q.q_A)};
+  return {c.length_p(y) / c.stroke * (q.q_T + q.q_A), c.length_n(y) / c.stroke * (q.q_T - q.q_A)};
 }
 
 double force_rate(const CylinderParams& c, const CylinderState& s, const ActiveFlows& q) noexcept {
@@ -43,7 +43,7 @@ double stiffness_rate(const CylinderParams& c, const CylinderState& s,
   const double b_2 = k * c.krt();
   const double sum = a_1 * pneumatic_stiffness(c, s) * s.y * s.v -
                      a_2 * pneumatic_force(c, s) * s.v - b_1 * s.y * q.q_A + b_2 * q.q_T;
-  return sum / (c.length_P(s.y) * c.length_N(s.y));
+  return sum / (c.length_p(s.y) * c.length_n(s.y));
 }
 
 double min_pneumatic_stiffness(const CylinderParams& c, double p) noexcept {

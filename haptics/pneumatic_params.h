@@ -29,8 +29,8 @@ struct CylinderParams {
   double gas_constant = 287;       ///< J/(kg K), r
   double temperature = 298;        ///< K, T
 
-  [[nodiscard]] double length_P(double y) const noexcept { return stroke / 2 + y; }
-  [[nodiscard]] double length_N(double y) const noexcept { return stroke / 2 - y; }
+  [[nodiscard]] double length_p(double y) const noexcept { return stroke / 2 + y; }
+  [[nodiscard]] double length_n(double y) const noexcept { return stroke / 2 - y; }
   /// k r T, J/kg.
   [[nodiscard]] double krt() const noexcept { return polytropic * gas_constant * temperature; }
 };

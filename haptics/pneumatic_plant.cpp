@@ -93,11 +93,11 @@ void PneumaticPlant::move_gas(double y_before) noexcept {
   const ChamberFlows q = flows();
   const double y = state_.y;
   if (y != y_before) {
-    state_.p_P *= std::pow(c.length_P(y_before) / c.length_P(y), c.polytropic);
-    state_.p_N *= std::pow(c.length_N(y_before) / c.length_N(y), c.polytropic);
+    state_.p_P *= std::pow(c.length_p(y_before) / c.length_p(y), c.polytropic);
+    state_.p_N *= std::pow(c.length_n(y_before) / c.length_n(y), c.polytropic);
   }
-  state_.p_P += h_ * c.krt() * q.q_P / (c.area_P * c.length_P(y));
-  state_.p_N += h_ * c.krt() * q.q_N / (c.area_N * c.length_N(y));
+  state_.p_P += h_ * c.krt() * q.q_P / (c.area_P * c.length_p(y));
+  state_.p_N += h_ * c.krt() * q.q_N / (c.area_N * c.length_n(y));
 }
 
 }  // namespace artus

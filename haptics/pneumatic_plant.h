@@ -44,7 +44,7 @@ class PneumaticPlant {
   [[nodiscard]] const CylinderState& state() const noexcept { return state_; }
   [[nodiscard]] const CylinderParams& cylinder() const noexcept { return cylinder_; }
   [[nodiscard]] ChamberFlows flows() const noexcept;  ///< at this instant, kg/s
-  [[nodiscard]] double spool_P() const noexcept { return spool_P_; }
+  [[nodiscard]] double spool_p() const noexcept { return spool_P_; }
   [[nodiscard]] const RodEnergy& energy() const noexcept { return energy_; }
   [[nodiscard]] double kinetic_energy() const noexcept;  ///< J, of rod and load
   /// Between the load and the rod, N, averaged over the last step: what the force sensor feels.

@@ -33,8 +33,8 @@ ProbeMeasurement ProbeSensors::read(const PneumaticPlant& plant) noexcept {
   const CylinderState& s = plant.state();
   ProbeMeasurement m;
   m.y = sense(ProbeSensor::position, params_.position, s.y);
-  m.p_P = sense(ProbeSensor::pressure_P, params_.pressure, s.p_P);
-  m.p_N = sense(ProbeSensor::pressure_N, params_.pressure, s.p_N);
+  m.p_P = sense(ProbeSensor::pressure_p, params_.pressure, s.p_P);
+  m.p_N = sense(ProbeSensor::pressure_n, params_.pressure, s.p_N);
   m.force = sense(ProbeSensor::force, params_.force, plant.contact_force());
   ++count_;
   return m;

@@ -16,7 +16,7 @@ struct ProbeMeasurement {
 };
 
 /// The sensors by name.
-enum class ProbeSensor : std::uint8_t { position, pressure_P, pressure_N, force };
+enum class ProbeSensor : std::uint8_t { position, pressure_p, pressure_n, force };
 inline constexpr std::size_t kProbeSensors = 4;
 
 /// What a broken sensor reports.

@@ -85,9 +85,9 @@ double ValveMap::find_opening(double q, double p) const noexcept {
 }
 
 double ValveMap::active_flow(double opening, double p_P, double p_N, double y) const noexcept {
-  const double length_P = stroke_ / 2 + y;
-  const double length_N = stroke_ / 2 - y;
-  return stroke_ / 2 * (flow(opening, p_P) / length_P - flow(-opening, p_N) / length_N);
+  const double length_p = stroke_ / 2 + y;
+  const double length_n = stroke_ / 2 - y;
+  return stroke_ / 2 * (flow(opening, p_P) / length_p - flow(-opening, p_N) / length_n);
 }
 
 double ValveMap::find_active_opening(double q_A, double p_P, double p_N, double y) const noexcept {

@@ -100,8 +100,8 @@ TEST(PneumaticCylinder, ClosedChamberKeepsPressureTimesVolumeToThePolytropicPowe
   CylinderState s{0.003, 0.2, 3e5, 2e5};
   const PressureRates rates = pressure_rates(c, s, {});
   // d(p V^k) = 0: dp/p + k dV/V = 0, with V_P growing and V_N shrinking.
-  EXPECT_NEAR(rates.dp_P / s.p_P + c.polytropic * s.v / c.length_P(s.y), 0, 1e-9);
-  EXPECT_NEAR(rates.dp_N / s.p_N - c.polytropic * s.v / c.length_N(s.y), 0, 1e-9);
+  EXPECT_NEAR(rates.dp_P / s.p_P + c.polytropic * s.v / c.length_p(s.y), 0, 1e-9);
+  EXPECT_NEAR(rates.dp_N / s.p_N - c.polytropic * s.v / c.length_n(s.y), 0, 1e-9);
 }
 
 }  // namespace

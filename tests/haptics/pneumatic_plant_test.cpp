@@ -20,7 +20,7 @@ PneumaticParams closed() {
 
 /// Polytropic energy of both chambers, J.
 double gas_energy(const CylinderParams& c, const CylinderState& s) {
-  return (s.p_P * c.area_P * c.length_P(s.y) + s.p_N * c.area_N * c.length_N(s.y)) /
+  return (s.p_P * c.area_P * c.length_p(s.y) + s.p_N * c.area_N * c.length_n(s.y)) /
          (c.polytropic - 1);
 }
 
