@@ -44,7 +44,7 @@ TEST(Needle, GreyFallsInProportionToTheAngle) {
   Renderer renderer(clear_block(), Transducer{}, test::bare_settings());
   std::vector<double> angles;
   std::vector<double> greys;
-  for (double degrees = 0; degrees <= 65; degrees += 5) {
+  for (int degrees = 0; degrees <= 65; degrees += 5) {
     angles.push_back(degrees);
     greys.push_back(shaft_grey(renderer, degrees, false));
     if (greys.size() > 1) {
@@ -112,7 +112,8 @@ TEST(Needle, OutOfPlaneBrightnessFollowsTheSlice) {
   const double centre = brightness(0);
   double half = 0;
   double before = 1;
-  for (double offset = 0; offset < 4e-3; offset += 0.05e-3) {
+  for (int step = 0; step < 80; ++step) {
+    const double offset = 0.05e-3 * step;
     const double now = brightness(offset) / centre;
     EXPECT_LT(before - now, 0.15) << offset;  // never a step
     if (now < 0.5 && half == 0) half = offset;

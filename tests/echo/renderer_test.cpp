@@ -158,7 +158,9 @@ TEST(Renderer, BadInputIsRefusedOrBlack) {
 
 TEST(Renderer, CompressionIsTwentyTimesTheLogarithm) {
   std::vector<float> envelope;
-  for (double a = 1e-9; a < 10; a *= 1.07) envelope.push_back(static_cast<float>(a));
+  for (int k = 0; k < 340; ++k) {
+    envelope.push_back(static_cast<float>(1e-9 * std::pow(1.07, k)));
+  }
   std::vector<float> levels(envelope.size());
   compress(envelope, 3, levels);
   for (std::size_t i = 0; i < envelope.size(); ++i) {
