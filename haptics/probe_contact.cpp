@@ -33,9 +33,10 @@ ProbeContactModel::ProbeContactModel(std::shared_ptr<const Scene> scene,
   ARTUS_REQUIRE(f.columns_x > 0 && f.columns_y > 0 && f.elements > 0,
                 "the footprint needs columns and elements");
   const CompiledJoint& joint = scene_->joint();
-  for (RegionId region = 0; region < joint.regions.size(); ++region) {
-    modulus_.push_back(joint.tissue_of(region).mechanical.youngs_modulus);
-    hard_.push_back(joint.tissue_of(region).haptic.hard ? 1 : 0);
+  for (const Region& region : joint.regions) {
+    const Tissue& tissue = joint.tissues[region.tissue];
+    modulus_.push_back(tissue.mechanical.youngs_modulus);
+    hard_.push_back(tissue.haptic.hard ? 1 : 0);
   }
   for (std::size_t j = 0; j < f.columns_y; ++j) {
     for (std::size_t i = 0; i < f.columns_x; ++i) {
