@@ -46,7 +46,10 @@ constexpr const char* kPictureFragment = R"(#version 330 core
 in vec2 uv; uniform sampler2D image; out vec4 result;
 void main() { result = vec4(texture(image, uv).rrr, 1.0); })";
 
-const Eigen::Vector4f kNoPlane(0, 0, 0, 1);
+/// A plane that hides nothing.
+Eigen::Vector4f no_plane() {
+  return {0, 0, 0, 1};
+}
 
 Eigen::Matrix4f look_at(const Vec3& eye, const Vec3& centre, const Vec3& up) {
   const Vec3 z = (eye - centre).normalized();
@@ -218,7 +221,7 @@ void JointView::draw_parts(const Eigen::Matrix4f& view, const Eigen::Vector4f& p
     draw_mesh(part->mesh, view, Eigen::Matrix4f::Identity(), colour, true);
   }
   glDepthMask(GL_TRUE);
-  solid_.set("plane", kNoPlane);
+  solid_.set("plane", no_plane());
 }
 
 void JointView::draw_tools(const Eigen::Matrix4f& view, const HapticSnapshot& now) {
@@ -313,11 +316,11 @@ unsigned JointView::draw(int width, int height, const HapticSnapshot& now,
   Eigen::Vector4f eye;
   eye << eye_.cast<float>(), 1.F;
   solid_.set("eye", eye);
-  solid_.set("plane", kNoPlane);
+  solid_.set("plane", no_plane());
   draw_tools(view, now);
   draw_trail(view, now);
   if (image != nullptr) draw_image(view, *image, image_texture);
-  Eigen::Vector4f plane = kNoPlane;
+  Eigen::Vector4f plane = no_plane();
   if (cut_away) {
     const Pose X_JP = to_pose(now.X_JP);
     Vec3 normal = X_JP.linear().col(1);
