@@ -114,10 +114,9 @@ Result<TetMesh> mesh_regions(const LabelledSpace& space, Stages& stages, Compile
   });
   neighbours = find_tet_neighbours(*mesh);
   if (!neighbours) return tl::unexpected(neighbours.error());
-  const Result<FillMethod> filled = stages.run(
-      "filling with tetrahedra", 0.7, [&] { return fill_with_tetgen(*mesh, *neighbours); });
-  if (!filled) return tl::unexpected(filled.error());
-  report.fill_method = name_of(*filled);
+  const FillMethod filled = stages.run("filling with tetrahedra", 0.7,
+                                       [&] { return fill_with_tetgen(*mesh, *neighbours); });
+  report.fill_method = name_of(filled);
   if (auto done = finish_topology(*mesh, space.labels); !done) {
     return tl::unexpected(done.error());
   }

@@ -225,6 +225,7 @@ Result<LabelledSpace> make_labelled_space(const JointFile& file, const PreparedS
   }
   space.labels.body = maker.take_body();
   space.labels.region_of_interest = file.region_of_interest;
+  space.labels.make_index(box);
   const double volume = (box.upper - box.lower).prod();
   constexpr double kMostSeedPoints = 6e7;
   space.resolve.seed_spacing = std::max(finest / 2, std::cbrt(volume / kMostSeedPoints));

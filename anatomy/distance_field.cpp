@@ -195,6 +195,37 @@ double DistanceField::near_value(const Vec3& p) const noexcept {
   return (1 - fz) * low + fz * high;
 }
 
+int DistanceField::side_of(const Box& box) const noexcept {
+  std::array<int, 3> first{};
+  std::array<int, 3> last{};
+  bool beyond_samples = false;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const auto axis = static_cast<Eigen::Index>(a);
+    const double edge = spacing_ * kCells;
+    const double low = std::floor((box.lower[axis] - origin_[axis]) / edge);
+    const double high = std::floor((box.upper[axis] - origin_[axis]) / edge);
+    if (high < 0 || low >= blocks_[a]) return 1;
+    beyond_samples = beyond_samples || low < 0 || high >= blocks_[a];
+    first[a] = static_cast<int>(std::max(low, 0.0));
+    last[a] = static_cast<int>(std::min(high, blocks_[a] - 1.0));
+  }
+  bool any_in = false;
+  bool any_out = beyond_samples;
+  for (int z = first[2]; z <= last[2]; ++z) {
+    for (int y = first[1]; y <= last[1]; ++y) {
+      for (int x = first[0]; x <= last[0]; ++x) {
+        const std::int32_t slot = slots_[static_cast<std::size_t>(
+            x + static_cast<std::ptrdiff_t>(blocks_[0]) *
+                    (y + static_cast<std::ptrdiff_t>(blocks_[1]) * z))];
+        if (slot >= 0) return 0;
+        (slot == kIn ? any_in : any_out) = true;
+      }
+    }
+  }
+  if (any_in == any_out) return 0;
+  return any_in ? -1 : 1;
+}
+
 Vec3 DistanceField::normal(const Vec3& p) const noexcept {
   const double h = spacing_ / 2;
   Vec3 g;

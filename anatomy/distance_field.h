@@ -46,6 +46,10 @@ class DistanceField {
   /// Signed distance at `p`, m. Cost: constant, tens of nanoseconds.
   [[nodiscard]] double value(const Vec3& p) const noexcept;
 
+  /// Which side of the surface all of `box` lies on, where the sparse storage alone tells: -1
+  /// inside, +1 outside, 0 undecided. Cost: the storage blocks that `box` touches.
+  [[nodiscard]] int side_of(const Box& box) const noexcept;
+
   /// Direction of steepest increase, unit, or zero where the field is flat.
   [[nodiscard]] Vec3 normal(const Vec3& p) const noexcept;
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <array>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -11,6 +13,15 @@ namespace artus {
 
 /// Signed distance to the region of interest's boundary, negative inside, m.
 [[nodiscard]] double signed_distance(const RegionOfInterest& roi, const Vec3& p);
+
+/// For each block of a box, the layers that can hold a point of it, in priority order.
+struct LayerIndex {
+  Box box;
+  double edge = 0;  ///< m, of a block; 0: no index
+  std::array<int, 3> blocks{0, 0, 0};
+  std::vector<std::uint32_t> first;  ///< (n_blocks + 1) into layers
+  std::vector<std::uint16_t> layers;
+};
 
 /// Which region every point of space belongs to: the layers in priority order, the filler in what
 /// they leave of the body, outside and beyond around it. A pure function of position, so the
@@ -26,7 +37,12 @@ struct RegionLabels {
   std::vector<Layer> layers;  ///< first wins
   std::optional<RegionOfInterest> region_of_interest;
 
-  /// The region at `p`. Cost: about ten nanoseconds for each layer.
+  LayerIndex index;  ///< speeds up at(); the answers are the same without it
+
+  /// Makes the index over `box`. Requires: body and layers complete. Cost: blocks times layers.
+  void make_index(const Box& box);
+
+  /// The region at `p`. Cost: tens of nanoseconds for each layer whose surface is near.
   [[nodiscard]] RegionId at(const Vec3& p) const;
 
   /// Signed distance to the surface that separates two regions there: the field of whichever of

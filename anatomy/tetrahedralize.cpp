@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "anatomy/tetrahedralize.h"
 
-#include <algorithm>
 #include <cmath>
-#include <exception>
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <utility>
 
 #include <tetgen.h>
+
+#include "anatomy/isolated.h"
 
 namespace artus {
 namespace {
@@ -78,36 +82,81 @@ void set_regions(const TetMesh& mesh, const TetParts& parts, tetgenio& in) {
   }
 }
 
-bool run(const char* switches, tetgenio& in, tetgenio& out) {
-  try {
-    std::string text = switches;
-    tetrahedralize(text.data(), &in, &out);
-    return out.numberoftetrahedra > 0;
-  } catch (int) {
-    return false;
-  } catch (const std::exception&) {
-    return false;
-  }
+// What TetGen made, as it travels from the process that ran it.
+struct Filling {
+  std::vector<double> points;         // (n_points, 3), scaled
+  std::vector<std::int32_t> corners;  // (n_tets, 4)
+  std::vector<double> regions;        // (n_tets)
+};
+
+template <class T>
+void append_array(std::string& bytes, const T* data, std::size_t count) {
+  const std::uint64_t n = count;
+  bytes.append(reinterpret_cast<const char*>(&n), sizeof n);  // NOLINT: plain numbers as bytes
+  bytes.append(reinterpret_cast<const char*>(data), count * sizeof(T));  // NOLINT
 }
 
-Result<TetMesh> to_mesh(const TetMesh& before, const tetgenio& out) {
-  if (out.numberoftetrahedronattributes != 1 || out.numberofcorners != 4) {
-    return fail(ErrorCode::failed, "TetGen returned no regions");
+template <class T>
+bool take_array(const std::string& bytes, std::size_t& at, std::vector<T>& out) {
+  std::uint64_t n = 0;
+  if (bytes.size() - at < sizeof n) return false;
+  std::memcpy(&n, bytes.data() + at, sizeof n);
+  at += sizeof n;
+  if (n > (bytes.size() - at) / sizeof(T)) return false;
+  out.resize(n);
+  std::memcpy(out.data(), bytes.data() + at, n * sizeof(T));
+  at += n * sizeof(T);
+  return true;
+}
+
+// Runs in the child process; TetGen throws integers, and its clean-up after that may crash.
+std::string run_tetgen(const char* switches, const TetMesh& mesh, const TetParts& parts) {
+  tetgenio in;
+  tetgenio out;
+  set_points(mesh, in);
+  set_facets(mesh, in);
+  set_regions(mesh, parts, in);
+  std::string text = switches;
+  tetrahedralize(text.data(), &in, &out);
+  std::string bytes;
+  if (out.numberoftetrahedronattributes != 1 || out.numberofcorners != 4) return bytes;
+  const auto n_tets = static_cast<std::size_t>(out.numberoftetrahedra);
+  append_array(bytes, out.pointlist, 3 * static_cast<std::size_t>(out.numberofpoints));
+  append_array(bytes, out.tetrahedronlist, 4 * n_tets);
+  append_array(bytes, out.tetrahedronattributelist, n_tets);
+  return bytes;
+}
+
+std::optional<Filling> find_filling(const char* switches, const TetMesh& mesh,
+                                    const TetParts& parts) {
+  constexpr double kPatience = 300;  // s
+  const auto bytes = run_isolated([&] { return run_tetgen(switches, mesh, parts); }, kPatience);
+  if (!bytes) return std::nullopt;
+  Filling filling;
+  std::size_t at = 0;
+  if (!take_array(*bytes, at, filling.points) || !take_array(*bytes, at, filling.corners) ||
+      !take_array(*bytes, at, filling.regions) || filling.regions.empty() ||
+      filling.points.size() < 3 * mesh.vertices.size()) {
+    return std::nullopt;
   }
+  return filling;
+}
+
+TetMesh to_mesh(const TetMesh& before, const Filling& filling) {
   TetMesh mesh;
   mesh.interfaces = before.interfaces;
   mesh.vertices = before.vertices;
-  for (auto v = before.vertices.size(); v < static_cast<std::size_t>(out.numberofpoints); ++v) {
-    const REAL* p = out.pointlist + 3 * v;
-    mesh.vertices.emplace_back(p[0] / kScale, p[1] / kScale, p[2] / kScale);
+  for (std::size_t v = 3 * before.vertices.size(); v < filling.points.size(); v += 3) {
+    mesh.vertices.emplace_back(filling.points[v] / kScale, filling.points[v + 1] / kScale,
+                               filling.points[v + 2] / kScale);
   }
-  for (std::size_t t = 0; t < static_cast<std::size_t>(out.numberoftetrahedra); ++t) {
-    const int* c = out.tetrahedronlist + 4 * t;
-    std::array<std::uint32_t, 4> tet{
-        static_cast<std::uint32_t>(c[0]), static_cast<std::uint32_t>(c[1]),
-        static_cast<std::uint32_t>(c[2]), static_cast<std::uint32_t>(c[3])};
+  for (std::size_t t = 0; t < filling.regions.size(); ++t) {
+    std::array<std::uint32_t, 4> tet{};
+    for (std::size_t k = 0; k < 4; ++k) {
+      tet[k] = static_cast<std::uint32_t>(filling.corners[4 * t + k]);
+    }
     mesh.tetrahedra.push_back(tet);
-    mesh.regions.push_back(static_cast<RegionId>(std::lround(out.tetrahedronattributelist[t])));
+    mesh.regions.push_back(static_cast<RegionId>(std::lround(filling.regions[t])));
     if (tet_volume(mesh, t) < 0) std::swap(mesh.tetrahedra[t][2], mesh.tetrahedra[t][3]);
   }
   return mesh;
@@ -115,19 +164,14 @@ Result<TetMesh> to_mesh(const TetMesh& before, const tetgenio& out) {
 
 }  // namespace
 
-Result<FillMethod> fill_with_tetgen(TetMesh& mesh, const TetNeighbours& neighbours) {
+FillMethod fill_with_tetgen(TetMesh& mesh, const TetNeighbours& neighbours) {
   const TetParts parts = find_tet_parts(mesh, neighbours);
   for (const FillMethod method : {FillMethod::quality, FillMethod::plain}) {
-    tetgenio in;
-    tetgenio out;
-    set_points(mesh, in);
-    set_facets(mesh, in);
-    set_regions(mesh, parts, in);
-    if (!run(method == FillMethod::quality ? kQualitySwitches : kPlainSwitches, in, out)) continue;
-    Result<TetMesh> filled = to_mesh(mesh, out);
-    if (!filled) return tl::unexpected(filled.error());
-    mesh = std::move(*filled);
-    return method;
+    const char* switches = method == FillMethod::quality ? kQualitySwitches : kPlainSwitches;
+    if (const auto filling = find_filling(switches, mesh, parts)) {
+      mesh = to_mesh(mesh, *filling);
+      return method;
+    }
   }
   return FillMethod::kept;
 }

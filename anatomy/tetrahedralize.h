@@ -16,11 +16,11 @@ enum class FillMethod {
 
 /// Fills the complex anew with TetGen: the interfaces and interior vertices of `mesh` are kept,
 /// vertices are added inside the regions until dihedral angles and radius-edge ratios are good.
-/// TetGen's uncaught errors are caught here; then the next weaker method is used, so there is
-/// always a result. Interfaces must be rebuilt afterwards. Errors: failed when the result does not
-/// conform to the interfaces (our own fault).
+/// TetGen runs in a process of its own, because it aborts and crashes on input it does not like;
+/// then the next weaker method is used, so there is always a result. Interfaces must be rebuilt
+/// afterwards. Errors: none.
 /// Requires: interfaces up to date, vertices ordered (order_vertices).
 /// Source: [Si2015].
-[[nodiscard]] Result<FillMethod> fill_with_tetgen(TetMesh& mesh, const TetNeighbours& neighbours);
+[[nodiscard]] FillMethod fill_with_tetgen(TetMesh& mesh, const TetNeighbours& neighbours);
 
 }  // namespace artus
