@@ -65,6 +65,17 @@ std::optional<std::filesystem::path> open_video(cv::VideoWriter& writer,
   return std::nullopt;
 }
 
+/// Images of an earlier run in the same folder would stand among the new ones.
+void remove_old_images(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  std::vector<std::filesystem::path> old;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+    const std::string name = entry.path().filename().string();
+    if (entry.path().extension() == ".png" && name.find("-injection-") == 2) old.push_back(entry);
+  }
+  for (const auto& file : old) std::filesystem::remove(file, ignored);
+}
+
 Result<MomentImage> draw_moment(Renderer& renderer, const Scene& scene, const NamedMoment& moment,
                                 const NeedleShape& shape, const std::filesystem::path& folder,
                                 const std::string& stem) {
@@ -122,6 +133,7 @@ Result<RunImages> write_run_images(const std::shared_ptr<const Scene>& scene,
                                    const RunImagesOptions& options, const Progress& progress) {
   RunImages images;
   if (run.rows.empty() || run.moments.empty()) return images;
+  remove_old_images(folder);
   NeedleShape shape = options.needle;
   shape.length = run.needle_length;
   Renderer renderer(scene, options.transducer, options.settings);

@@ -66,7 +66,8 @@ std::optional<LinePlan> plan_line(const Scene& scene, const Vec3& entry, const V
 }
 
 // Another line through the same entry to another part of the same target, near the plane that the
-// default probe sees, within the cone at the depth where the operator re-aims.
+// default probe sees, within the cone at the depth where the operator re-aims; with bone behind it
+// where there is one.
 std::optional<Vec3> find_second_line(const Scene& scene, const Vec3& entry, const Vec3& direction,
                                      const LinePlan& first, const std::string& tissue) {
   Vec3 normal = scene.joint().X_JP_default.linear().col(1);
@@ -81,7 +82,7 @@ std::optional<Vec3> find_second_line(const Scene& scene, const Vec3& entry, cons
       const Vec3 turned = Eigen::AngleAxisd(degrees * kDegree, about) * direction;
       const auto plan = plan_line(scene, entry, turned, tissue, first.region);
       if (!plan) continue;
-      if (plan->bone || !first.bone) return turned;
+      if (plan->bone) return turned;
       if (!without_bone) without_bone = turned;
     }
   }
