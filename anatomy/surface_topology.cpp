@@ -115,8 +115,7 @@ EdgeCounts count_edges(const SurfaceMesh& mesh) {
 bool PieceMeasure::is_pillow() const noexcept {
   // A plate a thousand times wider than thick still has 3e-4 here, so this is rounding only.
   constexpr double kNoVolume = 1e-7;
-  return is_closed &&
-         (n_faces == 2 || std::abs(signed_volume) <= kNoVolume * std::pow(area, 1.5));
+  return is_closed && (n_faces == 2 || std::abs(signed_volume) <= kNoVolume * std::pow(area, 1.5));
 }
 
 bool PieceMeasure::is_sheet() const noexcept {

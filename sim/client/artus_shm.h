@@ -53,56 +53,56 @@ typedef struct artus_shm_header {
 enum { ARTUS_SHM_NEEDLE = 1u, ARTUS_SHM_PROBE = 2u }; /* artus_shm_pos.present */
 
 /* POS: where needle and probe are, written by the device program. World frame W, metres.
- * Needle: origin at the tip, z from hub to tip. Probe: origin at the footprint's centre, x along the
- * scanlines' row, z into the body. Quaternions w, x, y, z. */
+ * Needle: origin at the tip, z from hub to tip. Probe: origin at the footprint's centre, x along
+ * the scanlines' row, z into the body. Quaternions w, x, y, z. */
 typedef struct artus_shm_pos {
-  uint64_t sample;            /*   0 grows by one with every sample */
-  uint64_t time_ns;           /*   8 CLOCK_MONOTONIC when the pose was measured */
-  double needle_position[3];  /*  16 m */
-  double needle_rotation[4];  /*  40 */
-  double probe_position[3];   /*  72 m */
-  double probe_rotation[4];   /*  96 */
-  uint32_t buttons;           /* 128 bit 0: choose the entry point and calibrate; 1: back to exploring */
-  uint32_t present;           /* 132 ARTUS_SHM_NEEDLE | ARTUS_SHM_PROBE */
-} artus_shm_pos;              /* 136 */
+  uint64_t sample;           /*   0 grows by one with every sample */
+  uint64_t time_ns;          /*   8 CLOCK_MONOTONIC when the pose was measured */
+  double needle_position[3]; /*  16 m */
+  double needle_rotation[4]; /*  40 */
+  double probe_position[3];  /*  72 m */
+  double probe_rotation[4];  /*  96 */
+  uint32_t buttons; /* 128 bit 0: choose the entry point and calibrate; 1: back to exploring */
+  uint32_t present; /* 132 ARTUS_SHM_NEEDLE | ARTUS_SHM_PROBE */
+} artus_shm_pos;    /* 136 */
 
 /* artus_shm_force.status: bits 0-10 are those of artus' needle tick (docs/protocol.md). */
 enum {
   ARTUS_SHM_PEER_LOST = 1u << 16,   /* POS is silent or was never written */
   ARTUS_SHM_POS_INVALID = 1u << 17, /* POS holds values that are not a pose */
   ARTUS_SHM_PAUSED = 1u << 18,
-  ARTUS_SHM_STOPPED = 1u << 19,     /* artus left in good order */
-  ARTUS_SHM_SILENT = 1u << 20       /* set by artus_shm_read_force: FORCE itself is stale */
+  ARTUS_SHM_STOPPED = 1u << 19, /* artus left in good order */
+  ARTUS_SHM_SILENT = 1u << 20   /* set by artus_shm_read_force: FORCE itself is stale */
 };
 
 /* FORCE: what the hand should feel, written by artus. Frame W, at the needle's tip. */
 typedef struct artus_shm_force {
-  uint64_t tick;           /*   0 artus' haptic tick */
-  uint64_t time_ns;        /*   8 CLOCK_MONOTONIC when the force was computed */
-  uint64_t pos_sample;     /*  16 artus_shm_pos.sample that it answers */
-  uint64_t pos_time_ns;    /*  24 artus_shm_pos.time_ns of that sample */
-  double force[3];         /*  32 N */
-  double torque[3];        /*  56 N m */
-  double stiffness;        /*  80 N/m, of the layer at the tip */
-  double cutting_force;    /*  88 N, that the layer resists with */
-  double depth;            /*  96 m along the needle's line from the skin */
-  uint32_t status;         /* 104 bits, 0: all well */
-  uint32_t contact;        /* 108 0 away 1 touching 2 punctured 3 inserting 4 stopped 5 withdrawing
-                                  6 reinserting 7 bone */
-  uint32_t layer;          /* 112 index of the region at the tip, 0: outside */
-  uint32_t reserved;       /* 116 zero */
-  char layer_name[40];     /* 120 its name, zero-terminated */
-} artus_shm_force;         /* 160 */
+  uint64_t tick;        /*   0 artus' haptic tick */
+  uint64_t time_ns;     /*   8 CLOCK_MONOTONIC when the force was computed */
+  uint64_t pos_sample;  /*  16 artus_shm_pos.sample that it answers */
+  uint64_t pos_time_ns; /*  24 artus_shm_pos.time_ns of that sample */
+  double force[3];      /*  32 N */
+  double torque[3];     /*  56 N m */
+  double stiffness;     /*  80 N/m, of the layer at the tip */
+  double cutting_force; /*  88 N, that the layer resists with */
+  double depth;         /*  96 m along the needle's line from the skin */
+  uint32_t status;      /* 104 bits, 0: all well */
+  uint32_t contact;     /* 108 0 away 1 touching 2 punctured 3 inserting 4 stopped 5 withdrawing
+                               6 reinserting 7 bone */
+  uint32_t layer;       /* 112 index of the region at the tip, 0: outside */
+  uint32_t reserved;    /* 116 zero */
+  char layer_name[40];  /* 120 its name, zero-terminated */
+} artus_shm_force;      /* 160 */
 
 /* IMAGE: the newest B-mode frame, written by artus. */
 typedef struct artus_shm_image {
-  uint64_t frame;          /*  0 grows by one with every frame */
-  uint64_t time_ns;        /*  8 CLOCK_MONOTONIC when it was ready */
-  uint64_t pos_time_ns;    /* 16 of the pose that it shows */
-  double pixel;            /* 24 m, square */
-  uint32_t width;          /* 32 pixels */
-  uint32_t height;         /* 36 pixels */
-  uint64_t reserved[3];    /* 40 zero */
+  uint64_t frame;                         /*  0 grows by one with every frame */
+  uint64_t time_ns;                       /*  8 CLOCK_MONOTONIC when it was ready */
+  uint64_t pos_time_ns;                   /* 16 of the pose that it shows */
+  double pixel;                           /* 24 m, square */
+  uint32_t width;                         /* 32 pixels */
+  uint32_t height;                        /* 36 pixels */
+  uint64_t reserved[3];                   /* 40 zero */
   uint8_t grey[ARTUS_SHM_IMAGE_CAPACITY]; /* 64 (height, width), x fastest */
 } artus_shm_image;
 
@@ -202,16 +202,18 @@ static inline int artus_shm_map(artus_shm_segment* segment, const char* name, ui
     h->payload = (uint32_t)payload;
     __atomic_store_n(&h->magic, magic, __ATOMIC_RELEASE);
   }
-  if (h->magic != magic || h->version != ARTUS_SHM_VERSION || h->size != size || h->payload != payload) {
+  if (h->magic != magic || h->version != ARTUS_SHM_VERSION || h->size != size ||
+      h->payload != payload) {
     munmap(h, size);
     errno = EPROTO;
     goto failed;
   }
   if (write) __atomic_store_n(&h->writer_pid, (uint64_t)getpid(), __ATOMIC_RELEASE);
-  segment->beat = __atomic_load_n(&h->heartbeat, __ATOMIC_ACQUIRE); /* what was left behind is old */
+  segment->beat =
+      __atomic_load_n(&h->heartbeat, __ATOMIC_ACQUIRE); /* what was left behind is old */
   segment->header = h;
   return 0;
-failed: {
+failed : {
   const int why = errno;
   close(segment->file);
   segment->file = -1;
@@ -240,9 +242,11 @@ static inline int artus_shm_open(artus_shm_link* link, const char* prefix) {
     return -1;
   }
   memcpy(link->prefix, prefix, strlen(prefix) + 1);
-  if (artus_shm_map_named(link, &link->pos, "POS", ARTUS_SHM_MAGIC_POS, sizeof(artus_shm_pos), 1) != 0)
+  if (artus_shm_map_named(link, &link->pos, "POS", ARTUS_SHM_MAGIC_POS, sizeof(artus_shm_pos), 1) !=
+      0)
     return -1;
-  if (artus_shm_map_named(link, &link->force, "FORCE", ARTUS_SHM_MAGIC_FORCE, sizeof(artus_shm_force), 0) != 0) {
+  if (artus_shm_map_named(link, &link->force, "FORCE", ARTUS_SHM_MAGIC_FORCE,
+                          sizeof(artus_shm_force), 0) != 0) {
     artus_shm_unmap(&link->pos);
     return -1;
   }
@@ -269,8 +273,8 @@ static inline void artus_shm_write_pos(artus_shm_link* link, const artus_shm_pos
   artus_shm_store(link->pos.header, pos, sizeof *pos);
 }
 
-/* The newest force; zero with ARTUS_SHM_SILENT when FORCE did not change for 20 ms. Then also looks,
- * at most every 100 ms, whether a restarted artus made new segments. 1: fresh, 0: silent. */
+/* The newest force; zero with ARTUS_SHM_SILENT when FORCE did not change for 20 ms. Then also
+ * looks, at most every 100 ms, whether a restarted artus made new segments. 1: fresh, 0: silent. */
 static inline int artus_shm_read_force(artus_shm_link* link, artus_shm_force* force) {
   const uint64_t now = artus_shm_now_ns();
   artus_shm_segment* s = &link->force;

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: AGPL-3.0-or-later
- * A device program in some 40 lines: pushes the needle 30 mm into the body at 10 mm/s, holds, withdraws,
- * and says what it felt. Usage: example_device [prefix] [x y z of the skin entry, m] [direction x y z, unit] */
-#include "artus_shm.h" /* first: it asks the system's headers for clocks and shared memory */
-
+ * A device program in some 40 lines: pushes the needle 30 mm into the body at 10 mm/s, holds,
+ * withdraws, and says what it felt. Usage: example_device [prefix] [x y z of the skin entry, m]
+ * [direction x y z, unit] */
 #include <math.h>
 #include <sched.h>
 #include <stdlib.h>
+
+#include "artus_shm.h" /* first: it asks the system's headers for clocks and shared memory */
 
 int main(int argc, char** argv) {
   double line[6] = {0, 0, 0, 0, 0, 1}; /* skin entry and direction */
@@ -15,7 +16,8 @@ int main(int argc, char** argv) {
     perror(link.refusal);
     return 1;
   }
-  const struct sched_param urgent = {.sched_priority = 70}; /* a busy system must not make it late */
+  const struct sched_param urgent = {.sched_priority =
+                                         70}; /* a busy system must not make it late */
   sched_setscheduler(0, SCHED_FIFO, &urgent);
   double peak = 0, round_trip = 0;
   long answered = 0, layers = 0;
@@ -38,7 +40,8 @@ int main(int argc, char** argv) {
     artus_shm_force force;
     if (artus_shm_read_force(&link, &force) && force.pos_sample > last_answer) {
       last_answer = force.pos_sample; /* a real device sends force.force to its motors here */
-      peak = fmax(peak, -(force.force[0] * line[3] + force.force[1] * line[4] + force.force[2] * line[5]));
+      peak = fmax(
+          peak, -(force.force[0] * line[3] + force.force[1] * line[4] + force.force[2] * line[5]));
       round_trip += (double)(artus_shm_now_ns() - force.pos_time_ns) * 1e-6;
       ++answered;
       if (force.layer != last_layer) printf("%6.2f mm  %s\n", 1e3 * force.depth, force.layer_name);

@@ -14,7 +14,7 @@ set(allowed_meshes core anatomy meshes)
 
 # folder lists that may include headers starting with the pattern
 set(outside "embree:raycast" "CGAL/:anatomy,meshes" "tetgen:anatomy" "toml:anatomy,echo,haptics" "opencv2/:echo,sim,apps,viewer"
-  "CLI/:apps,meshes" "boost/interprocess:sim" "GLFW/:viewer" "imgui:viewer" "epoxy/:viewer" "gtest/:tests" "nlohmann/:sim,apps,meshes,echo")
+  "CLI/:apps,meshes" "boost/interprocess:sim" "GLFW/:viewer" "imgui:viewer" "epoxy/:viewer" "gtest/:tests" "nlohmann/:anatomy,sim,apps,meshes,echo")
 
 set(bad "")
 foreach(layer core anatomy raycast haptics echo sim meshes apps viewer)
