@@ -62,6 +62,7 @@ void add_needle_command(CLI::App& app, ExitCode& code);
 void add_image_command(CLI::App& app, ExitCode& code);
 void add_slice_command(CLI::App& app, ExitCode& code);
 void add_run_command(CLI::App& app, ExitCode& code);
+void add_experiment_command(CLI::App& app, ExitCode& code);
 void add_serve_command(CLI::App& app, ExitCode& code);
 void add_view_command(CLI::App& app, ExitCode& code);
 void add_replay_command(CLI::App& app, ExitCode& code);

@@ -42,7 +42,8 @@ TEST_F(Tool, WithoutACommandSaysSoAndReturnsTwo) {
 }
 
 TEST_F(Tool, EveryCommandHasHelpWithExamples) {
-  for (const char* command : {"check", "compile", "needle", "image", "slice", "run"}) {
+  for (const char* command :
+       {"check", "compile", "needle", "image", "slice", "run", "experiment"}) {
     const auto r = artus({command, "--help"});
     EXPECT_EQ(r.exit_code, 0) << command;
     EXPECT_NE(r.out.find("Examples:"), std::string::npos) << command;

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <vector>
+
+#include "core/text_file.h"
+#include "sim/experiment.h"
+
+#include "apps/command.h"
+
+namespace artus {
+namespace {
+
+struct ExperimentCommandOptions {
+  std::string name;
+  bool all = false;
+  std::filesystem::path out;
+  ExperimentOptions experiment;
+  bool json = false;
+};
+
+bool all_hold(const std::vector<Claim>& claims) {
+  bool all = true;
+  for (const auto& claim : claims) all = all && claim.pass;
+  return all;
+}
+
+void append_markdown(std::string& report, const std::string& name,
+                     const std::vector<Claim>& claims) {
+  report += "\n## " + name + "\n\n![" + name + "](" + name + "/" + name +
+            ".png)\n\n| claim | value | bound | holds |\n|---|---|---|---|\n";
+  for (const auto& claim : claims) {
+    char value[32];
+    std::snprintf(value, sizeof value, "%.4g", claim.value);
+    report += "| " + claim.text + " | " + value + " | " + claim.bound + " | " +
+              (claim.pass ? "yes" : "**no**") + " |\n";
+  }
+}
+
+void print(const std::string& name, const std::vector<Claim>& claims) {
+  std::printf("%s\n", name.c_str());
+  for (const auto& claim : claims)
+    std::printf("  %s  %s: %.4g (%s)\n", claim.pass ? "holds" : "FAILS", claim.text.c_str(),
+                claim.value, claim.bound.c_str());
+}
+
+ExitCode run_experiments(const ExperimentCommandOptions& options) {
+  std::vector<std::string> names;
+  if (options.all) {
+    for (const auto name : all_experiments()) names.emplace_back(name);
+  } else {
+    names.push_back(options.name);
+  }
+  if (names.front().empty())
+    return report_error({ErrorCode::invalid, "name an experiment, or give --all", "--all"},
+                        options.json);
+  const Progress progress = make_progress_printer(options.json);
+  std::string report = "# Experiments\n";
+  nlohmann::json verdicts = nlohmann::json::object();
+  bool all = true;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (progress) progress(names[i], static_cast<double>(i) / static_cast<double>(names.size()));
+    const auto folder = options.all ? options.out / names[i] : options.out;
+    const auto claims = run_experiment(names[i], folder, options.experiment);
+    if (!claims) return report_error(claims.error(), options.json);
+    all = all && all_hold(*claims);
+    append_markdown(report, names[i], *claims);
+    verdicts[names[i]] = verdict(*claims);
+    if (!options.json) print(names[i], *claims);
+  }
+  if (options.all)
+    if (const auto written = write_text(options.out / "report.md", report); !written)
+      return report_error(written.error(), options.json);
+  if (options.json) std::cout << verdicts.dump(2) << '\n';
+  return all ? ExitCode::ok : ExitCode::failed;
+}
+
+std::string list_of_names() {
+  std::string names;
+  for (const auto name : all_experiments())
+    names += (names.empty() ? "" : ", ") + std::string(name);
+  return names;
+}
+
+}  // namespace
+
+void add_experiment_command(CLI::App& app, ExitCode& code) {
+  auto options = std::make_shared<ExperimentCommandOptions>();
+  CLI::App* command = add_command(
+      app, "experiment", "Replay a published experiment: trace, plot and a verdict on each claim",
+      "Experiments: " + list_of_names() +
+          "\nExit code 1 when a claim does not hold.\n"
+          "Examples:\n"
+          "  artus experiment wall-move --out out/wall-move\n"
+          "  artus experiment --all --out out/experiments     (with report.md)");
+  command->add_option("name", options->name, "which experiment");
+  command->add_flag("--all", options->all, "all of them, with one report");
+  command->add_option("-o,--out", options->out, "folder for the results")->required();
+  command->add_option("--seed", options->experiment.seed, "seed of hand and noise")
+      ->capture_default_str();
+  command->add_option("--device", options->experiment.device, "device whose limits apply")
+      ->capture_default_str();
+  command->add_flag("--json", options->json, "print the verdicts as JSON");
+  on_run(command, code, [options] { return run_experiments(*options); });
+}
+
+}  // namespace artus
