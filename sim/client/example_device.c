@@ -2,11 +2,12 @@
  * A device program in some 40 lines: pushes the needle 30 mm into the body at 10 mm/s, holds,
  * withdraws, and says what it felt. Usage: example_device [prefix] [x y z of the skin entry, m]
  * [direction x y z, unit] */
+/* clang-format off: first, because it asks the system's headers for clocks and shared memory */
+#include "artus_shm.h"
+/* clang-format on */
 #include <math.h>
 #include <sched.h>
 #include <stdlib.h>
-
-#include "artus_shm.h" /* first: it asks the system's headers for clocks and shared memory */
 
 int main(int argc, char** argv) {
   double line[6] = {0, 0, 0, 0, 0, 1}; /* skin entry and direction */
