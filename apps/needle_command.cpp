@@ -70,7 +70,7 @@ void add_needle_command(CLI::App& app, ExitCode& code) {
       add_command(app, "needle", "What a straight needle passes through, layer by layer",
                   "Points are x,y,z in millimetres of the joint frame.\n"
                   "Examples:\n"
-                  "  artus needle -j meshes/simple-shoulder --entry 60,0,0 --tip 20,0,0\n"
+                  "  artus needle -j meshes/simple-shoulder --entry=-51.8,0,-13.9 --tip=-20,0,-5\n"
                   "  artus needle -j real.artus --entry=-235,-60,1330 --tip=-195,-50,1340 --json");
   add_joint_options(command, options->joint);
   command->add_option("--entry", options->entry, "start of the line, usually on the skin")
