@@ -40,10 +40,32 @@ void print(const std::vector<Defect>& defects) {
                 defect.message.c_str());
 }
 
+/// Fatal for the joint whatever repair does. Sheets are left to repair: it sews or thickens some.
 bool any_fatal(const std::vector<Defect>& defects) {
   return std::any_of(defects.begin(), defects.end(), [](const Defect& defect) {
-    return severity_of(defect.kind) == DefectSeverity::fatal;
+    return severity_of(defect.kind) == DefectSeverity::fatal &&
+           defect.kind != DefectKind::zero_thickness_sheet;
   });
+}
+
+/// What repair says of each surface that it refuses, "name: reason".
+std::vector<std::string> find_refused(const JointFile& joint, const Progress& progress) {
+  std::vector<std::string> refused;
+  for (std::size_t i = 0; i < joint.structures.size(); ++i) {
+    const Structure& structure = joint.structures[i];
+    if (progress)
+      progress("repairing",
+               static_cast<double>(i + 1) / static_cast<double>(joint.structures.size()));
+    const auto* surface = std::get_if<SurfaceFile>(&structure.shape);
+    if (surface == nullptr || surface->repair == "none") continue;
+    const auto mesh = read_surface(joint.surface_folder / surface->file, surface->unit);
+    if (!mesh) continue;  // already among the defects
+    RepairOptions options;
+    options.thicken = surface->thicken;
+    const auto outcome = repair_surface(*mesh, options);
+    if (!outcome) refused.push_back(structure.name + ": " + outcome.error().message);
+  }
+  return refused;
 }
 
 nlohmann::json to_json(const Result<RepairOutcome>& outcome) {
@@ -67,6 +89,9 @@ void print(const Result<RepairOutcome>& outcome) {
   std::printf("%s: closed, %zu triangles, %.3f cm3\n",
               outcome->actions.empty() ? "accepted unchanged" : "accepted after repair",
               outcome->mesh.triangles.size(), outcome->volume / kCubicCentimetre);
+  if (outcome->self_intersections > 0)
+    std::printf("%zu pairs of its faces still cut through each other; compiling tolerates that\n",
+                outcome->self_intersections);
 }
 
 ExitCode check_surface(const CheckOptions& options) {
@@ -104,22 +129,26 @@ ExitCode check_surface(const CheckOptions& options) {
 ExitCode check_joint(const CheckOptions& options) {
   const auto joint = read_joint(options.path, options.surfaces);
   if (!joint) return report_error(joint.error(), options.json);
-  const auto defects = find_joint_defects(*joint, {}, make_progress_printer(options.json));
-  const bool fatal = any_fatal(defects);
+  const Progress progress = make_progress_printer(options.json);
+  const auto defects = find_joint_defects(*joint, {}, progress);
+  const auto refused = find_refused(*joint, progress);
+  const bool fatal = any_fatal(defects) || !refused.empty();
   if (options.json) {
     auto list = nlohmann::json::array();
     for (const auto& defect : defects) list.push_back(to_json(defect));
     std::cout << nlohmann::json{{"joint", joint->name},
                                 {"structures", joint->structures.size()},
                                 {"defects", list},
+                                {"refused", refused},
                                 {"usable", !fatal}}
                      .dump(2)
               << '\n';
   } else {
     print(defects);
+    for (const auto& reason : refused) std::printf("refused: %s\n", reason.c_str());
     std::printf("%s: %zu structures, %zu findings, %s\n", joint->name.c_str(),
                 joint->structures.size(), defects.size(),
-                fatal ? "some are fatal" : "none is fatal");
+                fatal ? "cannot be compiled as it is" : "can be compiled");
   }
   return fatal ? ExitCode::defects : ExitCode::ok;
 }

@@ -13,7 +13,9 @@ constexpr int kLeft = 36;  // pixels around the image
 constexpr int kTop = 18;
 constexpr int kRight = 12;
 constexpr int kBottom = 14;
-const cv::Scalar kInk(190);
+cv::Scalar ink() {
+  return cv::Scalar(190);
+}
 
 int to_pixel(double m, double pixel) {
   return static_cast<int>(std::lround(m / pixel));
@@ -33,21 +35,21 @@ cv::Mat annotated_image(const Frame& frame, const Transducer& transducer) {
   for (int mm = 0; mm <= static_cast<int>(std::lround(depth * 1e3)); mm += 5) {
     const int y = kTop + std::min(frame.height - 1, to_pixel(mm * 1e-3, frame.pixel));
     const bool whole = mm % 10 == 0;
-    cv::line(out, {kLeft - (whole ? 9 : 5), y}, {kLeft - 2, y}, kInk, 1);
+    cv::line(out, {kLeft - (whole ? 9 : 5), y}, {kLeft - 2, y}, ink(), 1);
     if (whole) {
       cv::putText(out, std::to_string(mm / 10), {kLeft - 28, y + 4}, cv::FONT_HERSHEY_SIMPLEX, 0.38,
-                  kInk, 1, cv::LINE_AA);
+                  ink(), 1, cv::LINE_AA);
     }
   }
-  cv::putText(out, "cm", {2, kTop - 6}, cv::FONT_HERSHEY_SIMPLEX, 0.35, kInk, 1, cv::LINE_AA);
+  cv::putText(out, "cm", {2, kTop - 6}, cv::FONT_HERSHEY_SIMPLEX, 0.35, ink(), 1, cv::LINE_AA);
   const int focus = kTop + to_pixel(transducer.elevation_focus, frame.pixel);
   if (focus < kTop + frame.height) {
     const int x = kLeft + frame.width + 2;
-    cv::line(out, {x, focus}, {x + 7, focus - 4}, kInk, 1, cv::LINE_AA);
-    cv::line(out, {x, focus}, {x + 7, focus + 4}, kInk, 1, cv::LINE_AA);
-    cv::line(out, {x + 7, focus - 4}, {x + 7, focus + 4}, kInk, 1, cv::LINE_AA);
+    cv::line(out, {x, focus}, {x + 7, focus - 4}, ink(), 1, cv::LINE_AA);
+    cv::line(out, {x, focus}, {x + 7, focus + 4}, ink(), 1, cv::LINE_AA);
+    cv::line(out, {x + 7, focus - 4}, {x + 7, focus + 4}, ink(), 1, cv::LINE_AA);
   }
-  cv::circle(out, {kLeft + 5, kTop - 8}, 4, kInk, 1, cv::LINE_AA);
+  cv::circle(out, {kLeft + 5, kTop - 8}, 4, ink(), 1, cv::LINE_AA);
   return out;
 }
 

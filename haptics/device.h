@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
-#include <span>
+#include <array>
 #include <string_view>
 
 #include "core/check.h"
@@ -22,7 +22,7 @@ struct DeviceLimits {
 };
 
 /// touch, virtuose_6d_desktop, delta, ideal.
-[[nodiscard]] std::span<const DeviceLimits> device_table() noexcept;
+[[nodiscard]] std::array<DeviceLimits, 4> device_table();
 
 /// Errors: not_found, with the names there are.
 [[nodiscard]] Result<DeviceLimits> find_device(std::string_view name);

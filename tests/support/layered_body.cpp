@@ -38,6 +38,7 @@ Haptic haptic_of(double cutting_force, bool hard = false) {
   haptic.friction = cutting_force > 0 ? 1 : 0;
   haptic.clamping_stiffness = 100 * cutting_force;
   haptic.hard = hard;
+  if (hard) haptic.wall_stiffness = 4000;  // as the tissue library has bone
   return haptic;
 }
 
