@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 
 #include <nlohmann/json.hpp>
 
+#include "core/text_file.h"
 #include "haptics/device.h"
 #include "sim/experiment_list.h"
 #include "sim/probe_experiment.h"
@@ -28,14 +28,6 @@ constexpr std::array<Run, kNames.size()> kRuns{
 void add_cells(std::string& out, const std::vector<std::string>& cells) {
   for (std::size_t i = 0; i < cells.size(); ++i) out += (i == 0 ? "" : ",") + cells[i];
   out += '\n';
-}
-
-Result<void> write_text(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream out(file, std::ios::binary);
-  out << text;
-  out.close();
-  if (!out) return fail(ErrorCode::unreadable, "cannot be written", file.string());
-  return {};
 }
 
 }  // namespace

@@ -3,10 +3,10 @@
 
 #include <array>
 #include <cstdio>
-#include <fstream>
 
 #include <nlohmann/json.hpp>
 
+#include "core/text_file.h"
 #include "sim/probe_experiment_list.h"
 
 namespace artus {
@@ -18,14 +18,6 @@ using Run = ProbeExperiment (*)(std::uint64_t);
 
 constexpr std::array<std::string_view, 3> kNames{"probe-isp", "probe-ssp", "probe-study"};
 constexpr std::array<Run, kNames.size()> kRuns{run_probe_isp, run_probe_ssp, run_probe_study};
-
-Result<void> write_text(const fs::path& file, const std::string& text) {
-  std::ofstream out(file, std::ios::binary);
-  out << text;
-  out.close();
-  if (!out) return fail(ErrorCode::unreadable, "cannot be written", file.string());
-  return {};
-}
 
 std::string markdown_row(const std::vector<std::string>& cells) {
   std::string line = "|";

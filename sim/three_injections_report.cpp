@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include <fstream>
-
 #include <nlohmann/json.hpp>
 
+#include "core/text_file.h"
 #include "core/units.h"
 #include "sim/plot.h"
 #include "sim/three_injections.h"
@@ -102,10 +101,8 @@ Result<void> write_three_injections(const ThreeInjections& run,
   if (error) return fail(ErrorCode::unreadable, error.message(), folder.string());
   const auto csv = write_needle_csv(folder / "trace.csv", run.rows, run.region_names);
   if (!csv) return csv;
-  std::ofstream out(folder / "summary.json", std::ios::binary);
-  out << summarize(run).dump(2) << '\n';
-  out.close();
-  if (!out) return fail(ErrorCode::unreadable, "cannot write summary.json", folder.string());
+  const auto summary = write_text(folder / "summary.json", summarize(run).dump(2) + "\n");
+  if (!summary) return summary;
   return write_plot(folder / "forces.png", force_plot(run));
 }
 
