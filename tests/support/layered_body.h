@@ -3,65 +3,52 @@
 #include <cstddef>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include "anatomy/compiled_joint.h"
+#include "anatomy/layered_body.h"
 
-/// Small layered bodies whose answers are known in closed form. They carry interfaces, regions and
-/// tissues, but no tetrahedra: whoever needs volumes fills them with TetGen.
+/// The layered bodies of anatomy/layered_body.h made of test tissues.
 namespace artus::test {
 
-/// One layer of a flat block, top first.
-struct FlatLayer {
-  std::string tissue;    ///< name in make_test_tissues()
-  double thickness = 0;  ///< m
-};
-
-/// One sphere of a nest, outermost first.
-struct SphereLayer {
-  std::string tissue;  ///< of the shell between this sphere and the next one inside
-  double radius = 0;   ///< m
-};
+using artus::FlatLayer;
+using artus::region_named;
+using artus::SphereLayer;
+using artus::transformed;
 
 /// gel, skin, fat, muscle, bursa, tendon, cartilage, bone, in this order. Acoustic values as the
 /// literature's tissue table gives them, cutting forces of [Alamilla2020] table 4.2; backscatter,
 /// roughness, fat's haptics and the other haptic values are assumed: tests need some value.
 [[nodiscard]] std::vector<Tissue> make_test_tissues();
 
-/// The region with this name. Requires: there is one.
-[[nodiscard]] RegionId region_named(const CompiledJoint& joint, std::string_view name);
+[[nodiscard]] inline CompiledJoint make_layered_block(std::span<const FlatLayer> layers,
+                                                      double width_x, double depth_y,
+                                                      const Vec3& top_centre = Vec3::Zero()) {
+  return artus::make_layered_block(make_test_tissues(), layers, width_x, depth_y, top_centre);
+}
 
-/// A block of layers stacked along +z: the first layer's top face lies in z = 0 around `top_centre`
-/// (frame J), so a probe at `top_centre` looking along +z sees the layers in order. Regions after
-/// "outside" and "beyond" are named like their tissue; a tissue's second layer is "<tissue>_2".
-[[nodiscard]] CompiledJoint make_layered_block(std::span<const FlatLayer> layers, double width_x,
-                                               double depth_y,
-                                               const Vec3& top_centre = Vec3::Zero());
+[[nodiscard]] inline CompiledJoint make_nested_spheres(std::span<const SphereLayer> layers,
+                                                       const Vec3& centre = Vec3::Zero(),
+                                                       int subdivisions = 4) {
+  return artus::make_nested_spheres(make_test_tissues(), layers, centre, subdivisions);
+}
 
-/// Spheres inside each other around `centre`: icosahedra split `subdivisions` times
-/// (20 * 4^subdivisions triangles each), vertices on the spheres. Regions named as in
-/// make_layered_block.
-[[nodiscard]] CompiledJoint make_nested_spheres(std::span<const SphereLayer> layers,
-                                                const Vec3& centre = Vec3::Zero(),
-                                                int subdivisions = 4);
+[[nodiscard]] inline CompiledJoint make_block_with_sphere(const std::string& tissue,
+                                                          const Vec3& size, const Vec3& top_centre,
+                                                          const std::string& inclusion,
+                                                          const Vec3& centre, double radius,
+                                                          int subdivisions = 4) {
+  return artus::make_block_with_sphere(make_test_tissues(), tissue, size, top_centre, inclusion,
+                                       centre, radius, subdivisions);
+}
 
-/// A block of `tissue` (top face centre at `top_centre`, body along +z) with a sphere of
-/// `inclusion` tissue inside. Requires: the sphere lies inside the block. Regions: "block",
-/// "inclusion".
-[[nodiscard]] CompiledJoint make_block_with_sphere(const std::string& tissue, const Vec3& size,
-                                                   const Vec3& top_centre,
-                                                   const std::string& inclusion, const Vec3& centre,
-                                                   double radius, int subdivisions = 4);
-
-/// The same with a closed cylinder of `sides` flat sides between the points `a` and `b`.
-[[nodiscard]] CompiledJoint make_block_with_cylinder(const std::string& tissue, const Vec3& size,
-                                                     const Vec3& top_centre,
-                                                     const std::string& inclusion, const Vec3& a,
-                                                     const Vec3& b, double radius,
-                                                     std::size_t sides = 64);
-
-/// The joint moved rigidly: vertices, landmarks, default poses and fibre axes.
-[[nodiscard]] CompiledJoint transformed(const CompiledJoint& joint, const Pose& X_new_old);
+[[nodiscard]] inline CompiledJoint make_block_with_cylinder(const std::string& tissue,
+                                                            const Vec3& size,
+                                                            const Vec3& top_centre,
+                                                            const std::string& inclusion,
+                                                            const Vec3& a, const Vec3& b,
+                                                            double radius, std::size_t sides = 64) {
+  return artus::make_block_with_cylinder(make_test_tissues(), tissue, size, top_centre, inclusion,
+                                         a, b, radius, sides);
+}
 
 }  // namespace artus::test
