@@ -10,3 +10,4 @@ install(FILES ${PROJECT_BINARY_DIR}/artus-config.cmake ${PROJECT_BINARY_DIR}/art
   cmake/dependencies.cmake DESTINATION lib/cmake/artus)
 install(DIRECTORY meshes/ DESTINATION share/artus/meshes
   FILES_MATCHING PATTERN "*.toml" PATTERN "*.ply" PATTERN "README.md" PATTERN "generate" EXCLUDE)
+install(DIRECTORY devices/ DESTINATION share/artus/devices FILES_MATCHING PATTERN "*.toml")

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "echo/transducer_file.h"
+
+#include <array>
+#include <cmath>
+
+#include "anatomy/joint_toml.h"
+#include "anatomy/surface_io.h"
+#include "core/units.h"
+#include "echo/bundled_transducers.h"
+
+namespace artus {
+namespace {
+
+/// A number of the file: its key, where it goes, its range in the file's unit, the factor to SI.
+struct Field {
+  const char* key;
+  double Transducer::*member;
+  double low;
+  double high;
+  double to_si;
+  bool required;
+};
+
+constexpr std::array<Field, 10> kFields{{
+    {"width_mm", &Transducer::width, 1, 200, kMillimetre, true},
+    {"radius_mm", &Transducer::radius, 0, 200, kMillimetre, false},
+    {"steering_deg", &Transducer::steering, -40, 40, kDegree, false},
+    {"frequency_mhz", &Transducer::frequency, 1, 50, 1e6, true},
+    {"bandwidth", &Transducer::bandwidth, 0.05, 1.5, 1, true},
+    {"pulse_cycles", &Transducer::pulse_cycles, 0.5, 20, 1, true},
+    {"f_number", &Transducer::f_number, 0.5, 20, 1, true},
+    {"max_aperture_mm", &Transducer::max_aperture, 0.5, 200, kMillimetre, true},
+    {"elevation_height_mm", &Transducer::elevation_height, 0.5, 50, kMillimetre, true},
+    {"elevation_focus_mm", &Transducer::elevation_focus, 2, 500, kMillimetre, true},
+}};
+constexpr double kMaxLines = 4096;
+
+}  // namespace
+
+Result<TransducerPreset> parse_transducer(std::string_view text, const std::string& file) {
+  const auto document = parse_toml(text, file);
+  if (!document) return tl::unexpected(document.error());
+  Problems problems;
+  TomlTable toml(*document, "transducer", problems);
+  TransducerPreset preset;
+  static_cast<void>(toml.required_number("format", 1, 1));
+  preset.name = toml.required_text("name");
+  if (!preset.name.empty() && !is_plain_name(preset.name, '-'))
+    toml.problem_at("name", "must be made of [a-z0-9-]");
+  preset.title = toml.required_text("title");
+  preset.source = toml.required_text("source");
+  for (const Field& field : kFields) {
+    if (field.required && !toml.has(field.key))
+      toml.problem("'" + std::string(field.key) + "' is missing");
+    // The range is in the file's unit, so that is what the message tells; scaled afterwards.
+    if (const auto value = toml.number(field.key, field.low, field.high))
+      preset.transducer.*field.member = *value * field.to_si;
+  }
+  const double lines = toml.required_number("lines", 1, kMaxLines);
+  if (lines != std::floor(lines)) toml.problem_at("lines", "must be a whole number");
+  preset.transducer.n_lines = static_cast<int>(lines);
+  toml.finish();
+  if (!problems.empty()) return problems.refusal(ErrorCode::invalid, file);
+  if (const auto valid = validate(preset.transducer); !valid)
+    return fail(ErrorCode::invalid, valid.error().message, file);
+  return preset;
+}
+
+Result<TransducerPreset> read_transducer(const std::filesystem::path& file) {
+  const auto bytes = read_bytes(file);
+  if (!bytes) return tl::unexpected(bytes.error());
+  return parse_transducer(*bytes, file.string());
+}
+
+Result<std::vector<TransducerPreset>> read_bundled_transducers() {
+  std::vector<TransducerPreset> presets;
+  for (const std::string_view text : kBundledTransducers) {
+    auto preset =
+        parse_transducer(text, "bundled transducer " + std::to_string(presets.size() + 1));
+    if (!preset) return tl::unexpected(preset.error());
+    presets.push_back(std::move(*preset));
+  }
+  return presets;
+}
+
+Result<TransducerPreset> find_transducer(const std::string& name_or_file) {
+  if (std::filesystem::path(name_or_file).extension() == ".toml")
+    return read_transducer(name_or_file);
+  const auto presets = read_bundled_transducers();
+  if (!presets) return tl::unexpected(presets.error());
+  std::string names;
+  for (const TransducerPreset& preset : *presets) {
+    if (preset.name == name_or_file) return preset;
+    names += (names.empty() ? "" : ", ") + preset.name;
+  }
+  return fail(ErrorCode::not_found, "no transducer '" + name_or_file + "'; there are " + names +
+                                        ", or give a .toml file");
+}
+
+}  // namespace artus
