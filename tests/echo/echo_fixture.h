@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "echo/frame.h"
+#include "echo/frame_measure.h"
 #include "echo/image_settings.h"
 #include "echo/needle_view.h"
 #include "raycast/scene.h"
@@ -21,25 +22,16 @@ namespace artus::test {
 /// The acoustic values of a tissue of the joint. Requires: there is one of this name.
 [[nodiscard]] Acoustic& acoustic_of(CompiledJoint& joint, const std::string& tissue);
 
-/// Settings that show bare physics: no compensation, texture, repeats, downshift or noise.
-[[nodiscard]] ImageSettings bare_settings();
+using artus::bare_settings;
+using artus::decibel;
+using artus::envelope_line;
+using artus::find_peak;
+using artus::mean_intensity;
 
 /// A probe on the block's top looking along +z, moved by (x, y, z) m.
 [[nodiscard]] Pose probe_at(double x = 0, double y = 0, double z = 0);
 
 /// A needle whose tip is at (x, y, z) of the probe's frame, dipping by `angle` rad toward +x.
 [[nodiscard]] NeedleView needle_at(const Pose& X_JP, const Vec3& tip_P, double angle);
-
-/// Mean intensity (squared envelope) of the samples from depth `from` to `to`, m, of every line.
-[[nodiscard]] double mean_intensity(const Frame& frame, double from, double to);
-
-/// Sample of the largest envelope between two depths on one line.
-[[nodiscard]] int find_peak(const Frame& frame, int line, double from, double to);
-
-/// One line's envelope.
-[[nodiscard]] std::span<const float> envelope_line(const Frame& frame, int line);
-
-/// 20 log10.
-[[nodiscard]] double decibel(double amplitude);
 
 }  // namespace artus::test

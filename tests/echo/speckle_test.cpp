@@ -40,20 +40,6 @@ std::vector<double> independent_envelopes() {
   return cells;
 }
 
-struct Moments {
-  double mean = 0;
-  double deviation = 0;
-};
-
-Moments moments_of(const std::vector<double>& values) {
-  double sum = 0;
-  double squares = 0;
-  for (const double v : values) sum += v, squares += v * v;
-  const auto n = static_cast<double>(values.size());
-  const double mean = sum / n;
-  return {mean, std::sqrt(squares / n - mean * mean)};
-}
-
 TEST(Speckle, IsFullyDevelopedInAHomogeneousBlock) {
   std::vector<double> cells = independent_envelopes();
   ASSERT_GE(cells.size(), 10000U);
