@@ -51,11 +51,13 @@ Result<TransducerPreset> parse_transducer(std::string_view text, const std::stri
   preset.title = toml.required_text("title");
   preset.source = toml.required_text("source");
   for (const Field& field : kFields) {
-    if (field.required && !toml.has(field.key))
-      toml.problem("'" + std::string(field.key) + "' is missing");
+    double& value = preset.transducer.*field.member;
     // The range is in the file's unit, so that is what the message tells; scaled afterwards.
-    if (const auto value = toml.number(field.key, field.low, field.high))
-      preset.transducer.*field.member = *value * field.to_si;
+    if (field.required) {
+      value = toml.required_number(field.key, field.low, field.high) * field.to_si;
+    } else if (const auto given = toml.number(field.key, field.low, field.high)) {
+      value = *given * field.to_si;
+    }
   }
   const double lines = toml.required_number("lines", 1, kMaxLines);
   if (lines != std::floor(lines)) toml.problem_at("lines", "must be a whole number");
