@@ -18,9 +18,6 @@ constexpr double kSilence = -20;    // ln: 174 dB down, below any receiver
 constexpr double kMargin = 1.25;    // tissue as fast as tendon reaches deeper in the same time
 constexpr double kFaceReflection = 0.1;  // assumed: matching layers and lens send back -20 dB
 constexpr double kRepeatFrom = 0.02;     // echoes above -34 dB repeat
-constexpr double kAirPitch = 1.2e-3;  // m. assumed: lens thickness, pitch of lines without contact
-constexpr int kAirLines = 9;
-constexpr double kAirDecay = 0.45;  // assumed
 
 }  // namespace
 
@@ -221,21 +218,9 @@ void BeamTracer::trace_along(const BeamPath& path, const Vec3& elevation_axis_J,
   add_repeats(trace);
 }
 
-/// First repeats: sound that went from the face to a strong interface and back twice; without
-/// contact, the lens rings by itself.
+/// First repeats: sound that went from the face to a strong interface and back twice.
 void BeamTracer::add_repeats(BeamTrace& trace) const noexcept {
-  if (!trace.contact) {
-    double amplitude = 1;
-    for (int k = 0; k < kAirLines; ++k) {
-      BeamEcho& echo = trace.echoes[trace.n_echoes++];
-      echo = BeamEcho{};
-      echo.sample = 1 + k * kAirPitch / sample_depth_;
-      echo.amplitude = amplitude;
-      amplitude *= kAirDecay;
-    }
-    return;
-  }
-  if (!reverberation_) return;
+  if (!trace.contact || !reverberation_) return;
   const std::size_t n = trace.n_echoes;
   for (std::size_t i = 0; i < n && trace.n_echoes < BeamTrace::kMax; ++i) {
     BeamEcho repeat = trace.echoes[i];

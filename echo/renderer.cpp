@@ -12,6 +12,7 @@
 
 #include "core/check.h"
 #include "core/noise.h"
+#include "echo/aperture_coupling.h"
 #include "echo/beam_shape.h"
 #include "echo/display.h"
 #include "echo/line_synthesis.h"
@@ -68,7 +69,8 @@ struct Renderer::Impl {
         time_gain(make_time_gain(transducer, settings)),
         noise_gain(static_cast<std::size_t>(settings.n_samples),
                    static_cast<float>(std::pow(10.0, settings.noise_db / 20))),
-        arena(settings.n_threads == 0 ? tbb::task_arena::automatic : settings.n_threads) {
+        arena(settings.n_threads == 0 ? tbb::task_arena::automatic : settings.n_threads),
+        coupling(transducer) {
     const int blocks = (transducer.n_lines + kBlock - 1) / kBlock;
     scratch.resize(static_cast<std::size_t>(blocks));
     const auto size =
@@ -120,6 +122,9 @@ struct Renderer::Impl {
         const auto im = row(raw_im, l, n);
         synthesis.synthesise(tracer, regions, line, X_JP, mine, re, im);
         if (needle_echo) needle_echo->add(line, X_JP, mine.central, mine.bent, re, im);
+        coupling.apply(l, shape.sample_depth(), re, im);
+        add_lens_ringing(mine.central.contact ? 1 - coupling.at_line(l) : 1, shape.sample_depth(),
+                         re);
         frame.shadow_from[static_cast<std::size_t>(l)] =
             static_cast<float>(std::clamp(mine.central.shadow_from, 0.0, static_cast<double>(n)));
       }
@@ -140,7 +145,7 @@ struct Renderer::Impl {
       if (lateral * elevation < 1e-6 || sample >= static_cast<double>(re.size()) - 1) continue;
       const auto i = static_cast<std::size_t>(sample);
       const double t = sample - static_cast<double>(i);
-      const double a = reflector.amplitude * lateral * elevation;
+      const double a = reflector.amplitude * lateral * elevation * coupling.gain(l, depth);
       re[i] += static_cast<float>((1 - t) * a);
       re[i + 1] += static_cast<float>(t * a);
     }
@@ -198,6 +203,7 @@ struct Renderer::Impl {
   std::vector<float> noise_gain;
   tbb::task_arena arena;
   std::vector<PointReflector> reflectors;
+  ApertureCoupling coupling;
   std::vector<LineScratch> scratch;
   std::vector<float> raw_re;  // (n_lines, n_samples) before the beam's shape
   std::vector<float> raw_im;
@@ -229,6 +235,10 @@ const Frame& Renderer::render(const Pose& X_JP, const std::optional<NeedleView>&
   impl_->times = {std::chrono::duration<double>(lines - start).count(),
                   std::chrono::duration<double>(beam - lines).count(), seconds_since(beam)};
   return impl_->frame;
+}
+
+void Renderer::set_contact(std::span<const float> coverage) {
+  impl_->coupling.set(coverage);
 }
 
 void Renderer::set_point_reflectors(std::vector<PointReflector> reflectors) {

@@ -2,6 +2,7 @@
 #pragma once
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "echo/frame.h"
@@ -30,6 +31,13 @@ class Renderer {
   /// A probe that does not touch the body gives a black image below a reverberating line.
   /// Requires: a finite rigid pose. Cost: a few ms a frame; allocates nothing after the first call.
   const Frame& render(const Pose& X_JP, const std::optional<NeedleView>& needle = std::nullopt);
+
+  /// How well strips of the face couple to the skin in later frames: 0 (lifted, or no gel) .. 1,
+  /// any number of equal strips from the -x to the +x edge. Below a lifted strip the image is black
+  /// under the lens's ringing, as deep as no coupled part of the aperture reaches. Empty: only the
+  /// gap between face and skin decides (gel_limit), which also holds on top of this.
+  /// Allocates only when there are more strips than ever before.
+  void set_contact(std::span<const float> coverage);
 
   /// Reflectors fixed in the body that later frames show.
   void set_point_reflectors(std::vector<PointReflector> reflectors);
