@@ -5,37 +5,20 @@
 
 #include <tbb/parallel_for.h>
 
-#include "anatomy/repair.h"
 #include "anatomy/surface_io.h"
 
 namespace artus {
 namespace {
 
-RepairOptions repair_options(const SurfaceFile& surface) {
-  RepairOptions options;
-  options.thicken = surface.thicken;
-  if (surface.repair == "wrap") options.wrap = WrapPolicy::always;
-  return options;
-}
-
-// The surface as it is, or closed by the smallest change that does it.
-Result<SurfaceMesh> repaired(SurfaceMesh mesh, const SurfaceFile& surface,
-                             StructureReport& report) {
-  if (surface.repair == "none") return mesh;
-  Result<RepairOutcome> outcome = repair_surface(mesh, repair_options(surface));
-  if (!outcome) return tl::unexpected(outcome.error());
-  for (const RepairAction& action : outcome->actions) report.repairs.push_back(action.message);
-  return std::move(outcome->mesh);
-}
-
 Result<PreparedSurface> prepare(const JointFile& file, const SurfaceFile& surface,
                                 StructureReport& report) {
   Result<SurfaceMesh> mesh = read_surface(file.surface_folder / surface.file, surface.unit);
   if (!mesh) return tl::unexpected(mesh.error());
-  mesh = repaired(std::move(*mesh), surface, report);
-  if (!mesh) return tl::unexpected(mesh.error());
+  Result<RepairOutcome> outcome = repair_as_declared(*mesh, surface);
+  if (!outcome) return tl::unexpected(outcome.error());
+  for (const RepairAction& action : outcome->actions) report.repairs.push_back(action.message);
   PreparedSurface prepared;
-  prepared.mesh = std::move(*mesh);
+  prepared.mesh = std::move(outcome->mesh);
   report.surface_volume = signed_volume(prepared.mesh);
   const double area = surface_area(prepared.mesh);
   if (!(report.surface_volume > 0 && area > 0)) {
@@ -47,6 +30,19 @@ Result<PreparedSurface> prepare(const JointFile& file, const SurfaceFile& surfac
 }
 
 }  // namespace
+
+Result<RepairOutcome> repair_as_declared(const SurfaceMesh& mesh, const SurfaceFile& surface) {
+  if (surface.repair == "none") {
+    RepairOutcome untouched;
+    untouched.mesh = mesh;
+    untouched.volume = signed_volume(mesh);
+    return untouched;
+  }
+  RepairOptions options;
+  options.thicken = surface.thicken;
+  if (surface.repair == "wrap") options.wrap = WrapPolicy::always;
+  return repair_surface(mesh, options);
+}
 
 Result<PreparedSurfaces> prepare_surfaces(const JointFile& file,
                                           std::vector<StructureReport>& reports) {

@@ -5,6 +5,7 @@
 #include "anatomy/compile_report.h"
 #include "anatomy/distance_tree.h"
 #include "anatomy/joint.h"
+#include "anatomy/repair.h"
 
 namespace artus {
 
@@ -20,6 +21,11 @@ struct PreparedSurfaces {
   PreparedSurface body;
   std::vector<std::optional<PreparedSurface>> structures;  ///< (n_structures)
 };
+
+/// Repairs a surface as its entry in the joint file asks: closed by the smallest change that does
+/// it, wrapped, made a plate, or (repair = "none") left as it is. Errors: those of repair_surface.
+[[nodiscard]] Result<RepairOutcome> repair_as_declared(const SurfaceMesh& mesh,
+                                                       const SurfaceFile& surface);
 
 /// Reads and repairs all surfaces; notes repairs and refusals in `reports` (n_structures).
 /// Errors: those of reading; defective when the body is refused.

@@ -16,8 +16,10 @@ namespace artus {
 namespace {
 
 constexpr double kSquareCentimetre = 1e-4;  // m^2
-/// Untangling takes time that grows fast with these; above them the intersections stay.
-constexpr std::size_t kMostTangledPairs = 30;
+/// CGAL's untangling takes time that grows fast with these; above them only cutting out is tried.
+constexpr std::size_t kFewTangledPairs = 30;
+/// Above these the intersections stay: so many are no accident of a file but how it was modelled.
+constexpr std::size_t kMostTangledPairs = 500;
 constexpr std::size_t kMostUntangledFaces = 60'000;
 
 std::string with_number(const char* format, double value) {
@@ -225,7 +227,8 @@ class Repair {
         outcome_.self_intersections > kMostTangledPairs ||
         mesh().triangles.size() > kMostUntangledFaces)
       return;
-    if (!untangle(mesh())) return;
+    const bool few = outcome_.self_intersections <= kFewTangledPairs;
+    if (!(few && untangle(mesh())) && !cut_out_tangles(mesh())) return;
     note(RepairKind::untangled_faces, outcome_.self_intersections, 0,
          "of crossing faces is untangled", "of crossing faces are untangled", "pair", "pairs");
     outcome_.self_intersections = 0;

@@ -80,7 +80,6 @@ std::vector<Triangle> triangulate(const SurfaceMesh& mesh, const Rim& rim) {
     const Vec3& p = mesh.vertices[v];
     points.emplace_back(p.x(), p.y(), p.z());
   }
-  std::vector<std::array<std::size_t, 3>> local;
   struct Indices {
     std::array<std::size_t, 3> v;
     Indices(std::size_t a, std::size_t b, std::size_t c) : v{a, b, c} {}

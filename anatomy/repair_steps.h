@@ -46,6 +46,12 @@ std::size_t thicken_sheets(SurfaceMesh& mesh, double thickness);
 /// hole is left, or the volume changes by more than one part in a hundred.
 bool untangle(SurfaceMesh& mesh);
 
+/// Cuts out the faces that cross others, with growing rings of neighbours, and fills the openings,
+/// until none is left; a round that does not help is tried again with a wider ring. False, and the
+/// mesh as it was, when some stay, a hole is left, or the volume changes by more than one part in a
+/// hundred. For the folded lips of cracks that untangle cannot part.
+bool cut_out_tangles(SurfaceMesh& mesh);
+
 /// The shrink-wrap of a surface; `detail` is the size of the openings it does not enter, m.
 /// Errors: failed.
 [[nodiscard]] Result<SurfaceMesh> make_wrap(const SurfaceMesh& mesh, double detail, double offset);

@@ -5,8 +5,8 @@
 #include <map>
 #include <memory>
 
+#include "anatomy/compile_surfaces.h"
 #include "anatomy/defects.h"
-#include "anatomy/repair.h"
 #include "anatomy/surface_io.h"
 #include "core/units.h"
 
@@ -57,12 +57,10 @@ std::vector<std::string> find_refused(const JointFile& joint, const Progress& pr
       progress("repairing",
                static_cast<double>(i + 1) / static_cast<double>(joint.structures.size()));
     const auto* surface = std::get_if<SurfaceFile>(&structure.shape);
-    if (surface == nullptr || surface->repair == "none") continue;
+    if (surface == nullptr) continue;
     const auto mesh = read_surface(joint.surface_folder / surface->file, surface->unit);
     if (!mesh) continue;  // already among the defects
-    RepairOptions options;
-    options.thicken = surface->thicken;
-    const auto outcome = repair_surface(*mesh, options);
+    const auto outcome = repair_as_declared(*mesh, *surface);
     if (!outcome) refused.push_back(structure.name + ": " + outcome.error().message);
   }
   return refused;
