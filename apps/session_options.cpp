@@ -3,6 +3,7 @@
 
 #include <cstdio>
 
+#include "sim/device_injection.h"
 #include "sim/device_shared_memory.h"
 
 namespace artus {
@@ -18,15 +19,24 @@ std::vector<DeviceSample> samples_of(const Recording& recording) {
 }
 
 Result<std::unique_ptr<InputDevice>> make_injection_device(const SessionOptions& options,
+                                                           const SessionParams& params,
                                                            const CompiledJoint& joint) {
+  constexpr double kBeyond = 20e-3;  // m past the target where bone is looked for
   const auto i = static_cast<std::size_t>(options.injection - 1);
   if (options.injection < 1 || i >= joint.injections.size())
     return fail(ErrorCode::not_found,
                 "the joint plans " + std::to_string(joint.injections.size()) + " injections",
                 "--injection");
   const PlannedInjection& plan = joint.injections[i];
-  return std::make_unique<ScriptedDevice>(make_injection(
-      plan.entry, plan.target, joint.X_JP_default, options.speed_mm_s * kMillimetre));
+  const Vec3 way = plan.target - plan.entry;
+  InjectionPlan injection;
+  injection.entry_W = plan.entry;
+  injection.direction_W = way.normalized();
+  injection.X_WP = joint.X_JP_default;
+  injection.target = way.norm();
+  injection.deepest = way.norm() + kBeyond;
+  injection.speed = options.speed_mm_s * kMillimetre;
+  return std::make_unique<InjectingDevice>(injection, params.device, params.haptic_rate);
 }
 
 void print_line(const char* what, const LatencyHistogram& h) {
@@ -61,13 +71,14 @@ void add_session_options(CLI::App* command, SessionOptions& options,
   command
       ->add_option(
           "--input", options.input,
-          "shared-memory, hand (mouse and keyboard), injection (a planned one), or a recording")
+          "shared-memory, hand (mouse, keyboard, gamepad), injection (a simulated hand does a "
+          "planned one again and again), or a recording")
       ->capture_default_str();
   command->add_option("--prefix", options.prefix, "stands before the names POS, FORCE and IMAGE");
   command->add_option("--record", options.recording, "keep all inputs in this file");
   command->add_option("--injection", options.injection, "which planned injection, from 1")
       ->capture_default_str();
-  command->add_option("--speed-mm-s", options.speed_mm_s, "of the planned injection")
+  command->add_option("--speed-mm-s", options.speed_mm_s, "of the simulated hand")
       ->capture_default_str();
   command->add_option("--haptic-cpu", options.haptic_cpu, "processor of the haptic thread; -1: any")
       ->capture_default_str();
@@ -124,7 +135,7 @@ Result<std::unique_ptr<InputDevice>> make_device(const SessionOptions& options,
     *hand = device.get();
     return std::unique_ptr<InputDevice>(std::move(device));
   }
-  if (options.input == "injection") return make_injection_device(options, joint);
+  if (options.input == "injection") return make_injection_device(options, params, joint);
   const auto recording = read_recording(options.input);
   if (!recording) return tl::unexpected<Error>(recording.error());
   return std::unique_ptr<InputDevice>(std::make_unique<RecordedDevice>(samples_of(*recording)));
@@ -134,9 +145,11 @@ void print_times(const SessionTimes& times, const SessionParams& params) {
   std::printf("%-18s %10s %9s %9s %9s %9s %9s\n", "us", "count", "p50", "p95", "p99", "p99.9",
               "max");
   print_line("haptic compute", times.haptic_compute);
+  print_line("haptic processor", times.haptic_cpu);
   print_line("haptic lateness", times.haptic_lateness);
   print_line("image render", times.image_render);
   print_line("image interval", times.image_interval);
+  print_line("thirty images", times.image_thirty);
   print_line("pose to image", times.pose_to_image);
   std::printf("haptic period %.0f us, image period %.0f us\n", 1e6 / params.haptic_rate,
               1e6 / params.image_rate);
@@ -144,9 +157,11 @@ void print_times(const SessionTimes& times, const SessionParams& params) {
 
 nlohmann::json to_json(const SessionTimes& times) {
   return {{"haptic_compute", to_json(times.haptic_compute)},
+          {"haptic_cpu", to_json(times.haptic_cpu)},
           {"haptic_lateness", to_json(times.haptic_lateness)},
           {"image_render", to_json(times.image_render)},
           {"image_interval", to_json(times.image_interval)},
+          {"image_thirty", to_json(times.image_thirty)},
           {"pose_to_image", to_json(times.pose_to_image)}};
 }
 

@@ -39,9 +39,10 @@ Result<std::unique_ptr<Session>> Session::start(std::shared_ptr<const Scene> sce
     session->image_bytes_ = std::make_unique<artus_shm_image>();
   }
   Session* running = session.get();
-  const RealtimeWishes wishes = options.haptic_wishes;
-  session->haptic_thread_ = std::thread([running, wishes] { running->run_haptics(wishes); });
-  session->imaging_thread_ = std::thread([running] { running->run_imaging(); });
+  const ThreadWishes haptics = options.haptic_wishes;
+  const ThreadWishes imaging = options.imaging_wishes;
+  session->haptic_thread_ = std::thread([running, haptics] { running->run_haptics(haptics); });
+  session->imaging_thread_ = std::thread([running, imaging] { running->run_imaging(imaging); });
   return session;
 }
 
@@ -61,12 +62,15 @@ std::vector<std::string> Session::refusals() const {
   return refusals_;
 }
 
-void Session::run_haptics(const RealtimeWishes& wishes) {
-  {
-    std::vector<std::string> refused = request_realtime(wishes);
+void Session::ask(const char* who, const ThreadWishes& wishes) {
+  for (const std::string& refused : request_from_system(wishes)) {
     const std::lock_guard<std::mutex> lock(refusals_mutex_);
-    refusals_ = std::move(refused);
+    refusals_.push_back(std::string(who) + ": " + refused);
   }
+}
+
+void Session::run_haptics(const ThreadWishes& wishes) {
+  ask("haptics", wishes);
   PeriodicSchedule schedule(params_.haptic_rate);
   for (std::uint64_t number = 1; !stop_.load(std::memory_order_relaxed); ++number) {
     const std::int64_t late = schedule.wait();
@@ -82,6 +86,7 @@ void Session::run_haptics(const RealtimeWishes& wishes) {
 
 void Session::tick(std::uint64_t number) noexcept {
   const std::int64_t begin = monotonic_ns();
+  const std::int64_t cpu_begin = thread_cpu_ns();
   TickInput input;
   input.device = device_->read(begin);
   input.tick = number;
@@ -105,16 +110,21 @@ void Session::tick(std::uint64_t number) noexcept {
   point.contact = static_cast<std::uint16_t>(out.feedback.contact);
   trace_.push(point);
   ticks_.store(number, std::memory_order_relaxed);
+  times_->haptic_cpu.add(thread_cpu_ns() - cpu_begin);
   times_->haptic_compute.add(monotonic_ns() - begin);
 }
 
-void Session::run_imaging() {
+void Session::run_imaging(const ThreadWishes& wishes) {
+  ask("imaging", wishes);  // before the renderer's workers start, which inherit it
   ImageCore core(scene_, params_);
   PeriodicSchedule schedule(params_.image_rate);
   std::uint64_t number = 0;
   while (!stop_.load(std::memory_order_relaxed)) {
     schedule.wait();
-    if (!frozen_.load(std::memory_order_relaxed)) image(core, ++number);
+    if (frozen_.load(std::memory_order_relaxed))
+      n_images_ = 0;  // a pause is no gap
+    else
+      image(core, ++number);
   }
 }
 
@@ -138,12 +148,21 @@ void Session::image(ImageCore& core, std::uint64_t number) {
   if (shared_image_) share(out);
   if (recorder_) recorder_->add(FrameRecord{input, digest_of(frame)});
   times_->image_render.add(out.ready_ns - begin);
-  if (last_image_ns_ != 0) times_->image_interval.add(out.ready_ns - last_image_ns_);
-  last_image_ns_ = out.ready_ns;
+  note_image(out.ready_ns);
   if (snapshot.input.device.state == PeerState::alive)
     times_->pose_to_image.add(out.ready_ns - input.sample_time_ns);
   images_.publish();
   frames_.store(number, std::memory_order_relaxed);
+}
+
+void Session::note_image(std::int64_t ready_ns) {
+  const auto before = [this](std::size_t n) {
+    return image_times_[(n_images_ - n) % image_times_.size()];
+  };
+  if (n_images_ >= 1) times_->image_interval.add(ready_ns - before(1));
+  if (n_images_ >= 30) times_->image_thirty.add(ready_ns - before(30));
+  image_times_[n_images_ % image_times_.size()] = ready_ns;
+  ++n_images_;
 }
 
 void Session::share(const ImageSnapshot& image) {

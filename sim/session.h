@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <memory>
@@ -43,9 +44,11 @@ struct TracePoint {
 /// Where the time goes; each is written by one thread and may be read by any.
 struct SessionTimes {
   LatencyHistogram haptic_compute;   ///< one tick: device, scene, laws, publication
+  LatencyHistogram haptic_cpu;       ///< the same in processor time: without what was taken from it
   LatencyHistogram haptic_lateness;  ///< wake-up after its schedule
   LatencyHistogram image_render;
   LatencyHistogram image_interval;  ///< from image to image
+  LatencyHistogram image_thirty;    ///< that the last 30 images took: 1 s is 30 Hz
   LatencyHistogram pose_to_image;   ///< from the device's time stamp to the finished image
 };
 
@@ -54,7 +57,8 @@ struct SessionTimes {
 class Session {
  public:
   struct Options {
-    RealtimeWishes haptic_wishes{80, true, -1};
+    ThreadWishes haptic_wishes{80, 0, true, -1};
+    ThreadWishes imaging_wishes{0, -10, false, -1};
     std::filesystem::path recording;   ///< empty: nothing is recorded
     std::string image_segment_prefix;  ///< of IMAGE
     bool share_images = false;         ///< write IMAGE
@@ -91,14 +95,16 @@ class Session {
   void set_controls(const ImageControls& controls) noexcept { controls_.store(controls); }
   [[nodiscard]] const ImageSnapshot* newest_image() noexcept { return images_.newest(); }
   [[nodiscard]] bool next_trace_point(TracePoint& out) noexcept { return trace_.pop(out); }
-  /// What the system refused to the haptic thread; for people.
+  /// What the system refused to the threads; for people.
   [[nodiscard]] std::vector<std::string> refusals() const;
 
  private:
   Session(std::shared_ptr<const Scene> scene, const SessionParams& params,
           std::unique_ptr<InputDevice> device);
-  void run_haptics(const RealtimeWishes& wishes);
-  void run_imaging();
+  void run_haptics(const ThreadWishes& wishes);
+  void run_imaging(const ThreadWishes& wishes);
+  void ask(const char* who, const ThreadWishes& wishes);
+  void note_image(std::int64_t ready_ns);
   ARTUS_REALTIME void tick(std::uint64_t number) noexcept;
   void image(ImageCore& core, std::uint64_t number);
   void share(const ImageSnapshot& image);
@@ -125,7 +131,8 @@ class Session {
   std::atomic<std::uint64_t> frames_{0};
   std::atomic<std::uint64_t> overruns_{0};
   std::int64_t start_ns_ = 0;
-  std::int64_t last_image_ns_ = 0;
+  std::array<std::int64_t, 31> image_times_{};  // ns, a ring of the last images
+  std::size_t n_images_ = 0;
   mutable std::mutex refusals_mutex_;  // between start-up and a person's question, never in a tick
   std::vector<std::string> refusals_;
   std::thread haptic_thread_;

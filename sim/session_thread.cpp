@@ -9,6 +9,8 @@
 #include <pthread.h>
 #include <sched.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 namespace artus {
 namespace {
@@ -23,6 +25,12 @@ std::int64_t monotonic_ns() noexcept {
   timespec now{};
   clock_gettime(CLOCK_MONOTONIC, &now);
   return now.tv_sec * kSecond + now.tv_nsec;
+}
+
+std::int64_t thread_cpu_ns() noexcept {
+  timespec used{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &used);
+  return used.tv_sec * kSecond + used.tv_nsec;
 }
 
 PeriodicSchedule::PeriodicSchedule(double rate_hz) noexcept
@@ -41,13 +49,17 @@ std::int64_t PeriodicSchedule::wait() noexcept {
   return late;
 }
 
-std::vector<std::string> request_realtime(const RealtimeWishes& wishes) {
+std::vector<std::string> request_from_system(const ThreadWishes& wishes) {
   std::vector<std::string> refused;
   if (wishes.fifo_priority > 0) {
     sched_param param{};
     param.sched_priority = wishes.fifo_priority;
     const int error = pthread_setschedparam(pthread_self(), SCHED_FIFO, &param);
     if (error != 0) refused.push_back("SCHED_FIFO priority: " + reason(error));
+  }
+  if (wishes.nice != 0 &&
+      setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), wishes.nice) != 0) {
+    refused.push_back("nice value " + std::to_string(wishes.nice) + ": " + reason(errno));
   }
   if (wishes.lock_memory && mlockall(MCL_CURRENT) != 0) {
     refused.push_back("locking memory: " + reason(errno));

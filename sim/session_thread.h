@@ -10,6 +10,8 @@ namespace artus {
 
 /// Monotonic clock, ns.
 [[nodiscard]] ARTUS_REALTIME std::int64_t monotonic_ns() noexcept;
+/// Time that the calling thread has run on a processor, ns: what others took from it is not in it.
+[[nodiscard]] ARTUS_REALTIME std::int64_t thread_cpu_ns() noexcept;
 
 /// Wake-ups on an absolute schedule: a slow tick does not shift those after it. A tick that is late
 /// by a period or more re-bases the schedule instead of being made up for in a burst.
@@ -29,13 +31,14 @@ class PeriodicSchedule {
 };
 
 /// What the system was asked for on behalf of the calling thread.
-struct RealtimeWishes {
+struct ThreadWishes {
   int fifo_priority = 0;  ///< SCHED_FIFO priority; 0: ordinary scheduling
+  int nice = 0;           ///< -20 urgent .. 19 patient, for ordinary scheduling; 0: as it is
   bool lock_memory = false;
   int cpu = -1;  ///< the one processor to run on; -1: any
 };
 
 /// Asks and returns what was refused, in words; a refusal is no failure.
-[[nodiscard]] std::vector<std::string> request_realtime(const RealtimeWishes& wishes);
+[[nodiscard]] std::vector<std::string> request_from_system(const ThreadWishes& wishes);
 
 }  // namespace artus

@@ -18,6 +18,7 @@ namespace {
 Session::Options quiet_options() {
   Session::Options options;
   options.haptic_wishes = {};
+  options.imaging_wishes = {};
   return options;
 }
 

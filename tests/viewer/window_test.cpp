@@ -33,6 +33,7 @@ TEST(Window, AnInjectionWithKeyAndWheelGoesThroughTheLayers) {
     HandDevice* hand = device.get();
     Session::Options options;
     options.haptic_wishes = {};
+    options.imaging_wishes = {};
     options.recording = recording;
     auto session = Session::start(test::make_layered_scene(), params, std::move(device), options);
     ASSERT_TRUE(session) << session.error().to_string();
