@@ -10,7 +10,13 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
 #include <memory>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include <benchmark/benchmark.h>
@@ -21,16 +27,41 @@
 namespace artus {
 namespace {
 
-/// Seven layers of a shoulder as nested spheres of about 100 k triangles.
-std::shared_ptr<const Scene> make_body() {
-  const std::array<test::SphereLayer, 6> layers{{{"skin", 60e-3},
-                                                 {"fat", 58e-3},
-                                                 {"muscle", 52e-3},
-                                                 {"bursa", 38e-3},
-                                                 {"tendon", 36.5e-3},
-                                                 {"bone", 30e-3}}};
-  return std::make_shared<Scene>(
-      std::make_shared<CompiledJoint>(test::make_nested_spheres(layers, Vec3::Zero(), 5)));
+/// A body, and where probe and needle are.
+struct View {
+  std::shared_ptr<const Scene> scene;
+  Pose X_JP = Pose::Identity();
+  Pose X_JN = Pose::Identity();
+};
+
+/// Layers of a shoulder as nested spheres; each subdivision has four times the triangles.
+View make_spheres(int subdivisions) {
+  const std::array<SphereLayer, 6> layers{{{"skin", 60e-3},
+                                           {"fat", 58e-3},
+                                           {"muscle", 52e-3},
+                                           {"bursa", 38e-3},
+                                           {"tendon", 36.5e-3},
+                                           {"bone", 30e-3}}};
+  View view;
+  view.scene = std::make_shared<Scene>(std::make_shared<CompiledJoint>(
+      test::make_nested_spheres(layers, Vec3::Zero(), subdivisions)));
+  view.X_JP = make_pose(Vec3(0, 0, -60e-3), Vec3::UnitZ(), Vec3::UnitX());
+  view.X_JN = view.X_JP * make_pose(Vec3(0, 0, 18e-3), Vec3(0.9, 0, 0.4), Vec3::UnitY());
+  return view;
+}
+
+/// The compiled joint of a file in its own probe pose, the needle in the plane above the middle.
+View read_view(const char* file) {
+  auto joint = read_compiled_joint(file);
+  if (!joint) {
+    std::fprintf(stderr, "%s\n", joint.error().to_string().c_str());
+    std::exit(1);
+  }
+  View view;
+  view.X_JP = joint->X_JP_default;
+  view.X_JN = view.X_JP * make_pose(Vec3(0, 0, 15e-3), Vec3(0.9, 0, 0.4), Vec3::UnitY());
+  view.scene = std::make_shared<Scene>(std::make_shared<CompiledJoint>(std::move(*joint)));
+  return view;
 }
 
 double percentile(std::vector<double> values, double share) {
@@ -38,25 +69,20 @@ double percentile(std::vector<double> values, double share) {
   return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
 }
 
-/// Arguments: lines, samples, planes.
-void render_frame(benchmark::State& state) {
-  Transducer transducer;
-  transducer.n_lines = static_cast<int>(state.range(0));
-  ImageSettings settings;
-  settings.n_samples = static_cast<int>(state.range(1));
-  settings.n_planes = static_cast<int>(state.range(2));
-  settings.n_threads = 1;
-  Renderer renderer(make_body(), transducer, settings);
+/// Renders frames whose probe sways by a few millimetres, and reports their times.
+void render_frames(benchmark::State& state, const View& view, const Transducer& transducer,
+                   const ImageSettings& settings) {
+  Renderer renderer(view.scene, transducer, settings);
   std::vector<double> frames;
   std::vector<double> lines;
   std::vector<double> beam;
   std::vector<double> display;
-  double shift = 0;
+  const Pose X_PN = view.X_JP.inverse() * view.X_JN;
+  int step = 0;
   for (auto _ : state) {
-    shift += 0.05e-3;
-    const Pose X_JP = make_pose(Vec3(shift, 0, -60e-3), Vec3::UnitZ(), Vec3::UnitX());
-    NeedleView needle;
-    needle.X_JN = X_JP * make_pose(Vec3(0, 0, 18e-3), Vec3(0.9, 0, 0.4), Vec3::UnitY());
+    const double sway = 3e-3 * std::sin(0.05 * ++step);
+    const Pose X_JP = view.X_JP * Eigen::Translation3d(sway, 0.3 * sway, 0);
+    const NeedleView needle{X_JP * X_PN, NeedleShape{}};
     const auto start = std::chrono::steady_clock::now();
     benchmark::DoNotOptimize(renderer.render(X_JP, needle).image.data());
     const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
@@ -71,19 +97,76 @@ void render_frame(benchmark::State& state) {
   state.counters["lines_ms"] = percentile(lines, 0.5);
   state.counters["beam_ms"] = percentile(beam, 0.5);
   state.counters["display_ms"] = percentile(display, 0.5);
+  state.counters["triangles"] = static_cast<double>(view.scene->joint().mesh.interfaces.size());
 }
-BENCHMARK(render_frame)
-    ->Args({256, 1024, 5})
-    ->Args({128, 1024, 5})
-    ->Args({512, 1024, 5})
-    ->Args({256, 512, 5})
-    ->Args({256, 2048, 5})
-    ->Args({256, 1024, 1})
-    ->Args({256, 1024, 9})
-    ->Unit(benchmark::kMillisecond)
-    ->Iterations(100);
+
+/// One benchmark: how many of each.
+struct Case {
+  int lines = 256;
+  int samples = 1024;
+  int planes = 5;
+  int threads = 1;
+};
+
+void add_case(const std::string& body, const View& view, const Case& c) {
+  const std::string name =
+      body + "/lines:" + std::to_string(c.lines) + "/samples:" + std::to_string(c.samples) +
+      "/planes:" + std::to_string(c.planes) + "/threads:" + std::to_string(c.threads);
+  const auto run = [view, c](benchmark::State& state) {
+    Transducer transducer;
+    transducer.n_lines = c.lines;
+    ImageSettings settings;
+    settings.n_samples = c.samples;
+    settings.n_planes = c.planes;
+    settings.n_threads = c.threads;
+    render_frames(state, view, transducer, settings);
+  };
+  benchmark::RegisterBenchmark(name.c_str(), run)
+      ->Unit(benchmark::kMillisecond)
+      ->UseRealTime()
+      ->Iterations(300);
+}
+
+/// --joint FILE: a compiled joint instead of the spheres.
+const char* take_joint_flag(int& argc, char** argv) {
+  for (int i = 1; i + 1 < argc; ++i) {
+    if (std::strcmp(argv[i], "--joint") != 0) continue;
+    const char* file = argv[i + 1];
+    std::copy(argv + i + 2, argv + argc + 1, argv + i);
+    argc -= 2;
+    return file;
+  }
+  return nullptr;
+}
+
+void add_cases(const std::string& body, const View& view) {
+  for (const Case& c : std::vector<Case>{{},
+                                         {256, 1024, 5, 2},
+                                         {128, 1024, 5, 1},
+                                         {512, 1024, 5, 1},
+                                         {256, 512, 5, 1},
+                                         {256, 2048, 5, 1},
+                                         {256, 1024, 1, 1},
+                                         {256, 1024, 9, 1}}) {
+    add_case(body, view, c);
+  }
+}
 
 }  // namespace
 }  // namespace artus
 
-BENCHMARK_MAIN();
+int main(int argc, char** argv) {
+  const char* file = artus::take_joint_flag(argc, argv);
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+  if (file != nullptr) {
+    artus::add_cases("joint", artus::read_view(file));
+  } else {
+    const std::array<artus::View, 4> bodies{artus::make_spheres(3), artus::make_spheres(4),
+                                            artus::make_spheres(5), artus::make_spheres(6)};
+    artus::add_cases("spheres", bodies[2]);
+    for (const std::size_t k : {0U, 1U, 3U}) artus::add_case("spheres", bodies[k], {});
+  }
+  benchmark::RunSpecifiedBenchmarks();
+  return 0;
+}
