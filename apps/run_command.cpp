@@ -49,7 +49,7 @@ void print_summary(const ThreeInjections& run, const RunImages& images,
               images.video.empty() ? "" : " and a video", out.c_str());
 }
 
-/// summary.json is the run's own summary with what the images add.
+/// summary.json: what the run measured, and the images.
 Result<nlohmann::json> write_summary(const ThreeInjections& run, const RunImages& images,
                                      const std::string& joint, const std::filesystem::path& out) {
   nlohmann::json summary = summarize(run);
@@ -72,6 +72,8 @@ ExitCode run_scenario(const RunOptions& options) {
   run_options.rate_hz = options.rate_hz;
   run_options.seed = options.view.seed;
   run_options.device = options.device;
+  run_options.probe.contact.footprint.length = view->transducer.width;
+  run_options.probe.contact.footprint.width = view->transducer.elevation_height;
   const auto run = run_three_injections(*scene, (*joint)->injections, run_options, progress);
   if (!run) return report_error(run.error(), options.json);
   if (const auto written = write_three_injections(*run, options.out); !written)

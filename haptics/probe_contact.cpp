@@ -53,6 +53,7 @@ ProbeContactModel::ProbeContactModel(std::shared_ptr<const Scene> scene,
 void ProbeContactModel::reset() noexcept {
   have_last_ = false;
   shear_.setZero();
+  slip_ = 0;
 }
 
 void ProbeContactModel::clear(std::uint32_t status) noexcept {
@@ -122,8 +123,13 @@ void ProbeContactModel::add_friction(const Pose& X_JP) noexcept {
   const double coefficient = params_.gel ? params_.gel_friction : params_.dry_friction;
   const double most = coefficient * contact_.normal_force / params_.shear_stiffness;
   const double dragged = shear_.norm();
-  if (dragged > most) shear_ *= most / dragged;
-  contact_.wrench.force -= params_.shear_stiffness * shear_;
+  if (dragged > most) {
+    shear_ *= most / dragged;
+    slip_ += dragged - most;
+  }
+  contact_.slip = slip_;
+  contact_.friction = -params_.shear_stiffness * shear_;
+  contact_.wrench.force += contact_.friction;
 }
 
 const ProbeContact& ProbeContactModel::step(const Pose& X_JP) noexcept {

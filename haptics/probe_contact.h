@@ -37,12 +37,14 @@ struct ProbeContactParams {
 
 /// What the probe feels in one tick.
 struct ProbeContact {
-  Wrench wrench;             ///< on the hand, at the footprint's centre, frame J
-  double normal_force = 0;   ///< N >= 0, along -z of P
-  double stiffness = 0;      ///< N/m, K_c: d normal force / d indentation, for the actuator
-  double indentation = 0;    ///< m, of the deepest column
-  double contact_share = 0;  ///< of the face that presses on skin, 0..1
-  std::uint32_t status = 0;  ///< TickStatus bits
+  Wrench wrench;                 ///< on the hand, at the footprint's centre, frame J
+  double normal_force = 0;       ///< N >= 0, along -z of P
+  Vec3 friction = Vec3::Zero();  ///< N, part of the wrench: tangential, frame J
+  double slip = 0;               ///< m, way slid over the skin since the face touched it
+  double stiffness = 0;          ///< N/m, K_c: d normal force / d indentation, for the actuator
+  double indentation = 0;        ///< m, of the deepest column
+  double contact_share = 0;      ///< of the face that presses on skin, 0..1
+  std::uint32_t status = 0;      ///< TickStatus bits
 };
 
 /// The probe pressed on the body: a grid of tissue columns under the face, each from the skin along
@@ -94,6 +96,7 @@ class ProbeContactModel {
   bool have_last_ = false;
   Vec3 last_position_ = Vec3::Zero();
   Vec3 shear_ = Vec3::Zero();  // m, how far the skin is dragged along
+  double slip_ = 0;            // m
 };
 
 }  // namespace artus

@@ -14,7 +14,7 @@ constexpr const char* kHeader =
     "clamping_x_n,clamping_y_n,clamping_z_n,clamping_n,torque_x_nm,torque_y_nm,torque_z_nm,"
     "total_x_n,total_y_n,total_z_n,total_axial_n,command_x_n,command_y_n,command_z_n,"
     "command_torque_x_nm,command_torque_y_nm,command_torque_z_nm,hand_axial_n,energy_to_hand_j,"
-    "events,status\n";
+    "events,status";
 
 void add(std::string& line, double value) {
   line += to_csv(value);
@@ -52,7 +52,7 @@ std::string line_of(const NeedleRow& row, std::span<const std::string> region_na
   add(line, row.command.torque);
   add(line, row.hand.dot(row.axis));
   add(line, row.energy_to_hand);
-  line += std::to_string(row.events) + ',' + std::to_string(row.status) + '\n';
+  line += std::to_string(row.events) + ',' + std::to_string(row.status);
   return line;
 }
 
@@ -91,10 +91,14 @@ NeedleRow make_needle_row(double time, const Pose& X_JN, const RenderedNeedle& r
 }
 
 Result<void> write_needle_csv(const std::filesystem::path& file, std::span<const NeedleRow> rows,
-                              std::span<const std::string> region_names) {
+                              std::span<const std::string> region_names, const MoreColumns& more) {
   std::ofstream out(file, std::ios::binary);
-  out << kHeader;
-  for (const NeedleRow& row : rows) out << line_of(row, region_names);
+  out << kHeader << more.header << '\n';
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    std::string line = line_of(rows[i], region_names);
+    if (more.append) more.append(i, line);
+    out << line << '\n';
+  }
   out.close();
   if (!out) return fail(ErrorCode::unreadable, "cannot write the trace", file.string());
   return {};

@@ -2,8 +2,10 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/result.h"
@@ -38,11 +40,19 @@ struct NeedleRow {
 [[nodiscard]] NeedleRow make_needle_row(double time, const Pose& X_JN,
                                         const RenderedNeedle& rendered, const NeedleModel& model);
 
+/// Columns that a caller adds behind the needle's own.
+struct MoreColumns {
+  std::string_view header;  ///< ",name_unit,..."
+  /// Adds the cells of row `i`, each with a comma before it.
+  std::function<void(std::size_t i, std::string& line)> append;
+};
+
 /// Writes rows as CSV: a header line with units, then one line a row; `layer` is the name in
 /// `region_names`, by region. The same rows give the same bytes in any locale. Errors: unreadable.
 [[nodiscard]] Result<void> write_needle_csv(const std::filesystem::path& file,
                                             std::span<const NeedleRow> rows,
-                                            std::span<const std::string> region_names);
+                                            std::span<const std::string> region_names,
+                                            const MoreColumns& more = {});
 
 /// A number with nine significant digits, '.' as decimal point in any locale.
 [[nodiscard]] std::string to_csv(double value);

@@ -30,23 +30,14 @@ std::string file_stem(std::size_t index, const NamedMoment& moment) {
   return stem;
 }
 
-/// Where the probe is held at `time`: as at the next moment of the pass that is under way, so that
-/// the plane already holds the line along which the needle moves.
-const Pose* probe_at(const ThreeInjections& run, double time) {
-  const NamedMoment* best = nullptr;
-  for (const auto& moment : run.moments) {
-    best = &moment;
-    if (moment.time >= time) break;
-  }
-  return best == nullptr ? nullptr : &best->X_JP;
-}
-
-cv::Mat with_caption(const cv::Mat& image, const NeedleRow& row, const std::string& layer) {
+cv::Mat with_caption(const cv::Mat& image, const NeedleRow& row, const ProbeHandRow& probe,
+                     const std::string& layer) {
   cv::Mat framed;
   cv::copyMakeBorder(image, framed, 0, kCaptionHeight, 0, 0, cv::BORDER_CONSTANT, cv::Scalar(0));
   char text[128];
-  std::snprintf(text, sizeof text, "%5.2f s  %5.1f mm  %4.1f N  %s", row.time,
-                std::max(0.0, row.depth) / kMillimetre, row.command.force.norm(), layer.c_str());
+  std::snprintf(text, sizeof text, "%5.2f s  %5.1f mm  %4.1f N  probe %4.1f N  %s", row.time,
+                std::max(0.0, row.depth) / kMillimetre, row.command.force.norm(),
+                probe.normal_force, layer.c_str());
   cv::putText(framed, text, {6, framed.rows - 9}, cv::FONT_HERSHEY_SIMPLEX, 0.45, cv::Scalar(220),
               1, cv::LINE_AA);
   return framed;
@@ -86,6 +77,7 @@ Result<MomentImage> draw_moment(Renderer& renderer, const Scene& scene, const Na
                     folder / (stem + ".png"),
                     folder / (stem + "-labels.png"),
                     locate_needle(needle, moment.X_JP, renderer.transducer(), renderer.settings())};
+  renderer.set_contact(moment.coverage);
   const Frame& frame = renderer.render(moment.X_JP, needle);
   if (const auto ok = write_image(annotated_image(frame, renderer.transducer()), image.bmode); !ok)
     return tl::unexpected(ok.error());
@@ -96,10 +88,12 @@ Result<MomentImage> draw_moment(Renderer& renderer, const Scene& scene, const Na
   return image;
 }
 
-Result<void> draw_video(Renderer& renderer, const ThreeInjections& run, const NeedleShape& shape,
+Result<void> draw_video(Renderer& renderer, const std::shared_ptr<const Scene>& scene,
+                        const ThreeInjections& run, const NeedleShape& shape,
                         const std::filesystem::path& folder, double rate, RunImages& images,
                         const Progress& progress) {
   cv::VideoWriter writer;
+  ProbeContactModel contact(scene, run.options.probe.contact);
   const double end = run.rows.back().time;
   const int n_frames = static_cast<int>(std::floor(end * rate)) + 1;
   std::size_t next = 0;
@@ -107,9 +101,11 @@ Result<void> draw_video(Renderer& renderer, const ThreeInjections& run, const Ne
     const double time = i / rate;
     while (next + 1 < run.rows.size() && run.rows[next].time < time) ++next;
     const NeedleRow& row = run.rows[next];
-    const Pose* probe = probe_at(run, time);
-    const Frame& frame = renderer.render(*probe, NeedleView{row.X_JN, shape});
-    const cv::Mat picture = with_caption(annotated_image(frame, renderer.transducer()), row,
+    const ProbeHandRow& probe = run.probe[next];
+    static_cast<void>(contact.step(probe.X_JP));
+    renderer.set_contact(contact.coverage());
+    const Frame& frame = renderer.render(probe.X_JP_image(), NeedleView{row.X_JN, shape});
+    const cv::Mat picture = with_caption(annotated_image(frame, renderer.transducer()), row, probe,
                                          run.region_names[row.region]);
     if (!writer.isOpened()) {
       const auto file = open_video(writer, folder, picture.size(), rate);
@@ -132,7 +128,7 @@ Result<RunImages> write_run_images(const std::shared_ptr<const Scene>& scene,
                                    const ThreeInjections& run, const std::filesystem::path& folder,
                                    const RunImagesOptions& options, const Progress& progress) {
   RunImages images;
-  if (run.rows.empty() || run.moments.empty()) return images;
+  if (run.probe.empty() || run.moments.empty()) return images;
   remove_old_images(folder);
   NeedleShape shape = options.needle;
   shape.length = run.needle_length;
@@ -146,8 +142,8 @@ Result<RunImages> write_run_images(const std::shared_ptr<const Scene>& scene,
       progress("images", static_cast<double>(i + 1) / static_cast<double>(run.moments.size()));
   }
   if (options.video)
-    if (const auto ok =
-            draw_video(renderer, run, shape, folder, options.frames_per_second, images, progress);
+    if (const auto ok = draw_video(renderer, scene, run, shape, folder, options.frames_per_second,
+                                   images, progress);
         !ok)
       return tl::unexpected(ok.error());
   return images;

@@ -42,9 +42,9 @@ struct RunImages {
 };
 
 /// Draws what the probe saw during a run: a B-mode and a label image for every named moment, and a
-/// video of the whole run with the force of the moment below. The probe's plane follows the line of
-/// the injection that is under way. Errors: unreadable (cannot write), unsupported (no video
-/// codec). Cost: tens of ms a frame.
+/// video of the whole run with the forces of the moment below. The probe is where its hand holds
+/// it, and lines whose elements do not touch are black. Errors: unreadable (cannot write),
+/// unsupported (no video codec). Cost: tens of ms a frame.
 [[nodiscard]] Result<RunImages> write_run_images(const std::shared_ptr<const Scene>& scene,
                                                  const ThreeInjections& run,
                                                  const std::filesystem::path& folder,

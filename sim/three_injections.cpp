@@ -11,6 +11,7 @@
 #include "sim/injection_operator.h"
 #include "sim/needle_loop.h"
 #include "sim/three_injections_analysis.h"
+#include "sim/three_injections_probe.h"
 
 namespace artus {
 namespace {
@@ -221,6 +222,11 @@ double choose_needle(const std::array<Pass, 3>& passes, double wanted) {
   return 0.090;
 }
 
+// For what keeps a scene alive: the caller's outlives the run.
+std::shared_ptr<const Scene> borrow(const Scene& scene) {
+  return {std::shared_ptr<const void>(), &scene};
+}
+
 // Runs the passes through one loop and renderer, row by row.
 class Recorder {
  public:
@@ -236,8 +242,7 @@ class Recorder {
     NeedleLoop loop({options_->rate_hz, 20000}, *device_, hand, start);
     NeedleParams params = options_->needle;
     params.contact.needle_length = out_->needle_length;
-    const std::shared_ptr<const Scene> borrowed(std::shared_ptr<const void>(), scene_);
-    NeedleRenderer renderer(borrowed,
+    NeedleRenderer renderer(borrow(*scene_),
                             LayerTable(scene_->joint(), options_->laws, options_->patient), params,
                             GuardParams{}, *device_, options_->rate_hz);
     InjectionOperator person(pass.entry, pass.direction, -kStartOutside, pass.phases);
@@ -264,8 +269,12 @@ class Recorder {
     for (const NamedMoment& m : out_->moments) {
       if (m.pass == row.pass && m.label == label) return;
     }
-    out_->moments.push_back(
-        {row.time, label, row.pass, row.X_JN, probe_in_plane(*scene_, row.X_JN)});
+    NamedMoment& moment = out_->moments.emplace_back();
+    moment.time = row.time;
+    moment.label = label;
+    moment.pass = row.pass;
+    moment.X_JN = row.X_JN;
+    moment.X_JP_seat = probe_in_plane(*scene_, row.X_JN);
   }
 
   const Scene* scene_;
@@ -296,7 +305,9 @@ Result<ThreeInjections> run_three_injections(const Scene& scene,
     reached = recorder.run((*passes)[i], static_cast<int>(i) + 1, start) && reached;
   }
   if (progress) progress("injection", 1);
+  if (!out.moments.empty()) run_probe_hand(borrow(scene), out);
   analyze(scene.joint(), reached, out);
+  if (!out.probe.empty()) claim_probe(out);
   return out;
 }
 

@@ -11,6 +11,7 @@
 #include "sim/claim.h"
 #include "sim/needle_trace.h"
 #include "sim/plateau.h"
+#include "sim/probe_hand.h"
 #include "sim/simulated_hand.h"
 
 namespace artus {
@@ -28,7 +29,8 @@ struct ThreeInjectionsOptions {
   NeedleParams needle;
   LawSelection laws;
   PatientProfile patient;
-  HandParams hand;  ///< its seed is replaced by `seed`
+  HandParams hand;        ///< its seed is replaced by `seed`
+  ProbeHandParams probe;  ///< the other hand; likewise
 };
 
 /// An instant worth a picture.
@@ -37,7 +39,10 @@ struct NamedMoment {
   std::string label;  ///< "bursa reached", "re-aimed", "bone touched", ...
   int pass = 0;       ///< which injection, from 1
   Pose X_JN = Pose::Identity();
-  Pose X_JP = Pose::Identity();  ///< probe on the skin, its plane through the insertion line
+  Pose X_JP_seat = Pose::Identity();  ///< where the probe is meant to lie: on the skin, its plane
+                                      ///< through the insertion line
+  Pose X_JP = Pose::Identity();       ///< where the picture is taken, see ProbeHandRow
+  std::vector<float> coverage;        ///< of each of the probe's elements with skin or gel, 0..1
 };
 
 /// One touch of bone.
@@ -51,6 +56,7 @@ struct BoneTouch {
 
 struct ThreeInjections {
   std::vector<NeedleRow> rows;
+  std::vector<ProbeHandRow> probe;  ///< as many, at the same times
   std::vector<NamedMoment> moments;
   std::vector<LayerPlateau> plateaus;
   std::vector<BoneTouch> touches;
@@ -62,8 +68,9 @@ struct ThreeInjections {
 
 /// The published medical test [Alamilla2020] section 4.6 with a simulated hand and device: the
 /// first two injections go slowly to the bursa, withdraw, re-aim inside the cone, reach another
-/// part of it and touch bone slowly; the third goes fast and straight to the bone. Deterministic
-/// for a scene, options and seed. Works on any joint with a target; a line without bone behind it
+/// part of it and touch bone slowly; the third goes fast and straight to the bone. The other hand
+/// presses the probe on the skin, its plane in the needle's line. Deterministic for a scene,
+/// options and seed. Works on any joint with a target; a line without bone behind it
 /// skips the touch and says so in a claim. Errors: not_found (no such device), invalid (fewer than
 /// three injections, an entry inside or a target outside the body).
 [[nodiscard]] Result<ThreeInjections> run_three_injections(
@@ -73,8 +80,8 @@ struct ThreeInjections {
 /// Plateaus, touches, moments, claims and settings, in the units of the names.
 [[nodiscard]] nlohmann::json summarize(const ThreeInjections& run);
 
-/// Writes trace.csv, forces.png and summary.json into `folder` (made when missing). Errors:
-/// unreadable, not_found (gnuplot; the other two files are then written all the same).
+/// Writes trace.csv and forces.png into `folder` (made when missing). Errors: unreadable, not_found
+/// (gnuplot; the trace is then written all the same).
 [[nodiscard]] Result<void> write_three_injections(const ThreeInjections& run,
                                                   const std::filesystem::path& folder);
 

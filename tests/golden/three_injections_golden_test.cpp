@@ -57,9 +57,10 @@ const ThreeInjections& the_run() {
 // ---- the force trace: every 25th millisecond, the components a reader would plot
 
 constexpr std::size_t kStride = 25;
-constexpr std::size_t kColumns = 9;
+constexpr std::size_t kColumns = 11;
 const char* const kHeader =
-    "time_s,depth_mm,region,cutting_n,attracted_n,friction_n,clamping_n,hard_n,total_n";
+    "time_s,depth_mm,region,cutting_n,attracted_n,friction_n,clamping_n,hard_n,total_n,"
+    "probe_normal_n,probe_friction_n";
 
 std::vector<std::array<double, kColumns>> sample_trace(const ThreeInjections& run) {
   std::vector<std::array<double, kColumns>> rows;
@@ -67,7 +68,8 @@ std::vector<std::array<double, kColumns>> sample_trace(const ThreeInjections& ru
     const NeedleRow& r = run.rows[i];
     rows.push_back({r.time, r.depth * 1e3, static_cast<double>(r.region), r.forces.cutting,
                     r.forces.attracted, r.forces.friction, r.forces.clamping.norm(), r.forces.hard,
-                    r.command.force.norm()});
+                    r.command.force.norm(), run.probe[i].normal_force,
+                    run.probe[i].friction.norm()});
   }
   return rows;
 }
@@ -144,8 +146,9 @@ TEST_P(ImageGolden, IsTheCommittedOne) {
   ASSERT_NE(moment, nullptr) << "no moment called " << label;
   NeedleShape shape;
   shape.length = run.needle_length;
-  const Frame frame =
-      render_bmode(simple_shoulder(), moment->X_JP, NeedleView{moment->X_JN, shape});
+  Renderer renderer(simple_shoulder(), Transducer{}, ImageSettings{});
+  renderer.set_contact(moment->coverage);
+  const Frame& frame = renderer.render(moment->X_JP, NeedleView{moment->X_JN, shape});
   const cv::Mat actual = grey_image(frame);
 
   std::string name = "bmode-" + label;
