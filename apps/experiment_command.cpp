@@ -28,14 +28,8 @@ bool all_hold(const std::vector<Claim>& claims) {
 
 void append_markdown(std::string& report, const std::string& name,
                      const std::vector<Claim>& claims) {
-  report += "\n## " + name + "\n\n![" + name + "](" + name + "/" + name +
-            ".png)\n\n| claim | value | bound | holds |\n|---|---|---|---|\n";
-  for (const auto& claim : claims) {
-    char value[32];
-    std::snprintf(value, sizeof value, "%.4g", claim.value);
-    report += "| " + claim.text + " | " + value + " | " + claim.bound + " | " +
-              (claim.pass ? "yes" : "**no**") + " |\n";
-  }
+  report += "\n## " + name + "\n\n![" + name + "](" + name + "/" + name + ".png)\n\n" +
+            to_markdown(claims);
 }
 
 void print(const std::string& name, const std::vector<Claim>& claims) {

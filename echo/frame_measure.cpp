@@ -82,12 +82,16 @@ LineFit fit_line(std::span<const double> x, std::span<const double> y) {
 
 double falls_to(std::span<const double> x, std::span<const double> y, double level) {
   ARTUS_REQUIRE(x.size() == y.size() && !x.empty(), "x and y must be of one length");
-  for (std::size_t i = 1; i < x.size(); ++i) {
+  for (std::size_t i = x.size() - 1; i > 0; --i) {
     if (y[i] <= level && y[i - 1] > level) {
       return x[i - 1] + (x[i] - x[i - 1]) * (y[i - 1] - level) / (y[i - 1] - y[i]);
     }
   }
   return x.back();
+}
+
+double full_width(std::span<const double> x, std::span<const double> y) {
+  return 2 * falls_to(x, y, *std::max_element(y.begin(), y.end()) / 2);
 }
 
 double rayleigh_distance(std::vector<double> envelopes) {

@@ -45,6 +45,9 @@ struct LineFit {
 /// when it never does.
 [[nodiscard]] double falls_to(std::span<const double> x, std::span<const double> y, double level);
 
+/// Full width at half the maximum of a symmetric curve, sampled from its axis (x = 0) outwards.
+[[nodiscard]] double full_width(std::span<const double> x, std::span<const double> y);
+
 /// Largest distance between the distribution of `envelopes` and the Rayleigh distribution of the
 /// same power (Kolmogorov and Smirnov's statistic).
 [[nodiscard]] double rayleigh_distance(std::vector<double> envelopes);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -28,6 +29,23 @@ Claim claim_near(std::string text, double value, double expected, double share,
                  const std::string& unit) {
   return {std::move(text), value, with_unit(expected, unit) + " +- " + to_csv(100 * share) + " %",
           std::abs(value - expected) <= share * std::abs(expected)};
+}
+
+Claim claim_within(std::string text, double value, double expected, double tolerance,
+                   const std::string& unit) {
+  return {std::move(text), value, to_csv(expected) + " +- " + with_unit(tolerance, unit),
+          std::abs(value - expected) <= tolerance};
+}
+
+std::string to_markdown(const std::vector<Claim>& claims) {
+  std::string table = "| claim | value | bound | holds |\n|---|---|---|---|\n";
+  for (const Claim& claim : claims) {
+    char value[32];
+    std::snprintf(value, sizeof value, "%.4g", claim.value);
+    table += "| " + claim.text + " | " + value + " | " + claim.bound + " | " +
+             (claim.pass ? "yes" : "**no**") + " |\n";
+  }
+  return table;
 }
 
 nlohmann::json verdict(const std::vector<Claim>& claims) {

@@ -23,6 +23,13 @@ struct Claim {
 [[nodiscard]] Claim claim_near(std::string text, double value, double expected, double share,
                                const std::string& unit);
 
+/// |value - expected| <= tolerance, both in `unit`.
+[[nodiscard]] Claim claim_within(std::string text, double value, double expected, double tolerance,
+                                 const std::string& unit);
+
+/// A Markdown table, a row for each claim.
+[[nodiscard]] std::string to_markdown(const std::vector<Claim>& claims);
+
 /// {"pass": all, "claims": [{claim, value, bound, pass}]}
 [[nodiscard]] nlohmann::json verdict(const std::vector<Claim>& claims);
 
