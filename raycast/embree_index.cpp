@@ -97,7 +97,6 @@ void gather_hit(const RTCFilterFunctionNArguments* args) noexcept {
   const Candidate candidate{RTCHitN_primID(args->hit, args->N, 0),
                             RTCRayN_tfar(args->ray, args->N, 0)};
   __builtin_prefetch(&query.index->plane(candidate.interface));
-  __builtin_prefetch(&query.index->sides(candidate.interface));
   const float u = RTCHitN_u(args->hit, args->N, 0);
   const float v = RTCHitN_v(args->hit, args->N, 0);
   query.doubtful |= std::min({u, v, 1 - u - v}) < kDoubtfulBarycentric;
@@ -210,16 +209,14 @@ EmbreeIndex::EmbreeIndex(std::span<const Vec3> vertices, std::span<const Interfa
   vertices_.reserve(vertices.size());
   for (const Vec3& v : vertices) vertices_.emplace_back(v - centre_);
   triangles_.reserve(interfaces.size());
-  planes_.reserve(interfaces.size());
-  sides_.reserve(interfaces.size());
+  facets_.reserve(interfaces.size());
   for (const Interface& interface : interfaces) {
     const auto i = static_cast<std::uint32_t>(triangles_.size());
     triangles_.push_back(interface.vertices);
-    planes_.push_back(make_plane(corners(i)));
-    sides_.push_back({interface.front, interface.back});
+    facets_.push_back({make_plane(corners(i)), {interface.front, interface.back}});
     for (const Vec3& corner : corners(i)) radius_ = std::max(radius_, corner.norm());
-    if (touches(sides_.back(), kBeyond)) boundary_.push_back(i);
-    if (touches(sides_.back(), kOutside)) skin_.push_back(i);
+    if (touches(facets_.back().sides, kBeyond)) boundary_.push_back(i);
+    if (touches(facets_.back().sides, kOutside)) skin_.push_back(i);
   }
   std::vector<std::uint32_t> all(interfaces.size());
   std::iota(all.begin(), all.end(), 0U);
@@ -290,7 +287,7 @@ void EmbreeIndex::gather(const Line& line, HitBuffer& out) const noexcept {
     const Passage passage = pass(*this, i, line);
     if (!(std::abs(passage.cosine) > kCoplanar)) [[unlikely]]
       continue;
-    const FacetSides sides = sides_[i];
+    const FacetSides sides = this->sides(i);
     const bool inward = passage.cosine < 0;
     out.hits[out.size++] = {passage.depth, i, inward ? sides.front : sides.back,
                             inward ? sides.back : sides.front};
@@ -306,8 +303,8 @@ std::optional<FirstHit> EmbreeIndex::first_hit(const Line& line) const noexcept 
   ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   find_intersection(scene_.get(), query.context, ray);
   if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-  const FacetSides& sides = sides_[ray.hit.primID];
-  const double cosine = planes_[ray.hit.primID].normal.dot(line.direction);
+  const FacetSides& sides = this->sides(ray.hit.primID);
+  const double cosine = plane(ray.hit.primID).normal.dot(line.direction);
   FirstHit first;
   first.interface = ray.hit.primID;
   first.from = cosine < 0 ? sides.front : sides.back;
@@ -327,7 +324,7 @@ std::optional<NearestFacet> EmbreeIndex::nearest(const Vec3& p, double max_dista
     scene = skin_scene_.get();
     query.members = skin_;
   }
-  if (planes_.empty() || (subset != Subset::all && query.members.empty())) return std::nullopt;
+  if (facets_.empty() || (subset != Subset::all && query.members.empty())) return std::nullopt;
   constexpr double kNone = std::numeric_limits<double>::max();
   query.best.squared_distance = kNone;
   RTCPointQuery point{};

@@ -27,7 +27,7 @@ struct Line {
 
 /// What one line met; filled by EmbreeIndex::gather. Large: keep it on the stack of one query.
 struct HitBuffer {
-  std::array<Hit, kMaxHits> hits;  ///< unsorted
+  std::array<Hit, kMaxHits> hits;  ///< in the order of traversal, mostly along the line
   std::size_t size;
   bool overflow;  ///< more than kMaxHits were met; the nearest are kept
   bool doubtful;  ///< a hit lies so near to an edge that its neighbours' hits may be missing
@@ -69,8 +69,8 @@ class EmbreeIndex {
 
   [[nodiscard]] const Vec3& centre() const noexcept { return centre_; }
   [[nodiscard]] double radius() const noexcept { return radius_; }  ///< m, of a ball around centre
-  [[nodiscard]] const FacetPlane& plane(std::uint32_t i) const noexcept { return planes_[i]; }
-  [[nodiscard]] const FacetSides& sides(std::uint32_t i) const noexcept { return sides_[i]; }
+  [[nodiscard]] const FacetPlane& plane(std::uint32_t i) const noexcept { return facets_[i].plane; }
+  [[nodiscard]] const FacetSides& sides(std::uint32_t i) const noexcept { return facets_[i].sides; }
 
   /// All facets the line meets, in any order, depths in double.
   ARTUS_REALTIME void gather(const Line& line, HitBuffer& out) const noexcept;
@@ -102,8 +102,7 @@ class EmbreeIndex {
   double radius_ = 0;
   std::vector<Vec3> vertices_;                           // relative to centre_
   std::vector<std::array<std::uint32_t, 3>> triangles_;  // (n_interfaces)
-  std::vector<FacetPlane> planes_;                       // (n_interfaces)
-  std::vector<FacetSides> sides_;                        // (n_interfaces)
+  std::vector<Facet> facets_;                            // (n_interfaces)
   std::vector<std::uint32_t> boundary_;                  // members of boundary_scene_
   std::vector<std::uint32_t> skin_;                      // members of skin_scene_
   EmbreeDevice device_;

@@ -10,7 +10,7 @@ namespace artus {
 
 /// The plane of one interface triangle in double precision, relative to the scene's centre. Half
 /// a cache line: a query reads a few of these at random places.
-struct alignas(32) FacetPlane {
+struct FacetPlane {
   Vec3 normal = Vec3::Zero();  ///< unit, from back to front; zero for a triangle without area
   double offset = 0;           ///< m, normal . p for the points p of the plane
 };
@@ -21,12 +21,20 @@ struct FacetSides {
   RegionId back = kOutside;
 };
 
-/// One passage of a line through a facet.
+/// What a hit needs to know of its facet: one cache line, so that a hit costs one miss.
+struct alignas(64) Facet {
+  FacetPlane plane;
+  FacetSides sides;
+};
+
+/// One passage of a line through a facet. Without initialisers: a query's room for hits is on its
+/// stack, and clearing it would cost more than half a query.
+// NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): see above
 struct Hit {
-  double depth = 0;             ///< m along the line
-  std::uint32_t interface = 0;  ///< index into TetMesh::interfaces
-  RegionId from = kOutside;     ///< region before it
-  RegionId to = kOutside;       ///< region after it
+  double depth;             ///< m along the line
+  std::uint32_t interface;  ///< index into TetMesh::interfaces
+  RegionId from;            ///< region before it
+  RegionId to;              ///< region after it
 };
 
 /// Hits one query can hold; a line through more surfaces keeps the nearest.

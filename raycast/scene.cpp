@@ -111,9 +111,10 @@ std::span<const Hit> Scene::Impl::trace(const Track& track, Trace& scratch) cons
   HitBuffer& buffer = scratch.buffer;
   index.gather(track.line, buffer);
   const std::span<Hit> hits(buffer.hits.data(), buffer.size);
-  sort_hits(hits);
   if (!buffer.doubtful && is_chain(hits)) [[likely]]
     return hits;
+  sort_hits(hits);
+  if (!buffer.doubtful && is_chain(hits)) return hits;
   struct State {
     const Impl* impl;
     const Line* line;

@@ -8,20 +8,23 @@
 
 namespace artus::bench {
 
-/// The peer: CGAL's AABB tree over the same triangles, Simple_cartesian<double>, its fastest
-/// kernel.
+/// The peer: CGAL's AABB tree over the same triangles.
 class CgalTree {
  public:
-  explicit CgalTree(const CompiledJoint& joint);
-  ~CgalTree();
+  /// Simple_cartesian<double>: CGAL's fastest kernel; rounding may lose or double a hit.
+  [[nodiscard]] static std::unique_ptr<CgalTree> make_inexact(const CompiledJoint& joint);
+  /// Exact_predicates_inexact_constructions_kernel: the one CGAL recommends; finds what is there,
+  /// as Scene does.
+  [[nodiscard]] static std::unique_ptr<CgalTree> make_exact_predicates(const CompiledJoint& joint);
+
+  CgalTree() = default;
+  virtual ~CgalTree() = default;
   CgalTree(const CgalTree&) = delete;
   CgalTree& operator=(const CgalTree&) = delete;
+  CgalTree(CgalTree&&) = delete;
+  CgalTree& operator=(CgalTree&&) = delete;
   /// Number of intersections found by all_intersections (points and facets, unsorted).
-  [[nodiscard]] std::size_t all_hits(const Segment& segment);
-
- private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  [[nodiscard]] virtual std::size_t all_hits(const Segment& segment) = 0;
 };
 
 }  // namespace artus::bench
