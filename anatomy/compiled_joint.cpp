@@ -140,6 +140,7 @@ std::string find_mesh_fault(const TetMesh& mesh, std::size_t n_regions) {
       return "an interface's vertex is out of range";
     }
     if (f.front >= n_regions || f.back >= n_regions) return "an interface's region is out of range";
+    if (f.front == f.back) return "an interface has one region on both sides";
   }
   return {};
 }
@@ -208,6 +209,17 @@ Result<std::string> read_payload(const std::filesystem::path& file) {
 
 }  // namespace
 
+Result<CompiledJoint> parse_compiled_joint(const std::string& payload, const std::string& where) {
+  ByteReader in(payload);
+  CompiledJoint joint = from_bytes(in);
+  if (!in.ok() || !in.at_end()) {
+    return fail(ErrorCode::corrupt, "its sections do not add up; compile it again", where);
+  }
+  const std::string fault = find_fault(joint);
+  if (!fault.empty()) return fail(ErrorCode::corrupt, fault + "; compile it again", where);
+  return joint;
+}
+
 Result<void> write_compiled_joint(const CompiledJoint& joint, const std::filesystem::path& file) {
   const std::string payload = to_bytes(joint);
   const Header header{kMagic, kVersion, 0, payload.size(), hash_bytes(payload)};
@@ -237,14 +249,7 @@ Result<void> write_compiled_joint(const CompiledJoint& joint, const std::filesys
 Result<CompiledJoint> read_compiled_joint(const std::filesystem::path& file) {
   const Result<std::string> payload = read_payload(file);
   if (!payload) return tl::unexpected(payload.error());
-  ByteReader in(*payload);
-  CompiledJoint joint = from_bytes(in);
-  if (!in.ok() || !in.at_end()) {
-    return fail(ErrorCode::corrupt, "its sections do not add up; compile it again", file.string());
-  }
-  const std::string fault = find_fault(joint);
-  if (!fault.empty()) return fail(ErrorCode::corrupt, fault + "; compile it again", file.string());
-  return joint;
+  return parse_compiled_joint(*payload, file.string());
 }
 
 }  // namespace artus

@@ -44,8 +44,13 @@ struct CompiledJoint {
 [[nodiscard]] Result<void> write_compiled_joint(const CompiledJoint& joint,
                                                 const std::filesystem::path& file);
 
+/// The joint in the payload of a compiled file (what follows its header); `where` names the file in
+/// errors. Errors: corrupt, as below.
+[[nodiscard]] Result<CompiledJoint> parse_compiled_joint(const std::string& payload,
+                                                         const std::string& where);
+
 /// Reads what write_compiled_joint wrote. Errors: not_found, unsupported (other version), corrupt
-/// (truncated, checksum, index out of range).
+/// (truncated, checksum, index out of range, not finite).
 [[nodiscard]] Result<CompiledJoint> read_compiled_joint(const std::filesystem::path& file);
 
 }  // namespace artus

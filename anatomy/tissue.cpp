@@ -12,7 +12,6 @@
 namespace artus {
 namespace {
 
-constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 /// dB/cm of amplitude to Np/m.
 constexpr double kNeperPerMetre = 100 / kDecibelPerNeper;
 
