@@ -7,6 +7,7 @@
 #include "echo/image_io.h"
 #include "echo/labels.h"
 #include "echo/renderer.h"
+#include "sim/echo_truth.h"
 
 #include "apps/view_options.h"
 
@@ -22,26 +23,14 @@ struct ImageOptions {
   bool json = false;
 };
 
-nlohmann::json needle_json(const NeedleTruth& truth) {
-  return {{"tip_px", {truth.tip.x, truth.tip.y}},
-          {"tip_offset_mm", truth.tip_offset / kMillimetre},
-          {"plane_angle_deg", truth.plane_angle / kDegree},
-          {"face_angle_deg", truth.face_angle / kDegree},
-          {"in_plane", truth.in_plane}};
-}
-
 ExitCode run_image(const ImageOptions& options) {
-  const auto view = make_view(options.view);
-  if (!view) return report_error(view.error(), options.json);
-  const auto joint = load(options.joint, make_progress_printer(options.json));
-  if (!joint) return report_error(joint.error(), options.json);
-  const auto scene = std::make_shared<const Scene>(*joint);
-  const Pose X_JP = view->probe(**joint);
-  const auto needle = view->needle(**joint);
-  const Frame frame = render_bmode(scene, X_JP, needle, view->transducer, view->settings);
+  const auto loaded = load_view(options.joint, options.view, options.json);
+  if (!loaded) return report_error(loaded.error(), options.json);
+  const View& view = loaded->view;
+  const Frame frame =
+      render_bmode(loaded->scene, loaded->X_JP, loaded->needle, view.transducer, view.settings);
 
-  const cv::Mat image =
-      options.plain ? grey_image(frame) : annotated_image(frame, view->transducer);
+  const cv::Mat image = options.plain ? grey_image(frame) : annotated_image(frame, view.transducer);
   if (const auto written = write_image(image, options.out); !written)
     return report_error(written.error(), options.json);
   if (!options.envelope.empty())
@@ -49,15 +38,17 @@ ExitCode run_image(const ImageOptions& options) {
       return report_error(written.error(), options.json);
 
   if (options.json) {
-    nlohmann::json report{{"joint", (*joint)->name},
+    nlohmann::json report{{"joint", loaded->joint().name},
                           {"image", options.out.string()},
                           {"width_px", image.cols},
                           {"height_px", image.rows},
                           {"pixel_mm", frame.pixel / kMillimetre},
-                          {"probe_position_mm", to_json_mm(X_JP.translation())}};
-    if (needle)
+                          {"probe", probe_json(loaded->X_JP)},
+                          {"transducer", to_json(view.transducer)},
+                          {"settings", to_json(view.settings)}};
+    if (loaded->needle)
       report["needle"] =
-          needle_json(locate_needle(*needle, X_JP, view->transducer, view->settings));
+          to_json(locate_needle(*loaded->needle, loaded->X_JP, view.transducer, view.settings));
     if (!options.envelope.empty()) report["envelope"] = options.envelope.string();
     std::cout << report.dump(2) << '\n';
   } else {
@@ -76,7 +67,8 @@ void add_image_command(CLI::App& app, ExitCode& code) {
       "Examples:\n"
       "  artus image -j meshes/simple-shoulder -o bmode.png\n"
       "  artus image -j meshes/shoulder --needle default -o needle.png --envelope envelope.tiff\n"
-      "  artus image -j real.artus --probe=-235,-97,1340/0.9,0.4,0/0,0,1 --depth 50 -o long.png");
+      "  artus image -j real.artus --probe=-235,-97,1340/0.9,0.4,0/0,0,1 --depth 50 -o long.png\n"
+      "  artus image -j meshes/shoulder --transducer curved-2-5 --depth 80 -o curved.png");
   add_joint_options(command, options->joint);
   add_view_options(command, options->view);
   command->add_option("-o,--out", options->out, "image file (.png, .tiff)")->required();

@@ -29,6 +29,10 @@ int run(int argc, char** argv) {
   artus::add_needle_command(app, code);
   artus::add_image_command(app, code);
   artus::add_slice_command(app, code);
+  artus::add_sweep_command(app, code);
+  artus::add_video_command(app, code);
+  artus::add_phantom_command(app, code);
+  artus::add_echo_gates_command(app, code);
   artus::add_run_command(app, code);
   artus::add_experiment_command(app, code);
   artus::add_serve_command(app, code);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <cstdio>
 #include <iostream>
-#include <map>
 #include <memory>
 
 #include "core/units.h"
 #include "echo/image_io.h"
 #include "echo/labels.h"
+#include "sim/echo_truth.h"
 
 #include "apps/view_options.h"
 
@@ -21,45 +21,29 @@ struct SliceOptions {
   bool json = false;
 };
 
-/// What is in the plane: id, name, tissue, colour and area of each region.
+/// What is in the plane, with the colours of the picture.
 nlohmann::json legend_of(const LabelImage& labels, const CompiledJoint& joint) {
-  std::map<RegionId, std::size_t> pixels;
-  for (const RegionId region : labels.regions) ++pixels[region];
+  auto legend = region_list(labels, joint);
   const auto palette = region_palette(joint);
-  const double area = labels.pixel * labels.pixel / (kMillimetre * kMillimetre);
-  auto legend = nlohmann::json::array();
-  for (const auto& [region, count] : pixels)
-    legend.push_back({{"id", region},
-                      {"region", joint.regions[region].name},
-                      {"tissue", joint.tissue_of(region).name},
-                      {"rgb", palette[region]},
-                      {"area_mm2", static_cast<double>(count) * area}});
+  for (auto& row : legend) row["rgb"] = palette[row.at("id").get<std::size_t>()];
   return legend;
 }
 
-cv::Mat id_image(const LabelImage& labels) {
-  cv::Mat ids(labels.height, labels.width, CV_16UC1);
-  std::copy(labels.regions.begin(), labels.regions.end(), ids.begin<std::uint16_t>());
-  return ids;
-}
-
 ExitCode run_slice(const SliceOptions& options) {
-  const auto view = make_view(options.view);
-  if (!view) return report_error(view.error(), options.json);
-  const auto joint = load(options.joint, make_progress_printer(options.json));
-  if (!joint) return report_error(joint.error(), options.json);
-  const Scene scene(*joint);
-  const LabelImage labels = render_labels(scene, view->probe(**joint), view->transducer,
-                                          view->settings, view->needle(**joint));
-  if (const auto written = write_image(colour_labels(labels, **joint), options.out); !written)
+  const auto loaded = load_view(options.joint, options.view, options.json);
+  if (!loaded) return report_error(loaded.error(), options.json);
+  const CompiledJoint& joint = loaded->joint();
+  const LabelImage labels = render_labels(*loaded->scene, loaded->X_JP, loaded->view.transducer,
+                                          loaded->view.settings, loaded->needle);
+  if (const auto written = write_image(colour_labels(labels, joint), options.out); !written)
     return report_error(written.error(), options.json);
   if (!options.ids.empty())
     if (const auto written = write_image(id_image(labels), options.ids); !written)
       return report_error(written.error(), options.json);
 
-  const auto legend = legend_of(labels, **joint);
+  const auto legend = legend_of(labels, joint);
   if (options.json) {
-    std::cout << nlohmann::json{{"joint", (*joint)->name},
+    std::cout << nlohmann::json{{"joint", joint.name},
                                 {"image", options.out.string()},
                                 {"pixel_mm", labels.pixel / kMillimetre},
                                 {"regions", legend}}

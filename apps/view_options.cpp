@@ -2,17 +2,35 @@
 #include "apps/view_options.h"
 
 #include "core/units.h"
+#include "echo/transducer_file.h"
 
 #include "apps/arguments.h"
 
 namespace artus {
+namespace {
 
-void add_view_options(CLI::App* command, ViewOptions& options) {
-  command->add_option("--probe", options.probe,
-                      "position/direction[/lateral], each x,y,z; position in mm "
-                      "(default: the joint's probe pose)");
-  command->add_option("--needle", options.needle,
-                      "entry/tip, each x,y,z in mm, or 'default' for the joint's (default: none)");
+Result<Transducer> make_transducer(const ViewOptions& options) {
+  const auto preset = find_transducer(options.transducer);
+  if (!preset) {
+    Error error = preset.error();
+    if (error.where.empty()) error.where = "--transducer";
+    return tl::unexpected(error);
+  }
+  Transducer transducer = preset->transducer;
+  if (options.frequency_mhz) transducer.frequency = *options.frequency_mhz * 1e6;
+  if (options.focus_mm) transducer.elevation_focus = *options.focus_mm * kMillimetre;
+  if (options.steering_deg) transducer.steering = *options.steering_deg * kDegree;
+  if (options.lines) transducer.n_lines = *options.lines;
+  return transducer;
+}
+
+}  // namespace
+
+void add_imaging_options(CLI::App* command, ViewOptions& options) {
+  command
+      ->add_option("--transducer", options.transducer,
+                   "linear-6-18, linear-4-9, hockey-7-15, curved-2-5, or a .toml file")
+      ->capture_default_str();
   command->add_option("--gauge", options.gauge, "needle gauge: 18, 20, 21, 22, 23 or 25")
       ->capture_default_str();
   command->add_flag("--echogenic", options.echogenic, "dimpled needle, seen at steep angles, too");
@@ -20,18 +38,29 @@ void add_view_options(CLI::App* command, ViewOptions& options) {
   command->add_option("--gain", options.gain_db, "gain, dB")->capture_default_str();
   command->add_option("--dynamic-range", options.dynamic_range_db, "dB between black and white")
       ->capture_default_str();
-  command->add_option("--frequency", options.frequency_mhz, "centre frequency, MHz")
-      ->capture_default_str();
-  command->add_option("--focus", options.focus_mm, "elevation focus of the lens, mm")
-      ->capture_default_str();
+  command->add_option("--frequency", options.frequency_mhz,
+                      "centre frequency, MHz (default: the transducer's)");
+  command->add_option("--focus", options.focus_mm,
+                      "elevation focus of the lens, mm (default: the transducer's)");
+  command->add_option("--steering", options.steering_deg,
+                      "tilt of the scanlines toward +x, degrees (default: the transducer's)");
+  command->add_option("--lines", options.lines, "scanlines (default: the transducer's)");
   command->add_option("--pixel", options.pixel_mm, "pixel size, mm")->capture_default_str();
-  command->add_option("--lines", options.lines, "scanlines")->capture_default_str();
   command->add_option("--planes", options.planes, "elevation planes of the slice's thickness")
       ->capture_default_str();
   command
       ->add_option("--threads", options.threads, "threads; 0: all. The image does not depend on it")
       ->capture_default_str();
   command->add_option("--seed", options.seed, "seed of speckle and noise")->capture_default_str();
+}
+
+void add_view_options(CLI::App* command, ViewOptions& options) {
+  command->add_option("--probe", options.probe,
+                      "position/direction[/lateral], each x,y,z; position in mm "
+                      "(default: the joint's probe pose)");
+  command->add_option("--needle", options.needle,
+                      "entry/tip, each x,y,z in mm, or 'default' for the joint's (default: none)");
+  add_imaging_options(command, options);
 }
 
 Result<View> make_view(const ViewOptions& options) {
@@ -55,9 +84,9 @@ Result<View> make_view(const ViewOptions& options) {
         "--gauge");
   view.needle_shape = *shape;
   view.needle_shape.echogenic = options.echogenic;
-  view.transducer.frequency = options.frequency_mhz * 1e6;
-  view.transducer.elevation_focus = options.focus_mm * kMillimetre;
-  view.transducer.n_lines = options.lines;
+  const auto transducer = make_transducer(options);
+  if (!transducer) return tl::unexpected(transducer.error());
+  view.transducer = *transducer;
   view.settings.depth = options.depth_mm * kMillimetre;
   view.settings.gain_db = options.gain_db;
   view.settings.dynamic_range_db = options.dynamic_range_db;
@@ -82,6 +111,20 @@ std::optional<NeedleView> View::needle(const CompiledJoint& joint) const {
   if (X_JN) return NeedleView{*X_JN, needle_shape};
   if (default_needle) return NeedleView{joint.X_JN_default, needle_shape};
   return std::nullopt;
+}
+
+Result<LoadedView> load_view(const JointOptions& joint_options, const ViewOptions& options,
+                             bool quiet) {
+  auto view = make_view(options);
+  if (!view) return tl::unexpected(view.error());
+  const auto joint = load(joint_options, make_progress_printer(quiet));
+  if (!joint) return tl::unexpected(joint.error());
+  LoadedView loaded;
+  loaded.X_JP = view->probe(**joint);
+  loaded.needle = view->needle(**joint);
+  loaded.view = std::move(*view);
+  loaded.scene = std::make_shared<const Scene>(*joint);
+  return loaded;
 }
 
 }  // namespace artus

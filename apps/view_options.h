@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "echo/image_settings.h"
 #include "echo/needle_view.h"
 #include "echo/transducer.h"
+#include "raycast/scene.h"
 
 #include "apps/command.h"
 
@@ -17,17 +19,24 @@ struct ViewOptions {
   std::string needle;
   int gauge = 22;
   bool echogenic = false;
+  std::string transducer = "linear-6-18";
+  std::optional<double> frequency_mhz;  ///< empty: the transducer's, as the next three
+  std::optional<double> focus_mm;
+  std::optional<double> steering_deg;
+  std::optional<int> lines;
   double depth_mm = 40;
-  double gain_db = 0;
-  double dynamic_range_db = 60;
-  double frequency_mhz = 12;
-  double focus_mm = 20;
+  double gain_db = ImageSettings{}.gain_db;
+  double dynamic_range_db = ImageSettings{}.dynamic_range_db;
   double pixel_mm = 0.1;
-  int lines = 256;
-  int planes = 5;
+  int planes = ImageSettings{}.n_planes;
   int threads = 0;
   std::uint64_t seed = 1;
 };
+
+/// The flags of transducer, image and needle type, without poses.
+void add_imaging_options(CLI::App* command, ViewOptions& options);
+
+/// All of them.
 void add_view_options(CLI::App* command, ViewOptions& options);
 
 /// What the flags mean, before any joint is loaded. Poses that are not given are the joint's.
@@ -43,7 +52,22 @@ struct View {
   [[nodiscard]] std::optional<NeedleView> needle(const CompiledJoint& joint) const;
 };
 
-/// Errors: malformed or invalid, with the flag as place.
+/// Errors: malformed or invalid, with the flag as place; those of the transducer's file.
 [[nodiscard]] Result<View> make_view(const ViewOptions& options);
+
+/// A view of a joint that is loaded and indexed.
+struct LoadedView {
+  View view;
+  std::shared_ptr<const Scene> scene;
+  Pose X_JP = Pose::Identity();
+  std::optional<NeedleView> needle;
+
+  [[nodiscard]] const CompiledJoint& joint() const noexcept { return scene->joint(); }
+};
+
+/// make_view, then the joint: a wrong flag is told before anything is loaded. `quiet` without
+/// progress.
+[[nodiscard]] Result<LoadedView> load_view(const JointOptions& joint, const ViewOptions& options,
+                                           bool quiet);
 
 }  // namespace artus

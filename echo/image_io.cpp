@@ -32,8 +32,10 @@ cv::Mat annotated_image(const Frame& frame, const Transducer& transducer) {
   cv::Mat out(frame.height + kTop + kBottom, frame.width + kLeft + kRight, CV_8UC1, cv::Scalar(0));
   grey_image(frame).copyTo(out(cv::Rect(kLeft, kTop, frame.width, frame.height)));
   const double depth = frame.n_samples * frame.sample_depth;
+  // The middle of a curved face lies below the image's top: depth counts from there.
+  const int face = std::max(0, frame.height - to_pixel(depth, frame.pixel));
   for (int mm = 0; mm <= static_cast<int>(std::lround(depth * 1e3)); mm += 5) {
-    const int y = kTop + std::min(frame.height - 1, to_pixel(mm * 1e-3, frame.pixel));
+    const int y = kTop + std::min(frame.height - 1, face + to_pixel(mm * 1e-3, frame.pixel));
     const bool whole = mm % 10 == 0;
     cv::line(out, {kLeft - (whole ? 9 : 5), y}, {kLeft - 2, y}, ink(), 1);
     if (whole) {
@@ -42,7 +44,7 @@ cv::Mat annotated_image(const Frame& frame, const Transducer& transducer) {
     }
   }
   cv::putText(out, "cm", {2, kTop - 6}, cv::FONT_HERSHEY_SIMPLEX, 0.35, ink(), 1, cv::LINE_AA);
-  const int focus = kTop + to_pixel(transducer.elevation_focus, frame.pixel);
+  const int focus = kTop + face + to_pixel(transducer.elevation_focus, frame.pixel);
   if (focus < kTop + frame.height) {
     const int x = kLeft + frame.width + 2;
     cv::line(out, {x, focus}, {x + 7, focus - 4}, ink(), 1, cv::LINE_AA);

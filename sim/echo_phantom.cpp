@@ -11,7 +11,7 @@
 namespace artus {
 namespace {
 
-constexpr double kWidth = 80e-3;    // m, along x
+constexpr double kWidth = 160e-3;   // m, along x
 constexpr double kBreadth = 60e-3;  // m, along y
 constexpr double kDepth = 120e-3;   // m: below the deepest usual image
 constexpr double kNeperPerMetre = 100 / kDecibelPerNeper;

@@ -46,7 +46,7 @@ struct PhantomOptions {
 /// The tissue library with "tissue_mimic" added: 1540 m/s, 0.5 dB/cm/MHz, speckle as muscle.
 [[nodiscard]] std::vector<Tissue> make_phantom_tissues();
 
-/// A layered block of library tissues, 80 mm x 60 mm, its top in z = 0; `change` edits the body
+/// A layered block of library tissues, 160 mm x 60 mm, its top in z = 0; `change` edits the body
 /// before it is indexed.
 [[nodiscard]] std::shared_ptr<const Scene> make_block_scene(
     std::span<const FlatLayer> layers, const std::function<void(CompiledJoint&)>& change = {});

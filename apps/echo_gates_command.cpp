@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <cstdio>
+#include <iostream>
+#include <memory>
+
+#include <nlohmann/json.hpp>
+
+#include "sim/echo_gates.h"
+#include "sim/echo_patch.h"
+
+#include "apps/command.h"
+
+namespace artus {
+namespace {
+
+struct EchoGatesOptions {
+  std::vector<std::string> only;
+  std::filesystem::path out;
+  std::filesystem::path joint;
+  std::filesystem::path reference;
+  int frames = 300;
+  bool json = false;
+};
+
+void print(const EchoGate& gate) {
+  std::printf("%s\n", gate.name.c_str());
+  for (const Claim& claim : gate.claims)
+    std::printf("  %s  %s: %.4g (%s)\n", claim.pass ? "holds" : "FAILS", claim.text.c_str(),
+                claim.value, claim.bound.c_str());
+}
+
+Result<std::vector<EchoGate>> measure(const EchoGatesOptions& options, const Progress& progress) {
+  std::vector<std::string> names = options.only;
+  if (names.empty()) names.assign(echo_gates().begin(), echo_gates().end());
+  std::vector<EchoGate> gates;
+  for (const std::string& name : names) {
+    if (progress)
+      progress(name, static_cast<double>(gates.size()) / static_cast<double>(names.size()));
+    auto gate = run_echo_gate(name);
+    if (!gate) {
+      Error error = gate.error();
+      error.where = "--only";
+      return tl::unexpected(error);
+    }
+    gates.push_back(std::move(*gate));
+  }
+  if (options.joint.empty()) return gates;
+  JointOptions joint_options;
+  joint_options.joint = options.joint;
+  const auto joint = load(joint_options, progress);
+  if (!joint) return tl::unexpected(joint.error());
+  const auto scene = std::make_shared<const Scene>(*joint);
+  if (!options.reference.empty()) {
+    const auto range = read_patch_range(options.reference);
+    if (!range) return tl::unexpected(range.error());
+    if (progress) progress("muscle-patch", 0);
+    gates.push_back(measure_muscle(scene, *range));
+  }
+  if (progress) progress("frame-time", 0);
+  gates.push_back(measure_frame_time(scene, options.frames));
+  return gates;
+}
+
+ExitCode run_gates(const EchoGatesOptions& options) {
+  const auto gates = measure(options, make_progress_printer(options.json));
+  if (!gates) return report_error(gates.error(), options.json);
+  if (const auto written = write_gate_report(*gates, options.out); !written)
+    return report_error(written.error(), options.json);
+  const auto report = to_json(*gates);
+  if (options.json) {
+    std::cout << report.dump(2) << '\n';
+  } else {
+    for (const EchoGate& gate : *gates) print(gate);
+    std::printf("report.md, gates.json, pictures/ in %s\n", options.out.c_str());
+  }
+  return report.at("pass").get<bool>() ? ExitCode::ok : ExitCode::failed;
+}
+
+std::string list_of_names() {
+  std::string names;
+  for (const auto name : echo_gates()) {
+    names += names.empty() ? "" : ", ";
+    names += name;
+  }
+  return names;
+}
+
+}  // namespace
+
+void add_echo_gates_command(CLI::App& app, ExitCode& code) {
+  auto options = std::make_shared<EchoGatesOptions>();
+  CLI::App* command = add_command(
+      app, "echo-gates",
+      "Measure the image's physics on test objects, with a verdict on each value",
+      "Gates: " + list_of_names() +
+          "\nExit code 1 when a value is out of its bound.\n"
+          "Examples:\n"
+          "  artus echo-gates --out out/gates\n"
+          "  artus echo-gates --only needle-angle --only tendon --out out/gates --json\n"
+          "  artus echo-gates --joint shoulder.artus --out out/gates      (with the time of a "
+          "frame)");
+  command->add_option("--only", options->only, "a gate, may be given several times (default: all)");
+  CLI::Option* joint =
+      command->add_option("--joint,-j", options->joint,
+                          "also measure the time of a frame on this joint, on one thread");
+  command
+      ->add_option(
+          "--reference", options->reference,
+          "table of real muscle images (stats.tsv): also compare the joint's muscle with it")
+      ->needs(joint);
+  command->add_option("--frames", options->frames, "frames of that measurement")
+      ->check(CLI::Range(100, 100000))
+      ->capture_default_str();
+  command->add_option("-o,--out", options->out, "folder for the report")->required();
+  command->add_flag("--json", options->json, "print the verdicts as JSON");
+  on_run(command, code, [options] { return run_gates(*options); });
+}
+
+}  // namespace artus

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <opencv2/core.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include "anatomy/compiled_joint.h"
+#include "echo/display.h"
+#include "echo/frame.h"
+#include "echo/image_settings.h"
+#include "echo/labels.h"
+#include "echo/transducer.h"
+
+/// The ground truth of a frame as files and JSON hold it.
+namespace artus {
+
+/// Region ids, (height, width) CV_16UC1.
+[[nodiscard]] cv::Mat id_image(const LabelImage& labels);
+
+/// 255 where the needle's shaft is in the slice, (height, width) CV_8UC1.
+[[nodiscard]] cv::Mat needle_mask(const LabelImage& labels);
+
+/// 255 where no sound returns (behind bone or gas, or without contact), (height, width) CV_8UC1.
+/// Requires: `converter` is of the frame's transducer and settings.
+[[nodiscard]] cv::Mat shadow_mask(const Frame& frame, const ScanConverter& converter);
+
+/// Tip in pixels, offset from the plane in mm, angles in degrees, in_plane.
+[[nodiscard]] nlohmann::json to_json(const NeedleTruth& truth);
+
+/// What is in the plane: id, name, tissue and area (mm2) of each region, by rising id.
+[[nodiscard]] nlohmann::json region_list(const LabelImage& labels, const CompiledJoint& joint);
+
+/// Position (mm), direction into the body and lateral direction.
+[[nodiscard]] nlohmann::json probe_json(const Pose& X_JP);
+
+/// Every value, in mm, MHz and degrees.
+[[nodiscard]] nlohmann::json to_json(const Transducer& transducer);
+
+/// Every value that the image depends on (not the number of threads).
+[[nodiscard]] nlohmann::json to_json(const ImageSettings& settings);
+
+}  // namespace artus

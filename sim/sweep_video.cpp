@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "sim/sweep_video.h"
+
+#include <optional>
+
+#include <opencv2/imgproc.hpp>
+
+#include "echo/image_io.h"
+#include "echo/labels.h"
+#include "echo/renderer.h"
+#include "sim/video_file.h"
+
+namespace artus {
+namespace {
+
+/// The image, and beside it the labels of the same height when they are asked for.
+cv::Mat picture_of(Renderer& renderer, const Scene& scene, const Pose& X_JP,
+                   const std::optional<NeedleView>& needle, bool with_labels) {
+  const Frame& frame = renderer.render(X_JP, needle);
+  cv::Mat image = annotated_image(frame, renderer.transducer());
+  if (!with_labels) return image;
+  const cv::Mat labels =
+      colour_labels(render_labels(scene, X_JP, renderer.transducer(), renderer.settings(), needle),
+                    scene.joint());
+  cv::Mat both(image.rows, image.cols + labels.cols, CV_8UC3, cv::Scalar(0, 0, 0));
+  cv::cvtColor(image, both(cv::Rect(0, 0, image.cols, image.rows)), cv::COLOR_GRAY2BGR);
+  labels.copyTo(
+      both(cv::Rect(image.cols, (image.rows - labels.rows) / 2, labels.cols, labels.rows)));
+  return both;
+}
+
+}  // namespace
+
+Result<SweepVideo> write_sweep_video(const std::shared_ptr<const Scene>& scene,
+                                     const std::vector<ListedPose>& poses,
+                                     const std::filesystem::path& file,
+                                     const SweepVideoOptions& options, const Progress& progress) {
+  const auto path = sample_path(poses, options.frames_per_second);
+  if (!path) return tl::unexpected(path.error());
+  Renderer renderer(scene, options.transducer, options.settings);
+  std::optional<VideoFile> video;
+  SweepVideo result;
+  for (const ListedPose& pose : *path) {
+    std::optional<NeedleView> needle;
+    if (pose.X_JN) needle = NeedleView{*pose.X_JN, options.needle};
+    const cv::Mat picture = picture_of(renderer, *scene, pose.X_JP, needle, options.labels);
+    if (!video) {
+      auto opened =
+          VideoFile::open(file, picture.size(), options.labels, options.frames_per_second);
+      if (!opened) return tl::unexpected(opened.error());
+      video = std::move(*opened);
+    }
+    video->write(picture);
+    ++result.frames;
+    if (progress)
+      progress("video", static_cast<double>(result.frames) / static_cast<double>(path->size()));
+  }
+  const auto name = video->finish();
+  if (!name) return tl::unexpected(name.error());
+  result.file = *name;
+  return result;
+}
+
+}  // namespace artus

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "core/progress.h"
+#include "core/result.h"
+#include "echo/image_settings.h"
+#include "echo/needle_view.h"
+#include "echo/transducer.h"
+#include "raycast/scene.h"
+#include "sim/pose_list.h"
+
+namespace artus {
+
+struct SweepVideoOptions {
+  Transducer transducer;
+  ImageSettings settings;
+  NeedleShape needle;
+  double frames_per_second = 25;
+  bool labels = false;  ///< the true labels beside each image, in colour
+};
+
+struct SweepVideo {
+  std::filesystem::path file;  ///< .avi where the system cannot write the MP4 that was asked for
+  std::size_t frames = 0;
+};
+
+/// Draws a path of poses (see sample_path) as a video. Errors: as VideoFile and sample_path.
+[[nodiscard]] Result<SweepVideo> write_sweep_video(const std::shared_ptr<const Scene>& scene,
+                                                   const std::vector<ListedPose>& poses,
+                                                   const std::filesystem::path& file,
+                                                   const SweepVideoOptions& options,
+                                                   const Progress& progress = {});
+
+}  // namespace artus

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "sim/echo_patch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <vector>
+
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include <gtest/gtest.h>
+
+namespace artus {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path reference() {
+  const char* shared = std::getenv("ARTUS_SHARED");
+  return (shared != nullptr ? fs::path(shared) : fs::path(ARTUS_SOURCE_DIR) / ".." / "shared") /
+         "data/us_reference";
+}
+
+TEST(EchoPatch, MeasuresTheWidthsOfSmoothedNoise) {
+  // White noise smoothed by Gaussians of deviation s has an autocorrelation of deviation s sqrt(2).
+  cv::Mat noise(400, 400, CV_64F);
+  cv::RNG random(7);
+  random.fill(noise, cv::RNG::NORMAL, 0, 1);
+  cv::Mat smooth;
+  cv::GaussianBlur(noise, smooth, {}, 4, 1.5);
+  cv::Mat image;
+  smooth.convertTo(image, CV_8U, 100, 128);
+  const PatchStatistics s = measure_patch(image, {0, 0, 400, 400});
+  EXPECT_NEAR(s.mean, 128, 1);
+  EXPECT_NEAR(s.axial_width, 2.355 * 1.5 * std::sqrt(2.0), 0.4);
+  EXPECT_NEAR(s.lateral_width, 2.355 * 4 * std::sqrt(2.0), 1);
+}
+
+TEST(EchoPatch, SlowChangesOfBrightnessDoNotCount) {
+  cv::Mat noise(96, 96, CV_64F);
+  cv::RNG random(7);
+  random.fill(noise, cv::RNG::NORMAL, 128, 20);
+  cv::Mat flat;
+  noise.convertTo(flat, CV_8U);
+  for (int x = 0; x < 96; ++x) noise.col(x) += 0.6 * x - 30;
+  cv::Mat tilted;
+  noise.convertTo(tilted, CV_8U);
+  const cv::Rect all(0, 0, 96, 96);
+  EXPECT_NEAR(measure_patch(tilted, all).lateral_width, measure_patch(flat, all).lateral_width,
+              0.2);
+}
+
+TEST(EchoPatch, AgreesWithThePublishedTableOfRealImages) {
+  if (!fs::exists(reference() / "stats.tsv")) GTEST_SKIP() << "no reference images";
+  // The table is the mean of five patches of which it names the first; one patch of a picture may
+  // differ, the middle of all pictures must not.
+  std::ifstream table(reference() / "stats.tsv");
+  std::string line;
+  std::getline(table, line);
+  std::vector<double> axial;
+  std::vector<double> lateral;
+  while (std::getline(table, line)) {
+    std::istringstream in(line);
+    std::vector<std::string> cells;
+    for (std::string cell; std::getline(in, cell, '\t');) cells.push_back(cell);
+    int x = 0, y = 0, w = 0, h = 0;
+    ASSERT_EQ(std::sscanf(cells.at(2).c_str(), "%d,%d,%d,%d", &x, &y, &w, &h), 4);
+    for (const auto& entry : fs::recursive_directory_iterator(reference())) {
+      if (entry.path().filename() != cells[0]) continue;
+      const cv::Mat image = cv::imread(entry.path().string(), cv::IMREAD_GRAYSCALE);
+      const PatchStatistics s = measure_patch(image, {x, y, w, h});
+      axial.push_back(s.axial_width / std::stod(cells.at(10)));
+      lateral.push_back(s.lateral_width / std::stod(cells.at(11)));
+    }
+  }
+  ASSERT_GE(axial.size(), 15U);
+  for (auto* ratios : {&axial, &lateral}) {
+    std::sort(ratios->begin(), ratios->end());
+    EXPECT_NEAR((*ratios)[ratios->size() / 2], 1, 0.07);
+  }
+}
+
+TEST(EchoPatch, ReadsTheRangeAndRefusesATableWithoutIt) {
+  const fs::path file = fs::temp_directory_path() / "artus-patch-range.tsv";
+  std::ofstream(file) << "file\tmean\tstd\tacf_fwhm_axial_px\tacf_fwhm_lateral_px\n"
+                      << "d1.png\t50\t30\t4\t12\nBone.png\t90\t40\t6\t20\nSpine.png\t1\t1\t1\t1\n";
+  const auto range = read_patch_range(file);
+  ASSERT_TRUE(range.has_value());
+  EXPECT_EQ(range->images, 2U);
+  EXPECT_EQ(range->least.mean, 50);
+  EXPECT_EQ(range->most.lateral_width, 20);
+  std::ofstream(file) << "file\tmean\nd1.png\t50\n";
+  EXPECT_EQ(read_patch_range(file).error().code, ErrorCode::malformed);
+  std::ofstream(file) << "file\tmean\n";
+  EXPECT_EQ(read_patch_range(file).error().code, ErrorCode::malformed);
+  fs::remove(file);
+  EXPECT_EQ(read_patch_range(file).error().code, ErrorCode::not_found);
+}
+
+}  // namespace
+}  // namespace artus
