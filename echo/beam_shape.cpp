@@ -16,6 +16,7 @@ constexpr double kTail = 3;          // standard deviations kept of a Gaussian
 constexpr double kLongest = 1.25;    // of the displayed depth, as far as beams are followed
 constexpr std::size_t kPadding = 8;  // floats behind the last weight that may be read
 constexpr int kMaxReach = 16;        // lines
+constexpr double kSmallest = 10e-6;  // m, of a scatterer
 
 ARTUS_SIMD
 void multiply_add(const float* weight, const float* in, float* out, std::size_t n) noexcept {
@@ -27,18 +28,43 @@ void scale_add(float weight, const float* in, float* out, std::size_t n) noexcep
   for (std::size_t i = 0; i < n; ++i) out[i] += weight * in[i];
 }
 
+/// Power of a weighted sum of unit scatterers at `spacing`, some of which lie in one cell.
+template <class T>
+double shared_power(const std::vector<T>& weights, double spacing, double cell) {
+  double sum = 0;
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    for (std::size_t j = 0; j < weights.size(); ++j) {
+      const double apart = spacing * (static_cast<double>(i) - static_cast<double>(j));
+      sum += ScatterField::shared(apart, cell) * static_cast<double>(weights[i]) *
+             static_cast<double>(weights[j]);
+    }
+  }
+  return sum;
+}
+
 }  // namespace
 
 BeamShape::BeamShape(const Transducer& transducer, const ImageSettings& settings)
     : profile_(transducer, settings.depth * kLongest),
       n_samples_(settings.n_samples),
-      sample_depth_(settings.depth / settings.n_samples) {
+      sample_depth_(settings.depth / settings.n_samples),
+      pitch_(transducer.pitch()),
+      curvature_(transducer.radius > 0 ? 1 / transducer.radius : 0) {
+  size_scatterers(transducer);
   tabulate_pulse(transducer);
-  tabulate_lateral(transducer);
+  tabulate_lateral(transducer.n_lines);
   nodes_ = {0, std::min(transducer.elevation_focus, 0.5 * settings.depth * kLongest),
             settings.depth * kLongest};
   for (const double z : nodes_) node_width_.push_back(profile_.elevation_width(z));
   tabulate_planes(settings);
+}
+
+void BeamShape::size_scatterers(const Transducer& transducer) {
+  const double pulse = transducer.pulse_cycles * transducer.wavelength() / 2;
+  const double beam = profile_.lateral_width(0);
+  scatterer_.axial = std::max(0.5 * pulse, kSmallest);
+  scatterer_.lateral = std::clamp(pitch_, 0.3 * beam, 0.65 * beam);
+  scatterer_.elevation = profile_.elevation_width(transducer.elevation_focus);
 }
 
 void BeamShape::tabulate_pulse(const Transducer& transducer) {
@@ -50,24 +76,24 @@ void BeamShape::tabulate_pulse(const Transducer& transducer) {
   }
 }
 
-void BeamShape::tabulate_lateral(const Transducer& transducer) {
-  const double pitch = transducer.pitch();
-  double widest = 0;
-  for (int i = 0; i < n_samples_; ++i) {
-    widest = std::max(widest, profile_.lateral_width(i * sample_depth_));
-  }
-  reach_ = std::clamp(static_cast<int>(std::ceil(kTail * widest * kSigmaPerWidth / pitch)), 1,
-                      std::min(kMaxReach, std::max(1, transducer.n_lines - 1)));
+void BeamShape::tabulate_lateral(int n_lines) {
   const auto n = static_cast<std::size_t>(n_samples_);
+  std::vector<double> sigma(n);  // in lines
+  for (std::size_t i = 0; i < n; ++i) {
+    const double z = static_cast<double>(i) * sample_depth_;
+    sigma[i] = profile_.lateral_width(z) * kSigmaPerWidth / line_spacing(z);
+  }
+  const double widest = *std::max_element(sigma.begin(), sigma.end());
+  reach_ = std::clamp(static_cast<int>(std::ceil(kTail * widest)), 1,
+                      std::min(kMaxReach, std::max(1, n_lines - 1)));
   kernel_.assign(static_cast<std::size_t>(reach_ + 1) * n, 0.0F);
   for (std::size_t i = 0; i < n; ++i) {
-    const double sigma =
-        profile_.lateral_width(static_cast<double>(i) * sample_depth_) * kSigmaPerWidth / pitch;
+    const double narrow = -0.5 / (sigma[i] * sigma[i]);
     double sum = 0;
-    for (int k = -reach_; k <= reach_; ++k) sum += std::exp(-0.5 * k * k / (sigma * sigma));
+    for (int k = -reach_; k <= reach_; ++k) sum += std::exp(narrow * k * k);
     for (int k = 0; k <= reach_; ++k) {
       kernel_[static_cast<std::size_t>(k) * n + i] =
-          static_cast<float>(std::exp(-0.5 * k * k / (sigma * sigma)) / sum);
+          static_cast<float>(std::exp(narrow * k * k) / sum);
     }
   }
 }
@@ -80,26 +106,30 @@ void BeamShape::tabulate_planes(const ImageSettings& settings) {
   }
   echo_weight_.assign(static_cast<std::size_t>(planes) * n, 0.0F);
   speckle_weight_.assign(static_cast<std::size_t>(planes) * n + kPadding, 0.0F);
-  double pulse_power = 0;
-  for (const float w : pulse_) pulse_power += static_cast<double>(w) * w;
-  pulse_power *= ScatterField::axial_power(pulse_, sample_depth_);
+  const double pulse_power = shared_power(pulse_, sample_depth_, scatterer_.axial);
+  std::vector<double> lateral(static_cast<std::size_t>(2 * reach_ + 1));
   std::vector<double> weight(static_cast<std::size_t>(planes));
   for (std::size_t i = 0; i < n; ++i) {
     const double z = static_cast<double>(i) * sample_depth_;
     double sum = 0;
-    double squares = 0;
+    double plane_power = 0;
     for (int p = 0; p < planes; ++p) {
-      const double w = std::max(1e-3, profile_.elevation_amplitude(plane_elevation(p, z), z));
-      weight[static_cast<std::size_t>(p)] = w;
-      sum += w;
-      squares += w * w;
+      const auto at = static_cast<std::size_t>(p);
+      weight[at] = std::max(1e-3, profile_.elevation_amplitude(plane_elevation(p, z), z));
+      sum += weight[at];
+      plane_power += weight[at] * weight[at];
+      for (int q = 0; q < p; ++q) {
+        const double apart = plane_elevation(p, z) - plane_elevation(q, z);
+        plane_power += 2 * weight[at] * weight[static_cast<std::size_t>(q)] *
+                       ScatterField::shared(apart, scatterer_.elevation);
+      }
     }
-    double lateral_power = 0;
     for (int k = -reach_; k <= reach_; ++k) {
-      const double w = kernel_[static_cast<std::size_t>(std::abs(k)) * n + i];
-      lateral_power += w * w;
+      lateral[static_cast<std::size_t>(k + reach_)] =
+          kernel_[static_cast<std::size_t>(std::abs(k)) * n + i];
     }
-    const double unit = 1 / std::sqrt(squares * lateral_power * pulse_power);
+    const double lateral_power = shared_power(lateral, line_spacing(z), scatterer_.lateral);
+    const double unit = 1 / std::sqrt(plane_power * lateral_power * pulse_power);
     for (std::size_t p = 0; p < weight.size(); ++p) {
       echo_weight_[p * n + i] = static_cast<float>(weight[p] / sum);
       speckle_weight_[p * n + i] = static_cast<float>(weight[p] * unit);

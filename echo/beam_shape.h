@@ -6,6 +6,7 @@
 
 #include "echo/beam_profile.h"
 #include "echo/image_settings.h"
+#include "echo/scatter_field.h"
 #include "echo/transducer.h"
 
 namespace artus {
@@ -21,6 +22,10 @@ class BeamShape {
   [[nodiscard]] const BeamProfile& profile() const noexcept { return profile_; }
   [[nodiscard]] int n_samples() const noexcept { return n_samples_; }
   [[nodiscard]] double sample_depth() const noexcept { return sample_depth_; }
+
+  /// What this beam sees as one scatterer: half the pulse along the line, a line's pitch or more
+  /// across, the slice at its thinnest.
+  [[nodiscard]] const ScattererSize& scatterer_size() const noexcept { return scatterer_; }
 
   /// Elevation of plane `p` in units of the slice's width at each depth, -1..1.
   [[nodiscard]] double plane_offset(int p) const noexcept {
@@ -51,13 +56,21 @@ class BeamShape {
   void along(std::span<const float> in, std::span<float> out) const noexcept;
 
  private:
+  /// Distance between neighbouring scanlines at depth `z`, m.
+  [[nodiscard]] double line_spacing(double z) const noexcept {
+    return pitch_ * (1 + curvature_ * z);
+  }
+  void size_scatterers(const Transducer& transducer);
   void tabulate_planes(const ImageSettings& settings);
-  void tabulate_lateral(const Transducer& transducer);
+  void tabulate_lateral(int n_lines);
   void tabulate_pulse(const Transducer& transducer);
 
   BeamProfile profile_;
   int n_samples_;
-  double sample_depth_;                // m
+  double sample_depth_;  // m
+  double pitch_;         // m between scanlines at the face
+  double curvature_;     // 1/m, of the face
+  ScattererSize scatterer_;
   std::vector<double> offsets_;        // (n_planes)
   std::vector<double> nodes_;          // (3) m
   std::vector<double> node_width_;     // (3) m

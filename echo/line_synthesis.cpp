@@ -53,8 +53,8 @@ LineSynthesis::LineSynthesis(const BeamShape& shape, const ScatterField& scatter
       pitch_(transducer.pitch()) {}
 
 void LineSynthesis::add_run(const BeamRun& run, const RegionAcoustics& region,
-                            std::span<const float> weight, std::span<float> gain,
-                            std::span<float> re, std::span<float> im) const {
+                            const ScatterView& view, std::span<const float> weight,
+                            std::span<float> gain, std::span<float> re, std::span<float> im) const {
   if (region.backscatter <= 0) return;
   const auto first = static_cast<std::size_t>(std::ceil(std::max(0.0, run.begin)));
   const auto last = std::min(re.size(), static_cast<std::size_t>(std::ceil(run.end)));
@@ -71,13 +71,14 @@ void LineSynthesis::add_run(const BeamRun& run, const RegionAcoustics& region,
   const std::size_t behind = re.size() + kStride;  // the last stride may reach over the end
   const auto nodes = gain.subspan(behind, n_nodes);
   const auto sheets = gain.subspan(behind + n_nodes, n_nodes);
-  const double square = cosine * cosine;  // sheets lie along fibres, and across fat's own axis
-  const auto facing =
-      static_cast<float>(kSheetEcho * (region.kind == TissueKind::fat ? square : 1 - square));
+  const double across = region.kind == TissueKind::fat
+                            ? std::pow(run.direction_J.dot(region.sheet_normal), 2)
+                            : 1 - cosine * cosine;
+  const auto facing = static_cast<float>(kSheetEcho * across);
   const bool textured = has_texture_ && texture_->has(region.kind);
   const bool reflects = textured && facing > 0.05F;
   if (textured) {
-    texture_->sample(region.kind, texture_->make_walk(region, p_J, run.step_J * kStride), nodes);
+    texture_->sample(region, p_J, run.step_J * kStride, nodes);
   } else {
     std::fill(nodes.begin(), nodes.end(), 1.0F);
   }
@@ -93,25 +94,27 @@ void LineSynthesis::add_run(const BeamRun& run, const RegionAcoustics& region,
     accumulate(gain.data(), re.data() + first, n);
   }
   interpolate_gain(nodes.data(), weight.data() + first, gain.data(), n_strides);
-  scatter_->add(scatter_->make_walk(p_J, run.step_J), gain.first(n), re.subspan(first, n),
-                im.subspan(first, n));
+  ScatterField::add(view, p_J, run.step_J, gain.first(n), re.subspan(first, n),
+                    im.subspan(first, n));
 }
 
 void LineSynthesis::add_plane(int plane, const BeamTrace& trace,
-                              std::span<const RegionAcoustics> regions, std::vector<float>& gain,
-                              std::span<float> re, std::span<float> im) const {
+                              std::span<const RegionAcoustics> regions, const ScatterView& view,
+                              std::vector<float>& gain, std::span<float> re,
+                              std::span<float> im) const {
   const std::span<const float> speckle = shape_->speckle_weight(plane);
   const std::span<const float> share = shape_->echo_weight(plane);
   for (std::size_t i = 0; i < trace.n_runs; ++i) {
-    add_run(trace.runs[i], regions[trace.runs[i].region], speckle, gain, re, im);
+    add_run(trace.runs[i], regions[trace.runs[i].region], view, speckle, gain, re, im);
   }
-  for (std::size_t i = 0; i < trace.n_echoes; ++i) add_echo(trace.echoes[i], share, re, im);
+  for (std::size_t i = 0; i < trace.n_echoes; ++i) add_echo(trace.echoes[i], view, share, re, im);
 }
 
 /// An interface seen by one beam: steep ones reach over several samples within the beam's pitch,
 /// and rough ones glitter and scatter on from just behind their surface.
-void LineSynthesis::add_echo(const BeamEcho& echo, std::span<const float> share,
-                             std::span<float> re, std::span<float> im) const {
+void LineSynthesis::add_echo(const BeamEcho& echo, const ScatterView& view,
+                             std::span<const float> share, std::span<float> re,
+                             std::span<float> im) const {
   const auto end = static_cast<double>(re.size()) - 1;
   if (!(echo.sample >= 0) || echo.sample >= end) return;
   const auto first = static_cast<std::size_t>(echo.sample);
@@ -121,7 +124,7 @@ void LineSynthesis::add_echo(const BeamEcho& echo, std::span<const float> share,
   const std::array<float, 1> one{1};
   std::array<float, 1> n_re{};
   std::array<float, 1> n_im{};
-  scatter_->add(scatter_->make_walk(echo.p_J, Vec3::Zero()), one, n_re, n_im);
+  ScatterField::add(view, echo.p_J, Vec3::Zero(), one, n_re, n_im);
   const auto glitter = static_cast<float>(kGlitter * echo.diffuse_share);
   const float amplitude = static_cast<float>(echo.amplitude) * share[first];
   const float a_re = amplitude * (1 + glitter * n_re[0]) / static_cast<float>(n);
@@ -145,9 +148,9 @@ void LineSynthesis::add_echo(const BeamEcho& echo, std::span<const float> share,
     value *= kTailDecay;
   }
   const std::size_t length = std::min(gain.size(), re.size() - from);
-  scatter_->add(
-      scatter_->make_walk(echo.p_J + static_cast<double>(kTailGap) * echo.step_J, echo.step_J),
-      std::span(gain).first(length), re.subspan(from, length), im.subspan(from, length));
+  ScatterField::add(view, echo.p_J + static_cast<double>(kTailGap) * echo.step_J, echo.step_J,
+                    std::span(gain).first(length), re.subspan(from, length),
+                    im.subspan(from, length));
 }
 
 void LineSynthesis::synthesise(const BeamTracer& tracer, std::span<const RegionAcoustics> regions,
@@ -159,9 +162,10 @@ void LineSynthesis::synthesise(const BeamTracer& tracer, std::span<const RegionA
   tracer.trace_bent(X_JP * line.origin, X_JP.linear() * line.direction, scratch.central,
                     scratch.bent);
   const Vec3 elevation = X_JP.linear().col(1);
+  scratch.view = scatter_->make_view(X_JP.linear() * line.direction, elevation);
   for (int p = 0; p < n_planes_; ++p) {
     if (shape_->plane_offset(p) == 0) {
-      add_plane(p, scratch.central, regions, scratch.gain, re, im);
+      add_plane(p, scratch.central, regions, scratch.view, scratch.gain, re, im);
       continue;
     }
     scratch.plane.size = 0;
@@ -171,7 +175,7 @@ void LineSynthesis::synthesise(const BeamTracer& tracer, std::span<const RegionA
       scratch.plane.length[scratch.plane.size++] = z;
     }
     tracer.trace_along(scratch.plane, elevation, scratch.side);
-    add_plane(p, scratch.side, regions, scratch.gain, re, im);
+    add_plane(p, scratch.side, regions, scratch.view, scratch.gain, re, im);
   }
 }
 

@@ -21,6 +21,7 @@ struct LineScratch {
   BeamTrace side;
   BeamPath bent;
   BeamPath plane;
+  ScatterView view;
   std::vector<float> gain;
 };
 
@@ -39,12 +40,14 @@ class LineSynthesis {
 
  private:
   void add_plane(int plane, const BeamTrace& trace, std::span<const RegionAcoustics> regions,
-                 std::vector<float>& gain, std::span<float> re, std::span<float> im) const;
-  void add_run(const BeamRun& run, const RegionAcoustics& region, std::span<const float> weight,
-               std::span<float> gain, std::span<float> re, std::span<float> im) const;
+                 const ScatterView& view, std::vector<float>& gain, std::span<float> re,
+                 std::span<float> im) const;
+  void add_run(const BeamRun& run, const RegionAcoustics& region, const ScatterView& view,
+               std::span<const float> weight, std::span<float> gain, std::span<float> re,
+               std::span<float> im) const;
 
-  void add_echo(const BeamEcho& echo, std::span<const float> share, std::span<float> re,
-                std::span<float> im) const;
+  void add_echo(const BeamEcho& echo, const ScatterView& view, std::span<const float> share,
+                std::span<float> re, std::span<float> im) const;
 
   const BeamShape* shape_;
   const ScatterField* scatter_;

@@ -55,6 +55,13 @@ bool is_pair(const RegionAcoustics& a, const RegionAcoustics& b, TissueKind kind
   return a.kind == kind || b.kind == kind;
 }
 
+/// The direction nearest to `depth_axis` that is across `fibre`.
+Vec3 sheet_normal(const Vec3& depth_axis, const Vec3& fibre) {
+  if (fibre.squaredNorm() < 0.5) return depth_axis;
+  const Vec3 across = depth_axis - fibre * fibre.dot(depth_axis);
+  return across.norm() > 0.1 ? Vec3(across.normalized()) : Vec3(fibre.unitOrthogonal());
+}
+
 }  // namespace
 
 std::vector<RegionAcoustics> make_region_acoustics(const CompiledJoint& joint,
@@ -75,8 +82,7 @@ std::vector<RegionAcoustics> make_region_acoustics(const CompiledJoint& joint,
     out.roughness = a.interface_roughness;
     out.opaque = out.impedance > kOpaqueAbove || out.impedance < kOpaqueBelow;
     out.fibre = region.fibre_axis;
-    // Septa of subcutaneous fat lie along the skin, which faces the joint's usual probe.
-    if (out.kind == TissueKind::fat) out.fibre = joint.X_JP_default.linear().col(2);
+    out.sheet_normal = sheet_normal(joint.X_JP_default.linear().col(2), out.fibre);
     table.push_back(out);
   }
   table[kOutside] = make_gel();

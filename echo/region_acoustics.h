@@ -20,7 +20,10 @@ struct RegionAcoustics {
   double backscatter = 0;        ///< rms speckle amplitude, muscle across its fibres = 1
   double roughness = 0;          ///< 0 mirror .. 1 diffuse
   bool opaque = false;           ///< bone or gas: no sound returns from inside
-  Vec3 fibre = Vec3::Zero();     ///< frame J, unit; zero: isotropic. Of fat: across its layers
+  Vec3 fibre = Vec3::Zero();     ///< frame J, unit; zero: isotropic
+  /// Frame J, unit, across `fibre`: the direction in which sheets and septa are stacked. They grow
+  /// along the skin, which faces the joint's usual probe.
+  Vec3 sheet_normal = Vec3::UnitZ();
 };
 
 /// One entry per region of the joint. Kinds follow the tissues' names (muscle, tendon, fat, nerve,

@@ -61,9 +61,8 @@ struct Renderer::Impl {
         settings(require_valid(s)),
         regions(make_region_acoustics(scene->joint(), transducer)),
         shape(transducer, settings),
-        scatter(settings.seed),
-        noise(mix_bits(settings.seed)),
-        texture(settings.seed),
+        scatter(settings.seed, shape.scatterer_size()),
+        texture(settings.seed, settings.texture),
         synthesis(shape, scatter, texture, transducer, settings),
         converter(transducer, settings),
         time_gain(make_time_gain(transducer, settings)),
@@ -163,8 +162,7 @@ struct Renderer::Impl {
         shape.along(spread, re);
         shape.across(raw_im, transducer.n_lines, l, spread);
         shape.along(spread, im);
-        const LatticeWalk walk{{static_cast<std::uint32_t>(l) << 16U, 0, 0}, {0, 1U << 16U, 0}};
-        noise.add(walk, noise_gain, re, im);
+        add_white_noise(mix_bits(settings.seed), l, noise_gain, re, im);
         const auto envelope = row(frame.envelope, l, n);
         detect(re.data(), im.data(), time_gain.data(), envelope.data(), envelope.size());
         compress(envelope, static_cast<float>(settings.gain_db), row(frame.decibel, l, n));
@@ -195,7 +193,6 @@ struct Renderer::Impl {
   std::vector<RegionAcoustics> regions;
   BeamShape shape;
   ScatterField scatter;
-  ScatterField noise;
   TissueTexture texture;
   LineSynthesis synthesis;
   ScanConverter converter;

@@ -3,19 +3,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/check.h"
 #include "core/noise.h"
+#include "core/units.h"
 #include "echo/simd.h"
 
 namespace artus {
 namespace {
 
-constexpr double kFixedOne = 65536;  // one cell in 16.16 fixed point
-
-std::uint32_t to_fixed(double cells) noexcept {
-  return static_cast<std::uint32_t>(std::llround(cells * kFixedOne));
-}
+constexpr int kAxes = 40;                   // elevation axes: none is farther than 15 degrees
+constexpr int kTurns = 24;                  // directions within each plane
+constexpr double kBlendAxis = 1 * kDegree;  // of difference in angle over which axes blend
+constexpr double kBlendTurn = 0.07;         // of a turn, to either side of the border
+constexpr std::size_t kMaxAxes = 3;         // that may blend
 
 /// Four bytes of a well-mixed hash of the cell; two differences of them are the complex amplitude.
 inline std::uint32_t hash_cell(std::uint32_t x, std::uint32_t y, std::uint32_t z,
@@ -32,8 +34,8 @@ inline std::uint32_t hash_cell(std::uint32_t x, std::uint32_t y, std::uint32_t z
 constexpr float kUnitPower = 1.0F / 147.8F;
 
 ARTUS_SIMD
-void add_scatterers(const LatticeWalk& walk, std::uint32_t seed, const float* gain, float* re,
-                    float* im, std::size_t n) noexcept {
+void add_scatterers(const LatticeWalk& walk, std::uint32_t seed, float unit, const float* gain,
+                    float* re, float* im, std::size_t n) noexcept {
   const std::uint32_t x0 = walk.start[0];
   const std::uint32_t y0 = walk.start[1];
   const std::uint32_t z0 = walk.start[2];
@@ -42,13 +44,16 @@ void add_scatterers(const LatticeWalk& walk, std::uint32_t seed, const float* ga
   const std::uint32_t dz = walk.step[2];
   const auto count = static_cast<std::uint32_t>(n);
   for (std::uint32_t i = 0; i < count; ++i) {
-    const std::uint32_t h =
-        hash_cell((x0 + i * dx) >> 16U, (y0 + i * dy) >> 16U, (z0 + i * dz) >> 16U, seed);
+    // rows shifted against each other by parts of a cell that never repeat
+    const std::uint32_t z = (z0 + i * dz) >> 16U;
+    const std::uint32_t y = (y0 + i * dy + z * 40503U) >> 16U;
+    const std::uint32_t x = (x0 + i * dx + z * 27146U + y * 49297U) >> 16U;
+    const std::uint32_t h = hash_cell(x, y, z, seed);
     const auto a =
         static_cast<std::int32_t>(h & 255U) - static_cast<std::int32_t>((h >> 8U) & 255U);
     const auto b =
         static_cast<std::int32_t>((h >> 16U) & 255U) - static_cast<std::int32_t>(h >> 24U);
-    const float g = gain[i] * kUnitPower;
+    const float g = gain[i] * unit;
     re[i] += g * static_cast<float>(a);
     im[i] += g * static_cast<float>(b);
   }
@@ -56,41 +61,91 @@ void add_scatterers(const LatticeWalk& walk, std::uint32_t seed, const float* ga
 
 }  // namespace
 
-ScatterField::ScatterField(std::uint64_t seed) : seed_(static_cast<std::uint32_t>(mix_bits(seed))) {
-  const Eigen::Quaterniond turn = Eigen::Quaterniond(0.8, 0.31, -0.37, 0.29).normalized();
-  R_LJ_ = turn.toRotationMatrix() / kCell;
-}
-
-LatticeWalk ScatterField::make_walk(const Vec3& p_J, const Vec3& step_J) const noexcept {
-  const Vec3 start = R_LJ_ * p_J;
-  const Vec3 step = R_LJ_ * step_J;
-  LatticeWalk walk;
-  for (Eigen::Index k = 0; k < 3; ++k) {
-    walk.start[static_cast<std::size_t>(k)] = to_fixed(start[k]);
-    walk.step[static_cast<std::size_t>(k)] = to_fixed(step[k]);
+ScatterField::ScatterField(std::uint64_t seed, const ScattererSize& size)
+    : size_(size), seed_(mix_bits(seed)) {
+  const double golden = std::numbers::pi * (3 - std::sqrt(5.0));
+  for (int k = 0; k < kAxes; ++k) {  // a spiral over the half sphere, evenly spaced
+    const double z = (k + 0.5) / kAxes;
+    const double r = std::sqrt(1 - z * z);
+    Axis axis;
+    axis.elevation = Vec3(r * std::cos(golden * k), r * std::sin(golden * k), z);
+    axis.reference = axis.elevation.unitOrthogonal();
+    axes_.push_back(axis);
   }
-  return walk;
 }
 
-void ScatterField::add(const LatticeWalk& walk, std::span<const float> gain, std::span<float> re,
-                       std::span<float> im) const noexcept {
-  ARTUS_ASSERT(gain.size() == re.size() && gain.size() == im.size());
-  add_scatterers(walk, seed_, gain.data(), re.data(), im.data(), gain.size());
-}
-
-double ScatterField::axial_power(std::span<const float> weights, double spacing) noexcept {
-  double sum = 0;
-  double squares = 0;
-  const double along = spacing / kCell / std::sqrt(3.0);  // a walk in a generic direction
-  for (std::size_t i = 0; i < weights.size(); ++i) {
-    squares += static_cast<double>(weights[i]) * weights[i];
-    for (std::size_t j = 0; j < weights.size(); ++j) {
-      const double gap = along * std::abs(static_cast<double>(i) - static_cast<double>(j));
-      const double shared = std::pow(std::max(0.0, 1 - gap), 3);
-      sum += shared * weights[i] * weights[j];
+ScatterView ScatterField::make_view(const Vec3& direction_J,
+                                    const Vec3& elevation_J) const noexcept {
+  struct Near {
+    double angle = 10;
+    std::size_t axis = 0;
+  };
+  std::array<Near, kMaxAxes> near;
+  for (std::size_t k = 0; k < axes_.size(); ++k) {
+    const double cosine = std::min(1.0, std::abs(elevation_J.dot(axes_[k].elevation)));
+    Near candidate{std::acos(cosine), k};
+    for (Near& n : near) {
+      if (candidate.angle < n.angle) std::swap(candidate, n);
     }
   }
-  return squares > 0 ? sum / squares : 1;
+  ScatterView view;
+  double power = 0;
+  for (const Near& n : near) {
+    const double axis_share = 1 - (n.angle - near[0].angle) / kBlendAxis;
+    if (axis_share <= 0) continue;
+    const Axis& axis = axes_[n.axis];
+    const Vec3 other = axis.elevation.cross(axis.reference);
+    const double turn = std::atan2(direction_J.dot(other), direction_J.dot(axis.reference)) /
+                        (2 * std::numbers::pi) * kTurns;
+    const double nearest = std::round(turn);
+    const double off = turn - nearest;
+    const double beyond = std::max(0.0, (std::abs(off) - 0.5 + kBlendTurn) / (2 * kBlendTurn));
+    for (const bool second : {false, true}) {
+      const double share = axis_share * (second ? beyond : 1 - beyond);
+      if (share <= 0) continue;
+      const double at = nearest + (second ? std::copysign(1.0, off) : 0.0);
+      const auto index = static_cast<std::uint64_t>((static_cast<int>(at) + 2 * kTurns) % kTurns);
+      const double angle = 2 * std::numbers::pi / kTurns * static_cast<double>(index);
+      const Vec3 axial = std::cos(angle) * axis.reference + std::sin(angle) * other;
+      ScatterView::Lattice& lattice = view.lattices[view.size++];
+      lattice.cells_J.row(0) = axis.elevation.cross(axial) / size_.lateral;
+      lattice.cells_J.row(1) = axis.elevation / size_.elevation;
+      lattice.cells_J.row(2) = axial / size_.axial;
+      lattice.seed = static_cast<std::uint32_t>(mix_bits(seed_ + n.axis * kTurns + index));
+      lattice.weight = static_cast<float>(std::sqrt(share));
+      power += share;
+    }
+  }
+  const auto unit = static_cast<float>(1 / std::sqrt(power));
+  for (std::size_t k = 0; k < view.size; ++k) view.lattices[k].weight *= unit;
+  return view;
+}
+
+void ScatterField::add(const ScatterView& view, const Vec3& p_J, const Vec3& step_J,
+                       std::span<const float> gain, std::span<float> re,
+                       std::span<float> im) noexcept {
+  ARTUS_ASSERT(gain.size() == re.size() && gain.size() == im.size());
+  for (std::size_t k = 0; k < view.size; ++k) {
+    const ScatterView::Lattice& lattice = view.lattices[k];
+    const Vec3 start = lattice.cells_J * p_J;
+    const Vec3 step = lattice.cells_J * step_J;
+    const LatticeWalk walk{
+        {to_fixed_cells(start.x()), to_fixed_cells(start.y()), to_fixed_cells(start.z())},
+        {to_fixed_cells(step.x()), to_fixed_cells(step.y()), to_fixed_cells(step.z())}};
+    add_scatterers(walk, lattice.seed, kUnitPower * lattice.weight, gain.data(), re.data(),
+                   im.data(), gain.size());
+  }
+}
+
+double ScatterField::shared(double distance, double cell) noexcept {
+  return std::max(0.0, 1 - std::abs(distance) / cell);
+}
+
+void add_white_noise(std::uint64_t seed, int line, std::span<const float> gain, std::span<float> re,
+                     std::span<float> im) noexcept {
+  const LatticeWalk walk{{static_cast<std::uint32_t>(line) << 16U, 0, 0}, {0, 0, 1U << 16U}};
+  add_scatterers(walk, static_cast<std::uint32_t>(mix_bits(seed)), kUnitPower, gain.data(),
+                 re.data(), im.data(), gain.size());
 }
 
 }  // namespace artus

@@ -1,45 +1,87 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "core/geometry.h"
 
 namespace artus {
 
-/// A straight walk through the scatterer lattice in 16.16 fixed-point cells, one step a sample.
+/// A straight walk through a lattice in 16.16 fixed-point cells, one step a sample.
 struct LatticeWalk {
   std::array<std::uint32_t, 3> start{};
   std::array<std::uint32_t, 3> step{};
 };
 
-/// Scatterers of the body: one complex Gaussian-like amplitude per cell of a fine cubic lattice
-/// fixed in frame J, made from a hash of the cell and the seed, so they need no memory and belong
-/// to the material, not to the image. The lattice is turned against J by a fixed generic rotation,
-/// so that no scan is aligned with it.
+/// `cells` in 16.16 fixed point; whole turns of 65536 cells drop out.
+[[nodiscard]] inline std::uint32_t to_fixed_cells(double cells) noexcept {
+  return static_cast<std::uint32_t>(static_cast<std::int64_t>(cells * 65536));
+}
+
+/// How large a piece of tissue answers a beam as one scatterer, m. A beam cannot tell smaller ones
+/// apart; several must lie in every resolution cell.
+struct ScattererSize {
+  double lateral = 0.16e-3;   ///< across scanlines
+  double elevation = 0.4e-3;  ///< across the image plane
+  double axial = 0.06e-3;     ///< along the beam
+};
+
+/// The scatterers that one scanline sees: a lattice, or a few that blend into each other.
+struct ScatterView {
+  struct Lattice {
+    Eigen::Matrix3d cells_J;  ///< rows: lateral, elevation, axial cells per metre of frame J
+    std::uint32_t seed = 0;
+    float weight = 1;
+  };
+  static constexpr std::size_t kMax = 6;
+  std::array<Lattice, kMax> lattices;
+  std::size_t size = 0;
+};
+
+/// Scatterers of the body: a complex Gaussian-like amplitude for every cell of a lattice fixed in
+/// frame J, made from a hash of the cell and the seed, so they need no memory and belong to the
+/// material, not to the image. Cells are as long in each direction as the beam is blind, so that
+/// they must be turned with the view: 40 elevation axes and steps of 15 degrees within the plane
+/// are fixed in the body, and the nearest is taken, blending over the last degree. Real speckle
+/// changes alike when the beam's angle leaves its aperture. Rows of cells are staggered, so a probe
+/// that moves by part of a cell changes that part of the scatterers: speckle moves with the tissue
+/// without a jump.
 class ScatterField {
  public:
-  /// Edge of a lattice cell: below the resolution of the finest preset in every direction, m.
-  static constexpr double kCell = 0.1e-3;
+  explicit ScatterField(std::uint64_t seed, const ScattererSize& size = {});
 
-  explicit ScatterField(std::uint64_t seed);
+  /// The scatterers for a beam along `direction_J` whose slice is thick along `elevation_J`
+  /// (units).
+  [[nodiscard]] ScatterView make_view(const Vec3& direction_J,
+                                      const Vec3& elevation_J) const noexcept;
 
-  /// The walk that starts at `p_J` and advances by `step_J` a sample, both m.
-  [[nodiscard]] LatticeWalk make_walk(const Vec3& p_J, const Vec3& step_J) const noexcept;
+  /// Adds gain[i] * scatterer(i) to (re, im)[i] for a walk from `p_J` by `step_J` a sample, m;
+  /// scatterers have zero mean and unit power E|n|^2 = 1. Requires: the three spans have one
+  /// length. Cost: about 0.5 ns a sample and lattice with AVX2.
+  static void add(const ScatterView& view, const Vec3& p_J, const Vec3& step_J,
+                  std::span<const float> gain, std::span<float> re, std::span<float> im) noexcept;
 
-  /// Adds gain[i] * scatterer(i) to (re, im)[i]; scatterers have zero mean and unit power
-  /// E|n|^2 = 1. Requires: the three spans have one length. Cost: about 1 ns a sample with AVX2.
-  void add(const LatticeWalk& walk, std::span<const float> gain, std::span<float> re,
-           std::span<float> im) const noexcept;
+  /// Share of samples `distance` apart (m) that lie in the same cell of size `cell`: their
+  /// correlation.
+  [[nodiscard]] static double shared(double distance, double cell) noexcept;
 
-  /// Power of a sum of scatterers along a line at `spacing` (m) weighted by `weights`, over the sum
-  /// of squared weights for independent ones: neighbouring samples may share a cell.
-  [[nodiscard]] static double axial_power(std::span<const float> weights, double spacing) noexcept;
+  [[nodiscard]] const ScattererSize& size() const noexcept { return size_; }
 
  private:
-  Eigen::Matrix3d R_LJ_;  // joint to lattice, in cells per metre
-  std::uint32_t seed_ = 0;
+  struct Axis {
+    Vec3 elevation;
+    Vec3 reference;  // where angles within the plane count from
+  };
+  ScattererSize size_;
+  std::uint64_t seed_;
+  std::vector<Axis> axes_;
 };
+
+/// Adds gain[i] times white complex noise of unit power to line `line`, the same in each call.
+void add_white_noise(std::uint64_t seed, int line, std::span<const float> gain, std::span<float> re,
+                     std::span<float> im) noexcept;
 
 }  // namespace artus

@@ -9,67 +9,92 @@
 namespace artus {
 namespace {
 
-constexpr int kSide = 64;
-constexpr double kFixedOne = 65536;  // one cell in 16.16 fixed point
-
-/// How a kind of tissue looks: cells across and along the fibres, and bright sheets in a dark bed.
+/// How a kind of tissue looks: bright sheets in a dark bed. Axes: x across the stacked sheets, y
+/// beside them, z along the fibres.
 struct Recipe {
   TissueKind kind = TissueKind::plain;
-  double across = 0;   // m per cell
-  double along = 0;    // m per cell
-  int feature = 8;     // cells between features; divides 64
-  double sheet = 0.2;  // thickness of the bright sheets in units of the noise
+  std::array<double, 3> cell{};         // m
+  std::array<std::uint32_t, 3> bits{};  // the tile has 2^bits cells
+  std::array<int, 3> feature{};         // cells between independent values
+  double sheet = 0.1;  // half thickness of the bright sheets, in units of the noise
   double bright = 3;   // amplitude of a sheet over the bed's
 };
 
 constexpr std::array<Recipe, 4> kRecipes{{
-    {TissueKind::muscle, 0.20e-3, 2.4e-3, 8, 0.09, 5.0},
-    {TissueKind::fat, 1.0e-3, 0.25e-3, 8, 0.06, 5.0},  // along: across the layers
-    {TissueKind::tendon, 0.10e-3, 2.0e-3, 4, 0.25, 2.5},
-    {TissueKind::nerve, 0.12e-3, 3.0e-3, 8, 0.18, 4.0},
+    {TissueKind::muscle, {0.1e-3, 0.3e-3, 2e-3}, {7, 6, 6}, {16, 8, 16}, 0.10, 7.0},
+    {TissueKind::fat, {0.1e-3, 0.5e-3, 0.5e-3}, {7, 6, 6}, {32, 16, 16}, 0.05, 8.0},
+    {TissueKind::tendon, {0.06e-3, 0.12e-3, 1.5e-3}, {7, 6, 5}, {8, 8, 8}, 0.25, 3.5},
+    {TissueKind::nerve, {0.08e-3, 0.08e-3, 2e-3}, {6, 6, 5}, {8, 8, 16}, 0.2, 4.5},
 }};
 
 double smooth(double t) {
   return t * t * (3 - 2 * t);
 }
 
-/// Periodic value noise, one random value every `feature` cells, -1..1.
-double value_noise(std::uint64_t seed, int x, int y, int z, int feature) {
-  const int period = kSide / feature;
-  const auto corner = [&](int i, int j, int k) {
-    const int index = ((k % period) * period + j % period) * period + i % period;
-    return 2 * uniform_noise(seed, static_cast<std::uint64_t>(index)) - 1;
-  };
-  const int i = x / feature;
-  const int j = y / feature;
-  const int k = z / feature;
-  const double tx = smooth(static_cast<double>(x % feature) / feature);
-  const double ty = smooth(static_cast<double>(y % feature) / feature);
-  const double tz = smooth(static_cast<double>(z % feature) / feature);
-  const auto row = [&](int dj, int dk) {
-    return (1 - tx) * corner(i, j + dj, k + dk) + tx * corner(i + 1, j + dj, k + dk);
-  };
-  const double near = (1 - ty) * row(0, 0) + ty * row(1, 0);
-  const double far = (1 - ty) * row(0, 1) + ty * row(1, 1);
-  return (1 - tz) * near + tz * far;
-}
+/// Smooth periodic noise, -1..1: random values on a coarse grid, blended in between.
+class ValueNoise {
+ public:
+  ValueNoise(std::uint64_t seed, const std::array<int, 3>& sides, const std::array<int, 3>& feature)
+      : feature_(feature) {
+    for (std::size_t a = 0; a < 3; ++a) n_[a] = sides[a] / feature[a];
+    const std::size_t size =
+        static_cast<std::size_t>(n_[0] * n_[1]) * static_cast<std::size_t>(n_[2]);
+    for (std::size_t i = 0; i < size; ++i) grid_.push_back(2 * uniform_noise(seed, i) - 1);
+  }
 
-/// Bright sheets lie where a smooth noise passes through zero; a second, slower noise makes them
-/// come and go.
+  [[nodiscard]] double at(const std::array<int, 3>& p) const {
+    std::array<int, 3> low{};
+    std::array<int, 3> high{};
+    std::array<double, 3> t{};
+    for (std::size_t a = 0; a < 3; ++a) {
+      low[a] = p[a] / feature_[a];
+      high[a] = (low[a] + 1) % n_[a];
+      t[a] = smooth(static_cast<double>(p[a] % feature_[a]) / feature_[a]);
+    }
+    const auto row = [&](int y, int z) {
+      const auto base = static_cast<std::size_t>((z * n_[1] + y) * n_[0]);
+      const double near = grid_[base + static_cast<std::size_t>(low[0])];
+      return near + t[0] * (grid_[base + static_cast<std::size_t>(high[0])] - near);
+    };
+    const auto face = [&](int z) {
+      const double near = row(low[1], z);
+      return near + t[1] * (row(high[1], z) - near);
+    };
+    const double near = face(low[2]);
+    return near + t[2] * (face(high[2]) - near);
+  }
+
+ private:
+  std::array<int, 3> feature_;
+  std::array<int, 3> n_{};
+  std::vector<double> grid_;
+};
+
+/// Bright sheets lie where a smooth noise passes through zero; a second one makes them come and go.
 std::vector<float> make_tile(const Recipe& recipe, std::uint64_t seed) {
-  std::vector<float> tile(static_cast<std::size_t>(kSide) * kSide * kSide);
+  std::array<int, 3> sides{};
+  std::array<int, 3> half{};
+  std::array<int, 3> brief = recipe.feature;
+  for (std::size_t a = 0; a < 3; ++a) {
+    sides[a] = 1 << recipe.bits[a];
+    half[a] = std::max(1, recipe.feature[a] / 2);
+  }
+  brief[2] = std::max(1, recipe.feature[2] / 4);
+  const ValueNoise coarse(seed, sides, recipe.feature);
+  const ValueNoise fine(seed + 1, sides, half);
+  const ValueNoise strength(seed + 2, sides, brief);
+  std::vector<float> tile;
+  tile.reserve(static_cast<std::size_t>(sides[0] * sides[1]) * static_cast<std::size_t>(sides[2]));
   double squares = 0;
-  std::size_t at = 0;
-  for (int z = 0; z < kSide; ++z) {
-    for (int y = 0; y < kSide; ++y) {
-      for (int x = 0; x < kSide; ++x) {
-        const double shape = value_noise(seed, x, y, z, recipe.feature) +
-                             0.3 * value_noise(seed + 1, x, y, z, recipe.feature / 2);
-        const double strength = 0.8 + 0.7 * value_noise(seed + 2, x, y, z, recipe.feature);
-        const double ridge = std::exp(-shape * shape / (recipe.sheet * recipe.sheet));
-        const double value = 1 + (recipe.bright - 1) * ridge * strength;
+  for (int z = 0; z < sides[2]; ++z) {
+    for (int y = 0; y < sides[1]; ++y) {
+      for (int x = 0; x < sides[0]; ++x) {
+        const std::array<int, 3> p{x, y, z};
+        const double shape = (coarse.at(p) + 0.3 * fine.at(p)) / recipe.sheet;
+        const double ridge = std::exp(-shape * shape) * (0.8 + 0.7 * strength.at(p));
+        const double value = 1 + (recipe.bright - 1) * ridge;
         squares += value * value;
-        tile[at++] = static_cast<float>(value);
+        tile.push_back(static_cast<float>(value));
       }
     }
   }
@@ -85,17 +110,15 @@ const Recipe* find_recipe(TissueKind kind) noexcept {
   return nullptr;
 }
 
-std::uint32_t to_fixed(double cells) noexcept {
-  return static_cast<std::uint32_t>(std::llround(cells * kFixedOne));
-}
-
 }  // namespace
 
-TissueTexture::TissueTexture(std::uint64_t seed) {
+TissueTexture::TissueTexture(std::uint64_t seed, bool enabled) {
+  if (!enabled) return;
   for (const Recipe& recipe : kRecipes) {
     const auto kind = static_cast<std::size_t>(recipe.kind);
     const std::vector<float> values = make_tile(recipe, mix_bits(seed + 16 * kind));
     Tile& tile = tiles_[kind];
+    tile.bits = recipe.bits;
     tile.unit = *std::max_element(values.begin(), values.end()) / 255;
     tile.values.reserve(values.size());
     for (const float value : values) {
@@ -108,38 +131,38 @@ bool TissueTexture::has(TissueKind kind) const noexcept {
   return !tiles_[static_cast<std::size_t>(kind)].values.empty();
 }
 
-void TissueTexture::sample(TissueKind kind, const LatticeWalk& walk,
+void TissueTexture::sample(const RegionAcoustics& region, const Vec3& p_J, const Vec3& step_J,
                            std::span<float> out) const noexcept {
-  const Tile& tile = tiles_[static_cast<std::size_t>(kind)];
-  const std::uint8_t* values = tile.values.data();
-  std::uint32_t x = walk.start[0];
-  std::uint32_t y = walk.start[1];
-  std::uint32_t z = walk.start[2];
-  for (float& factor : out) {
-    const std::uint32_t at =
-        (((((z >> 16U) & kMask) << kBits) | ((y >> 16U) & kMask)) << kBits) | ((x >> 16U) & kMask);
-    factor = tile.unit * static_cast<float>(values[at]);
-    x += walk.step[0];
-    y += walk.step[1];
-    z += walk.step[2];
-  }
-}
-
-LatticeWalk TissueTexture::make_walk(const RegionAcoustics& region, const Vec3& p_J,
-                                     const Vec3& step_J) const noexcept {
-  LatticeWalk walk;
   const Recipe* recipe = find_recipe(region.kind);
-  if (recipe == nullptr) return walk;
-  const bool has_axis = region.fibre.squaredNorm() > 0.5;
-  const Vec3 z = has_axis ? region.fibre : Vec3(0.48, 0.6, 0.64);
-  const Vec3 x = z.unitOrthogonal();
-  const Vec3 y = z.cross(x);
-  const double along = has_axis ? recipe->along : recipe->across;
-  walk.start = {to_fixed(x.dot(p_J) / recipe->across), to_fixed(y.dot(p_J) / recipe->across),
-                to_fixed(z.dot(p_J) / along)};
-  walk.step = {to_fixed(x.dot(step_J) / recipe->across), to_fixed(y.dot(step_J) / recipe->across),
-               to_fixed(z.dot(step_J) / along)};
-  return walk;
+  if (recipe == nullptr) return;
+  const Vec3 along =
+      region.fibre.squaredNorm() > 0.5 ? region.fibre : Vec3(region.sheet_normal.unitOrthogonal());
+  const Vec3 beside = along.cross(region.sheet_normal);
+  const auto place = [&](const Vec3& v) -> std::array<std::uint32_t, 3> {
+    return {to_fixed_cells(region.sheet_normal.dot(v) / recipe->cell[0]),
+            to_fixed_cells(beside.dot(v) / recipe->cell[1]),
+            to_fixed_cells(along.dot(v) / recipe->cell[2])};
+  };
+  const auto step = place(step_J);
+  auto [x, y, z] = place(p_J);
+  const Tile& tile = tiles_[static_cast<std::size_t>(region.kind)];
+  const std::uint8_t* values = tile.values.data();
+  const std::uint32_t x_mask = (1U << tile.bits[0]) - 1;
+  const std::uint32_t y_mask = (1U << tile.bits[1]) - 1;
+  const std::uint32_t z_mask = (1U << tile.bits[2]) - 1;
+  const float unit = tile.unit;
+  for (float& factor : out) {
+    // coarse cells begin at staggered places, so that their borders draw no lines
+    const std::uint32_t i = x >> 16U;
+    const std::uint32_t j = (y + (i * 40503U & 0xffffU)) >> 16U;
+    const std::uint32_t k = (z + ((i * 27146U + j * 49297U) & 0xffffU)) >> 16U;
+    const std::uint32_t at =
+        (((k & z_mask) << tile.bits[1] | (j & y_mask)) << tile.bits[0]) | (i & x_mask);
+    factor = unit * static_cast<float>(values[at]);
+    x += step[0];
+    y += step[1];
+    z += step[2];
+  }
 }
 
 }  // namespace artus

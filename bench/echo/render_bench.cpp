@@ -50,6 +50,17 @@ View make_spheres(int subdivisions) {
   return view;
 }
 
+/// Skin, fat and muscle all the way down: nothing is in shadow, so every sample scatters.
+View make_block() {
+  const std::array<test::FlatLayer, 3> layers{{{"skin", 2e-3}, {"fat", 8e-3}, {"muscle", 50e-3}}};
+  View view;
+  view.scene = std::make_shared<Scene>(
+      std::make_shared<CompiledJoint>(test::make_layered_block(layers, 80e-3, 60e-3)));
+  view.X_JP = make_pose(Vec3::Zero(), Vec3::UnitZ(), Vec3::UnitX());
+  view.X_JN = view.X_JP * make_pose(Vec3(0, 0, 18e-3), Vec3(0.9, 0, 0.4), Vec3::UnitY());
+  return view;
+}
+
 /// The compiled joint of a file in its own probe pose, the needle in the plane above the middle.
 View read_view(const char* file) {
   auto joint = read_compiled_joint(file);
@@ -165,6 +176,7 @@ int main(int argc, char** argv) {
     const std::array<artus::View, 4> bodies{artus::make_spheres(3), artus::make_spheres(4),
                                             artus::make_spheres(5), artus::make_spheres(6)};
     artus::add_cases("spheres", bodies[2]);
+    artus::add_case("block", artus::make_block(), {});
     for (const std::size_t k : {0U, 1U, 3U}) artus::add_case("spheres", bodies[k], {});
   }
   benchmark::RunSpecifiedBenchmarks();
