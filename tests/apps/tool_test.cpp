@@ -5,12 +5,11 @@
 #include <string>
 #include <vector>
 
-#include <opencv2/imgcodecs.hpp>
-
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "tests/support/process.h"
+#include "tests/support/temporary_folder.h"
 
 namespace artus {
 namespace {
@@ -22,18 +21,7 @@ test::ProcessResult artus(std::vector<std::string> arguments) {
   return test::run_process(arguments);
 }
 
-class Tool : public testing::Test {
- protected:
-  void SetUp() override {
-    std::string name = (std::filesystem::temp_directory_path() / "artus-tool-XXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-  [[nodiscard]] std::string in(const std::string& file) const { return (folder_ / file).string(); }
-
-  std::filesystem::path folder_;
-};
+using Tool = test::TemporaryFolder;
 
 TEST_F(Tool, WithoutACommandSaysSoAndReturnsTwo) {
   const auto r = artus({});
@@ -103,33 +91,6 @@ TEST_F(Tool, ANeedleListsContiguousIntervalsAsJson) {
   for (std::size_t i = 1; i < intervals.size(); ++i)
     EXPECT_EQ(intervals[i - 1].at("exit_mm"), intervals[i].at("entry_mm"));
   EXPECT_NEAR(intervals.back().at("exit_mm").get<double>(), 200, 1e-6);
-}
-
-TEST_F(Tool, DrawsAnImageAnEnvelopeAndTheLabelsBesideIt) {
-  const auto image = artus({"image", "-j", kSimple, "--needle", "default", "-o", in("b.png"),
-                            "--plain", "--envelope", in("e.tiff"), "--json"});
-  ASSERT_EQ(image.exit_code, 0) << image.err;
-  EXPECT_TRUE(nlohmann::json::parse(image.out).contains("needle"));
-  const auto slice =
-      artus({"slice", "-j", kSimple, "-o", in("l.png"), "--ids", in("ids.png"), "--json"});
-  ASSERT_EQ(slice.exit_code, 0) << slice.err;
-  EXPECT_GE(nlohmann::json::parse(slice.out).at("regions").size(), 4U);
-  const cv::Mat bmode = cv::imread(in("b.png"), cv::IMREAD_UNCHANGED);
-  const cv::Mat ids = cv::imread(in("ids.png"), cv::IMREAD_UNCHANGED);
-  EXPECT_EQ(bmode.size(), ids.size());
-  EXPECT_EQ(ids.type(), CV_16UC1);
-  EXPECT_EQ(cv::imread(in("e.tiff"), cv::IMREAD_UNCHANGED).type(), CV_32FC1);
-}
-
-TEST_F(Tool, TheImageIsTheSameAtAnyNumberOfThreads) {
-  std::vector<cv::Mat> images;
-  for (const char* threads : {"1", "2", "7"}) {
-    const auto r = artus(
-        {"image", "-j", kSimple, "--needle", "default", "-o", in("b.png"), "--threads", threads});
-    ASSERT_EQ(r.exit_code, 0) << r.err;
-    images.push_back(cv::imread(in("b.png"), cv::IMREAD_UNCHANGED));
-  }
-  for (const auto& image : images) EXPECT_EQ(cv::norm(image, images[0], cv::NORM_INF), 0);
 }
 
 TEST_F(Tool, RunsTheMainJobWithAllItsFilesAndEveryClaimHolds) {

@@ -17,18 +17,17 @@
 #include "core/units.h"
 #include "sim/echo_phantom.h"
 #include "sim/sweep_video.h"
+#include "tests/support/temporary_folder.h"
 
 namespace artus {
 namespace {
 
 namespace fs = std::filesystem;
 
-class Sweep : public testing::Test {
+class Sweep : public test::TemporaryFolder {
  protected:
   void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "artus-sweep-XXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name;
+    TemporaryFolder::SetUp();
     const std::array<FlatLayer, 3> layers{{{"fat", 5e-3}, {"muscle", 12e-3}, {"bone", 20e-3}}};
     scene_ = make_block_scene(layers);
     options_.transducer.n_lines = 32;
@@ -43,7 +42,6 @@ class Sweep : public testing::Test {
       poses_.push_back(pose);
     }
   }
-  void TearDown() override { fs::remove_all(folder_); }
 
   [[nodiscard]] Result<SweepResult> run(const std::string& name) const {
     return run_sweep(scene_, poses_, folder_ / name, options_);
@@ -61,7 +59,6 @@ class Sweep : public testing::Test {
     return files;
   }
 
-  fs::path folder_;
   std::shared_ptr<const Scene> scene_;
   std::vector<ListedPose> poses_;
   SweepOptions options_;

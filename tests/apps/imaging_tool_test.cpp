@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// The commands that draw, as a user meets them: exit codes, messages, files.
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <opencv2/imgcodecs.hpp>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/support/process.h"
+#include "tests/support/temporary_folder.h"
+
+namespace artus {
+namespace {
+
+const std::string kSimple = std::string(ARTUS_TEST_JOINTS) + "/simple-shoulder.artus";
+
+test::ProcessResult artus(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), ARTUS_TOOL);
+  return test::run_process(arguments);
+}
+
+class ImagingTool : public test::TemporaryFolder {
+ protected:
+  /// Three poses beside the joint's own, the last with a needle.
+  std::string poses(int count = 3) const {
+    const auto image = artus({"image", "-j", kSimple, "-o", in("pose.png"), "--json"});
+    const auto probe = nlohmann::json::parse(image.out).at("probe");
+    std::ofstream out(folder_ / "poses.jsonl");
+    for (int i = 0; i < count; ++i) {
+      nlohmann::json pose{{"probe", probe}, {"name", "pose " + std::to_string(i)}, {"time_s", i}};
+      pose["probe"]["position_mm"][2] = probe.at("position_mm")[2].get<double>() + i;
+      if (i == 2) pose["needle"] = {{"entry_mm", {60, 0, 0}}, {"tip_mm", {40, 0, 0}}};
+      out << pose << '\n';
+    }
+    return in("poses.jsonl");
+  }
+};
+
+TEST_F(ImagingTool, EveryCommandHasHelpWithExamples) {
+  for (const char* command : {"image", "slice", "phantom", "echo-gates", "sweep", "video"}) {
+    const auto r = artus({command, "--help"});
+    EXPECT_EQ(r.exit_code, 0) << command;
+    EXPECT_NE(r.out.find(std::string("  artus ") + command), std::string::npos) << command;
+  }
+}
+
+TEST_F(ImagingTool, DrawsAnImageAnEnvelopeAndTheLabelsBesideIt) {
+  const auto image = artus({"image", "-j", kSimple, "--needle", "default", "-o", in("b.png"),
+                            "--plain", "--envelope", in("e.tiff"), "--json"});
+  ASSERT_EQ(image.exit_code, 0) << image.err;
+  EXPECT_TRUE(nlohmann::json::parse(image.out).contains("needle"));
+  const auto slice =
+      artus({"slice", "-j", kSimple, "-o", in("l.png"), "--ids", in("ids.png"), "--json"});
+  ASSERT_EQ(slice.exit_code, 0) << slice.err;
+  const auto regions = nlohmann::json::parse(slice.out).at("regions");
+  EXPECT_GE(regions.size(), 4U);
+  EXPECT_EQ(regions[0].at("rgb").size(), 3U);
+  const cv::Mat bmode = cv::imread(in("b.png"), cv::IMREAD_UNCHANGED);
+  const cv::Mat ids = cv::imread(in("ids.png"), cv::IMREAD_UNCHANGED);
+  EXPECT_EQ(bmode.size(), ids.size());
+  EXPECT_EQ(ids.type(), CV_16UC1);
+  EXPECT_EQ(cv::imread(in("e.tiff"), cv::IMREAD_UNCHANGED).type(), CV_32FC1);
+}
+
+TEST_F(ImagingTool, TheImageIsTheSameAtAnyNumberOfThreads) {
+  std::vector<cv::Mat> images;
+  for (const char* threads : {"1", "2", "7"}) {
+    const auto r = artus(
+        {"image", "-j", kSimple, "--needle", "default", "-o", in("b.png"), "--threads", threads});
+    ASSERT_EQ(r.exit_code, 0) << r.err;
+    images.push_back(cv::imread(in("b.png"), cv::IMREAD_UNCHANGED));
+  }
+  for (const auto& image : images) EXPECT_EQ(cv::norm(image, images[0], cv::NORM_INF), 0);
+}
+
+TEST_F(ImagingTool, ATransducerComesByNameOrFromAFile) {
+  const std::string file = std::string(ARTUS_SOURCE_DIR) + "/devices/transducers/curved-2-5.toml";
+  for (const std::string& transducer : {std::string("curved-2-5"), file}) {
+    const auto r = artus({"image", "-j", kSimple, "--transducer", transducer, "--depth", "60", "-o",
+                          in("b.png"), "--json"});
+    ASSERT_EQ(r.exit_code, 0) << r.err;
+    EXPECT_EQ(nlohmann::json::parse(r.out).at("transducer").at("radius_mm"), 60);
+  }
+  const auto unknown = artus({"image", "-j", kSimple, "--transducer", "linear", "-o", in("b.png")});
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_NE(unknown.err.find("hockey-7-15"), std::string::npos);
+  std::ofstream(folder_ / "bad.toml") << "format = 1\nname = \"bad\"\nwidth_mm = 1e9\n";
+  const auto bad =
+      artus({"image", "-j", kSimple, "--transducer", in("bad.toml"), "-o", in("b.png")});
+  EXPECT_EQ(bad.exit_code, 1);
+  EXPECT_NE(bad.err.find("width_mm"), std::string::npos);
+  EXPECT_NE(bad.err.find("bad.toml"), std::string::npos);
+}
+
+TEST_F(ImagingTool, APhantomComesWithItsTruth) {
+  const auto r = artus({"phantom", "needle", "--needle-angle", "30", "--out", in("n"), "--json"});
+  ASSERT_EQ(r.exit_code, 0) << r.err;
+  EXPECT_NEAR(nlohmann::json::parse(r.out).at("needle").at("face_angle_deg").get<double>(), 30,
+              1e-6);
+  for (const char* file :
+       {"bmode.png", "grey.png", "envelope.tiff", "labels.png", "ids.png", "truth.json"})
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "n" / file)) << file;
+  EXPECT_EQ(artus({"phantom", "brick", "--out", in("x")}).exit_code, 2);
+  EXPECT_EQ(artus({"phantom", "needle", "--needle-angle", "89", "--out", in("x")}).exit_code, 2);
+}
+
+TEST_F(ImagingTool, TheGateReportHasValueBoundAndVerdict) {
+  const auto r = artus({"echo-gates", "--only", "needle-angle", "--only", "enhancement", "--out",
+                        in("g"), "--json"});
+  ASSERT_EQ(r.exit_code, 0) << r.out << r.err;
+  const auto report = nlohmann::json::parse(r.out);
+  EXPECT_TRUE(report.at("pass").get<bool>());
+  for (const auto& claim : report.at("gates").at("needle-angle").at("claims"))
+    for (const char* key : {"claim", "value", "bound", "pass"}) EXPECT_TRUE(claim.contains(key));
+  for (const char* file : {"report.md", "gates.json", "pictures/needle-angle.png",
+                           "pictures/needle-30-image.png", "pictures/cyst-image.png"})
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "g" / file)) << file;
+  EXPECT_EQ(artus({"echo-gates", "--only", "no-such", "--out", in("g")}).exit_code, 2);
+}
+
+TEST_F(ImagingTool, ASweepContinuesAndAVideoFollowsThePath) {
+  const std::string list = poses();
+  const std::vector<std::string> sweep{"sweep", "-j",    kSimple, "--poses",
+                                       list,    "--out", in("s"), "--json"};
+  const auto first = artus(sweep);
+  ASSERT_EQ(first.exit_code, 0) << first.out << first.err;
+  EXPECT_EQ(nlohmann::json::parse(first.out).at("drawn"), 3);
+  std::filesystem::remove(folder_ / "s/frames/000002.png");
+  EXPECT_EQ(nlohmann::json::parse(artus(sweep).out).at("drawn"), 1);
+  poses(2);
+  const auto other = artus(sweep);
+  EXPECT_EQ(other.exit_code, 1);
+  EXPECT_NE(other.err.find("--restart"), std::string::npos);
+
+  poses();
+  const auto video =
+      artus({"video", "-j", kSimple, "--path", list, "--fps", "5", "-o", in("p.avi"), "--json"});
+  ASSERT_EQ(video.exit_code, 0) << video.out << video.err;
+  EXPECT_EQ(nlohmann::json::parse(video.out).at("frames"), 11);
+  EXPECT_GT(std::filesystem::file_size(folder_ / "p.avi"), 10000U);
+  EXPECT_EQ(
+      artus({"sweep", "-j", kSimple, "--poses", in("absent.csv"), "--out", in("t")}).exit_code, 1);
+}
+
+}  // namespace
+}  // namespace artus
