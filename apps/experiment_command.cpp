@@ -95,6 +95,8 @@ void add_experiment_command(CLI::App& app, ExitCode& code) {
       ->capture_default_str();
   command->add_option("--device", options->experiment.device, "device whose limits apply")
       ->capture_default_str();
+  command->add_option("--mock", options->experiment.mock,
+                      "TOML file of the pneumatic probe mock (default: the bundled one)");
   command->add_flag("--json", options->json, "print the verdicts as JSON");
   on_run(command, code, [options] { return run_experiments(*options); });
 }

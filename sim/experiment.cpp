@@ -90,7 +90,13 @@ Result<std::vector<Claim>> run_experiment(std::string_view name,
                                           const ExperimentOptions& options) {
   const auto probe = probe_experiments();
   if (std::find(probe.begin(), probe.end(), name) != probe.end()) {
-    return run_and_write_probe_experiment(name, folder, options.seed);
+    const auto mock = options.mock.empty() ? read_bundled_pneumatic_params()
+                                           : read_pneumatic_params(options.mock);
+    if (!mock) return tl::unexpected<Error>(mock.error());
+    ProbeExperimentOptions probe_options;
+    probe_options.seed = options.seed;
+    probe_options.mock = *mock;
+    return run_and_write_probe_experiment(name, folder, probe_options);
   }
   const Result<Experiment> experiment = run_needle_experiment(name, options);
   if (!experiment) return tl::unexpected<Error>(experiment.error());

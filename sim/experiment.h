@@ -15,6 +15,7 @@ namespace artus {
 struct ExperimentOptions {
   std::uint64_t seed = 1;
   std::string device = "virtuose_6d_desktop";  ///< a name of device_table()
+  std::filesystem::path mock;  ///< TOML file of the pneumatic probe mock; empty: the bundled one
 };
 
 /// A trace of an experiment that has one or several.

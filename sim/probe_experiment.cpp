@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-using Run = ProbeExperiment (*)(std::uint64_t);
+using Run = ProbeExperiment (*)(const ProbeExperimentOptions&);
 
 constexpr std::array<std::string_view, 3> kNames{"probe-isp", "probe-ssp", "probe-study"};
 constexpr std::array<Run, kNames.size()> kRuns{run_probe_isp, run_probe_ssp, run_probe_study};
@@ -34,11 +34,13 @@ std::string markdown_table(const ProbeTable& table) {
 }
 
 ProbeTable observation_table(const ProbeExperiment& e) {
-  ProbeTable table{{"observation", "published", "artus", "difference", "verdict", "likely cause"},
+  ProbeTable table{{"observation", "published", "artus", "difference", "verdict", "likely cause",
+                    "parameter fitted to it"},
                    {}};
   for (const ProbeObservation& o : e.observations) {
     table.rows.push_back({o.what, o.published, fixed(o.artus, 3) + " " + o.unit, o.difference,
-                          o.reproduced ? "reproduced" : "refuted", o.cause});
+                          o.reproduced ? "reproduced" : "refuted", o.cause,
+                          o.fitted.empty() ? "none" : o.fitted});
   }
   return table;
 }
@@ -46,7 +48,7 @@ ProbeTable observation_table(const ProbeExperiment& e) {
 std::string make_report(const ProbeExperiment& e) {
   std::string text = "# " + e.name + "\n\n" + e.title + "\n\n";
   if (!e.observations.empty()) text += markdown_table(observation_table(e));
-  if (!e.table.header.empty()) text += markdown_table(e.table);
+  for (const auto& [title, table] : e.tables) text += title + "\n\n" + markdown_table(table);
   ProbeTable claims{{"must hold", "value", "bound", "verdict"}, {}};
   for (const Claim& c : e.claims) {
     claims.rows.push_back({c.text, fixed(c.value, 4), c.bound, c.pass ? "pass" : "FAIL"});
@@ -66,7 +68,8 @@ nlohmann::json make_verdict(const ProbeExperiment& e) {
                     {"unit", o.unit},
                     {"difference", o.difference},
                     {"verdict", o.reproduced ? "reproduced" : "refuted"},
-                    {"cause", o.cause}});
+                    {"cause", o.cause},
+                    {"fitted", o.fitted}});
   }
   json["observations"] = list;
   return json;
@@ -91,9 +94,11 @@ Result<void> write_texts(const ProbeExperiment& e, const fs::path& folder) {
         write_text(folder / (e.name + "-" + trace.label + ".csv"), probe_csv(trace.rows));
     if (!written) return written;
   }
-  const ProbeTable table = e.observations.empty() ? e.table : observation_table(e);
-  const auto table_written = write_text(folder / (e.name + "-table.csv"), make_csv(table));
-  if (!table_written) return table_written;
+  const bool published = !e.observations.empty();
+  const auto table = write_text(
+      folder / (e.name + "-table.csv"),
+      make_csv(published || e.tables.empty() ? observation_table(e) : e.tables.front().second));
+  if (!table) return table;
   const auto report = write_text(folder / "report.md", make_report(e));
   if (!report) return report;
   return write_text(folder / "verdict.json", make_verdict(e).dump(2) + "\n");
@@ -111,10 +116,11 @@ std::span<const std::string_view> probe_experiments() noexcept {
   return kNames;
 }
 
-Result<ProbeExperiment> run_probe_experiment(std::string_view name, std::uint64_t seed) {
+Result<ProbeExperiment> run_probe_experiment(std::string_view name,
+                                             const ProbeExperimentOptions& options) {
   std::string all;
   for (std::size_t i = 0; i < kNames.size(); ++i) {
-    if (kNames[i] == name) return kRuns[i](seed);
+    if (kNames[i] == name) return kRuns[i](options);
     all += (all.empty() ? "" : ", ") + std::string(kNames[i]);
   }
   return fail(ErrorCode::not_found,
@@ -136,8 +142,8 @@ Result<void> write_probe_experiment(const ProbeExperiment& e, const fs::path& fo
 
 Result<std::vector<Claim>> run_and_write_probe_experiment(std::string_view name,
                                                           const fs::path& folder,
-                                                          std::uint64_t seed) {
-  const auto experiment = run_probe_experiment(name, seed);
+                                                          const ProbeExperimentOptions& options) {
+  const auto experiment = run_probe_experiment(name, options);
   if (!experiment) return tl::unexpected<Error>(experiment.error());
   const auto written = write_probe_experiment(*experiment, folder);
   if (!written) return tl::unexpected<Error>(written.error());

@@ -31,6 +31,9 @@ ProbeRow make_row(double time, const PneumaticPlant& plant, const ProbeTarget& t
   row.p_N = s.p_N;
   row.pneumatic = pneumatic_stiffness(plant.cylinder(), s);
   row.status = tick.status;
+  const RodEnergy& e = plant.energy();
+  row.energy_error =
+      plant.kinetic_energy() - (e.gas + e.external + e.weight + e.friction + e.stops);
   return row;
 }
 
@@ -54,8 +57,10 @@ std::vector<ProbeRow> run_probe_scenario(const ProbeScenario& scenario) {
   for (long i = 0; i < ticks; ++i) {
     const double t = static_cast<double>(i) * dt;
     if (scenario.disturb) scenario.disturb(t, plant, sensors);
-    const ProbeTarget target = scenario.target(t);
-    const ControlTick& tick = supervisor.step(sensors.read(plant), target);
+    ProbeTarget target = scenario.target(t);
+    const ProbeMeasurement measured = sensors.read(plant);
+    if (scenario.stiffness) target.stiffness = scenario.stiffness(measured.y);
+    const ControlTick& tick = supervisor.step(measured, target);
     const RodLoad load = scenario.load ? scenario.load(t, plant.state()) : RodLoad{};
     plant.step(tick.command, load, dt);
     if (i % stride == 0) rows.push_back(make_row(t, plant, target, tick));
@@ -105,6 +110,7 @@ ProbeWindow measure_window(const std::vector<ProbeRow>& rows, double from, doubl
     if (n == 0) {
       w.lowest_voltage = w.highest_voltage = last = row.u_P;
       w.lowest_pneumatic = w.highest_pneumatic = row.pneumatic;
+      w.lowest_pressure = w.highest_pressure = row.p_P;
     }
     w.largest_error = std::max(w.largest_error, error);
     w.mean_error += error;
@@ -113,6 +119,9 @@ ProbeWindow measure_window(const std::vector<ProbeRow>& rows, double from, doubl
     w.voltage_travel += std::abs(row.u_P - last);
     w.lowest_pneumatic = std::min(w.lowest_pneumatic, row.pneumatic);
     w.highest_pneumatic = std::max(w.highest_pneumatic, row.pneumatic);
+    w.lowest_pressure = std::min({w.lowest_pressure, row.p_P, row.p_N});
+    w.highest_pressure = std::max({w.highest_pressure, row.p_P, row.p_N});
+    w.energy_error = std::max(w.energy_error, std::abs(row.energy_error));
     last = row.u_P;
     ++n;
   }
@@ -124,10 +133,10 @@ ProbeWindow measure_window(const std::vector<ProbeRow>& rows, double from, doubl
 std::string probe_csv(const std::vector<ProbeRow>& rows) {
   std::string text =
       "time_s,stiffness_n_m,rest_m,expected_m,position_m,velocity_m_s,force_n,voltage_p_v,"
-      "voltage_n_v,pressure_p_pa,pressure_n_pa,pneumatic_stiffness_n_m,status\n";
+      "voltage_n_v,pressure_p_pa,pressure_n_pa,pneumatic_stiffness_n_m,energy_error_j,status\n";
   for (const ProbeRow& r : rows) {
     for (const double value : {r.time, r.stiffness, r.rest, r.expected, r.y, r.v, r.force, r.u_P,
-                               r.u_N, r.p_P, r.p_N, r.pneumatic}) {
+                               r.u_N, r.p_P, r.p_N, r.pneumatic, r.energy_error}) {
       text += to_csv(value) + ',';
     }
     text += std::to_string(r.status) + '\n';

@@ -25,6 +25,7 @@ struct ProbeRow {
   double p_N = 0;            ///< Pa absolute
   double pneumatic = 0;      ///< N/m, K_pneu
   std::uint32_t status = 0;  ///< ControlStatus bits
+  double energy_error = 0;   ///< J, kinetic energy of rod and load less all work done on them
   [[nodiscard]] double error() const noexcept { return expected - y; }
 };
 
@@ -33,6 +34,8 @@ struct ProbeScenario {
   ControlLawKind law = ControlLawKind::backstepping_one_valve;
   double duration = 10;                            ///< s
   std::function<ProbeTarget(double time)> target;  ///< required
+  /// The stiffness to render, N/m, from the measured rod position; empty: the target's own.
+  std::function<double(double y)> stiffness;
   /// The load on the rod, from the time and the true state of the rod.
   std::function<RodLoad(double time, const CylinderState&)> load;
   /// Breaks things: called before each control tick.
@@ -69,6 +72,9 @@ struct ProbeWindow {
   double voltage_travel = 0;    ///< V/s, total variation of u_P per second, sampled every 2 ms
   double lowest_pneumatic = 0;  ///< N/m
   double highest_pneumatic = 0;
+  double lowest_pressure = 0;  ///< Pa, of either chamber
+  double highest_pressure = 0;
+  double energy_error = 0;  ///< J, largest magnitude
 };
 [[nodiscard]] ProbeWindow measure_window(const std::vector<ProbeRow>& rows, double from, double to);
 

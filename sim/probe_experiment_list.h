@@ -6,11 +6,11 @@
 namespace artus {
 
 /// Increasing stiffness under 1 kg. Source [Alamilla2020] section 3.3.2, figs. 3-16 to 3-19.
-[[nodiscard]] ProbeExperiment run_probe_isp(std::uint64_t seed);
+[[nodiscard]] ProbeExperiment run_probe_isp(const ProbeExperimentOptions& options);
 /// Stiffness steps under 1 kg. Source [Alamilla2020] section 3.3.2, figs. 3-20 to 3-24.
-[[nodiscard]] ProbeExperiment run_probe_ssp(std::uint64_t seed);
+[[nodiscard]] ProbeExperiment run_probe_ssp(const ProbeExperimentOptions& options);
 /// Every law that renders a stiffness under every disturbance: which renders tissue best?
-[[nodiscard]] ProbeExperiment run_probe_study(std::uint64_t seed);
+[[nodiscard]] ProbeExperiment run_probe_study(const ProbeExperimentOptions& options);
 
 /// A curve of a trace over time.
 template <class F>

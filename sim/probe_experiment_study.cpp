@@ -2,20 +2,40 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <utility>
 
+#include "haptics/probe_contact.h"
 #include "sim/probe_experiment_list.h"
 
 namespace artus {
 namespace {
 
 constexpr double kStiffness = 1000;  // N/m, a soft limb
+/// Stiffnesses that a pressing hand is given, N/m: the least and most of the published profiles,
+/// softer, and harder.
+constexpr std::array<double, 6> kStiffnesses{200, 500, 1000, 3000, 8000, 20000};
 /// The published cylinder, and one with a low-friction seal (assumed).
 constexpr std::array<double, 2> kDryFrictions{5.2, 0.5};  // N
 constexpr std::array<ControlLawKind, 4> kLaws{
     ControlLawKind::admittance_pid, ControlLawKind::admittance_ipc,
     ControlLawKind::backstepping_one_valve, ControlLawKind::backstepping_two_valves};
+
+/// What lies under the probe: layers down to bone, moduli of meshes/tissues.toml.
+struct TissueCase {
+  const char* name;
+  std::array<ColumnLayer, 3> layers;  // skin, fat, muscle
+};
+constexpr std::array<TissueCase, 2> kTissues{
+    {{"soft limb", {{{2e-3, 150e3}, {8e-3, 3e3}, {20e-3, 15e3}}}},
+     {"over bone", {{{2e-3, 150e3}, {1e-3, 3e3}, {0, 15e3}}}}}};
+
+/// Force of the whole face pressed into the tissue, N.
+double tissue_force(const TissueCase& tissue, double indentation) {
+  const ProbeFootprint face;
+  return compress_column({}, tissue.layers, indentation).pressure * face.length * face.width;
+}
 
 /// The results of one law; the study's row.
 struct LawResult {
@@ -32,15 +52,19 @@ struct LawResult {
   double lost_speed = 0;         // m/s, fastest after that
   double lost_excursion = 0;     // m the rod moves after the force sensor is lost
   std::uint32_t lost_status = 0;
-  double drop_error = 0;  // m, at 3 bar
+  double drop_error = 0;                                   // m, at 3 bar
+  std::array<double, kStiffnesses.size()> spring_error{};  // share, as render_error
+  std::array<double, kTissues.size()> tissue_error{};      // share, rms against the tissue's force
 };
 
-ProbeScenario make_scenario(const LawResult& r, double duration, std::uint64_t seed) {
+ProbeScenario make_scenario(const LawResult& r, double duration,
+                            const ProbeExperimentOptions& options) {
   ProbeScenario s;
   s.law = r.law;
+  s.plant = options.mock;
   s.plant.cylinder.dry_friction = r.dry_friction;
   s.duration = duration;
-  s.seed = seed;
+  s.seed = options.seed;
   s.target = [](double) {
     ProbeTarget target;
     target.stiffness = kStiffness;
@@ -67,8 +91,9 @@ RodLoad pushed(double force) {
 }
 
 /// 6 N, 10 N, 6 N, 0 N in steps: settling of the last 10 N step and its error.
-void measure_load_steps(LawResult& r, std::uint64_t seed, std::vector<ProbeRow>& rows) {
-  ProbeScenario s = make_scenario(r, 8, seed);
+void measure_load_steps(LawResult& r, const ProbeExperimentOptions& options,
+                        std::vector<ProbeRow>& rows) {
+  ProbeScenario s = make_scenario(r, 8, options);
   s.load = [](double t, const CylinderState&) {
     return pushed(t < 1 ? 0 : t < 3 ? 6 : t < 5 ? 10 : t < 7 ? 6 : 0);
   };
@@ -87,10 +112,11 @@ void measure_load_steps(LawResult& r, std::uint64_t seed, std::vector<ProbeRow>&
 }
 
 /// A quasi-static push to 14 N and back: slope while loading, width of the loop.
-void measure_push(LawResult& r, std::uint64_t seed, std::vector<ProbeRow>& rows) {
+void measure_push(LawResult& r, const ProbeExperimentOptions& options,
+                  std::vector<ProbeRow>& rows) {
   constexpr double kTop = 14;
   constexpr double kRise = 10;
-  ProbeScenario s = make_scenario(r, 0.5 + 2 * kRise, seed);
+  ProbeScenario s = make_scenario(r, 0.5 + 2 * kRise, options);
   s.load = [](double t, const CylinderState&) {
     const double u = std::max(0.0, t - 0.5);
     return pushed(kTop * (u < kRise ? u / kRise : std::max(0.0, 2 - u / kRise)));
@@ -129,12 +155,13 @@ void measure_push(LawResult& r, std::uint64_t seed, std::vector<ProbeRow>& rows)
   r.hysteresis = in - out;
 }
 
-/// A hand presses 0 to 20 mm deep at 0.5 Hz: rms of F - K (x_0 - y) over the rms of F.
-void measure_rendering(LawResult& r, std::uint64_t seed) {
-  ProbeScenario s = make_scenario(r, 7, seed);
+/// A hand presses 0 to 20 mm deep at 0.5 Hz; the rms of what it feels too much or too little over
+/// the rms of what it feels. `ideal`: the wanted force at a displacement into the shell, m.
+template <class F>
+double measure_pressing(ProbeScenario& s, F ideal) {
   const Hand hand;
   s.load = [hand](double t, const CylinderState& state) {
-    constexpr double kRate = 3.14159265358979;
+    constexpr double kRate = std::numbers::pi;
     const double wanted = 0.01 * (1 - std::cos(kRate * t));
     return pushed(hand.force(wanted, 0.01 * kRate * std::sin(kRate * t), state));
   };
@@ -142,16 +169,45 @@ void measure_rendering(LawResult& r, std::uint64_t seed) {
   double all = 0;
   for (const ProbeRow& row : run_probe_scenario(s)) {
     if (row.time < 1) continue;
-    const double error = row.force - kStiffness * (row.rest - row.y);
+    const double error = row.force - ideal(row.rest - row.y);
     wrong += error * error;
     all += row.force * row.force;
   }
-  r.render_error = std::sqrt(wrong / all);
+  return std::sqrt(wrong / all);
+}
+
+/// Springs from soft to hard under the pressing hand.
+void measure_springs(LawResult& r, const ProbeExperimentOptions& options) {
+  for (std::size_t i = 0; i < kStiffnesses.size(); ++i) {
+    const double stiffness = kStiffnesses[i];
+    ProbeScenario s = make_scenario(r, 5, options);
+    s.stiffness = [stiffness](double) {
+      return stiffness;
+    };
+    r.spring_error[i] = measure_pressing(s, [stiffness](double d) { return stiffness * d; });
+    if (stiffness == kStiffness) r.render_error = r.spring_error[i];
+  }
+}
+
+/// Tissue under the pressing hand: the law is asked for the secant stiffness of where the rod is.
+void measure_tissues(LawResult& r, const ProbeExperimentOptions& options) {
+  for (std::size_t i = 0; i < kTissues.size(); ++i) {
+    const TissueCase& tissue = kTissues[i];
+    ProbeScenario s = make_scenario(r, 5, options);
+    s.stiffness = [&tissue](double y) {
+      constexpr double kLeast = 1e-4;  // m, below which the secant is that of this depth
+      const double d = std::max(kLeast, -y);
+      return tissue_force(tissue, d) / d;
+    };
+    r.tissue_error[i] =
+        measure_pressing(s, [&tissue](double d) { return tissue_force(tissue, std::max(0.0, d)); });
+  }
 }
 
 /// A hand holds the rod 20 mm in and lets go at 3 s.
-void measure_release(LawResult& r, std::uint64_t seed, std::vector<ProbeRow>& rows) {
-  ProbeScenario s = make_scenario(r, 6, seed);
+void measure_release(LawResult& r, const ProbeExperimentOptions& options,
+                     std::vector<ProbeRow>& rows) {
+  ProbeScenario s = make_scenario(r, 6, options);
   const Hand hand;
   s.load = [hand](double t, const CylinderState& state) {
     return pushed(t < 3 ? hand.force(0.03 * std::min(1.0, t), t < 1 ? 0.03 : 0, state) : 0);
@@ -167,8 +223,8 @@ void measure_release(LawResult& r, std::uint64_t seed, std::vector<ProbeRow>& ro
   r.release_settling = last - 3;
 }
 
-void measure_noise(LawResult& r, std::uint64_t seed) {
-  ProbeScenario s = make_scenario(r, 3, seed);
+void measure_noise(LawResult& r, const ProbeExperimentOptions& options) {
+  ProbeScenario s = make_scenario(r, 3, options);
   s.noise = 4;
   s.load = [](double t, const CylinderState&) {
     return pushed(t > 0.5 ? 8 : 0);
@@ -176,8 +232,8 @@ void measure_noise(LawResult& r, std::uint64_t seed) {
   r.noise_travel = measure_window(run_probe_scenario(s), 2, 3).voltage_travel;
 }
 
-void measure_lost_sensor(LawResult& r, std::uint64_t seed) {
-  ProbeScenario s = make_scenario(r, 4, seed);
+void measure_lost_sensor(LawResult& r, const ProbeExperimentOptions& options) {
+  ProbeScenario s = make_scenario(r, 4, options);
   s.load = [](double t, const CylinderState&) {
     return pushed(t > 0.5 ? 8 : 0);
   };
@@ -196,8 +252,8 @@ void measure_lost_sensor(LawResult& r, std::uint64_t seed) {
   }
 }
 
-void measure_supply_drop(LawResult& r, std::uint64_t seed) {
-  ProbeScenario s = make_scenario(r, 5, seed);
+void measure_supply_drop(LawResult& r, const ProbeExperimentOptions& options) {
+  ProbeScenario s = make_scenario(r, 5, options);
   s.load = [](double t, const CylinderState&) {
     return pushed(t > 0.5 ? 10 : 0);
   };
@@ -217,12 +273,16 @@ PlotSeries push_curve(const std::vector<ProbeRow>& rows, const std::string& labe
   return series;
 }
 
-std::vector<std::string> make_cells(const LawResult& r) {
+std::string percent(double share) {
+  return fixed(100 * share, 1);
+}
+
+std::vector<std::string> disturbance_cells(const LawResult& r) {
   return {to_string(r.law),
           fixed(r.dry_friction, 1),
           fixed(r.slope, 0),
           fixed(r.hysteresis, 2),
-          fixed(100 * r.render_error, 1),
+          percent(r.render_error),
           fixed(1e3 * r.step_error, 2),
           fixed(r.step_settling, 2),
           fixed(1e3 * r.release_overshoot, 2),
@@ -232,65 +292,125 @@ std::vector<std::string> make_cells(const LawResult& r) {
           fixed(1e3 * r.drop_error, 2)};
 }
 
+std::vector<std::string> rendering_cells(const LawResult& r) {
+  std::vector<std::string> cells{to_string(r.law), fixed(r.dry_friction, 1)};
+  for (const double error : r.spring_error) cells.push_back(percent(error));
+  for (const double error : r.tissue_error) cells.push_back(percent(error));
+  return cells;
+}
+
+ProbeTable make_disturbance_table() {
+  return {{"law", "dry friction (N)", "slope of a slow push (N/m)", "hysteresis (N)",
+           "rms force error, pressing hand (%)", "error under 10 N (mm)",
+           "settling of a 4 N step (s)", "overshoot after release (mm)",
+           "settling after release (s)", "voltage travel at 4x noise (V/s)",
+           "way after force sensor loss (mm)", "error at 3 bar (mm)"},
+          {}};
+}
+
+ProbeTable make_rendering_table() {
+  ProbeTable table{{"law", "dry friction (N)"}, {}};
+  for (const double k : kStiffnesses) table.header.push_back(fixed(k, 0) + " N/m (%)");
+  for (const TissueCase& t : kTissues) table.header.push_back(std::string(t.name) + " (%)");
+  return table;
+}
+
+/// The law with the least value among those of one cylinder.
+template <class F>
+std::string find_best(const std::vector<LawResult>& results, double friction, F value) {
+  const LawResult* best = nullptr;
+  for (const LawResult& r : results) {
+    if (r.dry_friction == friction && (best == nullptr || value(r) < value(*best))) best = &r;
+  }
+  return std::string(to_string(best->law)) + " (" + percent(value(*best)) + " %)";
+}
+
+/// The answer: the truest law for each thing under the probe, by the rms error of the felt force.
+ProbeTable make_answer_table(const std::vector<LawResult>& results) {
+  ProbeTable table{{"under the probe"}, {}};
+  for (const double f : kDryFrictions) {
+    table.header.push_back("truest law, " + fixed(f, 1) + " N of dry friction (rms force error)");
+  }
+  const auto add = [&](std::string what, auto value) {
+    std::vector<std::string> row{std::move(what)};
+    for (const double f : kDryFrictions) row.push_back(find_best(results, f, value));
+    table.rows.push_back(std::move(row));
+  };
+  for (std::size_t i = 0; i < kStiffnesses.size(); ++i) {
+    add("spring of " + fixed(kStiffnesses[i], 0) + " N/m",
+        [i](const LawResult& r) { return r.spring_error[i]; });
+  }
+  for (std::size_t i = 0; i < kTissues.size(); ++i) {
+    add(kTissues[i].name, [i](const LawResult& r) { return r.tissue_error[i]; });
+  }
+  return table;
+}
+
+/// One panel per cylinder, so that the curves of its laws can be told apart.
+Plot make_plot(const std::string& title, const std::string& x_label, const std::string& y_label,
+               int height) {
+  Plot plot{title, {}, 1200, height};
+  for (const double friction : kDryFrictions) {
+    plot.panels.push_back({x_label, y_label + ", friction " + fixed(friction, 1) + " N", {}});
+  }
+  return plot;
+}
+
 }  // namespace
 
-ProbeExperiment run_probe_study(std::uint64_t seed) {
+ProbeExperiment run_probe_study(const ProbeExperimentOptions& options) {
   ProbeExperiment e;
   e.name = "probe-study";
   e.title =
-      "Which law renders tissue best? Every law that renders a stiffness, at 1000 N/m, with the "
-      "published dry friction and with little, under load "
-      "steps, a slow push, a pressing hand, a hand that lets go, four times the sensor noise, loss "
-      "of the force sensor, and supply falling from 4 to 3 bar.";
-  e.table.header = {"law",
-                    "dry friction (N)",
-                    "slope of a slow push (N/m)",
-                    "hysteresis (N)",
-                    "rms force error, pressing hand (%)",
-                    "error under 10 N (mm)",
-                    "settling of a 4 N step (s)",
-                    "overshoot after release (mm)",
-                    "settling after release (s)",
-                    "voltage travel at 4x noise (V/s)",
-                    "way after force sensor loss (mm)",
-                    "error at 3 bar (mm)"};
-  Plot push{
-      "probe-study: slow push at 1000 N/m", {{"rod pushed in (mm)", "force (N)", {}}}, 1200, 600};
-  Plot release{
-      "probe-study: the hand lets go at 3 s", {{"time (s)", "position (mm)", {}}}, 1200, 420};
-  Plot steps{
-      "probe-study: load steps 6, 10, 6, 0 N", {{"time (s)", "position (mm)", {}}}, 1200, 420};
+      "Which law renders tissue best? Every law that renders a stiffness, with the published dry "
+      "friction and with little, under load steps, a slow push, a hand that lets go, four times "
+      "the sensor noise, loss of the force sensor, and supply falling from 4 to 3 bar, all at 1000 "
+      "N/m; then under a pressing hand, from soft to hard springs and on tissue.";
+  ProbeTable disturbances = make_disturbance_table();
+  ProbeTable rendering = make_rendering_table();
+  Plot push =
+      make_plot("probe-study: slow push at 1000 N/m", "rod pushed in (mm)", "force (N)", 420);
+  Plot release =
+      make_plot("probe-study: the hand lets go at 3 s", "time (s)", "position (mm)", 360);
+  Plot steps = make_plot("probe-study: load steps 6, 10, 6, 0 N", "time (s)", "position (mm)", 360);
   const auto position = [](const ProbeRow& row) {
     return 1e3 * row.y;
   };
-  for (const double friction : kDryFrictions) {
+  std::vector<LawResult> results;
+  for (std::size_t i = 0; i < kDryFrictions.size(); ++i) {
     for (const ControlLawKind law : kLaws) {
       LawResult r;
       r.law = law;
-      r.dry_friction = friction;
-      const std::string label = std::string(to_string(law)) + ", " + fixed(friction, 1) + " N";
+      r.dry_friction = kDryFrictions[i];
+      const std::string label = to_string(law);
       std::vector<ProbeRow> rows;
-      measure_load_steps(r, seed, rows);
-      steps.panels[0].series.push_back(plot_probe_rows(rows, label, position));
-      measure_push(r, seed, rows);
-      push.panels[0].series.push_back(push_curve(rows, label));
-      measure_release(r, seed, rows);
-      release.panels[0].series.push_back(plot_probe_rows(rows, label, position));
-      measure_rendering(r, seed);
-      measure_noise(r, seed);
-      measure_lost_sensor(r, seed);
-      measure_supply_drop(r, seed);
-      e.table.rows.push_back(make_cells(r));
+      measure_load_steps(r, options, rows);
+      steps.panels[i].series.push_back(plot_probe_rows(rows, label, position));
+      measure_push(r, options, rows);
+      push.panels[i].series.push_back(push_curve(rows, label));
+      measure_release(r, options, rows);
+      release.panels[i].series.push_back(plot_probe_rows(rows, label, position));
+      measure_springs(r, options);
+      measure_tissues(r, options);
+      measure_noise(r, options);
+      measure_lost_sensor(r, options);
+      measure_supply_drop(r, options);
+      disturbances.rows.push_back(disturbance_cells(r));
+      rendering.rows.push_back(rendering_cells(r));
+      const std::string name = label + ", " + fixed(r.dry_friction, 1) + " N: ";
       if (!needs_force_sensor(law)) {
         e.claims.push_back(
-            claim_near(label + ": slope of a slow push", r.slope, kStiffness, 0.05, "N/m"));
+            claim_near(name + "slope of a slow push", r.slope, kStiffness, 0.05, "N/m"));
       }
-      e.claims.push_back(claim_at_most(label + ": speed after loss of the force sensor",
-                                       r.lost_speed, 0.2, "m/s"));
+      e.claims.push_back(
+          claim_at_most(name + "speed after loss of the force sensor", r.lost_speed, 0.2, "m/s"));
+      results.push_back(r);
     }
+    push.panels[i].series.push_back({"ideal spring", {0, 14}, {0, 14}});
   }
-  PlotSeries ideal{"ideal spring", {0, 14}, {0, 14}};
-  push.panels[0].series.push_back(ideal);
+  e.tables = {{"Disturbances at 1000 N/m:", disturbances},
+              {"Error of the felt force under a pressing hand, rms over rms:", rendering},
+              {"The answer:", make_answer_table(results)}};
   e.plots = {{"probe-study-push.png", push},
              {"probe-study-release.png", release},
              {"probe-study-steps.png", steps}};
