@@ -71,7 +71,7 @@ void add_image_command(CLI::App& app, ExitCode& code) {
       "  artus image -j meshes/shoulder --transducer curved-2-5 --depth 80 -o curved.png");
   add_joint_options(command, options->joint);
   add_view_options(command, options->view);
-  command->add_option("-o,--out", options->out, "image file (.png, .tiff)")->required();
+  command->add_option("-o,--out", options->out, "image file (.png, .jpg, .tiff)")->required();
   command->add_option("--envelope", options->envelope,
                       "also write the envelope before compression (.tiff, 32-bit float)");
   command->add_flag("--plain", options->plain, "pixels of the sector alone, no depth scale");

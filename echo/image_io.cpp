@@ -73,8 +73,8 @@ cv::Mat colour_labels(const LabelImage& labels, const CompiledJoint& joint) {
 
 Result<void> write_image(const cv::Mat& image, const std::filesystem::path& file) {
   const std::string extension = file.extension().string();
-  if (extension != ".png" && extension != ".tiff" && extension != ".tif") {
-    return fail(ErrorCode::unsupported, "images are written as .png or .tiff", file.string());
+  if (extension != ".png" && extension != ".tiff" && extension != ".tif" && extension != ".jpg") {
+    return fail(ErrorCode::unsupported, "images are written as .png, .jpg or .tiff", file.string());
   }
   try {
     if (cv::imwrite(file.string(), image)) return {};

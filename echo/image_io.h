@@ -23,7 +23,7 @@ namespace artus {
 /// The labels in the palette's colours, needle white (CV_8UC3, blue first as OpenCV has it).
 [[nodiscard]] cv::Mat colour_labels(const LabelImage& labels, const CompiledJoint& joint);
 
-/// Writes an image; the format is the extension's (.png 8 bit, .tiff also float).
+/// Writes an image; the format is the extension's (.png and .jpg 8 bit, .tiff also float).
 /// Errors: unsupported (extension), unreadable (cannot write).
 [[nodiscard]] Result<void> write_image(const cv::Mat& image, const std::filesystem::path& file);
 
