@@ -8,13 +8,13 @@
 #include <optional>
 
 #include <opencv2/imgproc.hpp>
-#include <opencv2/videoio.hpp>
 
 #include <nlohmann/json.hpp>
 
 #include "core/units.h"
 #include "echo/image_io.h"
 #include "echo/renderer.h"
+#include "sim/video_file.h"
 
 namespace artus {
 namespace {
@@ -41,19 +41,6 @@ cv::Mat with_caption(const cv::Mat& image, const NeedleRow& row, const ProbeHand
   cv::putText(framed, text, {6, framed.rows - 9}, cv::FONT_HERSHEY_SIMPLEX, 0.45, cv::Scalar(220),
               1, cv::LINE_AA);
   return framed;
-}
-
-/// MP4 where the system has the codec, else MJPEG in AVI, which OpenCV always carries.
-std::optional<std::filesystem::path> open_video(cv::VideoWriter& writer,
-                                                const std::filesystem::path& folder,
-                                                const cv::Size& size, double rate) {
-  const std::filesystem::path mp4 = folder / "three-injections.mp4";
-  if (writer.open(mp4.string(), cv::VideoWriter::fourcc('m', 'p', '4', 'v'), rate, size, false))
-    return mp4;
-  const std::filesystem::path avi = folder / "three-injections.avi";
-  if (writer.open(avi.string(), cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), rate, size, false))
-    return avi;
-  return std::nullopt;
 }
 
 /// Images of an earlier run in the same folder would stand among the new ones.
@@ -92,7 +79,7 @@ Result<void> draw_video(Renderer& renderer, const std::shared_ptr<const Scene>& 
                         const ThreeInjections& run, const NeedleShape& shape,
                         const std::filesystem::path& folder, double rate, RunImages& images,
                         const Progress& progress) {
-  cv::VideoWriter writer;
+  std::optional<VideoFile> video;
   ProbeContactModel contact(scene, run.options.probe.contact);
   const double end = run.rows.back().time;
   const int n_frames = static_cast<int>(std::floor(end * rate)) + 1;
@@ -107,18 +94,18 @@ Result<void> draw_video(Renderer& renderer, const std::shared_ptr<const Scene>& 
     const Frame& frame = renderer.render(probe.X_JP_image(), NeedleView{row.X_JN, shape});
     const cv::Mat picture = with_caption(annotated_image(frame, renderer.transducer()), row, probe,
                                          run.region_names[row.region]);
-    if (!writer.isOpened()) {
-      const auto file = open_video(writer, folder, picture.size(), rate);
-      if (!file)
-        return fail(ErrorCode::unsupported,
-                    "OpenCV can write neither MP4 nor MJPEG here; run again without video",
-                    folder.string());
-      images.video = *file;
+    if (!video) {
+      auto opened = VideoFile::open(folder / "three-injections.mp4", picture.size(), false, rate);
+      if (!opened) return tl::unexpected(opened.error());
+      video = std::move(*opened);
     }
-    writer.write(picture);
+    video->write(picture);
     ++images.video_frames;
     if (progress) progress("video", static_cast<double>(i + 1) / n_frames);
   }
+  const auto file = video->finish();
+  if (!file) return tl::unexpected(file.error());
+  images.video = *file;
   return {};
 }
 
