@@ -77,7 +77,7 @@ Result<TransducerPreset> read_transducer(const std::filesystem::path& file) {
 
 Result<std::vector<TransducerPreset>> read_bundled_transducers() {
   std::vector<TransducerPreset> presets;
-  for (const std::string_view text : kBundledTransducers) {
+  for (const std::string_view text : bundled_transducers()) {
     auto preset =
         parse_transducer(text, "bundled transducer " + std::to_string(presets.size() + 1));
     if (!preset) return tl::unexpected(preset.error());

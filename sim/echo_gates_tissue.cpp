@@ -14,7 +14,10 @@
 namespace artus {
 namespace {
 
-constexpr std::array<FlatLayer, 1> kMuscleBlock{{{"muscle", 60e-3}}};
+std::shared_ptr<const Scene> muscle_block() {
+  const std::array<FlatLayer, 1> block{{{"muscle", 60e-3}}};
+  return make_block_scene(block);
+}
 
 std::shared_ptr<const Scene> lossless_block(const std::string& tissue) {
   const std::array<FlatLayer, 1> block{{{tissue, 60e-3}}};
@@ -123,7 +126,7 @@ EchoGate gate_attenuation() {
   EchoGate gate;
   const double attenuation = 0.75;  // dB/cm/MHz, muscle of the library
   gate.title = "Fall of muscle's speckle with depth, twice 0.75 dB/cm/MHz at 12 MHz, no downshift";
-  Renderer renderer(make_block_scene(kMuscleBlock), Transducer{}, bare_settings());
+  Renderer renderer(muscle_block(), Transducer{}, bare_settings());
   const Frame& frame = renderer.render(Pose::Identity());
   PlotSeries measured{"rendered", {}, {}, "points"};
   std::vector<double> depths;
