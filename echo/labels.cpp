@@ -6,8 +6,6 @@
 
 #include "core/check.h"
 #include "core/units.h"
-#include "echo/beam_profile.h"
-#include "echo/display.h"
 #include "echo/region_acoustics.h"
 
 namespace artus {
@@ -58,6 +56,13 @@ void mark_needle(const NeedleView& needle, const Pose& X_JP, const ScanConverter
   }
 }
 
+template <class T>
+const T& require_valid(const T& value) {
+  const Result<void> result = validate(value);
+  ARTUS_REQUIRE(result.has_value(), result.error().to_string());
+  return value;
+}
+
 std::array<std::uint8_t, 3> base_colour(TissueKind kind) {
   switch (kind) {
     case TissueKind::fat:
@@ -82,42 +87,49 @@ std::array<std::uint8_t, 3> base_colour(TissueKind kind) {
 
 }  // namespace
 
-LabelImage render_labels(const Scene& scene, const Pose& X_JP, const Transducer& transducer,
-                         const ImageSettings& settings, const std::optional<NeedleView>& needle) {
-  ARTUS_REQUIRE(validate(transducer).has_value(), validate(transducer).error().to_string());
-  ARTUS_REQUIRE(validate(settings).has_value(), validate(settings).error().to_string());
+LabelRenderer::LabelRenderer(const Transducer& transducer, const ImageSettings& settings)
+    : converter_(require_valid(transducer), require_valid(settings)),
+      profile_(transducer, settings.depth),
+      pixel_(settings.pixel) {}
+
+LabelImage LabelRenderer::render(const Scene& scene, const Pose& X_JP,
+                                 const std::optional<NeedleView>& needle) const {
   ARTUS_REQUIRE(X_JP.matrix().allFinite(), "the probe's pose is not finite");
-  const ScanConverter converter(transducer, settings);
   LabelImage labels;
-  labels.width = converter.width();
-  labels.height = converter.height();
-  labels.pixel = settings.pixel;
+  labels.width = converter_.width();
+  labels.height = converter_.height();
+  labels.pixel = pixel_;
   const auto size =
       static_cast<std::size_t>(labels.width) * static_cast<std::size_t>(labels.height);
   labels.regions.assign(size, kOutside);
   labels.needle.assign(size, 0);
-  for (int x = 0; x < labels.width; ++x) label_column(scene, X_JP, converter, x, labels);
-  if (needle) {
-    mark_needle(*needle, X_JP, converter, BeamProfile(transducer, settings.depth), labels);
-  }
+  for (int x = 0; x < labels.width; ++x) label_column(scene, X_JP, converter_, x, labels);
+  if (needle) mark_needle(*needle, X_JP, converter_, profile_, labels);
   return labels;
 }
 
-NeedleTruth locate_needle(const NeedleView& needle, const Pose& X_JP, const Transducer& transducer,
-                          const ImageSettings& settings) {
-  const ScanConverter converter(transducer, settings);
-  const BeamProfile profile(transducer, settings.depth);
+NeedleTruth LabelRenderer::locate(const NeedleView& needle, const Pose& X_JP) const {
   const Pose X_PN = X_JP.inverse() * needle.X_JN;
   const Vec3 tip = X_PN.translation();
   const Vec3 axis = X_PN.linear().col(2);
   NeedleTruth truth;
-  truth.tip = converter.pixel_of(tip);
+  truth.tip = converter_.pixel_of(tip);
   truth.tip_offset = tip.y();
   truth.plane_angle = std::asin(std::min(1.0, std::abs(axis.y())));
   truth.face_angle = std::asin(std::min(1.0, std::abs(axis.z())));
   truth.in_plane = truth.plane_angle < kInPlaneAngle &&
-                   std::abs(tip.y()) <= profile.elevation_width(std::max(0.0, tip.z())) / 2;
+                   std::abs(tip.y()) <= profile_.elevation_width(std::max(0.0, tip.z())) / 2;
   return truth;
+}
+
+LabelImage render_labels(const Scene& scene, const Pose& X_JP, const Transducer& transducer,
+                         const ImageSettings& settings, const std::optional<NeedleView>& needle) {
+  return LabelRenderer(transducer, settings).render(scene, X_JP, needle);
+}
+
+NeedleTruth locate_needle(const NeedleView& needle, const Pose& X_JP, const Transducer& transducer,
+                          const ImageSettings& settings) {
+  return LabelRenderer(transducer, settings).locate(needle, X_JP);
 }
 
 std::vector<std::array<std::uint8_t, 3>> region_palette(const CompiledJoint& joint) {

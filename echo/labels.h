@@ -5,6 +5,8 @@
 #include <optional>
 #include <vector>
 
+#include "echo/beam_profile.h"
+#include "echo/display.h"
 #include "echo/frame.h"
 #include "echo/image_settings.h"
 #include "echo/needle_view.h"
@@ -31,12 +33,31 @@ struct NeedleTruth {
   bool in_plane = false;   ///< tip and visible shaft lie within the slice's thickness
 };
 
-/// The region of every pixel. Cost: one query per pixel column.
+/// Makes the truth of one probe's images, again and again: keeps the tables of beam and pixels.
+class LabelRenderer {
+ public:
+  /// Requires: valid transducer and settings (validate tells what is wrong). Cost: about 0.1 s.
+  LabelRenderer(const Transducer& transducer, const ImageSettings& settings);
+
+  /// The region of every pixel. Requires: a finite pose. Cost: one query per pixel column.
+  [[nodiscard]] LabelImage render(const Scene& scene, const Pose& X_JP,
+                                  const std::optional<NeedleView>& needle = std::nullopt) const;
+
+  /// Tip position and angles of a needle.
+  [[nodiscard]] NeedleTruth locate(const NeedleView& needle, const Pose& X_JP) const;
+
+  [[nodiscard]] const ScanConverter& converter() const noexcept { return converter_; }
+
+ private:
+  ScanConverter converter_;
+  BeamProfile profile_;
+  double pixel_;  // m
+};
+
+/// One-shot forms for a first try.
 [[nodiscard]] LabelImage render_labels(const Scene& scene, const Pose& X_JP,
                                        const Transducer& transducer, const ImageSettings& settings,
                                        const std::optional<NeedleView>& needle = std::nullopt);
-
-/// Tip position and angles of a needle.
 [[nodiscard]] NeedleTruth locate_needle(const NeedleView& needle, const Pose& X_JP,
                                         const Transducer& transducer,
                                         const ImageSettings& settings);

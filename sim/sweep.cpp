@@ -19,7 +19,6 @@
 #include "core/noise.h"
 #include "core/text_file.h"
 #include "core/units.h"
-#include "echo/display.h"
 #include "echo/image_io.h"
 #include "echo/labels.h"
 #include "echo/renderer.h"
@@ -151,7 +150,7 @@ Result<std::size_t> find_finished(const fs::path& file, const fs::path& folder) 
 Result<void> claim_folder(const fs::path& folder, const json& description, bool restart) {
   const fs::path file = folder / "sweep.json";
   std::error_code error;
-  if (restart) {
+  if (restart && fs::exists(file)) {  // never what is not a sweep
     fs::remove(folder / "truth.jsonl", error);
     fs::remove_all(folder / "frames", error);
     fs::remove(file, error);
@@ -184,7 +183,7 @@ class Sweep {
         folder_(std::move(folder)),
         needle_(options.needle),
         renderer_(scene_, options.transducer, options.settings),
-        converter_(options.transducer, options.settings) {}
+        truth_(options.transducer, options.settings) {}
 
   /// Draws one frame with its pictures and returns its line.
   Result<json> draw(std::size_t index, const ListedPose& pose) {
@@ -193,21 +192,18 @@ class Sweep {
     std::optional<NeedleView> needle;
     if (pose.X_JN) needle = NeedleView{*pose.X_JN, needle_};
     const Frame& frame = renderer_.render(pose.X_JP, needle);
-    const LabelImage labels =
-        render_labels(*scene_, pose.X_JP, renderer_.transducer(), renderer_.settings(), needle);
+    const LabelImage labels = truth_.render(*scene_, pose.X_JP, needle);
     json truth{{"index", index},
                {"probe", probe_json(pose.X_JP)},
                {"pixel_mm", frame.pixel / kMillimetre},
                {"regions", region_list(labels, scene_->joint())}};
     if (!pose.name.empty()) truth["name"] = pose.name;
     if (pose.time) truth["time_s"] = *pose.time;
-    if (needle)
-      truth["needle"] =
-          to_json(locate_needle(*needle, pose.X_JP, renderer_.transducer(), renderer_.settings()));
+    if (needle) truth["needle"] = to_json(truth_.locate(*needle, pose.X_JP));
     std::vector<std::pair<const char*, cv::Mat>> pictures{
         {kPictureKeys[0], grey_image(frame)},
         {kPictureKeys[1], id_image(labels)},
-        {kPictureKeys[2], shadow_mask(frame, converter_)}};
+        {kPictureKeys[2], shadow_mask(frame, truth_.converter())}};
     if (needle) pictures.emplace_back(kPictureKeys[3], needle_mask(labels));
     constexpr std::array<const char*, 4> kEndings{".png", "-labels.png", "-shadow.png",
                                                   "-needle.png"};
@@ -225,7 +221,7 @@ class Sweep {
   fs::path folder_;
   NeedleShape needle_;
   Renderer renderer_;
-  ScanConverter converter_;
+  LabelRenderer truth_;
 };
 
 }  // namespace
@@ -255,7 +251,8 @@ Result<SweepResult> run_sweep(const std::shared_ptr<const Scene>& scene,
     if (options.stop && options.stop()) break;
     const auto truth = sweep.draw(i, poses[i]);
     if (!truth) return tl::unexpected(truth.error());
-    lines << truth->dump() + "\n" << std::flush;
+    // A name may hold bytes that are no text.
+    lines << truth->dump(-1, ' ', false, json::error_handler_t::replace) + "\n" << std::flush;
     if (!lines) return fail(ErrorCode::unreadable, "cannot be written", file.string());
     ++result.drawn;
     if (progress) progress("sweep", static_cast<double>(i + 1) / static_cast<double>(poses.size()));
