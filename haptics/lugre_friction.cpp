@@ -6,7 +6,6 @@
 
 namespace artus {
 namespace {
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::array<LugreParams, 4> kSets{{
     {1.326e3, 1.423e3, 1.04e-1, 0.628, 0.045, 0.256e3, 0.020, 2},
     {1.419e3, 1.312e3, 1.0, 0.913, 0.033, 0.152e3, 0.020, 2},
@@ -23,28 +22,38 @@ double lugre_level(const LugreParams& params, double v) noexcept {
   return params.mu_c + (params.mu_s - params.mu_c) * std::exp(-params.alpha * std::abs(v));
 }
 
+double LugreBristle::advance(const LugreParams& params, double moved, double v) noexcept {
+  const double steady = std::copysign(lugre_level(params, v) / params.sigma0, moved);
+  z_ = steady + (z_ - steady) * std::exp(-std::abs(moved / steady));
+  return z_;
+}
+
 double LugreBristle::step(const LugreParams& params, double moved, double v, double dt,
                           double sigma1) noexcept {
-  const double steady = std::copysign(lugre_level(params, v) / params.sigma0, moved);
-  const double z = steady + (z_ - steady) * std::exp(-std::abs(moved / steady));
-  const double rate = (z - z_) / dt;
-  z_ = z;
-  return params.sigma0 * z + std::min(sigma1, params.sigma1) * rate + params.sigma2 * moved / dt;
+  const double before = z_;
+  const double rate = (advance(params, moved, v) - before) / dt;
+  return params.sigma0 * z_ + std::min(sigma1, params.sigma1) * rate + params.sigma2 * moved / dt;
 }
 
 void LugreFriction::reset(double depth) noexcept {
   bristle_.reset();
+  deflections_.reset(0);
+  depths_.reset(depth);
   last_x_ = depth;
 }
 
 Wrench LugreFriction::step(const NeedleTick& tick) noexcept {
-  const double moved = tick.depth - last_x_;
+  const double z = bristle_.advance(params_, tick.depth - last_x_, tick.velocity);
   last_x_ = tick.depth;
   const double normal = tick.sum_over_shaft([](const Haptic& h) {
     return h.hard ? 0.0 : h.cutting_force * h.friction;
   }) / params_.length;
-  const double sigma1 = normal > 0 ? params_.damping_limit / normal : kInfinity;
-  const double ratio = bristle_.step(params_, moved, tick.velocity, tick.dt, sigma1);
+  const double sigma1 =
+      normal > 0 ? std::min(params_.sigma1, params_.damping_limit / normal) : params_.sigma1;
+  const double window = deflections_.duration(tick.dt);
+  const double bristle_rate = (z - deflections_.push(z)) / window;
+  const double speed = (tick.depth - depths_.push(tick.depth)) / window;
+  const double ratio = params_.sigma0 * z + sigma1 * bristle_rate + params_.sigma2 * speed;
   return {-normal * ratio * tick.axis, Vec3::Zero()};
 }
 

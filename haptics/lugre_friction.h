@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "haptics/force_model.h"
+#include "haptics/motion.h"
 
 namespace artus {
 
@@ -34,6 +35,8 @@ struct LugreParams {
 /// |z| <= max(g) / sigma0 holds for any step.
 class LugreBristle {
  public:
+  /// Advances over `moved` m at about `v` m/s (for the level g). Returns z, m.
+  ARTUS_REALTIME double advance(const LugreParams& params, double moved, double v) noexcept;
   /// Advances over `moved` m in `dt` s with `v` for the level g; returns f / F_n, in the direction
   /// of motion (the hand feels its opposite). `sigma1` replaces the set's when smaller.
   ARTUS_REALTIME double step(const LugreParams& params, double moved, double v, double dt,
@@ -47,16 +50,22 @@ class LugreBristle {
 
 /// Friction along the shaft: F_n is the sum over the layers of f_R * friction scale * shaft length
 /// in the layer / set's length. (The source's F_n is the cutting force itself, which would make
-/// friction vanish on withdrawal.)
+/// friction vanish on withdrawal.) The rates dz/dt and v are differences over a fixed time: with
+/// the loop's own period an encoder's step would be felt as a knock that grows with the rate.
 class LugreFriction final : public ForceModel {
  public:
-  explicit LugreFriction(const LugreParams& params = {}) noexcept : params_(params) {}
+  static constexpr double kRateWindow = 1e-3;  ///< s; the source's period
+  /// Requires: dt > 0 s, the fixed period of the loop.
+  explicit LugreFriction(double dt, const LugreParams& params = {}) noexcept
+      : params_(params), deflections_(kRateWindow, dt), depths_(kRateWindow, dt) {}
   ARTUS_REALTIME void reset(double depth) noexcept override;
   ARTUS_REALTIME Wrench step(const NeedleTick& tick) noexcept override;
 
  private:
   LugreParams params_;
   LugreBristle bristle_;
+  SampleWindow<double> deflections_;
+  SampleWindow<double> depths_;
   double last_x_ = 0;
 };
 

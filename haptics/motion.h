@@ -1,47 +1,58 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "haptics/force_model.h"
 
 namespace artus {
 
 struct MotionParams {
-  double band = 0.1e-3;  ///< m; assumed: above an encoder step (0.055 mm, Touch) and physiological
-                         ///< tremor of a supported hand
-  double wake_band = 0.15e-3;  ///< m off its rest before a still needle moves; assumed: tremor's
-                               ///< peak to peak
-  double time = 0.05;  ///< s; the needle is still after this time within the band: eps = 2 mm/s
+  double band = 0.155e-3;       ///< m, full width in which a still needle stays; assumed: above the
+                                ///< tremor of a supported hand, no whole number of encoder steps
+  double wake_band = 0.155e-3;  ///< m off its rest before a still needle moves; assumed: the same
+  double time = 0.075;  ///< s; the needle is still after this time within the band: eps = 2 mm/s
 };
 
-/// Says whether the needle moves and which way from positions alone: it moves when it leaves a band
-/// round its last rest, it is still when it stays there for a time. The source's |dx/dt| < eps, in
-/// a form that neither the loop's rate nor an encoder's step changes.
+/// Says whether the needle moves and which way from positions alone: it is still when all of its
+/// last positions over a time lie within a band, and moves again when it leaves that rest. The
+/// source's |dx/dt| < eps, in a form that neither the loop's rate nor an encoder's step changes:
+/// the range over a time is a continuous function of the path, so paths that differ by micrometres
+/// come to rest at nearly the same time. Requires: dt below MotionParams::time.
 class MotionDetector {
  public:
   explicit MotionDetector(const MotionParams& params = {}) noexcept : params_(params) {}
 
   ARTUS_REALTIME void reset(double x, Motion motion) noexcept {
-    reference_ = std::round(x / params_.band) * params_.band;
-    quiet_ = 0;
     motion_ = motion;
+    rest_ = x;
+    start_window(x);
   }
 
   ARTUS_REALTIME Motion step(double x, double dt) noexcept {
-    const double band = motion_ == Motion::still ? params_.wake_band : params_.band;
-    if (std::abs(x - reference_) > band) {
-      motion_ = x > reference_ ? Motion::inward : Motion::outward;
-      // To the last line of a fixed grid that was crossed: where the samples fell does not matter.
-      reference_ += std::trunc((x - reference_) / params_.band) * params_.band;
-      quiet_ = 0;
+    if (motion_ == Motion::still) {
+      if (std::abs(x - rest_) <= params_.wake_band) return motion_;
+      motion_ = x > rest_ ? Motion::inward : Motion::outward;
+      start_window(x);
       return motion_;
     }
-    quiet_ += dt;
-    if (quiet_ >= params_.time && motion_ != Motion::still) {
-      motion_ = Motion::still;
-      reference_ = x;
+    extreme_ = motion_ == Motion::inward ? std::max(extreme_, x) : std::min(extreme_, x);
+    if (std::abs(x - extreme_) > params_.band) {
+      motion_ = x > extreme_ ? Motion::inward : Motion::outward;
+      extreme_ = x;
+    }
+    add(x, dt);
+    if (filled_ == kBuckets) {
+      const auto [low, high] = range(kBuckets);
+      if (high - low <= params_.band) {
+        motion_ = Motion::still;
+        const auto [last_low, last_high] =
+            range(kBuckets / 2);  // a needle slows down into its rest
+        rest_ = 0.5 * (last_low + last_high);
+      }
     }
     return motion_;
   }
@@ -49,10 +60,49 @@ class MotionDetector {
   [[nodiscard]] Motion motion() const noexcept { return motion_; }
 
  private:
+  // The window is kept as the range of each of a number of equal stretches of time.
+  static constexpr std::size_t kBuckets = 64;
+
+  void start_window(double x) noexcept {
+    extreme_ = x;
+    elapsed_ = 0;
+    filled_ = 1;
+    low_.fill(x);
+    high_.fill(x);
+  }
+
+  void add(double x, double dt) noexcept {
+    const double bucket = params_.time / static_cast<double>(kBuckets - 1);
+    for (elapsed_ += dt; elapsed_ >= bucket; elapsed_ -= bucket) {
+      now_ = (now_ + 1) % kBuckets;
+      low_[now_] = x;
+      high_[now_] = x;
+      filled_ = std::min(filled_ + 1, kBuckets);
+    }
+    low_[now_] = std::min(low_[now_], x);
+    high_[now_] = std::max(high_[now_], x);
+  }
+
+  /// Least and greatest position of the newest `count` buckets.
+  [[nodiscard]] std::pair<double, double> range(std::size_t count) const noexcept {
+    double low = low_[now_];
+    double high = high_[now_];
+    for (std::size_t i = 1; i < count; ++i) {
+      low = std::min(low, low_[(now_ - i) % kBuckets]);
+      high = std::max(high, high_[(now_ - i) % kBuckets]);
+    }
+    return {low, high};
+  }
+
   MotionParams params_;
-  double reference_ = 0;
-  double quiet_ = 0;
   Motion motion_ = Motion::still;
+  double rest_ = 0;
+  double extreme_ = 0;  // the farthest position in the present direction
+  std::array<double, kBuckets> low_{};
+  std::array<double, kBuckets> high_{};
+  double elapsed_ = 0;  // s in the present bucket
+  std::size_t now_ = 0;
+  std::size_t filled_ = 1;
 };
 
 /// The last values over a window of time, for differences: value now minus value a window ago. The

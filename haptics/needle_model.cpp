@@ -11,7 +11,7 @@ NeedleModel::NeedleModel(const NeedleParams& params, const LayerTable& table, do
       wall_(params.wall),
       voigt_(params.voigt),
       prepuncture_(params.prepuncture),
-      friction_(params.friction),
+      friction_(dt, params.friction),
       hard_(params.hard),
       orientation_(params.orientation),
       plasticity_(params.plasticity),

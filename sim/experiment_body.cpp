@@ -19,7 +19,13 @@ std::vector<NeedleRow> run_body(const BodyExperiment& e) {
   InjectionOperator person(e.entry, e.direction, -e.start_outside, e.phases);
   std::array<TissueInterval, 64> buffer{};
   std::vector<NeedleRow> rows;
-  while (!person.done()) {
+  const auto intend = [&e, &person](double at) {
+    return e.path ? e.path(at) : person.intention(at);
+  };
+  const auto done = [&e, &person, &loop] {
+    return e.path ? loop.time() >= e.path_duration : person.done();
+  };
+  while (!done()) {
     const double t = loop.time();
     const Pose measured = loop.measured();
     RenderedNeedle rendered;
@@ -34,8 +40,8 @@ std::vector<NeedleRow> run_body(const BodyExperiment& e) {
     rows.push_back(make_needle_row(t, measured, rendered, model));
     rows.back().energy_to_hand = loop.energy_to_hand();
     rows.back().hand = loop.hand_force();
-    person.observe(t, measured, model);
-    loop.advance(rendered.command, [&person](double at) { return person.intention(at); });
+    if (!e.path) person.observe(t, measured, model);
+    loop.advance(rendered.command, intend);
   }
   return rows;
 }

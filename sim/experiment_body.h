@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <functional>
 #include <vector>
 
 #include "sim/analytic_body.h"
@@ -17,6 +18,10 @@ struct BodyExperiment {
   Vec3 direction = Vec3::UnitZ();    ///< unit
   double start_outside = 0.005;      ///< m before the skin
   std::vector<OperatorPhase> phases;
+  /// When set, what the hand means at a time, s, instead of the phases, which look at the needle
+  /// and so at the loop's rate.
+  std::function<Intention(double)> path;
+  double path_duration = 0;  ///< s
   NeedleParams needle;
   DeviceLimits device;
   HandParams hand;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <string_view>
 
 #include "core/units.h"
 #include "haptics/velocity_estimator.h"
@@ -30,6 +31,33 @@ std::vector<LayerHaptics> table_layers() {
   return layers;
 }
 
+// What the hand means: in at 15 mm/s onto the bone, a rest of 0.8 s, out at 20 mm/s. Of time alone,
+// so that the hand is the same at every rate.
+Intention in_and_out(double t) {
+  constexpr double kFrom = -0.005;  // m
+  constexpr double kTo = 0.0335;    // m; the tissue holds the tip back by 3 mm
+  constexpr double kIn = 0.015;     // m/s
+  constexpr double kOut = 0.020;    // m/s
+  constexpr double kStart = 0.3;    // s
+  constexpr double kThere = kStart + (kTo - kFrom) / kIn;
+  constexpr double kBack = kThere + 0.8;
+  Intention want;
+  double depth = kFrom;
+  double speed = 0;
+  if (t >= kBack) {
+    depth = std::max(kFrom, kTo - kOut * (t - kBack));
+    speed = depth > kFrom ? -kOut : 0;
+  } else if (t >= kThere) {
+    depth = kTo;
+  } else if (t >= kStart) {
+    depth = kFrom + kIn * (t - kStart);
+    speed = kIn;
+  }
+  want.X_JN = make_pose(Vec3(0, 0, depth), Vec3::UnitZ(), Vec3::UnitX());
+  want.velocity = Vec3(0, 0, speed);
+  return want;
+}
+
 double axial(const NeedleRow& r) {
   return r.forces.total.force.dot(r.axis);
 }
@@ -52,40 +80,73 @@ double rms_difference(const std::vector<double>& a, const std::vector<double>& b
   return size > 0 ? std::sqrt(difference / size) : 1;
 }
 
+constexpr std::array<double, 3> kRates{1000, 2000, 10000};
+constexpr std::uint64_t kTremorSeeds = 6;
+
+std::vector<NeedleRow> run_at(double rate, const DeviceLimits& device, const HandParams& hand) {
+  BodyExperiment e;
+  e.body =
+      AnalyticBody::make_stack(Vec3::Zero(), Vec3::UnitZ(), {0, 0.004, 0.018, 0.021, 0.027, 0.030});
+  e.layers = table_layers();
+  e.device = device;
+  e.hand = hand;
+  e.rate_hz = rate;
+  e.path = in_and_out;
+  e.path_duration = 5.4;
+  return run_body(e);
+}
+
+// RMS share of the difference to 10 kHz, at 1 and at 2 kHz.
+std::array<double, 2> differences(const DeviceLimits& device, const HandParams& hand) {
+  std::array<std::vector<double>, kRates.size()> forces;
+  for (std::size_t i = 0; i < kRates.size(); ++i)
+    forces[i] = at_1khz(run_at(kRates[i], device, hand), kRates[i]);
+  return {rms_difference(forces[2], forces[0]), rms_difference(forces[2], forces[1])};
+}
+
 }  // namespace
 
 Experiment run_rates(const ExperimentOptions& options, const DeviceLimits& device) {
   Experiment out;
-  out.title = "One insertion with all laws at 1, 2 and 10 kHz, hand without tremor";
+  out.title = "One insertion with all laws at 1, 2 and 10 kHz";
   out.plot.title = out.title;
-  out.plot.panels = {{"time (s)", "axial force (N)", {}}, {"time (s)", "depth (mm)", {}}};
-  out.table.header = {"rate_hz", "rms_difference_to_10_khz"};
-  std::array<std::vector<double>, 3> forces;
-  const std::array<double, 3> rates{1000, 2000, 10000};
-  for (std::size_t i = 0; i < rates.size(); ++i) {
-    BodyExperiment e;
-    e.body = AnalyticBody::make_stack(Vec3::Zero(), Vec3::UnitZ(),
-                                      {0, 0.004, 0.018, 0.021, 0.027, 0.030});
-    e.layers = table_layers();
-    e.device = device;
-    e.hand.seed = options.seed;
-    e.hand.tremor_rms = 0;  // when a trembling needle counts as still hangs on single samples
-    e.rate_hz = rates[i];
-    e.phases = {stay(0.3), push_to(0.0305, 0.015), stay(0.7), pull_to(-0.004, 0.02)};
-    ExperimentTrace trace{to_csv(rates[i]) + "hz", run_body(e), layer_names(6)};
-    forces[i] = at_1khz(trace.rows, rates[i]);
+  out.plot.panels = {{"time (s)", "axial force (N), no tremor", {}},
+                     {"time (s)", "depth (mm)", {}}};
+  out.table.header = {"device", "tremor_seed", "rms_share_1_khz_to_10_khz",
+                      "rms_share_2_khz_to_10_khz"};
+  HandParams calm;
+  calm.tremor_rms = 0;
+  for (const double rate : kRates) {
+    ExperimentTrace trace{to_csv(rate) + "hz", run_at(rate, device, calm), layer_names(6)};
     out.plot.panels[0].series.push_back(plot_rows(trace.rows, trace.label, axial));
     out.plot.panels[1].series.push_back(plot_rows(
         trace.rows, trace.label, [](const NeedleRow& r) { return r.depth / kMillimetre; }));
     out.traces.push_back(std::move(trace));
   }
-  for (std::size_t i = 0; i < 2; ++i) {
-    const double off = rms_difference(forces[2], forces[i]);
-    out.table.rows.push_back({to_csv(rates[i]), to_csv(off)});
-    out.claims.push_back(
-        claim_at_most("total axial force at " + to_csv(rates[i]) + " Hz against 10 kHz, RMS share",
-                      off, 0.02, ""));
+  const auto add = [&out](const DeviceLimits& d, const std::string& seed,
+                          const std::array<double, 2>& off) {
+    out.table.rows.push_back({std::string(d.name), seed, to_csv(off[0]), to_csv(off[1])});
+  };
+  const auto claim = [&out](const std::string& hand, const std::array<double, 2>& off) {
+    for (std::size_t i = 0; i < off.size(); ++i)
+      out.claims.push_back(claim_at_most("total axial force at " + to_csv(kRates[i]) +
+                                             " Hz against 10 kHz, " + hand + ", RMS share",
+                                         off[i], 0.02, ""));
+  };
+  for (const DeviceLimits& each : device_table()) {
+    const auto off = differences(each, calm);
+    add(each, "none", off);
+    if (each.name == device.name) claim("no tremor", off);
   }
+  std::array<double, 2> worst{};
+  for (std::uint64_t i = 0; i < kTremorSeeds; ++i) {
+    HandParams hand;
+    hand.seed = options.seed + i;
+    const auto off = differences(device, hand);
+    add(device, std::to_string(hand.seed), off);
+    for (std::size_t k = 0; k < off.size(); ++k) worst[k] = std::max(worst[k], off[k]);
+  }
+  claim("worst of " + std::to_string(kTremorSeeds) + " tremors", worst);
   return out;
 }
 
@@ -172,41 +233,112 @@ Experiment run_velocity_estimators(const ExperimentOptions& /*options*/,
   return out;
 }
 
-Experiment run_layer_changes(const ExperimentOptions& /*options*/, const DeviceLimits& /*device*/) {
-  struct Layer {
-    const char* name;
-    double force;
-    double stiffness;
-  };
-  // Table 4.2 of the source; K_t of the bundled tissue library.
-  constexpr std::array<Layer, 6> kLayers{{{"skin", 1, 1500},
-                                          {"muscle", 2, 500},
-                                          {"bursa", 1.5, 500},
-                                          {"tendon", 2.5, 500},
-                                          {"cartilage", 3, 500},
-                                          {"bone", 4, 4000}}};
-  constexpr double kJnd = 0.07;  // share of the force, [Pang1991]
+namespace {
+
+// Table 4.2 of the source; K_t of the bundled tissue library.
+struct TableLayer {
+  const char* name;
+  double force;      // N
+  double stiffness;  // N/m
+};
+constexpr std::array<TableLayer, 6> kTable{{{"skin", 1, 1500},
+                                            {"muscle", 2, 500},
+                                            {"bursa", 1.5, 500},
+                                            {"tendon", 2.5, 500},
+                                            {"cartilage", 3, 500},
+                                            {"bone", 4, 4000}}};
+
+struct Change {
+  double before = 0;    // N, mean of the last millimetre before the change
+  double after = 0;     // N, mean of what follows the rise
+  double distance = 0;  // m, from the interface until nine tenths of the step are felt
+};
+
+// A needle pushed at 10 mm/s through 12 mm of one layer into another, as the hand feels it.
+Change measure_change(const TableLayer& from, const TableLayer& to, const DeviceLimits& device) {
+  constexpr double kInterface = 0.012;  // m
+  constexpr double kBeyond = 0.009;     // m of the second layer; of a hard one as far as it lets
+  const bool hard = std::string_view(to.name) == "bone";
+  BodyExperiment e;
+  e.body = AnalyticBody::make_stack(Vec3::Zero(), Vec3::UnitZ(), {0, kInterface});
+  e.layers = {plain_layer(from.force, from.stiffness),
+              hard ? bone_layer(to.force, to.stiffness) : plain_layer(to.force, to.stiffness)};
+  e.device = device;
+  e.hand.tremor_rms = 0;
+  e.phases = {stay(0.1),
+              push_to(hard ? kInterface + to.force / to.stiffness : kInterface + kBeyond, 0.01)};
+  const std::vector<NeedleRow> rows = run_body(e);
+  Change change;
+  double count = 0;
+  for (const NeedleRow& r : rows) {
+    if (r.depth < kInterface - 1e-3 || r.depth >= kInterface) continue;
+    change.before += resistance(r);
+    ++count;
+  }
+  change.before /= std::max(count, 1.0);
+  count = 0;
+  for (const NeedleRow& r : rows) {
+    if (r.depth < e.phases.back().depth - (hard ? 2e-5 : 1e-3)) continue;
+    change.after += resistance(r);
+    ++count;
+  }
+  change.after /= std::max(count, 1.0);
+  const double step = change.after - change.before;
+  for (const NeedleRow& r : rows) {
+    if (r.depth < kInterface || (resistance(r) - change.before) / step < 0.9) continue;
+    change.distance = r.depth - kInterface;
+    break;
+  }
+  return change;
+}
+
+}  // namespace
+
+Experiment run_layer_changes(const ExperimentOptions& /*options*/, const DeviceLimits& device) {
+  constexpr double kJnd = 0.07;      // share of the force, [Pang1991] for 2.5 to 10 N
+  constexpr double kWeakJnd = 0.14;  // assumed: twice that, for forces below 2.5 N
   Experiment out;
-  out.title = "Layer changes of table 4.2 against a just-noticeable difference of 7 % of the force";
-  out.table.header = {"from", "to", "step_n", "step_share", "rise_mm", "jnd_multiples"};
-  PlotSeries steps{"pair of layers", {}, {}, "points pt 7"};
+  out.title = "Layer changes of table 4.2, felt at 10 mm/s, in just-noticeable differences";
+  out.table.header = {"from",
+                      "to",
+                      "before_n",
+                      "after_n",
+                      "step_n",
+                      "step_share",
+                      "rise_mm",
+                      "jnd_multiples_at_7_percent",
+                      "jnd_multiples_at_14_percent"};
+  PlotSeries rises{"stronger", {}, {}, "points pt 7"};
+  PlotSeries falls{"weaker", {}, {}, "points pt 6"};
   double least = 1e9;
-  for (const Layer& from : kLayers) {
-    for (const Layer& to : kLayers) {
+  double off = 0;
+  double longest = 0;
+  for (const TableLayer& from : kTable) {
+    if (std::string_view(from.name) == "bone") continue;  // nothing lies beyond it
+    for (const TableLayer& to : kTable) {
       if (from.force == to.force) continue;
-      const double step = to.force - from.force;
-      const double share = std::abs(step) / from.force;
-      const double rise = step > 0 ? step / to.stiffness : 0;  // a fall is at once
-      out.table.rows.push_back({from.name, to.name, to_csv(step), to_csv(share),
-                                to_csv(rise / kMillimetre), to_csv(share / kJnd)});
-      steps.x.push_back(rise / kMillimetre);
-      steps.y.push_back(share / kJnd);
-      least = std::min(least, share / kJnd);
+      const Change c = measure_change(from, to, device);
+      const double step = c.after - c.before;
+      const double share = std::abs(step) / c.before;
+      out.table.rows.push_back({from.name, to.name, to_csv(c.before), to_csv(c.after), to_csv(step),
+                                to_csv(share), to_csv(c.distance / kMillimetre),
+                                to_csv(share / kJnd), to_csv(share / kWeakJnd)});
+      PlotSeries& series = step > 0 ? rises : falls;
+      series.x.push_back(c.distance / kMillimetre);
+      series.y.push_back(share / kJnd);
+      least = std::min(least, share / kWeakJnd);
+      longest = std::max(longest, c.distance / kMillimetre);
+      off = std::max(off, std::abs(step / (to.force - from.force) - 1));
     }
   }
-  out.claims = {claim_at_least("the smallest step, in just-noticeable differences", least, 1, "")};
+  out.claims = {
+      claim_at_least("pairs of layers", static_cast<double>(out.table.rows.size()), 25, ""),
+      claim_at_most("measured step off the table's, share of the step", off, 0.05, ""),
+      claim_at_least("the smallest step in just-noticeable differences of 14 %", least, 1, ""),
+      claim_at_most("the longest way until nine tenths of the step are felt", longest, 4.5, "mm")};
   out.plot.title = out.title;
-  out.plot.panels = {{"rise distance (mm)", "force step (JND)", {steps}}};
+  out.plot.panels = {
+      {"distance until 90 % of the step (mm)", "force step (multiples of 7 %)", {rises, falls}}};
   return out;
 }
 

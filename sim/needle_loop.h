@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <algorithm>
 #include <cmath>
 
 #include "core/check.h"
@@ -45,9 +46,15 @@ class NeedleLoop {
     for (int i = 0; i < steps_; ++i) {
       const double t = start + i * h;
       felt_ += h / hand_.params().reflex_time * (motor.force - felt_);
-      const Wrench hand = hand_.wrench(t, intend(t), device_.motion(), felt_);
+      Intention intention = intend(t);
+      const double opened = h / hand_.params().release_time;
+      grip_ = intention.grip ? std::min(1.0, grip_ + opened) : std::max(0.0, grip_ - opened);
+      intention.grip = grip_ > 0;
+      Wrench hand = hand_.wrench(t, intention, device_.motion(), felt_);
+      hand.force *= grip_;
+      hand.torque *= grip_;
       hand_force_ = hand.force;
-      device_.step(hand, motor, h);
+      device_.step(hand, motor, h, grip_);
       energy_ += motor.torque.dot(device_.motion().angular_velocity) * h;
     }
     energy_ += motor.force.dot(device_.motion().X_JN.translation() - before);
@@ -62,6 +69,7 @@ class NeedleLoop {
   Vec3 hand_force_ = Vec3::Zero();
   Vec3 felt_ = Vec3::Zero();
   double energy_ = 0;
+  double grip_ = 1;  // share of the hand on the needle
   long ticks_ = 0;
 };
 

@@ -8,17 +8,18 @@ namespace artus {
 SimulatedDevice::SimulatedDevice(const DeviceLimits& device, double hand_mass, double inertia,
                                  const Pose& start)
     : device_(device),
-      mass_(device.mass + hand_mass),
+      hand_mass_(hand_mass),
       inertia_(inertia),
       orientation_(Eigen::Quaterniond(start.linear()).normalized()) {
   ARTUS_REQUIRE(device.mass > 0 && inertia > 0, "a device has mass and inertia");
   motion_.X_JN = start;
 }
 
-void SimulatedDevice::step(const Wrench& hand, const Wrench& motor, double dt) noexcept {
+void SimulatedDevice::step(const Wrench& hand, const Wrench& motor, double dt,
+                           double grip) noexcept {
   const Wrench driven = saturate(device_, motor);
   const Vec3 force = hand.force + driven.force - device_.damping * motion_.velocity;
-  motion_.velocity += dt / mass_ * force;
+  motion_.velocity += dt / (device_.mass + grip * hand_mass_) * force;
   motion_.X_JN.translation() += dt * motion_.velocity;
   motion_.angular_velocity += dt / inertia_ * (hand.torque + driven.torque);
   const Vec3 half = 0.5 * dt * motion_.angular_velocity;

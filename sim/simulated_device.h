@@ -13,8 +13,9 @@ class SimulatedDevice {
   /// along.
   SimulatedDevice(const DeviceLimits& device, double hand_mass, double inertia, const Pose& start);
 
-  /// Advances by dt, s, with semi-implicit Euler; the motor is saturated first.
-  void step(const Wrench& hand, const Wrench& motor, double dt) noexcept;
+  /// Advances by dt, s, with semi-implicit Euler; the motor is saturated first. `grip`: share of
+  /// the hand's mass that moves along.
+  void step(const Wrench& hand, const Wrench& motor, double dt, double grip = 1) noexcept;
 
   [[nodiscard]] const NeedleMotion& motion() const noexcept { return motion_; }
   /// What the encoders say: the position in steps; the orientation as it is.
@@ -22,7 +23,7 @@ class SimulatedDevice {
 
  private:
   DeviceLimits device_;
-  double mass_;
+  double hand_mass_;
   double inertia_;
   NeedleMotion motion_;
   Eigen::Quaterniond orientation_;

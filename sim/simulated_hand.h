@@ -21,6 +21,7 @@ struct HandParams {
   double tremor_low_hz = 8;    ///< Hz
   double tremor_high_hz = 12;  ///< Hz
   double reflex_time = 0.03;   ///< s, lag of balancing what is felt; a spinal reflex's, assumed
+  double release_time = 0.05;  ///< s in which the fingers open or close; assumed
   std::uint64_t seed = 1;
 };
 

@@ -81,7 +81,7 @@ TEST(LugreFriction, BristleStaysBoundedAtAnySpeedAndStep) {
 
 TEST(LugreFriction, SteadyForceIsTheLevelTimesTheNormalForceOfTheShaftInTheLayer) {
   test::AxialTick line(test::soft(2.0));
-  LugreFriction friction;
+  LugreFriction friction(1e-3);
   friction.reset(0);
   const double v = 0.01;
   double force = 0;
