@@ -2,6 +2,7 @@
 #include "sim/echo_patch.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -16,6 +17,7 @@
 #include <gtest/gtest.h>
 
 #include "echo/frame_measure.h"
+#include "sim/echo_phantom.h"
 
 namespace artus {
 namespace {
@@ -102,6 +104,28 @@ TEST(EchoPatch, AgreesWithThePublishedTableOfRealImages) {
     std::sort(ratios->begin(), ratios->end());
     EXPECT_NEAR((*ratios)[ratios->size() / 2], 1, 0.07);
   }
+}
+
+TEST(EchoPatch, MeasuresPatchesOfMuscleAloneAndSaysWhenThereAreNone) {
+  const PatchRange range{{0, 0, 0, 0}, {255, 255, 96, 96}, 1};
+  const std::array<FlatLayer, 2> layers{{{"fat", 8e-3}, {"muscle", 60e-3}}};
+  const EchoGate gate = measure_muscle(make_block_scene(layers), range);
+  ASSERT_EQ(gate.claims.size(), 10U);
+  for (const Claim& claim : gate.claims) EXPECT_TRUE(claim.pass) << claim.text;
+  const std::array<FlatLayer, 1> fat{{{"fat", 60e-3}}};
+  const EchoGate none = measure_muscle(make_block_scene(fat), range);
+  ASSERT_EQ(none.claims.size(), 2U);
+  EXPECT_FALSE(none.claims[0].pass);
+
+  LabelImage labels;
+  labels.width = 40;
+  labels.height = 30;
+  labels.regions.assign(40 * 30, kFirstRegion + 1);
+  for (std::size_t x = 0; x < 40; ++x) labels.regions[10 * 40 + x] = kFirstRegion;  // fat
+  const auto patches = find_muscle_patches(labels, make_block_scene(layers)->joint(), 16, 9);
+  ASSERT_EQ(patches.size(), 2U);
+  for (const cv::Rect& patch : patches) EXPECT_GT(patch.y, 10);
+  EXPECT_TRUE((patches[0] & patches[1]).empty());
 }
 
 TEST(EchoPatch, ReadsTheRangeAndRefusesATableWithoutIt) {
