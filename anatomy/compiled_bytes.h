@@ -73,6 +73,8 @@ class ByteReader {
     }
     return values;
   }
+  /// For a value that was read but cannot be: ok() is false from now on.
+  void refuse() noexcept { ok_ = false; }
   /// How many elements of at least `size` bytes follow; refuses more than can be there.
   [[nodiscard]] std::uint32_t get_count(std::size_t size) {
     const auto n = get<std::uint32_t>();

@@ -58,6 +58,20 @@ void read_fields(TomlTable& toml, const std::array<Field<Group>, n>& fields, boo
   }
 }
 
+void read_kind(TomlTable& toml, Acoustic& acoustic) {
+  const auto name = toml.text("kind");
+  if (!name) return;
+  const auto at = std::find(kTissueKindNames.begin(), kTissueKindNames.end(), *name);
+  if (at == kTissueKindNames.end()) {
+    std::string known;
+    for (const std::string_view kind : kTissueKindNames) {
+      known += (known.empty() ? "" : ", ") + std::string(kind);
+    }
+    return toml.problem("kind is '" + *name + "', must be one of " + known);
+  }
+  acoustic.kind = static_cast<TissueKind>(at - kTissueKindNames.begin());
+}
+
 void read_source(TomlTable& toml, const std::string& group, const std::string& default_source,
                  Tissue& tissue) {
   if (!default_source.empty() && !toml.has("source")) {
@@ -80,6 +94,7 @@ void merge_tissue(const std::string& name, const toml::table& table, const std::
   };
   if (auto toml = open("acoustic")) {
     read_fields(*toml, kAcousticFields, is_new, tissue.acoustic);
+    read_kind(*toml, tissue.acoustic);
     read_source(*toml, "acoustic", source, tissue);
     toml->finish();
   }

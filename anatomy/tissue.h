@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -10,6 +12,13 @@
 
 namespace artus {
 
+/// What a tissue's fine structure looks like in an ultrasound image.
+enum class TissueKind : std::uint8_t { plain, fat, muscle, tendon, nerve, skin, fluid, bone };
+
+/// The kinds' names in a tissue library, in order of their values.
+inline constexpr std::array<std::string_view, 8> kTissueKindNames{
+    "plain", "fat", "muscle", "tendon", "nerve", "skin", "fluid", "bone"};
+
 /// What sound does in a tissue. Amplitude attenuation at frequency f is
 /// `attenuation * (f / 1 MHz)^attenuation_power`.
 struct Acoustic {
@@ -19,6 +28,7 @@ struct Acoustic {
   double attenuation_power = 1;    ///< exponent of frequency
   double backscatter = 0;          ///< rms speckle amplitude relative to muscle across fibres (1)
   double interface_roughness = 0;  ///< 0 mirror-smooth .. 1 fully diffuse boundary
+  TissueKind kind = TissueKind::plain;  ///< its septa, fibres, sheath or lumen
   [[nodiscard]] double impedance() const noexcept { return speed_of_sound * density; }  ///< Rayl
 };
 

@@ -25,6 +25,7 @@ void put_tissues(ByteWriter& out, const std::vector<Tissue>& tissues) {
     out.put(std::string_view(t.name));
     for (const double* value : numbers(t)) out.put(*value);
     out.put(static_cast<std::uint8_t>(t.haptic.hard ? 1 : 0));
+    out.put(static_cast<std::uint8_t>(t.acoustic.kind));
     out.put(static_cast<std::uint32_t>(t.source.size()));
     for (const auto& [group, text] : t.source) {
       out.put(std::string_view(group));
@@ -39,6 +40,9 @@ std::vector<Tissue> get_tissues(ByteReader& in) {
     t.name = in.get_text();
     for (double* value : numbers(t)) *value = in.get<double>();
     t.haptic.hard = in.get<std::uint8_t>() != 0;
+    const auto kind = in.get<std::uint8_t>();
+    if (kind >= kTissueKindNames.size()) in.refuse();
+    t.acoustic.kind = static_cast<TissueKind>(kind);
     const std::uint32_t n = in.get_count(4);
     for (std::uint32_t i = 0; i < n && in.ok(); ++i) {
       std::string group = in.get_text();

@@ -2,45 +2,23 @@
 #include "echo/region_acoustics.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <string_view>
-#include <utility>
+#include <numbers>
 
 #include "core/units.h"
 
 namespace artus {
 namespace {
 
-constexpr double kOpaqueAbove = 4e6;  // Rayl, between soft tissue (2) and cortical bone (6)
-constexpr double kOpaqueBelow = 1e5;  // Rayl, gas
-constexpr double kTendonDrop = 25;    // dB
-constexpr double kTendonTilt = 8.6;   // degrees: equals muscle (-6 dB) at 4.5
-constexpr double kLobe = 12;          // degrees, half the acceptance of an F/2 aperture
-constexpr double kGrazing = 0.12;     // cosine below which a faceted normal says nothing more
-constexpr double kEpimysium = 0.06;   // -24 dB. assumed: a fascia shows like fat on muscle
-constexpr double kBursaWall = 0.08;   // -22 dB. assumed: the walls show brighter than muscle
-constexpr double kEpineurium = 0.05;  // -26 dB. assumed
-
-TissueKind kind_of(std::string_view name) {
-  using Entry = std::pair<std::string_view, TissueKind>;
-  constexpr std::array<Entry, 12> kKinds{{{"muscle", TissueKind::muscle},
-                                          {"tendon", TissueKind::tendon},
-                                          {"ligament", TissueKind::tendon},
-                                          {"labrum", TissueKind::plain},
-                                          {"fat", TissueKind::fat},
-                                          {"nerve", TissueKind::nerve},
-                                          {"skin", TissueKind::skin},
-                                          {"bursa", TissueKind::fluid},
-                                          {"fluid", TissueKind::fluid},
-                                          {"blood", TissueKind::fluid},
-                                          {"gel", TissueKind::fluid},
-                                          {"bone", TissueKind::bone}}};
-  for (const auto& [word, kind] : kKinds) {
-    if (name.find(word) != std::string_view::npos) return kind;
-  }
-  return TissueKind::plain;
-}
+constexpr double kOpaqueAbove = 4e6;        // Rayl, between soft tissue (2) and cortical bone (6)
+constexpr double kOpaqueBelow = 1e5;        // Rayl, gas
+constexpr double kTendonFloor = 0.056;      // -25 dB
+constexpr double kStraightFibre = 0.18e-3;  // m. assumed, see fibre_backscatter
+constexpr double kLobe = 12;                // degrees, half the acceptance of an F/2 aperture
+constexpr double kGrazing = 0.12;           // cosine below which a faceted normal says nothing more
+constexpr double kEpimysium = 0.06;         // -24 dB. assumed: a fascia shows like fat on muscle
+constexpr double kBursaWall = 0.08;         // -22 dB. assumed: the walls show brighter than muscle
+constexpr double kEpineurium = 0.05;        // -26 dB. assumed
 
 /// Coupling gel, taken as water: what fills the gap between face and skin.
 RegionAcoustics make_gel() {
@@ -73,7 +51,7 @@ std::vector<RegionAcoustics> make_region_acoustics(const CompiledJoint& joint,
     const Acoustic& a = tissue.acoustic;
     const double megahertz = transducer.frequency / 1e6;
     RegionAcoustics out;
-    out.kind = kind_of(tissue.name);
+    out.kind = a.kind;
     out.speed = a.speed_of_sound;
     out.impedance = a.impedance();
     out.attenuation = 2 * a.attenuation * std::pow(megahertz, a.attenuation_power);
@@ -82,6 +60,7 @@ std::vector<RegionAcoustics> make_region_acoustics(const CompiledJoint& joint,
     out.roughness = a.interface_roughness;
     out.opaque = out.impedance > kOpaqueAbove || out.impedance < kOpaqueBelow;
     out.fibre = region.fibre_axis;
+    out.fibre_phase = 4 * std::numbers::pi * transducer.frequency / out.speed * kStraightFibre;
     out.sheet_normal = sheet_normal(joint.X_JP_default.linear().col(2), out.fibre);
     table.push_back(out);
   }
@@ -89,12 +68,11 @@ std::vector<RegionAcoustics> make_region_acoustics(const CompiledJoint& joint,
   return table;
 }
 
-double fibre_backscatter(TissueKind kind, double cosine) noexcept {
-  const double tilt = std::asin(std::clamp(cosine, 0.0, 1.0)) / kDegree;
-  switch (kind) {
+double fibre_backscatter(const RegionAcoustics& region, double cosine) noexcept {
+  switch (region.kind) {
     case TissueKind::tendon: {
-      const double u = tilt / kTendonTilt;
-      return std::pow(10.0, -kTendonDrop * (1 - std::exp(-u * u)) / 20);
+      const double phase = region.fibre_phase * cosine;
+      return std::hypot(kTendonFloor, std::exp(-0.5 * phase * phase));
     }
     case TissueKind::muscle:
       return std::pow(10.0, -2.0 * cosine * cosine / 20);

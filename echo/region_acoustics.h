@@ -7,9 +7,6 @@
 
 namespace artus {
 
-/// What kind of tissue a region is, as far as its fine structure shows in an image.
-enum class TissueKind { plain, fat, muscle, tendon, nerve, skin, fluid, bone };
-
 /// A region's acoustics at one transducer's frequency, ready for the tracer.
 struct RegionAcoustics {
   TissueKind kind = TissueKind::plain;
@@ -19,6 +16,7 @@ struct RegionAcoustics {
   double attenuation_slope = 0;  ///< its derivative by frequency, Np/m/Hz, both ways
   double backscatter = 0;        ///< rms speckle amplitude, muscle across its fibres = 1
   double roughness = 0;          ///< 0 mirror .. 1 diffuse
+  double fibre_phase = 0;        ///< rad per unit of |beam . fibre| along a straight piece of fibre
   bool opaque = false;           ///< bone or gas: no sound returns from inside
   Vec3 fibre = Vec3::Zero();     ///< frame J, unit; zero: isotropic
   /// Frame J, unit, across `fibre`: the direction in which sheets and septa are stacked. They grow
@@ -26,16 +24,16 @@ struct RegionAcoustics {
   Vec3 sheet_normal = Vec3::UnitZ();
 };
 
-/// One entry per region of the joint. Kinds follow the tissues' names (muscle, tendon, fat, nerve,
-/// skin, bursa, ...), a tissue with another name is plain.
-/// The outside is coupling gel.
+/// One entry per region of the joint. The outside is coupling gel.
 [[nodiscard]] std::vector<RegionAcoustics> make_region_acoustics(const CompiledJoint& joint,
                                                                  const Transducer& transducer);
 
-/// Factor on a tissue's speckle amplitude when `cosine` = |beam direction . fibre|. Tendon loses up
-/// to 25 dB within 20 degrees of tilt and equals muscle near 4.5 degrees ([Crass1988] 2-7 degrees);
-/// muscle and nerve change by a few dB.
-[[nodiscard]] double fibre_backscatter(TissueKind kind, double cosine) noexcept;
+/// Factor on a region's speckle amplitude when `cosine` = |beam direction . fibre|, 1 across the
+/// fibres. Tendon is a bundle of mirrors as long as its fibres run straight (0.18 mm, assumed: then
+/// it equals muscle, 6 dB below its peak, at 4.5 degrees and 12 MHz; [Crass1988] 2-7 degrees): a
+/// lobe that narrows with frequency, over a diffuse floor 25 dB down ([Crass1988] fainter than
+/// muscle beyond). Muscle and nerve change by 2 and 4 dB (assumed).
+[[nodiscard]] double fibre_backscatter(const RegionAcoustics& region, double cosine) noexcept;
 
 /// Factor on a tissue's attenuation for the same angle: the beam loses about twice as much along
 /// muscle fibres as across them ([Topp2000]).
