@@ -73,8 +73,15 @@ BeamProfile::BeamProfile(const Transducer& transducer, double depth)
 }
 
 double BeamProfile::lateral_width(double z) const noexcept {
+  constexpr double kTwoWay = 0.97;  // wavelengths per F-number
+  const double one_way = kTwoWay * std::numbers::sqrt2 * transducer_.wavelength();
   const double f_number = std::max(transducer_.f_number, z / transducer_.max_aperture);
-  return 0.97 * transducer_.wavelength() * f_number;
+  const double receive = one_way * f_number;
+  const double focus = transducer_.transmit_focus;
+  if (focus == 0) return receive / std::numbers::sqrt2;
+  const double aperture = std::min(focus / transducer_.f_number, transducer_.max_aperture);
+  const double transmit = std::hypot(one_way * z / aperture, aperture * (1 - z / focus));
+  return 1 / std::hypot(1 / receive, 1 / transmit);
 }
 
 double BeamProfile::elevation_width(double z) const noexcept {

@@ -13,7 +13,9 @@ class BeamProfile {
   BeamProfile(const Transducer& transducer, double depth);
 
   /// Full width at half maximum of the two-way amplitude along x at depth `z`, m: 0.97 wavelengths
-  /// times the F-number of the aperture in use.
+  /// times the F-number of the aperture in use where the transmitted beam is focused; elsewhere the
+  /// product of two Gaussian beams, the transmitted one widened by the geometry of its aperture
+  /// (assumed: sum of squares).
   [[nodiscard]] double lateral_width(double z) const noexcept;
 
   /// The same across the slice (y), m, from the diffraction of the lens-focused aperture.

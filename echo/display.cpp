@@ -48,6 +48,23 @@ void compress(std::span<const float> envelope, float gain_db, std::span<float> d
   compress_all(envelope.data(), gain_db, decibel.data(), envelope.size());
 }
 
+void smooth_line(std::span<const float> decibel, int n_lines, int l, float share,
+                 std::span<float> out) noexcept {
+  const std::size_t n = out.size();
+  const float* here = decibel.data() + static_cast<std::size_t>(l) * n;
+  const float* left = l > 0 ? here - n : here;
+  const float* right = l + 1 < n_lines ? here + n : here;
+  const float keep = 1 - share;
+  const float each = share / 9;
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t a = i > 0 ? i - 1 : i;
+    const std::size_t b = i + 1 < n ? i + 1 : i;
+    const float sum =
+        left[a] + left[i] + left[b] + here[a] + here[i] + here[b] + right[a] + right[i] + right[b];
+    out[i] = keep * here[i] + each * sum;
+  }
+}
+
 ScanConverter::ScanConverter(const Transducer& transducer, const ImageSettings& settings)
     : pixel_(settings.pixel),
       n_samples_(settings.n_samples),

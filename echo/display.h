@@ -18,6 +18,11 @@ namespace artus {
 /// 20 log10 of each amplitude plus `gain_db`, at least -200; accurate to 0.01 dB. Cost: 2 ns each.
 void compress(std::span<const float> envelope, float gain_db, std::span<float> decibel) noexcept;
 
+/// Blends line `l` of the decibel image (n_lines, n_samples) with the mean of its 3 x 3
+/// neighbourhood: `share` 0 none .. 1 the mean alone.
+void smooth_line(std::span<const float> decibel, int n_lines, int l, float share,
+                 std::span<float> out) noexcept;
+
 /// Maps scanlines to pixels by bilinear interpolation of the decibel image, then to grey.
 class ScanConverter {
  public:

@@ -20,8 +20,14 @@ struct Frame {
   int height = 0;                   ///< pixels
   double pixel = 0;                 ///< m
   std::vector<std::uint8_t> image;  ///< (height, width), x fastest; scan-converted grey
-  std::vector<float>
-      shadow_from;  ///< (n_lines) sample from which no sound returns; n_samples: none
+  /// (n_lines), sample from which no sound returns; n_samples: none.
+  std::vector<float> shadow_from;
+  /// As in_phase: share of the sound that passes the needle, 1 without one. It comes from the
+  /// geometry alone; gain and noise do not show in it.
+  std::vector<float> needle_light;
+  /// As in_phase: m/s toward the probe of what moves, wrapped at doppler_limit; NaN where nothing
+  /// does. Empty unless doppler is on.
+  std::vector<float> velocity;
 };
 
 /// Where a point of frame P lies in the image, pixels (x right, y down); geometric, without the

@@ -19,6 +19,11 @@ Result<void> validate(const ImageSettings& s) {
   check.in_range("gel_limit", s.gel_limit, 0, 0.1);
   check.in_range("pixel", s.pixel, 0.02e-3, 2e-3);
   check.in_range("persistence", s.persistence, 0, 0.99);
+  check.in_range("smoothing", s.smoothing, 0, 1);
+  check.in_range("compound_angles", s.compound_angles, 1, 9);
+  check.in_range("compound_angles modulo 2", s.compound_angles % 2, 1, 1);
+  check.in_range("compound_spread", s.compound_spread, 0, 0.7);
+  check.in_range("doppler_limit", s.doppler_limit, 1e-3, 10);
   check.in_range("n_threads", s.n_threads, 0, 1024);
   return check.result();
 }

@@ -25,6 +25,11 @@ struct ImageSettings {
   double gel_limit = 5e-3;          ///< m, a wider gap between face and skin is air
   double pixel = 0.1e-3;            ///< m, of the scan-converted image, square
   double persistence = 0;           ///< 0 none .. <1 share of the previous image kept
+  double smoothing = 0;             ///< 0 none .. 1: share of a 3 x 3 mean in the compressed lines
+  int compound_angles = 1;          ///< odd; frames steered apart whose envelopes are averaged
+  double compound_spread = 0.14;    ///< rad between the outermost steerings
+  bool doppler = false;             ///< also find what moves (the needle); see Frame::velocity
+  double doppler_limit = 0.1;       ///< m/s along the beam where the velocity wraps round
   bool refraction = true;           ///< bend scanlines by Snell's law
   bool reverberation = true;        ///< first repeat between strong interfaces and the face
   bool frequency_downshift = true;  ///< attenuation takes the pulse's high frequencies first

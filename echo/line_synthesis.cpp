@@ -64,7 +64,7 @@ void LineSynthesis::add_run(const BeamRun& run, const RegionAcoustics& region,
   const Vec3 p_J = run.p_J + into * run.step_J;
   const double slope = (run.log_gain_end - run.log_gain_begin) / (run.end - run.begin);
   const double cosine = std::abs(run.direction_J.dot(region.fibre));
-  double value = speckle_ * region.backscatter * fibre_backscatter(region.kind, cosine) *
+  double value = speckle_ * region.backscatter * fibre_backscatter(region, cosine) *
                  std::exp(run.log_gain_begin + into * slope);
   const double ratio = std::exp(slope * kStride);
   const std::size_t n_nodes = (n - 1) / kStride + 2;

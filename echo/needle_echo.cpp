@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
+#include "core/noise.h"
 #include "core/units.h"
 
 namespace artus {
@@ -16,7 +18,13 @@ constexpr int kMaxRings = 24;
 constexpr double kFaceReflection = 0.1;  // assumed: as in propagation
 constexpr double kTipEcho = 0.09;        // assumed: -21 dB, the bevel's edge seen from any side
 constexpr double kShadow = 0.8;          // assumed: share of the blocked aperture that is lost
-constexpr double kSteepest = 6;          // slope beyond which a shaft is as good as upright
+constexpr double kSideLobe = 0.016;      // assumed: -36 dB, of an apodised aperture, both ways
+constexpr double kSideLobeFall = 2e-3;   // m beside the echo at which a lobe has halved. assumed
+constexpr double kFarthestLobe = 8e-3;   // m
+constexpr double kTrackCell = 0.15e-3;   // m of track that scatters as one
+constexpr std::uint64_t kTrackSeed = 7;
+constexpr std::size_t kStride = 8;  // samples between exact values of the shadow
+constexpr double kSteepest = 6;     // slope beyond which a shaft is as good as upright
 constexpr double kSigmaPerWidth = 1 / 2.3548200450309493;
 
 void add_echo(double sample, double amplitude, std::span<float> line) {
@@ -41,12 +49,22 @@ struct NeedleEcho::Place {
   double end_extent = 0;  // m, half the needle's lateral extent where it only crosses the plane
 };
 
+/// The part of the shaft that lies in the slice, beside one scanline.
+struct NeedleEcho::Extent {
+  double begin = 0;   // m, lateral
+  double end = 0;     // m
+  double depth = 0;   // m along the beam, of the shaft's place nearest to the line
+  double blocks = 0;  // share of the slice's thickness that the shaft fills there
+};
+
 NeedleEcho::NeedleEcho(const NeedleView& needle, const Pose& X_JP, const Transducer& transducer,
                        const BeamShape& shape) noexcept
     : shape_(&shape),
       needle_(needle.shape),
       pitch_(transducer.pitch()),
-      pulse_sigma_(transducer.pulse_cycles * transducer.wavelength() / 2 * kSigmaPerWidth) {
+      pulse_sigma_(transducer.pulse_cycles * transducer.wavelength() / 2 * kSigmaPerWidth),
+      f_number_(transducer.f_number),
+      max_aperture_(transducer.max_aperture) {
   const Pose X_PN = X_JP.inverse() * needle.X_JN;
   p_PTip_ = X_PN.translation();
   axis_P_ = -X_PN.linear().col(2).normalized();
@@ -111,6 +129,103 @@ void NeedleEcho::add_shaft(const Place& place, double sample, double amplitude,
   }
 }
 
+/// Beside the needle's end, a line still hears it a little, at the end's own distance.
+void NeedleEcho::add_side_lobe(const Place& place, const BeamTrace& trace,
+                               std::span<float> line) const noexcept {
+  const double beside = std::abs(place.lateral) - place.end_extent;
+  if (beside > kFarthestLobe) return;
+  double sample = 0;
+  double log_gain = 0;
+  if (!trace.find_sample(std::hypot(place.depth, beside), sample, log_gain)) return;
+  const double u = beside / kSideLobeFall;
+  const double angle = std::asin(std::min(1.0, place.sine));
+  add_echo(sample,
+           kSideLobe / (1 + u * u) * elevation_share(place.elevation, place.depth) *
+               needle_reflectivity(needle_, angle) * std::exp(log_gain),
+           line);
+}
+
+NeedleEcho::Extent NeedleEcho::find_extent(const Scanline& line) const noexcept {
+  const Vec3 across(line.direction.z(), 0, -line.direction.x());
+  const Vec3 tip = p_PTip_ - line.origin;
+  const double du = axis_P_.dot(across);
+  const double dy = axis_P_.y();
+  const double dt = axis_P_.dot(line.direction);
+  const auto half_slice = [&](double along) {
+    const double z = std::max(0.0, tip.dot(line.direction) + along * dt);
+    return 0.5 * (shape_->profile().elevation_width(z) + needle_.outer_diameter);
+  };
+  // where the shaft leaves the slice; its width is taken where the shaft crosses the plane
+  double first = 0;
+  double last = needle_.length;
+  if (std::abs(dy) > 1e-6) {
+    const double crossing = -tip.y() / dy;
+    const double half = half_slice(std::clamp(crossing, 0.0, needle_.length)) / std::abs(dy);
+    first = std::max(first, crossing - half);
+    last = std::min(last, crossing + half);
+  } else if (std::abs(tip.y()) > half_slice(0)) {
+    return {};
+  }
+  if (first >= last) return {};
+  const double u0 = tip.dot(across);
+  const double flat = std::hypot(du, dy);
+  const double round = 0.5 * needle_.outer_diameter * (flat > 1e-6 ? std::abs(dy) / flat : 1);
+  const double nearest = std::abs(du) > 1e-6 ? std::clamp(-u0 / du, first, last) : first;
+  Extent extent;
+  extent.begin = u0 + du * (du > 0 ? first : last) - round;
+  extent.end = u0 + du * (du > 0 ? last : first) + round;
+  extent.depth = tip.dot(line.direction) + nearest * dt;
+  if (extent.depth <= 0) return {};
+  extent.blocks =
+      shape_->profile().elevation_amplitude(tip.y() + nearest * dy, extent.depth) *
+      std::min(1.0, needle_.outer_diameter / shape_->profile().elevation_width(extent.depth));
+  return extent;
+}
+
+void NeedleEcho::shade(const Scanline& line, std::span<float> light) const noexcept {
+  const Extent extent = find_extent(line);
+  const double sample_depth = shape_->sample_depth();
+  const double from = (extent.depth + needle_.outer_diameter) / sample_depth;
+  if (extent.blocks <= 0 || !(from < static_cast<double>(light.size()))) return;
+  // how much of the aperture that serves depth z looks through the shaft
+  const auto passes = [&](std::size_t sample) {
+    const double z = static_cast<double>(sample) * sample_depth;
+    const double aperture = std::min(z / f_number_, max_aperture_);
+    const double half = 0.5 * std::max(pitch_, aperture * (z - extent.depth) / z);
+    const double covered = std::min(extent.end, half) - std::max(extent.begin, -half);
+    return 1 - kShadow * extent.blocks * std::clamp(covered / (2 * half), 0.0, 1.0);
+  };
+  const auto first = static_cast<std::size_t>(from);
+  double next = passes(first);
+  for (std::size_t k = first; k < light.size(); k += kStride) {
+    const double here = next;
+    next = passes(k + kStride);
+    const std::size_t n = std::min(kStride, light.size() - k);
+    for (std::size_t i = 0; i < n; ++i) {
+      const double t = static_cast<double>(i) / static_cast<double>(kStride);
+      light[k + i] *= static_cast<float>(here + t * (next - here));
+    }
+  }
+}
+
+void NeedleEcho::add_track(double amplitude, const Scanline& line, const Pose& X_JP,
+                           const BeamTrace& trace, const BeamPath& path, std::span<float> re,
+                           std::span<float> im) const noexcept {
+  if (!trace.contact) return;
+  const Place place = find_place(line, X_JP, path);
+  double sample = 0;
+  double log_gain = 0;
+  if (place.depth <= 0 || std::abs(place.lateral) > pitch_ + place.end_extent ||
+      !trace.find_sample(place.depth, sample, log_gain)) {
+    return;
+  }
+  const double heard =
+      amplitude * elevation_share(place.elevation, place.depth) * std::exp(log_gain);
+  const auto cell = static_cast<std::uint64_t>(place.along / kTrackCell);
+  add_echo(sample, heard * normal_noise(kTrackSeed, 2 * cell), re);
+  add_echo(sample, heard * normal_noise(kTrackSeed, 2 * cell + 1), im);
+}
+
 void NeedleEcho::add(const Scanline& line, const Pose& X_JP, const BeamTrace& trace,
                      const BeamPath& path, std::span<float> re,
                      std::span<float> im) const noexcept {
@@ -118,7 +233,8 @@ void NeedleEcho::add(const Scanline& line, const Pose& X_JP, const BeamTrace& tr
   const Place place = find_place(line, X_JP, path);
   const double coverage =
       std::clamp((place.end_extent + pitch_ - std::abs(place.lateral)) / pitch_, 0.0, 1.0);
-  if (coverage <= 0 || place.depth <= 0) return;
+  if (place.depth <= 0) return;
+  if (coverage <= 0) return add_side_lobe(place, trace, im);
   const double share = elevation_share(place.elevation, place.depth);
   if (share < 1e-4) return;
   const double radius = needle_.outer_diameter / 2;
@@ -130,19 +246,7 @@ void NeedleEcho::add(const Scanline& line, const Pose& X_JP, const BeamTrace& tr
   double log_gain = 0;
   if (!trace.find_sample(place.depth - to_surface, sample, log_gain)) return;
 
-  const double width = shape_->profile().elevation_width(place.depth);
-  const double on_axis = shape_->profile().elevation_amplitude(place.elevation, place.depth);
-  const double blocked =
-      kShadow * coverage * on_axis * std::min(1.0, needle_.outer_diameter / width);
   const double sample_depth = shape_->sample_depth();
-  const auto below = static_cast<std::size_t>(
-      std::min(sample + needle_.outer_diameter / sample_depth, static_cast<double>(re.size())));
-  const auto dim = static_cast<float>(1 - blocked);
-  for (std::size_t i = below; i < re.size(); ++i) {
-    re[i] *= dim;
-    im[i] *= dim;
-  }
-
   const double angle = std::asin(std::min(1.0, place.sine));
   const double heard = coverage * share * std::exp(log_gain);
   const double shaft = heard * needle_reflectivity(needle_, angle);

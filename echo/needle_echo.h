@@ -10,7 +10,8 @@
 namespace artus {
 
 /// The echoes of a needle on the scanlines: the near wall of the shaft, the lines that ring between
-/// its walls, the repeat against the probe's face, the tip, and the shadow below.
+/// its walls, the repeat against the probe's face, the tip, the side lobes beside its ends, and the
+/// shadow below, whose edge blurs with depth as the aperture looks round the shaft.
 class NeedleEcho {
  public:
   /// Requires: `shape` outlives this object.
@@ -22,12 +23,24 @@ class NeedleEcho {
   void add(const Scanline& line, const Pose& X_JP, const BeamTrace& trace, const BeamPath& path,
            std::span<float> re, std::span<float> im) const noexcept;
 
+  /// Adds scatterers of rms `amplitude` along the needle's axis, fixed in the body: its track.
+  void add_track(double amplitude, const Scanline& line, const Pose& X_JP, const BeamTrace& trace,
+                 const BeamPath& path, std::span<float> re, std::span<float> im) const noexcept;
+
+  /// Multiplies `light` (n_samples), the share of the sound that reaches each sample of a scanline
+  /// and returns, by what the needle lets pass.
+  void shade(const Scanline& line, std::span<float> light) const noexcept;
+
  private:
   struct Place;
+  struct Extent;
   [[nodiscard]] Place find_place(const Scanline& line, const Pose& X_JP,
                                  const BeamPath& path) const noexcept;
+  [[nodiscard]] Extent find_extent(const Scanline& line) const noexcept;
   void add_shaft(const Place& place, double sample, double amplitude,
                  std::span<float> line) const noexcept;
+  void add_side_lobe(const Place& place, const BeamTrace& trace,
+                     std::span<float> line) const noexcept;
   [[nodiscard]] double elevation_share(double y, double z) const noexcept;
 
   const BeamShape* shape_;
@@ -36,6 +49,8 @@ class NeedleEcho {
   Vec3 axis_P_;         // unit, from tip to hub
   double pitch_;        // m between scanlines
   double pulse_sigma_;  // m, standard deviation of the pulse along depth
+  double f_number_;
+  double max_aperture_;  // m
 };
 
 }  // namespace artus

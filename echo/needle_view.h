@@ -22,6 +22,15 @@ struct NeedleShape {
 struct NeedleView {
   Pose X_JN = Pose::Identity();
   NeedleShape shape;
+  Vec3 v_JN = Vec3::Zero();  ///< m/s in frame J; only colour Doppler looks at it
+};
+
+/// What a needle left behind when it was withdrawn: a thin line of cut tissue and small bubbles.
+struct NeedleTrack {
+  Vec3 p_JEntry = Vec3::Zero();  ///< m
+  Vec3 p_JTip = Vec3::Zero();    ///< m, the deepest point
+  /// rms echo amplitude, mirror = 1. assumed: 8 dB above muscle's speckle; let it fade with time.
+  double amplitude = 0.025;
 };
 
 /// Spacing on screen of the lines below a needle seen from the side: one trip through wall, bore

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <span>
+#include <utility>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -14,7 +16,9 @@
 #include "core/noise.h"
 #include "echo/aperture_coupling.h"
 #include "echo/beam_shape.h"
+#include "echo/compound.h"
 #include "echo/display.h"
+#include "echo/doppler.h"
 #include "echo/line_synthesis.h"
 #include "echo/needle_echo.h"
 #include "echo/propagation.h"
@@ -26,7 +30,8 @@
 namespace artus {
 namespace {
 
-constexpr int kBlock = 8;  // lines or rows that one task takes
+constexpr int kBlock = 8;               // lines or rows that one task takes
+constexpr double kTrackWidth = 0.3e-3;  // m, of a withdrawn needle's track. assumed
 
 ARTUS_SIMD
 void detect(const float* re, const float* im, const float* gain, float* envelope,
@@ -34,6 +39,19 @@ void detect(const float* re, const float* im, const float* gain, float* envelope
   for (std::size_t i = 0; i < n; ++i) {
     envelope[i] = gain[i] * std::sqrt(re[i] * re[i] + im[i] * im[i]);
   }
+}
+
+ARTUS_SIMD
+void multiply(const float* factor, float* re, float* im, std::size_t n) noexcept {
+  for (std::size_t i = 0; i < n; ++i) {
+    re[i] *= factor[i];
+    im[i] *= factor[i];
+  }
+}
+
+ARTUS_SIMD
+void accumulate(const float* in, float* out, std::size_t n) noexcept {
+  for (std::size_t i = 0; i < n; ++i) out[i] += in[i];
 }
 
 template <class T>
@@ -83,7 +101,14 @@ struct Renderer::Impl {
     frame.in_phase.resize(size);
     frame.quadrature.resize(size);
     frame.envelope.resize(size);
+    frame.needle_light.resize(size, 1.0F);
     frame.decibel.resize(size);
+    if (settings.doppler) {
+      moving_re.resize(size);
+      moving_im.resize(size);
+      frame.velocity.resize(size);
+    }
+    add_views(size);
     frame.width = converter.width();
     frame.height = converter.height();
     frame.pixel = settings.pixel;
@@ -108,19 +133,34 @@ struct Renderer::Impl {
     });
   }
 
-  void synthesise_lines(const Pose& X_JP, const std::optional<NeedleView>& needle) {
-    const BeamTracer tracer(*scene, regions, transducer, settings);
+  /// The steered frames of a compound image; the unsteered one comes last.
+  void add_views(std::size_t size) {
+    const int n = settings.compound_angles;
+    if (n == 1) return;
+    for (int k = 0; k < n; ++k) {
+      const double offset = settings.compound_spread * (static_cast<double>(k) / (n - 1) - 0.5);
+      if (2 * k + 1 != n) views.emplace_back(transducer, settings, offset);
+    }
+    views.emplace_back(transducer, settings, 0);
+    sum.resize(size);
+    weight.resize(size);
+  }
+
+  void synthesise_lines(const Transducer& probe, const Pose& X_JP,
+                        const std::optional<NeedleView>& needle) {
+    const BeamTracer tracer(*scene, regions, probe, settings);
     const int n = settings.n_samples;
     std::optional<NeedleEcho> needle_echo;
-    if (needle) needle_echo.emplace(*needle, X_JP, transducer, shape);
-    for_blocks(transducer.n_lines, [&](int block, int first, int last) {
+    if (needle) needle_echo.emplace(*needle, X_JP, probe, shape);
+    for_blocks(probe.n_lines, [&](int block, int first, int last) {
       LineScratch& mine = scratch[static_cast<std::size_t>(block)];
       for (int l = first; l < last; ++l) {
-        const Scanline line = scanline(transducer, l);
+        const Scanline line = scanline(probe, l);
         const auto re = row(raw_re, l, n);
         const auto im = row(raw_im, l, n);
         synthesis.synthesise(tracer, regions, line, X_JP, mine, re, im);
-        if (needle_echo) needle_echo->add(line, X_JP, mine.central, mine.bent, re, im);
+        add_tracks(probe, line, X_JP, mine, re, im);
+        if (needle_echo) add_needle(*needle_echo, line, l, X_JP, mine);
         coupling.apply(l, shape.sample_depth(), re, im);
         add_lens_ringing(mine.central.contact ? 1 - coupling.at_line(l) : 1, shape.sample_depth(),
                          re);
@@ -130,9 +170,45 @@ struct Renderer::Impl {
     });
   }
 
+  void add_tracks(const Transducer& probe, const Scanline& line, const Pose& X_JP,
+                  const LineScratch& mine, std::span<float> re, std::span<float> im) const {
+    for (const NeedleTrack& track : tracks) {
+      NeedleView thread;
+      const Vec3 way = track.p_JTip - track.p_JEntry;
+      thread.shape.outer_diameter = kTrackWidth;
+      thread.shape.length = way.norm();
+      if (thread.shape.length < kTrackWidth) continue;
+      thread.X_JN = make_pose(track.p_JTip, way, way.unitOrthogonal());
+      NeedleEcho(thread, X_JP, probe, shape)
+          .add_track(track.amplitude, line, X_JP, mine.central, mine.bent, re, im);
+    }
+  }
+
+  void add_needle(const NeedleEcho& echo, const Scanline& line, int l, const Pose& X_JP,
+                  const LineScratch& mine) {
+    const int n = settings.n_samples;
+    const auto re = row(raw_re, l, n);
+    const auto im = row(raw_im, l, n);
+    const auto light = row(frame.needle_light, l, n);
+    std::fill(light.begin(), light.end(), 1.0F);
+    if (mine.central.contact) echo.shade(line, light);
+    multiply(light.data(), re.data(), im.data(), light.size());
+    if (!settings.doppler) {
+      echo.add(line, X_JP, mine.central, mine.bent, re, im);
+      return;
+    }
+    const auto own_re = row(moving_re, l, n);
+    const auto own_im = row(moving_im, l, n);
+    std::fill(own_re.begin(), own_re.end(), 0.0F);
+    std::fill(own_im.begin(), own_im.end(), 0.0F);
+    echo.add(line, X_JP, mine.central, mine.bent, own_re, own_im);
+    accumulate(own_re.data(), re.data(), re.size());
+    accumulate(own_im.data(), im.data(), im.size());
+  }
+
   /// Adds the point reflectors to a line that is already spread sideways.
-  void add_reflectors(const Pose& X_JP, int l, std::span<float> re) const {
-    const Scanline line = scanline(transducer, l);
+  void add_reflectors(const Transducer& probe, const Pose& X_JP, int l, std::span<float> re) const {
+    const Scanline line = scanline(probe, l);
     const Vec3 across(line.direction.z(), 0, -line.direction.x());
     for (const PointReflector& reflector : reflectors) {
       const Vec3 p = X_JP.inverse() * reflector.p_J - line.origin;
@@ -150,24 +226,100 @@ struct Renderer::Impl {
     }
   }
 
-  void shape_lines(const Pose& X_JP) {
+  /// Beam, pulse, noise and envelope.
+  void shape_lines(const Transducer& probe, const Pose& X_JP) {
     const int n = settings.n_samples;
-    for_blocks(transducer.n_lines, [&](int, int first, int last) {
+    for_blocks(probe.n_lines, [&](int, int first, int last) {
       for (int l = first; l < last; ++l) {
         const auto spread = row(work, l, n);
         const auto re = row(frame.in_phase, l, n);
         const auto im = row(frame.quadrature, l, n);
-        shape.across(raw_re, transducer.n_lines, l, spread);
-        add_reflectors(X_JP, l, spread);
+        shape.across(raw_re, probe.n_lines, l, spread);
+        add_reflectors(probe, X_JP, l, spread);
         shape.along(spread, re);
-        shape.across(raw_im, transducer.n_lines, l, spread);
+        shape.across(raw_im, probe.n_lines, l, spread);
         shape.along(spread, im);
         add_white_noise(mix_bits(settings.seed), l, noise_gain, re, im);
         const auto envelope = row(frame.envelope, l, n);
         detect(re.data(), im.data(), time_gain.data(), envelope.data(), envelope.size());
-        compress(envelope, static_cast<float>(settings.gain_db), row(frame.decibel, l, n));
       }
     });
+  }
+
+  /// Where the needle moves. Uses the decibel image as a work space, so it comes before
+  /// compression.
+  void find_motion(const Pose& X_JP, const std::optional<NeedleView>& needle) {
+    if (!settings.doppler) return;
+    if (!needle) {
+      std::fill(frame.velocity.begin(), frame.velocity.end(),
+                std::numeric_limits<float>::quiet_NaN());
+      return;
+    }
+    const int n = settings.n_samples;
+    const Vec3 v_P = X_JP.linear().transpose() * needle->v_JN;
+    for_blocks(transducer.n_lines, [&](int, int first, int last) {
+      for (int l = first; l < last; ++l) {
+        const auto spread = row(work, l, n);
+        const auto re = row(frame.velocity, l, n);
+        const auto im = row(frame.decibel, l, n);
+        shape.across(moving_re, transducer.n_lines, l, spread);
+        shape.along(spread, re);
+        shape.across(moving_im, transducer.n_lines, l, spread);
+        shape.along(spread, im);
+        detect_motion(re, im, time_gain, -v_P.dot(scanline(transducer, l).direction),
+                      settings.doppler_limit, re);
+      }
+    });
+  }
+
+  /// One frame of echoes and its envelope, or the mean envelope of several steered ones.
+  void acquire(const Pose& X_JP, const std::optional<NeedleView>& needle) {
+    const auto start = std::chrono::steady_clock::now();
+    times = {};
+    if (!needle) std::fill(frame.needle_light.begin(), frame.needle_light.end(), 1.0F);
+    if (views.empty()) {
+      synthesise_lines(transducer, X_JP, needle);
+      times.lines = seconds_since(start);
+      shape_lines(transducer, X_JP);
+      times.beam = seconds_since(start) - times.lines;
+      return;
+    }
+    const int n = settings.n_samples;
+    std::fill(sum.begin(), sum.end(), 0.0F);
+    std::fill(weight.begin(), weight.end(), 0.0F);
+    for (const CompoundView& view : views) {
+      const auto begin = std::chrono::steady_clock::now();
+      synthesise_lines(view.transducer(), X_JP, needle);
+      times.lines += seconds_since(begin);
+      shape_lines(view.transducer(), X_JP);
+      for_blocks(transducer.n_lines, [&](int, int first, int last) {
+        for (int l = first; l < last; ++l) {
+          view.add(frame.envelope, l, row(sum, l, n), row(weight, l, n));
+        }
+      });
+    }
+    for (std::size_t i = 0; i < sum.size(); ++i) {
+      frame.envelope[i] = weight[i] > 0 ? sum[i] / weight[i] : 0.0F;
+    }
+    times.beam = seconds_since(start) - times.lines;
+  }
+
+  void compress_lines() {
+    const int n = settings.n_samples;
+    for_blocks(transducer.n_lines, [&](int, int first, int last) {
+      for (int l = first; l < last; ++l) {
+        compress(row(frame.envelope, l, n), static_cast<float>(settings.gain_db),
+                 row(frame.decibel, l, n));
+      }
+    });
+    if (settings.smoothing <= 0) return;
+    for_blocks(transducer.n_lines, [&](int, int first, int last) {
+      for (int l = first; l < last; ++l) {
+        smooth_line(frame.decibel, transducer.n_lines, l, static_cast<float>(settings.smoothing),
+                    row(work, l, n));
+      }
+    });
+    std::swap(work, frame.decibel);
   }
 
   void display() {
@@ -201,10 +353,16 @@ struct Renderer::Impl {
   tbb::task_arena arena;
   std::vector<PointReflector> reflectors;
   ApertureCoupling coupling;
+  std::vector<NeedleTrack> tracks;
+  std::vector<CompoundView> views;  // none: no compounding
   std::vector<LineScratch> scratch;
   std::vector<float> raw_re;  // (n_lines, n_samples) before the beam's shape
   std::vector<float> raw_im;
   std::vector<float> work;
+  std::vector<float> moving_re;  // the needle's own share of raw_re, for Doppler
+  std::vector<float> moving_im;
+  std::vector<float> sum;  // of the compound views' envelopes
+  std::vector<float> weight;
   std::vector<std::uint8_t> previous;
   bool has_previous = false;
   Frame frame;
@@ -223,14 +381,15 @@ Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 const Frame& Renderer::render(const Pose& X_JP, const std::optional<NeedleView>& needle) {
   ARTUS_REQUIRE(X_JP.matrix().allFinite(), "the probe's pose is not finite");
   ARTUS_REQUIRE(!needle || needle->X_JN.matrix().allFinite(), "the needle's pose is not finite");
+  ARTUS_REQUIRE(!needle || needle->v_JN.allFinite(), "the needle's velocity is not finite");
+  impl_->acquire(X_JP, needle);
   const auto start = std::chrono::steady_clock::now();
-  impl_->synthesise_lines(X_JP, needle);
-  const auto lines = std::chrono::steady_clock::now();
-  impl_->shape_lines(X_JP);
-  const auto beam = std::chrono::steady_clock::now();
+  impl_->find_motion(X_JP, needle);
+  impl_->compress_lines();
+  impl_->times.beam += seconds_since(start);
+  const auto display = std::chrono::steady_clock::now();
   impl_->display();
-  impl_->times = {std::chrono::duration<double>(lines - start).count(),
-                  std::chrono::duration<double>(beam - lines).count(), seconds_since(beam)};
+  impl_->times.display = seconds_since(display);
   return impl_->frame;
 }
 
@@ -240,6 +399,15 @@ void Renderer::set_contact(std::span<const float> coverage) {
 
 void Renderer::set_point_reflectors(std::vector<PointReflector> reflectors) {
   impl_->reflectors = std::move(reflectors);
+}
+
+void Renderer::set_needle_tracks(std::vector<NeedleTrack> tracks) {
+  for (const NeedleTrack& track : tracks) {
+    ARTUS_REQUIRE(
+        track.p_JEntry.allFinite() && track.p_JTip.allFinite() && std::isfinite(track.amplitude),
+        "a needle track is not finite");
+  }
+  impl_->tracks = std::move(tracks);
 }
 
 void Renderer::set_scene(std::shared_ptr<const Scene> scene) {

@@ -42,6 +42,9 @@ class Renderer {
   /// Reflectors fixed in the body that later frames show.
   void set_point_reflectors(std::vector<PointReflector> reflectors);
 
+  /// Tracks of withdrawn needles that later frames show.
+  void set_needle_tracks(std::vector<NeedleTrack> tracks);
+
   /// Swaps in a deformed copy of the body between frames.
   void set_scene(std::shared_ptr<const Scene> scene);
 

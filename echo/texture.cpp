@@ -9,22 +9,45 @@
 namespace artus {
 namespace {
 
-/// How a kind of tissue looks: bright sheets in a dark bed. Axes: x across the stacked sheets, y
-/// beside them, z along the fibres.
+/// One set of bright sheets: where a smooth noise passes through zero.
+struct Sheets {
+  std::array<int, 3> feature{};  // cells between independent values
+  double half_thickness = 0;     // m
+  double bright = 0;             // amplitude over the bed's
+  double facing = 0;  // share that is lost where a sheet stands along the depth axis, 0..1
+};
+
+/// How a kind of tissue looks: sheets in a dark bed. Axes: x across the stacked sheets, y beside
+/// them, z along the fibres.
 struct Recipe {
   TissueKind kind = TissueKind::plain;
   std::array<double, 3> cell{};         // m
   std::array<std::uint32_t, 3> bits{};  // the tile has 2^bits cells
-  std::array<int, 3> feature{};         // cells between independent values
-  double sheet = 0.1;  // half thickness of the bright sheets, in units of the noise
-  double bright = 3;   // amplitude of a sheet over the bed's
+  Sheets coarse;
+  Sheets fine;
 };
 
 constexpr std::array<Recipe, 4> kRecipes{{
-    {TissueKind::muscle, {0.1e-3, 0.3e-3, 2e-3}, {7, 6, 6}, {16, 8, 16}, 0.10, 7.0},
-    {TissueKind::fat, {0.1e-3, 0.5e-3, 0.5e-3}, {7, 6, 6}, {32, 16, 16}, 0.05, 8.0},
-    {TissueKind::tendon, {0.06e-3, 0.12e-3, 1.5e-3}, {7, 6, 5}, {8, 8, 8}, 0.25, 3.5},
-    {TissueKind::nerve, {0.08e-3, 0.08e-3, 2e-3}, {6, 6, 5}, {8, 8, 16}, 0.2, 4.5},
+    {TissueKind::muscle,
+     {0.1e-3, 0.3e-3, 2e-3},
+     {7, 6, 6},
+     {{16, 8, 16}, 0.11e-3, 10, 0.9},
+     {{8, 4, 4}, 0.09e-3, 5, 0.8}},
+    {TissueKind::fat,
+     {0.1e-3, 0.5e-3, 0.5e-3},
+     {7, 6, 6},
+     {{32, 16, 16}, 0.12e-3, 9, 0.95},
+     {{16, 8, 8}, 0.09e-3, 1.5, 0.9}},
+    {TissueKind::tendon,
+     {0.06e-3, 0.12e-3, 1.5e-3},
+     {7, 6, 5},
+     {{8, 8, 8}, 0.06e-3, 4, 0.9},
+     {{4, 4, 4}, 0.05e-3, 1.5, 0.9}},
+    {TissueKind::nerve,
+     {0.08e-3, 0.08e-3, 2e-3},
+     {6, 6, 5},
+     {{8, 8, 16}, 0.09e-3, 4, 0.5},
+     {{4, 4, 8}, 0.05e-3, 0.5, 0.5}},
 }};
 
 double smooth(double t) {
@@ -70,34 +93,50 @@ class ValueNoise {
   std::vector<double> grid_;
 };
 
-/// Bright sheets lie where a smooth noise passes through zero; a second one makes them come and go.
-std::vector<float> make_tile(const Recipe& recipe, std::uint64_t seed) {
-  std::array<int, 3> sides{};
+/// Adds one set of sheets to a tile. A second, slower noise makes them come and go.
+void add_sheets(const Recipe& recipe, const Sheets& sheets, std::uint64_t seed,
+                const std::array<int, 3>& sides, std::vector<float>& tile) {
   std::array<int, 3> half{};
-  std::array<int, 3> brief = recipe.feature;
-  for (std::size_t a = 0; a < 3; ++a) {
-    sides[a] = 1 << recipe.bits[a];
-    half[a] = std::max(1, recipe.feature[a] / 2);
-  }
-  brief[2] = std::max(1, recipe.feature[2] / 4);
-  const ValueNoise coarse(seed, sides, recipe.feature);
-  const ValueNoise fine(seed + 1, sides, half);
-  const ValueNoise strength(seed + 2, sides, brief);
-  std::vector<float> tile;
-  tile.reserve(static_cast<std::size_t>(sides[0] * sides[1]) * static_cast<std::size_t>(sides[2]));
-  double squares = 0;
+  for (std::size_t a = 0; a < 3; ++a) half[a] = std::max(1, sheets.feature[a] / 2);
+  const ValueNoise large(seed, sides, sheets.feature);
+  const ValueNoise small(seed + 1, sides, half);
+  const ValueNoise strength(seed + 2, sides, half);
+  const auto shape = [&](const std::array<int, 3>& p) {
+    return large.at(p) + 0.3 * small.at(p);
+  };
+  const double thin = 1 / sheets.half_thickness;
+  std::size_t i = 0;
   for (int z = 0; z < sides[2]; ++z) {
     for (int y = 0; y < sides[1]; ++y) {
-      for (int x = 0; x < sides[0]; ++x) {
-        const std::array<int, 3> p{x, y, z};
-        const double shape = (coarse.at(p) + 0.3 * fine.at(p)) / recipe.sheet;
-        const double ridge = std::exp(-shape * shape) * (0.8 + 0.7 * strength.at(p));
-        const double value = 1 + (recipe.bright - 1) * ridge;
-        squares += value * value;
-        tile.push_back(static_cast<float>(value));
+      double here = shape({0, y, z});
+      for (int x = 0; x < sides[0]; ++x, ++i) {
+        const double next = shape({(x + 1) % sides[0], y, z});
+        const double middle = here;
+        here = next;
+        if (std::abs(middle) > 0.4) continue;  // far from any sheet
+        const double slope_x = (next - middle) / recipe.cell[0];
+        const double slope_y = (shape({x, (y + 1) % sides[1], z}) - middle) / recipe.cell[1];
+        const double slope = std::hypot(slope_x, slope_y) + 1e-9;
+        const double distance = middle / slope * thin;
+        const double faces = 1 - sheets.facing * (1 - std::pow(slope_x / slope, 2));
+        const double comes_and_goes = std::max(0.0, 0.7 + 0.9 * strength.at({x, y, z}));
+        tile[i] += static_cast<float>(sheets.bright * std::exp(-distance * distance) * faces *
+                                      comes_and_goes);
       }
     }
   }
+}
+
+/// A bed of one with two sets of sheets, scaled to a mean square of one.
+std::vector<float> make_tile(const Recipe& recipe, std::uint64_t seed) {
+  std::array<int, 3> sides{};
+  for (std::size_t a = 0; a < 3; ++a) sides[a] = 1 << recipe.bits[a];
+  std::vector<float> tile(
+      static_cast<std::size_t>(sides[0] * sides[1]) * static_cast<std::size_t>(sides[2]), 1.0F);
+  add_sheets(recipe, recipe.coarse, seed, sides, tile);
+  add_sheets(recipe, recipe.fine, seed + 3, sides, tile);
+  double squares = 0;
+  for (const float value : tile) squares += static_cast<double>(value) * value;
   const auto unit = static_cast<float>(1 / std::sqrt(squares / static_cast<double>(tile.size())));
   for (float& value : tile) value *= unit;
   return tile;

@@ -19,6 +19,7 @@ Result<void> validate(const Transducer& t) {
   check.in_range("max_aperture", t.max_aperture, 0.5e-3, 0.2);
   check.in_range("elevation_height", t.elevation_height, 0.5e-3, 0.05);
   check.in_range("elevation_focus", t.elevation_focus, 2e-3, 0.5);
+  if (t.transmit_focus != 0) check.in_range("transmit_focus", t.transmit_focus, 2e-3, 0.5);
   if (t.radius != 0) {
     check.in_range("radius", t.radius, 5e-3, 0.2);
     check.in_range("width over radius", t.width / t.radius, 0, 2.5);

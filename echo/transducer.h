@@ -20,6 +20,9 @@ struct Transducer {
   double max_aperture = 20e-3;     ///< m
   double elevation_height = 6e-3;  ///< m, element height
   double elevation_focus = 20e-3;  ///< m, of the acoustic lens
+  /// m, depth at which the transmitted beam is focused, with the aperture that the F-number gives
+  /// there; 0: focused at every depth, as scanners do with many foci or synthetic apertures.
+  double transmit_focus = 0;
 
   /// Distance between neighbouring scanlines at the face, m.
   [[nodiscard]] double pitch() const noexcept {

@@ -22,7 +22,7 @@ struct Field {
   bool required;
 };
 
-constexpr std::array<Field, 10> kFields{{
+constexpr std::array<Field, 11> kFields{{
     {"width_mm", &Transducer::width, 1, 200, kMillimetre, true},
     {"radius_mm", &Transducer::radius, 0, 200, kMillimetre, false},
     {"steering_deg", &Transducer::steering, -40, 40, kDegree, false},
@@ -33,6 +33,7 @@ constexpr std::array<Field, 10> kFields{{
     {"max_aperture_mm", &Transducer::max_aperture, 0.5, 200, kMillimetre, true},
     {"elevation_height_mm", &Transducer::elevation_height, 0.5, 50, kMillimetre, true},
     {"elevation_focus_mm", &Transducer::elevation_focus, 2, 500, kMillimetre, true},
+    {"transmit_focus_mm", &Transducer::transmit_focus, 2, 500, kMillimetre, false},
 }};
 constexpr double kMaxLines = 4096;
 

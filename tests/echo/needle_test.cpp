@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+#include <algorithm>
 #include <array>
 
 #include <gtest/gtest.h>
@@ -38,7 +39,27 @@ TEST(Needle, CastsAShadowAndEndsAtItsTip) {
     return sum;
   };
   EXPECT_LT(below(with, 60, 120), 0.7 * below(without, 60, 120));
-  EXPECT_DOUBLE_EQ(below(with, 140, 200), below(without, 140, 200));
+  // the aperture looks round the tip: half the shadow straight below it, none 5 mm beside it
+  const double edge = below(with, 124, 132) / below(without, 124, 132);
+  EXPECT_LT(below(with, 90, 100) / below(without, 90, 100), edge);
+  EXPECT_LT(edge, below(with, 140, 148) / below(without, 140, 148));
+  EXPECT_DOUBLE_EQ(below(with, 165, 220), below(without, 165, 220));
+}
+
+TEST(Needle, LightTellsTheShadowWithoutNoise) {
+  const std::array<FlatLayer, 1> layers{{{"muscle", 60e-3}}};
+  Renderer renderer(test::make_block_scene(layers), Transducer{}, ImageSettings{});
+  const Pose X_JP = test::probe_at();
+  const Frame without = renderer.render(X_JP);
+  EXPECT_EQ(*std::min_element(without.needle_light.begin(), without.needle_light.end()), 1.0F);
+  const Frame& with = renderer.render(X_JP, test::needle_at(X_JP, Vec3(0, 0, 20e-3), 20 * kDegree));
+  const auto at = [&](int line, double depth) {
+    return with.needle_light[static_cast<std::size_t>(line) * 1024 +
+                             static_cast<std::size_t>(depth / with.sample_depth)];
+  };
+  EXPECT_LT(at(80, 30e-3), 0.9);
+  EXPECT_EQ(at(80, 10e-3), 1.0F);
+  EXPECT_EQ(at(230, 30e-3), 1.0F);
 }
 
 TEST(Needle, TruthTellsTipOffsetAndAngles) {

@@ -17,9 +17,8 @@ constexpr double kSigmaPerWidth = 1 / 2.3548;
 
 std::shared_ptr<const Scene> lossless_muscle() {
   const std::array<test::FlatLayer, 1> layers{{{"muscle", 60e-3}}};
-  return test::make_block_scene(layers, [](CompiledJoint& joint) {
-    test::acoustic_of(joint, "muscle").attenuation = 0;
-  });
+  return test::make_block_scene(
+      layers, [](CompiledJoint& joint) { test::acoustic_of(joint, "muscle").attenuation = 0; });
 }
 
 /// Correlation of the complex echoes of two frames, the second read `lines` and `samples` on, 0..1.

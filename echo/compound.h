@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <span>
+#include <vector>
+
+#include "echo/image_settings.h"
+#include "echo/transducer.h"
+
+namespace artus {
+
+/// One of the steered frames of a compound image, and how it lies over the probe's own scanlines.
+class CompoundView {
+ public:
+  /// `offset`: rad, added to the probe's steering. Requires: a linear probe.
+  CompoundView(const Transducer& transducer, const ImageSettings& settings, double offset);
+
+  /// The probe that makes the steered frame.
+  [[nodiscard]] const Transducer& transducer() const noexcept { return transducer_; }
+
+  /// Adds this view's share to scanline `l` of the probe: `envelope` is the steered frame's
+  /// (n_lines, n_samples); `weight` counts the views that cover each sample.
+  void add(std::span<const float> envelope, int l, std::span<float> sum,
+           std::span<float> weight) const noexcept;
+
+ private:
+  struct Place {
+    float line = 0;    // lines beside the probe's own
+    float sample = 0;  // of the steered line
+  };
+  Transducer transducer_;
+  std::vector<Place> places_;  // (n_samples)
+};
+
+}  // namespace artus

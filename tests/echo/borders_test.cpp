@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/units.h"
+#include "echo/renderer.h"
+#include "tests/echo/echo_fixture.h"
+#include "tests/support/no_alloc.h"
+
+namespace artus {
+namespace {
+
+constexpr std::array<test::FlatLayer, 4> kLayers{
+    {{"skin", 2e-3}, {"fat", 6e-3}, {"muscle", 14e-3}, {"bone", 20e-3}}};
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+TEST(Borders, RenderingAllocatesNothingAfterTheFirstFrames) {
+  if (!test::AllocationCounter::supported()) GTEST_SKIP();
+  ImageSettings settings;
+  settings.n_threads = 1;
+  settings.persistence = 0.3;
+  settings.smoothing = 0.5;
+  Renderer renderer(test::make_block_scene(kLayers), Transducer{}, settings);
+  std::vector<float> contact(128, 1.0F);
+  const auto frame_at = [&](int k) {
+    const Pose X_JP = test::probe_at(0.2e-3 * k, 0.1e-3 * k);
+    contact[127] = 0.1F * static_cast<float>(k % 10);
+    renderer.set_contact(contact);
+    renderer.render(X_JP, test::needle_at(X_JP, Vec3(2e-3, 0, 14e-3), 0.4));
+  };
+  for (int k = 0; k < 4; ++k) frame_at(k);
+  const test::AllocationCounter counter;
+  for (int k = 4; k < 12; ++k) frame_at(k);
+  EXPECT_EQ(counter.count(), 0);
+}
+
+TEST(Borders, EveryImpossibleTransducerIsRefusedByName) {
+  const std::vector<std::pair<const char*, std::function<void(Transducer&)>>> cases{
+      {"width",
+       [](Transducer& t) {
+         t.width = 0;
+       }},
+      {"width",
+       [](Transducer& t) {
+         t.width = -1;
+       }},
+      {"steering",
+       [](Transducer& t) {
+         t.steering = 2;
+       }},
+      {"n_lines",
+       [](Transducer& t) {
+         t.n_lines = 10000;
+       }},
+      {"n_lines",
+       [](Transducer& t) {
+         t.n_lines = 0;
+       }},
+      {"frequency",
+       [](Transducer& t) {
+         t.frequency = 1e12;
+       }},
+      {"frequency",
+       [](Transducer& t) {
+         t.frequency = 0;
+       }},
+      {"bandwidth",
+       [](Transducer& t) {
+         t.bandwidth = kNan;
+       }},
+      {"pulse_cycles",
+       [](Transducer& t) {
+         t.pulse_cycles = 0;
+       }},
+      {"f_number",
+       [](Transducer& t) {
+         t.f_number = 0;
+       }},
+      {"max_aperture",
+       [](Transducer& t) {
+         t.max_aperture = 0;
+       }},
+      {"elevation_height",
+       [](Transducer& t) {
+         t.elevation_height = 0;
+       }},
+      {"elevation_focus",
+       [](Transducer& t) {
+         t.elevation_focus = kInfinity;
+       }},
+      {"transmit_focus",
+       [](Transducer& t) {
+         t.transmit_focus = -1;
+       }},
+      {"radius",
+       [](Transducer& t) {
+         t.radius = 1e-3;
+       }},
+  };
+  const auto scene = test::make_block_scene(kLayers);
+  for (const auto& [name, spoil] : cases) {
+    Transducer transducer;
+    spoil(transducer);
+    const Result<void> result = validate(transducer);
+    ASSERT_FALSE(result.has_value()) << name;
+    EXPECT_NE(result.error().to_string().find(name), std::string::npos);
+    EXPECT_THROW(Renderer(scene, transducer, ImageSettings{}), std::invalid_argument) << name;
+  }
+}
+
+TEST(Borders, EveryImpossibleSettingIsRefusedByName) {
+  const std::vector<std::pair<const char*, std::function<void(ImageSettings&)>>> cases{
+      {"depth",
+       [](ImageSettings& s) {
+         s.depth = kNan;
+       }},
+      {"depth",
+       [](ImageSettings& s) {
+         s.depth = 10;
+       }},
+      {"n_samples",
+       [](ImageSettings& s) {
+         s.n_samples = 1 << 30;
+       }},
+      {"n_planes",
+       [](ImageSettings& s) {
+         s.n_planes = 0;
+       }},
+      {"dynamic_range_db",
+       [](ImageSettings& s) {
+         s.dynamic_range_db = 0;
+       }},
+      {"gain_db",
+       [](ImageSettings& s) {
+         s.gain_db = kInfinity;
+       }},
+      {"pixel",
+       [](ImageSettings& s) {
+         s.pixel = 0;
+       }},
+      {"persistence",
+       [](ImageSettings& s) {
+         s.persistence = 1;
+       }},
+      {"smoothing",
+       [](ImageSettings& s) {
+         s.smoothing = -0.1;
+       }},
+      {"compound_angles",
+       [](ImageSettings& s) {
+         s.compound_angles = 2;
+       }},
+      {"compound_spread",
+       [](ImageSettings& s) {
+         s.compound_spread = kNan;
+       }},
+      {"doppler_limit",
+       [](ImageSettings& s) {
+         s.doppler_limit = 0;
+       }},
+      {"n_threads",
+       [](ImageSettings& s) {
+         s.n_threads = -1;
+       }},
+  };
+  for (const auto& [name, spoil] : cases) {
+    ImageSettings settings;
+    spoil(settings);
+    const Result<void> result = validate(settings);
+    ASSERT_FALSE(result.has_value()) << name;
+    EXPECT_NE(result.error().to_string().find(name), std::string::npos);
+  }
+}
+
+TEST(Borders, ACurvedProbeCannotBeCompounded) {
+  Transducer transducer;
+  transducer.radius = 40e-3;
+  ImageSettings settings;
+  settings.compound_angles = 3;
+  EXPECT_THROW(Renderer(test::make_block_scene(kLayers), transducer, settings),
+               std::invalid_argument);
+}
+
+TEST(Borders, WhatIsNotFiniteIsRefused) {
+  Renderer renderer(test::make_block_scene(kLayers), Transducer{}, ImageSettings{});
+  const Pose X_JP = test::probe_at();
+  NeedleView needle = test::needle_at(X_JP, Vec3(0, 0, 10e-3), 0.3);
+  needle.v_JN.x() = kInfinity;
+  EXPECT_THROW(renderer.render(X_JP, needle), std::invalid_argument);
+  needle = test::needle_at(X_JP, Vec3(0, 0, 10e-3), 0.3);
+  needle.X_JN.translation().y() = kNan;
+  EXPECT_THROW(renderer.render(X_JP, needle), std::invalid_argument);
+  EXPECT_THROW(renderer.set_needle_tracks({{Vec3(kNan, 0, 0), Vec3::Zero(), 0.1}}),
+               std::invalid_argument);
+  Pose nowhere = X_JP;
+  nowhere.linear()(0, 0) = kNan;
+  EXPECT_THROW(renderer.render(nowhere), std::invalid_argument);
+}
+
+TEST(Borders, OddPosesGiveFiniteFrames) {
+  Transducer curved;
+  curved.radius = 40e-3;
+  curved.frequency = 5e6;
+  for (const Transducer& transducer : {Transducer{}, curved}) {
+    Renderer renderer(test::make_block_scene(kLayers), transducer, ImageSettings{});
+    for (const Pose& X_JP :
+         {test::probe_at(0, 0, 30e-3),                                       // inside bone
+          test::probe_at(0, 0, 15e-3),                                       // inside muscle
+          test::probe_at(1, 1, 1),                                           // far off
+          test::probe_at(39e-3),                                             // half beside the body
+          make_pose(Vec3::Zero(), -Vec3::UnitZ(), Vec3::UnitX()),            // looking away
+          make_pose(Vec3(0, 0, 2e-3), Vec3::UnitX(), Vec3::UnitZ()),         // along an interface
+          make_pose(Vec3(0, 0, -1e-3), Vec3(1, 0, 0.01), Vec3::UnitY())}) {  // grazing the skin
+      NeedleView needle = test::needle_at(X_JP, Vec3(0, 0, -5e-3), 0);       // above the face
+      const Frame& frame = renderer.render(X_JP, needle);
+      EXPECT_TRUE(std::all_of(frame.envelope.begin(), frame.envelope.end(),
+                              [](float a) { return std::isfinite(a); }));
+      for (const double angle : {0.0, 1.57, -1.0}) {
+        needle = test::needle_at(X_JP, Vec3(0, 0, 10e-3), angle);
+        const Frame& with = renderer.render(X_JP, needle);
+        EXPECT_TRUE(std::all_of(with.envelope.begin(), with.envelope.end(),
+                                [](float a) { return std::isfinite(a); }));
+      }
+    }
+  }
+}
+
+TEST(Borders, OneLineAndManyAreImages) {
+  const auto scene = test::make_block_scene(kLayers);
+  for (const int lines : {1, 2, 3, 4096}) {
+    Transducer transducer;
+    transducer.n_lines = lines;
+    ImageSettings settings;
+    settings.n_samples = lines == 4096 ? 64 : 16;
+    settings.n_planes = lines == 4096 ? 1 : 33;
+    const Frame frame = render_bmode(scene, test::probe_at(), std::nullopt, transducer, settings);
+    EXPECT_TRUE(std::all_of(frame.envelope.begin(), frame.envelope.end(),
+                            [](float a) { return std::isfinite(a); }));
+  }
+}
+
+}  // namespace
+}  // namespace artus
