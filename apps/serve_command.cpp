@@ -95,7 +95,8 @@ ExitCode run_serve(const ServeOptions& options) {
   for (const std::string& refused : (*session)->refusals())
     std::fprintf(stderr, "the system refused %s\n", refused.c_str());
   report(**session, options.json);
-  return ExitCode::ok;
+  const auto written = write_histograms(options.session.histograms, (*session)->times());
+  return written ? ExitCode::ok : report_error(written.error(), options.json);
 }
 
 }  // namespace

@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "apps/session_options.h"
 
+#include <algorithm>
+#include <array>
 #include <cstdio>
+#include <sstream>
+#include <utility>
 
+#include "core/text_file.h"
 #include "sim/device_injection.h"
 #include "sim/device_shared_memory.h"
 
@@ -37,12 +42,6 @@ Result<std::unique_ptr<InputDevice>> make_injection_device(const SessionOptions&
   injection.deepest = way.norm() + kBeyond;
   injection.speed = options.speed_mm_s * kMillimetre;
   return std::make_unique<InjectingDevice>(injection, params.device, params.haptic_rate);
-}
-
-void print_line(const char* what, const LatencyHistogram& h) {
-  std::printf("%-18s %10llu %9.1f %9.1f %9.1f %9.1f %9.1f\n", what,
-              static_cast<unsigned long long>(h.count()), h.percentile_us(0.5),
-              h.percentile_us(0.95), h.percentile_us(0.99), h.percentile_us(0.999), h.max_us());
 }
 
 nlohmann::json to_json(const LatencyHistogram& h) {
@@ -82,6 +81,8 @@ void add_session_options(CLI::App* command, SessionOptions& options,
       ->capture_default_str();
   command->add_option("--haptic-cpu", options.haptic_cpu, "processor of the haptic thread; -1: any")
       ->capture_default_str();
+  command->add_option("--histograms", options.histograms,
+                      "write where the time went as CSV, bin by bin");
   command->add_option("--threads", options.threads, "of the imaging; 0: all processors")
       ->capture_default_str();
 }
@@ -141,6 +142,12 @@ Result<std::unique_ptr<InputDevice>> make_device(const SessionOptions& options,
   return std::unique_ptr<InputDevice>(std::make_unique<RecordedDevice>(samples_of(*recording)));
 }
 
+void print_line(const char* what, const LatencyHistogram& h) {
+  std::printf("%-18s %10llu %9.1f %9.1f %9.1f %9.1f %9.1f\n", what,
+              static_cast<unsigned long long>(h.count()), h.percentile_us(0.5),
+              h.percentile_us(0.95), h.percentile_us(0.99), h.percentile_us(0.999), h.max_us());
+}
+
 void print_times(const SessionTimes& times, const SessionParams& params) {
   std::printf("%-18s %10s %9s %9s %9s %9s %9s\n", "us", "count", "p50", "p95", "p99", "p99.9",
               "max");
@@ -153,6 +160,30 @@ void print_times(const SessionTimes& times, const SessionParams& params) {
   print_line("pose to image", times.pose_to_image);
   std::printf("haptic period %.0f us, image period %.0f us\n", 1e6 / params.haptic_rate,
               1e6 / params.image_rate);
+}
+
+Result<void> write_histograms(const std::filesystem::path& file, const SessionTimes& times) {
+  if (file.empty()) return {};
+  const std::array<std::pair<const char*, const LatencyHistogram*>, 6> columns{
+      {{"haptic_compute", &times.haptic_compute},
+       {"haptic_processor", &times.haptic_cpu},
+       {"haptic_lateness", &times.haptic_lateness},
+       {"image_render", &times.image_render},
+       {"image_interval", &times.image_interval},
+       {"pose_to_image", &times.pose_to_image}}};
+  std::ostringstream out;
+  out << "upper_edge_us";
+  for (const auto& [name, histogram] : columns) out << ',' << name;
+  out << '\n';
+  for (int i = 0; i < LatencyHistogram::kBins; ++i) {
+    const bool empty = std::all_of(columns.begin(), columns.end(),
+                                   [i](const auto& c) { return c.second->bin(i) == 0; });
+    if (empty) continue;
+    out << 1e-3 * LatencyHistogram::upper_edge(i);
+    for (const auto& [name, histogram] : columns) out << ',' << histogram->bin(i);
+    out << '\n';
+  }
+  return write_text(file, out.str());
 }
 
 nlohmann::json to_json(const SessionTimes& times) {

@@ -24,6 +24,7 @@ struct SessionOptions {
   int injection = 1;
   int haptic_cpu = -1;
   int threads = 0;
+  std::filesystem::path histograms;
 };
 void add_session_options(CLI::App* command, SessionOptions& options,
                          const std::string& default_input);
@@ -44,6 +45,12 @@ void add_session_options(CLI::App* command, SessionOptions& options,
 
 /// Percentiles of a session's times, one line each, on stdout.
 void print_times(const SessionTimes& times, const SessionParams& params);
+/// One such line, us.
+void print_line(const char* what, const LatencyHistogram& h);
+/// The histograms as CSV: a row a bin, upper edge in us, then how many fell into it. Nothing when
+/// `file` is empty. Errors: unreadable.
+[[nodiscard]] Result<void> write_histograms(const std::filesystem::path& file,
+                                            const SessionTimes& times);
 [[nodiscard]] nlohmann::json to_json(const SessionTimes& times);
 
 }  // namespace artus

@@ -36,7 +36,7 @@ std::filesystem::path layout_file() {
 
 Result<void> read_script(const ViewerOptions& options, WindowOptions& window) {
   if (options.script.empty()) {
-    window.layout = layout_file();
+    if (window.layout.empty()) window.layout = layout_file();
     return {};
   }
   std::ifstream in(options.script);
@@ -68,9 +68,15 @@ ExitCode run_view(const ViewerOptions& options) {
   const auto session = Session::start(std::make_shared<const Scene>(*joint), *params,
                                       std::move(*device), session_options);
   if (!session) return report_error(session.error(), false);
-  const auto shown = run_window(**session, hand, first_target(**joint), window);
-  if (options.report) print_times((*session)->times(), (*session)->params());
-  return shown ? ExitCode::ok : report_error(shown.error(), false);
+  WindowReport report;
+  const auto shown = run_window(**session, hand, first_target(**joint), window, report);
+  if (options.report) {
+    print_times((*session)->times(), (*session)->params());
+    print_line("pose to screen", report.pose_to_screen);
+  }
+  if (!shown) return report_error(shown.error(), false);
+  const auto written = write_histograms(options.session.histograms, (*session)->times());
+  return written ? ExitCode::ok : report_error(written.error(), false);
 }
 
 }  // namespace
@@ -90,6 +96,12 @@ void add_view_command(CLI::App& app, ExitCode& code) {
   command->add_option("--height", window.height, "pixels")->capture_default_str();
   command->add_option("--window-rate", window.rate, "pictures a second, at most")
       ->capture_default_str();
+  command
+      ->add_option("--pixels-per-mm", window.pixels_per_mm,
+                   "of the screen, for the image at true scale; 0: as the system says")
+      ->capture_default_str();
+  command->add_option("--layout", window.layout,
+                      "where the panels' places are kept (default: the user's, none for scripts)");
   command->add_flag("--expert", window.expert, "without the 3D view");
   command->add_option("--script", options->script, "do what this file says, then end");
   command->add_option("--screenshot", window.screenshot, "PNG of the window at the script's end");

@@ -49,6 +49,10 @@ HandDevice::HandDevice(const HandTarget& start, double period_s, const Limits& l
 DeviceSample HandDevice::read(std::int64_t now_ns) noexcept {
   HandTarget target;
   if (target_.load(target, 4)) wanted_ = target;
+  if (wanted_.probe_jumps != now_.probe_jumps) {
+    now_.probe_jumps = wanted_.probe_jumps;
+    now_.X_WP = wanted_.X_WP;
+  }
   now_.X_WN = approach(now_.X_WN, wanted_.X_WN, limits_, period_);
   now_.X_WP = approach(now_.X_WP, wanted_.X_WP, limits_, period_);
   sample_.X_WN = now_.X_WN;

@@ -16,6 +16,7 @@ struct HandTarget {
   PlainPose X_WP;
   std::uint32_t buttons = 0;
   std::uint32_t has_needle = 1;
+  std::uint32_t probe_jumps = 0;  ///< when it changes, the probe is at X_WP at once
 };
 
 /// A hand that goes where it is told, no faster than a hand moves: mouse and keyboard, a gamepad,

@@ -297,8 +297,19 @@ void JointView::draw_trail(const Eigen::Matrix4f& view, const HapticSnapshot& no
   line_.draw_line_strip();
 }
 
-unsigned JointView::draw(int width, int height, const HapticSnapshot& now,
-                         const ImageSnapshot* image, const GlTexture& image_texture) {
+void JointView::draw_entry(const Eigen::Matrix4f& view, const EntryChoice& entry) {
+  constexpr double kLength = 20e-3;  // m of the arrow outside the skin
+  const Pose from =
+      make_pose(entry.p_J - kLength * entry.direction_J, entry.direction_J, Vec3::UnitX());
+  draw_mesh(rod_, view, to_model(from, Vec3(0.4e-3, 0.4e-3, kLength - 4e-3)), {0.4F, 1.F, 0.6F, 1},
+            false);
+  draw_mesh(cone_, view,
+            to_model(from * Eigen::Translation3d(0, 0, kLength - 4e-3), Vec3(1.5e-3, 1.5e-3, 4e-3)),
+            {0.4F, 1.F, 0.6F, 1}, false);
+}
+
+unsigned JointView::draw(int width, int height, const JointScene& scene) {
+  const HapticSnapshot& now = scene.now;
   const OrbitCamera& c = camera_;
   const Vec3 forward = c.up.cross(c.side).normalized();
   eye_ = c.centre +
@@ -319,7 +330,8 @@ unsigned JointView::draw(int width, int height, const HapticSnapshot& now,
   solid_.set("plane", no_plane());
   draw_tools(view, now);
   draw_trail(view, now);
-  if (image != nullptr) draw_image(view, *image, image_texture);
+  if (scene.image != nullptr) draw_image(view, *scene.image, scene.image_texture);
+  if (scene.entry) draw_entry(view, *scene.entry);
   Eigen::Vector4f plane = no_plane();
   if (cut_away) {
     const Pose X_JP = to_pose(now.X_JP);

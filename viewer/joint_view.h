@@ -2,6 +2,7 @@
 #pragma once
 #include <deque>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,14 @@ struct OrbitCamera {
   Vec3 side = Vec3::UnitX();
 };
 
+/// What there is to draw besides the joint.
+struct JointScene {
+  const HapticSnapshot& now;
+  const ImageSnapshot* image;  ///< null when there is none
+  const GlTexture& image_texture;
+  const std::optional<EntryChoice>& entry;  ///< where the needle would enter
+};
+
 /// The joint in three dimensions with probe, needle, image plane, insertion cone, forces and the
 /// tip's trail. Draws frame J. Needs a current OpenGL 3.3 context for its whole life.
 class JointView {
@@ -36,9 +45,8 @@ class JointView {
                                                                double probe_width,
                                                                double needle_length);
 
-  /// Draws into a picture of its own and returns its texture. `image`: null when there is none.
-  unsigned draw(int width, int height, const HapticSnapshot& now, const ImageSnapshot* image,
-                const GlTexture& image_texture);
+  /// Draws into a picture of its own and returns its texture.
+  unsigned draw(int width, int height, const JointScene& scene);
 
   std::vector<TissueLook>& looks() noexcept { return looks_; }
   OrbitCamera& camera() noexcept { return camera_; }
@@ -56,6 +64,7 @@ class JointView {
   void draw_parts(const Eigen::Matrix4f& view, const Eigen::Vector4f& plane);
   void draw_tools(const Eigen::Matrix4f& view, const HapticSnapshot& now);
   void draw_forces(const Eigen::Matrix4f& view, const HapticSnapshot& now);
+  void draw_entry(const Eigen::Matrix4f& view, const EntryChoice& entry);
   void draw_image(const Eigen::Matrix4f& view, const ImageSnapshot& image,
                   const GlTexture& texture);
   void draw_trail(const Eigen::Matrix4f& view, const HapticSnapshot& now);

@@ -103,9 +103,14 @@ void draw_joint_panel(const PanelInput& in, ViewState& state, JointArea& area) {
   ImGui::Image(to_id(in.joint_texture), room, ImVec2(0, 1), ImVec2(1, 0));
   area.hovered = ImGui::IsItemHovered();
   const ImVec2 at = ImGui::GetItemRectMin();
-  const char* held = in.grab == Grab::needle  ? "needle in hand"
-                     : in.grab == Grab::probe ? "probe in hand"
-                                              : "drag to turn, wheel to come nearer";
+  const bool exploring = in.now.phase == GesturePhase::exploring;
+  const char* held = in.grab == Grab::needle ? "needle in hand: wheel pushes, Esc lets go"
+                     : in.grab == Grab::probe
+                         ? (exploring ? "probe in hand: C chooses the entry, Esc lets go"
+                                      : "probe in hand: Esc lets go")
+                     : !in.has_hand ? "drag to turn, wheel to come nearer"
+                     : exploring    ? "P takes the probe, C chooses the entry, N takes the needle"
+                                    : "N takes the needle, X goes back to exploring";
   ImDrawList* list = ImGui::GetWindowDrawList();
   list->AddText(ImVec2(at.x + 6, at.y + 4), kWhite, held);
   if (!state.message.empty())
@@ -136,13 +141,14 @@ void draw_image_panel(const PanelInput& in, ViewState& state) {
   const ImVec2 origin = ImGui::GetCursorScreenPos();
   const ImVec2 at(origin.x + margin, origin.y);
   const ImVec2 size(scale * static_cast<float>(width_mm), scale * static_cast<float>(depth_mm));
+  state.image_place = {at.x, at.y, scale};
   ImGui::SetCursorScreenPos(at);
   ImGui::Image(to_id(in.image_texture), size);
   ImDrawList* list = ImGui::GetWindowDrawList();
   if (ImGui::IsItemHovered() && ImGui::IsMouseClicked(0) && in.grab == Grab::nothing) {
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     if (state.calipers.size() >= 4) state.calipers.clear();
-    state.calipers.push_back({(mouse.x - at.x) / scale, (mouse.y - at.y) / scale});
+    state.calipers.push_back(state.image_place.point_at(mouse.x, mouse.y));
   }
   draw_ruler(list, at, scale, depth_mm);
   draw_calipers(list, at, scale, state.calipers);
@@ -180,13 +186,13 @@ void draw_scanner_panel(const PanelInput& in, ViewState& state) {
   if (ImGui::Button(in.session->frozen() ? "go on (F)" : "freeze (F)"))
     in.session->set_frozen(!in.session->frozen());
   ImGui::SameLine();
-  if (ImGui::Button("save PNG (V)")) state.wants_screenshot = true;
+  if (ImGui::Button("save (V)")) state.wants_screenshot = true;
   ImGui::SameLine();
-  if (ImGui::Button(state.recording_clip ? "end clip" : "clip"))
-    state.recording_clip = !state.recording_clip;
-  ImGui::Checkbox("true scale", &state.true_scale);
+  if (ImGui::Button(state.wants_clip ? "end clip (K)" : "clip (K)"))
+    state.wants_clip = !state.wants_clip;
+  ImGui::Checkbox("true scale (T)", &state.true_scale);
   ImGui::SameLine();
-  if (ImGui::Button("clear calipers")) state.calipers.clear();
+  if (ImGui::Button("no calipers (M)")) state.calipers.clear();
   ImGui::End();
 }
 
@@ -244,22 +250,27 @@ void draw_tissue_panel(const PanelInput& in, ViewState& state, JointView& view) 
   ImGui::End();
 }
 
-void draw_help(const PanelInput& /*in*/, ViewState& state) {
+void draw_help(const PanelInput& in, ViewState& state) {
   if (!state.help) return;
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos(ImVec2(size.x / 2, size.y / 2), ImGuiCond_Appearing, ImVec2(0.5F, 0.5F));
   ImGui::Begin("Keys", &state.help, ImGuiWindowFlags_AlwaysAutoResize);
   ImGui::TextUnformatted(
-      "N       take the needle: mouse turns it about the entry, wheel or W S push and pull\n"
       "P       take the probe: mouse slides it, wheel turns it\n"
-      "shift   with the wheel: a tenth as far\n"
+      "C       choose the entry point beside the probe: the joint comes to the needle\n"
+      "X       back to exploring\n"
+      "N       take the needle: mouse turns it about the entry, wheel or W S push and pull\n"
+      "shift   with mouse or wheel: a tenth as far\n"
       "Esc     let go\n"
-      "C  X    choose the entry point and calibrate; back to exploring\n"
       "Home    needle and probe back to the start\n"
-      "F       freeze the image        V  save it as PNG\n"
-      "SPACE   pause                   R  reset the insertion\n"
-      "E       expert mode (no 3D)     F1 this help\n"
-      "click in the B-mode image to measure; drag in the joint to turn it");
+      "F       freeze the image        SPACE  pause\n"
+      "V       save it as PNG          R      reset the insertion\n"
+      "K       begin and end a clip    E      expert mode (no 3D)\n"
+      "T       true scale              M      remove the calipers\n"
+      "F1      this help\n"
+      "click twice in the B-mode image to measure; drag in the joint to turn it, wheel to zoom\n"
+      "gamepad left stick probe, right stick needle, triggers push and pull; A C, B X, X F, Y R");
+  if (in.gamepad != nullptr) ImGui::Text("gamepad: %s", in.gamepad);
   ImGui::End();
 }
 

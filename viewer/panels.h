@@ -18,6 +18,16 @@ struct ImagePoint {
   double y_mm = 0;
 };
 
+/// Where the B-mode image stands in the window.
+struct ImagePlace {
+  double x = 0;      ///< pixels from the window's left to the image's first column
+  double y = 0;      ///< pixels from its top to the image's first row
+  double scale = 1;  ///< pixels a millimetre of tissue, both ways
+  [[nodiscard]] ImagePoint point_at(double px, double py) const noexcept {
+    return {(px - x) / scale, (py - y) / scale};
+  }
+};
+
 /// What the window remembers between two of its frames; the panels read and change it.
 struct ViewState {
   bool expert = false;  ///< the 3D view is hidden, as in a real room
@@ -26,12 +36,13 @@ struct ViewState {
   bool true_scale = false;      ///< one millimetre of tissue is one millimetre of the screen
   double pixels_per_mm = 3.78;  ///< of the screen
   ImageControls controls;
+  ImagePlace image_place;
   std::vector<ImagePoint> calipers;  ///< pairs
   std::deque<TracePoint> trace;      ///< the last seconds
   double trace_seconds = 10;
   bool wants_screenshot = false;  ///< of the B-mode image
-  bool recording_clip = false;
-  std::string message;  ///< last thing that was saved or refused
+  bool wants_clip = false;        ///< from then on, until it is false again
+  std::string message;            ///< last thing that was saved or refused
 };
 
 /// All that the panels show, gathered once a frame.
@@ -43,8 +54,10 @@ struct PanelInput {
   unsigned joint_texture = 0;
   Grab grab = Grab::nothing;
   bool has_hand = false;
-  float scale = 1;         ///< of the fonts, for the screen's resolution
-  double window_rate = 0;  ///< Hz
+  const char* gamepad = nullptr;     ///< its name; null: none
+  std::optional<EntryChoice> entry;  ///< where the needle would enter, while exploring
+  float scale = 1;                   ///< of the fonts, for the screen's resolution
+  double window_rate = 0;            ///< Hz
 };
 
 /// Where the joint's picture goes; its size for the next frame.

@@ -30,6 +30,10 @@ std::optional<ScriptStep> parse_input(const std::string& word, std::istringstrea
       button.down = state == "down";
       return UserEvent(button);
     }
+  } else if (word == "pad") {
+    PadEvent pad;
+    if (read(in, pad.left_x, pad.left_y, pad.right_x, pad.right_y, pad.push, pad.seconds))
+      return UserEvent(pad);
   } else if (word == "scroll") {
     ScrollEvent scroll;
     if (!read(in, scroll.notches)) return std::nullopt;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/result.h"
-#include "viewer/hand_control.h"
+#include "viewer/user_event.h"
 
 namespace artus {
 
@@ -34,7 +34,7 @@ struct CameraStep {
   double pitch = 0;       ///< rad
   double distance = 0.2;  ///< m
 };
-/// Opens a calliper between two points of the image.
+/// Puts a calliper between two points of the image.
 struct MeasureStep {
   double from_x_mm = 0;
   double from_y_mm = 0;
@@ -46,8 +46,8 @@ using ScriptStep = std::variant<UserEvent, WaitStep, TissueStep, ScreenshotStep,
 
 /// The steps of a script, one a line; `#` begins a comment:
 ///   wait SECONDS | key NAME | move X Y | button N down|up | scroll NOTCHES [fine]
-///   tissue NAME ALPHA | screenshot FILE | connect | disconnect | camera YAW_DEG PITCH_DEG
-///   DISTANCE_MM measure X Y X Y
+///   pad LEFT_X LEFT_Y RIGHT_X RIGHT_Y PUSH SECONDS | tissue NAME ALPHA | screenshot FILE
+///   connect | disconnect | camera YAW_DEG PITCH_DEG DISTANCE_MM | measure X Y X Y
 /// Errors: malformed, with file and line.
 [[nodiscard]] Result<std::vector<ScriptStep>> parse_script(std::string_view text,
                                                            const std::string& name);

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 #include <utility>
@@ -14,64 +15,17 @@
 #include <imgui.h>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-#include <opencv2/videoio.hpp>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <GLFW/glfw3.h>
 
 #include "viewer/panels.h"
+#include "viewer/picture_saver.h"
+#include "viewer/window_events.h"
 
 namespace artus {
 namespace {
-
-/// What GLFW's callbacks collect; the window's user pointer.
-struct EventQueue {
-  std::vector<UserEvent> events;
-  std::vector<unsigned> characters;
-  bool shift = false;
-};
-
-EventQueue& queue_of(GLFWwindow* window) {
-  return *static_cast<EventQueue*>(glfwGetWindowUserPointer(window));
-}
-
-std::string name_of(int key) {
-  if ((key >= GLFW_KEY_A && key <= GLFW_KEY_Z) || (key >= GLFW_KEY_0 && key <= GLFW_KEY_9))
-    return {static_cast<char>(key)};
-  switch (key) {
-    case GLFW_KEY_ESCAPE:
-      return "ESCAPE";
-    case GLFW_KEY_SPACE:
-      return "SPACE";
-    case GLFW_KEY_HOME:
-      return "HOME";
-    case GLFW_KEY_F1:
-      return "F1";
-    default:
-      return {};
-  }
-}
-
-void on_key(GLFWwindow* window, int key, int /*scancode*/, int action, int mods) {
-  EventQueue& queue = queue_of(window);
-  queue.shift = (mods & GLFW_MOD_SHIFT) != 0;
-  if (action == GLFW_RELEASE) return;
-  std::string name = name_of(key);
-  if (!name.empty()) queue.events.emplace_back(KeyEvent{std::move(name)});
-}
-
-void on_move(GLFWwindow* window, double x, double y) {
-  queue_of(window).events.emplace_back(MoveEvent{x, y});
-}
-
-void on_button(GLFWwindow* window, int button, int action, int /*mods*/) {
-  queue_of(window).events.emplace_back(ButtonEvent{button, action == GLFW_PRESS});
-}
-
-void on_scroll(GLFWwindow* window, double /*x*/, double y) {
-  EventQueue& queue = queue_of(window);
-  queue.events.emplace_back(ScrollEvent{y, queue.shift});
-}
 
 struct WindowCloser {
   void operator()(GLFWwindow* window) const noexcept { glfwDestroyWindow(window); }
@@ -110,80 +64,102 @@ struct Gui {
   Gui& operator=(const Gui&) = delete;
 };
 
+/// Letters as large as the screen asks for, or as they are on a window of 720 lines.
+float text_scale(GLFWwindow* window, int height) {
+  float x = 1;
+  float y = 1;
+  glfwGetWindowContentScale(window, &x, &y);
+  return std::clamp(std::max(y, static_cast<float>(height) / 720.F), 1.F, 4.F);
+}
+
 class WindowLoop {
  public:
   WindowLoop(GLFWwindow* window, Session& session, HandDevice* hand, const HandTarget& start,
-             const WindowOptions& options, std::unique_ptr<JointView> joint, float scale)
+             const WindowOptions& options, WindowReport& report, std::unique_ptr<JointView> joint,
+             float scale)
       : window_(window),
+        events_(window),
         session_(session),
         hand_(hand),
         options_(options),
+        report_(report),
         control_(start),
-        joint_(std::move(joint)) {
+        joint_(std::move(joint)),
+        saver_(options.pictures) {
     state_.expert = options.expert;
     state_.controls = controls_of(session.params());
+    state_.pixels_per_mm = options.pixels_per_mm > 0 ? options.pixels_per_mm : screen_density();
     input_.session = &session;
     input_.scale = scale;
     input_.has_hand = hand != nullptr;
-    int width_mm = 0;
-    int height_mm = 0;
-    GLFWmonitor* monitor = glfwGetPrimaryMonitor();
-    if (monitor != nullptr) glfwGetMonitorPhysicalSize(monitor, &width_mm, &height_mm);
-    const GLFWvidmode* mode = monitor != nullptr ? glfwGetVideoMode(monitor) : nullptr;
-    if (mode != nullptr && width_mm > 50)
-      state_.pixels_per_mm = static_cast<double>(mode->width) / width_mm;
   }
 
-  Result<void> run(EventQueue& queue) {
+  Result<void> run() {
     const auto period = std::chrono::duration<double>(1 / options_.rate);
     auto due = std::chrono::steady_clock::now();
     auto before = due;
     while (glfwWindowShouldClose(window_) == GLFW_FALSE && !state_.quit) {
-      glfwPollEvents();
-      for (const UserEvent& event : queue.events) handle(event);
-      queue.events.clear();
       const auto now = std::chrono::steady_clock::now();
       const double elapsed = std::max(1e-4, std::chrono::duration<double>(now - before).count());
       before = now;
       interval_ += 0.1 * (elapsed - interval_);
       input_.window_rate = 1 / interval_;
+      control_.release();
+      const std::vector<UserEvent> events = events_.take(elapsed);
+      if (!options_.quit_after_script) {  // a script is alone at the window
+        for (const UserEvent& event : events) handle(event);
+      }
       run_script(elapsed);
+      if (hand_ != nullptr) hand_->set_target(control_.target());
+      events_.hold_cursor(control_.grab() != Grab::nothing);
       draw(elapsed);
       if (const auto saved = save_window(); !saved) return saved;
       wanted_pictures_.clear();
       glfwSwapBuffers(window_);
-      save_pictures();
-      // Without graphics hardware a picture costs much; half of the time is left to the others.
+      note_shown();
+      save_pictures(elapsed);
+      // Without graphics hardware a picture costs much; a third of the time is left to the others.
       const auto drawn = std::chrono::steady_clock::now();
       due = std::max(due + std::chrono::duration_cast<std::chrono::nanoseconds>(period),
                      drawn + (drawn - now) / 2);
       std::this_thread::sleep_until(due);
     }
+    report_.calipers = state_.calipers;
+    report_.image_place = state_.image_place;
+    report_.expert = state_.expert;
     return {};
   }
 
  private:
+  static double screen_density();
   void handle(const UserEvent& event);
   void handle_key(const std::string& key);
+  void handle_move(const MoveEvent& move);
   void orbit(double dx, double dy);
   void run_script(double elapsed);
   bool run_step(const ScriptStep& step, double elapsed);
   void gather();
+  void follow_gesture(const HapticSnapshot& now);
   void draw(double elapsed);
-  void save_pictures();
+  void note_shown();
+  void save_pictures(double elapsed);
   Result<void> save_window() const;
 
   GLFWwindow* window_;
+  WindowEvents events_;
   Session& session_;
   HandDevice* hand_;
   const WindowOptions& options_;
+  WindowReport& report_;
   HandControl control_;
   std::unique_ptr<JointView> joint_;
+  PictureSaver saver_;
   ViewState state_;
   PanelInput input_;
   JointArea area_;
   GlTexture image_texture_;
   std::uint64_t shown_image_ = 0;
+  bool fresh_image_ = false;
   ImageControls sent_controls_;
   std::size_t next_step_ = 0;
   double waited_ = 0;
@@ -193,9 +169,17 @@ class WindowLoop {
   bool dragging_ = false;
   double x_ = 0;
   double y_ = 0;
-  int saved_ = 0;
-  cv::VideoWriter clip_;
 };
+
+// Pixels a millimetre, as the system says; 96 an inch when it does not.
+double WindowLoop::screen_density() {
+  int width_mm = 0;
+  int height_mm = 0;
+  GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+  if (monitor != nullptr) glfwGetMonitorPhysicalSize(monitor, &width_mm, &height_mm);
+  const GLFWvidmode* mode = monitor != nullptr ? glfwGetVideoMode(monitor) : nullptr;
+  return mode != nullptr && width_mm > 50 ? static_cast<double>(mode->width) / width_mm : 96 / 25.4;
+}
 
 void WindowLoop::orbit(double dx, double dy) {
   OrbitCamera& camera = joint_->camera();
@@ -209,23 +193,35 @@ void WindowLoop::handle_key(const std::string& key) {
   if (key == "E") state_.expert = !state_.expert;
   if (key == "F1") state_.help = !state_.help;
   if (key == "V") state_.wants_screenshot = true;
+  if (key == "K") state_.wants_clip = !state_.wants_clip;
+  if (key == "T") state_.true_scale = !state_.true_scale;
+  if (key == "M") state_.calipers.clear();
   if (key == "R") {
     session_.reset();
     joint_->clear_trail();
   }
 }
 
+void WindowLoop::handle_move(const MoveEvent& move) {
+  const bool held = control_.grab() != Grab::nothing;
+  if (dragging_ && !held) orbit(move.x - x_, move.y - y_);
+  x_ = move.x;
+  y_ = move.y;
+  if (!held) ImGui::GetIO().MousePos = ImVec2(static_cast<float>(x_), static_cast<float>(y_));
+}
+
 void WindowLoop::handle(const UserEvent& event) {
   ImGuiIO& io = ImGui::GetIO();
-  const bool taken = hand_ != nullptr && control_.handle(event, input_.now.inserted != 0);
-  if (hand_ != nullptr) hand_->set_target(control_.target());
+  std::optional<Vec3> entry_W;
+  if (input_.now.inserted != 0) {
+    const auto& e = input_.now.entry_J;
+    entry_W = to_pose(input_.now.X_WJ) * Vec3(e[0], e[1], e[2]);
+  }
+  const bool taken = hand_ != nullptr && control_.handle(event, entry_W);
   if (const auto* key = std::get_if<KeyEvent>(&event)) {
     if (!taken) handle_key(key->key);
   } else if (const auto* move = std::get_if<MoveEvent>(&event)) {
-    if (dragging_ && control_.grab() == Grab::nothing) orbit(move->x - x_, move->y - y_);
-    x_ = move->x;
-    y_ = move->y;
-    io.MousePos = ImVec2(static_cast<float>(x_), static_cast<float>(y_));
+    handle_move(*move);
   } else if (const auto* button = std::get_if<ButtonEvent>(&event)) {
     if (button->button >= 0 && button->button < 3) io.MouseDown[button->button] = button->down;
     dragging_ = button->button == 0 && button->down && area_.hovered;
@@ -274,21 +270,43 @@ void WindowLoop::run_script(double elapsed) {
   if (options_.quit_after_script) state_.quit = true;
 }
 
+// When the joint was moved to the device, what the hand holds moves with it.
+void WindowLoop::follow_gesture(const HapticSnapshot& now) {
+  const Pose before = to_pose(input_.now.X_WJ);
+  const Pose after = to_pose(now.X_WJ);
+  if (now.phase != input_.now.phase) {
+    joint_->clear_trail();
+    state_.message = now.phase == GesturePhase::inserting
+                         ? "the entry point is at the needle; N takes it"
+                         : "back to exploring";
+  }
+  if (input_.now.input.tick != 0 && !before.isApprox(after, 1e-12))
+    control_.follow_joint(before, after);
+  input_.entry.reset();
+  if (now.phase == GesturePhase::exploring && now.input.device.has_probe != 0 && now.inserted == 0)
+    input_.entry = choose_entry(session_.scene(), to_pose(now.X_JP), session_.params().gesture);
+}
+
 void WindowLoop::gather() {
   HapticSnapshot now;
-  if (session_.newest(now)) input_.now = now;
+  if (session_.newest(now)) {
+    follow_gesture(now);
+    input_.now = now;
+  }
   TracePoint point;
   while (session_.next_trace_point(point)) state_.trace.push_back(point);
   while (!state_.trace.empty() &&
          state_.trace.back().time - state_.trace.front().time > state_.trace_seconds)
     state_.trace.pop_front();
   input_.image = session_.newest_image();
-  if (input_.image != nullptr && input_.image->input.number != shown_image_) {
+  fresh_image_ = input_.image != nullptr && input_.image->input.number != shown_image_;
+  if (fresh_image_) {
     shown_image_ = input_.image->input.number;
     image_texture_.set_grey(input_.image->width, input_.image->height, input_.image->grey);
   }
   input_.image_texture = image_texture_.id();
   input_.grab = control_.grab();
+  input_.gamepad = WindowEvents::gamepad_name();
   if (!(state_.controls == sent_controls_)) {
     session_.set_controls(state_.controls);
     sent_controls_ = state_.controls;
@@ -304,8 +322,8 @@ void WindowLoop::draw(double elapsed) {
   io.DisplaySize = ImVec2(static_cast<float>(width), static_cast<float>(height));
   io.DeltaTime = static_cast<float>(elapsed);
   if (!state_.expert)
-    input_.joint_texture =
-        joint_->draw(area_.width, area_.height, input_.now, input_.image, image_texture_);
+    input_.joint_texture = joint_->draw(area_.width, area_.height,
+                                        {input_.now, input_.image, image_texture_, input_.entry});
   ImGui_ImplOpenGL3_NewFrame();
   ImGui::NewFrame();
   if (!state_.expert) draw_joint_panel(input_, state_, area_);
@@ -323,25 +341,20 @@ void WindowLoop::draw(double elapsed) {
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
 }
 
-void WindowLoop::save_pictures() {
+void WindowLoop::note_shown() {
+  ++report_.pictures;
+  if (fresh_image_ && input_.now.input.device.state == PeerState::alive)
+    report_.pose_to_screen.add(monotonic_ns() - input_.image->input.sample_time_ns);
+}
+
+void WindowLoop::save_pictures(double elapsed) {
   if (input_.image == nullptr || input_.image->width == 0) return;
   const ImageSnapshot& image = *input_.image;
-  const cv::Mat grey(image.height, image.width, CV_8UC1,
-                     const_cast<std::uint8_t*>(image.grey.data()));  // read only
-  if (state_.wants_screenshot) {
-    state_.wants_screenshot = false;
-    const auto file = options_.pictures / ("bmode-" + std::to_string(++saved_) + ".png");
-    state_.message = cv::imwrite(file.string(), grey) ? "saved " + file.string()
-                                                      : "cannot write " + file.string();
-  }
-  if (state_.recording_clip && !clip_.isOpened()) {
-    const auto file = options_.pictures / ("clip-" + std::to_string(++saved_) + ".avi");
-    clip_.open(file.string(), cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), options_.rate,
-               grey.size(), false);
-    state_.message = clip_.isOpened() ? "clip " + file.string() : "cannot write " + file.string();
-  }
-  if (state_.recording_clip && clip_.isOpened()) clip_.write(grey);
-  if (!state_.recording_clip && clip_.isOpened()) clip_.release();
+  if (std::exchange(state_.wants_screenshot, false)) state_.message = saver_.save(image);
+  if (saver_.in_clip()) saver_.add_to_clip(image, elapsed);
+  if (state_.wants_clip == saver_.in_clip()) return;
+  state_.message = state_.wants_clip ? saver_.begin_clip(image) : saver_.end_clip();
+  state_.wants_clip = saver_.in_clip();  // it may have been refused
 }
 
 // What was just drawn, before it is shown and the buffer's content is lost.
@@ -365,9 +378,9 @@ Result<void> WindowLoop::save_window() const {
 }  // namespace
 
 Result<void> run_window(Session& session, HandDevice* hand, const HandTarget& start,
-                        const WindowOptions& options) {
+                        const WindowOptions& options, WindowReport& report) {
   // The picture yields to haptics and imaging; threads that the graphics driver starts do, too.
-  setpriority(PRIO_PROCESS, 0, 10);
+  setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), 10);
   const Library library;
   if (!library.ready)
     return fail(ErrorCode::failed, "there is no display; run under Xvfb (xvfb-run) without one");
@@ -379,19 +392,13 @@ Result<void> run_window(Session& session, HandDevice* hand, const HandTarget& st
   if (!window) return fail(ErrorCode::failed, "the display has no OpenGL 3.3");
   glfwMakeContextCurrent(window.get());
   glfwSwapInterval(0);
-  EventQueue queue;
-  glfwSetWindowUserPointer(window.get(), &queue);
-  glfwSetKeyCallback(window.get(), on_key);
-  glfwSetCursorPosCallback(window.get(), on_move);
-  glfwSetMouseButtonCallback(window.get(), on_button);
-  glfwSetScrollCallback(window.get(), on_scroll);
-  const float scale = std::clamp(static_cast<float>(options.height) / 720.F, 1.F, 3.F);
+  const float scale = text_scale(window.get(), options.height);
   const Gui gui(options.layout, scale);
   auto joint = JointView::make(session.scene().joint(), session.params().transducer.width,
                                session.params().needle_shape.length);
   if (!joint) return tl::unexpected<Error>(joint.error());
-  WindowLoop loop(window.get(), session, hand, start, options, std::move(*joint), scale);
-  return loop.run(queue);
+  WindowLoop loop(window.get(), session, hand, start, options, report, std::move(*joint), scale);
+  return loop.run();
 }
 
 }  // namespace artus

@@ -5,6 +5,7 @@
 
 #include "core/result.h"
 #include "sim/session.h"
+#include "viewer/panels.h"
 #include "viewer/script.h"
 
 namespace artus {
@@ -13,7 +14,8 @@ struct WindowOptions {
   int width = 1280;  ///< pixels
   int height = 720;  ///< pixels
   bool expert = false;
-  double rate = 30;  ///< Hz, at most
+  double rate = 30;          ///< Hz, at most
+  double pixels_per_mm = 0;  ///< of the screen; 0: as the system says
   std::vector<ScriptStep> script;
   std::filesystem::path screenshot;  ///< at the end of the script; empty: none
   bool quit_after_script = false;
@@ -21,11 +23,20 @@ struct WindowOptions {
   std::filesystem::path pictures = ".";  ///< folder of saved images and clips
 };
 
+/// What a window leaves behind when it is closed.
+struct WindowReport {
+  std::vector<ImagePoint> calipers;  ///< pairs, as they stood
+  ImagePlace image_place;            ///< of the last picture
+  bool expert = false;
+  std::uint64_t pictures = 0;       ///< shown
+  LatencyHistogram pose_to_screen;  ///< from the device's time stamp to the shown picture
+};
+
 /// Shows a running session until its window is closed or the script ends. Reads the session's
 /// snapshots only; what people do goes to `hand` when there is one (null for other devices). One
 /// window at a time, from the main thread. Errors: failed (no display, no OpenGL 3.3), unreadable
 /// (a picture cannot be written).
 [[nodiscard]] Result<void> run_window(Session& session, HandDevice* hand, const HandTarget& start,
-                                      const WindowOptions& options);
+                                      const WindowOptions& options, WindowReport& report);
 
 }  // namespace artus

@@ -2,13 +2,20 @@
 #include "viewer/window.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <sstream>
 
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/videoio.hpp>
 #include <unistd.h>
 
 #include <gtest/gtest.h>
 
+#include "core/units.h"
+#include "sim/replay.h"
 #include "tests/sim/session_support.h"
 
 namespace artus {
@@ -21,48 +28,233 @@ HandTarget above_the_skin() {
   return target;
 }
 
-TEST(Window, AnInjectionWithKeyAndWheelGoesThroughTheLayers) {
-  if (std::getenv("DISPLAY") == nullptr) GTEST_SKIP() << "no display; ctest runs it under Xvfb";
-  const auto folder = std::filesystem::temp_directory_path();
-  const std::string id = std::to_string(getpid());
-  const auto recording = folder / ("artus-window-" + id + ".rec");
-  const auto picture = folder / ("artus-window-" + id + ".png");
-  {
-    const SessionParams params = test::make_small_session();
-    auto device = std::make_unique<HandDevice>(above_the_skin(), 1 / params.haptic_rate);
+/// A window that a script drives, over a recorded session with the hand of mouse and keyboard.
+class Window : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (std::getenv("DISPLAY") == nullptr) GTEST_SKIP() << "no display; ctest runs it under Xvfb";
+    std::string name = (std::filesystem::temp_directory_path() / "artus-window-XXXXXX").string();
+    ASSERT_NE(mkdtemp(name.data()), nullptr);
+    folder_ = name;
+    options_.width = 960;
+    options_.height = 540;
+    options_.quit_after_script = true;
+    options_.pictures = folder_;
+  }
+  void TearDown() override {
+    if (!folder_.empty()) std::filesystem::remove_all(folder_);
+  }
+
+  /// Runs the script and fills report_ and recording_.
+  void run(const std::string& script) {
+    auto device = std::make_unique<HandDevice>(above_the_skin(), 1 / params_.haptic_rate);
     HandDevice* hand = device.get();
     Session::Options options;
     options.haptic_wishes = {};
     options.imaging_wishes = {};
-    options.recording = recording;
-    auto session = Session::start(test::make_layered_scene(), params, std::move(device), options);
-    ASSERT_TRUE(session) << session.error().to_string();
-    WindowOptions window;
-    window.width = 640;
-    window.height = 360;
-    window.script = *parse_script(
-        "wait 0.3\nkey N\nscroll 40\nwait 1.5\nscroll -1 fine\nkey F1\nkey E\nwait 0.5\nkey "
-        "E\nwait 0.3\n",
-        "test");
-    window.quit_after_script = true;
-    window.screenshot = picture;
-    const auto shown = run_window(**session, hand, above_the_skin(), window);
-    ASSERT_TRUE(shown) << shown.error().to_string();
+    options.recording = folder_ / "session.rec";
+    {
+      auto session = Session::start(scene_, params_, std::move(device), options);
+      ASSERT_TRUE(session) << session.error().to_string();
+      const auto steps = parse_script(script, "test");
+      ASSERT_TRUE(steps) << steps.error().to_string();
+      options_.script = *steps;
+      report_ = std::make_unique<WindowReport>();
+      const auto shown = run_window(**session, hand, above_the_skin(), options_, *report_);
+      ASSERT_TRUE(shown) << shown.error().to_string();
+    }
+    auto read = read_recording(options.recording);
+    ASSERT_TRUE(read) << read.error().to_string();
+    recording_ = std::move(*read);
   }
-  const auto read = read_recording(recording);
-  ASSERT_TRUE(read) << read.error().to_string();
+
+  /// What the recorded session felt, tick by tick.
+  [[nodiscard]] std::vector<HapticSnapshot> felt() const {
+    std::vector<HapticSnapshot> ticks;
+    ReplayListener listener;
+    listener.on_tick = [&ticks](const HapticSnapshot& tick) {
+      ticks.push_back(tick);
+    };
+    Recording haptics = recording_;
+    haptics.frames.clear();
+    const auto report = replay(haptics, scene_, params_, listener);
+    EXPECT_TRUE(report && report->identical());
+    return ticks;
+  }
+
+  [[nodiscard]] const std::string& layer(const HapticSnapshot& tick) const {
+    return scene_->joint().regions[tick.feedback.region].name;
+  }
+
+  std::shared_ptr<const Scene> scene_ = test::make_layered_scene();
+  SessionParams params_ = test::make_small_session();
+  std::filesystem::path folder_;
+  WindowOptions options_;
+  std::unique_ptr<WindowReport> report_;
+  Recording recording_;
+};
+
+TEST_F(Window, AnInjectionWithKeyAndWheelGoesThroughTheLayers) {
+  options_.screenshot = folder_ / "end.png";
+  run("wait 0.3\nkey N\nscroll 40\nwait 1.5\nscroll -1 fine\nkey F1\nkey E\nwait 0.5\nkey E\n"
+      "wait 0.3\n");
+  const auto ticks = felt();
   const auto deepest = std::max_element(
-      read->ticks.begin(), read->ticks.end(), [](const TickRecord& a, const TickRecord& b) {
-        return a.input.device.X_WN.position[2] < b.input.device.X_WN.position[2];
-      });
-  EXPECT_NEAR(deepest->input.device.X_WN.position[2], 10e-3, 0.2e-3);  // 40 notches from -10 mm
+      ticks.begin(), ticks.end(),
+      [](const auto& a, const auto& b) { return a.feedback.depth < b.feedback.depth; });
+  EXPECT_NEAR(deepest->feedback.depth, 10e-3, 0.2e-3);  // 40 notches from -10 mm
+  EXPECT_EQ(layer(*deepest), "muscle");
   const auto strongest = std::min_element(
-      read->ticks.begin(), read->ticks.end(),
-      [](const TickRecord& a, const TickRecord& b) { return a.force[2] < b.force[2]; });
-  EXPECT_LT(strongest->force[2], -0.5) << "muscle resists";
-  EXPECT_TRUE(std::filesystem::exists(picture));
-  std::filesystem::remove(recording);
-  std::filesystem::remove(picture);
+      ticks.begin(), ticks.end(),
+      [](const auto& a, const auto& b) { return a.feedback.force[2] < b.feedback.force[2]; });
+  EXPECT_LT(strongest->feedback.force[2], -0.5) << "muscle resists";
+  EXPECT_TRUE(std::filesystem::exists(options_.screenshot));
+}
+
+TEST_F(Window, AGamepadsTriggerInjects) {
+  run("wait 0.3\npad 0 0 0 0 1 1.2\nwait 1.0\npad 0 0 0 0 -1 1.2\nwait 1.0\n");
+  const auto ticks = felt();
+  double deepest = 0;
+  for (const HapticSnapshot& tick : ticks) deepest = std::max(deepest, tick.feedback.depth);
+  EXPECT_NEAR(deepest, 1.2 * HandControl::kPadPush - 10e-3, 0.3e-3);
+  EXPECT_EQ(ticks.back().inserted, 0U) << "and takes the needle out again";
+}
+
+TEST_F(Window, TheGestureOfTwoPhasesInjectsWhereTheProbeChoseTheEntry) {
+  // The mouse slides the probe 5 mm along x; the entry lies 30 mm beside it.
+  run("wait 0.3\nkey P\nmove 100 100\nmove 150 100\nwait 0.5\nkey C\nwait 0.5\nkey N\n"
+      "scroll 60\nwait 1.5\n");
+  const auto ticks = felt();
+  const HapticSnapshot& last = ticks.back();
+  EXPECT_EQ(last.phase, GesturePhase::inserting);
+  EXPECT_EQ(last.inserted, 1U);
+  const Vec3 entry(last.entry_J[0], last.entry_J[1], last.entry_J[2]);
+  EXPECT_LT((entry - Vec3(0.015 - params_.gesture.beside_probe, 0, 0)).norm(), 0.3e-3);
+  const Vec3 axis = to_pose(last.X_JN).linear().col(2);
+  EXPECT_NEAR(axis.z(), std::sin(params_.gesture.steepness), 1e-3);
+  EXPECT_NEAR(last.feedback.depth, 20e-3, 0.3e-3);
+  EXPECT_LT((to_pose(last.X_JP).translation() - Vec3(0.015, 0, 0)).norm(), 0.1e-3)
+      << "the probe stayed on the body";
+  std::vector<std::string> layers;
+  for (const HapticSnapshot& tick : ticks) {
+    if (layers.empty() || layers.back() != layer(tick)) layers.push_back(layer(tick));
+  }
+  EXPECT_EQ(layers, (std::vector<std::string>{"outside", "skin", "fat", "muscle"}));
+  double strongest = 0;
+  for (const HapticSnapshot& tick : ticks)
+    strongest = std::max(strongest, -tick.feedback.force[2]);  // the device's axis is W's z
+  EXPECT_GT(strongest, 0.5);
+}
+
+TEST_F(Window, ALostDeviceIsZeroForceAndComesBack) {
+  run("wait 0.3\nkey N\nscroll 50\nwait 1.2\ndisconnect\nwait 0.4\nconnect\nwait 0.8\n");
+  const auto ticks = felt();
+  std::size_t lost = 0;
+  for (const HapticSnapshot& tick : ticks) {
+    if ((tick.status & SessionStatus::kPeerLost) == 0) continue;
+    ++lost;
+    for (const double f : tick.feedback.force) ASSERT_EQ(f, 0);
+  }
+  EXPECT_GT(lost, 200U);
+  EXPECT_EQ(ticks.back().status & SessionStatus::kPeerLost, 0U);
+}
+
+TEST_F(Window, AtTrueScaleTheBoneStandsAtItsDepthOnTheScreenAndCalipersMeasureIt) {
+  options_.pixels_per_mm = 6;
+  options_.screenshot = folder_ / "scale.png";
+  run("wait 0.3\nkey T\nwait 1.0\n");
+  const ImagePlace place = report_->image_place;
+  ASSERT_NEAR(place.scale, 6, 1e-6);
+  // The scanner takes the layers' echoes to have come at its own speed of sound.
+  double shown_mm = 0;
+  const Segment line{Vec3(0.01, 0, -1e-3), Vec3(0.01, 0, 60e-3)};
+  for (const TissueInterval& s : tissue_intervals(*scene_, line)) {
+    const Tissue& tissue = scene_->joint().tissue_of(s.region);
+    if (tissue.haptic.hard) break;
+    if (s.region != kOutside)
+      shown_mm += (s.exit - s.entry) * kDisplaySpeedOfSound / tissue.acoustic.speed_of_sound * 1e3;
+  }
+  const cv::Mat screen = cv::imread(options_.screenshot.string(), cv::IMREAD_GRAYSCALE);
+  ASSERT_FALSE(screen.empty());
+  const int column = static_cast<int>(place.x + 6 * 20);  // the image's middle: the probe is 40 mm
+  int brightest = 0;
+  double most = 0;
+  for (int y = static_cast<int>(place.y + 6 * 20); y < static_cast<int>(place.y + 6 * 38); ++y) {
+    double sum = 0;
+    for (int x = column - 20; x < column + 20; ++x) sum += screen.at<std::uint8_t>(y, x);
+    if (sum <= most) continue;
+    most = sum;
+    brightest = y;
+  }
+  const double seen_mm = place.point_at(0, brightest + 0.5).y_mm;
+  EXPECT_NEAR(seen_mm, shown_mm, 0.5) << "bone in the screenshot";
+
+  // A person clicks on the skin line and on the bone.
+  std::ostringstream script;
+  script << "wait 0.3\nkey T\nwait 0.5\n";
+  for (const double y : {place.y, brightest + 0.5})
+    script << "move " << column << ' ' << y
+           << "\nwait 0.1\nbutton 0 down\nwait 0.1\nbutton 0 up\nwait 0.1\n";
+  run(script.str());
+  ASSERT_EQ(report_->calipers.size(), 2U);
+  const double measured = std::hypot(report_->calipers[1].x_mm - report_->calipers[0].x_mm,
+                                     report_->calipers[1].y_mm - report_->calipers[0].y_mm);
+  EXPECT_NEAR(measured, shown_mm, 0.5);
+}
+
+TEST_F(Window, AClipPlaysAsFastAsItWasRecorded) {
+  run("wait 0.5\nkey K\nwait 1.2\nkey K\nwait 0.3\nkey V\nwait 0.2\n");
+  cv::VideoCapture clip((folder_ / "clip-1.avi").string());
+  ASSERT_TRUE(clip.isOpened());
+  int frames = 0;
+  cv::Mat picture;
+  while (clip.read(picture)) ++frames;
+  EXPECT_NEAR(frames / clip.get(cv::CAP_PROP_FPS), 1.2, 0.4);
+  const cv::Mat saved = cv::imread((folder_ / "bmode-1.png").string(), cv::IMREAD_GRAYSCALE);
+  ASSERT_FALSE(saved.empty());
+}
+
+TEST_F(Window, ThePanelsStayWhereTheyWerePut) {
+  options_.layout = folder_ / "layout.ini";
+  run("wait 2\n");
+  const ImagePlace before = report_->image_place;
+  ASSERT_GT(before.y, 0) << "no image was shown";
+  std::string text;
+  {
+    std::ifstream in(options_.layout);
+    ASSERT_TRUE(in) << "the layout was not saved";
+    text.assign(std::istreambuf_iterator<char>(in), {});
+  }
+  const std::string panel = "[Window][B-mode]\nPos=";
+  const std::size_t at = text.find(panel);
+  ASSERT_NE(at, std::string::npos) << text;
+  const std::size_t end = text.find('\n', at + panel.size());
+  text.replace(at + panel.size(), end - at - panel.size(), "300,100");
+  std::ofstream(options_.layout) << text;
+  run("wait 2\n");
+  EXPECT_NEAR(report_->image_place.y - before.y, 100, 1);
+}
+
+TEST_F(Window, EveryKnobOfTheScannerReachesTheRenderer) {
+  // Six sliders under one another; a click near their left end turns each down.
+  std::ostringstream script;
+  script << "wait 0.4\n";
+  for (int row = 0; row < 6; ++row)
+    script << "move 772 " << 36 + 23 * row
+           << "\nwait 0.1\nbutton 0 down\nwait 0.1\nbutton 0 up\nwait 0.1\n";
+  script << "wait 0.5\n";
+  run(script.str());
+  ASSERT_FALSE(recording_.frames.empty());
+  const ImageControls before = controls_of(params_);
+  const ImageControls& after = recording_.frames.back().input.controls;
+  EXPECT_LT(after.depth, before.depth);
+  EXPECT_LT(after.gain_db, before.gain_db);
+  EXPECT_LT(after.tgc_db_cm_mhz, before.tgc_db_cm_mhz);
+  EXPECT_LT(after.dynamic_range_db, before.dynamic_range_db);
+  EXPECT_LT(after.frequency, before.frequency);
+  EXPECT_LT(after.elevation_focus, before.elevation_focus);
+  const auto report = replay(recording_, scene_, params_);
+  EXPECT_TRUE(report && report->identical()) << "and a replay turns them, too";
 }
 
 }  // namespace

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <string>
+#include <variant>
+
+namespace artus {
+
+/// One thing that a person did; made by the window system or by a script, so that both go the same
+/// way. Keys are capital letters, digits, or names: ESCAPE, SPACE, HOME, F1.
+struct KeyEvent {
+  std::string key;
+};
+struct MoveEvent {
+  double x = 0;       ///< pixels from the window's left
+  double y = 0;       ///< pixels from its top
+  bool fine = false;  ///< shift is held: what is in hand moves a tenth as far
+};
+struct ButtonEvent {
+  int button = 0;  ///< 0 left, 1 right, 2 middle
+  bool down = false;
+};
+struct ScrollEvent {
+  double notches = 0;
+  bool fine = false;  ///< shift is held: a tenth
+};
+/// A gamepad's sticks held for a while; each -1 to 1, right and down positive.
+struct PadEvent {
+  double left_x = 0;
+  double left_y = 0;
+  double right_x = 0;
+  double right_y = 0;
+  double push = 0;     ///< right trigger less left trigger
+  double seconds = 0;  ///< for how long
+};
+using UserEvent = std::variant<KeyEvent, MoveEvent, ButtonEvent, ScrollEvent, PadEvent>;
+
+}  // namespace artus
