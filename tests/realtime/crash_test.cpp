@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Kills either side of the shared memory with SIGKILL at random moments. ARTUS_KILLS=1000 makes the
 // long run; a few are enough for every day.
+#include <algorithm>
 #include <cmath>
 #include <csignal>
 #include <cstdlib>
@@ -13,7 +14,8 @@
 
 #include "core/noise.h"
 #include "sim/device_shared_memory.h"
-#include "sim/session_thread.h"
+#include "sim/session.h"
+#include "tests/sim/session_support.h"
 
 namespace artus {
 namespace {
@@ -82,6 +84,23 @@ void run_device(const std::string& prefix) {
   }
 }
 
+/// A whole session, as `artus serve` runs it, in flat layers.
+void run_session(const std::string& prefix) {
+  auto device = SharedMemoryDevice::open(prefix, {});
+  if (!device) _exit(3);
+  SessionParams params = test::make_small_session();
+  params.image_rate = 10;
+  auto session = Session::start(test::make_layered_scene(), params, std::move(*device), {});
+  if (!session) _exit(4);
+  for (;;) sleep_us(1'000'000);
+}
+
+/// The needle's depth of a hand that goes in and out again, twice a second, m.
+double depth_at(std::int64_t now_ns) {
+  const double phase = 1e-9 * static_cast<double>(now_ns % 500'000'000) / 0.5;
+  return 12e-3 * std::cos(6.283185307179586 * phase) + 2e-3;
+}
+
 class Crash : public ::testing::Test {
  protected:
   ~Crash() override {
@@ -112,6 +131,56 @@ TEST_F(Crash, AKilledEngineLeavesNoForceAndItsSuccessorIsFelt) {
   }
   // The client judges age when it is called; what passes between that and our clock is scheduling.
   RecordProperty("oldest_force_us", static_cast<int>(oldest / 1000));
+  artus_shm_close(&link);
+}
+
+TEST_F(Crash, AKilledSessionLeavesNoForceBeyondTwentyMillisecondsAndItsSuccessorIsFelt) {
+  artus_shm_link link;
+  ASSERT_EQ(artus_shm_open(&link, prefix_.c_str()), 0);
+  artus_shm_force force;
+  std::int64_t oldest = 0;
+  std::uint64_t with_force = 0;
+  const auto move = [&] {
+    artus_shm_pos pos = artus_shm_pos_init();
+    pos.sample = pos.time_ns;
+    pos.present = ARTUS_SHM_NEEDLE | ARTUS_SHM_PROBE;
+    pos.needle_position[2] = depth_at(static_cast<std::int64_t>(pos.time_ns));
+    artus_shm_write_pos(&link, &pos);
+    return artus_shm_read_force(&link, &force);
+  };
+  for (std::uint64_t i = 0; i < kills(); ++i) {
+    Victim engine([this] { run_session(prefix_); });
+    std::int64_t limit = monotonic_ns() + kPatience * kMillisecond;
+    while (move() == 0 || (force.status & ARTUS_SHM_PEER_LOST) != 0) {
+      ASSERT_LT(monotonic_ns(), limit) << "restart " << i << " was not felt";
+      sleep_us(500);
+    }
+    // Some are killed while they start to push back, some in the middle of an injection.
+    const std::int64_t death =
+        monotonic_ns() + static_cast<std::int64_t>(8e8 * uniform_noise(11, i));
+    double last = 0;
+    while (monotonic_ns() < death) {
+      if (move() == 1) last = std::hypot(force.force[0], force.force[1], force.force[2]);
+      ASSERT_LT(last, 1e3);
+      sleep_us(500);
+    }
+    if (last > 0.05) ++with_force;
+    const std::int64_t killed = monotonic_ns();
+    engine.kill_now();
+    limit = killed + kPatience * kMillisecond;
+    std::int64_t now = monotonic_ns();
+    while (move() == 1) {
+      oldest = std::max(oldest, now - static_cast<std::int64_t>(force.time_ns));
+      ASSERT_LT(now, limit) << "hangs on a dead session";
+      now = monotonic_ns();
+    }
+    EXPECT_EQ(force.force[2], 0);
+  }
+  RecordProperty("kills_with_force", static_cast<int>(with_force));
+  RecordProperty("oldest_force_us", static_cast<int>(oldest / 1000));
+  EXPECT_GT(with_force, 0U);
+  EXPECT_LE(oldest, static_cast<std::int64_t>(ARTUS_SHM_STALE_NS))
+      << "judged by the time at which the client was asked";
   artus_shm_close(&link);
 }
 
