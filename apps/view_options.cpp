@@ -19,6 +19,8 @@ Result<Transducer> make_transducer(const ViewOptions& options) {
   Transducer transducer = preset->transducer;
   if (options.frequency_mhz) transducer.frequency = *options.frequency_mhz * 1e6;
   if (options.focus_mm) transducer.elevation_focus = *options.focus_mm * kMillimetre;
+  if (options.transmit_focus_mm)
+    transducer.transmit_focus = *options.transmit_focus_mm * kMillimetre;
   if (options.steering_deg) transducer.steering = *options.steering_deg * kDegree;
   if (options.lines) transducer.n_lines = *options.lines;
   return transducer;
@@ -42,10 +44,19 @@ void add_imaging_options(CLI::App* command, ViewOptions& options) {
                       "centre frequency, MHz (default: the transducer's)");
   command->add_option("--focus", options.focus_mm,
                       "elevation focus of the lens, mm (default: the transducer's)");
+  command->add_option("--transmit-focus", options.transmit_focus_mm,
+                      "focus of the transmitted beam, mm; 0: at every depth (default: the "
+                      "transducer's)");
   command->add_option("--steering", options.steering_deg,
                       "tilt of the scanlines toward +x, degrees (default: the transducer's)");
   command->add_option("--lines", options.lines, "scanlines (default: the transducer's)");
   command->add_option("--pixel", options.pixel_mm, "pixel size, mm")->capture_default_str();
+  command->add_option("--smoothing", options.smoothing, "0 none .. 1, of the compressed lines")
+      ->capture_default_str();
+  command
+      ->add_option("--compound", options.compound,
+                   "steered frames that are averaged, an odd number; 1: none")
+      ->capture_default_str();
   command->add_option("--planes", options.planes, "elevation planes of the slice's thickness")
       ->capture_default_str();
   command
@@ -91,6 +102,8 @@ Result<View> make_view(const ViewOptions& options) {
   view.settings.gain_db = options.gain_db;
   view.settings.dynamic_range_db = options.dynamic_range_db;
   view.settings.pixel = options.pixel_mm * kMillimetre;
+  view.settings.smoothing = options.smoothing;
+  view.settings.compound_angles = options.compound;
   view.settings.n_planes = options.planes;
   view.settings.n_threads = options.threads;
   view.settings.seed = options.seed;

@@ -20,14 +20,17 @@ struct ViewOptions {
   int gauge = 22;
   bool echogenic = false;
   std::string transducer = "linear-6-18";
-  std::optional<double> frequency_mhz;  ///< empty: the transducer's, as the next three
+  std::optional<double> frequency_mhz;  ///< empty: the transducer's, as the next four
   std::optional<double> focus_mm;
+  std::optional<double> transmit_focus_mm;
   std::optional<double> steering_deg;
   std::optional<int> lines;
   double depth_mm = 40;
   double gain_db = ImageSettings{}.gain_db;
   double dynamic_range_db = ImageSettings{}.dynamic_range_db;
   double pixel_mm = 0.1;
+  double smoothing = 0;
+  int compound = 1;
   int planes = ImageSettings{}.n_planes;
   int threads = 0;
   std::uint64_t seed = 1;

@@ -154,9 +154,13 @@ EchoGate gate_matched_impedance() {
   gate.title = "Skin and muscle of one impedance 10 mm deep: nothing above the speckle";
   const std::array<FlatLayer, 2> layers{{{"muscle", 10e-3}, {"skin", 30e-3}}};
   const auto scene = make_block_scene(layers, [](CompiledJoint& joint) {
-    Acoustic& muscle = acoustic_of(joint, "muscle");
-    muscle.attenuation = 0;
-    acoustic_of(joint, "skin") = muscle;
+    acoustic_of(joint, "muscle").attenuation = 0;
+    const Acoustic muscle = acoustic_of(joint, "muscle");
+    Acoustic& skin = acoustic_of(joint, "skin");  // keeps its kind: two muscles have a fascia
+    skin.speed_of_sound = muscle.speed_of_sound;
+    skin.density = muscle.density;
+    skin.attenuation = muscle.attenuation;
+    skin.backscatter = muscle.backscatter;
   });
   Renderer renderer(scene, Transducer{}, bare_settings());
   const Frame& frame = renderer.render(Pose::Identity());

@@ -84,7 +84,8 @@ nlohmann::json to_json(const Transducer& t) {
           {"f_number", t.f_number},
           {"max_aperture_mm", t.max_aperture / kMillimetre},
           {"elevation_height_mm", t.elevation_height / kMillimetre},
-          {"elevation_focus_mm", t.elevation_focus / kMillimetre}};
+          {"elevation_focus_mm", t.elevation_focus / kMillimetre},
+          {"transmit_focus_mm", t.transmit_focus / kMillimetre}};
 }
 
 nlohmann::json to_json(const ImageSettings& s) {
@@ -100,6 +101,9 @@ nlohmann::json to_json(const ImageSettings& s) {
           {"gel_limit_mm", s.gel_limit / kMillimetre},
           {"pixel_mm", s.pixel / kMillimetre},
           {"persistence", s.persistence},
+          {"smoothing", s.smoothing},
+          {"compound_angles", s.compound_angles},
+          {"compound_spread_deg", s.compound_spread / kDegree},
           {"refraction", s.refraction},
           {"reverberation", s.reverberation},
           {"frequency_downshift", s.frequency_downshift},

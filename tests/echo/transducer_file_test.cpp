@@ -50,6 +50,7 @@ TEST(TransducerFile, TheFirstBundledPresetIsTheDefault) {
   EXPECT_DOUBLE_EQ(t.max_aperture, usual.max_aperture);
   EXPECT_DOUBLE_EQ(t.elevation_height, usual.elevation_height);
   EXPECT_DOUBLE_EQ(t.elevation_focus, usual.elevation_focus);
+  EXPECT_DOUBLE_EQ(t.transmit_focus, usual.transmit_focus);
 }
 
 TEST(TransducerFile, ThereIsALinearAndACurvilinearPresetAndEachIsFoundByName) {
@@ -83,9 +84,9 @@ TEST(TransducerFile, WhatIsWrongIsNamedWithFileAndKey) {
        {Case{"widht_mm = 3.0", "widht_mm"}, Case{"frequency_mhz = 900.0", "frequency_mhz"},
         Case{"frequency_mhz = nan", "frequency_mhz"}, Case{"lines = 10000", "lines"},
         Case{"lines = 10.5", "whole number"}, Case{"max_aperture_mm = 0.0", "max_aperture_mm"},
-        Case{"radius_mm = 2.0", "radius"}, Case{"format = 2", "format"},
-        Case{"name = \"A B\"", "name"}, Case{"width_mm = \"wide\"", "width_mm"},
-        Case{"title =", "mine.toml"}}) {
+        Case{"radius_mm = 2.0", "radius"}, Case{"transmit_focus_mm = 1.0", "transmit_focus"},
+        Case{"format = 2", "format"}, Case{"name = \"A B\"", "name"},
+        Case{"width_mm = \"wide\"", "width_mm"}, Case{"title =", "mine.toml"}}) {
     const auto preset = parse_transducer(with(c.line), "mine.toml");
     ASSERT_FALSE(preset.has_value()) << c.line;
     EXPECT_EQ(preset.error().where.rfind("mine.toml", 0), 0U) << c.line;
