@@ -2,8 +2,10 @@
 #include <cstdio>
 #include <iostream>
 #include <memory>
+#include <optional>
 
 #include "core/units.h"
+#include "echo/display.h"
 #include "echo/image_io.h"
 #include "echo/labels.h"
 #include "echo/renderer.h"
@@ -20,17 +22,31 @@ struct ImageOptions {
   std::filesystem::path out;
   std::filesystem::path envelope;
   bool plain = false;
+  std::optional<double> doppler_mm_s;
   bool json = false;
 };
 
+/// The picture that the flags ask for.
+cv::Mat picture_of(const Frame& frame, const View& view, const ImageOptions& options) {
+  if (options.doppler_mm_s)
+    return doppler_image(frame, ScanConverter(view.transducer, view.settings), view.settings);
+  return options.plain ? grey_image(frame) : annotated_image(frame, view.transducer);
+}
+
 ExitCode run_image(const ImageOptions& options) {
-  const auto loaded = load_view(options.joint, options.view, options.json);
+  auto loaded = load_view(options.joint, options.view, options.json);
   if (!loaded) return report_error(loaded.error(), options.json);
-  const View& view = loaded->view;
+  View& view = loaded->view;
+  if (options.doppler_mm_s) {
+    view.settings.doppler = true;
+    if (loaded->needle)
+      loaded->needle->v_JN =
+          *options.doppler_mm_s * kMillimetre * loaded->needle->X_JN.linear().col(2);
+  }
   const Frame frame =
       render_bmode(loaded->scene, loaded->X_JP, loaded->needle, view.transducer, view.settings);
 
-  const cv::Mat image = options.plain ? grey_image(frame) : annotated_image(frame, view.transducer);
+  const cv::Mat image = picture_of(frame, view, options);
   if (const auto written = write_image(image, options.out); !written)
     return report_error(written.error(), options.json);
   if (!options.envelope.empty())
@@ -75,6 +91,9 @@ void add_image_command(CLI::App& app, ExitCode& code) {
   command->add_option("--envelope", options->envelope,
                       "also write the envelope before compression (.tiff, 32-bit float)");
   command->add_flag("--plain", options->plain, "pixels of the sector alone, no depth scale");
+  command->add_option("--doppler", options->doppler_mm_s,
+                      "colour what moves, with the needle at this speed toward its tip, mm/s "
+                      "(no depth scale)");
   command->add_flag("--json", options->json, "machine-readable output");
   on_run(command, code, [options] { return run_image(*options); });
 }

@@ -2,16 +2,35 @@
 #include "sim/echo_truth.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <vector>
 
+#include <opencv2/imgproc.hpp>
+
+#include "core/check.h"
 #include "core/units.h"
+#include "echo/image_io.h"
 
 namespace artus {
 namespace {
 
 nlohmann::json triple(const Vec3& v, double unit = 1) {
   return {v.x() / unit, v.y() / unit, v.z() / unit};
+}
+
+/// 255 at the pixels whose samples fulfil `condition`, which is asked for each (line, sample).
+template <class Condition>
+cv::Mat mask_where(const Frame& frame, const ScanConverter& converter, const Condition& condition) {
+  // An image that is white where the condition holds goes through the converter of all images.
+  constexpr float kWhite = 0;      // dB
+  constexpr float kBlack = -1000;  // dB
+  constexpr double kMiddle = 127;
+  std::vector<float> levels(frame.envelope.size());
+  for (std::size_t i = 0; i < levels.size(); ++i) levels[i] = condition(i) ? kWhite : kBlack;
+  cv::Mat grey(converter.height(), converter.width(), CV_8UC1);
+  converter.convert(levels, 0, converter.height(), {grey.data, grey.total()});
+  return grey > kMiddle;
 }
 
 }  // namespace
@@ -29,21 +48,45 @@ cv::Mat needle_mask(const LabelImage& labels) {
 }
 
 cv::Mat shadow_mask(const Frame& frame, const ScanConverter& converter) {
-  // An image that is white in the shadow goes through the converter of every other image.
-  constexpr float kWhite = 0;      // dB
-  constexpr float kBlack = -1000;  // dB
-  constexpr double kHalf = 127;
+  constexpr float kHalf = 0.5F;  // share of the sound
   const auto n = static_cast<std::size_t>(frame.n_samples);
-  std::vector<float> levels(static_cast<std::size_t>(frame.n_lines) * n, kBlack);
-  for (std::size_t l = 0; l < static_cast<std::size_t>(frame.n_lines); ++l) {
-    const auto from = static_cast<std::size_t>(std::max(0.0F, frame.shadow_from[l]));
-    std::fill(levels.begin() + static_cast<std::ptrdiff_t>(l * n + std::min(from, n)),
-              levels.begin() + static_cast<std::ptrdiff_t>((l + 1) * n), kWhite);
+  const auto below = [&](std::size_t i) {
+    return static_cast<float>(i % n) >= frame.shadow_from[i / n];
+  };
+  const auto dimmed = [&](std::size_t i) {
+    return frame.needle_light[i] < kHalf;
+  };
+  const cv::Mat full = mask_where(frame, converter, below);
+  const cv::Mat needle = mask_where(frame, converter, dimmed);
+  return cv::max(full, needle / 2);
+}
+
+cv::Mat doppler_image(const Frame& frame, const ScanConverter& converter,
+                      const ImageSettings& settings) {
+  ARTUS_REQUIRE(frame.velocity.size() == frame.decibel.size(), "the frame has no velocities");
+  // Velocities go through the converter of every other image as greys: -limit is black, limit
+  // white, and what stands still is below black.
+  constexpr float kStill = -1e6F;  // dB
+  std::vector<float> levels(frame.velocity.size());
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    const double v = static_cast<double>(frame.velocity[i]) / settings.doppler_limit;
+    levels[i] =
+        std::isnan(v) ? kStill : static_cast<float>((v - 1) / 2 * settings.dynamic_range_db);
   }
-  std::vector<std::uint8_t> grey(static_cast<std::size_t>(converter.width()) *
-                                 static_cast<std::size_t>(converter.height()));
-  converter.convert(levels, 0, converter.height(), grey);
-  return cv::Mat(converter.height(), converter.width(), CV_8UC1, grey.data()) > kHalf;
+  cv::Mat moving(frame.height, frame.width, CV_8UC1);
+  converter.convert(levels, 0, frame.height, {moving.data, moving.total()});
+  cv::Mat out;
+  cv::cvtColor(grey_image(frame), out, cv::COLOR_GRAY2BGR);
+  for (int y = 0; y < out.rows; ++y)
+    for (int x = 0; x < out.cols; ++x) {
+      const int grey = moving.at<std::uint8_t>(y, x);
+      if (grey == 0) continue;
+      const double v = 2 * grey / 255.0 - 1;  // of the limit, toward the probe
+      const auto strong = static_cast<std::uint8_t>(110 + 145 * std::abs(v));
+      const auto weak = static_cast<std::uint8_t>(140 * std::abs(v));
+      out.at<cv::Vec3b>(y, x) = v > 0 ? cv::Vec3b(0, weak, strong) : cv::Vec3b(strong, weak, 0);
+    }
+  return out;
 }
 
 nlohmann::json to_json(const NeedleTruth& truth) {

@@ -20,9 +20,16 @@ namespace artus {
 /// 255 where the needle's shaft is in the slice, (height, width) CV_8UC1.
 [[nodiscard]] cv::Mat needle_mask(const LabelImage& labels);
 
-/// 255 where no sound returns (behind bone or gas, or without contact), (height, width) CV_8UC1.
-/// Requires: `converter` is of the frame's transducer and settings.
+/// 255 where no sound returns (behind bone or gas, or without contact), 127 where less than half of
+/// it passes the needle, else 0; (height, width) CV_8UC1. Requires: `converter` is of the frame's
+/// transducer and settings.
 [[nodiscard]] cv::Mat shadow_mask(const Frame& frame, const ScanConverter& converter);
+
+/// The grey image (CV_8UC3) with what moves in colour: red toward the probe, blue away, the
+/// brighter the faster. Requires: a frame with velocities; `converter` and `settings` are the
+/// frame's.
+[[nodiscard]] cv::Mat doppler_image(const Frame& frame, const ScanConverter& converter,
+                                    const ImageSettings& settings);
 
 /// Tip in pixels, offset from the plane in mm, angles in degrees, in_plane.
 [[nodiscard]] nlohmann::json to_json(const NeedleTruth& truth);

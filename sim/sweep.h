@@ -35,7 +35,7 @@ struct SweepResult {
 ///   sweep.json            what was asked for; another sweep is not mixed into the same folder
 ///   truth.jsonl           a line for each finished frame, in the order of the list
 ///   frames/NNNNNN.png     B-mode, 8 bit
-///   frames/NNNNNN-labels.png, -shadow.png, -needle.png   region ids (16 bit), masks (0 or 255)
+///   frames/NNNNNN-labels.png, -shadow.png, -needle.png   region ids (16 bit), masks
 /// A sweep that was stopped, killed even, continues where it was: a frame counts when its line and
 /// all its pictures are there. The files are the same bytes at any number of threads and stops.
 /// Errors: invalid (persistence; the folder holds another sweep; another process draws there),
