@@ -58,7 +58,7 @@ cv::Mat shadow_mask(const Frame& frame, const ScanConverter& converter) {
   };
   const cv::Mat full = mask_where(frame, converter, below);
   const cv::Mat needle = mask_where(frame, converter, dimmed);
-  return cv::max(full, needle / 2);
+  return cv::max(full, needle & cv::Scalar(128));
 }
 
 cv::Mat doppler_image(const Frame& frame, const ScanConverter& converter,

@@ -20,7 +20,7 @@ namespace artus {
 /// 255 where the needle's shaft is in the slice, (height, width) CV_8UC1.
 [[nodiscard]] cv::Mat needle_mask(const LabelImage& labels);
 
-/// 255 where no sound returns (behind bone or gas, or without contact), 127 where less than half of
+/// 255 where no sound returns (behind bone or gas, or without contact), 128 where less than half of
 /// it passes the needle, else 0; (height, width) CV_8UC1. Requires: `converter` is of the frame's
 /// transducer and settings.
 [[nodiscard]] cv::Mat shadow_mask(const Frame& frame, const ScanConverter& converter);

@@ -96,6 +96,19 @@ TEST_F(ImagingTool, ATransducerComesByNameOrFromAFile) {
   EXPECT_NE(bad.err.find("bad.toml"), std::string::npos);
 }
 
+TEST_F(ImagingTool, DopplerColoursAMovingNeedle) {
+  const auto coloured = [&](const char* speed) {
+    const auto r = artus({"image", "-j", kSimple, "--needle", "default", "--doppler", speed, "-o",
+                          in("d.png"), "--json"});
+    EXPECT_EQ(r.exit_code, 0) << r.err;
+    std::vector<cv::Mat> channels;
+    cv::split(cv::imread(in("d.png")), channels);
+    return cv::countNonZero(channels[0] != channels[2]);
+  };
+  EXPECT_EQ(coloured("0"), 0);
+  EXPECT_GT(coloured("-40"), 50);
+}
+
 TEST_F(ImagingTool, APhantomComesWithItsTruth) {
   const auto r = artus({"phantom", "needle", "--needle-angle", "30", "--out", in("n"), "--json"});
   ASSERT_EQ(r.exit_code, 0) << r.err;

@@ -85,7 +85,7 @@ TEST_F(Sweep, DrawsEveryPoseWithItsTruth) {
                    cv::IMREAD_UNCHANGED);
     EXPECT_EQ(image.size(), labels.size());
     EXPECT_EQ(labels.type(), CV_16UC1);
-    EXPECT_EQ(shadow.at<std::uint8_t>(20, 40), 0);    // fat at 10 mm: 2 * 5 mm
+    EXPECT_EQ(shadow.at<std::uint8_t>(12, 40), 0);    // above the needle
     EXPECT_EQ(shadow.at<std::uint8_t>(60, 40), 255);  // behind bone at 30 mm
     EXPECT_EQ(labels.at<std::uint16_t>(5, 40), kFirstRegion);
   }
