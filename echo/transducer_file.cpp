@@ -34,7 +34,6 @@ constexpr std::array<Field, 11> kFields{{
     {"elevation_height_mm", &Transducer::elevation_height, 0.5, 50, kMillimetre, true},
     {"elevation_focus_mm", &Transducer::elevation_focus, 2, 500, kMillimetre, true},
     {"transmit_focus_mm", &Transducer::transmit_focus, 0, 500, kMillimetre, false},
-    {"transmit_focus_mm", &Transducer::transmit_focus, 2, 500, kMillimetre, false},
 }};
 constexpr double kMaxLines = 4096;
 
