@@ -53,6 +53,7 @@ void HapticCore::step_needle(const DeviceSample& device, std::uint32_t command) 
     why |= SessionStatus::kPeerLost;
   if (device.state == PeerState::invalid) why |= SessionStatus::kPeerInvalid;
   if ((command & SessionCommand::kPause) != 0) why |= SessionStatus::kPaused;
+  if ((command & SessionCommand::kLate) != 0) why |= TickStatus::kLate;
   if (why == 0 && device.has_needle == 0) why |= SessionStatus::kNoNeedle;
   const bool rest = why != 0 || (command & SessionCommand::kReset) != 0;
   TimedPose pose;

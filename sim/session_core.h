@@ -44,6 +44,7 @@ struct SessionStatus {
 struct SessionCommand {
   static constexpr std::uint32_t kPause = 1U << 0U;
   static constexpr std::uint32_t kReset = 1U << 1U;  ///< in one tick: forget the insertion
+  static constexpr std::uint32_t kLate = 1U << 2U;   ///< the loop is late for too long: no force
 };
 
 /// Everything that goes into a haptic tick. Plain bytes: a recording is a row of these.

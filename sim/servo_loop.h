@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <atomic>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "sim/seqlock.h"
+#include "sim/session_core.h"
+#include "sim/session_histogram.h"
+#include "sim/session_thread.h"
+
+namespace artus {
+
+/// Says when ticks have come too late for too long: every one of them by a period or more, over a
+/// time. A single late tick is felt as a moment's hold; a row of them is a loop that no longer
+/// controls the device. Source: the practice of libfranka [Franka].
+class LateWatch {
+ public:
+  static constexpr std::int64_t kTooLong = 20'000'000;  // ns; assumed: as for a stale input
+
+  explicit LateWatch(std::int64_t period_ns) noexcept : period_(period_ns) {}
+
+  /// `late_ns`: of this tick. Returns whether the force has to rest.
+  ARTUS_REALTIME bool step(std::int64_t late_ns) noexcept {
+    row_ = late_ns >= period_ ? row_ + period_ + late_ns / period_ * period_ : 0;
+    return row_ > kTooLong;
+  }
+
+ private:
+  std::int64_t period_;
+  std::int64_t row_ = 0;  // ns of the present row of late ticks
+};
+
+struct ServoOptions {
+  double rate_hz = 1000;
+  double seconds = 10;
+  double floor_seconds = 1;  ///< of ticks that do nothing, before: what the machine itself is late
+  ThreadWishes wishes{80, 0, true, -1};
+};
+
+/// Where a run's time went, and what it met.
+struct ServoReport {
+  LatencyHistogram compute;   ///< one tick from the pose to the published force, clock time
+  LatencyHistogram cpu;       ///< the same in processor time
+  LatencyHistogram lateness;  ///< wake-up after its schedule; a late one also for those it delayed
+  LatencyHistogram floor;     ///< the same for ticks that do nothing, before the run
+  std::uint64_t ticks = 0;
+  std::uint64_t overruns = 0;  ///< ticks late by a period or more
+  std::uint64_t rested = 0;    ///< ticks with zero force since too many came late
+  std::uint64_t faults = 0;    ///< ticks whose input was refused
+  std::uint64_t inserted = 0;  ///< ticks with the needle in the body
+  std::uint64_t on_bone = 0;
+  double most_force = 0;             ///< N sent
+  std::vector<std::string> refused;  ///< what the system did not grant, in words
+};
+
+/// Runs haptic ticks in the calling thread on an absolute schedule until the time is over or
+/// `stop`: device in, tick, device out, snapshot published. The last thing sent is zero force.
+/// Asks the system for `wishes` first; a refusal is reported, not fatal.
+void run_servo_loop(HapticCore& core, InputDevice& device, const ServoOptions& options,
+                    const std::atomic<bool>& stop, Seqlock<HapticSnapshot>& newest,
+                    ServoReport& report);
+
+}  // namespace artus
