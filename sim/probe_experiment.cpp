@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/text_file.h"
+#include "sim/needle_trace.h"
 #include "sim/probe_experiment_list.h"
 
 namespace artus {
@@ -51,7 +52,7 @@ std::string make_report(const ProbeExperiment& e) {
   for (const auto& [title, table] : e.tables) text += title + "\n\n" + markdown_table(table);
   ProbeTable claims{{"must hold", "value", "bound", "verdict"}, {}};
   for (const Claim& c : e.claims) {
-    claims.rows.push_back({c.text, fixed(c.value, 4), c.bound, c.pass ? "pass" : "FAIL"});
+    claims.rows.push_back({c.text, to_csv(c.value), c.bound, c.pass ? "pass" : "FAIL"});
   }
   return text + markdown_table(claims);
 }

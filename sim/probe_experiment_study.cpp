@@ -346,6 +346,12 @@ ProbeTable make_answer_table(const std::vector<LawResult>& results) {
   return table;
 }
 
+/// Both backstepping laws move the rod alike; drawn dashed, the second lets the first be seen.
+void add_curve(PlotPanel& panel, ControlLawKind law, PlotSeries series) {
+  if (law == ControlLawKind::backstepping_two_valves) series.style = "lines dashtype 2";
+  panel.series.push_back(std::move(series));
+}
+
 /// One panel per cylinder, so that the curves of its laws can be told apart.
 Plot make_plot(const std::string& title, const std::string& x_label, const std::string& y_label,
                int height) {
@@ -385,11 +391,11 @@ ProbeExperiment run_probe_study(const ProbeExperimentOptions& options) {
       const std::string label = to_string(law);
       std::vector<ProbeRow> rows;
       measure_load_steps(r, options, rows);
-      steps.panels[i].series.push_back(plot_probe_rows(rows, label, position));
+      add_curve(steps.panels[i], law, plot_probe_rows(rows, label, position));
       measure_push(r, options, rows);
-      push.panels[i].series.push_back(push_curve(rows, label));
+      add_curve(push.panels[i], law, push_curve(rows, label));
       measure_release(r, options, rows);
-      release.panels[i].series.push_back(plot_probe_rows(rows, label, position));
+      add_curve(release.panels[i], law, plot_probe_rows(rows, label, position));
       measure_springs(r, options);
       measure_tissues(r, options);
       measure_noise(r, options);
