@@ -35,7 +35,8 @@ class DistanceField {
   [[nodiscard]] static DistanceField compute(const DistanceTree& tree,
                                              const FieldSampling& sampling);
 
-  /// Samples any function that is negative inside and changes no faster than distance.
+  /// Samples any function that is negative inside and changes no faster than distance. Storage
+  /// blocks without a zero count as wholly inside or outside: values hold near the surface only.
   [[nodiscard]] static DistanceField compute(const std::function<double(const Vec3&)>& function,
                                              const FieldSampling& sampling);
 

@@ -15,6 +15,7 @@
 
 #include "anatomy/surface_io.h"
 #include "core/noise.h"
+#include "tests/anatomy/surface_samples.h"
 
 namespace artus {
 namespace {
@@ -22,37 +23,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kMm = 1e-3;
-
-// A sphere as a grid of latitudes and longitudes, volume 0.4 % below the ball's.
-SurfaceMesh make_sphere(const Vec3& centre, double radius) {
-  constexpr std::uint32_t kRows = 40;
-  constexpr std::uint32_t kColumns = 80;
-  SurfaceMesh mesh;
-  for (std::uint32_t i = 1; i < kRows; ++i) {
-    for (std::uint32_t j = 0; j < kColumns; ++j) {
-      const double theta = std::numbers::pi * i / kRows;
-      const double phi = 2 * std::numbers::pi * j / kColumns;
-      mesh.vertices.push_back(centre + radius * Vec3(std::sin(theta) * std::cos(phi),
-                                                     std::sin(theta) * std::sin(phi),
-                                                     std::cos(theta)));
-    }
-  }
-  const auto top = static_cast<std::uint32_t>(mesh.vertices.size());
-  mesh.vertices.push_back(centre + Vec3(0, 0, radius));
-  mesh.vertices.push_back(centre - Vec3(0, 0, radius));
-  const auto at = [](std::uint32_t i, std::uint32_t j) {
-    return i * kColumns + j % kColumns;
-  };
-  for (std::uint32_t j = 0; j < kColumns; ++j) {
-    mesh.triangles.push_back({top, at(0, j), at(0, j + 1)});
-    mesh.triangles.push_back({top + 1, at(kRows - 2, j + 1), at(kRows - 2, j)});
-    for (std::uint32_t i = 0; i + 2 < kRows; ++i) {
-      mesh.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
-      mesh.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
-    }
-  }
-  return mesh;
-}
 
 double ball(double radius) {
   return 4.0 / 3 * std::numbers::pi * radius * radius * radius;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <numbers>
 #include <string>
 
 #include "anatomy/surface_mesh.h"
@@ -25,6 +27,37 @@ inline void append_mesh(SurfaceMesh& a, const SurfaceMesh& b) {
   a.vertices.insert(a.vertices.end(), b.vertices.begin(), b.vertices.end());
   for (const auto& t : b.triangles)
     a.triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
+}
+
+/// A sphere as a grid of latitudes and longitudes, volume 0.4 % below the ball's.
+inline SurfaceMesh make_sphere(const Vec3& centre, double radius) {
+  constexpr std::uint32_t kRows = 40;
+  constexpr std::uint32_t kColumns = 80;
+  SurfaceMesh mesh;
+  for (std::uint32_t i = 1; i < kRows; ++i) {
+    for (std::uint32_t j = 0; j < kColumns; ++j) {
+      const double theta = std::numbers::pi * i / kRows;
+      const double phi = 2 * std::numbers::pi * j / kColumns;
+      mesh.vertices.push_back(centre + radius * Vec3(std::sin(theta) * std::cos(phi),
+                                                     std::sin(theta) * std::sin(phi),
+                                                     std::cos(theta)));
+    }
+  }
+  const auto top = static_cast<std::uint32_t>(mesh.vertices.size());
+  mesh.vertices.push_back(centre + Vec3(0, 0, radius));
+  mesh.vertices.push_back(centre - Vec3(0, 0, radius));
+  const auto at = [](std::uint32_t i, std::uint32_t j) {
+    return i * kColumns + j % kColumns;
+  };
+  for (std::uint32_t j = 0; j < kColumns; ++j) {
+    mesh.triangles.push_back({top, at(0, j), at(0, j + 1)});
+    mesh.triangles.push_back({top + 1, at(kRows - 2, j + 1), at(kRows - 2, j)});
+    for (std::uint32_t i = 0; i + 2 < kRows; ++i) {
+      mesh.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+      mesh.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
+  }
+  return mesh;
 }
 
 /// An open tube of `n` sides around z, radius and length in m.
