@@ -21,12 +21,18 @@ std::string to_hex(std::uint64_t value) {
   return text.data();
 }
 
+/// Nothing in artus changes the environment while threads run.
+std::filesystem::path folder_from_environment(const char* name) {
+  const char* value = std::getenv(name);  // NOLINT(concurrency-mt-unsafe): see above
+  return value != nullptr ? value : "";
+}
+
 std::filesystem::path default_cache() {
-  if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache != nullptr && *cache != '\0') {
-    return std::filesystem::path(cache) / "artus";
+  if (const auto cache = folder_from_environment("XDG_CACHE_HOME"); !cache.empty()) {
+    return cache / "artus";
   }
-  if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0') {
-    return std::filesystem::path(home) / ".cache" / "artus";
+  if (const auto home = folder_from_environment("HOME"); !home.empty()) {
+    return home / ".cache" / "artus";
   }
   return std::filesystem::temp_directory_path() / "artus-cache";
 }

@@ -7,15 +7,18 @@ namespace artus {
 namespace {
 
 constexpr double kAfterRise = 0.1e-3;  // m past the rise before the plateau counts
+/// Slower than this on bone the needle is held and its wall settles; faster, it presses on.
+constexpr double kPressing = 3e-3;  // m/s
 
-bool cuts(ContactState state) noexcept {
-  return state == ContactState::inserting || state == ContactState::bone;
+bool cuts(const NeedleRow& row) noexcept {
+  return row.state == ContactState::inserting ||
+         (row.state == ContactState::bone && row.velocity > kPressing);
 }
 
 }  // namespace
 
 void PlateauFinder::add(const NeedleRow& row) {
-  if (!cuts(row.state) || row.region >= by_region_.size()) {
+  if (!cuts(row) || row.region >= by_region_.size()) {
     going_ = false;
     return;
   }

@@ -19,14 +19,12 @@ double ball_volume(double radius) {
   return 4.0 / 3 * std::numbers::pi * radius * radius * radius;
 }
 
-FieldSampling sample_around(double half, double band = 10 * kMm) {
-  return {{Vec3::Constant(-half), Vec3::Constant(half)}, 0.4 * kMm, band};
+FieldSampling sample_around(double half, double spacing = 0.4 * kMm, double band = 3 * kMm) {
+  return {{Vec3::Constant(-half), Vec3::Constant(half)}, spacing, band};
 }
 
 DistanceField make_field(const SurfaceMesh& mesh, double half = 40 * kMm) {
-  FieldSampling sampling = sample_around(half);
-  sampling.spacing = 1 * kMm;  // distances are smooth: coarse enough to be quick
-  return DistanceField::compute(DistanceTree(mesh), sampling);
+  return DistanceField::compute(DistanceTree(mesh), sample_around(half, 1 * kMm, 10 * kMm));
 }
 
 DistanceField make_ball(double radius, const Vec3& centre = Vec3::Zero()) {
@@ -87,7 +85,7 @@ TEST_P(GapBetweenBalls, HasItsThicknessHalfWayBetweenRoofAndFloor) {
   gap.thickness = 1.2 * kMm;
   gap.within = 6 * kMm;
   const DistanceField cleft = make_construct_field(
-      make_structure(gap), {{"roof", &roof}, {"floor", &floor}}, sample_around(30 * kMm));
+      make_structure(gap), {{"roof", &roof}, {"floor", &floor}}, sample_around(26 * kMm));
   const double middle = 20 * kMm + clearance / 2;
   const double expected =
       ball_volume(middle + gap.thickness / 2) - ball_volume(middle - gap.thickness / 2);
@@ -105,7 +103,7 @@ TEST(GapConstruct, EndsWhereRoofAndFloorPart) {
   gap.thickness = 1.2 * kMm;
   gap.within = 6 * kMm;
   const DistanceField cleft = make_construct_field(
-      make_structure(gap), {{"roof", &roof}, {"floor", &floor}}, sample_around(30 * kMm));
+      make_structure(gap), {{"roof", &roof}, {"floor", &floor}}, sample_around(26 * kMm));
   EXPECT_EQ(volume(cleft), 0);
 }
 
@@ -125,7 +123,7 @@ TEST(GapConstruct, KeepsTheLargestPartAlone) {
   gap.within = 4 * kMm;
   const DistanceField cleft = make_construct_field(
       make_structure(gap), {{"roof", &roof}, {"large", &large}, {"small", &small}},
-      sample_around(30 * kMm));
+      sample_around(26 * kMm));
   EXPECT_LT(cleft.value(-0.5 * apart + Vec3(0, 10.75 * kMm, 0)), 0);
   EXPECT_GT(cleft.value(0.5 * apart + Vec3(0, 5.75 * kMm, 0)), 0);
 }
