@@ -14,7 +14,7 @@
 namespace artus {
 namespace {
 
-constexpr std::array<test::FlatLayer, 4> kLayers{
+const std::array<test::FlatLayer, 4> kLayers{
     {{"skin", 2e-3}, {"fat", 6e-3}, {"muscle", 14e-3}, {"bone", 20e-3}}};
 
 std::shared_ptr<const Scene> block() {
