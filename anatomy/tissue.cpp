@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
+#include <string_view>
 
 #include "anatomy/bundled_tissues.h"
 #include "anatomy/surface_io.h"
@@ -47,6 +49,11 @@ constexpr std::array<Field<Haptic>, 6> kHapticFields{{
     {"puncture_force_n", &Haptic::puncture_force, 0, 100, 1, false},
 }};
 
+constexpr std::array<std::string_view, 4> kCuttingLaws{"tracking_wall", "direct", "spring",
+                                                       "voigt"};
+constexpr std::array<std::string_view, 4> kPrepunctureLaws{"membrane", "simone_okamura", "barbe",
+                                                           "god_object"};
+
 template <class Group, std::size_t n>
 void read_fields(TomlTable& toml, const std::array<Field<Group>, n>& fields, bool is_new,
                  Group& group) {
@@ -82,6 +89,23 @@ void read_source(TomlTable& toml, const std::string& group, const std::string& d
   tissue.source[group] = toml.required_text("source");
 }
 
+/// Which law the needle feels the tissue by; kept among the tissue's texts under its key, for the
+/// laws themselves are the business of haptics/.
+void read_law(TomlTable& toml, const char* key, std::span<const std::string_view> names,
+              Tissue& tissue) {
+  const auto law = toml.text(key);
+  if (!law) return;
+  std::string known;
+  for (const std::string_view name : names) {
+    if (name == *law) {
+      tissue.source[key] = *law;
+      return;
+    }
+    known += (known.empty() ? "" : ", ") + std::string(name);
+  }
+  toml.problem("'" + std::string(key) + "' must be one of " + known);
+}
+
 void merge_tissue(const std::string& name, const toml::table& table, const std::string& source,
                   bool is_new, Tissue& tissue, Problems& problems) {
   TomlTable groups(table, "tissue '" + name + "'", problems);
@@ -106,6 +130,8 @@ void merge_tissue(const std::string& name, const toml::table& table, const std::
   if (auto toml = open("haptic")) {
     read_fields(*toml, kHapticFields, is_new, tissue.haptic);
     if (const auto hard = toml->boolean("hard")) tissue.haptic.hard = *hard;
+    read_law(*toml, "cutting_law", kCuttingLaws, tissue);
+    read_law(*toml, "prepuncture_law", kPrepunctureLaws, tissue);
     read_source(*toml, "haptic", source, tissue);
     toml->finish();
   }

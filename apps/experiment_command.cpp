@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+#include <algorithm>
 #include <cstdio>
+#include <fstream>
 #include <iostream>
 #include <memory>
 #include <vector>
@@ -26,10 +28,50 @@ bool all_hold(const std::vector<Claim>& claims) {
   return all;
 }
 
-void append_markdown(std::string& report, const std::string& name,
-                     const std::vector<Claim>& claims) {
-  report += "\n## " + name + "\n\n![" + name + "](" + name + "/" + name + ".png)\n\n" +
-            to_markdown(claims);
+/// A CSV table in Markdown; cells hold no commas. Empty when the file is not there.
+std::string table_to_markdown(const std::filesystem::path& csv) {
+  std::ifstream in(csv);
+  std::string out;
+  std::size_t rows = 0;
+  for (std::string line; std::getline(in, line); ++rows) {
+    std::string cells;
+    std::size_t columns = 1;
+    for (const char c : line) {
+      cells += c == ',' ? std::string(" | ") : std::string(1, c);
+      if (c == ',') ++columns;
+    }
+    out += "| " + cells + " |\n";
+    if (rows == 0) {
+      out += '|';
+      for (std::size_t i = 0; i < columns; ++i) out += "---|";
+      out += '\n';
+    }
+  }
+  return out.empty() ? out : "\n" + out;
+}
+
+/// The title that an experiment gave itself; its name when it gave none.
+std::string title_of(const std::filesystem::path& folder, const std::string& name) {
+  std::ifstream in(folder / "verdict.json");
+  const auto json = nlohmann::json::parse(in, nullptr, false);
+  return json.is_object() ? json.value("title", name) : name;
+}
+
+/// One section of the report: what the experiment shows, its plots, verdicts and table.
+void append_markdown(std::string& report, const std::filesystem::path& folder,
+                     const std::string& name, const std::vector<Claim>& claims) {
+  report += "\n## " + name + "\n\n" + title_of(folder, name) + "\n\n";
+  std::vector<std::string> plots;
+  for (const auto& file : std::filesystem::directory_iterator(folder))
+    if (file.path().extension() == ".png") plots.push_back(file.path().filename().string());
+  std::sort(plots.begin(), plots.end());
+  for (const std::string& plot : plots) report += "![" + name + "](" + name + "/" + plot + ")\n";
+  report += "\n" + to_markdown(claims);
+  // The probe's own report holds its tables in full.
+  if (std::filesystem::exists(folder / "report.md"))
+    report += "\nIn full: [" + name + "/report.md](" + name + "/report.md)\n";
+  else
+    report += table_to_markdown(folder / (name + "-table.csv"));
 }
 
 void print(const std::string& name, const std::vector<Claim>& claims) {
@@ -50,7 +92,10 @@ ExitCode run_experiments(const ExperimentCommandOptions& options) {
     return report_error({ErrorCode::invalid, "name an experiment, or give --all", "--all"},
                         options.json);
   const Progress progress = make_progress_printer(options.json);
-  std::string report = "# Experiments\n";
+  std::string report =
+      "# Experiments\n\nThe published experiments, run closed loop on device `" +
+      options.experiment.device + "` with seed " + std::to_string(options.experiment.seed) +
+      ". The medical test (figures 4-19 to 4-24) needs a joint: `artus run three-injections`.\n";
   nlohmann::json verdicts = nlohmann::json::object();
   bool all = true;
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -59,7 +104,7 @@ ExitCode run_experiments(const ExperimentCommandOptions& options) {
     const auto claims = run_experiment(names[i], folder, options.experiment);
     if (!claims) return report_error(claims.error(), options.json);
     all = all && all_hold(*claims);
-    append_markdown(report, names[i], *claims);
+    append_markdown(report, folder, names[i], *claims);
     verdicts[names[i]] = verdict(*claims);
     if (!options.json) print(names[i], *claims);
   }

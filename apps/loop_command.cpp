@@ -9,6 +9,7 @@
 #include "sim/device_injection.h"
 #include "sim/servo_loop.h"
 
+#include "apps/law_options.h"
 #include "apps/session_options.h"
 
 namespace artus {
@@ -18,6 +19,7 @@ struct LoopOptions {
   JointOptions joint;
   std::string device = "virtuose_6d_desktop";
   ServoOptions servo;
+  LawOptions laws;
   double speed_mm_s = 15;
   bool json = false;
 };
@@ -138,6 +140,11 @@ ExitCode run_loop(const LoopOptions& options) {
   SessionParams params;
   params.device = *device;
   params.haptic_rate = options.servo.rate_hz;
+  const auto laws = make_laws(options.laws, **joint);
+  if (!laws) return report_error(laws.error(), options.json);
+  params.laws = laws->laws;
+  params.patient = laws->patient;
+  params.needle = laws->needle;
   if (const auto valid = validate(params); !valid) return report_error(valid.error(), options.json);
   HapticCore core(std::make_shared<const Scene>(*joint), params);
   InjectingDevice hand(make_plan(**joint, options.speed_mm_s), *device, options.servo.rate_hz);
@@ -186,6 +193,7 @@ void add_loop_command(CLI::App& app, ExitCode& code) {
                    "SCHED_FIFO priority to ask for; 0: none")
       ->check(CLI::Range(0, 99))
       ->capture_default_str();
+  add_law_options(command, options->laws);
   command->add_flag("--json", options->json, "machine-readable report");
   on_run(command, code, [options] { return run_loop(*options); });
 }

@@ -7,6 +7,7 @@
 #include "sim/run_images.h"
 #include "sim/three_injections.h"
 
+#include "apps/law_options.h"
 #include "apps/view_options.h"
 
 namespace artus {
@@ -16,6 +17,7 @@ struct RunOptions {
   std::string scenario;
   JointOptions joint;
   ViewOptions view;
+  LawOptions laws;
   std::filesystem::path out;
   double rate_hz = 1000;
   std::string device = "virtuose_6d_desktop";
@@ -72,6 +74,11 @@ ExitCode run_scenario(const RunOptions& options) {
   run_options.rate_hz = options.rate_hz;
   run_options.seed = options.view.seed;
   run_options.device = options.device;
+  const auto laws = make_laws(options.laws, **joint);
+  if (!laws) return report_error(laws.error(), options.json);
+  run_options.laws = laws->laws;
+  run_options.patient = laws->patient;
+  run_options.needle = laws->needle;
   run_options.probe.contact.footprint.length = view->transducer.width;
   run_options.probe.contact.footprint.width = view->transducer.elevation_height;
   const auto run = run_three_injections(*scene, (*joint)->injections, run_options, progress);
@@ -116,6 +123,7 @@ void add_run_command(CLI::App& app, ExitCode& code) {
       ->check(CLI::IsMember({"three-injections"}));
   add_joint_options(command, options->joint);
   add_view_options(command, options->view);
+  add_law_options(command, options->laws);
   command->add_option("-o,--out", options->out, "folder for the results")->required();
   command->add_option("--rate", options->rate_hz, "haptic rate, Hz")
       ->check(CLI::Range(100, 20000))

@@ -59,6 +59,7 @@ void add_session_options(CLI::App* command, SessionOptions& options,
                          const std::string& default_input) {
   options.input = default_input;
   add_joint_options(command, options.joint);
+  add_law_options(command, options.laws);
   command
       ->add_option("--device", options.device,
                    "whose force limits hold: touch, virtuose_6d_desktop, delta, ideal")
@@ -96,6 +97,11 @@ Result<SessionParams> make_session_params(const SessionOptions& options,
   params.haptic_rate = options.haptic_rate;
   params.image_rate = options.image_rate;
   params.image.n_threads = options.threads;
+  const auto laws = make_laws(options.laws, joint);
+  if (!laws) return tl::unexpected<Error>(laws.error());
+  params.laws = laws->laws;
+  params.patient = laws->patient;
+  params.needle = laws->needle;
   params.needle_shape.length = params.needle.contact.needle_length;
   if (!joint.injections.empty()) {
     const PlannedInjection& plan = joint.injections.front();

@@ -8,12 +8,14 @@
 #include "sim/session.h"
 
 #include "apps/command.h"
+#include "apps/law_options.h"
 
 namespace artus {
 
 /// The flags of every command that runs a session.
 struct SessionOptions {
   JointOptions joint;
+  LawOptions laws;
   std::string device = "touch";
   double haptic_rate = 1000;
   double image_rate = 40;

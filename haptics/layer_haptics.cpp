@@ -50,6 +50,24 @@ Result<PrepunctureLaw> find_prepuncture_law(std::string_view name) {
                   "\"; there are membrane, simone_okamura, barbe, god_object");
 }
 
+namespace {
+
+// The run's word on this tissue, else the run's on all, else the tissue library's.
+template <class Law, class Find>
+Law choose(const Tissue& tissue, const char* key, Law otherwise, const std::optional<Law>& run,
+           const std::map<std::string, Law>& of_tissue, Find find) {
+  const auto exception = of_tissue.find(tissue.name);
+  if (exception != of_tissue.end()) return exception->second;
+  if (run) return *run;
+  const auto named = tissue.source.find(key);
+  if (named == tissue.source.end()) return otherwise;
+  const Result<Law> law = find(named->second);
+  ARTUS_REQUIRE(law.has_value(), "a tissue names a law that does not exist");
+  return *law;
+}
+
+}  // namespace
+
 LayerTable::LayerTable(const CompiledJoint& joint, const LawSelection& laws,
                        const PatientProfile& patient) {
   by_region_.reserve(joint.regions.size());
@@ -57,16 +75,16 @@ LayerTable::LayerTable(const CompiledJoint& joint, const LawSelection& laws,
     ARTUS_REQUIRE(region.tissue < joint.tissues.size(),
                   "a region names a tissue that is not there");
     const Tissue& tissue = joint.tissues[region.tissue];
-    LayerHaptics layer{tissue.haptic, laws.cutting, laws.prepuncture};
+    LayerHaptics layer{tissue.haptic};
+    layer.cutting = choose(tissue, "cutting_law", layer.cutting, laws.cutting,
+                           laws.cutting_of_tissue, find_cutting_law);
+    layer.prepuncture = choose(tissue, "prepuncture_law", layer.prepuncture, laws.prepuncture,
+                               laws.prepuncture_of_tissue, find_prepuncture_law);
     layer.tissue.cutting_force *= patient.cutting;
     layer.tissue.friction *= patient.friction;
     layer.tissue.attracted_force *= patient.attracted;
     layer.tissue.clamping_stiffness *= patient.clamping;
     layer.tissue.puncture_force *= patient.puncture;
-    const auto cutting = laws.cutting_of_tissue.find(tissue.name);
-    if (cutting != laws.cutting_of_tissue.end()) layer.cutting = cutting->second;
-    const auto prepuncture = laws.prepuncture_of_tissue.find(tissue.name);
-    if (prepuncture != laws.prepuncture_of_tissue.end()) layer.prepuncture = prepuncture->second;
     by_region_.push_back(layer);
   }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,10 +31,12 @@ struct LayerHaptics {
   PrepunctureLaw prepuncture = PrepunctureLaw::membrane;
 };
 
-/// The laws of a run: one for all, and exceptions by tissue name.
+/// The laws of a run: for all tissues when set, and exceptions by tissue name. What a run leaves
+/// open is the tissue library's choice (keys cutting_law, prepuncture_law of a tissue's haptics),
+/// and else LayerHaptics' defaults.
 struct LawSelection {
-  CuttingLaw cutting = CuttingLaw::tracking_wall;
-  PrepunctureLaw prepuncture = PrepunctureLaw::membrane;
+  std::optional<CuttingLaw> cutting;
+  std::optional<PrepunctureLaw> prepuncture;
   std::map<std::string, CuttingLaw> cutting_of_tissue;
   std::map<std::string, PrepunctureLaw> prepuncture_of_tissue;
 };
@@ -53,7 +56,8 @@ class LayerTable {
  public:
   LayerTable() = default;
   explicit LayerTable(std::vector<LayerHaptics> by_region) : by_region_(std::move(by_region)) {}
-  /// Requires: a joint whose regions index its tissues.
+  /// Requires: a joint whose regions index its tissues; laws by names that exist, as read_tissues
+  /// gives them.
   LayerTable(const CompiledJoint& joint, const LawSelection& laws, const PatientProfile& patient);
 
   [[nodiscard]] ARTUS_REALTIME const LayerHaptics& operator[](RegionId region) const noexcept {

@@ -14,6 +14,9 @@ struct MotionParams {
   double band = 0.155e-3;       ///< m, full width in which a still needle stays; assumed: above the
                                 ///< tremor of a supported hand, no whole number of encoder steps
   double wake_band = 0.155e-3;  ///< m off its rest before a still needle moves; assumed: the same
+  double settling_band = 0.6e-3;  ///< m, instead of the wake band for the settling time after a
+                                  ///< stop; assumed: a hand follows the force that fades
+  double settling_time = 0.25;    ///< s; assumed: the tracking wall's settling time and a margin
   double time = 0.075;  ///< s; the needle is still after this time within the band: eps = 2 mm/s
 };
 
@@ -29,11 +32,19 @@ class MotionDetector {
   ARTUS_REALTIME void reset(double x, Motion motion) noexcept {
     motion_ = motion;
     rest_ = x;
+    settling_ = 0;
     start_window(x);
   }
 
   ARTUS_REALTIME Motion step(double x, double dt) noexcept {
     if (motion_ == Motion::still) {
+      if (settling_ > 0) {
+        settling_ -= dt;
+        if (std::abs(x - rest_) <= params_.settling_band) {
+          if (settling_ <= 0) rest_ = x;
+          return motion_;
+        }
+      }
       if (std::abs(x - rest_) <= params_.wake_band) return motion_;
       motion_ = x > rest_ ? Motion::inward : Motion::outward;
       start_window(x);
@@ -49,6 +60,7 @@ class MotionDetector {
       const auto [low, high] = range(kBuckets);
       if (high - low <= params_.band) {
         motion_ = Motion::still;
+        settling_ = params_.settling_time;
         const auto [last_low, last_high] =
             range(kBuckets / 2);  // a needle slows down into its rest
         rest_ = 0.5 * (last_low + last_high);
@@ -97,7 +109,8 @@ class MotionDetector {
   MotionParams params_;
   Motion motion_ = Motion::still;
   double rest_ = 0;
-  double extreme_ = 0;  // the farthest position in the present direction
+  double settling_ = 0;  // s left of the settling time
+  double extreme_ = 0;   // the farthest position in the present direction
   std::array<double, kBuckets> low_{};
   std::array<double, kBuckets> high_{};
   double elapsed_ = 0;  // s in the present bucket

@@ -62,11 +62,11 @@ double axial(const NeedleRow& r) {
   return r.forces.total.force.dot(r.axis);
 }
 
-// The trace's value at each millisecond.
-std::vector<double> at_1khz(const std::vector<NeedleRow>& rows, double rate) {
+// What the motor holds, at 10 kHz: a slower loop's force stays until its next tick.
+std::vector<double> held_at_10khz(const std::vector<NeedleRow>& rows, double rate) {
   std::vector<double> out;
-  const auto stride = static_cast<std::size_t>(std::lround(rate / 1000));
-  for (std::size_t i = 0; i < rows.size(); i += stride) out.push_back(axial(rows[i]));
+  const auto times = static_cast<std::size_t>(std::lround(10000 / rate));
+  for (const NeedleRow& row : rows) out.insert(out.end(), times, axial(row));
   return out;
 }
 
@@ -100,7 +100,7 @@ std::vector<NeedleRow> run_at(double rate, const DeviceLimits& device, const Han
 std::array<double, 2> differences(const DeviceLimits& device, const HandParams& hand) {
   std::array<std::vector<double>, kRates.size()> forces;
   for (std::size_t i = 0; i < kRates.size(); ++i)
-    forces[i] = at_1khz(run_at(kRates[i], device, hand), kRates[i]);
+    forces[i] = held_at_10khz(run_at(kRates[i], device, hand), kRates[i]);
   return {rms_difference(forces[2], forces[0]), rms_difference(forces[2], forces[1])};
 }
 
@@ -138,15 +138,16 @@ Experiment run_rates(const ExperimentOptions& options, const DeviceLimits& devic
     add(each, "none", off);
     if (each.name == device.name) claim("no tremor", off);
   }
-  std::array<double, 2> worst{};
+  std::array<double, 2> together{};
   for (std::uint64_t i = 0; i < kTremorSeeds; ++i) {
     HandParams hand;
     hand.seed = options.seed + i;
     const auto off = differences(device, hand);
     add(device, std::to_string(hand.seed), off);
-    for (std::size_t k = 0; k < off.size(); ++k) worst[k] = std::max(worst[k], off[k]);
+    for (std::size_t k = 0; k < off.size(); ++k) together[k] += off[k] * off[k] / kTremorSeeds;
   }
-  claim("worst of " + std::to_string(kTremorSeeds) + " tremors", worst);
+  for (double& share : together) share = std::sqrt(share);
+  claim(std::to_string(kTremorSeeds) + " tremors together", together);
   return out;
 }
 
@@ -196,7 +197,7 @@ Experiment run_velocity_estimators(const ExperimentOptions& /*options*/,
   Experiment out;
   out.title = "Velocity estimators on a 1 Hz, 10 mm sine: noise and lag by encoder step and rate";
   out.table.header = {"estimator", "rate_hz", "encoder_um", "noise_mm_s", "lag_ms"};
-  PlotSeries cloud{"estimator x encoder x rate", {}, {}, "points pt 7"};
+  std::vector<PlotSeries> clouds;
   double window_lag = 0;
   double raw_noise = 0;
   double window_noise = 0;
@@ -211,12 +212,16 @@ Experiment run_velocity_estimators(const ExperimentOptions& /*options*/,
       all.emplace_back("Taylor order 3 5 ms", std::make_unique<TaylorEstimator>(3, 0.005, dt));
       all.emplace_back("Levant 1 m/s2", std::make_unique<LevantDifferentiator>(1, dt));
       all.emplace_back("Levant 10 m/s2", std::make_unique<LevantDifferentiator>(10, dt));
-      for (auto& [label, estimator] : all) {
+      for (std::size_t k = 0; k < all.size(); ++k) {
+        const std::string& label = all[k].first;
+        auto& estimator = all[k].second;
+        if (clouds.size() <= k)
+          clouds.push_back({label, {}, {}, "points ps 1.5 pt " + std::to_string(k + 4)});
         const EstimatorResult r = rate_estimator(*estimator, rate, encoder);
         out.table.rows.push_back({label, to_csv(rate), to_csv(encoder * 1e6),
                                   to_csv(r.noise / kMillimetre), to_csv(r.lag * 1e3)});
-        cloud.x.push_back(r.lag * 1e3);
-        cloud.y.push_back(r.noise / kMillimetre);
+        clouds[k].x.push_back(r.lag * 1e3);
+        clouds[k].y.push_back(r.noise / kMillimetre);
         if (rate != 1000 || encoder != 55e-6) continue;
         if (label == "difference 1 tick") raw_noise = r.noise;
         if (label != "difference 10 ms") continue;
@@ -229,7 +234,8 @@ Experiment run_velocity_estimators(const ExperimentOptions& /*options*/,
       claim_near("lag of a 10 ms difference", window_lag * 1e3, 5, 0.05, "ms"),
       claim_at_most("its noise over that of a 1 ms difference", window_noise / raw_noise, 0.2, "")};
   out.plot.title = out.title;
-  out.plot.panels = {{"lag (ms)", "noise (mm/s)", {cloud}}};
+  out.plot.panels = {{"lag (ms); each at 1 and 10 kHz, encoder steps 10 and 55 um", "noise (mm/s)",
+                      std::move(clouds), true}};
   return out;
 }
 
@@ -308,14 +314,17 @@ Experiment run_layer_changes(const ExperimentOptions& /*options*/, const DeviceL
                       "rise_mm",
                       "jnd_multiples_at_7_percent",
                       "jnd_multiples_at_14_percent"};
-  PlotSeries rises{"stronger", {}, {}, "points pt 7"};
-  PlotSeries falls{"weaker", {}, {}, "points pt 6"};
+  std::vector<PlotSeries> by_layer;
+  for (std::size_t k = 0; k < kTable.size(); ++k)
+    by_layer.push_back(
+        {"to " + std::string(kTable[k].name), {}, {}, "points ps 1.5 pt " + std::to_string(k + 4)});
   double least = 1e9;
   double off = 0;
   double longest = 0;
   for (const TableLayer& from : kTable) {
     if (std::string_view(from.name) == "bone") continue;  // nothing lies beyond it
-    for (const TableLayer& to : kTable) {
+    for (std::size_t k = 0; k < kTable.size(); ++k) {
+      const TableLayer& to = kTable[k];
       if (from.force == to.force) continue;
       const Change c = measure_change(from, to, device);
       const double step = c.after - c.before;
@@ -323,7 +332,7 @@ Experiment run_layer_changes(const ExperimentOptions& /*options*/, const DeviceL
       out.table.rows.push_back({from.name, to.name, to_csv(c.before), to_csv(c.after), to_csv(step),
                                 to_csv(share), to_csv(c.distance / kMillimetre),
                                 to_csv(share / kJnd), to_csv(share / kWeakJnd)});
-      PlotSeries& series = step > 0 ? rises : falls;
+      PlotSeries& series = by_layer[k];
       series.x.push_back(c.distance / kMillimetre);
       series.y.push_back(share / kJnd);
       least = std::min(least, share / kWeakJnd);
@@ -337,8 +346,10 @@ Experiment run_layer_changes(const ExperimentOptions& /*options*/, const DeviceL
       claim_at_least("the smallest step in just-noticeable differences of 14 %", least, 1, ""),
       claim_at_most("the longest way until nine tenths of the step are felt", longest, 4.5, "mm")};
   out.plot.title = out.title;
+  by_layer.push_back({"noticed, 7 %", {0, longest}, {1, 1}});
+  by_layer.push_back({"noticed, 14 %", {0, longest}, {2, 2}});
   out.plot.panels = {
-      {"distance until 90 % of the step (mm)", "force step (multiples of 7 %)", {rises, falls}}};
+      {"distance until 90 % of the step (mm)", "force step (multiples of 7 %)", by_layer, true}};
   return out;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "sim/plot.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <fstream>
@@ -35,18 +36,28 @@ void write_data(std::ostream& out, const Plot& plot) {
   }
 }
 
+// Characters right of the panels, the same for all, so that their axes stand under one another.
+std::size_t key_width(const Plot& plot) {
+  constexpr std::size_t kSample = 8;
+  std::size_t longest = 0;
+  for (const PlotPanel& panel : plot.panels)
+    for (const PlotSeries& series : panel.series) longest = std::max(longest, series.label.size());
+  return longest + kSample;
+}
+
 void write_script(std::ostream& out, const Plot& plot, const fs::path& data, const fs::path& png) {
   const auto rows = plot.panels.size();
   out << "set terminal pngcairo size " << plot.width << ','
       << plot.panel_height * static_cast<int>(rows) + 40 << " noenhanced font 'sans,11'\n"
       << "set output " << quoted(png.string())
-      << "\nset grid\nset offsets graph 0, graph 0, graph 0.05, graph 0.05\nset key outside right "
-         "top\n"
+      << "\nset grid\nset offsets graph 0, graph 0, graph 0.05, graph 0.05\nset lmargin 10\nset "
+         "rmargin "
+      << key_width(plot) << "\nset key outside right top\n"
       << "set multiplot layout " << rows << ",1 title " << quoted(plot.title) << '\n';
   std::size_t index = 0;
   for (const PlotPanel& panel : plot.panels) {
-    out << "set xlabel " << quoted(panel.x_label) << "\nset ylabel " << quoted(panel.y_label)
-        << "\nplot ";
+    out << (panel.log_y ? "set logscale y\n" : "unset logscale y\n") << "set xlabel "
+        << quoted(panel.x_label) << "\nset ylabel " << quoted(panel.y_label) << "\nplot ";
     for (std::size_t i = 0; i < panel.series.size(); ++i) {
       out << (i == 0 ? "" : ", ") << quoted(data.string()) << " index " << index++ << " with "
           << panel.series[i].style << " title " << quoted(panel.series[i].label);

@@ -21,6 +21,7 @@ struct PlotPanel {
   std::string x_label;
   std::string y_label;
   std::vector<PlotSeries> series;
+  bool log_y = false;
 };
 
 struct Plot {

@@ -78,6 +78,25 @@ TEST(MotionDetector, ARestingNeedleMovesWhenItLeavesItsPlace) {
   EXPECT_EQ(detector.step(0.02 - 1.1 * wake, 1e-3), Motion::outward);
 }
 
+TEST(MotionDetector, AHandMayFollowTheFadingForceForATimeAfterAStop) {
+  const MotionParams params;
+  const double follows = 0.9 * params.settling_band;
+  ASSERT_GT(follows, params.wake_band);
+  const auto stop = [] {
+    MotionDetector detector;
+    detector.reset(0, Motion::inward);
+    while (detector.step(0, 1e-3) != Motion::still) {
+    }
+    return detector;
+  };
+  MotionDetector creeping = stop();
+  for (int i = 1; i <= 100; ++i) EXPECT_EQ(creeping.step(follows * i / 100, 1e-3), Motion::still);
+  for (int i = 0; i < 300; ++i) EXPECT_EQ(creeping.step(follows, 1e-3), Motion::still);
+  EXPECT_EQ(creeping.step(follows + 1.1 * params.wake_band, 1e-3), Motion::inward);
+  MotionDetector pushed = stop();
+  EXPECT_EQ(pushed.step(1.1 * params.settling_band, 1e-3), Motion::inward);
+}
+
 TEST(SampleWindow, GivesTheValueAWindowAgoAtAnyRate) {
   for (const double dt : {1e-3, 5e-4, 1e-4}) {
     SampleWindow<double> window(0.01, dt);

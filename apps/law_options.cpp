@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "apps/law_options.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+namespace artus {
+namespace {
+
+/// "name" or "key=name".
+std::pair<std::string, std::string> split(const std::string& text) {
+  const auto at = text.find('=');
+  if (at == std::string::npos) return {"", text};
+  return {text.substr(0, at), text.substr(at + 1)};
+}
+
+template <class Law, class Find>
+Result<void> read_laws(const std::vector<std::string>& flags, const char* flag, Find find,
+                       const CompiledJoint& joint, std::optional<Law>& all,
+                       std::map<std::string, Law>& of_tissue) {
+  for (const std::string& text : flags) {
+    const auto [tissue, name] = split(text);
+    const Result<Law> law = find(name);
+    if (!law) return fail(law.error().code, law.error().message, flag);
+    if (tissue.empty()) {
+      all = *law;
+      continue;
+    }
+    std::string known;
+    for (const Tissue& t : joint.tissues) {
+      known += (known.empty() ? "" : ", ") + t.name;
+      if (t.name == tissue) of_tissue[tissue] = *law;
+    }
+    if (of_tissue.find(tissue) == of_tissue.end())
+      return fail(ErrorCode::not_found,
+                  "the joint has no tissue \"" + tissue + "\"; there are " + known, flag);
+  }
+  return {};
+}
+
+Result<void> read_patient(const std::vector<std::string>& flags, PatientProfile& patient) {
+  const std::array<std::pair<std::string_view, double*>, 5> factors{
+      {{"cutting", &patient.cutting},
+       {"friction", &patient.friction},
+       {"attracted", &patient.attracted},
+       {"clamping", &patient.clamping},
+       {"puncture", &patient.puncture}}};
+  for (const std::string& text : flags) {
+    const auto [name, number] = split(text);
+    double value = 0;
+    const char* end = number.data() + number.size();
+    const auto read = std::from_chars(number.data(), end, value);
+    if (read.ec != std::errc{} || read.ptr != end || !(value >= 0 && value <= 10))
+      return fail(ErrorCode::invalid, "\"" + text + "\" must be NAME=FACTOR, factor 0 to 10",
+                  "--patient");
+    const auto at = std::find_if(factors.begin(), factors.end(),
+                                 [&wanted = name](const auto& f) { return f.first == wanted; });
+    if (at == factors.end())
+      return fail(
+          ErrorCode::not_found,
+          "no factor \"" + name + "\"; there are cutting, friction, attracted, clamping, puncture",
+          "--patient");
+    *at->second = value;
+  }
+  return {};
+}
+
+}  // namespace
+
+void add_law_options(CLI::App* command, LawOptions& options) {
+  const std::string group = "Force laws of the needle";
+  command
+      ->add_option("--cutting", options.cutting,
+                   "LAW, or TISSUE=LAW for one tissue: tracking_wall, direct, spring, voigt")
+      ->group(group);
+  command
+      ->add_option("--prepuncture", options.prepuncture,
+                   "LAW, or TISSUE=LAW: membrane, simone_okamura, barbe, god_object")
+      ->group(group);
+  command->add_option("--bone-tap", options.tap, "what a touch of bone is felt by")
+      ->check(CLI::IsMember({"decaying_sinusoid", "impulse"}))
+      ->capture_default_str()
+      ->group(group);
+  command->add_option("--clamping", options.clamping, "what holds the needle on its line")
+      ->check(CLI::IsMember({"projection", "plasticity"}))
+      ->capture_default_str()
+      ->group(group);
+  command
+      ->add_option("--friction-set", options.friction_set,
+                   "LuGre parameters: 1, 2: 20 mm at 0.025 and 0.05 Hz; 3, 4: 40 mm")
+      ->check(CLI::Range(1, 4))
+      ->capture_default_str()
+      ->group(group);
+  command
+      ->add_option("--patient", options.patient,
+                   "NAME=FACTOR on the tissues' cutting, friction, attracted, clamping, puncture")
+      ->group(group);
+}
+
+Result<RunLaws> make_laws(const LawOptions& options, const CompiledJoint& joint) {
+  RunLaws run;
+  LawSelection& laws = run.laws;
+  if (const auto read = read_laws(options.cutting, "--cutting", find_cutting_law, joint,
+                                  laws.cutting, laws.cutting_of_tissue);
+      !read)
+    return tl::unexpected<Error>(read.error());
+  if (const auto read = read_laws(options.prepuncture, "--prepuncture", find_prepuncture_law, joint,
+                                  laws.prepuncture, laws.prepuncture_of_tissue);
+      !read)
+    return tl::unexpected<Error>(read.error());
+  if (const auto read = read_patient(options.patient, run.patient); !read)
+    return tl::unexpected<Error>(read.error());
+  if (options.tap == "impulse") run.needle.hard.law = HardLaw::impulse;
+  if (options.clamping == "plasticity") run.needle.clamping = ClampingLaw::plasticity;
+  run.needle.friction = lugre_sets().at(static_cast<std::size_t>(options.friction_set - 1));
+  return run;
+}
+
+}  // namespace artus
