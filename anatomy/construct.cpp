@@ -123,9 +123,10 @@ class LargestPart {
 
   [[nodiscard]] std::int64_t size() const { return static_cast<std::int64_t>(part_.size()); }
   [[nodiscard]] Vec3 point(std::int64_t i) const {
-    return origin_ + spacing_ * Vec3(static_cast<double>(i % n_[0]),
-                                     static_cast<double>(i / n_[0] % n_[1]),
-                                     static_cast<double>(i / (n_[0] * n_[1])));
+    const std::int64_t y = i / n_[0] % n_[1];
+    const std::int64_t z = i / (n_[0] * n_[1]);
+    return origin_ + spacing_ * Vec3(static_cast<double>(i % n_[0]), static_cast<double>(y),
+                                     static_cast<double>(z));
   }
 
   // Marks the part that holds point `start`; returns its size.

@@ -204,6 +204,7 @@ class Finder {
   void check_cracks() {
     const auto pairs = find_crack_pairs(sound_, uses_, options_.crack_width);
     std::vector<std::size_t> vertices;
+    vertices.reserve(pairs.size());
     for (const auto& pair : pairs) vertices.push_back(pair.b);
     std::sort(vertices.begin(), vertices.end());
     vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
