@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "echo/point_echo.h"
+
 namespace artus {
 namespace {
 
@@ -74,12 +76,7 @@ void ApertureCoupling::apply(int l, double sample_depth, std::span<float> re,
 void add_lens_ringing(double share, double sample_depth, std::span<float> re) noexcept {
   double amplitude = share;
   for (int k = 0; k < kAirLines && amplitude > 0; ++k) {
-    const double sample = 1 + k * kAirPitch / sample_depth;
-    if (sample >= static_cast<double>(re.size()) - 1) return;
-    const auto i = static_cast<std::size_t>(sample);
-    const double t = sample - static_cast<double>(i);
-    re[i] += static_cast<float>((1 - t) * amplitude);
-    re[i + 1] += static_cast<float>(t * amplitude);
+    add_point_echo(1 + k * kAirPitch / sample_depth, amplitude, re);
     amplitude *= kAirDecay;
   }
 }

@@ -15,7 +15,7 @@ struct ImageSettings {
   int n_samples = 1024;          ///< along a scanline
   int n_planes = 5;              ///< elevation planes that make up the slice's thickness
   double dynamic_range_db = 60;  ///< dB shown between black and white
-  double gain_db = 6;            ///< dB
+  double gain_db = 10;           ///< dB
   /// dB per cm of depth and MHz that time gain compensation adds, one way (doubled inside).
   double tgc_db_cm_mhz = 0.6;
   double tgc_limit_db = 70;  ///< dB, the receiver's largest compensation

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "echo/point_echo.h"
 #include "echo/simd.h"
 
 namespace artus {
@@ -131,13 +132,8 @@ void LineSynthesis::add_echo(const BeamEcho& echo, const ScatterView& view,
   const float a_im = amplitude * glitter * n_im[0] / static_cast<float>(n);
   for (int k = 0; k < n; ++k) {
     const double sample = echo.sample + k - 0.5 * (n - 1);
-    if (!(sample >= 0) || sample >= end) continue;
-    const auto at = static_cast<std::size_t>(sample);
-    const auto t = static_cast<float>(sample - static_cast<double>(at));
-    re[at] += (1 - t) * a_re;
-    re[at + 1] += t * a_re;
-    im[at] += (1 - t) * a_im;
-    im[at + 1] += t * a_im;
+    add_point_echo(sample, a_re, re);
+    add_point_echo(sample, a_im, im);
   }
   const std::size_t from = first + kTailGap;
   if (echo.diffuse_share < 0.05 || from >= re.size()) return;

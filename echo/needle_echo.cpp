@@ -7,6 +7,7 @@
 
 #include "core/noise.h"
 #include "core/units.h"
+#include "echo/point_echo.h"
 
 namespace artus {
 namespace {
@@ -26,15 +27,6 @@ constexpr std::uint64_t kTrackSeed = 7;
 constexpr std::size_t kStride = 8;  // samples between exact values of the shadow
 constexpr double kSteepest = 6;     // slope beyond which a shaft is as good as upright
 constexpr double kSigmaPerWidth = 1 / 2.3548200450309493;
-
-void add_echo(double sample, double amplitude, std::span<float> line) {
-  if (!(sample >= 0) || sample >= static_cast<double>(line.size()) - 1) return;
-  const auto i = static_cast<std::size_t>(sample);
-  const auto t = static_cast<float>(sample - static_cast<double>(i));
-  const auto a = static_cast<float>(amplitude);
-  line[i] += (1 - t) * a;
-  line[i + 1] += t * a;
-}
 
 }  // namespace
 
@@ -125,7 +117,7 @@ void NeedleEcho::add_shaft(const Place& place, double sample, double amplitude,
   const double raise = std::hypot(1.0, slope * sigma / pulse_sigma_);
   const int n = std::max(1, static_cast<int>(std::lround(pitch_ * slope / shape_->sample_depth())));
   for (int k = 0; k < n; ++k) {
-    add_echo(sample + k - 0.5 * (n - 1), amplitude * raise / n, line);
+    add_point_echo(sample + k - 0.5 * (n - 1), amplitude * raise / n, line);
   }
 }
 
@@ -139,10 +131,10 @@ void NeedleEcho::add_side_lobe(const Place& place, const BeamTrace& trace,
   if (!trace.find_sample(std::hypot(place.depth, beside), sample, log_gain)) return;
   const double u = beside / kSideLobeFall;
   const double angle = std::asin(std::min(1.0, place.sine));
-  add_echo(sample,
-           kSideLobe / (1 + u * u) * elevation_share(place.elevation, place.depth) *
-               needle_reflectivity(needle_, angle) * std::exp(log_gain),
-           line);
+  add_point_echo(sample,
+                 kSideLobe / (1 + u * u) * elevation_share(place.elevation, place.depth) *
+                     needle_reflectivity(needle_, angle) * std::exp(log_gain),
+                 line);
 }
 
 NeedleEcho::Extent NeedleEcho::find_extent(const Scanline& line) const noexcept {
@@ -222,8 +214,8 @@ void NeedleEcho::add_track(double amplitude, const Scanline& line, const Pose& X
   const double heard =
       amplitude * elevation_share(place.elevation, place.depth) * std::exp(log_gain);
   const auto cell = static_cast<std::uint64_t>(place.along / kTrackCell);
-  add_echo(sample, heard * normal_noise(kTrackSeed, 2 * cell), re);
-  add_echo(sample, heard * normal_noise(kTrackSeed, 2 * cell + 1), im);
+  add_point_echo(sample, heard * normal_noise(kTrackSeed, 2 * cell), re);
+  add_point_echo(sample, heard * normal_noise(kTrackSeed, 2 * cell + 1), im);
 }
 
 void NeedleEcho::add(const Scanline& line, const Pose& X_JP, const BeamTrace& trace,
@@ -251,15 +243,15 @@ void NeedleEcho::add(const Scanline& line, const Pose& X_JP, const BeamTrace& tr
   const double heard = coverage * share * std::exp(log_gain);
   const double shaft = heard * needle_reflectivity(needle_, angle);
   add_shaft(place, sample, shaft, re);
-  add_echo(2 * sample, shaft * shaft * kFaceReflection, re);
+  add_point_echo(2 * sample, shaft * shaft * kFaceReflection, re);
   if (place.along < 1e-3) {  // the last millimetre: the bevel's edges
-    add_echo(sample, heard * kTipEcho, im);
+    add_point_echo(sample, heard * kTipEcho, im);
   }
   const double off = angle / kDegree / kRingLobe;
   double ring = shaft * kFirstRing * std::exp(-off * off);
   const double pitch = reverberation_pitch(needle_) / sample_depth;
   for (int k = 1; k <= kMaxRings && ring > 1e-9; ++k) {
-    add_echo(sample + k * pitch, ring, re);
+    add_point_echo(sample + k * pitch, ring, re);
     ring *= kRingDecay;
   }
 }

@@ -21,6 +21,7 @@
 #include "echo/doppler.h"
 #include "echo/line_synthesis.h"
 #include "echo/needle_echo.h"
+#include "echo/point_echo.h"
 #include "echo/propagation.h"
 #include "echo/region_acoustics.h"
 #include "echo/scatter_field.h"
@@ -217,12 +218,9 @@ struct Renderer::Impl {
       const double lateral = shape.lateral_amplitude(p.dot(across), depth);
       const double elevation = shape.profile().elevation_amplitude(p.y(), depth);
       const double sample = depth / shape.sample_depth();
-      if (lateral * elevation < 1e-6 || sample >= static_cast<double>(re.size()) - 1) continue;
-      const auto i = static_cast<std::size_t>(sample);
-      const double t = sample - static_cast<double>(i);
-      const double a = reflector.amplitude * lateral * elevation * coupling.gain(l, depth);
-      re[i] += static_cast<float>((1 - t) * a);
-      re[i + 1] += static_cast<float>(t * a);
+      if (lateral * elevation < 1e-6) continue;
+      add_point_echo(sample, reflector.amplitude * lateral * elevation * coupling.gain(l, depth),
+                     re);
     }
   }
 
