@@ -66,7 +66,7 @@ double lowest_force(const std::deque<TracePoint>& trace) {
 }
 
 double step_for(double range) {
-  const double rough = range / 4;
+  const double rough = range / 5;
   for (const double step : {0.5, 1.0, 2.0, 5.0, 10.0, 20.0}) {
     if (rough <= step) return step;
   }
@@ -93,13 +93,16 @@ void draw_curve(ImDrawList* list, const Plot& plot, const std::deque<TracePoint>
   list->AddPolyline(points.data(), static_cast<int>(points.size()), colour, 0, 1.5F);
 }
 
-/// Bands of the layers below a curve, with their names where there is room.
+/// Bands of the layers below a curve, with their names.
 template <class X>
 void draw_layers(ImDrawList* list, const Plot& plot, const PanelInput& in,
                  const std::deque<TracePoint>& trace, X x_of) {
   const CompiledJoint& joint = in.session->scene().joint();
   const auto palette = region_palette(joint);
+  const float row = 1.05F * ImGui::GetFontSize();
+  int band = 0;
   std::size_t i = 0;
+  list->PushClipRect(plot.from, plot.to, true);
   while (i < trace.size()) {
     std::size_t j = i;
     double low = x_of(trace[i]);
@@ -114,12 +117,15 @@ void draw_layers(ImDrawList* list, const Plot& plot, const PanelInput& in,
       const ImVec2 a = plot.at(std::max(low, plot.x_low), plot.y_high);
       const ImVec2 b = plot.at(std::min(high, plot.x_high), plot.y_low);
       list->AddRectFilled(a, b, region_colour(palette, region, 60));
-      const std::string& name = joint.regions[region].name;
-      if (ImGui::CalcTextSize(name.c_str()).x < b.x - a.x)
-        list->AddText(ImVec2(a.x + 3, a.y + 1), kText, name.c_str());
+      // Neighbours' names stand in rows under one another, so that narrow bands have theirs, too.
+      if (b.x - a.x > 5) {
+        const float y = a.y + 1 + row * static_cast<float>(band++ % 4);
+        list->AddText(ImVec2(a.x + 3, y), kText, joint.regions[region].name.c_str());
+      }
     }
     i = j;
   }
+  list->PopClipRect();
 }
 
 void draw_force_over_time(const PanelInput& in, const ViewState& state, Plot plot) {
@@ -135,8 +141,9 @@ void draw_force_over_time(const PanelInput& in, const ViewState& state, Plot plo
   draw_curve(list, plot, state.trace, x, &TracePoint::force, kForce);
   const float font = ImGui::GetFontSize();
   list->AddText(ImVec2(plot.from.x, plot.to.y + 2), kText, "against insertion, N, over 10 s");
-  list->AddText(ImVec2(plot.from.x + 4, plot.from.y + 1.2F * font), kForce, "along");
-  list->AddText(ImVec2(plot.from.x + 4, plot.from.y + 2.3F * font), kLateral, "sideways");
+  const ImVec2 legend(plot.from.x + 4, plot.to.y - 1.2F * font);
+  list->AddText(legend, kForce, "along");
+  list->AddText(ImVec2(legend.x + 4 * font, legend.y), kLateral, "sideways");
 }
 
 void draw_force_over_depth(const PanelInput& in, const ViewState& state, Plot plot) {

@@ -64,6 +64,14 @@ struct Gui {
   Gui& operator=(const Gui&) = delete;
 };
 
+/// The picture comes after haptics and imaging; so do the threads that the graphics driver starts.
+/// Where imaging could not be made more urgent than usual, the window is made less.
+void yield_to_imaging() {
+  const auto self = static_cast<id_t>(gettid());
+  const bool may_be_urgent = setpriority(PRIO_PROCESS, self, -1) == 0;
+  setpriority(PRIO_PROCESS, self, may_be_urgent ? 0 : 10);
+}
+
 /// Letters as large as the screen asks for, or as they are on a window of 720 lines.
 float text_scale(GLFWwindow* window, int height) {
   float x = 1;
@@ -379,8 +387,7 @@ Result<void> WindowLoop::save_window() const {
 
 Result<void> run_window(Session& session, HandDevice* hand, const HandTarget& start,
                         const WindowOptions& options, WindowReport& report) {
-  // The picture yields to haptics and imaging; threads that the graphics driver starts do, too.
-  setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), 10);
+  yield_to_imaging();
   const Library library;
   if (!library.ready)
     return fail(ErrorCode::failed, "there is no display; run under Xvfb (xvfb-run) without one");
