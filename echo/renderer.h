@@ -18,7 +18,7 @@ namespace artus {
 /// threads inside, and the image does not depend on how many.
 class Renderer {
  public:
-  /// Requires: valid transducer and settings (validate tells what is wrong). Cost: tens of ms.
+  /// Requires: valid transducer and settings (validate tells what is wrong). Cost: 0.1 to 0.3 s.
   Renderer(std::shared_ptr<const Scene> scene, const Transducer& transducer,
            const ImageSettings& settings);
   ~Renderer();

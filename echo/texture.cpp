@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/noise.h"
 
@@ -63,34 +64,45 @@ class ValueNoise {
     const std::size_t size =
         static_cast<std::size_t>(n_[0] * n_[1]) * static_cast<std::size_t>(n_[2]);
     for (std::size_t i = 0; i < size; ++i) grid_.push_back(2 * uniform_noise(seed, i) - 1);
+    for (int j = 0; j < feature[0]; ++j) {
+      blend_.push_back(static_cast<float>(smooth(static_cast<double>(j) / feature[0])));
+    }
   }
 
-  [[nodiscard]] double at(const std::array<int, 3>& p) const {
-    std::array<int, 3> low{};
-    std::array<int, 3> high{};
-    std::array<double, 3> t{};
-    for (std::size_t a = 0; a < 3; ++a) {
-      low[a] = p[a] / feature_[a];
-      high[a] = (low[a] + 1) % n_[a];
-      t[a] = smooth(static_cast<double>(p[a] % feature_[a]) / feature_[a]);
+  /// Adds `factor` times the values along x at (y, z), a row of the tile.
+  void add_row(int y, int z, float factor, std::vector<float>& row) const {
+    const double ty = smooth(static_cast<double>(y % feature_[1]) / feature_[1]);
+    const double tz = smooth(static_cast<double>(z % feature_[2]) / feature_[2]);
+    const auto node = [&](int x) {
+      const int y0 = y / feature_[1];
+      const int z0 = z / feature_[2];
+      const int y1 = (y0 + 1) % n_[1];
+      const int z1 = (z0 + 1) % n_[2];
+      const double near = (1 - ty) * value(x, y0, z0) + ty * value(x, y1, z0);
+      const double far = (1 - ty) * value(x, y0, z1) + ty * value(x, y1, z1);
+      return static_cast<float>((1 - tz) * near + tz * far) * factor;
+    };
+    const auto width = static_cast<std::size_t>(feature_[0]);
+    float next = node(0);
+    for (int k = 0; k < n_[0]; ++k) {
+      const float here = next;
+      next = node((k + 1) % n_[0]);
+      float* out = row.data() + static_cast<std::size_t>(k) * width;
+      for (std::size_t j = 0; j < width; ++j) {
+        out[j] += here + blend_[j] * (next - here);
+      }
     }
-    const auto row = [&](int y, int z) {
-      const auto base = static_cast<std::size_t>((z * n_[1] + y) * n_[0]);
-      const double near = grid_[base + static_cast<std::size_t>(low[0])];
-      return near + t[0] * (grid_[base + static_cast<std::size_t>(high[0])] - near);
-    };
-    const auto face = [&](int z) {
-      const double near = row(low[1], z);
-      return near + t[1] * (row(high[1], z) - near);
-    };
-    const double near = face(low[2]);
-    return near + t[2] * (face(high[2]) - near);
   }
 
  private:
+  [[nodiscard]] double value(int x, int y, int z) const {
+    return grid_[static_cast<std::size_t>((z * n_[1] + y) * n_[0] + x)];
+  }
+
   std::array<int, 3> feature_;
   std::array<int, 3> n_{};
   std::vector<double> grid_;
+  std::vector<float> blend_;  // within a feature along x
 };
 
 /// Adds one set of sheets to a tile. A second, slower noise makes them come and go.
@@ -101,27 +113,35 @@ void add_sheets(const Recipe& recipe, const Sheets& sheets, std::uint64_t seed,
   const ValueNoise large(seed, sides, sheets.feature);
   const ValueNoise small(seed + 1, sides, half);
   const ValueNoise strength(seed + 2, sides, half);
-  const auto shape = [&](const std::array<int, 3>& p) {
-    return large.at(p) + 0.3 * small.at(p);
+  const auto width = static_cast<std::size_t>(sides[0]);
+  const auto make_row = [&](int y, int z, std::vector<float>& row) {
+    row.assign(width, 0.0F);
+    large.add_row(y, z, 1, row);
+    small.add_row(y, z, 0.3F, row);
   };
-  const double thin = 1 / sheets.half_thickness;
-  std::size_t i = 0;
+  std::vector<float> row;
+  std::vector<float> beside;  // the row at y + 1
+  std::vector<float> comes_and_goes;
+  float* out = tile.data();
   for (int z = 0; z < sides[2]; ++z) {
-    for (int y = 0; y < sides[1]; ++y) {
-      double here = shape({0, y, z});
-      for (int x = 0; x < sides[0]; ++x, ++i) {
-        const double next = shape({(x + 1) % sides[0], y, z});
-        const double middle = here;
-        here = next;
-        if (std::abs(middle) > 0.4) continue;  // far from any sheet
-        const double slope_x = (next - middle) / recipe.cell[0];
-        const double slope_y = (shape({x, (y + 1) % sides[1], z}) - middle) / recipe.cell[1];
-        const double slope = std::hypot(slope_x, slope_y) + 1e-9;
-        const double distance = middle / slope * thin;
-        const double faces = 1 - sheets.facing * (1 - std::pow(slope_x / slope, 2));
-        const double comes_and_goes = std::max(0.0, 0.7 + 0.9 * strength.at({x, y, z}));
-        tile[i] += static_cast<float>(sheets.bright * std::exp(-distance * distance) * faces *
-                                      comes_and_goes);
+    make_row(0, z, beside);
+    for (int y = 0; y < sides[1]; ++y, out += width) {
+      std::swap(row, beside);
+      make_row((y + 1) % sides[1], z, beside);
+      comes_and_goes.assign(width, 0.7F);
+      strength.add_row(y, z, 0.9F, comes_and_goes);
+      for (std::size_t x = 0; x < width; ++x) {
+        const double middle = row[x];
+        if (std::abs(middle) > 0.4 || comes_and_goes[x] <= 0) continue;  // far from any sheet
+        const double slope_x = (row[(x + 1) % width] - middle) / recipe.cell[0];
+        const double slope_y = (beside[x] - middle) / recipe.cell[1];
+        const double slope = std::sqrt(slope_x * slope_x + slope_y * slope_y) + 1e-9;
+        const double distance = middle / (slope * sheets.half_thickness);
+        if (std::abs(distance) > 3) continue;
+        const double along = slope_x / slope;
+        const double faces = 1 - sheets.facing * (1 - along * along);
+        out[x] += static_cast<float>(sheets.bright * std::exp(-distance * distance) * faces) *
+                  comes_and_goes[x];
       }
     }
   }

@@ -17,7 +17,7 @@ namespace artus {
 /// assumed: feature sizes, chosen beside real images (perimysium about 1.6 mm apart, septa 3 mm).
 class TissueTexture {
  public:
-  /// Cost: about 0.1 s and 2 MB when `enabled`.
+  /// Cost: tens of ms and 1.5 MB when `enabled`.
   TissueTexture(std::uint64_t seed, bool enabled);
 
   /// Whether regions of this kind have a texture at all.
