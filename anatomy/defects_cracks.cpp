@@ -71,8 +71,8 @@ std::vector<std::uint32_t> find_pinches(const SurfaceMesh& mesh, const std::vect
   for_each_edge(uses, [&](const EdgeUse* first, const EdgeUse* last) {
     for (const EdgeUse* u = first + 1; u < last; ++u)
       for (const auto v : {first->lo, first->hi})
-        fans.union_set(3 * first->face + corner_of(mesh.triangles[first->face], v),
-                       3 * u->face + corner_of(mesh.triangles[u->face], v));
+        fans.union_set(std::size_t{3} * first->face + corner_of(mesh.triangles[first->face], v),
+                       std::size_t{3} * u->face + corner_of(mesh.triangles[u->face], v));
   });
   std::vector<std::uint32_t> fan_of(mesh.vertices.size(), kNone);
   std::vector<bool> is_pinch(mesh.vertices.size(), false);
