@@ -21,7 +21,7 @@ struct ImageSettings {
   double tgc_limit_db = 70;  ///< dB, the receiver's largest compensation
   /// rms speckle of muscle in dB. assumed: puts muscle at the grey of the reference images.
   double speckle_db = -40;
-  double noise_db = -130;           ///< electronic noise before compensation, dB. assumed
+  double noise_db = -140;           ///< electronic noise before compensation, dB. assumed
   double gel_limit = 5e-3;          ///< m, a wider gap between face and skin is air
   double pixel = 0.1e-3;            ///< m, of the scan-converted image, square
   double persistence = 0;           ///< 0 none .. <1 share of the previous image kept
