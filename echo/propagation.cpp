@@ -91,7 +91,7 @@ bool BeamTracer::enter(Walk& walk, const TissueInterval& interval,
   const double sheath = sheath_reflection(from, to);
   const double roughness = std::max(from.roughness, to.roughness);
   if (trace.n_echoes < BeamTrace::kMax) {
-    const double strength = std::hypot(response.reflection, sheath);
+    const double strength = std::sqrt(response.reflection * response.reflection + sheath * sheath);
     const double share = returned_share(roughness, cosine);
     const double diffuse = roughness * cosine;
     BeamEcho& echo = trace.echoes[trace.n_echoes++];

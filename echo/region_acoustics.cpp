@@ -72,7 +72,7 @@ double fibre_backscatter(const RegionAcoustics& region, double cosine) noexcept 
   switch (region.kind) {
     case TissueKind::tendon: {
       const double phase = region.fibre_phase * cosine;
-      return std::hypot(kTendonFloor, std::exp(-0.5 * phase * phase));
+      return std::sqrt(kTendonFloor * kTendonFloor + std::exp(-phase * phase));
     }
     case TissueKind::muscle:
       return std::pow(10.0, -2.0 * cosine * cosine / 20);

@@ -77,17 +77,18 @@ ScatterField::ScatterField(std::uint64_t seed, const ScattererSize& size)
 ScatterView ScatterField::make_view(const Vec3& direction_J,
                                     const Vec3& elevation_J) const noexcept {
   struct Near {
-    double angle = 10;
+    double cosine = -1;
     std::size_t axis = 0;
+    double angle = 0;
   };
   std::array<Near, kMaxAxes> near;
   for (std::size_t k = 0; k < axes_.size(); ++k) {
-    const double cosine = std::min(1.0, std::abs(elevation_J.dot(axes_[k].elevation)));
-    Near candidate{std::acos(cosine), k};
+    Near candidate{std::abs(elevation_J.dot(axes_[k].elevation)), k};
     for (Near& n : near) {
-      if (candidate.angle < n.angle) std::swap(candidate, n);
+      if (candidate.cosine > n.cosine) std::swap(candidate, n);
     }
   }
+  for (Near& n : near) n.angle = std::acos(std::min(1.0, n.cosine));
   ScatterView view;
   double power = 0;
   for (const Near& n : near) {
