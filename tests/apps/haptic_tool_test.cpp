@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// The commands that render force, as a user meets them: exit codes, messages, figures.
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/support/process.h"
+
+namespace artus {
+namespace {
+
+test::ProcessResult artus(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), ARTUS_TOOL);
+  return test::run_process(arguments);
+}
+
+TEST(HapticTool, LoopReportsItsHistogramsWithoutAJoint) {
+  const auto run = artus({"loop", "--seconds", "0.5", "--rate", "2000", "--json"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto report = nlohmann::json::parse(run.out);
+  const auto ticks = report.at("ticks").get<long>();
+  EXPECT_GT(ticks, 0);
+  EXPECT_LE(ticks, 1000);
+  EXPECT_EQ(report.at("compute").at("count").get<long>(), ticks);
+  EXPECT_GE(report.at("lateness").at("count").get<long>(), ticks);
+  EXPECT_GT(report.at("lateness_floor").at("count").get<long>(), 0);
+  EXPECT_TRUE(report.at("refused").is_array());
+}
+
+TEST(HapticTool, LoopTakesLawsForAllTissuesAndForOne) {
+  const auto run =
+      artus({"loop", "--seconds", "0.1", "--cutting", "voigt", "--cutting", "skin=spring",
+             "--prepuncture", "barbe", "--bone-tap", "impulse", "--clamping", "plasticity",
+             "--friction-set", "1", "--patient", "friction=1.5", "--json"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+}
+
+TEST(HapticTool, AnUnknownLawTissueOrFactorIsRefusedWithWhatThereIs) {
+  const auto law = artus({"loop", "--seconds", "0.1", "--cutting", "butter"});
+  EXPECT_EQ(law.exit_code, 2);
+  EXPECT_NE(law.err.find("tracking_wall, direct, spring, voigt"), std::string::npos) << law.err;
+  const auto tissue = artus({"loop", "--seconds", "0.1", "--cutting", "butter=voigt"});
+  EXPECT_EQ(tissue.exit_code, 2);
+  EXPECT_NE(tissue.err.find("muscle"), std::string::npos) << tissue.err;
+  const auto factor = artus({"loop", "--seconds", "0.1", "--patient", "friction=-1"});
+  EXPECT_EQ(factor.exit_code, 2);
+  EXPECT_NE(factor.err.find("friction=-1"), std::string::npos) << factor.err;
+  const auto rate = artus({"loop", "--rate", "1e9"});
+  EXPECT_EQ(rate.exit_code, 2);
+}
+
+}  // namespace
+}  // namespace artus
