@@ -2,12 +2,13 @@
 // Question: how long do one control tick of the pneumatic mock (sensor checks, estimate, law, valve
 // inversion) and one tick of the probe's contact take?
 // Command: cmake --preset release -B build/release && ninja -C build/release bench_probe &&
-//   build/release/bench/haptics/bench_probe [--busy] [joint.artus ...]
+//   build/release/bench/haptics/bench_probe [--busy] [--contact] [joint.artus ...]
 // Reading: microseconds of wall time per tick, as a deadline sees them; the clock itself takes
 // about 0.03 us. Percentiles, never means. On a busy machine interrupts are charged to the tick:
 // --busy takes the least of three identical runs per tick, which keeps what the tick's own work
-// costs. Peer: none is known for the laws; the budget is p99.9 <= 10 us a control tick, and 1000 us
-// for the contact's tick at 1 kHz, on nested spheres and on each compiled joint that is named.
+// costs; --contact leaves the control ticks out. Peer: none is known for the laws; the budget is
+// p99.9 <= 10 us a control tick, and 1000 us for the contact's tick at 1 kHz, on nested spheres and
+// on each compiled joint that is named.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -133,15 +134,18 @@ void bench_spheres() {
 
 int main(int argc, char** argv) {
   bool busy = false;
+  bool laws = true;
   std::vector<std::string> joints;
   for (int i = 1; i < argc; ++i) {
     if (std::strcmp(argv[i], "--busy") == 0) {
       busy = true;
+    } else if (std::strcmp(argv[i], "--contact") == 0) {
+      laws = false;
     } else {
       joints.emplace_back(argv[i]);
     }
   }
-  for (std::size_t i = 0; i < artus::kControlLaws; ++i) {
+  for (std::size_t i = 0; laws && i < artus::kControlLaws; ++i) {
     bench_law(static_cast<artus::ControlLawKind>(i), busy);
   }
   bench_spheres();
@@ -152,8 +156,8 @@ int main(int argc, char** argv) {
       return 1;
     }
     const artus::Pose rest = joint->X_JP_default;
-    bench_contact(joint->name, std::make_shared<const artus::CompiledJoint>(std::move(*joint)),
-                  rest);
+    const std::string name = joint->name;
+    bench_contact(name, std::make_shared<const artus::CompiledJoint>(std::move(*joint)), rest);
   }
   return 0;
 }
