@@ -14,7 +14,7 @@ struct Truth {
   std::vector<RegionId> regions;
   static RegionId at(const void* state, double depth) noexcept {
     const auto& self = *static_cast<const Truth*>(state);
-    return self.regions[static_cast<std::size_t>(depth)];
+    return self.regions.at(static_cast<std::size_t>(depth));
   }
 };
 
@@ -55,7 +55,7 @@ TEST(RepairChain, ASharedEdgeCountsOnce) {
 }
 
 TEST(RepairChain, ATouchThatLeadsBackIsNoCrossing) {
-  EXPECT_TRUE(repaired({{1.5, 7, 0, 2}, {1.5, 8, 2, 0}}, {{0, 0, 0}}).empty());
+  EXPECT_TRUE(repaired({{1.5, 7, 0, 2}, {1.5, 8, 2, 0}}, {{0, 0, 0, 0, 0, 0}}).empty());
 }
 
 TEST(RepairChain, HitsOfOnePlaceFindTheirOrder) {
