@@ -21,14 +21,15 @@ ImTextureID to_id(unsigned texture) {
 }
 
 void draw_ruler(ImDrawList* list, const ImVec2& at, float pixels_per_mm, double depth_mm) {
+  const float unit = ImGui::GetFontSize() / 13;  // what is a pixel on a window of 720 lines
   for (int mm = 0; mm <= static_cast<int>(depth_mm); mm += 5) {
     const float y = at.y + pixels_per_mm * static_cast<float>(mm);
     const bool ten = mm % 10 == 0;
-    list->AddLine(ImVec2(at.x - (ten ? 8.F : 4.F), y), ImVec2(at.x, y), kWhite);
+    list->AddLine(ImVec2(at.x - unit * (ten ? 8.F : 4.F), y), ImVec2(at.x, y), kWhite, unit);
     if (!ten) continue;
     const std::string text = std::to_string(mm);
     const ImVec2 size = ImGui::CalcTextSize(text.c_str());
-    list->AddText(ImVec2(at.x - 11 - size.x, y - size.y / 2), kWhite, text.c_str());
+    list->AddText(ImVec2(at.x - 11 * unit - size.x, y - size.y / 2), kWhite, text.c_str());
   }
 }
 
@@ -38,18 +39,19 @@ void draw_calipers(ImDrawList* list, const ImVec2& at, float pixels_per_mm,
     return ImVec2(at.x + pixels_per_mm * static_cast<float>(p.x_mm),
                   at.y + pixels_per_mm * static_cast<float>(p.y_mm));
   };
+  const float unit = ImGui::GetFontSize() / 13;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const ImVec2 p = screen(points[i]);
-    list->AddLine(ImVec2(p.x - 5, p.y), ImVec2(p.x + 5, p.y), kYellow);
-    list->AddLine(ImVec2(p.x, p.y - 5), ImVec2(p.x, p.y + 5), kYellow);
+    list->AddLine(ImVec2(p.x - 5 * unit, p.y), ImVec2(p.x + 5 * unit, p.y), kYellow, unit);
+    list->AddLine(ImVec2(p.x, p.y - 5 * unit), ImVec2(p.x, p.y + 5 * unit), kYellow, unit);
     if (i % 2 == 0) continue;
     const ImVec2 q = screen(points[i - 1]);
-    list->AddLine(q, p, kYellow);
+    list->AddLine(q, p, kYellow, unit);
     std::array<char, 32> text{};
     std::snprintf(
         text.data(), text.size(), "%.1f mm",
         std::hypot(points[i].x_mm - points[i - 1].x_mm, points[i].y_mm - points[i - 1].y_mm));
-    list->AddText(ImVec2(p.x + 7, p.y - 7), kYellow, text.data());
+    list->AddText(ImVec2(p.x + 7 * unit, p.y - 7 * unit), kYellow, text.data());
   }
 }
 
@@ -155,9 +157,11 @@ void draw_image_panel(const PanelInput& in, ViewState& state) {
   const float focus =
       at.y + scale * static_cast<float>(state.controls.elevation_focus / kMillimetre);
   const float right = at.x + size.x;
-  list->AddTriangleFilled(ImVec2(right, focus), ImVec2(right + 8, focus - 5),
-                          ImVec2(right + 8, focus + 5), kYellow);
-  list->AddCircleFilled(ImVec2(at.x + 6, at.y + 6), 3.5F, kYellow);  // the probe's marked side
+  const float unit = ImGui::GetFontSize() / 13;
+  list->AddTriangleFilled(ImVec2(right, focus), ImVec2(right + 8 * unit, focus - 5 * unit),
+                          ImVec2(right + 8 * unit, focus + 5 * unit), kYellow);
+  list->AddCircleFilled(ImVec2(at.x + 6 * unit, at.y + 6 * unit), 3.5F * unit,
+                        kYellow);  // the probe's marked side
   if (in.session->frozen()) list->AddText(ImVec2(at.x + size.x / 2, at.y + 4), kYellow, "frozen");
   ImGui::Text("%.0f x %.0f mm   %.0f MHz   gain %+.0f dB   %.0f dB   image %llu", width_mm,
               depth_mm, state.controls.frequency * 1e-6, state.controls.gain_db,
@@ -255,21 +259,31 @@ void draw_help(const PanelInput& in, ViewState& state) {
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos(ImVec2(size.x / 2, size.y / 2), ImGuiCond_Appearing, ImVec2(0.5F, 0.5F));
   ImGui::Begin("Keys", &state.help, ImGuiWindowFlags_AlwaysAutoResize);
-  ImGui::TextUnformatted(
-      "P       take the probe: mouse slides it, wheel turns it\n"
-      "C       choose the entry point beside the probe: the joint comes to the needle\n"
-      "X       back to exploring\n"
-      "N       take the needle: mouse turns it about the entry, wheel or W S push and pull\n"
-      "shift   with mouse or wheel: a tenth as far\n"
-      "Esc     let go\n"
-      "Home    needle and probe back to the start\n"
-      "F       freeze the image        SPACE  pause\n"
-      "V       save it as PNG          R      reset the insertion\n"
-      "K       begin and end a clip    E      expert mode (no 3D)\n"
-      "T       true scale              M      remove the calipers\n"
-      "F1      this help\n"
-      "click twice in the B-mode image to measure; drag in the joint to turn it, wheel to zoom\n"
-      "gamepad left stick probe, right stick needle, triggers push and pull; A C, B X, X F, Y R");
+  constexpr std::array<std::array<const char*, 2>, 17> kKeys{{
+      {"P", "take the probe: mouse slides it, wheel turns it"},
+      {"C", "choose the entry point beside the probe: the joint comes to the needle"},
+      {"X", "back to exploring"},
+      {"N", "take the needle: mouse turns it about the entry, wheel or W S push and pull"},
+      {"shift", "with mouse or wheel: a tenth as far"},
+      {"Esc", "let go"},
+      {"Home", "needle and probe back to the start"},
+      {"F", "freeze the image"},
+      {"V", "save the image as PNG"},
+      {"K", "begin and end a clip"},
+      {"T", "image at true scale"},
+      {"M", "remove the calipers; two clicks in the image measure"},
+      {"SPACE", "pause"},
+      {"R", "reset the insertion"},
+      {"E", "expert mode: no 3D view"},
+      {"gamepad",
+       "left stick probe, right stick needle, triggers push and pull; A C, B X, X F, Y R"},
+      {"joint", "drag turns it, wheel comes nearer"},
+  }};
+  for (const auto& [key, what] : kKeys) {
+    ImGui::TextUnformatted(key);
+    ImGui::SameLine(6 * ImGui::GetFontSize());
+    ImGui::TextUnformatted(what);
+  }
   if (in.gamepad != nullptr) ImGui::Text("gamepad: %s", in.gamepad);
   ImGui::End();
 }

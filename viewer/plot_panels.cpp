@@ -90,7 +90,8 @@ void draw_curve(ImDrawList* list, const Plot& plot, const std::deque<TracePoint>
     if (x < plot.x_low || x > plot.x_high) continue;
     points.push_back(plot.at(x, p.*value));
   }
-  list->AddPolyline(points.data(), static_cast<int>(points.size()), colour, 0, 1.5F);
+  list->AddPolyline(points.data(), static_cast<int>(points.size()), colour, 0,
+                    ImGui::GetFontSize() / 9);
 }
 
 /// Bands of the layers below a curve, with their names.

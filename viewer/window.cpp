@@ -148,6 +148,7 @@ class WindowLoop {
   bool run_step(const ScriptStep& step, double elapsed);
   void gather();
   void follow_gesture(const HapticSnapshot& now);
+  void draw_joint();
   void draw(double elapsed);
   void note_shown();
   void save_pictures(double elapsed);
@@ -174,6 +175,7 @@ class WindowLoop {
   double interval_ = 0.1;  // s between pictures, smoothed
   bool wants_final_ = true;
   std::vector<std::filesystem::path> wanted_pictures_;
+  std::chrono::steady_clock::time_point joint_due_;
   bool dragging_ = false;
   double x_ = 0;
   double y_ = 0;
@@ -321,6 +323,18 @@ void WindowLoop::gather() {
   }
 }
 
+// Drawn in software the joint takes longer than all else; the image and the plots go on meanwhile
+// with the joint's last picture for as long as it took, twice over.
+void WindowLoop::draw_joint() {
+  const auto now = std::chrono::steady_clock::now();
+  if (now < joint_due_) return;
+  input_.joint_texture = joint_->draw(area_.width, area_.height,
+                                      {input_.now, input_.image, image_texture_, input_.entry});
+  glFinish();
+  const auto drawn = std::chrono::steady_clock::now();
+  joint_due_ = drawn + 2 * (drawn - now);
+}
+
 void WindowLoop::draw(double elapsed) {
   gather();
   int width = 0;
@@ -329,9 +343,7 @@ void WindowLoop::draw(double elapsed) {
   ImGuiIO& io = ImGui::GetIO();
   io.DisplaySize = ImVec2(static_cast<float>(width), static_cast<float>(height));
   io.DeltaTime = static_cast<float>(elapsed);
-  if (!state_.expert)
-    input_.joint_texture = joint_->draw(area_.width, area_.height,
-                                        {input_.now, input_.image, image_texture_, input_.entry});
+  if (!state_.expert) draw_joint();
   ImGui_ImplOpenGL3_NewFrame();
   ImGui::NewFrame();
   if (!state_.expert) draw_joint_panel(input_, state_, area_);
