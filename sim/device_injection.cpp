@@ -8,12 +8,12 @@
 namespace artus {
 namespace {
 
-constexpr double kBeforeSkin = -12e-3;   // m, tip before the skin at start and end
-constexpr double kWait = 0.5;         // s outside; longer than the guard's ramp
-constexpr double kRest = 0.8;         // s at the target; assumed, as in three-injections
-constexpr double kPress = 0.25;       // s on the bone; assumed
-constexpr double kBoneFelt = 2.5e-3;  // m that the needle lags behind the hand on bone: 4 N
-constexpr double kFastOut = 2.0;      // withdrawal's speed over insertion's
+constexpr double kBeforeSkin = -12e-3;  // m, tip before the skin at start and end
+constexpr double kWait = 0.5;           // s outside; longer than the guard's ramp
+constexpr double kRest = 0.8;           // s at the target; assumed, as in three-injections
+constexpr double kPress = 0.25;         // s on the bone; assumed
+constexpr double kBoneFelt = 2.5e-3;    // m that the needle lags behind the hand on bone: 4 N
+constexpr double kFastOut = 2.0;        // withdrawal's speed over insertion's
 
 /// Steps of hand and device within a tick: stiff enough at 4 kHz, and cheap.
 double physics_rate(double rate_hz) {
