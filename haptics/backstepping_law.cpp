@@ -53,6 +53,7 @@ void BacksteppingLaw::reset(const ControlInput& input) noexcept {
 
 bool BacksteppingLaw::take_gains(const ProbeTarget& target) noexcept {
   if (!gains_.from_target) return true;
+  if (target.stiffness < kLeastFeltStiffness) return false;
   const double mass = cylinder_.moving_mass;
   const double damping = target.damping > 0
                              ? target.damping

@@ -255,9 +255,13 @@ TEST(BacksteppingLaw, RefusedTargetKeepsTheLastGains) {
   input.measured = {0, 3e5, 3e5, 0};
   law.reset(input);
   const double c_1 = law.gains().c_1;
-  input.target.stiffness = 0.1;
-  EXPECT_TRUE(law.step(input).target_refused);
-  EXPECT_EQ(law.gains().c_1, c_1);
+  for (const double stiffness : {0.1, 99.0}) {
+    input.target.stiffness = stiffness;
+    EXPECT_TRUE(law.step(input).target_refused);
+    EXPECT_EQ(law.gains().c_1, c_1);
+  }
+  input.target.stiffness = kLeastFeltStiffness;
+  EXPECT_FALSE(law.step(input).target_refused);
 }
 
 }  // namespace
