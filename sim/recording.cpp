@@ -11,7 +11,7 @@
 namespace artus {
 namespace {
 
-constexpr int kVersion = 1;
+constexpr int kVersion = 2;
 constexpr std::uint32_t kTick = 1;
 constexpr std::uint32_t kFrame = 2;
 constexpr std::uint32_t kEnd = 3;
@@ -43,14 +43,15 @@ nlohmann::json to_json(const RecordingHead& head) {
           {"gesture_point", {g.p_W.x(), g.p_W.y(), g.p_W.z()}},
           {"gesture_axis", {g.axis_W.x(), g.axis_W.y(), g.axis_W.z()}},
           {"gesture_beside", g.beside_probe},
-          {"gesture_steepness", g.steepness}};
+          {"gesture_steepness", g.steepness},
+          {"laws", to_json(head.felt)}};
 }
 
 Vec3 to_vec3(const nlohmann::json& json) {
   return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()};
 }
 
-RecordingHead to_head(const nlohmann::json& json) {
+Result<RecordingHead> to_head(const nlohmann::json& json) {
   RecordingHead head;
   json.at("joint").get_to(head.joint);
   json.at("source_digest").get_to(head.source_digest);
@@ -64,6 +65,9 @@ RecordingHead to_head(const nlohmann::json& json) {
   head.gesture.axis_W = to_vec3(json.at("gesture_axis"));
   json.at("gesture_beside").get_to(head.gesture.beside_probe);
   json.at("gesture_steepness").get_to(head.gesture.steepness);
+  const auto felt = to_felt_laws(json.at("laws"));
+  if (!felt) return tl::unexpected<Error>(felt.error());
+  head.felt = *felt;
   return head;
 }
 
@@ -132,6 +136,7 @@ RecordingHead make_head(const CompiledJoint& joint, const SessionParams& params)
   head.seed = params.image.seed;
   head.X_WJ = to_plain(params.X_WJ);
   head.gesture = params.gesture;
+  head.felt = felt_laws_of(params);
   return head;
 }
 
@@ -145,7 +150,9 @@ Result<Recording> read_recording(const std::filesystem::path& file) {
   if (json["artus_recording"] != kVersion)
     return fail(ErrorCode::unsupported, "a recording of another version", file);
   try {
-    recording.head = to_head(json);
+    const auto head = to_head(json);
+    if (!head) return tl::unexpected<Error>(head.error());
+    recording.head = *head;
   } catch (const nlohmann::json::exception& e) {
     return fail(ErrorCode::malformed, std::string("its first line is damaged: ") + e.what(), file);
   }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/result.h"
+#include "sim/felt_laws.h"
 #include "sim/session_core.h"
 #include "sim/session_exchange.h"
 
@@ -41,6 +42,7 @@ struct RecordingHead {
   std::uint64_t seed = 0;     ///< of speckle and noise
   PlainPose X_WJ;
   GestureParams gesture;
+  FeltLaws felt;
 };
 [[nodiscard]] RecordingHead make_head(const CompiledJoint& joint, const SessionParams& params);
 

@@ -23,6 +23,7 @@ Result<SessionParams> params_of(const RecordingHead& head, SessionParams params)
   params.image.seed = head.seed;
   params.X_WJ = to_pose(head.X_WJ);
   params.gesture = head.gesture;
+  apply(head.felt, params);
   if (const auto valid = validate(params); !valid) return tl::unexpected<Error>(valid.error());
   return params;
 }

@@ -105,6 +105,37 @@ TEST(Session, ARecordedSessionReplaysToTheSameBytes) {
   std::filesystem::remove(file);
 }
 
+TEST(Session, ARecordingKnowsTheLawsItWasFeltBy) {
+  const auto file =
+      std::filesystem::temp_directory_path() / ("artus-laws-" + std::to_string(getpid()) + ".rec");
+  const auto scene = test::make_layered_scene();
+  SessionParams params = test::make_small_session();
+  params.laws.cutting = CuttingLaw::voigt;
+  params.laws.cutting_of_tissue["fat"] = CuttingLaw::direct;
+  params.patient.friction = 1.5;
+  params.needle.hard.law = HardLaw::impulse;
+  params.needle.clamping = ClampingLaw::plasticity;
+  params.needle.friction = lugre_sets()[0];
+  {
+    Session::Options options = quiet_options();
+    options.recording = file;
+    auto session = Session::start(scene, params, make_injecting_hand(), options);
+    ASSERT_TRUE(session) << session.error().to_string();
+    ASSERT_TRUE(wait_until([&] { return (*session)->ticks() > 900; }));
+  }
+  const auto recording = read_recording(file);
+  ASSERT_TRUE(recording) << recording.error().to_string();
+  const auto plain = replay(*recording, scene, test::make_small_session());
+  ASSERT_TRUE(plain);
+  EXPECT_GT(plain->different_ticks, 0U) << "the laws must be felt at all";
+  const auto restored = params_of(recording->head, test::make_small_session());
+  ASSERT_TRUE(restored) << restored.error().to_string();
+  const auto same = replay(*recording, scene, *restored);
+  ASSERT_TRUE(same);
+  EXPECT_TRUE(same->identical());
+  std::filesystem::remove(file);
+}
+
 TEST(Session, ACutOffRecordingGivesWhatThereIs) {
   const auto file =
       std::filesystem::temp_directory_path() / ("artus-cut-" + std::to_string(getpid()) + ".rec");
