@@ -72,38 +72,36 @@ TEST(ShellConstruct, HasItsThicknessInsideTheSurface) {
   }
 }
 
-class GapBetweenBalls : public testing::TestWithParam<double> {};
+constexpr double kCleft = 1.2 * kMm;
 
-// The roof begins this far beyond the floor; negative: they overlap, and still the cleft is whole.
-TEST_P(GapBetweenBalls, HasItsThicknessHalfWayBetweenRoofAndFloor) {
-  const double clearance = GetParam();
+/// The cleft between a ball of 20 mm and a roof that vaults over it at `clearance`.
+DistanceField make_cleft(double clearance) {
   const DistanceField floor = make_ball(20 * kMm);
   const DistanceField roof = make_vault(20 * kMm + clearance);
   GapConstruct gap;
   gap.roof = {"roof"};
   gap.floor = {"floor"};
-  gap.thickness = 1.2 * kMm;
+  gap.thickness = kCleft;
   gap.within = 6 * kMm;
-  const DistanceField cleft = make_construct_field(
-      make_structure(gap), {{"roof", &roof}, {"floor", &floor}}, sample_around(26 * kMm));
+  return make_construct_field(make_structure(gap), {{"roof", &roof}, {"floor", &floor}},
+                              sample_around(26 * kMm));
+}
+
+class GapBetweenBalls : public testing::TestWithParam<double> {};
+
+// The roof begins this far beyond the floor; negative: they overlap, and still the cleft is whole.
+TEST_P(GapBetweenBalls, HasItsThicknessHalfWayBetweenRoofAndFloor) {
+  const double clearance = GetParam();
+  const DistanceField cleft = make_cleft(clearance);
   const double middle = 20 * kMm + clearance / 2;
-  const double expected =
-      ball_volume(middle + gap.thickness / 2) - ball_volume(middle - gap.thickness / 2);
+  const double expected = ball_volume(middle + kCleft / 2) - ball_volume(middle - kCleft / 2);
   EXPECT_NEAR(volume(cleft), expected, 0.03 * expected);
 }
 
 INSTANTIATE_TEST_SUITE_P(Clearances, GapBetweenBalls, testing::Values(-1e-3, 0.0, 1.5e-3, 4e-3));
 
 TEST(GapConstruct, EndsWhereRoofAndFloorPart) {
-  const DistanceField floor = make_ball(20 * kMm);
-  const DistanceField roof = make_vault(27 * kMm);
-  GapConstruct gap;
-  gap.roof = {"roof"};
-  gap.floor = {"floor"};
-  gap.thickness = 1.2 * kMm;
-  gap.within = 6 * kMm;
-  const DistanceField cleft = make_construct_field(
-      make_structure(gap), {{"roof", &roof}, {"floor", &floor}}, sample_around(26 * kMm));
+  const DistanceField cleft = make_cleft(7 * kMm);
   EXPECT_EQ(volume(cleft), 0);
 }
 
