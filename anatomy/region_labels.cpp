@@ -64,9 +64,10 @@ void RegionLabels::make_index(const Box& box) {
   tbb::parallel_for(std::size_t{0}, n_blocks, [&](std::size_t b) {
     const std::size_t nx = static_cast<std::size_t>(index.blocks[0]);
     const std::size_t ny = static_cast<std::size_t>(index.blocks[1]);
+    const std::array<std::size_t, 3> cell{b % nx, b / nx % ny, b / (nx * ny)};
     const Vec3 corner =
-        box.lower + index.edge * Vec3(static_cast<double>(b % nx), static_cast<double>(b / nx % ny),
-                                      static_cast<double>(b / (nx * ny)));
+        box.lower + index.edge * Vec3(static_cast<double>(cell[0]), static_cast<double>(cell[1]),
+                                      static_cast<double>(cell[2]));
     // A hair wider than the block: rounding may put a point of its face into the neighbour.
     const Vec3 hair = Vec3::Constant(1e-6 * index.edge);
     const Box around{corner - hair, corner + Vec3::Constant(index.edge) + hair};
