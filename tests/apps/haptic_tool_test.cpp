@@ -6,15 +6,12 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "tests/support/process.h"
+#include "tests/apps/run_tool.h"
 
 namespace artus {
 namespace {
 
-test::ProcessResult artus(std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), ARTUS_TOOL);
-  return test::run_process(arguments);
-}
+using test::artus;
 
 TEST(HapticTool, LoopReportsItsHistogramsWithoutAJoint) {
   const auto run = artus({"loop", "--seconds", "0.5", "--rate", "2000", "--json"});

@@ -8,18 +8,14 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "tests/support/process.h"
+#include "tests/apps/run_tool.h"
 #include "tests/support/temporary_folder.h"
 
 namespace artus {
 namespace {
 
-const std::string kSimple = std::string(ARTUS_TEST_JOINTS) + "/simple-shoulder.artus";
-
-test::ProcessResult artus(std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), ARTUS_TOOL);
-  return test::run_process(arguments);
-}
+using test::artus;
+using test::kSimple;
 
 using Tool = test::TemporaryFolder;
 
