@@ -17,7 +17,10 @@ endfunction()
 
 # The warnings and floating-point rules every target of the project obeys: results must not depend
 # on contraction into fused multiply-adds, so the same source gives the same bytes on every build.
+# GCC 12 sees overlapping copies in std::string's operator+ at -O3 that are not there (GCC PR 105651).
 function(artus_warnings target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wconversion -Wnon-virtual-dtor
-    -ffp-contract=off $<$<BOOL:${ARTUS_WERROR}>:-Werror>)
+    -ffp-contract=off
+    $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-restrict>
+    $<$<BOOL:${ARTUS_WERROR}>:-Werror>)
 endfunction()
