@@ -14,7 +14,7 @@ namespace artus {
 namespace {
 
 constexpr std::uint64_t kMagic = 0x0a544e4a53545241ULL;  // "ARTSJNT\n"
-constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kVersion = 3;
 constexpr std::size_t kHeaderSize = 32;
 
 struct Header {

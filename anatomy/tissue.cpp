@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <span>
 #include <string_view>
 
 #include "anatomy/bundled_tissues.h"
@@ -49,11 +48,6 @@ constexpr std::array<Field<Haptic>, 6> kHapticFields{{
     {"puncture_force_n", &Haptic::puncture_force, 0, 100, 1, false},
 }};
 
-constexpr std::array<std::string_view, 4> kCuttingLaws{"tracking_wall", "direct", "spring",
-                                                       "voigt"};
-constexpr std::array<std::string_view, 4> kPrepunctureLaws{"membrane", "simone_okamura", "barbe",
-                                                           "god_object"};
-
 template <class Group, std::size_t n>
 void read_fields(TomlTable& toml, const std::array<Field<Group>, n>& fields, bool is_new,
                  Group& group) {
@@ -65,18 +59,21 @@ void read_fields(TomlTable& toml, const std::array<Field<Group>, n>& fields, boo
   }
 }
 
-void read_kind(TomlTable& toml, Acoustic& acoustic) {
-  const auto name = toml.text("kind");
+/// One of a row of names, as the value of that place in the row.
+template <class Value, std::size_t n>
+void read_name(TomlTable& toml, const char* key, const std::array<std::string_view, n>& names,
+               Value& value) {
+  const auto name = toml.text(key);
   if (!name) return;
-  const auto at = std::find(kTissueKindNames.begin(), kTissueKindNames.end(), *name);
-  if (at == kTissueKindNames.end()) {
-    std::string known;
-    for (const std::string_view kind : kTissueKindNames) {
-      known += (known.empty() ? "" : ", ") + std::string(kind);
-    }
-    return toml.problem("kind is '" + *name + "', must be one of " + known);
+  const auto at = std::find(names.begin(), names.end(), *name);
+  if (at != names.end()) {
+    value = static_cast<Value>(at - names.begin());
+    return;
   }
-  acoustic.kind = static_cast<TissueKind>(at - kTissueKindNames.begin());
+  std::string known;
+  for (const std::string_view other : names)
+    known += (known.empty() ? "" : ", ") + std::string(other);
+  toml.problem(std::string(key) + " is '" + *name + "', must be one of " + known);
 }
 
 void read_source(TomlTable& toml, const std::string& group, const std::string& default_source,
@@ -87,23 +84,6 @@ void read_source(TomlTable& toml, const std::string& group, const std::string& d
     return;
   }
   tissue.source[group] = toml.required_text("source");
-}
-
-/// Which law the needle feels the tissue by; kept among the tissue's texts under its key, for the
-/// laws themselves are the business of haptics/.
-void read_law(TomlTable& toml, const char* key, std::span<const std::string_view> names,
-              Tissue& tissue) {
-  const auto law = toml.text(key);
-  if (!law) return;
-  std::string known;
-  for (const std::string_view name : names) {
-    if (name == *law) {
-      tissue.source[key] = *law;
-      return;
-    }
-    known += (known.empty() ? "" : ", ") + std::string(name);
-  }
-  toml.problem("'" + std::string(key) + "' must be one of " + known);
 }
 
 void merge_tissue(const std::string& name, const toml::table& table, const std::string& source,
@@ -118,7 +98,7 @@ void merge_tissue(const std::string& name, const toml::table& table, const std::
   };
   if (auto toml = open("acoustic")) {
     read_fields(*toml, kAcousticFields, is_new, tissue.acoustic);
-    read_kind(*toml, tissue.acoustic);
+    read_name(*toml, "kind", kTissueKindNames, tissue.acoustic.kind);
     read_source(*toml, "acoustic", source, tissue);
     toml->finish();
   }
@@ -130,8 +110,8 @@ void merge_tissue(const std::string& name, const toml::table& table, const std::
   if (auto toml = open("haptic")) {
     read_fields(*toml, kHapticFields, is_new, tissue.haptic);
     if (const auto hard = toml->boolean("hard")) tissue.haptic.hard = *hard;
-    read_law(*toml, "cutting_law", kCuttingLaws, tissue);
-    read_law(*toml, "prepuncture_law", kPrepunctureLaws, tissue);
+    read_name(*toml, "cutting_law", kCuttingLawNames, tissue.haptic.cutting_law);
+    read_name(*toml, "prepuncture_law", kPrepunctureLawNames, tissue.haptic.prepuncture_law);
     read_source(*toml, "haptic", source, tissue);
     toml->finish();
   }

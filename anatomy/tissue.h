@@ -38,6 +38,17 @@ struct Mechanical {
   double poisson_ratio = 0.49;
 };
 
+/// Which law gives the force of cutting a tissue. The laws themselves are the business of haptics/.
+enum class CuttingLaw : std::uint8_t { tracking_wall, direct, spring, voigt };
+/// Which law gives the force of a surface that dimples before it is punctured.
+enum class PrepunctureLaw : std::uint8_t { membrane, simone_okamura, barbe, god_object };
+
+/// The laws' names in files and flags, in order of their values.
+inline constexpr std::array<std::string_view, 4> kCuttingLawNames{"tracking_wall", "direct",
+                                                                  "spring", "voigt"};
+inline constexpr std::array<std::string_view, 4> kPrepunctureLawNames{"membrane", "simone_okamura",
+                                                                      "barbe", "god_object"};
+
 /// What a needle feels; the tracking wall's parameters [Alamilla2020] section 2.4.
 struct Haptic {
   double cutting_force = 0;       ///< N, f_R
@@ -47,6 +58,8 @@ struct Haptic {
   double clamping_stiffness = 0;  ///< N/m, lateral, at full depth
   double puncture_force = 0;      ///< N, threshold of the membrane on entry; 0 = no membrane
   bool hard = false;              ///< bone: the needle cannot enter
+  CuttingLaw cutting_law = CuttingLaw::tracking_wall;
+  PrepunctureLaw prepuncture_law = PrepunctureLaw::membrane;
 };
 
 /// One named tissue. `source` says where the values come from, group by group.

@@ -17,6 +17,14 @@ std::array<Value*, 14> numbers(T& t) {
       &t.haptic.clamping_stiffness,  &t.haptic.puncture_force};
 }
 
+/// One of `n` values; another refuses the file.
+template <class Value>
+Value get_choice(ByteReader& in, std::size_t n) {
+  const auto value = in.get<std::uint8_t>();
+  if (value >= n) in.refuse();
+  return static_cast<Value>(value);
+}
+
 }  // namespace
 
 void put_tissues(ByteWriter& out, const std::vector<Tissue>& tissues) {
@@ -26,6 +34,8 @@ void put_tissues(ByteWriter& out, const std::vector<Tissue>& tissues) {
     for (const double* value : numbers(t)) out.put(*value);
     out.put(static_cast<std::uint8_t>(t.haptic.hard ? 1 : 0));
     out.put(static_cast<std::uint8_t>(t.acoustic.kind));
+    out.put(static_cast<std::uint8_t>(t.haptic.cutting_law));
+    out.put(static_cast<std::uint8_t>(t.haptic.prepuncture_law));
     out.put(static_cast<std::uint32_t>(t.source.size()));
     for (const auto& [group, text] : t.source) {
       out.put(std::string_view(group));
@@ -40,9 +50,9 @@ std::vector<Tissue> get_tissues(ByteReader& in) {
     t.name = in.get_text();
     for (double* value : numbers(t)) *value = in.get<double>();
     t.haptic.hard = in.get<std::uint8_t>() != 0;
-    const auto kind = in.get<std::uint8_t>();
-    if (kind >= kTissueKindNames.size()) in.refuse();
-    t.acoustic.kind = static_cast<TissueKind>(kind);
+    t.acoustic.kind = get_choice<TissueKind>(in, kTissueKindNames.size());
+    t.haptic.cutting_law = get_choice<CuttingLaw>(in, kCuttingLawNames.size());
+    t.haptic.prepuncture_law = get_choice<PrepunctureLaw>(in, kPrepunctureLawNames.size());
     const std::uint32_t n = in.get_count(4);
     for (std::uint32_t i = 0; i < n && in.ok(); ++i) {
       std::string group = in.get_text();

@@ -1,72 +1,51 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "haptics/layer_haptics.h"
 
+#include <algorithm>
+#include <array>
+
 namespace artus {
-
-const char* to_string(CuttingLaw law) noexcept {
-  switch (law) {
-    case CuttingLaw::tracking_wall:
-      return "tracking_wall";
-    case CuttingLaw::direct:
-      return "direct";
-    case CuttingLaw::spring:
-      return "spring";
-    case CuttingLaw::voigt:
-      return "voigt";
-  }
-  return "";
-}
-
-const char* to_string(PrepunctureLaw law) noexcept {
-  switch (law) {
-    case PrepunctureLaw::membrane:
-      return "membrane";
-    case PrepunctureLaw::simone_okamura:
-      return "simone_okamura";
-    case PrepunctureLaw::barbe:
-      return "barbe";
-    case PrepunctureLaw::god_object:
-      return "god_object";
-  }
-  return "";
-}
-
-Result<CuttingLaw> find_cutting_law(std::string_view name) {
-  for (const CuttingLaw law :
-       {CuttingLaw::tracking_wall, CuttingLaw::direct, CuttingLaw::spring, CuttingLaw::voigt}) {
-    if (name == to_string(law)) return law;
-  }
-  return fail(ErrorCode::not_found, "no cutting law \"" + std::string(name) +
-                                        "\"; there are tracking_wall, direct, spring, voigt");
-}
-
-Result<PrepunctureLaw> find_prepuncture_law(std::string_view name) {
-  for (const PrepunctureLaw law : {PrepunctureLaw::membrane, PrepunctureLaw::simone_okamura,
-                                   PrepunctureLaw::barbe, PrepunctureLaw::god_object}) {
-    if (name == to_string(law)) return law;
-  }
-  return fail(ErrorCode::not_found,
-              "no pre-puncture law \"" + std::string(name) +
-                  "\"; there are membrane, simone_okamura, barbe, god_object");
-}
 
 namespace {
 
-// The run's word on this tissue, else the run's on all, else the tissue library's.
-template <class Law, class Find>
-Law choose(const Tissue& tissue, const char* key, Law otherwise, const std::optional<Law>& run,
-           const std::map<std::string, Law>& of_tissue, Find find) {
+/// The law of a name; `what` stands in the refusal.
+template <class Law, std::size_t n>
+Result<Law> find_law(const std::array<std::string_view, n>& names, std::string_view name,
+                     const std::string& what) {
+  const auto at = std::find(names.begin(), names.end(), name);
+  if (at != names.end()) return static_cast<Law>(at - names.begin());
+  std::string known;
+  for (const std::string_view other : names)
+    known += (known.empty() ? "" : ", ") + std::string(other);
+  return fail(ErrorCode::not_found,
+              "no " + what + " \"" + std::string(name) + "\"; there are " + known);
+}
+
+/// The run's word on this tissue, else the run's on all, else the tissue's own.
+template <class Law>
+Law choose(const Tissue& tissue, Law own, const std::optional<Law>& run,
+           const std::map<std::string, Law>& of_tissue) {
   const auto exception = of_tissue.find(tissue.name);
-  if (exception != of_tissue.end()) return exception->second;
-  if (run) return *run;
-  const auto named = tissue.source.find(key);
-  if (named == tissue.source.end()) return otherwise;
-  const Result<Law> law = find(named->second);
-  ARTUS_REQUIRE(law.has_value(), "a tissue names a law that does not exist");
-  return *law;
+  return exception != of_tissue.end() ? exception->second : run.value_or(own);
 }
 
 }  // namespace
+
+const char* to_string(CuttingLaw law) noexcept {
+  return kCuttingLawNames[static_cast<std::size_t>(law)].data();
+}
+
+const char* to_string(PrepunctureLaw law) noexcept {
+  return kPrepunctureLawNames[static_cast<std::size_t>(law)].data();
+}
+
+Result<CuttingLaw> find_cutting_law(std::string_view name) {
+  return find_law<CuttingLaw>(kCuttingLawNames, name, "cutting law");
+}
+
+Result<PrepunctureLaw> find_prepuncture_law(std::string_view name) {
+  return find_law<PrepunctureLaw>(kPrepunctureLawNames, name, "pre-puncture law");
+}
 
 LayerTable::LayerTable(const CompiledJoint& joint, const LawSelection& laws,
                        const PatientProfile& patient) {
@@ -76,10 +55,9 @@ LayerTable::LayerTable(const CompiledJoint& joint, const LawSelection& laws,
                   "a region names a tissue that is not there");
     const Tissue& tissue = joint.tissues[region.tissue];
     LayerHaptics layer{tissue.haptic};
-    layer.cutting = choose(tissue, "cutting_law", layer.cutting, laws.cutting,
-                           laws.cutting_of_tissue, find_cutting_law);
-    layer.prepuncture = choose(tissue, "prepuncture_law", layer.prepuncture, laws.prepuncture,
-                               laws.prepuncture_of_tissue, find_prepuncture_law);
+    layer.cutting = choose(tissue, tissue.haptic.cutting_law, laws.cutting, laws.cutting_of_tissue);
+    layer.prepuncture =
+        choose(tissue, tissue.haptic.prepuncture_law, laws.prepuncture, laws.prepuncture_of_tissue);
     layer.tissue.cutting_force *= patient.cutting;
     layer.tissue.friction *= patient.friction;
     layer.tissue.attracted_force *= patient.attracted;

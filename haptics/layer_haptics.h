@@ -12,13 +12,8 @@
 
 namespace artus {
 
-/// Which law gives the cutting force; all are selectable per run and per tissue.
-enum class CuttingLaw { tracking_wall, direct, spring, voigt };
-
-/// Which law gives the force of a surface that dimples before it is punctured.
-enum class PrepunctureLaw { membrane, simone_okamura, barbe, god_object };
-
-/// The names that files and flags use. find_ forms are empty for an unknown name.
+/// The names that files and flags use. Errors of the find_ forms:
+/// not_found, with the names there are.
 [[nodiscard]] const char* to_string(CuttingLaw law) noexcept;
 [[nodiscard]] const char* to_string(PrepunctureLaw law) noexcept;
 [[nodiscard]] Result<CuttingLaw> find_cutting_law(std::string_view name);
@@ -32,8 +27,7 @@ struct LayerHaptics {
 };
 
 /// The laws of a run: for all tissues when set, and exceptions by tissue name. What a run leaves
-/// open is the tissue library's choice (keys cutting_law, prepuncture_law of a tissue's haptics),
-/// and else LayerHaptics' defaults.
+/// open is the tissue's own choice (Haptic::cutting_law, prepuncture_law).
 struct LawSelection {
   std::optional<CuttingLaw> cutting;
   std::optional<PrepunctureLaw> prepuncture;
@@ -56,8 +50,7 @@ class LayerTable {
  public:
   LayerTable() = default;
   explicit LayerTable(std::vector<LayerHaptics> by_region) : by_region_(std::move(by_region)) {}
-  /// Requires: a joint whose regions index its tissues; laws by names that exist, as read_tissues
-  /// gives them.
+  /// Requires: a joint whose regions index its tissues.
   LayerTable(const CompiledJoint& joint, const LawSelection& laws, const PatientProfile& patient);
 
   [[nodiscard]] ARTUS_REALTIME const LayerHaptics& operator[](RegionId region) const noexcept {

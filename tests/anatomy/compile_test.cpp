@@ -236,6 +236,68 @@ TEST(CompileJoint, ShellHasTheVolumeOfItsThickness) {
   EXPECT_NEAR(report_of(compile(folder), "skin").resolved_volume, expected, 0.03 * expected);
 }
 
+// What an author should look at: a ball half outside the skin, one mostly covered, one far away.
+TEST(CompileJoint, WarnsOfWhatIsLostOutsideOrDoubtful) {
+  const JointFolder folder("warnings");
+  folder.add_sphere("body", Vec3(0, 0, 0), 20);
+  folder.add_sphere("head", Vec3(18, 0, 0), 6);
+  folder.add_sphere("cover", Vec3(-6, 0, 0), 6);
+  folder.add_sphere("belly", Vec3(-7, 0, 0), 6);
+  folder.add_sphere("away", Vec3(500, 0, 0), 6);
+  std::string toml;
+  for (const char* name : {"head", "cover", "belly", "away"})
+    toml += std::string("[[structure]]\nname = \"") + name + "\"\ntissue = \"bone\"\nfile = \"" +
+            name + ".ply\"\n";
+  folder.write_toml(toml);
+  const CompileOutcome outcome = compile(folder);
+  const auto warnings = [&](const char* name) {
+    std::string all;
+    for (const std::string& w : report_of(outcome, name).warnings) all += w + "\n";
+    return all;
+  };
+  EXPECT_NE(warnings("head").find("of its surface lies outside the body"), std::string::npos);
+  EXPECT_EQ(warnings("cover"), "");
+  EXPECT_NE(warnings("belly").find("goes to structures before it"), std::string::npos);
+  EXPECT_NE(warnings("away").find("nothing of it is in the joint"), std::string::npos);
+  EXPECT_NE(warnings("away").find("from the middle of the others"), std::string::npos);
+}
+
+TEST(CompileJoint, SetsTheProbeOnTheSkinWhenTheFileHasNone) {
+  auto file = read_joint(two_balls().path());
+  ASSERT_TRUE(file) << file.error().to_string();
+  file->X_JP_default.reset();
+  file->X_JN_default.reset();
+  file->region_of_interest = RegionOfInterest{Vec3(0, 0, 12 * kMm), 12 * kMm, {}};
+  const auto outcome = compile_joint(*file);
+  ASSERT_TRUE(outcome) << outcome.error().to_string();
+  const Pose& X_JP = outcome->joint.X_JP_default;
+  EXPECT_NEAR(X_JP.translation().norm(), 20 * kMm, 0.3 * kMm);
+  EXPECT_GT(X_JP.linear().col(2).dot(-Vec3::UnitZ()), 0.98);
+  const Pose& X_JN = outcome->joint.X_JN_default;
+  EXPECT_NEAR((X_JP.inverse() * X_JN.translation()).z(), 4 * kMm, 0.2 * kMm);
+  EXPECT_NEAR((X_JP.inverse() * X_JN.translation()).y(), 0, 1e-9);
+  EXPECT_EQ(outcome->report.structures.front().warnings.size(), 2U);
+}
+
+TEST(CompileJoint, RefusesSizesThatWouldNeverEnd) {
+  const JointFolder folder("sizes");
+  folder.add_sphere("body", Vec3(0, 0, 0), 20);
+  folder.write_toml(
+      "[[structure]]\nname = \"skin\"\ntissue = \"skin\"\nshell = { thickness = 2.0 }\n");
+  for (const auto& [key, member] : {std::pair{"cell_size", &JointFile::cell_size},
+                                    std::pair{"facet_size", &JointFile::facet_size},
+                                    std::pair{"facet_distance", &JointFile::facet_distance}}) {
+    auto file = read_joint(folder.path());
+    ASSERT_TRUE(file) << file.error().to_string();
+    (*file).*member = 1e-6;
+    const auto refused = compile_joint(*file);
+    ASSERT_FALSE(refused) << key;
+    EXPECT_EQ(refused.error().code, ErrorCode::invalid);
+    EXPECT_NE(refused.error().message.find(std::string("enlarge ") + key), std::string::npos)
+        << refused.error().message;
+  }
+}
+
 TEST(CompiledFile, ReadsBackWhatWasWrittenAndRefusesEveryDamage) {
   const fs::path file = two_balls().path() / "damage.artus";
   ASSERT_TRUE(write_compiled_joint(two_balls_compiled().joint, file));
@@ -254,6 +316,25 @@ TEST(CompiledFile, ReadsBackWhatWasWrittenAndRefusesEveryDamage) {
     EXPECT_TRUE(refused(good.substr(0, at))) << "cut at " << at;
   }
   EXPECT_TRUE(refused(good + "x"));
+}
+
+TEST(CompiledFile, KeepsEachTissuesLawsAndRefusesTheVersionThatHadNone) {
+  const fs::path file = two_balls().path() / "laws.artus";
+  CompiledJoint joint = two_balls_compiled().joint;
+  joint.tissues.back().haptic.cutting_law = CuttingLaw::voigt;
+  joint.tissues.back().haptic.prepuncture_law = PrepunctureLaw::god_object;
+  ASSERT_TRUE(write_compiled_joint(joint, file));
+  const auto read = read_compiled_joint(file);
+  ASSERT_TRUE(read) << read.error().to_string();
+  EXPECT_EQ(read->tissues.front().haptic.cutting_law, CuttingLaw::tracking_wall);
+  EXPECT_EQ(read->tissues.back().haptic.cutting_law, CuttingLaw::voigt);
+  EXPECT_EQ(read->tissues.back().haptic.prepuncture_law, PrepunctureLaw::god_object);
+  std::string old = bytes_of(file);
+  old[8] = 2;  // the version, behind the magic
+  std::ofstream(file, std::ios::binary | std::ios::trunc) << old;
+  const auto refused = read_compiled_joint(file);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ErrorCode::unsupported);
 }
 
 TEST(LoadJoint, RebuildsAChangedOrDamagedCache) {
