@@ -109,8 +109,9 @@ class Repair {
     weld_exactly();
     cap();
     sew();
-    note(RepairKind::dropped_fragments, drop_fragments(mesh()), 0, "is dropped", "are dropped",
-         "loose shred", "loose shreds");
+    const std::size_t n_flaps = drop_flaps(mesh());
+    note(RepairKind::dropped_fragments, n_flaps + drop_fragments(mesh()), 0, "is dropped",
+         "are dropped", "loose shred", "loose shreds");
     if (auto ok = treat_sheets(); !ok) return ok;
     return fill();
   }
@@ -137,7 +138,10 @@ class Repair {
   }
 
   void cap() {
-    const Filling caps = cap_flat_ends(mesh(), options_.crack_width);
+    constexpr double kWiderThanDeep = 0.75;  // of the area; half a ball has 0.5
+    const Filling caps =
+        cap_flat_ends(mesh(), options_.crack_width,
+                      options_.thicken > 0 ? options_.largest_fill_share : kWiderThanDeep);
     const auto area = with_number(" (%.3g cm2)", caps.area / kSquareCentimetre);
     note(RepairKind::capped_ends, caps.n, caps.area, "is capped" + area, "are capped" + area,
          "flat opening", "flat openings");
@@ -166,21 +170,22 @@ class Repair {
   }
 
   Result<void> treat_sheets() {
+    if (options_.thicken > 0) {
+      const std::size_t n = thicken_sheets(mesh(), options_.thicken, options_.largest_fill_share);
+      const auto thickness = with_number(" %.3g mm thick", options_.thicken / kMillimetre);
+      note(RepairKind::thickened_sheets, n, options_.thicken, "is made a plate" + thickness,
+           "are made plates" + thickness, "sheet", "sheets");
+      return {};
+    }
     const auto uses = make_edge_uses(mesh());
     const auto measures = measure_pieces(mesh(), uses, find_pieces(mesh(), uses));
     const auto n = static_cast<std::size_t>(std::count_if(
         measures.begin(), measures.end(), [](const PieceMeasure& m) { return m.is_sheet(); }));
     if (n == 0) return {};
-    if (options_.thicken <= 0)
-      return fail(ErrorCode::defective,
-                  plural(n, "piece is a sheet", "pieces are sheets") +
-                      " without thickness; say how thick it is (thicken = 1.0 in the joint file) "
-                      "or model it as a closed solid");
-    thicken_sheets(mesh(), options_.thicken);
-    const auto thickness = with_number(" %.3g mm thick", options_.thicken / kMillimetre);
-    note(RepairKind::thickened_sheets, n, options_.thicken, "is made a plate" + thickness,
-         "are made plates" + thickness, "sheet", "sheets");
-    return {};
+    return fail(ErrorCode::defective,
+                plural(n, "piece is a sheet", "pieces are sheets") +
+                    " without thickness; say how thick it is (thicken = 1.0 in the joint file) "
+                    "or model it as a closed solid");
   }
 
   Result<void> fill() {
@@ -197,20 +202,33 @@ class Repair {
       return fail(ErrorCode::defective,
                   with_number("its openings are too large to be closed safely (%.0f %% of the ",
                               100 * holes.area / area_before)
-                      .append("surface's own area); close the surface where it was made"));
+                      .append("surface's own area); close the surface where it was made, or, if it "
+                              "is a sheet, say how thick it is (thicken = 1.0 in the joint file)"));
     const auto area = with_number(" (%.3g cm2)", holes.area / kSquareCentimetre);
     note(RepairKind::filled_holes, holes.n, holes.area, "is filled" + area, "are filled" + area,
          "hole", "holes");
     return {};
   }
 
+  /// The finest wrap that stays outside: one that enters by an opening is hollow and loses volume.
+  Result<SurfaceMesh> find_wrap(double diagonal, double volume) {
+    constexpr double kHollow = 0.9;
+    constexpr double kFinest = 0.25 * kMillimetre;
+    Result<SurfaceMesh> wrapped = fail(ErrorCode::failed, "the surface cannot be wrapped");
+    for (const double details : {120, 60}) {
+      const double detail = std::max(diagonal / details, kFinest);
+      wrapped = make_wrap(mesh(), detail, detail / 20);
+      if (wrapped && signed_volume(*wrapped) > kHollow * volume) break;
+    }
+    return wrapped;
+  }
+
   Result<void> wrap() {
     Eigen::AlignedBox3d box;
     for (const Vec3& p : mesh().vertices) box.extend(p);
-    const double detail = std::max(box.diagonal().norm() / 60, 0.5 * kMillimetre);
-    auto wrapped = make_wrap(mesh(), detail, detail / 20);
-    if (!wrapped) return fail(ErrorCode::defective, wrapped.error().message);
     const double before = fanned_volume(mesh());
+    auto wrapped = find_wrap(box.diagonal().norm(), before);
+    if (!wrapped) return fail(ErrorCode::defective, wrapped.error().message);
     const double moved = largest_distance(*wrapped, mesh());
     std::array<char, 160> text{};
     static_cast<void>(std::snprintf(

@@ -120,8 +120,13 @@ bool is_flat_and_round(const SurfaceMesh& mesh, const Rim& rim) {
 
 }  // namespace
 
-Filling cap_flat_ends(SurfaceMesh& mesh, double crack_width) {
+Filling cap_flat_ends(SurfaceMesh& mesh, double crack_width, double largest_share) {
   const auto uses = make_edge_uses(mesh);
+  const auto pieces = find_pieces(mesh, uses);
+  const auto measures = measure_pieces(mesh, uses, pieces);
+  std::vector<std::uint32_t> piece_at(mesh.vertices.size(), 0);
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
+    for (const auto v : mesh.triangles[f]) piece_at[v] = pieces.of_face[f];
   std::vector<bool> has_partner(mesh.vertices.size(), false);
   for (const auto& pair : find_crack_pairs(mesh, uses, crack_width))
     has_partner[pair.a] = has_partner[pair.b] = true;
@@ -130,8 +135,14 @@ Filling cap_flat_ends(SurfaceMesh& mesh, double crack_width) {
     const bool is_crack =
         std::any_of(rim.begin(), rim.end(), [&](auto v) { return has_partner[v]; });
     if (is_crack || !is_flat_and_round(mesh, rim)) continue;
+    const double piece_area = measures[piece_at[rim[0]]].area;
     const auto cap = make_fan(mesh, rim);
-    filling.area += area_of(mesh, cap);
+    const double area = area_of(mesh, cap);
+    if (area > largest_share * piece_area) {
+      mesh.vertices.pop_back();  // the fan's
+      continue;
+    }
+    filling.area += area;
     ++filling.n;
     mesh.triangles.insert(mesh.triangles.end(), cap.begin(), cap.end());
   }
@@ -158,15 +169,18 @@ Filling fill_holes(SurfaceMesh& mesh) {
   return filling;
 }
 
-std::size_t thicken_sheets(SurfaceMesh& mesh, double thickness) {
+std::size_t thicken_sheets(SurfaceMesh& mesh, double thickness, double open_share) {
   const auto uses = make_edge_uses(mesh);
   const auto pieces = find_pieces(mesh, uses);
   const auto measures = measure_pieces(mesh, uses, pieces);
+  const auto is_sheet = [&](const PieceMeasure& m) {
+    return m.is_sheet() || m.is_open_beyond(open_share);
+  };
   std::vector<Vec3> normal(mesh.vertices.size(), Vec3::Zero());
   const std::size_t n_faces = mesh.triangles.size();
   for (std::size_t f = 0; f < n_faces; ++f) {
     const auto& t = mesh.triangles[f];
-    if (!measures[pieces.of_face[f]].is_sheet()) continue;
+    if (!is_sheet(measures[pieces.of_face[f]])) continue;
     const Vec3 n = (mesh.vertices[t[1]] - mesh.vertices[t[0]])
                        .cross(mesh.vertices[t[2]] - mesh.vertices[t[0]]);
     for (const auto v : t) normal[v] += n;
@@ -195,8 +209,7 @@ std::size_t thicken_sheets(SurfaceMesh& mesh, double thickness) {
       mesh.triangles.push_back({a, below[b], below[a]});
     }
   }
-  return static_cast<std::size_t>(std::count_if(
-      measures.begin(), measures.end(), [](const PieceMeasure& m) { return m.is_sheet(); }));
+  return static_cast<std::size_t>(std::count_if(measures.begin(), measures.end(), is_sheet));
 }
 
 }  // namespace artus

@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <set>
 
+#include <boost/pending/disjoint_sets.hpp>
+
 #include "anatomy/repair_steps.h"
 #include "anatomy/surface_topology.h"
 
@@ -23,7 +25,56 @@ std::size_t keep_and_count(SurfaceMesh& mesh, const std::vector<bool>& keep) {
   return before - mesh.triangles.size();
 }
 
+/// A shred has less than this share of the whole area.
+constexpr double kSmallShare = 1e-3;
+
+/// A part of a surface that no edge of two faces joins to the rest.
+struct Leaf {
+  double area = 0;
+  bool is_open = false;        ///< has a side of its own that nothing joins
+  bool touches_crowd = false;  ///< hangs on an edge of more than two faces
+};
+
+std::size_t drop_outer_flaps(SurfaceMesh& mesh) {
+  const auto uses = make_edge_uses(mesh);
+  boost::disjoint_sets_with_storage<> leaves(mesh.triangles.size());
+  for_each_edge(uses, [&](const EdgeUse* first, const EdgeUse* last) {
+    if (last - first == 2) leaves.union_set(first->face, (first + 1)->face);
+  });
+  std::vector<Leaf> leaf(mesh.triangles.size());  // at the face that stands for all of its leaf
+  for (std::size_t f = 0; f < leaf.size(); ++f) {
+    const auto& t = mesh.triangles[f];
+    const Vec3& a = mesh.vertices[t[0]];
+    leaf[leaves.find_set(f)].area +=
+        (mesh.vertices[t[1]] - a).cross(mesh.vertices[t[2]] - a).norm() / 2;
+  }
+  for_each_edge(uses, [&](const EdgeUse* first, const EdgeUse* last) {
+    for (const EdgeUse* u = first; u != last; ++u) {
+      Leaf& l = leaf[leaves.find_set(u->face)];
+      l.is_open = l.is_open || last - first == 1;
+      l.touches_crowd = l.touches_crowd || last - first > 2;
+    }
+  });
+  const double small = kSmallShare * surface_area(mesh);
+  std::size_t n = 0;
+  std::vector<bool> keep(mesh.triangles.size());
+  for (std::size_t f = 0; f < keep.size(); ++f) {
+    const std::size_t own = leaves.find_set(f);
+    keep[f] = !(leaf[own].is_open && leaf[own].touches_crowd && leaf[own].area < small);
+    if (!keep[f] && own == f) ++n;
+  }
+  keep_and_count(mesh, keep);
+  return n;
+}
+
 }  // namespace
+
+std::size_t drop_flaps(SurfaceMesh& mesh) {
+  std::size_t n = 0;
+  for (std::size_t more = drop_outer_flaps(mesh); more > 0; more = drop_outer_flaps(mesh))
+    n += more;
+  return n;
+}
 
 std::size_t drop_bad_faces(SurfaceMesh& mesh) {
   std::set<Triangle> seen;
@@ -48,7 +99,6 @@ std::size_t drop_pillows(SurfaceMesh& mesh) {
 }
 
 std::size_t drop_fragments(SurfaceMesh& mesh) {
-  constexpr double kSmallShare = 1e-3;
   const auto uses = make_edge_uses(mesh);
   const auto pieces = find_pieces(mesh, uses);
   const auto measures = measure_pieces(mesh, uses, pieces);

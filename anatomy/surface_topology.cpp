@@ -127,6 +127,10 @@ bool PieceMeasure::is_sheet() const noexcept {
          std::abs(signed_volume) <= kThin * std::pow(area, 1.5);
 }
 
+bool PieceMeasure::is_open_beyond(double share) const noexcept {
+  return opening_area > share * area;
+}
+
 std::vector<PieceMeasure> measure_pieces(const SurfaceMesh& mesh, const std::vector<EdgeUse>& uses,
                                          const Pieces& pieces) {
   std::vector<PieceMeasure> out(pieces.n);
@@ -159,7 +163,9 @@ std::vector<PieceMeasure> measure_pieces(const SurfaceMesh& mesh, const std::vec
     for (std::size_t k = 0; k < rim.size(); ++k) {
       const Vec3 a = mesh.vertices[rim[k]] - o;
       const Vec3 b = mesh.vertices[rim[(k + 1) % rim.size()]] - o;
-      out[piece_at[rim[0]]].signed_volume += a.dot(b.cross(centre)) / 6;
+      auto& piece = out[piece_at[rim[0]]];
+      piece.signed_volume += a.dot(b.cross(centre)) / 6;
+      piece.opening_area += (a - centre).cross(b - centre).norm() / 2;
     }
   }
   return out;

@@ -56,6 +56,7 @@ struct PieceMeasure {
   double area = 0;           ///< m^2
   double signed_volume = 0;  ///< m^3, openings closed by a fan to their centre
   double rim_length = 0;     ///< m
+  double opening_area = 0;   ///< m^2, of those fans
   bool is_closed = true;     ///< no open edge
   bool is_consistent = true;
 
@@ -63,6 +64,8 @@ struct PieceMeasure {
   [[nodiscard]] bool is_pillow() const noexcept;
   /// Open and without an inside: a membrane drawn as one layer of triangles.
   [[nodiscard]] bool is_sheet() const noexcept;
+  /// Its openings are larger than `share` of its own area: a bowl, or a sheet that is bent.
+  [[nodiscard]] bool is_open_beyond(double share) const noexcept;
 };
 [[nodiscard]] std::vector<PieceMeasure> measure_pieces(const SurfaceMesh& mesh,
                                                        const std::vector<EdgeUse>& uses,

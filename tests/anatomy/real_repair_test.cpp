@@ -89,6 +89,29 @@ TEST_F(RealRepair, RepairMovesNoSurfaceByMoreThanHalfAMillimetre) {
   }
 }
 
+TEST_F(RealRepair, RepairedOraclesLieOnTheirOriginals) {
+  for (const char* name : {"deltoid_acromial", "infraspinatus", "biceps_long", "deltoid_spinal"}) {
+    for (const char* version : {"ahercracked", "zanatomy"}) {
+      SCOPED_TRACE(std::string(name) + " " + version);
+      const auto mesh = read(std::string("raw/oracle_") + name + "_" + version + ".stl");
+      const auto out = repair_surface(mesh);
+      ASSERT_TRUE(out) << out.error().to_string();
+      EXPECT_LT(largest_distance(mesh, out->mesh), 0.5e-3);
+      EXPECT_LT(largest_distance(out->mesh, mesh), 0.5e-3);
+    }
+  }
+}
+
+TEST_F(RealRepair, RawHumerusLosesItsFlapAndIsNotWrapped) {
+  const auto mesh = read("raw/za_Humerus_r.stl");
+  const auto out = repair_surface(mesh);
+  ASSERT_TRUE(out) << out.error().to_string();
+  expect_closed(out->mesh);
+  EXPECT_EQ(find_action(*out, RepairKind::wrapped), nullptr);
+  const double truth = repair_surface(read("b_humerus.ply")).value().volume;
+  EXPECT_NEAR(out->volume, truth, 0.01 * truth);
+}
+
 TEST_F(RealRepair, AxillaryArteryIsTurnedAndGetsTwoCaps) {
   const auto out = repair_surface(read("a_axillary.ply"));
   ASSERT_TRUE(out) << out.error().to_string();

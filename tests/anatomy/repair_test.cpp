@@ -153,6 +153,64 @@ TEST(Repair, WrapOnRequestStaysNearTheSurface) {
   expect_closed(out->mesh);
 }
 
+TEST(Repair, WrapOfASlenderBoneKeepsItsVolume) {
+  const auto bone = repair_surface(make_tube(32, 40, 0.01, 0.25)).value();
+  const auto out = repair_surface(bone.mesh, {.wrap = WrapPolicy::always});
+  ASSERT_TRUE(out) << out.error().to_string();
+  EXPECT_NEAR(out->volume, bone.volume, 0.02 * bone.volume);
+  EXPECT_TRUE(find_self_intersections(out->mesh).empty());
+  EXPECT_LT(largest_distance(bone.mesh, out->mesh), 1e-3);
+  expect_closed(out->mesh);
+}
+
+TEST(Repair, FlapOnAnEdgeIsDroppedAndTheRestKept) {
+  auto mesh = make_cube(Vec3::Zero(), 0.01);
+  const auto apex = static_cast<std::uint32_t>(mesh.vertices.size());
+  mesh.vertices.push_back(mesh.vertices[0] + Vec3(0.01, -1e-4, -1e-4));
+  mesh.triangles.push_back({0, 1, apex});
+  const auto out = repair_surface(mesh);
+  ASSERT_TRUE(out) << out.error().to_string();
+  EXPECT_EQ(find_action(*out, RepairKind::wrapped), nullptr);
+  ASSERT_NE(find_action(*out, RepairKind::dropped_fragments), nullptr);
+  EXPECT_NEAR(out->volume, 8e-6, 1e-12);
+  expect_closed(out->mesh);
+}
+
+/// A tendon that lies around a bone: `angle` of a cylinder's wall, radius and length in m.
+SurfaceMesh make_bent_sheet(double angle, double radius, double length) {
+  SurfaceMesh sheet;
+  constexpr std::uint32_t kRows = 12;
+  constexpr std::uint32_t kColumns = 24;
+  for (std::uint32_t i = 0; i <= kRows; ++i)
+    for (std::uint32_t j = 0; j <= kColumns; ++j) {
+      const double a = angle * i / kRows;
+      sheet.vertices.emplace_back(radius * std::cos(a), radius * std::sin(a),
+                                  length * j / kColumns);
+    }
+  for (std::uint32_t i = 0; i < kRows; ++i)
+    for (std::uint32_t j = 0; j < kColumns; ++j) {
+      const std::uint32_t a = i * (kColumns + 1) + j;
+      sheet.triangles.push_back({a, a + kColumns + 2, a + 1});
+      sheet.triangles.push_back({a, a + kColumns + 1, a + kColumns + 2});
+    }
+  return sheet;
+}
+
+class BentSheet : public testing::TestWithParam<double> {};
+
+TEST_P(BentSheet, IsRefusedOrMadeAPlateNotABody) {
+  const auto sheet = make_bent_sheet(GetParam(), 0.02, 0.05);
+  const auto refused = repair_surface(sheet);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().message, HasSubstr("thicken"));
+  const auto plate = repair_surface(sheet, {.thicken = 1e-3});
+  ASSERT_TRUE(plate) << plate.error().to_string();
+  EXPECT_EQ(find_action(*plate, RepairKind::capped_ends), nullptr);
+  EXPECT_NEAR(plate->volume, surface_area(sheet) * 1e-3, 0.02 * surface_area(sheet) * 1e-3);
+  expect_closed(plate->mesh);
+}
+INSTANTIATE_TEST_SUITE_P(Angles, BentSheet, testing::Values(0.2, 0.8, 1.8, 3.1));
+
 TEST(Repair, CavityKeepsItsInwardWinding) {
   auto mesh = make_cube(Vec3::Zero(), 0.02);
   append_mesh(mesh, make_cube(Vec3::Zero(), 0.01));  // wound outward: wrong for a cavity
