@@ -117,7 +117,9 @@ Result<SurfaceMesh> parse_stl_binary(std::string_view bytes, const std::string& 
                 "the file has " + std::to_string(bytes.size()) +
                     " bytes, a binary STL at least 84; it is cut off or no STL",
                 name);
-  if (!is_binary_stl(bytes))
+  // A few bytes behind the last facet do no harm; some programs end with a line break.
+  const std::size_t n_whole = (bytes.size() - kHeaderBytes) / kFacetBytes;
+  if (n_whole != load_u32(bytes.data() + 80))
     return fail(ErrorCode::corrupt,
                 "the header promises " + std::to_string(load_u32(bytes.data() + 80)) +
                     " triangles of 50 bytes, but " + std::to_string(bytes.size() - kHeaderBytes) +

@@ -57,6 +57,8 @@ bool starts_like_ascii_stl(std::string_view bytes) {
 Result<SurfaceMesh> parse_any(std::string_view bytes, const std::string& name) {
   if (bytes.empty())
     return fail(ErrorCode::malformed, "the file is empty; export the surface again", name);
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // before text, of some editors
+  if (bytes.starts_with(kByteOrderMark)) bytes.remove_prefix(kByteOrderMark.size());
   if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) return parse_ply(bytes, name);
   if (bytes.starts_with("glTF"))
     return fail(ErrorCode::unsupported, "glTF is not read; export the surface as STL or PLY", name);

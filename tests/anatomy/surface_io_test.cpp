@@ -65,6 +65,17 @@ TEST(SurfaceIo, BinaryStlThatStartsWithSolidIsBinary) {
   EXPECT_EQ(mesh->vertices.size(), 4U) << "-0 and 0 are one vertex";
 }
 
+TEST(SurfaceIo, AByteOrderMarkAndALineBreakAtTheEndDoNoHarm) {
+  const std::string binary = binary_stl("cut here", 1, {{0, 0, 0, 1, 0, 0, 0, 1, 0}});
+  const auto longer = parse_surface(binary + "\r\n", "a.stl", 1);
+  ASSERT_TRUE(longer) << longer.error().to_string();
+  EXPECT_EQ(longer->triangles.size(), 1U);
+  EXPECT_FALSE(parse_surface(binary + std::string(50, ' '), "a.stl", 1)) << "a facet too many";
+  const auto marked = parse_surface(std::string("\xEF\xBB\xBF") + kAsciiStl, "a.stl", 1);
+  ASSERT_TRUE(marked) << marked.error().to_string();
+  EXPECT_EQ(marked->triangles.size(), 1U);
+}
+
 TEST(SurfaceIo, ContentDecidesBeforeTheExtension) {
   const auto mesh = parse_surface(kAsciiStl, "wrong.ply", 1);
   ASSERT_TRUE(mesh) << mesh.error().to_string();
