@@ -12,6 +12,8 @@
 #include "anatomy/compile_labels.h"
 #include "anatomy/compile_measure.h"
 #include "anatomy/compile_surfaces.h"
+#include "anatomy/compile_warnings.h"
+#include "anatomy/default_poses.h"
 #include "anatomy/fit_interfaces.h"
 #include "anatomy/resolve.h"
 #include "anatomy/tet_topology.h"
@@ -181,7 +183,8 @@ std::vector<Region> make_regions(const JointFile& file, const TetMesh& mesh) {
   return regions;
 }
 
-CompiledJoint make_joint(const JointFile& file, TetMesh mesh, std::string digest) {
+CompiledJoint make_joint(const JointFile& file, TetMesh mesh, std::string digest,
+                         std::vector<std::string>& notes) {
   CompiledJoint joint;
   joint.name = file.name;
   joint.side = file.side;
@@ -190,8 +193,9 @@ CompiledJoint make_joint(const JointFile& file, TetMesh mesh, std::string digest
   joint.regions = make_regions(file, mesh);
   joint.mesh = std::move(mesh);
   joint.landmarks = file.landmarks;
-  joint.X_JP_default = file.X_JP_default;
-  joint.X_JN_default = file.X_JN_default;
+  const DefaultPoses poses = find_default_poses(file, joint.mesh, notes);
+  joint.X_JP_default = poses.X_JP;
+  joint.X_JN_default = poses.X_JN;
   joint.injections = file.injections;
   joint.source_digest = std::move(digest);
   return joint;
@@ -236,9 +240,11 @@ Result<CompileOutcome> compile_joint(const JointFile& file, const CompileOptions
   if (!mesh) return tl::unexpected(mesh.error());
   stages.run("measuring the result", 0.9, [&] {
     measure_joint(*mesh, space->labels, *surfaces, report);
+    append_warnings(file, space->labels, *surfaces, report);
     return true;
   });
-  outcome.joint = make_joint(file, std::move(*mesh), std::move(*digest));
+  outcome.joint =
+      make_joint(file, std::move(*mesh), std::move(*digest), report.structures.front().warnings);
   report.seconds = seconds_since(start);
   report.peak_memory = peak_memory();
   if (progress) progress("done", 1);

@@ -2,9 +2,12 @@
 #include "anatomy/compile_labels.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 
 #include "anatomy/construct.h"
+#include "anatomy/joint_structure.h"
 
 namespace artus {
 namespace {
@@ -67,21 +70,6 @@ double construct_thickness(const Structure& s) {
   return 0;
 }
 
-std::vector<std::string> named_by(const Structure& s) {
-  if (const auto* shell = std::get_if<ShellConstruct>(&s.shape)) return {shell->inside};
-  if (const auto* end = std::get_if<EndConstruct>(&s.shape)) return {end->of, end->toward};
-  std::vector<std::string> names;
-  if (const auto* cap = std::get_if<CapConstruct>(&s.shape)) {
-    names = cap->near;
-    names.push_back(cap->on);
-  }
-  if (const auto* gap = std::get_if<GapConstruct>(&s.shape)) {
-    names = gap->roof;
-    names.insert(names.end(), gap->floor.begin(), gap->floor.end());
-  }
-  return names;
-}
-
 // Fields of all structures by index, surfaces first, then the constructs made from them.
 class FieldMaker {
  public:
@@ -141,7 +129,7 @@ class FieldMaker {
 
   [[nodiscard]] bool is_ready(const Structure& s) const {
     if (std::holds_alternative<SurfaceFile>(s.shape)) return false;
-    const auto names = named_by(s);
+    const auto names = names_of(s);
     return std::all_of(names.begin(), names.end(),
                        [&](const std::string& n) { return named_.count(n) > 0; });
   }
@@ -196,6 +184,59 @@ std::vector<std::size_t> priority_order(const JointFile& file) {
   return order;
 }
 
+/// The area of a surface in a box, m^2.
+double area_in(const Box& box, const SurfaceMesh& mesh) {
+  double area = 0;
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3& a = mesh.vertices[t[0]];
+    const Vec3& b = mesh.vertices[t[1]];
+    const Vec3& c = mesh.vertices[t[2]];
+    const Vec3 centre = (a + b + c) / 3;
+    if ((centre.array() < box.lower.array()).any() || (centre.array() > box.upper.array()).any())
+      continue;
+    area += (b - a).cross(c - a).norm() / 2;
+  }
+  return area;
+}
+
+/// Refuses sizes that would take hours and more memory than there is, before they do.
+Result<void> check_sizes(const JointFile& file, const PreparedSurfaces& surfaces, const Box& box) {
+  constexpr double kMostElements = 2e7;  // tetrahedra, and interface triangles
+  constexpr double kMostFieldBytes = 4e9;
+  constexpr double kVolumePerCell = 0.2;  // of the cube of its circumradius, usually
+  constexpr double kAreaPerFacet = 0.65;  // of the square of its circumradius, usually
+  constexpr double kBytesPerSample = 4;
+  constexpr double kLayersOfBlocks = 4 * 8;  // samples across a surface's band
+  const double volume = std::min((box.upper - box.lower).prod(), signed_volume(surfaces.body.mesh));
+  const double cells = volume / (kVolumePerCell * std::pow(file.cell_size, 3));
+  double facets = 0;
+  double bytes = 0;
+  const auto add = [&](const Structure& s, const PreparedSurface& surface, double thickness) {
+    const RegionSizing size = sizing_of(file, s, thickness);
+    const double area = area_in(box, surface.mesh);
+    facets += area / (kAreaPerFacet * size.facet_size * size.facet_size);
+    const double spacing = spacing_of(file, size, surface.thickness);
+    bytes += kBytesPerSample * kLayersOfBlocks * area / (spacing * spacing);
+  };
+  add(file.body, surfaces.body, 0);
+  for (std::size_t i = 0; i < file.structures.size(); ++i)
+    if (const auto& surface = surfaces.structures[i])
+      add(file.structures[i], *surface, surface->thickness);
+  const auto refuse = [&](double count, const char* of_what, const char* key) {
+    std::array<char, 240> text{};
+    static_cast<void>(std::snprintf(
+        text.data(), text.size(),
+        "the sizes of [mesh] ask for about %.1e %s, more than can be compiled; enlarge %s, or set "
+        "a smaller [region_of_interest]",
+        count, of_what, key));
+    return fail(ErrorCode::invalid, text.data(), file.name);
+  };
+  if (cells > kMostElements) return refuse(cells, "tetrahedra", "cell_size");
+  if (facets > kMostElements) return refuse(facets, "interface triangles", "facet_size");
+  if (bytes > kMostFieldBytes) return refuse(bytes, "bytes of distances", "facet_distance");
+  return {};
+}
+
 }  // namespace
 
 Result<LabelledSpace> make_labelled_space(const JointFile& file, const PreparedSurfaces& surfaces) {
@@ -209,6 +250,7 @@ Result<LabelledSpace> make_labelled_space(const JointFile& file, const PreparedS
   if (!((box.upper - box.lower).minCoeff() > 0)) {
     return fail(ErrorCode::failed, "the region of interest lies outside the body", file.name);
   }
+  if (auto ok = check_sizes(file, surfaces, box); !ok) return tl::unexpected(ok.error());
   FieldMaker maker(file, surfaces, box);
   maker.make_surfaces();
   maker.make_constructs();

@@ -42,27 +42,31 @@ DistanceStatistics statistics(std::vector<Sample> samples) {
   return s;
 }
 
-// Volumes a layer has inside body and region of interest, and what higher layers leave of it.
+// Volumes a layer has inside body and region of interest, and what higher layers leave of it. The
+// smoothed edge is that of the nearest boundary: where two coincide (a shell and the skin it
+// lines), a product of both would lose a sixth of a sample's width.
 void integrate_layer(const RegionLabels& labels, std::size_t layer, StructureReport& report) {
   const DistanceField& field = labels.layers[layer].field;
   const double h = field.spacing();
-  const auto in_region = [&](const Vec3& p) {
-    double share = smooth_inside(labels.body.value(p), h);
-    if (labels.region_of_interest) {
-      share *= smooth_inside(signed_distance(*labels.region_of_interest, p), h);
-    }
-    return share;
+  const auto outside_region = [&](const Vec3& p) {
+    const double body = labels.body.value(p);
+    if (!labels.region_of_interest) return body;
+    return std::max(body, signed_distance(*labels.region_of_interest, p));
   };
-  const auto left_over = [&](const Vec3& p) {
-    double share = 1;
-    for (std::size_t i = 0; i < layer && share > 0; ++i) {
-      share *= 1 - smooth_inside(labels.layers[i].field.value(p), h);
-    }
-    return share;
+  const auto outside_rest = [&](const Vec3& p) {
+    double outside = outside_region(p);
+    for (std::size_t i = 0; i < layer; ++i)
+      outside = std::max(outside, -labels.layers[i].field.value(p));
+    return outside;
   };
-  report.region_volume = field.integrate(in_region);
-  report.lost_volume = report.region_volume -
-                       field.integrate([&](const Vec3& p) { return in_region(p) * left_over(p); });
+  const auto volume = [&](const auto& outside) {
+    return field.integrate([&](const Vec3& p) {
+      const double own = field.value(p);
+      return smooth_inside(std::max(own, outside(p)), h) / smooth_inside(own, h);
+    });
+  };
+  report.region_volume = volume(outside_region);
+  report.lost_volume = report.region_volume - volume(outside_rest);
 }
 
 // Exact distances of four points of a triangle.

@@ -19,7 +19,11 @@ Json to_value(const DistanceStatistics& d) {
 }
 
 Json to_value(const StructureReport& s) {
-  Json value{{"name", s.name}, {"tissue", s.tissue}, {"kind", s.kind}, {"repairs", s.repairs}};
+  Json value{{"name", s.name},
+             {"tissue", s.tissue},
+             {"kind", s.kind},
+             {"repairs", s.repairs},
+             {"warnings", s.warnings}};
   if (!s.refused.empty()) {
     value["refused"] = s.refused;
     return value;

@@ -18,15 +18,16 @@ struct DistanceStatistics {
 struct StructureReport {
   std::string name;
   std::string tissue;
-  std::string kind;                  ///< "surface", "shell", "cap", "gap", "end", "filler"
-  std::vector<std::string> repairs;  ///< what was done to its surface, in words
-  std::string refused;               ///< why it is not in the joint; empty: it is
-  double surface_volume = 0;         ///< m^3 enclosed by the repaired surface, all of it
-  double region_volume = 0;          ///< m^3 of that inside body and region of interest
-  double lost_volume = 0;            ///< m^3 of that to structures of higher priority
-  double resolved_volume = 0;        ///< m^3 of its tetrahedra
-  DistanceStatistics distance;       ///< of the interfaces it shapes to its own surface
-  std::size_t parts = 0;             ///< connected parts of its tetrahedra
+  std::string kind;                   ///< "surface", "shell", "cap", "gap", "end", "filler"
+  std::vector<std::string> repairs;   ///< what was done to its surface, in words
+  std::string refused;                ///< why it is not in the joint; empty: it is
+  std::vector<std::string> warnings;  ///< what its author should look at, in words
+  double surface_volume = 0;          ///< m^3 enclosed by the repaired surface, all of it
+  double region_volume = 0;           ///< m^3 of that inside body and region of interest
+  double lost_volume = 0;             ///< m^3 of that to structures of higher priority
+  double resolved_volume = 0;         ///< m^3 of its tetrahedra
+  DistanceStatistics distance;        ///< of the interfaces it shapes to its own surface
+  std::size_t parts = 0;              ///< connected parts of its tetrahedra
   std::size_t tetrahedra = 0;
 
   /// resolved / (region - lost) - 1; zero when nothing was expected.

@@ -216,6 +216,28 @@ class Finder {
             std::to_string(vertices.front()) + at(p));
   }
 
+  /// Pieces that repair sews to others or drops, whatever shape they have: most of their rim lies
+  /// along a crack, or they are shreds.
+  std::vector<bool> find_patches(const Pieces& pieces, const std::vector<PieceMeasure>& measures) {
+    constexpr double kShred = 1e-3;  // of the whole area, as drop_fragments has it
+    std::vector<bool> in_crack(sound_.vertices.size(), false);
+    for (const auto& pair : find_crack_pairs(sound_, uses_, options_.crack_width))
+      in_crack[pair.a] = in_crack[pair.b] = true;
+    std::vector<std::size_t> n_rim(pieces.n, 0);
+    std::vector<std::size_t> n_crack(pieces.n, 0);
+    for_each_edge(uses_, [&](const EdgeUse* first, const EdgeUse* last) {
+      if (last - first != 1) return;
+      const auto piece = pieces.of_face[first->face];
+      ++n_rim[piece];
+      if (in_crack[first->lo] && in_crack[first->hi]) ++n_crack[piece];
+    });
+    const double area = surface_area(sound_);
+    std::vector<bool> is_patch(pieces.n);
+    for (std::size_t p = 0; p < is_patch.size(); ++p)
+      is_patch[p] = 2 * n_crack[p] > n_rim[p] || measures[p].area < kShred * area;
+    return is_patch;
+  }
+
   void check_pieces() {
     const auto pieces = find_pieces(sound_, uses_);
     const auto measures = measure_pieces(sound_, uses_, pieces);
@@ -225,6 +247,7 @@ class Finder {
     const auto depth = nesting_depth(sound_, pieces);
     std::vector<std::size_t> inward;
     std::vector<std::size_t> sheets;
+    const auto is_patch = find_patches(pieces, measures);
     std::vector<bool> told(pieces.n, false);
     for (std::size_t i = 0; i < sound_.triangles.size(); ++i) {
       const auto piece = pieces.of_face[i];
@@ -232,6 +255,7 @@ class Finder {
       told[piece] = true;
       const auto& m = measures[piece];
       const bool is_cavity = depth[piece] % 2 == 1;
+      if (m.is_sheet() && is_patch[piece]) continue;
       if (m.is_sheet())
         sheets.push_back(original_[i]);
       else if (m.is_consistent && (m.signed_volume < 0) != is_cavity)

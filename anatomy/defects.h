@@ -80,12 +80,13 @@ struct NamedSurface {
   std::string name;
   std::string tissue;
   SurfaceMesh mesh;
+  bool has_own_unit = false;  ///< its size is not doubted
 };
 
 /// Structures out of scale or place with respect to the others; `surfaces` may hold the body.
 /// A size is told when it differs from the median of its tissue (all, when it has fewer than three
-/// of its kind) by more than 15 times; a place when the surface lies outside the others' box by
-/// more than the box's size.
+/// of its kind) by more than 15 times and no unit was given for this file; a place when the surface
+/// lies outside the others' box by more than the box's size.
 [[nodiscard]] std::vector<Defect> find_outliers(const std::vector<NamedSurface>& surfaces);
 
 /// Pairs of structures whose surfaces cut through each other: one defect per pair, count = pairs of

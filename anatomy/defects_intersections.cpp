@@ -88,6 +88,8 @@ bool do_faces_intersect(const std::array<Point, 3>& p, const std::array<Point, 3
 
 struct LimitReached {};
 
+constexpr std::string_view kBodyName = "body";  // JointFile::body's, which no structure may have
+
 }  // namespace
 
 std::vector<std::pair<std::size_t, std::size_t>> find_self_intersections(const SurfaceMesh& mesh,
@@ -142,9 +144,10 @@ std::vector<Defect> find_crossings(const std::vector<NamedSurface>& surfaces) {
     const auto& mesh = surfaces[hits[i].first].mesh;
     defect.position = mesh.vertices[mesh.triangles[hits[i].face][0]];
     defect.message = "cuts through '" + surfaces[hits[i].second].name + "' (" +
-                     std::to_string(defect.count) +
-                     " pairs of faces); the one that stands first in the joint file keeps the "
-                     "overlap";
+                     std::to_string(defect.count) + " pairs of faces); " +
+                     (defect.structure == kBodyName
+                          ? "what lies outside the body's surface is cut off"
+                          : "the one that stands first in the joint file keeps the overlap");
     defects.push_back(std::move(defect));
     i = j;
   }

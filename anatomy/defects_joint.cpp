@@ -31,8 +31,9 @@ std::string describe_size(double size, double usual) {
   std::array<char, 200> text{};
   static_cast<void>(std::snprintf(
       text.data(), text.size(),
-      "is %.4g mm from corner to corner, its like about %.4g mm: %.4g times %s; give this file its "
-      "own 'units' or scale it before export",
+      "is %.4g mm from corner to corner, its like about %.4g mm: %.4g times %s; if its unit is "
+      "wrong, "
+      "give this file its own 'units'; if it is right, do so, too, to say so",
       size / kMillimetre, usual / kMillimetre, size > usual ? size / usual : usual / size,
       size > usual ? "too large" : "too small"));
   return text.data();
@@ -107,7 +108,7 @@ void append_defects_of(const JointFile& joint, const Structure& structure,
     d.structure = structure.name;
     defects.push_back(std::move(d));
   }
-  surfaces.push_back({structure.name, structure.tissue, std::move(mesh)});
+  surfaces.push_back({structure.name, structure.tissue, std::move(mesh), surface->has_own_unit});
 }
 
 }  // namespace
@@ -123,7 +124,7 @@ std::vector<Defect> find_outliers(const std::vector<NamedSurface>& surfaces) {
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
     if (sizes[i] <= 0 || surfaces.size() < kFewestOfKind) continue;
     const double usual = usual_size(surfaces, sizes, i);
-    if (std::max(sizes[i] / usual, usual / sizes[i]) > kSizeRatio)
+    if (!surfaces[i].has_own_unit && std::max(sizes[i] / usual, usual / sizes[i]) > kSizeRatio)
       defects.push_back({DefectKind::size_outlier,
                          surfaces[i].name,
                          1,

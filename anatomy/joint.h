@@ -50,6 +50,7 @@ struct EndConstruct {
 struct SurfaceFile {
   std::filesystem::path file;   ///< relative to the joint's surface folder
   double unit = 1e-3;           ///< m per unit of the file
+  bool has_own_unit = false;    ///< the joint file says `units` for this file: its size is meant
   std::string repair = "auto";  ///< "auto", "none", "wrap"
   double thicken = 0;           ///< m; an open sheet becomes a plate of this thickness (0: refused)
 };
@@ -101,8 +102,8 @@ struct JointFile {
   double facet_distance = 0;  ///< m
   double cell_size = 0;       ///< m
   std::vector<Landmark> landmarks;
-  Pose X_JP_default = Pose::Identity();      ///< default probe pose
-  Pose X_JN_default = Pose::Identity();      ///< default needle pose: tip at the target
+  std::optional<Pose> X_JP_default;          ///< default probe pose
+  std::optional<Pose> X_JN_default;          ///< default needle pose: tip at the target
   std::vector<PlannedInjection> injections;  ///< of the three-injections scenario
 };
 

@@ -20,6 +20,7 @@ SurfaceFile read_surface_file(TomlTable& toml, double unit) {
   SurfaceFile surface;
   surface.file = toml.required_text("file");
   surface.unit = length_unit(toml, "units", unit);
+  surface.has_own_unit = toml.has("units");
   surface.repair = toml.text("repair").value_or("auto");
   if (surface.repair != "auto" && surface.repair != "none" && surface.repair != "wrap")
     toml.problem_at("repair", "must be \"auto\", \"none\" or \"wrap\"");
@@ -104,7 +105,36 @@ void read_facets(TomlTable& toml, double unit, Structure& structure) {
   structure.facet_distance = toml.number("facet_distance", 0, kLongest, unit).value_or(0);
 }
 
-/// The names a construct leans on.
+std::set<std::string, std::less<>> tissue_names(const JointFile& joint) {
+  std::set<std::string, std::less<>> names;
+  for (const auto& t : joint.tissues) names.insert(t.name);
+  return names;
+}
+
+/// The structures that can be made one after the other; what runs in a circle is left out.
+std::set<std::string, std::less<>> find_makeable(const JointFile& joint) {
+  std::set<std::string, std::less<>> made;
+  for (bool more = true; more;) {
+    more = false;
+    for (const auto& s : joint.structures) {
+      const auto names = names_of(s);
+      const bool is_ready = std::all_of(names.begin(), names.end(), [&](const std::string& n) {
+        return made.contains(n) || n == s.name;  // naming itself is a problem told apart
+      });
+      if (is_ready) more = made.insert(s.name).second || more;
+    }
+  }
+  return made;
+}
+
+const Structure* find_structure(const JointFile& joint, const std::string& name) {
+  for (const auto& s : joint.structures)
+    if (s.name == name) return &s;
+  return nullptr;
+}
+
+}  // namespace
+
 std::vector<std::string> names_of(const Structure& structure) {
   std::vector<std::string> names;
   if (const auto* shell = std::get_if<ShellConstruct>(&structure.shape)) {
@@ -120,14 +150,6 @@ std::vector<std::string> names_of(const Structure& structure) {
   }
   return names;
 }
-
-std::set<std::string, std::less<>> tissue_names(const JointFile& joint) {
-  std::set<std::string, std::less<>> names;
-  for (const auto& t : joint.tissues) names.insert(t.name);
-  return names;
-}
-
-}  // namespace
 
 double length_unit(TomlTable& toml, std::string_view key, double default_unit) {
   const auto text = toml.text(key);
@@ -187,6 +209,7 @@ void check_structures(const JointFile& joint, const std::vector<toml::source_reg
   if (!joint.body.tissue.empty() && !tissues.contains(joint.body.tissue))
     problems.add(toml::source_region{}, "body: unknown tissue '" + joint.body.tissue + "'" +
                                             did_you_mean(joint.body.tissue, tissues));
+  bool all_known = true;
   for (std::size_t i = 0; i < joint.structures.size(); ++i) {
     const auto& s = joint.structures[i];
     const auto add = [&](const std::string& message) {
@@ -203,8 +226,21 @@ void check_structures(const JointFile& joint, const std::vector<toml::source_reg
         add("a construct cannot name itself");
       else if (!names.contains(name))
         add("names '" + name + "', which is no structure of this file" + did_you_mean(name, names));
+      all_known = all_known && names.contains(name);
     }
+    const auto* end = std::get_if<EndConstruct>(&s.shape);
+    const auto* of = end != nullptr ? find_structure(joint, end->of) : nullptr;
+    if (of != nullptr && !end->insertion && !std::holds_alternative<SurfaceFile>(of->shape))
+      add("'of' names '" + end->of +
+          "', which has no file: say where the insertion is (insertion = [x, y, z])");
   }
+  if (!all_known) return;
+  const auto makeable = find_makeable(joint);
+  for (std::size_t i = 0; i < joint.structures.size(); ++i)
+    if (!makeable.contains(joint.structures[i].name))
+      problems.add(places[i], "structure '" + joint.structures[i].name +
+                                  "': is made from structures that are made from each other in a "
+                                  "circle");
 }
 
 }  // namespace artus

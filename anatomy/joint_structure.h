@@ -7,6 +7,9 @@
 
 namespace artus {
 
+/// The structures a construct leans on by name; empty for a surface.
+[[nodiscard]] std::vector<std::string> names_of(const Structure& structure);
+
 /// m per "mm", "cm" or "m"; a problem of `toml` (and 1e-3) when it is something else.
 double length_unit(TomlTable& toml, std::string_view key, double default_unit);
 

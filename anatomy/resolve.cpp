@@ -130,7 +130,8 @@ Result<TetMesh> resolve_regions(const RegionLabels& labels, const ResolveOptions
       crossings, [&](const BoundarySeed& s) { return size.between(s.from, s.to); }, largest);
   if (seeds.size() < 4) {
     return fail(ErrorCode::failed,
-                "there is nothing to mesh: no region boundary inside the region of interest");
+                "there is nothing to mesh: no region boundary inside the region of interest, or "
+                "facet_size is larger than all of them");
   }
   if (progress) progress("meshing boundaries", 0);
   Complex complex;

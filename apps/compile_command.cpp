@@ -38,6 +38,7 @@ void print_structures(const CompileReport& report) {
                 100 * s.volume_error(), s.distance.mean / kMillimetre,
                 s.distance.percentile95 / kMillimetre, s.parts);
     for (const auto& repair : s.repairs) std::printf("    %s\n", repair.c_str());
+    for (const auto& warning : s.warnings) std::printf("    ! %s\n", warning.c_str());
   }
 }
 

@@ -172,6 +172,32 @@ TEST(Defects, TheRealManubriumInItsWrongUnitIsAnOutlier) {
   const auto defects = find_outliers(surfaces);
   EXPECT_EQ(kinds_of(defects), (Kinds{"size_outlier", "place_outlier"}));
   for (const auto& d : defects) EXPECT_EQ(d.structure, "b_manubrium");
+  surfaces[0].has_own_unit = true;  // its author says that it is so small
+  EXPECT_EQ(kinds_of(find_outliers(surfaces)), Kinds{"place_outlier"});
+}
+
+TEST(Defects, APatchAlongASeamIsNoSheet) {
+  auto mesh = make_cube(Vec3::Zero(), 0.01);  // the upper side stands apart by 0.02 mm
+  const auto n = static_cast<std::uint32_t>(mesh.vertices.size());
+  for (std::uint32_t v = 4; v < 8; ++v)
+    mesh.vertices.push_back(mesh.vertices[v] + Vec3(0, 0, 2e-5));
+  mesh.triangles[2] = {n, n + 1, n + 3};
+  mesh.triangles[3] = {n, n + 3, n + 2};
+  const auto defects = find_defects(mesh);
+  EXPECT_NE(find_kind(defects, DefectKind::unwelded_vertex), nullptr);
+  EXPECT_EQ(find_kind(defects, DefectKind::zero_thickness_sheet), nullptr);
+  mesh.vertices[n] += Vec3(-0.01, 0, 0.002);  // and now by more than a crack
+  for (std::uint32_t v = n; v < n + 4; ++v) mesh.vertices[v] += Vec3(0, 0, 0.002);
+  EXPECT_NE(find_kind(find_defects(mesh), DefectKind::zero_thickness_sheet), nullptr);
+}
+
+TEST(Defects, WhatSticksOutOfTheBodyIsSaidToBeCutOff) {
+  const std::vector<NamedSurface> surfaces{
+      {"body", "fat", make_cube(Vec3::Zero(), 0.02)},
+      {"knee", "bone", make_cube(Vec3(0.02, 0.001, 0.002), 0.01)}};
+  const auto defects = find_crossings(surfaces);
+  ASSERT_EQ(defects.size(), 1U);
+  EXPECT_THAT(defects[0].message, HasSubstr("outside the body's surface is cut off"));
 }
 
 }  // namespace

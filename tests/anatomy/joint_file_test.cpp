@@ -42,6 +42,8 @@ TEST(JointFile, TheSmallestJointHasDefaults) {
   EXPECT_DOUBLE_EQ(joint->facet_size, 2e-3);
   EXPECT_DOUBLE_EQ(std::get<SurfaceFile>(joint->structures[0].shape).unit, 1e-3);
   EXPECT_FALSE(joint->region_of_interest);
+  EXPECT_FALSE(joint->X_JP_default);
+  EXPECT_FALSE(joint->X_JN_default);
   EXPECT_GE(joint->tissues.size(), 18U) << "the bundled library";
 }
 
@@ -60,9 +62,9 @@ TEST(JointFile, TheDocumentedExampleParsesButForTheStructuresItLeavesOut) {
   EXPECT_DOUBLE_EQ(std::get<EndConstruct>(joint->structures[4].shape).within, 0.025);
   EXPECT_DOUBLE_EQ(std::get<ShellConstruct>(joint->structures[1].shape).thickness, 0.0018);
   EXPECT_DOUBLE_EQ(std::get<CapConstruct>(joint->structures[2].shape).thickness, 0.0015);
-  EXPECT_TRUE(joint->X_JP_default.linear().col(2).isApprox(Vec3::UnitX()));
-  EXPECT_TRUE(joint->X_JP_default.linear().col(0).isApprox(Vec3::UnitZ()));
-  EXPECT_TRUE(joint->X_JN_default.translation().isApprox(Vec3(-0.195, -0.05, 1.34)));
+  EXPECT_TRUE(joint->X_JP_default->linear().col(2).isApprox(Vec3::UnitX()));
+  EXPECT_TRUE(joint->X_JP_default->linear().col(0).isApprox(Vec3::UnitZ()));
+  EXPECT_TRUE(joint->X_JN_default->translation().isApprox(Vec3(-0.195, -0.05, 1.34)));
   ASSERT_EQ(joint->injections.size(), 1U);
   ASSERT_EQ(joint->landmarks.size(), 1U);
   for (const auto& t : joint->tissues) {
@@ -119,6 +121,29 @@ TEST(JointFile, ARegionIsABallOrABoxNotBoth) {
 TEST(JointFile, ATissueOfItsOwnMustBeComplete) {
   EXPECT_THAT(messages_of(kHead + kBone + "[tissue.wax.haptic]\ncutting_force_n = 1\n"),
               HasSubstr("the group [tissue.wax.acoustic] is missing"));
+}
+
+TEST(JointFile, ConstructsMustNotRunInACircle) {
+  const std::string lining =
+      "[[structure]]\nname = \"inner\"\ntissue = \"capsule\"\n"
+      "shell = { inside = \"outer\", thickness = 1 }\n"
+      "[[structure]]\nname = \"outer\"\ntissue = \"capsule\"\n";
+  EXPECT_EQ(messages_of(kHead + kBone + lining + "shell = { inside = \"ulna\", thickness = 1 }\n"),
+            "");
+  const std::string message =
+      messages_of(kHead + kBone + lining + "shell = { inside = \"inner\", thickness = 1 }\n");
+  EXPECT_THAT(message, HasSubstr("structure 'inner': is made from structures that are made"));
+  EXPECT_THAT(message, HasSubstr("structure 'outer': is made from structures that are made"));
+  EXPECT_THAT(message, Not(HasSubstr("'ulna'")));
+}
+
+TEST(JointFile, TheEndOfAConstructNeedsItsInsertion) {
+  const std::string construct =
+      "[[structure]]\nname = \"lining\"\ntissue = \"capsule\"\nshell = { thickness = 1 }\n"
+      "[[structure]]\nname = \"end\"\ntissue = \"tendon\"\n"
+      "end = { of = \"lining\", toward = \"ulna\", within = 5";
+  EXPECT_THAT(messages_of(kHead + kBone + construct + " }\n"), HasSubstr("insertion = [x, y, z]"));
+  EXPECT_EQ(messages_of(kHead + kBone + construct + ", insertion = [0, 0, 0] }\n"), "");
 }
 
 TEST(JointFile, MissingFilesAreAllNamed) {

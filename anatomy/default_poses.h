@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include "anatomy/joint.h"
+#include "anatomy/tet_mesh.h"
+
+namespace artus {
+
+struct DefaultPoses {
+  Pose X_JP = Pose::Identity();  ///< probe, footprint centre on the skin
+  Pose X_JN = Pose::Identity();  ///< needle, tip at its target
+};
+
+/// The poses that the joint file gives; where it gives none, the probe stands on the skin nearest
+/// to the middle of the region of interest (of the body, without one) and looks there, and the
+/// needle comes in its plane, 45 degrees down to 20 mm under the footprint, or half as deep as the
+/// middle lies. What was chosen is told in `notes`. Requires: interfaces up to date.
+[[nodiscard]] DefaultPoses find_default_poses(const JointFile& file, const TetMesh& mesh,
+                                              std::vector<std::string>& notes);
+
+}  // namespace artus
