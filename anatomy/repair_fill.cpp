@@ -91,6 +91,7 @@ std::vector<Triangle> triangulate(const SurfaceMesh& mesh, const Rim& rim) {
     return {};
   }
   std::vector<Triangle> patch;
+  patch.reserve(faces.size());
   for (const auto& f : faces) patch.push_back({rim[f.v[0]], rim[f.v[1]], rim[f.v[2]]});
   return patch.size() + 2 == rim.size() ? patch : std::vector<Triangle>{};
 }
@@ -193,7 +194,8 @@ std::size_t thicken_sheets(SurfaceMesh& mesh, double thickness, double open_shar
     if (normal[v].isZero(0)) continue;
     const Vec3 half = normal[v].stableNormalized() * thickness / 2;
     below[v] = static_cast<std::uint32_t>(mesh.vertices.size());
-    mesh.vertices.push_back(mesh.vertices[v] - half);
+    const Vec3 lower = mesh.vertices[v] - half;
+    mesh.vertices.push_back(lower);
     mesh.vertices[v] += half;
   }
   for (std::size_t f = 0; f < n_faces; ++f) {

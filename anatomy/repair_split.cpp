@@ -157,8 +157,8 @@ std::size_t split_pinches(SurfaceMesh& mesh) {
   boost::disjoint_sets_with_storage<> fans(3 * mesh.triangles.size());
   for (const auto& l : find_links(mesh, make_edge_uses(mesh)))
     for (const auto v : {l.lo, l.hi})
-      fans.union_set(3 * l.a + corner_of(mesh.triangles[l.a], v),
-                     3 * l.b + corner_of(mesh.triangles[l.b], v));
+      fans.union_set(std::size_t{3} * l.a + corner_of(mesh.triangles[l.a], v),
+                     std::size_t{3} * l.b + corner_of(mesh.triangles[l.b], v));
   // The first fan met at a vertex keeps it, each other gets a copy of its own.
   std::vector<std::uint32_t> vertex_of_fan(3 * mesh.triangles.size(), kNone);
   std::vector<bool> is_taken(mesh.vertices.size(), false);
@@ -172,7 +172,8 @@ std::size_t split_pinches(SurfaceMesh& mesh) {
         is_taken[v] = true;
       } else if (own == kNone) {
         own = static_cast<std::uint32_t>(mesh.vertices.size());
-        mesh.vertices.push_back(Vec3(mesh.vertices[v]));
+        const Vec3 copy = mesh.vertices[v];
+        mesh.vertices.push_back(copy);
       }
       v = own;
     }

@@ -58,7 +58,7 @@ std::vector<std::uint32_t> find_culprits(const SurfaceMesh& mesh, const SurfaceM
   });
   std::vector<std::uint32_t> culprits;
   std::vector<std::uint32_t> n_merged(mesh.vertices.size(), 0);
-  for (std::uint32_t v = 0; v < welds.size(); ++v) ++n_merged[welds[v]];
+  for (const std::uint32_t v : welds) ++n_merged[v];
   for (std::uint32_t v = 0; v < welds.size(); ++v)
     if (n_merged[welds[v]] > 1 && bad.contains(welds[v])) culprits.push_back(v);
   return culprits;
