@@ -28,9 +28,11 @@ struct ImageOptions {
 
 /// The picture that the flags ask for.
 cv::Mat picture_of(const Frame& frame, const View& view, const ImageOptions& options) {
-  if (options.doppler_mm_s)
-    return doppler_image(frame, ScanConverter(view.transducer, view.settings), view.settings);
-  return options.plain ? grey_image(frame) : annotated_image(frame, view.transducer);
+  const cv::Mat picture =
+      options.doppler_mm_s
+          ? doppler_image(frame, ScanConverter(view.transducer, view.settings), view.settings)
+          : grey_image(frame);
+  return options.plain ? picture : annotated_image(picture, frame, view.transducer);
 }
 
 ExitCode run_image(const ImageOptions& options) {
@@ -60,6 +62,7 @@ ExitCode run_image(const ImageOptions& options) {
                           {"height_px", image.rows},
                           {"pixel_mm", frame.pixel / kMillimetre},
                           {"probe", probe_json(loaded->X_JP)},
+                          {"contact", contact_json(frame)},
                           {"transducer", to_json(view.transducer)},
                           {"settings", to_json(view.settings)}};
     if (loaded->needle)
@@ -92,8 +95,7 @@ void add_image_command(CLI::App& app, ExitCode& code) {
                       "also write the envelope before compression (.tiff, 32-bit float)");
   command->add_flag("--plain", options->plain, "pixels of the sector alone, no depth scale");
   command->add_option("--doppler", options->doppler_mm_s,
-                      "colour what moves, with the needle at this speed toward its tip, mm/s "
-                      "(no depth scale)");
+                      "colour what moves, with the needle at this speed toward its tip, mm/s");
   command->add_flag("--json", options->json, "machine-readable output");
   on_run(command, code, [options] { return run_image(*options); });
 }

@@ -73,8 +73,7 @@ BeamProfile::BeamProfile(const Transducer& transducer, double depth)
 }
 
 double BeamProfile::lateral_width(double z) const noexcept {
-  constexpr double kTwoWay = 0.97;  // wavelengths per F-number
-  const double one_way = kTwoWay * std::numbers::sqrt2 * transducer_.wavelength();
+  const double one_way = kTwoWayWidth * std::numbers::sqrt2 * transducer_.wavelength();
   const double f_number = std::max(transducer_.f_number, z / transducer_.max_aperture);
   const double receive = one_way * f_number;
   const double focus = transducer_.transmit_focus;

@@ -20,6 +20,8 @@ struct Frame {
   int height = 0;                   ///< pixels
   double pixel = 0;                 ///< m
   std::vector<std::uint8_t> image;  ///< (height, width), x fastest; scan-converted grey
+  /// (n_lines), how well the face couples to the body there: 0 air .. 1 skin or gel.
+  std::vector<float> contact;
   /// (n_lines), sample from which no sound returns; n_samples: none.
   std::vector<float> shadow_from;
   /// As in_phase: share of the sound that passes the needle, 1 without one. It comes from the

@@ -6,6 +6,8 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "core/check.h"
+
 namespace artus {
 namespace {
 
@@ -14,7 +16,7 @@ constexpr int kTop = 18;
 constexpr int kRight = 12;
 constexpr int kBottom = 14;
 cv::Scalar ink() {
-  return cv::Scalar(190);
+  return cv::Scalar::all(190);
 }
 
 int to_pixel(double m, double pixel) {
@@ -29,8 +31,15 @@ cv::Mat grey_image(const Frame& frame) {
 }
 
 cv::Mat annotated_image(const Frame& frame, const Transducer& transducer) {
-  cv::Mat out(frame.height + kTop + kBottom, frame.width + kLeft + kRight, CV_8UC1, cv::Scalar(0));
-  grey_image(frame).copyTo(out(cv::Rect(kLeft, kTop, frame.width, frame.height)));
+  return annotated_image(grey_image(frame), frame, transducer);
+}
+
+cv::Mat annotated_image(const cv::Mat& picture, const Frame& frame, const Transducer& transducer) {
+  ARTUS_REQUIRE(picture.rows == frame.height && picture.cols == frame.width,
+                "the picture must have the frame's size");
+  cv::Mat out(frame.height + kTop + kBottom, frame.width + kLeft + kRight, picture.type(),
+              cv::Scalar::all(0));
+  picture.copyTo(out(cv::Rect(kLeft, kTop, frame.width, frame.height)));
   const double depth = frame.n_samples * frame.sample_depth;
   // The middle of a curved face lies below the image's top: depth counts from there.
   const int face = std::max(0, frame.height - to_pixel(depth, frame.pixel));

@@ -16,8 +16,13 @@ namespace artus {
 /// The frame's grey image as a matrix (CV_8UC1); shares the frame's memory.
 [[nodiscard]] cv::Mat grey_image(const Frame& frame);
 
-/// The grey image in a dark border with a depth scale (a tick every 5 mm, a number every 10),
-/// the lens focus as a triangle and the orientation mark at the left (-x) side (CV_8UC1).
+/// `picture` (of the frame's size, CV_8UC1 or CV_8UC3) in a dark border with a depth scale (a tick
+/// every 5 mm, a number every 10), the lens focus as a triangle and the orientation mark at the
+/// left (-x) side.
+[[nodiscard]] cv::Mat annotated_image(const cv::Mat& picture, const Frame& frame,
+                                      const Transducer& transducer);
+
+/// The same around the frame's grey image (CV_8UC1).
 [[nodiscard]] cv::Mat annotated_image(const Frame& frame, const Transducer& transducer);
 
 /// The labels in the palette's colours, needle white (CV_8UC3, blue first as OpenCV has it).

@@ -15,13 +15,13 @@ struct ImageSettings {
   int n_samples = 1024;          ///< along a scanline
   int n_planes = 5;              ///< elevation planes that make up the slice's thickness
   double dynamic_range_db = 60;  ///< dB shown between black and white
-  double gain_db = 10;           ///< dB
+  double gain_db = 9;            ///< dB
   /// dB per cm of depth and MHz that time gain compensation adds, one way (doubled inside).
-  double tgc_db_cm_mhz = 0.6;
+  double tgc_db_cm_mhz = 0.7;
   double tgc_limit_db = 70;  ///< dB, the receiver's largest compensation
   /// rms speckle of muscle in dB. assumed: puts muscle at the grey of the reference images.
   double speckle_db = -40;
-  double noise_db = -140;           ///< electronic noise before compensation, dB. assumed
+  double noise_db = -150;           ///< electronic noise before compensation, dB. assumed
   double gel_limit = 5e-3;          ///< m, a wider gap between face and skin is air
   double pixel = 0.1e-3;            ///< m, of the scan-converted image, square
   double persistence = 0;           ///< 0 none .. <1 share of the previous image kept

@@ -64,22 +64,21 @@ void LineSynthesis::add_run(const BeamRun& run, const RegionAcoustics& region,
   const double into = static_cast<double>(first) - run.begin;
   const Vec3 p_J = run.p_J + into * run.step_J;
   const double slope = (run.log_gain_end - run.log_gain_begin) / (run.end - run.begin);
-  const double cosine = std::abs(run.direction_J.dot(region.fibre));
-  double value = speckle_ * region.backscatter * fibre_backscatter(region, cosine) *
+  double value = speckle_ * region.backscatter * fibre_backscatter(region, run.along) *
                  std::exp(run.log_gain_begin + into * slope);
   const double ratio = std::exp(slope * kStride);
   const std::size_t n_nodes = (n - 1) / kStride + 2;
   const std::size_t behind = re.size() + kStride;  // the last stride may reach over the end
   const auto nodes = gain.subspan(behind, n_nodes);
   const auto sheets = gain.subspan(behind + n_nodes, n_nodes);
-  const double across = region.kind == TissueKind::fat
-                            ? std::pow(run.direction_J.dot(region.sheet_normal), 2)
-                            : 1 - cosine * cosine;
+  const double across =
+      region.kind == TissueKind::fat ? run.across * run.across : 1 - run.along * run.along;
   const auto facing = static_cast<float>(kSheetEcho * across);
   const bool textured = has_texture_ && texture_->has(region.kind);
   const bool reflects = textured && facing > 0.05F;
   if (textured) {
-    texture_->sample(region, p_J, run.step_J * kStride, nodes);
+    texture_->sample(region.kind, run.material + into * run.material_step,
+                     run.material_step * kStride, nodes);
   } else {
     std::fill(nodes.begin(), nodes.end(), 1.0F);
   }

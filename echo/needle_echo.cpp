@@ -56,7 +56,8 @@ NeedleEcho::NeedleEcho(const NeedleView& needle, const Pose& X_JP, const Transdu
       pitch_(transducer.pitch()),
       pulse_sigma_(transducer.pulse_cycles * transducer.wavelength() / 2 * kSigmaPerWidth),
       f_number_(transducer.f_number),
-      max_aperture_(transducer.max_aperture) {
+      max_aperture_(transducer.max_aperture),
+      phase_(specular_phase(transducer, kDisplaySpeedOfSound)) {
   const Pose X_PN = X_JP.inverse() * needle.X_JN;
   p_PTip_ = X_PN.translation();
   axis_P_ = -X_PN.linear().col(2).normalized();
@@ -133,7 +134,7 @@ void NeedleEcho::add_side_lobe(const Place& place, const BeamTrace& trace,
   const double angle = std::asin(std::min(1.0, place.sine));
   add_point_echo(sample,
                  kSideLobe / (1 + u * u) * elevation_share(place.elevation, place.depth) *
-                     needle_reflectivity(needle_, angle) * std::exp(log_gain),
+                     needle_reflectivity(needle_, angle, phase_) * std::exp(log_gain),
                  line);
 }
 
@@ -241,7 +242,7 @@ void NeedleEcho::add(const Scanline& line, const Pose& X_JP, const BeamTrace& tr
   const double sample_depth = shape_->sample_depth();
   const double angle = std::asin(std::min(1.0, place.sine));
   const double heard = coverage * share * std::exp(log_gain);
-  const double shaft = heard * needle_reflectivity(needle_, angle);
+  const double shaft = heard * needle_reflectivity(needle_, angle, phase_);
   add_shaft(place, sample, shaft, re);
   add_point_echo(2 * sample, shaft * shaft * kFaceReflection, re);
   if (place.along < 1e-3) {  // the last millimetre: the bevel's edges

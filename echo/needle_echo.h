@@ -51,6 +51,7 @@ class NeedleEcho {
   double pulse_sigma_;  // m, standard deviation of the pulse along depth
   double f_number_;
   double max_aperture_;  // m
+  double phase_;         // rad per unit sine of tilt, see specular_phase
 };
 
 }  // namespace artus

@@ -3,17 +3,30 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/units.h"
 
 namespace artus {
 namespace {
 
-constexpr double kSteelSpeed = 5800;        // m/s
-constexpr double kBoreSpeed = 1480;         // m/s, water in the bore
-constexpr double kSteelReflection = 0.933;  // -0.6 dB, muscle on steel
-constexpr double kPlainFall = 54.0 / 75;  // dB per degree: 10 % of the grey of 60 dB is left at 75
-constexpr double kEchogenicFall = 24.0 / 75;  // dB per degree: 60 % is left at 75
+constexpr double kSteelSpeed = 5800;                 // m/s
+constexpr double kBoreSpeed = 1480;                  // m/s, water in the bore
+constexpr double kSteelReflection = 0.933;           // -0.6 dB, muscle on steel
+constexpr double kPlainSlopes = 5.7 * kDegree;       // rad, mean of a drawn shaft. assumed
+constexpr double kEchogenicSlopes = 13.0 * kDegree;  // rad, of a dimpled one. assumed
+
+double normal_share(double x) noexcept {
+  return 0.5 * std::erfc(-x / std::numbers::sqrt2);
+}
+
+/// An exponential of mean `spread` to either side, blurred by a Gaussian of deviation `blur`; times
+/// a constant.
+double blurred_exponential(double x, double spread, double blur) noexcept {
+  const double shift = blur / spread;
+  return std::exp(-x / spread) * normal_share(x / blur - shift) +
+         std::exp(x / spread) * normal_share(-x / blur - shift);
+}
 
 }  // namespace
 
@@ -44,10 +57,14 @@ double reverberation_pitch(const NeedleShape& shape) noexcept {
   return kDisplaySpeedOfSound * (walls / kSteelSpeed + shape.bore / kBoreSpeed);
 }
 
-double needle_reflectivity(const NeedleShape& shape, double angle) noexcept {
-  const double degrees = std::min(std::abs(angle) / kDegree, 90.0);
-  const double fall = shape.echogenic ? kEchogenicFall : kPlainFall;
-  return kSteelReflection * std::pow(10.0, -fall * degrees / 20);
+double needle_reflectivity(const NeedleShape& shape, double angle, double specular_phase) noexcept {
+  const double tilt = std::min(std::abs(angle), std::numbers::pi / 2);
+  const double spread = shape.echogenic ? kEchogenicSlopes : kPlainSlopes;
+  // the lobe's intensity falls as exp(-2 (phase * tilt)^2)
+  const double blur = 0.5 / std::max(1.0, specular_phase);
+  const double share =
+      blurred_exponential(tilt, spread, blur) / blurred_exponential(0, spread, blur);
+  return kSteelReflection * std::sqrt(share);
 }
 
 }  // namespace artus

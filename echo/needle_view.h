@@ -38,8 +38,12 @@ struct NeedleTrack {
 [[nodiscard]] double reverberation_pitch(const NeedleShape& shape) noexcept;
 
 /// Echo amplitude of a needle at angle `angle` (rad) between its axis and the probe's face, mirror
-/// = 1: dB fall in proportion to the angle, so grey does, too
-/// ([SchafhalterZoppoth2004], 0-65 degrees; slope from [Nichols2003] at 75 degrees).
-[[nodiscard]] double needle_reflectivity(const NeedleShape& shape, double angle) noexcept;
+/// = 1. Its surface is made of small mirrors whose slopes along the shaft are spread exponentially;
+/// each returns what the aperture catches of it, `specular_phase` (of the transducer). Within the
+/// aperture's lobe the law is flat, beyond it dB, and so grey, fall in proportion to the angle, as
+/// measured from 0 to 65 degrees [SchafhalterZoppoth2004]. assumed: the spread of slopes, 5.7
+/// degrees plain and 13 dimpled, which gives the values at 75 degrees of [Nichols2003].
+[[nodiscard]] double needle_reflectivity(const NeedleShape& shape, double angle,
+                                         double specular_phase) noexcept;
 
 }  // namespace artus

@@ -17,7 +17,8 @@ constexpr double kGrazing = 0.17;   // cosine of 80 degrees: along a faceted sur
 constexpr double kSilence = -20;    // ln: 174 dB down, below any receiver
 constexpr double kMargin = 1.25;    // tissue as fast as tendon reaches deeper in the same time
 constexpr double kFaceReflection = 0.1;  // assumed: matching layers and lens send back -20 dB
-constexpr double kRepeatFrom = 0.02;     // echoes above -34 dB repeat
+constexpr double kTiny = 1e-12;
+constexpr double kRepeatFrom = 0.02;  // echoes above -34 dB repeat
 
 }  // namespace
 
@@ -121,12 +122,38 @@ bool BeamTracer::start(Walk& walk, RegionId region, double length) const noexcep
   return walk.trace.contact && !regions_[region].opaque && region != kBeyond;
 }
 
+/// Notes how the run lies to the fibres at its middle, `half_way` (m) from its begin. Returns the
+/// factor on its attenuation.
+double BeamTracer::follow_fibres(const RegionAcoustics& region, BeamRun& run,
+                                 const Vec3& half_way) noexcept {
+  run.along = 0;
+  run.across = 1;
+  switch (region.kind) {
+    case TissueKind::fat:
+    case TissueKind::muscle:
+    case TissueKind::tendon:
+    case TissueKind::nerve:
+      break;
+    default:
+      return 1;
+  }
+  const MaterialPoint middle = locate_in_material(region, run.p_J + half_way);
+  run.material = middle.place - middle.gradient * half_way;
+  run.material_step = middle.gradient * run.step_J;
+  const Vec3 sheet = middle.gradient.row(0);
+  run.across = std::abs(run.direction_J.dot(sheet)) / (sheet.norm() + kTiny);
+  if (region.kind == TissueKind::fat || (!region.course && region.fibre.squaredNorm() < 0.5))
+    return 1;
+  const Vec3 fibre = sheet.cross(middle.gradient.row(1).transpose());
+  run.along = std::min(1.0, std::abs(run.direction_J.dot(fibre)) / (fibre.norm() + kTiny));
+  return fibre_attenuation(region.kind, run.along);
+}
+
 /// Goes `length` (m of beam) through the current region from `point`. False when the sound ended.
 bool BeamTracer::cross(Walk& walk, const Vec3& point, const Vec3& direction, double length,
                        double time_scale) const noexcept {
   walk.touched = walk.touched || walk.region >= kFirstRegion;
   const RegionAcoustics& region = regions_[walk.region];
-  const double loss = fibre_attenuation(region.kind, std::abs(walk.wave.dot(region.fibre)));
   const double samples_per_m = kDisplaySpeedOfSound / region.speed / sample_depth_;
   const int pieces = static_cast<int>(std::ceil(length / kPiece));
   const double piece = length / pieces;
@@ -140,6 +167,7 @@ bool BeamTracer::cross(Walk& walk, const Vec3& point, const Vec3& direction, dou
     run.region = walk.region;
     run.log_gain_begin = walk.log_gain(spectrum_sigma_);
     run.path_begin = walk.path;
+    const double loss = follow_fibres(region, run, 0.5 * piece / time_scale * direction);
     walk.path += piece;
     walk.sample += piece * samples_per_m;
     walk.attenuation += piece * region.attenuation * loss;

@@ -20,10 +20,14 @@ struct BeamRun {
   Vec3 step_J = Vec3::Zero();        ///< m per sample
   Vec3 direction_J = Vec3::UnitZ();  ///< unit, of the wave (without the elevation tilt)
   RegionId region = kOutside;
-  double log_gain_begin = 0;  ///< ln of the two-way amplitude at `begin`
-  double log_gain_end = 0;    ///< at `end`
-  double path_begin = 0;      ///< m along the beam from the face to `begin`
-  double path_end = 0;        ///< m, to `end`
+  double log_gain_begin = 0;          ///< ln of the two-way amplitude at `begin`
+  double log_gain_end = 0;            ///< at `end`
+  double path_begin = 0;              ///< m along the beam from the face to `begin`
+  double path_end = 0;                ///< m, to `end`
+  Vec3 material = Vec3::Zero();       ///< m, the region's own coordinates at `begin`
+  Vec3 material_step = Vec3::Zero();  ///< m per sample
+  double along = 0;                   ///< |cosine| between wave and fibres
+  double across = 1;                  ///< |cosine| between wave and the normal of sheets
 };
 
 /// An echo of an interface.
@@ -85,6 +89,8 @@ class BeamTracer {
   bool enter(Walk& walk, const TissueInterval& interval, const Vec3& point) const noexcept;
   bool pass(Walk& walk, const Vec3& from, const Vec3& direction, double length,
             double time_scale) const noexcept;
+  static double follow_fibres(const RegionAcoustics& region, BeamRun& run,
+                              const Vec3& half_way) noexcept;
   void add_repeats(BeamTrace& trace) const noexcept;
 
   const Scene* scene_;

@@ -3,22 +3,23 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include <tbb/parallel_for.h>
 
 #include "core/units.h"
+#include "echo/fibre_course.h"
 
 namespace artus {
 namespace {
 
-constexpr double kOpaqueAbove = 4e6;        // Rayl, between soft tissue (2) and cortical bone (6)
-constexpr double kOpaqueBelow = 1e5;        // Rayl, gas
-constexpr double kTendonFloor = 0.056;      // -25 dB
-constexpr double kStraightFibre = 0.18e-3;  // m. assumed, see fibre_backscatter
-constexpr double kLobe = 12;                // degrees, half the acceptance of an F/2 aperture
-constexpr double kGrazing = 0.12;           // cosine below which a faceted normal says nothing more
-constexpr double kEpimysium = 0.06;         // -24 dB. assumed: a fascia shows like fat on muscle
-constexpr double kBursaWall = 0.08;         // -22 dB. assumed: the walls show brighter than muscle
-constexpr double kEpineurium = 0.05;        // -26 dB. assumed
+constexpr double kOpaqueAbove = 4e6;    // Rayl, between soft tissue (2) and cortical bone (6)
+constexpr double kOpaqueBelow = 1e5;    // Rayl, gas
+constexpr double kTendonFloor = 0.056;  // -25 dB
+constexpr double kLobe = 12;            // degrees, half the acceptance of an F/2 aperture
+constexpr double kGrazing = 0.12;       // cosine below which a faceted normal says nothing more
+constexpr double kEpimysium = 0.06;     // -24 dB. assumed: a fascia shows like fat on muscle
+constexpr double kBursaWall = 0.08;     // -22 dB. assumed: the walls show brighter than muscle
+constexpr double kEpineurium = 0.05;    // -26 dB. assumed
 
 /// Coupling gel, taken as water: what fills the gap between face and skin.
 RegionAcoustics make_gel() {
@@ -60,7 +61,7 @@ std::vector<RegionAcoustics> make_region_acoustics(const CompiledJoint& joint,
     out.roughness = a.interface_roughness;
     out.opaque = out.impedance > kOpaqueAbove || out.impedance < kOpaqueBelow;
     out.fibre = region.fibre_axis;
-    out.fibre_phase = 4 * std::numbers::pi * transducer.frequency / out.speed * kStraightFibre;
+    out.fibre_phase = specular_phase(transducer, out.speed);
     out.sheet_normal = sheet_normal(joint.X_JP_default.linear().col(2), out.fibre);
     table.push_back(out);
   }
@@ -68,11 +69,44 @@ std::vector<RegionAcoustics> make_region_acoustics(const CompiledJoint& joint,
   return table;
 }
 
+void add_courses(const CompiledJoint& joint, std::vector<RegionAcoustics>& regions) {
+  const std::optional<MaterialMap> depth = fit_skin_depth(joint);
+  if (!depth) return;
+  const auto skin = std::make_shared<const MaterialMap>(*depth);
+  tbb::parallel_for(std::size_t{kFirstRegion}, regions.size(), [&](std::size_t i) {
+    switch (regions[i].kind) {
+      case TissueKind::fat:
+        regions[i].course = skin;
+        break;
+      case TissueKind::muscle:
+      case TissueKind::tendon:
+      case TissueKind::nerve:
+        if (const auto course = fit_fibre_course(joint, static_cast<RegionId>(i), depth))
+          regions[i].course = std::make_shared<const MaterialMap>(*course);
+        break;
+      default:
+        break;
+    }
+  });
+}
+
+MaterialPoint locate_in_material(const RegionAcoustics& region, const Vec3& p_J) noexcept {
+  if (region.course) return region.course->evaluate(p_J);
+  MaterialPoint point;
+  const Vec3 along =
+      region.fibre.squaredNorm() > 0.5 ? region.fibre : Vec3(region.sheet_normal.unitOrthogonal());
+  point.gradient.row(0) = region.sheet_normal;
+  point.gradient.row(1) = along.cross(region.sheet_normal);
+  point.gradient.row(2) = along;
+  point.place = point.gradient * p_J;
+  return point;
+}
+
 double fibre_backscatter(const RegionAcoustics& region, double cosine) noexcept {
   switch (region.kind) {
     case TissueKind::tendon: {
       const double phase = region.fibre_phase * cosine;
-      return std::sqrt(kTendonFloor * kTendonFloor + std::exp(-phase * phase));
+      return std::sqrt(kTendonFloor * kTendonFloor + std::exp(-2 * phase * phase));
     }
     case TissueKind::muscle:
       return std::pow(10.0, -2.0 * cosine * cosine / 20);

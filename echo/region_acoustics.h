@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <memory>
 #include <vector>
 
 #include "anatomy/compiled_joint.h"
+#include "echo/material_map.h"
 #include "echo/transducer.h"
 
 namespace artus {
@@ -16,23 +18,33 @@ struct RegionAcoustics {
   double attenuation_slope = 0;  ///< its derivative by frequency, Np/m/Hz, both ways
   double backscatter = 0;        ///< rms speckle amplitude, muscle across its fibres = 1
   double roughness = 0;          ///< 0 mirror .. 1 diffuse
-  double fibre_phase = 0;        ///< rad per unit of |beam . fibre| along a straight piece of fibre
+  double fibre_phase = 0;        ///< rad per unit of |beam . fibre|, see specular_phase
   bool opaque = false;           ///< bone or gas: no sound returns from inside
   Vec3 fibre = Vec3::Zero();     ///< frame J, unit; zero: isotropic
-  /// Frame J, unit, across `fibre`: the direction in which sheets and septa are stacked. They grow
-  /// along the skin, which faces the joint's usual probe.
+  /// Frame J, unit, across `fibre`: the direction in which sheets and septa are stacked in a block
+  /// without tetrahedra, whose skin faces the joint's usual probe.
   Vec3 sheet_normal = Vec3::UnitZ();
+  /// Coordinates along curved fibres or septa; none: straight along `fibre` and `sheet_normal`.
+  std::shared_ptr<const MaterialMap> course;
 };
 
-/// One entry per region of the joint. The outside is coupling gel.
+/// A region's own coordinates around a point: (across sheets, beside them, along fibres), m.
+[[nodiscard]] MaterialPoint locate_in_material(const RegionAcoustics& region,
+                                               const Vec3& p_J) noexcept;
+
+/// One entry per region of the joint. The outside is coupling gel. Fibres are straight.
 [[nodiscard]] std::vector<RegionAcoustics> make_region_acoustics(const CompiledJoint& joint,
                                                                  const Transducer& transducer);
 
+/// Gives the regions with fibres or septa their course through the joint's tetrahedra. Cost: some
+/// 0.1 s for a joint of a few dozen structures, on all threads of the calling arena.
+void add_courses(const CompiledJoint& joint, std::vector<RegionAcoustics>& regions);
+
 /// Factor on a region's speckle amplitude when `cosine` = |beam direction . fibre|, 1 across the
-/// fibres. Tendon is a bundle of mirrors as long as its fibres run straight (0.18 mm, assumed: then
-/// it equals muscle, 6 dB below its peak, at 4.5 degrees and 12 MHz; [Crass1988] 2-7 degrees): a
-/// lobe that narrows with frequency, over a diffuse floor 25 dB down ([Crass1988] fainter than
-/// muscle beyond). Muscle and nerve change by 2 and 4 dB (assumed).
+/// fibres. Tendon is a bundle of mirrors that run straight farther than the beam is wide, so the
+/// aperture makes its lobe (see specular_phase), over a diffuse floor 25 dB down (assumed;
+/// [Crass1988] fainter than muscle beyond 2-7 degrees). Muscle and nerve change by 2 and 4 dB
+/// (assumed).
 [[nodiscard]] double fibre_backscatter(const RegionAcoustics& region, double cosine) noexcept;
 
 /// Factor on a tissue's attenuation for the same angle: the beam loses about twice as much along

@@ -21,6 +21,7 @@
 #include "echo/doppler.h"
 #include "echo/line_synthesis.h"
 #include "echo/needle_echo.h"
+#include "echo/penumbra.h"
 #include "echo/point_echo.h"
 #include "echo/propagation.h"
 #include "echo/region_acoustics.h"
@@ -89,6 +90,7 @@ struct Renderer::Impl {
                    static_cast<float>(std::pow(10.0, settings.noise_db / 20))),
         arena(settings.n_threads == 0 ? tbb::task_arena::automatic : settings.n_threads),
         coupling(transducer) {
+    arena.execute([&] { add_courses(scene->joint(), regions); });
     const int blocks = (transducer.n_lines + kBlock - 1) / kBlock;
     scratch.resize(static_cast<std::size_t>(blocks));
     const auto size =
@@ -115,6 +117,7 @@ struct Renderer::Impl {
     frame.pixel = settings.pixel;
     frame.image.resize(static_cast<std::size_t>(frame.width) *
                        static_cast<std::size_t>(frame.height));
+    frame.contact.resize(static_cast<std::size_t>(transducer.n_lines));
     frame.shadow_from.resize(static_cast<std::size_t>(transducer.n_lines));
   }
 
@@ -165,9 +168,16 @@ struct Renderer::Impl {
         coupling.apply(l, shape.sample_depth(), re, im);
         add_lens_ringing(mine.central.contact ? 1 - coupling.at_line(l) : 1, shape.sample_depth(),
                          re);
+        frame.contact[static_cast<std::size_t>(l)] =
+            static_cast<float>(mine.central.contact ? coupling.at_line(l) : 0);
         frame.shadow_from[static_cast<std::size_t>(l)] =
             static_cast<float>(std::clamp(mine.central.shadow_from, 0.0, static_cast<double>(n)));
       }
+    });
+    for_blocks(probe.n_lines, [&](int, int first, int last) {
+      for (int l = first; l < last; ++l)
+        add_penumbra(probe, shape.sample_depth(), frame.shadow_from, l, row(raw_re, l, n),
+                     row(raw_im, l, n));
     });
   }
 
@@ -410,7 +420,15 @@ void Renderer::set_needle_tracks(std::vector<NeedleTrack> tracks) {
 
 void Renderer::set_scene(std::shared_ptr<const Scene> scene) {
   ARTUS_REQUIRE(scene != nullptr, "no scene");
-  impl_->regions = make_region_acoustics(scene->joint(), impl_->transducer);
+  const CompiledJoint& before = impl_->scene->joint();
+  const CompiledJoint& after = scene->joint();
+  const bool same_body =
+      before.source_digest == after.source_digest && before.regions.size() == after.regions.size();
+  std::vector<RegionAcoustics> regions = make_region_acoustics(after, impl_->transducer);
+  for (std::size_t i = 0; same_body && i < regions.size(); ++i)
+    regions[i].course = impl_->regions[i].course;
+  if (!same_body) impl_->arena.execute([&] { add_courses(after, regions); });
+  impl_->regions = std::move(regions);
   impl_->scene = std::move(scene);
 }
 

@@ -45,7 +45,7 @@ class Renderer {
   /// Tracks of withdrawn needles that later frames show.
   void set_needle_tracks(std::vector<NeedleTrack> tracks);
 
-  /// Swaps in a deformed copy of the body between frames.
+  /// Swaps in a deformed copy of the body between frames; its fibres keep their first course.
   void set_scene(std::shared_ptr<const Scene> scene);
 
   [[nodiscard]] const Transducer& transducer() const noexcept;

@@ -190,21 +190,17 @@ bool TissueTexture::has(TissueKind kind) const noexcept {
   return !tiles_[static_cast<std::size_t>(kind)].values.empty();
 }
 
-void TissueTexture::sample(const RegionAcoustics& region, const Vec3& p_J, const Vec3& step_J,
+void TissueTexture::sample(TissueKind kind, const Vec3& place, const Vec3& step_by,
                            std::span<float> out) const noexcept {
-  const Recipe* recipe = find_recipe(region.kind);
+  const Recipe* recipe = find_recipe(kind);
   if (recipe == nullptr) return;
-  const Vec3 along =
-      region.fibre.squaredNorm() > 0.5 ? region.fibre : Vec3(region.sheet_normal.unitOrthogonal());
-  const Vec3 beside = along.cross(region.sheet_normal);
-  const auto place = [&](const Vec3& v) -> std::array<std::uint32_t, 3> {
-    return {to_fixed_cells(region.sheet_normal.dot(v) / recipe->cell[0]),
-            to_fixed_cells(beside.dot(v) / recipe->cell[1]),
-            to_fixed_cells(along.dot(v) / recipe->cell[2])};
+  const auto in_cells = [&](const Vec3& v) -> std::array<std::uint32_t, 3> {
+    return {to_fixed_cells(v.x() / recipe->cell[0]), to_fixed_cells(v.y() / recipe->cell[1]),
+            to_fixed_cells(v.z() / recipe->cell[2])};
   };
-  const auto step = place(step_J);
-  auto [x, y, z] = place(p_J);
-  const Tile& tile = tiles_[static_cast<std::size_t>(region.kind)];
+  const auto step = in_cells(step_by);
+  auto [x, y, z] = in_cells(place);
+  const Tile& tile = tiles_[static_cast<std::size_t>(kind)];
   const std::uint8_t* values = tile.values.data();
   const std::uint32_t x_mask = (1U << tile.bits[0]) - 1;
   const std::uint32_t y_mask = (1U << tile.bits[1]) - 1;

@@ -12,9 +12,10 @@
 namespace artus {
 
 /// The fine structure of tissues as a factor on their speckle amplitude: perimysium sheets along
-/// muscle fibres, septa in fat, fibrils of tendon, fascicles of nerve. Fixed in frame J, turned to
-/// each region's fibres and sheets. Periodic over 8 mm and more, precomputed, mean square one.
-/// assumed: feature sizes, chosen beside real images (perimysium about 1.6 mm apart, septa 3 mm).
+/// muscle fibres, septa in fat, fibrils of tendon, fascicles of nerve. They live
+/// in each region's own coordinates, so they follow its fibres and belong to the body. Periodic
+/// over 8 mm and more, precomputed, mean square one. assumed: feature sizes, chosen beside real
+/// images (perimysium about 1.6 mm apart, septa 3 mm).
 class TissueTexture {
  public:
   /// Cost: tens of ms and 1.5 MB when `enabled`.
@@ -23,9 +24,9 @@ class TissueTexture {
   /// Whether regions of this kind have a texture at all.
   [[nodiscard]] bool has(TissueKind kind) const noexcept;
 
-  /// Factors for `region` at the first `out.size()` steps of a walk from `p_J` by `step_J`, m.
-  /// Requires: has(region.kind). Cost: about 1 ns a step.
-  void sample(const RegionAcoustics& region, const Vec3& p_J, const Vec3& step_J,
+  /// Factors for the first `out.size()` steps of a walk through a tissue's own coordinates (see
+  /// MaterialPoint) from `place` by `step`, m. Requires: has(kind). Cost: about 1 ns a step.
+  void sample(TissueKind kind, const Vec3& place, const Vec3& step,
               std::span<float> out) const noexcept;
 
  private:

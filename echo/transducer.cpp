@@ -2,6 +2,7 @@
 #include "echo/transducer.h"
 
 #include <cmath>
+#include <numbers>
 
 #include "echo/range_check.h"
 
@@ -25,6 +26,12 @@ Result<void> validate(const Transducer& t) {
     check.in_range("width over radius", t.width / t.radius, 0, 2.5);
   }
   return check.result();
+}
+
+double specular_phase(const Transducer& t, double speed) noexcept {
+  constexpr double kSigmaPerWidth = 1 / 2.3548200450309493;
+  const double sigma = kTwoWayWidth * t.wavelength() * t.f_number * kSigmaPerWidth;
+  return std::numbers::sqrt2 * 2 * std::numbers::pi * t.frequency / speed * sigma;
 }
 
 Scanline scanline(const Transducer& t, int i) noexcept {

@@ -32,6 +32,16 @@ struct Transducer {
   [[nodiscard]] double wavelength() const noexcept { return kDisplaySpeedOfSound / frequency; }
 };
 
+/// Full width at half maximum of the two-way amplitude across a beam, in wavelengths per F-number
+/// (wave model under dynamic aperture; between the 0.89 of a sinc^2 and a Gaussian's 1.0).
+inline constexpr double kTwoWayWidth = 0.97;
+
+/// How much of a mirror's echo returns when it is tilted by `sine` against the beam: exp(-p^2) with
+/// p = specular_phase * sine. The beam's Gaussian profile of standard deviation s summed over the
+/// mirror, whose echo runs ahead by 2 k sine a metre, k the wave number at `speed` (m/s): p =
+/// sqrt(2) k s sine. A straight fibre longer than the beam is wide answers alike.
+[[nodiscard]] double specular_phase(const Transducer& transducer, double speed) noexcept;
+
 /// Errors: invalid, naming the value, its range and the field, when a probe cannot be built like
 /// that (not finite, zero aperture, frequency outside 1-50 MHz, more than 4096 lines, ...).
 [[nodiscard]] Result<void> validate(const Transducer& transducer);

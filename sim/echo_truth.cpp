@@ -110,6 +110,22 @@ nlohmann::json region_list(const LabelImage& labels, const CompiledJoint& joint)
   return list;
 }
 
+nlohmann::json contact_json(const Frame& frame) {
+  constexpr float kHalf = 0.5F;
+  double sum = 0;
+  auto lifted = nlohmann::json::array();
+  bool inside = false;
+  for (std::size_t l = 0; l < frame.contact.size(); ++l) {
+    sum += frame.contact[l];
+    const bool lifts = frame.contact[l] < kHalf;
+    if (lifts && !inside) lifted.push_back({l, l});
+    if (lifts) lifted.back()[1] = l;
+    inside = lifts;
+  }
+  return {{"share", sum / static_cast<double>(std::max<std::size_t>(1, frame.contact.size()))},
+          {"lifted_lines", lifted}};
+}
+
 nlohmann::json probe_json(const Pose& X_JP) {
   return {{"position_mm", triple(X_JP.translation(), kMillimetre)},
           {"direction", triple(X_JP.linear().col(2))},

@@ -40,6 +40,10 @@ namespace artus {
 /// Position (mm), direction into the body and lateral direction.
 [[nodiscard]] nlohmann::json probe_json(const Pose& X_JP);
 
+/// Share of the face that couples to the body, and the stretches of scanlines (first, last) that
+/// do not.
+[[nodiscard]] nlohmann::json contact_json(const Frame& frame);
+
 /// Every value, in mm, MHz and degrees.
 [[nodiscard]] nlohmann::json to_json(const Transducer& transducer);
 

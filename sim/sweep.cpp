@@ -196,6 +196,7 @@ class Sweep {
     json truth{{"index", index},
                {"probe", probe_json(pose.X_JP)},
                {"pixel_mm", frame.pixel / kMillimetre},
+               {"contact", contact_json(frame)},
                {"regions", region_list(labels, scene_->joint())}};
     if (!pose.name.empty()) truth["name"] = pose.name;
     if (pose.time) truth["time_s"] = *pose.time;

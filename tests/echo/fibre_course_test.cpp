@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "echo/fibre_course.h"
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/units.h"
+#include "echo/region_acoustics.h"
+#include "tests/echo/echo_fixture.h"
+
+namespace artus {
+namespace {
+
+/// A bar of muscle bent to a quarter of a ring round the origin in the plane x, z: `width` (m)
+/// along y, from `inner` to `outer` radius, as tetrahedra. Its ends face along x - z and z - x.
+CompiledJoint make_bent_bar(double inner, double outer, double width) {
+  constexpr int kAlong = 40;
+  constexpr int kAcross = 5;
+  CompiledJoint joint;
+  joint.tissues.resize(1);
+  joint.tissues[0].acoustic.kind = TissueKind::muscle;
+  joint.regions = {{"outside", 0, Vec3::Zero()},
+                   {"beyond", 0, Vec3::Zero()},
+                   {"muscle", 0, Vec3(1, 0, -1).normalized()}};
+  const auto at = [](int i, int j, int k) {
+    return static_cast<std::uint32_t>((i * (kAcross + 1) + j) * (kAcross + 1) + k);
+  };
+  for (int i = 0; i <= kAlong; ++i) {
+    const double angle = 90 * kDegree * i / kAlong;
+    for (int j = 0; j <= kAcross; ++j) {
+      const double radius = inner + (outer - inner) * j / kAcross;
+      for (int k = 0; k <= kAcross; ++k)
+        joint.mesh.vertices.emplace_back(radius * std::sin(angle),
+                                         width * (static_cast<double>(k) / kAcross - 0.5),
+                                         radius * std::cos(angle));
+    }
+  }
+  constexpr std::array<std::array<int, 4>, 6> kCube{
+      {{0, 1, 3, 7}, {0, 1, 7, 5}, {0, 5, 7, 4}, {0, 3, 2, 7}, {0, 2, 6, 7}, {0, 6, 4, 7}}};
+  for (int i = 0; i < kAlong; ++i)
+    for (int j = 0; j < kAcross; ++j)
+      for (int k = 0; k < kAcross; ++k)
+        for (const auto& tet : kCube) {
+          std::array<std::uint32_t, 4> v{};
+          for (std::size_t c = 0; c < 4; ++c)
+            v[c] = at(i + (tet[c] & 1), j + (tet[c] >> 1 & 1), k + (tet[c] >> 2 & 1));
+          joint.mesh.tetrahedra.push_back(v);
+          joint.mesh.regions.push_back(kFirstRegion);
+          if (tet_volume(joint.mesh, joint.mesh.tetrahedra.size() - 1) < 0)
+            std::swap(joint.mesh.tetrahedra.back()[0], joint.mesh.tetrahedra.back()[1]);
+        }
+  return joint;
+}
+
+TEST(FibreCourse, FollowsABentMuscle) {
+  const CompiledJoint joint = make_bent_bar(30e-3, 40e-3, 12e-3);
+  const auto course = fit_fibre_course(joint, kFirstRegion, std::nullopt);
+  ASSERT_TRUE(course.has_value());
+  for (double degrees = 20; degrees <= 70; degrees += 5) {
+    for (const double radius : {31e-3, 35e-3, 39e-3}) {
+      const Vec3 out(std::sin(degrees * kDegree), 0, std::cos(degrees * kDegree));
+      const Vec3 along(out.z(), 0, -out.x());
+      const MaterialPoint point = course->evaluate(radius * out);
+      const Vec3 flow = point.gradient.row(2).normalized();
+      const Vec3 drawn = point.gradient.row(0).cross(point.gradient.row(1)).normalized();
+      EXPECT_GT(std::abs(flow.dot(along)), std::cos(4 * kDegree)) << degrees;
+      EXPECT_GT(std::abs(drawn.dot(along)), std::cos(8 * kDegree)) << degrees;
+      // sheets lie one upon another about as far apart as in a straight muscle
+      EXPECT_NEAR(point.gradient.row(0).norm(), 1, 0.4) << degrees;
+    }
+  }
+}
+
+TEST(FibreCourse, IsTheSameInEachRun) {
+  const CompiledJoint joint = make_bent_bar(30e-3, 40e-3, 12e-3);
+  const auto once = fit_fibre_course(joint, kFirstRegion, std::nullopt);
+  const auto again = fit_fibre_course(joint, kFirstRegion, std::nullopt);
+  ASSERT_TRUE(once && again);
+  const Vec3 p(20e-3, 1e-3, 28e-3);
+  EXPECT_EQ(once->evaluate(p).place, again->evaluate(p).place);
+}
+
+TEST(FibreCourse, PhantomsWithoutTetrahedraKeepStraightFibres) {
+  const std::array<test::FlatLayer, 1> layers{{{"muscle", 60e-3}}};
+  const auto scene = test::make_block_scene(
+      layers, [](CompiledJoint& joint) { joint.regions.back().fibre_axis = Vec3(0.8, 0, 0.6); });
+  EXPECT_FALSE(fit_skin_depth(scene->joint()).has_value());
+  EXPECT_FALSE(fit_fibre_course(scene->joint(), kFirstRegion, std::nullopt).has_value());
+  std::vector<RegionAcoustics> regions = make_region_acoustics(scene->joint(), Transducer{});
+  add_courses(scene->joint(), regions);
+  const MaterialPoint point = locate_in_material(regions.back(), Vec3(1e-3, 0, 2e-3));
+  EXPECT_NEAR(point.place.z(), 2e-3, 1e-12);
+  EXPECT_NEAR(point.gradient.row(2).dot(Vec3(0.8, 0, 0.6)), 1, 1e-12);
+}
+
+TEST(MaterialMap, EvaluatesItsPolynomialsAndTheirSlopes) {
+  MaterialMap::Coefficients coefficients = MaterialMap::Coefficients::Zero();
+  const Vec3 centre(0.1, 0.2, 0.3);
+  const double scale = 0.05;
+  const auto value = [&](const Vec3& p) -> Vec3 {
+    return coefficients.transpose() * MaterialMap::terms((p - centre) / scale);
+  };
+  for (Eigen::Index k = 0; k < coefficients.rows(); ++k)
+    for (Eigen::Index c = 0; c < 3; ++c)
+      coefficients(k, c) = 0.01 * std::sin(1.0 + static_cast<double>(3 * k + c));
+  const MaterialMap map(centre, scale, coefficients);
+  const Vec3 p = centre + Vec3(0.02, -0.03, 0.01);
+  const MaterialPoint point = map.evaluate(p);
+  EXPECT_LT((point.place - value(p)).norm(), 1e-7);
+  constexpr double kStep = 1e-5;
+  for (Eigen::Index a = 0; a < 3; ++a) {
+    const Vec3 step = kStep * Vec3::Unit(a);
+    const Vec3 slope = (value(p + step) - value(p - step)) / (2 * kStep);
+    EXPECT_LT((slope - point.gradient.col(a)).norm(), 1e-4 * slope.norm());
+    EXPECT_LT((coefficients.transpose() *
+                   MaterialMap::slopes((p - centre) / scale).row(a).transpose() / scale -
+               slope)
+                  .norm(),
+              1e-6 * slope.norm());
+  }
+}
+
+}  // namespace
+}  // namespace artus
