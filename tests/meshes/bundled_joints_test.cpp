@@ -35,8 +35,8 @@ Vec3 landmark(const JointFile& joint, const std::string& name) {
 }
 
 void expect_probe_on_skin_facing_inward(const JointFile& joint, const Field& skin) {
-  const Vec3 position = joint.X_JP_default.translation();
-  const Vec3 inward = joint.X_JP_default.linear().col(2);
+  const Vec3 position = joint.X_JP_default->translation();
+  const Vec3 inward = joint.X_JP_default->linear().col(2);
   EXPECT_NEAR(skin(position), 0, 0.5e-3);
   EXPECT_LT(skin(position + 5e-3 * inward), -4e-3);
 }
@@ -46,7 +46,7 @@ void expect_passes(const JointFile& joint, const Field& skin, const Field& bursa
   ASSERT_EQ(joint.injections.size(), 3U);
   for (const PlannedInjection& pass : joint.injections) {
     EXPECT_NEAR(skin(pass.entry), 0, 0.8e-3) << pass.name;
-    const Vec3 to_plane = joint.X_JP_default.inverse() * pass.target;
+    const Vec3 to_plane = joint.X_JP_default->inverse() * pass.target;
     EXPECT_NEAR(to_plane.y(), 0, 0.5e-3) << pass.name << " leaves the image plane";
   }
   EXPECT_LT(bursa(joint.injections[0].target), -0.3e-3);

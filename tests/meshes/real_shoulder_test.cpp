@@ -52,7 +52,7 @@ TEST_F(RealShoulder, HasAtLeastTwentyFiveStructuresAndAllTheirFiles) {
 
 TEST_F(RealShoulder, ProbeAndNeedleStartOnTheSkin) {
   const DistanceTree skin = tree("s_skin_outer.ply");
-  EXPECT_LT(skin.distance(joint_.X_JP_default.translation(), 0.1), 0.5e-3);
+  EXPECT_LT(skin.distance(joint_.X_JP_default->translation(), 0.1), 0.5e-3);
   for (const PlannedInjection& pass : joint_.injections) {
     EXPECT_LT(skin.distance(pass.entry, 0.1), 0.8e-3) << pass.name;
   }
