@@ -233,8 +233,8 @@ Result<CompileOutcome> compile_joint(const JointFile& file, const CompileOptions
   filler.kind = "filler";
   report.structures.push_back(std::move(filler));
   report.structures.insert(report.structures.end(), reports.begin(), reports.end());
-  const auto space =
-      stages.run("measuring distances", 0.1, [&] { return make_labelled_space(file, *surfaces); });
+  const auto space = stages.run("measuring distances", 0.1,
+                                [&] { return make_labelled_space(file, *surfaces, progress); });
   if (!space) return tl::unexpected(space.error());
   Result<TetMesh> mesh = mesh_regions(*space, stages, report);
   if (!mesh) return tl::unexpected(mesh.error());

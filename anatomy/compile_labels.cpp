@@ -73,8 +73,10 @@ double construct_thickness(const Structure& s) {
 // Fields of all structures by index, surfaces first, then the constructs made from them.
 class FieldMaker {
  public:
-  FieldMaker(const JointFile& file, const PreparedSurfaces& surfaces, const Box& box)
+  FieldMaker(const JointFile& file, const PreparedSurfaces& surfaces, const Box& box,
+             const Progress& progress)
       : file_(file),
+        progress_(progress),
         surfaces_(surfaces),
         box_(box),
         bands_(construct_bands(file)),
@@ -82,6 +84,7 @@ class FieldMaker {
         sizing_(file.structures.size()) {}
 
   void make_surfaces() {
+    tell(file_.body.name);
     body_ = surface_field(surfaces_.body, "", sizing_of(file_, file_.body, 0));
     named_[""] = &body_;
     for (std::size_t i = 0; i < fields_.size(); ++i) {
@@ -89,6 +92,7 @@ class FieldMaker {
       const PreparedSurface& surface = *surfaces_.structures[i];
       const Structure& s = file_.structures[i];
       sizing_[i] = sizing_of(file_, s, surface.thickness);
+      tell(s.name);
       fields_[i] = surface_field(surface, s.name, sizing_[i]);
       named_[s.name] = &*fields_[i];
     }
@@ -111,6 +115,13 @@ class FieldMaker {
   [[nodiscard]] const RegionSizing& sizing(std::size_t i) const { return sizing_[i]; }
 
  private:
+  // Each structure takes its share of this stage.
+  void tell(const std::string& name) {
+    if (progress_)
+      progress_("measuring distances: " + name,
+                0.1 + 0.1 * n_told_++ / static_cast<double>(fields_.size() + 1));
+  }
+
   DistanceField surface_field(const PreparedSurface& surface, const std::string& name,
                               const RegionSizing& size) const {
     const double spacing = spacing_of(file_, size, surface.thickness);
@@ -136,6 +147,7 @@ class FieldMaker {
 
   void make_construct(std::size_t i) {
     Structure s = file_.structures[i];
+    tell(s.name);
     const double thickness = construct_thickness(s);
     sizing_[i] = sizing_of(file_, s, thickness);
     if (auto* end = std::get_if<EndConstruct>(&s.shape)) {
@@ -157,6 +169,8 @@ class FieldMaker {
   }
 
   const JointFile& file_;
+  const Progress& progress_;
+  double n_told_ = 0;
   const PreparedSurfaces& surfaces_;
   Box box_;
   std::map<std::string, double> bands_;
@@ -239,7 +253,8 @@ Result<void> check_sizes(const JointFile& file, const PreparedSurfaces& surfaces
 
 }  // namespace
 
-Result<LabelledSpace> make_labelled_space(const JointFile& file, const PreparedSurfaces& surfaces) {
+Result<LabelledSpace> make_labelled_space(const JointFile& file, const PreparedSurfaces& surfaces,
+                                          const Progress& progress) {
   LabelledSpace space;
   const double margin = file.facet_size;
   Box box = grown(surfaces.body.tree.lower(), surfaces.body.tree.upper(), margin);
@@ -251,7 +266,7 @@ Result<LabelledSpace> make_labelled_space(const JointFile& file, const PreparedS
     return fail(ErrorCode::failed, "the region of interest lies outside the body", file.name);
   }
   if (auto ok = check_sizes(file, surfaces, box); !ok) return tl::unexpected(ok.error());
-  FieldMaker maker(file, surfaces, box);
+  FieldMaker maker(file, surfaces, box, progress);
   maker.make_surfaces();
   maker.make_constructs();
   space.resolve.box = box;

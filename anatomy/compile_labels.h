@@ -2,6 +2,7 @@
 #pragma once
 #include "anatomy/compile_surfaces.h"
 #include "anatomy/resolve.h"
+#include "core/progress.h"
 
 namespace artus {
 
@@ -18,8 +19,10 @@ struct LabelledSpace {
 
 /// Samples the distance fields of all structures and makes the constructs from them. Structures
 /// without a surface and constructs that name one are left out. Requires: `surfaces` of `file`.
-/// Errors: failed when body and region of interest do not meet.
+/// Errors: failed when body and region of interest do not meet; invalid when the mesh sizes ask for
+/// more than can be made.
 [[nodiscard]] Result<LabelledSpace> make_labelled_space(const JointFile& file,
-                                                        const PreparedSurfaces& surfaces);
+                                                        const PreparedSurfaces& surfaces,
+                                                        const Progress& progress);
 
 }  // namespace artus

@@ -218,7 +218,7 @@ class Repair {
     for (const double details : {120, 60}) {
       const double detail = std::max(diagonal / details, kFinest);
       wrapped = make_wrap(mesh(), detail, detail / 20);
-      if (wrapped && signed_volume(*wrapped) > kHollow * volume) break;
+      if (wrapped && signed_volume(*wrapped) > kHollow * std::abs(volume)) break;
     }
     return wrapped;
   }
