@@ -169,7 +169,7 @@ void LineSynthesis::synthesise(const BeamTracer& tracer, std::span<const RegionA
           scratch.bent.at(z) + shape_->plane_elevation(p, z) * elevation;
       scratch.plane.length[scratch.plane.size++] = z;
     }
-    tracer.trace_along(scratch.plane, elevation, scratch.side);
+    tracer.trace_along(scratch.plane, elevation, scratch.central, scratch.side);
     add_plane(p, scratch.side, regions, scratch.view, scratch.gain, re, im);
   }
 }

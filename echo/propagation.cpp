@@ -56,6 +56,8 @@ struct BeamTracer::Walk {
   double attenuation = 0;  // Np, two-way
   double slope = 0;        // Np/Hz, two-way
   double log_transmission = 0;
+  const BeamTrace* central = nullptr;  // of the middle plane, for the others
+  std::size_t central_run = 0;         // the one beside this beam's place
 
   [[nodiscard]] double log_gain(double sigma) const noexcept {
     const double shift = slope * sigma;
@@ -122,9 +124,28 @@ bool BeamTracer::start(Walk& walk, RegionId region, double length) const noexcep
   return walk.trace.contact && !regions_[region].opaque && region != kBeyond;
 }
 
+/// A region's own coordinates at the run's middle; for a side plane on the tangent of the middle
+/// plane's, a millimetre or two away.
+MaterialPoint BeamTracer::find_material(Walk& walk, const RegionAcoustics& region,
+                                        const BeamRun& run) noexcept {
+  if (walk.central != nullptr && region.course) {
+    const BeamTrace& central = *walk.central;
+    std::size_t& i = walk.central_run;
+    while (i + 1 < central.n_runs && central.runs[i].path_end <= run.path_begin) ++i;
+    for (std::size_t k = i; k < std::min(i + 2, central.n_runs); ++k) {
+      const BeamRun& beside = central.runs[k];
+      if (beside.region != run.region) continue;
+      MaterialPoint point = beside.middle;
+      point.place += point.gradient * (run.p_middle_J - beside.p_middle_J);
+      return point;
+    }
+  }
+  return locate_in_material(region, run.p_middle_J);
+}
+
 /// Notes how the run lies to the fibres at its middle, `half_way` (m) from its begin. Returns the
 /// factor on its attenuation.
-double BeamTracer::follow_fibres(const RegionAcoustics& region, BeamRun& run,
+double BeamTracer::follow_fibres(Walk& walk, const RegionAcoustics& region, BeamRun& run,
                                  const Vec3& half_way) noexcept {
   run.along = 0;
   run.across = 1;
@@ -137,7 +158,9 @@ double BeamTracer::follow_fibres(const RegionAcoustics& region, BeamRun& run,
     default:
       return 1;
   }
-  const MaterialPoint middle = locate_in_material(region, run.p_J + half_way);
+  run.p_middle_J = run.p_J + half_way;
+  run.middle = find_material(walk, region, run);
+  const MaterialPoint& middle = run.middle;
   run.material = middle.place - middle.gradient * half_way;
   run.material_step = middle.gradient * run.step_J;
   const Vec3 sheet = middle.gradient.row(0);
@@ -167,7 +190,7 @@ bool BeamTracer::cross(Walk& walk, const Vec3& point, const Vec3& direction, dou
     run.region = walk.region;
     run.log_gain_begin = walk.log_gain(spectrum_sigma_);
     run.path_begin = walk.path;
-    const double loss = follow_fibres(region, run, 0.5 * piece / time_scale * direction);
+    const double loss = follow_fibres(walk, region, run, 0.5 * piece / time_scale * direction);
     walk.path += piece;
     walk.sample += piece * samples_per_m;
     walk.attenuation += piece * region.attenuation * loss;
@@ -228,11 +251,12 @@ void BeamTracer::trace_bent(const Vec3& origin_J, const Vec3& direction_J, BeamT
 }
 
 void BeamTracer::trace_along(const BeamPath& path, const Vec3& elevation_axis_J,
-                             BeamTrace& trace) const noexcept {
+                             const BeamTrace& central, BeamTrace& trace) const noexcept {
   trace.n_runs = 0;
   trace.n_echoes = 0;
   trace.contact = true;
   Walk walk{trace, Vec3::UnitZ()};
+  walk.central = &central;
   bool alive = true;
   for (std::size_t i = 0; alive && i + 1 < path.size; ++i) {
     const Vec3 way = path.p_J[i + 1] - path.p_J[i];

@@ -28,6 +28,8 @@ struct BeamRun {
   Vec3 material_step = Vec3::Zero();  ///< m per sample
   double along = 0;                   ///< |cosine| between wave and fibres
   double across = 1;                  ///< |cosine| between wave and the normal of sheets
+  Vec3 p_middle_J = Vec3::Zero();     ///< m, the run's middle
+  MaterialPoint middle;               ///< the region's own coordinates there
 };
 
 /// An echo of an interface.
@@ -77,8 +79,9 @@ class BeamTracer {
                   BeamPath& path) const noexcept;
 
   /// The beam of another elevation plane: along the straight pieces of `path`, whose lengths (not
-  /// the geometric ones) tell the time. Cost: one query per piece.
-  void trace_along(const BeamPath& path, const Vec3& elevation_axis_J,
+  /// the geometric ones) tell the time. How fibres run it takes from `central`, the beam of the
+  /// middle plane, where that is in the same region. Cost: one query per piece.
+  void trace_along(const BeamPath& path, const Vec3& elevation_axis_J, const BeamTrace& central,
                    BeamTrace& trace) const noexcept;
 
  private:
@@ -89,7 +92,9 @@ class BeamTracer {
   bool enter(Walk& walk, const TissueInterval& interval, const Vec3& point) const noexcept;
   bool pass(Walk& walk, const Vec3& from, const Vec3& direction, double length,
             double time_scale) const noexcept;
-  static double follow_fibres(const RegionAcoustics& region, BeamRun& run,
+  static MaterialPoint find_material(Walk& walk, const RegionAcoustics& region,
+                                     const BeamRun& run) noexcept;
+  static double follow_fibres(Walk& walk, const RegionAcoustics& region, BeamRun& run,
                               const Vec3& half_way) noexcept;
   void add_repeats(BeamTrace& trace) const noexcept;
 
