@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <tbb/parallel_for.h>
 
@@ -42,6 +43,16 @@ DistanceStatistics statistics(std::vector<Sample> samples) {
   return s;
 }
 
+// The field's distance, infinite where the field only tells the side: its band may be narrower than
+// the smoothed edge of another one.
+double known_distance(const DistanceField& field, const Vec3& p) {
+  constexpr double kRounding = 0.999;  // samples are kept in single precision
+  const double d = field.value(p);
+  return std::abs(d) < kRounding * field.band()
+             ? d
+             : std::copysign(std::numeric_limits<double>::infinity(), d);
+}
+
 // Volumes a layer has inside body and region of interest, and what higher layers leave of it. The
 // smoothed edge is that of the nearest boundary: where two coincide (a shell and the skin it
 // lines), a product of both would lose a sixth of a sample's width.
@@ -49,14 +60,14 @@ void integrate_layer(const RegionLabels& labels, std::size_t layer, StructureRep
   const DistanceField& field = labels.layers[layer].field;
   const double h = field.spacing();
   const auto outside_region = [&](const Vec3& p) {
-    const double body = labels.body.value(p);
+    const double body = known_distance(labels.body, p);
     if (!labels.region_of_interest) return body;
     return std::max(body, signed_distance(*labels.region_of_interest, p));
   };
   const auto outside_rest = [&](const Vec3& p) {
     double outside = outside_region(p);
     for (std::size_t i = 0; i < layer; ++i)
-      outside = std::max(outside, -labels.layers[i].field.value(p));
+      outside = std::max(outside, -known_distance(labels.layers[i].field, p));
     return outside;
   };
   const auto volume = [&](const auto& outside) {

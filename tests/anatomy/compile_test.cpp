@@ -233,7 +233,21 @@ TEST(CompileJoint, ShellHasTheVolumeOfItsThickness) {
   folder.write_toml(
       "[[structure]]\nname = \"skin\"\ntissue = \"skin\"\nshell = { thickness = 2.0 }\n");
   const double expected = ball(20 * kMm) - ball(18 * kMm);
-  EXPECT_NEAR(report_of(compile(folder), "skin").resolved_volume, expected, 0.03 * expected);
+  const CompileOutcome outcome = compile(folder);
+  EXPECT_NEAR(report_of(outcome, "skin").resolved_volume, expected, 0.03 * expected);
+  EXPECT_NEAR(report_of(outcome, "skin").region_volume, expected, 0.01 * expected)
+      << "the shell's outside is the body's: its edge must be smoothed once";
+}
+
+TEST(CompileJoint, AFineStructureTakesItsOwnVolumeFromACoarseOneAndNoMore) {
+  const JointFolder folder("fine-in-coarse");
+  folder.add_sphere("body", Vec3(0, 0, 0), 20);
+  folder.add_sphere("head", Vec3(2, 0, 0), 1.5);
+  folder.add_sphere("belly", Vec3(0, 0, 0), 8);
+  folder.write_toml(kTwoBalls);
+  const CompileOutcome outcome = compile(folder);
+  EXPECT_NEAR(report_of(outcome, "belly").lost_volume, ball(1.5 * kMm), 0.1 * ball(1.5 * kMm));
+  EXPECT_NEAR(report_of(outcome, "belly").region_volume, ball(8 * kMm), 0.01 * ball(8 * kMm));
 }
 
 // What an author should look at: a ball half outside the skin, one mostly covered, one far away.
