@@ -17,6 +17,7 @@ constexpr double kFirstRing = 0.4;   // assumed: of the shaft's echo
 constexpr double kRingDecay = 0.62;  // assumed: per round trip in the bore
 constexpr int kMaxRings = 24;
 constexpr double kFaceReflection = 0.1;  // assumed: as in propagation
+constexpr double kBevel = 1e-3;          // m of the shaft's end that show the bevel's edges
 constexpr double kTipEcho = 0.09;        // assumed: -21 dB, the bevel's edge seen from any side
 constexpr double kShadow = 0.8;          // assumed: share of the blocked aperture that is lost
 constexpr double kSideLobe = 0.016;      // assumed: -36 dB, of an apodised aperture, both ways
@@ -245,8 +246,9 @@ void NeedleEcho::add(const Scanline& line, const Pose& X_JP, const BeamTrace& tr
   const double shaft = heard * needle_reflectivity(needle_, angle, phase_);
   add_shaft(place, sample, shaft, re);
   add_point_echo(2 * sample, shaft * shaft * kFaceReflection, re);
-  if (place.along < 1e-3) {  // the last millimetre: the bevel's edges
-    add_point_echo(sample, heard * kTipEcho, im);
+  double on_axis = 0;
+  if (place.along < kBevel && trace.find_sample(place.depth, on_axis, log_gain)) {
+    add_point_echo(on_axis, heard * kTipEcho, im);
   }
   const double off = angle / kDegree / kRingLobe;
   double ring = shaft * kFirstRing * std::exp(-off * off);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 #include <cmath>
+#include <cstdio>
 #include <string>
 #include <utility>
 
@@ -17,8 +18,9 @@ class RangeCheck {
   void in_range(const char* name, double value, double low, double high) {
     if (std::isfinite(value) && value >= low && value <= high) return;
     if (!message_.empty()) message_ += "; ";
-    message_ += std::string(name) + " is " + std::to_string(value) + ", must be " +
-                std::to_string(low) + " .. " + std::to_string(high);
+    char text[160];
+    std::snprintf(text, sizeof text, "%s is %.6g, must be %.6g .. %.6g", name, value, low, high);
+    message_ += text;
   }
 
   /// Errors: invalid when anything was noted.

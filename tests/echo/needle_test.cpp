@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
 
 #include <gtest/gtest.h>
 
@@ -44,6 +47,41 @@ TEST(Needle, CastsAShadowAndEndsAtItsTip) {
   EXPECT_LT(below(with, 90, 100) / below(without, 90, 100), edge);
   EXPECT_LT(edge, below(with, 140, 148) / below(without, 140, 148));
   EXPECT_DOUBLE_EQ(below(with, 165, 220), below(without, 165, 220));
+}
+
+TEST(Needle, ShowsItsTipWhereTheTruthSays) {
+  const std::array<FlatLayer, 1> layers{{{"muscle", 60e-3}}};
+  const auto scene = test::make_block_scene(layers, [](CompiledJoint& joint) {
+    Acoustic& muscle = test::acoustic_of(joint, "muscle");
+    muscle.speed_of_sound = 1540;
+    muscle.attenuation = 0;
+    muscle.backscatter = 0;
+  });
+  ImageSettings settings = test::bare_settings();
+  settings.pixel = 0.05e-3;
+  Renderer renderer(scene, Transducer{}, settings);
+  const Pose X_JP = test::probe_at();
+  for (const int gauge : {18, 22, 25}) {
+    for (const double degrees : {45.0, 60.0, 70.0}) {  // the tip outshines the shaft
+      NeedleView needle = test::needle_at(X_JP, Vec3(2e-3, 0, 22e-3), degrees * kDegree);
+      needle.shape = *needle_of_gauge(gauge);
+      const Frame& frame = renderer.render(X_JP, needle);
+      const NeedleTruth truth = locate_needle(needle, X_JP, Transducer{}, settings);
+      // the brightest pixel of the tip's column is the tip's own, of 0.05 mm
+      const auto x = static_cast<std::size_t>(std::lround(truth.tip.x));
+      const auto width = static_cast<std::size_t>(frame.width);
+      std::size_t lowest = 0;
+      std::uint8_t best = 0;
+      for (auto y = static_cast<std::size_t>(truth.tip.y) - 8;
+           y < static_cast<std::size_t>(truth.tip.y) + 8; ++y) {
+        if (frame.image[y * width + x] <= best) continue;
+        best = frame.image[y * width + x];
+        lowest = y;
+      }
+      EXPECT_GT(best, 100) << gauge << " G, " << degrees;
+      EXPECT_NEAR(static_cast<double>(lowest), truth.tip.y, 3) << gauge << " G, " << degrees;
+    }
+  }
 }
 
 TEST(Needle, LightTellsTheShadowWithoutNoise) {
