@@ -7,10 +7,10 @@
 namespace artus {
 namespace {
 constexpr std::array<LugreParams, 4> kSets{{
-    {1.326e3, 1.423e3, 1.04e-1, 0.628, 0.045, 0.256e3, 0.020, 2},
-    {1.419e3, 1.312e3, 1.0, 0.913, 0.033, 0.152e3, 0.020, 2},
-    {2.469e3, 0.845e3, 2.76e-1, 1.386, 0.084, 0.079e3, 0.040, 2},
-    {2.592e3, 0.879e3, 2.40, 1.763, 0.052, 0.075e3, 0.040, 2},
+    {1.326e3, 1.423e3, 1.04e-1, 0.628, 0.045, 0.256e3, 0.020},
+    {1.419e3, 1.312e3, 1.0, 0.913, 0.033, 0.152e3, 0.020},
+    {2.469e3, 0.845e3, 2.76e-1, 1.386, 0.084, 0.079e3, 0.040},
+    {2.592e3, 0.879e3, 2.40, 1.763, 0.052, 0.075e3, 0.040},
 }};
 }  // namespace
 
@@ -23,16 +23,16 @@ double lugre_level(const LugreParams& params, double v) noexcept {
 }
 
 double LugreBristle::advance(const LugreParams& params, double moved, double v) noexcept {
-  const double steady = std::copysign(lugre_level(params, v) / params.sigma0, moved);
-  z_ = steady + (z_ - steady) * std::exp(-std::abs(moved / steady));
-  return z_;
+  const double steady = std::copysign(lugre_level(params, v), moved);
+  load_ = steady + (load_ - steady) * std::exp(-params.sigma0 * std::abs(moved / steady));
+  return load_;
 }
 
 double LugreBristle::step(const LugreParams& params, double moved, double v, double dt,
                           double sigma1) noexcept {
-  const double before = z_;
-  const double rate = (advance(params, moved, v) - before) / dt;
-  return params.sigma0 * z_ + std::min(sigma1, params.sigma1) * rate + params.sigma2 * moved / dt;
+  const double before = load_;
+  const double rate = (advance(params, moved, v) - before) / (params.sigma0 * dt);
+  return load_ + std::min(sigma1, params.sigma1) * rate + params.sigma2 * moved / dt;
 }
 
 void LugreFriction::reset(double depth) noexcept {
@@ -43,17 +43,22 @@ void LugreFriction::reset(double depth) noexcept {
 }
 
 Wrench LugreFriction::step(const NeedleTick& tick) noexcept {
-  const double z = bristle_.advance(params_, tick.depth - last_x_, tick.velocity);
+  const double moved = tick.depth - last_x_;
   last_x_ = tick.depth;
   const double normal = tick.sum_over_shaft([](const Haptic& h) {
     return h.hard ? 0.0 : h.cutting_force * h.friction;
   }) / params_.length;
-  const double sigma1 =
-      normal > 0 ? std::min(params_.sigma1, params_.damping_limit / normal) : params_.sigma1;
+  LugreParams limited = params_;
+  if (normal > 0) {
+    limited.sigma0 = std::min(params_.sigma0, params_.stiffness_limit / normal);
+    limited.sigma1 = std::min(params_.sigma1, params_.damping_limit / normal);
+  }
+  const double load = bristle_.advance(limited, moved, tick.velocity);
+  const double z = bristle_.deflection(limited);
   const double window = deflections_.duration(tick.dt);
   const double bristle_rate = (z - deflections_.push(z)) / window;
   const double speed = (tick.depth - depths_.push(tick.depth)) / window;
-  const double ratio = params_.sigma0 * z + sigma1 * bristle_rate + params_.sigma2 * speed;
+  const double ratio = load + limited.sigma1 * bristle_rate + params_.sigma2 * speed;
   return {-normal * ratio * tick.axis, Vec3::Zero()};
 }
 

@@ -12,15 +12,18 @@ namespace artus {
 /// states no units; they are millimetres and seconds: with metres the bristle would have to bend by
 /// half a metre before the needle slides. Here SI.
 struct LugreParams {
-  double sigma0 = 2.469e3;   ///< 1/m   (2.469 1/mm)
-  double sigma1 = 0.845e3;   ///< s/m   (0.845 s/mm)
-  double sigma2 = 2.76e-1;   ///< s/m   (2.76e-4 s/mm)
-  double mu_c = 1.386;       ///< -
-  double mu_s = 0.084;       ///< -
-  double alpha = 0.079e3;    ///< s/m   (0.079 s/mm)
-  double length = 0.040;     ///< m, shaft length the set was identified with; F_n grows with it
-  double damping_limit = 2;  ///< N s/m on F_n sigma1; assumed: the published value is above 1 kN
-                             ///< s/m, which no sampled device can render
+  double sigma0 = 2.469e3;  ///< 1/m   (2.469 1/mm)
+  double sigma1 = 0.845e3;  ///< s/m   (0.845 s/mm)
+  double sigma2 = 2.76e-1;  ///< s/m   (2.76e-4 s/mm)
+  double mu_c = 1.386;      ///< -
+  double mu_s = 0.084;      ///< -
+  double alpha = 0.079e3;   ///< s/m   (0.079 s/mm)
+  double length = 0.040;    ///< m, shaft length the set was identified with; F_n grows with it
+  double stiffness_limit = 1000;  ///< N/m on F_n sigma0; assumed: published, a shaft deep in tissue
+                                  ///< is as stiff as bone (4 kN/m), and each step of a device's
+                                  ///< encoder a knock; of the order of the tissues' own K_t
+  double damping_limit = 2;       ///< N s/m on F_n sigma1; assumed: the published value is above 1
+                                  ///< kN s/m, which no sampled device can render
 };
 
 /// The four sets, needle 20 mm at 0.025 and 0.05 Hz, 40 mm at 0.025 (the source's choice, default
@@ -31,30 +34,36 @@ struct LugreParams {
 [[nodiscard]] ARTUS_REALTIME double lugre_level(const LugreParams& params, double v) noexcept;
 
 /// The bristle's state and force coefficient, for one contact. f / F_n = sigma0 z + sigma1 dz/dt +
-/// sigma2 v (2.4-2.6). The state is advanced by the exact solution for constant speed, so that
-/// |z| <= max(g) / sigma0 holds for any step.
+/// sigma2 v (2.4-2.6). What is kept is the load sigma0 z, so that the force stays when sigma0
+/// changes. It is advanced by the exact solution for constant speed, so that |z| <= max(g) / sigma0
+/// holds for any step.
 class LugreBristle {
  public:
-  /// Advances over `moved` m at about `v` m/s (for the level g). Returns z, m.
+  /// Advances over `moved` m at about `v` m/s (for the level g). Returns sigma0 z.
   ARTUS_REALTIME double advance(const LugreParams& params, double moved, double v) noexcept;
   /// Advances over `moved` m in `dt` s with `v` for the level g; returns f / F_n, in the direction
   /// of motion (the hand feels its opposite). `sigma1` replaces the set's when smaller.
   ARTUS_REALTIME double step(const LugreParams& params, double moved, double v, double dt,
                              double sigma1) noexcept;
-  ARTUS_REALTIME void reset() noexcept { z_ = 0; }
-  [[nodiscard]] double deflection() const noexcept { return z_; }  ///< z, m
+  ARTUS_REALTIME void reset() noexcept { load_ = 0; }
+  /// z, m
+  [[nodiscard]] double deflection(const LugreParams& params) const noexcept {
+    return load_ / params.sigma0;
+  }
 
  private:
-  double z_ = 0;
+  double load_ = 0;
 };
 
 /// Friction along the shaft: F_n is the sum over the layers of f_R * friction scale * shaft length
 /// in the layer / set's length. (The source's F_n is the cutting force itself, which would make
-/// friction vanish on withdrawal.) The rates dz/dt and v are differences over a fixed time: with
-/// the loop's own period an encoder's step would be felt as a knock that grows with the rate.
+/// friction vanish on withdrawal.) The steady force is the published one; the bristle is no stiffer
+/// than stiffness_limit, so that neither an encoder's step nor the loop's rate is felt. dz/dt is a
+/// difference over a fixed time: over the loop's own period an encoder's step would be a knock that
+/// grows with the rate.
 class LugreFriction final : public ForceModel {
  public:
-  static constexpr double kRateWindow = 1e-3;  ///< s; the source's period
+  static constexpr double kRateWindow = 8e-3;  ///< s; assumed: some steps of a coarse encoder
   /// Requires: dt > 0 s, the fixed period of the loop.
   explicit LugreFriction(double dt, const LugreParams& params = {}) noexcept
       : params_(params), deflections_(kRateWindow, dt), depths_(kRateWindow, dt) {}

@@ -16,14 +16,14 @@ namespace {
 
 using Run = Experiment (*)(const ExperimentOptions&, const DeviceLimits&);
 
-constexpr std::array<std::string_view, 11> kNames{
-    "wall-vs-classic", "wall-move",           "wall-stop",      "wall-both",
-    "wall-nine",       "wall-seven",          "clamp-redirect", "wall-energy",
-    "rates",           "velocity-estimators", "layer-changes"};
+constexpr std::array<std::string_view, 12> kNames{
+    "wall-vs-classic", "wall-release", "wall-move",           "wall-stop",
+    "wall-both",       "wall-nine",    "wall-seven",          "clamp-redirect",
+    "wall-energy",     "rates",        "velocity-estimators", "layer-changes"};
 constexpr std::array<Run, kNames.size()> kRuns{
-    run_wall_vs_classic, run_wall_move,           run_wall_stop,      run_wall_both,
-    run_wall_nine,       run_wall_seven,          run_clamp_redirect, run_wall_energy,
-    run_rates,           run_velocity_estimators, run_layer_changes};
+    run_wall_vs_classic, run_wall_release, run_wall_move,           run_wall_stop,
+    run_wall_both,       run_wall_nine,    run_wall_seven,          run_clamp_redirect,
+    run_wall_energy,     run_rates,        run_velocity_estimators, run_layer_changes};
 
 void add_cells(std::string& out, const std::vector<std::string>& cells) {
   for (std::size_t i = 0; i < cells.size(); ++i) out += (i == 0 ? "" : ",") + cells[i];

@@ -9,6 +9,8 @@ namespace artus {
 
 /// Fig 2-4: direct, spring, Voigt and tracking wall on one tissue; stop, then the hand lets go.
 [[nodiscard]] Experiment run_wall_vs_classic(const ExperimentOptions&, const DeviceLimits&);
+/// Stop, then let go at once or slowly: with the wall alone, with friction, and without tissue.
+[[nodiscard]] Experiment run_wall_release(const ExperimentOptions&, const DeviceLimits&);
 /// Fig 2-5: the force rises over 2 mm to 1 N and stays.
 [[nodiscard]] Experiment run_wall_move(const ExperimentOptions&, const DeviceLimits&);
 /// Fig 2-6: the force settles to 0 after a stop and builds again.

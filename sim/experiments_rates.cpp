@@ -136,18 +136,21 @@ Experiment run_rates(const ExperimentOptions& options, const DeviceLimits& devic
   for (const DeviceLimits& each : device_table()) {
     const auto off = differences(each, calm);
     add(each, "none", off);
-    if (each.name == device.name) claim("no tremor", off);
+    claim(std::string(each.name) + ", no tremor", off);
   }
-  std::array<double, 2> together{};
-  for (std::uint64_t i = 0; i < kTremorSeeds; ++i) {
-    HandParams hand;
-    hand.seed = options.seed + i;
-    const auto off = differences(device, hand);
-    add(device, std::to_string(hand.seed), off);
-    for (std::size_t k = 0; k < off.size(); ++k) together[k] += off[k] * off[k] / kTremorSeeds;
+  for (const DeviceLimits& each : device_table()) {
+    std::array<double, 2> together{};
+    for (std::uint64_t i = 0; i < kTremorSeeds; ++i) {
+      HandParams hand;
+      hand.seed = options.seed + i;
+      const auto off = differences(each, hand);
+      add(each, std::to_string(hand.seed), off);
+      for (std::size_t k = 0; k < off.size(); ++k) together[k] += off[k] * off[k] / kTremorSeeds;
+    }
+    for (double& share : together) share = std::sqrt(share);
+    claim(std::string(each.name) + ", " + std::to_string(kTremorSeeds) + " tremors together",
+          together);
   }
-  for (double& share : together) share = std::sqrt(share);
-  claim(std::to_string(kTremorSeeds) + " tremors together", together);
   return out;
 }
 

@@ -75,7 +75,7 @@ TEST(LugreFriction, BristleStaysBoundedAtAnySpeedAndStep) {
     const double dt = std::pow(10.0, -6 + 6 * uniform_noise(3, i));
     const double f = bristle.step(p, moved, moved / dt, dt, 1e-3);
     ASSERT_TRUE(std::isfinite(f));
-    ASSERT_LE(std::abs(bristle.deflection()), bound);
+    ASSERT_LE(std::abs(bristle.deflection(p)), bound);
   }
 }
 
@@ -93,6 +93,22 @@ TEST(LugreFriction, SteadyForceIsTheLevelTimesTheNormalForceOfTheShaftInTheLayer
   const LugreParams p;
   const double normal = 2.0 * x / p.length;
   EXPECT_NEAR(force, -normal * (lugre_level(p, v) + p.sigma2 * v), 0.01 * normal);
+}
+
+TEST(LugreFriction, AShaftDeepInTissueIsNoStifferThanTheLimit) {
+  test::AxialTick line(test::soft(5.0));
+  LugreFriction friction(1e-3);
+  const double depth = 0.03;
+  friction.reset(depth);
+  static_cast<void>(friction.step(line.at(depth, Motion::still)));
+  const LugreParams p;
+  ASSERT_GT(5.0 * depth / p.length * p.sigma0, 5 * p.stiffness_limit);
+  constexpr double kPush = 1e-6;  // m, far less than the bristle bends
+  static_cast<void>(friction.step(line.at(depth + kPush, Motion::still)));
+  double force = 0;
+  for (int i = 0; i < 20; ++i)  // until the rates have died away
+    force = friction.step(line.at(depth + kPush, Motion::still)).force.z();
+  EXPECT_NEAR(-force, p.stiffness_limit * kPush, 0.05 * p.stiffness_limit * kPush);
 }
 
 TEST(LugreFriction, OpposesMotionBothWaysAlike) {
