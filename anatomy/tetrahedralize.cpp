@@ -129,8 +129,12 @@ std::string run_tetgen(const char* switches, const TetMesh& mesh, const TetParts
 
 std::optional<Filling> find_filling(const char* switches, const TetMesh& mesh,
                                     const TetParts& parts) {
-  constexpr double kPatience = 300;  // s
-  const auto bytes = run_isolated([&] { return run_tetgen(switches, mesh, parts); }, kPatience);
+  // Fifty times what it takes on an idle machine, so that a busy one gets the same tetrahedra.
+  constexpr double kPatience = 300;                // s
+  constexpr double kPatiencePerInterface = 10e-3;  // s
+  const double seconds =
+      kPatience + kPatiencePerInterface * static_cast<double>(mesh.interfaces.size());
+  const auto bytes = run_isolated([&] { return run_tetgen(switches, mesh, parts); }, seconds);
   if (!bytes) return std::nullopt;
   Filling filling;
   std::size_t at = 0;
