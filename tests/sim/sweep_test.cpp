@@ -16,6 +16,7 @@
 
 #include "core/units.h"
 #include "sim/echo_phantom.h"
+#include "sim/echo_truth.h"
 #include "sim/sweep_video.h"
 #include "tests/support/temporary_folder.h"
 
@@ -83,6 +84,7 @@ TEST_F(Sweep, DrawsEveryPoseWithItsTruth) {
     const cv::Mat shadow =
         cv::imread((folder_ / "a" / truth.at("shadow_mask").get<std::string>()).string(),
                    cv::IMREAD_UNCHANGED);
+    EXPECT_NEAR(truth.at("contact").at("share").get<double>(), 1, 1e-6);
     EXPECT_EQ(image.size(), labels.size());
     EXPECT_EQ(labels.type(), CV_16UC1);
     EXPECT_EQ(shadow.at<std::uint8_t>(12, 40), 0);    // above the needle
@@ -90,6 +92,14 @@ TEST_F(Sweep, DrawsEveryPoseWithItsTruth) {
     EXPECT_EQ(labels.at<std::uint16_t>(5, 40), kFirstRegion);
   }
   EXPECT_FALSE(std::getline(lines, line));
+}
+
+TEST(ContactTruth, NamesTheLinesThatAreLifted) {
+  Frame frame;
+  frame.contact = {1, 1, 0, 0.25F, 1, 0};
+  const nlohmann::json contact = contact_json(frame);
+  EXPECT_EQ(contact.at("lifted_lines"), nlohmann::json::parse("[[2, 3], [5, 5]]"));
+  EXPECT_NEAR(contact.at("share").get<double>(), 3.25 / 6, 1e-9);
 }
 
 TEST_F(Sweep, StoppedAndContinuedGivesTheSameBytesAsInOneGo) {
