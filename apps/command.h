@@ -67,6 +67,7 @@ void add_phantom_command(CLI::App& app, ExitCode& code);
 void add_echo_gates_command(CLI::App& app, ExitCode& code);
 void add_run_command(CLI::App& app, ExitCode& code);
 void add_experiment_command(CLI::App& app, ExitCode& code);
+void add_laws_command(CLI::App& app, ExitCode& code);
 void add_loop_command(CLI::App& app, ExitCode& code);
 void add_serve_command(CLI::App& app, ExitCode& code);
 void add_view_command(CLI::App& app, ExitCode& code);

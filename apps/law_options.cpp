@@ -10,6 +10,8 @@
 #include <string_view>
 #include <utility>
 
+#include "core/units.h"
+
 namespace artus {
 namespace {
 
@@ -71,6 +73,21 @@ Result<void> read_patient(const std::vector<std::string>& flags, PatientProfile&
   return {};
 }
 
+Result<void> read_workspace(const LawOptions& options, NeedleParams& needle) {
+  const std::vector<double>& mm = options.workspace_mm;
+  if (mm.empty()) return {};
+  const bool finite =
+      std::all_of(mm.begin(), mm.end(), [](double value) { return std::isfinite(value); });
+  if (mm.size() != 4 || !finite || !(mm[3] > 0))
+    return fail(ErrorCode::invalid, "needs centre x, y, z and a radius above 0, mm",
+                "--workspace-mm");
+  needle.use_workspace = true;
+  needle.workspace.centre = Vec3(mm[0], mm[1], mm[2]) * kMillimetre;
+  needle.workspace.radius = mm[3] * kMillimetre;
+  needle.workspace.push = options.workspace_push;
+  return {};
+}
+
 }  // namespace
 
 void add_law_options(CLI::App* command, LawOptions& options) {
@@ -101,6 +118,19 @@ void add_law_options(CLI::App* command, LawOptions& options) {
       ->add_option("--patient", options.patient,
                    "NAME=FACTOR on the tissues' cutting, friction, attracted, clamping, puncture")
       ->group(group);
+  command
+      ->add_option("--workspace-mm", options.workspace_mm,
+                   "X Y Z R: a sphere that the needle is pushed out of, frame of the joint")
+      ->expected(4)
+      ->group(group);
+  command->add_option("--workspace-push-n", options.workspace_push, "how hard, N")
+      ->check(CLI::Range(0.0, 50.0))
+      ->capture_default_str()
+      ->group(group);
+  command
+      ->add_flag("--passivity-control", options.passivity_control,
+                 "damp when the forces have given more energy than they took")
+      ->group(group);
 }
 
 Result<RunLaws> make_laws(const LawOptions& options, const CompiledJoint& joint) {
@@ -118,6 +148,9 @@ Result<RunLaws> make_laws(const LawOptions& options, const CompiledJoint& joint)
     return tl::unexpected<Error>(read.error());
   if (options.tap == "impulse") run.needle.hard.law = HardLaw::impulse;
   if (options.clamping == "plasticity") run.needle.clamping = ClampingLaw::plasticity;
+  if (const auto read = read_workspace(options, run.needle); !read)
+    return tl::unexpected<Error>(read.error());
+  run.passivity.control = options.passivity_control;
   run.needle.friction = lugre_sets().at(static_cast<std::size_t>(options.friction_set - 1));
   return run;
 }

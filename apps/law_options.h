@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "haptics/needle_model.h"
+#include "haptics/passivity.h"
 
 #include "apps/command.h"
 
@@ -17,6 +18,9 @@ struct LawOptions {
   std::string tap = "decaying_sinusoid";
   std::string clamping = "projection";
   int friction_set = 3;
+  std::vector<double> workspace_mm;  ///< centre x, y, z and radius, frame J; empty: none
+  double workspace_push = HemisphereParams{}.push;  ///< N
+  bool passivity_control = false;
 };
 void add_law_options(CLI::App* command, LawOptions& options);
 
@@ -25,10 +29,11 @@ struct RunLaws {
   LawSelection laws;
   PatientProfile patient;
   NeedleParams needle;
+  PassivityParams passivity;
 };
 
-/// What the flags mean for a joint. Errors: not_found (law, tissue of the joint), invalid (factor),
-/// each with the flag.
+/// What the flags mean for a joint. Errors: not_found (law, tissue of the joint), invalid (factor,
+/// workspace), each with the flag.
 [[nodiscard]] Result<RunLaws> make_laws(const LawOptions& options, const CompiledJoint& joint);
 
 }  // namespace artus

@@ -145,6 +145,7 @@ ExitCode run_loop(const LoopOptions& options) {
   params.laws = laws->laws;
   params.patient = laws->patient;
   params.needle = laws->needle;
+  params.passivity = laws->passivity;
   if (const auto valid = validate(params); !valid) return report_error(valid.error(), options.json);
   HapticCore core(std::make_shared<const Scene>(*joint), params);
   InjectingDevice hand(make_plan(**joint, options.speed_mm_s), *device, options.servo.rate_hz);

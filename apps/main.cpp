@@ -35,6 +35,7 @@ int run(int argc, char** argv) {
   artus::add_echo_gates_command(app, code);
   artus::add_run_command(app, code);
   artus::add_experiment_command(app, code);
+  artus::add_laws_command(app, code);
   artus::add_loop_command(app, code);
   artus::add_serve_command(app, code);
   artus::add_view_command(app, code);

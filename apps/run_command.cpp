@@ -79,6 +79,7 @@ ExitCode run_scenario(const RunOptions& options) {
   run_options.laws = laws->laws;
   run_options.patient = laws->patient;
   run_options.needle = laws->needle;
+  run_options.passivity = laws->passivity;
   run_options.probe.contact.footprint.length = view->transducer.width;
   run_options.probe.contact.footprint.width = view->transducer.elevation_height;
   const auto run = run_three_injections(*scene, (*joint)->injections, run_options, progress);

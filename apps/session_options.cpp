@@ -102,6 +102,7 @@ Result<SessionParams> make_session_params(const SessionOptions& options,
   params.laws = laws->laws;
   params.patient = laws->patient;
   params.needle = laws->needle;
+  params.passivity = laws->passivity;
   params.needle_shape.length = params.needle.contact.needle_length;
   if (!joint.injections.empty()) {
     const PlannedInjection& plan = joint.injections.front();

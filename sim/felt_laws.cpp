@@ -19,7 +19,7 @@ constexpr std::array<Field<PatientProfile>, 5> kPatient{{{"cutting", &PatientPro
                                                          {"clamping", &PatientProfile::clamping},
                                                          {"puncture", &PatientProfile::puncture}}};
 
-constexpr std::array<Field<LugreParams>, 8> kFriction{
+constexpr std::array<Field<LugreParams>, 9> kFriction{
     {{"sigma0", &LugreParams::sigma0},
      {"sigma1", &LugreParams::sigma1},
      {"sigma2", &LugreParams::sigma2},
@@ -27,7 +27,11 @@ constexpr std::array<Field<LugreParams>, 8> kFriction{
      {"mu_s", &LugreParams::mu_s},
      {"alpha", &LugreParams::alpha},
      {"length", &LugreParams::length},
+     {"stiffness_limit", &LugreParams::stiffness_limit},
      {"damping_limit", &LugreParams::damping_limit}}};
+
+constexpr std::array<Field<HemisphereParams>, 2> kWorkspace{
+    {{"radius", &HemisphereParams::radius}, {"push", &HemisphereParams::push}}};
 
 template <class Owner, class Fields>
 nlohmann::json numbers_of(const Owner& owner, const Fields& fields) {
@@ -68,8 +72,14 @@ Result<void> read_names(const nlohmann::json& json, Find find, std::optional<Law
 }  // namespace
 
 FeltLaws felt_laws_of(const SessionParams& params) {
-  return {params.laws, params.patient, params.needle.hard.law, params.needle.clamping,
-          params.needle.friction};
+  return {params.laws,
+          params.patient,
+          params.needle.hard.law,
+          params.needle.clamping,
+          params.needle.friction,
+          params.needle.use_workspace,
+          params.needle.workspace,
+          params.passivity};
 }
 
 void apply(const FeltLaws& felt, SessionParams& params) {
@@ -78,6 +88,9 @@ void apply(const FeltLaws& felt, SessionParams& params) {
   params.needle.hard.law = felt.tap;
   params.needle.clamping = felt.clamping;
   params.needle.friction = felt.friction;
+  params.needle.use_workspace = felt.use_workspace;
+  params.needle.workspace = felt.workspace;
+  params.passivity = felt.passivity;
 }
 
 nlohmann::json to_json(const FeltLaws& felt) {
@@ -86,7 +99,13 @@ nlohmann::json to_json(const FeltLaws& felt) {
           {"patient", numbers_of(felt.patient, kPatient)},
           {"impulse_tap", felt.tap == HardLaw::impulse},
           {"plasticity_clamping", felt.clamping == ClampingLaw::plasticity},
-          {"friction", numbers_of(felt.friction, kFriction)}};
+          {"friction", numbers_of(felt.friction, kFriction)},
+          {"use_workspace", felt.use_workspace},
+          {"workspace", numbers_of(felt.workspace, kWorkspace)},
+          {"workspace_centre",
+           {felt.workspace.centre.x(), felt.workspace.centre.y(), felt.workspace.centre.z()}},
+          {"passivity_control", felt.passivity.control},
+          {"passivity_damping", felt.passivity.max_damping}};
 }
 
 Result<FeltLaws> to_felt_laws(const nlohmann::json& json) {
@@ -103,6 +122,12 @@ Result<FeltLaws> to_felt_laws(const nlohmann::json& json) {
   if (json.at("impulse_tap").get<bool>()) felt.tap = HardLaw::impulse;
   if (json.at("plasticity_clamping").get<bool>()) felt.clamping = ClampingLaw::plasticity;
   read_numbers(json.at("friction"), kFriction, felt.friction);
+  json.at("use_workspace").get_to(felt.use_workspace);
+  read_numbers(json.at("workspace"), kWorkspace, felt.workspace);
+  for (std::size_t i = 0; i < 3; ++i)
+    json.at("workspace_centre").at(i).get_to(felt.workspace.centre[static_cast<Eigen::Index>(i)]);
+  json.at("passivity_control").get_to(felt.passivity.control);
+  json.at("passivity_damping").get_to(felt.passivity.max_damping);
   return felt;
 }
 

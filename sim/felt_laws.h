@@ -15,6 +15,9 @@ struct FeltLaws {
   HardLaw tap = HardLaw::decaying_sinusoid;
   ClampingLaw clamping = ClampingLaw::projection;
   LugreParams friction;
+  bool use_workspace = false;
+  HemisphereParams workspace;
+  PassivityParams passivity;
 };
 [[nodiscard]] FeltLaws felt_laws_of(const SessionParams& params);
 void apply(const FeltLaws& felt, SessionParams& params);

@@ -72,11 +72,12 @@ void Session::ask(const char* who, const ThreadWishes& wishes) {
 void Session::run_haptics(const ThreadWishes& wishes) {
   ask("haptics", wishes);
   PeriodicSchedule schedule(params_.haptic_rate);
+  LateWatch watch(schedule.period_ns());
   for (std::uint64_t number = 1; !stop_.load(std::memory_order_relaxed); ++number) {
     const std::int64_t late = schedule.wait();
     times_->haptic_lateness.add_with_missed(late, schedule.period_ns());
     overruns_.store(schedule.overruns(), std::memory_order_relaxed);
-    tick(number);
+    tick(number, watch.step(late));
   }
   DeviceFeedback last;  // zero force, whoever still listens
   last.status = SessionStatus::kStopped;
@@ -84,13 +85,14 @@ void Session::run_haptics(const ThreadWishes& wishes) {
   device_->write(last);
 }
 
-void Session::tick(std::uint64_t number) noexcept {
+void Session::tick(std::uint64_t number, bool too_late) noexcept {
   const std::int64_t begin = monotonic_ns();
   const std::int64_t cpu_begin = thread_cpu_ns();
   TickInput input;
   input.device = device_->read(begin);
   input.tick = number;
   if (paused_.load(std::memory_order_relaxed)) input.command |= SessionCommand::kPause;
+  if (too_late) input.command |= SessionCommand::kLate;
   if (reset_.exchange(false, std::memory_order_relaxed)) input.command |= SessionCommand::kReset;
   const HapticSnapshot& out = core_.step(input);
   DeviceFeedback feedback = out.feedback;

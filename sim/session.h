@@ -105,7 +105,7 @@ class Session {
   void run_imaging(const ThreadWishes& wishes);
   void ask(const char* who, const ThreadWishes& wishes);
   void note_image(std::int64_t ready_ns);
-  ARTUS_REALTIME void tick(std::uint64_t number) noexcept;
+  ARTUS_REALTIME void tick(std::uint64_t number, bool too_late) noexcept;
   void image(ImageCore& core, std::uint64_t number);
   void share(const ImageSnapshot& image);
 

@@ -44,7 +44,8 @@ Result<void> validate(const SessionParams& params) {
 HapticCore::HapticCore(std::shared_ptr<const Scene> scene, const SessionParams& params)
     : scene_(std::move(scene)),
       table_(make_table(scene_, params)),
-      needle_(scene_, table_, params.needle, params.guard, params.device, params.haptic_rate),
+      needle_(scene_, table_, params.needle, params.guard, params.device, params.haptic_rate,
+              params.passivity),
       gesture_(params.gesture, params.X_WJ) {}
 
 void HapticCore::step_needle(const DeviceSample& device, std::uint32_t command) noexcept {

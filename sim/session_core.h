@@ -18,6 +18,7 @@ struct SessionParams {
   double image_rate = 40;     ///< Hz, 10 to 120
   DeviceLimits device;        ///< whose limits the force is kept in
   NeedleParams needle;
+  PassivityParams passivity;
   GuardParams guard;
   LawSelection laws;
   PatientProfile patient;

@@ -30,6 +30,26 @@ class PeriodicSchedule {
   std::uint64_t overruns_ = 0;
 };
 
+/// Says when ticks have come too late for too long: every one of them by a period or more, over a
+/// time. A single late tick is felt as a moment's hold; a row of them is a loop that no longer
+/// controls the device. Source: the practice of libfranka [Franka].
+class LateWatch {
+ public:
+  static constexpr std::int64_t kTooLong = 20'000'000;  // ns; assumed: as for a stale input
+
+  explicit LateWatch(std::int64_t period_ns) noexcept : period_(period_ns) {}
+
+  /// `late_ns`: of this tick. Returns whether the force has to rest.
+  ARTUS_REALTIME bool step(std::int64_t late_ns) noexcept {
+    row_ = late_ns >= period_ ? row_ + period_ + late_ns / period_ * period_ : 0;
+    return row_ > kTooLong;
+  }
+
+ private:
+  std::int64_t period_;
+  std::int64_t row_ = 0;  // ns of the present row of late ticks
+};
+
 /// What the system was asked for on behalf of the calling thread.
 struct ThreadWishes {
   int fifo_priority = 0;  ///< SCHED_FIFO priority; 0: ordinary scheduling

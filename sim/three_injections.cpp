@@ -177,7 +177,10 @@ Result<std::array<Pass, 3>> plan_passes(const Scene& scene,
                                         std::span<const PlannedInjection> injections,
                                         const ThreeInjectionsOptions& options) {
   if (injections.size() < 3) {
-    return fail(ErrorCode::invalid, "the test needs three planned injections", scene.joint().name);
+    return fail(ErrorCode::invalid,
+                "the test needs three planned injections: three [[injection]] with name, entry and "
+                "target in joint.toml",
+                scene.joint().name);
   }
   std::array<Pass, 3> passes;
   for (std::size_t i = 0; i < passes.size(); ++i) {
@@ -244,7 +247,7 @@ class Recorder {
     params.contact.needle_length = out_->needle_length;
     NeedleRenderer renderer(borrow(*scene_),
                             LayerTable(scene_->joint(), options_->laws, options_->patient), params,
-                            GuardParams{}, *device_, options_->rate_hz);
+                            GuardParams{}, *device_, options_->rate_hz, options_->passivity);
     InjectionOperator person(pass.entry, pass.direction, -kStartOutside, pass.phases);
     while (!person.done()) {
       const double t = loop.time();

@@ -29,6 +29,7 @@ struct ThreeInjectionsOptions {
   NeedleParams needle;
   LawSelection laws;
   PatientProfile patient;
+  PassivityParams passivity;
   HandParams hand;        ///< its seed is replaced by `seed`
   ProbeHandParams probe;  ///< the other hand; likewise
 };

@@ -34,6 +34,39 @@ TEST(HapticTool, LoopTakesLawsForAllTissuesAndForOne) {
   EXPECT_EQ(run.exit_code, 0) << run.err;
 }
 
+TEST(HapticTool, LoopTakesAWorkspaceAndThePassivityController) {
+  const auto run = artus({"loop", "--seconds", "0.1", "--workspace-mm", "0", "0", "60", "100",
+                          "--workspace-push-n", "2", "--passivity-control", "--json"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_GT(nlohmann::json::parse(run.out).at("most_force_n").get<double>(), 0);
+  for (const char* radius : {"0", "-5", "nan", "inf"}) {
+    const auto refused =
+        artus({"loop", "--seconds", "0.1", "--workspace-mm", "0", "0", "60", radius});
+    EXPECT_EQ(refused.exit_code, 2) << radius;
+    EXPECT_NE(refused.err.find("--workspace-mm"), std::string::npos) << refused.err;
+  }
+}
+
+TEST(HapticTool, LawsListsEveryParameterWithUnitAndSource) {
+  const auto run = artus({"laws", "--json"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto json = nlohmann::json::parse(run.out);
+  EXPECT_GE(json.at("laws").size(), 19U);
+  for (const auto& law : json.at("laws")) {
+    EXPECT_FALSE(law.at("source").get<std::string>().empty()) << law;
+    for (const auto& parameter : law.at("parameters")) {
+      EXPECT_FALSE(parameter.at("unit").get<std::string>().empty()) << parameter;
+      EXPECT_FALSE(parameter.at("source").get<std::string>().empty()) << parameter;
+    }
+  }
+  EXPECT_GE(json.at("tissues").size(), 6U);
+  const auto one = artus({"laws", "voigt"});
+  EXPECT_NE(one.out.find("5 N s/m"), std::string::npos) << one.out;
+  const auto none = artus({"laws", "butter"});
+  EXPECT_EQ(none.exit_code, 1);
+  EXPECT_NE(none.err.find("tracking_wall"), std::string::npos) << none.err;
+}
+
 TEST(HapticTool, AnUnknownLawTissueOrFactorIsRefusedWithWhatThereIs) {
   const auto law = artus({"loop", "--seconds", "0.1", "--cutting", "butter"});
   EXPECT_EQ(law.exit_code, 2);

@@ -116,6 +116,9 @@ TEST(Session, ARecordingKnowsTheLawsItWasFeltBy) {
   params.needle.hard.law = HardLaw::impulse;
   params.needle.clamping = ClampingLaw::plasticity;
   params.needle.friction = lugre_sets()[0];
+  params.needle.use_workspace = true;
+  params.needle.workspace = {Vec3(0.01, -0.02, 0.03), 0.2, 0.5};
+  params.passivity = {true, 7};
   {
     Session::Options options = quiet_options();
     options.recording = file;
@@ -130,6 +133,8 @@ TEST(Session, ARecordingKnowsTheLawsItWasFeltBy) {
   EXPECT_GT(plain->different_ticks, 0U) << "the laws must be felt at all";
   const auto restored = params_of(recording->head, test::make_small_session());
   ASSERT_TRUE(restored) << restored.error().to_string();
+  EXPECT_EQ(restored->needle.workspace.centre, params.needle.workspace.centre);
+  EXPECT_EQ(restored->passivity.max_damping, params.passivity.max_damping);
   const auto same = replay(*recording, scene, *restored);
   ASSERT_TRUE(same);
   EXPECT_TRUE(same->identical());
