@@ -256,6 +256,7 @@ std::optional<MaterialMap> fit_skin_depth(const CompiledJoint& joint) {
   const Fit along = across_lines(samples, inward);
   for (int c = 1; c < 3; ++c) {  // along the skin any two directions will do
     std::vector<Vec3> wanted;
+    wanted.reserve(inward.size());
     for (const Vec3& in : inward)
       wanted.push_back(across(joint.X_JP_default.linear().col(c - 1), in));
     coefficients.col(c) = along.solve(towards(samples, wanted));

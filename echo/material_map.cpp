@@ -14,20 +14,34 @@ struct Term {
   std::size_t axis = 0;
 };
 
-constexpr std::array<Term, MaterialMap::kTerms> make_terms() {
-  std::array<Term, MaterialMap::kTerms> terms{};
+using TermList = std::array<Term, MaterialMap::kTerms>;
+
+/// The index of x^i y^j z^k; kTerms when there is none.
+constexpr std::size_t find_power(const TermList& terms, const std::array<int, 3>& power) {
+  for (std::size_t k = 0; k < terms.size(); ++k) {
+    if (terms[k].power == power) return k;
+  }
+  return terms.size();
+}
+
+constexpr Term make_term(const TermList& before, const std::array<int, 3>& power) {
+  Term term;
+  term.power = power;
+  term.axis = power[0] > 0 ? 0 : (power[1] > 0 ? 1 : 2);
+  std::array<int, 3> parent = power;
+  if (parent[term.axis] == 0) return term;  // the constant
+  --parent[term.axis];
+  term.parent = find_power(before, parent);
+  return term;
+}
+
+constexpr TermList make_terms() {
+  TermList terms{};
   std::size_t n = 0;
   for (int degree = 0; degree <= MaterialMap::kDegree; ++degree) {
     for (int i = degree; i >= 0; --i) {
       for (int j = degree - i; j >= 0; --j) {
-        Term& term = terms[n];
-        term.power = {i, j, degree - i - j};
-        term.axis = i > 0 ? 0 : (j > 0 ? 1 : 2);
-        std::array<int, 3> before = term.power;
-        if (degree > 0) --before[term.axis];
-        for (std::size_t k = 0; k < n; ++k) {
-          if (terms[k].power == before) term.parent = k;
-        }
+        terms[n] = make_term(terms, {i, j, degree - i - j});
         ++n;
       }
     }
@@ -38,10 +52,7 @@ constexpr std::array<Term, MaterialMap::kTerms> make_terms() {
 constexpr auto kTermList = make_terms();
 
 constexpr std::size_t find_term(const std::array<int, 3>& power) {
-  for (std::size_t k = 0; k < kTermList.size(); ++k) {
-    if (kTermList[k].power == power) return k;
-  }
-  return kTermList.size();
+  return find_power(kTermList, power);
 }
 
 ARTUS_SIMD
