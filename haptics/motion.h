@@ -85,11 +85,13 @@ class MotionDetector {
 
   void add(double x, double dt) noexcept {
     const double bucket = params_.time / static_cast<double>(kBuckets - 1);
-    for (elapsed_ += dt; elapsed_ >= bucket; elapsed_ -= bucket) {
+    elapsed_ += dt;
+    while (elapsed_ >= bucket) {
       now_ = (now_ + 1) % kBuckets;
       low_[now_] = x;
       high_[now_] = x;
       filled_ = std::min(filled_ + 1, kBuckets);
+      elapsed_ -= bucket;
     }
     low_[now_] = std::min(low_[now_], x);
     high_[now_] = std::max(high_[now_], x);
