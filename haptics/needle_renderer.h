@@ -27,6 +27,7 @@ class NeedleRenderer {
                  const PassivityParams& passivity = {});
   NeedleRenderer(const NeedleRenderer&) = delete;
   NeedleRenderer& operator=(const NeedleRenderer&) = delete;
+  ~NeedleRenderer() = default;
 
   /// Errors: none; any input gives a wrench within limits and says in the status what was wrong.
   ARTUS_REALTIME const RenderedNeedle& step(const TimedPose& pose) noexcept;

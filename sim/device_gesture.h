@@ -50,6 +50,7 @@ class TwoPhaseGesture {
                            const std::optional<Pose>& X_WP) noexcept;
   ARTUS_REALTIME void reset() noexcept;
 
+  // Monogram notation.  NOLINTNEXTLINE(readability-identifier-naming)
   [[nodiscard]] const Pose& X_WJ() const noexcept { return X_WJ_; }
   [[nodiscard]] GesturePhase phase() const noexcept { return phase_; }
 

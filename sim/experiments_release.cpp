@@ -100,6 +100,28 @@ PlotSeries plot_released(const std::vector<NeedleRow>& rows, const char* label, 
   return series;
 }
 
+// `out`: mm, `work`: J, `ripple`: N, each of the worst hand.
+void add_claims(const DeviceLimits& device, Around tissue, double release, double out, double work,
+                double ripple, std::vector<Claim>& claims) {
+  const std::string what = std::string(device.name) + ", " + name_of(tissue) +
+                           (release == kAtOnce ? ", let go at once" : ", let go over 50 ms") +
+                           ", worst of 10 hands: ";
+  // Without friction nothing but the device's own damping stops what the hand had set moving: what
+  // can be asked of the wall is that it adds nothing.
+  if (tissue == Around::wall) {
+    const double grain = 0.5 * kStiffness * device.encoder_step * device.encoder_step;
+    claims.push_back(claim_at_most(
+        what + "energy given to the needle, in that of the wall's spring over an encoder step",
+        work / grain, 1, ""));
+  }
+  if (tissue == Around::wall_and_friction) {
+    claims.push_back(claim_at_most(what + "ejection", out, 0.2, "mm"));
+    const double step = 2 * device.encoder_step * (kStiffness + LugreParams{}.stiffness_limit);
+    claims.push_back(claim_at_most(
+        what + "force at rest, peak to peak, in two encoder steps' worth", ripple / step, 1, ""));
+  }
+}
+
 }  // namespace
 
 Experiment run_wall_release(const ExperimentOptions& options, const DeviceLimits& device) {
@@ -134,25 +156,7 @@ Experiment run_wall_release(const ExperimentOptions& options, const DeviceLimits
         out.table.rows.push_back({std::string(each.name), name_of(tissue), to_csv(1e3 * release),
                                   to_csv(ways[ways.size() / 2]), to_csv(ways.back()),
                                   to_csv(1e6 * work), to_csv(ripple)});
-        const std::string what = std::string(each.name) + ", " + name_of(tissue) +
-                                 (release == kAtOnce ? ", let go at once" : ", let go over 50 ms") +
-                                 ", worst of 10 hands: ";
-        // Without friction nothing but the device's own damping stops what the hand had set moving:
-        // what can be asked of the wall is that it adds nothing.
-        if (tissue == Around::wall) {
-          const double grain = 0.5 * kStiffness * each.encoder_step * each.encoder_step;
-          out.claims.push_back(claim_at_most(
-              what +
-                  "energy given to the needle, in that of the wall's spring over an encoder step",
-              work / grain, 1, ""));
-        }
-        if (tissue == Around::wall_and_friction) {
-          out.claims.push_back(claim_at_most(what + "ejection", ways.back(), 0.2, "mm"));
-          const double step = 2 * each.encoder_step * (kStiffness + LugreParams{}.stiffness_limit);
-          out.claims.push_back(
-              claim_at_most(what + "force at rest, peak to peak, in two encoder steps' worth",
-                            ripple / step, 1, ""));
-        }
+        add_claims(each, tissue, release, ways.back(), work, ripple, out.claims);
       }
     }
   }
