@@ -9,7 +9,6 @@
 namespace artus {
 namespace {
 
-constexpr std::size_t kMaxIntervals = 128;
 constexpr double kThinnest = 2e-6;  // m, an interval shorter than this is rounding
 constexpr double kStraight = 2e-3;  // sine of a bend that is not worth another query
 constexpr double kPiece = 4e-3;     // m, longest run: the downshift curves the loss slowly
@@ -207,7 +206,7 @@ bool BeamTracer::cross(Walk& walk, const Vec3& point, const Vec3& direction, dou
 /// the sound ended; a bend ends the piece early with walk.wave off `direction`.
 bool BeamTracer::pass(Walk& walk, const Vec3& from, const Vec3& direction, double length,
                       double time_scale) const noexcept {
-  std::array<TissueInterval, kMaxIntervals> intervals;
+  auto& intervals = walk.trace.intervals;
   const QueryCount count = scene_->find_intervals({from, from + length * direction}, intervals);
   for (std::size_t k = 0; k < count.size; ++k) {
     const TissueInterval& interval = intervals[k];

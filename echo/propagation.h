@@ -45,12 +45,15 @@ struct BeamEcho {
 /// Everything one beam meets on its way.
 struct BeamTrace {
   static constexpr std::size_t kMax = 192;
+  static constexpr std::size_t kMaxIntervals = 128;
   std::array<BeamRun, kMax> runs;
   std::array<BeamEcho, kMax> echoes;
   std::size_t n_runs = 0;
   std::size_t n_echoes = 0;
   double shadow_from = 0;  ///< sample behind which nothing returns; large when there is none
   bool contact = true;     ///< false: air between face and skin
+  /// Room for one query, kept with the trace because clearing it would cost as much as the query.
+  std::array<TissueInterval, kMaxIntervals> intervals;
 
   /// Displayed sample and ln gain at a distance along the beam; false behind the end of the sound.
   [[nodiscard]] bool find_sample(double path, double& sample, double& log_gain) const noexcept;
