@@ -127,10 +127,23 @@ std::set<std::string, std::less<>> find_makeable(const JointFile& joint) {
   return made;
 }
 
-const Structure* find_structure(const JointFile& joint, const std::string& name) {
-  for (const auto& s : joint.structures)
-    if (s.name == name) return &s;
-  return nullptr;
+/// Whether `s` is the end of a structure that is itself a construct, and does not say where.
+bool lacks_insertion(const JointFile& joint, const Structure& s) {
+  const auto* end = std::get_if<EndConstruct>(&s.shape);
+  if (end == nullptr || end->insertion) return false;
+  const auto of = std::find_if(joint.structures.begin(), joint.structures.end(),
+                               [&](const Structure& other) { return other.name == end->of; });
+  return of != joint.structures.end() && !std::holds_alternative<SurfaceFile>(of->shape);
+}
+
+void check_circles(const JointFile& joint, const std::vector<toml::source_region>& places,
+                   Problems& problems) {
+  const auto makeable = find_makeable(joint);
+  for (std::size_t i = 0; i < joint.structures.size(); ++i)
+    if (!makeable.contains(joint.structures[i].name))
+      problems.add(places[i], "structure '" + joint.structures[i].name +
+                                  "': is made from structures that are made from each other in a "
+                                  "circle");
 }
 
 }  // namespace
@@ -228,19 +241,11 @@ void check_structures(const JointFile& joint, const std::vector<toml::source_reg
         add("names '" + name + "', which is no structure of this file" + did_you_mean(name, names));
       all_known = all_known && names.contains(name);
     }
-    const auto* end = std::get_if<EndConstruct>(&s.shape);
-    const auto* of = end != nullptr ? find_structure(joint, end->of) : nullptr;
-    if (of != nullptr && !end->insertion && !std::holds_alternative<SurfaceFile>(of->shape))
-      add("'of' names '" + end->of +
+    if (lacks_insertion(joint, s))
+      add("'of' names '" + std::get<EndConstruct>(s.shape).of +
           "', which has no file: say where the insertion is (insertion = [x, y, z])");
   }
-  if (!all_known) return;
-  const auto makeable = find_makeable(joint);
-  for (std::size_t i = 0; i < joint.structures.size(); ++i)
-    if (!makeable.contains(joint.structures[i].name))
-      problems.add(places[i], "structure '" + joint.structures[i].name +
-                                  "': is made from structures that are made from each other in a "
-                                  "circle");
+  if (all_known) check_circles(joint, places, problems);
 }
 
 }  // namespace artus

@@ -184,6 +184,24 @@ FacetPlane make_plane(const std::array<Vec3, 3>& corners) {
   return plane;
 }
 
+void check_interface(const Interface& interface, std::span<const Vec3> vertices) {
+  ARTUS_REQUIRE(interface.front != interface.back, "an interface has one region on both sides");
+  for (const std::uint32_t v : interface.vertices) {
+    ARTUS_REQUIRE(v < vertices.size(), "vertex index out of range");
+    ARTUS_REQUIRE(vertices[v].allFinite(), "a vertex is not finite");
+  }
+}
+
+/// The middle of the box around all interfaces, m; refuses what is no interface.
+Vec3 find_centre(std::span<const Vec3> vertices, std::span<const Interface> interfaces) {
+  Eigen::AlignedBox3d box;
+  for (const Interface& interface : interfaces) {
+    check_interface(interface, vertices);
+    for (const std::uint32_t v : interface.vertices) box.extend(vertices[v]);
+  }
+  return interfaces.empty() ? Vec3(Vec3::Zero()) : box.center();
+}
+
 bool touches(const FacetSides& sides, RegionId last) noexcept {
   return sides.front <= last || sides.back <= last;
 }
@@ -191,21 +209,8 @@ bool touches(const FacetSides& sides, RegionId last) noexcept {
 }  // namespace
 
 EmbreeIndex::EmbreeIndex(std::span<const Vec3> vertices, std::span<const Interface> interfaces,
-                         const std::string& isa) {
-  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity());
-  Vec3 high = -low;
-  for (const Interface& interface : interfaces) {
-    ARTUS_REQUIRE(interface.front != interface.back, "an interface has one region on both sides");
-    for (const std::uint32_t v : interface.vertices) {
-      ARTUS_REQUIRE(v < vertices.size(), "vertex index out of range");
-      ARTUS_REQUIRE(vertices[v].allFinite(), "a vertex is not finite");
-      low = low.cwiseMin(vertices[v]);
-      high = high.cwiseMax(vertices[v]);
-    }
-  }
-  if (!interfaces.empty()) {
-    centre_ = 0.5 * (low + high);
-  }
+                         const std::string& isa)
+    : centre_(find_centre(vertices, interfaces)) {
   vertices_.reserve(vertices.size());
   for (const Vec3& v : vertices) vertices_.emplace_back(v - centre_);
   triangles_.reserve(interfaces.size());
