@@ -36,7 +36,7 @@ Result<void> read_laws(const std::vector<std::string>& flags, const char* flag, 
     }
     std::string known;
     for (const Tissue& t : joint.tissues) {
-      known += (known.empty() ? "" : ", ") + t.name;
+      known.append(known.empty() ? "" : ", ").append(t.name);
       if (t.name == tissue) of_tissue[tissue] = *law;
     }
     if (of_tissue.find(tissue) == of_tissue.end())
