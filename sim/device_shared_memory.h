@@ -30,6 +30,8 @@ class SharedMemoryDevice final : public InputDevice {
       const std::string& prefix, std::vector<std::string> layer_names);
   /// Says "stopped" with zero force and removes the names.
   ~SharedMemoryDevice() override;
+  SharedMemoryDevice(const SharedMemoryDevice&) = delete;
+  SharedMemoryDevice& operator=(const SharedMemoryDevice&) = delete;
 
   [[nodiscard]] ARTUS_REALTIME DeviceSample read(std::int64_t now_ns) noexcept override;
   ARTUS_REALTIME void write(const DeviceFeedback& feedback) noexcept override;

@@ -16,7 +16,7 @@ Pose lifted(const Pose& X_JP, double height) {
 
 }  // namespace
 
-Pose ProbeHandRow::X_JP_image() const {
+Pose ProbeHandRow::image_pose() const {
   return lifted(X_JP, indentation);
 }
 

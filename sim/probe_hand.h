@@ -46,7 +46,7 @@ struct ProbeHandRow {
 
   /// Where the picture is taken from: the tissue is not compressed in it, so the face is drawn back
   /// to where it meets the skin as it lies.
-  [[nodiscard]] Pose X_JP_image() const;
+  [[nodiscard]] Pose image_pose() const;
 };
 
 /// The hand, the probe's moving mass and the contact's force in a closed loop. Deterministic.
@@ -59,7 +59,7 @@ class ProbeHand {
   /// One haptic period; the row is what was felt in it. `intend(t)`: a ProbeIntention.
   template <class Intend>
   ProbeHandRow step(Intend intend) {
-    const ProbeHandRow row = feel();
+    ProbeHandRow row = feel();
     loop_.advance(command_, [&](double t) { return lean(intend(t)); });
     return row;
   }

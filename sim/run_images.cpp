@@ -91,7 +91,7 @@ Result<void> draw_video(Renderer& renderer, const std::shared_ptr<const Scene>& 
     const ProbeHandRow& probe = run.probe[next];
     static_cast<void>(contact.step(probe.X_JP));
     renderer.set_contact(contact.coverage());
-    const Frame& frame = renderer.render(probe.X_JP_image(), NeedleView{row.X_JN, shape});
+    const Frame& frame = renderer.render(probe.image_pose(), NeedleView{row.X_JN, shape});
     const cv::Mat picture = with_caption(annotated_image(frame, renderer.transducer()), row, probe,
                                          run.region_names[row.region]);
     if (!video) {

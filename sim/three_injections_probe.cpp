@@ -84,7 +84,7 @@ void run_probe_hand(const std::shared_ptr<const Scene>& scene, ThreeInjections& 
     const auto tick = static_cast<std::size_t>(std::lround(moment.time * rate));
     const ProbeHandRow& row = run.probe[std::min(tick, run.probe.size() - 1)];
     static_cast<void>(contact.step(row.X_JP));
-    moment.X_JP = row.X_JP_image();
+    moment.X_JP = row.image_pose();
     moment.coverage.assign(contact.coverage().begin(), contact.coverage().end());
   }
 }
