@@ -57,7 +57,8 @@ BeamProfile::BeamProfile(const Transducer& transducer, double depth)
     for (int iy = 0; iy < n_y_; ++iy) {
       double sum = 0;
       for (int k = 0; k < kFrequencies; ++k) {
-        const double u = 0.8 * (k - kFrequencies / 2);  // standard deviations from the centre
+        constexpr int kMiddle = kFrequencies / 2;
+        const double u = 0.8 * (k - kMiddle);  // standard deviations from the centre
         const double wave_number = 2 * std::numbers::pi *
                                    (transducer.frequency + u * spectrum_sigma) /
                                    kDisplaySpeedOfSound;

@@ -125,7 +125,8 @@ void BeamShape::tabulate_planes(const ImageSettings& settings) {
       }
     }
     for (int k = -reach_; k <= reach_; ++k) {
-      lateral[static_cast<std::size_t>(k + reach_)] =
+      const int at_k = k + reach_;
+      lateral[static_cast<std::size_t>(at_k)] =
           kernel_[static_cast<std::size_t>(std::abs(k)) * n + i];
     }
     const double lateral_power = shared_power(lateral, line_spacing(z), scatterer_.lateral);

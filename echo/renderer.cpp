@@ -341,7 +341,7 @@ struct Renderer::Impl {
       for (std::size_t i = 0; i < previous.size(); ++i) {
         const auto now = static_cast<float>(frame.image[i]);
         const auto before = static_cast<float>(previous[i]);
-        frame.image[i] = static_cast<std::uint8_t>(now + keep * (before - now) + 0.5F);
+        frame.image[i] = static_cast<std::uint8_t>(std::lround(now + keep * (before - now)));
       }
     }
     has_previous = true;

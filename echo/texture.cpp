@@ -96,7 +96,8 @@ class ValueNoise {
 
  private:
   [[nodiscard]] double value(int x, int y, int z) const {
-    return grid_[static_cast<std::size_t>((z * n_[1] + y) * n_[0] + x)];
+    const int at = (z * n_[1] + y) * n_[0] + x;
+    return grid_[static_cast<std::size_t>(at)];
   }
 
   std::array<int, 3> feature_;

@@ -32,7 +32,9 @@ struct Track {
   bool valid = false;
 };
 
-Track make_track(const EmbreeIndex& index, const Segment& segment) noexcept {
+/// Inlined: storing and loading a track again would delay the ray.
+[[gnu::always_inline]] inline Track make_track(const EmbreeIndex& index,
+                                               const Segment& segment) noexcept {
   Track track;
   const Vec3 along = segment.end - segment.start;
   track.length = along.norm();
@@ -40,7 +42,8 @@ Track make_track(const EmbreeIndex& index, const Segment& segment) noexcept {
   track.valid = std::isfinite(track.length) && track.line.origin.allFinite();
   if (!track.valid || !(track.length > 0)) return track;
   track.line.direction = along / track.length;
-  const double middle = -track.line.origin.dot(track.line.direction);
+  // Not by the direction, which is not there yet when this can be worked out.
+  const double middle = -track.line.origin.dot(along) / track.length;
   const double reach = index.radius() + kMargin;
   track.line.near = std::max(-kMargin, middle - reach);
   track.line.far = std::min(track.length + kMargin, middle + reach);
