@@ -143,7 +143,7 @@ class SampleWindow {
 
   /// Stores the newest value and returns the one a window before it.
   ARTUS_REALTIME T push(const T& value) noexcept {
-    const T oldest = values_[(next_ + kCapacity - span_) % kCapacity];
+    T oldest = values_[(next_ + kCapacity - span_) % kCapacity];
     values_[next_] = value;
     next_ = (next_ + 1) % kCapacity;
     return oldest;

@@ -33,15 +33,21 @@ std::string in_mm(double length) {
   return text;
 }
 
+/// One point at each depth, `elevation` (m) beside the image's plane.
+std::vector<PointReflector> points_beside(double elevation) {
+  std::vector<PointReflector> points;
+  points.reserve(kDepths.size());
+  for (const double depth : kDepths) points.push_back({Vec3(0, elevation, depth), 1});
+  return points;
+}
+
 /// Full width at half maximum of a point target at each depth, across the lines.
 std::vector<double> lateral_widths(const std::shared_ptr<const Scene>& scene, double frequency) {
   Transducer transducer;
   transducer.frequency = frequency;
   transducer.n_lines = 1001;  // 0.04 mm apart: the width is read between lines
   Renderer renderer(scene, transducer, deep_settings());
-  std::vector<PointReflector> points;
-  for (const double depth : kDepths) points.push_back({Vec3(0, 0, depth), 1});
-  renderer.set_point_reflectors(points);
+  renderer.set_point_reflectors(points_beside(0));
   const Frame& frame = renderer.render(Pose::Identity());
   std::vector<double> widths;
   for (const double depth : kDepths) {
@@ -68,14 +74,13 @@ std::vector<double> slice_widths(const std::shared_ptr<const Scene>& scene, doub
   std::array<std::vector<double>, kDepths.size()> value;
   for (int k = 0; k < 80; ++k) {
     offset.push_back(k * kStep);
-    std::vector<PointReflector> points;
-    for (const double depth : kDepths) points.push_back({Vec3(0, offset.back(), depth), 1});
-    renderer.set_point_reflectors(points);
+    renderer.set_point_reflectors(points_beside(offset.back()));
     const Frame& frame = renderer.render(Pose::Identity());
     for (std::size_t i = 0; i < kDepths.size(); ++i)
       value[i].push_back(peak_value(frame, 1, kDepths[i] - 1e-3, kDepths[i] + 1e-3));
   }
   std::vector<double> widths;
+  widths.reserve(value.size());
   for (const auto& curve : value) widths.push_back(full_width(offset, curve));
   return widths;
 }

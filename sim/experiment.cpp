@@ -60,20 +60,20 @@ Result<void> write_experiment(const Experiment& e, const std::filesystem::path& 
   if (error) return fail(ErrorCode::unreadable, error.message(), folder.string());
   for (const ExperimentTrace& trace : e.traces) {
     const std::string file = e.name + (trace.label.empty() ? "" : "-" + trace.label) + ".csv";
-    const auto written = write_needle_csv(folder / file, trace.rows, trace.region_names);
+    auto written = write_needle_csv(folder / file, trace.rows, trace.region_names);
     if (!written) return written;
   }
   if (!e.table.header.empty()) {
     std::string text;
     add_cells(text, e.table.header);
     for (const auto& row : e.table.rows) add_cells(text, row);
-    const auto written = write_text(folder / (e.name + "-table.csv"), text);
+    auto written = write_text(folder / (e.name + "-table.csv"), text);
     if (!written) return written;
   }
   nlohmann::json json = verdict(e.claims);
   json["experiment"] = e.name;
   json["title"] = e.title;
-  const auto written = write_text(folder / "verdict.json", json.dump(2) + "\n");
+  auto written = write_text(folder / "verdict.json", json.dump(2) + "\n");
   if (!written) return written;
   return write_plot(folder / (e.name + ".png"), e.plot);
 }
