@@ -201,6 +201,7 @@ Experiment run_wall_nine(const ExperimentOptions& options, const DeviceLimits& d
   constexpr double kLayer = 0.012;  // m; assumed
   BodyExperiment e;
   std::vector<double> radii;
+  radii.reserve(9);
   for (int i = 0; i < 9; ++i) radii.push_back(kRadius - kLayer * i);
   e.body = AnalyticBody::make_balls(Vec3::Zero(), radii);
   e.direction = Vec3(-0.5, -0.4, -0.8).normalized();

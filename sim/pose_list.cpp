@@ -102,7 +102,10 @@ Result<void> read_triples(const json& object, const std::string& what,
     const auto place = std::find_if(known.begin(), known.end(),
                                     [&k = key](const auto& entry) { return entry.first == k; });
     if (place == known.end())
-      return fail(ErrorCode::invalid, "unknown key '" + key + "' in '" + what + "'", where);
+      return fail(
+          ErrorCode::invalid,
+          std::string("unknown key '").append(key).append("' in '").append(what).append("'"),
+          where);
     const auto v = triple_of(value, key, where);
     if (!v) return tl::unexpected(v.error());
     *place->second = *v;

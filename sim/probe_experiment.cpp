@@ -91,16 +91,16 @@ std::string make_csv(const ProbeTable& table) {
 
 Result<void> write_texts(const ProbeExperiment& e, const fs::path& folder) {
   for (const ProbeTrace& trace : e.traces) {
-    const auto written =
+    auto written =
         write_text(folder / (e.name + "-" + trace.label + ".csv"), probe_csv(trace.rows));
     if (!written) return written;
   }
   const bool published = !e.observations.empty();
-  const auto table = write_text(
+  auto table = write_text(
       folder / (e.name + "-table.csv"),
       make_csv(published || e.tables.empty() ? observation_table(e) : e.tables.front().second));
   if (!table) return table;
-  const auto report = write_text(folder / "report.md", make_report(e));
+  auto report = write_text(folder / "report.md", make_report(e));
   if (!report) return report;
   return write_text(folder / "verdict.json", make_verdict(e).dump(2) + "\n");
 }
@@ -132,10 +132,10 @@ Result<void> write_probe_experiment(const ProbeExperiment& e, const fs::path& fo
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) return fail(ErrorCode::unreadable, error.message(), folder.string());
-  const auto texts = write_texts(e, folder);
+  auto texts = write_texts(e, folder);
   if (!texts) return texts;
   for (const NamedPlot& plot : e.plots) {
-    const auto drawn = write_plot(folder / plot.file, plot.plot);
+    auto drawn = write_plot(folder / plot.file, plot.plot);
     if (!drawn) return drawn;
   }
   return {};

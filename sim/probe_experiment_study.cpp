@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "core/check.h"
 #include "haptics/probe_contact.h"
 #include "sim/probe_experiment_list.h"
 
@@ -24,7 +25,7 @@ constexpr std::array<ControlLawKind, 4> kLaws{
 
 /// What lies under the probe: layers down to bone, moduli of meshes/tissues.toml.
 struct TissueCase {
-  const char* name;
+  const char* name = "";
   std::array<ColumnLayer, 3> layers;  // skin, fat, muscle
 };
 constexpr std::array<TissueCase, 2> kTissues{
@@ -322,6 +323,7 @@ std::string find_best(const std::vector<LawResult>& results, double friction, F 
   for (const LawResult& r : results) {
     if (r.dry_friction == friction && (best == nullptr || value(r) < value(*best))) best = &r;
   }
+  ARTUS_REQUIRE(best != nullptr, "no law was tried at this friction");
   return std::string(to_string(best->law)) + " (" + percent(value(*best)) + " %)";
 }
 

@@ -82,7 +82,7 @@ struct OpenFile {
 };
 
 std::string read_line(std::FILE* file) {
-  constexpr std::size_t kLongest = 64 * 1024;
+  constexpr std::size_t kLongest = std::size_t{64} * 1024;
   std::string line;
   for (int c = std::fgetc(file); c != EOF && c != '\n' && line.size() < kLongest;
        c = std::fgetc(file))

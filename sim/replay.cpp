@@ -7,9 +7,11 @@ namespace artus {
 namespace {
 
 bool same(const TickRecord& a, const TickRecord& b) noexcept {
+  // NOLINTBEGIN(bugprone-suspicious-memory-comparison): a replay gives the same bytes
   return std::memcmp(a.force, b.force, sizeof a.force) == 0 &&
          std::memcmp(a.torque, b.torque, sizeof a.torque) == 0 && a.status == b.status &&
          a.region == b.region;
+  // NOLINTEND(bugprone-suspicious-memory-comparison)
 }
 
 }  // namespace
