@@ -202,13 +202,10 @@ std::vector<std::size_t> priority_order(const JointFile& file) {
 double area_in(const Box& box, const SurfaceMesh& mesh) {
   double area = 0;
   for (const Triangle& t : mesh.triangles) {
-    const Vec3& a = mesh.vertices[t[0]];
-    const Vec3& b = mesh.vertices[t[1]];
-    const Vec3& c = mesh.vertices[t[2]];
-    const Vec3 centre = (a + b + c) / 3;
+    const Vec3 centre = triangle_centre(mesh, t);
     if ((centre.array() < box.lower.array()).any() || (centre.array() > box.upper.array()).any())
       continue;
-    area += (b - a).cross(c - a).norm() / 2;
+    area += triangle_area(mesh, t);
   }
   return area;
 }

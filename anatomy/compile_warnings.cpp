@@ -46,13 +46,10 @@ double share_outside(const RegionLabels& labels, const SurfaceMesh& mesh) {
   double all = 0;
   double outside = 0;
   for (const Triangle& t : mesh.triangles) {
-    const Vec3& a = mesh.vertices[t[0]];
-    const Vec3& b = mesh.vertices[t[1]];
-    const Vec3& c = mesh.vertices[t[2]];
-    const Vec3 centre = (a + b + c) / 3;
+    const Vec3 centre = triangle_centre(mesh, t);
     if (labels.region_of_interest && signed_distance(*labels.region_of_interest, centre) > 0)
       continue;
-    const double area = (b - a).cross(c - a).norm() / 2;
+    const double area = triangle_area(mesh, t);
     all += area;
     if (labels.body.value(centre) > kClearlyOutside) outside += area;
   }

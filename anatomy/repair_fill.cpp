@@ -22,11 +22,7 @@ constexpr std::size_t kLongestRim = 600;
 
 double area_of(const SurfaceMesh& mesh, const std::vector<Triangle>& patch) {
   double area = 0;
-  for (const auto& t : patch)
-    area += (mesh.vertices[t[1]] - mesh.vertices[t[0]])
-                .cross(mesh.vertices[t[2]] - mesh.vertices[t[0]])
-                .norm() /
-            2;
+  for (const Triangle& t : patch) area += triangle_area(mesh, t);
   return area;
 }
 

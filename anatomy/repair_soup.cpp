@@ -43,10 +43,7 @@ std::size_t drop_outer_flaps(SurfaceMesh& mesh) {
   });
   std::vector<Leaf> leaf(mesh.triangles.size());  // at the face that stands for all of its leaf
   for (std::size_t f = 0; f < leaf.size(); ++f) {
-    const auto& t = mesh.triangles[f];
-    const Vec3& a = mesh.vertices[t[0]];
-    leaf[leaves.find_set(f)].area +=
-        (mesh.vertices[t[1]] - a).cross(mesh.vertices[t[2]] - a).norm() / 2;
+    leaf[leaves.find_set(f)].area += triangle_area(mesh, mesh.triangles[f]);
   }
   for_each_edge(uses, [&](const EdgeUse* first, const EdgeUse* last) {
     for (const EdgeUse* u = first; u != last; ++u) {

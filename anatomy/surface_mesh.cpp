@@ -30,13 +30,19 @@ double signed_volume(const SurfaceMesh& mesh) noexcept {
   return six_v / 6;
 }
 
+double triangle_area(const SurfaceMesh& mesh, const Triangle& t) noexcept {
+  const Vec3& a = mesh.vertices[t[0]];
+  return (mesh.vertices[t[1]] - a).cross(mesh.vertices[t[2]] - a).norm() / 2;
+}
+
+Vec3 triangle_centre(const SurfaceMesh& mesh, const Triangle& t) noexcept {
+  return (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3;
+}
+
 double surface_area(const SurfaceMesh& mesh) noexcept {
-  double twice = 0;
-  for (const auto& t : mesh.triangles) {
-    const Vec3& a = mesh.vertices[t[0]];
-    twice += (mesh.vertices[t[1]] - a).cross(mesh.vertices[t[2]] - a).norm();
-  }
-  return twice / 2;
+  double area = 0;
+  for (const Triangle& t : mesh.triangles) area += triangle_area(mesh, t);
+  return area;
 }
 
 }  // namespace artus

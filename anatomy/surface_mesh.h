@@ -28,6 +28,12 @@ struct SurfaceMesh {
 /// open one. Cost: linear.
 [[nodiscard]] double signed_volume(const SurfaceMesh& mesh) noexcept;
 
+/// Area of a triangle of the mesh, m^2.
+[[nodiscard]] double triangle_area(const SurfaceMesh& mesh, const Triangle& t) noexcept;
+
+/// Mean of a triangle's corners.
+[[nodiscard]] Vec3 triangle_centre(const SurfaceMesh& mesh, const Triangle& t) noexcept;
+
 /// Sum of the triangles' areas, m^2.
 [[nodiscard]] double surface_area(const SurfaceMesh& mesh) noexcept;
 

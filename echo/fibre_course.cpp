@@ -73,7 +73,7 @@ class Fit {
   Eigen::Index used_ = 0;
 };
 
-/// The largest part of `count` indices, evenly spread, at most kSamples of them.
+/// The step through `count` indices that visits at most kSamples of them, evenly spread.
 std::size_t stride_of(std::size_t count) {
   return std::max<std::size_t>(1, (count + kSamples - 1) / kSamples);
 }
