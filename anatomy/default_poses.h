@@ -10,10 +10,13 @@ struct DefaultPoses {
   Pose X_JN = Pose::Identity();  ///< needle, tip at its target
 };
 
-/// The poses that the joint file gives; where it gives none, the probe stands on the skin nearest
-/// to the middle of the region of interest (of the body, without one) and looks there, and the
-/// needle comes in its plane, 45 degrees down to 20 mm under the footprint, or half as deep as the
-/// middle lies. What was chosen is told in `notes`. Requires: interfaces up to date.
+/// The poses that the joint file gives. Where it gives no probe, that stands on the skin nearest to
+/// the needle's tip from where the beam comes at 40 degrees or more to the needle, with the needle
+/// in its plane; the needle is the given one or the first planned injection's at its target. With
+/// neither, the probe stands on the skin nearest to the middle of the region of interest (of the
+/// body, without one) and looks there. A needle still missing comes in the probe's plane, 45 degrees
+/// down to 20 mm under the footprint, or half as deep as what is looked at lies. What was chosen is
+/// told in `notes`. Requires: interfaces up to date.
 [[nodiscard]] DefaultPoses find_default_poses(const JointFile& file, const TetMesh& mesh,
                                               std::vector<std::string>& notes);
 

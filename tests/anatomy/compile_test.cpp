@@ -293,6 +293,27 @@ TEST(CompileJoint, SetsTheProbeOnTheSkinWhenTheFileHasNone) {
   EXPECT_EQ(outcome->report.structures.front().warnings.size(), 2U);
 }
 
+TEST(CompileJoint, SetsTheProbeOverThePlannedNeedleWhenTheFileHasNone) {
+  auto file = read_joint(two_balls().path());
+  ASSERT_TRUE(file) << file.error().to_string();
+  file->X_JP_default.reset();
+  file->X_JN_default.reset();
+  const Vec3 target = Vec3(-8, 2, 3) * kMm;
+  const Vec3 entry = Vec3(-20, 0, 0) * kMm;  // the skin nearest to the target is along the needle
+  file->injections = {{"one", entry, target}};
+  const auto outcome = compile_joint(*file);
+  ASSERT_TRUE(outcome) << outcome.error().to_string();
+  const Pose& X_JP = outcome->joint.X_JP_default;
+  EXPECT_NEAR(X_JP.translation().norm(), 20 * kMm, 0.3 * kMm);
+  const Vec3 seen_target = X_JP.inverse() * target;
+  EXPECT_NEAR(seen_target.head<2>().norm(), 0, 1e-9);
+  EXPECT_NEAR((X_JP.inverse() * entry).y(), 0, 1e-9);
+  const Vec3 along = (target - entry).normalized();
+  EXPECT_LE(std::abs(along.dot(X_JP.linear().col(2))), 0.77 + 1e-9);
+  EXPECT_TRUE(outcome->joint.X_JN_default.translation().isApprox(target));
+  EXPECT_TRUE(outcome->joint.X_JN_default.linear().col(2).isApprox(along));
+}
+
 TEST(CompileJoint, RefusesSizesThatWouldNeverEnd) {
   const JointFolder folder("sizes");
   folder.add_sphere("body", Vec3(0, 0, 0), 20);
