@@ -96,10 +96,10 @@ void set_frustum(GlMesh& mesh, float bottom, float top) {
 }
 
 void set_box(GlMesh& mesh) {
-  std::vector<Eigen::Vector3f> points;
-  for (int i = 0; i < 8; ++i)
-    points.emplace_back((i & 1) != 0 ? 0.5F : -0.5F, (i & 2) != 0 ? 0.5F : -0.5F,
-                        (i & 4) != 0 ? 0.F : -1.F);
+  std::array<Eigen::Vector3f, 8> points;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    points[i] = {(i & 1) != 0 ? 0.5F : -0.5F, (i & 2) != 0 ? 0.5F : -0.5F,
+                 (i & 4) != 0 ? 0.F : -1.F};
   const std::array<std::uint32_t, 36> indices{0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4,
                                               2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5};
   mesh.set_points(points);

@@ -17,6 +17,7 @@ constexpr ImU32 kWhite = IM_COL32(235, 235, 235, 255);
 constexpr ImU32 kYellow = IM_COL32(255, 215, 80, 255);
 
 ImTextureID to_id(unsigned texture) {
+  // NOLINTNEXTLINE(performance-no-int-to-ptr): OpenGL's numbers are what Dear ImGui takes here.
   return reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture));
 }
 

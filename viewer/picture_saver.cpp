@@ -59,7 +59,9 @@ std::string PictureSaver::begin_clip(const ImageSnapshot& image) {
 
 void PictureSaver::add_to_clip(const ImageSnapshot& image, double elapsed) {
   if (!clip_ || cv::Size(image.width, image.height) != clip_->size) return;
-  for (clip_->due += elapsed; clip_->due > 0; clip_->due -= 1 / kClipRate) {
+  clip_->due += elapsed;
+  while (clip_->due > 0) {
+    clip_->due -= 1 / kClipRate;
     clip_->writer.write(view_of(image));
     ++clip_->frames;
   }

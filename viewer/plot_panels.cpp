@@ -44,11 +44,13 @@ void label(ImDrawList* list, const ImVec2& at, const char* format, double value)
 
 void draw_frame(ImDrawList* list, const Plot& plot, double y_step, const char* y_format) {
   const float font = ImGui::GetFontSize();
-  for (double y = std::ceil(plot.y_low / y_step) * y_step; y <= plot.y_high + 1e-9; y += y_step) {
+  const auto first = static_cast<int>(std::ceil(plot.y_low / y_step));
+  const auto last = static_cast<int>(std::floor(plot.y_high / y_step + 1e-9));
+  for (int i = first; i <= last; ++i) {
+    const double y = i * y_step;
     const ImVec2 p = plot.at(plot.x_low, y);
     list->AddLine(p, ImVec2(plot.to.x, p.y), kGrid);
-    label(list, ImVec2(p.x - 2.3F * font, p.y - 0.5F * font), y_format,
-          std::abs(y) < 1e-9 ? 0.0 : y);
+    label(list, ImVec2(p.x - 2.3F * font, p.y - 0.5F * font), y_format, y);
   }
   list->AddRect(plot.from, plot.to, kAxis);
 }

@@ -121,7 +121,7 @@ class WindowLoop {
       if (hand_ != nullptr) hand_->set_target(control_.target());
       events_.hold_cursor(control_.grab() != Grab::nothing);
       draw(elapsed);
-      if (const auto saved = save_window(); !saved) return saved;
+      if (auto saved = save_window(); !saved) return saved;
       wanted_pictures_.clear();
       glfwSwapBuffers(window_);
       note_shown();

@@ -15,6 +15,7 @@ namespace artus {
 class WindowEvents {
  public:
   explicit WindowEvents(GLFWwindow* window);
+  ~WindowEvents() = default;
   WindowEvents(const WindowEvents&) = delete;
   WindowEvents& operator=(const WindowEvents&) = delete;
 

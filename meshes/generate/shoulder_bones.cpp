@@ -91,7 +91,7 @@ std::vector<Vec3> glenoid_rim(const Millimetres& mm, double joint_radius) {
     const double angle = 2 * std::numbers::pi * i / kPoints;
     const Vec3 in_plane =
         kGlenoidUp * mm.length(17) * std::cos(angle) + across * mm.length(12.3) * std::sin(angle);
-    rim.push_back((kToGlenoid * joint_radius + in_plane).normalized() * (joint_radius + 1.2e-3));
+    rim.emplace_back((kToGlenoid * joint_radius + in_plane).normalized() * (joint_radius + 1.2e-3));
   }
   return rim;
 }

@@ -76,7 +76,7 @@ SurfaceMesh to_surface_mesh(const Facets& facets) {
   for (const auto v : facets.vertices()) {
     const Point& p = facets.point(v);
     index[v.idx()] = static_cast<std::uint32_t>(mesh.vertices.size());
-    mesh.vertices.push_back(Vec3(p.x(), p.y(), p.z()) / kMmPerM);
+    mesh.vertices.emplace_back(Vec3(p.x(), p.y(), p.z()) / kMmPerM);
   }
   for (const auto f : facets.faces()) {
     Triangle triangle{};
