@@ -193,7 +193,7 @@ CompiledJoint make_joint(const JointFile& file, TetMesh mesh, std::string digest
   joint.regions = make_regions(file, mesh);
   joint.mesh = std::move(mesh);
   joint.landmarks = file.landmarks;
-  const DefaultPoses poses = find_default_poses(file, joint.mesh, notes);
+  const DefaultPoses poses = find_default_poses(file, joint, notes);
   joint.X_JP_default = poses.X_JP;
   joint.X_JN_default = poses.X_JN;
   joint.injections = file.injections;

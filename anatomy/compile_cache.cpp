@@ -12,7 +12,7 @@ namespace artus {
 namespace {
 
 // Raise it whenever the same sources compile to something else.
-constexpr std::uint64_t kCompilerVersion = 2;
+constexpr std::uint64_t kCompilerVersion = 3;
 
 std::string to_hex(std::uint64_t value) {
   std::array<char, 17> text{};

@@ -5,8 +5,13 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 #include <optional>
+#include <vector>
+
+#include <CGAL/AABB_traits.h>
+#include <CGAL/AABB_tree.h>
+#include <CGAL/AABB_triangle_primitive.h>
+#include <CGAL/Simple_cartesian.h>
 
 #include "core/units.h"
 
@@ -37,24 +42,71 @@ Sight find_sight(const JointFile& file, const TetMesh& mesh) {
   return {middle_of(file, mesh), std::nullopt};
 }
 
-/// The centroid of the skin triangle nearest to what is looked at, of those from which the beam
-/// comes at the needle steeply enough to show it; none when there is none.
-std::optional<Vec3> find_skin(const TetMesh& mesh, const Sight& sight) {
+using Kernel = CGAL::Simple_cartesian<double>;
+using HardTriangles = std::vector<Kernel::Triangle_3>;
+using HardTree = CGAL::AABB_tree<CGAL::AABB_traits<
+    Kernel, CGAL::AABB_triangle_primitive<Kernel, HardTriangles::const_iterator>>>;
+
+Kernel::Point_3 to_point(const Vec3& p) {
+  return {p.x(), p.y(), p.z()};
+}
+
+bool is_hard(const CompiledJoint& joint, RegionId region) {
+  return joint.tissue_of(region).haptic.hard;
+}
+
+HardTriangles hard_surfaces(const CompiledJoint& joint) {
+  HardTriangles hard;
+  const auto corner = [&](const Interface& f, std::size_t k) {
+    return to_point(joint.mesh.vertices[f.vertices[k]]);
+  };
+  for (const Interface& f : joint.mesh.interfaces) {
+    if (is_hard(joint, f.front) || is_hard(joint, f.back))
+      hard.emplace_back(corner(f, 0), corner(f, 1), corner(f, 2));
+  }
+  return hard;
+}
+
+struct Stand {
+  double distance = 0;  // m, to what is looked at
+  Vec3 position = Vec3::Zero();
+};
+
+/// Where on soft skin a probe could stand: centroids of its triangles, the nearest first; only
+/// those from which the beam comes at the needle steeply enough to show it.
+std::vector<Stand> find_stands(const CompiledJoint& joint, const Sight& sight) {
   constexpr double kAlongNeedle = 0.77;  // cosine of 40 degrees between beam and needle
-  std::optional<Vec3> nearest;
-  double least = std::numeric_limits<double>::infinity();
-  for (const Interface& f : mesh.interfaces) {
+  std::vector<Stand> stands;
+  for (const Interface& f : joint.mesh.interfaces) {
     if (f.front != kOutside && f.back != kOutside) continue;
+    if (is_hard(joint, f.front) || is_hard(joint, f.back)) continue;
     Vec3 centre = Vec3::Zero();
-    for (const auto v : f.vertices) centre += mesh.vertices[v] / 3;
+    for (const auto v : f.vertices) centre += joint.mesh.vertices[v] / 3;
     const Vec3 beam = sight.target - centre;
     const double distance = beam.norm();
-    if (!(distance > 0) || distance >= least) continue;
+    if (!(distance > 0)) continue;
     if (sight.needle && std::abs(sight.needle->dot(beam)) > kAlongNeedle * distance) continue;
-    least = distance;
-    nearest = centre;
+    stands.push_back({distance, centre});
   }
-  return nearest;
+  std::sort(stands.begin(), stands.end(),
+            [](const Stand& a, const Stand& b) { return a.distance < b.distance; });
+  return stands;
+}
+
+/// The nearest place on the skin that looks past all bone, or the nearest of all; none when there
+/// is none. What is looked at may lie on bone, so the last millimetre is not asked for.
+std::optional<Vec3> find_skin(const CompiledJoint& joint, const Sight& sight) {
+  const std::vector<Stand> stands = find_stands(joint, sight);
+  if (stands.empty()) return std::nullopt;
+  const HardTriangles hard = hard_surfaces(joint);
+  const HardTree tree(hard.begin(), hard.end());
+  for (const Stand& stand : stands) {
+    if (stand.distance <= kMillimetre) return stand.position;
+    const Vec3 end = sight.target + kMillimetre / stand.distance * (stand.position - sight.target);
+    if (!tree.do_intersect(Kernel::Segment_3(to_point(stand.position), to_point(end))))
+      return stand.position;
+  }
+  return stands.front().position;
 }
 
 std::string describe(const char* what, const Vec3& p) {
@@ -69,14 +121,14 @@ std::string describe(const char* what, const Vec3& p) {
 
 }  // namespace
 
-DefaultPoses find_default_poses(const JointFile& file, const TetMesh& mesh,
+DefaultPoses find_default_poses(const JointFile& file, const CompiledJoint& joint,
                                 std::vector<std::string>& notes) {
   constexpr double kDepth = 20 * kMillimetre;
   DefaultPoses poses;
-  const Sight sight = find_sight(file, mesh);
+  const Sight sight = find_sight(file, joint.mesh);
   if (file.X_JP_default) {
     poses.X_JP = *file.X_JP_default;
-  } else if (const auto skin = find_skin(mesh, sight)) {
+  } else if (const auto skin = find_skin(joint, sight)) {
     poses.X_JP = make_pose(*skin, sight.target - *skin, sight.needle.value_or(Vec3::UnitX()));
     notes.push_back(describe("probe", *skin));
   }
