@@ -44,7 +44,7 @@ ProbeContactModel::ProbeContactModel(std::shared_ptr<const Scene> scene,
         return (static_cast<double>(k) + 0.5) / static_cast<double>(n) - 0.5;
       };
       columns_.push_back(
-          {f.length * share(i, f.columns_x), f.width * share(j, f.columns_y), kNoSkin});
+          {f.length * share(i, f.columns_x), f.width * share(j, f.columns_y), kNoSkin, 0});
     }
   }
   coverage_.resize(f.elements);
@@ -70,6 +70,7 @@ ColumnResponse ProbeContactModel::probe_column(const Pose& X_JP, Column& column)
   const auto skin = std::find_if(all.begin(), all.end(),
                                  [](const TissueInterval& t) { return t.region != kOutside; });
   column.indentation = kNoSkin;
+  column.energy = 0;
   if (skin == all.end() || skin->region == kBeyond) return {};
   column.indentation = back - skin->entry;
   if (!(column.indentation > 0)) return {};
@@ -81,8 +82,10 @@ ColumnResponse ProbeContactModel::probe_column(const Pose& X_JP, Column& column)
     if (!known || hard_[t->region] != 0) break;
     layers_[n++] = {std::min(t->exit, end) - t->entry, modulus_[t->region]};
   }
-  return compress_column(params_.column, std::span<const ColumnLayer>(layers_.data(), n),
-                         column.indentation);
+  const ColumnResponse response = compress_column(
+      params_.column, std::span<const ColumnLayer>(layers_.data(), n), column.indentation);
+  column.energy = response.energy;
+  return response;
 }
 
 double ProbeContactModel::indentation_at(std::size_t row, double x) const noexcept {
@@ -111,6 +114,39 @@ void ProbeContactModel::update_coverage() noexcept {
     }
     coverage_[e] = static_cast<float>(touching) / static_cast<float>(f.columns_y);
   }
+}
+
+void ProbeContactModel::add_edge_force(const Pose& X_JP) noexcept {
+  const ProbeFootprint& f = params_.footprint;
+  // At the edge itself, half a column beyond the last one's middle.
+  const auto at_edge = [](const Column& last, const Column& before) {
+    return std::max(0.0, 1.5 * last.energy - 0.5 * before.energy);
+  };
+  const auto column = [&](std::size_t i, std::size_t j) -> const Column& {
+    return columns_[j * f.columns_x + i];
+  };
+  const auto pull = [&](const Column& at, const Vec3& force) {
+    const Vec3 in_J = X_JP.linear() * force;
+    contact_.edge_force += in_J;
+    contact_.wrench.torque += (X_JP.linear() * Vec3(at.x, at.y, 0)).cross(in_J);
+  };
+  const std::size_t nx = f.columns_x;
+  const std::size_t ny = f.columns_y;
+  const double piece_x = f.length / static_cast<double>(nx);
+  const double piece_y = f.width / static_cast<double>(ny);
+  for (std::size_t j = 0; nx > 1 && j < ny; ++j) {
+    const double left = at_edge(column(0, j), column(1, j));
+    const double right = at_edge(column(nx - 1, j), column(nx - 2, j));
+    pull({-f.length / 2, column(0, j).y}, Vec3(left * piece_y, 0, 0));
+    pull({f.length / 2, column(0, j).y}, Vec3(-right * piece_y, 0, 0));
+  }
+  for (std::size_t i = 0; ny > 1 && i < nx; ++i) {
+    const double near = at_edge(column(i, 0), column(i, 1));
+    const double far = at_edge(column(i, ny - 1), column(i, ny - 2));
+    pull({column(i, 0).x, -f.width / 2}, Vec3(0, near * piece_x, 0));
+    pull({column(i, 0).x, f.width / 2}, Vec3(0, -far * piece_x, 0));
+  }
+  contact_.wrench.force += contact_.edge_force;
 }
 
 void ProbeContactModel::add_friction(const Pose& X_JP) noexcept {
@@ -161,6 +197,7 @@ const ProbeContact& ProbeContactModel::step(const Pose& X_JP) noexcept {
     return contact_;
   }
   contact_.wrench.force = -contact_.normal_force * axis;
+  add_edge_force(X_JP);
   add_friction(X_JP);
   return contact_;
 }

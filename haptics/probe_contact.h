@@ -37,19 +37,24 @@ struct ProbeContactParams {
 
 /// What the probe feels in one tick.
 struct ProbeContact {
-  Wrench wrench;                 ///< on the hand, at the footprint's centre, frame J
-  double normal_force = 0;       ///< N >= 0, along -z of P
-  Vec3 friction = Vec3::Zero();  ///< N, part of the wrench: tangential, frame J
-  double slip = 0;               ///< m, way slid over the skin since the face touched it
-  double stiffness = 0;          ///< N/m, K_c: d normal force / d indentation, for the actuator
-  double indentation = 0;        ///< m, of the deepest column
-  double contact_share = 0;      ///< of the face that presses on skin, 0..1
-  std::uint32_t status = 0;      ///< TickStatus bits
+  Wrench wrench;                   ///< on the hand, at the footprint's centre, frame J
+  double normal_force = 0;         ///< N >= 0, along -z of P
+  Vec3 edge_force = Vec3::Zero();  ///< N, part of the wrench: tangential, frame J; what the tissue
+                                   ///< under the edges holds against sliding there
+  Vec3 friction = Vec3::Zero();    ///< N, part of the wrench: tangential, frame J
+  double slip = 0;                 ///< m, way slid over the skin since the face touched it
+  double stiffness = 0;            ///< N/m, K_c: d normal force / d indentation, for the actuator
+  double indentation = 0;          ///< m, of the deepest column
+  double contact_share = 0;        ///< of the face that presses on skin, 0..1
+  std::uint32_t status = 0;        ///< TickStatus bits
 };
 
 /// The probe pressed on the body: a grid of tissue columns under the face, each from the skin along
 /// the probe's axis down to bone, pressed in series. The skin's undeformed surface is where the
-/// scene has it. One instance per probe; not thread safe; deterministic.
+/// scene has it. Sliding presses the tissue ahead and frees the tissue behind: the edges carry that
+/// work, so normal and edge forces are the gradient of one stored energy, and without friction the
+/// force on a slope stands on the skin, not on the face. One instance per probe; not thread safe;
+/// deterministic.
 class ProbeContactModel {
  public:
   /// Requires: a scene; a footprint with positive size, at least one column each way and one
@@ -77,10 +82,12 @@ class ProbeContactModel {
     double x = 0;
     double y = 0;
     double indentation = 0;  // m; negative: gap; -infinity: no skin there
+    double energy = 0;       // J/m^2 stored
   };
   [[nodiscard]] ColumnResponse probe_column(const Pose& X_JP, Column& column) noexcept;
   void update_coverage() noexcept;
   [[nodiscard]] double indentation_at(std::size_t row, double x) const noexcept;
+  void add_edge_force(const Pose& X_JP) noexcept;
   void add_friction(const Pose& X_JP) noexcept;
   void clear(std::uint32_t status) noexcept;
 

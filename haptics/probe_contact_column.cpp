@@ -10,6 +10,19 @@ namespace {
 constexpr int kMaxSteps = 80;
 constexpr double kTolerance = 1e-12;  // relative, of the pressure
 
+/// J/m^2 stored when a pressure (Pa) has compressed the layers by `indentation`: the integral of
+/// depth over pressure taken from their product. In closed form.
+double stored_energy(const ColumnParams& params, std::span<const ColumnLayer> layers,
+                     double pressure, double indentation) noexcept {
+  double complementary = pressure * pressure / (2 * params.stop_stiffness);
+  for (const ColumnLayer& layer : layers) {
+    const double scale = std::max(layer.modulus, params.least_modulus) * params.strain_limit;
+    complementary +=
+        layer.thickness * params.strain_limit * (pressure - scale * std::log1p(pressure / scale));
+  }
+  return std::max(0.0, pressure * indentation - complementary);
+}
+
 struct Compression {
   double depth;  // m at a pressure
   double slope;  // m/Pa
@@ -40,7 +53,8 @@ ColumnResponse compress_column(const ColumnParams& params, std::span<const Colum
     pressure += step;
     if (step <= kTolerance * pressure) break;
   }
-  return {pressure, 1 / compress(params, layers, pressure).slope};
+  return {pressure, 1 / compress(params, layers, pressure).slope,
+          stored_energy(params, layers, pressure, indentation)};
 }
 
 }  // namespace artus

@@ -24,6 +24,7 @@ struct ColumnParams {
 struct ColumnResponse {
   double pressure = 0;   ///< Pa
   double stiffness = 0;  ///< Pa/m, d pressure / d indentation
+  double energy = 0;     ///< J/m^2, the work of the pressure from no indentation on
 };
 
 /// Compresses layers in series by `indentation` (m): all carry the same pressure s, each is

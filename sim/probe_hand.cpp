@@ -33,6 +33,7 @@ ProbeHandRow ProbeHand::feel() {
   row.energy_to_hand = loop_.energy_to_hand();
   const ProbeContact& contact = contact_.step(row.X_JP);
   row.normal_force = contact.normal_force;
+  row.edge_force = contact.edge_force;
   row.friction = contact.friction;
   row.torque = contact.wrench.torque;
   row.slip = contact.slip;

@@ -33,16 +33,17 @@ struct ProbeIntention {
 
 /// One tick of the probe hand. Frame J.
 struct ProbeHandRow {
-  Pose X_JP = Pose::Identity();  ///< as measured
-  double normal_force = 0;       ///< N >= 0, of the tissue
-  Vec3 friction = Vec3::Zero();  ///< N on the hand
-  Vec3 torque = Vec3::Zero();    ///< N m on the hand
-  double slip = 0;               ///< m slid since the face touched
-  double stiffness = 0;          ///< N/m, K_c, what the actuator has to render
-  double indentation = 0;        ///< m, of the deepest column
-  double contact_share = 0;      ///< 0..1 of the face
-  double energy_to_hand = 0;     ///< J given since the start
-  std::uint32_t status = 0;      ///< TickStatus bits
+  Pose X_JP = Pose::Identity();    ///< as measured
+  double normal_force = 0;         ///< N >= 0, of the tissue
+  Vec3 edge_force = Vec3::Zero();  ///< N on the hand, of the tissue under the edges
+  Vec3 friction = Vec3::Zero();    ///< N on the hand
+  Vec3 torque = Vec3::Zero();      ///< N m on the hand
+  double slip = 0;                 ///< m slid since the face touched
+  double stiffness = 0;            ///< N/m, K_c, what the actuator has to render
+  double indentation = 0;          ///< m, of the deepest column
+  double contact_share = 0;        ///< 0..1 of the face
+  double energy_to_hand = 0;       ///< J given since the start
+  std::uint32_t status = 0;        ///< TickStatus bits
 
   /// Where the picture is taken from: the tissue is not compressed in it, so the face is drawn back
   /// to where it meets the skin as it lies.

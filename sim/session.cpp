@@ -170,7 +170,7 @@ void Session::note_image(std::int64_t ready_ns) {
 void Session::share(const ImageSnapshot& image) {
   artus_shm_image& out = *image_bytes_;
   const std::size_t n = image.grey.size();
-  if (n > std::size_t{ARTUS_SHM_IMAGE_CAPACITY}) return;
+  if (n > std::size(out.grey)) return;
   out.frame = image.input.number;
   out.time_ns = static_cast<std::uint64_t>(image.ready_ns);
   out.pos_time_ns = static_cast<std::uint64_t>(image.input.sample_time_ns);

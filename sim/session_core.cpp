@@ -37,7 +37,7 @@ Result<void> validate(const SessionParams& params) {
     return fail(ErrorCode::invalid, "the haptic rate must be 100 to 20000 Hz", "haptic_rate");
   if (!(params.image_rate >= 1 && params.image_rate <= 120))
     return fail(ErrorCode::invalid, "the image rate must be 1 to 120 Hz", "image_rate");
-  if (const auto valid = validate(params.transducer); !valid) return valid;
+  if (auto valid = validate(params.transducer); !valid) return valid;
   return validate(params.image);
 }
 

@@ -101,7 +101,8 @@ void claim_probe(ThreeInjections& run) {
     const ProbeHandRow& row = run.probe[i];
     faults |= row.status & TickStatus::kFaults;
     if (row.contact_share == 0) {
-      off_skin = std::max(off_skin, row.normal_force + row.friction.norm() + row.torque.norm());
+      off_skin = std::max(off_skin, row.normal_force + row.edge_force.norm() + row.friction.norm() +
+                                        row.torque.norm());
     } else {
       over_coulomb = std::max(over_coulomb, row.friction.norm() - friction * row.normal_force);
     }

@@ -45,8 +45,10 @@ void add_probe_panels(const ThreeInjections& run, Plot& plot) {
   const auto probe = [&run](const char* label, auto value) {
     return series(run, run.probe, label, value);
   };
-  plot.panels.push_back(
-      {time, "probe: force (N)", {probe("normal", [](Row r) { return r.normal_force; })}});
+  plot.panels.push_back({time,
+                         "probe: force (N)",
+                         {probe("normal", [](Row r) { return r.normal_force; }),
+                          probe("edges", [](Row r) { return r.edge_force.norm(); })}});
   plot.panels.push_back({time,
                          "probe: friction, torque",
                          {probe("friction (N)", [](Row r) { return r.friction.norm(); }),
@@ -60,17 +62,36 @@ void add_probe_panels(const ThreeInjections& run, Plot& plot) {
 
 constexpr const char* kProbeHeader =
     ",probe_x_m,probe_y_m,probe_z_m,probe_q_w,probe_q_x,probe_q_y,probe_q_z,probe_normal_n,"
-    "probe_friction_x_n,probe_friction_y_n,probe_friction_z_n,probe_torque_x_nm,"
-    "probe_torque_y_nm,probe_torque_z_nm,probe_slip_m,probe_stiffness_n_m,probe_indentation_m,"
+    "probe_edge_x_n,probe_edge_y_n,probe_edge_z_n,probe_friction_x_n,probe_friction_y_n,"
+    "probe_friction_z_n,probe_torque_x_nm,probe_torque_y_nm,probe_torque_z_nm,probe_slip_m,probe_"
+    "stiffness_n_m,probe_indentation_m,"
     "probe_contact_share,probe_energy_to_hand_j,probe_status";
 
 void append_probe(const ProbeHandRow& row, std::string& line) {
   const Eigen::Quaterniond q(row.X_JP.linear());
   const Vec3 p = row.X_JP.translation();
-  for (const double value :
-       {p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z(), row.normal_force, row.friction.x(),
-        row.friction.y(), row.friction.z(), row.torque.x(), row.torque.y(), row.torque.z(),
-        row.slip, row.stiffness, row.indentation, row.contact_share, row.energy_to_hand}) {
+  for (const double value : {p.x(),
+                             p.y(),
+                             p.z(),
+                             q.w(),
+                             q.x(),
+                             q.y(),
+                             q.z(),
+                             row.normal_force,
+                             row.edge_force.x(),
+                             row.edge_force.y(),
+                             row.edge_force.z(),
+                             row.friction.x(),
+                             row.friction.y(),
+                             row.friction.z(),
+                             row.torque.x(),
+                             row.torque.y(),
+                             row.torque.z(),
+                             row.slip,
+                             row.stiffness,
+                             row.indentation,
+                             row.contact_share,
+                             row.energy_to_hand}) {
     line += ',' + to_csv(value);
   }
   line += ',' + std::to_string(row.status);
@@ -157,7 +178,7 @@ Result<void> write_three_injections(const ThreeInjections& run,
       append_probe(run.probe[i], line);
     };
   }
-  const auto csv = write_needle_csv(folder / "trace.csv", run.rows, run.region_names, probe);
+  auto csv = write_needle_csv(folder / "trace.csv", run.rows, run.region_names, probe);
   if (!csv) return csv;
   return write_plot(folder / "forces.png", force_plot(run));
 }

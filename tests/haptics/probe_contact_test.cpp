@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -65,6 +66,18 @@ TEST(ProbeContactColumn, StiffnessIsTheSlopeOfThePressure) {
   }
 }
 
+TEST(ProbeContactColumn, EnergyIsTheIntegralOfThePressure) {
+  const std::array<ColumnLayer, 2> layers{{{0.002, 1e5}, {0.005, 3e3}}};
+  for (const double depth : {1e-6, 1e-4, 1e-3, 3e-3, 4.1e-3}) {
+    double work = 0;
+    constexpr int kSteps = 20000;
+    for (int i = 0; i < kSteps; ++i) {
+      work += compress_column({}, layers, depth * (i + 0.5) / kSteps).pressure * depth / kSteps;
+    }
+    EXPECT_NEAR(compress_column({}, layers, depth).energy, work, 1e-6 * work) << depth;
+  }
+}
+
 TEST(ProbeContactColumn, WithoutTissueOnlyTheStopAnswers) {
   const ColumnParams params;
   EXPECT_NEAR(compress_column(params, {}, 1e-5).pressure, 1e-5 * params.stop_stiffness, 1e-6);
@@ -123,6 +136,71 @@ TEST(ProbeContact, TiltTurnsTheHandBackWithTheTorqueOfALinearPressure) {
   // A positive turn about y lifts the +x end, so the -x end presses and turns the hand back.
   EXPECT_NEAR(contact.wrench.torque.y(), -torque, 0.02 * torque);
   EXPECT_NEAR(contact.wrench.torque.x(), 0, 1e-3 * torque);
+}
+
+TEST(ProbeContact, WithoutFrictionTheForceOnASlopeStandsOnTheSkin) {
+  ProbeContactParams params;
+  params.gel_friction = 0;
+  params.footprint.columns_y = 1;
+  ProbeContactModel model(make_block(kMuscle), params);
+  // 0.2 mm deep: the whole face presses at 0.2 degrees, a third of it at 2 degrees.
+  for (const double tilt : {0.2 * kDegree, 2 * kDegree, -2 * kDegree}) {
+    const ProbeContact& contact = model.step(on_block(2e-4, tilt));
+    ASSERT_GT(contact.normal_force, 0);
+    EXPECT_NEAR(contact.wrench.force.x(), 0, 0.03 * std::abs(std::tan(tilt)) * contact.normal_force)
+        << tilt;
+    EXPECT_LT(contact.wrench.force.z(), 0);
+  }
+}
+
+/// Energy given to the hand on a closed way over a bone that lies askew below, and on its normal
+/// forces alone, as shares of the work done to and fro.
+struct LoopEnergy {
+  double all = 0;
+  double normal_alone = 0;
+};
+
+LoopEnergy ride_over_bone(const ProbeContactParams& params, double turn) {
+  ProbeContactModel model(
+      std::make_shared<const Scene>(
+          std::make_shared<const CompiledJoint>(test::make_block_with_sphere(
+              "muscle", Vec3(0.16, 0.1, 0.1), Vec3::Zero(), "bone", Vec3(0.01, 0.01, 0.05), 0.04))),
+      params);
+  LoopEnergy energy;
+  double to_and_fro = 0;
+  Vec3 position = Vec3::Zero();
+  Vec3 force = Vec3::Zero();
+  Vec3 normal = Vec3::Zero();
+  constexpr int kSteps = 4000;
+  for (int i = 0; i <= kSteps; ++i) {
+    const double phase = turn * 2 * std::numbers::pi * i / kSteps;
+    const Vec3 p(0.012 * std::sin(phase), 0.004 * std::sin(phase), 3e-3 + 3.5e-3 * std::cos(phase));
+    const ProbeContact& contact = model.step(make_pose(p, Vec3::UnitZ(), Vec3::UnitX()));
+    const Vec3 pressed = -contact.normal_force * Vec3::UnitZ();
+    if (i > 0) {
+      const double work = 0.5 * (force + contact.wrench.force).dot(p - position);
+      energy.all += work;
+      energy.normal_alone += 0.5 * (normal + pressed).dot(p - position);
+      to_and_fro += std::abs(work);
+    }
+    position = p;
+    force = contact.wrench.force;
+    normal = pressed;
+  }
+  return {energy.all / to_and_fro, energy.normal_alone / to_and_fro};
+}
+
+TEST(ProbeContact, ClosedWaysOverUnevenTissueGiveTheHandNoEnergy) {
+  ProbeContactParams params;
+  params.gel_friction = 0;
+  for (const double turn : {1.0, -1.0}) {
+    params.footprint.columns_y = 3;
+    const LoopEnergy coarse = ride_over_bone(params, turn);
+    EXPECT_LT(std::abs(coarse.all), 0.025) << turn;
+    EXPECT_GT(std::abs(coarse.normal_alone), 0.2) << "the test must tell the two apart";
+    params.footprint.columns_y = 12;
+    EXPECT_LT(std::abs(ride_over_bone(params, turn).all), 0.005) << turn;
+  }
 }
 
 TEST(ProbeContact, SlidingMeetsCoulombFrictionAgainstTheMotion) {
