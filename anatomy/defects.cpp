@@ -346,13 +346,14 @@ DefectSeverity severity_of(DefectKind kind) noexcept {
     case DefectKind::self_intersection:
     case DefectKind::crossing_layers:
       return DefectSeverity::note;
-    case DefectKind::empty:
     case DefectKind::zero_thickness_sheet:
+    case DefectKind::size_outlier:
+    case DefectKind::place_outlier:
+      return DefectSeverity::doubtful;
+    case DefectKind::empty:
     case DefectKind::implausible_size:
     case DefectKind::unreadable_file:
     case DefectKind::unknown_tissue:
-    case DefectKind::size_outlier:
-    case DefectKind::place_outlier:
       return DefectSeverity::fatal;
     default:
       return DefectSeverity::repairable;
@@ -365,6 +366,8 @@ const char* to_string(DefectSeverity severity) noexcept {
       return "note";
     case DefectSeverity::repairable:
       return "repairable";
+    case DefectSeverity::doubtful:
+      return "doubtful";
     case DefectSeverity::fatal:
       return "fatal";
   }

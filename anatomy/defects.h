@@ -41,8 +41,9 @@ inline constexpr DefectKind kLastDefect = DefectKind::place_outlier;
 /// The stable name of a kind, as JSON output and tests/data/bad/ have it ("open_edge").
 [[nodiscard]] const char* to_string(DefectKind kind) noexcept;
 
-/// What becomes of a defect: nothing needs to (note), repair_surface mends it, or nobody can.
-enum class DefectSeverity { note, repairable, fatal };
+/// What becomes of a defect: nothing needs to (note), repair_surface mends it, somebody should look
+/// though it can be compiled or repair may yet mend it (doubtful), or nobody can (fatal).
+enum class DefectSeverity { note, repairable, doubtful, fatal };
 [[nodiscard]] DefectSeverity severity_of(DefectKind kind) noexcept;
 [[nodiscard]] const char* to_string(DefectSeverity severity) noexcept;
 

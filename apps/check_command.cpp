@@ -40,11 +40,9 @@ void print(const std::vector<Defect>& defects) {
                 defect.message.c_str());
 }
 
-/// Fatal for the joint whatever repair does. Sheets are left to repair: it sews or thickens some.
 bool any_fatal(const std::vector<Defect>& defects) {
   return std::any_of(defects.begin(), defects.end(), [](const Defect& defect) {
-    return severity_of(defect.kind) == DefectSeverity::fatal &&
-           defect.kind != DefectKind::zero_thickness_sheet;
+    return severity_of(defect.kind) == DefectSeverity::fatal;
   });
 }
 

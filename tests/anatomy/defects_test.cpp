@@ -171,6 +171,7 @@ TEST(Defects, TheRealManubriumInItsWrongUnitIsAnOutlier) {
   for (Vec3& p : surfaces[0].mesh.vertices) p /= 27.66;
   const auto defects = find_outliers(surfaces);
   EXPECT_EQ(kinds_of(defects), (Kinds{"size_outlier", "place_outlier"}));
+  for (const Defect& d : defects) EXPECT_EQ(severity_of(d.kind), DefectSeverity::doubtful);
   for (const auto& d : defects) EXPECT_EQ(d.structure, "b_manubrium");
   surfaces[0].has_own_unit = true;  // its author says that it is so small
   EXPECT_EQ(kinds_of(find_outliers(surfaces)), Kinds{"place_outlier"});
