@@ -12,7 +12,8 @@ namespace {
 
 constexpr double kOutermost = 0.9;  // widths from the axis: the beam is 20 dB down there
 constexpr double kSigmaPerWidth = 1 / 2.3548200450309493;
-constexpr double kTail = 3;          // standard deviations kept of a Gaussian
+constexpr double kTail = 3;          // standard deviations kept of the pulse
+constexpr double kBeamTail = 4.2;    // standard deviations from which the beam is left out: -77 dB
 constexpr double kLongest = 1.25;    // of the displayed depth, as far as beams are followed
 constexpr std::size_t kPadding = 8;  // floats behind the last weight that may be read
 constexpr int kMaxReach = 16;        // lines
@@ -24,8 +25,14 @@ void multiply_add(const float* weight, const float* in, float* out, std::size_t 
 }
 
 ARTUS_SIMD
-void scale_add(float weight, const float* in, float* out, std::size_t n) noexcept {
-  for (std::size_t i = 0; i < n; ++i) out[i] += weight * in[i];
+void scale(float weight, const float* in, float* out, std::size_t n) noexcept {
+  for (std::size_t i = 0; i < n; ++i) out[i] = weight * in[i];
+}
+
+ARTUS_SIMD
+void scale_add_pair(float weight, const float* before, const float* behind, float* out,
+                    std::size_t n) noexcept {
+  for (std::size_t i = 0; i < n; ++i) out[i] += weight * (before[i] + behind[i]);
 }
 
 /// Power of a weighted sum of unit scatterers at `spacing`, some of which lie in one cell.
@@ -84,7 +91,7 @@ void BeamShape::tabulate_lateral(int n_lines) {
     sigma[i] = profile_.lateral_width(z) * kSigmaPerWidth / line_spacing(z);
   }
   const double widest = *std::max_element(sigma.begin(), sigma.end());
-  reach_ = std::clamp(static_cast<int>(std::ceil(kTail * widest)), 1,
+  reach_ = std::clamp(static_cast<int>(std::ceil(kBeamTail * widest)) - 1, 1,
                       std::min(kMaxReach, std::max(1, n_lines - 1)));
   kernel_.assign(static_cast<std::size_t>(reach_ + 1) * n, 0.0F);
   for (std::size_t i = 0; i < n; ++i) {
@@ -174,16 +181,24 @@ void BeamShape::across(std::span<const float> lines, int n_lines, int line,
 void BeamShape::along(std::span<const float> in, std::span<float> out) const noexcept {
   const std::size_t n = in.size();
   const std::size_t half = pulse_.size() / 2;
-  std::fill(out.begin(), out.end(), 0.0F);
-  for (std::size_t k = 0; k < pulse_.size(); ++k) {
-    const std::size_t shift = k > half ? k - half : half - k;
-    if (shift >= n) continue;
-    if (k >= half) {
-      scale_add(pulse_[k], in.data(), out.data() + shift, n - shift);
-    } else {
-      scale_add(pulse_[k], in.data() + shift, out.data(), n - shift);
+  const float* weight = pulse_.data() + half;
+  if (n > 2 * half) {
+    const std::size_t inner = n - 2 * half;
+    scale(weight[0], in.data() + half, out.data() + half, inner);
+    for (std::size_t k = 1; k <= half; ++k) {
+      scale_add_pair(weight[k], in.data() + half - k, in.data() + half + k, out.data() + half,
+                     inner);
     }
   }
+  const auto near_end = [&](std::size_t i) {
+    float sum = weight[0] * in[i];
+    for (std::size_t k = 1; k <= half; ++k) {
+      sum += weight[k] * ((i >= k ? in[i - k] : 0.0F) + (i + k < n ? in[i + k] : 0.0F));
+    }
+    out[i] = sum;
+  };
+  for (std::size_t i = 0; i < std::min(half, n); ++i) near_end(i);
+  for (std::size_t i = std::max(half, n > half ? n - half : 0); i < n; ++i) near_end(i);
 }
 
 }  // namespace artus

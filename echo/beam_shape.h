@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -48,6 +49,16 @@ class BeamShape {
   /// Amplitude at `offset` (m) beside a scanline's axis of what one line of unit share receives.
   [[nodiscard]] double lateral_amplitude(double offset, double z) const noexcept;
 
+  /// Distance between neighbouring scanlines at depth `z`, m.
+  [[nodiscard]] double line_spacing(double z) const noexcept {
+    return pitch_ * (1 + curvature_ * z);
+  }
+  /// What across() leaves of an echo that one line alone carries, at its own place and sample.
+  [[nodiscard]] double line_share(double sample) const noexcept {
+    const auto last = static_cast<double>(n_samples_ - 1);
+    return kernel_[static_cast<std::size_t>(std::clamp(sample, 0.0, last))];
+  }
+
   /// Spreads lines sideways: out = sum over k of kernel(|k|, sample) * lines[l + k]. `lines` is
   /// (n_lines, n_samples); lines beyond the edges count as silent.
   void across(std::span<const float> lines, int n_lines, int line,
@@ -56,10 +67,6 @@ class BeamShape {
   void along(std::span<const float> in, std::span<float> out) const noexcept;
 
  private:
-  /// Distance between neighbouring scanlines at depth `z`, m.
-  [[nodiscard]] double line_spacing(double z) const noexcept {
-    return pitch_ * (1 + curvature_ * z);
-  }
   void size_scatterers(const Transducer& transducer);
   void tabulate_planes(const ImageSettings& settings);
   void tabulate_lateral(int n_lines);

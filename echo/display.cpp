@@ -10,9 +10,9 @@
 namespace artus {
 namespace {
 
-/// log2 of a positive normal number: exponent from the bits, mantissa by the series of artanh.
-inline float fast_log2(float x) noexcept {
-  const auto bits = std::bit_cast<std::uint32_t>(x);
+/// log2 of the positive normal number with these bits: exponent from the bits, mantissa by the
+/// series of artanh.
+inline float fast_log2(std::uint32_t bits) noexcept {
   const std::uint32_t shifted = bits - 0x3f3504f3U;  // sqrt(1/2): mantissa in [0.7, 1.4)
   const auto exponent = static_cast<float>(static_cast<std::int32_t>(shifted) >> 23);
   const auto mantissa = std::bit_cast<float>((shifted & 0x007fffffU) + 0x3f3504f3U);
@@ -24,10 +24,11 @@ inline float fast_log2(float x) noexcept {
 
 ARTUS_SIMD
 void compress_all(const float* envelope, float gain_db, float* decibel, std::size_t n) noexcept {
-  constexpr float kFloor = 1e-10F;
+  constexpr auto kFloor = std::bit_cast<std::int32_t>(1e-10F);
   for (std::size_t i = 0; i < n; ++i) {
-    const float x = envelope[i] > kFloor ? envelope[i] : kFloor;
-    decibel[i] = 6.020599913F * fast_log2(x) + gain_db;
+    // bits of positive numbers are ordered as they are; a comparison of floats would not vectorise
+    const std::int32_t bits = std::max(std::bit_cast<std::int32_t>(envelope[i]), kFloor);
+    decibel[i] = 6.020599913F * fast_log2(static_cast<std::uint32_t>(bits)) + gain_db;
   }
 }
 
@@ -69,7 +70,8 @@ ScanConverter::ScanConverter(const Transducer& transducer, const ImageSettings& 
     : pixel_(settings.pixel),
       n_samples_(settings.n_samples),
       grey_per_db_(static_cast<float>(255 / settings.dynamic_range_db)),
-      dynamic_range_(static_cast<float>(settings.dynamic_range_db)) {
+      dynamic_range_(static_cast<float>(settings.dynamic_range_db)),
+      single_line_(transducer.n_lines == 1) {
   const Scanline first = scanline(transducer, 0);
   const Scanline last = scanline(transducer, transducer.n_lines - 1);
   const auto end = [&](const Scanline& line) -> Vec3 {
@@ -121,7 +123,7 @@ void ScanConverter::convert(std::span<const float> decibel, int first_row, int l
                             std::span<std::uint8_t> image) const noexcept {
   const auto begin = static_cast<std::size_t>(first_row) * static_cast<std::size_t>(width_);
   const auto end = static_cast<std::size_t>(last_row) * static_cast<std::size_t>(width_);
-  const auto next_line = static_cast<std::size_t>(n_samples_);
+  const std::ptrdiff_t next_line = single_line_ ? 0 : n_samples_;
   for (std::size_t k = begin; k < end; ++k) {
     const Sample& s = samples_[k];
     if (s.index < 0) {
@@ -129,12 +131,12 @@ void ScanConverter::convert(std::span<const float> decibel, int first_row, int l
       continue;
     }
     const float* a = decibel.data() + s.index;
-    const float* b = s.line > 0 ? a + next_line : a;
+    const float* b = a + next_line;
     const float near = a[0] + s.sample * (a[1] - a[0]);
     const float far = b[0] + s.sample * (b[1] - b[0]);
     const float db = near + s.line * (far - near);
-    const float grey = (db + dynamic_range_) * grey_per_db_ + 0.5F;
-    image[k] = static_cast<std::uint8_t>(std::clamp(grey, 0.0F, 255.0F));
+    const auto grey = static_cast<int>((db + dynamic_range_) * grey_per_db_ + 0.5F);
+    image[k] = static_cast<std::uint8_t>(std::clamp(grey, 0, 255));
   }
 }
 

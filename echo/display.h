@@ -59,6 +59,7 @@ class ScanConverter {
   int n_samples_ = 0;
   float grey_per_db_ = 0;
   float dynamic_range_ = 0;
+  bool single_line_ = false;
   std::vector<Sample> samples_;  // (height, width)
 };
 

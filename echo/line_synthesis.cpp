@@ -18,6 +18,8 @@ constexpr double kTailShare = 0.35;  // assumed: scattering just behind a rough 
 constexpr float kTailDecay = 0.8F;   // per sample
 constexpr std::size_t kTailGap = 3;  // samples behind the surface
 constexpr std::size_t kTail = 16;    // samples
+constexpr double kHaze = 0.1;        // assumed: -20 dB at the face, +6 for both orders of the way,
+                                     // -6 because its second leg is out of focus
 constexpr float kSheet = 1.6F;       // texture above which a sheet reflects coherently
 constexpr double kSheetEcho = 1.5;   // assumed: coherent amplitude over scattered, per unit above
 
@@ -35,9 +37,38 @@ void interpolate_gain(const float* nodes, const float* weight, float* gain,
   }
 }
 
+constexpr std::size_t kLanes = 8;
+
+/// Multiplies nodes by an amplitude that starts at `value` and changes by `ratio` from node to
+/// node, and sets what their sheets reflect coherently. Goes on to a full multiple of kLanes.
+ARTUS_SIMD
+void fade_nodes(float value, float ratio, float facing, float* nodes, float* sheets,
+                std::size_t n) noexcept {
+  std::array<float, kLanes> amplitude{};
+  float step = 1;
+  for (float& a : amplitude) {
+    a = value * step;
+    step *= ratio;
+  }
+  for (std::size_t k = 0; k < n; k += kLanes) {
+    for (std::size_t j = 0; j < kLanes; ++j) {
+      const float node = nodes[k + j];
+      const float above = 0.5F * (node - kSheet + std::abs(node - kSheet));
+      sheets[k + j] = amplitude[j] * facing * above;
+      nodes[k + j] = node * amplitude[j];
+      amplitude[j] *= step;
+    }
+  }
+}
+
 ARTUS_SIMD
 void accumulate(const float* in, float* out, std::size_t n) noexcept {
   for (std::size_t i = 0; i < n; ++i) out[i] += in[i];
+}
+
+ARTUS_SIMD
+void scale_add(float factor, const float* in, float* out, std::size_t n) noexcept {
+  for (std::size_t i = 0; i < n; ++i) out[i] += factor * in[i];
 }
 
 }  // namespace
@@ -50,6 +81,7 @@ LineSynthesis::LineSynthesis(const BeamShape& shape, const ScatterField& scatter
       texture_(&texture),
       speckle_(std::pow(10.0, settings.speckle_db / 20)),
       has_texture_(settings.texture),
+      reverberates_(settings.reverberation),
       n_planes_(settings.n_planes),
       pitch_(transducer.pitch()) {}
 
@@ -64,13 +96,13 @@ void LineSynthesis::add_run(const BeamRun& run, const RegionAcoustics& region,
   const double into = static_cast<double>(first) - run.begin;
   const Vec3 p_J = run.p_J + into * run.step_J;
   const double slope = (run.log_gain_end - run.log_gain_begin) / (run.end - run.begin);
-  double value = speckle_ * region.backscatter * fibre_backscatter(region, run.along) *
-                 std::exp(run.log_gain_begin + into * slope);
-  const double ratio = std::exp(slope * kStride);
+  const double value = speckle_ * region.backscatter * fibre_backscatter(region, run.along) *
+                       std::exp(run.log_gain_begin + into * slope);
   const std::size_t n_nodes = (n - 1) / kStride + 2;
   const std::size_t behind = re.size() + kStride;  // the last stride may reach over the end
   const auto nodes = gain.subspan(behind, n_nodes);
-  const auto sheets = gain.subspan(behind + n_nodes, n_nodes);
+  const std::size_t room = (n_nodes + kLanes - 1) / kLanes * kLanes;
+  const auto sheets = gain.subspan(behind + room, n_nodes);
   const double across =
       region.kind == TissueKind::fat ? run.across * run.across : 1 - run.along * run.along;
   const auto facing = static_cast<float>(kSheetEcho * across);
@@ -82,12 +114,8 @@ void LineSynthesis::add_run(const BeamRun& run, const RegionAcoustics& region,
   } else {
     std::fill(nodes.begin(), nodes.end(), 1.0F);
   }
-  for (std::size_t k = 0; k < n_nodes; ++k) {
-    const auto amplitude = static_cast<float>(value);
-    if (reflects) sheets[k] = amplitude * facing * std::max(0.0F, nodes[k] - kSheet);
-    nodes[k] *= amplitude;
-    value *= ratio;
-  }
+  fade_nodes(static_cast<float>(value), static_cast<float>(std::exp(slope * kStride)),
+             reflects ? facing : 0.0F, nodes.data(), sheets.data(), n_nodes);
   const std::size_t n_strides = n_nodes - 1;
   if (reflects) {
     interpolate_gain(sheets.data(), weight.data() + first, gain.data(), n_strides);
@@ -148,6 +176,19 @@ void LineSynthesis::add_echo(const BeamEcho& echo, const ScatterView& view,
                     im.subspan(from, length));
 }
 
+/// What shows inside a shadow: sound that bone threw back, that the face reflected and that went
+/// through the tissue above once more. It lies behind the bone by as much as the tissue lies below
+/// the face, fainter by the bone's echo and the face.
+void LineSynthesis::add_haze(const BeamTrace& trace, std::span<float> re,
+                             std::span<float> im) noexcept {
+  const auto shift = static_cast<std::size_t>(std::ceil(std::max(1.0, trace.end_sample)));
+  if (!trace.contact || trace.end_amplitude <= 0 || shift >= re.size()) return;
+  const std::size_t n = std::min(shift, re.size() - shift);
+  const auto share = static_cast<float>(kHaze * trace.end_amplitude);
+  scale_add(share, re.data(), re.data() + shift, n);
+  scale_add(share, im.data(), im.data() + shift, n);
+}
+
 void LineSynthesis::synthesise(const BeamTracer& tracer, std::span<const RegionAcoustics> regions,
                                const Scanline& line, const Pose& X_JP, LineScratch& scratch,
                                std::span<float> re, std::span<float> im) const {
@@ -172,6 +213,7 @@ void LineSynthesis::synthesise(const BeamTracer& tracer, std::span<const RegionA
     tracer.trace_along(scratch.plane, elevation, scratch.central, scratch.side);
     add_plane(p, scratch.side, regions, scratch.view, scratch.gain, re, im);
   }
+  if (reverberates_) add_haze(scratch.central, re, im);
 }
 
 }  // namespace artus

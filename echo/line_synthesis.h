@@ -52,8 +52,11 @@ class LineSynthesis {
   const BeamShape* shape_;
   const ScatterField* scatter_;
   const TissueTexture* texture_;
+  static void add_haze(const BeamTrace& trace, std::span<float> re, std::span<float> im) noexcept;
+
   double speckle_;  // rms of muscle, mirror = 1
   bool has_texture_;
+  bool reverberates_;
   int n_planes_;
   double pitch_;  // m between scanlines
 };

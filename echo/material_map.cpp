@@ -55,12 +55,16 @@ constexpr std::size_t find_term(const std::array<int, 3>& power) {
   return find_power(kTermList, power);
 }
 
+constexpr std::size_t kColumns = MaterialMap::kColumns;
+
+/// out = the sum of the table's rows of kColumns, each times its term.
 ARTUS_SIMD
-void sum_terms(const float* terms, const float* table, float* out, std::size_t n_terms,
-               std::size_t n) noexcept {
+void sum_terms(const float* terms, const float* table, float* out, std::size_t n_terms) noexcept {
+  std::array<float, kColumns> sum{};
   for (std::size_t k = 0; k < n_terms; ++k) {
-    for (std::size_t c = 0; c < n; ++c) out[c] += terms[k] * table[k * n + c];
+    for (std::size_t c = 0; c < kColumns; ++c) sum[c] += terms[k] * table[k * kColumns + c];
   }
+  for (std::size_t c = 0; c < kColumns; ++c) out[c] = sum[c];
 }
 
 }  // namespace
@@ -91,7 +95,7 @@ MaterialPoint MaterialMap::evaluate(const Vec3& p_J) const noexcept {
     terms[k] = terms[kTermList[k].parent] * x[static_cast<Eigen::Index>(kTermList[k].axis)];
   }
   std::array<float, kColumns> out{};
-  sum_terms(terms.data(), table_[0].data(), out.data(), kTerms, kColumns);
+  sum_terms(terms.data(), table_[0].data(), out.data(), kTerms);
   MaterialPoint point;
   for (std::size_t c = 0; c < 3; ++c) {
     const auto row = static_cast<Eigen::Index>(c);

@@ -21,7 +21,8 @@ struct MaterialPoint {
 class MaterialMap {
  public:
   static constexpr int kDegree = 4;
-  static constexpr std::size_t kTerms = 35;  ///< x^i y^j z^k with i + j + k <= 4
+  static constexpr std::size_t kTerms = 35;    ///< x^i y^j z^k with i + j + k <= 4
+  static constexpr std::size_t kColumns = 16;  ///< of a row: 3 values, 9 slopes, 4 that fill up
   /// One column a coordinate, m; one row a term, of (p_J - centre) / scale. See terms().
   using Coefficients = Eigen::Matrix<double, static_cast<int>(kTerms), 3>;
   using Terms = Eigen::Matrix<double, static_cast<int>(kTerms), 1>;
@@ -39,8 +40,6 @@ class MaterialMap {
   [[nodiscard]] static Slopes slopes(const Vec3& x) noexcept;
 
  private:
-  static constexpr std::size_t kColumns = 16;  // 3 values, 9 slopes, 4 that fill up
-
   Vec3 centre_;
   double inverse_scale_;
   std::array<std::array<float, kColumns>, kTerms> table_{};

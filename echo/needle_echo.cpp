@@ -17,16 +17,15 @@ constexpr double kFirstRing = 0.4;   // assumed: of the shaft's echo
 constexpr double kRingDecay = 0.62;  // assumed: per round trip in the bore
 constexpr int kMaxRings = 24;
 constexpr double kFaceReflection = 0.1;  // assumed: as in propagation
-constexpr double kBevel = 1e-3;          // m of the shaft's end that show the bevel's edges
-constexpr double kTipEcho = 0.09;        // assumed: -21 dB, the bevel's edge seen from any side
+constexpr double kTipEcho = 0.09;        // assumed: -21 dB, the bevel's point seen from any side
 constexpr double kShadow = 0.8;          // assumed: share of the blocked aperture that is lost
 constexpr double kSideLobe = 0.016;      // assumed: -36 dB, of an apodised aperture, both ways
 constexpr double kSideLobeFall = 2e-3;   // m beside the echo at which a lobe has halved. assumed
 constexpr double kFarthestLobe = 8e-3;   // m
 constexpr double kTrackCell = 0.15e-3;   // m of track that scatters as one
 constexpr std::uint64_t kTrackSeed = 7;
-constexpr std::size_t kStride = 8;  // samples between exact values of the shadow
-constexpr double kSteepest = 6;     // slope beyond which a shaft is as good as upright
+constexpr std::size_t kStride = 16;  // samples between exact values of the shadow
+constexpr double kSteepest = 6;      // slope beyond which a shaft is as good as upright
 constexpr double kSigmaPerWidth = 1 / 2.3548200450309493;
 
 }  // namespace
@@ -40,6 +39,7 @@ struct NeedleEcho::Place {
   double slope = 0;       // change of depth over change of lateral place, along the line of sight
   double sine = 0;        // of the angle between needle and face
   double end_extent = 0;  // m, half the needle's lateral extent where it only crosses the plane
+  double covered = 0;     // share of the line's own strip of tissue between the shaft's two ends
 };
 
 /// The part of the shaft that lies in the slice, beside one scanline.
@@ -93,6 +93,12 @@ NeedleEcho::Place NeedleEcho::find_place(const Scanline& line, const Pose& X_JP,
   const double flat = std::hypot(du, dy);
   place.end_extent =
       flat > 1e-6 ? needle_.outer_diameter / 2 * std::abs(dy) / flat : needle_.outer_diameter / 2;
+  const double tip_u = tip.dot(across) - shift;
+  const double hub_u = tip_u + needle_.length * du;
+  const double strip = shape_->line_spacing(std::max(0.0, place.depth));
+  const double first = std::max(std::min(tip_u, hub_u) - place.end_extent, -0.5 * strip);
+  const double last = std::min(std::max(tip_u, hub_u) + place.end_extent, 0.5 * strip);
+  place.covered = std::clamp((last - first) / strip, 0.0, 1.0);
   return place;
 }
 
@@ -121,6 +127,26 @@ void NeedleEcho::add_shaft(const Place& place, double sample, double amplitude,
   for (int k = 0; k < n; ++k) {
     add_point_echo(sample + k - 0.5 * (n - 1), amplitude * raise / n, line);
   }
+}
+
+/// The bevel's point: a small reflector at the tip, seen from any side. It lies between two lines,
+/// which share it, and is raised by what the beam's width will take from a single line's echo.
+void NeedleEcho::add_tip(const Scanline& line, const Pose& X_JP, const BeamTrace& trace,
+                         const BeamPath& path, std::span<float> re) const noexcept {
+  const Vec3 across(line.direction.z(), 0, -line.direction.x());
+  const Vec3 tip = p_PTip_ - line.origin;
+  const double depth = tip.dot(line.direction);
+  if (depth <= 0) return;
+  const Vec3 bent_P = X_JP.inverse() * path.at(depth) - line.origin;
+  const double beside = std::abs(tip.dot(across) - bent_P.dot(across));
+  const double part = 1 - beside / shape_->line_spacing(depth);
+  double sample = 0;
+  double log_gain = 0;
+  if (part <= 0 || !trace.find_sample(depth, sample, log_gain)) return;
+  add_point_echo(sample,
+                 kTipEcho * part / shape_->line_share(sample) * elevation_share(tip.y(), depth) *
+                     std::exp(log_gain),
+                 re);
 }
 
 /// Beside the needle's end, a line still hears it a little, at the end's own distance.
@@ -194,11 +220,11 @@ void NeedleEcho::shade(const Scanline& line, std::span<float> light) const noexc
   for (std::size_t k = first; k < light.size(); k += kStride) {
     const double here = next;
     next = passes(k + kStride);
+    if (here >= 1 && next >= 1) continue;
     const std::size_t n = std::min(kStride, light.size() - k);
-    for (std::size_t i = 0; i < n; ++i) {
-      const double t = static_cast<double>(i) / static_cast<double>(kStride);
-      light[k + i] *= static_cast<float>(here + t * (next - here));
-    }
+    const auto begin = static_cast<float>(here);
+    const auto slope = static_cast<float>((next - here) / static_cast<double>(kStride));
+    for (std::size_t i = 0; i < n; ++i) light[k + i] *= begin + slope * static_cast<float>(i);
   }
 }
 
@@ -224,10 +250,12 @@ void NeedleEcho::add(const Scanline& line, const Pose& X_JP, const BeamTrace& tr
                      const BeamPath& path, std::span<float> re,
                      std::span<float> im) const noexcept {
   if (!trace.contact) return;
+  add_tip(line, X_JP, trace, path, im);
   const Place place = find_place(line, X_JP, path);
-  const double coverage =
-      std::clamp((place.end_extent + pitch_ - std::abs(place.lateral)) / pitch_, 0.0, 1.0);
   if (place.depth <= 0) return;
+  const double coverage = std::min(
+      place.covered,
+      std::clamp((place.end_extent + pitch_ - std::abs(place.lateral)) / pitch_, 0.0, 1.0));
   if (coverage <= 0) return add_side_lobe(place, trace, im);
   const double share = elevation_share(place.elevation, place.depth);
   if (share < 1e-4) return;
@@ -246,10 +274,6 @@ void NeedleEcho::add(const Scanline& line, const Pose& X_JP, const BeamTrace& tr
   const double shaft = heard * needle_reflectivity(needle_, angle, phase_);
   add_shaft(place, sample, shaft, re);
   add_point_echo(2 * sample, shaft * shaft * kFaceReflection, re);
-  double on_axis = 0;
-  if (place.along < kBevel && trace.find_sample(place.depth, on_axis, log_gain)) {
-    add_point_echo(on_axis, heard * kTipEcho, im);
-  }
   const double off = angle / kDegree / kRingLobe;
   double ring = shaft * kFirstRing * std::exp(-off * off);
   const double pitch = reverberation_pitch(needle_) / sample_depth;

@@ -39,6 +39,8 @@ class NeedleEcho {
   [[nodiscard]] Extent find_extent(const Scanline& line) const noexcept;
   void add_shaft(const Place& place, double sample, double amplitude,
                  std::span<float> line) const noexcept;
+  void add_tip(const Scanline& line, const Pose& X_JP, const BeamTrace& trace, const BeamPath& path,
+               std::span<float> re) const noexcept;
   void add_side_lobe(const Place& place, const BeamTrace& trace,
                      std::span<float> line) const noexcept;
   [[nodiscard]] double elevation_share(double y, double z) const noexcept;

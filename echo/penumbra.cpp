@@ -8,7 +8,7 @@
 namespace artus {
 namespace {
 
-constexpr std::size_t kStride = 16;  // samples between exact values
+constexpr std::size_t kStride = 32;  // samples between exact values
 constexpr int kStep = 2;             // lines between those that are looked at
 
 /// What neighbouring scanlines hide of the aperture of one scanline.

@@ -18,6 +18,9 @@ constexpr double kMargin = 1.25;    // tissue as fast as tendon reaches deeper i
 constexpr double kFaceReflection = 0.1;  // assumed: matching layers and lens send back -20 dB
 constexpr double kTiny = 1e-12;
 constexpr double kRepeatFrom = 0.02;  // echoes above -34 dB repeat
+// rad, bend at which a beam has lost a neper. assumed: half the acceptance of an F/2 aperture; the
+// rest of the aperture went another way and no longer adds up
+constexpr double kBendLobe = 12 * kDegree;
 
 }  // namespace
 
@@ -46,6 +49,7 @@ Vec3 BeamPath::at(double length_m) const noexcept {
 struct BeamTracer::Walk {
   BeamTrace& trace;
   Vec3 wave;           // unit, direction of the wave
+  Vec3 straight;       // unit, direction in which it left the face
   bool bends = false;  // whether `wave` follows Snell's law
   RegionId region = kOutside;
   bool started = false;  // whether `region` is known
@@ -55,12 +59,18 @@ struct BeamTracer::Walk {
   double attenuation = 0;  // Np, two-way
   double slope = 0;        // Np/Hz, two-way
   double log_transmission = 0;
+  double bend_loss = 0;                // Np, see kBendLobe
   const BeamTrace* central = nullptr;  // of the middle plane, for the others
   std::size_t central_run = 0;         // the one beside this beam's place
 
   [[nodiscard]] double log_gain(double sigma) const noexcept {
     const double shift = slope * sigma;
-    return log_transmission - attenuation + 0.5 * shift * shift;
+    return log_transmission - bend_loss - attenuation + 0.5 * shift * shift;
+  }
+  /// Goes on along `direction`.
+  void turn(const Vec3& direction) noexcept {
+    wave = direction;
+    bend_loss = 2 * std::max(0.0, 1 - wave.dot(straight)) / (kBendLobe * kBendLobe);
   }
 };
 
@@ -89,28 +99,37 @@ bool BeamTracer::enter(Walk& walk, const TissueInterval& interval,
   const double cosine = -walk.wave.dot(interval.entry_normal);
   if (cosine < kGrazing) return !to.opaque && !air;
   InterfaceResponse response = compute_interface(from, to, cosine);
-  if (air) response = {1, 0, 0};
+  if (air) response = {1, 1, 0, 0};
   const double sheath = sheath_reflection(from, to);
   const double roughness = std::max(from.roughness, to.roughness);
   if (trace.n_echoes < BeamTrace::kMax) {
-    const double strength = std::sqrt(response.reflection * response.reflection + sheath * sheath);
-    const double share = returned_share(roughness, cosine);
-    const double diffuse = roughness * cosine;
+    const ReturnedShare share = returned_share(roughness, cosine);
+    const auto with_sheath = [&](double r) {
+      return std::sqrt(r * r + sheath * sheath);
+    };
+    const double specular = with_sheath(response.reflection) * share.specular;
+    const double diffuse = with_sheath(response.facing) * share.diffuse;
     BeamEcho& echo = trace.echoes[trace.n_echoes++];
     echo.sample = walk.sample;
-    echo.amplitude = strength * share * std::exp(walk.log_gain(spectrum_sigma_));
-    echo.diffuse_share = share > 0 ? diffuse / share : 0;
+    echo.amplitude = (specular + diffuse) * std::exp(walk.log_gain(spectrum_sigma_));
+    echo.diffuse_share = diffuse > 0 ? diffuse / (specular + diffuse) : 0;
     echo.cosine = cosine;
     echo.p_J = point;
     echo.step_J = walk.wave * (sample_depth_ * to.speed / kDisplaySpeedOfSound);
   }
-  if (to.opaque || response.transmission < 1e-4) return false;
-  walk.log_transmission += std::log(response.transmission);
-  if (walk.bends) {
+  if (to.opaque || air) {
+    trace.end_sample = walk.sample;
+    trace.end_amplitude = trace.echoes[trace.n_echoes - 1].amplitude;
+    return false;
+  }
+  const double transmission = beam_transmission(from, to, cosine, response);
+  if (transmission < 1e-4) return false;
+  walk.log_transmission += std::log(transmission);
+  if (walk.bends && response.transmission > 0) {
     const double ratio = to.speed / from.speed;
     const Vec3 bent =
         ratio * walk.wave + (ratio * cosine - response.cosine_out) * interval.entry_normal;
-    walk.wave = bent.normalized();
+    walk.turn(bent.normalized());
   }
   return true;
 }
@@ -226,11 +245,9 @@ bool BeamTracer::pass(Walk& walk, const Vec3& from, const Vec3& direction, doubl
 
 void BeamTracer::trace_bent(const Vec3& origin_J, const Vec3& direction_J, BeamTrace& trace,
                             BeamPath& path) const noexcept {
-  trace.n_runs = 0;
-  trace.n_echoes = 0;
-  trace.contact = true;
+  trace.clear();
   path.size = 0;
-  Walk walk{trace, direction_J, refraction_};
+  Walk walk{trace, direction_J, direction_J, refraction_};
   Vec3 point = origin_J;
   bool alive = true;
   while (alive && walk.path < max_path_ && path.size + 2 < BeamPath::kMax) {
@@ -251,10 +268,12 @@ void BeamTracer::trace_bent(const Vec3& origin_J, const Vec3& direction_J, BeamT
 
 void BeamTracer::trace_along(const BeamPath& path, const Vec3& elevation_axis_J,
                              const BeamTrace& central, BeamTrace& trace) const noexcept {
-  trace.n_runs = 0;
-  trace.n_echoes = 0;
-  trace.contact = true;
-  Walk walk{trace, Vec3::UnitZ()};
+  trace.clear();
+  const auto without_elevation = [&](const Vec3& way) {
+    return Vec3((way - elevation_axis_J * elevation_axis_J.dot(way)).normalized());
+  };
+  const Vec3 straight = without_elevation(path.p_J[1] - path.p_J[0]);
+  Walk walk{trace, straight, straight};
   walk.central = &central;
   bool alive = true;
   for (std::size_t i = 0; alive && i + 1 < path.size; ++i) {
@@ -262,7 +281,7 @@ void BeamTracer::trace_along(const BeamPath& path, const Vec3& elevation_axis_J,
     const double geometric = way.norm();
     const double beam = path.length[i + 1] - path.length[i];
     if (geometric <= 0 || beam <= 0) continue;
-    walk.wave = (way - elevation_axis_J * elevation_axis_J.dot(way)).normalized();
+    walk.turn(without_elevation(way));
     alive = pass(walk, path.p_J[i], way / geometric, geometric, beam / geometric);
   }
   trace.shadow_from = walk.sample;

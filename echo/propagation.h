@@ -50,10 +50,20 @@ struct BeamTrace {
   std::array<BeamEcho, kMax> echoes;
   std::size_t n_runs = 0;
   std::size_t n_echoes = 0;
-  double shadow_from = 0;  ///< sample behind which nothing returns; large when there is none
-  bool contact = true;     ///< false: air between face and skin
+  double shadow_from = 0;    ///< sample behind which nothing returns; large when there is none
+  double end_sample = 0;     ///< where bone or gas ended the beam
+  double end_amplitude = 0;  ///< of its echo there; 0: nothing did
+  bool contact = true;       ///< false: air between face and skin
   /// Room for one query, kept with the trace because clearing it would cost as much as the query.
   std::array<TissueInterval, kMaxIntervals> intervals;
+
+  /// Forgets the last beam.
+  void clear() noexcept {
+    n_runs = 0;
+    n_echoes = 0;
+    end_amplitude = 0;
+    contact = true;
+  }
 
   /// Displayed sample and ln gain at a distance along the beam; false behind the end of the sound.
   [[nodiscard]] bool find_sample(double path, double& sample, double& log_gain) const noexcept;

@@ -16,10 +16,12 @@ constexpr double kOpaqueAbove = 4e6;    // Rayl, between soft tissue (2) and cor
 constexpr double kOpaqueBelow = 1e5;    // Rayl, gas
 constexpr double kTendonFloor = 0.056;  // -25 dB
 constexpr double kLobe = 12;            // degrees, half the acceptance of an F/2 aperture
-constexpr double kGrazing = 0.12;       // cosine below which a faceted normal says nothing more
-constexpr double kEpimysium = 0.06;     // -24 dB. assumed: a fascia shows like fat on muscle
-constexpr double kBursaWall = 0.08;     // -22 dB. assumed: the walls show brighter than muscle
-constexpr double kEpineurium = 0.05;    // -26 dB. assumed
+constexpr double kApertureHalf = 14 * kDegree;  // rad, of an F/2 aperture seen from its focus
+constexpr double kApertureSine = 0.242;         // its sine
+constexpr double kGrazing = 0.12;     // cosine below which a faceted normal says nothing more
+constexpr double kEpimysium = 0.06;   // -24 dB. assumed: a fascia shows like fat on muscle
+constexpr double kBursaWall = 0.08;   // -22 dB. assumed: the walls show brighter than muscle
+constexpr double kEpineurium = 0.05;  // -26 dB. assumed
 
 /// Coupling gel, taken as water: what fills the gap between face and skin.
 RegionAcoustics make_gel() {
@@ -132,18 +134,34 @@ InterfaceResponse compute_interface(const RegionAcoustics& from, const RegionAco
                                     double cosine) noexcept {
   const double cos_in = std::clamp(cosine, kGrazing, 1.0);
   const double sin_out = to.speed / from.speed * std::sqrt(1 - cos_in * cos_in);
-  if (sin_out >= 1) return {1, 0, 0};
+  const double facing = std::abs(to.impedance - from.impedance) / (to.impedance + from.impedance);
+  if (sin_out >= 1) return {1, facing, 0, 0};
   const double cos_out = std::sqrt(1 - sin_out * sin_out);
   const double a = to.impedance * cos_in;
   const double b = from.impedance * cos_out;
   const double r = (a - b) / (a + b);
-  return {std::abs(r), 1 - r * r, cos_out};
+  return {std::abs(r), facing, 1 - r * r, cos_out};
 }
 
-double returned_share(double roughness, double cosine) noexcept {
+ReturnedShare returned_share(double roughness, double cosine) noexcept {
   const double c = std::clamp(cosine, 0.0, 1.0);
-  const double u = std::acos(c) / kDegree / kLobe;
-  return (1 - roughness) * std::exp(-u * u) + roughness * c;
+  const double x = 1 - c;  // the angle's square by its series: no arc cosine
+  const double square = x * (2 + x * (1.0 / 3 + x * (4.0 / 45)));
+  constexpr double kNarrow = 1 / (kLobe * kLobe * kDegree * kDegree);
+  return {(1 - roughness) * std::exp(-kNarrow * square), roughness * c};
+}
+
+double beam_transmission(const RegionAcoustics& from, const RegionAcoustics& to, double cosine,
+                         const InterfaceResponse& central) noexcept {
+  const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
+  const double critical = from.speed / to.speed;
+  // the outermost direction: sin(a + b) <= sin a + sin b
+  if (sine + kApertureSine < critical) return central.transmission;
+  const double angle = std::atan2(sine, cosine);
+  double sum = central.transmission;
+  for (const double part : {-1.0, -0.5, 0.5, 1.0})
+    sum += compute_interface(from, to, std::cos(angle + part * kApertureHalf)).transmission;
+  return sum / 5;
 }
 
 double sheath_reflection(const RegionAcoustics& a, const RegionAcoustics& b) noexcept {

@@ -54,6 +54,7 @@ void add_courses(const CompiledJoint& joint, std::vector<RegionAcoustics>& regio
 /// What an interface does to a plane wave.
 struct InterfaceResponse {
   double reflection = 0;    ///< magnitude of the pressure reflection coefficient, 0..1
+  double facing = 0;        ///< the same at perpendicular incidence
   double transmission = 1;  ///< two-way: through and back
   double cosine_out = 1;    ///< of the refracted direction against the normal; 0 when total
 };
@@ -64,9 +65,19 @@ struct InterfaceResponse {
                                                   const RegionAcoustics& to,
                                                   double cosine) noexcept;
 
-/// Share of the reflected amplitude that comes back to the probe at incidence `cosine`: a specular
-/// lobe as wide as the aperture, and a diffuse part by roughness. 1 at perpendicular incidence.
-[[nodiscard]] double returned_share(double roughness, double cosine) noexcept;
+/// What comes back to the probe of an amplitude reflected at incidence `cosine`. The two parts add
+/// up to 1 at perpendicular incidence.
+struct ReturnedShare {
+  double specular = 0;  ///< a lobe as wide as the aperture
+  double diffuse = 0;   ///< by roughness: from those facets that face the beam
+};
+[[nodiscard]] ReturnedShare returned_share(double roughness, double cosine) noexcept;
+
+/// Two-way transmission of a whole beam: the mean over the directions of its aperture. A single ray
+/// passes or is totally reflected; a focused beam fades on either side of the critical angle.
+/// Cost: as compute_interface, where no direction is totally reflected.
+[[nodiscard]] double beam_transmission(const RegionAcoustics& from, const RegionAcoustics& to,
+                                       double cosine, const InterfaceResponse& central) noexcept;
 
 /// Echo amplitude of the connective tissue between two regions, on top of their impedance step:
 /// epimysium between muscles, the walls of a bursa, the sheath of a nerve. 0 for most pairs.

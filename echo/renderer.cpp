@@ -16,6 +16,7 @@
 #include "core/noise.h"
 #include "echo/aperture_coupling.h"
 #include "echo/beam_shape.h"
+#include "echo/beam_spread.h"
 #include "echo/compound.h"
 #include "echo/display.h"
 #include "echo/doppler.h"
@@ -89,7 +90,8 @@ struct Renderer::Impl {
         noise_gain(static_cast<std::size_t>(settings.n_samples),
                    static_cast<float>(std::pow(10.0, settings.noise_db / 20))),
         arena(settings.n_threads == 0 ? tbb::task_arena::automatic : settings.n_threads),
-        coupling(transducer) {
+        coupling(transducer),
+        spread(transducer, settings.depth, settings.n_samples) {
     arena.execute([&] { add_courses(scene->joint(), regions); });
     const int blocks = (transducer.n_lines + kBlock - 1) / kBlock;
     scratch.resize(static_cast<std::size_t>(blocks));
@@ -163,6 +165,7 @@ struct Renderer::Impl {
         const auto re = row(raw_re, l, n);
         const auto im = row(raw_im, l, n);
         synthesis.synthesise(tracer, regions, line, X_JP, mine, re, im);
+        spread.note(l, mine.bent);
         add_tracks(probe, line, X_JP, mine, re, im);
         if (needle_echo) add_needle(*needle_echo, line, l, X_JP, mine);
         coupling.apply(l, shape.sample_depth(), re, im);
@@ -175,9 +178,12 @@ struct Renderer::Impl {
       }
     });
     for_blocks(probe.n_lines, [&](int, int first, int last) {
-      for (int l = first; l < last; ++l)
-        add_penumbra(probe, shape.sample_depth(), frame.shadow_from, l, row(raw_re, l, n),
-                     row(raw_im, l, n));
+      for (int l = first; l < last; ++l) {
+        const auto re = row(raw_re, l, n);
+        const auto im = row(raw_im, l, n);
+        spread.apply(l, re, im);
+        add_penumbra(probe, shape.sample_depth(), frame.shadow_from, l, re, im);
+      }
     });
   }
 
@@ -234,25 +240,32 @@ struct Renderer::Impl {
     }
   }
 
-  /// Beam, pulse, noise and envelope.
+  /// Beam, pulse, noise, envelope and, as a rule, compression.
   void shape_lines(const Transducer& probe, const Pose& X_JP) {
     const int n = settings.n_samples;
     for_blocks(probe.n_lines, [&](int, int first, int last) {
       for (int l = first; l < last; ++l) {
-        const auto spread = row(work, l, n);
+        const auto wide = row(work, l, n);
         const auto re = row(frame.in_phase, l, n);
         const auto im = row(frame.quadrature, l, n);
-        shape.across(raw_re, probe.n_lines, l, spread);
-        add_reflectors(probe, X_JP, l, spread);
-        shape.along(spread, re);
-        shape.across(raw_im, probe.n_lines, l, spread);
-        shape.along(spread, im);
+        shape.across(raw_re, probe.n_lines, l, wide);
+        add_reflectors(probe, X_JP, l, wide);
+        shape.along(wide, re);
+        shape.across(raw_im, probe.n_lines, l, wide);
+        shape.along(wide, im);
         add_white_noise(mix_bits(settings.seed), l, noise_gain, re, im);
         const auto envelope = row(frame.envelope, l, n);
         detect(re.data(), im.data(), time_gain.data(), envelope.data(), envelope.size());
+        // while the envelope is still at hand
+        if (compresses_at_once()) compress(envelope, decibel_gain(), row(frame.decibel, l, n));
       }
     });
   }
+
+  [[nodiscard]] float decibel_gain() const { return static_cast<float>(settings.gain_db); }
+  /// Whether a line is done when its envelope is: no mean over views, and no motion to be found in
+  /// between, which works in the decibel image.
+  [[nodiscard]] bool compresses_at_once() const { return views.empty() && !settings.doppler; }
 
   /// Where the needle moves. Uses the decibel image as a work space, so it comes before
   /// compression.
@@ -267,13 +280,13 @@ struct Renderer::Impl {
     const Vec3 v_P = X_JP.linear().transpose() * needle->v_JN;
     for_blocks(transducer.n_lines, [&](int, int first, int last) {
       for (int l = first; l < last; ++l) {
-        const auto spread = row(work, l, n);
+        const auto wide = row(work, l, n);
         const auto re = row(frame.velocity, l, n);
         const auto im = row(frame.decibel, l, n);
-        shape.across(moving_re, transducer.n_lines, l, spread);
-        shape.along(spread, re);
-        shape.across(moving_im, transducer.n_lines, l, spread);
-        shape.along(spread, im);
+        shape.across(moving_re, transducer.n_lines, l, wide);
+        shape.along(wide, re);
+        shape.across(moving_im, transducer.n_lines, l, wide);
+        shape.along(wide, im);
         detect_motion(re, im, time_gain, -v_P.dot(scanline(transducer, l).direction),
                       settings.doppler_limit, re);
       }
@@ -314,12 +327,12 @@ struct Renderer::Impl {
 
   void compress_lines() {
     const int n = settings.n_samples;
-    for_blocks(transducer.n_lines, [&](int, int first, int last) {
-      for (int l = first; l < last; ++l) {
-        compress(row(frame.envelope, l, n), static_cast<float>(settings.gain_db),
-                 row(frame.decibel, l, n));
-      }
-    });
+    if (!compresses_at_once()) {
+      for_blocks(transducer.n_lines, [&](int, int first, int last) {
+        for (int l = first; l < last; ++l)
+          compress(row(frame.envelope, l, n), decibel_gain(), row(frame.decibel, l, n));
+      });
+    }
     if (settings.smoothing <= 0) return;
     for_blocks(transducer.n_lines, [&](int, int first, int last) {
       for (int l = first; l < last; ++l) {
@@ -361,6 +374,7 @@ struct Renderer::Impl {
   tbb::task_arena arena;
   std::vector<PointReflector> reflectors;
   ApertureCoupling coupling;
+  BeamSpread spread;
   std::vector<NeedleTrack> tracks;
   std::vector<CompoundView> views;  // none: no compounding
   std::vector<LineScratch> scratch;

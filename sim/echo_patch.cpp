@@ -16,6 +16,7 @@
 #include "echo/image_io.h"
 #include "echo/renderer.h"
 #include "echo/transducer_file.h"
+#include "sim/echo_muscle_view.h"
 #include "sim/echo_phantom.h"
 
 namespace artus {
@@ -83,19 +84,30 @@ std::shared_ptr<const Scene> long_axis_block() {
   });
 }
 
-/// Adds what one view of `scene` shows to the gate.
-void compare_view(EchoGate& gate, const std::string& view,
-                  const std::shared_ptr<const Scene>& scene, const Pose& X_JP,
-                  const PatchRange& range) {
+/// The probe and the pixels of the reference.
+struct ReferenceView {
+  Transducer transducer;
+  ImageSettings settings;
+};
+
+ReferenceView reference_view() {
   const auto preset = find_transducer("linear-4-9");
   ARTUS_REQUIRE(preset.has_value(), "the bundled transducer is missing");
-  ImageSettings settings;
-  settings.pixel = kPixel;
-  settings.depth = 50e-3;
-  Renderer renderer(scene, preset->transducer, settings);
+  ReferenceView view;
+  view.transducer = preset->transducer;
+  view.settings.pixel = kPixel;
+  view.settings.depth = 50e-3;
+  return view;
+}
+
+/// Adds what one view of `scene` shows to the gate.
+void compare_view(EchoGate& gate, const std::string& picture, const std::string& view,
+                  const std::shared_ptr<const Scene>& scene, const Pose& X_JP,
+                  const MuscleFinder& finder, const PatchRange& range) {
+  const ReferenceView as = reference_view();
+  Renderer renderer(scene, as.transducer, as.settings);
   cv::Mat image = grey_image(renderer.render(X_JP)).clone();
-  const auto patches = find_muscle_patches(
-      render_labels(*scene, X_JP, preset->transducer, settings), scene->joint(), kPatch, kPatches);
+  const auto patches = finder.find_patches(X_JP, kPatch, kPatches);
   PatchStatistics mean;
   for (const cv::Rect& patch : patches) {
     const PatchStatistics s = measure_patch(image, patch);
@@ -106,7 +118,7 @@ void compare_view(EchoGate& gate, const std::string& view,
     mean.lateral_width += s.lateral_width * share;
   }
   for (const cv::Rect& patch : patches) cv::rectangle(image, patch, cv::Scalar(255));
-  gate.pictures.push_back({"muscle-" + view, image});
+  gate.pictures.push_back({"muscle-" + picture, image});
   gate.claims.push_back(
       claim_at_least(view + ": patches of muscle", static_cast<double>(patches.size()), 1, ""));
   if (patches.empty()) return;
@@ -200,10 +212,18 @@ EchoGate measure_muscle(const std::shared_ptr<const Scene>& scene, const PatchRa
   gate.name = "muscle-patch";
   gate.title = "Grey of muscle in joint " + scene->joint().name + " against " +
                std::to_string(range.images) + " real images (4-9 MHz, 0.0854 mm a pixel)";
-  const Pose& X_JP = scene->joint().X_JP_default;
-  compare_view(gate, "default", scene, X_JP, range);
-  compare_view(gate, "turned", scene, X_JP * Eigen::AngleAxisd(90 * kDegree, Vec3::UnitZ()), range);
-  compare_view(gate, "block", long_axis_block(), Pose::Identity(), range);
+  const ReferenceView as = reference_view();
+  const Pose& X_JDefault = scene->joint().X_JP_default;
+  const MuscleFinder finder(*scene, as.transducer, as.settings);
+  const Pose X_JP = finder.slide_to_muscle(X_JDefault, kPatch).value_or(X_JDefault);
+  const long slid = std::lround((X_JP.translation() - X_JDefault.translation()).norm() / 1e-3);
+  const std::string name = slid == 0 ? "default" : std::to_string(slid) + " mm from default";
+  const Pose X_JTurned = X_JP * Eigen::AngleAxisd(90 * kDegree, Vec3::UnitZ());
+  compare_view(gate, "long", name, scene, X_JP, finder, range);
+  compare_view(gate, "turned", name + ", turned", scene, X_JTurned, finder, range);
+  const auto block = long_axis_block();
+  compare_view(gate, "block", "block", block, Pose::Identity(),
+               MuscleFinder(*block, as.transducer, as.settings), range);
   return gate;
 }
 

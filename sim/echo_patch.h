@@ -47,9 +47,10 @@ struct PatchRange {
 /// among others. Errors: not_found, unreadable, malformed (column or number missing, no row).
 [[nodiscard]] Result<PatchRange> read_patch_range(const std::filesystem::path& file);
 
-/// Renders the joint's default view, the same turned by 90 degrees, and a block of muscle in its
-/// long axis, and compares their muscle with the range. The probe and pixels are those of the
-/// reference images: 4-9 MHz, 0.0854 mm.
+/// Renders the joint's default view, or the nearest along the skin in which muscle is as thick as
+/// those patches and runs along the face as there (see MuscleFinder), the same turned by 90
+/// degrees, and a block of muscle in its long axis, and compares their muscle with the range. The
+/// probe and pixels are those of the reference images: 4-9 MHz, 0.0854 mm.
 [[nodiscard]] EchoGate measure_muscle(const std::shared_ptr<const Scene>& scene,
                                       const PatchRange& range);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 
 #include <gtest/gtest.h>
 
@@ -49,37 +50,68 @@ TEST(Needle, CastsAShadowAndEndsAtItsTip) {
   EXPECT_DOUBLE_EQ(below(with, 165, 220), below(without, 165, 220));
 }
 
-TEST(Needle, ShowsItsTipWhereTheTruthSays) {
+/// Silent muscle at the display's speed of sound: nothing but the needle, and that in its place.
+std::shared_ptr<const Scene> silent_block() {
   const std::array<FlatLayer, 1> layers{{{"muscle", 60e-3}}};
-  const auto scene = test::make_block_scene(layers, [](CompiledJoint& joint) {
+  return test::make_block_scene(layers, [](CompiledJoint& joint) {
     Acoustic& muscle = test::acoustic_of(joint, "muscle");
     muscle.speed_of_sound = 1540;
     muscle.attenuation = 0;
     muscle.backscatter = 0;
   });
-  ImageSettings settings = test::bare_settings();
-  settings.pixel = 0.05e-3;
-  Renderer renderer(scene, Transducer{}, settings);
+}
+
+TEST(Needle, ShowsItsTipWithinAPixelOfTheTruth) {
+  const ImageSettings settings = test::bare_settings();  // pixels of 0.1 mm
+  Renderer renderer(silent_block(), Transducer{}, settings);
   const Pose X_JP = test::probe_at();
-  for (const int gauge : {18, 22, 25}) {
-    for (const double degrees : {45.0, 60.0, 70.0}) {  // the tip outshines the shaft
-      NeedleView needle = test::needle_at(X_JP, Vec3(2e-3, 0, 22e-3), degrees * kDegree);
-      needle.shape = *needle_of_gauge(gauge);
-      const Frame& frame = renderer.render(X_JP, needle);
-      const NeedleTruth truth = locate_needle(needle, X_JP, Transducer{}, settings);
-      // the brightest pixel of the tip's column is the tip's own, of 0.05 mm
-      const auto x = static_cast<std::size_t>(std::lround(truth.tip.x));
-      const auto width = static_cast<std::size_t>(frame.width);
-      std::size_t lowest = 0;
-      std::uint8_t best = 0;
-      for (auto y = static_cast<std::size_t>(truth.tip.y) - 8;
-           y < static_cast<std::size_t>(truth.tip.y) + 8; ++y) {
-        if (frame.image[y * width + x] <= best) continue;
-        best = frame.image[y * width + x];
-        lowest = y;
+  for (const int gauge : {18, 20, 22, 25}) {
+    for (const double degrees : {40.0, 50.0, 60.0, 70.0}) {  // the tip outshines the shaft
+      for (const Vec3& tip : {Vec3(2.03e-3, 0, 22e-3), Vec3(-3.1e-3, 0, 11.4e-3)}) {
+        NeedleView needle = test::needle_at(X_JP, tip, degrees * kDegree);
+        needle.shape = *needle_of_gauge(gauge);
+        const Frame& frame = renderer.render(X_JP, needle);
+        const NeedleTruth truth = locate_needle(needle, X_JP, Transducer{}, settings);
+        int best = 0;
+        PixelPoint seen;
+        for (int y = static_cast<int>(truth.tip.y) - 5; y < truth.tip.y + 5; ++y) {
+          for (int x = static_cast<int>(truth.tip.x) - 5; x < truth.tip.x + 5; ++x) {
+            const int grey = frame.image[static_cast<std::size_t>(y * frame.width + x)];
+            if (grey <= best) continue;
+            best = grey;
+            seen = {static_cast<double>(x), static_cast<double>(y)};
+          }
+        }
+        EXPECT_GT(best, 150) << gauge << " G, " << degrees;
+        EXPECT_NEAR(seen.x, truth.tip.x, 1) << gauge << " G, " << degrees;
+        EXPECT_NEAR(seen.y, truth.tip.y, 1) << gauge << " G, " << degrees;
       }
-      EXPECT_GT(best, 100) << gauge << " G, " << degrees;
-      EXPECT_NEAR(static_cast<double>(lowest), truth.tip.y, 3) << gauge << " G, " << degrees;
+    }
+  }
+}
+
+TEST(Needle, ShaftEndsWithinHalfAPixelOfItsTip) {
+  const Transducer transducer;
+  Renderer renderer(silent_block(), transducer, test::bare_settings());
+  const Pose X_JP = test::probe_at();
+  for (const double x_tip : {-3.1e-3, 0.3e-3, 2.03e-3, 2.07e-3}) {
+    for (const double degrees : {0.0, 10.0, 20.0}) {
+      const double angle = degrees * kDegree;
+      const NeedleView needle = test::needle_at(X_JP, Vec3(x_tip, 0, 15e-3), angle);
+      const Frame& frame = renderer.render(X_JP, needle);
+      const auto wall_at = [&](int l) {
+        const double x = scanline(transducer, l).origin.x();
+        const double depth = 15e-3 + (x - x_tip) * std::tan(angle) -
+                             needle.shape.outer_diameter / 2 / std::cos(angle);
+        return peak_value(frame, l, depth - 0.1e-3, depth + 0.1e-3);
+      };
+      const int far = static_cast<int>((x_tip - 3e-3 + 20e-3) / transducer.pitch());
+      const double half = wall_at(far) / 2;
+      int l = far;
+      while (wall_at(l + 1) > half) ++l;
+      const double part = (wall_at(l) - half) / (wall_at(l) - wall_at(l + 1));
+      const double end = scanline(transducer, l).origin.x() + part * transducer.pitch();
+      EXPECT_NEAR(end, x_tip, 0.05e-3) << degrees;
     }
   }
 }

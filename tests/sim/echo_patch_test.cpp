@@ -16,7 +16,10 @@
 
 #include <gtest/gtest.h>
 
+#include "core/units.h"
 #include "echo/frame_measure.h"
+#include "echo/transducer_file.h"
+#include "sim/echo_muscle_view.h"
 #include "sim/echo_phantom.h"
 
 namespace artus {
@@ -126,6 +129,35 @@ TEST(EchoPatch, MeasuresPatchesOfMuscleAloneAndSaysWhenThereAreNone) {
   ASSERT_EQ(patches.size(), 2U);
   for (const cv::Rect& patch : patches) EXPECT_GT(patch.y, 10);
   EXPECT_TRUE((patches[0] & patches[1]).empty());
+}
+
+TEST(EchoPatch, LooksWhereFibresRunAlongTheFaceAsInTheReference) {
+  const auto preset = find_transducer("linear-4-9");
+  ASSERT_TRUE(preset.has_value());
+  ImageSettings settings;
+  settings.pixel = 0.0854e-3;
+  settings.depth = 50e-3;
+  const std::array<FlatLayer, 2> layers{{{"fat", 8e-3}, {"muscle", 60e-3}}};
+  const auto with_fibres = [&](double degrees) {
+    return make_block_scene(layers, [&](CompiledJoint& joint) {
+      const double slope = degrees * kDegree;
+      joint.regions.back().fibre_axis = Vec3(std::cos(slope), 0, std::sin(slope));
+    });
+  };
+  const auto along = with_fibres(15);
+  const MuscleFinder finder(*along, preset->transducer, settings);
+  EXPECT_EQ(finder.find_patches(Pose::Identity(), 96, 5).size(), 5U);
+  const auto here = finder.slide_to_muscle(Pose::Identity(), 96);
+  ASSERT_TRUE(here.has_value());
+  EXPECT_TRUE(here->isApprox(Pose::Identity()));
+  const auto steep = with_fibres(35);
+  const MuscleFinder other(*steep, preset->transducer, settings);
+  EXPECT_TRUE(other.find_patches(Pose::Identity(), 96, 5).empty());
+  EXPECT_FALSE(other.slide_to_muscle(Pose::Identity(), 96).has_value());
+  // the block is 160 mm wide: no muscle below this face of 38 mm, and all of it only 40 mm back
+  const auto slid = finder.slide_to_muscle(Pose(Eigen::Translation3d(95e-3, 0, 0)), 96);
+  ASSERT_TRUE(slid.has_value());
+  EXPECT_NEAR(slid->translation().x(), 55e-3, 1e-9);
 }
 
 TEST(EchoPatch, ReadsTheRangeAndRefusesATableWithoutIt) {

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "echo/beam_spread.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace artus {
+namespace {
+
+constexpr double kUnseen = 0.98;  // gains above this are not worth applying
+
+}  // namespace
+
+BeamSpread::BeamSpread(const Transducer& transducer, double depth, int n_samples)
+    : n_lines_(transducer.n_lines),
+      reach_(
+          std::max(1, static_cast<int>(std::lround(kTwoWayWidth * transducer.wavelength() *
+                                                   transducer.f_number * 2 / transducer.pitch())))),
+      pitch_(transducer.pitch()),
+      curvature_(transducer.radius > 0 ? 1 / transducer.radius : 0),
+      step_(depth / (kNodes - 1)),
+      stride_(static_cast<std::size_t>((n_samples + kNodes - 2) / (kNodes - 1))),
+      place_(static_cast<std::size_t>(n_lines_) * kNodes, Eigen::Vector3f::Zero()),
+      bent_(static_cast<std::size_t>(n_lines_), 0) {}
+
+void BeamSpread::note(int line, const BeamPath& path) noexcept {
+  Eigen::Vector3f* place = place_.data() + static_cast<std::ptrdiff_t>(line) * kNodes;
+  bent_[static_cast<std::size_t>(line)] = path.size > 2 ? 1 : 0;
+  std::size_t i = 0;
+  for (int k = 0; k < kNodes; ++k) {
+    const double z = k * step_;
+    while (i + 2 < path.size && z > path.length[i + 1]) ++i;
+    const double t = (z - path.length[i]) / (path.length[i + 1] - path.length[i]);
+    place[k] = (path.p_J[i] + t * (path.p_J[i + 1] - path.p_J[i])).cast<float>();
+  }
+}
+
+double BeamSpread::gain(int line, int node) const noexcept {
+  const int first = std::max(0, line - reach_);
+  const int last = std::min(n_lines_ - 1, line + reach_);
+  const auto at = [&](int l) {
+    return place_[static_cast<std::size_t>(l * kNodes + node)];
+  };
+  const double apart = static_cast<double>((at(last) - at(first)).norm());
+  const double straight = (last - first) * pitch_ * (1 + curvature_ * node * step_);
+  return std::min(1.0, straight / std::max(apart, 1e-9));
+}
+
+void BeamSpread::apply(int line, std::span<float> re, std::span<float> im) const noexcept {
+  const int first = std::max(0, line - reach_);
+  const int last = std::min(n_lines_ - 1, line + reach_);
+  if (first == last) return;
+  if (bent_[static_cast<std::size_t>(first)] == 0 && bent_[static_cast<std::size_t>(last)] == 0)
+    return;
+  double next = 1;
+  for (int k = 0; k + 1 < kNodes; ++k) {
+    const double here = next;
+    next = gain(line, k + 1);
+    if (here > kUnseen && next > kUnseen) continue;
+    const std::size_t from = static_cast<std::size_t>(k) * stride_;
+    const std::size_t to = std::min(re.size(), from + stride_);
+    const auto slope = static_cast<float>((next - here) / static_cast<double>(stride_));
+    for (std::size_t i = from; i < to; ++i) {
+      const float g = static_cast<float>(here) + static_cast<float>(i - from) * slope;
+      re[i] *= g;
+      im[i] *= g;
+    }
+  }
+}
+
+}  // namespace artus
