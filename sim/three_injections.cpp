@@ -150,7 +150,8 @@ void add_bone_and_exit(Pass& pass, const ThreeInjectionsOptions& options,
 Pass plan_slow(const Scene& scene, const PlannedInjection& planned, const Vec3& direction,
                const LinePlan& first, const ThreeInjectionsOptions& options) {
   Pass pass{planned.entry, direction, {wait(Kind::hold, kReady)}, first.target};
-  pass.phases.push_back(reach_target(options, first, options.target_tissue + " reached"));
+  const std::string& target = scene.joint().tissue_of(first.region).name;
+  pass.phases.push_back(reach_target(options, first, target + " reached"));
   pass.phases.push_back(wait(Kind::hold, kHold));
   const double back = std::max(kMinRemaining, first.target - options.withdrawal);
   std::optional<double> bone = first.bone;
@@ -163,8 +164,7 @@ Pass plan_slow(const Scene& scene, const PlannedInjection& planned, const Vec3& 
     turn.direction = *second;
     pass.phases.push_back(turn);
     const auto plan = plan_line(scene, planned.entry, *second, options.target_tissue, first.region);
-    pass.phases.push_back(
-        reach_target(options, *plan, "second part of " + options.target_tissue + " reached"));
+    pass.phases.push_back(reach_target(options, *plan, "second part of " + target + " reached"));
     pass.phases.push_back(wait(Kind::hold, kHold));
     pass.deepest = std::max(pass.deepest, plan->target);
     bone = plan->bone;

@@ -25,7 +25,7 @@ struct ThreeInjectionsOptions {
   double fast_speed = 0.10;                    ///< m/s, injection 3
   double withdrawal = 0.020;  ///< m back before re-aiming; [Alamilla2020] "a few centimetres"
   double needle_length = 0;   ///< m; 0: the shortest of 25, 35, 50, 90 mm that reaches the bone
-  std::string target_tissue = "bursa";
+  std::string target_tissue = "bursa";  ///< where a line has none: the layer of its target
   NeedleParams needle;
   LawSelection laws;
   PatientProfile patient;
