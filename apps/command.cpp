@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "apps/command.h"
 
+#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <iostream>
+#include <locale>
+#include <sstream>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 #include <unistd.h>
@@ -54,6 +58,36 @@ Progress make_progress_printer(bool quiet) {
     last = stage;
     percent = now;
   };
+}
+
+CLI::Validator number_in(double low, double high) {
+  std::ostringstream range;
+  range << "a number from " << low << " to " << high;
+  return CLI::Validator(
+      [low, high, wanted = range.str()](const std::string& text) {
+        std::istringstream in(text);
+        in.imbue(std::locale::classic());
+        double value = 0;
+        const bool is_number = (in >> value) && (in >> std::ws).eof();
+        const bool good = is_number && value >= low && value <= high;
+        return good ? std::string() : "'" + text + "' is not " + wanted;
+      },
+      range.str());
+}
+
+CLI::Validator whole_number_in(std::int64_t low, std::int64_t high) {
+  const std::string wanted =
+      "a whole number from " + std::to_string(low) + " to " + std::to_string(high);
+  return CLI::Validator(
+      [low, high, wanted](const std::string& text) {
+        std::int64_t value = 0;
+        const char* end = text.data() + text.size();
+        const auto read = std::from_chars(text.data(), end, value);
+        const bool good =
+            read.ec == std::errc{} && read.ptr == end && value >= low && value <= high;
+        return good ? std::string() : "'" + text + "' is not " + wanted;
+      },
+      wanted);
 }
 
 void add_joint_options(CLI::App* command, JointOptions& options) {

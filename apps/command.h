@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -54,6 +55,11 @@ void add_joint_options(CLI::App* command, JointOptions& options);
 
 /// A point as [x, y, z] in millimetres.
 [[nodiscard]] nlohmann::json to_json_mm(const Vec3& p);
+
+/// Flags that must be a finite number from `low` to `high`, or a whole one. CLI::Range lets "nan"
+/// and "" through, and whole numbers that do not fit become the nearest that does.
+[[nodiscard]] CLI::Validator number_in(double low, double high);
+[[nodiscard]] CLI::Validator whole_number_in(std::int64_t low, std::int64_t high);
 
 // The subcommands, one file each.
 void add_check_command(CLI::App& app, ExitCode& code);

@@ -9,7 +9,7 @@
 #include "core/text_file.h"
 #include "sim/experiment.h"
 
-#include "apps/command.h"
+#include "apps/law_options.h"
 
 namespace artus {
 namespace {
@@ -19,6 +19,8 @@ struct ExperimentCommandOptions {
   bool all = false;
   std::filesystem::path out;
   ExperimentOptions experiment;
+  std::int64_t seed = 1;
+  LawOptions laws;
   bool json = false;
 };
 
@@ -50,17 +52,27 @@ std::string table_to_markdown(const std::filesystem::path& csv) {
   return out.empty() ? out : "\n" + out;
 }
 
-/// The title that an experiment gave itself; its name when it gave none.
-std::string title_of(const std::filesystem::path& folder, const std::string& name) {
+/// What the experiment's own verdict says of it: title, source, published values beside ours.
+std::string introduction(const std::filesystem::path& folder, const std::string& name) {
   std::ifstream in(folder / "verdict.json");
   const auto json = nlohmann::json::parse(in, nullptr, false);
-  return json.is_object() ? json.value("title", name) : name;
+  if (!json.is_object()) return name + "\n";
+  std::string text = json.value("title", name) + "\n";
+  const std::string source = json.value("source", "");
+  if (!source.empty()) text += "\nBeside " + source + ".\n";
+  const auto published = json.value("published", nlohmann::json::array());
+  if (published.empty()) return text;
+  text += "\n| what | published | artus |\n|---|---|---|\n";
+  for (const auto& p : published)
+    text += "| " + p.value("what", "") + " | " + p.value("published", "") + " | " +
+            p.value("artus", "") + " |\n";
+  return text;
 }
 
 /// One section of the report: what the experiment shows, its plots, verdicts and table.
 void append_markdown(std::string& report, const std::filesystem::path& folder,
                      const std::string& name, const std::vector<Claim>& claims) {
-  report += "\n## " + name + "\n\n" + title_of(folder, name) + "\n\n";
+  report += "\n## " + name + "\n\n" + introduction(folder, name) + "\n";
   std::vector<std::string> plots;
   for (const auto& file : std::filesystem::directory_iterator(folder))
     if (file.path().extension() == ".png") plots.push_back(file.path().filename().string());
@@ -81,27 +93,45 @@ void print(const std::string& name, const std::vector<Claim>& claims) {
                 claim.value, claim.bound.c_str());
 }
 
+/// What the flags mean. Errors: invalid, with the flag.
+Result<ExperimentOptions> make_options(const ExperimentCommandOptions& options) {
+  if (options.name.empty() && !options.all)
+    return fail(ErrorCode::invalid, "name an experiment, or give --all", "--all");
+  if (!options.name.empty() && options.all)
+    return fail(ErrorCode::invalid, "either one experiment's name or --all", "--all");
+  ExperimentOptions run = options.experiment;
+  run.seed = static_cast<std::uint64_t>(options.seed);
+  const auto laws = make_experiment_laws(options.laws);
+  if (!laws) return tl::unexpected<Error>(laws.error());
+  if (options.all && changed_laws(*laws) != 0)
+    return fail(ErrorCode::invalid,
+                "the report is of the published laws; give the flags of force laws to one "
+                "experiment",
+                "--all");
+  run.laws = *laws;
+  return run;
+}
+
 ExitCode run_experiments(const ExperimentCommandOptions& options) {
+  const auto run = make_options(options);
+  if (!run) return report_error(run.error(), options.json);
   std::vector<std::string> names;
   if (options.all) {
     for (const auto name : all_experiments()) names.emplace_back(name);
   } else {
     names.push_back(options.name);
   }
-  if (names.front().empty())
-    return report_error({ErrorCode::invalid, "name an experiment, or give --all", "--all"},
-                        options.json);
   const Progress progress = make_progress_printer(options.json);
   std::string report =
-      "# Experiments\n\nThe published experiments, run closed loop on device `" +
-      options.experiment.device + "` with seed " + std::to_string(options.experiment.seed) +
+      "# Experiments\n\nThe published experiments, run closed loop on device `" + run->device +
+      "` with seed " + std::to_string(run->seed) +
       ". The medical test (figures 4-19 to 4-24) needs a joint: `artus run three-injections`.\n";
   nlohmann::json verdicts = nlohmann::json::object();
   bool all = true;
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (progress) progress(names[i], static_cast<double>(i) / static_cast<double>(names.size()));
     const auto folder = options.all ? options.out / names[i] : options.out;
-    const auto claims = run_experiment(names[i], folder, options.experiment);
+    const auto claims = run_experiment(names[i], folder, *run);
     if (!claims) return report_error(claims.error(), options.json);
     all = all && all_hold(*claims);
     append_markdown(report, folder, names[i], *claims);
@@ -129,19 +159,25 @@ void add_experiment_command(CLI::App& app, ExitCode& code) {
   CLI::App* command = add_command(
       app, "experiment", "Replay a published experiment: trace, plot and a verdict on each claim",
       "Experiments: " + list_of_names() +
-          "\nExit code 1 when a claim does not hold.\n"
+          "\nExit code 1 when a claim does not hold. The claims are those of the published laws:\n"
+          "with others, those that fail are what the laws differ by.\n"
           "Examples:\n"
           "  artus experiment wall-move --out out/wall-move\n"
+          "  artus experiment wall-stop --cutting voigt --out out/stop-voigt\n"
+          "  artus experiment rates --cutting muscle=spring --patient friction=1.5 --out "
+          "out/rates\n"
           "  artus experiment --all --out out/experiments     (with report.md)");
   command->add_option("name", options->name, "which experiment");
   command->add_flag("--all", options->all, "all of them, with one report");
   command->add_option("-o,--out", options->out, "folder for the results")->required();
-  command->add_option("--seed", options->experiment.seed, "seed of hand and noise")
+  command->add_option("--seed", options->seed, "seed of hand and noise")
+      ->check(whole_number_in(0, 999999999))
       ->capture_default_str();
   command->add_option("--device", options->experiment.device, "device whose limits apply")
       ->capture_default_str();
   command->add_option("--mock", options->experiment.mock,
                       "TOML file of the pneumatic probe mock (default: the bundled one)");
+  add_law_options(command, options->laws);
   command->add_flag("--json", options->json, "print the verdicts as JSON");
   on_run(command, code, [options] { return run_experiments(*options); });
 }

@@ -24,24 +24,33 @@ std::pair<std::string, std::string> split(const std::string& text) {
 
 template <class Law, class Find>
 Result<void> read_laws(const std::vector<std::string>& flags, const char* flag, Find find,
-                       const CompiledJoint& joint, std::optional<Law>& all,
-                       std::map<std::string, Law>& of_tissue) {
+                       std::optional<Law>& all, std::map<std::string, Law>& of_tissue) {
   for (const std::string& text : flags) {
     const auto [tissue, name] = split(text);
     const Result<Law> law = find(name);
     if (!law) return fail(law.error().code, law.error().message, flag);
     if (tissue.empty()) {
       all = *law;
-      continue;
+    } else {
+      of_tissue[tissue] = *law;
     }
+  }
+  return {};
+}
+
+template <class Law>
+Result<void> check_tissues(const std::map<std::string, Law>& of_tissue, const char* flag,
+                           const CompiledJoint& joint) {
+  for (const auto& entry : of_tissue) {
     std::string known;
+    bool found = false;
     for (const Tissue& t : joint.tissues) {
       known.append(known.empty() ? "" : ", ").append(t.name);
-      if (t.name == tissue) of_tissue[tissue] = *law;
+      found = found || t.name == entry.first;
     }
-    if (of_tissue.find(tissue) == of_tissue.end())
+    if (!found)
       return fail(ErrorCode::not_found,
-                  "the joint has no tissue \"" + tissue + "\"; there are " + known, flag);
+                  "the joint has no tissue \"" + entry.first + "\"; there are " + known, flag);
   }
   return {};
 }
@@ -73,7 +82,7 @@ Result<void> read_patient(const std::vector<std::string>& flags, PatientProfile&
   return {};
 }
 
-Result<void> read_workspace(const LawOptions& options, NeedleParams& needle) {
+Result<void> read_workspace(const LawOptions& options, std::optional<HemisphereParams>& sphere) {
   const std::vector<double>& mm = options.workspace_mm;
   if (mm.empty()) return {};
   const bool finite =
@@ -81,10 +90,10 @@ Result<void> read_workspace(const LawOptions& options, NeedleParams& needle) {
   if (mm.size() != 4 || !finite || !(mm[3] > 0))
     return fail(ErrorCode::invalid, "needs centre x, y, z and a radius above 0, mm",
                 "--workspace-mm");
-  needle.use_workspace = true;
-  needle.workspace.centre = Vec3(mm[0], mm[1], mm[2]) * kMillimetre;
-  needle.workspace.radius = mm[3] * kMillimetre;
-  needle.workspace.push = options.workspace_push;
+  sphere.emplace();
+  sphere->centre = Vec3(mm[0], mm[1], mm[2]) * kMillimetre;
+  sphere->radius = mm[3] * kMillimetre;
+  sphere->push = options.workspace_push;
   return {};
 }
 
@@ -100,19 +109,20 @@ void add_law_options(CLI::App* command, LawOptions& options) {
       ->add_option("--prepuncture", options.prepuncture,
                    "LAW, or TISSUE=LAW: membrane, simone_okamura, barbe, god_object")
       ->group(group);
-  command->add_option("--bone-tap", options.tap, "what a touch of bone is felt by")
+  command
+      ->add_option("--bone-tap", options.tap,
+                   "what a touch of bone is felt by (default: decaying_sinusoid)")
       ->check(CLI::IsMember({"decaying_sinusoid", "impulse"}))
-      ->capture_default_str()
       ->group(group);
-  command->add_option("--clamping", options.clamping, "what holds the needle on its line")
+  command
+      ->add_option("--clamping", options.clamping,
+                   "what holds the needle on its line (default: projection)")
       ->check(CLI::IsMember({"projection", "plasticity"}))
-      ->capture_default_str()
       ->group(group);
   command
       ->add_option("--friction-set", options.friction_set,
-                   "LuGre parameters: 1, 2: 20 mm at 0.025 and 0.05 Hz; 3, 4: 40 mm")
-      ->check(CLI::Range(1, 4))
-      ->capture_default_str()
+                   "LuGre parameters: 1, 2: 20 mm at 0.025 and 0.05 Hz; 3, 4: 40 mm (default: 3)")
+      ->check(whole_number_in(1, 4))
       ->group(group);
   command
       ->add_option("--patient", options.patient,
@@ -124,7 +134,7 @@ void add_law_options(CLI::App* command, LawOptions& options) {
       ->expected(4)
       ->group(group);
   command->add_option("--workspace-push-n", options.workspace_push, "how hard, N")
-      ->check(CLI::Range(0.0, 50.0))
+      ->check(number_in(0, 50))
       ->capture_default_str()
       ->group(group);
   command
@@ -133,25 +143,45 @@ void add_law_options(CLI::App* command, LawOptions& options) {
       ->group(group);
 }
 
-Result<RunLaws> make_laws(const LawOptions& options, const CompiledJoint& joint) {
-  RunLaws run;
-  LawSelection& laws = run.laws;
-  if (const auto read = read_laws(options.cutting, "--cutting", find_cutting_law, joint,
-                                  laws.cutting, laws.cutting_of_tissue);
+Result<ExperimentLaws> make_experiment_laws(const LawOptions& options) {
+  ExperimentLaws chosen;
+  LawSelection& laws = chosen.laws;
+  if (const auto read = read_laws(options.cutting, "--cutting", find_cutting_law, laws.cutting,
+                                  laws.cutting_of_tissue);
       !read)
     return tl::unexpected<Error>(read.error());
-  if (const auto read = read_laws(options.prepuncture, "--prepuncture", find_prepuncture_law, joint,
+  if (const auto read = read_laws(options.prepuncture, "--prepuncture", find_prepuncture_law,
                                   laws.prepuncture, laws.prepuncture_of_tissue);
       !read)
     return tl::unexpected<Error>(read.error());
-  if (const auto read = read_patient(options.patient, run.patient); !read)
+  if (const auto read = read_patient(options.patient, chosen.patient); !read)
     return tl::unexpected<Error>(read.error());
-  if (options.tap == "impulse") run.needle.hard.law = HardLaw::impulse;
-  if (options.clamping == "plasticity") run.needle.clamping = ClampingLaw::plasticity;
-  if (const auto read = read_workspace(options, run.needle); !read)
+  if (const auto read = read_workspace(options, chosen.workspace); !read)
     return tl::unexpected<Error>(read.error());
-  run.passivity.control = options.passivity_control;
-  run.needle.friction = lugre_sets().at(static_cast<std::size_t>(options.friction_set - 1));
+  if (options.tap)
+    chosen.tap = *options.tap == "impulse" ? HardLaw::impulse : HardLaw::decaying_sinusoid;
+  if (options.clamping)
+    chosen.clamping =
+        *options.clamping == "plasticity" ? ClampingLaw::plasticity : ClampingLaw::projection;
+  if (options.friction_set)
+    chosen.friction = lugre_sets().at(static_cast<std::size_t>(*options.friction_set - 1));
+  chosen.passivity_control = options.passivity_control;
+  return chosen;
+}
+
+Result<RunLaws> make_laws(const LawOptions& options, const CompiledJoint& joint) {
+  const auto chosen = make_experiment_laws(options);
+  if (!chosen) return tl::unexpected<Error>(chosen.error());
+  if (const auto named = check_tissues(chosen->laws.cutting_of_tissue, "--cutting", joint); !named)
+    return tl::unexpected<Error>(named.error());
+  if (const auto named = check_tissues(chosen->laws.prepuncture_of_tissue, "--prepuncture", joint);
+      !named)
+    return tl::unexpected<Error>(named.error());
+  RunLaws run;
+  run.laws = chosen->laws;
+  run.patient = chosen->patient;
+  run.passivity.control = chosen->passivity_control;
+  apply_laws(*chosen, run.needle);
   return run;
 }
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "haptics/needle_model.h"
 #include "haptics/passivity.h"
+#include "sim/experiment_laws.h"
 
 #include "apps/command.h"
 
@@ -15,10 +17,10 @@ struct LawOptions {
   std::vector<std::string> cutting;      ///< "voigt" for all tissues, "skin=spring" for one
   std::vector<std::string> prepuncture;  ///< likewise
   std::vector<std::string> patient;      ///< "cutting=1.2"
-  std::string tap = "decaying_sinusoid";
-  std::string clamping = "projection";
-  int friction_set = 3;
-  std::vector<double> workspace_mm;  ///< centre x, y, z and radius, frame J; empty: none
+  std::optional<std::string> tap;        ///< else decaying_sinusoid
+  std::optional<std::string> clamping;   ///< else projection
+  std::optional<int> friction_set;       ///< else 3
+  std::vector<double> workspace_mm;      ///< centre x, y, z and radius, frame J; empty: none
   double workspace_push = HemisphereParams{}.push;  ///< N
   bool passivity_control = false;
 };
@@ -31,6 +33,10 @@ struct RunLaws {
   NeedleParams needle;
   PassivityParams passivity;
 };
+
+/// What the flags mean for a published experiment, whose layers stand in a tissue's place; what was
+/// not given stays unset. Errors: as of make_laws.
+[[nodiscard]] Result<ExperimentLaws> make_experiment_laws(const LawOptions& options);
 
 /// What the flags mean for a joint. Errors: not_found (law, tissue of the joint), invalid (factor,
 /// workspace), each with the flag.

@@ -177,22 +177,23 @@ void add_loop_command(CLI::App& app, ExitCode& code) {
   command->get_option("--joint")->required(false)->description(
       "joint folder or compiled file; without it: six tissues as spheres in one another");
   command->add_option("--seconds", options->servo.seconds, "how long")
-      ->check(CLI::Range(0.01, 86400.0))
+      ->check(number_in(0.01, 86400))
       ->capture_default_str();
   command->add_option("--rate", options->servo.rate_hz, "ticks a second, Hz")
-      ->check(CLI::Range(100.0, 20000.0))
+      ->check(number_in(100, 20000))
       ->capture_default_str();
   command->add_option("--device", options->device, "whose mass and force limits hold")
       ->capture_default_str();
   command->add_option("--speed-mm-s", options->speed_mm_s, "of the simulated hand")
-      ->check(CLI::Range(0.1, 200.0))
+      ->check(number_in(0.1, 200))
       ->capture_default_str();
   command->add_option("--cpu", options->servo.wishes.cpu, "processor to run on; -1: any")
+      ->check(whole_number_in(-1, 1023))
       ->capture_default_str();
   command
       ->add_option("--priority", options->servo.wishes.fifo_priority,
                    "SCHED_FIFO priority to ask for; 0: none")
-      ->check(CLI::Range(0, 99))
+      ->check(whole_number_in(0, 99))
       ->capture_default_str();
   add_law_options(command, options->laws);
   command->add_flag("--json", options->json, "machine-readable report");

@@ -127,7 +127,7 @@ void add_run_command(CLI::App& app, ExitCode& code) {
   add_law_options(command, options->laws);
   command->add_option("-o,--out", options->out, "folder for the results")->required();
   command->add_option("--rate", options->rate_hz, "haptic rate, Hz")
-      ->check(CLI::Range(100, 20000))
+      ->check(number_in(100, 20000))
       ->capture_default_str();
   command->add_option("--device", options->device, "device whose force limits apply")
       ->capture_default_str();

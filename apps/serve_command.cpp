@@ -111,7 +111,8 @@ void add_serve_command(CLI::App& app, ExitCode& code) {
       "  artus serve -j real.artus --record session.rec --seconds 60 --json\n"
       "  artus serve -j meshes/simple-shoulder --input injection --seconds 10");
   add_session_options(command, options->session, "shared-memory");
-  command->add_option("--seconds", options->seconds, "stop after this time; 0: when interrupted");
+  command->add_option("--seconds", options->seconds, "stop after this time; 0: when interrupted")
+      ->check(number_in(0, 86400));
   command->add_flag("--no-images", options->no_images, "do not write IMAGE");
   command->add_flag("--json", options->json, "machine-readable report at the end");
   on_run(command, code, [options] { return run_serve(*options); });

@@ -65,8 +65,10 @@ void add_session_options(CLI::App* command, SessionOptions& options,
                    "whose force limits hold: touch, virtuose_6d_desktop, delta, ideal")
       ->capture_default_str();
   command->add_option("--haptic-rate", options.haptic_rate, "ticks a second, Hz")
+      ->check(number_in(100, 20000))
       ->capture_default_str();
   command->add_option("--image-rate", options.image_rate, "images a second, Hz")
+      ->check(number_in(1, 120))
       ->capture_default_str();
   command
       ->add_option(
@@ -79,8 +81,10 @@ void add_session_options(CLI::App* command, SessionOptions& options,
   command->add_option("--injection", options.injection, "which planned injection, from 1")
       ->capture_default_str();
   command->add_option("--speed-mm-s", options.speed_mm_s, "of the simulated hand")
+      ->check(number_in(0.1, 200))
       ->capture_default_str();
   command->add_option("--haptic-cpu", options.haptic_cpu, "processor of the haptic thread; -1: any")
+      ->check(whole_number_in(-1, 1023))
       ->capture_default_str();
   command->add_option("--histograms", options.histograms,
                       "write where the time went as CSV, bin by bin");

@@ -130,7 +130,8 @@ void add_shm_monitor_command(CLI::App& app, ExitCode& code) {
       "  artus shm-monitor --seconds 60 --json  a line every half second\n"
       "  artus shm-monitor --clean              remove what a crash left behind");
   command->add_option("--prefix", options->prefix, "stands before the names");
-  command->add_option("--seconds", options->seconds, "go on for this time");
+  command->add_option("--seconds", options->seconds, "go on for this time")
+      ->check(number_in(0, 86400));
   command->add_option("--every", options->every, "s between two looks")->capture_default_str();
   command->add_flag("--clean", options->clean, "remove the names; running programs keep theirs");
   command->add_flag("--json", options->json, "machine-readable output");

@@ -23,9 +23,9 @@ Result<Law> find_law(const std::array<std::string_view, n>& names, std::string_v
 
 /// The run's word on this tissue, else the run's on all, else the tissue's own.
 template <class Law>
-Law choose(const Tissue& tissue, Law own, const std::optional<Law>& run,
+Law choose(const std::string& tissue, Law own, const std::optional<Law>& run,
            const std::map<std::string, Law>& of_tissue) {
-  const auto exception = of_tissue.find(tissue.name);
+  const auto exception = of_tissue.find(tissue);
   return exception != of_tissue.end() ? exception->second : run.value_or(own);
 }
 
@@ -47,6 +47,18 @@ Result<PrepunctureLaw> find_prepuncture_law(std::string_view name) {
   return find_law<PrepunctureLaw>(kPrepunctureLawNames, name, "pre-puncture law");
 }
 
+LayerHaptics for_run(LayerHaptics layer, const std::string& name, const LawSelection& laws,
+                     const PatientProfile& patient) {
+  layer.cutting = choose(name, layer.cutting, laws.cutting, laws.cutting_of_tissue);
+  layer.prepuncture = choose(name, layer.prepuncture, laws.prepuncture, laws.prepuncture_of_tissue);
+  layer.tissue.cutting_force *= patient.cutting;
+  layer.tissue.friction *= patient.friction;
+  layer.tissue.attracted_force *= patient.attracted;
+  layer.tissue.clamping_stiffness *= patient.clamping;
+  layer.tissue.puncture_force *= patient.puncture;
+  return layer;
+}
+
 LayerTable::LayerTable(const CompiledJoint& joint, const LawSelection& laws,
                        const PatientProfile& patient) {
   by_region_.reserve(joint.regions.size());
@@ -54,16 +66,9 @@ LayerTable::LayerTable(const CompiledJoint& joint, const LawSelection& laws,
     ARTUS_REQUIRE(region.tissue < joint.tissues.size(),
                   "a region names a tissue that is not there");
     const Tissue& tissue = joint.tissues[region.tissue];
-    LayerHaptics layer{tissue.haptic};
-    layer.cutting = choose(tissue, tissue.haptic.cutting_law, laws.cutting, laws.cutting_of_tissue);
-    layer.prepuncture =
-        choose(tissue, tissue.haptic.prepuncture_law, laws.prepuncture, laws.prepuncture_of_tissue);
-    layer.tissue.cutting_force *= patient.cutting;
-    layer.tissue.friction *= patient.friction;
-    layer.tissue.attracted_force *= patient.attracted;
-    layer.tissue.clamping_stiffness *= patient.clamping;
-    layer.tissue.puncture_force *= patient.puncture;
-    by_region_.push_back(layer);
+    by_region_.push_back(
+        for_run({tissue.haptic, tissue.haptic.cutting_law, tissue.haptic.prepuncture_law},
+                tissue.name, laws, patient));
   }
 }
 

@@ -44,6 +44,11 @@ struct PatientProfile {
   double puncture = 1;
 };
 
+/// A layer of the tissue `name` as a run wants it: its laws chosen, its values times the patient's
+/// factors.
+[[nodiscard]] LayerHaptics for_run(LayerHaptics layer, const std::string& name,
+                                   const LawSelection& laws, const PatientProfile& patient);
+
 /// Haptic values by region, so that the tick looks them up by index. Regions out of range feel like
 /// outside (nothing).
 class LayerTable {

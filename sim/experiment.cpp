@@ -14,16 +14,45 @@
 namespace artus {
 namespace {
 
-using Run = Experiment (*)(const ExperimentOptions&, const DeviceLimits&);
+// An experiment, the laws that a run of it may change, and why not the others.
+struct Entry {
+  std::string_view name;
+  Experiment (*run)(const ExperimentOptions&, const DeviceLimits&);
+  std::uint32_t takes;
+  std::string_view why_not;
+  std::size_t layers;  // numbered ones; 0: those of table 4.2
+};
 
-constexpr std::array<std::string_view, 12> kNames{
-    "wall-vs-classic", "wall-release", "wall-move",           "wall-stop",
-    "wall-both",       "wall-nine",    "wall-seven",          "clamp-redirect",
-    "wall-energy",     "rates",        "velocity-estimators", "layer-changes"};
-constexpr std::array<Run, kNames.size()> kRuns{
-    run_wall_vs_classic, run_wall_release, run_wall_move,           run_wall_stop,
-    run_wall_both,       run_wall_nine,    run_wall_seven,          run_clamp_redirect,
-    run_wall_energy,     run_rates,        run_velocity_estimators, run_layer_changes};
+constexpr std::uint32_t kWall =
+    LawKind::kCutting | LawKind::kPatient | LawKind::kWorkspace | LawKind::kPassivity;
+constexpr std::array<Entry, 12> kEntries{{
+    {"wall-vs-classic", run_wall_vs_classic, LawKind::kPassivity,
+     "compares four fixed cutting laws in a tissue that only cuts", 1},
+    {"wall-release", run_wall_release, LawKind::kFriction | LawKind::kPatient | LawKind::kPassivity,
+     "compares the tracking wall alone, with shaft friction and no tissue", 1},
+    {"wall-move", run_wall_move, kWall, "has a tissue that only cuts", 1},
+    {"wall-stop", run_wall_stop, kWall, "has a tissue that only cuts", 1},
+    {"wall-both", run_wall_both, kWall, "has a tissue that only cuts", 1},
+    {"wall-nine", run_wall_nine, kWall | LawKind::kClamping,
+     "has tissues that only cut and hold the needle's line", 9},
+    {"wall-seven", run_wall_seven, kWall | LawKind::kClamping,
+     "has tissues that only cut and hold the needle's line", 7},
+    {"clamp-redirect", run_clamp_redirect, kWall | LawKind::kClamping | LawKind::kFriction,
+     "has neither a membrane nor bone", 1},
+    {"wall-energy", run_wall_energy,
+     LawKind::kCutting | LawKind::kPrepuncture | LawKind::kTap | LawKind::kFriction |
+         LawKind::kPatient,
+     "moves the needle along one line and lets no controller help", 6},
+    {"rates", run_rates, LawKind::kAll, "", 0},
+    {"velocity-estimators", run_velocity_estimators, 0, "uses no force law", 0},
+    {"layer-changes", run_layer_changes, kWall, "has tissues that only cut", 0},
+}};
+
+constexpr std::array<std::string_view, kEntries.size()> kNames = [] {
+  std::array<std::string_view, kEntries.size()> names{};
+  for (std::size_t i = 0; i < names.size(); ++i) names[i] = kEntries[i].name;
+  return names;
+}();
 
 void add_cells(std::string& out, const std::vector<std::string>& cells) {
   for (std::size_t i = 0; i < cells.size(); ++i) out += (i == 0 ? "" : ",") + cells[i];
@@ -39,12 +68,15 @@ std::span<const std::string_view> needle_experiments() noexcept {
 Result<Experiment> run_needle_experiment(std::string_view name, const ExperimentOptions& options) {
   const Result<DeviceLimits> device = find_device(options.device);
   if (!device) return tl::unexpected<Error>(device.error());
-  for (std::size_t i = 0; i < kNames.size(); ++i) {
-    if (kNames[i] == name) {
-      Experiment experiment = kRuns[i](options, *device);
-      experiment.name = name;
-      return experiment;
-    }
+  for (const Entry& entry : kEntries) {
+    if (entry.name != name) continue;
+    const auto layers = entry.layers > 0 ? numbered_layers(entry.layers) : table_layer_names();
+    if (const auto taken = check_laws(options.laws, name, entry.takes, entry.why_not, layers);
+        !taken)
+      return tl::unexpected<Error>(taken.error());
+    Experiment experiment = entry.run(options, *device);
+    experiment.name = name;
+    return experiment;
   }
   std::string all;
   for (const std::string_view known : all_experiments()) {
@@ -73,6 +105,10 @@ Result<void> write_experiment(const Experiment& e, const std::filesystem::path& 
   nlohmann::json json = verdict(e.claims);
   json["experiment"] = e.name;
   json["title"] = e.title;
+  json["source"] = e.source;
+  json["published"] = nlohmann::json::array();
+  for (const PublishedValue& p : e.published)
+    json["published"].push_back({{"what", p.what}, {"published", p.published}, {"artus", p.artus}});
   auto written = write_text(folder / "verdict.json", json.dump(2) + "\n");
   if (!written) return written;
   return write_plot(folder / (e.name + ".png"), e.plot);
@@ -90,6 +126,10 @@ Result<std::vector<Claim>> run_experiment(std::string_view name,
                                           const ExperimentOptions& options) {
   const auto probe = probe_experiments();
   if (std::find(probe.begin(), probe.end(), name) != probe.end()) {
+    if (const auto taken =
+            check_laws(options.laws, name, 0, "is of the other hand, the probe's", {});
+        !taken)
+      return tl::unexpected<Error>(taken.error());
     const auto mock = options.mock.empty() ? read_bundled_pneumatic_params()
                                            : read_pneumatic_params(options.mock);
     if (!mock) return tl::unexpected<Error>(mock.error());

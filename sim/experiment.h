@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sim/claim.h"
+#include "sim/experiment_laws.h"
 #include "sim/needle_trace.h"
 #include "sim/plot.h"
 
@@ -15,6 +16,7 @@ namespace artus {
 struct ExperimentOptions {
   std::uint64_t seed = 1;
   std::string device = "virtuose_6d_desktop";  ///< a name of device_table()
+  ExperimentLaws laws;                         ///< of the needle; the rest is as published
   std::filesystem::path mock;  ///< TOML file of the pneumatic probe mock; empty: the bundled one
 };
 
@@ -31,10 +33,19 @@ struct ExperimentTable {
   std::vector<std::vector<std::string>> rows;
 };
 
+/// What the source says of its experiment, beside what this one shows.
+struct PublishedValue {
+  std::string what;
+  std::string published;  ///< in the source's words and figures
+  std::string artus;      ///< value and unit
+};
+
 /// What an experiment gave.
 struct Experiment {
   std::string name;
-  std::string title;  ///< what it shows and the figure of the source it stands beside
+  std::string title;   ///< what it shows
+  std::string source;  ///< figures, tables and equations of the source it stands beside
+  std::vector<PublishedValue> published;
   std::vector<ExperimentTrace> traces;
   ExperimentTable table;  ///< empty header: none
   Plot plot;

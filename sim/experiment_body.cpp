@@ -3,16 +3,23 @@
 
 #include <array>
 
+#include "haptics/passivity.h"
+
 namespace artus {
 
 std::vector<NeedleRow> run_body(const BodyExperiment& e) {
   std::vector<LayerHaptics> by_region(kFirstRegion);
-  by_region.insert(by_region.end(), e.layers.begin(), e.layers.end());
+  std::vector<LayerHaptics> layers = e.layers;
+  apply_laws(e.laws, e.names.empty() ? numbered_layers(layers.size()) : e.names, layers);
+  by_region.insert(by_region.end(), layers.begin(), layers.end());
   const LayerTable table(std::move(by_region));
   const Pose start =
       make_pose(e.entry - e.start_outside * e.direction, e.direction, e.direction.unitOrthogonal());
   NeedleLoop loop({e.rate_hz, 20000}, e.device, e.hand, start);
-  NeedleModel model(e.needle, table, loop.period());
+  NeedleParams needle = e.needle;
+  apply_laws(e.laws, needle);
+  NeedleModel model(needle, table, loop.period());
+  PassivityObserver passivity({.control = e.laws.passivity_control}, loop.period());
   const GuardParams limits;
   InputGuard input(limits, loop.period());
   OutputGuard output(limits, e.device, loop.period());
@@ -35,11 +42,16 @@ std::vector<NeedleRow> run_body(const BodyExperiment& e) {
           model.step(measured, e.body.find_intervals(model.query_segment(measured), buffer));
     } else {
       model.reset();
+      passivity.pause();
     }
-    rendered.command = output.apply(rendered.forces.total, faults, rendered.status);
+    Wrench wanted = rendered.forces.total;
+    if (faults == 0) wanted.force = passivity.step(measured.translation(), wanted.force);
+    rendered.command = output.apply(wanted, faults, rendered.status);
+    passivity.observe(rendered.command.force);
     rows.push_back(make_needle_row(t, measured, rendered, model));
     rows.back().energy_to_hand = loop.energy_to_hand();
     rows.back().hand = loop.hand_force();
+    rows.back().needle = loop.motion();
     if (!e.path) person.observe(t, measured, model);
     loop.advance(rendered.command, intend);
   }
@@ -95,10 +107,19 @@ OperatorPhase aim(const Vec3& direction, double duration) {
   return phase;
 }
 
-std::vector<std::string> layer_names(std::size_t layers) {
-  std::vector<std::string> names{"outside", "beyond"};
+std::vector<std::string> numbered_layers(std::size_t layers) {
+  std::vector<std::string> names;
   for (std::size_t i = 1; i <= layers; ++i) names.push_back("layer " + std::to_string(i));
   return names;
+}
+
+std::vector<std::string> region_names(std::vector<std::string> layers) {
+  layers.insert(layers.begin(), {"outside", "beyond"});
+  return layers;
+}
+
+std::vector<std::string> layer_names(std::size_t layers) {
+  return region_names(numbered_layers(layers));
 }
 
 }  // namespace artus

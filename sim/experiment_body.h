@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "sim/analytic_body.h"
+#include "sim/experiment_laws.h"
 #include "sim/injection_operator.h"
 #include "sim/needle_loop.h"
 #include "sim/needle_trace.h"
@@ -14,6 +15,8 @@ namespace artus {
 struct BodyExperiment {
   AnalyticBody body = AnalyticBody::make_stack(Vec3::Zero(), Vec3::UnitZ(), {0});
   std::vector<LayerHaptics> layers;  ///< outermost first
+  std::vector<std::string> names;    ///< of the layers; empty: those of layer_names()
+  ExperimentLaws laws;               ///< what the run changes of layers and parameters
   Vec3 entry = Vec3::Zero();         ///< m, on the skin
   Vec3 direction = Vec3::UnitZ();    ///< unit
   double start_outside = 0.005;      ///< m before the skin
@@ -44,7 +47,10 @@ struct BodyExperiment {
 [[nodiscard]] OperatorPhase let_go(double duration);
 [[nodiscard]] OperatorPhase aim(const Vec3& direction, double duration);
 
-/// "layer 1", ... behind "outside" and "beyond": names for a trace.
+/// "layer 1", ... : what layers without a tissue's name are called.
+[[nodiscard]] std::vector<std::string> numbered_layers(std::size_t layers);
+/// `layers` behind "outside" and "beyond": names by region, for a trace.
+[[nodiscard]] std::vector<std::string> region_names(std::vector<std::string> layers);
 [[nodiscard]] std::vector<std::string> layer_names(std::size_t layers);
 
 }  // namespace artus

@@ -32,6 +32,9 @@ namespace artus {
 /// Each pair of layers of table 4.2: force step and rise distance against what a hand can tell.
 [[nodiscard]] Experiment run_layer_changes(const ExperimentOptions&, const DeviceLimits&);
 
+/// The layers of table 4.2, skin to bone, as the experiments on them name them.
+[[nodiscard]] std::vector<std::string> table_layer_names();
+
 /// A curve of a trace over time.
 template <class F>
 [[nodiscard]] PlotSeries plot_rows(const std::vector<NeedleRow>& rows, std::string label, F value) {

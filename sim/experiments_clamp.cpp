@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Clamping and re-direction (source Figs. 2-16, 2-17).
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 
 #include "core/units.h"
 #include "sim/experiment_list.h"
@@ -11,6 +13,12 @@ namespace {
 
 Vec3 tilted(double degrees) {
   return {std::sin(degrees * kDegree), 0, std::cos(degrees * kDegree)};
+}
+
+std::string in_words(const char* before, double value, const char* after) {
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), "%s%.3f%s", before, value, after);
+  return text.data();
 }
 
 double tilt_of(const Vec3& axis) {
@@ -27,6 +35,7 @@ Experiment run_clamp_redirect(const ExperimentOptions& options, const DeviceLimi
   e.layers[0].tissue.clamping_stiffness = 300;
   e.layers[0].tissue.friction = 1;
   e.device = device;
+  e.laws = options.laws;
   e.hand.seed = options.seed;
   e.phases = {stay(0.3),
               push_to(0.012, 0.012),
@@ -40,7 +49,8 @@ Experiment run_clamp_redirect(const ExperimentOptions& options, const DeviceLimi
               stay(0.5),
               pull_to(-0.004, 0.02)};
   Experiment out;
-  out.title = "Clamping and re-direction (source Figs. 2-16 and 2-17)";
+  out.title = "Clamping and re-direction";
+  out.source = "[Alamilla2020] Figs. 2-16 and 2-17, eqs. 1.2 and 2.20";
   out.traces = {{"", run_body(e), layer_names(1)}};
   const auto& rows = out.traces[0].rows;
   double first_tilt = 0;
@@ -49,6 +59,7 @@ Experiment run_clamp_redirect(const ExperimentOptions& options, const DeviceLimi
   double shallow = 0;
   double deep = 0;
   double strayed = 0;
+  double on_line = 0;
   double after = 0;
   double product = 0;
   double square = 0;
@@ -59,6 +70,7 @@ Experiment run_clamp_redirect(const ExperimentOptions& options, const DeviceLimi
     if (r.depth <= 0.003) continue;
     last_tilt = tilt_of(r.axis);
     const double force = r.forces.clamping.norm();
+    if (r.depth < 0.0115 && redirected < 0) on_line = std::max(on_line, force);
     if (redirected < 0) {
       strayed = std::max(strayed, force);
       const double spring = r.deviation * r.depth;  // clamping grows with both
@@ -88,20 +100,32 @@ Experiment run_clamp_redirect(const ExperimentOptions& options, const DeviceLimi
                  kAimed, 0.15, "degrees"),
       claim_at_most("clamping force on the new line over the largest before",
                     after / std::max(strayed, 1e-9), 0.5, "")};
-  out.plot.title = out.title;
+  out.published = {
+      {"on the line", "the force tends towards zero", in_words("at most ", on_line, " N")},
+      {"leaving the line, deeper and deeper", "the force starts to rise",
+       in_words("to ", strayed, " N")},
+      {"withdrawn in part and re-aimed", "the new trajectory is taken",
+       in_words("line turned by ", last_tilt - first_tilt, " degrees")}};
+  out.plot.title = out.title + " (Figs. 2-16 and 2-17)";
   out.plot.panels = {
       {"time (s)",
-       "depth (mm), tilt of the line (degrees)",
-       {plot_rows(rows, "depth", [](const NeedleRow& r) { return r.depth / kMillimetre; }),
-        plot_rows(rows, "line", [](const NeedleRow& r) { return tilt_of(r.axis); })}},
+       "depth (mm)",
+       {plot_rows(rows, "depth", [](const NeedleRow& r) { return r.depth / kMillimetre; })}},
       {"time (s)",
-       "clamping (N), deviation (mm)",
-       {plot_rows(rows, "clamping", [](const NeedleRow& r) { return r.forces.clamping.norm(); }),
-        plot_rows(rows, "deviation",
+       "angle (degrees)",
+       {plot_rows(rows, "tilt of the line", [](const NeedleRow& r) { return tilt_of(r.axis); }),
+        plot_rows(rows, "cone alpha", [](const NeedleRow& r) { return r.cone / kDegree; })}},
+      {"time (s)",
+       "off the line (mm)",
+       {plot_rows(rows, "deviation",
                   [](const NeedleRow& r) { return r.deviation / kMillimetre; })}},
-      {"time (s)", "alpha (degrees)", {plot_rows(rows, "alpha", [](const NeedleRow& r) {
-         return r.cone / kDegree;
-       })}}};
+      {"time (s)",
+       "clamping force (N)",
+       {plot_rows(rows, "f_x", [](const NeedleRow& r) { return r.forces.clamping.x(); }),
+        plot_rows(rows, "f_y", [](const NeedleRow& r) { return r.forces.clamping.y(); }),
+        plot_rows(rows, "f_z", [](const NeedleRow& r) { return r.forces.clamping.z(); }),
+        plot_rows(rows, "magnitude",
+                  [](const NeedleRow& r) { return r.forces.clamping.norm(); })}}};
   return out;
 }
 

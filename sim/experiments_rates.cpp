@@ -83,11 +83,14 @@ double rms_difference(const std::vector<double>& a, const std::vector<double>& b
 constexpr std::array<double, 3> kRates{1000, 2000, 10000};
 constexpr std::uint64_t kTremorSeeds = 6;
 
-std::vector<NeedleRow> run_at(double rate, const DeviceLimits& device, const HandParams& hand) {
+std::vector<NeedleRow> run_at(double rate, const ExperimentLaws& laws, const DeviceLimits& device,
+                              const HandParams& hand) {
   BodyExperiment e;
   e.body =
       AnalyticBody::make_stack(Vec3::Zero(), Vec3::UnitZ(), {0, 0.004, 0.018, 0.021, 0.027, 0.030});
   e.layers = table_layers();
+  e.names = table_layer_names();
+  e.laws = laws;
   e.device = device;
   e.hand = hand;
   e.rate_hz = rate;
@@ -97,31 +100,52 @@ std::vector<NeedleRow> run_at(double rate, const DeviceLimits& device, const Han
 }
 
 // RMS share of the difference to 10 kHz, at 1 and at 2 kHz.
-std::array<double, 2> differences(const DeviceLimits& device, const HandParams& hand) {
+std::array<double, 2> differences(const ExperimentLaws& laws, const DeviceLimits& device,
+                                  const HandParams& hand) {
   std::array<std::vector<double>, kRates.size()> forces;
   for (std::size_t i = 0; i < kRates.size(); ++i)
-    forces[i] = held_at_10khz(run_at(kRates[i], device, hand), kRates[i]);
+    forces[i] = held_at_10khz(run_at(kRates[i], laws, device, hand), kRates[i]);
   return {rms_difference(forces[2], forces[0]), rms_difference(forces[2], forces[1])};
 }
 
 }  // namespace
 
+std::vector<std::string> table_layer_names() {
+  return {"skin", "muscle", "bursa", "tendon", "cartilage", "bone"};
+}
+
 Experiment run_rates(const ExperimentOptions& options, const DeviceLimits& device) {
   Experiment out;
   out.title = "One insertion with all laws at 1, 2 and 10 kHz";
+  out.source =
+      "[Alamilla2020] conclusions: the number of iterations has to be set for each device; no "
+      "figure";
   out.plot.title = out.title;
   out.plot.panels = {{"time (s)", "axial force (N), no tremor", {}},
+                     {"time (s)", "force less that at 10 kHz (N)", {}},
                      {"time (s)", "depth (mm)", {}}};
   out.table.header = {"device", "tremor_seed", "rms_share_1_khz_to_10_khz",
                       "rms_share_2_khz_to_10_khz"};
   HandParams calm;
   calm.tremor_rms = 0;
   for (const double rate : kRates) {
-    ExperimentTrace trace{to_csv(rate) + "hz", run_at(rate, device, calm), layer_names(6)};
-    out.plot.panels[0].series.push_back(plot_rows(trace.rows, trace.label, axial));
-    out.plot.panels[1].series.push_back(plot_rows(
-        trace.rows, trace.label, [](const NeedleRow& r) { return r.depth / kMillimetre; }));
+    ExperimentTrace trace{to_csv(rate) + "hz", run_at(rate, options.laws, device, calm),
+                          region_names(table_layer_names())};
+    const std::string label = to_csv(rate / 1000) + " kHz";
+    out.plot.panels[0].series.push_back(plot_rows(trace.rows, label, axial));
+    out.plot.panels[2].series.push_back(
+        plot_rows(trace.rows, label, [](const NeedleRow& r) { return r.depth / kMillimetre; }));
     out.traces.push_back(std::move(trace));
+  }
+  const auto fastest = held_at_10khz(out.traces.back().rows, kRates.back());
+  for (std::size_t i = 0; i + 1 < kRates.size(); ++i) {
+    const auto held = held_at_10khz(out.traces[i].rows, kRates[i]);
+    PlotSeries off{to_csv(kRates[i] / 1000) + " kHz", {}, {}};
+    for (std::size_t k = 0; k < std::min(held.size(), fastest.size()); k += 5) {
+      off.x.push_back(static_cast<double>(k) / kRates.back());
+      off.y.push_back(held[k] - fastest[k]);
+    }
+    out.plot.panels[1].series.push_back(std::move(off));
   }
   const auto add = [&out](const DeviceLimits& d, const std::string& seed,
                           const std::array<double, 2>& off) {
@@ -134,7 +158,7 @@ Experiment run_rates(const ExperimentOptions& options, const DeviceLimits& devic
                                          off[i], 0.02, ""));
   };
   for (const DeviceLimits& each : device_table()) {
-    const auto off = differences(each, calm);
+    const auto off = differences(options.laws, each, calm);
     add(each, "none", off);
     claim(std::string(each.name) + ", no tremor", off);
   }
@@ -143,7 +167,7 @@ Experiment run_rates(const ExperimentOptions& options, const DeviceLimits& devic
     for (std::uint64_t i = 0; i < kTremorSeeds; ++i) {
       HandParams hand;
       hand.seed = options.seed + i;
-      const auto off = differences(each, hand);
+      const auto off = differences(options.laws, each, hand);
       add(each, std::to_string(hand.seed), off);
       for (std::size_t k = 0; k < off.size(); ++k) together[k] += off[k] * off[k] / kTremorSeeds;
     }
@@ -199,13 +223,15 @@ Experiment run_velocity_estimators(const ExperimentOptions& /*options*/,
                                    const DeviceLimits& /*device*/) {
   Experiment out;
   out.title = "Velocity estimators on a 1 Hz, 10 mm sine: noise and lag by encoder step and rate";
+  out.source = "[Alamilla2020] section 2.1.2, which names them without figures";
   out.table.header = {"estimator", "rate_hz", "encoder_um", "noise_mm_s", "lag_ms"};
-  std::vector<PlotSeries> clouds;
+  std::vector<PlotPanel> panels;
   double window_lag = 0;
   double raw_noise = 0;
   double window_noise = 0;
   for (const double rate : {1000.0, 10000.0}) {
     const double dt = 1 / rate;
+    std::vector<PlotSeries> clouds;
     for (const double encoder : {10e-6, 55e-6}) {
       std::vector<std::pair<std::string, std::unique_ptr<VelocityEstimator>>> all;
       all.emplace_back("difference 1 tick", std::make_unique<WindowedDifference>(dt, dt));
@@ -232,13 +258,15 @@ Experiment run_velocity_estimators(const ExperimentOptions& /*options*/,
         window_lag = r.lag;
       }
     }
+    panels.push_back({"lag (ms) at " + to_csv(rate / 1000) +
+                          " kHz; the quieter of each pair: encoder step 10 um, the other 55 um",
+                      "noise (mm/s)", std::move(clouds), true});
   }
   out.claims = {
       claim_near("lag of a 10 ms difference", window_lag * 1e3, 5, 0.05, "ms"),
       claim_at_most("its noise over that of a 1 ms difference", window_noise / raw_noise, 0.2, "")};
   out.plot.title = out.title;
-  out.plot.panels = {{"lag (ms); each at 1 and 10 kHz, encoder steps 10 and 55 um", "noise (mm/s)",
-                      std::move(clouds), true}};
+  out.plot.panels = std::move(panels);
   return out;
 }
 
@@ -264,7 +292,8 @@ struct Change {
 };
 
 // A needle pushed at 10 mm/s through 12 mm of one layer into another, as the hand feels it.
-Change measure_change(const TableLayer& from, const TableLayer& to, const DeviceLimits& device) {
+Change measure_change(const TableLayer& from, const TableLayer& to, const ExperimentLaws& laws,
+                      const DeviceLimits& device) {
   constexpr double kInterface = 0.012;  // m
   constexpr double kBeyond = 0.009;     // m of the second layer; of a hard one as far as it lets
   const bool hard = std::string_view(to.name) == "bone";
@@ -272,6 +301,8 @@ Change measure_change(const TableLayer& from, const TableLayer& to, const Device
   e.body = AnalyticBody::make_stack(Vec3::Zero(), Vec3::UnitZ(), {0, kInterface});
   e.layers = {plain_layer(from.force, from.stiffness),
               hard ? bone_layer(to.force, to.stiffness) : plain_layer(to.force, to.stiffness)};
+  e.names = {from.name, to.name};
+  e.laws = laws;
   e.device = device;
   e.hand.tremor_rms = 0;
   e.phases = {stay(0.1),
@@ -303,11 +334,12 @@ Change measure_change(const TableLayer& from, const TableLayer& to, const Device
 
 }  // namespace
 
-Experiment run_layer_changes(const ExperimentOptions& /*options*/, const DeviceLimits& device) {
+Experiment run_layer_changes(const ExperimentOptions& options, const DeviceLimits& device) {
   constexpr double kJnd = 0.07;      // share of the force, [Pang1991] for 2.5 to 10 N
   constexpr double kWeakJnd = 0.14;  // assumed: twice that, for forces below 2.5 N
   Experiment out;
   out.title = "Layer changes of table 4.2, felt at 10 mm/s, in just-noticeable differences";
+  out.source = "[Alamilla2020] table 4.2; [Pang1991] for the just-noticeable difference";
   out.table.header = {"from",
                       "to",
                       "before_n",
@@ -321,6 +353,7 @@ Experiment run_layer_changes(const ExperimentOptions& /*options*/, const DeviceL
   for (std::size_t k = 0; k < kTable.size(); ++k)
     by_layer.push_back(
         {"to " + std::string(kTable[k].name), {}, {}, "points ps 1.5 pt " + std::to_string(k + 4)});
+  std::array<double, kTable.size()> felt{};  // N on the plateau behind the change, of the last
   double least = 1e9;
   double off = 0;
   double longest = 0;
@@ -329,7 +362,7 @@ Experiment run_layer_changes(const ExperimentOptions& /*options*/, const DeviceL
     for (std::size_t k = 0; k < kTable.size(); ++k) {
       const TableLayer& to = kTable[k];
       if (from.force == to.force) continue;
-      const Change c = measure_change(from, to, device);
+      const Change c = measure_change(from, to, options.laws, device);
       const double step = c.after - c.before;
       const double share = std::abs(step) / c.before;
       out.table.rows.push_back({from.name, to.name, to_csv(c.before), to_csv(c.after), to_csv(step),
@@ -338,6 +371,7 @@ Experiment run_layer_changes(const ExperimentOptions& /*options*/, const DeviceL
       PlotSeries& series = by_layer[k];
       series.x.push_back(c.distance / kMillimetre);
       series.y.push_back(share / kJnd);
+      felt[k] = c.after;
       least = std::min(least, share / kWeakJnd);
       longest = std::max(longest, c.distance / kMillimetre);
       off = std::max(off, std::abs(step / (to.force - from.force) - 1));
@@ -348,6 +382,9 @@ Experiment run_layer_changes(const ExperimentOptions& /*options*/, const DeviceL
       claim_at_most("measured step off the table's, share of the step", off, 0.05, ""),
       claim_at_least("the smallest step in just-noticeable differences of 14 %", least, 1, ""),
       claim_at_most("the longest way until nine tenths of the step are felt", longest, 4.5, "mm")};
+  for (std::size_t k = 0; k < kTable.size(); ++k)
+    out.published.push_back(
+        {kTable[k].name, to_csv(kTable[k].force) + " N", to_csv(felt[k]) + " N"});
   out.plot.title = out.title;
   by_layer.push_back({"noticed, 7 %", {0, longest}, {1, 1}});
   by_layer.push_back({"noticed, 14 %", {0, longest}, {2, 2}});

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The tracking wall alone: movement, stop, both ways, and through many layers.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 
 #include "core/units.h"
 #include "sim/experiment_list.h"
@@ -19,6 +21,7 @@ BodyExperiment one_layer(const ExperimentOptions& options, const DeviceLimits& d
   BodyExperiment e;
   e.layers = {plain_layer(1, kStiffness, attracted)};
   e.device = device;
+  e.laws = options.laws;
   e.hand.seed = options.seed;
   return e;
 }
@@ -28,11 +31,24 @@ Plot wall_plot(const std::string& title, const std::vector<NeedleRow>& rows) {
   plot.title = title;
   plot.panels = {
       {"time (s)",
-       "position (mm)",
+       "beyond the skin (mm)",
        {plot_rows(rows, "tip", [](const NeedleRow& r) { return r.depth / kMillimetre; }),
         plot_rows(rows, "wall", [](const NeedleRow& r) { return r.wall / kMillimetre; })}},
       {"time (s)", "resistance (N)", {plot_rows(rows, "cutting + attracted", resistance)}}};
   return plot;
+}
+
+// The time at which `reached` first holds, s; the end when it never does.
+template <class F>
+double time_when(const std::vector<NeedleRow>& rows, F reached) {
+  const auto at = std::find_if(rows.begin(), rows.end(), reached);
+  return at == rows.end() ? rows.back().time : at->time;
+}
+
+std::string with_unit(double value, int digits, const char* unit) {
+  std::array<char, 48> text{};
+  std::snprintf(text.data(), text.size(), "%.*f %s", digits, value, unit);
+  return text.data();
 }
 
 double worst(const std::vector<double>& values) {
@@ -52,7 +68,8 @@ Experiment run_wall_move(const ExperimentOptions& options, const DeviceLimits& d
   e.start_outside = kSpeed * 0.35;
   e.phases = {stay(kStateOfRest), push_to(15 * kMillimetre, kSpeed)};
   Experiment out;
-  out.title = "Wall updated with movement (source Fig. 2-5): K_t 500 N/m, 1 N";
+  out.title = "Wall updated with movement: K_t 500 N/m, 1 N";
+  out.source = "[Alamilla2020] Fig. 2-5, eqs. 2.14 and 2.15";
   out.traces = {{"", run_body(e), layer_names(1)}};
   const auto& rows = out.traces[0].rows;
   std::vector<double> rise;
@@ -75,7 +92,15 @@ Experiment run_wall_move(const ExperimentOptions& options, const DeviceLimits& d
       claim_at_most("then 1 N while moving, off by", worst(level), 0.01, "N"),
       claim_at_most("tip - wall is 2 mm, off by", worst(gap), 0.02, "mm"),
       claim_at_least("rows on the plateau", static_cast<double>(level.size()), 500, "")};
-  out.plot = wall_plot(out.title, rows);
+  const double full = time_when(rows, [](const NeedleRow& r) { return resistance(r) > 0.9999; });
+  out.published = {
+      {"free motion until", "0.65 s", with_unit(entry, 2, "s")},
+      {"safety position f_R / K_t", "2 mm",
+       with_unit((rows.back().depth - rows.back().wall) / kMillimetre, 3, "mm")},
+      {"force while the needle moves on", "1 N", with_unit(resistance(rows.back()), 3, "N")},
+      {"1 N is reached", "at 1.2 s, the hand's speed is not printed",
+       "at " + with_unit(full, 2, "s") + ", at 10 mm/s"}};
+  out.plot = wall_plot(out.title + " (Fig. 2-5)", rows);
   return out;
 }
 
@@ -86,7 +111,8 @@ Experiment run_wall_stop(const ExperimentOptions& options, const DeviceLimits& d
   e.phases = {stay(kStateOfRest), push_to(12 * kMillimetre, kSpeed), stay(1.5),
               push_to(20 * kMillimetre, kSpeed)};
   Experiment out;
-  out.title = "Wall updated with a stop (source Fig. 2-6): w0 15 cm, stop about 1.5 s, move again";
+  out.title = "Wall updated with a stop: w0 15 cm, stop about 1.5 s, move again";
+  out.source = "[Alamilla2020] Fig. 2-6, eqs. 2.16 and 2.17";
   out.traces = {{"", run_body(e), layer_names(1)}};
   const auto& rows = out.traces[0].rows;
   const double settling = e.needle.wall.settling_time;
@@ -120,7 +146,14 @@ Experiment run_wall_stop(const ExperimentOptions& options, const DeviceLimits& d
                 claim_at_most("afterwards the force stays 0, at most", worst(rest), 0.05, "N"),
                 claim_near("moving again the force builds to", rebuilt, 1, 0.01, "N"),
                 claim_near("over", built_over, 2, 0.1, "mm")};
-  out.plot = wall_plot(out.title, rows);
+  out.published = {
+      {"force before the stop", "1 N",
+       with_unit(stop == rows.begin() || stop == rows.end() ? 0 : resistance(*(stop - 1)), 3, "N")},
+      {"force during the stop", "decreases until 0", with_unit(worst(rest), 3, "N")},
+      {"settling", "n iterations, tuned by controller", with_unit(settling, 2, "s at any rate")},
+      {"moving again", "increases gradually",
+       "to " + with_unit(rebuilt, 3, "N") + " over " + with_unit(built_over, 2, "mm")}};
+  out.plot = wall_plot(out.title + " (Fig. 2-6)", rows);
   return out;
 }
 
@@ -131,7 +164,8 @@ Experiment run_wall_both(const ExperimentOptions& options, const DeviceLimits& d
   e.phases = {stay(kStateOfRest), push_to(25 * kMillimetre, kSpeed), stay(2.5),
               pull_to(-4 * kMillimetre, 0.015), stay(0.3)};
   Experiment out;
-  out.title = "Cutting and attracted force (source Fig. 2-10): 1 N in, 0.5 N out, w0 7 cm";
+  out.title = "Cutting and attracted force: 1 N in, 0.5 N out, w0 7 cm";
+  out.source = "[Alamilla2020] Fig. 2-10, eq. 2.19";
   out.traces = {{"", run_body(e), layer_names(1)}};
   const auto& rows = out.traces[0].rows;
   std::vector<double> in;
@@ -155,11 +189,54 @@ Experiment run_wall_both(const ExperimentOptions& options, const DeviceLimits& d
                 claim_at_most("withdrawal: -0.5 N, off by", worst(back), 0.005, "N"),
                 claim_at_most("outside: 0 N, off by", worst(outside), 0, "N"),
                 claim_at_most("energy given over the cycle", rows.back().energy_to_hand, 0, "J")};
-  out.plot = wall_plot(out.title, rows);
+  const auto level = [&rows](ContactState state, double from, double to) {
+    double sum = 0;
+    double count = 0;
+    for (const NeedleRow& r : rows) {
+      if (r.state != state || r.depth < from || r.depth > to) continue;
+      sum += resistance(r);
+      ++count;
+    }
+    return with_unit(sum / std::max(count, 1.0), 3, "N");
+  };
+  out.published = {
+      {"insertion", "1 N", level(ContactState::inserting, 2.2e-3, 24e-3)},
+      {"intentional stop", "decreases until 0", with_unit(worst(rest), 3, "N at most")},
+      {"withdrawal", "attracted force 0.5 N, drawn below zero",
+       level(ContactState::withdrawing, 0, 20e-3)},
+      {"free motion", "no force", with_unit(worst(outside), 3, "N at most")}};
+  out.plot = wall_plot(out.title + " (Fig. 2-10)", rows);
   return out;
 }
 
 namespace {
+
+// Tip and wall along each axis, and the force with its magnitude, as the source draws them.
+void add_axes(const std::vector<NeedleRow>& rows, const Vec3& entry, const Vec3& direction,
+              Plot& plot) {
+  constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
+  PlotPanel position{"time (s)", "tip P and wall w (mm)", {}};
+  PlotPanel force{"time (s)", "cutting + attracted (N)", {}};
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    const std::string axis = kAxes[static_cast<std::size_t>(k)];
+    position.series.push_back(plot_rows(rows, "P_" + axis, [k](const NeedleRow& r) {
+      return r.X_JN.translation()[k] / kMillimetre;
+    }));
+    PlotSeries wall = plot_rows(rows, "w_" + axis, [k, &entry, &direction](const NeedleRow& r) {
+      return (entry + r.wall * direction)[k] / kMillimetre;
+    });
+    wall.style = "lines dt 2";
+    position.series.push_back(std::move(wall));
+    force.series.push_back(plot_rows(
+        rows, "f_" + axis, [k](const NeedleRow& r) { return -resistance(r) * r.axis[k]; }));
+  }
+  PlotSeries size =
+      plot_rows(rows, "magnitude", [](const NeedleRow& r) { return std::abs(resistance(r)); });
+  size.style = "lines lw 2";
+  force.series.push_back(std::move(size));
+  plot.panels.push_back(std::move(position));
+  plot.panels.push_back(std::move(force));
+}
 
 // Runs through layers `forces` (N) and back, and claims each plateau within 1 %.
 void run_layers(BodyExperiment& e, const std::vector<double>& forces, double attracted,
@@ -184,14 +261,19 @@ void run_layers(BodyExperiment& e, const std::vector<double>& forces, double att
   }
   out.claims.push_back(claim_near("layers with a plateau", static_cast<double>(plateaus.size()),
                                   static_cast<double>(forces.size()), 0, ""));
-  out.plot = wall_plot(out.title, out.traces[0].rows);
+  const auto& rows = out.traces[0].rows;
+  for (const LayerPlateau& p : plateaus)
+    out.published.push_back({p.tissue, with_unit(p.expected, 1, "N"), with_unit(p.mean, 3, "N")});
+  out.plot = wall_plot(out.title + " (" + out.source.substr(out.source.find("Fig")) + ")", rows);
+  add_axes(rows, e.entry, e.direction, out.plot);
   out.plot.panels.push_back(
-      {"time (s)",
-       "clamping (N), deviation (mm)",
-       {plot_rows(out.traces[0].rows, "clamping",
-                  [](const NeedleRow& r) { return r.forces.clamping.norm(); }),
-        plot_rows(out.traces[0].rows, "deviation",
-                  [](const NeedleRow& r) { return r.deviation / kMillimetre; })}});
+      {"time (s)", "off the line (mm)", {plot_rows(rows, "deviation", [](const NeedleRow& r) {
+         return r.deviation / kMillimetre;
+       })}});
+  out.plot.panels.push_back(
+      {"time (s)", "clamping (N)", {plot_rows(rows, "clamping", [](const NeedleRow& r) {
+         return r.forces.clamping.norm();
+       })}});
 }
 
 }  // namespace
@@ -209,15 +291,19 @@ Experiment run_wall_nine(const ExperimentOptions& options, const DeviceLimits& d
   const Vec3 aside = 0.02 * e.direction.unitOrthogonal();
   e.entry = aside - std::sqrt(kRadius * kRadius - aside.squaredNorm()) * e.direction;
   e.device = device;
+  e.laws = options.laws;
   e.hand.seed = options.seed;
   e.needle.contact.needle_length = 0.15;
   e.phases = {stay(kStateOfRest), push_to(0.105, 0.02), stay(0.8), pull_to(-0.004, 0.05)};
   Experiment out;
-  out.title = "Nine layers in a ball, oblique, with clamping (source Fig. 2-13)";
+  out.title = "Nine layers in a ball, oblique, with clamping";
+  out.source = "[Alamilla2020] Figs. 2-12 and 2-13";
   run_layers(e, {1.5, 1, 1.8, 2, 3, 3.5, 2.5, 4, 4.5}, 0.5, out);
   double aside_most = 0;
   for (const NeedleRow& r : out.traces[0].rows) aside_most = std::max(aside_most, r.deviation);
   out.claims.push_back(claim_at_most("lateral deviation", aside_most / kMillimetre, 0.5, "mm"));
+  out.published.push_back({"the needle keeps its line", "drawn straight",
+                           with_unit(aside_most / kMillimetre, 3, "mm off at most")});
   return out;
 }
 
@@ -226,11 +312,13 @@ Experiment run_wall_seven(const ExperimentOptions& options, const DeviceLimits& 
   e.body = AnalyticBody::make_stack(Vec3::Zero(), Vec3::UnitZ(),
                                     {0, 0.008, 0.016, 0.024, 0.032, 0.040, 0.048});
   e.device = device;
+  e.laws = options.laws;
   e.hand.seed = options.seed;
   e.needle.contact.needle_length = 0.09;
   e.phases = {stay(kStateOfRest), push_to(0.056, 0.015), stay(0.6), pull_to(-0.004, 0.05)};
   Experiment out;
-  out.title = "Seven layers, attracted force 0.7 N (source Fig. 2-15)";
+  out.title = "Seven layers, attracted force 0.7 N";
+  out.source = "[Alamilla2020] Figs. 2-14 and 2-15";
   run_layers(e, {0.5, 1, 1.5, 2, 0.7, 1, 1.5}, 0.7, out);
   const auto& rows = out.traces[0].rows;
   std::vector<double> back;
@@ -246,6 +334,10 @@ Experiment run_wall_seven(const ExperimentOptions& options, const DeviceLimits& 
   out.claims.push_back(
       claim_at_most("2 N -> 0.7 N: off 0.7 N in the tick of the change", drop, 0.007, "N"));
   out.claims.push_back(claim_at_most("withdrawal: -0.7 N, off by", worst(back), 0.007, "N"));
+  out.published.push_back({"from 2 N to a weaker layer", "almost instantaneous",
+                           "in one tick, " + with_unit(drop, 4, "N off the new level")});
+  out.published.push_back({"attracted force", "0.7 N in all layers",
+                           "0.7 N, off by " + with_unit(worst(back), 4, "N")});
   return out;
 }
 

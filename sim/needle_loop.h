@@ -10,23 +10,23 @@
 namespace artus {
 
 struct LoopParams {
-  double rate_hz = 1000;      ///< haptic ticks a second
-  double physics_hz = 20000;  ///< steps a second of hand and device; a multiple of rate_hz
+  double rate_hz = 1000;  ///< haptic ticks a second
+  double physics_hz =
+      20000;  ///< steps a second of hand and device, at least: a whole number a tick
 };
 
 /// Hand, device and force laws in a closed loop, so that forces really move the needle. The motor's
 /// wrench is held for a haptic period; hand and device move in finer steps.
 class NeedleLoop {
  public:
-  /// Requires: physics_hz a multiple of rate_hz.
+  /// Requires: rates above 0.
   NeedleLoop(const LoopParams& params, const DeviceLimits& device, const HandParams& hand,
              const Pose& start)
       : dt_(1 / params.rate_hz),
-        steps_(static_cast<int>(std::lround(params.physics_hz / params.rate_hz))),
+        steps_(std::max(1, static_cast<int>(std::ceil(params.physics_hz / params.rate_hz - 1e-9)))),
         hand_(hand),
         device_(device, hand.mass, hand.inertia, start) {
-    ARTUS_REQUIRE(steps_ >= 1 && std::abs(steps_ * params.rate_hz - params.physics_hz) < 1e-6,
-                  "the physics rate must be a multiple of the haptic rate");
+    ARTUS_REQUIRE(params.rate_hz > 0 && params.physics_hz > 0, "rates must be above 0 Hz");
   }
 
   [[nodiscard]] double time() const noexcept { return dt_ * static_cast<double>(ticks_); }

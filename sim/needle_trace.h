@@ -10,6 +10,7 @@
 
 #include "core/result.h"
 #include "haptics/needle_renderer.h"
+#include "sim/simulated_hand.h"
 
 namespace artus {
 
@@ -31,6 +32,7 @@ struct NeedleRow {
   NeedleForces forces;
   Wrench command;             ///< after the guard
   Vec3 hand = Vec3::Zero();   ///< N, force of the simulated hand
+  NeedleMotion needle;        ///< of the simulated needle itself, without an encoder's steps
   double energy_to_hand = 0;  ///< J given to the hand by the device since the start (observer)
   Vec3 axis = Vec3::UnitZ();  ///< insertion axis
   int pass = 0;               ///< which injection, from 1

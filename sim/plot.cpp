@@ -49,15 +49,16 @@ void write_script(std::ostream& out, const Plot& plot, const fs::path& data, con
   const auto rows = plot.panels.size();
   out << "set terminal pngcairo size " << plot.width << ','
       << plot.panel_height * static_cast<int>(rows) + 40 << " noenhanced font 'sans,11'\n"
-      << "set output " << quoted(png.string())
-      << "\nset grid\nset offsets graph 0, graph 0, graph 0.05, graph 0.05\nset lmargin 10\nset "
-         "rmargin "
+      << "set output " << quoted(png.string()) << "\nset grid\nset lmargin 10\nset rmargin "
       << key_width(plot) << "\nset key outside right top\n"
       << "set multiplot layout " << rows << ",1 title " << quoted(plot.title) << '\n';
   std::size_t index = 0;
   for (const PlotPanel& panel : plot.panels) {
-    out << (panel.log_y ? "set logscale y\n" : "unset logscale y\n") << "set xlabel "
-        << quoted(panel.x_label) << "\nset ylabel " << quoted(panel.y_label) << "\nplot ";
+    out << (panel.log_y ? "set logscale y\nunset offsets\n"
+                        : "unset logscale y\nset offsets graph 0, graph 0, graph 0.05, graph "
+                          "0.05\n")
+        << "set xlabel " << quoted(panel.x_label) << "\nset ylabel " << quoted(panel.y_label)
+        << "\nplot ";
     for (std::size_t i = 0; i < panel.series.size(); ++i) {
       out << (i == 0 ? "" : ", ") << quoted(data.string()) << " index " << index++ << " with "
           << panel.series[i].style << " title " << quoted(panel.series[i].label);
