@@ -124,6 +124,7 @@ void ScanConverter::convert(std::span<const float> decibel, int first_row, int l
   const auto begin = static_cast<std::size_t>(first_row) * static_cast<std::size_t>(width_);
   const auto end = static_cast<std::size_t>(last_row) * static_cast<std::size_t>(width_);
   const std::ptrdiff_t next_line = single_line_ ? 0 : n_samples_;
+  const float offset = dynamic_range_ * grey_per_db_ + 0.5F;  // black, and rounding to the nearest
   for (std::size_t k = begin; k < end; ++k) {
     const Sample& s = samples_[k];
     if (s.index < 0) {
@@ -135,7 +136,7 @@ void ScanConverter::convert(std::span<const float> decibel, int first_row, int l
     const float near = a[0] + s.sample * (a[1] - a[0]);
     const float far = b[0] + s.sample * (b[1] - b[0]);
     const float db = near + s.line * (far - near);
-    const auto grey = static_cast<int>((db + dynamic_range_) * grey_per_db_ + 0.5F);
+    const auto grey = static_cast<int>(db * grey_per_db_ + offset);
     image[k] = static_cast<std::uint8_t>(std::clamp(grey, 0, 255));
   }
 }

@@ -101,11 +101,7 @@ double total_weight(const std::vector<Sample>& samples) {
   return sum;
 }
 
-/// Where a tendon goes over into its muscle, or a muscle into its tendon.
-struct Continuation {
-  RegionId region = kOutside;  // kOutside: there is none
-  Vec3 p_J = Vec3::Zero();     // m, middle of the surface between both
-};
+}  // namespace
 
 Continuation find_continuation(const CompiledJoint& joint, RegionId region) {
   const TissueKind own = joint.tissue_of(region).acoustic.kind;
@@ -114,6 +110,7 @@ Continuation find_continuation(const CompiledJoint& joint, RegionId region) {
   const TetMesh& mesh = joint.mesh;
   std::vector<double> area(joint.regions.size(), 0.0);
   std::vector<Vec3> moment(joint.regions.size(), Vec3::Zero());
+  std::vector<Vec3> outward(joint.regions.size(), Vec3::Zero());
   for (const Interface& face : mesh.interfaces) {
     if (face.front != region && face.back != region) continue;
     const RegionId beyond = face.front == region ? face.back : face.front;
@@ -121,15 +118,19 @@ Continuation find_continuation(const CompiledJoint& joint, RegionId region) {
     const Vec3& a = mesh.vertices[face.vertices[0]];
     const Vec3& b = mesh.vertices[face.vertices[1]];
     const Vec3& c = mesh.vertices[face.vertices[2]];
-    const double here = 0.5 * (b - a).cross(c - a).norm();
+    const Vec3 to_front = 0.5 * (b - a).cross(c - a);
+    const double here = to_front.norm();
     area[beyond] += here;
+    outward[beyond] += (face.front == region ? -1 : 1) * to_front;
     moment[beyond] += here / 3 * (a + b + c);
   }
   const auto most = std::max_element(area.begin(), area.end());
   if (!(*most > kLeastContact)) return {};
   const auto found = static_cast<std::size_t>(most - area.begin());
-  return {static_cast<RegionId>(found), moment[found] / *most};
+  return {static_cast<RegionId>(found), moment[found] / *most, outward[found] / *most};
 }
+
+namespace {
 
 /// A region and as much of its continuation, so that fibres run on from muscle to tendon.
 std::vector<Sample> sample_continued(const CompiledJoint& joint, RegionId region) {
@@ -260,6 +261,7 @@ std::optional<MaterialMap> fit_skin_depth(const CompiledJoint& joint) {
     for (const Vec3& in : inward)
       wanted.push_back(across(joint.X_JP_default.linear().col(c - 1), in));
     coefficients.col(c) = along.solve(towards(samples, wanted));
+    coefficients(0, c) = 0;  // see fit_fibre_course
   }
   return MaterialMap(frame.centre, frame.scale, coefficients);
 }
@@ -293,6 +295,9 @@ std::optional<MaterialMap> fit_fibre_course(const CompiledJoint& joint, RegionId
     for (const Sample& s : samples) speed += s.weight * (s.slopes * coefficients.col(c)).norm();
     if (!(speed > 0)) return std::nullopt;
     coefficients.col(c) /= speed;
+    // slopes leave the origin open: near the middle, or single precision would not tell places
+    // apart
+    coefficients(0, c) = 0;
   }
   return MaterialMap(frame.centre, frame.scale, coefficients);
 }

@@ -12,6 +12,17 @@ namespace artus {
 /// (a phantom) or without skin. Cost: some 20 ms.
 [[nodiscard]] std::optional<MaterialMap> fit_skin_depth(const CompiledJoint& joint);
 
+/// What goes on where a muscle's or a tendon's fibres leave it.
+struct Continuation {
+  RegionId region = kOutside;
+  Vec3 p_J = Vec3::Zero();       ///< m, centre of the surface that both share
+  Vec3 facing_J = Vec3::Zero();  ///< mean of its outward unit normals: short when it winds about
+};
+
+/// The tendon of a muscle, or the other way round: the one that shares most surface with `region`;
+/// kOutside when there is none. Cost: linear in the interface triangles.
+[[nodiscard]] Continuation find_continuation(const CompiledJoint& joint, RegionId region);
+
 /// Coordinates along the fibres of one region: the potential flow through its tetrahedra from one
 /// end to the other, which follows the surfaces of a bent or fanned structure (as fibres between
 /// origin and insertion do), with sheets stacked away from the skin. Where muscle and tendon adjoin

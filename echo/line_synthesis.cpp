@@ -85,9 +85,10 @@ LineSynthesis::LineSynthesis(const BeamShape& shape, const ScatterField& scatter
       n_planes_(settings.n_planes),
       pitch_(transducer.pitch()) {}
 
-void LineSynthesis::add_run(const BeamRun& run, const RegionAcoustics& region,
+void LineSynthesis::add_run(const BeamRun& run, std::span<const RegionAcoustics> regions,
                             const ScatterView& view, std::span<const float> weight,
                             std::span<float> gain, std::span<float> re, std::span<float> im) const {
+  const RegionAcoustics& region = regions[run.region];
   if (region.backscatter <= 0) return;
   const auto first = static_cast<std::size_t>(std::ceil(std::max(0.0, run.begin)));
   const auto last = std::min(re.size(), static_cast<std::size_t>(std::ceil(run.end)));
@@ -96,7 +97,8 @@ void LineSynthesis::add_run(const BeamRun& run, const RegionAcoustics& region,
   const double into = static_cast<double>(first) - run.begin;
   const Vec3 p_J = run.p_J + into * run.step_J;
   const double slope = (run.log_gain_end - run.log_gain_begin) / (run.end - run.begin);
-  const double value = speckle_ * region.backscatter * fibre_backscatter(region, run.along) *
+  const double value = speckle_ *
+                       local_backscatter(regions, region, run.middle.place.z(), run.along) *
                        std::exp(run.log_gain_begin + into * slope);
   const std::size_t n_nodes = (n - 1) / kStride + 2;
   const std::size_t behind = re.size() + kStride;  // the last stride may reach over the end
@@ -133,7 +135,7 @@ void LineSynthesis::add_plane(int plane, const BeamTrace& trace,
   const std::span<const float> speckle = shape_->speckle_weight(plane);
   const std::span<const float> share = shape_->echo_weight(plane);
   for (std::size_t i = 0; i < trace.n_runs; ++i) {
-    add_run(trace.runs[i], regions[trace.runs[i].region], view, speckle, gain, re, im);
+    add_run(trace.runs[i], regions, view, speckle, gain, re, im);
   }
   for (std::size_t i = 0; i < trace.n_echoes; ++i) add_echo(trace.echoes[i], view, share, re, im);
 }

@@ -42,9 +42,9 @@ class LineSynthesis {
   void add_plane(int plane, const BeamTrace& trace, std::span<const RegionAcoustics> regions,
                  const ScatterView& view, std::vector<float>& gain, std::span<float> re,
                  std::span<float> im) const;
-  void add_run(const BeamRun& run, const RegionAcoustics& region, const ScatterView& view,
-               std::span<const float> weight, std::span<float> gain, std::span<float> re,
-               std::span<float> im) const;
+  void add_run(const BeamRun& run, std::span<const RegionAcoustics> regions,
+               const ScatterView& view, std::span<const float> weight, std::span<float> gain,
+               std::span<float> re, std::span<float> im) const;
 
   void add_echo(const BeamEcho& echo, const ScatterView& view, std::span<const float> share,
                 std::span<float> re, std::span<float> im) const;

@@ -93,7 +93,9 @@ bool BeamTracer::enter(Walk& walk, const TissueInterval& interval,
   BeamTrace& trace = walk.trace;
   const RegionAcoustics& from = regions_[walk.region];
   const RegionAcoustics& to = regions_[interval.region];
+  const bool junction = is_junction(from, walk.region, to, interval.region, interval.entry_normal);
   walk.region = interval.region;
+  if (junction) return true;
   if (interval.region == kBeyond) return false;
   const bool air = walk.touched && interval.region == kOutside;
   const double cosine = -walk.wave.dot(interval.entry_normal);

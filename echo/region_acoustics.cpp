@@ -14,6 +14,8 @@ namespace {
 
 constexpr double kOpaqueAbove = 4e6;    // Rayl, between soft tissue (2) and cortical bone (6)
 constexpr double kOpaqueBelow = 1e5;    // Rayl, gas
+constexpr double kInterlock = 3e-3;     // m. assumed
+constexpr double kThrough = 0.5;        // cosine to the normal from which fibres run through
 constexpr double kTendonFloor = 0.056;  // -25 dB
 constexpr double kLobe = 12;            // degrees, half the acceptance of an F/2 aperture
 constexpr double kApertureHalf = 14 * kDegree;  // rad, of an F/2 aperture seen from its focus
@@ -71,6 +73,23 @@ std::vector<RegionAcoustics> make_region_acoustics(const CompiledJoint& joint,
   return table;
 }
 
+namespace {
+
+void add_fibres(const CompiledJoint& joint, RegionId id, const std::optional<MaterialMap>& depth,
+                RegionAcoustics& region) {
+  const auto course = fit_fibre_course(joint, id, depth);
+  if (!course) return;
+  region.course = std::make_shared<const MaterialMap>(*course);
+  const Continuation next = find_continuation(joint, id);
+  const MaterialPoint point = course->evaluate(next.p_J);
+  const Vec3 fibre = Vec3(point.gradient.row(0)).cross(Vec3(point.gradient.row(1))).normalized();
+  if (std::abs(fibre.dot(next.facing_J)) < kThrough) return;  // they only lie side by side
+  region.continues_as = next.region;
+  region.junction = point.place.z();
+}
+
+}  // namespace
+
 void add_courses(const CompiledJoint& joint, std::vector<RegionAcoustics>& regions) {
   const std::optional<MaterialMap> depth = fit_skin_depth(joint);
   if (!depth) return;
@@ -83,8 +102,7 @@ void add_courses(const CompiledJoint& joint, std::vector<RegionAcoustics>& regio
       case TissueKind::muscle:
       case TissueKind::tendon:
       case TissueKind::nerve:
-        if (const auto course = fit_fibre_course(joint, static_cast<RegionId>(i), depth))
-          regions[i].course = std::make_shared<const MaterialMap>(*course);
+        add_fibres(joint, static_cast<RegionId>(i), depth, regions[i]);
         break;
       default:
         break;
@@ -117,6 +135,23 @@ double fibre_backscatter(const RegionAcoustics& region, double cosine) noexcept 
     default:
       return 1;
   }
+}
+
+double local_backscatter(std::span<const RegionAcoustics> regions, const RegionAcoustics& region,
+                         double along, double cosine) noexcept {
+  const double own = region.backscatter * fibre_backscatter(region, cosine);
+  if (region.continues_as == kOutside) return own;
+  const RegionAcoustics& next = regions[region.continues_as];
+  const double other = next.backscatter * fibre_backscatter(next, cosine);
+  const double share = 0.5 * std::exp(-std::abs(along - region.junction) / kInterlock);
+  return std::sqrt((1 - share) * own * own + share * other * other);
+}
+
+bool is_junction(const RegionAcoustics& from, RegionId from_id, const RegionAcoustics& to,
+                 RegionId to_id, const Vec3& normal_J) noexcept {
+  if (from.continues_as != to_id && to.continues_as != from_id) return false;
+  return std::abs(normal_J.dot(from.fibre)) > kThrough ||
+         std::abs(normal_J.dot(to.fibre)) > kThrough;
 }
 
 double fibre_attenuation(TissueKind kind, double cosine) noexcept {

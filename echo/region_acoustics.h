@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "anatomy/compiled_joint.h"
@@ -26,6 +27,9 @@ struct RegionAcoustics {
   Vec3 sheet_normal = Vec3::UnitZ();
   /// Coordinates along curved fibres or septa; none: straight along `fibre` and `sheet_normal`.
   std::shared_ptr<const MaterialMap> course;
+  /// Muscle and its tendon: what the fibres go on as, and where (m, the course's third coordinate).
+  RegionId continues_as = kOutside;
+  double junction = 0;
 };
 
 /// A region's own coordinates around a point: (across sheets, beside them, along fibres), m.
@@ -46,6 +50,19 @@ void add_courses(const CompiledJoint& joint, std::vector<RegionAcoustics>& regio
 /// [Crass1988] fainter than muscle beyond 2-7 degrees). Muscle and nerve change by 2 and 4 dB
 /// (assumed).
 [[nodiscard]] double fibre_backscatter(const RegionAcoustics& region, double cosine) noexcept;
+
+/// Speckle amplitude of `region` at `along` (m, the third material coordinate) for the angle of
+/// fibre_backscatter. Where muscle turns into tendon the two interlock: their powers blend over
+/// some millimetres (assumed: 3 mm to either side), half and half where they meet.
+[[nodiscard]] double local_backscatter(std::span<const RegionAcoustics> regions,
+                                       const RegionAcoustics& region, double along,
+                                       double cosine) noexcept;
+
+/// Whether the interface that a beam crosses along `normal_J` is but the place where muscle turns
+/// into tendon: the fibres run through it, nothing reflects and nothing bends.
+[[nodiscard]] bool is_junction(const RegionAcoustics& from, RegionId from_id,
+                               const RegionAcoustics& to, RegionId to_id,
+                               const Vec3& normal_J) noexcept;
 
 /// Factor on a tissue's attenuation for the same angle: the beam loses about twice as much along
 /// muscle fibres as across them ([Topp2000]).

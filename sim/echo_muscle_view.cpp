@@ -101,7 +101,7 @@ std::optional<Pose> MuscleFinder::slide_to_muscle(const Pose& X_JP, int size) co
   if (!find_patches(X_JP, size, 1).empty()) return X_JP;
   for (int step = 1; step <= kSlides; ++step) {
     for (const Vec3& way : {Vec3(-1, 0, 0), Vec3(1, 0, 0), Vec3(0, -1, 0), Vec3(0, 1, 0)}) {
-      const auto pose = stand_on_skin(X_JP * Eigen::Translation3d(step * kSlide * way));
+      auto pose = stand_on_skin(X_JP * Eigen::Translation3d(step * kSlide * way));
       if (pose && touches(*pose) && !find_patches(*pose, size, 1).empty()) return pose;
     }
   }

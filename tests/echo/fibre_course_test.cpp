@@ -77,6 +77,50 @@ TEST(FibreCourse, FollowsABentMuscle) {
   }
 }
 
+TEST(FibreCourse, TellsPlacesApartByMicrometres) {
+  // slopes alone leave the origin open; far away, single precision would not see 20 um
+  const CompiledJoint joint = make_bent_bar(30e-3, 40e-3, 12e-3);
+  const auto course = fit_fibre_course(joint, kFirstRegion, std::nullopt);
+  ASSERT_TRUE(course.has_value());
+  const Vec3 p = 35e-3 * Vec3(1, 0, 1).normalized();
+  const MaterialPoint here = course->evaluate(p);
+  EXPECT_LT(here.place.norm(), 0.1);
+  for (Eigen::Index a = 0; a < 3; ++a) {
+    const Vec3 step = 20e-6 * Vec3::Unit(a);
+    const Vec3 moved = course->evaluate(p + step).place - here.place;
+    EXPECT_LT((moved - here.gradient * step).norm(), 1e-6);
+  }
+}
+
+TEST(FibreCourse, MuscleAndItsTendonBlendWhereTheyMeet) {
+  constexpr RegionId kMuscle = kFirstRegion;
+  constexpr RegionId kTendon = kFirstRegion + 1;
+  std::vector<RegionAcoustics> regions(kTendon + 1);
+  regions[kMuscle].kind = TissueKind::muscle;
+  regions[kMuscle].backscatter = 1;
+  regions[kMuscle].continues_as = kTendon;
+  regions[kMuscle].junction = 20e-3;
+  regions[kTendon].kind = TissueKind::tendon;
+  regions[kTendon].backscatter = 1.8;
+  regions[kTendon].fibre_phase = 10;
+  regions[kTendon].continues_as = kMuscle;
+  regions[kTendon].junction = -5e-3;  // in the tendon's own coordinates
+  for (const double cosine : {0.0, 0.3}) {
+    EXPECT_DOUBLE_EQ(local_backscatter(regions, regions[kMuscle], 20e-3, cosine),
+                     local_backscatter(regions, regions[kTendon], -5e-3, cosine));
+    EXPECT_NEAR(local_backscatter(regions, regions[kMuscle], 0, cosine),
+                fibre_backscatter(regions[kMuscle], cosine), 2e-3);
+  }
+  regions[kTendon].fibre = Vec3::UnitX();
+  EXPECT_TRUE(is_junction(regions[kMuscle], kMuscle, regions[kTendon], kTendon, Vec3::UnitX()));
+  EXPECT_TRUE(is_junction(regions[kTendon], kTendon, regions[kMuscle], kMuscle, -Vec3::UnitX()));
+  // side by side they are two structures with a border
+  EXPECT_FALSE(is_junction(regions[kMuscle], kMuscle, regions[kTendon], kTendon, Vec3::UnitZ()));
+  regions[kMuscle].continues_as = kOutside;
+  regions[kTendon].continues_as = kOutside;
+  EXPECT_FALSE(is_junction(regions[kMuscle], kMuscle, regions[kTendon], kTendon, Vec3::UnitX()));
+}
+
 TEST(FibreCourse, IsTheSameInEachRun) {
   const CompiledJoint joint = make_bent_bar(30e-3, 40e-3, 12e-3);
   const auto once = fit_fibre_course(joint, kFirstRegion, std::nullopt);

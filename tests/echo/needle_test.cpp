@@ -76,7 +76,9 @@ TEST(Needle, ShowsItsTipWithinAPixelOfTheTruth) {
         PixelPoint seen;
         for (int y = static_cast<int>(truth.tip.y) - 5; y < truth.tip.y + 5; ++y) {
           for (int x = static_cast<int>(truth.tip.x) - 5; x < truth.tip.x + 5; ++x) {
-            const int grey = frame.image[static_cast<std::size_t>(y * frame.width + x)];
+            const int grey =
+                frame.image[static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.width) +
+                            static_cast<std::size_t>(x)];
             if (grey <= best) continue;
             best = grey;
             seen = {static_cast<double>(x), static_cast<double>(y)};
