@@ -43,8 +43,8 @@ ProbeContactModel::ProbeContactModel(std::shared_ptr<const Scene> scene,
       const auto share = [](std::size_t k, std::size_t n) {
         return (static_cast<double>(k) + 0.5) / static_cast<double>(n) - 0.5;
       };
-      columns_.push_back(
-          {f.length * share(i, f.columns_x), f.width * share(j, f.columns_y), kNoSkin, 0});
+      columns_.push_back({f.length * share(i, f.columns_x), f.width * share(j, f.columns_y),
+                          kNoSkin, 0, Vec3::Zero()});
     }
   }
   coverage_.resize(f.elements);
@@ -61,6 +61,36 @@ void ProbeContactModel::clear(std::uint32_t status) noexcept {
   contact_.status = status;
 }
 
+/// The torque on the face, per area, of what lies askew under one column. An interface at depth z
+/// (m, along the axis from the face) that falls away by `slope` moves by slope z per radian of
+/// tilt; the energy follows by its derivative over the interface's depth.
+Vec3 ProbeContactModel::turning_of(const Pose& X_JP, std::span<const TissueInterval> from_skin,
+                                   std::span<const ColumnLayer> layers,
+                                   double pressure) const noexcept {
+  constexpr double kSteepest = 5;  // slope beyond which a column sees an interface's edge, not it
+  const double back = params_.max_indentation;
+  Vec3 turning = Vec3::Zero();
+  double above = pressure;
+  for (std::size_t k = 0; k <= layers.size(); ++k) {
+    // Where the column ends by its own length, the end follows the skin.
+    const bool has_end =
+        k < from_skin.size() && from_skin[k].entry - from_skin[0].entry < params_.column_depth;
+    const Vec3 normal = X_JP.linear().transpose() * from_skin[has_end ? k : 0].entry_normal;
+    const double depth =
+        has_end ? from_skin[k].entry - back : from_skin[0].entry + params_.column_depth - back;
+    const double below =
+        k < layers.size() ? complementary_energy(params_.column, layers[k], pressure) : 0;
+    const double energy_over_depth = below - above;
+    above = below;
+    if (!(normal.z() < 0)) continue;
+    Eigen::Vector2d slope(-normal.x() / normal.z(), -normal.y() / normal.z());
+    if (slope.norm() > kSteepest) slope *= kSteepest / slope.norm();
+    const Eigen::Vector2d force = -energy_over_depth * slope;
+    turning += depth * Vec3(-force.y(), force.x(), 0);
+  }
+  return turning;
+}
+
 ColumnResponse ProbeContactModel::probe_column(const Pose& X_JP, Column& column) noexcept {
   const double back = params_.max_indentation;
   const Segment segment{X_JP * Vec3(column.x, column.y, -back),
@@ -71,6 +101,7 @@ ColumnResponse ProbeContactModel::probe_column(const Pose& X_JP, Column& column)
                                  [](const TissueInterval& t) { return t.region != kOutside; });
   column.indentation = kNoSkin;
   column.energy = 0;
+  column.turning.setZero();
   if (skin == all.end() || skin->region == kBeyond) return {};
   column.indentation = back - skin->entry;
   if (!(column.indentation > 0)) return {};
@@ -85,6 +116,8 @@ ColumnResponse ProbeContactModel::probe_column(const Pose& X_JP, Column& column)
   const ColumnResponse response = compress_column(
       params_.column, std::span<const ColumnLayer>(layers_.data(), n), column.indentation);
   column.energy = response.energy;
+  column.turning = turning_of(X_JP, std::span(skin, all.end()),
+                              std::span<const ColumnLayer>(layers_.data(), n), response.pressure);
   return response;
 }
 
@@ -189,6 +222,7 @@ const ProbeContact& ProbeContactModel::step(const Pose& X_JP) noexcept {
     contact_.stiffness += response.stiffness * area;
     contact_.indentation = std::max(contact_.indentation, column.indentation);
     contact_.wrench.torque -= arm.cross(axis) * force;
+    contact_.turning += X_JP.linear() * column.turning * area;
   }
   contact_.contact_share = static_cast<double>(pressed) / static_cast<double>(columns_.size());
   update_coverage();
@@ -197,6 +231,7 @@ const ProbeContact& ProbeContactModel::step(const Pose& X_JP) noexcept {
     return contact_;
   }
   contact_.wrench.force = -contact_.normal_force * axis;
+  contact_.wrench.torque += contact_.turning;
   add_edge_force(X_JP);
   add_friction(X_JP);
   return contact_;

@@ -41,6 +41,7 @@ struct ProbeContact {
   double normal_force = 0;         ///< N >= 0, along -z of P
   Vec3 edge_force = Vec3::Zero();  ///< N, part of the wrench: tangential, frame J; what the tissue
                                    ///< under the edges holds against sliding there
+  Vec3 turning = Vec3::Zero();     ///< N m, part of the wrench, frame J: of what lies askew below
   Vec3 friction = Vec3::Zero();    ///< N, part of the wrench: tangential, frame J
   double slip = 0;                 ///< m, way slid over the skin since the face touched it
   double stiffness = 0;            ///< N/m, K_c: d normal force / d indentation, for the actuator
@@ -52,9 +53,9 @@ struct ProbeContact {
 /// The probe pressed on the body: a grid of tissue columns under the face, each from the skin along
 /// the probe's axis down to bone, pressed in series. The skin's undeformed surface is where the
 /// scene has it. Sliding presses the tissue ahead and frees the tissue behind: the edges carry that
-/// work, so normal and edge forces are the gradient of one stored energy, and without friction the
-/// force on a slope stands on the skin, not on the face. One instance per probe; not thread safe;
-/// deterministic.
+/// work. Tilting moves a column's deep parts aside: each sloping interface turns the face. So force
+/// and torque are the gradient of one stored energy, and without friction the force on a slope
+/// stands on the skin, not on the face. One instance per probe; not thread safe; deterministic.
 class ProbeContactModel {
  public:
   /// Requires: a scene; a footprint with positive size, at least one column each way and one
@@ -81,9 +82,13 @@ class ProbeContactModel {
   struct Column {
     double x = 0;
     double y = 0;
-    double indentation = 0;  // m; negative: gap; -infinity: no skin there
-    double energy = 0;       // J/m^2 stored
+    double indentation = 0;       // m; negative: gap; -infinity: no skin there
+    double energy = 0;            // J/m^2 stored
+    Vec3 turning = Vec3::Zero();  // N m/m^2 about the face's axes, of its sloping interfaces
   };
+  [[nodiscard]] Vec3 turning_of(const Pose& X_JP, std::span<const TissueInterval> from_skin,
+                                std::span<const ColumnLayer> layers,
+                                double pressure) const noexcept;
   [[nodiscard]] ColumnResponse probe_column(const Pose& X_JP, Column& column) noexcept;
   void update_coverage() noexcept;
   [[nodiscard]] double indentation_at(std::size_t row, double x) const noexcept;

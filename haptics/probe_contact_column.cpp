@@ -10,16 +10,12 @@ namespace {
 constexpr int kMaxSteps = 80;
 constexpr double kTolerance = 1e-12;  // relative, of the pressure
 
-/// J/m^2 stored when a pressure (Pa) has compressed the layers by `indentation`: the integral of
-/// depth over pressure taken from their product. In closed form.
+/// J/m^2 stored when a pressure (Pa) has compressed the layers by `indentation`.
 double stored_energy(const ColumnParams& params, std::span<const ColumnLayer> layers,
                      double pressure, double indentation) noexcept {
   double complementary = pressure * pressure / (2 * params.stop_stiffness);
-  for (const ColumnLayer& layer : layers) {
-    const double scale = std::max(layer.modulus, params.least_modulus) * params.strain_limit;
-    complementary +=
-        layer.thickness * params.strain_limit * (pressure - scale * std::log1p(pressure / scale));
-  }
+  for (const ColumnLayer& layer : layers)
+    complementary += layer.thickness * complementary_energy(params, layer, pressure);
   return std::max(0.0, pressure * indentation - complementary);
 }
 
@@ -41,6 +37,12 @@ Compression compress(const ColumnParams& params, std::span<const ColumnLayer> la
 }
 
 }  // namespace
+
+double complementary_energy(const ColumnParams& params, const ColumnLayer& layer,
+                            double pressure) noexcept {
+  const double scale = std::max(layer.modulus, params.least_modulus) * params.strain_limit;
+  return params.strain_limit * (pressure - scale * std::log1p(pressure / scale));
+}
 
 ColumnResponse compress_column(const ColumnParams& params, std::span<const ColumnLayer> layers,
                                double indentation) noexcept {

@@ -27,6 +27,12 @@ struct ColumnResponse {
   double energy = 0;     ///< J/m^2, the work of the pressure from no indentation on
 };
 
+/// J/m^3, the complementary energy of a layer per thickness under `pressure` (Pa): by how much the
+/// energy stored at a given indentation falls per m that the layer gains.
+[[nodiscard]] ARTUS_REALTIME double complementary_energy(const ColumnParams& params,
+                                                         const ColumnLayer& layer,
+                                                         double pressure) noexcept;
+
 /// Compresses layers in series by `indentation` (m): all carry the same pressure s, each is
 /// strained by (s/E) / (1 + s/(E e_max)), so at small strain the column is a series of springs of
 /// E/thickness each, and a thin column over bone stiffens sharply. Indentation <= 0 gives nothing.

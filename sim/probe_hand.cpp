@@ -52,7 +52,7 @@ Intention ProbeHand::lean(const ProbeIntention& wanted) const {
   const Vec3 seat = wanted.X_JP.translation();
   const double depth = axis.dot(loop_.motion().X_JN.translation() - seat);
   const double pressed = depth + params_.press_force / params_.hand.stiffness;
-  const double aim = (1 - wanted.lift) * pressed - wanted.lift * params_.standoff;
+  const double aim = (1 - wanted.lift) * pressed - wanted.lift * (params_.standoff + wanted.rise);
   Intention intention;
   intention.X_JN = wanted.X_JP;
   intention.X_JN.translation() = seat + aim * axis;

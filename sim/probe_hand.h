@@ -28,7 +28,8 @@ struct ProbeHandParams {
 /// What the hand means to do at an instant.
 struct ProbeIntention {
   Pose X_JP = Pose::Identity();  ///< where the face should be; its depth along z only when lifted
-  double lift = 0;               ///< 0: leans on the skin; 1: held `standoff` above X_JP
+  double lift = 0;               ///< 0: leans on the skin; 1: held `standoff` and `rise` above X_JP
+  double rise = 0;               ///< m
 };
 
 /// One tick of the probe hand. Frame J.

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "core/noise.h"
+#include "core/units.h"
 
 namespace artus {
 namespace {
@@ -21,8 +22,16 @@ double ease(double share) {
   return s * s * s * (10 - 15 * s + 6 * s * s);
 }
 
-/// Where the hand means to have the probe: at each moment on its seat, sliding in between; lifted
-/// before the first and after the last.
+/// Whether a seat is too far for the probe to be slid there: it is lifted and set down again.
+bool is_far(const Pose& from, const Pose& to) {
+  constexpr double kFar = 0.03;  // m; assumed: less than a footprint's length is slid
+  constexpr double kSteep = 30 * kDegree;
+  const Eigen::AngleAxisd turn(Eigen::Matrix3d(from.linear().transpose() * to.linear()));
+  return (to.translation() - from.translation()).norm() > kFar || std::abs(turn.angle()) > kSteep;
+}
+
+/// Where the hand means to have the probe: at each moment on its seat, sliding in between or, where
+/// it is far, lifted; lifted before the first and after the last.
 class ProbePlan {
  public:
   explicit ProbePlan(std::span<const NamedMoment> moments) : moments_(moments) {}
@@ -39,13 +48,19 @@ class ProbePlan {
     }
     const NamedMoment& from = *(after - 1);
     const double duration = std::min(kSlideTime, after->time - from.time);
-    const double share = ease((t - from.time) / duration);
+    const double done = (t - from.time) / duration;
+    const bool lifts = is_far(from.X_JP_seat, after->X_JP_seat);
+    const double share = lifts ? ease(3 * done - 1) : ease(done);
     const Pose& a = from.X_JP_seat;
     const Pose& b = after->X_JP_seat;
     const Eigen::Quaterniond turn =
         Eigen::Quaterniond(a.linear()).slerp(share, Eigen::Quaterniond(b.linear()));
     out.X_JP.linear() = turn.normalized().toRotationMatrix();
     out.X_JP.translation() = (1 - share) * a.translation() + share * b.translation();
+    if (lifts) {
+      out.lift = std::min(1.0, out.lift + ease(3 * done) - ease(3 * done - 2));
+      out.rise = (b.translation() - a.translation()).norm() / 2;  // clears a body as round as that
+    }
     return out;
   }
 

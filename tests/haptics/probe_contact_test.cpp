@@ -153,14 +153,20 @@ TEST(ProbeContact, WithoutFrictionTheForceOnASlopeStandsOnTheSkin) {
   }
 }
 
-/// Energy given to the hand on a closed way over a bone that lies askew below, and on its normal
-/// forces alone, as shares of the work done to and fro.
-struct LoopEnergy {
-  double all = 0;
-  double normal_alone = 0;
+/// A closed way of the face: place (m) and tilt about y (rad) at a phase.
+struct Way {
+  Vec3 (*place)(double phase);
+  double (*tilt)(double phase);
 };
 
-LoopEnergy ride_over_bone(const ProbeContactParams& params, double turn) {
+/// Energy given to the hand on a closed way over a bone that lies askew below, and what it would be
+/// with the normal pressure alone, as shares of the work done to and fro.
+struct LoopEnergy {
+  double all = 0;
+  double pressure_alone = 0;
+};
+
+LoopEnergy ride_over_bone(const ProbeContactParams& params, const Way& way, double turn) {
   ProbeContactModel model(
       std::make_shared<const Scene>(
           std::make_shared<const CompiledJoint>(test::make_block_with_sphere(
@@ -169,37 +175,59 @@ LoopEnergy ride_over_bone(const ProbeContactParams& params, double turn) {
   LoopEnergy energy;
   double to_and_fro = 0;
   Vec3 position = Vec3::Zero();
-  Vec3 force = Vec3::Zero();
-  Vec3 normal = Vec3::Zero();
+  double tilt = 0;
+  Wrench felt;
+  Wrench pressed;
   constexpr int kSteps = 4000;
   for (int i = 0; i <= kSteps; ++i) {
     const double phase = turn * 2 * std::numbers::pi * i / kSteps;
-    const Vec3 p(0.012 * std::sin(phase), 0.004 * std::sin(phase), 3e-3 + 3.5e-3 * std::cos(phase));
-    const ProbeContact& contact = model.step(make_pose(p, Vec3::UnitZ(), Vec3::UnitX()));
-    const Vec3 pressed = -contact.normal_force * Vec3::UnitZ();
+    Pose pose = make_pose(way.place(phase), Vec3::UnitZ(), Vec3::UnitX());
+    pose.rotate(Eigen::AngleAxisd(way.tilt(phase), Vec3::UnitY()));
+    const ProbeContact& contact = model.step(pose);
+    Wrench pressure;
+    pressure.force = -contact.normal_force * pose.linear().col(2);
+    pressure.torque = contact.wrench.torque - contact.turning;
     if (i > 0) {
-      const double work = 0.5 * (force + contact.wrench.force).dot(p - position);
-      energy.all += work;
-      energy.normal_alone += 0.5 * (normal + pressed).dot(p - position);
-      to_and_fro += std::abs(work);
+      const auto work = [&](const Wrench& before, const Wrench& now) {
+        return 0.5 * (before.force + now.force).dot(pose.translation() - position) +
+               0.5 * (before.torque.y() + now.torque.y()) * (way.tilt(phase) - tilt);
+      };
+      energy.all += work(felt, contact.wrench);
+      energy.pressure_alone += work(pressed, pressure);
+      to_and_fro += std::abs(work(felt, contact.wrench));
     }
-    position = p;
-    force = contact.wrench.force;
-    normal = pressed;
+    position = pose.translation();
+    tilt = way.tilt(phase);
+    felt = contact.wrench;
+    pressed = pressure;
   }
-  return {energy.all / to_and_fro, energy.normal_alone / to_and_fro};
+  return {energy.all / to_and_fro, energy.pressure_alone / to_and_fro};
 }
+
+constexpr Way kSliding{[](double phase) {
+                         return Vec3(0.012 * std::sin(phase), 0.004 * std::sin(phase),
+                                     3e-3 + 3.5e-3 * std::cos(phase));
+                       },
+                       [](double) {
+                         return 0.0;
+                       }};
+constexpr Way kTilting{[](double phase) { return Vec3(-0.008, 0, 5e-3 + 3e-3 * std::cos(phase)); },
+                       [](double phase) {
+                         return 0.2 + 0.2 * std::sin(phase);
+                       }};
 
 TEST(ProbeContact, ClosedWaysOverUnevenTissueGiveTheHandNoEnergy) {
   ProbeContactParams params;
   params.gel_friction = 0;
-  for (const double turn : {1.0, -1.0}) {
-    params.footprint.columns_y = 3;
-    const LoopEnergy coarse = ride_over_bone(params, turn);
-    EXPECT_LT(std::abs(coarse.all), 0.025) << turn;
-    EXPECT_GT(std::abs(coarse.normal_alone), 0.2) << "the test must tell the two apart";
-    params.footprint.columns_y = 12;
-    EXPECT_LT(std::abs(ride_over_bone(params, turn).all), 0.005) << turn;
+  for (const Way& way : {kSliding, kTilting}) {
+    for (const double turn : {1.0, -1.0}) {
+      params.footprint.columns_y = 3;
+      const LoopEnergy coarse = ride_over_bone(params, way, turn);
+      EXPECT_LT(std::abs(coarse.all), 0.025) << turn;
+      EXPECT_GT(std::abs(coarse.pressure_alone), 0.1) << "the way must tell the two apart";
+      params.footprint.columns_y = 12;
+      EXPECT_LT(std::abs(ride_over_bone(params, way, turn).all), 0.005) << turn;
+    }
   }
 }
 
