@@ -27,6 +27,7 @@ void print(const EchoGate& gate) {
   for (const Claim& claim : gate.claims)
     std::printf("  %s  %s: %.4g (%s)\n", claim.pass ? "holds" : "FAILS", claim.text.c_str(),
                 claim.value, claim.bound.c_str());
+  if (!gate.assumed.empty()) std::printf("  assumed: %s\n", gate.assumed.c_str());
 }
 
 Result<std::vector<EchoGate>> measure(const EchoGatesOptions& options, const Progress& progress) {

@@ -39,8 +39,8 @@ void BeamSpread::note(int line, const BeamPath& path) noexcept {
 double BeamSpread::gain(int line, int node) const noexcept {
   const int first = std::max(0, line - reach_);
   const int last = std::min(n_lines_ - 1, line + reach_);
-  const auto at = [&](int l) {
-    return place_[static_cast<std::size_t>(l * kNodes + node)];
+  const auto at = [&](int l) -> const Eigen::Vector3f& {
+    return place_[static_cast<std::size_t>(l) * kNodes + static_cast<std::size_t>(node)];
   };
   const double apart = static_cast<double>((at(last) - at(first)).norm());
   const double straight = (last - first) * pitch_ * (1 + curvature_ * node * step_);

@@ -35,6 +35,7 @@ bool passes(const EchoGate& gate) {
 std::string section_of(const EchoGate& gate) {
   std::string text = "\n## " + gate.name + (passes(gate) ? "" : " - does not hold") + "\n\n";
   text += gate.title + ".\n\n" + to_markdown(gate.claims);
+  if (!gate.assumed.empty()) text += "\nAssumed: " + gate.assumed + ".\n";
   if (!gate.plot.panels.empty()) text += "\n![plot](pictures/" + gate.name + ".png)\n";
   for (const GatePicture& picture : gate.pictures)
     text += "\n![" + picture.name + "](pictures/" + picture.name + "-image.png)\n";
@@ -69,6 +70,7 @@ nlohmann::json to_json(std::span<const EchoGate> gates) {
   for (const EchoGate& gate : gates) {
     list[gate.name] = verdict(gate.claims);
     list[gate.name]["title"] = gate.title;
+    list[gate.name]["assumed"] = gate.assumed;
     pass = pass && passes(gate);
   }
   return {{"pass", pass}, {"gates", list}};
@@ -81,14 +83,16 @@ Result<void> write_gate_report(std::span<const EchoGate> gates,
   std::filesystem::create_directories(pictures, error);
   if (error) return fail(ErrorCode::unreadable, error.message(), pictures.string());
   std::string report =
-      "# Gates of the image's physics\n\n| gate | claims | hold |\n|---|---|---|\n";
+      "# Gates of the image's physics\n\n| gate | claims | hold | rests on an assumed value "
+      "|\n|---|---|---|---|\n";
   std::string sections;
   std::optional<Error> no_plot;
   for (const EchoGate& gate : gates) {
     const auto held = std::count_if(gate.claims.begin(), gate.claims.end(),
                                     [](const Claim& claim) { return claim.pass; });
     report += "| " + gate.name + " | " + std::to_string(gate.claims.size()) + " | " +
-              (passes(gate) ? "all" : "**" + std::to_string(held) + "**") + " |\n";
+              (passes(gate) ? "all" : "**" + std::to_string(held) + "**") + " | " +
+              (gate.assumed.empty() ? "" : "yes") + " |\n";
     sections += section_of(gate);
     for (const GatePicture& picture : gate.pictures)
       if (auto ok = write_image(picture.image, pictures / (picture.name + "-image.png")); !ok)

@@ -28,7 +28,8 @@ struct GatePicture {
 /// One gate of the image's physics: what was measured on rendered frames, against what.
 struct EchoGate {
   std::string name;
-  std::string title;  ///< what is measured, and where the bound comes from
+  std::string title;    ///< what is measured, and where the bound comes from
+  std::string assumed;  ///< what it rests on that has no published source; empty: nothing
   std::vector<Claim> claims;
   Plot plot;  ///< no panels: none
   std::vector<GatePicture> pictures;

@@ -59,6 +59,10 @@ double expected_half_offset(double fwhm, double diameter) {
 EchoGate gate_needle_rings() {
   EchoGate gate;
   gate.title = "22 G needle parallel to the face, 20 mm deep: lines below it every 0.51 mm";
+  gate.assumed =
+      "outer diameter and bore of the gauge (nominal catalogue values), 5800 m/s in steel, water "
+      "in "
+      "the bore; how fast the lines decay";
   Renderer renderer(clear_block(), Transducer{}, bare_settings());
   const Frame& frame = renderer.render(Pose::Identity(),
                                        needle_in_plane(Pose::Identity(), Vec3(12e-3, 0, 20e-3), 0));
@@ -94,6 +98,10 @@ EchoGate gate_needle_angle() {
   EchoGate gate;
   gate.title =
       "Grey of a needle by its angle to the face ([SchafhalterZoppoth2004], [Nichols2003])";
+  gate.assumed =
+      "the mean slope of a shaft's surface, fitted to the published value at 75 degrees of plain "
+      "and "
+      "of echogenic needles: those two claims hold the chain, not the physics";
   Renderer renderer(clear_block(), Transducer{}, bare_settings());
   PlotSeries plain{"plain", {}, {}, "linespoints"};
   PlotSeries dimpled{"echogenic", {}, {}, "linespoints"};
@@ -129,6 +137,7 @@ EchoGate gate_needle_offset() {
       "Offset from the plane at which a 22 G needle is half as bright: the slice of the wave "
       "model, "
       "convolved with the shaft";
+  gate.assumed = "outer diameter of the gauge (nominal catalogue value)";
   Renderer renderer(clear_block(), Transducer{}, bare_settings());
   const NeedleShape shape;
   constexpr double kStep = 0.05e-3;  // m

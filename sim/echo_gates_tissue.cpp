@@ -174,6 +174,7 @@ EchoGate gate_matched_impedance() {
 EchoGate gate_interfaces() {
   EchoGate gate;
   gate.title = "Perpendicular echo levels of tissue pairs, 10 mm deep, no loss";
+  gate.assumed = "density of stainless steel, 7900 kg/m3; speed and density of cortical bone";
   struct Pair {
     const char* above;
     const char* below;
@@ -215,6 +216,9 @@ EchoGate gate_enhancement() {
   gate.title =
       "5 mm of bursal or injected fluid in tissue of 0.7 dB/cm/MHz at 12 MHz: + 2 alpha f t behind "
       "it";
+  gate.assumed =
+      "speed of fluids, 1500-1540 m/s, and attenuation of bursal fluid, 0.05 dB/cm/MHz (injected "
+      "fluid: that of water, [Pinkerton1949])";
   const auto level = [](const char* middle) {
     const std::array<FlatLayer, 3> layers{{{"muscle", 5e-3}, {middle, 5e-3}, {"muscle", 40e-3}}};
     const auto scene = make_block_scene(layers, [](CompiledJoint& joint) {
@@ -240,6 +244,10 @@ EchoGate gate_enhancement() {
 EchoGate gate_tendon() {
   EchoGate gate;
   gate.title = "Tendon against muscle by the beam's tilt from perpendicular ([Crass1988])";
+  gate.assumed =
+      "backscatter of tendon, 5.1 dB above muscle, chosen with the published range in view, and "
+      "its "
+      "floor 25 dB down; the lobe itself follows from the aperture";
   PlotSeries tendon{"tendon", {}, {}, "linespoints"};
   PlotSeries muscle{"muscle", {}, {}, "linespoints"};
   std::vector<double> above;

@@ -212,6 +212,9 @@ EchoGate measure_muscle(const std::shared_ptr<const Scene>& scene, const PatchRa
   gate.name = "muscle-patch";
   gate.title = "Grey of muscle in joint " + scene->joint().name + " against " +
                std::to_string(range.images) + " real images (4-9 MHz, 0.0854 mm a pixel)";
+  gate.assumed =
+      "level of muscle's speckle, chosen for the grey of such images; sizes of perimysium, chosen "
+      "beside real images; pulse, aperture and focus of their probe";
   const ReferenceView as = reference_view();
   const Pose& X_JDefault = scene->joint().X_JP_default;
   const MuscleFinder finder(*scene, as.transducer, as.settings);
