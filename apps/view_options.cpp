@@ -5,6 +5,7 @@
 #include "echo/transducer_file.h"
 
 #include "apps/arguments.h"
+#include "apps/command.h"
 
 namespace artus {
 namespace {
@@ -36,31 +37,52 @@ void add_imaging_options(CLI::App* command, ViewOptions& options) {
   command->add_option("--gauge", options.gauge, "needle gauge: 18, 20, 21, 22, 23 or 25")
       ->capture_default_str();
   command->add_flag("--echogenic", options.echogenic, "dimpled needle, seen at steep angles, too");
-  command->add_option("--depth", options.depth_mm, "image depth, mm")->capture_default_str();
-  command->add_option("--gain", options.gain_db, "gain, dB")->capture_default_str();
-  command->add_option("--dynamic-range", options.dynamic_range_db, "dB between black and white")
+  // the ranges are those of validate(), in the units of the flag
+  command->add_option("--depth", options.depth_mm, "image depth, mm")
+      ->check(number_in(5, 300))
       ->capture_default_str();
-  command->add_option("--frequency", options.frequency_mhz,
-                      "centre frequency, MHz (default: the transducer's)");
-  command->add_option("--focus", options.focus_mm,
-                      "elevation focus of the lens, mm (default: the transducer's)");
-  command->add_option("--transmit-focus", options.transmit_focus_mm,
-                      "focus of the transmitted beam, mm; 0: at every depth (default: the "
-                      "transducer's)");
-  command->add_option("--steering", options.steering_deg,
-                      "tilt of the scanlines toward +x, degrees (default: the transducer's)");
-  command->add_option("--lines", options.lines, "scanlines (default: the transducer's)");
-  command->add_option("--pixel", options.pixel_mm, "pixel size, mm")->capture_default_str();
+  command->add_option("--gain", options.gain_db, "gain, dB")
+      ->check(number_in(-60, 100))
+      ->capture_default_str();
+  command->add_option("--dynamic-range", options.dynamic_range_db, "dB between black and white")
+      ->check(number_in(10, 150))
+      ->capture_default_str();
+  command
+      ->add_option("--frequency", options.frequency_mhz,
+                   "centre frequency, MHz (default: the transducer's)")
+      ->check(number_in(1, 50));
+  command
+      ->add_option("--focus", options.focus_mm,
+                   "elevation focus of the lens, mm (default: the transducer's)")
+      ->check(number_in(2, 500));
+  command
+      ->add_option("--transmit-focus", options.transmit_focus_mm,
+                   "focus of the transmitted beam, 2 mm or more; 0: at every depth (default: the "
+                   "transducer's)")
+      ->check(number_in(0, 500));
+  command
+      ->add_option("--steering", options.steering_deg,
+                   "tilt of the scanlines toward +x, degrees (default: the transducer's)")
+      ->check(number_in(-40, 40));
+  command->add_option("--lines", options.lines, "scanlines (default: the transducer's)")
+      ->check(whole_number_in(1, 4096));
+  command->add_option("--pixel", options.pixel_mm, "pixel size, mm")
+      ->check(number_in(0.02, 2))
+      ->capture_default_str();
   command->add_option("--smoothing", options.smoothing, "0 none .. 1, of the compressed lines")
+      ->check(number_in(0, 1))
       ->capture_default_str();
   command
       ->add_option("--compound", options.compound,
                    "steered frames that are averaged, an odd number; 1: none")
+      ->check(CLI::IsMember({1, 3, 5, 7, 9}))
       ->capture_default_str();
   command->add_option("--planes", options.planes, "elevation planes of the slice's thickness")
+      ->check(whole_number_in(1, 33))
       ->capture_default_str();
   command
       ->add_option("--threads", options.threads, "threads; 0: all. The image does not depend on it")
+      ->check(whole_number_in(0, 1024))
       ->capture_default_str();
   command->add_option("--seed", options.seed, "seed of speckle and noise")->capture_default_str();
 }
@@ -110,7 +132,7 @@ Result<View> make_view(const ViewOptions& options) {
   for (const auto& valid : {validate(view.transducer), validate(view.settings)})
     if (!valid) {
       Error error = valid.error();
-      error.where = "--" + (error.where.empty() ? "depth" : error.where);
+      error.where = "--transducer, --transmit-focus";  // all other flags have their range
       return tl::unexpected(error);
     }
   return view;

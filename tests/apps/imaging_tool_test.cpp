@@ -92,6 +92,23 @@ TEST_F(ImagingTool, ATransducerComesByNameOrFromAFile) {
   EXPECT_NE(bad.err.find("bad.toml"), std::string::npos);
 }
 
+TEST_F(ImagingTool, RefusesAFlagOutOfItsRangeInItsOwnUnits) {
+  for (const auto& [flag, value] : {std::pair("--depth", "0"),
+                                    {"--lines", "10000"},
+                                    {"--frequency", "1e9"},
+                                    {"--compound", "4"},
+                                    {"--planes", "0"},
+                                    {"--steering", "50"},
+                                    {"--pixel", "0"}}) {
+    const auto r = artus({"image", "-j", kSimple, flag, value, "-o", in("b.png")});
+    EXPECT_EQ(r.exit_code, 2) << flag;
+    EXPECT_NE(r.err.find(flag), std::string::npos) << r.err;
+  }
+  const auto nan = artus({"image", "-j", kSimple, "--depth", "nan", "-o", in("b.png")});
+  EXPECT_EQ(nan.exit_code, 2);
+  EXPECT_NE(nan.err.find("depth"), std::string::npos) << nan.err;
+}
+
 TEST_F(ImagingTool, DopplerColoursAMovingNeedle) {
   const auto coloured = [&](const char* speed) {
     const auto r = artus({"image", "-j", kSimple, "--needle", "default", "--doppler", speed, "-o",
