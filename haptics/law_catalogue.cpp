@@ -91,7 +91,8 @@ std::vector<LawDescription> friction_laws() {
                      {"alpha", p.alpha, "s/m", kSource},
                      {"length", p.length, "m", kSource},
                      {"stiffness_limit", p.stiffness_limit, "N/m", kAssumed},
-                     {"damping_limit", p.damping_limit, "N s/m", kAssumed}}});
+                     {"damping_limit", p.damping_limit, "N s/m", kAssumed},
+                     {"relaxation_time", p.relaxation_time, "s", kAssumed}}});
   }
   return laws;
 }

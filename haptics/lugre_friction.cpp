@@ -28,6 +28,13 @@ double LugreBristle::advance(const LugreParams& params, double moved, double v) 
   return load_;
 }
 
+void LugreBristle::relax(const LugreParams& params, double v, double dt) noexcept {
+  const double level = lugre_level(params, v);
+  const double excess = std::abs(load_) - level;
+  if (excess <= 0) return;
+  load_ = std::copysign(level + excess * std::exp(-dt / params.relaxation_time), load_);
+}
+
 double LugreBristle::step(const LugreParams& params, double moved, double v, double dt,
                           double sigma1) noexcept {
   const double before = load_;
@@ -53,7 +60,9 @@ Wrench LugreFriction::step(const NeedleTick& tick) noexcept {
     limited.sigma0 = std::min(params_.sigma0, params_.stiffness_limit / normal);
     limited.sigma1 = std::min(params_.sigma1, params_.damping_limit / normal);
   }
-  const double load = bristle_.advance(limited, moved, tick.velocity);
+  bristle_.advance(limited, moved, tick.velocity);
+  bristle_.relax(limited, tick.velocity, tick.dt);
+  const double load = bristle_.load();
   const double z = bristle_.deflection(limited);
   const double window = deflections_.duration(tick.dt);
   const double bristle_rate = (z - deflections_.push(z)) / window;

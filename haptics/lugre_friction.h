@@ -24,6 +24,8 @@ struct LugreParams {
                                   ///< encoder a knock; of the order of the tissues' own K_t
   double damping_limit = 2;       ///< N s/m on F_n sigma1; assumed: the published value is above 1
                                   ///< kN s/m, which no sampled device can render
+  double relaxation_time = 0.03;  ///< s in which the bristle gives way to the level g(v) of a
+                                  ///< needle that slows down, |z| <= g / sigma0; assumed
 };
 
 /// The four sets, needle 20 mm at 0.025 and 0.05 Hz, 40 mm at 0.025 (the source's choice, default
@@ -39,6 +41,8 @@ struct LugreParams {
 /// holds for any step.
 class LugreBristle {
  public:
+  /// Over dt, lets go of what the load has above g(v), which falls when the needle slows down.
+  ARTUS_REALTIME void relax(const LugreParams& params, double v, double dt) noexcept;
   /// Advances over `moved` m at about `v` m/s (for the level g). Returns sigma0 z.
   ARTUS_REALTIME double advance(const LugreParams& params, double moved, double v) noexcept;
   /// Advances over `moved` m in `dt` s with `v` for the level g; returns f / F_n, in the direction
@@ -47,6 +51,7 @@ class LugreBristle {
                              double sigma1) noexcept;
   ARTUS_REALTIME void reset() noexcept { load_ = 0; }
   /// z, m
+  [[nodiscard]] double load() const noexcept { return load_; }  ///< sigma0 z, of F_n
   [[nodiscard]] double deflection(const LugreParams& params) const noexcept {
     return load_ / params.sigma0;
   }

@@ -370,7 +370,7 @@ Experiment run_layer_changes(const ExperimentOptions& options, const DeviceLimit
                                 to_csv(share / kJnd), to_csv(share / kWeakJnd)});
       PlotSeries& series = by_layer[k];
       series.x.push_back(c.distance / kMillimetre);
-      series.y.push_back(share / kJnd);
+      series.y.push_back(share / kWeakJnd);
       felt[k] = c.after;
       least = std::min(least, share / kWeakJnd);
       longest = std::max(longest, c.distance / kMillimetre);
@@ -386,10 +386,10 @@ Experiment run_layer_changes(const ExperimentOptions& options, const DeviceLimit
     out.published.push_back(
         {kTable[k].name, to_csv(kTable[k].force) + " N", to_csv(felt[k]) + " N"});
   out.plot.title = out.title;
-  by_layer.push_back({"noticed, 7 %", {0, longest}, {1, 1}});
-  by_layer.push_back({"noticed, 14 %", {0, longest}, {2, 2}});
+  by_layer.push_back({"noticed, 7 %", {0, longest}, {kJnd / kWeakJnd, kJnd / kWeakJnd}});
+  by_layer.push_back({"noticed, 14 %", {0, longest}, {1, 1}});
   out.plot.panels = {
-      {"distance until 90 % of the step (mm)", "force step (multiples of 7 %)", by_layer, true}};
+      {"distance until 90 % of the step (mm)", "force step (multiples of 14 %)", by_layer, true}};
   return out;
 }
 

@@ -309,7 +309,8 @@ Experiment run_wall_nine(const ExperimentOptions& options, const DeviceLimits& d
 
 Experiment run_wall_seven(const ExperimentOptions& options, const DeviceLimits& device) {
   BodyExperiment e;
-  e.body = AnalyticBody::make_stack(Vec3::Zero(), Vec3::UnitZ(),
+  e.direction = Vec3(0.4, -0.5, 0.77).normalized();  // across the axes, as the source's; assumed
+  e.body = AnalyticBody::make_stack(Vec3::Zero(), e.direction,
                                     {0, 0.008, 0.016, 0.024, 0.032, 0.040, 0.048});
   e.device = device;
   e.laws = options.laws;

@@ -19,7 +19,7 @@ constexpr std::array<Field<PatientProfile>, 5> kPatient{{{"cutting", &PatientPro
                                                          {"clamping", &PatientProfile::clamping},
                                                          {"puncture", &PatientProfile::puncture}}};
 
-constexpr std::array<Field<LugreParams>, 9> kFriction{
+constexpr std::array<Field<LugreParams>, 10> kFriction{
     {{"sigma0", &LugreParams::sigma0},
      {"sigma1", &LugreParams::sigma1},
      {"sigma2", &LugreParams::sigma2},
@@ -28,7 +28,8 @@ constexpr std::array<Field<LugreParams>, 9> kFriction{
      {"alpha", &LugreParams::alpha},
      {"length", &LugreParams::length},
      {"stiffness_limit", &LugreParams::stiffness_limit},
-     {"damping_limit", &LugreParams::damping_limit}}};
+     {"damping_limit", &LugreParams::damping_limit},
+     {"relaxation_time", &LugreParams::relaxation_time}}};
 
 constexpr std::array<Field<HemisphereParams>, 2> kWorkspace{
     {{"radius", &HemisphereParams::radius}, {"push", &HemisphereParams::push}}};

@@ -11,7 +11,7 @@
 namespace artus {
 namespace {
 
-constexpr int kVersion = 3;
+constexpr int kVersion = 4;
 constexpr std::uint32_t kTick = 1;
 constexpr std::uint32_t kFrame = 2;
 constexpr std::uint32_t kEnd = 3;

@@ -111,6 +111,27 @@ TEST(LugreFriction, AShaftDeepInTissueIsNoStifferThanTheLimit) {
   EXPECT_NEAR(-force, p.stiffness_limit * kPush, 0.05 * p.stiffness_limit * kPush);
 }
 
+// What a fast needle has loaded goes when it stops, |z| <= g(0) / sigma0, alike at any rate.
+TEST(LugreFriction, LoadOfANeedleThatStopsFallsToItsLevelInTheRelaxationTime) {
+  const LugreParams p;
+  for (const double dt : {1e-3, 5e-4, 1e-4}) {
+    LugreBristle bristle;
+    for (int i = 0; i < 4000; ++i) bristle.advance(p, 1e-5, 0.05);
+    const double loaded = bristle.load();
+    ASSERT_NEAR(loaded, lugre_level(p, 0.05), 1e-6);
+    const int n = static_cast<int>(std::lround(p.relaxation_time / dt));
+    for (int i = 0; i < n; ++i) bristle.relax(p, 0, dt);
+    EXPECT_NEAR(bristle.load(), p.mu_s + (loaded - p.mu_s) * std::exp(-1.0), 1e-9) << dt;
+    for (int i = 0; i < 20 * n; ++i) bristle.relax(p, 0, dt);
+    EXPECT_NEAR(bristle.load(), p.mu_s, 1e-6) << dt;
+  }
+  LugreBristle slow;
+  slow.advance(p, 1e-6, 0.05);
+  const double before = slow.load();
+  slow.relax(p, 0.05, 1);
+  EXPECT_EQ(slow.load(), before);  // below its level nothing goes
+}
+
 TEST(LugreFriction, OpposesMotionBothWaysAlike) {
   const LugreParams p;
   LugreBristle in;
