@@ -149,7 +149,10 @@ double local_backscatter(std::span<const RegionAcoustics> regions, const RegionA
 
 bool is_junction(const RegionAcoustics& from, RegionId from_id, const RegionAcoustics& to,
                  RegionId to_id, const Vec3& normal_J) noexcept {
-  if (from.continues_as != to_id && to.continues_as != from_id) return false;
+  const auto continues = [](const RegionAcoustics& region, RegionId as) {
+    return region.continues_as != kOutside && region.continues_as == as;
+  };
+  if (!continues(from, to_id) && !continues(to, from_id)) return false;
   return std::abs(normal_J.dot(from.fibre)) > kThrough ||
          std::abs(normal_J.dot(to.fibre)) > kThrough;
 }

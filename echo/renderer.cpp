@@ -439,8 +439,12 @@ void Renderer::set_scene(std::shared_ptr<const Scene> scene) {
   const bool same_body =
       before.source_digest == after.source_digest && before.regions.size() == after.regions.size();
   std::vector<RegionAcoustics> regions = make_region_acoustics(after, impl_->transducer);
-  for (std::size_t i = 0; same_body && i < regions.size(); ++i)
-    regions[i].course = impl_->regions[i].course;
+  for (std::size_t i = 0; same_body && i < regions.size(); ++i) {
+    const RegionAcoustics& known = impl_->regions[i];
+    regions[i].course = known.course;
+    regions[i].continues_as = known.continues_as;
+    regions[i].junction = known.junction;
+  }
   if (!same_body) impl_->arena.execute([&] { add_courses(after, regions); });
   impl_->regions = std::move(regions);
   impl_->scene = std::move(scene);

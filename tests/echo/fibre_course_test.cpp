@@ -119,6 +119,9 @@ TEST(FibreCourse, MuscleAndItsTendonBlendWhereTheyMeet) {
   regions[kMuscle].continues_as = kOutside;
   regions[kTendon].continues_as = kOutside;
   EXPECT_FALSE(is_junction(regions[kMuscle], kMuscle, regions[kTendon], kTendon, Vec3::UnitX()));
+  // nor is the body's surface one
+  EXPECT_FALSE(is_junction(regions[kTendon], kTendon, regions[kOutside], kOutside, Vec3::UnitX()));
+  EXPECT_FALSE(is_junction(regions[kOutside], kOutside, regions[kTendon], kTendon, Vec3::UnitX()));
 }
 
 TEST(FibreCourse, IsTheSameInEachRun) {
