@@ -86,7 +86,8 @@ void add_image_command(CLI::App& app, ExitCode& code) {
       "Examples:\n"
       "  artus image -j meshes/simple-shoulder -o bmode.png\n"
       "  artus image -j meshes/shoulder --needle default -o needle.png --envelope envelope.tiff\n"
-      "  artus image -j real.artus --probe=-235,-97,1340/0.9,0.4,0/0,0,1 --depth 50 -o long.png\n"
+      "  artus image -j meshes/shoulder --probe=-39.6,-44.2,-5/0.66,0.75,0/0.75,-0.66,0 -o "
+      "groove.png\n"
       "  artus image -j meshes/shoulder --transducer curved-2-5 --depth 80 -o curved.png");
   add_joint_options(command, options->joint);
   add_view_options(command, options->view);
