@@ -63,9 +63,11 @@ std::string introduction(const std::filesystem::path& folder, const std::string&
   const auto published = json.value("published", nlohmann::json::array());
   if (published.empty()) return text;
   text += "\n| what | published | artus |\n|---|---|---|\n";
-  for (const auto& p : published)
-    text += "| " + p.value("what", "") + " | " + p.value("published", "") + " | " +
-            p.value("artus", "") + " |\n";
+  for (const auto& p : published) {
+    for (const char* cell : {"what", "published", "artus"})
+      text.append("| ").append(p.value(cell, "")).append(" ");
+    text += "|\n";
+  }
   return text;
 }
 
@@ -77,7 +79,9 @@ void append_markdown(std::string& report, const std::filesystem::path& folder,
   for (const auto& file : std::filesystem::directory_iterator(folder))
     if (file.path().extension() == ".png") plots.push_back(file.path().filename().string());
   std::sort(plots.begin(), plots.end());
-  for (const std::string& plot : plots) report += "![" + name + "](" + name + "/" + plot + ")\n";
+  for (const std::string& plot : plots)
+    report.append("![").append(name).append("](").append(name).append("/").append(plot).append(
+        ")\n");
   report += "\n" + to_markdown(claims);
   // The probe's own report holds its tables in full.
   if (std::filesystem::exists(folder / "report.md"))
