@@ -67,7 +67,8 @@ ExitCode run_image(const ImageOptions& options) {
                           {"settings", to_json(view.settings)}};
     if (loaded->needle)
       report["needle"] =
-          to_json(locate_needle(*loaded->needle, loaded->X_JP, view.transducer, view.settings));
+          to_json(locate_needle(*loaded->needle, loaded->X_JP, view.transducer, view.settings),
+                  frame.tip_shown);
     if (!options.envelope.empty()) report["envelope"] = options.envelope.string();
     std::cout << report.dump(2) << '\n';
   } else {

@@ -45,7 +45,8 @@ Result<nlohmann::json> draw_phantom(const EchoPhantom& phantom, const View& view
                        {"regions", region_list(labels, phantom.scene->joint())}};
   if (phantom.needle)
     truth["needle"] =
-        to_json(locate_needle(*phantom.needle, phantom.X_JP, view.transducer, view.settings));
+        to_json(locate_needle(*phantom.needle, phantom.X_JP, view.transducer, view.settings),
+                frame.tip_shown);
   for (const auto& ok :
        {write_image(annotated_image(frame, view.transducer), out / "bmode.png"),
         write_image(grey_image(frame), out / "grey.png"),

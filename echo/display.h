@@ -37,7 +37,8 @@ class ScanConverter {
   void convert(std::span<const float> decibel, int first_row, int last_row,
                std::span<std::uint8_t> image) const noexcept;
 
-  /// Pixel of a point in frame P (its elevation does not matter).
+  /// Pixel of a point in frame P (its elevation does not matter); geometric, without the
+  /// displacement that the tissues' speeds of sound cause.
   [[nodiscard]] PixelPoint pixel_of(const Vec3& p_P) const noexcept;
   /// The point in frame P at a pixel's centre.
   [[nodiscard]] Vec3 point_of(int x, int y) const noexcept;

@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/geometry.h"
 
 namespace artus {
+
+/// Where a point lies in the image, pixels (x right, y down).
+struct PixelPoint {
+  double x = 0;
+  double y = 0;
+};
 
 /// One B-mode image with every stage that led to it.
 struct Frame {
@@ -27,16 +34,12 @@ struct Frame {
   /// As in_phase: share of the sound that passes the needle, 1 without one. It comes from the
   /// geometry alone; gain and noise do not show in it.
   std::vector<float> needle_light;
+  /// Where the needle's tip shows, displaced as all echoes are by refraction and the tissues'
+  /// speeds of sound. Empty without a needle, and where no sound reaches it.
+  std::optional<PixelPoint> tip_shown;
   /// As in_phase: m/s toward the probe of what moves, wrapped at doppler_limit; NaN where nothing
   /// does. Empty unless doppler is on.
   std::vector<float> velocity;
-};
-
-/// Where a point of frame P lies in the image, pixels (x right, y down); geometric, without the
-/// displacement that the tissues' speeds of sound cause.
-struct PixelPoint {
-  double x = 0;
-  double y = 0;
 };
 
 }  // namespace artus

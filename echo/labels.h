@@ -26,7 +26,7 @@ struct LabelImage {
 
 /// Where the needle is with respect to the image.
 struct NeedleTruth {
-  PixelPoint tip;          ///< the tip projected into the plane, pixels
+  PixelPoint tip;          ///< the tip projected into the plane, pixels; see Frame::tip_shown
   double tip_offset = 0;   ///< m, elevation of the tip; positive along +y of the probe
   double plane_angle = 0;  ///< rad between the needle and the image plane
   double face_angle = 0;   ///< rad between the needle and the probe's face

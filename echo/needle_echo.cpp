@@ -129,24 +129,29 @@ void NeedleEcho::add_shaft(const Place& place, double sample, double amplitude,
   }
 }
 
+NeedleEcho::Tip NeedleEcho::find_tip(const Scanline& line, const Pose& X_JP, const BeamTrace& trace,
+                                     const BeamPath& path) const noexcept {
+  Tip tip;
+  if (!trace.contact) return tip;
+  const Vec3 across(line.direction.z(), 0, -line.direction.x());
+  const Vec3 p = p_PTip_ - line.origin;
+  tip.depth = p.dot(line.direction);
+  if (tip.depth <= 0) return tip;
+  const Vec3 bent = X_JP.inverse() * path.at(tip.depth) - line.origin;
+  const double beside = std::abs(p.dot(across) - bent.dot(across));
+  const double share = 1 - beside / shape_->line_spacing(tip.depth);
+  if (share > 0 && trace.find_sample(tip.depth, tip.sample, tip.log_gain)) tip.share = share;
+  return tip;
+}
+
 /// The bevel's point: a small reflector at the tip, seen from any side. It lies between two lines,
 /// which share it, and is raised by what the beam's width will take from a single line's echo.
-void NeedleEcho::add_tip(const Scanline& line, const Pose& X_JP, const BeamTrace& trace,
-                         const BeamPath& path, std::span<float> re) const noexcept {
-  const Vec3 across(line.direction.z(), 0, -line.direction.x());
-  const Vec3 tip = p_PTip_ - line.origin;
-  const double depth = tip.dot(line.direction);
-  if (depth <= 0) return;
-  const Vec3 bent_P = X_JP.inverse() * path.at(depth) - line.origin;
-  const double beside = std::abs(tip.dot(across) - bent_P.dot(across));
-  const double part = 1 - beside / shape_->line_spacing(depth);
-  double sample = 0;
-  double log_gain = 0;
-  if (part <= 0 || !trace.find_sample(depth, sample, log_gain)) return;
-  add_point_echo(sample,
-                 kTipEcho * part / shape_->line_share(sample) * elevation_share(tip.y(), depth) *
-                     std::exp(log_gain),
-                 re);
+void NeedleEcho::add_tip(const Tip& tip, std::span<float> line) const noexcept {
+  if (tip.share <= 0) return;
+  add_point_echo(tip.sample,
+                 kTipEcho * tip.share / shape_->line_share(tip.sample) *
+                     elevation_share(p_PTip_.y(), tip.depth) * std::exp(tip.log_gain),
+                 line);
 }
 
 /// Beside the needle's end, a line still hears it a little, at the end's own distance.
@@ -250,7 +255,7 @@ void NeedleEcho::add(const Scanline& line, const Pose& X_JP, const BeamTrace& tr
                      const BeamPath& path, std::span<float> re,
                      std::span<float> im) const noexcept {
   if (!trace.contact) return;
-  add_tip(line, X_JP, trace, path, im);
+  add_tip(find_tip(line, X_JP, trace, path), im);
   const Place place = find_place(line, X_JP, path);
   if (place.depth <= 0) return;
   const double coverage = std::min(

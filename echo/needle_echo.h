@@ -23,6 +23,16 @@ class NeedleEcho {
   void add(const Scanline& line, const Pose& X_JP, const BeamTrace& trace, const BeamPath& path,
            std::span<float> re, std::span<float> im) const noexcept;
 
+  /// The tip as one scanline shows it.
+  struct Tip {
+    double share = 0;     ///< 1 on this line .. 0 a line's distance beside it, or unseen
+    double sample = 0;    ///< displayed
+    double depth = 0;     ///< m along the beam
+    double log_gain = 0;  ///< ln of the two-way amplitude there
+  };
+  [[nodiscard]] Tip find_tip(const Scanline& line, const Pose& X_JP, const BeamTrace& trace,
+                             const BeamPath& path) const noexcept;
+
   /// Adds scatterers of rms `amplitude` along the needle's axis, fixed in the body: its track.
   void add_track(double amplitude, const Scanline& line, const Pose& X_JP, const BeamTrace& trace,
                  const BeamPath& path, std::span<float> re, std::span<float> im) const noexcept;
@@ -39,8 +49,7 @@ class NeedleEcho {
   [[nodiscard]] Extent find_extent(const Scanline& line) const noexcept;
   void add_shaft(const Place& place, double sample, double amplitude,
                  std::span<float> line) const noexcept;
-  void add_tip(const Scanline& line, const Pose& X_JP, const BeamTrace& trace, const BeamPath& path,
-               std::span<float> re) const noexcept;
+  void add_tip(const Tip& tip, std::span<float> line) const noexcept;
   void add_side_lobe(const Place& place, const BeamTrace& trace,
                      std::span<float> line) const noexcept;
   [[nodiscard]] double elevation_share(double y, double z) const noexcept;

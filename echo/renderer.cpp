@@ -120,6 +120,7 @@ struct Renderer::Impl {
     frame.image.resize(static_cast<std::size_t>(frame.width) *
                        static_cast<std::size_t>(frame.height));
     frame.contact.resize(static_cast<std::size_t>(transducer.n_lines));
+    tips.resize(static_cast<std::size_t>(transducer.n_lines));
     frame.shadow_from.resize(static_cast<std::size_t>(transducer.n_lines));
   }
 
@@ -156,6 +157,7 @@ struct Renderer::Impl {
                         const std::optional<NeedleView>& needle) {
     const BeamTracer tracer(*scene, regions, probe, settings);
     const int n = settings.n_samples;
+    std::fill(tips.begin(), tips.end(), NeedleEcho::Tip{});
     std::optional<NeedleEcho> needle_echo;
     if (needle) needle_echo.emplace(*needle, X_JP, probe, shape);
     for_blocks(probe.n_lines, [&](int block, int first, int last) {
@@ -167,7 +169,11 @@ struct Renderer::Impl {
         synthesis.synthesise(tracer, regions, line, X_JP, mine, re, im);
         spread.note(l, mine.bent);
         add_tracks(probe, line, X_JP, mine, re, im);
-        if (needle_echo) add_needle(*needle_echo, line, l, X_JP, mine);
+        if (needle_echo) {
+          add_needle(*needle_echo, line, l, X_JP, mine);
+          tips[static_cast<std::size_t>(l)] =
+              needle_echo->find_tip(line, X_JP, mine.central, mine.bent);
+        }
         coupling.apply(l, shape.sample_depth(), re, im);
         add_lens_ringing(mine.central.contact ? 1 - coupling.at_line(l) : 1, shape.sample_depth(),
                          re);
@@ -185,6 +191,21 @@ struct Renderer::Impl {
         add_penumbra(probe, shape.sample_depth(), frame.shadow_from, l, re, im);
       }
     });
+  }
+
+  /// Where the lines that see the needle's tip show it.
+  [[nodiscard]] std::optional<PixelPoint> find_shown_tip() const {
+    double shares = 0;
+    Vec3 place = Vec3::Zero();
+    for (int l = 0; l < transducer.n_lines; ++l) {
+      const NeedleEcho::Tip& tip = tips[static_cast<std::size_t>(l)];
+      if (tip.share <= 0 || tip.sample >= settings.n_samples) continue;
+      const Scanline line = scanline(transducer, l);
+      shares += tip.share;
+      place += tip.share * (line.origin + tip.sample * shape.sample_depth() * line.direction);
+    }
+    if (shares <= 0) return std::nullopt;
+    return converter.pixel_of(place / shares);
   }
 
   void add_tracks(const Transducer& probe, const Scanline& line, const Pose& X_JP,
@@ -375,6 +396,7 @@ struct Renderer::Impl {
   std::vector<PointReflector> reflectors;
   ApertureCoupling coupling;
   BeamSpread spread;
+  std::vector<NeedleEcho::Tip> tips;  // (n_lines)
   std::vector<NeedleTrack> tracks;
   std::vector<CompoundView> views;  // none: no compounding
   std::vector<LineScratch> scratch;
@@ -405,6 +427,7 @@ const Frame& Renderer::render(const Pose& X_JP, const std::optional<NeedleView>&
   ARTUS_REQUIRE(!needle || needle->X_JN.matrix().allFinite(), "the needle's pose is not finite");
   ARTUS_REQUIRE(!needle || needle->v_JN.allFinite(), "the needle's velocity is not finite");
   impl_->acquire(X_JP, needle);
+  impl_->frame.tip_shown = impl_->find_shown_tip();
   const auto start = std::chrono::steady_clock::now();
   impl_->find_motion(X_JP, needle);
   impl_->compress_lines();

@@ -89,8 +89,11 @@ cv::Mat doppler_image(const Frame& frame, const ScanConverter& converter,
   return out;
 }
 
-nlohmann::json to_json(const NeedleTruth& truth) {
+nlohmann::json to_json(const NeedleTruth& truth, const std::optional<PixelPoint>& tip_shown) {
+  nlohmann::json shown;
+  if (tip_shown) shown = {tip_shown->x, tip_shown->y};
   return {{"tip_px", {truth.tip.x, truth.tip.y}},
+          {"tip_shown_px", shown},
           {"tip_offset_mm", truth.tip_offset / kMillimetre},
           {"plane_angle_deg", truth.plane_angle / kDegree},
           {"face_angle_deg", truth.face_angle / kDegree},

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <optional>
+
 #include <opencv2/core.hpp>
 
 #include <nlohmann/json.hpp>
@@ -31,8 +33,10 @@ namespace artus {
 [[nodiscard]] cv::Mat doppler_image(const Frame& frame, const ScanConverter& converter,
                                     const ImageSettings& settings);
 
-/// Tip in pixels, offset from the plane in mm, angles in degrees, in_plane.
-[[nodiscard]] nlohmann::json to_json(const NeedleTruth& truth);
+/// Tip in pixels, where it is and where it shows (Frame::tip_shown; null when it does not), offset
+/// from the plane in mm, angles in degrees, in_plane.
+[[nodiscard]] nlohmann::json to_json(const NeedleTruth& truth,
+                                     const std::optional<PixelPoint>& tip_shown);
 
 /// What is in the plane: id, name, tissue and area (mm2) of each region, by rising id.
 [[nodiscard]] nlohmann::json region_list(const LabelImage& labels, const CompiledJoint& joint);

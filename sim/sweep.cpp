@@ -200,7 +200,7 @@ class Sweep {
                {"regions", region_list(labels, scene_->joint())}};
     if (!pose.name.empty()) truth["name"] = pose.name;
     if (pose.time) truth["time_s"] = *pose.time;
-    if (needle) truth["needle"] = to_json(truth_.locate(*needle, pose.X_JP));
+    if (needle) truth["needle"] = to_json(truth_.locate(*needle, pose.X_JP), frame.tip_shown);
     std::vector<std::pair<const char*, cv::Mat>> pictures{
         {kPictureKeys[0], grey_image(frame)},
         {kPictureKeys[1], id_image(labels)},

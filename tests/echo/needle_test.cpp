@@ -92,6 +92,52 @@ TEST(Needle, ShowsItsTipWithinAPixelOfTheTruth) {
   }
 }
 
+TEST(Needle, SaysWhereItsTipShowsThroughLayers) {
+  // fat delays what lies below by 5 % of its thickness; steering bends the beam as well
+  const std::array<FlatLayer, 2> layers{{{"fat", 12e-3}, {"muscle", 50e-3}}};
+  const auto scene = test::make_block_scene(layers, [](CompiledJoint& joint) {
+    for (const char* name : {"fat", "muscle"}) {
+      test::acoustic_of(joint, name).attenuation = 0;
+      test::acoustic_of(joint, name).backscatter = 0;
+    }
+  });
+  const ImageSettings settings = test::bare_settings();
+  const Pose X_JP = test::probe_at();
+  const NeedleView needle = test::needle_at(X_JP, Vec3(2e-3, 0, 20e-3), 60 * kDegree);
+  for (const double steering : {0.0, 15 * kDegree}) {
+    Transducer transducer;
+    transducer.steering = steering;
+    Renderer renderer(scene, transducer, settings);
+    EXPECT_FALSE(renderer.render(X_JP).tip_shown.has_value());
+    const Frame& frame = renderer.render(X_JP, needle);
+    ASSERT_TRUE(frame.tip_shown.has_value());
+    const NeedleTruth truth = locate_needle(needle, X_JP, transducer, settings);
+    if (steering == 0) {
+      const double late = 12e-3 * (1540.0 / 1462 - 1) + 8e-3 * (1540.0 / 1562 - 1);
+      EXPECT_NEAR(frame.tip_shown->x, truth.tip.x, 1e-6);
+      EXPECT_NEAR(frame.tip_shown->y - truth.tip.y, late / settings.pixel, 0.05);
+    }
+    int best = 0;
+    PixelPoint seen;
+    for (int y = static_cast<int>(frame.tip_shown->y) - 4; y < frame.tip_shown->y + 4; ++y) {
+      for (int x = static_cast<int>(frame.tip_shown->x) - 4; x < frame.tip_shown->x + 4; ++x) {
+        const int grey =
+            frame.image[static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.width) +
+                        static_cast<std::size_t>(x)];
+        if (grey <= best) continue;
+        best = grey;
+        seen = {static_cast<double>(x), static_cast<double>(y)};
+      }
+    }
+    EXPECT_NEAR(seen.x, frame.tip_shown->x, 1);
+    EXPECT_NEAR(seen.y, frame.tip_shown->y, 1);
+  }
+  // behind bone it does not show
+  const std::array<FlatLayer, 2> bone{{{"muscle", 10e-3}, {"bone", 50e-3}}};
+  Renderer renderer(test::make_block_scene(bone), Transducer{}, settings);
+  EXPECT_FALSE(renderer.render(X_JP, needle).tip_shown.has_value());
+}
+
 TEST(Needle, ShaftEndsWithinHalfAPixelOfItsTip) {
   const Transducer transducer;
   Renderer renderer(silent_block(), transducer, test::bare_settings());
