@@ -63,9 +63,9 @@ void add_probe_panels(const ThreeInjections& run, Plot& plot) {
 constexpr const char* kProbeHeader =
     ",probe_x_m,probe_y_m,probe_z_m,probe_q_w,probe_q_x,probe_q_y,probe_q_z,probe_normal_n,"
     "probe_edge_x_n,probe_edge_y_n,probe_edge_z_n,probe_friction_x_n,probe_friction_y_n,"
-    "probe_friction_z_n,probe_torque_x_nm,probe_torque_y_nm,probe_torque_z_nm,probe_slip_m,probe_"
-    "stiffness_n_m,probe_indentation_m,"
-    "probe_contact_share,probe_energy_to_hand_j,probe_status";
+    "probe_friction_z_n,probe_torque_x_nm,probe_torque_y_nm,probe_torque_z_nm,probe_slip_m,"
+    "probe_stiffness_n_m,probe_indentation_m,probe_contact_share,probe_energy_to_hand_j,probe_"
+    "status";
 
 void append_probe(const ProbeHandRow& row, std::string& line) {
   const Eigen::Quaterniond q(row.X_JP.linear());

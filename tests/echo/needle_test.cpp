@@ -16,6 +16,25 @@
 namespace artus {
 namespace {
 
+struct Bright {
+  int grey = 0;
+  PixelPoint place;
+};
+
+/// The brightest pixel less than `reach` pixels from `p`, the first one in reading order.
+Bright brightest_near(const Frame& frame, const PixelPoint& p, int reach) {
+  Bright best;
+  for (int y = static_cast<int>(p.y) - reach; y < p.y + reach; ++y) {
+    for (int x = static_cast<int>(p.x) - reach; x < p.x + reach; ++x) {
+      const int grey =
+          frame.image[static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.width) +
+                      static_cast<std::size_t>(x)];
+      if (grey > best.grey) best = {grey, {static_cast<double>(x), static_cast<double>(y)}};
+    }
+  }
+  return best;
+}
+
 using test::FlatLayer;
 
 TEST(Needle, GaugesRingAtTheirOwnPitch) {
@@ -72,18 +91,7 @@ TEST(Needle, ShowsItsTipWithinAPixelOfTheTruth) {
         needle.shape = *needle_of_gauge(gauge);
         const Frame& frame = renderer.render(X_JP, needle);
         const NeedleTruth truth = locate_needle(needle, X_JP, Transducer{}, settings);
-        int best = 0;
-        PixelPoint seen;
-        for (int y = static_cast<int>(truth.tip.y) - 5; y < truth.tip.y + 5; ++y) {
-          for (int x = static_cast<int>(truth.tip.x) - 5; x < truth.tip.x + 5; ++x) {
-            const int grey =
-                frame.image[static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.width) +
-                            static_cast<std::size_t>(x)];
-            if (grey <= best) continue;
-            best = grey;
-            seen = {static_cast<double>(x), static_cast<double>(y)};
-          }
-        }
+        const auto [best, seen] = brightest_near(frame, truth.tip, 5);
         EXPECT_GT(best, 150) << gauge << " G, " << degrees;
         EXPECT_NEAR(seen.x, truth.tip.x, 1) << gauge << " G, " << degrees;
         EXPECT_NEAR(seen.y, truth.tip.y, 1) << gauge << " G, " << degrees;
@@ -117,18 +125,7 @@ TEST(Needle, SaysWhereItsTipShowsThroughLayers) {
       EXPECT_NEAR(frame.tip_shown->x, truth.tip.x, 1e-6);
       EXPECT_NEAR(frame.tip_shown->y - truth.tip.y, late / settings.pixel, 0.05);
     }
-    int best = 0;
-    PixelPoint seen;
-    for (int y = static_cast<int>(frame.tip_shown->y) - 4; y < frame.tip_shown->y + 4; ++y) {
-      for (int x = static_cast<int>(frame.tip_shown->x) - 4; x < frame.tip_shown->x + 4; ++x) {
-        const int grey =
-            frame.image[static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.width) +
-                        static_cast<std::size_t>(x)];
-        if (grey <= best) continue;
-        best = grey;
-        seen = {static_cast<double>(x), static_cast<double>(y)};
-      }
-    }
+    const PixelPoint seen = brightest_near(frame, *frame.tip_shown, 4).place;
     EXPECT_NEAR(seen.x, frame.tip_shown->x, 1);
     EXPECT_NEAR(seen.y, frame.tip_shown->y, 1);
   }
