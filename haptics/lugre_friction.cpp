@@ -22,8 +22,8 @@ double lugre_level(const LugreParams& params, double v) noexcept {
   return params.mu_c + (params.mu_s - params.mu_c) * std::exp(-params.alpha * std::abs(v));
 }
 
-double LugreBristle::advance(const LugreParams& params, double moved, double v) noexcept {
-  const double steady = std::copysign(lugre_level(params, v), moved);
+double LugreBristle::advance(const LugreParams& params, double moved, double level) noexcept {
+  const double steady = std::copysign(level, moved);
   load_ = steady + (load_ - steady) * std::exp(-params.sigma0 * std::abs(moved / steady));
   return load_;
 }
@@ -38,7 +38,7 @@ void LugreBristle::relax(const LugreParams& params, double v, double dt) noexcep
 double LugreBristle::step(const LugreParams& params, double moved, double v, double dt,
                           double sigma1) noexcept {
   const double before = load_;
-  const double rate = (advance(params, moved, v) - before) / (params.sigma0 * dt);
+  const double rate = (advance(params, moved, lugre_level(params, v)) - before) / (params.sigma0 * dt);
   return load_ + std::min(sigma1, params.sigma1) * rate + params.sigma2 * moved / dt;
 }
 
@@ -60,7 +60,8 @@ Wrench LugreFriction::step(const NeedleTick& tick) noexcept {
     limited.sigma0 = std::min(params_.sigma0, params_.stiffness_limit / normal);
     limited.sigma1 = std::min(params_.sigma1, params_.damping_limit / normal);
   }
-  bristle_.advance(limited, moved, tick.velocity);
+  const double level = std::max(lugre_level(limited, tick.velocity), std::abs(bristle_.load()));
+  bristle_.advance(limited, moved, level);
   bristle_.relax(limited, tick.velocity, tick.dt);
   const double load = bristle_.load();
   const double z = bristle_.deflection(limited);

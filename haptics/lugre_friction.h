@@ -43,8 +43,8 @@ class LugreBristle {
  public:
   /// Over dt, lets go of what the load has above g(v), which falls when the needle slows down.
   ARTUS_REALTIME void relax(const LugreParams& params, double v, double dt) noexcept;
-  /// Advances over `moved` m at about `v` m/s (for the level g). Returns sigma0 z.
-  ARTUS_REALTIME double advance(const LugreParams& params, double moved, double v) noexcept;
+  /// Advances over `moved` m towards the level `level`, > 0, of F_n. Returns sigma0 z.
+  ARTUS_REALTIME double advance(const LugreParams& params, double moved, double level) noexcept;
   /// Advances over `moved` m in `dt` s with `v` for the level g; returns f / F_n, in the direction
   /// of motion (the hand feels its opposite). `sigma1` replaces the set's when smaller.
   ARTUS_REALTIME double step(const LugreParams& params, double moved, double v, double dt,
@@ -63,8 +63,9 @@ class LugreBristle {
 /// Friction along the shaft: F_n is the sum over the layers of f_R * friction scale * shaft length
 /// in the layer / set's length. (The source's F_n is the cutting force itself, which would make
 /// friction vanish on withdrawal.) The steady force is the published one; the bristle is no stiffer
-/// than stiffness_limit, so that neither an encoder's step nor the loop's rate is felt. dz/dt is a
-/// difference over a fixed time: over the loop's own period an encoder's step would be a knock that
+/// than stiffness_limit, so that neither an encoder's step nor the loop's rate is felt; what a needle
+/// that slows down holds above g(v) goes with time (relax), as over distance it would go at z sigma0
+/// / g times that stiffness. dz/dt is a difference over a fixed time: over the loop's own period an encoder's step would be a knock that
 /// grows with the rate.
 class LugreFriction final : public ForceModel {
  public:

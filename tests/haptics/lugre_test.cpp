@@ -116,7 +116,7 @@ TEST(LugreFriction, LoadOfANeedleThatStopsFallsToItsLevelInTheRelaxationTime) {
   const LugreParams p;
   for (const double dt : {1e-3, 5e-4, 1e-4}) {
     LugreBristle bristle;
-    for (int i = 0; i < 4000; ++i) bristle.advance(p, 1e-5, 0.05);
+    for (int i = 0; i < 4000; ++i) bristle.advance(p, 1e-5, lugre_level(p, 0.05));
     const double loaded = bristle.load();
     ASSERT_NEAR(loaded, lugre_level(p, 0.05), 1e-6);
     const int n = static_cast<int>(std::lround(p.relaxation_time / dt));
@@ -130,7 +130,7 @@ TEST(LugreFriction, LoadOfANeedleThatStopsFallsToItsLevelInTheRelaxationTime) {
 TEST(LugreFriction, LoadBelowItsLevelStays) {
   const LugreParams p;
   LugreBristle slow;
-  slow.advance(p, 1e-6, 0.05);
+  slow.advance(p, 1e-6, lugre_level(p, 0.05));
   const double before = slow.load();
   slow.relax(p, 0.05, 1);
   EXPECT_EQ(slow.load(), before);
