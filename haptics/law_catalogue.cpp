@@ -20,7 +20,9 @@ std::vector<LawDescription> cutting_laws() {
        "a spring K_t whose anchor follows the tip at f_R / K_t; settles after a stop; f_A resists "
        "withdrawal",
        "[Alamilla2020] eqs. 2.14-2.19",
-       {{"settling_time", wall.settling_time, "s", kAssumed}}},
+       {{"settling_time", wall.settling_time, "s", kAssumed},
+        {"moving_time", wall.moving_time, "s", kAssumed},
+        {"fall_time", wall.fall_time, "s", kAssumed}}},
       {"cutting",
        "direct",
        "--cutting direct",
@@ -65,7 +67,13 @@ std::vector<LawDescription> prepuncture_laws() {
            "--prepuncture god_object",
            "a spring from the tip to its place on the skin, along the skin's normal",
            "[Zilles1995]",
-           {{"stiffness", p.god_object.stiffness, "N/m", kAssumed}}}};
+           {{"stiffness", p.god_object.stiffness, "N/m", kAssumed}}},
+          {"prepuncture",
+           "tear",
+           "",
+           "what a membrane held fades as exp(-t / time) once it gives way",
+           kAssumed,
+           {{"time", p.tear.time, "s", kAssumed}}}};
 }
 
 std::vector<LawDescription> friction_laws() {
@@ -153,6 +161,8 @@ std::vector<LawDescription> line_laws() {
            {{"needle_length", contact.needle_length, "m", "[Alamilla2020] section 1.6.1"},
             {"redirect_withdrawal", contact.redirect_withdrawal, "m", kAssumed},
             {"redirect_angle", contact.redirect_angle, "rad", kAssumed},
+            {"redirect_deviation", contact.redirect_deviation, "m", kAssumed},
+            {"redirect_advance", contact.redirect_advance, "m", kAssumed},
             {"redirect_depth", contact.redirect_depth, "m", kAssumed}}}};
 }
 
@@ -163,12 +173,10 @@ std::vector<LawDescription> other_laws() {
   return {{"rest",
            "motion detector",
            "",
-           "still when the last positions over a time lie within a band",
+           "stillness from 1 to 0 as the range of the last positions over a time goes from one band to the other",
            "[Alamilla2020] section 2.4, |dx/dt| < eps",
            {{"band", motion.band, "m", kAssumed},
-            {"wake_band", motion.wake_band, "m", kAssumed},
-            {"settling_band", motion.settling_band, "m", kAssumed},
-            {"settling_time", motion.settling_time, "s", kAssumed},
+            {"moving_band", motion.moving_band, "m", kAssumed},
             {"time", motion.time, "s", kAssumed}}},
           {"workspace",
            "hemisphere",

@@ -11,77 +11,56 @@
 namespace artus {
 
 struct MotionParams {
-  double band = 0.155e-3;       ///< m, full width in which a still needle stays; assumed: above the
-                                ///< tremor of a supported hand, no whole number of encoder steps
-  double wake_band = 0.155e-3;  ///< m off its rest before a still needle moves; assumed: the same
-  double settling_band = 0.6e-3;  ///< m, instead of the wake band for the settling time after a
-                                  ///< stop; assumed: a hand follows the force that fades
-  double settling_time = 0.25;    ///< s; assumed: the tracking wall's settling time and a margin
-  double time = 0.075;  ///< s; the needle is still after this time within the band: eps = 2 mm/s
+  double band = 0.155e-3;        ///< m, range in which a needle is wholly still; assumed: above the
+                                 ///< tremor of a supported hand, no whole number of encoder steps
+  double moving_band = 0.31e-3;  ///< m, range from which on it wholly moves; assumed: twice that
+  double time = 0.075;           ///< s over which the range is taken: eps = 2 to 4 mm/s; assumed
 };
 
-/// Says whether the needle moves and which way from positions alone: it is still when all of its
-/// last positions over a time lie within a band, and moves again when it leaves that rest. The
-/// source's |dx/dt| < eps, in a form that neither the loop's rate nor an encoder's step changes:
-/// the range over a time is a continuous function of the path, so paths that differ by micrometres
-/// come to rest at nearly the same time. Requires: dt below MotionParams::time.
+/// Says how still the needle is and which way it moves, from positions alone: by the range of all of
+/// its last positions over a time. The source's |dx/dt| < eps, in a form that neither the loop's
+/// rate nor an encoder's step changes, and with a band instead of an edge: stillness is a continuous
+/// function of the path, so paths that differ by micrometres come to rest nearly alike, where an
+/// edge would let one rest and the other not. Requires: dt below MotionParams::time.
 class MotionDetector {
  public:
   explicit MotionDetector(const MotionParams& params = {}) noexcept : params_(params) {}
 
   ARTUS_REALTIME void reset(double x, Motion motion) noexcept {
-    motion_ = motion;
-    rest_ = x;
-    settling_ = 0;
-    start_window(x);
+    if (motion != Motion::still) direction_ = motion;
+    extreme_ = x;
+    elapsed_ = 0;
+    filled_ = motion == Motion::still ? kBuckets : 1;
+    low_.fill(x);
+    high_.fill(x);
+    stillness_ = motion == Motion::still ? 1 : 0;
   }
 
-  ARTUS_REALTIME Motion step(double x, double dt) noexcept {
-    if (motion_ == Motion::still) {
-      if (settling_ > 0) {
-        settling_ -= dt;
-        if (std::abs(x - rest_) <= params_.settling_band) {
-          if (settling_ <= 0) rest_ = x;
-          return motion_;
-        }
-      }
-      if (std::abs(x - rest_) <= params_.wake_band) return motion_;
-      motion_ = x > rest_ ? Motion::inward : Motion::outward;
-      start_window(x);
-      return motion_;
-    }
-    extreme_ = motion_ == Motion::inward ? std::max(extreme_, x) : std::min(extreme_, x);
+  ARTUS_REALTIME void step(double x, double dt) noexcept {
+    extreme_ = direction_ == Motion::inward ? std::max(extreme_, x) : std::min(extreme_, x);
     if (std::abs(x - extreme_) > params_.band) {
-      motion_ = x > extreme_ ? Motion::inward : Motion::outward;
+      direction_ = x > extreme_ ? Motion::inward : Motion::outward;
       extreme_ = x;
     }
     add(x, dt);
-    if (filled_ == kBuckets) {
-      const auto [low, high] = range(kBuckets);
-      if (high - low <= params_.band) {
-        motion_ = Motion::still;
-        settling_ = params_.settling_time;
-        const auto [last_low, last_high] =
-            range(kBuckets / 2);  // a needle slows down into its rest
-        rest_ = 0.5 * (last_low + last_high);
-      }
-    }
-    return motion_;
+    stillness_ = 0;
+    if (filled_ < kBuckets) return;
+    const auto low = *std::min_element(low_.begin(), low_.end());
+    const auto high = *std::max_element(high_.begin(), high_.end());
+    stillness_ = std::clamp(
+        (params_.moving_band - (high - low)) / (params_.moving_band - params_.band), 0.0, 1.0);
   }
 
-  [[nodiscard]] Motion motion() const noexcept { return motion_; }
+  /// 1 at rest, 0 on the move.
+  [[nodiscard]] double stillness() const noexcept { return stillness_; }
+  [[nodiscard]] Motion motion() const noexcept {
+    return stillness_ > kHalf ? Motion::still : direction_;
+  }
 
  private:
   // The window is kept as the range of each of a number of equal stretches of time.
   static constexpr std::size_t kBuckets = 64;
-
-  void start_window(double x) noexcept {
-    extreme_ = x;
-    elapsed_ = 0;
-    filled_ = 1;
-    low_.fill(x);
-    high_.fill(x);
-  }
+  static constexpr double kHalf = 0.5;
 
   void add(double x, double dt) noexcept {
     const double bucket = params_.time / static_cast<double>(kBuckets - 1);
@@ -97,22 +76,10 @@ class MotionDetector {
     high_[now_] = std::max(high_[now_], x);
   }
 
-  /// Least and greatest position of the newest `count` buckets.
-  [[nodiscard]] std::pair<double, double> range(std::size_t count) const noexcept {
-    double low = low_[now_];
-    double high = high_[now_];
-    for (std::size_t i = 1; i < count; ++i) {
-      low = std::min(low, low_[(now_ - i) % kBuckets]);
-      high = std::max(high, high_[(now_ - i) % kBuckets]);
-    }
-    return {low, high};
-  }
-
   MotionParams params_;
-  Motion motion_ = Motion::still;
-  double rest_ = 0;
-  double settling_ = 0;  // s left of the settling time
-  double extreme_ = 0;   // the farthest position in the present direction
+  Motion direction_ = Motion::inward;
+  double stillness_ = 1;
+  double extreme_ = 0;  // the farthest position in the present direction
   std::array<double, kBuckets> low_{};
   std::array<double, kBuckets> high_{};
   double elapsed_ = 0;  // s in the present bucket

@@ -156,7 +156,13 @@ void NeedleContact::approach(const Pose& X_JN, std::span<const TissueInterval> i
   }
   start_line(X_JN, depth);
   tick_.dimple = 0;
+  tear(skin, force, depth);
   events_ |= ContactEvent::kSkinPunctured;
+}
+
+void NeedleContact::tear(const LayerHaptics& layer, double force, double dimple) noexcept {
+  tick_.torn += std::min(force, layer.tissue.puncture_force);
+  tick_.torn_dimple = std::max(tick_.torn_dimple, dimple);
 }
 
 void NeedleContact::redirect(const Pose& X_JN) noexcept {
@@ -166,7 +172,8 @@ void NeedleContact::redirect(const Pose& X_JN) noexcept {
     return;
   }
   const Vec3 direction = to_tip / distance;
-  if (angle_between(direction, tick_.axis) < params_.redirect_angle ||
+  const double turned = angle_between(direction, tick_.axis);
+  if (turned < params_.redirect_angle || turned * distance < params_.redirect_deviation ||
       angle_between(direction, first_axis_) > insertion_cone(distance, params_.needle_length)) {
     return;
   }
@@ -174,7 +181,7 @@ void NeedleContact::redirect(const Pose& X_JN) noexcept {
   tick_.depth = distance;
   tick_.orientation_0 = Eigen::Quaterniond(X_JN.linear()).normalized();
   open_ = distance;
-  deepest_ = distance + params_.redirect_withdrawal;  // may turn on until it advances
+  deepest_ = distance + params_.redirect_withdrawal + params_.redirect_advance;  // may turn on
   depths_.reset(distance);
   motion_.reset(distance, motion_.motion());
   events_ |= ContactEvent::kRedirected;
@@ -198,14 +205,18 @@ void NeedleContact::find_tip_layers() noexcept {
       break;
     }
     if (s.entry > x || s.region == kOutside) continue;
-    if (!held && s.entry > open_ && layer.tissue.puncture_force > 0) {
+    const bool whole = s.entry > open_ - params_.membrane_margin;
+    if (!held && whole && layer.tissue.puncture_force > 0) {
       const double dimple = x - s.entry;
       const double force = prepuncture_force(prepuncture_, layer, dimple, tick_.velocity);
       if (force < layer.tissue.puncture_force && x < s.exit) {
         held = true;
+        open_ = std::min(open_, s.entry);  // its surface may move under a needle that sways
         tick_.dimple = dimple;
         tick_.membrane = layer;
       } else {
+        tear(layer, force, dimple);
+        open_ = std::max(open_, s.entry + params_.membrane_margin);
         events_ |= ContactEvent::kMembranePopped;
       }
     }
@@ -257,6 +268,8 @@ void NeedleContact::update_velocity(const Pose& X_JN) noexcept {
 
 void NeedleContact::update(const Pose& X_JN, std::span<const TissueInterval> intervals) noexcept {
   events_ = 0;
+  tick_.torn = 0;
+  tick_.torn_dimple = 0;
   tick_.tip = X_JN.translation();
   update_velocity(X_JN);
   if (!inserted_) {
@@ -274,7 +287,9 @@ void NeedleContact::update(const Pose& X_JN, std::span<const TissueInterval> int
     tick_.velocity = (tick_.depth - before) / depths_.duration(dt_);
     redirect(X_JN);
   }
-  tick_.motion = motion_.step(tick_.depth, dt_);
+  motion_.step(tick_.depth, dt_);
+  tick_.motion = motion_.motion();
+  tick_.stillness = motion_.stillness();
   deepest_ = std::max(deepest_, tick_.depth);
   tick_.incoming_speed = std::max(0.0, tick_.velocity);
   find_tip_layers();

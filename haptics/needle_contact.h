@@ -40,11 +40,18 @@ struct ContactParams {
   double needle_length = 0.035;         ///< m, n_L; [Alamilla2020] section 1.6.1: 35 or 25 mm
   double redirect_withdrawal = 5e-3;    ///< m back on a line before another may be taken; assumed:
                                         ///< above tremor, below the source's "few centimetres"
-  double redirect_angle = 2 * kDegree;  ///< rad, smaller changes keep the line; assumed
+  double redirect_angle = 1 * kDegree;  ///< rad, smaller changes keep the line; assumed
+  double redirect_deviation = 0.15e-3;  ///< m off the line, below which it is kept; assumed: above
+                                        ///< tremor
+  double redirect_advance = 1e-3;  ///< m on a new line until which it may turn on; assumed: above
+                                   ///< what a hand that turns advances unmeant
   double redirect_depth = 3e-3;  ///< m, nearer the skin the direction entry-tip is not defined well
   double behind_skin = 2e-3;     ///< m, query starts this far before the entry
   double lookahead = 0.02;       ///< m, query goes this far beyond the tip
   double approach = 0.06;        ///< m, query behind the tip while no line is stored
+  double membrane_margin = 0.1e-3;  ///< m, by which a membrane may lie before the end of the cut
+                                    ///< track and still be whole; assumed: above what a trembling
+                                    ///< needle moves over a slope in a tick
   MotionParams motion;
   double velocity_window = 0.01;  ///< s; lag half of it; only for laws that need a velocity
 };
@@ -82,6 +89,7 @@ class NeedleContact {
   void store_layers(std::span<const TissueInterval> intervals, double origin) noexcept;
   void approach(const Pose& X_JN, std::span<const TissueInterval> intervals) noexcept;
   void start_line(const Pose& X_JN, double depth) noexcept;
+  void tear(const LayerHaptics& layer, double force, double dimple) noexcept;
   void redirect(const Pose& X_JN) noexcept;
   void find_tip_layers() noexcept;
   void classify() noexcept;

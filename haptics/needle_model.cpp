@@ -67,13 +67,6 @@ const NeedleForces& NeedleModel::step(const Pose& X_JN,
   contact_.update(X_JN, intervals);
   const NeedleTick& tick = contact_.tick();
   forces_ = NeedleForces{};
-  const bool proxy =
-      !contact_.inserted() && tick.membrane.prepuncture == PrepunctureLaw::god_object;
-  if (proxy) {
-    forces_.surface = god_object_.step(tick).force;
-  } else {
-    forces_.prepuncture = prepuncture_.step(tick).force.dot(tick.axis);
-  }
   if (params_.use_workspace) forces_.workspace = workspace_.step(tick).force;
   if (contact_.inserted()) {
     constexpr std::uint32_t kNewLine =
@@ -82,11 +75,20 @@ const NeedleForces& NeedleModel::step(const Pose& X_JN,
     const double cutting = cutting_force(tick);
     forces_.cutting = std::min(cutting, 0.0);
     forces_.attracted = std::max(cutting, 0.0);
+    const bool skin = (contact_.events() & ContactEvent::kSkinPunctured) != 0;
+    prepuncture_.tear(tick.torn + (skin ? forces_.cutting : 0), tick.torn_dimple, tick.depth);
     forces_.friction = friction_.step(tick).force.dot(tick.axis);
     forces_.hard = hard_.step(tick).force.dot(tick.axis);
     forces_.clamping = params_.clamping == ClampingLaw::projection ? clamping_.step(tick).force
                                                                    : plasticity_.step(tick).force;
     forces_.torque = orientation_.step(tick).torque;
+  }
+  const bool proxy =
+      !contact_.inserted() && tick.membrane.prepuncture == PrepunctureLaw::god_object;
+  if (proxy) {
+    forces_.surface = god_object_.step(tick).force;
+  } else {
+    forces_.prepuncture = prepuncture_.step(tick).force.dot(tick.axis);
   }
   const double axial =
       forces_.prepuncture + forces_.cutting + forces_.attracted + forces_.friction + forces_.hard;

@@ -5,6 +5,9 @@
 #include <cmath>
 
 namespace artus {
+namespace {
+constexpr double kNothing = 1e-6;  // N
+}
 
 double prepuncture_force(const PrepunctureParams& params, const LayerHaptics& layer, double d,
                          double v) noexcept {
@@ -26,10 +29,24 @@ double prepuncture_force(const PrepunctureParams& params, const LayerHaptics& la
   return scale * (liver.a1 * d + liver.a2 * d * d);
 }
 
-void Prepuncture::reset(double /*depth*/) noexcept {}
+void Prepuncture::reset(double /*depth*/) noexcept {
+  torn_ = 0;
+}
+
+void Prepuncture::tear(double force, double dimple, double depth) noexcept {
+  if (!(force > 0 && dimple > 0)) return;
+  torn_ += force;
+  torn_dimple_ = dimple;
+  torn_at_ = depth - dimple;
+}
 
 Wrench Prepuncture::step(const NeedleTick& tick) noexcept {
-  const double force = prepuncture_force(params_, tick.membrane, tick.dimple, tick.velocity);
+  double force = prepuncture_force(params_, tick.membrane, tick.dimple, tick.velocity);
+  if (torn_ > 0) {
+    force += torn_ * std::clamp((tick.depth - torn_at_) / torn_dimple_, 0.0, 1.0);
+    torn_ *= std::exp(-tick.dt / params_.tear.time);
+    if (torn_ < kNothing) torn_ = 0;
+  }
   return {-force * tick.axis, Vec3::Zero()};
 }
 

@@ -26,8 +26,15 @@ struct MembraneParams {
                            ///< whose geometry does not follow the needle
 };
 
+/// A membrane that gives way lets go of its force within a time, as a crack takes one to open to the
+/// needle's width. So a loop that finds the puncture a period later renders nearly the same force.
+struct TearParams {
+  double time = 3e-3;  ///< s, time constant; assumed: 0.7 mm at a crack's 0.2 m/s
+};
+
 struct PrepunctureParams {
   MembraneParams membrane;
+  TearParams tear;
   SimoneOkamuraParams simone_okamura;
   BarbeParams barbe;
   GodObjectParams god_object;  ///< skin only; deeper membranes take the same spring axially
@@ -39,16 +46,24 @@ struct PrepunctureParams {
                                                       const LayerHaptics& layer, double d,
                                                       double v) noexcept;
 
-/// The membrane that still holds: NeedleTick::dimple and membrane. Stateless; whether it has popped
-/// is the contact state's business.
+/// The membrane that still holds, NeedleTick::dimple and membrane, and what is left of one that gave
+/// way. Whether it has popped is the contact state's business.
 class Prepuncture final : public ForceModel {
  public:
   explicit Prepuncture(const PrepunctureParams& params = {}) noexcept : params_(params) {}
   ARTUS_REALTIME void reset(double depth) noexcept override;
   ARTUS_REALTIME Wrench step(const NeedleTick& tick) noexcept override;
 
+  /// A membrane gives way at `depth`, m, after a dimple of `dimple` m. `force`: N of it that
+  /// nothing else has taken over. It fades as a spring whose stiffness falls, so that a needle
+  /// drawn back on the way gets no more than the membrane had taken.
+  ARTUS_REALTIME void tear(double force, double dimple, double depth) noexcept;
+
  private:
   PrepunctureParams params_;
+  double torn_ = 0;         // N
+  double torn_dimple_ = 0;  // m
+  double torn_at_ = 0;      // m, the surface before it was pushed in
 };
 
 }  // namespace artus

@@ -14,25 +14,30 @@ void TrackingWall::start(double w0, double depth) noexcept {
   wall_ = w0;
   cut_ = w0;
   stiffness_ = 0;
-  settling_ = false;
+  cutting_limit_ = 0;
+  attracted_limit_ = 0;
+  settle_left_ = params_.settling_time;
   last_x_ = depth;
   last_force_ = 0;
   energy_ = 0;
 }
 
 void TrackingWall::settle(const NeedleTick& tick, double x) noexcept {
-  if (tick.motion != Motion::still) {
-    settling_ = false;
-    return;
-  }
-  if (!settling_) {
-    settling_ = true;
-    settle_left_ = params_.settling_time;
-  }
+  const double still = tick.stillness * tick.dt;
+  const double moving = tick.dt - still;
   // A straight line for a needle at rest; one that trembles is met where it is, without a step.
-  const double share = settle_left_ > tick.dt ? tick.dt / settle_left_ : 1;
-  wall_ += (x - wall_) * share;
-  settle_left_ -= std::min(tick.dt, settle_left_);
+  if (still > 0) wall_ += (x - wall_) * (settle_left_ > still ? still / settle_left_ : 1);
+  settle_left_ += moving * params_.settling_time / params_.moving_time - still;
+  settle_left_ = std::clamp(settle_left_, 0.0, params_.settling_time);
+}
+
+void TrackingWall::follow_limits(const NeedleTick& tick) noexcept {
+  const double share = std::exp(-tick.dt / params_.fall_time);
+  const auto follow = [share](double& limit, double layer) {
+    limit = layer + std::max(0.0, limit - layer) * share;
+  };
+  follow(cutting_limit_, tick.layer.tissue.cutting_force);
+  follow(attracted_limit_, tick.layer.tissue.attracted_force);
 }
 
 double TrackingWall::soft_force(const NeedleTick& tick, double x) noexcept {
@@ -44,8 +49,9 @@ double TrackingWall::soft_force(const NeedleTick& tick, double x) noexcept {
   }
   stiffness_ = stiffness;
   settle(tick, x);
-  const double floor = x <= cut_ ? x : std::max(cut_, x - layer.cutting_force / stiffness);
-  const double ceiling = x + layer.attracted_force / stiffness;
+  follow_limits(tick);
+  const double floor = x <= cut_ ? x : std::max(cut_, x - cutting_limit_ / stiffness);
+  const double ceiling = x + attracted_limit_ / stiffness;
   wall_ = std::min(std::max(wall_, floor), ceiling);
   cut_ = std::max(cut_, std::min(wall_, x));
   return stiffness * (wall_ - x);

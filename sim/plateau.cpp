@@ -7,6 +7,7 @@ namespace artus {
 namespace {
 
 constexpr double kAfterRise = 0.1e-3;  // m past the rise before the plateau counts
+constexpr double kAfterFall = 0.02;    // s in a weaker layer before it does: some time constants
 /// Slower than this on bone the needle is held and its wall settles; faster, it presses on.
 constexpr double kPressing = 3e-3;  // m/s
 
@@ -27,6 +28,7 @@ void PlateauFinder::add(const NeedleRow& row) {
     going_ = true;
     region_ = row.region;
     from_ = row.depth;
+    since_ = row.time;
     deepest_ = row.depth;
     const double missing = std::max(0.0, layer.haptic.cutting_force + row.forces.cutting);
     rise_ = missing / std::max(layer.haptic.wall_stiffness, 1e-6);
@@ -36,7 +38,7 @@ void PlateauFinder::add(const NeedleRow& row) {
   p.rise = std::max(p.rise, rise_);
   const bool deeper = row.depth >= deepest_;
   deepest_ = std::max(deepest_, row.depth);
-  if (!deeper || row.depth < from_ + rise_ + kAfterRise) return;
+  if (!deeper || row.depth < from_ + rise_ + kAfterRise || row.time < since_ + kAfterFall) return;
   const double force = -row.forces.cutting;
   p.least = p.rows == 0 ? force : std::min(p.least, force);
   p.most = p.rows == 0 ? force : std::max(p.most, force);

@@ -1,49 +1,79 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "haptics/motion.h"
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <gtest/gtest.h>
+
+#include "core/noise.h"
 
 namespace artus {
 namespace {
 
 constexpr double kTwoPi = 6.283185307179586;
 
-// When the detector says still on a path that runs at 15 mm/s and comes to rest exponentially.
-double time_of_rest(double rate_hz, double shift) {
+// Stillness at each millisecond on a path that runs at 15 mm/s and comes to rest exponentially.
+std::vector<double> stillness_of_a_stop(double rate_hz, double shift) {
   const double dt = 1 / rate_hz;
   MotionDetector detector;
   detector.reset(shift, Motion::inward);
-  for (int i = 1; i < static_cast<int>(rate_hz); ++i) {
+  std::vector<double> out;
+  const int per_millisecond = static_cast<int>(rate_hz / 1000);
+  for (int i = 1; i <= static_cast<int>(0.5 * rate_hz); ++i) {
     const double t = i * dt;
     const double x =
         shift + (t < 0.2 ? 0.015 * t : 0.003 + 0.015 * 0.03 * (1 - std::exp(-(t - 0.2) / 0.03)));
-    if (detector.step(x, dt) == Motion::still) return t;
+    detector.step(x, dt);
+    if (i % per_millisecond == 0) out.push_back(detector.stillness());
   }
-  return -1;
+  return out;
 }
 
-TEST(MotionDetector, ComesToRestAtTheSameTimeAtAnyRateAndAnyPlace) {
-  const double reference = time_of_rest(20000, 0);
-  EXPECT_GT(reference, 0.2 + MotionParams{}.time / 2);
-  EXPECT_LT(reference, 0.2 + 2 * MotionParams{}.time);
-  for (const double rate : {500.0, 1000.0, 2000.0, 10000.0}) {
-    for (const double shift : {0.0, 13e-6, 57e-6, 99e-6})
-      EXPECT_NEAR(time_of_rest(rate, shift), reference, 4e-3) << rate << " Hz, " << shift;
+TEST(MotionDetector, ComesToRestAlikeAtAnyRateAndAnyPlace) {
+  const auto reference = stillness_of_a_stop(20000, 0);
+  EXPECT_EQ(reference[200], 0);
+  EXPECT_EQ(reference[200 + static_cast<int>(2e3 * MotionParams{}.time)], 1);
+  for (const double rate : {1000.0, 2000.0, 10000.0}) {
+    for (const double shift : {0.0, 13e-6, 57e-6, 99e-6}) {
+      const auto stillness = stillness_of_a_stop(rate, shift);
+      ASSERT_EQ(stillness.size(), reference.size());
+      double off = 0;  // s, the area between the two
+      for (std::size_t i = 0; i < stillness.size(); ++i)
+        off += std::abs(stillness[i] - reference[i]) * 1e-3;
+      EXPECT_LT(off, 3e-3) << rate << " Hz, " << shift;
+    }
   }
 }
 
-TEST(MotionDetector, IsStillBelowItsSpeedAndMovesAboveIt) {
+TEST(MotionDetector, StillnessGoesFromOneToZeroBetweenTwoSpeeds) {
   const MotionParams params;
-  const double eps = params.band / params.time;
-  for (const double share : {0.5, 0.9, 1.1, 2.0}) {
+  for (const double share : {0.5, 0.9, 1.25, 1.4, 1.6, 1.75, 2.1, 4.0}) {
     MotionDetector detector;
     detector.reset(0, Motion::inward);
-    bool still = false;
-    for (int i = 1; i <= 500; ++i)
-      still = still || detector.step(share * eps * 1e-3 * i, 1e-3) == Motion::still;
-    EXPECT_EQ(still, share < 1) << share;
+    const double v = share * params.band / params.time;
+    for (int i = 1; i <= 5000; ++i) detector.step(v * 1e-4 * i, 1e-4);
+    EXPECT_NEAR(detector.stillness(), std::clamp(2 - share, 0.0, 1.0), 0.03) << share;
+    EXPECT_EQ(detector.motion(), share < 1.5 ? Motion::still : Motion::inward) << share;
+  }
+}
+
+// Paths that differ by a micrometre come to rest nearly alike: there is no edge to fall off.
+TEST(MotionDetector, StillnessIsAContinuousFunctionOfThePath) {
+  MotionParams params;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    MotionDetector a;
+    MotionDetector b;
+    a.reset(0, Motion::inward);
+    b.reset(0, Motion::inward);
+    double x = 0;
+    for (std::uint64_t i = 0; i < 3000; ++i) {
+      x += 6e-6 * uniform_noise(seed, i / 40) * (i / 300 % 2 == 0 ? 1 : -1);
+      a.step(x, 1e-3);
+      b.step(x + 1e-6 * normal_noise(seed + 100, i), 1e-3);
+      ASSERT_NEAR(a.stillness(), b.stillness(), 1e-5 / (params.moving_band - params.band));
+    }
   }
 }
 
@@ -54,7 +84,8 @@ TEST(MotionDetector, TremorDoesNotWakeARestingNeedle) {
   for (int i = 0; i < 5000; ++i) {
     const double tremor =
         35e-6 * std::sin(kTwoPi * 9 * 1e-3 * i) + 30e-6 * std::sin(kTwoPi * 11.3e-3 * i);
-    if (detector.step(tremor, 1e-3) != Motion::still) ++moving;
+    detector.step(tremor, 1e-3);
+    if (detector.stillness() < 1) ++moving;
   }
   EXPECT_LT(moving, 200) << "only until it first rests";
 }
@@ -62,39 +93,31 @@ TEST(MotionDetector, TremorDoesNotWakeARestingNeedle) {
 TEST(MotionDetector, DirectionTurnsOnlyBeyondTheBand) {
   MotionDetector detector;
   const double band = MotionParams{}.band;
+  const auto after = [&detector](double x) {
+    detector.step(x, 1e-3);
+    return detector.motion();
+  };
   detector.reset(0, Motion::inward);
   for (int i = 1; i <= 100; ++i) detector.step(1e-5 * i, 1e-3);
-  EXPECT_EQ(detector.step(1e-3 - 0.9 * band, 1e-3), Motion::inward);
-  EXPECT_EQ(detector.step(1e-3 - 1.1 * band, 1e-3), Motion::outward);
-  EXPECT_EQ(detector.step(1e-3, 1e-3), Motion::inward) << "back by more than the band";
+  EXPECT_EQ(after(1e-3 - 0.9 * band), Motion::inward);
+  EXPECT_EQ(after(1e-3 - 1.1 * band), Motion::outward);
+  EXPECT_EQ(after(1e-3), Motion::inward) << "back by more than the band";
 }
 
 TEST(MotionDetector, ARestingNeedleMovesWhenItLeavesItsPlace) {
-  MotionDetector detector;
-  detector.reset(0.02, Motion::still);
-  const double wake = MotionParams{}.wake_band;
-  EXPECT_EQ(detector.step(0.02 + 0.9 * wake, 1e-3), Motion::still);
-  EXPECT_EQ(detector.step(0.02 - 0.9 * wake, 1e-3), Motion::still);
-  EXPECT_EQ(detector.step(0.02 - 1.1 * wake, 1e-3), Motion::outward);
-}
-
-TEST(MotionDetector, AHandMayFollowTheFadingForceForATimeAfterAStop) {
   const MotionParams params;
-  const double follows = 0.9 * params.settling_band;
-  ASSERT_GT(follows, params.wake_band);
-  const auto stop = [] {
+  for (const double way : {1.0, -1.0}) {
     MotionDetector detector;
-    detector.reset(0, Motion::inward);
-    while (detector.step(0, 1e-3) != Motion::still) {
-    }
-    return detector;
-  };
-  MotionDetector creeping = stop();
-  for (int i = 1; i <= 100; ++i) EXPECT_EQ(creeping.step(follows * i / 100, 1e-3), Motion::still);
-  for (int i = 0; i < 300; ++i) EXPECT_EQ(creeping.step(follows, 1e-3), Motion::still);
-  EXPECT_EQ(creeping.step(follows + 1.1 * params.wake_band, 1e-3), Motion::inward);
-  MotionDetector pushed = stop();
-  EXPECT_EQ(pushed.step(1.1 * params.settling_band, 1e-3), Motion::inward);
+    detector.reset(0.02, Motion::still);
+    const auto at = [&](double off) {
+      detector.step(0.02 + way * off, 1e-3);
+      return detector.stillness();
+    };
+    EXPECT_EQ(at(0.9 * params.band), 1);
+    EXPECT_NEAR(at(0.5 * (params.band + params.moving_band)), 0.5, 1e-9);
+    EXPECT_EQ(at(1.1 * params.moving_band), 0);
+    EXPECT_EQ(detector.motion(), way > 0 ? Motion::inward : Motion::outward);
+  }
 }
 
 TEST(SampleWindow, GivesTheValueAWindowAgoAtAnyRate) {

@@ -41,6 +41,7 @@ class AxialTick {
     tick_.depth = depth;
     tick_.tip = tick_.entry + depth * tick_.axis;
     tick_.motion = motion;
+    tick_.stillness = motion == Motion::still ? 1 : 0;
     tick_.velocity = velocity;
     tick_.incoming_speed = std::max(0.0, velocity);
     return tick_;

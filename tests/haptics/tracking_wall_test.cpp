@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "haptics/tracking_wall.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "core/noise.h"
+#include "haptics/motion.h"
 #include "tests/haptics/tick_builder.h"
 
 namespace artus {
@@ -74,16 +78,83 @@ TEST(TrackingWall, WithdrawalIsResistedWithTheAttractedForceAndNothingOutside) {
   EXPECT_EQ(push_to(wall, line, 5e-3, -1e-3), 0);
 }
 
-TEST(TrackingWall, WeakerLayerIsFeltAtOnceAndAStrongerOneBuildsUp) {
-  AxialTick line(soft(2.0));
+TEST(TrackingWall, WeakerLayerIsFeltWithinMillisecondsAndAStrongerOneBuildsUp) {
+  const double fall = TrackingWallParams{}.fall_time;
+  for (const double dt : {1e-3, 1e-4}) {
+    AxialTick line(soft(2.0), dt);
+    TrackingWall wall;
+    wall.start(0, 0);
+    push_to(wall, line, 0, 10e-3);
+    line.tick().layer.tissue.cutting_force = 0.7;
+    const double speed = 0.01;  // m/s
+    const double after = 10e-3 + speed * fall;
+    EXPECT_NEAR(push_to(wall, line, 10e-3, after, speed * dt), -0.7 - 1.3 * std::exp(-1), 1e-9);
+    EXPECT_NEAR(push_to(wall, line, after, 11e-3, speed * dt), -0.7, 1e-6);
+    line.tick().layer.tissue.cutting_force = 1.7;
+    EXPECT_NEAR(push_to(wall, line, 11e-3, 12e-3), -1.2, 1e-6);
+    EXPECT_NEAR(push_to(wall, line, 12e-3, 13e-3), -1.7, 1e-9);
+  }
+}
+
+// No edge between rest and motion: a needle a little less still settles a little less.
+TEST(TrackingWall, SettlesAtTheShareInWhichTheNeedleIsStill) {
+  const auto after_a_stop = [](double stillness, double seconds) {
+    AxialTick line(soft(1.0));
+    TrackingWall wall;
+    wall.start(0, 0);
+    double force = push_to(wall, line, 0, 10e-3);
+    for (int i = 0; i < static_cast<int>(std::lround(seconds / 1e-3)); ++i) {
+      NeedleTick& tick = line.at(10e-3, Motion::still);
+      tick.stillness = stillness;
+      force = force_at(wall, tick);
+    }
+    return force;
+  };
+  EXPECT_NEAR(after_a_stop(1, 0.1), -0.5, 1e-9);
+  EXPECT_NEAR(after_a_stop(0, 1), -1, 1e-9);
+  double last = after_a_stop(0, 0.15);
+  for (int i = 1; i <= 100; ++i) {
+    const double force = after_a_stop(0.01 * i, 0.15);
+    EXPECT_GE(force, last) << "stiller needles have settled farther";
+    EXPECT_NEAR(force, last, 0.03) << i;
+    last = force;
+  }
+}
+
+// A spring of a hand that rests on the needle yields to the fading force: it creeps in, slowly, and
+// never jerks: the force only falls.
+TEST(TrackingWall, AHandThatYieldsToTheFadingForceCreepsToItsRest) {
+  constexpr double kHand = 1000;  // N/m
+  constexpr double kDt = 1e-3;
+  AxialTick line(soft(2.0), kDt);
   TrackingWall wall;
+  MotionDetector motion;
   wall.start(0, 0);
-  push_to(wall, line, 0, 10e-3);
-  line.tick().layer.tissue.cutting_force = 0.7;
-  EXPECT_NEAR(push_to(wall, line, 10e-3, 10.01e-3), -0.7, 1e-9);
-  line.tick().layer.tissue.cutting_force = 1.7;
-  EXPECT_NEAR(push_to(wall, line, 10.01e-3, 11.01e-3), -1.2, 1e-9);
-  EXPECT_NEAR(push_to(wall, line, 11.01e-3, 12.01e-3), -1.7, 1e-9);
+  motion.reset(0, Motion::inward);
+  const double meant = 12e-3;
+  double x = 0;
+  double force = 0;
+  double worst_rise = 0;
+  double fastest = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const double want = std::min(meant, 0.02 * i * kDt);
+    const double to = want + force / kHand;
+    const double before = x;
+    x += (to - x) * 0.05;  // the hand's damping, 20 ms
+    motion.step(x, kDt);
+    NeedleTick& tick = line.at(x, motion.motion());
+    tick.stillness = motion.stillness();
+    const double now = force_at(wall, tick);
+    if (i * kDt > 0.9) {
+      worst_rise = std::max(worst_rise, force - now);
+      fastest = std::max(fastest, (x - before) / kDt);
+    }
+    force = now;
+  }
+  EXPECT_LT(worst_rise, 1e-3) << "N in a tick";
+  EXPECT_LT(fastest, MotionParams{}.moving_band / MotionParams{}.time);
+  EXPECT_NEAR(force, 0, 0.01);
+  EXPECT_NEAR(x, meant, 0.05e-3);
 }
 
 TEST(TrackingWall, StiffnessChangeKeepsTheForce) {
