@@ -33,7 +33,8 @@ Wrench HardContact::step(const NeedleTick& tick) noexcept {
     speed_ = tick.incoming_speed;
     time_ = moved > beyond ? beyond / moved * tick.dt : 0;  // when within the tick it was reached
   }
-  if (beyond < -params_.rearm_distance) touching_ = false;
+  if (beyond > 0) touched_at_ = tick.depth;
+  if (std::abs(tick.depth - touched_at_) > params_.rearm_distance) touching_ = false;
   double force = 0;
   if (params_.law == HardLaw::decaying_sinusoid) {
     force = speed_ * decaying_sinusoid(params_.sinusoid, time_);

@@ -30,7 +30,8 @@ struct HardContactParams {
   HardLaw law = HardLaw::decaying_sinusoid;
   DecayingSinusoidParams sinusoid;
   ImpulseParams impulse;
-  double rearm_distance = 0.5e-3;  ///< m off the bone before it can be hit again; assumed: tremor
+  double rearm_distance = 0.5e-3;  ///< m from where the tip was last on bone before it can be hit
+                                   ///< again; assumed: above tremor
 };
 
 /// The tap: fires once per contact, from the incoming speed, and lasts a fixed time. The source
@@ -51,6 +52,7 @@ class HardContact final : public ForceModel {
   double speed_ = 0;
   double time_ = 1e9;  // s since the contact
   double last_x_ = 0;
+  double touched_at_ = 0;  // m, the last depth on bone
 };
 
 }  // namespace artus

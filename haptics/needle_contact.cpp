@@ -187,6 +187,14 @@ void NeedleContact::redirect(const Pose& X_JN) noexcept {
   events_ |= ContactEvent::kRedirected;
 }
 
+// A line that comes to graze bone meets it millimetres behind the tip all at once, and loses it as
+// suddenly. The tip cannot be farther in than it has moved.
+double NeedleContact::felt_bone(double line_depth) noexcept {
+  const double before = on_bone_ ? bone_ : tick_.depth;
+  bone_ = std::max(line_depth, before - moved_);
+  return bone_;
+}
+
 // The soft layer at the tip, the membrane that holds it up, and where bone begins.
 void NeedleContact::find_tip_layers() noexcept {
   const double x = tick_.depth;
@@ -199,9 +207,9 @@ void NeedleContact::find_tip_layers() noexcept {
     const LayerHaptics& layer = (*table_)[s.region];
     if (layer.tissue.hard) {
       if (s.exit <= 0) continue;
-      tick_.bone_depth = s.entry;
+      tick_.bone_depth = felt_bone(s.entry);
       tick_.bone = layer;
-      if (x > s.entry) region_ = s.region;
+      if (x > tick_.bone_depth) region_ = s.region;
       break;
     }
     if (s.entry > x || s.region == kOutside) continue;
@@ -270,6 +278,7 @@ void NeedleContact::update(const Pose& X_JN, std::span<const TissueInterval> int
   events_ = 0;
   tick_.torn = 0;
   tick_.torn_dimple = 0;
+  moved_ = adopt_ ? 0 : (X_JN.translation() - tick_.tip).norm();
   tick_.tip = X_JN.translation();
   update_velocity(X_JN);
   if (!inserted_) {

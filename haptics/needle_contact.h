@@ -91,6 +91,7 @@ class NeedleContact {
   void start_line(const Pose& X_JN, double depth) noexcept;
   void tear(const LayerHaptics& layer, double force, double dimple) noexcept;
   void redirect(const Pose& X_JN) noexcept;
+  double felt_bone(double line_depth) noexcept;
   void find_tip_layers() noexcept;
   void classify() noexcept;
   void update_velocity(const Pose& X_JN) noexcept;
@@ -115,6 +116,8 @@ class NeedleContact {
   bool on_bone_ = false;
   bool was_outside_ = true;
   Vec3 first_axis_ = Vec3::UnitZ();
+  double moved_ = 0;    // m, the tip in this tick
+  double bone_ = 0;     // m, where bone is felt to begin while the tip is on it
   double open_ = 0;     // m, deepest point of the cut track on this line
   double deepest_ = 0;  // m, from which withdrawal counts
 };

@@ -193,6 +193,33 @@ TEST_F(ContactTest, MembranePopsOnceInATrack) {
   EXPECT_EQ(events & ContactEvent::kMembranePopped, 0U);
 }
 
+// A line that grazes a condyle meets it millimetres behind the tip in one tick and not in the next.
+TEST_F(ContactTest, BoneThatIsGrazedIsFeltNoFasterThanTheTipMovesAndIsTappedOnce) {
+  move(-0.001, 0.015, 0.02);
+  const double stiffness = bone().wall_stiffness;
+  double before = model.forces().cutting;
+  double late = 0;
+  for (int i = 1; i <= 300; ++i) {
+    const double x = 0.015 + 5e-6 * i;
+    const Pose pose = make_pose(Vec3(0, 0, x), Vec3::UnitZ(), Vec3::UnitX());
+    auto intervals = body.intervals(model.query_segment(pose));
+    const bool grazed = i % 3 != 0;
+    if (grazed) {  // cut the muscle at 3 mm behind the tip: from there on it is bone
+      const double from = intervals.front().exit + x - 0.003;
+      std::erase_if(intervals, [from](const TissueInterval& t) { return t.entry >= from; });
+      const double end = intervals.back().exit + 0.02;
+      intervals.back().exit = from;
+      intervals.push_back({from, end, 5, Vec3::Zero(), 0});
+    }
+    model.step(pose, intervals);
+    const double now = model.forces().cutting;
+    EXPECT_LT(std::abs(now - before), 3 * stiffness * 5e-6) << i;
+    before = now;
+    if (i > 70) late = std::max(late, std::abs(model.forces().hard));
+  }
+  EXPECT_EQ(late, 0) << "a tap of 55 ms is over";
+}
+
 TEST_F(ContactTest, EntryWorksAtAnyAngle) {
   const Vec3 axis = Vec3(1, 0, 1).normalized();
   for (int i = -100; i < 1000; ++i) step(1e-5 * i * axis, axis);
