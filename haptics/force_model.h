@@ -27,6 +27,7 @@ struct NeedleTick {
   Vec3 entry = Vec3::Zero();  ///< P0, where the line starts on the skin
   Vec3 axis = Vec3::UnitZ();  ///< u, unit, into the body
   double depth = 0;           ///< x = (tip - entry).axis, m
+  double line_gain = 0;       ///< m, by which a line re-taken in this tick made x greater
   double velocity = 0;        ///< axial estimate, m/s, positive inward
   double incoming_speed = 0;  ///< axial speed over the last window before contact, m/s, >= 0
   Vec3 angular_velocity = Vec3::Zero();                               ///< rad/s
@@ -72,7 +73,7 @@ class ForceModel {
   ForceModel& operator=(ForceModel&&) = default;
   virtual ~ForceModel() = default;
 
-  /// Forgets the past; the needle is at `depth` on a new or re-taken line and feels nothing yet.
+  /// Forgets the past; the needle is at `depth` on a new line and feels nothing yet.
   ARTUS_REALTIME virtual void reset(double depth) noexcept = 0;
 
   /// Advances by one tick and returns the wrench on the hand. Any finite tick gives a finite

@@ -23,6 +23,11 @@ void HardContact::reset(double depth) noexcept {
   last_x_ = depth;
 }
 
+void HardContact::take_line(double by) noexcept {
+  last_x_ += by;
+  touched_at_ += by;
+}
+
 Wrench HardContact::step(const NeedleTick& tick) noexcept {
   const double beyond = tick.depth - tick.bone_depth;
   const double moved = tick.depth - last_x_;

@@ -43,6 +43,9 @@ class HardContact final : public ForceModel {
   ARTUS_REALTIME void reset(double depth) noexcept override;
   ARTUS_REALTIME Wrench step(const NeedleTick& tick) noexcept override;
 
+  /// The line is taken anew: depths are `by` m more.
+  ARTUS_REALTIME void take_line(double by) noexcept;
+
   [[nodiscard]] bool touching() const noexcept { return touching_; }
   [[nodiscard]] double incoming_speed() const noexcept { return speed_; }  ///< m/s of this contact
 

@@ -49,6 +49,11 @@ void LugreFriction::reset(double depth) noexcept {
   last_x_ = depth;
 }
 
+void LugreFriction::take_line(double by) noexcept {
+  last_x_ += by;
+  depths_.shift(by);
+}
+
 Wrench LugreFriction::step(const NeedleTick& tick) noexcept {
   const double moved = tick.depth - last_x_;
   last_x_ = tick.depth;

@@ -75,6 +75,8 @@ class LugreFriction final : public ForceModel {
       : params_(params), deflections_(kRateWindow, dt), depths_(kRateWindow, dt) {}
   ARTUS_REALTIME void reset(double depth) noexcept override;
   ARTUS_REALTIME Wrench step(const NeedleTick& tick) noexcept override;
+  /// The line is taken anew: depths are `by` m more, the bristles stay bent.
+  ARTUS_REALTIME void take_line(double by) noexcept;
 
  private:
   LugreParams params_;

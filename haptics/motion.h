@@ -51,6 +51,13 @@ class MotionDetector {
         (params_.moving_band - (high - low)) / (params_.moving_band - params_.band), 0.0, 1.0);
   }
 
+  /// All positions, past ones too, are told from elsewhere: `by` m more.
+  ARTUS_REALTIME void shift(double by) noexcept {
+    extreme_ += by;
+    for (double& x : low_) x += by;
+    for (double& x : high_) x += by;
+  }
+
   /// 1 at rest, 0 on the move.
   [[nodiscard]] double stillness() const noexcept { return stillness_; }
   [[nodiscard]] Motion motion() const noexcept {
@@ -106,6 +113,11 @@ class SampleWindow {
   ARTUS_REALTIME void reset(const T& value) noexcept {
     values_.fill(value);
     next_ = 0;
+  }
+
+  /// Adds `by` to every value of the past.
+  ARTUS_REALTIME void shift(const T& by) noexcept {
+    for (T& value : values_) value += by;
   }
 
   /// Stores the newest value and returns the one a window before it.

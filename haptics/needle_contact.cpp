@@ -177,13 +177,15 @@ void NeedleContact::redirect(const Pose& X_JN) noexcept {
       angle_between(direction, first_axis_) > insertion_cone(distance, params_.needle_length)) {
     return;
   }
+  const double gained = distance - tick_.depth;
   tick_.axis = direction;
   tick_.depth = distance;
+  tick_.line_gain = gained;
   tick_.orientation_0 = Eigen::Quaterniond(X_JN.linear()).normalized();
   open_ = distance;
   deepest_ = distance + params_.redirect_withdrawal + params_.redirect_advance;  // may turn on
-  depths_.reset(distance);
-  motion_.reset(distance, motion_.motion());
+  depths_.shift(gained);
+  motion_.shift(gained);
   events_ |= ContactEvent::kRedirected;
 }
 
@@ -276,6 +278,7 @@ void NeedleContact::update_velocity(const Pose& X_JN) noexcept {
 
 void NeedleContact::update(const Pose& X_JN, std::span<const TissueInterval> intervals) noexcept {
   events_ = 0;
+  tick_.line_gain = 0;
   tick_.torn = 0;
   tick_.torn_dimple = 0;
   moved_ = adopt_ ? 0 : (X_JN.translation() - tick_.tip).norm();

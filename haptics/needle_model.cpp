@@ -24,8 +24,8 @@ void NeedleModel::reset() noexcept {
   forces_ = NeedleForces{};
 }
 
-// A new line: what is felt starts from rest at this depth, or, at a puncture, from no more than the
-// membrane's force, with nothing cut yet.
+// An insertion begins: what is felt starts from rest at this depth, or, at a puncture, from no more
+// than the membrane's force, with nothing cut yet.
 void NeedleModel::start_laws() noexcept {
   const NeedleTick& tick = contact_.tick();
   const double x = tick.depth;
@@ -44,6 +44,15 @@ void NeedleModel::start_laws() noexcept {
   clamping_.reset(x);
   orientation_.reset(x);
   plasticity_.reset(x);
+}
+
+// The same tissue on another line: what is felt goes on, but for what holds the needle on its line.
+void NeedleModel::take_line() noexcept {
+  const double by = contact_.tick().line_gain;
+  wall_.take_line(by);
+  friction_.take_line(by);
+  hard_.take_line(by);
+  plasticity_.reset(contact_.tick().depth);
 }
 
 double NeedleModel::cutting_force(const NeedleTick& tick) noexcept {
@@ -69,9 +78,9 @@ const NeedleForces& NeedleModel::step(const Pose& X_JN,
   forces_ = NeedleForces{};
   if (params_.use_workspace) forces_.workspace = workspace_.step(tick).force;
   if (contact_.inserted()) {
-    constexpr std::uint32_t kNewLine =
-        ContactEvent::kSkinPunctured | ContactEvent::kAdopted | ContactEvent::kRedirected;
-    if ((contact_.events() & kNewLine) != 0) start_laws();
+    constexpr std::uint32_t kStart = ContactEvent::kSkinPunctured | ContactEvent::kAdopted;
+    if ((contact_.events() & kStart) != 0) start_laws();
+    if ((contact_.events() & ContactEvent::kRedirected) != 0) take_line();
     const double cutting = cutting_force(tick);
     forces_.cutting = std::min(cutting, 0.0);
     forces_.attracted = std::max(cutting, 0.0);

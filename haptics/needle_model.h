@@ -74,6 +74,7 @@ class NeedleModel {
 
  private:
   void start_laws() noexcept;
+  void take_line() noexcept;
   double cutting_force(const NeedleTick& tick) noexcept;
 
   NeedleParams params_;

@@ -22,6 +22,12 @@ void TrackingWall::start(double w0, double depth) noexcept {
   energy_ = 0;
 }
 
+void TrackingWall::take_line(double by) noexcept {
+  wall_ += by;
+  last_x_ += by;
+  cut_ = std::min(cut_ + by, last_x_);
+}
+
 void TrackingWall::settle(const NeedleTick& tick, double x) noexcept {
   const double still = tick.stillness * tick.dt;
   const double moving = tick.dt - still;

@@ -1,25 +1,24 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// What must not depend on the loop's rate, what velocity estimators cost, what a hand can tell.
+// What must not depend on the loop's rate.
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <memory>
-#include <string_view>
+#include <cstdint>
+#include <string>
 #include <utility>
+#include <vector>
 
+#include "core/noise.h"
 #include "core/units.h"
-#include "haptics/velocity_estimator.h"
 #include "sim/experiment_list.h"
 
 namespace artus {
 namespace {
 
-constexpr double kTwoPi = 6.283185307179586;
-
 // A body with all laws on, a hard last layer where bone is, and what the hand means: in, a rest of
 // 0.8 s, out. Of time alone, so that the hand is the same at every rate.
 struct Insertion {
-  const char* name;
+  std::string name;
   std::vector<double> begins;     // m
   std::vector<double> forces;     // N
   std::vector<double> stiffness;  // N/m
@@ -71,6 +70,34 @@ std::vector<Insertion> insertions() {
            0.029,
            0.045,
            0.045}};
+}
+
+// A body and a speed drawn at random: three to five layers, some behind membranes, half of them on
+// bone.
+Insertion draw_insertion(std::uint64_t seed, std::uint64_t number) {
+  std::uint64_t draws = 100 * number;
+  const auto between = [seed, &draws](double low, double high) {
+    return low + (high - low) * uniform_noise(seed, draws++);
+  };
+  Insertion i;
+  i.name = "drawn " + std::to_string(number + 1);
+  i.bone = between(0, 1) < 0.5;
+  const auto layers = static_cast<std::size_t>(between(3, 6));
+  double depth = 0;
+  for (std::size_t k = 0; k < layers; ++k) {
+    const bool skin = k == 0;
+    const bool bone = i.bone && k + 1 == layers;
+    i.begins.push_back(depth);
+    depth += skin ? between(1.5e-3, 3e-3) : between(3e-3, 11e-3);
+    i.forces.push_back(bone ? 4 : skin ? between(0.7, 1.3) : between(0.8, 3));
+    i.stiffness.push_back(bone ? 4000 : skin ? 1500 : between(400, 800));
+    const bool membrane = !bone && (skin || between(0, 1) < 0.4);
+    i.membranes.push_back(membrane ? between(1, 2.2) : 0);
+  }
+  i.to = i.begins.back() + (i.bone ? 3e-3 : between(4e-3, 8e-3));
+  i.in = between(0.008, 0.045);
+  i.out = between(0.01, 0.045);
+  return i;
 }
 
 double time_there(const Insertion& i) {
@@ -158,8 +185,10 @@ std::vector<NeedleRow> run_at(double rate, const Insertion& insertion, const Exp
   return run_body(e);
 }
 
-// RMS share of the difference to 10 kHz, at 1 and at 2 kHz.
-std::array<double, 2> differences(const Insertion& insertion, const ExperimentLaws& laws,
+using Shares = std::array<double, 2>;  // at 1 and at 2 kHz
+
+// RMS share of the difference to 10 kHz.
+Shares differences(const Insertion& insertion, const ExperimentLaws& laws,
                                   const DeviceLimits& device, const HandParams& hand) {
   std::array<std::vector<double>, kRates.size()> forces;
   for (std::size_t i = 0; i < kRates.size(); ++i)
@@ -167,43 +196,69 @@ std::array<double, 2> differences(const Insertion& insertion, const ExperimentLa
   return {rms_difference(forces[2], forces[0]), rms_difference(forces[2], forces[1])};
 }
 
+void add_row(const std::string& insertion, const DeviceLimits& device, const std::string& hand,
+             const Shares& off, Experiment& out) {
+  std::string name = insertion;  // a cell of the table holds no comma
+  name.erase(std::remove(name.begin(), name.end(), ','), name.end());
+  out.table.rows.push_back({name, std::string(device.name), hand, to_csv(off[0]), to_csv(off[1])});
+}
+
+void claim_shares(const std::string& insertion, const DeviceLimits& device, const std::string& hand,
+                  const Shares& off, Experiment& out) {
+  for (std::size_t i = 0; i < off.size(); ++i) {
+    std::string text = insertion + ": total axial force at " + to_csv(kRates[i]);
+    text.append(" Hz against 10 kHz, ").append(device.name).append(", ").append(hand);
+    out.claims.push_back(claim_at_most(text.append(", RMS share"), off[i], 0.02, ""));
+  }
+}
+
+Shares together(const std::vector<Shares>& all) {
+  Shares sum{};
+  for (const Shares& off : all) {
+    for (std::size_t k = 0; k < sum.size(); ++k)
+      sum[k] += off[k] * off[k] / static_cast<double>(all.size());
+  }
+  for (double& share : sum) share = std::sqrt(share);
+  return sum;
+}
+
 // One insertion on all devices: without tremor, then the tremors and all of them together.
 void compare_rates(const Insertion& insertion, const ExperimentOptions& options, Experiment& out) {
-  const auto add = [&out, &insertion](const DeviceLimits& d, const std::string& hand,
-                                      const std::array<double, 2>& off) {
-    // A cell of the table holds no comma.
-    std::string name = insertion.name;
-    name.erase(std::remove(name.begin(), name.end(), ','), name.end());
-    out.table.rows.push_back({name, std::string(d.name), hand, to_csv(off[0]), to_csv(off[1])});
-  };
-  const auto claim = [&out, &insertion](const std::string& hand, const std::array<double, 2>& off) {
-    for (std::size_t i = 0; i < off.size(); ++i) {
-      std::string text = insertion.name;
-      text.append(": total axial force at ").append(to_csv(kRates[i]));
-      text.append(" Hz against 10 kHz, ").append(hand).append(", RMS share");
-      out.claims.push_back(claim_at_most(std::move(text), off[i], 0.02, ""));
-    }
-  };
   for (const DeviceLimits& device : device_table()) {
-    const std::string name(device.name);
     HandParams hand;
     hand.tremor_rms = 0;
-    const auto calm = differences(insertion, options.laws, device, hand);
-    add(device, "no tremor", calm);
-    claim(name + ", no tremor", calm);
+    const Shares calm = differences(insertion, options.laws, device, hand);
+    add_row(insertion.name, device, "no tremor", calm, out);
+    claim_shares(insertion.name, device, "no tremor", calm, out);
     hand = HandParams{};
-    std::array<double, 2> together{};
+    std::vector<Shares> tremors;
     for (std::uint64_t i = 0; i < kTremorSeeds; ++i) {
       hand.seed = options.seed + i;
-      const auto off = differences(insertion, options.laws, device, hand);
-      add(device, "tremor " + std::to_string(hand.seed), off);
-      for (std::size_t k = 0; k < off.size(); ++k) together[k] += off[k] * off[k] / kTremorSeeds;
+      tremors.push_back(differences(insertion, options.laws, device, hand));
+      add_row(insertion.name, device, "tremor " + std::to_string(hand.seed), tremors.back(), out);
     }
-    for (double& share : together) share = std::sqrt(share);
     const std::string all = std::to_string(kTremorSeeds) + " tremors together";
-    add(device, all, together);
-    std::string hands = name;
-    claim(hands.append(", ").append(all), together);
+    add_row(insertion.name, device, all, together(tremors), out);
+    claim_shares(insertion.name, device, all, together(tremors), out);
+  }
+}
+
+// Bodies and speeds that nobody chose, each with a hand of its own.
+void compare_rates_on_drawn_bodies(const ExperimentOptions& options, Experiment& out) {
+  constexpr std::uint64_t kBodies = 8;
+  for (const DeviceLimits& device : device_table()) {
+    std::vector<Shares> bodies;
+    for (std::uint64_t i = 0; i < kBodies; ++i) {
+      const Insertion insertion = draw_insertion(options.seed, i);
+      HandParams hand;
+      hand.seed = options.seed + i;
+      bodies.push_back(differences(insertion, options.laws, device, hand));
+      add_row(insertion.name, device, "tremor " + std::to_string(hand.seed), bodies.back(), out);
+    }
+    const std::string hands = "bodies and tremors together";
+    const std::string all = std::to_string(kBodies) + " drawn bodies";
+    add_row(all, device, hands, together(bodies), out);
+    claim_shares(all, device, hands, together(bodies), out);
   }
 }
 
@@ -249,221 +304,7 @@ Experiment run_rates(const ExperimentOptions& options, const DeviceLimits& devic
     out.plot.panels[1].series.push_back(std::move(off));
   }
   for (const Insertion& insertion : all) compare_rates(insertion, options, out);
-  return out;
-}
-
-namespace {
-
-struct EstimatorResult {
-  double noise = 0;  // m/s, rms off the best sine
-  double lag = 0;    // s
-};
-
-// Estimates a 1 Hz, 10 mm sine read through an encoder; fits the estimate's sine.
-EstimatorResult rate_estimator(VelocityEstimator& estimator, double rate, double encoder) {
-  constexpr double kAmplitude = 0.01;  // m
-  constexpr int kSeconds = 4;
-  const auto n = static_cast<std::size_t>(kSeconds * rate);
-  estimator.reset(0);
-  std::vector<double> v(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    const double x = kAmplitude * std::sin(kTwoPi * static_cast<double>(i) / rate);
-    v[i] = estimator.step(std::round(x / encoder) * encoder);
-  }
-  double in_phase = 0;
-  double quadrature = 0;
-  const auto from = static_cast<std::size_t>(rate);  // after a second of settling
-  const double count = static_cast<double>(n - from);
-  for (std::size_t i = from; i < n; ++i) {
-    const double t = static_cast<double>(i) / rate;
-    in_phase += 2 / count * v[i] * std::cos(kTwoPi * t);
-    quadrature += 2 / count * v[i] * std::sin(kTwoPi * t);
-  }
-  EstimatorResult result;
-  result.lag = std::atan2(quadrature, in_phase) / kTwoPi;
-  double square = 0;
-  for (std::size_t i = from; i < n; ++i) {
-    const double t = static_cast<double>(i) / rate;
-    const double off = v[i] - in_phase * std::cos(kTwoPi * t) - quadrature * std::sin(kTwoPi * t);
-    square += off * off;
-  }
-  result.noise = std::sqrt(square / count);
-  return result;
-}
-
-}  // namespace
-
-Experiment run_velocity_estimators(const ExperimentOptions& /*options*/,
-                                   const DeviceLimits& /*device*/) {
-  Experiment out;
-  out.title = "Velocity estimators on a 1 Hz, 10 mm sine: noise and lag by encoder step and rate";
-  out.source = "[Alamilla2020] section 2.1.2, which names them without figures";
-  out.table.header = {"estimator", "rate_hz", "encoder_um", "noise_mm_s", "lag_ms"};
-  std::vector<PlotPanel> panels;
-  double window_lag = 0;
-  double raw_noise = 0;
-  double window_noise = 0;
-  for (const double rate : {1000.0, 10000.0}) {
-    const double dt = 1 / rate;
-    std::vector<PlotSeries> clouds;
-    for (const double encoder : {10e-6, 55e-6}) {
-      std::vector<std::pair<std::string, std::unique_ptr<VelocityEstimator>>> all;
-      all.emplace_back("difference 1 tick", std::make_unique<WindowedDifference>(dt, dt));
-      all.emplace_back("difference 10 ms", std::make_unique<WindowedDifference>(0.01, dt));
-      all.emplace_back("Taylor order 1 5 ms", std::make_unique<TaylorEstimator>(1, 0.005, dt));
-      all.emplace_back("Taylor order 2 5 ms", std::make_unique<TaylorEstimator>(2, 0.005, dt));
-      all.emplace_back("Taylor order 3 5 ms", std::make_unique<TaylorEstimator>(3, 0.005, dt));
-      all.emplace_back("Levant 1 m/s2", std::make_unique<LevantDifferentiator>(1, dt));
-      all.emplace_back("Levant 10 m/s2", std::make_unique<LevantDifferentiator>(10, dt));
-      for (std::size_t k = 0; k < all.size(); ++k) {
-        const std::string& label = all[k].first;
-        auto& estimator = all[k].second;
-        if (clouds.size() <= k)
-          clouds.push_back({label, {}, {}, "points ps 1.5 pt " + std::to_string(k + 4)});
-        const EstimatorResult r = rate_estimator(*estimator, rate, encoder);
-        out.table.rows.push_back({label, to_csv(rate), to_csv(encoder * 1e6),
-                                  to_csv(r.noise / kMillimetre), to_csv(r.lag * 1e3)});
-        clouds[k].x.push_back(r.lag * 1e3);
-        clouds[k].y.push_back(r.noise / kMillimetre);
-        if (rate != 1000 || encoder != 55e-6) continue;
-        if (label == "difference 1 tick") raw_noise = r.noise;
-        if (label != "difference 10 ms") continue;
-        window_noise = r.noise;
-        window_lag = r.lag;
-      }
-    }
-    panels.push_back({"lag (ms) at " + to_csv(rate / 1000) +
-                          " kHz; the quieter of each pair: encoder step 10 um, the other 55 um",
-                      "noise (mm/s)", std::move(clouds), true});
-  }
-  out.claims = {
-      claim_near("lag of a 10 ms difference", window_lag * 1e3, 5, 0.05, "ms"),
-      claim_at_most("its noise over that of a 1 ms difference", window_noise / raw_noise, 0.2, "")};
-  out.plot.title = out.title;
-  out.plot.panels = std::move(panels);
-  return out;
-}
-
-namespace {
-
-// Table 4.2 of the source; K_t of the bundled tissue library.
-struct TableLayer {
-  const char* name;
-  double force;      // N
-  double stiffness;  // N/m
-};
-constexpr std::array<TableLayer, 6> kTable{{{"skin", 1, 1500},
-                                            {"muscle", 2, 500},
-                                            {"bursa", 1.5, 500},
-                                            {"tendon", 2.5, 500},
-                                            {"cartilage", 3, 500},
-                                            {"bone", 4, 4000}}};
-
-struct Change {
-  double before = 0;    // N, mean of the last millimetre before the change
-  double after = 0;     // N, mean of what follows the rise
-  double distance = 0;  // m, from the interface until nine tenths of the step are felt
-};
-
-// A needle pushed at 10 mm/s through 12 mm of one layer into another, as the hand feels it.
-Change measure_change(const TableLayer& from, const TableLayer& to, const ExperimentLaws& laws,
-                      const DeviceLimits& device) {
-  constexpr double kInterface = 0.012;  // m
-  constexpr double kBeyond = 0.009;     // m of the second layer; of a hard one as far as it lets
-  const bool hard = std::string_view(to.name) == "bone";
-  BodyExperiment e;
-  e.body = AnalyticBody::make_stack(Vec3::Zero(), Vec3::UnitZ(), {0, kInterface});
-  e.layers = {plain_layer(from.force, from.stiffness),
-              hard ? bone_layer(to.force, to.stiffness) : plain_layer(to.force, to.stiffness)};
-  e.names = {from.name, to.name};
-  e.laws = laws;
-  e.device = device;
-  e.hand.tremor_rms = 0;
-  e.phases = {stay(0.1),
-              push_to(hard ? kInterface + to.force / to.stiffness : kInterface + kBeyond, 0.01)};
-  const std::vector<NeedleRow> rows = run_body(e);
-  Change change;
-  double count = 0;
-  for (const NeedleRow& r : rows) {
-    if (r.depth < kInterface - 1e-3 || r.depth >= kInterface) continue;
-    change.before += resistance(r);
-    ++count;
-  }
-  change.before /= std::max(count, 1.0);
-  count = 0;
-  for (const NeedleRow& r : rows) {
-    if (r.depth < e.phases.back().depth - (hard ? 2e-5 : 1e-3)) continue;
-    change.after += resistance(r);
-    ++count;
-  }
-  change.after /= std::max(count, 1.0);
-  const double step = change.after - change.before;
-  for (const NeedleRow& r : rows) {
-    if (r.depth < kInterface || (resistance(r) - change.before) / step < 0.9) continue;
-    change.distance = r.depth - kInterface;
-    break;
-  }
-  return change;
-}
-
-}  // namespace
-
-Experiment run_layer_changes(const ExperimentOptions& options, const DeviceLimits& device) {
-  constexpr double kJnd = 0.07;      // share of the force, [Pang1991] for 2.5 to 10 N
-  constexpr double kWeakJnd = 0.14;  // assumed: twice that, for forces below 2.5 N
-  Experiment out;
-  out.title = "Layer changes of table 4.2, felt at 10 mm/s, in just-noticeable differences";
-  out.source = "[Alamilla2020] table 4.2; [Pang1991] for the just-noticeable difference";
-  out.table.header = {"from",
-                      "to",
-                      "before_n",
-                      "after_n",
-                      "step_n",
-                      "step_share",
-                      "rise_mm",
-                      "jnd_multiples_at_7_percent",
-                      "jnd_multiples_at_14_percent"};
-  std::vector<PlotSeries> by_layer;
-  for (std::size_t k = 0; k < kTable.size(); ++k)
-    by_layer.push_back(
-        {"to " + std::string(kTable[k].name), {}, {}, "points ps 1.5 pt " + std::to_string(k + 4)});
-  std::array<double, kTable.size()> felt{};  // N on the plateau behind the change, of the last
-  double least = 1e9;
-  double off = 0;
-  double longest = 0;
-  for (const TableLayer& from : kTable) {
-    if (std::string_view(from.name) == "bone") continue;  // nothing lies beyond it
-    for (std::size_t k = 0; k < kTable.size(); ++k) {
-      const TableLayer& to = kTable[k];
-      if (from.force == to.force) continue;
-      const Change c = measure_change(from, to, options.laws, device);
-      const double step = c.after - c.before;
-      const double share = std::abs(step) / c.before;
-      out.table.rows.push_back({from.name, to.name, to_csv(c.before), to_csv(c.after), to_csv(step),
-                                to_csv(share), to_csv(c.distance / kMillimetre),
-                                to_csv(share / kJnd), to_csv(share / kWeakJnd)});
-      PlotSeries& series = by_layer[k];
-      series.x.push_back(c.distance / kMillimetre);
-      series.y.push_back(share / kWeakJnd);
-      felt[k] = c.after;
-      least = std::min(least, share / kWeakJnd);
-      longest = std::max(longest, c.distance / kMillimetre);
-      off = std::max(off, std::abs(step / (to.force - from.force) - 1));
-    }
-  }
-  out.claims = {
-      claim_at_least("pairs of layers", static_cast<double>(out.table.rows.size()), 25, ""),
-      claim_at_most("measured step off the table's, share of the step", off, 0.05, ""),
-      claim_at_least("the smallest step in just-noticeable differences of 14 %", least, 1, ""),
-      claim_at_most("the longest way until nine tenths of the step are felt", longest, 4.5, "mm")};
-  for (std::size_t k = 0; k < kTable.size(); ++k)
-    out.published.push_back(
-        {kTable[k].name, to_csv(kTable[k].force) + " N", to_csv(felt[k]) + " N"});
-  out.plot.title = out.title;
-  by_layer.push_back({"noticed, 7 %", {0, longest}, {kJnd / kWeakJnd, kJnd / kWeakJnd}});
-  by_layer.push_back({"noticed, 14 %", {0, longest}, {1, 1}});
-  out.plot.panels = {
-      {"distance until 90 % of the step (mm)", "force step (multiples of 14 %)", by_layer, true}};
+  compare_rates_on_drawn_bodies(options, out);
   return out;
 }
 

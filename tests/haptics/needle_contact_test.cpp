@@ -253,6 +253,28 @@ TEST_F(ContactTest, DirectionMayChangeInsideTheConeAfterAWithdrawalOnly) {
   EXPECT_LE(held, insertion_cone(0.008, 0.035) + 1e-9) << "the cone ends the turn";
 }
 
+TEST_F(ContactTest, WhatIsFeltAlongTheNeedleGoesOnWhenALineIsTakenAnew) {
+  move(-0.001, 0.018);
+  const auto along = [this] {
+    const NeedleForces& f = model.forces();
+    return f.cutting + f.attracted + f.friction;
+  };
+  double worst = 0;
+  double before = along();
+  int taken = 0;
+  for (int i = 1; i <= 1200; ++i) {  // drawn out by 12 mm while it turns by 10 degrees
+    const double a = 10 * kDegree * i / 1200;
+    const Vec3 axis(std::sin(a), 0, std::cos(a));
+    step((0.018 - 1e-5 * i) * axis, axis);
+    if (i > 300) worst = std::max(worst, std::abs(along() - before));
+    before = along();
+    if ((model.contact().events() & ContactEvent::kRedirected) != 0) ++taken;
+  }
+  EXPECT_GT(taken, 0);
+  EXPECT_GT(before, 0.4) << "it is being drawn out";
+  EXPECT_LT(worst, 0.02) << "N in a tick";
+}
+
 TEST_F(ContactTest, NeedleFoundInsideStartsAtRestWithoutForce) {
   step(Vec3(0, 0, 0.012));
   EXPECT_NE(events & ContactEvent::kAdopted, 0U);
