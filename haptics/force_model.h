@@ -34,13 +34,13 @@ struct NeedleTick {
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();    ///< q_c
   Eigen::Quaterniond orientation_0 = Eigen::Quaterniond::Identity();  ///< q_0, when line stored
   Motion motion = Motion::still;
-  double stillness = 0;  ///< 1 at rest, 0 on the move (see MotionDetector)
+  double stillness = 0;                  ///< 1 at rest, 0 on the move (see MotionDetector)
   Vec3 surface_normal = -Vec3::UnitZ();  ///< of the skin where the needle crosses it, outward
   double dimple = 0;                     ///< m a membrane that still holds is pushed in; 0: none
   LayerHaptics membrane;                 ///< the layer behind that membrane
   double torn = 0;         ///< N, what a membrane that gives way in this tick held; 0: none
   double torn_dimple = 0;  ///< m it was pushed in
-  LayerHaptics layer;                    ///< the soft layer the tip is cutting
+  LayerHaptics layer;      ///< the soft layer the tip is cutting
   double bone_depth = std::numeric_limits<double>::infinity();  ///< m, where a hard layer begins
   LayerHaptics bone;
   std::span<const ShaftLayer> shaft;  ///< the layers from the skin to the tip

@@ -173,7 +173,8 @@ std::vector<LawDescription> other_laws() {
   return {{"rest",
            "motion detector",
            "",
-           "stillness from 1 to 0 as the range of the last positions over a time goes from one band to the other",
+           "stillness from 1 to 0 as the range of the last positions over a time goes from one "
+           "band to the other",
            "[Alamilla2020] section 2.4, |dx/dt| < eps",
            {{"band", motion.band, "m", kAssumed},
             {"moving_band", motion.moving_band, "m", kAssumed},

@@ -38,7 +38,8 @@ void LugreBristle::relax(const LugreParams& params, double v, double dt) noexcep
 double LugreBristle::step(const LugreParams& params, double moved, double v, double dt,
                           double sigma1) noexcept {
   const double before = load_;
-  const double rate = (advance(params, moved, lugre_level(params, v)) - before) / (params.sigma0 * dt);
+  const double rate =
+      (advance(params, moved, lugre_level(params, v)) - before) / (params.sigma0 * dt);
   return load_ + std::min(sigma1, params.sigma1) * rate + params.sigma2 * moved / dt;
 }
 

@@ -63,10 +63,10 @@ class LugreBristle {
 /// Friction along the shaft: F_n is the sum over the layers of f_R * friction scale * shaft length
 /// in the layer / set's length. (The source's F_n is the cutting force itself, which would make
 /// friction vanish on withdrawal.) The steady force is the published one; the bristle is no stiffer
-/// than stiffness_limit, so that neither an encoder's step nor the loop's rate is felt; what a needle
-/// that slows down holds above g(v) goes with time (relax), as over distance it would go at z sigma0
-/// / g times that stiffness. dz/dt is a difference over a fixed time: over the loop's own period an encoder's step would be a knock that
-/// grows with the rate.
+/// than stiffness_limit, so that neither an encoder's step nor the loop's rate is felt; what a
+/// needle that slows down holds above g(v) goes with time (relax), as over distance it would go at
+/// z sigma0 / g times that stiffness. dz/dt is a difference over a fixed time: over the loop's own
+/// period an encoder's step would be a knock that grows with the rate.
 class LugreFriction final : public ForceModel {
  public:
   static constexpr double kRateWindow = 8e-3;  ///< s; assumed: some steps of a coarse encoder

@@ -26,8 +26,9 @@ struct MembraneParams {
                            ///< whose geometry does not follow the needle
 };
 
-/// A membrane that gives way lets go of its force within a time, as a crack takes one to open to the
-/// needle's width. So a loop that finds the puncture a period later renders nearly the same force.
+/// A membrane that gives way lets go of its force within a time, as a crack takes one to open to
+/// the needle's width. So a loop that finds the puncture a period later renders nearly the same
+/// force.
 struct TearParams {
   double time = 3e-3;  ///< s, time constant; assumed: 0.7 mm at a crack's 0.2 m/s
 };
@@ -46,8 +47,8 @@ struct PrepunctureParams {
                                                       const LayerHaptics& layer, double d,
                                                       double v) noexcept;
 
-/// The membrane that still holds, NeedleTick::dimple and membrane, and what is left of one that gave
-/// way. Whether it has popped is the contact state's business.
+/// The membrane that still holds, NeedleTick::dimple and membrane, and what is left of one that
+/// gave way. Whether it has popped is the contact state's business.
 class Prepuncture final : public ForceModel {
  public:
   explicit Prepuncture(const PrepunctureParams& params = {}) noexcept : params_(params) {}

@@ -17,14 +17,14 @@ struct TrackingWallParams {
 /// The deepest anchor is the cut front: in front of it tissue is cut, behind it the track is open
 /// and only withdrawal is resisted. A hard layer cannot be cut: past its surface a spring adds to
 /// the soft force, up to the hard layer's f_R, and relaxes neither by stops nor by cutting.
-/// Where a weaker layer begins the force falls within milliseconds, not between two ticks, so that a
-/// loop that finds the layer a period later renders nearly the same.
-/// A needle that is still in part settles at that share of the pace (NeedleTick::stillness): a hand
-/// that yields to the fading force slows the fading down and creeps into its rest without jerks.
-/// The energy given back is never more than what was taken since reset, whatever the layers, their
-/// stiffness or the sampling do: on the way back the force is bounded by the account.
-/// Source [Alamilla2020] eqs. 2.14-2.19; (2.14) w = x - D (printed D - x), (2.16) a straight line,
-/// n ticks written as a settling time, eps as a band of speeds.
+/// Where a weaker layer begins the force falls within milliseconds, not between two ticks, so that
+/// a loop that finds the layer a period later renders nearly the same. A needle that is still in
+/// part settles at that share of the pace (NeedleTick::stillness): a hand that yields to the fading
+/// force slows the fading down and creeps into its rest without jerks. The energy given back is
+/// never more than what was taken since reset, whatever the layers, their stiffness or the sampling
+/// do: on the way back the force is bounded by the account. Source [Alamilla2020] eqs. 2.14-2.19;
+/// (2.14) w = x - D (printed D - x), (2.16) a straight line, n ticks written as a settling time,
+/// eps as a band of speeds.
 class TrackingWall final : public ForceModel {
  public:
   explicit TrackingWall(const TrackingWallParams& params = {}) noexcept : params_(params) {}
@@ -50,7 +50,7 @@ class TrackingWall final : public ForceModel {
   TrackingWallParams params_;
   double wall_ = 0;
   double cut_ = 0;
-  double stiffness_ = 0;    // of the layer the anchor was placed with
+  double stiffness_ = 0;        // of the layer the anchor was placed with
   double cutting_limit_ = 0;    // N, f_R on its way to that of a weaker layer
   double attracted_limit_ = 0;  // N, f_A likewise
   double settle_left_ = 0;      // s

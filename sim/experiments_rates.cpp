@@ -23,10 +23,10 @@ struct Insertion {
   std::vector<double> forces;     // N
   std::vector<double> stiffness;  // N/m
   std::vector<double> membranes;  // N, 0: none
-  bool bone;                      // whether the last layer is
-  double to;                      // m; the tissue holds the tip back by some millimetres
-  double in;                      // m/s
-  double out;                     // m/s
+  bool bone = false;              // whether the last layer is
+  double to = 0;                  // m; the tissue holds the tip back by some millimetres
+  double in = 0;                  // m/s
+  double out = 0;                 // m/s
 };
 
 constexpr double kFrom = -0.005;  // m
@@ -189,7 +189,7 @@ using Shares = std::array<double, 2>;  // at 1 and at 2 kHz
 
 // RMS share of the difference to 10 kHz.
 Shares differences(const Insertion& insertion, const ExperimentLaws& laws,
-                                  const DeviceLimits& device, const HandParams& hand) {
+                   const DeviceLimits& device, const HandParams& hand) {
   std::array<std::vector<double>, kRates.size()> forces;
   for (std::size_t i = 0; i < kRates.size(); ++i)
     forces[i] = held_at_10khz(run_at(kRates[i], insertion, laws, device, hand), kRates[i]);

@@ -168,8 +168,8 @@ TEST_F(ContactTest, AMembraneOnASlopePopsOnceAndAtItsForceUnderATremblingNeedle)
     for (std::uint64_t i = 0; x < 0.0225; ++i, x += speed * kDt) {
       const Pose pose = make_pose(Vec3(0, 0, x), Vec3::UnitZ(), Vec3::UnitX());
       auto intervals = body.intervals(needle.query_segment(pose));
-      const double off = sway * std::sin(0.06 * static_cast<double>(i)) +
-                         1e-6 * normal_noise(seed, 10 + i);
+      const double off =
+          sway * std::sin(0.06 * static_cast<double>(i)) + 1e-6 * normal_noise(seed, 10 + i);
       for (std::size_t k = 0; k + 1 < intervals.size(); ++k) {
         if (intervals[k + 1].region < 3) continue;  // the skin stays: it is where depth begins
         intervals[k].exit += off;
