@@ -14,7 +14,7 @@ struct MotionParams {
   double band = 0.155e-3;        ///< m, range in which a needle is wholly still; assumed: above the
                                  ///< tremor of a supported hand, no whole number of encoder steps
   double moving_band = 0.31e-3;  ///< m, range from which on it wholly moves; assumed: twice that
-  double time = 0.11;            ///< s over which the range is taken: eps = 1.4 to 2.8 mm/s; assumed
+  double time = 0.11;  ///< s over which the range is taken: eps = 1.4 to 2.8 mm/s; assumed
 };
 
 /// Says how still the needle is and which way it moves, from positions alone: by the range of all
