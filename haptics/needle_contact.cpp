@@ -250,9 +250,9 @@ void NeedleContact::classify() noexcept {
     state_ = ContactState::punctured;
   } else if (tick_.dimple > 0) {
     state_ = ContactState::touching;
-  } else if (tick_.motion == Motion::still) {
+  } else if (motion_.motion() == Motion::still) {
     state_ = ContactState::stopped;
-  } else if (tick_.motion == Motion::outward) {
+  } else if (motion_.motion() == Motion::outward) {
     state_ = ContactState::withdrawing;
   } else {
     state_ = x < open_ - params_.motion.band ? ContactState::reinserting : ContactState::inserting;
@@ -300,7 +300,6 @@ void NeedleContact::update(const Pose& X_JN, std::span<const TissueInterval> int
     redirect(X_JN);
   }
   motion_.step(tick_.depth, dt_);
-  tick_.motion = motion_.motion();
   tick_.stillness = motion_.stillness();
   deepest_ = std::max(deepest_, tick_.depth);
   tick_.incoming_speed = std::max(0.0, tick_.velocity);

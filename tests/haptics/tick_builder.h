@@ -40,7 +40,6 @@ class AxialTick {
   NeedleTick& at(double depth, Motion motion = Motion::inward, double velocity = 0) {
     tick_.depth = depth;
     tick_.tip = tick_.entry + depth * tick_.axis;
-    tick_.motion = motion;
     tick_.stillness = motion == Motion::still ? 1 : 0;
     tick_.velocity = velocity;
     tick_.incoming_speed = std::max(0.0, velocity);
