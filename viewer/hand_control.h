@@ -30,7 +30,7 @@ class HandControl {
   /// True when the event was taken. `entry_W`: where the needle went into the body; empty while it
   /// is outside.
   bool handle(const UserEvent& event, const std::optional<Vec3>& entry_W);
-  /// Lets go of the buttons; to be called once a picture, so that a press is a short one.
+  /// Lets go of the buttons; to be called when a tick has read them, so that no press is lost.
   void release() noexcept { target_.buttons = 0; }
   /// The joint was moved from X_WJ_before to X_WJ (calibration): the probe stays where it is on the
   /// body, the needle goes to the device's insertion point.

@@ -112,7 +112,7 @@ class WindowLoop {
       before = now;
       interval_ += 0.1 * (elapsed - interval_);
       input_.window_rate = 1 / interval_;
-      control_.release();
+      feel();
       const std::vector<UserEvent> events = events_.take(elapsed);
       if (!options_.quit_after_script) {  // a script is alone at the window
         for (const UserEvent& event : events) handle(event);
@@ -146,7 +146,8 @@ class WindowLoop {
   void orbit(double dx, double dy);
   void run_script(double elapsed);
   bool run_step(const ScriptStep& step, double elapsed);
-  void gather();
+  void feel();
+  void take_image();
   void follow_gesture(const HapticSnapshot& now);
   void draw_joint();
   void draw(double elapsed);
@@ -297,17 +298,23 @@ void WindowLoop::follow_gesture(const HapticSnapshot& now) {
     input_.entry = choose_entry(session_.scene(), to_pose(now.X_JP), session_.params().gesture);
 }
 
-void WindowLoop::gather() {
+// Before the events of a picture: a hand that acts after the gesture changed acts where it was
+// moved to, however late the picture is. A button stays down until a tick has read it.
+void WindowLoop::feel() {
   HapticSnapshot now;
   if (session_.newest(now)) {
     follow_gesture(now);
     input_.now = now;
   }
+  if (input_.now.input.device.buttons == control_.target().buttons) control_.release();
   TracePoint point;
   while (session_.next_trace_point(point)) state_.trace.push_back(point);
   while (!state_.trace.empty() &&
          state_.trace.back().time - state_.trace.front().time > state_.trace_seconds)
     state_.trace.pop_front();
+}
+
+void WindowLoop::take_image() {
   input_.image = session_.newest_image();
   fresh_image_ = input_.image != nullptr && input_.image->input.number != shown_image_;
   if (fresh_image_) {
@@ -336,7 +343,7 @@ void WindowLoop::draw_joint() {
 }
 
 void WindowLoop::draw(double elapsed) {
-  gather();
+  take_image();
   int width = 0;
   int height = 0;
   glfwGetFramebufferSize(window_, &width, &height);

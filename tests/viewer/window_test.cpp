@@ -137,6 +137,7 @@ TEST_F(Window, TheGestureOfTwoPhasesInjectsWhereTheProbeChoseTheEntry) {
       << "the probe stayed on the body";
   std::vector<std::string> layers;
   for (const HapticSnapshot& tick : ticks) {
+    if ((tick.status & TickStatus::kLate) != 0) continue;  // a busy machine: the force rests
     if (layers.empty() || layers.back() != layer(tick)) layers.push_back(layer(tick));
   }
   EXPECT_EQ(layers, (std::vector<std::string>{"outside", "skin", "fat", "muscle"}));
@@ -149,13 +150,15 @@ TEST_F(Window, TheGestureOfTwoPhasesInjectsWhereTheProbeChoseTheEntry) {
 TEST_F(Window, ALostDeviceIsZeroForceAndComesBack) {
   run("wait 0.3\nkey N\nscroll 50\nwait 1.2\ndisconnect\nwait 0.4\nconnect\nwait 0.8\n");
   const auto ticks = felt();
-  std::size_t lost = 0;
+  std::int64_t first_lost = 0;
+  std::int64_t last_lost = 0;
   for (const HapticSnapshot& tick : ticks) {
     if ((tick.status & SessionStatus::kPeerLost) == 0) continue;
-    ++lost;
+    last_lost = tick.input.device.time_ns;
+    if (first_lost == 0) first_lost = last_lost;
     for (const double f : tick.feedback.force) ASSERT_EQ(f, 0);
   }
-  EXPECT_GT(lost, 200U);
+  EXPECT_GT(last_lost - first_lost, 300'000'000);
   EXPECT_EQ(ticks.back().status & SessionStatus::kPeerLost, 0U);
 }
 
@@ -209,7 +212,13 @@ TEST_F(Window, AClipPlaysAsFastAsItWasRecorded) {
   int frames = 0;
   cv::Mat picture;
   while (clip.read(picture)) ++frames;
-  EXPECT_NEAR(frames / clip.get(cv::CAP_PROP_FPS), 1.2, 0.4);
+  // A step of a script ends with a picture, and a busy machine draws few: what the session lasted
+  // longer than its script may be in the clip.
+  const double lasted = 1e-9 * static_cast<double>(recording_.ticks.back().input.device.time_ns -
+                                                   recording_.ticks.front().input.device.time_ns);
+  const double plays = frames / clip.get(cv::CAP_PROP_FPS);
+  EXPECT_GT(plays, 1.1);
+  EXPECT_LT(plays, 1.3 + std::max(0.0, lasted - 2.2));
   const cv::Mat saved = cv::imread((folder_ / "bmode-1.png").string(), cv::IMREAD_GRAYSCALE);
   ASSERT_FALSE(saved.empty());
 }
