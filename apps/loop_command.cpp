@@ -97,6 +97,7 @@ void print_report(const ServoReport& r, const ServoOptions& options) {
   print_line("processor time", r.cpu);
   print_line("lateness", r.lateness);
   print_line("lateness, no work", r.floor);
+  print_line("a fixed work", r.fixed);
   print_histogram("compute", r.compute);
   print_histogram("lateness", r.lateness);
   std::printf("\n%llu ticks of %.1f us, %llu late by a period or more, %llu at rest since late\n",
@@ -127,7 +128,8 @@ nlohmann::json to_json(const ServoReport& r, const ServoOptions& options,
           {"compute", to_json_us(r.compute)},
           {"cpu", to_json_us(r.cpu)},
           {"lateness", to_json_us(r.lateness)},
-          {"lateness_floor", to_json_us(r.floor)}};
+          {"lateness_floor", to_json_us(r.floor)},
+          {"fixed_work", to_json_us(r.fixed)}};
 }
 
 ExitCode run_loop(const LoopOptions& options) {
@@ -166,10 +168,10 @@ void add_loop_command(CLI::App& app, ExitCode& code) {
   auto options = std::make_shared<LoopOptions>();
   CLI::App* command = add_command(
       app, "loop", "Run the haptic servo loop alone and print where its time goes",
-      "A simulated hand injects again and again, closed loop. Prints histograms of compute time "
-      "and\n"
-      "lateness, the lateness of ticks that do nothing beside them, and what the system refused\n"
-      "(SCHED_FIFO, locked memory, a processor of its own).\n"
+      "A simulated hand injects again and again, closed loop. Prints histograms of compute time\n"
+      "and lateness, the lateness of ticks that do nothing beside them, and what the system\n"
+      "refused (SCHED_FIFO, locked memory, a processor of its own). 'A fixed work' is arithmetic\n"
+      "of constant length after each tick: what its time spreads is the machine's.\n"
       "Examples:\n"
       "  artus loop --seconds 60 --rate 10000\n"
       "  artus loop --seconds 10 --rate 1000 -j meshes/simple-shoulder --cpu 1 --json");

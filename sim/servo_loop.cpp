@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/noise.h"
+
 namespace artus {
 namespace {
 
@@ -13,6 +15,12 @@ void measure_floor(const ServoOptions& options, const std::atomic<bool>& stop,
   const std::int64_t end = monotonic_ns() + static_cast<std::int64_t>(1e9 * options.floor_seconds);
   while (monotonic_ns() < end && !stop.load(std::memory_order_relaxed))
     floor.add_with_missed(schedule.wait(), schedule.period_ns());
+}
+
+// A chain of dependent operations without memory: about as long as a tick.
+std::uint64_t work_fixed(std::uint64_t x) noexcept {
+  for (int i = 0; i < 1000; ++i) x = mix_bits(x);
+  return x;
 }
 
 void count(const HapticSnapshot& out, ServoReport& report) noexcept {
@@ -36,6 +44,7 @@ void run_servo_loop(HapticCore& core, InputDevice& device, const ServoOptions& o
   PeriodicSchedule schedule(options.rate_hz);
   LateWatch watch(schedule.period_ns());
   const std::int64_t end = monotonic_ns() + static_cast<std::int64_t>(1e9 * options.seconds);
+  std::uint64_t x = 1;
   for (std::uint64_t number = 1; !stop.load(std::memory_order_relaxed); ++number) {
     const std::int64_t late = schedule.wait();
     const std::int64_t woken = monotonic_ns();
@@ -55,6 +64,9 @@ void run_servo_loop(HapticCore& core, InputDevice& device, const ServoOptions& o
     feedback.time_ns = monotonic_ns();
     device.write(feedback);
     count(out, report);
+    const std::int64_t idle = monotonic_ns();
+    x = work_fixed(x);
+    if (x != 0) report.fixed.add(monotonic_ns() - idle);  // never zero: the work is not left out
   }
   report.overruns = schedule.overruns();
   DeviceFeedback last;  // zero force, whoever still listens

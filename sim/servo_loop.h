@@ -25,6 +25,8 @@ struct ServoReport {
   LatencyHistogram cpu;       ///< the same in processor time
   LatencyHistogram lateness;  ///< wake-up after its schedule; a late one also for those it delayed
   LatencyHistogram floor;     ///< the same for ticks that do nothing, before the run
+  LatencyHistogram fixed;     ///< clock time of one fixed work after each tick: its spread is the
+                              ///< machine's own (interrupts, a host that takes the processor)
   std::uint64_t ticks = 0;
   std::uint64_t overruns = 0;  ///< ticks late by a period or more
   std::uint64_t rested = 0;    ///< ticks with zero force since too many came late

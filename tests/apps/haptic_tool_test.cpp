@@ -23,6 +23,7 @@ TEST(HapticTool, LoopReportsItsHistogramsWithoutAJoint) {
   EXPECT_EQ(report.at("compute").at("count").get<long>(), ticks);
   EXPECT_GE(report.at("lateness").at("count").get<long>(), ticks);
   EXPECT_GT(report.at("lateness_floor").at("count").get<long>(), 0);
+  EXPECT_GT(report.at("fixed_work").at("p50_us").get<double>(), 0.1);
   EXPECT_TRUE(report.at("refused").is_array());
 }
 
