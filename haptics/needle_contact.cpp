@@ -190,10 +190,20 @@ void NeedleContact::redirect(const Pose& X_JN) noexcept {
 }
 
 // A line that comes to graze bone meets it millimetres behind the tip all at once, and loses it as
-// suddenly. The tip cannot be farther in than it has moved.
+// suddenly. The tip cannot be farther in than it has moved; and a bevel that was pressed into bone
+// leaves it over the way that it was in, not where its line does.
 double NeedleContact::felt_bone(double line_depth) noexcept {
-  const double before = on_bone_ ? bone_ : tick_.depth;
+  const double x = tick_.depth;
+  const double before = on_bone_ ? bone_ + tick_.line_gain : x;
   bone_ = std::max(line_depth, before - moved_);
+  const double left = on_bone_ ? held_ - (tick_.tip - held_tip_).norm() : 0;
+  if (left > 0 && left > x - bone_) {
+    bone_ = x - left;
+    return bone_;
+  }
+  const Haptic& bone = tick_.bone.tissue;
+  held_ = std::min(x - bone_, bone.cutting_force / std::max(bone.wall_stiffness, 1e-6));
+  held_tip_ = tick_.tip;
   return bone_;
 }
 
@@ -204,14 +214,17 @@ void NeedleContact::find_tip_layers() noexcept {
   tick_.bone_depth = kInfinity;
   region_ = kOutside;
   bool held = false;
+  double line_bone = kInfinity;
   for (std::size_t i = 0; i < layer_count_; ++i) {
     const ShaftLayer& s = layers_[i];
     const LayerHaptics& layer = (*table_)[s.region];
     if (layer.tissue.hard) {
       if (s.exit <= 0) continue;
-      tick_.bone_depth = felt_bone(s.entry);
-      tick_.bone = layer;
-      if (x > tick_.bone_depth) region_ = s.region;
+      line_bone = s.entry;
+      if (!on_bone_ || x > line_bone) {
+        tick_.bone = layer;
+        bone_region_ = s.region;
+      }
       break;
     }
     if (s.entry > x || s.region == kOutside) continue;
@@ -235,6 +248,8 @@ void NeedleContact::find_tip_layers() noexcept {
       region_ = s.region;
     }
   }
+  tick_.bone_depth = felt_bone(line_bone);
+  if (x > tick_.bone_depth) region_ = bone_region_;
   if (!held) open_ = std::max(open_, std::min(x, tick_.bone_depth));
 }
 

@@ -116,10 +116,13 @@ class NeedleContact {
   bool on_bone_ = false;
   bool was_outside_ = true;
   Vec3 first_axis_ = Vec3::UnitZ();
-  double moved_ = 0;    // m, the tip in this tick
-  double bone_ = 0;     // m, where bone is felt to begin while the tip is on it
-  double open_ = 0;     // m, deepest point of the cut track on this line
-  double deepest_ = 0;  // m, from which withdrawal counts
+  double moved_ = 0;                 // m, the tip in this tick
+  double bone_ = 0;                  // m, where bone is felt to begin while the tip is on it
+  double held_ = 0;                  // m, how far the tip was in bone when its line last was
+  Vec3 held_tip_ = Vec3::Zero();     // the tip there
+  RegionId bone_region_ = kOutside;  // that bone
+  double open_ = 0;                  // m, deepest point of the cut track on this line
+  double deepest_ = 0;               // m, from which withdrawal counts
 };
 
 }  // namespace artus

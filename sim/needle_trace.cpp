@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "sim/needle_trace.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <fstream>
@@ -10,7 +11,8 @@ namespace {
 
 constexpr const char* kHeader =
     "time_s,pass,tip_x_m,tip_y_m,tip_z_m,q_w,q_x,q_y,q_z,state,layer,depth_m,velocity_m_s,wall_m,"
-    "cone_rad,deviation_m,incoming_speed_m_s,prepuncture_n,cutting_n,attracted_n,friction_n,hard_n,"
+    "cone_rad,deviation_m,in_bone_m,incoming_speed_m_s,prepuncture_n,cutting_n,attracted_n,"
+    "friction_n,hard_n,"
     "clamping_x_n,clamping_y_n,clamping_z_n,clamping_n,torque_x_nm,torque_y_nm,torque_z_nm,"
     "total_x_n,total_y_n,total_z_n,total_axial_n,command_x_n,command_y_n,command_z_n,"
     "command_torque_x_nm,command_torque_y_nm,command_torque_z_nm,hand_axial_n,energy_to_hand_j,"
@@ -39,7 +41,7 @@ std::string line_of(const NeedleRow& row, std::span<const std::string> region_na
   if (row.region < region_names.size()) line += region_names[row.region];
   line += ',';
   for (const double c :
-       {row.depth, row.velocity, row.wall, row.cone, row.deviation, row.incoming_speed,
+       {row.depth, row.velocity, row.wall, row.cone, row.deviation, row.in_bone, row.incoming_speed,
         f.prepuncture, f.cutting, f.attracted, f.friction, f.hard}) {
     add(line, c);
   }
@@ -86,6 +88,7 @@ NeedleRow make_needle_row(double time, const Pose& X_JN, const RenderedNeedle& r
   row.depth = tick.depth;
   row.velocity = tick.velocity;
   row.wall = model.wall().wall();
+  row.in_bone = std::max(0.0, tick.depth - tick.bone_depth);
   row.deviation = (tick.tip - tick.entry - tick.depth * tick.axis).norm();
   return row;
 }

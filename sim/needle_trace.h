@@ -28,6 +28,7 @@ struct NeedleRow {
   double wall = 0;            ///< m, the tracking wall's anchor
   double cone = 0;            ///< rad, alpha(depth)
   double deviation = 0;       ///< m, tip off the insertion line
+  double in_bone = 0;         ///< m, how far the tip is pressed into bone; 0 off it
   double incoming_speed = 0;  ///< m/s, of the last bone contact
   NeedleForces forces;
   Wrench command;             ///< after the guard

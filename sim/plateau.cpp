@@ -38,7 +38,9 @@ void PlateauFinder::add(const NeedleRow& row) {
   p.rise = std::max(p.rise, rise_);
   const bool deeper = row.depth >= deepest_;
   deepest_ = std::max(deepest_, row.depth);
-  if (!deeper || row.depth < from_ + rise_ + kAfterRise || row.time < since_ + kAfterFall) return;
+  // Sliding along bone, the tip goes deeper without being pressed in farther.
+  const double way = row.state == ContactState::bone ? row.in_bone : row.depth - from_;
+  if (!deeper || way < rise_ + kAfterRise || row.time < since_ + kAfterFall) return;
   const double force = -row.forces.cutting;
   p.least = p.rows == 0 ? force : std::min(p.least, force);
   p.most = p.rows == 0 ? force : std::max(p.most, force);

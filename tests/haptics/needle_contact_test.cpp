@@ -220,6 +220,45 @@ TEST_F(ContactTest, BoneThatIsGrazedIsFeltNoFasterThanTheTipMovesAndIsTappedOnce
   EXPECT_EQ(late, 0) << "a tap of 55 ms is over";
 }
 
+// A needle pressed on the rim of bone that slides off it: the bevel leaves bone over its way in.
+TEST_F(ContactTest, BoneIsLeftOverTheWayThatTheTipWasInAndASwayDoesNotLoseIt) {
+  move(-0.001, 0.015, 0.02);
+  const double pressed = 0.5 * bone().cutting_force / bone().wall_stiffness;
+  constexpr double kBone = 0.015;
+  constexpr double kFar = 0.025;
+  double x = kBone;
+  // Where the tip is in bone that begins at `from` on its line, m.
+  const auto pressed_in = [this, &x](double aside, double from) {
+    const Pose pose = make_pose(Vec3(aside, 0, x), Vec3::UnitZ(), Vec3::UnitX());
+    auto intervals = body.intervals(model.query_segment(pose));
+    from += intervals.front().exit;
+    std::erase_if(intervals, [from](const TissueInterval& t) { return t.entry >= from; });
+    const double end = intervals.back().exit;
+    intervals.back().exit = from;
+    intervals.push_back({from, end, 5, Vec3::Zero(), 0});
+    model.step(pose, intervals);
+    events |= model.contact().events();
+    return model.contact().tick().depth - model.contact().tick().bone_depth;
+  };
+  for (; x < kBone + pressed; x += 5e-6) pressed_in(0, kBone);
+  EXPECT_NEAR(pressed_in(0, kBone), pressed, 5e-6);
+  events = 0;
+  for (int i = 0; i < 200; ++i) {  // sways by a fifth of it over the rim
+    const double sway = 0.2 * pressed * std::abs(std::sin(0.1 * i));
+    EXPECT_GT(pressed_in(sway, sway > 0.1 * pressed ? kFar : kBone), 0.75 * pressed);
+    EXPECT_EQ(model.contact().state(), ContactState::bone);
+  }
+  EXPECT_EQ(events & ContactEvent::kBoneTouched, 0U) << "it was never off";
+  double before = pressed_in(0, kBone);
+  for (double aside = 5e-6; aside < pressed; aside += 5e-6) {
+    const double now = pressed_in(aside, kFar);
+    EXPECT_NEAR(now, before - 5e-6, 2e-6) << aside;
+    before = now;
+  }
+  EXPECT_LT(pressed_in(1.01 * pressed, kFar), 0) << "and is off it";
+  EXPECT_EQ(model.contact().region(), 3);
+}
+
 TEST_F(ContactTest, EntryWorksAtAnyAngle) {
   const Vec3 axis = Vec3(1, 0, 1).normalized();
   for (int i = -100; i < 1000; ++i) step(1e-5 * i * axis, axis);
