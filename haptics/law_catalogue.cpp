@@ -73,7 +73,8 @@ std::vector<LawDescription> prepuncture_laws() {
            "",
            "what a membrane held fades as exp(-t / time) once it gives way",
            kAssumed,
-           {{"time", p.tear.time, "s", kAssumed}}}};
+           {{"time", p.tear.time, "s", kAssumed},
+            {"membrane_margin", ContactParams{}.membrane_margin, "m", kAssumed}}}};
 }
 
 std::vector<LawDescription> friction_laws() {
@@ -124,7 +125,13 @@ std::vector<LawDescription> bone_laws() {
            {{"restitution", p.impulse.restitution, "-", kThesis},
             {"mass", p.impulse.mass, "kg", kAssumed},
             {"duration", p.impulse.duration, "s", kThesis},
-            {"rearm_distance", p.rearm_distance, "m", kAssumed}}}};
+            {"rearm_distance", p.rearm_distance, "m", kAssumed}}},
+          {"bone edge",
+           "slide",
+           "",
+           "a tip that slides off bone leaves it over min(way pressed in, f_cutting / K, bevel)",
+           kAssumed,
+           {{"bevel", ContactParams{}.bevel, "m", kAssumed}}}};
 }
 
 std::vector<LawDescription> line_laws() {

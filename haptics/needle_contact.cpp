@@ -202,7 +202,8 @@ double NeedleContact::felt_bone(double line_depth) noexcept {
     return bone_;
   }
   const Haptic& bone = tick_.bone.tissue;
-  held_ = std::min(x - bone_, bone.cutting_force / std::max(bone.wall_stiffness, 1e-6));
+  const double rise = bone.cutting_force / std::max(bone.wall_stiffness, 1e-6);
+  held_ = std::min({x - bone_, rise, params_.bevel});
   held_tip_ = tick_.tip;
   return bone_;
 }

@@ -52,6 +52,8 @@ struct ContactParams {
   double membrane_margin = 0.1e-3;  ///< m, by which a membrane may lie before the end of the cut
                                     ///< track and still be whole; assumed: above what a trembling
                                     ///< needle moves over a slope in a tick
+  double bevel = 1e-3;  ///< m, way on which a tip that was pressed into bone slides off it at most;
+                        ///< assumed: the size of a needle's bevel
   MotionParams motion;
   double velocity_window = 0.01;  ///< s; lag half of it; only for laws that need a velocity
 };
