@@ -167,8 +167,9 @@ void add_rows(const DeviceLimits& device, double stiffness,
         {std::string(device.name), to_string(kLaws[k]), to_csv(stiffness), to_csv(middle(moved)),
          to_csv(moved.back()), to_csv(laws[k].sorted(kEjection).back()),
          to_csv(middle(laws[k].sorted(kGuided))), to_csv(middle(laws[k].sorted(kContact))),
-         to_csv(laws[k].sorted(kEnergy).back()), k == 0 ? to_csv(middle(guided)) : "",
-         k == 0 ? to_csv(guided.back()) : "", k == 0 ? to_csv(contact.back()) : ""});
+         to_csv(laws[k].sorted(kLimited).back()), to_csv(laws[k].sorted(kEnergy).back()),
+         k == 0 ? to_csv(middle(guided)) : "", k == 0 ? to_csv(guided.back()) : "",
+         k == 0 ? to_csv(chatter.back()) : "", k == 0 ? to_csv(contact.back()) : ""});
   }
 }
 
@@ -261,7 +262,7 @@ Experiment run_wall_vs_classic(const ExperimentOptions& options, const DeviceLim
                       "beyond_momentum_mm_worst",
                       "until_release_n2s_median",
                       "in_contact_n2s_median",
-                      "at_device_limit_share",
+                      "at_device_limit_share_worst",
                       "energy_to_hand_j_worst",
                       "until_release_over_best_other_median",
                       "until_release_over_best_other_worst",

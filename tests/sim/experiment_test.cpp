@@ -17,6 +17,8 @@ TEST_P(NeedleExperiment, ShowsWhatThePublishedOneShows) {
   EXPECT_FALSE(run->claims.empty());
   for (const Claim& c : run->claims)
     EXPECT_TRUE(c.pass) << c.text << ": " << c.value << ' ' << c.bound;
+  for (const auto& row : run->table.rows)
+    EXPECT_EQ(row.size(), run->table.header.size()) << "a cell under another's header";
 }
 
 INSTANTIATE_TEST_SUITE_P(All, NeedleExperiment,
