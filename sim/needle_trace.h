@@ -23,6 +23,7 @@ struct NeedleRow {
   std::uint32_t events = 0;  ///< ContactEvent bits
   std::uint32_t status = 0;  ///< TickStatus bits
   RegionId region = kOutside;
+  int pass = 0;  ///< which injection, from 1
   double depth = 0;
   double velocity = 0;        ///< m/s, axial, estimated
   double wall = 0;            ///< m, the tracking wall's anchor
@@ -36,7 +37,6 @@ struct NeedleRow {
   NeedleMotion needle;        ///< of the simulated needle itself, without an encoder's steps
   double energy_to_hand = 0;  ///< J given to the hand by the device since the start (observer)
   Vec3 axis = Vec3::UnitZ();  ///< insertion axis
-  int pass = 0;               ///< which injection, from 1
 };
 
 /// Fills a row from a tick. The energy is the caller's.
