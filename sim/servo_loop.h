@@ -38,8 +38,9 @@ struct ServoReport {
 };
 
 /// Runs haptic ticks in the calling thread on an absolute schedule until the time is over or
-/// `stop`: device in, tick, device out, snapshot published. The last thing sent is zero force.
-/// Asks the system for `wishes` first; a refusal is reported, not fatal.
+/// `stop`: device in, tick, device out, snapshot published; then, as a gauge of the machine, a
+/// fixed work of some microseconds (ServoReport::fixed). The last thing sent is zero force. Asks
+/// the system for `wishes` first; a refusal is reported, not fatal.
 void run_servo_loop(HapticCore& core, InputDevice& device, const ServoOptions& options,
                     const std::atomic<bool>& stop, Seqlock<HapticSnapshot>& newest,
                     ServoReport& report);

@@ -193,6 +193,14 @@ TEST_F(ContactTest, MembranePopsOnceInATrack) {
   EXPECT_EQ(events & ContactEvent::kMembranePopped, 0U);
 }
 
+// Bone from this depth on, whatever the line met there.
+void begin_bone(std::vector<TissueInterval>& intervals, double depth) {
+  const double from = intervals.front().exit + depth;  // before it the line is outside
+  std::erase_if(intervals, [from](const TissueInterval& t) { return t.entry >= from; });
+  intervals.back().exit = from;
+  intervals.push_back({from, from + 0.02, 5, Vec3::Zero(), 0});
+}
+
 // A line that grazes a condyle meets it millimetres behind the tip in one tick and not in the next.
 TEST_F(ContactTest, BoneThatIsGrazedIsFeltNoFasterThanTheTipMovesAndIsTappedOnce) {
   move(-0.001, 0.015, 0.02);
@@ -204,13 +212,7 @@ TEST_F(ContactTest, BoneThatIsGrazedIsFeltNoFasterThanTheTipMovesAndIsTappedOnce
     const Pose pose = make_pose(Vec3(0, 0, x), Vec3::UnitZ(), Vec3::UnitX());
     auto intervals = body.intervals(model.query_segment(pose));
     const bool grazed = i % 3 != 0;
-    if (grazed) {  // cut the muscle at 3 mm behind the tip: from there on it is bone
-      const double from = intervals.front().exit + x - 0.003;
-      std::erase_if(intervals, [from](const TissueInterval& t) { return t.entry >= from; });
-      const double end = intervals.back().exit + 0.02;
-      intervals.back().exit = from;
-      intervals.push_back({from, end, 5, Vec3::Zero(), 0});
-    }
+    if (grazed) begin_bone(intervals, x - 0.003);  // 3 mm behind the tip
     model.step(pose, intervals);
     const double now = model.forces().cutting;
     EXPECT_LT(std::abs(now - before), 3 * stiffness * 5e-6) << i;
@@ -231,11 +233,7 @@ TEST_F(ContactTest, BoneIsLeftOverTheWayThatTheTipWasInAndASwayDoesNotLoseIt) {
   const auto pressed_in = [this, &x](double aside, double from) {
     const Pose pose = make_pose(Vec3(aside, 0, x), Vec3::UnitZ(), Vec3::UnitX());
     auto intervals = body.intervals(model.query_segment(pose));
-    from += intervals.front().exit;
-    std::erase_if(intervals, [from](const TissueInterval& t) { return t.entry >= from; });
-    const double end = intervals.back().exit;
-    intervals.back().exit = from;
-    intervals.push_back({from, end, 5, Vec3::Zero(), 0});
+    begin_bone(intervals, from);
     model.step(pose, intervals);
     events |= model.contact().events();
     return model.contact().tick().depth - model.contact().tick().bone_depth;
