@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "apps/arguments.h"
+#include "artus/apps/arguments.h"
 
 #include <cmath>
 #include <locale>
 #include <sstream>
 
-#include "core/units.h"
+#include "artus/core/units.h"
 
 namespace artus {
 namespace {

@@ -4,8 +4,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/geometry.h"
-#include "core/result.h"
+#include "artus/core/geometry.h"
+#include "artus/core/result.h"
 
 namespace artus {
 

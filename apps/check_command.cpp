@@ -5,12 +5,12 @@
 #include <map>
 #include <memory>
 
-#include "anatomy/compile_surfaces.h"
-#include "anatomy/defects.h"
-#include "anatomy/surface_io.h"
-#include "core/units.h"
-
-#include "apps/command.h"
+#include "artus/anatomy/compile/compile_surfaces.h"
+#include "artus/anatomy/compile/joint_defects.h"
+#include "artus/anatomy/surfaces/defects.h"
+#include "artus/anatomy/surfaces/surface_io.h"
+#include "artus/apps/command.h"
+#include "artus/core/units.h"
 
 namespace artus {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "apps/command.h"
+#include "artus/apps/command.h"
 
 #include <charconv>
 #include <cmath>
@@ -13,7 +13,7 @@
 
 #include <unistd.h>
 
-#include "anatomy/compile.h"
+#include "artus/anatomy/compile/compile.h"
 
 namespace artus {
 

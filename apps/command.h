@@ -10,9 +10,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "anatomy/compiled_joint.h"
-#include "core/progress.h"
-#include "core/result.h"
+#include "artus/anatomy/body/compiled_joint.h"
+#include "artus/core/progress.h"
+#include "artus/core/result.h"
 
 namespace artus {
 

@@ -4,11 +4,10 @@
 #include <iostream>
 #include <memory>
 
-#include "anatomy/compile.h"
-#include "core/text_file.h"
-#include "core/units.h"
-
-#include "apps/command.h"
+#include "artus/anatomy/compile/compile.h"
+#include "artus/apps/command.h"
+#include "artus/core/text_file.h"
+#include "artus/core/units.h"
 
 namespace artus {
 namespace {

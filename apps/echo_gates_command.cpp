@@ -5,10 +5,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "sim/echo_gates.h"
-#include "sim/echo_patch.h"
-
-#include "apps/command.h"
+#include "artus/apps/command.h"
+#include "artus/evidence/echo/echo_gates.h"
+#include "artus/evidence/echo/echo_patch.h"
 
 namespace artus {
 namespace {

@@ -6,10 +6,10 @@
 #include <memory>
 #include <vector>
 
-#include "core/text_file.h"
-#include "sim/experiment.h"
-
-#include "apps/law_options.h"
+#include "artus/apps/experiment_catalogue.h"
+#include "artus/apps/law_options.h"
+#include "artus/core/text_file.h"
+#include "artus/evidence/needle/experiment.h"
 
 namespace artus {
 namespace {
@@ -106,7 +106,7 @@ Result<ExperimentOptions> make_options(const ExperimentCommandOptions& options) 
   ExperimentOptions run = options.experiment;
   run.seed = static_cast<std::uint64_t>(options.seed);
   const auto laws = make_experiment_laws(options.laws);
-  if (!laws) return tl::unexpected<Error>(laws.error());
+  ARTUS_TRY(laws);
   if (options.all && changed_laws(*laws) != 0)
     return fail(ErrorCode::invalid,
                 "the report is of the published laws; give the flags of force laws to one "

@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <memory>
 
-#include "anatomy/compile.h"
-#include "raycast/scene.h"
+#include "artus/anatomy/compile/compile.h"
+#include "artus/raycast/scene.h"
 
 int main(int argc, char** argv) {
   // A joint is a folder of surfaces with a joint.toml. Loading compiles it once: surfaces are

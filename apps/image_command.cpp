@@ -4,14 +4,13 @@
 #include <memory>
 #include <optional>
 
-#include "core/units.h"
-#include "echo/display.h"
-#include "echo/image_io.h"
-#include "echo/labels.h"
-#include "echo/renderer.h"
-#include "sim/echo_truth.h"
-
-#include "apps/view_options.h"
+#include "artus/apps/view_options.h"
+#include "artus/core/units.h"
+#include "artus/dataset/echo_truth.h"
+#include "artus/echo/display.h"
+#include "artus/echo/image_io.h"
+#include "artus/echo/labels.h"
+#include "artus/echo/renderer.h"
 
 namespace artus {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "apps/law_options.h"
+#include "artus/apps/law_options.h"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 #include <string_view>
 #include <utility>
 
-#include "core/units.h"
+#include "artus/core/units.h"
 
 namespace artus {
 namespace {
@@ -146,18 +146,12 @@ void add_law_options(CLI::App* command, LawOptions& options) {
 Result<ExperimentLaws> make_experiment_laws(const LawOptions& options) {
   ExperimentLaws chosen;
   LawSelection& laws = chosen.laws;
-  if (const auto read = read_laws(options.cutting, "--cutting", find_cutting_law, laws.cutting,
-                                  laws.cutting_of_tissue);
-      !read)
-    return tl::unexpected<Error>(read.error());
-  if (const auto read = read_laws(options.prepuncture, "--prepuncture", find_prepuncture_law,
-                                  laws.prepuncture, laws.prepuncture_of_tissue);
-      !read)
-    return tl::unexpected<Error>(read.error());
-  if (const auto read = read_patient(options.patient, chosen.patient); !read)
-    return tl::unexpected<Error>(read.error());
-  if (const auto read = read_workspace(options, chosen.workspace); !read)
-    return tl::unexpected<Error>(read.error());
+  ARTUS_TRY(read_laws(options.cutting, "--cutting", find_cutting_law, laws.cutting,
+                      laws.cutting_of_tissue));
+  ARTUS_TRY(read_laws(options.prepuncture, "--prepuncture", find_prepuncture_law, laws.prepuncture,
+                      laws.prepuncture_of_tissue));
+  ARTUS_TRY(read_patient(options.patient, chosen.patient));
+  ARTUS_TRY(read_workspace(options, chosen.workspace));
   if (options.tap)
     chosen.tap = *options.tap == "impulse" ? HardLaw::impulse : HardLaw::decaying_sinusoid;
   if (options.clamping)
@@ -171,12 +165,9 @@ Result<ExperimentLaws> make_experiment_laws(const LawOptions& options) {
 
 Result<RunLaws> make_laws(const LawOptions& options, const CompiledJoint& joint) {
   const auto chosen = make_experiment_laws(options);
-  if (!chosen) return tl::unexpected<Error>(chosen.error());
-  if (const auto named = check_tissues(chosen->laws.cutting_of_tissue, "--cutting", joint); !named)
-    return tl::unexpected<Error>(named.error());
-  if (const auto named = check_tissues(chosen->laws.prepuncture_of_tissue, "--prepuncture", joint);
-      !named)
-    return tl::unexpected<Error>(named.error());
+  ARTUS_TRY(chosen);
+  ARTUS_TRY(check_tissues(chosen->laws.cutting_of_tissue, "--cutting", joint));
+  ARTUS_TRY(check_tissues(chosen->laws.prepuncture_of_tissue, "--prepuncture", joint));
   RunLaws run;
   run.laws = chosen->laws;
   run.patient = chosen->patient;

@@ -4,11 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "haptics/needle_model.h"
-#include "haptics/passivity.h"
-#include "sim/experiment_laws.h"
-
-#include "apps/command.h"
+#include "artus/apps/command.h"
+#include "artus/evidence/needle/experiment_laws.h"
+#include "artus/haptics/needle/needle_model.h"
+#include "artus/haptics/passivity.h"
 
 namespace artus {
 

@@ -4,10 +4,9 @@
 #include <memory>
 #include <string>
 
-#include "haptics/law_catalogue.h"
-#include "haptics/layer_haptics.h"
-
-#include "apps/command.h"
+#include "artus/apps/command.h"
+#include "artus/haptics/needle/law_catalogue.h"
+#include "artus/haptics/needle/layer_haptics.h"
 
 namespace artus {
 namespace {

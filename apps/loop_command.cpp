@@ -5,12 +5,11 @@
 #include <memory>
 #include <vector>
 
-#include "anatomy/layered_body.h"
-#include "sim/device_injection.h"
-#include "sim/servo_loop.h"
-
-#include "apps/law_options.h"
-#include "apps/session_options.h"
+#include "artus/anatomy/body/layered_body.h"
+#include "artus/apps/law_options.h"
+#include "artus/apps/session_options.h"
+#include "artus/session/injecting_device.h"
+#include "artus/session/servo_loop.h"
 
 namespace artus {
 namespace {
@@ -28,7 +27,7 @@ struct LoopOptions {
 /// the loop runs on when no joint is named.
 Result<std::shared_ptr<const CompiledJoint>> make_ball() {
   auto tissues = read_bundled_tissues();
-  if (!tissues) return tl::unexpected<Error>(tissues.error());
+  ARTUS_TRY(tissues);
   const std::vector<SphereLayer> layers{{"skin", 0.060},   {"muscle", 0.057},    {"bursa", 0.042},
                                         {"tendon", 0.039}, {"cartilage", 0.033}, {"bone", 0.030}};
   CompiledJoint joint = make_nested_spheres(*tissues, layers, Vec3(0, 0, 0.060), 5);

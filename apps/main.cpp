@@ -4,7 +4,7 @@
 #include <exception>
 #include <string>
 
-#include "apps/command.h"
+#include "artus/apps/command.h"
 
 namespace {
 

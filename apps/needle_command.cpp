@@ -4,11 +4,10 @@
 #include <memory>
 #include <string>
 
-#include "core/units.h"
-#include "raycast/scene.h"
-
-#include "apps/arguments.h"
-#include "apps/command.h"
+#include "artus/apps/arguments.h"
+#include "artus/apps/command.h"
+#include "artus/core/units.h"
+#include "artus/raycast/scene.h"
 
 namespace artus {
 namespace {

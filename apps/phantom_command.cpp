@@ -3,15 +3,14 @@
 #include <iostream>
 #include <memory>
 
-#include "core/text_file.h"
-#include "core/units.h"
-#include "echo/image_io.h"
-#include "echo/labels.h"
-#include "echo/renderer.h"
-#include "sim/echo_phantom.h"
-#include "sim/echo_truth.h"
-
-#include "apps/view_options.h"
+#include "artus/apps/view_options.h"
+#include "artus/core/text_file.h"
+#include "artus/core/units.h"
+#include "artus/dataset/echo_truth.h"
+#include "artus/echo/image_io.h"
+#include "artus/echo/labels.h"
+#include "artus/echo/renderer.h"
+#include "artus/evidence/echo/echo_phantom.h"
 
 namespace artus {
 namespace {

@@ -3,10 +3,9 @@
 #include <iostream>
 #include <memory>
 
-#include "echo/image_io.h"
-#include "sim/replay.h"
-
-#include "apps/session_options.h"
+#include "artus/apps/session_options.h"
+#include "artus/echo/image_io.h"
+#include "artus/session/replay.h"
 
 namespace artus {
 namespace {

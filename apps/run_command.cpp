@@ -3,12 +3,11 @@
 #include <iostream>
 #include <memory>
 
-#include "core/text_file.h"
-#include "sim/run_images.h"
-#include "sim/three_injections.h"
-
-#include "apps/law_options.h"
-#include "apps/view_options.h"
+#include "artus/apps/law_options.h"
+#include "artus/apps/view_options.h"
+#include "artus/core/text_file.h"
+#include "artus/evidence/medical/run_images.h"
+#include "artus/evidence/medical/three_injections.h"
 
 namespace artus {
 namespace {

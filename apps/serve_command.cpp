@@ -5,7 +5,7 @@
 #include <iostream>
 #include <memory>
 
-#include "apps/session_options.h"
+#include "artus/apps/session_options.h"
 
 namespace artus {
 namespace {

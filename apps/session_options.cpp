@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "apps/session_options.h"
+#include "artus/apps/session_options.h"
 
 #include <algorithm>
 #include <array>
@@ -7,9 +7,9 @@
 #include <sstream>
 #include <utility>
 
-#include "core/text_file.h"
-#include "sim/device_injection.h"
-#include "sim/device_shared_memory.h"
+#include "artus/core/text_file.h"
+#include "artus/session/injecting_device.h"
+#include "artus/session/shared_memory_device.h"
 
 namespace artus {
 namespace {
@@ -96,13 +96,13 @@ Result<SessionParams> make_session_params(const SessionOptions& options,
                                           const CompiledJoint& joint) {
   SessionParams params;
   const auto device = find_device(options.device);
-  if (!device) return tl::unexpected<Error>(device.error());
+  ARTUS_TRY(device);
   params.device = *device;
   params.haptic_rate = options.haptic_rate;
   params.image_rate = options.image_rate;
   params.image.n_threads = options.threads;
   const auto laws = make_laws(options.laws, joint);
-  if (!laws) return tl::unexpected<Error>(laws.error());
+  ARTUS_TRY(laws);
   params.laws = laws->laws;
   params.patient = laws->patient;
   params.needle = laws->needle;
@@ -113,7 +113,7 @@ Result<SessionParams> make_session_params(const SessionOptions& options,
     params.gesture.p_W = plan.entry;
     params.gesture.axis_W = (plan.target - plan.entry).normalized();
   }
-  if (const auto valid = validate(params); !valid) return tl::unexpected<Error>(valid.error());
+  ARTUS_TRY(validate(params));
   return params;
 }
 
@@ -139,7 +139,7 @@ Result<std::unique_ptr<InputDevice>> make_device(const SessionOptions& options,
     std::vector<std::string> names;
     for (const Region& region : joint.regions) names.push_back(region.name);
     auto device = SharedMemoryDevice::open(options.prefix, std::move(names));
-    if (!device) return tl::unexpected<Error>(device.error());
+    ARTUS_TRY(device);
     return std::unique_ptr<InputDevice>(std::move(*device));
   }
   if (options.input == "hand") {
@@ -149,7 +149,7 @@ Result<std::unique_ptr<InputDevice>> make_device(const SessionOptions& options,
   }
   if (options.input == "injection") return make_injection_device(options, params, joint);
   const auto recording = read_recording(options.input);
-  if (!recording) return tl::unexpected<Error>(recording.error());
+  ARTUS_TRY(recording);
   return std::unique_ptr<InputDevice>(std::make_unique<RecordedDevice>(samples_of(*recording)));
 }
 

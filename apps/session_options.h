@@ -4,11 +4,10 @@
 #include <memory>
 #include <string>
 
-#include "sim/device_hand.h"
-#include "sim/session.h"
-
-#include "apps/command.h"
-#include "apps/law_options.h"
+#include "artus/apps/command.h"
+#include "artus/apps/law_options.h"
+#include "artus/session/hand_device.h"
+#include "artus/session/session.h"
 
 namespace artus {
 

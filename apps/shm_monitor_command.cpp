@@ -4,10 +4,9 @@
 #include <memory>
 #include <thread>
 
-#include "sim/session_thread.h"
-#include "sim/shared_memory.h"
-
-#include "apps/command.h"
+#include "artus/apps/command.h"
+#include "artus/session/session_thread.h"
+#include "artus/session/shared_memory.h"
 
 namespace artus {
 namespace {

@@ -3,12 +3,11 @@
 #include <iostream>
 #include <memory>
 
-#include "core/units.h"
-#include "echo/image_io.h"
-#include "echo/labels.h"
-#include "sim/echo_truth.h"
-
-#include "apps/view_options.h"
+#include "artus/apps/view_options.h"
+#include "artus/core/units.h"
+#include "artus/dataset/echo_truth.h"
+#include "artus/echo/image_io.h"
+#include "artus/echo/labels.h"
 
 namespace artus {
 namespace {

@@ -3,9 +3,8 @@
 #include <iostream>
 #include <memory>
 
-#include "sim/sweep_video.h"
-
-#include "apps/view_options.h"
+#include "artus/apps/view_options.h"
+#include "artus/dataset/sweep_video.h"
 
 namespace artus {
 namespace {

@@ -4,9 +4,8 @@
 #include <iterator>
 #include <memory>
 
-#include "viewer/window.h"
-
-#include "apps/session_options.h"
+#include "artus/apps/session_options.h"
+#include "artus/viewer/window.h"
 
 namespace artus {
 namespace {
@@ -43,7 +42,7 @@ Result<void> read_script(const ViewerOptions& options, WindowOptions& window) {
   if (!in) return fail(ErrorCode::not_found, "cannot read the script", options.script);
   const std::string text((std::istreambuf_iterator<char>(in)), {});
   auto steps = parse_script(text, options.script);
-  if (!steps) return tl::unexpected<Error>(steps.error());
+  ARTUS_TRY(steps);
   window.script = std::move(*steps);
   window.quit_after_script = true;
   return {};

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "apps/view_options.h"
+#include "artus/apps/view_options.h"
 
-#include "core/units.h"
-#include "echo/transducer_file.h"
-
-#include "apps/arguments.h"
-#include "apps/command.h"
+#include "artus/apps/arguments.h"
+#include "artus/apps/command.h"
+#include "artus/core/units.h"
+#include "artus/echo/transducer_file.h"
 
 namespace artus {
 namespace {

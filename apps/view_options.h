@@ -4,12 +4,11 @@
 #include <optional>
 #include <string>
 
-#include "echo/image_settings.h"
-#include "echo/needle_view.h"
-#include "echo/transducer.h"
-#include "raycast/scene.h"
-
-#include "apps/command.h"
+#include "artus/apps/command.h"
+#include "artus/echo/image_settings.h"
+#include "artus/echo/needle_view.h"
+#include "artus/echo/transducer.h"
+#include "artus/raycast/scene.h"
 
 namespace artus {
 

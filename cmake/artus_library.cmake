@@ -1,18 +1,45 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
-# artus_library(NAME HEADERS ... SOURCES ... DEPENDS ... PRIVATE_DEPENDS ...)
-# One folder = one static library artus_NAME (artus::NAME), its headers in an installable file set.
+# artus_library(NAME HEADERS ... SOURCES ... DEPENDS ... PRIVATE_DEPENDS ... PACKAGES ...)
+# One folder (or one room of anatomy/) = one static library artus_NAME (artus::NAME) and one component of
+# the installed package. HEADERS are the installable ones. PACKAGES are the outside libraries that whoever
+# asks for the component needs beyond those of its rooms, by the names of cmake/packages.cmake.
 function(artus_library name)
-  cmake_parse_arguments(A "" "" "HEADERS;SOURCES;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
-  add_library(artus_${name} STATIC)
+  cmake_parse_arguments(A "" "" "HEADERS;SOURCES;DEPENDS;PRIVATE_DEPENDS;PACKAGES" ${ARGN})
+  add_library(artus_${name} STATIC ${A_SOURCES})
   add_library(artus::${name} ALIAS artus_${name})
   set_target_properties(artus_${name} PROPERTIES EXPORT_NAME ${name})
-  target_sources(artus_${name} PRIVATE ${A_SOURCES}
-    PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${A_HEADERS})
+  file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
+  list(TRANSFORM A_HEADERS PREPEND ${ARTUS_INCLUDE_DIR}/artus/${folder}/)
+  target_sources(artus_${name} PUBLIC FILE_SET HEADERS BASE_DIRS ${ARTUS_INCLUDE_DIR} FILES ${A_HEADERS})
   target_compile_features(artus_${name} PUBLIC cxx_std_20)
   artus_warnings(artus_${name})
   target_link_libraries(artus_${name} PUBLIC ${A_DEPENDS} PRIVATE ${A_PRIVATE_DEPENDS})
-  install(TARGETS artus_${name} EXPORT artus FILE_SET HEADERS DESTINATION include/artus)
+  install(TARGETS artus_${name} EXPORT artus-${name} FILE_SET HEADERS DESTINATION include)
+  install(EXPORT artus-${name} NAMESPACE artus:: DESTINATION lib/cmake/artus FILE artus-${name}-targets.cmake)
+  set(rooms ${A_DEPENDS} ${A_PRIVATE_DEPENDS})
+  list(FILTER rooms INCLUDE REGEX "^artus::")
+  list(TRANSFORM rooms REPLACE "^artus::" "")
   set_property(GLOBAL APPEND PROPERTY ARTUS_LIBRARIES ${name})
+  set_property(GLOBAL PROPERTY ARTUS_ROOMS_OF_${name} ${rooms})
+  set_property(GLOBAL PROPERTY ARTUS_PACKAGES_OF_${name} ${A_PACKAGES})
+endfunction()
+
+# Headers are included as "artus/echo/renderer.h", in the tree as outside of it: links to the folders
+# under one include directory stand for the installed ones.
+set(ARTUS_INCLUDE_DIR ${PROJECT_BINARY_DIR}/include)
+foreach(folder core anatomy raycast soft haptics echo operators dataset session training evidence exchange
+    meshes viewer python apps)
+  if(EXISTS ${PROJECT_SOURCE_DIR}/${folder})
+    file(MAKE_DIRECTORY ${ARTUS_INCLUDE_DIR}/artus)
+    file(CREATE_LINK ${PROJECT_SOURCE_DIR}/${folder} ${ARTUS_INCLUDE_DIR}/artus/${folder} SYMBOLIC)
+  endif()
+endforeach()
+
+# A text file of the repository as a header of the calling library, so that an installed artus needs no
+# search path: TEMPLATE (a .h.in beside the CMakeLists) with TEXT put in.
+function(artus_bundle library template header)
+  configure_file(${template} ${CMAKE_CURRENT_BINARY_DIR}/generated/artus/${header} @ONLY)
+  target_include_directories(artus_${library} PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/generated)
 endfunction()
 
 # The warnings and floating-point rules every target of the project obeys: results must not depend

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "core/result.h"
+#include "artus/core/result.h"
 
 namespace artus {
 

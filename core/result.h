@@ -46,3 +46,11 @@ using Result = tl::expected<T, Error>;
 }
 
 }  // namespace artus
+
+/// Hands a failure on: returns the error of `result`, a Result of any type or an expression that
+/// gives one, from a function that returns a Result. A successful one is left as it is.
+#define ARTUS_TRY(...)                                                        \
+  do {                                                                        \
+    if (auto&& artus_result = (__VA_ARGS__); !artus_result)                   \
+      return tl::unexpected<::artus::Error>(std::move(artus_result).error()); \
+  } while (false)

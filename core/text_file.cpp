@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "core/text_file.h"
+#include "artus/core/text_file.h"
 
 #include <fstream>
 #include <system_error>
@@ -16,6 +16,26 @@ Result<void> write_text(const std::filesystem::path& file, std::string_view text
     return fail(ErrorCode::unreadable, "cannot be written; check folder, rights and free space",
                 file.string());
   return {};
+}
+
+Result<std::string> read_bytes(const std::filesystem::path& file) {
+  std::error_code error;
+  const auto status = std::filesystem::status(file, error);
+  if (!std::filesystem::exists(status))
+    return fail(ErrorCode::not_found, "there is no such file", file.string());
+  if (!std::filesystem::is_regular_file(status))
+    return fail(ErrorCode::unreadable, "this is a folder or a device, not a file", file.string());
+  const auto size = std::filesystem::file_size(file, error);
+  std::ifstream in(file, std::ios::binary);
+  if (error || !in)
+    return fail(ErrorCode::unreadable, "the file cannot be opened; check its permissions",
+                file.string());
+  std::string bytes(size, '\0');
+  in.read(bytes.data(), static_cast<std::streamsize>(size));
+  if (static_cast<std::uintmax_t>(in.gcount()) != size)
+    return fail(ErrorCode::unreadable, "the file changed or failed while it was read",
+                file.string());
+  return bytes;
 }
 
 }  // namespace artus

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "echo/aperture_coupling.h"
+#include "artus/echo/aperture_coupling.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "echo/point_echo.h"
+#include "artus/echo/point_echo.h"
 
 namespace artus {
 namespace {

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "echo/transducer.h"
+#include "artus/echo/transducer.h"
 
 namespace artus {
 

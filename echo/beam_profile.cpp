@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "echo/beam_profile.h"
+#include "artus/echo/beam_profile.h"
 
 #include <algorithm>
 #include <array>

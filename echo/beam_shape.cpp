@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "echo/beam_shape.h"
+#include "artus/echo/beam_shape.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "echo/scatter_field.h"
-#include "echo/simd.h"
+#include "artus/echo/scatter_field.h"
+#include "artus/echo/simd.h"
 
 namespace artus {
 namespace {

@@ -5,10 +5,10 @@
 #include <span>
 #include <vector>
 
-#include "echo/beam_profile.h"
-#include "echo/image_settings.h"
-#include "echo/scatter_field.h"
-#include "echo/transducer.h"
+#include "artus/echo/beam_profile.h"
+#include "artus/echo/image_settings.h"
+#include "artus/echo/scatter_field.h"
+#include "artus/echo/transducer.h"
 
 namespace artus {
 

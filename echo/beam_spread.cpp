@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "echo/beam_spread.h"
+#include "artus/echo/beam_spread.h"
 
 #include <algorithm>
 #include <cmath>

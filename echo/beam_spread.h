@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
-#include "echo/propagation.h"
-#include "echo/transducer.h"
+#include "artus/echo/propagation.h"
+#include "artus/echo/transducer.h"
 
 namespace artus {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "echo/compound.h"
+#include "artus/echo/compound.h"
 
 #include <cmath>
 
-#include "core/check.h"
+#include "artus/core/check.h"
 
 namespace artus {
 

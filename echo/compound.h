@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
-#include "echo/image_settings.h"
-#include "echo/transducer.h"
+#include "artus/echo/image_settings.h"
+#include "artus/echo/transducer.h"
 
 namespace artus {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "echo/display.h"
+#include "artus/echo/display.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 
-#include "echo/simd.h"
+#include "artus/echo/simd.h"
 
 namespace artus {
 namespace {

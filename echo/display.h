@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
-#include "echo/frame.h"
-#include "echo/image_settings.h"
-#include "echo/transducer.h"
+#include "artus/echo/frame.h"
+#include "artus/echo/image_settings.h"
+#include "artus/echo/transducer.h"
 
 namespace artus {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "echo/doppler.h"
+#include "artus/echo/doppler.h"
 
 #include <cmath>
 #include <cstddef>

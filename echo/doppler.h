@@ -2,7 +2,7 @@
 #pragma once
 #include <span>
 
-#include "echo/image_settings.h"
+#include "artus/echo/image_settings.h"
 
 namespace artus {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "echo/fibre_course.h"
+#include "artus/echo/fibre_course.h"
 
 #include <algorithm>
 #include <array>

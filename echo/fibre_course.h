@@ -2,8 +2,8 @@
 #pragma once
 #include <optional>
 
-#include "anatomy/compiled_joint.h"
-#include "echo/material_map.h"
+#include "artus/anatomy/body/compiled_joint.h"
+#include "artus/echo/material_map.h"
 
 namespace artus {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/geometry.h"
+#include "artus/core/geometry.h"
 
 namespace artus {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "echo/frame_measure.h"
+#include "artus/echo/frame_measure.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/check.h"
+#include "artus/core/check.h"
 
 namespace artus {
 

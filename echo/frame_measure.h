@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
-#include "echo/frame.h"
-#include "echo/image_settings.h"
+#include "artus/echo/frame.h"
+#include "artus/echo/image_settings.h"
 
 /// What an acoustician reads off a frame: the measuring that gates, phantoms and tests share.
 namespace artus {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "echo/image_io.h"
+#include "artus/echo/image_io.h"
 
 #include <cmath>
 
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "core/check.h"
+#include "artus/core/check.h"
 
 namespace artus {
 namespace {

@@ -5,11 +5,11 @@
 
 #include <opencv2/core.hpp>
 
-#include "core/result.h"
-#include "echo/frame.h"
-#include "echo/image_settings.h"
-#include "echo/labels.h"
-#include "echo/transducer.h"
+#include "artus/core/result.h"
+#include "artus/echo/frame.h"
+#include "artus/echo/image_settings.h"
+#include "artus/echo/labels.h"
+#include "artus/echo/transducer.h"
 
 namespace artus {
 

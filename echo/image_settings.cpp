@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "echo/image_settings.h"
+#include "artus/echo/image_settings.h"
 
-#include "echo/range_check.h"
+#include "artus/echo/range_check.h"
 
 namespace artus {
 

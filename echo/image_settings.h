@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/geometry.h"
-#include "core/result.h"
+#include "artus/core/geometry.h"
+#include "artus/core/result.h"
 
 namespace artus {
 

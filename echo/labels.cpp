@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "echo/labels.h"
+#include "artus/echo/labels.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/check.h"
-#include "core/units.h"
-#include "echo/region_acoustics.h"
+#include "artus/core/check.h"
+#include "artus/core/units.h"
+#include "artus/echo/region_acoustics.h"
 
 namespace artus {
 namespace {

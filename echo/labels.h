@@ -5,13 +5,13 @@
 #include <optional>
 #include <vector>
 
-#include "echo/beam_profile.h"
-#include "echo/display.h"
-#include "echo/frame.h"
-#include "echo/image_settings.h"
-#include "echo/needle_view.h"
-#include "echo/transducer.h"
-#include "raycast/scene.h"
+#include "artus/echo/beam_profile.h"
+#include "artus/echo/display.h"
+#include "artus/echo/frame.h"
+#include "artus/echo/image_settings.h"
+#include "artus/echo/needle_view.h"
+#include "artus/echo/transducer.h"
+#include "artus/raycast/scene.h"
 
 namespace artus {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "echo/line_synthesis.h"
+#include "artus/echo/line_synthesis.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "echo/point_echo.h"
-#include "echo/simd.h"
+#include "artus/echo/point_echo.h"
+#include "artus/echo/simd.h"
 
 namespace artus {
 namespace {

@@ -4,14 +4,14 @@
 #include <span>
 #include <vector>
 
-#include "echo/beam_shape.h"
-#include "echo/image_settings.h"
-#include "echo/needle_echo.h"
-#include "echo/propagation.h"
-#include "echo/region_acoustics.h"
-#include "echo/scatter_field.h"
-#include "echo/texture.h"
-#include "echo/transducer.h"
+#include "artus/echo/beam_shape.h"
+#include "artus/echo/image_settings.h"
+#include "artus/echo/needle_echo.h"
+#include "artus/echo/propagation.h"
+#include "artus/echo/region_acoustics.h"
+#include "artus/echo/scatter_field.h"
+#include "artus/echo/texture.h"
+#include "artus/echo/transducer.h"
 
 namespace artus {
 

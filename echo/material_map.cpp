@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "echo/material_map.h"
+#include "artus/echo/material_map.h"
 
-#include "core/check.h"
-#include "echo/simd.h"
+#include "artus/core/check.h"
+#include "artus/echo/simd.h"
 
 namespace artus {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "core/geometry.h"
+#include "artus/core/geometry.h"
 
 namespace artus {
 

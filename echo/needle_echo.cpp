@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "echo/needle_echo.h"
+#include "artus/echo/needle_echo.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 
-#include "core/noise.h"
-#include "core/units.h"
-#include "echo/point_echo.h"
+#include "artus/core/noise.h"
+#include "artus/core/units.h"
+#include "artus/echo/point_echo.h"
 
 namespace artus {
 namespace {

@@ -2,10 +2,10 @@
 #pragma once
 #include <span>
 
-#include "echo/beam_shape.h"
-#include "echo/needle_view.h"
-#include "echo/propagation.h"
-#include "echo/transducer.h"
+#include "artus/echo/beam_shape.h"
+#include "artus/echo/needle_view.h"
+#include "artus/echo/propagation.h"
+#include "artus/echo/transducer.h"
 
 namespace artus {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "echo/needle_view.h"
+#include "artus/echo/needle_view.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "core/units.h"
+#include "artus/core/units.h"
 
 namespace artus {
 namespace {

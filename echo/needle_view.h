@@ -2,7 +2,7 @@
 #pragma once
 #include <optional>
 
-#include "core/geometry.h"
+#include "artus/core/geometry.h"
 
 namespace artus {
 

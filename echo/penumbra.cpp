@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "echo/penumbra.h"
+#include "artus/echo/penumbra.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #pragma once
 #include <span>
 
-#include "echo/transducer.h"
+#include "artus/echo/transducer.h"
 
 namespace artus {
 

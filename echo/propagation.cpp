@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "echo/propagation.h"
+#include "artus/echo/propagation.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/units.h"
+#include "artus/core/units.h"
 
 namespace artus {
 namespace {

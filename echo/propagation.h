@@ -5,10 +5,10 @@
 #include <span>
 #include <vector>
 
-#include "echo/image_settings.h"
-#include "echo/region_acoustics.h"
-#include "echo/transducer.h"
-#include "raycast/scene.h"
+#include "artus/echo/image_settings.h"
+#include "artus/echo/region_acoustics.h"
+#include "artus/echo/transducer.h"
+#include "artus/raycast/scene.h"
 
 namespace artus {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "core/result.h"
+#include "artus/core/result.h"
 
 namespace artus {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "echo/region_acoustics.h"
+#include "artus/echo/region_acoustics.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include <tbb/parallel_for.h>
 
-#include "core/units.h"
-#include "echo/fibre_course.h"
+#include "artus/core/units.h"
+#include "artus/echo/fibre_course.h"
 
 namespace artus {
 namespace {

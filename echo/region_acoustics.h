@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
-#include "anatomy/compiled_joint.h"
-#include "echo/material_map.h"
-#include "echo/transducer.h"
+#include "artus/anatomy/body/compiled_joint.h"
+#include "artus/echo/material_map.h"
+#include "artus/echo/transducer.h"
 
 namespace artus {
 

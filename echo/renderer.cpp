@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "echo/renderer.h"
+#include "artus/echo/renderer.h"
 
 #include <algorithm>
 #include <chrono>
@@ -12,23 +12,23 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
-#include "core/check.h"
-#include "core/noise.h"
-#include "echo/aperture_coupling.h"
-#include "echo/beam_shape.h"
-#include "echo/beam_spread.h"
-#include "echo/compound.h"
-#include "echo/display.h"
-#include "echo/doppler.h"
-#include "echo/line_synthesis.h"
-#include "echo/needle_echo.h"
-#include "echo/penumbra.h"
-#include "echo/point_echo.h"
-#include "echo/propagation.h"
-#include "echo/region_acoustics.h"
-#include "echo/scatter_field.h"
-#include "echo/simd.h"
-#include "echo/texture.h"
+#include "artus/core/check.h"
+#include "artus/core/noise.h"
+#include "artus/echo/aperture_coupling.h"
+#include "artus/echo/beam_shape.h"
+#include "artus/echo/beam_spread.h"
+#include "artus/echo/compound.h"
+#include "artus/echo/display.h"
+#include "artus/echo/doppler.h"
+#include "artus/echo/line_synthesis.h"
+#include "artus/echo/needle_echo.h"
+#include "artus/echo/penumbra.h"
+#include "artus/echo/point_echo.h"
+#include "artus/echo/propagation.h"
+#include "artus/echo/region_acoustics.h"
+#include "artus/echo/scatter_field.h"
+#include "artus/echo/simd.h"
+#include "artus/echo/texture.h"
 
 namespace artus {
 namespace {

@@ -5,11 +5,11 @@
 #include <span>
 #include <vector>
 
-#include "echo/frame.h"
-#include "echo/image_settings.h"
-#include "echo/needle_view.h"
-#include "echo/transducer.h"
-#include "raycast/scene.h"
+#include "artus/echo/frame.h"
+#include "artus/echo/image_settings.h"
+#include "artus/echo/needle_view.h"
+#include "artus/echo/transducer.h"
+#include "artus/raycast/scene.h"
 
 namespace artus {
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "echo/scatter_field.h"
+#include "artus/echo/scatter_field.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "core/check.h"
-#include "core/noise.h"
-#include "core/units.h"
-#include "echo/simd.h"
+#include "artus/core/check.h"
+#include "artus/core/noise.h"
+#include "artus/core/units.h"
+#include "artus/echo/simd.h"
 
 namespace artus {
 namespace {

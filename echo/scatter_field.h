@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "core/geometry.h"
+#include "artus/core/geometry.h"
 
 namespace artus {
 

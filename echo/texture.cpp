@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "echo/texture.h"
+#include "artus/echo/texture.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "core/noise.h"
+#include "artus/core/noise.h"
 
 namespace artus {
 namespace {

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "echo/region_acoustics.h"
-#include "echo/scatter_field.h"
+#include "artus/echo/region_acoustics.h"
+#include "artus/echo/scatter_field.h"
 
 namespace artus {
 

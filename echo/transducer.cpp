@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "echo/transducer.h"
+#include "artus/echo/transducer.h"
 
 #include <cmath>
 #include <numbers>
 
-#include "echo/range_check.h"
+#include "artus/echo/range_check.h"
 
 namespace artus {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
-#include "core/geometry.h"
-#include "core/result.h"
-#include "core/units.h"
+#include "artus/core/geometry.h"
+#include "artus/core/result.h"
+#include "artus/core/units.h"
 
 namespace artus {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "echo/transducer_file.h"
+#include "artus/echo/transducer_file.h"
 
 #include <array>
 #include <cmath>
 
-#include "anatomy/joint_toml.h"
-#include "anatomy/surface_io.h"
-#include "core/units.h"
-#include "echo/bundled_transducers.h"
+#include "artus/core/text_file.h"
+#include "artus/core/toml_table.h"
+#include "artus/core/units.h"
+#include "artus/echo/bundled_transducers.h"
 
 namespace artus {
 namespace {

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/result.h"
-#include "echo/transducer.h"
+#include "artus/core/result.h"
+#include "artus/echo/transducer.h"
 
 namespace artus {
 

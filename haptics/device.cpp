@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "haptics/device.h"
+#include "artus/haptics/device.h"
 
 #include <array>
 #include <string>

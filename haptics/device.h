@@ -3,9 +3,9 @@
 #include <array>
 #include <string_view>
 
-#include "core/check.h"
-#include "core/result.h"
-#include "haptics/wrench.h"
+#include "artus/core/check.h"
+#include "artus/core/result.h"
+#include "artus/haptics/wrench.h"
 
 namespace artus {
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "haptics/device.h"
+#include "artus/haptics/device.h"
 
 namespace artus {
 

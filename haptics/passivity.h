@@ -2,8 +2,8 @@
 #pragma once
 #include <algorithm>
 
-#include "core/check.h"
-#include "haptics/wrench.h"
+#include "artus/core/check.h"
+#include "artus/haptics/wrench.h"
 
 namespace artus {
 

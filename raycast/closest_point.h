@@ -2,7 +2,7 @@
 #pragma once
 #include <array>
 
-#include "core/geometry.h"
+#include "artus/core/geometry.h"
 
 namespace artus {
 

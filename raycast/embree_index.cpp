@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "raycast/embree_index.h"
+#include "artus/raycast/embree_index.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +9,8 @@
 
 #include <Eigen/Geometry>
 
-#include "raycast/closest_point.h"
-#include "raycast/embree_api.h"
+#include "artus/raycast/closest_point.h"
+#include "artus/raycast/embree_api.h"
 
 namespace artus {
 namespace {

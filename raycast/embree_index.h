@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "core/check.h"
-#include "raycast/facet.h"
+#include "artus/core/check.h"
+#include "artus/raycast/facet.h"
 
 struct RTCDeviceTy;
 struct RTCSceneTy;

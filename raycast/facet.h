@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "anatomy/tet_mesh.h"
-#include "core/geometry.h"
+#include "artus/anatomy/body/tet_mesh.h"
+#include "artus/core/geometry.h"
 
 namespace artus {
 

@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <span>
 
-#include "core/check.h"
-#include "raycast/facet.h"
-#include "raycast/scene.h"
+#include "artus/core/check.h"
+#include "artus/raycast/facet.h"
+#include "artus/raycast/scene.h"
 
 namespace artus {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "raycast/scene.h"
+#include "artus/raycast/scene.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
 
-#include "raycast/embree_index.h"
-#include "raycast/hit_chain.h"
+#include "artus/raycast/embree_index.h"
+#include "artus/raycast/hit_chain.h"
 
 namespace artus {
 namespace {

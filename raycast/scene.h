@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "anatomy/compiled_joint.h"
-#include "core/check.h"
-#include "core/geometry.h"
-#include "core/result.h"
+#include "artus/anatomy/body/compiled_joint.h"
+#include "artus/core/check.h"
+#include "artus/core/geometry.h"
+#include "artus/core/result.h"
 
 namespace artus {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "viewer/gamepad.h"
+#include "artus/viewer/gamepad.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "viewer/user_event.h"
+#include "artus/viewer/user_event.h"
 
 namespace artus {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "viewer/gl_objects.h"
+#include "artus/viewer/gl_objects.h"
 
 #include <array>
 
@@ -25,9 +25,9 @@ Result<unsigned> compile(unsigned kind, const char* source) {
 
 Result<GlProgram> GlProgram::make(const char* vertex, const char* fragment) {
   const auto v = compile(GL_VERTEX_SHADER, vertex);
-  if (!v) return tl::unexpected<Error>(v.error());
+  ARTUS_TRY(v);
   const auto f = compile(GL_FRAGMENT_SHADER, fragment);
-  if (!f) return tl::unexpected<Error>(f.error());
+  ARTUS_TRY(f);
   const unsigned id = glCreateProgram();
   glAttachShader(id, *v);
   glAttachShader(id, *f);

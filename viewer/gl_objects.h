@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include "core/result.h"
+#include "artus/core/result.h"
 
 namespace artus {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "viewer/hand_control.h"
+#include "artus/viewer/hand_control.h"
 
-#include "core/units.h"
+#include "artus/core/units.h"
 
 namespace artus {
 namespace {

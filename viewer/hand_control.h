@@ -3,8 +3,8 @@
 #include <optional>
 #include <string>
 
-#include "sim/device_hand.h"
-#include "viewer/user_event.h"
+#include "artus/session/hand_device.h"
+#include "artus/viewer/user_event.h"
 
 namespace artus {
 

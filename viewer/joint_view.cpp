@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "viewer/joint_view.h"
+#include "artus/viewer/joint_view.h"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 
 #include <epoxy/gl.h>
 
-#include "echo/labels.h"
+#include "artus/echo/labels.h"
 
 namespace artus {
 namespace {
@@ -126,9 +126,9 @@ float usual_alpha(const std::string& tissue) {
 Result<std::unique_ptr<JointView>> JointView::make(const CompiledJoint& joint, double probe_width,
                                                    double needle_length) {
   auto solid = GlProgram::make(kSolidVertex, kSolidFragment);
-  if (!solid) return tl::unexpected<Error>(solid.error());
+  ARTUS_TRY(solid);
   auto picture = GlProgram::make(kPictureVertex, kPictureFragment);
-  if (!picture) return tl::unexpected<Error>(picture.error());
+  ARTUS_TRY(picture);
   return std::unique_ptr<JointView>(
       new JointView(joint, std::move(*solid), std::move(*picture), probe_width, needle_length));
 }

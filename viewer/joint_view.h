@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "sim/session.h"
-#include "viewer/gl_objects.h"
+#include "artus/session/session.h"
+#include "artus/viewer/gl_objects.h"
 
 namespace artus {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "viewer/panels.h"
+#include "artus/viewer/panels.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 
 #include <imgui.h>
 
-#include "core/units.h"
+#include "artus/core/units.h"
 
 namespace artus {
 namespace {

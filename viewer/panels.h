@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "sim/session.h"
-#include "viewer/hand_control.h"
-#include "viewer/joint_view.h"
+#include "artus/session/session.h"
+#include "artus/viewer/hand_control.h"
+#include "artus/viewer/joint_view.h"
 
 namespace artus {
 

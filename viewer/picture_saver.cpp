@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "viewer/picture_saver.h"
+#include "artus/viewer/picture_saver.h"
 
 #include <utility>
 

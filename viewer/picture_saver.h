@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "sim/session.h"
+#include "artus/session/session.h"
 
 namespace artus {
 

@@ -6,9 +6,9 @@
 
 #include <imgui.h>
 
-#include "core/units.h"
-#include "echo/labels.h"
-#include "viewer/panels.h"
+#include "artus/core/units.h"
+#include "artus/echo/labels.h"
+#include "artus/viewer/panels.h"
 
 namespace artus {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "viewer/script.h"
+#include "artus/viewer/script.h"
 
 #include <cmath>
 #include <optional>
 #include <sstream>
 
-#include "core/units.h"
+#include "artus/core/units.h"
 
 namespace artus {
 namespace {

@@ -6,8 +6,8 @@
 #include <variant>
 #include <vector>
 
-#include "core/result.h"
-#include "viewer/user_event.h"
+#include "artus/core/result.h"
+#include "artus/viewer/user_event.h"
 
 namespace artus {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "viewer/window.h"
+#include "artus/viewer/window.h"
 
 #include <algorithm>
 #include <chrono>
@@ -20,9 +20,9 @@
 
 #include <GLFW/glfw3.h>
 
-#include "viewer/panels.h"
-#include "viewer/picture_saver.h"
-#include "viewer/window_events.h"
+#include "artus/viewer/panels.h"
+#include "artus/viewer/picture_saver.h"
+#include "artus/viewer/window_events.h"
 
 namespace artus {
 namespace {
@@ -121,7 +121,7 @@ class WindowLoop {
       if (hand_ != nullptr) hand_->set_target(control_.target());
       events_.hold_cursor(control_.grab() != Grab::nothing);
       draw(elapsed);
-      if (auto saved = save_window(); !saved) return saved;
+      ARTUS_TRY(save_window());
       wanted_pictures_.clear();
       glfwSwapBuffers(window_);
       note_shown();
@@ -422,7 +422,7 @@ Result<void> run_window(Session& session, HandDevice* hand, const HandTarget& st
   const Gui gui(options.layout, scale);
   auto joint = JointView::make(session.scene().joint(), session.params().transducer.width,
                                session.params().needle_shape.length);
-  if (!joint) return tl::unexpected<Error>(joint.error());
+  ARTUS_TRY(joint);
   WindowLoop loop(window.get(), session, hand, start, options, report, std::move(*joint), scale);
   return loop.run();
 }

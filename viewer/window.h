@@ -3,10 +3,10 @@
 #include <filesystem>
 #include <vector>
 
-#include "core/result.h"
-#include "sim/session.h"
-#include "viewer/panels.h"
-#include "viewer/script.h"
+#include "artus/core/result.h"
+#include "artus/session/session.h"
+#include "artus/viewer/panels.h"
+#include "artus/viewer/script.h"
 
 namespace artus {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "viewer/window_events.h"
+#include "artus/viewer/window_events.h"
 
 #include <utility>
 

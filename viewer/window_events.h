@@ -3,8 +3,8 @@
 #include <utility>
 #include <vector>
 
-#include "viewer/gamepad.h"
-#include "viewer/user_event.h"
+#include "artus/viewer/gamepad.h"
+#include "artus/viewer/user_event.h"
 
 struct GLFWwindow;
 

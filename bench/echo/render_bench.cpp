@@ -21,7 +21,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "echo/renderer.h"
+#include "artus/echo/renderer.h"
 #include "tests/support/layered_body.h"
 
 namespace artus {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "raycast/embree_api.h"
+#include "artus/raycast/embree_api.h"
 
 namespace artus::bench {
 namespace {

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <memory>
 
-#include "anatomy/compiled_joint.h"
-#include "core/geometry.h"
+#include "artus/anatomy/body/compiled_joint.h"
+#include "artus/core/geometry.h"
 
 struct RTCDeviceTy;
 struct RTCSceneTy;

@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <memory>
 
-#include "anatomy/compiled_joint.h"
-#include "core/geometry.h"
+#include "artus/anatomy/body/compiled_joint.h"
+#include "artus/core/geometry.h"
 
 namespace artus::bench {
 

@@ -25,10 +25,10 @@
 
 #include <benchmark/benchmark.h>
 
+#include "artus/raycast/scene.h"
 #include "bench/raycast/bare_embree.h"
 #include "bench/raycast/cgal_tree.h"
 #include "bench/raycast/workloads.h"
-#include "raycast/scene.h"
 
 namespace artus::bench {
 namespace {

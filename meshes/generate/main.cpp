@@ -8,11 +8,10 @@
 
 #include <CLI/CLI.hpp>
 
-#include "anatomy/surface_io.h"
-#include "core/units.h"
-
-#include "meshes/generate/shoulder.h"
-#include "meshes/generate/simple_shoulder.h"
+#include "artus/anatomy/surfaces/surface_io.h"
+#include "artus/core/units.h"
+#include "artus/meshes/generate/shoulder.h"
+#include "artus/meshes/generate/simple_shoulder.h"
 
 namespace {
 

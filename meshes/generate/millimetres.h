@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
-#include "core/geometry.h"
+#include "artus/core/geometry.h"
 
 namespace artus {
 

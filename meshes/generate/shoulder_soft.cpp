@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "core/check.h"
-
-#include "meshes/generate/millimetres.h"
-#include "meshes/generate/shoulder.h"
-#include "meshes/generate/sweep.h"
+#include "artus/core/check.h"
+#include "artus/meshes/generate/millimetres.h"
+#include "artus/meshes/generate/shoulder.h"
+#include "artus/meshes/generate/sweep.h"
 
 namespace artus {
 namespace {

@@ -2,9 +2,9 @@
 #include <string>
 #include <utility>
 
-#include "meshes/generate/millimetres.h"
-#include "meshes/generate/shoulder.h"
-#include "meshes/generate/sweep.h"
+#include "artus/meshes/generate/millimetres.h"
+#include "artus/meshes/generate/shoulder.h"
+#include "artus/meshes/generate/sweep.h"
 
 namespace artus {
 namespace {

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "meshes/generate/simple_shoulder.h"
+#include "artus/meshes/generate/simple_shoulder.h"
 
 #include <algorithm>
 #include <array>
 #include <string>
 
-#include "core/check.h"
-
-#include "meshes/generate/sweep.h"
+#include "artus/core/check.h"
+#include "artus/meshes/generate/sweep.h"
 
 namespace artus {
 namespace {

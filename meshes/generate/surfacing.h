@@ -3,10 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "anatomy/surface_mesh.h"
-#include "core/result.h"
-
-#include "meshes/generate/field.h"
+#include "artus/anatomy/surfaces/surface_mesh.h"
+#include "artus/core/result.h"
+#include "artus/meshes/generate/field.h"
 
 namespace artus {
 

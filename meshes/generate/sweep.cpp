@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "meshes/generate/sweep.h"
+#include "artus/meshes/generate/sweep.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-#include "core/check.h"
+#include "artus/core/check.h"
 
 namespace artus {
 namespace {

@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "meshes/generate/field.h"
+#include "artus/meshes/generate/field.h"
 
 namespace artus {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "apps/arguments.h"
+#include "artus/apps/arguments.h"
 
 #include <gtest/gtest.h>
 

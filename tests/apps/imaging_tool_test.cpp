@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/apps/run_tool.h"
+#include "tests/support/paths.h"
 #include "tests/support/temporary_folder.h"
 
 namespace artus {
@@ -74,7 +75,7 @@ TEST_F(ImagingTool, TheImageIsTheSameAtAnyNumberOfThreads) {
 }
 
 TEST_F(ImagingTool, ATransducerComesByNameOrFromAFile) {
-  const std::string file = std::string(ARTUS_SOURCE_DIR) + "/devices/transducers/curved-2-5.toml";
+  const std::string file = artus::test::source_dir().string() + "/devices/transducers/curved-2-5.toml";
   for (const std::string& transducer : {std::string("curved-2-5"), file}) {
     const auto r = artus({"image", "-j", kSimple, "--transducer", transducer, "--depth", "60", "-o",
                           in("b.png"), "--json"});

@@ -3,12 +3,13 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/paths.h"
 #include "tests/support/process.h"
 
 namespace artus::test {
 
 /// The compiled simple shoulder of this build.
-inline const std::string kSimple = std::string(ARTUS_TEST_JOINTS) + "/simple-shoulder.artus";
+inline const std::string kSimple = artus::test::test_joints().string() + "/simple-shoulder.artus";
 
 /// Runs this build's tool with arguments and waits for it.
 [[nodiscard]] inline ProcessResult artus(std::vector<std::string> arguments) {

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/apps/run_tool.h"
+#include "tests/support/paths.h"
 #include "tests/support/temporary_folder.h"
 
 namespace artus {
@@ -60,9 +61,8 @@ TEST_F(Tool, ACompiledFileThatIsCutShortIsRefused) {
 }
 
 TEST_F(Tool, ChecksABundledSurfaceAsSound) {
-  const auto r =
-      artus({"check", std::string(ARTUS_SOURCE_DIR) + "/meshes/simple-shoulder/surfaces/bone.ply",
-             "--json"});
+  const auto r = artus(
+      {"check", artus::test::source_dir().string() + "/meshes/simple-shoulder/surfaces/bone.ply", "--json"});
   ASSERT_EQ(r.exit_code, 0) << r.err;
   const auto report = nlohmann::json::parse(r.out);
   EXPECT_TRUE(report.at("defects").empty());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "core/geometry.h"
+#include "artus/core/geometry.h"
 
 #include <gtest/gtest.h>
 

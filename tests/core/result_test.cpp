@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "core/result.h"
+#include "artus/core/result.h"
 
 #include <set>
 #include <string>
 
 #include <gtest/gtest.h>
 
-#include "core/check.h"
+#include "artus/core/check.h"
 
 namespace artus {
 namespace {

@@ -8,13 +8,13 @@
 
 #include <gtest/gtest.h>
 
-#include "core/units.h"
-#include "echo/beam_profile.h"
-#include "echo/beam_spread.h"
-#include "echo/frame_measure.h"
-#include "echo/region_acoustics.h"
-#include "echo/renderer.h"
-#include "echo/transducer_file.h"
+#include "artus/core/units.h"
+#include "artus/echo/beam_profile.h"
+#include "artus/echo/beam_spread.h"
+#include "artus/echo/frame_measure.h"
+#include "artus/echo/region_acoustics.h"
+#include "artus/echo/renderer.h"
+#include "artus/echo/transducer_file.h"
 #include "tests/echo/echo_fixture.h"
 
 namespace artus {

@@ -10,8 +10,8 @@
 
 #include <gtest/gtest.h>
 
-#include "core/units.h"
-#include "echo/renderer.h"
+#include "artus/core/units.h"
+#include "artus/echo/renderer.h"
 #include "tests/echo/echo_fixture.h"
 #include "tests/support/no_alloc.h"
 

@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "echo/aperture_coupling.h"
-#include "echo/renderer.h"
+#include "artus/echo/aperture_coupling.h"
+#include "artus/echo/renderer.h"
 #include "tests/echo/echo_fixture.h"
 
 namespace artus {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/check.h"
+#include "artus/core/check.h"
 
 namespace artus::test {
 

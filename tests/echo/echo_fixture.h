@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "echo/frame.h"
-#include "echo/frame_measure.h"
-#include "echo/image_settings.h"
-#include "echo/needle_view.h"
-#include "raycast/scene.h"
+#include "artus/echo/frame.h"
+#include "artus/echo/frame_measure.h"
+#include "artus/echo/image_settings.h"
+#include "artus/echo/needle_view.h"
+#include "artus/raycast/scene.h"
 #include "tests/support/layered_body.h"
 
 namespace artus::test {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "echo/fibre_course.h"
+#include "artus/echo/fibre_course.h"
 
 #include <array>
 #include <cmath>
@@ -10,8 +10,8 @@
 
 #include <gtest/gtest.h>
 
-#include "core/units.h"
-#include "echo/region_acoustics.h"
+#include "artus/core/units.h"
+#include "artus/echo/region_acoustics.h"
 #include "tests/echo/echo_fixture.h"
 
 namespace artus {

@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include "core/units.h"
-#include "echo/region_acoustics.h"
-#include "echo/renderer.h"
+#include "artus/core/units.h"
+#include "artus/echo/region_acoustics.h"
+#include "artus/echo/renderer.h"
 #include "tests/echo/echo_fixture.h"
 
 namespace artus {

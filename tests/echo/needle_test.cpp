@@ -8,9 +8,9 @@
 
 #include <gtest/gtest.h>
 
-#include "core/units.h"
-#include "echo/labels.h"
-#include "echo/renderer.h"
+#include "artus/core/units.h"
+#include "artus/echo/labels.h"
+#include "artus/echo/renderer.h"
 #include "tests/echo/echo_fixture.h"
 
 namespace artus {

@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
-#include "core/units.h"
-#include "echo/beam_profile.h"
-#include "echo/renderer.h"
+#include "artus/core/units.h"
+#include "artus/echo/beam_profile.h"
+#include "artus/echo/renderer.h"
 #include "tests/echo/echo_fixture.h"
 
 namespace artus {

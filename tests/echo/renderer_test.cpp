@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "echo/renderer.h"
+#include "artus/echo/renderer.h"
 
 #include <algorithm>
 #include <array>
@@ -9,8 +9,8 @@
 
 #include <gtest/gtest.h>
 
-#include "echo/display.h"
-#include "echo/labels.h"
+#include "artus/echo/display.h"
+#include "artus/echo/labels.h"
 #include "tests/echo/echo_fixture.h"
 
 namespace artus {

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "echo/transducer_file.h"
+#include "artus/echo/transducer_file.h"
 
 #include <filesystem>
 #include <fstream>
 #include <string>
 
 #include <gtest/gtest.h>
+
+#include "tests/support/paths.h"
 
 namespace artus {
 namespace {
@@ -59,8 +61,8 @@ TEST(TransducerFile, ThereIsALinearAndACurvilinearPresetAndEachIsFoundByName) {
   bool curved = false;
   for (const auto& preset : *presets) {
     EXPECT_TRUE(find_transducer(preset.name).has_value()) << preset.name;
-    EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(ARTUS_SOURCE_DIR) /
-                                        "devices/transducers" / (preset.name + ".toml")));
+    EXPECT_TRUE(
+        std::filesystem::exists(artus::test::source_dir() / "devices/transducers" / (preset.name + ".toml")));
     curved = curved || preset.transducer.radius > 0;
   }
   EXPECT_TRUE(curved);

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "anatomy/surface_io_formats.h"
+#include "artus/anatomy/surfaces/surface_io_formats.h"
 
 namespace artus {
 

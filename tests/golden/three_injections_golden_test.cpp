@@ -17,16 +17,16 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "anatomy/compiled_joint.h"
-#include "echo/image_io.h"
-#include "echo/renderer.h"
-#include "sim/three_injections.h"
+#include "artus/anatomy/body/compiled_joint.h"
+#include "artus/echo/image_io.h"
+#include "artus/echo/renderer.h"
+#include "artus/evidence/medical/three_injections.h"
+#include "tests/support/paths.h"
 
 namespace artus {
 namespace {
 
-const std::filesystem::path kExpected =
-    std::filesystem::path(ARTUS_SOURCE_DIR) / "tests/golden/expected";
+const std::filesystem::path kExpected = artus::test::source_dir() / "tests/golden/expected";
 const std::filesystem::path kOutput = ARTUS_GOLDEN_OUTPUT;
 
 bool updating() {
@@ -38,8 +38,7 @@ nlohmann::json sidecar(const std::string& name) {
 }
 
 std::shared_ptr<const Scene> simple_shoulder() {
-  auto joint =
-      read_compiled_joint(std::filesystem::path(ARTUS_TEST_JOINTS) / "simple-shoulder.artus");
+  auto joint = read_compiled_joint(artus::test::test_joints() / "simple-shoulder.artus");
   if (!joint) throw std::runtime_error(joint.error().to_string());
   return std::make_shared<const Scene>(std::make_shared<const CompiledJoint>(std::move(*joint)));
 }

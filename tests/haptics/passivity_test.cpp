@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "haptics/passivity.h"
+#include "artus/haptics/passivity.h"
 
 #include <cmath>
 

@@ -9,9 +9,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "anatomy/compiled_joint.h"
-#include "core/noise.h"
-#include "raycast/scene.h"
+#include "artus/anatomy/body/compiled_joint.h"
+#include "artus/core/noise.h"
+#include "artus/raycast/scene.h"
+#include "tests/support/paths.h"
 
 namespace artus {
 namespace {
@@ -19,7 +20,7 @@ namespace {
 class BundledJoint : public testing::TestWithParam<std::string> {
  protected:
   static std::filesystem::path file(const std::string& extension) {
-    return std::filesystem::path(ARTUS_TEST_JOINTS) / (GetParam() + extension);
+    return artus::test::test_joints() / (GetParam() + extension);
   }
   static nlohmann::json report() { return nlohmann::json::parse(std::ifstream(file(".json"))); }
   static std::shared_ptr<const CompiledJoint> joint() {

@@ -6,16 +6,16 @@
 
 #include <gtest/gtest.h>
 
-#include "anatomy/joint.h"
-
-#include "meshes/generate/shoulder.h"
-#include "meshes/generate/simple_shoulder.h"
+#include "artus/anatomy/body/joint_file.h"
+#include "artus/meshes/generate/shoulder.h"
+#include "artus/meshes/generate/simple_shoulder.h"
+#include "tests/support/paths.h"
 
 namespace artus {
 namespace {
 
 JointFile read_bundled_joint(const char* name) {
-  auto joint = read_joint(std::filesystem::path(ARTUS_SOURCE_DIR) / "meshes" / name);
+  auto joint = read_joint(artus::test::source_dir() / "meshes" / name);
   EXPECT_TRUE(joint) << joint.error().to_string();
   return joint ? *joint : JointFile{};
 }

@@ -8,17 +8,17 @@
 
 #include <gtest/gtest.h>
 
-#include "anatomy/surface_io.h"
-#include "core/units.h"
+#include "artus/anatomy/surfaces/surface_io.h"
+#include "artus/core/units.h"
+#include "artus/meshes/generate/shoulder.h"
+#include "artus/meshes/generate/simple_shoulder.h"
 #include "tests/meshes/topology.h"
-
-#include "meshes/generate/shoulder.h"
-#include "meshes/generate/simple_shoulder.h"
+#include "tests/support/paths.h"
 
 namespace artus {
 namespace {
 
-const std::filesystem::path kMeshes = std::filesystem::path(ARTUS_SOURCE_DIR) / "meshes";
+const std::filesystem::path kMeshes = artus::test::source_dir() / "meshes";
 
 struct Bundled {
   std::filesystem::path file;

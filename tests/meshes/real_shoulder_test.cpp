@@ -5,21 +5,20 @@
 
 #include <gtest/gtest.h>
 
-#include "anatomy/distance_tree.h"
-#include "anatomy/joint.h"
-#include "anatomy/surface_io.h"
-#include "core/units.h"
+#include "artus/anatomy/body/joint_file.h"
+#include "artus/anatomy/surfaces/distance_tree.h"
+#include "artus/anatomy/surfaces/surface_io.h"
+#include "artus/core/units.h"
+#include "tests/support/paths.h"
 
 namespace artus {
 namespace {
 
-const std::filesystem::path kFolder =
-    std::filesystem::path(ARTUS_SOURCE_DIR) / "meshes" / "real-shoulder";
+const std::filesystem::path kFolder = artus::test::source_dir() / "meshes" / "real-shoulder";
 
 std::filesystem::path find_surfaces() {
   const char* shared = std::getenv("ARTUS_SHARED");
-  const std::filesystem::path root =
-      shared != nullptr ? shared : std::filesystem::path(ARTUS_SOURCE_DIR) / ".." / "shared";
+  const std::filesystem::path root = shared != nullptr ? shared : artus::test::source_dir() / ".." / "shared";
   return root / "data" / "shoulder";
 }
 

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "meshes/generate/surfacing.h"
+#include "artus/meshes/generate/surfacing.h"
 
 #include <numbers>
 
 #include <gtest/gtest.h>
 
+#include "artus/meshes/generate/shoulder.h"
+#include "artus/meshes/generate/simple_shoulder.h"
+#include "artus/meshes/generate/sweep.h"
 #include "tests/meshes/topology.h"
-
-#include "meshes/generate/shoulder.h"
-#include "meshes/generate/simple_shoulder.h"
-#include "meshes/generate/sweep.h"
 
 namespace artus {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/noise.h"
+#include "artus/core/noise.h"
 
 namespace artus::test {
 namespace {

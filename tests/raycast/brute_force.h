@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "anatomy/compiled_joint.h"
-#include "raycast/scene.h"
+#include "artus/anatomy/body/compiled_joint.h"
+#include "artus/raycast/scene.h"
 
 /// Slow, plain answers to compare the fast ones with; nothing here shares code with raycast.
 namespace artus::test {

@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "raycast/scene.h"
+#include "artus/raycast/scene.h"
 #include "tests/support/layered_body.h"
 
 namespace artus {

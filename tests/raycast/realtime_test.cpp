@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "raycast/scene.h"
+#include "artus/raycast/scene.h"
 #include "tests/raycast/brute_force.h"
 #include "tests/support/no_alloc.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "raycast/scene.h"
+#include "artus/raycast/scene.h"
 
 #include <array>
 #include <cmath>

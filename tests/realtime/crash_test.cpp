@@ -12,10 +12,10 @@
 
 #include <gtest/gtest.h>
 
-#include "core/noise.h"
-#include "sim/device_shared_memory.h"
-#include "sim/session.h"
-#include "tests/sim/session_support.h"
+#include "artus/core/noise.h"
+#include "artus/session/session.h"
+#include "artus/session/shared_memory_device.h"
+#include "tests/session/session_support.h"
 
 namespace artus {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "viewer/hand_control.h"
+#include "artus/viewer/hand_control.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "viewer/gamepad.h"
-#include "viewer/script.h"
+#include "artus/viewer/gamepad.h"
+#include "artus/viewer/script.h"
 
 namespace artus {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "viewer/window.h"
+#include "artus/viewer/window.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,9 +14,9 @@
 
 #include <gtest/gtest.h>
 
-#include "core/units.h"
-#include "sim/replay.h"
-#include "tests/sim/session_support.h"
+#include "artus/core/units.h"
+#include "artus/session/replay.h"
+#include "tests/session/session_support.h"
 
 namespace artus {
 namespace {

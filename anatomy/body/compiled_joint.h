@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "artus/anatomy/body/joint_file.h"
+#include "artus/anatomy/body/tet_mesh.h"
+#include "artus/anatomy/body/tissue.h"
+#include "artus/core/result.h"
+
+namespace artus {
+
+using TissueId = std::uint16_t;
+
+/// One structure's share of the body after overlaps are resolved.
+struct Region {
+  std::string name;     ///< the structure's name; "outside", "beyond", or the filler's name
+  TissueId tissue = 0;  ///< index into CompiledJoint::tissues (for outside: air's place holder gel)
+  Vec3 fibre_axis = Vec3::Zero();  ///< unit, or zero when unknown
+};
+
+/// A joint ready for use: everything the engine needs, nothing of the source meshes.
+struct CompiledJoint {
+  std::string name;
+  std::string side;
+  std::string axes;
+  std::vector<Tissue> tissues;  ///< the joint's own values
+  std::vector<Region> regions;  ///< [0] outside, [1] beyond, then filler and structures
+  TetMesh mesh;
+  std::vector<Landmark> landmarks;
+  Pose X_JP_default = Pose::Identity();
+  Pose X_JN_default = Pose::Identity();
+  std::vector<PlannedInjection> injections;
+  std::string source_digest;  ///< hex digest of joint file, tissues and surfaces
+
+  [[nodiscard]] const Tissue& tissue_of(RegionId region) const {
+    return tissues[regions[region].tissue];
+  }
+};
+
+/// Writes the joint to `file` (see docs/file-format.md), atomically: a crash leaves the old file or
+/// none. Errors: unreadable.
+[[nodiscard]] Result<void> write_compiled_joint(const CompiledJoint& joint,
+                                                const std::filesystem::path& file);
+
+/// The joint in the payload of a compiled file (what follows its header); `where` names the file in
+/// errors. Errors: corrupt, as below.
+[[nodiscard]] Result<CompiledJoint> parse_compiled_joint(const std::string& payload,
+                                                         const std::string& where);
+
+/// Reads what write_compiled_joint wrote. Errors: not_found, unsupported (other version), corrupt
+/// (truncated, checksum, index out of range, not finite).
+[[nodiscard]] Result<CompiledJoint> read_compiled_joint(const std::filesystem::path& file);
+
+}  // namespace artus

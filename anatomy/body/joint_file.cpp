@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/anatomy/body/joint_file.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstdlib>
+
+#include "artus/anatomy/body/joint_structure.h"
+#include "artus/anatomy/body/tissue_toml.h"
+#include "artus/core/text_file.h"
+#include "artus/core/units.h"
+
+namespace artus {
+namespace {
+
+constexpr double kLargestCoordinate = 1e6;  // units of the file
+constexpr double kDefaultFacetSize = 2.0 * kMillimetre;
+constexpr double kDefaultFacetDistance = 0.15 * kMillimetre;
+constexpr double kDefaultCellSize = 5.0 * kMillimetre;
+
+/// The direction of an axis letter in LPS, +1, +2, +3 or their negatives; 0: no such letter.
+int lps_axis(char letter) noexcept {
+  switch (letter) {
+    case 'L':
+      return 1;
+    case 'R':
+      return -1;
+    case 'P':
+      return 2;
+    case 'A':
+      return -2;
+    case 'S':
+      return 3;
+    case 'I':
+      return -3;
+    default:
+      return 0;
+  }
+}
+
+/// Three letters, one of each pair, that make a right-handed frame.
+bool is_right_handed_frame(const std::string& axes) {
+  if (axes.size() != 3) return false;
+  Eigen::Matrix3d m = Eigen::Matrix3d::Zero();
+  for (int k = 0; k < 3; ++k) {
+    const int a = lps_axis(axes[static_cast<std::size_t>(k)]);
+    if (a == 0) return false;
+    m(std::abs(a) - 1, k) = a > 0 ? 1 : -1;
+  }
+  return m.determinant() > 0.5;
+}
+
+void read_identity(TomlTable& toml, JointFile& joint) {
+  if (toml.required_number("format", 1, 1) == 0 && toml.has("format"))
+    toml.problem_at("format", "is of another version of artus; this one reads 1");
+  joint.name = toml.required_text("name");
+  if (!joint.name.empty() && !is_plain_name(joint.name, '-'))
+    toml.problem_at("name", "may have only a-z, 0-9 and -");
+  joint.title = toml.text("title").value_or(joint.name);
+  joint.side = toml.text("side").value_or("none");
+  if (joint.side != "left" && joint.side != "right" && joint.side != "none")
+    toml.problem_at("side", "must be \"left\", \"right\" or \"none\"");
+  joint.axes = toml.required_text("axes");
+  if (!joint.axes.empty() && !is_right_handed_frame(joint.axes))
+    toml.problem_at("axes",
+                    "must be three letters, one of L/R, P/A and S/I each, of a right-handed frame "
+                    "(\"LPS\" or \"RAS\", for example)");
+}
+
+void read_mesh_sizes(TomlTable& toml, double unit, JointFile& joint) {
+  joint.facet_size = kDefaultFacetSize;
+  joint.facet_distance = kDefaultFacetDistance;
+  joint.cell_size = kDefaultCellSize;
+  const auto* table = toml.table("mesh");
+  if (table == nullptr) return;
+  TomlTable mesh(*table, "mesh", toml.problems());
+  const auto read = [&](const char* key, double& size) {
+    const auto value = mesh.number(key, 0, kLargestCoordinate, unit);
+    if (value && *value == 0) mesh.problem_at(key, "must be greater than 0");
+    size = value.value_or(size);
+  };
+  read("facet_size", joint.facet_size);
+  read("facet_distance", joint.facet_distance);
+  read("cell_size", joint.cell_size);
+  mesh.finish();
+}
+
+void read_region(TomlTable& toml, double unit, JointFile& joint) {
+  const auto* table = toml.table("region_of_interest");
+  if (table == nullptr) return;
+  TomlTable region(*table, "region_of_interest", toml.problems());
+  RegionOfInterest roi;
+  roi.centre = region.required_vector("centre", unit);
+  roi.radius = region.number("radius", 0, kLargestCoordinate, unit).value_or(0);
+  roi.half_extent = region.vector("half_extent", unit);
+  if (region.has("radius") == region.has("half_extent"))
+    region.problem("needs either 'radius' (a ball) or 'half_extent' (a box)");
+  else if (region.has("radius") ? !(roi.radius > 0)
+                                : roi.half_extent && !(roi.half_extent->minCoeff() > 0))
+    region.problem("must have a size greater than 0");
+  region.finish();
+  joint.region_of_interest = roi;
+}
+
+void read_landmarks(TomlTable& toml, double unit, JointFile& joint) {
+  for (const auto* table : toml.tables("landmark")) {
+    TomlTable landmark(*table, "landmark", toml.problems());
+    Landmark out;
+    out.name = landmark.required_text("name");
+    out.position = landmark.required_vector("position", unit);
+    landmark.finish();
+    const bool is_taken = std::any_of(joint.landmarks.begin(), joint.landmarks.end(),
+                                      [&](const Landmark& l) { return l.name == out.name; });
+    if (is_taken && !out.name.empty()) landmark.problem_at("name", "is taken already");
+    joint.landmarks.push_back(std::move(out));
+  }
+}
+
+void read_probe(TomlTable& toml, double unit, JointFile& joint) {
+  const auto* table = toml.table("probe");
+  if (table == nullptr) return;
+  TomlTable probe(*table, "probe", toml.problems());
+  const Vec3 position = probe.required_vector("position", unit);
+  const Vec3 direction = probe.required_vector("direction");
+  const Vec3 lateral = probe.vector("lateral").value_or(Vec3::Zero());
+  if (probe.has("direction") && !(direction.norm() > 0))
+    probe.problem_at("direction", "must not be zero");
+  else if (direction.norm() > 0)
+    joint.X_JP_default = make_pose(position, direction, lateral);
+  if (lateral.norm() > 0 && lateral.cross(direction).norm() < 1e-6 * lateral.norm())
+    probe.problem_at("lateral", "must not be along 'direction'");
+  probe.finish();
+}
+
+/// Entry and target of a needle pass, which must be two points.
+void read_pass(TomlTable& pass, double unit, Vec3& entry, Vec3& target) {
+  entry = pass.required_vector("entry", unit);
+  target = pass.required_vector("target", unit);
+  if (pass.has("entry") && pass.has("target") && (target - entry).norm() < 1e-9)
+    pass.problem("'entry' and 'target' must not be the same point");
+}
+
+void read_needles(TomlTable& toml, double unit, JointFile& joint) {
+  if (const auto* table = toml.table("needle")) {
+    TomlTable needle(*table, "needle", toml.problems());
+    Vec3 entry = Vec3::Zero();
+    Vec3 target = Vec3::Zero();
+    read_pass(needle, unit, entry, target);
+    needle.finish();
+    if ((target - entry).norm() > 0)
+      joint.X_JN_default = make_pose(target, target - entry, Vec3::Zero());
+  }
+  for (const auto* table : toml.tables("injection")) {
+    TomlTable toml_pass(*table, "injection", toml.problems());
+    PlannedInjection pass;
+    pass.name = toml_pass.required_text("name");
+    read_pass(toml_pass, unit, pass.entry, pass.target);
+    toml_pass.finish();
+    joint.injections.push_back(std::move(pass));
+  }
+}
+
+void read_structures(TomlTable& toml, double unit, JointFile& joint) {
+  if (const auto* body = toml.table("body"))
+    joint.body = read_body(*body, unit, joint.filler_name, toml.problems());
+  else
+    toml.problem("[body] is missing: every joint needs the closed outer skin");
+  std::vector<toml::source_region> places;
+  for (const auto* table : toml.tables("structure")) {
+    joint.structures.push_back(
+        read_structure(*table, joint.structures.size() + 1, unit, toml.problems()));
+    places.push_back(table->source());
+  }
+  if (joint.structures.empty()) toml.problem("there is no [[structure]]");
+  check_structures(joint, places, toml.problems());
+}
+
+/// The library's tissues with the joint's own on top; a missing library is an error at once.
+Result<void> read_joint_tissues(TomlTable& toml, JointFile& joint) {
+  const auto library = toml.text("tissue_library");
+  auto tissues = library ? read_tissues(joint.folder / *library) : read_bundled_tissues();
+  if (!tissues) return tl::unexpected(tissues.error());
+  joint.tissues = std::move(*tissues);
+  if (const auto* table = toml.table("tissue"))
+    merge_tissues(*table, "joint file of " + joint.name, joint.tissues, toml.problems());
+  return {};
+}
+
+/// ARTUS_SURFACES_<NAME> of the environment, NAME in capitals with '-' as '_'; empty when unset.
+std::filesystem::path surfaces_of_environment(const std::string& joint_name) {
+  std::string variable = "ARTUS_SURFACES_";
+  for (const char c : joint_name)
+    variable += c == '-' ? '_' : static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  const char* value =
+      std::getenv(variable.c_str());  // NOLINT(concurrency-mt-unsafe): read at start
+  return value == nullptr ? std::filesystem::path{} : std::filesystem::path{value};
+}
+
+void check_file(const JointFile& joint, const Structure& structure, Problems& problems) {
+  const auto* surface = std::get_if<SurfaceFile>(&structure.shape);
+  std::error_code ignored;
+  if (surface != nullptr && !surface->file.empty() &&
+      !std::filesystem::is_regular_file(joint.surface_folder / surface->file, ignored))
+    problems.add(toml::source_region{}, "structure '" + structure.name + "': there is no file '" +
+                                            surface->file.string() + "' in " +
+                                            joint.surface_folder.string());
+}
+
+Result<void> check_files(const JointFile& joint, const std::string& where) {
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(joint.surface_folder, ignored)) {
+    std::string variable = joint.name;
+    for (char& c : variable)
+      c = c == '-' ? '_' : static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    return fail(ErrorCode::not_found,
+                "the surface folder " + joint.surface_folder.string() +
+                    " does not exist; name it with --surfaces DIR or ARTUS_SURFACES_" + variable,
+                where);
+  }
+  Problems problems;
+  check_file(joint, joint.body, problems);
+  for (const auto& s : joint.structures) check_file(joint, s, problems);
+  if (!problems.empty()) return problems.refusal(ErrorCode::not_found, where);
+  return {};
+}
+
+}  // namespace
+
+Result<JointFile> parse_joint(std::string_view text, const std::filesystem::path& folder,
+                              const std::filesystem::path& surface_folder) {
+  const std::string where = (folder / "joint.toml").string();
+  const auto document = parse_toml(text, where);
+  if (!document) return tl::unexpected(document.error());
+  Problems problems;
+  TomlTable toml(*document, "joint", problems);
+  JointFile joint;
+  joint.folder = folder;
+  read_identity(toml, joint);
+  const double unit = length_unit(toml, "units", kMillimetre);
+  if (!toml.has("units")) toml.problem("'units' is missing (\"mm\", \"cm\" or \"m\")");
+  const auto surfaces = toml.text("surfaces").value_or(".");
+  joint.surface_folder = surface_folder.empty() ? folder / surfaces : surface_folder;
+  if (auto ok = read_joint_tissues(toml, joint); !ok) return tl::unexpected(ok.error());
+  read_mesh_sizes(toml, unit, joint);
+  read_region(toml, unit, joint);
+  read_structures(toml, unit, joint);
+  read_landmarks(toml, unit, joint);
+  read_probe(toml, unit, joint);
+  read_needles(toml, unit, joint);
+  toml.finish();
+  if (!problems.empty()) return problems.refusal(ErrorCode::invalid, where);
+  return joint;
+}
+
+Result<JointFile> read_joint(const std::filesystem::path& folder,
+                             const std::filesystem::path& surface_folder) {
+  const auto file = folder / "joint.toml";
+  const auto bytes = read_bytes(file);
+  if (!bytes) return tl::unexpected(bytes.error());
+  auto joint = parse_joint(*bytes, folder, surface_folder);
+  ARTUS_TRY(joint);
+  if (surface_folder.empty())
+    if (auto from_environment = surfaces_of_environment(joint->name); !from_environment.empty())
+      joint->surface_folder = std::move(from_environment);
+  if (auto ok = check_files(*joint, file.string()); !ok) return tl::unexpected(ok.error());
+  return joint;
+}
+
+}  // namespace artus

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "artus/anatomy/body/compiled_joint.h"
+
+/// Small layered bodies whose answers are known in closed form: the phantoms of echography and of
+/// tests. They carry interfaces, regions and tissues, but no tetrahedra: whoever needs volumes
+/// fills them with TetGen. Every builder takes the tissues to choose from by name, "gel" (the
+/// outside) among them. Requires: every named tissue is one of `tissues`.
+namespace artus {
+
+/// One layer of a flat block, top first.
+struct FlatLayer {
+  std::string tissue;
+  double thickness = 0;  ///< m
+};
+
+/// One sphere of a nest, outermost first.
+struct SphereLayer {
+  std::string tissue;  ///< of the shell between this sphere and the next one inside
+  double radius = 0;   ///< m
+};
+
+/// The region with this name. Requires: there is one.
+[[nodiscard]] RegionId region_named(const CompiledJoint& joint, std::string_view name);
+
+/// A block of layers stacked along +z: the first layer's top face lies in z = 0 around `top_centre`
+/// (frame J), so a probe at `top_centre` looking along +z sees the layers in order. Regions after
+/// "outside" and "beyond" are named like their tissue; a tissue's second layer is "<tissue>_2".
+[[nodiscard]] CompiledJoint make_layered_block(const std::vector<Tissue>& tissues,
+                                               std::span<const FlatLayer> layers, double width_x,
+                                               double depth_y,
+                                               const Vec3& top_centre = Vec3::Zero());
+
+/// Spheres inside each other around `centre`: icosahedra split `subdivisions` times
+/// (20 * 4^subdivisions triangles each), vertices on the spheres. Regions named as in
+/// make_layered_block.
+[[nodiscard]] CompiledJoint make_nested_spheres(const std::vector<Tissue>& tissues,
+                                                std::span<const SphereLayer> layers,
+                                                const Vec3& centre = Vec3::Zero(),
+                                                int subdivisions = 4);
+
+/// A block of `tissue` (top face centre at `top_centre`, body along +z) with a sphere of
+/// `inclusion` tissue inside. Requires: the sphere lies inside the block. Regions: "block",
+/// "inclusion".
+[[nodiscard]] CompiledJoint make_block_with_sphere(const std::vector<Tissue>& tissues,
+                                                   const std::string& tissue, const Vec3& size,
+                                                   const Vec3& top_centre,
+                                                   const std::string& inclusion, const Vec3& centre,
+                                                   double radius, int subdivisions = 4);
+
+/// The same with a closed cylinder of `sides` flat sides between the points `a` and `b`.
+[[nodiscard]] CompiledJoint make_block_with_cylinder(const std::vector<Tissue>& tissues,
+                                                     const std::string& tissue, const Vec3& size,
+                                                     const Vec3& top_centre,
+                                                     const std::string& inclusion, const Vec3& a,
+                                                     const Vec3& b, double radius,
+                                                     std::size_t sides = 64);
+
+/// The joint moved rigidly: vertices, landmarks, default poses and fibre axes.
+[[nodiscard]] CompiledJoint transformed(const CompiledJoint& joint, const Pose& X_new_old);
+
+}  // namespace artus

@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/anatomy/compile/compile_labels.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "artus/anatomy/body/joint_structure.h"
+#include "artus/anatomy/compile/construct.h"
+
+namespace artus {
+namespace {
+
+// Spacing of a field: fine enough that the trilinear surface strays less than the mesh does.
+constexpr double kSpacingPerDistance = 5;      // of the facet distance
+constexpr double kSpacingPerSize = 0.25;       // of the facet size
+constexpr double kSpacingPerThickness = 0.16;  // of the structure's thickness
+constexpr double kFinestPerDistance = 0.6;     // of the joint's facet distance
+constexpr double kBandPerSpacing = 2.2;
+constexpr double kExtendedBandPerSpacing = 4;  // where a coarser field takes over
+constexpr double kFarSpacing =
+    0.4;  // of the joint's facet size, where constructs measure from afar
+// A triangle across a tube or plate must not be much longer than it is thick, and must stray from
+// its surface by a small part of its thickness.
+constexpr double kFacetPerThickness = 1.2;
+constexpr double kDistancePerThickness = 0.12;
+constexpr double kFinestFacet = 0.25;     // of the joint's facet size
+constexpr double kFinestDistance = 0.25;  // of the joint's facet distance
+
+RegionSizing sizing_of(const JointFile& file, const Structure& s, double thickness) {
+  RegionSizing size;
+  size.facet_size = s.facet_size > 0 ? s.facet_size : file.facet_size;
+  size.facet_distance = s.facet_distance > 0 ? s.facet_distance : file.facet_distance;
+  size.cell_size = file.cell_size;
+  if (thickness > 0) {
+    size.facet_size = std::min(
+        size.facet_size, std::max(kFinestFacet * file.facet_size, kFacetPerThickness * thickness));
+    size.facet_distance = std::min(
+        size.facet_distance,
+        std::max(kFinestDistance * file.facet_distance, kDistancePerThickness * thickness));
+  }
+  return size;
+}
+
+double spacing_of(const JointFile& file, const RegionSizing& size, double thickness) {
+  const double wanted =
+      std::min({kSpacingPerDistance * size.facet_distance, kSpacingPerSize * size.facet_size,
+                kSpacingPerThickness * thickness});
+  return std::max(wanted, kFinestPerDistance * file.facet_distance);
+}
+
+Box intersection(const Box& a, const Box& b) {
+  return {a.lower.cwiseMax(b.lower), a.upper.cwiseMin(b.upper)};
+}
+
+Box grown(const Vec3& lower, const Vec3& upper, double margin) {
+  return {lower - Vec3::Constant(margin), upper + Vec3::Constant(margin)};
+}
+
+Box box_of(const RegionOfInterest& roi) {
+  const Vec3 half = roi.half_extent.value_or(Vec3::Constant(roi.radius));
+  return {roi.centre - half, roi.centre + half};
+}
+
+double construct_thickness(const Structure& s) {
+  if (const auto* shell = std::get_if<ShellConstruct>(&s.shape)) return shell->thickness;
+  if (const auto* cap = std::get_if<CapConstruct>(&s.shape)) return cap->thickness;
+  if (const auto* gap = std::get_if<GapConstruct>(&s.shape)) return gap->thickness;
+  return 0;
+}
+
+// Fields of all structures by index, surfaces first, then the constructs made from them.
+class FieldMaker {
+ public:
+  FieldMaker(const JointFile& file, const PreparedSurfaces& surfaces, const Box& box,
+             const Progress& progress)
+      : file_(file),
+        progress_(progress),
+        surfaces_(surfaces),
+        box_(box),
+        bands_(construct_bands(file)),
+        fields_(file.structures.size()),
+        sizing_(file.structures.size()) {}
+
+  void make_surfaces() {
+    tell(file_.body.name);
+    body_ = surface_field(surfaces_.body, "", sizing_of(file_, file_.body, 0));
+    named_[""] = &body_;
+    for (std::size_t i = 0; i < fields_.size(); ++i) {
+      if (!surfaces_.structures[i]) continue;
+      const PreparedSurface& surface = *surfaces_.structures[i];
+      const Structure& s = file_.structures[i];
+      sizing_[i] = sizing_of(file_, s, surface.thickness);
+      tell(s.name);
+      fields_[i] = surface_field(surface, s.name, sizing_[i]);
+      named_[s.name] = &*fields_[i];
+    }
+  }
+
+  // Constructs may name constructs: repeat until no further one can be made.
+  void make_constructs() {
+    for (bool progress = true; progress;) {
+      progress = false;
+      for (std::size_t i = 0; i < fields_.size(); ++i) {
+        if (fields_[i] || surfaces_.structures[i] || !is_ready(file_.structures[i])) continue;
+        make_construct(i);
+        progress = true;
+      }
+    }
+  }
+
+  DistanceField take_body() { return std::move(body_); }
+  std::optional<DistanceField>& field(std::size_t i) { return fields_[i]; }
+  [[nodiscard]] const RegionSizing& sizing(std::size_t i) const { return sizing_[i]; }
+
+ private:
+  // Each structure takes its share of this stage.
+  void tell(const std::string& name) {
+    if (progress_)
+      progress_("measuring distances: " + name,
+                0.1 + 0.1 * n_told_++ / static_cast<double>(fields_.size() + 1));
+  }
+
+  DistanceField surface_field(const PreparedSurface& surface, const std::string& name,
+                              const RegionSizing& size) const {
+    const double spacing = spacing_of(file_, size, surface.thickness);
+    const auto needed = bands_.find(name);
+    const bool extended = needed != bands_.end();
+    const double band = (extended ? kExtendedBandPerSpacing : kBandPerSpacing) * spacing;
+    Box around = grown(surface.tree.lower(), surface.tree.upper(), band);
+    auto field = DistanceField::compute(surface.tree, {intersection(box_, around), spacing, band});
+    if (!extended) return field;
+    const double coarse = kFarSpacing * file_.facet_size;
+    const double reach = std::max(needed->second + 2 * coarse, band + coarse);
+    around = grown(surface.tree.lower(), surface.tree.upper(), reach);
+    field.extend(surface.tree, {intersection(box_, around), coarse, reach});
+    return field;
+  }
+
+  [[nodiscard]] bool is_ready(const Structure& s) const {
+    if (std::holds_alternative<SurfaceFile>(s.shape)) return false;
+    const auto names = names_of(s);
+    return std::all_of(names.begin(), names.end(),
+                       [&](const std::string& n) { return named_.count(n) > 0; });
+  }
+
+  void make_construct(std::size_t i) {
+    Structure s = file_.structures[i];
+    tell(s.name);
+    const double thickness = construct_thickness(s);
+    sizing_[i] = sizing_of(file_, s, thickness);
+    if (auto* end = std::get_if<EndConstruct>(&s.shape)) {
+      if (!end->insertion) end->insertion = insertion_of(*end);
+    }
+    const double spacing =
+        spacing_of(file_, sizing_[i], thickness > 0 ? thickness : file_.facet_size);
+    fields_[i] = make_construct_field(s, named_, {box_, spacing, kBandPerSpacing * spacing});
+    named_[s.name] = &*fields_[i];
+  }
+
+  [[nodiscard]] Vec3 insertion_of(const EndConstruct& end) const {
+    for (std::size_t i = 0; i < fields_.size(); ++i) {
+      if (file_.structures[i].name == end.of && surfaces_.structures[i]) {
+        return find_insertion(surfaces_.structures[i]->mesh, *named_.at(end.toward));
+      }
+    }
+    return Vec3::Zero();
+  }
+
+  const JointFile& file_;
+  const Progress& progress_;
+  double n_told_ = 0;
+  const PreparedSurfaces& surfaces_;
+  Box box_;
+  std::map<std::string, double> bands_;
+  DistanceField body_;
+  std::vector<std::optional<DistanceField>> fields_;
+  std::vector<RegionSizing> sizing_;
+  NamedFields named_;
+};
+
+// Priority order: the file's, but what takes its share from a structure comes before it.
+std::vector<std::size_t> priority_order(const JointFile& file) {
+  std::vector<std::size_t> order;
+  const auto is_placed = [&order](std::size_t i) {
+    return std::find(order.begin(), order.end(), i) != order.end();
+  };
+  for (std::size_t i = 0; i < file.structures.size(); ++i) {
+    for (std::size_t j = i + 1; j < file.structures.size(); ++j) {
+      const auto* end = std::get_if<EndConstruct>(&file.structures[j].shape);
+      if (end != nullptr && end->of == file.structures[i].name && !is_placed(j)) {
+        order.push_back(j);
+      }
+    }
+    if (!is_placed(i)) order.push_back(i);
+  }
+  return order;
+}
+
+/// The area of a surface in a box, m^2.
+double area_in(const Box& box, const SurfaceMesh& mesh) {
+  double area = 0;
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3 centre = triangle_centre(mesh, t);
+    if ((centre.array() < box.lower.array()).any() || (centre.array() > box.upper.array()).any())
+      continue;
+    area += triangle_area(mesh, t);
+  }
+  return area;
+}
+
+/// Refuses sizes that would take hours and more memory than there is, before they do.
+Result<void> check_sizes(const JointFile& file, const PreparedSurfaces& surfaces, const Box& box) {
+  constexpr double kMostElements = 2e7;  // tetrahedra, and interface triangles
+  constexpr double kMostFieldBytes = 4e9;
+  constexpr double kVolumePerCell = 0.2;  // of the cube of its circumradius, usually
+  constexpr double kAreaPerFacet = 0.65;  // of the square of its circumradius, usually
+  constexpr double kBytesPerSample = 4;
+  constexpr double kLayersOfBlocks = 4 * 8;  // samples across a surface's band
+  const double volume = std::min((box.upper - box.lower).prod(), signed_volume(surfaces.body.mesh));
+  const double cells = volume / (kVolumePerCell * std::pow(file.cell_size, 3));
+  double facets = 0;
+  double bytes = 0;
+  const auto add = [&](const Structure& s, const PreparedSurface& surface, double thickness) {
+    const RegionSizing size = sizing_of(file, s, thickness);
+    const double area = area_in(box, surface.mesh);
+    facets += area / (kAreaPerFacet * size.facet_size * size.facet_size);
+    const double spacing = spacing_of(file, size, surface.thickness);
+    bytes += kBytesPerSample * kLayersOfBlocks * area / (spacing * spacing);
+  };
+  add(file.body, surfaces.body, 0);
+  for (std::size_t i = 0; i < file.structures.size(); ++i)
+    if (const auto& surface = surfaces.structures[i])
+      add(file.structures[i], *surface, surface->thickness);
+  const auto refuse = [&](double count, const char* of_what, const char* key) {
+    std::array<char, 240> text{};
+    static_cast<void>(std::snprintf(
+        text.data(), text.size(),
+        "the sizes of [mesh] ask for about %.1e %s, more than can be compiled; enlarge %s, or set "
+        "a smaller [region_of_interest]",
+        count, of_what, key));
+    return fail(ErrorCode::invalid, text.data(), file.name);
+  };
+  if (cells > kMostElements) return refuse(cells, "tetrahedra", "cell_size");
+  if (facets > kMostElements) return refuse(facets, "interface triangles", "facet_size");
+  if (bytes > kMostFieldBytes) return refuse(bytes, "bytes of distances", "facet_distance");
+  return {};
+}
+
+}  // namespace
+
+Result<LabelledSpace> make_labelled_space(const JointFile& file, const PreparedSurfaces& surfaces,
+                                          const Progress& progress) {
+  LabelledSpace space;
+  const double margin = file.facet_size;
+  Box box = grown(surfaces.body.tree.lower(), surfaces.body.tree.upper(), margin);
+  if (file.region_of_interest) {
+    const Box roi = box_of(*file.region_of_interest);
+    box = intersection(box, grown(roi.lower, roi.upper, margin));
+  }
+  if (!((box.upper - box.lower).minCoeff() > 0)) {
+    return fail(ErrorCode::failed, "the region of interest lies outside the body", file.name);
+  }
+  if (auto ok = check_sizes(file, surfaces, box); !ok) return tl::unexpected(ok.error());
+  FieldMaker maker(file, surfaces, box, progress);
+  maker.make_surfaces();
+  maker.make_constructs();
+  space.resolve.box = box;
+  space.resolve.sizing.resize(region_of_structure(file.structures.size()),
+                              sizing_of(file, file.body, 0));
+  double finest = file.facet_size;
+  for (const std::size_t i : priority_order(file)) {
+    if (!maker.field(i)) continue;
+    const RegionId region = region_of_structure(i);
+    space.resolve.sizing[region] = maker.sizing(i);
+    finest = std::min(finest, maker.sizing(i).facet_size);
+    space.labels.layers.push_back({region, std::move(*maker.field(i))});
+  }
+  space.labels.body = maker.take_body();
+  space.labels.region_of_interest = file.region_of_interest;
+  space.labels.make_index(box);
+  const double volume = (box.upper - box.lower).prod();
+  constexpr double kMostSeedPoints = 6e7;
+  space.resolve.seed_spacing = std::max(finest / 2, std::cbrt(volume / kMostSeedPoints));
+  return space;
+}
+
+}  // namespace artus

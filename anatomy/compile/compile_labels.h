@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include "artus/anatomy/compile/compile_surfaces.h"
+#include "artus/anatomy/compile/resolve.h"
+#include "artus/core/progress.h"
+
+namespace artus {
+
+/// The region of structure `i` of a joint file; the filler is kFirstRegion.
+[[nodiscard]] constexpr RegionId region_of_structure(std::size_t i) noexcept {
+  return static_cast<RegionId>(kFirstRegion + 1 + i);
+}
+
+/// What the mesher needs to know.
+struct LabelledSpace {
+  RegionLabels labels;
+  ResolveOptions resolve;
+};
+
+/// Samples the distance fields of all structures and makes the constructs from them. Structures
+/// without a surface and constructs that name one are left out. Requires: `surfaces` of `file`.
+/// Errors: failed when body and region of interest do not meet; invalid when the mesh sizes ask for
+/// more than can be made.
+[[nodiscard]] Result<LabelledSpace> make_labelled_space(const JointFile& file,
+                                                        const PreparedSurfaces& surfaces,
+                                                        const Progress& progress);
+
+}  // namespace artus

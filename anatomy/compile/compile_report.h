@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <string>
+#include <vector>
+
+#include "artus/anatomy/compile/quality.h"
+
+namespace artus {
+
+/// Distances from sampled interface points to the surface they should lie on, weighted by area.
+struct DistanceStatistics {
+  double mean = 0;          ///< m
+  double percentile95 = 0;  ///< m
+  double max = 0;           ///< m
+};
+
+/// What became of one structure.
+struct StructureReport {
+  std::string name;
+  std::string tissue;
+  std::string kind;                   ///< "surface", "shell", "cap", "gap", "end", "filler"
+  std::vector<std::string> repairs;   ///< what was done to its surface, in words
+  std::string refused;                ///< why it is not in the joint; empty: it is
+  std::vector<std::string> warnings;  ///< what its author should look at, in words
+  double surface_volume = 0;          ///< m^3 enclosed by the repaired surface, all of it
+  double region_volume = 0;           ///< m^3 of that inside body and region of interest
+  double lost_volume = 0;             ///< m^3 of that to structures of higher priority
+  double resolved_volume = 0;         ///< m^3 of its tetrahedra
+  DistanceStatistics distance;        ///< of the interfaces it shapes to its own surface
+  std::size_t parts = 0;              ///< connected parts of its tetrahedra
+  std::size_t tetrahedra = 0;
+
+  /// resolved / (region - lost) - 1; zero when nothing was expected.
+  [[nodiscard]] double volume_error() const noexcept;
+};
+
+struct StageTime {
+  std::string stage;
+  double seconds = 0;
+};
+
+/// The whole account of one compilation.
+struct CompileReport {
+  std::vector<StructureReport> structures;  ///< the filler first, then file order
+  DistanceStatistics distance;              ///< of all interfaces that lie on a surface file
+  TetQuality quality;
+  std::size_t vertices = 0;
+  std::size_t tetrahedra = 0;
+  std::size_t interfaces = 0;
+  std::size_t crumbs = 0;   ///< tiny parts given to their neighbours
+  std::string fill_method;  ///< "quality", "plain", "kept": see FillMethod
+  std::vector<StageTime> stages;
+  double seconds = 0;
+  double peak_memory = 0;  ///< bytes, of the process
+};
+
+/// The report as JSON, lengths in mm and volumes in cm^3 as the keys say.
+[[nodiscard]] std::string to_json(const CompileReport& report);
+
+}  // namespace artus

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <optional>
+
+#include "artus/anatomy/body/joint_file.h"
+#include "artus/anatomy/compile/compile_report.h"
+#include "artus/anatomy/surfaces/distance_tree.h"
+#include "artus/anatomy/surfaces/repair.h"
+
+namespace artus {
+
+/// One structure's surface, ready to be resolved.
+struct PreparedSurface {
+  SurfaceMesh mesh;
+  DistanceTree tree{SurfaceMesh{}};
+  double thickness = 0;  ///< m, 2 volume / area: of a plate its thickness, of a tube its radius
+};
+
+/// The surfaces of a joint; empty for constructs and refused structures.
+struct PreparedSurfaces {
+  PreparedSurface body;
+  std::vector<std::optional<PreparedSurface>> structures;  ///< (n_structures)
+};
+
+/// Repairs a surface as its entry in the joint file asks: closed by the smallest change that does
+/// it, wrapped, made a plate, or (repair = "none") left as it is. Errors: those of repair_surface.
+[[nodiscard]] Result<RepairOutcome> repair_as_declared(const SurfaceMesh& mesh,
+                                                       const SurfaceFile& surface);
+
+/// Reads and repairs all surfaces; notes repairs and refusals in `reports` (n_structures).
+/// Errors: those of reading; defective when the body is refused.
+[[nodiscard]] Result<PreparedSurfaces> prepare_surfaces(const JointFile& file,
+                                                        std::vector<StructureReport>& reports);
+
+}  // namespace artus

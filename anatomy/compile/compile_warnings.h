@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include "artus/anatomy/body/joint_file.h"
+#include "artus/anatomy/compile/compile_report.h"
+#include "artus/anatomy/compile/compile_surfaces.h"
+#include "artus/anatomy/compile/region_labels.h"
+
+namespace artus {
+
+/// Writes into `report` (measured already) what an author should look at: structures of doubtful
+/// size or place, of which nothing is left, which stick out of the skin, lose much to others, or
+/// whose tetrahedra hold less than their surface. Cost: one look at each surface triangle.
+void append_warnings(const JointFile& file, const RegionLabels& labels,
+                     const PreparedSurfaces& surfaces, CompileReport& report);
+
+}  // namespace artus

@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/anatomy/compile/distance_field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numeric>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include "artus/core/check.h"
+
+namespace artus {
+namespace {
+
+constexpr int kCells = 8;              // cells of a block along an axis
+constexpr int kSide = kCells + 1;      // samples along an axis: blocks share their rims
+constexpr int kRow = kSide;            // stride of y
+constexpr int kPlane = kSide * kSide;  // stride of z
+constexpr int kBlock = kSide * kSide * kSide;
+constexpr double kClampReach = 1.74;  // spacings; nearer to the band a clamped sample may take part
+constexpr std::int32_t kOut = -1;
+constexpr std::int32_t kIn = -2;
+
+double signed_by_winding(const DistanceTree& tree, const Vec3& p, double distance) {
+  return tree.winding_number(p) > 0.5 ? -distance : distance;
+}
+
+// A sample farther from the surface than the spacing has the sign of its neighbours, so the
+// winding number is computed only next to the surface.
+double signed_at(const DistanceTree& tree, const Vec3& p, double distance, double spacing,
+                 const float* here, const std::array<int, 3>& i) {
+  const std::array<std::pair<int, int>, 3> steps{{{i[0], 1}, {i[1], kRow}, {i[2], kPlane}}};
+  for (const auto& [index, stride] : steps) {
+    if (index == 0) continue;
+    const double neighbour = static_cast<double>(*(here - stride));
+    if (std::max(std::abs(neighbour), distance) > 1.001 * spacing) {
+      return std::copysign(distance, neighbour);
+    }
+  }
+  return signed_by_winding(tree, p, distance);
+}
+
+void fill_from_tree(const DistanceTree& tree, double spacing, double band, const Vec3& corner,
+                    float* out) {
+  for (int i = 0; i < kBlock; ++i) {
+    const std::array<int, 3> index{i % kSide, i / kSide % kSide, i / kPlane};
+    constexpr std::array<int, 3> kStrides{1, kRow, kPlane};
+    float* here = out + i;
+    double bound = band;
+    for (std::size_t a = 0; a < 3; ++a) {
+      if (index[a] == 0) continue;
+      const double neighbour = std::abs(static_cast<double>(*(here - kStrides[a])));
+      bound = std::min(bound, neighbour + 1.001 * spacing);
+    }
+    const Vec3 p = corner + spacing * Vec3(index[0], index[1], index[2]);
+    const double distance = tree.distance(p, bound);
+    *here = static_cast<float>(signed_at(tree, p, distance, spacing, here, index));
+  }
+}
+
+// A function made from clamped fields is small also far from its zero: looks closer, on a lattice
+// so dense that no zero fits between its points, and then says `bound` when there is none.
+double value_for_block(const std::function<double(const Vec3&)>& function, const Vec3& centre,
+                       double bound, double spacing) {
+  const double middle = function(centre);
+  if (std::abs(middle) >= bound) return middle;
+  constexpr int kHalf = kCells / 4;
+  constexpr int kPoints = 2 * kHalf + 1;
+  const double step = 2 * spacing;
+  for (int i = 0; i < kPoints * kPoints * kPoints; ++i) {
+    const Vec3 index(i % kPoints - kHalf, i / kPoints % kPoints - kHalf,
+                     i / (kPoints * kPoints) - kHalf);
+    const double value = function(centre + step * index);
+    if (std::abs(value) < kClampReach * spacing || (value < 0) != (middle < 0)) return middle;
+  }
+  return std::copysign(bound, middle);
+}
+
+}  // namespace
+
+void DistanceField::layout(const FieldSampling& sampling) {
+  ARTUS_REQUIRE(sampling.spacing > 0 && sampling.band >= 2 * sampling.spacing,
+                "spacing must be positive and the band at least two of it");
+  spacing_ = sampling.spacing;
+  band_ = sampling.band;
+  origin_ = sampling.box.lower;
+  const Vec3 size = (sampling.box.upper - sampling.box.lower).cwiseMax(Vec3::Zero());
+  for (std::size_t a = 0; a < 3; ++a) {
+    blocks_[a] =
+        static_cast<int>(std::ceil(size[static_cast<Eigen::Index>(a)] / (kCells * spacing_)));
+  }
+}
+
+Vec3 DistanceField::block_corner(std::size_t block) const noexcept {
+  const auto nx = static_cast<std::size_t>(blocks_[0]);
+  const auto ny = static_cast<std::size_t>(blocks_[1]);
+  const Vec3 index(static_cast<double>(block % nx), static_cast<double>(block / nx % ny),
+                   static_cast<double>(block / (nx * ny)));
+  return origin_ + kCells * spacing_ * index;
+}
+
+void DistanceField::sample(const BlockSource& at_centre, const BlockFiller& fill) {
+  const std::size_t n = static_cast<std::size_t>(blocks_[0]) *
+                        static_cast<std::size_t>(blocks_[1]) * static_cast<std::size_t>(blocks_[2]);
+  const double reach = kCells * spacing_ * std::sqrt(3.0) / 2;
+  const Vec3 half = Vec3::Constant(kCells * spacing_ / 2);
+  slots_.assign(n, kOut);
+  tbb::parallel_for(std::size_t{0}, n, [&](std::size_t block) {
+    const double d = at_centre(block_corner(block) + half, band_ + reach);
+    if (std::abs(d) < band_ + reach) {
+      slots_[block] = 0;
+    } else {
+      slots_[block] = d < 0 ? kIn : kOut;
+    }
+  });
+  std::vector<std::size_t> active;
+  for (std::size_t block = 0; block < n; ++block) {
+    if (slots_[block] != 0) continue;
+    slots_[block] = static_cast<std::int32_t>(active.size());
+    active.push_back(block);
+  }
+  samples_.resize(active.size() * kBlock);
+  tbb::parallel_for(std::size_t{0}, active.size(),
+                    [&](std::size_t i) { fill(block_corner(active[i]), &samples_[i * kBlock]); });
+}
+
+DistanceField DistanceField::compute(const DistanceTree& tree, const FieldSampling& sampling) {
+  DistanceField field;
+  field.layout(sampling);
+  field.sample(
+      [&tree](const Vec3& p, double bound) {
+        return signed_by_winding(tree, p, tree.distance(p, bound));
+      },
+      [&](const Vec3& corner, float* out) {
+        fill_from_tree(tree, field.spacing_, field.band_, corner, out);
+      });
+  return field;
+}
+
+DistanceField DistanceField::compute(const std::function<double(const Vec3&)>& function,
+                                     const FieldSampling& sampling) {
+  DistanceField field;
+  field.layout(sampling);
+  field.sample(
+      [&](const Vec3& centre, double bound) {
+        return value_for_block(function, centre, bound, field.spacing_);
+      },
+      [&](const Vec3& corner, float* out) {
+        for (int i = 0; i < kBlock; ++i) {
+          const Vec3 index(i % kSide, i / kSide % kSide, i / kPlane);
+          const double value = function(corner + field.spacing_ * index);
+          out[i] = static_cast<float>(std::clamp(value, -field.band_, field.band_));
+        }
+      });
+  return field;
+}
+
+double DistanceField::value(const Vec3& p) const noexcept {
+  const double near = near_value(p);
+  return far_ && std::abs(near) >= band_ - kClampReach * spacing_ ? far_->value(p) : near;
+}
+
+void DistanceField::extend(const DistanceTree& tree, const FieldSampling& sampling) {
+  far_ = std::make_shared<const DistanceField>(compute(tree, sampling));
+}
+
+double DistanceField::near_value(const Vec3& p) const noexcept {
+  const Vec3 q = (p - origin_) / spacing_;
+  const std::array<double, 3> cell{std::floor(q[0]), std::floor(q[1]), std::floor(q[2])};
+  for (std::size_t a = 0; a < 3; ++a) {
+    if (!(cell[a] >= 0 && cell[a] < blocks_[a] * kCells)) return band_;
+  }
+  const std::array<int, 3> i{static_cast<int>(cell[0]), static_cast<int>(cell[1]),
+                             static_cast<int>(cell[2])};
+  const std::size_t block =
+      static_cast<std::size_t>(i[0] / kCells) +
+      static_cast<std::size_t>(blocks_[0]) *
+          (static_cast<std::size_t>(i[1] / kCells) +
+           static_cast<std::size_t>(blocks_[1]) * static_cast<std::size_t>(i[2] / kCells));
+  const std::int32_t slot = slots_[block];
+  if (slot < 0) return slot == kIn ? -band_ : band_;
+  const float* s = &samples_[static_cast<std::size_t>(slot) * kBlock +
+                             static_cast<std::size_t>(i[0] % kCells + kRow * (i[1] % kCells) +
+                                                      kPlane * (i[2] % kCells))];
+  const double fx = q[0] - cell[0];
+  const double fy = q[1] - cell[1];
+  const double fz = q[2] - cell[2];
+  const auto along_x = [&](int offset) {
+    return (1 - fx) * static_cast<double>(s[offset]) + fx * static_cast<double>(s[offset + 1]);
+  };
+  const double low = (1 - fy) * along_x(0) + fy * along_x(kRow);
+  const double high = (1 - fy) * along_x(kPlane) + fy * along_x(kPlane + kRow);
+  return (1 - fz) * low + fz * high;
+}
+
+int DistanceField::side_of(const Box& box) const noexcept {
+  std::array<int, 3> first{};
+  std::array<int, 3> last{};
+  bool beyond_samples = false;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const auto axis = static_cast<Eigen::Index>(a);
+    const double edge = spacing_ * kCells;
+    const double low = std::floor((box.lower[axis] - origin_[axis]) / edge);
+    const double high = std::floor((box.upper[axis] - origin_[axis]) / edge);
+    if (high < 0 || low >= blocks_[a]) return 1;
+    beyond_samples = beyond_samples || low < 0 || high >= blocks_[a];
+    first[a] = static_cast<int>(std::max(low, 0.0));
+    last[a] = static_cast<int>(std::min(high, blocks_[a] - 1.0));
+  }
+  bool any_in = false;
+  bool any_out = beyond_samples;
+  for (int z = first[2]; z <= last[2]; ++z) {
+    for (int y = first[1]; y <= last[1]; ++y) {
+      for (int x = first[0]; x <= last[0]; ++x) {
+        const std::int32_t slot = slots_[static_cast<std::size_t>(
+            x + static_cast<std::ptrdiff_t>(blocks_[0]) *
+                    (y + static_cast<std::ptrdiff_t>(blocks_[1]) * z))];
+        if (slot >= 0) return 0;
+        (slot == kIn ? any_in : any_out) = true;
+      }
+    }
+  }
+  if (any_in == any_out) return 0;
+  return any_in ? -1 : 1;
+}
+
+Vec3 DistanceField::normal(const Vec3& p) const noexcept {
+  const double h = spacing_ / 2;
+  Vec3 g;
+  for (Eigen::Index a = 0; a < 3; ++a) {
+    const Vec3 step = h * Vec3::Unit(a);
+    g[a] = value(p + step) - value(p - step);
+  }
+  const double length = g.norm();
+  return length > 0 ? Vec3(g / length) : Vec3(Vec3::Zero());
+}
+
+double DistanceField::integrate(const std::function<double(const Vec3&)>& weight) const {
+  std::vector<double> sums(slots_.size(), 0.0);
+  tbb::parallel_for(std::size_t{0}, slots_.size(), [&](std::size_t block) {
+    if (slots_[block] == kOut) return;
+    const Vec3 corner = block_corner(block);
+    for (int i = 0; i < kCells * kCells * kCells; ++i) {
+      const Vec3 index(i % kCells, i / kCells % kCells, i / (kCells * kCells));
+      const Vec3 p = corner + spacing_ * (index + Vec3::Constant(0.5));
+      const double inside = std::clamp(0.5 - value(p) / spacing_, 0.0, 1.0);
+      if (inside > 0) sums[block] += inside * weight(p);
+    }
+  });
+  return std::accumulate(sums.begin(), sums.end(), 0.0) * spacing_ * spacing_ * spacing_;
+}
+
+std::size_t DistanceField::memory() const noexcept {
+  return samples_.size() * sizeof(float) + slots_.size() * sizeof(std::int32_t);
+}
+
+}  // namespace artus

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+#include "artus/evidence/needle/experiment.h"
+
+namespace artus {
+
+/// The names of all experiments of both hands.
+[[nodiscard]] std::vector<std::string_view> all_experiments();
+
+/// Runs any of all_experiments() and writes it into `folder`: the whole of `artus experiment <name>
+/// --out dir`.
+[[nodiscard]] Result<std::vector<Claim>> run_experiment(std::string_view name,
+                                                        const std::filesystem::path& folder,
+                                                        const ExperimentOptions& options = {});
+
+}  // namespace artus

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "artus/core/geometry.h"
+#include "artus/core/result.h"
+
+namespace artus {
+
+/// One place of the probe, with or without a needle, of a list that a person or a program wrote.
+struct ListedPose {
+  std::string name;            ///< may be empty
+  std::optional<double> time;  ///< s
+  Pose X_JP = Pose::Identity();
+  std::optional<Pose> X_JN;  ///< origin at the tip, z from hub to tip
+};
+
+/// Reads a list of poses, JSON lines (.jsonl) or CSV (.csv), as docs/echography.md describes them.
+/// Errors: not_found, unreadable, unsupported (extension), malformed or invalid with file:line
+/// (unknown key, missing or not finite number, zero or parallel directions, times that do not rise,
+/// no pose at all).
+[[nodiscard]] Result<std::vector<ListedPose>> read_poses(const std::filesystem::path& file);
+
+/// The same from memory; `name` stands in messages.
+[[nodiscard]] Result<std::vector<ListedPose>> parse_poses_jsonl(std::string_view text,
+                                                                const std::string& name);
+[[nodiscard]] Result<std::vector<ListedPose>> parse_poses_csv(std::string_view text,
+                                                              const std::string& name);
+
+/// The poses at `rate` per second: between two listed ones the probe and the needle move straight
+/// and turn evenly, and a needle is there when both have one. Without times each listed pose is
+/// one. Errors: invalid (some poses have a time and others have none).
+[[nodiscard]] Result<std::vector<ListedPose>> sample_path(const std::vector<ListedPose>& poses,
+                                                          double rate);
+
+}  // namespace artus

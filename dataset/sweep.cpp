@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/dataset/sweep.h"
+
+#include <array>
+#include <bit>
+#include <cstdio>
+#include <fstream>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <nlohmann/json.hpp>
+
+#include "artus/core/noise.h"
+#include "artus/core/text_file.h"
+#include "artus/core/units.h"
+#include "artus/dataset/echo_truth.h"
+#include "artus/echo/image_io.h"
+#include "artus/echo/labels.h"
+#include "artus/echo/renderer.h"
+
+namespace artus {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+/// Keeps a second process out of the folder for as long as it lives.
+class FolderLock {
+ public:
+  static Result<FolderLock> take(const fs::path& folder) {
+    const fs::path file = folder / "sweep.lock";
+    FolderLock lock;
+    lock.file_ = open(file.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0644);
+    if (lock.file_ < 0) return fail(ErrorCode::unreadable, "cannot be written", file.string());
+    if (flock(lock.file_, LOCK_EX | LOCK_NB) != 0)
+      return fail(ErrorCode::invalid, "another process is drawing into this folder",
+                  folder.string());
+    return lock;
+  }
+  FolderLock(FolderLock&& other) noexcept : file_(std::exchange(other.file_, -1)) {}
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+  FolderLock& operator=(FolderLock&&) = delete;
+  ~FolderLock() {
+    if (file_ >= 0) close(file_);
+  }
+
+ private:
+  FolderLock() = default;
+  int file_ = -1;
+};
+
+std::uint64_t mix_pose(std::uint64_t hash, const Pose& pose) {
+  for (Eigen::Index i = 0; i < 3; ++i)
+    for (Eigen::Index j = 0; j < 4; ++j)
+      hash = mix_bits(hash ^ std::bit_cast<std::uint64_t>(pose(i, j)));
+  return hash;
+}
+
+std::string digest_of(const std::vector<ListedPose>& poses) {
+  std::uint64_t hash = poses.size();
+  for (const ListedPose& pose : poses) {
+    for (const char c : pose.name) hash = mix_bits(hash ^ static_cast<unsigned char>(c));
+    hash = mix_bits(hash ^ std::bit_cast<std::uint64_t>(pose.time.value_or(-1)));
+    hash = mix_pose(mix_bits(hash ^ (pose.X_JN ? 1U : 0U)), pose.X_JP);
+    if (pose.X_JN) hash = mix_pose(hash, *pose.X_JN);
+  }
+  char text[20];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
+  return text;
+}
+
+json describe(const CompiledJoint& joint, const std::vector<ListedPose>& poses,
+              const SweepOptions& options) {
+  return {{"format", 1},
+          {"joint", {{"name", joint.name}, {"digest", joint.source_digest}}},
+          {"poses", {{"count", poses.size()}, {"digest", digest_of(poses)}}},
+          {"transducer", to_json(options.transducer)},
+          {"settings", to_json(options.settings)},
+          {"needle",
+           {{"outer_diameter_mm", options.needle.outer_diameter / kMillimetre},
+            {"bore_mm", options.needle.bore / kMillimetre},
+            {"length_mm", options.needle.length / kMillimetre},
+            {"echogenic", options.needle.echogenic}}}};
+}
+
+/// A picture under its name or not at all.
+Result<void> write_whole(const cv::Mat& image, const fs::path& file) {
+  const fs::path part = file.parent_path() / ("part-" + file.filename().string());
+  ARTUS_TRY(write_image(image, part));
+  std::error_code error;
+  fs::rename(part, file, error);
+  if (error) return fail(ErrorCode::unreadable, error.message(), file.string());
+  return {};
+}
+
+Result<void> write_text_whole(const fs::path& file, const std::string& text) {
+  const fs::path part = file.parent_path() / ("part-" + file.filename().string());
+  ARTUS_TRY(write_text(part, text));
+  std::error_code error;
+  fs::rename(part, file, error);
+  if (error) return fail(ErrorCode::unreadable, error.message(), file.string());
+  return {};
+}
+
+constexpr std::array<const char*, 4> kPictureKeys{"image", "labels", "shadow_mask", "needle_mask"};
+
+/// Whether a line of truth.jsonl is that of frame `index`, with all its pictures.
+bool is_finished(std::string_view line, std::size_t index, const fs::path& folder) {
+  const json truth = json::parse(line, nullptr, false);
+  if (!truth.is_object() || truth.value("index", json()) != json(index)) return false;
+  for (const char* key : kPictureKeys) {
+    const auto place = truth.find(key);
+    if (place == truth.end()) continue;
+    std::error_code error;
+    if (!place->is_string() || fs::file_size(folder / place->get<std::string>(), error) == 0 ||
+        error)
+      return false;
+  }
+  return truth.contains("image");
+}
+
+/// The number of finished frames; whatever follows the last of them in `file` is cut off.
+Result<std::size_t> find_finished(const fs::path& file, const fs::path& folder) {
+  if (!fs::exists(file)) return 0;
+  const auto text = read_bytes(file);
+  if (!text) return tl::unexpected(text.error());
+  std::size_t count = 0;
+  std::size_t end = 0;
+  while (true) {
+    const std::size_t newline = text->find('\n', end);
+    if (newline == std::string::npos) break;
+    if (!is_finished(std::string_view(*text).substr(end, newline - end), count, folder)) break;
+    ++count;
+    end = newline + 1;
+  }
+  std::error_code error;
+  if (end != text->size()) fs::resize_file(file, end, error);
+  if (error) return fail(ErrorCode::unreadable, error.message(), file.string());
+  return count;
+}
+
+/// Checks that the folder is this sweep's own, and makes it so when it is new.
+Result<void> claim_folder(const fs::path& folder, const json& description, bool restart) {
+  const fs::path file = folder / "sweep.json";
+  std::error_code error;
+  if (restart && fs::exists(file)) {  // never what is not a sweep
+    fs::remove(folder / "truth.jsonl", error);
+    fs::remove_all(folder / "frames", error);
+    fs::remove(file, error);
+  }
+  fs::create_directories(folder / "frames", error);
+  if (error) return fail(ErrorCode::unreadable, error.message(), folder.string());
+  if (!fs::exists(file)) {
+    if (fs::exists(folder / "truth.jsonl"))
+      return fail(ErrorCode::invalid, "the folder holds frames of something else; choose another",
+                  folder.string());
+    return write_text_whole(file, description.dump(2) + "\n");
+  }
+  const auto text = read_bytes(file);
+  if (!text) return tl::unexpected(text.error());
+  const json earlier = json::parse(*text, nullptr, false);
+  for (const auto& [key, value] : description.items()) {
+    if (!earlier.is_object() || earlier.value(key, json()) != value)
+      return fail(ErrorCode::invalid,
+                  "the folder holds another sweep (other " + key +
+                      "); choose another folder, or throw it away with --restart",
+                  folder.string());
+  }
+  return {};
+}
+
+class Sweep {
+ public:
+  Sweep(std::shared_ptr<const Scene> scene, fs::path folder, const SweepOptions& options)
+      : scene_(std::move(scene)),
+        folder_(std::move(folder)),
+        needle_(options.needle),
+        renderer_(scene_, options.transducer, options.settings),
+        truth_(options.transducer, options.settings) {}
+
+  /// Draws one frame with its pictures and returns its line.
+  Result<json> draw(std::size_t index, const ListedPose& pose) {
+    char stem[32];
+    std::snprintf(stem, sizeof stem, "frames/%06zu", index);
+    std::optional<NeedleView> needle;
+    if (pose.X_JN) needle = NeedleView{*pose.X_JN, needle_};
+    const Frame& frame = renderer_.render(pose.X_JP, needle);
+    const LabelImage labels = truth_.render(*scene_, pose.X_JP, needle);
+    json truth{{"index", index},
+               {"probe", probe_json(pose.X_JP)},
+               {"pixel_mm", frame.pixel / kMillimetre},
+               {"contact", contact_json(frame)},
+               {"regions", region_list(labels, scene_->joint())}};
+    if (!pose.name.empty()) truth["name"] = pose.name;
+    if (pose.time) truth["time_s"] = *pose.time;
+    if (needle) truth["needle"] = to_json(truth_.locate(*needle, pose.X_JP), frame.tip_shown);
+    std::vector<std::pair<const char*, cv::Mat>> pictures{
+        {kPictureKeys[0], grey_image(frame)},
+        {kPictureKeys[1], id_image(labels)},
+        {kPictureKeys[2], shadow_mask(frame, truth_.converter())}};
+    if (needle) pictures.emplace_back(kPictureKeys[3], needle_mask(labels));
+    constexpr std::array<const char*, 4> kEndings{".png", "-labels.png", "-shadow.png",
+                                                  "-needle.png"};
+    for (std::size_t i = 0; i < pictures.size(); ++i) {
+      const std::string name = std::string(stem) + kEndings[i];
+      if (auto ok = write_whole(pictures[i].second, folder_ / name); !ok)
+        return tl::unexpected(ok.error());
+      truth[pictures[i].first] = name;
+    }
+    return truth;
+  }
+
+ private:
+  std::shared_ptr<const Scene> scene_;
+  fs::path folder_;
+  NeedleShape needle_;
+  Renderer renderer_;
+  LabelRenderer truth_;
+};
+
+}  // namespace
+
+Result<SweepResult> run_sweep(const std::shared_ptr<const Scene>& scene,
+                              const std::vector<ListedPose>& poses, const fs::path& folder,
+                              const SweepOptions& options, const Progress& progress) {
+  if (options.settings.persistence != 0)
+    return fail(ErrorCode::invalid, "a sweep is drawn without persistence", folder.string());
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) return fail(ErrorCode::unreadable, error.message(), folder.string());
+  const auto lock = FolderLock::take(folder);
+  if (!lock) return tl::unexpected(lock.error());
+  if (auto ok = claim_folder(folder, describe(scene->joint(), poses, options), options.restart);
+      !ok)
+    return tl::unexpected(ok.error());
+  const fs::path file = folder / "truth.jsonl";
+  const auto found = find_finished(file, folder);
+  if (!found) return tl::unexpected(found.error());
+  SweepResult result{poses.size(), *found, 0};
+  if (result.complete()) return result;
+
+  Sweep sweep(scene, folder, options);
+  std::ofstream lines(file, std::ios::binary | std::ios::app);
+  for (std::size_t i = *found; i < poses.size(); ++i) {
+    if (options.stop && options.stop()) break;
+    const auto truth = sweep.draw(i, poses[i]);
+    if (!truth) return tl::unexpected(truth.error());
+    // A name may hold bytes that are no text.
+    lines << truth->dump(-1, ' ', false, json::error_handler_t::replace) + "\n" << std::flush;
+    if (!lines) return fail(ErrorCode::unreadable, "cannot be written", file.string());
+    ++result.drawn;
+    if (progress) progress("sweep", static_cast<double>(i + 1) / static_cast<double>(poses.size()));
+  }
+  return result;
+}
+
+}  // namespace artus

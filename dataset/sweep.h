@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "artus/core/progress.h"
+#include "artus/core/result.h"
+#include "artus/dataset/pose_list.h"
+#include "artus/echo/image_settings.h"
+#include "artus/echo/needle_view.h"
+#include "artus/echo/transducer.h"
+#include "artus/raycast/scene.h"
+
+namespace artus {
+
+struct SweepOptions {
+  Transducer transducer;
+  ImageSettings settings;  ///< without persistence: a frame must not depend on the one before
+  NeedleShape needle;
+  bool restart = false;          ///< throw away what an earlier sweep left in the folder
+  std::function<bool()> stop{};  ///< asked before each frame; true ends the sweep, to be continued
+};
+
+struct SweepResult {
+  std::size_t poses = 0;  ///< in the list
+  std::size_t found = 0;  ///< finished by earlier runs
+  std::size_t drawn = 0;  ///< by this one
+  [[nodiscard]] bool complete() const noexcept { return found + drawn == poses; }
+};
+
+/// Draws a list of poses into `folder`:
+///   sweep.json            what was asked for; another sweep is not mixed into the same folder
+///   truth.jsonl           a line for each finished frame, in the order of the list
+///   frames/NNNNNN.png     B-mode, 8 bit
+///   frames/NNNNNN-labels.png, -shadow.png, -needle.png   region ids (16 bit), masks
+/// A sweep that was stopped, killed even, continues where it was: a frame counts when its line and
+/// all its pictures are there. The files are the same bytes at any number of threads and stops.
+/// Errors: invalid (persistence; the folder holds another sweep; another process draws there),
+/// unreadable.
+[[nodiscard]] Result<SweepResult> run_sweep(const std::shared_ptr<const Scene>& scene,
+                                            const std::vector<ListedPose>& poses,
+                                            const std::filesystem::path& folder,
+                                            const SweepOptions& options,
+                                            const Progress& progress = {});
+
+}  // namespace artus

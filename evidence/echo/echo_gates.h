@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "artus/core/progress.h"
+#include "artus/core/result.h"
+#include "artus/evidence/claim.h"
+#include "artus/evidence/plot.h"
+#include "artus/raycast/scene.h"
+
+namespace artus {
+
+/// A picture that goes with a gate.
+struct GatePicture {
+  std::string name;
+  cv::Mat image;
+};
+
+/// One gate of the image's physics: what was measured on rendered frames, against what.
+struct EchoGate {
+  std::string name;
+  std::string title;    ///< what is measured, and where the bound comes from
+  std::string assumed;  ///< what it rests on that has no published source; empty: nothing
+  std::vector<Claim> claims;
+  Plot plot;  ///< no panels: none
+  std::vector<GatePicture> pictures;
+};
+
+/// The names of all gates, in the order of the report. All use the default transducer.
+[[nodiscard]] std::span<const std::string_view> echo_gates() noexcept;
+
+/// Measures one gate; deterministic. Errors: not_found. Cost: 0.1 to a few s.
+[[nodiscard]] Result<EchoGate> run_echo_gate(std::string_view name);
+
+/// The time of a frame on one thread: 256 lines x 1024 samples x 5 planes, refraction and needle
+/// on, the probe moving round the joint's default pose. Not one of echo_gates(), as it depends on
+/// the machine. Requires: n_frames >= 100.
+[[nodiscard]] EchoGate measure_frame_time(const std::shared_ptr<const Scene>& scene, int n_frames);
+
+/// Writes report.md, gates.json and, in pictures/, the plots and pictures of `gates` into `folder`.
+/// Errors: unreadable, not_found (gnuplot; all other files are then written all the same).
+[[nodiscard]] Result<void> write_gate_report(std::span<const EchoGate> gates,
+                                             const std::filesystem::path& folder);
+
+/// {"pass": all, "gates": {name: {title, pass, claims}}}
+[[nodiscard]] nlohmann::json to_json(std::span<const EchoGate> gates);
+
+}  // namespace artus

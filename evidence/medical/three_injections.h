@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "artus/anatomy/body/joint_file.h"
+#include "artus/core/progress.h"
+#include "artus/evidence/claim.h"
+#include "artus/evidence/needle/needle_trace.h"
+#include "artus/evidence/needle/plateau.h"
+#include "artus/operators/probe_hand.h"
+#include "artus/operators/simulated_hand.h"
+
+namespace artus {
+
+/// How the published medical test is run; every value has a default.
+struct ThreeInjectionsOptions {
+  double rate_hz = 1000;
+  std::uint64_t seed = 1;
+  std::string device = "virtuose_6d_desktop";  ///< a name of device_table()
+  double slow_speed = 0.012;                   ///< m/s, injections 1 and 2
+  double fast_speed = 0.10;                    ///< m/s, injection 3
+  double withdrawal = 0.020;  ///< m back before re-aiming; [Alamilla2020] "a few centimetres"
+  double needle_length = 0;   ///< m; 0: the shortest of 25, 35, 50, 90 mm that reaches the bone
+  std::string target_tissue = "bursa";  ///< where a line has none: the layer of its target
+  NeedleParams needle;
+  LawSelection laws;
+  PatientProfile patient;
+  PassivityParams passivity;
+  HandParams hand;        ///< its seed is replaced by `seed`
+  ProbeHandParams probe;  ///< the other hand; likewise
+};
+
+/// An instant worth a picture.
+struct NamedMoment {
+  double time = 0;    ///< s
+  std::string label;  ///< "bursa reached", "re-aimed", "bone touched", ...
+  int pass = 0;       ///< which injection, from 1
+  Pose X_JN = Pose::Identity();
+  Pose X_JP_seat = Pose::Identity();  ///< where the probe is meant to lie: on the skin, its plane
+                                      ///< through the insertion line
+  Pose X_JP = Pose::Identity();       ///< where the picture is taken, see ProbeHandRow
+  std::vector<float> coverage;        ///< of each of the probe's elements with skin or gel, 0..1
+};
+
+/// One touch of bone.
+struct BoneTouch {
+  int pass = 0;
+  double time = 0;            ///< s
+  double incoming_speed = 0;  ///< m/s
+  double peak = 0;            ///< N, of the tap alone
+  double duration = 0;        ///< s, from the touch to the tap's last non-zero row
+};
+
+struct ThreeInjections {
+  std::vector<NeedleRow> rows;
+  std::vector<ProbeHandRow> probe;  ///< as many, at the same times
+  std::vector<NamedMoment> moments;
+  std::vector<LayerPlateau> plateaus;
+  std::vector<BoneTouch> touches;
+  std::vector<Claim> claims;
+  std::vector<std::string> region_names;
+  double needle_length = 0;  ///< m
+  ThreeInjectionsOptions options;
+};
+
+/// The published medical test [Alamilla2020] section 4.6 with a simulated hand and device: the
+/// first two injections go slowly to the bursa, withdraw, re-aim inside the cone, reach another
+/// part of it and touch bone slowly; the third goes fast and straight to the bone. The other hand
+/// presses the probe on the skin, its plane in the needle's line. Deterministic for a scene,
+/// options and seed. Works on any joint with a target; a line without bone behind it
+/// skips the touch and says so in a claim. Errors: not_found (no such device), invalid (fewer than
+/// three injections, an entry inside or a target outside the body).
+[[nodiscard]] Result<ThreeInjections> run_three_injections(
+    const Scene& scene, std::span<const PlannedInjection> injections,
+    const ThreeInjectionsOptions& options = {}, const Progress& progress = {});
+
+/// Plateaus, touches, moments, claims and settings, in the units of the names.
+[[nodiscard]] nlohmann::json summarize(const ThreeInjections& run);
+
+/// Writes trace.csv and forces.png into `folder` (made when missing). Errors: unreadable, not_found
+/// (gnuplot; the trace is then written all the same).
+[[nodiscard]] Result<void> write_three_injections(const ThreeInjections& run,
+                                                  const std::filesystem::path& folder);
+
+}  // namespace artus

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/evidence/medical/three_injections_analysis.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "artus/core/units.h"
+
+namespace artus {
+namespace {
+
+constexpr double kPlateauShare = 0.02;    // the published layer forces hold within this
+constexpr double kNeedleAlongBeam = 0.2;  // sine of the angle below which no plane is defined
+
+std::vector<BoneTouch> find_touches(const std::vector<NeedleRow>& rows) {
+  std::vector<BoneTouch> touches;
+  for (const NeedleRow& row : rows) {
+    if ((row.events & ContactEvent::kBoneTouched) != 0 &&
+        (touches.empty() || touches.back().pass != row.pass)) {
+      touches.push_back({row.pass, row.time, row.incoming_speed, 0, 0});
+    }
+    if (touches.empty() || touches.back().pass != row.pass || row.forces.hard == 0) continue;
+    BoneTouch& touch = touches.back();
+    if (row.time - touch.time > 0.1) continue;  // a later touch of the same pass
+    touch.peak = std::max(touch.peak, std::abs(row.forces.hard));
+    touch.duration = row.time - touch.time;
+  }
+  return touches;
+}
+
+void claim_touches(ThreeInjections& run) {
+  for (const BoneTouch& t : run.touches) {
+    run.claims.push_back(claim_at_most(
+        "injection " + std::to_string(t.pass) + ": tap on bone lasts", t.duration, 0.055, "s"));
+  }
+  if (run.touches.size() != 3) {
+    run.claims.push_back(claim_at_least("injections that touch bone",
+                                        static_cast<double>(run.touches.size()), 3, ""));
+    return;
+  }
+  const auto gain = [&run](std::size_t i) {
+    return run.touches[i].peak / run.touches[i].incoming_speed;
+  };
+  const double slow = std::max(run.touches[0].peak, run.touches[1].peak);
+  run.claims.push_back(claim_at_least("tap of injection 3 over the stronger of 1 and 2",
+                                      run.touches[2].peak / slow, 1, ""));
+  for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) {
+    run.claims.push_back(claim_near(
+        "tap per incoming speed, injection " + std::to_string(i + 1) + " over injection 3",
+        gain(i) / gain(2), 1, 0.05, ""));
+  }
+}
+
+// alpha is 45 degrees at the skin, falls with depth, and every re-aim was inside it.
+void claim_cone(ThreeInjections& run) {
+  double at_skin = 0;
+  double deepest = 0;
+  double at_deepest = 0;
+  double worst = -90;
+  Vec3 first_axis = Vec3::Zero();
+  int pass = 0;
+  for (const NeedleRow& row : run.rows) {
+    if ((row.events & ContactEvent::kSkinPunctured) != 0 && row.pass != pass) {
+      pass = row.pass;
+      first_axis = row.axis;
+      at_skin = row.cone;
+    }
+    if (row.depth > deepest) {
+      deepest = row.depth;
+      at_deepest = row.cone;
+    }
+    if ((row.events & ContactEvent::kRedirected) != 0) {
+      const double turned = std::acos(std::clamp(row.axis.dot(first_axis), -1.0, 1.0));
+      worst = std::max(worst, (turned - row.cone) / kDegree);
+    }
+  }
+  run.claims.push_back(
+      claim_near("alpha where the skin gives way", at_skin / kDegree, 45, 0.05, "degrees"));
+  run.claims.push_back(
+      claim_at_most("alpha at the deepest point", at_deepest / kDegree, 45, "degrees"));
+  if (worst > -90) {
+    run.claims.push_back(claim_at_most("re-aimed direction beyond alpha", worst, 0, "degrees"));
+  }
+}
+
+// The probe moved along its beam onto the skin and turned within its image plane until it lies
+// flat.
+Pose seat_on_skin(const Scene& scene, const Pose& X_JP) {
+  constexpr double kReach = 0.05;  // m that the skin may be away from the footprint
+  const Vec3 z = X_JP.linear().col(2);
+  const Vec3 p = X_JP.translation();
+  for (const TissueInterval& s : tissue_intervals(scene, {p - kReach * z, p + kReach * z})) {
+    if (s.region == kOutside || s.entry_normal.isZero()) continue;
+    const Vec3 y = X_JP.linear().col(1);
+    const Vec3 inward = -(s.entry_normal - y * y.dot(s.entry_normal));
+    const Vec3 on_skin = p + (s.entry - kReach) * z;
+    if (inward.norm() < 0.1) return make_pose(on_skin, z, X_JP.linear().col(0));
+    return make_pose(on_skin, inward, y.cross(inward));
+  }
+  return X_JP;
+}
+
+}  // namespace
+
+Pose probe_in_plane(const Scene& scene, const Pose& X_JN) {
+  constexpr double kAimDepth = 0.02;  // m below the footprint: where the image is looked at most
+  const Pose& rest = scene.joint().X_JP_default;
+  const Vec3 z = rest.linear().col(2);
+  const Vec3 needle = X_JN.linear().col(2);
+  const Vec3 across = needle - needle.dot(z) * z;
+  if (across.norm() < kNeedleAlongBeam) return rest;
+  const Vec3 x = across.normalized() * (across.dot(rest.linear().col(0)) < 0 ? -1.0 : 1.0);
+  const Vec3 y = z.cross(x);
+  // The line's point nearest to the middle of the default image comes into the middle: the same for
+  // every depth of the tip, so the probe stays while the needle moves.
+  const Vec3 middle = rest.translation() + kAimDepth * z;
+  const Vec3 aim = X_JN.translation() + needle * needle.dot(middle - X_JN.translation());
+  const Vec3 offset = aim - rest.translation();
+  const Pose slid = make_pose(rest.translation() + y * y.dot(offset) + x * x.dot(offset), z, x);
+  return seat_on_skin(scene, slid);
+}
+
+void analyze(const CompiledJoint& joint, bool reached, ThreeInjections& run) {
+  std::vector<PlateauFinder::Layer> layers;
+  for (const Region& region : joint.regions) {
+    const Tissue& tissue = joint.tissues[region.tissue];
+    layers.push_back({tissue.name, tissue.haptic});
+    layers.back().haptic.cutting_force *= run.options.patient.cutting;
+  }
+  PlateauFinder finder(std::move(layers));
+  for (const NeedleRow& row : run.rows) finder.add(row);
+  run.plateaus = finder.plateaus();
+  run.touches = find_touches(run.rows);
+  run.claims.push_back(
+      {"every step of the operator met its goal in time", reached ? 1.0 : 0.0, "1", reached});
+  for (const LayerPlateau& p : run.plateaus) {
+    if (p.rows == 0) continue;  // thinner than its rise: listed, but nothing can be claimed
+    run.claims.push_back(claim_near("mean cutting force on the plateau in " + p.tissue, p.mean,
+                                    p.expected, kPlateauShare, "N"));
+  }
+  claim_touches(run);
+  claim_cone(run);
+  for (std::size_t i = 0; i < run.rows.size(); ++i) {
+    const NeedleRow& row = run.rows[i];
+    if (i + 1 < run.rows.size() && run.rows[i + 1].pass == row.pass) continue;
+    run.claims.push_back(claim_at_most(
+        "injection " + std::to_string(row.pass) + ": energy given to the hand over the whole pass",
+        row.energy_to_hand, 0, "J"));
+  }
+}
+
+}  // namespace artus

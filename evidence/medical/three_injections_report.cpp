@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <numeric>
+
+#include <nlohmann/json.hpp>
+
+#include "artus/core/csv.h"
+#include "artus/core/units.h"
+#include "artus/evidence/medical/three_injections.h"
+#include "artus/evidence/plot.h"
+
+namespace artus {
+namespace {
+
+nlohmann::json to_json(const Vec3& v) {
+  return {v.x(), v.y(), v.z()};
+}
+
+nlohmann::json to_json(const Pose& pose) {
+  const Eigen::Quaterniond q(pose.linear());
+  return {{"position_m", to_json(Vec3(pose.translation()))},
+          {"quaternion_wxyz", {q.w(), q.x(), q.y(), q.z()}}};
+}
+
+template <class Row, class F>
+PlotSeries series(const ThreeInjections& run, const std::vector<Row>& rows, const char* label,
+                  F value) {
+  PlotSeries s;
+  s.label = label;
+  s.x.reserve(rows.size());
+  s.y.reserve(rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    s.x.push_back(run.rows[i].time);
+    s.y.push_back(value(rows[i]));
+  }
+  return s;
+}
+
+template <class F>
+PlotSeries series(const ThreeInjections& run, const char* label, F value) {
+  return series(run, run.rows, label, value);
+}
+
+void add_probe_panels(const ThreeInjections& run, Plot& plot) {
+  using Row = const ProbeHandRow&;
+  const std::string time = "time (s)";
+  const auto probe = [&run](const char* label, auto value) {
+    return series(run, run.probe, label, value);
+  };
+  plot.panels.push_back({time,
+                         "probe: force (N)",
+                         {probe("normal", [](Row r) { return r.normal_force; }),
+                          probe("edges", [](Row r) { return r.edge_force.norm(); })}});
+  plot.panels.push_back({time,
+                         "probe: friction, torque",
+                         {probe("friction (N)", [](Row r) { return r.friction.norm(); }),
+                          probe("torque (N cm)", [](Row r) { return 100 * r.torque.norm(); })}});
+  plot.panels.push_back(
+      {time,
+       "probe: way (mm)",
+       {probe("pressed in", [](Row r) { return r.indentation / kMillimetre; }),
+        probe("slid since touching", [](Row r) { return r.slip / kMillimetre; })}});
+}
+
+constexpr const char* kProbeHeader =
+    ",probe_x_m,probe_y_m,probe_z_m,probe_q_w,probe_q_x,probe_q_y,probe_q_z,probe_normal_n,"
+    "probe_edge_x_n,probe_edge_y_n,probe_edge_z_n,probe_friction_x_n,probe_friction_y_n,"
+    "probe_friction_z_n,probe_torque_x_nm,probe_torque_y_nm,probe_torque_z_nm,probe_slip_m,"
+    "probe_stiffness_n_m,probe_indentation_m,probe_contact_share,probe_energy_to_hand_j,probe_"
+    "status";
+
+void append_probe(const ProbeHandRow& row, std::string& line) {
+  const Eigen::Quaterniond q(row.X_JP.linear());
+  const Vec3 p = row.X_JP.translation();
+  for (const double value : {p.x(),
+                             p.y(),
+                             p.z(),
+                             q.w(),
+                             q.x(),
+                             q.y(),
+                             q.z(),
+                             row.normal_force,
+                             row.edge_force.x(),
+                             row.edge_force.y(),
+                             row.edge_force.z(),
+                             row.friction.x(),
+                             row.friction.y(),
+                             row.friction.z(),
+                             row.torque.x(),
+                             row.torque.y(),
+                             row.torque.z(),
+                             row.slip,
+                             row.stiffness,
+                             row.indentation,
+                             row.contact_share,
+                             row.energy_to_hand}) {
+    line += ',' + to_csv(value);
+  }
+  line += ',' + std::to_string(row.status);
+}
+
+Plot force_plot(const ThreeInjections& run) {
+  using Row = const NeedleRow&;
+  const std::string time = "time (s)";
+  Plot plot;
+  plot.title =
+      "Three injections: needle's depth, axial forces (positive into the body), lateral, bone; "
+      "probe";
+  plot.panels = {
+      {time,
+       "depth (mm)",
+       {series(run, "tip", [](Row r) { return r.depth / kMillimetre; }),
+        series(run, "wall", [](Row r) { return r.wall / kMillimetre; })}},
+      {time,
+       "force (N)",
+       {series(run, "cutting", [](Row r) { return r.forces.cutting; }),
+        series(run, "attracted", [](Row r) { return r.forces.attracted; }),
+        series(run, "pre-puncture", [](Row r) { return r.forces.prepuncture; })}},
+      {time,
+       "force (N)",
+       {series(run, "friction", [](Row r) { return r.forces.friction; }),
+        series(run, "clamping", [](Row r) { return r.forces.clamping.norm(); })}},
+      {time, "force (N)", {series(run, "tap on bone", [](Row r) { return r.forces.hard; })}},
+      {time, "alpha (degrees)", {series(run, "alpha", [](Row r) { return r.cone / kDegree; })}}};
+  if (!run.probe.empty()) add_probe_panels(run, plot);
+  return plot;
+}
+
+}  // namespace
+
+nlohmann::json summarize(const ThreeInjections& run) {
+  nlohmann::json out = verdict(run.claims);
+  const ThreeInjectionsOptions& o = run.options;
+  out["settings"] = {{"rate_hz", o.rate_hz},
+                     {"seed", o.seed},
+                     {"device", o.device},
+                     {"slow_speed_m_s", o.slow_speed},
+                     {"fast_speed_m_s", o.fast_speed},
+                     {"withdrawal_m", o.withdrawal},
+                     {"probe_press_force_n", o.probe.press_force},
+                     {"needle_length_m", run.needle_length}};
+  for (const LayerPlateau& p : run.plateaus) {
+    out["plateaus"].push_back({{"tissue", p.tissue},
+                               {"expected_n", p.expected},
+                               {"mean_n", p.mean},
+                               {"least_n", p.least},
+                               {"most_n", p.most},
+                               {"rise_m", p.rise},
+                               {"rows", p.rows}});
+  }
+  for (const BoneTouch& t : run.touches) {
+    out["bone_touches"].push_back({{"injection", t.pass},
+                                   {"time_s", t.time},
+                                   {"incoming_speed_m_s", t.incoming_speed},
+                                   {"tap_peak_n", t.peak},
+                                   {"tap_duration_s", t.duration}});
+  }
+  for (const NamedMoment& m : run.moments) {
+    out["moments"].push_back({{"time_s", m.time},
+                              {"label", m.label},
+                              {"injection", m.pass},
+                              {"needle", to_json(m.X_JN)},
+                              {"probe", to_json(m.X_JP)}});
+    if (m.coverage.empty()) continue;
+    const double sum = std::accumulate(m.coverage.begin(), m.coverage.end(), 0.0);
+    out["moments"].back()["probe_coverage"] = sum / static_cast<double>(m.coverage.size());
+  }
+  return out;
+}
+
+Result<void> write_three_injections(const ThreeInjections& run,
+                                    const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) return fail(ErrorCode::unreadable, error.message(), folder.string());
+  MoreColumns probe;
+  if (!run.probe.empty()) {
+    probe.header = kProbeHeader;
+    probe.append = [&run](std::size_t i, std::string& line) {
+      append_probe(run.probe[i], line);
+    };
+  }
+  ARTUS_TRY(write_needle_csv(folder / "trace.csv", run.rows, run.region_names, probe));
+  return write_plot(folder / "forces.png", force_plot(run));
+}
+
+}  // namespace artus

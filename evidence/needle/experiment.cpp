@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/evidence/needle/experiment.h"
+
+#include <algorithm>
+#include <array>
+
+#include <nlohmann/json.hpp>
+
+#include "artus/core/text_file.h"
+#include "artus/evidence/needle/experiment_list.h"
+#include "artus/haptics/device.h"
+
+namespace artus {
+namespace {
+
+// An experiment, the laws that a run of it may change, and why not the others.
+struct Entry {
+  std::string_view name;
+  Experiment (*run)(const ExperimentOptions&, const DeviceLimits&);
+  std::uint32_t takes;
+  std::string_view why_not;
+  std::size_t layers;  // numbered ones; 0: those of table 4.2
+};
+
+constexpr std::uint32_t kWall =
+    LawKind::kCutting | LawKind::kPatient | LawKind::kWorkspace | LawKind::kPassivity;
+constexpr std::array<Entry, 12> kEntries{{
+    {"wall-vs-classic", run_wall_vs_classic, LawKind::kPassivity,
+     "compares four fixed cutting laws in a tissue that only cuts", 1},
+    {"wall-release", run_wall_release, LawKind::kFriction | LawKind::kPatient | LawKind::kPassivity,
+     "compares the tracking wall alone, with shaft friction and no tissue", 1},
+    {"wall-move", run_wall_move, kWall, "has a tissue that only cuts", 1},
+    {"wall-stop", run_wall_stop, kWall, "has a tissue that only cuts", 1},
+    {"wall-both", run_wall_both, kWall, "has a tissue that only cuts", 1},
+    {"wall-nine", run_wall_nine, kWall | LawKind::kClamping,
+     "has tissues that only cut and hold the needle's line", 9},
+    {"wall-seven", run_wall_seven, kWall | LawKind::kClamping,
+     "has tissues that only cut and hold the needle's line", 7},
+    {"clamp-redirect", run_clamp_redirect, kWall | LawKind::kClamping | LawKind::kFriction,
+     "has neither a membrane nor bone", 1},
+    {"wall-energy", run_wall_energy,
+     LawKind::kCutting | LawKind::kPrepuncture | LawKind::kTap | LawKind::kFriction |
+         LawKind::kPatient,
+     "moves the needle along one line and lets no controller help", 6},
+    {"rates", run_rates, LawKind::kAll, "", 0},
+    {"velocity-estimators", run_velocity_estimators, 0, "uses no force law", 0},
+    {"layer-changes", run_layer_changes, kWall, "has tissues that only cut", 0},
+}};
+
+constexpr std::array<std::string_view, kEntries.size()> kNames = [] {
+  std::array<std::string_view, kEntries.size()> names{};
+  for (std::size_t i = 0; i < names.size(); ++i) names[i] = kEntries[i].name;
+  return names;
+}();
+
+void add_cells(std::string& out, const std::vector<std::string>& cells) {
+  for (std::size_t i = 0; i < cells.size(); ++i) out += (i == 0 ? "" : ",") + cells[i];
+  out += '\n';
+}
+
+}  // namespace
+
+std::span<const std::string_view> needle_experiments() noexcept {
+  return kNames;
+}
+
+Result<Experiment> run_needle_experiment(std::string_view name, const ExperimentOptions& options) {
+  const Result<DeviceLimits> device = find_device(options.device);
+  ARTUS_TRY(device);
+  for (const Entry& entry : kEntries) {
+    if (entry.name != name) continue;
+    const auto layers = entry.layers > 0 ? numbered_layers(entry.layers) : table_layer_names();
+    ARTUS_TRY(check_laws(options.laws, name, entry.takes, entry.why_not, layers));
+    Experiment experiment = entry.run(options, *device);
+    experiment.name = name;
+    return experiment;
+  }
+  std::string all;
+  for (const std::string_view known : kNames) {
+    all += (all.empty() ? "" : ", ") + std::string(known);
+  }
+  return fail(ErrorCode::not_found,
+              "no needle experiment \"" + std::string(name) + "\"; there are " + all);
+}
+
+Result<void> write_experiment(const Experiment& e, const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) return fail(ErrorCode::unreadable, error.message(), folder.string());
+  for (const ExperimentTrace& trace : e.traces) {
+    const std::string file = e.name + (trace.label.empty() ? "" : "-" + trace.label) + ".csv";
+    auto written = write_needle_csv(folder / file, trace.rows, trace.region_names);
+    ARTUS_TRY(written);
+  }
+  if (!e.table.header.empty()) {
+    std::string text;
+    add_cells(text, e.table.header);
+    for (const auto& row : e.table.rows) add_cells(text, row);
+    auto written = write_text(folder / (e.name + "-table.csv"), text);
+    ARTUS_TRY(written);
+  }
+  nlohmann::json json = verdict(e.claims);
+  json["experiment"] = e.name;
+  json["title"] = e.title;
+  json["source"] = e.source;
+  json["published"] = nlohmann::json::array();
+  for (const PublishedValue& p : e.published)
+    json["published"].push_back({{"what", p.what}, {"published", p.published}, {"artus", p.artus}});
+  ARTUS_TRY(write_text(folder / "verdict.json", json.dump(2) + "\n"));
+  return write_plot(folder / (e.name + ".png"), e.plot);
+}
+
+}  // namespace artus

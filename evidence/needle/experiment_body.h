@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <functional>
+#include <vector>
+
+#include "artus/evidence/needle/analytic_body.h"
+#include "artus/evidence/needle/experiment_laws.h"
+#include "artus/evidence/needle/needle_trace.h"
+#include "artus/operators/hand_loop.h"
+#include "artus/operators/injection_operator.h"
+
+namespace artus {
+
+/// A needle, a hand and a device on an analytic body, and what the operator does.
+struct BodyExperiment {
+  AnalyticBody body = AnalyticBody::make_stack(Vec3::Zero(), Vec3::UnitZ(), {0});
+  std::vector<LayerHaptics> layers;  ///< outermost first
+  std::vector<std::string> names;    ///< of the layers; empty: those of layer_names()
+  ExperimentLaws laws;               ///< what the run changes of layers and parameters
+  Vec3 entry = Vec3::Zero();         ///< m, on the skin
+  Vec3 direction = Vec3::UnitZ();    ///< unit
+  double start_outside = 0.005;      ///< m before the skin
+  std::vector<OperatorPhase> phases;
+  /// When set, what the hand means at a time, s, instead of the phases, which look at the needle
+  /// and so at the loop's rate.
+  std::function<Intention(double)> path;
+  double path_duration = 0;  ///< s
+  NeedleParams needle;
+  DeviceLimits device;
+  HandParams hand;
+  double rate_hz = 1000;
+};
+
+/// Runs it closed loop; a row a tick.
+[[nodiscard]] std::vector<NeedleRow> run_body(const BodyExperiment& experiment);
+
+/// A layer with f_R, f_A in N and K_t in N/m, and nothing else: no membrane, friction or clamping.
+[[nodiscard]] LayerHaptics plain_layer(double cutting, double stiffness, double attracted = 0);
+
+/// A layer the tip cannot enter.
+[[nodiscard]] LayerHaptics bone_layer(double cutting, double stiffness);
+
+/// Phases, in the words of an operator.
+[[nodiscard]] OperatorPhase push_to(double depth, double speed);
+[[nodiscard]] OperatorPhase pull_to(double depth, double speed);
+[[nodiscard]] OperatorPhase stay(double duration);
+[[nodiscard]] OperatorPhase let_go(double duration);
+[[nodiscard]] OperatorPhase aim(const Vec3& direction, double duration);
+
+/// "layer 1", ... : what layers without a tissue's name are called.
+[[nodiscard]] std::vector<std::string> numbered_layers(std::size_t layers);
+/// `layers` behind "outside" and "beyond": names by region, for a trace.
+[[nodiscard]] std::vector<std::string> region_names(std::vector<std::string> layers);
+[[nodiscard]] std::vector<std::string> layer_names(std::size_t layers);
+
+}  // namespace artus

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// What a hand can tell of a change of layers.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include "artus/core/csv.h"
+#include "artus/core/units.h"
+#include "artus/evidence/needle/experiment_list.h"
+
+namespace artus {
+namespace {
+
+// Table 4.2 of the source; K_t of the bundled tissue library.
+struct TableLayer {
+  const char* name;
+  double force;      // N
+  double stiffness;  // N/m
+};
+constexpr std::array<TableLayer, 6> kTable{{{"skin", 1, 1500},
+                                            {"muscle", 2, 500},
+                                            {"bursa", 1.5, 500},
+                                            {"tendon", 2.5, 500},
+                                            {"cartilage", 3, 500},
+                                            {"bone", 4, 4000}}};
+
+struct Change {
+  double before = 0;    // N, mean of the last millimetre before the change
+  double after = 0;     // N, mean of what follows the rise
+  double distance = 0;  // m, from the interface until nine tenths of the step are felt
+};
+
+// A needle pushed at 10 mm/s through 12 mm of one layer into another, as the hand feels it.
+Change measure_change(const TableLayer& from, const TableLayer& to, const ExperimentLaws& laws,
+                      const DeviceLimits& device) {
+  constexpr double kInterface = 0.012;  // m
+  constexpr double kBeyond = 0.009;     // m of the second layer; of a hard one as far as it lets
+  const bool hard = std::string_view(to.name) == "bone";
+  BodyExperiment e;
+  e.body = AnalyticBody::make_stack(Vec3::Zero(), Vec3::UnitZ(), {0, kInterface});
+  e.layers = {plain_layer(from.force, from.stiffness),
+              hard ? bone_layer(to.force, to.stiffness) : plain_layer(to.force, to.stiffness)};
+  e.names = {from.name, to.name};
+  e.laws = laws;
+  e.device = device;
+  e.hand.tremor_rms = 0;
+  e.phases = {stay(0.1),
+              push_to(hard ? kInterface + to.force / to.stiffness : kInterface + kBeyond, 0.01)};
+  const std::vector<NeedleRow> rows = run_body(e);
+  Change change;
+  double count = 0;
+  for (const NeedleRow& r : rows) {
+    if (r.depth < kInterface - 1e-3 || r.depth >= kInterface) continue;
+    change.before += resistance(r);
+    ++count;
+  }
+  change.before /= std::max(count, 1.0);
+  count = 0;
+  for (const NeedleRow& r : rows) {
+    if (r.depth < e.phases.back().depth - (hard ? 2e-5 : 1e-3)) continue;
+    change.after += resistance(r);
+    ++count;
+  }
+  change.after /= std::max(count, 1.0);
+  const double step = change.after - change.before;
+  for (const NeedleRow& r : rows) {
+    if (r.depth < kInterface || (resistance(r) - change.before) / step < 0.9) continue;
+    change.distance = r.depth - kInterface;
+    break;
+  }
+  return change;
+}
+
+}  // namespace
+
+Experiment run_layer_changes(const ExperimentOptions& options, const DeviceLimits& device) {
+  constexpr double kJnd = 0.07;      // share of the force, [Pang1991] for 2.5 to 10 N
+  constexpr double kWeakJnd = 0.14;  // assumed: twice that, for forces below 2.5 N
+  Experiment out;
+  out.title = "Layer changes of table 4.2, felt at 10 mm/s, in just-noticeable differences";
+  out.source = "[Alamilla2020] table 4.2; [Pang1991] for the just-noticeable difference";
+  out.table.header = {"from",
+                      "to",
+                      "before_n",
+                      "after_n",
+                      "step_n",
+                      "step_share",
+                      "rise_mm",
+                      "jnd_multiples_at_7_percent",
+                      "jnd_multiples_at_14_percent"};
+  std::vector<PlotSeries> by_layer;
+  for (std::size_t k = 0; k < kTable.size(); ++k)
+    by_layer.push_back(
+        {"to " + std::string(kTable[k].name), {}, {}, "points ps 1.5 pt " + std::to_string(k + 4)});
+  std::array<double, kTable.size()> felt{};  // N on the plateau behind the change, of the last
+  double least = 1e9;
+  double off = 0;
+  double longest = 0;
+  for (const TableLayer& from : kTable) {
+    if (std::string_view(from.name) == "bone") continue;  // nothing lies beyond it
+    for (std::size_t k = 0; k < kTable.size(); ++k) {
+      const TableLayer& to = kTable[k];
+      if (from.force == to.force) continue;
+      const Change c = measure_change(from, to, options.laws, device);
+      const double step = c.after - c.before;
+      const double share = std::abs(step) / c.before;
+      out.table.rows.push_back({from.name, to.name, to_csv(c.before), to_csv(c.after), to_csv(step),
+                                to_csv(share), to_csv(c.distance / kMillimetre),
+                                to_csv(share / kJnd), to_csv(share / kWeakJnd)});
+      PlotSeries& series = by_layer[k];
+      series.x.push_back(c.distance / kMillimetre);
+      series.y.push_back(share / kWeakJnd);
+      felt[k] = c.after;
+      least = std::min(least, share / kWeakJnd);
+      longest = std::max(longest, c.distance / kMillimetre);
+      off = std::max(off, std::abs(step / (to.force - from.force) - 1));
+    }
+  }
+  out.claims = {
+      claim_at_least("pairs of layers", static_cast<double>(out.table.rows.size()), 25, ""),
+      claim_at_most("measured step off the table's, share of the step", off, 0.05, ""),
+      claim_at_least("the smallest step in just-noticeable differences of 14 %", least, 1, ""),
+      claim_at_most("the longest way until nine tenths of the step are felt", longest, 4.5, "mm")};
+  for (std::size_t k = 0; k < kTable.size(); ++k)
+    out.published.push_back(
+        {kTable[k].name, to_csv(kTable[k].force) + " N", to_csv(felt[k]) + " N"});
+  out.plot.title = out.title;
+  by_layer.push_back({"noticed, 7 %", {0, longest}, {kJnd / kWeakJnd, kJnd / kWeakJnd}});
+  by_layer.push_back({"noticed, 14 %", {0, longest}, {1, 1}});
+  out.plot.panels = {
+      {"distance until 90 % of the step (mm)", "force step (multiples of 14 %)", by_layer, true}};
+  return out;
+}
+
+}  // namespace artus

@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/haptics/needle/needle_contact.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "artus/haptics/needle/insertion_cone.h"
+
+namespace artus {
+namespace {
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+double angle_between(const Vec3& a, const Vec3& b) noexcept {
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+}  // namespace
+
+const char* to_string(ContactState state) noexcept {
+  switch (state) {
+    case ContactState::away:
+      return "away";
+    case ContactState::touching:
+      return "touching";
+    case ContactState::punctured:
+      return "punctured";
+    case ContactState::inserting:
+      return "inserting";
+    case ContactState::stopped:
+      return "stopped";
+    case ContactState::withdrawing:
+      return "withdrawing";
+    case ContactState::reinserting:
+      return "reinserting";
+    case ContactState::bone:
+      return "bone";
+  }
+  return "";
+}
+
+NeedleContact::NeedleContact(const ContactParams& params, const PrepunctureParams& prepuncture,
+                             const LayerTable& table, double dt) noexcept
+    : params_(params),
+      prepuncture_(prepuncture),
+      table_(&table),
+      dt_(dt),
+      motion_(params.motion),
+      depths_(params.velocity_window, dt),
+      orientations_(params.velocity_window, dt) {
+  tick_.dt = dt;
+  tick_.table = table_;
+  tick_.needle_length = params.needle_length;
+}
+
+void NeedleContact::reset() noexcept {
+  leave();
+  events_ = 0;
+  adopt_ = true;
+}
+
+void NeedleContact::leave() noexcept {
+  inserted_ = false;
+  on_bone_ = false;
+  state_ = ContactState::away;
+  region_ = kOutside;
+  open_ = 0;
+  deepest_ = 0;
+  was_outside_ = true;
+  layer_count_ = 0;
+  tick_.shaft = {};
+  tick_.depth = 0;
+  tick_.dimple = 0;
+  tick_.velocity = 0;
+  tick_.bone_depth = kInfinity;
+  tick_.layer = (*table_)[kOutside];
+}
+
+double NeedleContact::cone() const noexcept {
+  return insertion_cone(tick_.depth, params_.needle_length);
+}
+
+Segment NeedleContact::query_segment(const Pose& X_JN) const noexcept {
+  const Vec3 tip = X_JN.translation();
+  if (!inserted_) {
+    const Vec3 axis = X_JN.linear().col(2);
+    return {tip - params_.approach * axis, tip + params_.lookahead * axis};
+  }
+  const double depth = std::max(0.0, (tip - tick_.entry).dot(tick_.axis));
+  return {tip - (depth + params_.behind_skin) * tick_.axis, tip + params_.lookahead * tick_.axis};
+}
+
+void NeedleContact::store_layers(std::span<const TissueInterval> intervals,
+                                 double origin) noexcept {
+  layer_count_ = std::min(intervals.size(), kMaxLayers);
+  for (std::size_t i = 0; i < layer_count_; ++i) {
+    layers_[i] = {intervals[i].entry - origin, intervals[i].exit - origin, intervals[i].region};
+  }
+  tick_.shaft = std::span<const ShaftLayer>(layers_.data(), layer_count_);
+}
+
+void NeedleContact::start_line(const Pose& X_JN, double depth) noexcept {
+  inserted_ = true;
+  tick_.orientation_0 = tick_.orientation;
+  first_axis_ = X_JN.linear().col(2);
+  tick_.axis = first_axis_;
+  tick_.entry = tick_.tip - depth * first_axis_;
+  open_ = depth;
+  deepest_ = depth;
+  motion_.reset(depth, Motion::inward);
+}
+
+// Tip outside, or dimpling the skin: the line is the needle's own axis.
+void NeedleContact::approach(const Pose& X_JN, std::span<const TissueInterval> intervals) noexcept {
+  const double at_tip = params_.approach;
+  std::size_t tip_index = 0;
+  while (tip_index + 1 < intervals.size() && intervals[tip_index].exit <= at_tip) ++tip_index;
+  const bool inside = !intervals.empty() && intervals[tip_index].region != kOutside;
+  if (!inside) {
+    adopt_ = false;
+    leave();
+    depths_.reset(0);
+    return;
+  }
+  std::size_t first = tip_index;
+  while (first > 0 && intervals[first - 1].region != kOutside) --first;
+  const double depth = at_tip - intervals[first].entry;
+  tick_.axis = X_JN.linear().col(2);
+  tick_.entry = tick_.tip - depth * tick_.axis;
+  tick_.depth = depth;
+  tick_.surface_normal = intervals[first].entry_normal;
+  store_layers(intervals, intervals[first].entry);
+  if (was_outside_) {
+    depths_.reset(0);
+    was_outside_ = false;
+  }
+  tick_.velocity = (depth - depths_.push(depth)) / depths_.duration(dt_);
+  if (adopt_) {
+    adopt_ = false;
+    start_line(X_JN, depth);
+    depths_.reset(depth);
+    tick_.velocity = 0;
+    motion_.reset(depth, Motion::still);
+    events_ |= ContactEvent::kAdopted;
+    return;
+  }
+  const LayerHaptics& skin = (*table_)[intervals[first].region];
+  const double force = prepuncture_force(prepuncture_, skin, depth, tick_.velocity);
+  const bool holds = skin.tissue.puncture_force > 0 && force < skin.tissue.puncture_force &&
+                     depth < intervals[first].exit - intervals[first].entry;
+  if (holds) {
+    state_ = ContactState::touching;
+    region_ = intervals[first].region;
+    tick_.membrane = skin;
+    tick_.dimple = depth;
+    return;
+  }
+  start_line(X_JN, depth);
+  tick_.dimple = 0;
+  tear(skin, force, depth);
+  events_ |= ContactEvent::kSkinPunctured;
+}
+
+void NeedleContact::tear(const LayerHaptics& layer, double force, double dimple) noexcept {
+  tick_.torn += std::min(force, layer.tissue.puncture_force);
+  tick_.torn_dimple = std::max(tick_.torn_dimple, dimple);
+}
+
+void NeedleContact::redirect(const Pose& X_JN) noexcept {
+  const Vec3 to_tip = tick_.tip - tick_.entry;
+  const double distance = to_tip.norm();
+  if (deepest_ - tick_.depth < params_.redirect_withdrawal || distance < params_.redirect_depth) {
+    return;
+  }
+  const Vec3 direction = to_tip / distance;
+  const double turned = angle_between(direction, tick_.axis);
+  if (turned < params_.redirect_angle || turned * distance < params_.redirect_deviation ||
+      angle_between(direction, first_axis_) > insertion_cone(distance, params_.needle_length)) {
+    return;
+  }
+  const double gained = distance - tick_.depth;
+  tick_.axis = direction;
+  tick_.depth = distance;
+  tick_.line_gain = gained;
+  tick_.orientation_0 = Eigen::Quaterniond(X_JN.linear()).normalized();
+  open_ = distance;
+  deepest_ = distance + params_.redirect_withdrawal + params_.redirect_advance;  // may turn on
+  depths_.shift(gained);
+  motion_.shift(gained);
+  events_ |= ContactEvent::kRedirected;
+}
+
+// A line that comes to graze bone meets it millimetres behind the tip all at once, and loses it as
+// suddenly. The tip cannot be farther in than it has moved; and a bevel that was pressed into bone
+// leaves it over the way that it was in, not where its line does.
+double NeedleContact::felt_bone(double line_depth) noexcept {
+  const double x = tick_.depth;
+  const double before = on_bone_ ? bone_ + tick_.line_gain : x;
+  bone_ = std::max(line_depth, before - moved_);
+  const double left = on_bone_ ? held_ - (tick_.tip - held_tip_).norm() : 0;
+  if (left > 0 && left > x - bone_) {
+    bone_ = x - left;
+    return bone_;
+  }
+  const Haptic& bone = tick_.bone.tissue;
+  const double rise = bone.cutting_force / std::max(bone.wall_stiffness, 1e-6);
+  held_ = std::min({x - bone_, rise, params_.bevel});
+  held_tip_ = tick_.tip;
+  return bone_;
+}
+
+// The soft layer at the tip, the membrane that holds it up, and where bone begins.
+void NeedleContact::find_tip_layers() noexcept {
+  const double x = tick_.depth;
+  tick_.dimple = 0;
+  tick_.bone_depth = kInfinity;
+  region_ = kOutside;
+  bool held = false;
+  double line_bone = kInfinity;
+  for (std::size_t i = 0; i < layer_count_; ++i) {
+    const ShaftLayer& s = layers_[i];
+    const LayerHaptics& layer = (*table_)[s.region];
+    if (layer.tissue.hard) {
+      if (s.exit <= 0) continue;
+      line_bone = s.entry;
+      if (!on_bone_ || x > line_bone) {
+        tick_.bone = layer;
+        bone_region_ = s.region;
+      }
+      break;
+    }
+    if (s.entry > x || s.region == kOutside) continue;
+    const bool whole = s.entry > open_ - params_.membrane_margin;
+    if (!held && whole && layer.tissue.puncture_force > 0) {
+      const double dimple = x - s.entry;
+      const double force = prepuncture_force(prepuncture_, layer, dimple, tick_.velocity);
+      if (force < layer.tissue.puncture_force && x < s.exit) {
+        held = true;
+        open_ = std::min(open_, s.entry);  // its surface may move under a needle that sways
+        tick_.dimple = dimple;
+        tick_.membrane = layer;
+      } else {
+        tear(layer, force, dimple);
+        open_ = std::max(open_, s.entry + params_.membrane_margin);
+        events_ |= ContactEvent::kMembranePopped;
+      }
+    }
+    if (!held) {
+      tick_.layer = layer;
+      region_ = s.region;
+    }
+  }
+  tick_.bone_depth = felt_bone(line_bone);
+  if (x > tick_.bone_depth) region_ = bone_region_;
+  if (!held) open_ = std::max(open_, std::min(x, tick_.bone_depth));
+}
+
+void NeedleContact::classify() noexcept {
+  const double x = tick_.depth;
+  const bool beyond_bone = x > tick_.bone_depth;
+  if (beyond_bone && !on_bone_) events_ |= ContactEvent::kBoneTouched;
+  on_bone_ = beyond_bone;
+  constexpr std::uint32_t kPops = ContactEvent::kSkinPunctured | ContactEvent::kMembranePopped;
+  if (beyond_bone) {
+    state_ = ContactState::bone;
+  } else if ((events_ & kPops) != 0) {
+    state_ = ContactState::punctured;
+  } else if (tick_.dimple > 0) {
+    state_ = ContactState::touching;
+  } else if (motion_.motion() == Motion::still) {
+    state_ = ContactState::stopped;
+  } else if (motion_.motion() == Motion::outward) {
+    state_ = ContactState::withdrawing;
+  } else {
+    state_ = x < open_ - params_.motion.band ? ContactState::reinserting : ContactState::inserting;
+  }
+}
+
+void NeedleContact::update_velocity(const Pose& X_JN) noexcept {
+  tick_.orientation = Eigen::Quaterniond(X_JN.linear()).normalized();
+  const Eigen::Vector4d before = orientations_.push(tick_.orientation.coeffs());
+  if (before.squaredNorm() < 0.5) {
+    orientations_.reset(tick_.orientation.coeffs());
+    tick_.angular_velocity.setZero();
+    return;
+  }
+  const Eigen::Quaterniond turn = tick_.orientation * Eigen::Quaterniond(before).conjugate();
+  const double sign = turn.w() < 0 ? -1 : 1;
+  const double norm = turn.vec().norm();
+  const double angle = 2 * std::atan2(norm, std::abs(turn.w()));
+  tick_.angular_velocity =
+      norm > 0 ? Vec3(sign * angle / (norm * orientations_.duration(dt_)) * turn.vec())
+               : Vec3(Vec3::Zero());
+}
+
+void NeedleContact::update(const Pose& X_JN, std::span<const TissueInterval> intervals) noexcept {
+  events_ = 0;
+  tick_.line_gain = 0;
+  tick_.torn = 0;
+  tick_.torn_dimple = 0;
+  moved_ = adopt_ ? 0 : (X_JN.translation() - tick_.tip).norm();
+  tick_.tip = X_JN.translation();
+  update_velocity(X_JN);
+  if (!inserted_) {
+    approach(X_JN, intervals);
+    if (!inserted_) return;
+  } else {
+    tick_.depth = (tick_.tip - tick_.entry).dot(tick_.axis);
+    if (tick_.depth < 0) {
+      leave();
+      events_ = ContactEvent::kExited;
+      return;
+    }
+    store_layers(intervals, params_.behind_skin);
+    const double before = depths_.push(tick_.depth);
+    tick_.velocity = (tick_.depth - before) / depths_.duration(dt_);
+    redirect(X_JN);
+  }
+  motion_.step(tick_.depth, dt_);
+  tick_.stillness = motion_.stillness();
+  deepest_ = std::max(deepest_, tick_.depth);
+  tick_.incoming_speed = std::max(0.0, tick_.velocity);
+  find_tip_layers();
+  classify();
+}
+
+}  // namespace artus

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "artus/core/units.h"
+#include "artus/haptics/needle/force_model.h"
+#include "artus/haptics/needle/motion.h"
+#include "artus/haptics/needle/prepuncture.h"
+#include "artus/raycast/scene.h"
+
+namespace artus {
+
+/// Where the needle is in its insertion.
+enum class ContactState : std::uint8_t {
+  away,         ///< tip outside the skin
+  touching,     ///< a membrane dimples under the tip and still holds
+  punctured,    ///< the tick in which a membrane gave way
+  inserting,    ///< cutting new tissue
+  stopped,      ///< still, inside
+  withdrawing,  ///< moving out
+  reinserting,  ///< moving in, in the track already cut
+  bone          ///< tip on a hard layer
+};
+[[nodiscard]] const char* to_string(ContactState state) noexcept;
+
+/// What happened in a tick; a bit field.
+struct ContactEvent {
+  static constexpr std::uint32_t kSkinPunctured = 1U << 0U;
+  static constexpr std::uint32_t kMembranePopped = 1U << 1U;
+  static constexpr std::uint32_t kRedirected = 1U << 2U;
+  static constexpr std::uint32_t kBoneTouched = 1U << 3U;
+  static constexpr std::uint32_t kExited = 1U << 4U;
+  static constexpr std::uint32_t kAdopted = 1U
+                                            << 5U;  ///< found inside after a fault: starts at rest
+};
+
+struct ContactParams {
+  double needle_length = 0.035;         ///< m, n_L; [Alamilla2020] section 1.6.1: 35 or 25 mm
+  double redirect_withdrawal = 5e-3;    ///< m back on a line before another may be taken; assumed:
+                                        ///< above tremor, below the source's "few centimetres"
+  double redirect_angle = 1 * kDegree;  ///< rad, smaller changes keep the line; assumed
+  double redirect_deviation = 0.15e-3;  ///< m off the line, below which it is kept; assumed: above
+                                        ///< tremor
+  double redirect_advance = 1e-3;  ///< m on a new line until which it may turn on; assumed: above
+                                   ///< what a hand that turns advances unmeant
+  double redirect_depth = 3e-3;  ///< m, nearer the skin the direction entry-tip is not defined well
+  double behind_skin = 2e-3;     ///< m, query starts this far before the entry
+  double lookahead = 0.02;       ///< m, query goes this far beyond the tip
+  double approach = 0.06;        ///< m, query behind the tip while no line is stored
+  double membrane_margin = 0.1e-3;  ///< m, by which a membrane may lie before the end of the cut
+                                    ///< track and still be whole; assumed: above what a trembling
+                                    ///< needle moves over a slope in a tick
+  double bevel = 1e-3;  ///< m, way on which a tip that was pressed into bone slides off it at most;
+                        ///< assumed: the size of a needle's bevel
+  MotionParams motion;
+  double velocity_window = 0.01;  ///< s; lag half of it; only for laws that need a velocity
+};
+
+/// The needle's contact with the layers: finds the entry, stores the insertion line at the first
+/// puncture, keeps what of the track is cut, decides which membrane still holds, and re-takes the
+/// line inside the cone alpha(depth). One scene query a tick, by the caller: query_segment gives
+/// the segment, update takes its intervals. A pure function of the poses given since reset.
+class NeedleContact {
+ public:
+  /// Requires: dt > 0 s, the fixed period of the loop; table outlives this.
+  NeedleContact(const ContactParams& params, const PrepunctureParams& prepuncture,
+                const LayerTable& table, double dt) noexcept;
+
+  /// Forgets the insertion. A tip found inside at the next update is taken as resting there.
+  ARTUS_REALTIME void reset() noexcept;
+
+  /// The line whose tissue intervals update needs, frame J. Requires: a finite, rigid pose.
+  [[nodiscard]] ARTUS_REALTIME Segment query_segment(const Pose& X_JN) const noexcept;
+
+  /// Advances by one period. `intervals` are those of query_segment(X_JN).
+  ARTUS_REALTIME void update(const Pose& X_JN, std::span<const TissueInterval> intervals) noexcept;
+
+  [[nodiscard]] ContactState state() const noexcept { return state_; }
+  [[nodiscard]] std::uint32_t events() const noexcept { return events_; }
+  [[nodiscard]] RegionId region() const noexcept { return region_; }  ///< at the tip
+  [[nodiscard]] bool inserted() const noexcept { return inserted_; }
+  [[nodiscard]] double cone() const noexcept;  ///< alpha at this depth, rad
+  /// What the force laws see; valid until the next update.
+  [[nodiscard]] const NeedleTick& tick() const noexcept { return tick_; }
+
+ private:
+  static constexpr std::size_t kMaxLayers = 64;
+
+  void store_layers(std::span<const TissueInterval> intervals, double origin) noexcept;
+  void approach(const Pose& X_JN, std::span<const TissueInterval> intervals) noexcept;
+  void start_line(const Pose& X_JN, double depth) noexcept;
+  void tear(const LayerHaptics& layer, double force, double dimple) noexcept;
+  void redirect(const Pose& X_JN) noexcept;
+  double felt_bone(double line_depth) noexcept;
+  void find_tip_layers() noexcept;
+  void classify() noexcept;
+  void update_velocity(const Pose& X_JN) noexcept;
+  void leave() noexcept;
+
+  ContactParams params_;
+  PrepunctureParams prepuncture_;
+  const LayerTable* table_;
+  double dt_;
+  MotionDetector motion_;
+  SampleWindow<double> depths_;
+  SampleWindow<Eigen::Vector4d> orientations_;
+
+  std::array<ShaftLayer, kMaxLayers> layers_{};
+  std::size_t layer_count_ = 0;
+  NeedleTick tick_;
+  ContactState state_ = ContactState::away;
+  std::uint32_t events_ = 0;
+  RegionId region_ = kOutside;
+  bool inserted_ = false;
+  bool adopt_ = true;
+  bool on_bone_ = false;
+  bool was_outside_ = true;
+  Vec3 first_axis_ = Vec3::UnitZ();
+  double moved_ = 0;                 // m, the tip in this tick
+  double bone_ = 0;                  // m, where bone is felt to begin while the tip is on it
+  double held_ = 0;                  // m, how far the tip was in bone when its line last was
+  Vec3 held_tip_ = Vec3::Zero();     // the tip there
+  RegionId bone_region_ = kOutside;  // that bone
+  double open_ = 0;                  // m, deepest point of the cut track on this line
+  double deepest_ = 0;               // m, from which withdrawal counts
+};
+
+}  // namespace artus

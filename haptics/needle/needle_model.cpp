@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/haptics/needle/needle_model.h"
+
+#include <algorithm>
+
+namespace artus {
+
+NeedleModel::NeedleModel(const NeedleParams& params, const LayerTable& table, double dt) noexcept
+    : params_(params),
+      contact_(params.contact, params.prepuncture, table, dt),
+      wall_(params.wall),
+      voigt_(params.voigt),
+      prepuncture_(params.prepuncture),
+      friction_(dt, params.friction),
+      hard_(params.hard),
+      orientation_(params.orientation),
+      plasticity_(params.plasticity),
+      god_object_(params.prepuncture.god_object),
+      workspace_(params.workspace) {}
+
+void NeedleModel::reset() noexcept {
+  contact_.reset();
+  start_laws();
+  forces_ = NeedleForces{};
+}
+
+// An insertion begins: what is felt starts from rest at this depth, or, at a puncture, from no more
+// than the membrane's force, with nothing cut yet.
+void NeedleModel::start_laws() noexcept {
+  const NeedleTick& tick = contact_.tick();
+  const double x = tick.depth;
+  const bool puncture = (contact_.events() & ContactEvent::kSkinPunctured) != 0;
+  const double membrane = tick.layer.tissue.puncture_force;
+  const double stiffness = std::max(tick.layer.tissue.wall_stiffness, 1e-6);
+  double w0 = x;
+  if (puncture) w0 = membrane > 0 ? std::max(0.0, x - membrane / stiffness) : 0.0;
+  wall_.start(w0, x);
+  direct_.reset(x);
+  spring_.reset(x);
+  voigt_.reset(x);
+  prepuncture_.reset(x);
+  friction_.reset(x);
+  hard_.reset(x);
+  clamping_.reset(x);
+  orientation_.reset(x);
+  plasticity_.reset(x);
+}
+
+// The same tissue on another line: what is felt goes on, but for what holds the needle on its line.
+void NeedleModel::take_line() noexcept {
+  const double by = contact_.tick().line_gain;
+  wall_.take_line(by);
+  friction_.take_line(by);
+  hard_.take_line(by);
+  plasticity_.reset(contact_.tick().depth);
+}
+
+double NeedleModel::cutting_force(const NeedleTick& tick) noexcept {
+  const double wall = wall_.step(tick).force.dot(tick.axis);  // keeps its memory in every law
+  const bool on_bone = tick.depth > tick.bone_depth;
+  switch (on_bone ? CuttingLaw::tracking_wall : tick.layer.cutting) {
+    case CuttingLaw::direct:
+      return direct_.step(tick).force.dot(tick.axis);
+    case CuttingLaw::spring:
+      return spring_.step(tick).force.dot(tick.axis);
+    case CuttingLaw::voigt:
+      return voigt_.step(tick).force.dot(tick.axis);
+    case CuttingLaw::tracking_wall:
+      break;
+  }
+  return wall;
+}
+
+const NeedleForces& NeedleModel::step(const Pose& X_JN,
+                                      std::span<const TissueInterval> intervals) noexcept {
+  contact_.update(X_JN, intervals);
+  const NeedleTick& tick = contact_.tick();
+  forces_ = NeedleForces{};
+  if (params_.use_workspace) forces_.workspace = workspace_.step(tick).force;
+  if (contact_.inserted()) {
+    constexpr std::uint32_t kStart = ContactEvent::kSkinPunctured | ContactEvent::kAdopted;
+    if ((contact_.events() & kStart) != 0) start_laws();
+    if ((contact_.events() & ContactEvent::kRedirected) != 0) take_line();
+    const double cutting = cutting_force(tick);
+    forces_.cutting = std::min(cutting, 0.0);
+    forces_.attracted = std::max(cutting, 0.0);
+    const bool skin = (contact_.events() & ContactEvent::kSkinPunctured) != 0;
+    prepuncture_.tear(tick.torn + (skin ? forces_.cutting : 0), tick.torn_dimple, tick.depth);
+    forces_.friction = friction_.step(tick).force.dot(tick.axis);
+    forces_.hard = hard_.step(tick).force.dot(tick.axis);
+    forces_.clamping = params_.clamping == ClampingLaw::projection ? clamping_.step(tick).force
+                                                                   : plasticity_.step(tick).force;
+    forces_.torque = orientation_.step(tick).torque;
+  }
+  const bool proxy =
+      !contact_.inserted() && tick.membrane.prepuncture == PrepunctureLaw::god_object;
+  if (proxy) {
+    forces_.surface = god_object_.step(tick).force;
+  } else {
+    forces_.prepuncture = prepuncture_.step(tick).force.dot(tick.axis);
+  }
+  const double axial =
+      forces_.prepuncture + forces_.cutting + forces_.attracted + forces_.friction + forces_.hard;
+  forces_.total.force = axial * tick.axis + forces_.clamping + forces_.surface + forces_.workspace;
+  forces_.total.torque = forces_.torque;
+  return forces_;
+}
+
+}  // namespace artus

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <cstdint>
+#include <span>
+
+#include "artus/haptics/needle/clamping.h"
+#include "artus/haptics/needle/classic_cutting.h"
+#include "artus/haptics/needle/hard_contact.h"
+#include "artus/haptics/needle/hemisphere_workspace.h"
+#include "artus/haptics/needle/lugre_friction.h"
+#include "artus/haptics/needle/needle_contact.h"
+#include "artus/haptics/needle/orientation_torque.h"
+#include "artus/haptics/needle/plasticity_fixture.h"
+#include "artus/haptics/needle/prepuncture.h"
+#include "artus/haptics/needle/tracking_wall.h"
+
+namespace artus {
+
+/// Which law holds the needle on its line.
+enum class ClampingLaw { projection, plasticity };
+
+/// The parameters of every force law and of the contact; each default has its source where it is
+/// declared.
+struct NeedleParams {
+  ContactParams contact;
+  TrackingWallParams wall;
+  VoigtParams voigt;
+  PrepunctureParams prepuncture;
+  LugreParams friction;
+  HardContactParams hard;
+  OrientationParams orientation;
+  ClampingLaw clamping = ClampingLaw::projection;
+  PlasticityParams plasticity;
+  bool use_workspace = false;  ///< whether the hemisphere pushes
+  HemisphereParams workspace;
+};
+
+/// The components of one tick, apart. Axial values are along the insertion axis, N, positive into
+/// the body (a force against insertion is negative).
+struct NeedleForces {
+  double prepuncture = 0;
+  double cutting = 0;    ///< of the selected cutting law, also on bone
+  double attracted = 0;  ///< the wall's resistance to withdrawal, >= 0
+  double friction = 0;
+  double hard = 0;                ///< the tap on bone
+  Vec3 clamping = Vec3::Zero();   ///< N, frame J
+  Vec3 surface = Vec3::Zero();    ///< N, frame J, of the god-object on the skin
+  Vec3 workspace = Vec3::Zero();  ///< N, frame J, of the hemisphere
+  Vec3 torque = Vec3::Zero();     ///< N m, frame J
+  Wrench total;                   ///< sum of the above, before any device limit
+};
+
+/// Everything the needle makes the hand feel: contact state and force laws, summed as eq. 1.1 of
+/// [Alamilla2020] with the hard tap added to the soft forces (see HardContact). Needs no scene: the
+/// caller queries it for query_segment() and passes the intervals. One needle, one insertion at a
+/// time; not for several threads at once.
+class NeedleModel {
+ public:
+  /// Requires: dt > 0 s; table outlives the model.
+  NeedleModel(const NeedleParams& params, const LayerTable& table, double dt) noexcept;
+
+  ARTUS_REALTIME void reset() noexcept;
+  [[nodiscard]] ARTUS_REALTIME Segment query_segment(const Pose& X_JN) const noexcept {
+    return contact_.query_segment(X_JN);
+  }
+  /// Requires: a finite, rigid pose; the intervals of query_segment(X_JN).
+  ARTUS_REALTIME const NeedleForces& step(const Pose& X_JN,
+                                          std::span<const TissueInterval> intervals) noexcept;
+
+  [[nodiscard]] const NeedleForces& forces() const noexcept { return forces_; }
+  [[nodiscard]] const NeedleContact& contact() const noexcept { return contact_; }
+  [[nodiscard]] const TrackingWall& wall() const noexcept { return wall_; }
+  [[nodiscard]] const HardContact& hard_contact() const noexcept { return hard_; }
+
+ private:
+  void start_laws() noexcept;
+  void take_line() noexcept;
+  double cutting_force(const NeedleTick& tick) noexcept;
+
+  NeedleParams params_;
+  NeedleContact contact_;
+  TrackingWall wall_;
+  DirectCutting direct_;
+  SpringCutting spring_;
+  VoigtCutting voigt_;
+  Prepuncture prepuncture_;
+  LugreFriction friction_;
+  HardContact hard_;
+  Clamping clamping_;
+  OrientationTorque orientation_;
+  PlasticityFixture plasticity_;
+  GodObject god_object_;
+  HemisphereWorkspace workspace_;
+  NeedleForces forces_;
+};
+
+}  // namespace artus

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/operators/injection_operator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace artus {
+namespace {
+using Kind = OperatorPhase::Kind;
+using Goal = OperatorPhase::Goal;
+
+constexpr double kBoneFeelTime = 0.03;  // s of full force until the operator is sure; assumed
+constexpr double kBoneShare = 0.99;     // of the bone's force counts as full
+
+// Fraction 0 to 1 with zero speed at both ends.
+double smooth(double s) noexcept {
+  s = std::clamp(s, 0.0, 1.0);
+  return s * s * (3 - 2 * s);
+}
+}  // namespace
+
+InjectionOperator::InjectionOperator(const Vec3& entry, const Vec3& direction, double start_depth,
+                                     std::vector<OperatorPhase> phases)
+    : entry_(entry),
+      direction_(direction),
+      turn_from_(direction),
+      x_hint_(direction.unitOrthogonal()),
+      reference_(start_depth),
+      phases_(std::move(phases)) {}
+
+void InjectionOperator::begin_phase(double time, double depth) {
+  phase_time_ = time;
+  const bool stays = index_ < phases_.size() &&
+                     (phases_[index_].kind == Kind::hold || phases_[index_].kind == Kind::let_go);
+  if (started_ && stays) reference_ = depth;
+  turn_from_ = direction_;
+  bone_time_ = -1;
+}
+
+bool InjectionOperator::goal_met(const OperatorPhase& phase, double time, double depth,
+                                 const NeedleModel& model) {
+  const double elapsed = time - phase_time_;
+  const NeedleContact& contact = model.contact();
+  const NeedleTick& tick = contact.tick();
+  switch (phase.kind) {
+    case Kind::hold:
+    case Kind::turn:
+    case Kind::let_go:
+    case Kind::wait_outside:
+      return elapsed >= phase.duration;
+    case Kind::withdraw:
+      return depth <= phase.depth;
+    case Kind::advance:
+      break;
+  }
+  if (phase.goal == Goal::depth) return depth >= phase.depth;
+  if (phase.goal == Goal::region) {
+    if (!contact.inserted() || contact.region() != phase.region) return false;
+    for (const ShaftLayer& s : tick.shaft) {
+      if (s.region == phase.region && tick.depth >= s.entry && tick.depth <= s.exit) {
+        return tick.depth - s.entry >= std::min(phase.depth, 0.5 * (s.exit - s.entry));
+      }
+    }
+    return false;
+  }
+  const bool full = contact.state() == ContactState::bone &&
+                    -model.forces().cutting >= kBoneShare * tick.bone.tissue.cutting_force;
+  if (!full) bone_time_ = -1;
+  if (full && bone_time_ < 0) bone_time_ = time;
+  return full && time - bone_time_ >= kBoneFeelTime;
+}
+
+const OperatorPhase* InjectionOperator::observe(double time, const Pose& X_JN,
+                                                const NeedleModel& model) {
+  if (done()) return nullptr;
+  const double depth = (X_JN.translation() - entry_).dot(direction_);
+  if (!started_) {
+    begin_phase(time, depth);
+    started_ = true;
+  }
+  const OperatorPhase& phase = phases_[index_];
+  const bool met = goal_met(phase, time, depth, model);
+  const bool late = (phase.kind == Kind::advance || phase.kind == Kind::withdraw) &&
+                    time - phase_time_ > phase.duration;
+  if (!met && !late) return nullptr;
+  timed_out_ = timed_out_ || (late && !met);
+  const Intention now = intention(time);
+  reference_ = (now.X_JN.translation() - entry_).dot(direction_);
+  if (phase.kind == Kind::turn) {
+    direction_ = phase.direction;
+    reference_ = (now.X_JN.translation() - entry_).norm();
+  }
+  ++index_;
+  const double along = (X_JN.translation() - entry_).dot(direction_);
+  if (phase.kind == Kind::let_go) reference_ = along;
+  begin_phase(time, along);
+  return &phase;
+}
+
+Intention InjectionOperator::intention(double t) const noexcept {
+  Intention want;
+  Vec3 direction = direction_;
+  double reference = reference_;
+  double speed = 0;
+  const double elapsed = t - phase_time_;
+  if (!done() && started_) {
+    const OperatorPhase& phase = phases_[index_];
+    if (phase.kind == Kind::advance || phase.kind == Kind::withdraw) {
+      speed = phase.kind == Kind::advance ? phase.speed : -phase.speed;
+      reference += speed * elapsed;
+    } else if (phase.kind == Kind::hold) {
+      want.hold = true;
+    } else if (phase.kind == Kind::let_go) {
+      want.grip = false;
+    } else if (phase.kind == Kind::turn) {
+      const double share = smooth(elapsed / std::max(phase.duration, 1e-3));
+      const Eigen::Quaterniond turn =
+          Eigen::Quaterniond::FromTwoVectors(turn_from_, phase.direction);
+      direction = Eigen::Quaterniond::Identity().slerp(share, turn) * turn_from_;
+    }
+  }
+  want.X_JN = make_pose(entry_ + reference * direction, direction, x_hint_);
+  want.velocity = speed * direction;
+  return want;
+}
+
+}  // namespace artus

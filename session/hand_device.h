@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <atomic>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "artus/session/input_device.h"
+#include "artus/session/seqlock.h"
+
+namespace artus {
+
+/// What a hand with mouse and keyboard wants of needle and probe. Written by the window's thread.
+struct HandTarget {
+  PlainPose X_WN;
+  PlainPose X_WP;
+  std::uint32_t buttons = 0;
+  std::uint32_t has_needle = 1;
+  std::uint32_t probe_jumps = 0;  ///< when it changes, the probe is at X_WP at once
+};
+
+/// A hand that goes where it is told, no faster than a hand moves: mouse and keyboard, a gamepad,
+/// or a script. The needle follows its target at a bounded speed and without jerks, so that a
+/// mouse's jumps become motions that the force laws can render.
+class HandDevice final : public InputDevice {
+ public:
+  struct Limits {
+    double speed = 0.08;      ///< m/s of needle and probe. assumed: an unhurried hand
+    double turn = 1.5;        ///< rad/s. assumed
+    double smoothing = 0.04;  ///< s, time in which most of the way to the target is made
+  };
+  HandDevice(const HandTarget& start, double period_s, const Limits& limits) noexcept;
+  HandDevice(const HandTarget& start, double period_s) noexcept
+      : HandDevice(start, period_s, Limits{}) {}
+
+  /// From one other thread.
+  void set_target(const HandTarget& target) noexcept { target_.store(target); }
+  /// A hand that is gone, as a device whose cable is pulled.
+  void set_connected(bool connected) noexcept { connected_ = connected; }
+
+  [[nodiscard]] ARTUS_REALTIME DeviceSample read(std::int64_t now_ns) noexcept override;
+  ARTUS_REALTIME void write(const DeviceFeedback& feedback) noexcept override;
+  [[nodiscard]] std::string_view name() const noexcept override { return "mouse and keyboard"; }
+
+ private:
+  Limits limits_;
+  double period_;
+  Seqlock<HandTarget> target_;
+  std::atomic<bool> connected_{true};
+  HandTarget now_;
+  HandTarget wanted_;
+  DeviceSample sample_;
+};
+
+/// One step of a pose towards another, bounded in speed.
+[[nodiscard]] ARTUS_REALTIME PlainPose approach(const PlainPose& from, const PlainPose& to,
+                                                const HandDevice::Limits& limits,
+                                                double dt) noexcept;
+
+/// Keys of the needle in time: straight motion between them, for demonstrations, screenshots and
+/// tests. Pure: the sample is a function of the time alone.
+class ScriptedDevice final : public InputDevice {
+ public:
+  struct Key {
+    double time = 0;  ///< s after the first read
+    HandTarget hand;
+  };
+  /// Requires: at least one key, times ascending.
+  explicit ScriptedDevice(std::vector<Key> keys);
+
+  [[nodiscard]] ARTUS_REALTIME DeviceSample read(std::int64_t now_ns) noexcept override;
+  ARTUS_REALTIME void write(const DeviceFeedback& feedback) noexcept override;
+  [[nodiscard]] std::string_view name() const noexcept override { return "simulated hand"; }
+  [[nodiscard]] HandTarget at(double time) const noexcept;
+
+ private:
+  std::vector<Key> keys_;
+  std::int64_t start_ns_ = 0;
+  std::uint64_t number_ = 0;
+};
+
+/// The keys of an injection along a line: from before the skin to the target at `speed`, a rest of
+/// a second, and back. The probe stays at X_WP.
+[[nodiscard]] std::vector<ScriptedDevice::Key> make_injection(const Vec3& entry_W,
+                                                              const Vec3& target_W,
+                                                              const Pose& X_WP, double speed);
+
+/// Samples of an earlier session, one a tick, with the times of now.
+class RecordedDevice final : public InputDevice {
+ public:
+  explicit RecordedDevice(std::vector<DeviceSample> samples) : samples_(std::move(samples)) {}
+  [[nodiscard]] ARTUS_REALTIME DeviceSample read(std::int64_t now_ns) noexcept override;
+  ARTUS_REALTIME void write(const DeviceFeedback& feedback) noexcept override;
+  [[nodiscard]] std::string_view name() const noexcept override { return "recorded file"; }
+  [[nodiscard]] bool finished() const noexcept { return next_ >= samples_.size(); }
+
+ private:
+  std::vector<DeviceSample> samples_;
+  std::atomic<std::size_t> next_{0};
+};
+
+}  // namespace artus

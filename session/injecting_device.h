@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <cstdint>
+
+#include "artus/operators/hand_loop.h"
+#include "artus/session/input_device.h"
+
+namespace artus {
+
+/// What a simulated person does with the needle, over and over: in along a line until bone stops
+/// it or it is deep enough, a rest, and out again. Frame W.
+struct InjectionPlan {
+  Vec3 entry_W = Vec3::Zero();       ///< m, on the skin
+  Vec3 direction_W = Vec3::UnitZ();  ///< unit, into the body
+  Pose X_WP = Pose::Identity();      ///< where the other hand holds the probe
+  double target = 20e-3;             ///< m, depth of the tip where the hand rests
+  double deepest = 40e-3;            ///< m, where it turns back when no bone is felt
+  double speed = 10e-3;              ///< m/s, of the hand's intention
+};
+
+/// A simulated hand on a simulated device, closed loop: the force that artus sends moves the
+/// needle, the hand pushes through a spring and feels bone as its own needle lagging behind. An
+/// impedance device's mass and friction and the hand's tremor are in it (SimulatedHand,
+/// SimulatedDevice). The same calls give the same samples.
+class InjectingDevice final : public InputDevice {
+ public:
+  /// `rate_hz`: of the reads. Requires: a unit direction, target <= deepest, speed > 0.
+  InjectingDevice(const InjectionPlan& plan, const DeviceLimits& device, double rate_hz,
+                  const HandParams& hand = {});
+
+  [[nodiscard]] ARTUS_REALTIME DeviceSample read(std::int64_t now_ns) noexcept override;
+  ARTUS_REALTIME void write(const DeviceFeedback& feedback) noexcept override;
+  [[nodiscard]] std::string_view name() const noexcept override { return "simulated hand"; }
+
+  enum class Phase { wait, to_target, rest, to_bone, press, withdraw };
+  [[nodiscard]] Phase phase() const noexcept { return phase_; }
+
+ private:
+  void decide() noexcept;
+  void go_on(Phase phase) noexcept;
+  [[nodiscard]] Intention intention(double time) const noexcept;
+  [[nodiscard]] double speed() const noexcept;
+
+  InjectionPlan plan_;
+  Vec3 x_hint_;
+  HandLoop loop_;
+  Wrench motor_;
+  DeviceSample sample_;
+  Phase phase_ = Phase::wait;
+  double phase_time_ = 0;  // s of the loop
+  double reference_;       // m that the hand means the tip to be beyond the skin, at phase_time_
+  std::uint32_t contact_ = 0;
+};
+
+}  // namespace artus

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <cstdint>
+#include <string_view>
+#include <type_traits>
+
+#include "artus/core/check.h"
+#include "artus/core/geometry.h"
+
+namespace artus {
+
+/// A pose as plain numbers that can be copied between threads and into files byte for byte:
+/// position, then quaternion w, x, y, z.
+struct PlainPose {
+  double position[3] = {0, 0, 0};  // NOLINT(*-avoid-c-arrays): bytes of a file and of shared memory
+  double rotation[4] = {1, 0, 0, 0};  // NOLINT(*-avoid-c-arrays)
+};
+[[nodiscard]] PlainPose to_plain(const Pose& pose) noexcept;
+/// The rigid pose with the rotation normalised. Requires: finite, rotation not zero.
+[[nodiscard]] Pose to_pose(const PlainPose& plain) noexcept;
+
+/// Finite, within 10 m of the origin, quaternion of norm 0.9 to 1.1: something a device can be.
+[[nodiscard]] bool is_pose(const PlainPose& plain) noexcept;
+
+/// How the other side of a device is.
+enum class PeerState : std::uint32_t {
+  absent,  ///< nothing was ever heard
+  alive,   ///< its newest sample is fresh
+  lost,    ///< silent for longer than kPeerTimeout
+  invalid  ///< it sends what cannot be a pose
+};
+[[nodiscard]] const char* to_string(PeerState state) noexcept;
+
+/// Silence after which a device counts as lost, ns. Below the 20 ms that the protocol promises, so
+/// that a tick and the way to the device fit in between.
+inline constexpr std::int64_t kPeerTimeout = 15'000'000;  // ns
+
+struct Button {
+  static constexpr std::uint32_t kCalibrate = 1U << 0U;  ///< choose the entry point
+  static constexpr std::uint32_t kExplore = 1U << 1U;    ///< give it up again
+};
+
+/// What a device says in one tick. World frame W. Plain bytes: this is what is recorded.
+struct DeviceSample {
+  PlainPose X_WN;            ///< needle
+  PlainPose X_WP;            ///< probe
+  std::int64_t time_ns = 0;  ///< monotonic clock, when it was measured
+  std::uint64_t number = 0;  ///< grows with every sample of the device
+  std::uint32_t buttons = 0;
+  PeerState state = PeerState::absent;
+  std::uint32_t has_needle = 0;  ///< 0 or 1
+  std::uint32_t has_probe = 0;   ///< 0 or 1
+};
+static_assert(std::is_trivially_copyable_v<DeviceSample>);
+
+/// What a device is told in one tick. World frame W.
+struct DeviceFeedback {
+  double force[3] = {0, 0, 0};   ///< N  NOLINT(*-avoid-c-arrays)
+  double torque[3] = {0, 0, 0};  ///< N m  NOLINT(*-avoid-c-arrays)
+  double stiffness = 0;          ///< N/m of the layer at the tip
+  double cutting_force = 0;      ///< N
+  double depth = 0;              ///< m
+  std::uint64_t tick = 0;
+  std::uint64_t answers = 0;        ///< DeviceSample::number
+  std::int64_t sample_time_ns = 0;  ///< DeviceSample::time_ns
+  std::int64_t time_ns = 0;
+  std::uint32_t status = 0;
+  std::uint32_t contact = 0;
+  std::uint32_t region = 0;
+};
+
+/// One source of poses and one sink of forces: a shared-memory peer, a simulated hand, a recorded
+/// file, mouse and keyboard. The haptic thread alone calls it.
+class InputDevice {
+ public:
+  InputDevice() = default;
+  InputDevice(const InputDevice&) = delete;
+  InputDevice& operator=(const InputDevice&) = delete;
+  virtual ~InputDevice() = default;
+
+  /// The newest sample; never waits. `now_ns`: monotonic clock of this tick.
+  [[nodiscard]] ARTUS_REALTIME virtual DeviceSample read(std::int64_t now_ns) noexcept = 0;
+  ARTUS_REALTIME virtual void write(const DeviceFeedback& feedback) noexcept = 0;
+  [[nodiscard]] virtual std::string_view name() const noexcept = 0;
+};
+
+}  // namespace artus

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/session/replay.h"
+
+#include <cstring>
+
+namespace artus {
+namespace {
+
+bool same(const TickRecord& a, const TickRecord& b) noexcept {
+  // NOLINTBEGIN(bugprone-suspicious-memory-comparison): a replay gives the same bytes
+  return std::memcmp(a.force, b.force, sizeof a.force) == 0 &&
+         std::memcmp(a.torque, b.torque, sizeof a.torque) == 0 && a.status == b.status &&
+         a.region == b.region;
+  // NOLINTEND(bugprone-suspicious-memory-comparison)
+}
+
+}  // namespace
+
+Result<SessionParams> params_of(const RecordingHead& head, SessionParams params) {
+  const auto device = find_device(head.device);
+  ARTUS_TRY(device);
+  params.device = *device;
+  params.haptic_rate = head.haptic_rate;
+  params.image_rate = head.image_rate;
+  params.image.seed = head.seed;
+  params.X_WJ = to_pose(head.X_WJ);
+  params.gesture = head.gesture;
+  apply(head.felt, params);
+  ARTUS_TRY(validate(params));
+  return params;
+}
+
+Result<ReplayReport> replay(const Recording& recording, const std::shared_ptr<const Scene>& scene,
+                            const SessionParams& params, const ReplayListener& listener) {
+  if (scene->joint().source_digest != recording.head.source_digest)
+    return fail(ErrorCode::invalid,
+                "the session was recorded with another joint, or another state of it: " +
+                    recording.head.joint,
+                scene->joint().name);
+  ReplayReport report;
+  report.dropped = recording.dropped;
+  report.complete = recording.complete;
+  HapticCore haptics(scene, params);
+  for (const TickRecord& recorded : recording.ticks) {
+    const HapticSnapshot& out = haptics.step(recorded.input);
+    ++report.ticks;
+    if (!same(recorded, to_record(out))) {
+      if (!report.first_different_tick) report.first_different_tick = recorded.input.tick;
+      ++report.different_ticks;
+    }
+    if (listener.on_tick) listener.on_tick(out);
+  }
+  if (recording.frames.empty()) return report;
+  ImageCore images(scene, params);
+  for (const FrameRecord& recorded : recording.frames) {
+    const Frame& frame = images.render(recorded.input);
+    ++report.frames;
+    if (digest_of(frame) != recorded.digest) {
+      if (!report.first_different_frame) report.first_different_frame = recorded.input.number;
+      ++report.different_frames;
+    }
+    if (listener.on_frame) listener.on_frame(recorded, frame);
+  }
+  return report;
+}
+
+}  // namespace artus

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "artus/session/recording.h"
+
+namespace artus {
+
+/// What a replay found: how many results are the same bytes as those recorded.
+struct ReplayReport {
+  std::uint64_t ticks = 0;
+  std::uint64_t different_ticks = 0;
+  std::optional<std::uint64_t> first_different_tick;
+  std::uint64_t frames = 0;
+  std::uint64_t different_frames = 0;
+  std::optional<std::uint64_t> first_different_frame;
+  std::uint64_t dropped = 0;  ///< that the recording lacks
+  bool complete = false;
+  [[nodiscard]] bool identical() const noexcept {
+    return different_ticks == 0 && different_frames == 0;
+  }
+};
+
+/// Who wants to see what comes out; empty functions are not called.
+struct ReplayListener {
+  std::function<void(const HapticSnapshot&)> on_tick;
+  std::function<void(const FrameRecord&, const Frame&)> on_frame;
+};
+
+/// Feeds a recording's inputs through the same cores as the session that made it and compares each
+/// force bit for bit and each image by digest. Ticks that the recording lacks make later ones
+/// differ. Errors: invalid when `scene` is another joint than the one recorded.
+[[nodiscard]] Result<ReplayReport> replay(const Recording& recording,
+                                          const std::shared_ptr<const Scene>& scene,
+                                          const SessionParams& params,
+                                          const ReplayListener& listener = {});
+
+/// The params with what the recording's head knows put in. Errors: not_found (unknown device).
+[[nodiscard]] Result<SessionParams> params_of(const RecordingHead& head, SessionParams params);
+
+}  // namespace artus

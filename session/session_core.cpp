@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/session/session_core.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <utility>
+
+#include "artus/core/noise.h"
+
+namespace artus {
+namespace {
+
+void copy(const Vec3& from, double (&to)[3]) noexcept {
+  to[0] = from.x();
+  to[1] = from.y();
+  to[2] = from.z();
+}
+
+/// A pose that the input guard refuses, so that the tick renders nothing and the model rests.
+Pose no_pose() noexcept {
+  Pose pose = Pose::Identity();
+  pose.translation().setConstant(std::numeric_limits<double>::quiet_NaN());
+  return pose;
+}
+
+LayerTable make_table(const std::shared_ptr<const Scene>& scene, const SessionParams& params) {
+  ARTUS_REQUIRE(scene != nullptr, "there must be a scene");
+  return LayerTable(scene->joint(), params.laws, params.patient);
+}
+
+}  // namespace
+
+Result<void> validate(const SessionParams& params) {
+  if (!(params.haptic_rate >= 100 && params.haptic_rate <= 20000))
+    return fail(ErrorCode::invalid, "the haptic rate must be 100 to 20000 Hz", "haptic_rate");
+  if (!(params.image_rate >= 1 && params.image_rate <= 120))
+    return fail(ErrorCode::invalid, "the image rate must be 1 to 120 Hz", "image_rate");
+  ARTUS_TRY(validate(params.transducer));
+  return validate(params.image);
+}
+
+HapticCore::HapticCore(std::shared_ptr<const Scene> scene, const SessionParams& params)
+    : scene_(std::move(scene)),
+      table_(make_table(scene_, params)),
+      needle_(scene_, table_, params.needle, params.guard, params.device, params.haptic_rate,
+              params.passivity),
+      gesture_(params.gesture, params.X_WJ) {}
+
+void HapticCore::step_needle(const DeviceSample& device, std::uint32_t command) noexcept {
+  std::uint32_t why = 0;
+  if (device.state == PeerState::absent || device.state == PeerState::lost)
+    why |= SessionStatus::kPeerLost;
+  if (device.state == PeerState::invalid) why |= SessionStatus::kPeerInvalid;
+  if ((command & SessionCommand::kPause) != 0) why |= SessionStatus::kPaused;
+  if ((command & SessionCommand::kLate) != 0) why |= TickStatus::kLate;
+  if (why == 0 && device.has_needle == 0) why |= SessionStatus::kNoNeedle;
+  const bool rest = why != 0 || (command & SessionCommand::kReset) != 0;
+  TimedPose pose;
+  pose.time = 1e-9 * static_cast<double>(device.time_ns);
+  pose.X_JN = rest ? no_pose() : Pose(gesture_.X_WJ().inverse() * to_pose(device.X_WN));
+  const RenderedNeedle& rendered = needle_.step(pose);
+  out_.status = rest ? why : rendered.status;
+  const Eigen::Matrix3d R_WJ = gesture_.X_WJ().linear();
+  copy(R_WJ * rendered.command.force, out_.feedback.force);
+  copy(R_WJ * rendered.command.torque, out_.feedback.torque);
+  copy(rendered.command.force, out_.force_J);
+  copy(rendered.command.torque, out_.torque_J);
+  const NeedleForces& f = rendered.forces;
+  const double axial[5] = {f.prepuncture, f.cutting, f.attracted, f.friction, f.hard};
+  std::copy(std::begin(axial), std::end(axial), std::begin(out_.axial));
+  out_.clamping = f.clamping.norm();
+  if (!rest) out_.X_JN = to_plain(pose.X_JN);
+}
+
+void HapticCore::describe() noexcept {
+  const NeedleContact& contact = needle_.model().contact();
+  const NeedleTick& tick = contact.tick();
+  DeviceFeedback& feedback = out_.feedback;
+  const Haptic& tissue = table_[contact.region()].tissue;
+  feedback.stiffness = tissue.wall_stiffness;
+  feedback.cutting_force = tissue.cutting_force;
+  feedback.depth = tick.depth;
+  feedback.region = contact.region();
+  feedback.contact = static_cast<std::uint32_t>(contact.state());
+  feedback.status = out_.status;
+  feedback.tick = out_.input.tick;
+  feedback.answers = out_.input.device.number;
+  feedback.sample_time_ns = out_.input.device.time_ns;
+  out_.inserted = contact.inserted() ? 1 : 0;
+  out_.cone = contact.cone();
+  out_.events = contact.events();
+  copy(tick.entry, out_.entry_J);
+}
+
+const HapticSnapshot& HapticCore::step(const TickInput& input) noexcept {
+  out_.input = input;
+  const DeviceSample& device = input.device;
+  const bool alive = device.state == PeerState::alive;
+  const bool paused = (input.command & SessionCommand::kPause) != 0;
+  std::optional<Pose> X_WP;
+  if (alive && device.has_probe != 0) X_WP = to_pose(device.X_WP);
+  if ((input.command & SessionCommand::kReset) != 0) gesture_.reset();
+  if (alive && !paused) gesture_.step(*scene_, device.buttons, X_WP);
+  out_.phase = gesture_.phase();
+  out_.X_WJ = to_plain(gesture_.X_WJ());
+  if (X_WP) out_.X_JP = to_plain(gesture_.X_WJ().inverse() * *X_WP);
+  step_needle(device, input.command);
+  describe();
+  return out_;
+}
+
+ImageControls controls_of(const SessionParams& params) noexcept {
+  return {params.image.depth,          params.image.gain_db,
+          params.image.tgc_db_cm_mhz,  params.image.dynamic_range_db,
+          params.transducer.frequency, params.transducer.elevation_focus};
+}
+
+FrameInput frame_input(const HapticSnapshot& snapshot, const ImageControls& controls,
+                       std::uint64_t number) noexcept {
+  FrameInput input;
+  input.X_JP = snapshot.X_JP;
+  input.X_JN = snapshot.X_JN;
+  input.controls = controls;
+  input.sample_time_ns = snapshot.input.device.time_ns;
+  input.number = number;
+  input.has_needle = snapshot.input.device.has_needle;
+  input.has_probe = snapshot.input.device.has_probe;
+  return input;
+}
+
+ImageCore::ImageCore(std::shared_ptr<const Scene> scene, const SessionParams& params)
+    : scene_(std::move(scene)),
+      params_(params),
+      controls_(controls_of(params)),
+      renderer_(std::make_unique<Renderer>(scene_, params.transducer, params.image)) {}
+
+const Frame& ImageCore::render(const FrameInput& input) {
+  if (!(input.controls == controls_)) {
+    SessionParams wanted = params_;
+    wanted.image.depth = input.controls.depth;
+    wanted.image.gain_db = input.controls.gain_db;
+    wanted.image.tgc_db_cm_mhz = input.controls.tgc_db_cm_mhz;
+    wanted.image.dynamic_range_db = input.controls.dynamic_range_db;
+    wanted.transducer.frequency = input.controls.frequency;
+    wanted.transducer.elevation_focus = input.controls.elevation_focus;
+    controls_ = input.controls;
+    if (validate(wanted)) {
+      params_ = wanted;
+      renderer_ = std::make_unique<Renderer>(scene_, params_.transducer, params_.image);
+    }
+  }
+  std::optional<NeedleView> needle;
+  if (input.has_needle != 0) needle = NeedleView{to_pose(input.X_JN), params_.needle_shape};
+  return renderer_->render(to_pose(input.X_JP), needle);
+}
+
+std::uint64_t digest_of(const Frame& frame) noexcept {
+  std::uint64_t digest = mix_bits(static_cast<std::uint64_t>(frame.width) << 32U |
+                                  static_cast<std::uint64_t>(frame.height));
+  for (std::size_t i = 0; i < frame.image.size(); i += 8) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, frame.image.data() + i, std::min<std::size_t>(8, frame.image.size() - i));
+    digest = mix_bits(digest ^ word);
+  }
+  return digest;
+}
+
+}  // namespace artus

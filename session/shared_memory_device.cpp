@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/session/shared_memory_device.h"
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+namespace artus {
+namespace {
+
+PlainPose plain_pose(const double (&position)[3], const double (&rotation)[4]) noexcept {
+  PlainPose pose;
+  std::copy(std::begin(position), std::end(position), std::begin(pose.position));
+  std::copy(std::begin(rotation), std::end(rotation), std::begin(pose.rotation));
+  return pose;
+}
+
+constexpr std::uint32_t kKnownPresence = ARTUS_SHM_NEEDLE | ARTUS_SHM_PROBE;
+
+bool is_believable(const artus_shm_pos& pos, const DeviceSample& sample) noexcept {
+  return (pos.present & ~kKnownPresence) == 0 && (sample.has_needle == 0 || is_pose(sample.X_WN)) &&
+         (sample.has_probe == 0 || is_pose(sample.X_WP));
+}
+
+}  // namespace
+
+DeviceSample PosReader::accept(bool whole, const artus_shm_pos& pos, std::int64_t now_ns) noexcept {
+  if (!started_ && whole) {  // what is there before the first change may be a left-over
+    started_ = true;
+    number_ = pos.sample;
+  }
+  const bool fresh = whole && pos.sample != number_;
+  if (fresh) {
+    number_ = pos.sample;
+    const auto age = static_cast<std::int64_t>(static_cast<std::uint64_t>(now_ns) - pos.time_ns);
+    DeviceSample sample;
+    sample.X_WN = plain_pose(pos.needle_position, pos.needle_rotation);
+    sample.X_WP = plain_pose(pos.probe_position, pos.probe_rotation);
+    sample.time_ns = static_cast<std::int64_t>(pos.time_ns);
+    sample.number = pos.sample;
+    sample.buttons = pos.buttons;
+    sample.has_needle = (pos.present & ARTUS_SHM_NEEDLE) != 0 ? 1 : 0;
+    sample.has_probe = (pos.present & ARTUS_SHM_PROBE) != 0 ? 1 : 0;
+    constexpr std::int64_t kClockSlack = 1'000'000;  // ns between reading the clock here and there
+    const bool sound = age > -kClockSlack && is_believable(pos, sample);
+    sample.state = !sound               ? PeerState::invalid
+                   : age < kPeerTimeout ? PeerState::alive
+                                        : PeerState::lost;
+    if (!sound) {
+      sample.X_WN = last_.X_WN;
+      sample.X_WP = last_.X_WP;
+    }
+    last_ = sample;
+    heard_ns_ = now_ns;
+  }
+  if (last_.state != PeerState::absent && now_ns - heard_ns_ >= kPeerTimeout) {
+    last_.state = PeerState::lost;
+  }
+  return last_;
+}
+
+SharedMemoryDevice::SharedMemoryDevice(std::string prefix, SharedChannel<artus_shm_pos> pos,
+                                       SharedChannel<artus_shm_force> force,
+                                       std::vector<std::string> layer_names)
+    : prefix_(std::move(prefix)),
+      pos_(std::move(pos)),
+      force_(std::move(force)),
+      layer_names_(std::move(layer_names)) {
+  write(DeviceFeedback{});  // what an earlier run left behind is no force of ours
+}
+
+Result<std::unique_ptr<SharedMemoryDevice>> SharedMemoryDevice::open(
+    const std::string& prefix, std::vector<std::string> layer_names) {
+  auto force =
+      SharedChannel<artus_shm_force>::open(prefix, kForceLayout, SegmentAccess::owner_writes);
+  ARTUS_TRY(force);
+  auto pos = SharedChannel<artus_shm_pos>::open(prefix, kPosLayout, SegmentAccess::owner_reads);
+  ARTUS_TRY(pos);
+  return std::unique_ptr<SharedMemoryDevice>(
+      new SharedMemoryDevice(prefix, std::move(*pos), std::move(*force), std::move(layer_names)));
+}
+
+SharedMemoryDevice::~SharedMemoryDevice() {
+  DeviceFeedback last;
+  last.status = ARTUS_SHM_STOPPED;
+  write(last);
+  SharedSegment::remove(prefix_, kForceLayout);
+  SharedSegment::remove(prefix_, kPosLayout);
+}
+
+DeviceSample SharedMemoryDevice::read(std::int64_t now_ns) noexcept {
+  artus_shm_pos pos{};
+  const bool whole = pos_.read(pos, 8);
+  return reader_.accept(whole, pos, now_ns);
+}
+
+void SharedMemoryDevice::write(const DeviceFeedback& feedback) noexcept {
+  artus_shm_force out{};
+  out.tick = feedback.tick;
+  out.time_ns = static_cast<std::uint64_t>(feedback.time_ns);
+  out.pos_sample = feedback.answers;
+  out.pos_time_ns = static_cast<std::uint64_t>(feedback.sample_time_ns);
+  std::copy(std::begin(feedback.force), std::end(feedback.force), std::begin(out.force));
+  std::copy(std::begin(feedback.torque), std::end(feedback.torque), std::begin(out.torque));
+  out.stiffness = feedback.stiffness;
+  out.cutting_force = feedback.cutting_force;
+  out.depth = feedback.depth;
+  out.status = feedback.status;
+  out.contact = feedback.contact;
+  out.layer = feedback.region;
+  if (feedback.region < layer_names_.size()) {
+    const std::string& name = layer_names_[feedback.region];
+    std::memcpy(out.layer_name, name.data(), std::min(name.size(), sizeof(out.layer_name) - 1));
+  }
+  force_.write(out);
+}
+
+}  // namespace artus

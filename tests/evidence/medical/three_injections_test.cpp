@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/evidence/medical/three_injections.h"
+
+#include <algorithm>
+#include <clocale>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include <gmock/gmock.h>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/layered_body.h"
+
+namespace artus {
+namespace {
+
+const std::vector<PlannedInjection> kPlans{{"first", {-.02, 0, 0}, {-.012, 0, .0235}},
+                                           {"second", {-.02, 0, 0}, {-.015, .002, .0235}},
+                                           {"third", {-.02, .003, 0}, {-.014, .003, .0235}}};
+
+Scene six_layers() {
+  const std::vector<test::FlatLayer> layers{{"skin", .004},   {"muscle", .018},    {"bursa", .003},
+                                            {"tendon", .006}, {"cartilage", .003}, {"bone", .03}};
+  return Scene(std::make_shared<const CompiledJoint>(test::make_layered_block(layers, .2, .2)));
+}
+
+std::string bytes_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::stringstream out;
+  out << in.rdbuf();
+  return out.str();
+}
+
+// One body and one run serve all tests: running is the slow part.
+const Scene& scene() {
+  static const Scene kScene = six_layers();
+  return kScene;
+}
+
+const ThreeInjections& first_run() {
+  static const ThreeInjections kRun = run_three_injections(scene(), kPlans).value();
+  return kRun;
+}
+
+TEST(ThreeInjections, EveryClaimOfThePublishedTestHolds) {
+  for (const Claim& c : first_run().claims)
+    EXPECT_TRUE(c.pass) << c.text << ": " << c.value << ' ' << c.bound;
+}
+
+TEST(ThreeInjections, EachLayersPlateauIsItsTableForceWithinTwoPercent) {
+  const std::vector<std::pair<std::string, double>> table{
+      {"skin", 1}, {"muscle", 2}, {"bursa", 1.5}, {"tendon", 2.5}, {"cartilage", 3}, {"bone", 4}};
+  ASSERT_EQ(first_run().plateaus.size(), table.size());
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    EXPECT_EQ(first_run().plateaus[i].tissue, table[i].first);
+    EXPECT_NEAR(first_run().plateaus[i].mean, table[i].second, 0.02 * table[i].second);
+    EXPECT_GE(first_run().plateaus[i].rows, 10U);
+  }
+}
+
+TEST(ThreeInjections, MomentsTellTheStoryInOrder) {
+  std::vector<std::string> first;
+  for (const NamedMoment& m : first_run().moments) {
+    if (m.pass == 1) first.push_back(m.label);
+  }
+  EXPECT_THAT(first, ::testing::ElementsAre("skin punctured", "bursa reached", "withdrawn",
+                                            "re-aimed", "second part of bursa reached",
+                                            "bone touched", "bone pressed", "needle out"));
+}
+
+TEST(ThreeInjections, ProbePlaneHoldsTheNeedleAndTheFootprintIsOnTheSkin) {
+  for (const NamedMoment& m : first_run().moments) {
+    const Vec3 in_seat = m.X_JP_seat.inverse() * Vec3(m.X_JN.translation());
+    EXPECT_NEAR(in_seat.y(), 0, 1e-9) << m.label;
+    EXPECT_NEAR(m.X_JP_seat.translation().z(), 0, 1e-6) << m.label;
+    // The hand brings it there within the slice's thickness at its thinnest.
+    const Vec3 in_probe = m.X_JP.inverse() * Vec3(m.X_JN.translation());
+    EXPECT_NEAR(in_probe.y(), 0, 0.2e-3) << m.label;
+    EXPECT_NEAR(m.X_JP.translation().z(), 0, 0.2e-3) << m.label;
+    for (const float c : m.coverage) EXPECT_EQ(c, 1) << m.label;
+  }
+}
+
+TEST(ThreeInjections, ProbeComesOntoTheSkinSlidesAndLeavesIt) {
+  const ThreeInjections& run = first_run();
+  ASSERT_EQ(run.probe.size(), run.rows.size());
+  EXPECT_EQ(run.probe.front().contact_share, 0);
+  EXPECT_EQ(run.probe.front().normal_force, 0);
+  EXPECT_EQ(run.probe.back().contact_share, 0);
+  EXPECT_EQ(run.probe.back().normal_force, 0);
+  double slipped = 0;
+  double pressed = 0;
+  for (const ProbeHandRow& row : run.probe) {
+    slipped = std::max(slipped, row.slip);
+    pressed = std::max(pressed, row.normal_force);
+    EXPECT_NEAR(row.friction.dot(row.X_JP.linear().col(2)), 0, 1e-12);
+  }
+  EXPECT_GT(slipped, 1e-3);  // from one line of injection to the next
+  EXPECT_LT(pressed, 1.5 * run.options.probe.press_force);
+}
+
+TEST(ThreeInjections, ProbeThatIsNotPressedFeelsAlmostNothing) {
+  ThreeInjectionsOptions lifted;
+  lifted.probe.press_force = 0;
+  lifted.probe.contact.gel = false;
+  const ThreeInjections run = run_three_injections(scene(), kPlans, lifted).value();
+  const Claim* held = nullptr;
+  for (const Claim& c : run.claims) {
+    if (c.text == "probe: mean force of the skin while it is held") held = &c;
+  }
+  ASSERT_NE(held, nullptr);
+  EXPECT_LT(held->value, 0.05);
+}
+
+TEST(ThreeInjections, SameSeedGivesTheSameBytesInAnyLocaleAndAnotherSeedDoesNot) {
+  const auto folder = std::filesystem::temp_directory_path() / "artus-three-injections-test";
+  std::filesystem::create_directories(folder);
+  const ThreeInjections again = run_three_injections(scene(), kPlans).value();
+  ASSERT_TRUE(write_needle_csv(folder / "a.csv", first_run().rows, first_run().region_names));
+  const bool german = std::setlocale(LC_ALL, "de_DE.UTF-8") != nullptr;
+  ASSERT_TRUE(write_needle_csv(folder / "b.csv", again.rows, again.region_names));
+  if (german) std::setlocale(LC_ALL, "C");
+  EXPECT_EQ(bytes_of(folder / "a.csv"), bytes_of(folder / "b.csv"));
+  ThreeInjectionsOptions other;
+  other.seed = 2;
+  const ThreeInjections different = run_three_injections(scene(), kPlans, other).value();
+  ASSERT_TRUE(write_needle_csv(folder / "c.csv", different.rows, different.region_names));
+  EXPECT_NE(bytes_of(folder / "a.csv"), bytes_of(folder / "c.csv"));
+  std::filesystem::remove_all(folder);
+}
+
+TEST(ThreeInjections, PlansThatCannotBeRunAreRefused) {
+  EXPECT_FALSE(run_three_injections(scene(), std::span(kPlans).first(2)));
+  ThreeInjectionsOptions unknown;
+  unknown.device = "phantom";
+  EXPECT_FALSE(run_three_injections(scene(), kPlans, unknown));
+  auto astray = kPlans;
+  astray[1].target = Vec3(0, 0, -0.1);
+  const auto refused = run_three_injections(scene(), astray);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().where, "second");
+}
+
+}  // namespace
+}  // namespace artus

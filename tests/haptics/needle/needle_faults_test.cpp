@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// What a broken device can send never becomes an unsafe force.
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "artus/core/noise.h"
+#include "artus/haptics/needle/needle_renderer.h"
+#include "tests/support/layered_body.h"
+
+namespace artus {
+namespace {
+
+constexpr double kDt = 1e-3;
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+enum class Fault { none, nan, infinite, teleport, frozen, reversed, out_of_workspace, not_rigid };
+constexpr std::size_t kFaults = 8;
+
+std::shared_ptr<const Scene> block() {
+  const std::vector<test::FlatLayer> layers{{"skin", 0.003},      {"muscle", 0.015},
+                                            {"bursa", 0.003},     {"tendon", 0.005},
+                                            {"cartilage", 0.003}, {"bone", 0.02}};
+  return std::make_shared<const Scene>(
+      std::make_shared<const CompiledJoint>(test::make_layered_block(layers, 0.2, 0.2)));
+}
+
+// 0.3 s outside, in to 33 mm (bone at 29 mm) and out, with a little sideways motion.
+TimedPose stroke(double t) {
+  const double z = -0.005 + 0.038 * 0.5 * (1 - std::cos(3.0 * std::max(0.0, t - 0.3)));
+  return {
+      make_pose(Vec3(1e-3 * std::sin(5 * t), 0, z), Vec3(0.05 * std::sin(t), 0, 1), Vec3::UnitX()),
+      t};
+}
+
+// The sane pose with a fault in it, at random in size and place.
+TimedPose broken(Fault fault, std::uint64_t seed, std::uint64_t i, TimedPose pose,
+                 const TimedPose& frozen) {
+  const auto axis = static_cast<Eigen::Index>(3 * uniform_noise(seed, 4 * i));
+  const double size = uniform_noise(seed, 4 * i + 1);
+  Vec3 place = Vec3::Zero();
+  for (auto& c : place)
+    c = normal_noise(seed + 1, 3 * i + static_cast<std::uint64_t>(&c - place.data()));
+  switch (fault) {
+    case Fault::none:
+      return pose;
+    case Fault::nan:
+      if (size < 0.3)
+        pose.time = kNaN;
+      else if (size < 0.6)
+        pose.X_JN.linear()(axis, 0) = kNaN;
+      else
+        pose.X_JN.translation()[axis] = kNaN;
+      return pose;
+    case Fault::infinite:
+      if (size < 0.3)
+        pose.time = kInfinity;
+      else
+        pose.X_JN.translation()[axis] = size < 0.6 ? -kInfinity : 1e308;
+      return pose;
+    case Fault::teleport:
+      pose.X_JN.translation() += 0.03 * place.normalized();
+      return pose;
+    case Fault::frozen:
+      return frozen;
+    case Fault::reversed:
+      pose.time -= 1e-3 + size;
+      return pose;
+    case Fault::out_of_workspace:
+      pose.X_JN.translation() = (0.5 + 100 * size) * place.normalized();
+      return pose;
+    case Fault::not_rigid:
+      pose.X_JN.linear() *= 1 + 1e-3 + size;
+      return pose;
+  }
+  return pose;
+}
+
+// 1e6 ticks: sane stretches of random length between bursts of one fault or of all at random.
+TEST(NeedleFaults, NeverGetAnUnsafeForceOutOverAMillionTicks) {
+  const auto scene = block();
+  GuardParams guard;
+  guard.workspace_half = Vec3::Constant(0.25);
+  const DeviceLimits device = find_device("virtuose_6d_desktop").value();
+  NeedleRenderer renderer(scene, LayerTable(scene->joint(), {}, {}), NeedleParams{}, guard, device,
+                          1 / kDt);
+  constexpr std::uint64_t kSeed = 5;
+  std::array<long, 32> seen{};
+  Wrench last;
+  double since_fault = 0;
+  long felt = 0;
+  long recoveries = 0;
+  double fullest = 0;
+  std::uint64_t burst = 0;
+  std::uint64_t until = 1500;
+  bool faulty = false;
+  Fault kind = Fault::none;
+  TimedPose before;
+  for (std::uint64_t i = 0; i < 1'000'000; ++i) {
+    const double t = kDt * static_cast<double>(i);
+    if (i == until) {
+      faulty = !faulty;
+      ++burst;
+      const double length = uniform_noise(kSeed + 7, burst);
+      until = i + static_cast<std::uint64_t>(faulty ? 1 + 60 * length : 20 + 1500 * length);
+      kind = static_cast<Fault>(1 + burst / 2 % (kFaults - 1));
+    }
+    const bool mixed = burst % 10 == 5;
+    const Fault fault = !faulty ? Fault::none
+                        : mixed ? static_cast<Fault>(kFaults * uniform_noise(kSeed + 8, i))
+                                : kind;
+    const TimedPose sane = stroke(t);
+    if (!faulty) before = sane;
+    const RenderedNeedle& out = renderer.step(broken(fault, kSeed, i, sane, before));
+    for (std::size_t bit = 0; bit < seen.size(); ++bit) seen[bit] += (out.status >> bit) & 1U;
+    ASSERT_TRUE(out.command.force.allFinite() && out.command.torque.allFinite()) << i;
+    ASSERT_TRUE(std::isfinite(out.energy_to_hand)) << i;
+    if ((out.status & TickStatus::kFaults) != 0) {
+      ASSERT_EQ(out.command.force.norm(), 0) << "not zero in the tick of the fault, " << i;
+      ASSERT_EQ(out.command.torque.norm(), 0) << i;
+      since_fault = 0;
+      last = Wrench{};
+      continue;
+    }
+    // What no guard can tell from a hand: a clock or a place that was already refused once.
+    const bool may_pass = fault == Fault::none || fault == Fault::frozen ||
+                          fault == Fault::teleport || fault == Fault::reversed;
+    ASSERT_TRUE(may_pass) << i;
+    since_fault += kDt;
+    const double ramp = std::min(1.0, since_fault / guard.ramp_time);
+    ASSERT_LE(out.command.force.norm(), ramp * device.force * (1 + 1e-9)) << i;
+    ASSERT_LE(out.command.torque.norm(), ramp * device.torque * (1 + 1e-9)) << i;
+    ASSERT_LE((out.command.force - last.force).norm(), guard.force_slew * kDt * (1 + 1e-9)) << i;
+    ASSERT_LE((out.command.torque - last.torque).norm(), guard.torque_slew * kDt * (1 + 1e-9)) << i;
+    last = out.command;
+    if (std::abs(since_fault - guard.ramp_time) < 0.5 * kDt) ++recoveries;
+    if (out.command.force.norm() > 0.5) ++felt;
+    fullest = std::max(fullest, out.command.force.norm());
+  }
+  const auto of = [&seen](std::uint32_t bit) {
+    return seen[static_cast<std::size_t>(std::countr_zero(bit))];
+  };
+  for (const std::uint32_t bit :
+       {TickStatus::kNotFinite, TickStatus::kNotRigid, TickStatus::kTeleport,
+        TickStatus::kTimeReversed, TickStatus::kStale, TickStatus::kOutOfWorkspace}) {
+    EXPECT_GT(of(bit), 500) << "bit " << bit << " must be met";
+  }
+  EXPECT_GT(recoveries, 500) << "bursts after which the ramp came to its end";
+  EXPECT_GT(felt, 200'000);
+  EXPECT_GT(fullest, 3) << "full forces are met between the faults";
+}
+
+}  // namespace
+}  // namespace artus

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/haptics/needle/needle_renderer.h"
+
+#include <cmath>
+#include <limits>
+#include <mutex>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/layered_body.h"
+#include "tests/support/no_alloc.h"
+#include "tests/support/no_lock.h"
+
+namespace artus {
+namespace {
+
+std::shared_ptr<const Scene> block(const Pose& X = Pose::Identity()) {
+  const std::vector<test::FlatLayer> layers{{"skin", 0.003},      {"muscle", 0.015},
+                                            {"bursa", 0.003},     {"tendon", 0.005},
+                                            {"cartilage", 0.003}, {"bone", 0.02}};
+  return std::make_shared<const Scene>(std::make_shared<const CompiledJoint>(
+      test::transformed(test::make_layered_block(layers, 0.2, 0.2), X)));
+}
+
+NeedleRenderer make_renderer(const std::shared_ptr<const Scene>& scene, double rate = 1000) {
+  return {scene,         LayerTable(scene->joint(), {}, {}),         NeedleParams{},
+          GuardParams{}, find_device("virtuose_6d_desktop").value(), rate};
+}
+
+TimedPose stroke(double t) {
+  // 0.3 s outside, in to 33 mm (bone at 29 mm) and out, with a little sideways motion.
+  const double z = -0.005 + 0.038 * 0.5 * (1 - std::cos(3.0 * std::max(0.0, t - 0.3)));
+  return {
+      make_pose(Vec3(1e-3 * std::sin(5 * t), 0, z), Vec3(0.05 * std::sin(t), 0, 1), Vec3::UnitX()),
+      t};
+}
+
+TEST(NeedleRenderer, TickNeverAllocatesOrLocks) {
+  if (!test::AllocationCounter::supported()) GTEST_SKIP() << "the sanitizer owns malloc";
+  const auto scene = block();
+  NeedleRenderer renderer = make_renderer(scene);
+  const NeedleParams params;
+  bool touched_bone = false;
+  test::AllocationCounter counter;
+  const test::LockCounter locks;
+  for (int i = 0; i < 5000; ++i) {
+    const auto& out = renderer.step(stroke(1e-3 * i));
+    touched_bone = touched_bone || renderer.model().contact().state() == ContactState::bone;
+    if (i == 2500) {
+      TimedPose bad = stroke(1e-3 * i);
+      bad.X_JN.translation().x() = std::numeric_limits<double>::quiet_NaN();
+      renderer.step(bad);
+    }
+    ASSERT_TRUE(out.command.force.allFinite());
+  }
+  const long count = counter.count();
+  const long locked = locks.count();
+  EXPECT_EQ(count, 0);
+  EXPECT_EQ(locked, 0);
+  EXPECT_TRUE(touched_bone);
+}
+
+TEST(LockCounter, SeesALock) {
+  if (!test::LockCounter::supported()) GTEST_SKIP() << "the sanitizer owns the locks";
+  std::mutex mutex;
+  const test::LockCounter locks;
+  { const std::lock_guard<std::mutex> lock(mutex); }
+  EXPECT_EQ(locks.count(), 1);
+}
+
+TEST(NeedleRenderer, SamePosesGiveTheSameBytes) {
+  const auto scene = block();
+  NeedleRenderer a = make_renderer(scene);
+  NeedleRenderer b = make_renderer(scene);
+  for (int i = 0; i < 3000; ++i) {
+    const Vec3 fa = a.step(stroke(1e-3 * i)).command.force;
+    const Vec3 fb = b.step(stroke(1e-3 * i)).command.force;
+    ASSERT_EQ(fa, fb);
+  }
+}
+
+TEST(NeedleRenderer, BodyAndNeedleMovedTogetherGiveTheRotatedForce) {
+  Pose X = Pose::Identity();
+  X.linear() = Eigen::AngleAxisd(1.1, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+  X.translation() = Vec3(0.1, -0.2, 0.3);
+  const auto scene = block();
+  const auto moved = block(X);
+  NeedleRenderer a = make_renderer(scene);
+  NeedleRenderer b = make_renderer(moved);
+  double top = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const TimedPose pose = stroke(1e-3 * i);
+    const Wrench wa = a.step(pose).command;
+    const Wrench wb = b.step({X * pose.X_JN, pose.time}).command;
+    ASSERT_LT((X.linear() * wa.force - wb.force).norm(), 2e-3) << i;  // float depths
+    top = std::max(top, wa.force.norm());
+  }
+  EXPECT_GT(top, 2);
+}
+
+}  // namespace
+}  // namespace artus

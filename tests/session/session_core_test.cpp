@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/session/session_core.h"
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "artus/core/noise.h"
+#include "artus/core/units.h"
+#include "artus/session/shared_memory_device.h"
+#include "tests/session/session_support.h"
+#include "tests/support/no_alloc.h"
+
+namespace artus {
+namespace {
+
+constexpr std::int64_t kTick = 1'000'000;  // ns
+
+class SessionCore : public ::testing::Test {
+ protected:
+  std::shared_ptr<const Scene> scene_ = test::make_layered_scene();
+  SessionParams params_ = test::make_small_session();
+  HapticCore core_{scene_, params_};
+  std::uint64_t tick_ = 0;
+
+  const HapticSnapshot& step(double z, PeerState state = PeerState::alive,
+                             std::uint32_t command = 0) {
+    TickInput input;
+    input.tick = ++tick_;
+    input.device = test::sample_at(z, static_cast<std::int64_t>(tick_) * kTick, tick_);
+    input.device.state = state;
+    input.command = command;
+    return core_.step(input);
+  }
+  /// Pushes in from 10 mm above the skin at 20 mm/s.
+  const HapticSnapshot& insert_to(double depth) {
+    double z = -10e-3;
+    for (; z < depth; z += 20e-6) step(z);
+    return step(depth);
+  }
+};
+
+double norm_of(const DeviceFeedback& feedback) {
+  return Vec3(feedback.force[0], feedback.force[1], feedback.force[2]).norm();
+}
+
+TEST_F(SessionCore, ANeedleInMuscleFeelsForceAgainstInsertion) {
+  const HapticSnapshot& out = insert_to(15e-3);
+  EXPECT_EQ(out.inserted, 1U);
+  EXPECT_EQ(scene_->joint().regions[out.feedback.region].name, "muscle");
+  EXPECT_LT(out.feedback.force[2], -0.5);
+  EXPECT_NEAR(out.feedback.depth, 15e-3, 1e-6);
+}
+
+TEST_F(SessionCore, ForcesAreTurnedIntoTheWorldWithTheJoint) {
+  const double along_z = insert_to(15e-3).feedback.force[2];
+  SessionParams turned = params_;
+  turned.X_WJ.linear() = Eigen::AngleAxisd(90 * kDegree, Vec3::UnitY()).toRotationMatrix();
+  HapticCore core(scene_, turned);
+  HapticSnapshot out;
+  std::uint64_t n = 0;
+  for (double z = -10e-3; z < 15e-3 + 20e-6; z += 20e-6) {
+    TickInput input;
+    ++n;
+    input.device = test::sample_at(0, static_cast<std::int64_t>(n) * kTick, n);
+    input.device.X_WN = to_plain(make_pose(Vec3(z, 0, 0), Vec3::UnitX(), Vec3::UnitY()));
+    input.tick = n;
+    out = core.step(input);
+  }
+  EXPECT_NEAR(out.feedback.force[0], along_z, 0.05);
+  EXPECT_NEAR(out.feedback.force[2], 0, 1e-6);
+}
+
+TEST_F(SessionCore, ALostDeviceGetsNoForceAtOnce) {
+  ASSERT_GT(norm_of(insert_to(15e-3).feedback), 0.5);
+  const HapticSnapshot& out = step(15e-3, PeerState::lost);
+  EXPECT_EQ(norm_of(out.feedback), 0);
+  EXPECT_EQ(out.status, SessionStatus::kPeerLost);
+}
+
+TEST_F(SessionCore, APauseGivesNoForceAndForceComesBackSlowly) {
+  ASSERT_GT(norm_of(insert_to(15e-3).feedback), 0.5);
+  EXPECT_EQ(norm_of(step(15e-3, PeerState::alive, SessionCommand::kPause).feedback), 0);
+  EXPECT_LT(norm_of(step(15e-3).feedback), 0.1);
+}
+
+TEST_F(SessionCore, AResetForgetsTheInsertion) {
+  ASSERT_EQ(insert_to(15e-3).inserted, 1U);
+  const HapticSnapshot& out = step(-10e-3, PeerState::alive, SessionCommand::kReset);
+  EXPECT_EQ(norm_of(out.feedback), 0);
+  EXPECT_EQ(step(-10e-3).inserted, 0U);
+}
+
+TEST_F(SessionCore, NoInputOfAPeerGivesAForceThatIsNotFiniteOrOverTheLimit) {
+  const double limit = params_.device.force;
+  artus_shm_pos pos{};
+  PosReader reader;
+  auto* bytes = reinterpret_cast<unsigned char*>(&pos);
+  for (std::uint64_t i = 1; i < 20000; ++i) {
+    const std::int64_t now = static_cast<std::int64_t>(i) * kTick;
+    if (i % 3 != 0) {  // garbage: all bytes, or one word of a good sample
+      pos = artus_shm_pos_init();
+      for (std::size_t b = 0; b < sizeof pos; ++b) {
+        if (i % 3 == 1 || b / 8 == i % (sizeof pos / 8))
+          bytes[b] = static_cast<unsigned char>(mix_bits(i * 1000 + b));
+      }
+      if (i % 2 == 0) pos.time_ns = static_cast<std::uint64_t>(now);
+      if (i % 7 == 0) pos.needle_position[1] = std::numeric_limits<double>::quiet_NaN();
+      pos.present = i % 5 == 0 ? pos.present : 3;
+    } else {
+      pos.sample = i;
+      pos.time_ns = static_cast<std::uint64_t>(now);
+      pos.needle_position[0] = pos.needle_position[1] = 0;
+      pos.needle_position[2] = 10e-3;
+    }
+    TickInput input;
+    input.tick = i;
+    input.device = reader.accept(true, pos, now);
+    const HapticSnapshot& out = core_.step(input);
+    for (const double f : out.feedback.force) ASSERT_TRUE(std::isfinite(f));
+    for (const double t : out.feedback.torque) ASSERT_TRUE(std::isfinite(t));
+    ASSERT_LE(norm_of(out.feedback), limit * (1 + 1e-12));
+  }
+}
+
+TEST_F(SessionCore, TicksDoNotAllocate) {
+  if (!test::AllocationCounter::supported()) GTEST_SKIP() << "no allocation counter in this build";
+  step(-10e-3);
+  const test::AllocationCounter counter;
+  insert_to(20e-3);
+  EXPECT_EQ(counter.count(), 0);
+}
+
+TEST_F(SessionCore, TheChosenEntryPointMeetsTheDevicesInsertionPoint) {
+  GestureParams gesture;
+  gesture.p_W = Vec3(0.1, 0.2, 0.05);
+  gesture.axis_W = Vec3(0, 0.6, 0.8);
+  const Pose X_JP = make_pose(Vec3(0.02, 0.01, 0), Vec3::UnitZ(), Vec3::UnitX());
+  const auto choice = choose_entry(*scene_, X_JP, gesture);
+  ASSERT_TRUE(choice);
+  EXPECT_NEAR(choice->p_J.z(), 0, 1e-7);
+  const Pose X_WJ = calibrate_joint(Pose::Identity(), *choice, gesture);
+  EXPECT_NEAR((X_WJ * choice->p_J - gesture.p_W).norm(), 0, 1e-12);
+  EXPECT_NEAR((X_WJ.linear() * choice->direction_J - gesture.axis_W).norm(), 0, 1e-12);
+}
+
+TEST_F(SessionCore, AButtonCalibratesOnceAndAnotherGoesBack) {
+  TwoPhaseGesture gesture(GestureParams{}, Pose::Identity());
+  const Pose X_WP = make_pose(Vec3(0.02, 0.01, 0), Vec3::UnitZ(), Vec3::UnitX());
+  EXPECT_TRUE(gesture.step(*scene_, Button::kCalibrate, X_WP));
+  EXPECT_EQ(gesture.phase(), GesturePhase::inserting);
+  EXPECT_FALSE(gesture.step(*scene_, Button::kCalibrate, X_WP));
+  EXPECT_TRUE(gesture.step(*scene_, Button::kExplore, X_WP));
+  EXPECT_EQ(gesture.phase(), GesturePhase::exploring);
+  EXPECT_TRUE(gesture.X_WJ().isApprox(Pose::Identity()));
+}
+
+TEST(PosReader, WhatWasThereBeforeIsNotAlive) {
+  PosReader reader;
+  artus_shm_pos pos = artus_shm_pos_init();
+  pos.sample = 77;
+  EXPECT_EQ(reader.accept(true, pos, 5 * kTick).state, PeerState::absent);
+}
+
+TEST(PosReader, ASilentPeerIsLostBeforeTwentyMilliseconds) {
+  PosReader reader;
+  artus_shm_pos pos = artus_shm_pos_init();
+  pos.sample = 0;
+  EXPECT_EQ(reader.accept(true, pos, 0).state, PeerState::absent);
+  pos.sample = 1;
+  pos.time_ns = kTick;
+  EXPECT_EQ(reader.accept(true, pos, kTick).state, PeerState::alive);
+  EXPECT_EQ(reader.accept(true, pos, 15 * kTick).state, PeerState::alive);
+  EXPECT_EQ(reader.accept(false, pos, 17 * kTick).state, PeerState::lost);
+}
+
+TEST(PosReader, AClockFromAnotherTimeIsInvalid) {
+  PosReader reader;
+  artus_shm_pos pos = artus_shm_pos_init();
+  EXPECT_EQ(reader.accept(true, pos, 0).state, PeerState::absent);
+  pos.sample = 1;
+  pos.time_ns = 100'000'000'000;
+  EXPECT_EQ(reader.accept(true, pos, kTick).state, PeerState::invalid);
+}
+
+}  // namespace
+}  // namespace artus

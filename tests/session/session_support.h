@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <array>
+#include <memory>
+
+#include "artus/session/hand_device.h"
+#include "artus/session/session_core.h"
+#include "tests/support/layered_body.h"
+
+namespace artus::test {
+
+/// Six flat layers from skin to bone, 31 mm, entry at the origin, +z into the body.
+inline std::shared_ptr<const Scene> make_layered_scene() {
+  const std::array<FlatLayer, 6> layers{{{"skin", 2e-3},
+                                         {"fat", 5e-3},
+                                         {"muscle", 15e-3},
+                                         {"bursa", 2e-3},
+                                         {"tendon", 5e-3},
+                                         {"bone", 10e-3}}};
+  return std::make_shared<const Scene>(
+      std::make_shared<const CompiledJoint>(make_layered_block(layers, 0.12, 0.12)));
+}
+
+/// A session small enough for a test: narrow probe, few lines, no texture.
+inline SessionParams make_small_session() {
+  SessionParams params;
+  params.device = *find_device("virtuose_6d_desktop");
+  params.transducer.n_lines = 32;
+  params.image.n_samples = 256;
+  params.image.n_planes = 1;
+  params.image.pixel = 0.4e-3;
+  params.image.n_threads = 1;
+  params.image_rate = 30;
+  return params;
+}
+
+/// A device sample with a needle along +z whose tip is at depth `z`, and a probe at the origin.
+inline DeviceSample sample_at(double z, std::int64_t time_ns, std::uint64_t number) {
+  DeviceSample sample;
+  sample.X_WN = to_plain(make_pose(Vec3(0, 0, z), Vec3::UnitZ(), Vec3::UnitX()));
+  sample.X_WP = to_plain(make_pose(Vec3(0.01, 0, 0), Vec3::UnitZ(), Vec3::UnitX()));
+  sample.time_ns = time_ns;
+  sample.number = number;
+  sample.state = PeerState::alive;
+  sample.has_needle = 1;
+  sample.has_probe = 1;
+  return sample;
+}
+
+}  // namespace artus::test

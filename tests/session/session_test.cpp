@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/session/session.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <thread>
+
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+#include "artus/session/replay.h"
+#include "tests/session/session_support.h"
+
+namespace artus {
+namespace {
+
+Session::Options quiet_options() {
+  Session::Options options;
+  options.haptic_wishes = {};
+  options.imaging_wishes = {};
+  return options;
+}
+
+std::unique_ptr<InputDevice> make_injecting_hand() {
+  const Pose X_WP = make_pose(Vec3(0.01, 0, 0), Vec3::UnitZ(), Vec3::UnitX());
+  return std::make_unique<ScriptedDevice>(
+      make_injection(Vec3::Zero(), Vec3(0, 0, 20e-3), X_WP, 0.06));
+}
+
+template <class Condition>
+bool wait_until(Condition condition) {
+  for (int i = 0; i < 2000 && !condition(); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  return condition();
+}
+
+TEST(Session, StartsTicksMakesImagesAndStops) {
+  auto session = Session::start(test::make_layered_scene(), test::make_small_session(),
+                                make_injecting_hand(), quiet_options());
+  ASSERT_TRUE(session) << session.error().to_string();
+  EXPECT_TRUE(wait_until([&] { return (*session)->ticks() > 200 && (*session)->frames() > 3; }));
+  HapticSnapshot now;
+  EXPECT_TRUE((*session)->newest(now));
+  const ImageSnapshot* image = (*session)->newest_image();
+  ASSERT_NE(image, nullptr);
+  EXPECT_EQ(image->grey.size(), static_cast<std::size_t>(image->width * image->height));
+  EXPECT_GT((*session)->times().haptic_compute.count(), 200U);
+}
+
+TEST(Session, AFrozenImageStaysWhileTheHandGoesOn) {
+  auto session = Session::start(test::make_layered_scene(), test::make_small_session(),
+                                make_injecting_hand(), quiet_options());
+  ASSERT_TRUE(wait_until([&] { return (*session)->frames() > 1; }));
+  (*session)->set_frozen(true);
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  const std::uint64_t frames = (*session)->frames();
+  const std::uint64_t ticks = (*session)->ticks();
+  ASSERT_TRUE(wait_until([&] { return (*session)->ticks() > ticks + 100; }));
+  EXPECT_EQ((*session)->frames(), frames);
+}
+
+TEST(Session, ARecordedSessionReplaysToTheSameBytes) {
+  const auto file = std::filesystem::temp_directory_path() /
+                    ("artus-session-" + std::to_string(getpid()) + ".rec");
+  const auto scene = test::make_layered_scene();
+  const SessionParams params = test::make_small_session();
+  {
+    Session::Options options = quiet_options();
+    options.recording = file;
+    auto session = Session::start(scene, params, make_injecting_hand(), options);
+    ASSERT_TRUE(session) << session.error().to_string();
+    ASSERT_TRUE(wait_until([&] { return (*session)->ticks() > 900 && (*session)->frames() > 5; }));
+    (*session)->set_paused(true);
+    ASSERT_TRUE(wait_until([&] { return (*session)->ticks() > 950; }));
+    (*session)->set_paused(false);
+    ImageControls controls = controls_of(params);
+    controls.gain_db = 6;
+    (*session)->set_controls(controls);
+    (*session)->reset();
+    ASSERT_TRUE(
+        wait_until([&] { return (*session)->ticks() > 1200 && (*session)->frames() > 12; }));
+  }
+  const auto recording = read_recording(file);
+  ASSERT_TRUE(recording) << recording.error().to_string();
+  EXPECT_TRUE(recording->complete);
+  EXPECT_EQ(recording->dropped, 0U);
+  EXPECT_GT(recording->ticks.size(), 1200U);
+  double strongest = 0;
+  for (const TickRecord& tick : recording->ticks) strongest = std::min(strongest, tick.force[2]);
+  EXPECT_LT(strongest, -0.5) << "the recorded hand must have felt something";
+  const auto same = replay(*recording, scene, params);
+  ASSERT_TRUE(same) << same.error().to_string();
+  EXPECT_TRUE(same->identical());
+  EXPECT_EQ(same->ticks, recording->ticks.size());
+
+  Recording tampered = *recording;
+  const auto felt = std::find_if(tampered.ticks.begin(), tampered.ticks.end(),
+                                 [](const TickRecord& tick) { return tick.force[2] < -0.3; });
+  felt->input.device.X_WN.position[2] += 1e-4;
+  tampered.frames.back().input.X_JP.position[0] += 1e-3;
+  const auto other = replay(tampered, scene, params);
+  EXPECT_GT(other->different_ticks, 0U);
+  EXPECT_EQ(other->different_frames, 1U);
+  std::filesystem::remove(file);
+}
+
+TEST(Session, ARecordingKnowsTheLawsItWasFeltBy) {
+  const auto file =
+      std::filesystem::temp_directory_path() / ("artus-laws-" + std::to_string(getpid()) + ".rec");
+  const auto scene = test::make_layered_scene();
+  SessionParams params = test::make_small_session();
+  params.laws.cutting = CuttingLaw::voigt;
+  params.laws.cutting_of_tissue["fat"] = CuttingLaw::direct;
+  params.patient.friction = 1.5;
+  params.needle.hard.law = HardLaw::impulse;
+  params.needle.clamping = ClampingLaw::plasticity;
+  params.needle.friction = lugre_sets()[0];
+  params.needle.use_workspace = true;
+  params.needle.workspace = {Vec3(0.01, -0.02, 0.03), 0.2, 0.5};
+  params.passivity = {true, 7};
+  {
+    Session::Options options = quiet_options();
+    options.recording = file;
+    auto session = Session::start(scene, params, make_injecting_hand(), options);
+    ASSERT_TRUE(session) << session.error().to_string();
+    ASSERT_TRUE(wait_until([&] { return (*session)->ticks() > 900; }));
+  }
+  const auto recording = read_recording(file);
+  ASSERT_TRUE(recording) << recording.error().to_string();
+  const auto plain = replay(*recording, scene, test::make_small_session());
+  ASSERT_TRUE(plain);
+  EXPECT_GT(plain->different_ticks, 0U) << "the laws must be felt at all";
+  const auto restored = params_of(recording->head, test::make_small_session());
+  ASSERT_TRUE(restored) << restored.error().to_string();
+  EXPECT_EQ(restored->needle.workspace.centre, params.needle.workspace.centre);
+  EXPECT_EQ(restored->passivity.max_damping, params.passivity.max_damping);
+  const auto same = replay(*recording, scene, *restored);
+  ASSERT_TRUE(same);
+  EXPECT_TRUE(same->identical());
+  std::filesystem::remove(file);
+}
+
+TEST(Session, ACutOffRecordingGivesWhatThereIs) {
+  const auto file =
+      std::filesystem::temp_directory_path() / ("artus-cut-" + std::to_string(getpid()) + ".rec");
+  const auto scene = test::make_layered_scene();
+  {
+    auto recorder = Recorder::start(file, make_head(scene->joint(), test::make_small_session()));
+    ASSERT_TRUE(recorder);
+    for (int i = 0; i < 10; ++i) (*recorder)->add(TickRecord{});
+  }
+  std::filesystem::resize_file(file, std::filesystem::file_size(file) - 100);
+  const auto recording = read_recording(file);
+  ASSERT_TRUE(recording) << recording.error().to_string();
+  EXPECT_FALSE(recording->complete);
+  EXPECT_EQ(recording->ticks.size(), 9U);
+  std::filesystem::remove(file);
+}
+
+TEST(LatencyHistogram, PercentilesAreRightWithinThreePercent) {
+  LatencyHistogram histogram;
+  for (int i = 1; i <= 100000; ++i) histogram.add(i * 10);
+  EXPECT_NEAR(histogram.percentile_us(0.5), 500, 15);
+  EXPECT_NEAR(histogram.percentile_us(0.999), 999, 30);
+  EXPECT_DOUBLE_EQ(histogram.max_us(), 1000);
+}
+
+TEST(LatencyHistogram, ATickThatBlocksOthersCountsForThem) {
+  LatencyHistogram histogram;
+  histogram.add_with_missed(5'000'000, 1'000'000);
+  EXPECT_EQ(histogram.count(), 5U);
+}
+
+TEST(NewestMailbox, TheConsumerSeesOnlyWholeAndEverNewerValues) {
+  NewestMailbox<std::vector<int>> mailbox;
+  EXPECT_EQ(mailbox.newest(), nullptr);
+  std::atomic<bool> done{false};
+  std::thread producer([&] {
+    for (int i = 1; i <= 20000; ++i) {
+      mailbox.slot().assign(16, i);
+      mailbox.publish();
+    }
+    done = true;
+  });
+  int last = 0;
+  bool sound = true;
+  while (!done || last != 20000) {
+    const std::vector<int>* value = mailbox.newest();
+    if (value == nullptr) continue;
+    sound = sound && value->front() == value->back() && value->front() >= last;
+    last = value->front();
+  }
+  producer.join();
+  EXPECT_TRUE(sound);
+}
+
+TEST(SpscRing, KeepsOrderAndCountsWhatItDrops) {
+  SpscRing<int> ring(3);
+  EXPECT_TRUE(ring.push(1) && ring.push(2) && ring.push(3));
+  EXPECT_FALSE(ring.push(4));
+  EXPECT_EQ(ring.dropped(), 1U);
+  int value = 0;
+  EXPECT_TRUE(ring.pop(value));
+  EXPECT_EQ(value, 1);
+}
+
+TEST(HandDevice, MovesToItsTargetNoFasterThanAHand) {
+  HandTarget start;
+  HandDevice device(start, 1e-3);
+  HandTarget target = start;
+  target.X_WN.position[0] = 0.05;
+  device.set_target(target);
+  double before = 0;
+  double fastest = 0;
+  for (int i = 1; i <= 2000; ++i) {
+    const DeviceSample sample = device.read(i * 1'000'000);
+    fastest = std::max(fastest, sample.X_WN.position[0] - before);
+    before = sample.X_WN.position[0];
+  }
+  EXPECT_NEAR(before, 0.05, 1e-6);
+  EXPECT_LE(fastest, 0.08 * 1e-3 * (1 + 1e-9));
+}
+
+}  // namespace
+}  // namespace artus
