@@ -93,7 +93,8 @@ TEST(RealTimeQueries, RepairOfAChainNeitherAllocatesNorLocks) {
   bool chain = true;
   ARTUS_RUNS_REALTIME(is_chain, chain = is_chain(hits));
   EXPECT_FALSE(chain);
-  const RegionProbe probe{[](const void*, double) noexcept { return RegionId{2}; }, nullptr};
+  const RegionProbe probe{
+      [](const void*, double depth) noexcept { return RegionId(depth < 0.01 ? 0 : 3); }, nullptr};
   auto repaired = std::make_unique<HitChain>();
   ARTUS_RUNS_REALTIME(repair_chain, repair_chain(hits, {0, 0.1, true}, probe, *repaired));
   EXPECT_GT(repaired->size, 0U);
