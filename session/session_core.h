@@ -6,13 +6,15 @@
 #include <string>
 
 #include "artus/echo/renderer.h"
+#include "artus/haptics/needle/needle_feel.h"
 #include "artus/haptics/needle/needle_renderer.h"
 #include "artus/session/input_device.h"
 #include "artus/session/two_phase_gesture.h"
 
 namespace artus {
 
-/// All that a session's results depend on besides its inputs.
+/// All that a session's results depend on besides its inputs. `feel` is the user's choice and goes
+/// before `needle` and `passivity`, which are as published.
 struct SessionParams {
   double haptic_rate = 1000;  ///< Hz, 1000 to 10000
   double image_rate = 40;     ///< Hz, 10 to 120
@@ -20,14 +22,16 @@ struct SessionParams {
   NeedleParams needle;
   PassivityParams passivity;
   GuardParams guard;
-  LawSelection laws;
-  PatientProfile patient;
+  NeedleFeel feel;
   GestureParams gesture;
   Pose X_WJ = Pose::Identity();  ///< the joint's place before any calibration
   Transducer transducer;
   ImageSettings image;
-  NeedleShape needle_shape;
+  NeedleShape needle_shape;  ///< of its length: see needle_length_of
 };
+
+/// m, hub to tip: the one length that the contact and the picture take.
+[[nodiscard]] double needle_length_of(const SessionParams& params) noexcept;
 
 /// Errors: invalid, naming the value.
 [[nodiscard]] Result<void> validate(const SessionParams& params);
