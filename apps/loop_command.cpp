@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "artus/anatomy/body/layered_body.h"
-#include "artus/apps/law_options.h"
+#include "artus/apps/feel_options.h"
 #include "artus/apps/session_options.h"
 #include "artus/session/injecting_device.h"
 #include "artus/session/servo_loop.h"
@@ -18,7 +18,7 @@ struct LoopOptions {
   JointOptions joint;
   std::string device = "virtuose_6d_desktop";
   ServoOptions servo;
-  LawOptions laws;
+  FeelOptions feel;
   double speed_mm_s = 15;
   bool json = false;
 };
@@ -141,12 +141,9 @@ ExitCode run_loop(const LoopOptions& options) {
   SessionParams params;
   params.device = *device;
   params.haptic_rate = options.servo.rate_hz;
-  const auto laws = make_laws(options.laws, **joint);
-  if (!laws) return report_error(laws.error(), options.json);
-  params.laws = laws->laws;
-  params.patient = laws->patient;
-  params.needle = laws->needle;
-  params.passivity = laws->passivity;
+  const auto feel = make_feel(options.feel, **joint);
+  if (!feel) return report_error(feel.error(), options.json);
+  params.feel = *feel;
   if (const auto valid = validate(params); !valid) return report_error(valid.error(), options.json);
   HapticCore core(std::make_shared<const Scene>(*joint), params);
   InjectingDevice hand(make_plan(**joint, options.speed_mm_s), *device, options.servo.rate_hz);
@@ -196,7 +193,7 @@ void add_loop_command(CLI::App& app, ExitCode& code) {
                    "SCHED_FIFO priority to ask for; 0: none")
       ->check(whole_number_in(0, 99))
       ->capture_default_str();
-  add_law_options(command, options->laws);
+  add_feel_options(command, options->feel);
   command->add_flag("--json", options->json, "machine-readable report");
   on_run(command, code, [options] { return run_loop(*options); });
 }

@@ -59,7 +59,7 @@ void add_session_options(CLI::App* command, SessionOptions& options,
                          const std::string& default_input) {
   options.input = default_input;
   add_joint_options(command, options.joint);
-  add_law_options(command, options.laws);
+  add_feel_options(command, options.feel);
   command
       ->add_option("--device", options.device,
                    "whose force limits hold: touch, virtuose_6d_desktop, delta, ideal")
@@ -101,13 +101,9 @@ Result<SessionParams> make_session_params(const SessionOptions& options,
   params.haptic_rate = options.haptic_rate;
   params.image_rate = options.image_rate;
   params.image.n_threads = options.threads;
-  const auto laws = make_laws(options.laws, joint);
-  ARTUS_TRY(laws);
-  params.laws = laws->laws;
-  params.patient = laws->patient;
-  params.needle = laws->needle;
-  params.passivity = laws->passivity;
-  params.needle_shape.length = params.needle.contact.needle_length;
+  const auto feel = make_feel(options.feel, joint);
+  ARTUS_TRY(feel);
+  params.feel = *feel;
   if (!joint.injections.empty()) {
     const PlannedInjection& plan = joint.injections.front();
     params.gesture.p_W = plan.entry;

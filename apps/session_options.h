@@ -5,7 +5,7 @@
 #include <string>
 
 #include "artus/apps/command.h"
-#include "artus/apps/law_options.h"
+#include "artus/apps/feel_options.h"
 #include "artus/session/hand_device.h"
 #include "artus/session/session.h"
 
@@ -14,7 +14,7 @@ namespace artus {
 /// The flags of every command that runs a session.
 struct SessionOptions {
   JointOptions joint;
-  LawOptions laws;
+  FeelOptions feel;
   std::string device = "touch";
   double haptic_rate = 1000;
   double image_rate = 40;

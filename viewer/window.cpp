@@ -421,7 +421,7 @@ Result<void> run_window(Session& session, HandDevice* hand, const HandTarget& st
   const float scale = text_scale(window.get(), options.height);
   const Gui gui(options.layout, scale);
   auto joint = JointView::make(session.scene().joint(), session.params().transducer.width,
-                               session.params().needle_shape.length);
+                               needle_length_of(session.params()));
   ARTUS_TRY(joint);
   WindowLoop loop(window.get(), session, hand, start, options, report, std::move(*joint), scale);
   return loop.run();

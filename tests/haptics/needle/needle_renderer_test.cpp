@@ -23,8 +23,10 @@ std::shared_ptr<const Scene> block(const Pose& X = Pose::Identity()) {
 }
 
 NeedleRenderer make_renderer(const std::shared_ptr<const Scene>& scene, double rate = 1000) {
-  return {scene,         LayerTable(scene->joint(), {}, {}),         NeedleParams{},
-          GuardParams{}, find_device("virtuose_6d_desktop").value(), rate};
+  NeedleRendererParams params;
+  params.device = find_device("virtuose_6d_desktop").value();
+  params.rate_hz = rate;
+  return {scene, make_layer_table(scene->joint()), params};
 }
 
 TimedPose stroke(double t) {
