@@ -63,7 +63,8 @@ Wrench OutputGuard::apply(const Wrench& wanted, std::uint32_t faults,
     last_ = Wrench{};
     return last_;
   }
-  engaged_ = std::min(engaged_ + dt_, params_.ramp_time);
+  const bool fading = (status & TickStatus::kTruncated) != 0;
+  engaged_ = std::clamp(engaged_ + (fading ? -dt_ : dt_), 0.0, params_.ramp_time);
   const double ramp = engaged_ / params_.ramp_time;
   if (ramp < 1) status |= TickStatus::kRamping;
   const Wrench limited = saturate(device_, wanted);

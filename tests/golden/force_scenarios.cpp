@@ -2,44 +2,23 @@
 #include "tests/golden/force_scenarios.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <memory>
 
 #include "artus/core/text_cursor.h"
 #include "artus/core/units.h"
 #include "artus/evidence/needle/experiment_body.h"
-#include "artus/haptics/needle/needle_renderer.h"
-#include "tests/support/layered_body.h"
+#include "artus/haptics/needle/needle_tick_step.h"
 
 namespace artus::test {
 namespace {
 
 constexpr double kMm = kMillimetre;
 
-// ---- the body: skin to 2 mm, muscle to 14, bursa to 16, fat to 24, bone to 40
+// ---- the body: skin to 2 mm, muscle to 14, bursa to 16, fat to 24, then bone
 
-std::shared_ptr<const Scene> flat_layers() {
-  static const auto scene = [] {
-    const std::array<FlatLayer, 5> layers{{{"skin", 2 * kMm},
-                                           {"muscle", 12 * kMm},
-                                           {"bursa", 2 * kMm},
-                                           {"fat", 8 * kMm},
-                                           {"bone", 16 * kMm}}};
-    return std::make_shared<const Scene>(
-        std::make_shared<const CompiledJoint>(make_layered_block(layers, 0.3, 0.3)));
-  }();
-  return scene;
-}
-
-/// Skin to 100 mm.
-std::shared_ptr<const Scene> thick_skin() {
-  static const auto scene = [] {
-    const std::array<FlatLayer, 1> layers{{{"skin", 100 * kMm}}};
-    return std::make_shared<const Scene>(
-        std::make_shared<const CompiledJoint>(make_layered_block(layers, 0.3, 0.3)));
-  }();
-  return scene;
+AnalyticBody flat_layers() {
+  return AnalyticBody::make_stack(Vec3::Zero(), Vec3::UnitZ(),
+                                  {0, 2 * kMm, 14 * kMm, 16 * kMm, 24 * kMm});
 }
 
 Haptic tissue(double cutting, double stiffness, double clamping, double puncture = 0) {
@@ -101,12 +80,11 @@ Key at(const Way& way, double t) {
           kMm * (a.side + share * (b.side - a.side)), a.tilt + share * (b.tilt - a.tilt)};
 }
 
-std::vector<NeedleRow> follow(const std::shared_ptr<const Scene>& scene, const Way& way,
-                              const ForceSetup& setup) {
+std::vector<NeedleRow> follow(const AnalyticBody& body, const Way& way, const ForceSetup& setup) {
   std::vector<LayerHaptics> by_region(kFirstRegion);
   for (const LayerHaptics& layer : layers_of(setup)) by_region.push_back(layer);
-  NeedleRenderer renderer(scene, LayerTable(std::move(by_region)),
-                          {setup.needle, setup.guard, setup.passivity, setup.device, way.rate_hz});
+  NeedleTickStep tick(LayerTable(std::move(by_region)),
+                      {setup.needle, setup.guard, setup.passivity, setup.device, way.rate_hz});
   const Vec3 direction = way.direction.normalized();
   const Vec3 side = make_pose(Vec3::Zero(), direction, Vec3::UnitX()).linear().col(0);
   std::vector<NeedleRow> rows;
@@ -117,17 +95,17 @@ std::vector<NeedleRow> follow(const std::shared_ptr<const Scene>& scene, const W
     const Vec3 axis = std::cos(k.tilt) * direction + std::sin(k.tilt) * side;
     const Pose X_JN = make_pose(k.depth * direction + k.side * side, axis, side.cross(axis));
     const double time = t >= way.frozen_from && t < way.frozen_to ? way.frozen_from : t;
-    const RenderedNeedle& rendered = renderer.step({X_JN, time});
-    rows.push_back(make_needle_row(t, X_JN, rendered, renderer.model()));
+    const RenderedNeedle& rendered = tick.step({X_JN, time}, body);
+    rows.push_back(make_needle_row(t, X_JN, rendered, tick.model()));
     rows.back().energy_to_hand = rendered.energy_to_hand;
   }
   return rows;
 }
 
 ForceScenario prescribed(const std::string& name, const ForceSetup& setup, const Way& way,
-                         const std::shared_ptr<const Scene>& scene = flat_layers()) {
-  return {name, setup, [scene, way](const ForceSetup& s) {
-            return follow(scene, way, s);
+                         const AnalyticBody& body = flat_layers()) {
+  return {name, setup, [body, way](const ForceSetup& s) {
+            return follow(body, way, s);
           }};
 }
 
@@ -263,7 +241,7 @@ ForceScenario swaying_over_a_membrane() {
 ForceScenario found_deep() {
   return prescribed("found-deep", plain_setup(),
                     {{{0, 70, 0, 0}, {0.2, 70, 0, 0}, {0.5, 72, 0.3, 0}}, Vec3::UnitZ()},
-                    thick_skin());
+                    AnalyticBody::make_stack(Vec3::Zero(), Vec3::UnitZ(), {0}));
 }
 
 /// Poses that no hand makes, a clock that stands still, and what lies outside the workspace.
@@ -319,8 +297,7 @@ BodyExperiment body_experiment(const ForceSetup& setup) {
   BodyExperiment e;
   e.layers = layers_of(setup);
   e.names = {"skin", "muscle", "bursa", "fat", "bone"};
-  e.body = AnalyticBody::make_stack(Vec3::Zero(), Vec3::UnitZ(),
-                                    {0, 2 * kMm, 14 * kMm, 16 * kMm, 24 * kMm});
+  e.body = flat_layers();
   e.needle = setup.needle;
   e.device = setup.device;
   e.feel.passivity_control = setup.passivity.control;

@@ -37,15 +37,12 @@ HandTarget hand_at(double z) {
   return hand;
 }
 
-TEST(RealTimeSession, HandsAndScriptsNeitherAllocateNorLock) {
+TEST(RealTimeSession, HandsAndRecordingsNeitherAllocateNorLock) {
   HandDevice hand(hand_at(0), 1e-3);
   hand.set_target(hand_at(0.05));
   ARTUS_RUNS_REALTIME(HandDevice::read, use(hand.read(0)), run_device(hand, 500));
   ARTUS_RUNS_REALTIME(HandDevice::write, hand.write({}));
   ARTUS_RUNS_REALTIME(approach, use(approach({}, hand_at(1).X_WN, HandDevice::Limits{}, 1e-3)));
-  ScriptedDevice script({{0, hand_at(0)}, {0.1, hand_at(0.02)}});
-  ARTUS_RUNS_REALTIME(ScriptedDevice::read, use(script.read(0)), run_device(script, 200));
-  ARTUS_RUNS_REALTIME(ScriptedDevice::write, script.write({}));
   RecordedDevice record({test::sample_at(0, 0, 1), test::sample_at(1e-3, 1, 2)});
   ARTUS_RUNS_REALTIME(RecordedDevice::read, use(record.read(0)), run_device(record, 5));
   ARTUS_RUNS_REALTIME(RecordedDevice::write, record.write({}));
