@@ -3,11 +3,14 @@
 #include <cstdio>
 #include <iostream>
 #include <memory>
+#include <thread>
 #include <vector>
 
 #include "artus/anatomy/body/layered_body.h"
 #include "artus/apps/feel_options.h"
+#include "artus/apps/interrupts.h"
 #include "artus/apps/session_options.h"
+#include "artus/apps/view_options.h"
 #include "artus/session/injecting_device.h"
 #include "artus/session/servo_loop.h"
 
@@ -147,10 +150,17 @@ ExitCode run_loop(const LoopOptions& options) {
   if (const auto valid = validate(params); !valid) return report_error(valid.error(), options.json);
   HapticCore core(std::make_shared<const Scene>(*joint), params);
   InjectingDevice hand(make_plan(**joint, options.speed_mm_s), *device, options.servo.rate_hz);
-  const std::atomic<bool> stop{false};
+  Interrupts interrupts;
+  std::atomic<bool> stop{false};
+  std::atomic<bool> over{false};
+  std::thread waiting([&] {
+    while (!over && !stop) stop = interrupts.wait(0.1);
+  });
   Seqlock<HapticSnapshot> newest;
   const auto report = std::make_unique<ServoReport>();
   run_servo_loop(core, hand, options.servo, stop, newest, *report);
+  over = true;
+  waiting.join();
   if (options.json)
     std::cout << to_json(*report, options.servo, (*joint)->name).dump(2) << '\n';
   else
@@ -194,6 +204,7 @@ void add_loop_command(CLI::App& app, ExitCode& code) {
       ->check(whole_number_in(0, 99))
       ->capture_default_str();
   add_feel_options(command, options->feel);
+  add_needle_length_option(command, options->feel.needle_length_mm);
   command->add_flag("--json", options->json, "machine-readable report");
   on_run(command, code, [options] { return run_loop(*options); });
 }

@@ -25,12 +25,6 @@ struct RunOptions {
   bool json = false;
 };
 
-bool all_hold(const ThreeInjections& run) {
-  bool all = true;
-  for (const auto& claim : run.claims) all = all && claim.pass;
-  return all;
-}
-
 void print_summary(const ThreeInjections& run, const RunImages& images,
                    const std::filesystem::path& out) {
   std::printf("%-14s %9s %9s %9s %9s %8s\n", "layer", "expected", "mean N", "least N", "most N",
@@ -43,11 +37,10 @@ void print_summary(const ThreeInjections& run, const RunImages& images,
       std::printf("%-14s %9.3f %9.3f %9.3f %9.3f %8.2f\n", p.tissue.c_str(), p.expected, p.mean,
                   p.least, p.most, p.rise * 1e3);
   }
-  for (const auto& claim : run.claims)
-    std::printf("%s  %s: %.4g (%s)\n", claim.pass ? "holds" : "FAILS", claim.text.c_str(),
-                claim.value, claim.bound.c_str());
+  for (const auto& claim : run.claims) std::printf("%s\n", to_line(claim).c_str());
   std::printf("%zu ticks, %zu images%s in %s\n", run.rows.size(), images.moments.size(),
               images.video.empty() ? "" : " and a video", out.c_str());
+  std::printf("%s\n", count_claims(run.claims).c_str());
 }
 
 /// summary.json: what the run measured, and the images.
@@ -73,7 +66,9 @@ ExitCode run_scenario(const RunOptions& options) {
   run_options.rate_hz = options.rate_hz;
   run_options.seed = options.view.seed;
   run_options.device = options.device;
-  const auto feel = make_feel(options.feel, **joint);
+  FeelOptions feel_options = options.feel;
+  feel_options.needle_length_mm = options.view.needle_length_mm;
+  const auto feel = make_feel(feel_options, **joint);
   if (!feel) return report_error(feel.error(), options.json);
   run_options.feel = *feel;
   run_options.probe.contact.footprint.length = view->transducer.width;
@@ -97,7 +92,7 @@ ExitCode run_scenario(const RunOptions& options) {
     std::cout << summary->dump(2) << '\n';
   else
     print_summary(*run, images, options.out);
-  return all_hold(*run) ? ExitCode::ok : ExitCode::failed;
+  return all_hold(run->claims) ? ExitCode::ok : ExitCode::failed;
 }
 
 }  // namespace

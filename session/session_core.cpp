@@ -105,9 +105,22 @@ void HapticCore::describe() noexcept {
   copy(tick.entry, out_.entry_J);
 }
 
-const HapticSnapshot& HapticCore::step(const TickInput& input) noexcept {
+/// What cannot be a pose goes no further: not into the snapshot, an image or a recording.
+void HapticCore::take(const TickInput& input) noexcept {
+  const DeviceSample before = out_.input.device;
   out_.input = input;
-  const DeviceSample& device = input.device;
+  DeviceSample& device = out_.input.device;
+  const bool needle = is_pose(device.X_WN);
+  const bool probe = is_pose(device.X_WP);
+  const bool wrong = (!needle && device.has_needle != 0) || (!probe && device.has_probe != 0);
+  if (wrong && device.state == PeerState::alive) device.state = PeerState::invalid;
+  if (!needle) device.X_WN = before.X_WN;
+  if (!probe) device.X_WP = before.X_WP;
+}
+
+const HapticSnapshot& HapticCore::step(const TickInput& input) noexcept {
+  take(input);
+  const DeviceSample& device = out_.input.device;
   const bool alive = device.state == PeerState::alive;
   const bool paused = (input.command & SessionCommand::kPause) != 0;
   std::optional<Pose> X_WP;

@@ -62,7 +62,7 @@ struct TickInput {
 
 /// Everything that comes out of one and others may want to see. Frame J unless named; plain bytes.
 struct HapticSnapshot {
-  TickInput input;
+  TickInput input;  ///< as taken: poses that cannot be are replaced by those before and invalid
   PlainPose X_WJ;
   PlainPose X_JN;
   PlainPose X_JP;
@@ -93,6 +93,7 @@ class HapticCore {
   ARTUS_REALTIME const HapticSnapshot& step(const TickInput& input) noexcept;
 
  private:
+  void take(const TickInput& input) noexcept;
   void step_needle(const DeviceSample& device, std::uint32_t command) noexcept;
   void describe() noexcept;
 

@@ -230,23 +230,27 @@ void add_claims(double stiffness, const std::array<OverSeeds, kLaws.size()>& law
                 const Measured& calm, std::vector<Claim>& claims) {
   const std::string at = " at " + to_csv(stiffness) + " N/m, worst seed: ";
   for (const std::size_t k : {std::size_t{1}, std::size_t{2}}) {
-    claims.push_back(claim_at_least(to_string(kLaws[k]) + at + "ejection",
+    claims.push_back(claim_at_least(ClaimKind::independent, to_string(kLaws[k]) + at + "ejection",
                                     laws[k].sorted(kEjection).front(), 2, "mm"));
   }
   const std::string wall = "tracking wall" + at;
-  claims.push_back(claim_at_most(wall + "ejection, beyond the momentum of the hand's tremor",
+  claims.push_back(claim_at_most(ClaimKind::independent,
+                                 wall + "ejection, beyond the momentum of the hand's tremor",
                                  laws[0].sorted(kEjection).back(), 0.2, "mm"));
   claims.push_back(claim_at_most(
+      ClaimKind::independent,
       "tracking wall at " + to_csv(stiffness) + " N/m, a hand without tremor: ejection",
       calm.moved / kMillimetre, 0.2, "mm"));
-  claims.push_back(claim_at_most(wall + "force energy above 20 Hz over the best of the others",
+  claims.push_back(claim_at_most(ClaimKind::independent,
+                                 wall + "force energy above 20 Hz over the best of the others",
                                  ratios(laws, kContact, 0, is_any).back(), 1, ""));
-  claims.push_back(claim_at_most(wall + "the same until the release, less the wall's own corners, "
+  claims.push_back(claim_at_most(ClaimKind::independent,
+                                 wall + "the same until the release, less the wall's own corners, "
                                         "laws at the device's limit left out",
                                  ratios(laws, kGuided, wall_corners(stiffness), is_rendered).back(),
                                  1, ""));
-  claims.push_back(
-      claim_at_most(wall + "energy given over the cycle", laws[0].sorted(kEnergy).back(), 0, "J"));
+  claims.push_back(claim_at_most(ClaimKind::independent, wall + "energy given over the cycle",
+                                 laws[0].sorted(kEnergy).back(), 0, "J"));
 }
 
 }  // namespace
@@ -376,7 +380,8 @@ Experiment run_wall_energy(const ExperimentOptions& options, const DeviceLimits&
       given.x.push_back(static_cast<double>(h));
       given.y.push_back(energy_of_history(table, needle, body, options.seed * 1000003 + h));
     }
-    out.claims.push_back(claim_at_most(what + ": most energy given over a closed cycle, of 10 000",
+    out.claims.push_back(claim_at_most(ClaimKind::independent,
+                                       what + ": most energy given over a closed cycle, of 10 000",
                                        *std::max_element(given.y.begin(), given.y.end()), 0, "J"));
     panel.series.push_back(std::move(given));
   }

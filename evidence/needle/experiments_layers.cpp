@@ -119,10 +119,14 @@ Experiment run_layer_changes(const ExperimentOptions& options, const DeviceLimit
     }
   }
   out.claims = {
-      claim_at_least("pairs of layers", static_cast<double>(out.table.rows.size()), 25, ""),
-      claim_at_most("measured step off the table's, share of the step", off, 0.05, ""),
-      claim_at_least("the smallest step in just-noticeable differences of 14 %", least, 1, ""),
-      claim_at_most("the longest way until nine tenths of the step are felt", longest, 4.5, "mm")};
+      claim_at_least(ClaimKind::input, "pairs of layers",
+                     static_cast<double>(out.table.rows.size()), 25, ""),
+      claim_at_most(ClaimKind::input, "measured step off the table's, share of the step", off, 0.05,
+                    ""),
+      claim_at_least(ClaimKind::input, "the smallest step in just-noticeable differences of 14 %",
+                     least, 1, ""),
+      claim_at_most(ClaimKind::input, "the longest way until nine tenths of the step are felt",
+                    longest, 4.5, "mm")};
   for (std::size_t k = 0; k < kTable.size(); ++k)
     out.published.push_back(
         {kTable[k].name, to_csv(kTable[k].force) + " N", to_csv(felt[k]) + " N"});

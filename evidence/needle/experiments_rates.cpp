@@ -209,7 +209,8 @@ void claim_shares(const std::string& insertion, const DeviceLimits& device, cons
   for (std::size_t i = 0; i < off.size(); ++i) {
     std::string text = insertion + ": total axial force at " + to_csv(kRates[i]);
     text.append(" Hz against 10 kHz, ").append(device.name).append(", ").append(hand);
-    out.claims.push_back(claim_at_most(text.append(", RMS share"), off[i], 0.02, ""));
+    out.claims.push_back(
+        claim_at_most(ClaimKind::fitted, text.append(", RMS share"), off[i], 0.02, ""));
   }
 }
 

@@ -63,7 +63,7 @@ class NeedleTickStep {
  private:
   static constexpr std::size_t kMaxIntervals = 64;
 
-  ARTUS_REALTIME const RenderedNeedle& finish(const Pose& X_JN, std::uint32_t faults,
+  const RenderedNeedle& finish(const Pose& X_JN, std::uint32_t faults,
                                               const QueryCount& count) noexcept;
 
   LayerTable table_;
