@@ -31,8 +31,12 @@ class InjectionOperator {
 
   /// Looks at the last tick; begins the next phase when the present one's goal is met. Returns the
   /// phase that ended in this call, or null.
-  const OperatorPhase* observe(double time, const Pose& X_JN, const NeedleModel& model);
+  const OperatorPhase* observe(double time, const Pose& X_JN, const OperatorView& view) noexcept;
+  /// From the first phase on, with the needle at its start again.
+  void begin_again(double time) noexcept;
 
+  [[nodiscard]] Pose start() const noexcept;  ///< X_JN before the first phase
+  [[nodiscard]] std::size_t phase() const noexcept { return index_; }
   [[nodiscard]] bool done() const noexcept { return index_ >= phases_.size(); }
   [[nodiscard]] bool timed_out() const noexcept { return timed_out_; }
   /// What the hand wants at `t`, s, within the tick after the last observe().

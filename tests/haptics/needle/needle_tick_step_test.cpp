@@ -9,6 +9,7 @@
 
 #include "artus/haptics/needle/needle_renderer.h"
 #include "tests/support/layered_body.h"
+#include "tests/support/real_time.h"
 
 namespace artus {
 namespace {
@@ -96,6 +97,19 @@ TEST(NeedleTickStep, AQueryThatStaysTruncatedEndsAtZeroAndTheNeedleThenBeginsAtR
   needle.step();
   EXPECT_NE(needle.contact().events() & ContactEvent::kAdopted, 0U);
   EXPECT_NEAR(needle.force_after(300), 2, 1e-9);
+}
+
+TEST(NeedleTickStep, NeitherAllocatesNorLocksWhateverTheBodySays) {
+  NeedleRendererParams params;
+  params.device = find_device("ideal").value();
+  NeedleTickStep tick(LayerTable({{}, {}}), params);
+  HalfSpace body;
+  for (int i = 0; i < 1000; ++i) {
+    const double t = 1e-3 * i;
+    body.truncated = i % 100 < 5;
+    const TimedPose pose{make_pose(Vec3(0, 0, 0.02 * t - 5e-3), Vec3::UnitZ(), Vec3::UnitX()), t};
+    ARTUS_RUNS_REALTIME(NeedleTickStep::step, test::use(tick.step(pose, body)));
+  }
 }
 
 TEST(NeedleTickStep, ABodyOfMoreLayersThanALineHoldsGivesNoForceAndSaysSo) {
