@@ -3,10 +3,12 @@
 #include <cstdio>
 #include <iostream>
 #include <memory>
+#include <thread>
 #include <vector>
 
 #include "artus/anatomy/body/layered_body.h"
 #include "artus/apps/feel_options.h"
+#include "artus/apps/interrupts.h"
 #include "artus/apps/session_options.h"
 #include "artus/session/injecting_device.h"
 #include "artus/session/servo_loop.h"
@@ -147,10 +149,17 @@ ExitCode run_loop(const LoopOptions& options) {
   if (const auto valid = validate(params); !valid) return report_error(valid.error(), options.json);
   HapticCore core(std::make_shared<const Scene>(*joint), params);
   InjectingDevice hand(make_plan(**joint, options.speed_mm_s), *device, options.servo.rate_hz);
-  const std::atomic<bool> stop{false};
+  Interrupts interrupts;
+  std::atomic<bool> stop{false};
+  std::atomic<bool> over{false};
+  std::thread waiting([&] {
+    while (!over && !stop) stop = interrupts.wait(0.1);
+  });
   Seqlock<HapticSnapshot> newest;
   const auto report = std::make_unique<ServoReport>();
   run_servo_loop(core, hand, options.servo, stop, newest, *report);
+  over = true;
+  waiting.join();
   if (options.json)
     std::cout << to_json(*report, options.servo, (*joint)->name).dump(2) << '\n';
   else

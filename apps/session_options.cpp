@@ -55,6 +55,16 @@ nlohmann::json to_json(const LatencyHistogram& h) {
 
 }  // namespace
 
+void add_prefix_option(CLI::App* command, std::string& prefix) {
+  command->add_option("--prefix", prefix, "stands before the names POS, FORCE and IMAGE")
+      ->check(CLI::Validator(
+          [](const std::string& text) {
+            const bool good = artus_shm_is_prefix(text.c_str()) != 0;
+            return good ? std::string() : "at most 63 letters, digits, '-', '_' and '.'";
+          },
+          "TEXT"));
+}
+
 void add_session_options(CLI::App* command, SessionOptions& options,
                          const std::string& default_input) {
   options.input = default_input;
@@ -76,7 +86,7 @@ void add_session_options(CLI::App* command, SessionOptions& options,
           "shared-memory, hand (mouse, keyboard, gamepad), injection (a simulated hand does a "
           "planned one again and again), or a recording")
       ->capture_default_str();
-  command->add_option("--prefix", options.prefix, "stands before the names POS, FORCE and IMAGE");
+  add_prefix_option(command, options.prefix);
   command->add_option("--record", options.recording, "keep all inputs in this file");
   command->add_option("--injection", options.injection, "which planned injection, from 1")
       ->capture_default_str();

@@ -27,6 +27,8 @@ struct SessionOptions {
   int threads = 0;
   std::filesystem::path histograms;
 };
+/// --prefix, checked as the shared memory does.
+void add_prefix_option(CLI::App* command, std::string& prefix);
 void add_session_options(CLI::App* command, SessionOptions& options,
                          const std::string& default_input);
 

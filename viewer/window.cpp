@@ -107,6 +107,7 @@ class WindowLoop {
     auto due = std::chrono::steady_clock::now();
     auto before = due;
     while (glfwWindowShouldClose(window_) == GLFW_FALSE && !state_.quit) {
+      if (options_.asked_to_close && options_.asked_to_close()) break;
       const auto now = std::chrono::steady_clock::now();
       const double elapsed = std::max(1e-4, std::chrono::duration<double>(now - before).count());
       before = now;

@@ -84,19 +84,23 @@ static inline void artus_shm_on_sigbus(int number, siginfo_t* info, void* contex
     artus_shm_former_sigbus.sa_handler(number);
 }
 
+/* Takes SIGBUS, once a process. */
+static inline void artus_shm_guard_all(void) {
+#ifndef ARTUS_SHM_NO_SIGBUS
+  struct sigaction action;
+  if (__atomic_exchange_n(&artus_shm_guards, 1, __ATOMIC_ACQ_REL) != 0) return;
+  memset(&action, 0, sizeof action);
+  action.sa_sigaction = artus_shm_on_sigbus;
+  action.sa_flags = SA_SIGINFO;
+  sigaction(SIGBUS, &action, &artus_shm_former_sigbus);
+#endif
+}
+
 /* Enters a mapping; 0 when the table is full, and then it is not guarded. */
 static inline artus_shm_range* artus_shm_guard(void* base, size_t size, int file, int force) {
   const size_t page = (size_t)sysconf(_SC_PAGESIZE);
   int i;
-#ifndef ARTUS_SHM_NO_SIGBUS
-  if (__atomic_exchange_n(&artus_shm_guards, 1, __ATOMIC_ACQ_REL) == 0) {
-    struct sigaction action;
-    memset(&action, 0, sizeof action);
-    action.sa_sigaction = artus_shm_on_sigbus;
-    action.sa_flags = SA_SIGINFO;
-    sigaction(SIGBUS, &action, &artus_shm_former_sigbus);
-  }
-#endif
+  artus_shm_guard_all();
   for (i = 0; i < ARTUS_SHM_MAX_RANGES; ++i) {
     artus_shm_range* range = &artus_shm_ranges[i];
     uintptr_t unused = 0;
