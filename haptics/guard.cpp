@@ -4,16 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "artus/core/rigid.h"
+
 namespace artus {
 namespace {
-
-constexpr double kRigidTolerance = 1e-6;  // on R^T R - 1
-
-bool is_rigid(const Pose& pose) noexcept {
-  const Eigen::Matrix3d gram = pose.linear().transpose() * pose.linear();
-  return (gram - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < kRigidTolerance &&
-         pose.linear().determinant() > 0;
-}
 
 Vec3 limit_step(const Vec3& from, const Vec3& to, double step, bool& limited) noexcept {
   const Vec3 change = to - from;

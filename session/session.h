@@ -20,6 +20,8 @@
 
 namespace artus {
 
+class ImageCore;
+
 /// An image as the window gets it.
 struct ImageSnapshot {
   std::vector<std::uint8_t> grey;  ///< (height, width), x fastest

@@ -70,10 +70,11 @@ TEST(Session, ARecordedSessionReplaysToTheSameBytes) {
     (*session)->set_paused(false);
     ImageControls controls = controls_of(params);
     controls.gain_db = 6;
+    controls.depth = 35e-3;
     (*session)->set_controls(controls);
     (*session)->reset();
     ASSERT_TRUE(
-        wait_until([&] { return (*session)->ticks() > 1200 && (*session)->frames() > 12; }));
+        wait_until([&] { return (*session)->ticks() > 1200 && (*session)->frames() > 24; }));
   }
   const auto recording = read_recording(file);
   ASSERT_TRUE(recording) << recording.error().to_string();
