@@ -15,6 +15,7 @@
 #include <gtest/gtest.h>
 
 #include "artus/core/noise.h"
+#include "artus/session/scripted_device.h"
 #include "artus/session/session.h"
 #include "artus/session/shared_memory_device.h"
 #include "tests/session/session_support.h"
