@@ -24,7 +24,7 @@ Result<EvidenceReport> run_experiment(std::string_view name, const std::filesyst
     ARTUS_TRY(write_experiment(*experiment, folder));
     return static_cast<const EvidenceReport&>(*experiment);
   }
-  ARTUS_TRY(check_laws(options.laws, name, 0, "is of the other hand, the probe's", {}));
+  ARTUS_TRY(check(options.feel, {std::string(name), {}, 0, "is of the other hand, the probe's"}));
   const auto mock =
       options.mock.empty() ? read_bundled_pneumatic_params() : read_pneumatic_params(options.mock);
   ARTUS_TRY(mock);

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "artus/apps/experiment_catalogue.h"
-#include "artus/apps/law_options.h"
+#include "artus/apps/feel_options.h"
 #include "artus/core/text_file.h"
 #include "artus/evidence/needle/experiment.h"
 
@@ -18,7 +18,7 @@ struct ExperimentCommandOptions {
   std::filesystem::path out;
   ExperimentOptions experiment;
   std::int64_t seed = 1;
-  LawOptions laws;
+  FeelOptions feel;
   bool json = false;
 };
 
@@ -35,14 +35,14 @@ Result<ExperimentOptions> make_options(const ExperimentCommandOptions& options) 
     return fail(ErrorCode::invalid, "either one experiment's name or --all", "--all");
   ExperimentOptions run = options.experiment;
   run.seed = static_cast<std::uint64_t>(options.seed);
-  const auto laws = make_experiment_laws(options.laws);
-  ARTUS_TRY(laws);
-  if (options.all && changed_laws(*laws) != 0)
+  const auto feel = make_feel(options.feel);
+  ARTUS_TRY(feel);
+  if (options.all && changed(*feel) != 0)
     return fail(ErrorCode::invalid,
                 "the report is of the published laws; give the flags of force laws to one "
                 "experiment",
                 "--all");
-  run.laws = *laws;
+  run.feel = *feel;
   return run;
 }
 
@@ -66,7 +66,7 @@ ExitCode run_experiments(const ExperimentCommandOptions& options) {
     if (progress) progress(names[i], static_cast<double>(i) / static_cast<double>(names.size()));
     const auto folder = options.all ? options.out / names[i] : options.out;
     const auto experiment = run_experiment(names[i], folder, *run);
-    if (!experiment) return report_error(experiment.error(), options.json);
+    if (!experiment) return report_error(at_flag(experiment.error()), options.json);
     const std::vector<Claim>& claims = experiment->claims;
     all.insert(all.end(), claims.begin(), claims.end());
     report += "\n## " + names[i] + "\n\n" + to_markdown(*experiment, names[i]);
@@ -117,7 +117,7 @@ void add_experiment_command(CLI::App& app, ExitCode& code) {
       ->capture_default_str();
   command->add_option("--mock", options->experiment.mock,
                       "TOML file of the pneumatic probe mock (default: the bundled one)");
-  add_law_options(command, options->laws);
+  add_feel_options(command, options->feel);
   command->add_flag("--json", options->json, "print the verdicts as JSON");
   on_run(command, code, [options] { return run_experiments(*options); });
 }

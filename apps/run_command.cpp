@@ -3,7 +3,7 @@
 #include <iostream>
 #include <memory>
 
-#include "artus/apps/law_options.h"
+#include "artus/apps/feel_options.h"
 #include "artus/apps/view_options.h"
 #include "artus/core/text_file.h"
 #include "artus/evidence/medical/run_images.h"
@@ -16,7 +16,7 @@ struct RunOptions {
   std::string scenario;
   JointOptions joint;
   ViewOptions view;
-  LawOptions laws;
+  FeelOptions feel;
   std::filesystem::path out;
   double rate_hz = 1000;
   std::string device = "virtuose_6d_desktop";
@@ -66,12 +66,9 @@ ExitCode run_scenario(const RunOptions& options) {
   run_options.rate_hz = options.rate_hz;
   run_options.seed = options.view.seed;
   run_options.device = options.device;
-  const auto laws = make_laws(options.laws, **joint);
-  if (!laws) return report_error(laws.error(), options.json);
-  run_options.laws = laws->laws;
-  run_options.patient = laws->patient;
-  run_options.needle = laws->needle;
-  run_options.passivity = laws->passivity;
+  const auto feel = make_feel(options.feel, **joint);
+  if (!feel) return report_error(feel.error(), options.json);
+  run_options.feel = *feel;
   run_options.probe.contact.footprint.length = view->transducer.width;
   run_options.probe.contact.footprint.width = view->transducer.elevation_height;
   const auto run = run_three_injections(*scene, (*joint)->injections, run_options, progress);
@@ -116,7 +113,7 @@ void add_run_command(CLI::App& app, ExitCode& code) {
       ->check(CLI::IsMember({"three-injections"}));
   add_joint_options(command, options->joint);
   add_view_options(command, options->view);
-  add_law_options(command, options->laws);
+  add_feel_options(command, options->feel);
   command->add_option("-o,--out", options->out, "folder for the results")->required();
   command->add_option("--rate", options->rate_hz, "haptic rate, Hz")
       ->check(number_in(100, 20000))

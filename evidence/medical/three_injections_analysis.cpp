@@ -98,7 +98,7 @@ void analyze(const CompiledJoint& joint, bool reached, ThreeInjections& run) {
   for (const Region& region : joint.regions) {
     const Tissue& tissue = joint.tissues[region.tissue];
     layers.push_back({tissue.name, tissue.haptic});
-    layers.back().haptic.cutting_force *= run.options.patient.cutting;
+    layers.back().haptic.cutting_force *= run.options.feel.patient.cutting;
   }
   PlateauFinder finder(std::move(layers));
   for (const NeedleRow& row : run.rows) finder.add(row);

@@ -26,7 +26,7 @@ BodyExperiment make_body(const ExperimentOptions& options, const DeviceLimits& d
   e.layers[0].tissue.clamping_stiffness = 300;
   e.layers[0].tissue.friction = 1;
   e.device = device;
-  e.laws = options.laws;
+  e.feel = options.feel;
   e.hand.seed = options.seed;
   e.phases = {stay(0.3),
               push_to(0.012, 0.012),

@@ -79,7 +79,7 @@ std::vector<NeedleRow> run_release(CuttingLaw law, double stiffness, const Devic
   e.entry = Vec3(0, 0, 0.12);
   e.body = AnalyticBody::make_stack(e.entry, e.direction, {0});
   e.device = device;
-  e.laws = options.laws;
+  e.feel = options.feel;
   e.hand = hand;
   e.phases = {stay(0.3),   push_to(kDepth, kSpeed), stay(kHeld),
               let_go(0.4), pull_to(-4e-3, 0.02),    stay(0.2)};
@@ -357,7 +357,7 @@ namespace {
 constexpr std::uint64_t kHistories = 10000;
 
 // Five soft layers and bone; with friction and two membranes, or the wall alone.
-LayerTable random_layers(bool all_laws, const ExperimentLaws& laws) {
+LayerTable random_layers(bool all_laws, const NeedleFeel& feel) {
   std::vector<LayerHaptics> layers(kFirstRegion);
   const std::array<double, 5> forces{1, 2, 1.5, 2.5, 3};
   const std::array<double, 5> stiffness{1500, 500, 1000, 400, 2000};
@@ -370,7 +370,8 @@ LayerTable random_layers(bool all_laws, const ExperimentLaws& laws) {
     layers[kFirstRegion + 2].tissue.puncture_force = 2;
   }
   layers.push_back(bone_layer(4, 4000));
-  apply_laws(laws, region_names(numbered_layers(6)), layers);
+  const auto names = numbered_layers(6);
+  for (std::size_t i = 0; i < names.size(); ++i) apply(feel, names[i], layers[kFirstRegion + i]);
   return LayerTable(std::move(layers));
 }
 
@@ -406,10 +407,10 @@ Experiment run_wall_energy(const ExperimentOptions& options, const DeviceLimits&
   const AnalyticBody body =
       AnalyticBody::make_stack(Vec3::Zero(), Vec3::UnitZ(), {0, 2e-3, 5e-3, 6e-3, 8e-3, 9e-3});
   NeedleParams needle;
-  apply_laws(options.laws, needle);
+  apply(options.feel, needle);
   PlotPanel panel{"history", "energy given to the hand (J)", {}};
   for (const bool all_laws : {true, false}) {
-    const LayerTable table = random_layers(all_laws, options.laws);
+    const LayerTable table = random_layers(all_laws, options.feel);
     const std::string what = all_laws ? "wall, friction, membranes" : "wall alone";
     PlotSeries given{what, {}, {}, "points pt 7 ps 0.2"};
     for (std::uint64_t h = 0; h < kHistories; ++h) {

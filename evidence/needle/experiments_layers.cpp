@@ -34,7 +34,7 @@ struct Change {
 };
 
 // A needle pushed at 10 mm/s through 12 mm of one layer into another, as the hand feels it.
-Change measure_change(const TableLayer& from, const TableLayer& to, const ExperimentLaws& laws,
+Change measure_change(const TableLayer& from, const TableLayer& to, const NeedleFeel& feel,
                       const DeviceLimits& device) {
   constexpr double kInterface = 0.012;  // m
   constexpr double kBeyond = 0.009;     // m of the second layer; of a hard one as far as it lets
@@ -44,7 +44,7 @@ Change measure_change(const TableLayer& from, const TableLayer& to, const Experi
   e.layers = {plain_layer(from.force, from.stiffness),
               hard ? bone_layer(to.force, to.stiffness) : plain_layer(to.force, to.stiffness)};
   e.names = {from.name, to.name};
-  e.laws = laws;
+  e.feel = feel;
   e.device = device;
   e.hand.tremor_rms = 0;
   e.phases = {stay(0.1),
@@ -104,7 +104,7 @@ struct Changes {
   }
 };
 
-Changes measure_changes(const ExperimentLaws& laws, const DeviceLimits& device) {
+Changes measure_changes(const NeedleFeel& feel, const DeviceLimits& device) {
   Changes all;
   for (std::size_t k = 0; k < kTable.size(); ++k)
     all.by_layer.push_back(
@@ -113,7 +113,7 @@ Changes measure_changes(const ExperimentLaws& laws, const DeviceLimits& device) 
     if (std::string_view(from.name) == "bone") continue;  // nothing lies beyond it
     for (std::size_t k = 0; k < kTable.size(); ++k) {
       if (from.force != kTable[k].force)
-        all.add(from, k, measure_change(from, kTable[k], laws, device));
+        all.add(from, k, measure_change(from, kTable[k], feel, device));
     }
   }
   return all;
@@ -125,7 +125,7 @@ Experiment run_layer_changes(const ExperimentOptions& options, const DeviceLimit
   Experiment out;
   out.title = "Layer changes of table 4.2, felt at 10 mm/s, in just-noticeable differences";
   out.source = "[Alamilla2020] table 4.2; [Pang1991] for the just-noticeable difference";
-  Changes all = measure_changes(options.laws, device);
+  Changes all = measure_changes(options.feel, device);
   out.claims = {
       claim_at_most({ClaimKind::input, "the table's f_R"},
                     "measured step off the table's, share of the step", all.off, 0.05, ""),

@@ -50,7 +50,7 @@ std::vector<NeedleRow> run_release(Around tissue, double release_time, const Dev
   e.body = AnalyticBody::make_stack(Vec3::Zero(), Vec3::UnitZ(),
                                     {tissue == Around::none ? kFarAway : 0.0});
   e.device = device;
-  e.laws = options.laws;
+  e.feel = options.feel;
   e.hand = hand;
   e.hand.release_time = release_time;
   e.phases = {stay(0.3), push_to(kDepth, 0.01), stay(1.5), let_go(kFree)};

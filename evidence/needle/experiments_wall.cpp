@@ -22,7 +22,7 @@ BodyExperiment one_layer(const ExperimentOptions& options, const DeviceLimits& d
   BodyExperiment e;
   e.layers = {plain_layer(1, kStiffness, attracted)};
   e.device = device;
-  e.laws = options.laws;
+  e.feel = options.feel;
   e.hand.seed = options.seed;
   return e;
 }
@@ -315,7 +315,7 @@ Experiment run_wall_nine(const ExperimentOptions& options, const DeviceLimits& d
   const Vec3 aside = 0.02 * e.direction.unitOrthogonal();
   e.entry = aside - std::sqrt(kRadius * kRadius - aside.squaredNorm()) * e.direction;
   e.device = device;
-  e.laws = options.laws;
+  e.feel = options.feel;
   e.hand.seed = options.seed;
   e.needle.contact.needle_length = 0.15;
   e.phases = {stay(kStateOfRest), push_to(0.105, 0.02), stay(0.8), pull_to(-0.004, 0.05)};
@@ -342,7 +342,7 @@ Experiment run_wall_seven(const ExperimentOptions& options, const DeviceLimits& 
   e.body = AnalyticBody::make_stack(Vec3::Zero(), e.direction,
                                     {0, 0.008, 0.016, 0.024, 0.032, 0.040, 0.048});
   e.device = device;
-  e.laws = options.laws;
+  e.feel = options.feel;
   e.hand.seed = options.seed;
   e.needle.contact.needle_length = 0.09;
   e.phases = {stay(kStateOfRest), push_to(0.056, 0.015), stay(0.6), pull_to(-0.004, 0.05)};
