@@ -118,8 +118,8 @@ class Session {
   void ask(const char* who, const ThreadWishes& wishes);
   void tell(const std::string& notice);
   void note_image(std::int64_t ready_ns);
-  [[nodiscard]] ARTUS_REALTIME std::uint32_t take_command() noexcept;
-  ARTUS_REALTIME void publish(const HapticSnapshot& out) noexcept;
+  [[nodiscard]] std::uint32_t take_command() noexcept;
+  void publish(const HapticSnapshot& out) noexcept;
   void image(ImageCore& core, std::uint64_t number);
   void share(const ImageSnapshot& image);
   void share_again() noexcept;

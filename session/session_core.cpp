@@ -42,8 +42,7 @@ NeedleRendererParams renderer_params(const SessionParams& params) {
 
 HapticCore::HapticCore(std::shared_ptr<const Scene> scene, const SessionParams& params)
     : scene_(std::move(scene)),
-      table_(make_table(scene_, params)),
-      needle_(scene_, table_, renderer_params(params)),
+      needle_(scene_, make_table(scene_, params), renderer_params(params)),
       gesture_(params.gesture, params.X_WJ) {}
 
 void HapticCore::step_needle(const DeviceSample& device, std::uint32_t command) noexcept {
@@ -79,7 +78,7 @@ void HapticCore::describe() noexcept {
   const NeedleContact& contact = needle_.model().contact();
   const NeedleTick& tick = contact.tick();
   DeviceFeedback& feedback = out_.feedback;
-  const Haptic& tissue = table_[contact.region()].tissue;
+  const Haptic& tissue = needle_.table()[contact.region()].tissue;
   feedback.stiffness = tissue.wall_stiffness;
   feedback.cutting_force = tissue.cutting_force;
   feedback.depth = tick.depth;

@@ -79,11 +79,9 @@ class HapticCore {
   void describe() noexcept;
 
   std::shared_ptr<const Scene> scene_;
-  LayerTable table_;
   NeedleRenderer needle_;
   TwoPhaseGesture gesture_;
   HapticSnapshot out_;
-  RegionId known_region_ = kOutside;
 };
 
 /// What the person at the scanner turns while the session runs. Plain bytes.

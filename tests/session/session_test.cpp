@@ -15,7 +15,6 @@
 
 #include "artus/session/dropping_ring.h"
 #include "artus/session/replay.h"
-#include "artus/session/scripted_device.h"
 #include "tests/session/session_support.h"
 
 namespace artus {
@@ -28,12 +27,6 @@ Session::Options quiet_options() {
   return options;
 }
 
-std::unique_ptr<InputDevice> make_injecting_hand() {
-  const Pose X_WP = make_pose(Vec3(0.01, 0, 0), Vec3::UnitZ(), Vec3::UnitX());
-  return std::make_unique<ScriptedDevice>(
-      make_injection(Vec3::Zero(), Vec3(0, 0, 20e-3), X_WP, 0.06));
-}
-
 template <class Condition>
 bool wait_until(Condition condition) {
   for (int i = 0; i < 2000 && !condition(); ++i)
@@ -43,7 +36,7 @@ bool wait_until(Condition condition) {
 
 TEST(Session, StartsTicksMakesImagesAndStops) {
   auto session = Session::start(test::make_layered_scene(), test::make_small_session(),
-                                make_injecting_hand(), quiet_options());
+                                test::make_injecting_hand(), quiet_options());
   ASSERT_TRUE(session) << session.error().to_string();
   EXPECT_TRUE(wait_until([&] { return (*session)->ticks() > 200 && (*session)->frames() > 3; }));
   HapticSnapshot now;
@@ -56,7 +49,7 @@ TEST(Session, StartsTicksMakesImagesAndStops) {
 
 TEST(Session, AFrozenImageStaysWhileTheHandGoesOn) {
   auto session = Session::start(test::make_layered_scene(), test::make_small_session(),
-                                make_injecting_hand(), quiet_options());
+                                test::make_injecting_hand(), quiet_options());
   ASSERT_TRUE(wait_until([&] { return (*session)->frames() > 1; }));
   (*session)->set_frozen(true);
   std::this_thread::sleep_for(std::chrono::milliseconds(200));
@@ -74,7 +67,7 @@ TEST(Session, ARecordedSessionReplaysToTheSameBytes) {
   {
     Session::Options options = quiet_options();
     options.recording = file;
-    auto session = Session::start(scene, params, make_injecting_hand(), options);
+    auto session = Session::start(scene, params, test::make_injecting_hand(), options);
     ASSERT_TRUE(session) << session.error().to_string();
     ASSERT_TRUE(wait_until([&] { return (*session)->ticks() > 900 && (*session)->frames() > 5; }));
     (*session)->set_paused(true);
@@ -82,10 +75,11 @@ TEST(Session, ARecordedSessionReplaysToTheSameBytes) {
     (*session)->set_paused(false);
     ImageControls controls = controls_of(params);
     controls.gain_db = 6;
+    controls.depth = 35e-3;
     (*session)->set_controls(controls);
     (*session)->reset();
     ASSERT_TRUE(
-        wait_until([&] { return (*session)->ticks() > 1200 && (*session)->frames() > 12; }));
+        wait_until([&] { return (*session)->ticks() > 1200 && (*session)->frames() > 24; }));
   }
   const auto recording = read_recording(file);
   ASSERT_TRUE(recording) << recording.error().to_string();
@@ -136,7 +130,7 @@ TEST(Session, WithoutImagesNothingIsDrawn) {
   Session::Options options = quiet_options();
   options.images = false;
   auto session = Session::start(test::make_layered_scene(), test::make_small_session(),
-                                make_injecting_hand(), options);
+                                test::make_injecting_hand(), options);
   ASSERT_TRUE(wait_until([&] { return (*session)->ticks() > 300; }));
   EXPECT_EQ((*session)->frames(), 0U);
   EXPECT_EQ((*session)->times().image_render.count(), 0U);
@@ -152,7 +146,7 @@ TEST(Session, AFailureOfImagingIsToldAndTheHandGoesOn) {
     }
   };
   auto session = Session::start(test::make_layered_scene(), test::make_small_session(),
-                                make_injecting_hand(), options);
+                                test::make_injecting_hand(), options);
   ASSERT_TRUE(wait_until([&] { return failures == 1; }));
   const std::uint64_t ticks = (*session)->ticks();
   ASSERT_TRUE(wait_until([&] { return (*session)->frames() >= 6; })) << "images come again";
