@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "artus/session/dropping_ring.h"
+#include "artus/session/hand_device.h"
 #include "artus/session/haptic_loop.h"
 #include "artus/session/injecting_device.h"
 #include "artus/session/recorded_device.h"

@@ -14,6 +14,7 @@
 #include <gtest/gtest.h>
 
 #include "artus/session/dropping_ring.h"
+#include "artus/session/hand_device.h"
 #include "artus/session/replay.h"
 #include "tests/session/session_support.h"
 
