@@ -6,6 +6,7 @@
 
 #include "artus/apps/experiment_catalogue.h"
 #include "artus/apps/feel_options.h"
+#include "artus/apps/view_options.h"
 #include "artus/core/text_file.h"
 #include "artus/evidence/needle/experiment.h"
 
@@ -122,6 +123,7 @@ void add_experiment_command(CLI::App& app, ExitCode& code) {
   command->add_option("--mock", options->experiment.mock,
                       "TOML file of the pneumatic probe mock (default: the bundled one)");
   add_feel_options(command, options->feel);
+  add_needle_length_option(command, options->feel.needle_length_mm);
   command->add_flag("--json", options->json, "print the verdicts as JSON");
   on_run(command, code, [options] { return run_experiments(*options); });
 }

@@ -48,7 +48,8 @@ double energy_of_history(const LayerTable& table, const NeedleParams& needle,
     energy += force * (next - z);
     z = next;
     const Pose pose = make_pose(Vec3(0, 0, z), Vec3::UnitZ(), Vec3::UnitX());
-    model.step(pose, body.find_intervals(model.query_segment(pose), buffer));
+    const QueryCount met = body.find_intervals(model.query_segment(pose), buffer);
+    model.step(pose, std::span<const TissueInterval>(buffer.data(), met.size));
     force = model.forces().total.force.z();
   }
   return energy + force * (-2e-3 - z);
