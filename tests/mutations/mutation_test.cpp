@@ -53,6 +53,7 @@ void expect_noticed(const std::string& what, const std::vector<Mutation>& mutati
 }
 
 TEST(Mutations, EveryParameterOfTheNeedlesForcesIsNoticed) {
+  const std::string kHard = "a hard layer is neither pierced nor cut, nor does it hold the shaft";
   std::vector<Subject<ForceSetup>> subjects;
   for (const ForceScenario& scenario : make_force_scenarios())
     subjects.push_back({scenario.name, scenario.setup, [scenario](const ForceSetup& setup) {
@@ -61,7 +62,12 @@ TEST(Mutations, EveryParameterOfTheNeedlesForcesIsNoticed) {
   expect_noticed("needle", try_mutations(subjects),
                  {{"device.workspace", "shown to people; no force depends on it"},
                   {"needle.contact.behind_skin",
-                   "room for rounding: the query begins before the skin, where nothing is felt"}});
+                   "room for rounding: the query begins before the skin, where nothing is felt"},
+                  {"bone.attracted_force", kHard},
+                  {"bone.friction", kHard},
+                  {"bone.puncture_force", kHard},
+                  {"bone.cutting_law", kHard},
+                  {"bone.prepuncture_law", kHard}});
 }
 
 // ---- the probe on the skin
@@ -149,7 +155,7 @@ std::vector<std::string> actuator_trace(const ActuatorSetup& setup, ControlLawKi
     load.mass = 0.2;
     load.force = t < 0.8 ? 12 * t : (t < 1.4 ? 60 : 3);  // an overload, too
     ProbeTarget target;
-    target.y = t > 1.8 ? 5e-3 : 0;
+    target.y = t > 1.8 || t < 0.2 ? 5e-3 : 0;
     target.stiffness = 900;
     if (t > 2) plant.set_supply(t < 2.3 ? 1.2e5 : setup.plant.valve.supply);
     const bool broken = t > 2.4;
@@ -195,12 +201,14 @@ TEST(Mutations, EveryParameterOfTheActuatorIsNoticed) {
   add("limited backstepping", limits, ControlLawKind::backstepping_one_valve);
   ActuatorSetup narrow;
   narrow.plant.sensors.position.low = -2e-3;
-  narrow.plant.sensors.position.high = 2e-3;
   add("narrow position", narrow, ControlLawKind::admittance_pid);
   narrow = {};
   narrow.plant.sensors.pressure.low = 1.8e5;
   narrow.plant.sensors.pressure.high = 3.1e5;
   add("narrow pressure", narrow, ControlLawKind::admittance_pid);
+  narrow = {};
+  narrow.plant.sensors.position.high = 2e-3;
+  add("narrow stroke", narrow, ControlLawKind::backstepping_two_valves);
   narrow = {};
   narrow.plant.sensors.force.low = 4;
   add("narrow force", narrow, ControlLawKind::admittance_pid);
