@@ -42,6 +42,11 @@ Result<Transducer> make_transducer(const ViewOptions& options) {
 
 }  // namespace
 
+void add_needle_length_option(CLI::App* command, std::optional<double>& length_mm) {
+  command->add_option("--needle-length-mm", length_mm, "hub to tip (default: 35)")
+      ->check(number_in(10, 300));
+}
+
 void add_imaging_options(CLI::App* command, ViewOptions& options) {
   command
       ->add_option("--transducer", options.transducer,
@@ -49,6 +54,7 @@ void add_imaging_options(CLI::App* command, ViewOptions& options) {
       ->capture_default_str();
   command->add_option("--gauge", options.gauge, "needle gauge: 18, 20, 21, 22, 23 or 25")
       ->capture_default_str();
+  add_needle_length_option(command, options.needle_length_mm);
   command->add_flag("--echogenic", options.echogenic, "dimpled needle, seen at steep angles, too");
   command->add_option("--depth", options.depth_mm, "image depth, mm")
       ->check(within(ImageRanges::depth, kMillimetre))
@@ -129,6 +135,7 @@ Result<View> make_view(const ViewOptions& options) {
         "--gauge");
   view.needle_shape = *shape;
   view.needle_shape.echogenic = options.echogenic;
+  if (options.needle_length_mm) view.needle_shape.length = *options.needle_length_mm * kMillimetre;
   const auto transducer = make_transducer(options);
   if (!transducer) return tl::unexpected(transducer.error());
   view.transducer = *transducer;
