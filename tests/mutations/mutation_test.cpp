@@ -155,7 +155,7 @@ std::vector<std::string> actuator_trace(const ActuatorSetup& setup, ControlLawKi
     load.mass = 0.2;
     load.force = t < 0.8 ? 12 * t : (t < 1.4 ? 60 : 3);  // an overload, too
     ProbeTarget target;
-    target.y = t > 1.8 || t < 0.2 ? 5e-3 : 0;
+    target.y = t > 1.8 || t < 0.6 ? 5e-3 : 0;
     target.stiffness = 900;
     if (t > 2) plant.set_supply(t < 2.3 ? 1.2e5 : setup.plant.valve.supply);
     const bool broken = t > 2.4;
