@@ -104,11 +104,7 @@ void InsertionLine::turn(const Vec3& tip, LineChange& change) noexcept {
   const double now = depth(tip);
   const double enough = params_.withdrawal + params_.advance;
   const double withdrawn = deepest_ - before;
-#ifdef RAISE
-  deepest_ = now + enough + (withdrawn - enough) * kept;
-#else
   deepest_ = now + std::min(withdrawn, enough) + std::max(0.0, withdrawn - enough) * kept;
-#endif
   change.kept *= kept;
 }
 

@@ -171,7 +171,10 @@ void NeedleContact::follow_line(const Pose& X_JN) noexcept {
   tick_.line_gain = change.gain;
   tick_.line_kept = change.kept;
   tick_.orientation_0 = tick_.orientation.slerp(change.kept, tick_.orientation_0);
-  if (ahead > 0) open_ = tick_.depth + change.kept * ahead;
+  if (ahead > 0) {
+    const double skin_open = params_.membrane_margin + params_.membrane_edge;  // until it is left
+    open_ = std::max(tick_.depth + change.kept * ahead, std::min(open_, skin_open));
+  }
   depths_.shift(change.gain);
   motion_.shift(change.gain);
   if (change.turned > 0) events_ |= ContactEvent::kRedirected;
