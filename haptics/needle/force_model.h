@@ -27,7 +27,8 @@ struct NeedleTick {
   Vec3 entry = Vec3::Zero();  ///< P0, where the line starts on the skin
   Vec3 axis = Vec3::UnitZ();  ///< u, unit, into the body
   double depth = 0;           ///< x = (tip - entry).axis, m
-  double line_gain = 0;       ///< m, by which a line re-taken in this tick made x greater
+  double line_gain = 0;       ///< m, by which a line that moved in this tick made x greater
+  double line_kept = 1;       ///< share of the cut track before the tip that it kept
   double velocity = 0;        ///< axial estimate, m/s, positive inward
   double incoming_speed = 0;  ///< axial speed over the last window before contact, m/s, >= 0
   Vec3 angular_velocity = Vec3::Zero();                               ///< rad/s

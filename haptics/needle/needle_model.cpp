@@ -46,13 +46,13 @@ void NeedleModel::start_laws() noexcept {
   plasticity_.reset(x);
 }
 
-// The same tissue on another line: what is felt goes on, but for what holds the needle on its line.
+// The same tissue on a line that moved: what is felt goes on.
 void NeedleModel::take_line() noexcept {
   const double by = contact_.tick().line_gain;
-  wall_.take_line(by);
+  wall_.take_line(by, contact_.tick().line_kept);
   friction_.take_line(by);
   hard_.take_line(by);
-  plasticity_.reset(contact_.tick().depth);
+  plasticity_.take_line(contact_.tick().line_kept);
 }
 
 double NeedleModel::cutting_force(const NeedleTick& tick) noexcept {
@@ -80,7 +80,7 @@ const NeedleForces& NeedleModel::step(const Pose& X_JN,
   if (contact_.inserted()) {
     constexpr std::uint32_t kStart = ContactEvent::kSkinPunctured | ContactEvent::kAdopted;
     if ((contact_.events() & kStart) != 0) start_laws();
-    if ((contact_.events() & ContactEvent::kRedirected) != 0) take_line();
+    if (tick.line_kept < 1) take_line();
     const double cutting = cutting_force(tick);
     forces_.cutting = std::min(cutting, 0.0);
     forces_.attracted = std::max(cutting, 0.0);

@@ -23,11 +23,14 @@ class PlasticityFixture final : public ForceModel {
   explicit PlasticityFixture(const PlasticityParams& params = {}) noexcept : params_(params) {}
   ARTUS_REALTIME void reset(double depth) noexcept override;
   ARTUS_REALTIME Wrench step(const NeedleTick& tick) noexcept override;
+  /// The line moved; the place held goes with it, less what it was off the line but for `kept`.
+  ARTUS_REALTIME void take_line(double kept) noexcept;
 
  private:
   PlasticityParams params_;
-  Vec3 place_ = Vec3::Zero();  // q, lateral, m
-  Vec3 last_ = Vec3::Zero();   // p of the last tick, lateral, m
+  Vec3 place_ = Vec3::Zero();     // q, lateral, m
+  Vec3 last_tip_ = Vec3::Zero();  // m
+  bool begun_ = false;
 };
 
 }  // namespace artus

@@ -34,9 +34,9 @@ class TrackingWall final : public ForceModel {
   /// Starts an insertion at the skin: nothing is cut, the wall is at `w0`, the tip at `depth`.
   ARTUS_REALTIME void start(double w0, double depth) noexcept;
 
-  /// The line is taken anew where the needle is: depths are `by` m more, what is felt stays, and in
-  /// front of the tip nothing is cut.
-  ARTUS_REALTIME void take_line(double by) noexcept;
+  /// The line moved where the needle is: depths are `by` m more, what is felt stays, and of the cut
+  /// track in front of the tip the share `kept` is left.
+  ARTUS_REALTIME void take_line(double by, double kept) noexcept;
 
   [[nodiscard]] double wall() const noexcept { return wall_; }        ///< w, m
   [[nodiscard]] double cut_front() const noexcept { return cut_; }    ///< deepest w, m
