@@ -173,7 +173,7 @@ INSTANTIATE_TEST_SUITE_P(All, EachParameter, ::testing::ValuesIn(all_changes()),
 
 TEST(Replay, WithOtherParamsThanThoseOfTheHeadManyResultsAreOthers) {
   // Not every parameter shows in every session (a law that is not chosen); those of the first rank
-  // must.
+  // must. What a knob turns, as the gain, is an input of each frame and is taken from there.
   const auto scene = test::make_layered_scene();
   const auto recording = parse(record(scene, test::make_small_session()));
   ASSERT_TRUE(recording);
@@ -181,7 +181,7 @@ TEST(Replay, WithOtherParamsThanThoseOfTheHeadManyResultsAreOthers) {
     for (const char* shown :
          {"haptic_rate", "device.force", "needle.contact.membrane_margin", "needle.friction.mu_c",
           "needle.wall.settling_time", "needle.hard.sinusoid.amplitude", "guard.force_slew",
-          "guard.ramp_time", "transducer.frequency", "transducer.n_lines", "image.gain_db",
+          "guard.ramp_time", "transducer.frequency", "transducer.n_lines", "image.speckle_db",
           "image.seed", "image.depth", "needle_shape.outer_diameter", "feel.cutting",
           "feel.patient", "gesture.steepness", "X_WJ"}) {
       if (change.name != shown) continue;
