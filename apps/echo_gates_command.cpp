@@ -87,9 +87,9 @@ std::string list_of_names() {
 
 }  // namespace
 
-void add_echo_gates_command(CLI::App& app, ExitCode& code) {
+void add_echo_gates_command(Command& app, ExitCode& code) {
   auto options = std::make_shared<EchoGatesOptions>();
-  CLI::App* command = add_command(
+  Command* command = add_command(
       app, "echo-gates",
       "Measure the image's physics on test objects, with a verdict on each value",
       "Gates: " + list_of_names() +
@@ -100,16 +100,16 @@ void add_echo_gates_command(CLI::App& app, ExitCode& code) {
           "  artus echo-gates --joint shoulder.artus --out out/gates      (with the time of a "
           "frame)");
   command->add_option("--only", options->only, "a gate, may be given several times (default: all)");
-  CLI::Option* joint =
+  Option* joint =
       command->add_option("--joint,-j", options->joint,
                           "also measure the time of a frame on this joint, on one thread");
   command
       ->add_option(
           "--reference", options->reference,
           "table of real muscle images (stats.tsv): also compare the joint's muscle with it")
-      ->needs(joint);
+      ->needs(*joint);
   command->add_option("--frames", options->frames, "frames of that measurement")
-      ->check(CLI::Range(100, 100000))
+      ->check(whole_number_in(100, 100000))
       ->capture_default_str();
   command->add_option("-o,--out", options->out, "folder for the report")->required();
   command->add_flag("--json", options->json, "print the verdicts as JSON");

@@ -158,9 +158,9 @@ std::string list_of_names() {
 
 }  // namespace
 
-void add_experiment_command(CLI::App& app, ExitCode& code) {
+void add_experiment_command(Command& app, ExitCode& code) {
   auto options = std::make_shared<ExperimentCommandOptions>();
-  CLI::App* command = add_command(
+  Command* command = add_command(
       app, "experiment", "Replay a published experiment: trace, plot and a verdict on each claim",
       "Experiments: " + list_of_names() +
           "\nExit code 1 when a claim does not hold. The claims are those of the published laws:\n"

@@ -99,7 +99,7 @@ Result<void> read_workspace(const LawOptions& options, std::optional<HemisphereP
 
 }  // namespace
 
-void add_law_options(CLI::App* command, LawOptions& options) {
+void add_law_options(Command* command, LawOptions& options) {
   const std::string group = "Force laws of the needle";
   command
       ->add_option("--cutting", options.cutting,
@@ -112,12 +112,12 @@ void add_law_options(CLI::App* command, LawOptions& options) {
   command
       ->add_option("--bone-tap", options.tap,
                    "what a touch of bone is felt by (default: decaying_sinusoid)")
-      ->check(CLI::IsMember({"decaying_sinusoid", "impulse"}))
+      ->one_of({"decaying_sinusoid", "impulse"})
       ->group(group);
   command
       ->add_option("--clamping", options.clamping,
                    "what holds the needle on its line (default: projection)")
-      ->check(CLI::IsMember({"projection", "plasticity"}))
+      ->one_of({"projection", "plasticity"})
       ->group(group);
   command
       ->add_option("--friction-set", options.friction_set,

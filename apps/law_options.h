@@ -23,7 +23,7 @@ struct LawOptions {
   double workspace_push = HemisphereParams{}.push;  ///< N
   bool passivity_control = false;
 };
-void add_law_options(CLI::App* command, LawOptions& options);
+void add_law_options(Command* command, LawOptions& options);
 
 /// What a run feels by.
 struct RunLaws {

@@ -55,7 +55,7 @@ nlohmann::json to_json(const LatencyHistogram& h) {
 
 }  // namespace
 
-void add_session_options(CLI::App* command, SessionOptions& options,
+void add_session_options(Command* command, SessionOptions& options,
                          const std::string& default_input) {
   options.input = default_input;
   add_joint_options(command, options.joint);

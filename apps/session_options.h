@@ -27,7 +27,7 @@ struct SessionOptions {
   int threads = 0;
   std::filesystem::path histograms;
 };
-void add_session_options(CLI::App* command, SessionOptions& options,
+void add_session_options(Command* command, SessionOptions& options,
                          const std::string& default_input);
 
 /// The params that the flags mean for a joint. Errors: not_found (device), invalid (rates).

@@ -28,7 +28,7 @@ Result<Transducer> make_transducer(const ViewOptions& options) {
 
 }  // namespace
 
-void add_imaging_options(CLI::App* command, ViewOptions& options) {
+void add_imaging_options(Command* command, ViewOptions& options) {
   command
       ->add_option("--transducer", options.transducer,
                    "linear-6-18, linear-4-9, hockey-7-15, curved-2-5, or a .toml file")
@@ -74,7 +74,7 @@ void add_imaging_options(CLI::App* command, ViewOptions& options) {
   command
       ->add_option("--compound", options.compound,
                    "steered frames that are averaged, an odd number; 1: none")
-      ->check(CLI::IsMember({1, 3, 5, 7, 9}))
+      ->one_of({"1", "3", "5", "7", "9"})
       ->capture_default_str();
   command->add_option("--planes", options.planes, "elevation planes of the slice's thickness")
       ->check(whole_number_in(1, 33))
@@ -86,7 +86,7 @@ void add_imaging_options(CLI::App* command, ViewOptions& options) {
   command->add_option("--seed", options.seed, "seed of speckle and noise")->capture_default_str();
 }
 
-void add_view_options(CLI::App* command, ViewOptions& options) {
+void add_view_options(Command* command, ViewOptions& options) {
   command->add_option("--probe", options.probe,
                       "position/direction[/lateral], each x,y,z; position in mm "
                       "(default: the joint's probe pose)");

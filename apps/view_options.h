@@ -36,10 +36,10 @@ struct ViewOptions {
 };
 
 /// The flags of transducer, image and needle type, without poses.
-void add_imaging_options(CLI::App* command, ViewOptions& options);
+void add_imaging_options(Command* command, ViewOptions& options);
 
 /// All of them.
-void add_view_options(CLI::App* command, ViewOptions& options);
+void add_view_options(Command* command, ViewOptions& options);
 
 /// What the flags mean, before any joint is loaded. Poses that are not given are the joint's.
 struct View {
