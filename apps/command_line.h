@@ -46,7 +46,7 @@ class Command {
  public:
   /// The program itself.
   explicit Command(const std::string& description);
-  explicit Command(CLI::App* app);
+  explicit Command(Command* app);
   ~Command();
   Command(const Command&) = delete;
   Command& operator=(const Command&) = delete;
@@ -70,7 +70,7 @@ class Command {
 
  private:
   std::unique_ptr<CLI::App> program_;  // the program's; a command's belongs to it
-  CLI::App* app_;
+  Command* app_;
   std::deque<Option> options_;
   std::vector<std::unique_ptr<Command>> commands_;
 };

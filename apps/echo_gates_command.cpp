@@ -23,9 +23,7 @@ struct EchoGatesOptions {
 
 void print(const EchoGate& gate) {
   std::printf("%s\n", gate.name.c_str());
-  for (const Claim& claim : gate.claims)
-    std::printf("  %s  %s: %.4g (%s)\n", claim.pass ? "holds" : "FAILS", claim.text.c_str(),
-                claim.value, claim.bound.c_str());
+  for (const Claim& claim : gate.claims) std::printf("  %s\n", to_line(claim).c_str());
   if (!gate.assumed.empty()) std::printf("  assumed: %s\n", gate.assumed.c_str());
 }
 
@@ -70,8 +68,13 @@ ExitCode run_gates(const EchoGatesOptions& options) {
   if (options.json) {
     std::cout << report.dump(2) << '\n';
   } else {
-    for (const EchoGate& gate : *gates) print(gate);
-    std::printf("report.md, gates.json, pictures/ in %s\n", options.out.c_str());
+    std::vector<Claim> claims;
+    for (const EchoGate& gate : *gates) {
+      print(gate);
+      claims.insert(claims.end(), gate.claims.begin(), gate.claims.end());
+    }
+    std::printf("report.md, gates.json, pictures/ in %s\n%s\n", options.out.c_str(),
+                count_claims(claims).c_str());
   }
   return report.at("pass").get<bool>() ? ExitCode::ok : ExitCode::failed;
 }

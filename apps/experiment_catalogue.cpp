@@ -20,10 +20,7 @@ Result<std::vector<Claim>> run_experiment(std::string_view name,
                                           const ExperimentOptions& options) {
   const auto probe = probe_experiments();
   if (std::find(probe.begin(), probe.end(), name) != probe.end()) {
-    if (const auto taken =
-            check_laws(options.laws, name, 0, "is of the other hand, the probe's", {});
-        !taken)
-      return tl::unexpected<Error>(taken.error());
+    ARTUS_TRY(check(options.feel, {std::string(name), {}, 0, "is of the other hand, the probe's"}));
     const auto mock = options.mock.empty() ? read_bundled_pneumatic_params()
                                            : read_pneumatic_params(options.mock);
     ARTUS_TRY(mock);

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "artus/apps/experiment_catalogue.h"
-#include "artus/apps/law_options.h"
+#include "artus/apps/feel_options.h"
 #include "artus/core/text_file.h"
 #include "artus/evidence/needle/experiment.h"
 
@@ -20,15 +20,9 @@ struct ExperimentCommandOptions {
   std::filesystem::path out;
   ExperimentOptions experiment;
   std::int64_t seed = 1;
-  LawOptions laws;
+  FeelOptions feel;
   bool json = false;
 };
-
-bool all_hold(const std::vector<Claim>& claims) {
-  bool all = true;
-  for (const auto& claim : claims) all = all && claim.pass;
-  return all;
-}
 
 /// A CSV table in Markdown; cells hold no commas. Empty when the file is not there.
 std::string table_to_markdown(const std::filesystem::path& csv) {
@@ -92,9 +86,7 @@ void append_markdown(std::string& report, const std::filesystem::path& folder,
 
 void print(const std::string& name, const std::vector<Claim>& claims) {
   std::printf("%s\n", name.c_str());
-  for (const auto& claim : claims)
-    std::printf("  %s  %s: %.4g (%s)\n", claim.pass ? "holds" : "FAILS", claim.text.c_str(),
-                claim.value, claim.bound.c_str());
+  for (const auto& claim : claims) std::printf("  %s\n", to_line(claim).c_str());
 }
 
 /// What the flags mean. Errors: invalid, with the flag.
@@ -105,14 +97,14 @@ Result<ExperimentOptions> make_options(const ExperimentCommandOptions& options) 
     return fail(ErrorCode::invalid, "either one experiment's name or --all", "--all");
   ExperimentOptions run = options.experiment;
   run.seed = static_cast<std::uint64_t>(options.seed);
-  const auto laws = make_experiment_laws(options.laws);
-  ARTUS_TRY(laws);
-  if (options.all && changed_laws(*laws) != 0)
+  const auto feel = make_feel(options.feel);
+  ARTUS_TRY(feel);
+  if (options.all && changed(*feel) != 0)
     return fail(ErrorCode::invalid,
                 "the report is of the published laws; give the flags of force laws to one "
                 "experiment",
                 "--all");
-  run.laws = *laws;
+  run.feel = *feel;
   return run;
 }
 
@@ -131,22 +123,27 @@ ExitCode run_experiments(const ExperimentCommandOptions& options) {
       "` with seed " + std::to_string(run->seed) +
       ". The medical test (figures 4-19 to 4-24) needs a joint: `artus run three-injections`.\n";
   nlohmann::json verdicts = nlohmann::json::object();
-  bool all = true;
+  std::vector<Claim> all;
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (progress) progress(names[i], static_cast<double>(i) / static_cast<double>(names.size()));
     const auto folder = options.all ? options.out / names[i] : options.out;
     const auto claims = run_experiment(names[i], folder, *run);
-    if (!claims) return report_error(claims.error(), options.json);
-    all = all && all_hold(*claims);
+    if (!claims) return report_error(at_flag(claims.error()), options.json);
+    all.insert(all.end(), claims->begin(), claims->end());
     append_markdown(report, folder, names[i], *claims);
     verdicts[names[i]] = verdict(*claims);
     if (!options.json) print(names[i], *claims);
   }
   if (options.all)
-    if (const auto written = write_text(options.out / "report.md", report); !written)
+    if (const auto written =
+            write_text(options.out / "report.md", report + "\n" + count_claims(all) + ".\n");
+        !written)
       return report_error(written.error(), options.json);
-  if (options.json) std::cout << verdicts.dump(2) << '\n';
-  return all ? ExitCode::ok : ExitCode::failed;
+  if (options.json)
+    std::cout << verdicts.dump(2) << '\n';
+  else
+    std::printf("%s\n", count_claims(all).c_str());
+  return all_hold(all) ? ExitCode::ok : ExitCode::failed;
 }
 
 std::string list_of_names() {
@@ -181,7 +178,7 @@ void add_experiment_command(Command& app, ExitCode& code) {
       ->capture_default_str();
   command->add_option("--mock", options->experiment.mock,
                       "TOML file of the pneumatic probe mock (default: the bundled one)");
-  add_law_options(command, options->laws);
+  add_feel_options(command, options->feel);
   command->add_flag("--json", options->json, "print the verdicts as JSON");
   on_run(command, code, [options] { return run_experiments(*options); });
 }

@@ -3,10 +3,12 @@
 #include <cstdio>
 #include <iostream>
 #include <memory>
+#include <thread>
 #include <vector>
 
 #include "artus/anatomy/body/layered_body.h"
-#include "artus/apps/law_options.h"
+#include "artus/apps/feel_options.h"
+#include "artus/apps/interrupts.h"
 #include "artus/apps/session_options.h"
 #include "artus/session/injecting_device.h"
 #include "artus/session/servo_loop.h"
@@ -18,7 +20,7 @@ struct LoopOptions {
   JointOptions joint;
   std::string device = "virtuose_6d_desktop";
   ServoOptions servo;
-  LawOptions laws;
+  FeelOptions feel;
   double speed_mm_s = 15;
   bool json = false;
 };
@@ -141,19 +143,23 @@ ExitCode run_loop(const LoopOptions& options) {
   SessionParams params;
   params.device = *device;
   params.haptic_rate = options.servo.rate_hz;
-  const auto laws = make_laws(options.laws, **joint);
-  if (!laws) return report_error(laws.error(), options.json);
-  params.laws = laws->laws;
-  params.patient = laws->patient;
-  params.needle = laws->needle;
-  params.passivity = laws->passivity;
+  const auto feel = make_feel(options.feel, **joint);
+  if (!feel) return report_error(feel.error(), options.json);
+  params.feel = *feel;
   if (const auto valid = validate(params); !valid) return report_error(valid.error(), options.json);
   HapticCore core(std::make_shared<const Scene>(*joint), params);
   InjectingDevice hand(make_plan(**joint, options.speed_mm_s), *device, options.servo.rate_hz);
-  const std::atomic<bool> stop{false};
+  Interrupts interrupts;
+  std::atomic<bool> stop{false};
+  std::atomic<bool> over{false};
+  std::thread waiting([&] {
+    while (!over && !stop) stop = interrupts.wait(0.1);
+  });
   Seqlock<HapticSnapshot> newest;
   const auto report = std::make_unique<ServoReport>();
   run_servo_loop(core, hand, options.servo, stop, newest, *report);
+  over = true;
+  waiting.join();
   if (options.json)
     std::cout << to_json(*report, options.servo, (*joint)->name).dump(2) << '\n';
   else
@@ -196,7 +202,7 @@ void add_loop_command(Command& app, ExitCode& code) {
                    "SCHED_FIFO priority to ask for; 0: none")
       ->check(whole_number_in(0, 99))
       ->capture_default_str();
-  add_law_options(command, options->laws);
+  add_feel_options(command, options->feel);
   command->add_flag("--json", options->json, "machine-readable report");
   on_run(command, code, [options] { return run_loop(*options); });
 }

@@ -3,7 +3,7 @@
 #include <iostream>
 #include <memory>
 
-#include "artus/apps/law_options.h"
+#include "artus/apps/feel_options.h"
 #include "artus/apps/view_options.h"
 #include "artus/core/text_file.h"
 #include "artus/evidence/medical/run_images.h"
@@ -16,7 +16,7 @@ struct RunOptions {
   std::string scenario;
   JointOptions joint;
   ViewOptions view;
-  LawOptions laws;
+  FeelOptions feel;
   std::filesystem::path out;
   double rate_hz = 1000;
   std::string device = "virtuose_6d_desktop";
@@ -24,12 +24,6 @@ struct RunOptions {
   bool no_video = false;
   bool json = false;
 };
-
-bool all_hold(const ThreeInjections& run) {
-  bool all = true;
-  for (const auto& claim : run.claims) all = all && claim.pass;
-  return all;
-}
 
 void print_summary(const ThreeInjections& run, const RunImages& images,
                    const std::filesystem::path& out) {
@@ -43,11 +37,10 @@ void print_summary(const ThreeInjections& run, const RunImages& images,
       std::printf("%-14s %9.3f %9.3f %9.3f %9.3f %8.2f\n", p.tissue.c_str(), p.expected, p.mean,
                   p.least, p.most, p.rise * 1e3);
   }
-  for (const auto& claim : run.claims)
-    std::printf("%s  %s: %.4g (%s)\n", claim.pass ? "holds" : "FAILS", claim.text.c_str(),
-                claim.value, claim.bound.c_str());
+  for (const auto& claim : run.claims) std::printf("%s\n", to_line(claim).c_str());
   std::printf("%zu ticks, %zu images%s in %s\n", run.rows.size(), images.moments.size(),
               images.video.empty() ? "" : " and a video", out.c_str());
+  std::printf("%s\n", count_claims(run.claims).c_str());
 }
 
 /// summary.json: what the run measured, and the images.
@@ -73,12 +66,9 @@ ExitCode run_scenario(const RunOptions& options) {
   run_options.rate_hz = options.rate_hz;
   run_options.seed = options.view.seed;
   run_options.device = options.device;
-  const auto laws = make_laws(options.laws, **joint);
-  if (!laws) return report_error(laws.error(), options.json);
-  run_options.laws = laws->laws;
-  run_options.patient = laws->patient;
-  run_options.needle = laws->needle;
-  run_options.passivity = laws->passivity;
+  const auto feel = make_feel(options.feel, **joint);
+  if (!feel) return report_error(feel.error(), options.json);
+  run_options.feel = *feel;
   run_options.probe.contact.footprint.length = view->transducer.width;
   run_options.probe.contact.footprint.width = view->transducer.elevation_height;
   const auto run = run_three_injections(*scene, (*joint)->injections, run_options, progress);
@@ -100,7 +90,7 @@ ExitCode run_scenario(const RunOptions& options) {
     std::cout << summary->dump(2) << '\n';
   else
     print_summary(*run, images, options.out);
-  return all_hold(*run) ? ExitCode::ok : ExitCode::failed;
+  return all_hold(run->claims) ? ExitCode::ok : ExitCode::failed;
 }
 
 }  // namespace
@@ -123,7 +113,7 @@ void add_run_command(Command& app, ExitCode& code) {
       ->one_of({"three-injections"});
   add_joint_options(command, options->joint);
   add_view_options(command, options->view);
-  add_law_options(command, options->laws);
+  add_feel_options(command, options->feel);
   command->add_option("-o,--out", options->out, "folder for the results")->required();
   command->add_option("--rate", options->rate_hz, "haptic rate, Hz")
       ->check(number_in(100, 20000))

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include <csignal>
+#include <algorithm>
 #include <cstdio>
-#include <ctime>
 #include <iostream>
 #include <memory>
 
+#include "artus/apps/interrupts.h"
 #include "artus/apps/session_options.h"
 
 namespace artus {
@@ -16,16 +16,6 @@ struct ServeOptions {
   bool no_images = false;
   bool json = false;
 };
-
-/// Interrupts are taken by the waiting thread alone; blocked before others start, which inherit it.
-sigset_t block_interrupts() {
-  sigset_t set;
-  sigemptyset(&set);
-  sigaddset(&set, SIGINT);
-  sigaddset(&set, SIGTERM);
-  pthread_sigmask(SIG_BLOCK, &set, nullptr);
-  return set;
-}
 
 void print_status(const Session& session) {
   HapticSnapshot now;
@@ -40,16 +30,27 @@ void print_status(const Session& session) {
                now.feedback.depth / kMillimetre, force.norm(), now.status);
 }
 
-void wait(const Session& session, const sigset_t& interrupts, double seconds, bool quiet) {
+/// The session's notices from `seen` on; returns how many there are.
+std::size_t print_notices(const Session& session, std::size_t seen) {
+  const std::vector<std::string> notices = session.notices();
+  for (std::size_t i = seen; i < notices.size(); ++i)
+    std::fprintf(stderr, "%s\n", notices[i].c_str());
+  return notices.size();
+}
+
+void wait(const Session& session, Interrupts& interrupts, double seconds, bool quiet) {
   const std::int64_t end = monotonic_ns() + static_cast<std::int64_t>(seconds * 1e9);
+  std::size_t seen = 0;
   for (;;) {
-    timespec pause{1, 0};
+    double pause = 1;  // s
     if (seconds > 0) {
       const std::int64_t left = end - monotonic_ns();
       if (left <= 0) return;
-      if (left < 1'000'000'000) pause = {0, left};
+      pause = std::min(pause, 1e-9 * static_cast<double>(left));
     }
-    if (sigtimedwait(&interrupts, nullptr, &pause) > 0) return;
+    const bool interrupted = interrupts.wait(pause);
+    seen = print_notices(session, seen);
+    if (interrupted) return;
     if (!quiet) print_status(session);
   }
 }
@@ -61,6 +62,7 @@ void report(const Session& session, bool json) {
                                 {"overruns", session.overruns()},
                                 {"unrecorded", session.unrecorded()},
                                 {"refused", session.refusals()},
+                                {"notices", session.notices()},
                                 {"times", to_json(session.times())}}
                      .dump(2)
               << '\n';
@@ -75,18 +77,19 @@ void report(const Session& session, bool json) {
 }
 
 ExitCode run_serve(const ServeOptions& options) {
-  const sigset_t interrupts = block_interrupts();
   const auto joint = load(options.session.joint, make_progress_printer(options.json));
   if (!joint) return report_error(joint.error(), options.json);
   const auto params = make_session_params(options.session, **joint);
   if (!params) return report_error(params.error(), options.json);
+  Interrupts interrupts;
   HandDevice* hand = nullptr;
   auto device = make_device(options.session, *params, **joint, &hand);
   if (!device) return report_error(device.error(), options.json);
   Session::Options session_options;
   session_options.haptic_wishes.cpu = options.session.haptic_cpu;
   session_options.recording = options.session.recording;
-  session_options.share_images = !options.no_images && options.session.input == "shared-memory";
+  session_options.images = !options.no_images;
+  session_options.share_images = !options.no_images;
   session_options.image_segment_prefix = options.session.prefix;
   const auto session = Session::start(std::make_shared<const Scene>(*joint), *params,
                                       std::move(*device), session_options);
@@ -113,7 +116,7 @@ void add_serve_command(Command& app, ExitCode& code) {
   add_session_options(command, options->session, "shared-memory");
   command->add_option("--seconds", options->seconds, "stop after this time; 0: when interrupted")
       ->check(number_in(0, 86400));
-  command->add_flag("--no-images", options->no_images, "do not write IMAGE");
+  command->add_flag("--no-images", options->no_images, "draw nothing and write no IMAGE");
   command->add_flag("--json", options->json, "machine-readable report at the end");
   on_run(command, code, [options] { return run_serve(*options); });
 }

@@ -55,11 +55,21 @@ nlohmann::json to_json(const LatencyHistogram& h) {
 
 }  // namespace
 
+void add_prefix_option(Command* command, std::string& prefix) {
+  command->add_option("--prefix", prefix, "stands before the names POS, FORCE and IMAGE")
+      ->check(FlagCheck{[](const std::string& text) {
+                          const bool good = artus_shm_is_prefix(text.c_str()) != 0;
+                          return good ? std::string()
+                                      : "at most 63 letters, digits, '-', '_' and '.'";
+                        },
+                        "TEXT"});
+}
+
 void add_session_options(Command* command, SessionOptions& options,
                          const std::string& default_input) {
   options.input = default_input;
   add_joint_options(command, options.joint);
-  add_law_options(command, options.laws);
+  add_feel_options(command, options.feel);
   command
       ->add_option("--device", options.device,
                    "whose force limits hold: touch, virtuose_6d_desktop, delta, ideal")
@@ -76,7 +86,7 @@ void add_session_options(Command* command, SessionOptions& options,
           "shared-memory, hand (mouse, keyboard, gamepad), injection (a simulated hand does a "
           "planned one again and again), or a recording")
       ->capture_default_str();
-  command->add_option("--prefix", options.prefix, "stands before the names POS, FORCE and IMAGE");
+  add_prefix_option(command, options.prefix);
   command->add_option("--record", options.recording, "keep all inputs in this file");
   command->add_option("--injection", options.injection, "which planned injection, from 1")
       ->capture_default_str();
@@ -101,13 +111,9 @@ Result<SessionParams> make_session_params(const SessionOptions& options,
   params.haptic_rate = options.haptic_rate;
   params.image_rate = options.image_rate;
   params.image.n_threads = options.threads;
-  const auto laws = make_laws(options.laws, joint);
-  ARTUS_TRY(laws);
-  params.laws = laws->laws;
-  params.patient = laws->patient;
-  params.needle = laws->needle;
-  params.passivity = laws->passivity;
-  params.needle_shape.length = params.needle.contact.needle_length;
+  const auto feel = make_feel(options.feel, joint);
+  ARTUS_TRY(feel);
+  params.feel = *feel;
   if (!joint.injections.empty()) {
     const PlannedInjection& plan = joint.injections.front();
     params.gesture.p_W = plan.entry;

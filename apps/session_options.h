@@ -5,7 +5,7 @@
 #include <string>
 
 #include "artus/apps/command.h"
-#include "artus/apps/law_options.h"
+#include "artus/apps/feel_options.h"
 #include "artus/session/hand_device.h"
 #include "artus/session/session.h"
 
@@ -14,7 +14,7 @@ namespace artus {
 /// The flags of every command that runs a session.
 struct SessionOptions {
   JointOptions joint;
-  LawOptions laws;
+  FeelOptions feel;
   std::string device = "touch";
   double haptic_rate = 1000;
   double image_rate = 40;
@@ -27,6 +27,8 @@ struct SessionOptions {
   int threads = 0;
   std::filesystem::path histograms;
 };
+/// --prefix, checked as the shared memory does.
+void add_prefix_option(Command* command, std::string& prefix);
 void add_session_options(Command* command, SessionOptions& options,
                          const std::string& default_input);
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <thread>
 
-#include "artus/apps/command.h"
+#include "artus/apps/session_options.h"
 #include "artus/session/session_thread.h"
 #include "artus/session/shared_memory.h"
 
@@ -128,10 +128,12 @@ void add_shm_monitor_command(Command& app, ExitCode& code) {
       "  artus shm-monitor                      once\n"
       "  artus shm-monitor --seconds 60 --json  a line every half second\n"
       "  artus shm-monitor --clean              remove what a crash left behind");
-  command->add_option("--prefix", options->prefix, "stands before the names");
+  add_prefix_option(command, options->prefix);
   command->add_option("--seconds", options->seconds, "go on for this time")
       ->check(number_in(0, 86400));
-  command->add_option("--every", options->every, "s between two looks")->capture_default_str();
+  command->add_option("--every", options->every, "s between two looks")
+      ->check(number_in(0.01, 3600))
+      ->capture_default_str();
   command->add_flag("--clean", options->clean, "remove the names; running programs keep theirs");
   command->add_flag("--json", options->json, "machine-readable output");
   on_run(command, code, [options] { return run_monitor(*options); });

@@ -4,6 +4,7 @@
 #include <iterator>
 #include <memory>
 
+#include "artus/apps/interrupts.h"
 #include "artus/apps/session_options.h"
 #include "artus/viewer/window.h"
 
@@ -56,6 +57,10 @@ ExitCode run_view(const ViewerOptions& options) {
   if (!joint) return report_error(joint.error(), false);
   const auto params = make_session_params(options.session, **joint);
   if (!params) return report_error(params.error(), false);
+  Interrupts interrupts;
+  window.asked_to_close = [&interrupts] {
+    return interrupts.wait(0);
+  };
   HandDevice* hand = nullptr;
   auto device = make_device(options.session, *params, **joint, &hand);
   if (!device) return report_error(device.error(), false);

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "artus/anatomy/body/compiled_joint.h"
-#include "artus/echo/display.h"
+#include "artus/echo/scan_converter.h"
 #include "artus/echo/frame.h"
 #include "artus/echo/image_settings.h"
 #include "artus/echo/labels.h"

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "artus/echo/gain_ramp.h"
 #include "artus/echo/point_echo.h"
 
 namespace artus {
@@ -56,21 +57,12 @@ double ApertureCoupling::gain(int l, double z) const noexcept {
   return share * share;
 }
 
-void ApertureCoupling::apply(int l, double sample_depth, std::span<float> re,
-                             std::span<float> im) const noexcept {
+void ApertureCoupling::apply(int l, double sample_depth, EchoSpan line) const noexcept {
   if (complete_) return;
-  double next = gain(l, 0);
-  for (std::size_t from = 0; from < re.size(); from += kStride) {
-    const double here = next;
-    next = gain(l, static_cast<double>(from + kStride) * sample_depth);
-    const std::size_t n = std::min(kStride, re.size() - from);
-    for (std::size_t i = 0; i < n; ++i) {
-      const double t = static_cast<double>(i) / static_cast<double>(kStride);
-      const auto g = static_cast<float>(here + t * (next - here));
-      re[from + i] *= g;
-      im[from + i] *= g;
-    }
-  }
+  apply_ramp<double>(
+      {0, line.size(), kStride},
+      [&](std::size_t sample) { return gain(l, static_cast<double>(sample) * sample_depth); },
+      [&](std::size_t i, float g) { scale_sample(line, i, g); });
 }
 
 void add_lens_ringing(double share, double sample_depth, std::span<float> re) noexcept {

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "artus/echo/placed_line.h"
 #include "artus/echo/transducer.h"
 
 namespace artus {
@@ -31,7 +32,7 @@ class ApertureCoupling {
   [[nodiscard]] double gain(int l, double z) const noexcept;
 
   /// Multiplies a line's samples, `sample_depth` (m) apart, by gain().
-  void apply(int l, double sample_depth, std::span<float> re, std::span<float> im) const noexcept;
+  void apply(int l, double sample_depth, EchoSpan line) const noexcept;
 
  private:
   [[nodiscard]] double integral(double place) const noexcept;

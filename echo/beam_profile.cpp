@@ -48,7 +48,7 @@ BeamProfile::BeamProfile(const Transducer& transducer, double depth)
   const double spread = std::max(1.0, std::abs(depth / focus - 1));
   z_step_ = depth / (n_z_ - 1);
   y_step_ = 0.75 * height * spread / (n_y_ - 1);
-  const double spectrum_sigma = transducer.frequency * transducer.bandwidth / 2.355;
+  const double spectrum_sigma = transducer.spectrum_sigma();
   amplitude_.assign(static_cast<std::size_t>(n_z_) * n_y_, 0.0F);
   width_.assign(n_z_, 0.0);
   for (int iz = 0; iz < n_z_; ++iz) {

@@ -4,14 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "artus/echo/gaussian.h"
 #include "artus/echo/scatter_field.h"
 #include "artus/echo/simd.h"
 
 namespace artus {
 namespace {
 
-constexpr double kOutermost = 0.9;  // widths from the axis: the beam is 20 dB down there
-constexpr double kSigmaPerWidth = 1 / 2.3548200450309493;
+constexpr double kOutermost = 0.9;   // widths from the axis: the beam is 20 dB down there
 constexpr double kTail = 3;          // standard deviations kept of the pulse
 constexpr double kBeamTail = 4.2;    // standard deviations from which the beam is left out: -77 dB
 constexpr double kLongest = 1.25;    // of the displayed depth, as far as beams are followed

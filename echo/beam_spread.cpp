@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "artus/echo/gain_ramp.h"
+
 namespace artus {
 namespace {
 
@@ -47,26 +49,18 @@ double BeamSpread::gain(int line, int node) const noexcept {
   return std::min(1.0, straight / std::max(apart, 1e-9));
 }
 
-void BeamSpread::apply(int line, std::span<float> re, std::span<float> im) const noexcept {
+void BeamSpread::apply(int line, EchoSpan echoes) const noexcept {
   const int first = std::max(0, line - reach_);
   const int last = std::min(n_lines_ - 1, line + reach_);
   if (first == last) return;
   if (bent_[static_cast<std::size_t>(first)] == 0 && bent_[static_cast<std::size_t>(last)] == 0)
     return;
-  double next = 1;
-  for (int k = 0; k + 1 < kNodes; ++k) {
-    const double here = next;
-    next = gain(line, k + 1);
-    if (here > kUnseen && next > kUnseen) continue;
-    const std::size_t from = static_cast<std::size_t>(k) * stride_;
-    const std::size_t to = std::min(re.size(), from + stride_);
-    const auto slope = static_cast<float>((next - here) / static_cast<double>(stride_));
-    for (std::size_t i = from; i < to; ++i) {
-      const float g = static_cast<float>(here) + static_cast<float>(i - from) * slope;
-      re[i] *= g;
-      im[i] *= g;
-    }
-  }
+  apply_ramp<float>(
+      {0, std::min(echoes.size(), (kNodes - 1) * stride_), stride_, kUnseen},
+      [&](std::size_t sample) {
+        return sample == 0 ? 1.0 : gain(line, static_cast<int>(sample / stride_));
+      },
+      [&](std::size_t i, float g) { scale_sample(echoes, i, g); });
 }
 
 }  // namespace artus

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
-#include <span>
 #include <vector>
 
+#include "artus/echo/placed_line.h"
 #include "artus/echo/propagation.h"
 #include "artus/echo/transducer.h"
 
@@ -22,7 +22,7 @@ class BeamSpread {
   void note(int line, const BeamPath& path) noexcept;
 
   /// Weakens the samples of scanline `line`. Requires: every line has been noted.
-  void apply(int line, std::span<float> re, std::span<float> im) const noexcept;
+  void apply(int line, EchoSpan echoes) const noexcept;
 
  private:
   static constexpr int kNodes = 17;

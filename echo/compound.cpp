@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/echo/compound.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "artus/core/check.h"
@@ -43,6 +44,41 @@ void CompoundView::add(std::span<const float> envelope, int l, std::span<float> 
     const float far = b[0] + u * (b[1] - b[0]);
     sum[i] += near + t * (far - near);
     weight[i] += 1;
+  }
+}
+
+CompoundMean::CompoundMean(const Transducer& transducer, const ImageSettings& settings)
+    : n_samples_(static_cast<std::size_t>(settings.n_samples)), n_lines_(transducer.n_lines) {
+  const int n = settings.compound_angles;
+  if (n == 1) return;
+  for (int k = 0; k < n; ++k) {
+    const double offset = settings.compound_spread * (static_cast<double>(k) / (n - 1) - 0.5);
+    if (2 * k + 1 != n) views_.emplace_back(transducer, settings, offset);
+  }
+  views_.emplace_back(transducer, settings, 0);
+  sum_.resize(static_cast<std::size_t>(n_lines_) * n_samples_);
+  weight_.resize(sum_.size());
+}
+
+void CompoundMean::clear() noexcept {
+  std::fill(sum_.begin(), sum_.end(), 0.0F);
+  std::fill(weight_.begin(), weight_.end(), 0.0F);
+}
+
+void CompoundMean::add(const CompoundView& view, std::span<const float> envelope,
+                       BlockWorkers& workers) {
+  workers.for_blocks(n_lines_, [&](int, int first, int last) {
+    for (int l = first; l < last; ++l) {
+      const std::size_t begin = static_cast<std::size_t>(l) * n_samples_;
+      view.add(envelope, l, std::span(sum_).subspan(begin, n_samples_),
+               std::span(weight_).subspan(begin, n_samples_));
+    }
+  });
+}
+
+void CompoundMean::write(std::span<float> envelope) const noexcept {
+  for (std::size_t i = 0; i < sum_.size(); ++i) {
+    envelope[i] = weight_[i] > 0 ? sum_[i] / weight_[i] : 0.0F;
   }
 }
 

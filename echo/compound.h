@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "artus/echo/block_workers.h"
 #include "artus/echo/image_settings.h"
 #include "artus/echo/transducer.h"
 
@@ -29,6 +30,28 @@ class CompoundView {
   };
   Transducer transducer_;
   std::vector<Place> places_;  // (n_samples)
+};
+
+/// The mean envelope of several steered frames.
+class CompoundMean {
+ public:
+  /// Requires: valid transducer and settings.
+  CompoundMean(const Transducer& transducer, const ImageSettings& settings);
+
+  /// The steered frames to make, the unsteered one last; none when nothing is compounded.
+  [[nodiscard]] std::span<const CompoundView> views() const noexcept { return views_; }
+
+  void clear() noexcept;
+  void add(const CompoundView& view, std::span<const float> envelope, BlockWorkers& workers);
+  /// Writes the mean; zero where no view reaches.
+  void write(std::span<float> envelope) const noexcept;
+
+ private:
+  std::size_t n_samples_;
+  int n_lines_;
+  std::vector<CompoundView> views_;
+  std::vector<float> sum_;     // (n_lines, n_samples)
+  std::vector<float> weight_;  // the same
 };
 
 }  // namespace artus

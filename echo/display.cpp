@@ -4,11 +4,14 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 #include "artus/echo/simd.h"
 
 namespace artus {
 namespace {
+
+constexpr float kSilence = -200;  // dB, the least that compress() gives
 
 /// log2 of the positive normal number with these bits: exponent from the bits, mantissa by the
 /// series of artanh.
@@ -34,17 +37,6 @@ void compress_all(const float* envelope, float gain_db, float* decibel, std::siz
 
 }  // namespace
 
-std::vector<float> make_time_gain(const Transducer& transducer, const ImageSettings& settings) {
-  std::vector<float> gain(static_cast<std::size_t>(settings.n_samples));
-  const double db_per_m = 2 * settings.tgc_db_cm_mhz * 100 * transducer.frequency / 1e6;
-  for (std::size_t i = 0; i < gain.size(); ++i) {
-    const double z = settings.depth * static_cast<double>(i) / settings.n_samples;
-    const double db = std::min(settings.tgc_limit_db, db_per_m * z);
-    gain[i] = static_cast<float>(std::pow(10.0, db / 20));
-  }
-  return gain;
-}
-
 void compress(std::span<const float> envelope, float gain_db, std::span<float> decibel) noexcept {
   compress_all(envelope.data(), gain_db, decibel.data(), envelope.size());
 }
@@ -66,93 +58,61 @@ void smooth_line(std::span<const float> decibel, int n_lines, int l, float share
   }
 }
 
-ScanConverter::ScanConverter(const Transducer& transducer, const ImageSettings& settings)
-    : pixel_(settings.pixel),
+Display::Display(const Transducer& transducer, const ImageSettings& settings)
+    : n_lines_(transducer.n_lines),
       n_samples_(settings.n_samples),
-      grey_per_db_(static_cast<float>(255 / settings.dynamic_range_db)),
-      dynamic_range_(static_cast<float>(settings.dynamic_range_db)),
-      single_line_(transducer.n_lines == 1) {
-  const Scanline first = scanline(transducer, 0);
-  const Scanline last = scanline(transducer, transducer.n_lines - 1);
-  const auto end = [&](const Scanline& line) -> Vec3 {
-    return line.origin + settings.depth * line.direction;
-  };
-  left_ = std::min(
-      {first.origin.x(), end(first).x(), -transducer.width / 2 * (transducer.radius == 0 ? 1 : 0)});
-  const double right =
-      std::max({last.origin.x(), end(last).x(), -left_ * (transducer.steering == 0 ? 1 : 0)});
-  top_ = std::min({0.0, first.origin.z(), last.origin.z()});
-  const double bottom = settings.depth;
-  width_ = std::max(1, static_cast<int>(std::lround((right - left_) / pixel_)));
-  height_ = std::max(1, static_cast<int>(std::lround((bottom - top_) / pixel_)));
-  samples_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
-  const double sample_depth = settings.depth / settings.n_samples;
-  for (int y = 0; y < height_; ++y) {
-    for (int x = 0; x < width_; ++x) {
-      const Vec3 p = point_of(x, y);
-      double place = 0;  // fractional line
-      double depth = 0;  // m along it
-      if (transducer.radius == 0) {
-        depth = p.z() / std::cos(transducer.steering);
-        const double x0 = p.x() - p.z() * std::tan(transducer.steering);
-        place = (x0 + transducer.width / 2) / transducer.pitch();
-      } else {
-        const double above = p.z() + transducer.radius;
-        depth = std::hypot(p.x(), above) - transducer.radius;
-        place = (std::atan2(p.x(), above) * transducer.radius + transducer.width / 2) /
-                transducer.pitch();
+      converter_(transducer, settings) {
+  set(settings);
+}
+
+void Display::set(const LiveSettings& live) {
+  live_ = live;
+  converter_.set_dynamic_range(live.dynamic_range_db);
+  if (live.smoothing > 0)
+    smooth_.resize(static_cast<std::size_t>(n_lines_) * static_cast<std::size_t>(n_samples_));
+}
+
+void Display::show(BlockWorkers& workers, Frame& frame) {
+  const auto n = static_cast<std::size_t>(n_samples_);
+  const auto gain = static_cast<float>(live_.gain_db);
+  workers.for_blocks(n_lines_, [&](int, int first, int last) {
+    const std::size_t begin = static_cast<std::size_t>(first) * n;
+    const std::size_t size = static_cast<std::size_t>(last - first) * n;
+    compress(std::span(frame.envelope).subspan(begin, size), gain,
+             std::span(frame.decibel).subspan(begin, size));
+  });
+  if (live_.smoothing > 0) {
+    workers.for_blocks(n_lines_, [&](int, int first, int last) {
+      for (int l = first; l < last; ++l) {
+        smooth_line(frame.decibel, n_lines_, l, static_cast<float>(live_.smoothing),
+                    std::span(smooth_).subspan(static_cast<std::size_t>(l) * n, n));
       }
-      const double sample = depth / sample_depth;
-      if (place < -0.5 || place > transducer.n_lines - 0.5 || sample < 0 ||
-          sample > n_samples_ - 1) {
-        continue;
-      }
-      const int line = std::clamp(static_cast<int>(place), 0, std::max(0, transducer.n_lines - 2));
-      const int row = std::min(static_cast<int>(sample), n_samples_ - 2);
-      Sample& s = samples_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
-                           static_cast<std::size_t>(x)];
-      s.index = line * n_samples_ + row;
-      s.line = static_cast<float>(std::clamp(place - line, 0.0, 1.0));
-      if (transducer.n_lines == 1) s.line = 0;
-      s.sample = static_cast<float>(sample - row);
-    }
+    });
+    std::swap(smooth_, frame.decibel);
+  }
+  const bool persists = live_.persistence > 0 && has_previous_;
+  if (persists) previous_ = frame.image;
+  workers.for_blocks(frame.height, [&](int, int first, int last) {
+    converter_.convert(frame.decibel, first, last, frame.image);
+  });
+  if (persists) keep_previous(frame.image);
+  has_previous_ = true;
+}
+
+/// Blends the image before into the new one.
+void Display::keep_previous(std::vector<std::uint8_t>& image) {
+  const auto keep = static_cast<float>(live_.persistence);
+  for (std::size_t i = 0; i < previous_.size(); ++i) {
+    const auto now = static_cast<float>(image[i]);
+    const auto before = static_cast<float>(previous_[i]);
+    image[i] = static_cast<std::uint8_t>(std::lround(now + keep * (before - now)));
   }
 }
 
-void ScanConverter::convert(std::span<const float> decibel, int first_row, int last_row,
-                            std::span<std::uint8_t> image) const noexcept {
-  const auto begin = static_cast<std::size_t>(first_row) * static_cast<std::size_t>(width_);
-  const auto end = static_cast<std::size_t>(last_row) * static_cast<std::size_t>(width_);
-  const std::ptrdiff_t next_line = single_line_ ? 0 : n_samples_;
-  const float offset = dynamic_range_ * grey_per_db_ + 0.5F;  // black, and rounding to the nearest
-  for (std::size_t k = begin; k < end; ++k) {
-    const Sample& s = samples_[k];
-    if (s.index < 0) {
-      image[k] = 0;
-      continue;
-    }
-    const float* a = decibel.data() + s.index;
-    const float* b = a + next_line;
-    const float near = a[0] + s.sample * (a[1] - a[0]);
-    const float far = b[0] + s.sample * (b[1] - b[0]);
-    const float db = near + s.line * (far - near);
-    const auto grey = static_cast<int>(db * grey_per_db_ + offset);
-    image[k] = static_cast<std::uint8_t>(std::clamp(grey, 0, 255));
-  }
-}
-
-PixelPoint ScanConverter::pixel_of(const Vec3& p_P) const noexcept {
-  return {(p_P.x() - left_) / pixel_ - 0.5, (p_P.z() - top_) / pixel_ - 0.5};
-}
-
-Vec3 ScanConverter::point_of(int x, int y) const noexcept {
-  return {left_ + (x + 0.5) * pixel_, 0, top_ + (y + 0.5) * pixel_};
-}
-
-bool ScanConverter::inside(int x, int y) const noexcept {
-  return samples_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
-                  static_cast<std::size_t>(x)]
-             .index >= 0;
+void Display::show_nothing(Frame& frame) noexcept {
+  std::fill(frame.decibel.begin(), frame.decibel.end(), kSilence);
+  std::fill(frame.image.begin(), frame.image.end(), std::uint8_t{0});
+  has_previous_ = false;
 }
 
 }  // namespace artus

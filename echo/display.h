@@ -4,16 +4,13 @@
 #include <span>
 #include <vector>
 
+#include "artus/echo/block_workers.h"
 #include "artus/echo/frame.h"
 #include "artus/echo/image_settings.h"
+#include "artus/echo/scan_converter.h"
 #include "artus/echo/transducer.h"
 
 namespace artus {
-
-/// Time gain compensation: the factor on the envelope at each sample, and the electronic noise.
-/// (n_samples).
-[[nodiscard]] std::vector<float> make_time_gain(const Transducer& transducer,
-                                                const ImageSettings& settings);
 
 /// 20 log10 of each amplitude plus `gain_db`, at least -200; accurate to 0.01 dB. Cost: 2 ns each.
 void compress(std::span<const float> envelope, float gain_db, std::span<float> decibel) noexcept;
@@ -23,45 +20,34 @@ void compress(std::span<const float> envelope, float gain_db, std::span<float> d
 void smooth_line(std::span<const float> decibel, int n_lines, int l, float share,
                  std::span<float> out) noexcept;
 
-/// Maps scanlines to pixels by bilinear interpolation of the decibel image, then to grey.
-class ScanConverter {
+/// The last stage: envelopes become grey pixels. Gain, dynamic range, smoothing and persistence act
+/// here alone.
+class Display {
  public:
   /// Requires: valid transducer and settings.
-  ScanConverter(const Transducer& transducer, const ImageSettings& settings);
+  Display(const Transducer& transducer, const ImageSettings& settings);
 
-  [[nodiscard]] int width() const noexcept { return width_; }
-  [[nodiscard]] int height() const noexcept { return height_; }
+  /// From the next image on.
+  void set(const LiveSettings& live);
 
-  /// Grey of every pixel: black at -dynamic range, white at 0 dB, black off the sector.
-  /// `rows` picks pixel rows [first, last), so that threads may share the work.
-  void convert(std::span<const float> decibel, int first_row, int last_row,
-               std::span<std::uint8_t> image) const noexcept;
+  /// Fills decibel and image of the frame from its envelope.
+  void show(BlockWorkers& workers, Frame& frame);
 
-  /// Pixel of a point in frame P (its elevation does not matter); geometric, without the
-  /// displacement that the tissues' speeds of sound cause.
-  [[nodiscard]] PixelPoint pixel_of(const Vec3& p_P) const noexcept;
-  /// The point in frame P at a pixel's centre.
-  [[nodiscard]] Vec3 point_of(int x, int y) const noexcept;
-  /// Whether a pixel lies between the outermost scanlines.
-  [[nodiscard]] bool inside(int x, int y) const noexcept;
+  /// Blacks the frame's image out; the next image keeps nothing of those before.
+  void show_nothing(Frame& frame) noexcept;
+
+  [[nodiscard]] const ScanConverter& converter() const noexcept { return converter_; }
 
  private:
-  struct Sample {
-    std::int32_t index = -1;  // into (n_lines, n_samples); -1 off the sector
-    float line = 0;           // weight of the next line
-    float sample = 0;         // weight of the next sample
-  };
+  void keep_previous(std::vector<std::uint8_t>& image);
 
-  int width_ = 0;
-  int height_ = 0;
-  double pixel_ = 0;  // m
-  double left_ = 0;   // m, x of the image's left edge
-  double top_ = 0;    // m, z of the image's upper edge
-  int n_samples_ = 0;
-  float grey_per_db_ = 0;
-  float dynamic_range_ = 0;
-  bool single_line_ = false;
-  std::vector<Sample> samples_;  // (height, width)
+  LiveSettings live_;
+  int n_lines_;
+  int n_samples_;
+  ScanConverter converter_;
+  std::vector<float> smooth_;           // (n_lines, n_samples), unless nothing is smoothed
+  std::vector<std::uint8_t> previous_;  // (height, width)
+  bool has_previous_ = false;
 };
 
 }  // namespace artus

@@ -14,8 +14,25 @@ struct PixelPoint {
   double y = 0;
 };
 
+/// What was wrong with a frame's input; bits.
+struct FrameStatus {
+  static constexpr std::uint32_t kOk = 0;
+  /// The probe's pose was not finite, not rigid or a kilometre away: the frame is black.
+  static constexpr std::uint32_t kBadProbe = 1U << 0U;
+  /// The same of the needle's pose, or its velocity or shape: the frame is without it.
+  static constexpr std::uint32_t kBadNeedle = 1U << 1U;
+};
+
+/// Seconds that a frame spent in each stage.
+struct StageTimes {
+  double lines = 0;    ///< tracing, scattering and needle
+  double beam = 0;     ///< lateral and axial pulse shape, envelope
+  double display = 0;  ///< compression, scan conversion
+};
+
 /// One B-mode image with every stage that led to it.
 struct Frame {
+  std::uint32_t status = FrameStatus::kOk;
   int n_lines = 0;
   int n_samples = 0;
   double sample_depth = 0;          ///< m of displayed depth between samples

@@ -8,24 +8,29 @@
 
 namespace artus {
 
-/// What the person at the scanner sets, and how finely artus computes. Echo amplitudes are relative
-/// to a perfect mirror at the face, which is 0 dB; they never depend on the frame's own maximum.
-struct ImageSettings {
-  double depth = 40e-3;          ///< m, of the image at the display's speed of sound
-  int n_samples = 1024;          ///< along a scanline
-  int n_planes = 5;              ///< elevation planes that make up the slice's thickness
-  double dynamic_range_db = 60;  ///< dB shown between black and white
+/// The settings that a running renderer takes in its next frame: they need no new table.
+struct LiveSettings {
   double gain_db = 9;            ///< dB
+  double dynamic_range_db = 60;  ///< dB shown between black and white
   /// dB per cm of depth and MHz that time gain compensation adds, one way (doubled inside).
   double tgc_db_cm_mhz = 0.7;
   double tgc_limit_db = 70;  ///< dB, the receiver's largest compensation
+  double smoothing = 0;      ///< 0 none .. 1: share of a 3 x 3 mean in the compressed lines
+  double persistence = 0;    ///< 0 none .. <1 share of the previous image kept
+  friend bool operator==(const LiveSettings&, const LiveSettings&) = default;
+};
+
+/// What the person at the scanner sets, and how finely artus computes. Echo amplitudes are relative
+/// to a perfect mirror at the face, which is 0 dB; they never depend on the frame's own maximum.
+struct ImageSettings : LiveSettings {
+  double depth = 40e-3;  ///< m, of the image at the display's speed of sound
+  int n_samples = 1024;  ///< along a scanline
+  int n_planes = 5;      ///< elevation planes that make up the slice's thickness
   /// rms speckle of muscle in dB. assumed: puts muscle at the grey of the reference images.
   double speckle_db = -40;
   double noise_db = -150;           ///< electronic noise before compensation, dB. assumed
   double gel_limit = 5e-3;          ///< m, a wider gap between face and skin is air
   double pixel = 0.1e-3;            ///< m, of the scan-converted image, square
-  double persistence = 0;           ///< 0 none .. <1 share of the previous image kept
-  double smoothing = 0;             ///< 0 none .. 1: share of a 3 x 3 mean in the compressed lines
   int compound_angles = 1;          ///< odd; frames steered apart whose envelopes are averaged
   double compound_spread = 0.14;    ///< rad between the outermost steerings
   bool doppler = false;             ///< also find what moves (the needle); see Frame::velocity
@@ -36,6 +41,7 @@ struct ImageSettings {
   bool texture = true;              ///< septa, fascicles and fibres in the scattering
   std::uint64_t seed = 1;           ///< of scatterers and noise
   int n_threads = 0;  ///< 0: as many as the machine has; the image does not depend on it
+  friend bool operator==(const ImageSettings&, const ImageSettings&) = default;
 };
 
 /// Errors: invalid, naming the value and its range.

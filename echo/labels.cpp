@@ -6,6 +6,7 @@
 
 #include "artus/core/check.h"
 #include "artus/core/units.h"
+#include "artus/echo/range_check.h"
 #include "artus/echo/region_acoustics.h"
 
 namespace artus {
@@ -54,13 +55,6 @@ void mark_needle(const NeedleView& needle, const Pose& X_JP, const ScanConverter
       }
     }
   }
-}
-
-template <class T>
-const T& require_valid(const T& value) {
-  const Result<void> result = validate(value);
-  ARTUS_REQUIRE(result.has_value(), result.error().to_string());
-  return value;
 }
 
 std::array<std::uint8_t, 3> base_colour(TissueKind kind) {

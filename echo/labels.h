@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "artus/echo/beam_profile.h"
-#include "artus/echo/display.h"
 #include "artus/echo/frame.h"
 #include "artus/echo/image_settings.h"
 #include "artus/echo/needle_view.h"
+#include "artus/echo/scan_converter.h"
 #include "artus/echo/transducer.h"
 #include "artus/raycast/scene.h"
 

@@ -12,7 +12,6 @@ namespace artus {
 namespace {
 
 constexpr std::size_t kStride = 4;   // samples between exact values of gain and texture
-constexpr double kSteepest = 0.12;   // cosine: beyond, a faceted normal says nothing more
 constexpr double kGlitter = 0.5;     // assumed: rms variation of a fully diffuse interface
 constexpr double kTailShare = 0.35;  // assumed: scattering just behind a rough interface
 constexpr float kTailDecay = 0.8F;   // per sample
@@ -85,23 +84,23 @@ LineSynthesis::LineSynthesis(const BeamShape& shape, const ScatterField& scatter
       n_planes_(settings.n_planes),
       pitch_(transducer.pitch()) {}
 
-void LineSynthesis::add_run(const BeamRun& run, std::span<const RegionAcoustics> regions,
-                            const ScatterView& view, std::span<const float> weight,
-                            std::span<float> gain, std::span<float> re, std::span<float> im) const {
-  const RegionAcoustics& region = regions[run.region];
+void LineSynthesis::add_run(const BeamRun& run, const Ground& ground, std::span<const float> weight,
+                            EchoSpan echoes) const {
+  const std::span<float> gain = ground.gain;
+  const RegionAcoustics& region = ground.regions[run.region];
   if (region.backscatter <= 0) return;
   const auto first = static_cast<std::size_t>(std::ceil(std::max(0.0, run.begin)));
-  const auto last = std::min(re.size(), static_cast<std::size_t>(std::ceil(run.end)));
+  const auto last = std::min(echoes.size(), static_cast<std::size_t>(std::ceil(run.end)));
   if (first >= last) return;
   const std::size_t n = last - first;
   const double into = static_cast<double>(first) - run.begin;
   const Vec3 p_J = run.p_J + into * run.step_J;
   const double slope = (run.log_gain_end - run.log_gain_begin) / (run.end - run.begin);
   const double value = speckle_ *
-                       local_backscatter(regions, region, run.middle.place.z(), run.along) *
+                       local_backscatter(ground.regions, region, run.middle.place.z(), run.along) *
                        std::exp(run.log_gain_begin + into * slope);
   const std::size_t n_nodes = (n - 1) / kStride + 2;
-  const std::size_t behind = re.size() + kStride;  // the last stride may reach over the end
+  const std::size_t behind = echoes.size() + kStride;  // the last stride may reach over the end
   const auto nodes = gain.subspan(behind, n_nodes);
   const std::size_t room = (n_nodes + kLanes - 1) / kLanes * kLanes;
   const auto sheets = gain.subspan(behind + room, n_nodes);
@@ -121,35 +120,34 @@ void LineSynthesis::add_run(const BeamRun& run, std::span<const RegionAcoustics>
   const std::size_t n_strides = n_nodes - 1;
   if (reflects) {
     interpolate_gain(sheets.data(), weight.data() + first, gain.data(), n_strides);
-    accumulate(gain.data(), re.data() + first, n);
+    accumulate(gain.data(), echoes.re.data() + first, n);
   }
   interpolate_gain(nodes.data(), weight.data() + first, gain.data(), n_strides);
-  ScatterField::add(view, p_J, run.step_J, gain.first(n), re.subspan(first, n),
-                    im.subspan(first, n));
+  const EchoSpan here = echoes.part(first, n);
+  ScatterField::add(ground.view, p_J, run.step_J, gain.first(n), here.re, here.im);
 }
 
-void LineSynthesis::add_plane(int plane, const BeamTrace& trace,
-                              std::span<const RegionAcoustics> regions, const ScatterView& view,
-                              std::vector<float>& gain, std::span<float> re,
-                              std::span<float> im) const {
+void LineSynthesis::add_plane(int plane, const BeamTrace& trace, const Ground& ground,
+                              EchoSpan echoes) const {
   const std::span<const float> speckle = shape_->speckle_weight(plane);
   const std::span<const float> share = shape_->echo_weight(plane);
   for (std::size_t i = 0; i < trace.n_runs; ++i) {
-    add_run(trace.runs[i], regions, view, speckle, gain, re, im);
+    add_run(trace.runs[i], ground, speckle, echoes);
   }
-  for (std::size_t i = 0; i < trace.n_echoes; ++i) add_echo(trace.echoes[i], view, share, re, im);
+  for (std::size_t i = 0; i < trace.n_echoes; ++i) {
+    add_echo(trace.echoes[i], ground.view, share, echoes);
+  }
 }
 
 /// An interface seen by one beam: steep ones reach over several samples within the beam's pitch,
 /// and rough ones glitter and scatter on from just behind their surface.
 void LineSynthesis::add_echo(const BeamEcho& echo, const ScatterView& view,
-                             std::span<const float> share, std::span<float> re,
-                             std::span<float> im) const {
-  const auto end = static_cast<double>(re.size()) - 1;
+                             std::span<const float> share, EchoSpan echoes) const {
+  const auto end = static_cast<double>(echoes.size()) - 1;
   if (!(echo.sample >= 0) || echo.sample >= end) return;
   const auto first = static_cast<std::size_t>(echo.sample);
-  const double slope =
-      std::sqrt(std::max(0.0, 1 - echo.cosine * echo.cosine)) / std::max(kSteepest, echo.cosine);
+  const double slope = std::sqrt(std::max(0.0, 1 - echo.cosine * echo.cosine)) /
+                       std::max(kSteepestFacet, echo.cosine);
   const int n = std::max(1, static_cast<int>(std::lround(pitch_ * slope / shape_->sample_depth())));
   const std::array<float, 1> one{1};
   std::array<float, 1> n_re{};
@@ -161,49 +159,46 @@ void LineSynthesis::add_echo(const BeamEcho& echo, const ScatterView& view,
   const float a_im = amplitude * glitter * n_im[0] / static_cast<float>(n);
   for (int k = 0; k < n; ++k) {
     const double sample = echo.sample + k - 0.5 * (n - 1);
-    add_point_echo(sample, a_re, re);
-    add_point_echo(sample, a_im, im);
+    add_point_echo(sample, a_re, echoes.re);
+    add_point_echo(sample, a_im, echoes.im);
   }
   const std::size_t from = first + kTailGap;
-  if (echo.diffuse_share < 0.05 || from >= re.size()) return;
+  if (echo.diffuse_share < 0.05 || from >= echoes.size()) return;
   std::array<float, kTail> gain{};
   float value = amplitude * static_cast<float>(kTailShare * echo.diffuse_share);
   for (float& g : gain) {
     g = value;
     value *= kTailDecay;
   }
-  const std::size_t length = std::min(gain.size(), re.size() - from);
+  const EchoSpan tail = echoes.part(from, std::min(gain.size(), echoes.size() - from));
   ScatterField::add(view, echo.p_J + static_cast<double>(kTailGap) * echo.step_J, echo.step_J,
-                    std::span(gain).first(length), re.subspan(from, length),
-                    im.subspan(from, length));
+                    std::span(gain).first(tail.size()), tail.re, tail.im);
 }
 
 /// What shows inside a shadow: sound that bone threw back, that the face reflected and that went
 /// through the tissue above once more. It lies behind the bone by as much as the tissue lies below
 /// the face, fainter by the bone's echo and the face.
-void LineSynthesis::add_haze(const BeamTrace& trace, std::span<float> re,
-                             std::span<float> im) noexcept {
+void LineSynthesis::add_haze(const BeamTrace& trace, EchoSpan echoes) noexcept {
   const auto shift = static_cast<std::size_t>(std::ceil(std::max(1.0, trace.end_sample)));
-  if (!trace.contact || trace.end_amplitude <= 0 || shift >= re.size()) return;
-  const std::size_t n = std::min(shift, re.size() - shift);
+  if (!trace.contact || trace.end_amplitude <= 0 || shift >= echoes.size()) return;
+  const std::size_t n = std::min(shift, echoes.size() - shift);
   const auto share = static_cast<float>(kHaze * trace.end_amplitude);
-  scale_add(share, re.data(), re.data() + shift, n);
-  scale_add(share, im.data(), im.data() + shift, n);
+  scale_add(share, echoes.re.data(), echoes.re.data() + shift, n);
+  scale_add(share, echoes.im.data(), echoes.im.data() + shift, n);
 }
 
-void LineSynthesis::synthesise(const BeamTracer& tracer, std::span<const RegionAcoustics> regions,
-                               const Scanline& line, const Pose& X_JP, LineScratch& scratch,
-                               std::span<float> re, std::span<float> im) const {
-  scratch.gain.resize(3 * re.size() + 8 * kStride);
-  std::fill(re.begin(), re.end(), 0.0F);
-  std::fill(im.begin(), im.end(), 0.0F);
-  tracer.trace_bent(X_JP * line.origin, X_JP.linear() * line.direction, scratch.central,
-                    scratch.bent);
-  const Vec3 elevation = X_JP.linear().col(1);
-  scratch.view = scatter_->make_view(X_JP.linear() * line.direction, elevation);
+void LineSynthesis::synthesise(const BeamTracer& tracer, const PlacedLine& placed,
+                               LineScratch& scratch, EchoSpan echoes) const {
+  scratch.gain.resize(3 * echoes.size() + 8 * kStride);
+  std::fill(echoes.re.begin(), echoes.re.end(), 0.0F);
+  std::fill(echoes.im.begin(), echoes.im.end(), 0.0F);
+  tracer.trace_bent(placed.origin_J, placed.direction_J, scratch.central, scratch.bent);
+  const Vec3& elevation = placed.elevation_J;
+  scratch.view = scatter_->make_view(placed.direction_J, elevation);
+  const Ground ground{tracer.regions(), scratch.view, scratch.gain};
   for (int p = 0; p < n_planes_; ++p) {
     if (shape_->plane_offset(p) == 0) {
-      add_plane(p, scratch.central, regions, scratch.view, scratch.gain, re, im);
+      add_plane(p, scratch.central, ground, echoes);
       continue;
     }
     scratch.plane.size = 0;
@@ -213,9 +208,9 @@ void LineSynthesis::synthesise(const BeamTracer& tracer, std::span<const RegionA
       scratch.plane.length[scratch.plane.size++] = z;
     }
     tracer.trace_along(scratch.plane, elevation, scratch.central, scratch.side);
-    add_plane(p, scratch.side, regions, scratch.view, scratch.gain, re, im);
+    add_plane(p, scratch.side, ground, echoes);
   }
-  if (reverberates_) add_haze(scratch.central, re, im);
+  if (reverberates_) add_haze(scratch.central, echoes);
 }
 
 }  // namespace artus

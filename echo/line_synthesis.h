@@ -6,7 +6,7 @@
 
 #include "artus/echo/beam_shape.h"
 #include "artus/echo/image_settings.h"
-#include "artus/echo/needle_echo.h"
+#include "artus/echo/placed_line.h"
 #include "artus/echo/propagation.h"
 #include "artus/echo/region_acoustics.h"
 #include "artus/echo/scatter_field.h"
@@ -33,27 +33,27 @@ class LineSynthesis {
   LineSynthesis(const BeamShape& shape, const ScatterField& scatter, const TissueTexture& texture,
                 const Transducer& transducer, const ImageSettings& settings) noexcept;
 
-  /// Fills (re, im), n_samples each, and leaves the central beam in `scratch`.
-  void synthesise(const BeamTracer& tracer, std::span<const RegionAcoustics> regions,
-                  const Scanline& line, const Pose& X_JP, LineScratch& scratch, std::span<float> re,
-                  std::span<float> im) const;
+  /// Fills `echoes`, n_samples long, and leaves the central beam in `scratch`.
+  void synthesise(const BeamTracer& tracer, const PlacedLine& placed, LineScratch& scratch,
+                  EchoSpan echoes) const;
 
  private:
-  void add_plane(int plane, const BeamTrace& trace, std::span<const RegionAcoustics> regions,
-                 const ScatterView& view, std::vector<float>& gain, std::span<float> re,
-                 std::span<float> im) const;
-  void add_run(const BeamRun& run, std::span<const RegionAcoustics> regions,
-               const ScatterView& view, std::span<const float> weight, std::span<float> gain,
-               std::span<float> re, std::span<float> im) const;
-
+  /// What the runs of one scanline have in common.
+  struct Ground {
+    std::span<const RegionAcoustics> regions;
+    const ScatterView& view;
+    std::span<float> gain;  // room for a line's gains, nodes and sheets
+  };
+  void add_plane(int plane, const BeamTrace& trace, const Ground& ground, EchoSpan echoes) const;
+  void add_run(const BeamRun& run, const Ground& ground, std::span<const float> weight,
+               EchoSpan echoes) const;
   void add_echo(const BeamEcho& echo, const ScatterView& view, std::span<const float> share,
-                std::span<float> re, std::span<float> im) const;
+                EchoSpan echoes) const;
+  static void add_haze(const BeamTrace& trace, EchoSpan echoes) noexcept;
 
   const BeamShape* shape_;
   const ScatterField* scatter_;
   const TissueTexture* texture_;
-  static void add_haze(const BeamTrace& trace, std::span<float> re, std::span<float> im) noexcept;
-
   double speckle_;  // rms of muscle, mirror = 1
   bool has_texture_;
   bool reverberates_;

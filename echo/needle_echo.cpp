@@ -7,6 +7,8 @@
 
 #include "artus/core/noise.h"
 #include "artus/core/units.h"
+#include "artus/echo/gain_ramp.h"
+#include "artus/echo/gaussian.h"
 #include "artus/echo/point_echo.h"
 
 namespace artus {
@@ -26,7 +28,6 @@ constexpr double kTrackCell = 0.15e-3;   // m of track that scatters as one
 constexpr std::uint64_t kTrackSeed = 7;
 constexpr std::size_t kStride = 16;  // samples between exact values of the shadow
 constexpr double kSteepest = 6;      // slope beyond which a shaft is as good as upright
-constexpr double kSigmaPerWidth = 1 / 2.3548200450309493;
 
 }  // namespace
 
@@ -54,19 +55,20 @@ NeedleEcho::NeedleEcho(const NeedleView& needle, const Pose& X_JP, const Transdu
                        const BeamShape& shape) noexcept
     : shape_(&shape),
       needle_(needle.shape),
+      X_PJ_(X_JP.inverse()),
       pitch_(transducer.pitch()),
       pulse_sigma_(transducer.pulse_cycles * transducer.wavelength() / 2 * kSigmaPerWidth),
       f_number_(transducer.f_number),
       max_aperture_(transducer.max_aperture),
       phase_(specular_phase(transducer, kDisplaySpeedOfSound)) {
-  const Pose X_PN = X_JP.inverse() * needle.X_JN;
+  const Pose X_PN = X_PJ_ * needle.X_JN;
   p_PTip_ = X_PN.translation();
   axis_P_ = -X_PN.linear().col(2).normalized();
 }
 
-NeedleEcho::Place NeedleEcho::find_place(const Scanline& line, const Pose& X_JP,
-                                         const BeamPath& path) const noexcept {
-  const Vec3 across(line.direction.z(), 0, -line.direction.x());
+NeedleEcho::Place NeedleEcho::find_place(const SoundedLine& sounded) const noexcept {
+  const Scanline& line = sounded.placed.line;
+  const Vec3& across = sounded.placed.across;
   const Vec3 tip = p_PTip_ - line.origin;
   const double du = axis_P_.dot(across);
   const double dy = axis_P_.y();
@@ -86,7 +88,7 @@ NeedleEcho::Place NeedleEcho::find_place(const Scanline& line, const Pose& X_JP,
     place.lateral = u0 + place.along * du;
     place.elevation = tip.y() + place.along * dy;
     place.depth = tip.dot(line.direction) + place.along * dt;
-    const Vec3 bent_P = X_JP.inverse() * path.at(std::max(0.0, place.depth)) - line.origin;
+    const Vec3 bent_P = X_PJ_ * sounded.path.at(std::max(0.0, place.depth)) - line.origin;
     shift = bent_P.dot(across);
   }
   place.sine = std::abs(dt);
@@ -129,15 +131,16 @@ void NeedleEcho::add_shaft(const Place& place, double sample, double amplitude,
   }
 }
 
-NeedleEcho::Tip NeedleEcho::find_tip(const Scanline& line, const Pose& X_JP, const BeamTrace& trace,
-                                     const BeamPath& path) const noexcept {
+NeedleEcho::Tip NeedleEcho::find_tip(const SoundedLine& sounded) const noexcept {
+  const Scanline& line = sounded.placed.line;
+  const Vec3& across = sounded.placed.across;
+  const BeamTrace& trace = sounded.trace;
   Tip tip;
   if (!trace.contact) return tip;
-  const Vec3 across(line.direction.z(), 0, -line.direction.x());
   const Vec3 p = p_PTip_ - line.origin;
   tip.depth = p.dot(line.direction);
   if (tip.depth <= 0) return tip;
-  const Vec3 bent = X_JP.inverse() * path.at(tip.depth) - line.origin;
+  const Vec3 bent = X_PJ_ * sounded.path.at(tip.depth) - line.origin;
   const double beside = std::abs(p.dot(across) - bent.dot(across));
   const double share = 1 - beside / shape_->line_spacing(tip.depth);
   if (share > 0 && trace.find_sample(tip.depth, tip.sample, tip.log_gain)) tip.share = share;
@@ -170,8 +173,9 @@ void NeedleEcho::add_side_lobe(const Place& place, const BeamTrace& trace,
                  line);
 }
 
-NeedleEcho::Extent NeedleEcho::find_extent(const Scanline& line) const noexcept {
-  const Vec3 across(line.direction.z(), 0, -line.direction.x());
+NeedleEcho::Extent NeedleEcho::find_extent(const PlacedLine& placed) const noexcept {
+  const Scanline& line = placed.line;
+  const Vec3& across = placed.across;
   const Vec3 tip = p_PTip_ - line.origin;
   const double du = axis_P_.dot(across);
   const double dy = axis_P_.y();
@@ -207,8 +211,8 @@ NeedleEcho::Extent NeedleEcho::find_extent(const Scanline& line) const noexcept 
   return extent;
 }
 
-void NeedleEcho::shade(const Scanline& line, std::span<float> light) const noexcept {
-  const Extent extent = find_extent(line);
+void NeedleEcho::shade(const PlacedLine& placed, std::span<float> light) const noexcept {
+  const Extent extent = find_extent(placed);
   const double sample_depth = shape_->sample_depth();
   const double from = (extent.depth + needle_.outer_diameter) / sample_depth;
   if (extent.blocks <= 0 || !(from < static_cast<double>(light.size()))) return;
@@ -220,24 +224,15 @@ void NeedleEcho::shade(const Scanline& line, std::span<float> light) const noexc
     const double covered = std::min(extent.end, half) - std::max(extent.begin, -half);
     return 1 - kShadow * extent.blocks * std::clamp(covered / (2 * half), 0.0, 1.0);
   };
-  const auto first = static_cast<std::size_t>(from);
-  double next = passes(first);
-  for (std::size_t k = first; k < light.size(); k += kStride) {
-    const double here = next;
-    next = passes(k + kStride);
-    if (here >= 1 && next >= 1) continue;
-    const std::size_t n = std::min(kStride, light.size() - k);
-    const auto begin = static_cast<float>(here);
-    const auto slope = static_cast<float>((next - here) / static_cast<double>(kStride));
-    for (std::size_t i = 0; i < n; ++i) light[k + i] *= begin + slope * static_cast<float>(i);
-  }
+  apply_ramp<float>({static_cast<std::size_t>(from), light.size(), kStride}, passes,
+                    [&](std::size_t i, float share) { light[i] *= share; });
 }
 
-void NeedleEcho::add_track(double amplitude, const Scanline& line, const Pose& X_JP,
-                           const BeamTrace& trace, const BeamPath& path, std::span<float> re,
-                           std::span<float> im) const noexcept {
+void NeedleEcho::add_track(double amplitude, const SoundedLine& sounded,
+                           EchoSpan echoes) const noexcept {
+  const BeamTrace& trace = sounded.trace;
   if (!trace.contact) return;
-  const Place place = find_place(line, X_JP, path);
+  const Place place = find_place(sounded);
   double sample = 0;
   double log_gain = 0;
   if (place.depth <= 0 || std::abs(place.lateral) > pitch_ + place.end_extent ||
@@ -247,21 +242,21 @@ void NeedleEcho::add_track(double amplitude, const Scanline& line, const Pose& X
   const double heard =
       amplitude * elevation_share(place.elevation, place.depth) * std::exp(log_gain);
   const auto cell = static_cast<std::uint64_t>(place.along / kTrackCell);
-  add_point_echo(sample, heard * normal_noise(kTrackSeed, 2 * cell), re);
-  add_point_echo(sample, heard * normal_noise(kTrackSeed, 2 * cell + 1), im);
+  add_point_echo(sample, heard * normal_noise(kTrackSeed, 2 * cell), echoes.re);
+  add_point_echo(sample, heard * normal_noise(kTrackSeed, 2 * cell + 1), echoes.im);
 }
 
-void NeedleEcho::add(const Scanline& line, const Pose& X_JP, const BeamTrace& trace,
-                     const BeamPath& path, std::span<float> re,
-                     std::span<float> im) const noexcept {
+void NeedleEcho::add(const SoundedLine& sounded, const Tip& tip, EchoSpan echoes) const noexcept {
+  const BeamTrace& trace = sounded.trace;
+  const std::span<float> re = echoes.re;
   if (!trace.contact) return;
-  add_tip(find_tip(line, X_JP, trace, path), im);
-  const Place place = find_place(line, X_JP, path);
+  add_tip(tip, echoes.im);
+  const Place place = find_place(sounded);
   if (place.depth <= 0) return;
   const double coverage = std::min(
       place.covered,
       std::clamp((place.end_extent + pitch_ - std::abs(place.lateral)) / pitch_, 0.0, 1.0));
-  if (coverage <= 0) return add_side_lobe(place, trace, im);
+  if (coverage <= 0) return add_side_lobe(place, trace, echoes.im);
   const double share = elevation_share(place.elevation, place.depth);
   if (share < 1e-4) return;
   const double radius = needle_.outer_diameter / 2;

@@ -4,10 +4,18 @@
 
 #include "artus/echo/beam_shape.h"
 #include "artus/echo/needle_view.h"
+#include "artus/echo/placed_line.h"
 #include "artus/echo/propagation.h"
 #include "artus/echo/transducer.h"
 
 namespace artus {
+
+/// A scanline with the sound that went along it: the trace and the way of its central beam.
+struct SoundedLine {
+  const PlacedLine& placed;
+  const BeamTrace& trace;
+  const BeamPath& path;
+};
 
 /// The echoes of a needle on the scanlines: the near wall of the shaft, the lines that ring between
 /// its walls, the repeat against the probe's face, the tip, the side lobes beside its ends, and the
@@ -18,11 +26,6 @@ class NeedleEcho {
   NeedleEcho(const NeedleView& needle, const Pose& X_JP, const Transducer& transducer,
              const BeamShape& shape) noexcept;
 
-  /// Adds the needle to one scanline before the beam's shape is applied: darkens what lies below
-  /// the shaft and adds its echoes. `trace` and `path` are of the line's central beam.
-  void add(const Scanline& line, const Pose& X_JP, const BeamTrace& trace, const BeamPath& path,
-           std::span<float> re, std::span<float> im) const noexcept;
-
   /// The tip as one scanline shows it.
   struct Tip {
     double share = 0;     ///< 1 on this line .. 0 a line's distance beside it, or unseen
@@ -30,23 +33,24 @@ class NeedleEcho {
     double depth = 0;     ///< m along the beam
     double log_gain = 0;  ///< ln of the two-way amplitude there
   };
-  [[nodiscard]] Tip find_tip(const Scanline& line, const Pose& X_JP, const BeamTrace& trace,
-                             const BeamPath& path) const noexcept;
+  [[nodiscard]] Tip find_tip(const SoundedLine& sounded) const noexcept;
+
+  /// Adds the needle's echoes to one scanline before the beam's shape is applied. `tip` is
+  /// find_tip's.
+  void add(const SoundedLine& sounded, const Tip& tip, EchoSpan echoes) const noexcept;
 
   /// Adds scatterers of rms `amplitude` along the needle's axis, fixed in the body: its track.
-  void add_track(double amplitude, const Scanline& line, const Pose& X_JP, const BeamTrace& trace,
-                 const BeamPath& path, std::span<float> re, std::span<float> im) const noexcept;
+  void add_track(double amplitude, const SoundedLine& sounded, EchoSpan echoes) const noexcept;
 
   /// Multiplies `light` (n_samples), the share of the sound that reaches each sample of a scanline
   /// and returns, by what the needle lets pass.
-  void shade(const Scanline& line, std::span<float> light) const noexcept;
+  void shade(const PlacedLine& placed, std::span<float> light) const noexcept;
 
  private:
   struct Place;
   struct Extent;
-  [[nodiscard]] Place find_place(const Scanline& line, const Pose& X_JP,
-                                 const BeamPath& path) const noexcept;
-  [[nodiscard]] Extent find_extent(const Scanline& line) const noexcept;
+  [[nodiscard]] Place find_place(const SoundedLine& sounded) const noexcept;
+  [[nodiscard]] Extent find_extent(const PlacedLine& placed) const noexcept;
   void add_shaft(const Place& place, double sample, double amplitude,
                  std::span<float> line) const noexcept;
   void add_tip(const Tip& tip, std::span<float> line) const noexcept;
@@ -56,6 +60,7 @@ class NeedleEcho {
 
   const BeamShape* shape_;
   NeedleShape needle_;
+  Pose X_PJ_;
   Vec3 p_PTip_;
   Vec3 axis_P_;         // unit, from tip to hub
   double pitch_;        // m between scanlines

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "artus/echo/gain_ramp.h"
+
 namespace artus {
 namespace {
 
@@ -54,8 +56,7 @@ class Horizon {
 }  // namespace
 
 void add_penumbra(const Transducer& transducer, double sample_depth,
-                  std::span<const float> shadow_from, int l, std::span<float> re,
-                  std::span<float> im) noexcept {
+                  std::span<const float> shadow_from, int l, EchoSpan line) noexcept {
   const int reach = static_cast<int>(std::ceil(0.5 * transducer.max_aperture / transducer.pitch()));
   const int first = std::max(0, l - reach);
   const int last = std::min(static_cast<int>(shadow_from.size()), l + reach + 1);
@@ -63,7 +64,7 @@ void add_penumbra(const Transducer& transducer, double sample_depth,
   const float shallowest =
       *std::min_element(shadow_from.begin() + first, shadow_from.begin() + last);
   const std::size_t begin = static_cast<std::size_t>(shallowest) / kStride * kStride;
-  const std::size_t end = std::min(re.size(), own + kStride);  // echoes reach beyond a surface
+  const std::size_t end = std::min(line.size(), own + kStride);  // echoes reach beyond a surface
   if (begin >= end) return;
   const Horizon horizon(transducer, sample_depth, shadow_from, l);
   const auto gain_at = [&](std::size_t sample) {
@@ -71,19 +72,9 @@ void add_penumbra(const Transducer& transducer, double sample_depth,
         horizon.open(std::max<double>(1, static_cast<double>(sample)) * sample_depth);
     return open * open;
   };
-  double next = gain_at(begin);
-  for (std::size_t from = begin; from < end; from += kStride) {
-    const double here = next;
-    next = gain_at(from + kStride);
-    if (here >= 1 && next >= 1) continue;
-    const std::size_t n = std::min(kStride, re.size() - from);
-    for (std::size_t i = 0; i < n; ++i) {
-      const double t = static_cast<double>(i) / static_cast<double>(kStride);
-      const auto gain = static_cast<float>(here + t * (next - here));
-      re[from + i] *= gain;
-      im[from + i] *= gain;
-    }
-  }
+  const std::size_t strides = (end - begin + kStride - 1) / kStride;
+  apply_ramp<double>({begin, std::min(line.size(), begin + strides * kStride), kStride}, gain_at,
+                     [&](std::size_t i, float gain) { scale_sample(line, i, gain); });
 }
 
 }  // namespace artus

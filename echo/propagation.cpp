@@ -12,9 +12,10 @@ namespace {
 constexpr double kThinnest = 2e-6;  // m, an interval shorter than this is rounding
 constexpr double kStraight = 2e-3;  // sine of a bend that is not worth another query
 constexpr double kPiece = 4e-3;     // m, longest run: the downshift curves the loss slowly
-constexpr double kGrazing = 0.17;   // cosine of 80 degrees: along a faceted surface, go straight
-constexpr double kSilence = -20;    // ln: 174 dB down, below any receiver
-constexpr double kMargin = 1.25;    // tissue as fast as tendon reaches deeper in the same time
+constexpr double kAlongSurface =
+    0.17;                         // cosine of 80 degrees: along a faceted surface, go straight
+constexpr double kSilence = -20;  // ln: 174 dB down, below any receiver
+constexpr double kMargin = 1.25;  // tissue as fast as tendon reaches deeper in the same time
 constexpr double kFaceReflection = 0.1;  // assumed: matching layers and lens send back -20 dB
 constexpr double kTiny = 1e-12;
 constexpr double kRepeatFrom = 0.02;  // echoes above -34 dB repeat
@@ -80,8 +81,7 @@ BeamTracer::BeamTracer(const Scene& scene, std::span<const RegionAcoustics> regi
       regions_(regions),
       sample_depth_(settings.depth / settings.n_samples),
       n_samples_(settings.n_samples),
-      spectrum_sigma_(
-          settings.frequency_downshift ? transducer.frequency * transducer.bandwidth / 2.355 : 0),
+      spectrum_sigma_(settings.frequency_downshift ? transducer.spectrum_sigma() : 0),
       gel_limit_(settings.gel_limit),
       max_path_(settings.depth * kMargin),
       refraction_(settings.refraction),
@@ -99,7 +99,7 @@ bool BeamTracer::enter(Walk& walk, const TissueInterval& interval,
   if (interval.region == kBeyond) return false;
   const bool air = walk.touched && interval.region == kOutside;
   const double cosine = -walk.wave.dot(interval.entry_normal);
-  if (cosine < kGrazing) return !to.opaque && !air;
+  if (cosine < kAlongSurface) return !to.opaque && !air;
   InterfaceResponse response = compute_interface(from, to, cosine);
   if (air) response = {1, 1, 0, 0};
   const double sheath = sheath_reflection(from, to);

@@ -86,6 +86,8 @@ class BeamTracer {
   BeamTracer(const Scene& scene, std::span<const RegionAcoustics> regions,
              const Transducer& transducer, const ImageSettings& settings) noexcept;
 
+  [[nodiscard]] std::span<const RegionAcoustics> regions() const noexcept { return regions_; }
+
   /// The beam from `origin_J` along `direction_J` (unit), bent at the interfaces when refraction is
   /// on. Fills `trace`, and `path` with the way it took. Cost: one query per bend.
   void trace_bent(const Vec3& origin_J, const Vec3& direction_J, BeamTrace& trace,

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "artus/core/check.h"
 #include "artus/core/result.h"
 
 namespace artus {
@@ -33,5 +34,13 @@ class RangeCheck {
   std::string group_;
   std::string message_;
 };
+
+/// `value` itself, for initialisers. Requires: validate(value) finds nothing wrong.
+template <class T>
+const T& require_valid(const T& value) {
+  const Result<void> result = validate(value);
+  ARTUS_REQUIRE(result.has_value(), result.error().to_string());
+  return value;
+}
 
 }  // namespace artus

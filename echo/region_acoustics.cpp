@@ -20,7 +20,6 @@ constexpr double kTendonFloor = 0.056;  // -25 dB
 constexpr double kLobe = 12;            // degrees, half the acceptance of an F/2 aperture
 constexpr double kApertureHalf = 14 * kDegree;  // rad, of an F/2 aperture seen from its focus
 constexpr double kApertureSine = 0.242;         // its sine
-constexpr double kGrazing = 0.12;     // cosine below which a faceted normal says nothing more
 constexpr double kEpimysium = 0.06;   // -24 dB. assumed: a fascia shows like fat on muscle
 constexpr double kBursaWall = 0.08;   // -22 dB. assumed: the walls show brighter than muscle
 constexpr double kEpineurium = 0.05;  // -26 dB. assumed
@@ -170,7 +169,7 @@ double fibre_attenuation(TissueKind kind, double cosine) noexcept {
 
 InterfaceResponse compute_interface(const RegionAcoustics& from, const RegionAcoustics& to,
                                     double cosine) noexcept {
-  const double cos_in = std::clamp(cosine, kGrazing, 1.0);
+  const double cos_in = std::clamp(cosine, kSteepestFacet, 1.0);
   const double sin_out = to.speed / from.speed * std::sqrt(1 - cos_in * cos_in);
   const double facing = std::abs(to.impedance - from.impedance) / (to.impedance + from.impedance);
   if (sin_out >= 1) return {1, facing, 0, 0};

@@ -76,6 +76,9 @@ struct InterfaceResponse {
   double cosine_out = 1;    ///< of the refracted direction against the normal; 0 when total
 };
 
+/// Cosine of the incidence below which the normal of a faceted surface says nothing more.
+inline constexpr double kSteepestFacet = 0.12;
+
 /// Fluid-fluid reflection at incidence `cosine` (0..1], with Snell's law. Cost: constant.
 /// Source: [Kinsler2000] eq. 6.4.8.
 [[nodiscard]] InterfaceResponse compute_interface(const RegionAcoustics& from,

@@ -13,15 +13,19 @@
 
 namespace artus {
 
-/// Turns a probe pose into a B-mode image, again and again. Keeps its tables and buffers: build one
-/// per probe and settings. One thread at a time may render with one Renderer; it uses several
-/// threads inside, and the image does not depend on how many.
+class EchoPipeline;
+
+/// Turns a probe pose into a B-mode image, again and again: a body and the pipeline of tables and
+/// buffers that one probe and its settings need. One thread at a time may render with one Renderer;
+/// it uses several threads inside, and the image does not depend on how many.
 class Renderer {
  public:
   /// Requires: valid transducer and settings (validate tells what is wrong). Cost: 0.1 to 0.3 s,
   /// and some 0.3 s more on one thread for the fibres of a joint of a few dozen structures.
   Renderer(std::shared_ptr<const Scene> scene, const Transducer& transducer,
            const ImageSettings& settings);
+  /// The same with a pipeline that was made elsewhere.
+  Renderer(std::shared_ptr<const Scene> scene, std::unique_ptr<EchoPipeline> pipeline);
   ~Renderer();
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
@@ -30,7 +34,8 @@ class Renderer {
 
   /// The image seen from X_JP, with `needle` when given. The frame stays valid until the next call.
   /// A probe that does not touch the body gives a black image below a reverberating line.
-  /// Requires: a finite rigid pose. Cost: a few ms a frame; allocates nothing after the first call.
+  /// Errors: none; a pose that cannot be used is noted in Frame::status, and its frame is black, or
+  /// without the needle. Cost: a few ms a frame; allocates nothing after the first calls.
   const Frame& render(const Pose& X_JP, const std::optional<NeedleView>& needle = std::nullopt);
 
   /// How well strips of the face couple to the skin in later frames: 0 (lifted, or no gel) .. 1,
@@ -46,18 +51,22 @@ class Renderer {
   /// Tracks of withdrawn needles that later frames show.
   void set_needle_tracks(std::vector<NeedleTrack> tracks);
 
+  /// Gain, range, time gain, smoothing and persistence of the next frame on. Requires: valid.
+  /// Cost: some 10 us.
+  void set_live(const LiveSettings& live);
+
+  /// Other probe, other settings from the next frame on: the body, its fibres' courses, reflectors,
+  /// tracks and the contact stay. The pipeline may have been made on any thread while this one
+  /// rendered. Cost: below 1 ms.
+  void set_pipeline(std::unique_ptr<EchoPipeline> pipeline);
+
   /// Swaps in a deformed copy of the body between frames; its fibres keep their first course.
   void set_scene(std::shared_ptr<const Scene> scene);
 
   [[nodiscard]] const Transducer& transducer() const noexcept;
   [[nodiscard]] const ImageSettings& settings() const noexcept;
 
-  /// Seconds the last frame spent in each stage.
-  struct StageTimes {
-    double lines = 0;    ///< tracing, scattering and needle
-    double beam = 0;     ///< lateral and axial pulse shape, envelope, compression
-    double display = 0;  ///< scan conversion
-  };
+  /// Of the last frame.
   [[nodiscard]] const StageTimes& stage_times() const noexcept;
 
  private:

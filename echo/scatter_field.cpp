@@ -33,9 +33,19 @@ inline std::uint32_t hash_cell(std::uint32_t x, std::uint32_t y, std::uint32_t z
 // The difference of two uniform bytes has variance (256^2 - 1) / 6; twice that for both parts.
 constexpr float kUnitPower = 1.0F / 147.8F;
 
+/// The scatterers of one lattice along a walk.
+struct ScattererWalk {
+  LatticeWalk walk;
+  std::uint32_t seed = 0;
+  float unit = 1;  // factor that makes their power one, or a share of it
+};
+
 ARTUS_SIMD
-void add_scatterers(const LatticeWalk& walk, std::uint32_t seed, float unit, const float* gain,
-                    float* re, float* im, std::size_t n) noexcept {
+void add_scatterers(const ScattererWalk& scatterers, const float* gain, float* re, float* im,
+                    std::size_t n) noexcept {
+  const LatticeWalk& walk = scatterers.walk;
+  const std::uint32_t seed = scatterers.seed;
+  const float unit = scatterers.unit;
   const std::uint32_t x0 = walk.start[0];
   const std::uint32_t y0 = walk.start[1];
   const std::uint32_t z0 = walk.start[2];
@@ -133,7 +143,7 @@ void ScatterField::add(const ScatterView& view, const Vec3& p_J, const Vec3& ste
     const LatticeWalk walk{
         {to_fixed_cells(start.x()), to_fixed_cells(start.y()), to_fixed_cells(start.z())},
         {to_fixed_cells(step.x()), to_fixed_cells(step.y()), to_fixed_cells(step.z())}};
-    add_scatterers(walk, lattice.seed, kUnitPower * lattice.weight, gain.data(), re.data(),
+    add_scatterers({walk, lattice.seed, kUnitPower * lattice.weight}, gain.data(), re.data(),
                    im.data(), gain.size());
   }
 }
@@ -145,7 +155,7 @@ double ScatterField::shared(double distance, double cell) noexcept {
 void add_white_noise(std::uint64_t seed, int line, std::span<const float> gain, std::span<float> re,
                      std::span<float> im) noexcept {
   const LatticeWalk walk{{static_cast<std::uint32_t>(line) << 16U, 0, 0}, {0, 0, 1U << 16U}};
-  add_scatterers(walk, static_cast<std::uint32_t>(mix_bits(seed)), kUnitPower, gain.data(),
+  add_scatterers({walk, static_cast<std::uint32_t>(mix_bits(seed)), kUnitPower}, gain.data(),
                  re.data(), im.data(), gain.size());
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "artus/echo/gaussian.h"
 #include "artus/echo/range_check.h"
 
 namespace artus {
@@ -29,7 +30,6 @@ Result<void> validate(const Transducer& t) {
 }
 
 double specular_phase(const Transducer& t, double speed) noexcept {
-  constexpr double kSigmaPerWidth = 1 / 2.3548200450309493;
   const double sigma = kTwoWayWidth * t.wavelength() * t.f_number * kSigmaPerWidth;
   return std::numbers::sqrt2 * 2 * std::numbers::pi * t.frequency / speed * sigma;
 }

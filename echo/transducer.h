@@ -24,12 +24,16 @@ struct Transducer {
   /// there; 0: focused at every depth, as scanners do with many foci or synthetic apertures.
   double transmit_focus = 0;
 
+  friend bool operator==(const Transducer&, const Transducer&) = default;
+
   /// Distance between neighbouring scanlines at the face, m.
   [[nodiscard]] double pitch() const noexcept {
     return n_lines > 1 ? width / (n_lines - 1) : width;
   }
   /// In a medium of the display's speed of sound, m.
   [[nodiscard]] double wavelength() const noexcept { return kDisplaySpeedOfSound / frequency; }
+  /// Standard deviation of the echo's spectrum, Hz, taken as a Gaussian.
+  [[nodiscard]] double spectrum_sigma() const noexcept { return frequency * bandwidth / 2.355; }
 };
 
 /// Full width at half maximum of the two-way amplitude across a beam, in wavelengths per F-number

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 #include <cstdint>
+#include <string>
 #include <string_view>
 #include <type_traits>
+#include <vector>
 
 #include "artus/core/check.h"
 #include "artus/core/geometry.h"
@@ -70,7 +72,7 @@ struct DeviceFeedback {
 };
 
 /// One source of poses and one sink of forces: a shared-memory peer, a simulated hand, a recorded
-/// file, mouse and keyboard. The haptic thread alone calls it.
+/// file, mouse and keyboard. The haptic thread alone calls read and write.
 class InputDevice {
  public:
   InputDevice() = default;
@@ -81,6 +83,9 @@ class InputDevice {
   /// The newest sample; never waits. `now_ns`: monotonic clock of this tick.
   [[nodiscard]] ARTUS_REALTIME virtual DeviceSample read(std::int64_t now_ns) noexcept = 0;
   ARTUS_REALTIME virtual void write(const DeviceFeedback& feedback) noexcept = 0;
+  /// Mends what the outside world spoiled and says so, a line each. A few times a second, from
+  /// another thread than read and write.
+  [[nodiscard]] virtual std::vector<std::string> look_after() { return {}; }
   [[nodiscard]] virtual std::string_view name() const noexcept = 0;
 };
 

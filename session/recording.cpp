@@ -8,10 +8,12 @@
 
 #include <nlohmann/json.hpp>
 
+#include "artus/session/needle_feel_json.h"
+
 namespace artus {
 namespace {
 
-constexpr int kVersion = 4;
+constexpr int kVersion = 5;
 constexpr std::uint32_t kTick = 1;
 constexpr std::uint32_t kFrame = 2;
 constexpr std::uint32_t kEnd = 3;
@@ -44,7 +46,7 @@ nlohmann::json to_json(const RecordingHead& head) {
           {"gesture_axis", {g.axis_W.x(), g.axis_W.y(), g.axis_W.z()}},
           {"gesture_beside", g.beside_probe},
           {"gesture_steepness", g.steepness},
-          {"laws", to_json(head.felt)}};
+          {"feel", to_json(head.feel)}};
 }
 
 Vec3 to_vec3(const nlohmann::json& json) {
@@ -65,9 +67,9 @@ Result<RecordingHead> to_head(const nlohmann::json& json) {
   head.gesture.axis_W = to_vec3(json.at("gesture_axis"));
   json.at("gesture_beside").get_to(head.gesture.beside_probe);
   json.at("gesture_steepness").get_to(head.gesture.steepness);
-  const auto felt = to_felt_laws(json.at("laws"));
-  ARTUS_TRY(felt);
-  head.felt = *felt;
+  const auto feel = to_needle_feel(json.at("feel"));
+  ARTUS_TRY(feel);
+  head.feel = *feel;
   return head;
 }
 
@@ -136,7 +138,7 @@ RecordingHead make_head(const CompiledJoint& joint, const SessionParams& params)
   head.seed = params.image.seed;
   head.X_WJ = to_plain(params.X_WJ);
   head.gesture = params.gesture;
-  head.felt = felt_laws_of(params);
+  head.feel = params.feel;
   return head;
 }
 

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "artus/core/result.h"
-#include "artus/session/felt_laws.h"
 #include "artus/session/session_core.h"
 #include "artus/session/session_exchange.h"
 
@@ -42,7 +41,7 @@ struct RecordingHead {
   std::uint64_t seed = 0;     ///< of speckle and noise
   PlainPose X_WJ;
   GestureParams gesture;
-  FeltLaws felt;
+  NeedleFeel feel;
 };
 [[nodiscard]] RecordingHead make_head(const CompiledJoint& joint, const SessionParams& params);
 

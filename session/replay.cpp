@@ -25,7 +25,7 @@ Result<SessionParams> params_of(const RecordingHead& head, SessionParams params)
   params.image.seed = head.seed;
   params.X_WJ = to_pose(head.X_WJ);
   params.gesture = head.gesture;
-  apply(head.felt, params);
+  params.feel = head.feel;
   ARTUS_TRY(validate(params));
   return params;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "artus/core/noise.h"
+#include "artus/session/haptic_loop.h"
 
 namespace artus {
 namespace {
@@ -41,38 +42,18 @@ void run_servo_loop(HapticCore& core, InputDevice& device, const ServoOptions& o
                     ServoReport& report) {
   report.refused = request_from_system(options.wishes);
   measure_floor(options, stop, report.floor);
-  PeriodicSchedule schedule(options.rate_hz);
-  LateWatch watch(schedule.period_ns());
   const std::int64_t end = monotonic_ns() + static_cast<std::int64_t>(1e9 * options.seconds);
+  HapticLoop loop(core, device, options.rate_hz, newest,
+                  {report.compute, report.cpu, report.lateness});
   std::uint64_t x = 1;
-  for (std::uint64_t number = 1; !stop.load(std::memory_order_relaxed); ++number) {
-    const std::int64_t late = schedule.wait();
-    const std::int64_t woken = monotonic_ns();
-    if (woken >= end) break;
-    report.lateness.add_with_missed(late, schedule.period_ns());
-    TickInput input;
-    input.device = device.read(woken);
-    input.tick = number;
-    const std::int64_t begin = monotonic_ns();
-    const std::int64_t cpu_begin = thread_cpu_ns();
-    if (watch.step(late)) input.command |= SessionCommand::kLate;
-    const HapticSnapshot& out = core.step(input);
-    newest.store(out);
-    report.cpu.add(thread_cpu_ns() - cpu_begin);
-    report.compute.add(monotonic_ns() - begin);
-    DeviceFeedback feedback = out.feedback;
-    feedback.time_ns = monotonic_ns();
-    device.write(feedback);
-    count(out, report);
+  while (!stop.load(std::memory_order_relaxed) && monotonic_ns() < end) {
+    loop.wait();
+    count(loop.step(0), report);
     const std::int64_t idle = monotonic_ns();
     x = work_fixed(x);
     if (x != 0) report.fixed.add(monotonic_ns() - idle);  // never zero: the work is not left out
   }
-  report.overruns = schedule.overruns();
-  DeviceFeedback last;  // zero force, whoever still listens
-  last.status = SessionStatus::kStopped;
-  last.time_ns = monotonic_ns();
-  device.write(last);
+  report.overruns = loop.overruns();
 }
 
 }  // namespace artus

@@ -2,9 +2,44 @@
 #include "artus/session/session.h"
 
 #include <algorithm>
+#include <exception>
 #include <utility>
 
+#include "artus/session/haptic_loop.h"
+
 namespace artus {
+namespace {
+
+constexpr std::int64_t kCarePeriod = 20'000'000;     // ns between two looks at what may be spoiled
+constexpr std::int64_t kAfterFailure = 500'000'000;  // ns before imaging is tried again
+constexpr std::size_t kMostNotices = 100;
+
+TracePoint trace_point_of(const HapticSnapshot& out, double time) noexcept {
+  const Vec3 axis = to_pose(out.X_JN).linear().col(2);
+  const Vec3 force(out.force_J[0], out.force_J[1], out.force_J[2]);
+  const double along = force.dot(axis);
+  TracePoint point;
+  point.time = time;
+  point.depth = out.feedback.depth;
+  point.force = static_cast<float>(-along);
+  point.lateral = static_cast<float>((force - along * axis).norm());
+  point.region = static_cast<std::uint16_t>(out.feedback.region);
+  point.contact = static_cast<std::uint16_t>(out.feedback.contact);
+  return point;
+}
+
+/// What an exception says.
+std::string reason_of(const std::exception_ptr& failure) {
+  try {
+    std::rethrow_exception(failure);
+  } catch (const std::exception& e) {
+    return e.what();
+  } catch (...) {
+    return "an unknown failure";
+  }
+}
+
+}  // namespace
 
 Session::Session(std::shared_ptr<const Scene> scene, const SessionParams& params,
                  std::unique_ptr<InputDevice> device)
@@ -30,27 +65,29 @@ Result<std::unique_ptr<Session>> Session::start(std::shared_ptr<const Scene> sce
     ARTUS_TRY(recorder);
     session->recorder_ = std::move(*recorder);
   }
-  if (options.share_images) {
-    auto channel = SharedChannel<artus_shm_image>::open(options.image_segment_prefix, kImageLayout,
-                                                        SegmentAccess::owner_writes);
+  session->on_image_ = options.on_image;
+  if (options.images && options.share_images) {
+    auto channel = RenewedChannel<artus_shm_image>::open(options.image_segment_prefix, kImageLayout,
+                                                         SegmentAccess::owner_writes);
     ARTUS_TRY(channel);
-    session->image_prefix_ = options.image_segment_prefix;
-    session->shared_image_.emplace(std::move(*channel));
+    session->shared_image_ = std::move(*channel);
     session->image_bytes_ = std::make_unique<artus_shm_image>();
   }
   Session* running = session.get();
   const ThreadWishes haptics = options.haptic_wishes;
   const ThreadWishes imaging = options.imaging_wishes;
   session->haptic_thread_ = std::thread([running, haptics] { running->run_haptics(haptics); });
-  session->imaging_thread_ = std::thread([running, imaging] { running->run_imaging(imaging); });
+  if (options.images)
+    session->imaging_thread_ = std::thread([running, imaging] { running->run_imaging(imaging); });
+  session->care_thread_ = std::thread([running] { running->run_care(); });
   return session;
 }
 
 Session::~Session() {
   stop_ = true;
-  if (haptic_thread_.joinable()) haptic_thread_.join();
-  if (imaging_thread_.joinable()) imaging_thread_.join();
-  if (shared_image_) SharedSegment::remove(image_prefix_, kImageLayout);
+  for (std::thread* thread : {&haptic_thread_, &imaging_thread_, &care_thread_})
+    if (thread->joinable()) thread->join();
+  if (shared_image_) shared_image_->remove_own();
 }
 
 std::uint64_t Session::unrecorded() const noexcept {
@@ -58,75 +95,93 @@ std::uint64_t Session::unrecorded() const noexcept {
 }
 
 std::vector<std::string> Session::refusals() const {
-  const std::lock_guard<std::mutex> lock(refusals_mutex_);
+  const std::lock_guard<std::mutex> lock(told_mutex_);
   return refusals_;
+}
+
+std::vector<std::string> Session::notices() const {
+  const std::lock_guard<std::mutex> lock(told_mutex_);
+  return notices_;
 }
 
 void Session::ask(const char* who, const ThreadWishes& wishes) {
   for (const std::string& refused : request_from_system(wishes)) {
-    const std::lock_guard<std::mutex> lock(refusals_mutex_);
+    const std::lock_guard<std::mutex> lock(told_mutex_);
     refusals_.push_back(std::string(who) + ": " + refused);
   }
 }
 
-void Session::run_haptics(const ThreadWishes& wishes) {
-  ask("haptics", wishes);
-  PeriodicSchedule schedule(params_.haptic_rate);
-  LateWatch watch(schedule.period_ns());
-  for (std::uint64_t number = 1; !stop_.load(std::memory_order_relaxed); ++number) {
-    const std::int64_t late = schedule.wait();
-    times_->haptic_lateness.add_with_missed(late, schedule.period_ns());
-    overruns_.store(schedule.overruns(), std::memory_order_relaxed);
-    tick(number, watch.step(late));
-  }
-  DeviceFeedback last;  // zero force, whoever still listens
-  last.status = SessionStatus::kStopped;
-  last.time_ns = monotonic_ns();
-  device_->write(last);
+void Session::tell(const std::string& notice) {
+  const std::lock_guard<std::mutex> lock(told_mutex_);
+  if (!notices_.empty() && notices_.back() == notice) return;
+  if (notices_.size() == kMostNotices) notices_.erase(notices_.begin());
+  notices_.push_back(notice);
 }
 
-void Session::tick(std::uint64_t number, bool too_late) noexcept {
-  const std::int64_t begin = monotonic_ns();
-  const std::int64_t cpu_begin = thread_cpu_ns();
-  TickInput input;
-  input.device = device_->read(begin);
-  input.tick = number;
-  if (paused_.load(std::memory_order_relaxed)) input.command |= SessionCommand::kPause;
-  if (too_late) input.command |= SessionCommand::kLate;
-  if (reset_.exchange(false, std::memory_order_relaxed)) input.command |= SessionCommand::kReset;
-  const HapticSnapshot& out = core_.step(input);
-  DeviceFeedback feedback = out.feedback;
-  feedback.time_ns = monotonic_ns();
-  device_->write(feedback);
-  haptic_.store(out);
+void Session::rest(std::int64_t ns) const noexcept {
+  constexpr std::int64_t kStep = 20'000'000;  // ns, so that a stop is soon seen
+  const std::int64_t end = monotonic_ns() + ns;
+  while (!stop_.load(std::memory_order_relaxed) && monotonic_ns() < end)
+    std::this_thread::sleep_for(std::chrono::nanoseconds(std::min(ns, kStep)));
+}
+
+void Session::run_haptics(const ThreadWishes& wishes) {
+  ask("haptics", wishes);
+  HapticLoop loop(core_, *device_, params_.haptic_rate, haptic_,
+                  {times_->haptic_compute, times_->haptic_cpu, times_->haptic_lateness});
+  while (!stop_.load(std::memory_order_relaxed)) {
+    loop.wait();
+    overruns_.store(loop.overruns(), std::memory_order_relaxed);
+    publish(loop.step(take_command()));
+  }
+}
+
+std::uint32_t Session::take_command() noexcept {
+  std::uint32_t command = 0;
+  if (paused_.load(std::memory_order_relaxed)) command |= SessionCommand::kPause;
+  if (reset_.exchange(false, std::memory_order_relaxed)) command |= SessionCommand::kReset;
+  return command;
+}
+
+void Session::publish(const HapticSnapshot& out) noexcept {
   if (recorder_) recorder_->add(to_record(out));
-  const Vec3 axis = to_pose(out.X_JN).linear().col(2);
-  const Vec3 force(out.force_J[0], out.force_J[1], out.force_J[2]);
-  const double along = force.dot(axis);
-  TracePoint point;
-  point.time = 1e-9 * static_cast<double>(begin - start_ns_);
-  point.depth = out.feedback.depth;
-  point.force = static_cast<float>(-along);
-  point.lateral = static_cast<float>((force - along * axis).norm());
-  point.region = static_cast<std::uint16_t>(out.feedback.region);
-  point.contact = static_cast<std::uint16_t>(out.feedback.contact);
-  trace_.push(point);
-  ticks_.store(number, std::memory_order_relaxed);
-  times_->haptic_cpu.add(thread_cpu_ns() - cpu_begin);
-  times_->haptic_compute.add(monotonic_ns() - begin);
+  trace_.push(trace_point_of(out, 1e-9 * static_cast<double>(monotonic_ns() - start_ns_)));
+  ticks_.store(out.input.tick, std::memory_order_relaxed);
+}
+
+void Session::run_care() {
+  while (!stop_.load(std::memory_order_relaxed)) {
+    try {
+      for (const std::string& said : device_->look_after()) tell(said);
+      const auto said = shared_image_ ? shared_image_->look_after() : std::nullopt;
+      if (said) tell(*said);
+    } catch (...) {
+      tell(reason_of(std::current_exception()));
+    }
+    rest(kCarePeriod);
+  }
 }
 
 void Session::run_imaging(const ThreadWishes& wishes) {
   ask("imaging", wishes);  // before the renderer's workers start, which inherit it
-  ImageCore core(scene_, params_);
+  std::unique_ptr<ImageCore> core;
   PeriodicSchedule schedule(params_.image_rate);
   std::uint64_t number = 0;
   while (!stop_.load(std::memory_order_relaxed)) {
     schedule.wait();
-    if (frozen_.load(std::memory_order_relaxed))
-      n_images_ = 0;  // a pause is no gap
-    else
-      image(core, ++number);
+    try {
+      if (!core) core = std::make_unique<ImageCore>(scene_, params_);
+      if (frozen_.load(std::memory_order_relaxed)) {
+        n_images_ = 0;  // a pause is no gap
+        share_again();
+      } else {
+        image(*core, ++number);
+      }
+    } catch (...) {
+      tell("imaging failed: " + reason_of(std::current_exception()) + "; it is tried again");
+      core.reset();
+      rest(kAfterFailure);
+    }
   }
 }
 
@@ -148,6 +203,7 @@ void Session::image(ImageCore& core, std::uint64_t number) {
   out.input = input;
   out.ready_ns = monotonic_ns();
   if (shared_image_) share(out);
+  if (on_image_) on_image_(out);
   if (recorder_) recorder_->add(FrameRecord{input, digest_of(frame)});
   times_->image_render.add(out.ready_ns - begin);
   note_image(out.ready_ns);
@@ -170,7 +226,11 @@ void Session::note_image(std::int64_t ready_ns) {
 void Session::share(const ImageSnapshot& image) {
   artus_shm_image& out = *image_bytes_;
   const std::size_t n = image.grey.size();
-  if (n > std::size(out.grey)) return;
+  if (n > std::size(out.grey)) {
+    tell("an image of " + std::to_string(image.width) + " x " + std::to_string(image.height) +
+         " pixels is too large for IMAGE");
+    return;
+  }
   out.frame = image.input.number;
   out.time_ns = static_cast<std::uint64_t>(image.ready_ns);
   out.pos_time_ns = static_cast<std::uint64_t>(image.input.sample_time_ns);
@@ -178,7 +238,12 @@ void Session::share(const ImageSnapshot& image) {
   out.width = static_cast<std::uint32_t>(image.width);
   out.height = static_cast<std::uint32_t>(image.height);
   std::copy(image.grey.begin(), image.grey.end(), std::begin(out.grey));
-  shared_image_->write_prefix(out, offsetof(artus_shm_image, grey) + n);
+  n_image_bytes_ = offsetof(artus_shm_image, grey) + n;
+  share_again();
+}
+
+void Session::share_again() noexcept {
+  if (n_image_bytes_ > 0) shared_image_->use().write_prefix(*image_bytes_, n_image_bytes_);
 }
 
 }  // namespace artus

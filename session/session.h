@@ -3,20 +3,20 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "artus/session/recording.h"
+#include "artus/session/renewed_channel.h"
 #include "artus/session/seqlock.h"
 #include "artus/session/session_core.h"
 #include "artus/session/session_exchange.h"
 #include "artus/session/session_histogram.h"
 #include "artus/session/session_thread.h"
-#include "artus/session/shared_memory.h"
 
 namespace artus {
 
@@ -43,7 +43,7 @@ struct TracePoint {
 
 /// Where the time goes; each is written by one thread and may be read by any.
 struct SessionTimes {
-  LatencyHistogram haptic_compute;   ///< one tick: device, scene, laws, publication
+  LatencyHistogram haptic_compute;   ///< one tick from the pose to the published force
   LatencyHistogram haptic_cpu;       ///< the same in processor time: without what was taken from it
   LatencyHistogram haptic_lateness;  ///< wake-up after its schedule
   LatencyHistogram image_render;
@@ -52,8 +52,10 @@ struct SessionTimes {
   LatencyHistogram pose_to_image;   ///< from the device's time stamp to the finished image
 };
 
-/// A running session: a haptic thread and an imaging thread over one scene and one device. The
-/// threads never wait for each other or for a reader; everybody takes the newest there is.
+/// A running session: a haptic thread and an imaging thread over one scene and one device, and one
+/// that looks after what the outside world may spoil. The threads never wait for each other or for
+/// a reader; everybody takes the newest there is. What fails in imaging is told, and the hand goes
+/// on.
 class Session {
  public:
   struct Options {
@@ -61,7 +63,10 @@ class Session {
     ThreadWishes imaging_wishes{0, -10, false, -1};
     std::filesystem::path recording;   ///< empty: nothing is recorded
     std::string image_segment_prefix;  ///< of IMAGE
+    bool images = true;                ///< false: nothing is drawn
     bool share_images = false;         ///< write IMAGE
+    /// Called with each new image in the imaging thread; what it throws is told like any failure.
+    std::function<void(const ImageSnapshot&)> on_image;
   };
 
   /// Requires: valid params, a scene, a device. Errors: those of the recording and of IMAGE.
@@ -69,7 +74,7 @@ class Session {
                                                               const SessionParams& params,
                                                               std::unique_ptr<InputDevice> device,
                                                               const Options& options);
-  /// Stops both threads, closes the recording, removes IMAGE.
+  /// Stops all threads, closes the recording, removes IMAGE.
   ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
@@ -97,17 +102,24 @@ class Session {
   [[nodiscard]] bool next_trace_point(TracePoint& out) noexcept { return trace_.pop(out); }
   /// What the system refused to the threads; for people.
   [[nodiscard]] std::vector<std::string> refusals() const;
+  /// What went wrong since the start and what was done about it, the newest last; for people.
+  [[nodiscard]] std::vector<std::string> notices() const;
 
  private:
   Session(std::shared_ptr<const Scene> scene, const SessionParams& params,
           std::unique_ptr<InputDevice> device);
   void run_haptics(const ThreadWishes& wishes);
   void run_imaging(const ThreadWishes& wishes);
+  void run_care();
   void ask(const char* who, const ThreadWishes& wishes);
+  void tell(const std::string& notice);
   void note_image(std::int64_t ready_ns);
-  ARTUS_REALTIME void tick(std::uint64_t number, bool too_late) noexcept;
+  [[nodiscard]] ARTUS_REALTIME std::uint32_t take_command() noexcept;
+  ARTUS_REALTIME void publish(const HapticSnapshot& out) noexcept;
   void image(ImageCore& core, std::uint64_t number);
   void share(const ImageSnapshot& image);
+  void share_again() noexcept;
+  void rest(std::int64_t ns) const noexcept;
 
   std::shared_ptr<const Scene> scene_;
   SessionParams params_;
@@ -115,9 +127,10 @@ class Session {
   HapticCore core_;
   std::unique_ptr<SessionTimes> times_;
   std::unique_ptr<Recorder> recorder_;
-  std::optional<SharedChannel<artus_shm_image>> shared_image_;
-  std::unique_ptr<artus_shm_image> image_bytes_;
-  std::string image_prefix_;
+  std::unique_ptr<RenewedChannel<artus_shm_image>> shared_image_;
+  std::unique_ptr<artus_shm_image> image_bytes_;  // as last shared
+  std::size_t n_image_bytes_ = 0;
+  std::function<void(const ImageSnapshot&)> on_image_;
 
   Seqlock<HapticSnapshot> haptic_;
   Seqlock<ImageControls> controls_;
@@ -133,10 +146,12 @@ class Session {
   std::int64_t start_ns_ = 0;
   std::array<std::int64_t, 31> image_times_{};  // ns, a ring of the last images
   std::size_t n_images_ = 0;
-  mutable std::mutex refusals_mutex_;  // between start-up and a person's question, never in a tick
+  mutable std::mutex told_mutex_;  // between slow threads and a person's question, never in a tick
   std::vector<std::string> refusals_;
+  std::vector<std::string> notices_;
   std::thread haptic_thread_;
   std::thread imaging_thread_;
+  std::thread care_thread_;
 };
 
 }  // namespace artus

@@ -27,16 +27,29 @@ Pose no_pose() noexcept {
 
 LayerTable make_table(const std::shared_ptr<const Scene>& scene, const SessionParams& params) {
   ARTUS_REQUIRE(scene != nullptr, "there must be a scene");
-  return LayerTable(scene->joint(), params.laws, params.patient);
+  return make_layer_table(scene->joint(), params.feel);
+}
+
+NeedleRendererParams renderer_params(const SessionParams& params) {
+  NeedleRendererParams out{params.needle, params.guard, params.passivity, params.device,
+                           params.haptic_rate};
+  apply(params.feel, out.needle);
+  apply(params.feel, out.passivity);
+  return out;
 }
 
 }  // namespace
+
+double needle_length_of(const SessionParams& params) noexcept {
+  return params.feel.needle_length.value_or(params.needle.contact.needle_length);
+}
 
 Result<void> validate(const SessionParams& params) {
   if (!(params.haptic_rate >= 100 && params.haptic_rate <= 20000))
     return fail(ErrorCode::invalid, "the haptic rate must be 100 to 20000 Hz", "haptic_rate");
   if (!(params.image_rate >= 1 && params.image_rate <= 120))
     return fail(ErrorCode::invalid, "the image rate must be 1 to 120 Hz", "image_rate");
+  ARTUS_TRY(validate(params.feel));
   ARTUS_TRY(validate(params.transducer));
   return validate(params.image);
 }
@@ -44,8 +57,7 @@ Result<void> validate(const SessionParams& params) {
 HapticCore::HapticCore(std::shared_ptr<const Scene> scene, const SessionParams& params)
     : scene_(std::move(scene)),
       table_(make_table(scene_, params)),
-      needle_(scene_, table_, params.needle, params.guard, params.device, params.haptic_rate,
-              params.passivity),
+      needle_(scene_, table_, renderer_params(params)),
       gesture_(params.gesture, params.X_WJ) {}
 
 void HapticCore::step_needle(const DeviceSample& device, std::uint32_t command) noexcept {
@@ -94,9 +106,22 @@ void HapticCore::describe() noexcept {
   copy(tick.entry, out_.entry_J);
 }
 
-const HapticSnapshot& HapticCore::step(const TickInput& input) noexcept {
+/// What cannot be a pose goes no further: not into the snapshot, an image or a recording.
+void HapticCore::take(const TickInput& input) noexcept {
+  const DeviceSample before = out_.input.device;
   out_.input = input;
-  const DeviceSample& device = input.device;
+  DeviceSample& device = out_.input.device;
+  const bool needle = is_pose(device.X_WN);
+  const bool probe = is_pose(device.X_WP);
+  const bool wrong = (!needle && device.has_needle != 0) || (!probe && device.has_probe != 0);
+  if (wrong && device.state == PeerState::alive) device.state = PeerState::invalid;
+  if (!needle) device.X_WN = before.X_WN;
+  if (!probe) device.X_WP = before.X_WP;
+}
+
+const HapticSnapshot& HapticCore::step(const TickInput& input) noexcept {
+  take(input);
+  const DeviceSample& device = out_.input.device;
   const bool alive = device.state == PeerState::alive;
   const bool paused = (input.command & SessionCommand::kPause) != 0;
   std::optional<Pose> X_WP;
@@ -134,7 +159,9 @@ ImageCore::ImageCore(std::shared_ptr<const Scene> scene, const SessionParams& pa
     : scene_(std::move(scene)),
       params_(params),
       controls_(controls_of(params)),
-      renderer_(std::make_unique<Renderer>(scene_, params.transducer, params.image)) {}
+      renderer_(std::make_unique<Renderer>(scene_, params.transducer, params.image)) {
+  params_.needle_shape.length = needle_length_of(params);
+}
 
 const Frame& ImageCore::render(const FrameInput& input) {
   if (!(input.controls == controls_)) {

@@ -6,13 +6,15 @@
 #include <string>
 
 #include "artus/echo/renderer.h"
+#include "artus/haptics/needle/needle_feel.h"
 #include "artus/haptics/needle/needle_renderer.h"
 #include "artus/session/input_device.h"
 #include "artus/session/two_phase_gesture.h"
 
 namespace artus {
 
-/// All that a session's results depend on besides its inputs.
+/// All that a session's results depend on besides its inputs. `feel` is the user's choice and goes
+/// before `needle` and `passivity`, which are as published.
 struct SessionParams {
   double haptic_rate = 1000;  ///< Hz, 1000 to 10000
   double image_rate = 40;     ///< Hz, 10 to 120
@@ -20,14 +22,16 @@ struct SessionParams {
   NeedleParams needle;
   PassivityParams passivity;
   GuardParams guard;
-  LawSelection laws;
-  PatientProfile patient;
+  NeedleFeel feel;
   GestureParams gesture;
   Pose X_WJ = Pose::Identity();  ///< the joint's place before any calibration
   Transducer transducer;
   ImageSettings image;
-  NeedleShape needle_shape;
+  NeedleShape needle_shape;  ///< of its length: see needle_length_of
 };
+
+/// m, hub to tip: the one length that the contact and the picture take.
+[[nodiscard]] double needle_length_of(const SessionParams& params) noexcept;
 
 /// Errors: invalid, naming the value.
 [[nodiscard]] Result<void> validate(const SessionParams& params);
@@ -58,7 +62,7 @@ struct TickInput {
 
 /// Everything that comes out of one and others may want to see. Frame J unless named; plain bytes.
 struct HapticSnapshot {
-  TickInput input;
+  TickInput input;  ///< as taken: poses that cannot be are replaced by those before and invalid
   PlainPose X_WJ;
   PlainPose X_JN;
   PlainPose X_JP;
@@ -89,6 +93,7 @@ class HapticCore {
   ARTUS_REALTIME const HapticSnapshot& step(const TickInput& input) noexcept;
 
  private:
+  void take(const TickInput& input) noexcept;
   void step_needle(const DeviceSample& device, std::uint32_t command) noexcept;
   void describe() noexcept;
 

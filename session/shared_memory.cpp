@@ -22,11 +22,19 @@ static_assert(offsetof(artus_shm_header, sequence) == 56, "the seqlock's words f
 static_assert(sizeof(artus_shm_pos) == 136 && sizeof(artus_shm_force) == 160);
 
 struct SharedSegment::Impl {
+  std::string prefix;
   std::string name;
   SegmentLayout layout;
+  SegmentAccess access = SegmentAccess::observer;
   bool writes = false;
   ipc::shared_memory_object object;
   ipc::mapped_region region;
+  artus_shm_range* range = nullptr;
+
+  Impl() = default;
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+  ~Impl() { artus_shm_unguard(range); }  // before the region goes
 
   [[nodiscard]] artus_shm_header* header() const noexcept {
     return static_cast<artus_shm_header*>(region.get_address());
@@ -63,6 +71,20 @@ void write_head(artus_shm_header& head, const SegmentLayout& layout) noexcept {
   __atomic_store_n(&head.magic, layout.magic, __ATOMIC_RELEASE);
 }
 
+/// What a name leads to; empty when there is none.
+std::optional<struct stat> find_file(const std::string& name) noexcept {
+  const int file = shm_open(("/" + name).c_str(), O_RDONLY | O_CLOEXEC, 0);
+  if (file < 0) return std::nullopt;
+  struct stat found {};
+  const bool known = fstat(file, &found) == 0;
+  close(file);
+  return known ? std::optional(found) : std::nullopt;
+}
+
+bool is_same_file(const struct stat& a, const struct stat& b) noexcept {
+  return a.st_ino == b.st_ino && a.st_dev == b.st_dev;
+}
+
 /// The writer's lock; a program that is just starting or stopping may hold it for a moment.
 bool take_writer_lock(int file) {
   for (int i = 0; i < 20; ++i) {
@@ -92,10 +114,10 @@ struct Attempt {
   std::optional<Error> error;
 };
 
-Attempt map_segment(ipc::shared_memory_object& object, ipc::mapped_region& region,
-                    const SegmentLayout& layout, bool owner) {
-  const int file = object.get_mapping_handle().handle;
-  switch (inspect(file, layout)) {
+template <class Segment>
+Attempt map_segment(Segment& impl, bool owner) {
+  const SegmentLayout& layout = impl.layout;
+  switch (inspect(impl.file(), layout)) {
     case Soundness::foreign:
       return {false, Error{ErrorCode::invalid, "the shared memory belongs to another user", {}}};
     case Soundness::damaged:
@@ -105,13 +127,14 @@ Attempt map_segment(ipc::shared_memory_object& object, ipc::mapped_region& regio
                            {}}};
     case Soundness::fresh:
       if (!owner) return {false, Error{ErrorCode::corrupt, "the shared memory is empty", {}}};
-      object.truncate(layout.size());
+      impl.object.truncate(layout.size());
       break;
     case Soundness::sound:
       break;
   }
-  region = ipc::mapped_region(object, ipc::read_write, 0, layout.size());
-  auto* head = static_cast<artus_shm_header*>(region.get_address());
+  impl.region = ipc::mapped_region(impl.object, ipc::read_write, 0, layout.size());
+  impl.range = artus_shm_guard(impl.region.get_address(), layout.size(), impl.file(), 0);
+  artus_shm_header* head = impl.header();
   if (load(head->magic) == 0 && owner) write_head(*head, layout);
   if (has_right_head(*head, layout)) return {};
   if (owner) return {true, {}};
@@ -125,16 +148,22 @@ Result<SharedSegment> SharedSegment::open(const std::string& prefix, const Segme
                                           SegmentAccess access) {
   const bool owner = access != SegmentAccess::observer;
   const std::string name = prefix + layout.name;
+  if (artus_shm_is_prefix(prefix.c_str()) == 0 || prefix.find('\0') != std::string::npos)
+    return fail(ErrorCode::invalid,
+                "a prefix has at most 63 letters, digits, '-', '_' and '.', not \"" + prefix + "\"",
+                "--prefix");
   for (int attempt = 0; attempt < 3; ++attempt) {
     try {
       auto impl = std::make_unique<Impl>();
+      impl->prefix = prefix;
       impl->name = name;
       impl->layout = layout;
+      impl->access = access;
       impl->object = owner
                          ? ipc::shared_memory_object(ipc::open_or_create, name.c_str(),
                                                      ipc::read_write, ipc::permissions(0600))
                          : ipc::shared_memory_object(ipc::open_only, name.c_str(), ipc::read_write);
-      const Attempt result = map_segment(impl->object, impl->region, layout, owner);
+      const Attempt result = map_segment(*impl, owner);
       if (result.error) return fail(result.error->code, result.error->message, name);
       if (result.replace) {
         ipc::shared_memory_object::remove(name.c_str());
@@ -145,6 +174,8 @@ Result<SharedSegment> SharedSegment::open(const std::string& prefix, const Segme
           return fail(ErrorCode::invalid,
                       "another program writes this shared memory; stop it first", name);
         impl->writes = true;
+        if (impl->range != nullptr && layout.magic == ARTUS_SHM_MAGIC_FORCE) impl->range->force = 1;
+        __atomic_store_n(&impl->header()->opened_ns, artus_shm_now_ns(), __ATOMIC_RELEASE);
         __atomic_store_n(&impl->header()->writer_pid, static_cast<std::uint64_t>(getpid()),
                          __ATOMIC_RELEASE);
       }
@@ -161,8 +192,20 @@ Result<SharedSegment> SharedSegment::open(const std::string& prefix, const Segme
   return fail(ErrorCode::unreadable, "a damaged left-over could not be replaced", name);
 }
 
+Result<SharedSegment> SharedSegment::open_again() const {
+  remove_own();  // spoiled: nobody else has a right to it, and its lock is held here
+  return open(impl_->prefix, impl_->layout, impl_->access);
+}
+
+void SharedSegment::remove_own() const noexcept {
+  struct stat ours {};
+  const auto named = find_file(impl_->name);
+  if (named && fstat(impl_->file(), &ours) == 0 && is_same_file(*named, ours))
+    remove(impl_->prefix, impl_->layout);
+}
+
 void SharedSegment::remove(const std::string& prefix, const SegmentLayout& layout) noexcept {
-  ipc::shared_memory_object::remove((prefix + layout.name).c_str());
+  shm_unlink(("/" + prefix + layout.name).c_str());
 }
 
 std::uint64_t SharedSegment::heartbeat() const noexcept {
@@ -173,6 +216,10 @@ std::uint64_t SharedSegment::writer_pid() const noexcept {
   return load(impl_->header()->writer_pid);
 }
 
+std::uint64_t SharedSegment::opened_ns() const noexcept {
+  return load(impl_->header()->opened_ns);
+}
+
 void SharedSegment::beat() noexcept {
   __atomic_fetch_add(&impl_->header()->heartbeat, std::uint64_t{1}, __ATOMIC_RELEASE);
 }
@@ -181,16 +228,16 @@ void* SharedSegment::seqlock() const noexcept {
   return &impl_->header()->sequence;
 }
 
-bool SharedSegment::is_current() const noexcept {
+const char* SharedSegment::find_trouble() const noexcept {
   struct stat ours {};
-  struct stat named {};
-  if (fstat(impl_->file(), &ours) != 0) return false;
-  const int file = shm_open(("/" + impl_->name).c_str(), O_RDONLY | O_CLOEXEC, 0);
-  if (file < 0) return false;
-  const bool found = fstat(file, &named) == 0;
-  close(file);
-  return found && named.st_ino == ours.st_ino && named.st_dev == ours.st_dev &&
-         named.st_size == static_cast<off_t>(impl_->layout.size());
+  if (artus_shm_is_lost(impl_->range) != 0) return "was cut off";
+  if (fstat(impl_->file(), &ours) != 0) return "cannot be looked at";
+  const auto named = find_file(impl_->name);
+  if (!named) return "was removed";
+  if (!is_same_file(*named, ours)) return "was replaced";
+  if (named->st_size != static_cast<off_t>(impl_->layout.size())) return "was cut off";
+  if (!has_right_head(*impl_->header(), impl_->layout)) return "was overwritten";
+  return nullptr;
 }
 
 }  // namespace artus

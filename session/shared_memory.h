@@ -38,15 +38,20 @@ enum class SegmentAccess {
 /// One named piece of memory shared with other processes of this user, mapped. Its head and size
 /// are checked before it is used; a damaged left-over is replaced by an owner and refused for an
 /// observer. The writer holds a lock that the system releases when the process dies, so nothing
-/// survives a crash that would hinder the next start.
+/// survives a crash that would hinder the next start. A segment that another program truncates
+/// becomes memory of this process alone (docs/decisions): no access to it ever faults.
 class SharedSegment {
  public:
   /// `prefix` stands before the layout's name. Errors: not_found and corrupt (observer), invalid
-  /// (others may touch it, or it has another writer), unreadable (the system refuses).
+  /// (the prefix, others may touch it, or it has another writer), unreadable (the system refuses).
   [[nodiscard]] static Result<SharedSegment> open(const std::string& prefix,
                                                   const SegmentLayout& layout,
                                                   SegmentAccess access);
-  /// Removes the name; programs that have it mapped keep their memory.
+  /// The same name once more, after find_trouble(), in the place of this one. Errors: as of open.
+  [[nodiscard]] Result<SharedSegment> open_again() const;
+  /// Removes the name, if it still leads here; programs that have it mapped keep their memory.
+  void remove_own() const noexcept;
+  /// Removes the name, whatever it leads to.
   static void remove(const std::string& prefix, const SegmentLayout& layout) noexcept;
 
   ~SharedSegment();
@@ -56,13 +61,15 @@ class SharedSegment {
   SharedSegment& operator=(const SharedSegment&) = delete;
 
   [[nodiscard]] std::uint64_t heartbeat() const noexcept;
-  [[nodiscard]] std::uint64_t writer_pid() const noexcept;
+  /// The process that writes, and when it opened the segment (monotonic clock, ns); 0: unknown.
+  [[nodiscard]] ARTUS_REALTIME std::uint64_t writer_pid() const noexcept;
+  [[nodiscard]] ARTUS_REALTIME std::uint64_t opened_ns() const noexcept;
   ARTUS_REALTIME void beat() noexcept;
   /// Address of the sequence word, where the Seqlock of the payload lies.
   [[nodiscard]] void* seqlock() const noexcept;
-  /// False when the name has gone or leads to other memory, or its size was changed. Makes system
-  /// calls: not for a tick.
-  [[nodiscard]] bool is_current() const noexcept;
+  /// Why other programs no longer meet this one here: the name has gone or leads to other memory,
+  /// its size or head was changed. Null: all well. Makes system calls: not for a tick.
+  [[nodiscard]] const char* find_trouble() const noexcept;
 
  private:
   struct Impl;
@@ -80,6 +87,12 @@ class SharedChannel {
                                                   const SegmentLayout& layout,
                                                   SegmentAccess access) {
     Result<SharedSegment> segment = SharedSegment::open(prefix, layout, access);
+    ARTUS_TRY(segment);
+    return SharedChannel(std::move(*segment));
+  }
+
+  [[nodiscard]] Result<SharedChannel> open_again() const {
+    Result<SharedSegment> segment = segment_.open_again();
     ARTUS_TRY(segment);
     return SharedChannel(std::move(*segment));
   }

@@ -24,34 +24,45 @@ bool is_believable(const artus_shm_pos& pos, const DeviceSample& sample) noexcep
 
 }  // namespace
 
-DeviceSample PosReader::accept(bool whole, const artus_shm_pos& pos, std::int64_t now_ns) noexcept {
-  if (!started_ && whole) {  // what is there before the first change may be a left-over
+void PosReader::take(const artus_shm_pos& pos, std::int64_t now_ns) noexcept {
+  const auto age = static_cast<std::int64_t>(static_cast<std::uint64_t>(now_ns) - pos.time_ns);
+  DeviceSample sample;
+  sample.X_WN = plain_pose(pos.needle_position, pos.needle_rotation);
+  sample.X_WP = plain_pose(pos.probe_position, pos.probe_rotation);
+  sample.time_ns = static_cast<std::int64_t>(pos.time_ns);
+  sample.number = pos.sample;
+  sample.buttons = pos.buttons;
+  sample.has_needle = (pos.present & ARTUS_SHM_NEEDLE) != 0 ? 1 : 0;
+  sample.has_probe = (pos.present & ARTUS_SHM_PROBE) != 0 ? 1 : 0;
+  constexpr std::int64_t kClockSlack = 1'000'000;  // ns between reading the clock here and there
+  const bool sound = age > -kClockSlack && is_believable(pos, sample);
+  sample.state = !sound               ? PeerState::invalid
+                 : age < kPeerTimeout ? PeerState::alive
+                                      : PeerState::lost;
+  if (sound) number_ = pos.sample;
+  if (!sound || sample.has_needle == 0) sample.X_WN = last_.X_WN;
+  if (!sound || sample.has_probe == 0) sample.X_WP = last_.X_WP;
+  last_ = sample;
+  heard_ns_ = now_ns;
+}
+
+DeviceSample PosReader::accept(bool whole, const artus_shm_pos& pos, std::int64_t now_ns,
+                               std::uint64_t writer) noexcept {
+  if (whole && (!started_ || writer != writer_)) {
     started_ = true;
-    number_ = pos.sample;
+    writer_ = writer;
+    number_ = seen_ = pos.sample;  // what is there before the first change may be a left-over
+    changed_ns_ = now_ns;
   }
-  const bool fresh = whole && pos.sample != number_;
-  if (fresh) {
-    number_ = pos.sample;
-    const auto age = static_cast<std::int64_t>(static_cast<std::uint64_t>(now_ns) - pos.time_ns);
-    DeviceSample sample;
-    sample.X_WN = plain_pose(pos.needle_position, pos.needle_rotation);
-    sample.X_WP = plain_pose(pos.probe_position, pos.probe_rotation);
-    sample.time_ns = static_cast<std::int64_t>(pos.time_ns);
-    sample.number = pos.sample;
-    sample.buttons = pos.buttons;
-    sample.has_needle = (pos.present & ARTUS_SHM_NEEDLE) != 0 ? 1 : 0;
-    sample.has_probe = (pos.present & ARTUS_SHM_PROBE) != 0 ? 1 : 0;
-    constexpr std::int64_t kClockSlack = 1'000'000;  // ns between reading the clock here and there
-    const bool sound = age > -kClockSlack && is_believable(pos, sample);
-    sample.state = !sound               ? PeerState::invalid
-                   : age < kPeerTimeout ? PeerState::alive
-                                        : PeerState::lost;
-    if (!sound) {
-      sample.X_WN = last_.X_WN;
-      sample.X_WP = last_.X_WP;
+  if (whole && pos.sample != seen_) {
+    const bool begins_again = now_ns - changed_ns_ >= kPeerTimeout;
+    seen_ = pos.sample;
+    changed_ns_ = now_ns;
+    if (pos.sample > number_ || begins_again) {
+      take(pos, now_ns);
+    } else {
+      last_.state = PeerState::invalid;
     }
-    last_ = sample;
-    heard_ns_ = now_ns;
   }
   if (last_.state != PeerState::absent && now_ns - heard_ns_ >= kPeerTimeout) {
     last_.state = PeerState::lost;
@@ -59,39 +70,44 @@ DeviceSample PosReader::accept(bool whole, const artus_shm_pos& pos, std::int64_
   return last_;
 }
 
-SharedMemoryDevice::SharedMemoryDevice(std::string prefix, SharedChannel<artus_shm_pos> pos,
-                                       SharedChannel<artus_shm_force> force,
+SharedMemoryDevice::SharedMemoryDevice(std::unique_ptr<PosChannel> pos,
+                                       std::unique_ptr<ForceChannel> force,
                                        std::vector<std::string> layer_names)
-    : prefix_(std::move(prefix)),
-      pos_(std::move(pos)),
-      force_(std::move(force)),
-      layer_names_(std::move(layer_names)) {
+    : pos_(std::move(pos)), force_(std::move(force)), layer_names_(std::move(layer_names)) {
   write(DeviceFeedback{});  // what an earlier run left behind is no force of ours
 }
 
 Result<std::unique_ptr<SharedMemoryDevice>> SharedMemoryDevice::open(
     const std::string& prefix, std::vector<std::string> layer_names) {
-  auto force =
-      SharedChannel<artus_shm_force>::open(prefix, kForceLayout, SegmentAccess::owner_writes);
+  auto force = ForceChannel::open(prefix, kForceLayout, SegmentAccess::owner_writes);
   ARTUS_TRY(force);
-  auto pos = SharedChannel<artus_shm_pos>::open(prefix, kPosLayout, SegmentAccess::owner_reads);
+  auto pos = PosChannel::open(prefix, kPosLayout, SegmentAccess::owner_reads);
   ARTUS_TRY(pos);
   return std::unique_ptr<SharedMemoryDevice>(
-      new SharedMemoryDevice(prefix, std::move(*pos), std::move(*force), std::move(layer_names)));
+      new SharedMemoryDevice(std::move(*pos), std::move(*force), std::move(layer_names)));
 }
 
 SharedMemoryDevice::~SharedMemoryDevice() {
   DeviceFeedback last;
   last.status = ARTUS_SHM_STOPPED;
   write(last);
-  SharedSegment::remove(prefix_, kForceLayout);
-  SharedSegment::remove(prefix_, kPosLayout);
+  force_->remove_own();
+  pos_->remove_own();
+}
+
+std::vector<std::string> SharedMemoryDevice::look_after() {
+  std::vector<std::string> said;
+  if (auto line = pos_->look_after()) said.push_back(std::move(*line));
+  if (auto line = force_->look_after()) said.push_back(std::move(*line));
+  return said;
 }
 
 DeviceSample SharedMemoryDevice::read(std::int64_t now_ns) noexcept {
   artus_shm_pos pos{};
-  const bool whole = pos_.read(pos, 8);
-  return reader_.accept(whole, pos, now_ns);
+  const auto& channel = pos_->use();
+  const bool whole = channel.read(pos, 8);
+  const SharedSegment& segment = channel.segment();
+  return reader_.accept(whole, pos, now_ns, segment.opened_ns() ^ segment.writer_pid() << 44U);
 }
 
 void SharedMemoryDevice::write(const DeviceFeedback& feedback) noexcept {
@@ -112,7 +128,7 @@ void SharedMemoryDevice::write(const DeviceFeedback& feedback) noexcept {
     const std::string& name = layer_names_[feedback.region];
     std::memcpy(out.layer_name, name.data(), std::min(name.size(), sizeof(out.layer_name) - 1));
   }
-  force_.write(out);
+  force_->use().write(out);
 }
 
 }  // namespace artus

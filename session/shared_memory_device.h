@@ -1,28 +1,39 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "artus/session/input_device.h"
-#include "artus/session/shared_memory.h"
+#include "artus/session/renewed_channel.h"
 
 namespace artus {
 
 /// The newest believable sample of POS: values are checked, silence and age are judged by this
 /// side's own clock, so nothing a peer writes (garbage, a frozen or future time) keeps it alive.
+/// Samples are counted upwards: a smaller number is refused, unless another writer opened POS or
+/// none wrote for as long as makes a peer lost.
 class PosReader {
  public:
+  /// `writer`: any number that changes when another writer opens POS; read after `pos`.
   [[nodiscard]] ARTUS_REALTIME DeviceSample accept(bool whole, const artus_shm_pos& pos,
-                                                   std::int64_t now_ns) noexcept;
+                                                   std::int64_t now_ns,
+                                                   std::uint64_t writer = 0) noexcept;
 
  private:
+  void take(const artus_shm_pos& pos, std::int64_t now_ns) noexcept;
+
   DeviceSample last_;
-  std::int64_t heard_ns_ = 0;  // when a new sample was last seen
-  std::uint64_t number_ = 0;
+  std::int64_t heard_ns_ = 0;    // when a new sample was last taken
+  std::int64_t changed_ns_ = 0;  // when POS last changed
+  std::uint64_t writer_ = 0;
+  std::uint64_t seen_ = 0;    // number that POS last had
+  std::uint64_t number_ = 0;  // of the last sample that was sound
   bool started_ = false;
 };
 
-/// A device program in another process, through POS and FORCE.
+/// A device program in another process, through POS and FORCE. When somebody removes or truncates
+/// them look_after() makes them anew.
 class SharedMemoryDevice final : public InputDevice {
  public:
   /// `layer_names` by region. Errors: as SharedSegment::open.
@@ -35,15 +46,17 @@ class SharedMemoryDevice final : public InputDevice {
 
   [[nodiscard]] ARTUS_REALTIME DeviceSample read(std::int64_t now_ns) noexcept override;
   ARTUS_REALTIME void write(const DeviceFeedback& feedback) noexcept override;
+  [[nodiscard]] std::vector<std::string> look_after() override;
   [[nodiscard]] std::string_view name() const noexcept override { return "shared memory"; }
 
  private:
-  SharedMemoryDevice(std::string prefix, SharedChannel<artus_shm_pos> pos,
-                     SharedChannel<artus_shm_force> force, std::vector<std::string> layer_names);
+  using PosChannel = RenewedChannel<artus_shm_pos>;
+  using ForceChannel = RenewedChannel<artus_shm_force>;
+  SharedMemoryDevice(std::unique_ptr<PosChannel> pos, std::unique_ptr<ForceChannel> force,
+                     std::vector<std::string> layer_names);
 
-  std::string prefix_;
-  SharedChannel<artus_shm_pos> pos_;
-  SharedChannel<artus_shm_force> force_;
+  std::unique_ptr<PosChannel> pos_;
+  std::unique_ptr<ForceChannel> force_;
   std::vector<std::string> layer_names_;
   PosReader reader_;
 };

@@ -231,6 +231,10 @@ void draw_session_panel(const PanelInput& in, ViewState& state) {
   if (ImGui::Button("?")) state.help = !state.help;
   for (const std::string& refused : in.session->refusals())
     ImGui::TextWrapped("refused: %s", refused.c_str());
+  const std::vector<std::string> notices = in.session->notices();
+  constexpr std::size_t kShown = 3;
+  for (std::size_t i = notices.size() - std::min(kShown, notices.size()); i < notices.size(); ++i)
+    ImGui::TextWrapped("%s", notices[i].c_str());
   ImGui::End();
 }
 

@@ -107,6 +107,7 @@ class WindowLoop {
     auto due = std::chrono::steady_clock::now();
     auto before = due;
     while (glfwWindowShouldClose(window_) == GLFW_FALSE && !state_.quit) {
+      if (options_.asked_to_close && options_.asked_to_close()) break;
       const auto now = std::chrono::steady_clock::now();
       const double elapsed = std::max(1e-4, std::chrono::duration<double>(now - before).count());
       before = now;
@@ -421,7 +422,7 @@ Result<void> run_window(Session& session, HandDevice* hand, const HandTarget& st
   const float scale = text_scale(window.get(), options.height);
   const Gui gui(options.layout, scale);
   auto joint = JointView::make(session.scene().joint(), session.params().transducer.width,
-                               session.params().needle_shape.length);
+                               needle_length_of(session.params()));
   ARTUS_TRY(joint);
   WindowLoop loop(window.get(), session, hand, start, options, report, std::move(*joint), scale);
   return loop.run();

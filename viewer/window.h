@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 #include <filesystem>
+#include <functional>
 #include <vector>
 
 #include "artus/core/result.h"
@@ -21,6 +22,7 @@ struct WindowOptions {
   bool quit_after_script = false;
   std::filesystem::path layout;          ///< where the panels' places are kept; empty: nowhere
   std::filesystem::path pictures = ".";  ///< folder of saved images and clips
+  std::function<bool()> asked_to_close;  ///< asked between two pictures; empty: nobody else closes
 };
 
 /// What a window leaves behind when it is closed.

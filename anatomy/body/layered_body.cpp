@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <utility>
 
 #include "artus/core/check.h"
@@ -94,14 +93,20 @@ Surface split(const Surface& in) {
   return out;
 }
 
+struct Sides {
+  RegionId front = kOutside;
+  RegionId back = kOutside;
+};
+
 void add_sphere(CompiledJoint& joint, const Vec3& centre, double radius, int subdivisions,
-                RegionId front, RegionId back) {
+                const Sides& sides) {
   Surface surface = make_icosahedron();
   for (int i = 0; i < subdivisions; ++i) surface = split(surface);
   const auto base = static_cast<std::uint32_t>(joint.mesh.vertices.size());
   for (const Vec3& v : surface.vertices) joint.mesh.vertices.emplace_back(centre + radius * v);
   for (const auto& t : surface.triangles) {
-    joint.mesh.interfaces.push_back({{base + t[0], base + t[1], base + t[2]}, front, back});
+    joint.mesh.interfaces.push_back(
+        {{base + t[0], base + t[1], base + t[2]}, sides.front, sides.back});
   }
 }
 
@@ -109,15 +114,6 @@ void set_default_poses(CompiledJoint& joint, const Vec3& top, double depth) {
   joint.X_JP_default = make_pose(top, Vec3::UnitZ(), Vec3::UnitX());
   joint.X_JN_default = make_pose(top + 0.5 * depth * Vec3::UnitZ(), Vec3::UnitZ(), Vec3::UnitX());
   joint.injections = {{"first", top, top + 0.5 * depth * Vec3::UnitZ()}};
-}
-
-CompiledJoint make_block(const std::vector<Tissue>& tissues, const std::string& tissue,
-                         const Vec3& size, const Vec3& top_centre, const std::string& inclusion) {
-  const std::array<FlatLayer, 1> layer{{{tissue, size.z()}}};
-  CompiledJoint joint = make_layered_block(tissues, layer, size.x(), size.y(), top_centre);
-  joint.regions.back().name = "block";
-  add_region(joint, "inclusion", inclusion);
-  return joint;
 }
 
 }  // namespace
@@ -170,7 +166,7 @@ CompiledJoint make_nested_spheres(const std::vector<Tissue>& tissues,
   RegionId outer = kOutside;
   for (const SphereLayer& layer : layers) {
     const RegionId region = add_region(joint, layer.tissue, layer.tissue);
-    add_sphere(joint, centre, layer.radius, subdivisions, outer, region);
+    add_sphere(joint, centre, layer.radius, subdivisions, {outer, region});
     outer = region;
   }
   if (!layers.empty()) {
@@ -180,41 +176,14 @@ CompiledJoint make_nested_spheres(const std::vector<Tissue>& tissues,
   return joint;
 }
 
-CompiledJoint make_block_with_sphere(const std::vector<Tissue>& tissues, const std::string& tissue,
-                                     const Vec3& size, const Vec3& top_centre,
-                                     const std::string& inclusion, const Vec3& centre,
-                                     double radius, int subdivisions) {
-  CompiledJoint joint = make_block(tissues, tissue, size, top_centre, inclusion);
-  add_sphere(joint, centre, radius, subdivisions, kFirstRegion, kFirstRegion + 1);
-  return joint;
-}
-
-CompiledJoint make_block_with_cylinder(const std::vector<Tissue>& tissues,
-                                       const std::string& tissue, const Vec3& size,
-                                       const Vec3& top_centre, const std::string& inclusion,
-                                       const Vec3& a, const Vec3& b, double radius,
-                                       std::size_t sides) {
-  CompiledJoint joint = make_block(tissues, tissue, size, top_centre, inclusion);
-  const Pose X_JA = make_pose(a, b - a, Vec3::UnitX());
-  const double length = (b - a).norm();
-  const std::uint32_t centre_a = add_vertex(joint, a);
-  const std::uint32_t centre_b = add_vertex(joint, b);
-  std::vector<std::uint32_t> ring_a;
-  std::vector<std::uint32_t> ring_b;
-  for (std::size_t i = 0; i < sides; ++i) {
-    const double angle = 2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(sides);
-    const Vec3 p(radius * std::cos(angle), radius * std::sin(angle), 0);
-    ring_a.push_back(add_vertex(joint, X_JA * p));
-    ring_b.push_back(add_vertex(joint, X_JA * (p + length * Vec3::UnitZ())));
-  }
-  const RegionId front = kFirstRegion;
-  const RegionId back = kFirstRegion + 1;
-  for (std::size_t i = 0; i < sides; ++i) {
-    const std::size_t j = (i + 1) % sides;
-    add_quad(joint, {ring_a[i], ring_a[j], ring_b[j], ring_b[i]}, front, back);
-    joint.mesh.interfaces.push_back({{centre_a, ring_a[j], ring_a[i]}, front, back});
-    joint.mesh.interfaces.push_back({{centre_b, ring_b[i], ring_b[j]}, front, back});
-  }
+CompiledJoint make_block_with_sphere(const std::vector<Tissue>& tissues,
+                                     const BlockWithSphere& block) {
+  const std::array<FlatLayer, 1> layer{{{block.tissue, block.size.z()}}};
+  CompiledJoint joint =
+      make_layered_block(tissues, layer, block.size.x(), block.size.y(), block.top_centre);
+  joint.regions.back().name = "block";
+  const RegionId inside = add_region(joint, "inclusion", block.inclusion);
+  add_sphere(joint, block.centre, block.radius, block.subdivisions, {kFirstRegion, inside});
   return joint;
 }
 

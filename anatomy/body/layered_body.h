@@ -45,22 +45,20 @@ struct SphereLayer {
                                                 const Vec3& centre = Vec3::Zero(),
                                                 int subdivisions = 4);
 
-/// A block of `tissue` (top face centre at `top_centre`, body along +z) with a sphere of
-/// `inclusion` tissue inside. Requires: the sphere lies inside the block. Regions: "block",
-/// "inclusion".
-[[nodiscard]] CompiledJoint make_block_with_sphere(const std::vector<Tissue>& tissues,
-                                                   const std::string& tissue, const Vec3& size,
-                                                   const Vec3& top_centre,
-                                                   const std::string& inclusion, const Vec3& centre,
-                                                   double radius, int subdivisions = 4);
+/// A block with a sphere inside. Requires: the sphere lies inside the block.
+struct BlockWithSphere {
+  std::string tissue;  ///< of the block
+  Vec3 size = Vec3::Zero();
+  Vec3 top_centre = Vec3::Zero();  ///< m, of the top face; the body lies along +z
+  std::string inclusion;           ///< tissue of the sphere
+  Vec3 centre = Vec3::Zero();      ///< m
+  double radius = 0;               ///< m
+  int subdivisions = 4;            ///< of the sphere, as in make_nested_spheres
+};
 
-/// The same with a closed cylinder of `sides` flat sides between the points `a` and `b`.
-[[nodiscard]] CompiledJoint make_block_with_cylinder(const std::vector<Tissue>& tissues,
-                                                     const std::string& tissue, const Vec3& size,
-                                                     const Vec3& top_centre,
-                                                     const std::string& inclusion, const Vec3& a,
-                                                     const Vec3& b, double radius,
-                                                     std::size_t sides = 64);
+/// Regions: "block", "inclusion".
+[[nodiscard]] CompiledJoint make_block_with_sphere(const std::vector<Tissue>& tissues,
+                                                   const BlockWithSphere& block);
 
 /// The joint moved rigidly: vertices, landmarks, default poses and fibre axes.
 [[nodiscard]] CompiledJoint transformed(const CompiledJoint& joint, const Pose& X_new_old);

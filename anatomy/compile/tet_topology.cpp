@@ -27,12 +27,6 @@ double face_area(const TetMesh& mesh, const std::array<std::uint32_t, 3>& f) {
 
 }  // namespace
 
-double tet_volume(const TetMesh& mesh, std::size_t i) noexcept {
-  const auto& t = mesh.tetrahedra[i];
-  const Vec3& a = mesh.vertices[t[0]];
-  return (mesh.vertices[t[1]] - a).cross(mesh.vertices[t[2]] - a).dot(mesh.vertices[t[3]] - a) / 6;
-}
-
 std::array<std::uint32_t, 3> tet_face(const std::array<std::uint32_t, 4>& tet, int k) noexcept {
   constexpr std::array<std::array<std::size_t, 3>, 4> kFaces{
       {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};

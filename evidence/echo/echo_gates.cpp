@@ -28,8 +28,13 @@ constexpr std::array<Gate, kNames.size()> kGates{
     gate_motion};
 
 bool passes(const EchoGate& gate) {
-  return std::all_of(gate.claims.begin(), gate.claims.end(),
-                     [](const Claim& claim) { return claim.pass; });
+  return all_hold(gate.claims);
+}
+
+std::vector<Claim> claims_of(std::span<const EchoGate> gates) {
+  std::vector<Claim> all;
+  for (const EchoGate& gate : gates) all.insert(all.end(), gate.claims.begin(), gate.claims.end());
+  return all;
 }
 
 std::string section_of(const EchoGate& gate) {
@@ -66,14 +71,15 @@ Result<EchoGate> run_echo_gate(std::string_view name) {
 
 nlohmann::json to_json(std::span<const EchoGate> gates) {
   nlohmann::json list = nlohmann::json::object();
-  bool pass = true;
   for (const EchoGate& gate : gates) {
     list[gate.name] = verdict(gate.claims);
     list[gate.name]["title"] = gate.title;
     list[gate.name]["assumed"] = gate.assumed;
-    pass = pass && passes(gate);
   }
-  return {{"pass", pass}, {"gates", list}};
+  nlohmann::json all = verdict(claims_of(gates));
+  all.erase("claims");
+  all["gates"] = std::move(list);
+  return all;
 }
 
 Result<void> write_gate_report(std::span<const EchoGate> gates,
@@ -100,7 +106,8 @@ Result<void> write_gate_report(std::span<const EchoGate> gates,
     if (const auto ok = write_plot(pictures / (gate.name + ".png"), gate.plot); !ok)
       no_plot = ok.error();
   }
-  ARTUS_TRY(write_text(folder / "report.md", report + sections));
+  ARTUS_TRY(write_text(folder / "report.md",
+                       report + "\n" + count_claims(claims_of(gates)) + ".\n" + sections));
   ARTUS_TRY(write_text(folder / "gates.json", to_json(gates).dump(2) + "\n"));
   if (no_plot) return tl::unexpected<Error>(*no_plot);
   return {};

@@ -51,7 +51,7 @@ struct EchoGate {
 [[nodiscard]] Result<void> write_gate_report(std::span<const EchoGate> gates,
                                              const std::filesystem::path& folder);
 
-/// {"pass": all, "gates": {name: {title, pass, claims}}}
+/// {"pass": all, "counts": by kind, "gates": {name: {title, pass, counts, claims}}}
 [[nodiscard]] nlohmann::json to_json(std::span<const EchoGate> gates);
 
 }  // namespace artus

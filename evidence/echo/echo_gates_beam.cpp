@@ -118,9 +118,9 @@ EchoGate gate_lateral_width() {
     char label[32];
     std::snprintf(label, sizeof label, "%.3g MHz", frequency / 1e6);
     for (std::size_t i = 0; i < widths.size(); ++i)
-      gate.claims.push_back(claim_near(std::string(label) + ", " + in_mm(kDepths[i]) + " deep",
-                                       widths[i] / kMillimetre, expected / kMillimetre, 0.15,
-                                       "mm"));
+      gate.claims.push_back(claim_near(
+          ClaimKind::independent, std::string(label) + ", " + in_mm(kDepths[i]) + " deep",
+          widths[i] / kMillimetre, expected / kMillimetre, 0.15, "mm"));
     panel.series.push_back(over_depth(label, widths));
     panel.series.push_back(over_depth(std::string(label) + ", wave model",
                                       std::vector<double>(kDepths.size(), expected), "points"));
@@ -146,7 +146,8 @@ EchoGate gate_slice_width() {
     const auto widths = slice_widths(scene, row.height);
     for (std::size_t i = 0; i < widths.size(); ++i)
       gate.claims.push_back(
-          claim_near("elements " + in_mm(row.height) + " high, " + in_mm(kDepths[i]) + " deep",
+          claim_near(ClaimKind::independent,
+                     "elements " + in_mm(row.height) + " high, " + in_mm(kDepths[i]) + " deep",
                      widths[i] / kMillimetre, row.widths[i] / kMillimetre, 0.15, "mm"));
     panel.series.push_back(over_depth(in_mm(row.height) + " high", widths));
     panel.series.push_back(

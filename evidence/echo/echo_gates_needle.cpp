@@ -80,15 +80,16 @@ EchoGate gate_needle_rings() {
       heights.push_back(line[i]);
     }
   }
-  gate.claims.push_back(claim_at_least("lines seen", static_cast<double>(peaks.size()), 5, ""));
+  gate.claims.push_back(
+      claim_at_least(ClaimKind::input, "lines seen", static_cast<double>(peaks.size()), 5, ""));
   bool decaying = true;
   for (std::size_t k = 1; k < std::min<std::size_t>(5, peaks.size()); ++k) {
-    gate.claims.push_back(
-        claim_within("spacing " + std::to_string(k), peaks[k] - peaks[k - 1], 0.51, 0.05, "mm"));
+    gate.claims.push_back(claim_within(ClaimKind::input, "spacing " + std::to_string(k),
+                                       peaks[k] - peaks[k - 1], 0.51, 0.05, "mm"));
     decaying = decaying && heights[k] < heights[k - 1];
   }
   gate.claims.push_back(
-      {"each line weaker than the one above", decaying ? 1.0 : 0.0, "1 (yes)", decaying});
+      claim_that(ClaimKind::input, "each line weaker than the one above", decaying));
   gate.plot = {"lines below a needle", {{"depth, mm", "dB below a mirror", {curve}}}};
   gate.pictures.push_back({"needle-0", needle_picture(0)});
   return gate;
@@ -116,13 +117,15 @@ EchoGate gate_needle_angle() {
   for (std::size_t i = 1; i < kTo65; ++i)
     steepest_rise = std::max(steepest_rise, plain.y[i] - plain.y[i - 1]);
   const LineFit fit = fit_line({plain.x.data(), kTo65}, {plain.y.data(), kTo65});
-  gate.claims.push_back(
-      claim_at_most("largest rise in 5 degrees, 0-65 degrees", steepest_rise, 0, "of full grey"));
-  gate.claims.push_back(
-      claim_at_least("correlation of grey with the angle, negative", -fit.correlation, 0.95, ""));
-  gate.claims.push_back(claim_within("plain at 75 degrees over 0 degrees",
+  gate.claims.push_back(claim_at_most(ClaimKind::independent,
+                                      "largest rise in 5 degrees, 0-65 degrees", steepest_rise, 0,
+                                      "of full grey"));
+  gate.claims.push_back(claim_at_least(ClaimKind::independent,
+                                       "correlation of grey with the angle, negative",
+                                       -fit.correlation, 0.95, ""));
+  gate.claims.push_back(claim_within(ClaimKind::fitted, "plain at 75 degrees over 0 degrees",
                                      100 * plain.y.back() / plain.y.front(), 10, 3, "%"));
-  gate.claims.push_back(claim_within("echogenic at 75 degrees over 0 degrees",
+  gate.claims.push_back(claim_within(ClaimKind::fitted, "echogenic at 75 degrees over 0 degrees",
                                      100 * dimpled.y.back() / dimpled.y.front(), 60, 5, "%"));
   gate.plot = {"needle by angle",
                {{"angle to the face, degrees", "grey of 60 dB", {plain, dimpled}}}};
@@ -158,7 +161,7 @@ EchoGate gate_needle_offset() {
     char text[48];
     std::snprintf(text, sizeof text, "half-brightness offset %.0f mm deep", depth / kMillimetre);
     gate.claims.push_back(
-        claim_near(text, half / kMillimetre,
+        claim_near(ClaimKind::independent, text, half / kMillimetre,
                    expected_half_offset(width, shape.outer_diameter) / kMillimetre, 0.2, "mm"));
     PlotSeries series;
     std::snprintf(text, sizeof text, "%.0f mm deep", depth / kMillimetre);
@@ -170,8 +173,8 @@ EchoGate gate_needle_offset() {
     }
     panel.series.push_back(series);
   }
-  gate.claims.push_back(
-      claim_at_most("steepest fall in 0.05 mm: never a step", 100 * steepest, 30, "%"));
+  gate.claims.push_back(claim_at_most(
+      ClaimKind::independent, "steepest fall in 0.05 mm: never a step", 100 * steepest, 30, "%"));
   gate.plot = {"needle beside the plane", {panel}};
   return gate;
 }

@@ -108,12 +108,13 @@ EchoGate gate_speckle() {
     squares += a * a;
   }
   const auto n = static_cast<double>(cells.size());
-  gate.claims.push_back(claim_at_least("resolution cells", n, 1e4, ""));
-  gate.claims.push_back(
-      claim_within("envelope mean over sd", envelope.mean / envelope.deviation, 1.91, 0.05, ""));
-  gate.claims.push_back(
-      claim_within("sd of the dB image", moments_of(levels).deviation, 5.57, 0.2, "dB"));
-  gate.claims.push_back(claim_at_most("Kolmogorov-Smirnov distance to Rayleigh (1 % level)",
+  gate.claims.push_back(claim_at_least(ClaimKind::input, "resolution cells", n, 1e4, ""));
+  gate.claims.push_back(claim_within(ClaimKind::independent, "envelope mean over sd",
+                                     envelope.mean / envelope.deviation, 1.91, 0.05, ""));
+  gate.claims.push_back(claim_within(ClaimKind::independent, "sd of the dB image",
+                                     moments_of(levels).deviation, 5.57, 0.2, "dB"));
+  gate.claims.push_back(claim_at_most(ClaimKind::independent,
+                                      "Kolmogorov-Smirnov distance to Rayleigh (1 % level)",
                                       rayleigh_distance(cells), 1.63 / std::sqrt(n), ""));
   gate.plot = envelope_histogram(cells, std::sqrt(squares / n));
   const auto phantom = make_echo_phantom("homogeneous");
@@ -138,8 +139,8 @@ EchoGate gate_attenuation() {
     measured.y.push_back(decibel_of_intensity(mean_intensity(frame, z, z + 1e-3)));
   }
   const LineFit fit = fit_line(depths, measured.y);
-  gate.claims.push_back(
-      claim_near("slope, two-way", -fit.slope, 2 * attenuation * 12, 0.02, "dB/cm"));
+  gate.claims.push_back(claim_near(ClaimKind::input, "slope, two-way", -fit.slope,
+                                   2 * attenuation * 12, 0.02, "dB/cm"));
   PlotSeries line{"fit", {}, {}, "lines"};
   for (const double cm : depths) {
     line.x.push_back(cm * 10);
@@ -166,7 +167,8 @@ EchoGate gate_matched_impedance() {
   const Frame& frame = renderer.render(Pose::Identity());
   const double at = mean_intensity(frame, 9.6e-3, 10.1e-3);
   const double above = mean_intensity(frame, 5e-3, 9e-3);
-  gate.claims.push_back(claim_at_most("intensity at the interface over the speckle above it",
+  gate.claims.push_back(claim_at_most(ClaimKind::input,
+                                      "intensity at the interface over the speckle above it",
                                       decibel_of_intensity(at / above), 1, "dB"));
   return gate;
 }
@@ -182,15 +184,15 @@ EchoGate gate_interfaces() {
   };
   for (const Pair& pair :
        {Pair{"fat", "muscle", -20}, Pair{"muscle", "bone", -5}, Pair{"muscle", "steel", -0.6}}) {
-    gate.claims.push_back(claim_within(std::string(pair.above) + " - " + pair.below,
-                                       interface_level(pair.above, pair.below), pair.expected, 1,
-                                       "dB"));
+    gate.claims.push_back(
+        claim_within(ClaimKind::input, std::string(pair.above) + " - " + pair.below,
+                     interface_level(pair.above, pair.below), pair.expected, 1, "dB"));
   }
   for (const auto& [above, below] :
        {std::pair("skin", "fat"), {"muscle", "tendon"}, {"tendon", "bone"}, {"muscle", "air"}}) {
-    gate.claims.push_back(claim_within(std::string(above) + " - " + below + ", impedance step",
-                                       interface_level(above, below), step_level(above, below), 1,
-                                       "dB"));
+    gate.claims.push_back(
+        claim_within(ClaimKind::input, std::string(above) + " - " + below + ", impedance step",
+                     interface_level(above, below), step_level(above, below), 1, "dB"));
   }
   const auto phantom = make_echo_phantom("layers");
   gate.pictures.push_back(
@@ -205,7 +207,7 @@ EchoGate gate_fat_shift() {
   Renderer renderer(make_block_scene(layers, silence), Transducer{}, bare_settings());
   const Frame& frame = renderer.render(Pose::Identity());
   const double shown = find_peak(frame, 128, 8e-3, 12e-3) * frame.sample_depth;
-  gate.claims.push_back(claim_within("displacement, one sample allowed",
+  gate.claims.push_back(claim_within(ClaimKind::input, "displacement, one sample allowed",
                                      (shown - 10e-3) / kMillimetre, 0.53,
                                      frame.sample_depth / kMillimetre, "mm"));
   return gate;
@@ -232,7 +234,7 @@ EchoGate gate_enhancement() {
     return mean_intensity(renderer.render(Pose::Identity()), 14e-3, 24e-3);
   };
   for (const char* fluid : {"bursa", "fluid"})
-    gate.claims.push_back(claim_within(std::string("enhancement behind ") + fluid,
+    gate.claims.push_back(claim_within(ClaimKind::input, std::string("enhancement behind ") + fluid,
                                        decibel_of_intensity(level(fluid) / level("muscle")), 8.4, 1,
                                        "dB"));
   const auto phantom = make_echo_phantom("cyst");
@@ -258,11 +260,12 @@ EchoGate gate_tendon() {
     }
     above.push_back(tendon.y.back() - muscle.y.back());
   }
-  gate.claims.push_back(
-      claim_at_least("tendon over muscle when perpendicular", above.front(), 0, "dB"));
-  gate.claims.push_back(claim_within("tilt at which both are equal", falls_to(tendon.x, above, 0),
-                                     4.5, 2.5, "degrees"));
-  gate.claims.push_back(claim_at_least("tendon's loss within 20 degrees of tilt",
+  gate.claims.push_back(claim_at_least(ClaimKind::fitted, "tendon over muscle when perpendicular",
+                                       above.front(), 0, "dB"));
+  gate.claims.push_back(claim_within(ClaimKind::fitted, "tilt at which both are equal",
+                                     falls_to(tendon.x, above, 0), 4.5, 2.5, "degrees"));
+  gate.claims.push_back(claim_at_least(ClaimKind::independent,
+                                       "tendon's loss within 20 degrees of tilt",
                                        tendon.y.front() - tendon.y[20], 10, "dB"));
   gate.plot = {"tendon and muscle", {{"tilt, degrees", "speckle, dB", {tendon, muscle}}}};
   return gate;

@@ -73,7 +73,8 @@ void widen(PatchRange& range, const PatchStatistics& s) {
 
 Claim claim_between(std::string text, double value, double least, double most,
                     const std::string& unit) {
-  return claim_within(std::move(text), value, (least + most) / 2, (most - least) / 2, unit);
+  return claim_within(ClaimKind::fitted, std::move(text), value, (least + most) / 2,
+                      (most - least) / 2, unit);
 }
 
 /// Muscle under skin and fat, its fibres 15 degrees to the face: the long axis of the references.
@@ -119,8 +120,8 @@ void compare_view(EchoGate& gate, const std::string& picture, const std::string&
   }
   for (const cv::Rect& patch : patches) cv::rectangle(image, patch, cv::Scalar(255));
   gate.pictures.push_back({"muscle-" + picture, image});
-  gate.claims.push_back(
-      claim_at_least(view + ": patches of muscle", static_cast<double>(patches.size()), 1, ""));
+  gate.claims.push_back(claim_at_least(ClaimKind::input, view + ": patches of muscle",
+                                       static_cast<double>(patches.size()), 1, ""));
   if (patches.empty()) return;
   const auto compare = [&](const char* what, double PatchStatistics::*member, const char* unit) {
     gate.claims.push_back(claim_between(view + ": " + what, mean.*member, range.least.*member,

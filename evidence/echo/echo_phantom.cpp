@@ -58,9 +58,9 @@ EchoPhantom make_points() {
 EchoPhantom make_cyst() {
   EchoPhantom phantom;
   phantom.title = "ball of fluid: black lumen, enhancement below, edge shadows, slice thickness";
-  auto body = std::make_shared<CompiledJoint>(
-      make_block_with_sphere(make_phantom_tissues(), "tissue_mimic", Vec3(kWidth, kBreadth, kDepth),
-                             Vec3::Zero(), "fluid", Vec3(0, 0, kCystDepth), kCystRadius, 5));
+  auto body = std::make_shared<CompiledJoint>(make_block_with_sphere(
+      make_phantom_tissues(), {"tissue_mimic", Vec3(kWidth, kBreadth, kDepth), Vec3::Zero(),
+                               "fluid", Vec3(0, 0, kCystDepth), kCystRadius, 5}));
   phantom.truth = {{"centre_mm", {0, 0, kCystDepth / kMillimetre}},
                    {"radius_mm", kCystRadius / kMillimetre},
                    {"enhancement_db_per_mhz_on_axis", 2 * 0.5 * 2 * kCystRadius * 100}};

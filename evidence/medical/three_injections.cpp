@@ -214,8 +214,7 @@ Result<std::array<Pass, 3>> plan_passes(const Scene& scene,
   return passes;
 }
 
-double choose_needle(const std::array<Pass, 3>& passes, double wanted) {
-  if (wanted > 0) return wanted;
+double choose_needle(const std::array<Pass, 3>& passes) {
   double deepest = 0;
   for (const Pass& pass : passes) deepest = std::max(deepest, pass.deepest);
   constexpr double kSpare = 0.003;  // m of shaft that stay outside
@@ -243,11 +242,14 @@ class Recorder {
     HandParams hand = options_->hand;
     hand.seed = options_->seed + static_cast<std::uint64_t>(number);
     HandLoop loop({options_->rate_hz, 20000}, *device_, hand, start);
-    NeedleParams params = options_->needle;
-    params.contact.needle_length = out_->needle_length;
-    NeedleRenderer renderer(borrow(*scene_),
-                            LayerTable(scene_->joint(), options_->laws, options_->patient), params,
-                            GuardParams{}, *device_, options_->rate_hz, options_->passivity);
+    NeedleRendererParams params;
+    params.device = *device_;
+    params.rate_hz = options_->rate_hz;
+    apply(options_->feel, params.needle);
+    apply(options_->feel, params.passivity);
+    params.needle.contact.needle_length = out_->needle_length;
+    NeedleRenderer renderer(borrow(*scene_), make_layer_table(scene_->joint(), options_->feel),
+                            params);
     InjectionOperator person(pass.entry, pass.direction, -kStartOutside, pass.phases);
     while (!person.done()) {
       const double t = loop.time();
@@ -298,7 +300,7 @@ Result<ThreeInjections> run_three_injections(const Scene& scene,
   ARTUS_TRY(passes);
   ThreeInjections out;
   out.options = options;
-  out.needle_length = choose_needle(*passes, options.needle_length);
+  out.needle_length = options.feel.needle_length.value_or(choose_needle(*passes));
   for (const Region& region : scene.joint().regions) out.region_names.push_back(region.name);
   Recorder recorder(scene, options, *device, out);
   bool reached = true;

@@ -11,6 +11,7 @@
 #include "artus/evidence/claim.h"
 #include "artus/evidence/needle/needle_trace.h"
 #include "artus/evidence/needle/plateau.h"
+#include "artus/haptics/needle/needle_feel.h"
 #include "artus/operators/probe_hand.h"
 #include "artus/operators/simulated_hand.h"
 
@@ -24,12 +25,9 @@ struct ThreeInjectionsOptions {
   double slow_speed = 0.012;                   ///< m/s, injections 1 and 2
   double fast_speed = 0.10;                    ///< m/s, injection 3
   double withdrawal = 0.020;  ///< m back before re-aiming; [Alamilla2020] "a few centimetres"
-  double needle_length = 0;   ///< m; 0: the shortest of 25, 35, 50, 90 mm that reaches the bone
   std::string target_tissue = "bursa";  ///< where a line has none: the layer of its target
-  NeedleParams needle;
-  LawSelection laws;
-  PatientProfile patient;
-  PassivityParams passivity;
+  NeedleFeel feel;        ///< without a needle's length: the shortest of 25, 35, 50, 90 mm that
+                          ///< reaches the bone
   HandParams hand;        ///< its seed is replaced by `seed`
   ProbeHandParams probe;  ///< the other hand; likewise
 };

@@ -33,10 +33,11 @@ std::vector<BoneTouch> find_touches(const std::vector<NeedleRow>& rows) {
 void claim_touches(ThreeInjections& run) {
   for (const BoneTouch& t : run.touches) {
     run.claims.push_back(claim_at_most(
-        "injection " + std::to_string(t.pass) + ": tap on bone lasts", t.duration, 0.055, "s"));
+        ClaimKind::input, "injection " + std::to_string(t.pass) + ": tap on bone lasts", t.duration,
+        0.055, "s"));
   }
   if (run.touches.size() != 3) {
-    run.claims.push_back(claim_at_least("injections that touch bone",
+    run.claims.push_back(claim_at_least(ClaimKind::input, "injections that touch bone",
                                         static_cast<double>(run.touches.size()), 3, ""));
     return;
   }
@@ -44,10 +45,12 @@ void claim_touches(ThreeInjections& run) {
     return run.touches[i].peak / run.touches[i].incoming_speed;
   };
   const double slow = std::max(run.touches[0].peak, run.touches[1].peak);
-  run.claims.push_back(claim_at_least("tap of injection 3 over the stronger of 1 and 2",
+  run.claims.push_back(claim_at_least(ClaimKind::input,
+                                      "tap of injection 3 over the stronger of 1 and 2",
                                       run.touches[2].peak / slow, 1, ""));
   for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) {
     run.claims.push_back(claim_near(
+        ClaimKind::input,
         "tap per incoming speed, injection " + std::to_string(i + 1) + " over injection 3",
         gain(i) / gain(2), 1, 0.05, ""));
   }
@@ -76,12 +79,13 @@ void claim_cone(ThreeInjections& run) {
       worst = std::max(worst, (turned - row.cone) / kDegree);
     }
   }
-  run.claims.push_back(
-      claim_near("alpha where the skin gives way", at_skin / kDegree, 45, 0.05, "degrees"));
-  run.claims.push_back(
-      claim_at_most("alpha at the deepest point", at_deepest / kDegree, 45, "degrees"));
+  run.claims.push_back(claim_near(ClaimKind::input, "alpha where the skin gives way",
+                                  at_skin / kDegree, 45, 0.05, "degrees"));
+  run.claims.push_back(claim_at_most(ClaimKind::input, "alpha at the deepest point",
+                                     at_deepest / kDegree, 45, "degrees"));
   if (worst > -90) {
-    run.claims.push_back(claim_at_most("re-aimed direction beyond alpha", worst, 0, "degrees"));
+    run.claims.push_back(
+        claim_at_most(ClaimKind::input, "re-aimed direction beyond alpha", worst, 0, "degrees"));
   }
 }
 
@@ -127,17 +131,18 @@ void analyze(const CompiledJoint& joint, bool reached, ThreeInjections& run) {
   for (const Region& region : joint.regions) {
     const Tissue& tissue = joint.tissues[region.tissue];
     layers.push_back({tissue.name, tissue.haptic});
-    layers.back().haptic.cutting_force *= run.options.patient.cutting;
+    layers.back().haptic.cutting_force *= run.options.feel.patient.cutting;
   }
   PlateauFinder finder(std::move(layers));
   for (const NeedleRow& row : run.rows) finder.add(row);
   run.plateaus = finder.plateaus();
   run.touches = find_touches(run.rows);
   run.claims.push_back(
-      {"every step of the operator met its goal in time", reached ? 1.0 : 0.0, "1", reached});
+      claim_that(ClaimKind::input, "every step of the operator met its goal in time", reached));
   for (const LayerPlateau& p : run.plateaus) {
     if (p.rows == 0) continue;  // thinner than its rise: listed, but nothing can be claimed
-    run.claims.push_back(claim_near("mean cutting force on the plateau in " + p.tissue, p.mean,
+    run.claims.push_back(claim_near(ClaimKind::input,
+                                    "mean cutting force on the plateau in " + p.tissue, p.mean,
                                     p.expected, kPlateauShare, "N"));
   }
   claim_touches(run);
@@ -146,6 +151,7 @@ void analyze(const CompiledJoint& joint, bool reached, ThreeInjections& run) {
     const NeedleRow& row = run.rows[i];
     if (i + 1 < run.rows.size() && run.rows[i + 1].pass == row.pass) continue;
     run.claims.push_back(claim_at_most(
+        ClaimKind::input,
         "injection " + std::to_string(row.pass) + ": energy given to the hand over the whole pass",
         row.energy_to_hand, 0, "J"));
   }

@@ -23,26 +23,27 @@ struct Entry {
 };
 
 constexpr std::uint32_t kWall =
-    LawKind::kCutting | LawKind::kPatient | LawKind::kWorkspace | LawKind::kPassivity;
+    FeelKind::kCutting | FeelKind::kPatient | FeelKind::kWorkspace | FeelKind::kPassivity;
 constexpr std::array<Entry, 12> kEntries{{
-    {"wall-vs-classic", run_wall_vs_classic, LawKind::kPassivity,
+    {"wall-vs-classic", run_wall_vs_classic, FeelKind::kPassivity,
      "compares four fixed cutting laws in a tissue that only cuts", 1},
-    {"wall-release", run_wall_release, LawKind::kFriction | LawKind::kPatient | LawKind::kPassivity,
+    {"wall-release", run_wall_release,
+     FeelKind::kFriction | FeelKind::kPatient | FeelKind::kPassivity,
      "compares the tracking wall alone, with shaft friction and no tissue", 1},
     {"wall-move", run_wall_move, kWall, "has a tissue that only cuts", 1},
     {"wall-stop", run_wall_stop, kWall, "has a tissue that only cuts", 1},
     {"wall-both", run_wall_both, kWall, "has a tissue that only cuts", 1},
-    {"wall-nine", run_wall_nine, kWall | LawKind::kClamping,
+    {"wall-nine", run_wall_nine, kWall | FeelKind::kClamping,
      "has tissues that only cut and hold the needle's line", 9},
-    {"wall-seven", run_wall_seven, kWall | LawKind::kClamping,
+    {"wall-seven", run_wall_seven, kWall | FeelKind::kClamping,
      "has tissues that only cut and hold the needle's line", 7},
-    {"clamp-redirect", run_clamp_redirect, kWall | LawKind::kClamping | LawKind::kFriction,
+    {"clamp-redirect", run_clamp_redirect, kWall | FeelKind::kClamping | FeelKind::kFriction,
      "has neither a membrane nor bone", 1},
     {"wall-energy", run_wall_energy,
-     LawKind::kCutting | LawKind::kPrepuncture | LawKind::kTap | LawKind::kFriction |
-         LawKind::kPatient,
+     FeelKind::kCutting | FeelKind::kPrepuncture | FeelKind::kTap | FeelKind::kFriction |
+         FeelKind::kPatient,
      "moves the needle along one line and lets no controller help", 6},
-    {"rates", run_rates, LawKind::kAll, "", 0},
+    {"rates", run_rates, FeelKind::kAll, "", 0},
     {"velocity-estimators", run_velocity_estimators, 0, "uses no force law", 0},
     {"layer-changes", run_layer_changes, kWall, "has tissues that only cut", 0},
 }};
@@ -70,7 +71,8 @@ Result<Experiment> run_needle_experiment(std::string_view name, const Experiment
   for (const Entry& entry : kEntries) {
     if (entry.name != name) continue;
     const auto layers = entry.layers > 0 ? numbered_layers(entry.layers) : table_layer_names();
-    ARTUS_TRY(check_laws(options.laws, name, entry.takes, entry.why_not, layers));
+    ARTUS_TRY(
+        check(options.feel, {std::string(name), layers, entry.takes, std::string(entry.why_not)}));
     Experiment experiment = entry.run(options, *device);
     experiment.name = name;
     return experiment;

@@ -8,16 +8,16 @@
 
 #include "artus/core/csv.h"
 #include "artus/evidence/claim.h"
-#include "artus/evidence/needle/experiment_laws.h"
 #include "artus/evidence/needle/needle_trace.h"
 #include "artus/evidence/plot.h"
+#include "artus/haptics/needle/needle_feel.h"
 
 namespace artus {
 
 struct ExperimentOptions {
   std::uint64_t seed = 1;
   std::string device = "virtuose_6d_desktop";  ///< a name of device_table()
-  ExperimentLaws laws;                         ///< of the needle; the rest is as published
+  NeedleFeel feel;                             ///< what is not set is as published
   std::filesystem::path mock;  ///< TOML file of the pneumatic probe mock; empty: the bundled one
 };
 

@@ -10,16 +10,18 @@ namespace artus {
 std::vector<NeedleRow> run_body(const BodyExperiment& e) {
   std::vector<LayerHaptics> by_region(kFirstRegion);
   std::vector<LayerHaptics> layers = e.layers;
-  apply_laws(e.laws, e.names.empty() ? numbered_layers(layers.size()) : e.names, layers);
+  const auto names = e.names.empty() ? numbered_layers(layers.size()) : e.names;
+  for (std::size_t i = 0; i < layers.size() && i < names.size(); ++i)
+    apply(e.feel, names[i], layers[i]);
   by_region.insert(by_region.end(), layers.begin(), layers.end());
   const LayerTable table(std::move(by_region));
   const Pose start =
       make_pose(e.entry - e.start_outside * e.direction, e.direction, e.direction.unitOrthogonal());
   HandLoop loop({e.rate_hz, 20000}, e.device, e.hand, start);
   NeedleParams needle = e.needle;
-  apply_laws(e.laws, needle);
+  apply(e.feel, needle);
   NeedleModel model(needle, table, loop.period());
-  PassivityObserver passivity({.control = e.laws.passivity_control}, loop.period());
+  PassivityObserver passivity({.control = e.feel.passivity_control}, loop.period());
   const GuardParams limits;
   InputGuard input(limits, loop.period());
   OutputGuard output(limits, e.device, loop.period());

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "artus/evidence/needle/analytic_body.h"
-#include "artus/evidence/needle/experiment_laws.h"
 #include "artus/evidence/needle/needle_trace.h"
+#include "artus/haptics/needle/needle_feel.h"
 #include "artus/operators/hand_loop.h"
 #include "artus/operators/injection_operator.h"
 
@@ -16,7 +16,7 @@ struct BodyExperiment {
   AnalyticBody body = AnalyticBody::make_stack(Vec3::Zero(), Vec3::UnitZ(), {0});
   std::vector<LayerHaptics> layers;  ///< outermost first
   std::vector<std::string> names;    ///< of the layers; empty: those of layer_names()
-  ExperimentLaws laws;               ///< what the run changes of layers and parameters
+  NeedleFeel feel;                   ///< what the run changes of layers and parameters
   Vec3 entry = Vec3::Zero();         ///< m, on the skin
   Vec3 direction = Vec3::UnitZ();    ///< unit
   double start_outside = 0.005;      ///< m before the skin

@@ -35,7 +35,7 @@ Experiment run_clamp_redirect(const ExperimentOptions& options, const DeviceLimi
   e.layers[0].tissue.clamping_stiffness = 300;
   e.layers[0].tissue.friction = 1;
   e.device = device;
-  e.laws = options.laws;
+  e.feel = options.feel;
   e.hand.seed = options.seed;
   e.phases = {stay(0.3),
               push_to(0.012, 0.012),
@@ -91,14 +91,16 @@ Experiment run_clamp_redirect(const ExperimentOptions& options, const DeviceLimi
         std::max(off_line, std::abs(r->forces.clamping.norm() - slope * r->deviation * r->depth));
   }
   out.claims = {
-      claim_at_least("largest clamping force while off the line", strayed, 0.1, "N"),
-      claim_at_most("clamping force off deviation * depth * constant, share of the largest",
+      claim_at_least(ClaimKind::input, "largest clamping force while off the line", strayed, 0.1,
+                     "N"),
+      claim_at_most(ClaimKind::input,
+                    "clamping force off deviation * depth * constant, share of the largest",
                     off_line / std::max(strayed, 1e-9), 0.05, ""),
-      claim_at_least("lateral stiffness beyond 22 mm over that before 15 mm", deep / shallow, 1.4,
-                     ""),
-      claim_near("the new line after withdrawal, degrees from the first", last_tilt - first_tilt,
-                 kAimed, 0.15, "degrees"),
-      claim_at_most("clamping force on the new line over the largest before",
+      claim_at_least(ClaimKind::input, "lateral stiffness beyond 22 mm over that before 15 mm",
+                     deep / shallow, 1.4, ""),
+      claim_near(ClaimKind::input, "the new line after withdrawal, degrees from the first",
+                 last_tilt - first_tilt, kAimed, 0.15, "degrees"),
+      claim_at_most(ClaimKind::input, "clamping force on the new line over the largest before",
                     after / std::max(strayed, 1e-9), 0.5, "")};
   out.published = {
       {"on the line", "the force tends towards zero", in_words("at most ", on_line, " N")},

@@ -78,7 +78,7 @@ std::vector<NeedleRow> run_release(CuttingLaw law, double stiffness, const Devic
   e.entry = Vec3(0, 0, 0.12);
   e.body = AnalyticBody::make_stack(e.entry, e.direction, {0});
   e.device = device;
-  e.laws = options.laws;
+  e.feel = options.feel;
   e.hand = hand;
   e.phases = {stay(0.3),   push_to(kDepth, kSpeed), stay(kHeld),
               let_go(0.4), pull_to(-4e-3, 0.02),    stay(0.2)};
@@ -230,23 +230,27 @@ void add_claims(double stiffness, const std::array<OverSeeds, kLaws.size()>& law
                 const Measured& calm, std::vector<Claim>& claims) {
   const std::string at = " at " + to_csv(stiffness) + " N/m, worst seed: ";
   for (const std::size_t k : {std::size_t{1}, std::size_t{2}}) {
-    claims.push_back(claim_at_least(to_string(kLaws[k]) + at + "ejection",
+    claims.push_back(claim_at_least(ClaimKind::independent, to_string(kLaws[k]) + at + "ejection",
                                     laws[k].sorted(kEjection).front(), 2, "mm"));
   }
   const std::string wall = "tracking wall" + at;
-  claims.push_back(claim_at_most(wall + "ejection, beyond the momentum of the hand's tremor",
+  claims.push_back(claim_at_most(ClaimKind::independent,
+                                 wall + "ejection, beyond the momentum of the hand's tremor",
                                  laws[0].sorted(kEjection).back(), 0.2, "mm"));
   claims.push_back(claim_at_most(
+      ClaimKind::independent,
       "tracking wall at " + to_csv(stiffness) + " N/m, a hand without tremor: ejection",
       calm.moved / kMillimetre, 0.2, "mm"));
-  claims.push_back(claim_at_most(wall + "force energy above 20 Hz over the best of the others",
+  claims.push_back(claim_at_most(ClaimKind::independent,
+                                 wall + "force energy above 20 Hz over the best of the others",
                                  ratios(laws, kContact, 0, is_any).back(), 1, ""));
-  claims.push_back(claim_at_most(wall + "the same until the release, less the wall's own corners, "
+  claims.push_back(claim_at_most(ClaimKind::independent,
+                                 wall + "the same until the release, less the wall's own corners, "
                                         "laws at the device's limit left out",
                                  ratios(laws, kGuided, wall_corners(stiffness), is_rendered).back(),
                                  1, ""));
-  claims.push_back(
-      claim_at_most(wall + "energy given over the cycle", laws[0].sorted(kEnergy).back(), 0, "J"));
+  claims.push_back(claim_at_most(ClaimKind::independent, wall + "energy given over the cycle",
+                                 laws[0].sorted(kEnergy).back(), 0, "J"));
 }
 
 }  // namespace
@@ -314,7 +318,7 @@ namespace {
 constexpr std::uint64_t kHistories = 10000;
 
 // Five soft layers and bone; with friction and two membranes, or the wall alone.
-LayerTable random_layers(bool all_laws, const ExperimentLaws& laws) {
+LayerTable random_layers(bool all_laws, const NeedleFeel& feel) {
   std::vector<LayerHaptics> layers(kFirstRegion);
   const std::array<double, 5> forces{1, 2, 1.5, 2.5, 3};
   const std::array<double, 5> stiffness{1500, 500, 1000, 400, 2000};
@@ -327,7 +331,8 @@ LayerTable random_layers(bool all_laws, const ExperimentLaws& laws) {
     layers[kFirstRegion + 2].tissue.puncture_force = 2;
   }
   layers.push_back(bone_layer(4, 4000));
-  apply_laws(laws, region_names(numbered_layers(6)), layers);
+  const auto names = numbered_layers(6);
+  for (std::size_t i = 0; i < names.size(); ++i) apply(feel, names[i], layers[kFirstRegion + i]);
   return LayerTable(std::move(layers));
 }
 
@@ -364,17 +369,18 @@ Experiment run_wall_energy(const ExperimentOptions& options, const DeviceLimits&
   const AnalyticBody body =
       AnalyticBody::make_stack(Vec3::Zero(), Vec3::UnitZ(), {0, 2e-3, 5e-3, 6e-3, 8e-3, 9e-3});
   NeedleParams needle;
-  apply_laws(options.laws, needle);
+  apply(options.feel, needle);
   PlotPanel panel{"history", "energy given to the hand (J)", {}};
   for (const bool all_laws : {true, false}) {
-    const LayerTable table = random_layers(all_laws, options.laws);
+    const LayerTable table = random_layers(all_laws, options.feel);
     const std::string what = all_laws ? "wall, friction, membranes" : "wall alone";
     PlotSeries given{what, {}, {}, "points pt 7 ps 0.2"};
     for (std::uint64_t h = 0; h < kHistories; ++h) {
       given.x.push_back(static_cast<double>(h));
       given.y.push_back(energy_of_history(table, needle, body, options.seed * 1000003 + h));
     }
-    out.claims.push_back(claim_at_most(what + ": most energy given over a closed cycle, of 10 000",
+    out.claims.push_back(claim_at_most(ClaimKind::independent,
+                                       what + ": most energy given over a closed cycle, of 10 000",
                                        *std::max_element(given.y.begin(), given.y.end()), 0, "J"));
     panel.series.push_back(std::move(given));
   }

@@ -97,8 +97,9 @@ Experiment run_velocity_estimators(const ExperimentOptions& /*options*/,
                       "noise (mm/s)", std::move(clouds), true});
   }
   out.claims = {
-      claim_near("lag of a 10 ms difference", window_lag * 1e3, 5, 0.05, "ms"),
-      claim_at_most("its noise over that of a 1 ms difference", window_noise / raw_noise, 0.2, "")};
+      claim_near(ClaimKind::input, "lag of a 10 ms difference", window_lag * 1e3, 5, 0.05, "ms"),
+      claim_at_most(ClaimKind::input, "its noise over that of a 1 ms difference",
+                    window_noise / raw_noise, 0.2, "")};
   out.plot.title = out.title;
   out.plot.panels = std::move(panels);
   return out;

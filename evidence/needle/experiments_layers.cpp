@@ -33,7 +33,7 @@ struct Change {
 };
 
 // A needle pushed at 10 mm/s through 12 mm of one layer into another, as the hand feels it.
-Change measure_change(const TableLayer& from, const TableLayer& to, const ExperimentLaws& laws,
+Change measure_change(const TableLayer& from, const TableLayer& to, const NeedleFeel& feel,
                       const DeviceLimits& device) {
   constexpr double kInterface = 0.012;  // m
   constexpr double kBeyond = 0.009;     // m of the second layer; of a hard one as far as it lets
@@ -43,7 +43,7 @@ Change measure_change(const TableLayer& from, const TableLayer& to, const Experi
   e.layers = {plain_layer(from.force, from.stiffness),
               hard ? bone_layer(to.force, to.stiffness) : plain_layer(to.force, to.stiffness)};
   e.names = {from.name, to.name};
-  e.laws = laws;
+  e.feel = feel;
   e.device = device;
   e.hand.tremor_rms = 0;
   e.phases = {stay(0.1),
@@ -103,7 +103,7 @@ Experiment run_layer_changes(const ExperimentOptions& options, const DeviceLimit
     for (std::size_t k = 0; k < kTable.size(); ++k) {
       const TableLayer& to = kTable[k];
       if (from.force == to.force) continue;
-      const Change c = measure_change(from, to, options.laws, device);
+      const Change c = measure_change(from, to, options.feel, device);
       const double step = c.after - c.before;
       const double share = std::abs(step) / c.before;
       out.table.rows.push_back({from.name, to.name, to_csv(c.before), to_csv(c.after), to_csv(step),
@@ -119,10 +119,14 @@ Experiment run_layer_changes(const ExperimentOptions& options, const DeviceLimit
     }
   }
   out.claims = {
-      claim_at_least("pairs of layers", static_cast<double>(out.table.rows.size()), 25, ""),
-      claim_at_most("measured step off the table's, share of the step", off, 0.05, ""),
-      claim_at_least("the smallest step in just-noticeable differences of 14 %", least, 1, ""),
-      claim_at_most("the longest way until nine tenths of the step are felt", longest, 4.5, "mm")};
+      claim_at_least(ClaimKind::input, "pairs of layers",
+                     static_cast<double>(out.table.rows.size()), 25, ""),
+      claim_at_most(ClaimKind::input, "measured step off the table's, share of the step", off, 0.05,
+                    ""),
+      claim_at_least(ClaimKind::input, "the smallest step in just-noticeable differences of 14 %",
+                     least, 1, ""),
+      claim_at_most(ClaimKind::input, "the longest way until nine tenths of the step are felt",
+                    longest, 4.5, "mm")};
   for (std::size_t k = 0; k < kTable.size(); ++k)
     out.published.push_back(
         {kTable[k].name, to_csv(kTable[k].force) + " N", to_csv(felt[k]) + " N"});

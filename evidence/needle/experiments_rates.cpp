@@ -168,14 +168,14 @@ double rms_difference(const std::vector<double>& a, const std::vector<double>& b
 constexpr std::array<double, 3> kRates{1000, 2000, 10000};
 constexpr std::uint64_t kTremorSeeds = 6;
 
-std::vector<NeedleRow> run_at(double rate, const Insertion& insertion, const ExperimentLaws& laws,
+std::vector<NeedleRow> run_at(double rate, const Insertion& insertion, const NeedleFeel& feel,
                               const DeviceLimits& device, const HandParams& hand) {
   constexpr double kAfter = 0.35;  // s outside
   BodyExperiment e;
   e.body = AnalyticBody::make_stack(Vec3::Zero(), Vec3::UnitZ(), insertion.begins);
   e.layers = layers_of(insertion);
   e.names = table_layer_names();
-  e.laws = laws;
+  e.feel = feel;
   e.device = device;
   e.hand = hand;
   e.rate_hz = rate;
@@ -189,11 +189,11 @@ std::vector<NeedleRow> run_at(double rate, const Insertion& insertion, const Exp
 using Shares = std::array<double, 2>;  // at 1 and at 2 kHz
 
 // RMS share of the difference to 10 kHz.
-Shares differences(const Insertion& insertion, const ExperimentLaws& laws,
-                   const DeviceLimits& device, const HandParams& hand) {
+Shares differences(const Insertion& insertion, const NeedleFeel& feel, const DeviceLimits& device,
+                   const HandParams& hand) {
   std::array<std::vector<double>, kRates.size()> forces;
   for (std::size_t i = 0; i < kRates.size(); ++i)
-    forces[i] = held_at_10khz(run_at(kRates[i], insertion, laws, device, hand), kRates[i]);
+    forces[i] = held_at_10khz(run_at(kRates[i], insertion, feel, device, hand), kRates[i]);
   return {rms_difference(forces[2], forces[0]), rms_difference(forces[2], forces[1])};
 }
 
@@ -209,7 +209,8 @@ void claim_shares(const std::string& insertion, const DeviceLimits& device, cons
   for (std::size_t i = 0; i < off.size(); ++i) {
     std::string text = insertion + ": total axial force at " + to_csv(kRates[i]);
     text.append(" Hz against 10 kHz, ").append(device.name).append(", ").append(hand);
-    out.claims.push_back(claim_at_most(text.append(", RMS share"), off[i], 0.02, ""));
+    out.claims.push_back(
+        claim_at_most(ClaimKind::fitted, text.append(", RMS share"), off[i], 0.02, ""));
   }
 }
 
@@ -228,14 +229,14 @@ void compare_rates(const Insertion& insertion, const ExperimentOptions& options,
   for (const DeviceLimits& device : device_table()) {
     HandParams hand;
     hand.tremor_rms = 0;
-    const Shares calm = differences(insertion, options.laws, device, hand);
+    const Shares calm = differences(insertion, options.feel, device, hand);
     add_row(insertion.name, device, "no tremor", calm, out);
     claim_shares(insertion.name, device, "no tremor", calm, out);
     hand = HandParams{};
     std::vector<Shares> tremors;
     for (std::uint64_t i = 0; i < kTremorSeeds; ++i) {
       hand.seed = options.seed + i;
-      tremors.push_back(differences(insertion, options.laws, device, hand));
+      tremors.push_back(differences(insertion, options.feel, device, hand));
       add_row(insertion.name, device, "tremor " + std::to_string(hand.seed), tremors.back(), out);
     }
     const std::string all = std::to_string(kTremorSeeds) + " tremors together";
@@ -253,7 +254,7 @@ void compare_rates_on_drawn_bodies(const ExperimentOptions& options, Experiment&
       const Insertion insertion = draw_insertion(options.seed, i);
       HandParams hand;
       hand.seed = options.seed + i;
-      bodies.push_back(differences(insertion, options.laws, device, hand));
+      bodies.push_back(differences(insertion, options.feel, device, hand));
       add_row(insertion.name, device, "tremor " + std::to_string(hand.seed), bodies.back(), out);
     }
     const std::string hands = "bodies and tremors together";
@@ -286,7 +287,7 @@ Experiment run_rates(const ExperimentOptions& options, const DeviceLimits& devic
   calm.tremor_rms = 0;
   for (const double rate : kRates) {
     ExperimentTrace trace{to_csv(rate) + "hz",
-                          run_at(rate, all.front(), options.laws, device, calm),
+                          run_at(rate, all.front(), options.feel, device, calm),
                           region_names(table_layer_names())};
     const std::string label = to_csv(rate / 1000) + " kHz";
     out.plot.panels[0].series.push_back(plot_rows(trace.rows, label, axial));

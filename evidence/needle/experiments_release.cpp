@@ -50,7 +50,7 @@ std::vector<NeedleRow> run_release(Around tissue, double release_time, const Dev
   e.body = AnalyticBody::make_stack(Vec3::Zero(), Vec3::UnitZ(),
                                     {tissue == Around::none ? kFarAway : 0.0});
   e.device = device;
-  e.laws = options.laws;
+  e.feel = options.feel;
   e.hand = hand;
   e.hand.release_time = release_time;
   e.phases = {stay(0.3), push_to(kDepth, 0.01), stay(1.5), let_go(kFree)};
@@ -121,21 +121,24 @@ void add_claims(const DeviceLimits& device, Around tissue, double release, const
   // is asked of the wall is that a hand at rest leaves a needle at rest, and that a trembling one
   // leaves it no more than its momentum.
   if (tissue == Around::wall) {
-    claims.push_back(
-        claim_at_most(how + ", a hand without tremor: ejection", worst.calm, 0.2, "mm"));
-    claims.push_back(claim_at_most(what + "ejection, beyond the momentum of the hand's tremor",
+    claims.push_back(claim_at_most(
+        ClaimKind::independent, how + ", a hand without tremor: ejection", worst.calm, 0.2, "mm"));
+    claims.push_back(claim_at_most(ClaimKind::independent,
+                                   what + "ejection, beyond the momentum of the hand's tremor",
                                    worst.beyond, 0.2, "mm"));
     const double grain = 0.5 * kStiffness * device.encoder_step * device.encoder_step;
     claims.push_back(claim_at_most(
+        ClaimKind::independent,
         what + "energy given to the needle, in that of the wall's spring over an encoder step",
         worst.work / grain, 1, ""));
   }
   if (tissue == Around::wall_and_friction) {
-    claims.push_back(claim_at_most(what + "ejection", worst.ways.back(), 0.2, "mm"));
-    const double step = 2 * device.encoder_step * (kStiffness + LugreParams{}.stiffness_limit);
     claims.push_back(
-        claim_at_most(what + "force at rest, peak to peak, in two encoder steps' worth",
-                      worst.ripple / step, 1, ""));
+        claim_at_most(ClaimKind::independent, what + "ejection", worst.ways.back(), 0.2, "mm"));
+    const double step = 2 * device.encoder_step * (kStiffness + LugreParams{}.stiffness_limit);
+    claims.push_back(claim_at_most(
+        ClaimKind::independent, what + "force at rest, peak to peak, in two encoder steps' worth",
+        worst.ripple / step, 1, ""));
   }
 }
 

@@ -22,7 +22,7 @@ BodyExperiment one_layer(const ExperimentOptions& options, const DeviceLimits& d
   BodyExperiment e;
   e.layers = {plain_layer(1, kStiffness, attracted)};
   e.device = device;
-  e.laws = options.laws;
+  e.feel = options.feel;
   e.hand.seed = options.seed;
   return e;
 }
@@ -88,11 +88,13 @@ Experiment run_wall_move(const ExperimentOptions& options, const DeviceLimits& d
     }
   }
   out.claims = {
-      claim_near("time of entry", entry, 0.65, 0.05, "s"),
-      claim_at_most("over the first 2 mm the force is K_t x within", worst(rise), 0.01, "N"),
-      claim_at_most("then 1 N while moving, off by", worst(level), 0.01, "N"),
-      claim_at_most("tip - wall is 2 mm, off by", worst(gap), 0.02, "mm"),
-      claim_at_least("rows on the plateau", static_cast<double>(level.size()), 500, "")};
+      claim_near(ClaimKind::input, "time of entry", entry, 0.65, 0.05, "s"),
+      claim_at_most(ClaimKind::input, "over the first 2 mm the force is K_t x within", worst(rise),
+                    0.01, "N"),
+      claim_at_most(ClaimKind::input, "then 1 N while moving, off by", worst(level), 0.01, "N"),
+      claim_at_most(ClaimKind::input, "tip - wall is 2 mm, off by", worst(gap), 0.02, "mm"),
+      claim_at_least(ClaimKind::input, "rows on the plateau", static_cast<double>(level.size()),
+                     500, "")};
   const double full = time_when(rows, [](const NeedleRow& r) { return resistance(r) > 0.9999; });
   out.published = {
       {"free motion until", "0.65 s", with_unit(entry, 2, "s")},
@@ -144,14 +146,18 @@ Experiment run_wall_stop(const ExperimentOptions& options, const DeviceLimits& d
         built_over = (r->depth - from_wall) / kMillimetre;
     }
   }
-  out.claims = {claim_at_least("rows in the settling", static_cast<double>(line.size()), 150, ""),
-                claim_at_most("off a straight line over the settling time, share of the force",
-                              worst(line), 0.1, ""),
-                claim_at_most("afterwards the force stays 0, at most", worst(rest), 0.05, "N"),
-                claim_near("moving again the force builds to", rebuilt, 1, 0.01, "N"),
-                claim_near("over", built_over, 2, 0.02, "mm"),
-                claim_at_most("the needle leaves the place of its stop before that by",
-                              std::abs(from_wall - x_stop) / kMillimetre, 0.4, "mm")};
+  out.claims = {
+      claim_at_least(ClaimKind::input, "rows in the settling", static_cast<double>(line.size()),
+                     150, ""),
+      claim_at_most(ClaimKind::input,
+                    "off a straight line over the settling time, share of the force", worst(line),
+                    0.1, ""),
+      claim_at_most(ClaimKind::input, "afterwards the force stays 0, at most", worst(rest), 0.05,
+                    "N"),
+      claim_near(ClaimKind::input, "moving again the force builds to", rebuilt, 1, 0.01, "N"),
+      claim_near(ClaimKind::input, "over", built_over, 2, 0.02, "mm"),
+      claim_at_most(ClaimKind::input, "the needle leaves the place of its stop before that by",
+                    std::abs(from_wall - x_stop) / kMillimetre, 0.4, "mm")};
   out.published = {
       {"force before the stop", "1 N",
        with_unit(stop == rows.begin() || stop == rows.end() ? 0 : resistance(*(stop - 1)), 3, "N")},
@@ -190,11 +196,13 @@ Experiment run_wall_both(const ExperimentOptions& options, const DeviceLimits& d
     }
     if (r.state == ContactState::away) outside.push_back(resistance(r));
   }
-  out.claims = {claim_at_most("insertion: 1 N, off by", worst(in), 0.01, "N"),
-                claim_at_most("stop: 0 N, off by", worst(rest), 0.05, "N"),
-                claim_at_most("withdrawal: -0.5 N, off by", worst(back), 0.005, "N"),
-                claim_at_most("outside: 0 N, off by", worst(outside), 0, "N"),
-                claim_at_most("energy given over the cycle", rows.back().energy_to_hand, 0, "J")};
+  out.claims = {
+      claim_at_most(ClaimKind::input, "insertion: 1 N, off by", worst(in), 0.01, "N"),
+      claim_at_most(ClaimKind::input, "stop: 0 N, off by", worst(rest), 0.05, "N"),
+      claim_at_most(ClaimKind::input, "withdrawal: -0.5 N, off by", worst(back), 0.005, "N"),
+      claim_at_most(ClaimKind::input, "outside: 0 N, off by", worst(outside), 0, "N"),
+      claim_at_most(ClaimKind::input, "energy given over the cycle", rows.back().energy_to_hand, 0,
+                    "J")};
   const auto level = [&rows](ContactState state, double from, double to) {
     double sum = 0;
     double count = 0;
@@ -261,11 +269,13 @@ void run_layers(BodyExperiment& e, const std::vector<double>& forces, double att
   for (const LayerPlateau& p : plateaus) {
     const double off = std::max(std::abs(p.most - p.expected), std::abs(p.least - p.expected));
     out.claims.push_back(claim_near(
+        ClaimKind::input,
         p.tissue + " plateau, its row farthest off by " + to_csv(100 * off / p.expected) + " %",
         p.mean, p.expected, 0.01, "N"));
     if (off > 0.01 * p.expected || p.rows == 0) out.claims.back().pass = false;
   }
-  out.claims.push_back(claim_near("layers with a plateau", static_cast<double>(plateaus.size()),
+  out.claims.push_back(claim_near(ClaimKind::input, "layers with a plateau",
+                                  static_cast<double>(plateaus.size()),
                                   static_cast<double>(forces.size()), 0, ""));
   const auto& rows = out.traces[0].rows;
   for (const LayerPlateau& p : plateaus)
@@ -297,7 +307,7 @@ Experiment run_wall_nine(const ExperimentOptions& options, const DeviceLimits& d
   const Vec3 aside = 0.02 * e.direction.unitOrthogonal();
   e.entry = aside - std::sqrt(kRadius * kRadius - aside.squaredNorm()) * e.direction;
   e.device = device;
-  e.laws = options.laws;
+  e.feel = options.feel;
   e.hand.seed = options.seed;
   e.needle.contact.needle_length = 0.15;
   e.phases = {stay(kStateOfRest), push_to(0.105, 0.02), stay(0.8), pull_to(-0.004, 0.05)};
@@ -307,7 +317,8 @@ Experiment run_wall_nine(const ExperimentOptions& options, const DeviceLimits& d
   run_layers(e, {1.5, 1, 1.8, 2, 3, 3.5, 2.5, 4, 4.5}, 0.5, out);
   double aside_most = 0;
   for (const NeedleRow& r : out.traces[0].rows) aside_most = std::max(aside_most, r.deviation);
-  out.claims.push_back(claim_at_most("lateral deviation", aside_most / kMillimetre, 0.5, "mm"));
+  out.claims.push_back(
+      claim_at_most(ClaimKind::input, "lateral deviation", aside_most / kMillimetre, 0.5, "mm"));
   out.published.push_back({"the needle keeps its line", "drawn straight",
                            with_unit(aside_most / kMillimetre, 3, "mm off at most")});
   return out;
@@ -319,7 +330,7 @@ Experiment run_wall_seven(const ExperimentOptions& options, const DeviceLimits& 
   e.body = AnalyticBody::make_stack(Vec3::Zero(), e.direction,
                                     {0, 0.008, 0.016, 0.024, 0.032, 0.040, 0.048});
   e.device = device;
-  e.laws = options.laws;
+  e.feel = options.feel;
   e.hand.seed = options.seed;
   e.needle.contact.needle_length = 0.09;
   e.phases = {stay(kStateOfRest), push_to(0.056, 0.015), stay(0.6), pull_to(-0.004, 0.05)};
@@ -340,9 +351,10 @@ Experiment run_wall_seven(const ExperimentOptions& options, const DeviceLimits& 
       back.push_back(resistance(rows[i]) + 0.7);
     }
   }
+  out.claims.push_back(claim_at_most(
+      ClaimKind::input, "2 N -> 0.7 N: until a twentieth of the step is left", fall, 0.015, "s"));
   out.claims.push_back(
-      claim_at_most("2 N -> 0.7 N: until a twentieth of the step is left", fall, 0.015, "s"));
-  out.claims.push_back(claim_at_most("withdrawal: -0.7 N, off by", worst(back), 0.007, "N"));
+      claim_at_most(ClaimKind::input, "withdrawal: -0.7 N, off by", worst(back), 0.007, "N"));
   out.published.push_back({"from 2 N to a weaker layer", "almost instantaneous",
                            "in " + with_unit(fall * 1e3, 2, "ms but for a twentieth")});
   out.published.push_back({"attracted force", "0.7 N in all layers",

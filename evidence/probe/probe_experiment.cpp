@@ -50,11 +50,7 @@ std::string make_report(const ProbeExperiment& e) {
   std::string text = "# " + e.name + "\n\n" + e.title + "\n\n";
   if (!e.observations.empty()) text += markdown_table(observation_table(e));
   for (const auto& [title, table] : e.tables) text += title + "\n\n" + markdown_table(table);
-  TextTable claims{{"must hold", "value", "bound", "verdict"}, {}};
-  for (const Claim& c : e.claims) {
-    claims.rows.push_back({c.text, to_csv(c.value), c.bound, c.pass ? "pass" : "FAIL"});
-  }
-  return text + markdown_table(claims);
+  return text + to_markdown(e.claims);
 }
 
 nlohmann::json make_verdict(const ProbeExperiment& e) {

@@ -83,22 +83,29 @@ std::uint32_t faults_of(const std::vector<ProbeRow>& rows) {
 std::vector<Claim> make_claims(const std::vector<ProbeTrace>& traces, const PneumaticParams& mock) {
   std::vector<Claim> claims;
   for (const ProbeTrace& t : traces) {
-    claims.push_back(claim_at_most(t.label + ": ticks in fault (status bits seen)",
+    claims.push_back(claim_at_most(ClaimKind::independent,
+                                   t.label + ": ticks in fault (status bits seen)",
                                    static_cast<double>(faults_of(t.rows)), 0, ""));
     const ProbeWindow all = measure_window(t.rows, 0, kEnd);
-    claims.push_back(claim_at_least(t.label + ": lowest K_pneu against the published K_min",
+    claims.push_back(claim_at_least(ClaimKind::independent,
+                                    t.label + ": lowest K_pneu against the published K_min",
                                     all.lowest_pneumatic, kPublishedKMin, "N/m"));
-    claims.push_back(claim_at_most(t.label + ": highest K_pneu against the published K_max",
+    claims.push_back(claim_at_most(ClaimKind::independent,
+                                   t.label + ": highest K_pneu against the published K_max",
                                    all.highest_pneumatic, kPublishedKMax, "N/m"));
-    claims.push_back(claim_at_least(t.label + ": lowest chamber pressure", all.lowest_pressure,
-                                    (1 - kPressureMargin) * mock.valve.exhaust, "Pa"));
-    claims.push_back(claim_at_most(t.label + ": highest chamber pressure", all.highest_pressure,
-                                   (1 + kPressureMargin) * mock.valve.supply, "Pa"));
-    claims.push_back(claim_at_most(t.label + ": rod's energy that no work accounts for",
+    claims.push_back(claim_at_least(ClaimKind::independent, t.label + ": lowest chamber pressure",
+                                    all.lowest_pressure, (1 - kPressureMargin) * mock.valve.exhaust,
+                                    "Pa"));
+    claims.push_back(claim_at_most(ClaimKind::independent, t.label + ": highest chamber pressure",
+                                   all.highest_pressure, (1 + kPressureMargin) * mock.valve.supply,
+                                   "Pa"));
+    claims.push_back(claim_at_most(ClaimKind::independent,
+                                   t.label + ": rod's energy that no work accounts for",
                                    all.energy_error, 1e-6, "J"));
   }
   const double k_min = min_pneumatic_stiffness(mock.cylinder, mock.valve.exhaust);
-  claims.push_back(claim_near("K_min of (3.43)", k_min, kPublishedKMin, 1e-3, "N/m"));
+  claims.push_back(
+      claim_near(ClaimKind::independent, "K_min of (3.43)", k_min, kPublishedKMin, 1e-3, "N/m"));
   return claims;
 }
 

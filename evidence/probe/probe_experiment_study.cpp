@@ -407,11 +407,12 @@ ProbeExperiment run_probe_study(const ProbeExperimentOptions& options) {
       rendering.rows.push_back(rendering_cells(r));
       const std::string name = label + ", " + fixed(r.dry_friction, 1) + " N: ";
       if (!needs_force_sensor(law)) {
-        e.claims.push_back(
-            claim_near(name + "slope of a slow push", r.slope, kStiffness, 0.05, "N/m"));
+        e.claims.push_back(claim_near(ClaimKind::independent, name + "slope of a slow push",
+                                      r.slope, kStiffness, 0.05, "N/m"));
       }
-      e.claims.push_back(
-          claim_at_most(name + "speed after loss of the force sensor", r.lost_speed, 0.2, "m/s"));
+      e.claims.push_back(claim_at_most(ClaimKind::independent,
+                                       name + "speed after loss of the force sensor", r.lost_speed,
+                                       0.2, "m/s"));
       results.push_back(r);
     }
     push.panels[i].series.push_back({"ideal spring", {0, 14}, {0, 14}});

@@ -13,8 +13,8 @@ class IpcLaw final : public AdmittanceLaw {
       : AdmittanceLaw(control, valve, admittance), gains_(control.ipc) {}
 
  private:
-  ARTUS_REALTIME void start(double reference, double y) noexcept override;
-  ARTUS_REALTIME double drive(double reference, double y) noexcept override;
+  void start(double reference, double y) noexcept override;
+  double drive(double reference, double y) noexcept override;
 
   IpcGains gains_;
   double x_ = 0;  // m, of the virtual mass

@@ -14,8 +14,8 @@ class PidLaw final : public AdmittanceLaw {
         derivative_(control.velocity_filter, period()) {}
 
  private:
-  ARTUS_REALTIME void start(double reference, double y) noexcept override;
-  ARTUS_REALTIME double drive(double reference, double y) noexcept override;
+  void start(double reference, double y) noexcept override;
+  double drive(double reference, double y) noexcept override;
 
   PidGains gains_;
   LowPass derivative_;

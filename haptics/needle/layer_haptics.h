@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
-#include <map>
-#include <optional>
-#include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
-#include "artus/anatomy/body/compiled_joint.h"
+#include "artus/anatomy/body/tet_mesh.h"
 #include "artus/anatomy/body/tissue.h"
 #include "artus/core/check.h"
 
@@ -26,37 +24,12 @@ struct LayerHaptics {
   PrepunctureLaw prepuncture = PrepunctureLaw::membrane;
 };
 
-/// The laws of a run: for all tissues when set, and exceptions by tissue name. What a run leaves
-/// open is the tissue's own choice (Haptic::cutting_law, prepuncture_law).
-struct LawSelection {
-  std::optional<CuttingLaw> cutting;
-  std::optional<PrepunctureLaw> prepuncture;
-  std::map<std::string, CuttingLaw> cutting_of_tissue;
-  std::map<std::string, PrepunctureLaw> prepuncture_of_tissue;
-};
-
-/// A patient's deviation from the tissue library; each factor multiplies the tissue's value.
-struct PatientProfile {
-  double cutting = 1;
-  double friction = 1;
-  double attracted = 1;
-  double clamping = 1;
-  double puncture = 1;
-};
-
-/// A layer of the tissue `name` as a run wants it: its laws chosen, its values times the patient's
-/// factors.
-[[nodiscard]] LayerHaptics for_run(LayerHaptics layer, const std::string& name,
-                                   const LawSelection& laws, const PatientProfile& patient);
-
 /// Haptic values by region, so that the tick looks them up by index. Regions out of range feel like
 /// outside (nothing).
 class LayerTable {
  public:
   LayerTable() = default;
   explicit LayerTable(std::vector<LayerHaptics> by_region) : by_region_(std::move(by_region)) {}
-  /// Requires: a joint whose regions index its tissues.
-  LayerTable(const CompiledJoint& joint, const LawSelection& laws, const PatientProfile& patient);
 
   [[nodiscard]] ARTUS_REALTIME const LayerHaptics& operator[](RegionId region) const noexcept {
     return region != kOutside && region < by_region_.size() ? by_region_[region] : outside_;

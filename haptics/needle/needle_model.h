@@ -4,36 +4,9 @@
 #include <span>
 
 #include "artus/haptics/needle/clamping.h"
-#include "artus/haptics/needle/classic_cutting.h"
-#include "artus/haptics/needle/hard_contact.h"
-#include "artus/haptics/needle/hemisphere_workspace.h"
-#include "artus/haptics/needle/lugre_friction.h"
-#include "artus/haptics/needle/needle_contact.h"
-#include "artus/haptics/needle/orientation_torque.h"
-#include "artus/haptics/needle/plasticity_fixture.h"
-#include "artus/haptics/needle/prepuncture.h"
-#include "artus/haptics/needle/tracking_wall.h"
+#include "artus/haptics/needle/needle_params.h"
 
 namespace artus {
-
-/// Which law holds the needle on its line.
-enum class ClampingLaw { projection, plasticity };
-
-/// The parameters of every force law and of the contact; each default has its source where it is
-/// declared.
-struct NeedleParams {
-  ContactParams contact;
-  TrackingWallParams wall;
-  VoigtParams voigt;
-  PrepunctureParams prepuncture;
-  LugreParams friction;
-  HardContactParams hard;
-  OrientationParams orientation;
-  ClampingLaw clamping = ClampingLaw::projection;
-  PlasticityParams plasticity;
-  bool use_workspace = false;  ///< whether the hemisphere pushes
-  HemisphereParams workspace;
-};
 
 /// The components of one tick, apart. Axial values are along the insertion axis, N, positive into
 /// the body (a force against insertion is negative).

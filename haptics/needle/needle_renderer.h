@@ -2,8 +2,10 @@
 #pragma once
 #include <array>
 #include <memory>
+#include <string_view>
 
 #include "artus/haptics/guard.h"
+#include "artus/haptics/needle/needle_feel.h"
 #include "artus/haptics/needle/needle_model.h"
 #include "artus/haptics/passivity.h"
 
@@ -17,14 +19,22 @@ struct RenderedNeedle {
   double energy_to_hand = 0;  ///< J given since the start, by the passivity observer
 };
 
+/// What a renderer is made of besides its scene.
+struct NeedleRendererParams {
+  NeedleParams needle;
+  GuardParams guard;
+  PassivityParams passivity;
+  DeviceLimits device;    ///< whose limits the command is kept in
+  double rate_hz = 1000;  ///< ticks a second, 100 to 20000
+};
+
 /// The complete haptic tick of the needle against one scene: input guard, scene query, force laws,
 /// output guard. The period is fixed, so a replay of the same poses gives the same bytes.
 class NeedleRenderer {
  public:
   /// Requires: a scene; rate in [100, 20000] Hz.
-  NeedleRenderer(std::shared_ptr<const Scene> scene, LayerTable table, const NeedleParams& params,
-                 const GuardParams& guard, const DeviceLimits& device, double rate_hz,
-                 const PassivityParams& passivity = {});
+  NeedleRenderer(std::shared_ptr<const Scene> scene, LayerTable table,
+                 const NeedleRendererParams& params);
   NeedleRenderer(const NeedleRenderer&) = delete;
   NeedleRenderer& operator=(const NeedleRenderer&) = delete;
   ~NeedleRenderer() = default;
@@ -48,5 +58,11 @@ class NeedleRenderer {
   std::array<TissueInterval, kMaxIntervals> intervals_{};
   RenderedNeedle rendered_;
 };
+
+/// A renderer of the published laws, as far as `feel` does not change them. `device`: a name of
+/// device_table(). Errors: not_found (device, tissue in `feel`), invalid (rate, a value in `feel`).
+[[nodiscard]] Result<std::unique_ptr<NeedleRenderer>> make_needle_renderer(
+    std::shared_ptr<const Scene> scene, std::string_view device, double rate_hz,
+    const NeedleFeel& feel = {});
 
 }  // namespace artus

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: AGPL-3.0-or-later
  *
- * The C client of artus' shared memory: one header, no library, C11 and C++ (GCC or Clang, Linux).
+ * The C client of artus' shared memory: headers, no library, C11 and C++ (GCC or Clang, Linux).
  * A device program writes its pose into POS and reads what the hand should feel from FORCE; the
- * newest B-mode image is in IMAGE. docs/protocol.md describes every byte. With glibc older than
- * 2.34 link with -lrt.
+ * newest B-mode image is in IMAGE. artus_shm_layout.h has every byte, docs/protocol.md the rules.
+ * With glibc older than 2.34 link with -lrt.
  *
  *   artus_shm_link link;
  *   if (artus_shm_open(&link, "") != 0) perror(link.refusal);
@@ -13,6 +13,10 @@
  *     artus_shm_force force;
  *     artus_shm_read_force(&link, &force);       // zero force when artus is silent for 20 ms
  *   }
+ *
+ * A segment that another program truncates does not kill its readers: a handler for SIGBUS puts an
+ * empty page in its place (all other faults go to the handler that was there before). Define
+ * ARTUS_SHM_NO_SIGBUS before the include to do without.
  */
 #ifndef ARTUS_SHM_H
 #define ARTUS_SHM_H
@@ -21,6 +25,7 @@
 #endif
 #include <errno.h>
 #include <fcntl.h>
+#include <signal.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
@@ -30,86 +35,103 @@
 #include <time.h>
 #include <unistd.h>
 
-#define ARTUS_SHM_VERSION 1u
-#define ARTUS_SHM_MAGIC_POS 0x31534f5053545241ull   /* "ARTSPOS1" */
-#define ARTUS_SHM_MAGIC_FORCE 0x3143524653545241ull /* "ARTSFRC1" */
-#define ARTUS_SHM_MAGIC_IMAGE 0x31474d4953545241ull /* "ARTSIMG1" */
-#define ARTUS_SHM_IMAGE_CAPACITY (1024u * 1024u)    /* pixels */
-#define ARTUS_SHM_STALE_NS 20000000ull              /* silence after which a peer counts as lost */
+#include "artus_shm_layout.h"
 
-/* The first 64 bytes of every segment. All numbers are little-endian. */
-typedef struct artus_shm_header {
-  uint64_t magic;        /*  0 which segment, ARTUS_SHM_MAGIC_... */
-  uint32_t version;      /*  8 ARTUS_SHM_VERSION */
-  uint32_t size;         /* 12 bytes of the whole segment */
-  uint32_t payload;      /* 16 bytes of the payload, which begins at byte 64 */
-  uint32_t reserved;     /* 20 zero */
-  uint64_t writer_pid;   /* 24 process that writes; 0: none, or it left in good order */
-  uint64_t heartbeat;    /* 32 grows while the writer lives */
-  uint64_t reserved2[2]; /* 40 zero */
-  uint64_t sequence;     /* 56 odd while the payload is being written */
-} artus_shm_header;
+#define ARTUS_SHM_LOOK_NS 100000000ull /* between two looks for newer segments */
+#define ARTUS_SHM_MAX_RANGES 64        /* mapped segments of one process */
 
-enum { ARTUS_SHM_NEEDLE = 1u, ARTUS_SHM_PROBE = 2u }; /* artus_shm_pos.present */
+/* The mapped segments of this process. Data for signal handlers has to be static; weak, so that all
+ * files that include this header share it. */
+typedef struct artus_shm_range {
+  uintptr_t base; /* 0: unused, 1: being filled in */
+  size_t size;    /* bytes, whole pages */
+  int file;
+  int lost;  /* a page of it had no file behind it any more */
+  int force; /* FORCE, written by this process: the last that it says must be zero */
+} artus_shm_range;
+__attribute__((weak)) artus_shm_range artus_shm_ranges[ARTUS_SHM_MAX_RANGES];
+__attribute__((weak)) struct sigaction artus_shm_former_sigbus;
+__attribute__((weak)) int artus_shm_guards;
 
-/* POS: where needle and probe are, written by the device program. World frame W, metres.
- * Needle: origin at the tip, z from hub to tip. Probe: origin at the footprint's centre, x along
- * the scanlines' row, z into the body. Quaternions w, x, y, z. */
-typedef struct artus_shm_pos {
-  uint64_t sample;           /*   0 grows by one with every sample */
-  uint64_t time_ns;          /*   8 CLOCK_MONOTONIC when the pose was measured */
-  double needle_position[3]; /*  16 m */
-  double needle_rotation[4]; /*  40 */
-  double probe_position[3];  /*  72 m */
-  double probe_rotation[4];  /*  96 */
-  uint32_t buttons; /* 128 bit 0: choose the entry point and calibrate; 1: back to exploring */
-  uint32_t present; /* 132 ARTUS_SHM_NEEDLE | ARTUS_SHM_PROBE */
-} artus_shm_pos;    /* 136 */
+/* Gives the range empty memory of this process' own: whatever is written there stays here. */
+static inline int artus_shm_detach(artus_shm_range* range) {
+  void* base = (void*)__atomic_load_n(&range->base, __ATOMIC_ACQUIRE);
+  __atomic_store_n(&range->lost, 1, __ATOMIC_RELEASE);
+  return mmap(base, range->size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_FIXED,
+              -1, 0) == MAP_FAILED
+             ? -1
+             : 0;
+}
 
-/* artus_shm_force.status: bits 0-10 are those of artus' needle tick (docs/protocol.md). */
-enum {
-  ARTUS_SHM_PEER_LOST = 1u << 16,   /* POS is silent or was never written */
-  ARTUS_SHM_POS_INVALID = 1u << 17, /* POS holds values that are not a pose */
-  ARTUS_SHM_PAUSED = 1u << 18,
-  ARTUS_SHM_STOPPED = 1u << 19, /* artus left in good order */
-  ARTUS_SHM_SILENT = 1u << 20   /* set by artus_shm_read_force: FORCE itself is stale */
-};
+static inline void artus_shm_on_sigbus(int number, siginfo_t* info, void* context) {
+  const uintptr_t at = (uintptr_t)info->si_addr;
+  const int saved = errno;
+  int i;
+  for (i = 0; i < ARTUS_SHM_MAX_RANGES; ++i) {
+    const uintptr_t base = __atomic_load_n(&artus_shm_ranges[i].base, __ATOMIC_ACQUIRE);
+    if (base > 1 && at >= base && at - base < artus_shm_ranges[i].size &&
+        artus_shm_detach(&artus_shm_ranges[i]) == 0) {
+      errno = saved;
+      return;
+    }
+  }
+  if (artus_shm_former_sigbus.sa_flags & SA_SIGINFO)
+    artus_shm_former_sigbus.sa_sigaction(number, info, context);
+  else if (artus_shm_former_sigbus.sa_handler == SIG_DFL ||
+           artus_shm_former_sigbus.sa_handler == SIG_IGN)
+    signal(number, SIG_DFL); /* the access faults again and ends the process */
+  else
+    artus_shm_former_sigbus.sa_handler(number);
+}
 
-/* FORCE: what the hand should feel, written by artus. Frame W, at the needle's tip. */
-typedef struct artus_shm_force {
-  uint64_t tick;        /*   0 artus' haptic tick */
-  uint64_t time_ns;     /*   8 CLOCK_MONOTONIC when the force was computed */
-  uint64_t pos_sample;  /*  16 artus_shm_pos.sample that it answers */
-  uint64_t pos_time_ns; /*  24 artus_shm_pos.time_ns of that sample */
-  double force[3];      /*  32 N */
-  double torque[3];     /*  56 N m */
-  double stiffness;     /*  80 N/m, of the layer at the tip */
-  double cutting_force; /*  88 N, that the layer resists with */
-  double depth;         /*  96 m along the needle's line from the skin */
-  uint32_t status;      /* 104 bits, 0: all well */
-  uint32_t contact;     /* 108 0 away 1 touching 2 punctured 3 inserting 4 stopped 5 withdrawing
-                               6 reinserting 7 bone */
-  uint32_t layer;       /* 112 index of the region at the tip, 0: outside */
-  uint32_t reserved;    /* 116 zero */
-  char layer_name[40];  /* 120 its name, zero-terminated */
-} artus_shm_force;      /* 160 */
+/* Takes SIGBUS, once a process. */
+static inline void artus_shm_guard_all(void) {
+#ifndef ARTUS_SHM_NO_SIGBUS
+  struct sigaction action;
+  if (__atomic_exchange_n(&artus_shm_guards, 1, __ATOMIC_ACQ_REL) != 0) return;
+  memset(&action, 0, sizeof action);
+  action.sa_sigaction = artus_shm_on_sigbus;
+  action.sa_flags = SA_SIGINFO;
+  sigaction(SIGBUS, &action, &artus_shm_former_sigbus);
+#endif
+}
 
-/* IMAGE: the newest B-mode frame, written by artus. */
-typedef struct artus_shm_image {
-  uint64_t frame;                         /*  0 grows by one with every frame */
-  uint64_t time_ns;                       /*  8 CLOCK_MONOTONIC when it was ready */
-  uint64_t pos_time_ns;                   /* 16 of the pose that it shows */
-  double pixel;                           /* 24 m, square */
-  uint32_t width;                         /* 32 pixels */
-  uint32_t height;                        /* 36 pixels */
-  uint64_t reserved[3];                   /* 40 zero */
-  uint8_t grey[ARTUS_SHM_IMAGE_CAPACITY]; /* 64 (height, width), x fastest */
-} artus_shm_image;
+/* Enters a mapping; 0 when the table is full, and then it is not guarded. */
+static inline artus_shm_range* artus_shm_guard(void* base, size_t size, int file, int force) {
+  const size_t page = (size_t)sysconf(_SC_PAGESIZE);
+  int i;
+  artus_shm_guard_all();
+  for (i = 0; i < ARTUS_SHM_MAX_RANGES; ++i) {
+    artus_shm_range* range = &artus_shm_ranges[i];
+    uintptr_t unused = 0;
+    if (!__atomic_compare_exchange_n(&range->base, &unused, 1, 0, __ATOMIC_ACQ_REL,
+                                     __ATOMIC_RELAXED))
+      continue;
+    range->size = (size + page - 1) / page * page;
+    range->file = file;
+    range->lost = 0;
+    range->force = force;
+    __atomic_store_n(&range->base, (uintptr_t)base, __ATOMIC_RELEASE);
+    return range;
+  }
+  return 0;
+}
+
+static inline void artus_shm_unguard(artus_shm_range* range) {
+  if (range) __atomic_store_n(&range->base, (uintptr_t)0, __ATOMIC_RELEASE);
+}
+
+static inline int artus_shm_is_lost(const artus_shm_range* range) {
+  return range && __atomic_load_n(&range->lost, __ATOMIC_ACQUIRE);
+}
 
 /* One mapped segment; `beat` and `seen_ns` remember when its heartbeat last changed. */
 typedef struct artus_shm_segment {
   artus_shm_header* header;
+  artus_shm_range* range;
+  size_t size; /* bytes that are mapped, whatever the header says */
   int file;
+  int gone; /* its name leads elsewhere and the new one could not be opened */
   uint64_t beat;
   uint64_t seen_ns;
 } artus_shm_segment;
@@ -117,15 +139,31 @@ typedef struct artus_shm_segment {
 typedef struct artus_shm_link {
   artus_shm_segment pos;
   artus_shm_segment force;
-  char prefix[64];
-  uint64_t reopened_ns;
+  artus_shm_force last; /* the newest that was read whole */
+  char prefix[ARTUS_SHM_MAX_PREFIX + 1];
+  uint64_t looked_ns;
   const char* refusal; /* what could not be opened, for a message; errno says why */
 } artus_shm_link;
+
+/* IMAGE, opened for reading. */
+typedef struct artus_shm_screen {
+  artus_shm_segment image;
+  char prefix[ARTUS_SHM_MAX_PREFIX + 1];
+  uint64_t looked_ns;
+} artus_shm_screen;
 
 static inline uint64_t artus_shm_now_ns(void) {
   struct timespec now;
   clock_gettime(CLOCK_MONOTONIC, &now);
   return (uint64_t)now.tv_sec * 1000000000ull + (uint64_t)now.tv_nsec;
+}
+
+/* Whether `prefix` may stand before POS, FORCE and IMAGE: at most 63 letters, digits, '-', '_' and
+ * '.'. Both sides ask this function. */
+static inline int artus_shm_is_prefix(const char* prefix) {
+  const size_t length = strlen(prefix);
+  const char* allowed = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_.";
+  return length <= ARTUS_SHM_MAX_PREFIX && strspn(prefix, allowed) == length;
 }
 
 /* Seqlock write: the sequence is odd while the words change; release order keeps them after it. */
@@ -161,41 +199,47 @@ static inline int artus_shm_load(const artus_shm_header* header, void* value, si
 }
 
 static inline void artus_shm_unmap(artus_shm_segment* segment) {
-  if (segment->header) munmap(segment->header, segment->header->size);
+  artus_shm_unguard(segment->range);
+  if (segment->header) munmap(segment->header, segment->size);
   if (segment->file >= 0) close(segment->file);
-  segment->header = 0;
+  memset(segment, 0, sizeof *segment);
   segment->file = -1;
 }
 
-/* Opens the named segment or makes an empty one; -1 and errno when it cannot be used: EPROTO (it is
- * not one of this version), EPERM (others may touch it), EBUSY (`write`: it has a writer). */
-static inline int artus_shm_map(artus_shm_segment* segment, const char* name, uint64_t magic,
-                                size_t payload, int write) {
+/* Opens the named segment; -1 and errno when it cannot be used: EPERM (others may touch it), EBUSY
+ * (`write`: it has a writer), ENOENT (not `make`). */
+static inline int artus_shm_open_file(const char* name, int make, int write) {
+  struct stat st;
+  int why = EPERM;
+  const int file = shm_open(name, O_RDWR | O_CLOEXEC | (make ? O_CREAT : 0), 0600);
+  if (file < 0) return -1;
+  if (fstat(file, &st) == 0 && st.st_uid == geteuid() && (st.st_mode & 077) == 0) {
+    /* the kernel drops this lock at a crash */
+    if (!write || flock(file, LOCK_EX | LOCK_NB) == 0) return file;
+    why = EBUSY;
+  }
+  close(file);
+  errno = why;
+  return -1;
+}
+
+/* Maps an opened segment, after giving an empty one its size and header. It owns `file` from then
+ * on. -1 and EPROTO when it is not one of this version. */
+static inline int artus_shm_map_file(artus_shm_segment* segment, int file, uint64_t magic,
+                                     size_t payload, int write) {
   const size_t size = sizeof(artus_shm_header) + payload;
   struct stat st;
   artus_shm_header* h;
+  if (fstat(file, &st) != 0) return -1;
+  if (st.st_size == 0 && ftruncate(file, (off_t)size) != 0) return -1;
+  if (st.st_size != 0 && st.st_size != (off_t)size) return errno = EPROTO, -1;
+  h = (artus_shm_header*)mmap(0, size, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
+  if (h == MAP_FAILED) return -1;
   memset(segment, 0, sizeof *segment);
-  segment->file = shm_open(name, O_RDWR | O_CREAT | O_CLOEXEC, 0600);
-  if (segment->file < 0) return -1;
-  if (write && flock(segment->file, LOCK_EX | LOCK_NB) != 0) { /* the kernel drops it at a crash */
-    close(segment->file);
-    segment->file = -1;
-    errno = EBUSY;
-    return -1;
-  }
-  if (fstat(segment->file, &st) != 0) goto failed;
-  if (st.st_uid != geteuid() || (st.st_mode & 077) != 0) {
-    errno = EPERM;
-    goto failed;
-  }
-  if (st.st_size == 0) {
-    if (ftruncate(segment->file, (off_t)size) != 0) goto failed;
-  } else if (st.st_size != (off_t)size) {
-    errno = EPROTO;
-    goto failed;
-  }
-  h = (artus_shm_header*)mmap(0, size, PROT_READ | PROT_WRITE, MAP_SHARED, segment->file, 0);
-  if (h == MAP_FAILED) goto failed;
+  segment->header = h;
+  segment->size = size;
+  segment->file = file;
+  segment->range = artus_shm_guard(h, size, file, 0);
   if (h->magic == 0) { /* fresh; two that start at once write the same here */
     h->version = ARTUS_SHM_VERSION;
     h->size = (uint32_t)size;
@@ -204,52 +248,79 @@ static inline int artus_shm_map(artus_shm_segment* segment, const char* name, ui
   }
   if (h->magic != magic || h->version != ARTUS_SHM_VERSION || h->size != size ||
       h->payload != payload) {
-    munmap(h, size);
-    errno = EPROTO;
-    goto failed;
+    segment->file = -1; /* stays the caller's */
+    artus_shm_unmap(segment);
+    return errno = EPROTO, -1;
   }
-  if (write) __atomic_store_n(&h->writer_pid, (uint64_t)getpid(), __ATOMIC_RELEASE);
+  if (write) {
+    __atomic_store_n(&h->opened_ns, artus_shm_now_ns(), __ATOMIC_RELEASE);
+    __atomic_store_n(&h->writer_pid, (uint64_t)getpid(), __ATOMIC_RELEASE);
+  }
   segment->beat =
       __atomic_load_n(&h->heartbeat, __ATOMIC_ACQUIRE); /* what was left behind is old */
-  segment->header = h;
   return 0;
-failed : {
-  const int why = errno;
-  close(segment->file);
-  segment->file = -1;
-  errno = why;
-  return -1;
-}
 }
 
-static inline int artus_shm_map_named(artus_shm_link* link, artus_shm_segment* segment,
-                                      const char* what, uint64_t magic, size_t payload, int write) {
-  char name[96];
-  snprintf(name, sizeof name, "/%s%s", link->prefix, what);
-  if (artus_shm_map(segment, name, magic, payload, write) == 0) return 0;
-  link->refusal = what;
-  return -1;
+/* Follows the name: maps what it leads to now, if that is not what is mapped. A writer's lock goes
+ * with its file: it is never given up while the name leads there. -1 and errno: the old mapping
+ * stays, marked as gone. */
+static inline int artus_shm_follow(artus_shm_segment* segment, const char* prefix, const char* what,
+                                   uint64_t magic, size_t payload, int write, int make) {
+  char name[ARTUS_SHM_MAX_PREFIX + 16];
+  struct stat ours, named;
+  artus_shm_segment fresh;
+  int file, same = 0, looked = -1;
+  snprintf(name, sizeof name, "/%s%s", prefix, what);
+  if (segment->header) {
+    looked = shm_open(name, O_RDONLY | O_CLOEXEC, 0);
+    same = looked >= 0 && fstat(looked, &named) == 0 && fstat(segment->file, &ours) == 0 &&
+           named.st_ino == ours.st_ino && named.st_dev == ours.st_dev;
+    if (looked >= 0) close(looked);
+    if (same && (size_t)ours.st_size == segment->size && !artus_shm_is_lost(segment->range))
+      return segment->gone = 0;
+  }
+  file = same ? segment->file : artus_shm_open_file(name, make, write);
+  if (file < 0) return segment->gone = 1, -1;
+  if (artus_shm_map_file(&fresh, file, magic, payload, write) != 0) {
+    const int why = errno;
+    if (!same) close(file);
+    segment->gone = 1;
+    return errno = why, -1;
+  }
+  if (same) segment->file = -1; /* the fresh one has it */
+  artus_shm_unmap(segment);
+  *segment = fresh;
+  return 0;
+}
+
+static inline int artus_shm_follow_pos(artus_shm_link* link) {
+  return artus_shm_follow(&link->pos, link->prefix, "POS", ARTUS_SHM_MAGIC_POS,
+                          sizeof(artus_shm_pos), 1, 1);
+}
+static inline int artus_shm_follow_force(artus_shm_link* link) {
+  return artus_shm_follow(&link->force, link->prefix, "FORCE", ARTUS_SHM_MAGIC_FORCE,
+                          sizeof(artus_shm_force), 0, 1);
 }
 
 /* Opens POS for writing and FORCE for reading; either side may start first. `prefix` stands before
- * the names POS and FORCE, "" for the usual ones. 0, or -1 with errno and link->refusal. */
+ * the names POS and FORCE, "" for the usual ones. 0, or -1 with errno and link->refusal: EINVAL
+ * (the prefix, see artus_shm_is_prefix), EPROTO (a segment is not one of this version), EPERM
+ * (others may touch it), EBUSY (POS has a writer). */
 static inline int artus_shm_open(artus_shm_link* link, const char* prefix) {
   memset(link, 0, sizeof *link);
-  link->force.file = -1;
-  if (strlen(prefix) >= sizeof link->prefix) {
-    link->refusal = prefix;
-    errno = ENAMETOOLONG;
-    return -1;
-  }
+  link->pos.file = link->force.file = -1;
+  link->refusal = prefix;
+  if (!artus_shm_is_prefix(prefix)) return errno = EINVAL, -1;
   memcpy(link->prefix, prefix, strlen(prefix) + 1);
-  if (artus_shm_map_named(link, &link->pos, "POS", ARTUS_SHM_MAGIC_POS, sizeof(artus_shm_pos), 1) !=
-      0)
-    return -1;
-  if (artus_shm_map_named(link, &link->force, "FORCE", ARTUS_SHM_MAGIC_FORCE,
-                          sizeof(artus_shm_force), 0) != 0) {
+  link->refusal = "POS";
+  if (artus_shm_follow_pos(link) != 0) return -1;
+  link->refusal = "FORCE";
+  if (artus_shm_follow_force(link) != 0) {
+    const int why = errno;
     artus_shm_unmap(&link->pos);
-    return -1;
+    return errno = why, -1;
   }
+  link->refusal = 0;
   return 0;
 }
 
@@ -273,35 +344,87 @@ static inline void artus_shm_write_pos(artus_shm_link* link, const artus_shm_pos
   artus_shm_store(link->pos.header, pos, sizeof *pos);
 }
 
-/* The newest force; zero with ARTUS_SHM_SILENT when FORCE did not change for 20 ms. Then also
- * looks, at most every 100 ms, whether a restarted artus made new segments. 1: fresh, 0: silent. */
+/* At most every 100 ms: what do the names lead to? */
+static inline void artus_shm_look(artus_shm_link* link, uint64_t now) {
+  if (now - link->looked_ns < ARTUS_SHM_LOOK_NS) return;
+  link->looked_ns = now;
+  artus_shm_follow_pos(link);
+  artus_shm_follow_force(link);
+}
+
+/* The newest force; zero with ARTUS_SHM_SILENT when FORCE did not change, or was computed, 20 ms
+ * ago. While artus is silent or does not hear POS it looks whether the names lead to new segments.
+ * 1: fresh, 0: silent. */
 static inline int artus_shm_read_force(artus_shm_link* link, artus_shm_force* force) {
-  const uint64_t now = artus_shm_now_ns();
   artus_shm_segment* s = &link->force;
-  const uint64_t beat = __atomic_load_n(&s->header->heartbeat, __ATOMIC_ACQUIRE);
-  const int whole = artus_shm_load(s->header, force, sizeof *force);
-  if (beat != s->beat) {
-    s->beat = beat;
-    s->seen_ns = now;
-  }
-  if (whole && s->seen_ns != 0 && now - s->seen_ns < ARTUS_SHM_STALE_NS &&
-      now - force->time_ns < ARTUS_SHM_STALE_NS)
-    return 1;
-  memset(force, 0, sizeof *force);
-  force->status = ARTUS_SHM_SILENT;
-  if (now - link->reopened_ns > 100000000ull && now - s->seen_ns > 100000000ull) {
-    artus_shm_link fresh;
-    link->reopened_ns = now;
-    flock(link->pos.file, LOCK_UN);
-    if (artus_shm_open(&fresh, link->prefix) == 0) {
-      artus_shm_unmap(&link->pos);
-      artus_shm_unmap(&link->force);
-      fresh.reopened_ns = now;
-      *link = fresh;
-    } else {
-      flock(link->pos.file, LOCK_EX | LOCK_NB);
+  uint64_t now = 0;
+  int attempt;
+  for (attempt = 0; attempt < 4; ++attempt) { /* again when this thread itself was held up */
+    const uint64_t beat = __atomic_load_n(&s->header->heartbeat, __ATOMIC_ACQUIRE);
+    const int whole = artus_shm_load(s->header, force, sizeof *force);
+    int64_t age;
+    now =
+        artus_shm_now_ns(); /* after the load: a force of the moment between is not of the future */
+    if (beat != s->beat) {
+      s->beat = beat;
+      s->seen_ns = now;
+    }
+    if (s->seen_ns == 0) continue; /* what is there may be a left-over */
+    if (whole) link->last = *force;
+    age = (int64_t)(now - link->last.time_ns);
+    if (age > -1000000 && age < (int64_t)ARTUS_SHM_STALE_NS &&
+        now - s->seen_ns < ARTUS_SHM_STALE_NS && !link->pos.gone) {
+      *force = link->last;
+      if ((force->status & ARTUS_SHM_PEER_LOST) || artus_shm_is_lost(link->pos.range))
+        artus_shm_look(link, now);
+      return 1;
     }
   }
+  memset(force, 0, sizeof *force);
+  force->status = ARTUS_SHM_SILENT;
+  if (now - s->seen_ns > ARTUS_SHM_LOOK_NS || artus_shm_is_lost(s->range) || link->pos.gone)
+    artus_shm_look(link, now);
   return 0;
+}
+
+/* Opens IMAGE for reading. 0, or -1 with errno: ENOENT (artus writes none), else as artus_shm_open.
+ */
+static inline int artus_shm_open_image(artus_shm_screen* screen, const char* prefix) {
+  memset(screen, 0, sizeof *screen);
+  screen->image.file = -1;
+  if (!artus_shm_is_prefix(prefix)) return errno = EINVAL, -1;
+  memcpy(screen->prefix, prefix, strlen(prefix) + 1);
+  return artus_shm_follow(&screen->image, prefix, "IMAGE", ARTUS_SHM_MAGIC_IMAGE,
+                          sizeof(artus_shm_image), 0, 0);
+}
+
+/* Copies the newest image when it is newer than that of the last call: 1, else 0. Follows the name
+ * after 100 ms without one. */
+static inline int artus_shm_read_image(artus_shm_screen* screen, artus_shm_image* image) {
+  artus_shm_segment* s = &screen->image;
+  const size_t head = sizeof *image - sizeof image->grey;
+  const uint64_t beat = __atomic_load_n(&s->header->heartbeat, __ATOMIC_ACQUIRE);
+  const uint64_t now = artus_shm_now_ns();
+  if (beat != s->beat && artus_shm_load(s->header, image, head) &&
+      (uint64_t)image->width * image->height <= ARTUS_SHM_IMAGE_CAPACITY) {
+    const uint32_t width = image->width, height = image->height;
+    const size_t pixels = (size_t)width * height;
+    if (artus_shm_load(s->header, image, head + (pixels + 7) / 8 * 8) && image->width == width &&
+        image->height == height) {
+      s->beat = beat;
+      s->seen_ns = now;
+      return 1;
+    }
+  }
+  if (now - s->seen_ns > ARTUS_SHM_LOOK_NS && now - screen->looked_ns > ARTUS_SHM_LOOK_NS) {
+    screen->looked_ns = now;
+    artus_shm_follow(s, screen->prefix, "IMAGE", ARTUS_SHM_MAGIC_IMAGE, sizeof(artus_shm_image), 0,
+                     0);
+  }
+  return 0;
+}
+
+static inline void artus_shm_close_image(artus_shm_screen* screen) {
+  artus_shm_unmap(&screen->image);
 }
 #endif /* ARTUS_SHM_H */

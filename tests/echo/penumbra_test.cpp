@@ -18,7 +18,7 @@ std::vector<float> gains_beside_bone(int l, double depth) {
   for (std::size_t i = 0; i < 128; ++i) shadow_from[i] = static_cast<float>(depth / kSampleDepth);
   std::vector<float> re(1024, 1.0F);
   std::vector<float> im(1024, 0.0F);
-  add_penumbra(Transducer{}, kSampleDepth, shadow_from, l, re, im);
+  add_penumbra(Transducer{}, kSampleDepth, shadow_from, l, {re, im});
   return re;
 }
 
@@ -47,7 +47,7 @@ TEST(Penumbra, NothingChangesWithoutAShadow) {
   const std::vector<float> shadow_from(256, 1024.0F);
   std::vector<float> re(1024, 0.7F);
   std::vector<float> im(1024, -0.3F);
-  add_penumbra(Transducer{}, kSampleDepth, shadow_from, 30, re, im);
+  add_penumbra(Transducer{}, kSampleDepth, shadow_from, 30, {re, im});
   for (std::size_t i = 0; i < re.size(); ++i) {
     EXPECT_EQ(re[i], 0.7F);
     EXPECT_EQ(im[i], -0.3F);

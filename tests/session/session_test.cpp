@@ -110,15 +110,15 @@ TEST(Session, ARecordingKnowsTheLawsItWasFeltBy) {
       std::filesystem::temp_directory_path() / ("artus-laws-" + std::to_string(getpid()) + ".rec");
   const auto scene = test::make_layered_scene();
   SessionParams params = test::make_small_session();
-  params.laws.cutting = CuttingLaw::voigt;
-  params.laws.cutting_of_tissue["fat"] = CuttingLaw::direct;
-  params.patient.friction = 1.5;
-  params.needle.hard.law = HardLaw::impulse;
-  params.needle.clamping = ClampingLaw::plasticity;
-  params.needle.friction = lugre_sets()[0];
-  params.needle.use_workspace = true;
-  params.needle.workspace = {Vec3(0.01, -0.02, 0.03), 0.2, 0.5};
-  params.passivity = {true, 7};
+  params.feel.cutting.all = CuttingLaw::voigt;
+  params.feel.cutting.of_tissue["fat"] = CuttingLaw::direct;
+  params.feel.patient.friction = 1.5;
+  params.feel.tap = HardLaw::impulse;
+  params.feel.clamping = ClampingLaw::plasticity;
+  params.feel.friction = lugre_sets()[0];
+  params.feel.workspace = HemisphereParams{Vec3(0.01, -0.02, 0.03), 0.2, 0.5};
+  params.feel.needle_length = 0.05;
+  params.feel.passivity_control = true;
   {
     Session::Options options = quiet_options();
     options.recording = file;
@@ -133,8 +133,8 @@ TEST(Session, ARecordingKnowsTheLawsItWasFeltBy) {
   EXPECT_GT(plain->different_ticks, 0U) << "the laws must be felt at all";
   const auto restored = params_of(recording->head, test::make_small_session());
   ASSERT_TRUE(restored) << restored.error().to_string();
-  EXPECT_EQ(restored->needle.workspace.centre, params.needle.workspace.centre);
-  EXPECT_EQ(restored->passivity.max_damping, params.passivity.max_damping);
+  EXPECT_EQ(restored->feel.workspace->centre, params.feel.workspace->centre);
+  EXPECT_EQ(restored->feel.needle_length, params.feel.needle_length);
   const auto same = replay(*recording, scene, *restored);
   ASSERT_TRUE(same);
   EXPECT_TRUE(same->identical());

@@ -154,12 +154,12 @@ TEST_F(SharedMemory, AGoodLeftOverIsUsedAgain) {
 
 TEST_F(SharedMemory, ARemovedOrResizedSegmentIsNoticed) {
   const auto pos = PosChannel::open(prefix_, kPosLayout, SegmentAccess::owner_reads);
-  EXPECT_TRUE(pos->segment().is_current());
+  EXPECT_EQ(pos->segment().find_trouble(), nullptr);
   SharedSegment::remove(prefix_, kPosLayout);
-  EXPECT_FALSE(pos->segment().is_current());
+  EXPECT_STREQ(pos->segment().find_trouble(), "was removed");
   const auto fresh = PosChannel::open(prefix_, kPosLayout, SegmentAccess::owner_reads);
-  EXPECT_FALSE(pos->segment().is_current());
-  EXPECT_TRUE(fresh->segment().is_current());
+  EXPECT_STREQ(pos->segment().find_trouble(), "was replaced");
+  EXPECT_EQ(fresh->segment().find_trouble(), nullptr);
 }
 
 TEST_F(SharedMemory, AForceThatWasLeftBehindIsNeverFelt) {

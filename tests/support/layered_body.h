@@ -10,6 +10,7 @@
 /// The layered bodies of anatomy/layered_body.h made of test tissues.
 namespace artus::test {
 
+using artus::BlockWithSphere;
 using artus::FlatLayer;
 using artus::region_named;
 using artus::SphereLayer;
@@ -32,23 +33,8 @@ using artus::transformed;
   return artus::make_nested_spheres(make_test_tissues(), layers, centre, subdivisions);
 }
 
-[[nodiscard]] inline CompiledJoint make_block_with_sphere(const std::string& tissue,
-                                                          const Vec3& size, const Vec3& top_centre,
-                                                          const std::string& inclusion,
-                                                          const Vec3& centre, double radius,
-                                                          int subdivisions = 4) {
-  return artus::make_block_with_sphere(make_test_tissues(), tissue, size, top_centre, inclusion,
-                                       centre, radius, subdivisions);
-}
-
-[[nodiscard]] inline CompiledJoint make_block_with_cylinder(const std::string& tissue,
-                                                            const Vec3& size,
-                                                            const Vec3& top_centre,
-                                                            const std::string& inclusion,
-                                                            const Vec3& a, const Vec3& b,
-                                                            double radius, std::size_t sides = 64) {
-  return artus::make_block_with_cylinder(make_test_tissues(), tissue, size, top_centre, inclusion,
-                                         a, b, radius, sides);
+[[nodiscard]] inline CompiledJoint make_block_with_sphere(const BlockWithSphere& block) {
+  return artus::make_block_with_sphere(make_test_tissues(), block);
 }
 
 }  // namespace artus::test

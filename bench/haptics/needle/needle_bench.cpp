@@ -178,10 +178,12 @@ NeedleParams all_laws(const Body& body) {
 }
 
 void bench_tick(benchmark::State& state, const Body& body) {
-  PassivityParams passivity;
-  passivity.control = true;
-  NeedleRenderer renderer(body.scene, LayerTable(*body.joint, {}, {}), all_laws(body), {},
-                          find_device("virtuose_6d_desktop").value(), kRate, passivity);
+  NeedleRendererParams params;
+  params.needle = all_laws(body);
+  params.passivity.control = true;
+  params.device = find_device("virtuose_6d_desktop").value();
+  params.rate_hz = kRate;
+  NeedleRenderer renderer(body.scene, make_layer_table(*body.joint), params);
   Alternatives alternatives(renderer.period());
   long inserted = 0;
   long bone = 0;

@@ -39,16 +39,16 @@ TEST(NeedleExperiments, UnknownNameIsRefusedWithTheNamesThereAre) {
   EXPECT_NE(refused.error().message.find("wall-seven"), std::string::npos);
 }
 
-TEST(NeedleExperiments, LawThatTheExperimentFixesIsRefusedWithItsFlag) {
+TEST(NeedleExperiments, LawThatTheExperimentFixesIsRefusedByName) {
   ExperimentOptions options;
-  options.laws.laws.cutting = CuttingLaw::voigt;
+  options.feel.cutting.all = CuttingLaw::voigt;
   const auto refused = run_needle_experiment("wall-vs-classic", options);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, ErrorCode::invalid);
-  EXPECT_EQ(refused.error().where, "--cutting");
+  EXPECT_EQ(refused.error().where, "cutting");
   EXPECT_NE(refused.error().message.find("compares four fixed"), std::string::npos);
   ExperimentOptions layer;
-  layer.laws.laws.cutting_of_tissue["layer 2"] = CuttingLaw::voigt;
+  layer.feel.cutting.of_tissue["layer 2"] = CuttingLaw::voigt;
   const auto unknown = run_needle_experiment("wall-move", layer);
   ASSERT_FALSE(unknown);
   EXPECT_EQ(unknown.error().code, ErrorCode::not_found);
@@ -58,7 +58,7 @@ TEST(NeedleExperiments, LawThatTheExperimentFixesIsRefusedWithItsFlag) {
 // The direct law of one layer of nine: its force is there at once, the others build up as before.
 TEST(NeedleExperiments, LawOfOneLayerChangesThatLayerAlone) {
   ExperimentOptions options;
-  options.laws.laws.cutting_of_tissue["layer 6"] = CuttingLaw::direct;
+  options.feel.cutting.of_tissue["layer 6"] = CuttingLaw::direct;
   const auto wall = run_needle_experiment("wall-nine");
   const auto mixed = run_needle_experiment("wall-nine", options);
   ASSERT_TRUE(wall);
@@ -77,7 +77,7 @@ TEST(NeedleExperiments, LawOfOneLayerChangesThatLayerAlone) {
 // The spring pushes a needle that stopped: the published claims say so.
 TEST(NeedleExperiments, ClaimsOfTheWallFailWithASpring) {
   ExperimentOptions options;
-  options.laws.laws.cutting = CuttingLaw::spring;
+  options.feel.cutting.all = CuttingLaw::spring;
   const auto run = run_needle_experiment("wall-stop", options);
   ASSERT_TRUE(run);
   bool rest_holds = true;

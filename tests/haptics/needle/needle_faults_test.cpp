@@ -84,11 +84,13 @@ TimedPose broken(Fault fault, std::uint64_t seed, std::uint64_t i, TimedPose pos
 // 1e6 ticks: sane stretches of random length between bursts of one fault or of all at random.
 TEST(NeedleFaults, NeverGetAnUnsafeForceOutOverAMillionTicks) {
   const auto scene = block();
-  GuardParams guard;
-  guard.workspace_half = Vec3::Constant(0.25);
-  const DeviceLimits device = find_device("virtuose_6d_desktop").value();
-  NeedleRenderer renderer(scene, LayerTable(scene->joint(), {}, {}), NeedleParams{}, guard, device,
-                          1 / kDt);
+  NeedleRendererParams params;
+  params.guard.workspace_half = Vec3::Constant(0.25);
+  params.device = find_device("virtuose_6d_desktop").value();
+  params.rate_hz = 1 / kDt;
+  const GuardParams& guard = params.guard;
+  const DeviceLimits& device = params.device;
+  NeedleRenderer renderer(scene, make_layer_table(scene->joint()), params);
   constexpr std::uint64_t kSeed = 5;
   std::array<long, 32> seen{};
   Wrench last;

@@ -168,9 +168,9 @@ struct LoopEnergy {
 
 LoopEnergy ride_over_bone(const ProbeContactParams& params, const Way& way, double turn) {
   ProbeContactModel model(
-      std::make_shared<const Scene>(
-          std::make_shared<const CompiledJoint>(test::make_block_with_sphere(
-              "muscle", Vec3(0.16, 0.1, 0.1), Vec3::Zero(), "bone", Vec3(0.01, 0.01, 0.05), 0.04))),
+      std::make_shared<const Scene>(std::make_shared<const CompiledJoint>(
+          test::make_block_with_sphere({"muscle", Vec3(0.16, 0.1, 0.1), Vec3::Zero(), "bone",
+                                        Vec3(0.01, 0.01, 0.05), 0.04}))),
       params);
   LoopEnergy energy;
   double to_and_fro = 0;

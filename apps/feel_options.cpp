@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/apps/law_options.h"
+#include "artus/apps/feel_options.h"
 
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <map>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -24,44 +23,21 @@ std::pair<std::string, std::string> split(const std::string& text) {
 
 template <class Law, class Find>
 Result<void> read_laws(const std::vector<std::string>& flags, const char* flag, Find find,
-                       std::optional<Law>& all, std::map<std::string, Law>& of_tissue) {
+                       LawChoice<Law>& choice) {
   for (const std::string& text : flags) {
     const auto [tissue, name] = split(text);
     const Result<Law> law = find(name);
     if (!law) return fail(law.error().code, law.error().message, flag);
     if (tissue.empty()) {
-      all = *law;
+      choice.all = *law;
     } else {
-      of_tissue[tissue] = *law;
+      choice.of_tissue[tissue] = *law;
     }
-  }
-  return {};
-}
-
-template <class Law>
-Result<void> check_tissues(const std::map<std::string, Law>& of_tissue, const char* flag,
-                           const CompiledJoint& joint) {
-  for (const auto& entry : of_tissue) {
-    std::string known;
-    bool found = false;
-    for (const Tissue& t : joint.tissues) {
-      known.append(known.empty() ? "" : ", ").append(t.name);
-      found = found || t.name == entry.first;
-    }
-    if (!found)
-      return fail(ErrorCode::not_found,
-                  "the joint has no tissue \"" + entry.first + "\"; there are " + known, flag);
   }
   return {};
 }
 
 Result<void> read_patient(const std::vector<std::string>& flags, PatientProfile& patient) {
-  const std::array<std::pair<std::string_view, double*>, 5> factors{
-      {{"cutting", &patient.cutting},
-       {"friction", &patient.friction},
-       {"attracted", &patient.attracted},
-       {"clamping", &patient.clamping},
-       {"puncture", &patient.puncture}}};
   for (const std::string& text : flags) {
     const auto [name, number] = split(text);
     double value = 0;
@@ -70,19 +46,22 @@ Result<void> read_patient(const std::vector<std::string>& flags, PatientProfile&
     if (read.ec != std::errc{} || read.ptr != end || !(value >= 0 && value <= 10))
       return fail(ErrorCode::invalid, "\"" + text + "\" must be NAME=FACTOR, factor 0 to 10",
                   "--patient");
-    const auto at = std::find_if(factors.begin(), factors.end(),
-                                 [&wanted = name](const auto& f) { return f.first == wanted; });
-    if (at == factors.end())
-      return fail(
-          ErrorCode::not_found,
-          "no factor \"" + name + "\"; there are cutting, friction, attracted, clamping, puncture",
-          "--patient");
-    *at->second = value;
+    std::string known;
+    bool found = false;
+    visit_fields(patient, [&, &wanted = name](const std::string& factor, double& member) {
+      known.append(known.empty() ? "" : ", ").append(factor);
+      if (factor != wanted) return;
+      member = value;
+      found = true;
+    });
+    if (!found)
+      return fail(ErrorCode::not_found, "no factor \"" + name + "\"; there are " + known,
+                  "--patient");
   }
   return {};
 }
 
-Result<void> read_workspace(const LawOptions& options, std::optional<HemisphereParams>& sphere) {
+Result<void> read_workspace(const FeelOptions& options, std::optional<HemisphereParams>& sphere) {
   const std::vector<double>& mm = options.workspace_mm;
   if (mm.empty()) return {};
   const bool finite =
@@ -99,7 +78,7 @@ Result<void> read_workspace(const LawOptions& options, std::optional<HemisphereP
 
 }  // namespace
 
-void add_law_options(Command* command, LawOptions& options) {
+void add_feel_options(Command* command, FeelOptions& options) {
   const std::string group = "Force laws of the needle";
   command
       ->add_option("--cutting", options.cutting,
@@ -133,6 +112,11 @@ void add_law_options(Command* command, LawOptions& options) {
                    "X Y Z R: a sphere that the needle is pushed out of, frame of the joint")
       ->expected(4)
       ->group(group);
+  command
+      ->add_option("--needle-length-mm", options.needle_length_mm,
+                   "hub to tip; the contact and the picture take it (default: 35)")
+      ->check(number_in(10, 300))
+      ->group(group);
   command->add_option("--workspace-push-n", options.workspace_push, "how hard, N")
       ->check(number_in(0, 50))
       ->capture_default_str()
@@ -143,37 +127,50 @@ void add_law_options(Command* command, LawOptions& options) {
       ->group(group);
 }
 
-Result<ExperimentLaws> make_experiment_laws(const LawOptions& options) {
-  ExperimentLaws chosen;
-  LawSelection& laws = chosen.laws;
-  ARTUS_TRY(read_laws(options.cutting, "--cutting", find_cutting_law, laws.cutting,
-                      laws.cutting_of_tissue));
-  ARTUS_TRY(read_laws(options.prepuncture, "--prepuncture", find_prepuncture_law, laws.prepuncture,
-                      laws.prepuncture_of_tissue));
-  ARTUS_TRY(read_patient(options.patient, chosen.patient));
-  ARTUS_TRY(read_workspace(options, chosen.workspace));
-  if (options.tap)
-    chosen.tap = *options.tap == "impulse" ? HardLaw::impulse : HardLaw::decaying_sinusoid;
-  if (options.clamping)
-    chosen.clamping =
-        *options.clamping == "plasticity" ? ClampingLaw::plasticity : ClampingLaw::projection;
-  if (options.friction_set)
-    chosen.friction = lugre_sets().at(static_cast<std::size_t>(*options.friction_set - 1));
-  chosen.passivity_control = options.passivity_control;
-  return chosen;
+Error at_flag(Error error) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 9> kFlags{
+      {{"cutting", "--cutting"},
+       {"prepuncture", "--prepuncture"},
+       {"tap", "--bone-tap"},
+       {"clamping", "--clamping"},
+       {"friction", "--friction-set"},
+       {"patient", "--patient"},
+       {"workspace", "--workspace-mm"},
+       {"needle_length", "--needle-length-mm"},
+       {"passivity_control", "--passivity-control"}}};
+  for (const auto& [kind, flag] : kFlags)
+    if (error.where == kind) {
+      error.where = flag;
+      break;
+    }
+  return error;
 }
 
-Result<RunLaws> make_laws(const LawOptions& options, const CompiledJoint& joint) {
-  const auto chosen = make_experiment_laws(options);
-  ARTUS_TRY(chosen);
-  ARTUS_TRY(check_tissues(chosen->laws.cutting_of_tissue, "--cutting", joint));
-  ARTUS_TRY(check_tissues(chosen->laws.prepuncture_of_tissue, "--prepuncture", joint));
-  RunLaws run;
-  run.laws = chosen->laws;
-  run.patient = chosen->patient;
-  run.passivity.control = chosen->passivity_control;
-  apply_laws(*chosen, run.needle);
-  return run;
+Result<NeedleFeel> make_feel(const FeelOptions& options) {
+  NeedleFeel feel;
+  ARTUS_TRY(read_laws(options.cutting, "--cutting", find_cutting_law, feel.cutting));
+  ARTUS_TRY(
+      read_laws(options.prepuncture, "--prepuncture", find_prepuncture_law, feel.prepuncture));
+  ARTUS_TRY(read_patient(options.patient, feel.patient));
+  ARTUS_TRY(read_workspace(options, feel.workspace));
+  if (options.tap)
+    feel.tap = *options.tap == "impulse" ? HardLaw::impulse : HardLaw::decaying_sinusoid;
+  if (options.clamping)
+    feel.clamping =
+        *options.clamping == "plasticity" ? ClampingLaw::plasticity : ClampingLaw::projection;
+  if (options.friction_set)
+    feel.friction = lugre_sets().at(static_cast<std::size_t>(*options.friction_set - 1));
+  if (options.needle_length_mm) feel.needle_length = *options.needle_length_mm * kMillimetre;
+  feel.passivity_control = options.passivity_control;
+  return feel;
+}
+
+Result<NeedleFeel> make_feel(const FeelOptions& options, const CompiledJoint& joint) {
+  auto feel = make_feel(options);
+  ARTUS_TRY(feel);
+  if (const auto valid = check(*feel, scope_of(joint)); !valid)
+    return tl::unexpected<Error>(at_flag(valid.error()));
+  return feel;
 }
 
 }  // namespace artus

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "artus/echo/frame.h"
+#include "artus/echo/image_settings.h"
+#include "artus/echo/transducer.h"
+
+namespace artus {
+
+/// Maps scanlines to pixels by bilinear interpolation of the decibel image, then to grey.
+class ScanConverter {
+ public:
+  /// Requires: valid transducer and settings.
+  ScanConverter(const Transducer& transducer, const ImageSettings& settings);
+
+  /// dB between black and white of later images. Requires: positive.
+  void set_dynamic_range(double decibel) noexcept;
+
+  [[nodiscard]] int width() const noexcept { return width_; }
+  [[nodiscard]] int height() const noexcept { return height_; }
+
+  /// Grey of every pixel: black at -dynamic range, white at 0 dB, black off the sector.
+  /// `rows` picks pixel rows [first, last), so that threads may share the work.
+  void convert(std::span<const float> decibel, int first_row, int last_row,
+               std::span<std::uint8_t> image) const noexcept;
+
+  /// Pixel of a point in frame P (its elevation does not matter); geometric, without the
+  /// displacement that the tissues' speeds of sound cause.
+  [[nodiscard]] PixelPoint pixel_of(const Vec3& p_P) const noexcept;
+  /// The point in frame P at a pixel's centre.
+  [[nodiscard]] Vec3 point_of(int x, int y) const noexcept;
+  /// Whether a pixel lies between the outermost scanlines.
+  [[nodiscard]] bool inside(int x, int y) const noexcept;
+
+ private:
+  struct Sample {
+    std::int32_t index = -1;  // into (n_lines, n_samples); -1 off the sector
+    float line = 0;           // weight of the next line
+    float sample = 0;         // weight of the next sample
+  };
+  [[nodiscard]] Sample find_sample(const Transducer& transducer, double sample_depth,
+                                   const Vec3& p) const noexcept;
+
+  int width_ = 0;
+  int height_ = 0;
+  double pixel_ = 0;  // m
+  double left_ = 0;   // m, x of the image's left edge
+  double top_ = 0;    // m, z of the image's upper edge
+  int n_samples_ = 0;
+  float grey_per_db_ = 0;
+  float dynamic_range_ = 0;
+  bool single_line_ = false;
+  std::vector<Sample> samples_;  // (height, width)
+};
+
+}  // namespace artus

@@ -1,0 +1,85 @@
+/* SPDX-License-Identifier: AGPL-3.0-or-later
+ *
+ * Every byte of artus' shared memory POS, FORCE and IMAGE (docs/protocol.md), for C11 and C++. */
+#ifndef ARTUS_SHM_LAYOUT_H
+#define ARTUS_SHM_LAYOUT_H
+#include <stdint.h>
+
+#define ARTUS_SHM_VERSION 1u
+#define ARTUS_SHM_MAGIC_POS 0x31534f5053545241ull   /* "ARTSPOS1" */
+#define ARTUS_SHM_MAGIC_FORCE 0x3143524653545241ull /* "ARTSFRC1" */
+#define ARTUS_SHM_MAGIC_IMAGE 0x31474d4953545241ull /* "ARTSIMG1" */
+#define ARTUS_SHM_IMAGE_CAPACITY (1024u * 1024u)    /* pixels */
+#define ARTUS_SHM_STALE_NS 20000000ull              /* silence after which a peer counts as lost */
+#define ARTUS_SHM_MAX_PREFIX 63                     /* characters */
+
+/* The first 64 bytes of every segment. All numbers are little-endian. */
+typedef struct artus_shm_header {
+  uint64_t magic;      /*  0 which segment, ARTUS_SHM_MAGIC_... */
+  uint32_t version;    /*  8 ARTUS_SHM_VERSION */
+  uint32_t size;       /* 12 bytes of the whole segment */
+  uint32_t payload;    /* 16 bytes of the payload, which begins at byte 64 */
+  uint32_t reserved;   /* 20 zero */
+  uint64_t writer_pid; /* 24 process that writes; 0: none, or it left in good order */
+  uint64_t heartbeat;  /* 32 grows while the writer lives */
+  uint64_t opened_ns;  /* 40 CLOCK_MONOTONIC when that writer opened it; 0: it does not say */
+  uint64_t reserved2;  /* 48 zero */
+  uint64_t sequence;   /* 56 odd while the payload is being written */
+} artus_shm_header;
+
+enum { ARTUS_SHM_NEEDLE = 1u, ARTUS_SHM_PROBE = 2u }; /* artus_shm_pos.present */
+
+/* POS: where needle and probe are, written by the device program. World frame W, metres.
+ * Needle: origin at the tip, z from hub to tip. Probe: origin at the footprint's centre, x along
+ * the scanlines' row, z into the body. Quaternions w, x, y, z. */
+typedef struct artus_shm_pos {
+  uint64_t sample;           /*   0 grows with every sample of a writer */
+  uint64_t time_ns;          /*   8 CLOCK_MONOTONIC when the pose was measured */
+  double needle_position[3]; /*  16 m */
+  double needle_rotation[4]; /*  40 */
+  double probe_position[3];  /*  72 m */
+  double probe_rotation[4];  /*  96 */
+  uint32_t buttons; /* 128 bit 0: choose the entry point and calibrate; 1: back to exploring */
+  uint32_t present; /* 132 ARTUS_SHM_NEEDLE | ARTUS_SHM_PROBE */
+} artus_shm_pos;    /* 136 */
+
+/* artus_shm_force.status: bits 0-10 are those of artus' needle tick (docs/protocol.md). */
+enum {
+  ARTUS_SHM_PEER_LOST = 1u << 16,   /* POS is silent or was never written */
+  ARTUS_SHM_POS_INVALID = 1u << 17, /* POS holds values that are not a pose */
+  ARTUS_SHM_PAUSED = 1u << 18,
+  ARTUS_SHM_STOPPED = 1u << 19, /* artus left in good order */
+  ARTUS_SHM_SILENT = 1u << 20   /* set by artus_shm_read_force: FORCE itself is stale */
+};
+
+/* FORCE: what the hand should feel, written by artus. Frame W, at the needle's tip. */
+typedef struct artus_shm_force {
+  uint64_t tick;        /*   0 artus' haptic tick */
+  uint64_t time_ns;     /*   8 CLOCK_MONOTONIC when the force was computed */
+  uint64_t pos_sample;  /*  16 artus_shm_pos.sample that it answers */
+  uint64_t pos_time_ns; /*  24 artus_shm_pos.time_ns of that sample */
+  double force[3];      /*  32 N */
+  double torque[3];     /*  56 N m */
+  double stiffness;     /*  80 N/m, of the layer at the tip */
+  double cutting_force; /*  88 N, that the layer resists with */
+  double depth;         /*  96 m along the needle's line from the skin */
+  uint32_t status;      /* 104 bits, 0: all well */
+  uint32_t contact;     /* 108 0 away 1 touching 2 punctured 3 inserting 4 stopped 5 withdrawing
+                               6 reinserting 7 bone */
+  uint32_t layer;       /* 112 index of the region at the tip, 0: outside */
+  uint32_t reserved;    /* 116 zero */
+  char layer_name[40];  /* 120 its name, zero-terminated */
+} artus_shm_force;      /* 160 */
+
+/* IMAGE: the newest B-mode frame, written by artus. */
+typedef struct artus_shm_image {
+  uint64_t frame;                         /*  0 grows by one with every frame */
+  uint64_t time_ns;                       /*  8 CLOCK_MONOTONIC when it was ready */
+  uint64_t pos_time_ns;                   /* 16 of the pose that it shows */
+  double pixel;                           /* 24 m, square */
+  uint32_t width;                         /* 32 pixels */
+  uint32_t height;                        /* 36 pixels */
+  uint64_t reserved[3];                   /* 40 zero */
+  uint8_t grey[ARTUS_SHM_IMAGE_CAPACITY]; /* 64 (height, width), x fastest */
+} artus_shm_image;
+#endif /* ARTUS_SHM_LAYOUT_H */

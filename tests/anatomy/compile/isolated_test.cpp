@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Work that crashes, throws or hangs does so in its own process.
+#include "artus/anatomy/compile/isolated.h"
+
+#include <chrono>
+#include <cstdlib>
+#include <stdexcept>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+namespace artus {
+namespace {
+
+constexpr double kPatience = 60;  // s
+
+TEST(RunIsolated, GivesBackEveryByte) {
+  std::string bytes(1'000'000, '\0');
+  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<char>(i * i % 251);
+  EXPECT_EQ(run_isolated([&] { return bytes; }, kPatience), bytes);
+  EXPECT_EQ(run_isolated([] { return std::string(); }, kPatience), std::string());
+}
+
+TEST(RunIsolated, ACrashIsEmptyAndTheCallerLives) {
+  EXPECT_EQ(run_isolated([]() -> std::string { std::abort(); }, kPatience), std::nullopt);
+}
+
+TEST(RunIsolated, AnExceptionIsEmpty) {
+  EXPECT_EQ(run_isolated([]() -> std::string { throw std::runtime_error("no"); }, kPatience),
+            std::nullopt);
+}
+
+TEST(RunIsolated, WhatHangsIsEndedWhenItsTimeIsUp) {
+  const auto start = std::chrono::steady_clock::now();
+  const auto result = run_isolated(
+      []() -> std::string {
+        for (;;) std::this_thread::sleep_for(std::chrono::seconds(1));
+      },
+      0.2);
+  EXPECT_EQ(result, std::nullopt);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
+}
+
+TEST(RunIsolated, ChangesNothingInTheCaller) {
+  int value = 1;
+  const auto result = run_isolated(
+      [&value] {
+        value = 2;
+        return std::to_string(value);
+      },
+      kPatience);
+  EXPECT_EQ(result, "2");
+  EXPECT_EQ(value, 1);
+}
+
+}  // namespace
+}  // namespace artus
