@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
 # What nearly every file includes is parsed once: Eigen and the standard library's headers alone for the
-# libraries, GoogleTest with them for the tests (docs/decisions/0010-precompiled-headers.md). Headers of ours are never
+# libraries, GoogleTest with them for the tests (docs/decisions/0002-precompiled-headers.md). Headers of ours are never
 # among them. The asan and tidy presets build without, so that a file that forgets an include is found.
 option(ARTUS_PRECOMPILED_HEADERS "Parse the outside headers that most files include once" ON)
 set(ARTUS_COMMON_HEADERS
