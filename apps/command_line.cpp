@@ -45,8 +45,8 @@ Option* Option::expected(int count) {
   return this;
 }
 
-Option* Option::needs(const Option& other) {
-  option_->needs(other.option_);
+Option* Option::needs(const Option* other) {
+  option_->needs(other->option_);
   return this;
 }
 

@@ -23,7 +23,7 @@ struct FlagCheck {
 /// A flag or an argument of a command, as it was added; what follows refines it.
 class Option {
  public:
-  explicit Option(Option* option) : option_(option) {}
+  explicit Option(CLI::Option* option) : option_(option) {}
   Option* required(bool value = true);
   Option* check(const FlagCheck& check);
   Option* one_of(const std::vector<std::string>& values);
@@ -34,10 +34,10 @@ class Option {
   /// Takes so many values.
   Option* expected(int count);
   /// Makes sense with `other` alone.
-  Option* needs(const Option& other);
+  Option* needs(const Option* other);
 
  private:
-  Option* option_;
+  CLI::Option* option_;
 };
 
 /// The program's or a command's flags. CLI11 stands behind it, seen by one file alone: it is half a
@@ -46,7 +46,7 @@ class Command {
  public:
   /// The program itself.
   explicit Command(const std::string& description);
-  explicit Command(Command* app);
+  explicit Command(CLI::App* app);
   ~Command();
   Command(const Command&) = delete;
   Command& operator=(const Command&) = delete;
@@ -70,7 +70,7 @@ class Command {
 
  private:
   std::unique_ptr<CLI::App> program_;  // the program's; a command's belongs to it
-  Command* app_;
+  CLI::App* app_;
   std::deque<Option> options_;
   std::vector<std::unique_ptr<Command>> commands_;
 };

@@ -17,7 +17,7 @@ struct EchoGatesOptions {
   std::filesystem::path out;
   std::filesystem::path joint;
   std::filesystem::path reference;
-  int frames = 300;
+  std::vector<std::string> reference_rows;
   bool json = false;
 };
 
@@ -42,20 +42,16 @@ Result<std::vector<EchoGate>> measure(const EchoGatesOptions& options, const Pro
     }
     gates.push_back(std::move(*gate));
   }
-  if (options.joint.empty()) return gates;
+  if (options.reference.empty()) return gates;
+  const auto range = read_patch_range(options.reference, options.reference_rows);
+  if (!range) return tl::unexpected(range.error());
   JointOptions joint_options;
   joint_options.joint = options.joint;
   const auto joint = load(joint_options, progress);
   if (!joint) return tl::unexpected(joint.error());
   const auto scene = std::make_shared<const Scene>(*joint);
-  if (!options.reference.empty()) {
-    const auto range = read_patch_range(options.reference);
-    if (!range) return tl::unexpected(range.error());
-    if (progress) progress("muscle-patch", 0);
-    gates.push_back(measure_muscle(scene, *range));
-  }
-  if (progress) progress("frame-time", 0);
-  gates.push_back(measure_frame_time(scene, options.frames));
+  if (progress) progress("muscle-patch", 0);
+  gates.push_back(measure_muscle(scene, *range));
   return gates;
 }
 
@@ -100,20 +96,19 @@ void add_echo_gates_command(Command& app, ExitCode& code) {
           "Examples:\n"
           "  artus echo-gates --out out/gates\n"
           "  artus echo-gates --only needle-angle --only tendon --out out/gates --json\n"
-          "  artus echo-gates --joint shoulder.artus --out out/gates      (with the time of a "
-          "frame)");
+          "  artus echo-gates --joint shoulder.artus --reference stats.tsv --out out/gates");
   command->add_option("--only", options->only, "a gate, may be given several times (default: all)");
   Option* joint =
-      command->add_option("--joint,-j", options->joint,
-                          "also measure the time of a frame on this joint, on one thread");
+      command->add_option("--joint,-j", options->joint, "joint whose muscle is compared");
+  Option* reference = command->add_option(
+      "--reference", options->reference,
+      "table of real muscle images (stats.tsv) to compare it with: all claims are fitted");
   command
-      ->add_option(
-          "--reference", options->reference,
-          "table of real muscle images (stats.tsv): also compare the joint's muscle with it")
-      ->needs(*joint);
-  command->add_option("--frames", options->frames, "frames of that measurement")
-      ->check(whole_number_in(100, 100000))
-      ->capture_default_str();
+      ->add_option("--reference-rows", options->reference_rows,
+                   "how the names of its muscle images begin, several (default: all rows)")
+      ->needs(reference);
+  joint->needs(reference);
+  reference->needs(joint);
   command->add_option("-o,--out", options->out, "folder for the report")->required();
   command->add_flag("--json", options->json, "print the verdicts as JSON");
   on_run(command, code, [options] { return run_gates(*options); });

@@ -13,8 +13,8 @@ namespace artus {
 
 /// Runs any of all_experiments() and writes it into `folder`: the whole of `artus experiment <name>
 /// --out dir`.
-[[nodiscard]] Result<std::vector<Claim>> run_experiment(std::string_view name,
-                                                        const std::filesystem::path& folder,
-                                                        const ExperimentOptions& options = {});
+[[nodiscard]] Result<EvidenceReport> run_experiment(std::string_view name,
+                                                    const std::filesystem::path& folder,
+                                                    const ExperimentOptions& options = {});
 
 }  // namespace artus

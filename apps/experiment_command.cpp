@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include <algorithm>
 #include <cstdio>
-#include <fstream>
 #include <iostream>
 #include <memory>
 #include <vector>
 
 #include "artus/apps/experiment_catalogue.h"
 #include "artus/apps/feel_options.h"
+#include "artus/apps/view_options.h"
 #include "artus/core/text_file.h"
 #include "artus/evidence/needle/experiment.h"
 
@@ -23,66 +22,6 @@ struct ExperimentCommandOptions {
   FeelOptions feel;
   bool json = false;
 };
-
-/// A CSV table in Markdown; cells hold no commas. Empty when the file is not there.
-std::string table_to_markdown(const std::filesystem::path& csv) {
-  std::ifstream in(csv);
-  std::string out;
-  std::size_t rows = 0;
-  for (std::string line; std::getline(in, line); ++rows) {
-    std::string cells;
-    std::size_t columns = 1;
-    for (const char c : line) {
-      cells += c == ',' ? std::string(" | ") : std::string(1, c);
-      if (c == ',') ++columns;
-    }
-    out += "| " + cells + " |\n";
-    if (rows == 0) {
-      out += '|';
-      for (std::size_t i = 0; i < columns; ++i) out += "---|";
-      out += '\n';
-    }
-  }
-  return out.empty() ? out : "\n" + out;
-}
-
-/// What the experiment's own verdict says of it: title, source, published values beside ours.
-std::string introduction(const std::filesystem::path& folder, const std::string& name) {
-  std::ifstream in(folder / "verdict.json");
-  const auto json = nlohmann::json::parse(in, nullptr, false);
-  if (!json.is_object()) return name + "\n";
-  std::string text = json.value("title", name) + "\n";
-  const std::string source = json.value("source", "");
-  if (!source.empty()) text += "\nBeside " + source + ".\n";
-  const auto published = json.value("published", nlohmann::json::array());
-  if (published.empty()) return text;
-  text += "\n| what | published | artus |\n|---|---|---|\n";
-  for (const auto& p : published) {
-    for (const char* cell : {"what", "published", "artus"})
-      text.append("| ").append(p.value(cell, "")).append(" ");
-    text += "|\n";
-  }
-  return text;
-}
-
-/// One section of the report: what the experiment shows, its plots, verdicts and table.
-void append_markdown(std::string& report, const std::filesystem::path& folder,
-                     const std::string& name, const std::vector<Claim>& claims) {
-  report += "\n## " + name + "\n\n" + introduction(folder, name) + "\n";
-  std::vector<std::string> plots;
-  for (const auto& file : std::filesystem::directory_iterator(folder))
-    if (file.path().extension() == ".png") plots.push_back(file.path().filename().string());
-  std::sort(plots.begin(), plots.end());
-  for (const std::string& plot : plots)
-    report.append("![").append(name).append("](").append(name).append("/").append(plot).append(
-        ")\n");
-  report += "\n" + to_markdown(claims);
-  // The probe's own report holds its tables in full.
-  if (std::filesystem::exists(folder / "report.md"))
-    report += "\nIn full: [" + name + "/report.md](" + name + "/report.md)\n";
-  else
-    report += table_to_markdown(folder / (name + "-table.csv"));
-}
 
 void print(const std::string& name, const std::vector<Claim>& claims) {
   std::printf("%s\n", name.c_str());
@@ -127,12 +66,13 @@ ExitCode run_experiments(const ExperimentCommandOptions& options) {
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (progress) progress(names[i], static_cast<double>(i) / static_cast<double>(names.size()));
     const auto folder = options.all ? options.out / names[i] : options.out;
-    const auto claims = run_experiment(names[i], folder, *run);
-    if (!claims) return report_error(at_flag(claims.error()), options.json);
-    all.insert(all.end(), claims->begin(), claims->end());
-    append_markdown(report, folder, names[i], *claims);
-    verdicts[names[i]] = verdict(*claims);
-    if (!options.json) print(names[i], *claims);
+    const auto experiment = run_experiment(names[i], folder, *run);
+    if (!experiment) return report_error(at_flag(experiment.error()), options.json);
+    const std::vector<Claim>& claims = experiment->claims;
+    all.insert(all.end(), claims.begin(), claims.end());
+    report += "\n## " + names[i] + "\n\n" + to_markdown(*experiment, names[i]);
+    verdicts[names[i]] = verdict(claims);
+    if (!options.json) print(names[i], claims);
   }
   if (options.all)
     if (const auto written =
@@ -179,6 +119,7 @@ void add_experiment_command(Command& app, ExitCode& code) {
   command->add_option("--mock", options->experiment.mock,
                       "TOML file of the pneumatic probe mock (default: the bundled one)");
   add_feel_options(command, options->feel);
+  add_needle_length_option(command, options->feel.needle_length_mm);
   command->add_flag("--json", options->json, "print the verdicts as JSON");
   on_run(command, code, [options] { return run_experiments(*options); });
 }

@@ -112,11 +112,6 @@ void add_feel_options(Command* command, FeelOptions& options) {
                    "X Y Z R: a sphere that the needle is pushed out of, frame of the joint")
       ->expected(4)
       ->group(group);
-  command
-      ->add_option("--needle-length-mm", options.needle_length_mm,
-                   "hub to tip; the contact and the picture take it (default: 35)")
-      ->check(number_in(10, 300))
-      ->group(group);
   command->add_option("--workspace-push-n", options.workspace_push, "how hard, N")
       ->check(number_in(0, 50))
       ->capture_default_str()

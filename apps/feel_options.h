@@ -17,7 +17,7 @@ struct FeelOptions {
   std::optional<std::string> tap;          ///< else decaying_sinusoid
   std::optional<std::string> clamping;     ///< else projection
   std::optional<int> friction_set;         ///< else 3
-  std::optional<double> needle_length_mm;  ///< else 35
+  std::optional<double> needle_length_mm;  ///< else 35; its flag is add_needle_length_option's
   std::vector<double> workspace_mm;        ///< centre x, y, z and radius, frame J; empty: none
   double workspace_push = HemisphereParams{}.push;  ///< N
   bool passivity_control = false;

@@ -7,10 +7,10 @@
 #include "artus/apps/view_options.h"
 #include "artus/core/units.h"
 #include "artus/dataset/echo_truth.h"
-#include "artus/echo/scan_converter.h"
 #include "artus/echo/image_io.h"
 #include "artus/echo/labels.h"
 #include "artus/echo/renderer.h"
+#include "artus/echo/scan_converter.h"
 
 namespace artus {
 namespace {

@@ -10,6 +10,7 @@
 #include "artus/apps/feel_options.h"
 #include "artus/apps/interrupts.h"
 #include "artus/apps/session_options.h"
+#include "artus/apps/view_options.h"
 #include "artus/session/injecting_device.h"
 #include "artus/session/servo_loop.h"
 
@@ -203,6 +204,7 @@ void add_loop_command(Command& app, ExitCode& code) {
       ->check(whole_number_in(0, 99))
       ->capture_default_str();
   add_feel_options(command, options->feel);
+  add_needle_length_option(command, options->feel.needle_length_mm);
   command->add_flag("--json", options->json, "machine-readable report");
   on_run(command, code, [options] { return run_loop(*options); });
 }

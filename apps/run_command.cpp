@@ -66,7 +66,9 @@ ExitCode run_scenario(const RunOptions& options) {
   run_options.rate_hz = options.rate_hz;
   run_options.seed = options.view.seed;
   run_options.device = options.device;
-  const auto feel = make_feel(options.feel, **joint);
+  FeelOptions feel_options = options.feel;
+  feel_options.needle_length_mm = options.view.needle_length_mm;
+  const auto feel = make_feel(feel_options, **joint);
   if (!feel) return report_error(feel.error(), options.json);
   run_options.feel = *feel;
   run_options.probe.contact.footprint.length = view->transducer.width;

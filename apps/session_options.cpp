@@ -7,6 +7,7 @@
 #include <sstream>
 #include <utility>
 
+#include "artus/apps/view_options.h"
 #include "artus/core/text_file.h"
 #include "artus/session/injecting_device.h"
 #include "artus/session/shared_memory_device.h"
@@ -70,6 +71,7 @@ void add_session_options(Command* command, SessionOptions& options,
   options.input = default_input;
   add_joint_options(command, options.joint);
   add_feel_options(command, options.feel);
+  add_needle_length_option(command, options.feel.needle_length_mm);
   command
       ->add_option("--device", options.device,
                    "whose force limits hold: touch, virtuose_6d_desktop, delta, ideal")

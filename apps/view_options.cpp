@@ -1,13 +1,27 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/apps/view_options.h"
 
+#include <cmath>
+
 #include "artus/apps/arguments.h"
 #include "artus/apps/command.h"
 #include "artus/core/units.h"
+#include "artus/echo/setting_ranges.h"
 #include "artus/echo/transducer_file.h"
 
 namespace artus {
 namespace {
+
+constexpr double kMegahertz = 1e6;  // Hz
+
+/// A flag's range in its own unit.
+CLI::Validator within(const Range& range, double unit = 1) {
+  const Range shown = in_unit(range, unit);
+  return number_in(shown.low, shown.high);
+}
+CLI::Validator whole_within(const Range& range) {
+  return whole_number_in(std::lround(range.low), std::lround(range.high));
+}
 
 Result<Transducer> make_transducer(const ViewOptions& options) {
   const auto preset = find_transducer(options.transducer);
@@ -17,7 +31,7 @@ Result<Transducer> make_transducer(const ViewOptions& options) {
     return tl::unexpected(error);
   }
   Transducer transducer = preset->transducer;
-  if (options.frequency_mhz) transducer.frequency = *options.frequency_mhz * 1e6;
+  if (options.frequency_mhz) transducer.frequency = *options.frequency_mhz * kMegahertz;
   if (options.focus_mm) transducer.elevation_focus = *options.focus_mm * kMillimetre;
   if (options.transmit_focus_mm)
     transducer.transmit_focus = *options.transmit_focus_mm * kMillimetre;
@@ -28,6 +42,11 @@ Result<Transducer> make_transducer(const ViewOptions& options) {
 
 }  // namespace
 
+void add_needle_length_option(Command* command, std::optional<double>& length_mm) {
+  command->add_option("--needle-length-mm", length_mm, "hub to tip (default: 35)")
+      ->check(number_in(10, 300));
+}
+
 void add_imaging_options(Command* command, ViewOptions& options) {
   command
       ->add_option("--transducer", options.transducer,
@@ -35,41 +54,41 @@ void add_imaging_options(Command* command, ViewOptions& options) {
       ->capture_default_str();
   command->add_option("--gauge", options.gauge, "needle gauge: 18, 20, 21, 22, 23 or 25")
       ->capture_default_str();
+  add_needle_length_option(command, options.needle_length_mm);
   command->add_flag("--echogenic", options.echogenic, "dimpled needle, seen at steep angles, too");
-  // the ranges are those of validate(), in the units of the flag
   command->add_option("--depth", options.depth_mm, "image depth, mm")
-      ->check(number_in(5, 300))
+      ->check(within(ImageRanges::depth, kMillimetre))
       ->capture_default_str();
   command->add_option("--gain", options.gain_db, "gain, dB")
-      ->check(number_in(-60, 100))
+      ->check(within(ImageRanges::gain_db))
       ->capture_default_str();
   command->add_option("--dynamic-range", options.dynamic_range_db, "dB between black and white")
-      ->check(number_in(10, 150))
+      ->check(within(ImageRanges::dynamic_range_db))
       ->capture_default_str();
   command
       ->add_option("--frequency", options.frequency_mhz,
                    "centre frequency, MHz (default: the transducer's)")
-      ->check(number_in(1, 50));
+      ->check(within(TransducerRanges::frequency, kMegahertz));
   command
       ->add_option("--focus", options.focus_mm,
                    "elevation focus of the lens, mm (default: the transducer's)")
-      ->check(number_in(2, 500));
+      ->check(within(TransducerRanges::elevation_focus, kMillimetre));
   command
       ->add_option("--transmit-focus", options.transmit_focus_mm,
                    "focus of the transmitted beam, 2 mm or more; 0: at every depth (default: the "
                    "transducer's)")
-      ->check(number_in(0, 500));
+      ->check(within({0, TransducerRanges::transmit_focus.high}, kMillimetre));
   command
       ->add_option("--steering", options.steering_deg,
                    "tilt of the scanlines toward +x, degrees (default: the transducer's)")
-      ->check(number_in(-40, 40));
+      ->check(within(TransducerRanges::steering, kDegree));
   command->add_option("--lines", options.lines, "scanlines (default: the transducer's)")
-      ->check(whole_number_in(1, 4096));
+      ->check(whole_within(TransducerRanges::n_lines));
   command->add_option("--pixel", options.pixel_mm, "pixel size, mm")
-      ->check(number_in(0.02, 2))
+      ->check(within(ImageRanges::pixel, kMillimetre))
       ->capture_default_str();
   command->add_option("--smoothing", options.smoothing, "0 none .. 1, of the compressed lines")
-      ->check(number_in(0, 1))
+      ->check(within(ImageRanges::smoothing))
       ->capture_default_str();
   command
       ->add_option("--compound", options.compound,
@@ -77,11 +96,11 @@ void add_imaging_options(Command* command, ViewOptions& options) {
       ->one_of({"1", "3", "5", "7", "9"})
       ->capture_default_str();
   command->add_option("--planes", options.planes, "elevation planes of the slice's thickness")
-      ->check(whole_number_in(1, 33))
+      ->check(whole_within(ImageRanges::n_planes))
       ->capture_default_str();
   command
       ->add_option("--threads", options.threads, "threads; 0: all. The image does not depend on it")
-      ->check(whole_number_in(0, 1024))
+      ->check(whole_within(ImageRanges::n_threads))
       ->capture_default_str();
   command->add_option("--seed", options.seed, "seed of speckle and noise")->capture_default_str();
 }
@@ -116,6 +135,7 @@ Result<View> make_view(const ViewOptions& options) {
         "--gauge");
   view.needle_shape = *shape;
   view.needle_shape.echogenic = options.echogenic;
+  if (options.needle_length_mm) view.needle_shape.length = *options.needle_length_mm * kMillimetre;
   const auto transducer = make_transducer(options);
   if (!transducer) return tl::unexpected(transducer.error());
   view.transducer = *transducer;

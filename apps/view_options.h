@@ -18,6 +18,7 @@ struct ViewOptions {
   std::string needle;
   int gauge = 22;
   bool echogenic = false;
+  std::optional<double> needle_length_mm;  ///< else 35
   std::string transducer = "linear-6-18";
   std::optional<double> frequency_mhz;  ///< empty: the transducer's, as the next four
   std::optional<double> focus_mm;
@@ -34,6 +35,9 @@ struct ViewOptions {
   int threads = 0;
   std::uint64_t seed = 1;
 };
+
+/// --needle-length-mm, hub to tip, for the forces and for the picture.
+void add_needle_length_option(CLI::App* command, std::optional<double>& length_mm);
 
 /// The flags of transducer, image and needle type, without poses.
 void add_imaging_options(Command* command, ViewOptions& options);

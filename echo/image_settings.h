@@ -20,9 +20,8 @@ struct LiveSettings {
   friend bool operator==(const LiveSettings&, const LiveSettings&) = default;
 };
 
-/// What the person at the scanner sets, and how finely artus computes. Echo amplitudes are relative
-/// to a perfect mirror at the face, which is 0 dB; they never depend on the frame's own maximum.
-struct ImageSettings : LiveSettings {
+/// The settings that a renderer's tables and buffers are made for; see EchoPipeline.
+struct TableSettings {
   double depth = 40e-3;  ///< m, of the image at the display's speed of sound
   int n_samples = 1024;  ///< along a scanline
   int n_planes = 5;      ///< elevation planes that make up the slice's thickness
@@ -41,6 +40,12 @@ struct ImageSettings : LiveSettings {
   bool texture = true;              ///< septa, fascicles and fibres in the scattering
   std::uint64_t seed = 1;           ///< of scatterers and noise
   int n_threads = 0;  ///< 0: as many as the machine has; the image does not depend on it
+  friend bool operator==(const TableSettings&, const TableSettings&) = default;
+};
+
+/// What the person at the scanner sets, and how finely artus computes. Echo amplitudes are relative
+/// to a perfect mirror at the face, which is 0 dB; they never depend on the frame's own maximum.
+struct ImageSettings : LiveSettings, TableSettings {
   friend bool operator==(const ImageSettings&, const ImageSettings&) = default;
 };
 

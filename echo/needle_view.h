@@ -10,7 +10,7 @@ namespace artus {
 struct NeedleShape {
   double outer_diameter = 0.717e-3;  ///< m
   double bore = 0.413e-3;            ///< m
-  double length = 80e-3;             ///< m, hub to tip
+  double length = 35e-3;             ///< m, hub to tip; that of the forces (ContactParams)
   bool echogenic = false;            ///< dimpled shaft that scatters back at steep angles, too
 };
 

@@ -7,6 +7,7 @@
 
 #include "artus/core/check.h"
 #include "artus/core/result.h"
+#include "artus/echo/setting_ranges.h"
 
 namespace artus {
 
@@ -15,12 +16,13 @@ class RangeCheck {
  public:
   explicit RangeCheck(std::string group) : group_(std::move(group)) {}
 
-  /// Notes `value` unless it is finite and within [low, high].
-  void in_range(const char* name, double value, double low, double high) {
-    if (std::isfinite(value) && value >= low && value <= high) return;
+  /// Notes `value` unless it is finite and within its range.
+  void in_range(const char* name, double value, const Range& range) {
+    if (std::isfinite(value) && value >= range.low && value <= range.high) return;
     if (!message_.empty()) message_ += "; ";
     char text[160];
-    std::snprintf(text, sizeof text, "%s is %.6g, must be %.6g .. %.6g", name, value, low, high);
+    std::snprintf(text, sizeof text, "%s is %.6g, must be %.6g .. %.6g", name, value, range.low,
+                  range.high);
     message_ += text;
   }
 

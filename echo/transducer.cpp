@@ -11,20 +11,21 @@ namespace artus {
 
 Result<void> validate(const Transducer& t) {
   RangeCheck check("transducer");
-  check.in_range("width", t.width, 1e-3, 0.2);
-  check.in_range("steering", t.steering, -0.7, 0.7);
-  check.in_range("n_lines", t.n_lines, 1, 4096);
-  check.in_range("frequency", t.frequency, 1e6, 50e6);
-  check.in_range("bandwidth", t.bandwidth, 0.05, 1.5);
-  check.in_range("pulse_cycles", t.pulse_cycles, 0.5, 20);
-  check.in_range("f_number", t.f_number, 0.5, 20);
-  check.in_range("max_aperture", t.max_aperture, 0.5e-3, 0.2);
-  check.in_range("elevation_height", t.elevation_height, 0.5e-3, 0.05);
-  check.in_range("elevation_focus", t.elevation_focus, 2e-3, 0.5);
-  if (t.transmit_focus != 0) check.in_range("transmit_focus", t.transmit_focus, 2e-3, 0.5);
+  check.in_range("width", t.width, TransducerRanges::width);
+  check.in_range("steering", t.steering, TransducerRanges::steering);
+  check.in_range("n_lines", t.n_lines, TransducerRanges::n_lines);
+  check.in_range("frequency", t.frequency, TransducerRanges::frequency);
+  check.in_range("bandwidth", t.bandwidth, TransducerRanges::bandwidth);
+  check.in_range("pulse_cycles", t.pulse_cycles, TransducerRanges::pulse_cycles);
+  check.in_range("f_number", t.f_number, TransducerRanges::f_number);
+  check.in_range("max_aperture", t.max_aperture, TransducerRanges::max_aperture);
+  check.in_range("elevation_height", t.elevation_height, TransducerRanges::elevation_height);
+  check.in_range("elevation_focus", t.elevation_focus, TransducerRanges::elevation_focus);
+  if (t.transmit_focus != 0)
+    check.in_range("transmit_focus", t.transmit_focus, TransducerRanges::transmit_focus);
   if (t.radius != 0) {
-    check.in_range("radius", t.radius, 5e-3, 0.2);
-    check.in_range("width over radius", t.width / t.radius, 0, 2.5);
+    check.in_range("radius", t.radius, TransducerRanges::radius);
+    check.in_range("width over radius", t.width / t.radius, TransducerRanges::width_over_radius);
   }
   return check.result();
 }

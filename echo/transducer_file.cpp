@@ -8,34 +8,41 @@
 #include "artus/core/toml_table.h"
 #include "artus/core/units.h"
 #include "artus/echo/bundled_transducers.h"
+#include "artus/echo/setting_ranges.h"
 
 namespace artus {
 namespace {
 
-/// A number of the file: its key, where it goes, its range in the file's unit, the factor to SI.
+/// A number of the file: its key, where it goes, its range, the factor to SI.
 struct Field {
   const char* key;
   double Transducer::*member;
-  double low;
-  double high;
+  Range range;
   double to_si;
   bool required;
 };
 
+using Ranges = TransducerRanges;
+
 constexpr std::array<Field, 11> kFields{{
-    {"width_mm", &Transducer::width, 1, 200, kMillimetre, true},
-    {"radius_mm", &Transducer::radius, 0, 200, kMillimetre, false},
-    {"steering_deg", &Transducer::steering, -40, 40, kDegree, false},
-    {"frequency_mhz", &Transducer::frequency, 1, 50, 1e6, true},
-    {"bandwidth", &Transducer::bandwidth, 0.05, 1.5, 1, true},
-    {"pulse_cycles", &Transducer::pulse_cycles, 0.5, 20, 1, true},
-    {"f_number", &Transducer::f_number, 0.5, 20, 1, true},
-    {"max_aperture_mm", &Transducer::max_aperture, 0.5, 200, kMillimetre, true},
-    {"elevation_height_mm", &Transducer::elevation_height, 0.5, 50, kMillimetre, true},
-    {"elevation_focus_mm", &Transducer::elevation_focus, 2, 500, kMillimetre, true},
-    {"transmit_focus_mm", &Transducer::transmit_focus, 0, 500, kMillimetre, false},
+    {"width_mm", &Transducer::width, Ranges::width, kMillimetre, true},
+    {"radius_mm", &Transducer::radius, {0, Ranges::radius.high}, kMillimetre, false},
+    {"steering_deg", &Transducer::steering, Ranges::steering, kDegree, false},
+    {"frequency_mhz", &Transducer::frequency, Ranges::frequency, 1e6, true},
+    {"bandwidth", &Transducer::bandwidth, Ranges::bandwidth, 1, true},
+    {"pulse_cycles", &Transducer::pulse_cycles, Ranges::pulse_cycles, 1, true},
+    {"f_number", &Transducer::f_number, Ranges::f_number, 1, true},
+    {"max_aperture_mm", &Transducer::max_aperture, Ranges::max_aperture, kMillimetre, true},
+    {"elevation_height_mm", &Transducer::elevation_height, Ranges::elevation_height, kMillimetre,
+     true},
+    {"elevation_focus_mm", &Transducer::elevation_focus, Ranges::elevation_focus, kMillimetre,
+     true},
+    {"transmit_focus_mm",
+     &Transducer::transmit_focus,
+     {0, Ranges::transmit_focus.high},
+     kMillimetre,
+     false},
 }};
-constexpr double kMaxLines = 4096;
 
 }  // namespace
 
@@ -53,14 +60,15 @@ Result<TransducerPreset> parse_transducer(std::string_view text, const std::stri
   preset.source = toml.required_text("source");
   for (const Field& field : kFields) {
     double& value = preset.transducer.*field.member;
+    const Range range = in_unit(field.range, field.to_si);
     // The range is in the file's unit, so that is what the message tells; scaled afterwards.
     if (field.required) {
-      value = toml.required_number(field.key, field.low, field.high) * field.to_si;
-    } else if (const auto given = toml.number(field.key, field.low, field.high)) {
+      value = toml.required_number(field.key, range.low, range.high) * field.to_si;
+    } else if (const auto given = toml.number(field.key, range.low, range.high)) {
       value = *given * field.to_si;
     }
   }
-  const double lines = toml.required_number("lines", 1, kMaxLines);
+  const double lines = toml.required_number("lines", Ranges::n_lines.low, Ranges::n_lines.high);
   if (lines != std::floor(lines)) toml.problem_at("lines", "must be a whole number");
   preset.transducer.n_lines = static_cast<int>(lines);
   toml.finish();

@@ -2,6 +2,7 @@
 #pragma once
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "artus/core/result.h"
@@ -30,6 +31,27 @@ struct Plot {
   int width = 1200;               ///< pixels
   int panel_height = 320;         ///< pixels
 };
+
+/// y over x of each row.
+template <class Row, class X, class Y>
+[[nodiscard]] PlotSeries plot_curve(const std::vector<Row>& rows, std::string label, X x, Y y) {
+  PlotSeries series;
+  series.label = std::move(label);
+  series.x.reserve(rows.size());
+  series.y.reserve(rows.size());
+  for (const Row& row : rows) {
+    series.x.push_back(x(row));
+    series.y.push_back(y(row));
+  }
+  return series;
+}
+
+/// A value of a trace over its time.
+template <class Row, class F>
+[[nodiscard]] PlotSeries plot_rows(const std::vector<Row>& rows, std::string label, F value) {
+  return plot_curve(
+      rows, std::move(label), [](const Row& row) { return row.time; }, value);
+}
 
 /// Draws the plot with gnuplot as a child process (script and data in a temporary folder). Errors:
 /// not_found (no gnuplot on the path), unreadable, failed.

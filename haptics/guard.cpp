@@ -4,16 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "artus/core/rigid.h"
+
 namespace artus {
 namespace {
-
-constexpr double kRigidTolerance = 1e-6;  // on R^T R - 1
-
-bool is_rigid(const Pose& pose) noexcept {
-  const Eigen::Matrix3d gram = pose.linear().transpose() * pose.linear();
-  return (gram - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < kRigidTolerance &&
-         pose.linear().determinant() > 0;
-}
 
 Vec3 limit_step(const Vec3& from, const Vec3& to, double step, bool& limited) noexcept {
   const Vec3 change = to - from;
@@ -63,7 +57,8 @@ Wrench OutputGuard::apply(const Wrench& wanted, std::uint32_t faults,
     last_ = Wrench{};
     return last_;
   }
-  engaged_ = std::min(engaged_ + dt_, params_.ramp_time);
+  const bool fading = (status & TickStatus::kTruncated) != 0;
+  engaged_ = std::clamp(engaged_ + (fading ? -dt_ : dt_), 0.0, params_.ramp_time);
   const double ramp = engaged_ / params_.ramp_time;
   if (ramp < 1) status |= TickStatus::kRamping;
   const Wrench limited = saturate(device_, wanted);
@@ -74,6 +69,9 @@ Wrench OutputGuard::apply(const Wrench& wanted, std::uint32_t faults,
   last_.force = limit_step(last_.force, ramp * limited.force, params_.force_slew * dt_, slewed);
   last_.torque = limit_step(last_.torque, ramp * limited.torque, params_.torque_slew * dt_, slewed);
   if (slewed) status |= TickStatus::kSlewLimited;
+  // A step between two wrenches within a ball stays in it: nothing leaves the device's limits.
+  ARTUS_ASSERT(last_.force.norm() <= device_.force * (1 + 1e-9));
+  ARTUS_ASSERT(last_.torque.norm() <= device_.torque * (1 + 1e-9));
   return last_;
 }
 

@@ -21,6 +21,7 @@ struct TickStatus {
   static constexpr std::uint32_t kRamping = 1U << 8U;
   static constexpr std::uint32_t kSlewLimited = 1U << 9U;
   static constexpr std::uint32_t kSaturated = 1U << 10U;
+  static constexpr std::uint32_t kTruncated = 1U << 11U;  ///< a line met more than a query holds
   /// Those that force the output to zero.
   static constexpr std::uint32_t kFaults = (1U << 8U) - 1;
 };
@@ -60,7 +61,8 @@ class InputGuard {
 };
 
 /// The last stage before a device: finite, ramp, norm (direction kept), slew; zero on any fault, at
-/// once. Never a filter that hides an unstable law. Source: the chain of libfranka [Franka].
+/// once; the ramp goes down while a query is truncated. Never a filter that hides an unstable law.
+/// Source: the chain of libfranka [Franka].
 class OutputGuard {
  public:
   OutputGuard(const GuardParams& params, const DeviceLimits& device, double dt) noexcept
@@ -69,13 +71,15 @@ class OutputGuard {
   /// `faults`: TickStatus bits of this tick's earlier stages. Adds what this stage did to `status`.
   [[nodiscard]] ARTUS_REALTIME Wrench apply(const Wrench& wanted, std::uint32_t faults,
                                             std::uint32_t& status) noexcept;
+  /// Whether any force can pass; not after a fault, nor when the ramp has gone down.
+  [[nodiscard]] bool engaged() const noexcept { return engaged_ > 0; }
 
  private:
   GuardParams params_;
   DeviceLimits device_;
   double dt_;
   Wrench last_;
-  double engaged_ = 0;  // s since the last fault or the start
+  double engaged_ = 0;  // s since the last fault or the start, of the ramp's time
 };
 
 }  // namespace artus

@@ -20,16 +20,45 @@ double smooth(double s) noexcept {
 }
 }  // namespace
 
+OperatorView view_of(const NeedleModel& model) noexcept {
+  OperatorView view;
+  const NeedleContact& contact = model.contact();
+  const NeedleTick& tick = contact.tick();
+  if (contact.inserted()) view.region = contact.region();
+  for (const ShaftLayer& s : tick.shaft) {
+    if (s.region != view.region || tick.depth < s.entry || tick.depth > s.exit) continue;
+    view.into_layer = tick.depth - s.entry;
+    view.thickness = s.exit - s.entry;
+    break;
+  }
+  view.bone = contact.state() == ContactState::bone &&
+              -model.forces().cutting >= kBoneShare * tick.bone.tissue.cutting_force;
+  return view;
+}
+
 InjectionOperator::InjectionOperator(const Vec3& entry, const Vec3& direction, double start_depth,
                                      std::vector<OperatorPhase> phases)
     : entry_(entry),
+      first_direction_(direction),
+      start_depth_(start_depth),
       direction_(direction),
       turn_from_(direction),
       x_hint_(direction.unitOrthogonal()),
       reference_(start_depth),
       phases_(std::move(phases)) {}
 
-void InjectionOperator::begin_phase(double time, double depth) {
+Pose InjectionOperator::start() const noexcept {
+  return make_pose(entry_ + start_depth_ * first_direction_, first_direction_, x_hint_);
+}
+
+void InjectionOperator::begin_again(double time) noexcept {
+  index_ = 0;
+  direction_ = first_direction_;
+  reference_ = start_depth_;
+  begin_phase(time, start_depth_);
+}
+
+void InjectionOperator::begin_phase(double time, double depth) noexcept {
   phase_time_ = time;
   const bool stays = index_ < phases_.size() &&
                      (phases_[index_].kind == Kind::hold || phases_[index_].kind == Kind::let_go);
@@ -38,41 +67,41 @@ void InjectionOperator::begin_phase(double time, double depth) {
   bone_time_ = -1;
 }
 
+bool InjectionOperator::bone_felt(double time, bool now) noexcept {
+  if (!now) bone_time_ = -1;
+  if (now && bone_time_ < 0) bone_time_ = time;
+  return now && time - bone_time_ >= kBoneFeelTime;
+}
+
 bool InjectionOperator::goal_met(const OperatorPhase& phase, double time, double depth,
-                                 const NeedleModel& model) {
+                                 const OperatorView& view) noexcept {
   const double elapsed = time - phase_time_;
-  const NeedleContact& contact = model.contact();
-  const NeedleTick& tick = contact.tick();
   switch (phase.kind) {
     case Kind::hold:
     case Kind::turn:
     case Kind::let_go:
-    case Kind::wait_outside:
+    case Kind::wait:
       return elapsed >= phase.duration;
     case Kind::withdraw:
       return depth <= phase.depth;
     case Kind::advance:
       break;
   }
-  if (phase.goal == Goal::depth) return depth >= phase.depth;
-  if (phase.goal == Goal::region) {
-    if (!contact.inserted() || contact.region() != phase.region) return false;
-    for (const ShaftLayer& s : tick.shaft) {
-      if (s.region == phase.region && tick.depth >= s.entry && tick.depth <= s.exit) {
-        return tick.depth - s.entry >= std::min(phase.depth, 0.5 * (s.exit - s.entry));
-      }
-    }
-    return false;
+  if (phase.stop_at_bone && bone_felt(time, view.bone)) return true;
+  switch (phase.goal) {
+    case Goal::depth:
+      return depth >= phase.depth;
+    case Goal::region:
+      return view.region == phase.region && view.into_layer >= 0 &&
+             view.into_layer >= std::min(phase.depth, 0.5 * view.thickness);
+    case Goal::bone:
+      break;
   }
-  const bool full = contact.state() == ContactState::bone &&
-                    -model.forces().cutting >= kBoneShare * tick.bone.tissue.cutting_force;
-  if (!full) bone_time_ = -1;
-  if (full && bone_time_ < 0) bone_time_ = time;
-  return full && time - bone_time_ >= kBoneFeelTime;
+  return bone_felt(time, view.bone) || (phase.depth > 0 && depth >= phase.depth);
 }
 
 const OperatorPhase* InjectionOperator::observe(double time, const Pose& X_JN,
-                                                const NeedleModel& model) {
+                                                const OperatorView& view) noexcept {
   if (done()) return nullptr;
   const double depth = (X_JN.translation() - entry_).dot(direction_);
   if (!started_) {
@@ -80,7 +109,7 @@ const OperatorPhase* InjectionOperator::observe(double time, const Pose& X_JN,
     started_ = true;
   }
   const OperatorPhase& phase = phases_[index_];
-  const bool met = goal_met(phase, time, depth, model);
+  const bool met = goal_met(phase, time, depth, view);
   const bool late = (phase.kind == Kind::advance || phase.kind == Kind::withdraw) &&
                     time - phase_time_ > phase.duration;
   if (!met && !late) return nullptr;

@@ -1,39 +1,42 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
-#include <string>
+#include <cstddef>
 #include <vector>
 
 #include "artus/haptics/needle/needle_model.h"
+#include "artus/operators/operator_phase.h"
 #include "artus/operators/simulated_hand.h"
 
 namespace artus {
 
-/// One thing the simulated operator does with the needle.
-struct OperatorPhase {
-  enum class Kind { advance, withdraw, hold, turn, let_go, wait_outside };
-  enum class Goal { depth, region, bone };
-  Kind kind = Kind::hold;
-  Goal goal = Goal::depth;
-  double speed = 0;               ///< m/s, advance and withdraw
-  double depth = 0;               ///< m along the line; for Goal::region how deep into it at least
-  RegionId region = kOutside;     ///< Goal::region
-  double duration = 0;            ///< s; hold, turn: exactly; others: at most
-  Vec3 direction = Vec3::Zero();  ///< turn: the new line through the entry
-  std::string label;              ///< of the moment when the phase ends; empty: none
+/// What the operator sees of the tip on the echo image and feels of bone.
+struct OperatorView {
+  RegionId region = kOutside;  ///< of the tip; outside while the needle is
+  double into_layer = -1;      ///< m, the tip beyond the beginning of its layer; < 0: not known
+  double thickness = 0;        ///< m, of that layer along the line
+  bool bone = false;           ///< pushes back with all it has
 };
+/// The view of someone to whom every component of the force is known.
+[[nodiscard]] OperatorView view_of(const NeedleModel& model) noexcept;
 
 /// What one injection's operator means to do: phases one after another along a line through the
-/// entry point, watching the tip as on the echo image, and feeling for bone.
+/// entry point, watching the tip as on the echo image, and feeling for bone. The one state machine
+/// of every simulated injection: in the medical test, in experiments, and as a session's device.
 class InjectionOperator {
  public:
-  /// Requires: a unit direction; `turn_about`: the needle's x axis hint.
+  /// `start_depth`: m along the line where the tip begins, negative outside. Requires: a unit
+  /// direction.
   InjectionOperator(const Vec3& entry, const Vec3& direction, double start_depth,
                     std::vector<OperatorPhase> phases);
 
   /// Looks at the last tick; begins the next phase when the present one's goal is met. Returns the
   /// phase that ended in this call, or null.
-  const OperatorPhase* observe(double time, const Pose& X_JN, const NeedleModel& model);
+  const OperatorPhase* observe(double time, const Pose& X_JN, const OperatorView& view) noexcept;
+  /// From the first phase on, with the needle at its start again.
+  void begin_again(double time) noexcept;
 
+  [[nodiscard]] Pose start() const noexcept;  ///< X_JN before the first phase
+  [[nodiscard]] std::size_t phase() const noexcept { return index_; }
   [[nodiscard]] bool done() const noexcept { return index_ >= phases_.size(); }
   [[nodiscard]] bool timed_out() const noexcept { return timed_out_; }
   /// What the hand wants at `t`, s, within the tick after the last observe().
@@ -41,12 +44,15 @@ class InjectionOperator {
 
  private:
   [[nodiscard]] bool goal_met(const OperatorPhase& phase, double time, double depth,
-                              const NeedleModel& model);
-  void begin_phase(double time, double depth);
+                              const OperatorView& view) noexcept;
+  [[nodiscard]] bool bone_felt(double time, bool now) noexcept;
+  void begin_phase(double time, double depth) noexcept;
 
   Vec3 entry_;
-  Vec3 direction_;  // of the line now
-  Vec3 turn_from_;  // direction at the start of a turn
+  Vec3 first_direction_;
+  double start_depth_;  // m
+  Vec3 direction_;      // of the line now
+  Vec3 turn_from_;      // direction at the start of a turn
   Vec3 x_hint_;
   double reference_;  // m along the line at phase_time_
   double phase_time_ = 0;

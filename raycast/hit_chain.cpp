@@ -65,6 +65,7 @@ Gap find_gap(Cluster left, Cluster right, const TracedRange& range,
 }
 
 void append(HitChain& out, const Hit& hit) noexcept {
+  ARTUS_ASSERT(out.size < out.hits.size());  // no hit is appended twice, no gap more than once
   if (out.size < out.hits.size()) out.hits[out.size++] = hit;
 }
 
@@ -119,6 +120,8 @@ bool is_chain(std::span<const Hit> sorted) noexcept {
 
 void repair_chain(std::span<const Hit> sorted, const TracedRange& range,
                   const RegionProbe& region_at, HitChain& out) noexcept {
+  ARTUS_ASSERT(sorted.size() <= kMaxHits);
+  ARTUS_ASSERT(std::is_sorted(sorted.begin(), sorted.end(), before));
   out.size = 0;
   if (sorted.empty()) return;
   Cluster cluster = next_cluster(sorted, 0);

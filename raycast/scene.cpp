@@ -182,6 +182,7 @@ QueryCount Scene::find_intervals(const Segment& segment,
       current->region = hit.to;
       continue;
     }
+    ARTUS_ASSERT(hit.depth >= current->entry && hit.from == current->region);
     if (hit.depth > current->entry) {
       current->exit = hit.depth;
       if (count.size == out.size()) return {count.size, true};
@@ -192,6 +193,7 @@ QueryCount Scene::find_intervals(const Segment& segment,
     current->entry_normal = impl_->normal_against(hit, track.line);
     current->entry_interface = hit.interface;
   }
+  ARTUS_ASSERT(current->entry <= track.length);
   current->exit = track.length;
   count.truncated = scratch.buffer.overflow;
   return count;

@@ -20,9 +20,13 @@ double physics_rate(double rate_hz) {
   return rate_hz * std::max(1.0, std::ceil(4000 / rate_hz));
 }
 
-Pose start_of(const InjectionPlan& plan) {
-  return make_pose(plan.entry_W + kBeforeSkin * plan.direction_W, plan.direction_W,
-                   plan.X_WP.linear().col(1));
+std::vector<OperatorPhase> phases_of(const InjectionPlan& plan) {
+  OperatorPhase to_target = push_to(plan.target, plan.speed);
+  to_target.stop_at_bone = true;
+  OperatorPhase to_bone = push_to(plan.deepest, plan.speed);
+  to_bone.goal = OperatorPhase::Goal::bone;
+  return {press(kWait), to_target,     stay(kRest),
+          to_bone,      press(kPress), pull_to(kBeforeSkin, kFastOut * plan.speed)};
 }
 
 }  // namespace
@@ -30,9 +34,8 @@ Pose start_of(const InjectionPlan& plan) {
 InjectingDevice::InjectingDevice(const InjectionPlan& plan, const DeviceLimits& device,
                                  double rate_hz, const HandParams& hand)
     : plan_(plan),
-      x_hint_(plan.X_WP.linear().col(1)),
-      loop_({rate_hz, physics_rate(rate_hz)}, device, hand, start_of(plan)),
-      reference_(kBeforeSkin) {
+      person_(plan.entry_W, plan.direction_W, kBeforeSkin, phases_of(plan)),
+      loop_({rate_hz, physics_rate(rate_hz)}, device, hand, person_.start()) {
   ARTUS_REQUIRE(std::abs(plan.direction_W.norm() - 1) < 1e-9, "the direction must be a unit");
   ARTUS_REQUIRE(plan.speed > 0 && plan.target <= plan.deepest, "an injection goes somewhere");
   sample_.X_WP = to_plain(plan.X_WP);
@@ -41,74 +44,18 @@ InjectingDevice::InjectingDevice(const InjectionPlan& plan, const DeviceLimits& 
   sample_.has_probe = 1;
 }
 
-double InjectingDevice::speed() const noexcept {
-  switch (phase_) {
-    case Phase::to_target:
-    case Phase::to_bone:
-      return plan_.speed;
-    case Phase::withdraw:
-      return -kFastOut * plan_.speed;
-    case Phase::wait:
-    case Phase::rest:
-    case Phase::press:
-      break;
-  }
-  return 0;
-}
-
-void InjectingDevice::go_on(Phase phase) noexcept {
-  const double time = loop_.time();
-  reference_ += speed() * (time - phase_time_);
-  phase_ = phase;
-  phase_time_ = time;
-}
-
-void InjectingDevice::decide() noexcept {
-  const double elapsed = loop_.time() - phase_time_;
-  const double wanted = reference_ + speed() * elapsed;
-  const double depth = (loop_.motion().X_JN.translation() - plan_.entry_W).dot(plan_.direction_W);
-  const bool bone =
-      static_cast<ContactState>(contact_) == ContactState::bone && wanted - depth > kBoneFelt;
-  switch (phase_) {
-    case Phase::wait:
-      if (elapsed >= kWait) go_on(Phase::to_target);
-      break;
-    case Phase::to_target:
-      if (bone)
-        go_on(Phase::press);
-      else if (wanted >= plan_.target)
-        go_on(Phase::rest);
-      break;
-    case Phase::rest:
-      if (elapsed >= kRest) go_on(Phase::to_bone);
-      break;
-    case Phase::to_bone:
-      if (bone || wanted >= plan_.deepest) go_on(Phase::press);
-      break;
-    case Phase::press:
-      if (elapsed >= kPress) go_on(Phase::withdraw);
-      break;
-    case Phase::withdraw:
-      if (wanted <= kBeforeSkin) {
-        go_on(Phase::wait);
-        reference_ = kBeforeSkin;
-      }
-      break;
-  }
-}
-
-Intention InjectingDevice::intention(double time) const noexcept {
-  Intention want;
-  const double reference = reference_ + speed() * (time - phase_time_);
-  want.X_JN = make_pose(plan_.entry_W + reference * plan_.direction_W, plan_.direction_W, x_hint_);
-  want.velocity = speed() * plan_.direction_W;
-  want.hold = phase_ == Phase::rest;
-  return want;
+OperatorView InjectingDevice::view() const noexcept {
+  const Vec3 meant = person_.intention(loop_.time()).X_JN.translation();
+  const double lag = (meant - loop_.motion().X_JN.translation()).dot(plan_.direction_W);
+  OperatorView view;
+  view.bone = static_cast<ContactState>(contact_) == ContactState::bone && lag > kBoneFelt;
+  return view;
 }
 
 DeviceSample InjectingDevice::read(std::int64_t now_ns) noexcept {
-  decide();
-  loop_.advance(motor_, [this](double time) { return intention(time); });
+  person_.observe(loop_.time(), loop_.motion().X_JN, view());
+  if (person_.done()) person_.begin_again(loop_.time());
+  loop_.advance(motor_, [this](double time) { return person_.intention(time); });
   sample_.X_WN = to_plain(loop_.measured());
   sample_.time_ns = now_ns;
   ++sample_.number;

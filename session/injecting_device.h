@@ -3,12 +3,13 @@
 #include <cstdint>
 
 #include "artus/operators/hand_loop.h"
+#include "artus/operators/injection_operator.h"
 #include "artus/session/input_device.h"
 
 namespace artus {
 
-/// What a simulated person does with the needle, over and over: in along a line until bone stops
-/// it or it is deep enough, a rest, and out again. Frame W.
+/// What a simulated person does with the needle, over and over: in along a line to the target, or
+/// until bone stops it, a rest, on to bone, and out again. Frame W.
 struct InjectionPlan {
   Vec3 entry_W = Vec3::Zero();       ///< m, on the skin
   Vec3 direction_W = Vec3::UnitZ();  ///< unit, into the body
@@ -32,23 +33,18 @@ class InjectingDevice final : public InputDevice {
   ARTUS_REALTIME void write(const DeviceFeedback& feedback) noexcept override;
   [[nodiscard]] std::string_view name() const noexcept override { return "simulated hand"; }
 
-  enum class Phase { wait, to_target, rest, to_bone, press, withdraw };
-  [[nodiscard]] Phase phase() const noexcept { return phase_; }
+  /// What the hand is about, in this order, again and again.
+  enum class Phase : std::size_t { wait, to_target, rest, to_bone, press, withdraw };
+  [[nodiscard]] Phase phase() const noexcept { return static_cast<Phase>(person_.phase()); }
 
  private:
-  void decide() noexcept;
-  void go_on(Phase phase) noexcept;
-  [[nodiscard]] Intention intention(double time) const noexcept;
-  [[nodiscard]] double speed() const noexcept;
+  [[nodiscard]] OperatorView view() const noexcept;
 
   InjectionPlan plan_;
-  Vec3 x_hint_;
+  InjectionOperator person_;
   HandLoop loop_;
   Wrench motor_;
   DeviceSample sample_;
-  Phase phase_ = Phase::wait;
-  double phase_time_ = 0;  // s of the loop
-  double reference_;       // m that the hand means the tip to be beyond the skin, at phase_time_
   std::uint32_t contact_ = 0;
 };
 

@@ -3,6 +3,8 @@
 
 #include <cstring>
 
+#include "artus/session/image_core.h"
+
 namespace artus {
 namespace {
 

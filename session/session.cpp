@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "artus/session/haptic_loop.h"
+#include "artus/session/image_core.h"
 
 namespace artus {
 namespace {

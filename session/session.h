@@ -20,6 +20,8 @@
 
 namespace artus {
 
+class ImageCore;
+
 /// An image as the window gets it.
 struct ImageSnapshot {
   std::vector<std::uint8_t> grey;  ///< (height, width), x fastest
@@ -114,8 +116,8 @@ class Session {
   void ask(const char* who, const ThreadWishes& wishes);
   void tell(const std::string& notice);
   void note_image(std::int64_t ready_ns);
-  [[nodiscard]] ARTUS_REALTIME std::uint32_t take_command() noexcept;
-  ARTUS_REALTIME void publish(const HapticSnapshot& out) noexcept;
+  [[nodiscard]] std::uint32_t take_command() noexcept;
+  void publish(const HapticSnapshot& out) noexcept;
   void image(ImageCore& core, std::uint64_t number);
   void share(const ImageSnapshot& image);
   void share_again() noexcept;

@@ -56,8 +56,7 @@ Result<void> validate(const SessionParams& params) {
 
 HapticCore::HapticCore(std::shared_ptr<const Scene> scene, const SessionParams& params)
     : scene_(std::move(scene)),
-      table_(make_table(scene_, params)),
-      needle_(scene_, table_, renderer_params(params)),
+      needle_(scene_, make_table(scene_, params), renderer_params(params)),
       gesture_(params.gesture, params.X_WJ) {}
 
 void HapticCore::step_needle(const DeviceSample& device, std::uint32_t command) noexcept {
@@ -90,7 +89,7 @@ void HapticCore::describe() noexcept {
   const NeedleContact& contact = needle_.model().contact();
   const NeedleTick& tick = contact.tick();
   DeviceFeedback& feedback = out_.feedback;
-  const Haptic& tissue = table_[contact.region()].tissue;
+  const Haptic& tissue = needle_.table()[contact.region()].tissue;
   feedback.stiffness = tissue.wall_stiffness;
   feedback.cutting_force = tissue.cutting_force;
   feedback.depth = tick.depth;
@@ -153,34 +152,6 @@ FrameInput frame_input(const HapticSnapshot& snapshot, const ImageControls& cont
   input.has_needle = snapshot.input.device.has_needle;
   input.has_probe = snapshot.input.device.has_probe;
   return input;
-}
-
-ImageCore::ImageCore(std::shared_ptr<const Scene> scene, const SessionParams& params)
-    : scene_(std::move(scene)),
-      params_(params),
-      controls_(controls_of(params)),
-      renderer_(std::make_unique<Renderer>(scene_, params.transducer, params.image)) {
-  params_.needle_shape.length = needle_length_of(params);
-}
-
-const Frame& ImageCore::render(const FrameInput& input) {
-  if (!(input.controls == controls_)) {
-    SessionParams wanted = params_;
-    wanted.image.depth = input.controls.depth;
-    wanted.image.gain_db = input.controls.gain_db;
-    wanted.image.tgc_db_cm_mhz = input.controls.tgc_db_cm_mhz;
-    wanted.image.dynamic_range_db = input.controls.dynamic_range_db;
-    wanted.transducer.frequency = input.controls.frequency;
-    wanted.transducer.elevation_focus = input.controls.elevation_focus;
-    controls_ = input.controls;
-    if (validate(wanted)) {
-      params_ = wanted;
-      renderer_ = std::make_unique<Renderer>(scene_, params_.transducer, params_.image);
-    }
-  }
-  std::optional<NeedleView> needle;
-  if (input.has_needle != 0) needle = NeedleView{to_pose(input.X_JN), params_.needle_shape};
-  return renderer_->render(to_pose(input.X_JP), needle);
 }
 
 std::uint64_t digest_of(const Frame& frame) noexcept {

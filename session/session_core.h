@@ -98,11 +98,9 @@ class HapticCore {
   void describe() noexcept;
 
   std::shared_ptr<const Scene> scene_;
-  LayerTable table_;
   NeedleRenderer needle_;
   TwoPhaseGesture gesture_;
   HapticSnapshot out_;
-  RegionId known_region_ = kOutside;
 };
 
 /// What the person at the scanner turns while the session runs. Plain bytes.
@@ -132,21 +130,6 @@ static_assert(std::is_trivially_copyable_v<FrameInput>);
 /// The poses of a tick as an image's input.
 [[nodiscard]] FrameInput frame_input(const HapticSnapshot& snapshot, const ImageControls& controls,
                                      std::uint64_t number) noexcept;
-
-/// The imaging half in the same way. Changed controls build a new renderer (tens of ms).
-class ImageCore {
- public:
-  ImageCore(std::shared_ptr<const Scene> scene, const SessionParams& params);
-  /// Controls that are not valid keep those before. The frame stays valid until the next call.
-  const Frame& render(const FrameInput& input);
-  [[nodiscard]] const Transducer& transducer() const noexcept { return renderer_->transducer(); }
-
- private:
-  std::shared_ptr<const Scene> scene_;
-  SessionParams params_;
-  ImageControls controls_;
-  std::unique_ptr<Renderer> renderer_;
-};
 
 /// A number that two images share only when their bytes are the same, as far as 64 bits can tell.
 [[nodiscard]] std::uint64_t digest_of(const Frame& frame) noexcept;

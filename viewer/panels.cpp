@@ -9,6 +9,7 @@
 #include <imgui.h>
 
 #include "artus/core/units.h"
+#include "artus/echo/setting_ranges.h"
 
 namespace artus {
 namespace {
@@ -175,18 +176,20 @@ void draw_scanner_panel(const PanelInput& in, ViewState& state) {
   place_panel(0.78F, 0.0F, 0.22F, 0.34F);
   ImGui::Begin("Scanner");
   ImGui::PushItemWidth(0.5F * ImGui::GetContentRegionAvail().x);
-  const auto slider = [](const char* label, double& value, double unit, float low, float high,
+  const auto slider = [](const char* label, double& value, const Range& range, double unit,
                          const char* format) {
     auto shown = static_cast<float>(value / unit);
-    if (ImGui::SliderFloat(label, &shown, low, high, format)) value = unit * shown;
+    if (ImGui::SliderFloat(label, &shown, static_cast<float>(range.low / unit),
+                           static_cast<float>(range.high / unit), format))
+      value = unit * shown;
   };
   ImageControls& c = state.controls;
-  slider("depth", c.depth, kMillimetre, 20, 80, "%.0f mm");
-  slider("gain", c.gain_db, 1, -20, 30, "%.0f dB");
-  slider("TGC", c.tgc_db_cm_mhz, 1, 0, 1.5F, "%.2f dB/cm/MHz");
-  slider("range", c.dynamic_range_db, 1, 30, 90, "%.0f dB");
-  slider("frequency", c.frequency, 1e6, 5, 18, "%.0f MHz");
-  slider("focus", c.elevation_focus, kMillimetre, 5, 50, "%.0f mm");
+  slider("depth", c.depth, KnobRanges::depth, kMillimetre, "%.0f mm");
+  slider("gain", c.gain_db, KnobRanges::gain_db, 1, "%.0f dB");
+  slider("TGC", c.tgc_db_cm_mhz, KnobRanges::tgc_db_cm_mhz, 1, "%.2f dB/cm/MHz");
+  slider("range", c.dynamic_range_db, KnobRanges::dynamic_range_db, 1, "%.0f dB");
+  slider("frequency", c.frequency, KnobRanges::frequency, 1e6, "%.0f MHz");
+  slider("focus", c.elevation_focus, KnobRanges::elevation_focus, kMillimetre, "%.0f mm");
   ImGui::PopItemWidth();
   if (ImGui::Button(in.session->frozen() ? "go on (F)" : "freeze (F)"))
     in.session->set_frozen(!in.session->frozen());

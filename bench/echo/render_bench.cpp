@@ -2,7 +2,7 @@
 // Question: how long does one B-mode frame take, by stage, and how does it grow?
 // Command:  build/release/bench/echo/bench_echo     (one core: the renderer gets one thread)
 // Reading:  p50, p99 and max are milliseconds a frame over the run; lines, beam and display are the
-//           median stages: tracing with scattering and needle; pulse shape, envelope, compression;
+//           median stages: tracing with scattering and needle; pulse shape, envelope; compression,
 //           scan conversion. The probe moves from frame to frame, so no frame repeats.
 // Peer:     PLUS UsSimulator, 256 x 1000 samples and 100 k triangles: 38-40 ms without slice
 //           thickness, pulse shape or refraction (measured on a shared two-core machine).

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 #include <filesystem>
-#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -15,7 +14,6 @@
 #include "artus/core/result.h"
 #include "artus/evidence/claim.h"
 #include "artus/evidence/plot.h"
-#include "artus/raycast/scene.h"
 
 namespace artus {
 
@@ -40,11 +38,6 @@ struct EchoGate {
 
 /// Measures one gate; deterministic. Errors: not_found. Cost: 0.1 to a few s.
 [[nodiscard]] Result<EchoGate> run_echo_gate(std::string_view name);
-
-/// The time of a frame on one thread: 256 lines x 1024 samples x 5 planes, refraction and needle
-/// on, the probe moving round the joint's default pose. Not one of echo_gates(), as it depends on
-/// the machine. Requires: n_frames >= 100.
-[[nodiscard]] EchoGate measure_frame_time(const std::shared_ptr<const Scene>& scene, int n_frames);
 
 /// Writes report.md, gates.json and, in pictures/, the plots and pictures of `gates` into `folder`.
 /// Errors: unreadable, not_found (gnuplot; all other files are then written all the same).

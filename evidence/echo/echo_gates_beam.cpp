@@ -119,8 +119,9 @@ EchoGate gate_lateral_width() {
     std::snprintf(label, sizeof label, "%.3g MHz", frequency / 1e6);
     for (std::size_t i = 0; i < widths.size(); ++i)
       gate.claims.push_back(claim_near(
-          ClaimKind::independent, std::string(label) + ", " + in_mm(kDepths[i]) + " deep",
-          widths[i] / kMillimetre, expected / kMillimetre, 0.15, "mm"));
+          {ClaimKind::input, "0.97 wavelengths times the F-number is the beam's own formula"},
+          std::string(label) + ", " + in_mm(kDepths[i]) + " deep", widths[i] / kMillimetre,
+          expected / kMillimetre, 0.15, "mm"));
     panel.series.push_back(over_depth(label, widths));
     panel.series.push_back(over_depth(std::string(label) + ", wave model",
                                       std::vector<double>(kDepths.size(), expected), "points"));

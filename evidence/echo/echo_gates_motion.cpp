@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <vector>
 
-#include "artus/core/check.h"
 #include "artus/core/units.h"
 #include "artus/echo/frame_measure.h"
 #include "artus/echo/renderer.h"
@@ -87,38 +84,6 @@ EchoGate gate_motion() {
   }
   gate.claims.push_back(claim_at_most(
       ClaimKind::input, "values that differ between 1, 2 and 7 threads", different, 0, ""));
-  return gate;
-}
-
-EchoGate measure_frame_time(const std::shared_ptr<const Scene>& scene, int n_frames) {
-  ARTUS_REQUIRE(n_frames >= 100, "percentiles need at least 100 frames");
-  EchoGate gate;
-  gate.name = "frame-time";
-  gate.title = "Frame on one thread, 256 x 1024 x 5, refraction and needle on, joint " +
-               scene->joint().name + " (depends on the machine)";
-  ImageSettings settings;
-  settings.n_threads = 1;
-  Renderer renderer(scene, Transducer{}, settings);
-  const Pose& X_JP = scene->joint().X_JP_default;
-  std::vector<double> milliseconds;
-  for (int i = -5; i < n_frames; ++i) {  // the first ones warm up
-    const double phase = 0.1 * i;
-    const Pose here = X_JP * make_pose(Vec3(1e-3 * std::sin(phase), 1e-3 * std::cos(phase), 0),
-                                       Vec3(0.02 * std::cos(phase), 0, 1), Vec3::UnitX());
-    const NeedleView needle = needle_in_plane(here, Vec3(2e-3, 0, 18e-3), 30 * kDegree);
-    const auto start = std::chrono::steady_clock::now();
-    renderer.render(here, needle);
-    const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
-    if (i >= 0) milliseconds.push_back(time.count());
-  }
-  std::sort(milliseconds.begin(), milliseconds.end());
-  const auto percentile = [&](double share) {
-    return milliseconds[static_cast<std::size_t>(share *
-                                                 static_cast<double>(milliseconds.size() - 1))];
-  };
-  gate.claims.push_back(claim_at_most(ClaimKind::independent, "median", percentile(0.5), 8, "ms"));
-  gate.claims.push_back(
-      claim_at_most(ClaimKind::independent, "99th percentile", percentile(0.99), 16, "ms"));
   return gate;
 }
 

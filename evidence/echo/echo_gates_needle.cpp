@@ -6,6 +6,7 @@
 
 #include "artus/core/units.h"
 #include "artus/echo/frame_measure.h"
+#include "artus/echo/gaussian.h"
 #include "artus/echo/image_io.h"
 #include "artus/echo/renderer.h"
 #include "artus/evidence/echo/echo_gates_list.h"
@@ -43,7 +44,7 @@ cv::Mat needle_picture(double degrees) {
 
 /// Where a profile of width `fwhm` (Gaussian) convolved with a shaft of `diameter` is at half.
 double expected_half_offset(double fwhm, double diameter) {
-  const double scale = fwhm / 2.3548200450309493 * std::sqrt(2.0);
+  const double scale = fwhm * kSigmaPerWidth * std::sqrt(2.0);
   std::vector<double> offset;
   std::vector<double> value;
   for (int k = 0; k < 400; ++k) {
@@ -80,16 +81,17 @@ EchoGate gate_needle_rings() {
       heights.push_back(line[i]);
     }
   }
+  const ClaimBasis of_the_formula(ClaimKind::input, "lines are put in by wall, bore and decay");
   gate.claims.push_back(
-      claim_at_least(ClaimKind::input, "lines seen", static_cast<double>(peaks.size()), 5, ""));
+      claim_at_least(of_the_formula, "lines seen", static_cast<double>(peaks.size()), 5, ""));
   bool decaying = true;
   for (std::size_t k = 1; k < std::min<std::size_t>(5, peaks.size()); ++k) {
-    gate.claims.push_back(claim_within(ClaimKind::input, "spacing " + std::to_string(k),
+    gate.claims.push_back(claim_within(of_the_formula, "spacing " + std::to_string(k),
                                        peaks[k] - peaks[k - 1], 0.51, 0.05, "mm"));
     decaying = decaying && heights[k] < heights[k - 1];
   }
   gate.claims.push_back(
-      claim_that(ClaimKind::input, "each line weaker than the one above", decaying));
+      claim_that(of_the_formula, "each line weaker than the one above", decaying));
   gate.plot = {"lines below a needle", {{"depth, mm", "dB below a mirror", {curve}}}};
   gate.pictures.push_back({"needle-0", needle_picture(0)});
   return gate;
@@ -112,20 +114,21 @@ EchoGate gate_needle_angle() {
       series->y.push_back(shaft_grey(renderer, degrees, series == &dimpled));
     }
   }
+  const ClaimBasis of_the_law(ClaimKind::fitted,
+                              "the law of slopes was chosen for a grey that falls straight");
+  const ClaimBasis of_the_slope(ClaimKind::fitted, "the mean slope was chosen by this value");
   constexpr std::size_t kTo65 = 14;  // values from 0 to 65 degrees
   double steepest_rise = -1;
   for (std::size_t i = 1; i < kTo65; ++i)
     steepest_rise = std::max(steepest_rise, plain.y[i] - plain.y[i - 1]);
   const LineFit fit = fit_line({plain.x.data(), kTo65}, {plain.y.data(), kTo65});
-  gate.claims.push_back(claim_at_most(ClaimKind::independent,
-                                      "largest rise in 5 degrees, 0-65 degrees", steepest_rise, 0,
-                                      "of full grey"));
-  gate.claims.push_back(claim_at_least(ClaimKind::independent,
-                                       "correlation of grey with the angle, negative",
+  gate.claims.push_back(claim_at_most(of_the_law, "largest rise in 5 degrees, 0-65 degrees",
+                                      steepest_rise, 0, "of full grey"));
+  gate.claims.push_back(claim_at_least(of_the_law, "correlation of grey with the angle, negative",
                                        -fit.correlation, 0.95, ""));
-  gate.claims.push_back(claim_within(ClaimKind::fitted, "plain at 75 degrees over 0 degrees",
+  gate.claims.push_back(claim_within(of_the_slope, "plain at 75 degrees over 0 degrees",
                                      100 * plain.y.back() / plain.y.front(), 10, 3, "%"));
-  gate.claims.push_back(claim_within(ClaimKind::fitted, "echogenic at 75 degrees over 0 degrees",
+  gate.claims.push_back(claim_within(of_the_slope, "echogenic at 75 degrees over 0 degrees",
                                      100 * dimpled.y.back() / dimpled.y.front(), 60, 5, "%"));
   gate.plot = {"needle by angle",
                {{"angle to the face, degrees", "grey of 60 dB", {plain, dimpled}}}};

@@ -260,11 +260,12 @@ EchoGate gate_tendon() {
     }
     above.push_back(tendon.y.back() - muscle.y.back());
   }
-  gate.claims.push_back(claim_at_least(ClaimKind::fitted, "tendon over muscle when perpendicular",
+  const ClaimBasis of_the_level(ClaimKind::fitted, "tendon's level was chosen by the range");
+  gate.claims.push_back(claim_at_least(of_the_level, "tendon over muscle when perpendicular",
                                        above.front(), 0, "dB"));
-  gate.claims.push_back(claim_within(ClaimKind::fitted, "tilt at which both are equal",
+  gate.claims.push_back(claim_within(of_the_level, "tilt at which both are equal",
                                      falls_to(tendon.x, above, 0), 4.5, 2.5, "degrees"));
-  gate.claims.push_back(claim_at_least(ClaimKind::independent,
+  gate.claims.push_back(claim_at_least({ClaimKind::fitted, "the floor, 25 dB down, is assumed"},
                                        "tendon's loss within 20 degrees of tilt",
                                        tendon.y.front() - tendon.y[20], 10, "dB"));
   gate.plot = {"tendon and muscle", {{"tilt, degrees", "speckle, dB", {tendon, muscle}}}};

@@ -54,9 +54,10 @@ std::vector<std::string> split_tabs(const std::string& line) {
   return cells;
 }
 
-bool is_muscle_row(const std::string& name) {
-  return name.rfind("Bone", 0) == 0 ||
-         (name.size() > 1 && name[0] == 'd' && name[1] >= '0' && name[1] <= '9');
+bool is_wanted(const std::string& name, std::span<const std::string> prefixes) {
+  return prefixes.empty() || std::any_of(prefixes.begin(), prefixes.end(), [&](const auto& prefix) {
+           return name.rfind(prefix, 0) == 0;
+         });
 }
 
 void widen(PatchRange& range, const PatchStatistics& s) {
@@ -71,11 +72,14 @@ void widen(PatchRange& range, const PatchStatistics& s) {
   ++range.images;
 }
 
-Claim claim_between(std::string text, double value, double least, double most,
-                    const std::string& unit) {
-  return claim_within(ClaimKind::fitted, std::move(text), value, (least + most) / 2,
-                      (most - least) / 2, unit);
-}
+/// One view of muscle to compare. All its claims are fitted; `why` says by what.
+struct MuscleView {
+  std::string picture;
+  std::string name;
+  std::string why;
+  std::shared_ptr<const Scene> scene;
+  Pose X_JP = Pose::Identity();
+};
 
 /// Muscle under skin and fat, its fibres 15 degrees to the face: the long axis of the references.
 std::shared_ptr<const Scene> long_axis_block() {
@@ -101,14 +105,13 @@ ReferenceView reference_view() {
   return view;
 }
 
-/// Adds what one view of `scene` shows to the gate.
-void compare_view(EchoGate& gate, const std::string& picture, const std::string& view,
-                  const std::shared_ptr<const Scene>& scene, const Pose& X_JP,
-                  const MuscleFinder& finder, const PatchRange& range) {
+/// Adds what one view shows to the gate.
+void compare_view(EchoGate& gate, const MuscleView& view, const MuscleFinder& finder,
+                  const PatchRange& range) {
   const ReferenceView as = reference_view();
-  Renderer renderer(scene, as.transducer, as.settings);
-  cv::Mat image = grey_image(renderer.render(X_JP)).clone();
-  const auto patches = finder.find_patches(X_JP, kPatch, kPatches);
+  Renderer renderer(view.scene, as.transducer, as.settings);
+  cv::Mat image = grey_image(renderer.render(view.X_JP)).clone();
+  const auto patches = finder.find_patches(view.X_JP, kPatch, kPatches);
   PatchStatistics mean;
   for (const cv::Rect& patch : patches) {
     const PatchStatistics s = measure_patch(image, patch);
@@ -119,13 +122,16 @@ void compare_view(EchoGate& gate, const std::string& picture, const std::string&
     mean.lateral_width += s.lateral_width * share;
   }
   for (const cv::Rect& patch : patches) cv::rectangle(image, patch, cv::Scalar(255));
-  gate.pictures.push_back({"muscle-" + picture, image});
-  gate.claims.push_back(claim_at_least(ClaimKind::input, view + ": patches of muscle",
+  gate.pictures.push_back({"muscle-" + view.picture, image});
+  gate.claims.push_back(claim_at_least({ClaimKind::fitted, view.why},
+                                       view.name + ": patches of muscle",
                                        static_cast<double>(patches.size()), 1, ""));
   if (patches.empty()) return;
   const auto compare = [&](const char* what, double PatchStatistics::*member, const char* unit) {
-    gate.claims.push_back(claim_between(view + ": " + what, mean.*member, range.least.*member,
-                                        range.most.*member, unit));
+    const double least = range.least.*member;
+    const double most = range.most.*member;
+    gate.claims.push_back(claim_within({ClaimKind::fitted, view.why}, view.name + ": " + what,
+                                       mean.*member, (least + most) / 2, (most - least) / 2, unit));
   };
   compare("mean", &PatchStatistics::mean, "grey");
   compare("spread", &PatchStatistics::deviation, "grey");
@@ -155,7 +161,8 @@ std::vector<cv::Rect> find_muscle_patches(const LabelImage& labels, const Compil
       const RegionId region =
           labels.regions[static_cast<std::size_t>(y) * static_cast<std::size_t>(labels.width) +
                          static_cast<std::size_t>(x)];
-      const bool muscle = region >= kFirstRegion && joint.tissue_of(region).name == "muscle";
+      const bool muscle =
+          region >= kFirstRegion && joint.tissue_of(region).kind == TissueKind::muscle;
       other.at<std::uint8_t>(y, x) = muscle ? 0 : 1;
     }
   cv::Mat sums;
@@ -175,7 +182,8 @@ std::vector<cv::Rect> find_muscle_patches(const LabelImage& labels, const Compil
   return patches;
 }
 
-Result<PatchRange> read_patch_range(const std::filesystem::path& file) {
+Result<PatchRange> read_patch_range(const std::filesystem::path& file,
+                                    std::span<const std::string> prefixes) {
   const auto text = read_bytes(file);
   if (!text) return tl::unexpected(text.error());
   std::istringstream in(*text);
@@ -187,7 +195,7 @@ Result<PatchRange> read_patch_range(const std::filesystem::path& file) {
   PatchRange range;
   for (int number = 2; std::getline(in, line); ++number) {
     const auto cells = split_tabs(line);
-    if (cells.empty() || !is_muscle_row(cells.front())) continue;
+    if (cells.empty() || !is_wanted(cells.front(), prefixes)) continue;
     const auto value = [&](const char* name) -> double {
       const auto place = column.find(name);
       if (place == column.end() || place->second >= cells.size()) return std::nan("");
@@ -204,7 +212,7 @@ Result<PatchRange> read_patch_range(const std::filesystem::path& file) {
     widen(range, s);
   }
   if (range.images == 0)
-    return fail(ErrorCode::malformed, "there is no row of a muscle image in it", file.string());
+    return fail(ErrorCode::malformed, "there is no row of a wanted image in it", file.string());
   return range;
 }
 
@@ -217,16 +225,22 @@ EchoGate measure_muscle(const std::shared_ptr<const Scene>& scene, const PatchRa
       "level of muscle's speckle, chosen for the grey of such images; sizes of perimysium, chosen "
       "beside real images; pulse, aperture and focus of their probe";
   const ReferenceView as = reference_view();
+  const std::string chosen = "level and grain of muscle were chosen beside such images";
   const Pose& X_JDefault = scene->joint().X_JP_default;
   const MuscleFinder finder(*scene, as.transducer, as.settings);
   const Pose X_JP = finder.slide_to_muscle(X_JDefault, kPatch).value_or(X_JDefault);
   const long slid = std::lround((X_JP.translation() - X_JDefault.translation()).norm() / 1e-3);
-  const std::string name = slid == 0 ? "default" : std::to_string(slid) + " mm from default";
+  const std::string moved = std::to_string(slid) + " mm";
+  const std::string name = slid == 0 ? "default" : moved + " from default";
+  const std::string why =
+      slid == 0 ? chosen : chosen + ", and the probe was slid by " + moved + " to where muscle is";
   const Pose X_JTurned = X_JP * Eigen::AngleAxisd(90 * kDegree, Vec3::UnitZ());
-  compare_view(gate, "long", name, scene, X_JP, finder, range);
-  compare_view(gate, "turned", name + ", turned", scene, X_JTurned, finder, range);
+  compare_view(gate, {"long", name, why, scene, X_JP}, finder, range);
+  compare_view(gate, {"turned", name + ", turned", why, scene, X_JTurned}, finder, range);
   const auto block = long_axis_block();
-  compare_view(gate, "block", "block", block, Pose::Identity(),
+  compare_view(gate,
+               {"block", "block", chosen + ", and the block's layers and fibres like theirs", block,
+                Pose::Identity()},
                MuscleFinder(*block, as.transducer, as.settings), range);
   return gate;
 }

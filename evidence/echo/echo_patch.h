@@ -2,6 +2,7 @@
 #pragma once
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -42,15 +43,18 @@ struct PatchRange {
   std::size_t images = 0;
 };
 
-/// Reads the muscle rows (file names that begin with "Bone" or "d" and a digit) of a table of
-/// measured images: tab-separated, columns file, mean, std, acf_fwhm_axial_px, acf_fwhm_lateral_px
-/// among others. Errors: not_found, unreadable, malformed (column or number missing, no row).
-[[nodiscard]] Result<PatchRange> read_patch_range(const std::filesystem::path& file);
+/// Reads a table of measured images of muscle: tab-separated, columns file, mean, std,
+/// acf_fwhm_axial_px, acf_fwhm_lateral_px among others. `prefixes` choose the rows by how their
+/// file names begin; none: all rows. Errors: not_found, unreadable, malformed (column or number
+/// missing, no row).
+[[nodiscard]] Result<PatchRange> read_patch_range(const std::filesystem::path& file,
+                                                  std::span<const std::string> prefixes = {});
 
 /// Renders the joint's default view, or the nearest along the skin in which muscle is as thick as
 /// those patches and runs along the face as there (see MuscleFinder), the same turned by 90
 /// degrees, and a block of muscle in its long axis, and compares their muscle with the range. The
-/// probe and pixels are those of the reference images: 4-9 MHz, 0.0854 mm.
+/// probe and pixels are those of the reference images: 4-9 MHz, 0.0854 mm. Every claim is fitted,
+/// by muscle's speckle and, where the probe was slid, by the view.
 [[nodiscard]] EchoGate measure_muscle(const std::shared_ptr<const Scene>& scene,
                                       const PatchRange& range);
 

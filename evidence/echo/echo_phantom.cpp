@@ -79,8 +79,11 @@ EchoPhantom make_layers() {
                                          {"tendon", 5e-3},
                                          {"bone", kDepth}}};
   phantom.scene = make_block_scene(layers, [](CompiledJoint& joint) {
-    for (Region& region : joint.regions)
-      if (region.name == "muscle" || region.name == "tendon") region.fibre_axis = Vec3::UnitX();
+    for (Region& region : joint.regions) {
+      const TissueKind kind = joint.tissues[region.tissue].kind;
+      if (kind == TissueKind::muscle || kind == TissueKind::tendon)
+        region.fibre_axis = Vec3::UnitX();
+    }
   });
   const CompiledJoint& joint = phantom.scene->joint();
   auto list = nlohmann::json::array();

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <optional>
+#include <utility>
 
 #include <opencv2/imgproc.hpp>
 
@@ -54,60 +55,82 @@ void remove_old_images(const std::filesystem::path& folder) {
   for (const auto& file : old) std::filesystem::remove(file, ignored);
 }
 
-Result<MomentImage> draw_moment(Renderer& renderer, const Scene& scene, const NamedMoment& moment,
-                                const NeedleShape& shape, const std::filesystem::path& folder,
-                                const std::string& stem) {
-  const NeedleView needle{moment.X_JN, shape};
-  MomentImage image{moment.label,
-                    moment.time,
-                    moment.pass,
-                    folder / (stem + ".png"),
-                    folder / (stem + "-labels.png"),
-                    locate_needle(needle, moment.X_JP, renderer.transducer(), renderer.settings())};
-  renderer.set_contact(moment.coverage);
-  const Frame& frame = renderer.render(moment.X_JP, needle);
-  if (const auto ok = write_image(annotated_image(frame, renderer.transducer()), image.bmode); !ok)
-    return tl::unexpected(ok.error());
-  const auto labels =
-      render_labels(scene, moment.X_JP, renderer.transducer(), renderer.settings(), needle);
-  if (const auto ok = write_image(colour_labels(labels, scene.joint()), image.labels); !ok)
-    return tl::unexpected(ok.error());
-  return image;
-}
-
-Result<void> draw_video(Renderer& renderer, const std::shared_ptr<const Scene>& scene,
-                        const ThreeInjections& run, const NeedleShape& shape,
-                        const std::filesystem::path& folder, double rate, RunImages& images,
-                        const Progress& progress) {
-  std::optional<VideoFile> video;
-  ProbeContactModel contact(scene, run.options.probe.contact);
-  const double end = run.rows.back().time;
-  const int n_frames = static_cast<int>(std::floor(end * rate)) + 1;
-  std::size_t next = 0;
-  for (int i = 0; i < n_frames; ++i) {
-    const double time = i / rate;
-    while (next + 1 < run.rows.size() && run.rows[next].time < time) ++next;
-    const NeedleRow& row = run.rows[next];
-    const ProbeHandRow& probe = run.probe[next];
-    static_cast<void>(contact.step(probe.X_JP));
-    renderer.set_contact(contact.coverage());
-    const Frame& frame = renderer.render(probe.image_pose(), NeedleView{row.X_JN, shape});
-    const cv::Mat picture = with_caption(annotated_image(frame, renderer.transducer()), row, probe,
-                                         run.region_names[row.region]);
-    if (!video) {
-      auto opened = VideoFile::open(folder / "three-injections.mp4", picture.size(), false, rate);
-      if (!opened) return tl::unexpected(opened.error());
-      video = std::move(*opened);
-    }
-    video->write(picture);
-    ++images.video_frames;
-    if (progress) progress("video", static_cast<double>(i + 1) / n_frames);
+/// Draws one run into one folder.
+class RunPainter {
+ public:
+  RunPainter(std::shared_ptr<const Scene> scene, const ThreeInjections& run,
+             std::filesystem::path folder, const RunImagesOptions& options)
+      : scene_(std::move(scene)),
+        run_(&run),
+        folder_(std::move(folder)),
+        shape_(options.needle),
+        renderer_(scene_, options.transducer, options.settings) {
+    shape_.length = run.needle_length;
   }
-  const auto file = video->finish();
-  if (!file) return tl::unexpected(file.error());
-  images.video = *file;
-  return {};
-}
+
+  Result<MomentImage> draw_moment(std::size_t index) {
+    const NamedMoment& moment = run_->moments[index];
+    const std::string stem = file_stem(index, moment);
+    const NeedleView needle{moment.X_JN, shape_};
+    const Transducer& transducer = renderer_.transducer();
+    MomentImage image{moment.label,
+                      moment.time,
+                      moment.pass,
+                      folder_ / (stem + ".png"),
+                      folder_ / (stem + "-labels.png"),
+                      locate_needle(needle, moment.X_JP, transducer, renderer_.settings())};
+    renderer_.set_contact(moment.coverage);
+    const Frame& frame = renderer_.render(moment.X_JP, needle);
+    ARTUS_TRY(write_image(annotated_image(frame, transducer), image.bmode));
+    const auto labels =
+        render_labels(*scene_, moment.X_JP, transducer, renderer_.settings(), needle);
+    ARTUS_TRY(write_image(colour_labels(labels, scene_->joint()), image.labels));
+    return image;
+  }
+
+  /// The whole run in real time. The video's file and frames go into `images`.
+  Result<void> draw_video(double rate, RunImages& images, const Progress& progress) {
+    std::optional<VideoFile> video;
+    ProbeContactModel contact(scene_, run_->options.probe.contact);
+    const int n_frames = static_cast<int>(std::floor(run_->rows.back().time * rate)) + 1;
+    std::size_t next = 0;
+    for (int i = 0; i < n_frames; ++i) {
+      const double time = i / rate;
+      while (next + 1 < run_->rows.size() && run_->rows[next].time < time) ++next;
+      const cv::Mat picture = draw_tick(next, contact);
+      if (!video) {
+        auto opened =
+            VideoFile::open(folder_ / "three-injections.mp4", picture.size(), false, rate);
+        ARTUS_TRY(opened);
+        video = std::move(*opened);
+      }
+      video->write(picture);
+      ++images.video_frames;
+      if (progress) progress("video", static_cast<double>(i + 1) / n_frames);
+    }
+    const auto file = video->finish();
+    ARTUS_TRY(file);
+    images.video = *file;
+    return {};
+  }
+
+ private:
+  cv::Mat draw_tick(std::size_t tick, ProbeContactModel& contact) {
+    const NeedleRow& row = run_->rows[tick];
+    const ProbeHandRow& probe = run_->probe[tick];
+    static_cast<void>(contact.step(probe.X_JP));
+    renderer_.set_contact(contact.coverage());
+    const Frame& frame = renderer_.render(probe.image_pose(), NeedleView{row.X_JN, shape_});
+    return with_caption(annotated_image(frame, renderer_.transducer()), row, probe,
+                        run_->region_names[row.region]);
+  }
+
+  std::shared_ptr<const Scene> scene_;
+  const ThreeInjections* run_;
+  std::filesystem::path folder_;
+  NeedleShape shape_;
+  Renderer renderer_;
+};
 
 }  // namespace
 
@@ -117,22 +140,15 @@ Result<RunImages> write_run_images(const std::shared_ptr<const Scene>& scene,
   RunImages images;
   if (run.probe.empty() || run.moments.empty()) return images;
   remove_old_images(folder);
-  NeedleShape shape = options.needle;
-  shape.length = run.needle_length;
-  Renderer renderer(scene, options.transducer, options.settings);
+  RunPainter painter(scene, run, folder, options);
   for (std::size_t i = 0; i < run.moments.size(); ++i) {
-    auto image =
-        draw_moment(renderer, *scene, run.moments[i], shape, folder, file_stem(i, run.moments[i]));
-    if (!image) return tl::unexpected(image.error());
+    auto image = painter.draw_moment(i);
+    ARTUS_TRY(image);
     images.moments.push_back(std::move(*image));
     if (progress)
       progress("images", static_cast<double>(i + 1) / static_cast<double>(run.moments.size()));
   }
-  if (options.video)
-    if (const auto ok = draw_video(renderer, scene, run, shape, folder, options.frames_per_second,
-                                   images, progress);
-        !ok)
-      return tl::unexpected(ok.error());
+  if (options.video) ARTUS_TRY(painter.draw_video(options.frames_per_second, images, progress));
   return images;
 }
 

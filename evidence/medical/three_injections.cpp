@@ -144,7 +144,7 @@ void add_bone_and_exit(Pass& pass, const ThreeInjectionsOptions& options,
   pass.phases.push_back(wait(Kind::hold, 0.2));
   pass.phases.push_back(withdraw_to(-kStartOutside, std::max(speed, options.slow_speed * 2),
                                     pass.deepest, "needle out"));
-  pass.phases.push_back(wait(Kind::wait_outside, kPause));
+  pass.phases.push_back(wait(Kind::wait, kPause));
 }
 
 Pass plan_slow(const Scene& scene, const PlannedInjection& planned, const Vec3& direction,
@@ -237,11 +237,10 @@ class Recorder {
       : scene_(&scene), options_(&options), device_(&device), out_(&out) {}
 
   bool run(const Pass& pass, int number, double start_time) {
-    const Pose start = make_pose(pass.entry - kStartOutside * pass.direction, pass.direction,
-                                 pass.direction.unitOrthogonal());
+    InjectionOperator person(pass.entry, pass.direction, -kStartOutside, pass.phases);
     HandParams hand = options_->hand;
     hand.seed = options_->seed + static_cast<std::uint64_t>(number);
-    HandLoop loop({options_->rate_hz, 20000}, *device_, hand, start);
+    HandLoop loop({options_->rate_hz, 20000}, *device_, hand, person.start());
     NeedleRendererParams params;
     params.device = *device_;
     params.rate_hz = options_->rate_hz;
@@ -250,7 +249,6 @@ class Recorder {
     params.needle.contact.needle_length = out_->needle_length;
     NeedleRenderer renderer(borrow(*scene_), make_layer_table(scene_->joint(), options_->feel),
                             params);
-    InjectionOperator person(pass.entry, pass.direction, -kStartOutside, pass.phases);
     while (!person.done()) {
       const double t = loop.time();
       const Pose measured = loop.measured();
@@ -262,7 +260,7 @@ class Recorder {
       out_->rows.push_back(row);
       if ((row.events & ContactEvent::kSkinPunctured) != 0) mark(row, "skin punctured");
       if ((row.events & ContactEvent::kBoneTouched) != 0) mark(row, "bone touched");
-      const OperatorPhase* ended = person.observe(t, measured, renderer.model());
+      const OperatorPhase* ended = person.observe(t, measured, view_of(renderer.model()));
       if (ended != nullptr && !ended->label.empty()) mark(row, ended->label);
       loop.advance(rendered.command, [&person](double at) { return person.intention(at); });
     }

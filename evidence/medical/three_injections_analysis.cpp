@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -31,62 +32,28 @@ std::vector<BoneTouch> find_touches(const std::vector<NeedleRow>& rows) {
 }
 
 void claim_touches(ThreeInjections& run) {
-  for (const BoneTouch& t : run.touches) {
-    run.claims.push_back(claim_at_most(
-        ClaimKind::input, "injection " + std::to_string(t.pass) + ": tap on bone lasts", t.duration,
-        0.055, "s"));
-  }
-  if (run.touches.size() != 3) {
-    run.claims.push_back(claim_at_least(ClaimKind::input, "injections that touch bone",
-                                        static_cast<double>(run.touches.size()), 3, ""));
-    return;
-  }
-  const auto gain = [&run](std::size_t i) {
-    return run.touches[i].peak / run.touches[i].incoming_speed;
-  };
+  run.claims.push_back(claim_at_least({ClaimKind::input, "lines with bone behind the target"},
+                                      "injections that touch bone",
+                                      static_cast<double>(run.touches.size()), 3, ""));
+  if (run.touches.size() != 3) return;
   const double slow = std::max(run.touches[0].peak, run.touches[1].peak);
-  run.claims.push_back(claim_at_least(ClaimKind::input,
+  run.claims.push_back(claim_at_least({ClaimKind::input, "the hand's speeds, eq. 2.3"},
                                       "tap of injection 3 over the stronger of 1 and 2",
                                       run.touches[2].peak / slow, 1, ""));
-  for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) {
-    run.claims.push_back(claim_near(
-        ClaimKind::input,
-        "tap per incoming speed, injection " + std::to_string(i + 1) + " over injection 3",
-        gain(i) / gain(2), 1, 0.05, ""));
-  }
 }
 
-// alpha is 45 degrees at the skin, falls with depth, and every re-aim was inside it.
-void claim_cone(ThreeInjections& run) {
-  double at_skin = 0;
-  double deepest = 0;
-  double at_deepest = 0;
-  double worst = -90;
-  Vec3 first_axis = Vec3::Zero();
-  int pass = 0;
-  for (const NeedleRow& row : run.rows) {
-    if ((row.events & ContactEvent::kSkinPunctured) != 0 && row.pass != pass) {
-      pass = row.pass;
-      first_axis = row.axis;
-      at_skin = row.cone;
-    }
-    if (row.depth > deepest) {
-      deepest = row.depth;
-      at_deepest = row.cone;
-    }
-    if ((row.events & ContactEvent::kRedirected) != 0) {
-      const double turned = std::acos(std::clamp(row.axis.dot(first_axis), -1.0, 1.0));
-      worst = std::max(worst, (turned - row.cone) / kDegree);
-    }
-  }
-  run.claims.push_back(claim_near(ClaimKind::input, "alpha where the skin gives way",
-                                  at_skin / kDegree, 45, 0.05, "degrees"));
-  run.claims.push_back(claim_at_most(ClaimKind::input, "alpha at the deepest point",
-                                     at_deepest / kDegree, 45, "degrees"));
-  if (worst > -90) {
-    run.claims.push_back(
-        claim_at_most(ClaimKind::input, "re-aimed direction beyond alpha", worst, 0, "degrees"));
-  }
+// Every injection that was re-aimed follows a new line.
+void claim_redirections(ThreeInjections& run) {
+  std::set<int> aimed;
+  std::set<int> turned;
+  for (const NamedMoment& moment : run.moments)
+    if (moment.label == "re-aimed") aimed.insert(moment.pass);
+  for (const NeedleRow& row : run.rows)
+    if ((row.events & ContactEvent::kRedirected) != 0) turned.insert(row.pass);
+  run.claims.push_back(claim_at_least({ClaimKind::input, "the hand's aim, within the cone"},
+                                      "injections that took a new line, of those re-aimed",
+                                      static_cast<double>(turned.size()),
+                                      static_cast<double>(aimed.size()), ""));
 }
 
 // The probe moved along its beam onto the skin and turned within its image plane until it lies
@@ -137,21 +104,21 @@ void analyze(const CompiledJoint& joint, bool reached, ThreeInjections& run) {
   for (const NeedleRow& row : run.rows) finder.add(row);
   run.plateaus = finder.plateaus();
   run.touches = find_touches(run.rows);
-  run.claims.push_back(
-      claim_that(ClaimKind::input, "every step of the operator met its goal in time", reached));
+  run.claims.push_back(claim_that({ClaimKind::input, "the operator's plan"},
+                                  "every step of the operator met its goal in time", reached));
   for (const LayerPlateau& p : run.plateaus) {
     if (p.rows == 0) continue;  // thinner than its rise: listed, but nothing can be claimed
-    run.claims.push_back(claim_near(ClaimKind::input,
+    run.claims.push_back(claim_near({ClaimKind::input, "f_R of the tissue, table 4.2"},
                                     "mean cutting force on the plateau in " + p.tissue, p.mean,
                                     p.expected, kPlateauShare, "N"));
   }
   claim_touches(run);
-  claim_cone(run);
+  claim_redirections(run);
   for (std::size_t i = 0; i < run.rows.size(); ++i) {
     const NeedleRow& row = run.rows[i];
     if (i + 1 < run.rows.size() && run.rows[i + 1].pass == row.pass) continue;
     run.claims.push_back(claim_at_most(
-        ClaimKind::input,
+        {ClaimKind::input, "the laws are built to give none"},
         "injection " + std::to_string(row.pass) + ": energy given to the hand over the whole pass",
         row.energy_to_hand, 0, "J"));
   }

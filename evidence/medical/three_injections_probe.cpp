@@ -126,17 +126,18 @@ void claim_probe(ThreeInjections& run) {
     ++held;
   }
   const double mean = held > 0 ? pressed / static_cast<double>(held) : 0;
-  run.claims.push_back(
-      claim_at_most(ClaimKind::input, "probe: force and torque off the skin", off_skin, 0, ""));
-  run.claims.push_back(claim_near(ClaimKind::input,
+  run.claims.push_back(claim_at_most({ClaimKind::input, "no force outside the body"},
+                                     "probe: force and torque off the skin", off_skin, 0, ""));
+  run.claims.push_back(claim_near({ClaimKind::input, "the hand's press_force"},
                                   "probe: mean force of the skin while it is held", mean,
                                   run.options.probe.press_force, 0.02, "N"));
-  run.claims.push_back(
-      claim_at_most(ClaimKind::input, "probe: friction beyond Coulomb's", over_coulomb, 1e-9, "N"));
-  run.claims.push_back(claim_at_most(ClaimKind::input,
+  run.claims.push_back(claim_at_most({ClaimKind::input, "Coulomb's law"},
+                                     "probe: friction beyond Coulomb's", over_coulomb, 1e-9, "N"));
+  run.claims.push_back(claim_at_most({ClaimKind::input, "the contact is built to give none"},
                                      "probe: energy given to the hand over the whole run",
                                      run.probe.back().energy_to_hand, 0, "J"));
-  run.claims.push_back(claim_at_most(ClaimKind::input, "probe: ticks in fault (status bits seen)",
+  run.claims.push_back(claim_at_most({ClaimKind::input, "the guard's limits"},
+                                     "probe: ticks in fault (status bits seen)",
                                      static_cast<double>(faults), 0, ""));
 }
 

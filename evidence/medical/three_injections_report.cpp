@@ -21,30 +21,19 @@ nlohmann::json to_json(const Pose& pose) {
           {"quaternion_wxyz", {q.w(), q.x(), q.y(), q.z()}}};
 }
 
-template <class Row, class F>
-PlotSeries series(const ThreeInjections& run, const std::vector<Row>& rows, const char* label,
-                  F value) {
-  PlotSeries s;
-  s.label = label;
-  s.x.reserve(rows.size());
-  s.y.reserve(rows.size());
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    s.x.push_back(run.rows[i].time);
-    s.y.push_back(value(rows[i]));
-  }
-  return s;
-}
-
+// The probe's rows have the needle's times.
 template <class F>
-PlotSeries series(const ThreeInjections& run, const char* label, F value) {
-  return series(run, run.rows, label, value);
+PlotSeries probe_series(const ThreeInjections& run, const char* label, F value) {
+  PlotSeries s = plot_rows(run.rows, label, [](const NeedleRow& /*row*/) { return 0.0; });
+  for (std::size_t i = 0; i < s.y.size(); ++i) s.y[i] = value(run.probe[i]);
+  return s;
 }
 
 void add_probe_panels(const ThreeInjections& run, Plot& plot) {
   using Row = const ProbeHandRow&;
   const std::string time = "time (s)";
   const auto probe = [&run](const char* label, auto value) {
-    return series(run, run.probe, label, value);
+    return probe_series(run, label, value);
   };
   plot.panels.push_back({time,
                          "probe: force (N)",
@@ -108,19 +97,23 @@ Plot force_plot(const ThreeInjections& run) {
   plot.panels = {
       {time,
        "depth (mm)",
-       {series(run, "tip", [](Row r) { return r.depth / kMillimetre; }),
-        series(run, "wall", [](Row r) { return r.wall / kMillimetre; })}},
+       {plot_rows(run.rows, "tip", [](Row r) { return r.depth / kMillimetre; }),
+        plot_rows(run.rows, "wall", [](Row r) { return r.wall / kMillimetre; })}},
       {time,
        "force (N)",
-       {series(run, "cutting", [](Row r) { return r.forces.cutting; }),
-        series(run, "attracted", [](Row r) { return r.forces.attracted; }),
-        series(run, "pre-puncture", [](Row r) { return r.forces.prepuncture; })}},
+       {plot_rows(run.rows, "cutting", [](Row r) { return r.forces.cutting; }),
+        plot_rows(run.rows, "attracted", [](Row r) { return r.forces.attracted; }),
+        plot_rows(run.rows, "pre-puncture", [](Row r) { return r.forces.prepuncture; })}},
       {time,
        "force (N)",
-       {series(run, "friction", [](Row r) { return r.forces.friction; }),
-        series(run, "clamping", [](Row r) { return r.forces.clamping.norm(); })}},
-      {time, "force (N)", {series(run, "tap on bone", [](Row r) { return r.forces.hard; })}},
-      {time, "alpha (degrees)", {series(run, "alpha", [](Row r) { return r.cone / kDegree; })}}};
+       {plot_rows(run.rows, "friction", [](Row r) { return r.forces.friction; }),
+        plot_rows(run.rows, "clamping", [](Row r) { return r.forces.clamping.norm(); })}},
+      {time,
+       "force (N)",
+       {plot_rows(run.rows, "tap on bone", [](Row r) { return r.forces.hard; })}},
+      {time, "alpha (degrees)", {plot_rows(run.rows, "alpha", [](Row r) {
+         return r.cone / kDegree;
+       })}}};
   if (!run.probe.empty()) add_probe_panels(run, plot);
   return plot;
 }
@@ -138,6 +131,13 @@ nlohmann::json summarize(const ThreeInjections& run) {
                      {"withdrawal_m", o.withdrawal},
                      {"probe_press_force_n", o.probe.press_force},
                      {"needle_length_m", run.needle_length}};
+  out["assumed"] = {
+      "0.8 s at a target, 1.2 s to re-aim, 1 s between injections",
+      "speeds of 12 and 100 mm/s, 20 mm of withdrawal (\"a few centimetres\")",
+      "the hand's stiffness, damping, mass, tremor and lag; mass, damping and encoder "
+      "step of the device",
+      "the probe's force of 3 N, its hand's ways and times, friction of gel and skin",
+      "2 % of a layer's force"};
   for (const LayerPlateau& p : run.plateaus) {
     out["plateaus"].push_back({{"tissue", p.tissue},
                                {"expected_n", p.expected},

@@ -35,19 +35,23 @@ AnalyticBody::Span AnalyticBody::clip(std::size_t layer, const Vec3& start, cons
   return slope > 0 ? Span{std::max(0.0, at), length} : Span{0, std::min(length, at)};
 }
 
-std::span<const TissueInterval> AnalyticBody::find_intervals(
-    const Segment& segment, std::span<TissueInterval> out) const noexcept {
+QueryCount AnalyticBody::find_intervals(const Segment& segment,
+                                        std::span<TissueInterval> out) const noexcept {
   const Vec3 path = segment.end - segment.start;
   const double length = path.norm();
   const Vec3 direction = length > 0 ? Vec3(path / length) : Vec3(Vec3::UnitZ());
-  std::size_t count = 0;
+  QueryCount count;
   const auto add = [&](double from, double to, RegionId region) {
-    if (to <= from || count >= out.size()) return;
+    if (to <= from) return;
+    if (count.size == out.size()) {
+      count.truncated = true;
+      return;
+    }
     const Vec3 at = segment.start + from * direction - origin_;
     const Vec3 normal = from <= 0 ? Vec3(Vec3::Zero())
                         : balls_  ? Vec3(at.normalized())
                                   : Vec3(-into_);
-    out[count++] = {from, to, region, normal.dot(direction) > 0 ? Vec3(-normal) : normal, 0};
+    out[count.size++] = {from, to, region, normal.dot(direction) > 0 ? Vec3(-normal) : normal, 0};
   };
   // Nested convex bodies: going in through each in turn, then out in the reverse order.
   double at = 0;
@@ -66,7 +70,7 @@ std::span<const TissueInterval> AnalyticBody::find_intervals(
     at = std::max(at, s.to);
   }
   add(at, length, kOutside);
-  return out.first(count);
+  return count;
 }
 
 }  // namespace artus

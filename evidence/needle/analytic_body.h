@@ -19,8 +19,8 @@ class AnalyticBody {
   static AnalyticBody make_balls(const Vec3& centre, std::vector<double> radii);
 
   /// The segment cut into stretches of one region each, as Scene::find_intervals gives them.
-  [[nodiscard]] ARTUS_REALTIME std::span<const TissueInterval> find_intervals(
-      const Segment& segment, std::span<TissueInterval> out) const noexcept;
+  ARTUS_REALTIME QueryCount find_intervals(const Segment& segment,
+                                           std::span<TissueInterval> out) const noexcept;
 
  private:
   struct Span {

@@ -4,9 +4,6 @@
 #include <algorithm>
 #include <array>
 
-#include <nlohmann/json.hpp>
-
-#include "artus/core/text_file.h"
 #include "artus/evidence/needle/experiment_list.h"
 #include "artus/haptics/device.h"
 
@@ -54,12 +51,16 @@ constexpr std::array<std::string_view, kEntries.size()> kNames = [] {
   return names;
 }();
 
-void add_cells(std::string& out, const std::vector<std::string>& cells) {
-  for (std::size_t i = 0; i < cells.size(); ++i) out += (i == 0 ? "" : ",") + cells[i];
-  out += '\n';
-}
-
 }  // namespace
+
+std::vector<std::string> assumed_with_hand(std::vector<std::string> own) {
+  own.insert(own.end(),
+             {"the hand's stiffness (1500 N/m), damping (30 N s/m), mass, tremor (20 um rms, 8 to "
+              "12 Hz), lag (30 ms) and opening of its fingers (50 ms): orders of size of what is "
+              "published",
+              "moving mass, damping and encoder step of the simulated devices"});
+  return own;
+}
 
 std::span<const std::string_view> needle_experiments() noexcept {
   return kNames;
@@ -75,6 +76,8 @@ Result<Experiment> run_needle_experiment(std::string_view name, const Experiment
         check(options.feel, {std::string(name), layers, entry.takes, std::string(entry.why_not)}));
     Experiment experiment = entry.run(options, *device);
     experiment.name = name;
+    for (NamedPlot& plot : experiment.plots)
+      if (plot.file.empty()) plot.file = experiment.name + ".png";
     return experiment;
   }
   std::string all;
@@ -91,25 +94,9 @@ Result<void> write_experiment(const Experiment& e, const std::filesystem::path& 
   if (error) return fail(ErrorCode::unreadable, error.message(), folder.string());
   for (const ExperimentTrace& trace : e.traces) {
     const std::string file = e.name + (trace.label.empty() ? "" : "-" + trace.label) + ".csv";
-    auto written = write_needle_csv(folder / file, trace.rows, trace.region_names);
-    ARTUS_TRY(written);
+    ARTUS_TRY(write_needle_csv(folder / file, trace.rows, trace.region_names));
   }
-  if (!e.table.header.empty()) {
-    std::string text;
-    add_cells(text, e.table.header);
-    for (const auto& row : e.table.rows) add_cells(text, row);
-    auto written = write_text(folder / (e.name + "-table.csv"), text);
-    ARTUS_TRY(written);
-  }
-  nlohmann::json json = verdict(e.claims);
-  json["experiment"] = e.name;
-  json["title"] = e.title;
-  json["source"] = e.source;
-  json["published"] = nlohmann::json::array();
-  for (const PublishedValue& p : e.published)
-    json["published"].push_back({{"what", p.what}, {"published", p.published}, {"artus", p.artus}});
-  ARTUS_TRY(write_text(folder / "verdict.json", json.dump(2) + "\n"));
-  return write_plot(folder / (e.name + ".png"), e.plot);
+  return write_report(e, folder);
 }
 
 }  // namespace artus

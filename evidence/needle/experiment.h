@@ -6,10 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "artus/core/csv.h"
-#include "artus/evidence/claim.h"
 #include "artus/evidence/needle/needle_trace.h"
-#include "artus/evidence/plot.h"
+#include "artus/evidence/report.h"
 #include "artus/haptics/needle/needle_feel.h"
 
 namespace artus {
@@ -28,23 +26,9 @@ struct ExperimentTrace {
   std::vector<std::string> region_names;
 };
 
-/// What the source says of its experiment, beside what this one shows.
-struct PublishedValue {
-  std::string what;
-  std::string published;  ///< in the source's words and figures
-  std::string artus;      ///< value and unit
-};
-
 /// What an experiment gave.
-struct Experiment {
-  std::string name;
-  std::string title;   ///< what it shows
-  std::string source;  ///< figures, tables and equations of the source it stands beside
-  std::vector<PublishedValue> published;
+struct Experiment : EvidenceReport {
   std::vector<ExperimentTrace> traces;
-  TextTable table;  ///< empty header: none
-  Plot plot;
-  std::vector<Claim> claims;
 };
 
 /// The names of all needle experiments, in the order of the report.
@@ -55,8 +39,7 @@ struct Experiment {
 [[nodiscard]] Result<Experiment> run_needle_experiment(std::string_view name,
                                                        const ExperimentOptions& options = {});
 
-/// Writes <name>[-label].csv, <name>-table.csv, <name>.png and verdict.json into `folder`. Errors:
-/// unreadable, not_found (gnuplot; all other files are then written all the same).
+/// Writes <name>[-label].csv and what write_report() does, with its errors, into `folder`.
 [[nodiscard]] Result<void> write_experiment(const Experiment& experiment,
                                             const std::filesystem::path& folder);
 

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/evidence/needle/experiment_body.h"
 
-#include <array>
-
-#include "artus/haptics/passivity.h"
+#include "artus/haptics/needle/needle_tick_step.h"
 
 namespace artus {
 
@@ -14,19 +12,15 @@ std::vector<NeedleRow> run_body(const BodyExperiment& e) {
   for (std::size_t i = 0; i < layers.size() && i < names.size(); ++i)
     apply(e.feel, names[i], layers[i]);
   by_region.insert(by_region.end(), layers.begin(), layers.end());
-  const LayerTable table(std::move(by_region));
-  const Pose start =
-      make_pose(e.entry - e.start_outside * e.direction, e.direction, e.direction.unitOrthogonal());
-  HandLoop loop({e.rate_hz, 20000}, e.device, e.hand, start);
-  NeedleParams needle = e.needle;
-  apply(e.feel, needle);
-  NeedleModel model(needle, table, loop.period());
-  PassivityObserver passivity({.control = e.feel.passivity_control}, loop.period());
-  const GuardParams limits;
-  InputGuard input(limits, loop.period());
-  OutputGuard output(limits, e.device, loop.period());
   InjectionOperator person(e.entry, e.direction, -e.start_outside, e.phases);
-  std::array<TissueInterval, 64> buffer{};
+  HandLoop loop({e.rate_hz, 20000}, e.device, e.hand, person.start());
+  NeedleRendererParams params;
+  params.needle = e.needle;
+  params.device = e.device;
+  params.rate_hz = e.rate_hz;
+  apply(e.feel, params.needle);
+  apply(e.feel, params.passivity);
+  NeedleTickStep tick(LayerTable(std::move(by_region)), params);
   std::vector<NeedleRow> rows;
   const auto intend = [&e, &person](double at) {
     return e.path ? e.path(at) : person.intention(at);
@@ -37,24 +31,12 @@ std::vector<NeedleRow> run_body(const BodyExperiment& e) {
   while (!done()) {
     const double t = loop.time();
     const Pose measured = loop.measured();
-    RenderedNeedle rendered;
-    const std::uint32_t faults = input.check({measured, t});
-    if (faults == 0) {
-      rendered.forces =
-          model.step(measured, e.body.find_intervals(model.query_segment(measured), buffer));
-    } else {
-      model.reset();
-      passivity.pause();
-    }
-    Wrench wanted = rendered.forces.total;
-    if (faults == 0) wanted.force = passivity.step(measured.translation(), wanted.force);
-    rendered.command = output.apply(wanted, faults, rendered.status);
-    passivity.observe(rendered.command.force);
-    rows.push_back(make_needle_row(t, measured, rendered, model));
+    const RenderedNeedle& rendered = tick.step({measured, t}, e.body);
+    rows.push_back(make_needle_row(t, measured, rendered, tick.model()));
     rows.back().energy_to_hand = loop.energy_to_hand();
     rows.back().hand = loop.hand_force();
     rows.back().needle = loop.motion();
-    if (!e.path) person.observe(t, measured, model);
+    if (!e.path) person.observe(t, measured, view_of(tick.model()));
     loop.advance(rendered.command, intend);
   }
   return rows;
@@ -72,41 +54,6 @@ LayerHaptics bone_layer(double cutting, double stiffness) {
   LayerHaptics layer = plain_layer(cutting, stiffness);
   layer.tissue.hard = true;
   return layer;
-}
-
-OperatorPhase push_to(double depth, double speed) {
-  OperatorPhase phase;
-  phase.kind = OperatorPhase::Kind::advance;
-  phase.depth = depth;
-  phase.speed = speed;
-  phase.duration = 60;
-  return phase;
-}
-
-OperatorPhase pull_to(double depth, double speed) {
-  OperatorPhase phase = push_to(depth, speed);
-  phase.kind = OperatorPhase::Kind::withdraw;
-  return phase;
-}
-
-OperatorPhase stay(double duration) {
-  OperatorPhase phase;
-  phase.kind = OperatorPhase::Kind::hold;
-  phase.duration = duration;
-  return phase;
-}
-
-OperatorPhase let_go(double duration) {
-  OperatorPhase phase = stay(duration);
-  phase.kind = OperatorPhase::Kind::let_go;
-  return phase;
-}
-
-OperatorPhase aim(const Vec3& direction, double duration) {
-  OperatorPhase phase = stay(duration);
-  phase.kind = OperatorPhase::Kind::turn;
-  phase.direction = direction.normalized();
-  return phase;
 }
 
 std::vector<std::string> numbered_layers(std::size_t layers) {

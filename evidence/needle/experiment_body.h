@@ -40,13 +40,6 @@ struct BodyExperiment {
 /// A layer the tip cannot enter.
 [[nodiscard]] LayerHaptics bone_layer(double cutting, double stiffness);
 
-/// Phases, in the words of an operator.
-[[nodiscard]] OperatorPhase push_to(double depth, double speed);
-[[nodiscard]] OperatorPhase pull_to(double depth, double speed);
-[[nodiscard]] OperatorPhase stay(double duration);
-[[nodiscard]] OperatorPhase let_go(double duration);
-[[nodiscard]] OperatorPhase aim(const Vec3& direction, double duration);
-
 /// "layer 1", ... : what layers without a tissue's name are called.
 [[nodiscard]] std::vector<std::string> numbered_layers(std::size_t layers);
 /// `layers` behind "outside" and "beyond": names by region, for a trace.

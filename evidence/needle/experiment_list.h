@@ -32,20 +32,11 @@ namespace artus {
 /// Each pair of layers of table 4.2: force step and rise distance against what a hand can tell.
 [[nodiscard]] Experiment run_layer_changes(const ExperimentOptions&, const DeviceLimits&);
 
+/// An experiment's own assumptions, and those of every one that runs a hand on a device.
+[[nodiscard]] std::vector<std::string> assumed_with_hand(std::vector<std::string> own);
+
 /// The layers of table 4.2, skin to bone, as the experiments on them name them.
 [[nodiscard]] std::vector<std::string> table_layer_names();
-
-/// A curve of a trace over time.
-template <class F>
-[[nodiscard]] PlotSeries plot_rows(const std::vector<NeedleRow>& rows, std::string label, F value) {
-  PlotSeries series;
-  series.label = std::move(label);
-  for (const NeedleRow& row : rows) {
-    series.x.push_back(row.time);
-    series.y.push_back(value(row));
-  }
-  return series;
-}
 
 /// Resistance as the source plots it: N, positive against insertion, negative on withdrawal.
 [[nodiscard]] inline double resistance(const NeedleRow& row) noexcept {

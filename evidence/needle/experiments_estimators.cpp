@@ -51,6 +51,20 @@ EstimatorResult rate_estimator(VelocityEstimator& estimator, double rate, double
   return result;
 }
 
+using NamedEstimator = std::pair<std::string, std::unique_ptr<VelocityEstimator>>;
+
+std::vector<NamedEstimator> make_estimators(double dt) {
+  std::vector<NamedEstimator> all;
+  all.emplace_back("difference 1 tick", std::make_unique<WindowedDifference>(dt, dt));
+  all.emplace_back("difference 10 ms", std::make_unique<WindowedDifference>(0.01, dt));
+  all.emplace_back("Taylor order 1 5 ms", std::make_unique<TaylorEstimator>(1, 0.005, dt));
+  all.emplace_back("Taylor order 2 5 ms", std::make_unique<TaylorEstimator>(2, 0.005, dt));
+  all.emplace_back("Taylor order 3 5 ms", std::make_unique<TaylorEstimator>(3, 0.005, dt));
+  all.emplace_back("Levant 1 m/s2", std::make_unique<LevantDifferentiator>(1, dt));
+  all.emplace_back("Levant 10 m/s2", std::make_unique<LevantDifferentiator>(10, dt));
+  return all;
+}
+
 }  // namespace
 
 Experiment run_velocity_estimators(const ExperimentOptions& /*options*/,
@@ -58,38 +72,26 @@ Experiment run_velocity_estimators(const ExperimentOptions& /*options*/,
   Experiment out;
   out.title = "Velocity estimators on a 1 Hz, 10 mm sine: noise and lag by encoder step and rate";
   out.source = "[Alamilla2020] section 2.1.2, which names them without figures";
-  out.table.header = {"estimator", "rate_hz", "encoder_um", "noise_mm_s", "lag_ms"};
+  TextTable table{{"estimator", "rate_hz", "encoder_um", "noise_mm_s", "lag_ms"}, {}};
   std::vector<PlotPanel> panels;
-  double window_lag = 0;
-  double raw_noise = 0;
-  double window_noise = 0;
+  EstimatorResult raw;
+  EstimatorResult window;
   for (const double rate : {1000.0, 10000.0}) {
-    const double dt = 1 / rate;
     std::vector<PlotSeries> clouds;
     for (const double encoder : {10e-6, 55e-6}) {
-      std::vector<std::pair<std::string, std::unique_ptr<VelocityEstimator>>> all;
-      all.emplace_back("difference 1 tick", std::make_unique<WindowedDifference>(dt, dt));
-      all.emplace_back("difference 10 ms", std::make_unique<WindowedDifference>(0.01, dt));
-      all.emplace_back("Taylor order 1 5 ms", std::make_unique<TaylorEstimator>(1, 0.005, dt));
-      all.emplace_back("Taylor order 2 5 ms", std::make_unique<TaylorEstimator>(2, 0.005, dt));
-      all.emplace_back("Taylor order 3 5 ms", std::make_unique<TaylorEstimator>(3, 0.005, dt));
-      all.emplace_back("Levant 1 m/s2", std::make_unique<LevantDifferentiator>(1, dt));
-      all.emplace_back("Levant 10 m/s2", std::make_unique<LevantDifferentiator>(10, dt));
+      const auto all = make_estimators(1 / rate);
       for (std::size_t k = 0; k < all.size(); ++k) {
         const std::string& label = all[k].first;
-        auto& estimator = all[k].second;
         if (clouds.size() <= k)
           clouds.push_back({label, {}, {}, "points ps 1.5 pt " + std::to_string(k + 4)});
-        const EstimatorResult r = rate_estimator(*estimator, rate, encoder);
-        out.table.rows.push_back({label, to_csv(rate), to_csv(encoder * 1e6),
-                                  to_csv(r.noise / kMillimetre), to_csv(r.lag * 1e3)});
+        const EstimatorResult r = rate_estimator(*all[k].second, rate, encoder);
+        table.rows.push_back({label, to_csv(rate), to_csv(encoder * 1e6),
+                              to_csv(r.noise / kMillimetre), to_csv(r.lag * 1e3)});
         clouds[k].x.push_back(r.lag * 1e3);
         clouds[k].y.push_back(r.noise / kMillimetre);
         if (rate != 1000 || encoder != 55e-6) continue;
-        if (label == "difference 1 tick") raw_noise = r.noise;
-        if (label != "difference 10 ms") continue;
-        window_noise = r.noise;
-        window_lag = r.lag;
+        if (label == "difference 1 tick") raw = r;
+        if (label == "difference 10 ms") window = r;
       }
     }
     panels.push_back({"lag (ms) at " + to_csv(rate / 1000) +
@@ -97,11 +99,13 @@ Experiment run_velocity_estimators(const ExperimentOptions& /*options*/,
                       "noise (mm/s)", std::move(clouds), true});
   }
   out.claims = {
-      claim_near(ClaimKind::input, "lag of a 10 ms difference", window_lag * 1e3, 5, 0.05, "ms"),
-      claim_at_most(ClaimKind::input, "its noise over that of a 1 ms difference",
-                    window_noise / raw_noise, 0.2, "")};
-  out.plot.title = out.title;
-  out.plot.panels = std::move(panels);
+      claim_near({ClaimKind::input, "half the window"}, "lag of a 10 ms difference",
+                 window.lag * 1e3, 5, 0.05, "ms"),
+      claim_at_most({ClaimKind::input, "a tenth, by the window's length"},
+                    "its noise over that of a 1 ms difference", window.noise / raw.noise, 0.2, "")};
+  out.assumed = {"the sine, the encoder steps, the estimators' windows and bounds"};
+  out.tables = {{"", std::move(table)}};
+  out.plots = {{"", {out.title, std::move(panels)}}};
   return out;
 }
 

@@ -29,7 +29,13 @@ void add(std::string& line, const Vec3& v) {
   for (const double c : v) add(line, c);
 }
 
-std::string line_of(const NeedleRow& row, std::span<const std::string> region_names) {
+}  // namespace
+
+std::string needle_csv_header() {
+  return kHeader;
+}
+
+std::string needle_csv_line(const NeedleRow& row, std::span<const std::string> region_names) {
   const NeedleForces& f = row.forces;
   const Eigen::Quaterniond q(row.X_JN.linear());
   std::string line;
@@ -59,8 +65,6 @@ std::string line_of(const NeedleRow& row, std::span<const std::string> region_na
   line += std::to_string(row.events) + ',' + std::to_string(row.status);
   return line;
 }
-
-}  // namespace
 
 NeedleRow make_needle_row(double time, const Pose& X_JN, const RenderedNeedle& rendered,
                           const NeedleModel& model) {
@@ -92,7 +96,7 @@ Result<void> write_needle_csv(const std::filesystem::path& file, std::span<const
   std::ofstream out(file, std::ios::binary);
   out << kHeader << more.header << '\n';
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    std::string line = line_of(rows[i], region_names);
+    std::string line = needle_csv_line(rows[i], region_names);
     if (more.append) more.append(i, line);
     out << line << '\n';
   }

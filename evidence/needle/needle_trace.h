@@ -43,6 +43,12 @@ struct NeedleRow {
 [[nodiscard]] NeedleRow make_needle_row(double time, const Pose& X_JN,
                                         const RenderedNeedle& rendered, const NeedleModel& model);
 
+/// The header of a trace and one of its rows, comma separated, without an end of line; `layer` is
+/// the name in `region_names`, by region. The same row gives the same bytes in any locale.
+[[nodiscard]] std::string needle_csv_header();
+[[nodiscard]] std::string needle_csv_line(const NeedleRow& row,
+                                          std::span<const std::string> region_names);
+
 /// Columns that a caller adds behind the needle's own.
 struct MoreColumns {
   std::string_view header;  ///< ",name_unit,..."
@@ -50,8 +56,7 @@ struct MoreColumns {
   std::function<void(std::size_t i, std::string& line)> append;
 };
 
-/// Writes rows as CSV: a header line with units, then one line a row; `layer` is the name in
-/// `region_names`, by region. The same rows give the same bytes in any locale. Errors: unreadable.
+/// Writes rows as CSV: a header line with units, then one line a row. Errors: unreadable.
 [[nodiscard]] Result<void> write_needle_csv(const std::filesystem::path& file,
                                             std::span<const NeedleRow> rows,
                                             std::span<const std::string> region_names,

@@ -5,14 +5,11 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
-#include "artus/core/csv.h"
 #include "artus/core/result.h"
-#include "artus/evidence/claim.h"
-#include "artus/evidence/plot.h"
 #include "artus/evidence/probe/probe_experiment_bench.h"
+#include "artus/evidence/report.h"
 
 namespace artus {
 
@@ -36,26 +33,15 @@ struct ProbeObservation {
   std::string unit;
   std::string difference;  ///< in words and figures
   bool reproduced = false;
-  std::string cause;  ///< of a difference; empty when there is none
-  /// What a parameter of the mock was fitted to this figure; empty: the comparison is independent.
-  std::string fitted;
+  ClaimBasis basis{ClaimKind::independent};
+  /// Of a refuted one: the other values with which a rerun reproduces it, or that none does.
+  std::string cause;
 };
 
-/// A plot and the file it goes to.
-struct NamedPlot {
-  std::string file;  ///< without folder
-  Plot plot;
-};
-
-/// What a probe experiment gave.
-struct ProbeExperiment {
-  std::string name;
-  std::string title;
+/// What a probe experiment gave. Each observation is one of the claims, too.
+struct ProbeExperiment : EvidenceReport {
   std::vector<ProbeTrace> traces;
-  std::vector<NamedPlot> plots;
   std::vector<ProbeObservation> observations;  ///< published against artus; none in the study
-  std::vector<std::pair<std::string, TextTable>> tables;  ///< with what each shows
-  std::vector<Claim> claims;                              ///< what must hold whatever was published
 };
 
 /// probe-isp, probe-ssp, probe-study.
@@ -65,15 +51,9 @@ struct ProbeExperiment {
 [[nodiscard]] Result<ProbeExperiment> run_probe_experiment(
     std::string_view name, const ProbeExperimentOptions& options = {});
 
-/// Writes <name>-<label>.csv, the plots, <name>-table.csv (observations, or what the study's first
-/// table shows), report.md and verdict.json into `folder` (made when missing). Errors: unreadable,
-/// not_found (gnuplot; all other files are then written all the same).
+/// Writes <name>-<label>.csv and what write_report() does, with its errors, into `folder`; the
+/// first table is that of the observations.
 [[nodiscard]] Result<void> write_probe_experiment(const ProbeExperiment& experiment,
                                                   const std::filesystem::path& folder);
-
-/// Both, and the claims of what must hold.
-[[nodiscard]] Result<std::vector<Claim>> run_and_write_probe_experiment(
-    std::string_view name, const std::filesystem::path& folder,
-    const ProbeExperimentOptions& options = {});
 
 }  // namespace artus

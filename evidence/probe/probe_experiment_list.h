@@ -12,20 +12,4 @@ namespace artus {
 /// Every law that renders a stiffness under every disturbance: which renders tissue best?
 [[nodiscard]] ProbeExperiment run_probe_study(const ProbeExperimentOptions& options);
 
-/// A curve of a trace over time.
-template <class F>
-[[nodiscard]] PlotSeries plot_probe_rows(const std::vector<ProbeRow>& rows, std::string label,
-                                         F value) {
-  PlotSeries series;
-  series.label = std::move(label);
-  for (const ProbeRow& row : rows) {
-    series.x.push_back(row.time);
-    series.y.push_back(value(row));
-  }
-  return series;
-}
-
-/// A number with so many digits after the point, for tables.
-[[nodiscard]] std::string fixed(double value, int digits);
-
 }  // namespace artus

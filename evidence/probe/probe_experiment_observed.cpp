@@ -14,15 +14,16 @@ namespace {
 constexpr double kEnd = PublishedTimes::kEnd;
 constexpr double kPeak = PublishedTimes::kPeak;
 constexpr double kPlateau = PublishedTimes::kPlateau;
-constexpr double kSettle = 1.0;      // s after the load that count as its peak
-constexpr double kStepWindow = 0.5;  // s after a step in which chattering is counted
-constexpr double kChatter = 4;       // turns; an overshoot and its return are 2 to 3
-constexpr double kAbout = 1.2;       // "about" a value: up to a fifth more
-constexpr double kAboutZero = 0.5;   // mm
+constexpr double kSettle = 1.0;          // s after the load that count as its peak
+constexpr double kStepWindow = 0.5;      // s after a step in which chattering is counted
+constexpr double kChatter = 4;           // turns; an overshoot and its return are 2 to 3
+constexpr double kAbout = 1.2;           // "about" a value: up to a fifth more
+constexpr double kAboutZero = 0.5;       // mm
+constexpr double kPneumaticShare = 0.1;  // of a published K_pneu
 
 /// `published_value` as a bound or a value that `artus` may not exceed by more than to `limit`.
 ProbeObservation observe_at_most(std::string what, std::string published, double published_value,
-                                 double artus, double limit, std::string unit, std::string cause) {
+                                 double artus, double limit, std::string unit) {
   ProbeObservation o;
   o.what = std::move(what);
   o.published = std::move(published);
@@ -30,7 +31,6 @@ ProbeObservation observe_at_most(std::string what, std::string published, double
   o.unit = std::move(unit);
   o.reproduced = artus <= limit;
   o.difference = fixed(artus - published_value, 3) + " " + o.unit;
-  if (!o.reproduced) o.cause = std::move(cause);
   return o;
 }
 
@@ -61,32 +61,29 @@ double position_at(const std::vector<ProbeRow>& rows, double time) {
   return row == rows.end() ? rows.back().y : row->y;
 }
 
-constexpr const char* kFrictionCause =
-    "dry friction of 5.2 N holds the rod within 5.2 N / K_cl of where the spring would put it; the "
-    "law compensates friction along the wanted speed only, which is 0";
-constexpr const char* kRingingCause =
-    "the printed gains ring with the mass that rests on the force sensor for longer than half a "
-    "second after a step of the stiffness";
-constexpr const char* kLeakCause =
-    "the centred valve leaks, so holding a load needs a steady opening, which a law without "
-    "integral pays for with an error";
+/// The admittance laws are told the force through a filter that was set by the first of them.
+ClaimBasis basis_of(std::size_t law) {
+  if (law > 0) return ClaimKind::independent;
+  return {ClaimKind::fitted, "the force filter of 2 Hz was chosen so that PID does not ring"};
+}
 
 void observe_isp_errors(const std::vector<ProbeTrace>& traces, std::vector<ProbeObservation>& out) {
   const auto laws = published_laws();
-  for (std::size_t i = 0; i < traces.size(); ++i) {
-    const bool backstepping = i >= 2;
+  for (std::size_t i = 0; i < laws.size(); ++i) {
+    const bool backstepping = i == 2;
     const auto& rows = traces[i].rows;
     const std::string label = traces[i].label;
-    const double load_time = laws[std::min(i, laws.size() - 1)].load_time;
+    const double load_time = laws[i].load_time;
     const ProbeWindow moving = measure_window(rows, load_time + kSettle, kPeak);
     const ProbeWindow steady = measure_window(rows, kEnd - 2, kEnd);
     const double limit = backstepping ? 5 : 3;
-    const char* cause = backstepping ? kFrictionCause : kLeakCause;
     out.push_back(observe_at_most(label + ": largest error in the transition",
                                   "about " + fixed(limit, 0) + " mm at most", limit,
-                                  1e3 * moving.largest_error, kAbout * limit, "mm", cause));
+                                  1e3 * moving.largest_error, kAbout * limit, "mm"));
+    out.back().basis = basis_of(i);
     out.push_back(observe_at_most(label + ": error in steady state", "about 0 mm", 0,
-                                  1e3 * steady.mean_error, kAboutZero, "mm", cause));
+                                  1e3 * steady.mean_error, kAboutZero, "mm"));
+    out.back().basis = basis_of(i);
   }
 }
 
@@ -115,7 +112,7 @@ void observe_voltages(const std::vector<ProbeTrace>& traces, bool steps,
         traces[i].label + ": control voltage after the first peak" + (steps ? ", off steps" : ""),
         4.4, 5.3, w.lowest_voltage, w.highest_voltage, "V");
     o.reproduced = w.lowest_voltage >= 4.4 && w.highest_voltage <= 5.3;
-    if (!o.reproduced) o.cause = kRingingCause;
+    o.basis = basis_of(i);
     out.push_back(std::move(o));
     const double travel = measure_window(traces[i].rows, start, kEnd).voltage_travel;
     if (travel < smoothest) {
@@ -130,6 +127,7 @@ void observe_voltages(const std::vector<ProbeTrace>& traces, bool steps,
   o.unit = "V/s of travel";
   o.difference = label == "ipc" ? "none" : "another law";
   o.reproduced = label == "ipc";
+  o.basis = basis_of(0);
   out.push_back(std::move(o));
 }
 
@@ -151,7 +149,7 @@ void observe_isp_motion(const std::vector<ProbeTrace>& traces, std::vector<Probe
   faster.reproduced = settling[2] > std::max(settling[0], settling[1]);
   faster.difference = fixed(settling[2] - std::max(settling[0], settling[1]), 2) +
                       " s after the slower of them; published without figures";
-  if (!faster.reproduced) faster.cause = kLeakCause;
+  faster.basis = basis_of(0);
   out.push_back(std::move(faster));
 
   ProbeObservation outward;
@@ -166,21 +164,21 @@ void observe_isp_motion(const std::vector<ProbeTrace>& traces, std::vector<Probe
 
 void observe_pneumatic(const std::vector<ProbeTrace>& traces, double low, double high,
                        std::vector<ProbeObservation>& out) {
-  const double from = published_laws()[2].load_time;
-  for (const std::size_t i : {2UL, 3UL}) {
-    const ProbeWindow w = measure_window(traces[i].rows, from, kEnd);
-    ProbeObservation o = observe_range(traces[i].label + ": K_pneu", low, high, w.lowest_pneumatic,
-                                       w.highest_pneumatic, "N/m");
-    o.fitted = "supply (4 bar as absolute) to the 2100 N/m at rest; the high end is independent";
-    o.reproduced = std::abs(w.lowest_pneumatic - low) <= 0.1 * low &&
-                   std::abs(w.highest_pneumatic - high) <= 0.1 * high;
-    if (!o.reproduced) {
-      o.cause =
-          "K_pneu grows with the rod's way in, which dry friction and the unprinted profile "
-          "set; compare the run without dry friction";
-    }
+  const ProbeWindow w = measure_window(traces[2].rows, published_laws()[2].load_time, kEnd);
+  const auto add = [&](const char* end, double published, double artus, ClaimBasis basis) {
+    ProbeObservation o;
+    o.what = traces[2].label + ": " + end + " K_pneu";
+    o.published = fixed(published, 0, "N/m");
+    o.artus = artus;
+    o.unit = "N/m";
+    o.difference = fixed(artus - published, 0, "N/m");
+    o.reproduced = std::abs(artus - published) <= kPneumaticShare * published;
+    o.basis = std::move(basis);
     out.push_back(std::move(o));
-  }
+  };
+  add("lowest", low, w.lowest_pneumatic,
+      {ClaimKind::fitted, "4 bar of supply were read as absolute by the 2100 N/m at rest"});
+  add("highest", high, w.highest_pneumatic, ClaimKind::independent);
 }
 
 /// How often the voltage turns by more than 0.2 V within half a second of a step, mean of the
@@ -234,7 +232,7 @@ void observe_ssp_errors(const std::vector<ProbeTrace>& traces, std::vector<Probe
                 fixed(1e3 * error[0], 2) + ", ipc " + fixed(1e3 * error[1], 2) + " mm)";
   larger.reproduced = larger.artus > 0 && larger.artus < 30;
   larger.difference = fixed(larger.artus - 10, 0) + " percentage points";
-  if (!larger.reproduced) larger.cause = kFrictionCause;
+  larger.basis = basis_of(0);
   out.push_back(std::move(larger));
 }
 
@@ -251,15 +249,36 @@ void observe_chatter(const std::vector<ProbeTrace>& traces, std::vector<ProbeObs
     o.reproduced = should == (turns > kChatter);
     o.difference =
         "published without figures; called chatter above " + fixed(kChatter, 0) + " turns";
-    if (!o.reproduced) {
-      o.cause = should ? "the virtual mass (3.12) smooths the step of x_c"
-                       : "the step changes C_1 and C_2 at once, and with them z_2 and z_3";
-    }
+    o.basis = basis_of(i);
     out.push_back(std::move(o));
   }
 }
 
 }  // namespace
+
+void find_causes(const std::vector<ProbeRerun>& reruns, std::vector<ProbeObservation>& base) {
+  for (std::size_t i = 0; i < base.size(); ++i) {
+    if (base[i].reproduced) continue;
+    std::string with;
+    for (const ProbeRerun& rerun : reruns) {
+      const ProbeObservation& o = rerun.observations[i];
+      if (!o.reproduced) continue;
+      with += (with.empty() ? "reproduced with " : "; with ") + rerun.what + ": " +
+              fixed(o.artus, 2) + " " + o.unit;
+    }
+    if (reruns.empty())
+      base[i].cause = "not looked for";
+    else
+      base[i].cause = with.empty() ? "none of the other values reproduces it" : with;
+  }
+}
+
+std::vector<Claim> claim_observations(const std::vector<ProbeObservation>& observations) {
+  std::vector<Claim> claims;
+  for (const ProbeObservation& o : observations)
+    claims.push_back({o.what, o.artus, "published: " + o.published, o.reproduced, o.basis});
+  return claims;
+}
 
 std::array<PublishedLaw, 3> published_laws() {
   return {{{ControlLawKind::admittance_pid, "pid", 10, 500, 1000, {500, 1000, 500, 800}},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 #include <array>
+#include <string>
 #include <vector>
 
 #include "artus/evidence/probe/probe_experiment.h"
@@ -26,8 +27,21 @@ struct PublishedTimes {
 };
 
 /// The published statements beside what the traces show: one trace per law in the order of
-/// published_laws(), then backstepping without dry friction. Source [Alamilla2020] section 3.3.2.
+/// published_laws(); more are not looked at. Source [Alamilla2020] section 3.3.2.
 [[nodiscard]] std::vector<ProbeObservation> observe_isp(const std::vector<ProbeTrace>& traces);
 [[nodiscard]] std::vector<ProbeObservation> observe_ssp(const std::vector<ProbeTrace>& traces);
+
+/// The same observations with another value of something.
+struct ProbeRerun {
+  std::string what;
+  std::vector<ProbeObservation> observations;
+};
+
+/// Sets the cause of each refuted observation: with which other values it is reproduced.
+void find_causes(const std::vector<ProbeRerun>& reruns, std::vector<ProbeObservation>& base);
+
+/// Each as a claim that holds when it is reproduced.
+[[nodiscard]] std::vector<Claim> claim_observations(
+    const std::vector<ProbeObservation>& observations);
 
 }  // namespace artus

@@ -264,16 +264,6 @@ void measure_supply_drop(LawResult& r, const ProbeExperimentOptions& options) {
   r.drop_error = measure_window(run_probe_scenario(s), 4, 5).mean_error;
 }
 
-PlotSeries push_curve(const std::vector<ProbeRow>& rows, const std::string& label) {
-  PlotSeries series;
-  series.label = label;
-  for (const ProbeRow& row : rows) {
-    series.x.push_back(-1e3 * row.y);
-    series.y.push_back(row.force);
-  }
-  return series;
-}
-
 std::string percent(double share) {
   return fixed(100 * share, 1);
 }
@@ -364,6 +354,62 @@ Plot make_plot(const std::string& title, const std::string& x_label, const std::
   return plot;
 }
 
+/// What the study collects of every law and cylinder.
+struct Study {
+  std::vector<LawResult> results;
+  TextTable disturbances = make_disturbance_table();
+  TextTable rendering = make_rendering_table();
+  Plot push =
+      make_plot("probe-study: slow push at 1000 N/m", "rod pushed in (mm)", "force (N)", 420);
+  Plot release =
+      make_plot("probe-study: the hand lets go at 3 s", "time (s)", "position (mm)", 360);
+  Plot steps = make_plot("probe-study: load steps 6, 10, 6, 0 N", "time (s)", "position (mm)", 360);
+};
+
+/// Runs one law with the cylinder `i` of kDryFrictions.
+void study_law(ControlLawKind law, std::size_t i, const ProbeExperimentOptions& options,
+               Study& study) {
+  LawResult r;
+  r.law = law;
+  r.dry_friction = kDryFrictions[i];
+  const std::string label = to_string(law);
+  const auto position = [](const ProbeRow& row) {
+    return 1e3 * row.y;
+  };
+  std::vector<ProbeRow> rows;
+  measure_load_steps(r, options, rows);
+  add_curve(study.steps.panels[i], law, plot_rows(rows, label, position));
+  measure_push(r, options, rows);
+  add_curve(study.push.panels[i], law,
+            plot_curve(
+                rows, label, [](const ProbeRow& row) { return -1e3 * row.y; },
+                [](const ProbeRow& row) { return row.force; }));
+  measure_release(r, options, rows);
+  add_curve(study.release.panels[i], law, plot_rows(rows, label, position));
+  measure_springs(r, options);
+  measure_tissues(r, options);
+  measure_noise(r, options);
+  measure_lost_sensor(r, options);
+  measure_supply_drop(r, options);
+  study.disturbances.rows.push_back(disturbance_cells(r));
+  study.rendering.rows.push_back(rendering_cells(r));
+  study.results.push_back(r);
+}
+
+std::vector<Claim> make_claims(const std::vector<LawResult>& results) {
+  std::vector<Claim> claims;
+  for (const LawResult& r : results) {
+    const std::string name = std::string(to_string(r.law)) + ", " + fixed(r.dry_friction, 1, "N: ");
+    if (!needs_force_sensor(r.law))
+      claims.push_back(claim_near({ClaimKind::input, "C_1 and C_2 are set for it, (3.40)"},
+                                  name + "slope of a slow push", r.slope, kStiffness, 0.05, "N/m"));
+    claims.push_back(claim_at_most({ClaimKind::fitted, "the bound is artus' own"},
+                                   name + "speed after loss of the force sensor", r.lost_speed, 0.2,
+                                   "m/s"));
+  }
+  return claims;
+}
+
 }  // namespace
 
 ProbeExperiment run_probe_study(const ProbeExperimentOptions& options) {
@@ -374,55 +420,24 @@ ProbeExperiment run_probe_study(const ProbeExperimentOptions& options) {
       "friction and with little, under load steps, a slow push, a hand that lets go, four times "
       "the sensor noise, loss of the force sensor, and supply falling from 4 to 3 bar, all at 1000 "
       "N/m; then under a pressing hand, from soft to hard springs and on tissue.";
-  TextTable disturbances = make_disturbance_table();
-  TextTable rendering = make_rendering_table();
-  Plot push =
-      make_plot("probe-study: slow push at 1000 N/m", "rod pushed in (mm)", "force (N)", 420);
-  Plot release =
-      make_plot("probe-study: the hand lets go at 3 s", "time (s)", "position (mm)", 360);
-  Plot steps = make_plot("probe-study: load steps 6, 10, 6, 0 N", "time (s)", "position (mm)", 360);
-  const auto position = [](const ProbeRow& row) {
-    return 1e3 * row.y;
-  };
-  std::vector<LawResult> results;
+  Study study;
   for (std::size_t i = 0; i < kDryFrictions.size(); ++i) {
-    for (const ControlLawKind law : kLaws) {
-      LawResult r;
-      r.law = law;
-      r.dry_friction = kDryFrictions[i];
-      const std::string label = to_string(law);
-      std::vector<ProbeRow> rows;
-      measure_load_steps(r, options, rows);
-      add_curve(steps.panels[i], law, plot_probe_rows(rows, label, position));
-      measure_push(r, options, rows);
-      add_curve(push.panels[i], law, push_curve(rows, label));
-      measure_release(r, options, rows);
-      add_curve(release.panels[i], law, plot_probe_rows(rows, label, position));
-      measure_springs(r, options);
-      measure_tissues(r, options);
-      measure_noise(r, options);
-      measure_lost_sensor(r, options);
-      measure_supply_drop(r, options);
-      disturbances.rows.push_back(disturbance_cells(r));
-      rendering.rows.push_back(rendering_cells(r));
-      const std::string name = label + ", " + fixed(r.dry_friction, 1) + " N: ";
-      if (!needs_force_sensor(law)) {
-        e.claims.push_back(claim_near(ClaimKind::independent, name + "slope of a slow push",
-                                      r.slope, kStiffness, 0.05, "N/m"));
-      }
-      e.claims.push_back(claim_at_most(ClaimKind::independent,
-                                       name + "speed after loss of the force sensor", r.lost_speed,
-                                       0.2, "m/s"));
-      results.push_back(r);
-    }
-    push.panels[i].series.push_back({"ideal spring", {0, 14}, {0, 14}});
+    for (const ControlLawKind law : kLaws) study_law(law, i, options, study);
+    study.push.panels[i].series.push_back({"ideal spring", {0, 14}, {0, 14}});
   }
-  e.tables = {{"Disturbances at 1000 N/m:", disturbances},
-              {"Error of the felt force under a pressing hand, rms over rms:", rendering},
-              {"The answer:", make_answer_table(results)}};
-  e.plots = {{"probe-study-push.png", push},
-             {"probe-study-release.png", release},
-             {"probe-study-steps.png", steps}};
+  e.claims = make_claims(study.results);
+  e.tables = {
+      {"Disturbances at 1000 N/m:", std::move(study.disturbances)},
+      {"Error of the felt force under a pressing hand, rms over rms:", std::move(study.rendering)},
+      {"The answer:", make_answer_table(study.results)}};
+  e.plots = {{"probe-study-push.png", std::move(study.push)},
+             {"probe-study-release.png", std::move(study.release)},
+             {"probe-study-steps.png", std::move(study.steps)}};
+  e.assumed = {"a low-friction seal of 0.5 N",
+               "the pressing hand, 500 N/m and 5 N s/m, 20 mm at 0.5 Hz",
+               "the layers under the probe; their moduli are those of the tissue library",
+               "the sizes of all disturbances; 0.2 mm, within which a step has settled",
+               "the values that probe-isp lists"};
   return e;
 }
 

@@ -71,6 +71,9 @@ class NeedleContact {
   /// Forgets the insertion. A tip found inside at the next update is taken as resting there.
   ARTUS_REALTIME void reset() noexcept;
 
+  /// A tick in which nothing is known: all stays as it is, and nothing happens.
+  ARTUS_REALTIME void hold() noexcept { events_ = 0; }
+
   /// The line whose tissue intervals update needs, frame J. Requires: a finite, rigid pose.
   [[nodiscard]] ARTUS_REALTIME Segment query_segment(const Pose& X_JN) const noexcept;
 

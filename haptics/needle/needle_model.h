@@ -36,6 +36,8 @@ class NeedleModel {
   [[nodiscard]] ARTUS_REALTIME Segment query_segment(const Pose& X_JN) const noexcept {
     return contact_.query_segment(X_JN);
   }
+  /// A tick in which nothing is known: the forces stay.
+  ARTUS_REALTIME void hold() noexcept { contact_.hold(); }
   /// Requires: a finite, rigid pose; the intervals of query_segment(X_JN).
   ARTUS_REALTIME const NeedleForces& step(const Pose& X_JN,
                                           std::span<const TissueInterval> intervals) noexcept;

@@ -7,37 +7,8 @@ namespace artus {
 
 NeedleRenderer::NeedleRenderer(std::shared_ptr<const Scene> scene, LayerTable table,
                                const NeedleRendererParams& params)
-    : scene_(std::move(scene)),
-      table_(std::move(table)),
-      dt_(1 / params.rate_hz),
-      model_(params.needle, table_, dt_),
-      input_guard_(params.guard, dt_),
-      output_guard_(params.guard, params.device, dt_),
-      passivity_(params.passivity, dt_) {
+    : scene_(std::move(scene)), tick_(std::move(table), params) {
   ARTUS_REQUIRE(scene_ != nullptr, "there must be a scene");
-  ARTUS_REQUIRE(params.rate_hz >= 100 && params.rate_hz <= 20000,
-                "the rate must be 100 to 20000 Hz");
-}
-
-const RenderedNeedle& NeedleRenderer::step(const TimedPose& pose) noexcept {
-  rendered_.status = 0;
-  const std::uint32_t faults = input_guard_.check(pose);
-  if (faults == 0) {
-    const QueryCount count = scene_->find_intervals(model_.query_segment(pose.X_JN), intervals_);
-    rendered_.forces =
-        model_.step(pose.X_JN, std::span<const TissueInterval>(intervals_.data(), count.size));
-  } else {
-    model_.reset();
-    rendered_.forces = NeedleForces{};
-    passivity_.pause();
-  }
-  Wrench wanted = rendered_.forces.total;
-  if (faults == 0) wanted.force = passivity_.step(pose.X_JN.translation(), wanted.force);
-  rendered_.command = output_guard_.apply(wanted, faults, rendered_.status);
-  passivity_.observe(rendered_.command.force);
-  rendered_.energy_to_hand = passivity_.energy_to_hand();
-  if ((rendered_.status & TickStatus::kFaults) != 0 && faults == 0) model_.reset();
-  return rendered_;
 }
 
 Result<std::unique_ptr<NeedleRenderer>> make_needle_renderer(std::shared_ptr<const Scene> scene,

@@ -6,20 +6,16 @@
 #include <limits>
 #include <utility>
 
+#include "artus/core/rigid.h"
+
 namespace artus {
 namespace {
 
 constexpr double kNoSkin = -std::numeric_limits<double>::infinity();
-/// How far a pose's rotation may be from orthonormal.
-constexpr double kRigidTolerance = 1e-6;
 
 std::uint32_t check_pose(const Pose& X_JP) noexcept {
   if (!X_JP.matrix().allFinite()) return TickStatus::kNotFinite;
-  const Eigen::Matrix3d r = X_JP.linear();
-  const bool rigid =
-      (r.transpose() * r - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < kRigidTolerance &&
-      r.determinant() > 0;
-  return rigid ? TickStatus::kOk : TickStatus::kNotRigid;
+  return is_rigid(X_JP) ? TickStatus::kOk : TickStatus::kNotRigid;
 }
 
 }  // namespace

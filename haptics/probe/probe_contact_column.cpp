@@ -52,6 +52,7 @@ ColumnResponse compress_column(const ColumnParams& params, std::span<const Colum
   for (int i = 0; i < kMaxSteps; ++i) {
     const Compression now = compress(params, layers, pressure);
     const double step = (indentation - now.depth) / now.slope;
+    ARTUS_ASSERT(step >= -1e-9 * pressure);
     pressure += step;
     if (step <= kTolerance * pressure) break;
   }

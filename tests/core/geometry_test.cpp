@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/core/geometry.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
+
+#include "artus/core/rigid.h"
 
 namespace artus {
 namespace {
@@ -20,6 +24,20 @@ TEST(MakePose, IsARotationWithZAlongTheRequestedAxis) {
 TEST(MakePose, AParallelHintStillGivesARotation) {
   const Pose pose = make_pose(Vec3::Zero(), Vec3(0, 0, 2), Vec3(0, 0, 1));
   EXPECT_NEAR(pose.linear().determinant(), 1, 1e-12);
+}
+
+TEST(IsRigid, RefusesWhatNoBodyCanDo) {
+  const Pose pose = make_pose(Vec3(1, 2, 3), Vec3(1, 1, 0), Vec3::UnitZ());
+  EXPECT_TRUE(is_rigid(pose));
+  Pose stretched = pose;
+  stretched.linear() *= 1 + 1e-5;
+  EXPECT_FALSE(is_rigid(stretched));
+  Pose mirrored = pose;
+  mirrored.linear().col(0) *= -1;
+  EXPECT_FALSE(is_rigid(mirrored));
+  Pose lost = pose;
+  lost.translation().y() = std::nan("");
+  EXPECT_FALSE(is_rigid(lost));
 }
 
 }  // namespace

@@ -122,8 +122,8 @@ TEST(AppendNumber, IsTheShortestThatReadsBack) {
 }
 
 TEST(Quoted, HidesWhatATerminalWouldObeyAndShortensTheRest) {
-  EXPECT_EQ(quoted("a\x1b[31m"), "'a?[31m'");
-  EXPECT_EQ(quoted(std::string(50, 'x')), "'" + std::string(40, 'x') + "...'");
+  EXPECT_EQ(artus::quoted("a\x1b[31m"), "'a?[31m'");
+  EXPECT_EQ(artus::quoted(std::string(50, 'x')), "'" + std::string(40, 'x') + "...'");
 }
 
 class TextFiles : public test::TemporaryFolder {};

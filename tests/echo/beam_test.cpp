@@ -94,13 +94,13 @@ TEST(Beam, ThinsOutWhereNeighboursDriftApart) {
     spread.note(l, bent_path(scanline(t, l).origin.x(), (l - middle) * t.pitch() / 20e-3));
   std::vector<float> re(1024, 1.0F);
   std::vector<float> im(1024, 1.0F);
-  spread.apply(middle, re, im);
+  spread.apply(middle, {re, im});
   EXPECT_EQ(re[200], 1.0F);  // above the bend
   EXPECT_NEAR(re[768], 0.5, 0.02);
   EXPECT_EQ(re, im);
   for (int l = 0; l < t.n_lines; ++l) spread.note(l, bent_path(scanline(t, l).origin.x(), 0.1));
   std::vector<float> parallel(1024, 1.0F);
-  spread.apply(middle, parallel, im);
+  spread.apply(middle, {parallel, im});
   EXPECT_GT(*std::min_element(parallel.begin(), parallel.end()), 0.999F);
 }
 

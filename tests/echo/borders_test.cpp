@@ -190,20 +190,76 @@ TEST(Borders, ACurvedProbeCannotBeCompounded) {
                std::invalid_argument);
 }
 
-TEST(Borders, WhatIsNotFiniteIsRefused) {
+/// Ways in which a pose that comes from elsewhere is none.
+std::vector<Pose> impossible_poses(const Pose& good) {
+  std::vector<Pose> poses(8, good);
+  poses[0].translation().y() = kNan;
+  poses[1].translation().x() = kInfinity;
+  poses[2].linear()(0, 0) = kNan;
+  poses[3].linear() *= 1.01;
+  poses[4].linear().col(0) *= -1;  // a mirror
+  poses[5].linear().setZero();
+  poses[6].translation().z() = 1e4;
+  poses[7].translation().z() = -1e300;
+  return poses;
+}
+
+TEST(Borders, AProbePoseThatIsNoneGivesABlackFrameThatSaysSo) {
+  ImageSettings settings;
+  settings.gain_db = 100;  // even silence would show
+  settings.dynamic_range_db = 150;
+  settings.persistence = 0.9;
+  settings.doppler = true;
+  Renderer renderer(test::make_block_scene(kLayers), Transducer{}, settings);
+  const Pose X_JP = test::probe_at();
+  const NeedleView needle = test::needle_at(X_JP, Vec3(0, 0, 10e-3), 0.3);
+  const Frame before = renderer.render(X_JP, needle);
+  for (const Pose& bad : impossible_poses(X_JP)) {
+    const Frame& frame = renderer.render(bad, needle);
+    EXPECT_EQ(frame.status, FrameStatus::kBadProbe);
+    EXPECT_EQ(frame.image.size(), before.image.size());
+    EXPECT_EQ(*std::max_element(frame.image.begin(), frame.image.end()), 0);
+    EXPECT_EQ(*std::max_element(frame.envelope.begin(), frame.envelope.end()), 0);
+    EXPECT_EQ(*std::max_element(frame.contact.begin(), frame.contact.end()), 0);
+    EXPECT_TRUE(std::all_of(frame.velocity.begin(), frame.velocity.end(),
+                            [](float v) { return std::isnan(v); }));
+    EXPECT_FALSE(frame.tip_shown.has_value());
+  }
+  // and nothing of it stays: the next image is the first one's again
+  const Frame& after = renderer.render(X_JP, needle);
+  EXPECT_EQ(after.status, FrameStatus::kOk);
+  EXPECT_EQ(after.image, before.image);
+  EXPECT_EQ(after.envelope, before.envelope);
+}
+
+TEST(Borders, ANeedlePoseThatIsNoneGivesTheFrameWithoutIt) {
   Renderer renderer(test::make_block_scene(kLayers), Transducer{}, ImageSettings{});
   const Pose X_JP = test::probe_at();
-  NeedleView needle = test::needle_at(X_JP, Vec3(0, 0, 10e-3), 0.3);
-  needle.v_JN.x() = kInfinity;
-  EXPECT_THROW(renderer.render(X_JP, needle), std::invalid_argument);
-  needle = test::needle_at(X_JP, Vec3(0, 0, 10e-3), 0.3);
-  needle.X_JN.translation().y() = kNan;
-  EXPECT_THROW(renderer.render(X_JP, needle), std::invalid_argument);
+  const Frame without = renderer.render(X_JP);
+  const NeedleView good = test::needle_at(X_JP, Vec3(0, 0, 10e-3), 0.3);
+  std::vector<NeedleView> needles;
+  for (const Pose& bad : impossible_poses(good.X_JN)) {
+    needles.push_back(good);
+    needles.back().X_JN = bad;
+  }
+  needles.push_back(good);
+  needles.back().v_JN.x() = kInfinity;
+  needles.push_back(good);
+  needles.back().shape.outer_diameter = kNan;
+  for (const NeedleView& needle : needles) {
+    const Frame& frame = renderer.render(X_JP, needle);
+    EXPECT_EQ(frame.status, FrameStatus::kBadNeedle);
+    EXPECT_EQ(frame.image, without.image);
+  }
+  EXPECT_EQ(renderer.render(impossible_poses(X_JP)[0], needles[0]).status,
+            FrameStatus::kBadNeedle | FrameStatus::kBadProbe);
+}
+
+TEST(Borders, ReflectorsAndTracksThatAreNotFiniteAreRefused) {
+  Renderer renderer(test::make_block_scene(kLayers), Transducer{}, ImageSettings{});
   EXPECT_THROW(renderer.set_needle_tracks({{Vec3(kNan, 0, 0), Vec3::Zero(), 0.1}}),
                std::invalid_argument);
-  Pose nowhere = X_JP;
-  nowhere.linear()(0, 0) = kNan;
-  EXPECT_THROW(renderer.render(nowhere), std::invalid_argument);
+  EXPECT_THROW(renderer.set_point_reflectors({{Vec3(0, kInfinity, 0), 1}}), std::invalid_argument);
 }
 
 TEST(Borders, OddPosesGiveFiniteFrames) {

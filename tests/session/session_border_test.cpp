@@ -67,9 +67,7 @@ class CountingDevice final : public InputDevice {
 TEST(SessionTick, DoesNotAllocate) {
   if (!test::AllocationCounter::supported()) GTEST_SKIP() << "no allocation counter in this build";
   std::atomic<long> allocations{-1};
-  const Pose X_WP = make_pose(Vec3(0.01, 0, 0), Vec3::UnitZ(), Vec3::UnitX());
-  auto hand =
-      std::make_unique<ScriptedDevice>(make_injection(Vec3::Zero(), Vec3(0, 0, 20e-3), X_WP, 0.06));
+  auto hand = test::make_injecting_hand();
   Session::Options options = plain_options();
   options.recording =
       std::filesystem::temp_directory_path() / ("artus-alloc-" + std::to_string(getpid()) + ".rec");

@@ -184,5 +184,14 @@ TEST(PosReader, AClockFromAnotherTimeIsInvalid) {
   EXPECT_EQ(reader.accept(true, pos, kTick).state, PeerState::invalid);
 }
 
+TEST(SessionParams, TheNeedleHasOneLengthForTheHandAndForThePicture) {
+  SessionParams params;
+  EXPECT_EQ(NeedleShape{}.length, ContactParams{}.needle_length);
+  EXPECT_EQ(NeedleTick{}.needle_length, ContactParams{}.needle_length);
+  EXPECT_EQ(needle_length_of(params), ContactParams{}.needle_length);
+  params.feel.needle_length = 0.05;
+  EXPECT_EQ(needle_length_of(params), 0.05);
+}
+
 }  // namespace
 }  // namespace artus

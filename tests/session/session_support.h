@@ -3,7 +3,7 @@
 #include <array>
 #include <memory>
 
-#include "artus/session/hand_device.h"
+#include "artus/session/injecting_device.h"
 #include "artus/session/session_core.h"
 #include "tests/support/layered_body.h"
 
@@ -32,6 +32,17 @@ inline SessionParams make_small_session() {
   params.image.n_threads = 1;
   params.image_rate = 30;
   return params;
+}
+
+/// A hand that injects at the origin, 20 mm along +z, again and again.
+inline std::unique_ptr<InputDevice> make_injecting_hand() {
+  InjectionPlan plan;
+  plan.X_WP = make_pose(Vec3(0.01, 0, 0), Vec3::UnitZ(), Vec3::UnitX());
+  plan.target = 20e-3;
+  plan.deepest = 20e-3;
+  plan.speed = 0.06;
+  const SessionParams params = make_small_session();
+  return std::make_unique<InjectingDevice>(plan, params.device, params.haptic_rate);
 }
 
 /// A device sample with a needle along +z whose tip is at depth `z`, and a probe at the origin.

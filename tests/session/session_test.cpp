@@ -22,12 +22,6 @@ Session::Options quiet_options() {
   return options;
 }
 
-std::unique_ptr<InputDevice> make_injecting_hand() {
-  const Pose X_WP = make_pose(Vec3(0.01, 0, 0), Vec3::UnitZ(), Vec3::UnitX());
-  return std::make_unique<ScriptedDevice>(
-      make_injection(Vec3::Zero(), Vec3(0, 0, 20e-3), X_WP, 0.06));
-}
-
 template <class Condition>
 bool wait_until(Condition condition) {
   for (int i = 0; i < 2000 && !condition(); ++i)
@@ -37,7 +31,7 @@ bool wait_until(Condition condition) {
 
 TEST(Session, StartsTicksMakesImagesAndStops) {
   auto session = Session::start(test::make_layered_scene(), test::make_small_session(),
-                                make_injecting_hand(), quiet_options());
+                                test::make_injecting_hand(), quiet_options());
   ASSERT_TRUE(session) << session.error().to_string();
   EXPECT_TRUE(wait_until([&] { return (*session)->ticks() > 200 && (*session)->frames() > 3; }));
   HapticSnapshot now;
@@ -50,7 +44,7 @@ TEST(Session, StartsTicksMakesImagesAndStops) {
 
 TEST(Session, AFrozenImageStaysWhileTheHandGoesOn) {
   auto session = Session::start(test::make_layered_scene(), test::make_small_session(),
-                                make_injecting_hand(), quiet_options());
+                                test::make_injecting_hand(), quiet_options());
   ASSERT_TRUE(wait_until([&] { return (*session)->frames() > 1; }));
   (*session)->set_frozen(true);
   std::this_thread::sleep_for(std::chrono::milliseconds(200));
@@ -68,7 +62,7 @@ TEST(Session, ARecordedSessionReplaysToTheSameBytes) {
   {
     Session::Options options = quiet_options();
     options.recording = file;
-    auto session = Session::start(scene, params, make_injecting_hand(), options);
+    auto session = Session::start(scene, params, test::make_injecting_hand(), options);
     ASSERT_TRUE(session) << session.error().to_string();
     ASSERT_TRUE(wait_until([&] { return (*session)->ticks() > 900 && (*session)->frames() > 5; }));
     (*session)->set_paused(true);
@@ -76,10 +70,11 @@ TEST(Session, ARecordedSessionReplaysToTheSameBytes) {
     (*session)->set_paused(false);
     ImageControls controls = controls_of(params);
     controls.gain_db = 6;
+    controls.depth = 35e-3;
     (*session)->set_controls(controls);
     (*session)->reset();
     ASSERT_TRUE(
-        wait_until([&] { return (*session)->ticks() > 1200 && (*session)->frames() > 12; }));
+        wait_until([&] { return (*session)->ticks() > 1200 && (*session)->frames() > 24; }));
   }
   const auto recording = read_recording(file);
   ASSERT_TRUE(recording) << recording.error().to_string();
@@ -122,7 +117,7 @@ TEST(Session, ARecordingKnowsTheLawsItWasFeltBy) {
   {
     Session::Options options = quiet_options();
     options.recording = file;
-    auto session = Session::start(scene, params, make_injecting_hand(), options);
+    auto session = Session::start(scene, params, test::make_injecting_hand(), options);
     ASSERT_TRUE(session) << session.error().to_string();
     ASSERT_TRUE(wait_until([&] { return (*session)->ticks() > 900; }));
   }

@@ -38,8 +38,8 @@ struct BallsJoint {
   BallsJoint(double body_radius, const std::vector<Ball>& balls) {
     file.name = "balls";
     file.filler_name = "filler";
-    file.facet_size = 3e-3;
-    file.facet_distance = 0.2e-3;
+    file.facet_size = 4e-3;
+    file.facet_distance = 0.4e-3;
     file.cell_size = 8e-3;
     file.body.name = "body";
     file.body.tissue = "fat";

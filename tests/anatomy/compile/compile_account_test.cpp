@@ -61,7 +61,7 @@ TEST(MeasureJoint, VolumesAreThoseOfBallsLessTheLensThatTheFirstTakes) {
   EXPECT_NEAR(b.resolved_volume, whole - lens(10 * kMm, 12 * kMm), 0.05 * whole);
 }
 
-TEST(MeasureJoint, CountsPartsTetrahedraAndInterfaces) {
+TEST(MeasureJoint, CountsWhatThereIsAndMeasuresHowFarInterfacesLieFromTheirSurface) {
   const CompileReport report = measured(make_joint());
   std::size_t tetrahedra = 0;
   for (const StructureReport& s : report.structures) tetrahedra += s.tetrahedra;
@@ -70,10 +70,6 @@ TEST(MeasureJoint, CountsPartsTetrahedraAndInterfaces) {
   EXPECT_EQ(report.structures[1].parts, 1U);
   EXPECT_GT(report.interfaces, 0U);
   EXPECT_EQ(report.quality.inverted, 0U);
-}
-
-TEST(MeasureJoint, DistancesAreThoseOfTheInterfacesToTheSurfaceThatShapesThem) {
-  const CompileReport report = measured(make_joint());
   const DistanceStatistics& d = report.structures[1].distance;
   EXPECT_GT(d.mean, 0.1 * kMm) << "steps of a cube of cells";
   EXPECT_LT(d.mean, 1 * kMm);

@@ -8,6 +8,7 @@
 
 #include <gmock/gmock.h>
 
+#include "artus/anatomy/surfaces/surface_io_formats.h"
 #include "artus/core/text_file.h"
 #include "tests/anatomy/surfaces/surface_samples.h"
 
@@ -48,6 +49,27 @@ TEST(SurfaceIo, EveryFormatGivesTheMeshBack) {
     EXPECT_EQ(back->triangles.size(), 12U) << name;
     EXPECT_NEAR(signed_volume(*back), 8e-6, 1e-11) << name;
   }
+}
+
+TEST(SurfaceFormats, TextAndPlyKeepEveryBitOfACoordinate) {
+  SurfaceMesh mesh = make_cube(Vec3(0.1, -0.2, 1.3) / 3, 0.01 / 7);
+  const auto expect_same = [&mesh](const Result<SurfaceMesh>& back) {
+    ASSERT_TRUE(back) << back.error().to_string();
+    EXPECT_EQ(back->vertices, mesh.vertices);
+    EXPECT_EQ(back->triangles, mesh.triangles);
+  };
+  expect_same(parse_ply(format_ply(mesh, 1), "a.ply"));
+  expect_same(parse_obj(format_obj(mesh, 1), "a.obj"));
+  expect_same(parse_off(format_off(mesh, 1), "a.off"));
+}
+
+TEST(SurfaceFormats, WhatIsWrittenAsStlIsKnownAsBinaryByItsLength) {
+  const std::string bytes = format_stl(make_cube(Vec3::Zero(), 0.01), 1e-3);
+  EXPECT_TRUE(is_binary_stl(bytes));
+  EXPECT_FALSE(is_binary_stl(bytes.substr(0, bytes.size() - 1)));
+  EXPECT_FALSE(is_binary_stl(kAsciiStl));
+  EXPECT_EQ(parse_stl_ascii(kAsciiStl, "a.stl")->triangles.size(), 1U);
+  EXPECT_EQ(parse_stl_binary(bytes, "a.stl")->triangles.size(), 12U);
 }
 
 TEST(SurfaceIo, UnitScalesCoordinates) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "artus/haptics/actuator/admittance_filter.h"
+#include "artus/haptics/actuator/admittance_law.h"
 #include "artus/haptics/actuator/backstepping_law.h"
 #include "artus/haptics/actuator/control_law_supervisor.h"
 #include "artus/haptics/actuator/ipc_law.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Every function of the needle's tick under the allocation and lock counters. What a whole tick
 // does from skin to bone is in needle_renderer_test.cpp.
+#include <algorithm>
 #include <array>
 #include <memory>
 
@@ -10,6 +11,7 @@
 #include "artus/haptics/needle/classic_cutting.h"
 #include "artus/haptics/needle/insertion_cone.h"
 #include "artus/haptics/needle/needle_model.h"
+#include "artus/haptics/needle/needle_tick_step.h"
 #include "artus/haptics/needle/velocity_estimator.h"
 #include "tests/haptics/needle/tick_builder.h"
 #include "tests/support/real_time.h"
@@ -190,6 +192,7 @@ TEST(RealTimeNeedle, ContactNeitherAllocatesNorLocks) {
     bone = bone || contact.state() == ContactState::bone;
   }
   EXPECT_TRUE(bone);
+  ARTUS_RUNS_REALTIME(NeedleContact::hold, contact.hold());
   ARTUS_RUNS_REALTIME(NeedleContact::reset, contact.reset());
   ARTUS_RUNS_REALTIME(LayerTable::operator[], use(insertion.table()[99]));
 }
@@ -209,7 +212,34 @@ TEST(RealTimeNeedle, ModelNeitherAllocatesNorLocks) {
     hardest = std::max(hardest, model.forces().total.force.norm());
   }
   EXPECT_GT(hardest, 3);
+  ARTUS_RUNS_REALTIME(NeedleModel::hold, model.hold());
   ARTUS_RUNS_REALTIME(NeedleModel::reset, model.reset());
+}
+
+/// The same layers as a tick asks for them; when `truncated` it says that it kept some back.
+struct Layers {
+  Insertion& insertion;
+  bool truncated = false;
+  QueryCount find_intervals(const Segment& segment, std::span<TissueInterval> out) const noexcept {
+    const auto found = insertion.intervals(segment);
+    std::copy(found.begin(), found.end(), out.begin());
+    return {found.size(), truncated};
+  }
+};
+
+TEST(RealTimeNeedle, TheWholeTickNeitherAllocatesNorLocksAlsoWhenAQueryIsTruncated) {
+  Insertion insertion;
+  NeedleRendererParams params;
+  params.device = *find_device("virtuose_6d_desktop");
+  NeedleTickStep tick(insertion.table(), params);
+  double hardest = 0;
+  for (int i = 0; i < 1100; ++i) {
+    const TimedPose pose{Insertion::pose(i), 1e-3 * i};
+    const Layers layers{insertion, i > 900};
+    ARTUS_RUNS_REALTIME(NeedleTickStep::step, use(tick.step(pose, layers)));
+    hardest = std::max(hardest, tick.model().forces().total.force.norm());
+  }
+  EXPECT_GT(hardest, 3);
 }
 
 }  // namespace

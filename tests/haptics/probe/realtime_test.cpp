@@ -7,6 +7,7 @@
 
 #include "artus/haptics/probe/probe_contact.h"
 #include "artus/haptics/probe/probe_contact_column.h"
+#include "artus/haptics/probe/probe_contact_fields.h"
 #include "tests/support/layered_body.h"
 #include "tests/support/real_time.h"
 
@@ -41,6 +42,18 @@ TEST(RealTimeProbe, ContactNeitherAllocatesNorLocksOnAndOffTheSkin) {
   ARTUS_RUNS_REALTIME(ProbeContactModel::step, press(), use(model.step(Pose::Identity())));
   EXPECT_GT(strongest, 0);
   ARTUS_RUNS_REALTIME(ProbeContactModel::reset, model.reset());
+}
+
+TEST(ProbeContactFields, NameTheMembersOfTheFootprintAndTheColumn) {
+  std::size_t n = 0;
+  bool column = false;
+  const ProbeContactParams params;
+  visit_fields(params, [&](const std::string& name, const auto&) {
+    ++n;
+    column = column || name == "column.strain_limit";
+  });
+  EXPECT_EQ(n, 15U);
+  EXPECT_TRUE(column);
 }
 
 }  // namespace

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "artus/core/result.h"
+#include "artus/evidence/claim.h"
+#include "artus/evidence/plot.h"
+#include "artus/evidence/table.h"
+
+namespace artus {
+
+/// What the source says of its experiment, beside what this one shows.
+struct PublishedValue {
+  std::string what;
+  std::string published;  ///< in the source's words and figures
+  std::string artus;      ///< value and unit
+};
+
+/// A plot and the file it goes to.
+struct NamedPlot {
+  std::string file;  ///< without folder
+  Plot plot;
+};
+
+/// What an experiment has to say, whatever it was made with.
+struct EvidenceReport {
+  std::string name;
+  std::string title;   ///< what it shows
+  std::string source;  ///< figures, tables and equations of the source it stands beside
+  std::vector<PublishedValue> published;
+  std::vector<std::string> assumed;  ///< numbers that it rests on without a source, bounds too
+  std::vector<std::pair<std::string, TextTable>> tables;  ///< with what each shows
+  std::vector<NamedPlot> plots;
+  std::vector<Claim> claims;
+};
+
+/// Title, source, published values, assumptions, plots, claims and tables in Markdown, without a
+/// heading. `folder`: where the plots lie, as seen from the text's file.
+[[nodiscard]] std::string to_markdown(const EvidenceReport& report,
+                                      const std::string& folder = ".");
+
+/// verdict(claims), and name, title, source, published values and assumptions.
+[[nodiscard]] nlohmann::json verdict(const EvidenceReport& report);
+
+/// Writes <name>-table.csv (the first table), report.md, verdict.json and the plots into `folder`,
+/// which is made when missing. Errors: unreadable, not_found (gnuplot; all other files are then
+/// written all the same).
+[[nodiscard]] Result<void> write_report(const EvidenceReport& report,
+                                        const std::filesystem::path& folder);
+
+}  // namespace artus

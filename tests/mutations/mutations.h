@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <functional>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "artus/anatomy/body/tissue.h"
+#include "artus/core/fields.h"
+#include "artus/core/geometry.h"
+#include "artus/haptics/needle/needle_params.h"
+#include "tests/golden/force_scenarios.h"
+
+namespace artus::test {
+
+/// What happens to a setup of parameters, as lines of text that a golden could hold.
+template <class Setup>
+struct Subject {
+  std::string name;
+  Setup setup;
+  std::function<std::vector<std::string>(const Setup&)> trace;
+};
+
+/// A parameter that was changed, and the subjects whose trace changed with it.
+struct Mutation {
+  std::string parameter;
+  std::vector<std::string> noticed_by;
+  std::string first_difference;  ///< "tracking-wall: row 12, cutting_n: 1 -> 1.05"
+};
+
+/// How many laws there are to choose from.
+template <class Choice>
+constexpr int choices_of() {
+  if constexpr (std::is_same_v<Choice, CuttingLaw>) return kCuttingLawNames.size();
+  if constexpr (std::is_same_v<Choice, PrepunctureLaw>) return kPrepunctureLawNames.size();
+  return 2;
+}
+
+/// A number or a vector gets 5 % more, a count one more, a flag the other value, a choice the next.
+template <class T>
+void change(T& value) {
+  if constexpr (std::is_same_v<T, bool>) {
+    value = !value;
+  } else if constexpr (std::is_enum_v<T>) {
+    value = static_cast<T>((static_cast<int>(value) + 1) % choices_of<T>());
+  } else if constexpr (std::is_integral_v<T>) {
+    ++value;
+  } else {
+    value *= 1.05;
+  }
+}
+
+/// Changes each parameter alone in every subject. Cost: parameters times subjects.
+template <class Setup>
+std::vector<Mutation> try_mutations(const std::vector<Subject<Setup>>& subjects) {
+  std::vector<Mutation> mutations;
+  visit_fields(subjects.front().setup, [&](const std::string& name, const auto& /*member*/) {
+    mutations.push_back({name, {}, {}});
+  });
+  for (const Subject<Setup>& subject : subjects) {
+    const auto expected = subject.trace(subject.setup);
+    for (Mutation& mutation : mutations) {
+      Setup setup = subject.setup;
+      visit_fields(setup, [&](const std::string& name, auto& member) {
+        if (name == mutation.parameter) change(member);
+      });
+      const std::string difference = find_difference(expected, subject.trace(setup));
+      if (difference.empty()) continue;
+      if (mutation.noticed_by.empty()) mutation.first_difference = subject.name + ": " + difference;
+      mutation.noticed_by.push_back(subject.name);
+    }
+  }
+  return mutations;
+}
+
+}  // namespace artus::test
