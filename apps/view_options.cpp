@@ -15,11 +15,11 @@ namespace {
 constexpr double kMegahertz = 1e6;  // Hz
 
 /// A flag's range in its own unit.
-CLI::Validator within(const Range& range, double unit = 1) {
+FlagCheck within(const Range& range, double unit = 1) {
   const Range shown = in_unit(range, unit);
   return number_in(shown.low, shown.high);
 }
-CLI::Validator whole_within(const Range& range) {
+FlagCheck whole_within(const Range& range) {
   return whole_number_in(std::lround(range.low), std::lround(range.high));
 }
 

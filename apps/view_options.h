@@ -37,7 +37,7 @@ struct ViewOptions {
 };
 
 /// --needle-length-mm, hub to tip, for the forces and for the picture.
-void add_needle_length_option(CLI::App* command, std::optional<double>& length_mm);
+void add_needle_length_option(Command* command, std::optional<double>& length_mm);
 
 /// The flags of transducer, image and needle type, without poses.
 void add_imaging_options(Command* command, ViewOptions& options);

@@ -261,11 +261,15 @@ static inline int artus_shm_map_file(artus_shm_segment* segment, int file, uint6
   return 0;
 }
 
+/* How a segment is opened: to be written, and made when it is not there. */
+enum { ARTUS_SHM_WRITE = 1, ARTUS_SHM_MAKE = 2 };
+
 /* Follows the name: maps what it leads to now, if that is not what is mapped. A writer's lock goes
  * with its file: it is never given up while the name leads there. -1 and errno: the old mapping
  * stays, marked as gone. */
 static inline int artus_shm_follow(artus_shm_segment* segment, const char* prefix, const char* what,
-                                   uint64_t magic, size_t payload, int write, int make) {
+                                   uint64_t magic, size_t payload, int how) {
+  const int write = how & ARTUS_SHM_WRITE, make = how & ARTUS_SHM_MAKE;
   char name[ARTUS_SHM_MAX_PREFIX + 16];
   struct stat ours, named;
   artus_shm_segment fresh;
@@ -295,11 +299,11 @@ static inline int artus_shm_follow(artus_shm_segment* segment, const char* prefi
 
 static inline int artus_shm_follow_pos(artus_shm_link* link) {
   return artus_shm_follow(&link->pos, link->prefix, "POS", ARTUS_SHM_MAGIC_POS,
-                          sizeof(artus_shm_pos), 1, 1);
+                          sizeof(artus_shm_pos), ARTUS_SHM_WRITE | ARTUS_SHM_MAKE);
 }
 static inline int artus_shm_follow_force(artus_shm_link* link) {
   return artus_shm_follow(&link->force, link->prefix, "FORCE", ARTUS_SHM_MAGIC_FORCE,
-                          sizeof(artus_shm_force), 0, 1);
+                          sizeof(artus_shm_force), ARTUS_SHM_MAKE);
 }
 
 /* Opens POS for writing and FORCE for reading; either side may start first. `prefix` stands before
@@ -395,7 +399,7 @@ static inline int artus_shm_open_image(artus_shm_screen* screen, const char* pre
   if (!artus_shm_is_prefix(prefix)) return errno = EINVAL, -1;
   memcpy(screen->prefix, prefix, strlen(prefix) + 1);
   return artus_shm_follow(&screen->image, prefix, "IMAGE", ARTUS_SHM_MAGIC_IMAGE,
-                          sizeof(artus_shm_image), 0, 0);
+                          sizeof(artus_shm_image), 0);
 }
 
 /* Copies the newest image when it is newer than that of the last call: 1, else 0. Follows the name

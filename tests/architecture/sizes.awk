@@ -42,7 +42,7 @@ FNR == 1 { finish_file(); file = FILENAME; open = 0; head = ""; comment = 0 }
   if (head == "") { start = FNR; indent = indent_of(text) }
   head = head == "" ? text : head " " text
   if (text !~ /[;{}]$/) next
-  is_function = head ~ /\(/ && (head ~ /operator/ || head !~ /^[^(]*=/) &&
+  is_function = head ~ /\(/ && head !~ /^ *{/ && (head ~ /operator/ || head !~ /^[^(]*=/) &&
     !begins_with(head, "using|return|static_assert|ARTUS_TRY|ARTUS_REQUIRE|ARTUS_ASSERT")
   if (is_function) {
     n = count_parameters(head)

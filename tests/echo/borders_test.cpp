@@ -43,71 +43,76 @@ TEST(Borders, RenderingAllocatesNothingAfterTheFirstFrames) {
   EXPECT_EQ(counter.count(), 0);
 }
 
+/// The value that is spoilt, and how.
+template <class T>
+using Spoilt = std::pair<const char*, std::function<void(T&)>>;
+
+const std::vector<Spoilt<Transducer>> kSpoiltTransducers{
+    {"width",
+     [](Transducer& t) {
+       t.width = 0;
+     }},
+    {"width",
+     [](Transducer& t) {
+       t.width = -1;
+     }},
+    {"steering",
+     [](Transducer& t) {
+       t.steering = 2;
+     }},
+    {"n_lines",
+     [](Transducer& t) {
+       t.n_lines = 10000;
+     }},
+    {"n_lines",
+     [](Transducer& t) {
+       t.n_lines = 0;
+     }},
+    {"frequency",
+     [](Transducer& t) {
+       t.frequency = 1e12;
+     }},
+    {"frequency",
+     [](Transducer& t) {
+       t.frequency = 0;
+     }},
+    {"bandwidth",
+     [](Transducer& t) {
+       t.bandwidth = kNan;
+     }},
+    {"pulse_cycles",
+     [](Transducer& t) {
+       t.pulse_cycles = 0;
+     }},
+    {"f_number",
+     [](Transducer& t) {
+       t.f_number = 0;
+     }},
+    {"max_aperture",
+     [](Transducer& t) {
+       t.max_aperture = 0;
+     }},
+    {"elevation_height",
+     [](Transducer& t) {
+       t.elevation_height = 0;
+     }},
+    {"elevation_focus",
+     [](Transducer& t) {
+       t.elevation_focus = kInfinity;
+     }},
+    {"transmit_focus",
+     [](Transducer& t) {
+       t.transmit_focus = -1;
+     }},
+    {"radius",
+     [](Transducer& t) {
+       t.radius = 1e-3;
+     }},
+};
+
 TEST(Borders, EveryImpossibleTransducerIsRefusedByName) {
-  const std::vector<std::pair<const char*, std::function<void(Transducer&)>>> cases{
-      {"width",
-       [](Transducer& t) {
-         t.width = 0;
-       }},
-      {"width",
-       [](Transducer& t) {
-         t.width = -1;
-       }},
-      {"steering",
-       [](Transducer& t) {
-         t.steering = 2;
-       }},
-      {"n_lines",
-       [](Transducer& t) {
-         t.n_lines = 10000;
-       }},
-      {"n_lines",
-       [](Transducer& t) {
-         t.n_lines = 0;
-       }},
-      {"frequency",
-       [](Transducer& t) {
-         t.frequency = 1e12;
-       }},
-      {"frequency",
-       [](Transducer& t) {
-         t.frequency = 0;
-       }},
-      {"bandwidth",
-       [](Transducer& t) {
-         t.bandwidth = kNan;
-       }},
-      {"pulse_cycles",
-       [](Transducer& t) {
-         t.pulse_cycles = 0;
-       }},
-      {"f_number",
-       [](Transducer& t) {
-         t.f_number = 0;
-       }},
-      {"max_aperture",
-       [](Transducer& t) {
-         t.max_aperture = 0;
-       }},
-      {"elevation_height",
-       [](Transducer& t) {
-         t.elevation_height = 0;
-       }},
-      {"elevation_focus",
-       [](Transducer& t) {
-         t.elevation_focus = kInfinity;
-       }},
-      {"transmit_focus",
-       [](Transducer& t) {
-         t.transmit_focus = -1;
-       }},
-      {"radius",
-       [](Transducer& t) {
-         t.radius = 1e-3;
-       }},
-  };
   const auto scene = test::make_block_scene(kLayers);
-  for (const auto& [name, spoil] : cases) {
+  for (const auto& [name, spoil] : kSpoiltTransducers) {
     Transducer transducer;
     spoil(transducer);
     const Result<void> result = validate(transducer);
@@ -117,62 +122,63 @@ TEST(Borders, EveryImpossibleTransducerIsRefusedByName) {
   }
 }
 
+const std::vector<Spoilt<ImageSettings>> kSpoiltSettings{
+    {"depth",
+     [](ImageSettings& s) {
+       s.depth = kNan;
+     }},
+    {"depth",
+     [](ImageSettings& s) {
+       s.depth = 10;
+     }},
+    {"n_samples",
+     [](ImageSettings& s) {
+       s.n_samples = 1 << 30;
+     }},
+    {"n_planes",
+     [](ImageSettings& s) {
+       s.n_planes = 0;
+     }},
+    {"dynamic_range_db",
+     [](ImageSettings& s) {
+       s.dynamic_range_db = 0;
+     }},
+    {"gain_db",
+     [](ImageSettings& s) {
+       s.gain_db = kInfinity;
+     }},
+    {"pixel",
+     [](ImageSettings& s) {
+       s.pixel = 0;
+     }},
+    {"persistence",
+     [](ImageSettings& s) {
+       s.persistence = 1;
+     }},
+    {"smoothing",
+     [](ImageSettings& s) {
+       s.smoothing = -0.1;
+     }},
+    {"compound_angles",
+     [](ImageSettings& s) {
+       s.compound_angles = 2;
+     }},
+    {"compound_spread",
+     [](ImageSettings& s) {
+       s.compound_spread = kNan;
+     }},
+    {"doppler_limit",
+     [](ImageSettings& s) {
+       s.doppler_limit = 0;
+     }},
+    {"n_threads",
+     [](ImageSettings& s) {
+       s.n_threads = -1;
+     }},
+};
+
 TEST(Borders, EveryImpossibleSettingIsRefusedByName) {
-  const std::vector<std::pair<const char*, std::function<void(ImageSettings&)>>> cases{
-      {"depth",
-       [](ImageSettings& s) {
-         s.depth = kNan;
-       }},
-      {"depth",
-       [](ImageSettings& s) {
-         s.depth = 10;
-       }},
-      {"n_samples",
-       [](ImageSettings& s) {
-         s.n_samples = 1 << 30;
-       }},
-      {"n_planes",
-       [](ImageSettings& s) {
-         s.n_planes = 0;
-       }},
-      {"dynamic_range_db",
-       [](ImageSettings& s) {
-         s.dynamic_range_db = 0;
-       }},
-      {"gain_db",
-       [](ImageSettings& s) {
-         s.gain_db = kInfinity;
-       }},
-      {"pixel",
-       [](ImageSettings& s) {
-         s.pixel = 0;
-       }},
-      {"persistence",
-       [](ImageSettings& s) {
-         s.persistence = 1;
-       }},
-      {"smoothing",
-       [](ImageSettings& s) {
-         s.smoothing = -0.1;
-       }},
-      {"compound_angles",
-       [](ImageSettings& s) {
-         s.compound_angles = 2;
-       }},
-      {"compound_spread",
-       [](ImageSettings& s) {
-         s.compound_spread = kNan;
-       }},
-      {"doppler_limit",
-       [](ImageSettings& s) {
-         s.doppler_limit = 0;
-       }},
-      {"n_threads",
-       [](ImageSettings& s) {
-         s.n_threads = -1;
-       }},
-  };
-  for (const auto& [name, spoil] : cases) {
+  for (const auto& [name, spoil] : kSpoiltSettings) {
     ImageSettings settings;
     spoil(settings);
     const Result<void> result = validate(settings);
