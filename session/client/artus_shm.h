@@ -422,8 +422,7 @@ static inline int artus_shm_read_image(artus_shm_screen* screen, artus_shm_image
   }
   if (now - s->seen_ns > ARTUS_SHM_LOOK_NS && now - screen->looked_ns > ARTUS_SHM_LOOK_NS) {
     screen->looked_ns = now;
-    artus_shm_follow(s, screen->prefix, "IMAGE", ARTUS_SHM_MAGIC_IMAGE, sizeof(artus_shm_image), 0,
-                     0);
+    artus_shm_follow(s, screen->prefix, "IMAGE", ARTUS_SHM_MAGIC_IMAGE, sizeof(artus_shm_image), 0);
   }
   return 0;
 }
