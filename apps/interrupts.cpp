@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <ctime>
+#include <initializer_list>
 
 #include "artus/session/farewell.h"
 

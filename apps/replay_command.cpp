@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <iostream>
 #include <memory>
+#include <span>
 
 #include "artus/apps/session_options.h"
 #include "artus/echo/image_io.h"
@@ -23,16 +24,37 @@ struct TraceCloser {
 };
 using Trace = std::unique_ptr<std::FILE, TraceCloser>;
 
+/// A tick as a line: what was sent, its components before the guard, contact and layer.
+void write_tick(std::FILE* out, const HapticSnapshot& s, double period, const std::string& layer) {
+  std::fprintf(out, "%.6f,%llu,%.6f,%s,%s,%u,%u", static_cast<double>(s.input.tick) * period,
+               static_cast<unsigned long long>(s.input.tick), s.feedback.depth / kMillimetre,
+               layer.c_str(), to_string(static_cast<ContactState>(s.feedback.contact)), s.events,
+               s.status);
+  const auto write = [out](std::span<const double> values) {
+    for (const double value : values) std::fprintf(out, ",%.9g", value);
+  };
+  write(s.feedback.force);
+  write(s.feedback.torque);
+  write(s.axial);
+  write(s.clamping_J);
+  write(s.surface_J);
+  write(s.workspace_J);
+  std::fputc('\n', out);
+}
+
+constexpr const char* kTraceHead =
+    "time_s,tick,depth_mm,region,contact,events,status,force_x_n,force_y_n,force_z_n,torque_x_nm,"
+    "torque_y_nm,torque_z_nm,prepuncture_n,cutting_n,attracted_n,friction_n,hard_n,clamping_x_n,"
+    "clamping_y_n,clamping_z_n,surface_x_n,surface_y_n,surface_z_n,workspace_x_n,workspace_y_n,"
+    "workspace_z_n\n";
+
 ReplayListener make_listener(const ReplayOptions& options, const CompiledJoint& joint,
                              std::FILE* trace, double period) {
   ReplayListener listener;
   if (trace != nullptr) {
-    std::fprintf(trace, "time_s,depth_mm,force_x_n,force_y_n,force_z_n,region,status\n");
+    std::fputs(kTraceHead, trace);
     listener.on_tick = [trace, period, &joint](const HapticSnapshot& s) {
-      std::fprintf(trace, "%.6f,%.6f,%.9g,%.9g,%.9g,%s,%u\n",
-                   static_cast<double>(s.input.tick) * period, s.feedback.depth / kMillimetre,
-                   s.feedback.force[0], s.feedback.force[1], s.feedback.force[2],
-                   joint.regions[s.feedback.region].name.c_str(), s.status);
+      write_tick(trace, s, period, joint.regions[s.feedback.region].name);
     };
   }
   if (!options.frames.empty()) {
@@ -72,12 +94,6 @@ ExitCode run_replay(const ReplayOptions& options) {
   if (!recording) return report_error(recording.error(), options.json);
   const auto joint = load(options.joint, make_progress_printer(options.json));
   if (!joint) return report_error(joint.error(), options.json);
-  SessionOptions session;
-  session.device = recording->head.device;
-  const auto base = make_session_params(session, **joint);
-  if (!base) return report_error(base.error(), options.json);
-  const auto params = params_of(recording->head, *base);
-  if (!params) return report_error(params.error(), options.json);
   Trace trace;
   if (!options.trace.empty()) {
     trace.reset(std::fopen(options.trace.c_str(), "w"));
@@ -86,8 +102,9 @@ ExitCode run_replay(const ReplayOptions& options) {
                           options.json);
   }
   if (!options.frames.empty()) std::filesystem::create_directories(options.frames);
-  const auto report = replay(*recording, std::make_shared<const Scene>(*joint), *params,
-                             make_listener(options, **joint, trace.get(), 1 / params->haptic_rate));
+  const double period = 1 / recording->head.params.haptic_rate;
+  const auto report = replay(*recording, std::make_shared<const Scene>(*joint),
+                             make_listener(options, **joint, trace.get(), period));
   if (!report) return report_error(report.error(), options.json);
   if (options.json)
     std::cout << to_json(*report).dump(2) << '\n';
@@ -108,7 +125,8 @@ void add_replay_command(Command& app, ExitCode& code) {
       "  artus replay session.rec -j real.artus --trace forces.csv --frames out/frames");
   command->add_option("recording", options->recording, "file of --record")->required();
   add_joint_options(command, options->joint);
-  command->add_option("--trace", options->trace, "write the forces as CSV");
+  command->add_option("--trace", options->trace,
+                      "write forces, their components, contact and layer as CSV");
   command->add_option("--frames", options->frames, "write the images as PNG into this folder");
   command->add_flag("--json", options->json, "machine-readable output");
   on_run(command, code, [options] { return run_replay(*options); });

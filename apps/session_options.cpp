@@ -10,6 +10,7 @@
 #include "artus/apps/view_options.h"
 #include "artus/core/text_file.h"
 #include "artus/session/injecting_device.h"
+#include "artus/session/recorded_device.h"
 #include "artus/session/shared_memory_device.h"
 
 namespace artus {

@@ -5,27 +5,6 @@
 #include <cmath>
 
 namespace artus {
-namespace {
-
-Eigen::Quaterniond rotation_of(const PlainPose& pose) noexcept {
-  const auto& r = pose.rotation;
-  return Eigen::Quaterniond(r[0], r[1], r[2], r[3]).normalized();
-}
-
-PlainPose blend(const PlainPose& a, const PlainPose& b, double share) noexcept {
-  PlainPose pose;
-  for (std::size_t i = 0; i < 3; ++i)
-    pose.position[i] = a.position[i] + share * (b.position[i] - a.position[i]);
-  const Eigen::Quaterniond q = rotation_of(a).slerp(share, rotation_of(b));
-  pose.rotation[0] = q.w();
-  pose.rotation[1] = q.x();
-  pose.rotation[2] = q.y();
-  pose.rotation[3] = q.z();
-  return pose;
-}
-
-}  // namespace
-
 PlainPose approach(const PlainPose& from, const PlainPose& to, const HandDevice::Limits& limits,
                    double dt) noexcept {
   const double ease = 1 - std::exp(-dt / limits.smoothing);
@@ -68,23 +47,6 @@ DeviceSample HandDevice::read(std::int64_t now_ns) noexcept {
 
 void HandDevice::write(const DeviceFeedback& /*feedback*/) noexcept {
   // A mouse renders no force; the window shows it.
-}
-
-DeviceSample RecordedDevice::read(std::int64_t now_ns) noexcept {
-  const std::size_t i = next_.load(std::memory_order_relaxed);
-  if (i >= samples_.size()) {
-    DeviceSample gone = samples_.empty() ? DeviceSample{} : samples_.back();
-    gone.state = PeerState::lost;
-    return gone;
-  }
-  next_.store(i + 1, std::memory_order_relaxed);
-  DeviceSample sample = samples_[i];
-  sample.time_ns = now_ns;
-  return sample;
-}
-
-void RecordedDevice::write(const DeviceFeedback& /*feedback*/) noexcept {
-  // What was felt then is in the recording.
 }
 
 }  // namespace artus

@@ -2,8 +2,6 @@
 #pragma once
 #include <atomic>
 #include <cstdint>
-#include <optional>
-#include <vector>
 
 #include "artus/session/input_device.h"
 #include "artus/session/seqlock.h"
@@ -56,19 +54,5 @@ class HandDevice final : public InputDevice {
 [[nodiscard]] ARTUS_REALTIME PlainPose approach(const PlainPose& from, const PlainPose& to,
                                                 const HandDevice::Limits& limits,
                                                 double dt) noexcept;
-
-/// Samples of an earlier session, one a tick, with the times of now.
-class RecordedDevice final : public InputDevice {
- public:
-  explicit RecordedDevice(std::vector<DeviceSample> samples) : samples_(std::move(samples)) {}
-  [[nodiscard]] ARTUS_REALTIME DeviceSample read(std::int64_t now_ns) noexcept override;
-  ARTUS_REALTIME void write(const DeviceFeedback& feedback) noexcept override;
-  [[nodiscard]] std::string_view name() const noexcept override { return "recorded file"; }
-  [[nodiscard]] bool finished() const noexcept { return next_ >= samples_.size(); }
-
- private:
-  std::vector<DeviceSample> samples_;
-  std::atomic<std::size_t> next_{0};
-};
 
 }  // namespace artus

@@ -7,22 +7,9 @@
 #include <vector>
 
 #include "artus/core/check.h"
-#include "artus/core/geometry.h"
+#include "artus/session/plain_pose.h"
 
 namespace artus {
-
-/// A pose as plain numbers that can be copied between threads and into files byte for byte:
-/// position, then quaternion w, x, y, z.
-struct PlainPose {
-  double position[3] = {0, 0, 0};  // NOLINT(*-avoid-c-arrays): bytes of a file and of shared memory
-  double rotation[4] = {1, 0, 0, 0};  // NOLINT(*-avoid-c-arrays)
-};
-[[nodiscard]] PlainPose to_plain(const Pose& pose) noexcept;
-/// The rigid pose with the rotation normalised. Requires: finite, rotation not zero.
-[[nodiscard]] Pose to_pose(const PlainPose& plain) noexcept;
-
-/// Finite, within 10 m of the origin, quaternion of norm 0.9 to 1.1: something a device can be.
-[[nodiscard]] bool is_pose(const PlainPose& plain) noexcept;
 
 /// How the other side of a device is.
 enum class PeerState : std::uint32_t {

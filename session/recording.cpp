@@ -2,117 +2,76 @@
 #include "artus/session/recording.h"
 
 #include <algorithm>
-#include <chrono>
-#include <cstring>
+#include <cmath>
+#include <fstream>
+#include <istream>
+#include <limits>
+#include <type_traits>
 #include <utility>
-
-#include <nlohmann/json.hpp>
-
-#include "artus/session/needle_feel_json.h"
 
 namespace artus {
 namespace {
 
-constexpr int kVersion = 5;
-constexpr std::uint32_t kTick = 1;
-constexpr std::uint32_t kFrame = 2;
-constexpr std::uint32_t kEnd = 3;
+constexpr std::size_t kLongestHead = std::size_t{64} * 1024;  // bytes
+constexpr double kFar = 50;  // m from the joint's origin, of any pose that a device can make
 
-/// What stands before each record of the file.
-struct RecordHead {
-  std::uint32_t kind = 0;
-  std::uint32_t size = 0;
-};
+static_assert(sizeof(TickRecord) == 216 && sizeof(FrameRecord) == 192, "as documented");
 
 template <class T>
-void write_record(std::FILE* file, std::uint32_t kind, const T& record) {
-  const RecordHead head{kind, sizeof(T)};
-  std::fwrite(&head, sizeof head, 1, file);
-  std::fwrite(&record, sizeof record, 1, file);
+bool read(std::istream& in, T& value) {
+  return static_cast<bool>(in.read(reinterpret_cast<char*>(&value), sizeof value));
 }
 
-nlohmann::json to_json(const RecordingHead& head) {
-  const GestureParams& g = head.gesture;
-  return {{"artus_recording", kVersion},
-          {"joint", head.joint},
-          {"source_digest", head.source_digest},
-          {"device", head.device},
-          {"haptic_rate_hz", head.haptic_rate},
-          {"image_rate_hz", head.image_rate},
-          {"seed", head.seed},
-          {"X_WJ_position", head.X_WJ.position},
-          {"X_WJ_rotation", head.X_WJ.rotation},
-          {"gesture_point", {g.p_W.x(), g.p_W.y(), g.p_W.z()}},
-          {"gesture_axis", {g.axis_W.x(), g.axis_W.y(), g.axis_W.z()}},
-          {"gesture_beside", g.beside_probe},
-          {"gesture_steepness", g.steepness},
-          {"feel", to_json(head.feel)}};
-}
-
-Vec3 to_vec3(const nlohmann::json& json) {
-  return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()};
-}
-
-Result<RecordingHead> to_head(const nlohmann::json& json) {
-  RecordingHead head;
-  json.at("joint").get_to(head.joint);
-  json.at("source_digest").get_to(head.source_digest);
-  json.at("device").get_to(head.device);
-  json.at("haptic_rate_hz").get_to(head.haptic_rate);
-  json.at("image_rate_hz").get_to(head.image_rate);
-  json.at("seed").get_to(head.seed);
-  for (std::size_t i = 0; i < 3; ++i) head.X_WJ.position[i] = json.at("X_WJ_position").at(i);
-  for (std::size_t i = 0; i < 4; ++i) head.X_WJ.rotation[i] = json.at("X_WJ_rotation").at(i);
-  head.gesture.p_W = to_vec3(json.at("gesture_point"));
-  head.gesture.axis_W = to_vec3(json.at("gesture_axis"));
-  json.at("gesture_beside").get_to(head.gesture.beside_probe);
-  json.at("gesture_steepness").get_to(head.gesture.steepness);
-  const auto feel = to_needle_feel(json.at("feel"));
-  ARTUS_TRY(feel);
-  head.feel = *feel;
-  return head;
-}
-
-struct OpenFile {
-  std::FILE* file = nullptr;
-  explicit OpenFile(const std::filesystem::path& path) : file(std::fopen(path.c_str(), "rb")) {}
-  ~OpenFile() {
-    if (file != nullptr) std::fclose(file);
-  }
-  OpenFile(const OpenFile&) = delete;
-  OpenFile& operator=(const OpenFile&) = delete;
-};
-
-std::string read_line(std::FILE* file) {
-  constexpr std::size_t kLongest = std::size_t{64} * 1024;
-  std::string line;
-  for (int c = std::fgetc(file); c != EOF && c != '\n' && line.size() < kLongest;
-       c = std::fgetc(file))
-    line.push_back(static_cast<char>(c));
-  return line;
-}
-
+/// False where a crash cut the record off.
 template <class T>
-bool read_into(std::FILE* file, std::vector<T>& records) {
+Result<bool> read_into(std::istream& in, std::vector<T>& records, std::uint64_t& last,
+                       const std::string& where) {
   T record;
-  if (std::fread(&record, sizeof record, 1, file) != 1) return false;
+  if (!read(in, record)) return false;
+  const char* fault = find_fault(record, last);
+  if (fault != nullptr)
+    return fail(ErrorCode::corrupt,
+                std::string(fault) + " in record " + std::to_string(records.size() + 1), where);
+  if constexpr (std::is_same_v<T, TickRecord>)
+    last = record.input.tick;
+  else
+    last = record.input.number;
   records.push_back(record);
   return true;
 }
 
+/// Numbers of the newest tick and image.
+struct Newest {
+  std::uint64_t tick = 0;
+  std::uint64_t frame = 0;
+};
+
 /// False at the end or at what a crash cut off.
-Result<bool> read_record(std::FILE* file, Recording& recording, const std::string& where) {
-  RecordHead head;
-  if (std::fread(&head, sizeof head, 1, file) != 1) return false;
-  if (head.kind == kTick && head.size == sizeof(TickRecord))
-    return read_into(file, recording.ticks);
-  if (head.kind == kFrame && head.size == sizeof(FrameRecord))
-    return read_into(file, recording.frames);
-  if (head.kind == kEnd && head.size == sizeof recording.dropped) {
-    recording.complete = std::fread(&recording.dropped, sizeof recording.dropped, 1, file) == 1;
+Result<bool> read_record(std::istream& in, Recording& recording, Newest& newest,
+                         const std::string& where) {
+  RecordStart start;
+  if (!read(in, start)) return false;
+  if (start.kind == RecordStart::kTick && start.size == sizeof(TickRecord))
+    return read_into(in, recording.ticks, newest.tick, where);
+  if (start.kind == RecordStart::kFrame && start.size == sizeof(FrameRecord))
+    return read_into(in, recording.frames, newest.frame, where);
+  if (start.kind == RecordStart::kEnd && start.size == sizeof recording.dropped) {
+    recording.complete = read(in, recording.dropped);
+    if (recording.complete && in.peek() != std::istream::traits_type::eof())
+      return fail(ErrorCode::corrupt, "something follows its end", where);
     return false;
   }
   return fail(ErrorCode::corrupt, "a record of an unknown kind or size", where);
+}
+
+bool is_flag(std::uint32_t value) noexcept {
+  return value <= 1;
+}
+
+template <std::size_t N>
+bool all_finite(const double (&values)[N]) noexcept {
+  return std::all_of(std::begin(values), std::end(values),
+                     [](double value) { return std::isfinite(value); });
 }
 
 }  // namespace
@@ -128,75 +87,58 @@ TickRecord to_record(const HapticSnapshot& snapshot) noexcept {
   return record;
 }
 
-RecordingHead make_head(const CompiledJoint& joint, const SessionParams& params) {
-  RecordingHead head;
-  head.joint = joint.name;
-  head.source_digest = joint.source_digest;
-  head.device = std::string(params.device.name);
-  head.haptic_rate = params.haptic_rate;
-  head.image_rate = params.image_rate;
-  head.seed = params.image.seed;
-  head.X_WJ = to_plain(params.X_WJ);
-  head.gesture = params.gesture;
-  head.feel = params.feel;
-  return head;
+const char* find_fault(const TickRecord& record, std::uint64_t last) noexcept {
+  const DeviceSample& device = record.input.device;
+  if (record.input.tick <= last) return "a tick that is not after the one before";
+  if (!is_pose(device.X_WN) || !is_pose(device.X_WP)) return "a tick's pose that is none";
+  if (device.state > PeerState::invalid) return "a device in a state that there is not";
+  if (!is_flag(device.has_needle) || !is_flag(device.has_probe)) return "a flag that is none";
+  if ((record.input.command & ~SessionCommand::kAll) != 0 || record.input.reserved != 0)
+    return "a command that there is not";
+  if (!all_finite(record.force) || !all_finite(record.torque)) return "a force that is not finite";
+  return record.region > std::numeric_limits<RegionId>::max() ? "a region that no joint has"
+                                                              : nullptr;
 }
 
-Result<Recording> read_recording(const std::filesystem::path& file) {
-  const OpenFile in(file);
-  if (in.file == nullptr) return fail(ErrorCode::not_found, "cannot open the recording", file);
-  Recording recording;
-  const auto json = nlohmann::json::parse(read_line(in.file), nullptr, false);
-  if (json.is_discarded() || !json.is_object() || !json.contains("artus_recording"))
-    return fail(ErrorCode::malformed, "this is not a recording of artus", file);
-  if (json["artus_recording"] != kVersion)
-    return fail(ErrorCode::unsupported, "a recording of another version", file);
-  try {
-    const auto head = to_head(json);
-    ARTUS_TRY(head);
-    recording.head = *head;
-  } catch (const nlohmann::json::exception& e) {
-    return fail(ErrorCode::malformed, std::string("its first line is damaged: ") + e.what(), file);
+const char* find_fault(const FrameRecord& record, std::uint64_t last) noexcept {
+  const FrameInput& input = record.input;
+  if (input.number <= last) return "an image that is not after the one before";
+  if (!is_pose(input.X_JP, kFar) || !is_pose(input.X_JN, kFar))
+    return "an image's pose that is none";
+  if (!is_flag(input.has_needle) || !is_flag(input.has_probe)) return "a flag that is none";
+  const ImageControls& c = input.controls;
+  const double knobs[] = {c.depth,     c.gain_db,        c.tgc_db_cm_mhz, c.dynamic_range_db,
+                          c.frequency, c.elevation_focus};
+  return all_finite(knobs) ? nullptr : "a knob's place that is no number";
+}
+
+Result<Recording> read_recording(std::istream& in, const std::string& where) {
+  std::string line;
+  for (int c = in.get(); c != std::istream::traits_type::eof() && c != '\n'; c = in.get()) {
+    if (line.size() == kLongestHead)
+      return fail(ErrorCode::malformed, "this is not a recording of artus", where);
+    line.push_back(static_cast<char>(c));
   }
+  Recording recording;
+  auto head = parse_head(line);
+  if (!head) {
+    Error error = head.error();
+    error.where = error.where.empty() ? where : where + ": " + error.where;
+    return tl::unexpected(error);
+  }
+  recording.head = std::move(*head);
+  Newest newest;
   for (;;) {
-    const Result<bool> more = read_record(in.file, recording, file);
+    const Result<bool> more = read_record(in, recording, newest, where);
     ARTUS_TRY(more);
     if (!*more) return recording;
   }
 }
 
-Recorder::Recorder(std::FILE* file) : file_(file), ticks_(16384), frames_(1024) {
-  thread_ = std::thread([this] { run(); });
-}
-
-Result<std::unique_ptr<Recorder>> Recorder::start(const std::filesystem::path& file,
-                                                  const RecordingHead& head) {
-  std::FILE* out = std::fopen(file.c_str(), "wb");
-  if (out == nullptr) return fail(ErrorCode::unreadable, "cannot write the recording", file);
-  const std::string line = to_json(head).dump() + "\n";
-  std::fwrite(line.data(), 1, line.size(), out);
-  return std::unique_ptr<Recorder>(new Recorder(out));
-}
-
-Recorder::~Recorder() {
-  stop_ = true;
-  thread_.join();
-  drain();
-  write_record(file_.get(), kEnd, dropped());
-}
-
-void Recorder::drain() {
-  TickRecord tick;
-  while (ticks_.pop(tick)) write_record(file_.get(), kTick, tick);
-  FrameRecord frame;
-  while (frames_.pop(frame)) write_record(file_.get(), kFrame, frame);
-}
-
-void Recorder::run() {
-  while (!stop_) {
-    drain();
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  }
+Result<Recording> read_recording(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) return fail(ErrorCode::not_found, "cannot open the recording", file);
+  return read_recording(in, file.string());
 }
 
 }  // namespace artus

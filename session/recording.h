@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
-#include <atomic>
 #include <cstdint>
-#include <cstdio>
 #include <filesystem>
-#include <memory>
+#include <iosfwd>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "artus/core/result.h"
+#include "artus/session/recording_head.h"
 #include "artus/session/session_core.h"
-#include "artus/session/session_exchange.h"
 
 namespace artus {
 
@@ -31,19 +28,14 @@ struct FrameRecord {
   std::uint64_t digest = 0;
 };
 
-/// What a recording says about itself; a line of JSON at the file's start.
-struct RecordingHead {
-  std::string joint;          ///< name
-  std::string source_digest;  ///< CompiledJoint::source_digest
-  std::string device;         ///< DeviceLimits::name
-  double haptic_rate = 0;     ///< Hz
-  double image_rate = 0;      ///< Hz
-  std::uint64_t seed = 0;     ///< of speckle and noise
-  PlainPose X_WJ;
-  GestureParams gesture;
-  NeedleFeel feel;
+/// What stands before each record of the file, and the kinds there are (docs/recording-format.md).
+struct RecordStart {
+  static constexpr std::uint32_t kTick = 1;
+  static constexpr std::uint32_t kFrame = 2;
+  static constexpr std::uint32_t kEnd = 3;
+  std::uint32_t kind = 0;
+  std::uint32_t size = 0;  ///< bytes that follow
 };
-[[nodiscard]] RecordingHead make_head(const CompiledJoint& joint, const SessionParams& params);
 
 /// A whole recording in memory.
 struct Recording {
@@ -54,41 +46,15 @@ struct Recording {
   bool complete = false;      ///< the session ended in good order
 };
 
-/// Reads a recording; what a crash cut off is left out. Errors: not_found, unreadable, unsupported
-/// (another version), corrupt.
+/// What is wrong with a record; null: nothing. `last`: number of the tick or image before, 0 for
+/// none. Every pose is one, every flag and count in its range, every result finite.
+[[nodiscard]] const char* find_fault(const TickRecord& record, std::uint64_t last) noexcept;
+[[nodiscard]] const char* find_fault(const FrameRecord& record, std::uint64_t last) noexcept;
+
+/// Reads a recording; what a crash cut off is left out. Errors: not_found, those of parse_head,
+/// corrupt (a record that cannot be, with its number).
 [[nodiscard]] Result<Recording> read_recording(const std::filesystem::path& file);
-
-/// Writes a session's inputs to a file from a thread of its own. The session's threads hand over
-/// records through rings and never wait; a record that finds its ring full is dropped and counted.
-class Recorder {
- public:
-  /// Errors: unreadable when the file cannot be made.
-  [[nodiscard]] static Result<std::unique_ptr<Recorder>> start(const std::filesystem::path& file,
-                                                               const RecordingHead& head);
-  /// Writes what is left and closes.
-  ~Recorder();
-  Recorder(const Recorder&) = delete;
-  Recorder& operator=(const Recorder&) = delete;
-
-  ARTUS_REALTIME void add(const TickRecord& record) noexcept { ticks_.push(record); }
-  ARTUS_REALTIME void add(const FrameRecord& record) noexcept { frames_.push(record); }
-  [[nodiscard]] std::uint64_t dropped() const noexcept {
-    return ticks_.dropped() + frames_.dropped();
-  }
-
- private:
-  struct FileCloser {
-    void operator()(std::FILE* file) const noexcept { std::fclose(file); }
-  };
-  explicit Recorder(std::FILE* file);
-  void drain();
-  void run();
-
-  std::unique_ptr<std::FILE, FileCloser> file_;
-  SpscRing<TickRecord> ticks_;
-  SpscRing<FrameRecord> frames_;
-  std::atomic<bool> stop_{false};
-  std::thread thread_;
-};
+/// The same from a stream; `where` names it in errors.
+[[nodiscard]] Result<Recording> read_recording(std::istream& in, const std::string& where);
 
 }  // namespace artus

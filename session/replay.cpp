@@ -3,6 +3,7 @@
 
 #include <cstring>
 
+#include "artus/anatomy/body/joint_digest.h"
 #include "artus/session/image_core.h"
 
 namespace artus {
@@ -18,27 +19,15 @@ bool same(const TickRecord& a, const TickRecord& b) noexcept {
 
 }  // namespace
 
-Result<SessionParams> params_of(const RecordingHead& head, SessionParams params) {
-  const auto device = find_device(head.device);
-  ARTUS_TRY(device);
-  params.device = *device;
-  params.haptic_rate = head.haptic_rate;
-  params.image_rate = head.image_rate;
-  params.image.seed = head.seed;
-  params.X_WJ = to_pose(head.X_WJ);
-  params.gesture = head.gesture;
-  params.feel = head.feel;
-  ARTUS_TRY(validate(params));
-  return params;
-}
-
 Result<ReplayReport> replay(const Recording& recording, const std::shared_ptr<const Scene>& scene,
-                            const SessionParams& params, const ReplayListener& listener) {
-  if (scene->joint().source_digest != recording.head.source_digest)
+                            const ReplayListener& listener, int n_threads) {
+  if (compute_joint_digest(scene->joint()) != recording.head.joint_digest)
     return fail(ErrorCode::invalid,
                 "the session was recorded with another joint, or another state of it: " +
                     recording.head.joint,
                 scene->joint().name);
+  SessionParams params = recording.head.params;
+  params.image.n_threads = n_threads;
   ReplayReport report;
   report.dropped = recording.dropped;
   report.complete = recording.complete;

@@ -30,15 +30,13 @@ struct ReplayListener {
   std::function<void(const FrameRecord&, const Frame&)> on_frame;
 };
 
-/// Feeds a recording's inputs through the same cores as the session that made it and compares each
-/// force bit for bit and each image by digest. Ticks that the recording lacks make later ones
-/// differ. Errors: invalid when `scene` is another joint than the one recorded.
+/// Feeds a recording's inputs through the same cores as the session that made it, with the params
+/// in its head, and compares each force bit for bit and each image by digest. Ticks that the
+/// recording lacks make later ones differ. `n_threads`: of the imaging, which the images do not
+/// depend on; 0: all processors. Errors: invalid when `scene` is another joint than the one
+/// recorded.
 [[nodiscard]] Result<ReplayReport> replay(const Recording& recording,
                                           const std::shared_ptr<const Scene>& scene,
-                                          const SessionParams& params,
-                                          const ReplayListener& listener = {});
-
-/// The params with what the recording's head knows put in. Errors: not_found (unknown device).
-[[nodiscard]] Result<SessionParams> params_of(const RecordingHead& head, SessionParams params);
+                                          const ReplayListener& listener = {}, int n_threads = 0);
 
 }  // namespace artus

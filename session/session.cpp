@@ -5,6 +5,7 @@
 #include <exception>
 #include <utility>
 
+#include "artus/session/dropping_ring.h"
 #include "artus/session/haptic_loop.h"
 #include "artus/session/image_core.h"
 
@@ -49,6 +50,7 @@ Session::Session(std::shared_ptr<const Scene> scene, const SessionParams& params
       device_(std::move(device)),
       core_(scene_, params_),
       times_(std::make_unique<SessionTimes>()),
+      trace_(std::make_unique<DroppingRing<TracePoint>>(8192)),
       start_ns_(monotonic_ns()) {
   controls_.store(controls_of(params_));
 }
@@ -89,6 +91,10 @@ Session::~Session() {
   for (std::thread* thread : {&haptic_thread_, &imaging_thread_, &care_thread_})
     if (thread->joinable()) thread->join();
   if (shared_image_) shared_image_->remove_own();
+}
+
+bool Session::next_trace_point(TracePoint& out) noexcept {
+  return trace_->pop(out);
 }
 
 std::uint64_t Session::unrecorded() const noexcept {
@@ -146,7 +152,7 @@ std::uint32_t Session::take_command() noexcept {
 
 void Session::publish(const HapticSnapshot& out) noexcept {
   if (recorder_) recorder_->add(to_record(out));
-  trace_.push(trace_point_of(out, 1e-9 * static_cast<double>(monotonic_ns() - start_ns_)));
+  trace_->push(trace_point_of(out, 1e-9 * static_cast<double>(monotonic_ns() - start_ns_)));
   ticks_.store(out.input.tick, std::memory_order_relaxed);
 }
 

@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include "artus/session/recording.h"
+#include "artus/session/recorder.h"
 #include "artus/session/renewed_channel.h"
 #include "artus/session/seqlock.h"
 #include "artus/session/session_core.h"
@@ -20,6 +20,8 @@
 
 namespace artus {
 
+template <class T>
+class DroppingRing;
 class ImageCore;
 
 /// An image as the window gets it.
@@ -101,7 +103,7 @@ class Session {
   // For one thread, the window's.
   void set_controls(const ImageControls& controls) noexcept { controls_.store(controls); }
   [[nodiscard]] const ImageSnapshot* newest_image() noexcept { return images_.newest(); }
-  [[nodiscard]] bool next_trace_point(TracePoint& out) noexcept { return trace_.pop(out); }
+  [[nodiscard]] bool next_trace_point(TracePoint& out) noexcept;
   /// What the system refused to the threads; for people.
   [[nodiscard]] std::vector<std::string> refusals() const;
   /// What went wrong since the start and what was done about it, the newest last; for people.
@@ -137,7 +139,7 @@ class Session {
   Seqlock<HapticSnapshot> haptic_;
   Seqlock<ImageControls> controls_;
   NewestMailbox<ImageSnapshot> images_;
-  SpscRing<TracePoint> trace_{8192};
+  std::unique_ptr<DroppingRing<TracePoint>> trace_;
   std::atomic<bool> stop_{false};
   std::atomic<bool> paused_{false};
   std::atomic<bool> frozen_{false};

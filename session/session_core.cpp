@@ -40,20 +40,6 @@ NeedleRendererParams renderer_params(const SessionParams& params) {
 
 }  // namespace
 
-double needle_length_of(const SessionParams& params) noexcept {
-  return params.feel.needle_length.value_or(params.needle.contact.needle_length);
-}
-
-Result<void> validate(const SessionParams& params) {
-  if (!(params.haptic_rate >= 100 && params.haptic_rate <= 20000))
-    return fail(ErrorCode::invalid, "the haptic rate must be 100 to 20000 Hz", "haptic_rate");
-  if (!(params.image_rate >= 1 && params.image_rate <= 120))
-    return fail(ErrorCode::invalid, "the image rate must be 1 to 120 Hz", "image_rate");
-  ARTUS_TRY(validate(params.feel));
-  ARTUS_TRY(validate(params.transducer));
-  return validate(params.image);
-}
-
 HapticCore::HapticCore(std::shared_ptr<const Scene> scene, const SessionParams& params)
     : scene_(std::move(scene)),
       needle_(scene_, make_table(scene_, params), renderer_params(params)),
@@ -82,6 +68,9 @@ void HapticCore::step_needle(const DeviceSample& device, std::uint32_t command) 
   const double axial[5] = {f.prepuncture, f.cutting, f.attracted, f.friction, f.hard};
   std::copy(std::begin(axial), std::end(axial), std::begin(out_.axial));
   out_.clamping = f.clamping.norm();
+  copy(f.clamping, out_.clamping_J);
+  copy(f.surface, out_.surface_J);
+  copy(f.workspace, out_.workspace_J);
   if (!rest) out_.X_JN = to_plain(pose.X_JN);
 }
 

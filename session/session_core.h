@@ -6,35 +6,12 @@
 #include <string>
 
 #include "artus/echo/renderer.h"
-#include "artus/haptics/needle/needle_feel.h"
 #include "artus/haptics/needle/needle_renderer.h"
 #include "artus/session/input_device.h"
+#include "artus/session/session_params.h"
 #include "artus/session/two_phase_gesture.h"
 
 namespace artus {
-
-/// All that a session's results depend on besides its inputs. `feel` is the user's choice and goes
-/// before `needle` and `passivity`, which are as published.
-struct SessionParams {
-  double haptic_rate = 1000;  ///< Hz, 1000 to 10000
-  double image_rate = 40;     ///< Hz, 10 to 120
-  DeviceLimits device;        ///< whose limits the force is kept in
-  NeedleParams needle;
-  PassivityParams passivity;
-  GuardParams guard;
-  NeedleFeel feel;
-  GestureParams gesture;
-  Pose X_WJ = Pose::Identity();  ///< the joint's place before any calibration
-  Transducer transducer;
-  ImageSettings image;
-  NeedleShape needle_shape;  ///< of its length: see needle_length_of
-};
-
-/// m, hub to tip: the one length that the contact and the picture take.
-[[nodiscard]] double needle_length_of(const SessionParams& params) noexcept;
-
-/// Errors: invalid, naming the value.
-[[nodiscard]] Result<void> validate(const SessionParams& params);
 
 /// Status bits of a session's tick, above those of TickStatus; also in FORCE.
 struct SessionStatus {
@@ -50,6 +27,7 @@ struct SessionCommand {
   static constexpr std::uint32_t kPause = 1U << 0U;
   static constexpr std::uint32_t kReset = 1U << 1U;  ///< in one tick: forget the insertion
   static constexpr std::uint32_t kLate = 1U << 2U;   ///< the loop is late for too long: no force
+  static constexpr std::uint32_t kAll = kPause | kReset | kLate;
 };
 
 /// Everything that goes into a haptic tick. Plain bytes: a recording is a row of these.
@@ -70,10 +48,13 @@ struct HapticSnapshot {
   double axial[5] = {};     ///< N along the needle: prepuncture, cutting, attracted, friction, hard
                             ///< NOLINT(*-avoid-c-arrays)
   double clamping = 0;      ///< N, norm
-  double force_J[3] = {};   ///< N, as sent, frame J  NOLINT(*-avoid-c-arrays)
-  double torque_J[3] = {};  ///< N m  NOLINT(*-avoid-c-arrays)
-  double entry_J[3] = {};   ///< m, where the needle went in  NOLINT(*-avoid-c-arrays)
-  double cone = 0;          ///< rad, within which the needle may turn
+  double clamping_J[3] = {};   ///< N  NOLINT(*-avoid-c-arrays)
+  double surface_J[3] = {};    ///< N, of the god-object  NOLINT(*-avoid-c-arrays)
+  double workspace_J[3] = {};  ///< N, of the hemisphere  NOLINT(*-avoid-c-arrays)
+  double force_J[3] = {};      ///< N, as sent, frame J  NOLINT(*-avoid-c-arrays)
+  double torque_J[3] = {};     ///< N m  NOLINT(*-avoid-c-arrays)
+  double entry_J[3] = {};      ///< m, where the needle went in  NOLINT(*-avoid-c-arrays)
+  double cone = 0;             ///< rad, within which the needle may turn
   std::uint32_t status = 0;
   std::uint32_t events = 0;  ///< ContactEvent bits
   GesturePhase phase = GesturePhase::exploring;

@@ -2,11 +2,6 @@
 #pragma once
 #include <array>
 #include <atomic>
-#include <cstddef>
-#include <cstdint>
-#include <memory>
-#include <type_traits>
-#include <vector>
 
 #include "artus/core/check.h"
 
@@ -40,46 +35,6 @@ class NewestMailbox {
   unsigned back_ = 0;
   unsigned front_ = 2;
   bool filled_ = false;
-};
-
-/// A row of plain values from one thread to another. A full ring drops the value and counts it: the
-/// producer never waits.
-template <class T>
-class SpscRing {
-  static_assert(std::is_trivially_copyable_v<T>);
-
- public:
-  explicit SpscRing(std::size_t capacity) : values_(capacity + 1) {}
-
-  /// False when it was dropped.
-  ARTUS_REALTIME bool push(const T& value) noexcept {
-    const std::size_t at = head_.load(std::memory_order_relaxed);
-    const std::size_t next = at + 1 == values_.size() ? 0 : at + 1;
-    if (next == tail_.load(std::memory_order_acquire)) {
-      dropped_.store(dropped_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
-      return false;
-    }
-    values_[at] = value;
-    head_.store(next, std::memory_order_release);
-    return true;
-  }
-  /// False when there is none.
-  [[nodiscard]] ARTUS_REALTIME bool pop(T& value) noexcept {
-    const std::size_t at = tail_.load(std::memory_order_relaxed);
-    if (at == head_.load(std::memory_order_acquire)) return false;
-    value = values_[at];
-    tail_.store(at + 1 == values_.size() ? 0 : at + 1, std::memory_order_release);
-    return true;
-  }
-  [[nodiscard]] std::uint64_t dropped() const noexcept {
-    return dropped_.load(std::memory_order_relaxed);
-  }
-
- private:
-  std::vector<T> values_;
-  std::atomic<std::size_t> head_{0};
-  std::atomic<std::size_t> tail_{0};
-  std::atomic<std::uint64_t> dropped_{0};
 };
 
 }  // namespace artus

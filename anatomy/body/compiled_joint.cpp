@@ -2,11 +2,14 @@
 #include "artus/anatomy/body/compiled_joint.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <fstream>
 
 #include <unistd.h>
 
+#include "artus/anatomy/body/joint_digest.h"
 #include "artus/anatomy/body/tissue_bytes.h"
 #include "artus/core/byte_stream.h"
 
@@ -250,6 +253,13 @@ Result<CompiledJoint> read_compiled_joint(const std::filesystem::path& file) {
   const Result<std::string> payload = read_payload(file);
   if (!payload) return tl::unexpected(payload.error());
   return parse_compiled_joint(*payload, file.string());
+}
+
+std::string compute_joint_digest(const CompiledJoint& joint) {
+  std::array<char, 17> text{};
+  std::snprintf(text.data(), text.size(), "%016llx",
+                static_cast<unsigned long long>(hash_bytes(to_bytes(joint))));
+  return text.data();
 }
 
 }  // namespace artus

@@ -66,8 +66,11 @@ class HostileMemory : public ::testing::Test {
     return false;
   }
   bool wait_for(const std::function<bool()>& condition) {
-    for (int i = 0; i < 5000 && !condition(); ++i) sleep_us(1000);
-    return condition();
+    for (int i = 0; i < 5000; ++i) {
+      if (condition()) return true;
+      sleep_us(1000);
+    }
+    return false;
   }
   [[nodiscard]] bool was_told(const std::string& what) const {
     for (const std::string& notice : session_->notices())
@@ -122,6 +125,7 @@ TEST_P(SpoiledSegment, IsToldMadeAnewAndFoundByTheClient) {
     }
     const std::string name = prefix_ + GetParam().segment;
     ASSERT_TRUE(wait_for([&] { return was_told(name); }));
+    for (int i = 0; i < 250; ++i) talk();  // the client looks every 100 ms
     ASSERT_TRUE(talk_until_answered()) << "round " << round;
     artus_shm_link second{};
     EXPECT_NE(artus_shm_open(&second, prefix_.c_str()), 0) << "POS keeps its one writer";

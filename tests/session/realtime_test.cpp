@@ -6,8 +6,12 @@
 
 #include <gtest/gtest.h>
 
+#include "artus/session/dropping_ring.h"
+#include "artus/session/hand_device.h"
 #include "artus/session/haptic_loop.h"
 #include "artus/session/injecting_device.h"
+#include "artus/session/recorded_device.h"
+#include "artus/session/recorder.h"
 #include "artus/session/recording.h"
 #include "artus/session/session_exchange.h"
 #include "artus/session/shared_memory_device.h"
@@ -43,6 +47,9 @@ TEST(RealTimeSession, HandsAndRecordingsNeitherAllocateNorLock) {
   ARTUS_RUNS_REALTIME(HandDevice::read, use(hand.read(0)), run_device(hand, 500));
   ARTUS_RUNS_REALTIME(HandDevice::write, hand.write({}));
   ARTUS_RUNS_REALTIME(approach, use(approach({}, hand_at(1).X_WN, HandDevice::Limits{}, 1e-3)));
+  ARTUS_RUNS_REALTIME(is_pose, use(is_pose(hand_at(1).X_WN)));
+  ARTUS_RUNS_REALTIME(blend, use(blend({}, hand_at(1).X_WN, 0.5)));
+  ARTUS_RUNS_REALTIME(rotation_of, use(rotation_of(hand_at(1).X_WN)));
   RecordedDevice record({test::sample_at(0, 0, 1), test::sample_at(1e-3, 1, 2)});
   ARTUS_RUNS_REALTIME(RecordedDevice::read, use(record.read(0)), run_device(record, 5));
   ARTUS_RUNS_REALTIME(RecordedDevice::write, record.write({}));
@@ -106,10 +113,10 @@ TEST(RealTimeSession, ExchangesBetweenThreadsNeitherAllocateNorLock) {
   ARTUS_RUNS_REALTIME(Seqlock::sequence, use(lock.sequence()));
   NewestMailbox<std::vector<int>> mailbox;
   ARTUS_RUNS_REALTIME(NewestMailbox::publish, mailbox.publish());
-  SpscRing<int> ring(2);
+  DroppingRing<int> ring(2);
   int out = 0;
-  ARTUS_RUNS_REALTIME(SpscRing::push, ring.push(1), ring.push(2), ring.push(3));
-  ARTUS_RUNS_REALTIME(SpscRing::pop, use(ring.pop(out)));
+  ARTUS_RUNS_REALTIME(DroppingRing::push, ring.push(1), ring.push(2), ring.push(3));
+  ARTUS_RUNS_REALTIME(DroppingRing::pop, use(ring.pop(out)));
   EXPECT_EQ(out, 1);
 }
 

@@ -2,13 +2,19 @@
 #include "artus/session/session.h"
 
 #include <algorithm>
+#include <atomic>
+#include <cmath>
 #include <filesystem>
+#include <limits>
+#include <stdexcept>
 #include <thread>
 
 #include <unistd.h>
 
 #include <gtest/gtest.h>
 
+#include "artus/session/dropping_ring.h"
+#include "artus/session/hand_device.h"
 #include "artus/session/replay.h"
 #include "tests/session/session_support.h"
 
@@ -84,7 +90,7 @@ TEST(Session, ARecordedSessionReplaysToTheSameBytes) {
   double strongest = 0;
   for (const TickRecord& tick : recording->ticks) strongest = std::min(strongest, tick.force[2]);
   EXPECT_LT(strongest, -0.5) << "the recorded hand must have felt something";
-  const auto same = replay(*recording, scene, params);
+  const auto same = replay(*recording, scene);
   ASSERT_TRUE(same) << same.error().to_string();
   EXPECT_TRUE(same->identical());
   EXPECT_EQ(same->ticks, recording->ticks.size());
@@ -94,45 +100,9 @@ TEST(Session, ARecordedSessionReplaysToTheSameBytes) {
                                  [](const TickRecord& tick) { return tick.force[2] < -0.3; });
   felt->input.device.X_WN.position[2] += 1e-4;
   tampered.frames.back().input.X_JP.position[0] += 1e-3;
-  const auto other = replay(tampered, scene, params);
+  const auto other = replay(tampered, scene);
   EXPECT_GT(other->different_ticks, 0U);
   EXPECT_EQ(other->different_frames, 1U);
-  std::filesystem::remove(file);
-}
-
-TEST(Session, ARecordingKnowsTheLawsItWasFeltBy) {
-  const auto file =
-      std::filesystem::temp_directory_path() / ("artus-laws-" + std::to_string(getpid()) + ".rec");
-  const auto scene = test::make_layered_scene();
-  SessionParams params = test::make_small_session();
-  params.feel.cutting.all = CuttingLaw::voigt;
-  params.feel.cutting.of_tissue["fat"] = CuttingLaw::direct;
-  params.feel.patient.friction = 1.5;
-  params.feel.tap = HardLaw::impulse;
-  params.feel.clamping = ClampingLaw::plasticity;
-  params.feel.friction = lugre_sets()[0];
-  params.feel.workspace = HemisphereParams{Vec3(0.01, -0.02, 0.03), 0.2, 0.5};
-  params.feel.needle_length = 0.05;
-  params.feel.passivity_control = true;
-  {
-    Session::Options options = quiet_options();
-    options.recording = file;
-    auto session = Session::start(scene, params, test::make_injecting_hand(), options);
-    ASSERT_TRUE(session) << session.error().to_string();
-    ASSERT_TRUE(wait_until([&] { return (*session)->ticks() > 900; }));
-  }
-  const auto recording = read_recording(file);
-  ASSERT_TRUE(recording) << recording.error().to_string();
-  const auto plain = replay(*recording, scene, test::make_small_session());
-  ASSERT_TRUE(plain);
-  EXPECT_GT(plain->different_ticks, 0U) << "the laws must be felt at all";
-  const auto restored = params_of(recording->head, test::make_small_session());
-  ASSERT_TRUE(restored) << restored.error().to_string();
-  EXPECT_EQ(restored->feel.workspace->centre, params.feel.workspace->centre);
-  EXPECT_EQ(restored->feel.needle_length, params.feel.needle_length);
-  const auto same = replay(*recording, scene, *restored);
-  ASSERT_TRUE(same);
-  EXPECT_TRUE(same->identical());
   std::filesystem::remove(file);
 }
 
@@ -143,13 +113,92 @@ TEST(Session, ACutOffRecordingGivesWhatThereIs) {
   {
     auto recorder = Recorder::start(file, make_head(scene->joint(), test::make_small_session()));
     ASSERT_TRUE(recorder);
-    for (int i = 0; i < 10; ++i) (*recorder)->add(TickRecord{});
+    for (std::uint64_t i = 1; i <= 10; ++i) {
+      TickRecord record;
+      record.input.tick = i;
+      (*recorder)->add(record);
+    }
   }
   std::filesystem::resize_file(file, std::filesystem::file_size(file) - 100);
   const auto recording = read_recording(file);
   ASSERT_TRUE(recording) << recording.error().to_string();
   EXPECT_FALSE(recording->complete);
   EXPECT_EQ(recording->ticks.size(), 9U);
+  std::filesystem::remove(file);
+}
+
+TEST(Session, WithoutImagesNothingIsDrawn) {
+  Session::Options options = quiet_options();
+  options.images = false;
+  auto session = Session::start(test::make_layered_scene(), test::make_small_session(),
+                                test::make_injecting_hand(), options);
+  ASSERT_TRUE(wait_until([&] { return (*session)->ticks() > 300; }));
+  EXPECT_EQ((*session)->frames(), 0U);
+  EXPECT_EQ((*session)->times().image_render.count(), 0U);
+}
+
+TEST(Session, AFailureOfImagingIsToldAndTheHandGoesOn) {
+  std::atomic<int> failures{0};
+  Session::Options options = quiet_options();
+  options.on_image = [&failures](const ImageSnapshot& image) {
+    if (image.input.number == 2 || image.input.number == 4) {
+      ++failures;
+      throw std::runtime_error("no more ink");
+    }
+  };
+  auto session = Session::start(test::make_layered_scene(), test::make_small_session(),
+                                test::make_injecting_hand(), options);
+  ASSERT_TRUE(wait_until([&] { return failures == 1; }));
+  const std::uint64_t ticks = (*session)->ticks();
+  ASSERT_TRUE(wait_until([&] { return (*session)->frames() >= 6; })) << "images come again";
+  EXPECT_GT((*session)->ticks(), ticks + 100) << "the hand went on";
+  ASSERT_FALSE((*session)->notices().empty());
+  EXPECT_NE((*session)->notices().front().find("no more ink"), std::string::npos);
+}
+
+/// Sends poses that no device can have.
+class BrokenDevice final : public InputDevice {
+ public:
+  DeviceSample read(std::int64_t now_ns) noexcept override {
+    DeviceSample sample = test::sample_at(10e-3, now_ns, ++number_);
+    const double nasty[] = {std::numeric_limits<double>::quiet_NaN(),
+                            std::numeric_limits<double>::infinity(), 1e300, 0};
+    sample.X_WN.position[number_ % 3] = nasty[number_ % 4];
+    sample.X_WP.position[(number_ + 1) % 3] = nasty[(number_ + 1) % 4];
+    sample.X_WP.rotation[number_ % 4] = nasty[(number_ + 2) % 4];
+    return sample;
+  }
+  void write(const DeviceFeedback& feedback) noexcept override {
+    for (const double f : feedback.force)
+      if (!std::isfinite(f)) ++wrong_;
+  }
+  [[nodiscard]] std::string_view name() const noexcept override { return "broken"; }
+  std::uint64_t wrong_ = 0;
+
+ private:
+  std::uint64_t number_ = 0;
+};
+
+TEST(Session, APoseThatIsNoneReachesNeitherSnapshotNorImageNorRecording) {
+  const auto file = std::filesystem::temp_directory_path() /
+                    ("artus-broken-" + std::to_string(getpid()) + ".rec");
+  const auto scene = test::make_layered_scene();
+  {
+    Session::Options options = quiet_options();
+    options.recording = file;
+    auto session = Session::start(scene, test::make_small_session(),
+                                  std::make_unique<BrokenDevice>(), options);
+    ASSERT_TRUE(wait_until([&] { return (*session)->ticks() > 500 && (*session)->frames() > 5; }));
+    HapticSnapshot now;
+    ASSERT_TRUE((*session)->newest(now));
+    for (const PlainPose& pose : {now.X_JN, now.X_JP, now.input.device.X_WN, now.input.device.X_WP})
+      EXPECT_TRUE(is_pose(pose));
+    EXPECT_TRUE((*session)->notices().empty()) << (*session)->notices().front();
+  }
+  const auto recording = read_recording(file);
+  ASSERT_TRUE(recording) << recording.error().to_string();
+  const auto again = replay(*recording, scene);
+  EXPECT_TRUE(again->identical());
   std::filesystem::remove(file);
 }
 
@@ -190,8 +239,8 @@ TEST(NewestMailbox, TheConsumerSeesOnlyWholeAndEverNewerValues) {
   EXPECT_TRUE(sound);
 }
 
-TEST(SpscRing, KeepsOrderAndCountsWhatItDrops) {
-  SpscRing<int> ring(3);
+TEST(DroppingRing, KeepsOrderAndCountsWhatItDrops) {
+  DroppingRing<int> ring(3);
   EXPECT_TRUE(ring.push(1) && ring.push(2) && ring.push(3));
   EXPECT_FALSE(ring.push(4));
   EXPECT_EQ(ring.dropped(), 1U);

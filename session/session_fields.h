@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include "artus/core/fields.h"
+#include "artus/echo/image_fields.h"
+#include "artus/haptics/guard_fields.h"
+#include "artus/haptics/needle/needle_params_fields.h"
+#include "artus/session/gesture_fields.h"
+#include "artus/session/session_params.h"
+
+namespace artus {
+
+// The named members, for visit_fields (core/fields.h).
+
+template <Like<NeedleShape> P, class F>
+void fields_of(P& shape, F&& visit) {
+  auto& [outer_diameter, bore, length, echogenic] = shape;
+  visit("outer_diameter", outer_diameter);
+  visit("bore", bore);
+  visit("length", length);
+  visit("echogenic", echogenic);
+}
+
+/// All but the feel, whose choices may be unset, and the joint's place.
+template <Like<SessionParams> P, class F>
+void fields_of(P& params, F&& visit) {
+  auto& [haptic_rate, image_rate, device, needle, passivity, guard, feel, gesture, X_WJ, transducer,
+         image, needle_shape] = params;
+  visit("haptic_rate", haptic_rate);
+  visit("image_rate", image_rate);
+  visit("device", device);
+  visit("needle", needle);
+  visit("passivity", passivity);
+  visit("guard", guard);
+  visit("gesture", gesture);
+  visit("transducer", transducer);
+  visit("image", image);
+  visit("needle_shape", needle_shape);
+}
+
+}  // namespace artus

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include "artus/core/geometry.h"
+#include "artus/core/result.h"
+#include "artus/echo/image_settings.h"
+#include "artus/echo/needle_view.h"
+#include "artus/echo/transducer.h"
+#include "artus/haptics/device.h"
+#include "artus/haptics/guard.h"
+#include "artus/haptics/needle/needle_feel.h"
+#include "artus/haptics/passivity.h"
+#include "artus/session/two_phase_gesture.h"
+
+namespace artus {
+
+/// All that a session's results depend on besides its inputs and the joint. `feel` is the user's
+/// choice and goes before `needle` and `passivity`, which are as published.
+struct SessionParams {
+  double haptic_rate = 1000;  ///< Hz, 1000 to 10000
+  double image_rate = 40;     ///< Hz, 10 to 120
+  DeviceLimits device;        ///< whose limits the force is kept in
+  NeedleParams needle;
+  PassivityParams passivity;
+  GuardParams guard;
+  NeedleFeel feel;
+  GestureParams gesture;
+  Pose X_WJ = Pose::Identity();  ///< the joint's place before any calibration
+  Transducer transducer;
+  ImageSettings image;
+  NeedleShape needle_shape;  ///< of its length: see needle_length_of
+};
+
+/// m, hub to tip: the one length that the contact and the picture take.
+[[nodiscard]] double needle_length_of(const SessionParams& params) noexcept;
+
+/// Errors: invalid, naming the value.
+[[nodiscard]] Result<void> validate(const SessionParams& params);
+
+}  // namespace artus
