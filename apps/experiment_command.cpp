@@ -95,13 +95,17 @@ std::string list_of_names() {
 
 }  // namespace
 
-void add_experiment_command(CLI::App& app, ExitCode& code) {
+void add_experiment_command(Command& app, ExitCode& code) {
   auto options = std::make_shared<ExperimentCommandOptions>();
-  CLI::App* command = add_command(
+  Command* command = add_command(
       app, "experiment", "Replay a published experiment: trace, plot and a verdict on each claim",
       "Experiments: " + list_of_names() +
-          "\nExit code 1 when a claim does not hold. The claims are those of the published laws:\n"
-          "with others, those that fail are what the laws differ by.\n"
+          "\nEach claim is an input (put in), fitted (chosen with the answer in view) or "
+          "independent;\n"
+          "the last line counts them apart. Exit code 1 when a claim does not hold, also when\n"
+          "docs/haptics.md or docs/probe.md says so. The claims are those of the published laws: "
+          "with\n"
+          "others, those that fail are what the laws differ by.\n"
           "Examples:\n"
           "  artus experiment wall-move --out out/wall-move\n"
           "  artus experiment wall-stop --cutting voigt --out out/stop-voigt\n"

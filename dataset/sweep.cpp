@@ -89,19 +89,11 @@ json describe(const CompiledJoint& joint, const std::vector<ListedPose>& poses,
             {"echogenic", options.needle.echogenic}}}};
 }
 
-/// A picture under its name or not at all.
-Result<void> write_whole(const cv::Mat& image, const fs::path& file) {
+/// A file under its name or not at all; `write` makes it under another one.
+template <class Write>
+Result<void> write_whole(const fs::path& file, const Write& write) {
   const fs::path part = file.parent_path() / ("part-" + file.filename().string());
-  ARTUS_TRY(write_image(image, part));
-  std::error_code error;
-  fs::rename(part, file, error);
-  if (error) return fail(ErrorCode::unreadable, error.message(), file.string());
-  return {};
-}
-
-Result<void> write_text_whole(const fs::path& file, const std::string& text) {
-  const fs::path part = file.parent_path() / ("part-" + file.filename().string());
-  ARTUS_TRY(write_text(part, text));
+  ARTUS_TRY(write(part));
   std::error_code error;
   fs::rename(part, file, error);
   if (error) return fail(ErrorCode::unreadable, error.message(), file.string());
@@ -160,7 +152,8 @@ Result<void> claim_folder(const fs::path& folder, const json& description, bool 
     if (fs::exists(folder / "truth.jsonl"))
       return fail(ErrorCode::invalid, "the folder holds frames of something else; choose another",
                   folder.string());
-    return write_text_whole(file, description.dump(2) + "\n");
+    return write_whole(
+        file, [&](const fs::path& part) { return write_text(part, description.dump(2) + "\n"); });
   }
   const auto text = read_bytes(file);
   if (!text) return tl::unexpected(text.error());
@@ -209,8 +202,10 @@ class Sweep {
                                                   "-needle.png"};
     for (std::size_t i = 0; i < pictures.size(); ++i) {
       const std::string name = std::string(stem) + kEndings[i];
-      if (auto ok = write_whole(pictures[i].second, folder_ / name); !ok)
-        return tl::unexpected(ok.error());
+      const auto picture = [&](const fs::path& part) {
+        return write_image(pictures[i].second, part);
+      };
+      ARTUS_TRY(write_whole(folder_ / name, picture));
       truth[pictures[i].first] = name;
     }
     return truth;

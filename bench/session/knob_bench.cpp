@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Question: does turning a knob of the scanner stop the picture?
 // Command:  build/release/bench/session/bench_knobs     (one renderer thread, 40 images a second)
-// Reading:  p50, p99 and max are milliseconds from asking for an image to having it, over 400
+// Reading:  p50, p99 and max are milliseconds from asking for an image to having it, over 200
 //           images; every fourth has the knob in a new place. "still" turns nothing.
 //           "tables" is how long those of one place take on a thread of their own.
 // Peer:     everything made anew whenever a knob moves: "anew".
@@ -53,7 +53,7 @@ using Show = std::function<void(const FrameInput&)>;
 
 /// Renders at 40 Hz and reports how long each image took.
 void measure(benchmark::State& state, Turn turn, const Show& show) {
-  constexpr std::size_t kImages = 400;
+  constexpr std::size_t kImages = 200;
   constexpr std::chrono::milliseconds kPeriod(25);
   ImageControls controls = controls_of(make_params());
   std::vector<double> times;

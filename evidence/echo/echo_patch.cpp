@@ -162,7 +162,7 @@ std::vector<cv::Rect> find_muscle_patches(const LabelImage& labels, const Compil
           labels.regions[static_cast<std::size_t>(y) * static_cast<std::size_t>(labels.width) +
                          static_cast<std::size_t>(x)];
       const bool muscle =
-          region >= kFirstRegion && joint.tissue_of(region).kind == TissueKind::muscle;
+          region >= kFirstRegion && joint.tissue_of(region).acoustic.kind == TissueKind::muscle;
       other.at<std::uint8_t>(y, x) = muscle ? 0 : 1;
     }
   cv::Mat sums;

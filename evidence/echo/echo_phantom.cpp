@@ -80,7 +80,7 @@ EchoPhantom make_layers() {
                                          {"bone", kDepth}}};
   phantom.scene = make_block_scene(layers, [](CompiledJoint& joint) {
     for (Region& region : joint.regions) {
-      const TissueKind kind = joint.tissues[region.tissue].kind;
+      const TissueKind kind = joint.tissues[region.tissue].acoustic.kind;
       if (kind == TissueKind::muscle || kind == TissueKind::tendon)
         region.fibre_axis = Vec3::UnitX();
     }

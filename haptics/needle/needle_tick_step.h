@@ -64,7 +64,7 @@ class NeedleTickStep {
   static constexpr std::size_t kMaxIntervals = 64;
 
   const RenderedNeedle& finish(const Pose& X_JN, std::uint32_t faults,
-                                              const QueryCount& count) noexcept;
+                               const QueryCount& count) noexcept;
 
   LayerTable table_;
   double dt_;

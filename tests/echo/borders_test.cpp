@@ -2,15 +2,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <stdexcept>
-#include <utility>
+#include <string>
+#include <type_traits>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "artus/core/units.h"
+#include "artus/echo/image_fields.h"
 #include "artus/echo/renderer.h"
 #include "tests/echo/echo_fixture.h"
 #include "tests/support/no_alloc.h"
@@ -43,142 +44,57 @@ TEST(Borders, RenderingAllocatesNothingAfterTheFirstFrames) {
   EXPECT_EQ(counter.count(), 0);
 }
 
+/// A copy of `params` whose number `name` is `value`.
+template <class P>
+P with(P params, const std::string& name, double value) {
+  visit_fields(params, [&](const std::string& other, auto& member) {
+    using Member = std::remove_cvref_t<decltype(member)>;
+    if constexpr (!std::is_same_v<Member, bool>) {
+      if (other == name) member = static_cast<Member>(value);
+    }
+  });
+  return params;
+}
+
+template <class P>
+void expect_refused(const P& params, const std::string& name, double value) {
+  const Result<void> result = validate(with(params, name, value));
+  ASSERT_FALSE(result.has_value()) << name << " = " << value;
+  EXPECT_NE(result.error().to_string().find(name), std::string::npos);
+}
+
+/// Every number of `params` is refused where it makes no sense for any of them.
+template <class P>
+void expect_each_refused(const P& params) {
+  visit_fields(params, [&](const std::string& name, const auto& member) {
+    using Member = std::remove_cvref_t<decltype(member)>;
+    if constexpr (std::is_same_v<Member, double>) {
+      for (const double value : {kNan, kInfinity, -kInfinity, 1e300, -1e300})
+        expect_refused(params, name, value);
+    } else if constexpr (std::is_same_v<Member, int>) {
+      for (const double value : {-1.0, 1e9}) expect_refused(params, name, value);
+    }
+  });
+}
+
 TEST(Borders, EveryImpossibleTransducerIsRefusedByName) {
-  const std::vector<std::pair<const char*, std::function<void(Transducer&)>>> cases{
-      {"width",
-       [](Transducer& t) {
-         t.width = 0;
-       }},
-      {"width",
-       [](Transducer& t) {
-         t.width = -1;
-       }},
-      {"steering",
-       [](Transducer& t) {
-         t.steering = 2;
-       }},
-      {"n_lines",
-       [](Transducer& t) {
-         t.n_lines = 10000;
-       }},
-      {"n_lines",
-       [](Transducer& t) {
-         t.n_lines = 0;
-       }},
-      {"frequency",
-       [](Transducer& t) {
-         t.frequency = 1e12;
-       }},
-      {"frequency",
-       [](Transducer& t) {
-         t.frequency = 0;
-       }},
-      {"bandwidth",
-       [](Transducer& t) {
-         t.bandwidth = kNan;
-       }},
-      {"pulse_cycles",
-       [](Transducer& t) {
-         t.pulse_cycles = 0;
-       }},
-      {"f_number",
-       [](Transducer& t) {
-         t.f_number = 0;
-       }},
-      {"max_aperture",
-       [](Transducer& t) {
-         t.max_aperture = 0;
-       }},
-      {"elevation_height",
-       [](Transducer& t) {
-         t.elevation_height = 0;
-       }},
-      {"elevation_focus",
-       [](Transducer& t) {
-         t.elevation_focus = kInfinity;
-       }},
-      {"transmit_focus",
-       [](Transducer& t) {
-         t.transmit_focus = -1;
-       }},
-      {"radius",
-       [](Transducer& t) {
-         t.radius = 1e-3;
-       }},
-  };
-  const auto scene = test::make_block_scene(kLayers);
-  for (const auto& [name, spoil] : cases) {
-    Transducer transducer;
-    spoil(transducer);
-    const Result<void> result = validate(transducer);
-    ASSERT_FALSE(result.has_value()) << name;
-    EXPECT_NE(result.error().to_string().find(name), std::string::npos);
-    EXPECT_THROW(Renderer(scene, transducer, ImageSettings{}), std::invalid_argument) << name;
-  }
+  expect_each_refused(Transducer{});
+  for (const char* name : {"width", "n_lines", "frequency", "bandwidth", "pulse_cycles", "f_number",
+                           "max_aperture", "elevation_height", "elevation_focus"})
+    expect_refused(Transducer{}, name, 0);
+  expect_refused(Transducer{}, "steering", 2);
+  expect_refused(Transducer{}, "radius", 1e-3);
+  EXPECT_THROW(Renderer(test::make_block_scene(kLayers), with(Transducer{}, "width", 0), {}),
+               std::invalid_argument);
 }
 
 TEST(Borders, EveryImpossibleSettingIsRefusedByName) {
-  const std::vector<std::pair<const char*, std::function<void(ImageSettings&)>>> cases{
-      {"depth",
-       [](ImageSettings& s) {
-         s.depth = kNan;
-       }},
-      {"depth",
-       [](ImageSettings& s) {
-         s.depth = 10;
-       }},
-      {"n_samples",
-       [](ImageSettings& s) {
-         s.n_samples = 1 << 30;
-       }},
-      {"n_planes",
-       [](ImageSettings& s) {
-         s.n_planes = 0;
-       }},
-      {"dynamic_range_db",
-       [](ImageSettings& s) {
-         s.dynamic_range_db = 0;
-       }},
-      {"gain_db",
-       [](ImageSettings& s) {
-         s.gain_db = kInfinity;
-       }},
-      {"pixel",
-       [](ImageSettings& s) {
-         s.pixel = 0;
-       }},
-      {"persistence",
-       [](ImageSettings& s) {
-         s.persistence = 1;
-       }},
-      {"smoothing",
-       [](ImageSettings& s) {
-         s.smoothing = -0.1;
-       }},
-      {"compound_angles",
-       [](ImageSettings& s) {
-         s.compound_angles = 2;
-       }},
-      {"compound_spread",
-       [](ImageSettings& s) {
-         s.compound_spread = kNan;
-       }},
-      {"doppler_limit",
-       [](ImageSettings& s) {
-         s.doppler_limit = 0;
-       }},
-      {"n_threads",
-       [](ImageSettings& s) {
-         s.n_threads = -1;
-       }},
-  };
-  for (const auto& [name, spoil] : cases) {
-    ImageSettings settings;
-    spoil(settings);
-    const Result<void> result = validate(settings);
-    ASSERT_FALSE(result.has_value()) << name;
-    EXPECT_NE(result.error().to_string().find(name), std::string::npos);
-  }
+  expect_each_refused(ImageSettings{});
+  for (const char* name : {"depth", "n_samples", "n_planes", "dynamic_range_db", "pixel",
+                           "compound_angles", "doppler_limit"})
+    expect_refused(ImageSettings{}, name, 0);
+  expect_refused(ImageSettings{}, "compound_angles", 2);
+  expect_refused(ImageSettings{}, "persistence", 1);
 }
 
 TEST(Borders, ACurvedProbeCannotBeCompounded) {
