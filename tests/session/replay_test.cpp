@@ -190,7 +190,7 @@ TEST(Replay, WithOtherParamsThanThoseOfTheHeadManyResultsAreOthers) {
   // Not every parameter shows in every session (a law that is not chosen); those of the first rank
   // must. What a knob turns, as the gain, is an input of each frame and is taken from there.
   const auto scene = test::make_layered_scene();
-  const auto recording = parse(record(scene, small_session()));
+  const auto recording = parse(record(scene, test::make_small_session()));
   ASSERT_TRUE(recording);
   for (const Change& change : all_changes()) {
     for (const char* shown :
