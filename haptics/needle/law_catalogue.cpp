@@ -166,11 +166,12 @@ std::vector<LawDescription> line_laws() {
            "a new line within atan((n_L - d) / (n_L + d)) after a withdrawal",
            "[Alamilla2020] eq. 1.2",
            {{"needle_length", contact.needle_length, "m", "[Alamilla2020] section 1.6.1"},
-            {"redirect_withdrawal", contact.redirect_withdrawal, "m", kAssumed},
-            {"redirect_angle", contact.redirect_angle, "rad", kAssumed},
-            {"redirect_deviation", contact.redirect_deviation, "m", kAssumed},
-            {"redirect_advance", contact.redirect_advance, "m", kAssumed},
-            {"redirect_depth", contact.redirect_depth, "m", kAssumed}}}};
+            {"withdrawal", contact.line.withdrawal, "m", kAssumed},
+            {"deviation", contact.line.deviation, "m", kAssumed},
+            {"angle", contact.line.angle, "rad", kAssumed},
+            {"advance", contact.line.advance, "m", kAssumed},
+            {"way", contact.line.way, "m", kAssumed},
+            {"near_skin", contact.line.near_skin, "m", kAssumed}}}};
 }
 
 std::vector<LawDescription> other_laws() {

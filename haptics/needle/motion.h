@@ -105,6 +105,7 @@ class SampleWindow {
   /// Requires: window > 0, dt > 0.
   SampleWindow(double window, double dt) noexcept {
     const double n = std::round(window / dt);
+    if constexpr (requires { T::Zero(); }) values_.fill(T::Zero());  // {} leaves Eigen's unset
     span_ = n < 1                                    ? 1
             : n > static_cast<double>(kCapacity) - 1 ? kCapacity - 1
                                                      : static_cast<std::size_t>(n);

@@ -10,10 +10,6 @@
 namespace artus {
 namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-double angle_between(const Vec3& a, const Vec3& b) noexcept {
-  return std::atan2(a.cross(b).norm(), a.dot(b));
-}
 }  // namespace
 
 const char* to_string(ContactState state) noexcept {
@@ -44,6 +40,7 @@ NeedleContact::NeedleContact(const ContactParams& params, const PrepunctureParam
       prepuncture_(prepuncture),
       table_(&table),
       dt_(dt),
+      line_(params.line, params.needle_length),
       motion_(params.motion),
       depths_(params.velocity_window, dt),
       orientations_(params.velocity_window, dt) {
@@ -64,7 +61,6 @@ void NeedleContact::leave() noexcept {
   state_ = ContactState::away;
   region_ = kOutside;
   open_ = 0;
-  deepest_ = 0;
   was_outside_ = true;
   layer_count_ = 0;
   tick_.shaft = {};
@@ -101,11 +97,10 @@ void NeedleContact::store_layers(std::span<const TissueInterval> intervals,
 void NeedleContact::start_line(const Pose& X_JN, double depth) noexcept {
   inserted_ = true;
   tick_.orientation_0 = tick_.orientation;
-  first_axis_ = X_JN.linear().col(2);
-  tick_.axis = first_axis_;
-  tick_.entry = tick_.tip - depth * first_axis_;
+  line_.start(tick_.tip, X_JN.linear().col(2), depth, tick_.surface_normal);
+  tick_.axis = line_.axis();
+  tick_.entry = line_.entry();
   open_ = depth;
-  deepest_ = depth;
   motion_.reset(depth, Motion::inward);
 }
 
@@ -156,37 +151,48 @@ void NeedleContact::approach(const Pose& X_JN, std::span<const TissueInterval> i
   }
   start_line(X_JN, depth);
   tick_.dimple = 0;
-  tear(skin, force, depth);
+  tear(std::min(force, skin.tissue.puncture_force), depth);
   events_ |= ContactEvent::kSkinPunctured;
 }
 
-void NeedleContact::tear(const LayerHaptics& layer, double force, double dimple) noexcept {
-  tick_.torn += std::min(force, layer.tissue.puncture_force);
+void NeedleContact::tear(double force, double dimple) noexcept {
+  tick_.torn += force;
   tick_.torn_dimple = std::max(tick_.torn_dimple, dimple);
 }
 
-void NeedleContact::redirect(const Pose& X_JN) noexcept {
-  const Vec3 to_tip = tick_.tip - tick_.entry;
-  const double distance = to_tip.norm();
-  if (deepest_ - tick_.depth < params_.redirect_withdrawal || distance < params_.redirect_depth) {
-    return;
+// The line may follow the tip; what is remembered by depth goes with it.
+void NeedleContact::follow_line(const Pose& X_JN) noexcept {
+  const LineChange change = line_.follow(tick_.tip, X_JN.linear().col(2));
+  if (change.kept == 1) return;
+  const double ahead = open_ - tick_.depth;
+  tick_.axis = line_.axis();
+  tick_.entry = line_.entry();
+  tick_.depth += change.gain;
+  tick_.line_gain = change.gain;
+  tick_.line_kept = change.kept;
+  tick_.orientation_0 = tick_.orientation.slerp(change.kept, tick_.orientation_0);
+  if (ahead > 0) {
+    const double skin_open = params_.membrane_margin + params_.membrane_edge;  // until it is left
+    open_ = std::max(tick_.depth + change.kept * ahead, std::min(open_, skin_open));
   }
-  const Vec3 direction = to_tip / distance;
-  const double turned = angle_between(direction, tick_.axis);
-  if (turned < params_.redirect_angle || turned * distance < params_.redirect_deviation ||
-      angle_between(direction, first_axis_) > insertion_cone(distance, params_.needle_length)) {
-    return;
+  depths_.shift(change.gain);
+  motion_.shift(change.gain);
+  if (change.turned > 0) events_ |= ContactEvent::kRedirected;
+}
+
+// Whether the tip is before the first tissue of its line.
+bool NeedleContact::left_the_skin() const noexcept {
+  if (tick_.depth < 0) return true;
+  for (const ShaftLayer& s : tick_.shaft) {
+    if (s.region != kOutside) return s.entry > tick_.depth;
   }
-  const double gained = distance - tick_.depth;
-  tick_.axis = direction;
-  tick_.depth = distance;
-  tick_.line_gain = gained;
-  tick_.orientation_0 = Eigen::Quaterniond(X_JN.linear()).normalized();
-  open_ = distance;
-  deepest_ = distance + params_.redirect_withdrawal + params_.redirect_advance;  // may turn on
-  depths_.shift(gained);
-  motion_.shift(gained);
-  events_ |= ContactEvent::kRedirected;
+  return true;
+}
+
+// Share of its strength that a membrane has that crosses the line at `depth`.
+double NeedleContact::wholeness(double depth) const noexcept {
+  const double before_end = open_ - params_.membrane_margin - depth;
+  return std::clamp(1 - before_end / params_.membrane_edge, 0.0, 1.0);
 }
 
 // A line that comes to graze bone meets it millimetres behind the tip all at once, and loses it as
@@ -229,18 +235,20 @@ void NeedleContact::find_tip_layers() noexcept {
       break;
     }
     if (s.entry > x || s.region == kOutside) continue;
-    const bool whole = s.entry > open_ - params_.membrane_margin;
-    if (!held && whole && layer.tissue.puncture_force > 0) {
+    const double strength = wholeness(s.entry) * layer.tissue.puncture_force;
+    if (!held && strength > 0) {
       const double dimple = x - s.entry;
       const double force = prepuncture_force(prepuncture_, layer, dimple, tick_.velocity);
-      if (force < layer.tissue.puncture_force && x < s.exit) {
+      if (force < strength && x < s.exit) {
         held = true;
-        open_ = std::min(open_, s.entry);  // its surface may move under a needle that sways
+        if (strength == layer.tissue.puncture_force) {
+          open_ = std::min(open_, s.entry);  // its surface may move under a needle that sways
+        }
         tick_.dimple = dimple;
         tick_.membrane = layer;
       } else {
-        tear(layer, force, dimple);
-        open_ = std::max(open_, s.entry + params_.membrane_margin);
+        tear(std::min(force, strength), dimple);
+        open_ = std::max(open_, s.entry + params_.membrane_margin + params_.membrane_edge);
         events_ |= ContactEvent::kMembranePopped;
       }
     }
@@ -295,6 +303,7 @@ void NeedleContact::update_velocity(const Pose& X_JN) noexcept {
 void NeedleContact::update(const Pose& X_JN, std::span<const TissueInterval> intervals) noexcept {
   events_ = 0;
   tick_.line_gain = 0;
+  tick_.line_kept = 1;
   tick_.torn = 0;
   tick_.torn_dimple = 0;
   moved_ = adopt_ ? 0 : (X_JN.translation() - tick_.tip).norm();
@@ -305,19 +314,18 @@ void NeedleContact::update(const Pose& X_JN, std::span<const TissueInterval> int
     if (!inserted_) return;
   } else {
     tick_.depth = (tick_.tip - tick_.entry).dot(tick_.axis);
-    if (tick_.depth < 0) {
+    store_layers(intervals, params_.behind_skin);
+    if (left_the_skin()) {
       leave();
       events_ = ContactEvent::kExited;
       return;
     }
-    store_layers(intervals, params_.behind_skin);
     const double before = depths_.push(tick_.depth);
     tick_.velocity = (tick_.depth - before) / depths_.duration(dt_);
-    redirect(X_JN);
+    follow_line(X_JN);
   }
   motion_.step(tick_.depth, dt_);
   tick_.stillness = motion_.stillness();
-  deepest_ = std::max(deepest_, tick_.depth);
   tick_.incoming_speed = std::max(0.0, tick_.velocity);
   find_tip_layers();
   classify();

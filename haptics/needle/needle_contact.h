@@ -6,6 +6,7 @@
 
 #include "artus/core/units.h"
 #include "artus/haptics/needle/force_model.h"
+#include "artus/haptics/needle/insertion_line.h"
 #include "artus/haptics/needle/motion.h"
 #include "artus/haptics/needle/prepuncture.h"
 #include "artus/raycast/scene.h"
@@ -37,21 +38,16 @@ struct ContactEvent {
 };
 
 struct ContactParams {
-  double needle_length = 0.035;         ///< m, n_L; [Alamilla2020] section 1.6.1: 35 or 25 mm
-  double redirect_withdrawal = 5e-3;    ///< m back on a line before another may be taken; assumed:
-                                        ///< above tremor, below the source's "few centimetres"
-  double redirect_angle = 1 * kDegree;  ///< rad, smaller changes keep the line; assumed
-  double redirect_deviation = 0.15e-3;  ///< m off the line, below which it is kept; assumed: above
-                                        ///< tremor
-  double redirect_advance = 1e-3;  ///< m on a new line until which it may turn on; assumed: above
-                                   ///< what a hand that turns advances unmeant
-  double redirect_depth = 3e-3;  ///< m, nearer the skin the direction entry-tip is not defined well
-  double behind_skin = 2e-3;     ///< m, query starts this far before the entry
-  double lookahead = 0.02;       ///< m, query goes this far beyond the tip
-  double approach = 0.06;        ///< m, query behind the tip while no line is stored
+  double needle_length = 0.035;     ///< m, n_L; [Alamilla2020] section 1.6.1: 35 or 25 mm
+  LineParams line;                  ///< when and how the line may change
+  double behind_skin = 2e-3;        ///< m, query starts this far before the entry
+  double lookahead = 0.02;          ///< m, query goes this far beyond the tip
+  double approach = 0.06;           ///< m, query behind the tip while no line is stored
   double membrane_margin = 0.1e-3;  ///< m, by which a membrane may lie before the end of the cut
                                     ///< track and still be whole; assumed: above what a trembling
                                     ///< needle moves over a slope in a tick
+  double membrane_edge = 0.5e-3;    ///< m farther, over which its strength is lost; assumed: a
+                                    ///< needle's width
   double bevel = 1e-3;  ///< m, way on which a tip that was pressed into bone slides off it at most;
                         ///< assumed: the size of a needle's bevel
   MotionParams motion;
@@ -94,8 +90,10 @@ class NeedleContact {
   void store_layers(std::span<const TissueInterval> intervals, double origin) noexcept;
   void approach(const Pose& X_JN, std::span<const TissueInterval> intervals) noexcept;
   void start_line(const Pose& X_JN, double depth) noexcept;
-  void tear(const LayerHaptics& layer, double force, double dimple) noexcept;
-  void redirect(const Pose& X_JN) noexcept;
+  void tear(double force, double dimple) noexcept;
+  void follow_line(const Pose& X_JN) noexcept;
+  [[nodiscard]] bool left_the_skin() const noexcept;
+  [[nodiscard]] double wholeness(double depth) const noexcept;
   double felt_bone(double line_depth) noexcept;
   void find_tip_layers() noexcept;
   void classify() noexcept;
@@ -106,6 +104,7 @@ class NeedleContact {
   PrepunctureParams prepuncture_;
   const LayerTable* table_;
   double dt_;
+  InsertionLine line_;
   MotionDetector motion_;
   SampleWindow<double> depths_;
   SampleWindow<Eigen::Vector4d> orientations_;
@@ -120,14 +119,12 @@ class NeedleContact {
   bool adopt_ = true;
   bool on_bone_ = false;
   bool was_outside_ = true;
-  Vec3 first_axis_ = Vec3::UnitZ();
   double moved_ = 0;                 // m, the tip in this tick
   double bone_ = 0;                  // m, where bone is felt to begin while the tip is on it
   double held_ = 0;                  // m, how far the tip was in bone when its line last was
   Vec3 held_tip_ = Vec3::Zero();     // the tip there
   RegionId bone_region_ = kOutside;  // that bone
   double open_ = 0;                  // m, deepest point of the cut track on this line
-  double deepest_ = 0;               // m, from which withdrawal counts
 };
 
 }  // namespace artus

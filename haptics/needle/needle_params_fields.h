@@ -15,20 +15,28 @@ void fields_of(P& params, F&& visit) {
   visit("time", time);
 }
 
+template <Like<LineParams> P, class F>
+void fields_of(P& params, F&& visit) {
+  auto& [withdrawal, deviation, angle, advance, way, near_skin] = params;
+  visit("withdrawal", withdrawal);
+  visit("deviation", deviation);
+  visit("angle", angle);
+  visit("advance", advance);
+  visit("way", way);
+  visit("near_skin", near_skin);
+}
+
 template <Like<ContactParams> P, class F>
 void fields_of(P& params, F&& visit) {
-  auto& [length, withdrawal, angle, deviation, advance, depth, behind_skin, lookahead, approach,
-         margin, bevel, motion, velocity_window] = params;
+  auto& [length, line, behind_skin, lookahead, approach, margin, edge, bevel, motion,
+         velocity_window] = params;
   visit("needle_length", length);
-  visit("redirect_withdrawal", withdrawal);
-  visit("redirect_angle", angle);
-  visit("redirect_deviation", deviation);
-  visit("redirect_advance", advance);
-  visit("redirect_depth", depth);
+  visit("line", line);
   visit("behind_skin", behind_skin);
   visit("lookahead", lookahead);
   visit("approach", approach);
   visit("membrane_margin", margin);
+  visit("membrane_edge", edge);
   visit("bevel", bevel);
   visit("motion", motion);
   visit("velocity_window", velocity_window);

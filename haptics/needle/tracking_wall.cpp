@@ -22,10 +22,11 @@ void TrackingWall::start(double w0, double depth) noexcept {
   energy_ = 0;
 }
 
-void TrackingWall::take_line(double by) noexcept {
+void TrackingWall::take_line(double by, double kept) noexcept {
   wall_ += by;
   last_x_ += by;
-  cut_ = std::min(cut_ + by, last_x_);
+  cut_ += by;
+  cut_ -= (1 - kept) * std::max(0.0, cut_ - last_x_);
 }
 
 void TrackingWall::settle(const NeedleTick& tick, double x) noexcept {

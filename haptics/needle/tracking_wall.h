@@ -25,18 +25,18 @@ struct TrackingWallParams {
 /// do: on the way back the force is bounded by the account. Source [Alamilla2020] eqs. 2.14-2.19;
 /// (2.14) w = x - D (printed D - x), (2.16) a straight line, n ticks written as a settling time,
 /// eps as a band of speeds.
-class TrackingWall final : public ForceModel {
+class TrackingWall {
  public:
   explicit TrackingWall(const TrackingWallParams& params = {}) noexcept : params_(params) {}
-  ARTUS_REALTIME void reset(double depth) noexcept override;
-  ARTUS_REALTIME Wrench step(const NeedleTick& tick) noexcept override;
+  ARTUS_REALTIME void reset(double depth) noexcept;
+  ARTUS_REALTIME Wrench step(const NeedleTick& tick) noexcept;
 
   /// Starts an insertion at the skin: nothing is cut, the wall is at `w0`, the tip at `depth`.
   ARTUS_REALTIME void start(double w0, double depth) noexcept;
 
-  /// The line is taken anew where the needle is: depths are `by` m more, what is felt stays, and in
-  /// front of the tip nothing is cut.
-  ARTUS_REALTIME void take_line(double by) noexcept;
+  /// The line moved where the needle is: depths are `by` m more, what is felt stays, and of the cut
+  /// track in front of the tip the share `kept` is left.
+  ARTUS_REALTIME void take_line(double by, double kept) noexcept;
 
   [[nodiscard]] double wall() const noexcept { return wall_; }        ///< w, m
   [[nodiscard]] double cut_front() const noexcept { return cut_; }    ///< deepest w, m

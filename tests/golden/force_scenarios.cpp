@@ -14,11 +14,12 @@ namespace {
 
 constexpr double kMm = kMillimetre;
 
-// ---- the body: skin to 2 mm, muscle to 14, bursa to 16, fat to 24, then bone
+// ---- the body: skin to 2 mm, muscle to 14, bursa to 16, fat to 24, then bone; a little off those,
+// so that no tick ends on a surface and rounding decides nothing
 
 AnalyticBody flat_layers() {
   return AnalyticBody::make_stack(Vec3::Zero(), Vec3::UnitZ(),
-                                  {0, 2 * kMm, 14 * kMm, 16 * kMm, 24 * kMm});
+                                  {0, 2.0371 * kMm, 14.0173 * kMm, 16.0297 * kMm, 24.0119 * kMm});
 }
 
 Haptic tissue(double cutting, double stiffness, double clamping, double puncture = 0) {
@@ -39,7 +40,7 @@ ForceSetup plain_setup() {
   setup.muscle = tissue(2, 800, 250);
   setup.bursa = tissue(1.5, 500, 150, 2.2);
   setup.fat = tissue(0.8, 400, 100);
-  setup.bone = tissue(4, 4000, 0);
+  setup.bone = tissue(4, 4000, 50, 0.7);
   setup.bone.hard = true;
   return setup;
 }
@@ -124,7 +125,7 @@ Way insertion() {
            {2.5, 17, 0, 0},
            {2.8, 24.9, 0, 0},
            {3.0, 24.9, 0, 0},
-           {3.1, 23.485, 0, 0},  // back by little more than what arms the tap anew
+           {3.1, 23.4969, 0, 0},  // back by little more than what arms the tap anew
            {3.15, 24.4, 0, 0},
            {3.5, 18, 0, 0},
            {3.8, -3, 0, 0}},
@@ -237,6 +238,28 @@ ForceScenario swaying_over_a_membrane() {
                      Vec3(0.5, 0, 1)});
 }
 
+/// A membrane that has just popped: as its surface rises under a needle that sways, it is whole
+/// anew.
+ForceScenario at_the_edge_of_a_membrane() {
+  return prescribed("membrane-edge", plain_setup(),
+                    {{{0, -1, 0, 0},
+                      {0.3, 16.6, 0, 0},
+                      {0.4, 16.6, 0, 0},
+                      {1.2, 16.6, 2.8, 0},
+                      {2.8, 16.6, -2.8, 0}},
+                     Vec3(0.5, 0, 1)});
+}
+
+/// Every layer has a membrane.
+ForceScenario membranes() {
+  ForceSetup setup = plain_setup();
+  setup.muscle.puncture_force = 2.5;
+  setup.fat.puncture_force = 1.8;
+  return prescribed(
+      "membranes", setup,
+      {{{0, -1, 0, 0}, {0.4, 12, 0, 0}, {0.7, 20, 0, 0}, {0.9, 10, 0, 0}}, Vec3::UnitZ()});
+}
+
 /// Found inside, deeper than a line is looked for.
 ForceScenario found_deep() {
   return prescribed("found-deep", plain_setup(),
@@ -305,7 +328,9 @@ BodyExperiment body_experiment(const ForceSetup& setup) {
 }
 
 ForceScenario closed_loop() {
-  return {"closed-loop", plain_setup(), [](const ForceSetup& setup) {
+  ForceSetup start = plain_setup();
+  start.device.encoder_step = 13.7e-6;  // no layer and no goal lies on one of its steps
+  return {"closed-loop", start, [](const ForceSetup& setup) {
             BodyExperiment e = body_experiment(setup);
             e.phases = {push_to(8 * kMm, 0.03),
                         stay(0.2),
@@ -321,7 +346,7 @@ ForceScenario closed_loop() {
 ForceScenario into_a_thick_layer() {
   return {"thick-layer", plain_setup(), [](const ForceSetup& setup) {
             BodyExperiment e = body_experiment(setup);
-            e.body = AnalyticBody::make_stack(Vec3::Zero(), Vec3::UnitZ(), {0, 2 * kMm});
+            e.body = AnalyticBody::make_stack(Vec3::Zero(), Vec3::UnitZ(), {0, 2.0371 * kMm});
             OperatorPhase phase = push_to(0, 0.04);
             phase.goal = OperatorPhase::Goal::region;
             phase.region = kFirstRegion + 1;
@@ -333,23 +358,27 @@ ForceScenario into_a_thick_layer() {
 }
 
 /// A tip pressed into the flank of a round bone that then slides off it.
+/// A tip pressed against the side of a round bone that then slides off it: the line loses the bone
+/// at once, the bevel does not.
 ForceScenario off_steep_bone() {
   ForceSetup setup = plain_setup();
   setup.bone.cutting_force = 8;
+  setup.bone.wall_stiffness = 800;
   return {"steep-bone", setup, [](const ForceSetup& s) {
+            constexpr double kBeside = 14.9;  // mm, of the bone's 15
             BodyExperiment e = body_experiment(s);
             e.layers = {layer_of(s.skin), layer_of(s.bone)};
             e.names = {"skin", "bone"};
             e.body = AnalyticBody::make_balls(Vec3(0, 0, 30 * kMm), {30 * kMm, 15 * kMm});
-            e.entry = Vec3(10 * kMm, 0, (30 - std::sqrt(900.0 - 100.0)) * kMm);
+            e.entry = Vec3(kBeside, 0, 30 - std::sqrt(900 - kBeside * kBeside)) * kMm;
             e.path = [entry = e.entry](double t) {
               Intention want;
-              const double depth = std::min(0.04 * t, 0.022) - 5 * kMm;
-              const double aside = std::clamp(0.02 * (t - 0.8), 0.0, 8 * kMm);
+              const double depth = std::min(0.04 * t, 34 * kMm) - 5 * kMm;
+              const double aside = std::clamp(4e-3 * (t - 1.2), 0.0, 2 * kMm);
               want.X_JN = make_pose(entry + Vec3(aside, 0, depth), Vec3::UnitZ(), Vec3::UnitX());
               return want;
             };
-            e.path_duration = 1.3;
+            e.path_duration = 1.8;
             return run_body(e);
           }};
 }
@@ -383,13 +412,22 @@ bool same(const std::string& a, const std::string& b) {
 }  // namespace
 
 std::vector<ForceScenario> make_force_scenarios() {
-  return {tracking_wall(), bent_aside(),
-          new_lines(),     voigt_plasticity(),
-          barbe_impulse(), god_object_passivity(),
-          slow_entry(),    swaying_over_a_membrane(),
-          found_deep(),    faults(),
-          saturated(),     slewed(),
-          closed_loop(),   into_a_thick_layer(),
+  return {tracking_wall(),
+          bent_aside(),
+          new_lines(),
+          voigt_plasticity(),
+          barbe_impulse(),
+          god_object_passivity(),
+          slow_entry(),
+          swaying_over_a_membrane(),
+          at_the_edge_of_a_membrane(),
+          membranes(),
+          found_deep(),
+          faults(),
+          saturated(),
+          slewed(),
+          closed_loop(),
+          into_a_thick_layer(),
           off_steep_bone()};
 }
 

@@ -53,6 +53,7 @@ void expect_noticed(const std::string& what, const std::vector<Mutation>& mutati
 }
 
 TEST(Mutations, EveryParameterOfTheNeedlesForcesIsNoticed) {
+  const std::string kHard = "a hard layer is neither pierced nor cut, nor does it hold the shaft";
   std::vector<Subject<ForceSetup>> subjects;
   for (const ForceScenario& scenario : make_force_scenarios())
     subjects.push_back({scenario.name, scenario.setup, [scenario](const ForceSetup& setup) {
@@ -61,7 +62,12 @@ TEST(Mutations, EveryParameterOfTheNeedlesForcesIsNoticed) {
   expect_noticed("needle", try_mutations(subjects),
                  {{"device.workspace", "shown to people; no force depends on it"},
                   {"needle.contact.behind_skin",
-                   "room for rounding: the query begins before the skin, where nothing is felt"}});
+                   "room for rounding: the query begins before the skin, where nothing is felt"},
+                  {"bone.attracted_force", kHard},
+                  {"bone.friction", kHard},
+                  {"bone.puncture_force", kHard},
+                  {"bone.cutting_law", kHard},
+                  {"bone.prepuncture_law", kHard}});
 }
 
 // ---- the probe on the skin
@@ -110,6 +116,9 @@ TEST(Mutations, EveryParameterOfTheProbesContactIsNoticed) {
   };
   const auto wide = scene_of(soft, 0.2);
   const auto bony = scene_of(thin, 0.2);
+  const auto askew =
+      std::make_shared<const Scene>(std::make_shared<const CompiledJoint>(make_block_with_sphere(
+          {"muscle", Vec3(0.16, 0.1, 0.1), Vec3::Zero(), "bone", Vec3(5e-3, 4e-3, 25e-3), 0.015})));
   const auto narrow = scene_of(soft, 0.03);  // skin ends under the face
   const auto subject = [](const std::string& name, const std::shared_ptr<const Scene>& scene,
                           const ProbeStroke& to, ProbeContactParams params = {}) {
@@ -123,9 +132,9 @@ TEST(Mutations, EveryParameterOfTheProbesContactIsNoticed) {
       "probe",
       try_mutations<ProbeContactParams>(
           {subject("press", wide, {6e-3, 0, 0}), subject("slide", wide, {4e-3, 20e-3, 0}),
-           subject("tilt", wide, {3e-3, 5e-3, 0.3}), subject("bone", bony, {4.5e-3, 0, 0}),
-           subject("edge", narrow, {3e-3, 5e-3, 0}), subject("deep", wide, {32e-3, 0, 0}),
-           subject("dry", wide, {4e-3, 20e-3, 0}, dry)}),
+           subject("askew", askew, {6e-3, 2e-3, 0.1}), subject("tilt", wide, {3e-3, 5e-3, 0.3}),
+           subject("bone", bony, {4.5e-3, 0, 0}), subject("edge", narrow, {3e-3, 5e-3, 0}),
+           subject("deep", wide, {32e-3, 0, 0}), subject("dry", wide, {4e-3, 20e-3, 0}, dry)}),
       {});
 }
 
@@ -136,7 +145,7 @@ std::vector<std::string> actuator_trace(const ActuatorSetup& setup, ControlLawKi
   PneumaticPlant plant(setup.plant, two_valves ? ValveLayout::two : ValveLayout::one);
   ProbeSensors sensors(setup.plant.sensors, 5);
   ControlSupervisor supervisor(setup.control, setup.plant, setup.supervisor, kind);
-  std::vector<std::string> lines{"y,v,p_P,p_N,u_P,u_N,force,reference,status"};
+  std::vector<std::string> lines{"t,y,v,p_P,p_N,u_P,u_N,force,reference,status"};
   std::uint32_t status = 0;
   constexpr double kEnd = 2.6;  // s
   const auto n = static_cast<long>(kEnd / supervisor.period());
@@ -144,9 +153,9 @@ std::vector<std::string> actuator_trace(const ActuatorSetup& setup, ControlLawKi
     const double t = static_cast<double>(i) * supervisor.period();
     RodLoad load;
     load.mass = 0.2;
-    load.force = t < 0.3 ? 0 : (t < 0.8 ? 6 : (t < 1.4 ? 60 : 3));  // an overload, too
+    load.force = t < 0.8 ? 12 * t : (t < 1.4 ? 60 : 3);  // an overload, too
     ProbeTarget target;
-    target.y = t > 1.8 ? 5e-3 : 0;
+    target.y = t > 1.8 || t < 0.6 ? 5e-3 : 0;
     target.stiffness = 900;
     if (t > 2) plant.set_supply(t < 2.3 ? 1.2e5 : setup.plant.valve.supply);
     const bool broken = t > 2.4;
@@ -158,8 +167,8 @@ std::vector<std::string> actuator_trace(const ActuatorSetup& setup, ControlLawKi
     status = tick.status;
     const CylinderState& s = plant.state();
     std::string line;
-    for (const double v : {s.y * 1e3, s.v * 1e3, s.p_P, s.p_N, tick.command.u_P, tick.command.u_N,
-                           plant.contact_force(), tick.reference * 1e3})
+    for (const double v : {t, s.y * 1e3, s.v * 1e3, s.p_P, s.p_N, tick.command.u_P,
+                           tick.command.u_N, plant.contact_force(), tick.reference * 1e3})
       line += to_csv(v) + ',';
     lines.push_back(line + std::to_string(tick.status));
   }
@@ -168,22 +177,41 @@ std::vector<std::string> actuator_trace(const ActuatorSetup& setup, ControlLawKi
 
 TEST(Mutations, EveryParameterOfTheActuatorIsNoticed) {
   std::vector<Subject<ActuatorSetup>> subjects;
+  const auto add = [&subjects](const std::string& name, ActuatorSetup setup, ControlLawKind kind) {
+    setup.control.rate = 2500;
+    subjects.push_back({name, setup, [kind](const ActuatorSetup& s) {
+                          return actuator_trace(s, kind,
+                                                kind != ControlLawKind::backstepping_one_valve);
+                        }});
+  };
   for (const ControlLawKind kind :
        {ControlLawKind::admittance_pid, ControlLawKind::admittance_ipc,
-        ControlLawKind::backstepping_one_valve, ControlLawKind::backstepping_two_valves}) {
-    for (const bool from_target : {true, false}) {
-      const bool backstepping = kind >= ControlLawKind::backstepping_one_valve;
-      if (!backstepping && !from_target) continue;
-      ActuatorSetup setup;
-      setup.control.backstepping.from_target = from_target;
-      setup.control.rate = 2500;
-      subjects.push_back({std::string(to_string(kind)) + (from_target ? "" : " fixed gains"), setup,
-                          [kind](const ActuatorSetup& s) {
-                            return actuator_trace(s, kind,
-                                                  kind != ControlLawKind::backstepping_one_valve);
-                          }});
-    }
-  }
+        ControlLawKind::backstepping_one_valve, ControlLawKind::backstepping_two_valves})
+    add(to_string(kind), {}, kind);
+  ActuatorSetup fixed;
+  fixed.control.backstepping.from_target = false;
+  add("fixed gains", fixed, ControlLawKind::backstepping_two_valves);
+  // Limits near enough to be reached.
+  ActuatorSetup limits;
+  limits.control.pid.integral = 300;
+  limits.control.pid.integral_limit = 0.3;
+  limits.control.backstepping.z_3i_limit = 0.02;
+  limits.supervisor.stop_margin = 8e-3;
+  add("limited pid", limits, ControlLawKind::admittance_pid);
+  add("limited backstepping", limits, ControlLawKind::backstepping_one_valve);
+  ActuatorSetup narrow;
+  narrow.plant.sensors.position.low = -2e-3;
+  add("narrow position", narrow, ControlLawKind::admittance_pid);
+  narrow = {};
+  narrow.plant.sensors.pressure.low = 1.8e5;
+  narrow.plant.sensors.pressure.high = 3.1e5;
+  add("narrow pressure", narrow, ControlLawKind::admittance_pid);
+  narrow = {};
+  narrow.plant.sensors.position.high = 2e-3;
+  add("narrow stroke", narrow, ControlLawKind::backstepping_two_valves);
+  narrow = {};
+  narrow.plant.sensors.force.low = 4;
+  add("narrow force", narrow, ControlLawKind::admittance_pid);
   expect_noticed("actuator", try_mutations(subjects), {});
 }
 

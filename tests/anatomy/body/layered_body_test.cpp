@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "artus/anatomy/body/joint_digest.h"
 #include "tests/support/layered_body.h"
 
 namespace artus {
@@ -100,6 +101,21 @@ TEST(TetVolume, IsPositiveForAPositiveTetrahedronAndChangesSignWithTheOrder) {
   mesh.tetrahedra = {{0, 1, 2, 3}, {1, 0, 2, 3}};
   EXPECT_DOUBLE_EQ(tet_volume(mesh, 0), 1.0 / 6);
   EXPECT_DOUBLE_EQ(tet_volume(mesh, 1), -1.0 / 6);
+}
+
+TEST(JointDigest, IsTheSameForTheSameBodyAndAnotherForAnyOther) {
+  const auto tissues = read_bundled_tissues();
+  ASSERT_TRUE(tissues);
+  const std::vector<SphereLayer> layers{{"skin", 0.02}, {"bone", 0.01}};
+  const CompiledJoint joint = make_nested_spheres(*tissues, layers, Vec3::Zero(), 1);
+  EXPECT_EQ(compute_joint_digest(joint), compute_joint_digest(CompiledJoint(joint)));
+  EXPECT_EQ(compute_joint_digest(joint).size(), 16U);
+  CompiledJoint other = joint;
+  other.tissues.back().haptic.friction += 1e-9;
+  EXPECT_NE(compute_joint_digest(other), compute_joint_digest(joint));
+  other = joint;
+  other.mesh.vertices.back().x() += 1e-9;
+  EXPECT_NE(compute_joint_digest(other), compute_joint_digest(joint));
 }
 
 }  // namespace

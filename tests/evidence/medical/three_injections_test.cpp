@@ -49,6 +49,24 @@ TEST(ThreeInjections, EveryClaimOfThePublishedTestHolds) {
     EXPECT_TRUE(c.pass) << c.text << ": " << c.value << ' ' << c.bound;
 }
 
+// What the test shows of force and probe was put in: it checks the machinery and proves nothing.
+TEST(ThreeInjections, ClaimsAreInputsAndSayOfWhat) {
+  for (const Claim& c : first_run().claims) {
+    EXPECT_EQ(c.basis.kind, ClaimKind::input) << c.text;
+    EXPECT_FALSE(c.basis.why.empty()) << c.text;
+  }
+}
+
+TEST(ThreeInjections, BoneIsTouchedByAllAndBothSlowOnesTakeANewLine) {
+  const auto value_of = [](const std::string& text) {
+    for (const Claim& c : first_run().claims)
+      if (c.text == text) return c.value;
+    return -1.0;
+  };
+  EXPECT_EQ(value_of("injections that touch bone"), 3);
+  EXPECT_EQ(value_of("injections that took a new line, of those re-aimed"), 2);
+}
+
 TEST(ThreeInjections, EachLayersPlateauIsItsTableForceWithinTwoPercent) {
   const std::vector<std::pair<std::string, double>> table{
       {"skin", 1}, {"muscle", 2}, {"bursa", 1.5}, {"tendon", 2.5}, {"cartilage", 3}, {"bone", 4}};

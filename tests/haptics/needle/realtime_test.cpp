@@ -10,6 +10,7 @@
 #include "artus/haptics/needle/clamping.h"
 #include "artus/haptics/needle/classic_cutting.h"
 #include "artus/haptics/needle/insertion_cone.h"
+#include "artus/haptics/needle/insertion_line.h"
 #include "artus/haptics/needle/needle_model.h"
 #include "artus/haptics/needle/needle_tick_step.h"
 #include "artus/haptics/needle/velocity_estimator.h"
@@ -32,7 +33,16 @@ TEST(RealTimeNeedle, TrackingWallNeitherAllocatesNorLocks) {
   line.tick().bone_depth = 3e-3;
   line.tick().bone = line.tick().layer;
   ARTUS_RUNS_REALTIME(TrackingWall::step, use(law.step(line.at(4e-3))));
-  ARTUS_RUNS_REALTIME(TrackingWall::take_line, law.take_line(1e-4));
+  ARTUS_RUNS_REALTIME(TrackingWall::take_line, law.take_line(1e-4, 0.5));
+}
+
+TEST(RealTimeNeedle, InsertionLineNeitherAllocatesNorLocks) {
+  InsertionLine line({}, 0.035);
+  const Vec3 z = Vec3::UnitZ();
+  ARTUS_RUNS_REALTIME(InsertionLine::start, line.start(Vec3::Zero(), z, 0, -z));
+  ARTUS_RUNS_REALTIME(InsertionLine::follow, use(line.follow(Vec3(0, 0, 0.02), z)),
+                      use(line.follow(Vec3(2e-3, 0, 0.01), z)),
+                      use(line.follow(Vec3(2e-3, 0, 0.001), z)));
 }
 
 TEST(RealTimeNeedle, ClassicCuttingLawsNeitherAllocateNorLock) {
@@ -110,6 +120,7 @@ TEST(RealTimeNeedle, WhatHoldsTheNeedleOnItsLineNeitherAllocatesNorLocks) {
   ARTUS_RUNS_REALTIME(clamping_stiffness, use(clamping_stiffness(line.tick())));
   PlasticityFixture plasticity;
   ARTUS_RUNS_REALTIME(PlasticityFixture::reset, plasticity.reset(0));
+  ARTUS_RUNS_REALTIME(PlasticityFixture::take_line, plasticity.take_line(0.5));
   ARTUS_RUNS_REALTIME(PlasticityFixture::step, use(plasticity.step(line.tick())));
   OrientationTorque torque;
   ARTUS_RUNS_REALTIME(OrientationTorque::reset, torque.reset(0));

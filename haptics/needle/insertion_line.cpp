@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/haptics/needle/insertion_line.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "artus/haptics/needle/insertion_cone.h"
+
+namespace artus {
+namespace {
+constexpr double kGrazing = 0.1;  // cosine below which a line runs along the skin
+
+double angle_between(const Vec3& a, const Vec3& b) noexcept {
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+// The unit vector at `angle` from `from` on the way to `to`.
+Vec3 turned(const Vec3& from, const Vec3& to, double angle) noexcept {
+  const Vec3 across = to - from * from.dot(to);
+  const double norm = across.norm();
+  if (!(norm > 0)) return from;
+  return (std::cos(angle) * from + std::sin(angle) / norm * across).normalized();
+}
+
+double fourth_power(double x) noexcept {
+  return x * x * x * x;
+}
+
+}  // namespace
+
+void InsertionLine::start(const Vec3& tip, const Vec3& axis, double depth,
+                          const Vec3& skin_normal) noexcept {
+  axis_ = axis;
+  first_axis_ = axis;
+  entry_ = tip - depth * axis;
+  skin_normal_ = std::abs(skin_normal.dot(axis)) > kGrazing ? skin_normal : Vec3(-axis);
+  deepest_ = depth;
+  shallowest_ = params_.near_skin;
+}
+
+LineChange InsertionLine::follow(const Vec3& tip, const Vec3& own_axis) noexcept {
+  LineChange change;
+  const double before = depth(tip);
+  deepest_ = std::max(deepest_, before);
+  if (before >= params_.near_skin) {
+    shallowest_ = params_.near_skin;
+  } else if (before < shallowest_) {
+    let_go(tip, own_axis, change);
+  }
+  turn(tip, change);
+  change.gain = depth(tip) - before;
+  return change;
+}
+
+// Near the skin, each millimetre out lets go of its share of the line.
+void InsertionLine::let_go(const Vec3& tip, const Vec3& own_axis, LineChange& change) noexcept {
+  const double before = depth(tip);
+  if (before <= 0) return;  // the tip is outside
+  const double share = before / shallowest_;
+  const Vec3 foot = entry_ + before * axis_;
+  const Vec3 on_line = tip + share * (foot - tip);
+  axis_ = turned(own_axis, axis_, share * angle_between(own_axis, axis_));
+  first_axis_ = turned(own_axis, first_axis_, share * angle_between(own_axis, first_axis_));
+  const double slope = axis_.dot(skin_normal_);
+  const double in =
+      std::abs(slope) > kGrazing ? (on_line - entry_).dot(skin_normal_) / slope : before;
+  entry_ = on_line - in * axis_;
+  const double now = depth(tip);
+  deepest_ = now + share * (deepest_ - before);
+  shallowest_ = before;
+  change.kept *= share;
+}
+
+// How far the tip may be off a line, m.
+double InsertionLine::band(double depth) const noexcept {
+  const double withdrawn = std::min(deepest_ - depth, params_.withdrawal);
+  if (withdrawn <= 0 || depth <= 0) return std::numeric_limits<double>::infinity();
+  return std::max(params_.deviation, params_.angle * depth) *
+         fourth_power(params_.withdrawal / withdrawn) *
+         fourth_power(std::max(1.0, params_.near_skin / depth));
+}
+
+// `axis`, or the nearest to it that is no farther from the first one than the cone allows, or than
+// the line is already.
+Vec3 InsertionLine::inside_cone(const Vec3& axis, double depth) const noexcept {
+  const double most =
+      std::max(insertion_cone(depth, needle_length_), angle_between(axis_, first_axis_));
+  return angle_between(axis, first_axis_) <= most ? axis : turned(first_axis_, axis, most);
+}
+
+void InsertionLine::turn(const Vec3& tip, LineChange& change) noexcept {
+  const double before = depth(tip);
+  const Vec3 to_tip = tip - entry_;
+  const double distance = to_tip.norm();
+  const double most = band(before);
+  if (!((to_tip - before * axis_).norm() > most)) return;
+  const Vec3 direction = to_tip / distance;
+  const Vec3 axis = inside_cone(turned(direction, axis_, std::asin(most / distance)), distance);
+  change.turned = distance * angle_between(axis_, axis);
+  if (!(change.turned > 0)) return;
+  const double kept = std::exp(-change.turned / params_.way);
+  axis_ = axis;
+  const double now = depth(tip);
+  const double enough = params_.withdrawal + params_.advance;
+  const double withdrawn = deepest_ - before;
+  deepest_ = now + std::min(withdrawn, enough) + std::max(0.0, withdrawn - enough) * kept;
+  change.kept *= kept;
+}
+
+}  // namespace artus

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// `artus serve` as a process: how it ends, and that what it recorded replays for any flags.
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+#include "artus/session/session_thread.h"
+#include "artus/session/shared_memory.h"
+#include "tests/apps/run_tool.h"
+
+namespace artus {
+namespace {
+
+/// Starts the tool and does not wait for it.
+pid_t start_tool(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), ARTUS_TOOL);
+  const pid_t process = fork();
+  if (process != 0) return process;
+  const int nowhere = open("/dev/null", O_WRONLY);
+  dup2(nowhere, STDOUT_FILENO);
+  dup2(nowhere, STDERR_FILENO);
+  std::vector<char*> argv;
+  for (std::string& argument : arguments) argv.push_back(argument.data());
+  argv.push_back(nullptr);
+  execv(ARTUS_TOOL, argv.data());
+  _exit(127);
+}
+
+class ServeProcess : public ::testing::TestWithParam<int> {
+ protected:
+  ~ServeProcess() override {
+    for (const SegmentLayout& layout : {kPosLayout, kForceLayout, kImageLayout})
+      SharedSegment::remove(prefix_, layout);
+  }
+  [[nodiscard]] bool exists(const char* name) const {
+    return std::filesystem::exists("/dev/shm/" + prefix_ + name);
+  }
+  std::string prefix_ = "artus-serve-" + std::to_string(getpid()) + "-";
+};
+
+TEST_P(ServeProcess, EndsByASignalInGoodOrder) {
+  const pid_t process = start_tool({"serve", "-j", test::kSimple, "--prefix", prefix_});
+  const std::int64_t patience = monotonic_ns() + 60'000'000'000;
+  while (!exists("IMAGE") && monotonic_ns() < patience) usleep(10'000);
+  auto seen = SharedChannel<artus_shm_force>::open(prefix_, kForceLayout, SegmentAccess::observer);
+  ASSERT_TRUE(seen) << seen.error().to_string();
+  artus_shm_force force{};
+  while ((!seen->read(force) || force.tick < 50) && monotonic_ns() < patience) usleep(1000);
+  ASSERT_GE(force.tick, 50U);
+  kill(process, GetParam());
+  int status = 0;
+  waitpid(process, &status, 0);
+  EXPECT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 0);
+  ASSERT_TRUE(seen->read(force));
+  EXPECT_EQ(force.status, static_cast<std::uint32_t>(ARTUS_SHM_STOPPED));
+  for (const double f : force.force) EXPECT_EQ(f, 0);
+  for (const char* name : {"POS", "FORCE", "IMAGE"}) EXPECT_FALSE(exists(name)) << name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Signals, ServeProcess, ::testing::Values(SIGINT, SIGTERM, SIGHUP),
+                         [](const auto& number) {
+                           return std::string(sigabbrev_np(number.param));
+                         });
+
+TEST(Serve, WithoutImagesMakesNoSegmentAndDrawsNothing) {
+  const auto served = test::artus({"serve", "-j", test::kSimple, "--input", "injection",
+                                   "--no-images", "--seconds", "0.3", "--json"});
+  EXPECT_EQ(served.exit_code, 0) << served.err;
+  EXPECT_NE(served.out.find("\"frames\": 0"), std::string::npos);
+}
+
+TEST(Serve, RefusesAPrefixThatIsNone) {
+  const auto served = test::artus({"serve", "-j", test::kSimple, "--prefix", "a/b"});
+  EXPECT_EQ(served.exit_code, 2);
+  EXPECT_NE(served.err.find("63 letters"), std::string::npos);
+}
+
+/// A flag of `serve` away from its default.
+struct Flag {
+  const char* name;
+  std::vector<std::string> arguments;
+};
+
+class ServeFlag : public ::testing::TestWithParam<Flag> {};
+
+TEST_P(ServeFlag, RecordsWhatReplaysToTheSameBytes) {
+  const auto file = std::filesystem::temp_directory_path() /
+                    ("artus-flag-" + std::to_string(getpid()) + GetParam().name + ".rec");
+  std::vector<std::string> serve{
+      "serve",     "-j",           test::kSimple,
+      "--input",   "injection",    "--record",
+      file,        "--speed-mm-s", "60",
+      "--seconds", "1.2",          "--image-rate",
+      "5",         "--prefix",     "artus-flag-" + std::to_string(getpid()) + "-"};
+  const auto& more = GetParam().arguments;
+  serve.insert(serve.end(), more.begin(), more.end());
+  const auto served = test::artus(serve);
+  ASSERT_EQ(served.exit_code, 0) << served.err;
+  const auto trace = file.string() + ".csv";
+  const auto replayed =
+      test::artus({"replay", file, "-j", test::kSimple, "--trace", trace, "--json"});
+  EXPECT_EQ(replayed.exit_code, 0) << replayed.out << replayed.err;
+  EXPECT_NE(replayed.out.find("\"identical\": true"), std::string::npos);
+  EXPECT_EQ(replayed.out.find("\"ticks\": 0"), std::string::npos);
+  std::string head;
+  std::getline(std::ifstream(trace) >> std::ws, head);
+  for (const char* column : {"cutting_n", "friction_n", "hard_n", "clamping_x_n", "surface_z_n",
+                             "workspace_y_n", "contact", "region"})
+    EXPECT_NE(head.find(column), std::string::npos) << column;
+  std::filesystem::remove(file);
+  std::filesystem::remove(trace);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Flags, ServeFlag,
+    ::testing::Values(
+        Flag{"Default", {}}, Flag{"Device", {"--device", "delta"}},
+        Flag{"HapticRate", {"--haptic-rate", "700"}}, Flag{"ImageRate", {"--threads", "1"}},
+        Flag{"Cutting", {"--cutting", "voigt", "--cutting", "skin=direct"}},
+        Flag{"Prepuncture", {"--prepuncture", "simone_okamura"}},
+        Flag{"BoneTap", {"--bone-tap", "impulse"}}, Flag{"Clamping", {"--clamping", "plasticity"}},
+        Flag{"FrictionSet", {"--friction-set", "1"}},
+        Flag{"Patient", {"--patient", "cutting=1.3", "--patient", "friction=0.7"}},
+        Flag{"Workspace", {"--workspace-mm", "0", "0", "0", "200", "--workspace-push-n", "0.5"}},
+        Flag{"Passivity", {"--passivity-control"}},
+        Flag{"NeedleLength", {"--needle-length-mm", "50"}}, Flag{"Injection", {"--injection", "2"}},
+        Flag{"NoImages", {"--no-images"}}, Flag{"HapticCpu", {"--haptic-cpu", "0"}}),
+    [](const auto& flag) { return std::string(flag.param.name); });
+
+}  // namespace
+}  // namespace artus
