@@ -77,7 +77,7 @@ class Window : public ::testing::Test {
     };
     Recording haptics = recording_;
     haptics.frames.clear();
-    const auto report = replay(haptics, scene_, params_, listener);
+    const auto report = replay(haptics, scene_, listener);
     EXPECT_TRUE(report && report->identical());
     return ticks;
   }
@@ -262,7 +262,7 @@ TEST_F(Window, EveryKnobOfTheScannerReachesTheRenderer) {
   EXPECT_LT(after.dynamic_range_db, before.dynamic_range_db);
   EXPECT_LT(after.frequency, before.frequency);
   EXPECT_LT(after.elevation_focus, before.elevation_focus);
-  const auto report = replay(recording_, scene_, params_);
+  const auto report = replay(recording_, scene_);
   EXPECT_TRUE(report && report->identical()) << "and a replay turns them, too";
 }
 
