@@ -125,7 +125,9 @@ TEST(NeedleTickStep, ABodyOfMoreLayersThanALineHoldsGivesNoForceAndSaysSo) {
         needle->step({make_pose(Vec3(0, 0, 0.02 * t - 5e-3), Vec3::UnitZ(), Vec3::UnitX()), t});
     status |= out.status;
     ASSERT_TRUE(out.command.force.allFinite());
-    if (i > 400) ASSERT_EQ(out.command.force.norm(), 0) << i;
+    if (i > 400) {
+      ASSERT_EQ(out.command.force.norm(), 0) << i;
+    }
   }
   EXPECT_NE(status & TickStatus::kTruncated, 0U);
 }
