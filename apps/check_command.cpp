@@ -151,9 +151,9 @@ ExitCode check_joint(const CheckOptions& options) {
 
 }  // namespace
 
-void add_check_command(CLI::App& app, ExitCode& code) {
+void add_check_command(Command& app, ExitCode& code) {
   auto options = std::make_shared<CheckOptions>();
-  CLI::App* command =
+  Command* command =
       add_command(app, "check", "Every defect of a surface or a joint, and what repair makes of it",
                   "Exit code 3 when something cannot be repaired.\n"
                   "Examples:\n"
@@ -165,12 +165,12 @@ void add_check_command(CLI::App& app, ExitCode& code) {
   command->add_option("--surfaces", options->surfaces,
                       "folder of the surface files, when not the joint's own");
   command->add_option("--units", options->units, "unit of a surface file")
-      ->check(CLI::IsMember({"mm", "cm", "m"}))
+      ->one_of({"mm", "cm", "m"})
       ->capture_default_str();
   command
       ->add_option("--thicken", options->thicken_mm,
                    "mm; make an open sheet a plate of this thickness (0: refuse it)")
-      ->check(CLI::Range(0.0, 20.0))
+      ->check(number_in(0, 20))
       ->capture_default_str();
   command->add_option("--repaired", options->repaired, "write the repaired surface");
   command->add_flag("--json", options->json, "machine-readable output");

@@ -17,14 +17,14 @@
 
 namespace artus {
 
-CLI::App* add_command(CLI::App& app, const std::string& name, const std::string& description,
-                      const std::string& footer) {
-  CLI::App* command = app.add_subcommand(name, description);
+Command* add_command(Command& app, const std::string& name, const std::string& description,
+                     const std::string& footer) {
+  Command* command = app.add_subcommand(name, description);
   command->footer(footer);
   return command;
 }
 
-void on_run(CLI::App* command, ExitCode& code, std::function<ExitCode()> body) {
+void on_run(Command* command, ExitCode& code, std::function<ExitCode()> body) {
   command->callback([&code, body = std::move(body)] { code = body(); });
 }
 
@@ -60,37 +60,35 @@ Progress make_progress_printer(bool quiet) {
   };
 }
 
-CLI::Validator number_in(double low, double high) {
+FlagCheck number_in(double low, double high) {
   std::ostringstream range;
   range << "a number from " << low << " to " << high;
-  return CLI::Validator(
-      [low, high, wanted = range.str()](const std::string& text) {
-        std::istringstream in(text);
-        in.imbue(std::locale::classic());
-        double value = 0;
-        const bool is_number = (in >> value) && (in >> std::ws).eof();
-        const bool good = is_number && value >= low && value <= high;
-        return good ? std::string() : "'" + text + "' is not " + wanted;
-      },
-      range.str());
+  return FlagCheck{[low, high, wanted = range.str()](const std::string& text) {
+                     std::istringstream in(text);
+                     in.imbue(std::locale::classic());
+                     double value = 0;
+                     const bool is_number = (in >> value) && (in >> std::ws).eof();
+                     const bool good = is_number && value >= low && value <= high;
+                     return good ? std::string() : "'" + text + "' is not " + wanted;
+                   },
+                   range.str()};
 }
 
-CLI::Validator whole_number_in(std::int64_t low, std::int64_t high) {
+FlagCheck whole_number_in(std::int64_t low, std::int64_t high) {
   const std::string wanted =
       "a whole number from " + std::to_string(low) + " to " + std::to_string(high);
-  return CLI::Validator(
-      [low, high, wanted](const std::string& text) {
-        std::int64_t value = 0;
-        const char* end = text.data() + text.size();
-        const auto read = std::from_chars(text.data(), end, value);
-        const bool good =
-            read.ec == std::errc{} && read.ptr == end && value >= low && value <= high;
-        return good ? std::string() : "'" + text + "' is not " + wanted;
-      },
-      wanted);
+  return FlagCheck{[low, high, wanted](const std::string& text) {
+                     std::int64_t value = 0;
+                     const char* end = text.data() + text.size();
+                     const auto read = std::from_chars(text.data(), end, value);
+                     const bool good =
+                         read.ec == std::errc{} && read.ptr == end && value >= low && value <= high;
+                     return good ? std::string() : "'" + text + "' is not " + wanted;
+                   },
+                   wanted};
 }
 
-void add_joint_options(CLI::App* command, JointOptions& options) {
+void add_joint_options(Command* command, JointOptions& options) {
   command
       ->add_option("--joint,-j", options.joint,
                    "joint folder (with joint.toml) or compiled .artus file")

@@ -6,11 +6,10 @@
 #include <memory>
 #include <string>
 
-#include <CLI/CLI.hpp>
-
 #include <nlohmann/json.hpp>
 
 #include "artus/anatomy/body/compiled_joint.h"
+#include "artus/apps/command_line.h"
 #include "artus/core/progress.h"
 #include "artus/core/result.h"
 
@@ -26,11 +25,11 @@ enum class ExitCode {
 
 /// Adds a subcommand whose body runs after parsing and returns the exit code.
 /// `footer` holds the examples that --help prints.
-CLI::App* add_command(CLI::App& app, const std::string& name, const std::string& description,
-                      const std::string& footer);
+Command* add_command(Command& app, const std::string& name, const std::string& description,
+                     const std::string& footer);
 
 /// Runs `body` when `command` was chosen and keeps its result in `code`.
-void on_run(CLI::App* command, ExitCode& code, std::function<ExitCode()> body);
+void on_run(Command* command, ExitCode& code, std::function<ExitCode()> body);
 
 /// Prints an error for people on stderr, or as {"error": {...}} on stdout when `json`; returns
 /// ExitCode::failed (usage for a malformed flag).
@@ -47,7 +46,7 @@ struct JointOptions {
   std::filesystem::path cache;
   bool skip_refused = false;
 };
-void add_joint_options(CLI::App* command, JointOptions& options);
+void add_joint_options(Command* command, JointOptions& options);
 
 /// Loads a compiled file, or compiles a joint folder (kept for the next time).
 [[nodiscard]] Result<std::shared_ptr<const CompiledJoint>> load(const JointOptions& options,
@@ -56,28 +55,28 @@ void add_joint_options(CLI::App* command, JointOptions& options);
 /// A point as [x, y, z] in millimetres.
 [[nodiscard]] nlohmann::json to_json_mm(const Vec3& p);
 
-/// Flags that must be a finite number from `low` to `high`, or a whole one. CLI::Range lets "nan"
-/// and "" through, and whole numbers that do not fit become the nearest that does.
-[[nodiscard]] CLI::Validator number_in(double low, double high);
-[[nodiscard]] CLI::Validator whole_number_in(std::int64_t low, std::int64_t high);
+/// Flags that must be a finite number from `low` to `high`, or a whole one. CLI11's own check lets
+/// "nan" and "" through, and whole numbers that do not fit become the nearest that does.
+[[nodiscard]] FlagCheck number_in(double low, double high);
+[[nodiscard]] FlagCheck whole_number_in(std::int64_t low, std::int64_t high);
 
 // The subcommands, one file each.
-void add_check_command(CLI::App& app, ExitCode& code);
-void add_compile_command(CLI::App& app, ExitCode& code);
-void add_needle_command(CLI::App& app, ExitCode& code);
-void add_image_command(CLI::App& app, ExitCode& code);
-void add_slice_command(CLI::App& app, ExitCode& code);
-void add_sweep_command(CLI::App& app, ExitCode& code);
-void add_video_command(CLI::App& app, ExitCode& code);
-void add_phantom_command(CLI::App& app, ExitCode& code);
-void add_echo_gates_command(CLI::App& app, ExitCode& code);
-void add_run_command(CLI::App& app, ExitCode& code);
-void add_experiment_command(CLI::App& app, ExitCode& code);
-void add_laws_command(CLI::App& app, ExitCode& code);
-void add_loop_command(CLI::App& app, ExitCode& code);
-void add_serve_command(CLI::App& app, ExitCode& code);
-void add_view_command(CLI::App& app, ExitCode& code);
-void add_replay_command(CLI::App& app, ExitCode& code);
-void add_shm_monitor_command(CLI::App& app, ExitCode& code);
+void add_check_command(Command& app, ExitCode& code);
+void add_compile_command(Command& app, ExitCode& code);
+void add_needle_command(Command& app, ExitCode& code);
+void add_image_command(Command& app, ExitCode& code);
+void add_slice_command(Command& app, ExitCode& code);
+void add_sweep_command(Command& app, ExitCode& code);
+void add_video_command(Command& app, ExitCode& code);
+void add_phantom_command(Command& app, ExitCode& code);
+void add_echo_gates_command(Command& app, ExitCode& code);
+void add_run_command(Command& app, ExitCode& code);
+void add_experiment_command(Command& app, ExitCode& code);
+void add_laws_command(Command& app, ExitCode& code);
+void add_loop_command(Command& app, ExitCode& code);
+void add_serve_command(Command& app, ExitCode& code);
+void add_view_command(Command& app, ExitCode& code);
+void add_replay_command(Command& app, ExitCode& code);
+void add_shm_monitor_command(Command& app, ExitCode& code);
 
 }  // namespace artus

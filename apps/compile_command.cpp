@@ -84,9 +84,9 @@ ExitCode run_compile(const CompileCommandOptions& options) {
 
 }  // namespace
 
-void add_compile_command(CLI::App& app, ExitCode& code) {
+void add_compile_command(Command& app, ExitCode& code) {
   auto options = std::make_shared<CompileCommandOptions>();
-  CLI::App* command = add_command(
+  Command* command = add_command(
       app, "compile", "Check, resolve and tetrahedralise a joint folder into one file",
       "Prints what became of each structure: repairs, volume lost to others of higher priority,\n"
       "distance of the resolved interfaces to the input surface, quality of the tetrahedra.\n"

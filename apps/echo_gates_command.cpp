@@ -86,9 +86,9 @@ std::string list_of_names() {
 
 }  // namespace
 
-void add_echo_gates_command(CLI::App& app, ExitCode& code) {
+void add_echo_gates_command(Command& app, ExitCode& code) {
   auto options = std::make_shared<EchoGatesOptions>();
-  CLI::App* command = add_command(
+  Command* command = add_command(
       app, "echo-gates",
       "Measure the image's physics on test objects, with a verdict on each value",
       "Gates: " + list_of_names() +
@@ -98,9 +98,9 @@ void add_echo_gates_command(CLI::App& app, ExitCode& code) {
           "  artus echo-gates --only needle-angle --only tendon --out out/gates --json\n"
           "  artus echo-gates --joint shoulder.artus --reference stats.tsv --out out/gates");
   command->add_option("--only", options->only, "a gate, may be given several times (default: all)");
-  CLI::Option* joint =
+  Option* joint =
       command->add_option("--joint,-j", options->joint, "joint whose muscle is compared");
-  CLI::Option* reference = command->add_option(
+  Option* reference = command->add_option(
       "--reference", options->reference,
       "table of real muscle images (stats.tsv) to compare it with: all claims are fitted");
   command

@@ -95,9 +95,9 @@ std::string list_of_names() {
 
 }  // namespace
 
-void add_experiment_command(CLI::App& app, ExitCode& code) {
+void add_experiment_command(Command& app, ExitCode& code) {
   auto options = std::make_shared<ExperimentCommandOptions>();
-  CLI::App* command = add_command(
+  Command* command = add_command(
       app, "experiment", "Replay a published experiment: trace, plot and a verdict on each claim",
       "Experiments: " + list_of_names() +
           "\nEach claim is an input (put in), fitted (chosen with the answer in view) or "

@@ -78,7 +78,7 @@ Result<void> read_workspace(const FeelOptions& options, std::optional<Hemisphere
 
 }  // namespace
 
-void add_feel_options(CLI::App* command, FeelOptions& options) {
+void add_feel_options(Command* command, FeelOptions& options) {
   const std::string group = "Force laws of the needle";
   command
       ->add_option("--cutting", options.cutting,
@@ -91,12 +91,12 @@ void add_feel_options(CLI::App* command, FeelOptions& options) {
   command
       ->add_option("--bone-tap", options.tap,
                    "what a touch of bone is felt by (default: decaying_sinusoid)")
-      ->check(CLI::IsMember({"decaying_sinusoid", "impulse"}))
+      ->one_of({"decaying_sinusoid", "impulse"})
       ->group(group);
   command
       ->add_option("--clamping", options.clamping,
                    "what holds the needle on its line (default: projection)")
-      ->check(CLI::IsMember({"projection", "plasticity"}))
+      ->one_of({"projection", "plasticity"})
       ->group(group);
   command
       ->add_option("--friction-set", options.friction_set,

@@ -22,7 +22,7 @@ struct FeelOptions {
   double workspace_push = HemisphereParams{}.push;  ///< N
   bool passivity_control = false;
 };
-void add_feel_options(CLI::App* command, FeelOptions& options);
+void add_feel_options(Command* command, FeelOptions& options);
 
 /// What the flags mean; what was not given stays unset. Errors: not_found (law, factor), invalid
 /// (factor, workspace), each with the flag.

@@ -79,9 +79,9 @@ ExitCode run_image(const ImageOptions& options) {
 
 }  // namespace
 
-void add_image_command(CLI::App& app, ExitCode& code) {
+void add_image_command(Command& app, ExitCode& code) {
   auto options = std::make_shared<ImageOptions>();
-  CLI::App* command = add_command(
+  Command* command = add_command(
       app, "image", "The B-mode image at a probe pose, with or without a needle",
       "Examples:\n"
       "  artus image -j meshes/simple-shoulder -o bmode.png\n"

@@ -110,9 +110,9 @@ ExitCode run_laws(const LawsOptions& options) {
 
 }  // namespace
 
-void add_laws_command(CLI::App& app, ExitCode& code) {
+void add_laws_command(Command& app, ExitCode& code) {
   auto options = std::make_shared<LawsOptions>();
-  CLI::App* command =
+  Command* command =
       add_command(app, "laws", "List the needle's force laws, their parameters and the tissues",
                   "Every value with unit and source; then what each tissue of the library is felt "
                   "by.\n"

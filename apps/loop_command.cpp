@@ -170,9 +170,9 @@ ExitCode run_loop(const LoopOptions& options) {
 
 }  // namespace
 
-void add_loop_command(CLI::App& app, ExitCode& code) {
+void add_loop_command(Command& app, ExitCode& code) {
   auto options = std::make_shared<LoopOptions>();
-  CLI::App* command = add_command(
+  Command* command = add_command(
       app, "loop", "Run the haptic servo loop alone and print where its time goes",
       "A simulated hand injects again and again, closed loop. Prints histograms of compute time\n"
       "and lateness, the lateness of ticks that do nothing beside them, and what the system\n"

@@ -10,7 +10,7 @@ namespace {
 
 int run(int argc, char** argv) {
   using artus::ExitCode;
-  CLI::App app(
+  artus::Command app(
       "artus - anatomy, B-mode echography and needle haptics from one layered model of a joint.\n"
       "Not a medical device.");
   app.set_version_flag("--version", std::string("artus ") + ARTUS_VERSION);
@@ -41,12 +41,8 @@ int run(int argc, char** argv) {
   artus::add_view_command(app, code);
   artus::add_replay_command(app, code);
   artus::add_shm_monitor_command(app, code);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& e) {
-    // CLI11 prints help (code 0) or the mistake; its own many codes become one.
-    return app.exit(e) == 0 ? 0 : static_cast<int>(ExitCode::usage);
-  }
+  int mistake = 0;  // CLI11's own many codes become one
+  if (!app.parse(argc, argv, mistake)) return mistake == 0 ? 0 : static_cast<int>(ExitCode::usage);
   return static_cast<int>(code);
 }
 

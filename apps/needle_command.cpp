@@ -63,9 +63,9 @@ ExitCode run_needle(const NeedleOptions& options) {
 
 }  // namespace
 
-void add_needle_command(CLI::App& app, ExitCode& code) {
+void add_needle_command(Command& app, ExitCode& code) {
   auto options = std::make_shared<NeedleOptions>();
-  CLI::App* command =
+  Command* command =
       add_command(app, "needle", "What a straight needle passes through, layer by layer",
                   "Points are x,y,z in millimetres of the joint frame.\n"
                   "Examples:\n"

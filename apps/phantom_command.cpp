@@ -84,9 +84,9 @@ std::vector<std::string> names() {
 
 }  // namespace
 
-void add_phantom_command(CLI::App& app, ExitCode& code) {
+void add_phantom_command(Command& app, ExitCode& code) {
   auto options = std::make_shared<PhantomCommandOptions>();
-  CLI::App* command = add_command(
+  Command* command = add_command(
       app, "phantom", "A standard test object through the same engine, with what it must show",
       "homogeneous: speckle statistics, attenuation   points: resolution, slice thickness\n"
       "cyst: lumen, enhancement, edge shadows         layers: interface levels, displayed depths\n"
@@ -97,7 +97,7 @@ void add_phantom_command(CLI::App& app, ExitCode& code) {
       "  artus phantom cyst --transducer curved-2-5 --depth 80 --out out/cyst --json");
   command->add_option("name", options->name, "homogeneous, points, cyst, layers or needle")
       ->required()
-      ->check(CLI::IsMember(names()));
+      ->one_of(names());
   add_imaging_options(command, options->view);
   command
       ->add_option("--needle-angle", options->needle_angle_deg,

@@ -115,9 +115,9 @@ ExitCode run_replay(const ReplayOptions& options) {
 
 }  // namespace
 
-void add_replay_command(CLI::App& app, ExitCode& code) {
+void add_replay_command(Command& app, ExitCode& code) {
   auto options = std::make_shared<ReplayOptions>();
-  CLI::App* command = add_command(
+  Command* command = add_command(
       app, "replay", "Run a recorded session again and compare every force and image",
       "Exit code 1 when a force or an image is not the same bytes.\n"
       "Examples:\n"

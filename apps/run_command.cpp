@@ -97,9 +97,9 @@ ExitCode run_scenario(const RunOptions& options) {
 
 }  // namespace
 
-void add_run_command(CLI::App& app, ExitCode& code) {
+void add_run_command(Command& app, ExitCode& code) {
   auto options = std::make_shared<RunOptions>();
-  CLI::App* command = add_command(
+  Command* command = add_command(
       app, "run",
       "Replay the published medical test with a simulated hand: forces, images, video, verdicts",
       "three-injections: two slow injections to the bursa with a change of direction and a touch\n"
@@ -112,7 +112,7 @@ void add_run_command(CLI::App& app, ExitCode& code) {
       "--json");
   command->add_option("scenario", options->scenario, "three-injections")
       ->required()
-      ->check(CLI::IsMember({"three-injections"}));
+      ->one_of({"three-injections"});
   add_joint_options(command, options->joint);
   add_view_options(command, options->view);
   add_feel_options(command, options->feel);

@@ -104,9 +104,9 @@ ExitCode run_serve(const ServeOptions& options) {
 
 }  // namespace
 
-void add_serve_command(CLI::App& app, ExitCode& code) {
+void add_serve_command(Command& app, ExitCode& code) {
   auto options = std::make_shared<ServeOptions>();
-  CLI::App* command = add_command(
+  Command* command = add_command(
       app, "serve", "Run the engine for a device program in another process, without a window",
       "Reads POS, writes FORCE and IMAGE (docs/protocol.md) until it is interrupted.\n"
       "Examples:\n"

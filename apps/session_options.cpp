@@ -57,17 +57,17 @@ nlohmann::json to_json(const LatencyHistogram& h) {
 
 }  // namespace
 
-void add_prefix_option(CLI::App* command, std::string& prefix) {
+void add_prefix_option(Command* command, std::string& prefix) {
   command->add_option("--prefix", prefix, "stands before the names POS, FORCE and IMAGE")
-      ->check(CLI::Validator(
-          [](const std::string& text) {
-            const bool good = artus_shm_is_prefix(text.c_str()) != 0;
-            return good ? std::string() : "at most 63 letters, digits, '-', '_' and '.'";
-          },
-          "TEXT"));
+      ->check(FlagCheck{[](const std::string& text) {
+                          const bool good = artus_shm_is_prefix(text.c_str()) != 0;
+                          return good ? std::string()
+                                      : "at most 63 letters, digits, '-', '_' and '.'";
+                        },
+                        "TEXT"});
 }
 
-void add_session_options(CLI::App* command, SessionOptions& options,
+void add_session_options(Command* command, SessionOptions& options,
                          const std::string& default_input) {
   options.input = default_input;
   add_joint_options(command, options.joint);

@@ -28,8 +28,8 @@ struct SessionOptions {
   std::filesystem::path histograms;
 };
 /// --prefix, checked as the shared memory does.
-void add_prefix_option(CLI::App* command, std::string& prefix);
-void add_session_options(CLI::App* command, SessionOptions& options,
+void add_prefix_option(Command* command, std::string& prefix);
+void add_session_options(Command* command, SessionOptions& options,
                          const std::string& default_input);
 
 /// The params that the flags mean for a joint. Errors: not_found (device), invalid (rates).

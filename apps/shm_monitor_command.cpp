@@ -120,9 +120,9 @@ ExitCode run_monitor(const MonitorOptions& options) {
 
 }  // namespace
 
-void add_shm_monitor_command(CLI::App& app, ExitCode& code) {
+void add_shm_monitor_command(Command& app, ExitCode& code) {
   auto options = std::make_shared<MonitorOptions>();
-  CLI::App* command = add_command(
+  Command* command = add_command(
       app, "shm-monitor", "Look at the shared memory POS, FORCE and IMAGE without touching it",
       "Examples:\n"
       "  artus shm-monitor                      once\n"

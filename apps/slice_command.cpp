@@ -61,9 +61,9 @@ ExitCode run_slice(const SliceOptions& options) {
 
 }  // namespace
 
-void add_slice_command(CLI::App& app, ExitCode& code) {
+void add_slice_command(Command& app, ExitCode& code) {
   auto options = std::make_shared<SliceOptions>();
-  CLI::App* command = add_command(
+  Command* command = add_command(
       app, "slice", "The regions that truly lie in the probe's plane, at the B-mode image's scale",
       "Examples:\n"
       "  artus slice -j meshes/simple-shoulder -o labels.png\n"

@@ -48,9 +48,9 @@ ExitCode run_sweep_command(const SweepCommandOptions& options) {
 
 }  // namespace
 
-void add_sweep_command(CLI::App& app, ExitCode& code) {
+void add_sweep_command(Command& app, ExitCode& code) {
   auto options = std::make_shared<SweepCommandOptions>();
-  CLI::App* command = add_command(
+  Command* command = add_command(
       app, "sweep", "Many poses from a file: images, labels, masks and a line of truth for each",
       "A pose is a line of JSON, {\"probe\": {\"position_mm\": [x,y,z], \"direction\": [x,y,z],\n"
       "\"lateral\": [x,y,z]}, \"needle\": {\"entry_mm\": [x,y,z], \"tip_mm\": [x,y,z]}}, or a line "

@@ -46,9 +46,9 @@ ExitCode run_video(const VideoOptions& options) {
 
 }  // namespace
 
-void add_video_command(CLI::App& app, ExitCode& code) {
+void add_video_command(Command& app, ExitCode& code) {
   auto options = std::make_shared<VideoOptions>();
-  CLI::App* command = add_command(
+  Command* command = add_command(
       app, "video", "A path of probe (and needle) as MP4 or AVI",
       "The path is a list of poses as for `artus sweep`. With \"time_s\" in every pose, probe and\n"
       "needle move from pose to pose in that time; without, each pose is one frame.\n"
@@ -60,7 +60,7 @@ void add_video_command(CLI::App& app, ExitCode& code) {
   add_imaging_options(command, options->view);
   command->add_option("-o,--out", options->out, "video file (.mp4, .avi)")->required();
   command->add_option("--fps", options->frames_per_second, "frames a second")
-      ->check(CLI::Range(1.0, 240.0))
+      ->check(number_in(1, 240))
       ->capture_default_str();
   command->add_flag("--labels", options->labels, "the true labels beside each image");
   command->add_flag("--json", options->json, "machine-readable output");

@@ -85,15 +85,15 @@ ExitCode run_view(const ViewerOptions& options) {
 
 }  // namespace
 
-void add_view_command(CLI::App& app, ExitCode& code) {
+void add_view_command(Command& app, ExitCode& code) {
   auto options = std::make_shared<ViewerOptions>();
-  CLI::App* command = add_command(app, "view", "The window: joint, B-mode image, forces, rates",
-                                  "Examples:\n"
-                                  "  artus view -j meshes/simple-shoulder                          "
-                                  "mouse and keyboard; F1 helps\n"
-                                  "  artus view -j real.artus --input shared-memory --expert\n"
-                                  "  xvfb-run artus view -j meshes/simple-shoulder --script "
-                                  "docs/view.script --screenshot out.png");
+  Command* command = add_command(app, "view", "The window: joint, B-mode image, forces, rates",
+                                 "Examples:\n"
+                                 "  artus view -j meshes/simple-shoulder                          "
+                                 "mouse and keyboard; F1 helps\n"
+                                 "  artus view -j real.artus --input shared-memory --expert\n"
+                                 "  xvfb-run artus view -j meshes/simple-shoulder --script "
+                                 "docs/view.script --screenshot out.png");
   add_session_options(command, options->session, "hand");
   WindowOptions& window = options->window;
   command->add_option("--width", window.width, "pixels")->capture_default_str();

@@ -15,11 +15,11 @@ namespace {
 constexpr double kMegahertz = 1e6;  // Hz
 
 /// A flag's range in its own unit.
-CLI::Validator within(const Range& range, double unit = 1) {
+FlagCheck within(const Range& range, double unit = 1) {
   const Range shown = in_unit(range, unit);
   return number_in(shown.low, shown.high);
 }
-CLI::Validator whole_within(const Range& range) {
+FlagCheck whole_within(const Range& range) {
   return whole_number_in(std::lround(range.low), std::lround(range.high));
 }
 
@@ -42,12 +42,12 @@ Result<Transducer> make_transducer(const ViewOptions& options) {
 
 }  // namespace
 
-void add_needle_length_option(CLI::App* command, std::optional<double>& length_mm) {
+void add_needle_length_option(Command* command, std::optional<double>& length_mm) {
   command->add_option("--needle-length-mm", length_mm, "hub to tip (default: 35)")
       ->check(number_in(10, 300));
 }
 
-void add_imaging_options(CLI::App* command, ViewOptions& options) {
+void add_imaging_options(Command* command, ViewOptions& options) {
   command
       ->add_option("--transducer", options.transducer,
                    "linear-6-18, linear-4-9, hockey-7-15, curved-2-5, or a .toml file")
@@ -93,7 +93,7 @@ void add_imaging_options(CLI::App* command, ViewOptions& options) {
   command
       ->add_option("--compound", options.compound,
                    "steered frames that are averaged, an odd number; 1: none")
-      ->check(CLI::IsMember({1, 3, 5, 7, 9}))
+      ->one_of({"1", "3", "5", "7", "9"})
       ->capture_default_str();
   command->add_option("--planes", options.planes, "elevation planes of the slice's thickness")
       ->check(whole_within(ImageRanges::n_planes))
@@ -105,7 +105,7 @@ void add_imaging_options(CLI::App* command, ViewOptions& options) {
   command->add_option("--seed", options.seed, "seed of speckle and noise")->capture_default_str();
 }
 
-void add_view_options(CLI::App* command, ViewOptions& options) {
+void add_view_options(Command* command, ViewOptions& options) {
   command->add_option("--probe", options.probe,
                       "position/direction[/lateral], each x,y,z; position in mm "
                       "(default: the joint's probe pose)");

@@ -37,13 +37,13 @@ struct ViewOptions {
 };
 
 /// --needle-length-mm, hub to tip, for the forces and for the picture.
-void add_needle_length_option(CLI::App* command, std::optional<double>& length_mm);
+void add_needle_length_option(Command* command, std::optional<double>& length_mm);
 
 /// The flags of transducer, image and needle type, without poses.
-void add_imaging_options(CLI::App* command, ViewOptions& options);
+void add_imaging_options(Command* command, ViewOptions& options);
 
 /// All of them.
-void add_view_options(CLI::App* command, ViewOptions& options);
+void add_view_options(Command* command, ViewOptions& options);
 
 /// What the flags mean, before any joint is loaded. Poses that are not given are the joint's.
 struct View {

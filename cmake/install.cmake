@@ -18,3 +18,6 @@ install(FILES ${PROJECT_BINARY_DIR}/artus-config.cmake ${PROJECT_BINARY_DIR}/art
 install(DIRECTORY meshes/ DESTINATION share/artus/meshes
   FILES_MATCHING PATTERN "*.toml" PATTERN "*.ply" PATTERN "README.md" PATTERN "generate" EXCLUDE)
 install(DIRECTORY devices/ DESTINATION share/artus/devices FILES_MATCHING PATTERN "*.toml")
+# What an installation needs, without tests and benches.
+list(TRANSFORM ARTUS_COMPONENTS PREPEND artus_ OUTPUT_VARIABLE libraries)
+add_custom_target(installed DEPENDS artus ${libraries})

@@ -51,7 +51,8 @@ DeviceSample PosReader::accept(bool whole, const artus_shm_pos& pos, std::int64_
   if (whole && (!started_ || writer != writer_)) {
     started_ = true;
     writer_ = writer;
-    number_ = seen_ = pos.sample;  // what is there before the first change may be a left-over
+    seen_ = pos.sample;  // what is there before the first change may be a left-over
+    number_ = 0;
     changed_ns_ = now_ns;
   }
   if (whole && pos.sample != seen_) {

@@ -80,25 +80,31 @@ float text_scale(GLFWwindow* window, int height) {
   return std::clamp(std::max(y, static_cast<float>(height) / 720.F), 1.F, 4.F);
 }
 
+/// An open window and what is drawn in it.
+struct Canvas {
+  GLFWwindow* window;
+  float scale;  ///< of letters
+  std::unique_ptr<JointView> joint;
+};
+
 class WindowLoop {
  public:
-  WindowLoop(GLFWwindow* window, Session& session, HandDevice* hand, const HandTarget& start,
-             const WindowOptions& options, WindowReport& report, std::unique_ptr<JointView> joint,
-             float scale)
-      : window_(window),
-        events_(window),
+  WindowLoop(Canvas canvas, Session& session, HandDevice* hand, const HandTarget& start,
+             const WindowOptions& options, WindowReport& report)
+      : window_(canvas.window),
+        events_(canvas.window),
         session_(session),
         hand_(hand),
         options_(options),
         report_(report),
         control_(start),
-        joint_(std::move(joint)),
+        joint_(std::move(canvas.joint)),
         saver_(options.pictures) {
     state_.expert = options.expert;
     state_.controls = controls_of(session.params());
     state_.pixels_per_mm = options.pixels_per_mm > 0 ? options.pixels_per_mm : screen_density();
     input_.session = &session;
-    input_.scale = scale;
+    input_.scale = canvas.scale;
     input_.has_hand = hand != nullptr;
   }
 
@@ -424,7 +430,7 @@ Result<void> run_window(Session& session, HandDevice* hand, const HandTarget& st
   auto joint = JointView::make(session.scene().joint(), session.params().transducer.width,
                                needle_length_of(session.params()));
   ARTUS_TRY(joint);
-  WindowLoop loop(window.get(), session, hand, start, options, report, std::move(*joint), scale);
+  WindowLoop loop({window.get(), scale, std::move(*joint)}, session, hand, start, options, report);
   return loop.run();
 }
 

@@ -256,9 +256,11 @@ Result<CompiledJoint> read_compiled_joint(const std::filesystem::path& file) {
 }
 
 std::string compute_joint_digest(const CompiledJoint& joint) {
+  CompiledJoint body = joint;
+  body.source_digest.clear();  // the same body may come of other sources
   std::array<char, 17> text{};
   std::snprintf(text.data(), text.size(), "%016llx",
-                static_cast<unsigned long long>(hash_bytes(to_bytes(joint))));
+                static_cast<unsigned long long>(hash_bytes(to_bytes(body))));
   return text.data();
 }
 

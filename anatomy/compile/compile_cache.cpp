@@ -5,15 +5,13 @@
 
 #include "artus/anatomy/body/tissue_bytes.h"
 #include "artus/anatomy/compile/compile.h"
+#include "artus/anatomy/compile/compiler_version.h"
 #include "artus/anatomy/surfaces/surface_io.h"
 #include "artus/core/byte_stream.h"
 #include "artus/core/text_file.h"
 
 namespace artus {
 namespace {
-
-// Raise it whenever the same sources compile to something else.
-constexpr std::uint64_t kCompilerVersion = 3;
 
 std::string to_hex(std::uint64_t value) {
   std::array<char, 17> text{};

@@ -62,8 +62,8 @@ class Repair {
     if (auto ok = close(); !ok) return tl::unexpected(ok.error());
     if (options_.wrap == WrapPolicy::always)
       if (auto ok = wrap(); !ok) return tl::unexpected(ok.error());
-    note(RepairKind::turned_pieces, turn_pieces(mesh()), 0, "was wound inward and is turned",
-         "were wound inward and are turned", "piece", "pieces");
+    note(RepairKind::turned_pieces, turn_pieces(mesh()), 0,
+         {"was wound inward and is turned", "were wound inward and are turned", "piece", "pieces"});
     untangle_faces();
     return finish();
   }
@@ -71,19 +71,28 @@ class Repair {
  private:
   SurfaceMesh& mesh() { return outcome_.mesh; }
 
-  void note(RepairKind kind, std::size_t count, double amount, const std::string& did_one,
-            const std::string& did_many, const char* one, const char* many) {
+  /// What happened to one, and to several, and what these are.
+  struct Words {
+    std::string did_one;
+    std::string did_many;
+    const char* one;
+    const char* many;
+  };
+
+  void note(RepairKind kind, std::size_t count, double amount, const Words& words) {
     if (count == 0) return;
-    outcome_.actions.push_back(
-        {kind, count, amount, plural(count, one, many) + " " + (count == 1 ? did_one : did_many)});
+    outcome_.actions.push_back({kind, count, amount,
+                                plural(count, words.one, words.many) + " " +
+                                    (count == 1 ? words.did_one : words.did_many)});
   }
 
   void drop() {
-    note(RepairKind::dropped_pillows, drop_safe_pillows(), 0, "enclosed nothing and is dropped",
-         "enclosed nothing and are dropped", "piece", "pieces");
+    note(
+        RepairKind::dropped_pillows, drop_safe_pillows(), 0,
+        {"enclosed nothing and is dropped", "enclosed nothing and are dropped", "piece", "pieces"});
     note(RepairKind::dropped_faces, drop_bad_faces(mesh()), 0,
-         "was without area, twice there or broken and is dropped",
-         "were without area, twice there or broken and are dropped", "face", "faces");
+         {"was without area, twice there or broken and is dropped",
+          "were without area, twice there or broken and are dropped", "face", "faces"});
   }
 
   /// Pillows go before duplicates (a pillow is a face and its duplicate), broken faces before both.
@@ -103,37 +112,40 @@ class Repair {
       return fail(ErrorCode::defective,
                   "it has only one side (as a Moebius strip has): inside and outside are not "
                   "defined; model it again as a closed solid");
-    note(RepairKind::turned_faces, *turned, 0, "ran against its neighbours and is turned",
-         "ran against their neighbours and are turned", "face", "faces");
+    note(RepairKind::turned_faces, *turned, 0,
+         {"ran against its neighbours and is turned", "ran against their neighbours and are turned",
+          "face", "faces"});
     note_split();
     weld_exactly();
     cap();
     sew();
     const std::size_t n_flaps = drop_flaps(mesh());
-    note(RepairKind::dropped_fragments, n_flaps + drop_fragments(mesh()), 0, "is dropped",
-         "are dropped", "loose shred", "loose shreds");
+    note(RepairKind::dropped_fragments, n_flaps + drop_fragments(mesh()), 0,
+         {"is dropped", "are dropped", "loose shred", "loose shreds"});
     ARTUS_TRY(treat_sheets());
     return fill();
   }
 
   void note_split() {
     note(RepairKind::split_vertices, split_pinches(mesh()), 0,
-         "is split where parts touched only there", "are split where parts touched only there",
-         "vertex", "vertices");
+         {"is split where parts touched only there", "are split where parts touched only there",
+          "vertex", "vertices"});
   }
 
   void weld_exactly() {
     const std::size_t n = weld_cracks(mesh(), 0);
-    note(RepairKind::welded_vertices, n, 0, "lay on another one and is welded",
-         "lay on others and are welded", "vertex", "vertices");
+    note(
+        RepairKind::welded_vertices, n, 0,
+        {"lay on another one and is welded", "lay on others and are welded", "vertex", "vertices"});
     if (n > 0) reorient();
   }
 
   /// After sewing, pieces that were apart may run against each other.
   void reorient() {
     if (const auto turned = turn_faces(mesh()))
-      note(RepairKind::turned_faces, *turned, 0, "ran against its neighbours and is turned",
-           "ran against their neighbours and are turned", "face", "faces");
+      note(RepairKind::turned_faces, *turned, 0,
+           {"ran against its neighbours and is turned",
+            "ran against their neighbours and are turned", "face", "faces"});
     split_pinches(mesh());
   }
 
@@ -143,8 +155,8 @@ class Repair {
         cap_flat_ends(mesh(), options_.crack_width,
                       options_.thicken > 0 ? options_.largest_fill_share : kWiderThanDeep);
     const auto area = with_number(" (%.3g cm2)", caps.area / kSquareCentimetre);
-    note(RepairKind::capped_ends, caps.n, caps.area, "is capped" + area, "are capped" + area,
-         "flat opening", "flat openings");
+    note(RepairKind::capped_ends, caps.n, caps.area,
+         {"is capped" + area, "are capped" + area, "flat opening", "flat openings"});
   }
 
   /// Sews cracks of growing width and stops when nothing is open any more.
@@ -161,8 +173,8 @@ class Repair {
       }
     }
     const auto width = with_number(" up to %.2g mm wide", widest / kMillimetre);
-    note(RepairKind::welded_vertices, n, widest, "is sewn over a crack" + width,
-         "are sewn over cracks" + width, "vertex", "vertices");
+    note(RepairKind::welded_vertices, n, widest,
+         {"is sewn over a crack" + width, "are sewn over cracks" + width, "vertex", "vertices"});
     if (n > 0) {
       reorient();
       drop_pillows(mesh());
@@ -173,8 +185,8 @@ class Repair {
     if (options_.thicken > 0) {
       const std::size_t n = thicken_sheets(mesh(), options_.thicken, options_.largest_fill_share);
       const auto thickness = with_number(" %.3g mm thick", options_.thicken / kMillimetre);
-      note(RepairKind::thickened_sheets, n, options_.thicken, "is made a plate" + thickness,
-           "are made plates" + thickness, "sheet", "sheets");
+      note(RepairKind::thickened_sheets, n, options_.thicken,
+           {"is made a plate" + thickness, "are made plates" + thickness, "sheet", "sheets"});
       return {};
     }
     const auto uses = make_edge_uses(mesh());
@@ -205,8 +217,8 @@ class Repair {
                       .append("surface's own area); close the surface where it was made, or, if it "
                               "is a sheet, say how thick it is (thicken = 1.0 in the joint file)"));
     const auto area = with_number(" (%.3g cm2)", holes.area / kSquareCentimetre);
-    note(RepairKind::filled_holes, holes.n, holes.area, "is filled" + area, "are filled" + area,
-         "hole", "holes");
+    note(RepairKind::filled_holes, holes.n, holes.area,
+         {"is filled" + area, "are filled" + area, "hole", "holes"});
     return {};
   }
 
@@ -248,7 +260,7 @@ class Repair {
     const bool few = outcome_.self_intersections <= kFewTangledPairs;
     if (!(few && untangle(mesh())) && !cut_out_tangles(mesh())) return;
     note(RepairKind::untangled_faces, outcome_.self_intersections, 0,
-         "of crossing faces is untangled", "of crossing faces are untangled", "pair", "pairs");
+         {"of crossing faces is untangled", "of crossing faces are untangled", "pair", "pairs"});
     outcome_.self_intersections = 0;
   }
 

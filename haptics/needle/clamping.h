@@ -9,10 +9,10 @@ namespace artus {
 /// stiffness * length / needle length. Because k grows with depth, a small axial force
 /// -1/2 (dk/dx) |QP|^2 belongs to it: without it, a tip moved aside near the skin, pushed in and
 /// let go would give energy. Source [Alamilla2020] eq. 2.20; the axial part is added here.
-class Clamping final : public ForceModel {
+class Clamping {
  public:
-  ARTUS_REALTIME void reset(double depth) noexcept override;
-  ARTUS_REALTIME Wrench step(const NeedleTick& tick) noexcept override;
+  ARTUS_REALTIME void reset(double depth) noexcept;
+  ARTUS_REALTIME Wrench step(const NeedleTick& tick) noexcept;
 };
 
 /// Lateral stiffness of the tissue around the shaft at this depth, N/m.

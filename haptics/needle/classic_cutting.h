@@ -7,18 +7,18 @@ namespace artus {
 /// The direct method: a constant force against insertion while inside, none outside. Chatters at
 /// the surface and ejects a released needle; kept for comparison. Source [Alamilla2020]
 /// section 2.1.2.
-class DirectCutting final : public ForceModel {
+class DirectCutting {
  public:
-  ARTUS_REALTIME void reset(double depth) noexcept override;
-  ARTUS_REALTIME Wrench step(const NeedleTick& tick) noexcept override;
+  ARTUS_REALTIME void reset(double depth) noexcept;
+  ARTUS_REALTIME Wrench step(const NeedleTick& tick) noexcept;
 };
 
 /// A spring anchored at the surface: f = K (w0 - x). K is the layer's wall stiffness. Source
 /// [Alamilla2020] eq. 2.7.
-class SpringCutting final : public ForceModel {
+class SpringCutting {
  public:
-  ARTUS_REALTIME void reset(double depth) noexcept override;
-  ARTUS_REALTIME Wrench step(const NeedleTick& tick) noexcept override;
+  ARTUS_REALTIME void reset(double depth) noexcept;
+  ARTUS_REALTIME Wrench step(const NeedleTick& tick) noexcept;
 };
 
 struct VoigtParams {
@@ -26,11 +26,11 @@ struct VoigtParams {
 };
 
 /// Spring and damper: f = K (w0 - x) - B dx/dt inside, none outside. Source [Alamilla2020] eq. 2.8.
-class VoigtCutting final : public ForceModel {
+class VoigtCutting {
  public:
   explicit VoigtCutting(const VoigtParams& params = {}) noexcept : params_(params) {}
-  ARTUS_REALTIME void reset(double depth) noexcept override;
-  ARTUS_REALTIME Wrench step(const NeedleTick& tick) noexcept override;
+  ARTUS_REALTIME void reset(double depth) noexcept;
+  ARTUS_REALTIME Wrench step(const NeedleTick& tick) noexcept;
 
  private:
   VoigtParams params_;

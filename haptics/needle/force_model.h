@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <concepts>
 #include <limits>
 #include <span>
 
@@ -61,24 +62,17 @@ struct NeedleTick {
   }
 };
 
-/// One force law of the needle. Laws have their own small files; all take the same tick and return
+/// A force law of the needle. Laws have their own small files; all take the same tick and return
 /// what the hand feels, so that any mix of them can be summed and traced apart. Sign: a force along
 /// +axis pulls the hand into the body; a force against insertion is along -axis.
-class ForceModel {
- public:
-  ForceModel() = default;
-  ForceModel(const ForceModel&) = default;
-  ForceModel(ForceModel&&) = default;
-  ForceModel& operator=(const ForceModel&) = default;
-  ForceModel& operator=(ForceModel&&) = default;
-  virtual ~ForceModel() = default;
-
+template <class Law>
+concept ForceModel = requires(Law& law, const NeedleTick& tick, double depth) {
   /// Forgets the past; the needle is at `depth` on a new line and feels nothing yet.
-  ARTUS_REALTIME virtual void reset(double depth) noexcept = 0;
-
-  /// Advances by one tick and returns the wrench on the hand. Any finite tick gives a finite
-  /// wrench.
-  ARTUS_REALTIME virtual Wrench step(const NeedleTick& tick) noexcept = 0;
+  { law.reset(depth) }
+  noexcept;
+  /// Advances by one tick and returns the wrench on the hand. Any finite tick gives a finite one.
+  { law.step(tick) }
+  noexcept->std::same_as<Wrench>;
 };
 
 }  // namespace artus

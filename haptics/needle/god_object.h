@@ -12,11 +12,11 @@ struct GodObjectParams {
 /// spring from the tip to the proxy, along the surface's normal whatever the needle's direction
 /// (frictionless). The proxy is the tip's foot on the tangent plane where the needle crosses the
 /// skin. Uses NeedleTick::entry, dimple and surface_normal. Source [Zilles1995].
-class GodObject final : public ForceModel {
+class GodObject {
  public:
   explicit GodObject(const GodObjectParams& params = {}) noexcept : params_(params) {}
-  ARTUS_REALTIME void reset(double depth) noexcept override;
-  ARTUS_REALTIME Wrench step(const NeedleTick& tick) noexcept override;
+  ARTUS_REALTIME void reset(double depth) noexcept;
+  ARTUS_REALTIME Wrench step(const NeedleTick& tick) noexcept;
 
  private:
   GodObjectParams params_;

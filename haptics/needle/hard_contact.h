@@ -37,11 +37,11 @@ struct HardContactParams {
 /// The tap: fires once per contact, from the incoming speed, and lasts a fixed time. The source
 /// (1.1) lets it replace the soft forces; here it is added, since with nothing else the needle
 /// would fall through the bone when the tap is over. Eqs. 2.3, 2.9, 2.10: f = -(e + 1) M v0 / T.
-class HardContact final : public ForceModel {
+class HardContact {
  public:
   explicit HardContact(const HardContactParams& params = {}) noexcept : params_(params) {}
-  ARTUS_REALTIME void reset(double depth) noexcept override;
-  ARTUS_REALTIME Wrench step(const NeedleTick& tick) noexcept override;
+  ARTUS_REALTIME void reset(double depth) noexcept;
+  ARTUS_REALTIME Wrench step(const NeedleTick& tick) noexcept;
 
   /// The line is taken anew: depths are `by` m more.
   ARTUS_REALTIME void take_line(double by) noexcept;

@@ -13,11 +13,11 @@ struct HemisphereParams {
 /// A push of constant size out of a sphere: f = K (p - c) / |p - c| when |p - c| < r_d, none
 /// outside. Source [Alamilla2020] eqs. 2.26-2.27, with the position taken relative to the centre
 /// (the print uses the tool's coordinates, right only for a centre at the origin).
-class HemisphereWorkspace final : public ForceModel {
+class HemisphereWorkspace {
  public:
   explicit HemisphereWorkspace(const HemisphereParams& params = {}) noexcept : params_(params) {}
-  ARTUS_REALTIME void reset(double /*depth*/) noexcept override {}
-  ARTUS_REALTIME Wrench step(const NeedleTick& tick) noexcept override {
+  ARTUS_REALTIME void reset(double /*depth*/) noexcept {}
+  ARTUS_REALTIME Wrench step(const NeedleTick& tick) noexcept {
     const Vec3 out = tick.tip - params_.centre;
     const double distance = out.norm();
     if (distance >= params_.radius || distance == 0) return {};

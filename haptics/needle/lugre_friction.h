@@ -67,14 +67,14 @@ class LugreBristle {
 /// needle that slows down holds above g(v) goes with time (relax), as over distance it would go at
 /// z sigma0 / g times that stiffness. dz/dt is a difference over a fixed time: over the loop's own
 /// period an encoder's step would be a knock that grows with the rate.
-class LugreFriction final : public ForceModel {
+class LugreFriction {
  public:
   static constexpr double kRateWindow = 8e-3;  ///< s; assumed: some steps of a coarse encoder
   /// Requires: dt > 0 s, the fixed period of the loop.
   explicit LugreFriction(double dt, const LugreParams& params = {}) noexcept
       : params_(params), deflections_(kRateWindow, dt), depths_(kRateWindow, dt) {}
-  ARTUS_REALTIME void reset(double depth) noexcept override;
-  ARTUS_REALTIME Wrench step(const NeedleTick& tick) noexcept override;
+  ARTUS_REALTIME void reset(double depth) noexcept;
+  ARTUS_REALTIME Wrench step(const NeedleTick& tick) noexcept;
   /// The line is taken anew: depths are `by` m more, the bristles stay bent.
   ARTUS_REALTIME void take_line(double by) noexcept;
 

@@ -172,7 +172,8 @@ void NeedleContact::follow_line(const Pose& X_JN) noexcept {
   tick_.line_kept = change.kept;
   tick_.orientation_0 = tick_.orientation.slerp(change.kept, tick_.orientation_0);
   if (ahead > 0) {
-    const double skin_open = params_.membrane_margin + params_.membrane_edge;  // until it is left
+    const double skin_open =
+        2 * (params_.membrane_margin + params_.membrane_edge);  // until it is left
     open_ = std::max(tick_.depth + change.kept * ahead, std::min(open_, skin_open));
   }
   depths_.shift(change.gain);

@@ -4,6 +4,20 @@
 #include <algorithm>
 
 namespace artus {
+namespace {
+
+template <ForceModel... Laws>
+void reset_all(double depth, Laws&... laws) noexcept {
+  (laws.reset(depth), ...);
+}
+
+/// N along the insertion axis.
+template <ForceModel Law>
+double axial_force(Law& law, const NeedleTick& tick) noexcept {
+  return law.step(tick).force.dot(tick.axis);
+}
+
+}  // namespace
 
 NeedleModel::NeedleModel(const NeedleParams& params, const LayerTable& table, double dt) noexcept
     : params_(params),
@@ -35,15 +49,8 @@ void NeedleModel::start_laws() noexcept {
   double w0 = x;
   if (puncture) w0 = membrane > 0 ? std::max(0.0, x - membrane / stiffness) : 0.0;
   wall_.start(w0, x);
-  direct_.reset(x);
-  spring_.reset(x);
-  voigt_.reset(x);
-  prepuncture_.reset(x);
-  friction_.reset(x);
-  hard_.reset(x);
-  clamping_.reset(x);
-  orientation_.reset(x);
-  plasticity_.reset(x);
+  reset_all(x, direct_, spring_, voigt_, prepuncture_, friction_, hard_, clamping_, orientation_,
+            plasticity_);
 }
 
 // The same tissue on a line that moved: what is felt goes on.
@@ -56,15 +63,15 @@ void NeedleModel::take_line() noexcept {
 }
 
 double NeedleModel::cutting_force(const NeedleTick& tick) noexcept {
-  const double wall = wall_.step(tick).force.dot(tick.axis);  // keeps its memory in every law
+  const double wall = axial_force(wall_, tick);  // keeps its memory in every law
   const bool on_bone = tick.depth > tick.bone_depth;
   switch (on_bone ? CuttingLaw::tracking_wall : tick.layer.cutting) {
     case CuttingLaw::direct:
-      return direct_.step(tick).force.dot(tick.axis);
+      return axial_force(direct_, tick);
     case CuttingLaw::spring:
-      return spring_.step(tick).force.dot(tick.axis);
+      return axial_force(spring_, tick);
     case CuttingLaw::voigt:
-      return voigt_.step(tick).force.dot(tick.axis);
+      return axial_force(voigt_, tick);
     case CuttingLaw::tracking_wall:
       break;
   }
@@ -86,8 +93,8 @@ const NeedleForces& NeedleModel::step(const Pose& X_JN,
     forces_.attracted = std::max(cutting, 0.0);
     const bool skin = (contact_.events() & ContactEvent::kSkinPunctured) != 0;
     prepuncture_.tear(tick.torn + (skin ? forces_.cutting : 0), tick.torn_dimple, tick.depth);
-    forces_.friction = friction_.step(tick).force.dot(tick.axis);
-    forces_.hard = hard_.step(tick).force.dot(tick.axis);
+    forces_.friction = axial_force(friction_, tick);
+    forces_.hard = axial_force(hard_, tick);
     forces_.clamping = params_.clamping == ClampingLaw::projection ? clamping_.step(tick).force
                                                                    : plasticity_.step(tick).force;
     forces_.torque = orientation_.step(tick).torque;
@@ -97,7 +104,7 @@ const NeedleForces& NeedleModel::step(const Pose& X_JN,
   if (proxy) {
     forces_.surface = god_object_.step(tick).force;
   } else {
-    forces_.prepuncture = prepuncture_.step(tick).force.dot(tick.axis);
+    forces_.prepuncture = axial_force(prepuncture_, tick);
   }
   const double axial =
       forces_.prepuncture + forces_.cutting + forces_.attracted + forces_.friction + forces_.hard;

@@ -20,11 +20,11 @@ struct OrientationParams {
 
 /// The tissue holds the needle's direction: tau = k eps - B omega (2.25). k grows with depth like
 /// clamping. Rotation about the needle's own axis is free.
-class OrientationTorque final : public ForceModel {
+class OrientationTorque {
  public:
   explicit OrientationTorque(const OrientationParams& params = {}) noexcept : params_(params) {}
-  ARTUS_REALTIME void reset(double depth) noexcept override;
-  ARTUS_REALTIME Wrench step(const NeedleTick& tick) noexcept override;
+  ARTUS_REALTIME void reset(double depth) noexcept;
+  ARTUS_REALTIME Wrench step(const NeedleTick& tick) noexcept;
 
  private:
   OrientationParams params_;

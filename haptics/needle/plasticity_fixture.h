@@ -18,11 +18,11 @@ struct PlasticityParams {
 /// which belongs to the admittance type: with the impedance type's p* the force is K (q - p) plus
 /// B times the difference of velocities only for k = K + B / T. M / T^2 would also be 1e5 N/m for
 /// 0.1 kg at 1 kHz, a hundred times that at 10 kHz. So k = K + B / T here.
-class PlasticityFixture final : public ForceModel {
+class PlasticityFixture {
  public:
   explicit PlasticityFixture(const PlasticityParams& params = {}) noexcept : params_(params) {}
-  ARTUS_REALTIME void reset(double depth) noexcept override;
-  ARTUS_REALTIME Wrench step(const NeedleTick& tick) noexcept override;
+  ARTUS_REALTIME void reset(double depth) noexcept;
+  ARTUS_REALTIME Wrench step(const NeedleTick& tick) noexcept;
   /// The line moved; the place held goes with it, less what it was off the line but for `kept`.
   ARTUS_REALTIME void take_line(double kept) noexcept;
 

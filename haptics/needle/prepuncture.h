@@ -49,11 +49,11 @@ struct PrepunctureParams {
 
 /// The membrane that still holds, NeedleTick::dimple and membrane, and what is left of one that
 /// gave way. Whether it has popped is the contact state's business.
-class Prepuncture final : public ForceModel {
+class Prepuncture {
  public:
   explicit Prepuncture(const PrepunctureParams& params = {}) noexcept : params_(params) {}
-  ARTUS_REALTIME void reset(double depth) noexcept override;
-  ARTUS_REALTIME Wrench step(const NeedleTick& tick) noexcept override;
+  ARTUS_REALTIME void reset(double depth) noexcept;
+  ARTUS_REALTIME Wrench step(const NeedleTick& tick) noexcept;
 
   /// A membrane gives way at `depth`, m, after a dimple of `dimple` m. `force`: N of it that
   /// nothing else has taken over. It fades as a spring whose stiffness falls, so that a needle

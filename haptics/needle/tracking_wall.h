@@ -25,11 +25,11 @@ struct TrackingWallParams {
 /// do: on the way back the force is bounded by the account. Source [Alamilla2020] eqs. 2.14-2.19;
 /// (2.14) w = x - D (printed D - x), (2.16) a straight line, n ticks written as a settling time,
 /// eps as a band of speeds.
-class TrackingWall final : public ForceModel {
+class TrackingWall {
  public:
   explicit TrackingWall(const TrackingWallParams& params = {}) noexcept : params_(params) {}
-  ARTUS_REALTIME void reset(double depth) noexcept override;
-  ARTUS_REALTIME Wrench step(const NeedleTick& tick) noexcept override;
+  ARTUS_REALTIME void reset(double depth) noexcept;
+  ARTUS_REALTIME Wrench step(const NeedleTick& tick) noexcept;
 
   /// Starts an insertion at the skin: nothing is cut, the wall is at `w0`, the tip at `depth`.
   ARTUS_REALTIME void start(double w0, double depth) noexcept;

@@ -261,16 +261,23 @@ static inline int artus_shm_map_file(artus_shm_segment* segment, int file, uint6
   return 0;
 }
 
+/* A kind of segment: its name after the prefix, and what its header must say. */
+typedef struct artus_shm_kind {
+  const char* name;
+  uint64_t magic;
+  size_t payload;
+} artus_shm_kind;
+
 /* Follows the name: maps what it leads to now, if that is not what is mapped. A writer's lock goes
  * with its file: it is never given up while the name leads there. -1 and errno: the old mapping
  * stays, marked as gone. */
-static inline int artus_shm_follow(artus_shm_segment* segment, const char* prefix, const char* what,
-                                   uint64_t magic, size_t payload, int write, int make) {
+static inline int artus_shm_follow(artus_shm_segment* segment, const char* prefix,
+                                   const artus_shm_kind* kind, int write, int make) {
   char name[ARTUS_SHM_MAX_PREFIX + 16];
   struct stat ours, named;
   artus_shm_segment fresh;
   int file, same = 0, looked = -1;
-  snprintf(name, sizeof name, "/%s%s", prefix, what);
+  snprintf(name, sizeof name, "/%s%s", prefix, kind->name);
   if (segment->header) {
     looked = shm_open(name, O_RDONLY | O_CLOEXEC, 0);
     same = looked >= 0 && fstat(looked, &named) == 0 && fstat(segment->file, &ours) == 0 &&
@@ -281,7 +288,7 @@ static inline int artus_shm_follow(artus_shm_segment* segment, const char* prefi
   }
   file = same ? segment->file : artus_shm_open_file(name, make, write);
   if (file < 0) return segment->gone = 1, -1;
-  if (artus_shm_map_file(&fresh, file, magic, payload, write) != 0) {
+  if (artus_shm_map_file(&fresh, file, kind->magic, kind->payload, write) != 0) {
     const int why = errno;
     if (!same) close(file);
     segment->gone = 1;
@@ -294,12 +301,16 @@ static inline int artus_shm_follow(artus_shm_segment* segment, const char* prefi
 }
 
 static inline int artus_shm_follow_pos(artus_shm_link* link) {
-  return artus_shm_follow(&link->pos, link->prefix, "POS", ARTUS_SHM_MAGIC_POS,
-                          sizeof(artus_shm_pos), 1, 1);
+  const artus_shm_kind kind = {"POS", ARTUS_SHM_MAGIC_POS, sizeof(artus_shm_pos)};
+  return artus_shm_follow(&link->pos, link->prefix, &kind, 1, 1);
 }
 static inline int artus_shm_follow_force(artus_shm_link* link) {
-  return artus_shm_follow(&link->force, link->prefix, "FORCE", ARTUS_SHM_MAGIC_FORCE,
-                          sizeof(artus_shm_force), 0, 1);
+  const artus_shm_kind kind = {"FORCE", ARTUS_SHM_MAGIC_FORCE, sizeof(artus_shm_force)};
+  return artus_shm_follow(&link->force, link->prefix, &kind, 0, 1);
+}
+static inline int artus_shm_follow_image(artus_shm_screen* screen) {
+  const artus_shm_kind kind = {"IMAGE", ARTUS_SHM_MAGIC_IMAGE, sizeof(artus_shm_image)};
+  return artus_shm_follow(&screen->image, screen->prefix, &kind, 0, 0);
 }
 
 /* Opens POS for writing and FORCE for reading; either side may start first. `prefix` stands before
@@ -394,8 +405,7 @@ static inline int artus_shm_open_image(artus_shm_screen* screen, const char* pre
   screen->image.file = -1;
   if (!artus_shm_is_prefix(prefix)) return errno = EINVAL, -1;
   memcpy(screen->prefix, prefix, strlen(prefix) + 1);
-  return artus_shm_follow(&screen->image, prefix, "IMAGE", ARTUS_SHM_MAGIC_IMAGE,
-                          sizeof(artus_shm_image), 0, 0);
+  return artus_shm_follow_image(screen);
 }
 
 /* Copies the newest image when it is newer than that of the last call: 1, else 0. Follows the name
@@ -418,8 +428,7 @@ static inline int artus_shm_read_image(artus_shm_screen* screen, artus_shm_image
   }
   if (now - s->seen_ns > ARTUS_SHM_LOOK_NS && now - screen->looked_ns > ARTUS_SHM_LOOK_NS) {
     screen->looked_ns = now;
-    artus_shm_follow(s, screen->prefix, "IMAGE", ARTUS_SHM_MAGIC_IMAGE, sizeof(artus_shm_image), 0,
-                     0);
+    artus_shm_follow_image(screen);
   }
   return 0;
 }

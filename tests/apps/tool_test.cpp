@@ -103,11 +103,11 @@ TEST_F(Tool, RunsTheMainJobWithAllItsFilesAndEveryClaimHolds) {
       EXPECT_TRUE(std::filesystem::exists(folder_ / "run" / image.at(kind).get<std::string>()));
 }
 
-TEST_F(Tool, HelloPrintsANeedleAndAScanline) {
-  const auto r = test::run_process({ARTUS_HELLO, kSimple});
+TEST_F(Tool, HelloPrintsAForceAndWritesAPicture) {
+  const auto r = test::run_process({ARTUS_HELLO, kSimple, in("hello.png")});
   EXPECT_EQ(r.exit_code, 0) << r.err;
-  EXPECT_NE(r.out.find("cutting force"), std::string::npos);
-  EXPECT_NE(r.out.find("reflects"), std::string::npos);
+  EXPECT_NE(r.out.find("pushes back with"), std::string::npos);
+  EXPECT_GT(std::filesystem::file_size(in("hello.png")), 1000U);
 }
 
 }  // namespace

@@ -1,15 +1,14 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
 # Says where a source file formatted by clang-format is too large: a file of more than 450 lines, a function
-# of more than 60, a function of more than 6 parameters. Prints a line for each; used by sizes.cmake.
-# A function begins with a line at its indentation that opens "(" and whose statement ends with "{", and
-# ends with "}" at the same indentation.
+# of more than 60, a function of more than 6 parameters, and when half of the headers have more than 80 lines.
+# A function begins with a statement that has a "(" and ends with "{", and ends with "}" at its indentation.
 function indent_of(line) { match(line, /^ */); return RLENGTH }
+function begins_with(text, words) { return text ~ ("^ *(" words ")([^A-Za-z0-9_]|$)") }
 function count_parameters(text,    i, c, depth, angle, n, seen) {
-  i = index(text, "("); depth = 0; angle = 0; n = 0; seen = 0
-  for (; i <= length(text); ++i) {
+  for (i = index(text, "("); i <= length(text); ++i) {
     c = substr(text, i, 1)
-    if (c == "(" || c == "{" || c == "[") { ++depth; if (depth == 1) continue }
-    if (c == ")" || c == "}" || c == "]") { --depth; if (depth == 0) break }
+    if (c ~ /[({[]/ && ++depth == 1) continue
+    if (c ~ /[])}]/ && --depth == 0) break
     if (c == "<") ++angle
     if (c == ">" && substr(text, i - 1, 1) != "-") --angle
     if (c == "," && depth == 1 && angle <= 0) ++n
@@ -17,33 +16,44 @@ function count_parameters(text,    i, c, depth, angle, n, seen) {
   }
   return seen ? n + 1 : 0
 }
-FNR == 1 { if (file != "" && lines > 450) print file ": " lines " lines"; file = FILENAME; open = 0; head = "" }
+function finish_file() {
+  if (file == "") return
+  if (lines > 450) print file ": " lines " lines, more than 450"
+  if (file ~ /\.h$/) ++headers_of[lines > 500 ? 500 : lines]
+  if (open) print file ":" start ": the end of this function was not found"
+}
+FNR == 1 { finish_file(); file = FILENAME; open = 0; head = ""; comment = 0 }
 {
   lines = FNR
-  text = $0
   if (open) {
-    if (text ~ /^ *}[;,)]*( *\/\/.*)?$/ && indent_of(text) == indent) {
-      length_of = FNR - start + 1
-      if (length_of > 60) print file ":" start ": a function of " length_of " lines"
-      open = 0; head = ""
+    if (indent_of($0) == indent && $0 ~ /^ *}/) {
+      if (FNR - start + 1 > 60) print file ":" start ": a function of " FNR - start + 1 " lines, more than 60"
+      open = 0
     }
     next
   }
-  if (text ~ /^ *(\/\/|#|$)/) { next }
+  text = $0
+  if (comment || text ~ /^ *\/\*/) { comment = text !~ /\*\//; next }
+  gsub(/\\"/, "", text)
+  gsub(/"[^"]*"/, "\"\"", text)
   sub(/ *\/\/.*$/, "", text)
-  if (head == "") {
-    if (text ~ /^ *(namespace|class|struct|union|enum|extern|public:|private:|protected:|template|using|return|if|for|while|switch|else|do|case)\y/ && text !~ /\(/) { next }
-    head = text; start = FNR; indent = indent_of(text)
-  } else {
-    head = head " " text
+  sub(/ *\\$/, "", text)
+  if (text ~ /^ *(#.*)?$/ || text ~ /^ *(public|private|protected):$/ || text ~ /^extern "" {$/) next
+  if (head == "") { start = FNR; indent = indent_of(text) }
+  head = head == "" ? text : head " " text
+  if (text !~ /[;{}]$/) next
+  is_function = head ~ /\(/ && head !~ /^ *{/ && (head ~ /operator/ || head !~ /^[^(]*=/) &&
+    !begins_with(head, "using|return|static_assert|ARTUS_TRY|ARTUS_REQUIRE|ARTUS_ASSERT")
+  if (is_function) {
+    n = count_parameters(head)
+    if (n > 6) print file ":" start ": a function of " n " parameters, more than 6"
+    open = text ~ /{$/
   }
-  if (text ~ /[;{}]$/) {
-    if (head ~ /\(/ && head !~ /^ *(namespace|class|struct|union|enum|if|for|while|switch|return|using|ARTUS_|TEST|EXPECT|static_assert)\y/ && head !~ /^[^(]*=[^(]*/) {
-      n = count_parameters(head)
-      if (n > 6) print file ":" start ": a function of " n " parameters"
-      if (text ~ /{$/ && head !~ /= *{$/) { open = 1; next }
-    }
-    head = ""
-  }
+  head = ""
 }
-END { if (lines > 450) print file ": " lines " lines" }
+END {
+  finish_file()
+  for (i = 0; i <= 500; ++i) headers += headers_of[i]
+  for (median = 0; median < 500 && 2 * below <= headers; ++median) below += headers_of[median]
+  if (headers > 1 && median - 1 > 80) print "the headers' median is " median - 1 " lines, more than 80"
+}

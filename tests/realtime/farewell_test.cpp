@@ -20,8 +20,9 @@
 namespace artus {
 namespace {
 
-/// A process with a thread that writes 2 N as fast as it can, and then `death`.
-void write_forces_until(const std::string& prefix, void (*death)()) {
+/// A process with a thread that writes 2 N as fast as it can until `told` says something, and then
+/// `death`.
+void write_forces_until(int told, const std::string& prefix, void (*death)()) {
   const rlimit none{0, 0};
   setrlimit(RLIMIT_CORE, &none);
   say_farewell_when_dying();
@@ -36,8 +37,8 @@ void write_forces_until(const std::string& prefix, void (*death)()) {
       (*device)->write(feedback);
     }
   });
-  std::this_thread::sleep_for(std::chrono::milliseconds(50));
-  death();
+  char byte = 0;
+  if (read(told, &byte, 1) == 1) death();
   _exit(4);
 }
 
@@ -72,17 +73,22 @@ TEST_P(Dying, LeavesZeroForceBehind) {
       SharedChannel<artus_shm_force>::open(prefix_, kForceLayout, SegmentAccess::owner_reads);
   ASSERT_TRUE(seen);
   for (int round = 0; round < 5; ++round) {
+    int tell[2];
+    ASSERT_EQ(pipe(tell), 0);
     const pid_t process = fork();
-    if (process == 0) write_forces_until(prefix_, GetParam().die);
+    if (process == 0) write_forces_until(tell[0], prefix_, GetParam().die);
     artus_shm_force force{};
     const std::int64_t patience = monotonic_ns() + 20'000'000'000;
     while (force.force[2] != 2 && monotonic_ns() < patience) static_cast<void>(seen->read(force));
-    ASSERT_EQ(force.force[2], 2);
+    EXPECT_EQ(force.force[2], 2);
+    EXPECT_EQ(write(tell[1], "!", 1), 1);
     waitpid(process, nullptr, 0);
     ASSERT_TRUE(seen->read(force)) << "whole";
     EXPECT_EQ(force.force[2], 0);
     EXPECT_EQ(force.status, static_cast<std::uint32_t>(ARTUS_SHM_STOPPED));
     EXPECT_EQ(seen->segment().writer_pid(), 0U);
+    close(tell[0]);
+    close(tell[1]);
   }
 }
 

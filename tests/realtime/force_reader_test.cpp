@@ -65,6 +65,7 @@ struct Count {
   std::uint64_t reads = 0;
   std::uint64_t false_zeros = 0;  ///< zero although the writer had written within 20 ms
   std::uint64_t true_zeros = 0;   ///< zero since the writer itself was held up longer
+  std::uint64_t untold = 0;       ///< zero when this reader was held up in the middle of the call
   std::uint64_t wrong = 0;        ///< neither zero nor what was written
 };
 
@@ -75,25 +76,29 @@ class ForceReader : public ::testing::Test {
     SharedSegment::remove(prefix_, kForceLayout);
   }
   void read_once(artus_shm_link& link, const Writer& writer, Count& count) {
+    constexpr auto kStale = static_cast<std::int64_t>(ARTUS_SHM_STALE_NS);
+    const std::int64_t before = monotonic_ns();
     const std::int64_t written = writer.last_ns();
     artus_shm_force force;
     const int fresh = artus_shm_read_force(&link, &force);
     ++count.reads;
     if (fresh == 1) {
       if (force.force[2] != kForce) ++count.wrong;
-      return;
+    } else if (monotonic_ns() - written < kStale) {
+      ++count.false_zeros;
+    } else {
+      ++(before - written >= kStale ? count.true_zeros : count.untold);
     }
-    const bool writer_well =
-        monotonic_ns() - written < static_cast<std::int64_t>(ARTUS_SHM_STALE_NS);
-    ++(writer_well ? count.false_zeros : count.true_zeros);
   }
   void print(const char* what, const Count& count, std::uint64_t writes) {
-    std::printf("%s: %llu reads beside %llu writes: %llu false zeros, %llu true ones, %llu wrong\n",
-                what, static_cast<unsigned long long>(count.reads),
-                static_cast<unsigned long long>(writes),
-                static_cast<unsigned long long>(count.false_zeros),
-                static_cast<unsigned long long>(count.true_zeros),
-                static_cast<unsigned long long>(count.wrong));
+    std::printf(
+        "%s: %llu reads beside %llu writes: %llu false zeros, %llu true, %llu untold, "
+        "%llu wrong\n",
+        what, static_cast<unsigned long long>(count.reads), static_cast<unsigned long long>(writes),
+        static_cast<unsigned long long>(count.false_zeros),
+        static_cast<unsigned long long>(count.true_zeros),
+        static_cast<unsigned long long>(count.untold),
+        static_cast<unsigned long long>(count.wrong));
   }
   std::string prefix_ = "artus-reads-" + std::to_string(getpid()) + "-";
 };

@@ -204,18 +204,6 @@ TEST_F(HostileMemory, TwoClientsNeverWriteAtOnceWhileArtusIsSilent) {
   EXPECT_EQ(intruders.load(), 0);
 }
 
-TEST_F(HostileMemory, ASampleThatGoesBackwardIsRefused) {
-  sample_ = 1000;
-  ASSERT_TRUE(talk_until_answered());
-  sample_ -= 500;
-  EXPECT_FALSE(talk());
-  for (int i = 0; i < 10; ++i) talk();
-  EXPECT_NE(force_.status & (ARTUS_SHM_POS_INVALID | ARTUS_SHM_PEER_LOST), 0U);
-  EXPECT_EQ(force_.force[2], 0);
-  sample_ += 500;
-  EXPECT_TRUE(talk_until_answered());
-}
-
 TEST_F(HostileMemory, AProgramThatStartsAgainMayCountFromOne) {
   sample_ = 1'000'000;
   ASSERT_TRUE(talk_until_answered());

@@ -25,8 +25,17 @@ void put(std::ostream& out, std::uint32_t kind, const T& record) {
   out.write(reinterpret_cast<const char*>(&record), sizeof record);
 }
 
+/// Few lines and samples: 150 sessions are recorded and replayed here.
+SessionParams small_session() {
+  SessionParams params = test::make_small_session();
+  params.transducer.n_lines = 8;
+  params.image.n_samples = 128;
+  params.image.pixel = 1e-3;
+  return params;
+}
+
 /// A session without threads and clocks: in to bone, out, and in again beside the first line, with
-/// three images on the way.
+/// two images on the way.
 std::string record(const std::shared_ptr<const Scene>& scene, const SessionParams& params) {
   std::ostringstream out;
   out << to_line(make_head(scene->joint(), params)) << '\n';
@@ -46,7 +55,7 @@ std::string record(const std::shared_ptr<const Scene>& scene, const SessionParam
     input.device.buttons = buttons;
     const HapticSnapshot& snapshot = haptics.step(input);
     put(out, RecordStart::kTick, to_record(snapshot));
-    if (n % 400 != 0) return;
+    if (n % 600 != 0) return;
     const FrameInput frame = frame_input(snapshot, controls_of(params), ++frames);
     put(out, RecordStart::kFrame, FrameRecord{frame, digest_of(images.render(frame))});
   };
@@ -72,6 +81,12 @@ struct Change {
 void nudge(const std::string& name, double& value) {
   if (name == "haptic_rate")
     value = 1300;
+  else if (name == "device.force")
+    value = 1;
+  else if (name == "guard.force_slew")
+    value = 100;
+  else if (name == "transducer.radius")
+    value = 0.06;
   else if (name == "image.persistence" || name == "image.smoothing")
     value = 0.3;
   else if (name == "gesture.p_W" || value == 0)
@@ -84,7 +99,7 @@ void nudge(const std::string& name, double& value) {
 
 std::vector<Change> all_changes() {
   std::vector<Change> changes;
-  SessionParams names = test::make_small_session();
+  SessionParams names = small_session();
   visit_fields(names, [&changes](const std::string& name, auto& /*member*/) {
     changes.push_back({name, [name](SessionParams& params) {
                          visit_fields(params, [&name](const std::string& at, auto& member) {
@@ -148,11 +163,11 @@ class EachParameter : public ::testing::TestWithParam<Change> {
 };
 
 TEST_P(EachParameter, IsInTheRecordingAndReplaysToTheSameBytes) {
-  SessionParams params = test::make_small_session();
+  SessionParams params = small_session();
   GetParam().apply(params);
   ASSERT_TRUE(validate(params)) << validate(params).error().to_string();
   const std::string line = to_line(make_head(scene()->joint(), params));
-  EXPECT_NE(line, to_line(make_head(scene()->joint(), test::make_small_session())));
+  EXPECT_NE(line, to_line(make_head(scene()->joint(), small_session())));
   const auto recording = parse(record(scene(), params));
   ASSERT_TRUE(recording) << recording.error().to_string();
   EXPECT_EQ(to_line(recording->head), line) << "read and written again";
@@ -160,7 +175,7 @@ TEST_P(EachParameter, IsInTheRecordingAndReplaysToTheSameBytes) {
   ASSERT_TRUE(report) << report.error().to_string();
   EXPECT_TRUE(report->identical());
   EXPECT_EQ(report->ticks, 1220U);
-  EXPECT_EQ(report->frames, 3U);
+  EXPECT_EQ(report->frames, 2U);
 }
 
 std::string name_of(const ::testing::TestParamInfo<Change>& info) {
@@ -173,17 +188,17 @@ INSTANTIATE_TEST_SUITE_P(All, EachParameter, ::testing::ValuesIn(all_changes()),
 
 TEST(Replay, WithOtherParamsThanThoseOfTheHeadManyResultsAreOthers) {
   // Not every parameter shows in every session (a law that is not chosen); those of the first rank
-  // must.
+  // must. What a knob turns, as the gain, is an input of each frame and is taken from there.
   const auto scene = test::make_layered_scene();
   const auto recording = parse(record(scene, test::make_small_session()));
   ASSERT_TRUE(recording);
   for (const Change& change : all_changes()) {
     for (const char* shown :
-         {"haptic_rate", "device.force", "needle.contact.membrane_margin", "needle.friction.mu_c",
-          "needle.wall.settling_time", "needle.hard.sinusoid.amplitude", "guard.force_slew",
-          "guard.ramp_time", "transducer.frequency", "transducer.n_lines", "image.gain_db",
-          "image.seed", "image.depth", "needle_shape.outer_diameter", "feel.cutting",
-          "feel.patient", "gesture.steepness", "X_WJ"}) {
+         {"haptic_rate", "device.force", "needle.friction.mu_c", "needle.wall.settling_time",
+          "needle.hard.sinusoid.amplitude", "guard.force_slew", "guard.ramp_time",
+          "transducer.frequency", "transducer.n_lines", "image.speckle_db", "image.seed",
+          "image.depth", "needle_shape.outer_diameter", "feel.cutting", "feel.patient",
+          "gesture.steepness", "X_WJ"}) {
       if (change.name != shown) continue;
       Recording other = *recording;
       change.apply(other.head.params);
@@ -196,7 +211,7 @@ TEST(Replay, WithOtherParamsThanThoseOfTheHeadManyResultsAreOthers) {
 
 TEST(Replay, AHeadThatWasChangedOrLacksAFieldIsRefused) {
   const auto scene = test::make_layered_scene();
-  const std::string line = to_line(make_head(scene->joint(), test::make_small_session()));
+  const std::string line = to_line(make_head(scene->joint(), small_session()));
   ASSERT_TRUE(parse_head(line));
   const auto json = nlohmann::json::parse(line);
   std::size_t fields = 0;
@@ -216,7 +231,7 @@ TEST(Replay, AHeadThatWasChangedOrLacksAFieldIsRefused) {
 
 TEST(Replay, AnotherBodyIsRefused) {
   const auto scene = test::make_layered_scene();
-  const auto recording = parse(record(scene, test::make_small_session()));
+  const auto recording = parse(record(scene, small_session()));
   CompiledJoint joint = scene->joint();
   joint.tissues.back().haptic.friction *= 1.001;
   const auto other = replay(

@@ -150,6 +150,46 @@ TEST_F(Border, AHandThatFallsSilentInTheTissueFeelsNothingWithinTwentyMillisecon
   artus_shm_close(&link);
 }
 
+/// What no client writes into the 200 bytes of POS, in turn with a sound sample.
+void write_garbage(unsigned char* bytes, std::uint64_t i) {
+  const double nasty[] = {std::numeric_limits<double>::quiet_NaN(),
+                          std::numeric_limits<double>::infinity(),
+                          1e308,
+                          -1e-308,
+                          5,
+                          0};
+  auto* head = reinterpret_cast<artus_shm_header*>(bytes);
+  auto* pos = reinterpret_cast<artus_shm_pos*>(bytes + sizeof(artus_shm_header));
+  switch (i % 4) {
+    case 0:  // every byte, the head and the sequence, too
+      for (std::size_t b = 0; b < 200; ++b)
+        bytes[b] = static_cast<unsigned char>(mix_bits(i * 200 + b));
+      break;
+    case 1:  // a sound sequence over a head of another version and size
+      head->magic = ARTUS_SHM_MAGIC_POS;
+      head->version = static_cast<std::uint32_t>(mix_bits(i));
+      head->size = static_cast<std::uint32_t>(mix_bits(i + 1));
+      head->sequence = 2 * i;
+      break;
+    case 2: {  // a sound sample but for one number
+      artus_shm_pos good = pose_at(10e-3 * static_cast<double>(i % 3));
+      good.sample = i;
+      good.needle_position[i % 3] = nasty[mix_bits(i) % 6];
+      if (i % 3 == 0) good.needle_rotation[mix_bits(i) % 4] = nasty[mix_bits(i + 2) % 6];
+      std::memcpy(pos, &good, sizeof good);
+      head->sequence = 2 * i;
+      break;
+    }
+    default: {  // a sound sample
+      artus_shm_pos good = pose_at(12e-3);
+      good.sample = i;
+      std::memcpy(pos, &good, sizeof good);
+      head->sequence = 2 * i;
+      break;
+    }
+  }
+}
+
 TEST_F(Border, GarbageAllOverPosNeverGivesAForceThatIsNotFiniteOrOverTheLimit) {
   start();
   const std::string name = "/" + prefix_ + "POS";
@@ -163,43 +203,8 @@ TEST_F(Border, GarbageAllOverPosNeverGivesAForceThatIsNotFiniteOrOverTheLimit) {
   ASSERT_TRUE(channel);
   std::uint64_t looked = 0;
   double most = 0;
-  const double nasty[] = {std::numeric_limits<double>::quiet_NaN(),
-                          std::numeric_limits<double>::infinity(),
-                          1e308,
-                          -1e-308,
-                          5,
-                          0};
   for (std::uint64_t i = 0; i < 6000; ++i) {
-    auto* head = reinterpret_cast<artus_shm_header*>(bytes);
-    auto* pos = reinterpret_cast<artus_shm_pos*>(bytes + sizeof(artus_shm_header));
-    switch (i % 4) {
-      case 0:  // every byte, the head and the sequence, too
-        for (std::size_t b = 0; b < 200; ++b)
-          bytes[b] = static_cast<unsigned char>(mix_bits(i * 200 + b));
-        break;
-      case 1:  // a sound sequence over a head of another version and size
-        head->magic = ARTUS_SHM_MAGIC_POS;
-        head->version = static_cast<std::uint32_t>(mix_bits(i));
-        head->size = static_cast<std::uint32_t>(mix_bits(i + 1));
-        head->sequence = 2 * i;
-        break;
-      case 2: {  // a sound sample but for one number
-        artus_shm_pos good = pose_at(10e-3 * static_cast<double>(i % 3));
-        good.sample = i;
-        good.needle_position[i % 3] = nasty[mix_bits(i) % 6];
-        if (i % 3 == 0) good.needle_rotation[mix_bits(i) % 4] = nasty[mix_bits(i + 2) % 6];
-        std::memcpy(pos, &good, sizeof good);
-        head->sequence = 2 * i;
-        break;
-      }
-      default: {  // a sound sample
-        artus_shm_pos good = pose_at(12e-3);
-        good.sample = i;
-        std::memcpy(pos, &good, sizeof good);
-        head->sequence = 2 * i;
-        break;
-      }
-    }
+    write_garbage(bytes, i);
     artus_shm_force force{};
     if (channel->read(force)) {
       ++looked;

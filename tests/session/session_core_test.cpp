@@ -193,5 +193,50 @@ TEST(SessionParams, TheNeedleHasOneLengthForTheHandAndForThePicture) {
   EXPECT_EQ(needle_length_of(params), 0.05);
 }
 
+/// A reader that has heard sample 1000 of writer 1 at 10 ms.
+class HeardReader : public ::testing::Test {
+ protected:
+  HeardReader() {
+    hear(999, 9);
+    hear(1000, 10);
+  }
+  DeviceSample hear(std::uint64_t number, std::int64_t ms, std::uint64_t writer = 1) {
+    artus_shm_pos pos = artus_shm_pos_init();
+    pos.sample = number;
+    pos.time_ns = static_cast<std::uint64_t>(ms * kTick);
+    return reader_.accept(true, pos, ms * kTick, writer);
+  }
+  PosReader reader_;
+};
+
+TEST_F(HeardReader, ASampleThatGoesBackwardIsRefused) {
+  EXPECT_EQ(hear(500, 11).state, PeerState::invalid);
+  EXPECT_EQ(hear(501, 12).state, PeerState::invalid) << "also those after it";
+  EXPECT_EQ(hear(501, 12).number, 1000U);
+  EXPECT_EQ(hear(1001, 13).state, PeerState::alive);
+  for (std::int64_t ms = 14; ms < 60; ++ms) hear(static_cast<std::uint64_t>(600 + ms), ms);
+  EXPECT_EQ(hear(700, 60).state, PeerState::lost) << "no refused sample keeps it alive";
+}
+
+TEST_F(HeardReader, AnotherWriterMayCountFromOne) {
+  EXPECT_EQ(hear(1000, 11, 2).number, 1000U) << "what it found is no sample of its own";
+  EXPECT_EQ(hear(1, 12, 2).state, PeerState::alive);
+  EXPECT_EQ(hear(2, 13, 2).number, 2U);
+}
+
+TEST_F(HeardReader, AfterSilenceTheCountMayBeginAgain) {
+  EXPECT_EQ(hear(1000, 24).state, PeerState::alive);
+  EXPECT_EQ(hear(1, 26).state, PeerState::alive);
+}
+
+TEST_F(HeardReader, GarbageDoesNotRaiseTheCount) {
+  artus_shm_pos pos = artus_shm_pos_init();
+  pos.sample = ~std::uint64_t{0};
+  pos.time_ns = 11 * kTick;
+  pos.present = 0xff;
+  EXPECT_EQ(reader_.accept(true, pos, 11 * kTick, 1).state, PeerState::invalid);
+  EXPECT_EQ(hear(1001, 12).state, PeerState::alive);
+}
+
 }  // namespace
 }  // namespace artus

@@ -14,7 +14,7 @@
 // Peer: CHAI3D 3.3's whole loop with a proxy of 1 mm among five nested surfaces of 102,400
 //   triangles, measured on a shared two-core machine: p50 3.4 us, p99 6.6 us, 5 heap calls a tick
 //   - for its proxy alone, without layers or force laws. Here heap calls and locks are zero, held
-//   by tests/haptics/needle_renderer_test.cpp.
+//   by tests/haptics/needle/needle_renderer_test.cpp.
 // Budget: p50 <= 5 us, p99.9 <= 25 us.
 #include <algorithm>
 #include <array>

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <string>
 #include <vector>
 
 #include <opencv2/imgcodecs.hpp>
@@ -115,7 +116,11 @@ TEST(EchoPatch, MeasuresPatchesOfMuscleAloneAndSaysWhenThereAreNone) {
   const std::array<FlatLayer, 2> layers{{{"fat", 8e-3}, {"muscle", 60e-3}}};
   const EchoGate gate = measure_muscle(make_block_scene(layers), range);
   ASSERT_EQ(gate.claims.size(), 15U);
-  for (const Claim& claim : gate.claims) EXPECT_TRUE(claim.pass) << claim.text;
+  for (const Claim& claim : gate.claims) {
+    EXPECT_TRUE(claim.pass) << claim.text;
+    EXPECT_EQ(claim.basis.kind, ClaimKind::fitted) << claim.text;
+    EXPECT_FALSE(claim.basis.why.empty()) << claim.text;
+  }
   const std::array<FlatLayer, 1> fat{{{"fat", 60e-3}}};
   const EchoGate none = measure_muscle(make_block_scene(fat), range);
   ASSERT_EQ(none.claims.size(), 7U);
@@ -165,8 +170,12 @@ TEST(EchoPatch, ReadsTheRangeAndRefusesATableWithoutIt) {
   const fs::path file = fs::temp_directory_path() / "artus-patch-range.tsv";
   std::ofstream(file) << "file\tmean\tstd\tacf_fwhm_axial_px\tacf_fwhm_lateral_px\n"
                       << "d1.png\t50\t30\t4\t12\nBone.png\t90\t40\t6\t20\nSpine.png\t1\t1\t1\t1\n";
-  const auto range = read_patch_range(file);
+  const std::vector<std::string> rows{"d", "Bone"};
+  const auto range = read_patch_range(file, rows);
   ASSERT_TRUE(range.has_value());
+  EXPECT_EQ(read_patch_range(file)->images, 3U);
+  EXPECT_EQ(read_patch_range(file, std::vector<std::string>{"Skin"}).error().code,
+            ErrorCode::malformed);
   EXPECT_EQ(range->images, 2U);
   EXPECT_EQ(range->least.mean, 50);
   EXPECT_EQ(range->most.lateral_width, 20);

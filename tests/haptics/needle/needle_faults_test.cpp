@@ -81,7 +81,31 @@ TimedPose broken(Fault fault, std::uint64_t seed, std::uint64_t i, TimedPose pos
   return pose;
 }
 
-// 1e6 ticks: sane stretches of random length between bursts of one fault or of all at random.
+constexpr std::uint64_t kSeed = 5;
+
+/// Sane stretches of random length between bursts of one fault or of all at random; asked tick by
+/// tick.
+struct Bursts {
+  std::uint64_t burst = 0;
+  std::uint64_t until = 1500;
+  bool faulty = false;
+  Fault kind = Fault::none;
+
+  Fault at(std::uint64_t i) {
+    if (i == until) {
+      faulty = !faulty;
+      ++burst;
+      const double length = uniform_noise(kSeed + 7, burst);
+      until = i + static_cast<std::uint64_t>(faulty ? 1 + 60 * length : 20 + 1500 * length);
+      kind = static_cast<Fault>(1 + burst / 2 % (kFaults - 1));
+    }
+    const bool mixed = burst % 10 == 5;
+    return !faulty ? Fault::none
+           : mixed ? static_cast<Fault>(kFaults * uniform_noise(kSeed + 8, i))
+                   : kind;
+  }
+};
+
 TEST(NeedleFaults, NeverGetAnUnsafeForceOutOverAMillionTicks) {
   const auto scene = block();
   NeedleRendererParams params;
@@ -91,33 +115,19 @@ TEST(NeedleFaults, NeverGetAnUnsafeForceOutOverAMillionTicks) {
   const GuardParams& guard = params.guard;
   const DeviceLimits& device = params.device;
   NeedleRenderer renderer(scene, make_layer_table(scene->joint()), params);
-  constexpr std::uint64_t kSeed = 5;
   std::array<long, 32> seen{};
   Wrench last;
   double since_fault = 0;
   long felt = 0;
   long recoveries = 0;
   double fullest = 0;
-  std::uint64_t burst = 0;
-  std::uint64_t until = 1500;
-  bool faulty = false;
-  Fault kind = Fault::none;
+  Bursts bursts;
   TimedPose before;
   for (std::uint64_t i = 0; i < 1'000'000; ++i) {
     const double t = kDt * static_cast<double>(i);
-    if (i == until) {
-      faulty = !faulty;
-      ++burst;
-      const double length = uniform_noise(kSeed + 7, burst);
-      until = i + static_cast<std::uint64_t>(faulty ? 1 + 60 * length : 20 + 1500 * length);
-      kind = static_cast<Fault>(1 + burst / 2 % (kFaults - 1));
-    }
-    const bool mixed = burst % 10 == 5;
-    const Fault fault = !faulty ? Fault::none
-                        : mixed ? static_cast<Fault>(kFaults * uniform_noise(kSeed + 8, i))
-                                : kind;
+    const Fault fault = bursts.at(i);
     const TimedPose sane = stroke(t);
-    if (!faulty) before = sane;
+    if (!bursts.faulty) before = sane;
     const RenderedNeedle& out = renderer.step(broken(fault, kSeed, i, sane, before));
     for (std::size_t bit = 0; bit < seen.size(); ++bit) seen[bit] += (out.status >> bit) & 1U;
     ASSERT_TRUE(out.command.force.allFinite() && out.command.torque.allFinite()) << i;

@@ -1,0 +1,29 @@
+# SPDX-License-Identifier: AGPL-3.0-or-later
+# What nearly every file includes is parsed once: Eigen and the standard library's headers alone for the
+# libraries, GoogleTest with them for the tests (docs/decisions/0002-precompiled-headers.md). Headers of ours are never
+# among them. The asan and tidy presets build without, so that a file that forgets an include is found.
+option(ARTUS_PRECOMPILED_HEADERS "Parse the outside headers that most files include once" ON)
+set(ARTUS_COMMON_HEADERS
+  <algorithm> <array> <chrono> <cmath> <cstdint> <cstdio> <filesystem> <functional> <limits> <map> <memory> <numbers>
+  <optional> <span> <string> <string_view> <utility> <variant> <vector> <Eigen/Core> <Eigen/Geometry> <tl/expected.hpp>)
+
+# artus_precompiled(target <header> ...): the headers above and those named.
+# artus_precompiled(target REUSE other): those of another target, which is compiled with the same options.
+function(artus_precompiled target)
+  cmake_parse_arguments(A "" "REUSE" "" ${ARGN})
+  if(NOT ARTUS_PRECOMPILED_HEADERS)
+    return()
+  endif()
+  if(A_REUSE)
+    target_precompile_headers(${target} REUSE_FROM ${A_REUSE})
+  else()
+    target_precompile_headers(${target} PRIVATE ${ARTUS_COMMON_HEADERS} ${A_UNPARSED_ARGUMENTS})
+  endif()
+endfunction()
+
+# ccache keeps what was compiled with precompiled headers only when it may leave two things unchecked that
+# do not occur here: macros defined in front of such a header, and __DATE__ and __TIME__.
+find_program(CCACHE ccache)
+if(CCACHE)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${CCACHE})
+endif()
