@@ -4,7 +4,7 @@
 
 namespace artus {
 
-/// Whether a pose that came from elsewhere is one: every number finite, the rotation orthonormal
+/// Whether numbers that came from outside are a pose: every number finite, the rotation orthonormal
 /// within 1e-6 and without a mirror. Errors: none. Cost: some ns.
 [[nodiscard]] inline bool is_rigid(const Pose& pose) noexcept {
   constexpr double kTolerance = 1e-6;  // on R^T R - 1

@@ -51,7 +51,7 @@ class MotionDetector {
         (params_.moving_band - (high - low)) / (params_.moving_band - params_.band), 0.0, 1.0);
   }
 
-  /// All positions, past ones too, are told from elsewhere: `by` m more.
+  /// Positions are counted from another origin from now on: all, past ones too, are `by` m more.
   ARTUS_REALTIME void shift(double by) noexcept {
     extreme_ += by;
     for (double& x : low_) x += by;

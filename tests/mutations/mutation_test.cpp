@@ -207,8 +207,8 @@ TEST(Mutations, EveryParameterOfTheActuatorIsNoticed) {
   narrow.plant.sensors.pressure.high = 3.1e5;
   add("narrow pressure", narrow, ControlLawKind::admittance_pid);
   narrow = {};
-  narrow.plant.sensors.position.high = 2e-3;
-  add("narrow stroke", narrow, ControlLawKind::backstepping_two_valves);
+  narrow.plant.sensors.position.high = -0.5e-3;  // lost until the load has pushed the rod in
+  add("narrow stroke", narrow, ControlLawKind::admittance_pid);
   narrow = {};
   narrow.plant.sensors.force.low = 4;
   add("narrow force", narrow, ControlLawKind::admittance_pid);
