@@ -18,7 +18,8 @@ struct PlainPose {
 /// m, farther than any device on a table.
 inline constexpr double kDeviceReach = 10;
 /// Finite, within `reach` of the origin, quaternion of norm 0.9 to 1.1: something a device can be.
-[[nodiscard]] ARTUS_REALTIME bool is_pose(const PlainPose& plain, double reach = kDeviceReach) noexcept;
+[[nodiscard]] ARTUS_REALTIME bool is_pose(const PlainPose& plain,
+                                          double reach = kDeviceReach) noexcept;
 
 /// The pose a share of the way from `a` to `b`: straight, and by the smallest turn.
 [[nodiscard]] ARTUS_REALTIME PlainPose blend(const PlainPose& a, const PlainPose& b,

@@ -75,7 +75,8 @@ TEST_F(ImagingTool, TheImageIsTheSameAtAnyNumberOfThreads) {
 }
 
 TEST_F(ImagingTool, ATransducerComesByNameOrFromAFile) {
-  const std::string file = artus::test::source_dir().string() + "/devices/transducers/curved-2-5.toml";
+  const std::string file =
+      artus::test::source_dir().string() + "/devices/transducers/curved-2-5.toml";
   for (const std::string& transducer : {std::string("curved-2-5"), file}) {
     const auto r = artus({"image", "-j", kSimple, "--transducer", transducer, "--depth", "60", "-o",
                           in("b.png"), "--json"});

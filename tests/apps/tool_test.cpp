@@ -62,7 +62,8 @@ TEST_F(Tool, ACompiledFileThatIsCutShortIsRefused) {
 
 TEST_F(Tool, ChecksABundledSurfaceAsSound) {
   const auto r = artus(
-      {"check", artus::test::source_dir().string() + "/meshes/simple-shoulder/surfaces/bone.ply", "--json"});
+      {"check", artus::test::source_dir().string() + "/meshes/simple-shoulder/surfaces/bone.ply",
+       "--json"});
   ASSERT_EQ(r.exit_code, 0) << r.err;
   const auto report = nlohmann::json::parse(r.out);
   EXPECT_TRUE(report.at("defects").empty());

@@ -61,8 +61,8 @@ TEST(TransducerFile, ThereIsALinearAndACurvilinearPresetAndEachIsFoundByName) {
   bool curved = false;
   for (const auto& preset : *presets) {
     EXPECT_TRUE(find_transducer(preset.name).has_value()) << preset.name;
-    EXPECT_TRUE(
-        std::filesystem::exists(artus::test::source_dir() / "devices/transducers" / (preset.name + ".toml")));
+    EXPECT_TRUE(std::filesystem::exists(artus::test::source_dir() / "devices/transducers" /
+                                        (preset.name + ".toml")));
     curved = curved || preset.transducer.radius > 0;
   }
   EXPECT_TRUE(curved);

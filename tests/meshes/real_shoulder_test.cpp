@@ -18,7 +18,8 @@ const std::filesystem::path kFolder = artus::test::source_dir() / "meshes" / "re
 
 std::filesystem::path find_surfaces() {
   const char* shared = std::getenv("ARTUS_SHARED");
-  const std::filesystem::path root = shared != nullptr ? shared : artus::test::source_dir() / ".." / "shared";
+  const std::filesystem::path root =
+      shared != nullptr ? shared : artus::test::source_dir() / ".." / "shared";
   return root / "data" / "shoulder";
 }
 

@@ -15,8 +15,8 @@ namespace {
 const std::array<Vec3, 4> kCorner{Vec3::Zero(), Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
 
 TEST(DihedralRange, OfTheRegularTetrahedronIsArcCosineOfOneThird) {
-  const auto [low, high] = dihedral_range_deg(
-      {Vec3(1, 1, 1), Vec3(-1, 1, -1), Vec3(1, -1, -1), Vec3(-1, -1, 1)});
+  const auto [low, high] =
+      dihedral_range_deg({Vec3(1, 1, 1), Vec3(-1, 1, -1), Vec3(1, -1, -1), Vec3(-1, -1, 1)});
   EXPECT_NEAR(low, std::acos(1.0 / 3) / kDegree, 1e-10);
   EXPECT_NEAR(high, low, 1e-10);
 }

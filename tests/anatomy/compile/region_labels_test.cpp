@@ -45,9 +45,9 @@ double doubt(const Vec3& p) {
 }
 
 Vec3 random_point(std::uint64_t i) {
-  return 0.07 * (Vec3(uniform_noise(5, 3 * i), uniform_noise(5, 3 * i + 1),
-                      uniform_noise(5, 3 * i + 2)) -
-                 Vec3::Constant(0.5));
+  return 0.07 *
+         (Vec3(uniform_noise(5, 3 * i), uniform_noise(5, 3 * i + 1), uniform_noise(5, 3 * i + 2)) -
+          Vec3::Constant(0.5));
 }
 
 TEST(RegionLabels, TheFirstLayerWinsTheFillerTakesTheRest) {

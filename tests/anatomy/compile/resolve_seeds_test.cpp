@@ -56,11 +56,11 @@ TEST(BoundarySeeds, ComeInTheSameOrderAtAnyNumberOfThreads) {
 TEST(ThinSeeds, KeepsTheirDistanceAndLeavesNoGap) {
   const auto seeds = seeds_of_ball();
   constexpr double kApart = 3e-3;
-  const auto kept = thin_seeds(seeds, [](const BoundarySeed&) { return kApart; }, kApart);
+  const auto kept = thin_seeds(
+      seeds, [](const BoundarySeed&) { return kApart; }, kApart);
   EXPECT_LT(kept.size(), seeds.size() / 4);
   for (std::size_t i = 0; i < kept.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j)
-      EXPECT_GE((kept[i].point - kept[j].point).norm(), kApart);
+    for (std::size_t j = 0; j < i; ++j) EXPECT_GE((kept[i].point - kept[j].point).norm(), kApart);
   for (const BoundarySeed& seed : seeds) {
     double nearest = 1;
     for (const BoundarySeed& k : kept) nearest = std::min(nearest, (k.point - seed.point).norm());

@@ -19,8 +19,7 @@ inline TetMesh make_cube_of_tets(std::uint32_t n, double side,
   };
   for (std::uint32_t z = 0; z <= n; ++z)
     for (std::uint32_t y = 0; y <= n; ++y)
-      for (std::uint32_t x = 0; x <= n; ++x)
-        mesh.vertices.push_back(side / n * Vec3(x, y, z));
+      for (std::uint32_t x = 0; x <= n; ++x) mesh.vertices.push_back(side / n * Vec3(x, y, z));
   std::array<std::uint32_t, 3> axes{0, 1, 2};
   do {
     for (std::uint32_t z = 0; z < n; ++z)

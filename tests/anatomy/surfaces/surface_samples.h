@@ -82,7 +82,8 @@ inline SurfaceMesh make_tube(std::uint32_t n, std::uint32_t rings, double radius
 /// The real shoulder's surfaces when they are at hand ($ARTUS_SHARED or ../shared), else empty.
 inline std::filesystem::path real_shoulder_folder() {
   const char* shared = std::getenv("ARTUS_SHARED");  // NOLINT(concurrency-mt-unsafe): one thread
-  const std::filesystem::path root = shared != nullptr ? shared : artus::test::source_dir() / ".." / "shared";
+  const std::filesystem::path root =
+      shared != nullptr ? shared : artus::test::source_dir() / ".." / "shared";
   const auto folder = root / "data" / "shoulder";
   return std::filesystem::is_directory(folder) ? folder : std::filesystem::path{};
 }
