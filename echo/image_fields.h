@@ -4,6 +4,7 @@
 
 #include "artus/core/fields.h"
 #include "artus/echo/image_settings.h"
+#include "artus/echo/needle_view.h"
 #include "artus/echo/transducer.h"
 
 namespace artus {
@@ -69,6 +70,15 @@ void fields_of(P& transducer, F&& visit) {
   visit("elevation_height", elevation_height);
   visit("elevation_focus", elevation_focus);
   visit("transmit_focus", transmit_focus);
+}
+
+template <Like<NeedleShape> P, class F>
+void fields_of(P& shape, F&& visit) {
+  auto& [outer_diameter, bore, length, echogenic] = shape;
+  visit("outer_diameter", outer_diameter);
+  visit("bore", bore);
+  visit("length", length);
+  visit("echogenic", echogenic);
 }
 
 }  // namespace artus

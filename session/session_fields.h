@@ -11,15 +11,6 @@ namespace artus {
 
 // The named members, for visit_fields (core/fields.h).
 
-template <Like<NeedleShape> P, class F>
-void fields_of(P& shape, F&& visit) {
-  auto& [outer_diameter, bore, length, echogenic] = shape;
-  visit("outer_diameter", outer_diameter);
-  visit("bore", bore);
-  visit("length", length);
-  visit("echogenic", echogenic);
-}
-
 /// All but the feel, whose choices may be unset, and the joint's place.
 template <Like<SessionParams> P, class F>
 void fields_of(P& params, F&& visit) {

@@ -2,17 +2,11 @@
 // Every parameter of every law, of the guards, the probe's contact and the pneumatic probe is
 // changed by 5 %, one at a time, in the scenarios whose traces are kept as goldens: each must be
 // noticed. ARTUS_MUTATION_TABLE names a file for the whole table as JSON.
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <iostream>
 #include <map>
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include "artus/core/csv.h"
-#include "artus/core/text_file.h"
 #include "artus/haptics/actuator/control_law_supervisor.h"
 #include "artus/haptics/probe/probe_contact_fields.h"
 #include "tests/mutations/actuator_fields.h"
@@ -21,36 +15,6 @@
 
 namespace artus::test {
 namespace {
-
-using Exempt = std::map<std::string, std::string>;
-
-/// Prints the table, adds it to the file that ARTUS_MUTATION_TABLE names, and fails on each
-/// parameter that nothing notices, but for those that are exempt with a reason: of these, on each
-/// that something does notice.
-void expect_noticed(const std::string& what, const std::vector<Mutation>& mutations,
-                    const Exempt& exempt) {
-  nlohmann::ordered_json table;
-  for (const Mutation& m : mutations) {
-    const auto excuse = exempt.find(m.parameter);
-    std::cout << what << ' ' << m.parameter << ": "
-              << (m.noticed_by.empty() ? "NOT NOTICED" : m.first_difference) << " ("
-              << m.noticed_by.size() << " in all)\n";
-    table[m.parameter] = {{"noticed_by", m.noticed_by}, {"first", m.first_difference}};
-    if (excuse == exempt.end()) {
-      EXPECT_FALSE(m.noticed_by.empty()) << m.parameter << " may change by 5 % unnoticed";
-    } else {
-      table[m.parameter]["exempt"] = excuse->second;
-      EXPECT_TRUE(m.noticed_by.empty()) << m.parameter << " is noticed: it needs no excuse";
-    }
-  }
-  const char* file = std::getenv("ARTUS_MUTATION_TABLE");
-  if (file == nullptr) return;
-  nlohmann::ordered_json all;
-  if (std::ifstream in(file); in.peek() != std::ifstream::traits_type::eof())
-    all = nlohmann::ordered_json::parse(in);
-  all[what] = table;
-  ASSERT_TRUE(write_text(file, all.dump(1) + "\n"));
-}
 
 TEST(Mutations, EveryParameterOfTheNeedlesForcesIsNoticed) {
   const std::string kHard = "a hard layer is neither pierced nor cut, nor does it hold the shaft";

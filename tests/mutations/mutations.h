@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 #include <functional>
+#include <map>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -72,5 +73,14 @@ std::vector<Mutation> try_mutations(const std::vector<Subject<Setup>>& subjects)
   }
   return mutations;
 }
+
+/// Parameters that nothing may notice, each with the reason.
+using Exempt = std::map<std::string, std::string>;
+
+/// Prints the table, adds it to the file that ARTUS_MUTATION_TABLE names, and fails on each
+/// parameter that nothing notices, but for those that are exempt with a reason: of these, on each
+/// that something does notice.
+void expect_noticed(const std::string& what, const std::vector<Mutation>& mutations,
+                    const Exempt& exempt);
 
 }  // namespace artus::test
