@@ -96,8 +96,9 @@ std::vector<Vec3> forces_at(int rate, const Sway& sway) {
   const int ticks = static_cast<int>(path.duration() * rate);
   for (int i = 0; i <= ticks; ++i) {
     const Pose X_JN = pose_at(path, sway, static_cast<double>(i) / rate);
+    const QueryCount met = body.find_intervals(model.query_segment(X_JN), buffer);
     const NeedleForces& f =
-        model.step(X_JN, body.find_intervals(model.query_segment(X_JN), buffer));
+        model.step(X_JN, std::span<const TissueInterval>(buffer.data(), met.size));
     if (i % (rate / 1000) == 0) out.push_back(f.total.force);
   }
   return out;
