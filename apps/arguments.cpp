@@ -52,14 +52,14 @@ Result<Pose> parse_probe_pose(std::string_view text, const std::string& flag) {
                 "a probe pose is position/direction[/lateral], each x,y,z: 0,0,30/0,0,-1/1,0,0",
                 flag);
   const auto position = parse_point_mm(parts[0], flag);
-  if (!position) return tl::unexpected(position.error());
+  ARTUS_TRY(position);
   const auto direction = parse_triple(parts[1], flag);
-  if (!direction) return tl::unexpected(direction.error());
+  ARTUS_TRY(direction);
   if (direction->norm() < 1e-12)
     return fail(ErrorCode::invalid, "the direction into the body is zero", flag);
   if (parts.size() == 2) return make_pose(*position, *direction, Vec3::Zero());
   const auto lateral = parse_triple(parts[2], flag);
-  if (!lateral) return tl::unexpected(lateral.error());
+  ARTUS_TRY(lateral);
   if (direction->normalized().cross(lateral->normalized()).norm() < 1e-6)
     return fail(ErrorCode::invalid, "the lateral direction is zero or along the beam", flag);
   return make_pose(*position, *direction, *lateral);
@@ -70,9 +70,9 @@ Result<Segment> parse_entry_and_tip(std::string_view text, const std::string& fl
   if (parts.size() != 2)
     return fail(ErrorCode::malformed, "a needle is entry/tip, each x,y,z: 0,0,30/5,0,10", flag);
   const auto entry = parse_point_mm(parts[0], flag);
-  if (!entry) return tl::unexpected(entry.error());
+  ARTUS_TRY(entry);
   const auto tip = parse_point_mm(parts[1], flag);
-  if (!tip) return tl::unexpected(tip.error());
+  ARTUS_TRY(tip);
   if ((*tip - *entry).norm() < 1e-9)
     return fail(ErrorCode::invalid, "entry and tip are the same point", flag);
   return Segment{*entry, *tip};
@@ -80,7 +80,7 @@ Result<Segment> parse_entry_and_tip(std::string_view text, const std::string& fl
 
 Result<Pose> parse_needle_pose(std::string_view text, const std::string& flag) {
   const auto line = parse_entry_and_tip(text, flag);
-  if (!line) return tl::unexpected(line.error());
+  ARTUS_TRY(line);
   return make_pose(line->end, line->end - line->start, Vec3::Zero());
 }
 

@@ -107,7 +107,7 @@ Result<std::shared_ptr<const CompiledJoint>> load(const JointOptions& options,
   load_options.cache = options.cache;
   load_options.compile.skip_refused = options.skip_refused;
   auto joint = load_joint(options.joint, load_options, progress);
-  if (!joint) return tl::unexpected(joint.error());
+  ARTUS_TRY(joint);
   return std::make_shared<const CompiledJoint>(std::move(*joint));
 }
 

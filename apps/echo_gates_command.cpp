@@ -44,11 +44,11 @@ Result<std::vector<EchoGate>> measure(const EchoGatesOptions& options, const Pro
   }
   if (options.reference.empty()) return gates;
   const auto range = read_patch_range(options.reference, options.reference_rows);
-  if (!range) return tl::unexpected(range.error());
+  ARTUS_TRY(range);
   JointOptions joint_options;
   joint_options.joint = options.joint;
   const auto joint = load(joint_options, progress);
-  if (!joint) return tl::unexpected(joint.error());
+  ARTUS_TRY(joint);
   const auto scene = std::make_shared<const Scene>(*joint);
   if (progress) progress("muscle-patch", 0);
   gates.push_back(measure_muscle(scene, *range));

@@ -53,7 +53,7 @@ Result<nlohmann::json> draw_phantom(const EchoPhantom& phantom, const View& view
         write_image(colour_labels(labels, phantom.scene->joint()), out / "labels.png"),
         write_image(id_image(labels), out / "ids.png"),
         write_text(out / "truth.json", truth.dump(2) + "\n")})
-    if (!ok) return tl::unexpected(ok.error());
+    ARTUS_TRY(ok);
   return truth;
 }
 

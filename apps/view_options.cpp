@@ -118,13 +118,13 @@ Result<View> make_view(const ViewOptions& options) {
   View view;
   if (!options.probe.empty()) {
     const auto pose = parse_probe_pose(options.probe, "--probe");
-    if (!pose) return tl::unexpected(pose.error());
+    ARTUS_TRY(pose);
     view.X_JP = *pose;
   }
   view.default_needle = options.needle == "default";
   if (!options.needle.empty() && !view.default_needle) {
     const auto pose = parse_needle_pose(options.needle, "--needle");
-    if (!pose) return tl::unexpected(pose.error());
+    ARTUS_TRY(pose);
     view.X_JN = *pose;
   }
   const auto shape = needle_of_gauge(options.gauge);
@@ -137,7 +137,7 @@ Result<View> make_view(const ViewOptions& options) {
   view.needle_shape.echogenic = options.echogenic;
   if (options.needle_length_mm) view.needle_shape.length = *options.needle_length_mm * kMillimetre;
   const auto transducer = make_transducer(options);
-  if (!transducer) return tl::unexpected(transducer.error());
+  ARTUS_TRY(transducer);
   view.transducer = *transducer;
   view.settings.depth = options.depth_mm * kMillimetre;
   view.settings.gain_db = options.gain_db;
@@ -170,9 +170,9 @@ std::optional<NeedleView> View::needle(const CompiledJoint& joint) const {
 Result<LoadedView> load_view(const JointOptions& joint_options, const ViewOptions& options,
                              bool quiet) {
   auto view = make_view(options);
-  if (!view) return tl::unexpected(view.error());
+  ARTUS_TRY(view);
   const auto joint = load(joint_options, make_progress_printer(quiet));
-  if (!joint) return tl::unexpected(joint.error());
+  ARTUS_TRY(joint);
   LoadedView loaded;
   loaded.X_JP = view->probe(**joint);
   loaded.needle = view->needle(**joint);

@@ -356,7 +356,6 @@ ForceScenario into_a_thick_layer() {
           }};
 }
 
-/// A tip pressed into the flank of a round bone that then slides off it.
 /// A tip pressed against the side of a round bone that then slides off it: the line loses the bone
 /// at once, the bevel does not.
 ForceScenario off_steep_bone() {
