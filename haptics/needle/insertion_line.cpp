@@ -9,7 +9,9 @@
 
 namespace artus {
 namespace {
-constexpr double kGrazing = 0.1;  // cosine below which a line runs along the skin
+constexpr double kGrazing = 0.1;      // cosine below which a line runs along the skin
+constexpr double kFinestStep = 4e-6;  // m, of a hand's 40 mm/s in a tick at 10 kHz
+constexpr int kMostParts = 16;
 
 double angle_between(const Vec3& a, const Vec3& b) noexcept {
   return std::atan2(a.cross(b).norm(), a.dot(b));
@@ -36,21 +38,35 @@ void InsertionLine::start(const Vec3& tip, const Vec3& axis, double depth,
   entry_ = tip - depth * axis;
   skin_normal_ = std::abs(skin_normal.dot(axis)) > kGrazing ? skin_normal : Vec3(-axis);
   deepest_ = depth;
-  shallowest_ = params_.near_skin;
+  shallowest_ = std::min(depth, params_.near_skin);
+  last_tip_ = tip;
+  last_own_axis_ = axis;
 }
 
 LineChange InsertionLine::follow(const Vec3& tip, const Vec3& own_axis) noexcept {
   LineChange change;
+  const Vec3 from = last_tip_;
+  const Vec3 from_axis = last_own_axis_;
+  const double parts = std::clamp(std::ceil((tip - from).norm() / kFinestStep), 1.0,
+                                  static_cast<double>(kMostParts));
+  for (double part = 1; part < parts; ++part) {
+    const double share = part / parts;
+    step(from + share * (tip - from), (from_axis + share * (own_axis - from_axis)).normalized(),
+         change);
+  }
+  step(tip, own_axis, change);
+  last_tip_ = tip;
+  last_own_axis_ = own_axis;
+  return change;
+}
+
+void InsertionLine::step(const Vec3& tip, const Vec3& own_axis, LineChange& change) noexcept {
   const double before = depth(tip);
   deepest_ = std::max(deepest_, before);
-  if (before >= params_.near_skin) {
-    shallowest_ = params_.near_skin;
-  } else if (before < shallowest_) {
-    let_go(tip, own_axis, change);
-  }
+  shallowest_ = std::min(params_.near_skin, std::max(shallowest_, before - params_.play));
+  if (before < shallowest_) let_go(tip, own_axis, change);
   turn(tip, change);
-  change.gain = depth(tip) - before;
-  return change;
+  change.gain += depth(tip) - before;
 }
 
 // Near the skin, each millimetre out lets go of its share of the line.
@@ -97,9 +113,10 @@ void InsertionLine::turn(const Vec3& tip, LineChange& change) noexcept {
   if (!((to_tip - before * axis_).norm() > most)) return;
   const Vec3 direction = to_tip / distance;
   const Vec3 axis = inside_cone(turned(direction, axis_, std::asin(most / distance)), distance);
-  change.turned = distance * angle_between(axis_, axis);
-  if (!(change.turned > 0)) return;
-  const double kept = std::exp(-change.turned / params_.way);
+  const double turned = distance * angle_between(axis_, axis);
+  if (!(turned > 0)) return;
+  change.turned += turned;
+  const double kept = std::exp(-turned / params_.way);
   axis_ = axis;
   const double now = depth(tip);
   const double enough = params_.withdrawal + params_.advance;

@@ -16,8 +16,10 @@ struct LineParams {
   double way = 0.5e-3;    ///< m by which the tip drags the line until all but 1/e of the old
                           ///< track is lost; assumed: a needle's width
   double near_skin =
-      3e-3;  ///< m, nearer the skin a line does not turn, as the direction from entry
-             ///< to tip is not defined well; it is let go on the way out; assumed
+      3e-3;            ///< m, nearer the skin a line does not turn, as the direction from entry
+                       ///< to tip is not defined well; it is let go on the way out; assumed
+  double play = 1e-3;  ///< m that a needle which went in nearer the skin than that comes back
+                       ///< before its line is let go; assumed: above tremor
 };
 
 /// What the line did in a tick.
@@ -45,7 +47,8 @@ class InsertionLine {
   ARTUS_REALTIME void start(const Vec3& tip, const Vec3& axis, double depth,
                             const Vec3& skin_normal) noexcept;
 
-  /// The tip moves to `tip`, the needle's own axis is `own_axis` (unit).
+  /// The tip moves straight to `tip`, the needle's own axis becomes `own_axis` (unit). The way is
+  /// gone in parts of some micrometres, so that a slow loop's line goes as a fast one's.
   ARTUS_REALTIME LineChange follow(const Vec3& tip, const Vec3& own_axis) noexcept;
 
   [[nodiscard]] const Vec3& entry() const noexcept { return entry_; }
@@ -54,6 +57,7 @@ class InsertionLine {
 
  private:
   double band(double depth) const noexcept;
+  void step(const Vec3& tip, const Vec3& own_axis, LineChange& change) noexcept;
   void let_go(const Vec3& tip, const Vec3& own_axis, LineChange& change) noexcept;
   void turn(const Vec3& tip, LineChange& change) noexcept;
   Vec3 inside_cone(const Vec3& axis, double depth) const noexcept;
@@ -64,6 +68,8 @@ class InsertionLine {
   Vec3 axis_ = Vec3::UnitZ();
   Vec3 first_axis_ = Vec3::UnitZ();
   Vec3 skin_normal_ = -Vec3::UnitZ();
+  Vec3 last_tip_ = Vec3::Zero();
+  Vec3 last_own_axis_ = Vec3::UnitZ();
   double deepest_ = 0;     // m, from which withdrawal counts
   double shallowest_ = 0;  // m, within near_skin, since the tip was deeper
 };
