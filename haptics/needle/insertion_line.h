@@ -24,6 +24,7 @@ struct LineParams {
 
 /// What the line did in a tick.
 struct LineChange {
+  bool moved = false;
   double turned = 0;  ///< m, by which the tip dragged it, at the tip
   double gain = 0;    ///< m, by which it made the depth greater
   double kept = 1;    ///< share of the cut track in front of the tip that is still the tip's way
@@ -36,7 +37,9 @@ struct LineChange {
 /// track, and with it how far the needle was withdrawn, by exp(-way dragged / way). So a line is
 /// not taken or kept: it moves continuously with the path, as a loop of any rate finds it. On the
 /// way out of the skin the line is let go in the same manner: by the share of the last millimetres
-/// that is left it stays, and else it is the needle's own axis, as before a puncture. Frame J, m.
+/// that is left it stays, and else it is the needle's own axis, as before a puncture. The tip is
+/// never farther off it than it is deep, nor the needle's axis turned from it by more than 90
+/// degrees at near_skin and less nearer. Frame J, m.
 class InsertionLine {
  public:
   explicit InsertionLine(const LineParams& params, double needle_length) noexcept
@@ -58,6 +61,8 @@ class InsertionLine {
  private:
   double band(double depth) const noexcept;
   void step(const Vec3& tip, const Vec3& own_axis, LineChange& change) noexcept;
+  void approach(const Vec3& on_line, const Vec3& own_axis, double share) noexcept;
+  void slide(const Vec3& tip, const Vec3& own_axis, LineChange& change) noexcept;
   void let_go(const Vec3& tip, const Vec3& own_axis, LineChange& change) noexcept;
   void turn(const Vec3& tip, LineChange& change) noexcept;
   Vec3 inside_cone(const Vec3& axis, double depth) const noexcept;

@@ -189,11 +189,16 @@ void NeedleContact::tear(double force, double dimple) noexcept {
 // The line may follow the tip; what is remembered by depth goes with it.
 void NeedleContact::follow_line(const Pose& X_JN) noexcept {
   const LineChange change = line_.follow(tick_.tip, X_JN.linear().col(2));
-  if (change.kept == 1) return;
+  if (!change.moved) return;
   const double ahead = open_ - tick_.depth;
   tick_.axis = line_.axis();
   tick_.entry = line_.entry();
-  tick_.depth = line_.depth(tick_.tip);
+  const double deeper = line_.depth(tick_.tip) - tick_.depth;
+  tick_.depth += deeper;
+  for (ShaftLayer& layer : std::span(layers_.data(), layer_count_)) {
+    layer.entry += deeper;
+    layer.exit += deeper;
+  }
   tick_.line_gain = change.gain;
   tick_.line_kept = change.kept;
   tick_.orientation_0 = tick_.orientation.slerp(change.kept, tick_.orientation_0);

@@ -84,7 +84,7 @@ const NeedleForces& NeedleModel::step(const Pose& X_JN,
   if (contact_.inserted()) {
     constexpr std::uint32_t kStart = ContactEvent::kSkinPunctured | ContactEvent::kAdopted;
     if ((contact_.events() & kStart) != 0) start_laws();
-    if (tick.line_kept < 1) take_line();
+    if (tick.line_kept < 1 || tick.line_gain != 0) take_line();
     const double cutting = cutting_force(tick);
     forces_.cutting = std::min(cutting, 0.0);
     forces_.attracted = std::max(cutting, 0.0);

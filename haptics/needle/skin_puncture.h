@@ -18,7 +18,8 @@ struct NeedlePlace {
 /// What the skin remembers of a needle that is not in it: how far it has been from the hole that it
 /// left, and where it was a tick ago, so that a puncture is placed where it happened and not at
 /// the next tick. A needle that left by a hair finds its hole; the skin is whole for one that was
-/// `edge` away. In between its strength grows with the way, so that a hair more or less is none.
+/// `edge` above it, or as much farther aside than the skin goes with a tip. In between its strength
+/// grows with the way, so that a hair more or less is none.
 class SkinPuncture {
  public:
   /// Requires: edge > 0 m.
@@ -39,13 +40,13 @@ class SkinPuncture {
 
   /// A tick outside the skin.
   ARTUS_REALTIME void wait(const NeedlePlace& now) noexcept {
-    go_away(now.tip);
+    go_away(now);
     remember(now);
   }
 
   /// A tick in which the tip pushes the skin in, or is through. Before remember().
   ARTUS_REALTIME void touch(const NeedlePlace& now) noexcept {
-    if (!known_ || last_.depth < 0) go_away(between(now, 0).tip);
+    if (!known_ || last_.depth < 0) go_away(between(now, 0));
   }
 
   ARTUS_REALTIME void remember(const NeedlePlace& now) noexcept {
@@ -72,8 +73,11 @@ class SkinPuncture {
   [[nodiscard]] ARTUS_REALTIME double wholeness() const noexcept { return away_ / edge_; }
 
  private:
-  void go_away(const Vec3& tip) noexcept {
-    away_ = std::min(edge_, std::max(away_, (tip - hole_).norm()));
+  static constexpr double kAside = 2e-3;  // m that skin goes with a tip; assumed
+
+  void go_away(const NeedlePlace& now) noexcept {
+    const double away = std::max(-now.depth, (now.tip - hole_).norm() - kAside);
+    away_ = std::min(edge_, std::max(away_, away));
   }
 
   double edge_;
