@@ -2,6 +2,7 @@
 // The line that moves gives the hand no energy: at no instant of a way that sways and goes in and
 // out has the force to the line worked more for the hand than against it.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -37,7 +38,7 @@ Pose pose_at(const Swing& way, double phase, double t) {
 // The most that the force to the line has given until any instant, J: by the mean of the forces at
 // both ends of a tick, so that what a held force gives by itself does not count.
 double most_given(const Swing& way, double phase, int rate, double* exchanged) {
-  constexpr double kDuration = 6;  // s
+  constexpr double kDuration = 3;  // s
   const LayerTable table = test::sway_layers(false);
   const AnalyticBody body =
       AnalyticBody::make_stack(Vec3::Zero(), Vec3::UnitZ(), {0, 0.0041, 0.018, 0.021});
@@ -69,21 +70,22 @@ TEST(SwayEnergy, TheMovingLineHasGivenTheHandNothingAtAnyInstant) {
                         {0.012, 0.008, 1.5e-3, 1, true},   //
                         {0.004, 0.0045, 1e-3, 1, false},   // out of the skin and in again
                         {0.004, 0.0030, 1e-3, 1, true}};   // let go and held again
-  constexpr double kNothing = 2e-6;                        // J
+  constexpr double kNothing = 0.2e-6;                      // J
   for (std::size_t w = 0; w < std::size(ways); ++w) {
     double worst = 0;
     double exchanged = 0;
+    constexpr int kRuns = 60;
     for (int p = 0; p < 20; ++p) {
-      for (const int rate : {1000, 2000, 5000, 10000}) {
-        if (rate == 10000 && p % 4 != 0) continue;
+      for (const int rate : {1000, 2000, 5000}) {
         const double given = most_given(ways[w], test::kTwoPi * p / 20, rate, &exchanged);
         EXPECT_LT(given, kNothing) << "way " << w << ", phase " << p << ", " << rate << " Hz";
         worst = std::max(worst, given);
       }
     }
-    EXPECT_GT(exchanged / 65, 1e-3) << "J to and fro in a run";
+    EXPECT_GT(exchanged / kRuns, 1e-4) << "J to and fro in a run";
     RecordProperty("most_given_" + std::to_string(w), std::to_string(1e6 * worst) + " uJ");
-    RecordProperty("exchanged_" + std::to_string(w), std::to_string(1e6 * exchanged / 65) + " uJ");
+    RecordProperty("exchanged_" + std::to_string(w),
+                   std::to_string(1e6 * exchanged / kRuns) + " uJ");
   }
 }
 

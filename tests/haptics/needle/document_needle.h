@@ -135,7 +135,7 @@ class DocumentNeedle {
     t.kept = line.q;
     double held = 0;
     DocumentForce out;
-    t.layer = layer_at(x, held);
+    t.layer = layer_at(p, x, held);
     if (punctured) wall.begin(std::max(0.0, gave_way - skin().puncture / skin().k_t), x);
     const double cut = wall.step(t);
     if (punctured) torn += skin().puncture + cut;
@@ -187,14 +187,14 @@ class DocumentNeedle {
     const auto [low, high] = std::minmax_element(past.begin(), past.end());
     return std::clamp((0.31e-3 - (*high - *low)) / 0.155e-3, 0.0, 1.0);
   }
-  DocumentLayer layer_at(double x, double& held) {
+  DocumentLayer layer_at(const Vec3& tip, double x, double& held) {
     DocumentLayer felt{skin().f_r, skin().f_a, skin().k_t};
     bool holds = false;
     clamping = 0;
     for (std::size_t i = 0; i < tissues.size(); ++i) {
       const DocumentTissue& tissue = tissues[i];
-      const auto along = [this](double z) {
-        return (z - line.p0.z()) / line.u.z();
+      const auto along = [&](double z) {
+        return x - (tip.z() - z) / line.u.z();
       };
       const double e = std::max(0.0, along(tissue.begins));
       if (e > x) break;
