@@ -158,23 +158,27 @@ SwayShares differences(bool membranes, const ExperimentOptions& options, const D
 }  // namespace
 
 void compare_rates_under_sway(const ExperimentOptions& options, Experiment& out) {
+  const std::string hand = "a hand that sways, back to five depths and in again";
+  const auto against = [](std::size_t i) {
+    return " at " + to_csv(kRates[i]) + " Hz against 10 kHz, RMS share";
+  };
+  std::array<double, 2> aside{};
   for (const DeviceLimits& device : device_table()) {
     for (const bool membranes : {true, false}) {
       const SwayShares off = differences(membranes, options, device, out);
-      for (std::size_t i = 0; i < off.total.size(); ++i) {
-        const std::string where = std::string(membranes ? "with" : "without") + " membranes at " +
-                                  to_csv(kRates[i]) + " Hz against 10 kHz, " +
-                                  std::string(device.name) + ", RMS share";
-        out.claims.push_back(claim_at_most(
-            ClaimKind::independent,
-            "a hand that sways, back to five depths and in again: total force " + where,
-            off.total[i], 0.02, ""));
-        out.claims.push_back(claim_at_most(
-            ClaimKind::independent,
-            "a hand that sways, back to five depths and in again: force aside " + where,
-            off.aside[i], 0.02, ""));
+      for (std::size_t i = 0; i < aside.size(); ++i) {
+        aside[i] = std::max(aside[i], off.aside[i]);
+        std::string text = hand + ", " + std::string(device.name);
+        text += membranes ? ", membranes: total force" : ", no membranes: total force";
+        out.claims.push_back(
+            claim_at_most(ClaimKind::independent, text.append(against(i)), off.total[i], 0.02, ""));
       }
     }
+  }
+  for (std::size_t i = 0; i < aside.size(); ++i) {
+    out.claims.push_back(claim_at_most(
+        ClaimKind::independent, hand + ", worst device and body: force aside alone" + against(i),
+        aside[i], 0.02, ""));
   }
 }
 
