@@ -63,6 +63,7 @@ void NeedleContact::leave() noexcept {
   on_bone_ = false;
   state_ = ContactState::away;
   region_ = kOutside;
+  soft_region_ = kOutside;
   open_ = 0;
   was_outside_ = true;
   layer_count_ = 0;
@@ -99,6 +100,7 @@ void NeedleContact::store_layers(std::span<const TissueInterval> intervals,
 
 void NeedleContact::start_line(const NeedlePlace& place) noexcept {
   inserted_ = true;
+  soft_region_ = kOutside;
   tick_.orientation_0 = place.orientation;
   line_.start(place.tip, place.orientation * Vec3::UnitZ(), place.depth, tick_.surface_normal);
   tick_.axis = line_.axis();
@@ -263,6 +265,16 @@ void NeedleContact::feel(const ShaftLayer& stretch, bool skin) noexcept {
   felt.wall_stiffness = std::lerp(before.wall_stiffness, felt.wall_stiffness, share);
 }
 
+// The layer that the tip was in a tick ago, -1: none. Its membrane and those before it gave way
+// earlier; on a line that moves they come back to strength and hold again, but do not tear twice.
+std::ptrdiff_t NeedleContact::last_passed() const noexcept {
+  std::ptrdiff_t passed = -1;
+  for (std::size_t i = 0; i < layer_count_ && layers_[i].entry <= tick_.depth; ++i) {
+    if (layers_[i].region == soft_region_) passed = static_cast<std::ptrdiff_t>(i);
+  }
+  return passed;
+}
+
 // The soft layer at the tip, the membrane that holds it up, and where bone begins.
 void NeedleContact::find_tip_layers() noexcept {
   const double x = tick_.depth;
@@ -272,8 +284,9 @@ void NeedleContact::find_tip_layers() noexcept {
   bool held = false;
   bool skin = true;  // is punctured
   double line_bone = kInfinity;
-  for (std::size_t i = 0; i < layer_count_; ++i) {
-    const ShaftLayer& s = layers_[i];
+  const std::ptrdiff_t passed = last_passed();
+  for (std::ptrdiff_t i = 0; i < static_cast<std::ptrdiff_t>(layer_count_); ++i) {
+    const ShaftLayer& s = layers_[static_cast<std::size_t>(i)];
     const LayerHaptics& layer = (*table_)[s.region];
     if (layer.tissue.hard) {
       if (s.exit <= 0) continue;
@@ -296,7 +309,7 @@ void NeedleContact::find_tip_layers() noexcept {
         }
         tick_.dimple = dimple;
         tick_.membrane = layer;
-      } else {
+      } else if (i > passed) {
         tear(std::min(force, strength), dimple);
         open_ = std::max(open_, s.entry + params_.membrane_margin + params_.membrane_edge);
         events_ |= ContactEvent::kMembranePopped;
@@ -305,6 +318,7 @@ void NeedleContact::find_tip_layers() noexcept {
     if (!held) feel(s, skin);
     skin = false;
   }
+  soft_region_ = region_;
   tick_.bone_depth = felt_bone(line_bone);
   if (x > tick_.bone_depth) region_ = bone_region_;
   if (!held) open_ = std::max(open_, std::min(x, tick_.bone_depth));

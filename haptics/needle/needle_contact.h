@@ -100,6 +100,7 @@ class NeedleContact {
   void follow_line(const Pose& X_JN) noexcept;
   [[nodiscard]] double clearance() const noexcept;
   void leave_skin(const Vec3& last_tip, double last_clearance) noexcept;
+  [[nodiscard]] std::ptrdiff_t last_passed() const noexcept;
   void feel(const ShaftLayer& stretch, bool skin) noexcept;
   [[nodiscard]] double wholeness(double depth) const noexcept;
   double felt_bone(double line_depth) noexcept;
@@ -124,6 +125,7 @@ class NeedleContact {
   ContactState state_ = ContactState::away;
   std::uint32_t events_ = 0;
   RegionId region_ = kOutside;
+  RegionId soft_region_ = kOutside;  // at the tip a tick ago, before bone
   bool inserted_ = false;
   bool adopt_ = true;
   bool on_bone_ = false;

@@ -190,6 +190,7 @@ class DocumentNeedle {
   DocumentLayer layer_at(const Vec3& tip, double x, double& held) {
     DocumentLayer felt{skin().f_r, skin().f_a, skin().k_t};
     bool holds = false;
+    int now_in = -1;
     clamping = 0;
     for (std::size_t i = 0; i < tissues.size(); ++i) {
       const DocumentTissue& tissue = tissues[i];
@@ -208,7 +209,7 @@ class DocumentNeedle {
           holds = true;
           held = pushed;
           if (whole == 1) open = std::min(open, e);
-        } else {
+        } else if (static_cast<int>(i) > in) {
           torn += strength;
           torn_at = e;
           torn_dimple = x - e;
@@ -216,12 +217,14 @@ class DocumentNeedle {
         }
       }
       if (holds) continue;
+      now_in = static_cast<int>(i);
       growth = tissue.clamping / 0.035;
       const double share = i == 0 ? 1 : std::min(1.0, (x - e) / 0.2e-3);
       felt.f_r += share * (tissue.f_r - felt.f_r);
       felt.f_a += share * (tissue.f_a - felt.f_a);
       felt.k_t += share * (tissue.k_t - felt.k_t);
     }
+    in = now_in;
     if (!holds) open = std::max(open, x);
     return felt;
   }
@@ -231,6 +234,7 @@ class DocumentNeedle {
   DocumentLine line;
   DocumentWall wall;
   bool inserted = false;
+  int in = -1;  // the layer that the tip was in a tick ago
   double last_d = -1, gave_way = 0, dimple_force = 0;
   Vec3 last_p = Vec3::Zero(), last_n = Vec3::UnitZ();
   double torn = 0, torn_at = 0, torn_dimple = 1, open = 0, clamping = 0, growth = 0;
