@@ -9,19 +9,15 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include "artus/anatomy/compile/distance_field_blocks.h"
 #include "artus/core/check.h"
 
 namespace artus {
 namespace {
 
-constexpr int kCells = 8;              // cells of a block along an axis
-constexpr int kSide = kCells + 1;      // samples along an axis: blocks share their rims
-constexpr int kRow = kSide;            // stride of y
-constexpr int kPlane = kSide * kSide;  // stride of z
-constexpr int kBlock = kSide * kSide * kSide;
+using namespace field_blocks;  // NOLINT(google-build-using-namespace): the layout of a block
+
 constexpr double kClampReach = 1.74;  // spacings; nearer to the band a clamped sample may take part
-constexpr std::int32_t kOut = -1;
-constexpr std::int32_t kIn = -2;
 
 double signed_by_winding(const DistanceTree& tree, const Vec3& p, double distance) {
   return tree.winding_number(p) > 0.5 ? -distance : distance;
@@ -237,8 +233,8 @@ Vec3 DistanceField::normal(const Vec3& p) const noexcept {
   return length > 0 ? Vec3(g / length) : Vec3(Vec3::Zero());
 }
 
-double DistanceField::integrate(const std::function<double(const Vec3&)>& weight) const {
-  std::vector<double> sums(slots_.size(), 0.0);
+FieldPart DistanceField::integrate_part(const std::function<double(const Vec3&)>& weight) const {
+  std::vector<FieldPart> sums(slots_.size());
   tbb::parallel_for(std::size_t{0}, slots_.size(), [&](std::size_t block) {
     if (slots_[block] == kOut) return;
     const Vec3 corner = block_corner(block);
@@ -246,10 +242,24 @@ double DistanceField::integrate(const std::function<double(const Vec3&)>& weight
       const Vec3 index(i % kCells, i / kCells % kCells, i / (kCells * kCells));
       const Vec3 p = corner + spacing_ * (index + Vec3::Constant(0.5));
       const double inside = std::clamp(0.5 - value(p) / spacing_, 0.0, 1.0);
-      if (inside > 0) sums[block] += inside * weight(p);
+      if (!(inside > 0)) continue;
+      const double share = inside * weight(p);
+      sums[block].volume += share;
+      sums[block].centre += share * p;
     }
   });
-  return std::accumulate(sums.begin(), sums.end(), 0.0) * spacing_ * spacing_ * spacing_;
+  FieldPart all;
+  for (const FieldPart& sum : sums) {
+    all.volume += sum.volume;
+    all.centre += sum.centre;
+  }
+  if (all.volume > 0) all.centre /= all.volume;
+  all.volume *= spacing_ * spacing_ * spacing_;
+  return all;
+}
+
+double DistanceField::integrate(const std::function<double(const Vec3&)>& weight) const {
+  return integrate_part(weight).volume;
 }
 
 std::size_t DistanceField::memory() const noexcept {

@@ -22,6 +22,12 @@ struct FieldSampling {
   double band = 0;     ///< m; values are clamped to +-band
 };
 
+/// A connected part of a field's inside.
+struct FieldPart {
+  double volume = 0;           ///< m^3
+  Vec3 centre = Vec3::Zero();  ///< of its volume
+};
+
 /// Signed distance (negative inside) on a grid that stores samples only near the surface, trilinear
 /// in between, clamped to +-band. The resolved layers are the sign of such fields, so one cheap
 /// query answers "inside?" for surfaces and constructs alike.
@@ -58,12 +64,20 @@ class DistanceField {
   /// the cells with a smoothed edge. Cost: cells not outside, on all threads; deterministic.
   [[nodiscard]] double integrate(const std::function<double(const Vec3&)>& weight) const;
 
+  /// The volume where `weight` counts and its centre. Cost: as of integrate.
+  [[nodiscard]] FieldPart integrate_part(const std::function<double(const Vec3&)>& weight) const;
+
+  /// Makes all but the largest connected part of the inside outside; returns the parts there were,
+  /// the largest first. Parts are told apart on the samples. Cost: linear in the samples.
+  std::vector<FieldPart> keep_largest_part();
+
   [[nodiscard]] double spacing() const noexcept { return spacing_; }
   [[nodiscard]] double band() const noexcept { return band_; }
   /// Bytes held.
   [[nodiscard]] std::size_t memory() const noexcept;
 
  private:
+  struct Parts;
   using BlockSource = std::function<double(const Vec3&, double)>;
   using BlockFiller = std::function<void(const Vec3&, float*)>;
 
