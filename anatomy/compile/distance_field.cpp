@@ -23,23 +23,53 @@ double signed_by_winding(const DistanceTree& tree, const Vec3& p, double distanc
   return tree.winding_number(p) > 0.5 ? -distance : distance;
 }
 
-// A sample farther from the surface than the spacing has the sign of its neighbours, so the
-// winding number is computed only next to the surface.
+// The surface does not pass between two samples that are together farther from it than from each
+// other, so the winding number is computed only next to the surface.
 double signed_at(const DistanceTree& tree, const Vec3& p, double distance, double spacing,
                  const float* here, const std::array<int, 3>& i) {
   const std::array<std::pair<int, int>, 3> steps{{{i[0], 1}, {i[1], kRow}, {i[2], kPlane}}};
   for (const auto& [index, stride] : steps) {
     if (index == 0) continue;
     const double neighbour = static_cast<double>(*(here - stride));
-    if (std::max(std::abs(neighbour), distance) > 1.001 * spacing) {
+    if (std::abs(neighbour) + distance > 1.001 * spacing) {
       return std::copysign(distance, neighbour);
     }
   }
   return signed_by_winding(tree, p, distance);
 }
 
+using SampleFlags = std::array<bool, kBlock>;
+
+// Marks the samples of a cube of `cells` cells that are beyond the band, cube by smaller cube.
+void mark_beyond(const DistanceTree& tree, double spacing, double band, const Vec3& corner,
+                 const std::array<int, 3>& first, int cells, SampleFlags& beyond) {
+  constexpr int kSmallest = 2;
+  const double half = 0.5 * cells * spacing;
+  const double reach = band + 1.0001 * std::sqrt(3.0) * half;
+  const Vec3 centre = corner + spacing * Vec3(first[0], first[1], first[2]) + Vec3::Constant(half);
+  if (tree.distance(centre, reach) >= reach) {
+    for (int z = first[2]; z <= first[2] + cells; ++z)
+      for (int y = first[1]; y <= first[1] + cells; ++y)
+        for (int x = first[0]; x <= first[0] + cells; ++x)
+          beyond[static_cast<std::size_t>(x + kRow * y + kPlane * z)] = true;
+    return;
+  }
+  if (cells == kSmallest) return;
+  const int part = cells / 2;
+  for (int k = 0; k < 8; ++k)
+    mark_beyond(
+        tree, spacing, band, corner,
+        {first[0] + part * (k & 1), first[1] + part * (k >> 1 & 1), first[2] + part * (k >> 2)},
+        part, beyond);
+}
+
 void fill_from_tree(const DistanceTree& tree, double spacing, double band, const Vec3& corner,
                     float* out) {
+  SampleFlags beyond{};
+  for (int k = 0; k < 8; ++k)
+    mark_beyond(tree, spacing, band, corner,
+                {kCells / 2 * (k & 1), kCells / 2 * (k >> 1 & 1), kCells / 2 * (k >> 2)},
+                kCells / 2, beyond);
   for (int i = 0; i < kBlock; ++i) {
     const std::array<int, 3> index{i % kSide, i / kSide % kSide, i / kPlane};
     constexpr std::array<int, 3> kStrides{1, kRow, kPlane};
@@ -51,7 +81,7 @@ void fill_from_tree(const DistanceTree& tree, double spacing, double band, const
       bound = std::min(bound, neighbour + 1.001 * spacing);
     }
     const Vec3 p = corner + spacing * Vec3(index[0], index[1], index[2]);
-    const double distance = tree.distance(p, bound);
+    const double distance = beyond[static_cast<std::size_t>(i)] ? band : tree.distance(p, bound);
     *here = static_cast<float>(signed_at(tree, p, distance, spacing, here, index));
   }
 }
@@ -256,6 +286,31 @@ FieldPart DistanceField::integrate_part(const std::function<double(const Vec3&)>
   if (all.volume > 0) all.centre /= all.volume;
   all.volume *= spacing_ * spacing_ * spacing_;
   return all;
+}
+
+std::array<double, 2> DistanceField::integrate_blocks(const BlockWeights& weights_in) const {
+  std::vector<std::array<double, 2>> sums(slots_.size(), {0, 0});
+  tbb::parallel_for(std::size_t{0}, slots_.size(), [&](std::size_t block) {
+    if (slots_[block] == kOut) return;
+    const Vec3 corner = block_corner(block);
+    const auto weights = weights_in({corner, corner + Vec3::Constant(kCells * spacing_)});
+    for (int i = 0; i < kCells * kCells * kCells; ++i) {
+      const Vec3 index(i % kCells, i / kCells % kCells, i / (kCells * kCells));
+      const Vec3 p = corner + spacing_ * (index + Vec3::Constant(0.5));
+      const double own = value(p);
+      if (own >= spacing_ / 2) continue;
+      const std::array<double, 2> share = weights(p, own);
+      sums[block][0] += share[0];
+      sums[block][1] += share[1];
+    }
+  });
+  std::array<double, 2> all{0, 0};
+  for (const auto& sum : sums) {
+    all[0] += sum[0];
+    all[1] += sum[1];
+  }
+  const double cell = spacing_ * spacing_ * spacing_;
+  return {all[0] * cell, all[1] * cell};
 }
 
 double DistanceField::integrate(const std::function<double(const Vec3&)>& weight) const {

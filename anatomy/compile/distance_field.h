@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -66,6 +67,14 @@ class DistanceField {
 
   /// The volume where `weight` counts and its centre. Cost: as of integrate.
   [[nodiscard]] FieldPart integrate_part(const std::function<double(const Vec3&)>& weight) const;
+
+  /// Two weights at a point, given the field's value there.
+  using Weights = std::function<std::array<double, 2>(const Vec3&, double)>;
+  /// The weights for the points of a box.
+  using BlockWeights = std::function<Weights(const Box&)>;
+  /// Integrals of two weights, m^3, over all cells whose middle lies inside or within half the
+  /// spacing of it; `weights_in` is asked once for each storage block. Cost: as of integrate.
+  [[nodiscard]] std::array<double, 2> integrate_blocks(const BlockWeights& weights_in) const;
 
   /// Makes all but the largest connected part of the inside outside; returns the parts there were,
   /// the largest first. Parts are told apart on the samples. Cost: linear in the samples.

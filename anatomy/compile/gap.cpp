@@ -41,14 +41,6 @@ Vec3 gradient(const Fields& fields, const Vec3& p, double step) {
   return length > kFlat * 2 * step ? Vec3(g / length) : Vec3(Vec3::Zero());
 }
 
-/// Distance of the origin from the straight line between two points.
-double distance_to_chord(const Vec3& a, const Vec3& b) {
-  const Vec3 ab = b - a;
-  const double length2 = ab.squaredNorm();
-  const double t = length2 > 0 ? std::clamp(-a.dot(ab) / length2, 0.0, 1.0) : 0.0;
-  return (a + t * ab).norm();
-}
-
 /// The cleft by itself, as if nothing else were there.
 class Cleft {
  public:
@@ -82,7 +74,8 @@ class Cleft {
     const Vec3 from_roof = gradient(roof_, p, step_);
     const Vec3 from_floor = gradient(floor_, p, step_);
     const double turned = from_roof.dot(from_floor) / -kOpposed + 1;  // 0 opposed .. 1 across
-    const double away = distance_to_chord(to_roof * from_roof, to_floor * from_floor);
+    // Across the line between the nearest points; where roof and floor overlap it has no length.
+    const double away = std::abs(to_roof + to_floor) / 4 * (from_roof + from_floor).norm();
     return std::clamp(std::max(turned, 2 * away / edge_), 0.0, kFarOut);
   }
 

@@ -168,11 +168,4 @@ Result<SurfaceMesh> make_wrap(const SurfaceMesh& mesh, double detail, double off
   }
 }
 
-double largest_distance(const SurfaceMesh& a, const SurfaceMesh& b) {
-  const NearestPoint nearest(b);
-  double largest = 0;
-  for (const Vec3& p : a.vertices) largest = std::max(largest, (nearest(p) - p).norm());
-  return largest;
-}
-
 }  // namespace artus

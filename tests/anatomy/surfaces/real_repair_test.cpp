@@ -7,6 +7,7 @@
 #include "artus/anatomy/surfaces/defects.h"
 #include "artus/anatomy/surfaces/repair.h"
 #include "artus/anatomy/surfaces/repair_steps.h"
+#include "artus/anatomy/surfaces/surface_distance.h"
 #include "artus/anatomy/surfaces/surface_io.h"
 #include "artus/anatomy/surfaces/surface_topology.h"
 #include "tests/anatomy/surfaces/surface_samples.h"
@@ -85,7 +86,7 @@ TEST_F(RealRepair, RepairMovesNoSurfaceByMoreThanHalfAMillimetre) {
     const auto mesh = read(name);
     const auto out = repair_surface(mesh);
     ASSERT_TRUE(out) << name << ": " << out.error().to_string();
-    EXPECT_LT(largest_distance(mesh, out->mesh), 0.5e-3) << name;
+    EXPECT_LT(measure_distance(mesh, out->mesh).max, 0.5e-3) << name;
   }
 }
 
@@ -96,8 +97,7 @@ TEST_F(RealRepair, RepairedOraclesLieOnTheirOriginals) {
       const auto mesh = read(std::string("raw/oracle_") + name + "_" + version + ".stl");
       const auto out = repair_surface(mesh);
       ASSERT_TRUE(out) << out.error().to_string();
-      EXPECT_LT(largest_distance(mesh, out->mesh), 0.5e-3);
-      EXPECT_LT(largest_distance(out->mesh, mesh), 0.5e-3);
+      EXPECT_LT(measure_distance(mesh, out->mesh).max, 0.5e-3);
     }
   }
 }
