@@ -2,7 +2,9 @@
 #include "artus/anatomy/compile/compile_measure.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include <tbb/parallel_for.h>
@@ -54,20 +56,43 @@ void integrate_layer(const RegionLabels& labels, std::size_t layer, StructureRep
   report.lost_volume = in_region - rest;
 }
 
+// What a layer takes of another one, in whole numbers: the same whatever thread comes first.
+struct Taken {
+  std::atomic<std::int64_t> cells = 0;
+  std::array<std::atomic<std::int64_t>, 3> sum{};  // of their middles, nm
+
+  void add(const Vec3& p) {
+    constexpr double kNanometre = 1e-9;  // m
+    ++cells;
+    for (std::size_t a = 0; a < 3; ++a)
+      sum[a] += std::llround(p[static_cast<Eigen::Index>(a)] / kNanometre);
+  }
+  [[nodiscard]] Vec3 centre() const {
+    return 1e-9 *
+           Vec3(static_cast<double>(sum[0]), static_cast<double>(sum[1]),
+                static_cast<double>(sum[2])) /
+           static_cast<double>(cells);
+  }
+};
+
 // Which earlier layer takes most of a layer, when all together take much.
 void find_taker(const RegionLabels& labels, std::size_t layer, CompileReport& report) {
   StructureReport& mine = report.structures[labels.layers[layer].region - kFirstRegion];
   if (mine.lost_volume <= kMuchLost * mine.region_volume) return;
-  FieldPart most;
-  for (std::size_t i = 0; i < layer; ++i) {
-    const RegionLabels::Layer& other = labels.layers[i];
-    const FieldPart part = labels.layers[layer].field.integrate_part(
-        [&](const Vec3& p) { return labels.at(p) == other.region ? 1.0 : 0.0; });
-    if (part.volume <= most.volume) continue;
-    most = part;
-    mine.lost_to = report.structures[other.region - kFirstRegion].name;
-    mine.lost_at = part.centre;
-  }
+  const RegionId own_region = labels.layers[layer].region;
+  std::vector<Taken> taken(kFirstRegion + report.structures.size());
+  const DistanceField::Weights tally = [&](const Vec3& p, double own) {
+    const RegionId region = own < 0 ? labels.at(p) : own_region;
+    if (region > kFirstRegion && region != own_region) taken[region].add(p);
+    return std::array<double, 2>{0, 0};
+  };
+  static_cast<void>(labels.layers[layer].field.integrate_blocks([&](const Box&) { return tally; }));
+  const auto most = std::max_element(
+      taken.begin(), taken.end(), [](const Taken& a, const Taken& b) { return a.cells < b.cells; });
+  if (most->cells == 0) return;
+  mine.lost_to =
+      report.structures[static_cast<std::size_t>(most - taken.begin()) - kFirstRegion].name;
+  mine.lost_at = most->centre();
 }
 
 // Exact distances of four points of a triangle.

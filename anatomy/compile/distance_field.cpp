@@ -194,25 +194,23 @@ void DistanceField::extend(const DistanceTree& tree, const FieldSampling& sampli
 
 double DistanceField::near_value(const Vec3& p) const noexcept {
   const Vec3 q = (p - origin_) / spacing_;
-  const std::array<double, 3> cell{std::floor(q[0]), std::floor(q[1]), std::floor(q[2])};
+  std::array<unsigned, 3> i{};
   for (std::size_t a = 0; a < 3; ++a) {
-    if (!(cell[a] >= 0 && cell[a] < blocks_[a] * kCells)) return band_;
+    const double at = q[static_cast<Eigen::Index>(a)];
+    if (!(at >= 0 && at < blocks_[a] * kCells)) return band_;
+    i[a] = static_cast<unsigned>(at);
   }
-  const std::array<int, 3> i{static_cast<int>(cell[0]), static_cast<int>(cell[1]),
-                             static_cast<int>(cell[2])};
+  constexpr auto kPer = static_cast<unsigned>(kCells);
   const std::size_t block =
-      static_cast<std::size_t>(i[0] / kCells) +
-      static_cast<std::size_t>(blocks_[0]) *
-          (static_cast<std::size_t>(i[1] / kCells) +
-           static_cast<std::size_t>(blocks_[1]) * static_cast<std::size_t>(i[2] / kCells));
+      i[0] / kPer + static_cast<std::size_t>(blocks_[0]) *
+                        (i[1] / kPer + static_cast<std::size_t>(blocks_[1]) * (i[2] / kPer));
   const std::int32_t slot = slots_[block];
   if (slot < 0) return slot == kIn ? -band_ : band_;
-  const float* s = &samples_[static_cast<std::size_t>(slot) * kBlock +
-                             static_cast<std::size_t>(i[0] % kCells + kRow * (i[1] % kCells) +
-                                                      kPlane * (i[2] % kCells))];
-  const double fx = q[0] - cell[0];
-  const double fy = q[1] - cell[1];
-  const double fz = q[2] - cell[2];
+  const float* s = &samples_[static_cast<std::size_t>(slot) * kBlock + i[0] % kPer +
+                             kRow * (i[1] % kPer) + kPlane * (i[2] % kPer)];
+  const double fx = q[0] - i[0];
+  const double fy = q[1] - i[1];
+  const double fz = q[2] - i[2];
   const auto along_x = [&](int offset) {
     return (1 - fx) * static_cast<double>(s[offset]) + fx * static_cast<double>(s[offset + 1]);
   };
