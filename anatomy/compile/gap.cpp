@@ -60,7 +60,7 @@ class Cleft {
     const double beyond_walls = (std::abs(to_roof - to_floor) - gap_.thickness) / 2;
     const double beyond_reach = (to_roof + to_floor - gap_.within) / 2;
     const double limit = std::max({beyond_walls, beyond_reach, beyond_ball});
-    if (limit > gap_.thickness) return limit;  // no rim can matter here
+    if (limit > 2 * step_) return limit;  // no rim can matter here
     const double rim = std::max(
         {0.0, beyond_reach / edge_ + 1, beyond_ball / edge_ + 1, beside(p, to_roof, to_floor)});
     const double half_width = std::abs(to_roof - to_floor) / gap_.thickness;
@@ -121,8 +121,9 @@ GapField make_gap_field(const GapConstruct& gap, const NamedFields& fields,
   if (!takers.empty()) {
     Fields taken;
     for (const auto& taker : takers) taken.push_back(taker.second);
+    const DistanceField whole = std::move(made.field);
     made.field = DistanceField::compute(
-        [&](const Vec3& p) { return std::max(cleft(p), -nearest(taken, p)); }, cut);
+        [&](const Vec3& p) { return std::max(whole.value(p), -nearest(taken, p)); }, cut);
   }
   const auto parts = made.field.keep_largest_part();
   for (std::size_t i = 1; i < parts.size(); ++i) made.cuts.push_back({"", parts[i]});
