@@ -35,6 +35,8 @@ struct GapConstruct {
   double within = 0;     ///< m, where roof and floor are farther apart than this there is none
   Vec3 centre = Vec3::Zero();  ///< the cleft lies in the ball (centre, radius)
   double radius = 0;           ///< m
+  double edge = 0;             ///< m, over which the rim thins out; 0: the thickness
+  double inflation = 0;        ///< m^3 of fluid that fill it before it is tight; 0: not known
 };
 
 /// The part of a muscle near a bone (its tendinous end).

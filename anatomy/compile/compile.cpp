@@ -8,6 +8,7 @@
 #include <sys/resource.h>
 
 #include <Eigen/Eigenvalues>
+#include <tbb/task_group.h>
 
 #include "artus/anatomy/compile/compile_labels.h"
 #include "artus/anatomy/compile/compile_measure.h"
@@ -100,8 +101,13 @@ Result<void> finish_topology(TetMesh& mesh, const RegionLabels& labels) {
 }
 
 Result<TetMesh> mesh_regions(const LabelledSpace& space, Stages& stages, CompileReport& report) {
-  Result<TetMesh> mesh = stages.run("resolving overlaps", 0.2,
-                                    [&] { return resolve_regions(space.labels, space.resolve); });
+  Result<TetMesh> mesh = stages.run("resolving overlaps", 0.2, [&] {
+    tbb::task_group beside;  // the mesher has one thread, and volumes need nothing of it
+    beside.run([&] { measure_labels(space.labels, report); });
+    Result<TetMesh> resolved = resolve_regions(space.labels, space.resolve);
+    beside.wait();
+    return resolved;
+  });
   if (!mesh) return mesh;
   auto neighbours = find_tet_neighbours(*mesh);
   if (!neighbours) return tl::unexpected(neighbours.error());
@@ -239,8 +245,9 @@ Result<CompileOutcome> compile_joint(const JointFile& file, const CompileOptions
   Result<TetMesh> mesh = mesh_regions(*space, stages, report);
   if (!mesh) return tl::unexpected(mesh.error());
   stages.run("measuring the result", 0.9, [&] {
-    measure_joint(*mesh, space->labels, *surfaces, report);
+    measure_mesh(*mesh, space->labels, *surfaces, report);
     append_warnings(file, space->labels, *surfaces, report);
+    append_gap_cuts(file, *space, report);
     return true;
   });
   outcome.joint =

@@ -81,7 +81,8 @@ class FieldMaker {
         box_(box),
         bands_(construct_bands(file)),
         fields_(file.structures.size()),
-        sizing_(file.structures.size()) {}
+        sizing_(file.structures.size()),
+        cuts_(file.structures.size()) {}
 
   void make_surfaces() {
     tell(file_.body.name);
@@ -98,20 +99,16 @@ class FieldMaker {
     }
   }
 
-  // Constructs may name constructs: repeat until no further one can be made.
+  // Constructs may name constructs: repeat until no further one can be made. Gaps wait for all
+  // that can be made without them, since they take no place of others.
   void make_constructs() {
-    for (bool progress = true; progress;) {
-      progress = false;
-      for (std::size_t i = 0; i < fields_.size(); ++i) {
-        if (fields_[i] || surfaces_.structures[i] || !is_ready(file_.structures[i])) continue;
-        make_construct(i);
-        progress = true;
-      }
+    while (make_next(false) || make_next(true)) {
     }
   }
 
   DistanceField take_body() { return std::move(body_); }
   std::optional<DistanceField>& field(std::size_t i) { return fields_[i]; }
+  std::vector<std::vector<GapCut>> take_cuts() { return std::move(cuts_); }
   [[nodiscard]] const RegionSizing& sizing(std::size_t i) const { return sizing_[i]; }
 
  private:
@@ -145,6 +142,18 @@ class FieldMaker {
                        [&](const std::string& n) { return named_.count(n) > 0; });
   }
 
+  bool make_next(bool gaps) {
+    for (std::size_t i = 0; i < fields_.size(); ++i) {
+      const Structure& s = file_.structures[i];
+      if (fields_[i] || surfaces_.structures[i] || !is_ready(s) ||
+          std::holds_alternative<GapConstruct>(s.shape) != gaps)
+        continue;
+      make_construct(i);
+      return true;
+    }
+    return false;
+  }
+
   void make_construct(std::size_t i) {
     Structure s = file_.structures[i];
     tell(s.name);
@@ -155,8 +164,34 @@ class FieldMaker {
     }
     const double spacing =
         spacing_of(file_, sizing_[i], thickness > 0 ? thickness : file_.facet_size);
-    fields_[i] = make_construct_field(s, named_, {box_, spacing, kBandPerSpacing * spacing});
+    const FieldSampling sampling{box_, spacing, kBandPerSpacing * spacing};
+    if (const auto* gap = std::get_if<GapConstruct>(&s.shape)) {
+      GapField made = make_gap_field(*gap, named_, others_than(*gap), sampling);
+      fields_[i] = std::move(made.field);
+      cuts_[i] = std::move(made.cuts);
+    } else {
+      fields_[i] = make_construct_field(s, named_, sampling);
+    }
     named_[s.name] = &*fields_[i];
+  }
+
+  // What a gap takes no place of: all but its roof and floor, what is a part of these, and gaps.
+  [[nodiscard]] NamedFields others_than(const GapConstruct& gap) const {
+    const auto is_wall = [&gap](const std::string& name) {
+      return std::find(gap.roof.begin(), gap.roof.end(), name) != gap.roof.end() ||
+             std::find(gap.floor.begin(), gap.floor.end(), name) != gap.floor.end();
+    };
+    NamedFields others;
+    for (std::size_t i = 0; i < fields_.size(); ++i) {
+      const Structure& s = file_.structures[i];
+      if (!fields_[i] || is_wall(s.name) || std::holds_alternative<GapConstruct>(s.shape)) continue;
+      if (const auto* end = std::get_if<EndConstruct>(&s.shape))
+        if (is_wall(end->of)) continue;
+      if (const auto* shell = std::get_if<ShellConstruct>(&s.shape))
+        if (is_wall(shell->inside)) continue;
+      others[s.name] = &*fields_[i];
+    }
+    return others;
   }
 
   [[nodiscard]] Vec3 insertion_of(const EndConstruct& end) const {
@@ -177,6 +212,7 @@ class FieldMaker {
   DistanceField body_;
   std::vector<std::optional<DistanceField>> fields_;
   std::vector<RegionSizing> sizing_;
+  std::vector<std::vector<GapCut>> cuts_;
   NamedFields named_;
 };
 
@@ -277,6 +313,7 @@ Result<LabelledSpace> make_labelled_space(const JointFile& file, const PreparedS
     finest = std::min(finest, maker.sizing(i).facet_size);
     space.labels.layers.push_back({region, std::move(*maker.field(i))});
   }
+  space.cuts = maker.take_cuts();
   space.labels.body = maker.take_body();
   space.labels.region_of_interest = file.region_of_interest;
   space.labels.make_index(box);

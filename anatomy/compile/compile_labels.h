@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 #include "artus/anatomy/compile/compile_surfaces.h"
+#include "artus/anatomy/compile/gap.h"
 #include "artus/anatomy/compile/resolve.h"
 #include "artus/core/progress.h"
 
@@ -15,6 +16,7 @@ namespace artus {
 struct LabelledSpace {
   RegionLabels labels;
   ResolveOptions resolve;
+  std::vector<std::vector<GapCut>> cuts;  ///< (n_structures) what is cut off each gap
 };
 
 /// Samples the distance fields of all structures and makes the constructs from them. Structures

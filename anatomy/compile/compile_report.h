@@ -4,15 +4,9 @@
 #include <vector>
 
 #include "artus/anatomy/compile/quality.h"
+#include "artus/anatomy/surfaces/surface_distance.h"
 
 namespace artus {
-
-/// Distances from sampled interface points to the surface they should lie on, weighted by area.
-struct DistanceStatistics {
-  double mean = 0;          ///< m
-  double percentile95 = 0;  ///< m
-  double max = 0;           ///< m
-};
 
 /// What became of one structure.
 struct StructureReport {
@@ -25,9 +19,12 @@ struct StructureReport {
   double surface_volume = 0;          ///< m^3 enclosed by the repaired surface, all of it
   double region_volume = 0;           ///< m^3 of that inside body and region of interest
   double lost_volume = 0;             ///< m^3 of that to structures of higher priority
+  std::string lost_to;                ///< the one that takes most of it, when it is much
+  Vec3 lost_at = Vec3::Zero();        ///< the middle of what that one takes
   double resolved_volume = 0;         ///< m^3 of its tetrahedra
-  DistanceStatistics distance;        ///< of the interfaces it shapes to its own surface
-  std::size_t parts = 0;              ///< connected parts of its tetrahedra
+  DistanceStatistics distance;  ///< of the interfaces it shapes to its own surface and of that,
+                                ///< where nothing comes before it, to its interfaces; the worse
+  std::size_t parts = 0;        ///< connected parts of its tetrahedra
   std::size_t tetrahedra = 0;
 
   /// resolved / (region - lost) - 1; zero when nothing was expected.
@@ -42,7 +39,7 @@ struct StageTime {
 /// The whole account of one compilation.
 struct CompileReport {
   std::vector<StructureReport> structures;  ///< the filler first, then file order
-  DistanceStatistics distance;              ///< of all interfaces that lie on a surface file
+  DistanceStatistics distance;              ///< of all that lie on a surface file, both ways
   TetQuality quality;
   std::size_t vertices = 0;
   std::size_t tetrahedra = 0;

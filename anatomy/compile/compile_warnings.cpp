@@ -7,20 +7,35 @@
 #include <cstdio>
 
 #include "artus/anatomy/body/joint_structure.h"
+#include "artus/anatomy/compile/compile_measure.h"
 #include "artus/anatomy/surfaces/defects.h"
 #include "artus/core/units.h"
 
 namespace artus {
 namespace {
 
-constexpr double kMuchLost = 0.2;           // of a structure's volume
 constexpr double kMuchOutside = 0.02;       // of a structure's area
 constexpr double kClearlyOutside = 0.5e-3;  // m
+constexpr double kMuchCut = 0.01;           // of a gap's volume
 constexpr double kLargestError = 0.03;      // of the volume its surface promises
 
 std::string percent(double share) {
   std::array<char, 32> text{};
   static_cast<void>(std::snprintf(text.data(), text.size(), "%.0f %%", 100 * share));
+  return text.data();
+}
+
+std::string at(const Vec3& p) {
+  std::array<char, 96> text{};
+  static_cast<void>(std::snprintf(text.data(), text.size(), "(%.1f, %.1f, %.1f) mm",
+                                  p.x() / kMillimetre, p.y() / kMillimetre, p.z() / kMillimetre));
+  return text.data();
+}
+
+std::string cubic_centimetres(double volume) {
+  constexpr double kCubicCentimetre = 1e-6;  // m^3
+  std::array<char, 32> text{};
+  static_cast<void>(std::snprintf(text.data(), text.size(), "%.2g cm3", volume / kCubicCentimetre));
   return text.data();
 }
 
@@ -77,8 +92,9 @@ void warn_of_volumes(const Structure& s, const CompileReport& report, StructureR
   }
   if (mine.lost_volume > kMuchLost * mine.region_volume)
     mine.warnings.push_back(percent(mine.lost_volume / mine.region_volume) +
-                            " of it goes to structures before it in the file; if that is not "
-                            "meant, put it before them");
+                            " of it goes to structures before it in the file, most to '" +
+                            mine.lost_to + "' around " + at(mine.lost_at) +
+                            "; if that is not meant, put it before them");
   if (mine.kind == "surface" && std::abs(mine.volume_error()) > kLargestError)
     mine.warnings.push_back("its tetrahedra hold " + percent(std::abs(mine.volume_error())) +
                             (mine.volume_error() > 0 ? " more" : " less") +
@@ -86,6 +102,31 @@ void warn_of_volumes(const Structure& s, const CompileReport& report, StructureR
 }
 
 }  // namespace
+
+void append_gap_cuts(const JointFile& file, const LabelledSpace& space, CompileReport& report) {
+  for (std::size_t i = 0; i < file.structures.size(); ++i) {
+    if (space.cuts[i].empty()) continue;
+    StructureReport& mine = report.structures[i + 1];  // behind the filler
+    FieldPart apart;
+    for (const GapCut& cut : space.cuts[i]) {
+      if (cut.by.empty()) {
+        if (apart.volume == 0) apart.centre = cut.part.centre;
+        apart.volume += cut.part.volume;
+      } else if (cut.part.volume > kMuchCut * mine.region_volume) {
+        mine.warnings.push_back(
+            cubic_centimetres(cut.part.volume) + " between its roof and its floor is '" + cut.by +
+            "', around " + at(cut.part.centre) +
+            ", and stays that; where fluid is meant there, name '" + cut.by + "' as roof or floor");
+      }
+    }
+    if (apart.volume > kMuchCut * mine.region_volume)
+      mine.warnings.push_back(cubic_centimetres(apart.volume) +
+                              " of it is not joined to the rest and is left out, the most around " +
+                              at(apart.centre) +
+                              "; where it is meant, make 'within' or 'edge' larger, or write a "
+                              "second gap there");
+  }
+}
 
 void append_warnings(const JointFile& file, const RegionLabels& labels,
                      const PreparedSurfaces& surfaces, CompileReport& report) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 #include "artus/anatomy/body/joint_file.h"
+#include "artus/anatomy/compile/compile_labels.h"
 #include "artus/anatomy/compile/compile_report.h"
 #include "artus/anatomy/compile/compile_surfaces.h"
 #include "artus/anatomy/compile/region_labels.h"
@@ -12,5 +13,8 @@ namespace artus {
 /// whose tetrahedra hold less than their surface. Cost: one look at each surface triangle.
 void append_warnings(const JointFile& file, const RegionLabels& labels,
                      const PreparedSurfaces& surfaces, CompileReport& report);
+
+/// Writes into `report` (measured already) what is cut off gaps, by what, where and how much.
+void append_gap_cuts(const JointFile& file, const LabelledSpace& space, CompileReport& report);
 
 }  // namespace artus

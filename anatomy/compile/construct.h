@@ -20,8 +20,7 @@ using NamedFields = std::map<std::string, const DistanceField*>;
 /// Shell: within `thickness` inside the surface.
 /// Cap: on the bone within min(thickness, half the gap to what it faces), thinning to half of that
 /// at the rim, where the gap reaches `within`.
-/// Gap: |d_roof - d_floor| < thickness and d_roof + d_floor < within, signed distances, so that it
-/// has its full thickness also where roof and floor overlap; only its largest part is kept.
+/// Gap: as make_gap_field makes it where there is nothing else.
 /// End: what of the structure lies within `within` of the insertion.
 /// Requires: `fields` holds all structures the construct names.
 [[nodiscard]] DistanceField make_construct_field(const Structure& structure,

@@ -9,41 +9,67 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include "artus/anatomy/compile/distance_field_blocks.h"
 #include "artus/core/check.h"
 
 namespace artus {
 namespace {
 
-constexpr int kCells = 8;              // cells of a block along an axis
-constexpr int kSide = kCells + 1;      // samples along an axis: blocks share their rims
-constexpr int kRow = kSide;            // stride of y
-constexpr int kPlane = kSide * kSide;  // stride of z
-constexpr int kBlock = kSide * kSide * kSide;
+using namespace field_blocks;  // NOLINT(google-build-using-namespace): the layout of a block
+
 constexpr double kClampReach = 1.74;  // spacings; nearer to the band a clamped sample may take part
-constexpr std::int32_t kOut = -1;
-constexpr std::int32_t kIn = -2;
 
 double signed_by_winding(const DistanceTree& tree, const Vec3& p, double distance) {
   return tree.winding_number(p) > 0.5 ? -distance : distance;
 }
 
-// A sample farther from the surface than the spacing has the sign of its neighbours, so the
-// winding number is computed only next to the surface.
+// The surface does not pass between two samples that are together farther from it than from each
+// other, so the winding number is computed only next to the surface.
 double signed_at(const DistanceTree& tree, const Vec3& p, double distance, double spacing,
                  const float* here, const std::array<int, 3>& i) {
   const std::array<std::pair<int, int>, 3> steps{{{i[0], 1}, {i[1], kRow}, {i[2], kPlane}}};
   for (const auto& [index, stride] : steps) {
     if (index == 0) continue;
     const double neighbour = static_cast<double>(*(here - stride));
-    if (std::max(std::abs(neighbour), distance) > 1.001 * spacing) {
+    if (std::abs(neighbour) + distance > 1.001 * spacing) {
       return std::copysign(distance, neighbour);
     }
   }
   return signed_by_winding(tree, p, distance);
 }
 
+using SampleFlags = std::array<bool, kBlock>;
+
+// Marks the samples of a cube of `cells` cells that are beyond the band, cube by smaller cube.
+void mark_beyond(const DistanceTree& tree, double spacing, double band, const Vec3& corner,
+                 const std::array<int, 3>& first, int cells, SampleFlags& beyond) {
+  constexpr int kSmallest = 2;
+  const double half = 0.5 * cells * spacing;
+  const double reach = band + 1.0001 * std::sqrt(3.0) * half;
+  const Vec3 centre = corner + spacing * Vec3(first[0], first[1], first[2]) + Vec3::Constant(half);
+  if (tree.distance(centre, reach) >= reach) {
+    for (int z = first[2]; z <= first[2] + cells; ++z)
+      for (int y = first[1]; y <= first[1] + cells; ++y)
+        for (int x = first[0]; x <= first[0] + cells; ++x)
+          beyond[static_cast<std::size_t>(x + kRow * y + kPlane * z)] = true;
+    return;
+  }
+  if (cells == kSmallest) return;
+  const int part = cells / 2;
+  for (int k = 0; k < 8; ++k)
+    mark_beyond(
+        tree, spacing, band, corner,
+        {first[0] + part * (k & 1), first[1] + part * (k >> 1 & 1), first[2] + part * (k >> 2)},
+        part, beyond);
+}
+
 void fill_from_tree(const DistanceTree& tree, double spacing, double band, const Vec3& corner,
                     float* out) {
+  SampleFlags beyond{};
+  for (int k = 0; k < 8; ++k)
+    mark_beyond(tree, spacing, band, corner,
+                {kCells / 2 * (k & 1), kCells / 2 * (k >> 1 & 1), kCells / 2 * (k >> 2)},
+                kCells / 2, beyond);
   for (int i = 0; i < kBlock; ++i) {
     const std::array<int, 3> index{i % kSide, i / kSide % kSide, i / kPlane};
     constexpr std::array<int, 3> kStrides{1, kRow, kPlane};
@@ -55,7 +81,7 @@ void fill_from_tree(const DistanceTree& tree, double spacing, double band, const
       bound = std::min(bound, neighbour + 1.001 * spacing);
     }
     const Vec3 p = corner + spacing * Vec3(index[0], index[1], index[2]);
-    const double distance = tree.distance(p, bound);
+    const double distance = beyond[static_cast<std::size_t>(i)] ? band : tree.distance(p, bound);
     *here = static_cast<float>(signed_at(tree, p, distance, spacing, here, index));
   }
 }
@@ -168,25 +194,23 @@ void DistanceField::extend(const DistanceTree& tree, const FieldSampling& sampli
 
 double DistanceField::near_value(const Vec3& p) const noexcept {
   const Vec3 q = (p - origin_) / spacing_;
-  const std::array<double, 3> cell{std::floor(q[0]), std::floor(q[1]), std::floor(q[2])};
+  std::array<unsigned, 3> i{};
   for (std::size_t a = 0; a < 3; ++a) {
-    if (!(cell[a] >= 0 && cell[a] < blocks_[a] * kCells)) return band_;
+    const double at = q[static_cast<Eigen::Index>(a)];
+    if (!(at >= 0 && at < blocks_[a] * kCells)) return band_;
+    i[a] = static_cast<unsigned>(at);
   }
-  const std::array<int, 3> i{static_cast<int>(cell[0]), static_cast<int>(cell[1]),
-                             static_cast<int>(cell[2])};
+  constexpr auto kPer = static_cast<unsigned>(kCells);
   const std::size_t block =
-      static_cast<std::size_t>(i[0] / kCells) +
-      static_cast<std::size_t>(blocks_[0]) *
-          (static_cast<std::size_t>(i[1] / kCells) +
-           static_cast<std::size_t>(blocks_[1]) * static_cast<std::size_t>(i[2] / kCells));
+      i[0] / kPer + static_cast<std::size_t>(blocks_[0]) *
+                        (i[1] / kPer + static_cast<std::size_t>(blocks_[1]) * (i[2] / kPer));
   const std::int32_t slot = slots_[block];
   if (slot < 0) return slot == kIn ? -band_ : band_;
-  const float* s = &samples_[static_cast<std::size_t>(slot) * kBlock +
-                             static_cast<std::size_t>(i[0] % kCells + kRow * (i[1] % kCells) +
-                                                      kPlane * (i[2] % kCells))];
-  const double fx = q[0] - cell[0];
-  const double fy = q[1] - cell[1];
-  const double fz = q[2] - cell[2];
+  const float* s = &samples_[static_cast<std::size_t>(slot) * kBlock + i[0] % kPer +
+                             kRow * (i[1] % kPer) + kPlane * (i[2] % kPer)];
+  const double fx = q[0] - i[0];
+  const double fy = q[1] - i[1];
+  const double fz = q[2] - i[2];
   const auto along_x = [&](int offset) {
     return (1 - fx) * static_cast<double>(s[offset]) + fx * static_cast<double>(s[offset + 1]);
   };
@@ -237,8 +261,8 @@ Vec3 DistanceField::normal(const Vec3& p) const noexcept {
   return length > 0 ? Vec3(g / length) : Vec3(Vec3::Zero());
 }
 
-double DistanceField::integrate(const std::function<double(const Vec3&)>& weight) const {
-  std::vector<double> sums(slots_.size(), 0.0);
+FieldPart DistanceField::integrate_part(const std::function<double(const Vec3&)>& weight) const {
+  std::vector<FieldPart> sums(slots_.size());
   tbb::parallel_for(std::size_t{0}, slots_.size(), [&](std::size_t block) {
     if (slots_[block] == kOut) return;
     const Vec3 corner = block_corner(block);
@@ -246,10 +270,49 @@ double DistanceField::integrate(const std::function<double(const Vec3&)>& weight
       const Vec3 index(i % kCells, i / kCells % kCells, i / (kCells * kCells));
       const Vec3 p = corner + spacing_ * (index + Vec3::Constant(0.5));
       const double inside = std::clamp(0.5 - value(p) / spacing_, 0.0, 1.0);
-      if (inside > 0) sums[block] += inside * weight(p);
+      if (!(inside > 0)) continue;
+      const double share = inside * weight(p);
+      sums[block].volume += share;
+      sums[block].centre += share * p;
     }
   });
-  return std::accumulate(sums.begin(), sums.end(), 0.0) * spacing_ * spacing_ * spacing_;
+  FieldPart all;
+  for (const FieldPart& sum : sums) {
+    all.volume += sum.volume;
+    all.centre += sum.centre;
+  }
+  if (all.volume > 0) all.centre /= all.volume;
+  all.volume *= spacing_ * spacing_ * spacing_;
+  return all;
+}
+
+std::array<double, 2> DistanceField::integrate_blocks(const BlockWeights& weights_in) const {
+  std::vector<std::array<double, 2>> sums(slots_.size(), {0, 0});
+  tbb::parallel_for(std::size_t{0}, slots_.size(), [&](std::size_t block) {
+    if (slots_[block] == kOut) return;
+    const Vec3 corner = block_corner(block);
+    const auto weights = weights_in({corner, corner + Vec3::Constant(kCells * spacing_)});
+    for (int i = 0; i < kCells * kCells * kCells; ++i) {
+      const Vec3 index(i % kCells, i / kCells % kCells, i / (kCells * kCells));
+      const Vec3 p = corner + spacing_ * (index + Vec3::Constant(0.5));
+      const double own = value(p);
+      if (own >= spacing_ / 2) continue;
+      const std::array<double, 2> share = weights(p, own);
+      sums[block][0] += share[0];
+      sums[block][1] += share[1];
+    }
+  });
+  std::array<double, 2> all{0, 0};
+  for (const auto& sum : sums) {
+    all[0] += sum[0];
+    all[1] += sum[1];
+  }
+  const double cell = spacing_ * spacing_ * spacing_;
+  return {all[0] * cell, all[1] * cell};
+}
+
+double DistanceField::integrate(const std::function<double(const Vec3&)>& weight) const {
+  return integrate_part(weight).volume;
 }
 
 std::size_t DistanceField::memory() const noexcept {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -20,6 +21,12 @@ struct FieldSampling {
   Box box;             ///< where it is known; outside the box every point counts as outside
   double spacing = 0;  ///< m between samples
   double band = 0;     ///< m; values are clamped to +-band
+};
+
+/// A connected part of a field's inside.
+struct FieldPart {
+  double volume = 0;           ///< m^3
+  Vec3 centre = Vec3::Zero();  ///< of its volume
 };
 
 /// Signed distance (negative inside) on a grid that stores samples only near the surface, trilinear
@@ -58,12 +65,28 @@ class DistanceField {
   /// the cells with a smoothed edge. Cost: cells not outside, on all threads; deterministic.
   [[nodiscard]] double integrate(const std::function<double(const Vec3&)>& weight) const;
 
+  /// The volume where `weight` counts and its centre. Cost: as of integrate.
+  [[nodiscard]] FieldPart integrate_part(const std::function<double(const Vec3&)>& weight) const;
+
+  /// Two weights at a point, given the field's value there.
+  using Weights = std::function<std::array<double, 2>(const Vec3&, double)>;
+  /// The weights for the points of a box.
+  using BlockWeights = std::function<Weights(const Box&)>;
+  /// Integrals of two weights, m^3, over all cells whose middle lies inside or within half the
+  /// spacing of it; `weights_in` is asked once for each storage block. Cost: as of integrate.
+  [[nodiscard]] std::array<double, 2> integrate_blocks(const BlockWeights& weights_in) const;
+
+  /// Makes all but the largest connected part of the inside outside; returns the parts there were,
+  /// the largest first. Parts are told apart on the samples. Cost: linear in the samples.
+  std::vector<FieldPart> keep_largest_part();
+
   [[nodiscard]] double spacing() const noexcept { return spacing_; }
   [[nodiscard]] double band() const noexcept { return band_; }
   /// Bytes held.
   [[nodiscard]] std::size_t memory() const noexcept;
 
  private:
+  struct Parts;
   using BlockSource = std::function<double(const Vec3&, double)>;
   using BlockFiller = std::function<void(const Vec3&, float*)>;
 

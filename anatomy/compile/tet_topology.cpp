@@ -2,22 +2,66 @@
 #include "artus/anatomy/compile/tet_topology.h"
 
 #include <algorithm>
+#include <atomic>
 #include <map>
 #include <numeric>
+#include <tuple>
 
-#include <tbb/parallel_sort.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
 namespace artus {
 namespace {
 
+// A face of a tetrahedron, kept under the least of its vertices.
 struct FaceOwner {
-  std::array<std::uint32_t, 3> key;  // sorted vertices
+  std::uint32_t middle, last;  // its other vertices, ascending
   std::uint32_t tet;
   std::uint32_t face;
 };
 
-bool before(const FaceOwner& a, const FaceOwner& b) {
-  return a.key != b.key ? a.key < b.key : a.tet < b.tet;
+bool is_same(const FaceOwner& a, const FaceOwner& b) {
+  return a.middle == b.middle && a.last == b.last;
+}
+
+// All faces, those with the same least vertex together: rows of (n_vertices + 1) firsts.
+struct FaceRows {
+  std::vector<std::uint32_t> first;
+  std::vector<FaceOwner> faces;
+
+  explicit FaceRows(const TetMesh& mesh)
+      : first(mesh.vertices.size() + 1, 0), faces(4 * mesh.tetrahedra.size()) {
+    const auto for_each_face = [&](const auto& visit) {
+      for (std::uint32_t t = 0; t < mesh.tetrahedra.size(); ++t) {
+        for (std::uint32_t k = 0; k < 4; ++k) {
+          auto key = tet_face(mesh.tetrahedra[t], static_cast<int>(k));
+          std::sort(key.begin(), key.end());
+          visit(key, t, k);
+        }
+      }
+    };
+    for_each_face([&](const auto& key, std::uint32_t, std::uint32_t) { ++first[key[0] + 1]; });
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
+    for_each_face([&](const auto& key, std::uint32_t t, std::uint32_t k) {
+      faces[next[key[0]]++] = {key[1], key[2], t, k};
+    });
+  }
+};
+
+// Joins the faces of a row that are one; false when more than two are.
+bool join(FaceOwner* begin, FaceOwner* end, TetNeighbours& neighbours) {
+  std::sort(begin, end, [](const FaceOwner& a, const FaceOwner& b) {
+    return std::tie(a.middle, a.last, a.tet) < std::tie(b.middle, b.last, b.tet);
+  });
+  for (FaceOwner* a = begin; a != end && a + 1 != end; ++a) {
+    FaceOwner* b = a + 1;
+    if (!is_same(*a, *b)) continue;
+    if (b + 1 != end && is_same(*b, b[1])) return false;
+    neighbours[a->tet][a->face] = b->tet;
+    neighbours[b->tet][b->face] = a->tet;
+  }
+  return true;
 }
 
 double face_area(const TetMesh& mesh, const std::array<std::uint32_t, 3>& f) {
@@ -35,27 +79,17 @@ std::array<std::uint32_t, 3> tet_face(const std::array<std::uint32_t, 4>& tet, i
 }
 
 Result<TetNeighbours> find_tet_neighbours(const TetMesh& mesh) {
-  std::vector<FaceOwner> owners;
-  owners.reserve(4 * mesh.tetrahedra.size());
-  for (std::uint32_t t = 0; t < mesh.tetrahedra.size(); ++t) {
-    for (std::uint32_t k = 0; k < 4; ++k) {
-      auto key = tet_face(mesh.tetrahedra[t], static_cast<int>(k));
-      std::sort(key.begin(), key.end());
-      owners.push_back({key, t, k});
-    }
-  }
-  tbb::parallel_sort(owners.begin(), owners.end(), before);
+  FaceRows rows(mesh);
   TetNeighbours neighbours(mesh.tetrahedra.size(), {kNoTet, kNoTet, kNoTet, kNoTet});
-  for (std::size_t i = 0; i + 1 < owners.size(); ++i) {
-    const FaceOwner& a = owners[i];
-    const FaceOwner& b = owners[i + 1];
-    if (a.key != b.key) continue;
-    if (i + 2 < owners.size() && owners[i + 2].key == a.key) {
-      return fail(ErrorCode::failed, "a face is shared by more than two tetrahedra");
-    }
-    neighbours[a.tet][a.face] = b.tet;
-    neighbours[b.tet][b.face] = a.tet;
-  }
+  std::atomic<bool> is_sound = true;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, mesh.vertices.size()),
+                    [&](const auto& range) {
+                      for (std::size_t v = range.begin(); v < range.end(); ++v)
+                        if (!join(rows.faces.data() + rows.first[v],
+                                  rows.faces.data() + rows.first[v + 1], neighbours))
+                          is_sound = false;
+                    });
+  if (!is_sound) return fail(ErrorCode::failed, "a face is shared by more than two tetrahedra");
   return neighbours;
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include <malloc.h>
 #include <tetgen.h>
 
 #include "artus/anatomy/compile/isolated.h"
@@ -170,6 +171,7 @@ TetMesh to_mesh(const TetMesh& before, const Filling& filling) {
 
 FillMethod fill_with_tetgen(TetMesh& mesh, const TetNeighbours& neighbours) {
   const TetParts parts = find_tet_parts(mesh, neighbours);
+  malloc_trim(0);  // the child's memory begins as a copy of this process's
   for (const FillMethod method : {FillMethod::quality, FillMethod::plain}) {
     const char* switches = method == FillMethod::quality ? kQualitySwitches : kPlainSwitches;
     if (const auto filling = find_filling(switches, mesh, parts)) {

@@ -42,10 +42,13 @@ double squared_distance(const Vec3& p, const std::array<Vec3, 3>& t) {
   return (ap - vb / sum * ab - vc / sum * ac).squaredNorm();
 }
 
-double squared_distance_to_box(const Vec3& p, const Vec3& lower, const Vec3& upper) {
+double squared_distance_to_box(const Vec3& p, const std::array<float, 3>& lower,
+                               const std::array<float, 3>& upper) {
   double sum = 0;
-  for (Eigen::Index a = 0; a < 3; ++a) {
-    const double d = std::max({lower[a] - p[a], p[a] - upper[a], 0.0});
+  for (std::size_t a = 0; a < 3; ++a) {
+    const double at = p[static_cast<Eigen::Index>(a)];
+    const double d =
+        std::max({static_cast<double>(lower[a]) - at, at - static_cast<double>(upper[a]), 0.0});
     sum += d * d;
   }
   return sum;
@@ -82,6 +85,23 @@ DistanceTree::DistanceTree(const SurfaceMesh& mesh)
   build(0, 0, static_cast<std::uint32_t>(triangles_.size()));
   lower_ = nodes_[0].lower;
   upper_ = nodes_[0].upper;
+  flatten();
+}
+
+void DistanceTree::flatten() {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  boxes_.reserve(nodes_.size());
+  for (const Node& node : nodes_) {
+    FlatBox box;
+    for (std::size_t a = 0; a < 3; ++a) {
+      const auto axis = static_cast<Eigen::Index>(a);
+      box.lower[a] = std::nextafter(static_cast<float>(node.lower[axis]), -kInfinity);
+      box.upper[a] = std::nextafter(static_cast<float>(node.upper[axis]), kInfinity);
+    }
+    box.first = node.first;
+    box.count = node.count;
+    boxes_.push_back(box);
+  }
 }
 
 void DistanceTree::summarise(Node& node, std::uint32_t first, std::uint32_t count) const {
@@ -135,7 +155,7 @@ double DistanceTree::distance(const Vec3& p, double bound) const {
   while (depth > 0) {
     const auto [nearest, index] = stack[--depth];
     if (nearest >= best) continue;
-    const Node& node = nodes_[index];
+    const FlatBox& node = boxes_[index];
     if (node.count > 0) {
       for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
         best = std::min(best, squared_distance(p, triangles_[i]));
@@ -144,7 +164,7 @@ double DistanceTree::distance(const Vec3& p, double bound) const {
     }
     std::array<std::pair<double, std::uint32_t>, 2> children;
     for (std::uint32_t k = 0; k < 2; ++k) {
-      const Node& child = nodes_[node.first + k];
+      const FlatBox& child = boxes_[node.first + k];
       children[k] = {squared_distance_to_box(p, child.lower, child.upper), node.first + k};
     }
     if (children[0].first < children[1].first) std::swap(children[0], children[1]);

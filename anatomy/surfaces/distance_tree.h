@@ -36,13 +36,19 @@ class DistanceTree {
     double far2 = 0;                     // beyond this squared distance the dipole is good enough
     std::uint32_t first = 0, count = 0;  // leaf: triangles; inner: count 0, first = left child
   };
+  struct FlatBox {  // of a node, rounded outward: two children share a cache line
+    std::array<float, 3> lower, upper;
+    std::uint32_t first = 0, count = 0;  // as in Node
+  };
   using Corners = std::array<Vec3, 3>;
 
   void build(std::uint32_t node, std::uint32_t first, std::uint32_t count);
+  void flatten();
   void summarise(Node& node, std::uint32_t first, std::uint32_t count) const;
 
   std::vector<Corners> triangles_;
   std::vector<Node> nodes_;
+  std::vector<FlatBox> boxes_;  // (n_nodes)
   Vec3 lower_, upper_;
 };
 

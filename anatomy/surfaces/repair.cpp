@@ -5,10 +5,12 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 
 #include "artus/anatomy/surfaces/defects.h"
 #include "artus/anatomy/surfaces/defects_cracks.h"
 #include "artus/anatomy/surfaces/repair_steps.h"
+#include "artus/anatomy/surfaces/surface_distance.h"
 #include "artus/anatomy/surfaces/surface_topology.h"
 #include "artus/core/units.h"
 
@@ -16,6 +18,7 @@ namespace artus {
 namespace {
 
 constexpr double kSquareCentimetre = 1e-4;  // m^2
+constexpr double kCubicCentimetre = 1e-6;   // m^3
 /// CGAL's untangling takes time that grows fast with these; above them only cutting out is tried.
 constexpr std::size_t kFewTangledPairs = 30;
 /// Above these the intersections stay: so many are no accident of a file but how it was modelled.
@@ -32,14 +35,33 @@ std::string plural(std::size_t n, const char* one, const char* many) {
   return std::to_string(n) + " " + (n == 1 ? one : many);
 }
 
-/// Volume with the openings closed by fans.
-double fanned_volume(const SurfaceMesh& mesh) {
-  const auto uses = make_edge_uses(mesh);
-  double volume = 0;
-  for (const auto& m : measure_pieces(mesh, uses, find_pieces(mesh, uses)))
-    volume += m.signed_volume;
-  return volume;
-}
+/// Sums over the pieces of a surface.
+struct Sums {
+  double volume = 0;        ///< m^3, openings closed by fans
+  double sized_volume = 0;  ///< m^3, whichever way a piece is wound
+  double area = 0;          ///< m^2
+  double opening_area = 0;  ///< m^2
+
+  explicit Sums(const SurfaceMesh& mesh) {
+    const auto uses = make_edge_uses(mesh);
+    for (const auto& m : measure_pieces(mesh, uses, find_pieces(mesh, uses))) {
+      volume += m.signed_volume;
+      sized_volume += std::abs(m.signed_volume);
+      area += m.area;
+      opening_area += m.opening_area;
+    }
+  }
+};
+
+/// What to do with a surface that is refused, by what it is.
+constexpr const char* kMendSheet =
+    "say how thick it is (thicken = 1.0 in the joint file), model it as a closed solid, or leave "
+    "it out (--skip-refused)";
+constexpr const char* kMendSolid =
+    "close the surface where it was made, wrap it (repair = \"wrap\" in the joint file), or leave "
+    "it out (--skip-refused)";
+constexpr const char* kMendElsewhere =
+    "mend it where it was made, or leave it out (--skip-refused)";
 
 /// Does the repair step by step and writes down what it did.
 class Repair {
@@ -58,13 +80,13 @@ class Repair {
     drop();
     if (mesh().triangles.empty())
       return fail(ErrorCode::defective, "no triangle is left when the bad ones are dropped");
-    outcome_.volume_before = fanned_volume(mesh());
-    if (auto ok = close(); !ok) return tl::unexpected(ok.error());
-    if (options_.wrap == WrapPolicy::always)
-      if (auto ok = wrap(); !ok) return tl::unexpected(ok.error());
+    outcome_.volume_before = Sums(mesh()).volume;
+    ARTUS_TRY(close());
+    if (options_.wrap == WrapPolicy::always) ARTUS_TRY(wrap());
     note(RepairKind::turned_pieces, turn_pieces(mesh()), 0,
          {"was wound inward and is turned", "were wound inward and are turned", "piece", "pieces"});
     untangle_faces();
+    ARTUS_TRY(treat_crossings());
     return finish();
   }
 
@@ -150,10 +172,12 @@ class Repair {
   }
 
   void cap() {
-    constexpr double kWiderThanDeep = 0.75;  // of the area; half a ball has 0.5
-    const Filling caps =
-        cap_flat_ends(mesh(), options_.crack_width,
-                      options_.thicken > 0 ? options_.largest_fill_share : kWiderThanDeep);
+    constexpr double kWiderThanDeep = 0.75;   // of the area; half a ball has 0.5
+    constexpr double kDeeperThanSheet = 0.9;  // of the area; a cap as deep as a third of its base
+    const bool is_sheet = options_.thicken > 0;
+    const Filling caps = cap_flat_ends(
+        mesh(), {options_.crack_width, is_sheet ? options_.largest_fill_share : kWiderThanDeep,
+                 is_sheet ? 0 : kDeeperThanSheet});
     const auto area = with_number(" (%.3g cm2)", caps.area / kSquareCentimetre);
     note(RepairKind::capped_ends, caps.n, caps.area,
          {"is capped" + area, "are capped" + area, "flat opening", "flat openings"});
@@ -194,32 +218,69 @@ class Repair {
     const auto n = static_cast<std::size_t>(std::count_if(
         measures.begin(), measures.end(), [](const PieceMeasure& m) { return m.is_sheet(); }));
     if (n == 0) return {};
-    return fail(ErrorCode::defective,
-                plural(n, "piece is a sheet", "pieces are sheets") +
-                    " without thickness; say how thick it is (thicken = 1.0 in the joint file) "
-                    "or model it as a closed solid");
+    return fail(ErrorCode::defective, plural(n, "piece is a sheet", "pieces are sheets") +
+                                          " without thickness; " + kMendSheet);
+  }
+
+  /// Closes all openings in rounds: a split may open what a fill had closed.
+  Filling fill_all(bool flat_first) {
+    constexpr int kMostRounds = 4;
+    Filling holes;
+    for (int round = 0; round < kMostRounds; ++round) {
+      const Filling more = fill_holes(mesh(), flat_first);
+      holes.n += more.n;
+      holes.area += more.area;
+      holes.doubtful_area += more.doubtful_area;
+      holes.crossings += more.crossings;
+      if (split_pinches(mesh()) == 0) break;
+    }
+    return holes;
   }
 
   Result<void> fill() {
-    const double area_before = surface_area(mesh());
-    constexpr int kMostRounds = 4;
-    Filling holes;
-    for (int round = 0; round < kMostRounds; ++round) {  // a split may open what a fill had closed
-      const Filling more = fill_holes(mesh());
-      holes.n += more.n;
-      holes.area += more.area;
-      if (split_pinches(mesh()) == 0) break;
-    }
-    if (holes.area > options_.largest_fill_share * area_before)
+    constexpr double kLikeSheet = 0.9;  // its openings are as large as itself
+    if (count_edges(mesh()).open == 0) return {};
+    const SurfaceMesh open = mesh();
+    const Sums before(open);
+    Filling holes = fill_all(false);
+    const bool must_close = options_.wrap == WrapPolicy::always;
+    if (!must_close && holes.doubtful_area > options_.largest_fill_share * before.area) {
+      const bool encloses = before.opening_area < kLikeSheet * before.area;
       return fail(ErrorCode::defective,
-                  with_number("its openings are too large to be closed safely (%.0f %% of the ",
-                              100 * holes.area / area_before)
-                      .append("surface's own area); close the surface where it was made, or, if it "
-                              "is a sheet, say how thick it is (thicken = 1.0 in the joint file)"));
+                  with_number("its openings are too large to be closed safely (%.0f %% of the "
+                              "surface's own area); ",
+                              100 * holes.area / before.area)
+                      .append(encloses ? kMendSolid : kMendSheet));
+    }
+    if (!keeps_volume(before)) {
+      mesh() = open;
+      holes = fill_all(true);
+    }
     const auto area = with_number(" (%.3g cm2)", holes.area / kSquareCentimetre);
     note(RepairKind::filled_holes, holes.n, holes.area,
          {"is filled" + area, "are filled" + area, "hole", "holes"});
+    if (!must_close && !keeps_volume(before))
+      return fail(ErrorCode::defective, "closing its openings changes its volume" +
+                                            changed_volume(before.sized_volume) + "; " +
+                                            kMendSolid);
+    if (holes.crossings > 0) crossings_before_ = find_self_intersections(open).size();
     return {};
+  }
+
+  /// Whether the closed surface holds what the open one did.
+  [[nodiscard]] bool keeps_volume(const Sums& before) {
+    constexpr double kMostChange = 0.1;
+    const double change = Sums(mesh()).sized_volume - before.sized_volume;
+    return std::abs(change) <= kMostChange * before.sized_volume;
+  }
+
+  /// " from 84 to 101 cm3"
+  [[nodiscard]] std::string changed_volume(double before) {
+    std::array<char, 80> text{};
+    static_cast<void>(std::snprintf(text.data(), text.size(), " from %.4g to %.4g cm3",
+                                    before / kCubicCentimetre,
+                                    Sums(mesh()).sized_volume / kCubicCentimetre));
+    return text.data();
   }
 
   /// The finest wrap that stays outside: one that enters by an opening is hollow and loses volume.
@@ -236,18 +297,43 @@ class Repair {
   }
 
   Result<void> wrap() {
+    constexpr double kMostChange = 0.2;  // of the volume; more is another body
     Eigen::AlignedBox3d box;
     for (const Vec3& p : mesh().vertices) box.extend(p);
-    const double before = fanned_volume(mesh());
+    const double before = Sums(mesh()).sized_volume;
     auto wrapped = find_wrap(box.diagonal().norm(), before);
     if (!wrapped) return fail(ErrorCode::defective, wrapped.error().message);
-    const double moved = largest_distance(*wrapped, mesh());
-    std::array<char, 160> text{};
+    const double after = signed_volume(*wrapped);
+    if (!(std::abs(after - before) <= kMostChange * before))
+      return fail(ErrorCode::defective,
+                  with_number("a wrap of it holds %.4g cm3", after / kCubicCentimetre) +
+                      with_number(" where it holds %.4g cm3; ", before / kCubicCentimetre) +
+                      kMendElsewhere);
+    const DistanceStatistics moved = measure_distance(mesh(), *wrapped);
+    std::array<char, 240> text{};
     static_cast<void>(std::snprintf(
-        text.data(), text.size(), "wrapped: at most %.3g mm away, volume %.4g -> %.4g cm3",
-        moved / kMillimetre, before * 1e6, signed_volume(*wrapped) * 1e6));
+        text.data(), text.size(),
+        "wrapped: %.3g mm away in the mean, 95 %% within %.3g mm, at most %.3g mm (both ways), "
+        "volume %.4g -> %.4g cm3 (%+.1f %%)",
+        moved.mean / kMillimetre, moved.percentile95 / kMillimetre, moved.max / kMillimetre,
+        before / kCubicCentimetre, after / kCubicCentimetre, 100 * (after / before - 1)));
     mesh() = std::move(*wrapped);
-    outcome_.actions.push_back({RepairKind::wrapped, 1, moved, text.data()});
+    outcome_.actions.push_back({RepairKind::wrapped, 1, moved.max, text.data()});
+    outcome_.self_intersections = 0;
+    return {};
+  }
+
+  /// Filling that made faces cross, and untangling did not part them: a wrap, or nothing.
+  Result<void> treat_crossings() {
+    constexpr std::size_t kFew = 10;  // more than there were; the winding number tolerates them
+    if (!crossings_before_ || outcome_.self_intersections <= *crossings_before_ + kFew) return {};
+    const std::string why = "closing its openings makes faces cross (" +
+                            std::to_string(*crossings_before_) + " -> " +
+                            std::to_string(outcome_.self_intersections) + " pairs)";
+    if (options_.wrap == WrapPolicy::never)
+      return fail(ErrorCode::defective, why + "; " + kMendSolid);
+    if (auto ok = wrap(); !ok)
+      return fail(ErrorCode::defective, why + ", and " + ok.error().message);
     return {};
   }
 
@@ -268,11 +354,9 @@ class Repair {
     const auto edges = count_edges(mesh());
     if (edges.open > 0 || edges.non_manifold > 0) {
       if (options_.wrap == WrapPolicy::never)
-        return fail(ErrorCode::defective,
-                    plural(edges.open + edges.non_manifold, "edge", "edges") +
-                        " cannot be closed; allow wrapping (repair = \"wrap\" in the joint file)");
-      if (auto ok = wrap(); !ok) return tl::unexpected(ok.error());
-      outcome_.self_intersections = 0;
+        return fail(ErrorCode::defective, plural(edges.open + edges.non_manifold, "edge", "edges") +
+                                              " cannot be closed; " + kMendSolid);
+      ARTUS_TRY(wrap());
     }
     outcome_.volume = signed_volume(mesh());
     if (!(outcome_.volume > 0)) return fail(ErrorCode::defective, "it encloses no volume");
@@ -283,6 +367,7 @@ class Repair {
   RepairOptions options_;
   const SurfaceMesh& original_;
   RepairOutcome outcome_;
+  std::optional<std::size_t> crossings_before_;  // of the open surface, when filling added some
 };
 
 }  // namespace

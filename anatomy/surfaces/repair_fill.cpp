@@ -1,165 +1,300 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <algorithm>
-#include <numbers>
+#include <limits>
+#include <map>
+#include <utility>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
 
-#include <Eigen/Eigenvalues>
-
+#include "artus/anatomy/surfaces/defects.h"
 #include "artus/anatomy/surfaces/defects_cracks.h"
+#include "artus/anatomy/surfaces/repair_rims.h"
 #include "artus/anatomy/surfaces/repair_steps.h"
-#include "artus/anatomy/surfaces/surface_topology.h"
 
 namespace artus {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Rim = std::vector<std::uint32_t>;
 
-/// Longer rims get a fan: the triangulation's worst case grows with the cube of the length.
+/// Longer rims get a flat patch or a fan: the smooth one's worst case grows with the cube of the
+/// length.
 constexpr std::size_t kLongestRim = 600;
+constexpr double kLargeOpening = 0.02;  // of the surface's area: closed flat rather than smoothly
+constexpr double kDeep = 0.75;          // of a piece's area, the largest jagged cut through a solid
 
-double area_of(const SurfaceMesh& mesh, const std::vector<Triangle>& patch) {
+double area_of(const SurfaceMesh& mesh, const std::vector<Triangle>& triangles) {
   double area = 0;
-  for (const Triangle& t : patch) area += triangle_area(mesh, t);
+  for (const Triangle& t : triangles) area += triangle_area(mesh, t);
   return area;
 }
 
-Vec3 centre_of(const SurfaceMesh& mesh, const Rim& rim) {
-  Vec3 sum = Vec3::Zero();
-  for (const auto v : rim) sum += mesh.vertices[v];
-  return sum / static_cast<double>(rim.size());
+/// Triangles for an opening and the vertices they add to the mesh.
+struct Patch {
+  std::vector<Vec3> vertices;
+  std::vector<Triangle> triangles;
+};
+
+void add(SurfaceMesh& mesh, const Patch& patch) {
+  mesh.vertices.insert(mesh.vertices.end(), patch.vertices.begin(), patch.vertices.end());
+  mesh.triangles.insert(mesh.triangles.end(), patch.triangles.begin(), patch.triangles.end());
 }
 
 /// Triangles from a new vertex at the rim's centre.
-std::vector<Triangle> make_fan(SurfaceMesh& mesh, const Rim& rim) {
+Patch make_fan(const SurfaceMesh& mesh, const Rim& rim) {
   const auto centre = static_cast<std::uint32_t>(mesh.vertices.size());
-  mesh.vertices.push_back(centre_of(mesh, rim));
-  std::vector<Triangle> fan;
+  Patch fan;
+  fan.vertices.push_back(measure_rim(mesh, rim).centre);
   for (std::size_t k = 0; k < rim.size(); ++k)
-    fan.push_back({rim[k], rim[(k + 1) % rim.size()], centre});
+    fan.triangles.push_back({rim[k], rim[(k + 1) % rim.size()], centre});
   return fan;
 }
 
-bool has_edge(const std::vector<EdgeUse>& uses, std::uint32_t a, std::uint32_t b) {
-  const std::pair key = std::minmax(a, b);
-  const auto it =
-      std::lower_bound(uses.begin(), uses.end(), key, [](const EdgeUse& u, const auto& k) {
-        return std::pair(u.lo, u.hi) < std::pair<std::uint32_t, std::uint32_t>(k);
-      });
-  return it != uses.end() && it->lo == key.first && it->hi == key.second;
+/// Whether all of a rim is seen from its centre, so that a fan does not lie over itself.
+bool is_star(const SurfaceMesh& mesh, const Rim& rim, const RimShape& shape) {
+  for (std::size_t k = 0; k < rim.size(); ++k) {
+    const Vec3 a = mesh.vertices[rim[k]] - shape.centre;
+    const Vec3 b = mesh.vertices[rim[(k + 1) % rim.size()]] - shape.centre;
+    if (!(a.cross(b).dot(shape.normal) > 0)) return false;
+  }
+  return true;
 }
 
-/// Does a side of the patch that is not on the rim exist in the mesh already? `uses` is the mesh's.
-bool crowds_an_edge(const std::vector<EdgeUse>& uses, const std::vector<Triangle>& patch,
-                    const Rim& rim) {
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> rim_edges;
-  for (std::size_t k = 0; k < rim.size(); ++k)
-    rim_edges.emplace_back(std::minmax(rim[k], rim[(k + 1) % rim.size()]));
-  std::sort(rim_edges.begin(), rim_edges.end());
-  for (const auto& t : patch) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::pair<std::uint32_t, std::uint32_t> side = std::minmax(t[k], t[(k + 1) % 3]);
-      if (!std::binary_search(rim_edges.begin(), rim_edges.end(), side) &&
-          has_edge(uses, side.first, side.second))
+/// The triangulation of least bend and area of a rim; empty when there is none to be had.
+Patch make_smooth_patch(const SurfaceMesh& mesh, const std::vector<EdgeUse>& uses, const Rim& rim) {
+  if (rim.size() > kLongestRim) return {};
+  Patch patch;
+  if (rim.size() == 3) {
+    patch.triangles = {{rim[0], rim[1], rim[2]}};
+  } else {
+    std::vector<Kernel::Point_3> points;
+    for (const auto v : rim) {
+      const Vec3& p = mesh.vertices[v];
+      points.emplace_back(p.x(), p.y(), p.z());
+    }
+    struct Indices {
+      std::array<std::size_t, 3> v;
+      Indices(std::size_t a, std::size_t b, std::size_t c) : v{a, b, c} {}
+    };
+    std::vector<Indices> faces;
+    try {
+      CGAL::Polygon_mesh_processing::triangulate_hole_polyline(points, std::back_inserter(faces));
+    } catch (const std::exception&) {
+      return {};
+    }
+    for (const auto& f : faces) patch.triangles.push_back({rim[f.v[0]], rim[f.v[1]], rim[f.v[2]]});
+    if (patch.triangles.size() + 2 != rim.size()) return {};
+  }
+  return crowds_an_edge(uses, patch.triangles, rim) ? Patch{} : patch;
+}
+
+/// The triangulation of rims as they are seen along `normal`.
+Patch make_flat_patch(SurfaceMesh& mesh, const std::vector<EdgeUse>& uses,
+                      const std::vector<Rim>& rims, const Vec3& normal) {
+  const std::size_t n = mesh.vertices.size();
+  Patch patch;
+  patch.triangles = triangulate_flat(mesh, uses, rims, normal);
+  patch.vertices.assign(mesh.vertices.begin() + static_cast<std::ptrdiff_t>(n),
+                        mesh.vertices.end());
+  mesh.vertices.resize(n);
+  return patch;
+}
+
+/// Pairs of faces, one of the patch, that cut through each other.
+std::size_t count_crossings(SurfaceMesh& mesh, const Patch& patch) {
+  const std::size_t n = mesh.vertices.size();
+  mesh.vertices.insert(mesh.vertices.end(), patch.vertices.begin(), patch.vertices.end());
+  Eigen::AlignedBox3d box;
+  for (const Triangle& t : patch.triangles)
+    for (const auto v : t) box.extend(mesh.vertices[v]);
+  SurfaceMesh around;
+  around.triangles = patch.triangles;
+  for (const Triangle& t : mesh.triangles) {
+    Eigen::AlignedBox3d own;
+    for (const auto v : t) own.extend(mesh.vertices[v]);
+    if (box.intersects(own)) around.triangles.push_back(t);
+  }
+  std::swap(around.vertices, mesh.vertices);
+  std::size_t crossings = 0;
+  for (const auto& pair : find_self_intersections(around))
+    crossings += pair.first < patch.triangles.size() ? 1U : 0U;
+  std::swap(around.vertices, mesh.vertices);
+  mesh.vertices.resize(n);
+  return crossings;
+}
+
+/// What is known of all openings of a mesh.
+struct Openings {
+  std::vector<Rim> rims;
+  std::vector<RimShape> shapes;
+  std::vector<std::uint32_t> piece;  // (n_rims)
+  std::vector<double> piece_area;    // (n_pieces) m^2
+  std::vector<std::size_t> hole_of;  // (n_rims) the rim whose cut it is a hole in, or kNone
+  static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+
+  Openings(const SurfaceMesh& mesh, const std::vector<EdgeUse>& uses)
+      : rims(find_rims(mesh, uses)), piece(rims.size()), hole_of(rims.size(), kNone) {
+    const auto pieces = find_pieces(mesh, uses);
+    for (const auto& m : measure_pieces(mesh, uses, pieces)) piece_area.push_back(m.area);
+    std::vector<std::uint32_t> piece_at(mesh.vertices.size(), 0);
+    for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
+      for (const auto v : mesh.triangles[f]) piece_at[v] = pieces.of_face[f];
+    for (std::size_t i = 0; i < rims.size(); ++i) {
+      shapes.push_back(measure_rim(mesh, rims[i]));
+      piece[i] = piece_at[rims[i][0]];
+    }
+    for (std::size_t i = 0; i < rims.size(); ++i)
+      for (std::size_t j = 0; j < rims.size(); ++j)
+        if (i != j && piece[i] == piece[j] && shapes[j].is_jagged() &&
+            (hole_of[i] == kNone || shapes[j].area < shapes[hole_of[i]].area) &&
+            is_hole_in(mesh, rims[i], shapes[i], rims[j], shapes[j]))
+          hole_of[i] = j;
+  }
+  [[nodiscard]] std::vector<std::size_t> holes_in(std::size_t rim) const {
+    std::vector<std::size_t> holes;
+    for (std::size_t i = 0; i < rims.size(); ++i)
+      if (hole_of[i] == rim) holes.push_back(i);
+    return holes;
+  }
+};
+
+/// Which rims are cuts by a plane: wide, and not the two lips of one seam.
+class FlatCuts {
+ public:
+  FlatCuts(const SurfaceMesh& mesh, const std::vector<EdgeUse>& uses, const Openings& openings,
+           double crack_width)
+      : openings_(openings), is_crack_(openings.rims.size()), is_cut_(openings.rims.size()) {
+    std::map<std::uint32_t, std::size_t> rim_at;
+    for (std::size_t i = 0; i < openings.rims.size(); ++i)
+      for (const auto v : openings.rims[i]) rim_at[v] = i;
+    std::vector<std::size_t> n_elsewhere(openings.rims.size(), 0);
+    for (const auto& pair : find_crack_pairs(mesh, uses, crack_width)) {
+      const auto a = rim_at.find(pair.a);
+      const auto b = rim_at.find(pair.b);
+      if (a == rim_at.end() || b == rim_at.end()) continue;
+      is_crack_[a->second] = is_crack_[b->second] = true;
+      if (a->second == b->second) continue;
+      ++n_elsewhere[a->second];
+      ++n_elsewhere[b->second];
+    }
+    for (std::size_t i = 0; i < is_cut_.size(); ++i)
+      is_cut_[i] = openings.shapes[i].is_planar() && openings.shapes[i].width() > crack_width &&
+                   2 * n_elsewhere[i] <= openings.rims[i].size();
+  }
+  [[nodiscard]] bool is_crack(std::size_t rim) const { return is_crack_[rim]; }
+  [[nodiscard]] bool is_cut(std::size_t rim) const { return is_cut_[rim]; }
+  /// A piece with cuts by two planes is no sheet, however large they are.
+  [[nodiscard]] bool is_cut_twice(std::uint32_t piece) const {
+    constexpr double kParallel = 0.999;
+    const RimShape* first = nullptr;
+    for (std::size_t i = 0; i < is_cut_.size(); ++i) {
+      if (!is_cut_[i] || openings_.piece[i] != piece) continue;
+      const RimShape& other = openings_.shapes[i];
+      if (first == nullptr) first = &other;
+      const double off = std::abs(first->normal.dot(other.centre - first->centre));
+      if (std::abs(first->normal.dot(other.normal)) < kParallel || off > 0.1 * first->radius)
         return true;
     }
+    return false;
   }
-  return false;
+
+ private:
+  const Openings& openings_;
+  std::vector<bool> is_crack_;
+  std::vector<bool> is_cut_;
+};
+
+/// A vessel's end, or the end of anything that is round there.
+bool is_flat_and_round(const Rim& rim, const RimShape& shape) {
+  constexpr double kFlatness = 0.1;  // of the mean radius
+  constexpr double kRoundness = 0.3;
+  return rim.size() >= 5 && shape.roundness() >= kRoundness && shape.bend <= kFlatness;
 }
 
-/// The triangulation of least area-and-bend of a rim; empty when there is none to be had.
-std::vector<Triangle> triangulate(const SurfaceMesh& mesh, const Rim& rim) {
-  std::vector<Kernel::Point_3> points;
-  for (const auto v : rim) {
-    const Vec3& p = mesh.vertices[v];
-    points.emplace_back(p.x(), p.y(), p.z());
-  }
-  struct Indices {
-    std::array<std::size_t, 3> v;
-    Indices(std::size_t a, std::size_t b, std::size_t c) : v{a, b, c} {}
+/// The way to close an opening that crosses fewest faces, the first among equals; `crossings` grows
+/// by them.
+Patch choose_patch(SurfaceMesh& mesh, const std::vector<EdgeUse>& uses, const Rim& rim,
+                   bool flat_first, std::size_t& crossings) {
+  Patch best = make_smooth_patch(mesh, uses, rim);
+  if (rim.size() == 3) return best.triangles.empty() ? make_fan(mesh, rim) : best;
+  const Patch smooth = std::exchange(best, {});
+  std::size_t fewest = std::numeric_limits<std::size_t>::max();
+  const auto consider = [&](Patch patch) {
+    if (patch.triangles.empty() || fewest == 0) return;
+    const std::size_t n = count_crossings(mesh, patch);
+    if (n >= fewest) return;
+    fewest = n;
+    best = std::move(patch);
   };
-  std::vector<Indices> faces;
-  try {
-    CGAL::Polygon_mesh_processing::triangulate_hole_polyline(points, std::back_inserter(faces));
-  } catch (const std::exception&) {
-    return {};
-  }
-  std::vector<Triangle> patch;
-  patch.reserve(faces.size());
-  for (const auto& f : faces) patch.push_back({rim[f.v[0]], rim[f.v[1]], rim[f.v[2]]});
-  return patch.size() + 2 == rim.size() ? patch : std::vector<Triangle>{};
-}
-
-/// How flat and how round the rim is: largest distance to its plane and area against perimeter.
-bool is_flat_and_round(const SurfaceMesh& mesh, const Rim& rim) {
-  constexpr double kFlatness = 0.1;   // of the mean radius
-  constexpr double kRoundness = 0.3;  // 1 for a circle, 4 pi area / perimeter^2
-  if (rim.size() < 5) return false;
-  const Vec3 centre = centre_of(mesh, rim);
-  Vec3 twice_area = Vec3::Zero();
-  double perimeter = 0;
-  double radius = 0;
-  for (std::size_t k = 0; k < rim.size(); ++k) {
-    const Vec3 a = mesh.vertices[rim[k]] - centre;
-    const Vec3 b = mesh.vertices[rim[(k + 1) % rim.size()]] - centre;
-    twice_area += a.cross(b);
-    perimeter += (b - a).norm();
-    radius += a.norm() / static_cast<double>(rim.size());
-  }
-  const Vec3 normal = twice_area.stableNormalized();
-  if (2 * std::numbers::pi * twice_area.norm() < kRoundness * perimeter * perimeter) return false;
-  return std::all_of(rim.begin(), rim.end(), [&](std::uint32_t v) {
-    return std::abs(normal.dot(mesh.vertices[v] - centre)) <= kFlatness * radius;
-  });
+  const RimShape shape = measure_rim(mesh, rim);
+  const auto consider_flat = [&] {
+    if (fewest > 0 && shape.is_jagged()) consider(make_flat_patch(mesh, uses, {rim}, shape.normal));
+  };
+  if (flat_first) consider_flat();
+  consider(smooth);
+  if (!flat_first) consider_flat();
+  consider(make_fan(mesh, rim));
+  crossings += fewest;
+  return best;
 }
 
 }  // namespace
 
-Filling cap_flat_ends(SurfaceMesh& mesh, double crack_width, double largest_share) {
+Filling cap_flat_ends(SurfaceMesh& mesh, const CapLimits& limits) {
   const auto uses = make_edge_uses(mesh);
-  const auto pieces = find_pieces(mesh, uses);
-  const auto measures = measure_pieces(mesh, uses, pieces);
-  std::vector<std::uint32_t> piece_at(mesh.vertices.size(), 0);
-  for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
-    for (const auto v : mesh.triangles[f]) piece_at[v] = pieces.of_face[f];
-  std::vector<bool> has_partner(mesh.vertices.size(), false);
-  for (const auto& pair : find_crack_pairs(mesh, uses, crack_width))
-    has_partner[pair.a] = has_partner[pair.b] = true;
+  const Openings openings(mesh, uses);
+  const FlatCuts cuts(mesh, uses, openings, limits.crack_width);
   Filling filling;
-  for (const auto& rim : find_rims(mesh, uses)) {
-    const bool is_crack =
-        std::any_of(rim.begin(), rim.end(), [&](auto v) { return has_partner[v]; });
-    if (is_crack || !is_flat_and_round(mesh, rim)) continue;
-    const double piece_area = measures[piece_at[rim[0]]].area;
-    const auto cap = make_fan(mesh, rim);
-    const double area = area_of(mesh, cap);
-    if (area > largest_share * piece_area) {
-      mesh.vertices.pop_back();  // the fan's
-      continue;
-    }
+  for (std::size_t i = 0; i < openings.rims.size(); ++i) {
+    const Rim& rim = openings.rims[i];
+    const RimShape& shape = openings.shapes[i];
+    const bool is_cut = cuts.is_cut(i) && rim.size() > 3;
+    if (!is_cut && (cuts.is_crack(i) || !is_flat_and_round(rim, shape))) continue;
+    if (openings.hole_of[i] != Openings::kNone && is_cut) continue;  // with the one around it
+    std::vector<Rim> rims{rim};
+    for (const std::size_t hole : openings.holes_in(i))
+      if (is_cut && cuts.is_cut(hole)) rims.push_back(openings.rims[hole]);
+    const Patch cap = rims.size() == 1 && rim.size() >= 5 && is_star(mesh, rim, shape)
+                          ? make_fan(mesh, rim)
+                          : make_flat_patch(mesh, uses, rims, shape.normal);
+    SurfaceMesh closed;
+    closed.vertices = mesh.vertices;
+    add(closed, cap);
+    const double area = area_of(closed, cap.triangles);
+    double largest = limits.largest_share;
+    if (is_cut && limits.largest_cut_share > 0)
+      largest = cuts.is_cut_twice(openings.piece[i]) ? std::numeric_limits<double>::infinity()
+                                                     : limits.largest_cut_share;
+    if (cap.triangles.empty() || area > largest * openings.piece_area[openings.piece[i]]) continue;
     filling.area += area;
-    ++filling.n;
-    mesh.triangles.insert(mesh.triangles.end(), cap.begin(), cap.end());
+    filling.n += rims.size();
+    add(mesh, cap);
   }
   return filling;
 }
 
-Filling fill_holes(SurfaceMesh& mesh) {
+Filling fill_holes(SurfaceMesh& mesh, bool flat_first) {
   Filling filling;
   auto uses = make_edge_uses(mesh);
-  for (const auto& rim : find_rims(mesh, uses)) {
+  const Openings openings(mesh, uses);
+  const double large = kLargeOpening * surface_area(mesh);
+  for (std::size_t i = 0; i < openings.rims.size(); ++i) {
+    const Rim& rim = openings.rims[i];
+    const RimShape& shape = openings.shapes[i];
     if (rim.size() < 3) continue;
-    std::vector<Triangle> patch;
-    if (rim.size() == 3)
-      patch = {{rim[0], rim[1], rim[2]}};
-    else if (rim.size() <= kLongestRim)
-      patch = triangulate(mesh, rim);
-    if (patch.empty() || crowds_an_edge(uses, patch, rim)) patch = make_fan(mesh, rim);
-    filling.area += area_of(mesh, patch);
+    const Patch patch =
+        choose_patch(mesh, uses, rim, flat_first || shape.area > large, filling.crossings);
+    const std::size_t first = mesh.triangles.size();
+    add(mesh, patch);
+    double area = 0;
+    for (std::size_t f = first; f < mesh.triangles.size(); ++f)
+      area += triangle_area(mesh, mesh.triangles[f]);
+    filling.area += area;
     ++filling.n;
-    mesh.triangles.insert(mesh.triangles.end(), patch.begin(), patch.end());
+    const bool is_cut = shape.is_jagged() && openings.hole_of[i] == Openings::kNone &&
+                        openings.holes_in(i).empty() &&
+                        area <= kDeep * openings.piece_area[openings.piece[i]];
+    if (!is_cut) filling.doubtful_area += area;
     // Two patches may both want the same new edge, so the next one has to know this one's.
     uses = make_edge_uses(mesh);
   }

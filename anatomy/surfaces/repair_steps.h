@@ -36,13 +36,24 @@ std::size_t turn_pieces(SurfaceMesh& mesh);
 
 struct Filling {
   std::size_t n = 0;
-  double area = 0;  ///< m^2
+  double area = 0;            ///< m^2
+  double doubtful_area = 0;   ///< m^2 of that where no cut through a solid is recognised
+  std::size_t crossings = 0;  ///< pairs of faces, one of a patch, that cut through each other
 };
-/// Closes flat, round openings with no counterpart within `crack_width` and no larger than
-/// `largest_share` of their piece's area: a sheet that is nearly flat has one opening, too.
-Filling cap_flat_ends(SurfaceMesh& mesh, double crack_width, double largest_share);
-/// Closes all openings. Requires: no pinches.
-Filling fill_holes(SurfaceMesh& mesh);
+
+struct CapLimits {
+  double crack_width = 0;        ///< m
+  double largest_share = 0;      ///< of its piece's area, the largest round end
+  double largest_cut_share = 0;  ///< of its piece's area, the largest cut by a plane when it is the
+                                 ///< piece's only one; 0: as for round ends
+};
+/// Closes flat openings: round ones with no counterpart within the crack width, and cuts by a plane
+/// of any outline, also around holes. A sheet that is nearly flat has one opening, too: the limits
+/// keep it open.
+Filling cap_flat_ends(SurfaceMesh& mesh, const CapLimits& limits);
+/// Closes all openings, each in the way that crosses fewest faces: smoothly, or (first, when it is
+/// large or `flat_first`) as it is seen along its normal, or by a fan. Requires: no pinches.
+Filling fill_holes(SurfaceMesh& mesh, bool flat_first = false);
 /// Makes plates of `thickness` out of open sheets, and of bent ones, whose openings are larger than
 /// `open_share` of their area; returns how many. Requires: oriented.
 std::size_t thicken_sheets(SurfaceMesh& mesh, double thickness, double open_share);
@@ -63,8 +74,5 @@ bool cut_out_tangles(SurfaceMesh& mesh);
 /// makes a slender bone some percent thicker. Closed, manifold, outward. Errors: failed.
 /// Cost: some seconds, most of them for the self-intersections of the result.
 [[nodiscard]] Result<SurfaceMesh> make_wrap(const SurfaceMesh& mesh, double detail, double offset);
-
-/// The largest distance from a vertex of `a` to the surface `b`, m.
-[[nodiscard]] double largest_distance(const SurfaceMesh& a, const SurfaceMesh& b);
 
 }  // namespace artus

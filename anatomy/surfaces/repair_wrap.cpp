@@ -9,6 +9,7 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Polygon_mesh_processing/repair_self_intersections.h>
+#include <CGAL/Random.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/alpha_wrap_3.h>
 
@@ -140,6 +141,7 @@ bool untangle(SurfaceMesh& mesh) {
   try {
     if (!pmp::is_polygon_soup_a_polygon_mesh(faces_of(mesh))) return false;
     CgalMesh cgal = to_cgal(mesh);
+    CGAL::get_default_random() = CGAL::Random(0);  // of this thread, whatever it did before
     pmp::experimental::remove_self_intersections(cgal);
     const SurfaceMesh after = from_cgal(cgal);
     const auto edges = count_edges(after);
@@ -166,13 +168,6 @@ Result<SurfaceMesh> make_wrap(const SurfaceMesh& mesh, double detail, double off
   } catch (const std::exception& error) {
     return fail(ErrorCode::failed, std::string("the surface cannot be wrapped: ") + error.what());
   }
-}
-
-double largest_distance(const SurfaceMesh& a, const SurfaceMesh& b) {
-  const NearestPoint nearest(b);
-  double largest = 0;
-  for (const Vec3& p : a.vertices) largest = std::max(largest, (nearest(p) - p).norm());
-  return largest;
 }
 
 }  // namespace artus

@@ -61,6 +61,8 @@ TEST(JointFile, TheDocumentedExampleParsesButForTheStructuresItLeavesOut) {
   const auto& gap = std::get<GapConstruct>(joint->structures[3].shape);
   EXPECT_EQ(gap.roof.size(), 2U);
   EXPECT_DOUBLE_EQ(gap.radius, 0.048);
+  EXPECT_DOUBLE_EQ(gap.edge, 0.002);
+  EXPECT_DOUBLE_EQ(gap.inflation, 5e-6);
   EXPECT_DOUBLE_EQ(std::get<EndConstruct>(joint->structures[4].shape).within, 0.025);
   EXPECT_DOUBLE_EQ(std::get<ShellConstruct>(joint->structures[1].shape).thickness, 0.0018);
   EXPECT_DOUBLE_EQ(std::get<CapConstruct>(joint->structures[2].shape).thickness, 0.0015);

@@ -8,6 +8,7 @@
 
 #include "artus/anatomy/surfaces/defects.h"
 #include "artus/anatomy/surfaces/repair_steps.h"
+#include "artus/anatomy/surfaces/surface_distance.h"
 #include "artus/anatomy/surfaces/surface_io.h"
 #include "artus/anatomy/surfaces/surface_topology.h"
 #include "tests/anatomy/surfaces/surface_samples.h"
@@ -158,7 +159,7 @@ TEST(Repair, WrapOfASlenderBoneKeepsItsVolume) {
   ASSERT_TRUE(out) << out.error().to_string();
   EXPECT_NEAR(out->volume, bone.volume, 0.02 * bone.volume);
   EXPECT_TRUE(find_self_intersections(out->mesh).empty());
-  EXPECT_LT(largest_distance(bone.mesh, out->mesh), 1e-3);
+  EXPECT_LT(measure_distance(bone.mesh, out->mesh).max, 1e-3);
   expect_closed(out->mesh);
 }
 
