@@ -19,6 +19,8 @@ struct CompileCommandOptions {
   std::filesystem::path surfaces;
   std::filesystem::path out;
   std::filesystem::path report;
+  std::filesystem::path cache;
+  bool fresh = false;
   bool skip_refused = false;
   bool json = false;
 };
@@ -54,11 +56,21 @@ void print_histogram(const TetQuality& quality) {
   }
 }
 
+Result<CompileOutcome> compile(const JointFile& file, const CompileCommandOptions& options,
+                               const Progress& progress) {
+  LoadOptions load;
+  load.cache = options.cache;
+  load.compile.skip_refused = options.skip_refused;
+  load.compile.check_plans = true;
+  return options.fresh ? compile_joint(file, load.compile, progress)
+                       : compile_or_reuse(file, load, progress);
+}
+
 ExitCode run_compile(const CompileCommandOptions& options) {
   const Progress progress = make_progress_printer(options.json);
   const auto file = read_joint(options.joint, options.surfaces);
   if (!file) return report_error(file.error(), options.json);
-  const auto outcome = compile_joint(*file, {options.skip_refused}, progress);
+  const auto outcome = compile(*file, options, progress);
   if (!outcome) return report_error(outcome.error(), options.json);
   const auto out = options.out.empty() ? std::filesystem::path(file->name + ".artus") : options.out;
   if (const auto written = write_compiled_joint(outcome->joint, out); !written)
@@ -72,6 +84,11 @@ ExitCode run_compile(const CompileCommandOptions& options) {
     return ExitCode::ok;
   }
   print_structures(outcome->report);
+  for (const auto& note : outcome->report.notes) std::printf("! %s\n", note.c_str());
+  if (outcome->report.body_kept)
+    std::printf(
+        "the body is the one compiled before, since nothing that shapes it has changed; poses, "
+        "injections and tissues are new\n");
   print_histogram(outcome->report.quality);
   std::printf(
       "%s: %zu tetrahedra, %zu interface triangles, %zu vertices; %.3f %% without a dihedral "
@@ -90,6 +107,8 @@ void add_compile_command(Command& app, ExitCode& code) {
       app, "compile", "Check, resolve and tetrahedralise a joint folder into one file",
       "Prints what became of each structure: repairs, volume lost to others of higher priority,\n"
       "distance of the resolved interfaces to the input surface, quality of the tetrahedra.\n"
+      "After an edit of poses, injections, landmarks or tissues alone the body is not made again.\n"
+      "Exit code 3 when a surface, pose or injection must be mended first.\n"
       "Examples:\n"
       "  artus compile meshes/simple-shoulder -o simple.artus\n"
       "  artus compile meshes/real-shoulder --surfaces ~/atlas --skip-refused -o real.artus\n"
@@ -99,6 +118,9 @@ void add_compile_command(Command& app, ExitCode& code) {
                       "folder of the surface files, when not the joint's own");
   command->add_option("-o,--out", options->out, "compiled file (default: <name>.artus)");
   command->add_option("--report", options->report, "also write the report as JSON");
+  command->add_option("--cache", options->cache,
+                      "folder where bodies are kept for the next time (default: user cache)");
+  command->add_flag("--fresh", options->fresh, "make the body anew, and keep it nowhere");
   command->add_flag("--skip-refused", options->skip_refused,
                     "leave out structures that cannot be repaired instead of stopping");
   command->add_flag("--json", options->json, "print the report as JSON");
