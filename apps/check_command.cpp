@@ -11,6 +11,8 @@
 #include "artus/anatomy/compile/joint_check.h"
 #include "artus/anatomy/surfaces/surface_io.h"
 #include "artus/apps/command.h"
+#include "artus/apps/joint_report.h"
+#include "artus/core/text_file.h"
 #include "artus/core/units.h"
 
 namespace artus {
@@ -27,6 +29,7 @@ struct CheckOptions {
   std::optional<std::string> units;
   double thicken_mm = 0;
   std::filesystem::path repaired;
+  std::filesystem::path report;
   bool all = false;
   bool json = false;
 };
@@ -181,6 +184,12 @@ ExitCode check_folder(const CheckOptions& options) {
   const auto joint = read_joint(options.path, options.surfaces);
   if (!joint) return report_error(joint.error(), options.json);
   const JointCheck check = check_joint(*joint, make_progress_printer(options.json));
+  if (!options.report.empty()) {
+    const auto written = is_page(options.report)
+                             ? write_check_page(*joint, check, options.report)
+                             : write_text(options.report, to_json(*joint, check).dump(2) + "\n");
+    if (!written) return report_error(written.error(), options.json);
+  }
   if (options.json)
     std::cout << to_json(*joint, check).dump(2) << '\n';
   else
@@ -216,6 +225,8 @@ void add_check_command(Command& app, ExitCode& code) {
       ->check(number_in(0, 20))
       ->capture_default_str();
   command->add_option("--repaired", options->repaired, "write the repaired surface");
+  command->add_option("--report", options->report,
+                      "of a joint: also write a page with pictures (.html), or JSON");
   command->add_flag("--all", options->all, "of a joint: also what was mended and needs nothing");
   command->add_flag("--json", options->json, "machine-readable output");
   on_run(command, code, [options] {

@@ -6,6 +6,7 @@
 
 #include "artus/anatomy/compile/compile.h"
 #include "artus/apps/command.h"
+#include "artus/apps/joint_report.h"
 #include "artus/core/text_file.h"
 #include "artus/core/units.h"
 
@@ -76,9 +77,12 @@ ExitCode run_compile(const CompileCommandOptions& options) {
   if (const auto written = write_compiled_joint(outcome->joint, out); !written)
     return report_error(written.error(), options.json);
   const std::string report = to_json(outcome->report);
-  if (!options.report.empty())
-    if (const auto written = write_text(options.report, report + "\n"); !written)
-      return report_error(written.error(), options.json);
+  if (!options.report.empty()) {
+    const auto written = is_page(options.report)
+                             ? write_compile_page(*file, *outcome, options.report)
+                             : write_text(options.report, report + "\n");
+    if (!written) return report_error(written.error(), options.json);
+  }
   if (options.json) {
     std::cout << report << '\n';
     return ExitCode::ok;
@@ -112,12 +116,13 @@ void add_compile_command(Command& app, ExitCode& code) {
       "Examples:\n"
       "  artus compile meshes/simple-shoulder -o simple.artus\n"
       "  artus compile meshes/real-shoulder --surfaces ~/atlas --skip-refused -o real.artus\n"
-      "  artus compile my-joint --report report.json");
+      "  artus compile my-joint --report report.html");
   command->add_option("joint", options->joint, "folder with joint.toml")->required();
   command->add_option("--surfaces", options->surfaces,
                       "folder of the surface files, when not the joint's own");
   command->add_option("-o,--out", options->out, "compiled file (default: <name>.artus)");
-  command->add_option("--report", options->report, "also write the report as JSON");
+  command->add_option("--report", options->report,
+                      "also write the report: a page with pictures (.html), else JSON");
   command->add_option("--cache", options->cache,
                       "folder where bodies are kept for the next time (default: user cache)");
   command->add_flag("--fresh", options->fresh, "make the body anew, and keep it nowhere");
