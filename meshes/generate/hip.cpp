@@ -90,14 +90,16 @@ std::vector<Solid> make_joint_layers(const Millimetres& mm, const HipSize& size)
     const Field coat = subtract(grow(bone, end), grow(bone, begin), 0.3e-3);
     return intersect(coat, make_ball(mm.at(-15, -16, -12), mm.length(radius)), 0.8e-3);
   };
-  // A point in front of the neck's middle; the neck is 15 mm thick there.
-  const Vec3 front = mm.at(-14, -14, -12);
   const double kept = 0.6e-3;  // between bone and fluid: synovium on periosteum
-  const Vec3 out = Vec3(0, -1, 0);
+  const auto before_neck = [&](double distance) {
+    Vec3 p = mm.at(-14, -10, -12);
+    while (bone(p) < distance) p.y() -= 0.05e-3;
+    return p;
+  };
   return {{"anterior_recess", layer(kept, kept + size.recess, 14),
-           front + (kept + 0.5 * size.recess) * out, mm.length(60), 1.6e-3, 0.1e-3},
+           before_neck(kept + 0.5 * size.recess), mm.length(60), 1.6e-3, 0.1e-3},
           {"hip_capsule", layer(kept + 0.5 * size.recess, kept + size.recess + size.capsule, 22),
-           front + (kept + size.recess + 0.5 * size.capsule) * out, mm.length(80), 2e-3, 0.1e-3}};
+           before_neck(kept + size.recess + 0.5 * size.capsule), mm.length(80), 2e-3, 0.1e-3}};
 }
 
 std::vector<Solid> make_muscles(const Millimetres& mm) {
@@ -142,10 +144,12 @@ std::vector<Solid> make_hip(const HipSize& size) {
   ARTUS_REQUIRE(size.head_radius > 0 && size.cartilage > 0 && size.recess > 0 && size.capsule > 0,
                 "every size must be positive");
   const Millimetres mm(size.head_radius);
-  const Field thigh = tube(mm, {{-15, 5, 20, 67}, {-24, 3, -60, 66}, {-26, 2, -140, 64}});
+  const Field thigh = tube(mm, {{-8, 5, 20, 70}, {-18, 3, -60, 68}, {-20, 2, -140, 64}});
+  const Field groin = tube(mm, {{30, 8, 45, 70}, {30, 9, -20, 69}});
   const Field trunk = make_ellipsoid(mm.at(45, 18, 80), mm.at(110, 85, 95));
-  std::vector<Solid> solids{
-      {"body", unite(thigh, trunk, mm.length(30)), Vec3::Zero(), mm.length(480), 6e-3, 0.25e-3}};
+  std::vector<Solid> solids{{"body",
+                             unite(unite(thigh, groin, mm.length(20)), trunk, mm.length(30)),
+                             Vec3::Zero(), mm.length(480), 6e-3, 0.25e-3}};
   for (auto parts : {make_bones(mm, size), make_joint_layers(mm, size), make_muscles(mm)})
     solids.insert(solids.end(), std::make_move_iterator(parts.begin()),
                   std::make_move_iterator(parts.end()));
