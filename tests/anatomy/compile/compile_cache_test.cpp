@@ -28,6 +28,10 @@ class KeptBodies : public testing::Test {
     folder_.add_sphere("body", Vec3(0, 0, 0), 20);
     folder_.add_sphere("head", Vec3(0, 0, 5), 8);
     folder_.write_toml(kHead);
+    // Coarse, since the same body is made many times here.
+    replace("facet_size = 3.0", "facet_size = 6.0");
+    replace("facet_distance = 0.2", "facet_distance = 0.6");
+    replace("cell_size = 8.0", "cell_size = 18.0");
     options_.cache = folder_.path() / "cache";
   }
   CompileOutcome compile(bool with_cache = true) {
@@ -83,7 +87,7 @@ target = [0.0, 0.0, 5.0]
 
 TEST_F(KeptBodies, IsMadeAnewWhenAnythingThatShapesItChanges) {
   compile();
-  replace("facet_size = 3.0", "facet_size = 3.5");
+  replace("facet_size = 6.0", "facet_size = 6.5");
   EXPECT_FALSE(compile().report.body_kept) << "the mesh's sizes";
   folder_.add_sphere("head", Vec3(0, 0, 5), 8.5);
   EXPECT_FALSE(compile().report.body_kept) << "a surface";
@@ -133,7 +137,7 @@ TEST_F(KeptBodies, IsForgottenAfterAFewOthersOfTheSameJoint) {
                 options_.cache / "balls-of-another.artus");
   for (int i = 0; i < 6; ++i) {
     compile();
-    replace("cell_size = " + std::to_string(8 + i), "cell_size = " + std::to_string(9 + i));
+    replace("cell_size = " + std::to_string(18 + i), "cell_size = " + std::to_string(19 + i));
   }
   EXPECT_EQ(count(".artus"), 4U + 1U);
   EXPECT_EQ(count(".json"), 4U);
