@@ -12,7 +12,7 @@
 namespace artus {
 namespace {
 
-const cv::Size kLarge(560, 480);
+const cv::Size kLarge(520, 460);
 const cv::Size kSmall(300, 240);
 const cv::Vec3b kSurface(205, 195, 180);
 const cv::Vec3b kDefect(40, 40, 220);

@@ -96,10 +96,14 @@ ExitCode run_compile(const CompileCommandOptions& options) {
   print_histogram(outcome->report.quality);
   std::printf(
       "%s: %zu tetrahedra, %zu interface triangles, %zu vertices; %.3f %% without a dihedral "
-      "angle below 8 deg; inverted: %zu\n%.1f s, %.0f MB at most\n",
+      "angle below 8 deg; inverted: %zu\n",
       out.c_str(), outcome->report.tetrahedra, outcome->report.interfaces, outcome->report.vertices,
-      outcome->report.quality.above_8_deg_percent(), outcome->report.quality.inverted,
-      outcome->report.seconds, outcome->report.peak_memory / 1e6);
+      outcome->report.quality.above_8_deg_percent(), outcome->report.quality.inverted);
+  if (outcome->report.body_kept)
+    std::printf("%.1f s\n", outcome->report.seconds);
+  else
+    std::printf("%.1f s, %.0f MB at most\n", outcome->report.seconds,
+                outcome->report.peak_memory / 1e6);
   return ExitCode::ok;
 }
 

@@ -19,11 +19,11 @@
 namespace artus {
 namespace {
 
-const cv::Size kLarge(560, 480);
+const cv::Size kLarge(520, 460);
 const cv::Size kSmall(300, 240);
 constexpr double kCubicCentimetre = 1e-6;     // m^3
 constexpr double kWorst = 0.5 * kMillimetre;  // a distance that is red
-constexpr int kSlicePixels = 360;             // of each slice's sides
+constexpr int kSlicePixels = 340;             // of each slice's sides
 
 std::string number(double value, int decimals) {
   std::array<char, 40> text{};
@@ -108,7 +108,7 @@ void add_slices(HtmlPage& page, const JointFile& file, const CompiledJoint& join
   page.heading("Slices, with the planned needles (arrows) and the probe's face (violet)");
   Eigen::AlignedBox3d box;
   for (const Vec3& p : joint.mesh.vertices) box.extend(p);
-  const Vec3 centre =
+  const Vec3 target =
       joint.injections.empty() ? Vec3(box.center()) : joint.injections.front().target;
   const double half = box.sizes().maxCoeff() / 2;
   const auto views = picture_views(file.axes, file.side);
@@ -117,11 +117,15 @@ void add_slices(HtmlPage& page, const JointFile& file, const CompiledJoint& join
   const Scene scene(std::make_shared<const CompiledJoint>(joint));
   std::set<RegionId> seen;
   const Vec3 down = -X_JP.linear().col(2);
-  for (const Slice& slice :
-       {Slice{"in the probe's plane", centre, X_JP.linear().col(0), down, half},
-        Slice{"from the front", centre, views[0].right, views[0].up, half},
-        Slice{"from below, the front at the top", centre, views[0].right, Vec3(-behind), half}})
+  for (Slice slice :
+       {Slice{"in the probe's plane", target, X_JP.linear().col(0), down, half},
+        Slice{"from the front", target, views[0].right, views[0].up, half},
+        Slice{"from below, the front at the top", target, views[0].right, Vec3(-behind), half}}) {
+    // Through the target, with the body's middle in the picture's.
+    const Vec3 normal = slice.right.cross(slice.up);
+    slice.centre = box.center() + normal.dot(target - box.center()) * normal;
     page.picture(draw_slice(scene, slice, seen), slice.name);
+  }
   std::string names;
   for (const RegionId r : seen)
     if (r >= kFirstRegion) names += (names.empty() ? "" : ", ") + joint.regions[r].name;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/apps/html_page.h"
 
+#include <algorithm>
 #include <cstdint>
 
 #include <opencv2/imgcodecs.hpp>
@@ -15,7 +16,8 @@ border-bottom:1px solid #e3e3e3}th:first-child,td:first-child{text-align:left}tr
 td{background:#f4f8fc}dl{display:grid;grid-template-columns:max-content auto;gap:.2em 1em;
 font-size:.9em}dt{font-weight:bold}dd{margin:0}figure{display:inline-block;margin:.4em}figcaption{
 font-size:.8em;color:#555}img{border:1px solid #ddd;max-width:100%}.card{border:1px solid #ddd;
-border-radius:6px;padding:.3em 1em .6em;margin:.8em 0}.card h3{margin:.4em 0}p.point{margin:.25em 0}
+border-radius:6px;padding:.3em 1em .6em;margin:.4em;
+display:inline-block;vertical-align:top;max-width:68em}.card h3{margin:.4em 0}p.point{margin:.25em 0}
 .tag{display:inline-block;min-width:4.5em;padding:0 .5em;margin-right:.6em;border-radius:3px;
 text-align:center;color:#fff;font-size:.85em}.refused{background:#b3261e}.look{background:#b26a00}
 .mended{background:#3a7d44}.note{background:#777})";
