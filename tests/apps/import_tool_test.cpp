@@ -70,29 +70,28 @@ TEST_F(ImportTool, TheTutorialLeadsFromBareSurfacesToAnInjection) {
   const auto folder = write_joint(tutorial("joint.toml"));
   const auto check = artus({"check", folder.string()});
   ASSERT_EQ(check.exit_code, 0) << check.out << check.err;
-  const std::vector<std::string> compile{"compile",      folder.string(), "-o",
-                                         in("my.artus"), "--cache",       in("cache")};
-  const auto compiled = artus(compile);
+  const auto compile = [&] {
+    return artus({"compile", folder.string(), "-o", in("my.artus"), "--cache", in("cache"),
+                  "--report", in("report.html")});
+  };
+  const auto compiled = compile();
   ASSERT_EQ(compiled.exit_code, 0) << compiled.out << compiled.err;
   std::ofstream(folder / "joint.toml", std::ios::app) << tutorial("injections");
-  const auto planned = artus(compile);
+  const auto planned = compile();
   ASSERT_EQ(planned.exit_code, 0) << planned.out << planned.err;
   EXPECT_NE(planned.out.find("the body is the one compiled before"), std::string::npos);
   EXPECT_EQ(artus({"image", "-j", in("my.artus"), "-o", in("image.png")}).exit_code, 0);
   const auto run = artus({"run", "three-injections", "-j", in("my.artus"), "--out", in("run"),
                           "--no-images", "--json"});
   EXPECT_EQ(run.exit_code, 0) << run.out << run.err;
-  const auto page = artus({"compile", folder.string(), "-o", in("my.artus"), "--cache", in("cache"),
-                           "--report", in("report.html")});
-  ASSERT_EQ(page.exit_code, 0) << page.err;
   const std::string text = content(in("report.html"));
   expect_self_contained(text);
   for (const char* expected : {"What to do next", "in the probe's plane", "distance to bone.ply",
                                "p95 mm", "95 % of its area is nearer than this"})
     EXPECT_NE(text.find(expected), std::string::npos) << expected;
   const std::string seen = seen_by_browser(in("report.html"));
-  if (!seen.empty())
-    EXPECT_GE(std::count(seen.begin(), seen.end(), '<'), 200) << "the browser shows the page";
+  if (seen.empty()) GTEST_SKIP() << "there is no Chromium to open the page in";
+  EXPECT_GE(std::count(seen.begin(), seen.end(), '<'), 200) << "the browser shows the page";
 }
 
 TEST_F(ImportTool, RefusalsComeFirstWithOneExitCodeAndTheirMendWorks) {

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "artus/anatomy/compile/compile.h"
+#include "artus/anatomy/compile/dress_body.h"
 #include "tests/anatomy/compile/joint_folder.h"
 
 namespace artus {
@@ -142,6 +143,21 @@ TEST_F(KeptBodies, IsForgottenAfterAFewOthersOfTheSameJoint) {
   EXPECT_EQ(count(".artus"), 4U + 1U);
   EXPECT_EQ(count(".json"), 4U);
   EXPECT_TRUE(fs::exists(options_.cache / "balls-of-another.artus"));
+}
+
+TEST_F(KeptBodies, AreDressedInWhatTheFileSays) {
+  const CompileOutcome made = compile();
+  auto file = read_joint(folder_.path());
+  ASSERT_TRUE(file);
+  file->side = "left";
+  file->structures[0].fibre_axis = Vec3(0, 2, 0);
+  std::vector<std::string> notes;
+  const CompiledJoint dressed = dress_body(*file, made.joint.mesh, "digest", notes);
+  EXPECT_EQ(dressed.side, "left");
+  EXPECT_EQ(dressed.source_digest, "digest");
+  EXPECT_EQ(dressed.regions.back().fibre_axis, Vec3(0, 1, 0));
+  EXPECT_TRUE(dressed.X_JP_default.isApprox(*file->X_JP_default));
+  EXPECT_TRUE(notes.empty()) << "the file gives both poses";
 }
 
 }  // namespace

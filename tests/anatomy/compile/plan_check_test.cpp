@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "artus/anatomy/compile/plan_ground.h"
 #include "tests/anatomy/compile/balls_joint.h"
 #include "tests/support/layered_body.h"
 
