@@ -89,8 +89,13 @@ void add_surface(HtmlPage& page, const JointFile& file, const JointCheck& check,
   const PictureView view = picture_views(file.axes, file.side).front();
   if (const auto mesh = read_surface(file.surface_folder / surface.file, surface.unit)) {
     const auto defects = find_defects(*mesh);
-    page.picture(draw_meshes(std::vector{with_defects(*mesh, defects)}, view, kSmall),
-                 defects.empty() ? "as it was read: no defect" : "as it was read, defects red");
+    std::vector<Vec3> marks;
+    for (const Defect& d : defects)
+      if (d.kind != DefectKind::several_components && d.position.allFinite())
+        marks.push_back(d.position);
+    page.picture(draw_meshes(std::vector{with_defects(*mesh, defects)}, view, kSmall, marks),
+                 defects.empty() ? "as it was read: no defect"
+                                 : "as it was read; defects red, a ring at the first of each kind");
   }
   const PreparedSurface* prepared = prepared_of(file, check, s.name);
   if (prepared != nullptr && !checked.repairs.empty() && !prepared->mesh.triangles.empty())

@@ -130,7 +130,8 @@ ColouredMesh coloured(const SurfaceMesh& mesh, const cv::Vec3b& colour) {
   return out;
 }
 
-cv::Mat draw_meshes(std::span<const ColouredMesh> meshes, const PictureView& view, cv::Size size) {
+cv::Mat draw_meshes(std::span<const ColouredMesh> meshes, const PictureView& view, cv::Size size,
+                    std::span<const Vec3> marks) {
   const Projection project(meshes, view, size);
   Canvas canvas(size);
   for (const ColouredMesh& m : meshes)
@@ -143,6 +144,12 @@ cv::Mat draw_meshes(std::span<const ColouredMesh> meshes, const PictureView& vie
       const double facing = normal.norm() > 0 ? normal.normalized().dot(project.toward()) : 0;
       canvas.draw({project(a), project(b), project(c)}, lit(m.colours[i], facing));
     }
+  for (const Vec3& mark : marks) {
+    constexpr int kRadius = 8;  // pixels
+    const Vec3 p = project(mark);
+    cv::circle(canvas.image(), cv::Point(static_cast<int>(p.x()), static_cast<int>(p.y())), kRadius,
+               cv::Scalar(40, 40, 220), 2, cv::LINE_AA);
+  }
   draw_scale(canvas.image(), project.scale());
   return canvas.image();
 }

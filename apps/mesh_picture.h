@@ -32,10 +32,11 @@ struct PictureView {
 /// are not finite are left out.
 [[nodiscard]] ColouredMesh coloured(const SurfaceMesh& mesh, const cv::Vec3b& colour);
 
-/// The surfaces, lit from the viewer, filling a picture of `size` on white with a bar of 10 mm.
+/// The surfaces, lit from the viewer, filling a picture of `size` on white with a bar of 10 mm, and
+/// a red ring around each of `marks` (m, also where it lies behind something).
 /// Cost: linear in triangles and pixels.
 [[nodiscard]] cv::Mat draw_meshes(std::span<const ColouredMesh> meshes, const PictureView& view,
-                                  cv::Size size);
+                                  cv::Size size, std::span<const Vec3> marks = {});
 
 /// A colour for a distance: green at 0, yellow at half of `worst`, red from `worst` on.
 [[nodiscard]] cv::Vec3b distance_colour(double distance, double worst);
