@@ -56,13 +56,14 @@ Result<std::optional<Segment>> line_of(const NeedleOptions& options) {
 
 /// The joint's needle from where it enters the skin.
 Segment default_line(const Scene& scene) {
-  constexpr double kLongest = 0.2;  // m, more than any needle
+  constexpr double kLongest = 0.2;     // m, more than any needle
+  constexpr double kUnderSkin = 1e-6;  // m, so that no sliver of outside is the first layer
   const Pose& X_JN = scene.joint().X_JN_default;
   const Vec3 axis = X_JN.linear().col(2);
   const Vec3 tip = X_JN.translation();
   double entry = 0;
   for (const TissueInterval& s : tissue_intervals(scene, {tip - kLongest * axis, tip}))
-    if (s.region < kFirstRegion) entry = s.exit;
+    if (s.region < kFirstRegion) entry = s.exit + kUnderSkin;
   return {tip - (kLongest - entry) * axis, tip};
 }
 
