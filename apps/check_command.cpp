@@ -4,64 +4,41 @@
 #include <iostream>
 #include <map>
 #include <memory>
+#include <optional>
+#include <set>
 
 #include "artus/anatomy/compile/compile_surfaces.h"
-#include "artus/anatomy/compile/joint_defects.h"
-#include "artus/anatomy/surfaces/defects.h"
+#include "artus/anatomy/compile/joint_check.h"
 #include "artus/anatomy/surfaces/surface_io.h"
 #include "artus/apps/command.h"
+#include "artus/apps/joint_report.h"
+#include "artus/core/text_file.h"
 #include "artus/core/units.h"
 
 namespace artus {
 namespace {
 
 constexpr double kCubicCentimetre = 1e-6;  // m^3
+// A screen has 24 lines.
+constexpr std::size_t kMostToLookAt = 14;
+constexpr std::size_t kMostCrossings = 4;
 
 struct CheckOptions {
   std::filesystem::path path;
   std::filesystem::path surfaces;
-  std::string units = "mm";
+  std::optional<std::string> units;
   double thicken_mm = 0;
   std::filesystem::path repaired;
+  std::filesystem::path report;
+  bool all = false;
   bool json = false;
 };
 
-nlohmann::json to_json(const Defect& defect) {
-  return {{"kind", to_string(defect.kind)}, {"severity", to_string(severity_of(defect.kind))},
+nlohmann::json to_json(const Defect& defect, bool is_refused) {
+  return {{"kind", to_string(defect.kind)}, {"verdict", to_string(verdict_of(defect, is_refused))},
           {"structure", defect.structure},  {"count", defect.count},
           {"elements", defect.elements},    {"position_mm", to_json_mm(defect.position)},
           {"message", defect.message}};
-}
-
-void print(const std::vector<Defect>& defects) {
-  for (const auto& defect : defects)
-    std::printf("%-10s %-26s %s%s%s\n", to_string(severity_of(defect.kind)), to_string(defect.kind),
-                defect.structure.c_str(), defect.structure.empty() ? "" : ": ",
-                defect.message.c_str());
-}
-
-bool any_fatal(const std::vector<Defect>& defects) {
-  return std::any_of(defects.begin(), defects.end(), [](const Defect& defect) {
-    return severity_of(defect.kind) == DefectSeverity::fatal;
-  });
-}
-
-/// What repair says of each surface that it refuses, "name: reason".
-std::vector<std::string> find_refused(const JointFile& joint, const Progress& progress) {
-  std::vector<std::string> refused;
-  for (std::size_t i = 0; i < joint.structures.size(); ++i) {
-    const Structure& structure = joint.structures[i];
-    if (progress)
-      progress("repairing",
-               static_cast<double>(i + 1) / static_cast<double>(joint.structures.size()));
-    const auto* surface = std::get_if<SurfaceFile>(&structure.shape);
-    if (surface == nullptr) continue;
-    const auto mesh = read_surface(joint.surface_folder / surface->file, surface->unit);
-    if (!mesh) continue;  // already among the defects
-    const auto outcome = repair_as_declared(*mesh, *surface);
-    if (!outcome) refused.push_back(structure.name + ": " + outcome.error().message);
-  }
-  return refused;
 }
 
 nlohmann::json to_json(const Result<RepairOutcome>& outcome) {
@@ -81,10 +58,10 @@ void print(const Result<RepairOutcome>& outcome) {
     std::printf("refused: %s\n", outcome.error().message.c_str());
     return;
   }
-  for (const auto& action : outcome->actions) std::printf("repair: %s\n", action.message.c_str());
-  std::printf("%s: closed, %zu triangles, %.3f cm3\n",
+  std::printf("%s: %zu triangles, %.3f cm3\n",
               outcome->actions.empty() ? "accepted unchanged" : "accepted after repair",
               outcome->mesh.triangles.size(), outcome->volume / kCubicCentimetre);
+  for (const auto& action : outcome->actions) std::printf("repair: %s\n", action.message.c_str());
   if (outcome->self_intersections > 0)
     std::printf("%zu pairs of its faces still cut through each other; compiling tolerates that\n",
                 outcome->self_intersections);
@@ -92,90 +69,168 @@ void print(const Result<RepairOutcome>& outcome) {
 
 ExitCode check_surface(const CheckOptions& options) {
   const std::map<std::string, double> units{{"mm", 1e-3}, {"cm", 1e-2}, {"m", 1.0}};
-  const double unit = units.at(options.units);
-  const auto mesh = read_surface(options.path, unit);
+  SurfaceFile file;
+  file.unit = units.at(options.units.value_or("mm"));
+  file.has_own_unit = options.units.has_value();
+  file.thicken = options.thicken_mm * kMillimetre;
+  const auto mesh = read_surface(options.path, file.unit);
   if (!mesh) return report_error(mesh.error(), options.json);
   const auto defects = find_defects(*mesh);
-  RepairOptions repair;
-  repair.thicken = options.thicken_mm * kMillimetre;
-  const auto outcome = repair_surface(*mesh, repair);
+  const auto outcome = repair_as_declared(*mesh, file);
   if (outcome && !options.repaired.empty())
-    if (const auto written = write_surface(outcome->mesh, options.repaired, unit); !written)
+    if (const auto written = write_surface(outcome->mesh, options.repaired, file.unit); !written)
       return report_error(written.error(), options.json);
 
   if (options.json) {
     auto list = nlohmann::json::array();
-    for (const auto& defect : defects) list.push_back(to_json(defect));
+    for (const auto& defect : defects) list.push_back(to_json(defect, !outcome));
     std::cout << nlohmann::json{{"file", options.path.string()},
                                 {"vertices", mesh->vertices.size()},
                                 {"triangles", mesh->triangles.size()},
                                 {"defects", list},
-                                {"repair", to_json(outcome)}}
+                                {"repair", to_json(outcome)},
+                                {"usable", outcome.has_value()}}
                      .dump(2)
               << '\n';
   } else {
     std::printf("%s: %zu vertices, %zu triangles, %zu kinds of defect\n", options.path.c_str(),
                 mesh->vertices.size(), mesh->triangles.size(), defects.size());
-    print(defects);
     print(outcome);
+    for (const auto& defect : defects)
+      std::printf("%-7s %-26s %s\n", to_string(verdict_of(defect, !outcome)),
+                  to_string(defect.kind), defect.message.c_str());
   }
   return outcome ? ExitCode::ok : ExitCode::defects;
 }
 
-ExitCode check_joint(const CheckOptions& options) {
+void print(const Finding& finding) {
+  std::printf("%-7s %s", to_string(finding.verdict), finding.what.c_str());
+  if (finding.line > 0) std::printf(" (line %d)", finding.line);
+  std::printf(": %s\n", finding.message.c_str());
+}
+
+/// Prints up to `most` findings of one verdict and how many there are besides.
+void print(const JointCheck& check, Verdict verdict, std::size_t most) {
+  std::size_t n = 0;
+  for (const Finding& finding : check.findings)
+    if (finding.verdict == verdict && n++ < most) print(finding);
+  if (n > most) std::printf("        and %zu more (--all)\n", n - most);
+}
+
+/// The second name of a pair that crosses, from the message.
+std::string other_of(const Defect& crossing) {
+  const auto from = crossing.message.find('\'') + 1;
+  return crossing.message.substr(from, crossing.message.find('\'', from) - from);
+}
+
+void print_crossings(const JointCheck& check, std::size_t most) {
+  if (check.crossings.empty()) return;
+  std::size_t faces = 0;
+  for (const Defect& c : check.crossings) faces += c.count;
+  std::printf(
+      "%zu pairs of layers cross, in %zu pairs of faces; the one that stands first in joint.toml "
+      "keeps the overlap:\n  %-32s %-32s %8s\n",
+      check.crossings.size(), faces, "first", "second", "faces");
+  for (std::size_t i = 0; i < std::min(most, check.crossings.size()); ++i)
+    std::printf("  %-32s %-32s %8zu\n", check.crossings[i].structure.c_str(),
+                other_of(check.crossings[i]).c_str(), check.crossings[i].count);
+  if (check.crossings.size() > most)
+    std::printf("  and %zu more (--all)\n", check.crossings.size() - most);
+}
+
+std::size_t count_mended(const JointCheck& check) {
+  std::set<std::string> names;
+  for (const Finding& finding : check.findings)
+    if (finding.verdict == Verdict::mended) names.insert(finding.what);
+  return names.size();
+}
+
+void print_joint(const JointFile& joint, const JointCheck& check, bool all) {
+  const std::size_t everything = check.findings.size() + check.crossings.size();
+  print(check, Verdict::refused, everything);
+  print(check, Verdict::look, all ? everything : kMostToLookAt);
+  if (all) {
+    print(check, Verdict::mended, everything);
+    print(check, Verdict::note, everything);
+  }
+  print_crossings(check, all ? everything : kMostCrossings);
+  std::printf("%zu surfaces are mended, %zu need nothing done%s\n", count_mended(check),
+              check.surfaces.size() - std::min(check.surfaces.size(), count_mended(check)),
+              all ? "" : "; --all lists what was found and done");
+  std::printf("%s: %zu structures, %zu refusals, %zu to look at: %s\n", joint.name.c_str(),
+              joint.structures.size(), check.count(Verdict::refused), check.count(Verdict::look),
+              check.usable() ? "can be compiled" : "cannot be compiled as it is");
+}
+
+nlohmann::json to_json(const JointFile& joint, const JointCheck& check) {
+  auto findings = nlohmann::json::array();
+  for (const Finding& f : check.findings)
+    findings.push_back({{"verdict", to_string(f.verdict)},
+                        {"kind", f.kind},
+                        {"structure", f.what},
+                        {"line", f.line},
+                        {"message", f.message}});
+  auto crossings = nlohmann::json::array();
+  for (const Defect& c : check.crossings)
+    crossings.push_back({{"first", c.structure}, {"second", other_of(c)}, {"faces", c.count}});
+  return {{"joint", joint.name},
+          {"structures", joint.structures.size()},
+          {"findings", findings},
+          {"crossings", crossings},
+          {"usable", check.usable()}};
+}
+
+ExitCode check_folder(const CheckOptions& options) {
   const auto joint = read_joint(options.path, options.surfaces);
   if (!joint) return report_error(joint.error(), options.json);
-  const Progress progress = make_progress_printer(options.json);
-  const auto defects = find_joint_defects(*joint, {}, progress);
-  const auto refused = find_refused(*joint, progress);
-  const bool fatal = any_fatal(defects) || !refused.empty();
-  if (options.json) {
-    auto list = nlohmann::json::array();
-    for (const auto& defect : defects) list.push_back(to_json(defect));
-    std::cout << nlohmann::json{{"joint", joint->name},
-                                {"structures", joint->structures.size()},
-                                {"defects", list},
-                                {"refused", refused},
-                                {"usable", !fatal}}
-                     .dump(2)
-              << '\n';
-  } else {
-    print(defects);
-    for (const auto& reason : refused) std::printf("refused: %s\n", reason.c_str());
-    std::printf("%s: %zu structures, %zu findings, %s\n", joint->name.c_str(),
-                joint->structures.size(), defects.size(),
-                fatal ? "cannot be compiled as it is" : "can be compiled");
+  const JointCheck check = check_joint(*joint, make_progress_printer(options.json));
+  if (!options.report.empty()) {
+    const auto written = is_page(options.report)
+                             ? write_check_page(*joint, check, options.report)
+                             : write_text(options.report, to_json(*joint, check).dump(2) + "\n");
+    if (!written) return report_error(written.error(), options.json);
   }
-  return fatal ? ExitCode::defects : ExitCode::ok;
+  if (options.json)
+    std::cout << to_json(*joint, check).dump(2) << '\n';
+  else
+    print_joint(*joint, check, options.all);
+  return check.usable() ? ExitCode::ok : ExitCode::defects;
 }
 
 }  // namespace
 
 void add_check_command(Command& app, ExitCode& code) {
   auto options = std::make_shared<CheckOptions>();
-  Command* command =
-      add_command(app, "check", "Every defect of a surface or a joint, and what repair makes of it",
-                  "Exit code 3 when something cannot be repaired.\n"
-                  "Examples:\n"
-                  "  artus check humerus.stl\n"
-                  "  artus check sheet.ply --thicken 1 --repaired plate.ply\n"
-                  "  artus check meshes/real-shoulder --surfaces ~/atlas --json");
+  Command* command = add_command(
+      app, "check", "Every defect of a surface or a joint, and what repair makes of it",
+      "Each finding is refused (mend it: nothing is compiled until then), look (compiled "
+      "as it is; is\n"
+      "it meant?), mended (repair saw to it) or note. Exit code 3 when something is "
+      "refused.\n"
+      "Examples:\n"
+      "  artus check humerus.stl\n"
+      "  artus check sheet.ply --thicken 1 --repaired plate.ply\n"
+      "  artus check meshes/real-shoulder --surfaces ~/atlas --all");
   command->add_option("path", options->path, "surface file (STL, PLY, OBJ, OFF) or joint folder")
       ->required();
   command->add_option("--surfaces", options->surfaces,
                       "folder of the surface files, when not the joint's own");
-  command->add_option("--units", options->units, "unit of a surface file")
-      ->one_of({"mm", "cm", "m"})
-      ->capture_default_str();
+  command
+      ->add_option("--units", options->units,
+                   "unit of a surface file (default: mm); given, an odd size is taken as meant")
+      ->one_of({"mm", "cm", "m"});
   command
       ->add_option("--thicken", options->thicken_mm,
                    "mm; make an open sheet a plate of this thickness (0: refuse it)")
       ->check(number_in(0, 20))
       ->capture_default_str();
   command->add_option("--repaired", options->repaired, "write the repaired surface");
+  command->add_option("--report", options->report,
+                      "of a joint: also write a page with pictures (.html), or JSON");
+  command->add_flag("--all", options->all, "of a joint: also what was mended and needs nothing");
   command->add_flag("--json", options->json, "machine-readable output");
   on_run(command, code, [options] {
-    return std::filesystem::is_directory(options->path) ? check_joint(*options)
+    return std::filesystem::is_directory(options->path) ? check_folder(*options)
                                                         : check_surface(*options);
   });
 }

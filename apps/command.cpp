@@ -39,7 +39,8 @@ ExitCode report_error(const Error& error, bool json) {
   }
   std::cerr << "artus: " << error.to_string() << '\n';
   const bool flag = error.where.rfind("--", 0) == 0;
-  return flag ? ExitCode::usage : ExitCode::failed;
+  if (flag) return ExitCode::usage;
+  return error.code == ErrorCode::defective ? ExitCode::defects : ExitCode::failed;
 }
 
 Progress make_progress_printer(bool quiet) {

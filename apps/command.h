@@ -20,7 +20,7 @@ enum class ExitCode {
   ok = 0,
   failed = 1,   ///< the world is wrong: a file, a surface, a claim that does not hold
   usage = 2,    ///< the command line is wrong
-  defects = 3,  ///< `check` found defects that repair cannot mend
+  defects = 3,  ///< a surface, pose or injection must be mended; the same for every command
 };
 
 /// Adds a subcommand whose body runs after parsing and returns the exit code.
@@ -32,7 +32,7 @@ Command* add_command(Command& app, const std::string& name, const std::string& d
 void on_run(Command* command, ExitCode& code, std::function<ExitCode()> body);
 
 /// Prints an error for people on stderr, or as {"error": {...}} on stdout when `json`; returns
-/// ExitCode::failed (usage for a malformed flag).
+/// ExitCode::failed (usage for a malformed flag, defects for what must be mended).
 ExitCode report_error(const Error& error, bool json);
 
 /// A listener that prints stages and percentages on stderr: one line that is rewritten on a

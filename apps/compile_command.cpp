@@ -4,8 +4,11 @@
 #include <iostream>
 #include <memory>
 
+#include <sys/resource.h>
+
 #include "artus/anatomy/compile/compile.h"
 #include "artus/apps/command.h"
+#include "artus/apps/joint_report.h"
 #include "artus/core/text_file.h"
 #include "artus/core/units.h"
 
@@ -19,6 +22,8 @@ struct CompileCommandOptions {
   std::filesystem::path surfaces;
   std::filesystem::path out;
   std::filesystem::path report;
+  std::filesystem::path cache;
+  bool fresh = false;
   bool skip_refused = false;
   bool json = false;
 };
@@ -54,31 +59,53 @@ void print_histogram(const TetQuality& quality) {
   }
 }
 
+Result<CompileOutcome> compile(const JointFile& file, const CompileCommandOptions& options,
+                               const Progress& progress) {
+  LoadOptions load;
+  load.cache = options.cache;
+  load.compile.skip_refused = options.skip_refused;
+  load.compile.check_plans = true;
+  return options.fresh ? compile_joint(file, load.compile, progress)
+                       : compile_or_reuse(file, load, progress);
+}
+
 ExitCode run_compile(const CompileCommandOptions& options) {
   const Progress progress = make_progress_printer(options.json);
   const auto file = read_joint(options.joint, options.surfaces);
   if (!file) return report_error(file.error(), options.json);
-  const auto outcome = compile_joint(*file, {options.skip_refused}, progress);
+  auto outcome = compile(*file, options, progress);
   if (!outcome) return report_error(outcome.error(), options.json);
   const auto out = options.out.empty() ? std::filesystem::path(file->name + ".artus") : options.out;
   if (const auto written = write_compiled_joint(outcome->joint, out); !written)
     return report_error(written.error(), options.json);
+  rusage usage{};
+  if (getrusage(RUSAGE_SELF, &usage) == 0)  // writing takes memory, too
+    outcome->report.peak_memory = 1024.0 * static_cast<double>(usage.ru_maxrss);
   const std::string report = to_json(outcome->report);
-  if (!options.report.empty())
-    if (const auto written = write_text(options.report, report + "\n"); !written)
-      return report_error(written.error(), options.json);
+  if (!options.report.empty()) {
+    const auto written = is_page(options.report)
+                             ? write_compile_page(*file, *outcome, options.report)
+                             : write_text(options.report, report + "\n");
+    if (!written) return report_error(written.error(), options.json);
+  }
   if (options.json) {
     std::cout << report << '\n';
     return ExitCode::ok;
   }
   print_structures(outcome->report);
+  for (const auto& note : outcome->report.notes) std::printf("! %s\n", note.c_str());
+  if (outcome->report.body_kept)
+    std::printf(
+        "the body is the one compiled before, since nothing that shapes it has changed; poses, "
+        "injections and tissues are new\n");
   print_histogram(outcome->report.quality);
   std::printf(
       "%s: %zu tetrahedra, %zu interface triangles, %zu vertices; %.3f %% without a dihedral "
-      "angle below 8 deg; inverted: %zu\n%.1f s, %.0f MB at most\n",
+      "angle below 8 deg; inverted: %zu\n",
       out.c_str(), outcome->report.tetrahedra, outcome->report.interfaces, outcome->report.vertices,
-      outcome->report.quality.above_8_deg_percent(), outcome->report.quality.inverted,
-      outcome->report.seconds, outcome->report.peak_memory / 1e6);
+      outcome->report.quality.above_8_deg_percent(), outcome->report.quality.inverted);
+  std::printf("%.1f s, %.0f MB at most\n", outcome->report.seconds,
+              outcome->report.peak_memory / 1e6);
   return ExitCode::ok;
 }
 
@@ -90,15 +117,21 @@ void add_compile_command(Command& app, ExitCode& code) {
       app, "compile", "Check, resolve and tetrahedralise a joint folder into one file",
       "Prints what became of each structure: repairs, volume lost to others of higher priority,\n"
       "distance of the resolved interfaces to the input surface, quality of the tetrahedra.\n"
+      "After an edit of poses, injections, landmarks or tissues alone the body is not made again.\n"
+      "Exit code 3 when a surface, pose or injection must be mended first.\n"
       "Examples:\n"
       "  artus compile meshes/simple-shoulder -o simple.artus\n"
       "  artus compile meshes/real-shoulder --surfaces ~/atlas --skip-refused -o real.artus\n"
-      "  artus compile my-joint --report report.json");
+      "  artus compile my-joint --report report.html");
   command->add_option("joint", options->joint, "folder with joint.toml")->required();
   command->add_option("--surfaces", options->surfaces,
                       "folder of the surface files, when not the joint's own");
   command->add_option("-o,--out", options->out, "compiled file (default: <name>.artus)");
-  command->add_option("--report", options->report, "also write the report as JSON");
+  command->add_option("--report", options->report,
+                      "also write the report: a page with pictures (.html), else JSON");
+  command->add_option("--cache", options->cache,
+                      "folder where bodies are kept for the next time (default: user cache)");
+  command->add_flag("--fresh", options->fresh, "make the body anew, and keep it nowhere");
   command->add_flag("--skip-refused", options->skip_refused,
                     "leave out structures that cannot be repaired instead of stopping");
   command->add_flag("--json", options->json, "print the report as JSON");

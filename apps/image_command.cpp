@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "artus/apps/sight.h"
 #include "artus/apps/view_options.h"
 #include "artus/core/units.h"
 #include "artus/dataset/echo_truth.h"
@@ -46,6 +47,8 @@ ExitCode run_image(const ImageOptions& options) {
   }
   const Frame frame =
       render_bmode(loaded->scene, loaded->X_JP, loaded->needle, view.transducer, view.settings);
+  if (const auto sight = check_sight(frame, *loaded); !sight)
+    return report_error(sight.error(), options.json);
 
   const cv::Mat image = picture_of(frame, view, options);
   if (const auto written = write_image(image, options.out); !written)

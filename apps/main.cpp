@@ -22,7 +22,7 @@ int run(int argc, char** argv) {
       "  artus run three-injections --joint simple.artus --out out/run\n"
       "  artus <command> --help                                   options and examples\n\n"
       "Exit codes: 0 done, 1 something in the world is wrong (file, surface, claim),\n"
-      "            2 the command line is wrong, 3 check found what cannot be repaired.");
+      "            2 the command line is wrong, 3 a surface, pose or injection must be mended.");
   ExitCode code = ExitCode::ok;
   artus::add_check_command(app, code);
   artus::add_compile_command(app, code);

@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "artus/apps/arguments.h"
@@ -41,19 +42,38 @@ nlohmann::json to_json(const CompiledJoint& joint, const std::vector<TissueInter
   return {{"joint", joint.name}, {"intervals", list}};
 }
 
-ExitCode run_needle(const NeedleOptions& options) {
+/// The line of the flags; none when they are not given.
+Result<std::optional<Segment>> line_of(const NeedleOptions& options) {
+  if (options.entry.empty() && options.tip.empty()) return std::optional<Segment>();
   const auto entry = parse_point_mm(options.entry, "--entry");
-  if (!entry) return report_error(entry.error(), options.json);
+  ARTUS_TRY(entry);
   const auto tip = parse_point_mm(options.tip, "--tip");
-  if (!tip) return report_error(tip.error(), options.json);
-  const Segment needle{*entry, *tip};
-  if ((needle.end - needle.start).norm() < 1e-9)
-    return report_error({ErrorCode::invalid, "entry and tip are the same point", "--tip"},
-                        options.json);
+  ARTUS_TRY(tip);
+  if ((*tip - *entry).norm() < 1e-9)
+    return fail(ErrorCode::invalid, "entry and tip are the same point", "--tip");
+  return std::optional<Segment>({*entry, *tip});
+}
+
+/// The joint's needle from where it enters the skin.
+Segment default_line(const Scene& scene) {
+  constexpr double kLongest = 0.2;     // m, more than any needle
+  constexpr double kUnderSkin = 1e-6;  // m, so that no sliver of outside is the first layer
+  const Pose& X_JN = scene.joint().X_JN_default;
+  const Vec3 axis = X_JN.linear().col(2);
+  const Vec3 tip = X_JN.translation();
+  double entry = 0;
+  for (const TissueInterval& s : tissue_intervals(scene, {tip - kLongest * axis, tip}))
+    if (s.region < kFirstRegion) entry = s.exit + kUnderSkin;
+  return {tip - (kLongest - entry) * axis, tip};
+}
+
+ExitCode run_needle(const NeedleOptions& options) {
+  const auto line = line_of(options);
+  if (!line) return report_error(line.error(), options.json);
   const auto joint = load(options.joint, make_progress_printer(options.json));
   if (!joint) return report_error(joint.error(), options.json);
   const Scene scene(*joint);
-  const auto intervals = tissue_intervals(scene, needle);
+  const auto intervals = tissue_intervals(scene, line->value_or(default_line(scene)));
   if (options.json)
     std::cout << to_json(**joint, intervals).dump(2) << '\n';
   else
@@ -65,16 +85,20 @@ ExitCode run_needle(const NeedleOptions& options) {
 
 void add_needle_command(Command& app, ExitCode& code) {
   auto options = std::make_shared<NeedleOptions>();
-  Command* command =
-      add_command(app, "needle", "What a straight needle passes through, layer by layer",
-                  "Points are x,y,z in millimetres of the joint frame.\n"
-                  "Examples:\n"
-                  "  artus needle -j meshes/simple-shoulder --entry=-51.8,0,-13.9 --tip=-20,0,-5\n"
-                  "  artus needle -j real.artus --entry=-235,-60,1330 --tip=-195,-50,1340 --json");
+  Command* command = add_command(
+      app, "needle", "What a straight needle passes through, layer by layer",
+      "Points are x,y,z in millimetres of the joint frame; without them the joint's own\n"
+      "needle is taken, from the skin to its tip.\n"
+      "Examples:\n"
+      "  artus needle -j meshes/shoulder\n"
+      "  artus needle -j meshes/simple-shoulder --entry=-51.8,0,-13.9 --tip=-20,0,-5\n"
+      "  artus needle -j real.artus --entry=-235,-60,1330 --tip=-195,-50,1340 --json");
   add_joint_options(command, options->joint);
-  command->add_option("--entry", options->entry, "start of the line, usually on the skin")
-      ->required();
-  command->add_option("--tip", options->tip, "needle tip")->required();
+  Option* entry =
+      command->add_option("--entry", options->entry, "start of the line, usually on the skin");
+  Option* tip = command->add_option("--tip", options->tip, "needle tip");
+  entry->needs(tip);
+  tip->needs(entry);
   command->add_flag("--json", options->json, "machine-readable output");
   on_run(command, code, [options] { return run_needle(*options); });
 }

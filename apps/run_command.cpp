@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "artus/apps/feel_options.h"
+#include "artus/apps/plan_options.h"
 #include "artus/apps/view_options.h"
 #include "artus/core/text_file.h"
 #include "artus/evidence/medical/run_images.h"
@@ -17,6 +18,7 @@ struct RunOptions {
   JointOptions joint;
   ViewOptions view;
   FeelOptions feel;
+  PlanOptions plan;
   std::filesystem::path out;
   double rate_hz = 1000;
   std::string device = "virtuose_6d_desktop";
@@ -60,6 +62,8 @@ ExitCode run_scenario(const RunOptions& options) {
   const Progress progress = make_progress_printer(options.json);
   const auto joint = load(options.joint, progress);
   if (!joint) return report_error(joint.error(), options.json);
+  const auto plan = make_plan(options.plan, **joint);
+  if (!plan) return report_error(plan.error(), options.json);
   const auto scene = std::make_shared<const Scene>(*joint);
 
   ThreeInjectionsOptions run_options;
@@ -73,7 +77,7 @@ ExitCode run_scenario(const RunOptions& options) {
   run_options.feel = *feel;
   run_options.probe.contact.footprint.length = view->transducer.width;
   run_options.probe.contact.footprint.width = view->transducer.elevation_height;
-  const auto run = run_three_injections(*scene, (*joint)->injections, run_options, progress);
+  const auto run = run_three_injections(*scene, *plan, run_options, progress);
   if (!run) return report_error(run.error(), options.json);
   if (const auto written = write_three_injections(*run, options.out); !written)
     return report_error(written.error(), options.json);
@@ -109,13 +113,15 @@ void add_run_command(Command& app, ExitCode& code) {
       "Examples:\n"
       "  artus run three-injections -j meshes/simple-shoulder --out out/run\n"
       "  artus run three-injections -j meshes/shoulder --out out/run --rate 10000 --no-video "
-      "--json");
+      "--json\n"
+      "  artus run three-injections -j meshes/shoulder --out out/run --target=-24.6,-9,18");
   command->add_option("scenario", options->scenario, "three-injections")
       ->required()
       ->one_of({"three-injections"});
   add_joint_options(command, options->joint);
   add_view_options(command, options->view);
   add_feel_options(command, options->feel);
+  add_plan_options(command, options->plan);
   command->add_option("-o,--out", options->out, "folder for the results")->required();
   command->add_option("--rate", options->rate_hz, "haptic rate, Hz")
       ->check(number_in(100, 20000))

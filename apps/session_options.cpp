@@ -29,12 +29,13 @@ Result<std::unique_ptr<InputDevice>> make_injection_device(const SessionOptions&
                                                            const SessionParams& params,
                                                            const CompiledJoint& joint) {
   constexpr double kBeyond = 20e-3;  // m past the target where bone is looked for
+  const auto plans = make_plan(options.plan, joint);
+  ARTUS_TRY(plans);
   const auto i = static_cast<std::size_t>(options.injection - 1);
-  if (options.injection < 1 || i >= joint.injections.size())
+  if (options.injection < 1 || i >= plans->size())
     return fail(ErrorCode::not_found,
-                "the joint plans " + std::to_string(joint.injections.size()) + " injections",
-                "--injection");
-  const PlannedInjection& plan = joint.injections[i];
+                "the joint plans " + std::to_string(plans->size()) + " injections", "--injection");
+  const PlannedInjection& plan = (*plans)[i];
   const Vec3 way = plan.target - plan.entry;
   InjectionPlan injection;
   injection.entry_W = plan.entry;
@@ -91,6 +92,7 @@ void add_session_options(Command* command, SessionOptions& options,
       ->capture_default_str();
   add_prefix_option(command, options.prefix);
   command->add_option("--record", options.recording, "keep all inputs in this file");
+  add_plan_options(command, options.plan);
   command->add_option("--injection", options.injection, "which planned injection, from 1")
       ->capture_default_str();
   command->add_option("--speed-mm-s", options.speed_mm_s, "of the simulated hand")

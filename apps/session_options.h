@@ -6,6 +6,7 @@
 
 #include "artus/apps/command.h"
 #include "artus/apps/feel_options.h"
+#include "artus/apps/plan_options.h"
 #include "artus/session/hand_device.h"
 #include "artus/session/session.h"
 
@@ -15,6 +16,7 @@ namespace artus {
 struct SessionOptions {
   JointOptions joint;
   FeelOptions feel;
+  PlanOptions plan;
   std::string device = "touch";
   double haptic_rate = 1000;
   double image_rate = 40;

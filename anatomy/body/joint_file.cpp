@@ -51,6 +51,10 @@ bool is_right_handed_frame(const std::string& axes) {
   return m.determinant() > 0.5;
 }
 
+int line_of(const toml::table& table) {
+  return static_cast<int>(table.source().begin.line);
+}
+
 void read_identity(TomlTable& toml, JointFile& joint) {
   if (toml.required_number("format", 1, 1) == 0 && toml.has("format"))
     toml.problem_at("format", "is of another version of artus; this one reads 1");
@@ -121,6 +125,7 @@ void read_probe(TomlTable& toml, double unit, JointFile& joint) {
   const auto* table = toml.table("probe");
   if (table == nullptr) return;
   TomlTable probe(*table, "probe", toml.problems());
+  joint.probe_line = line_of(*table);
   const Vec3 position = probe.required_vector("position", unit);
   const Vec3 direction = probe.required_vector("direction");
   const Vec3 lateral = probe.vector("lateral").value_or(Vec3::Zero());
@@ -144,16 +149,18 @@ void read_pass(TomlTable& pass, double unit, Vec3& entry, Vec3& target) {
 void read_needles(TomlTable& toml, double unit, JointFile& joint) {
   if (const auto* table = toml.table("needle")) {
     TomlTable needle(*table, "needle", toml.problems());
-    Vec3 entry = Vec3::Zero();
-    Vec3 target = Vec3::Zero();
-    read_pass(needle, unit, entry, target);
+    PlannedInjection pass;
+    pass.line = line_of(*table);
+    read_pass(needle, unit, pass.entry, pass.target);
     needle.finish();
-    if ((target - entry).norm() > 0)
-      joint.X_JN_default = make_pose(target, target - entry, Vec3::Zero());
+    const Vec3 way = pass.target - pass.entry;
+    if (way.norm() > 0) joint.X_JN_default = make_pose(pass.target, way, Vec3::Zero());
+    joint.needle = std::move(pass);
   }
   for (const auto* table : toml.tables("injection")) {
     TomlTable toml_pass(*table, "injection", toml.problems());
     PlannedInjection pass;
+    pass.line = line_of(*table);
     pass.name = toml_pass.required_text("name");
     read_pass(toml_pass, unit, pass.entry, pass.target);
     toml_pass.finish();

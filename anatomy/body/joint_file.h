@@ -66,6 +66,7 @@ struct Structure {
   double facet_size = 0;           ///< m, 0 = the joint's default
   double facet_distance = 0;       ///< m, 0 = the joint's default
   std::optional<Vec3> fibre_axis;  ///< along the fibres, if one axis is a fair description
+  int line = 0;                    ///< of joint.toml; 0: of no file
 };
 
 struct Landmark {
@@ -78,6 +79,7 @@ struct PlannedInjection {
   std::string name;
   Vec3 entry = Vec3::Zero();
   Vec3 target = Vec3::Zero();
+  int line = 0;  ///< of joint.toml; 0: of no file
 };
 
 /// The region that is meshed: a ball, or a box when `half_extent` is set.
@@ -105,6 +107,8 @@ struct JointFile {
   double cell_size = 0;       ///< m
   std::vector<Landmark> landmarks;
   std::optional<Pose> X_JP_default;          ///< default probe pose
+  int probe_line = 0;                        ///< of joint.toml, where [probe] stands; 0: nowhere
+  std::optional<PlannedInjection> needle;    ///< what X_JN_default was made from
   std::optional<Pose> X_JN_default;          ///< default needle pose: tip at the target
   std::vector<PlannedInjection> injections;  ///< of the three-injections scenario
 };

@@ -185,6 +185,7 @@ Structure read_structure(const toml::table& table, std::size_t number, double un
                  named ? "structure '" + *named + "'" : "structure " + std::to_string(number),
                  problems);
   Structure structure;
+  structure.line = static_cast<int>(table.source().begin.line);
   structure.name = toml.required_text("name");
   if (named && !named->empty() && !is_plain_name(*named, '_'))
     toml.problem_at("name", "may have only a-z, 0-9 and _");
@@ -206,6 +207,7 @@ Structure read_body(const toml::table& table, double unit, std::string& filler_n
                     Problems& problems) {
   TomlTable toml(table, "body", problems);
   Structure body;
+  body.line = static_cast<int>(table.source().begin.line);
   body.name = "body";
   body.tissue = toml.required_text("tissue");
   body.shape = read_surface_file(toml, unit);

@@ -11,6 +11,7 @@ namespace artus {
 
 struct CompileOptions {
   bool skip_refused = false;  ///< compile without the structures whose surfaces are refused
+  bool check_plans = false;   ///< refuse poses and injections that cannot be used
 };
 
 struct CompileOutcome {
@@ -22,14 +23,15 @@ struct CompileOutcome {
 /// surfaces, resolves overlaps by priority, makes the constructs, meshes, fills, measures.
 /// The joint is the same bytes for the same input at any number of threads.
 /// Errors: what reading a surface gives; defective (a surface that cannot be repaired: all of them
-/// are named, with reasons, unless `skip_refused`); failed (nothing inside the region of interest).
+/// are named, with reasons, unless `skip_refused`; with `check_plans` also a body in another frame,
+/// poses and injections, all at once); failed (nothing inside the region of interest).
 /// Cost: two minutes on two cores and 1.2 GB for sixty structures in a ball of 14 cm.
 [[nodiscard]] Result<CompileOutcome> compile_joint(const JointFile& file,
                                                    const CompileOptions& options = {},
                                                    const Progress& progress = {});
 
-/// Hex digest of all that a compilation reads: joint file, tissues, surfaces, version of the
-/// compiler. Errors: not_found, unreadable.
+/// Hex digest of all that shapes the body: surfaces, version of the compiler, and the joint file
+/// without what can be changed afterwards (see read_joint_shape). Errors: not_found, unreadable.
 [[nodiscard]] Result<std::string> compute_source_digest(const JointFile& file);
 
 struct LoadOptions {
@@ -38,9 +40,17 @@ struct LoadOptions {
   CompileOptions compile;
 };
 
-/// Loads a joint by any of its names: a compiled file, or a joint folder, which is compiled on
-/// first use and kept in the cache until its sources change. A damaged or outdated cache file is
-/// rebuilt; a cache that cannot be written is no error.
+/// As compile_joint, byte for byte, but a body of the same shape in the cache is not made again:
+/// only poses, injections, landmarks and tissues are put on it anew. A damaged or outdated cache
+/// file is rebuilt; a cache that cannot be written is no error. Of one joint the last few bodies
+/// are kept. Errors: those of compile_joint. Cost: of a kept body, reading it and the surfaces'
+/// bytes.
+[[nodiscard]] Result<CompileOutcome> compile_or_reuse(const JointFile& file,
+                                                      const LoadOptions& options = {},
+                                                      const Progress& progress = {});
+
+/// Loads a joint by any of its names: a compiled file, or a joint folder, whose body is compiled on
+/// first use and kept in the cache until what shapes it changes.
 /// Errors: those of read_compiled_joint, read_joint and compile_joint.
 [[nodiscard]] Result<CompiledJoint> load_joint(const std::filesystem::path& path,
                                                const LoadOptions& options = {},

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+#include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <optional>
+#include <vector>
 
-#include "artus/anatomy/body/tissue_bytes.h"
+#include "artus/anatomy/body/joint_shape.h"
 #include "artus/anatomy/compile/compile.h"
 #include "artus/anatomy/compile/compiler_version.h"
-#include "artus/anatomy/surfaces/surface_io.h"
+#include "artus/anatomy/compile/dress_body.h"
+#include "artus/anatomy/compile/plan_check.h"
 #include "artus/core/byte_stream.h"
 #include "artus/core/text_file.h"
 
@@ -36,24 +41,68 @@ std::filesystem::path default_cache() {
   return std::filesystem::temp_directory_path() / "artus-cache";
 }
 
-Result<CompiledJoint> load_folder(const std::filesystem::path& folder, const LoadOptions& options,
-                                  const Progress& progress) {
-  const Result<JointFile> file = read_joint(folder, options.surfaces);
-  if (!file) return tl::unexpected(file.error());
-  const Result<std::string> digest = compute_source_digest(*file);
-  if (!digest) return tl::unexpected(digest.error());
+/// Where a body and the report of its making are kept.
+struct KeptBody {
+  std::filesystem::path body;
+  std::filesystem::path report;
+};
+
+KeptBody place_of(const JointFile& file, const std::string& digest, const LoadOptions& options) {
   const auto cache = options.cache.empty() ? default_cache() : options.cache;
-  const std::string suffix = options.compile.skip_refused ? "-partial.artus" : ".artus";
-  const auto cached = cache / (file->name + "-" + *digest + suffix);
-  if (auto joint = read_compiled_joint(cached); joint && joint->source_digest == *digest) {
-    return joint;
-  }
-  Result<CompileOutcome> outcome = compile_joint(*file, options.compile, progress);
-  if (!outcome) return tl::unexpected(outcome.error());
+  const std::string stem =
+      file.name + "-" + digest + (options.compile.skip_refused ? "-partial" : "");
+  return {cache / (stem + ".artus"), cache / (stem + ".json")};
+}
+
+/// The kept body dressed anew; empty when there is none that can be used.
+std::optional<CompileOutcome> find_kept(const JointFile& file, const std::string& digest,
+                                        const KeptBody& place) {
+  const auto text = read_bytes(place.report);
+  if (!text) return std::nullopt;
+  auto report = parse_compile_report(*text, place.report.string());
+  if (!report) return std::nullopt;
+  auto body = read_compiled_joint(place.body);
+  if (!body || body->source_digest != digest) return std::nullopt;
+  CompileOutcome outcome;
+  outcome.report = std::move(*report);
+  outcome.report.body_kept = true;
+  outcome.report.notes.clear();
+  outcome.report.stages.clear();
+  outcome.joint = dress_body(file, std::move(body->mesh), digest, outcome.report.notes);
+  return outcome;
+}
+
+/// Removes all but the newest bodies of the joint, so that a cache does not grow without end.
+void forget_old(const JointFile& file, const std::filesystem::path& cache) {
+  constexpr std::size_t kKept = 4;
+  constexpr std::size_t kDigest = 32;  // hex digits
+  struct Old {
+    std::filesystem::file_time_type time;
+    std::filesystem::path path;
+  };
+  std::vector<Old> bodies;
   std::error_code ignored;
-  std::filesystem::create_directories(cache, ignored);
-  static_cast<void>(write_compiled_joint(outcome->joint, cached));
-  return std::move(outcome->joint);
+  for (const auto& entry : std::filesystem::directory_iterator(cache, ignored)) {
+    const std::string stem = entry.path().stem().string();
+    const bool ours = entry.path().extension() == ".artus" && stem.rfind(file.name + "-", 0) == 0 &&
+                      stem.find_first_not_of("0123456789abcdef", file.name.size() + 1) >=
+                          file.name.size() + 1 + kDigest;
+    if (ours) bodies.push_back({entry.last_write_time(ignored), entry.path()});
+  }
+  std::sort(bodies.begin(), bodies.end(),
+            [](const Old& a, const Old& b) { return a.time > b.time; });
+  for (std::size_t i = kKept; i < bodies.size(); ++i) {
+    std::filesystem::remove(bodies[i].path, ignored);
+    std::filesystem::remove(bodies[i].path.replace_extension(".json"), ignored);
+  }
+}
+
+void keep(const JointFile& file, const CompileOutcome& outcome, const KeptBody& place) {
+  std::error_code ignored;
+  std::filesystem::create_directories(place.body.parent_path(), ignored);
+  if (!write_compiled_joint(outcome.joint, place.body)) return;
+  static_cast<void>(write_text(place.report, to_json(outcome.report)));
+  forget_old(file, place.body.parent_path());
 }
 
 }  // namespace
@@ -71,10 +120,9 @@ Result<std::string> compute_source_digest(const JointFile& file) {
     add(*bytes);
     return {};
   };
-  if (auto done = add_file(file.folder / "joint.toml"); !done) return tl::unexpected(done.error());
-  ByteWriter tissues;
-  put_tissues(tissues, file.tissues);
-  add(tissues.bytes());
+  const Result<std::string> shape = read_joint_shape(file.folder);
+  ARTUS_TRY(shape);
+  add(*shape);
   std::vector<const Structure*> all{&file.body};
   for (const Structure& s : file.structures) all.push_back(&s);
   for (const Structure* s : all) {
@@ -87,11 +135,41 @@ Result<std::string> compute_source_digest(const JointFile& file) {
   return to_hex(low) + to_hex(high);
 }
 
+Result<CompileOutcome> compile_or_reuse(const JointFile& file, const LoadOptions& options,
+                                        const Progress& progress) {
+  const auto start = std::chrono::steady_clock::now();
+  const Result<std::string> digest = compute_source_digest(file);
+  ARTUS_TRY(digest);
+  const KeptBody place = place_of(file, *digest, options);
+  Result<CompileOutcome> outcome = CompileOutcome{};
+  if (auto kept = find_kept(file, *digest, place)) {
+    outcome = std::move(*kept);
+  } else {
+    outcome = compile_joint(file, options.compile, progress);
+    ARTUS_TRY(outcome);
+    keep(file, *outcome, place);
+  }
+  if (options.compile.check_plans) {
+    std::vector<std::string> problems;
+    const PlanGround ground = make_ground(outcome->joint, file.region_of_interest);
+    for (const PlanProblem& p : find_plan_problems(file, ground)) problems.push_back(to_line(p));
+    ARTUS_TRY(refuse_all(problems, file));
+  }
+  if (outcome->report.body_kept)
+    outcome->report.seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return outcome;
+}
+
 Result<CompiledJoint> load_joint(const std::filesystem::path& path, const LoadOptions& options,
                                  const Progress& progress) {
   std::error_code error;
-  if (std::filesystem::is_directory(path, error)) return load_folder(path, options, progress);
-  return read_compiled_joint(path);
+  if (!std::filesystem::is_directory(path, error)) return read_compiled_joint(path);
+  const Result<JointFile> file = read_joint(path, options.surfaces);
+  ARTUS_TRY(file);
+  Result<CompileOutcome> outcome = compile_or_reuse(*file, options, progress);
+  ARTUS_TRY(outcome);
+  return std::move(outcome->joint);
 }
 
 }  // namespace artus

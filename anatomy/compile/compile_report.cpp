@@ -49,6 +49,60 @@ Json to_value(const TetQuality& q) {
           {"inverted", q.inverted}};
 }
 
+void read(const Json& value, DistanceStatistics& d) {
+  d.mean = value.at("mean_mm").get<double>() * kMillimetreHere;
+  d.percentile95 = value.at("percentile95_mm").get<double>() * kMillimetreHere;
+  d.max = value.at("max_mm").get<double>() * kMillimetreHere;
+}
+
+StructureReport read_structure(const Json& value) {
+  StructureReport s;
+  value.at("name").get_to(s.name);
+  value.at("tissue").get_to(s.tissue);
+  value.at("kind").get_to(s.kind);
+  value.at("repairs").get_to(s.repairs);
+  value.at("warnings").get_to(s.warnings);
+  if (value.contains("refused")) {
+    value.at("refused").get_to(s.refused);
+    return s;
+  }
+  s.surface_volume = value.at("surface_volume_cm3").get<double>() * kCubicCentimetre;
+  s.region_volume = value.at("region_volume_cm3").get<double>() * kCubicCentimetre;
+  s.lost_volume = value.at("lost_volume_cm3").get<double>() * kCubicCentimetre;
+  s.resolved_volume = value.at("resolved_volume_cm3").get<double>() * kCubicCentimetre;
+  read(value.at("distance"), s.distance);
+  value.at("parts").get_to(s.parts);
+  value.at("tetrahedra").get_to(s.tetrahedra);
+  return s;
+}
+
+void read(const Json& value, TetQuality& q) {
+  value.at("histogram").get_to(q.histogram);
+  value.at("smallest_dihedral_deg").get_to(q.smallest_deg);
+  value.at("largest_dihedral_deg").get_to(q.largest_deg);
+  value.at("below_8_deg").get_to(q.below_8_deg);
+  value.at("inverted").get_to(q.inverted);
+}
+
+CompileReport read_report(const Json& value) {
+  CompileReport report;
+  for (const Json& s : value.at("structures")) report.structures.push_back(read_structure(s));
+  read(value.at("distance"), report.distance);
+  read(value.at("quality"), report.quality);
+  value.at("vertices").get_to(report.vertices);
+  value.at("tetrahedra").get_to(report.tetrahedra);
+  value.at("interfaces").get_to(report.interfaces);
+  value.at("crumbs").get_to(report.crumbs);
+  value.at("fill_method").get_to(report.fill_method);
+  value.at("notes").get_to(report.notes);
+  value.at("body_kept").get_to(report.body_kept);
+  for (const auto& [stage, seconds] : value.at("stages_s").items())
+    report.stages.push_back({stage, seconds.get<double>()});
+  value.at("seconds").get_to(report.seconds);
+  report.peak_memory = value.at("peak_memory_mb").get<double>() * kMegabyte;
+  return report;
+}
+
 }  // namespace
 
 double StructureReport::volume_error() const noexcept {
@@ -67,10 +121,21 @@ std::string to_json(const CompileReport& report) {
   value["interfaces"] = report.interfaces;
   value["crumbs"] = report.crumbs;
   value["fill_method"] = report.fill_method;
+  value["notes"] = report.notes;
+  value["body_kept"] = report.body_kept;
+  value["stages_s"] = Json::object();
   for (const StageTime& s : report.stages) value["stages_s"][s.stage] = s.seconds;
   value["seconds"] = report.seconds;
   value["peak_memory_mb"] = report.peak_memory / kMegabyte;
   return value.dump(2);
+}
+
+Result<CompileReport> parse_compile_report(const std::string& text, const std::string& where) {
+  try {
+    return read_report(Json::parse(text));
+  } catch (const Json::exception& e) {
+    return fail(ErrorCode::malformed, e.what(), where);
+  }
 }
 
 }  // namespace artus

@@ -5,6 +5,7 @@
 
 #include "artus/anatomy/compile/quality.h"
 #include "artus/anatomy/surfaces/surface_distance.h"
+#include "artus/core/result.h"
 
 namespace artus {
 
@@ -44,8 +45,10 @@ struct CompileReport {
   std::size_t vertices = 0;
   std::size_t tetrahedra = 0;
   std::size_t interfaces = 0;
-  std::size_t crumbs = 0;   ///< tiny parts given to their neighbours
-  std::string fill_method;  ///< "quality", "plain", "kept": see FillMethod
+  std::size_t crumbs = 0;          ///< tiny parts given to their neighbours
+  std::string fill_method;         ///< "quality", "plain", "kept": see FillMethod
+  std::vector<std::string> notes;  ///< what was chosen where the joint file says nothing
+  bool body_kept = false;          ///< the tetrahedra are those of an earlier compilation
   std::vector<StageTime> stages;
   double seconds = 0;
   double peak_memory = 0;  ///< bytes, of the process
@@ -53,5 +56,9 @@ struct CompileReport {
 
 /// The report as JSON, lengths in mm and volumes in cm^3 as the keys say.
 [[nodiscard]] std::string to_json(const CompileReport& report);
+
+/// The report that to_json wrote; `where` names it in errors. Errors: malformed.
+[[nodiscard]] Result<CompileReport> parse_compile_report(const std::string& text,
+                                                         const std::string& where);
 
 }  // namespace artus

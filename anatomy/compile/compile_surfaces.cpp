@@ -1,17 +1,41 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/anatomy/compile/compile_surfaces.h"
 
+#include <array>
+#include <cstdio>
 #include <utility>
 
 #include <tbb/parallel_for.h>
 
+#include "artus/anatomy/surfaces/defects.h"
 #include "artus/anatomy/surfaces/surface_io.h"
+#include "artus/core/units.h"
 
 namespace artus {
 namespace {
 
-Result<PreparedSurface> prepare(const JointFile& file, const SurfaceFile& surface,
-                                StructureReport& report) {
+/// Refuses what is too small or too large for a part of a body: a wrong unit.
+Result<void> check_size(const SurfaceMesh& mesh) {
+  DefectOptions options;
+  options.self_intersections = false;
+  Eigen::AlignedBox3d box;
+  for (const Triangle& t : mesh.triangles)
+    for (const auto v : t)
+      if (v < mesh.vertices.size() && mesh.vertices[v].allFinite()) box.extend(mesh.vertices[v]);
+  const double size = box.isEmpty() ? options.smallest : box.diagonal().norm();
+  if (size >= options.smallest && size <= options.largest) return {};
+  std::array<char, 160> text{};
+  static_cast<void>(std::snprintf(text.data(), text.size(),
+                                  "%.4g mm from corner to corner is no part of a body; give the "
+                                  "unit of its file (units = \"m\", \"cm\" or \"mm\")",
+                                  size / kMillimetre));
+  return fail(ErrorCode::defective, text.data());
+}
+
+}  // namespace
+
+Result<PreparedSurface> prepare_surface(const JointFile& file, const SurfaceFile& surface,
+                                        StructureReport& report) {
   Result<SurfaceMesh> mesh = read_surface(file.surface_folder / surface.file, surface.unit);
   if (!mesh) return tl::unexpected(mesh.error());
   Result<RepairOutcome> outcome = repair_as_declared(*mesh, surface);
@@ -29,9 +53,8 @@ Result<PreparedSurface> prepare(const JointFile& file, const SurfaceFile& surfac
   return prepared;
 }
 
-}  // namespace
-
 Result<RepairOutcome> repair_as_declared(const SurfaceMesh& mesh, const SurfaceFile& surface) {
+  if (!surface.has_own_unit) ARTUS_TRY(check_size(mesh));
   if (surface.repair == "none") {
     RepairOutcome untouched;
     untouched.mesh = mesh;
@@ -49,7 +72,8 @@ Result<PreparedSurfaces> prepare_surfaces(const JointFile& file,
   PreparedSurfaces prepared;
   StructureReport body_report;
   body_report.name = "body";
-  Result<PreparedSurface> body = prepare(file, std::get<SurfaceFile>(file.body.shape), body_report);
+  Result<PreparedSurface> body =
+      prepare_surface(file, std::get<SurfaceFile>(file.body.shape), body_report);
   if (!body) return tl::unexpected(body.error());
   prepared.body = std::move(*body);
   prepared.structures.resize(file.structures.size());
@@ -57,7 +81,7 @@ Result<PreparedSurfaces> prepare_surfaces(const JointFile& file,
   tbb::parallel_for(std::size_t{0}, file.structures.size(), [&](std::size_t i) {
     const auto* surface = std::get_if<SurfaceFile>(&file.structures[i].shape);
     if (surface == nullptr) return;
-    Result<PreparedSurface> result = prepare(file, *surface, reports[i]);
+    Result<PreparedSurface> result = prepare_surface(file, *surface, reports[i]);
     if (result) {
       prepared.structures[i] = std::move(*result);
     } else {

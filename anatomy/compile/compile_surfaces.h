@@ -23,9 +23,16 @@ struct PreparedSurfaces {
 };
 
 /// Repairs a surface as its entry in the joint file asks: closed by the smallest change that does
-/// it, wrapped, made a plate, or (repair = "none") left as it is. Errors: those of repair_surface.
+/// it, wrapped, made a plate, or (repair = "none") left as it is. Errors: those of repair_surface;
+/// defective for a size that no part of a body has, unless the file's unit is given.
 [[nodiscard]] Result<RepairOutcome> repair_as_declared(const SurfaceMesh& mesh,
                                                        const SurfaceFile& surface);
+
+/// Reads and repairs one surface, noting repairs and its volume in `report`. Errors: those of
+/// reading and of repair_as_declared.
+[[nodiscard]] Result<PreparedSurface> prepare_surface(const JointFile& file,
+                                                      const SurfaceFile& surface,
+                                                      StructureReport& report);
 
 /// Reads and repairs all surfaces; notes repairs and refusals in `reports` (n_structures).
 /// Errors: those of reading; defective when the body is refused.

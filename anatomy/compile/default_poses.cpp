@@ -13,6 +13,7 @@
 #include <CGAL/AABB_triangle_primitive.h>
 #include <CGAL/Simple_cartesian.h>
 
+#include "artus/anatomy/compile/plan_check.h"
 #include "artus/core/units.h"
 
 namespace artus {
@@ -93,20 +94,60 @@ std::vector<Stand> find_stands(const CompiledJoint& joint, const Sight& sight) {
   return stands;
 }
 
-/// The nearest place on the skin that looks past all bone, or the nearest of all; none when there
-/// is none. What is looked at may lie on bone, so the last millimetre is not asked for.
-std::optional<Vec3> find_skin(const CompiledJoint& joint, const Sight& sight) {
+/// Looks from the skin at something.
+Pose look(const Vec3& stand, const Sight& sight) {
+  return make_pose(stand, sight.target - stand, sight.needle.value_or(Vec3::UnitX()));
+}
+
+/// The nearest place on the skin that looks past all bone and on which the whole face stands; the
+/// nearest that looks past bone where no face fits, the nearest of all where nothing does; none
+/// when there is none. What is looked at may lie on bone, so the last millimetre is not asked for.
+std::optional<Vec3> find_skin(const CompiledJoint& joint, const Sight& sight,
+                              const PlanGround& ground) {
+  constexpr std::size_t kMostTried = 300;  // faces
   const std::vector<Stand> stands = find_stands(joint, sight);
   if (stands.empty()) return std::nullopt;
   const HardTriangles hard = hard_surfaces(joint);
   const HardTree tree(hard.begin(), hard.end());
+  std::optional<Vec3> first;
+  std::size_t n_tried = 0;
   for (const Stand& stand : stands) {
-    if (stand.distance <= kMillimetre) return stand.position;
-    const Vec3 end = sight.target + kMillimetre / stand.distance * (stand.position - sight.target);
-    if (!tree.do_intersect(Kernel::Segment_3(to_point(stand.position), to_point(end))))
-      return stand.position;
+    if (stand.distance > kMillimetre) {
+      const Vec3 end =
+          sight.target + kMillimetre / stand.distance * (stand.position - sight.target);
+      if (tree.do_intersect(Kernel::Segment_3(to_point(stand.position), to_point(end)))) continue;
+    }
+    if (!first) first = stand.position;
+    if (stands_on_skin(ground, look(stand.position, sight))) return stand.position;
+    if (++n_tried == kMostTried) break;
   }
-  return stands.front().position;
+  return first.value_or(stands.front().position);
+}
+
+/// Whether a needle with this pose comes through skin and meets no bone before its tip.
+bool comes_through_skin(const PlanGround& ground, const Pose& X_JN) {
+  const Vec3 tip = X_JN.translation();
+  const auto layers = ground.layers({tip - kLongestNeedle * X_JN.linear().col(2), tip});
+  for (auto layer = layers.rbegin(); layer != layers.rend(); ++layer) {
+    if (layer->name == "outside") return true;
+    if (layer->name == "beyond" || layer->hard) return false;
+  }
+  return false;
+}
+
+/// In the probe's plane at 45 degrees to a point under the footprint, from the left or the right,
+/// as deep as `depth` where that comes through skin, else less deep.
+Pose needle_under(const Pose& X_JP, double depth, const PlanGround& ground) {
+  std::optional<Pose> first;
+  for (const double share : {1.0, 0.75, 0.5, 0.25}) {
+    for (const double side : {-1.0, 1.0}) {
+      const Pose X_JN = make_pose(X_JP * Vec3(0, 0, share * depth),
+                                  X_JP.linear() * Vec3(side, 0, 1), Vec3::Zero());
+      if (!first) first = X_JN;
+      if (comes_through_skin(ground, X_JN)) return X_JN;
+    }
+  }
+  return *first;
 }
 
 std::string describe(const char* what, const Vec3& p) {
@@ -126,10 +167,12 @@ DefaultPoses find_default_poses(const JointFile& file, const CompiledJoint& join
   constexpr double kDepth = 20 * kMillimetre;
   DefaultPoses poses;
   const Sight sight = find_sight(file, joint.mesh);
+  if (file.X_JP_default && file.X_JN_default) return {*file.X_JP_default, *file.X_JN_default};
+  const PlanGround ground = make_ground(joint, file.region_of_interest);
   if (file.X_JP_default) {
     poses.X_JP = *file.X_JP_default;
-  } else if (const auto skin = find_skin(joint, sight)) {
-    poses.X_JP = make_pose(*skin, sight.target - *skin, sight.needle.value_or(Vec3::UnitX()));
+  } else if (const auto skin = find_skin(joint, sight, ground)) {
+    poses.X_JP = look(*skin, sight);
     notes.push_back(describe("probe", *skin));
   }
   if (file.X_JN_default) {
@@ -139,9 +182,8 @@ DefaultPoses find_default_poses(const JointFile& file, const CompiledJoint& join
     notes.push_back(describe("needle", sight.target));
   } else {
     const double depth = std::min(kDepth, (sight.target - poses.X_JP.translation()).norm() / 2);
-    const Vec3 target = poses.X_JP * Vec3(0, 0, depth);
-    poses.X_JN = make_pose(target, poses.X_JP.linear() * Vec3(-1, 0, 1), Vec3::Zero());
-    notes.push_back(describe("needle", target));
+    poses.X_JN = needle_under(poses.X_JP, depth, ground);
+    notes.push_back(describe("needle", poses.X_JN.translation()));
   }
   return poses;
 }

@@ -66,6 +66,24 @@ std::optional<LinePlan> plan_line(const Scene& scene, const Vec3& entry, const V
   return plan;
 }
 
+// The last layer before bone that is thick enough to stop in: what a target in bone means where no
+// target layer lies on its line.
+std::optional<LinePlan> plan_before_bone(const Scene& scene, const Vec3& entry,
+                                         const Vec3& direction) {
+  const CompiledJoint& joint = scene.joint();
+  std::optional<LinePlan> last;
+  for (const TissueInterval& s :
+       tissue_intervals(scene, {entry - kStartOutside * direction, entry + kSearch * direction})) {
+    if (s.region < kFirstRegion) continue;
+    if (joint.tissue_of(s.region).haptic.hard) {
+      if (last) last->bone = s.entry - kStartOutside;
+      return last;
+    }
+    if (s.exit - s.entry > kIntoTarget) last = LinePlan{s.entry - kStartOutside, {}, s.region};
+  }
+  return std::nullopt;
+}
+
 // Another line through the same entry to another part of the same target, near the plane that the
 // default probe sees, within the cone at the depth where the operator re-aims; with bone behind it
 // where there is one.
@@ -193,7 +211,9 @@ Result<std::array<Pass, 3>> plan_passes(const Scene& scene,
     auto first = plan_line(scene, planned.entry, direction, options.target_tissue, kOutside);
     if (!first) {
       const RegionId region = scene.region_at(planned.target);
-      if (region != kOutside) {
+      if (region >= kFirstRegion && scene.joint().tissue_of(region).haptic.hard) {
+        first = plan_before_bone(scene, planned.entry, direction);
+      } else if (region != kOutside) {
         first = plan_line(scene, planned.entry, direction, options.target_tissue, region);
       }
     }

@@ -25,7 +25,8 @@ struct ThreeInjectionsOptions {
   double slow_speed = 0.012;                   ///< m/s, injections 1 and 2
   double fast_speed = 0.10;                    ///< m/s, injection 3
   double withdrawal = 0.020;  ///< m back before re-aiming; [Alamilla2020] "a few centimetres"
-  std::string target_tissue = "bursa";  ///< where a line has none: the layer of its target
+  std::string target_tissue = "bursa";  ///< where a line has none: the layer of its target, or
+                                        ///< the last one before bone when that is bone
   NeedleFeel feel;        ///< without a needle's length: the shortest of 25, 35, 50, 90 mm that
                           ///< reaches the bone
   HandParams hand;        ///< its seed is replaced by `seed`

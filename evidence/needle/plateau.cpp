@@ -31,7 +31,9 @@ void PlateauFinder::add(const NeedleRow& row) {
     since_ = row.time;
     deepest_ = row.depth;
     const double missing = std::max(0.0, layer.haptic.cutting_force + row.forces.cutting);
-    rise_ = missing / std::max(layer.haptic.wall_stiffness, 1e-6);
+    // Setting off again on bone, the tip is pressed in already.
+    const double pressed = row.state == ContactState::bone ? row.in_bone : 0;
+    rise_ = pressed + missing / std::max(layer.haptic.wall_stiffness, 1e-6);
   }
   LayerPlateau& p = found_[layer.name];
   p.expected = layer.haptic.cutting_force;

@@ -10,15 +10,19 @@
 
 #include "artus/anatomy/surfaces/surface_io.h"
 #include "artus/core/units.h"
+#include "artus/meshes/generate/hip.h"
+#include "artus/meshes/generate/knee.h"
 #include "artus/meshes/generate/shoulder.h"
 #include "artus/meshes/generate/simple_shoulder.h"
 
 namespace {
 
+constexpr double kUsualHead = 24;  // mm
+
 struct Options {
   std::string joint;
   std::filesystem::path out;
-  double head_radius_mm = 24;
+  double head_radius_mm = kUsualHead;
   std::vector<std::string> only;
 };
 
@@ -34,17 +38,30 @@ bool is_wanted(const std::vector<std::string>& only, const std::string& name) {
   return only.empty() || std::find(only.begin(), only.end(), name) != only.end();
 }
 
-int generate(const Options& options) {
-  std::vector<artus::Solid> solids;
+std::vector<artus::Solid> solids_of(const Options& options) {
+  const double radius = options.head_radius_mm * artus::kMillimetre;
   if (options.joint == "shoulder") {
     artus::ShoulderSize size;
-    size.head_radius = options.head_radius_mm * artus::kMillimetre;
-    solids = artus::make_shoulder(size);
-  } else {
-    artus::SimpleShoulderSize size;
-    size.head_radius = options.head_radius_mm * artus::kMillimetre;
-    solids = artus::make_simple_shoulder(size);
+    size.head_radius = radius;
+    return artus::make_shoulder(size);
   }
+  if (options.joint == "hip") {
+    artus::HipSize size;
+    size.head_radius = radius;
+    return artus::make_hip(size);
+  }
+  if (options.joint == "knee") {
+    artus::KneeSize size;
+    size.scale = options.head_radius_mm / kUsualHead;
+    return artus::make_knee(size);
+  }
+  artus::SimpleShoulderSize size;
+  size.head_radius = radius;
+  return artus::make_simple_shoulder(size);
+}
+
+int generate(const Options& options) {
+  const std::vector<artus::Solid> solids = solids_of(options);
   std::filesystem::create_directories(options.out);
   for (const artus::Solid& solid : solids) {
     if (!is_wanted(options.only, solid.name)) continue;
@@ -59,11 +76,12 @@ int generate(const Options& options) {
 int run(int argc, char** argv) {
   CLI::App app("Writes the surfaces of a bundled joint as PLY files in millimetres.");
   Options options;
-  app.add_option("joint", options.joint, "simple-shoulder or shoulder")
+  app.add_option("joint", options.joint, "simple-shoulder, shoulder, knee or hip")
       ->required()
-      ->check(CLI::IsMember({"simple-shoulder", "shoulder"}));
+      ->check(CLI::IsMember({"simple-shoulder", "shoulder", "knee", "hip"}));
   app.add_option("--out", options.out, "folder for the PLY files, made when missing")->required();
-  app.add_option("--head-radius", options.head_radius_mm, "radius of the humeral head, mm")
+  app.add_option("--head-radius", options.head_radius_mm,
+                 "radius of the humeral or femoral head, mm; a knee's size follows")
       ->check(CLI::Range(10.0, 40.0))
       ->capture_default_str();
   app.add_option("--only", options.only, "names of the surfaces to write; default all");

@@ -45,6 +45,19 @@ TEST_F(ImagingTool, EveryCommandHasHelpWithExamples) {
   }
 }
 
+TEST_F(ImagingTool, AnImageOfNothingIsRefusedWithAProbeThatStands) {
+  const auto nothing =
+      artus({"image", "-j", kSimple, "--probe=-90,0,0/1,0,0", "-o", in("nothing.png")});
+  EXPECT_EQ(nothing.exit_code, 2);
+  EXPECT_FALSE(std::filesystem::exists(in("nothing.png")));
+  const auto at = nothing.err.find("--probe=");
+  ASSERT_NE(at, std::string::npos) << nothing.err;
+  const std::string probe = nothing.err.substr(at, nothing.err.find(' ', at) - at);
+  const auto image = artus({"image", "-j", kSimple, probe, "-o", in("skin.png"), "--json"});
+  ASSERT_EQ(image.exit_code, 0) << probe << image.err;
+  EXPECT_GT(nlohmann::json::parse(image.out).at("contact").at("share").get<double>(), 0.2);
+}
+
 TEST_F(ImagingTool, DrawsAnImageAnEnvelopeAndTheLabelsBesideIt) {
   const auto image = artus({"image", "-j", kSimple, "--needle", "default", "-o", in("b.png"),
                             "--plain", "--envelope", in("e.tiff"), "--json"});

@@ -12,9 +12,10 @@ namespace artus::test {
 inline const std::string kSimple = artus::test::test_joints().string() + "/simple-shoulder.artus";
 
 /// Runs this build's tool with arguments and waits for it.
-[[nodiscard]] inline ProcessResult artus(std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), ARTUS_TOOL);
-  return run_process(arguments);
+[[nodiscard]] inline ProcessResult artus(const std::vector<std::string>& arguments) {
+  std::vector<std::string> command{ARTUS_TOOL};
+  command.insert(command.end(), arguments.begin(), arguments.end());
+  return run_process(command);
 }
 
 }  // namespace artus::test

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The tool as a user meets it: exit codes, messages, files.
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -102,6 +103,53 @@ TEST_F(Tool, RunsTheMainJobWithAllItsFilesAndEveryClaimHolds) {
   for (const auto& image : summary.at("images"))
     for (const char* kind : {"bmode", "labels"})
       EXPECT_TRUE(std::filesystem::exists(folder_ / "run" / image.at(kind).get<std::string>()));
+}
+
+TEST_F(Tool, TheMainJobHoldsOnAKneeAndAHip) {
+  for (const char* joint : {"knee", "hip"}) {
+    const auto r = artus({"run", "three-injections", "-j",
+                          artus::test::test_joints().string() + "/" + joint + ".artus", "--out",
+                          in(joint), "--no-images", "--json"});
+    ASSERT_EQ(r.exit_code, 0) << joint << r.out << r.err;
+    EXPECT_TRUE(nlohmann::json::parse(r.out).at("pass").get<bool>()) << joint;
+  }
+}
+
+TEST_F(Tool, AnInjectionOnTheCommandLineTakesTheJointsPlace) {
+  const auto astray = artus({"run", "three-injections", "-j", kSimple, "--out", in("run"),
+                             "--no-images", "--entry=-80,0,0"});
+  EXPECT_EQ(astray.exit_code, 2);
+  const std::string offer = "the skin is at (";
+  const auto at = astray.err.find(offer);
+  ASSERT_NE(at, std::string::npos) << astray.err;
+  std::string entry = astray.err.substr(at + offer.size());
+  entry = entry.substr(0, entry.find(')'));
+  entry.erase(std::remove(entry.begin(), entry.end(), ' '), entry.end());
+  const auto followed = artus({"run", "three-injections", "-j", kSimple, "--out", in("run"),
+                               "--no-images", "--entry=" + entry, "--target=-34.1,0,3"});
+  EXPECT_EQ(followed.exit_code, 0) << entry << followed.err << followed.out;
+}
+
+TEST_F(Tool, ANeedleWithoutFlagsIsTheJointsOwnFromTheSkin) {
+  const auto r = artus({"needle", "-j", kSimple, "--json"});
+  ASSERT_EQ(r.exit_code, 0) << r.err;
+  const auto intervals = nlohmann::json::parse(r.out).at("intervals");
+  ASSERT_GE(intervals.size(), 2U);
+  EXPECT_EQ(intervals.front().at("region"), "skin");
+  EXPECT_EQ(intervals.front().at("entry_mm").get<double>(), 0);
+  EXPECT_EQ(intervals.back().at("region"), "bursa") << "where its target lies";
+}
+
+TEST_F(Tool, CheckFitsOnAScreenAndListsTheRestOnRequest) {
+  const std::string folder = artus::test::source_dir().string() + "/meshes/shoulder";
+  const auto count = [](const std::string& text) {
+    return std::count(text.begin(), text.end(), '\n');
+  };
+  const auto brief = artus({"check", folder});
+  EXPECT_EQ(brief.exit_code, 0) << brief.err;
+  EXPECT_LE(count(brief.out), 24) << brief.out;
+  EXPECT_NE(brief.out.find("0 refusals"), std::string::npos) << brief.out;
+  EXPECT_GT(count(artus({"check", folder, "--all"}).out), 50);
 }
 
 TEST_F(Tool, HelloPrintsAForceAndWritesAPicture) {

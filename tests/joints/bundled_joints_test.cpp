@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The bars every compiled joint must meet, on the bundled joints as the tool compiled them.
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -78,9 +79,12 @@ TEST_P(BundledJoint, InjectionsStartOutsideAndEndInside) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Joints, BundledJoint, testing::Values("simple-shoulder", "shoulder"),
+INSTANTIATE_TEST_SUITE_P(Joints, BundledJoint,
+                         testing::Values("simple-shoulder", "shoulder", "knee", "hip"),
                          [](const auto& parameter) {
-                           return parameter.param == "shoulder" ? "Shoulder" : "SimpleShoulder";
+                           std::string name = parameter.param;
+                           name.erase(std::remove(name.begin(), name.end(), '-'), name.end());
+                           return name;
                          });
 
 }  // namespace

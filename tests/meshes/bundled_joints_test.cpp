@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "artus/anatomy/body/joint_file.h"
+#include "artus/meshes/generate/hip.h"
+#include "artus/meshes/generate/knee.h"
 #include "artus/meshes/generate/shoulder.h"
 #include "artus/meshes/generate/simple_shoulder.h"
 #include "tests/support/paths.h"
@@ -71,6 +73,35 @@ TEST(BundledJoints, ShoulderPlacesProbeAndPassesOnItsLayers) {
                 find_solid(solids, "humerus"));
 }
 
+TEST(BundledJoints, KneePlacesProbeAndPassesOnItsLayers) {
+  const JointFile joint = read_bundled_joint("knee");
+  const std::vector<Solid> solids = make_knee({});
+  expect_probe_on_skin_facing_inward(joint, find_solid(solids, "body"));
+  expect_passes(joint, find_solid(solids, "body"), find_solid(solids, "suprapatellar_recess"),
+                find_solid(solids, "femur"));
+}
+
+TEST(BundledJoints, HipPlacesProbeAndPassesOnItsLayers) {
+  const JointFile joint = read_bundled_joint("hip");
+  const std::vector<Solid> solids = make_hip({});
+  expect_probe_on_skin_facing_inward(joint, find_solid(solids, "body"));
+  expect_passes(joint, find_solid(solids, "body"), find_solid(solids, "anterior_recess"),
+                find_solid(solids, "femur"));
+}
+
+TEST(BundledJoints, KneeAndHipLandmarksLieOnTheirBones) {
+  const JointFile knee = read_bundled_joint("knee");
+  const std::vector<Solid> of_knee = make_knee({});
+  EXPECT_NEAR(find_solid(of_knee, "patella")(landmark(knee, "patella_apex")), 0, 1e-3);
+  EXPECT_NEAR(find_solid(of_knee, "patella")(landmark(knee, "patella_base")), 0, 1e-3);
+  EXPECT_NEAR(find_solid(of_knee, "tibia")(landmark(knee, "tibial_tuberosity")), 0, 1e-3);
+  const JointFile hip = read_bundled_joint("hip");
+  const Field femur = find_solid(make_hip({}), "femur");
+  EXPECT_NEAR(femur(landmark(hip, "femoral_head_centre")), -24e-3, 2e-3);
+  EXPECT_NEAR(femur(landmark(hip, "greater_trochanter")), 0, 1e-3);
+  EXPECT_NEAR(femur(landmark(hip, "lesser_trochanter")), 0, 1e-3);
+}
+
 TEST(BundledJoints, ShoulderLandmarksLieOnTheirBones) {
   const JointFile joint = read_bundled_joint("shoulder");
   const std::vector<Solid> solids = make_shoulder({});
@@ -98,7 +129,7 @@ TEST(BundledJoints, SupraspinatusTendonIsFiveToSixMillimetresThickOverTheHead) {
 }
 
 TEST(BundledJoints, EverySurfaceFileIsUsedByTheJointFile) {
-  for (const char* name : {"simple-shoulder", "shoulder"}) {
+  for (const char* name : {"simple-shoulder", "shoulder", "knee", "hip"}) {
     const JointFile joint = read_bundled_joint(name);
     for (const auto& entry : std::filesystem::directory_iterator(joint.surface_folder)) {
       const auto uses = [&](const Structure& s) {

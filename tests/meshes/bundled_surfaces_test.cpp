@@ -10,6 +10,8 @@
 
 #include "artus/anatomy/surfaces/surface_io.h"
 #include "artus/core/units.h"
+#include "artus/meshes/generate/hip.h"
+#include "artus/meshes/generate/knee.h"
 #include "artus/meshes/generate/shoulder.h"
 #include "artus/meshes/generate/simple_shoulder.h"
 #include "tests/meshes/topology.h"
@@ -38,6 +40,8 @@ std::vector<Bundled> read_bundled() {
   };
   add("simple-shoulder", make_simple_shoulder({}));
   add("shoulder", make_shoulder({}));
+  add("knee", make_knee({}));
+  add("hip", make_hip({}));
   return all;
 }
 
@@ -70,7 +74,9 @@ TEST(BundledSurfaces, EachLiesOnTheGeneratorsSolid) {
 
 TEST(BundledSurfaces, GeneratorGivesTheCommittedTriangles) {
   for (const Bundled& b : read_bundled()) {
-    if (b.solid.name != "joint_fluid" && b.solid.name != "bone") continue;
+    const auto& name = b.solid.name;
+    if (name != "joint_fluid" && name != "bone" && name != "patella" && name != "anterior_recess")
+      continue;
     const auto again = compute_surface(b.solid);
     ASSERT_TRUE(again) << again.error().to_string();
     ASSERT_TRUE(again->triangles == b.mesh.triangles) << b.file;

@@ -149,6 +149,21 @@ TEST(ThreeInjections, SameSeedGivesTheSameBytesInAnyLocaleAndAnotherSeedDoesNot)
   std::filesystem::remove_all(folder);
 }
 
+TEST(ThreeInjections, ATargetInBoneWithoutABursaMeansTheLastLayerBeforeTheBone) {
+  const std::vector<test::FlatLayer> layers{
+      {"skin", .004}, {"muscle", .018}, {"tendon", .010}, {"bone", .03}};
+  const Scene dry(std::make_shared<const CompiledJoint>(test::make_layered_block(layers, .2, .2)));
+  auto plans = kPlans;
+  for (PlannedInjection& plan : plans) plan.target.z() = .035;  // 3 mm inside the bone
+  const auto run = run_three_injections(dry, plans);
+  ASSERT_TRUE(run) << run.error().to_string();
+  EXPECT_EQ(run->touches.size(), 3U);
+  const auto reached =
+      std::count_if(run->moments.begin(), run->moments.end(),
+                    [](const NamedMoment& m) { return m.label == "tendon reached"; });
+  EXPECT_EQ(reached, 2);
+}
+
 TEST(ThreeInjections, PlansThatCannotBeRunAreRefused) {
   EXPECT_FALSE(run_three_injections(scene(), std::span(kPlans).first(2)));
   ThreeInjectionsOptions unknown;

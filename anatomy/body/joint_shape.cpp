@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/anatomy/body/joint_shape.h"
+
+#include <array>
+#include <sstream>
+#include <string_view>
+
+#include "artus/core/text_file.h"
+#include "artus/core/toml_table.h"
+
+namespace artus {
+namespace {
+
+constexpr std::array<std::string_view, 11> kShapeNothing{
+    "title",  "side",      "axes",   "surfaces",       "landmark", "probe",
+    "needle", "injection", "tissue", "tissue_library", "space"};
+
+}  // namespace
+
+Result<std::string> read_joint_shape(const std::filesystem::path& folder) {
+  const auto file = folder / "joint.toml";
+  const auto text = read_bytes(file);
+  ARTUS_TRY(text);
+  auto document = parse_toml(*text, file.string());
+  ARTUS_TRY(document);
+  for (const std::string_view key : kShapeNothing) document->erase(key);
+  if (auto* structures = document->get_as<toml::array>("structure"))
+    for (toml::node& node : *structures)
+      if (auto* structure = node.as_table()) structure->erase("fibre_axis");
+  std::ostringstream out;
+  out << toml::toml_formatter(*document);
+  return out.str();
+}
+
+}  // namespace artus

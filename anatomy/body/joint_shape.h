@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <filesystem>
+#include <string>
+
+#include "artus/core/result.h"
+
+namespace artus {
+
+/// The part of `folder`/joint.toml that shapes the body, as text that is the same for the same
+/// content: without comments, title, side, axes, landmarks, poses, injections, spaces, fibre axes
+/// and the tissues' values. Two joint files of one shape text make the same tetrahedra from the
+/// same surfaces. A key that this version does not know counts as shaping.
+/// Errors: not_found, unreadable, malformed.
+[[nodiscard]] Result<std::string> read_joint_shape(const std::filesystem::path& folder);
+
+}  // namespace artus

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/anatomy/compile/misplaced.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "artus/anatomy/compile/region_labels.h"
+#include "artus/core/units.h"
+
+namespace artus {
+namespace {
+
+constexpr std::size_t kSamples = 400;           // of each surface
+constexpr double kClearly = 0.5 * kMillimetre;  // beyond what surfaces that touch differ by
+constexpr double kMuchOutside = 0.02;           // of the samples, as compile warns of
+constexpr double kAll = 0.99;                   // of the samples
+constexpr double kCubicCentimetre = 1e-6;       // m^3
+
+template <class... Values>
+std::string format(const char* pattern, Values... values) {
+  std::array<char, 300> text{};
+  static_cast<void>(std::snprintf(text.data(), text.size(), pattern, values...));
+  return text.data();
+}
+
+/// Evenly chosen vertices of a surface that lie in the region of interest.
+std::vector<Vec3> samples_of(const SurfaceMesh& mesh, const std::optional<RegionOfInterest>& roi) {
+  std::vector<Vec3> in_region;
+  for (const Vec3& p : mesh.vertices)
+    if (!roi || signed_distance(*roi, p) <= 0) in_region.push_back(p);
+  std::vector<Vec3> chosen;
+  const std::size_t step = in_region.size() / kSamples + 1;
+  for (std::size_t i = 0; i < in_region.size(); i += step) chosen.push_back(in_region[i]);
+  return chosen;
+}
+
+/// How samples lie to a closed surface.
+struct Lie {
+  double outside = 0;   // share clearly outside
+  double inside = 0;    // share clearly inside
+  double farthest = 0;  // m outside
+  double least = 0;     // m inside, of all
+};
+
+Lie lie_of(const std::vector<Vec3>& samples, const DistanceTree& tree) {
+  Lie lie;
+  lie.least = 1;
+  for (const Vec3& p : samples) {
+    const double distance = tree.distance(p, 1);
+    const bool is_inside = tree.winding_number(p) > 0.5;
+    lie.least = std::min(lie.least, is_inside ? distance : 0.0);
+    if (distance < kClearly) continue;
+    (is_inside ? lie.inside : lie.outside) += 1.0 / static_cast<double>(samples.size());
+    if (!is_inside) lie.farthest = std::max(lie.farthest, distance);
+  }
+  return lie;
+}
+
+Vec3 middle(const DistanceTree& tree) {
+  return (tree.lower() + tree.upper()) / 2;
+}
+
+class Finder {
+ public:
+  Finder(const JointFile& file, const PreparedSurfaces& surfaces)
+      : file_(file), surfaces_(surfaces) {
+    for (const auto& surface : surfaces.structures)
+      samples_.push_back(surface ? samples_of(surface->mesh, file.region_of_interest)
+                                 : std::vector<Vec3>{});
+  }
+
+  std::vector<Finding> run() {
+    std::size_t n = 0;
+    std::size_t n_outside = 0;
+    std::vector<Lie> lies(samples_.size());
+    for (std::size_t i = 0; i < samples_.size(); ++i) {
+      if (samples_[i].empty()) continue;
+      lies[i] = lie_of(samples_[i], surfaces_.body.tree);
+      ++n;
+      n_outside += lies[i].outside > kAll ? 1U : 0U;
+    }
+    if (n >= 2 && 5 * n_outside >= 4 * n) {
+      tell_frame(n_outside, n);
+      return std::move(found_);
+    }
+    for (std::size_t i = 0; i < samples_.size(); ++i) {
+      if (samples_[i].empty()) continue;
+      tell_outside(i, lies[i]);
+      tell_in_bone(i);
+      tell_twin(i);
+    }
+    return std::move(found_);
+  }
+
+ private:
+  void add(Verdict verdict, const Structure& s, std::string message) {
+    found_.push_back({verdict, "misplaced", s.name, s.line, std::move(message)});
+  }
+
+  void tell_frame(std::size_t n_outside, std::size_t n) {
+    Eigen::AlignedBox3d box;
+    for (const auto& samples : samples_)
+      for (const Vec3& p : samples) box.extend(p);
+    const Vec3 away = box.center() - middle(surfaces_.body.tree);
+    const Vec3 size = surfaces_.body.tree.upper() - surfaces_.body.tree.lower();
+    add(Verdict::refused, file_.body,
+        format(
+            "%zu of %zu structures lie outside of it: their middle is (%.0f, %.0f, %.0f) mm from "
+            "its own, and it measures %.0f x %.0f x %.0f mm; it is of another frame or unit: "
+            "export it with the structures or set its 'units'",
+            n_outside, n, away.x() / kMillimetre, away.y() / kMillimetre, away.z() / kMillimetre,
+            size.x() / kMillimetre, size.y() / kMillimetre, size.z() / kMillimetre));
+  }
+
+  void tell_outside(std::size_t i, const Lie& lie) {
+    if (lie.outside <= kMuchOutside) return;
+    const char* rest = lie.outside > kAll ? "nothing of it will be in the joint; see to its frame "
+                                            "and units, or take it out"
+                                          : "that part is cut off";
+    add(Verdict::look, file_.structures[i],
+        format("%.0f %% of it lies outside of the skin, up to %.1f mm; %s", 100 * lie.outside,
+               lie.farthest / kMillimetre, rest));
+  }
+
+  [[nodiscard]] bool is_hard(const Structure& s) const {
+    return std::any_of(file_.tissues.begin(), file_.tissues.end(),
+                       [&](const Tissue& t) { return t.name == s.tissue && t.haptic.hard; });
+  }
+
+  void tell_in_bone(std::size_t i) {
+    for (std::size_t k = 0; k < samples_.size(); ++k) {
+      if (k == i || !surfaces_.structures[k] || !is_hard(file_.structures[k])) continue;
+      if (is_twin(i, k)) continue;
+      const DistanceTree& bone = surfaces_.structures[k]->tree;
+      if (!bone.empty() && (samples_[i].front().array() < bone.lower().array()).any()) continue;
+      const Lie lie = lie_of(samples_[i], bone);
+      if (lie.inside <= kAll) continue;
+      add(Verdict::look, file_.structures[i],
+          format("all of it lies inside the bone '%s', %.1f mm or more under its surface; %s",
+                 file_.structures[k].name.c_str(), lie.least / kMillimetre,
+                 k < i ? "the bone stands before it in the file and takes all of it: put it before "
+                         "the bone if it is meant, else see to its frame"
+                       : "see to its frame if that is not meant"));
+    }
+  }
+
+  [[nodiscard]] bool is_twin(std::size_t i, std::size_t k) const {
+    constexpr double kSame = 0.02;  // of the volume
+    const auto& a = *surfaces_.structures[i];
+    const auto& b = *surfaces_.structures[k];
+    const double largest = kMillimetre;
+    if (((a.tree.lower() - b.tree.lower()).cwiseAbs().maxCoeff() > largest) ||
+        ((a.tree.upper() - b.tree.upper()).cwiseAbs().maxCoeff() > largest))
+      return false;
+    const double volume = signed_volume(a.mesh);
+    if (std::abs(volume - signed_volume(b.mesh)) > kSame * volume) return false;
+    const auto near = std::count_if(samples_[i].begin(), samples_[i].end(), [&](const Vec3& p) {
+      return b.tree.distance(p, kClearly) < kClearly;
+    });
+    return static_cast<double>(near) >= kAll * static_cast<double>(samples_[i].size());
+  }
+
+  void tell_twin(std::size_t i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      if (!surfaces_.structures[k] || samples_[k].empty() || !is_twin(i, k)) continue;
+      add(Verdict::look, file_.structures[i],
+          format("it is the same surface as '%s' (%.2f and %.2f cm3), which stands before it and "
+                 "takes all of it; take one of them out",
+                 file_.structures[k].name.c_str(),
+                 signed_volume(surfaces_.structures[i]->mesh) / kCubicCentimetre,
+                 signed_volume(surfaces_.structures[k]->mesh) / kCubicCentimetre));
+      return;
+    }
+  }
+
+  const JointFile& file_;
+  const PreparedSurfaces& surfaces_;
+  std::vector<std::vector<Vec3>> samples_;
+  std::vector<Finding> found_;
+};
+
+}  // namespace
+
+std::vector<Finding> find_misplaced(const JointFile& file, const PreparedSurfaces& surfaces) {
+  return Finder(file, surfaces).run();
+}
+
+}  // namespace artus

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+namespace artus {
+
+/// `text` as it may stand in HTML.
+[[nodiscard]] std::string escape_html(std::string_view text);
+
+/// A page that needs nothing but itself: no server, no script, pictures inside.
+class HtmlPage {
+ public:
+  explicit HtmlPage(const std::string& title);
+
+  void heading(const std::string& text);
+  void paragraph(const std::string& text);
+  /// One line a point; `kind` colours it ("refused", "look", "mended", "note").
+  void point(const std::string& kind, const std::string& text);
+  void picture(const cv::Mat& image, const std::string& caption);
+  /// A card that pictures and points stand in, with a heading.
+  void open_card(const std::string& text);
+  void close_card();
+  /// Head cells with what they mean, shown below the table.
+  struct Column {
+    std::string name;
+    std::string meaning;
+  };
+  void table(const std::vector<Column>& columns, const std::vector<std::vector<std::string>>& rows);
+
+  /// The whole page.
+  [[nodiscard]] std::string text() const;
+
+ private:
+  std::string body_;
+  std::string title_;
+};
+
+}  // namespace artus

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <vector>
+
+#include "artus/meshes/generate/surfacing.h"
+
+namespace artus {
+
+/// The sizes of a hip, m. All positions scale with the head; the thin layers keep their thickness.
+struct HipSize {
+  double head_radius = 24e-3;  ///< bony femoral head
+  double cartilage = 1.8e-3;   ///< on the head, and in the socket
+  double recess = 4e-3;        ///< anterior recess before the neck, filled as with an effusion
+  double capsule = 3.5e-3;     ///< before the recess
+};
+
+/// The solids of a right hip: `body` (outer skin) first, then bones with cartilage and labrum,
+/// recess and capsule, muscles, femoral vessels and nerve. They overlap; the joint file's priority
+/// decides. Frame J is centred on the femoral head, axes LPS (lateral is -x), m. Requires: all
+/// sizes > 0.
+[[nodiscard]] std::vector<Solid> make_hip(const HipSize& size);
+
+}  // namespace artus

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/anatomy/body/joint_shape.h"
+
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/temporary_folder.h"
+
+namespace artus {
+namespace {
+
+class JointShape : public test::TemporaryFolder {
+ protected:
+  std::string shape(const std::string& toml) const {
+    std::ofstream(folder_ / "joint.toml") << toml;
+    return read_joint_shape(folder_).value();
+  }
+};
+
+constexpr const char* kShape = R"(name = "knee"
+[mesh]
+facet_size = 3.0
+[[structure]]
+name = "femur"
+tissue = "bone"
+file = "femur.ply"
+)";
+
+TEST_F(JointShape, LeavesOutCommentsOrderAndWhatShapesNothing) {
+  EXPECT_EQ(shape(kShape), shape(R"(# A knee.
+name = "knee"
+title = "A knee"
+side = "left"
+axes = "RAS"
+[probe]
+position = [1.0, 2.0, 3.0]
+[[structure]]
+file = "femur.ply"
+fibre_axis = [0.0, 0.0, 1.0]
+tissue = "bone"
+name = "femur"
+[mesh]
+facet_size = 3.0
+[[injection]]
+name = "one"
+)"));
+}
+
+TEST_F(JointShape, HoldsEverythingElseAlsoWhatItDoesNotKnow) {
+  const std::string base = shape(kShape);
+  EXPECT_NE(shape(std::string(kShape) + "facet_size = 1.0\n"), base);
+  EXPECT_NE(shape(std::string(kShape) + "some_later_key = 1\n"), base);
+}
+
+TEST_F(JointShape, OfABrokenFileIsAnError) {
+  std::ofstream(folder_ / "joint.toml") << "name = \n";
+  EXPECT_FALSE(read_joint_shape(folder_));
+  EXPECT_FALSE(read_joint_shape(folder_ / "absent"));
+}
+
+}  // namespace
+}  // namespace artus

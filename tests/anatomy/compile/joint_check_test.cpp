@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// check and compile say the same of the same joint.
+#include "artus/anatomy/compile/joint_check.h"
+
+#include <algorithm>
+
+#include <gmock/gmock.h>
+
+#include <gtest/gtest.h>
+
+#include "artus/anatomy/compile/compile.h"
+#include "tests/anatomy/compile/joint_folder.h"
+
+namespace artus {
+namespace {
+
+using test::JointFolder;
+using testing::HasSubstr;
+
+constexpr const char* kHead = R"([[structure]]
+name = "head"
+tissue = "muscle"
+file = "head.ply"
+)";
+
+class CheckedJoint : public testing::Test {
+ protected:
+  CheckedJoint() : folder_("checked") {
+    folder_.add_sphere("body", Vec3(0, 0, 0), 30);
+    folder_.add_sphere("head", Vec3(0, 0, 5), 8);
+  }
+  JointCheck check(const std::string& toml) {
+    folder_.write_toml(toml);
+    return check_joint(read_joint(folder_.path()).value());
+  }
+  /// What compile refuses before it begins; "" when it would go on.
+  std::string refusal(const std::string& toml) {
+    folder_.write_toml(toml);
+    JointFile file = read_joint(folder_.path()).value();
+    file.cell_size = 1e-9;  // so that what is not refused ends soon, too
+    CompileOptions options;
+    options.check_plans = true;
+    const auto outcome = compile_joint(file, options);
+    if (outcome || outcome.error().code != ErrorCode::defective) return "";
+    return outcome.error().message;
+  }
+
+  JointFolder folder_;
+};
+
+TEST_F(CheckedJoint, ThatIsSoundIsUsableAndNotRefusedByCompile) {
+  const JointCheck found = check(kHead);
+  EXPECT_TRUE(found.usable());
+  EXPECT_TRUE(found.findings.empty()) << found.findings.front().message;
+  EXPECT_EQ(refusal(kHead), "");
+}
+
+TEST_F(CheckedJoint, ASizeThatNoPartOfABodyHasIsRefusedByBothAndTheUnitMendsIt) {
+  folder_.add_sphere("head", Vec3(0, 0, 0.005), 0.008);
+  const JointCheck found = check(kHead);
+  EXPECT_FALSE(found.usable());
+  EXPECT_EQ(found.findings.front().verdict, Verdict::refused);
+  EXPECT_THAT(found.findings.front().message, HasSubstr("units = \"m\""));
+  EXPECT_THAT(refusal(kHead), HasSubstr("no part of a body"));
+  const std::string mended = std::string(kHead) + "units = \"m\"\n";
+  EXPECT_TRUE(check(mended).usable());
+  EXPECT_EQ(refusal(mended), "");
+}
+
+TEST_F(CheckedJoint, AllRefusalsComeAtOnceAndFirstAndNothingElseOfThemIsCalledMended) {
+  std::ofstream(folder_.path() / "head.ply")
+      << "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+         "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+         "0 0 0\n10 0 0\n0 10 0\n3 0 1 2\n";
+  const std::string toml = std::string(kHead) + R"([[injection]]
+name = "astray"
+entry = [0.0, 0.0, 50.0]
+target = [0.0, 0.0, 5.0]
+)";
+  const JointCheck found = check(toml);
+  ASSERT_EQ(found.count(Verdict::refused), 2U);
+  EXPECT_EQ(found.findings[0].what, "head");
+  EXPECT_EQ(found.findings[1].what, "injection 'astray'");
+  EXPECT_GT(found.findings[1].line, 20);
+  for (const Finding& f : found.findings)
+    EXPECT_FALSE(f.what == "head" && f.verdict == Verdict::mended) << f.message;
+  const std::string refused = refusal(toml);
+  EXPECT_THAT(refused, HasSubstr("2 problems"));
+  EXPECT_THAT(refused, HasSubstr("head: "));
+  EXPECT_THAT(refused, HasSubstr("injection 'astray' (line"));
+}
+
+TEST_F(CheckedJoint, ABodyInAnotherFrameIsRefusedByBoth) {
+  folder_.add_sphere("head", Vec3(500, 0, 0), 8);
+  folder_.add_sphere("belly", Vec3(510, 0, 0), 8);
+  const std::string toml = std::string(kHead) +
+                           "[[structure]]\nname = \"belly\"\ntissue = \"muscle\"\nfile = "
+                           "\"belly.ply\"\n";
+  EXPECT_FALSE(check(toml).usable());
+  EXPECT_THAT(refusal(toml), HasSubstr("another frame"));
+}
+
+}  // namespace
+}  // namespace artus

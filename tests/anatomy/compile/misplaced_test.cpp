@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Structures that are not where they should be, with the numbers.
+#include "artus/anatomy/compile/misplaced.h"
+
+#include <gmock/gmock.h>
+
+#include <gtest/gtest.h>
+
+#include "tests/anatomy/compile/balls_joint.h"
+
+namespace artus {
+namespace {
+
+using test::Ball;
+using test::BallsJoint;
+using testing::HasSubstr;
+
+std::vector<Finding> misplaced(const std::vector<Ball>& balls) {
+  BallsJoint joint(0.05, balls);
+  joint.file.tissues = read_bundled_tissues().value();
+  return find_misplaced(joint.file, joint.surfaces);
+}
+
+const Ball kBone{"femur", "bone", Vec3(0, 0, 0), 0.02};
+const Ball kMuscle{"vastus", "muscle", Vec3(0, 0.03, 0), 0.012};
+
+TEST(Misplaced, NothingIsSaidOfWhatLiesWell) {
+  EXPECT_TRUE(misplaced({kBone, kMuscle}).empty());
+}
+
+TEST(Misplaced, ABodyOfAnotherFrameIsRefusedWithTheWayBetween) {
+  const Vec3 away(0.3, 0, 0);
+  Ball bone = kBone;
+  Ball muscle = kMuscle;
+  bone.centre += away;
+  muscle.centre += away;
+  const auto found = misplaced({bone, muscle});
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].verdict, Verdict::refused);
+  EXPECT_EQ(found[0].what, "body");
+  EXPECT_THAT(found[0].message, HasSubstr("2 of 2 structures lie outside of it"));
+  EXPECT_THAT(found[0].message, HasSubstr("(300, "));
+}
+
+TEST(Misplaced, WhatSticksOutOfTheSkinIsToldWithShareAndDistance) {
+  Ball out = kMuscle;
+  out.centre = Vec3(0, 0.05, 0);
+  const auto found = misplaced({kBone, out});
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].verdict, Verdict::look);
+  EXPECT_THAT(found[0].message, testing::ContainsRegex("up to 1[12]\\."));
+  out.centre = Vec3(0, 0.09, 0);
+  EXPECT_THAT(misplaced({kBone, kMuscle, out}).at(0).message,
+              HasSubstr("100 % of it lies outside"));
+}
+
+TEST(Misplaced, WhatLiesAllInABoneIsToldWithItsDepth) {
+  const auto found = misplaced({kBone, {"nerve", "nerve", Vec3(0, 0, 0), 0.005}});
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_THAT(found[0].message, HasSubstr("inside the bone 'femur', 15."));
+  EXPECT_THAT(found[0].message, HasSubstr("takes all of it"));
+}
+
+TEST(Misplaced, TheSameSurfaceTwiceIsTold) {
+  Ball twin = kMuscle;
+  twin.name = "rectus";
+  const auto found = misplaced({kBone, kMuscle, twin});
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].what, "rectus");
+  EXPECT_THAT(found[0].message, HasSubstr("the same surface as 'vastus'"));
+}
+
+// A right leg in LPS: lateral is -x, anterior -y.
+std::vector<Finding> mirrored(const char* side, const char* axes) {
+  BallsJoint joint(0.05, {{"tibia", "bone", Vec3(0.01, 0, 0), 0.01},
+                          {"fibula", "bone", Vec3(-0.02, 0.01, 0), 0.005},
+                          {"medial_meniscus", "labrum", Vec3(0.02, 0, 0.02), 0.004},
+                          {"lateral_meniscus", "labrum", Vec3(-0.02, 0, 0.02), 0.004},
+                          {"patella", "bone", Vec3(0, -0.03, 0.02), 0.006}});
+  joint.file.side = side;
+  joint.file.axes = axes;
+  return find_mirrored(joint.file, joint.surfaces);
+}
+
+TEST(Mirrored, ARightLegInItsOwnFrameIsNotDoubted) {
+  EXPECT_TRUE(mirrored("right", "LPS").empty());
+  EXPECT_TRUE(mirrored("none", "LPS").empty());
+}
+
+TEST(Mirrored, AWrongSideAndWrongAxesAreNoticed) {
+  const auto side = mirrored("left", "LPS");
+  ASSERT_EQ(side.size(), 1U);
+  EXPECT_EQ(side[0].verdict, Verdict::look);
+  EXPECT_THAT(side[0].message, HasSubstr("'fibula' lies medial of 'tibia'"));
+  EXPECT_THAT(side[0].message, HasSubstr("side = \"left\""));
+  const auto axes = mirrored("right", "RAS");  // x and y are the other way round
+  ASSERT_EQ(axes.size(), 2U);
+  EXPECT_THAT(axes[1].message, HasSubstr("'patella' lies posterior of 'tibia'"));
+}
+
+}  // namespace
+}  // namespace artus

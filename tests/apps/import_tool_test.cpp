@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// The import of a joint as its author meets it: refusals that are followed, the tutorial of
+// docs/import.md, the pages of reports.
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/apps/run_tool.h"
+#include "tests/support/paths.h"
+#include "tests/support/temporary_folder.h"
+
+namespace artus {
+namespace {
+
+using test::artus;
+
+std::string content(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream out;
+  out << in.rdbuf();
+  return out.str();
+}
+
+class ImportTool : public test::TemporaryFolder {
+ protected:
+  /// The blocks of docs/import.md that a line "<!-- tutorial NAME -->" stands before, in order.
+  static std::string tutorial(const std::string& name) {
+    const std::string text = content(test::source_dir() / "docs/import.md");
+    std::string all;
+    const std::string mark = "<!-- tutorial " + name + " -->";
+    for (auto at = text.find(mark); at != std::string::npos; at = text.find(mark, at + 1)) {
+      const auto begin = text.find('\n', text.find("```", at)) + 1;
+      all += text.substr(begin, text.find("```", begin) - begin);
+    }
+    return all;
+  }
+  /// The folder of the tutorial: bare surfaces and the joint file as the document has it.
+  std::filesystem::path write_joint(const std::string& toml) const {
+    const auto folder = folder_ / "my-joint";
+    std::filesystem::create_directories(folder);
+    for (const auto& entry : std::filesystem::directory_iterator(test::source_dir() /
+                                                                 "meshes/simple-shoulder/surfaces"))
+      std::filesystem::copy(entry.path(), folder / entry.path().filename(),
+                            std::filesystem::copy_options::overwrite_existing);
+    std::ofstream(folder / "joint.toml") << toml;
+    return folder;
+  }
+  /// No script, no address, every picture inside.
+  static void expect_self_contained(const std::string& page) {
+    EXPECT_EQ(page.find("<script"), std::string::npos);
+    EXPECT_EQ(page.find("http"), std::string::npos);
+    for (auto at = page.find("src="); at != std::string::npos; at = page.find("src=", at + 1))
+      EXPECT_EQ(page.compare(at, 10, "src=\"data:"), 0);
+  }
+  /// What a browser makes of a page; empty where there is no Chromium.
+  static std::string seen_by_browser(const std::filesystem::path& page) {
+    if (test::run_process({"/usr/bin/which", "chromium"}).exit_code != 0) return {};
+    return test::run_process({"chromium", "--headless", "--no-sandbox", "--disable-gpu",
+                              "--dump-dom", "file://" + page.string()})
+        .out;
+  }
+};
+
+TEST_F(ImportTool, TheTutorialLeadsFromBareSurfacesToAnInjection) {
+  const auto folder = write_joint(tutorial("joint.toml"));
+  const auto check = artus({"check", folder.string()});
+  ASSERT_EQ(check.exit_code, 0) << check.out << check.err;
+  const auto compile = [&] {
+    return artus({"compile", folder.string(), "-o", in("my.artus"), "--cache", in("cache"),
+                  "--report", in("report.html")});
+  };
+  const auto compiled = compile();
+  ASSERT_EQ(compiled.exit_code, 0) << compiled.out << compiled.err;
+  std::ofstream(folder / "joint.toml", std::ios::app) << tutorial("injections");
+  const auto planned = compile();
+  ASSERT_EQ(planned.exit_code, 0) << planned.out << planned.err;
+  EXPECT_NE(planned.out.find("the body is the one compiled before"), std::string::npos);
+  EXPECT_EQ(artus({"image", "-j", in("my.artus"), "-o", in("image.png")}).exit_code, 0);
+  const auto run = artus({"run", "three-injections", "-j", in("my.artus"), "--out", in("run"),
+                          "--no-images", "--json"});
+  EXPECT_EQ(run.exit_code, 0) << run.out << run.err;
+  const std::string text = content(in("report.html"));
+  expect_self_contained(text);
+  for (const char* expected : {"What to do next", "in the probe's plane", "distance to bone.ply",
+                               "p95 mm", "95 % of its area is nearer than this"})
+    EXPECT_NE(text.find(expected), std::string::npos) << expected;
+  const std::string seen = seen_by_browser(in("report.html"));
+  if (seen.empty()) GTEST_SKIP() << "there is no Chromium to open the page in";
+  EXPECT_GE(std::count(seen.begin(), seen.end(), '<'), 200) << "the browser shows the page";
+}
+
+TEST_F(ImportTool, RefusalsComeFirstWithOneExitCodeAndTheirMendWorks) {
+  std::string toml = tutorial("joint.toml") +
+                     "[[injection]]\nname = \"astray\"\nentry = [-60.0, 0.0, -13.9]\n"
+                     "target = [-34.1, 0.0, 3.0]\n";
+  auto folder = write_joint(toml);
+  const auto check = artus({"check", folder.string(), "--report", in("check.html")});
+  EXPECT_EQ(check.exit_code, 3);
+  EXPECT_EQ(check.out.rfind("refused injection 'astray' (line ", 0), 0U) << check.out;
+  const auto compile = artus({"compile", folder.string(), "-o", in("a.artus"), "--cache", in("c")});
+  EXPECT_EQ(compile.exit_code, 3) << compile.err;
+  EXPECT_NE(compile.err.find("injection 'astray'"), std::string::npos) << compile.err;
+  const std::string text = content(in("check.html"));
+  expect_self_contained(text);
+  EXPECT_NE(text.find("refused"), std::string::npos);
+  const std::string offer = "the skin is at (";
+  const auto at = check.out.find(offer);
+  ASSERT_NE(at, std::string::npos) << check.out;
+  const auto begin = at + offer.size();
+  const std::string entry = check.out.substr(begin, check.out.find(')', begin) - begin);
+  toml.replace(toml.find("-60.0, 0.0, -13.9"), 17, entry);
+  folder = write_joint(toml);
+  EXPECT_EQ(artus({"check", folder.string()}).exit_code, 0);
+}
+
+}  // namespace
+}  // namespace artus
