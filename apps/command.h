@@ -77,6 +77,7 @@ void add_loop_command(Command& app, ExitCode& code);
 void add_serve_command(Command& app, ExitCode& code);
 void add_view_command(Command& app, ExitCode& code);
 void add_replay_command(Command& app, ExitCode& code);
+void add_register_command(Command& app, ExitCode& code);
 void add_shm_monitor_command(Command& app, ExitCode& code);
 
 }  // namespace artus

@@ -40,6 +40,7 @@ int run(int argc, char** argv) {
   artus::add_serve_command(app, code);
   artus::add_view_command(app, code);
   artus::add_replay_command(app, code);
+  artus::add_register_command(app, code);
   artus::add_shm_monitor_command(app, code);
   int mistake = 0;  // CLI11's own many codes become one
   if (!app.parse(argc, argv, mistake)) return mistake == 0 ? 0 : static_cast<int>(ExitCode::usage);

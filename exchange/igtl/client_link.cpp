@@ -42,12 +42,16 @@ ClientLink::~ClientLink() {
 
 Result<void> ClientLink::receive(const std::function<void(const Message&)>& on_message) {
   std::array<char, 65536> bytes;  // NOLINT(*-member-init): written by recv
-  constexpr int kTurns = 16;      // so that one who sends much does not keep the others waiting
+  const auto on_known = [&](const Message& message) {
+    version_ = std::max(version_, message.version);  // before it is answered
+    on_message(message);
+  };
+  constexpr int kTurns = 16;  // so that one who sends much does not keep the others waiting
   for (int turn = 0; turn < kTurns; ++turn) {
     const ssize_t n = recv(socket_, bytes.data(), bytes.size(), 0);
     if (n < 0 && would_block(errno)) return {};
     if (n <= 0) return gone(n == 0 ? 0 : errno);
-    ARTUS_TRY(reader_.take({bytes.data(), static_cast<std::size_t>(n)}, on_message));
+    ARTUS_TRY(reader_.take({bytes.data(), static_cast<std::size_t>(n)}, on_known));
     version_ = std::max(version_, reader_.version());
   }
   return {};
