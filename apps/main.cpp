@@ -30,6 +30,8 @@ int run(int argc, char** argv) {
   artus::add_image_command(app, code);
   artus::add_slice_command(app, code);
   artus::add_sweep_command(app, code);
+  artus::add_sweep_merge_command(app, code);
+  artus::add_force_command(app, code);
   artus::add_video_command(app, code);
   artus::add_phantom_command(app, code);
   artus::add_echo_gates_command(app, code);
