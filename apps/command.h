@@ -68,6 +68,7 @@ void add_image_command(Command& app, ExitCode& code);
 void add_slice_command(Command& app, ExitCode& code);
 void add_sweep_command(Command& app, ExitCode& code);
 void add_sweep_merge_command(Command& app, ExitCode& code);
+void add_export_command(Command& app, ExitCode& code);
 void add_force_command(Command& app, ExitCode& code);
 void add_video_command(Command& app, ExitCode& code);
 void add_phantom_command(Command& app, ExitCode& code);

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "artus/apps/feel_options.h"
+#include "artus/apps/pose_files.h"
 #include "artus/core/csv.h"
 #include "artus/core/text_file.h"
 #include "artus/core/units.h"
@@ -25,10 +26,10 @@ struct ForceOptions {
   bool json = false;
 };
 
-/// The needle at every tick. Errors: those of read_poses and sample_path; invalid, a pose without
-/// needle or time.
+/// The needle at every tick. Errors: those of read_any_poses and sample_path; invalid, a pose
+/// without needle or time.
 Result<std::vector<Pose>> needle_path(const ForceOptions& options) {
-  const auto listed = read_poses(options.poses);
+  const auto listed = read_any_poses(options.poses);
   ARTUS_TRY(listed);
   const auto ticks = sample_path(*listed, options.rate);
   ARTUS_TRY(ticks);
@@ -93,7 +94,7 @@ void add_force_command(Command& app, ExitCode& code) {
       "  artus force -j shoulder.artus --poses path.jsonl --rate 4000 --device touch -o force.csv");
   add_joint_options(command, options->joint);
   add_feel_options(command, options->feel);
-  command->add_option("--poses", options->poses, "list of poses (.jsonl, .csv)")->required();
+  command->add_option("--poses", options->poses, "list of poses (.jsonl, .csv, .mha)")->required();
   command->add_option("--rate", options->rate, "ticks a second, Hz")
       ->check(number_in(100, 20000))
       ->capture_default_str();

@@ -31,6 +31,7 @@ int run(int argc, char** argv) {
   artus::add_slice_command(app, code);
   artus::add_sweep_command(app, code);
   artus::add_sweep_merge_command(app, code);
+  artus::add_export_command(app, code);
   artus::add_force_command(app, code);
   artus::add_video_command(app, code);
   artus::add_phantom_command(app, code);

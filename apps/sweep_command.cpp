@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include "artus/apps/pose_files.h"
 #include "artus/apps/view_options.h"
 #include "artus/dataset/pose_draw.h"
 #include "artus/dataset/shards.h"
@@ -45,7 +46,7 @@ Result<ShardJob> job_of(const SweepCommandOptions& options) {
 
 Result<PoseSource> poses_of(const SweepCommandOptions& options, const LoadedView& loaded) {
   if (options.draw == 0) {
-    auto poses = read_poses(options.poses);
+    auto poses = read_any_poses(options.poses);
     ARTUS_TRY(poses);
     return source_of(std::move(*poses));
   }
@@ -96,7 +97,7 @@ ExitCode run_sweep_command(const SweepCommandOptions& options) {
                         options.json);
   if (options.draw > 0 || !options.shard.empty() || !options.frames.empty())
     return run_shards(options);
-  const auto poses = read_poses(options.poses);
+  const auto poses = read_any_poses(options.poses);
   if (!poses) return report_error(poses.error(), options.json);
   const auto loaded = load_view(options.joint, options.view, options.json);
   if (!loaded) return report_error(loaded.error(), options.json);
@@ -158,7 +159,7 @@ void add_sweep_command(Command& app, ExitCode& code) {
       "  artus sweep -j shoulder.artus --draw 1000000 --seed 7 --shard 3/64 --out out/set\n"
       "(docs/datasets.md)");
   add_joint_options(command, options->joint);
-  command->add_option("--poses", options->poses, "list of poses (.jsonl, .csv)");
+  command->add_option("--poses", options->poses, "list of poses (.jsonl, .csv, .mha)");
   add_shard_options(command, *options);
   add_imaging_options(command, options->view);
   command->add_option("-o,--out", options->out, "folder for the results")->required();

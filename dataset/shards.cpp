@@ -12,7 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "artus/core/text_file.h"
-#include "artus/dataset/sha256.h"
+#include "artus/dataset/secure_hash.h"
 #include "artus/dataset/sweep_frame.h"
 #include "artus/dataset/tar_file.h"
 

@@ -20,7 +20,7 @@
 #include "artus/core/text_file.h"
 #include "artus/core/units.h"
 #include "artus/dataset/pose_draw.h"
-#include "artus/dataset/sha256.h"
+#include "artus/dataset/secure_hash.h"
 #include "artus/dataset/shard_merge.h"
 #include "artus/dataset/sweep_frame.h"
 #include "artus/dataset/tar_file.h"

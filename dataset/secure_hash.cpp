@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/dataset/sha256.h"
+#include "artus/dataset/secure_hash.h"
 
 #include <array>
 #include <bit>
