@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "artus/core/result.h"
+#include "artus/core/units.h"
 #include "artus/dataset/pose_list.h"
 #include "artus/dataset/shards.h"
 #include "artus/raycast/scene.h"
@@ -24,15 +25,16 @@ struct DrawRange {
 /// down on the skin. Needle: about a planned injection (all are as likely; the default needle where
 /// none is planned). SI.
 struct DrawRanges {
-  DrawRange lateral{-10e-3, 10e-3};    ///< m, along the probe's x
-  DrawRange elevation{-10e-3, 10e-3};  ///< m, along its y
-  DrawRange turn{-0.35, 0.35};         ///< rad, about z
-  DrawRange tilt{-0.2, 0.2};           ///< rad, about x
-  DrawRange rock{-0.2, 0.2};           ///< rad, about y
-  double needle_share = 0.7;           ///< of the frames with a needle
-  DrawRange along{-20e-3, 5e-3};       ///< m, of the tip from the target, deeper is positive
-  DrawRange aside{-3e-3, 3e-3};        ///< m, of the tip off the planned line, both ways
-  DrawRange slant{-0.15, 0.15};        ///< rad, of the needle off the planned line, both ways
+  DrawRange lateral{-10e-3, 10e-3};             ///< m, along the probe's x
+  DrawRange elevation{-10e-3, 10e-3};           ///< m, along its y
+  DrawRange turn{-20 * kDegree, 20 * kDegree};  ///< rad, about z
+  DrawRange tilt{-10 * kDegree, 10 * kDegree};  ///< rad, about x
+  DrawRange rock{-10 * kDegree, 10 * kDegree};  ///< rad, about y
+  double needle_share = 0.7;                    ///< of the frames with a needle
+  DrawRange along{-20e-3, 5e-3};  ///< m, of the tip from the target, deeper is positive
+  DrawRange aside{-3e-3, 3e-3};   ///< m, of the tip off the planned line, both ways
+  DrawRange slant{-10 * kDegree,
+                  10 * kDegree};  ///< rad, of the needle off the planned line, both ways
 };
 
 /// Reads ranges as TOML, tables probe (lateral_mm, elevation_mm, turn_deg, tilt_deg, rock_deg) and
