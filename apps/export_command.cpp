@@ -6,10 +6,14 @@
 
 #include "artus/apps/pose_files.h"
 #include "artus/apps/view_options.h"
+#include "artus/core/units.h"
 #include "artus/echo/renderer.h"
 #include "artus/exchange/reference_frame.h"
 #include "artus/exchange/sequence_file.h"
 #include "artus/session/replay.h"
+#ifdef ARTUS_HAS_DICOM
+#include "artus/exchange/dicom_file.h"
+#endif
 
 namespace artus {
 namespace {
@@ -20,6 +24,7 @@ struct ExportOptions {
   std::filesystem::path poses;
   std::filesystem::path recording;
   std::filesystem::path mha;
+  std::filesystem::path dicom;
   double rate = 0;
   bool json = false;
 };
@@ -99,17 +104,39 @@ Result<ImageSequence> sequence_of_recording(const ExportOptions& options,
   return maker.sequence();
 }
 
+Result<void> write_files(const ExportOptions& options, const ImageSequence& sequence,
+                         const CompiledJoint& joint) {
+  if (!options.mha.empty()) ARTUS_TRY(write_mha(options.mha, sequence));
+  if (options.dicom.empty()) return {};
+#ifdef ARTUS_HAS_DICOM
+  DicomSeries series;
+  series.joint = joint.name;
+  series.engine = ARTUS_VERSION;
+  series.pixel = sequence.frames.front().image_to_reference.col(0).norm() * kMillimetre;
+  const std::size_t n = sequence.frames.size();
+  const double time = sequence.frames.back().time - sequence.frames.front().time;
+  if (n > 1 && time > 0) series.frame_time = time / static_cast<double>(n - 1);
+  return write_dicom(options.dicom, sequence, series);
+#else
+  static_cast<void>(joint);
+  return fail(ErrorCode::unsupported, "this artus was built without DCMTK", "--dicom");
+#endif
+}
+
 ExitCode run_export(const ExportOptions& options) {
   if (options.poses.empty() == options.recording.empty())
     return report_error(
         {ErrorCode::invalid, "give either a recording or a list of poses", "--recording"},
         options.json);
+  if (options.mha.empty() && options.dicom.empty())
+    return report_error({ErrorCode::invalid, "say which file to write, --mha or --dicom", "--mha"},
+                        options.json);
   const auto loaded = load_view(options.joint, options.view, options.json);
   if (!loaded) return report_error(loaded.error(), options.json);
   const auto sequence = options.poses.empty() ? sequence_of_recording(options, loaded->scene)
                                               : sequence_of_poses(options, *loaded);
   if (!sequence) return report_error(sequence.error(), options.json);
-  const auto written = write_mha(options.mha, *sequence);
+  const auto written = write_files(options, *sequence, loaded->joint());
   if (!written) return report_error(written.error(), options.json);
   if (options.json)
     std::cout << nlohmann::json{{"frames", sequence->frames.size()},
@@ -118,8 +145,8 @@ ExitCode run_export(const ExportOptions& options) {
                      .dump(2)
               << '\n';
   else
-    std::printf("%zu frames of %d x %d pixels: %s\n", sequence->frames.size(), sequence->width,
-                sequence->height, options.mha.c_str());
+    std::printf("%zu frames of %d x %d pixels: %s %s\n", sequence->frames.size(), sequence->width,
+                sequence->height, options.mha.c_str(), options.dicom.c_str());
   return ExitCode::ok;
 }
 
@@ -134,14 +161,16 @@ void add_export_command(Command& app, ExitCode& code) {
                   "frame, RAS in millimetres; 3D Slicer and PLUS read it.\n"
                   "Examples:\n"
                   "  artus export -j shoulder.artus --recording session.rec --mha session.igs.mha\n"
-                  "  artus export -j shoulder.artus --poses path.csv --rate 25 --mha path.igs.mha");
+                  "  artus export -j shoulder.artus --poses path.csv --rate 25 --mha path.igs.mha\n"
+                  "  artus export -j shoulder.artus --poses path.csv --rate 25 --dicom path.dcm");
   add_joint_options(command, options->joint);
   command->add_option("--recording", options->recording, "of serve or view");
   command->add_option("--poses", options->poses, "list of poses (.jsonl, .csv, .mha)");
   command->add_option("--rate", options->rate, "images a second of a path with times; 0: as listed")
       ->check(number_in(0, 1000));
   add_imaging_options(command, options->view);
-  command->add_option("--mha", options->mha, "the sequence's file")->required();
+  command->add_option("--mha", options->mha, "sequence for 3D Slicer and PLUS");
+  command->add_option("--dicom", options.dicom, "Ultrasound Multi-frame Image for a PACS");
   command->add_flag("--json", options->json, "machine-readable output");
   on_run(command, code, [options] { return run_export(*options); });
 }

@@ -36,7 +36,7 @@ set(rooms core anatomy/surfaces anatomy/body anatomy/compile raycast haptics hap
 # folder lists that may include headers starting with the pattern
 set(outside "embree:raycast" "CGAL/:anatomy/surfaces,anatomy/compile,meshes/generate" "tetgen:anatomy/compile"
   "toml:core,anatomy/body,echo,haptics/actuator" "opencv2/:echo,dataset,evidence/echo,evidence/medical,apps,viewer"
-  "CLI/:apps,meshes/generate" "boost/interprocess:session" "GLFW/:viewer" "imgui:viewer" "epoxy/:viewer" "gtest/:tests" "pybind11/:python"
+  "CLI/:apps,meshes/generate" "boost/interprocess:session" "GLFW/:viewer" "imgui:viewer" "epoxy/:viewer" "gtest/:tests" "pybind11/:python" "dcmtk/:exchange"
   "nlohmann/:anatomy/compile,session,dataset,exchange,evidence,evidence/needle,evidence/probe,evidence/echo,evidence/medical,apps,meshes/generate")
 
 set(bad "")
