@@ -5,6 +5,7 @@
 #include <string>
 
 #include "artus/apps/command.h"
+#include "artus/apps/shard_commands.h"
 
 namespace {
 
@@ -31,6 +32,7 @@ int run(int argc, char** argv) {
   artus::add_slice_command(app, code);
   artus::add_sweep_command(app, code);
   artus::add_sweep_merge_command(app, code);
+  artus::add_sweep_stats_command(app, code);
   artus::add_export_command(app, code);
   artus::add_force_command(app, code);
   artus::add_video_command(app, code);

@@ -22,6 +22,7 @@
 #include "artus/dataset/pose_draw.h"
 #include "artus/dataset/secure_hash.h"
 #include "artus/dataset/shard_merge.h"
+#include "artus/dataset/shard_stats.h"
 #include "artus/dataset/sweep_frame.h"
 #include "artus/dataset/tar_file.h"
 #include "artus/evidence/echo/echo_phantom.h"
@@ -211,6 +212,26 @@ TEST_F(Shards, MergeFindsMissingDoubledForeignAndDamagedShards) {
   ASSERT_TRUE(write_text(folder_ / "a/shard-000000.tar", bytes));
   EXPECT_THAT(merge({"a"}).problems, Contains(HasSubstr("another sha256")));
   EXPECT_FALSE(merge_shards({folder_ / "nowhere"}, folder_ / "set.json"));
+}
+
+TEST_F(Shards, StatisticsCountWhatIsInTheSet) {
+  ASSERT_TRUE(write("set"));
+  const auto statistics = read_statistics({folder_ / "set"});
+  ASSERT_TRUE(statistics) << statistics.error().to_string();
+  EXPECT_EQ(statistics->frames, 10U);
+  std::size_t needles = 0;
+  for (std::size_t i = 0; i < 10; ++i) needles += source_.pose(i).X_JN ? 1 : 0;
+  EXPECT_EQ(statistics->with_needle, needles);
+  EXPECT_EQ(statistics->regions.at("fat"), 10U);
+  const auto& x = statistics->values.at("probe x, mm");
+  ASSERT_EQ(x.size(), 10U);
+  EXPECT_NEAR(x[4], 1e3 * source_.pose(4).X_JP.translation().x(), 1e-9);
+  const auto summary = to_json(*statistics)["least_quartiles_most"]["probe x, mm"];
+  EXPECT_EQ(summary[0], *std::min_element(x.begin(), x.end()));
+  EXPECT_EQ(summary[4], *std::max_element(x.begin(), x.end()));
+  const cv::Mat page = histogram_page(*statistics);
+  EXPECT_GT(cv::countNonZero(page.reshape(1) < 200), 5000);  // something is drawn
+  EXPECT_FALSE(read_statistics({folder_ / "nowhere"}));
 }
 
 TEST_F(Shards, ADrawnPoseDependsOnItsNumberAndTheSeedAlone) {
