@@ -170,7 +170,7 @@ void add_export_command(Command& app, ExitCode& code) {
       ->check(number_in(0, 1000));
   add_imaging_options(command, options->view);
   command->add_option("--mha", options->mha, "sequence for 3D Slicer and PLUS");
-  command->add_option("--dicom", options.dicom, "Ultrasound Multi-frame Image for a PACS");
+  command->add_option("--dicom", options->dicom, "Ultrasound Multi-frame Image for a PACS");
   command->add_flag("--json", options->json, "machine-readable output");
   on_run(command, code, [options] { return run_export(*options); });
 }

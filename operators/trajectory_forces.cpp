@@ -23,7 +23,8 @@ Result<std::vector<TrajectoryForce>> compute_trajectory_forces(
     TrajectoryForce out;
     out.force = tick.command.force;
     out.torque = tick.command.torque;
-    out.axial = tick.status == 0 ? -tick.command.force.dot(X_JN[i].linear().col(2)) : 0;
+    const bool felt = !tick.command.force.isZero(0);  // never where the pose is none
+    out.axial = felt ? -tick.command.force.dot(X_JN[i].linear().col(2)) : 0;
     out.depth = contact.tick().depth;
     out.region = static_cast<std::uint16_t>(contact.region());
     out.contact = static_cast<std::uint16_t>(contact.state());
