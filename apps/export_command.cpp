@@ -111,6 +111,7 @@ Result<void> write_files(const ExportOptions& options, const ImageSequence& sequ
 #ifdef ARTUS_HAS_DICOM
   DicomSeries series;
   series.joint = joint.name;
+  series.side = joint.side;
   series.engine = ARTUS_VERSION;
   series.pixel = sequence.frames.front().image_to_reference.col(0).norm() * kMillimetre;
   const std::size_t n = sequence.frames.size();

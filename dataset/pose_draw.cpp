@@ -41,7 +41,8 @@ enum Place : std::uint64_t {
   kAsideX,
   kAsideY,
   kSlantX,
-  kSlantY
+  kSlantY,
+  kInPlane
 };
 
 /// Moves a probe along its beam until the middle of its face lies on the skin; where it looks past
@@ -83,6 +84,19 @@ Pose draw_needle(const CompiledJoint& joint, const DrawRanges& ranges, const Dic
   return X_JN;
 }
 
+/// The needle laid into the probe's plane y = 0, tip and direction; where it stands across the
+/// plane it stays.
+Pose laid_in_plane(const Pose& X_JN, const Pose& X_JP) {
+  constexpr double kAcross = 0.05;  // of a needle's direction that must lie in the plane
+  Pose X_PN = X_JP.inverse() * X_JN;
+  Vec3 axis = X_PN.linear().col(2);
+  axis.y() = 0;
+  if (axis.norm() < kAcross) return X_JN;
+  Vec3 tip = X_PN.translation();
+  tip.y() = 0;
+  return X_JP * make_pose(tip, axis, Vec3::UnitY());
+}
+
 void read_range(TomlTable& table, std::string_view key, double unit, DrawRange& range) {
   if (!table.has(key)) return;
   const toml::array* pair = table.raw()[key].as_array();
@@ -97,26 +111,34 @@ void read_range(TomlTable& table, std::string_view key, double unit, DrawRange& 
     range = {*low * unit, *high * unit};
 }
 
+struct ShareKey {
+  const char* key;
+  double DrawRanges::*member;
+};
+
 struct RangeKey {
   const char* key;
   double unit;
   DrawRange DrawRanges::*member;
 };
 
-/// Reads the ranges of a table, whose keys are those of `keys` and, if not empty, `also`.
+template <class Key>
+bool is_known(std::string_view key, const std::vector<Key>& keys) {
+  return std::any_of(keys.begin(), keys.end(), [key](const Key& k) { return key == k.key; });
+}
+
+/// Reads a table, whose keys are those of `keys` and `shares`.
 void read_ranges(const toml::table& root, const char* name, const std::vector<RangeKey>& keys,
-                 const std::string& also, std::pair<DrawRanges&, Problems&> into) {
+                 const std::vector<ShareKey>& shares, std::pair<DrawRanges&, Problems&> into) {
   const toml::table* found = root[name].as_table();
   if (found == nullptr) return;
   TomlTable table(*found, name, into.second);
   for (const auto& [key, node] : *found)
-    if (key.str() != also &&
-        std::none_of(keys.begin(), keys.end(),
-                     [&k = key](const RangeKey& known) { return k.str() == known.key; }))
+    if (!is_known(key.str(), keys) && !is_known(key.str(), shares))
       table.problem("unknown key '" + std::string(key.str()) + "'");
   for (const RangeKey& key : keys) read_range(table, key.key, key.unit, into.first.*key.member);
-  if (!also.empty())
-    if (const auto share = table.number(also, 0, 1)) into.first.needle_share = *share;
+  for (const ShareKey& share : shares)
+    if (const auto number = table.number(share.key, 0, 1)) into.first.*share.member = *number;
 }
 
 std::uint64_t mix(std::uint64_t hash, double value) {
@@ -128,7 +150,7 @@ std::string digest_of(const DrawRanges& r, std::uint64_t seed, std::size_t count
   for (const DrawRange& range :
        {r.lateral, r.elevation, r.turn, r.tilt, r.rock, r.along, r.aside, r.slant})
     hash = mix(mix(hash, range.low), range.high);
-  hash = mix(hash, r.needle_share);
+  hash = mix(mix(hash, r.needle_share), r.in_plane_share);
   char text[24];
   std::snprintf(text, sizeof text, "drawn-%016llx", static_cast<unsigned long long>(hash));
   return text;
@@ -150,12 +172,13 @@ Result<DrawRanges> parse_draw_ranges(std::string_view text, const std::string& n
                {"turn_deg", kDegree, &DrawRanges::turn},
                {"tilt_deg", kDegree, &DrawRanges::tilt},
                {"rock_deg", kDegree, &DrawRanges::rock}},
-              "", {ranges, problems});
+              {}, {ranges, problems});
   read_ranges(*parsed, "needle",
               {{"along_mm", kMillimetre, &DrawRanges::along},
                {"aside_mm", kMillimetre, &DrawRanges::aside},
                {"slant_deg", kDegree, &DrawRanges::slant}},
-              "share", {ranges, problems});
+              {{"share", &DrawRanges::needle_share}, {"in_plane", &DrawRanges::in_plane_share}},
+              {ranges, problems});
   if (!problems.empty()) return problems.refusal(ErrorCode::invalid, name);
   return ranges;
 }
@@ -177,6 +200,8 @@ PoseSource drawn_poses(std::shared_ptr<const Scene> scene, const DrawRanges& ran
     pose.X_JP = draw_probe(*scene, ranges, dice);
     if (dice.uniform(kHasNeedle) < ranges.needle_share)
       pose.X_JN = draw_needle(scene->joint(), ranges, dice);
+    if (pose.X_JN && dice.uniform(kInPlane) < ranges.in_plane_share)
+      pose.X_JN = laid_in_plane(*pose.X_JN, pose.X_JP);
     return pose;
   };
   return source;

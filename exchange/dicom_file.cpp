@@ -51,7 +51,7 @@ std::string decimal(double value) {
 void put_people_and_series(ElementWriter& out, const DicomSeries& series, std::uint64_t digest) {
   const std::string made_by = "artus " + series.engine;
   out.text(DCM_SpecificCharacterSet, "ISO_IR 192");
-  out.text(DCM_ImageType, "DERIVED\\PRIMARY\\SOFT TISSUE\\0001");
+  out.text(DCM_ImageType, "DERIVED\\PRIMARY\\MUSCULOSKELETAL\\0001");
   out.text(DCM_SOPClassUID, UID_UltrasoundMultiframeImageStorage);
   out.text(DCM_SOPInstanceUID, identifier(digest));
   out.text(DCM_StudyInstanceUID, identifier(digest ^ 1U));
@@ -65,7 +65,8 @@ void put_people_and_series(ElementWriter& out, const DicomSeries& series, std::u
   out.text(DCM_ManufacturerModelName, "simulated ultrasound");
   out.text(DCM_SoftwareVersions, made_by);
   out.text(DCM_SeriesDescription, "simulated ultrasound");
-  out.text(DCM_PatientName, "Simulated");
+  out.text(DCM_Laterality, series.side == "left" ? "L" : series.side == "right" ? "R" : "");
+  out.text(DCM_PatientName, "Simulated^Joint");
   out.text(DCM_PatientID, "SIMULATED");
   out.text(DCM_StudyID, "1");
   out.text(DCM_SeriesNumber, "1");

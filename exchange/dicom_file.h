@@ -12,6 +12,7 @@ namespace artus {
 struct DicomSeries {
   std::string joint;         ///< of the image's comment
   std::string engine;        ///< version
+  std::string side;          ///< of the joint, "left" or "right"; else not said
   double pixel = 0;          ///< m, square
   double frame_time = 0.04;  ///< s from frame to frame
 };

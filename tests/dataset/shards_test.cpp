@@ -253,6 +253,7 @@ TEST_F(Shards, DrawnPosesFillTheirRangesAndStandOnTheSkin) {
   const PoseSource source = drawn_poses(scene_, ranges, 3, 2000);
   const Pose& middle = scene_->joint().X_JP_default;
   std::size_t needles = 0;
+  std::size_t flat = 0;  // in the probe's plane
   double least = 1;
   double most = -1;
   for (std::size_t i = 0; i < source.count; ++i) {
@@ -262,11 +263,15 @@ TEST_F(Shards, DrawnPosesFillTheirRangesAndStandOnTheSkin) {
     least = std::min(least, moved.x());
     most = std::max(most, moved.x());
     EXPECT_NEAR(scene_->signed_distance_to_skin(pose.X_JP.translation(), 0.1), 0, 1e-9);
-    needles += pose.X_JN.has_value() ? 1 : 0;
+    if (!pose.X_JN) continue;
+    ++needles;
+    const Pose X_PN = pose.X_JP.inverse() * *pose.X_JN;
+    flat += std::abs(X_PN.translation().y()) < 1e-9 && std::abs(X_PN(1, 2)) < 1e-9 ? 1 : 0;
   }
   EXPECT_NEAR(least, -10e-3, 0.1e-3);
   EXPECT_NEAR(most, 10e-3, 0.1e-3);
   EXPECT_NEAR(static_cast<double>(needles) / 2000, 0.7, 0.035);  // three standard deviations
+  EXPECT_NEAR(static_cast<double>(flat) / static_cast<double>(needles), 0.5, 0.041);
 }
 
 TEST(DrawRanges, AreReadWithEverythingThatIsWrong) {

@@ -30,7 +30,7 @@ class DicomFile : public test::TemporaryFolder {
     }
     return sequence;
   }
-  const DicomSeries series_{"shoulder", "1.0", 0.1e-3, 0.04};
+  const DicomSeries series_{"shoulder", "1.0", "right", 0.1e-3, 0.04};
 };
 
 TEST_F(DicomFile, HasThePixelsTheScaleAndTheWord) {
