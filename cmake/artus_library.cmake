@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
-# artus_library(NAME HEADERS ... SOURCES ... DEPENDS ... PRIVATE_DEPENDS ... PACKAGES ... OPTIONS ...)
+# artus_library(NAME [COLD] HEADERS ... SOURCES ... DEPENDS ... PRIVATE_DEPENDS ... PACKAGES ... OPTIONS ...)
 # One folder (or one room of anatomy/) = one static library artus_NAME (artus::NAME) and one component of
 # the installed package. HEADERS are the installable ones. PACKAGES are the outside libraries that whoever
 # asks for the component needs beyond those of its rooms, by the names of cmake/packages.cmake. OPTIONS
-# are the room's own compile options.
+# are the room's own compile options. COLD: no tick and no line of an image runs in it, so it is compiled for
+# a quick build.
 function(artus_library name)
-  cmake_parse_arguments(A "" "" "HEADERS;SOURCES;DEPENDS;PRIVATE_DEPENDS;PACKAGES;OPTIONS" ${ARGN})
+  cmake_parse_arguments(A "COLD" "" "HEADERS;SOURCES;DEPENDS;PRIVATE_DEPENDS;PACKAGES;OPTIONS" ${ARGN})
   add_library(artus_${name} STATIC ${A_SOURCES})
   add_library(artus::${name} ALIAS artus_${name})
   set_target_properties(artus_${name} PROPERTIES EXPORT_NAME ${name})
@@ -15,7 +16,9 @@ function(artus_library name)
   target_compile_features(artus_${name} PUBLIC cxx_std_20)
   artus_warnings(artus_${name})
   target_compile_options(artus_${name} PRIVATE ${A_OPTIONS})
-  if(name STREQUAL "core" OR A_OPTIONS)
+  if(A_COLD)
+    artus_cold(artus_${name})
+  elseif(name STREQUAL "core" OR A_OPTIONS)
     artus_precompiled(artus_${name})
   else()
     artus_precompiled(artus_${name} REUSE artus_core)

@@ -33,4 +33,8 @@ struct Segment {
   return pose;
 }
 
+/// The smallest rotation that turns the direction of `from` into that of `to`; of opposite ones,
+/// about some axis square to them. Requires: neither is zero.
+[[nodiscard]] Eigen::Quaterniond rotation_between(const Vec3& from, const Vec3& to) noexcept;
+
 }  // namespace artus

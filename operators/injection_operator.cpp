@@ -144,8 +144,7 @@ Intention InjectionOperator::intention(double t) const noexcept {
       want.grip = false;
     } else if (phase.kind == Kind::turn) {
       const double share = smooth(elapsed / std::max(phase.duration, 1e-3));
-      const Eigen::Quaterniond turn =
-          Eigen::Quaterniond::FromTwoVectors(turn_from_, phase.direction);
+      const Eigen::Quaterniond turn = rotation_between(turn_from_, phase.direction);
       direction = Eigen::Quaterniond::Identity().slerp(share, turn) * turn_from_;
     }
   }

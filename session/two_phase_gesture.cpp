@@ -31,7 +31,7 @@ std::optional<EntryChoice> choose_entry(const Scene& scene, const Pose& X_JP,
 Pose calibrate_joint(const Pose& X_WJ, const EntryChoice& choice,
                      const GestureParams& params) noexcept {
   const Vec3 direction_W = X_WJ.linear() * choice.direction_J;
-  const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(direction_W, params.axis_W);
+  const Eigen::Quaterniond turn = rotation_between(direction_W, params.axis_W);
   Pose moved = Pose::Identity();
   moved.linear() = turn.toRotationMatrix() * X_WJ.linear();
   moved.translation() = params.p_W - moved.linear() * choice.p_J;

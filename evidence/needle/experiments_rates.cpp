@@ -12,6 +12,7 @@
 #include "artus/core/noise.h"
 #include "artus/core/units.h"
 #include "artus/evidence/needle/experiment_list.h"
+#include "artus/evidence/needle/rates_under_sway.h"
 
 namespace artus {
 namespace {
@@ -321,6 +322,7 @@ Experiment run_rates(const ExperimentOptions& options, const DeviceLimits& devic
   show_rates(all.front(), options, device, out);
   for (const Insertion& insertion : all) compare_rates(insertion, options, out);
   compare_rates_on_drawn_bodies(options, out);
+  compare_rates_under_sway(options, out);
   out.assumed = assumed_with_hand(
       {"bodies and speeds; of all tissues clamping 200 N/m and a quarter of the force on the way "
        "out",

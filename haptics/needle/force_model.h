@@ -41,6 +41,7 @@ struct NeedleTick {
   LayerHaptics membrane;                 ///< the layer behind that membrane
   double torn = 0;         ///< N, what a membrane that gives way in this tick held; 0: none
   double torn_dimple = 0;  ///< m it was pushed in
+  double gave_way = 0;     ///< m, depth at which the skin did, in the tick of its puncture
   LayerHaptics layer;      ///< the soft layer the tip is cutting
   double bone_depth = std::numeric_limits<double>::infinity();  ///< m, where a hard layer begins
   LayerHaptics bone;

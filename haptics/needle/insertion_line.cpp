@@ -9,7 +9,10 @@
 
 namespace artus {
 namespace {
-constexpr double kGrazing = 0.1;  // cosine below which a line runs along the skin
+constexpr double kGrazing = 0.1;      // cosine below which a line runs along the skin
+constexpr double kFinestStep = 4e-6;  // m, of a hand's 40 mm/s in a tick at 10 kHz
+constexpr int kMostParts = 16;
+constexpr double kQuarterTurn = 1.5707963267948966;  // rad
 
 double angle_between(const Vec3& a, const Vec3& b) noexcept {
   return std::atan2(a.cross(b).norm(), a.dot(b));
@@ -36,40 +39,80 @@ void InsertionLine::start(const Vec3& tip, const Vec3& axis, double depth,
   entry_ = tip - depth * axis;
   skin_normal_ = std::abs(skin_normal.dot(axis)) > kGrazing ? skin_normal : Vec3(-axis);
   deepest_ = depth;
-  shallowest_ = params_.near_skin;
+  shallowest_ = std::min(depth, params_.near_skin);
+  last_tip_ = tip;
+  last_own_axis_ = axis;
 }
 
 LineChange InsertionLine::follow(const Vec3& tip, const Vec3& own_axis) noexcept {
   LineChange change;
+  const Vec3 from = last_tip_;
+  const Vec3 from_axis = last_own_axis_;
+  const double parts = std::clamp(std::ceil((tip - from).norm() / kFinestStep), 1.0,
+                                  static_cast<double>(kMostParts));
+  for (double part = 1; part < parts; ++part) {
+    const double share = part / parts;
+    step(from + share * (tip - from), (from_axis + share * (own_axis - from_axis)).normalized(),
+         change);
+  }
+  step(tip, own_axis, change);
+  last_tip_ = tip;
+  last_own_axis_ = own_axis;
+  return change;
+}
+
+void InsertionLine::step(const Vec3& tip, const Vec3& own_axis, LineChange& change) noexcept {
   const double before = depth(tip);
   deepest_ = std::max(deepest_, before);
-  if (before >= params_.near_skin) {
-    shallowest_ = params_.near_skin;
-  } else if (before < shallowest_) {
-    let_go(tip, own_axis, change);
-  }
+  shallowest_ = std::min(params_.near_skin, std::max(shallowest_, before - params_.play));
+  if (before < shallowest_) let_go(tip, own_axis, change);
   turn(tip, change);
-  change.gain = depth(tip) - before;
-  return change;
+  slide(tip, own_axis, change);
+  change.gain += depth(tip) - before;
+}
+
+// The line through `on_line` along `axis`; its entry stays on the skin. A share of how far it was
+// from the needle's own axis is left, of the first one likewise.
+void InsertionLine::approach(const Vec3& on_line, const Vec3& own_axis, double share) noexcept {
+  const double in_before = (on_line - entry_).dot(axis_);
+  axis_ = turned(own_axis, axis_, share * angle_between(own_axis, axis_));
+  first_axis_ = turned(own_axis, first_axis_, share * angle_between(own_axis, first_axis_));
+  const double slope = axis_.dot(skin_normal_);
+  const double in =
+      std::abs(slope) > kGrazing ? (on_line - entry_).dot(skin_normal_) / slope : in_before;
+  entry_ = on_line - in * axis_;
 }
 
 // Near the skin, each millimetre out lets go of its share of the line.
 void InsertionLine::let_go(const Vec3& tip, const Vec3& own_axis, LineChange& change) noexcept {
   const double before = depth(tip);
   if (before <= 0) return;  // the tip is outside
+  change.moved = true;
   const double share = before / shallowest_;
   const Vec3 foot = entry_ + before * axis_;
-  const Vec3 on_line = tip + share * (foot - tip);
-  axis_ = turned(own_axis, axis_, share * angle_between(own_axis, axis_));
-  first_axis_ = turned(own_axis, first_axis_, share * angle_between(own_axis, first_axis_));
-  const double slope = axis_.dot(skin_normal_);
-  const double in =
-      std::abs(slope) > kGrazing ? (on_line - entry_).dot(skin_normal_) / slope : before;
-  entry_ = on_line - in * axis_;
-  const double now = depth(tip);
-  deepest_ = now + share * (deepest_ - before);
+  approach(tip + share * (foot - tip), own_axis, share);
+  deepest_ = depth(tip) + share * (deepest_ - before);
   shallowest_ = before;
   change.kept *= share;
+}
+
+// Tissue holds a tip aside by no more than it is deep, and turns it the less the shallower it is:
+// a needle at the skin slides along it, as one that is a hair outside.
+void InsertionLine::slide(const Vec3& tip, const Vec3& own_axis, LineChange& change) noexcept {
+  const double before = depth(tip);
+  const double in = std::max(0.0, before);
+  const Vec3 foot = entry_ + before * axis_;
+  const double off = (foot - tip).norm();
+  const double angle = angle_between(own_axis, axis_);
+  const double most = in / params_.near_skin * kQuarterTurn;
+  if (off <= in && angle <= most) return;
+  change.moved = true;
+  const double slid = std::max(0.0, off - in);
+  const double turned = std::max(0.0, angle - most) * in;
+  const Vec3 on_line = slid > 0 ? Vec3(tip + in / off * (foot - tip)) : foot;
+  approach(on_line, own_axis, angle > most ? most / angle : 1.0);
+  deepest_ += depth(tip) - before;
+  change.kept *= std::exp(-(slid + turned) / params_.way);
 }
 
 // How far the tip may be off a line, m.
@@ -97,9 +140,11 @@ void InsertionLine::turn(const Vec3& tip, LineChange& change) noexcept {
   if (!((to_tip - before * axis_).norm() > most)) return;
   const Vec3 direction = to_tip / distance;
   const Vec3 axis = inside_cone(turned(direction, axis_, std::asin(most / distance)), distance);
-  change.turned = distance * angle_between(axis_, axis);
-  if (!(change.turned > 0)) return;
-  const double kept = std::exp(-change.turned / params_.way);
+  const double turned = distance * angle_between(axis_, axis);
+  if (!(turned > 0)) return;
+  change.moved = true;
+  change.turned += turned;
+  const double kept = std::exp(-turned / params_.way);
   axis_ = axis;
   const double now = depth(tip);
   const double enough = params_.withdrawal + params_.advance;

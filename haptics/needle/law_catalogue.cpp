@@ -171,7 +171,9 @@ std::vector<LawDescription> line_laws() {
             {"angle", contact.line.angle, "rad", kAssumed},
             {"advance", contact.line.advance, "m", kAssumed},
             {"way", contact.line.way, "m", kAssumed},
-            {"near_skin", contact.line.near_skin, "m", kAssumed}}}};
+            {"near_skin", contact.line.near_skin, "m", kAssumed},
+            {"play", contact.line.play, "m", kAssumed},
+            {"layer_edge", contact.layer_edge, "m", kAssumed}}}};
 }
 
 std::vector<LawDescription> other_laws() {

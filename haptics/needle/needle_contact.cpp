@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "artus/haptics/needle/insertion_cone.h"
 
@@ -41,6 +42,7 @@ NeedleContact::NeedleContact(const ContactParams& params, const PrepunctureParam
       table_(&table),
       dt_(dt),
       line_(params.line, params.needle_length),
+      skin_(params.membrane_edge),
       motion_(params.motion),
       depths_(params.velocity_window, dt),
       orientations_(params.velocity_window, dt) {
@@ -51,6 +53,7 @@ NeedleContact::NeedleContact(const ContactParams& params, const PrepunctureParam
 
 void NeedleContact::reset() noexcept {
   leave();
+  skin_.forget();
   events_ = 0;
   adopt_ = true;
 }
@@ -60,6 +63,7 @@ void NeedleContact::leave() noexcept {
   on_bone_ = false;
   state_ = ContactState::away;
   region_ = kOutside;
+  soft_region_ = kOutside;
   open_ = 0;
   was_outside_ = true;
   layer_count_ = 0;
@@ -94,14 +98,41 @@ void NeedleContact::store_layers(std::span<const TissueInterval> intervals,
   tick_.shaft = std::span<const ShaftLayer>(layers_.data(), layer_count_);
 }
 
-void NeedleContact::start_line(const Pose& X_JN, double depth) noexcept {
+void NeedleContact::start_line(const NeedlePlace& place) noexcept {
   inserted_ = true;
-  tick_.orientation_0 = tick_.orientation;
-  line_.start(tick_.tip, X_JN.linear().col(2), depth, tick_.surface_normal);
+  soft_region_ = kOutside;
+  tick_.orientation_0 = place.orientation;
+  line_.start(place.tip, place.orientation * Vec3::UnitZ(), place.depth, tick_.surface_normal);
   tick_.axis = line_.axis();
   tick_.entry = line_.entry();
-  open_ = depth;
-  motion_.reset(depth, Motion::inward);
+  tick_.depth = line_.depth(tick_.tip);
+  tick_.dimple = 0;
+  tick_.gave_way = place.depth;
+  clearance_ = tick_.depth;
+  open_ = tick_.depth;
+  motion_.reset(tick_.depth, Motion::inward);
+}
+
+void NeedleContact::adopt(const NeedlePlace& now) noexcept {
+  adopt_ = false;
+  start_line(now);
+  depths_.reset(now.depth);
+  tick_.velocity = 0;
+  motion_.reset(now.depth, Motion::still);
+  events_ |= ContactEvent::kAdopted;
+}
+
+// How far the skin was pushed in when it gave way, in the way since the last tick.
+double NeedleContact::gave_way_at(const LayerHaptics& skin, double strength,
+                                  double thickness) const noexcept {
+  const double now = tick_.depth;
+  const double last = skin_.last_dimple(now);
+  if (strength <= 0) return last;
+  const double force_last = prepuncture_force(prepuncture_, skin, last, tick_.velocity);
+  const double force_now = prepuncture_force(prepuncture_, skin, now, tick_.velocity);
+  double share = 1;
+  if (force_now > strength) share = std::max(0.0, strength - force_last) / (force_now - force_last);
+  return std::max(last, std::min(last + share * (now - last), thickness));
 }
 
 // Tip outside, or dimpling the skin: the line is the needle's own axis.
@@ -110,15 +141,19 @@ void NeedleContact::approach(const Pose& X_JN, std::span<const TissueInterval> i
   std::size_t tip_index = 0;
   while (tip_index + 1 < intervals.size() && intervals[tip_index].exit <= at_tip) ++tip_index;
   const bool inside = !intervals.empty() && intervals[tip_index].region != kOutside;
+  std::size_t first = tip_index;
   if (!inside) {
     adopt_ = false;
     leave();
     depths_.reset(0);
+    while (first < intervals.size() && intervals[first].region == kOutside) ++first;
+    const double ahead = first < intervals.size() ? intervals[first].entry - at_tip : kInfinity;
+    skin_.wait({tick_.tip, tick_.orientation, -ahead});
     return;
   }
-  std::size_t first = tip_index;
   while (first > 0 && intervals[first - 1].region != kOutside) --first;
   const double depth = at_tip - intervals[first].entry;
+  const NeedlePlace now{tick_.tip, tick_.orientation, depth};
   tick_.axis = X_JN.linear().col(2);
   tick_.entry = tick_.tip - depth * tick_.axis;
   tick_.depth = depth;
@@ -129,29 +164,22 @@ void NeedleContact::approach(const Pose& X_JN, std::span<const TissueInterval> i
     was_outside_ = false;
   }
   tick_.velocity = (depth - depths_.push(depth)) / depths_.duration(dt_);
-  if (adopt_) {
-    adopt_ = false;
-    start_line(X_JN, depth);
-    depths_.reset(depth);
-    tick_.velocity = 0;
-    motion_.reset(depth, Motion::still);
-    events_ |= ContactEvent::kAdopted;
-    return;
-  }
+  if (adopt_) return adopt(now);
   const LayerHaptics& skin = (*table_)[intervals[first].region];
+  const double thickness = intervals[first].exit - intervals[first].entry;
   const double force = prepuncture_force(prepuncture_, skin, depth, tick_.velocity);
-  const bool holds = skin.tissue.puncture_force > 0 && force < skin.tissue.puncture_force &&
-                     depth < intervals[first].exit - intervals[first].entry;
-  if (holds) {
+  skin_.touch(now);
+  const double strength = skin_.wholeness() * skin.tissue.puncture_force;
+  if (strength > 0 && force < strength && depth < thickness) {
+    skin_.remember(now);
     state_ = ContactState::touching;
     region_ = intervals[first].region;
     tick_.membrane = skin;
     tick_.dimple = depth;
     return;
   }
-  start_line(X_JN, depth);
-  tick_.dimple = 0;
-  tear(std::min(force, skin.tissue.puncture_force), depth);
+  start_line(skin_.between(now, gave_way_at(skin, strength, thickness)));
+  tear(std::min(force, strength), depth);
   events_ |= ContactEvent::kSkinPunctured;
 }
 
@@ -163,31 +191,39 @@ void NeedleContact::tear(double force, double dimple) noexcept {
 // The line may follow the tip; what is remembered by depth goes with it.
 void NeedleContact::follow_line(const Pose& X_JN) noexcept {
   const LineChange change = line_.follow(tick_.tip, X_JN.linear().col(2));
-  if (change.kept == 1) return;
+  if (!change.moved) return;
   const double ahead = open_ - tick_.depth;
   tick_.axis = line_.axis();
   tick_.entry = line_.entry();
-  tick_.depth += change.gain;
+  const double deeper = line_.depth(tick_.tip) - tick_.depth;
+  tick_.depth += deeper;
+  for (ShaftLayer& layer : std::span(layers_.data(), layer_count_)) {
+    layer.entry += deeper;
+    layer.exit += deeper;
+  }
   tick_.line_gain = change.gain;
   tick_.line_kept = change.kept;
   tick_.orientation_0 = tick_.orientation.slerp(change.kept, tick_.orientation_0);
-  if (ahead > 0) {
-    const double skin_open =
-        2 * (params_.membrane_margin + params_.membrane_edge);  // until it is left
-    open_ = std::max(tick_.depth + change.kept * ahead, std::min(open_, skin_open));
-  }
+  if (ahead > 0) open_ = tick_.depth + change.kept * ahead;
   depths_.shift(change.gain);
   motion_.shift(change.gain);
   if (change.turned > 0) events_ |= ContactEvent::kRedirected;
 }
 
-// Whether the tip is before the first tissue of its line.
-bool NeedleContact::left_the_skin() const noexcept {
-  if (tick_.depth < 0) return true;
+// How far the tip is in the first tissue of its line, m; negative outside.
+double NeedleContact::clearance() const noexcept {
   for (const ShaftLayer& s : tick_.shaft) {
-    if (s.region != kOutside) return s.entry > tick_.depth;
+    if (s.region != kOutside) return std::min(tick_.depth, tick_.depth - s.entry);
   }
-  return true;
+  return -kInfinity;
+}
+
+void NeedleContact::leave_skin(const Vec3& last_tip, double last_clearance) noexcept {
+  const double share = last_clearance > 0 ? last_clearance / (last_clearance - clearance_) : 0;
+  skin_.leave(last_tip + share * (tick_.tip - last_tip),
+              {tick_.tip, tick_.orientation, clearance_});
+  leave();
+  events_ = ContactEvent::kExited;
 }
 
 // Share of its strength that a membrane has that crosses the line at `depth`.
@@ -215,6 +251,30 @@ double NeedleContact::felt_bone(double line_depth) noexcept {
   return bone_;
 }
 
+// The tip is in this stretch. What the wall feels goes over to it on the first way in it, so that a
+// tip at rest on a border is not in one layer or the other by chance.
+void NeedleContact::feel(const ShaftLayer& stretch, bool skin) noexcept {
+  const Haptic before = tick_.layer.tissue;
+  tick_.layer = (*table_)[stretch.region];
+  region_ = stretch.region;
+  if (skin) return;
+  Haptic& felt = tick_.layer.tissue;
+  const double share = std::min(1.0, (tick_.depth - stretch.entry) / params_.layer_edge);
+  felt.cutting_force = std::lerp(before.cutting_force, felt.cutting_force, share);
+  felt.attracted_force = std::lerp(before.attracted_force, felt.attracted_force, share);
+  felt.wall_stiffness = std::lerp(before.wall_stiffness, felt.wall_stiffness, share);
+}
+
+// The layer that the tip was in a tick ago, -1: none. Its membrane and those before it gave way
+// earlier; on a line that moves they come back to strength and hold again, but do not tear twice.
+std::ptrdiff_t NeedleContact::last_passed() const noexcept {
+  std::ptrdiff_t passed = -1;
+  for (std::size_t i = 0; i < layer_count_ && layers_[i].entry <= tick_.depth; ++i) {
+    if (layers_[i].region == soft_region_) passed = static_cast<std::ptrdiff_t>(i);
+  }
+  return passed;
+}
+
 // The soft layer at the tip, the membrane that holds it up, and where bone begins.
 void NeedleContact::find_tip_layers() noexcept {
   const double x = tick_.depth;
@@ -222,9 +282,11 @@ void NeedleContact::find_tip_layers() noexcept {
   tick_.bone_depth = kInfinity;
   region_ = kOutside;
   bool held = false;
+  bool skin = true;  // is punctured
   double line_bone = kInfinity;
-  for (std::size_t i = 0; i < layer_count_; ++i) {
-    const ShaftLayer& s = layers_[i];
+  const std::ptrdiff_t passed = last_passed();
+  for (std::ptrdiff_t i = 0; i < static_cast<std::ptrdiff_t>(layer_count_); ++i) {
+    const ShaftLayer& s = layers_[static_cast<std::size_t>(i)];
     const LayerHaptics& layer = (*table_)[s.region];
     if (layer.tissue.hard) {
       if (s.exit <= 0) continue;
@@ -236,7 +298,7 @@ void NeedleContact::find_tip_layers() noexcept {
       break;
     }
     if (s.entry > x || s.region == kOutside) continue;
-    const double strength = wholeness(s.entry) * layer.tissue.puncture_force;
+    const double strength = skin ? 0 : wholeness(s.entry) * layer.tissue.puncture_force;
     if (!held && strength > 0) {
       const double dimple = x - s.entry;
       const double force = prepuncture_force(prepuncture_, layer, dimple, tick_.velocity);
@@ -247,17 +309,16 @@ void NeedleContact::find_tip_layers() noexcept {
         }
         tick_.dimple = dimple;
         tick_.membrane = layer;
-      } else {
+      } else if (i > passed) {
         tear(std::min(force, strength), dimple);
         open_ = std::max(open_, s.entry + params_.membrane_margin + params_.membrane_edge);
         events_ |= ContactEvent::kMembranePopped;
       }
     }
-    if (!held) {
-      tick_.layer = layer;
-      region_ = s.region;
-    }
+    if (!held) feel(s, skin);
+    skin = false;
   }
+  soft_region_ = region_;
   tick_.bone_depth = felt_bone(line_bone);
   if (x > tick_.bone_depth) region_ = bone_region_;
   if (!held) open_ = std::max(open_, std::min(x, tick_.bone_depth));
@@ -307,7 +368,8 @@ void NeedleContact::update(const Pose& X_JN, std::span<const TissueInterval> int
   tick_.line_kept = 1;
   tick_.torn = 0;
   tick_.torn_dimple = 0;
-  moved_ = adopt_ ? 0 : (X_JN.translation() - tick_.tip).norm();
+  const Vec3 last_tip = tick_.tip;
+  moved_ = adopt_ ? 0 : (X_JN.translation() - last_tip).norm();
   tick_.tip = X_JN.translation();
   update_velocity(X_JN);
   if (!inserted_) {
@@ -316,11 +378,8 @@ void NeedleContact::update(const Pose& X_JN, std::span<const TissueInterval> int
   } else {
     tick_.depth = (tick_.tip - tick_.entry).dot(tick_.axis);
     store_layers(intervals, params_.behind_skin);
-    if (left_the_skin()) {
-      leave();
-      events_ = ContactEvent::kExited;
-      return;
-    }
+    const double last_clearance = std::exchange(clearance_, clearance());
+    if (clearance_ < 0) return leave_skin(last_tip, last_clearance);
     const double before = depths_.push(tick_.depth);
     tick_.velocity = (tick_.depth - before) / depths_.duration(dt_);
     follow_line(X_JN);

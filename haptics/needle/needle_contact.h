@@ -9,6 +9,7 @@
 #include "artus/haptics/needle/insertion_line.h"
 #include "artus/haptics/needle/motion.h"
 #include "artus/haptics/needle/prepuncture.h"
+#include "artus/haptics/needle/skin_puncture.h"
 #include "artus/raycast/scene.h"
 
 namespace artus {
@@ -48,6 +49,8 @@ struct ContactParams {
                                     ///< needle moves over a slope in a tick
   double membrane_edge = 0.5e-3;    ///< m farther, over which its strength is lost; assumed: a
                                     ///< needle's width
+  double layer_edge = 0.2e-3;       ///< m, way on which the tip goes over from what one soft layer
+                                    ///< feels like to the next; assumed: a part of a bevel
   double bevel = 1e-3;  ///< m, way on which a tip that was pressed into bone slides off it at most;
                         ///< assumed: the size of a needle's bevel
   MotionParams motion;
@@ -89,10 +92,16 @@ class NeedleContact {
 
   void store_layers(std::span<const TissueInterval> intervals, double origin) noexcept;
   void approach(const Pose& X_JN, std::span<const TissueInterval> intervals) noexcept;
-  void start_line(const Pose& X_JN, double depth) noexcept;
+  void adopt(const NeedlePlace& now) noexcept;
+  void start_line(const NeedlePlace& place) noexcept;
+  [[nodiscard]] double gave_way_at(const LayerHaptics& skin, double strength,
+                                   double thickness) const noexcept;
   void tear(double force, double dimple) noexcept;
   void follow_line(const Pose& X_JN) noexcept;
-  [[nodiscard]] bool left_the_skin() const noexcept;
+  [[nodiscard]] double clearance() const noexcept;
+  void leave_skin(const Vec3& last_tip, double last_clearance) noexcept;
+  [[nodiscard]] std::ptrdiff_t last_passed() const noexcept;
+  void feel(const ShaftLayer& stretch, bool skin) noexcept;
   [[nodiscard]] double wholeness(double depth) const noexcept;
   double felt_bone(double line_depth) noexcept;
   void find_tip_layers() noexcept;
@@ -105,6 +114,7 @@ class NeedleContact {
   const LayerTable* table_;
   double dt_;
   InsertionLine line_;
+  SkinPuncture skin_;
   MotionDetector motion_;
   SampleWindow<double> depths_;
   SampleWindow<Eigen::Vector4d> orientations_;
@@ -115,6 +125,7 @@ class NeedleContact {
   ContactState state_ = ContactState::away;
   std::uint32_t events_ = 0;
   RegionId region_ = kOutside;
+  RegionId soft_region_ = kOutside;  // at the tip a tick ago, before bone
   bool inserted_ = false;
   bool adopt_ = true;
   bool on_bone_ = false;
@@ -124,6 +135,7 @@ class NeedleContact {
   double held_ = 0;                  // m, how far the tip was in bone when its line last was
   Vec3 held_tip_ = Vec3::Zero();     // the tip there
   RegionId bone_region_ = kOutside;  // that bone
+  double clearance_ = 0;             // m, of the tip from the first tissue of its line
   double open_ = 0;                  // m, deepest point of the cut track on this line
 };
 

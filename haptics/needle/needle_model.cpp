@@ -44,11 +44,8 @@ void NeedleModel::start_laws() noexcept {
   const NeedleTick& tick = contact_.tick();
   const double x = tick.depth;
   const bool puncture = (contact_.events() & ContactEvent::kSkinPunctured) != 0;
-  const double membrane = tick.layer.tissue.puncture_force;
   const double stiffness = std::max(tick.layer.tissue.wall_stiffness, 1e-6);
-  double w0 = x;
-  if (puncture) w0 = membrane > 0 ? std::max(0.0, x - membrane / stiffness) : 0.0;
-  wall_.start(w0, x);
+  wall_.start(puncture ? std::max(0.0, tick.gave_way - tick.torn / stiffness) : x, x);
   reset_all(x, direct_, spring_, voigt_, prepuncture_, friction_, hard_, clamping_, orientation_,
             plasticity_);
 }
@@ -87,7 +84,7 @@ const NeedleForces& NeedleModel::step(const Pose& X_JN,
   if (contact_.inserted()) {
     constexpr std::uint32_t kStart = ContactEvent::kSkinPunctured | ContactEvent::kAdopted;
     if ((contact_.events() & kStart) != 0) start_laws();
-    if (tick.line_kept < 1) take_line();
+    if (tick.line_kept < 1 || tick.line_gain != 0) take_line();
     const double cutting = cutting_force(tick);
     forces_.cutting = std::min(cutting, 0.0);
     forces_.attracted = std::max(cutting, 0.0);

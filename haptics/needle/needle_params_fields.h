@@ -17,18 +17,19 @@ void fields_of(P& params, F&& visit) {
 
 template <Like<LineParams> P, class F>
 void fields_of(P& params, F&& visit) {
-  auto& [withdrawal, deviation, angle, advance, way, near_skin] = params;
+  auto& [withdrawal, deviation, angle, advance, way, near_skin, play] = params;
   visit("withdrawal", withdrawal);
   visit("deviation", deviation);
   visit("angle", angle);
   visit("advance", advance);
   visit("way", way);
   visit("near_skin", near_skin);
+  visit("play", play);
 }
 
 template <Like<ContactParams> P, class F>
 void fields_of(P& params, F&& visit) {
-  auto& [length, line, behind_skin, lookahead, approach, margin, edge, bevel, motion,
+  auto& [length, line, behind_skin, lookahead, approach, margin, edge, layer_edge, bevel, motion,
          velocity_window] = params;
   visit("needle_length", length);
   visit("line", line);
@@ -37,6 +38,7 @@ void fields_of(P& params, F&& visit) {
   visit("approach", approach);
   visit("membrane_margin", margin);
   visit("membrane_edge", edge);
+  visit("layer_edge", layer_edge);
   visit("bevel", bevel);
   visit("motion", motion);
   visit("velocity_window", velocity_window);

@@ -58,7 +58,9 @@ double TrackingWall::soft_force(const NeedleTick& tick, double x) noexcept {
   settle(tick, x);
   follow_limits(tick);
   const double floor = x <= cut_ ? x : std::max(cut_, x - cutting_limit_ / stiffness);
-  const double ceiling = x + attracted_limit_ / stiffness;
+  // Tissue cannot be drawn out by more than the needle is in: the hold ends at the skin, not at a
+  // tick.
+  const double ceiling = x + std::min(attracted_limit_ / stiffness, std::max(0.0, x));
   wall_ = std::min(std::max(wall_, floor), ceiling);
   cut_ = std::max(cut_, std::min(wall_, x));
   return stiffness * (wall_ - x);

@@ -40,5 +40,15 @@ TEST(IsRigid, RefusesWhatNoBodyCanDo) {
   EXPECT_FALSE(is_rigid(lost));
 }
 
+TEST(RotationBetween, TurnsOneDirectionIntoTheOtherByTheSmallestAngle) {
+  const Vec3 from = Vec3(1, 2, -0.5);
+  for (const Vec3& to : {Vec3(0.3, -1, 4), Vec3(2, 4, -1), Vec3(-1, -2, 0.5)}) {
+    const Eigen::Quaterniond turn = rotation_between(from, to);
+    EXPECT_LT((turn * from.normalized() - to.normalized()).norm(), 1e-12);
+    const double angle = std::atan2(from.cross(to).norm(), from.dot(to));
+    EXPECT_NEAR(2 * std::atan2(turn.vec().norm(), std::abs(turn.w())), angle, 1e-7);
+  }
+}
+
 }  // namespace
 }  // namespace artus

@@ -161,7 +161,7 @@ ForceScenario new_lines() {
                       {2.7, 9, 0.3, 0},
                       {2.8, 2.5, 0, 0},
                       {2.9, 2.5, 0.4, 0},  // too near the skin
-                      {3.3, 4.5, 0.4, 0},
+                      {3.3, 3.6, 0.4, 0},  // not as far in as that all is let go
                       {3.5, -1, 0.4, 0}},
                      Vec3::UnitZ()});
 }

@@ -19,7 +19,7 @@ struct Refuted {
   std::string_view claim;
   double value;
 };
-constexpr std::array<Refuted, 5> kRefuted{{
+constexpr std::array<Refuted, 7> kRefuted{{
     {"wall-vs-classic",
      "tracking wall at 500 N/m, worst device and seed: force energy above 20 Hz until the release "
      "over the best of the others",
@@ -34,6 +34,14 @@ constexpr std::array<Refuted, 5> kRefuted{{
      1.47},
     {"wall-release", "touch, wall alone, let go over 50 ms, worst of 10 hands: ejection", 0.340},
     {"wall-release", "delta, wall alone, let go over 50 ms, worst of 10 hands: ejection", 0.247},
+    {"rates",
+     "a hand that sways, back to five depths and in again, worst device and body: force aside "
+     "alone at 1000 Hz against 10 kHz, RMS share",
+     0.0720},
+    {"rates",
+     "a hand that sways, back to five depths and in again, worst device and body: force aside "
+     "alone at 2000 Hz against 10 kHz, RMS share",
+     0.0655},
 }};
 
 TEST_P(NeedleExperiment, ClaimsHoldButForTheRefutedOnes) {

@@ -81,8 +81,47 @@ TEST(InsertionLine, DependsOnThePathNotOnItsSteps) {
   };
   const auto fine = run(40000);
   const auto coarse = run(1300);
-  EXPECT_LT((fine.first - coarse.first).norm(), 5e-4);
-  EXPECT_NEAR(fine.second, coarse.second, 1e-3);
+  EXPECT_LT((fine.first - coarse.first).norm(), 1e-4);
+  EXPECT_NEAR(fine.second, coarse.second, 2e-4);
+}
+
+// A needle that went in by a hair more or less comes out on the same line.
+TEST(InsertionLine, IsLetGoContinuouslyWithHowDeepTheNeedleWasNearTheSkin) {
+  const Vec3 own = Vec3(0.1, 0, 1).normalized();
+  double before = 0;
+  for (int i = 0; i <= 400; ++i) {
+    const double deep = 1e-3 + 1e-5 * i;
+    InsertionLine line = withdrawn(deep, deep);
+    for (double z = deep; z > 0.9e-3; z -= 1e-5) line.follow(Vec3(0.3e-3, 0, z), own);
+    const double angle = std::atan2(line.axis().x(), line.axis().z());
+    EXPECT_TRUE(i == 0 || std::abs(angle - before) < 2e-3) << "in to " << deep;
+    before = angle;
+  }
+  EXPECT_GT(before, 0.05);
+}
+
+TEST(InsertionLine, HoldsATipAsideByNoMoreThanItIsDeep) {
+  for (const double depth : {1e-6, 1e-4, 5e-4}) {
+    InsertionLine line({}, kNeedle);
+    line.start(Vec3::Zero(), kDown, 0, -kDown);
+    line.follow(Vec3(0, 0, depth), kDown);
+    const Vec3 aside(2e-3, 0, depth);
+    const Vec3 own = Vec3(0.5, 0, 1).normalized();
+    double kept = 1;
+    for (int i = 1; i <= 2000; ++i) {
+      const double share = i / 2000.0;
+      kept *= line.follow(share * aside + (1 - share) * Vec3(0, 0, depth),
+                          (share * own + (1 - share) * kDown).normalized())
+                  .kept;
+    }
+    const double in = line.depth(aside);
+    EXPECT_LT(in, 2 * depth + 1e-5);
+    EXPECT_LE(off(line, aside), in + 1e-6);
+    const double turned = std::acos(std::min(1.0, own.dot(line.axis())));
+    EXPECT_LE(turned, 1.5708 * in / 3e-3 + 1e-3);
+    EXPECT_LT(kept, 0.1) << "its old track is not the tip's any more";
+    EXPECT_NEAR(line.entry().z(), 0, 1e-12);
+  }
 }
 
 TEST(InsertionLine, StaysInsideTheCone) {

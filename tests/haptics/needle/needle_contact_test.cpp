@@ -287,7 +287,8 @@ TEST_F(ContactTest, DirectionMayChangeInsideTheConeAfterAWithdrawalOnly) {
   EXPECT_LT(model.forces().clamping.norm(), 0.02);
   turn_to(44, 0.008);
   const double held = std::atan2(model.contact().tick().axis.x(), model.contact().tick().axis.z());
-  EXPECT_LE(held, insertion_cone(0.008, 0.035) + 1e-9) << "the cone ends the turn";
+  // A tick's way is straight: its middle lies a hair nearer the entry, where the cone is wider.
+  EXPECT_LE(held, insertion_cone(0.008, 0.035) + 1e-5) << "the cone ends the turn";
 }
 
 TEST_F(ContactTest, WhatIsFeltAlongTheNeedleGoesOnWhenALineIsTakenAnew) {
@@ -327,6 +328,85 @@ TEST_F(ContactTest, LeavingTheSkinForgetsTheLine) {
   events = 0;
   move(-0.001, 0.005);
   EXPECT_NE(events & ContactEvent::kSkinPunctured, 0U) << "a new puncture is needed";
+}
+
+// At the tick after the puncture a swaying needle is somewhere else at each rate.
+TEST_F(ContactTest, TheLineBeginsWhereTheSkinGaveWayWhereverTheTicksFall) {
+  std::vector<Vec3> entries;
+  for (int i = 0; i < 10; ++i) {
+    NeedleModel needle(NeedleParams{}, body.table(), kDt);
+    for (double t = 1e-4 * i; !needle.contact().inserted(); t += kDt) {
+      const Pose pose =
+          make_pose(Vec3(0.025 * t, 0, 0.015 * t - 0.001), Vec3::UnitZ(), Vec3::UnitX());
+      needle.step(pose, body.intervals(needle.query_segment(pose)));
+    }
+    entries.push_back(needle.contact().tick().entry);
+  }
+  for (const Vec3& entry : entries) EXPECT_LT((entry - entries[0]).norm(), 1e-7);
+}
+
+// Ticks on the skin itself and a hair from it: the hold runs out at the skin, not a tick later.
+TEST_F(ContactTest, TissueHoldsAWithdrawnNeedleByNoMoreThanItsStiffnessTimesItsDepth) {
+  const double stiffness = body.table()[2].tissue.wall_stiffness;
+  move(-0.001, 0.010);
+  move(0.010, 0.0001);
+  double before = model.forces().attracted;
+  EXPECT_GT(before, 0.04);
+  for (int i = 10; i >= 0; --i) {
+    const double x = 1e-5 * i;
+    step(Vec3(0, 0, x));
+    const double now = model.forces().attracted;
+    EXPECT_LE(now, stiffness * x + 1e-9) << "at " << x;
+    EXPECT_LE(std::abs(now - before), stiffness * 1e-5 + 1e-9) << "at " << x;
+    before = now;
+  }
+  EXPECT_LT(model.forces().total.force.norm(), 1e-3) << "on the skin";
+}
+
+// A needle that is drawn back to the skin and pushed in again, by a hair inside or outside.
+TEST_F(ContactTest, ANeedleThatLeftTheSkinByAHairFindsItsHole) {
+  const auto run = [this](double back) {
+    NeedleModel needle(NeedleParams{}, body.table(), kDt);
+    std::vector<double> forces;
+    const auto go = [&](double from, double to) {
+      for (int i = 1; i <= 400; ++i) {
+        const double z = from + (to - from) * i / 400;
+        const Pose pose = make_pose(Vec3(0, 0, z), Vec3::UnitZ(), Vec3::UnitX());
+        needle.step(pose, body.intervals(needle.query_segment(pose)));
+        forces.push_back(needle.forces().total.force.z());
+      }
+    };
+    go(-0.001, 0.008);
+    go(0.008, back);
+    go(back, 0.008);
+    return forces;
+  };
+  const std::vector<double> inside = run(1e-7);
+  const std::vector<double> outside = run(-1e-7);
+  const std::vector<double> away = run(-0.001);
+  double off = 0;
+  double off_away = 0;
+  for (std::size_t i = 0; i < inside.size(); ++i) {
+    off = std::max(off, std::abs(outside[i] - inside[i]));
+    off_away = std::max(off_away, std::abs(away[i] - inside[i]));
+  }
+  EXPECT_LT(off, 0.1);
+  EXPECT_GT(off_away, 0.5) << "a millimetre off, it must puncture the skin anew";
+}
+
+TEST_F(ContactTest, OnABorderTheSoftLayersPassIntoEachOther) {
+  move(-0.001, 0.0039);
+  const auto& felt = model.contact().tick().layer.tissue;
+  double before = felt.cutting_force;
+  EXPECT_EQ(before, 1);
+  for (double x = 0.0039; x < 0.0043; x += 2e-6) {
+    step(Vec3(0, 0, x));
+    EXPECT_NEAR(felt.cutting_force, before, 0.0101) << x;
+    before = felt.cutting_force;
+  }
+  EXPECT_EQ(before, 2);
+  step(Vec3(0, 0, 0.0041));
+  EXPECT_NEAR(felt.cutting_force, 1.5, 1e-9) << "half of the 0.2 mm";
 }
 
 TEST_F(ContactTest, TotalForceIsTheSumOfItsComponents) {

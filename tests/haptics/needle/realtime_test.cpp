@@ -13,6 +13,7 @@
 #include "artus/haptics/needle/insertion_line.h"
 #include "artus/haptics/needle/needle_model.h"
 #include "artus/haptics/needle/needle_tick_step.h"
+#include "artus/haptics/needle/skin_puncture.h"
 #include "artus/haptics/needle/velocity_estimator.h"
 #include "tests/haptics/needle/tick_builder.h"
 #include "tests/support/real_time.h"
@@ -43,6 +44,21 @@ TEST(RealTimeNeedle, InsertionLineNeitherAllocatesNorLocks) {
   ARTUS_RUNS_REALTIME(InsertionLine::follow, use(line.follow(Vec3(0, 0, 0.02), z)),
                       use(line.follow(Vec3(2e-3, 0, 0.01), z)),
                       use(line.follow(Vec3(2e-3, 0, 0.001), z)));
+}
+
+TEST(RealTimeNeedle, SkinPunctureNeitherAllocatesNorLocks) {
+  SkinPuncture skin(0.5e-3);
+  NeedlePlace now;
+  ARTUS_RUNS_REALTIME(SkinPuncture::forget, skin.forget());
+  ARTUS_RUNS_REALTIME(SkinPuncture::leave, skin.leave(Vec3::Zero(), now));
+  now.depth = -1e-3;
+  ARTUS_RUNS_REALTIME(SkinPuncture::wait, skin.wait(now));
+  now.depth = 1e-3;
+  ARTUS_RUNS_REALTIME(SkinPuncture::touch, skin.touch(now));
+  ARTUS_RUNS_REALTIME(SkinPuncture::between, use(skin.between(now, 0)));
+  ARTUS_RUNS_REALTIME(SkinPuncture::last_dimple, use(skin.last_dimple(1e-3)));
+  ARTUS_RUNS_REALTIME(SkinPuncture::wholeness, use(skin.wholeness()));
+  ARTUS_RUNS_REALTIME(SkinPuncture::remember, skin.remember(now));
 }
 
 TEST(RealTimeNeedle, ClassicCuttingLawsNeitherAllocateNorLock) {
