@@ -67,6 +67,9 @@ void add_needle_command(Command& app, ExitCode& code);
 void add_image_command(Command& app, ExitCode& code);
 void add_slice_command(Command& app, ExitCode& code);
 void add_sweep_command(Command& app, ExitCode& code);
+void add_sweep_merge_command(Command& app, ExitCode& code);
+void add_export_command(Command& app, ExitCode& code);
+void add_force_command(Command& app, ExitCode& code);
 void add_video_command(Command& app, ExitCode& code);
 void add_phantom_command(Command& app, ExitCode& code);
 void add_echo_gates_command(Command& app, ExitCode& code);
@@ -77,6 +80,7 @@ void add_loop_command(Command& app, ExitCode& code);
 void add_serve_command(Command& app, ExitCode& code);
 void add_view_command(Command& app, ExitCode& code);
 void add_replay_command(Command& app, ExitCode& code);
+void add_register_command(Command& app, ExitCode& code);
 void add_shm_monitor_command(Command& app, ExitCode& code);
 
 }  // namespace artus

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "artus/apps/command.h"
+#include "artus/apps/shard_commands.h"
 
 namespace {
 
@@ -30,6 +31,10 @@ int run(int argc, char** argv) {
   artus::add_image_command(app, code);
   artus::add_slice_command(app, code);
   artus::add_sweep_command(app, code);
+  artus::add_sweep_merge_command(app, code);
+  artus::add_sweep_stats_command(app, code);
+  artus::add_export_command(app, code);
+  artus::add_force_command(app, code);
   artus::add_video_command(app, code);
   artus::add_phantom_command(app, code);
   artus::add_echo_gates_command(app, code);
@@ -40,6 +45,7 @@ int run(int argc, char** argv) {
   artus::add_serve_command(app, code);
   artus::add_view_command(app, code);
   artus::add_replay_command(app, code);
+  artus::add_register_command(app, code);
   artus::add_shm_monitor_command(app, code);
   int mistake = 0;  // CLI11's own many codes become one
   if (!app.parse(argc, argv, mistake)) return mistake == 0 ? 0 : static_cast<int>(ExitCode::usage);

@@ -38,7 +38,15 @@ std::size_t print_notices(const Session& session, std::size_t seen) {
   return notices.size();
 }
 
-void wait(const Session& session, Interrupts& interrupts, double seconds, bool quiet) {
+void print_notices(SessionLink* link) {
+  if (link == nullptr) return;
+  for (const std::string& notice : link->server().take_notices())
+    std::fprintf(stderr, "%s\n", notice.c_str());
+}
+
+void wait(const Session& session, SessionLink* link, Interrupts& interrupts,
+          const ServeOptions& options) {
+  const double seconds = options.seconds;
   const std::int64_t end = monotonic_ns() + static_cast<std::int64_t>(seconds * 1e9);
   std::size_t seen = 0;
   for (;;) {
@@ -50,8 +58,9 @@ void wait(const Session& session, Interrupts& interrupts, double seconds, bool q
     }
     const bool interrupted = interrupts.wait(pause);
     seen = print_notices(session, seen);
+    print_notices(link);
     if (interrupted) return;
-    if (!quiet) print_status(session);
+    if (!options.json) print_status(session);
   }
 }
 
@@ -82,19 +91,29 @@ ExitCode run_serve(const ServeOptions& options) {
   const auto params = make_session_params(options.session, **joint);
   if (!params) return report_error(params.error(), options.json);
   Interrupts interrupts;
+  const auto tracker = make_tracker_input(options.session.igtl);
+  if (!tracker) return report_error(tracker.error(), options.json);
   HandDevice* hand = nullptr;
-  auto device = make_device(options.session, *params, **joint, &hand);
+  auto device = make_device(options.session, *params, **joint, *tracker, &hand);
   if (!device) return report_error(device.error(), options.json);
+  const auto link = open_session_link(options.session.igtl, *tracker);
+  if (!link) return report_error(link.error(), options.json);
   Session::Options session_options;
   session_options.haptic_wishes.cpu = options.session.haptic_cpu;
   session_options.recording = options.session.recording;
   session_options.images = !options.no_images;
   session_options.share_images = !options.no_images;
   session_options.image_segment_prefix = options.session.prefix;
+  if (*link)
+    session_options.on_image = [&link](const ImageSnapshot& image) {
+      (*link)->take_image(image);
+    };
   const auto session = Session::start(std::make_shared<const Scene>(*joint), *params,
                                       std::move(*device), session_options);
   if (!session) return report_error(session.error(), options.json);
-  wait(**session, interrupts, options.seconds, options.json);
+  if (*link) (*link)->attach(session->get());
+  wait(**session, link->get(), interrupts, options);
+  if (*link) (*link)->attach(nullptr);
   for (const std::string& refused : (*session)->refusals())
     std::fprintf(stderr, "the system refused %s\n", refused.c_str());
   report(**session, options.json);
@@ -112,7 +131,8 @@ void add_serve_command(Command& app, ExitCode& code) {
       "Examples:\n"
       "  artus serve -j meshes/simple-shoulder\n"
       "  artus serve -j real.artus --record session.rec --seconds 60 --json\n"
-      "  artus serve -j meshes/simple-shoulder --input injection --seconds 10");
+      "  artus serve -j meshes/simple-shoulder --input injection --seconds 10\n"
+      "  artus serve -j real.artus --igtl 18944 --input igtl --calibration tracker.toml");
   add_session_options(command, options->session, "shared-memory");
   command->add_option("--seconds", options->seconds, "stop after this time; 0: when interrupted")
       ->check(number_in(0, 86400));

@@ -88,7 +88,7 @@ void add_session_options(Command* command, SessionOptions& options,
       ->add_option(
           "--input", options.input,
           "shared-memory, hand (mouse, keyboard, gamepad), injection (a simulated hand does a "
-          "planned one again and again), or a recording")
+          "planned one again and again), igtl (a tracker, see --igtl), or a recording")
       ->capture_default_str();
   add_prefix_option(command, options.prefix);
   command->add_option("--record", options.recording, "keep all inputs in this file");
@@ -105,6 +105,7 @@ void add_session_options(Command* command, SessionOptions& options,
                       "write where the time went as CSV, bin by bin");
   command->add_option("--threads", options.threads, "of the imaging; 0: all processors")
       ->capture_default_str();
+  add_igtl_options(command, options.igtl);
 }
 
 Result<SessionParams> make_session_params(const SessionOptions& options,
@@ -144,8 +145,10 @@ HandTarget first_target(const CompiledJoint& joint) {
 
 Result<std::unique_ptr<InputDevice>> make_device(const SessionOptions& options,
                                                  const SessionParams& params,
-                                                 const CompiledJoint& joint, HandDevice** hand) {
+                                                 const CompiledJoint& joint,
+                                                 const TrackerInput& tracker, HandDevice** hand) {
   *hand = nullptr;
+  if (options.input == "igtl") return make_tracker_device(options.igtl, tracker);
   if (options.input == "shared-memory") {
     std::vector<std::string> names;
     for (const Region& region : joint.regions) names.push_back(region.name);

@@ -7,6 +7,7 @@
 #include "artus/apps/command.h"
 #include "artus/apps/feel_options.h"
 #include "artus/apps/plan_options.h"
+#include "artus/apps/igtl_options.h"
 #include "artus/session/hand_device.h"
 #include "artus/session/session.h"
 
@@ -28,6 +29,7 @@ struct SessionOptions {
   int haptic_cpu = -1;
   int threads = 0;
   std::filesystem::path histograms;
+  IgtlOptions igtl;
 };
 /// --prefix, checked as the shared memory does.
 void add_prefix_option(Command* command, std::string& prefix);
@@ -43,9 +45,11 @@ void add_session_options(Command* command, SessionOptions& options,
 [[nodiscard]] HandTarget first_target(const CompiledJoint& joint);
 
 /// The device that --input names; `hand` is set when it is the hand of mouse and keyboard.
+/// `tracker`: what --input igtl reads.
 [[nodiscard]] Result<std::unique_ptr<InputDevice>> make_device(const SessionOptions& options,
                                                                const SessionParams& params,
                                                                const CompiledJoint& joint,
+                                                               const TrackerInput& tracker,
                                                                HandDevice** hand);
 
 /// Percentiles of a session's times, one line each, on stdout.

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+#include <chrono>
 #include <cstdio>
 #include <iostream>
 #include <memory>
+#include <utility>
 
+#include "artus/apps/pose_files.h"
 #include "artus/apps/view_options.h"
+#include "artus/dataset/pose_draw.h"
+#include "artus/dataset/shards.h"
 #include "artus/dataset/sweep.h"
 
 namespace artus {
@@ -14,22 +19,91 @@ struct SweepCommandOptions {
   ViewOptions view;
   std::filesystem::path poses;
   std::filesystem::path out;
+  std::string shard;
+  std::string frames;
+  int frames_per_shard = 1000;
+  std::int64_t draw = 0;
+  std::filesystem::path ranges;
   bool restart = false;
   bool json = false;
 };
 
+SweepOptions sweep_options_of(const SweepCommandOptions& options, const LoadedView& loaded) {
+  SweepOptions sweep;
+  sweep.transducer = loaded.view.transducer;
+  sweep.settings = loaded.view.settings;
+  sweep.needle = loaded.view.needle_shape;
+  sweep.restart = options.restart;
+  return sweep;
+}
+
+/// What one shard after the other makes of the flags.
+Result<ShardJob> job_of(const SweepCommandOptions& options) {
+  if (!options.shard.empty()) return parse_turn(options.shard, "--shard");
+  if (!options.frames.empty()) return parse_frames(options.frames, "--frames");
+  return ShardJob{};
+}
+
+Result<PoseSource> poses_of(const SweepCommandOptions& options, const LoadedView& loaded) {
+  if (options.draw == 0) {
+    auto poses = read_any_poses(options.poses);
+    ARTUS_TRY(poses);
+    return source_of(std::move(*poses));
+  }
+  DrawRanges ranges;
+  if (!options.ranges.empty()) {
+    const auto read = read_draw_ranges(options.ranges);
+    ARTUS_TRY(read);
+    ranges = *read;
+  }
+  return drawn_poses(loaded.scene, ranges, options.view.seed,
+                     static_cast<std::size_t>(options.draw));
+}
+
+ExitCode run_shards(const SweepCommandOptions& options) {
+  const auto job = job_of(options);
+  if (!job) return report_error(job.error(), options.json);
+  const auto loaded = load_view(options.joint, options.view, options.json);
+  if (!loaded) return report_error(loaded.error(), options.json);
+  const auto poses = poses_of(options, *loaded);
+  if (!poses) return report_error(poses.error(), options.json);
+  ShardOptions shard_options;
+  shard_options.sweep = sweep_options_of(options, *loaded);
+  shard_options.frames = static_cast<std::size_t>(options.frames_per_shard);
+  shard_options.engine = ARTUS_VERSION;
+  const auto begin = std::chrono::steady_clock::now();
+  const auto result = write_shards(loaded->scene, *poses, *job, options.out, shard_options,
+                                   make_progress_printer(options.json));
+  if (!result) return report_error(result.error(), options.json);
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  const auto frames = static_cast<double>(result->frames);
+  if (options.json)
+    std::cout << nlohmann::json{{"shards", result->shards}, {"found", result->found},
+                                {"drawn", result->drawn},   {"frames", result->frames},
+                                {"bytes", result->bytes},   {"seconds", seconds}}
+                     .dump(2)
+              << '\n';
+  else
+    std::printf("%zu shards: %zu were there, %zu drawn in %s; %.1f frames/s, %.0f bytes a frame\n",
+                result->shards, result->found, result->drawn, options.out.c_str(), frames / seconds,
+                frames > 0 ? static_cast<double>(result->bytes) / frames : 0);
+  return ExitCode::ok;
+}
+
 ExitCode run_sweep_command(const SweepCommandOptions& options) {
-  const auto poses = read_poses(options.poses);
+  if (options.poses.empty() == (options.draw == 0))
+    return report_error({ErrorCode::invalid, "give either a list of poses or --draw", "--poses"},
+                        options.json);
+  if (options.draw > 0 || !options.shard.empty() || !options.frames.empty())
+    return run_shards(options);
+  const auto poses = read_any_poses(options.poses);
   if (!poses) return report_error(poses.error(), options.json);
   const auto loaded = load_view(options.joint, options.view, options.json);
   if (!loaded) return report_error(loaded.error(), options.json);
-  SweepOptions sweep_options;
-  sweep_options.transducer = loaded->view.transducer;
-  sweep_options.settings = loaded->view.settings;
-  sweep_options.needle = loaded->view.needle_shape;
-  sweep_options.restart = options.restart;
-  const auto result = run_sweep(loaded->scene, *poses, options.out, sweep_options,
-                                make_progress_printer(options.json));
+  const auto result =
+      run_sweep(loaded->scene, *poses, options.out, sweep_options_of(options, *loaded),
+                make_progress_printer(options.json));
   if (!result) return report_error(result.error(), options.json);
   if (options.json) {
     std::cout << nlohmann::json{{"joint", loaded->joint().name},
@@ -46,6 +120,28 @@ ExitCode run_sweep_command(const SweepCommandOptions& options) {
   return ExitCode::ok;
 }
 
+void add_shard_options(Command* command, SweepCommandOptions& options) {
+  command
+      ->add_option("--shard", options.shard,
+                   "k/N: draw every N-th tar shard, from the k-th (0 to N-1); one job of N")
+      ->group("Shards");
+  command
+      ->add_option("--frames", options.frames,
+                   "a:b: draw the shards of frames a to b-1, whole shards alone")
+      ->group("Shards");
+  command->add_option("--frames-per-shard", options.frames_per_shard, "the same for all jobs")
+      ->check(whole_number_in(1, 1000000))
+      ->group("Shards")
+      ->capture_default_str();
+  command
+      ->add_option("--draw", options.draw,
+                   "draw so many poses at random, by --seed, in place of a list")
+      ->check(whole_number_in(1, 1000000000000))
+      ->group("Shards");
+  command->add_option("--ranges", options.ranges, "how far drawn poses spread (.toml)")
+      ->group("Shards");
+}
+
 }  // namespace
 
 void add_sweep_command(Command& app, ExitCode& code) {
@@ -59,9 +155,12 @@ void add_sweep_command(Command& app, ExitCode& code) {
       "Examples:\n"
       "  artus sweep -j shoulder.artus --poses poses.jsonl --out out/sweep\n"
       "  artus sweep -j shoulder.artus --poses poses.csv --transducer linear-4-9 --depth 50 "
-      "--out out/deep");
+      "--out out/deep\n"
+      "  artus sweep -j shoulder.artus --draw 1000000 --seed 7 --shard 3/64 --out out/set\n"
+      "(docs/datasets.md)");
   add_joint_options(command, options->joint);
-  command->add_option("--poses", options->poses, "list of poses (.jsonl, .csv)")->required();
+  command->add_option("--poses", options->poses, "list of poses (.jsonl, .csv, .mha)");
+  add_shard_options(command, *options);
   add_imaging_options(command, options->view);
   command->add_option("-o,--out", options->out, "folder for the results")->required();
   command->add_flag("--restart", options->restart, "throw away an earlier sweep of the folder");

@@ -3,6 +3,9 @@
 #include <fstream>
 #include <iterator>
 #include <memory>
+#include <mutex>
+#include <utility>
+#include <vector>
 
 #include "artus/apps/interrupts.h"
 #include "artus/apps/session_options.h"
@@ -49,6 +52,24 @@ Result<void> read_script(const ViewerOptions& options, WindowOptions& window) {
   return {};
 }
 
+/// Knobs that other programs turned, until the window takes them over.
+class RemoteTurns {
+ public:
+  void add(double ImageControls::*knob, double value) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    turns_.emplace_back(knob, value);
+  }
+  void take(ImageControls& controls) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    for (const auto& [knob, value] : turns_) controls.*knob = value;
+    turns_.clear();
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::pair<double ImageControls::*, double>> turns_;
+};
+
 ExitCode run_view(const ViewerOptions& options) {
   WindowOptions window = options.window;
   if (const auto script = read_script(options, window); !script)
@@ -61,19 +82,35 @@ ExitCode run_view(const ViewerOptions& options) {
   window.asked_to_close = [&interrupts] {
     return interrupts.wait(0);
   };
+  const auto tracker = make_tracker_input(options.session.igtl);
+  if (!tracker) return report_error(tracker.error(), false);
   HandDevice* hand = nullptr;
-  auto device = make_device(options.session, *params, **joint, &hand);
+  auto device = make_device(options.session, *params, **joint, *tracker, &hand);
   if (!device) return report_error(device.error(), false);
+  RemoteTurns turns;
+  window.turn_knobs = [&turns](ImageControls& controls) {
+    turns.take(controls);
+  };
+  const auto link = open_session_link(
+      options.session.igtl, *tracker,
+      [&turns](double ImageControls::*knob, double value) { turns.add(knob, value); });
+  if (!link) return report_error(link.error(), false);
   Session::Options session_options;
   session_options.haptic_wishes.cpu = options.session.haptic_cpu;
   session_options.recording = options.session.recording;
   session_options.share_images = options.session.input == "shared-memory";
   session_options.image_segment_prefix = options.session.prefix;
+  if (*link)
+    session_options.on_image = [&link](const ImageSnapshot& image) {
+      (*link)->take_image(image);
+    };
   const auto session = Session::start(std::make_shared<const Scene>(*joint), *params,
                                       std::move(*device), session_options);
   if (!session) return report_error(session.error(), false);
+  if (*link) (*link)->attach(session->get());
   WindowReport report;
   const auto shown = run_window(**session, hand, first_target(**joint), window, report);
+  if (*link) (*link)->attach(nullptr);
   if (options.report) {
     print_times((*session)->times(), (*session)->params());
     print_line("pose to screen", report.pose_to_screen);

@@ -21,3 +21,6 @@ install(DIRECTORY devices/ DESTINATION share/artus/devices FILES_MATCHING PATTER
 # What an installation needs, without tests and benches.
 list(TRANSFORM ARTUS_COMPONENTS PREPEND artus_ OUTPUT_VARIABLE libraries)
 add_custom_target(installed DEPENDS artus ${libraries})
+if(TARGET artus_python)
+  add_dependencies(installed artus_python)
+endif()

@@ -2,10 +2,8 @@
 #include "artus/dataset/sweep.h"
 
 #include <array>
-#include <bit>
 #include <cstdio>
 #include <fstream>
-#include <optional>
 #include <string>
 #include <utility>
 
@@ -15,13 +13,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "artus/core/noise.h"
 #include "artus/core/text_file.h"
-#include "artus/core/units.h"
-#include "artus/dataset/echo_truth.h"
+#include "artus/dataset/sweep_frame.h"
 #include "artus/echo/image_io.h"
-#include "artus/echo/labels.h"
-#include "artus/echo/renderer.h"
 
 namespace artus {
 namespace {
@@ -55,38 +49,12 @@ class FolderLock {
   int file_ = -1;
 };
 
-std::uint64_t mix_pose(std::uint64_t hash, const Pose& pose) {
-  for (Eigen::Index i = 0; i < 3; ++i)
-    for (Eigen::Index j = 0; j < 4; ++j)
-      hash = mix_bits(hash ^ std::bit_cast<std::uint64_t>(pose(i, j)));
-  return hash;
-}
-
-std::string digest_of(const std::vector<ListedPose>& poses) {
-  std::uint64_t hash = poses.size();
-  for (const ListedPose& pose : poses) {
-    for (const char c : pose.name) hash = mix_bits(hash ^ static_cast<unsigned char>(c));
-    hash = mix_bits(hash ^ std::bit_cast<std::uint64_t>(pose.time.value_or(-1)));
-    hash = mix_pose(mix_bits(hash ^ (pose.X_JN ? 1U : 0U)), pose.X_JP);
-    if (pose.X_JN) hash = mix_pose(hash, *pose.X_JN);
-  }
-  char text[20];
-  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
-  return text;
-}
-
 json describe(const CompiledJoint& joint, const std::vector<ListedPose>& poses,
               const SweepOptions& options) {
-  return {{"format", 1},
-          {"joint", {{"name", joint.name}, {"digest", joint.source_digest}}},
-          {"poses", {{"count", poses.size()}, {"digest", digest_of(poses)}}},
-          {"transducer", to_json(options.transducer)},
-          {"settings", to_json(options.settings)},
-          {"needle",
-           {{"outer_diameter_mm", options.needle.outer_diameter / kMillimetre},
-            {"bore_mm", options.needle.bore / kMillimetre},
-            {"length_mm", options.needle.length / kMillimetre},
-            {"echogenic", options.needle.echogenic}}}};
+  json description = describe_sweep(joint, options);
+  description["format"] = 1;
+  description["poses"] = {{"count", poses.size()}, {"digest", digest_of(poses)}};
+  return description;
 }
 
 /// A file under its name or not at all; `write` makes it under another one.
@@ -168,56 +136,22 @@ Result<void> claim_folder(const fs::path& folder, const json& description, bool 
   return {};
 }
 
-class Sweep {
- public:
-  Sweep(std::shared_ptr<const Scene> scene, fs::path folder, const SweepOptions& options)
-      : scene_(std::move(scene)),
-        folder_(std::move(folder)),
-        needle_(options.needle),
-        renderer_(scene_, options.transducer, options.settings),
-        truth_(options.transducer, options.settings) {}
-
-  /// Draws one frame with its pictures and returns its line.
-  Result<json> draw(std::size_t index, const ListedPose& pose) {
-    char stem[32];
-    std::snprintf(stem, sizeof stem, "frames/%06zu", index);
-    std::optional<NeedleView> needle;
-    if (pose.X_JN) needle = NeedleView{*pose.X_JN, needle_};
-    const Frame& frame = renderer_.render(pose.X_JP, needle);
-    const LabelImage labels = truth_.render(*scene_, pose.X_JP, needle);
-    json truth{{"index", index},
-               {"probe", probe_json(pose.X_JP)},
-               {"pixel_mm", frame.pixel / kMillimetre},
-               {"contact", contact_json(frame)},
-               {"regions", region_list(labels, scene_->joint())}};
-    if (!pose.name.empty()) truth["name"] = pose.name;
-    if (pose.time) truth["time_s"] = *pose.time;
-    if (needle) truth["needle"] = to_json(truth_.locate(*needle, pose.X_JP), frame.tip_shown);
-    std::vector<std::pair<const char*, cv::Mat>> pictures{
-        {kPictureKeys[0], grey_image(frame)},
-        {kPictureKeys[1], id_image(labels)},
-        {kPictureKeys[2], shadow_mask(frame, truth_.converter())}};
-    if (needle) pictures.emplace_back(kPictureKeys[3], needle_mask(labels));
-    constexpr std::array<const char*, 4> kEndings{".png", "-labels.png", "-shadow.png",
-                                                  "-needle.png"};
-    for (std::size_t i = 0; i < pictures.size(); ++i) {
-      const std::string name = std::string(stem) + kEndings[i];
-      const auto picture = [&](const fs::path& part) {
-        return write_image(pictures[i].second, part);
-      };
-      ARTUS_TRY(write_whole(folder_ / name, picture));
-      truth[pictures[i].first] = name;
-    }
-    return truth;
+/// Writes a frame's pictures and returns its line.
+Result<json> write_frame(SweepFrame frame, std::size_t index, const fs::path& folder) {
+  char stem[32];
+  std::snprintf(stem, sizeof stem, "frames/%06zu", index);
+  constexpr std::array<const char*, 4> kEndings{".png", "-labels.png", "-shadow.png",
+                                                "-needle.png"};
+  for (std::size_t i = 0; i < frame.pictures.size(); ++i) {
+    const std::string name = std::string(stem) + kEndings[i];
+    const auto picture = [&](const fs::path& part) {
+      return write_image(frame.pictures[i].second, part);
+    };
+    ARTUS_TRY(write_whole(folder / name, picture));
+    frame.truth[frame.pictures[i].first] = name;
   }
-
- private:
-  std::shared_ptr<const Scene> scene_;
-  fs::path folder_;
-  NeedleShape needle_;
-  Renderer renderer_;
-  LabelRenderer truth_;
-};
+  return std::move(frame.truth);
+}
 
 }  // namespace
 
@@ -240,11 +174,11 @@ Result<SweepResult> run_sweep(const std::shared_ptr<const Scene>& scene,
   SweepResult result{poses.size(), *found, 0};
   if (result.complete()) return result;
 
-  Sweep sweep(scene, folder, options);
+  SweepDrawer drawer(scene, options);
   std::ofstream lines(file, std::ios::binary | std::ios::app);
   for (std::size_t i = *found; i < poses.size(); ++i) {
     if (options.stop && options.stop()) break;
-    const auto truth = sweep.draw(i, poses[i]);
+    const auto truth = write_frame(drawer.draw(i, poses[i]), i, folder);
     if (!truth) return tl::unexpected(truth.error());
     // A name may hold bytes that are no text.
     lines << truth->dump(-1, ' ', false, json::error_handler_t::replace) + "\n" << std::flush;

@@ -331,6 +331,7 @@ void WindowLoop::take_image() {
   input_.image_texture = image_texture_.id();
   input_.grab = control_.grab();
   input_.gamepad = WindowEvents::gamepad_name();
+  if (options_.turn_knobs) options_.turn_knobs(state_.controls);
   if (!(state_.controls == sent_controls_)) {
     session_.set_controls(state_.controls);
     sent_controls_ = state_.controls;

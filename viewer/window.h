@@ -23,6 +23,8 @@ struct WindowOptions {
   std::filesystem::path layout;          ///< where the panels' places are kept; empty: nowhere
   std::filesystem::path pictures = ".";  ///< folder of saved images and clips
   std::function<bool()> asked_to_close;  ///< asked between two pictures; empty: nobody else closes
+  /// Called between two pictures: other programs' hands on the knobs. Empty: there are none.
+  std::function<void(ImageControls&)> turn_knobs;
 };
 
 /// What a window leaves behind when it is closed.

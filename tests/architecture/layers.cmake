@@ -22,22 +22,25 @@ set(may_evidence/needle ${may_evidence} evidence)
 set(may_evidence/probe ${may_evidence} evidence)
 set(may_evidence/echo ${may_evidence} evidence)
 set(may_evidence/medical ${may_evidence} evidence evidence/needle evidence/probe evidence/echo)
+set(may_exchange ${may_operators} echo operators dataset session session/client exchange/igtl)
+set(may_exchange/igtl core)
+set(may_python core anatomy/body anatomy/compile raycast haptics haptics/needle echo operators)
 set(may_viewer ${may_operators} echo operators dataset session session/client)
-set(may_apps ${may_viewer} viewer anatomy/surfaces anatomy/compile evidence evidence/needle evidence/probe evidence/echo
+set(may_apps ${may_viewer} viewer exchange exchange/igtl anatomy/surfaces anatomy/compile evidence evidence/needle evidence/probe evidence/echo
   evidence/medical)
 set(may_meshes/generate core anatomy/surfaces)
 set(rooms core anatomy/surfaces anatomy/body anatomy/compile raycast haptics haptics/needle haptics/probe haptics/actuator
   echo operators dataset session session/client evidence evidence/needle evidence/probe evidence/echo evidence/medical
-  viewer apps meshes/generate)
+  exchange exchange/igtl python viewer apps meshes/generate)
 
 # folder lists that may include headers starting with the pattern
 set(outside "embree:raycast" "CGAL/:anatomy/surfaces,anatomy/compile,meshes/generate" "tetgen:anatomy/compile"
   "toml:core,anatomy/body,echo,haptics/actuator" "opencv2/:echo,dataset,evidence/echo,evidence/medical,apps,viewer"
-  "CLI/:apps,meshes/generate" "boost/interprocess:session" "GLFW/:viewer" "imgui:viewer" "epoxy/:viewer" "gtest/:tests"
-  "nlohmann/:anatomy/compile,session,dataset,evidence,evidence/needle,evidence/probe,evidence/echo,evidence/medical,apps,meshes/generate")
+  "CLI/:apps,meshes/generate" "boost/interprocess:session" "GLFW/:viewer" "imgui:viewer" "epoxy/:viewer" "gtest/:tests" "pybind11/:python" "dcmtk/:exchange"
+  "nlohmann/:anatomy/compile,session,dataset,exchange,evidence,evidence/needle,evidence/probe,evidence/echo,evidence/medical,apps,meshes/generate")
 
 set(bad "")
-foreach(folder core anatomy raycast haptics echo operators dataset session evidence viewer apps meshes)
+foreach(folder core anatomy raycast haptics echo operators dataset session evidence exchange python viewer apps meshes)
   file(GLOB_RECURSE found RELATIVE ${ROOT} ${ROOT}/${folder}/*.h ${ROOT}/${folder}/*.cpp ${ROOT}/${folder}/*.hpp ${ROOT}/${folder}/*.c)
   list(LENGTH found n)
   if(n EQUAL 0)

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <sstream>
+
+#include "artus/apps/feel_options.h"
+#include "artus/apps/pose_files.h"
+#include "artus/core/csv.h"
+#include "artus/core/text_file.h"
+#include "artus/core/units.h"
+#include "artus/dataset/pose_list.h"
+#include "artus/operators/trajectory_forces.h"
+#include "artus/raycast/scene.h"
+
+namespace artus {
+namespace {
+
+struct ForceOptions {
+  JointOptions joint;
+  FeelOptions feel;
+  std::filesystem::path poses;
+  std::filesystem::path out;
+  std::string device = "ideal";
+  double rate = 1000;
+  bool json = false;
+};
+
+/// The needle at every tick. Errors: those of read_any_poses and sample_path; invalid, a pose
+/// without needle or time.
+Result<std::vector<Pose>> needle_path(const ForceOptions& options) {
+  const auto listed = read_any_poses(options.poses);
+  ARTUS_TRY(listed);
+  const auto ticks = sample_path(*listed, options.rate);
+  ARTUS_TRY(ticks);
+  std::vector<Pose> path;
+  path.reserve(ticks->size());
+  for (const ListedPose& pose : *ticks) {
+    if (!pose.X_JN)
+      return fail(ErrorCode::invalid,
+                  "every pose needs a needle: pose " + std::to_string(path.size()) + " has none",
+                  options.poses.string());
+    path.push_back(*pose.X_JN);
+  }
+  return path;
+}
+
+std::string to_table(const std::vector<TrajectoryForce>& forces, double rate,
+                     const CompiledJoint& joint) {
+  std::string out = "time_s,depth_mm,region,fx_n,fy_n,fz_n,axial_n,tx_nm,ty_nm,tz_nm,status\n";
+  for (std::size_t i = 0; i < forces.size(); ++i) {
+    const TrajectoryForce& f = forces[i];
+    out += to_csv(static_cast<double>(i) / rate) + "," + to_csv(f.depth / kMillimetre) + "," +
+           joint.regions[f.region].name;
+    for (const double value :
+         {f.force.x(), f.force.y(), f.force.z(), f.axial, f.torque.x(), f.torque.y(), f.torque.z()})
+      out += "," + to_csv(value);
+    out += "," + std::to_string(f.status) + "\n";
+  }
+  return out;
+}
+
+ExitCode run_force(const ForceOptions& options) {
+  const auto path = needle_path(options);
+  if (!path) return report_error(path.error(), options.json);
+  const auto joint = load(options.joint, make_progress_printer(options.json));
+  if (!joint) return report_error(joint.error(), options.json);
+  const auto feel = make_feel(options.feel, **joint);
+  if (!feel) return report_error(feel.error(), options.json);
+  const auto scene = std::make_shared<const Scene>(*joint);
+  const auto forces = compute_trajectory_forces(scene, *path, options.rate, options.device, *feel);
+  if (!forces) return report_error(forces.error(), options.json);
+  const auto written = write_text(options.out, to_table(*forces, options.rate, **joint));
+  if (!written) return report_error(written.error(), options.json);
+  double most = 0;
+  for (const TrajectoryForce& f : *forces) most = std::max(most, f.force.norm());
+  if (options.json)
+    std::cout << nlohmann::json{{"ticks", forces->size()}, {"largest_n", most}}.dump(2) << '\n';
+  else
+    std::printf("%zu ticks, largest force %.3f N: %s\n", forces->size(), most, options.out.c_str());
+  return ExitCode::ok;
+}
+
+}  // namespace
+
+void add_force_command(Command& app, ExitCode& code) {
+  auto options = std::make_shared<ForceOptions>();
+  Command* command = add_command(
+      app, "force", "What the hand feels along any trajectory of the needle, as CSV",
+      "Poses as for sweep (docs/echography.md), each with a needle; with time_s they are sampled\n"
+      "at the rate, without each is one tick. Only the needle counts.\n"
+      "Examples:\n"
+      "  artus force -j shoulder.artus --poses path.csv -o force.csv\n"
+      "  artus force -j shoulder.artus --poses path.jsonl --rate 4000 --device touch -o force.csv");
+  add_joint_options(command, options->joint);
+  add_feel_options(command, options->feel);
+  command->add_option("--poses", options->poses, "list of poses (.jsonl, .csv, .mha)")->required();
+  command->add_option("--rate", options->rate, "ticks a second, Hz")
+      ->check(number_in(100, 20000))
+      ->capture_default_str();
+  command->add_option("--device", options->device, "whose force limits hold")
+      ->capture_default_str();
+  command->add_option("-o,--out", options->out, "CSV")->required();
+  command->add_flag("--json", options->json, "machine-readable output");
+  on_run(command, code, [options] { return run_force(*options); });
+}
+
+}  // namespace artus

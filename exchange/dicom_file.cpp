@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/exchange/dicom_file.h"
+
+#include <cmath>
+#include <cstdio>
+#include <system_error>
+#include <vector>
+
+#include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dctk.h>
+
+#include "artus/core/byte_stream.h"
+#include "artus/core/check.h"
+
+namespace artus {
+namespace {
+
+/// Puts elements into a data set and keeps the first refusal.
+class ElementWriter {
+ public:
+  explicit ElementWriter(DcmItem& item) : item_(item) {}
+  void text(const DcmTagKey& tag, const std::string& value) {
+    note(item_.putAndInsertString(tag, value.c_str()));
+  }
+  void number(const DcmTagKey& tag, Uint16 value) { note(item_.putAndInsertUint16(tag, value)); }
+  void long_number(const DcmTagKey& tag, Uint32 value) {
+    note(item_.putAndInsertUint32(tag, value));
+  }
+  void real(const DcmTagKey& tag, double value) { note(item_.putAndInsertFloat64(tag, value)); }
+  void note(const OFCondition& done) {
+    if (condition_.good()) condition_ = done;
+  }
+  [[nodiscard]] const OFCondition& condition() const noexcept { return condition_; }
+
+ private:
+  DcmItem& item_;
+  OFCondition condition_ = EC_Normal;
+};
+
+/// An identifier out of a number, in the branch that needs no registration.
+std::string identifier(std::uint64_t number) {
+  return "2.25." + std::to_string(number);
+}
+
+std::string decimal(double value) {
+  char text[20];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return text;
+}
+
+void put_people_and_series(ElementWriter& out, const DicomSeries& series, std::uint64_t digest) {
+  const std::string made_by = "artus " + series.engine;
+  out.text(DCM_SpecificCharacterSet, "ISO_IR 192");
+  out.text(DCM_ImageType, "DERIVED\\PRIMARY\\MUSCULOSKELETAL\\0001");
+  out.text(DCM_SOPClassUID, UID_UltrasoundMultiframeImageStorage);
+  out.text(DCM_SOPInstanceUID, identifier(digest));
+  out.text(DCM_StudyInstanceUID, identifier(digest ^ 1U));
+  out.text(DCM_SeriesInstanceUID, identifier(digest ^ 2U));
+  for (const DcmTagKey& empty :
+       {DCM_StudyDate, DCM_StudyTime, DCM_ContentDate, DCM_ContentTime, DCM_AccessionNumber,
+        DCM_ReferringPhysicianName, DCM_PatientBirthDate, DCM_PatientSex, DCM_PatientOrientation})
+    out.text(empty, "");
+  out.text(DCM_Modality, "US");
+  out.text(DCM_Manufacturer, "artus");
+  out.text(DCM_ManufacturerModelName, "simulated ultrasound");
+  out.text(DCM_SoftwareVersions, made_by);
+  out.text(DCM_SeriesDescription, "simulated ultrasound");
+  out.text(DCM_Laterality, series.side == "left" ? "L" : series.side == "right" ? "R" : "");
+  out.text(DCM_PatientName, "Simulated^Joint");
+  out.text(DCM_PatientID, "SIMULATED");
+  out.text(DCM_StudyID, "1");
+  out.text(DCM_SeriesNumber, "1");
+  out.text(DCM_InstanceNumber, "1");
+  out.text(DCM_DerivationDescription, "simulated by " + made_by + ", not of a patient");
+  out.text(DCM_ImageComments, "simulated ultrasound of the joint " + series.joint);
+  out.text(DCM_BurnedInAnnotation, "NO");
+  out.text(DCM_LossyImageCompression, "00");
+}
+
+void put_pixels(ElementWriter& out, DcmItem& dataset, const ImageSequence& sequence,
+                double frame_time) {
+  out.number(DCM_SamplesPerPixel, 1);
+  out.text(DCM_PhotometricInterpretation, "MONOCHROME2");
+  out.text(DCM_NumberOfFrames, std::to_string(sequence.frames.size()));
+  out.note(dataset.putAndInsertTagKey(DCM_FrameIncrementPointer, DCM_FrameTime));
+  out.text(DCM_FrameTime, decimal(1e3 * frame_time));
+  out.text(DCM_CineRate, std::to_string(std::lround(1 / frame_time)));
+  out.number(DCM_Rows, static_cast<Uint16>(sequence.height));
+  out.number(DCM_Columns, static_cast<Uint16>(sequence.width));
+  out.number(DCM_BitsAllocated, 8);
+  out.number(DCM_BitsStored, 8);
+  out.number(DCM_HighBit, 7);
+  out.number(DCM_PixelRepresentation, 0);
+  std::vector<Uint8> pixels;
+  for (const SequenceFrame& frame : sequence.frames)
+    pixels.insert(pixels.end(), frame.grey.begin(), frame.grey.end());
+  out.note(dataset.putAndInsertUint8Array(DCM_PixelData, pixels.data(), pixels.size()));
+}
+
+/// The whole picture is one region of tissue, in centimetres.
+void put_region(ElementWriter& out, DcmItem& dataset, const ImageSequence& sequence, double pixel) {
+  DcmItem* item = nullptr;
+  constexpr long kAppend = -2;
+  out.note(dataset.findOrCreateSequenceItem(DCM_SequenceOfUltrasoundRegions, item, kAppend));
+  if (item == nullptr) return;
+  ElementWriter region(*item);
+  constexpr Uint16 kTissue = 1;
+  constexpr Uint16 kTwoDimensional = 1;
+  constexpr Uint16 kCentimetre = 3;
+  region.number(DCM_RegionSpatialFormat, kTwoDimensional);
+  region.number(DCM_RegionDataType, kTissue);
+  region.long_number(DCM_RegionFlags, 0);
+  region.long_number(DCM_RegionLocationMinX0, 0);
+  region.long_number(DCM_RegionLocationMinY0, 0);
+  region.long_number(DCM_RegionLocationMaxX1, static_cast<Uint32>(sequence.width - 1));
+  region.long_number(DCM_RegionLocationMaxY1, static_cast<Uint32>(sequence.height - 1));
+  region.number(DCM_PhysicalUnitsXDirection, kCentimetre);
+  region.number(DCM_PhysicalUnitsYDirection, kCentimetre);
+  region.real(DCM_PhysicalDeltaX, 100 * pixel);
+  region.real(DCM_PhysicalDeltaY, 100 * pixel);
+  out.note(region.condition());
+}
+
+}  // namespace
+
+Result<void> write_dicom(const std::filesystem::path& file, const ImageSequence& sequence,
+                         const DicomSeries& series) {
+  ARTUS_REQUIRE(!sequence.frames.empty(), "a sequence has frames");
+  ARTUS_REQUIRE(series.pixel > 0 && series.frame_time > 0, "pixels and frames have a size");
+  DcmFileFormat out;
+  DcmDataset& dataset = *out.getDataset();
+  ElementWriter writer(dataset);
+  const std::uint64_t digest = hash_bytes(to_mha(sequence), hash_bytes(series.joint));
+  put_people_and_series(writer, series, digest);
+  put_pixels(writer, dataset, sequence, series.frame_time);
+  put_region(writer, dataset, sequence, series.pixel);
+  if (writer.condition().bad())
+    return fail(ErrorCode::failed, writer.condition().text(), file.string());
+  const std::filesystem::path part = file.parent_path() / ("part-" + file.filename().string());
+  const OFCondition saved =
+      out.saveFile(part.c_str(), EXS_LittleEndianExplicit, EET_ExplicitLength);
+  if (saved.bad()) return fail(ErrorCode::unreadable, saved.text(), file.string());
+  std::error_code error;
+  std::filesystem::rename(part, file, error);
+  if (error) return fail(ErrorCode::unreadable, error.message(), file.string());
+  return {};
+}
+
+}  // namespace artus

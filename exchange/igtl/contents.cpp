@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/exchange/igtl/contents.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "artus/core/check.h"
+#include "artus/exchange/igtl/big_endian.h"
+
+namespace artus::igtl {
+namespace {
+
+constexpr std::size_t kCommandNameSize = 20;  // bytes
+constexpr std::size_t kErrorNameSize = 20;    // bytes
+constexpr std::size_t kTypeNameSize = 12;     // bytes of a type in a CAPABILITY
+
+tl::unexpected<Error> wrong_length(const char* type) {
+  return fail(ErrorCode::malformed, std::string("a ") + type + " of another length than it says");
+}
+
+/// Twelve single-precision numbers, column by column.
+void put_matrix(BigEndianWriter& out, const Matrix& matrix) {
+  for (Eigen::Index j = 0; j < 4; ++j)
+    for (Eigen::Index i = 0; i < 3; ++i) out.put(static_cast<float>(matrix(i, j)));
+}
+
+Matrix get_matrix(BigEndianReader& in) {
+  Matrix matrix;
+  for (Eigen::Index j = 0; j < 4; ++j)
+    for (Eigen::Index i = 0; i < 3; ++i) matrix(i, j) = static_cast<double>(in.get<float>());
+  return matrix;
+}
+
+/// From the corner pixel to the picture's middle, in the matrix's own lengths.
+Vec3 corner_to_middle(const Matrix& m, int width, int height) {
+  return 0.5 * (width - 1) * m.col(0) + 0.5 * (height - 1) * m.col(1);
+}
+
+}  // namespace
+
+std::string pack_transform(const Matrix& matrix) {
+  BigEndianWriter out;
+  put_matrix(out, matrix);
+  return std::move(out.bytes());
+}
+
+Result<Matrix> parse_transform(std::string_view content) {
+  BigEndianReader in(content);
+  const Matrix matrix = get_matrix(in);
+  if (!in.ok() || !in.at_end()) return wrong_length("TRANSFORM");
+  if (!matrix.allFinite())
+    return fail(ErrorCode::invalid, "a TRANSFORM with numbers that are not finite");
+  return matrix;
+}
+
+std::string pack_image(const Image& image) {
+  ARTUS_REQUIRE(
+      image.width > 0 && image.width <= 0xFFFF && image.height > 0 && image.height <= 0xFFFF,
+      "an image has 1 to 65535 pixels a side");
+  const auto pixels =
+      static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+  ARTUS_REQUIRE(image.grey.size() == pixels, "there must be a byte a pixel");
+  BigEndianWriter out;
+  out.bytes().reserve(72 + pixels);
+  out.put(std::uint16_t{1});           // version
+  for (const int byte : {1, 3, 1, 1})  // components, unsigned 8 bit, big endian, RAS
+    out.put(static_cast<std::uint8_t>(byte));
+  const std::array<int, 3> size{image.width, image.height, 1};
+  for (const int n : size) out.put(static_cast<std::uint16_t>(n));
+  Matrix placed = image.image_to_reference;
+  placed.col(3) += corner_to_middle(placed, image.width, image.height);
+  put_matrix(out, placed);
+  for (int i = 0; i < 3; ++i) out.put(std::uint16_t{0});  // the whole picture from its corner
+  for (const int n : size) out.put(static_cast<std::uint16_t>(n));
+  out.put_bytes(image.grey);
+  return std::move(out.bytes());
+}
+
+Result<Image> parse_image(std::string_view content) {
+  BigEndianReader in(content);
+  static_cast<void>(in.get<std::uint16_t>());  // 1 and 2 are laid out alike
+  const int components = in.get<std::uint8_t>();
+  const int scalar = in.get<std::uint8_t>();
+  static_cast<void>(in.get_bytes(2));  // bytes have no order, and programs take RAS anyway
+  std::array<int, 3> size{};
+  for (int& n : size) n = in.get<std::uint16_t>();
+  Image image;
+  image.image_to_reference = get_matrix(in);
+  std::array<int, 6> part{};
+  for (int& n : part) n = in.get<std::uint16_t>();
+  if (!in.ok()) return wrong_length("IMAGE");
+  image.width = size[0];
+  image.height = size[1];
+  if (components != 1 || (scalar != 2 && scalar != 3) || size[2] != 1 ||
+      part != std::array<int, 6>{0, 0, 0, size[0], size[1], 1})
+    return fail(ErrorCode::unsupported, "an IMAGE that is not one whole slice of 8-bit greys");
+  if (image.width == 0 || image.height == 0 || !image.image_to_reference.allFinite())
+    return fail(ErrorCode::invalid, "an IMAGE without pixels or without a place");
+  image.grey = in.rest();
+  if (image.grey.size() !=
+      static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height))
+    return wrong_length("IMAGE");
+  image.image_to_reference.col(3) -=
+      corner_to_middle(image.image_to_reference, image.width, image.height);
+  return image;
+}
+
+std::string pack_string(std::string_view text) {
+  constexpr std::size_t kMost = 0xFFFF;  // bytes that the length can say
+  text = text.substr(0, kMost);
+  BigEndianWriter out;
+  out.put(std::uint16_t{3});  // US-ASCII
+  out.put(static_cast<std::uint16_t>(text.size()));
+  out.put_bytes(text);
+  return std::move(out.bytes());
+}
+
+Result<std::string> parse_string(std::string_view content) {
+  BigEndianReader in(content);
+  static_cast<void>(in.get<std::uint16_t>());
+  const auto size = in.get<std::uint16_t>();
+  const std::string_view text = in.get_bytes(size);
+  if (!in.ok() || !in.at_end()) return wrong_length("STRING");
+  return std::string(text);
+}
+
+std::string pack_sensor(const Sensor& sensor) {
+  ARTUS_REQUIRE(sensor.values.size() <= 255, "a SENSOR has at most 255 values");
+  BigEndianWriter out;
+  out.put(static_cast<std::uint8_t>(sensor.values.size()));
+  out.put(std::uint8_t{0});  // status, reserved
+  out.put(sensor.unit);
+  for (const double value : sensor.values) out.put(value);
+  return std::move(out.bytes());
+}
+
+Result<Sensor> parse_sensor(std::string_view content) {
+  BigEndianReader in(content);
+  const auto n = in.get<std::uint8_t>();
+  static_cast<void>(in.get<std::uint8_t>());
+  Sensor sensor;
+  sensor.unit = in.get<std::uint64_t>();
+  if (!in.ok() || in.rest().size() != n * sizeof(double)) return wrong_length("SENSOR");
+  for (int i = 0; i < n; ++i) sensor.values.push_back(in.get<double>());
+  return sensor;
+}
+
+std::string pack_status(const Status& status) {
+  BigEndianWriter out;
+  out.put(status.code);
+  out.put(status.subcode);
+  out.put_padded(status.error, kErrorNameSize);
+  out.put_bytes(status.message);
+  out.put(char{0});
+  return std::move(out.bytes());
+}
+
+Result<Status> parse_status(std::string_view content) {
+  BigEndianReader in(content);
+  Status status;
+  status.code = in.get<std::uint16_t>();
+  status.subcode = in.get<std::int64_t>();
+  status.error = in.get_padded(kErrorNameSize);
+  if (!in.ok()) return wrong_length("STATUS");
+  status.message = std::string(in.rest().substr(0, in.rest().find('\0')));
+  return status;
+}
+
+std::string pack_command(const CommandText& command) {
+  BigEndianWriter out;
+  out.put(command.number);
+  out.put_padded(command.name, kCommandNameSize);
+  out.put(command.encoding);
+  out.put(static_cast<std::uint32_t>(command.content.size()));
+  out.put_bytes(command.content);
+  return std::move(out.bytes());
+}
+
+Result<CommandText> parse_command(std::string_view content) {
+  BigEndianReader in(content);
+  CommandText command;
+  command.number = in.get<std::uint32_t>();
+  command.name = in.get_padded(kCommandNameSize);
+  command.encoding = in.get<std::uint16_t>();
+  const auto size = in.get<std::uint32_t>();
+  command.content = std::string(in.get_bytes(size));
+  if (!in.ok() || !in.at_end()) return wrong_length("COMMAND");
+  return command;
+}
+
+std::string pack_capability(const std::vector<std::string>& types) {
+  BigEndianWriter out;
+  for (const std::string& type : types) out.put_padded(type, kTypeNameSize);
+  return std::move(out.bytes());
+}
+
+Result<std::vector<std::string>> parse_capability(std::string_view content) {
+  if (content.size() % kTypeNameSize != 0) return wrong_length("CAPABILITY");
+  BigEndianReader in(content);
+  std::vector<std::string> types;
+  while (!in.at_end()) types.push_back(in.get_padded(kTypeNameSize));
+  return types;
+}
+
+}  // namespace artus::igtl

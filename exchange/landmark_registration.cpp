@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/exchange/landmark_registration.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+
+#include "artus/core/text_cursor.h"
+#include "artus/core/text_file.h"
+#include "artus/core/units.h"
+
+namespace artus {
+namespace {
+
+/// How far the points spread across the line that fits them best, m.
+double spread_across_line(const Eigen::Matrix3Xd& points) {
+  const Eigen::Matrix3Xd centred = points.colwise() - points.rowwise().mean();
+  const Eigen::JacobiSVD<Eigen::Matrix3Xd> svd(centred);
+  return svd.singularValues()(1) / std::sqrt(static_cast<double>(points.cols()));
+}
+
+std::string list_residuals(const std::vector<LandmarkPair>& pairs, const Registration& fit) {
+  std::string list;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    char text[48];
+    std::snprintf(text, sizeof text, " %.2f mm", fit.residuals[i] / kMillimetre);
+    list += (list.empty() ? "" : ", ") + pairs[i].name + text;
+  }
+  return list;
+}
+
+std::vector<std::string> fields_of(std::string_view line) {
+  std::vector<std::string> fields;
+  while (true) {
+    const std::size_t comma = std::min(line.find(','), line.size());
+    std::string_view field = line.substr(0, comma);
+    while (!field.empty() && field.front() == ' ') field.remove_prefix(1);
+    while (!field.empty() && (field.back() == ' ' || field.back() == '\r')) field.remove_suffix(1);
+    fields.emplace_back(field);
+    if (comma == line.size()) return fields;
+    line.remove_prefix(comma + 1);
+  }
+}
+
+const Landmark* find_landmark(const CompiledJoint& joint, const std::string& name) {
+  const auto found = std::find_if(joint.landmarks.begin(), joint.landmarks.end(),
+                                  [&](const Landmark& l) { return l.name == name; });
+  return found == joint.landmarks.end() ? nullptr : &*found;
+}
+
+tl::unexpected<Error> no_such_landmark(const CompiledJoint& joint, const std::string& name,
+                                       const std::string& where) {
+  std::string known;
+  for (const Landmark& landmark : joint.landmarks)
+    known += (known.empty() ? "" : ", ") + landmark.name;
+  return fail(ErrorCode::not_found,
+              "the joint has no landmark '" + name + "'; it has " +
+                  (known.empty() ? std::string("none") : known),
+              where);
+}
+
+Result<LandmarkPair> parse_pair(const std::vector<std::string>& fields, const CompiledJoint& joint,
+                                const std::string& where) {
+  if (fields.size() != 4)
+    return fail(ErrorCode::malformed, "a line is landmark,x_mm,y_mm,z_mm", where);
+  const Landmark* landmark = find_landmark(joint, fields[0]);
+  if (landmark == nullptr) return no_such_landmark(joint, fields[0], where);
+  LandmarkPair pair{fields[0], landmark->position, Vec3::Zero()};
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    const auto number = parse_number(fields[static_cast<std::size_t>(i) + 1]);
+    if (!number || !std::isfinite(*number))
+      return fail(ErrorCode::malformed, "a coordinate is no number", where);
+    pair.p_R[i] = *number * kMillimetre;
+  }
+  return pair;
+}
+
+}  // namespace
+
+Result<Registration> register_landmarks(const std::vector<LandmarkPair>& pairs, double limit) {
+  constexpr std::size_t kFewest = 3;
+  constexpr double kFlattest = 2e-3;  // m
+  if (pairs.size() < kFewest)
+    return fail(ErrorCode::invalid, "a registration needs three landmarks or more");
+  const auto n = static_cast<Eigen::Index>(pairs.size());
+  Eigen::Matrix3Xd touched(3, n);
+  Eigen::Matrix3Xd known(3, n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    touched.col(i) = pairs[static_cast<std::size_t>(i)].p_R;
+    known.col(i) = pairs[static_cast<std::size_t>(i)].p_J;
+  }
+  if (spread_across_line(touched) < kFlattest || spread_across_line(known) < kFlattest)
+    return fail(ErrorCode::invalid,
+                "the landmarks lie on a line: touch one that lies off it, or nothing holds the "
+                "turn around that line");
+  Registration fit;
+  fit.X_JR.matrix() = Eigen::umeyama(touched, known, false);
+  double sum = 0;
+  for (const LandmarkPair& pair : pairs) {
+    fit.residuals.push_back((fit.X_JR * pair.p_R - pair.p_J).norm());
+    sum += fit.residuals.back() * fit.residuals.back();
+  }
+  fit.rms = std::sqrt(sum / static_cast<double>(pairs.size()));
+  if (!(fit.rms <= limit)) {
+    char text[96];
+    std::snprintf(text, sizeof text,
+                  "the landmarks fit to %.2f mm only, above %.2f mm: ", fit.rms / kMillimetre,
+                  limit / kMillimetre);
+    return fail(ErrorCode::invalid, text + list_residuals(pairs, fit));
+  }
+  return fit;
+}
+
+Result<std::vector<LandmarkPair>> parse_landmark_pairs(std::string_view text,
+                                                       const std::string& name,
+                                                       const CompiledJoint& joint) {
+  std::vector<LandmarkPair> pairs;
+  for (std::size_t line = 1; !text.empty(); ++line) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    const std::vector<std::string> fields = fields_of(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+    const std::string where = name + ":" + std::to_string(line);
+    if (line == 1 && fields.front() == "landmark") continue;
+    if (fields.size() == 1 && fields.front().empty()) continue;
+    auto pair = parse_pair(fields, joint, where);
+    ARTUS_TRY(pair);
+    if (std::any_of(pairs.begin(), pairs.end(),
+                    [&](const LandmarkPair& other) { return other.name == pair->name; }))
+      return fail(ErrorCode::invalid, "'" + pair->name + "' stands there twice", where);
+    pairs.push_back(std::move(*pair));
+  }
+  return pairs;
+}
+
+Result<std::vector<LandmarkPair>> read_landmark_pairs(const std::filesystem::path& file,
+                                                      const CompiledJoint& joint) {
+  const auto text = read_bytes(file);
+  ARTUS_TRY(text);
+  return parse_landmark_pairs(*text, file.string(), joint);
+}
+
+}  // namespace artus

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/exchange/reference_frame.h"
+
+#include "artus/core/units.h"
+#include "artus/echo/image_settings.h"
+#include "artus/echo/scan_converter.h"
+#include "artus/session/plain_pose.h"
+
+namespace artus {
+namespace {
+
+Pose ras_in_lps() {
+  Pose pose = Pose::Identity();
+  pose.linear().diagonal() = Vec3(-1, -1, 1);
+  return pose;
+}
+
+}  // namespace
+
+ReferenceFrame::ReferenceFrame() : X_JR_(ras_in_lps()) {}
+
+ReferenceFrame::ReferenceFrame(const Pose& X_JR) : X_JR_(X_JR) {}
+
+igtl::Matrix ReferenceFrame::to_reference(const Pose& X_JA) const {
+  return millimetres_of(X_JR_.inverse() * X_JA);
+}
+
+Result<Pose> ReferenceFrame::from_reference(const igtl::Matrix& matrix) const {
+  const auto pose = rigid_from(matrix);
+  ARTUS_TRY(pose);
+  return Pose(X_JR_ * *pose);
+}
+
+igtl::Matrix millimetres_of(const Pose& pose) {
+  igtl::Matrix matrix = pose.affine();
+  matrix.col(3) /= kMillimetre;
+  return matrix;
+}
+
+Result<Pose> rigid_from(const igtl::Matrix& matrix) {
+  constexpr double kTolerance = 1e-3;  // of an axis' length and of the angles between them
+  const Eigen::Matrix3d r = matrix.leftCols<3>();
+  if (!matrix.allFinite() || r.determinant() <= 0 ||
+      !((r.transpose() * r - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < kTolerance))
+    return fail(ErrorCode::invalid, "a pose whose axes are scaled, sheared or mirrored");
+  if (!(matrix.col(3).cwiseAbs().maxCoeff() * kMillimetre < kDeviceReach))
+    return fail(ErrorCode::invalid, "a pose more than ten metres away; lengths are millimetres");
+  Pose pose = Pose::Identity();
+  pose.linear() = Eigen::Quaterniond(r).normalized().toRotationMatrix();
+  pose.translation() = matrix.col(3) * kMillimetre;
+  return pose;
+}
+
+igtl::Matrix image_to_probe(const Transducer& transducer, double pixel, int height) {
+  // The converter knows where an image's corner is; a coarse one knows it as well as a fine one.
+  ImageSettings coarse;
+  coarse.pixel = 2e-3;
+  coarse.n_samples = 2;
+  coarse.depth = pixel * height;
+  const auto corner = [&] {
+    const Vec3 middle = ScanConverter(transducer, coarse).point_of(0, 0);
+    return Vec3(middle - 0.5 * Vec3(coarse.pixel, 0, coarse.pixel));
+  };
+  const double above = corner().z();  // of a curved face, whatever the depth
+  coarse.depth += above;
+  igtl::Matrix matrix = igtl::Matrix::Zero();
+  const double mm = pixel / kMillimetre;
+  matrix(0, 0) = mm;
+  matrix(2, 1) = mm;
+  matrix(1, 2) = -mm;
+  matrix.col(3) = (corner() + 0.5 * Vec3(pixel, 0, pixel)) / kMillimetre;
+  return matrix;
+}
+
+igtl::Matrix chained(const igtl::Matrix& outer, const igtl::Matrix& inner) {
+  igtl::Matrix product = outer.leftCols<3>() * inner;
+  product.col(3) += outer.col(3);
+  return product;
+}
+
+}  // namespace artus

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/exchange/session_link.h"
+
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "artus/core/text_cursor.h"
+#include "artus/core/units.h"
+#include "artus/session/session_thread.h"
+
+namespace artus {
+namespace {
+
+/// UTC of a time of the monotonic clock.
+std::uint64_t utc_of(std::int64_t monotonic) {
+  const std::int64_t ago = monotonic_ns() - monotonic;
+  constexpr double kSecond = 4294967296.0;  // units of igtl::Header::time
+  return igtl::utc_time_now() -
+         static_cast<std::uint64_t>(std::max(0.0, 1e-9 * static_cast<double>(ago) * kSecond));
+}
+
+std::string number_text(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return text;
+}
+
+igtl::Message message_of(const char* type, const char* device, std::uint64_t time,
+                         std::string content) {
+  igtl::Message message;
+  message.type = type;
+  message.device = device;
+  message.time = time;
+  message.content = std::move(content);
+  return message;
+}
+
+/// What is felt, as words beside the picture.
+std::vector<igtl::MetaEntry> force_entries(const HapticSnapshot& haptic, const Session& session) {
+  const Vec3 force(haptic.force_J[0], haptic.force_J[1], haptic.force_J[2]);
+  const Vec3 axis = to_pose(haptic.X_JN).linear().col(2);
+  const auto& regions = session.scene().joint().regions;
+  const std::uint32_t region = haptic.feedback.region;
+  return {{"Force_N", number_text(force.norm())},
+          {"AxialForce_N", number_text(-force.dot(axis))},
+          {"Depth_mm", number_text(haptic.feedback.depth / kMillimetre)},
+          {"Layer", region < regions.size() ? regions[region].name : std::string()},
+          {"Status", number_text(haptic.status)},
+          {"HapticRate_Hz", number_text(session.params().haptic_rate)},
+          {"ImageRate_Hz", number_text(session.params().image_rate)}};
+}
+
+void append_forces(std::vector<igtl::Message>& messages, const HapticSnapshot& haptic,
+                   const ReferenceFrame& reference, std::uint64_t time) {
+  const Vec3 force_J(haptic.force_J[0], haptic.force_J[1], haptic.force_J[2]);
+  const Vec3 force = reference.X_JR().linear().transpose() * force_J;
+  igtl::Sensor sensor{igtl::kNewton, {force.x(), force.y(), force.z()}};
+  messages.push_back(message_of("SENSOR", "Force", time, igtl::pack_sensor(sensor)));
+  messages.push_back(
+      message_of("STRING", "Force", time,
+                 igtl::pack_string(number_text(force.x()) + " " + number_text(force.y()) + " " +
+                                   number_text(force.z()))));
+}
+
+std::vector<std::string> known_types() {
+  return {"IMAGE",      "TRANSFORM",  "STRING",      "SENSOR",     "STATUS",
+          "CAPABILITY", "COMMAND",    "RTS_COMMAND", "GET_STATUS", "GET_CAPABIL",
+          "STT_STRING", "STP_STRING", "STT_SENSOR",  "STP_SENSOR"};
+}
+
+igtl::Message status_message(const Session* session) {
+  igtl::Status status;
+  constexpr std::uint16_t kNotReady = 13;
+  status.code = session != nullptr ? igtl::Status::kOk : kNotReady;
+  status.error = "None";
+  status.message = session != nullptr ? "the session runs" : "the session starts";
+  return message_of("STATUS", "artus", igtl::utc_time_now(), igtl::pack_status(status));
+}
+
+}  // namespace
+
+std::vector<igtl::Message> messages_of(const ImageSnapshot& image, const HapticSnapshot* haptic,
+                                       const Session& session, const ReferenceFrame& reference) {
+  std::vector<igtl::Message> messages;
+  const std::uint64_t time = utc_of(image.input.sample_time_ns);
+  const igtl::Matrix probe = reference.to_reference(to_pose(image.input.X_JP));
+  if (image.width > 0 && image.height > 0) {
+    Transducer transducer = session.params().transducer;
+    transducer.width = image.probe_width;
+    igtl::Image out;
+    out.width = image.width;
+    out.height = image.height;
+    out.image_to_reference = chained(probe, image_to_probe(transducer, image.pixel, image.height));
+    out.grey = {reinterpret_cast<const char*>(image.grey.data()), image.grey.size()};
+    messages.push_back(message_of("IMAGE", "Image_Reference", time, igtl::pack_image(out)));
+    messages.back().id = static_cast<std::uint32_t>(image.input.number);
+    messages.back().meta = {{"Modality", "simulated ultrasound"}};
+    if (haptic != nullptr)
+      for (igtl::MetaEntry& entry : force_entries(*haptic, session))
+        messages.back().meta.push_back(std::move(entry));
+  }
+  if (image.input.has_probe != 0)
+    messages.push_back(
+        message_of("TRANSFORM", "ProbeToReference", time, igtl::pack_transform(probe)));
+  if (image.input.has_needle != 0)
+    messages.push_back(
+        message_of("TRANSFORM", "NeedleToReference", time,
+                   igtl::pack_transform(reference.to_reference(to_pose(image.input.X_JN)))));
+  if (haptic != nullptr) append_forces(messages, *haptic, reference, time);
+  return messages;
+}
+
+Result<std::unique_ptr<SessionLink>> SessionLink::open(const Options& options) {
+  std::unique_ptr<SessionLink> link(new SessionLink(options));
+  const std::lock_guard<std::mutex> lock(link->mutex_);  // until the server's thread may use it
+  auto server = igtl::Server::listen(
+      options.server,
+      [self = link.get()](const igtl::Message& message) { return self->answer(message); });
+  ARTUS_TRY(server);
+  link->server_ = std::move(*server);
+  return link;
+}
+
+SessionLink::~SessionLink() = default;
+
+void SessionLink::attach(Session* session) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  session_ = session;
+  if (session != nullptr) controls_ = controls_of(session->params());
+}
+
+void SessionLink::take_image(const ImageSnapshot& image) {
+  std::vector<igtl::Message> messages;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (session_ == nullptr || server_->clients() == 0) return;
+    HapticSnapshot haptic;
+    const bool felt = session_->newest(haptic);
+    messages = messages_of(image, felt ? &haptic : nullptr, *session_, options_.reference);
+  }
+  server_->publish(std::move(messages));
+}
+
+std::vector<igtl::Message> SessionLink::answer(const igtl::Message& message) {
+  if (message.type == "COMMAND") {
+    const auto command = igtl::parse_command(message.content);
+    if (!command) return {};
+    return {answer_message(message, *command, obey(remote_command_of(*command)))};
+  }
+  if (message.type == "GET_CAPABIL")
+    return {message_of("CAPABILITY", "artus", igtl::utc_time_now(),
+                       igtl::pack_capability(known_types()))};
+  if (message.type == "GET_STATUS") {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return {status_message(session_)};
+  }
+  if (options_.inbox) {
+    const auto taken = options_.inbox->take(message, monotonic_ns());
+    if (taken) return {};
+    const std::lock_guard<std::mutex> lock(mutex_);
+    server_->tell(taken.error().message);
+  }
+  return {};
+}
+
+RemoteAnswer SessionLink::turn(const RemoteCommand& command, double low, double high, double scale,
+                               double ImageControls::*knob) {
+  const auto value = parse_number(command.value);
+  if (!value || !(*value >= low && *value <= high))
+    return {false,
+            command.name + " needs a Value from " + number_text(low) + " to " + number_text(high)};
+  if (options_.turn) {
+    options_.turn(knob, *value * scale);
+  } else {
+    controls_.*knob = *value * scale;
+    session_->set_controls(controls_);
+  }
+  return {true, command.name + " " + number_text(*value)};
+}
+
+RemoteAnswer SessionLink::obey(const RemoteCommand& command) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (command.name == "Version") return {true, "artus " + options_.version};
+  if (session_ == nullptr) return {false, "the session does not run yet"};
+  if (command.name == "Freeze" || command.name == "Unfreeze") {
+    session_->set_frozen(command.name == "Freeze");
+    return {true, command.name == "Freeze" ? "frozen" : "running"};
+  }
+  if (command.name == "Gain") return turn(command, -40, 60, 1, &ImageControls::gain_db);
+  if (command.name == "Depth") return turn(command, 10, 200, kMillimetre, &ImageControls::depth);
+  if (command.name == "Scenario") return {false, "no scenario runs in this program"};
+  return {false, "'" + command.name +
+                     "' is not known; Version, Freeze, Unfreeze, Gain, Depth, Scenario are"};
+}
+
+}  // namespace artus

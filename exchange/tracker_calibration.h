@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "artus/core/geometry.h"
+#include "artus/core/result.h"
+
+namespace artus {
+
+/// How a tracker's sensors sit on the probe, the needle and the joint. As a file: TOML with the
+/// tables transducer_to_probe, needle_tip_to_needle and reference_to_joint, each of which may be
+/// missing and has `matrix`, four rows of four numbers in millimetres (docs/openigtlink.md).
+struct TrackerCalibration {
+  /// The transducer's frame P (x lateral, z into the body) on the probe's sensor.
+  Pose X_ProbeP = Pose::Identity();
+  /// The needle's frame N (origin tip, z hub to tip) on the needle's sensor.
+  Pose X_NeedleN = Pose::Identity();
+  /// The tracker's reference in the joint.
+  Pose X_JR;
+  bool registered = false;  ///< reference_to_joint is known; else Reference is the joint in RAS
+
+  TrackerCalibration();
+};
+
+/// Errors: malformed (with line), invalid (unknown key, not 16 numbers, a matrix that is not
+/// rigid), all problems in one message.
+[[nodiscard]] Result<TrackerCalibration> parse_tracker_calibration(std::string_view text,
+                                                                   const std::string& name);
+/// The same from a file. Errors: also not_found, unreadable.
+[[nodiscard]] Result<TrackerCalibration> read_tracker_calibration(
+    const std::filesystem::path& file);
+
+/// The file's text; reading it gives the same calibration.
+[[nodiscard]] std::string to_toml(const TrackerCalibration& calibration);
+
+}  // namespace artus

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "artus/core/result.h"
+#include "artus/exchange/igtl/message.h"
+#include "artus/exchange/reference_frame.h"
+#include "artus/exchange/tracker_calibration.h"
+#include "artus/session/input_device.h"
+#include "artus/session/seqlock.h"
+
+namespace artus {
+
+/// What a tracker said last, in the world W. Plain bytes.
+struct TrackedPoses {
+  PlainPose X_WN;
+  PlainPose X_WP;
+  std::int64_t needle_ns = 0;  ///< monotonic clock, when it arrived; 0: never
+  std::int64_t probe_ns = 0;
+  std::uint64_t number = 0;     ///< grows with every pose that was taken
+  std::int64_t refused_ns = 0;  ///< when a pose last came that cannot be one
+};
+
+/// Takes TRANSFORM messages of probe and needle, by their device names, for a TrackerDevice. One
+/// thread fills it (the server's), any may look.
+class TrackerInbox {
+ public:
+  struct Names {
+    std::string probe = "ProbeToReference";
+    std::string needle = "NeedleToReference";
+  };
+  TrackerInbox(const TrackerCalibration& calibration, const Names& names);
+
+  /// A message of one of the two names; others are left alone. A pose with metadata
+  /// TransformStatus other than OK was not seen by the tracker: it is not taken. Errors: as
+  /// ReferenceFrame::from_reference, and what is no TRANSFORM.
+  [[nodiscard]] Result<void> take(const igtl::Message& message, std::int64_t now_ns);
+
+  [[nodiscard]] ARTUS_REALTIME bool load(TrackedPoses& out) const noexcept {
+    return poses_.load(out);
+  }
+
+ private:
+  TrackerCalibration calibration_;
+  ReferenceFrame reference_;
+  Names names_;
+  TrackedPoses newest_;  // as stored last; of the filling thread
+  Seqlock<TrackedPoses> poses_;
+};
+
+/// Needle and probe of a tracker, or of another program that sends its poses. A probe that is
+/// silent is held for a while, as its picture may be; a needle that is silent is gone, since no
+/// force may be made of an old pose. Forces are written nowhere: a tracker has no motors.
+class TrackerDevice final : public InputDevice {
+ public:
+  struct Holds {
+    std::int64_t probe_ns = 500'000'000;    ///< assumed: longer than a hand hides a marker
+    std::int64_t needle_ns = kPeerTimeout;  ///< longer only where no hand feels the force
+  };
+  TrackerDevice(std::shared_ptr<const TrackerInbox> inbox, const Holds& holds)
+      : inbox_(std::move(inbox)), holds_(holds) {}
+
+  [[nodiscard]] ARTUS_REALTIME DeviceSample read(std::int64_t now_ns) noexcept override;
+  ARTUS_REALTIME void write(const DeviceFeedback& /*feedback*/) noexcept override {}
+  [[nodiscard]] std::string_view name() const noexcept override { return "OpenIGTLink"; }
+
+ private:
+  std::shared_ptr<const TrackerInbox> inbox_;
+  Holds holds_;
+  TrackedPoses seen_;  // the newest that was read whole
+};
+
+}  // namespace artus

@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: AGPL-3.0-or-later
+"""One layered model of a joint: its B-mode images, what a needle meets, and what the hand feels.
+
+Lengths are metres, forces newton, poses 4 x 4 matrices X_JA of a frame A in the joint's frame J.
+"""
+
+from __future__ import annotations
+
+import shutil
+import tempfile
+import tomllib
+from pathlib import Path
+
+import numpy as _np
+
+from ._artus import (
+    Frame,
+    Joint,
+    Labels,
+    Renderer,
+    __version__,
+    forces,
+    insert,
+    load,
+    needle_intervals,
+)
+
+__all__ = [
+    "Frame", "Joint", "Labels", "Renderer", "__version__", "compile", "forces", "insert", "load",
+    "needle_intervals", "pose", "sweep",
+]
+
+
+def pose(position, z, x=(1.0, 0.0, 0.0)):
+    """The (4, 4) pose at `position` (m) whose z axis is along `z` and x axis as near `x` as can be."""
+    z = _np.asarray(z, float)
+    if z.shape != (3,) or not _np.linalg.norm(z) > 0:
+        raise ValueError("z must be three numbers, not all zero")
+    z = z / _np.linalg.norm(z)
+    x = _np.asarray(x, float)
+    x = x - z * (x @ z)
+    if _np.linalg.norm(x) < 1e-9:
+        raise ValueError("x must not be along z")
+    x = x / _np.linalg.norm(x)
+    matrix = _np.eye(4)
+    matrix[:3, 0], matrix[:3, 1], matrix[:3, 2], matrix[:3, 3] = x, _np.cross(z, x), z, position
+    return matrix
+
+
+def _write_ply(path, vertices, triangles):
+    vertices = _np.ascontiguousarray(vertices, "<f8")
+    triangles = _np.ascontiguousarray(triangles, "<i4")
+    if vertices.ndim != 2 or vertices.shape[1] != 3:
+        raise ValueError(f"{path.stem}: vertices must have the shape (n, 3), not {vertices.shape}")
+    if triangles.ndim != 2 or triangles.shape[1] != 3:
+        raise ValueError(f"{path.stem}: triangles must have the shape (n, 3), not {triangles.shape}")
+    faces = _np.empty(len(triangles), _np.dtype([("n", "u1"), ("v", "<i4", 3)]))
+    faces["n"], faces["v"] = 3, triangles
+    head = (
+        "ply\nformat binary_little_endian 1.0\n"
+        f"element vertex {len(vertices)}\n"
+        "property double x\nproperty double y\nproperty double z\n"
+        f"element face {len(faces)}\nproperty list uchar int vertex_indices\nend_header\n"
+    )
+    path.write_bytes(head.encode() + vertices.tobytes() + faces.tobytes())
+
+
+def compile(folder, surfaces, *, cache=""):
+    """Compile a joint folder with surfaces from memory in place of some or all of its files.
+
+    `surfaces`: {structure: (vertices (n, 3), triangles (m, 3))}, vertices in the units that the
+    folder's joint.toml names; the body's own surface is called "body".
+    """
+    folder = Path(folder)
+    table = tomllib.loads((folder / "joint.toml").read_text())
+    files = {"body": table["body"]["file"]}
+    files.update({s["name"]: s["file"] for s in table.get("structure", []) if "file" in s})
+    unknown = sorted(set(surfaces) - set(files))
+    if unknown:
+        raise ValueError(f"the joint has no structure {unknown[0]!r}; it has {', '.join(files)}")
+    with tempfile.TemporaryDirectory() as temporary:
+        for name, file in files.items():
+            target = Path(temporary) / file
+            target.parent.mkdir(parents=True, exist_ok=True)
+            if name not in surfaces:
+                shutil.copy(folder / table.get("surfaces", ".") / file, target)
+                continue
+            if target.suffix.lower() != ".ply":
+                raise ValueError(f"{name}: only .ply files can be replaced, not {file}")
+            _write_ply(target, *surfaces[name])
+        return load(folder, surfaces=temporary, cache=cache)
+
+
+def sweep(joint, poses, *, start=0, stop=None, step=1, **settings):
+    """Images and their truth, pose by pose: an iterator of dicts, for a training loop.
+
+    `poses`: (probe (4, 4), needle (4, 4) or None) for each frame. With `start` and `step` several
+    workers share one list: frame i does not depend on who draws it. `settings`: of Renderer.
+    """
+    renderer = Renderer(joint, **settings)
+    for i in range(start, len(poses) if stop is None else stop, step):
+        probe, needle = poses[i]
+        frame = renderer.render(probe, needle)
+        labels = renderer.labels(probe, needle)
+        yield {
+            "index": i,
+            "image": frame.image,
+            "regions": labels.regions,
+            "needle": labels.needle,
+            "tip_shown": frame.tip_shown,
+            "truth": None if needle is None else renderer.truth(probe, needle),
+        }

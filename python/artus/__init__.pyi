@@ -1,0 +1,137 @@
+# SPDX-License-Identifier: AGPL-3.0-or-later
+from collections.abc import Iterator, Mapping, Sequence
+from os import PathLike
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+__version__: str
+
+class Joint:
+    """A compiled joint; share it between threads and renderers."""
+
+    @property
+    def name(self) -> str: ...
+    @property
+    def digest(self) -> str: ...
+    @property
+    def regions(self) -> list[str]: ...
+    @property
+    def tissues(self) -> list[str]: ...
+    @property
+    def probe(self) -> NDArray[np.float64]: ...
+    @property
+    def needle(self) -> NDArray[np.float64]: ...
+    @property
+    def injections(self) -> list[tuple[NDArray[np.float64], NDArray[np.float64]]]: ...
+    @property
+    def landmarks(self) -> dict[str, NDArray[np.float64]]: ...
+
+class Frame:
+    """A B-mode image and what led to it; arrays are read-only views that keep the frame alive."""
+
+    @property
+    def image(self) -> NDArray[np.uint8]: ...
+    @property
+    def in_phase(self) -> NDArray[np.float32]: ...
+    @property
+    def quadrature(self) -> NDArray[np.float32]: ...
+    @property
+    def envelope(self) -> NDArray[np.float32]: ...
+    @property
+    def decibel(self) -> NDArray[np.float32]: ...
+    @property
+    def contact(self) -> NDArray[np.float32]: ...
+    @property
+    def pixel(self) -> float: ...
+    @property
+    def sample_depth(self) -> float: ...
+    @property
+    def tip_shown(self) -> tuple[float, float] | None: ...
+
+class Labels:
+    """What truly lies in the plane, at the scale of the image."""
+
+    @property
+    def regions(self) -> NDArray[np.uint16]: ...
+    @property
+    def needle(self) -> NDArray[np.uint8]: ...
+    @property
+    def pixel(self) -> float: ...
+
+class Renderer:
+    """Turns probe poses into B-mode images of one joint. `transducer`: a bundled name or a .toml
+    file; `keep_lines`: frames keep (lines, samples) in_phase, quadrature, envelope and decibel."""
+
+    def __init__(
+        self,
+        joint: Joint,
+        transducer: str = "linear-6-18",
+        keep_lines: bool = False,
+        *,
+        frequency: float = ...,
+        focus: float = ...,
+        transmit_focus: float = ...,
+        steering: float = ...,
+        lines: int = ...,
+        depth: float = 40e-3,
+        samples: int = 1024,
+        planes: int = 5,
+        pixel: float = 0.1e-3,
+        gain_db: float = 9,
+        dynamic_range_db: float = 60,
+        tgc_db_cm_mhz: float = 0.7,
+        smoothing: float = 0,
+        compound: int = 1,
+        persistence: float = 0,
+        refraction: bool = True,
+        reverberation: bool = True,
+        texture: bool = True,
+        seed: int = 1,
+        threads: int = 0,
+    ) -> None: ...
+    def render(self, probe: ArrayLike, needle: ArrayLike | None = None) -> Frame: ...
+    def labels(self, probe: ArrayLike, needle: ArrayLike | None = None) -> Labels: ...
+    def truth(self, probe: ArrayLike, needle: ArrayLike) -> dict[str, Any]: ...
+
+def load(
+    path: str | PathLike[str],
+    *,
+    surfaces: str | PathLike[str] = "",
+    cache: str | PathLike[str] = "",
+    skip_refused: bool = False,
+) -> Joint: ...
+def compile(
+    folder: str | PathLike[str],
+    surfaces: Mapping[str, tuple[ArrayLike, ArrayLike]],
+    *,
+    cache: str | PathLike[str] = "",
+) -> Joint: ...
+def needle_intervals(
+    joint: Joint, entry: ArrayLike, tip: ArrayLike
+) -> list[tuple[str, float, float]]: ...
+def forces(
+    joint: Joint, poses: ArrayLike, *, rate: float = 1000.0, device: str = "ideal"
+) -> dict[str, NDArray[Any]]: ...
+def insert(
+    joint: Joint,
+    entry: ArrayLike,
+    target: ArrayLike,
+    *,
+    speed: float = 0.01,
+    rate: float = 1000.0,
+    device: str = "ideal",
+) -> dict[str, NDArray[Any]]: ...
+def pose(
+    position: ArrayLike, z: ArrayLike, x: ArrayLike = (1.0, 0.0, 0.0)
+) -> NDArray[np.float64]: ...
+def sweep(
+    joint: Joint,
+    poses: Sequence[tuple[ArrayLike, ArrayLike | None]],
+    *,
+    start: int = 0,
+    stop: int | None = None,
+    step: int = 1,
+    **settings: Any,
+) -> Iterator[dict[str, Any]]: ...

@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/python/borders.h"
+
+PYBIND11_MODULE(_artus, module) {
+  module.doc() = "The engine of the package artus.";
+  module.attr("__version__") = ARTUS_VERSION;
+  artus::python::add_bodies(module);
+  artus::python::add_images(module);
+  artus::python::add_forces(module);
+}

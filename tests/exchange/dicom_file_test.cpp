@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/exchange/dicom_file.h"
+
+#include <cstring>
+#include <string>
+
+#include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dctk.h>
+#include <gmock/gmock.h>
+
+#include <gtest/gtest.h>
+
+#include "artus/core/text_file.h"
+#include "tests/support/process.h"
+#include "tests/support/temporary_folder.h"
+
+namespace artus {
+namespace {
+
+class DicomFile : public test::TemporaryFolder {
+ protected:
+  static ImageSequence some_sequence() {
+    ImageSequence sequence;
+    sequence.width = 40;
+    sequence.height = 30;
+    for (int i = 0; i < 5; ++i) {
+      SequenceFrame frame;
+      for (int k = 0; k < 1200; ++k) frame.grey.push_back(static_cast<std::uint8_t>(7 * k + i));
+      sequence.frames.push_back(frame);
+    }
+    return sequence;
+  }
+  const DicomSeries series_{"shoulder", "1.0", "right", 0.1e-3, 0.04};
+};
+
+TEST_F(DicomFile, HasThePixelsTheScaleAndTheWord) {
+  const ImageSequence sequence = some_sequence();
+  const auto written = write_dicom(in("us.dcm"), sequence, series_);
+  ASSERT_TRUE(written) << written.error().to_string();
+  DcmFileFormat file;
+  ASSERT_TRUE(file.loadFile(in("us.dcm").c_str()).good());
+  DcmDataset& dataset = *file.getDataset();
+  const Uint8* pixels = nullptr;
+  unsigned long count = 0;
+  ASSERT_TRUE(dataset.findAndGetUint8Array(DCM_PixelData, pixels, &count).good());
+  ASSERT_EQ(count, 5U * 1200U);
+  for (std::size_t i = 0; i < 5; ++i)
+    EXPECT_EQ(std::memcmp(pixels + 1200 * i, sequence.frames[i].grey.data(), 1200), 0) << i;
+  OFString text;
+  ASSERT_TRUE(dataset.findAndGetOFString(DCM_ImageComments, text).good());
+  EXPECT_THAT(text.c_str(), testing::HasSubstr("simulated"));
+  ASSERT_TRUE(dataset.findAndGetOFString(DCM_FrameTime, text).good());
+  EXPECT_STREQ(text.c_str(), "40");
+  DcmItem* region = nullptr;
+  ASSERT_TRUE(dataset.findAndGetSequenceItem(DCM_SequenceOfUltrasoundRegions, region).good());
+  Float64 delta = 0;
+  ASSERT_TRUE(region->findAndGetFloat64(DCM_PhysicalDeltaX, delta).good());
+  EXPECT_DOUBLE_EQ(delta, 0.01);  // cm
+}
+
+TEST_F(DicomFile, IsTheSameBytesAgain) {
+  ASSERT_TRUE(write_dicom(in("a.dcm"), some_sequence(), series_));
+  ASSERT_TRUE(write_dicom(in("b.dcm"), some_sequence(), series_));
+  EXPECT_EQ(*read_bytes(in("a.dcm")), *read_bytes(in("b.dcm")));
+}
+
+TEST_F(DicomFile, TheValidatorOfOthersHasNoError) {
+  if (test::run_process({"sh", "-c", "command -v dciodvfy"}).exit_code != 0)
+    GTEST_SKIP() << "dciodvfy is not there (dicom3tools)";
+  ASSERT_TRUE(write_dicom(in("us.dcm"), some_sequence(), series_));
+  const auto said = test::run_process({"dciodvfy", in("us.dcm")});
+  const std::string all = said.out + said.err;
+  EXPECT_THAT(all, testing::HasSubstr("USMultiFrameImage"));
+  EXPECT_THAT(all, testing::Not(testing::HasSubstr("Error"))) << all;
+}
+
+TEST_F(DicomFile, SaysWhereItCannotWrite) {
+  const auto written = write_dicom(in("nowhere/us.dcm"), some_sequence(), series_);
+  ASSERT_FALSE(written);
+  EXPECT_EQ(written.error().code, ErrorCode::unreadable);
+}
+
+}  // namespace
+}  // namespace artus

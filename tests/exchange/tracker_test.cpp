@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Frames, calibrations, registration, and the device that a tracker's poses arrive at.
+#include <memory>
+#include <string>
+
+#include <gmock/gmock.h>
+
+#include <gtest/gtest.h>
+
+#include "artus/echo/scan_converter.h"
+#include "artus/exchange/landmark_registration.h"
+#include "artus/exchange/reference_frame.h"
+#include "artus/exchange/remote_command.h"
+#include "artus/exchange/tracker_calibration.h"
+#include "artus/exchange/tracker_device.h"
+#include "tests/support/real_time.h"
+
+namespace artus {
+namespace {
+
+using test::use;
+using testing::HasSubstr;
+
+Pose some_pose() {
+  return make_pose(Vec3(0.04, -0.02, 0.1), Vec3(0.3, -0.5, 0.8), Vec3(1, 0.2, 0));
+}
+
+igtl::Message transform(const std::string& device, const igtl::Matrix& matrix) {
+  igtl::Message message;
+  message.type = "TRANSFORM";
+  message.device = device;
+  message.content = igtl::pack_transform(matrix);
+  return message;
+}
+
+TEST(ReferenceFrame, IsRasInMillimetresWithoutARegistration) {
+  Pose X_JA = Pose::Identity();
+  X_JA.translation() = Vec3(0.01, 0.02, 0.03);
+  const igtl::Matrix matrix = ReferenceFrame().to_reference(X_JA);
+  EXPECT_TRUE(matrix.col(3).isApprox(Vec3(-10, -20, 30)));
+  EXPECT_TRUE(matrix.leftCols<3>().isApprox(Vec3(-1, -1, 1).asDiagonal().toDenseMatrix()));
+}
+
+TEST(ReferenceFrame, APoseComesBack) {
+  const Pose X_JR = make_pose(Vec3(0.5, 0.1, -0.3), Vec3(0.1, 0.9, 0.2), Vec3::UnitX());
+  for (const ReferenceFrame& frame : {ReferenceFrame(), ReferenceFrame(X_JR)}) {
+    const auto back = frame.from_reference(frame.to_reference(some_pose()));
+    ASSERT_TRUE(back);
+    EXPECT_TRUE(back->isApprox(some_pose(), 1e-12));
+  }
+}
+
+TEST(ReferenceFrame, RefusesWhatIsNoRigidPose) {
+  const ReferenceFrame frame;
+  const igtl::Matrix good = frame.to_reference(some_pose());
+  igtl::Matrix scaled = good;
+  scaled.leftCols<3>() *= 1.01;
+  igtl::Matrix mirrored = good;
+  mirrored.col(0) *= -1;
+  igtl::Matrix far = good;
+  far(0, 3) = 20'000;
+  igtl::Matrix zero = igtl::Matrix::Zero();
+  for (const igtl::Matrix& bad : {scaled, mirrored, far, zero})
+    EXPECT_FALSE(frame.from_reference(bad));
+}
+
+TEST(ImageToProbe, PutsEveryPixelWhereTheScanConverterHasIt) {
+  Transducer curved;
+  curved.radius = 50e-3;
+  curved.width = 60e-3;
+  Transducer steered;
+  steered.steering = 0.2;
+  ImageSettings settings;
+  settings.depth = 55e-3;
+  for (const Transducer& transducer : {Transducer(), curved, steered}) {
+    const ScanConverter converter(transducer, settings);
+    const igtl::Matrix matrix = image_to_probe(transducer, settings.pixel, converter.height());
+    for (const auto& [x, y] : {std::pair{0, 0}, std::pair{17, 230}, std::pair{399, 3}}) {
+      const Vec3 p = matrix.leftCols<3>() * Vec3(x, y, 0) + matrix.col(3);
+      EXPECT_LT((p - 1e3 * converter.point_of(x, y)).norm(), 0.051) << x << ' ' << y;
+    }
+    EXPECT_GT(matrix.leftCols<3>().determinant(), 0);
+  }
+}
+
+CompiledJoint joint_with_landmarks() {
+  CompiledJoint joint;
+  joint.landmarks = {{"acromion", Vec3(0, 0, 0)},
+                     {"coracoid", Vec3(0.05, 0.01, 0)},
+                     {"tubercle", Vec3(0.02, 0.06, 0.01)},
+                     {"groove", Vec3(0.01, 0.02, 0.05)}};
+  return joint;
+}
+
+std::vector<LandmarkPair> touched(const CompiledJoint& joint, const Pose& X_JR) {
+  std::vector<LandmarkPair> pairs;
+  for (const Landmark& landmark : joint.landmarks)
+    pairs.push_back({landmark.name, landmark.position, X_JR.inverse() * landmark.position});
+  return pairs;
+}
+
+TEST(Registration, FindsTheMotionThatExactPointsHave) {
+  const auto fit = register_landmarks(touched(joint_with_landmarks(), some_pose()), 1e-3);
+  ASSERT_TRUE(fit) << fit.error().to_string();
+  EXPECT_TRUE(fit->X_JR.isApprox(some_pose(), 1e-9));
+  EXPECT_LT(fit->rms, 1e-12);
+}
+
+TEST(Registration, PrintsTheResidualsWhenTwoLandmarksWereSwapped) {
+  auto pairs = touched(joint_with_landmarks(), some_pose());
+  std::swap(pairs[0].p_R, pairs[1].p_R);
+  const auto fit = register_landmarks(pairs, 5e-3);
+  ASSERT_FALSE(fit);
+  EXPECT_THAT(fit.error().message, HasSubstr("above 5.00 mm"));
+  EXPECT_THAT(fit.error().message, HasSubstr("groove "));
+}
+
+TEST(Registration, ResidualsAreThoseOfOnePointThatWasTouchedBeside) {
+  auto pairs = touched(joint_with_landmarks(), some_pose());
+  pairs[3].p_R += Vec3(0, 0, 2e-3);
+  const auto fit = register_landmarks(pairs, 5e-3);
+  ASSERT_TRUE(fit);
+  EXPECT_GT(fit->rms, 0.1e-3);
+  EXPECT_LT(fit->rms, 1e-3);  // 2 mm over four points at most, and the fit takes its share
+}
+
+TEST(Registration, RefusesTwoPointsAndALine) {
+  auto pairs = touched(joint_with_landmarks(), some_pose());
+  pairs.resize(2);
+  EXPECT_FALSE(register_landmarks(pairs, 1));
+  CompiledJoint line;
+  line.landmarks = {{"a", Vec3(0, 0, 0)}, {"b", Vec3(0.05, 0, 0)}, {"c", Vec3(0.09, 0.001, 0)}};
+  const auto fit = register_landmarks(touched(line, some_pose()), 1);
+  ASSERT_FALSE(fit);
+  EXPECT_THAT(fit.error().message, HasSubstr("on a line"));
+}
+
+TEST(Registration, ReadsPairsByTheJointsNames) {
+  const CompiledJoint joint = joint_with_landmarks();
+  const auto pairs = parse_landmark_pairs(
+      "landmark,x_mm,y_mm,z_mm\nacromion, 1, 2.5,-3\r\n\ngroove,0,0,7\n", "pairs.csv", joint);
+  ASSERT_TRUE(pairs) << pairs.error().to_string();
+  ASSERT_EQ(pairs->size(), 2U);
+  EXPECT_TRUE((*pairs)[0].p_R.isApprox(Vec3(1e-3, 2.5e-3, -3e-3)));
+  EXPECT_EQ((*pairs)[1].p_J, joint.landmarks[3].position);
+  const auto refusal = [&](const char* text) {
+    const auto bad = parse_landmark_pairs(text, "pairs.csv", joint);
+    return bad ? std::string() : bad.error().to_string();
+  };
+  EXPECT_THAT(refusal("patella,1,2,3\n"), HasSubstr("pairs.csv:1"));
+  EXPECT_THAT(refusal("patella,1,2,3\n"), HasSubstr("acromion, coracoid"));
+  EXPECT_THAT(refusal("\nacromion,1,2\n"), HasSubstr("pairs.csv:2"));
+  EXPECT_THAT(refusal("acromion,1,2,nan\n"), HasSubstr("no number"));
+  EXPECT_THAT(refusal("acromion,1,2,3\nacromion,1,2,3\n"), HasSubstr("twice"));
+}
+
+TEST(TrackerCalibration, ComesBackFromItsText) {
+  TrackerCalibration calibration;
+  calibration.X_ProbeP = some_pose();
+  calibration.X_NeedleN.translation() = Vec3(0, 0, 0.12);
+  calibration.X_JR = some_pose().inverse();
+  calibration.registered = true;
+  const auto back = parse_tracker_calibration(to_toml(calibration), "tracker.toml");
+  ASSERT_TRUE(back) << back.error().to_string();
+  EXPECT_TRUE(back->registered);
+  EXPECT_TRUE(back->X_ProbeP.isApprox(calibration.X_ProbeP, 1e-12));
+  EXPECT_TRUE(back->X_NeedleN.isApprox(calibration.X_NeedleN, 1e-12));
+  EXPECT_TRUE(back->X_JR.isApprox(calibration.X_JR, 1e-12));
+}
+
+TEST(TrackerCalibration, WithoutARegistrationReferenceIsTheJointInRas) {
+  const auto empty = parse_tracker_calibration("", "tracker.toml");
+  ASSERT_TRUE(empty);
+  EXPECT_FALSE(empty->registered);
+  EXPECT_TRUE(empty->X_JR.isApprox(ReferenceFrame().X_JR()));
+}
+
+TEST(TrackerCalibration, SaysEverythingThatIsWrong) {
+  const auto bad = parse_tracker_calibration(
+      "[transducer_to_probe]\nmatrix = [[1, 0, 0, 0], [0, 1, 0, 0]]\n"
+      "[needle_tip_to_needle]\nmatrix = [[2,0,0,0],[0,2,0,0],[0,0,2,0],[0,0,0,1]]\n"
+      "[needle]\n",
+      "tracker.toml");
+  ASSERT_FALSE(bad);
+  EXPECT_THAT(bad.error().message, HasSubstr("four rows"));
+  EXPECT_THAT(bad.error().message, HasSubstr("scaled"));
+  EXPECT_THAT(bad.error().message, HasSubstr("'needle'"));
+}
+
+TEST(TrackerInbox, PutsCalibrationsAndRegistrationTogether) {
+  TrackerCalibration calibration;
+  calibration.X_ProbeP = some_pose();
+  calibration.X_NeedleN.translation() = Vec3(0, 0, 0.12);
+  calibration.X_JR = make_pose(Vec3(0.5, 0, 0), Vec3::UnitY(), Vec3::UnitX());
+  TrackerInbox inbox(calibration, {"Stylus", "Needle"});
+  const Pose X_RSensor = make_pose(Vec3(0.1, 0.2, 0.3), Vec3::UnitX(), Vec3::UnitZ());
+  ASSERT_TRUE(inbox.take(transform("Stylus", millimetres_of(X_RSensor)), 5));
+  ASSERT_TRUE(inbox.take(transform("Needle", millimetres_of(X_RSensor)), 6));
+  ASSERT_TRUE(inbox.take(transform("Other", igtl::Matrix::Zero()), 7));
+  TrackedPoses poses;
+  ASSERT_TRUE(inbox.load(poses));
+  EXPECT_EQ(poses.probe_ns, 5);
+  EXPECT_EQ(poses.needle_ns, 6);
+  EXPECT_EQ(poses.number, 2U);
+  const Pose probe = calibration.X_JR * X_RSensor * calibration.X_ProbeP;
+  const Pose needle = calibration.X_JR * X_RSensor * calibration.X_NeedleN;
+  EXPECT_TRUE(to_pose(poses.X_WP).isApprox(probe, 1e-6));  // single precision on the way
+  EXPECT_TRUE(to_pose(poses.X_WN).isApprox(needle, 1e-6));
+}
+
+class TrackerDeviceTest : public testing::Test {
+ protected:
+  void send(const char* name, double x_mm, std::int64_t now_ns, const char* status = "") {
+    igtl::Matrix matrix = igtl::Matrix::Identity();
+    matrix(0, 3) = x_mm;
+    igtl::Message message = transform(name, matrix);
+    if (*status != '\0') message.meta = {{"TransformStatus", status}};
+    static_cast<void>(inbox_->take(message, now_ns));
+  }
+  static constexpr std::int64_t kMs = 1'000'000;
+  std::shared_ptr<TrackerInbox> inbox_ =
+      std::make_shared<TrackerInbox>(TrackerCalibration(), TrackerInbox::Names());
+  TrackerDevice device_{inbox_, TrackerDevice::Holds()};
+};
+
+TEST_F(TrackerDeviceTest, IsAbsentUntilSomethingCame) {
+  EXPECT_EQ(device_.read(kMs).state, PeerState::absent);
+}
+
+TEST_F(TrackerDeviceTest, HoldsAProbeButNoNeedle) {
+  send("ProbeToReference", 1, 100 * kMs);
+  send("NeedleToReference", 2, 100 * kMs);
+  const DeviceSample fresh = device_.read(110 * kMs);
+  EXPECT_EQ(fresh.state, PeerState::alive);
+  EXPECT_EQ(fresh.has_needle, 1U);
+  EXPECT_EQ(fresh.has_probe, 1U);
+  const DeviceSample held = device_.read(120 * kMs);
+  EXPECT_EQ(held.state, PeerState::alive);
+  EXPECT_EQ(held.has_needle, 0U);
+  EXPECT_EQ(held.has_probe, 1U);
+  EXPECT_EQ(device_.read(601 * kMs).state, PeerState::lost);
+}
+
+TEST_F(TrackerDeviceTest, WhatTheTrackerDidNotSeeIsNotTaken) {
+  send("ProbeToReference", 1, 100 * kMs);
+  send("ProbeToReference", 50, 110 * kMs, "INVALID");
+  send("ProbeToReference", 60, 120 * kMs, "OK");
+  EXPECT_NEAR(device_.read(121 * kMs).X_WP.position[0], -60e-3, 1e-9);
+  EXPECT_EQ(device_.read(121 * kMs).number, 2U);
+}
+
+TEST_F(TrackerDeviceTest, PosesThatCannotBeAreNoPoses) {
+  igtl::Matrix bad = igtl::Matrix::Zero();
+  EXPECT_FALSE(inbox_->take(transform("NeedleToReference", bad), 100 * kMs));
+  EXPECT_EQ(device_.read(101 * kMs).state, PeerState::invalid);
+  send("NeedleToReference", 2, 102 * kMs);
+  EXPECT_EQ(device_.read(103 * kMs).state, PeerState::alive);
+}
+
+TEST_F(TrackerDeviceTest, IsReadWithoutWaiting) {
+  send("ProbeToReference", 1, 100 * kMs);
+  TrackedPoses poses;
+  ARTUS_RUNS_REALTIME(TrackerInbox::load, use(inbox_->load(poses)));
+  ARTUS_RUNS_REALTIME(TrackerDevice::read, use(device_.read(101 * kMs)));
+  ARTUS_RUNS_REALTIME(TrackerDevice::write, device_.write(DeviceFeedback{}));
+}
+
+TEST(RemoteCommand, TakesItsValueFromXmlOrPlainText) {
+  const auto value_of = [](const char* content) {
+    return remote_command_of({1, "Gain", 3, content}).value;
+  };
+  EXPECT_EQ(value_of("<Command Name=\"Gain\" Value=\" 12.5 \"/>"), "12.5");
+  EXPECT_EQ(value_of(" 7\n"), "7");
+  EXPECT_EQ(value_of("<Command Name=\"Gain\"/>"), "");
+  EXPECT_EQ(value_of(""), "");
+  EXPECT_EQ(value_of("<Command Value=\"unfinished"), "unfinished");
+}
+
+TEST(RemoteCommand, AnswersSayToSlicerWhetherItWasDone) {
+  igtl::Message asked;
+  asked.device = "Slicer";
+  asked.id = 4;
+  const igtl::CommandText command{42, "Gain", 3, "<Command/>"};
+  const igtl::Message yes = answer_message(asked, command, {true, "done"});
+  EXPECT_EQ(yes.type, "RTS_COMMAND");
+  EXPECT_EQ(yes.device, "Slicer");
+  EXPECT_EQ(yes.meta_value("Status"), "SUCCESS");
+  EXPECT_EQ(igtl::parse_command(yes.content)->number, 42U);
+  const igtl::Message no = answer_message(asked, command, {false, "a < b & \"c\""});
+  EXPECT_EQ(no.meta_value("Status"), "FAIL");
+  EXPECT_EQ(no.meta_value("ErrorMessage"), "a < b & \"c\"");
+  EXPECT_THAT(igtl::parse_command(no.content)->content, HasSubstr("a &lt; b &amp; &quot;c&quot;"));
+}
+
+}  // namespace
+}  // namespace artus
