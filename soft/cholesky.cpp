@@ -15,6 +15,21 @@ Index dofs(const std::vector<std::uint32_t>& nodes) noexcept {
   return static_cast<Index>(3 * nodes.size());
 }
 
+template <class Vector>
+void gather(const std::vector<std::uint32_t>& nodes, const Eigen::VectorXd& x, Vector& part) {
+  part.resize(dofs(nodes));
+  for (std::size_t k = 0; k < nodes.size(); ++k)
+    part.template segment<3>(3 * static_cast<Index>(k)) =
+        x.segment<3>(3 * static_cast<Index>(nodes[k])).template cast<typename Vector::Scalar>();
+}
+
+template <class Vector>
+void scatter(const std::vector<std::uint32_t>& nodes, const Vector& part, Eigen::VectorXd& x) {
+  for (std::size_t k = 0; k < nodes.size(); ++k)
+    x.segment<3>(3 * static_cast<Index>(nodes[k])) =
+        part.template segment<3>(3 * static_cast<Index>(k)).template cast<double>();
+}
+
 }  // namespace
 
 BlockMatrix::BlockMatrix(const NodeGraph& of)
@@ -125,64 +140,50 @@ bool Cholesky::factorize(const BlockMatrix& matrix) {
       if (n_own > 0) rest.selfadjointView<Eigen::Lower>().rankUpdate(below, -1.0);
       remainders[f] = rest;
     }
-    fronts_[f].columns = F.leftCols(n_own);
+    fronts_[f] = F.leftCols(n_own).cast<float>();
+    if (f + 1 == plan_.fronts.size()) root_ = own;
   }
   return true;
 }
 
 void Cholesky::forward(Eigen::VectorXd& x) const {
-  Eigen::VectorXd rest;
+  Eigen::VectorXf own;
+  Eigen::VectorXf rest;
   for (std::size_t f = 0; f + 1 < fronts_.size(); ++f) {
     const FrontPlan& front = plan_.fronts[f];
-    const Index n_own = dofs(front.own);
-    if (n_own == 0) continue;
-    Eigen::VectorXd own(n_own);
-    for (std::size_t k = 0; k < front.own.size(); ++k)
-      own.segment<3>(3 * static_cast<Index>(k)) =
-          x.segment<3>(3 * static_cast<Index>(front.own[k]));
-    fronts_[f].columns.topRows(n_own).triangularView<Eigen::Lower>().solveInPlace(own);
-    rest.noalias() = fronts_[f].columns.bottomRows(dofs(front.boundary)) * own;
-    for (std::size_t k = 0; k < front.own.size(); ++k)
-      x.segment<3>(3 * static_cast<Index>(front.own[k])) =
-          own.segment<3>(3 * static_cast<Index>(k));
+    if (front.own.empty()) continue;
+    gather(front.own, x, own);
+    fronts_[f].topRows(own.size()).triangularView<Eigen::Lower>().solveInPlace(own);
+    rest.noalias() = fronts_[f].bottomRows(dofs(front.boundary)) * own;
+    scatter(front.own, own, x);
     for (std::size_t k = 0; k < front.boundary.size(); ++k)
       x.segment<3>(3 * static_cast<Index>(front.boundary[k])) -=
-          rest.segment<3>(3 * static_cast<Index>(k));
+          rest.segment<3>(3 * static_cast<Index>(k)).cast<double>();
   }
 }
 
 void Cholesky::solve_root(Eigen::VectorXd& x) const {
   const FrontPlan& front = plan_.fronts.back();
   if (front.own.empty()) return;
-  Eigen::VectorXd own(dofs(front.own));
-  for (std::size_t k = 0; k < front.own.size(); ++k)
-    own.segment<3>(3 * static_cast<Index>(k)) = x.segment<3>(3 * static_cast<Index>(front.own[k]));
-  const auto L = fronts_.back().columns.triangularView<Eigen::Lower>();
+  Eigen::VectorXd own;
+  gather(front.own, x, own);
+  const auto L = root_.triangularView<Eigen::Lower>();
   L.solveInPlace(own);
   L.transpose().solveInPlace(own);
-  for (std::size_t k = 0; k < front.own.size(); ++k)
-    x.segment<3>(3 * static_cast<Index>(front.own[k])) = own.segment<3>(3 * static_cast<Index>(k));
+  scatter(front.own, own, x);
 }
 
 void Cholesky::backward(Eigen::VectorXd& x) const {
-  Eigen::VectorXd rest;
+  Eigen::VectorXf own;
+  Eigen::VectorXf rest;
   for (std::size_t f = fronts_.size() - 1; f-- > 0;) {
     const FrontPlan& front = plan_.fronts[f];
-    const Index n_own = dofs(front.own);
-    if (n_own == 0) continue;
-    Eigen::VectorXd own(n_own);
-    for (std::size_t k = 0; k < front.own.size(); ++k)
-      own.segment<3>(3 * static_cast<Index>(k)) =
-          x.segment<3>(3 * static_cast<Index>(front.own[k]));
-    rest.resize(dofs(front.boundary));
-    for (std::size_t k = 0; k < front.boundary.size(); ++k)
-      rest.segment<3>(3 * static_cast<Index>(k)) =
-          x.segment<3>(3 * static_cast<Index>(front.boundary[k]));
-    own.noalias() -= fronts_[f].columns.bottomRows(rest.size()).transpose() * rest;
-    fronts_[f].columns.topRows(n_own).triangularView<Eigen::Lower>().transpose().solveInPlace(own);
-    for (std::size_t k = 0; k < front.own.size(); ++k)
-      x.segment<3>(3 * static_cast<Index>(front.own[k])) =
-          own.segment<3>(3 * static_cast<Index>(k));
+    if (front.own.empty()) continue;
+    gather(front.own, x, own);
+    gather(front.boundary, x, rest);
+    own.noalias() -= fronts_[f].bottomRows(rest.size()).transpose() * rest;
+    fronts_[f].topRows(own.size()).triangularView<Eigen::Lower>().transpose().solveInPlace(own);
+    scatter(front.own, own, x);
   }
 }
 
@@ -195,7 +196,7 @@ void Cholesky::solve(Eigen::VectorXd& x) const {
 Eigen::MatrixXd Cholesky::root_inverse() const {
   const Index n = dofs(plan_.fronts.back().own);
   Eigen::MatrixXd inverse = Eigen::MatrixXd::Identity(n, n);
-  const auto L = fronts_.back().columns.triangularView<Eigen::Lower>();
+  const auto L = root_.triangularView<Eigen::Lower>();
   L.solveInPlace(inverse);
   Eigen::MatrixXd product = Eigen::MatrixXd::Zero(n, n);
   product.selfadjointView<Eigen::Lower>().rankUpdate(inverse.transpose());
@@ -205,9 +206,9 @@ Eigen::MatrixXd Cholesky::root_inverse() const {
 
 std::size_t Cholesky::entries() const noexcept {
   std::size_t n = 0;
-  for (const Front& front : fronts_) {
-    const Index own = front.columns.cols();
-    n += static_cast<std::size_t>(front.columns.rows() * own - own * (own - 1) / 2);
+  for (const Eigen::MatrixXf& front : fronts_) {
+    const Index own = front.cols();
+    n += static_cast<std::size_t>(front.rows() * own - own * (own - 1) / 2);
   }
   return n;
 }

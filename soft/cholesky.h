@@ -51,15 +51,13 @@ class Cholesky {
   [[nodiscard]] double smallest_pivot() const noexcept { return smallest_pivot_; }
 
  private:
-  struct Front {
-    Eigen::MatrixXd columns;  // (own + boundary, own): lower triangle of L, then L21
-  };
   [[nodiscard]] Eigen::MatrixXd assemble(std::size_t f, const BlockMatrix& matrix,
                                          std::vector<Eigen::MatrixXd>& remainders) const;
 
   Dissection plan_;
   std::vector<std::vector<std::uint32_t>> place_in_parent_;  // of each front's boundary nodes
-  std::vector<Front> fronts_;
+  std::vector<Eigen::MatrixXf> fronts_;  // (own + boundary, own) each: lower triangle of L, then L21
+  Eigen::MatrixXd root_;                 // L of the root
   double smallest_pivot_ = 0;
 };
 

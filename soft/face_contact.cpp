@@ -62,6 +62,7 @@ void FaceContact::raster(std::size_t triangle, const std::vector<Vec3>& skin_P,
     for (int i = first(low.x(), face_.length, face_.points_x); i <= x_end; ++i) {
       const auto piece = static_cast<std::uint32_t>(i + face_.points_x * j);
       const Vec3 p = piece_P(piece);
+      if (face_.round && std::hypot(p.x() / face_.length, p.y() / face_.width) > 0.5) continue;
       const auto turn = [&p](const Vec3& s, const Vec3& t) {
         return (s.x() - p.x()) * (t.y() - p.y()) - (s.y() - p.y()) * (t.x() - p.x());
       };

@@ -70,12 +70,35 @@ void SoftSolver::evaluate() {
   model_->compute_forces(u_, targets_, forces_);
 }
 
-bool SoftSolver::refresh() {
+bool SoftSolver::make_factor(std::span<const Vec3> u, std::span<const double> targets) {
   BlockMatrix tangent(model_->graph());
-  model_->assemble_tangent(u_, targets_, tangent);
+  model_->assemble_tangent(u, targets, tangent);
   if (!spare_->factorize(tangent)) return false;
+  spare_inverse_ = spare_->root_inverse();
+  return true;
+}
+
+void SoftSolver::take_factor() {
   std::swap(factor_, spare_);
-  root_inverse_ = factor_->root_inverse();
+  std::swap(root_inverse_, spare_inverse_);
+}
+
+bool SoftSolver::refresh() {
+  if (refreshing()) end_refresh();
+  if (!make_factor(u_, targets_)) return false;
+  take_factor();
+  return true;
+}
+
+void SoftSolver::begin_refresh() {
+  if (refreshing()) end_refresh();
+  pending_ = std::async(std::launch::async,
+                        [this, u = u_, targets = targets_] { return make_factor(u, targets); });
+}
+
+bool SoftSolver::end_refresh() {
+  if (!refreshing() || !pending_.get()) return false;
+  take_factor();
   return true;
 }
 

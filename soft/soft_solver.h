@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 #include <cstdint>
+#include <future>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -17,7 +18,8 @@ struct PointLoad {
 };
 
 struct SoftSolverParams {
-  double relaxation = 0.1;      ///< s, time in which tissue follows a load to 63 %; assumed
+  double relaxation = 0.05;     ///< s, time in which tissue follows a load to 63 %; assumed: a tent
+                                ///< falls to a tenth within 0.15 s
   double step_limit = 0.5e-3;   ///< m a node may move in one step beyond what the face moves
   double probe_advance = 1e-3;  ///< m the face may move in one step; a faster hand is followed late
   double probe_turn = 0.05;     ///< rad the same
@@ -65,6 +67,13 @@ class SoftSolver {
   /// one stays.
   bool refresh();
 
+  /// The same in a thread of its own: `begin_refresh` takes the present state and returns at once,
+  /// `end_refresh` waits for the factor and takes it. Between them the solver may step. Which step
+  /// first uses a factor is thus the caller's choice, never a matter of speed.
+  void begin_refresh();
+  bool end_refresh();
+  [[nodiscard]] bool refreshing() const noexcept { return pending_.valid(); }
+
   /// One quasi-Newton step toward the face at `X_CP` (none: no probe), `dt` (s) after the last one;
   /// infinite: without relaxation.
   const SoftStep& step(const std::optional<Pose>& X_CP, double dt);
@@ -89,6 +98,8 @@ class SoftSolver {
  private:
   [[nodiscard]] Pose advance(const Pose& target, std::uint32_t& status) const;
   void evaluate();
+  bool make_factor(std::span<const Vec3> u, std::span<const double> targets);
+  void take_factor();
   [[nodiscard]] double apply(const Eigen::VectorXd& step, double limit, std::uint32_t& status);
   void take_back(const Eigen::VectorXd& x, std::uint32_t& status);
 
@@ -99,6 +110,7 @@ class SoftSolver {
   std::unique_ptr<Cholesky> spare_;
   std::unique_ptr<FaceContact> contact_;
   Eigen::MatrixXd root_inverse_;
+  Eigen::MatrixXd spare_inverse_;
   std::vector<PointLoad> loads_;
   std::vector<CagePlace> load_places_;
   std::vector<double> targets_;
@@ -110,6 +122,7 @@ class SoftSolver {
   bool touching_ = false;  // X_CP_ is where the face was
   int bad_ = 0;
   SoftStep last_;
+  std::future<bool> pending_;  // the last member: it ends before what it works on
 };
 
 /// The unknowns that move the skin inside a box of frame C, ascending: what a face may press there.
