@@ -56,8 +56,9 @@ class Cholesky {
 
   Dissection plan_;
   std::vector<std::vector<std::uint32_t>> place_in_parent_;  // of each front's boundary nodes
-  std::vector<Eigen::MatrixXf> fronts_;  // (own + boundary, own) each: lower triangle of L, then L21
-  Eigen::MatrixXd root_;                 // L of the root
+  std::vector<Eigen::MatrixXf>
+      fronts_;            // (own + boundary, own) each: lower triangle of L, then L21
+  Eigen::MatrixXd root_;  // L of the root
   double smallest_pivot_ = 0;
 };
 

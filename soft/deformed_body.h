@@ -16,8 +16,9 @@ struct BodyMap {
   std::vector<CagePlace> places;      ///< (moving)
 };
 
-/// One instant of a body that gives way: immutable, all of it from one state, so that picture, force
-/// and score never see two. X is a material point (rest), x = X + u(X) where it is now; frame J.
+/// One instant of a body that gives way: immutable, all of it from one state, so that picture,
+/// force and score never see two. X is a material point (rest), x = X + u(X) where it is now; frame
+/// J.
 class DeformedBody {
  public:
   DeformedBody(std::shared_ptr<const CompiledJoint> joint, std::shared_ptr<const BodyMap> map,
@@ -32,8 +33,8 @@ class DeformedBody {
   /// u(X); zero outside the cage. Cost: about 50 ns.
   [[nodiscard]] Vec3 displacement(const Vec3& p_rest) const noexcept;
 
-  /// X(x), by fixed-point steps that start at `p - guess`; with the displacement of the point found.
-  /// Exact to 1e-7 m where the body is not folded.
+  /// X(x), by fixed-point steps that start at `p - guess`; with the displacement of the point
+  /// found. Exact to 1e-7 m where the body is not folded.
   struct Rest {
     Vec3 p_rest = Vec3::Zero();
     Vec3 displacement = Vec3::Zero();
@@ -47,7 +48,9 @@ class DeformedBody {
   [[nodiscard]] Eigen::Matrix3d gradient(const Vec3& p_rest) const noexcept;
 
   [[nodiscard]] const ContactForce& contact() const noexcept { return contact_; }  ///< frame J
-  [[nodiscard]] std::span<const Vec3> node_displacements() const noexcept { return u_; }  ///< frame C
+  [[nodiscard]] std::span<const Vec3> node_displacements() const noexcept {
+    return u_;
+  }  ///< frame C
   [[nodiscard]] const BodyMap& map() const noexcept { return *map_; }
 
  private:

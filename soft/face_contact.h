@@ -21,7 +21,7 @@ struct ProbeFace {
   double width = 0.006;   ///< m along y
   int points_x = 20;
   int points_y = 4;
-  bool round = false;  ///< an ellipse with these diameters, for punches of closed form
+  bool round = false;       ///< an ellipse with these diameters, for punches of closed form
   double friction = 0.05;   ///< Coulomb coefficient; with gel; assumed: lubricated skin
   double gel_gap = 0.5e-3;  ///< m of gap that gel still couples; assumed
 };

@@ -11,6 +11,9 @@ namespace {
 /// A tissue without stiffness of its own (fluid) keeps its shape a little, or nothing holds it.
 constexpr double kLeastShear = 100;  // Pa; assumed: far below any solid tissue
 
+/// All tissues are water: the softest must not be squeezed out of existence by a probe's 10 kPa.
+constexpr double kLeastBulk = 50e3;  // Pa; assumed: a fifth of volume at 10 kPa at most
+
 }  // namespace
 
 const std::vector<SoftTissue>& soft_tissues() {
@@ -18,13 +21,13 @@ const std::vector<SoftTissue>& soft_tissues() {
       {"fluid", kLeastShear, 0, 0, "assumed: flows"},
       {"skin", 40e3, 0, 0, "assumed: 120 kPa in tension, order of magnitude of in-vivo suction"},
       {"fat", 0.8e3, 2.4, 0,
-       "[JMBBM2023] shear modulus at rest and its growth with compression, 50 Hz elastography of "
-       "the "
-       "gluteal region; the exponent fits that growth at 30 %"},
+       "[AdiposeMre2023] shear modulus at rest and its growth with compression; b fitted to that "
+       "growth at 30 %"},
       {"fascia", 100e3, 0, 1e6, "assumed: a thin dense sheet, soft across"},
       {"muscle", 2.5e3, 0.75, 5e3,
-       "[JMBBM2023] growth with compression; assumed: modulus across between that of the gluteal "
-       "region (1 kPa) and of a deltoid at rest (5 kPa); along three times as stiff"},
+       "[AdiposeMre2023] growth with compression; assumed: modulus at rest between its 1 kPa and "
+       "the "
+       "3.9 to 6.2 kPa of [ThighMre2015]; along the fibres three times as stiff"},
       {"tendon", 35e3, 4, 1e6,
        "[Main2011] across the fibres 25 to 39 kPa; assumed: along, cut down from 500 MPa to what "
        "the "
@@ -62,7 +65,7 @@ SoftMaterial make_soft_material(const Tissue& tissue, const Vec3& fibre, double 
     m.shear = std::max(kLeastShear, tissue.mechanical.youngs_modulus / 3);
   }
   m.fibre = fibre;
-  m.bulk = lame_lambda(m.shear, poisson_ratio);
+  m.bulk = std::max(kLeastBulk, lame_lambda(m.shear, poisson_ratio));
   return m;
 }
 

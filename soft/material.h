@@ -41,7 +41,8 @@ struct SoftTissue {
 
 /// The material of a tissue: its own row of soft_tissues() or, for a tissue without one, its
 /// Young's modulus. `poisson_ratio` is numerical: tissue hardly changes its volume, and a ratio of
-/// 0.47 keeps the equations well conditioned. Requires: 0 <= ratio < 0.5.
+/// 0.47 keeps the equations well conditioned; lambda is 50 kPa at least. Requires: 0 <= ratio <
+/// 0.5.
 [[nodiscard]] SoftMaterial make_soft_material(const Tissue& tissue, const Vec3& fibre,
                                               double poisson_ratio);
 

@@ -9,8 +9,8 @@
 namespace artus {
 namespace {
 
-/// The side of the region of interest on which nothing is meshed: points that are in no tetrahedron and
-/// beyond the nearest of the surfaces that end it, not outside the skin.
+/// The side of the region of interest on which nothing is meshed: points that are in no tetrahedron
+/// and beyond the nearest of the surfaces that end it, not outside the skin.
 class BeyondTest {
  public:
   explicit BeyondTest(const CompiledJoint& joint) : mesh_(joint.mesh) {
@@ -28,7 +28,8 @@ class BeyondTest {
       const double distance = (p_J - a).squaredNorm();
       if (distance >= nearest) continue;
       nearest = distance;
-      const Vec3 normal = (mesh_.vertices[i.vertices[1]] - a).cross(mesh_.vertices[i.vertices[2]] - a);
+      const Vec3 normal =
+          (mesh_.vertices[i.vertices[1]] - a).cross(mesh_.vertices[i.vertices[2]] - a);
       const double side = normal.dot(p_J - a);
       beyond = i.front == kBeyond ? side >= 0 : side <= 0;
     }

@@ -27,13 +27,13 @@ struct SoftBodyParams {
   SoftSolverParams solver;
 };
 
-/// A joint that gives way: its cage around a probe pose, and the solver of its state. Frame C of the
-/// cage is the probe's frame at that pose, so that the cubes lie along the footprint.
-/// Not thread safe; snapshots are immutable and may be read by any number of threads.
+/// A joint that gives way: its cage around a probe pose, and the solver of its state. Frame C of
+/// the cage is the probe's frame at that pose, so that the cubes lie along the footprint. Not
+/// thread safe; snapshots are immutable and may be read by any number of threads.
 class SoftBody {
  public:
-  /// `X_JP`: the pose around which the cage is fine. Errors: invalid (no tetrahedra, as in phantoms;
-  /// no skin below the pose). Cost: some s for a joint of 1e6 tetrahedra.
+  /// `X_JP`: the pose around which the cage is fine. Errors: invalid (no tetrahedra, as in
+  /// phantoms; no skin below the pose). Cost: some s for a joint of 1e6 tetrahedra.
   [[nodiscard]] static Result<SoftBody> make(std::shared_ptr<const CompiledJoint> joint,
                                              const Pose& X_JP, const SoftBodyParams& params = {});
 
@@ -51,7 +51,9 @@ class SoftBody {
   [[nodiscard]] SoftSolver& solver() noexcept { return *solver_; }
   [[nodiscard]] const SoftSolver& solver() const noexcept { return *solver_; }
   [[nodiscard]] const Pose& cage_pose() const noexcept { return map_->X_JC; }
-  [[nodiscard]] const std::shared_ptr<const CompiledJoint>& joint() const noexcept { return joint_; }
+  [[nodiscard]] const std::shared_ptr<const CompiledJoint>& joint() const noexcept {
+    return joint_;
+  }
 
  private:
   SoftBody() = default;

@@ -10,9 +10,9 @@ namespace {
 
 using Gate = SoftGate (*)();
 
-constexpr std::array<std::string_view, 11> kNames{
-    "patch",  "uniaxial", "point-force", "cantilever", "punch",    "layers",
-    "volume", "balance",  "turned",      "bytes",      "wild-hand"};
+constexpr std::array<std::string_view, 11> kNames{"patch",  "uniaxial", "point-force", "cantilever",
+                                                  "punch",  "layers",   "volume",      "balance",
+                                                  "turned", "bytes",    "wild-hand"};
 constexpr std::array<Gate, kNames.size()> kGates{
     gate_patch,  gate_uniaxial, gate_point_force, gate_cantilever, gate_punch,    gate_layers,
     gate_volume, gate_balance,  gate_turned,      gate_bytes,      gate_wild_hand};

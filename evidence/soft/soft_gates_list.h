@@ -12,9 +12,9 @@ namespace artus {
 [[nodiscard]] SoftGate gate_punch();        ///< flat round punch on a half-space
 [[nodiscard]] SoftGate gate_layers();       ///< layered block under the probe's face, by cube size
 [[nodiscard]] SoftGate gate_volume();       ///< volume under a deep press
-[[nodiscard]] SoftGate gate_balance();      ///< force against reaction, compliance, energy of a path
-[[nodiscard]] SoftGate gate_turned();       ///< face turned against the cage
-[[nodiscard]] SoftGate gate_bytes();        ///< the same bytes again
-[[nodiscard]] SoftGate gate_wild_hand();    ///< random presses and jumps
+[[nodiscard]] SoftGate gate_balance();    ///< force against reaction, compliance, energy of a path
+[[nodiscard]] SoftGate gate_turned();     ///< face turned against the cage
+[[nodiscard]] SoftGate gate_bytes();      ///< the same bytes again
+[[nodiscard]] SoftGate gate_wild_hand();  ///< random presses and jumps
 
 }  // namespace artus

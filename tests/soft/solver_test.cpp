@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/soft/soft_solver.h"
-
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <cstring>
 
+#include <gtest/gtest.h>
+
 #include "artus/core/noise.h"
 #include "artus/soft/soft_block.h"
+#include "artus/soft/soft_solver.h"
 
 namespace artus {
 namespace {
@@ -26,7 +25,8 @@ struct Pressed {
     block.layers = {{2e-3, linear_material(120e3, kNu)},
                     {6e-3, linear_material(3e3, kNu)},
                     {10e-3, linear_material(12e3, kNu)}};
-    model = make_block_model(block, 6e-3, {{Vec3(-14e-3, -6e-3, -1), Vec3(14e-3, 6e-3, 6e-3), 3e-3}});
+    model =
+        make_block_model(block, 6e-3, {{Vec3(-14e-3, -6e-3, -1), Vec3(14e-3, 6e-3, 6e-3), 3e-3}});
     const SkinPatch skin = make_flat_skin(block, 3e-3);
     solver = std::make_unique<SoftSolver>(
         model, contact_unknowns(*model, skin, Vec3(-14e-3, -8e-3, -1), Vec3(14e-3, 8e-3, 1)));
@@ -99,7 +99,8 @@ TEST(SoftModel, BlockUnderUniaxialCompressionHasTheClosedFormsForce) {
     for (std::uint32_t n = 0; n < ends.size(); ++n) {
       if (model->cage().nodes()[n].z() < 1e-9) force -= solver.forces().on_nodes[n].z();
     }
-    // P_z of the law at stretch s with free sides of stretch t: P_x(t) = 0, solved here by bisection.
+    // P_z of the law at stretch s with free sides of stretch t: P_x(t) = 0, solved here by
+    // bisection.
     const double s = 1 - strain;
     const auto side = [&](double t) {
       return m.shear * (t + (s * t * t - 2) * s * t) + m.bulk * (s * t * t - 1) * s * t;
@@ -123,7 +124,8 @@ TEST(SoftSolver, FaceIsNotPassedAndItsForceIsTheReaction) {
   EXPECT_LT(contact.force.z(), -0.2);
   EXPECT_LT((contact.force - pressed.solver->reaction()).norm(), 1e-3);
   for (const ContactPoint& p : pressed.solver->contact()->points()) {
-    const Vec3 now = p.p_rest + pressed.model->displacement_at(p.place, pressed.solver->displacements());
+    const Vec3 now =
+        p.p_rest + pressed.model->displacement_at(p.place, pressed.solver->displacements());
     EXPECT_GT(now.z(), 3e-3 - 1e-6);
   }
 }
@@ -165,7 +167,8 @@ TEST(SoftSolver, ComplianceIsSymmetric) {
   Pressed pressed;
   pressed.solver->settle(face_at(2e-3));
   const auto at = [&](const Vec3& load, const Vec3& seen) {
-    Eigen::VectorXd x = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(3 * pressed.model->n_unknowns()));
+    Eigen::VectorXd x =
+        Eigen::VectorXd::Zero(static_cast<Eigen::Index>(3 * pressed.model->n_unknowns()));
     pressed.model->add_force(pressed.model->cage().locate(load), Vec3::UnitZ(), x);
     pressed.solver->factor().solve(x);
     double z = 0;
@@ -187,7 +190,8 @@ TEST(SoftSolver, GivenVolumeIsTakenUp) {
   for (std::size_t c = 0; c < cells.size(); ++c) {
     const Vec3 middle = pressed.model->cage().low_corner(cells[c]) +
                         Vec3::Constant(0.5 * pressed.model->cage().edge(cells[c]));
-    if (std::abs(middle.x()) > 6e-3 || std::abs(middle.y()) > 6e-3 || std::abs(middle.z() - 9e-3) > 3e-3)
+    if (std::abs(middle.x()) > 6e-3 || std::abs(middle.y()) > 6e-3 ||
+        std::abs(middle.z() - 9e-3) > 3e-3)
       continue;
     space.push_back(c);
     targets[c] = 1.2;
@@ -200,7 +204,8 @@ TEST(SoftSolver, GivenVolumeIsTakenUp) {
   for (const std::size_t c : space) {
     CellVector u;
     for (std::size_t a = 0; a < 8; ++a)
-      u.segment<3>(static_cast<Eigen::Index>(3 * a)) = pressed.solver->displacements()[cells[c].nodes[a]];
+      u.segment<3>(static_cast<Eigen::Index>(3 * a)) =
+          pressed.solver->displacements()[cells[c].nodes[a]];
     const double edge = pressed.model->cage().edge(cells[c]);
     gained += (cell_dilatation(pressed.model->materials()[c], edge, u) - 1) * std::pow(edge, 3);
   }
