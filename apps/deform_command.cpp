@@ -14,10 +14,12 @@
 namespace artus {
 namespace {
 
+constexpr double kDefaultPress = 3;  // N
+
 struct DeformOptions {
   JointOptions joint;
   std::string probe;
-  double press_n = 3;
+  std::optional<double> press_n;  ///< empty, as press_mm: 3 N
   std::optional<double> press_mm;
   double cell_mm = SoftBodyParams{}.fine_cell / kMillimetre;
   double poisson_ratio = SoftBodyParams{}.poisson_ratio;
@@ -100,6 +102,9 @@ void print(const nlohmann::json& report) {
 }
 
 ExitCode run_deform(const DeformOptions& options) {
+  if (options.press_n && options.press_mm)
+    return report_error({ErrorCode::malformed, "give a force or a depth, not both", "--press-mm"},
+                        options.json);
   const auto joint = load(options.joint, make_progress_printer(options.json));
   if (!joint) return report_error(joint.error(), options.json);
   Pose X_JP = (*joint)->X_JP_default;
@@ -115,7 +120,7 @@ ExitCode run_deform(const DeformOptions& options) {
   if (!body) return report_error(body.error(), options.json);
   const auto press = options.press_mm
                          ? Result<Press>(press_by(*body, X_JP, *options.press_mm * kMillimetre))
-                         : press_with(*body, X_JP, options.press_n);
+                         : press_with(*body, X_JP, options.press_n.value_or(kDefaultPress));
   if (!press) return report_error(press.error(), options.json);
   const auto snapshot = body->snapshot();
   auto report = to_json(*press, *body);
@@ -149,11 +154,10 @@ void add_deform_command(Command& app, ExitCode& code) {
   command->add_option(
       "--probe", options->probe,
       "x,y,z/dx,dy,dz/lx,ly,lz in mm: footprint, direction, lateral (default: the joint's)");
-  Option* newtons = command->add_option("--press-n", options->press_n, "N on the hand (default 3)");
-  newtons->check(number_in(0.01, 30));
+  command->add_option("--press-n", options->press_n, "N on the hand (default 3)")
+      ->check(number_in(0.01, 30));
   command->add_option("--press-mm", options->press_mm, "mm along the probe's axis instead")
-      ->check(number_in(0, 20))
-      ->excludes(newtons);
+      ->check(number_in(0, 20));
   command->add_option("--cell-mm", options->cell_mm, "edge of the cubes under the face (default 3)")
       ->check(number_in(0.75, 6));
   command->add_option("--poisson", options->poisson_ratio, "numerical Poisson ratio (default 0.47)")

@@ -75,7 +75,7 @@ CageParams cage_of(const TetMesh& mesh, const Pose& X_CJ, const SoftBodyParams& 
   for (int k = 0; k < 3; ++k) cage.low[k] = p.coarse_cell * std::floor(low[k] / p.coarse_cell);
   cage.high = high;
   cage.cell = p.coarse_cell;
-  cage.zones.push_back({low, high, p.far_cell});
+  cage.zones.push_back(zone_around(p.face, p.far, p.far_depth, p.far_cell));
   cage.zones.push_back(zone_around(p.face, p.near, p.near_depth, p.near_cell));
   cage.zones.push_back(zone_around(p.face, p.fine_margin, p.fine_depth, p.fine_cell));
   return cage;
@@ -133,7 +133,7 @@ Result<SoftBody> SoftBody::make(std::shared_ptr<const CompiledJoint> joint, cons
   map->X_JC = X_JP;
   map->model = std::make_shared<const SoftModel>(
       make_joint_field(*joint, X_JP, params.poisson_ratio, locator), model);
-  const SkinPatch skin = skin_of(joint->mesh, X_CJ, params.face, params.near);
+  const SkinPatch skin = skin_of(joint->mesh, X_CJ, params.face, params.far);
   if (skin.triangles.empty())
     return fail(ErrorCode::invalid, "no skin below the probe: move it over the body", joint->name);
   for (const Interface& i : joint->mesh.interfaces)

@@ -13,13 +13,15 @@ namespace artus {
 
 struct SoftBodyParams {
   double fine_cell = 3e-3;      ///< m, under the face; see docs/deformation.md for what it costs
-  double near_cell = 3e-3;      ///< m, within `near` of the probe's footprint
-  double coarse_cell = 12e-3;   ///< m, coarsest
-  double far_cell = 6e-3;       ///< m, everywhere within the meshed part
+  double near_cell = 3e-3;      ///< m, within `near` of the footprint and down to `near_depth`
+  double far_cell = 6e-3;       ///< m, within `far` and down to `far_depth`
+  double coarse_cell = 12e-3;   ///< m, beyond
   double fine_margin = 6e-3;    ///< m beyond the footprint
   double fine_depth = 9e-3;     ///< m below the skin
-  double near = 20e-3;          ///< m beyond the footprint, sideways
-  double near_depth = 35e-3;    ///< m below the skin
+  double near = 12e-3;          ///< m beyond the footprint, sideways
+  double near_depth = 27e-3;    ///< m below the skin
+  double far = 30e-3;           ///< m beyond the footprint, sideways
+  double far_depth = 48e-3;     ///< m below the skin
   double reach = 6e-3;          ///< m beyond the footprint that the face may slide
   double poisson_ratio = 0.47;  ///< numerical; see make_soft_material
   double inset = 0.3;           ///< of a cube, by which the face's points stand in from its edges
