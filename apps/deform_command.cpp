@@ -7,6 +7,8 @@
 #include "artus/apps/arguments.h"
 #include "artus/apps/command.h"
 #include "artus/core/units.h"
+#include "artus/echo/image_io.h"
+#include "artus/echo/labels.h"
 #include "artus/raycast/scene.h"
 #include "artus/soft/cage_vtu.h"
 #include "artus/soft/press.h"
@@ -24,6 +26,7 @@ struct DeformOptions {
   double cell_mm = SoftBodyParams{}.fine_cell / kMillimetre;
   double poisson_ratio = SoftBodyParams{}.poisson_ratio;
   std::filesystem::path out;
+  std::filesystem::path slice;
   bool json = false;
 };
 
@@ -132,6 +135,14 @@ ExitCode run_deform(const DeformOptions& options) {
       return report_error(written.error(), options.json);
     report["vtu"] = options.out.string();
   }
+  if (!options.slice.empty()) {
+    const Scene scene(std::make_shared<const CompiledJoint>(snapshot->moved_joint()));
+    const LabelImage labels =
+        render_labels(scene, press->X_JP, Transducer{}, ImageSettings{}, std::nullopt);
+    if (const auto written = write_image(colour_labels(labels, **joint), options.slice); !written)
+      return report_error(written.error(), options.json);
+    report["slice"] = options.slice.string();
+  }
   if (options.json) {
     std::cout << report.dump(2) << '\n';
   } else {
@@ -162,6 +173,8 @@ void add_deform_command(Command& app, ExitCode& code) {
       ->check(number_in(0.75, 6));
   command->add_option("--poisson", options->poisson_ratio, "numerical Poisson ratio (default 0.47)")
       ->check(number_in(0.3, 0.495));
+  command->add_option("--slice", options->slice,
+                      "the regions in the probe's plane as they then lie (.png)");
   command->add_option("-o,--out", options->out, "the cage as VTK unstructured grid (.vtu)");
   command->add_flag("--json", options->json, "machine-readable output");
   on_run(command, code, [options] { return run_deform(*options); });

@@ -10,6 +10,7 @@ namespace {
 
 constexpr int kMostSteps = 60;
 constexpr double kExact = 1e-8;  // m
+constexpr double kStill = 1e-9;  // m; what moves less has not moved: its bytes stay
 
 std::size_t interface_vertices(const TetMesh& mesh) {
   std::size_t n = 0;
@@ -32,8 +33,18 @@ DeformedBody::DeformedBody(std::shared_ptr<const CompiledJoint> joint,
   vertices_.assign(rest.begin(),
                    rest.begin() + static_cast<std::ptrdiff_t>(interface_vertices(joint_->mesh)));
   const Eigen::Matrix3d R = map_->X_JC.linear();
-  for (std::size_t k = 0; k < map_->moving.size(); ++k)
-    vertices_[map_->moving[k]] += R * map_->model->displacement_at(map_->places[k], u_);
+  for (std::size_t k = 0; k < map_->moving.size(); ++k) {
+    const Vec3 u = map_->model->displacement_at(map_->places[k], u_);
+    if (u.norm() > kStill) vertices_[map_->moving[k]] += R * u;
+  }
+}
+
+CompiledJoint DeformedBody::moved_joint() const {
+  CompiledJoint moved = *joint_;
+  std::copy(vertices_.begin(), vertices_.end(), moved.mesh.vertices.begin());
+  for (std::size_t v = vertices_.size(); v < moved.mesh.vertices.size(); ++v)
+    moved.mesh.vertices[v] += displacement(moved.mesh.vertices[v]);
+  return moved;
 }
 
 Vec3 DeformedBody::displacement(const Vec3& p_rest) const noexcept {

@@ -30,6 +30,10 @@ class DeformedBody {
   /// TetMesh::vertices.
   [[nodiscard]] std::span<const Vec3> vertices() const noexcept { return vertices_; }
 
+  /// The joint with all vertices where they are now: a body like any other, for a Scene of this
+  /// instant. Fibre axes and landmarks stay as they were. Cost: a copy of the joint.
+  [[nodiscard]] CompiledJoint moved_joint() const;
+
   /// u(X); zero outside the cage. Cost: about 50 ns.
   [[nodiscard]] Vec3 displacement(const Vec3& p_rest) const noexcept;
 

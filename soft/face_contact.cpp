@@ -14,6 +14,8 @@ using Index = Eigen::Index;
 
 constexpr int kMostSweeps = 400;
 constexpr double kSettled = 1e-8;  // N, a sweep that changes less ends the search
+/// Skin farther before the face than a step can bring it takes no part in that step, m.
+constexpr double kInReach = 3e-3;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
@@ -100,7 +102,7 @@ void FaceContact::prepare(std::span<const Vec3> u, const Pose& X_CP, const Pose&
   outside_ = false;
   for (ContactPoint& point : cast(u)) {
     gaps_[point.piece] = point.gap;
-    if (!std::isfinite(point.gap)) {
+    if (!(point.gap < kInReach)) {
       forces_[point.piece].setZero();
       continue;
     }
