@@ -12,8 +12,8 @@ namespace {
 
 using Index = Eigen::Index;
 
-constexpr int kMostSweeps = 400;
-constexpr double kSettled = 1e-8;  // N, a sweep that changes less ends the search
+constexpr int kMostSweeps = 120;
+constexpr double kSettled = 1e-7;  // N, a sweep that changes less ends the search
 /// Skin farther before the face than a step can bring it takes no part in that step, m.
 constexpr double kInReach = 3e-3;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
