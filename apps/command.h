@@ -73,6 +73,8 @@ void add_force_command(Command& app, ExitCode& code);
 void add_video_command(Command& app, ExitCode& code);
 void add_phantom_command(Command& app, ExitCode& code);
 void add_echo_gates_command(Command& app, ExitCode& code);
+void add_deform_command(Command& app, ExitCode& code);
+void add_soft_gates_command(Command& app, ExitCode& code);
 void add_run_command(Command& app, ExitCode& code);
 void add_experiment_command(Command& app, ExitCode& code);
 void add_laws_command(Command& app, ExitCode& code);

@@ -38,6 +38,8 @@ int run(int argc, char** argv) {
   artus::add_video_command(app, code);
   artus::add_phantom_command(app, code);
   artus::add_echo_gates_command(app, code);
+  artus::add_deform_command(app, code);
+  artus::add_soft_gates_command(app, code);
   artus::add_run_command(app, code);
   artus::add_experiment_command(app, code);
   artus::add_laws_command(app, code);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The commands that draw, as a user meets them: exit codes, messages, files.
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -38,7 +39,8 @@ class ImagingTool : public test::TemporaryFolder {
 };
 
 TEST_F(ImagingTool, EveryCommandHasHelpWithExamples) {
-  for (const char* command : {"image", "slice", "phantom", "echo-gates", "sweep", "video"}) {
+  for (const char* command :
+       {"image", "slice", "phantom", "echo-gates", "sweep", "video", "deform", "soft-gates"}) {
     const auto r = artus({command, "--help"});
     EXPECT_EQ(r.exit_code, 0) << command;
     EXPECT_NE(r.out.find(std::string("  artus ") + command), std::string::npos) << command;
@@ -161,6 +163,22 @@ TEST_F(ImagingTool, TheGateReportHasValueBoundAndVerdict) {
                            "pictures/needle-30-image.png", "pictures/cyst-image.png"})
     EXPECT_TRUE(std::filesystem::exists(folder_ / "g" / file)) << file;
   EXPECT_EQ(artus({"echo-gates", "--only", "no-such", "--out", in("g")}).exit_code, 2);
+}
+
+TEST_F(ImagingTool, APressedJointHasForcesLayersAndACage) {
+  const auto r = artus({"deform", "-j", kSimple, "--press-n", "1", "--cell-mm", "6", "-o",
+                        in("cage.vtu"), "--slice", in("pressed.png"), "--json"});
+  ASSERT_EQ(r.exit_code, 0) << r.out << r.err;
+  const auto report = nlohmann::json::parse(r.out);
+  EXPECT_NEAR(report.at("normal_force_n").get<double>(), 1, 0.01);
+  double fat = 0;
+  for (const auto& layer : report.at("layers")) {
+    if (layer.at("tissue") == "fat") fat = std::max(fat, layer.at("thinned_percent").get<double>());
+  }
+  EXPECT_GT(fat, 3);
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "cage.vtu"));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "pressed.png"));
+  EXPECT_EQ(artus({"deform", "-j", kSimple, "--press-n", "1", "--press-mm", "1"}).exit_code, 2);
 }
 
 TEST_F(ImagingTool, ASweepContinuesAndAVideoFollowsThePath) {

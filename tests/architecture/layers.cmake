@@ -7,6 +7,7 @@ set(may_anatomy/surfaces core)
 set(may_anatomy/body core)
 set(may_anatomy/compile core anatomy/surfaces anatomy/body)
 set(may_raycast core anatomy/body)
+set(may_soft core anatomy/body)
 set(may_haptics ${may_raycast} raycast)
 set(may_haptics/needle ${may_haptics} haptics)
 set(may_haptics/probe ${may_haptics} haptics)
@@ -19,6 +20,7 @@ set(may_session/client "")
 list(APPEND may_session session/client)
 set(may_evidence ${may_operators} echo operators dataset session)
 set(may_evidence/needle ${may_evidence} evidence)
+set(may_evidence/soft ${may_evidence} soft evidence)
 set(may_evidence/probe ${may_evidence} evidence)
 set(may_evidence/echo ${may_evidence} evidence)
 set(may_evidence/medical ${may_evidence} evidence evidence/needle evidence/probe evidence/echo)
@@ -27,10 +29,10 @@ set(may_exchange/igtl core)
 set(may_python core anatomy/body anatomy/compile raycast haptics haptics/needle echo operators)
 set(may_viewer ${may_operators} echo operators dataset session session/client)
 set(may_apps ${may_viewer} viewer exchange exchange/igtl anatomy/surfaces anatomy/compile evidence evidence/needle evidence/probe evidence/echo
-  evidence/medical)
+  evidence/soft evidence/medical soft)
 set(may_meshes/generate core anatomy/surfaces)
-set(rooms core anatomy/surfaces anatomy/body anatomy/compile raycast haptics haptics/needle haptics/probe haptics/actuator
-  echo operators dataset session session/client evidence evidence/needle evidence/probe evidence/echo evidence/medical
+set(rooms core anatomy/surfaces anatomy/body anatomy/compile raycast soft haptics haptics/needle haptics/probe haptics/actuator
+  echo operators dataset session session/client evidence evidence/needle evidence/probe evidence/echo evidence/soft evidence/medical
   exchange exchange/igtl python viewer apps meshes/generate)
 
 # folder lists that may include headers starting with the pattern
@@ -40,7 +42,7 @@ set(outside "embree:raycast" "CGAL/:anatomy/surfaces,anatomy/compile,meshes/gene
   "nlohmann/:anatomy/compile,session,dataset,exchange,evidence,evidence/needle,evidence/probe,evidence/echo,evidence/medical,apps,meshes/generate")
 
 set(bad "")
-foreach(folder core anatomy raycast haptics echo operators dataset session evidence exchange python viewer apps meshes)
+foreach(folder core anatomy raycast soft haptics echo operators dataset session evidence exchange python viewer apps meshes)
   file(GLOB_RECURSE found RELATIVE ${ROOT} ${ROOT}/${folder}/*.h ${ROOT}/${folder}/*.cpp ${ROOT}/${folder}/*.hpp ${ROOT}/${folder}/*.c)
   list(LENGTH found n)
   if(n EQUAL 0)

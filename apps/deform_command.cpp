@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+#include <memory>
+
+#include "artus/apps/arguments.h"
+#include "artus/apps/command.h"
+#include "artus/core/units.h"
+#include "artus/echo/image_io.h"
+#include "artus/echo/labels.h"
+#include "artus/raycast/scene.h"
+#include "artus/soft/cage_vtu.h"
+#include "artus/soft/press.h"
+
+namespace artus {
+namespace {
+
+constexpr double kDefaultPress = 3;  // N
+
+struct DeformOptions {
+  JointOptions joint;
+  std::string probe;
+  std::optional<double> press_n;  ///< empty, as press_mm: 3 N
+  std::optional<double> press_mm;
+  double cell_mm = SoftBodyParams{}.fine_cell / kMillimetre;
+  double poisson_ratio = SoftBodyParams{}.poisson_ratio;
+  std::filesystem::path out;
+  std::filesystem::path slice;
+  bool json = false;
+};
+
+/// The layers below the face's centre along the probe's axis, before and after, down to bone.
+nlohmann::json layers_below(const std::shared_ptr<const CompiledJoint>& joint,
+                            const DeformedBody& body, const Pose& X_JP) {
+  const Vec3 z = X_JP.linear().col(2);
+  const Scene scene(joint);
+  const Segment segment{X_JP.translation() - 20e-3 * z, X_JP.translation() + 60e-3 * z};
+  auto layers = nlohmann::json::array();
+  const auto now = [&](double depth) {
+    const Vec3 p = segment.start + depth * z;
+    return depth + body.displacement(p).dot(z);
+  };
+  for (const TissueInterval& i : tissue_intervals(scene, segment)) {
+    if (i.region < kFirstRegion) continue;
+    const Tissue& tissue = joint->tissue_of(i.region);
+    if (tissue.haptic.hard) break;
+    const double before = i.exit - i.entry;
+    const double after = now(i.exit) - now(i.entry);
+    layers.push_back({{"region", joint->regions[i.region].name},
+                      {"tissue", tissue.name},
+                      {"before_mm", before / kMillimetre},
+                      {"after_mm", after / kMillimetre},
+                      {"thinned_percent", 100 * (1 - after / before)}});
+  }
+  return layers;
+}
+
+nlohmann::json volume_of(const DeformedBody& body) {
+  const SoftModel& model = *body.map().model;
+  double rest = 0;
+  double now = 0;
+  const auto cells = model.cage().cells();
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    CellVector u;
+    for (std::size_t a = 0; a < 8; ++a)
+      u.segment<3>(static_cast<Eigen::Index>(3 * a)) = body.node_displacements()[cells[c].nodes[a]];
+    const CellMaterial& m = model.materials()[c];
+    double share = 0;
+    for (const double w : m.weight) share += w / 8;
+    const double volume = share * std::pow(model.cage().edge(cells[c]), 3);
+    rest += volume;
+    now += volume * cell_dilatation(m, model.cage().edge(cells[c]), u);
+  }
+  return {{"rest_cm3", rest * 1e6}, {"change_percent", 100 * (now / rest - 1)}};
+}
+
+nlohmann::json to_json(const Press& press, const SoftBody& body) {
+  const SoftModel& model = body.solver().model();
+  const auto newtons = [](const Vec3& f) {
+    return nlohmann::json{f.x(), f.y(), f.z()};
+  };
+  return {{"depth_mm", press.depth / kMillimetre},
+          {"normal_force_n", press.normal_force},
+          {"force_n", newtons(press.contact.force)},
+          {"torque_n_mm", newtons(press.contact.torque / kMillimetre)},
+          {"contact_share", press.contact.share},
+          {"settled", press.settled},
+          {"reaction_n", newtons(body.cage_pose().linear() * body.solver().reaction())},
+          {"least_volume_ratio", body.solver().forces().least_volume},
+          {"stored_mj", body.solver().forces().energy * 1e3},
+          {"cells", model.cage().cells().size()},
+          {"unknowns", 3 * model.n_unknowns()}};
+}
+
+void print(const nlohmann::json& report) {
+  std::printf("pressed %.2f mm, %.3f N, %.0f %% of the face%s\n", report["depth_mm"].get<double>(),
+              report["normal_force_n"].get<double>(), 100 * report["contact_share"].get<double>(),
+              report["settled"].get<bool>() ? "" : ", still moving");
+  std::printf("%-28s %-14s %9s %9s %8s\n", "region", "tissue", "before mm", "after mm", "thinned");
+  for (const auto& layer : report["layers"])
+    std::printf("%-28s %-14s %9.2f %9.2f %6.1f %%\n", layer["region"].get<std::string>().c_str(),
+                layer["tissue"].get<std::string>().c_str(), layer["before_mm"].get<double>(),
+                layer["after_mm"].get<double>(), layer["thinned_percent"].get<double>());
+}
+
+ExitCode run_deform(const DeformOptions& options) {
+  if (options.press_n && options.press_mm)
+    return report_error({ErrorCode::malformed, "give a force or a depth, not both", "--press-mm"},
+                        options.json);
+  const auto joint = load(options.joint, make_progress_printer(options.json));
+  if (!joint) return report_error(joint.error(), options.json);
+  Pose X_JP = (*joint)->X_JP_default;
+  if (!options.probe.empty()) {
+    const auto pose = parse_probe_pose(options.probe, "--probe");
+    if (!pose) return report_error(pose.error(), options.json);
+    X_JP = *pose;
+  }
+  SoftBodyParams params;
+  params.fine_cell = options.cell_mm * kMillimetre;
+  params.poisson_ratio = options.poisson_ratio;
+  auto body = SoftBody::make(*joint, X_JP, params);
+  if (!body) return report_error(body.error(), options.json);
+  const auto press = options.press_mm
+                         ? Result<Press>(press_by(*body, X_JP, *options.press_mm * kMillimetre))
+                         : press_with(*body, X_JP, options.press_n.value_or(kDefaultPress));
+  if (!press) return report_error(press.error(), options.json);
+  const auto snapshot = body->snapshot();
+  auto report = to_json(*press, *body);
+  report["joint"] = (*joint)->name;
+  report["layers"] = layers_below(*joint, *snapshot, X_JP);
+  report["volume"] = volume_of(*snapshot);
+  if (!options.out.empty()) {
+    if (const auto written = write_vtu(*snapshot, options.out); !written)
+      return report_error(written.error(), options.json);
+    report["vtu"] = options.out.string();
+  }
+  if (!options.slice.empty()) {
+    const Scene scene(std::make_shared<const CompiledJoint>(snapshot->moved_joint()));
+    const LabelImage labels =
+        render_labels(scene, press->X_JP, Transducer{}, ImageSettings{}, std::nullopt);
+    if (const auto written = write_image(colour_labels(labels, **joint), options.slice); !written)
+      return report_error(written.error(), options.json);
+    report["slice"] = options.slice.string();
+  }
+  if (options.json) {
+    std::cout << report.dump(2) << '\n';
+  } else {
+    print(report);
+  }
+  return ExitCode::ok;
+}
+
+}  // namespace
+
+void add_deform_command(Command& app, ExitCode& code) {
+  auto options = std::make_shared<DeformOptions>();
+  Command* command =
+      add_command(app, "deform",
+                  "Press a probe on a joint's soft tissue: forces, layer thicknesses, strain field",
+                  "Examples:\n"
+                  "  artus deform -j meshes/simple-shoulder --press-n 3 -o pressed.vtu\n"
+                  "  artus deform -j shoulder.artus --press-mm 5 --json");
+  add_joint_options(command, options->joint);
+  command->add_option(
+      "--probe", options->probe,
+      "x,y,z/dx,dy,dz/lx,ly,lz in mm: footprint, direction, lateral (default: the joint's)");
+  command->add_option("--press-n", options->press_n, "N on the hand (default 3)")
+      ->check(number_in(0.01, 30));
+  command->add_option("--press-mm", options->press_mm, "mm along the probe's axis instead")
+      ->check(number_in(0, 20));
+  command->add_option("--cell-mm", options->cell_mm, "edge of the cubes under the face (default 3)")
+      ->check(number_in(0.75, 6));
+  command->add_option("--poisson", options->poisson_ratio, "numerical Poisson ratio (default 0.47)")
+      ->check(number_in(0.3, 0.495));
+  command->add_option("--slice", options->slice,
+                      "the regions in the probe's plane as they then lie (.png)");
+  command->add_option("-o,--out", options->out, "the cage as VTK unstructured grid (.vtu)");
+  command->add_flag("--json", options->json, "machine-readable output");
+  on_run(command, code, [options] { return run_deform(*options); });
+}
+
+}  // namespace artus

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/soft/cholesky.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+
+namespace artus {
+namespace {
+
+using Index = Eigen::Index;
+
+Index dofs(const std::vector<std::uint32_t>& nodes) noexcept {
+  return static_cast<Index>(3 * nodes.size());
+}
+
+template <class Vector>
+void gather(const std::vector<std::uint32_t>& nodes, const Eigen::VectorXd& x, Vector& part) {
+  part.resize(dofs(nodes));
+  for (std::size_t k = 0; k < nodes.size(); ++k)
+    part.template segment<3>(3 * static_cast<Index>(k)) =
+        x.segment<3>(3 * static_cast<Index>(nodes[k])).template cast<typename Vector::Scalar>();
+}
+
+template <class Vector>
+void scatter(const std::vector<std::uint32_t>& nodes, const Vector& part, Eigen::VectorXd& x) {
+  for (std::size_t k = 0; k < nodes.size(); ++k)
+    x.segment<3>(3 * static_cast<Index>(nodes[k])) =
+        part.template segment<3>(3 * static_cast<Index>(k)).template cast<double>();
+}
+
+}  // namespace
+
+BlockMatrix::BlockMatrix(const NodeGraph& of)
+    : graph(&of),
+      diagonal(of.size(), Eigen::Matrix3d::Zero()),
+      upper(of.neighbours.size(), Eigen::Matrix3d::Zero()) {}
+
+void BlockMatrix::add(std::uint32_t i, std::uint32_t j, const Eigen::Matrix3d& block) noexcept {
+  if (i == j) {
+    diagonal[i] += block;
+    return;
+  }
+  if (i > j) return;
+  const auto near = graph->of(i);
+  const auto at = std::lower_bound(near.begin(), near.end(), j) - near.begin();
+  upper[graph->start[i] + static_cast<std::size_t>(at)] += block;
+}
+
+void BlockMatrix::set_zero() noexcept {
+  std::fill(diagonal.begin(), diagonal.end(), Eigen::Matrix3d::Zero());
+  std::fill(upper.begin(), upper.end(), Eigen::Matrix3d::Zero());
+}
+
+Cholesky::Cholesky(Dissection plan) : plan_(std::move(plan)) {
+  place_in_parent_.resize(plan_.fronts.size());
+  fronts_.resize(plan_.fronts.size());
+  std::vector<std::uint32_t> place(plan_.position.size(), 0);
+  for (const FrontPlan& front : plan_.fronts) {
+    std::uint32_t next = 0;
+    for (const std::uint32_t n : front.own) place[n] = next++;
+    for (const std::uint32_t n : front.boundary) place[n] = next++;
+    for (const std::uint32_t child : front.children) {
+      for (const std::uint32_t n : plan_.fronts[child].boundary)
+        place_in_parent_[child].push_back(place[n]);
+    }
+  }
+}
+
+/// The front's dense matrix (lower triangle): its nodes' entries and what its children left.
+Eigen::MatrixXd Cholesky::assemble(std::size_t f, const BlockMatrix& matrix,
+                                   std::vector<Eigen::MatrixXd>& remainders) const {
+  const FrontPlan& front = plan_.fronts[f];
+  const Index n_own = dofs(front.own);
+  const Index n = n_own + dofs(front.boundary);
+  Eigen::MatrixXd F = Eigen::MatrixXd::Zero(n, n);
+  std::vector<std::pair<std::uint32_t, Index>> place;  // node, row
+  for (Index k = 0; k < static_cast<Index>(front.own.size()); ++k)
+    place.emplace_back(front.own[static_cast<std::size_t>(k)], 3 * k);
+  for (Index k = 0; k < static_cast<Index>(front.boundary.size()); ++k)
+    place.emplace_back(front.boundary[static_cast<std::size_t>(k)], n_own + 3 * k);
+  std::sort(place.begin(), place.end());
+  for (std::size_t k = 0; k < front.own.size(); ++k) {
+    const std::uint32_t i = front.own[k];
+    const Index column = 3 * static_cast<Index>(k);
+    F.block<3, 3>(column, column) += matrix.diagonal[i];
+    for (const std::uint32_t j : matrix.graph->of(i)) {
+      if (plan_.position[j] < plan_.position[i]) continue;
+      const auto at = std::lower_bound(place.begin(), place.end(), std::pair(j, Index{0}));
+      const std::uint32_t low = std::min(i, j);
+      const auto near = matrix.graph->of(low);
+      const auto entry =
+          matrix.graph->start[low] +
+          static_cast<std::size_t>(std::lower_bound(near.begin(), near.end(), std::max(i, j)) -
+                                   near.begin());
+      // The stored block is (low, high); the one below the diagonal has row j and column i.
+      if (low == j) {
+        F.block<3, 3>(at->second, column) += matrix.upper[entry];
+      } else {
+        F.block<3, 3>(at->second, column) += matrix.upper[entry].transpose();
+      }
+    }
+  }
+  for (const std::uint32_t child : front.children) {
+    Eigen::MatrixXd& rest = remainders[child];
+    const auto& to = place_in_parent_[child];
+    for (std::size_t c = 0; c < to.size(); ++c) {
+      for (std::size_t r = c; r < to.size(); ++r) {
+        const auto row = 3 * static_cast<Index>(r);
+        const auto column = 3 * static_cast<Index>(c);
+        F.block<3, 3>(3 * static_cast<Index>(to[r]), 3 * static_cast<Index>(to[c])) +=
+            rest.block<3, 3>(row, column);
+      }
+    }
+    rest.resize(0, 0);
+  }
+  return F;
+}
+
+bool Cholesky::factorize(const BlockMatrix& matrix) {
+  std::vector<Eigen::MatrixXd> remainders(plan_.fronts.size());
+  smallest_pivot_ = std::numeric_limits<double>::infinity();
+  for (std::size_t f = 0; f < plan_.fronts.size(); ++f) {
+    const Index n_own = dofs(plan_.fronts[f].own);
+    Eigen::MatrixXd F = assemble(f, matrix, remainders);
+    const Index n_rest = F.rows() - n_own;
+    auto own = F.topLeftCorner(n_own, n_own);
+    if (n_own > 0) {
+      Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>, Eigen::Lower> llt(own);
+      if (llt.info() != Eigen::Success) return false;
+      const double least = own.diagonal().minCoeff();
+      if (!(least > 0) || !std::isfinite(own.diagonal().sum())) return false;
+      smallest_pivot_ = std::min(smallest_pivot_, least * least);
+    }
+    if (n_rest > 0) {
+      auto below = F.bottomLeftCorner(n_rest, n_own);
+      own.triangularView<Eigen::Lower>().transpose().solveInPlace<Eigen::OnTheRight>(below);
+      auto rest = F.bottomRightCorner(n_rest, n_rest);
+      if (n_own > 0) rest.selfadjointView<Eigen::Lower>().rankUpdate(below, -1.0);
+      remainders[f] = rest;
+    }
+    fronts_[f] = F.leftCols(n_own).cast<float>();
+    if (f + 1 == plan_.fronts.size()) root_ = own;
+  }
+  return true;
+}
+
+void Cholesky::forward(Eigen::VectorXd& x) const {
+  Eigen::VectorXf own;
+  Eigen::VectorXf rest;
+  for (std::size_t f = 0; f + 1 < fronts_.size(); ++f) {
+    const FrontPlan& front = plan_.fronts[f];
+    if (front.own.empty()) continue;
+    gather(front.own, x, own);
+    fronts_[f].topRows(own.size()).triangularView<Eigen::Lower>().solveInPlace(own);
+    rest.noalias() = fronts_[f].bottomRows(dofs(front.boundary)) * own;
+    scatter(front.own, own, x);
+    for (std::size_t k = 0; k < front.boundary.size(); ++k)
+      x.segment<3>(3 * static_cast<Index>(front.boundary[k])) -=
+          rest.segment<3>(3 * static_cast<Index>(k)).cast<double>();
+  }
+}
+
+void Cholesky::solve_root(Eigen::VectorXd& x) const {
+  const FrontPlan& front = plan_.fronts.back();
+  if (front.own.empty()) return;
+  Eigen::VectorXd own;
+  gather(front.own, x, own);
+  const auto L = root_.triangularView<Eigen::Lower>();
+  L.solveInPlace(own);
+  L.transpose().solveInPlace(own);
+  scatter(front.own, own, x);
+}
+
+void Cholesky::backward(Eigen::VectorXd& x) const {
+  Eigen::VectorXf own;
+  Eigen::VectorXf rest;
+  for (std::size_t f = fronts_.size() - 1; f-- > 0;) {
+    const FrontPlan& front = plan_.fronts[f];
+    if (front.own.empty()) continue;
+    gather(front.own, x, own);
+    gather(front.boundary, x, rest);
+    own.noalias() -= fronts_[f].bottomRows(rest.size()).transpose() * rest;
+    fronts_[f].topRows(own.size()).triangularView<Eigen::Lower>().transpose().solveInPlace(own);
+    scatter(front.own, own, x);
+  }
+}
+
+void Cholesky::solve(Eigen::VectorXd& x) const {
+  forward(x);
+  solve_root(x);
+  backward(x);
+}
+
+Eigen::MatrixXd Cholesky::root_inverse() const {
+  const Index n = dofs(plan_.fronts.back().own);
+  Eigen::MatrixXd inverse = Eigen::MatrixXd::Identity(n, n);
+  const auto L = root_.triangularView<Eigen::Lower>();
+  L.solveInPlace(inverse);
+  Eigen::MatrixXd product = Eigen::MatrixXd::Zero(n, n);
+  product.selfadjointView<Eigen::Lower>().rankUpdate(inverse.transpose());
+  product.triangularView<Eigen::StrictlyUpper>() = product.transpose();
+  return product;
+}
+
+std::size_t Cholesky::entries() const noexcept {
+  std::size_t n = 0;
+  for (const Eigen::MatrixXf& front : fronts_) {
+    const Index own = front.cols();
+    n += static_cast<std::size_t>(front.rows() * own - own * (own - 1) / 2);
+  }
+  return n;
+}
+
+}  // namespace artus

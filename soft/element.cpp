@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/soft/element.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Eigenvalues>
+
+namespace artus {
+namespace {
+
+using Matrix3 = Eigen::Matrix3d;
+using Matrix9 = Eigen::Matrix<double, 9, 9>;
+using Plane = Eigen::Matrix<double, 3, 2>;
+using Gradients = Eigen::Matrix<double, 8, 3>;  // of the shape functions, per edge length
+
+/// No law hardens more than exp(3) = 20 times: beyond, the energy goes on as a straight line in
+/// psi.
+constexpr double kMostHardening = 3;
+
+Gradients gradients_at(const Vec3& s) noexcept {
+  Gradients d;
+  for (int a = 0; a < 8; ++a) {
+    const double x = (a & 1) != 0 ? s.x() : 1 - s.x();
+    const double y = (a & 2) != 0 ? s.y() : 1 - s.y();
+    const double z = (a & 4) != 0 ? s.z() : 1 - s.z();
+    d.row(a) << ((a & 1) != 0 ? 1 : -1) * y * z, ((a & 2) != 0 ? 1 : -1) * x * z,
+        ((a & 4) != 0 ? 1 : -1) * x * y;
+  }
+  return d;
+}
+
+const std::array<Gradients, 8>& gauss_gradients() noexcept {
+  static const std::array<Gradients, 8> table = [] {
+    std::array<Gradients, 8> all;
+    const double inner = 0.5 - 0.5 / std::sqrt(3.0);
+    for (int g = 0; g < 8; ++g) {
+      const auto at = [&](int bit) {
+        return (g & bit) != 0 ? 1 - inner : inner;
+      };
+      all[static_cast<std::size_t>(g)] = gradients_at({at(1), at(2), at(4)});
+    }
+    return all;
+  }();
+  return table;
+}
+
+Matrix3 gradient_of(const Gradients& d, double edge, const CellVector& u) noexcept {
+  const Eigen::Map<const Eigen::Matrix<double, 3, 8>> displacement(u.data());
+  return Matrix3::Identity() + displacement * d / edge;
+}
+
+Matrix3 cofactor(const Matrix3& F) noexcept {
+  Matrix3 cof;
+  cof.col(0) = F.col(1).cross(F.col(2));
+  cof.col(1) = F.col(2).cross(F.col(0));
+  cof.col(2) = F.col(0).cross(F.col(1));
+  return cof;
+}
+
+Plane plane_across(const Vec3& normal) noexcept {
+  Plane plane;
+  plane.col(0) = normal.unitOrthogonal();
+  plane.col(1) = normal.cross(plane.col(0));
+  return plane;
+}
+
+/// The stress of a hardening psi: first derivative and the factor of its second.
+struct Hardened {
+  double factor = 1;  // exp(b psi), cut
+  double slope = 0;   // d factor / d psi
+  double energy = 0;  // per mu
+};
+
+Hardened harden(double b, double psi) noexcept {
+  const double x = b * psi;
+  if (x < 1e-8) return {1 + x, b, psi};
+  if (x > kMostHardening) {
+    const double top = std::exp(kMostHardening);
+    return {top, 0, (top - 1 + top * (x - kMostHardening)) / b};
+  }
+  const double factor = std::exp(x);
+  return {factor, b * factor, (factor - 1) / b};
+}
+
+double psi_of(const Matrix3& F, double J) noexcept {
+  return 0.5 * (F.squaredNorm() - 3) - (J - 1) + 0.5 * (J - 1) * (J - 1);
+}
+
+/// Membrane: energy per mu and its gradient by A = F T.
+struct Sheet {
+  Plane A;
+  Eigen::Matrix2d inverse;  // of c
+  double det = 1;
+  Eigen::Matrix2d stress;  // I - c^-1 / det c
+};
+
+Sheet make_sheet(const Matrix3& F, const Plane& plane) noexcept {
+  Sheet sheet;
+  sheet.A = F * plane;
+  const Eigen::Matrix2d c = sheet.A.transpose() * sheet.A;
+  // A sheet that is crushed to nothing keeps a finite stress.
+  sheet.det = std::max(c.determinant(), 1e-2);
+  sheet.inverse << c(1, 1), -c(0, 1), -c(1, 0), c(0, 0);
+  sheet.inverse /= sheet.det;
+  sheet.stress = Eigen::Matrix2d::Identity() - sheet.inverse / sheet.det;
+  return sheet;
+}
+
+struct Kinematics {
+  std::array<Matrix3, 8> F;
+  std::array<Matrix3, 8> cof;
+  std::array<double, 8> J{};
+  double mean_J = 1;
+  double weight = 0;  // sum over the eighths
+};
+
+Kinematics kinematics_of(const CellMaterial& m, double edge, const CellVector& u) noexcept {
+  Kinematics k;
+  const auto& table = gauss_gradients();
+  double sum = 0;
+  for (std::size_t g = 0; g < 8; ++g) {
+    k.F[g] = gradient_of(table[g], edge, u);
+    k.cof[g] = cofactor(k.F[g]);
+    k.J[g] = k.F[g].col(0).dot(k.cof[g].col(0));
+    k.weight += m.weight[g];
+    sum += m.weight[g] * k.J[g];
+  }
+  if (k.weight > 0) k.mean_J = sum / k.weight;
+  return k;
+}
+
+/// d cof(F) / dF as a matrix over (i + 3 J, k + 3 L).
+void add_cofactor_derivative(const Matrix3& F, double factor, Matrix9& H) noexcept {
+  constexpr std::array<std::array<int, 3>, 6> kPermutations{
+      {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}};
+  for (int a = 0; a < 6; ++a) {
+    for (int b = 0; b < 6; ++b) {
+      const auto& [i, k, m] = kPermutations[static_cast<std::size_t>(a)];
+      const auto& [j, l, n] = kPermutations[static_cast<std::size_t>(b)];
+      const double sign = (a < 3) == (b < 3) ? 1 : -1;
+      H(i + 3 * j, k + 3 * l) += factor * sign * F(m, n);
+    }
+  }
+}
+
+void add_sheet_tangent(const Sheet& sheet, const Plane& plane, double factor, Matrix9& H) noexcept {
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver;
+  solver.computeDirect(sheet.stress);
+  const Eigen::Vector2d held = solver.eigenvalues().cwiseMax(0);
+  const Eigen::Matrix2d tension =
+      solver.eigenvectors() * held.asDiagonal() * solver.eigenvectors().transpose();
+  for (int kl = 0; kl < 9; ++kl) {
+    Matrix3 dF = Matrix3::Zero();
+    dF(kl % 3, kl / 3) = 1;
+    const Plane dA = dF * plane;
+    const Eigen::Matrix2d half = sheet.A.transpose() * dA;
+    const Eigen::Matrix2d dc = half + half.transpose();
+    const Eigen::Matrix2d inv = sheet.inverse;
+    const Eigen::Matrix2d dS = (inv * dc * inv + (inv * dc).trace() * inv) / sheet.det;
+    const Matrix3 dP = (dA * tension + sheet.A * dS) * plane.transpose();
+    H.col(kl) += factor * Eigen::Map<const Eigen::Matrix<double, 9, 1>>(dP.data());
+  }
+}
+
+void add_fibre_tangent(const CellMaterial& m, const Matrix3& F, Matrix9& H) noexcept {
+  const Vec3 along = F * m.fibre;
+  const double e = 0.5 * (along.squaredNorm() - 1);
+  if (e <= 0) return;
+  for (int kl = 0; kl < 9; ++kl) {
+    const double a_l = m.fibre[kl / 3];
+    Vec3 d = m.fibre_modulus * along[kl % 3] * a_l * along;
+    d[kl % 3] += m.fibre_modulus * e * a_l;
+    const Matrix3 dP = d * m.fibre.transpose();
+    H.col(kl) += Eigen::Map<const Eigen::Matrix<double, 9, 1>>(dP.data());
+  }
+}
+
+/// Second derivative of the energy density at one point without the mean dilatation's own part.
+Matrix9 point_tangent(const CellMaterial& m, std::size_t g, const Kinematics& k, double pressure,
+                      const Plane& plane) noexcept {
+  const Matrix3& F = k.F[g];
+  const Hardened hard = harden(m.hardening[g], psi_of(F, k.J[g]));
+  const double mu = m.shear[g] * hard.factor;
+  Matrix9 H = mu * Matrix9::Identity();
+  const Eigen::Map<const Eigen::Matrix<double, 9, 1>> cof(k.cof[g].data());
+  H += mu * cof * cof.transpose();
+  const Matrix3 slope = F + (k.J[g] - 2) * k.cof[g];
+  const Eigen::Map<const Eigen::Matrix<double, 9, 1>> s(slope.data());
+  H += m.shear[g] * hard.slope * s * s.transpose();
+  add_cofactor_derivative(F, std::clamp(mu * (k.J[g] - 2) + pressure, -mu, mu), H);
+  if (m.sheet[g] > 0) add_sheet_tangent(make_sheet(F, plane), plane, m.sheet[g], H);
+  if (m.fibre_modulus > 0) add_fibre_tangent(m, F, H);
+  return H;
+}
+
+}  // namespace
+
+CellResponse cell_response(const CellMaterial& m, double edge, const CellVector& u,
+                           double target) noexcept {
+  const Kinematics k = kinematics_of(m, edge, u);
+  const auto& table = gauss_gradients();
+  const double volume = edge * edge * edge / 8;
+  const double excess = k.mean_J - target;
+  const double pressure = m.bulk * excess;
+  const bool has_sheet = *std::max_element(m.sheet.begin(), m.sheet.end()) > 0;
+  const Plane plane = has_sheet ? plane_across(m.sheet_normal) : Plane::Zero();
+  CellResponse out;
+  out.energy = volume * k.weight * 0.5 * m.bulk * excess * excess;
+  Eigen::Matrix<double, 3, 8> force = Eigen::Matrix<double, 3, 8>::Zero();
+  for (std::size_t g = 0; g < 8; ++g) {
+    if (m.weight[g] <= 0) continue;
+    const Matrix3& F = k.F[g];
+    out.least_volume = std::min(out.least_volume, k.J[g]);
+    const Hardened hard = harden(m.hardening[g], psi_of(F, k.J[g]));
+    const double mu = m.shear[g] * hard.factor;
+    Matrix3 P = mu * F + (mu * (k.J[g] - 2) + pressure) * k.cof[g];
+    double energy = m.shear[g] * hard.energy;
+    if (m.sheet[g] > 0) {
+      const Sheet sheet = make_sheet(F, plane);
+      P += m.sheet[g] * (sheet.A * sheet.stress) * plane.transpose();
+      energy += 0.5 * m.sheet[g] * (sheet.A.squaredNorm() + 1 / sheet.det - 3);
+    }
+    if (m.fibre_modulus > 0) {
+      const Vec3 along = F * m.fibre;
+      const double e = std::max(0.0, 0.5 * (along.squaredNorm() - 1));
+      P += m.fibre_modulus * e * along * m.fibre.transpose();
+      energy += 0.5 * m.fibre_modulus * e * e;
+    }
+    out.energy += volume * m.weight[g] * energy;
+    force -= (volume * m.weight[g] / edge) * P * table[g].transpose();
+  }
+  out.force = Eigen::Map<const CellVector>(force.data());
+  return out;
+}
+
+CellMatrix cell_tangent(const CellMaterial& m, double edge, const CellVector& u,
+                        double target) noexcept {
+  const Kinematics k = kinematics_of(m, edge, u);
+  const auto& table = gauss_gradients();
+  const double volume = edge * edge * edge / 8;
+  const double pressure = m.bulk * (k.mean_J - target);
+  const Plane plane = plane_across(m.sheet_normal);
+  CellMatrix K = CellMatrix::Zero();
+  CellVector dilatation = CellVector::Zero();
+  for (std::size_t g = 0; g < 8; ++g) {
+    if (m.weight[g] <= 0) continue;
+    const Gradients d = table[g] / edge;
+    const double w = volume * m.weight[g];
+    const Matrix9 H = w * point_tangent(m, g, k, pressure, plane);
+    Eigen::Matrix<double, 9, 24> B = Eigen::Matrix<double, 9, 24>::Zero();
+    for (int a = 0; a < 8; ++a) {
+      for (int J = 0; J < 3; ++J) {
+        for (int i = 0; i < 3; ++i) B(i + 3 * J, 3 * a + i) = d(a, J);
+      }
+    }
+    const Eigen::Matrix<double, 9, 24> HB = H * B;
+    K.noalias() += B.transpose() * HB;
+    dilatation +=
+        w * B.transpose() * Eigen::Map<const Eigen::Matrix<double, 9, 1>>(k.cof[g].data());
+  }
+  if (k.weight > 0) K += m.bulk / (volume * k.weight) * dilatation * dilatation.transpose();
+  return K;
+}
+
+Eigen::Matrix3d cell_gradient(double edge, const CellVector& u) noexcept {
+  return gradient_of(gradients_at(Vec3::Constant(0.5)), edge, u);
+}
+
+double cell_dilatation(const CellMaterial& m, double edge, const CellVector& u) noexcept {
+  return kinematics_of(m, edge, u).mean_J;
+}
+
+}  // namespace artus

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/soft/face_contact.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "artus/core/check.h"
+
+namespace artus {
+namespace {
+
+using Index = Eigen::Index;
+
+constexpr int kMostSweeps = 120;
+constexpr double kSettled = 1e-7;  // N, a sweep that changes less ends the search
+/// Skin farther before the face than a step can bring it takes no part in that step, m.
+constexpr double kInReach = 3e-3;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+FaceContact::FaceContact(std::shared_ptr<const SoftModel> model, SkinPatch skin,
+                         const ProbeFace& face, std::span<const std::uint32_t> root)
+    : model_(std::move(model)), skin_(std::move(skin)), face_(face) {
+  ARTUS_REQUIRE(face.length > 0 && face.width > 0 && face.points_x > 0 && face.points_y > 0,
+                "a face without size");
+  root_of_unknown_.assign(model_->n_unknowns(), -1);
+  for (std::size_t k = 0; k < root.size(); ++k)
+    root_of_unknown_[root[k]] = static_cast<std::int32_t>(k);
+  skin_places_.reserve(skin_.vertices.size());
+  for (const Vec3& v : skin_.vertices) skin_places_.push_back(model_->cage().locate(v, 2));
+  const auto n = static_cast<std::size_t>(face.points_x * face.points_y);
+  forces_.assign(n, Vec3::Zero());
+  gaps_.assign(n, kInfinity);
+}
+
+Vec3 FaceContact::piece_P(std::uint32_t piece) const noexcept {
+  const auto n = static_cast<std::uint32_t>(face_.points_x);
+  return {face_.length * ((piece % n + 0.5) / face_.points_x - 0.5),
+          face_.width * ((piece / n + 0.5) / face_.points_y - 0.5), 0};
+}
+
+/// Looks for the pieces of the face that a triangle covers; keeps the nearest skin of each.
+void FaceContact::raster(std::size_t triangle, const std::vector<Vec3>& skin_P,
+                         std::vector<ContactPoint>& nearest) const {
+  const auto& [ia, ib, ic] = skin_.triangles[triangle];
+  const Vec3& a = skin_P[ia];
+  const Vec3& b = skin_P[ib];
+  const Vec3& c = skin_P[ic];
+  const double area = (b - a).cross(c - a).z();
+  if (!(area < 0)) return;  // turned away from the face
+  const auto first = [](double low, double size, int n) {
+    return std::max(0, static_cast<int>(std::ceil((low / size + 0.5) * n - 0.5 - 1e-9)));
+  };
+  const auto last = [](double high, double size, int n) {
+    return std::min(n - 1, static_cast<int>(std::floor((high / size + 0.5) * n - 0.5 + 1e-9)));
+  };
+  const Vec3 low = a.cwiseMin(b).cwiseMin(c).cwiseMax(-1).cwiseMin(1);
+  const Vec3 high = a.cwiseMax(b).cwiseMax(c).cwiseMax(-1).cwiseMin(1);
+  const int x_end = last(high.x(), face_.length, face_.points_x);
+  const int y_end = last(high.y(), face_.width, face_.points_y);
+  for (int j = first(low.y(), face_.width, face_.points_y); j <= y_end; ++j) {
+    for (int i = first(low.x(), face_.length, face_.points_x); i <= x_end; ++i) {
+      const auto piece = static_cast<std::uint32_t>(i + face_.points_x * j);
+      const Vec3 p = piece_P(piece);
+      if (face_.round && std::hypot(p.x() / face_.length, p.y() / face_.width) > 0.5) continue;
+      const auto turn = [&p](const Vec3& s, const Vec3& t) {
+        return (s.x() - p.x()) * (t.y() - p.y()) - (s.y() - p.y()) * (t.x() - p.x());
+      };
+      const Vec3 w = Vec3(turn(b, c), turn(c, a), turn(a, b)) / area;
+      if (w.minCoeff() < -1e-9) continue;
+      const double z = w.x() * a.z() + w.y() * b.z() + w.z() * c.z();
+      if (z >= nearest[piece].gap) continue;
+      nearest[piece].gap = z;
+      nearest[piece].p_rest =
+          w.x() * skin_.vertices[ia] + w.y() * skin_.vertices[ib] + w.z() * skin_.vertices[ic];
+    }
+  }
+}
+
+std::vector<ContactPoint> FaceContact::cast(std::span<const Vec3> u) const {
+  std::vector<Vec3> skin_P;
+  skin_P.reserve(skin_.vertices.size());
+  const Pose X_PC = X_CP_.inverse();
+  for (std::size_t v = 0; v < skin_.vertices.size(); ++v)
+    skin_P.push_back(X_PC * (skin_.vertices[v] + model_->displacement_at(skin_places_[v], u)));
+  std::vector<ContactPoint> nearest(forces_.size());
+  for (std::uint32_t piece = 0; piece < nearest.size(); ++piece) {
+    nearest[piece].piece = piece;
+    nearest[piece].gap = kInfinity;
+  }
+  for (std::size_t t = 0; t < skin_.triangles.size(); ++t) raster(t, skin_P, nearest);
+  return nearest;
+}
+
+void FaceContact::prepare(std::span<const Vec3> u, const Pose& X_CP, const Pose& X_CP_before) {
+  X_CP_ = X_CP;
+  const Pose X_PC = X_CP.inverse();
+  const Pose X_PC_before = X_CP_before.inverse();
+  points_.clear();
+  outside_ = false;
+  for (ContactPoint& point : cast(u)) {
+    gaps_[point.piece] = point.gap;
+    if (!(point.gap < kInReach)) {
+      forces_[point.piece].setZero();
+      continue;
+    }
+    point.place = model_->cage().locate(point.p_rest, 2);
+    bool reached = point.place.cell >= 0;
+    for (const UnknownShare& s : model_->shares_of(point.place)) {
+      const std::int32_t root = root_of_unknown_[s.unknown];
+      reached = reached && root >= 0;
+      if (reached) point.shares.push_back({static_cast<std::uint32_t>(root), s.weight});
+    }
+    if (!reached || point.shares.empty()) {
+      outside_ = outside_ || point.gap < 0;
+      forces_[point.piece].setZero();
+      continue;
+    }
+    const Vec3 now = point.p_rest + model_->displacement_at(point.place, u);
+    point.gap = (X_PC * now).z();
+    const Vec3 before = X_PC_before * now;
+    point.start = {before.x(), before.y()};
+    points_.push_back(std::move(point));
+  }
+}
+
+void FaceContact::condense(const Eigen::MatrixXd& root_inverse) {
+  const auto n = static_cast<Index>(points_.size());
+  compliance_.resize(3 * n, 3 * n);
+  const Eigen::Matrix3d R = X_CP_.linear();
+  for (Index i = 0; i < n; ++i) {
+    for (Index j = i; j < n; ++j) {
+      Eigen::Matrix3d block = Eigen::Matrix3d::Zero();
+      for (const UnknownShare& a : points_[static_cast<std::size_t>(i)].shares) {
+        for (const UnknownShare& b : points_[static_cast<std::size_t>(j)].shares)
+          block += a.weight * b.weight *
+                   root_inverse.block<3, 3>(3 * static_cast<Index>(a.unknown),
+                                            3 * static_cast<Index>(b.unknown));
+      }
+      block = R.transpose() * block * R;
+      compliance_.block<3, 3>(3 * i, 3 * j) = block;
+      compliance_.block<3, 3>(3 * j, 3 * i) = block.transpose();
+    }
+  }
+}
+
+void FaceContact::add_forces(Eigen::VectorXd& on_unknowns) const {
+  for (const ContactPoint& point : points_)
+    model_->add_force(point.place, X_CP_.linear() * forces_[point.piece], on_unknowns);
+}
+
+void FaceContact::solve(const Eigen::VectorXd& step_root, std::span<const Vec3> u, double alpha,
+                        Eigen::VectorXd& load_root) {
+  const auto n = static_cast<Index>(points_.size());
+  if (n == 0) return;
+  const Eigen::Matrix3d R = X_CP_.linear();
+  const Pose X_PC = X_CP_.inverse();
+  Eigen::VectorXd free(3 * n);  // gap and slip without a change of force
+  Eigen::VectorXd old(3 * n);
+  for (Index i = 0; i < n; ++i) {
+    const ContactPoint& point = points_[static_cast<std::size_t>(i)];
+    Vec3 step = Vec3::Zero();
+    for (const UnknownShare& s : point.shares)
+      step += s.weight * step_root.segment<3>(3 * static_cast<Index>(s.unknown));
+    const Vec3 now = X_PC * (point.p_rest + model_->displacement_at(point.place, u));
+    free.segment<3>(3 * i) = now + alpha * (R.transpose() * step);
+    free[3 * i] -= point.start[0];
+    free[3 * i + 1] -= point.start[1];
+    old.segment<3>(3 * i) = forces_[point.piece];
+  }
+  Eigen::VectorXd force = old;
+  Eigen::VectorXd moved = Eigen::VectorXd::Zero(3 * n);  // C (force - old)
+  for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
+    double change = 0;
+    for (Index k = 3 * n; k-- > 0;) {
+      const double diagonal = alpha * compliance_(k, k);
+      double next = force[k] - (free[k] + alpha * moved[k]) / diagonal;
+      const double normal = force[k - k % 3 + 2];
+      next = k % 3 == 2 ? std::max(0.0, next)
+                        : std::clamp(next, -face_.friction * normal, face_.friction * normal);
+      const double by = next - force[k];
+      if (by == 0) continue;
+      force[k] = next;
+      moved += by * compliance_.col(k);
+      change = std::max(change, std::abs(by));
+    }
+    if (change < kSettled) break;
+  }
+  for (Index i = 0; i < n; ++i) {
+    const ContactPoint& point = points_[static_cast<std::size_t>(i)];
+    const Vec3 by = R * (force - old).segment<3>(3 * i);
+    for (const UnknownShare& s : point.shares)
+      load_root.segment<3>(3 * static_cast<Index>(s.unknown)) += s.weight * by;
+    forces_[point.piece] = force.segment<3>(3 * i);
+  }
+}
+
+ContactForce FaceContact::force() const {
+  ContactForce out;
+  out.outside = outside_;
+  std::size_t pressing = 0;
+  for (std::uint32_t piece = 0; piece < forces_.size(); ++piece) {
+    const Vec3 on_probe = -(X_CP_.linear() * forces_[piece]);
+    out.force += on_probe;
+    out.torque += (X_CP_.linear() * piece_P(piece)).cross(on_probe);
+    if (forces_[piece].z() > 0) ++pressing;
+  }
+  out.share = static_cast<double>(pressing) / static_cast<double>(forces_.size());
+  return out;
+}
+
+double FaceContact::pressure_at(std::uint32_t piece) const noexcept {
+  return forces_[piece].z() / (face_.length * face_.width) * static_cast<double>(forces_.size());
+}
+
+void FaceContact::release() noexcept {
+  std::fill(forces_.begin(), forces_.end(), Vec3::Zero());
+}
+
+}  // namespace artus

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "artus/anatomy/body/tissue.h"
+#include "artus/core/geometry.h"
+
+namespace artus {
+
+/// How one tissue gives way, quasi-statically: a stable neo-Hookean solid that hardens, with fibres
+/// that resist being stretched. Energy per rest volume, J/m^3:
+///   mu/b (exp(b psi) - 1) + lambda/2 (J - 1)^2 + k/2 <e>^2,
+///   psi = (I_C - 3)/2 - (J - 1) + (J - 1)^2/2, e = (|F a|^2 - 1)/2, <e> = max(e, 0).
+/// At small strain it is linear elasticity with Lame's mu and lambda. Source [Smith2018] for the
+/// part without b; b is Fung's exponent.
+struct SoftMaterial {
+  double shear = 0;           ///< Pa, mu across the fibres
+  double bulk = 0;            ///< Pa, Lame's lambda
+  double hardening = 0;       ///< b
+  double fibre_modulus = 0;   ///< Pa, k
+  Vec3 fibre = Vec3::Zero();  ///< unit, a; zero: no fibres
+  bool hard = false;          ///< bone and metal: moves as a rigid body
+};
+
+/// The mechanical values of a tissue, with where they come from.
+struct SoftTissue {
+  std::string tissue;        ///< name in the tissue library
+  double shear = 0;          ///< Pa
+  double hardening = 0;      ///< b
+  double fibre_modulus = 0;  ///< Pa
+  std::string source;        ///< reference or "assumed: why"
+};
+
+/// The values this library has of its own, in the order of the tissue library.
+[[nodiscard]] const std::vector<SoftTissue>& soft_tissues();
+
+/// lambda from mu and Poisson's ratio. Requires: 0 <= ratio < 0.5.
+[[nodiscard]] double lame_lambda(double shear, double poisson_ratio);
+
+/// The material of a tissue: its own row of soft_tissues() or, for a tissue without one, its
+/// Young's modulus. `poisson_ratio` is numerical: tissue hardly changes its volume, and a ratio of
+/// 0.47 keeps the equations well conditioned; lambda is 50 kPa at least. Requires: 0 <= ratio <
+/// 0.5.
+[[nodiscard]] SoftMaterial make_soft_material(const Tissue& tissue, const Vec3& fibre,
+                                              double poisson_ratio);
+
+inline constexpr int kNoMaterial = -1;      ///< air, gel: nothing there
+inline constexpr int kBeyondMaterial = -2;  ///< of the body, but beyond what is meshed: held
+
+/// Which material is where, in frame C of a cage.
+struct MaterialField {
+  std::vector<SoftMaterial> materials;
+  std::function<int(const Vec3& p_C)> at;  ///< index into materials, kNoMaterial, kBeyondMaterial
+};
+
+}  // namespace artus

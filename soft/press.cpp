@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/soft/press.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "artus/core/check.h"
+
+namespace artus {
+namespace {
+
+constexpr double kStep = 1e-3;       // m
+constexpr double kTolerance = 2e-6;  // m a node may still move
+constexpr double kNear = 0.005;      // of the force asked for
+constexpr int kMostTries = 12;
+
+enum class Until { near, settled };
+
+Press hold(SoftBody& body, const Pose& X_JP, double depth, Until until) {
+  Press press;
+  press.depth = depth;
+  press.X_JP = X_JP;
+  press.X_JP.translation() += depth * X_JP.linear().col(2);
+  if (until == Until::settled) {
+    press.settled = body.settle(press.X_JP, kTolerance, 40);
+  } else {
+    body.solver().refresh();
+    for (int k = 0; k < 2; ++k) body.step(press.X_JP, std::numeric_limits<double>::infinity());
+  }
+  press.contact = body.force_J();
+  press.normal_force = -press.contact.force.dot(X_JP.linear().col(2));
+  return press;
+}
+
+}  // namespace
+
+Press press_by(SoftBody& body, const Pose& X_JP, double depth) {
+  for (double d = kStep; d < depth; d += kStep) static_cast<void>(hold(body, X_JP, d, Until::near));
+  return hold(body, X_JP, depth, Until::settled);
+}
+
+Result<Press> press_with(SoftBody& body, const Pose& X_JP, double force, double most_depth) {
+  ARTUS_REQUIRE(force > 0, "a force above zero");
+  Press below = hold(body, X_JP, 0, Until::near);
+  Press above = below;
+  while (above.normal_force < force) {
+    if (above.depth + kStep > most_depth)
+      return fail(ErrorCode::failed, "the tissue does not hold the force asked for: " +
+                                         std::to_string(above.normal_force) + " N at the most");
+    below = above;
+    above = hold(body, X_JP, above.depth + kStep, Until::near);
+  }
+  // Secant steps between settled states; the first two are the depths on both sides.
+  Press last = hold(body, X_JP, above.depth, Until::settled);
+  Press best = hold(body, X_JP, 0.5 * (below.depth + above.depth), Until::settled);
+  for (int k = 0; k < kMostTries && std::abs(best.normal_force / force - 1) > kNear; ++k) {
+    const double slope = (best.normal_force - last.normal_force) / (best.depth - last.depth);
+    const double way = std::clamp((force - best.normal_force) / slope, -kStep, kStep);
+    if (!std::isfinite(way)) break;
+    last = best;
+    best = hold(body, X_JP, std::clamp(best.depth + way, 0.0, most_depth), Until::settled);
+  }
+  if (std::abs(best.normal_force / force - 1) > kNear)
+    return fail(ErrorCode::failed, "the press did not settle at the force asked for");
+  return best;
+}
+
+}  // namespace artus

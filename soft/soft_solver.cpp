@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/soft/soft_solver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "artus/core/check.h"
+
+namespace artus {
+namespace {
+
+using Index = Eigen::Index;
+
+Eigen::VectorXd root_of(const Eigen::VectorXd& x, const std::vector<std::uint32_t>& root) {
+  Eigen::VectorXd part(static_cast<Index>(3 * root.size()));
+  for (std::size_t k = 0; k < root.size(); ++k)
+    part.segment<3>(static_cast<Index>(3 * k)) = x.segment<3>(3 * static_cast<Index>(root[k]));
+  return part;
+}
+
+}  // namespace
+
+SoftSolver::SoftSolver(std::shared_ptr<const SoftModel> model,
+                       std::vector<std::uint32_t> contact_unknowns, const SoftSolverParams& params)
+    : model_(std::move(model)), params_(params), root_(std::move(contact_unknowns)) {
+  const Dissection plan = dissect(model_->graph(), model_->unknown_places(), root_);
+  factor_ = std::make_unique<Cholesky>(plan);
+  spare_ = std::make_unique<Cholesky>(plan);
+  reset();
+}
+
+void SoftSolver::reset() {
+  x_ = Eigen::VectorXd::Zero(static_cast<Index>(3 * model_->n_unknowns()));
+  if (contact_) contact_->release();
+  touching_ = false;
+  bad_ = 0;
+  last_ = {};
+  evaluate();
+  refresh();
+}
+
+void SoftSolver::set_face(SkinPatch skin, const ProbeFace& face) {
+  contact_ = std::make_unique<FaceContact>(model_, std::move(skin), face, root_);
+  touching_ = false;
+}
+
+void SoftSolver::set_loads(std::vector<PointLoad> loads) {
+  loads_ = std::move(loads);
+  load_places_.clear();
+  for (const PointLoad& load : loads_)
+    load_places_.push_back(model_->cage().locate(load.p_rest, 2));
+}
+
+void SoftSolver::set_targets(std::vector<double> targets) {
+  ARTUS_REQUIRE(targets.empty() || targets.size() == model_->cage().cells().size(),
+                "one target for each cube");
+  targets_ = std::move(targets);
+  evaluate();
+}
+
+void SoftSolver::set_prescribed(std::vector<Vec3> prescribed) {
+  ARTUS_REQUIRE(prescribed.size() == model_->cage().nodes().size(), "one place for each node");
+  prescribed_ = std::move(prescribed);
+  evaluate();
+}
+
+void SoftSolver::evaluate() {
+  model_->expand(x_, prescribed_, u_);
+  model_->compute_forces(u_, targets_, forces_);
+}
+
+bool SoftSolver::make_factor(std::span<const Vec3> u, std::span<const double> targets) {
+  BlockMatrix tangent(model_->graph());
+  model_->assemble_tangent(u, targets, tangent);
+  if (!spare_->factorize(tangent)) return false;
+  spare_inverse_ = spare_->root_inverse();
+  return true;
+}
+
+void SoftSolver::take_factor() {
+  std::swap(factor_, spare_);
+  std::swap(root_inverse_, spare_inverse_);
+}
+
+bool SoftSolver::refresh() {
+  if (refreshing()) end_refresh();
+  if (!make_factor(u_, targets_)) return false;
+  take_factor();
+  return true;
+}
+
+void SoftSolver::begin_refresh() {
+  if (refreshing()) end_refresh();
+  pending_ = std::async(std::launch::async,
+                        [this, u = u_, targets = targets_] { return make_factor(u, targets); });
+}
+
+bool SoftSolver::end_refresh() {
+  if (!refreshing() || !pending_.get()) return false;
+  take_factor();
+  return true;
+}
+
+/// The face follows the hand by as much as one step can take in.
+Pose SoftSolver::advance(const Pose& target, std::uint32_t& status) const {
+  if (!touching_) return target;
+  const Vec3 way = target.translation() - X_CP_.translation();
+  const Eigen::AngleAxisd turn(X_CP_.linear().transpose() * target.linear());
+  const double share = std::min({1.0, params_.probe_advance / std::max(way.norm(), 1e-12),
+                                 params_.probe_turn / std::max(std::abs(turn.angle()), 1e-12)});
+  if (share >= 1) return target;
+  status |= kSoftLagging;
+  Pose pose = X_CP_;
+  pose.translation() += share * way;
+  pose.rotate(Eigen::AngleAxisd(share * turn.angle(), turn.axis()));
+  return pose;
+}
+
+double SoftSolver::apply(const Eigen::VectorXd& step, double limit, std::uint32_t& status) {
+  double largest = 0;
+  for (Index i = 0; i < step.size(); i += 3) largest = std::max(largest, step.segment<3>(i).norm());
+  if (!std::isfinite(largest)) return largest;
+  double share = 1;
+  if (largest > limit) {
+    share = limit / largest;
+    status |= kSoftLimited;
+  }
+  x_ += share * step;
+  evaluate();
+  return largest * share;
+}
+
+void SoftSolver::take_back(const Eigen::VectorXd& x, std::uint32_t& status) {
+  status |= kSoftTakenBack;
+  x_ = x;
+  evaluate();
+  if (++bad_ < params_.bad_steps) return;
+  reset();
+  status |= kSoftRestarted;
+}
+
+const SoftStep& SoftSolver::step(const std::optional<Pose>& X_CP, double dt) {
+  SoftStep out;
+  const double alpha = 1 - std::exp(-dt / params_.relaxation);
+  const Eigen::VectorXd before = x_;
+  Eigen::VectorXd r = forces_.on_unknowns;
+  for (std::size_t k = 0; k < loads_.size(); ++k)
+    model_->add_force(load_places_[k], loads_[k].force, r);
+  double advanced = 0;
+  const bool pressed = X_CP && contact_;
+  if (pressed) {
+    const Pose next = advance(*X_CP, out.status);
+    const Pose from = touching_ ? X_CP_ : next;
+    advanced = (next.translation() - from.translation()).norm();
+    contact_->prepare(u_, next, from);
+    contact_->condense(root_inverse_);
+    contact_->add_forces(r);
+    X_CP_ = next;
+    touching_ = true;
+  } else {
+    if (contact_) contact_->release();
+    touching_ = false;
+  }
+  out.residual = r.norm();
+  factor_->forward(r);
+  if (pressed) {
+    const Eigen::VectorXd load = root_of(r, root_);
+    const Eigen::VectorXd free = root_inverse_ * load;
+    Eigen::VectorXd change = Eigen::VectorXd::Zero(load.size());
+    contact_->solve(free, u_, alpha, change);
+    for (std::size_t k = 0; k < root_.size(); ++k)
+      r.segment<3>(3 * static_cast<Index>(root_[k])) +=
+          change.segment<3>(static_cast<Index>(3 * k));
+    out.contact = contact_->force();
+    if (out.contact.outside) out.status |= kSoftOutside;
+  }
+  factor_->solve_root(r);
+  factor_->backward(r);
+  out.largest_move = apply(alpha * r, params_.step_limit + 2 * advanced, out.status);
+  out.least_volume = forces_.least_volume;
+  const bool finite = std::isfinite(out.largest_move) && std::isfinite(forces_.energy) &&
+                      forces_.on_unknowns.allFinite();
+  if (!finite || out.least_volume < params_.least_volume) {
+    take_back(before, out.status);
+  } else {
+    bad_ = 0;
+  }
+  last_ = out;
+  return last_;
+}
+
+bool SoftSolver::settle(const std::optional<Pose>& X_CP, double tolerance, int most_steps) {
+  for (int k = 0; k < most_steps; ++k) {
+    const bool fresh = refresh();
+    const SoftStep& s = step(X_CP, std::numeric_limits<double>::infinity());
+    if (!fresh) last_.status |= kSoftNoFactor;
+    if ((s.status & (kSoftLagging | kSoftLimited | kSoftTakenBack)) == 0 &&
+        s.largest_move < tolerance)
+      return true;
+  }
+  return false;
+}
+
+Vec3 SoftSolver::reaction() const {
+  Vec3 sum = Vec3::Zero();
+  for (std::uint32_t n = 0; n < u_.size(); ++n) {
+    if (!model_->cage().masters(n).empty()) continue;
+    const HeldNode& hold = model_->held(n);
+    for (int k = 0; k < 3; ++k) {
+      if (hold.held[static_cast<std::size_t>(k)]) sum[k] -= forces_.on_nodes[n][k];
+    }
+  }
+  return sum;
+}
+
+std::vector<std::uint32_t> contact_unknowns(const SoftModel& model, const SkinPatch& skin,
+                                            const Vec3& low, const Vec3& high) {
+  std::vector<std::uint32_t> all;
+  const auto take = [&](const Vec3& p) {
+    if ((p - low).minCoeff() < 0 || (high - p).minCoeff() < 0) return;
+    for (const UnknownShare& s : model.shares_of(model.cage().locate(p, 2)))
+      all.push_back(s.unknown);
+  };
+  // Points along the triangles, nearer to each other than any cube is large.
+  const double spacing = 0.5 * model.cage().finest();
+  for (const auto& [ia, ib, ic] : skin.triangles) {
+    const Vec3 ab = skin.vertices[ib] - skin.vertices[ia];
+    const Vec3 ac = skin.vertices[ic] - skin.vertices[ia];
+    const int n =
+        1 + static_cast<int>(std::max({ab.norm(), ac.norm(), (ab - ac).norm()}) / spacing);
+    for (int i = 0; i <= n; ++i) {
+      for (int j = 0; i + j <= n; ++j) take(skin.vertices[ia] + ab * i / n + ac * j / n);
+    }
+  }
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
+}  // namespace artus

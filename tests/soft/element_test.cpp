@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/soft/element.h"
+
+#include <Eigen/Eigenvalues>
+#include <gtest/gtest.h>
+
+#include "artus/core/noise.h"
+
+namespace artus {
+namespace {
+
+CellMaterial mixed_material() {
+  CellMaterial m;
+  for (std::size_t g = 0; g < 8; ++g) {
+    m.weight[g] = 0.4 + 0.05 * static_cast<double>(g);
+    m.shear[g] = 800 + 300 * static_cast<double>(g);
+    m.sheet[g] = g % 2 == 0 ? 5000 : 0;
+    m.hardening[g] = 2.4;
+  }
+  m.bulk = 20e3;
+  m.fibre_modulus = 3e4;
+  m.sheet_normal = Vec3(0.2, 0.1, 1).normalized();
+  m.fibre = Vec3(1, 0.5, 0.1).normalized();
+  return m;
+}
+
+CellVector random_displacement(double size, std::uint64_t seed) {
+  CellVector u;
+  for (int i = 0; i < 24; ++i)
+    u[i] = size * (2 * uniform_noise(seed, static_cast<unsigned>(i)) - 1);
+  return u;
+}
+
+TEST(Element, HasNoForceAtRest) {
+  const CellResponse r = cell_response(mixed_material(), 3e-3, CellVector::Zero());
+  EXPECT_LT(r.force.norm(), 1e-12);
+  EXPECT_NEAR(r.energy, 0, 1e-18);
+}
+
+TEST(Element, ForceIsMinusTheGradientOfTheEnergy) {
+  const CellMaterial m = mixed_material();
+  const double edge = 3e-3;
+  const CellVector u = random_displacement(0.5e-3, 7);
+  const CellVector force = cell_response(m, edge, u).force;
+  for (int i = 0; i < 24; ++i) {
+    CellVector plus = u;
+    CellVector minus = u;
+    plus[i] += 1e-8;
+    minus[i] -= 1e-8;
+    const double slope =
+        (cell_response(m, edge, plus).energy - cell_response(m, edge, minus).energy) / 2e-8;
+    EXPECT_NEAR(force[i], -slope, 1e-5 * force.norm()) << i;
+  }
+}
+
+TEST(Element, TangentIsTheForcesDerivativeWhereNothingIsHeldBack) {
+  CellMaterial m = mixed_material();
+  const double edge = 3e-3;
+  // Stretched along the fibres and the sheet, little pressure: neither is clamped.
+  CellVector u = random_displacement(2e-6, 3);
+  for (int a = 0; a < 8; ++a) {
+    if ((a & 1) != 0) u[3 * a] += 0.10 * edge;
+    if ((a & 2) != 0) u[3 * a + 1] += 0.05 * edge;
+    if ((a & 4) != 0) u[3 * a + 2] -= 0.12 * edge;
+  }
+  const CellMatrix K = cell_tangent(m, edge, u, cell_dilatation(m, edge, u));
+  for (int i = 0; i < 24; ++i) {
+    CellVector plus = u;
+    CellVector minus = u;
+    plus[i] += 1e-8;
+    minus[i] -= 1e-8;
+    const double target = cell_dilatation(m, edge, u);
+    const CellVector slope =
+        (cell_response(m, edge, plus, target).force - cell_response(m, edge, minus, target).force) /
+        -2e-8;
+    EXPECT_LT((K.col(i) - slope).norm(), 2e-4 * K.norm()) << i;
+  }
+}
+
+TEST(Element, TangentIsSymmetricAndAtRestPositiveButForRigidMotions) {
+  const CellMatrix K = cell_tangent(mixed_material(), 3e-3, CellVector::Zero());
+  EXPECT_LT((K - K.transpose()).norm(), 1e-9 * K.norm());
+  const Eigen::SelfAdjointEigenSolver<CellMatrix> solver(K);
+  EXPECT_LT(std::abs(solver.eigenvalues()[5]), 1e-9 * solver.eigenvalues()[23]);
+  EXPECT_GT(solver.eigenvalues()[6], 1e-4 * solver.eigenvalues()[23]);
+}
+
+TEST(Element, FeelsNothingOfARotation) {
+  const double edge = 3e-3;
+  const Eigen::Matrix3d R = Eigen::AngleAxisd(0.8, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+  CellVector u;
+  for (int a = 0; a < 8; ++a) {
+    const Vec3 X = edge * Vec3(a & 1, a >> 1 & 1, a >> 2);
+    u.segment<3>(3 * a) = R * X - X;
+  }
+  const CellResponse r = cell_response(mixed_material(), edge, u);
+  EXPECT_LT(r.force.norm(), 1e-9);
+  EXPECT_NEAR(r.least_volume, 1, 1e-12);
+}
+
+TEST(Element, StaysFiniteWhenTurnedInsideOut) {
+  CellVector u;
+  for (int a = 0; a < 8; ++a) {
+    const Vec3 X = 3e-3 * Vec3(a & 1, a >> 1 & 1, a >> 2);
+    u.segment<3>(3 * a) = Vec3(0, 0, -2.2 * X.z());
+  }
+  const CellResponse r = cell_response(mixed_material(), 3e-3, u);
+  EXPECT_TRUE(r.force.allFinite());
+  EXPECT_LT(r.least_volume, 0);
+  EXPECT_TRUE(cell_tangent(mixed_material(), 3e-3, u).allFinite());
+}
+
+}  // namespace
+}  // namespace artus

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/soft/soft_body.h"
+
+#include <cstring>
+#include <memory>
+
+#include <gtest/gtest.h>
+
+#include "artus/anatomy/body/layered_body.h"
+#include "artus/soft/cage_vtu.h"
+#include "artus/soft/press.h"
+#include "artus/soft/tet_locator.h"
+#include "tests/support/layered_body.h"
+#include "tests/support/paths.h"
+
+namespace artus {
+namespace {
+
+std::shared_ptr<const CompiledJoint> simple_shoulder() {
+  auto joint = read_compiled_joint(test::test_joints() / "simple-shoulder.artus");
+  return joint ? std::make_shared<const CompiledJoint>(std::move(*joint)) : nullptr;
+}
+
+/// Coarse, so that the tests are quick.
+SoftBodyParams quick() {
+  SoftBodyParams params;
+  params.fine_cell = 6e-3;
+  params.near_cell = 6e-3;
+  return params;
+}
+
+class SoftBodyTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    joint = simple_shoulder();
+    ASSERT_NE(joint, nullptr);
+  }
+  std::shared_ptr<const CompiledJoint> joint;
+};
+
+TEST_F(SoftBodyTest, LocatorFindsEachTetrahedronAtItsMiddle) {
+  const TetLocator locator(joint->mesh);
+  const auto& mesh = joint->mesh;
+  for (std::size_t t = 0; t < mesh.tetrahedra.size(); t += 97) {
+    Vec3 middle = Vec3::Zero();
+    for (const std::uint32_t v : mesh.tetrahedra[t]) middle += 0.25 * mesh.vertices[v];
+    EXPECT_EQ(locator.find(middle), static_cast<std::int64_t>(t));
+  }
+  EXPECT_EQ(locator.find(Vec3(10, 0, 0)), -1);
+  EXPECT_EQ(locator.find(Vec3(std::nan(""), 0, 0)), -1);
+}
+
+TEST_F(SoftBodyTest, PressedJointHoldsTheHandAndItsBonesStay) {
+  auto body = SoftBody::make(joint, joint->X_JP_default, quick());
+  ASSERT_TRUE(body);
+  const auto press = press_with(*body, joint->X_JP_default, 1.0);
+  ASSERT_TRUE(press) << press.error().to_string();
+  EXPECT_NEAR(press->normal_force, 1.0, 0.005);
+  EXPECT_GT(press->depth, 1e-3);
+  const Vec3 reaction = body->cage_pose().linear() * body->solver().reaction();
+  EXPECT_LT((reaction - press->contact.force).norm(), 1e-3);
+  const auto snapshot = body->snapshot();
+  const auto& mesh = joint->mesh;
+  double most = 0;
+  for (const Interface& i : mesh.interfaces) {
+    for (const std::uint32_t v : i.vertices)
+      most = std::max(most, (snapshot->vertices()[v] - mesh.vertices[v]).norm());
+  }
+  EXPECT_GT(most, 0.5 * press->depth);
+  // Deep inside a bone, one cube from its surface, nothing moves.
+  for (std::size_t t = 0; t < mesh.tetrahedra.size(); t += 53) {
+    if (!joint->tissue_of(mesh.regions[t]).haptic.hard) continue;
+    Vec3 middle = Vec3::Zero();
+    for (const std::uint32_t v : mesh.tetrahedra[t]) middle += 0.25 * mesh.vertices[v];
+    EXPECT_LT(snapshot->displacement(middle).norm(), 0.25 * press->depth);
+  }
+}
+
+TEST_F(SoftBodyTest, InverseMapUndoesTheForwardMap) {
+  auto body = SoftBody::make(joint, joint->X_JP_default, quick());
+  ASSERT_TRUE(body);
+  static_cast<void>(press_by(*body, joint->X_JP_default, 4e-3));
+  const auto snapshot = body->snapshot();
+  const auto& mesh = joint->mesh;
+  for (std::size_t v = 0; v < snapshot->vertices().size(); v += 41) {
+    const auto rest = snapshot->to_rest(snapshot->vertices()[v]);
+    if (!rest.found) continue;
+    EXPECT_LT((rest.p_rest - mesh.vertices[v]).norm(), 5e-6);
+    EXPECT_NEAR(snapshot->rotation(rest.p_rest).determinant(), 1, 1e-9);
+  }
+  const CompiledJoint moved = snapshot->moved_joint();
+  EXPECT_EQ(moved.mesh.vertices[3], snapshot->vertices()[3]);
+}
+
+TEST_F(SoftBodyTest, UntouchedBodyIsTheJointItself) {
+  auto body = SoftBody::make(joint, joint->X_JP_default, quick());
+  ASSERT_TRUE(body);
+  body->step(std::nullopt, 1.0 / 60);
+  const auto snapshot = body->snapshot();
+  EXPECT_EQ(std::memcmp(snapshot->vertices().data(), joint->mesh.vertices.data(),
+                        snapshot->vertices().size() * sizeof(Vec3)),
+            0);
+}
+
+TEST_F(SoftBodyTest, CageIsWrittenForParaview) {
+  auto body = SoftBody::make(joint, joint->X_JP_default, quick());
+  ASSERT_TRUE(body);
+  const auto file = std::filesystem::temp_directory_path() / "artus_cage_test.vtu";
+  ASSERT_TRUE(write_vtu(*body->snapshot(), file));
+  EXPECT_GT(std::filesystem::file_size(file), 10000U);
+  std::filesystem::remove(file);
+  EXPECT_FALSE(write_vtu(*body->snapshot(), "/dev/null/cage.vtu"));
+}
+
+TEST_F(SoftBodyTest, PoseBesideTheBodyIsRefused) {
+  Pose away = joint->X_JP_default;
+  away.translation() -= 0.3 * away.linear().col(2);
+  EXPECT_FALSE(SoftBody::make(joint, away, quick()));
+}
+
+TEST(SoftBody, BodyWithoutTetrahedraIsRefused) {
+  const std::array<FlatLayer, 1> layers{{{"fat", 30e-3}}};
+  const auto block =
+      std::make_shared<const CompiledJoint>(test::make_layered_block(layers, 60e-3, 60e-3));
+  const auto body = SoftBody::make(block, Pose::Identity());
+  ASSERT_FALSE(body);
+  EXPECT_EQ(body.error().code, ErrorCode::invalid);
+}
+
+}  // namespace
+}  // namespace artus

@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <cmath>
+#include <cstring>
+
+#include <gtest/gtest.h>
+
+#include "artus/core/noise.h"
+#include "artus/soft/soft_block.h"
+#include "artus/soft/soft_solver.h"
+
+namespace artus {
+namespace {
+
+constexpr double kNu = 0.47;
+
+/// A small layered block with a face that is pressed on it.
+struct Pressed {
+  SoftBlock block;
+  std::shared_ptr<const SoftModel> model;
+  std::unique_ptr<SoftSolver> solver;
+
+  explicit Pressed(double friction = 0) {
+    block.half_x = 24e-3;
+    block.half_y = 18e-3;
+    block.layers = {{2e-3, linear_material(120e3, kNu)},
+                    {6e-3, linear_material(3e3, kNu)},
+                    {10e-3, linear_material(12e3, kNu)}};
+    model =
+        make_block_model(block, 6e-3, {{Vec3(-14e-3, -6e-3, -1), Vec3(14e-3, 6e-3, 6e-3), 3e-3}});
+    const SkinPatch skin = make_flat_skin(block, 3e-3);
+    solver = std::make_unique<SoftSolver>(
+        model, contact_unknowns(*model, skin, Vec3(-14e-3, -8e-3, -1), Vec3(14e-3, 8e-3, 1)));
+    ProbeFace face;
+    face.length = 20e-3;
+    face.points_x = 10;
+    face.friction = friction;
+    solver->set_face(skin, face);
+  }
+};
+
+Pose face_at(double depth) {
+  Pose pose = Pose::Identity();
+  pose.translation().z() = depth;
+  return pose;
+}
+
+TEST(SoftModel, PatchUnderALinearFieldHasThatFieldInside) {
+  SoftBlock block;
+  block.half_x = block.half_y = 12e-3;
+  block.layers = {{24e-3, linear_material(3e3, kNu)}};
+  Eigen::Matrix3d gradient;
+  gradient << 1e-3, 4e-4, -2e-4, 3e-4, -5e-4, 1e-4, 2e-4, -6e-4, 7e-4;
+  SoftModelParams params;
+  params.cage = {Vec3(-12e-3, -12e-3, 0), Vec3(12e-3, 12e-3, 24e-3), 6e-3, {}};
+  params.cage.zones.push_back({Vec3(-3e-3, -2e-3, 5e-3), Vec3(2e-3, 5e-3, 9e-3), 1.5e-3});
+  params.held = [](const Vec3& p) {
+    const bool rim = std::abs(p.x()) > 11.99e-3 || std::abs(p.y()) > 11.99e-3 || p.z() < 1e-6 ||
+                     p.z() > 23.99e-3;
+    return HeldNode{{rim, rim, rim}};
+  };
+  const auto model = std::make_shared<const SoftModel>(make_field(block), params);
+  SoftSolver solver(model, {});
+  std::vector<Vec3> rim(model->cage().nodes().size());
+  for (std::size_t n = 0; n < rim.size(); ++n) rim[n] = gradient * model->cage().nodes()[n];
+  solver.set_prescribed(rim);
+  ASSERT_TRUE(solver.settle(std::nullopt, 1e-12));
+  std::size_t inside = 0;
+  for (std::size_t n = 0; n < rim.size(); ++n) {
+    EXPECT_LT((solver.displacements()[n] - rim[n]).norm(), 1e-5 * gradient.norm() * 24e-3);
+    inside += model->held(static_cast<std::uint32_t>(n)).any() ? 0 : 1;
+  }
+  EXPECT_GT(inside, 100U);
+}
+
+TEST(SoftModel, BlockUnderUniaxialCompressionHasTheClosedFormsForce) {
+  // Free sides: a quarter that mirrors itself, bottom and top on rollers.
+  for (const double strain : {1e-3, 0.3}) {
+    const SoftMaterial m = linear_material(3e3, 0.49);
+    SoftBlock block;
+    block.layers = {{12e-3, m}};
+    block.half_x = block.half_y = 9e-3;
+    block.quarter = true;
+    SoftModelParams params;
+    params.cage = {Vec3::Zero(), Vec3(9e-3, 9e-3, 12e-3), 3e-3, {}};
+    params.held = [](const Vec3& p) {
+      return HeldNode{{p.x() < 1e-9, p.y() < 1e-9, p.z() < 1e-9 || p.z() > 11.999e-3}};
+    };
+    const auto model = std::make_shared<const SoftModel>(make_field(block), params);
+    SoftSolver solver(model, {});
+    std::vector<Vec3> ends(model->cage().nodes().size(), Vec3::Zero());
+    for (double part = 0.1; part < 1.05; part += 0.1) {
+      for (std::size_t n = 0; n < ends.size(); ++n) {
+        if (model->cage().nodes()[n].z() < 1e-9) ends[n].z() = strain * part * 12e-3;
+      }
+      solver.set_prescribed(ends);
+      ASSERT_TRUE(solver.settle(std::nullopt, 1e-10)) << strain;
+    }
+    double force = 0;
+    for (std::uint32_t n = 0; n < ends.size(); ++n) {
+      if (model->cage().nodes()[n].z() < 1e-9) force -= solver.forces().on_nodes[n].z();
+    }
+    // P_z of the law at stretch s with free sides of stretch t: P_x(t) = 0, solved here by
+    // bisection.
+    const double s = 1 - strain;
+    const auto side = [&](double t) {
+      return m.shear * (t + (s * t * t - 2) * s * t) + m.bulk * (s * t * t - 1) * s * t;
+    };
+    double low = 0.9;
+    double high = 1.5;
+    for (int k = 0; k < 80; ++k) (side(0.5 * (low + high)) < 0 ? low : high) = 0.5 * (low + high);
+    const double J = s * low * low;
+    const double P = m.shear * (s + (J - 2) * low * low) + m.bulk * (J - 1) * low * low;
+    EXPECT_NEAR(force, -P * 81e-6, 1e-3 * force);
+    if (strain < 0.01) {
+      EXPECT_NEAR(force, 3e3 * 81e-6 * strain, 5e-3 * force);
+    }
+  }
+}
+
+TEST(SoftSolver, FaceIsNotPassedAndItsForceIsTheReaction) {
+  Pressed pressed;
+  ASSERT_TRUE(pressed.solver->settle(face_at(3e-3)));
+  const ContactForce& contact = pressed.solver->last().contact;
+  EXPECT_LT(contact.force.z(), -0.2);
+  EXPECT_LT((contact.force - pressed.solver->reaction()).norm(), 1e-3);
+  for (const ContactPoint& p : pressed.solver->contact()->points()) {
+    const Vec3 now =
+        p.p_rest + pressed.model->displacement_at(p.place, pressed.solver->displacements());
+    EXPECT_GT(now.z(), 3e-3 - 1e-6);
+  }
+}
+
+TEST(SoftSolver, FrictionIsAtMostItsShareOfThePressure) {
+  Pressed pressed(0.3);
+  pressed.solver->settle(face_at(3e-3));
+  Pose slid = face_at(3e-3);
+  slid.translation().x() = 4e-3;
+  pressed.solver->settle(slid, 1e-6, 30);
+  const ContactForce& contact = pressed.solver->last().contact;
+  EXPECT_LT(contact.force.x(), -0.01);  // against the sliding
+  EXPECT_LE(std::abs(contact.force.x()), 0.3 * -contact.force.z() * (1 + 1e-6));
+}
+
+TEST(SoftSolver, FaceThatIsLiftedLeavesTheBodyAtRest) {
+  Pressed pressed;
+  pressed.solver->settle(face_at(3e-3));
+  ASSERT_TRUE(pressed.solver->settle(std::nullopt, 1e-9));
+  double most = 0;
+  for (const Vec3& u : pressed.solver->displacements()) most = std::max(most, u.norm());
+  EXPECT_LT(most, 1e-7);
+}
+
+TEST(SoftSolver, LoadIsFollowedWithTheRelaxationTime) {
+  Pressed pressed;
+  SoftSolver& solver = *pressed.solver;
+  solver.set_loads({{Vec3(0, 0, 0), Vec3(0, 0, 1e-4)}});
+  const CagePlace place = pressed.model->cage().locate(Vec3(0, 0, 0), 1);
+  solver.settle(std::nullopt, 1e-12);
+  const double end = pressed.model->displacement_at(place, solver.displacements()).z();
+  solver.reset();
+  for (int k = 0; k < 10; ++k) solver.step(std::nullopt, 0.1 * SoftSolverParams().relaxation);
+  const double now = pressed.model->displacement_at(place, solver.displacements()).z();
+  EXPECT_NEAR(now / end, 1 - std::exp(-1.0), 5e-3);
+}
+
+TEST(SoftSolver, ComplianceIsSymmetric) {
+  Pressed pressed;
+  pressed.solver->settle(face_at(2e-3));
+  const auto at = [&](const Vec3& load, const Vec3& seen) {
+    Eigen::VectorXd x =
+        Eigen::VectorXd::Zero(static_cast<Eigen::Index>(3 * pressed.model->n_unknowns()));
+    pressed.model->add_force(pressed.model->cage().locate(load), Vec3::UnitZ(), x);
+    pressed.solver->factor().solve(x);
+    double z = 0;
+    for (const UnknownShare& s : pressed.model->shares_of(pressed.model->cage().locate(seen)))
+      z += s.weight * x[3 * static_cast<Eigen::Index>(s.unknown) + 2];
+    return z;
+  };
+  const Vec3 a(1e-3, 2e-3, 4e-3);
+  const Vec3 b(-5e-3, 1e-3, 9e-3);
+  EXPECT_NEAR(at(a, b), at(b, a), 1e-4 * at(a, b));
+}
+
+TEST(SoftSolver, GivenVolumeIsTakenUp) {
+  Pressed pressed;
+  const auto cells = pressed.model->cage().cells();
+  std::vector<double> targets(cells.size(), 1.0);
+  double wanted = 0;
+  std::vector<std::size_t> space;
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    const Vec3 middle = pressed.model->cage().low_corner(cells[c]) +
+                        Vec3::Constant(0.5 * pressed.model->cage().edge(cells[c]));
+    if (std::abs(middle.x()) > 6e-3 || std::abs(middle.y()) > 6e-3 ||
+        std::abs(middle.z() - 9e-3) > 3e-3)
+      continue;
+    space.push_back(c);
+    targets[c] = 1.2;
+    wanted += 0.2 * std::pow(pressed.model->cage().edge(cells[c]), 3);
+  }
+  ASSERT_FALSE(space.empty());
+  pressed.solver->set_targets(targets);
+  ASSERT_TRUE(pressed.solver->settle(std::nullopt));
+  double gained = 0;
+  for (const std::size_t c : space) {
+    CellVector u;
+    for (std::size_t a = 0; a < 8; ++a)
+      u.segment<3>(static_cast<Eigen::Index>(3 * a)) =
+          pressed.solver->displacements()[cells[c].nodes[a]];
+    const double edge = pressed.model->cage().edge(cells[c]);
+    gained += (cell_dilatation(pressed.model->materials()[c], edge, u) - 1) * std::pow(edge, 3);
+  }
+  EXPECT_GT(gained, 0.6 * wanted);  // the rest is what nearly incompressible neighbours press back
+  EXPECT_LT(gained, wanted);
+}
+
+std::vector<Vec3> run_hand(bool in_background) {
+  Pressed pressed(0.05);
+  for (int k = 0; k < 40; ++k) {
+    if (k % 8 == 0) {
+      if (in_background) {
+        pressed.solver->begin_refresh();
+      }
+    }
+    if (k % 8 == 3 && in_background) pressed.solver->end_refresh();
+    Pose pose = face_at(4e-3 * std::sin(0.1 * k));
+    pose.translation().x() = 2e-3 * std::sin(0.23 * k);
+    pressed.solver->step(pose, 1.0 / 60);
+  }
+  return {pressed.solver->displacements().begin(), pressed.solver->displacements().end()};
+}
+
+TEST(SoftSolver, SameCallsGiveTheSameBytesWithAFactorFromAnotherThread) {
+  const auto first = run_hand(true);
+  const auto second = run_hand(true);
+  ASSERT_EQ(first.size(), second.size());
+  EXPECT_EQ(std::memcmp(first.data(), second.data(), first.size() * sizeof(Vec3)), 0);
+}
+
+TEST(SoftSolver, WildHandLeavesItFiniteAndBackAtRestASecondAfterRelease) {
+  Pressed pressed(0.05);
+  for (std::uint64_t k = 0; k < 600; ++k) {
+    if (k % 6 == 0) pressed.solver->begin_refresh();
+    if (k % 6 == 4) pressed.solver->end_refresh();
+    Pose pose = face_at(-4e-3 + 20e-3 * uniform_noise(1, k / 7));
+    pose.translation().x() = 0.02 * (uniform_noise(2, k / 5) - 0.5);
+    pose.rotate(Eigen::AngleAxisd(0.6 * (uniform_noise(3, k / 9) - 0.5), Vec3::UnitX()));
+    pressed.solver->step(pose, 1.0 / 60);
+    for (const Vec3& u : pressed.solver->displacements()) ASSERT_TRUE(u.allFinite()) << k;
+    ASSERT_TRUE(pressed.solver->last().contact.force.allFinite());
+  }
+  for (int k = 0; k < 60; ++k) {
+    if (k % 6 == 0) pressed.solver->refresh();
+    pressed.solver->step(std::nullopt, 1.0 / 60);
+  }
+  double most = 0;
+  for (const Vec3& u : pressed.solver->displacements()) most = std::max(most, u.norm());
+  EXPECT_LT(most, 1e-7);
+}
+
+}  // namespace
+}  // namespace artus
