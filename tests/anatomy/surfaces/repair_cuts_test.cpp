@@ -142,9 +142,11 @@ TEST_P(CutBall, IsClosedByItsPlaneWithoutCrossings) {
   EXPECT_EQ(find_action(*out, RepairKind::wrapped), nullptr);
 }
 // From a muscle that lacks its end to a body cut mid-sagittally (half its surface).
-INSTANTIATE_TEST_SUITE_P(Cuts, CutBall,
+INSTANTIATE_TEST_SUITE_P(Planes, CutBall,
                          testing::Combine(testing::Values(-40e-3, -20e-3, 0.0, 15e-3),
-                                          testing::Bool()));
+                                          testing::Values(false)));
+INSTANTIATE_TEST_SUITE_P(Teeth, CutBall,
+                         testing::Combine(testing::Values(-40e-3, -20e-3), testing::Values(true)));
 
 TEST(FlatCut, AcrossAHollowIsCappedAsARing) {
   SurfaceMesh pipe = make_tube(60, 20, 20 * kMm, 50 * kMm);
