@@ -30,19 +30,30 @@ Gradients gradients_at(const Vec3& s) noexcept {
   return d;
 }
 
-const std::array<Gradients, 8>& gauss_gradients() noexcept {
-  static const std::array<Gradients, 8> table = [] {
-    std::array<Gradients, 8> all;
-    const double inner = 0.5 - 0.5 / std::sqrt(3.0);
-    for (int g = 0; g < 8; ++g) {
-      const auto at = [&](int bit) {
-        return (g & bit) != 0 ? 1 - inner : inner;
-      };
-      all[static_cast<std::size_t>(g)] = gradients_at({at(1), at(2), at(4)});
+/// Gradients of the 8 shape functions at the 8 Gauss points, as Gradients stores them.
+constexpr std::array<std::array<double, 24>, 8> make_gauss_gradients() {
+  constexpr double kInner = 0.21132486540518713;  // (1 - 1/sqrt 3)/2
+  std::array<std::array<double, 24>, 8> all{};
+  for (std::size_t g = 0; g < 8; ++g) {
+    std::array<double, 3> s{};
+    for (std::size_t k = 0; k < 3; ++k) s[k] = ((g >> k) & 1U) != 0 ? 1 - kInner : kInner;
+    for (std::size_t a = 0; a < 8; ++a) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        double d = ((a >> k) & 1U) != 0 ? 1 : -1;
+        for (std::size_t m = 0; m < 3; ++m) {
+          if (m != k) d *= ((a >> m) & 1U) != 0 ? s[m] : 1 - s[m];
+        }
+        all[g][a + 8 * k] = d;
+      }
     }
-    return all;
-  }();
-  return table;
+  }
+  return all;
+}
+
+constexpr std::array<std::array<double, 24>, 8> kGaussGradients = make_gauss_gradients();
+
+Eigen::Map<const Gradients> gauss_gradients(std::size_t g) noexcept {
+  return Eigen::Map<const Gradients>(kGaussGradients[g].data());
 }
 
 Matrix3 gradient_of(const Gradients& d, double edge, const CellVector& u) noexcept {
@@ -117,10 +128,9 @@ struct Kinematics {
 
 Kinematics kinematics_of(const CellMaterial& m, double edge, const CellVector& u) noexcept {
   Kinematics k;
-  const auto& table = gauss_gradients();
   double sum = 0;
   for (std::size_t g = 0; g < 8; ++g) {
-    k.F[g] = gradient_of(table[g], edge, u);
+    k.F[g] = gradient_of(gauss_gradients(g), edge, u);
     k.cof[g] = cofactor(k.F[g]);
     k.J[g] = k.F[g].col(0).dot(k.cof[g].col(0));
     k.weight += m.weight[g];
@@ -199,7 +209,6 @@ Matrix9 point_tangent(const CellMaterial& m, std::size_t g, const Kinematics& k,
 CellResponse cell_response(const CellMaterial& m, double edge, const CellVector& u,
                            double target) noexcept {
   const Kinematics k = kinematics_of(m, edge, u);
-  const auto& table = gauss_gradients();
   const double volume = edge * edge * edge / 8;
   const double excess = k.mean_J - target;
   const double pressure = m.bulk * excess;
@@ -228,7 +237,7 @@ CellResponse cell_response(const CellMaterial& m, double edge, const CellVector&
       energy += 0.5 * m.fibre_modulus * e * e;
     }
     out.energy += volume * m.weight[g] * energy;
-    force -= (volume * m.weight[g] / edge) * P * table[g].transpose();
+    force -= (volume * m.weight[g] / edge) * P * gauss_gradients(g).transpose();
   }
   out.force = Eigen::Map<const CellVector>(force.data());
   return out;
@@ -237,7 +246,6 @@ CellResponse cell_response(const CellMaterial& m, double edge, const CellVector&
 CellMatrix cell_tangent(const CellMaterial& m, double edge, const CellVector& u,
                         double target) noexcept {
   const Kinematics k = kinematics_of(m, edge, u);
-  const auto& table = gauss_gradients();
   const double volume = edge * edge * edge / 8;
   const double pressure = m.bulk * (k.mean_J - target);
   const Plane plane = plane_across(m.sheet_normal);
@@ -245,7 +253,7 @@ CellMatrix cell_tangent(const CellMaterial& m, double edge, const CellVector& u,
   CellVector dilatation = CellVector::Zero();
   for (std::size_t g = 0; g < 8; ++g) {
     if (m.weight[g] <= 0) continue;
-    const Gradients d = table[g] / edge;
+    const Gradients d = gauss_gradients(g) / edge;
     const double w = volume * m.weight[g];
     const Matrix9 H = w * point_tangent(m, g, k, pressure, plane);
     Eigen::Matrix<double, 9, 24> B = Eigen::Matrix<double, 9, 24>::Zero();

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 #include <functional>
-#include <string>
+#include <span>
+#include <string_view>
 #include <vector>
 
 #include "artus/anatomy/body/tissue.h"
@@ -26,15 +27,15 @@ struct SoftMaterial {
 
 /// The mechanical values of a tissue, with where they come from.
 struct SoftTissue {
-  std::string tissue;        ///< name in the tissue library
+  std::string_view tissue;   ///< name in the tissue library
   double shear = 0;          ///< Pa
   double hardening = 0;      ///< b
   double fibre_modulus = 0;  ///< Pa
-  std::string source;        ///< reference or "assumed: why"
+  std::string_view source;   ///< reference or "assumed: why"
 };
 
 /// The values this library has of its own, in the order of the tissue library.
-[[nodiscard]] const std::vector<SoftTissue>& soft_tissues();
+[[nodiscard]] std::span<const SoftTissue> soft_tissues() noexcept;
 
 /// lambda from mu and Poisson's ratio. Requires: 0 <= ratio < 0.5.
 [[nodiscard]] double lame_lambda(double shear, double poisson_ratio);
