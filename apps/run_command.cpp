@@ -51,8 +51,7 @@ Result<nlohmann::json> write_summary(const ThreeInjections& run, const RunImages
   nlohmann::json summary = summarize(run);
   summary["joint"] = joint;
   summary.update(summarize(images));
-  if (const auto written = write_text(out / "summary.json", summary.dump(2) + "\n"); !written)
-    return tl::unexpected(written.error());
+  ARTUS_TRY(write_text(out / "summary.json", summary.dump(2) + "\n"));
   return summary;
 }
 

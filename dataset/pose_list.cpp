@@ -70,7 +70,7 @@ Result<void> for_lines(
 
 Result<void> append(std::vector<ListedPose>& poses, const Line& line, const std::string& where) {
   auto pose = to_pose(line, where);
-  if (!pose) return tl::unexpected(pose.error());
+  ARTUS_TRY(pose);
   if (pose->time && !poses.empty() && poses.back().time && *pose->time <= *poses.back().time)
     return fail(ErrorCode::invalid, "time_s must rise from pose to pose", where);
   poses.push_back(std::move(*pose));
@@ -107,7 +107,7 @@ Result<void> read_triples(const json& object, const std::string& what,
           std::string("unknown key '").append(key).append("' in '").append(what).append("'"),
           where);
     const auto v = triple_of(value, key, where);
-    if (!v) return tl::unexpected(v.error());
+    ARTUS_TRY(v);
     *place->second = *v;
   }
   return {};
@@ -202,7 +202,7 @@ Result<Line> parse_csv_line(const std::vector<std::string>& header, std::string_
     }
     if (cells[i].empty()) continue;  // no needle, no lateral direction or no time in this line
     const auto value = number_of(cells[i], header[i], where);
-    if (!value) return tl::unexpected(value.error());
+    ARTUS_TRY(value);
     if (header[i] == "time_s") {
       line.time = *value;
       continue;
@@ -256,7 +256,7 @@ Result<std::vector<ListedPose>> parse_poses_jsonl(std::string_view text, const s
     const auto line = parse_json_line(content, where);
     return line ? append(poses, *line, where) : Result<void>(tl::unexpected(line.error()));
   });
-  if (!ok) return tl::unexpected(ok.error());
+  ARTUS_TRY(ok);
   return not_empty(std::move(poses), name);
 }
 
@@ -267,14 +267,14 @@ Result<std::vector<ListedPose>> parse_poses_csv(std::string_view text, const std
       text, name, [&](std::string_view content, const std::string& where) -> Result<void> {
         if (header.empty()) {
           auto columns = parse_header(content, where);
-          if (!columns) return tl::unexpected(columns.error());
+          ARTUS_TRY(columns);
           header = std::move(*columns);
           return {};
         }
         const auto line = parse_csv_line(header, content, where);
         return line ? append(poses, *line, where) : Result<void>(tl::unexpected(line.error()));
       });
-  if (!ok) return tl::unexpected(ok.error());
+  ARTUS_TRY(ok);
   return not_empty(std::move(poses), name);
 }
 
@@ -283,7 +283,7 @@ Result<std::vector<ListedPose>> read_poses(const std::filesystem::path& file) {
   if (extension != ".jsonl" && extension != ".csv")
     return fail(ErrorCode::unsupported, "poses are read from .jsonl or .csv", file.string());
   const auto bytes = read_bytes(file);
-  if (!bytes) return tl::unexpected(bytes.error());
+  ARTUS_TRY(bytes);
   return extension == ".csv" ? parse_poses_csv(*bytes, file.string())
                              : parse_poses_jsonl(*bytes, file.string());
 }

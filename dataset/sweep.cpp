@@ -89,7 +89,7 @@ bool is_finished(std::string_view line, std::size_t index, const fs::path& folde
 Result<std::size_t> find_finished(const fs::path& file, const fs::path& folder) {
   if (!fs::exists(file)) return 0;
   const auto text = read_bytes(file);
-  if (!text) return tl::unexpected(text.error());
+  ARTUS_TRY(text);
   std::size_t count = 0;
   std::size_t end = 0;
   while (true) {
@@ -124,7 +124,7 @@ Result<void> claim_folder(const fs::path& folder, const json& description, bool 
         file, [&](const fs::path& part) { return write_text(part, description.dump(2) + "\n"); });
   }
   const auto text = read_bytes(file);
-  if (!text) return tl::unexpected(text.error());
+  ARTUS_TRY(text);
   const json earlier = json::parse(*text, nullptr, false);
   for (const auto& [key, value] : description.items()) {
     if (!earlier.is_object() || earlier.value(key, json()) != value)
@@ -164,13 +164,11 @@ Result<SweepResult> run_sweep(const std::shared_ptr<const Scene>& scene,
   fs::create_directories(folder, error);
   if (error) return fail(ErrorCode::unreadable, error.message(), folder.string());
   const auto lock = FolderLock::take(folder);
-  if (!lock) return tl::unexpected(lock.error());
-  if (auto ok = claim_folder(folder, describe(scene->joint(), poses, options), options.restart);
-      !ok)
-    return tl::unexpected(ok.error());
+  ARTUS_TRY(lock);
+  ARTUS_TRY(claim_folder(folder, describe(scene->joint(), poses, options), options.restart));
   const fs::path file = folder / "truth.jsonl";
   const auto found = find_finished(file, folder);
-  if (!found) return tl::unexpected(found.error());
+  ARTUS_TRY(found);
   SweepResult result{poses.size(), *found, 0};
   if (result.complete()) return result;
 
@@ -179,7 +177,7 @@ Result<SweepResult> run_sweep(const std::shared_ptr<const Scene>& scene,
   for (std::size_t i = *found; i < poses.size(); ++i) {
     if (options.stop && options.stop()) break;
     const auto truth = write_frame(drawer.draw(i, poses[i]), i, folder);
-    if (!truth) return tl::unexpected(truth.error());
+    ARTUS_TRY(truth);
     // A name may hold bytes that are no text.
     lines << truth->dump(-1, ' ', false, json::error_handler_t::replace) + "\n" << std::flush;
     if (!lines) return fail(ErrorCode::unreadable, "cannot be written", file.string());

@@ -34,7 +34,7 @@ Result<SweepVideo> write_sweep_video(const std::shared_ptr<const Scene>& scene,
                                      const std::filesystem::path& file,
                                      const SweepVideoOptions& options, const Progress& progress) {
   const auto path = sample_path(poses, options.frames_per_second);
-  if (!path) return tl::unexpected(path.error());
+  ARTUS_TRY(path);
   Renderer renderer(scene, options.transducer, options.settings);
   std::optional<LabelRenderer> truth;
   if (options.labels) truth.emplace(options.transducer, options.settings);
@@ -48,7 +48,7 @@ Result<SweepVideo> write_sweep_video(const std::shared_ptr<const Scene>& scene,
     if (!video) {
       auto opened =
           VideoFile::open(file, picture.size(), options.labels, options.frames_per_second);
-      if (!opened) return tl::unexpected(opened.error());
+      ARTUS_TRY(opened);
       video = std::move(*opened);
     }
     video->write(picture);
@@ -57,7 +57,7 @@ Result<SweepVideo> write_sweep_video(const std::shared_ptr<const Scene>& scene,
       progress("video", static_cast<double>(result.frames) / static_cast<double>(path->size()));
   }
   const auto name = video->finish();
-  if (!name) return tl::unexpected(name.error());
+  ARTUS_TRY(name);
   result.file = *name;
   return result;
 }

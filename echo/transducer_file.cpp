@@ -48,7 +48,7 @@ constexpr std::array<Field, 11> kFields{{
 
 Result<TransducerPreset> parse_transducer(std::string_view text, const std::string& file) {
   const auto document = parse_toml(text, file);
-  if (!document) return tl::unexpected(document.error());
+  ARTUS_TRY(document);
   Problems problems;
   TomlTable toml(*document, "transducer", problems);
   TransducerPreset preset;
@@ -80,7 +80,7 @@ Result<TransducerPreset> parse_transducer(std::string_view text, const std::stri
 
 Result<TransducerPreset> read_transducer(const std::filesystem::path& file) {
   const auto bytes = read_bytes(file);
-  if (!bytes) return tl::unexpected(bytes.error());
+  ARTUS_TRY(bytes);
   return parse_transducer(*bytes, file.string());
 }
 
@@ -89,7 +89,7 @@ Result<std::vector<TransducerPreset>> read_bundled_transducers() {
   for (const std::string_view text : bundled_transducers()) {
     auto preset =
         parse_transducer(text, "bundled transducer " + std::to_string(presets.size() + 1));
-    if (!preset) return tl::unexpected(preset.error());
+    ARTUS_TRY(preset);
     presets.push_back(std::move(*preset));
   }
   return presets;
@@ -99,7 +99,7 @@ Result<TransducerPreset> find_transducer(const std::string& name_or_file) {
   if (std::filesystem::path(name_or_file).extension() == ".toml")
     return read_transducer(name_or_file);
   const auto presets = read_bundled_transducers();
-  if (!presets) return tl::unexpected(presets.error());
+  ARTUS_TRY(presets);
   std::string names;
   for (const TransducerPreset& preset : *presets) {
     if (preset.name == name_or_file) return preset;

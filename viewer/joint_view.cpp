@@ -114,11 +114,17 @@ void set_quad(GlMesh& mesh) {
   mesh.set_triangles(indices);
 }
 
-float usual_alpha(const std::string& tissue) {
-  if (tissue == "skin") return 0.15F;
-  if (tissue == "fat") return 0.12F;
-  if (tissue == "muscle") return 0.55F;
-  return 1.F;
+float usual_alpha(TissueKind kind) {
+  switch (kind) {
+    case TissueKind::skin:
+      return 0.15F;
+    case TissueKind::fat:
+      return 0.12F;
+    case TissueKind::muscle:
+      return 0.55F;
+    default:
+      return 1.F;
+  }
 }
 
 }  // namespace
@@ -151,15 +157,15 @@ JointView::JointView(const CompiledJoint& joint, GlProgram solid, GlProgram pict
   }
   for (std::size_t r = kFirstRegion; r < joint.regions.size(); ++r) {
     if (triangles[r].empty()) continue;
-    const std::string& tissue = joint.tissue_of(static_cast<RegionId>(r)).name;
-    const auto [place, fresh] = look_of.try_emplace(tissue, looks_.size());
+    const Tissue& tissue = joint.tissue_of(static_cast<RegionId>(r));
+    const auto [place, fresh] = look_of.try_emplace(tissue.name, looks_.size());
     if (fresh) {
       const auto& c = palette[r];
-      looks_.push_back({tissue,
+      looks_.push_back({tissue.name,
                         Eigen::Vector3f(static_cast<float>(c[0]), static_cast<float>(c[1]),
                                         static_cast<float>(c[2])) /
                             255.F,
-                        usual_alpha(tissue), true});
+                        usual_alpha(tissue.acoustic.kind), true});
     }
     // Each part has its own points, so that a part is one small draw.
     std::map<std::uint32_t, std::uint32_t> renumbered;

@@ -251,7 +251,7 @@ Result<void> write_compiled_joint(const CompiledJoint& joint, const std::filesys
 
 Result<CompiledJoint> read_compiled_joint(const std::filesystem::path& file) {
   const Result<std::string> payload = read_payload(file);
-  if (!payload) return tl::unexpected(payload.error());
+  ARTUS_TRY(payload);
   return parse_compiled_joint(*payload, file.string());
 }
 

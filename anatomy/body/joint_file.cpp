@@ -187,7 +187,7 @@ void read_structures(TomlTable& toml, double unit, JointFile& joint) {
 Result<void> read_joint_tissues(TomlTable& toml, JointFile& joint) {
   const auto library = toml.text("tissue_library");
   auto tissues = library ? read_tissues(joint.folder / *library) : read_bundled_tissues();
-  if (!tissues) return tl::unexpected(tissues.error());
+  ARTUS_TRY(tissues);
   joint.tissues = std::move(*tissues);
   if (const auto* table = toml.table("tissue"))
     merge_tissues(*table, "joint file of " + joint.name, joint.tissues, toml.problems());
@@ -238,7 +238,7 @@ Result<JointFile> parse_joint(std::string_view text, const std::filesystem::path
                               const std::filesystem::path& surface_folder) {
   const std::string where = (folder / "joint.toml").string();
   const auto document = parse_toml(text, where);
-  if (!document) return tl::unexpected(document.error());
+  ARTUS_TRY(document);
   Problems problems;
   TomlTable toml(*document, "joint", problems);
   JointFile joint;
@@ -248,7 +248,7 @@ Result<JointFile> parse_joint(std::string_view text, const std::filesystem::path
   if (!toml.has("units")) toml.problem("'units' is missing (\"mm\", \"cm\" or \"m\")");
   const auto surfaces = toml.text("surfaces").value_or(".");
   joint.surface_folder = surface_folder.empty() ? folder / surfaces : surface_folder;
-  if (auto ok = read_joint_tissues(toml, joint); !ok) return tl::unexpected(ok.error());
+  ARTUS_TRY(read_joint_tissues(toml, joint));
   read_mesh_sizes(toml, unit, joint);
   read_region(toml, unit, joint);
   read_structures(toml, unit, joint);
@@ -264,13 +264,13 @@ Result<JointFile> read_joint(const std::filesystem::path& folder,
                              const std::filesystem::path& surface_folder) {
   const auto file = folder / "joint.toml";
   const auto bytes = read_bytes(file);
-  if (!bytes) return tl::unexpected(bytes.error());
+  ARTUS_TRY(bytes);
   auto joint = parse_joint(*bytes, folder, surface_folder);
   ARTUS_TRY(joint);
   if (surface_folder.empty())
     if (auto from_environment = surfaces_of_environment(joint->name); !from_environment.empty())
       joint->surface_folder = std::move(from_environment);
-  if (auto ok = check_files(*joint, file.string()); !ok) return tl::unexpected(ok.error());
+  ARTUS_TRY(check_files(*joint, file.string()));
   return joint;
 }
 

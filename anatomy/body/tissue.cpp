@@ -150,7 +150,7 @@ void merge_tissues(const toml::table& table, const std::string& default_source,
 
 Result<std::vector<Tissue>> parse_tissues(std::string_view text, const std::string& name) {
   const auto document = parse_toml(text, name);
-  if (!document) return tl::unexpected(document.error());
+  ARTUS_TRY(document);
   Problems problems;
   TomlTable toml(*document, "tissue library", problems);
   if (toml.required_number("format", 1, 1) == 0) toml.problem("this build reads format = 1");
@@ -167,7 +167,7 @@ Result<std::vector<Tissue>> parse_tissues(std::string_view text, const std::stri
 
 Result<std::vector<Tissue>> read_tissues(const std::filesystem::path& file) {
   const auto bytes = read_bytes(file);
-  if (!bytes) return tl::unexpected(bytes.error());
+  ARTUS_TRY(bytes);
   return parse_tissues(*bytes, file.string());
 }
 

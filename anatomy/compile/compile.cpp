@@ -100,7 +100,7 @@ double smallest_part(const std::vector<RegionSizing>& sizing, RegionId region) {
 
 Result<void> finish_topology(TetMesh& mesh, const RegionLabels& labels) {
   const Result<TetNeighbours> neighbours = find_tet_neighbours(mesh);
-  if (!neighbours) return tl::unexpected(neighbours.error());
+  ARTUS_TRY(neighbours);
   rebuild_interfaces(mesh, *neighbours, [&](const Vec3& p) { return front_of_hull(labels, p); });
   order_vertices(mesh);
   return {};
@@ -116,24 +116,20 @@ Result<TetMesh> mesh_regions(const LabelledSpace& space, Stages& stages, Compile
   });
   if (!mesh) return mesh;
   auto neighbours = find_tet_neighbours(*mesh);
-  if (!neighbours) return tl::unexpected(neighbours.error());
+  ARTUS_TRY(neighbours);
   report.crumbs = absorb_crumbs(*mesh, *neighbours,
                                 [&](RegionId r) { return smallest_part(space.resolve.sizing, r); });
-  if (auto done = finish_topology(*mesh, space.labels); !done) {
-    return tl::unexpected(done.error());
-  }
+  ARTUS_TRY(finish_topology(*mesh, space.labels));
   stages.run("fitting interfaces", 0.6, [&] {
     fit_interfaces(*mesh, space.labels);
     return true;
   });
   neighbours = find_tet_neighbours(*mesh);
-  if (!neighbours) return tl::unexpected(neighbours.error());
+  ARTUS_TRY(neighbours);
   const FillMethod filled = stages.run("filling with tetrahedra", 0.7,
                                        [&] { return fill_with_tetgen(*mesh, *neighbours); });
   report.fill_method = name_of(filled);
-  if (auto done = finish_topology(*mesh, space.labels); !done) {
-    return tl::unexpected(done.error());
-  }
+  ARTUS_TRY(finish_topology(*mesh, space.labels));
   return mesh;
 }
 
@@ -153,11 +149,11 @@ Result<CompileOutcome> compile_joint(const JointFile& file, const CompileOptions
   CompileReport& report = outcome.report;
   Stages stages(progress, report);
   auto digest = compute_source_digest(file);
-  if (!digest) return tl::unexpected(digest.error());
+  ARTUS_TRY(digest);
   std::vector<StructureReport> reports = start_reports(file);
   const auto surfaces = stages.run("reading and repairing surfaces", 0,
                                    [&] { return prepare_surfaces(file, reports); });
-  if (!surfaces) return tl::unexpected(surfaces.error());
+  ARTUS_TRY(surfaces);
   ARTUS_TRY(check_refusals(file, reports, *surfaces, options));
   StructureReport filler;
   filler.name = file.filler_name;
@@ -167,9 +163,9 @@ Result<CompileOutcome> compile_joint(const JointFile& file, const CompileOptions
   report.structures.insert(report.structures.end(), reports.begin(), reports.end());
   const auto space = stages.run("measuring distances", 0.1,
                                 [&] { return make_labelled_space(file, *surfaces, progress); });
-  if (!space) return tl::unexpected(space.error());
+  ARTUS_TRY(space);
   Result<TetMesh> mesh = mesh_regions(*space, stages, report);
-  if (!mesh) return tl::unexpected(mesh.error());
+  ARTUS_TRY(mesh);
   stages.run("measuring the result", 0.9, [&] {
     measure_mesh(*mesh, space->labels, *surfaces, report);
     append_warnings(file, space->labels, *surfaces, report);

@@ -116,7 +116,7 @@ Result<std::string> compute_source_digest(const JointFile& file) {
   };
   const auto add_file = [&](const std::filesystem::path& path) -> Result<void> {
     const Result<std::string> bytes = read_bytes(path);
-    if (!bytes) return tl::unexpected(bytes.error());
+    ARTUS_TRY(bytes);
     add(*bytes);
     return {};
   };
@@ -128,9 +128,7 @@ Result<std::string> compute_source_digest(const JointFile& file) {
   for (const Structure* s : all) {
     const auto* surface = std::get_if<SurfaceFile>(&s->shape);
     if (surface == nullptr) continue;
-    if (auto done = add_file(file.surface_folder / surface->file); !done) {
-      return tl::unexpected(done.error());
-    }
+    ARTUS_TRY(add_file(file.surface_folder / surface->file));
   }
   return to_hex(low) + to_hex(high);
 }

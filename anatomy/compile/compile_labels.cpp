@@ -298,7 +298,7 @@ Result<LabelledSpace> make_labelled_space(const JointFile& file, const PreparedS
   if (!((box.upper - box.lower).minCoeff() > 0)) {
     return fail(ErrorCode::failed, "the region of interest lies outside the body", file.name);
   }
-  if (auto ok = check_sizes(file, surfaces, box); !ok) return tl::unexpected(ok.error());
+  ARTUS_TRY(check_sizes(file, surfaces, box));
   FieldMaker maker(file, surfaces, box, progress);
   maker.make_surfaces();
   maker.make_constructs();

@@ -37,9 +37,9 @@ Result<void> check_size(const SurfaceMesh& mesh) {
 Result<PreparedSurface> prepare_surface(const JointFile& file, const SurfaceFile& surface,
                                         StructureReport& report) {
   Result<SurfaceMesh> mesh = read_surface(file.surface_folder / surface.file, surface.unit);
-  if (!mesh) return tl::unexpected(mesh.error());
+  ARTUS_TRY(mesh);
   Result<RepairOutcome> outcome = repair_as_declared(*mesh, surface);
-  if (!outcome) return tl::unexpected(outcome.error());
+  ARTUS_TRY(outcome);
   for (const RepairAction& action : outcome->actions) report.repairs.push_back(action.message);
   PreparedSurface prepared;
   prepared.mesh = std::move(outcome->mesh);
@@ -74,7 +74,7 @@ Result<PreparedSurfaces> prepare_surfaces(const JointFile& file,
   body_report.name = "body";
   Result<PreparedSurface> body =
       prepare_surface(file, std::get<SurfaceFile>(file.body.shape), body_report);
-  if (!body) return tl::unexpected(body.error());
+  ARTUS_TRY(body);
   prepared.body = std::move(*body);
   prepared.structures.resize(file.structures.size());
   std::vector<std::optional<Error>> errors(file.structures.size());

@@ -40,9 +40,19 @@ double signed_at(const DistanceTree& tree, const Vec3& p, double distance, doubl
 
 using SampleFlags = std::array<bool, kBlock>;
 
-// Marks the samples of a cube of `cells` cells that are beyond the band, cube by smaller cube.
-void mark_beyond(const DistanceTree& tree, double spacing, double band, const Vec3& corner,
-                 const std::array<int, 3>& first, int cells, SampleFlags& beyond) {
+// The block's samples that are farther from a surface than a band.
+struct Beyond {
+  const DistanceTree& tree;
+  double spacing;
+  double band;
+  const Vec3& corner;
+  SampleFlags flags{};
+
+  void mark(const std::array<int, 3>& first, int cells);
+};
+
+// Marks what is beyond in a cube of `cells` cells, cube by smaller cube.
+void Beyond::mark(const std::array<int, 3>& first, int cells) {
   constexpr int kSmallest = 2;
   const double half = 0.5 * cells * spacing;
   const double reach = band + 1.0001 * std::sqrt(3.0) * half;
@@ -51,25 +61,22 @@ void mark_beyond(const DistanceTree& tree, double spacing, double band, const Ve
     for (int z = first[2]; z <= first[2] + cells; ++z)
       for (int y = first[1]; y <= first[1] + cells; ++y)
         for (int x = first[0]; x <= first[0] + cells; ++x)
-          beyond[static_cast<std::size_t>(x + kRow * y + kPlane * z)] = true;
+          flags[static_cast<std::size_t>(x + kRow * y + kPlane * z)] = true;
     return;
   }
   if (cells == kSmallest) return;
   const int part = cells / 2;
   for (int k = 0; k < 8; ++k)
-    mark_beyond(
-        tree, spacing, band, corner,
-        {first[0] + part * (k & 1), first[1] + part * (k >> 1 & 1), first[2] + part * (k >> 2)},
-        part, beyond);
+    mark({first[0] + part * (k & 1), first[1] + part * (k >> 1 & 1), first[2] + part * (k >> 2)},
+         part);
 }
 
 void fill_from_tree(const DistanceTree& tree, double spacing, double band, const Vec3& corner,
                     float* out) {
-  SampleFlags beyond{};
+  Beyond beyond{tree, spacing, band, corner};
   for (int k = 0; k < 8; ++k)
-    mark_beyond(tree, spacing, band, corner,
-                {kCells / 2 * (k & 1), kCells / 2 * (k >> 1 & 1), kCells / 2 * (k >> 2)},
-                kCells / 2, beyond);
+    beyond.mark({kCells / 2 * (k & 1), kCells / 2 * (k >> 1 & 1), kCells / 2 * (k >> 2)},
+                kCells / 2);
   for (int i = 0; i < kBlock; ++i) {
     const std::array<int, 3> index{i % kSide, i / kSide % kSide, i / kPlane};
     constexpr std::array<int, 3> kStrides{1, kRow, kPlane};
@@ -81,7 +88,8 @@ void fill_from_tree(const DistanceTree& tree, double spacing, double band, const
       bound = std::min(bound, neighbour + 1.001 * spacing);
     }
     const Vec3 p = corner + spacing * Vec3(index[0], index[1], index[2]);
-    const double distance = beyond[static_cast<std::size_t>(i)] ? band : tree.distance(p, bound);
+    const double distance =
+        beyond.flags[static_cast<std::size_t>(i)] ? band : tree.distance(p, bound);
     *here = static_cast<float>(signed_at(tree, p, distance, spacing, here, index));
   }
 }

@@ -51,6 +51,10 @@ std::vector<Vec3> principal_axes(const TetMesh& mesh, std::size_t n_regions) {
   return axes;
 }
 
+bool has_fibres(TissueKind kind) {
+  return kind == TissueKind::muscle || kind == TissueKind::tendon;
+}
+
 std::vector<Region> make_regions(const JointFile& file, const TetMesh& mesh) {
   // assumed: outside the skin there is gel, or the first tissue where a library has none
   const TissueId gel = tissue_index(file, "gel");
@@ -62,7 +66,7 @@ std::vector<Region> make_regions(const JointFile& file, const TetMesh& mesh) {
     Region region{s.name, tissue_index(file, s.tissue), Vec3::Zero()};
     if (s.fibre_axis && s.fibre_axis->norm() > 0) {
       region.fibre_axis = s.fibre_axis->normalized();
-    } else if (s.tissue == "muscle" || s.tissue == "tendon") {
+    } else if (has_fibres(file.tissues[region.tissue].acoustic.kind)) {
       region.fibre_axis = axes[regions.size()];
     }
     regions.push_back(std::move(region));

@@ -46,7 +46,7 @@ Result<void> read_face(TextCursor& text, SurfaceMesh& mesh) {
       continue;
     }
     const auto corner = read_corner(text, token, mesh.vertices.size());
-    if (!corner) return tl::unexpected(corner.error());
+    ARTUS_TRY(corner);
     if (corners == 0) first = *corner;
     if (corners >= 2) mesh.triangles.push_back({first, previous, *corner});
     previous = *corner;
@@ -67,7 +67,7 @@ Result<SurfaceMesh> parse_obj(std::string_view bytes, const std::string& name) {
     Result<void> ok;
     if (word == "v") ok = read_vertex(text, mesh);
     if (word == "f") ok = read_face(text, mesh);
-    if (!ok) return tl::unexpected(ok.error());
+    ARTUS_TRY(ok);
     if (mesh.vertices.size() >= std::numeric_limits<std::uint32_t>::max())
       return fail(ErrorCode::unsupported, "more than 4 billion vertices", name);
     text.skip_line();

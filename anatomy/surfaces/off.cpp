@@ -85,11 +85,11 @@ Result<void> read_header(TextCursor& text) {
 
 Result<SurfaceMesh> parse_off(std::string_view bytes, const std::string& name) {
   TextCursor text(bytes, name);
-  if (auto ok = read_header(text); !ok) return tl::unexpected(ok.error());
+  ARTUS_TRY(read_header(text));
   const auto n_vertices = read_count(text, "vertices", 6);
-  if (!n_vertices) return tl::unexpected(n_vertices.error());
+  ARTUS_TRY(n_vertices);
   const auto n_faces = read_count(text, "faces", 2);
-  if (!n_faces) return tl::unexpected(n_faces.error());
+  ARTUS_TRY(n_faces);
   text.skip_line();
   if (*n_vertices > 0xffffffffU)
     return fail(ErrorCode::unsupported, "more than 4 billion vertices", name);
@@ -98,11 +98,10 @@ Result<SurfaceMesh> parse_off(std::string_view bytes, const std::string& name) {
   mesh.triangles.reserve(*n_faces);
   for (std::size_t i = 0; i < *n_vertices; ++i) {
     const auto p = read_vertex(text);
-    if (!p) return tl::unexpected(p.error());
+    ARTUS_TRY(p);
     mesh.vertices.push_back(*p);
   }
-  for (std::size_t i = 0; i < *n_faces; ++i)
-    if (auto ok = read_face(text, mesh); !ok) return tl::unexpected(ok.error());
+  for (std::size_t i = 0; i < *n_faces; ++i) ARTUS_TRY(read_face(text, mesh));
   return mesh;
 }
 

@@ -136,12 +136,12 @@ Result<Property> read_property(TextCursor& text) {
   };
   if (word == "list") {
     const auto count = type_of(text.next_in_line());
-    if (!count) return tl::unexpected(count.error());
+    ARTUS_TRY(count);
     property.list_count = *count;
     word = text.next_in_line();
   }
   const auto type = type_of(word);
-  if (!type) return tl::unexpected(type.error());
+  ARTUS_TRY(type);
   property.type = *type;
   property.name = text.next_in_line();
   return property;
@@ -150,15 +150,15 @@ Result<Property> read_property(TextCursor& text) {
 Result<void> read_header_line(TextCursor& text, std::string_view word, Header& header) {
   if (word == "format") {
     const auto encoding = read_encoding(text);
-    if (!encoding) return tl::unexpected(encoding.error());
+    ARTUS_TRY(encoding);
     header.encoding = *encoding;
   } else if (word == "element") {
     auto element = read_element(text);
-    if (!element) return tl::unexpected(element.error());
+    ARTUS_TRY(element);
     header.elements.push_back(std::move(*element));
   } else if (word == "property") {
     auto property = read_property(text);
-    if (!property) return tl::unexpected(property.error());
+    ARTUS_TRY(property);
     if (header.elements.empty()) return text.malformed("a property stands before its element");
     header.elements.back().properties.push_back(std::move(*property));
   } else if (word != "comment" && word != "obj_info" && !word.empty()) {
@@ -174,8 +174,7 @@ Result<Header> read_header(TextCursor& text) {
   while (!text.at_end()) {
     const auto word = text.next_in_line();
     const bool is_last = word == "end_header";
-    if (!is_last)
-      if (auto ok = read_header_line(text, word, header); !ok) return tl::unexpected(ok.error());
+    if (!is_last) ARTUS_TRY(read_header_line(text, word, header));
     text.skip_line();
     if (is_last) return header;
   }
@@ -267,7 +266,7 @@ class MeshReader {
         continue;
       }
       const auto value = body_.next(property.type);
-      if (!value) return tl::unexpected(value.error());
+      ARTUS_TRY(value);
       if (property.name == "x") p.x() = *value;
       if (property.name == "y") p.y() = *value;
       if (property.name == "z") p.z() = *value;
@@ -282,16 +281,15 @@ class MeshReader {
                            (property.name == "vertex_indices" || property.name == "vertex_index");
       if (property.list_count) {
         ARTUS_TRY(read_list(property, is_face));
-      } else if (const auto value = body_.next(property.type); !value) {
-        return tl::unexpected(value.error());
-      }
+      } else
+        ARTUS_TRY(body_.next(property.type));
     }
     return {};
   }
 
   Result<void> read_list(const Property& property, bool is_face) {
     const auto count = body_.next(*property.list_count);
-    if (!count) return tl::unexpected(count.error());
+    ARTUS_TRY(count);
     const double least = static_cast<double>(body_.remaining());
     if (!(*count >= 0) || *count > least || *count != std::floor(*count))
       return fail(ErrorCode::corrupt, "a list of impossible length; the file is damaged",
@@ -301,10 +299,10 @@ class MeshReader {
     const auto n = static_cast<std::size_t>(*count);
     for (std::size_t k = 0; k < n; ++k) {
       const auto value = body_.next(property.type);
-      if (!value) return tl::unexpected(value.error());
+      ARTUS_TRY(value);
       if (!is_face) continue;
       const auto v = vertex_index(*value);
-      if (!v) return tl::unexpected(v.error());
+      ARTUS_TRY(v);
       if (k == 0) first = *v;
       if (k >= 2) mesh_.triangles.push_back({first, previous, *v});
       previous = *v;
@@ -345,13 +343,12 @@ bool has_coordinates(const Header& header) {
 Result<SurfaceMesh> parse_ply(std::string_view bytes, const std::string& name) {
   TextCursor text(bytes, name);
   const auto header = read_header(text);
-  if (!header) return tl::unexpected(header.error());
+  ARTUS_TRY(header);
   if (!has_coordinates(*header))
     return fail(ErrorCode::malformed, "the PLY header has no vertices with x, y and z", name);
   Body body(bytes, text, header->encoding, name);
   MeshReader reader(body);
-  for (const auto& element : header->elements)
-    if (auto ok = reader.read(element); !ok) return tl::unexpected(ok.error());
+  for (const auto& element : header->elements) ARTUS_TRY(reader.read(element));
   return reader.take();
 }
 

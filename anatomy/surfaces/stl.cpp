@@ -87,14 +87,14 @@ Result<Vec3> read_vector(TextCursor& text) {
 /// From behind "facet" to behind "endfacet".
 Result<void> read_facet(TextCursor& text, Welder& out) {
   ARTUS_TRY(expect_word(text, "normal"));
-  if (auto normal = read_vector(text); !normal) return tl::unexpected(normal.error());
+  ARTUS_TRY(read_vector(text));
   ARTUS_TRY(expect_word(text, "outer"));
   ARTUS_TRY(expect_word(text, "loop"));
   Triangle t{};
   for (auto& v : t) {
     ARTUS_TRY(expect_word(text, "vertex"));
     const auto p = read_vector(text);
-    if (!p) return tl::unexpected(p.error());
+    ARTUS_TRY(p);
     v = out.vertex(*p);
   }
   ARTUS_TRY(expect_word(text, "endloop"));
@@ -145,12 +145,12 @@ Result<SurfaceMesh> parse_stl_ascii(std::string_view bytes, const std::string& n
   TextCursor text(bytes, name);
   constexpr std::size_t kShortestFacet = 80;  // keywords and twelve one-digit numbers
   Welder out(bytes.size() / kShortestFacet);
-  if (auto ok = expect_word(text, "solid"); !ok) return tl::unexpected(ok.error());
+  ARTUS_TRY(expect_word(text, "solid"));
   text.skip_line();
   for (;;) {
     const auto token = text.next();
     if (same_word(token, "facet")) {
-      if (auto ok = read_facet(text, out); !ok) return tl::unexpected(ok.error());
+      ARTUS_TRY(read_facet(text, out));
     } else if (same_word(token, "endsolid")) {
       text.skip_line();
       const auto again = text.next();

@@ -91,7 +91,7 @@ Result<SurfaceMesh> parse_surface(std::string_view bytes, const std::string& nam
 Result<SurfaceMesh> read_surface(const std::filesystem::path& file, double unit) {
   ARTUS_REQUIRE(unit > 0, "unit must be positive");
   const auto bytes = read_bytes(file);
-  if (!bytes) return tl::unexpected(bytes.error());
+  ARTUS_TRY(bytes);
   return parse_surface(*bytes, file.string(), unit);
 }
 

@@ -185,7 +185,7 @@ std::vector<cv::Rect> find_muscle_patches(const LabelImage& labels, const Compil
 Result<PatchRange> read_patch_range(const std::filesystem::path& file,
                                     std::span<const std::string> prefixes) {
   const auto text = read_bytes(file);
-  if (!text) return tl::unexpected(text.error());
+  ARTUS_TRY(text);
   std::istringstream in(*text);
   std::string line;
   std::getline(in, line);
