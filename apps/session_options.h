@@ -6,8 +6,8 @@
 
 #include "artus/apps/command.h"
 #include "artus/apps/feel_options.h"
-#include "artus/apps/plan_options.h"
 #include "artus/apps/igtl_options.h"
+#include "artus/apps/plan_options.h"
 #include "artus/session/hand_device.h"
 #include "artus/session/session.h"
 

@@ -18,8 +18,8 @@ inline constexpr double kMuchLost = 0.2;
 void measure_joint(const TetMesh& mesh, const RegionLabels& labels,
                    const PreparedSurfaces& surfaces, CompileReport& report);
 
-/// The part of measure_joint that the labels alone tell: what each structure has in the region, what
-/// it loses and to which. Cost: samples of all fields.
+/// The part of measure_joint that the labels alone tell: what each structure has in the region,
+/// what it loses and to which. Cost: samples of all fields.
 void measure_labels(const RegionLabels& labels, CompileReport& report);
 
 /// The part of measure_joint that needs the mesh.
