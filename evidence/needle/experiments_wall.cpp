@@ -17,6 +17,12 @@ constexpr double kSpeed = 0.01;       // m/s; assumed: the source's figures show
 constexpr double kStiffness = 500;    // N/m, K_t of the source
 constexpr double kStateOfRest = 0.3;  // s before the needle moves
 
+// Tissue that is drawn out holds the needle by at most K_t times its depth: m, nearer the skin it
+// is less than `attracted` newtons.
+double hold_ends(double attracted) {
+  return attracted / kStiffness;
+}
+
 BodyExperiment one_layer(const ExperimentOptions& options, const DeviceLimits& device,
                          double attracted) {
   BodyExperiment e;
@@ -195,7 +201,8 @@ Experiment run_wall_both(const ExperimentOptions& options, const DeviceLimits& d
       in.push_back(resistance(r) - 1);
     if (r.state == ContactState::stopped && r.time - still_since > 0.25)
       rest.push_back(resistance(r));
-    if (r.state == ContactState::withdrawing && r.depth < 20 * kMillimetre) {
+    if (r.state == ContactState::withdrawing && r.depth < 20 * kMillimetre &&
+        r.depth > hold_ends(0.5)) {
       back.push_back(resistance(r) + 0.5);
     }
     if (r.state == ContactState::away) outside.push_back(resistance(r));
@@ -204,8 +211,9 @@ Experiment run_wall_both(const ExperimentOptions& options, const DeviceLimits& d
       claim_at_most({ClaimKind::input, "f_R of the layer"}, "insertion: 1 N, off by", worst(in),
                     0.01, "N"),
       claim_at_most({ClaimKind::input, "eq. 2.16"}, "stop: 0 N, off by", worst(rest), 0.05, "N"),
-      claim_at_most({ClaimKind::input, "f_A of the layer"}, "withdrawal: -0.5 N, off by",
-                    worst(back), 0.005, "N"),
+      claim_at_most({ClaimKind::input, "f_A of the layer"},
+                    "withdrawal: -0.5 N until 1 mm before the skin, off by", worst(back), 0.005,
+                    "N"),
       claim_at_most({ClaimKind::input, "no force outside the body"}, "outside: 0 N, off by",
                     worst(outside), 0, "N"),
       claim_at_most({ClaimKind::input, "the wall is built to give none"},
@@ -223,7 +231,7 @@ Experiment run_wall_both(const ExperimentOptions& options, const DeviceLimits& d
   out.published = {{"insertion", "1 N", level(ContactState::inserting, 2.2e-3, 24e-3)},
                    {"intentional stop", "decreases until 0", fixed(worst(rest), 3, "N at most")},
                    {"withdrawal", "attracted force 0.5 N, drawn below zero",
-                    level(ContactState::withdrawing, 0, 20e-3)},
+                    level(ContactState::withdrawing, hold_ends(0.5), 20e-3)},
                    {"free motion", "no force", fixed(worst(outside), 3, "N at most")}};
   out.assumed = assumed_with_hand({"speeds, 10 mm/s in and 15 mm/s out"});
   out.plots = {{"", wall_plot(out.title + " (Fig. 2-10)", rows)}};
@@ -345,7 +353,8 @@ Experiment run_wall_seven(const ExperimentOptions& options, const DeviceLimits& 
   e.feel = options.feel;
   e.hand.seed = options.seed;
   e.needle.contact.needle_length = 0.09;
-  e.phases = {stay(kStateOfRest), push_to(0.056, 0.015), stay(0.6), pull_to(-0.004, 0.05)};
+  constexpr double kFallSpeed = 0.015;  // m/s
+  e.phases = {stay(kStateOfRest), push_to(0.056, kFallSpeed), stay(0.6), pull_to(-0.004, 0.05)};
   Experiment out;
   out.title = "Seven layers, attracted force 0.7 N";
   out.source = "[Alamilla2020] Figs. 2-14 and 2-15";
@@ -359,16 +368,19 @@ Experiment run_wall_seven(const ExperimentOptions& options, const DeviceLimits& 
       if (rows[i - 1].region == kFirstRegion + 3) entered = rows[i].time;
       if (resistance(rows[i]) - 0.7 > 0.05 * (2 - 0.7)) fall = rows[i].time - entered;
     }
-    if (rows[i].state == ContactState::withdrawing && rows[i].depth < 0.050) {
+    if (rows[i].state == ContactState::withdrawing && rows[i].depth < 0.050 &&
+        rows[i].depth > hold_ends(0.7)) {
       back.push_back(resistance(rows[i]) + 0.7);
     }
   }
   if (entered == 0) fall = std::numeric_limits<double>::infinity();
   out.claims.push_back(
-      claim_at_most({ClaimKind::input, "time constant of 3 ms of a force that lets go"},
-                    "2 N -> 0.7 N: until a twentieth of the step is left", fall, 0.015, "s"));
+      claim_at_most({ClaimKind::input, "layer's edge at 15 mm/s, three time constants of 3 ms"},
+                    "2 N -> 0.7 N: until a twentieth of the step is left", fall,
+                    e.needle.contact.layer_edge / kFallSpeed + 3 * 0.003, "s"));
   out.claims.push_back(claim_at_most({ClaimKind::input, "f_A of the layers"},
-                                     "withdrawal: -0.7 N, off by", worst(back), 0.007, "N"));
+                                     "withdrawal: -0.7 N until 1.4 mm before the skin, off by",
+                                     worst(back), 0.007, "N"));
   out.assumed = assumed_with_hand(
       {"layers of 8 mm and the direction", "clamping, 300 N/m at full depth",
        "speeds, 15 mm/s in and 50 mm/s out", "a weaker layer's fall, 3 ms (chosen by the rates)"});

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "artus/haptics/needle/needle_contact.h"
+
 namespace artus {
 namespace {
 
@@ -41,8 +43,11 @@ void PlateauFinder::add(const NeedleRow& row) {
   const bool deeper = row.depth >= deepest_;
   deepest_ = std::max(deepest_, row.depth);
   // Sliding along bone, the tip goes deeper without being pressed in farther.
-  const double way = row.state == ContactState::bone ? row.in_bone : row.depth - from_;
-  if (!deeper || way < rise_ + kAfterRise || row.time < since_ + kAfterFall) return;
+  const bool bone = row.state == ContactState::bone;
+  const double way = bone ? row.in_bone : row.depth - from_;
+  const double edge = bone ? 0 : ContactParams{}.layer_edge;
+  if (way < edge) since_ = row.time;
+  if (!deeper || way < edge + rise_ + kAfterRise || row.time < since_ + kAfterFall) return;
   const double force = -row.forces.cutting;
   p.least = p.rows == 0 ? force : std::min(p.least, force);
   p.most = p.rows == 0 ? force : std::max(p.most, force);

@@ -20,9 +20,9 @@ struct LayerPlateau {
 };
 
 /// Collects the rows in which a layer's force has built up: from where the tip entered the layer
-/// (or set off again in it) over the distance that its stiffness needs for what is missing, and
-/// some milliseconds if it is a weaker one, as long as the tip goes deeper. On bone the distance is
-/// that by which the tip is pressed in.
+/// (or set off again in it) over the layer's edge (ContactParams::layer_edge) and the distance that
+/// its stiffness needs for what is missing, and some milliseconds if it is a weaker one, as long as
+/// the tip goes deeper. On bone the distance is that by which the tip is pressed in.
 class PlateauFinder {
  public:
   /// What a region is called and feels like, by region. Regions of one name are taken together.
