@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <optional>
 
+#include <Eigen/Eigenvalues>
+
 #include "artus/core/text_cursor.h"
 #include "artus/core/text_file.h"
 #include "artus/core/units.h"
@@ -16,8 +18,10 @@ namespace {
 /// How far the points spread across the line that fits them best, m.
 double spread_across_line(const Eigen::Matrix3Xd& points) {
   const Eigen::Matrix3Xd centred = points.colwise() - points.rowwise().mean();
-  const Eigen::JacobiSVD<Eigen::Matrix3Xd> svd(centred);
-  return svd.singularValues()(1) / std::sqrt(static_cast<double>(points.cols()));
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> scatter(centred * centred.transpose(),
+                                                               Eigen::EigenvaluesOnly);
+  const double across = std::max(0.0, scatter.eigenvalues()(1));  // they ascend
+  return std::sqrt(across / static_cast<double>(points.cols()));
 }
 
 std::string list_residuals(const std::vector<LandmarkPair>& pairs, const Registration& fit) {
