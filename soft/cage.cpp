@@ -224,7 +224,7 @@ void Cage::hang_nodes() {
 CagePlace Cage::locate(const Vec3& p_C, int reach) const noexcept {
   CagePlace place;
   const Vec3 s = (p_C - origin_) / step_;
-  if (!(s.cwiseAbs().maxCoeff() < 1e9)) return place;
+  if (!s.allFinite() || s.cwiseAbs().maxCoeff() > 1e9) return place;
   Lattice p{};
   for (std::size_t k = 0; k < 3; ++k) {
     const double at = s[static_cast<Eigen::Index>(k)];
