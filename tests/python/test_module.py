@@ -239,13 +239,8 @@ def test_frames_do_not_pile_up(joint):
     assert memory() - before < 4e6
 
 
-def test_import_is_fast_and_loads_no_codecs():
-    code = (
-        "import time, numpy; t = time.perf_counter(); import artus; "
-        "print(time.perf_counter() - t); print(open('/proc/self/maps').read())"
-    )
-    out = run(sys.executable, "-c", code)
-    assert float(out.split("\n", 1)[0]) < 1.5  # a machine under load; docs/python.md has the time
+def test_import_loads_no_codecs():
+    out = run(sys.executable, "-c", "import artus; print(open('/proc/self/maps').read())")
     assert "libembree" in out
     for library in ("imgcodecs", "videoio", "avcodec", "glfw", "libGL"):
         assert library not in out
