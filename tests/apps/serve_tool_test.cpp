@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include <fcntl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -19,20 +18,7 @@
 namespace artus {
 namespace {
 
-/// Starts the tool and does not wait for it.
-pid_t start_tool(std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), ARTUS_TOOL);
-  const pid_t process = fork();
-  if (process != 0) return process;
-  const int nowhere = open("/dev/null", O_WRONLY);
-  dup2(nowhere, STDOUT_FILENO);
-  dup2(nowhere, STDERR_FILENO);
-  std::vector<char*> argv;
-  for (std::string& argument : arguments) argv.push_back(argument.data());
-  argv.push_back(nullptr);
-  execv(ARTUS_TOOL, argv.data());
-  _exit(127);
-}
+using test::start_tool;
 
 class ServeProcess : public ::testing::TestWithParam<int> {
  protected:
