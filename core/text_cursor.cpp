@@ -95,4 +95,10 @@ std::string quoted(std::string_view token) {
   return out + "'";
 }
 
+std::string fixed_number(double value, int decimals) {
+  std::array<char, 400> text{};
+  static_cast<void>(std::snprintf(text.data(), text.size(), "%.*f", decimals, value));
+  return text.data();
+}
+
 }  // namespace artus

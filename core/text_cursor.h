@@ -57,6 +57,9 @@ class TextCursor {
 /// Appends the shortest decimal that reads back to the same double.
 void append_number(std::string& out, double value);
 
+/// A number with so many decimals, as tables of a page have it.
+[[nodiscard]] std::string fixed_number(double value, int decimals);
+
 /// A token as it may stand in a message: in quotes, shortened, unprintable bytes as '?'.
 [[nodiscard]] std::string quoted(std::string_view token);
 

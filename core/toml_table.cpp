@@ -4,25 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "artus/core/known_names.h"
 #include "artus/core/text_cursor.h"
 
 namespace artus {
 namespace {
-
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t above = row[j];
-      row[j] = std::min({above + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0U : 1U)});
-      diagonal = above;
-    }
-  }
-  return row[b.size()];
-}
 
 std::string in_range(double low, double high, double scale) {
   std::string out = "must be a number ";
@@ -147,6 +133,13 @@ std::vector<std::string> TomlTable::required_texts(std::string_view key) {
   return out;
 }
 
+const toml::array* TomlTable::array(std::string_view key) {
+  const auto* node = find(key);
+  if (node == nullptr) return nullptr;
+  if (!node->is_array()) problem_at(key, "must be a list, [...]");
+  return node->as_array();
+}
+
 const toml::table* TomlTable::table(std::string_view key) {
   const auto* node = find(key);
   if (node == nullptr) return nullptr;
@@ -184,21 +177,6 @@ Result<toml::table> parse_toml(std::string_view text, const std::string& name) {
                 std::string(error.description()) + "; see docs/joint-format.md",
                 name + ":" + std::to_string(at.line) + ":" + std::to_string(at.column));
   }
-}
-
-std::string did_you_mean(std::string_view word, const std::set<std::string, std::less<>>& known) {
-  constexpr std::size_t kLongest = 64;
-  if (word.size() > kLongest) return {};
-  std::string best;
-  std::size_t least = 1 + word.size() / 3;
-  for (const auto& k : known) {
-    const std::size_t d = edit_distance(word, k);
-    if (d <= least && (best.empty() || d < least)) {
-      best = k;
-      least = d;
-    }
-  }
-  return best.empty() ? std::string{} : " (did you mean '" + best + "'?)";
 }
 
 bool is_plain_name(std::string_view name, char also) noexcept {

@@ -46,6 +46,7 @@ class TomlTable {
   std::optional<Vec3> vector(std::string_view key, double scale = 1);
   Vec3 required_vector(std::string_view key, double scale = 1);
   std::vector<std::string> required_texts(std::string_view key);
+  const toml::array* array(std::string_view key);
   const toml::table* table(std::string_view key);
   /// The tables of an array of tables; empty when the key is absent.
   std::vector<const toml::table*> tables(std::string_view key);
@@ -70,10 +71,6 @@ class TomlTable {
 
 /// Parses TOML text. Errors: malformed, with line and column.
 [[nodiscard]] Result<toml::table> parse_toml(std::string_view text, const std::string& name);
-
-/// Of `known` the one most like `word`, as " (did you mean 'x'?)"; empty when none is near.
-[[nodiscard]] std::string did_you_mean(std::string_view word,
-                                       const std::set<std::string, std::less<>>& known);
 
 /// Is `name` made of [a-z0-9] and `also` only, and not empty?
 [[nodiscard]] bool is_plain_name(std::string_view name, char also) noexcept;

@@ -183,11 +183,6 @@ TEST(ParseToml, ASyntaxErrorHasLineAndColumn) {
   EXPECT_THAT(table.error().where, HasSubstr("file:2:"));
 }
 
-TEST(DidYouMean, KeepsQuietWhenNothingIsNear) {
-  EXPECT_EQ(did_you_mean("muscl", {"muscle", "bone"}), " (did you mean 'muscle'?)");
-  EXPECT_EQ(did_you_mean("zzz", {"muscle", "bone"}), "");
-}
-
 TEST(PlainName, IsLettersDigitsAndOneMore) {
   EXPECT_TRUE(is_plain_name("a_1", '_'));
   for (const char* wrong : {"", "A", "a-b", "a b"})
