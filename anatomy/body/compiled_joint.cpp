@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "artus/anatomy/body/joint_digest.h"
+#include "artus/anatomy/body/space_bytes.h"
 #include "artus/anatomy/body/tissue_bytes.h"
 #include "artus/core/byte_stream.h"
 
@@ -17,7 +18,7 @@ namespace artus {
 namespace {
 
 constexpr std::uint64_t kMagic = 0x0a544e4a53545241ULL;  // "ARTSJNT\n"
-constexpr std::uint32_t kVersion = 3;
+constexpr std::uint32_t kVersion = 4;
 constexpr std::size_t kHeaderSize = 32;
 
 struct Header {
@@ -58,6 +59,7 @@ void put_regions(ByteWriter& out, const std::vector<Region>& regions) {
     out.put(std::string_view(r.name));
     out.put(r.tissue);
     put(out, r.fibre_axis);
+    out.put(static_cast<std::uint8_t>(r.fibre_course));
   }
 }
 
@@ -67,6 +69,7 @@ std::vector<Region> get_regions(ByteReader& in) {
     r.name = in.get_text();
     r.tissue = in.get<TissueId>();
     r.fibre_axis = get_vec3(in);
+    r.fibre_course = in.get<std::uint8_t>() == 0 ? FibreCourse::ends : FibreCourse::layer;
   }
   return regions;
 }
@@ -165,6 +168,7 @@ std::string to_bytes(const CompiledJoint& joint) {
   put_regions(out, joint.regions);
   put_scene(out, joint);
   put_mesh(out, joint.mesh);
+  if (!joint.spaces.empty()) put_spaces(out, joint.spaces);
   return out.bytes();
 }
 
@@ -177,6 +181,7 @@ CompiledJoint from_bytes(ByteReader& in) {
   joint.regions = get_regions(in);
   get_scene(in, joint);
   joint.mesh = get_mesh(in);
+  if (!in.at_end()) joint.spaces = get_spaces(in);
   return joint;
 }
 

@@ -18,6 +18,7 @@ struct Region {
   std::string name;     ///< the structure's name; "outside", "beyond", or the filler's name
   TissueId tissue = 0;  ///< index into CompiledJoint::tissues (for outside: air's place holder gel)
   Vec3 fibre_axis = Vec3::Zero();  ///< unit, or zero when unknown
+  FibreCourse fibre_course = FibreCourse::ends;
 };
 
 /// A joint ready for use: everything the engine needs, nothing of the source meshes.
@@ -33,6 +34,7 @@ struct CompiledJoint {
   Pose X_JN_default = Pose::Identity();
   std::vector<PlannedInjection> injections;
   std::string source_digest;  ///< hex digest of joint file, tissues and surfaces
+  std::vector<Space> spaces;  ///< the joint's own; make_joint_spaces adds the tissues'
 
   [[nodiscard]] const Tissue& tissue_of(RegionId region) const {
     return tissues[regions[region].tissue];

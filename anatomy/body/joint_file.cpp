@@ -5,8 +5,10 @@
 #include <array>
 #include <cctype>
 #include <cstdlib>
+#include <set>
 
 #include "artus/anatomy/body/joint_structure.h"
+#include "artus/anatomy/body/space_toml.h"
 #include "artus/anatomy/body/tissue_toml.h"
 #include "artus/core/text_file.h"
 #include "artus/core/units.h"
@@ -194,6 +196,12 @@ Result<void> read_joint_tissues(TomlTable& toml, JointFile& joint) {
   return {};
 }
 
+std::set<std::string, std::less<>> region_names(const JointFile& joint) {
+  std::set<std::string, std::less<>> names{joint.filler_name};
+  for (const Structure& s : joint.structures) names.insert(s.name);
+  return names;
+}
+
 /// ARTUS_SURFACES_<NAME> of the environment, NAME in capitals with '-' as '_'; empty when unset.
 std::filesystem::path surfaces_of_environment(const std::string& joint_name) {
   std::string variable = "ARTUS_SURFACES_";
@@ -255,6 +263,9 @@ Result<JointFile> parse_joint(std::string_view text, const std::filesystem::path
   read_landmarks(toml, unit, joint);
   read_probe(toml, unit, joint);
   read_needles(toml, unit, joint);
+  auto spaces = read_spaces(toml, region_names(joint));
+  ARTUS_TRY(spaces);
+  joint.spaces = std::move(*spaces);
   toml.finish();
   if (!problems.empty()) return problems.refusal(ErrorCode::invalid, where);
   return joint;

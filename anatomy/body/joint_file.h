@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -7,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "artus/anatomy/body/space.h"
 #include "artus/anatomy/body/tissue.h"
 #include "artus/core/geometry.h"
 #include "artus/core/result.h"
@@ -57,6 +59,11 @@ struct SurfaceFile {
   double thicken = 0;           ///< m; an open sheet becomes a plate of this thickness (0: refused)
 };
 
+/// How fibres run where the structure is bent: from the end that lies farthest against the fibre
+/// axis to the one that lies farthest along it, or everywhere along the axis, turned only as much
+/// as it takes to run beside the skin (a layer that is wound around a bone has no two ends).
+enum class FibreCourse : std::uint8_t { ends, layer };
+
 /// One thing of the body: where it comes from, what it is made of. Earlier in the list wins where
 /// two overlap.
 struct Structure {
@@ -66,7 +73,8 @@ struct Structure {
   double facet_size = 0;           ///< m, 0 = the joint's default
   double facet_distance = 0;       ///< m, 0 = the joint's default
   std::optional<Vec3> fibre_axis;  ///< along the fibres, if one axis is a fair description
-  int line = 0;                    ///< of joint.toml; 0: of no file
+  FibreCourse fibre_course = FibreCourse::ends;  ///< how they follow that axis
+  int line = 0;                                  ///< of joint.toml; 0: of no file
 };
 
 struct Landmark {
@@ -111,6 +119,7 @@ struct JointFile {
   std::optional<PlannedInjection> needle;    ///< what X_JN_default was made from
   std::optional<Pose> X_JN_default;          ///< default needle pose: tip at the target
   std::vector<PlannedInjection> injections;  ///< of the three-injections scenario
+  std::vector<Space> spaces;                 ///< where liquid may go, as far as the file says
 };
 
 /// Reads `folder`/joint.toml. `surface_folder` replaces the file's own when not empty; otherwise

@@ -26,7 +26,10 @@ Result<std::string> read_joint_shape(const std::filesystem::path& folder) {
   for (const std::string_view key : kShapeNothing) document->erase(key);
   if (auto* structures = document->get_as<toml::array>("structure"))
     for (toml::node& node : *structures)
-      if (auto* structure = node.as_table()) structure->erase("fibre_axis");
+      if (auto* structure = node.as_table()) {
+        structure->erase("fibre_axis");
+        structure->erase("fibre_course");
+      }
   std::ostringstream out;
   out << toml::toml_formatter(*document);
   return out.str();

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 
+#include "artus/core/known_names.h"
+
 namespace artus {
 namespace {
 
@@ -199,6 +201,13 @@ Structure read_structure(const toml::table& table, std::size_t number, double un
     else
       toml.problem_at("fibre_axis", "must not be zero");
   }
+  const std::string course = toml.text("fibre_course").value_or("ends");
+  if (course == "layer")
+    structure.fibre_course = FibreCourse::layer;
+  else if (course != "ends")
+    toml.problem_at("fibre_course", "must be \"ends\" or \"layer\", not \"" + course + "\"");
+  if (course == "layer" && !structure.fibre_axis)
+    toml.problem_at("fibre_course", "\"layer\" needs fibre_axis = [x, y, z], which it follows");
   toml.finish();
   return structure;
 }

@@ -187,6 +187,33 @@ CompiledJoint make_block_with_sphere(const std::vector<Tissue>& tissues,
   return joint;
 }
 
+CompiledJoint subdivided(const CompiledJoint& joint, int times) {
+  ARTUS_REQUIRE(joint.mesh.tetrahedra.empty(), "surfaces alone can be cut");
+  CompiledJoint fine = joint;
+  for (int k = 0; k < times; ++k) {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
+    const auto middle = [&](std::uint32_t a, std::uint32_t b) {
+      const auto [place, is_new] = middles.try_emplace(std::minmax(a, b), 0U);
+      if (is_new)
+        place->second = add_vertex(fine, 0.5 * (fine.mesh.vertices[a] + fine.mesh.vertices[b]));
+      return place->second;
+    };
+    std::vector<Interface> cut;
+    cut.reserve(4 * fine.mesh.interfaces.size());
+    for (const Interface& i : fine.mesh.interfaces) {
+      const auto [a, b, c] = i.vertices;
+      const std::uint32_t ab = middle(a, b);
+      const std::uint32_t bc = middle(b, c);
+      const std::uint32_t ca = middle(c, a);
+      for (const auto& corners : {std::array{a, ab, ca}, std::array{ab, b, bc},
+                                  std::array{ca, bc, c}, std::array{ab, bc, ca}})
+        cut.push_back({corners, i.front, i.back});
+    }
+    fine.mesh.interfaces = std::move(cut);
+  }
+  return fine;
+}
+
 CompiledJoint transformed(const CompiledJoint& joint, const Pose& X_new_old) {
   CompiledJoint moved = joint;
   for (Vec3& v : moved.mesh.vertices) v = X_new_old * v;

@@ -60,6 +60,10 @@ struct BlockWithSphere {
 [[nodiscard]] CompiledJoint make_block_with_sphere(const std::vector<Tissue>& tissues,
                                                    const BlockWithSphere& block);
 
+/// The joint with each triangle of its interfaces cut into four, `times` over: a body without
+/// tetrahedra whose flat surfaces can bend. Requires: no tetrahedra.
+[[nodiscard]] CompiledJoint subdivided(const CompiledJoint& joint, int times);
+
 /// The joint moved rigidly: vertices, landmarks, default poses and fibre axes.
 [[nodiscard]] CompiledJoint transformed(const CompiledJoint& joint, const Pose& X_new_old);
 

@@ -5,8 +5,6 @@
 #include <chrono>
 #include <cmath>
 
-#include <sys/resource.h>
-
 #include <tbb/task_group.h>
 
 #include "artus/anatomy/compile/compile_labels.h"
@@ -15,6 +13,7 @@
 #include "artus/anatomy/compile/compile_warnings.h"
 #include "artus/anatomy/compile/dress_body.h"
 #include "artus/anatomy/compile/fit_interfaces.h"
+#include "artus/anatomy/compile/isolated.h"
 #include "artus/anatomy/compile/misplaced.h"
 #include "artus/anatomy/compile/plan_check.h"
 #include "artus/anatomy/compile/resolve.h"
@@ -98,15 +97,21 @@ double smallest_part(const std::vector<RegionSizing>& sizing, RegionId region) {
   return size * size * size / 2;
 }
 
-Result<void> finish_topology(TetMesh& mesh, const RegionLabels& labels) {
-  const Result<TetNeighbours> neighbours = find_tet_neighbours(mesh);
-  ARTUS_TRY(neighbours);
-  rebuild_interfaces(mesh, *neighbours, [&](const Vec3& p) { return front_of_hull(labels, p); });
-  order_vertices(mesh);
-  return {};
+// A mesh and who shares its faces.
+struct Complex {
+  TetMesh mesh;
+  TetNeighbours neighbours;
+};
+
+// What is neighbour of what stays true: no tetrahedron changes its place.
+void finish_topology(Complex& complex, const RegionLabels& labels) {
+  rebuild_interfaces(complex.mesh, complex.neighbours,
+                     [&](const Vec3& p) { return front_of_hull(labels, p); });
+  order_vertices(complex.mesh);
 }
 
-Result<TetMesh> mesh_regions(const LabelledSpace& space, Stages& stages, CompileReport& report) {
+// The complex whose interfaces stay.
+Result<Complex> make_interfaces(const LabelledSpace& space, Stages& stages, CompileReport& report) {
   Result<TetMesh> mesh = stages.run("resolving overlaps", 0.2, [&] {
     tbb::task_group beside;  // the mesher has one thread, and volumes need nothing of it
     beside.run([&] { measure_labels(space.labels, report); });
@@ -114,30 +119,38 @@ Result<TetMesh> mesh_regions(const LabelledSpace& space, Stages& stages, Compile
     beside.wait();
     return resolved;
   });
-  if (!mesh) return mesh;
+  ARTUS_TRY(mesh);
   auto neighbours = find_tet_neighbours(*mesh);
   ARTUS_TRY(neighbours);
-  report.crumbs = absorb_crumbs(*mesh, *neighbours,
+  Complex complex{std::move(*mesh), std::move(*neighbours)};
+  report.crumbs = absorb_crumbs(complex.mesh, complex.neighbours,
                                 [&](RegionId r) { return smallest_part(space.resolve.sizing, r); });
-  ARTUS_TRY(finish_topology(*mesh, space.labels));
+  finish_topology(complex, space.labels);
   stages.run("fitting interfaces", 0.6, [&] {
-    fit_interfaces(*mesh, space.labels);
+    fit_interfaces(complex.mesh, space.labels);
     return true;
   });
-  neighbours = find_tet_neighbours(*mesh);
-  ARTUS_TRY(neighbours);
-  const FillMethod filled = stages.run("filling with tetrahedra", 0.7,
-                                       [&] { return fill_with_tetgen(*mesh, *neighbours); });
-  report.fill_method = name_of(filled);
-  ARTUS_TRY(finish_topology(*mesh, space.labels));
-  return mesh;
+  return complex;
 }
 
-double peak_memory() {
-  rusage usage{};
-  if (getrusage(RUSAGE_SELF, &usage) != 0) return 0;
-  constexpr double kKibibyte = 1024;
-  return kKibibyte * static_cast<double>(usage.ru_maxrss);
+// Fills between the interfaces.
+Result<void> fill(Complex& complex, const LabelledSpace& space, Stages& stages,
+                  CompileReport& report) {
+  const std::size_t n_interfaces = complex.mesh.interfaces.size();
+  report.fill_method = name_of(stages.run("filling with tetrahedra", 0.7, [&] {
+    return fill_with_tetgen(complex.mesh, complex.neighbours, space.resolve.sizing);
+  }));
+  auto neighbours = find_tet_neighbours(complex.mesh);
+  ARTUS_TRY(neighbours);
+  complex.neighbours = std::move(*neighbours);
+  finish_topology(complex, space.labels);
+  if (complex.mesh.interfaces.size() != n_interfaces)
+    return fail(ErrorCode::failed, "the tetrahedra do not meet at the interfaces");
+  stages.run("measuring tetrahedra", 0.9, [&] {
+    measure_mesh(complex.mesh, complex.neighbours, report);
+    return true;
+  });
+  return {};
 }
 
 }  // namespace
@@ -151,8 +164,8 @@ Result<CompileOutcome> compile_joint(const JointFile& file, const CompileOptions
   auto digest = compute_source_digest(file);
   ARTUS_TRY(digest);
   std::vector<StructureReport> reports = start_reports(file);
-  const auto surfaces = stages.run("reading and repairing surfaces", 0,
-                                   [&] { return prepare_surfaces(file, reports); });
+  auto surfaces = stages.run("reading and repairing surfaces", 0,
+                             [&] { return prepare_surfaces(file, reports); });
   ARTUS_TRY(surfaces);
   ARTUS_TRY(check_refusals(file, reports, *surfaces, options));
   StructureReport filler;
@@ -161,18 +174,25 @@ Result<CompileOutcome> compile_joint(const JointFile& file, const CompileOptions
   filler.kind = "filler";
   report.structures.push_back(std::move(filler));
   report.structures.insert(report.structures.end(), reports.begin(), reports.end());
-  const auto space = stages.run("measuring distances", 0.1,
-                                [&] { return make_labelled_space(file, *surfaces, progress); });
+  auto space = stages.run("measuring distances", 0.1,
+                          [&] { return make_labelled_space(file, *surfaces, progress); });
   ARTUS_TRY(space);
-  Result<TetMesh> mesh = mesh_regions(*space, stages, report);
-  ARTUS_TRY(mesh);
-  stages.run("measuring the result", 0.9, [&] {
-    measure_mesh(*mesh, space->labels, *surfaces, report);
-    append_warnings(file, space->labels, *surfaces, report);
-    append_gap_cuts(file, *space, report);
+  Result<Complex> complex = make_interfaces(*space, stages, report);
+  ARTUS_TRY(complex);
+  stages.run("measuring interfaces", 0.65, [&] {
+    measure_distances(complex->mesh, space->labels, *surfaces, report);
     return true;
   });
-  outcome.joint = dress_body(file, std::move(*mesh), std::move(*digest), report.notes);
+  // Their memory is TetGen's now; of the labels the outermost surface is all that it needs.
+  for (auto& surface : surfaces->structures)
+    if (surface) surface->tree = DistanceTree(SurfaceMesh{});
+  space->labels.layers.clear();
+  space->labels.layers.shrink_to_fit();
+  space->labels.index = {};
+  ARTUS_TRY(fill(*complex, *space, stages, report));
+  append_warnings(file, space->labels, *surfaces, report);
+  append_gap_cuts(file, *space, report);
+  outcome.joint = dress_body(file, std::move(complex->mesh), std::move(*digest), report.notes);
   report.seconds = seconds_since(start);
   report.peak_memory = peak_memory();
   if (progress) progress("done", 1);

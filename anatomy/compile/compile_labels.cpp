@@ -79,7 +79,7 @@ class FieldMaker {
         progress_(progress),
         surfaces_(surfaces),
         box_(box),
-        bands_(construct_bands(file)),
+        needs_(find_far_needs(file)),
         fields_(file.structures.size()),
         sizing_(file.structures.size()),
         cuts_(file.structures.size()) {}
@@ -106,12 +106,19 @@ class FieldMaker {
     }
   }
 
-  DistanceField take_body() { return std::move(body_); }
-  std::optional<DistanceField>& field(std::size_t i) { return fields_[i]; }
+  // What was known from afar served the constructs alone.
+  DistanceField take_body() { return take(body_); }
+  [[nodiscard]] bool has_field(std::size_t i) const { return fields_[i].has_value(); }
+  DistanceField take_field(std::size_t i) { return take(*fields_[i]); }
   std::vector<std::vector<GapCut>> take_cuts() { return std::move(cuts_); }
   [[nodiscard]] const RegionSizing& sizing(std::size_t i) const { return sizing_[i]; }
 
  private:
+  static DistanceField take(DistanceField& field) {
+    field.forget_far();
+    return std::move(field);
+  }
+
   // Each structure takes its share of this stage.
   void tell(const std::string& name) {
     if (progress_)
@@ -122,15 +129,17 @@ class FieldMaker {
   DistanceField surface_field(const PreparedSurface& surface, const std::string& name,
                               const RegionSizing& size) const {
     const double spacing = spacing_of(file_, size, surface.thickness);
-    const auto needed = bands_.find(name);
-    const bool extended = needed != bands_.end();
+    const auto needed = needs_.find(name);
+    const bool extended = needed != needs_.end();
     const double band = (extended ? kExtendedBandPerSpacing : kBandPerSpacing) * spacing;
     Box around = grown(surface.tree.lower(), surface.tree.upper(), band);
     auto field = DistanceField::compute(surface.tree, {intersection(box_, around), spacing, band});
     if (!extended) return field;
     const double coarse = kFarSpacing * file_.facet_size;
-    const double reach = std::max(needed->second + 2 * coarse, band + coarse);
+    const double reach = std::max(needed->second.band + 2 * coarse, band + coarse);
     around = grown(surface.tree.lower(), surface.tree.upper(), reach);
+    around =
+        intersection(around, grown(needed->second.box.lower, needed->second.box.upper, 2 * coarse));
     field.extend(surface.tree, {intersection(box_, around), coarse, reach});
     return field;
   }
@@ -208,7 +217,7 @@ class FieldMaker {
   double n_told_ = 0;
   const PreparedSurfaces& surfaces_;
   Box box_;
-  std::map<std::string, double> bands_;
+  std::map<std::string, FarNeed> needs_;
   DistanceField body_;
   std::vector<std::optional<DistanceField>> fields_;
   std::vector<RegionSizing> sizing_;
@@ -307,11 +316,11 @@ Result<LabelledSpace> make_labelled_space(const JointFile& file, const PreparedS
                               sizing_of(file, file.body, 0));
   double finest = file.facet_size;
   for (const std::size_t i : priority_order(file)) {
-    if (!maker.field(i)) continue;
+    if (!maker.has_field(i)) continue;
     const RegionId region = region_of_structure(i);
     space.resolve.sizing[region] = maker.sizing(i);
     finest = std::min(finest, maker.sizing(i).facet_size);
-    space.labels.layers.push_back({region, std::move(*maker.field(i))});
+    space.labels.layers.push_back({region, maker.take_field(i)});
   }
   space.cuts = maker.take_cuts();
   space.labels.body = maker.take_body();

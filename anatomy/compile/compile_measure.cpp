@@ -11,6 +11,7 @@
 
 #include "artus/anatomy/compile/compile_labels.h"
 #include "artus/anatomy/compile/tet_topology.h"
+#include "artus/core/check.h"
 
 namespace artus {
 namespace {
@@ -216,6 +217,15 @@ DistanceStatistics compute_all(const SamplesOf& samples) {
   return compute_statistics(std::move(all));
 }
 
+}  // namespace
+
+void measure_labels(const RegionLabels& labels, CompileReport& report) {
+  for (std::size_t layer = 0; layer < labels.layers.size(); ++layer) {
+    integrate_layer(labels, layer, report.structures[labels.layers[layer].region - kFirstRegion]);
+    find_taker(labels, layer, report);
+  }
+}
+
 void measure_distances(const TetMesh& mesh, const RegionLabels& labels,
                        const PreparedSurfaces& surfaces, CompileReport& report) {
   const SamplesOf there = measure_interfaces(mesh, labels, surfaces);
@@ -226,29 +236,15 @@ void measure_distances(const TetMesh& mesh, const RegionLabels& labels,
   report.distance = worse_of(compute_all(there), compute_all(back));
 }
 
-}  // namespace
-
-void measure_labels(const RegionLabels& labels, CompileReport& report) {
-  for (std::size_t layer = 0; layer < labels.layers.size(); ++layer) {
-    integrate_layer(labels, layer, report.structures[labels.layers[layer].region - kFirstRegion]);
-    find_taker(labels, layer, report);
-  }
-}
-
-void measure_mesh(const TetMesh& mesh, const RegionLabels& labels, const PreparedSurfaces& surfaces,
-                  CompileReport& report) {
+void measure_mesh(const TetMesh& mesh, const TetNeighbours& neighbours, CompileReport& report) {
   const std::size_t n_regions = kFirstRegion + report.structures.size();
   const std::vector<double> volumes = region_volumes(mesh, n_regions);
   for (std::size_t i = 0; i < report.structures.size(); ++i) {
     report.structures[i].resolved_volume = volumes[kFirstRegion + i];
   }
   for (const RegionId r : mesh.regions) ++report.structures[r - kFirstRegion].tetrahedra;
-  if (const auto neighbours = find_tet_neighbours(mesh)) {
-    for (const RegionId r : find_tet_parts(mesh, *neighbours).region) {
-      ++report.structures[r - kFirstRegion].parts;
-    }
-  }
-  measure_distances(mesh, labels, surfaces, report);
+  for (const RegionId r : find_tet_parts(mesh, neighbours).region)
+    ++report.structures[r - kFirstRegion].parts;
   report.quality = compute_quality(mesh);
   report.vertices = mesh.vertices.size();
   report.tetrahedra = mesh.tetrahedra.size();
@@ -258,7 +254,10 @@ void measure_mesh(const TetMesh& mesh, const RegionLabels& labels, const Prepare
 void measure_joint(const TetMesh& mesh, const RegionLabels& labels,
                    const PreparedSurfaces& surfaces, CompileReport& report) {
   measure_labels(labels, report);
-  measure_mesh(mesh, labels, surfaces, report);
+  measure_distances(mesh, labels, surfaces, report);
+  const auto neighbours = find_tet_neighbours(mesh);
+  ARTUS_REQUIRE(neighbours.has_value(), "the mesh has a face of more than two tetrahedra");
+  measure_mesh(mesh, *neighbours, report);
 }
 
 }  // namespace artus

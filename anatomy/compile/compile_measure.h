@@ -3,6 +3,7 @@
 #include "artus/anatomy/compile/compile_report.h"
 #include "artus/anatomy/compile/compile_surfaces.h"
 #include "artus/anatomy/compile/region_labels.h"
+#include "artus/anatomy/compile/tet_topology.h"
 
 namespace artus {
 
@@ -13,8 +14,8 @@ inline constexpr double kMuchLost = 0.2;
 /// from the finished mesh. Volumes expected of a structure are integrals over its field.
 /// Distances are measured both ways: from the interfaces to the surfaces that shape them, and from
 /// the surfaces, where nothing comes before them, to the interfaces of their regions.
-/// Cost: samples of all fields, exact distances of four points of each interface and of points as
-/// near to each other as three samples of the field.
+/// Requires: the neighbours in `mesh` can be found. Cost: samples of all fields, exact distances of
+/// four points of each interface and of points as near to each other as three samples of the field.
 void measure_joint(const TetMesh& mesh, const RegionLabels& labels,
                    const PreparedSurfaces& surfaces, CompileReport& report);
 
@@ -22,8 +23,11 @@ void measure_joint(const TetMesh& mesh, const RegionLabels& labels,
 /// what it loses and to which. Cost: samples of all fields.
 void measure_labels(const RegionLabels& labels, CompileReport& report);
 
-/// The part of measure_joint that needs the mesh.
-void measure_mesh(const TetMesh& mesh, const RegionLabels& labels, const PreparedSurfaces& surfaces,
-                  CompileReport& report);
+/// The part of measure_joint that needs the mesh's interfaces: distances.
+void measure_distances(const TetMesh& mesh, const RegionLabels& labels,
+                       const PreparedSurfaces& surfaces, CompileReport& report);
+
+/// The part of measure_joint that the mesh alone tells: volumes, parts, quality, counts.
+void measure_mesh(const TetMesh& mesh, const TetNeighbours& neighbours, CompileReport& report);
 
 }  // namespace artus

@@ -51,7 +51,7 @@ struct CompileReport {
   bool body_kept = false;          ///< the tetrahedra are those of an earlier compilation
   std::vector<StageTime> stages;
   double seconds = 0;
-  double peak_memory = 0;  ///< bytes, of the process
+  double peak_memory = 0;  ///< bytes, of the process or of one that it started
 };
 
 /// The report as JSON, lengths in mm and volumes in cm^3 as the keys say.

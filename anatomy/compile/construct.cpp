@@ -76,26 +76,35 @@ Function make_function(const SurfaceFile& /*file*/, const NamedFields& /*fields*
 
 }  // namespace
 
-std::map<std::string, double> construct_bands(const JointFile& joint) {
-  std::map<std::string, double> bands;
-  const auto need = [&bands](const std::string& name, double band) {
-    double& known = bands[name];
-    known = std::max(known, band);
+std::map<std::string, FarNeed> find_far_needs(const JointFile& joint) {
+  std::map<std::string, FarNeed> needs;
+  const Vec3 anywhere = Vec3::Constant(std::numeric_limits<double>::infinity());
+  const auto need = [&needs](const std::string& name, double band, const Box& box) {
+    const auto [at, is_new] = needs.try_emplace(name, FarNeed{band, box});
+    if (is_new) return;
+    FarNeed& known = at->second;
+    known.band = std::max(known.band, band);
+    known.box = {known.box.lower.cwiseMin(box.lower), known.box.upper.cwiseMax(box.upper)};
   };
+  const Box all{-anywhere, anywhere};
   for (const Structure& s : joint.structures) {
     if (const auto* shell = std::get_if<ShellConstruct>(&s.shape)) {
-      need(shell->inside, 1.5 * shell->thickness);
+      need(shell->inside, 1.5 * shell->thickness, all);
     } else if (const auto* cap = std::get_if<CapConstruct>(&s.shape)) {
-      need(cap->on, cap->within);
-      for (const std::string& name : cap->near) need(name, cap->within);
+      need(cap->on, 1.5 * cap->thickness, all);  // the cap ends there
+      for (const std::string& name : cap->near) need(name, cap->within, all);
     } else if (const auto* gap = std::get_if<GapConstruct>(&s.shape)) {
-      for (const std::string& name : gap->roof) need(name, gap->within + gap->thickness);
-      for (const std::string& name : gap->floor) need(name, gap->within + gap->thickness);
+      // Where both are within reach and no farther apart than it is thick, neither is farther.
+      const double band = (gap->within + gap->thickness) / 2;
+      const Vec3 reach = Vec3::Constant(gap->radius + 2 * gap->thickness);
+      const Box box = gap->radius > 0 ? Box{gap->centre - reach, gap->centre + reach} : all;
+      for (const std::string& name : gap->roof) need(name, band, box);
+      for (const std::string& name : gap->floor) need(name, band, box);
     } else if (const auto* end = std::get_if<EndConstruct>(&s.shape)) {
-      need(end->toward, 2 * kContactReach);
+      if (!end->insertion) need(end->toward, kContactReach, all);
     }
   }
-  return bands;
+  return needs;
 }
 
 DistanceField make_construct_field(const Structure& structure, const NamedFields& fields,

@@ -12,9 +12,15 @@ namespace artus {
 /// What constructs are made from: the fields of the structures they name; "" is the body.
 using NamedFields = std::map<std::string, const DistanceField*>;
 
-/// Band of distance, m, that each structure's field needs so that constructs can be made from it;
-/// "" is the body. Structures that no construct names are absent.
-[[nodiscard]] std::map<std::string, double> construct_bands(const JointFile& joint);
+/// What a structure's field must tell so that constructs can be made from it.
+struct FarNeed {
+  double band = 0;  ///< m of distance
+  Box box;          ///< where; without limit unless the constructs have one
+};
+
+/// The needs of all constructs, by the name of the structure; "" is the body. Structures that no
+/// construct names are absent.
+[[nodiscard]] std::map<std::string, FarNeed> find_far_needs(const JointFile& joint);
 
 /// The construct's field, sampled in `sampling.box` (cut to where the construct can be).
 /// Shell: within `thickness` inside the surface.

@@ -193,7 +193,17 @@ DistanceField DistanceField::compute(const std::function<double(const Vec3&)>& f
 
 double DistanceField::value(const Vec3& p) const noexcept {
   const double near = near_value(p);
-  return far_ && std::abs(near) >= band_ - kClampReach * spacing_ ? far_->value(p) : near;
+  if (!far_ || std::abs(near) < band_ - kClampReach * spacing_) return near;
+  return far_->covers(p) ? far_->value(p) : std::copysign(far_->band_, near);
+}
+
+bool DistanceField::covers(const Vec3& p) const noexcept {
+  const Vec3 q = (p - origin_) / (kCells * spacing_);
+  for (std::size_t a = 0; a < 3; ++a) {
+    const double at = q[static_cast<Eigen::Index>(a)];
+    if (!(at >= 0 && at < blocks_[a])) return false;
+  }
+  return true;
 }
 
 void DistanceField::extend(const DistanceTree& tree, const FieldSampling& sampling) {

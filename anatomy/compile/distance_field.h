@@ -48,8 +48,11 @@ class DistanceField {
                                              const FieldSampling& sampling);
 
   /// Adds a coarser field of a wider band for where this one is clamped: distances far from a
-  /// surface are smooth. Requires: `sampling.band` larger than this band.
+  /// surface are smooth. Beyond its box what is clamped here counts as `sampling.band` away.
+  /// Requires: `sampling.band` larger than this band.
   void extend(const DistanceTree& tree, const FieldSampling& sampling);
+  /// Takes back what extend added.
+  void forget_far() noexcept { far_.reset(); }
 
   /// Signed distance at `p`, m. Cost: constant, tens of nanoseconds.
   [[nodiscard]] double value(const Vec3& p) const noexcept;
@@ -91,6 +94,7 @@ class DistanceField {
   using BlockFiller = std::function<void(const Vec3&, float*)>;
 
   [[nodiscard]] double near_value(const Vec3& p) const noexcept;
+  [[nodiscard]] bool covers(const Vec3& p) const noexcept;
   void layout(const FieldSampling& sampling);
   void sample(const BlockSource& at_centre, const BlockFiller& fill);
   [[nodiscard]] Vec3 block_corner(std::size_t block) const noexcept;

@@ -66,6 +66,7 @@ std::vector<Region> make_regions(const JointFile& file, const TetMesh& mesh) {
     Region region{s.name, tissue_index(file, s.tissue), Vec3::Zero()};
     if (s.fibre_axis && s.fibre_axis->norm() > 0) {
       region.fibre_axis = s.fibre_axis->normalized();
+      region.fibre_course = s.fibre_course;
     } else if (has_fibres(file.tissues[region.tissue].acoustic.kind)) {
       region.fibre_axis = axes[regions.size()];
     }
@@ -90,6 +91,7 @@ CompiledJoint dress_body(const JointFile& file, TetMesh mesh, std::string digest
   joint.X_JP_default = poses.X_JP;
   joint.X_JN_default = poses.X_JN;
   joint.injections = file.injections;
+  joint.spaces = file.spaces;
   joint.source_digest = std::move(digest);
   return joint;
 }

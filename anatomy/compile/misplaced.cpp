@@ -88,7 +88,7 @@ class Finder {
     for (std::size_t i = 0; i < samples_.size(); ++i) {
       if (samples_[i].empty()) continue;
       tell_outside(i, lies[i]);
-      tell_in_bone(i);
+      tell_swallowed(i);
       tell_twin(i);
     }
     return std::move(found_);
@@ -129,17 +129,27 @@ class Finder {
                        [&](const Tissue& t) { return t.name == s.tissue && t.haptic.hard; });
   }
 
-  void tell_in_bone(std::size_t i) {
+  // Inside a bone, or inside of what stands before it and leaves nothing of it.
+  void tell_swallowed(std::size_t i) {
     for (std::size_t k = 0; k < samples_.size(); ++k) {
-      if (k == i || !surfaces_.structures[k] || !is_hard(file_.structures[k])) continue;
-      if (is_twin(i, k)) continue;
-      const DistanceTree& bone = surfaces_.structures[k]->tree;
-      if (!bone.empty() && (samples_[i].front().array() < bone.lower().array()).any()) continue;
-      const Lie lie = lie_of(samples_[i], bone);
+      if (k == i || !surfaces_.structures[k] || is_twin(i, k)) continue;
+      const bool in_bone = is_hard(file_.structures[k]);
+      if (!in_bone && k > i) continue;
+      const DistanceTree& other = surfaces_.structures[k]->tree;
+      if (!other.empty() && (samples_[i].front().array() < other.lower().array()).any()) continue;
+      const Lie lie = lie_of(samples_[i], other);
       if (lie.inside <= kAll) continue;
+      const char* name = file_.structures[k].name.c_str();
+      if (!in_bone) {
+        add(Verdict::look, file_.structures[i],
+            format("all of it lies inside '%s', which stands before it in the file and takes all "
+                   "of it: put it before '%s'",
+                   name, name));
+        return;
+      }
       add(Verdict::look, file_.structures[i],
-          format("all of it lies inside the bone '%s', %.1f mm or more under its surface; %s",
-                 file_.structures[k].name.c_str(), lie.least / kMillimetre,
+          format("all of it lies inside the bone '%s', %.1f mm or more under its surface; %s", name,
+                 lie.least / kMillimetre,
                  k < i ? "the bone stands before it in the file and takes all of it: put it before "
                          "the bone if it is meant, else see to its frame"
                        : "see to its frame if that is not meant"));

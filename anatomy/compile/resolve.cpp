@@ -25,10 +25,9 @@ using Triangulation = CGAL::Mesh_triangulation_3<Domain>::type;
 using Complex = CGAL::Mesh_complex_3_in_triangulation_3<Triangulation>;
 using Criteria = CGAL::Mesh_criteria_3<Triangulation>;
 
-constexpr double kFacetAngle = 25;          // deg, CGAL guarantees termination up to 30
-constexpr double kCellRadiusEdgeRatio = 2;  // as CGAL advises
-constexpr double kErrorBound = 1e-4;        // of the box: where a boundary is found
-constexpr double kUnbounded = 1e9;          // m
+constexpr double kFacetAngle = 25;    // deg, CGAL guarantees termination up to 30
+constexpr double kErrorBound = 1e-4;  // of the box: where a boundary is found
+constexpr double kUnbounded = 1e9;    // m
 constexpr std::uint32_t kUnsetNumber = 0xffffffffU;
 
 // What is not meshed is 0 for the mesher, whether outside the body or beyond the region of
@@ -108,8 +107,7 @@ void refine(const RegionLabels& labels, const ResolveOptions& options,
           kFacetAngle, SizeField{&options.sizing, &RegionSizing::facet_size},
           SizeField{&options.sizing, &RegionSizing::facet_distance},
           CGAL::FACET_VERTICES_ON_SURFACE),
-      CGAL::Mesh_cell_criteria_3<Triangulation>(
-          kCellRadiusEdgeRatio, SizeField{&options.sizing, &RegionSizing::cell_size}));
+      CGAL::Mesh_cell_criteria_3<Triangulation>(0., 0.));  // cells are refined by who fills it
   insert_seeds(seeds, complex);
   CGAL::refine_mesh_3(complex, domain, criteria, param::no_exude(), param::no_perturb(),
                       param::no_reset_c3t3(), param::no_odt(), param::no_lloyd());

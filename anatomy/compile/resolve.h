@@ -23,7 +23,8 @@ struct ResolveOptions {
 };
 
 /// Meshes the labelled regions into one conforming complex: Delaunay refinement restricted to the
-/// labels' boundaries, started from points on every boundary so that no small part is missed.
+/// labels' boundaries, started from points on every boundary so that no small part is missed. The
+/// tetrahedra between them are as they come, large and flat ones among them: see fill_with_tetgen.
 /// Errors: failed when nothing is inside, or the mesher gives up.
 /// Source: [Boissonnat2005]; [CGAL] Mesh_3.
 [[nodiscard]] Result<TetMesh> resolve_regions(const RegionLabels& labels,

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/anatomy/compile/tetrahedralize.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <functional>
+#include <numeric>
 #include <optional>
+#include <thread>
 #include <utility>
 
 #include <malloc.h>
@@ -16,23 +21,28 @@ namespace artus {
 namespace {
 
 // p: a piecewise linear complex, Y: keep its facets, A: regions, q: radius-edge ratio and dihedral
-// angle in degrees, O: local optimisation, Q: quiet.
-constexpr const char* kQualitySwitches = "pYAq1.4/12O7/7Q";
+// angle in degrees, a: the regions' bounds of volume, O: local optimisation, Q: quiet.
+constexpr const char* kQualitySwitches = "pYAaq1.4/12O7/7Q";
 constexpr const char* kPlainSwitches = "pYAQ";
 // TetGen's tolerances are made for coordinates of order one to a hundred.
 constexpr double kScale = 1e3;
 
-struct RegionPoint {
-  double volume = 0;
+// So many groups of parts are filled each by itself, at once where there are processors: whatever
+// their number, the tetrahedra are the same.
+constexpr std::size_t kGroups = 4;
+
+// A part of a region, and a point well inside it: the centroid of its largest tetrahedron.
+struct PartPoint {
+  double volume = 0;  // of that tetrahedron
   Vec3 point = Vec3::Zero();
+  std::size_t tetrahedra = 0;
 };
 
-// One point well inside each connected part of each region: the centroid of its largest
-// tetrahedron.
-std::vector<RegionPoint> find_region_points(const TetMesh& mesh, const TetParts& parts) {
-  std::vector<RegionPoint> points(parts.region.size());
+std::vector<PartPoint> find_part_points(const TetMesh& mesh, const TetParts& parts) {
+  std::vector<PartPoint> points(parts.region.size());
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
-    RegionPoint& best = points[parts.part[t]];
+    PartPoint& best = points[parts.part[t]];
+    ++best.tetrahedra;
     const double volume = tet_volume(mesh, t);
     if (volume <= best.volume) continue;
     best.volume = volume;
@@ -42,20 +52,75 @@ std::vector<RegionPoint> find_region_points(const TetMesh& mesh, const TetParts&
   return points;
 }
 
-void set_points(const TetMesh& mesh, tetgenio& in) {
-  in.numberofpoints = static_cast<int>(mesh.vertices.size());
-  in.pointlist = new REAL[3 * mesh.vertices.size()];
-  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-    for (std::size_t a = 0; a < 3; ++a) {
-      in.pointlist[3 * v + a] = kScale * mesh.vertices[v][static_cast<Eigen::Index>(a)];
-    }
+// Which group each part belongs to: the largest first, each to the group that has least so far.
+std::vector<std::size_t> assign_groups(const std::vector<PartPoint>& points) {
+  std::vector<std::size_t> order(points.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return points[a].tetrahedra > points[b].tetrahedra;
+  });
+  std::array<std::size_t, kGroups> load{};
+  std::vector<std::size_t> group(points.size());
+  for (const std::size_t part : order) {
+    group[part] =
+        static_cast<std::size_t>(std::min_element(load.begin(), load.end()) - load.begin());
+    load[group[part]] += points[part].tetrahedra;
   }
+  return group;
 }
 
-void set_facets(const TetMesh& mesh, tetgenio& in) {
-  in.numberoffacets = static_cast<int>(mesh.interfaces.size());
-  in.facetlist = new tetgenio::facet[mesh.interfaces.size()];
-  for (std::size_t i = 0; i < mesh.interfaces.size(); ++i) {
+// What TetGen fills at once: some parts and the triangles around each. The other parts are holes.
+struct Group {
+  std::vector<std::uint32_t> vertices;  // of the complex, ascending
+  std::vector<std::array<std::uint32_t, 3>> facets;
+  std::vector<std::uint32_t> tetrahedra;  // of the complex, ascending
+  std::vector<std::uint32_t> parts;
+  std::vector<std::uint32_t> holes;
+};
+
+std::vector<Group> make_groups(const TetMesh& mesh, const TetNeighbours& neighbours,
+                               const TetParts& parts, const std::vector<PartPoint>& points) {
+  const std::vector<std::size_t> group_of = assign_groups(points);
+  std::vector<Group> groups(kGroups);
+  for (std::uint32_t part = 0; part < group_of.size(); ++part)
+    for (std::size_t g = 0; g < kGroups; ++g)
+      (group_of[part] == g ? groups[g].parts : groups[g].holes).push_back(part);
+  for (std::uint32_t t = 0; t < mesh.tetrahedra.size(); ++t) {
+    const std::size_t g = group_of[parts.part[t]];
+    groups[g].tetrahedra.push_back(t);
+    for (std::size_t k = 0; k < 4; ++k) {
+      groups[g].vertices.push_back(mesh.tetrahedra[t][k]);
+      const std::uint32_t n = neighbours[t][k];
+      if (n != kNoTet && parts.part[n] == parts.part[t]) continue;
+      if (n != kNoTet && group_of[parts.part[n]] == g && n < t) continue;  // it has it already
+      groups[g].facets.push_back(tet_face(mesh.tetrahedra[t], static_cast<int>(k)));
+    }
+  }
+  for (Group& g : groups) {
+    std::sort(g.vertices.begin(), g.vertices.end());
+    g.vertices.erase(std::unique(g.vertices.begin(), g.vertices.end()), g.vertices.end());
+  }
+  groups.erase(
+      std::remove_if(groups.begin(), groups.end(), [](const Group& g) { return g.parts.empty(); }),
+      groups.end());
+  return groups;
+}
+
+void set_point(const Vec3& p, REAL* out) {
+  for (std::size_t a = 0; a < 3; ++a) out[a] = kScale * p[static_cast<Eigen::Index>(a)];
+}
+
+void set_points(const TetMesh& mesh, const Group& group, tetgenio& in) {
+  in.numberofpoints = static_cast<int>(group.vertices.size());
+  in.pointlist = new REAL[3 * group.vertices.size()];
+  for (std::size_t v = 0; v < group.vertices.size(); ++v)
+    set_point(mesh.vertices[group.vertices[v]], in.pointlist + 3 * v);
+}
+
+void set_facets(const Group& group, tetgenio& in) {
+  in.numberoffacets = static_cast<int>(group.facets.size());
+  in.facetlist = new tetgenio::facet[group.facets.size()];
+  for (std::size_t i = 0; i < group.facets.size(); ++i) {
     tetgenio::facet& facet = in.facetlist[i];
     tetgenio::init(&facet);
     facet.numberofpolygons = 1;
@@ -65,22 +130,33 @@ void set_facets(const TetMesh& mesh, tetgenio& in) {
     polygon.numberofvertices = 3;
     polygon.vertexlist = new int[3];
     for (std::size_t k = 0; k < 3; ++k) {
-      polygon.vertexlist[k] = static_cast<int>(mesh.interfaces[i].vertices[k]);
+      const auto at =
+          std::lower_bound(group.vertices.begin(), group.vertices.end(), group.facets[i][k]);
+      polygon.vertexlist[k] = static_cast<int>(at - group.vertices.begin());
     }
   }
 }
 
-void set_regions(const TetMesh& mesh, const TetParts& parts, tetgenio& in) {
-  const std::vector<RegionPoint> points = find_region_points(mesh, parts);
-  in.numberofregions = static_cast<int>(points.size());
-  in.regionlist = new REAL[5 * points.size()];
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    for (std::size_t a = 0; a < 3; ++a) {
-      in.regionlist[5 * i + a] = kScale * points[i].point[static_cast<Eigen::Index>(a)];
-    }
-    in.regionlist[5 * i + 3] = parts.region[i];
-    in.regionlist[5 * i + 4] = -1;
+// The largest volume of a region's tetrahedra in TetGen's units, or -1.
+double largest_volume(std::span<const RegionSizing> sizing, RegionId region) {
+  const double kRegular = 8 / (9 * std::sqrt(3.0));  // of the cube of its circumradius
+  if (region >= sizing.size() || !(sizing[region].cell_size > 0)) return -1;
+  return kRegular * std::pow(kScale * sizing[region].cell_size, 3);
+}
+
+void set_regions(const Group& group, const TetParts& parts, const std::vector<PartPoint>& points,
+                 std::span<const RegionSizing> sizing, tetgenio& in) {
+  in.numberofregions = static_cast<int>(group.parts.size());
+  in.regionlist = new REAL[5 * group.parts.size()];
+  for (std::size_t i = 0; i < group.parts.size(); ++i) {
+    set_point(points[group.parts[i]].point, in.regionlist + 5 * i);
+    in.regionlist[5 * i + 3] = parts.region[group.parts[i]];
+    in.regionlist[5 * i + 4] = largest_volume(sizing, parts.region[group.parts[i]]);
   }
+  in.numberofholes = static_cast<int>(group.holes.size());
+  in.holelist = new REAL[3 * group.holes.size()];
+  for (std::size_t i = 0; i < group.holes.size(); ++i)
+    set_point(points[group.holes[i]].point, in.holelist + 3 * i);
 }
 
 // What TetGen made, as it travels from the process that ran it.
@@ -111,12 +187,8 @@ bool take_array(const std::string& bytes, std::size_t& at, std::vector<T>& out) 
 }
 
 // Runs in the child process; TetGen throws integers, and its clean-up after that may crash.
-std::string run_tetgen(const char* switches, const TetMesh& mesh, const TetParts& parts) {
-  tetgenio in;
+std::string run_tetgen(const char* switches, tetgenio& in) {
   tetgenio out;
-  set_points(mesh, in);
-  set_facets(mesh, in);
-  set_regions(mesh, parts, in);
   std::string text = switches;
   tetrahedralize(text.data(), &in, &out);
   std::string bytes;
@@ -128,58 +200,110 @@ std::string run_tetgen(const char* switches, const TetMesh& mesh, const TetParts
   return bytes;
 }
 
-std::optional<Filling> find_filling(const char* switches, const TetMesh& mesh,
-                                    const TetParts& parts) {
-  // Fifty times what it takes on an idle machine, so that a busy one gets the same tetrahedra.
-  constexpr double kPatience = 300;                // s
-  constexpr double kPatiencePerInterface = 10e-3;  // s
-  const double seconds =
-      kPatience + kPatiencePerInterface * static_cast<double>(mesh.interfaces.size());
-  const auto bytes = run_isolated([&] { return run_tetgen(switches, mesh, parts); }, seconds);
+std::optional<Filling> parse_filling(const std::optional<std::string>& bytes, const Group& group) {
   if (!bytes) return std::nullopt;
   Filling filling;
   std::size_t at = 0;
   if (!take_array(*bytes, at, filling.points) || !take_array(*bytes, at, filling.corners) ||
       !take_array(*bytes, at, filling.regions) || filling.regions.empty() ||
-      filling.points.size() < 3 * mesh.vertices.size()) {
+      filling.points.size() < 3 * group.vertices.size())
     return std::nullopt;
-  }
   return filling;
 }
 
-TetMesh to_mesh(const TetMesh& before, const Filling& filling) {
-  TetMesh mesh;
-  mesh.interfaces = before.interfaces;
-  mesh.vertices = before.vertices;
-  for (std::size_t v = 3 * before.vertices.size(); v < filling.points.size(); v += 3) {
+// Fills the groups that `fillings` still lacks.
+void find_fillings(const char* switches, const std::vector<Group>& groups,
+                   const std::function<void(const Group&, tetgenio&)>& set,
+                   std::vector<std::optional<Filling>>& fillings) {
+  // Fifty times what it takes on an idle machine, so that a busy one gets the same tetrahedra.
+  constexpr double kPatience = 300;            // s
+  constexpr double kPatiencePerFacet = 10e-3;  // s
+  std::vector<std::function<std::string()>> works;
+  std::vector<std::size_t> which;
+  std::size_t most = 0;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    if (fillings[g]) continue;
+    most = std::max(most, groups[g].facets.size());
+    which.push_back(g);
+    works.emplace_back([&, g] {
+      tetgenio in;
+      set(groups[g], in);
+      return run_tetgen(switches, in);
+    });
+  }
+  const double seconds = kPatience + kPatiencePerFacet * static_cast<double>(most);
+  const std::size_t at_once = std::thread::hardware_concurrency();
+  const auto results = run_isolated(works, seconds, at_once);
+  for (std::size_t i = 0; i < which.size(); ++i)
+    fillings[which[i]] = parse_filling(results[i], groups[which[i]]);
+}
+
+// A group's tetrahedra as they were.
+void keep_group(const TetMesh& before, const Group& group, TetMesh& mesh) {
+  for (const std::uint32_t t : group.tetrahedra) {
+    mesh.tetrahedra.push_back(before.tetrahedra[t]);
+    mesh.regions.push_back(before.regions[t]);
+  }
+}
+
+void append_group(const Group& group, const Filling& filling, TetMesh& mesh) {
+  const std::size_t n_known = group.vertices.size();
+  const auto first_new = static_cast<std::uint32_t>(mesh.vertices.size());
+  for (std::size_t v = 3 * n_known; v < filling.points.size(); v += 3)
     mesh.vertices.emplace_back(filling.points[v] / kScale, filling.points[v + 1] / kScale,
                                filling.points[v + 2] / kScale);
-  }
   for (std::size_t t = 0; t < filling.regions.size(); ++t) {
     std::array<std::uint32_t, 4> tet{};
     for (std::size_t k = 0; k < 4; ++k) {
-      tet[k] = static_cast<std::uint32_t>(filling.corners[4 * t + k]);
+      const auto v = static_cast<std::uint32_t>(filling.corners[4 * t + k]);
+      tet[k] =
+          v < n_known ? group.vertices[v] : first_new + static_cast<std::uint32_t>(v - n_known);
     }
     mesh.tetrahedra.push_back(tet);
     mesh.regions.push_back(static_cast<RegionId>(std::lround(filling.regions[t])));
-    if (tet_volume(mesh, t) < 0) std::swap(mesh.tetrahedra[t][2], mesh.tetrahedra[t][3]);
+    const std::size_t last = mesh.tetrahedra.size() - 1;
+    if (tet_volume(mesh, last) < 0) std::swap(mesh.tetrahedra[last][2], mesh.tetrahedra[last][3]);
   }
-  return mesh;
 }
 
 }  // namespace
 
-FillMethod fill_with_tetgen(TetMesh& mesh, const TetNeighbours& neighbours) {
+FillMethod fill_with_tetgen(TetMesh& mesh, const TetNeighbours& neighbours,
+                            std::span<const RegionSizing> sizing) {
   const TetParts parts = find_tet_parts(mesh, neighbours);
-  malloc_trim(0);  // the child's memory begins as a copy of this process's
-  for (const FillMethod method : {FillMethod::quality, FillMethod::plain}) {
-    const char* switches = method == FillMethod::quality ? kQualitySwitches : kPlainSwitches;
-    if (const auto filling = find_filling(switches, mesh, parts)) {
-      mesh = to_mesh(mesh, *filling);
-      return method;
-    }
+  const std::vector<PartPoint> points = find_part_points(mesh, parts);
+  const std::vector<Group> groups = make_groups(mesh, neighbours, parts, points);
+  const auto set = [&](const Group& group, tetgenio& in) {
+    set_points(mesh, group, in);
+    set_facets(group, in);
+    set_regions(group, parts, points, sizing, in);
+  };
+  malloc_trim(0);  // a child's memory begins as a copy of this process's
+  std::vector<std::optional<Filling>> fillings(groups.size());
+  const auto is_done = [&] {
+    return std::all_of(fillings.begin(), fillings.end(),
+                       [](const auto& f) { return f.has_value(); });
+  };
+  FillMethod method = FillMethod::quality;
+  find_fillings(kQualitySwitches, groups, set, fillings);
+  if (!is_done()) {
+    method = FillMethod::plain;
+    find_fillings(kPlainSwitches, groups, set, fillings);
   }
-  return FillMethod::kept;
+  if (!is_done()) method = FillMethod::kept;
+  TetMesh filled;
+  filled.interfaces = mesh.interfaces;
+  filled.vertices = mesh.vertices;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    if (fillings[g]) {
+      append_group(groups[g], *fillings[g], filled);
+    } else {
+      keep_group(mesh, groups[g], filled);
+    }
+    fillings[g].reset();
+  }
+  mesh = std::move(filled);
+  return method;
 }
 
 }  // namespace artus

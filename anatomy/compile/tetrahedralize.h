@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <span>
 #include <string>
 
 #include "artus/anatomy/body/tet_mesh.h"
+#include "artus/anatomy/compile/resolve.h"
 #include "artus/anatomy/compile/tet_topology.h"
 
 namespace artus {
@@ -16,11 +18,14 @@ enum class FillMethod {
 
 /// Fills the complex anew with TetGen: the interfaces and interior vertices of `mesh` are kept,
 /// vertices are added inside the regions until dihedral angles and radius-edge ratios are good.
-/// TetGen runs in a process of its own, because it aborts and crashes on input it does not like;
-/// then the next weaker method is used, so there is always a result. Interfaces must be rebuilt
-/// afterwards. Errors: none.
-/// Requires: interfaces up to date, vertices ordered (order_vertices).
-/// Source: [Si2015].
-[[nodiscard]] FillMethod fill_with_tetgen(TetMesh& mesh, const TetNeighbours& neighbours);
+/// The parts of the regions are filled in a few groups, each by itself, since no interface changes.
+/// TetGen runs in processes of its own, because it aborts and crashes on input it does not like;
+/// then the next weaker method is used for that group, so there is always a result; the weakest one
+/// used is returned. Interfaces must be rebuilt afterwards. Errors: none.
+/// `sizing` bounds the tetrahedra of each region (n_regions): none is larger than the regular one
+/// of circumradius cell_size, unless the interfaces' triangles around are; empty: no bound.
+/// Requires: interfaces up to date, vertices ordered (order_vertices). Source: [Si2015].
+[[nodiscard]] FillMethod fill_with_tetgen(TetMesh& mesh, const TetNeighbours& neighbours,
+                                          std::span<const RegionSizing> sizing = {});
 
 }  // namespace artus

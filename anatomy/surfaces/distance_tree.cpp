@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::uint32_t kLeafSize = 4;
 constexpr double kOpeningRatio = 2.3;
+constexpr std::uint32_t kLeafBit = 0x80000000U;
 
 // Closest point of a triangle by its Voronoi regions [Ericson2004] section 5.1.5.
 double squared_distance(const Vec3& p, const std::array<Vec3, 3>& t) {
@@ -42,29 +43,97 @@ double squared_distance(const Vec3& p, const std::array<Vec3, 3>& t) {
   return (ap - vb / sum * ab - vc / sum * ac).squaredNorm();
 }
 
-double squared_distance_to_box(const Vec3& p, const std::array<float, 3>& lower,
-                               const std::array<float, 3>& upper) {
-  double sum = 0;
-  for (std::size_t a = 0; a < 3; ++a) {
-    const double at = p[static_cast<Eigen::Index>(a)];
-    const double d =
-        std::max({static_cast<double>(lower[a]) - at, at - static_cast<double>(upper[a]), 0.0});
-    sum += d * d;
-  }
-  return sum;
+// Four numbers in one register.
+using Float4 = float __attribute__((vector_size(16)));
+using Four = std::array<float, 4>;
+
+Float4 load(const Four& a) {
+  return Float4{a[0], a[1], a[2], a[3]};
 }
 
-// Signed solid angle over 4 pi [VanOosterom1983] eq. 8.
-double solid_angle_share(const Vec3& p, const std::array<Vec3, 3>& t) {
+Float4 all(float a) {
+  return Float4{a, a, a, a};
+}
+
+Float4 smaller(Float4 a, Float4 b) {
+  return a < b ? a : b;
+}
+
+Float4 larger(Float4 a, Float4 b) {
+  return a > b ? a : b;
+}
+
+using Float4x3 = std::array<Float4, 3>;
+
+Float4x3 load(const std::array<Four, 3>& a) {
+  return {load(a[0]), load(a[1]), load(a[2])};
+}
+
+Float4 dot(const Float4x3& a, const Float4x3& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+std::array<float, 3> to_float(const Vec3& p) {
+  return {static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])};
+}
+
+// The squared distance of a point to the triangles of a pack: to the nearest edge, or to the plane
+// where the point lies inward of all three.
+template <class Pack>
+Float4 squared_distances(const Pack& pack, const Vec3& p) {
+  const auto at = to_float(p - pack.origin);
+  const Float4 zero = all(0);
+  Float4 nearest = all(std::numeric_limits<float>::infinity());
+  Float4 inmost = nearest;
+  Float4x3 from{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Float4x3 start = load(pack.start[k]);
+    const Float4x3 edge = load(pack.edge[k]);
+    for (std::size_t a = 0; a < 3; ++a) from[a] = all(at[a]) - start[a];
+    const Float4 t = smaller(larger(dot(edge, from) * load(pack.inverse[k]), zero), all(1));
+    inmost = smaller(inmost, dot(load(pack.inward[k]), from));
+    Float4x3 off{};
+    for (std::size_t a = 0; a < 3; ++a) off[a] = from[a] - t * edge[a];
+    nearest = smaller(nearest, dot(off, off));
+  }
+  const Float4 height = dot(load(pack.normal), from);
+  return inmost > zero ? height * height : nearest;
+}
+
+// A sum of angles as a product of complex numbers, and how often it went around: one arc tangent
+// for all of them.
+class AngleSum {
+ public:
+  // Adds the angle of (cosine, sine), of any length.
+  void add(double cosine, double sine) {
+    const double re = re_ * cosine - im_ * sine;
+    const double im = re_ * sine + im_ * cosine;
+    const double size = std::abs(re) + std::abs(im);
+    if (!(size > 0)) return;
+    if ((im_ >= 0) == (sine >= 0) && (im >= 0) != (sine >= 0)) turns_ += sine >= 0 ? 1 : -1;
+    re_ = re / size;
+    im_ = im / size;
+  }
+  // In turns.
+  [[nodiscard]] double turns() const {
+    return turns_ + std::atan2(im_, re_) / (2 * std::numbers::pi);
+  }
+
+ private:
+  double re_ = 1;
+  double im_ = 0;
+  double turns_ = 0;
+};
+
+// Half the signed solid angle [VanOosterom1983] eq. 8.
+void add_half_angle(const Vec3& p, const std::array<Vec3, 3>& t, AngleSum& sum) {
   const Vec3 a = t[0] - p;
   const Vec3 b = t[1] - p;
   const Vec3 c = t[2] - p;
   const double la = a.norm();
   const double lb = b.norm();
   const double lc = c.norm();
-  const double num = a.dot(b.cross(c));
-  const double den = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
-  return std::atan2(num, den) / (2 * std::numbers::pi);
+  sum.add(la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb, a.dot(b.cross(c)));
 }
 
 Vec3 centroid(const std::array<Vec3, 3>& t) {
@@ -85,23 +154,80 @@ DistanceTree::DistanceTree(const SurfaceMesh& mesh)
   build(0, 0, static_cast<std::uint32_t>(triangles_.size()));
   lower_ = nodes_[0].lower;
   upper_ = nodes_[0].upper;
-  flatten();
+  middle_ = (lower_ + upper_) / 2;
+  flatten(0);
 }
 
-void DistanceTree::flatten() {
+DistanceTree::Pack DistanceTree::make_pack(const Node& leaf) const {
+  constexpr double kSliver = 1e-6;  // of the longest edge, the height of one that has no inside
+  Pack pack{};
+  pack.origin = triangles_[leaf.first][0];
+  pack.first = leaf.first;
+  pack.count = leaf.count;
+  for (std::uint32_t i = 0; i < kLeafSize; ++i) {
+    const Corners& t = triangles_[leaf.first + std::min(i, leaf.count - 1)];
+    const Vec3 area_vector = (t[1] - t[0]).cross(t[2] - t[0]);
+    double longest = 0;
+    for (std::size_t k = 0; k < 3; ++k) longest = std::max(longest, (t[(k + 1) % 3] - t[k]).norm());
+    const bool has_inside = area_vector.norm() > kSliver * longest * longest;
+    const Vec3 normal = has_inside ? Vec3(area_vector.normalized()) : Vec3(Vec3::Zero());
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3 edge = t[(k + 1) % 3] - t[k];
+      const double length2 = edge.squaredNorm();
+      pack.inverse[k][i] = length2 > 0 ? static_cast<float>(1 / length2) : 0;
+      if (!std::isfinite(pack.inverse[k][i])) pack.inverse[k][i] = 0;
+      const auto start = to_float(t[k] - pack.origin);
+      const auto along = to_float(edge);
+      const auto inward = to_float(normal.cross(edge).stableNormalized());
+      const auto up = to_float(normal);
+      for (std::size_t a = 0; a < 3; ++a) {
+        pack.start[k][a][i] = start[a];
+        pack.edge[k][a][i] = along[a];
+        pack.inward[k][a][i] = has_inside ? inward[a] : 0;
+        pack.normal[a][i] = up[a];
+      }
+    }
+  }
+  return pack;
+}
+
+// Makes the quad of a node's children and theirs; returns how it is referred to.
+std::uint32_t DistanceTree::flatten(std::uint32_t node) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  boxes_.reserve(nodes_.size());
-  for (const Node& node : nodes_) {
-    FlatBox box;
+  if (nodes_[node].count > 0) {
+    packs_.push_back(make_pack(nodes_[node]));
+    return kLeafBit | static_cast<std::uint32_t>(packs_.size() - 1);
+  }
+  std::array<std::uint32_t, 4> children{};
+  std::size_t n = 0;
+  for (std::uint32_t k = 0; k < 2; ++k) {
+    const Node& child = nodes_[nodes_[node].first + k];
+    if (child.count > 0) {
+      children[n++] = nodes_[node].first + k;
+    } else {
+      children[n++] = child.first;
+      children[n++] = child.first + 1;
+    }
+  }
+  const auto index = static_cast<std::uint32_t>(quads_.size());
+  quads_.emplace_back();
+  Quad quad{};
+  for (std::size_t k = 0; k < 4; ++k) {
     for (std::size_t a = 0; a < 3; ++a) {
       const auto axis = static_cast<Eigen::Index>(a);
-      box.lower[a] = std::nextafter(static_cast<float>(node.lower[axis]), -kInfinity);
-      box.upper[a] = std::nextafter(static_cast<float>(node.upper[axis]), kInfinity);
+      quad.lower[a][k] = kInfinity;
+      quad.upper[a][k] = -kInfinity;
+      if (k >= n) continue;
+      const Node& child = nodes_[children[k]];
+      quad.lower[a][k] =
+          std::nextafter(static_cast<float>(child.lower[axis] - middle_[axis]), -kInfinity);
+      quad.upper[a][k] =
+          std::nextafter(static_cast<float>(child.upper[axis] - middle_[axis]), kInfinity);
     }
-    box.first = node.first;
-    box.count = node.count;
-    boxes_.push_back(box);
+    if (k < n) quad.to[k] = flatten(children[k]);
   }
+  quads_[index] = quad;
+  return index;
 }
 
 void DistanceTree::summarise(Node& node, std::uint32_t first, std::uint32_t count) const {
@@ -148,36 +274,58 @@ void DistanceTree::build(std::uint32_t node, std::uint32_t first, std::uint32_t 
 
 double DistanceTree::distance(const Vec3& p, double bound) const {
   if (empty()) return bound;
-  double best = bound * bound;
-  std::array<std::pair<double, std::uint32_t>, 64> stack{};
+  constexpr float kRounding = 0.99999F;  // a box is no farther than that
+  const auto at = to_float(p - middle_);
+  const Pack* nearest = nullptr;
+  float best = static_cast<float>(bound * bound);
+  struct Visit {
+    float nearest;
+    std::uint32_t to;
+  };
+  std::array<Visit, 64> stack{};
   std::size_t depth = 0;
-  stack[depth++] = {0, 0};
+  stack[depth++] = {0, quads_.empty() ? kLeafBit : 0};
   while (depth > 0) {
-    const auto [nearest, index] = stack[--depth];
-    if (nearest >= best) continue;
-    const FlatBox& node = boxes_[index];
-    if (node.count > 0) {
-      for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-        best = std::min(best, squared_distance(p, triangles_[i]));
+    const Visit visit = stack[--depth];
+    if (visit.nearest >= best) continue;
+    if ((visit.to & kLeafBit) != 0) {
+      const Pack& pack = packs_[visit.to & ~kLeafBit];
+      const Float4 d = squared_distances(pack, p);
+      const float least = std::min(std::min(d[0], d[1]), std::min(d[2], d[3]));
+      if (least < best) {
+        best = least;
+        nearest = &pack;
       }
       continue;
     }
-    std::array<std::pair<double, std::uint32_t>, 2> children;
-    for (std::uint32_t k = 0; k < 2; ++k) {
-      const FlatBox& child = boxes_[node.first + k];
-      children[k] = {squared_distance_to_box(p, child.lower, child.upper), node.first + k};
+    const Quad& quad = quads_[visit.to];
+    Float4 d = all(0);
+    for (std::size_t a = 0; a < 3; ++a) {
+      const Float4 off = larger(
+          larger(load(quad.lower[a]) - all(at[a]), all(at[a]) - load(quad.upper[a])), all(0));
+      d += off * off;
     }
-    if (children[0].first < children[1].first) std::swap(children[0], children[1]);
-    for (const auto& child : children) {
-      if (child.first < best) stack[depth++] = child;
+    d *= kRounding;
+    const std::size_t first = depth;
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (!(d[k] < best)) continue;
+      std::size_t place = depth++;
+      for (; place > first && stack[place - 1].nearest < d[k]; --place)
+        stack[place] = stack[place - 1];
+      stack[place] = {d[k], quad.to[k]};
     }
   }
-  return std::sqrt(best);
+  if (nearest == nullptr) return bound;
+  double exact = std::numeric_limits<double>::infinity();
+  for (std::uint32_t i = nearest->first; i < nearest->first + nearest->count; ++i)
+    exact = std::min(exact, squared_distance(p, triangles_[i]));
+  return std::min(bound, std::sqrt(exact));
 }
 
 double DistanceTree::winding_number(const Vec3& p) const {
   if (empty()) return 0;
-  double sum = 0;
+  double sum = 0;  // of what is far
+  AngleSum near;
   std::array<std::uint32_t, 64> stack{};
   std::size_t depth = 0;
   stack[depth++] = 0;
@@ -189,14 +337,14 @@ double DistanceTree::winding_number(const Vec3& p) const {
       sum += r.dot(node.dipole) / (4 * std::numbers::pi * r2 * std::sqrt(r2));
     } else if (node.count > 0) {
       for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-        sum += solid_angle_share(p, triangles_[i]);
+        add_half_angle(p, triangles_[i], near);
       }
     } else {
       stack[depth++] = node.first;
       stack[depth++] = node.first + 1;
     }
   }
-  return sum;
+  return sum + near.turns();
 }
 
 }  // namespace artus

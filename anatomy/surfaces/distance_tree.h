@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -9,6 +10,8 @@ namespace artus {
 
 /// Distance to a triangle surface and whether a point is inside it, also where the surface has
 /// holes, overlaps or crosses itself. Immutable after construction; safe to query from threads.
+/// CGAL's AABB tree gives the same distances in 2.3 times the time within a millimetre of a surface
+/// and in 3.2 times anywhere (bench/anatomy), and has no winding number.
 class DistanceTree {
  public:
   /// Cost: n log n. An empty mesh is everywhere infinitely far.
@@ -36,19 +39,32 @@ class DistanceTree {
     double far2 = 0;                     // beyond this squared distance the dipole is good enough
     std::uint32_t first = 0, count = 0;  // leaf: triangles; inner: count 0, first = left child
   };
-  struct FlatBox {  // of a node, rounded outward: two children share a cache line
-    std::array<float, 3> lower, upper;
-    std::uint32_t first = 0, count = 0;  // as in Node
+  // Four nodes side by side: their boxes, about the tree's middle and rounded outward.
+  struct Quad {
+    std::array<std::array<float, 4>, 3> lower, upper;  // (axis, node); inverted where there is none
+    std::array<std::uint32_t, 4> to;                   // a quad, or with kLeafBit a pack
+  };
+  // Up to four triangles side by side, about `origin`, as squared_distances reads them.
+  struct Pack {
+    Vec3 origin;
+    std::uint32_t first, count;  // of the triangles
+    // (edge, axis, triangle): start and direction, and the unit vector that points inward
+    std::array<std::array<std::array<float, 4>, 3>, 3> start, edge, inward;
+    std::array<std::array<float, 4>, 3> inverse;  // (edge, triangle) 1 / squared length, or 0
+    std::array<std::array<float, 4>, 3> normal;   // (axis, triangle)
   };
   using Corners = std::array<Vec3, 3>;
 
   void build(std::uint32_t node, std::uint32_t first, std::uint32_t count);
-  void flatten();
+  std::uint32_t flatten(std::uint32_t node);
+  [[nodiscard]] Pack make_pack(const Node& leaf) const;
   void summarise(Node& node, std::uint32_t first, std::uint32_t count) const;
 
   std::vector<Corners> triangles_;
   std::vector<Node> nodes_;
-  std::vector<FlatBox> boxes_;  // (n_nodes)
+  std::vector<Quad> quads_;  // the first holds the root
+  std::vector<Pack> packs_;  // (n_leaves)
+  Vec3 middle_ = Vec3::Zero();
   Vec3 lower_, upper_;
 };
 

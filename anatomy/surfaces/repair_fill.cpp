@@ -88,14 +88,41 @@ Patch make_smooth_patch(const SurfaceMesh& mesh, const std::vector<EdgeUse>& use
   return crowds_an_edge(uses, patch.triangles, rim) ? Patch{} : patch;
 }
 
+/// The rim drawn in towards its centre, at the rim's mean height: a patch over teeth would lie at
+/// the height of those that stand innermost. Empty for a rim in a plane.
+std::vector<Vec3> make_inner_ring(const SurfaceMesh& mesh, const Rim& rim) {
+  constexpr double kDrawnIn = 0.9;
+  const RimShape shape = measure_rim(mesh, rim);
+  std::vector<Vec3> ring;
+  if (shape.is_planar()) return ring;
+  for (const auto v : rim) {
+    const Vec3 off = mesh.vertices[v] - shape.centre;
+    ring.push_back(shape.centre + kDrawnIn * (off - shape.normal.dot(off) * shape.normal));
+  }
+  return ring;
+}
+
 /// The triangulation of rims as they are seen along `normal`.
 Patch make_flat_patch(SurfaceMesh& mesh, const std::vector<EdgeUse>& uses,
                       const std::vector<Rim>& rims, const Vec3& normal) {
-  const std::size_t n = mesh.vertices.size();
+  const auto n = static_cast<std::uint32_t>(mesh.vertices.size());
+  Rim inner;
+  if (rims.size() == 1) {
+    for (const Vec3& p : make_inner_ring(mesh, rims.front())) {
+      inner.push_back(static_cast<std::uint32_t>(mesh.vertices.size()));
+      mesh.vertices.push_back(p);
+    }
+  }
   Patch patch;
-  patch.triangles = triangulate_flat(mesh, uses, rims, normal);
-  patch.vertices.assign(mesh.vertices.begin() + static_cast<std::ptrdiff_t>(n),
-                        mesh.vertices.end());
+  patch.triangles = triangulate_flat(mesh, uses, rims, normal, inner);
+  std::map<std::uint32_t, std::uint32_t> kept;  // of the new vertices, those inside the rim
+  for (Triangle& t : patch.triangles)
+    for (auto& v : t) {
+      if (v < n) continue;
+      const auto at = kept.emplace(v, n + static_cast<std::uint32_t>(kept.size()));
+      if (at.second) patch.vertices.push_back(mesh.vertices[v]);
+      v = at.first->second;
+    }
   mesh.vertices.resize(n);
   return patch;
 }
@@ -293,7 +320,7 @@ Filling fill_holes(SurfaceMesh& mesh, bool flat_first) {
     ++filling.n;
     const bool is_cut = shape.is_jagged() && openings.hole_of[i] == Openings::kNone &&
                         openings.holes_in(i).empty() &&
-                        area <= kDeep * openings.piece_area[openings.piece[i]];
+                        shape.area <= kDeep * openings.piece_area[openings.piece[i]];
     if (!is_cut) filling.doubtful_area += area;
     // Two patches may both want the same new edge, so the next one has to know this one's.
     uses = make_edge_uses(mesh);

@@ -194,12 +194,12 @@ bool is_hole_in(const SurfaceMesh& mesh, const Rim& inner, const RimShape& inner
 }
 
 std::vector<Triangle> triangulate_flat(SurfaceMesh& mesh, const std::vector<EdgeUse>& uses,
-                                       const std::vector<Rim>& rims, const Vec3& normal) {
+                                       const std::vector<Rim>& rims, const Vec3& normal,
+                                       Rim inner) {
   constexpr int kMostRounds = 8;
   const View view(normal);
   const auto sides = rim_sides(rims);
   const std::size_t n_vertices = mesh.vertices.size();
-  Rim inner;
   for (int round = 0; round < kMostRounds; ++round) {
     Flat flat;
     if (!insert(mesh, rims, inner, view, flat)) break;

@@ -37,12 +37,13 @@ struct RimShape {
                               const RimShape& outer_shape);
 
 /// The triangles between the first rim and the rims in it, seen along `normal`; vertices are added
-/// in the middle of sides that the mesh has already (`uses` is the mesh's). Empty, and the mesh as
-/// it was, when a rim crosses itself or another one in that view. Cost: n log n.
+/// in the middle of sides that the mesh has already (`uses` is the mesh's); vertices of the mesh
+/// that are to lie in it are `inner`. Empty, and the mesh as it was, when a rim crosses itself or
+/// another one in that view. Cost: n log n.
 [[nodiscard]] std::vector<Triangle> triangulate_flat(SurfaceMesh& mesh,
                                                      const std::vector<EdgeUse>& uses,
                                                      const std::vector<Rim>& rims,
-                                                     const Vec3& normal);
+                                                     const Vec3& normal, Rim inner = {});
 
 /// Is there an edge between two vertices?
 [[nodiscard]] bool has_edge(const std::vector<EdgeUse>& uses, std::uint32_t a, std::uint32_t b);

@@ -38,6 +38,7 @@ position = [1.0, 2.0, 3.0]
 [[structure]]
 file = "femur.ply"
 fibre_axis = [0.0, 0.0, 1.0]
+fibre_course = "layer"
 tissue = "bone"
 name = "femur"
 [mesh]

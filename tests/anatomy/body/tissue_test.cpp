@@ -101,6 +101,25 @@ TEST(ReadStructure, TakesOneShapeInMetresAndNamesWhatItLeansOn) {
               HasSubstr("exactly one of"));
 }
 
+TEST(ReadStructure, TellsHowFibresFollowTheirAxis) {
+  const auto read = [](const std::string& text, Problems& problems) {
+    return read_structure(
+        *parse_toml("name = 'm'\ntissue = 'muscle'\nfile = 'm.ply'\n" + text, "t"), 1, 1e-3,
+        problems);
+  };
+  Problems none;
+  EXPECT_EQ(read("", none).fibre_course, FibreCourse::ends);
+  EXPECT_EQ(read("fibre_axis = [0, 0, 1]\nfibre_course = 'layer'\n", none).fibre_course,
+            FibreCourse::layer);
+  EXPECT_TRUE(none.empty());
+  Problems wrong;
+  static_cast<void>(read("fibre_course = 'layer'\n", wrong));
+  static_cast<void>(read("fibre_axis = [0, 0, 1]\nfibre_course = 'straight'\n", wrong));
+  const std::string said = wrong.refusal(ErrorCode::invalid, "t").value().message;
+  EXPECT_THAT(said, HasSubstr("needs fibre_axis = [x, y, z]"));
+  EXPECT_THAT(said, HasSubstr("must be \"ends\" or \"layer\", not \"straight\""));
+}
+
 TEST(LengthUnit, KnowsThreeAndReportsOthers) {
   Problems problems;
   const toml::table table = *parse_toml("a = 'mm'\nb = 'cm'\nc = 'm'\nd = 'inch'\n", "t");

@@ -151,11 +151,13 @@ TEST_F(KeptBodies, AreDressedInWhatTheFileSays) {
   ASSERT_TRUE(file);
   file->side = "left";
   file->structures[0].fibre_axis = Vec3(0, 2, 0);
+  file->structures[0].fibre_course = FibreCourse::layer;
   std::vector<std::string> notes;
   const CompiledJoint dressed = dress_body(*file, made.joint.mesh, "digest", notes);
   EXPECT_EQ(dressed.side, "left");
   EXPECT_EQ(dressed.source_digest, "digest");
   EXPECT_EQ(dressed.regions.back().fibre_axis, Vec3(0, 1, 0));
+  EXPECT_EQ(dressed.regions.back().fibre_course, FibreCourse::layer);
   EXPECT_TRUE(dressed.X_JP_default.isApprox(*file->X_JP_default));
   EXPECT_TRUE(notes.empty()) << "the file gives both poses";
 }

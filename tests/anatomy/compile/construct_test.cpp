@@ -184,7 +184,7 @@ TEST(FindInsertion, IsTheMiddleOfTheContactWithTheBone) {
   EXPECT_LT(insertion.z(), 1 * kMm);
 }
 
-TEST(ConstructBands, CoverWhatEachConstructAsksOfItsNeighbours) {
+TEST(FarNeeds, CoverWhatEachConstructAsksOfItsNeighbours) {
   JointFile joint;
   joint.structures.push_back(make_structure(ShellConstruct{"", 2 * kMm}));
   CapConstruct cap;
@@ -193,11 +193,39 @@ TEST(ConstructBands, CoverWhatEachConstructAsksOfItsNeighbours) {
   cap.within = 6 * kMm;
   cap.thickness = 1.5 * kMm;
   joint.structures.push_back(make_structure(cap));
-  const auto bands = construct_bands(joint);
-  EXPECT_GE(bands.at(""), 2 * kMm);
-  EXPECT_GE(bands.at("humerus"), 6 * kMm);
-  EXPECT_GE(bands.at("scapula"), 6 * kMm);
-  EXPECT_EQ(bands.count("construct"), 0U);
+  const auto needs = find_far_needs(joint);
+  EXPECT_GE(needs.at("").band, 2 * kMm);
+  EXPECT_GE(needs.at("humerus").band, 1.5 * kMm);
+  EXPECT_GE(needs.at("scapula").band, 6 * kMm);
+  EXPECT_EQ(needs.count("construct"), 0U);
+}
+
+TEST(FarNeeds, OfAGapInABallReachNoFartherThanTheBall) {
+  JointFile joint;
+  GapConstruct gap;
+  gap.roof = {"deltoid"};
+  gap.floor = {"humerus"};
+  gap.thickness = 1.5 * kMm;
+  gap.within = 8 * kMm;
+  gap.centre = Vec3(0.1, 0, 0);
+  gap.radius = 30 * kMm;
+  joint.structures.push_back(make_structure(gap));
+  const auto needs = find_far_needs(joint);
+  for (const char* name : {"deltoid", "humerus"}) {
+    EXPECT_GE(needs.at(name).band, 4.75 * kMm) << "half way between, and half its thickness";
+    EXPECT_LE(needs.at(name).box.lower.x(), 70 * kMm);
+    EXPECT_GE(needs.at(name).box.lower.x(), 60 * kMm);
+  }
+  // A second construct that asks for more, and everywhere.
+  CapConstruct cap;
+  cap.on = "humerus";
+  cap.near = {"deltoid"};
+  cap.within = 12 * kMm;
+  cap.thickness = 1.5 * kMm;
+  joint.structures.push_back(make_structure(cap));
+  const auto both = find_far_needs(joint);
+  EXPECT_GE(both.at("deltoid").band, 12 * kMm);
+  EXPECT_LT(both.at("deltoid").box.lower.x(), -1);
 }
 
 }  // namespace

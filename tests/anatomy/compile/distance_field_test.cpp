@@ -115,6 +115,22 @@ TEST(DistanceField, ExtendedItKnowsDistancesFarFromTheSurface) {
   EXPECT_NEAR(field.value(Vec3(0, 0, 0.02)), 0, 0.05e-3) << "near the surface as before";
 }
 
+// What lies far from a part of the box that is known from afar must not seem near.
+TEST(DistanceField, BeyondWhereItIsExtendedAPointCountsAsFar) {
+  const DistanceTree tree(make_cube(Vec3::Zero(), 0.02));
+  DistanceField field = DistanceField::compute(tree, kSampling);
+  FieldSampling wider = kSampling;
+  wider.box = {Vec3(0, 0, 0.01), Vec3(0.01, 0.01, 0.04)};
+  wider.spacing = 2e-3;
+  wider.band = 15e-3;
+  field.extend(tree, wider);
+  EXPECT_DOUBLE_EQ(field.value(Vec3(-0.04, 0, 0)), wider.band);
+  EXPECT_DOUBLE_EQ(field.value(Vec3(-0.005, -0.005, 0)), -wider.band) << "inside stays inside";
+  EXPECT_NEAR(field.value(Vec3(-0.02, 0, 0)), 0, 0.05e-3) << "near the surface as before";
+  field.forget_far();
+  EXPECT_NEAR(field.value(Vec3(-0.04, 0, 0)), kBand, 1e-6);
+}
+
 TEST(DistanceField, IsTheSameAtAnyNumberOfThreadsAndStoresLittle) {
   const auto sample = [](std::size_t threads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);

@@ -184,6 +184,77 @@ TEST(Gap, TellsThePartsThatAreNotJoinedToTheLargest) {
   EXPECT_GT(made.cuts[0].part.volume, 100e-9);
 }
 
+TEST(Gap, IsNotUnderAHoleOfTheRoof) {
+  const DistanceField floor = make_field(make_block(kFloorLower, kFloorUpper));
+  // Four blocks around a square opening of 12 mm.
+  const DistanceField roof = make_field([] {
+    constexpr double kHalf = 6 * kMm;
+    constexpr double kLow = 1.5 * kMm;
+    SurfaceMesh mesh = make_block({-0.1, -0.1, kLow}, {-kHalf, 0.1, 6 * kMm});
+    append_mesh(mesh, make_block({kHalf, -0.1, kLow}, {0.1, 0.1, 6 * kMm}));
+    append_mesh(mesh, make_block({-7 * kMm, -0.1, kLow}, {7 * kMm, -kHalf, 6 * kMm}));
+    append_mesh(mesh, make_block({-7 * kMm, kHalf, kLow}, {7 * kMm, 0.1, 6 * kMm}));
+    return mesh;
+  }());
+  const GapConstruct gap = make_gap(1.5 * kMm, 8 * kMm);
+  const GapField made =
+      make_gap_field(gap, {{"roof", &roof}, {"floor", &floor}}, {}, sample_around(20 * kMm));
+  for (const double x : {-3.0, 0.0, 3.0})
+    EXPECT_EQ(thickness_at(made.field, x * kMm, 0), 0) << x << " mm: beyond the rim of its edge";
+  EXPECT_NEAR(thickness_at(made.field, 12 * kMm, 0), gap.thickness, 0.1 * kMm);
+  EXPECT_NEAR(thickness_at(made.field, 0, -12 * kMm), gap.thickness, 0.1 * kMm);
+}
+
+TEST(Gap, TakesItsThicknessOfWallsThatTouchOrOverlap) {
+  const DistanceField floor = make_field(make_block(kFloorLower, kFloorUpper));
+  for (const double at : {0.0, -0.4 * kMm}) {
+    const DistanceField roof = make_field(make_block({-0.1, -0.1, at}, {0.1, 0.1, 0.1}));
+    const GapField made =
+        make_gap_field(make_gap(1.5 * kMm, 8 * kMm), {{"roof", &roof}, {"floor", &floor}}, {},
+                       sample_around(20 * kMm));
+    EXPECT_NEAR(thickness_at(made.field, 3 * kMm, -5 * kMm), 1.5 * kMm, 0.1 * kMm) << at;
+    EXPECT_TRUE(made.cuts.empty()) << at;
+  }
+}
+
+TEST(Gap, UnderASmallRoofIsAsLargeAsTheRoof) {
+  const DistanceField floor = make_field(make_block(kFloorLower, kFloorUpper));
+  const double half = 9 * kMm;
+  const DistanceField roof =
+      make_field(make_block({-half, -half, 1.5 * kMm}, {half, half, 6 * kMm}));
+  const GapConstruct gap = make_gap(1.5 * kMm, 8 * kMm);
+  const GapField made =
+      make_gap_field(gap, {{"roof", &roof}, {"floor", &floor}}, {}, sample_around(20 * kMm));
+  const double under = 4 * half * half * gap.thickness;
+  const double with_rim = 4 * std::pow(half + gap.thickness, 2) * gap.thickness;
+  EXPECT_GT(volume(made.field), 0.95 * under);
+  EXPECT_LT(volume(made.field), with_rim);
+}
+
+TEST(Gap, IsTheSameHoweverItsWallsAreTurned) {
+  GapConstruct gap = make_gap(1.5 * kMm, 8 * kMm);
+  gap.radius = 12 * kMm;
+  gap.edge = 3 * kMm;
+  const auto volume_turned = [&](double angle) {
+    const Eigen::Matrix3d turn =
+        Eigen::AngleAxisd(angle, Vec3(1, 0.4, 0.2).normalized()).toRotationMatrix();
+    const auto turned = [&](SurfaceMesh mesh) {
+      for (Vec3& p : mesh.vertices) p = turn * p;
+      return make_field(mesh);
+    };
+    const DistanceField floor = turned(make_block(kFloorLower, kFloorUpper));
+    const DistanceField roof = turned(make_block({-0.1, -0.1, 2 * kMm}, {0.1, 0.1, 0.1}));
+    gap.centre = turn * Vec3(0, 0, 1 * kMm);
+    return volume(make_gap_field(gap, {{"roof", &roof}, {"floor", &floor}}, {},
+                                 sample_around(20 * kMm, 0.3 * kMm))
+                      .field);
+  };
+  const double straight = volume_turned(0);
+  EXPECT_GT(straight, 0.7 * std::numbers::pi * 144 * 1.5 * 1e-9);
+  for (const double angle : {0.3, 0.8, 1.4})
+    EXPECT_NEAR(volume_turned(angle), straight, 0.03 * straight) << angle;
+}
+
 TEST(KeepLargestPart, DropsTheSmallerOfTwoBallsAndSaysWhatBothHold) {
   SurfaceMesh balls = make_sphere({-10 * kMm, 0, 0}, 8 * kMm);
   append_mesh(balls, make_sphere({9 * kMm, 1 * kMm, 0}, 6 * kMm));

@@ -41,6 +41,41 @@ TEST(RunIsolated, WhatHangsIsEndedWhenItsTimeIsUp) {
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
 }
 
+TEST(RunIsolated, OfSeveralEachGivesItsOwnBytesInOrderHoweverManyRunAtOnce) {
+  std::vector<std::function<std::string()>> works;
+  for (int i = 0; i < 6; ++i)
+    works.emplace_back([i]() -> std::string {
+      if (i == 3) std::abort();
+      std::this_thread::sleep_for(std::chrono::milliseconds(20 * (6 - i)));
+      return std::string(100'000, static_cast<char>('a' + i));
+    });
+  for (const std::size_t at_once : {0U, 1U, 2U, 10U}) {
+    const auto results = run_isolated(works, kPatience, at_once);
+    ASSERT_EQ(results.size(), 6U);
+    for (std::size_t i = 0; i < 6; ++i) {
+      if (i == 3) {
+        EXPECT_EQ(results[i], std::nullopt);
+      } else {
+        EXPECT_EQ(results[i], std::string(100'000, static_cast<char>('a' + i))) << i;
+      }
+    }
+  }
+}
+
+TEST(PeakMemory, CountsAChildThatHeldMoreThanThis) {
+  const double before = peak_memory();
+  ASSERT_GT(before, 0);
+  const auto more = static_cast<std::size_t>(before) + 50'000'000;
+  const auto done = run_isolated(
+      [more] {
+        std::string held(more, 'x');  // written, so it is there
+        return std::string(1, held[more / 2]);
+      },
+      kPatience);
+  ASSERT_EQ(done, std::string("x"));
+  EXPECT_GT(peak_memory(), before + 40'000'000);
+}
+
 TEST(RunIsolated, ChangesNothingInTheCaller) {
   int value = 1;
   const auto result = run_isolated(

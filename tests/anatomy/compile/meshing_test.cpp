@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The three steps from labels to well-shaped tetrahedra, on a ball in a ball.
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -147,6 +151,25 @@ TEST(FillWithTetgen, KeepsTheInterfacesAndTheVolumesAndShapesTheTetrahedraWell) 
   EXPECT_EQ(quality.inverted, 0U);
   EXPECT_GT(quality.above_8_deg_percent(), 99);
   EXPECT_GT(quality.smallest_deg, compute_quality(before).smallest_deg);
+}
+
+TEST(FillWithTetgen, MakesNoTetrahedronLargerThanItsRegionAsks) {
+  const auto largest = [](std::span<const RegionSizing> sizing) {
+    TetMesh mesh = resolved();
+    static_cast<void>(fill_with_tetgen(mesh, *find_tet_neighbours(mesh), sizing));
+    std::array<double, 4> volume{};
+    for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
+      volume[mesh.regions[t]] = std::max(volume[mesh.regions[t]], tet_volume(mesh, t));
+    return volume;
+  };
+  std::vector<RegionSizing> sizing(4);
+  sizing[kBallRegion].cell_size = 1.5e-3;
+  const double regular = 8 / (9 * std::sqrt(3.0)) * std::pow(1.5e-3, 3);
+  const auto free = largest({});
+  const auto bounded = largest(sizing);
+  EXPECT_GT(free[kBallRegion], 2 * regular);
+  EXPECT_LE(bounded[kBallRegion], 1.001 * regular);
+  EXPECT_GT(bounded[kFirstRegion], 2 * regular) << "the other region asks for nothing";
 }
 
 }  // namespace

@@ -61,6 +61,16 @@ TEST(Misplaced, WhatLiesAllInABoneIsToldWithItsDepth) {
   EXPECT_THAT(found[0].message, HasSubstr("takes all of it"));
 }
 
+TEST(Misplaced, WhatAnEarlierStructureTakesWholeIsToldAndTheOtherOrderMendsIt) {
+  const Ball nerve{"nerve", "nerve", Vec3(0, 0.03, 0), 0.003};
+  const auto found = misplaced({kBone, kMuscle, nerve});
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].what, "nerve");
+  EXPECT_EQ(found[0].verdict, Verdict::look);
+  EXPECT_THAT(found[0].message, HasSubstr("put it before 'vastus'"));
+  EXPECT_TRUE(misplaced({kBone, nerve, kMuscle}).empty());
+}
+
 TEST(Misplaced, TheSameSurfaceTwiceIsTold) {
   Ball twin = kMuscle;
   twin.name = "rectus";

@@ -146,7 +146,8 @@ INSTANTIATE_TEST_SUITE_P(Planes, CutBall,
                          testing::Combine(testing::Values(-40e-3, -20e-3, 0.0, 15e-3),
                                           testing::Values(false)));
 INSTANTIATE_TEST_SUITE_P(Teeth, CutBall,
-                         testing::Combine(testing::Values(-40e-3, -20e-3), testing::Values(true)));
+                         testing::Combine(testing::Values(-40e-3, -20e-3, -10e-3, 0.0, 10e-3),
+                                          testing::Values(true)));
 
 TEST(FlatCut, AcrossAHollowIsCappedAsARing) {
   SurfaceMesh pipe = make_tube(60, 20, 20 * kMm, 50 * kMm);

@@ -19,7 +19,7 @@ namespace {
 
 using testing::HasSubstr;
 
-const RepairAction* find_action(const RepairOutcome& outcome, RepairKind kind) {
+const RepairAction* action_of(const RepairOutcome& outcome, RepairKind kind) {
   for (const auto& a : outcome.actions)
     if (a.kind == kind) return &a;
   return nullptr;
@@ -66,14 +66,14 @@ TEST(Repair, BodiesThatTouchInAnEdgeOrAPointAreSeparated) {
     ASSERT_TRUE(out) << out.error().to_string();
     expect_closed(out->mesh);
     EXPECT_NEAR(out->volume, signed_volume(mesh), 1e-12);
-    EXPECT_NE(find_action(*out, RepairKind::split_vertices), nullptr);
+    EXPECT_NE(action_of(*out, RepairKind::split_vertices), nullptr);
   }
 }
 
 TEST(Repair, OpenTubeGetsTwoCaps) {
   const auto out = repair_surface(make_tube(12, 9, 0.003, 0.05));
   ASSERT_TRUE(out) << out.error().to_string();
-  const auto* caps = find_action(*out, RepairKind::capped_ends);
+  const auto* caps = action_of(*out, RepairKind::capped_ends);
   ASSERT_NE(caps, nullptr);
   EXPECT_EQ(caps->count, 2U);
   const double area = 6 * std::sin(std::numbers::pi / 6) * 0.003 * 0.003;  // regular 12-gon
@@ -95,10 +95,10 @@ TEST(Repair, SeamsApartByQuantisationAreSewnNotCapped) {
   const auto out = repair_surface(mesh);
   ASSERT_TRUE(out) << out.error().to_string();
   expect_closed(out->mesh);
-  ASSERT_NE(find_action(*out, RepairKind::welded_vertices), nullptr);
-  EXPECT_EQ(find_action(*out, RepairKind::welded_vertices)->count, 16U);
-  EXPECT_LE(find_action(*out, RepairKind::welded_vertices)->amount, 0.0500001e-3);
-  EXPECT_EQ(find_action(*out, RepairKind::capped_ends)->count, 2U);
+  ASSERT_NE(action_of(*out, RepairKind::welded_vertices), nullptr);
+  EXPECT_EQ(action_of(*out, RepairKind::welded_vertices)->count, 16U);
+  EXPECT_LE(action_of(*out, RepairKind::welded_vertices)->amount, 0.0500001e-3);
+  EXPECT_EQ(action_of(*out, RepairKind::capped_ends)->count, 2U);
 }
 
 TEST(Repair, SheetIsRefusedOrMadeAPlateWhenAsked) {
@@ -146,7 +146,7 @@ TEST(Repair, NothingAndTooMuchAreRefused) {
 TEST(Repair, WrapOnRequestStaysNearTheSurface) {
   const auto out = repair_surface(make_cube(Vec3::Zero(), 0.02), {.wrap = WrapPolicy::always});
   ASSERT_TRUE(out) << out.error().to_string();
-  const auto* wrapped = find_action(*out, RepairKind::wrapped);
+  const auto* wrapped = action_of(*out, RepairKind::wrapped);
   ASSERT_NE(wrapped, nullptr);
   EXPECT_LT(wrapped->amount, 0.5e-3);
   EXPECT_NEAR(out->volume, 64e-6, 0.02 * 64e-6);
@@ -170,8 +170,8 @@ TEST(Repair, FlapOnAnEdgeIsDroppedAndTheRestKept) {
   mesh.triangles.push_back({0, 1, apex});
   const auto out = repair_surface(mesh);
   ASSERT_TRUE(out) << out.error().to_string();
-  EXPECT_EQ(find_action(*out, RepairKind::wrapped), nullptr);
-  ASSERT_NE(find_action(*out, RepairKind::dropped_fragments), nullptr);
+  EXPECT_EQ(action_of(*out, RepairKind::wrapped), nullptr);
+  ASSERT_NE(action_of(*out, RepairKind::dropped_fragments), nullptr);
   EXPECT_NEAR(out->volume, 8e-6, 1e-12);
   expect_closed(out->mesh);
 }
@@ -205,7 +205,7 @@ TEST_P(BentSheet, IsRefusedOrMadeAPlateNotABody) {
   EXPECT_THAT(refused.error().message, HasSubstr("thicken"));
   const auto plate = repair_surface(sheet, {.thicken = 1e-3});
   ASSERT_TRUE(plate) << plate.error().to_string();
-  EXPECT_EQ(find_action(*plate, RepairKind::capped_ends), nullptr);
+  EXPECT_EQ(action_of(*plate, RepairKind::capped_ends), nullptr);
   EXPECT_NEAR(plate->volume, surface_area(sheet) * 1e-3, 0.02 * surface_area(sheet) * 1e-3);
   expect_closed(plate->mesh);
 }
