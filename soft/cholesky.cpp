@@ -6,6 +6,8 @@
 
 #include <Eigen/Cholesky>
 
+#include "artus/soft/kernels.h"
+
 namespace artus {
 namespace {
 
@@ -15,19 +17,25 @@ Index dofs(const std::vector<std::uint32_t>& nodes) noexcept {
   return static_cast<Index>(3 * nodes.size());
 }
 
-template <class Vector>
-void gather(const std::vector<std::uint32_t>& nodes, const Eigen::VectorXd& x, Vector& part) {
-  part.resize(dofs(nodes));
-  for (std::size_t k = 0; k < nodes.size(); ++k)
-    part.template segment<3>(3 * static_cast<Index>(k)) =
-        x.segment<3>(3 * static_cast<Index>(nodes[k])).template cast<typename Vector::Scalar>();
+void gather(const std::vector<std::uint32_t>& nodes, const Eigen::VectorXd& x, float* part) {
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    const double* from = x.data() + 3 * static_cast<std::size_t>(nodes[k]);
+    for (std::size_t c = 0; c < 3; ++c) part[3 * k + c] = static_cast<float>(from[c]);
+  }
 }
 
-template <class Vector>
-void scatter(const std::vector<std::uint32_t>& nodes, const Vector& part, Eigen::VectorXd& x) {
-  for (std::size_t k = 0; k < nodes.size(); ++k)
-    x.segment<3>(3 * static_cast<Index>(nodes[k])) =
-        part.template segment<3>(3 * static_cast<Index>(k)).template cast<double>();
+void scatter(const std::vector<std::uint32_t>& nodes, const float* part, Eigen::VectorXd& x) {
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    double* to = x.data() + 3 * static_cast<std::size_t>(nodes[k]);
+    for (std::size_t c = 0; c < 3; ++c) to[c] = static_cast<double>(part[3 * k + c]);
+  }
+}
+
+void scatter_add(const std::vector<std::uint32_t>& nodes, const float* part, Eigen::VectorXd& x) {
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    double* to = x.data() + 3 * static_cast<std::size_t>(nodes[k]);
+    for (std::size_t c = 0; c < 3; ++c) to[c] += static_cast<double>(part[3 * k + c]);
+  }
 }
 
 }  // namespace
@@ -147,43 +155,44 @@ bool Cholesky::factorize(const BlockMatrix& matrix) {
 }
 
 void Cholesky::forward(Eigen::VectorXd& x) const {
-  Eigen::VectorXf own;
-  Eigen::VectorXf rest;
+  const SoftKernels& kernels = soft_kernels();
+  std::vector<float> part;
   for (std::size_t f = 0; f + 1 < fronts_.size(); ++f) {
     const FrontPlan& front = plan_.fronts[f];
     if (front.own.empty()) continue;
-    gather(front.own, x, own);
-    fronts_[f].topRows(own.size()).triangularView<Eigen::Lower>().solveInPlace(own);
-    rest.noalias() = fronts_[f].bottomRows(dofs(front.boundary)) * own;
-    scatter(front.own, own, x);
-    for (std::size_t k = 0; k < front.boundary.size(); ++k)
-      x.segment<3>(3 * static_cast<Index>(front.boundary[k])) -=
-          rest.segment<3>(3 * static_cast<Index>(k)).cast<double>();
+    const auto rows = static_cast<std::size_t>(fronts_[f].rows());
+    part.assign(rows, 0.0F);
+    gather(front.own, x, part.data());
+    kernels.forward(fronts_[f].data(), rows, 3 * front.own.size(), part.data());
+    scatter(front.own, part.data(), x);
+    scatter_add(front.boundary, part.data() + 3 * front.own.size(), x);
   }
 }
 
 void Cholesky::solve_root(Eigen::VectorXd& x) const {
-  const FrontPlan& front = plan_.fronts.back();
-  if (front.own.empty()) return;
-  Eigen::VectorXd own;
-  gather(front.own, x, own);
+  const auto& nodes = plan_.fronts.back().own;
+  if (nodes.empty()) return;
+  Eigen::VectorXd own(dofs(nodes));
+  for (std::size_t k = 0; k < nodes.size(); ++k)
+    own.segment<3>(3 * static_cast<Index>(k)) = x.segment<3>(3 * static_cast<Index>(nodes[k]));
   const auto L = root_.triangularView<Eigen::Lower>();
   L.solveInPlace(own);
   L.transpose().solveInPlace(own);
-  scatter(front.own, own, x);
+  for (std::size_t k = 0; k < nodes.size(); ++k)
+    x.segment<3>(3 * static_cast<Index>(nodes[k])) = own.segment<3>(3 * static_cast<Index>(k));
 }
 
 void Cholesky::backward(Eigen::VectorXd& x) const {
-  Eigen::VectorXf own;
-  Eigen::VectorXf rest;
+  const SoftKernels& kernels = soft_kernels();
+  std::vector<float> part;
   for (std::size_t f = fronts_.size() - 1; f-- > 0;) {
     const FrontPlan& front = plan_.fronts[f];
     if (front.own.empty()) continue;
-    gather(front.own, x, own);
-    gather(front.boundary, x, rest);
-    own.noalias() -= fronts_[f].bottomRows(rest.size()).transpose() * rest;
-    fronts_[f].topRows(own.size()).triangularView<Eigen::Lower>().transpose().solveInPlace(own);
-    scatter(front.own, own, x);
+    part.resize(static_cast<std::size_t>(fronts_[f].rows()));
+    gather(front.own, x, part.data());
+    gather(front.boundary, x, part.data() + 3 * front.own.size());
+    kernels.backward(fronts_[f].data(), part.size(), 3 * front.own.size(), part.data());
+    scatter(front.own, part.data(), x);
   }
 }
 

@@ -2,6 +2,8 @@
 #include "artus/soft/deformed_body.h"
 
 #include <algorithm>
+#include <array>
+#include <limits>
 
 #include <Eigen/SVD>
 
@@ -9,8 +11,12 @@ namespace artus {
 namespace {
 
 constexpr int kMostSteps = 60;
-constexpr double kExact = 1e-8;  // m
+constexpr int kNewtonSteps = 8;  // then smaller ones
+constexpr double kExact = 1e-7;  // m
+constexpr double kSure = 3e-5;   // m, an error of which one Newton step leaves next to nothing
 constexpr double kStill = 1e-9;  // m; what moves less has not moved: its bytes stay
+constexpr double kFarTolerance = 20e-6;  // m
+constexpr int kReach = 2;                // lattice steps, of points beside the cage: the skin's rim
 
 std::size_t interface_vertices(const TetMesh& mesh) {
   std::size_t n = 0;
@@ -20,14 +26,83 @@ std::size_t interface_vertices(const TetMesh& mesh) {
   return n;
 }
 
+/// u and its gradient in a cube, by the weights of its corners.
+DeformedBody::Motion interpolate(const CagePlace& place, const CageCell& cell, double edge,
+                                 std::span<const Vec3> u) noexcept {
+  const auto& w = place.weights;
+  const Vec3 s(w[1] + w[3] + w[5] + w[7], w[2] + w[3] + w[6] + w[7], w[4] + w[5] + w[6] + w[7]);
+  const Vec3 t = Vec3::Ones() - s;
+  std::array<Vec3, 8> c;
+  for (std::size_t a = 0; a < 8; ++a) c[a] = u[cell.nodes[a]];
+  const Vec3 low = t.y() * c[0] + s.y() * c[2];  // x = 0 and z = 0
+  const Vec3 low_x = t.y() * c[1] + s.y() * c[3];
+  const Vec3 high = t.y() * c[4] + s.y() * c[6];
+  const Vec3 high_x = t.y() * c[5] + s.y() * c[7];
+  const Vec3 near = t.x() * low + s.x() * low_x;
+  const Vec3 far = t.x() * high + s.x() * high_x;
+  DeformedBody::Motion motion;
+  motion.displacement = t.z() * near + s.z() * far;
+  Eigen::Matrix3d& g = motion.gradient;
+  g.col(0) = t.z() * (low_x - low) + s.z() * (high_x - high);
+  g.col(1) = t.z() * (t.x() * (c[2] - c[0]) + s.x() * (c[3] - c[1])) +
+             s.z() * (t.x() * (c[6] - c[4]) + s.x() * (c[7] - c[5]));
+  g.col(2) = far - near;
+  g /= edge;
+  return motion;
+}
+
 }  // namespace
+
+std::shared_ptr<const BodyMap> make_body_map(const CompiledJoint& joint, const Pose& X_JC,
+                                             std::shared_ptr<const SoftModel> model) {
+  auto map = std::make_shared<BodyMap>();
+  map->X_JC = X_JC;
+  for (const Interface& i : joint.mesh.interfaces)
+    map->moving.insert(map->moving.end(), i.vertices.begin(), i.vertices.end());
+  std::sort(map->moving.begin(), map->moving.end());
+  map->moving.erase(std::unique(map->moving.begin(), map->moving.end()), map->moving.end());
+  const Cage& cage = model->cage();
+  const Pose X_CJ = X_JC.inverse();
+  const auto place_of = [&](std::uint32_t v) {
+    return cage.locate(X_CJ * joint.mesh.vertices[v], kReach);
+  };
+  std::int32_t least = std::numeric_limits<std::int32_t>::max();
+  std::int32_t largest = 0;
+  for (const CageCell& cell : cage.cells()) {
+    least = std::min(least, cell.span);
+    largest = std::max(largest, cell.span);
+  }
+  const auto middle =
+      std::stable_partition(map->moving.begin(), map->moving.end(), [&](std::uint32_t v) {
+        const std::int32_t cell = place_of(v).cell;
+        return cell >= 0 &&
+               (least == largest || cage.cells()[static_cast<std::size_t>(cell)].span < largest);
+      });
+  map->n_near = static_cast<std::size_t>(middle - map->moving.begin());
+  for (const std::uint32_t v : map->moving) map->places.push_back(place_of(v));
+  map->model = std::move(model);
+  return map;
+}
+
+void DeformedBody::keep_far(const DeformedBody& before) {
+  double farthest = 0;
+  for (std::size_t k = map_->n_near; k < map_->moving.size(); ++k) {
+    const std::uint32_t v = map_->moving[k];
+    farthest = std::max(farthest, (vertices_[v] - before.vertices_[v]).squaredNorm());
+  }
+  if (farthest > kFarTolerance * kFarTolerance) return;
+  for (std::size_t k = map_->n_near; k < map_->moving.size(); ++k)
+    vertices_[map_->moving[k]] = before.vertices_[map_->moving[k]];
+}
 
 DeformedBody::DeformedBody(std::shared_ptr<const CompiledJoint> joint,
                            std::shared_ptr<const BodyMap> map,
-                           std::span<const Vec3> node_displacements, const ContactForce& contact_J)
+                           std::span<const Vec3> node_displacements, const ContactForce& contact_J,
+                           const DeformedBody* before)
     : joint_(std::move(joint)),
       map_(std::move(map)),
       u_(node_displacements.begin(), node_displacements.end()),
+      X_CJ_(map_->X_JC.inverse()),
       contact_(contact_J) {
   const auto& rest = joint_->mesh.vertices;
   vertices_.assign(rest.begin(),
@@ -37,6 +112,7 @@ DeformedBody::DeformedBody(std::shared_ptr<const CompiledJoint> joint,
     const Vec3 u = map_->model->displacement_at(map_->places[k], u_);
     if (u.norm() > kStill) vertices_[map_->moving[k]] += R * u;
   }
+  if (before != nullptr && before->map_ == map_) keep_far(*before);
 }
 
 CompiledJoint DeformedBody::moved_joint() const {
@@ -47,35 +123,60 @@ CompiledJoint DeformedBody::moved_joint() const {
   return moved;
 }
 
+DeformedBody::Motion DeformedBody::motion_C(const Vec3& p_C) const noexcept {
+  const Cage& cage = map_->model->cage();
+  const CagePlace place = cage.locate(p_C, kReach);
+  if (place.cell < 0) return {};
+  const CageCell& cell = cage.cells()[static_cast<std::size_t>(place.cell)];
+  Motion motion = interpolate(place, cell, cage.edge(cell), u_);
+  motion.gradient.diagonal().array() += 1;
+  return motion;
+}
+
+DeformedBody::Motion DeformedBody::in_J(const Motion& motion) const noexcept {
+  const Eigen::Matrix3d R = map_->X_JC.linear();
+  return {R * motion.displacement, R * motion.gradient * R.transpose()};
+}
+
+DeformedBody::Motion DeformedBody::motion(const Vec3& p_rest) const noexcept {
+  return in_J(motion_C(X_CJ_ * p_rest));
+}
+
 Vec3 DeformedBody::displacement(const Vec3& p_rest) const noexcept {
-  const Vec3 p_C = map_->X_JC.inverse() * p_rest;
-  return map_->X_JC.linear() * map_->model->displacement_at(map_->model->cage().locate(p_C, 1), u_);
+  return motion(p_rest).displacement;
 }
 
 DeformedBody::Rest DeformedBody::to_rest(const Vec3& p, const Vec3& guess) const noexcept {
-  Rest rest;
-  rest.displacement = guess;
-  double way = 1;  // under-relaxed where full steps go round in circles
+  const Vec3 p_C = X_CJ_ * p;
+  Vec3 rest_C = X_CJ_ * Vec3(p - guess);
+  Motion motion;
+  bool found = false;
+  double way = 1;  // shorter steps where full ones go round in circles
   double before = 1e9;
-  for (int k = 0; k < kMostSteps; ++k) {
-    rest.p_rest = p - rest.displacement;
-    const Vec3 now = displacement(rest.p_rest);
-    const Vec3 error = now - rest.displacement;
-    if (error.norm() < kExact) {
-      rest.found = true;
-      return rest;
+  for (int k = 0; k < kMostSteps && !found; ++k) {
+    motion = motion_C(rest_C);
+    const Vec3 error = p_C - rest_C - motion.displacement;
+    const double size = error.norm();
+    found = size < kExact;
+    if (found) break;
+    if (k < kNewtonSteps && motion.gradient.determinant() > 0.02) {
+      rest_C += motion.gradient.inverse() * error;
+      found = size < kSure;
+      if (found) motion.displacement = p_C - rest_C;
+      continue;
     }
-    if (error.norm() > 0.7 * before) way = std::max(0.2, 0.7 * way);
-    before = error.norm();
-    rest.displacement += way * error;
+    if (size > 0.7 * before) way = std::max(0.1, 0.7 * way);
+    before = size;
+    rest_C += way * error;
   }
-  rest.p_rest = p - rest.displacement;
-  return rest;
+  const Motion moved = in_J(motion);
+  return {p - (found ? moved.displacement : Vec3(map_->X_JC.linear() * (p_C - rest_C))), moved,
+          found};
 }
 
 Eigen::Matrix3d DeformedBody::gradient(const Vec3& p_rest) const noexcept {
   const SoftModel& model = *map_->model;
-  const CagePlace place = model.cage().locate(map_->X_JC.inverse() * p_rest, 1);
+  const CagePlace place = model.cage().locate(X_CJ_ * p_rest, kReach);
   if (place.cell < 0) return Eigen::Matrix3d::Identity();
   const CageCell& cell = model.cage().cells()[static_cast<std::size_t>(place.cell)];
   CellVector v;

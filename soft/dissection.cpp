@@ -7,7 +7,7 @@
 namespace artus {
 namespace {
 
-constexpr std::size_t kLeafNodes = 24;  // fewer are eliminated as one front
+constexpr std::size_t kLeafNodes = 10;  // fewer are eliminated as one front
 constexpr std::uint32_t kUnused = std::numeric_limits<std::uint32_t>::max();
 
 /// Splits nodes in two by a plane and takes out what touches the other side.
@@ -66,7 +66,7 @@ class Dissector {
       for (const std::uint32_t n : nodes) sorted.push_back(places_[n][axis]);
       std::sort(sorted.begin(), sorted.end());
       double last = sorted.back();
-      for (const double share : {0.35, 0.42, 0.5, 0.58, 0.65}) {
+      for (const double share : {0.35, 0.4, 0.45, 0.5, 0.55, 0.6, 0.65}) {
         const double plane =
             sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size()))];
         if (plane == last || plane == sorted.back()) continue;

@@ -6,6 +6,8 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "artus/soft/kernels.h"
+
 namespace artus {
 namespace {
 
@@ -186,6 +188,21 @@ void add_fibre_tangent(const CellMaterial& m, const Matrix3& F, Matrix9& H) noex
   }
 }
 
+/// Pa by which a cube resists that its parts change their volumes unlike: its mean shear modulus,
+/// lambda at most (then the volume is integrated in full), so that sum_g V_g e/2 (J_g - mean J)^2
+/// holds the patterns that alternate from node to node, which a mean alone does not see. Chosen
+/// between gates of docs/deformation.md: less leaves a point force's neighbours to alternate, more
+/// stiffens a wall.
+double evenness_of(const CellMaterial& m) noexcept {
+  double sum = 0;
+  double weight = 0;
+  for (std::size_t g = 0; g < 8; ++g) {
+    sum += m.weight[g] * m.shear[g];
+    weight += m.weight[g];
+  }
+  return weight > 0 ? std::min(m.bulk, sum / weight) : 0;
+}
+
 /// Second derivative of the energy density at one point without the mean dilatation's own part.
 Matrix9 point_tangent(const CellMaterial& m, std::size_t g, const Kinematics& k, double pressure,
                       const Plane& plane) noexcept {
@@ -198,7 +215,10 @@ Matrix9 point_tangent(const CellMaterial& m, std::size_t g, const Kinematics& k,
   const Matrix3 slope = F + (k.J[g] - 2) * k.cof[g];
   const Eigen::Map<const Eigen::Matrix<double, 9, 1>> s(slope.data());
   H += m.shear[g] * hard.slope * s * s.transpose();
-  add_cofactor_derivative(F, std::clamp(mu * (k.J[g] - 2) + pressure, -mu, mu), H);
+  const double even = evenness_of(m);
+  H += even * cof * cof.transpose();
+  add_cofactor_derivative(
+      F, std::clamp(mu * (k.J[g] - 2) + pressure + even * (k.J[g] - k.mean_J), -mu, mu), H);
   if (m.sheet[g] > 0) add_sheet_tangent(make_sheet(F, plane), plane, m.sheet[g], H);
   if (m.fibre_modulus > 0) add_fibre_tangent(m, F, H);
   return H;
@@ -208,38 +228,16 @@ Matrix9 point_tangent(const CellMaterial& m, std::size_t g, const Kinematics& k,
 
 CellResponse cell_response(const CellMaterial& m, double edge, const CellVector& u,
                            double target) noexcept {
-  const Kinematics k = kinematics_of(m, edge, u);
-  const double volume = edge * edge * edge / 8;
-  const double excess = k.mean_J - target;
-  const double pressure = m.bulk * excess;
-  const bool has_sheet = *std::max_element(m.sheet.begin(), m.sheet.end()) > 0;
-  const Plane plane = has_sheet ? plane_across(m.sheet_normal) : Plane::Zero();
+  CellPack pack;
+  pack.set(0, m, edge);
+  CellPackState state;
+  for (std::size_t i = 0; i < 24; ++i) state.u[i][0] = u[static_cast<Eigen::Index>(i)];
+  state.target[0] = target;
+  soft_kernels().cells(pack, state);
   CellResponse out;
-  out.energy = volume * k.weight * 0.5 * m.bulk * excess * excess;
-  Eigen::Matrix<double, 3, 8> force = Eigen::Matrix<double, 3, 8>::Zero();
-  for (std::size_t g = 0; g < 8; ++g) {
-    if (m.weight[g] <= 0) continue;
-    const Matrix3& F = k.F[g];
-    out.least_volume = std::min(out.least_volume, k.J[g]);
-    const Hardened hard = harden(m.hardening[g], psi_of(F, k.J[g]));
-    const double mu = m.shear[g] * hard.factor;
-    Matrix3 P = mu * F + (mu * (k.J[g] - 2) + pressure) * k.cof[g];
-    double energy = m.shear[g] * hard.energy;
-    if (m.sheet[g] > 0) {
-      const Sheet sheet = make_sheet(F, plane);
-      P += m.sheet[g] * (sheet.A * sheet.stress) * plane.transpose();
-      energy += 0.5 * m.sheet[g] * (sheet.A.squaredNorm() + 1 / sheet.det - 3);
-    }
-    if (m.fibre_modulus > 0) {
-      const Vec3 along = F * m.fibre;
-      const double e = std::max(0.0, 0.5 * (along.squaredNorm() - 1));
-      P += m.fibre_modulus * e * along * m.fibre.transpose();
-      energy += 0.5 * m.fibre_modulus * e * e;
-    }
-    out.energy += volume * m.weight[g] * energy;
-    force -= (volume * m.weight[g] / edge) * P * gauss_gradients(g).transpose();
-  }
-  out.force = Eigen::Map<const CellVector>(force.data());
+  for (std::size_t i = 0; i < 24; ++i) out.force[static_cast<Eigen::Index>(i)] = state.force[i][0];
+  out.energy = state.energy[0];
+  out.least_volume = state.least_volume[0];
   return out;
 }
 
@@ -267,7 +265,8 @@ CellMatrix cell_tangent(const CellMaterial& m, double edge, const CellVector& u,
     dilatation +=
         w * B.transpose() * Eigen::Map<const Eigen::Matrix<double, 9, 1>>(k.cof[g].data());
   }
-  if (k.weight > 0) K += m.bulk / (volume * k.weight) * dilatation * dilatation.transpose();
+  if (k.weight > 0)
+    K += (m.bulk - evenness_of(m)) / (volume * k.weight) * dilatation * dilatation.transpose();
   return K;
 }
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include <Eigen/Cholesky>
+
 #include "artus/core/check.h"
 
 namespace artus {
@@ -126,22 +128,39 @@ void FaceContact::prepare(std::span<const Vec3> u, const Pose& X_CP, const Pose&
   }
 }
 
-void FaceContact::condense(const Eigen::MatrixXd& root_inverse) {
+void FaceContact::condense(const Eigen::MatrixXf& root_inverse) {
+  // The nodes that carry the points, each once.
+  std::vector<std::uint32_t> nodes;
+  for (const ContactPoint& point : points_) {
+    for (const UnknownShare& s : point.shares) nodes.push_back(s.unknown);
+  }
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  const auto m = static_cast<Index>(nodes.size());
+  std::vector<Index> place(static_cast<std::size_t>(root_inverse.rows() / 3), 0);
+  Eigen::MatrixXf by_node(3 * m, 3 * m);
+  for (Index a = 0; a < m; ++a) {
+    place[nodes[static_cast<std::size_t>(a)]] = a;
+    for (Index b = 0; b < m; ++b)
+      by_node.block<3, 3>(3 * b, 3 * a) =
+          root_inverse.block<3, 3>(3 * static_cast<Index>(nodes[static_cast<std::size_t>(b)]),
+                                   3 * static_cast<Index>(nodes[static_cast<std::size_t>(a)]));
+  }
   const auto n = static_cast<Index>(points_.size());
+  const Eigen::Matrix3f R = X_CP_.linear().cast<float>();
+  Eigen::Matrix<float, Eigen::Dynamic, 3> moved(3 * m, 3);  // all nodes by a point's unit forces
   compliance_.resize(3 * n, 3 * n);
-  const Eigen::Matrix3d R = X_CP_.linear();
-  for (Index i = 0; i < n; ++i) {
-    for (Index j = i; j < n; ++j) {
-      Eigen::Matrix3d block = Eigen::Matrix3d::Zero();
-      for (const UnknownShare& a : points_[static_cast<std::size_t>(i)].shares) {
-        for (const UnknownShare& b : points_[static_cast<std::size_t>(j)].shares)
-          block += a.weight * b.weight *
-                   root_inverse.block<3, 3>(3 * static_cast<Index>(a.unknown),
-                                            3 * static_cast<Index>(b.unknown));
-      }
-      block = R.transpose() * block * R;
-      compliance_.block<3, 3>(3 * i, 3 * j) = block;
-      compliance_.block<3, 3>(3 * j, 3 * i) = block.transpose();
+  for (Index j = 0; j < n; ++j) {
+    moved.setZero();
+    for (const UnknownShare& s : points_[static_cast<std::size_t>(j)].shares)
+      moved.noalias() += static_cast<float>(s.weight) * by_node.middleCols<3>(3 * place[s.unknown]);
+    for (Index i = j; i < n; ++i) {
+      Eigen::Matrix3f block = Eigen::Matrix3f::Zero();
+      for (const UnknownShare& s : points_[static_cast<std::size_t>(i)].shares)
+        block += static_cast<float>(s.weight) * moved.middleRows<3>(3 * place[s.unknown]);
+      const Eigen::Matrix3d turned = (R.transpose() * block * R).cast<double>();
+      compliance_.block<3, 3>(3 * i, 3 * j) = turned;
+      compliance_.block<3, 3>(3 * j, 3 * i) = turned.transpose();
     }
   }
 }
@@ -209,6 +228,32 @@ ContactForce FaceContact::force() const {
   }
   out.share = static_cast<double>(pressing) / static_cast<double>(forces_.size());
   return out;
+}
+
+Eigen::Matrix<double, 6, 6> FaceContact::stiffness() const {
+  constexpr double kShare =
+      1e-3;  // there are more pieces than nodes below: their matrix is near singular
+  std::vector<Index> pressing;
+  for (std::size_t i = 0; i < points_.size(); ++i)
+    if (forces_[points_[i].piece].z() > 0) pressing.push_back(static_cast<Index>(i));
+  const auto n = static_cast<Index>(pressing.size());
+  Eigen::Matrix<double, 6, 6> stiffness = Eigen::Matrix<double, 6, 6>::Zero();
+  if (n == 0 || compliance_.rows() != 3 * static_cast<Index>(points_.size())) return stiffness;
+  Eigen::MatrixXd normal(n, n);
+  Eigen::MatrixXd motion = Eigen::MatrixXd::Zero(n, 6);  // of each piece along z by the face's
+  for (Index i = 0; i < n; ++i) {
+    const Index a = pressing[static_cast<std::size_t>(i)];
+    for (Index j = 0; j < n; ++j)
+      normal(i, j) = compliance_(3 * a + 2, 3 * pressing[static_cast<std::size_t>(j)] + 2);
+    const Vec3 p = piece_P(points_[static_cast<std::size_t>(a)].piece);
+    motion(i, 2) = 1;
+    motion(i, 3) = p.y();
+    motion(i, 4) = -p.x();
+  }
+  normal.diagonal().array() += kShare * normal.trace() / static_cast<double>(n);
+  const Eigen::MatrixXd half = normal.llt().matrixL().solve(motion);
+  stiffness = half.transpose() * half;
+  return stiffness;
 }
 
 double FaceContact::pressure_at(std::uint32_t piece) const noexcept {

@@ -19,8 +19,8 @@ struct SkinPatch {
 struct ProbeFace {
   double length = 0.040;  ///< m along x
   double width = 0.006;   ///< m along y
-  int points_x = 20;
-  int points_y = 4;
+  int points_x = 16;
+  int points_y = 3;
   bool round = false;       ///< an ellipse with these diameters, for punches of closed form
   double friction = 0.05;   ///< Coulomb coefficient; with gel; assumed: lubricated skin
   double gel_gap = 0.5e-3;  ///< m of gap that gel still couples; assumed
@@ -59,7 +59,7 @@ class FaceContact {
 
   /// Compliance of the points from the root's inverse (root_nodes of Cholesky, all unknowns'
   /// order).
-  void condense(const Eigen::MatrixXd& root_inverse);
+  void condense(const Eigen::MatrixXf& root_inverse);
 
   /// Adds the present forces to the right side (3 n_unknowns).
   void add_forces(Eigen::VectorXd& on_unknowns) const;
@@ -70,6 +70,11 @@ class FaceContact {
              Eigen::VectorXd& load_root);
 
   [[nodiscard]] ContactForce force() const;
+
+  /// How much less force (N) and torque (N m) on the probe, axes of P about the face's centre, for
+  /// its translation (m) and turn (rad): through the pieces that press, along the face's normal;
+  /// what gel lets slide adds nothing. Symmetric, no negative eigenvalue.
+  [[nodiscard]] Eigen::Matrix<double, 6, 6> stiffness() const;
   [[nodiscard]] std::span<const ContactPoint> points() const noexcept { return points_; }
   [[nodiscard]] double pressure_at(std::uint32_t piece) const noexcept;          ///< Pa
   [[nodiscard]] std::span<const double> gaps() const noexcept { return gaps_; }  ///< m by piece

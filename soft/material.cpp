@@ -5,6 +5,9 @@
 #include <array>
 
 #include "artus/core/check.h"
+#include "artus/core/toml_fields.h"
+#include "artus/core/toml_library.h"
+#include "artus/soft/bundled_soft_tissues.h"
 
 namespace artus {
 namespace {
@@ -15,37 +18,37 @@ constexpr double kLeastShear = 100;  // Pa; assumed: far below any solid tissue
 /// All tissues are water: the softest must not be squeezed out of existence by a probe's 10 kPa.
 constexpr double kLeastBulk = 50e3;  // Pa; assumed: a fifth of volume at 10 kPa at most
 
-constexpr std::array<SoftTissue, 16> kTissues{{
-    {"fluid", kLeastShear, 0, 0, "assumed: flows"},
-    {"skin", 40e3, 0, 0, "assumed: 120 kPa in tension, order of magnitude of in-vivo suction"},
-    {"fat", 0.8e3, 2.4, 0,
-     "[AdiposeMre2023] shear modulus at rest and its growth with compression; b fitted to that "
-     "growth at 30 %"},
-    {"fascia", 100e3, 0, 1e6, "assumed: a thin dense sheet, soft across"},
-    {"muscle", 2.5e3, 0.75, 5e3,
-     "[AdiposeMre2023] growth with compression; assumed: modulus at rest between its 1 kPa and "
-     "the "
-     "3.9 to 6.2 kPa of [ThighMre2015]; along the fibres three times as stiff"},
-    {"tendon", 35e3, 4, 1e6,
-     "[Main2011] across the fibres 25 to 39 kPa; assumed: along, cut down from 500 MPa to what "
-     "the "
-     "cage can tell from rigid"},
-    {"ligament", 100e3, 0, 1e6, "assumed: slack at small strain"},
-    {"capsule", 150e3, 0, 0, "assumed: facet capsule's 0.13 to 0.4 MPa at 10 % strain"},
-    {"bursa", 200, 0, 0, "assumed: a film that carries pressure, hardly shear"},
-    {"synovial_fluid", kLeastShear, 0, 0, "assumed: flows"},
-    {"cartilage", 0.27e6, 0, 0, "assumed: 0.8 MPa at equilibrium"},
-    {"labrum", 0.4e6, 0, 0, "assumed: between capsule and cartilage"},
-    {"nerve", 13e3, 2, 0.5e6, "[Main2011] across the fibres 12.9 kPa; assumed: along"},
-    {"blood", kLeastShear, 0, 0, "assumed: flows"},
-    {"artery", 30e3, 0, 0, "assumed: wall and blood as one, held open by 13 kPa"},
-    {"vein", 500, 0, 0, "assumed: wall and blood as one, closes under 1 to 2 kPa"},
+// Below 1 Pa nothing holds a cube; above 1 GPa it is hard, and told so by the tissue library.
+constexpr std::array<TomlField<SoftTissue>, 3> kFields{{
+    {"shear_pa", &SoftTissue::shear, 1, 1e9, 1, true},
+    {"hardening", &SoftTissue::hardening, 0, 20, 1, false},
+    {"fibre_modulus_pa", &SoftTissue::fibre_modulus, 0, 1e9, 1, false},
 }};
+
+SoftTissue read_row(const std::string& name, const toml::table& table, Problems& problems) {
+  TomlTable toml(table, "soft tissue '" + name + "'", problems);
+  SoftTissue row;
+  row.tissue = name;
+  read_fields(toml, kFields, row);
+  row.source = toml.required_text("source");
+  toml.finish();
+  return row;
+}
 
 }  // namespace
 
-std::span<const SoftTissue> soft_tissues() noexcept {
-  return kTissues;
+Result<std::vector<SoftTissue>> parse_soft_tissues(std::string_view text, const std::string& name) {
+  std::vector<SoftTissue> rows;
+  ARTUS_TRY(parse_library(
+      text, name, "soft",
+      [&rows](const std::string& entry, const toml::table& table, Problems& problems) {
+        rows.push_back(read_row(entry, table, problems));
+      }));
+  return rows;
+}
+
+Result<std::vector<SoftTissue>> read_bundled_soft_tissues() {
+  return parse_soft_tissues(kBundledSoftTissues, "bundled soft tissues");
 }
 
 double lame_lambda(double shear, double poisson_ratio) {
@@ -53,13 +56,13 @@ double lame_lambda(double shear, double poisson_ratio) {
   return 2 * shear * poisson_ratio / (1 - 2 * poisson_ratio);
 }
 
-SoftMaterial make_soft_material(const Tissue& tissue, const Vec3& fibre, double poisson_ratio) {
+SoftMaterial make_soft_material(const Tissue& tissue, std::span<const SoftTissue> values,
+                                const Vec3& fibre, double poisson_ratio) {
   SoftMaterial m;
   m.hard = tissue.haptic.hard;
-  const auto known = soft_tissues();
-  const auto row = std::find_if(known.begin(), known.end(),
+  const auto row = std::find_if(values.begin(), values.end(),
                                 [&](const SoftTissue& t) { return t.tissue == tissue.name; });
-  if (row != known.end()) {
+  if (row != values.end()) {
     m.shear = row->shear;
     m.hardening = row->hardening;
     if (fibre.squaredNorm() > 0) m.fibre_modulus = row->fibre_modulus;

@@ -2,11 +2,13 @@
 #pragma once
 #include <functional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "artus/anatomy/body/tissue.h"
 #include "artus/core/geometry.h"
+#include "artus/core/result.h"
 
 namespace artus {
 
@@ -27,24 +29,29 @@ struct SoftMaterial {
 
 /// The mechanical values of a tissue, with where they come from.
 struct SoftTissue {
-  std::string_view tissue;   ///< name in the tissue library
+  std::string tissue;        ///< name in the tissue library
   double shear = 0;          ///< Pa
   double hardening = 0;      ///< b
   double fibre_modulus = 0;  ///< Pa
-  std::string_view source;   ///< reference or "assumed: why"
+  std::string source;        ///< reference or "assumed: why"
 };
 
-/// The values this library has of its own, in the order of the tissue library.
-[[nodiscard]] std::span<const SoftTissue> soft_tissues() noexcept;
+/// Rows [soft.NAME] of a file, in its order. Errors: malformed (with line), invalid.
+[[nodiscard]] Result<std::vector<SoftTissue>> parse_soft_tissues(std::string_view text,
+                                                                 const std::string& name);
+
+/// Those that come with artus (meshes/soft_tissues.toml, built in).
+[[nodiscard]] Result<std::vector<SoftTissue>> read_bundled_soft_tissues();
 
 /// lambda from mu and Poisson's ratio. Requires: 0 <= ratio < 0.5.
 [[nodiscard]] double lame_lambda(double shear, double poisson_ratio);
 
-/// The material of a tissue: its own row of soft_tissues() or, for a tissue without one, its
-/// Young's modulus. `poisson_ratio` is numerical: tissue hardly changes its volume, and a ratio of
+/// The material of a tissue: its own row of `values` or, for a tissue without one, its Young's
+/// modulus. `poisson_ratio` is numerical: tissue hardly changes its volume, and a ratio of
 /// 0.47 keeps the equations well conditioned; lambda is 50 kPa at least. Requires: 0 <= ratio <
 /// 0.5.
-[[nodiscard]] SoftMaterial make_soft_material(const Tissue& tissue, const Vec3& fibre,
+[[nodiscard]] SoftMaterial make_soft_material(const Tissue& tissue,
+                                              std::span<const SoftTissue> values, const Vec3& fibre,
                                               double poisson_ratio);
 
 inline constexpr int kNoMaterial = -1;      ///< air, gel: nothing there

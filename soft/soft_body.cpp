@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "artus/soft/tet_locator.h"
+#include "artus/core/check.h"
 
 namespace artus {
 namespace {
@@ -44,10 +44,11 @@ class BeyondTest {
 MaterialField make_joint_field(const CompiledJoint& joint, const Pose& X_JC, double poisson_ratio,
                                std::shared_ptr<const TetLocator> locator) {
   MaterialField field;
+  const auto values = read_bundled_soft_tissues().value();
   for (const Region& region : joint.regions) {
     const Vec3 fibre = X_JC.linear().transpose() * region.fibre_axis;
     field.materials.push_back(
-        make_soft_material(joint.tissues[region.tissue], fibre, poisson_ratio));
+        make_soft_material(joint.tissues[region.tissue], values, fibre, poisson_ratio));
   }
   field.at = [&joint, X_JC, locator = std::move(locator)](const Vec3& p_C) {
     const std::int64_t tet = locator->find(X_JC * p_C);
@@ -129,19 +130,14 @@ Result<SoftBody> SoftBody::make(std::shared_ptr<const CompiledJoint> joint, cons
   };
   SoftBody body;
   body.joint_ = joint;
-  auto map = std::make_shared<BodyMap>();
-  map->X_JC = X_JP;
-  map->model = std::make_shared<const SoftModel>(
-      make_joint_field(*joint, X_JP, params.poisson_ratio, locator), model);
+  body.locator_ = locator;
+  auto map =
+      make_body_map(*joint, X_JP,
+                    std::make_shared<const SoftModel>(
+                        make_joint_field(*joint, X_JP, params.poisson_ratio, locator), model));
   const SkinPatch skin = skin_of(joint->mesh, X_CJ, params.face, params.far);
   if (skin.triangles.empty())
     return fail(ErrorCode::invalid, "no skin below the probe: move it over the body", joint->name);
-  for (const Interface& i : joint->mesh.interfaces)
-    map->moving.insert(map->moving.end(), i.vertices.begin(), i.vertices.end());
-  std::sort(map->moving.begin(), map->moving.end());
-  map->moving.erase(std::unique(map->moving.begin(), map->moving.end()), map->moving.end());
-  for (const std::uint32_t v : map->moving)
-    map->places.push_back(map->model->cage().locate(X_CJ * joint->mesh.vertices[v], 2));
   const Vec3 reach(0.5 * params.face.length + params.reach, 0.5 * params.face.width + params.reach,
                    0.04);
   body.solver_ = std::make_unique<SoftSolver>(
@@ -171,8 +167,69 @@ ContactForce SoftBody::force_J() const {
   return contact;
 }
 
-std::shared_ptr<const DeformedBody> SoftBody::snapshot() const {
-  return std::make_shared<const DeformedBody>(joint_, map_, solver_->displacements(), force_J());
+Eigen::Matrix<double, 6, 6> SoftBody::contact_stiffness() const {
+  const FaceContact* contact = solver_->contact();
+  return contact != nullptr ? contact->stiffness() : Eigen::Matrix<double, 6, 6>::Zero().eval();
+}
+
+/// Nodes of the cage that a bone holds.
+Result<std::vector<std::uint32_t>> SoftBody::nodes_of(const std::string& bone) const {
+  std::vector<std::uint32_t> nodes;
+  const SoftModel& model = *map_->model;
+  for (std::uint32_t n = 0; n < model.cage().nodes().size(); ++n) {
+    if (!model.held(n).all()) continue;
+    const std::int64_t tet = locator_->find(map_->X_JC * model.cage().nodes()[n]);
+    if (tet < 0) continue;
+    const RegionId region = joint_->mesh.regions[static_cast<std::size_t>(tet)];
+    if (joint_->regions[region].name == bone && joint_->tissue_of(region).haptic.hard)
+      nodes.push_back(n);
+  }
+  if (nodes.empty())
+    return fail(ErrorCode::not_found, "no bone '" + bone + "' holds the tissue around the probe",
+                joint_->name);
+  return nodes;
+}
+
+Result<void> SoftBody::move_bones(std::span<const BoneMotion> motions, int parts) {
+  ARTUS_REQUIRE(parts > 0, "at least one part");
+  const auto rest = map_->model->cage().nodes();
+  std::vector<std::vector<std::uint32_t>> nodes;
+  std::vector<Vec3>
+      middles;  // of the bones' nodes, frame C: they go straight, the bone turns on them
+  for (const BoneMotion& motion : motions) {
+    auto found = nodes_of(motion.structure);
+    ARTUS_TRY(found);
+    Vec3 sum = Vec3::Zero();
+    for (const std::uint32_t n : *found) sum += rest[n];
+    middles.emplace_back(sum / static_cast<double>(found->size()));
+    nodes.push_back(std::move(*found));
+  }
+  for (int part = 1; part <= parts; ++part) {
+    const double share = static_cast<double>(part) / parts;
+    std::vector<Vec3> moved(rest.size(), Vec3::Zero());
+    for (std::size_t b = 0; b < motions.size(); ++b) {
+      const Pose X_C = map_->X_JC.inverse() * motions[b].X_J * map_->X_JC;
+      const Eigen::AngleAxisd whole(X_C.linear());
+      const Eigen::Matrix3d R =
+          Eigen::AngleAxisd(share * whole.angle(), whole.axis()).toRotationMatrix();
+      const Vec3 way = share * (X_C * middles[b] - middles[b]);
+      for (const std::uint32_t n : nodes[b])
+        moved[n] = R * (rest[n] - middles[b]) + middles[b] + way - rest[n];
+    }
+    solver_->set_prescribed(std::move(moved));
+    const bool last = part == parts;
+    if (!solver_->settle(std::nullopt, last ? 2e-6 : 2e-4, last ? 60 : 20)) {
+      solver_->set_prescribed(std::vector<Vec3>(rest.size(), Vec3::Zero()));
+      solver_->reset();
+      return fail(ErrorCode::failed, "the tissue does not follow the bones so far", joint_->name);
+    }
+  }
+  return {};
+}
+
+std::shared_ptr<const DeformedBody> SoftBody::snapshot(const DeformedBody* before) const {
+  return std::make_shared<const DeformedBody>(joint_, map_, solver_->displacements(), force_J(),
+                                              before);
 }
 
 }  // namespace artus

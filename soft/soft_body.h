@@ -2,12 +2,15 @@
 #pragma once
 #include <memory>
 #include <optional>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "artus/anatomy/body/compiled_joint.h"
 #include "artus/core/result.h"
 #include "artus/soft/deformed_body.h"
 #include "artus/soft/soft_solver.h"
+#include "artus/soft/tet_locator.h"
 
 namespace artus {
 
@@ -18,15 +21,21 @@ struct SoftBodyParams {
   double coarse_cell = 12e-3;   ///< m, beyond
   double fine_margin = 6e-3;    ///< m beyond the footprint
   double fine_depth = 9e-3;     ///< m below the skin
-  double near = 12e-3;          ///< m beyond the footprint, sideways
-  double near_depth = 27e-3;    ///< m below the skin
-  double far = 30e-3;           ///< m beyond the footprint, sideways
-  double far_depth = 48e-3;     ///< m below the skin
+  double near = 6e-3;           ///< m beyond the footprint, sideways
+  double near_depth = 21e-3;    ///< m below the skin
+  double far = 24e-3;           ///< m beyond the footprint, sideways
+  double far_depth = 42e-3;     ///< m below the skin
   double reach = 6e-3;          ///< m beyond the footprint that the face may slide
   double poisson_ratio = 0.47;  ///< numerical; see make_soft_material
   double inset = 0.3;           ///< of a cube, by which the face's points stand in from its edges
   ProbeFace face;
   SoftSolverParams solver;
+};
+
+/// A bone that moved as a rigid body: its point p of the rest is at X_J * p.
+struct BoneMotion {
+  std::string structure;        ///< region name of a hard tissue
+  Pose X_J = Pose::Identity();  ///< frame J
 };
 
 /// A joint that gives way: its cage around a probe pose, and the solver of its state. Frame C of
@@ -44,11 +53,21 @@ class SoftBody {
   /// SoftSolver::settle.
   bool settle(const std::optional<Pose>& X_JP, double tolerance = 1e-6, int most_steps = 100);
 
-  /// The present state. Cost: some ms.
-  [[nodiscard]] std::shared_ptr<const DeformedBody> snapshot() const;
+  /// Moves bones from where they are at rest, each as a rigid body, and lets the tissue follow;
+  /// those that are not named are at rest. In `parts`, so that no cube is torn at once. Bones do
+  /// not meet each other: where two share a cube the way is short. Errors: not_found (no such bone
+  /// in the cage), failed (the tissue did not follow: the state is at rest again). Cost: some s.
+  [[nodiscard]] Result<void> move_bones(std::span<const BoneMotion> motions, int parts = 10);
+
+  /// The present state; `before` as in DeformedBody. Cost: some ms.
+  [[nodiscard]] std::shared_ptr<const DeformedBody> snapshot(
+      const DeformedBody* before = nullptr) const;
 
   /// Force and torque on the probe about its face's centre, frame J.
   [[nodiscard]] ContactForce force_J() const;
+
+  /// FaceContact::stiffness; zero without contact.
+  [[nodiscard]] Eigen::Matrix<double, 6, 6> contact_stiffness() const;
 
   [[nodiscard]] SoftSolver& solver() noexcept { return *solver_; }
   [[nodiscard]] const SoftSolver& solver() const noexcept { return *solver_; }
@@ -60,8 +79,11 @@ class SoftBody {
  private:
   SoftBody() = default;
 
+  [[nodiscard]] Result<std::vector<std::uint32_t>> nodes_of(const std::string& bone) const;
+
   std::shared_ptr<const CompiledJoint> joint_;
   std::shared_ptr<const BodyMap> map_;
+  std::shared_ptr<const TetLocator> locator_;
   std::unique_ptr<SoftSolver> solver_;
 };
 

@@ -45,6 +45,9 @@ void SoftModel::average_materials(const MaterialField& field, int samples) {
     const int n = samples_for(edge, cage_.finest(), samples);
     materials_.push_back(average_cell(field, sample_cell(field, cage_.low_corner(cell), edge, n)));
   }
+  packs_.resize((materials_.size() + kLanes - 1) / kLanes);
+  for (std::size_t c = 0; c < materials_.size(); ++c)
+    packs_[c / kLanes].set(c % kLanes, materials_[c], cage_.edge(cage_.cells()[c]));
 }
 
 void SoftModel::hold_nodes(const MaterialField& field, const SoftModelParams& params) {
@@ -125,13 +128,27 @@ void SoftModel::compute_forces(std::span<const Vec3> u, std::span<const double> 
   out.on_nodes.assign(u.size(), Vec3::Zero());
   out.energy = 0;
   out.least_volume = 1;
-  for (std::size_t c = 0; c < cells.size(); ++c) {
-    const CellResponse r = cell_response(materials_[c], cage_.edge(cells[c]),
-                                         cell_displacement(cells[c], u), target_of(targets, c));
-    for (std::size_t a = 0; a < 8; ++a)
-      out.on_nodes[cells[c].nodes[a]] += r.force.segment<3>(static_cast<Index>(3 * a));
-    out.energy += r.energy;
-    out.least_volume = std::min(out.least_volume, r.least_volume);
+  const SoftKernels& kernels = soft_kernels();
+  CellPackState state;
+  for (std::size_t p = 0; p < packs_.size(); ++p) {
+    const std::size_t first = kLanes * p;
+    const std::size_t count = std::min(kLanes, cells.size() - first);
+    for (std::size_t l = 0; l < count; ++l) {
+      for (std::size_t a = 0; a < 8; ++a) {
+        const Vec3& d = u[cells[first + l].nodes[a]];
+        for (std::size_t k = 0; k < 3; ++k) state.u[3 * a + k][l] = d[static_cast<Index>(k)];
+      }
+      state.target[l] = target_of(targets, first + l);
+    }
+    kernels.cells(packs_[p], state);
+    for (std::size_t l = 0; l < count; ++l) {
+      for (std::size_t a = 0; a < 8; ++a) {
+        Vec3& f = out.on_nodes[cells[first + l].nodes[a]];
+        for (std::size_t k = 0; k < 3; ++k) f[static_cast<Index>(k)] += state.force[3 * a + k][l];
+      }
+      out.energy += state.energy[l];
+      out.least_volume = std::min(out.least_volume, state.least_volume[l]);
+    }
   }
   for (std::uint32_t n = 0; n < u.size(); ++n) {
     const auto masters = cage_.masters(n);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include <Eigen/Cholesky>
+
 #include "artus/core/check.h"
 
 namespace artus {
@@ -33,6 +35,7 @@ SoftSolver::SoftSolver(std::shared_ptr<const SoftModel> model,
 void SoftSolver::reset() {
   x_ = Eigen::VectorXd::Zero(static_cast<Index>(3 * model_->n_unknowns()));
   if (contact_) contact_->release();
+  multipliers_.setZero();
   touching_ = false;
   bad_ = 0;
   last_ = {};
@@ -50,6 +53,66 @@ void SoftSolver::set_loads(std::vector<PointLoad> loads) {
   load_places_.clear();
   for (const PointLoad& load : loads_)
     load_places_.push_back(model_->cage().locate(load.p_rest, 2));
+}
+
+void SoftSolver::set_constraints(std::vector<SoftConstraint> constraints) {
+  if (refreshing()) end_refresh();
+  constraints_ = std::move(constraints);
+  const auto n = static_cast<Index>(constraints_.size());
+  constraint_loads_ = Eigen::MatrixXd::Zero(x_.size(), n);
+  for (Index k = 0; k < n; ++k) {
+    Eigen::VectorXd load = Eigen::VectorXd::Zero(x_.size());
+    for (const PointLoad& term : constraints_[static_cast<std::size_t>(k)].terms)
+      model_->add_force(model_->cage().locate(term.p_rest, 2), term.force, load);
+    constraint_loads_.col(k) = load;
+  }
+  multipliers_ = Eigen::VectorXd::Zero(n);
+  columns_ = columns_of(*factor_);
+}
+
+void SoftSolver::set_constraint_value(std::size_t index, double value) {
+  ARTUS_REQUIRE(index < constraints_.size(), "a constraint that is there");
+  constraints_[index].value = value;
+}
+
+double SoftSolver::multiplier(std::size_t index) const {
+  ARTUS_REQUIRE(index < constraints_.size(), "a constraint that is there");
+  return multipliers_[static_cast<Index>(index)];
+}
+
+double SoftSolver::constraint_sum(std::size_t index) const {
+  ARTUS_REQUIRE(index < constraints_.size(), "a constraint that is there");
+  double sum = 0;
+  for (const PointLoad& term : constraints_[index].terms)
+    sum += term.force.dot(model_->displacement_at(model_->cage().locate(term.p_rest, 2), u_));
+  return sum;
+}
+
+SoftSolver::Columns SoftSolver::columns_of(const Cholesky& factor) const {
+  Columns columns;
+  columns.by_load = constraint_loads_;
+  for (Index k = 0; k < columns.by_load.cols(); ++k) {
+    Eigen::VectorXd x = columns.by_load.col(k);
+    factor.solve(x);
+    columns.by_load.col(k) = x;
+  }
+  const Eigen::MatrixXd product = constraint_loads_.transpose() * columns.by_load;
+  columns.compliance = 0.5 * (product + product.transpose());
+  return columns;
+}
+
+/// Changes the multipliers so that this step brings each constraint to its value, as far as contact
+/// stays as it is; what contact then changes the next step takes out.
+void SoftSolver::hold_constraints(double alpha, Eigen::VectorXd& r) {
+  if (constraints_.empty()) return;
+  r += constraint_loads_ * multipliers_;
+  Eigen::VectorXd missing = -alpha * (columns_.by_load.transpose() * r);
+  for (std::size_t k = 0; k < constraints_.size(); ++k)
+    missing[static_cast<Index>(k)] += constraints_[k].value - constraint_sum(k);
+  const Eigen::VectorXd change = (alpha * columns_.compliance).ldlt().solve(missing);
+  if (!change.allFinite()) return;
+  multipliers_ += change;
+  r += constraint_loads_ * change;
 }
 
 void SoftSolver::set_targets(std::vector<double> targets) {
@@ -74,13 +137,15 @@ bool SoftSolver::make_factor(std::span<const Vec3> u, std::span<const double> ta
   BlockMatrix tangent(model_->graph());
   model_->assemble_tangent(u, targets, tangent);
   if (!spare_->factorize(tangent)) return false;
-  spare_inverse_ = spare_->root_inverse();
+  spare_inverse_ = spare_->root_inverse().cast<float>();
+  spare_columns_ = columns_of(*spare_);
   return true;
 }
 
 void SoftSolver::take_factor() {
   std::swap(factor_, spare_);
   std::swap(root_inverse_, spare_inverse_);
+  std::swap(columns_, spare_columns_);
 }
 
 bool SoftSolver::refresh() {
@@ -140,10 +205,33 @@ void SoftSolver::take_back(const Eigen::VectorXd& x, std::uint32_t& status) {
   status |= kSoftRestarted;
 }
 
+/// The root's nodes between forward and backward substitution, with what contact changes.
+void SoftSolver::solve_root(bool pressed, double alpha, Eigen::VectorXd& r) {
+  const auto n = static_cast<std::size_t>(root_inverse_.rows());
+  if (n == 0) return;
+  const SoftKernels& kernels = soft_kernels();
+  const Eigen::VectorXf load = root_of(r, root_).cast<float>();
+  Eigen::VectorXf moved = Eigen::VectorXf::Zero(load.size());
+  kernels.multiply(root_inverse_.data(), n, n, load.data(), moved.data());
+  if (pressed) {
+    Eigen::VectorXd change = Eigen::VectorXd::Zero(load.size());
+    contact_->solve(moved.cast<double>(), u_, alpha, change);
+    const Eigen::VectorXf by = change.cast<float>();
+    for (std::size_t k = 0; k < n; k += 3) {  // most of the root's nodes are not touched
+      if (by.segment<3>(static_cast<Index>(k)).squaredNorm() > 0)
+        kernels.multiply(root_inverse_.data() + n * k, n, 3, by.data() + k, moved.data());
+    }
+  }
+  for (std::size_t k = 0; k < root_.size(); ++k)
+    r.segment<3>(3 * static_cast<Index>(root_[k])) =
+        moved.segment<3>(static_cast<Index>(3 * k)).cast<double>();
+}
+
 const SoftStep& SoftSolver::step(const std::optional<Pose>& X_CP, double dt) {
   SoftStep out;
   const double alpha = 1 - std::exp(-dt / params_.relaxation);
   const Eigen::VectorXd before = x_;
+  const Eigen::VectorXd multipliers = multipliers_;
   Eigen::VectorXd r = forces_.on_unknowns;
   for (std::size_t k = 0; k < loads_.size(); ++k)
     model_->add_force(load_places_[k], loads_[k].force, r);
@@ -162,26 +250,21 @@ const SoftStep& SoftSolver::step(const std::optional<Pose>& X_CP, double dt) {
     if (contact_) contact_->release();
     touching_ = false;
   }
+  hold_constraints(alpha, r);
   out.residual = r.norm();
   factor_->forward(r);
+  solve_root(pressed, alpha, r);
   if (pressed) {
-    const Eigen::VectorXd load = root_of(r, root_);
-    const Eigen::VectorXd free = root_inverse_ * load;
-    Eigen::VectorXd change = Eigen::VectorXd::Zero(load.size());
-    contact_->solve(free, u_, alpha, change);
-    for (std::size_t k = 0; k < root_.size(); ++k)
-      r.segment<3>(3 * static_cast<Index>(root_[k])) +=
-          change.segment<3>(static_cast<Index>(3 * k));
     out.contact = contact_->force();
     if (out.contact.outside) out.status |= kSoftOutside;
   }
-  factor_->solve_root(r);
   factor_->backward(r);
   out.largest_move = apply(alpha * r, params_.step_limit + 2 * advanced, out.status);
   out.least_volume = forces_.least_volume;
   const bool finite = std::isfinite(out.largest_move) && std::isfinite(forces_.energy) &&
                       forces_.on_unknowns.allFinite();
   if (!finite || out.least_volume < params_.least_volume) {
+    multipliers_ = multipliers;
     take_back(before, out.status);
   } else {
     bad_ = 0;

@@ -17,6 +17,16 @@ struct PointLoad {
   Vec3 force = Vec3::Zero();   ///< N, frame C
 };
 
+/// A weighted sum of displacements that must have a value, held by one unknown force or pressure:
+/// sum over terms of term.force . u(term.p_rest) = value, by the forces `multiplier * term.force`.
+/// One term of unit length: a point held along a line (value m, multiplier N). The walls of a space
+/// with their normals times their areas: its change of volume (value m^3, multiplier Pa). For a
+/// volume that is not linear in u the caller gives value = wanted - now + (the sum now) each step.
+struct SoftConstraint {
+  std::vector<PointLoad> terms;
+  double value = 0;
+};
+
 struct SoftSolverParams {
   double relaxation = 0.05;     ///< s, time in which tissue follows a load to 63 %; assumed: a tent
                                 ///< falls to a tenth within 0.15 s
@@ -57,7 +67,23 @@ class SoftSolver {
              const SoftSolverParams& params = {});
 
   void set_face(SkinPatch skin, const ProbeFace& face);
+  /// Forces from outside: of a needle, of a fluid on the walls of its space. They may change from
+  /// step to step; those at held nodes go to what holds them.
   void set_loads(std::vector<PointLoad> loads);
+  /// What must be displaced by how much; replaces all constraints and forgets their multipliers.
+  /// Their columns of the compliance are computed here and with each refresh: some ms each. Ends a
+  /// refresh that is under way.
+  void set_constraints(std::vector<SoftConstraint> constraints);
+  /// A new value of one constraint: costs nothing. Requires: an index of set_constraints.
+  void set_constraint_value(std::size_t index, double value);
+  /// The force or pressure that holds a constraint, and what its sum is now.
+  [[nodiscard]] double multiplier(std::size_t index) const;
+  [[nodiscard]] double constraint_sum(std::size_t index) const;
+  /// Compliance of the constraints, (n, n): what the sum of row i becomes by a multiplier 1 of
+  /// column j, all else free.
+  [[nodiscard]] const Eigen::MatrixXd& constraint_compliance() const noexcept {
+    return columns_.compliance;
+  }
   /// J0 of each cube; empty: 1. Requires: one for each cube.
   void set_targets(std::vector<double> targets);
   /// Where held nodes are (n_nodes), m: bones that moved. Requires: one for each node.
@@ -96,7 +122,15 @@ class SoftSolver {
   void reset();  ///< to rest, without probe
 
  private:
+  /// K^-1 g of each constraint and g^T K^-1 g of all, by one factor.
+  struct Columns {
+    Eigen::MatrixXd by_load;     // (3 n_unknowns, n)
+    Eigen::MatrixXd compliance;  // (n, n)
+  };
   [[nodiscard]] Pose advance(const Pose& target, std::uint32_t& status) const;
+  [[nodiscard]] Columns columns_of(const Cholesky& factor) const;
+  void hold_constraints(double alpha, Eigen::VectorXd& r);
+  void solve_root(bool pressed, double alpha, Eigen::VectorXd& r);
   void evaluate();
   bool make_factor(std::span<const Vec3> u, std::span<const double> targets);
   void take_factor();
@@ -109,10 +143,15 @@ class SoftSolver {
   std::unique_ptr<Cholesky> factor_;
   std::unique_ptr<Cholesky> spare_;
   std::unique_ptr<FaceContact> contact_;
-  Eigen::MatrixXd root_inverse_;
-  Eigen::MatrixXd spare_inverse_;
+  Eigen::MatrixXf root_inverse_;
+  Eigen::MatrixXf spare_inverse_;
   std::vector<PointLoad> loads_;
   std::vector<CagePlace> load_places_;
+  std::vector<SoftConstraint> constraints_;
+  Eigen::MatrixXd constraint_loads_;  // (3 n_unknowns, n)
+  Eigen::VectorXd multipliers_;
+  Columns columns_;
+  Columns spare_columns_;
   std::vector<double> targets_;
   std::vector<Vec3> prescribed_;
   Eigen::VectorXd x_;    // (3 n_unknowns) displacement

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/soft/element.h"
 
+#include <algorithm>
+
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
+#include "artus/anatomy/body/tissue.h"
 #include "artus/core/noise.h"
+#include "artus/soft/material.h"
 
 namespace artus {
 namespace {
@@ -29,6 +33,46 @@ CellVector random_displacement(double size, std::uint64_t seed) {
   for (int i = 0; i < 24; ++i)
     u[i] = size * (2 * uniform_noise(seed, static_cast<unsigned>(i)) - 1);
   return u;
+}
+
+TEST(SoftTissues, AreOfTheTissueLibraryAndSayWhereTheirValuesComeFrom) {
+  const auto library = read_bundled_tissues();
+  ASSERT_TRUE(library);
+  const auto values = read_bundled_soft_tissues();
+  ASSERT_TRUE(values) << values.error().to_string();
+  EXPECT_EQ(values->size(), 16U);
+  for (const SoftTissue& soft : *values) {
+    const auto tissue = std::find_if(library->begin(), library->end(),
+                                     [&](const Tissue& t) { return t.name == soft.tissue; });
+    ASSERT_NE(tissue, library->end()) << soft.tissue;
+    EXPECT_FALSE(tissue->haptic.hard) << soft.tissue;
+    EXPECT_GE(soft.shear, 100) << soft.tissue;
+    EXPECT_TRUE(soft.source.find('[') == 0 || soft.source.find("assumed: ") == 0) << soft.source;
+    const SoftMaterial material = make_soft_material(*tissue, *values, Vec3::UnitX(), 0.47);
+    EXPECT_EQ(material.shear, soft.shear);
+    EXPECT_EQ(material.fibre_modulus, soft.fibre_modulus);
+  }
+}
+
+TEST(Element, ResistsVolumesThatAlternateWithinIt) {
+  CellMaterial m;
+  for (std::size_t g = 0; g < 8; ++g) {
+    m.weight[g] = 1;
+    m.shear[g] = 1000;
+  }
+  m.bulk = 20e3;
+  // One half of the cube wider, the other narrower: the mean volume stays.
+  CellVector u = CellVector::Zero();
+  for (Eigen::Index n = 0; n < 8; ++n) {
+    const double x = (n & 1) != 0 ? 1 : -1;
+    const double y = (n & 2) != 0 ? 1 : -1;
+    const double z = (n & 4) != 0 ? 1 : -1;
+    u[3 * n] = 1e-6 * x * y * z;
+  }
+  const double with = cell_response(m, 3e-3, u).energy;
+  m.bulk = 0;  // evenness is lambda at most: none
+  const double without = cell_response(m, 3e-3, u).energy;
+  EXPECT_GT(with, 1.1 * without);
 }
 
 TEST(Element, HasNoForceAtRest) {

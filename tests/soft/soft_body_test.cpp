@@ -92,6 +92,58 @@ TEST_F(SoftBodyTest, InverseMapUndoesTheForwardMap) {
   EXPECT_EQ(moved.mesh.vertices[3], snapshot->vertices()[3]);
 }
 
+TEST_F(SoftBodyTest, BoneThatTurnsTakesTheTissueWithItAndOthersStay) {
+  auto body = SoftBody::make(joint, joint->X_JP_default, quick());
+  ASSERT_TRUE(body);
+  EXPECT_EQ(body->move_bones(std::vector<BoneMotion>{{"no such bone", {}}}).error().code,
+            ErrorCode::not_found);
+  // The bone deepest under the probe, about the beam through its middle tetrahedron.
+  const auto& mesh = joint->mesh;
+  const auto middle_of = [&](std::size_t t) {
+    Vec3 middle = Vec3::Zero();
+    for (const std::uint32_t v : mesh.tetrahedra[t]) middle += 0.25 * mesh.vertices[v];
+    return middle;
+  };
+  const Pose X_PJ = joint->X_JP_default.inverse();
+  std::string bone;
+  Vec3 centre = Vec3::Zero();
+  double nearest = 1;
+  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
+    if (!joint->tissue_of(mesh.regions[t]).haptic.hard) continue;
+    const double distance = (X_PJ * middle_of(t)).norm();
+    if (distance >= nearest) continue;
+    nearest = distance;
+    bone = joint->regions[mesh.regions[t]].name;
+    centre = middle_of(t);
+  }
+  BoneMotion motion{bone, Pose::Identity()};
+  motion.X_J.linear() = Eigen::AngleAxisd(0.1, joint->X_JP_default.linear().col(2)).matrix();
+  motion.X_J.translation() = centre - motion.X_J.linear() * centre + Vec3(3e-4, 0, 0);
+  const auto moved = body->move_bones(std::vector<BoneMotion>{motion}, 4);
+  ASSERT_TRUE(moved) << moved.error().to_string();
+  const auto snapshot = body->snapshot();
+  // A node of the cage within the bone is where the bone is.
+  const auto& map = snapshot->map();
+  const TetLocator locator(mesh);
+  int inside = 0;
+  for (std::uint32_t n = 0; n < map.model->cage().nodes().size(); ++n) {
+    const Vec3 p = map.X_JC * map.model->cage().nodes()[n];
+    const std::int64_t tet = locator.find(p);
+    if (inside >= 5) break;
+    if (tet < 0 || !map.model->held(n).all()) continue;
+    if (joint->regions[mesh.regions[static_cast<std::size_t>(tet)]].name != bone) continue;
+    ++inside;
+    const Vec3 u = map.X_JC.linear() * snapshot->node_displacements()[n];
+    EXPECT_LT((p + u - motion.X_J * p).norm(), 1e-9);
+  }
+  EXPECT_EQ(inside, 5);
+  double most = 0;
+  for (std::size_t v = 0; v < snapshot->vertices().size(); ++v)
+    most = std::max(most, (snapshot->vertices()[v] - mesh.vertices[v]).norm());
+  EXPECT_GT(most, 2e-4);
+  EXPECT_LT(most, 0.1 * 0.08);
+}
+
 TEST_F(SoftBodyTest, UntouchedBodyIsTheJointItself) {
   auto body = SoftBody::make(joint, joint->X_JP_default, quick());
   ASSERT_TRUE(body);

@@ -181,6 +181,42 @@ TEST(SoftSolver, ComplianceIsSymmetric) {
   EXPECT_NEAR(at(a, b), at(b, a), 1e-4 * at(a, b));
 }
 
+TEST(SoftSolver, PointThatMustMoveMovesByAForceThatIsItsComplianceAndTheReaction) {
+  Pressed pressed;
+  SoftSolver& solver = *pressed.solver;
+  constexpr double kWay = 1e-5;
+  solver.set_constraints({{{{Vec3(1e-3, 0, 5e-3), Vec3::UnitZ()}}, kWay}});
+  ASSERT_TRUE(solver.settle(std::nullopt, 1e-11));
+  EXPECT_NEAR(solver.constraint_sum(0), kWay, 1e-6 * kWay);
+  const double force = solver.multiplier(0);
+  EXPECT_NEAR(force * solver.constraint_compliance()(0, 0), kWay, 0.01 * kWay);
+  EXPECT_NEAR(solver.reaction().z(), -force, 1e-3 * force);
+  // The force alone, as a load, does the same.
+  solver.set_constraints({});
+  solver.set_loads({{Vec3(1e-3, 0, 5e-3), Vec3(0, 0, force)}});
+  solver.reset();
+  ASSERT_TRUE(solver.settle(std::nullopt, 1e-11));
+  const CagePlace place = pressed.model->cage().locate(Vec3(1e-3, 0, 5e-3), 2);
+  EXPECT_NEAR(pressed.model->displacement_at(place, solver.displacements()).z(), kWay, 1e-5 * kWay);
+}
+
+TEST(SoftSolver, ConstraintAndFaceHoldTogether) {
+  Pressed pressed;
+  SoftSolver& solver = *pressed.solver;
+  solver.set_constraints(
+      {{{{Vec3(0, 0, 7e-3), Vec3::UnitZ()}}, 0.0}, {{{Vec3(4e-3, 0, 7e-3), Vec3::UnitX()}}, 1e-4}});
+  ASSERT_TRUE(solver.settle(face_at(2e-3), 1e-8));
+  EXPECT_NEAR(solver.constraint_sum(0), 0, 1e-7);
+  EXPECT_NEAR(solver.constraint_sum(1), 1e-4, 1e-7);
+  EXPECT_LT(solver.multiplier(0), 0);  // held against the face
+  const Vec3 held(solver.multiplier(1), 0, solver.multiplier(0));
+  EXPECT_LT((solver.last().contact.force - held - solver.reaction()).norm(), 1e-4);
+  for (const ContactPoint& p : solver.contact()->points()) {
+    const Vec3 now = p.p_rest + pressed.model->displacement_at(p.place, solver.displacements());
+    EXPECT_GT(now.z(), 2e-3 - 1e-6);
+  }
+}
+
 TEST(SoftSolver, GivenVolumeIsTakenUp) {
   Pressed pressed;
   const auto cells = pressed.model->cage().cells();

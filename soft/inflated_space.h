@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "artus/anatomy/body/compiled_joint.h"
+
+namespace artus {
+
+/// How a cleft opens; assumed: all of it. A membrane, h = h0 (1 - (r/a)^2), around the tip, over
+/// the area that it has where nothing keeps the cleft shut: beside a rim or bone it reaches
+/// farther.
+struct OpeningParams {
+  double fill = 3e-6;     ///< m^3 at which the fluid has come to its widest
+  double widest = 25e-3;  ///< m, radius of the patch there
+  double rim = 4e-3;      ///< m from the cleft's own rim over which it stays shut
+  double spread = 20e-3;  ///< m above the roof at which the lift is twice as wide
+};
+
+/// A thin space between a roof and a floor that is pushed open by a volume: the roof and what lies
+/// on it are lifted, the floor stays. The lift spreads upward so that the same volume passes every
+/// level: what lies above keeps its volume. The walls lie along a sphere fitted to them, which
+/// suits a bursa on a head as well as a flat one. What lies below nearly everywhere stays whole.
+/// Volumes are those of the region's triangles, so truth, labels and picture agree.
+class InflatedSpace {
+ public:
+  /// `tip`: m, frame J, where the liquid comes in. Requires: a region with interfaces.
+  InflatedSpace(const CompiledJoint& joint, RegionId region, const Vec3& tip,
+                const OpeningParams& params = {});
+
+  /// All vertices of the joint's mesh with `volume` m^3 more in the space, to 1e-15 m^3. Requires:
+  /// volume >= 0. Cost: some passes over the vertices.
+  [[nodiscard]] std::vector<Vec3> vertices(double volume) const;
+
+  /// m by which the walls are apart more than at rest where they are most so.
+  [[nodiscard]] double largest_opening(double volume) const;
+  /// m^3 of the space at rest.
+  [[nodiscard]] double rest_volume() const noexcept { return rest_volume_; }
+
+ private:
+  struct Lift {
+    std::uint32_t vertex;
+    Vec3 direction;  // unit
+    double r;        // m along the sphere from the tip's direction, already drawn together
+    double share;    // of the lift at the roof
+  };
+  void fit_sphere(const CompiledJoint& joint, const Vec3& tip);
+  void map_walls();
+  void find_shut(const CompiledJoint& joint);
+  [[nodiscard]] std::vector<double> facing() const;
+  void find_lifts();
+  void leave_floor(const CompiledJoint& joint, RegionId region);
+  [[nodiscard]] Vec3 polar(const Vec3& p) const;
+  [[nodiscard]] double wall_mask(double u, double v) const;
+  [[nodiscard]] std::size_t cell(double u, double v) const;
+  [[nodiscard]] double radius(double volume) const;
+  [[nodiscard]] double open_area(double radius, bool everywhere) const;
+  [[nodiscard]] std::vector<Vec3> lifted(double height, double radius) const;
+  [[nodiscard]] double height_for(double volume) const;
+  [[nodiscard]] double volume_of(const std::vector<Vec3>& vertices) const;
+
+  OpeningParams params_;
+  std::vector<Vec3> rest_;                               // m, frame J
+  std::vector<std::array<std::uint32_t, 3>> triangles_;  // of the space, normals outward
+  Vec3 centre_ = Vec3::Zero();
+  Vec3 up_ = Vec3::UnitZ();  // from the centre through the tip, away from the floor or toward it
+  Vec3 side_ = Vec3::UnitX();
+  double sphere_ = 1;  // m
+  double sign_ = 1;    // 1: the roof is farther from the centre than the floor
+  double rest_volume_ = 0;
+  std::vector<double> low_;     // m, height of the space's floor by cell; above top_: none
+  std::vector<double> top_;     // m, of its roof
+  std::vector<double> inside_;  // 0 at the rim .. 1
+  std::vector<Lift> lifts_;
+};
+
+}  // namespace artus

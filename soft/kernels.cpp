@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/soft/kernels.h"
+
+#include <algorithm>
+
+namespace artus {
+namespace {
+#include "artus/soft/kernels_body.h"
+}  // namespace
+
+#ifdef __x86_64__
+[[nodiscard]] const SoftKernels& avx2_soft_kernels() noexcept;
+#endif
+
+const SoftKernels& plain_soft_kernels() noexcept {
+  return kKernels;
+}
+
+const SoftKernels& soft_kernels() noexcept {
+#ifdef __x86_64__
+  if (__builtin_cpu_supports("avx2") != 0) return avx2_soft_kernels();
+#endif
+  return kKernels;
+}
+
+void CellPack::set(std::size_t lane, const CellMaterial& m, double edge_length) noexcept {
+  for (std::size_t g = 0; g < 8; ++g) {
+    weight[g][lane] = m.weight[g];
+    shear[g][lane] = m.shear[g];
+    sheet[g][lane] = m.sheet[g];
+    hardening[g][lane] = m.hardening[g];
+    has_sheet = has_sheet || m.sheet[g] > 0;
+    has_hardening = has_hardening || m.hardening[g] > 0;
+  }
+  bulk[lane] = m.bulk;
+  fibre_modulus[lane] = m.fibre_modulus;
+  has_fibre = has_fibre || m.fibre_modulus > 0;
+  const Vec3 along = m.sheet_normal.unitOrthogonal();
+  const Vec3 across = m.sheet_normal.cross(along);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto axis = static_cast<Eigen::Index>(k);
+    fibre[k][lane] = m.fibre[axis];
+    plane[k][lane] = along[axis];
+    plane[k + 3][lane] = across[axis];
+  }
+  edge[lane] = edge_length;
+}
+
+}  // namespace artus

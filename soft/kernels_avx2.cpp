@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/soft/kernels.h"
+
+#ifdef __x86_64__
+#pragma GCC push_options
+#pragma GCC target("avx2")
+namespace artus {
+namespace {
+#include "artus/soft/kernels_body.h"
+}  // namespace
+
+const SoftKernels& avx2_soft_kernels() noexcept {
+  return kKernels;
+}
+
+}  // namespace artus
+#pragma GCC pop_options
+#endif

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "artus/soft/soft_solver.h"
+
+namespace artus {
+
+/// How the tissue around a straight track gives way along it: what a fast loop needs to know of the
+/// body between two of its updates. Point i stands for the stretch of the track around the depth
+/// (i + 1/2) * spacing from the skin.
+struct NeedleCompliance {
+  static constexpr std::size_t kMost = 16;
+  using Column = std::array<double, kMost>;
+
+  std::size_t points = 0;               ///< 0: the tissue is rigid
+  double spacing = 2.5e-3;              ///< m
+  std::array<Column, kMost> by_load{};  ///< m/N, symmetric, positive definite
+};
+
+/// The forces of a needle on the tissue along its track, N, positive into the body.
+struct NeedleLoad {
+  NeedleCompliance::Column shaft{};
+  double tip = 0;
+  double tip_depth = 0;  ///< m, material
+};
+
+/// A track in the body's rest shape, frame C of the cage.
+struct NeedleLine {
+  Vec3 entry = Vec3::Zero();  ///< m, on the skin
+  Vec3 axis = Vec3::UnitZ();  ///< unit, into the body
+  double length = 40e-3;      ///< m
+  double radius = 0.36e-3;    ///< m, of the needle; 22 G
+};
+
+/// Compliance of the track's points by the solver's present factor, C = G K^-1 G^T. A force on a
+/// line inside a cube only feels a cube's stiffness, so the field between the needle's radius r and
+/// the radius R at which the cube's field begins is added to each point: ln(R/r) / (2 pi mu l), l
+/// the point's length and mu the tissue's shear modulus there; R is 0.2 to 0.7 cubes, by where the
+/// track passes between the nodes. Points in what is held are as rigid as that near field.
+/// Requires: length and radius > 0. Cost: a solution of the factor for each point.
+[[nodiscard]] NeedleCompliance compute_needle_compliance(const SoftSolver& solver,
+                                                         const NeedleLine& track,
+                                                         std::size_t points = 16);
+
+/// The loads that a needle's forces are on the body, with `spacing` between its points.
+[[nodiscard]] std::vector<PointLoad> loads_of(const NeedleLoad& load, const NeedleLine& track,
+                                              double spacing);
+
+}  // namespace artus

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/soft/injected_body.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "artus/soft/inflated_space.h"
+
+namespace artus {
+namespace {
+
+constexpr RegionId kAbove = 2;
+constexpr RegionId kCleft = 3;
+constexpr RegionId kBelow = 4;
+
+/// Flat walls 1 mm apart, 120 mm wide, as grids of 2 mm; skin 20 mm above.
+CompiledJoint make_cleft() {
+  CompiledJoint joint;
+  joint.tissues.resize(2);
+  joint.tissues[0].name = "muscle";
+  joint.tissues[0].acoustic.kind = TissueKind::muscle;
+  joint.tissues[1].name = "bursa";
+  joint.regions = {{"outside", 0, Vec3::Zero()},
+                   {"beyond", 0, Vec3::Zero()},
+                   {"above", 0, Vec3::UnitX()},
+                   {"cleft", 1, Vec3::Zero()},
+                   {"below", 0, Vec3::Zero()}};
+  constexpr int kN = 60;
+  const auto add = [&](double z, RegionId front, RegionId back) {
+    const auto first = static_cast<std::uint32_t>(joint.mesh.vertices.size());
+    for (int j = 0; j <= kN; ++j)
+      for (int i = 0; i <= kN; ++i)
+        joint.mesh.vertices.emplace_back(2e-3 * (i - kN / 2), 2e-3 * (j - kN / 2), z);
+    for (std::uint32_t j = 0; j < kN; ++j) {
+      for (std::uint32_t i = 0; i < kN; ++i) {
+        const std::uint32_t a = first + j * (kN + 1) + i;
+        for (const auto& t : {std::array{a, a + 1, a + kN + 2}, {a, a + kN + 2, a + kN + 1}}) {
+          Interface f;
+          f.vertices = t;
+          f.front = front;
+          f.back = back;
+          joint.mesh.interfaces.push_back(f);
+        }
+      }
+    }
+  };
+  add(20e-3, kOutside, kAbove);  // normals along +z
+  add(1e-3, kAbove, kCleft);
+  add(0, kCleft, kBelow);
+  return joint;
+}
+
+double flux_between(const CompiledJoint& joint, const std::vector<Vec3>& moved, RegionId front) {
+  double volume = 0;
+  for (const Interface& f : joint.mesh.interfaces) {
+    if (f.front != front) continue;
+    const Vec3 a = joint.mesh.vertices[f.vertices[1]] - joint.mesh.vertices[f.vertices[0]];
+    const Vec3 b = joint.mesh.vertices[f.vertices[2]] - joint.mesh.vertices[f.vertices[0]];
+    for (const std::uint32_t v : f.vertices)
+      volume += (moved[v] - joint.mesh.vertices[v]).dot(a.cross(b)) / 6;
+  }
+  return volume;
+}
+
+/// m^3 between the cleft's walls, whose rims do not move.
+double enclosed(const CompiledJoint& joint, const std::vector<Vec3>& moved) {
+  double volume = 0;
+  for (const Interface& f : joint.mesh.interfaces) {
+    if (f.front != kCleft && f.back != kCleft) continue;
+    const double six = moved[f.vertices[0]].dot(moved[f.vertices[1]].cross(moved[f.vertices[2]]));
+    volume += (f.back == kCleft ? six : -six) / 6;
+  }
+  return volume;
+}
+
+TEST(InflatedSpace, OpensAFlatCleftByItsVolumeAndTheMembranesHeight) {
+  const CompiledJoint joint = make_cleft();
+  const InflatedSpace space(joint, kCleft, Vec3(0, 0, 0.5e-3));
+  for (const double volume : {0.5e-6, 3e-6, 5e-6}) {
+    const auto moved = space.vertices(volume);
+    EXPECT_NEAR(enclosed(joint, moved) - enclosed(joint, joint.mesh.vertices), volume, 1e-15);
+    EXPECT_NEAR(flux_between(joint, moved, kAbove), volume, 0.01 * volume);
+    const double a = 25e-3 * std::cbrt(std::min(1.0, volume / 3e-6));
+    EXPECT_NEAR(space.largest_opening(volume), 2 * volume / (std::numbers::pi * a * a),
+                0.02 * volume / (a * a));
+    EXPECT_EQ(flux_between(joint, moved, kCleft), 0) << "the floor stays";
+  }
+  EXPECT_EQ(space.vertices(0), joint.mesh.vertices);
+}
+
+TEST(InflatedSpace, PassesItsVolumeThroughTheSkin) {
+  const CompiledJoint joint = make_cleft();
+  const InflatedSpace space(joint, kCleft, Vec3(0, 0, 0.5e-3));
+  EXPECT_NEAR(flux_between(joint, space.vertices(2e-6), kOutside), 2e-6, 0.1 * 2e-6);
+}
+
+TEST(Bolus, HasItsVolumeAndPushesEveryWallBesideItByAsMuch) {
+  const CompiledJoint joint = make_cleft();
+  Liquid liquid;
+  liquid.name = "saline";
+  const Bolus bolus = make_bolus(joint, kAbove, Vec3(0, 0, 10e-3), 1e-6);
+  EXPECT_EQ(bolus.proportion, Vec3(3, 2, 0.6));
+  const CompiledJoint with = with_bolus(joint, bolus, liquid);
+  EXPECT_EQ(with.regions.back().name, "injected");
+  double volume = 0;
+  for (const Interface& f : with.mesh.interfaces) {
+    if (f.back + 1U != with.regions.size()) continue;
+    EXPECT_EQ(f.front, kAbove);
+    const auto p = [&](std::size_t k) -> const Vec3& {
+      return with.mesh.vertices[f.vertices[k]];
+    };
+    volume += p(0).dot(p(1).cross(p(2))) / 6;
+  }
+  EXPECT_NEAR(volume, 1e-6, 1e-15);
+  // What was inside the ellipsoid's place is outside of it now.
+  for (std::size_t v = 0; v < joint.mesh.vertices.size(); ++v) {
+    const Vec3 y = (with.mesh.vertices[v] - bolus.centre).cwiseQuotient(bolus.proportion);
+    EXPECT_GE(y.norm() * 1.0, std::cbrt(1e-6 / (4.2 * bolus.proportion.prod())));
+  }
+  // A plane beside it is passed by the share of the solid angle under which the bolus, drawn to a
+  // sphere, sees it.
+  const std::vector<Vec3> moved(
+      with.mesh.vertices.begin(),
+      with.mesh.vertices.begin() + static_cast<std::ptrdiff_t>(joint.mesh.vertices.size()));
+  const double up = flux_between(joint, moved, kOutside);
+  const double down = -flux_between(joint, moved, kAbove);
+  const auto share = [](double height) {
+    const double a = 60e-3 / 3;
+    const double b = 60e-3 / 2;
+    const double h = height / 0.6;
+    return std::atan(a * b / (h * std::sqrt(a * a + b * b + h * h))) / std::numbers::pi;
+  };
+  EXPECT_NEAR(up + down, 1e-6 * (share(10e-3) + share(9e-3)), 0.02e-6);
+}
+
+TEST(InjectedBody, LeavesOutWhatCannotBeSeen) {
+  const CompiledJoint joint = make_cleft();
+  Liquid liquid;
+  liquid.name = "saline";
+  liquid.backscatter = 0.3;
+  const Vec3 tip(0, 0, 0.5e-3);
+  const CompiledJoint with = with_injected(
+      joint,
+      {{"cleft", 2e-6, true, tip}, {"above", 1e-9, false, tip}, {"outside", 1e-6, false, tip}},
+      liquid);
+  EXPECT_EQ(with.regions.size(), joint.regions.size());
+  EXPECT_EQ(with.tissue_of(kCleft).name, "injected_saline");
+  EXPECT_DOUBLE_EQ(with.tissue_of(kCleft).acoustic.backscatter, 0.3);
+}
+
+}  // namespace
+}  // namespace artus

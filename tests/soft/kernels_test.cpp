@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/soft/kernels.h"
+
+#include <cstring>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "artus/core/noise.h"
+
+namespace artus {
+namespace {
+
+std::vector<float> noise(std::size_t n, std::uint64_t seed) {
+  std::vector<float> v(n);
+  for (std::size_t i = 0; i < n; ++i) v[i] = static_cast<float>(uniform_noise(seed, i) - 0.5);
+  return v;
+}
+
+/// A trapezium whose triangle is well conditioned.
+std::vector<float> trapezium(std::size_t rows, std::size_t columns) {
+  std::vector<float> L = noise(rows * columns, rows + 31 * columns);
+  for (std::size_t j = 0; j < columns; ++j) L[j * rows + j] = 3.0F + L[j * rows + j];
+  return L;
+}
+
+CellPack pack_of(std::uint64_t seed) {
+  CellPack pack;
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    CellMaterial m;
+    for (std::size_t g = 0; g < 8; ++g) {
+      const double r = uniform_noise(seed + lane, g);
+      m.weight[g] = 0.3 + 0.7 * r;
+      m.shear[g] = 500 + 4000 * r;
+      m.sheet[g] = lane == 2 ? 0 : 2000 * r;
+      m.hardening[g] = 3 * r;
+    }
+    m.bulk = 50e3;
+    m.fibre_modulus = lane == 1 ? 0 : 1e4;
+    m.sheet_normal = Vec3(0.2, 0.1 * static_cast<double>(lane), 1).normalized();
+    m.fibre = Vec3(1, 0.3, 0.1).normalized();
+    pack.set(lane, m, 3e-3);
+  }
+  return pack;
+}
+
+TEST(SoftKernels, WidestRegistersGiveThePlainOnesBytes) {
+  const SoftKernels& wide = soft_kernels();
+  const SoftKernels& plain = plain_soft_kernels();
+  for (const std::size_t rows : {3U, 12U, 45U, 101U}) {
+    const std::size_t columns = rows / 3 + 1;
+    const std::vector<float> L = trapezium(rows, columns);
+    std::vector<float> a = noise(rows, 5);
+    std::vector<float> b = a;
+    wide.forward(L.data(), rows, columns, a.data());
+    plain.forward(L.data(), rows, columns, b.data());
+    wide.backward(L.data(), rows, columns, a.data());
+    plain.backward(L.data(), rows, columns, b.data());
+    const std::vector<float> x = noise(columns, 9);
+    wide.multiply(L.data(), rows, columns, x.data(), a.data());
+    plain.multiply(L.data(), rows, columns, x.data(), b.data());
+    EXPECT_EQ(std::memcmp(a.data(), b.data(), rows * sizeof(float)), 0) << rows;
+  }
+  for (std::uint64_t seed = 0; seed < 50; ++seed) {
+    const CellPack pack = pack_of(seed);
+    CellPackState a;
+    for (std::size_t i = 0; i < 24; ++i) {
+      for (std::size_t l = 0; l < kLanes; ++l)
+        a.u[i][l] = 2e-3 * (uniform_noise(seed, 100 + 4 * i + l) - 0.5);
+    }
+    CellPackState b = a;
+    wide.cells(pack, a);
+    plain.cells(pack, b);
+    EXPECT_EQ(std::memcmp(&a, &b, sizeof a), 0) << seed;
+  }
+}
+
+TEST(SoftKernels, ForwardAndBackwardSolveWithTheirTrapezium) {
+  const std::size_t rows = 29;
+  const std::size_t columns = 14;
+  const std::vector<float> L = trapezium(rows, columns);
+  const auto at = [&](std::size_t i, std::size_t j) {
+    return static_cast<double>(L[j * rows + i]);
+  };
+  const std::vector<float> b = noise(rows, 3);
+  std::vector<float> x = b;
+  soft_kernels().forward(L.data(), rows, columns, x.data());
+  for (std::size_t i = 0; i < rows; ++i) {
+    double sum = i < columns ? 0 : static_cast<double>(x[i]);
+    for (std::size_t j = 0; j < columns && j <= i; ++j) sum += at(i, j) * static_cast<double>(x[j]);
+    EXPECT_NEAR(sum, static_cast<double>(b[i]), 1e-5) << i;
+  }
+  std::vector<float> y = b;
+  soft_kernels().backward(L.data(), rows, columns, y.data());
+  for (std::size_t j = 0; j < columns; ++j) {
+    double sum = 0;
+    for (std::size_t i = j; i < rows; ++i) sum += at(i, j) * static_cast<double>(y[i]);
+    EXPECT_NEAR(sum, static_cast<double>(b[j]), 1e-5) << j;
+  }
+  std::vector<float> z(rows, 1.0F);
+  soft_kernels().multiply(L.data(), rows, columns, b.data(), z.data());
+  for (std::size_t i = 0; i < rows; ++i) {
+    double sum = 1;
+    for (std::size_t j = 0; j < columns; ++j) sum += at(i, j) * static_cast<double>(b[j]);
+    EXPECT_NEAR(sum, static_cast<double>(z[i]), 1e-5) << i;
+  }
+}
+
+TEST(SoftKernels, EachLaneIsACubeByItself) {
+  const CellPack pack = pack_of(4);
+  CellPackState all;
+  for (std::size_t i = 0; i < 24; ++i) {
+    for (std::size_t l = 0; l < kLanes; ++l)
+      all.u[i][l] = 1e-3 * (uniform_noise(8, 4 * i + l) - 0.5);
+  }
+  CellPackState other = all;
+  soft_kernels().cells(pack, all);
+  for (std::size_t i = 0; i < 24; ++i) other.u[i][1] = 0;
+  soft_kernels().cells(pack, other);
+  for (std::size_t i = 0; i < 24; ++i) {
+    for (const std::size_t l : {std::size_t{0}, std::size_t{2}, std::size_t{3}})
+      EXPECT_EQ(all.force[i][l], other.force[i][l]);
+    EXPECT_NEAR(other.force[i][1], 0, 1e-12);
+  }
+}
+
+}  // namespace
+}  // namespace artus
