@@ -88,14 +88,21 @@ void keep_nearest(GatherQuery& query, const Candidate& candidate) noexcept {
   if (candidate.depth < farthest.depth) farthest = candidate;
 }
 
+/// The interface of a filter's hit: through the list that its geometry carries, or the triangle's
+/// own number.
+std::uint32_t interface_of(const RTCFilterFunctionNArguments* args) noexcept {
+  const auto* members = static_cast<const std::uint32_t*>(args->geometryUserPtr);
+  const std::uint32_t triangle = RTCHitN_primID(args->hit, args->N, 0);
+  return members == nullptr ? triangle : members[triangle];
+}
+
 /// Occlusion filter: notes the hit and lets the ray go on. The plane is only fetched here; it is
 /// used when the traversal is over and it has arrived.
 void gather_hit(const RTCFilterFunctionNArguments* args) noexcept {
   args->valid[0] = 0;
   // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): Embree's way to pass state.
   auto& query = *reinterpret_cast<GatherQuery*>(args->context);
-  const Candidate candidate{RTCHitN_primID(args->hit, args->N, 0),
-                            RTCRayN_tfar(args->ray, args->N, 0)};
+  const Candidate candidate{interface_of(args), RTCRayN_tfar(args->ray, args->N, 0)};
   __builtin_prefetch(&query.index->plane(candidate.interface));
   const float u = RTCHitN_u(args->hit, args->N, 0);
   const float v = RTCHitN_v(args->hit, args->N, 0);
@@ -117,13 +124,13 @@ struct FirstHitQuery {
 void accept_beyond_origin(const RTCFilterFunctionNArguments* args) noexcept {
   // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): Embree's way to pass state.
   const auto& query = *reinterpret_cast<const FirstHitQuery*>(args->context);
-  const Passage passage = pass(*query.index, RTCHitN_primID(args->hit, args->N, 0), *query.line);
+  const Passage passage = pass(*query.index, interface_of(args), *query.line);
   if (!(std::abs(passage.cosine) > kCoplanar && passage.depth > 0)) args->valid[0] = 0;
 }
 
 struct NearestQuery {
   const EmbreeIndex* index;
-  std::span<const std::uint32_t> members;  // primitive -> interface; empty: the same
+  const EmbreeParts* parts;
   Vec3 p;
   double max_squared;
   NearestFacet best;
@@ -138,7 +145,7 @@ float search_radius(double distance) noexcept {
 
 bool consider_facet(RTCPointQueryFunctionArguments* args) noexcept {
   auto& query = *static_cast<NearestQuery*>(args->userPtr);
-  const std::uint32_t i = query.members.empty() ? args->primID : query.members[args->primID];
+  const std::uint32_t i = query.parts->interface(args->geomID, args->primID);
   const Vec3 q = closest_point_on_triangle(query.p, query.index->corners(i));
   const double squared = (query.p - q).squaredNorm();
   if (squared > query.max_squared) return false;
@@ -209,27 +216,43 @@ bool touches(const FacetSides& sides, RegionId last) noexcept {
 }  // namespace
 
 EmbreeIndex::EmbreeIndex(std::span<const Vec3> vertices, std::span<const Interface> interfaces,
-                         const std::string& isa)
+                         const std::string& isa, std::span<const std::uint32_t> near)
     : centre_(find_centre(vertices, interfaces)) {
   vertices_.reserve(vertices.size());
   for (const Vec3& v : vertices) vertices_.emplace_back(v - centre_);
+  if (!near.empty()) {
+    near_vertex_.assign(vertices.size(), false);
+    for (const std::uint32_t v : near) near_vertex_.at(v) = true;
+  }
   triangles_.reserve(interfaces.size());
   facets_.reserve(interfaces.size());
+  std::vector<std::uint32_t> boundary;
+  std::vector<std::uint32_t> skin;
   for (const Interface& interface : interfaces) {
     const auto i = static_cast<std::uint32_t>(triangles_.size());
     triangles_.push_back(interface.vertices);
     facets_.push_back({make_plane(corners(i)), {interface.front, interface.back}});
     for (const Vec3& corner : corners(i)) radius_ = std::max(radius_, corner.norm());
-    if (touches(facets_.back().sides, kBeyond)) boundary_.push_back(i);
-    if (touches(facets_.back().sides, kOutside)) skin_.push_back(i);
+    if (touches(facets_.back().sides, kBeyond)) boundary.push_back(i);
+    if (touches(facets_.back().sides, kOutside)) skin.push_back(i);
+    if (!near.empty())
+      in_near_.push_back(std::any_of(interface.vertices.begin(), interface.vertices.end(),
+                                     [&](std::uint32_t v) { return near_vertex_[v]; }));
   }
   std::vector<std::uint32_t> all(interfaces.size());
   std::iota(all.begin(), all.end(), 0U);
   device_ = make_device(isa);
-  scene_ = make_scene(all);
-  boundary_scene_ = make_scene(boundary_);
-  skin_scene_ = make_scene(skin_);
+  coordinates_.reset(rtcNewBuffer(device_.get(), 3 * sizeof(float) * vertices_.size() + 16));
+  throw_on_error(device_.get(), "store the interfaces");
+  fill_coordinates();
+  all_ = make_parts(std::move(all));
+  boundary_ = make_parts(std::move(boundary));
+  skin_ = make_parts(std::move(skin));
   throw_on_error(device_.get(), "index the interfaces");
+}
+
+void EmbreeRelease::operator()(RTCBufferTy* buffer) const noexcept {
+  rtcReleaseBuffer(buffer);
 }
 
 void EmbreeRelease::operator()(RTCDeviceTy* device) const noexcept {
@@ -240,31 +263,95 @@ void EmbreeRelease::operator()(RTCSceneTy* scene) const noexcept {
   rtcReleaseScene(scene);
 }
 
-EmbreeScene EmbreeIndex::make_scene(std::span<const std::uint32_t> members) const {
-  EmbreeScene scene(rtcNewScene(device_.get()));
-  rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
-  rtcSetSceneBuildQuality(scene.get(), RTC_BUILD_QUALITY_MEDIUM);
+void EmbreeIndex::fill_coordinates() {
+  auto* coordinates = static_cast<float*>(rtcGetBufferData(coordinates_.get()));
+  for (const Vec3& v : vertices_) {
+    for (int k = 0; k < 3; ++k) *coordinates++ = static_cast<float>(v[k]);
+  }
+}
+
+/// One geometry, or two: the first of what moves each time. Members are listed where they are not
+/// all interfaces in their order.
+EmbreeParts EmbreeIndex::make_parts(std::vector<std::uint32_t> members) const {
+  EmbreeParts parts;
+  parts.none = members.empty();
+  const bool whole = !can_move() && members.size() == triangles_.size();
+  if (can_move()) {
+    for (const std::uint32_t i : members) parts.members[in_near_[i] ? 0 : 1].push_back(i);
+  } else {
+    parts.members[0] = std::move(members);
+  }
+  parts.scene.reset(rtcNewScene(device_.get()));
+  rtcSetSceneFlags(parts.scene.get(), can_move() ? RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_DYNAMIC
+                                                 : RTC_SCENE_FLAG_ROBUST);
+  rtcSetSceneBuildQuality(parts.scene.get(),
+                          can_move() ? RTC_BUILD_QUALITY_LOW : RTC_BUILD_QUALITY_MEDIUM);
+  for (unsigned k = 0; k < 2; ++k) {
+    if (k == 1 && parts.members[1].empty()) continue;
+    RTCGeometry geometry = make_geometry(parts.members[k]);
+    if (!whole) rtcSetGeometryUserData(geometry, parts.members[k].data());
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(parts.scene.get(), geometry, k);
+    rtcReleaseGeometry(geometry);
+    parts.geometries[k] = geometry;
+  }
+  if (whole) parts.members[0].clear();
+  rtcCommitScene(parts.scene.get());
+  return parts;
+}
+
+RTCGeometryTy* EmbreeIndex::make_geometry(std::span<const std::uint32_t> members) const {
   RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
   if (!members.empty()) {
-    auto* coordinates = static_cast<float*>(
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                3 * sizeof(float), vertices_.size()));
+    rtcSetGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, coordinates_.get(),
+                         0, 3 * sizeof(float), vertices_.size());
     auto* indices = static_cast<std::uint32_t*>(
         rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                 3 * sizeof(std::uint32_t), members.size()));
     throw_on_error(device_.get(), "store the interfaces");
-    for (const Vec3& v : vertices_) {
-      for (int k = 0; k < 3; ++k) *coordinates++ = static_cast<float>(v[k]);
-    }
     for (const std::uint32_t i : members) indices = std::copy_n(triangles_[i].begin(), 3, indices);
   }
+  if (can_move()) rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_REFIT);
   rtcSetGeometryOccludedFilterFunction(geometry, gather_hit);
   rtcSetGeometryIntersectFilterFunction(geometry, accept_beyond_origin);
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometry(scene.get(), geometry);
-  rtcReleaseGeometry(geometry);
-  rtcCommitScene(scene.get());
-  return scene;
+  return geometry;
+}
+
+void EmbreeIndex::move(std::span<const Vec3> vertices) {
+  ARTUS_REQUIRE(can_move() && vertices.size() <= vertices_.size(), "an index that cannot move");
+  bool near = false;
+  bool far = false;
+  auto* const coordinates = static_cast<float*>(rtcGetBufferData(coordinates_.get()));
+  for (std::size_t v = 0; v < vertices.size(); ++v) {
+    const Vec3 place = vertices[v] - centre_;
+    if (place == vertices_[v]) continue;
+    vertices_[v] = place;
+    for (int k = 0; k < 3; ++k)
+      coordinates[3 * v + static_cast<std::size_t>(k)] = static_cast<float>(place[k]);
+    (near_vertex_[v] ? near : far) = true;
+  }
+  if (near || far) move_triangles(near, far);
+  radius_ = 0;
+  for (std::size_t v = 0; v < vertices.size(); ++v)
+    radius_ = std::max(radius_, vertices_[v].norm());
+}
+
+/// A triangle with a vertex that is near is in the first part, whichever of its vertices moved.
+void EmbreeIndex::move_triangles(bool near, bool far) {
+  for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
+    if (in_near_[i] || far) facets_[i].plane = make_plane(corners(i));
+  }
+  for (EmbreeParts* parts : {&all_, &boundary_, &skin_}) {
+    for (unsigned k = 0; k < 2; ++k) {
+      RTCGeometry geometry = parts->geometries[k];
+      const bool moved = k == 0 ? near || far : far;
+      if (!moved || geometry == nullptr || parts->members[k].empty()) continue;
+      rtcUpdateGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0);
+      rtcCommitGeometry(geometry);
+    }
+    rtcCommitScene(parts->scene.get());
+  }
+  throw_on_error(device_.get(), "move the interfaces");
 }
 
 std::array<Vec3, 3> EmbreeIndex::corners(std::uint32_t i) const noexcept {
@@ -284,7 +371,7 @@ void EmbreeIndex::gather(const Line& line, HitBuffer& out) const noexcept {
   query.doubtful = false;
   init_context(query.context);
   RTCRay ray = make_ray(line);
-  find_occluded(scene_.get(), query.context, ray);
+  find_occluded(all_.scene.get(), query.context, ray);
   out.overflow = query.overflow;
   out.doubtful = query.doubtful;
   for (std::size_t k = 0; k < query.size; ++k) {
@@ -306,12 +393,12 @@ std::optional<FirstHit> EmbreeIndex::first_hit(const Line& line) const noexcept 
   RTCRayHit ray{};
   ray.ray = make_ray(line);
   ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  find_intersection(scene_.get(), query.context, ray);
+  find_intersection(all_.scene.get(), query.context, ray);
   if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-  const FacetSides& sides = this->sides(ray.hit.primID);
-  const double cosine = plane(ray.hit.primID).normal.dot(line.direction);
   FirstHit first;
-  first.interface = ray.hit.primID;
+  first.interface = all_.interface(ray.hit.geomID, ray.hit.primID);
+  const FacetSides& sides = this->sides(first.interface);
+  const double cosine = plane(first.interface).normal.dot(line.direction);
   first.from = cosine < 0 ? sides.front : sides.back;
   first.clean = std::min({ray.hit.u, ray.hit.v, 1 - ray.hit.u - ray.hit.v}) > kCleanBarycentric &&
                 std::abs(cosine) > kGrazing;
@@ -320,16 +407,11 @@ std::optional<FirstHit> EmbreeIndex::first_hit(const Line& line) const noexcept 
 
 std::optional<NearestFacet> EmbreeIndex::nearest(const Vec3& p, double max_distance,
                                                  Subset subset) const noexcept {
-  NearestQuery query{this, {}, p, max_distance * max_distance, {}, 0};
-  RTCScene scene = scene_.get();
-  if (subset == Subset::boundary) {
-    scene = boundary_scene_.get();
-    query.members = boundary_;
-  } else if (subset == Subset::skin) {
-    scene = skin_scene_.get();
-    query.members = skin_;
-  }
-  if (facets_.empty() || (subset != Subset::all && query.members.empty())) return std::nullopt;
+  const EmbreeParts& parts = subset == Subset::boundary ? boundary_
+                             : subset == Subset::skin   ? skin_
+                                                        : all_;
+  NearestQuery query{this, &parts, p, max_distance * max_distance, {}, 0};
+  if (parts.none) return std::nullopt;
   constexpr double kNone = std::numeric_limits<double>::max();
   query.best.squared_distance = kNone;
   RTCPointQuery point{};
@@ -339,7 +421,7 @@ std::optional<NearestFacet> EmbreeIndex::nearest(const Vec3& p, double max_dista
   point.radius = search_radius(std::min(max_distance, p.norm() + radius_));
   RTCPointQueryContext context;  // NOLINT(cppcoreguidelines-pro-type-member-init): init follows
   rtcInitPointQueryContext(&context);
-  rtcPointQuery(scene, &point, &context, consider_facet, &query);
+  rtcPointQuery(parts.scene.get(), &point, &context, consider_facet, &query);
   if (query.best.squared_distance == kNone) return std::nullopt;
   return query.best;
 }

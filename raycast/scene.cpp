@@ -8,6 +8,7 @@
 
 #include "artus/raycast/embree_index.h"
 #include "artus/raycast/hit_chain.h"
+#include "artus/soft/deformed_body.h"
 
 namespace artus {
 namespace {
@@ -59,9 +60,10 @@ struct Trace {
 }  // namespace
 
 struct Scene::Impl {
-  Impl(std::shared_ptr<const CompiledJoint> shared, const SceneOptions& options)
+  Impl(std::shared_ptr<const CompiledJoint> shared, const SceneOptions& options,
+       std::span<const std::uint32_t> near = {})
       : joint(std::move(shared)),
-        index(joint->mesh.vertices, joint->mesh.interfaces, options.isa),
+        index(joint->mesh.vertices, joint->mesh.interfaces, options.isa, near),
         directions(probe_directions()),
         has_beyond(std::any_of(joint->mesh.interfaces.begin(), joint->mesh.interfaces.end(),
                                [](const Interface& interface) {
@@ -105,6 +107,7 @@ struct Scene::Impl {
   [[nodiscard]] std::span<const Hit> trace(const Track& track, Trace& scratch) const noexcept;
 
   std::shared_ptr<const CompiledJoint> joint;
+  std::shared_ptr<const DeformedBody> tissue;
   EmbreeIndex index;
   std::array<Vec3, 6> directions;
   bool has_beyond;
@@ -137,12 +140,30 @@ Scene::Scene(std::shared_ptr<const CompiledJoint> joint, const SceneOptions& opt
   ARTUS_REQUIRE(joint != nullptr, "a joint is needed");
   impl_ = std::make_unique<Impl>(std::move(joint), options);
 }
+Scene::Scene(const DeformedBody& tissue, const SceneOptions& options)
+    : impl_(std::make_unique<Impl>(
+          tissue.shared_joint(), options,
+          std::span(tissue.map().moving).first(std::max<std::size_t>(1, tissue.map().n_near)))) {}
+
+void Scene::move(std::shared_ptr<const DeformedBody> tissue) {
+  if (tissue) impl_->index.move(tissue->vertices());
+  impl_->tissue = std::move(tissue);
+}
+
 Scene::~Scene() = default;
 Scene::Scene(Scene&&) noexcept = default;
 Scene& Scene::operator=(Scene&&) noexcept = default;
 
 const CompiledJoint& Scene::joint() const noexcept {
   return *impl_->joint;
+}
+
+const std::shared_ptr<const CompiledJoint>& Scene::shared_joint() const noexcept {
+  return impl_->joint;
+}
+
+const std::shared_ptr<const DeformedBody>& Scene::tissue() const noexcept {
+  return impl_->tissue;
 }
 
 QueryCount Scene::find_crossings(const Segment& segment, std::span<Crossing> out) const noexcept {

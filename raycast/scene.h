@@ -14,6 +14,8 @@
 
 namespace artus {
 
+class DeformedBody;
+
 /// Interface index of what no interface marks.
 inline constexpr std::uint32_t kNoInterface = std::numeric_limits<std::uint32_t>::max();
 
@@ -70,6 +72,10 @@ struct SceneOptions {
 /// two halves of a cut segment share no crossing. A touch that leads back into the same region is
 /// no crossing.
 ///
+/// A body that gives way is one such scene for each of its states (MovingScene): lines then meet
+/// the surfaces where they are, `joint` stays what was compiled, and `tissue` leads from one to the
+/// other.
+///
 /// The body is meshed only inside its region of interest. A line that leaves it as "beyond" may
 /// return as "outside" (or the reverse) though no interface lies between; the intervals then
 /// change region in the middle of the gap with entry_interface = kNoInterface, the crossings show
@@ -87,7 +93,12 @@ class Scene {
   Scene(Scene&&) noexcept;
   Scene& operator=(Scene&&) noexcept;
 
+  /// The joint, at rest whatever the tissue does.
   [[nodiscard]] const CompiledJoint& joint() const noexcept;
+  /// The same as a share of it.
+  [[nodiscard]] const std::shared_ptr<const CompiledJoint>& shared_joint() const noexcept;
+  /// How the body gives way in this scene: from it the scene has its surfaces. Null: it is at rest.
+  [[nodiscard]] const std::shared_ptr<const DeformedBody>& tissue() const noexcept;
 
   /// Every interface the segment passes through, sorted by depth; a crossing through a shared edge
   /// or vertex counts once.
@@ -114,7 +125,11 @@ class Scene {
                                                               double max_distance) const noexcept;
 
  private:
+  friend class MovingScene;
   struct Impl;
+  /// A scene whose surfaces `move` with states of the tissue that have the same map.
+  Scene(const DeformedBody& tissue, const SceneOptions& options);
+  void move(std::shared_ptr<const DeformedBody> tissue);
   std::unique_ptr<Impl> impl_;
 };
 

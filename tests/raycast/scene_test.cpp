@@ -21,7 +21,7 @@ using test::FlatLayer;
 using test::SphereLayer;
 using ::testing::ElementsAre;
 
-const Vec3 kFarOrigin(-0.18, -0.05, 1.32);
+const Vec3 kFarAway(-0.18, -0.05, 1.32);
 
 Scene make_scene(const CompiledJoint& joint) {
   return Scene(std::make_shared<const CompiledJoint>(joint));
@@ -29,7 +29,7 @@ Scene make_scene(const CompiledJoint& joint) {
 
 CompiledJoint make_slab() {
   const std::array<FlatLayer, 3> layers{{{"skin", 0.002}, {"fat", 0.008}, {"muscle", 0.03}}};
-  return test::make_layered_block(layers, 0.1, 0.08, kFarOrigin);
+  return test::make_layered_block(layers, 0.1, 0.08, kFarAway);
 }
 
 std::vector<RegionId> regions_of(const std::vector<TissueInterval>& intervals) {
@@ -40,7 +40,7 @@ std::vector<RegionId> regions_of(const std::vector<TissueInterval>& intervals) {
 
 TEST(FindIntervals, CutsALineThroughASlabAtItsLayers) {
   const Scene scene = make_scene(make_slab());
-  const Vec3 start = kFarOrigin + Vec3(0.0123, 0.0071, -0.01);
+  const Vec3 start = kFarAway + Vec3(0.0123, 0.0071, -0.01);
   const auto intervals = tissue_intervals(scene, {start, start + Vec3(0, 0, 0.1)});
   ASSERT_THAT(regions_of(intervals), ElementsAre(0, 2, 3, 4, 0));
   const std::array<double, 6> expected{0, 0.01, 0.012, 0.02, 0.05, 0.1};
@@ -58,7 +58,7 @@ TEST(FindIntervals, DoesNotMindEdgesAndVerticesOfASlab) {
   const std::array<Vec3, 3> starts{Vec3(0, 0, -0.01), Vec3(0.025, -0.02, -0.01),
                                    Vec3(0.025, 0.02, -0.01)};
   for (const Vec3& offset : starts) {
-    const Vec3 start = kFarOrigin + offset;
+    const Vec3 start = kFarAway + offset;
     const auto intervals = tissue_intervals(scene, {start, start + Vec3(0, 0, 0.1)});
     EXPECT_THAT(regions_of(intervals), ElementsAre(0, 2, 3, 4, 0));
     std::array<Crossing, 16> crossings;
@@ -68,8 +68,8 @@ TEST(FindIntervals, DoesNotMindEdgesAndVerticesOfASlab) {
 
 TEST(FindIntervals, ThroughOppositeCornersEntersAndLeavesTheBlockOnce) {
   const std::array<FlatLayer, 1> layer{{{"muscle", 0.1}}};
-  const Scene scene = make_scene(test::make_layered_block(layer, 0.1, 0.1, kFarOrigin));
-  const Vec3 corner = kFarOrigin + Vec3(-0.05, -0.05, 0);
+  const Scene scene = make_scene(test::make_layered_block(layer, 0.1, 0.1, kFarAway));
+  const Vec3 corner = kFarAway + Vec3(-0.05, -0.05, 0);
   const Vec3 along = Vec3(1, 1, 1);
   const auto intervals = tissue_intervals(scene, {corner - 0.03 * along, corner + 0.13 * along});
   ASSERT_THAT(regions_of(intervals), ElementsAre(0, 2, 0));
@@ -79,7 +79,7 @@ TEST(FindIntervals, ThroughOppositeCornersEntersAndLeavesTheBlockOnce) {
 
 TEST(FindIntervals, StartInsideHasNoEntryNormal) {
   const Scene scene = make_scene(make_slab());
-  const Vec3 start = kFarOrigin + Vec3(0.01, 0.005, 0.005);
+  const Vec3 start = kFarAway + Vec3(0.01, 0.005, 0.005);
   const auto intervals = tissue_intervals(scene, {start, start + Vec3(0, 0, 0.01)});
   ASSERT_THAT(regions_of(intervals), ElementsAre(3, 4));
   EXPECT_EQ(intervals[0].entry_interface, kNoInterface);
@@ -89,7 +89,7 @@ TEST(FindIntervals, StartInsideHasNoEntryNormal) {
 
 TEST(FindIntervals, ASegmentThatStaysInOneTissueIsOneInterval) {
   const Scene scene = make_scene(make_slab());
-  const Vec3 start = kFarOrigin + Vec3(0.01, 0.005, 0.02);
+  const Vec3 start = kFarAway + Vec3(0.01, 0.005, 0.02);
   const auto intervals = tissue_intervals(scene, {start, start + Vec3(0.01, 0, 0.01)});
   ASSERT_THAT(regions_of(intervals), ElementsAre(4));
   EXPECT_EQ(intervals[0].entry, 0);
@@ -114,7 +114,7 @@ TEST(FindIntervals, StartOnAnInterfaceCrossesItAndEndOnItDoesNot) {
 
 TEST(FindIntervals, ZeroLengthSegmentIsTheRegionAtItsPoint) {
   const Scene scene = make_scene(make_slab());
-  const Vec3 p = kFarOrigin + Vec3(0.01, 0.005, 0.001);
+  const Vec3 p = kFarAway + Vec3(0.01, 0.005, 0.001);
   const auto intervals = tissue_intervals(scene, {p, p});
   ASSERT_THAT(regions_of(intervals), ElementsAre(2));
   EXPECT_EQ(intervals[0].entry, 0);
@@ -125,17 +125,17 @@ TEST(FindIntervals, ZeroLengthSegmentIsTheRegionAtItsPoint) {
 
 TEST(FindIntervals, OutsideTheBodyIsOneOutsideInterval) {
   const Scene scene = make_scene(make_slab());
-  const Vec3 near = kFarOrigin + Vec3(0, 0, -0.001);
+  const Vec3 near = kFarAway + Vec3(0, 0, -0.001);
   EXPECT_THAT(regions_of(tissue_intervals(scene, {near, near + Vec3(0.02, 0.01, 0)})),
               ElementsAre(0));
-  const Vec3 far = kFarOrigin + Vec3(100, 0, 0);
+  const Vec3 far = kFarAway + Vec3(100, 0, 0);
   EXPECT_THAT(regions_of(tissue_intervals(scene, {far, far + Vec3(1, 0, 0)})), ElementsAre(0));
 }
 
 TEST(FindIntervals, ANeedleAlongAnInterfaceIsInOneOfItsTissuesAllTheWay) {
   const Scene scene = make_scene(make_slab());
   for (const double lift : {0.0, 1e-9, -1e-9, 1e-10}) {
-    const Vec3 start = kFarOrigin + Vec3(-0.07, 0.003, 0.002 + lift);
+    const Vec3 start = kFarAway + Vec3(-0.07, 0.003, 0.002 + lift);
     const auto regions = regions_of(tissue_intervals(scene, {start, start + Vec3(0.14, 0.001, 0)}));
     ASSERT_EQ(regions.size(), 3U) << lift;
     EXPECT_EQ(regions.front(), kOutside);
@@ -147,20 +147,20 @@ TEST(FindIntervals, ANeedleAlongAnInterfaceIsInOneOfItsTissuesAllTheWay) {
 TEST(FindIntervals, CoordinatesThatAreNotFiniteFindNothing) {
   const Scene scene = make_scene(make_slab());
   const Vec3 bad(std::numeric_limits<double>::quiet_NaN(), 0, 0);
-  EXPECT_TRUE(tissue_intervals(scene, {bad, kFarOrigin}).empty());
-  EXPECT_TRUE(tissue_intervals(scene, {kFarOrigin, bad}).empty());
+  EXPECT_TRUE(tissue_intervals(scene, {bad, kFarAway}).empty());
+  EXPECT_TRUE(tissue_intervals(scene, {kFarAway, bad}).empty());
   EXPECT_EQ(scene.region_at(bad), kOutside);
   EXPECT_TRUE(std::isinf(scene.find_nearest(bad, 1).distance));
 }
 
 TEST(FindIntervals, NestedSpheresApproachTheClosedForm) {
   const std::array<SphereLayer, 3> layers{{{"skin", 0.06}, {"muscle", 0.05}, {"bone", 0.03}}};
-  const Scene scene = make_scene(test::make_nested_spheres(layers, kFarOrigin, 5));
+  const Scene scene = make_scene(test::make_nested_spheres(layers, kFarAway, 5));
   // A facet with circumradius c lies c^2/(2r) below the sphere it is inscribed in; edges of an
   // icosahedron split 5 times stay below 0.04 r, so c < 0.0231 r. Obliquely the depth moves by that
   // over the cosine.
   for (const double offset : {0.0, 0.01, 0.02, 0.027}) {
-    const Vec3 start = kFarOrigin + Vec3(0.3, offset, 0.0003);
+    const Vec3 start = kFarAway + Vec3(0.3, offset, 0.0003);
     const auto intervals = tissue_intervals(scene, {start, start - Vec3(0.6, 0, 0)});
     ASSERT_THAT(regions_of(intervals), ElementsAre(0, 2, 3, 4, 3, 2, 0));
     for (std::size_t i = 0; i < 3; ++i) {
@@ -176,13 +176,13 @@ TEST(FindIntervals, NestedSpheresApproachTheClosedForm) {
 
 TEST(FindIntervals, GrazingRaysKeepAConsistentChain) {
   const std::array<SphereLayer, 3> layers{{{"skin", 0.06}, {"muscle", 0.059}, {"bone", 0.03}}};
-  const CompiledJoint joint = test::make_nested_spheres(layers, kFarOrigin, 3);
+  const CompiledJoint joint = test::make_nested_spheres(layers, kFarAway, 3);
   const Scene scene = make_scene(joint);
   // Lines through every vertex of the middle sphere, tangent to it.
   const std::size_t per_sphere = joint.mesh.vertices.size() / 3;
   for (std::size_t i = per_sphere; i < 2 * per_sphere; ++i) {
     const Vec3& vertex = joint.mesh.vertices[i];
-    const Vec3 tangent = (vertex - kFarOrigin).unitOrthogonal();
+    const Vec3 tangent = (vertex - kFarAway).unitOrthogonal();
     const auto regions =
         regions_of(tissue_intervals(scene, {vertex - 0.1 * tangent, vertex + 0.1 * tangent}));
     ASSERT_GE(regions.size(), 3U);
@@ -219,7 +219,7 @@ TEST(FindIntervals, ANeedleThatLeavesAsBeyondMayReturnAsOutside) {
 
 TEST(FindIntervals, ATooSmallSpanKeepsTheNearest) {
   const Scene scene = make_scene(make_slab());
-  const Vec3 start = kFarOrigin + Vec3(0.0123, 0.0071, -0.01);
+  const Vec3 start = kFarAway + Vec3(0.0123, 0.0071, -0.01);
   const Segment segment{start, start + Vec3(0, 0, 0.1)};
   std::array<TissueInterval, 2> two;
   const QueryCount count = scene.find_intervals(segment, two);
@@ -251,8 +251,8 @@ TEST(FindCrossings, MoreSurfacesThanAQueryHoldsKeepsTheNearestAndSaysSo) {
 
 TEST(FindCrossings, NormalsOpposeTravelAndRegionsChain) {
   const std::array<SphereLayer, 3> layers{{{"skin", 0.06}, {"muscle", 0.05}, {"bone", 0.03}}};
-  const Scene scene = make_scene(test::make_nested_spheres(layers, kFarOrigin, 3));
-  const Segment segment{kFarOrigin + Vec3(0.1, 0.004, 0.003), kFarOrigin - Vec3(0.1, 0.002, 0.001)};
+  const Scene scene = make_scene(test::make_nested_spheres(layers, kFarAway, 3));
+  const Segment segment{kFarAway + Vec3(0.1, 0.004, 0.003), kFarAway - Vec3(0.1, 0.002, 0.001)};
   const Vec3 along = (segment.end - segment.start).normalized();
   std::array<Crossing, 16> crossings;
   const QueryCount count = scene.find_crossings(segment, crossings);
@@ -269,7 +269,7 @@ TEST(FindCrossings, NormalsOpposeTravelAndRegionsChain) {
 TEST(FindIntervals, MoveRigidlyWithTheBody) {
   const std::array<SphereLayer, 3> layers{{{"skin", 0.06}, {"muscle", 0.05}, {"bone", 0.03}}};
   const CompiledJoint joint = test::make_nested_spheres(layers, Vec3::Zero(), 3);
-  const Pose motion = make_pose(kFarOrigin, Vec3(1, -2, 0.7), Vec3(0.3, 1, 1));
+  const Pose motion = make_pose(kFarAway, Vec3(1, -2, 0.7), Vec3(0.3, 1, 1));
   const Scene here = make_scene(joint);
   const Scene there = make_scene(test::transformed(joint, motion));
   for (int i = 0; i < 500; ++i) {

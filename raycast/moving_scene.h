@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <memory>
+
+#include "artus/raycast/scene.h"
+
+namespace artus {
+
+/// Scenes of a body that gives way, one for each of its states, by fitting a hierarchy that is
+/// there to where the surfaces are now. A scene that nobody holds any more is used again, so that
+/// in a steady run three go round: one that is read, one that was, one that is being made. One
+/// thread at a time asks; the scenes may be read and let go of on any.
+class MovingScene {
+ public:
+  explicit MovingScene(SceneOptions options = {});
+
+  /// The scene of one state. A body at rest answers every query with the bytes of Scene(joint).
+  /// Requires: a body (std::invalid_argument). Errors: as Scene. Cost: 0.1 us a triangle that
+  /// moved; the first ones for a joint and its cage build an index.
+  [[nodiscard]] std::shared_ptr<const Scene> at(std::shared_ptr<const DeformedBody> tissue);
+
+ private:
+  struct Pool;
+  SceneOptions options_;
+  std::shared_ptr<Pool> pool_;
+};
+
+/// One-shot form for a first try.
+[[nodiscard]] std::shared_ptr<const Scene> make_scene(std::shared_ptr<const DeformedBody> tissue);
+
+}  // namespace artus

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/raycast/moving_scene.h"
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "artus/raycast/pressed_scene.h"
+#include "tests/raycast/brute_force.h"
+#include "tests/support/moved_block.h"
+
+namespace artus {
+namespace {
+
+constexpr std::array<double, 4> kBorders{0, 3e-3, 9e-3, 39e-3};  // m
+
+test::MovedBlock make_block() {
+  const std::array<test::FlatLayer, 3> layers{{{"skin", 3e-3}, {"fat", 6e-3}, {"muscle", 30e-3}}};
+  return test::make_moved_block(layers);
+}
+
+/// A dent under a face, along z alone.
+Vec3 dent(const Vec3& p) {
+  const double aside = p.head<2>().squaredNorm() / (2 * 0.01 * 0.01);
+  return {0, 0, 5e-3 * std::exp(-aside) * (1 - p.z() / kBorders[3])};
+}
+
+template <class T>
+bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+}
+
+/// Every answer of a scene to lines and points from a fixed sequence.
+std::vector<double> answers(const Scene& scene) {
+  std::vector<double> out;
+  for (std::uint64_t i = 0; i < 400; ++i) {
+    const Vec3 a = test::random_point(1, i, Vec3(0, 0, 0.015), 0.06);
+    const Vec3 b = test::random_point(2, i, Vec3(0, 0, 0.015), 0.06);
+    for (const TissueInterval& k : tissue_intervals(scene, {a, b})) {
+      for (const double value :
+           {k.entry, k.exit, static_cast<double>(k.region), k.entry_normal.x(), k.entry_normal.y(),
+            k.entry_normal.z(), static_cast<double>(k.entry_interface)})
+        out.push_back(value);
+    }
+    out.push_back(scene.region_at(a));
+    out.push_back(scene.signed_distance_to_skin(a, 0.02));
+    const NearestInterface nearest = scene.find_nearest(a, 0.02);
+    out.push_back(nearest.distance);
+    out.push_back(nearest.interface);
+  }
+  return out;
+}
+
+TEST(MovingScene, HitsAnInterfaceAtTheDisplacedVertex) {
+  const test::MovedBlock block = make_block();
+  const auto scene = make_scene(block.moved(dent));
+  std::size_t n = 0;
+  for (double x = -21e-3; x < 22e-3; x += 3e-3) {
+    for (double y = -6e-3; y < 7e-3; y += 3e-3) {
+      // a micrometre beside the vertex, so that the line is through one of its triangles
+      const Vec3 start(x + 1e-9, y + 2e-9, -0.02);
+      const auto found = tissue_intervals(*scene, {start, start + Vec3(0, 0, 0.08)});
+      ASSERT_EQ(found.size(), 5U);
+      for (std::size_t k = 0; k < 4; ++k) {
+        const Vec3 at_rest(x, y, kBorders[k]);
+        EXPECT_NEAR(start.z() + found[k + 1].entry, (at_rest + dent(at_rest)).z(), 1e-6);
+        ++n;
+      }
+    }
+  }
+  EXPECT_EQ(n, 15U * 5U * 4U);
+}
+
+TEST(MovingScene, AnswersAtRestWithTheBytesOfTheRigidScene) {
+  const test::MovedBlock block = make_block();
+  const auto rigid = answers(Scene(block.joint));
+  MovingScene scenes;
+  EXPECT_TRUE(same_bytes(answers(*scenes.at(block.at_rest())), rigid));
+  EXPECT_FALSE(same_bytes(answers(*scenes.at(block.moved(dent))), rigid));
+  EXPECT_TRUE(same_bytes(answers(*scenes.at(block.at_rest())), rigid)) << "and back again";
+}
+
+TEST(MovingScene, AnswersAsASceneBuiltOfTheMovedSurfaces) {
+  const test::MovedBlock block = make_block();
+  const auto body = block.moved(dent);
+  const auto moved = answers(*make_scene(body));
+  const auto built = answers(Scene(std::make_shared<const CompiledJoint>(body->moved_joint())));
+  ASSERT_EQ(moved.size(), built.size());
+  for (std::size_t i = 0; i < moved.size(); ++i)
+    EXPECT_TRUE(moved[i] == built[i] || std::abs(moved[i] - built[i]) < 1e-9)  // infinite, or near
+        << i << ": " << moved[i] << ", " << built[i];
+}
+
+TEST(MovingScene, LeavesASceneAloneWhileItIsHeldAndUsesItAgainAfterwards) {
+  const test::MovedBlock block = make_block();
+  MovingScene scenes;
+  const auto held = scenes.at(block.moved(dent));
+  const auto before = answers(*held);
+  const Scene* another = nullptr;
+  {
+    const auto second = scenes.at(block.at_rest());
+    EXPECT_NE(second, held);
+    another = second.get();
+  }
+  EXPECT_EQ(scenes.at(block.moved([](const Vec3& p) { return Vec3(0.5 * dent(p)); })).get(),
+            another);
+  EXPECT_TRUE(same_bytes(answers(*held), before));
+  EXPECT_EQ(held->tissue()->shared_joint(), block.joint);
+}
+
+TEST(MovingScene, OutlivesItsMaker) {
+  const test::MovedBlock block = make_block();
+  std::shared_ptr<const Scene> scene;
+  {
+    MovingScene scenes;
+    scene = scenes.at(block.moved(dent));
+  }
+  EXPECT_EQ(scene->region_at({0, 0, 4e-3}), kOutside) << "in the dent";
+}
+
+TEST(PressedScene, RefusesABodyWithoutTetrahedraAndAPressOfBothKinds) {
+  const auto empty = std::make_shared<const CompiledJoint>();
+  const auto pressed = press_scene(empty, Pose::Identity(), {1e-3, {}});
+  ASSERT_FALSE(pressed);
+  EXPECT_EQ(pressed.error().code, ErrorCode::invalid);
+  EXPECT_THROW(static_cast<void>(press_scene(empty, Pose::Identity(), {1e-3, 1.0})),
+               std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace artus
