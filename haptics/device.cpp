@@ -4,6 +4,8 @@
 #include <array>
 #include <string>
 
+#include "artus/core/known_names.h"
+
 namespace artus {
 namespace {
 
@@ -24,12 +26,10 @@ std::array<DeviceLimits, 4> device_table() {
 }
 
 Result<DeviceLimits> find_device(std::string_view name) {
-  std::string names;
-  for (const DeviceLimits& device : device_table()) {
-    if (device.name == name) return device;
-    names += (names.empty() ? "" : ", ") + std::string(device.name);
-  }
-  return fail(ErrorCode::not_found, "no device \"" + std::string(name) + "\"; there are " + names);
+  const auto devices = device_table();
+  const auto at = find_name(item_names(devices), name, "device");
+  ARTUS_TRY(at);
+  return devices.at(*at);
 }
 
 Wrench saturate(const DeviceLimits& device, const Wrench& wrench) noexcept {

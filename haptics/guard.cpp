@@ -62,9 +62,9 @@ Wrench OutputGuard::apply(const Wrench& wanted, std::uint32_t faults,
   const double ramp = engaged_ / params_.ramp_time;
   if (ramp < 1) status |= TickStatus::kRamping;
   const Wrench limited = saturate(device_, wanted);
-  if (limited.force != wanted.force || limited.torque != wanted.torque) {
-    status |= TickStatus::kSaturated;
-  }
+  // What the device does not render at all has no limit to reach.
+  const bool torque = device_.torque > 0 && limited.torque != wanted.torque;
+  if (limited.force != wanted.force || torque) status |= TickStatus::kSaturated;
   bool slewed = false;
   last_.force = limit_step(last_.force, ramp * limited.force, params_.force_slew * dt_, slewed);
   last_.torque = limit_step(last_.torque, ramp * limited.torque, params_.torque_slew * dt_, slewed);

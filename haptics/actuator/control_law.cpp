@@ -4,6 +4,7 @@
 #include <array>
 #include <string>
 
+#include "artus/core/known_names.h"
 #include "artus/haptics/actuator/backstepping_law.h"
 #include "artus/haptics/actuator/ipc_law.h"
 #include "artus/haptics/actuator/pid_law.h"
@@ -11,27 +12,23 @@
 namespace artus {
 namespace {
 
-constexpr std::array<const char*, kControlLaws> kNames{"pid",
-                                                       "admittance-pid",
-                                                       "ipc",
-                                                       "admittance-ipc",
-                                                       "backstepping-one-valve",
-                                                       "backstepping-two-valves"};
+constexpr std::array<std::string_view, kControlLaws> kNames{"pid",
+                                                            "admittance-pid",
+                                                            "ipc",
+                                                            "admittance-ipc",
+                                                            "backstepping-one-valve",
+                                                            "backstepping-two-valves"};
 
 }  // namespace
 
 const char* to_string(ControlLawKind kind) noexcept {
-  return kNames[static_cast<std::size_t>(kind)];
+  return kNames[static_cast<std::size_t>(kind)].data();
 }
 
 Result<ControlLawKind> find_control_law(std::string_view name) {
-  std::string names;
-  for (std::size_t i = 0; i < kControlLaws; ++i) {
-    if (name == kNames[i]) return static_cast<ControlLawKind>(i);
-    names += (names.empty() ? "" : ", ") + std::string(kNames[i]);
-  }
-  return fail(ErrorCode::not_found,
-              "no control law \"" + std::string(name) + "\"; there are " + names);
+  return find_name(kNames, name, "control law").map([](std::size_t at) {
+    return static_cast<ControlLawKind>(at);
+  });
 }
 
 bool needs_force_sensor(ControlLawKind kind) noexcept {

@@ -2,25 +2,15 @@
 #include "artus/haptics/actuator/pneumatic_params.h"
 
 #include <array>
-#include <fstream>
-#include <iterator>
 
-#include "artus/core/toml_table.h"
+#include "artus/core/text_file.h"
+#include "artus/core/toml_fields.h"
 #include "artus/haptics/actuator/pneumatic_bundled.h"
 
 namespace artus {
 namespace {
 
-/// One number of a table: its key, where it goes, its physical range (inclusive).
-template <class Group>
-struct Field {
-  const char* key;
-  double Group::*member;
-  double low;
-  double high;
-};
-
-constexpr std::array<Field<CylinderParams>, 10> kCylinderFields{{
+constexpr std::array<TomlField<CylinderParams>, 10> kCylinderFields{{
     {"moving_mass_kg", &CylinderParams::moving_mass, 1e-3, 100},
     {"area_p_m2", &CylinderParams::area_P, 1e-7, 0.1},
     {"area_n_m2", &CylinderParams::area_N, 1e-7, 0.1},
@@ -32,7 +22,7 @@ constexpr std::array<Field<CylinderParams>, 10> kCylinderFields{{
     {"gas_constant_j_kg_k", &CylinderParams::gas_constant, 10, 5000},
     {"temperature_k", &CylinderParams::temperature, 200, 400},
 }};
-constexpr std::array<Field<ServovalveParams>, 9> kValveFields{{
+constexpr std::array<TomlField<ServovalveParams>, 9> kValveFields{{
     {"sonic_conductance_m3_s_pa", &ServovalveParams::sonic_conductance, 1e-12, 1e-5},
     {"critical_ratio", &ServovalveParams::critical_ratio, 0, 0.9},
     {"laminar_ratio", &ServovalveParams::laminar_ratio, 0.9, 0.9999},
@@ -43,23 +33,19 @@ constexpr std::array<Field<ServovalveParams>, 9> kValveFields{{
     {"supply_pa", &ServovalveParams::supply, 1e4, 2e6},
     {"exhaust_pa", &ServovalveParams::exhaust, 1e3, 2e6},
 }};
-constexpr std::array<Field<SensorParams>, 4> kSensorFields{{
+constexpr std::array<TomlField<SensorParams>, 4> kSensorFields{{
     {"noise", &SensorParams::noise, 0, 1e6},
     {"step", &SensorParams::step, 0, 1e6},
     {"low", &SensorParams::low, -1e7, 1e7},
     {"high", &SensorParams::high, -1e7, 1e7},
 }};
 
-template <class Group, std::size_t n>
-void read_group(const toml::table* table, const std::array<Field<Group>, n>& fields,
-                const std::string& what, Problems& problems, Group& group) {
+template <class Fields, class Group>
+void read_group(const toml::table* table, const Fields& fields, const std::string& what,
+                Problems& problems, Group& group) {
   if (table == nullptr) return;
   TomlTable reader(*table, what, problems);
-  for (const auto& field : fields) {
-    if (const auto value = reader.number(field.key, field.low, field.high)) {
-      group.*field.member = *value;
-    }
-  }
+  read_fields(reader, fields, group);
   reader.finish();
 }
 
@@ -105,10 +91,9 @@ Result<PneumaticParams> parse_pneumatic_params(std::string_view text, const std:
 }
 
 Result<PneumaticParams> read_pneumatic_params(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) return fail(ErrorCode::unreadable, "cannot be opened", file.string());
-  const std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-  return parse_pneumatic_params(text, file.string());
+  const auto text = read_bytes(file);
+  ARTUS_TRY(text);
+  return parse_pneumatic_params(*text, file.string());
 }
 
 Result<PneumaticParams> read_bundled_pneumatic_params() {

@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "artus/core/units.h"
+
 namespace artus {
 namespace {
-constexpr double kTwoPi = 6.283185307179586;
 constexpr double kLongAgo = 1e9;  // s
 }  // namespace
 

@@ -1,28 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/haptics/needle/layer_haptics.h"
 
-#include <algorithm>
 #include <array>
-#include <string>
 
+#include "artus/core/known_names.h"
 namespace artus {
-
-namespace {
-
-/// The law of a name; `what` stands in the refusal.
-template <class Law, std::size_t n>
-Result<Law> find_law(const std::array<std::string_view, n>& names, std::string_view name,
-                     const std::string& what) {
-  const auto at = std::find(names.begin(), names.end(), name);
-  if (at != names.end()) return static_cast<Law>(at - names.begin());
-  std::string known;
-  for (const std::string_view other : names)
-    known += (known.empty() ? "" : ", ") + std::string(other);
-  return fail(ErrorCode::not_found,
-              "no " + what + " \"" + std::string(name) + "\"; there are " + known);
-}
-
-}  // namespace
 
 const char* to_string(CuttingLaw law) noexcept {
   return kCuttingLawNames[static_cast<std::size_t>(law)].data();
@@ -33,11 +15,15 @@ const char* to_string(PrepunctureLaw law) noexcept {
 }
 
 Result<CuttingLaw> find_cutting_law(std::string_view name) {
-  return find_law<CuttingLaw>(kCuttingLawNames, name, "cutting law");
+  return find_name(kCuttingLawNames, name, "cutting law").map([](std::size_t at) {
+    return static_cast<CuttingLaw>(at);
+  });
 }
 
 Result<PrepunctureLaw> find_prepuncture_law(std::string_view name) {
-  return find_law<PrepunctureLaw>(kPrepunctureLawNames, name, "pre-puncture law");
+  return find_name(kPrepunctureLawNames, name, "pre-puncture law").map([](std::size_t at) {
+    return static_cast<PrepunctureLaw>(at);
+  });
 }
 
 }  // namespace artus

@@ -251,18 +251,19 @@ double NeedleContact::felt_bone(double line_depth) noexcept {
   return bone_;
 }
 
-// The tip is in this stretch. What the wall feels goes over to it on the first way in it, so that a
-// tip at rest on a border is not in one layer or the other by chance.
+// The tip is in this stretch. What its law feels goes over to it on the first way in it, so that a
+// tip at rest on a border is not in one layer or the other by chance. Two laws mean different
+// things by one stiffness: from one to the other there is no way over.
 void NeedleContact::feel(const ShaftLayer& stretch, bool skin) noexcept {
-  const Haptic before = tick_.layer.tissue;
+  const LayerHaptics before = tick_.layer;
   tick_.layer = (*table_)[stretch.region];
   region_ = stretch.region;
-  if (skin) return;
+  if (skin || before.cutting != tick_.layer.cutting) return;
   Haptic& felt = tick_.layer.tissue;
   const double share = std::min(1.0, (tick_.depth - stretch.entry) / params_.layer_edge);
-  felt.cutting_force = std::lerp(before.cutting_force, felt.cutting_force, share);
-  felt.attracted_force = std::lerp(before.attracted_force, felt.attracted_force, share);
-  felt.wall_stiffness = std::lerp(before.wall_stiffness, felt.wall_stiffness, share);
+  felt.cutting_force = std::lerp(before.tissue.cutting_force, felt.cutting_force, share);
+  felt.attracted_force = std::lerp(before.tissue.attracted_force, felt.attracted_force, share);
+  felt.wall_stiffness = std::lerp(before.tissue.wall_stiffness, felt.wall_stiffness, share);
 }
 
 // The layer that the tip was in a tick ago, -1: none. Its membrane and those before it gave way

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "artus/core/known_names.h"
+
 namespace artus {
 namespace {
 
@@ -29,11 +31,10 @@ Result<void> check_names(const LawChoice<Law>& choice, std::uint32_t kind, const
   for (const auto& [name, law] : choice.of_tissue) {
     if (std::find(scope.tissues.begin(), scope.tissues.end(), name) != scope.tissues.end())
       continue;
-    std::string known;
-    for (const std::string& other : scope.tissues)
-      known.append(known.empty() ? "" : ", ").append(other);
+    const std::vector<std::string_view> known(scope.tissues.begin(), scope.tissues.end());
     return fail(ErrorCode::not_found,
-                scope.what + " has no tissue \"" + name + "\"; there are " + known,
+                scope.what + " has no tissue \"" + name + "\"; there are " + listed(known) +
+                    did_you_mean(name, known),
                 std::string(feel_kind_name(kind)));
   }
   return {};

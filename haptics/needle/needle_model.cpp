@@ -30,10 +30,14 @@ NeedleModel::NeedleModel(const NeedleParams& params, const LayerTable& table, do
       orientation_(params.orientation),
       plasticity_(params.plasticity),
       god_object_(params.prepuncture.god_object),
-      workspace_(params.workspace) {}
+      workspace_(params.workspace),
+      coupling_(dt) {}
 
 void NeedleModel::reset() noexcept {
   contact_.reset();
+  coupling_.reset();
+  grip_ = 0;
+  felt_ = contact_.tick();
   start_laws();
   forces_ = NeedleForces{};
 }
@@ -41,7 +45,7 @@ void NeedleModel::reset() noexcept {
 // An insertion begins: what is felt starts from rest at this depth, or, at a puncture, from no more
 // than the membrane's force, with nothing cut yet.
 void NeedleModel::start_laws() noexcept {
-  const NeedleTick& tick = contact_.tick();
+  const NeedleTick& tick = felt_;
   const double x = tick.depth;
   const bool puncture = (contact_.events() & ContactEvent::kSkinPunctured) != 0;
   const double stiffness = std::max(tick.layer.tissue.wall_stiffness, 1e-6);
@@ -77,8 +81,11 @@ double NeedleModel::cutting_force(const NeedleTick& tick) noexcept {
 
 const NeedleForces& NeedleModel::step(const Pose& X_JN,
                                       std::span<const TissueInterval> intervals) noexcept {
-  contact_.update(X_JN, intervals);
-  const NeedleTick& tick = contact_.tick();
+  contact_.update(material(X_JN), intervals);
+  felt_ = contact_.tick();
+  const NeedleTick& tick = felt_;
+  felt_.layer.tissue.wall_stiffness =
+      coupling_.local_stiffness(tick.layer.tissue.wall_stiffness, tick.depth);
   forces_ = NeedleForces{};
   if (params_.use_workspace) forces_.workspace = workspace_.step(tick).force;
   if (contact_.inserted()) {
@@ -103,11 +110,50 @@ const NeedleForces& NeedleModel::step(const Pose& X_JN,
   } else {
     forces_.prepuncture = axial_force(prepuncture_, tick);
   }
+  if (coupling_.active()) couple(X_JN, tick);
+  sum_up(tick);
+  last_tip_ = X_JN.translation();
+  return forces_;
+}
+
+/// Where the needle is in the material: back by what the tissue at its tip was pushed in.
+Pose NeedleModel::material(const Pose& X_JN) const noexcept {
+  if (!coupling_.active()) return X_JN;
+  Pose X = X_JN;
+  const Vec3 axis = contact_.inserted() ? contact_.tick().axis : Vec3(X_JN.linear().col(2));
+  X.translation() -= coupling_.tip_displacement() * axis;
+  return X;
+}
+
+/// The tip pushes soft tissue, not the bone under it; the shaft drags what friction holds.
+void NeedleModel::couple(const Pose& X_JN, const NeedleTick& tick) noexcept {
+  const double cut = forces_.cutting + forces_.attracted;
+  const double held = tick.depth > tick.bone_depth ? tick.layer.tissue.cutting_force : -cut;
+  const double tip_force = -forces_.prepuncture + std::min(-cut, held);
+  const double level = lugre_level(params_.friction, tick.velocity);
+  grip_ += std::max(0.0, level - grip_) +
+           std::min(0.0, level - grip_) * std::min(1.0, tick.dt / params_.friction.relaxation_time);
+  NeedleCompliance::Column limits{};
+  for (const ShaftLayer& s : tick.shaft) {
+    const Haptic& layer = (*tick.table)[s.region].tissue;
+    if (!contact_.inserted() || layer.hard) continue;
+    const double per_point =
+        layer.cutting_force * layer.friction * coupling_.spacing() / params_.friction.length;
+    for (std::size_t i = 0; i < coupling_.points(); ++i) {
+      const double depth = coupling_.depth_of(i);
+      if (depth >= s.entry && depth < s.exit && depth < tick.depth) limits[i] = per_point * grip_;
+    }
+  }
+  const double moved = (X_JN.translation() - last_tip_).dot(tick.axis);
+  const double moved_in = contact_.inserted() ? moved : 0;
+  forces_.friction = coupling_.step(moved_in, tick.depth, tip_force, limits);
+}
+
+void NeedleModel::sum_up(const NeedleTick& tick) noexcept {
   const double axial =
       forces_.prepuncture + forces_.cutting + forces_.attracted + forces_.friction + forces_.hard;
   forces_.total.force = axial * tick.axis + forces_.clamping + forces_.surface + forces_.workspace;
   forces_.total.torque = forces_.torque;
-  return forces_;
 }
 
 }  // namespace artus

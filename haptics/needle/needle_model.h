@@ -4,6 +4,7 @@
 #include <span>
 
 #include "artus/haptics/needle/clamping.h"
+#include "artus/haptics/needle/needle_coupling.h"
 #include "artus/haptics/needle/needle_params.h"
 
 namespace artus {
@@ -26,7 +27,7 @@ struct NeedleForces {
 /// Everything the needle makes the hand feel: contact state and force laws, summed as eq. 1.1 of
 /// [Alamilla2020] with the hard tap added to the soft forces (see HardContact). Needs no scene: the
 /// caller queries it for query_segment() and passes the intervals. One needle, one insertion at a
-/// time; not for several threads at once.
+/// time; not for several threads at once. Tissue is rigid until take() says how it gives way.
 class NeedleModel {
  public:
   /// Requires: dt > 0 s; table outlives the model.
@@ -34,7 +35,12 @@ class NeedleModel {
 
   ARTUS_REALTIME void reset() noexcept;
   [[nodiscard]] ARTUS_REALTIME Segment query_segment(const Pose& X_JN) const noexcept {
-    return contact_.query_segment(X_JN);
+    return contact_.query_segment(material(X_JN));
+  }
+  /// Tissue that gives way to the needle from now on: laws then see the pose in the material, and
+  /// the shaft's friction is that of tissue which it drags. Without: the rigid body.
+  ARTUS_REALTIME void take(const NeedleCompliance& compliance) noexcept {
+    coupling_.take(compliance);
   }
   /// A tick in which nothing is known: the forces stay.
   ARTUS_REALTIME void hold() noexcept { contact_.hold(); }
@@ -45,9 +51,13 @@ class NeedleModel {
   [[nodiscard]] const NeedleForces& forces() const noexcept { return forces_; }
   [[nodiscard]] const NeedleContact& contact() const noexcept { return contact_; }
   [[nodiscard]] const TrackingWall& wall() const noexcept { return wall_; }
+  [[nodiscard]] const NeedleCoupling& coupling() const noexcept { return coupling_; }
   [[nodiscard]] const HardContact& hard_contact() const noexcept { return hard_; }
 
  private:
+  [[nodiscard]] Pose material(const Pose& X_JN) const noexcept;
+  void couple(const Pose& X_JN, const NeedleTick& tick) noexcept;
+  void sum_up(const NeedleTick& tick) noexcept;
   void start_laws() noexcept;
   void take_line() noexcept;
   double cutting_force(const NeedleTick& tick) noexcept;
@@ -66,6 +76,10 @@ class NeedleModel {
   PlasticityFixture plasticity_;
   GodObject god_object_;
   HemisphereWorkspace workspace_;
+  NeedleCoupling coupling_;
+  NeedleTick felt_;  // the contact's tick, with the wall as stiff as without the tissue around
+  double grip_ = 0;  // friction's level g(v), which falls with its relaxation time
+  Vec3 last_tip_ = Vec3::Zero();
   NeedleForces forces_;
 };
 

@@ -20,6 +20,9 @@ class NeedleRenderer {
     return tick_.step(pose, *scene_);
   }
 
+  /// NeedleModel::take.
+  ARTUS_REALTIME void take(const NeedleCompliance& compliance) noexcept { tick_.take(compliance); }
+
   [[nodiscard]] const NeedleModel& model() const noexcept { return tick_.model(); }
   [[nodiscard]] const LayerTable& table() const noexcept { return tick_.table(); }
   [[nodiscard]] double period() const noexcept { return tick_.period(); }  ///< s

@@ -56,6 +56,9 @@ class NeedleTickStep {
     return finish(pose.X_JN, faults, count);
   }
 
+  /// NeedleModel::take.
+  ARTUS_REALTIME void take(const NeedleCompliance& compliance) noexcept { model_.take(compliance); }
+
   [[nodiscard]] const NeedleModel& model() const noexcept { return model_; }
   [[nodiscard]] const LayerTable& table() const noexcept { return table_; }
   [[nodiscard]] double period() const noexcept { return dt_; }  ///< s

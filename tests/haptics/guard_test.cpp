@@ -54,6 +54,20 @@ TEST(InputGuard, OutOfWorkspaceIsAFault) {
   EXPECT_EQ(guard.check(pose_at(0.2, 0)), TickStatus::kOutOfWorkspace);
 }
 
+TEST(OutputGuard, WhatADeviceDoesNotRenderIsNoLimitReached) {
+  DeviceLimits sensed = kDevice;
+  sensed.torque = 0;
+  const Wrench wanted{Vec3(0, 0, -0.06), Vec3(0, 0.02, 0)};
+  OutputGuard guard({}, sensed, kDt);
+  std::uint32_t status = 0;
+  EXPECT_EQ(guard.apply(wanted, 0, status).torque, Vec3::Zero());
+  EXPECT_EQ(status & TickStatus::kSaturated, 0U);
+  sensed.torque = 0.01;
+  OutputGuard weak({}, sensed, kDt);
+  static_cast<void>(weak.apply(wanted, 0, status));
+  EXPECT_NE(status & TickStatus::kSaturated, 0U);
+}
+
 TEST(OutputGuard, RampsUpLimitsAndDropsToZeroAtOnce) {
   GuardParams params;
   OutputGuard guard(params, kDevice, kDt);

@@ -8,11 +8,11 @@
 namespace artus {
 namespace {
 
-constexpr double kDt = 1e-3;
+constexpr double kStep = 1e-3;
 
 // A source of energy: pushes with 0.1 N the way the tip goes, at 10 mm/s to and fro.
 double run_source(const PassivityParams& params, int ticks) {
-  PassivityObserver observer(params, kDt);
+  PassivityObserver observer(params, kStep);
   double x = 0;
   double way = 1;
   for (int i = 0; i < ticks; ++i) {
@@ -24,7 +24,7 @@ double run_source(const PassivityParams& params, int ticks) {
 }
 
 TEST(PassivityObserver, CountsForceTimesWayExactly) {
-  PassivityObserver observer({}, kDt);
+  PassivityObserver observer({}, kStep);
   observer.observe(observer.step(Vec3(0, 0, 0), Vec3(2, 0, 0)));
   observer.observe(observer.step(Vec3(1e-3, 5e-3, 0), Vec3(0, -3, 0)));  // 2 N over 1 mm
   EXPECT_NEAR(observer.energy_to_hand(), 2e-3, 1e-15);
@@ -33,7 +33,7 @@ TEST(PassivityObserver, CountsForceTimesWayExactly) {
 }
 
 TEST(PassivityObserver, ASpringGivesBackWhatItTook) {
-  PassivityObserver observer({}, kDt);
+  PassivityObserver observer({}, kStep);
   const int n = 1000;
   double most = 0;
   for (int i = 0; i <= 2 * n; ++i) {
@@ -47,7 +47,7 @@ TEST(PassivityObserver, ASpringGivesBackWhatItTook) {
 }
 
 TEST(PassivityObserver, AGapIsNotCounted) {
-  PassivityObserver observer({}, kDt);
+  PassivityObserver observer({}, kStep);
   observer.observe(observer.step(Vec3(0, 0, 0), Vec3(1, 0, 0)));
   observer.pause();
   observer.observe(observer.step(Vec3(1, 0, 0), Vec3::Zero()));
@@ -65,7 +65,7 @@ TEST(PassivityController, TakesBackWhatASourceGives) {
 TEST(PassivityController, LeavesAPassiveForceAlone) {
   PassivityParams control;
   control.control = true;
-  PassivityObserver observer(control, kDt);
+  PassivityObserver observer(control, kStep);
   for (int i = 0; i < 1000; ++i) {
     const Vec3 wanted(0, 0, -2);
     const Vec3 sent = observer.step(Vec3(0, 0, 1e-5 * i), wanted);

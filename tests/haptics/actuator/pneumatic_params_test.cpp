@@ -50,7 +50,7 @@ TEST(PneumaticParams, TravelMustLeaveBothChambersAVolume) {
 }
 
 TEST(PneumaticParams, MissingFileAndBrokenSyntaxAreToldApart) {
-  EXPECT_EQ(read_pneumatic_params("/no/such/file.toml").error().code, ErrorCode::unreadable);
+  EXPECT_EQ(read_pneumatic_params("/no/such/file.toml").error().code, ErrorCode::not_found);
   EXPECT_EQ(parse_pneumatic_params("format = ", "t").error().code, ErrorCode::malformed);
 }
 

@@ -4,13 +4,12 @@
 #include <gtest/gtest.h>
 
 #include "artus/core/noise.h"
+#include "artus/core/units.h"
 #include "artus/haptics/needle/lugre_friction.h"
 #include "tests/haptics/needle/tick_builder.h"
 
 namespace artus {
 namespace {
-
-constexpr double kTwoPi = 6.283185307179586;
 
 // dz/dt = v - sigma0 |v| z / g(v), integrated by Runge-Kutta in steps of 2 us.
 class Reference {

@@ -8,11 +8,10 @@
 #include <gtest/gtest.h>
 
 #include "artus/core/noise.h"
+#include "artus/core/units.h"
 
 namespace artus {
 namespace {
-
-constexpr double kTwoPi = 6.283185307179586;
 
 // Stillness at each millisecond on a path that runs at 15 mm/s and comes to rest exponentially.
 std::vector<double> stillness_of_a_stop(double rate_hz, double shift) {

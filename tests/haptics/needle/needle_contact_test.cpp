@@ -409,6 +409,22 @@ TEST_F(ContactTest, OnABorderTheSoftLayersPassIntoEachOther) {
   EXPECT_NEAR(felt.cutting_force, 1.5, 1e-9) << "half of the 0.2 mm";
 }
 
+// A spring's force is its stiffness times the depth, a wall's is bounded by f_R: half a wall's
+// stiffness in a spring would be a blow.
+TEST_F(ContactTest, FromTheWallToASpringNoForceIsAboveEither) {
+  LayerHaptics wall{membrane(1, 0.5), CuttingLaw::tracking_wall, PrepunctureLaw::membrane};
+  wall.tissue.wall_stiffness = 1500;
+  LayerHaptics spring{test::soft(1, 800), CuttingLaw::spring, PrepunctureLaw::membrane};
+  const LayerTable table({{}, {}, wall, spring});
+  model = NeedleModel(NeedleParams{}, table, kDt);
+  for (double x = -0.001; x < 0.006; x += 1e-5) {
+    step(Vec3(0, 0, x));
+    const double most = x < 0.004 ? 1 : 800 * x;
+    EXPECT_LE(-model.forces().cutting, most + 1e-9) << x;
+  }
+  EXPECT_NEAR(-model.forces().cutting, 800 * 0.006, 0.01);
+}
+
 TEST_F(ContactTest, TotalForceIsTheSumOfItsComponents) {
   move(-0.001, 0.0235, 0.02);
   const NeedleForces& f = model.forces();

@@ -10,33 +10,17 @@
 
 #include "artus/core/noise.h"
 #include "artus/haptics/needle/needle_renderer.h"
-#include "tests/support/layered_body.h"
+#include "tests/haptics/needle/block_stroke.h"
 
 namespace artus {
 namespace {
 
-constexpr double kDt = 1e-3;
+constexpr double kTick = 1e-3;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 enum class Fault { none, nan, infinite, teleport, frozen, reversed, out_of_workspace, not_rigid };
 constexpr std::size_t kFaults = 8;
-
-std::shared_ptr<const Scene> block() {
-  const std::vector<test::FlatLayer> layers{{"skin", 0.003},      {"muscle", 0.015},
-                                            {"bursa", 0.003},     {"tendon", 0.005},
-                                            {"cartilage", 0.003}, {"bone", 0.02}};
-  return std::make_shared<const Scene>(
-      std::make_shared<const CompiledJoint>(test::make_layered_block(layers, 0.2, 0.2)));
-}
-
-// 0.3 s outside, in to 33 mm (bone at 29 mm) and out, with a little sideways motion.
-TimedPose stroke(double t) {
-  const double z = -0.005 + 0.038 * 0.5 * (1 - std::cos(3.0 * std::max(0.0, t - 0.3)));
-  return {
-      make_pose(Vec3(1e-3 * std::sin(5 * t), 0, z), Vec3(0.05 * std::sin(t), 0, 1), Vec3::UnitX()),
-      t};
-}
 
 // The sane pose with a fault in it, at random in size and place.
 TimedPose broken(Fault fault, std::uint64_t seed, std::uint64_t i, TimedPose pose,
@@ -107,26 +91,25 @@ struct Bursts {
 };
 
 TEST(NeedleFaults, NeverGetAnUnsafeForceOutOverAMillionTicks) {
-  const auto scene = block();
+  const auto scene = test::block();
   NeedleRendererParams params;
   params.guard.workspace_half = Vec3::Constant(0.25);
   params.device = find_device("virtuose_6d_desktop").value();
-  params.rate_hz = 1 / kDt;
+  params.rate_hz = 1 / kTick;
   const GuardParams& guard = params.guard;
   const DeviceLimits& device = params.device;
   NeedleRenderer renderer(scene, make_layer_table(scene->joint()), params);
   std::array<long, 32> seen{};
   Wrench last;
   double since_fault = 0;
-  long felt = 0;
-  long recoveries = 0;
+  long felt = 0, recoveries = 0;
   double fullest = 0;
   Bursts bursts;
   TimedPose before;
   for (std::uint64_t i = 0; i < 1'000'000; ++i) {
-    const double t = kDt * static_cast<double>(i);
+    const double t = kTick * static_cast<double>(i);
     const Fault fault = bursts.at(i);
-    const TimedPose sane = stroke(t);
+    const TimedPose sane = test::stroke(t);
     if (!bursts.faulty) before = sane;
     const RenderedNeedle& out = renderer.step(broken(fault, kSeed, i, sane, before));
     for (std::size_t bit = 0; bit < seen.size(); ++bit) seen[bit] += (out.status >> bit) & 1U;
@@ -143,14 +126,15 @@ TEST(NeedleFaults, NeverGetAnUnsafeForceOutOverAMillionTicks) {
     const bool may_pass = fault == Fault::none || fault == Fault::frozen ||
                           fault == Fault::teleport || fault == Fault::reversed;
     ASSERT_TRUE(may_pass) << i;
-    since_fault += kDt;
+    since_fault += kTick;
     const double ramp = std::min(1.0, since_fault / guard.ramp_time);
     ASSERT_LE(out.command.force.norm(), ramp * device.force * (1 + 1e-9)) << i;
     ASSERT_LE(out.command.torque.norm(), ramp * device.torque * (1 + 1e-9)) << i;
-    ASSERT_LE((out.command.force - last.force).norm(), guard.force_slew * kDt * (1 + 1e-9)) << i;
-    ASSERT_LE((out.command.torque - last.torque).norm(), guard.torque_slew * kDt * (1 + 1e-9)) << i;
+    ASSERT_LE((out.command.force - last.force).norm(), guard.force_slew * kTick * (1 + 1e-9)) << i;
+    ASSERT_LE((out.command.torque - last.torque).norm(), guard.torque_slew * kTick * (1 + 1e-9))
+        << i;
     last = out.command;
-    if (std::abs(since_fault - guard.ramp_time) < 0.5 * kDt) ++recoveries;
+    if (std::abs(since_fault - guard.ramp_time) < 0.5 * kTick) ++recoveries;
     if (out.command.force.norm() > 0.5) ++felt;
     fullest = std::max(fullest, out.command.force.norm());
   }

@@ -7,19 +7,11 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/layered_body.h"
+#include "tests/haptics/needle/block_stroke.h"
 #include "tests/support/real_time.h"
 
 namespace artus {
 namespace {
-
-std::shared_ptr<const Scene> block(const Pose& X = Pose::Identity()) {
-  const std::vector<test::FlatLayer> layers{{"skin", 0.003},      {"muscle", 0.015},
-                                            {"bursa", 0.003},     {"tendon", 0.005},
-                                            {"cartilage", 0.003}, {"bone", 0.02}};
-  return std::make_shared<const Scene>(std::make_shared<const CompiledJoint>(
-      test::transformed(test::make_layered_block(layers, 0.2, 0.2), X)));
-}
 
 NeedleRenderer make_renderer(const std::shared_ptr<const Scene>& scene, double rate = 1000) {
   NeedleRendererParams params;
@@ -28,20 +20,13 @@ NeedleRenderer make_renderer(const std::shared_ptr<const Scene>& scene, double r
   return {scene, make_layer_table(scene->joint()), params};
 }
 
-TimedPose stroke(double t) {
-  // 0.3 s outside, in to 33 mm (bone at 29 mm) and out, with a little sideways motion.
-  const double z = -0.005 + 0.038 * 0.5 * (1 - std::cos(3.0 * std::max(0.0, t - 0.3)));
-  return {
-      make_pose(Vec3(1e-3 * std::sin(5 * t), 0, z), Vec3(0.05 * std::sin(t), 0, 1), Vec3::UnitX()),
-      t};
-}
-
 TEST(NeedleRenderer, TickNeverAllocatesOrLocks) {
-  const auto scene = block();
+  const auto scene = test::block();
   NeedleRenderer renderer = make_renderer(scene);
+  ARTUS_RUNS_REALTIME(NeedleRenderer::take, renderer.take({}));
   bool touched_bone = false;
   for (int i = 0; i < 5000; ++i) {
-    TimedPose pose = stroke(1e-3 * i);
+    TimedPose pose = test::stroke(1e-3 * i);
     if (i == 2500) pose.X_JN.translation().x() = std::numeric_limits<double>::quiet_NaN();
     ARTUS_RUNS_REALTIME(NeedleRenderer::step, renderer.step(pose));
     touched_bone = touched_bone || renderer.model().contact().state() == ContactState::bone;
@@ -58,12 +43,12 @@ TEST(LockCounter, SeesALock) {
 }
 
 TEST(NeedleRenderer, SamePosesGiveTheSameBytes) {
-  const auto scene = block();
+  const auto scene = test::block();
   NeedleRenderer a = make_renderer(scene);
   NeedleRenderer b = make_renderer(scene);
   for (int i = 0; i < 3000; ++i) {
-    const Vec3 fa = a.step(stroke(1e-3 * i)).command.force;
-    const Vec3 fb = b.step(stroke(1e-3 * i)).command.force;
+    const Vec3 fa = a.step(test::stroke(1e-3 * i)).command.force;
+    const Vec3 fb = b.step(test::stroke(1e-3 * i)).command.force;
     ASSERT_EQ(fa, fb);
   }
 }
@@ -72,13 +57,13 @@ TEST(NeedleRenderer, BodyAndNeedleMovedTogetherGiveTheRotatedForce) {
   Pose X = Pose::Identity();
   X.linear() = Eigen::AngleAxisd(1.1, Vec3(1, 2, 3).normalized()).toRotationMatrix();
   X.translation() = Vec3(0.1, -0.2, 0.3);
-  const auto scene = block();
-  const auto moved = block(X);
+  const auto scene = test::block();
+  const auto moved = test::block(X);
   NeedleRenderer a = make_renderer(scene);
   NeedleRenderer b = make_renderer(moved);
   double top = 0;
   for (int i = 0; i < 3000; ++i) {
-    const TimedPose pose = stroke(1e-3 * i);
+    const TimedPose pose = test::stroke(1e-3 * i);
     const Wrench wa = a.step(pose).command;
     const Wrench wb = b.step({X * pose.X_JN, pose.time}).command;
     ASSERT_LT((X.linear() * wa.force - wb.force).norm(), 2e-3) << i;  // float depths

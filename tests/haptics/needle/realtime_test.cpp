@@ -170,9 +170,9 @@ TEST(RealTimeNeedle, MotionAndVelocityNeitherAllocateNorLock) {
 }
 
 /// A needle going in along z through skin and muscle onto bone, and out.
-class Insertion {
+class LayeredInsertion {
  public:
-  Insertion() {
+  LayeredInsertion() {
     Haptic skin = test::soft(1);
     skin.puncture_force = 1;
     Haptic bone = test::soft(4, 4000);
@@ -207,12 +207,12 @@ class Insertion {
 };
 
 TEST(RealTimeNeedle, ContactNeitherAllocatesNorLocks) {
-  Insertion insertion;
+  LayeredInsertion insertion;
   NeedleContact contact({}, {}, insertion.table(), 1e-3);
   Segment segment;
   bool bone = false;
   for (int i = 0; i < 1100; ++i) {
-    const Pose X_JN = Insertion::pose(i);
+    const Pose X_JN = LayeredInsertion::pose(i);
     ARTUS_RUNS_REALTIME(NeedleContact::query_segment, segment = contact.query_segment(X_JN));
     const auto intervals = insertion.intervals(segment);
     ARTUS_RUNS_REALTIME(NeedleContact::update, contact.update(X_JN, intervals));
@@ -225,27 +225,41 @@ TEST(RealTimeNeedle, ContactNeitherAllocatesNorLocks) {
 }
 
 TEST(RealTimeNeedle, ModelNeitherAllocatesNorLocks) {
-  Insertion insertion;
+  LayeredInsertion insertion;
   NeedleParams params;
   params.use_workspace = true;
   NeedleModel model(params, insertion.table(), 1e-3);
   Segment segment;
   double hardest = 0;
   for (int i = 0; i < 1100; ++i) {
-    const Pose X_JN = Insertion::pose(i);
+    const Pose X_JN = LayeredInsertion::pose(i);
     ARTUS_RUNS_REALTIME(NeedleModel::query_segment, segment = model.query_segment(X_JN));
     const auto intervals = insertion.intervals(segment);
     ARTUS_RUNS_REALTIME(NeedleModel::step, use(model.step(X_JN, intervals)));
     hardest = std::max(hardest, model.forces().total.force.norm());
   }
   EXPECT_GT(hardest, 3);
+  NeedleCompliance soft;
+  soft.points = 4;
+  soft.spacing = 10e-3;
+  for (std::size_t i = 0; i < soft.points; ++i) soft.by_load[i][i] = 1e-3;
+  model.reset();
+  ARTUS_RUNS_REALTIME(NeedleModel::take, model.take(soft));
+  for (int i = 0; i < 1100; ++i) {
+    const Pose X_JN = LayeredInsertion::pose(i);
+    ARTUS_RUNS_REALTIME(NeedleModel::query_segment, segment = model.query_segment(X_JN));
+    const auto intervals = insertion.intervals(segment);
+    ARTUS_RUNS_REALTIME(NeedleModel::step, use(model.step(X_JN, intervals)));
+    EXPECT_TRUE(model.forces().total.force.allFinite());
+  }
+  EXPECT_GT(model.coupling().dissipated(), 0);
   ARTUS_RUNS_REALTIME(NeedleModel::hold, model.hold());
   ARTUS_RUNS_REALTIME(NeedleModel::reset, model.reset());
 }
 
 /// The same layers as a tick asks for them; when `truncated` it says that it kept some back.
 struct Layers {
-  Insertion& insertion;
+  LayeredInsertion& insertion;
   bool truncated = false;
   QueryCount find_intervals(const Segment& segment, std::span<TissueInterval> out) const noexcept {
     const auto found = insertion.intervals(segment);
@@ -255,13 +269,14 @@ struct Layers {
 };
 
 TEST(RealTimeNeedle, TheWholeTickNeitherAllocatesNorLocksAlsoWhenAQueryIsTruncated) {
-  Insertion insertion;
+  LayeredInsertion insertion;
   NeedleRendererParams params;
   params.device = *find_device("virtuose_6d_desktop");
   NeedleTickStep tick(insertion.table(), params);
+  ARTUS_RUNS_REALTIME(NeedleTickStep::take, tick.take({}));
   double hardest = 0;
   for (int i = 0; i < 1100; ++i) {
-    const TimedPose pose{Insertion::pose(i), 1e-3 * i};
+    const TimedPose pose{LayeredInsertion::pose(i), 1e-3 * i};
     const Layers layers{insertion, i > 900};
     ARTUS_RUNS_REALTIME(NeedleTickStep::step, use(tick.step(pose, layers)));
     hardest = std::max(hardest, tick.model().forces().total.force.norm());

@@ -6,7 +6,7 @@
 
 namespace artus::test {
 
-/// Regions 2, 3, ... with the given tissues; 0 is outside, 1 beyond.
+/// Regions 2, 3, ... with the given tissues, cut by the wall; 0 is outside, 1 beyond.
 inline LayerTable table_of(const std::vector<Haptic>& tissues) {
   std::vector<LayerHaptics> rows(2);
   for (const Haptic& h : tissues)

@@ -7,10 +7,10 @@
 
 #include <gtest/gtest.h>
 
+#include "artus/core/units.h"
+
 namespace artus {
 namespace {
-
-constexpr double kTwoPi = 6.283185307179586;
 
 class EstimatorTest : public ::testing::TestWithParam<double> {
  protected:

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/haptics/needle/needle_coupling.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace artus {
+namespace {
+
+/// The two points around a depth: the tip lies between them.
+struct Between {
+  std::size_t low = 0;
+  std::size_t high = 0;
+  double share = 0;  // of the high one
+};
+
+Between between(const NeedleCompliance& c, double depth) noexcept {
+  const auto last = static_cast<double>(c.points - 1);
+  const double at = std::clamp(depth / c.spacing - 0.5, 0.0, last);
+  Between b;
+  b.low = static_cast<std::size_t>(at);
+  b.high = std::min(b.low + 1, c.points - 1);
+  b.share = at - static_cast<double>(b.low);
+  return b;
+}
+
+}  // namespace
+
+NeedleCoupling::NeedleCoupling(double dt, const NeedleCouplingParams& params) noexcept
+    : follow_(1 - std::exp(-dt / params.relaxation)), params_(params) {}
+
+void NeedleCoupling::take(const NeedleCompliance& compliance) noexcept {
+  const double before = stored();
+  compliance_ = compliance;
+  compliance_.points = std::min(compliance_.points, NeedleCompliance::kMost);
+  given_ += stored() - before;
+}
+
+void NeedleCoupling::reset() noexcept {
+  load_ = {};
+  tip_displacement_ = 0;
+  lost_ = 0;
+  given_ = 0;
+}
+
+double NeedleCoupling::displacement(std::size_t point) const noexcept {
+  double u = 0;
+  for (std::size_t j = 0; j < compliance_.points; ++j)
+    u += compliance_.by_load[point][j] * load_.shaft[j];
+  return u;
+}
+
+double NeedleCoupling::stored() const noexcept {
+  double energy = 0;
+  for (std::size_t i = 0; i < compliance_.points; ++i)
+    energy += 0.5 * load_.shaft[i] * displacement(i);
+  return energy;
+}
+
+double NeedleCoupling::tip_compliance(double depth) const noexcept {
+  if (!active()) return 0;
+  const Between b = between(compliance_, depth);
+  const double other = 1 - b.share;
+  const auto& C = compliance_.by_load;
+  return other * other * C[b.low][b.low] + 2 * other * b.share * C[b.low][b.high] +
+         b.share * b.share * C[b.high][b.high];
+}
+
+double NeedleCoupling::local_stiffness(double wall_stiffness, double depth) const noexcept {
+  if (!active() || !(wall_stiffness > 0)) return wall_stiffness;
+  const double left = 1 / wall_stiffness - tip_compliance(depth);
+  return 1 / std::max(left, 1 / (params_.most_wall * wall_stiffness));
+}
+
+void NeedleCoupling::follow_tip(double depth, double tip_force) noexcept {
+  load_.tip = tip_force;
+  load_.tip_depth = depth;
+  const Between b = between(compliance_, depth);
+  const double shaft = (1 - b.share) * displacement(b.low) + b.share * displacement(b.high);
+  const double pushed = shaft + tip_compliance(depth) * tip_force;
+  tip_displacement_ += follow_ * (pushed - tip_displacement_);
+}
+
+double NeedleCoupling::step(double moved, double depth, double tip_force,
+                            std::span<const double> limits) noexcept {
+  const std::size_t n = std::min(compliance_.points, limits.size());
+  if (n == 0) return 0;
+  const auto& C = compliance_.by_load;
+  NeedleCompliance::Column slip{};  // of the shaft along the tissue
+  for (std::size_t i = 0; i < n; ++i) slip[i] = moved;
+  const auto change = [&](std::size_t i, double force) noexcept {
+    const double by = force - load_.shaft[i];
+    if (by == 0) return;
+    load_.shaft[i] = force;
+    for (std::size_t j = 0; j < n; ++j) slip[j] -= C[j][i] * by;
+  };
+  for (int sweep = 0; sweep < params_.sweeps; ++sweep) {
+    for (std::size_t i = 0; i < n; ++i)
+      change(i, std::clamp(load_.shaft[i] + slip[i] / C[i][i], -limits[i], limits[i]));
+  }
+  double sum = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    sum += load_.shaft[i];
+    lost_ += load_.shaft[i] * slip[i];
+  }
+  follow_tip(depth, tip_force);
+  return -sum;
+}
+
+}  // namespace artus

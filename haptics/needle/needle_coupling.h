@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <span>
+
+#include "artus/core/check.h"
+#include "artus/soft/needle_compliance.h"
+
+namespace artus {
+
+struct NeedleCouplingParams {
+  double relaxation = 0.02;  ///< s in which tissue follows the tip's force to 63 %; assumed: a tent
+                             ///< falls to a tenth within 46 ms
+  int sweeps = 8;            ///< over the points a tick
+  double most_wall = 8;      ///< of K_t, at most; assumed: what a loop of 1 kHz can render
+};
+
+/// Tissue that gives way to a needle, in the fast loop. The tip's force pushes the tissue before
+/// it, so that the tip is less deep in the material than in space; the shaft holds the tissue along
+/// the track and drags it until friction gives way, point by point (stick and slip). The forces on
+/// the tissue minimise 1/2 l^T C l with |l_i| <= f_i under the shaft's motion, so friction takes
+/// energy in every tick. With no compliance set it does nothing: the tissue is rigid.
+class NeedleCoupling {
+ public:
+  /// Requires: dt > 0 s, the fixed period of the loop; sweeps > 0.
+  explicit NeedleCoupling(double dt, const NeedleCouplingParams& params = {}) noexcept;
+
+  /// What the body is like from now on. Forces stay; the energy stored changes and is metered by
+  /// given().
+  ARTUS_REALTIME void take(const NeedleCompliance& compliance) noexcept;
+  ARTUS_REALTIME void reset() noexcept;
+
+  [[nodiscard]] bool active() const noexcept { return compliance_.points > 0; }
+  /// How far the tissue at the tip is pushed in, m along the axis.
+  [[nodiscard]] double tip_displacement() const noexcept { return tip_displacement_; }
+  /// m/N at the tip, at `depth` (m) in the material.
+  [[nodiscard]] ARTUS_REALTIME double tip_compliance(double depth) const noexcept;
+  /// A layer's K_t without the tissue's compliance that was measured with it: 1/K = 1/K_t - c.
+  [[nodiscard]] ARTUS_REALTIME double local_stiffness(double wall_stiffness,
+                                                      double depth) const noexcept;
+  [[nodiscard]] std::size_t points() const noexcept { return compliance_.points; }
+  [[nodiscard]] double depth_of(std::size_t point) const noexcept {
+    return (static_cast<double>(point) + 0.5) * compliance_.spacing;
+  }
+  [[nodiscard]] double spacing() const noexcept { return compliance_.spacing; }
+
+  /// Advances by one period in which the needle moved by `moved` m along its axis in space. `depth`
+  /// m: of the tip in the material; `tip_force` N that the tip puts on the tissue; `limits` N that
+  /// friction can hold at each point: those behind the tip only. Returns the shaft's force on the
+  /// hand, N along the axis.
+  ARTUS_REALTIME double step(double moved, double depth, double tip_force,
+                             std::span<const double> limits) noexcept;
+
+  [[nodiscard]] const NeedleLoad& load() const noexcept { return load_; }
+  [[nodiscard]] double stored() const noexcept;                       ///< J, by the shaft's forces
+  [[nodiscard]] double dissipated() const noexcept { return lost_; }  ///< J, by friction
+  [[nodiscard]] double given() const noexcept { return given_; }      ///< J, by new compliances
+
+ private:
+  [[nodiscard]] double displacement(std::size_t point) const noexcept;  // by the shaft's forces
+  void follow_tip(double depth, double tip_force) noexcept;
+
+  double follow_;  // share of the way in a tick
+  NeedleCouplingParams params_;
+  NeedleCompliance compliance_;
+  NeedleLoad load_;
+  double tip_displacement_ = 0;
+  double lost_ = 0;
+  double given_ = 0;
+};
+
+}  // namespace artus

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "artus/haptics/needle/needle_contact.h"
+#include "artus/haptics/plunger/plunger.h"
+
+namespace artus {
+
+/// Opening of a bevel along the needle for an outer diameter (m), m; assumed: 2.5 diameters.
+[[nodiscard]] constexpr double bevel_length(double outer_diameter) noexcept {
+  return 2.5 * outer_diameter;
+}
+
+/// In which places the opening of a needle's bevel lies: the layer of the tip and the one before
+/// it, by the bevel's length in each. Outside the body, in air. `of_region`: (n_regions), as
+/// JointSpaces has it. A thin layer between two others counts for what it takes of the bevel.
+[[nodiscard]] ARTUS_REALTIME std::array<TipShare, 2> bevel_shares(
+    const NeedleContact& contact, double bevel, std::span<const std::uint32_t> of_region) noexcept;
+
+}  // namespace artus

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/haptics/plunger/syringe_choice.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace artus {
+namespace {
+
+constexpr double kBeyondMark = 1.2;  // of a barrel's volume; assumed
+constexpr double kLargest = 100e-6;  // m^3
+constexpr double kMostAir = 10e-6;   // m^3
+
+}  // namespace
+
+Result<PlungerParams> make_plunger_params(const SyringeChoice& choice, double needle_length) {
+  if (!(choice.filled > 0 && choice.filled <= kLargest) || !(choice.barrel >= 0))
+    return fail(ErrorCode::invalid, "the volume must be above 0 and at most 100 ml", "syringe");
+  if (!(choice.air >= 0 && choice.air <= kMostAir) ||
+      !(choice.unbalanced >= 0 && choice.unbalanced <= 1))
+    return fail(ErrorCode::invalid, "air must be 0 to 10 ml, the unbalanced share 0 to 1",
+                "syringe");
+  PlungerParams params;
+  const auto liquids = read_bundled_liquids();
+  ARTUS_TRY(liquids);
+  params.liquids = *liquids;
+  const auto liquid = find_liquid(*liquids, choice.liquid);
+  ARTUS_TRY(liquid);
+  params.liquid = *liquid;
+  const auto bore = bore_of_gauge(choice.gauge, needle_length);
+  if (!bore)
+    return fail(ErrorCode::not_found, "there are 18, 19, 20, 21, 22, 23, 25 and 27 gauge", "gauge");
+  params.needle = *bore;
+  params.syringe = syringe_for(choice.barrel > 0 ? choice.barrel : choice.filled);
+  params.syringe.volume *= kBeyondMark;
+  if (params.syringe.volume < choice.filled)
+    return fail(ErrorCode::invalid, "the syringe does not hold the volume", "syringe");
+  params.syringe.filled = choice.filled;
+  params.syringe.air = choice.air;
+  params.unbalanced = choice.unbalanced;
+  params.seed = choice.seed;
+  return params;
+}
+
+}  // namespace artus

@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/haptics/needle/needle_coupling.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "artus/core/noise.h"
+#include "artus/haptics/needle/needle_tick_step.h"
+#include "tests/support/real_time.h"
+
+namespace artus {
+namespace {
+
+constexpr double kCouplingTick = 1e-3;
+
+/// Points that each hold and pull on their neighbours, as a needle's in tissue of some kPa.
+NeedleCompliance tissue(double scale = 1) {
+  NeedleCompliance c;
+  c.points = 16;
+  for (std::size_t i = 0; i < 16; ++i) {
+    for (std::size_t j = 0; j < 16; ++j) {
+      const double apart = std::abs(static_cast<double>(i) - static_cast<double>(j));
+      c.by_load[i][j] = scale * (i == j ? 1.6e-3 : 0.9e-3 * std::exp(-0.25 * apart));
+    }
+  }
+  return c;
+}
+
+std::vector<double> limits_to(const NeedleCoupling& needle, double depth, double each) {
+  std::vector<double> limits(needle.points(), 0.0);
+  for (std::size_t i = 0; i < limits.size(); ++i) limits[i] = needle.depth_of(i) < depth ? each : 0;
+  return limits;
+}
+
+TEST(NeedleCoupling, WithoutComplianceTheTissueIsRigid) {
+  NeedleCoupling needle(kCouplingTick);
+  EXPECT_FALSE(needle.active());
+  EXPECT_EQ(needle.step(1e-3, 0.01, 1, {}), 0);
+  EXPECT_EQ(needle.tip_displacement(), 0);
+  EXPECT_EQ(needle.local_stiffness(500, 0.01), 500);
+}
+
+TEST(NeedleCoupling, TentIsTheForceTimesTheTipsComplianceAndFallsWithTheRelaxationTime) {
+  NeedleCoupling needle(kCouplingTick);
+  needle.take(tissue());
+  const std::vector<double> none(16, 0.0);
+  for (int k = 0; k < 1000; ++k) needle.step(0, 0, 1.5, none);
+  const double tent = needle.tip_displacement();
+  EXPECT_NEAR(tent, 1.5 * 1.6e-3, 1e-9);
+  // The membrane gives way: what is left to cut holds 0.3 N.
+  int ticks = 0;
+  const double rest = 0.3 * 1.6e-3;
+  while (needle.tip_displacement() - rest > 0.1 * (tent - rest)) {
+    needle.step(0, 0, 0.3, none);
+    ++ticks;
+  }
+  EXPECT_NEAR(ticks * kCouplingTick, std::log(10) * NeedleCouplingParams{}.relaxation, 2e-3);
+}
+
+TEST(NeedleCoupling, WallBehindTheTissueMakesTheStiffnessThatWasMeasuredWithBoth) {
+  NeedleCoupling needle(kCouplingTick);
+  needle.take(tissue(0.5));
+  const double local = needle.local_stiffness(600, 0.02);
+  EXPECT_NEAR(1 / local + needle.tip_compliance(0.02), 1.0 / 600, 1e-12);
+  // Tissue softer than the whole was: bounded.
+  needle.take(tissue(5));
+  EXPECT_EQ(needle.local_stiffness(600, 0.02), 8 * 600.0);
+}
+
+TEST(NeedleCoupling, ShaftDragsUntilEachPointSlipsAndThenHoldsTheSumOfTheLimits) {
+  NeedleCoupling needle(kCouplingTick);
+  needle.take(tissue());
+  const auto limits = limits_to(needle, 0.02, 0.1);
+  const double n = static_cast<double>(std::count(limits.begin(), limits.end(), 0.1));
+  // A first small way sticks: the force is the way over the compliance of a rigid shaft.
+  double force = 0;
+  for (int k = 0; k < 200; ++k) force = needle.step(k == 0 ? 1e-5 : 0, 0.02, 0, limits);
+  Eigen::MatrixXd C(static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(n));
+  for (Eigen::Index i = 0; i < C.rows(); ++i) {
+    for (Eigen::Index j = 0; j < C.cols(); ++j)
+      C(i, j) = tissue().by_load[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
+  }
+  const double stiffness = C.ldlt().solve(Eigen::VectorXd::Ones(C.rows())).sum();
+  EXPECT_NEAR(-force, stiffness * 1e-5, 0.02 * stiffness * 1e-5);
+  for (int k = 0; k < 1000; ++k) force = needle.step(1e-5, 0.02, 0, limits);
+  EXPECT_NEAR(-force, 0.1 * n, 1e-9);
+  // It stops: the tissue stays dragged. It leaves: nothing is held.
+  for (int k = 0; k < 1000; ++k) force = needle.step(0, 0.02, 0, limits);
+  EXPECT_NEAR(-force, 0.1 * n, 1e-9);
+  EXPECT_GT(needle.tip_displacement(), 1e-4);
+  const std::vector<double> none(16, 0.0);
+  for (int k = 0; k < 1000; ++k) force = needle.step(0, 0, 0, none);
+  EXPECT_EQ(force, 0);
+  EXPECT_LT(needle.tip_displacement(), 1e-9);
+}
+
+TEST(NeedleCoupling, FrictionTakesEnergyInEveryTickOfATremblingHand) {
+  NeedleCouplingParams exact;
+  exact.sweeps = 200;
+  for (const int sweeps : {200, NeedleCouplingParams{}.sweeps}) {
+    NeedleCouplingParams params;
+    params.sweeps = sweeps;
+    NeedleCoupling needle(kCouplingTick, params);
+    needle.take(tissue());
+    double work = 0;
+    double lost = 0;
+    double least = 1;
+    double before = 0;
+    for (int k = 1; k <= 20000; ++k) {
+      const double t = k * kCouplingTick;
+      const double depth = 0.03 * std::sin(std::numbers::pi * t / 20) +
+                           3e-4 * std::sin(2 * std::numbers::pi * 9 * t);
+      const double moved = depth - before;
+      before = depth;
+      const double force = needle.step(moved, depth, 0, limits_to(needle, depth, 0.08));
+      work -= force * moved;
+      least = std::min(least, needle.dissipated() - lost);
+      lost = needle.dissipated();
+    }
+    EXPECT_GT(least, sweeps == exact.sweeps ? -1e-12 : -1e-7) << sweeps;
+    EXPECT_GT(lost, 5e-3);
+    // Each tick's step forward takes a little more: never less.
+    EXPECT_GE(work, lost + needle.stored()) << sweeps;
+    EXPECT_NEAR(work, lost + needle.stored(), 0.1 * work) << sweeps;
+  }
+}
+
+TEST(NeedleCoupling, EnergyOfANewComplianceIsMetered) {
+  NeedleCoupling needle(kCouplingTick);
+  needle.take(tissue());
+  const auto limits = limits_to(needle, 0.03, 0.1);
+  for (int k = 0; k < 500; ++k) needle.step(1e-5, 0.03, 0, limits);
+  const double before = needle.stored();
+  needle.take(tissue(1.1));
+  EXPECT_NEAR(needle.given(), 0.1 * before, 1e-12);
+}
+
+TEST(NeedleCoupling, NeitherAllocatesNorLocks) {
+  NeedleCoupling needle(kCouplingTick);
+  const NeedleCompliance soft = tissue();
+  const std::array<double, 16> limits{0.1, 0.1, 0.1};
+  ARTUS_RUNS_REALTIME(NeedleCoupling::take, needle.take(soft));
+  ARTUS_RUNS_REALTIME(NeedleCoupling::step, test::use(needle.step(1e-4, 0.01, 0.5, limits)));
+  ARTUS_RUNS_REALTIME(NeedleCoupling::tip_compliance, test::use(needle.tip_compliance(0.01)));
+  ARTUS_RUNS_REALTIME(NeedleCoupling::local_stiffness,
+                      test::use(needle.local_stiffness(500, 0.01)));
+  ARTUS_RUNS_REALTIME(NeedleCoupling::reset, needle.reset());
+}
+
+/// Tissue of one kind below z = 0.
+struct SoftHalfSpace {
+  QueryCount find_intervals(const Segment& segment, std::span<TissueInterval> out) const noexcept {
+    const double length = (segment.end - segment.start).norm();
+    const double skin = std::clamp(-segment.start.z(), 0.0, length);
+    QueryCount count;
+    if (skin > 0) out[count.size++] = {0, skin, kOutside, Vec3::Zero(), kNoInterface};
+    if (skin < length) out[count.size++] = {skin, length, 1, -Vec3::UnitZ(), 0};
+    return count;
+  }
+};
+
+class CoupledInsertion {
+ public:
+  explicit CoupledInsertion(double compliance) : tick_(table(), params()) {
+    if (compliance > 0) tick_.take(tissue(compliance));
+  }
+  /// Moves the tip by `way` at `speed`; the last tick's result.
+  const RenderedNeedle& move(double way, double speed) {
+    const int n = static_cast<int>(std::lround(std::abs(way) / speed / kCouplingTick));
+    const RenderedNeedle* out = nullptr;
+    for (int k = 0; k < n; ++k) out = &at(z_ + way / n);
+    return *out;
+  }
+  const RenderedNeedle& at(double z) {
+    z_ = z;
+    time_ += kCouplingTick;
+    return tick_.step({make_pose(Vec3(0, 0, z), Vec3::UnitZ(), Vec3::UnitX()), time_}, body_);
+  }
+  [[nodiscard]] const NeedleModel& model() const { return tick_.model(); }
+  [[nodiscard]] double z() const { return z_; }
+
+ private:
+  static LayerTable table() {
+    LayerHaptics layer;
+    layer.tissue.cutting_force = 0.6;
+    layer.tissue.wall_stiffness = 500;
+    layer.tissue.puncture_force = 1.5;
+    layer.tissue.friction = 1;
+    return LayerTable({{}, layer});
+  }
+  static NeedleRendererParams params() {
+    NeedleRendererParams params;
+    params.device = find_device("ideal").value();
+    return params;
+  }
+  SoftHalfSpace body_;
+  NeedleTickStep tick_;
+  double z_ = -2e-3;
+  double time_ = 0;
+};
+
+TEST(NeedleCoupling, SkinTentsBeforeItGivesWayAndTheTipThenIsDeeperInTheTissue) {
+  CoupledInsertion rigid(0);
+  CoupledInsertion soft(1);
+  const auto punctured_at = [](CoupledInsertion& needle) {
+    while (!needle.model().contact().inserted() && needle.z() < 0.02) needle.at(needle.z() + 2e-6);
+    return needle.z();
+  };
+  const double without = punctured_at(rigid);
+  const double with = punctured_at(soft);
+  EXPECT_NEAR(without, 0.8e-3, 0.02e-3);  // the membrane's own dimple
+  EXPECT_NEAR(with - without, 1.5 * 1.6e-3, 0.1e-3);
+  // The hand stays: the tissue comes onto the needle.
+  const double before = soft.model().contact().tick().depth;
+  const double tent = soft.model().coupling().tip_displacement();
+  for (int k = 0; k < 300; ++k) soft.at(with);
+  const double left = soft.model().coupling().tip_displacement();
+  EXPECT_LT(left, 0.5 * tent);
+  EXPECT_NEAR(soft.model().contact().tick().depth - before, tent - left, 0.1 * tent);
+}
+
+TEST(NeedleCoupling, PlateauOfTheCutStaysTheSameAtTheHand) {
+  CoupledInsertion rigid(0);
+  CoupledInsertion soft(1);
+  const double without = rigid.move(22e-3, 5e-3).forces.cutting;
+  const double with = soft.move(22e-3, 5e-3).forces.cutting;
+  EXPECT_NEAR(without, -0.6, 0.01);
+  EXPECT_NEAR(with, without, 0.02 * 0.6);
+}
+
+TEST(NeedleCoupling, ClosedWayGivesTheHandNoEnergy) {
+  CoupledInsertion needle(1);
+  double work = 0;  // by the hand
+  for (int k = 0; k < 8000; ++k) {
+    const double t = k * kCouplingTick;
+    const double z = -2e-3 + 0.025 * std::pow(std::sin(std::numbers::pi * t / 8), 2) +
+                     2e-4 * std::sin(2 * std::numbers::pi * 9 * t);
+    const double before = needle.z();
+    if (k > 0) work += needle.model().forces().total.force.z() * -(z - before);
+    needle.at(z);
+    EXPECT_TRUE(needle.model().forces().total.force.allFinite());
+  }
+  EXPECT_GT(work, 0);
+}
+
+}  // namespace
+}  // namespace artus

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Against the numbers of an independent model in Python (its own integrator, steps of 0.1 to 1 ms).
+#include <array>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "artus/haptics/plunger/plunger.h"
+#include "tests/haptics/plunger/plunger_fixture.h"
+
+namespace artus {
+namespace {
+
+using namespace test;
+
+struct OracleRow {
+  double time;      // s
+  double travel;    // m
+  double volume;    // m^3
+  double pressure;  // Pa in the barrel
+};
+
+template <std::size_t n, class Force>
+void expect_rows(Plunger& plunger, double dt, const std::array<OracleRow, n>& rows, Force force,
+                 double scale_volume) {
+  std::size_t row = 0;
+  for (int k = 1; row < n; ++k) {
+    const double t = k * dt;
+    plunger.step(thumb(force(t)));
+    if (t < rows[row].time - dt / 2) continue;
+    EXPECT_NEAR(plunger.state().travel / rows[row].travel, 1, 1e-3) << t;
+    EXPECT_NEAR(plunger.states()[0].volume, rows[row].volume, 1e-3 * scale_volume) << t;
+    EXPECT_NEAR(plunger.state().pressure / rows[row].pressure, 1, 2e-3) << t;
+    ++row;
+  }
+}
+
+TEST(PlungerOracle, ABursaFillsAlike) {
+  PlungerParams params = water_syringe();
+  SpaceLaw law = compliance(kRest, 1 / kCompliance);
+  law.opening = 2e3;
+  Plunger plunger(params, one_space(law), 1e-3);
+  constexpr std::array<OracleRow, 5> kRows{{{0.5, 0.002675059238, 2.530499727e-07, 52525.08373},
+                                            {2, 0.009259783512, 1.005230509e-06, 52525.08373},
+                                            {5, 0.02209792911, 2.471746469e-06, 52525.08373},
+                                            {10, 0.04253225001, 4.805982165e-06, 52525.08373},
+                                            {30, 0.1129595365, 1.285097113e-05, 52525.08373}}};
+  expect_rows(
+      plunger, 1e-3, kRows, [](double) { return 8.0; }, 1e-6);
+}
+
+TEST(PlungerOracle, ABursaFillsAlikeWithTrappedAir) {
+  PlungerParams params = water_syringe();
+  params.syringe.air = 0.2 * kMillilitre;
+  Plunger plunger(params, one_space(compliance(kRest, 1 / kCompliance)), 1e-4);
+  constexpr std::array<OracleRow, 3> kRows{{{1, 0.008786693745, 7.43378114e-07, 87541.80622},
+                                            {2, 0.01523465852, 1.479936457e-06, 87541.80622},
+                                            {3.9, 0.02732217641, 2.860707361e-06, 87541.80622}}};
+  expect_rows(
+      plunger, 1e-4, kRows, [](double) { return 12.0; }, 1e-6);
+}
+
+TEST(PlungerOracle, ALeakOverAYieldPressureSettlesAlike) {
+  PlungerParams params = water_syringe();
+  std::vector<Space> spaces = one_space(compliance(kRest, 20 / kCompliance));
+  spaces[0].leaks_to = "sink";
+  spaces[0].leak_opening = 20e3;
+  spaces[0].leak_resistance = 5e10;
+  spaces.push_back(one_space(level(0), "sink")[0]);
+  params.grip = 1e9;
+  Plunger plunger(params, spaces, 1e-3);
+  constexpr std::array<OracleRow, 5> kRows{{{1, 0.005621754827, 5.72145997e-07, 70033.44498},
+                                            {2, 0.009684303728, 9.4759272e-07, 70033.44498},
+                                            {5, 0.01965966786, 1.21268438e-06, 70033.44498},
+                                            {10, 0.03517750747, 1.234774497e-06, 70033.44498},
+                                            {20, 0.06609574746, 1.235087401e-06, 70033.44498}}};
+  expect_rows(
+      plunger, 1e-3, kRows, [](double) { return 10.0; }, 1e-6);
+}
+
+TEST(PlungerOracle, TheHandsTableIsReproduced) {
+  struct Target {
+    const char* name;
+    double pressure;
+    std::array<double, 8> force;  // N: 18, 21, 22 G and 25 G of 38 mm, each at 0.1 and 0.3 ml/s
+  };
+  constexpr std::array<Target, 7> kTargets{
+      {{"open air", 0, {0.0419, 0.1504, 0.3626, 1.2628, 0.8699, 3.0297, 4.3160, 15.6225}},
+       {"bursa", 20 * kMercury, {0.3465, 0.4550, 0.6672, 1.5674, 1.1745, 3.3343, 4.6206, 15.9271}},
+       {"muscle", 20e3, {2.3265, 2.4351, 2.6472, 3.5475, 3.1545, 5.3143, 6.6006, 17.9071}},
+       {"perineural", 6 * kPsi, {4.7675, 4.8760, 5.0882, 5.9884, 5.5955, 7.7553, 9.0416, 20.3481}},
+       {"capsulitis",
+        300 * kMercury,
+        {4.6107, 4.7193, 4.9314, 5.8317, 5.4387, 7.5986, 8.8848, 20.1914}},
+       {"intraneural",
+        25 * kPsi,
+        {19.7318, 19.8403, 20.0525, 20.9527, 20.5598, 22.7196, 24.0059, 35.3124}},
+       {"tendon",
+        300e3,
+        {34.3112, 34.4198, 34.6319, 35.5322, 35.1392, 37.2991, 38.5853, 49.8918}}}};
+  constexpr std::array<std::pair<int, double>, 4> kNeedles{
+      {{18, 0.04}, {21, 0.05}, {22, 0.05}, {25, 0.038}}};
+  for (const Target& target : kTargets) {
+    for (std::size_t k = 0; k < 8; ++k) {
+      PlungerParams params = water_syringe();
+      params.needle = *bore_of_gauge(kNeedles[k / 2].first, kNeedles[k / 2].second);
+      Plunger plunger(params, one_space(level(target.pressure)), 1e-3);
+      const double rate = k % 2 == 0 ? 1e-7 : 3e-7;
+      PlungerInput input = thumb(0);
+      input.stiffness = 2000;
+      double force = 0;
+      // Up to the pressure at once, then at the rate until nothing changes.
+      const double ahead = (target.force[k] + 2) / input.stiffness;
+      for (int i = 0; i < 20000; ++i) {
+        input.position = ahead + rate / params.syringe.area() * 1e-3 * i;
+        force = plunger.step(input).force;
+      }
+      EXPECT_NEAR(plunger.state().flow / rate, 1, 5e-3) << target.name << ' ' << k;
+      EXPECT_NEAR(force - params.syringe.glide, target.force[k], 0.02 * target.force[k] + 1e-3)
+          << target.name << ' ' << k;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace artus
