@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <array>
+#include <cstdint>
 #include <span>
+#include <vector>
 
+#include "artus/echo/frame.h"
 #include "artus/echo/image_settings.h"
+#include "artus/echo/scan_converter.h"
 
 namespace artus {
 
@@ -13,5 +18,18 @@ namespace artus {
 void detect_motion(std::span<const float> re, std::span<const float> im,
                    std::span<const float> time_gain, double toward, double limit,
                    std::span<float> velocity) noexcept;
+
+/// Whether what moves at `speed` (m/s) may show in any direction, or is too slow for the wall
+/// filter.
+[[nodiscard]] bool may_show_motion(double speed, double limit) noexcept;
+
+/// A frame's velocities as a picture (height, width), x fastest: 0 where nothing moves, else -limit
+/// to limit as 1 to 255. `settings`: those of the frame. Requires: the frame has velocities.
+[[nodiscard]] std::vector<std::uint8_t> motion_picture(const Frame& frame,
+                                                       const ScanConverter& converter,
+                                                       const ImageSettings& settings);
+/// Red, green, blue of one of its levels but 0: red toward the probe, blue away, brighter is
+/// faster.
+[[nodiscard]] std::array<std::uint8_t, 3> motion_colour(std::uint8_t level) noexcept;
 
 }  // namespace artus

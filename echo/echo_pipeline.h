@@ -31,6 +31,7 @@ class EchoPipeline {
   [[nodiscard]] const ImageSettings& settings() const noexcept { return settings_; }
   [[nodiscard]] const StageTimes& stage_times() const noexcept { return times_; }
   [[nodiscard]] const Frame& frame() const noexcept { return frame_; }
+  [[nodiscard]] const ScanConverter& converter() const noexcept { return display_.converter(); }
   [[nodiscard]] BlockWorkers& workers() noexcept { return workers_; }
 
   /// From the next frame on. Requires: valid.

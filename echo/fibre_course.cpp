@@ -188,6 +188,12 @@ Column fit_potential(const std::vector<Sample>& samples, const Frame3& frame, co
   return fit.solve(right);
 }
 
+/// The part of `direction` across `fibre`, unit.
+Vec3 across(const Vec3& direction, const Vec3& fibre) {
+  const Vec3 part = direction - fibre * fibre.dot(direction);
+  return part.norm() > 0.05 ? Vec3(part.normalized()) : Vec3(fibre.unitOrthogonal());
+}
+
 /// The sum of a gradient's conditions for one right side.
 Column towards(const std::vector<Sample>& samples, const std::vector<Vec3>& wanted) {
   Column right = Column::Zero();
@@ -207,9 +213,18 @@ Fit across_lines(const std::vector<Sample>& samples, const std::vector<Vec3>& li
   return fit;
 }
 
-Vec3 across(const Vec3& direction, const Vec3& fibre) {
-  const Vec3 part = direction - fibre * fibre.dot(direction);
-  return part.norm() > 0.05 ? Vec3(part.normalized()) : Vec3(fibre.unitOrthogonal());
+/// The potential whose gradient is the part of `axis` that runs across `down`.
+Column fit_along(const std::vector<Sample>& samples, const std::vector<Vec3>& down,
+                 const Vec3& axis) {
+  Fit fit(3 * samples.size());
+  std::vector<Vec3> wanted;
+  wanted.reserve(samples.size());
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const Vec3 n = down[i].normalized();
+    fit.add_gradient(samples[i].slopes, samples[i].weight);
+    wanted.push_back(axis - n * n.dot(axis));
+  }
+  return fit.solve(towards(samples, wanted));
 }
 
 }  // namespace
@@ -275,16 +290,20 @@ std::optional<MaterialMap> fit_fibre_course(const CompiledJoint& joint, RegionId
   const Frame3 frame = frame_around(samples);
   find_slopes(samples, frame);
   MaterialMap::Coefficients coefficients = MaterialMap::Coefficients::Zero();
-  coefficients.col(2) = fit_potential(samples, frame, axis);
+  std::vector<Vec3> down;
+  for (const Sample& s : samples)
+    down.push_back(depth ? Vec3(depth->evaluate(s.p_J).gradient.row(0).transpose())
+                         : Vec3(joint.X_JP_default.linear().col(2)));
+  coefficients.col(2) = joint.regions[region].fibre_course == FibreCourse::layer
+                            ? fit_along(samples, down, axis)
+                            : fit_potential(samples, frame, axis);
   std::vector<Vec3> fibres;
   std::vector<Vec3> stacked;
   std::vector<Vec3> beside;
-  for (const Sample& s : samples) {
-    const Vec3 flow = s.slopes * coefficients.col(2);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const Vec3 flow = samples[i].slopes * coefficients.col(2);
     fibres.push_back(flow.norm() > 1e-12 ? Vec3(flow.normalized()) : axis);
-    const Vec3 down = depth ? Vec3(depth->evaluate(s.p_J).gradient.row(0).transpose())
-                            : Vec3(joint.X_JP_default.linear().col(2));
-    stacked.push_back(across(down, fibres.back()));
+    stacked.push_back(across(down[i], fibres.back()));
     beside.push_back(fibres.back().cross(stacked.back()));
   }
   const Fit fit = across_lines(samples, fibres);

@@ -27,9 +27,11 @@ struct Continuation {
 /// end to the other, which follows the surfaces of a bent or fanned structure (as fibres between
 /// origin and insertion do), with sheets stacked away from the skin. Where muscle and tendon adjoin
 /// they are taken as one. The ends are the eighths of the volume that reach farthest along its
-/// fibre axis either way (its longest extent when it has none). `depth` is fit_skin_depth's. Empty
-/// without tetrahedra: there fibres run straight. Cost: some 10 ms a region. Source: Laplace flow
-/// between attachments, [Choi2013]; here by Ritz's method in polynomials.
+/// fibre axis either way (its longest extent when it has none). Of FibreCourse::layer nothing is an
+/// end: the potential grows along the part of the axis that lies beside the skin. `depth` is
+/// fit_skin_depth's. Empty without tetrahedra: there fibres run straight. Cost: some 10 ms a
+/// region. Source: Laplace flow between attachments, [Choi2013]; here by Ritz's method in
+/// polynomials.
 [[nodiscard]] std::optional<MaterialMap> fit_fibre_course(const CompiledJoint& joint,
                                                           RegionId region,
                                                           const std::optional<MaterialMap>& depth);

@@ -80,7 +80,7 @@ void LineShaping::run(const Acquisition& acquired, const EchoBody& body, BlockWo
 
 void LineShaping::find_motion(const Acquisition& acquired, const std::optional<Vec3>& v_P,
                               BlockWorkers& workers, Frame& frame) {
-  if (!v_P) {
+  if (!v_P || !may_show_motion(v_P->norm(), settings_.doppler_limit)) {
     std::fill(frame.velocity.begin(), frame.velocity.end(),
               std::numeric_limits<float>::quiet_NaN());
     return;

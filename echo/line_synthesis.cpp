@@ -70,6 +70,51 @@ void scale_add(float factor, const float* in, float* out, std::size_t n) noexcep
   for (std::size_t i = 0; i < n; ++i) out[i] += factor * in[i];
 }
 
+/// What of a row of `n` values, `stride` samples apart from sample `first` on, lies between two
+/// knots; the last two reach to the end.
+struct KnotPiece {
+  std::size_t begin = 0;
+  std::size_t end = 0;
+  Vec3 rest = Vec3::Zero();  // m, at `begin`
+  Vec3 step = Vec3::Zero();  // m per value
+};
+
+template <class Use>
+void for_knots(std::span<const BeamKnot> knots, std::size_t first, std::size_t stride,
+               std::size_t n, Use use) noexcept {
+  const auto index_of = [&](double sample) {
+    const double at =
+        std::ceil((sample - static_cast<double>(first)) / static_cast<double>(stride));
+    return static_cast<std::size_t>(std::clamp(at, 0.0, static_cast<double>(n)));
+  };
+  KnotPiece piece;
+  for (std::size_t k = 0; k + 1 < knots.size(); ++k) {
+    const BeamKnot& from = knots[k];
+    const BeamKnot& to = knots[k + 1];
+    piece.begin = piece.end;
+    piece.end = k + 2 == knots.size() ? n : index_of(to.sample);
+    if (piece.end <= piece.begin || !(to.sample > from.sample)) {
+      piece.end = piece.begin;
+      continue;
+    }
+    const Vec3 a_sample = (to.rest_J - from.rest_J) / (to.sample - from.sample);
+    piece.step = a_sample * static_cast<double>(stride);
+    piece.rest =
+        from.rest_J + (static_cast<double>(first + piece.begin * stride) - from.sample) * a_sample;
+    use(piece);
+  }
+}
+
+void add_moved_scatterers(std::span<const BeamKnot> knots, std::size_t first,
+                          const ScatterView& view, std::span<const float> gain,
+                          EchoSpan echoes) noexcept {
+  for_knots(knots, first, 1, gain.size(), [&](const KnotPiece& piece) {
+    const std::size_t n = piece.end - piece.begin;
+    const EchoSpan here = echoes.part(piece.begin, n);
+    ScatterField::add(view, piece.rest, piece.step, gain.subspan(piece.begin, n), here.re, here.im);
+  });
+}
+
 }  // namespace
 
 LineSynthesis::LineSynthesis(const BeamShape& shape, const ScatterField& scatter,
@@ -83,6 +128,17 @@ LineSynthesis::LineSynthesis(const BeamShape& shape, const ScatterField& scatter
       reverberates_(settings.reverberation),
       n_planes_(settings.n_planes),
       pitch_(transducer.pitch()) {}
+
+void LineSynthesis::sample_moved_texture(const BeamRun& run, const RegionAcoustics& region,
+                                         std::span<const BeamKnot> knots,
+                                         std::span<float> nodes) const noexcept {
+  const auto first = static_cast<std::size_t>(std::ceil(std::max(0.0, run.begin)));
+  for_knots(knots, first, kStride, nodes.size(), [&](const KnotPiece& piece) {
+    const Vec3 place = run.middle.place + run.middle.gradient * (piece.rest - run.rest_middle_J);
+    texture_->sample(region.kind, place, run.middle.gradient * piece.step,
+                     nodes.subspan(piece.begin, piece.end - piece.begin));
+  });
+}
 
 void LineSynthesis::add_run(const BeamRun& run, const Ground& ground, std::span<const float> weight,
                             EchoSpan echoes) const {
@@ -109,11 +165,13 @@ void LineSynthesis::add_run(const BeamRun& run, const Ground& ground, std::span<
   const auto facing = static_cast<float>(kSheetEcho * across);
   const bool textured = has_texture_ && texture_->has(region.kind);
   const bool reflects = textured && facing > 0.05F;
-  if (textured) {
+  if (!textured) {
+    std::fill(nodes.begin(), nodes.end(), 1.0F);
+  } else if (run.n_knots > 0) {
+    sample_moved_texture(run, region, ground.knots.subspan(run.first_knot, run.n_knots), nodes);
+  } else {
     texture_->sample(region.kind, run.material + into * run.material_step,
                      run.material_step * kStride, nodes);
-  } else {
-    std::fill(nodes.begin(), nodes.end(), 1.0F);
   }
   fade_nodes(static_cast<float>(value), static_cast<float>(std::exp(slope * kStride)),
              reflects ? facing : 0.0F, nodes.data(), sheets.data(), n_nodes);
@@ -124,11 +182,17 @@ void LineSynthesis::add_run(const BeamRun& run, const Ground& ground, std::span<
   }
   interpolate_gain(nodes.data(), weight.data() + first, gain.data(), n_strides);
   const EchoSpan here = echoes.part(first, n);
-  ScatterField::add(ground.view, p_J, run.step_J, gain.first(n), here.re, here.im);
+  if (run.n_knots > 0) {
+    add_moved_scatterers(ground.knots.subspan(run.first_knot, run.n_knots), first, ground.view,
+                         gain.first(n), here);
+  } else {
+    ScatterField::add(ground.view, p_J, run.step_J, gain.first(n), here.re, here.im);
+  }
 }
 
-void LineSynthesis::add_plane(int plane, const BeamTrace& trace, const Ground& ground,
+void LineSynthesis::add_plane(int plane, const BeamTrace& trace, Ground& ground,
                               EchoSpan echoes) const {
+  ground.knots = trace.knots;
   const std::span<const float> speckle = shape_->speckle_weight(plane);
   const std::span<const float> share = shape_->echo_weight(plane);
   for (std::size_t i = 0; i < trace.n_runs; ++i) {
@@ -152,7 +216,7 @@ void LineSynthesis::add_echo(const BeamEcho& echo, const ScatterView& view,
   const std::array<float, 1> one{1};
   std::array<float, 1> n_re{};
   std::array<float, 1> n_im{};
-  ScatterField::add(view, echo.p_J, Vec3::Zero(), one, n_re, n_im);
+  ScatterField::add(view, echo.rest_J, Vec3::Zero(), one, n_re, n_im);
   const auto glitter = static_cast<float>(kGlitter * echo.diffuse_share);
   const float amplitude = static_cast<float>(echo.amplitude) * share[first];
   const float a_re = amplitude * (1 + glitter * n_re[0]) / static_cast<float>(n);
@@ -171,7 +235,7 @@ void LineSynthesis::add_echo(const BeamEcho& echo, const ScatterView& view,
     value *= kTailDecay;
   }
   const EchoSpan tail = echoes.part(from, std::min(gain.size(), echoes.size() - from));
-  ScatterField::add(view, echo.p_J + static_cast<double>(kTailGap) * echo.step_J, echo.step_J,
+  ScatterField::add(view, echo.rest_J + static_cast<double>(kTailGap) * echo.step_J, echo.step_J,
                     std::span(gain).first(tail.size()), tail.re, tail.im);
 }
 
@@ -195,7 +259,7 @@ void LineSynthesis::synthesise(const BeamTracer& tracer, const PlacedLine& place
   tracer.trace_bent(placed.origin_J, placed.direction_J, scratch.central, scratch.bent);
   const Vec3& elevation = placed.elevation_J;
   scratch.view = scatter_->make_view(placed.direction_J, elevation);
-  const Ground ground{tracer.regions(), scratch.view, scratch.gain};
+  Ground ground{tracer.regions(), scratch.view, scratch.gain, {}};
   for (int p = 0; p < n_planes_; ++p) {
     if (shape_->plane_offset(p) == 0) {
       add_plane(p, scratch.central, ground, echoes);

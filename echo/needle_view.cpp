@@ -37,12 +37,16 @@ std::optional<NeedleShape> needle_of_gauge(int gauge) {
   switch (gauge) {
     case 18:
       return shape(1.270, 0.838);
+    case 19:
+      return shape(1.067, 0.686);
     case 20:
       return shape(0.908, 0.603);
     case 21:
       return shape(0.819, 0.514);
     case 22:
       return shape(0.717, 0.413);
+    case 27:
+      return shape(0.413, 0.210);
     case 23:
       return shape(0.642, 0.337);
     case 25:

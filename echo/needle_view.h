@@ -14,7 +14,7 @@ struct NeedleShape {
   bool echogenic = false;            ///< dimpled shaft that scatters back at steep angles, too
 };
 
-/// Dimensions of a hypodermic gauge, 18, 20, 21, 22, 23 or 25; empty for any other.
+/// Dimensions of a hypodermic gauge, 18 to 23, 25 or 27; empty for any other.
 /// assumed: nominal catalogue values.
 [[nodiscard]] std::optional<NeedleShape> needle_of_gauge(int gauge);
 

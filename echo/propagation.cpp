@@ -2,9 +2,11 @@
 #include "artus/echo/propagation.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "artus/core/units.h"
+#include "artus/soft/deformed_body.h"
 
 namespace artus {
 namespace {
@@ -18,6 +20,10 @@ constexpr double kSilence = -20;  // ln: 174 dB down, below any receiver
 constexpr double kMargin = 1.25;  // tissue as fast as tendon reaches deeper in the same time
 constexpr double kFaceReflection = 0.1;  // assumed: matching layers and lens send back -20 dB
 constexpr double kTiny = 1e-12;
+constexpr double kStill = 1e-9;  // m; tissue that moved less is where it was
+constexpr double kKnotBend =
+    2e-5;  // m off the straight way in a knot's middle: four times its error
+constexpr double kKnotPitch = 3e-4;   // m, knots do not come closer
 constexpr double kRepeatFrom = 0.02;  // echoes above -34 dB repeat
 // rad, bend at which a beam has lost a neper. assumed: half the acceptance of an F/2 aperture; the
 // rest of the aperture went another way and no longer adds up
@@ -63,6 +69,8 @@ struct BeamTracer::Walk {
   double bend_loss = 0;                // Np, see kBendLobe
   const BeamTrace* central = nullptr;  // of the middle plane, for the others
   std::size_t central_run = 0;         // the one beside this beam's place
+  Place place = {};                    // of the tissue last met, where it was at rest
+  Eigen::Matrix3d gradient = Eigen::Matrix3d::Identity();  // of deformation, in the run's middle
 
   [[nodiscard]] double log_gain(double sigma) const noexcept {
     const double shift = slope * sigma;
@@ -78,6 +86,7 @@ struct BeamTracer::Walk {
 BeamTracer::BeamTracer(const Scene& scene, std::span<const RegionAcoustics> regions,
                        const Transducer& transducer, const ImageSettings& settings) noexcept
     : scene_(&scene),
+      tissue_(scene.tissue().get()),
       regions_(regions),
       sample_depth_(settings.depth / settings.n_samples),
       n_samples_(settings.n_samples),
@@ -116,8 +125,15 @@ bool BeamTracer::enter(Walk& walk, const TissueInterval& interval,
     echo.amplitude = (specular + diffuse) * std::exp(walk.log_gain(spectrum_sigma_));
     echo.diffuse_share = diffuse > 0 ? diffuse / (specular + diffuse) : 0;
     echo.cosine = cosine;
-    echo.p_J = point;
+    echo.rest_J = point;
     echo.step_J = walk.wave * (sample_depth_ * to.speed / kDisplaySpeedOfSound);
+    if (tissue_ != nullptr) {
+      const DeformedBody::Rest rest = tissue_->to_rest(point, walk.place.displacement);
+      if (rest.motion.displacement.norm() > kStill) {
+        echo.rest_J = rest.p_rest;
+        echo.step_J = rest.motion.gradient.inverse() * echo.step_J;
+      }
+    }
   }
   if (to.opaque || air) {
     trace.end_sample = walk.sample;
@@ -156,19 +172,73 @@ MaterialPoint BeamTracer::find_material(Walk& walk, const RegionAcoustics& regio
       const BeamRun& beside = central.runs[k];
       if (beside.region != run.region) continue;
       MaterialPoint point = beside.middle;
-      point.place += point.gradient * (run.p_middle_J - beside.p_middle_J);
+      point.place += point.gradient * (run.rest_middle_J - beside.rest_middle_J);
       return point;
     }
   }
-  return locate_in_material(region, run.p_middle_J);
+  return locate_in_material(region, run.rest_middle_J);
+}
+
+BeamTracer::Place BeamTracer::find_place(const Vec3& p_J, double share,
+                                         const Vec3& guess) const noexcept {
+  const DeformedBody::Rest rest = tissue_->to_rest(p_J, guess);
+  return {share, p_J, rest.p_rest, rest.motion.displacement, rest.motion.gradient};
+}
+
+/// Finds where the tissue along the run was at rest, `way` (m) from its begin to its end: halves
+/// until each knot lies where the way goes on straight from the one before.
+void BeamTracer::place_knots(Walk& walk, BeamRun& run, const Vec3& way) const noexcept {
+  BeamTrace& trace = walk.trace;
+  const auto add = [&](const Place& place) {
+    if (trace.n_knots == BeamTrace::kMaxKnots) return;
+    trace.knots[trace.n_knots++] = {run.begin + place.share * (run.end - run.begin), place.rest};
+  };
+  run.first_knot = trace.n_knots;
+  Place left = walk.place;
+  left.share = 0;
+  if ((left.p_J - run.p_J).squaredNorm() > kStill * kStill)
+    left = find_place(run.p_J, 0, left.displacement);
+  add(left);
+  double moved = left.displacement.norm();
+  std::array<double, 12> ahead{1};  // shares of the way, the nearest last
+  std::size_t n = 1;
+  while (n > 0) {
+    const double share = ahead[n - 1];
+    const Vec3 p_J = run.p_J + share * way;
+    const Vec3 onward = left.gradient.inverse() * (p_J - left.p_J);
+    const Place right = find_place(p_J, share, p_J - left.rest - onward);
+    const bool bent = (right.rest - left.rest - onward).norm() > kKnotBend;
+    if (bent && (p_J - left.p_J).norm() > 2 * kKnotPitch && n < ahead.size()) {
+      ahead[n++] = 0.5 * (left.share + share);
+      continue;
+    }
+    add(right);
+    moved = std::max(moved, right.displacement.norm());
+    if (left.share <= 0.5 && share > 0.5) {
+      const double between = (0.5 - left.share) / (share - left.share);
+      run.rest_middle_J = left.rest + between * (right.rest - left.rest);
+      walk.gradient = between < 0.5 ? left.gradient : right.gradient;
+    }
+    left = right;
+    --n;
+  }
+  walk.place = left;
+  run.n_knots = trace.n_knots - run.first_knot;
+  if (moved > kStill && run.n_knots > 1) return;
+  trace.n_knots = run.first_knot;
+  run.n_knots = 0;
 }
 
 /// Notes how the run lies to the fibres at its middle, `half_way` (m) from its begin. Returns the
 /// factor on its attenuation.
 double BeamTracer::follow_fibres(Walk& walk, const RegionAcoustics& region, BeamRun& run,
-                                 const Vec3& half_way) noexcept {
+                                 const Vec3& half_way) const noexcept {
   run.along = 0;
   run.across = 1;
+  run.n_knots = 0;
+  if (tissue_ != nullptr && walk.region >= kFirstRegion && region.backscatter > 0)
+    place_knots(walk, run, 2 * half_way);
+  const bool moved = run.n_knots > 0;
   switch (region.kind) {
     case TissueKind::fat:
     case TissueKind::muscle:
@@ -178,16 +248,19 @@ double BeamTracer::follow_fibres(Walk& walk, const RegionAcoustics& region, Beam
     default:
       return 1;
   }
-  run.p_middle_J = run.p_J + half_way;
+  if (!moved) run.rest_middle_J = run.p_J + half_way;
   run.middle = find_material(walk, region, run);
   const MaterialPoint& middle = run.middle;
   run.material = middle.place - middle.gradient * half_way;
   run.material_step = middle.gradient * run.step_J;
-  const Vec3 sheet = middle.gradient.row(0);
+  const Vec3 sheet_at_rest = middle.gradient.row(0);
+  const Vec3 sheet =
+      moved ? Vec3(walk.gradient.inverse().transpose() * sheet_at_rest) : sheet_at_rest;
   run.across = std::abs(run.direction_J.dot(sheet)) / (sheet.norm() + kTiny);
   if (region.kind == TissueKind::fat || (!region.course && region.fibre.squaredNorm() < 0.5))
     return 1;
-  const Vec3 fibre = sheet.cross(middle.gradient.row(1).transpose());
+  const Vec3 fibre_at_rest = sheet_at_rest.cross(middle.gradient.row(1).transpose());
+  const Vec3 fibre = moved ? Vec3(walk.gradient * fibre_at_rest) : fibre_at_rest;
   run.along = std::min(1.0, std::abs(run.direction_J.dot(fibre)) / (fibre.norm() + kTiny));
   return fibre_attenuation(region.kind, run.along);
 }
@@ -210,12 +283,12 @@ bool BeamTracer::cross(Walk& walk, const Vec3& point, const Vec3& direction, dou
     run.region = walk.region;
     run.log_gain_begin = walk.log_gain(spectrum_sigma_);
     run.path_begin = walk.path;
+    run.end = walk.sample + piece * samples_per_m;
     const double loss = follow_fibres(walk, region, run, 0.5 * piece / time_scale * direction);
     walk.path += piece;
-    walk.sample += piece * samples_per_m;
+    walk.sample = run.end;
     walk.attenuation += piece * region.attenuation * loss;
     walk.slope += piece * region.attenuation_slope * loss;
-    run.end = walk.sample;
     run.path_end = walk.path;
     run.log_gain_end = walk.log_gain(spectrum_sigma_);
     if (walk.sample >= n_samples_ || run.log_gain_end < kSilence) return false;

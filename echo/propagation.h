@@ -12,6 +12,8 @@
 
 namespace artus {
 
+class DeformedBody;
+
 /// A straight stretch of a beam inside one region, in displayed samples.
 struct BeamRun {
   double begin = 0;                  ///< sample (time of flight shown at the display's speed)
@@ -28,8 +30,16 @@ struct BeamRun {
   Vec3 material_step = Vec3::Zero();  ///< m per sample
   double along = 0;                   ///< |cosine| between wave and fibres
   double across = 1;                  ///< |cosine| between wave and the normal of sheets
-  Vec3 p_middle_J = Vec3::Zero();     ///< m, the run's middle
+  Vec3 rest_middle_J = Vec3::Zero();  ///< m, the run's middle, where its tissue was at rest
   MaterialPoint middle;               ///< the region's own coordinates there
+  std::size_t first_knot = 0;         ///< of BeamTrace::knots
+  std::size_t n_knots = 0;            ///< 0: the tissue is where it was at rest
+};
+
+/// Where a piece of tissue on a beam was at rest; between knots the way is straight there, too.
+struct BeamKnot {
+  double sample = 0;
+  Vec3 rest_J = Vec3::Zero();  ///< m
 };
 
 /// An echo of an interface.
@@ -38,18 +48,21 @@ struct BeamEcho {
   double amplitude = 0;        ///< mirror = 1
   double diffuse_share = 0;    ///< 0..1 of it comes from roughness and glitters
   double cosine = 1;           ///< of the incidence angle
-  Vec3 p_J = Vec3::Zero();     ///< m
-  Vec3 step_J = Vec3::Zero();  ///< m per sample, onward
+  Vec3 rest_J = Vec3::Zero();  ///< m, where the tissue there was at rest
+  Vec3 step_J = Vec3::Zero();  ///< m per sample, onward, at rest
 };
 
 /// Everything one beam meets on its way.
 struct BeamTrace {
   static constexpr std::size_t kMax = 192;
   static constexpr std::size_t kMaxIntervals = 128;
+  static constexpr std::size_t kMaxKnots = 1024;
   std::array<BeamRun, kMax> runs;
+  std::array<BeamKnot, kMaxKnots> knots;
   std::array<BeamEcho, kMax> echoes;
   std::size_t n_runs = 0;
   std::size_t n_echoes = 0;
+  std::size_t n_knots = 0;
   double shadow_from = 0;    ///< sample behind which nothing returns; large when there is none
   double end_sample = 0;     ///< where bone or gas ended the beam
   double end_amplitude = 0;  ///< of its echo there; 0: nothing did
@@ -61,6 +74,7 @@ struct BeamTrace {
   void clear() noexcept {
     n_runs = 0;
     n_echoes = 0;
+    n_knots = 0;
     end_amplitude = 0;
     contact = true;
   }
@@ -81,6 +95,8 @@ struct BeamPath {
 };
 
 /// Follows beams through the tissue intervals of a scene: time of flight, two-way loss, echoes.
+/// Where the scene's tissue gives way, lengths, angles and interfaces are the present ones;
+/// scatterers, texture and fibres belong to the material and are found where it was at rest.
 class BeamTracer {
  public:
   BeamTracer(const Scene& scene, std::span<const RegionAcoustics> regions,
@@ -100,7 +116,16 @@ class BeamTracer {
                    BeamTrace& trace) const noexcept;
 
  private:
+  /// A point of a beam and where its tissue was at rest.
+  struct Place {
+    double share = 0;  // of a run
+    Vec3 p_J = Vec3::Zero();
+    Vec3 rest = Vec3::Zero();
+    Vec3 displacement = Vec3::Zero();
+    Eigen::Matrix3d gradient = Eigen::Matrix3d::Identity();
+  };
   struct Walk;
+  [[nodiscard]] Place find_place(const Vec3& p_J, double share, const Vec3& guess) const noexcept;
   bool start(Walk& walk, RegionId region, double length) const noexcept;
   bool cross(Walk& walk, const Vec3& point, const Vec3& direction, double length,
              double time_scale) const noexcept;
@@ -109,11 +134,13 @@ class BeamTracer {
             double time_scale) const noexcept;
   static MaterialPoint find_material(Walk& walk, const RegionAcoustics& region,
                                      const BeamRun& run) noexcept;
-  static double follow_fibres(Walk& walk, const RegionAcoustics& region, BeamRun& run,
-                              const Vec3& half_way) noexcept;
+  double follow_fibres(Walk& walk, const RegionAcoustics& region, BeamRun& run,
+                       const Vec3& half_way) const noexcept;
+  void place_knots(Walk& walk, BeamRun& run, const Vec3& way) const noexcept;
   void add_repeats(BeamTrace& trace) const noexcept;
 
   const Scene* scene_;
+  const DeformedBody* tissue_;  // null: at rest
   std::span<const RegionAcoustics> regions_;
   double sample_depth_;  // m of displayed depth
   double n_samples_;

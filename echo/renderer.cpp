@@ -116,16 +116,9 @@ void Renderer::set_pipeline(std::unique_ptr<EchoPipeline> pipeline) {
 
 void Renderer::set_scene(std::shared_ptr<const Scene> scene) {
   ARTUS_REQUIRE(scene != nullptr, "no scene");
-  const CompiledJoint& before = impl_->body.scene->joint();
-  const CompiledJoint& after = scene->joint();
-  const bool same_body =
-      before.source_digest == after.source_digest && before.regions.size() == after.regions.size();
+  const bool same_body = impl_->body.scene->shared_joint() == scene->shared_joint();
   impl_->body.scene = std::move(scene);
-  if (same_body) {
-    impl_->body.regions = with_courses_of(impl_->body.regions, after, transducer());
-  } else {
-    impl_->find_regions();
-  }
+  if (!same_body) impl_->find_regions();
 }
 
 const Transducer& Renderer::transducer() const noexcept {
@@ -133,6 +126,9 @@ const Transducer& Renderer::transducer() const noexcept {
 }
 const ImageSettings& Renderer::settings() const noexcept {
   return impl_->pipeline->settings();
+}
+const ScanConverter& Renderer::converter() const noexcept {
+  return impl_->pipeline->converter();
 }
 const StageTimes& Renderer::stage_times() const noexcept {
   return impl_->pipeline->stage_times();

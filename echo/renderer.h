@@ -14,6 +14,7 @@
 namespace artus {
 
 class EchoPipeline;
+class ScanConverter;
 
 /// Turns a probe pose into a B-mode image, again and again: a body and the pipeline of tables and
 /// buffers that one probe and its settings need. One thread at a time may render with one Renderer;
@@ -60,11 +61,14 @@ class Renderer {
   /// rendered. Cost: below 1 ms.
   void set_pipeline(std::unique_ptr<EchoPipeline> pipeline);
 
-  /// Swaps in a deformed copy of the body between frames; its fibres keep their first course.
+  /// The body from the next frame on: another state of its tissue (MovingScene), or another joint,
+  /// whose fibres are then found anew. Cost: none for a state of the same joint.
   void set_scene(std::shared_ptr<const Scene> scene);
 
   [[nodiscard]] const Transducer& transducer() const noexcept;
   [[nodiscard]] const ImageSettings& settings() const noexcept;
+  /// From scanlines to pixels, as of the last frame.
+  [[nodiscard]] const ScanConverter& converter() const noexcept;
 
   /// Of the last frame.
   [[nodiscard]] const StageTimes& stage_times() const noexcept;

@@ -4,8 +4,9 @@
 #include <array>
 #include <cmath>
 
+#include "artus/core/known_names.h"
 #include "artus/core/text_file.h"
-#include "artus/core/toml_table.h"
+#include "artus/core/toml_fields.h"
 #include "artus/core/units.h"
 #include "artus/echo/bundled_transducers.h"
 #include "artus/echo/setting_ranges.h"
@@ -13,36 +14,33 @@
 namespace artus {
 namespace {
 
-/// A number of the file: its key, where it goes, its range, the factor to SI.
-struct Field {
-  const char* key;
-  double Transducer::*member;
-  Range range;
-  double to_si;
-  bool required;
-};
+/// A number of the file; `range` is in SI as the engine has it.
+TomlField<Transducer> field(const char* key, double Transducer::*member, Range range, double to_si,
+                            bool required) {
+  const Range in_file = in_unit(range, to_si);
+  return {key, member, in_file.low, in_file.high, to_si, required};
+}
 
 using Ranges = TransducerRanges;
 
-constexpr std::array<Field, 11> kFields{{
-    {"width_mm", &Transducer::width, Ranges::width, kMillimetre, true},
-    {"radius_mm", &Transducer::radius, {0, Ranges::radius.high}, kMillimetre, false},
-    {"steering_deg", &Transducer::steering, Ranges::steering, kDegree, false},
-    {"frequency_mhz", &Transducer::frequency, Ranges::frequency, 1e6, true},
-    {"bandwidth", &Transducer::bandwidth, Ranges::bandwidth, 1, true},
-    {"pulse_cycles", &Transducer::pulse_cycles, Ranges::pulse_cycles, 1, true},
-    {"f_number", &Transducer::f_number, Ranges::f_number, 1, true},
-    {"max_aperture_mm", &Transducer::max_aperture, Ranges::max_aperture, kMillimetre, true},
-    {"elevation_height_mm", &Transducer::elevation_height, Ranges::elevation_height, kMillimetre,
-     true},
-    {"elevation_focus_mm", &Transducer::elevation_focus, Ranges::elevation_focus, kMillimetre,
-     true},
-    {"transmit_focus_mm",
-     &Transducer::transmit_focus,
-     {0, Ranges::transmit_focus.high},
-     kMillimetre,
-     false},
-}};
+std::array<TomlField<Transducer>, 11> fields_of_file() {
+  return {
+      field("width_mm", &Transducer::width, Ranges::width, kMillimetre, true),
+      field("radius_mm", &Transducer::radius, {0, Ranges::radius.high}, kMillimetre, false),
+      field("steering_deg", &Transducer::steering, Ranges::steering, kDegree, false),
+      field("frequency_mhz", &Transducer::frequency, Ranges::frequency, 1e6, true),
+      field("bandwidth", &Transducer::bandwidth, Ranges::bandwidth, 1, true),
+      field("pulse_cycles", &Transducer::pulse_cycles, Ranges::pulse_cycles, 1, true),
+      field("f_number", &Transducer::f_number, Ranges::f_number, 1, true),
+      field("max_aperture_mm", &Transducer::max_aperture, Ranges::max_aperture, kMillimetre, true),
+      field("elevation_height_mm", &Transducer::elevation_height, Ranges::elevation_height,
+            kMillimetre, true),
+      field("elevation_focus_mm", &Transducer::elevation_focus, Ranges::elevation_focus,
+            kMillimetre, true),
+      field("transmit_focus_mm", &Transducer::transmit_focus, {0, Ranges::transmit_focus.high},
+            kMillimetre, false),
+  };
+}
 
 }  // namespace
 
@@ -58,16 +56,7 @@ Result<TransducerPreset> parse_transducer(std::string_view text, const std::stri
     toml.problem_at("name", "must be made of [a-z0-9-]");
   preset.title = toml.required_text("title");
   preset.source = toml.required_text("source");
-  for (const Field& field : kFields) {
-    double& value = preset.transducer.*field.member;
-    const Range range = in_unit(field.range, field.to_si);
-    // The range is in the file's unit, so that is what the message tells; scaled afterwards.
-    if (field.required) {
-      value = toml.required_number(field.key, range.low, range.high) * field.to_si;
-    } else if (const auto given = toml.number(field.key, range.low, range.high)) {
-      value = *given * field.to_si;
-    }
-  }
+  read_fields(toml, fields_of_file(), preset.transducer);
   const double lines = toml.required_number("lines", Ranges::n_lines.low, Ranges::n_lines.high);
   if (lines != std::floor(lines)) toml.problem_at("lines", "must be a whole number");
   preset.transducer.n_lines = static_cast<int>(lines);
@@ -100,13 +89,9 @@ Result<TransducerPreset> find_transducer(const std::string& name_or_file) {
     return read_transducer(name_or_file);
   const auto presets = read_bundled_transducers();
   ARTUS_TRY(presets);
-  std::string names;
-  for (const TransducerPreset& preset : *presets) {
-    if (preset.name == name_or_file) return preset;
-    names += (names.empty() ? "" : ", ") + preset.name;
-  }
-  return fail(ErrorCode::not_found, "no transducer '" + name_or_file + "'; there are " + names +
-                                        ", or give a .toml file");
+  const auto at = find_name(item_names(*presets), name_or_file, "transducer");
+  if (!at) return fail(at.error().code, at.error().message + ", or give a .toml file");
+  return presets->at(*at);
 }
 
 }  // namespace artus

@@ -19,7 +19,7 @@
 namespace artus {
 namespace {
 
-constexpr std::array<test::FlatLayer, 4> kLayers{
+constexpr std::array<test::FlatLayer, 4> kBorderLayers{
     {{"skin", 2e-3}, {"fat", 6e-3}, {"muscle", 14e-3}, {"bone", 20e-3}}};
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -30,7 +30,7 @@ TEST(Borders, RenderingAllocatesNothingAfterTheFirstFrames) {
   settings.n_threads = 1;
   settings.persistence = 0.3;
   settings.smoothing = 0.5;
-  Renderer renderer(test::make_block_scene(kLayers), Transducer{}, settings);
+  Renderer renderer(test::make_block_scene(kBorderLayers), Transducer{}, settings);
   std::vector<float> contact(128, 1.0F);
   const auto frame_at = [&](int k) {
     const Pose X_JP = test::probe_at(0.2e-3 * k, 0.1e-3 * k);
@@ -46,7 +46,7 @@ TEST(Borders, RenderingAllocatesNothingAfterTheFirstFrames) {
 
 /// A copy of `params` whose number `name` is `value`.
 template <class P>
-P with(P params, const std::string& name, double value) {
+P with_value(P params, const std::string& name, double value) {
   visit_fields(params, [&](const std::string& other, auto& member) {
     using Member = std::remove_cvref_t<decltype(member)>;
     if constexpr (!std::is_same_v<Member, bool>) {
@@ -58,7 +58,7 @@ P with(P params, const std::string& name, double value) {
 
 template <class P>
 void expect_refused(const P& params, const std::string& name, double value) {
-  const Result<void> result = validate(with(params, name, value));
+  const Result<void> result = validate(with_value(params, name, value));
   ASSERT_FALSE(result.has_value()) << name << " = " << value;
   EXPECT_NE(result.error().to_string().find(name), std::string::npos);
 }
@@ -84,8 +84,9 @@ TEST(Borders, EveryImpossibleTransducerIsRefusedByName) {
     expect_refused(Transducer{}, name, 0);
   expect_refused(Transducer{}, "steering", 2);
   expect_refused(Transducer{}, "radius", 1e-3);
-  EXPECT_THROW(Renderer(test::make_block_scene(kLayers), with(Transducer{}, "width", 0), {}),
-               std::invalid_argument);
+  EXPECT_THROW(
+      Renderer(test::make_block_scene(kBorderLayers), with_value(Transducer{}, "width", 0), {}),
+      std::invalid_argument);
 }
 
 TEST(Borders, EveryImpossibleSettingIsRefusedByName) {
@@ -102,7 +103,7 @@ TEST(Borders, ACurvedProbeCannotBeCompounded) {
   transducer.radius = 40e-3;
   ImageSettings settings;
   settings.compound_angles = 3;
-  EXPECT_THROW(Renderer(test::make_block_scene(kLayers), transducer, settings),
+  EXPECT_THROW(Renderer(test::make_block_scene(kBorderLayers), transducer, settings),
                std::invalid_argument);
 }
 
@@ -126,7 +127,7 @@ TEST(Borders, AProbePoseThatIsNoneGivesABlackFrameThatSaysSo) {
   settings.dynamic_range_db = 150;
   settings.persistence = 0.9;
   settings.doppler = true;
-  Renderer renderer(test::make_block_scene(kLayers), Transducer{}, settings);
+  Renderer renderer(test::make_block_scene(kBorderLayers), Transducer{}, settings);
   const Pose X_JP = test::probe_at();
   const NeedleView needle = test::needle_at(X_JP, Vec3(0, 0, 10e-3), 0.3);
   const Frame before = renderer.render(X_JP, needle);
@@ -149,7 +150,7 @@ TEST(Borders, AProbePoseThatIsNoneGivesABlackFrameThatSaysSo) {
 }
 
 TEST(Borders, ANeedlePoseThatIsNoneGivesTheFrameWithoutIt) {
-  Renderer renderer(test::make_block_scene(kLayers), Transducer{}, ImageSettings{});
+  Renderer renderer(test::make_block_scene(kBorderLayers), Transducer{}, ImageSettings{});
   const Pose X_JP = test::probe_at();
   const Frame without = renderer.render(X_JP);
   const NeedleView good = test::needle_at(X_JP, Vec3(0, 0, 10e-3), 0.3);
@@ -172,7 +173,7 @@ TEST(Borders, ANeedlePoseThatIsNoneGivesTheFrameWithoutIt) {
 }
 
 TEST(Borders, ReflectorsAndTracksThatAreNotFiniteAreRefused) {
-  Renderer renderer(test::make_block_scene(kLayers), Transducer{}, ImageSettings{});
+  Renderer renderer(test::make_block_scene(kBorderLayers), Transducer{}, ImageSettings{});
   EXPECT_THROW(renderer.set_needle_tracks({{Vec3(kNan, 0, 0), Vec3::Zero(), 0.1}}),
                std::invalid_argument);
   EXPECT_THROW(renderer.set_point_reflectors({{Vec3(0, kInfinity, 0), 1}}), std::invalid_argument);
@@ -183,7 +184,7 @@ TEST(Borders, OddPosesGiveFiniteFrames) {
   curved.radius = 40e-3;
   curved.frequency = 5e6;
   for (const Transducer& transducer : {Transducer{}, curved}) {
-    Renderer renderer(test::make_block_scene(kLayers), transducer, ImageSettings{});
+    Renderer renderer(test::make_block_scene(kBorderLayers), transducer, ImageSettings{});
     for (const Pose& X_JP :
          {test::probe_at(0, 0, 30e-3),                                       // inside bone
           test::probe_at(0, 0, 15e-3),                                       // inside muscle
@@ -207,7 +208,7 @@ TEST(Borders, OddPosesGiveFiniteFrames) {
 }
 
 TEST(Borders, OneLineAndManyAreImages) {
-  const auto scene = test::make_block_scene(kLayers);
+  const auto scene = test::make_block_scene(kBorderLayers);
   for (const int lines : {1, 2, 3, 4096}) {
     Transducer transducer;
     transducer.n_lines = lines;

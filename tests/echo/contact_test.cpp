@@ -13,7 +13,7 @@
 namespace artus {
 namespace {
 
-constexpr std::array<test::FlatLayer, 1> kMuscleBlock{{{"muscle", 60e-3}}};
+constexpr std::array<test::FlatLayer, 1> kContactBlock{{{"muscle", 60e-3}}};
 
 /// Elements of the footprint of which those from `first` on are lifted.
 std::vector<float> lifted_from(std::size_t first) {
@@ -23,7 +23,7 @@ std::vector<float> lifted_from(std::size_t first) {
 }
 
 TEST(Contact, LiftedElementsAreBlackBelowTheRingingLens) {
-  Renderer renderer(test::make_block_scene(kMuscleBlock), Transducer{}, ImageSettings{});
+  Renderer renderer(test::make_block_scene(kContactBlock), Transducer{}, ImageSettings{});
   const Frame whole = renderer.render(test::probe_at());
   renderer.set_contact(lifted_from(64));
   const Frame& half = renderer.render(test::probe_at());
@@ -58,7 +58,7 @@ TEST(Contact, LosesTheSquareOfTheLiftedShareOfTheAperture) {
 }
 
 TEST(Contact, FullCouplingChangesNothingAndNonsenseCountsAsAir) {
-  Renderer renderer(test::make_block_scene(kMuscleBlock), Transducer{}, ImageSettings{});
+  Renderer renderer(test::make_block_scene(kContactBlock), Transducer{}, ImageSettings{});
   const Frame plain = renderer.render(test::probe_at());
   renderer.set_contact(std::vector<float>(17, 1.0F));
   EXPECT_EQ(renderer.render(test::probe_at()).envelope, plain.envelope);

@@ -77,6 +77,44 @@ TEST(FibreCourse, FollowsABentMuscle) {
   }
 }
 
+/// The bar's outer side as skin.
+void add_skin(CompiledJoint& joint, double outer) {
+  for (const auto& tet : joint.mesh.tetrahedra) {
+    std::array<std::uint32_t, 3> face{};
+    std::size_t n = 0;
+    for (const std::uint32_t v : tet) {
+      const Vec3& p = joint.mesh.vertices[v];
+      if (std::hypot(p.x(), p.z()) > outer - 1e-6 && n < 3) face[n++] = v;
+    }
+    if (n < 3) continue;
+    const Vec3& a = joint.mesh.vertices[face[0]];
+    if ((joint.mesh.vertices[face[1]] - a).cross(joint.mesh.vertices[face[2]] - a).dot(a) < 0)
+      std::swap(face[0], face[1]);
+    joint.mesh.interfaces.push_back({face, kOutside, kFirstRegion});
+  }
+}
+
+TEST(FibreCourse, OfALayerRunsBesideTheSkinAndHasNoEnds) {
+  CompiledJoint joint = make_bent_bar(30e-3, 40e-3, 12e-3);
+  add_skin(joint, 40e-3);
+  const auto depth = fit_skin_depth(joint);
+  ASSERT_TRUE(depth.has_value());
+  const auto along_the_bar = [&](FibreCourse how, double degrees) {
+    joint.regions.back().fibre_course = how;
+    const auto course = fit_fibre_course(joint, kFirstRegion, depth);
+    const Vec3 out(std::sin(degrees * kDegree), 0, std::cos(degrees * kDegree));
+    return course->evaluate(35e-3 * out).gradient.row(2).dot(Vec3(out.z(), 0, -out.x()));
+  };
+  for (const double degrees : {4.0, 10.0, 25.0, 65.0, 80.0, 86.0}) {
+    const double wanted = std::cos((degrees - 45) * kDegree);
+    EXPECT_NEAR(along_the_bar(FibreCourse::layer, degrees) / along_the_bar(FibreCourse::layer, 45),
+                wanted, 0.1)
+        << degrees;
+  }
+  // Between ends the flow dies away where one begins.
+  EXPECT_LT(along_the_bar(FibreCourse::ends, 4) / along_the_bar(FibreCourse::ends, 45), 0.5);
+}
+
 TEST(FibreCourse, TellsPlacesApartByMicrometres) {
   // slopes alone leave the origin open; far away, single precision would not see 20 um
   const CompiledJoint joint = make_bent_bar(30e-3, 40e-3, 12e-3);

@@ -44,7 +44,7 @@ TEST(Needle, GaugesRingAtTheirOwnPitch) {
     ASSERT_TRUE(shape.has_value());
     EXPECT_NEAR(reverberation_pitch(*shape) * 1e3, pitch_mm, 0.01) << gauge;
   }
-  EXPECT_FALSE(needle_of_gauge(19).has_value());
+  EXPECT_FALSE(needle_of_gauge(24).has_value());
 }
 
 TEST(Needle, CastsAShadowAndEndsAtItsTip) {

@@ -14,10 +14,10 @@
 namespace artus {
 namespace {
 
-constexpr std::array<test::FlatLayer, 1> kMuscleBlock{{{"muscle", 60e-3}}};
+constexpr std::array<test::FlatLayer, 1> kOptionsBlock{{{"muscle", 60e-3}}};
 
 std::shared_ptr<const Scene> lossless(double backscatter) {
-  return test::make_block_scene(kMuscleBlock, [&](CompiledJoint& joint) {
+  return test::make_block_scene(kOptionsBlock, [&](CompiledJoint& joint) {
     test::acoustic_of(joint, "muscle").attenuation = 0;
     test::acoustic_of(joint, "muscle").backscatter = backscatter;
   });

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kSigmaPerWidth = 1 / 2.3548;
 
-std::shared_ptr<const Scene> lossless_muscle() {
+std::shared_ptr<const Scene> wide_lossless_muscle() {
   const std::array<test::FlatLayer, 1> layers{{{"muscle", 60e-3}}};
   return test::make_block_scene(
       layers, [](CompiledJoint& joint) { test::acoustic_of(joint, "muscle").attenuation = 0; });
@@ -49,7 +49,7 @@ class SpeckleMotion : public ::testing::Test {
  protected:
   Transducer transducer_;
   ImageSettings settings_ = test::bare_settings();
-  Renderer renderer_{lossless_muscle(), transducer_, settings_};
+  Renderer renderer_{wide_lossless_muscle(), transducer_, settings_};
   double lateral_ = 0.97 * transducer_.wavelength() * transducer_.f_number;
   double axial_ = transducer_.pulse_cycles * transducer_.wavelength() / 2;
 };

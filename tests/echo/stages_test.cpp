@@ -18,7 +18,7 @@
 namespace artus {
 namespace {
 
-constexpr std::array<test::FlatLayer, 3> kLayers{
+constexpr std::array<test::FlatLayer, 3> kStageLayers{
     {{"skin", 2e-3}, {"fat", 6e-3}, {"muscle", 30e-3}}};
 
 NeedleView some_needle() {
@@ -33,7 +33,7 @@ void expect_same(const Frame& a, const Frame& b) {
 }
 
 TEST(Stages, LiveSettingsShowInTheNextFrameAsIfTheyHadAlwaysBeenThere) {
-  const auto scene = test::make_block_scene(kLayers);
+  const auto scene = test::make_block_scene(kStageLayers);
   ImageSettings changed;
   changed.gain_db = 21;
   changed.dynamic_range_db = 85;
@@ -50,7 +50,7 @@ TEST(Stages, LiveSettingsShowInTheNextFrameAsIfTheyHadAlwaysBeenThere) {
 }
 
 TEST(Stages, GainAndRangeTouchTheDisplayAlone) {
-  Renderer renderer(test::make_block_scene(kLayers), Transducer{}, ImageSettings{});
+  Renderer renderer(test::make_block_scene(kStageLayers), Transducer{}, ImageSettings{});
   const Frame before = renderer.render(test::probe_at());
   LiveSettings live;
   live.gain_db = 15;
@@ -66,7 +66,7 @@ TEST(Stages, GainAndRangeTouchTheDisplayAlone) {
 }
 
 TEST(Stages, LiveSettingsThatAreNotValidAreRefusedAndChangeNothing) {
-  Renderer renderer(test::make_block_scene(kLayers), Transducer{}, ImageSettings{});
+  Renderer renderer(test::make_block_scene(kStageLayers), Transducer{}, ImageSettings{});
   LiveSettings live;
   live.dynamic_range_db = 0;
   EXPECT_THROW(renderer.set_live(live), std::invalid_argument);
@@ -74,7 +74,7 @@ TEST(Stages, LiveSettingsThatAreNotValidAreRefusedAndChangeNothing) {
 }
 
 TEST(Stages, APipelineMadeElsewhereGivesTheImageOfAFreshRendererAndKeepsTheBody) {
-  const auto scene = test::make_block_scene(kLayers);
+  const auto scene = test::make_block_scene(kStageLayers);
   const std::vector<NeedleTrack> tracks{{Vec3(-15e-3, 0, 5e-3), Vec3(5e-3, 0, 20e-3), 0.025}};
   const std::vector<PointReflector> points{{Vec3(0, 0, 12e-3), 0.5}};
   std::vector<float> contact(64, 1.0F);
@@ -110,7 +110,7 @@ TEST(Stages, RenderingAllocatesNothingWithCompoundDopplerAndTracks) {
   settings.doppler = true;
   settings.compound_angles = 3;
   settings.smoothing = 0.2;
-  Renderer renderer(test::make_block_scene(kLayers), Transducer{}, settings);
+  Renderer renderer(test::make_block_scene(kStageLayers), Transducer{}, settings);
   renderer.set_needle_tracks({{Vec3(-15e-3, 0, 5e-3), Vec3(5e-3, 0, 20e-3), 0.025}});
   for (int k = 0; k < 2; ++k) renderer.render(test::probe_at(), some_needle());
   Pose nowhere = Pose::Identity();
