@@ -76,6 +76,7 @@ bool InjectionOperator::bone_felt(double time, bool now) noexcept {
 bool InjectionOperator::goal_met(const OperatorPhase& phase, double time, double depth,
                                  const OperatorView& view) noexcept {
   const double elapsed = time - phase_time_;
+  if ((phase.until_flow && view.flows) || (phase.until_given && view.given)) return true;
   switch (phase.kind) {
     case Kind::hold:
     case Kind::turn:

@@ -15,6 +15,8 @@ struct OperatorView {
   double into_layer = -1;      ///< m, the tip beyond the beginning of its layer; < 0: not known
   double thickness = 0;        ///< m, of that layer along the line
   bool bone = false;           ///< pushes back with all it has
+  bool flows = false;          ///< liquid out of the tip, as the plunger tells
+  bool given = false;          ///< all that was meant
 };
 /// The view of someone to whom every component of the force is known.
 [[nodiscard]] OperatorView view_of(const NeedleModel& model) noexcept;
@@ -38,6 +40,10 @@ class InjectionOperator {
   [[nodiscard]] Pose start() const noexcept;  ///< X_JN before the first phase
   [[nodiscard]] std::size_t phase() const noexcept { return index_; }
   [[nodiscard]] bool done() const noexcept { return index_ >= phases_.size(); }
+  /// What is being done; null when all is.
+  [[nodiscard]] const OperatorPhase* present() const noexcept {
+    return done() ? nullptr : &phases_[index_];
+  }
   [[nodiscard]] bool timed_out() const noexcept { return timed_out_; }
   /// What the hand wants at `t`, s, within the tick after the last observe().
   [[nodiscard]] Intention intention(double t) const noexcept;

@@ -4,12 +4,11 @@
 #include <cmath>
 
 #include "artus/core/noise.h"
+#include "artus/core/units.h"
 #include "artus/haptics/needle/orientation_torque.h"
 
 namespace artus {
-namespace {
-constexpr double kTwoPi = 6.283185307179586;
-}
+namespace {}
 
 SimulatedHand::SimulatedHand(const HandParams& params) : params_(params) {
   std::uint64_t index = 0;

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/operators/thumb.h"
+
+#include <algorithm>
+
+namespace artus {
+
+PlungerInput Thumb::step(const OperatorPhase* phase, const PlungerState& plunger, double area,
+                         double dt) noexcept {
+  PlungerInput input;
+  const bool by_rate = phase != nullptr && phase->thumb_rate > 0;
+  if (!by_rate) {
+    pressing_ = false;
+    if (phase != nullptr) input.force = phase->thumb_force;
+    return input;
+  }
+  if (!pressing_) position_ = plunger.travel;
+  pressing_ = true;
+  position_ += phase->thumb_rate / area * dt;
+  position_ = std::min(position_, plunger.travel + params_.most_force / params_.stiffness);
+  input.position = position_;
+  input.stiffness = params_.stiffness;
+  return input;
+}
+
+}  // namespace artus
