@@ -2,6 +2,7 @@
 #include "artus/dataset/echo_truth.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <vector>
@@ -10,6 +11,7 @@
 
 #include "artus/core/check.h"
 #include "artus/core/units.h"
+#include "artus/echo/doppler.h"
 #include "artus/echo/image_io.h"
 
 namespace artus {
@@ -32,6 +34,25 @@ cv::Mat mask_where(const Frame& frame, const ScanConverter& converter, const Con
   converter.convert(levels, 0, converter.height(), {grey.data, grey.total()});
   return grey > kMiddle;
 }
+
+struct TransducerKey {
+  const char* name;
+  double Transducer::*member;
+  double unit;
+};
+constexpr double kMegahertz = 1e6;  // Hz
+constexpr std::array<TransducerKey, 11> kTransducerKeys{
+    {{"width_mm", &Transducer::width, kMillimetre},
+     {"radius_mm", &Transducer::radius, kMillimetre},
+     {"steering_deg", &Transducer::steering, kDegree},
+     {"frequency_mhz", &Transducer::frequency, kMegahertz},
+     {"bandwidth", &Transducer::bandwidth, 1},
+     {"pulse_cycles", &Transducer::pulse_cycles, 1},
+     {"f_number", &Transducer::f_number, 1},
+     {"max_aperture_mm", &Transducer::max_aperture, kMillimetre},
+     {"elevation_height_mm", &Transducer::elevation_height, kMillimetre},
+     {"elevation_focus_mm", &Transducer::elevation_focus, kMillimetre},
+     {"transmit_focus_mm", &Transducer::transmit_focus, kMillimetre}}};
 
 }  // namespace
 
@@ -63,29 +84,16 @@ cv::Mat shadow_mask(const Frame& frame, const ScanConverter& converter) {
 
 cv::Mat doppler_image(const Frame& frame, const ScanConverter& converter,
                       const ImageSettings& settings) {
-  ARTUS_REQUIRE(frame.velocity.size() == frame.decibel.size(), "the frame has no velocities");
-  // Velocities go through the converter of every other image as greys: -limit is black, limit
-  // white, and what stands still is below black.
-  constexpr float kStill = -1e6F;  // dB
-  std::vector<float> levels(frame.velocity.size());
-  for (std::size_t i = 0; i < levels.size(); ++i) {
-    const double v = static_cast<double>(frame.velocity[i]) / settings.doppler_limit;
-    levels[i] =
-        std::isnan(v) ? kStill : static_cast<float>((v - 1) / 2 * settings.dynamic_range_db);
-  }
-  cv::Mat moving(frame.height, frame.width, CV_8UC1);
-  converter.convert(levels, 0, frame.height, {moving.data, moving.total()});
+  const std::vector<std::uint8_t> moving = motion_picture(frame, converter, settings);
   cv::Mat out;
   cv::cvtColor(grey_image(frame), out, cv::COLOR_GRAY2BGR);
-  for (int y = 0; y < out.rows; ++y)
-    for (int x = 0; x < out.cols; ++x) {
-      const int grey = moving.at<std::uint8_t>(y, x);
-      if (grey == 0) continue;
-      const double v = 2 * grey / 255.0 - 1;  // of the limit, toward the probe
-      const auto strong = static_cast<std::uint8_t>(110 + 145 * std::abs(v));
-      const auto weak = static_cast<std::uint8_t>(140 * std::abs(v));
-      out.at<cv::Vec3b>(y, x) = v > 0 ? cv::Vec3b(0, weak, strong) : cv::Vec3b(strong, weak, 0);
-    }
+  for (std::size_t i = 0; i < moving.size(); ++i) {
+    if (moving[i] == 0) continue;
+    const auto [red, green, blue] = motion_colour(moving[i]);
+    const auto width = static_cast<std::size_t>(out.cols);
+    out.at<cv::Vec3b>(static_cast<int>(i / width), static_cast<int>(i % width)) =
+        cv::Vec3b(blue, green, red);
+  }
   return out;
 }
 
@@ -135,19 +143,29 @@ nlohmann::json probe_json(const Pose& X_JP) {
           {"lateral", triple(X_JP.linear().col(0))}};
 }
 
-nlohmann::json to_json(const Transducer& t) {
-  return {{"width_mm", t.width / kMillimetre},
-          {"radius_mm", t.radius / kMillimetre},
-          {"steering_deg", t.steering / kDegree},
-          {"lines", t.n_lines},
-          {"frequency_mhz", t.frequency / 1e6},
-          {"bandwidth", t.bandwidth},
-          {"pulse_cycles", t.pulse_cycles},
-          {"f_number", t.f_number},
-          {"max_aperture_mm", t.max_aperture / kMillimetre},
-          {"elevation_height_mm", t.elevation_height / kMillimetre},
-          {"elevation_focus_mm", t.elevation_focus / kMillimetre},
-          {"transmit_focus_mm", t.transmit_focus / kMillimetre}};
+nlohmann::json to_json(const Transducer& transducer) {
+  nlohmann::json out{{"lines", transducer.n_lines}};
+  for (const TransducerKey& key : kTransducerKeys)
+    out[key.name] = transducer.*key.member / key.unit;
+  return out;
+}
+
+Result<Transducer> transducer_of(const nlohmann::json& values) {
+  Transducer out;
+  if (!values.is_object()) return fail(ErrorCode::malformed, "a transducer is an object");
+  const auto lines = values.find("lines");
+  if (lines == values.end() || !lines->is_number_integer())
+    return fail(ErrorCode::malformed, "'lines' must be a whole number", "transducer");
+  out.n_lines = lines->get<int>();
+  for (const TransducerKey& key : kTransducerKeys) {
+    const auto value = values.find(key.name);
+    if (value == values.end() || !value->is_number())
+      return fail(ErrorCode::malformed, std::string("'") + key.name + "' must be a number",
+                  "transducer");
+    out.*key.member = value->get<double>() * key.unit;
+  }
+  ARTUS_TRY(validate(out));
+  return out;
 }
 
 nlohmann::json to_json(const ImageSettings& s) {

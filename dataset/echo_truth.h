@@ -50,6 +50,8 @@ namespace artus {
 
 /// Every value, in mm, MHz and degrees.
 [[nodiscard]] nlohmann::json to_json(const Transducer& transducer);
+/// Its inverse. Errors: malformed, naming the value; those of validate.
+[[nodiscard]] Result<Transducer> transducer_of(const nlohmann::json& values);
 
 /// Every value that the image depends on (not the number of threads).
 [[nodiscard]] nlohmann::json to_json(const ImageSettings& settings);

@@ -21,7 +21,7 @@ constexpr int kWidth = 420;   // pixels of a histogram's box
 constexpr int kHeight = 220;  // pixels
 constexpr int kMargin = 34;   // pixels inside the box
 constexpr int kBins = 40;
-constexpr int kColumns = 3;
+constexpr int kStatColumns = 3;
 
 bool ends_with(std::string_view text, std::string_view end) {
   return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
@@ -159,10 +159,10 @@ json to_json(const SetStatistics& statistics) {
 
 cv::Mat histogram_page(const SetStatistics& statistics) {
   const int boxes = static_cast<int>(statistics.values.size());
-  const int rows = (boxes + kColumns - 1) / kColumns;
+  const int rows = (boxes + kStatColumns - 1) / kStatColumns;
   const int regions_top = rows * kHeight + 50;
   const int height = regions_top + 60 + 18 * static_cast<int>(statistics.regions.size());
-  cv::Mat page(height, kColumns * kWidth, CV_8UC3, cv::Scalar::all(255));
+  cv::Mat page(height, kStatColumns * kWidth, CV_8UC3, cv::Scalar::all(255));
   char head[160];
   std::snprintf(head, sizeof head,
                 "%zu frames, %zu with a needle, of these %zu in plane, %zu with the tip shown",
@@ -171,7 +171,8 @@ cv::Mat histogram_page(const SetStatistics& statistics) {
   write_at(page, head, {kMargin, 28}, 0.6);
   int box = 0;
   for (const auto& [name, list] : statistics.values) {
-    draw_histogram(page, {box % kColumns * kWidth, 40 + box / kColumns * kHeight}, name, list);
+    draw_histogram(page, {box % kStatColumns * kWidth, 40 + box / kStatColumns * kHeight}, name,
+                   list);
     ++box;
   }
   draw_regions(page, regions_top, statistics);

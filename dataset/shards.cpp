@@ -54,10 +54,10 @@ void append_frame(std::string& archive, std::size_t index, const SweepFrame& fra
   }
 }
 
-json describe(const std::shared_ptr<const Scene>& scene, const PoseSource& poses,
+json describe(const std::shared_ptr<const Scene>& scene, const FrameSource& frames,
               const ShardOptions& options) {
   json asked = describe_sweep(scene->joint(), options.sweep);
-  asked["poses"] = {{"count", poses.count}, {"digest", poses.digest}};
+  asked["poses"] = {{"count", frames.count}, {"digest", frames.digest}};
   asked["frames_per_shard"] = options.frames;
   asked["engine"] = options.engine;
   return asked;
@@ -81,12 +81,12 @@ Result<bool> is_there(const fs::path& folder, std::size_t shard, const json& ask
   return !error && said.value("bytes", json()) == json(size);
 }
 
-Result<std::string> draw_shard(SweepDrawer& drawer, const PoseSource& poses, const Range& range,
+Result<std::string> draw_shard(SweepDrawer& drawer, const FrameSource& frames, const Range& range,
                                const std::function<bool()>& stop) {
   std::string archive;
   for (std::size_t i = range.first; i < range.last; ++i) {
     if (stop && stop()) return std::string();
-    append_frame(archive, i, drawer.draw(i, poses.pose(i)));
+    append_frame(archive, i, drawer.draw(i, frames.frame(i)));
   }
   finish_archive(archive);
   return archive;
@@ -101,14 +101,15 @@ Result<void> write_shard(const fs::path& folder, std::size_t shard, const Range&
   return write_durably(shard_file(folder, shard, ".json"), sidecar.dump(2) + "\n");
 }
 
-Result<std::vector<std::size_t>> shards_of(const ShardJob& job, const PoseSource& poses,
+Result<std::vector<std::size_t>> shards_of(const ShardJob& job, const FrameSource& frames,
                                            std::size_t per_shard) {
-  const std::size_t last = job.last == 0 ? poses.count : job.last;
-  if (job.first % per_shard != 0 || (last % per_shard != 0 && last != poses.count) ||
-      job.first >= last || last > poses.count)
+  const std::size_t last = job.last == 0 ? frames.count : job.last;
+  if (job.first % per_shard != 0 || (last % per_shard != 0 && last != frames.count) ||
+      job.first >= last || last > frames.count)
     return fail(ErrorCode::invalid,
                 "frames are drawn in whole shards: first and last must be multiples of " +
-                    std::to_string(per_shard) + ", the last at most " + std::to_string(poses.count),
+                    std::to_string(per_shard) + ", the last at most " +
+                    std::to_string(frames.count),
                 "--frames");
   std::vector<std::size_t> shards;
   for (std::size_t s = job.first / per_shard; s * per_shard < last; ++s)
@@ -132,17 +133,6 @@ Result<std::pair<std::size_t, std::size_t>> parse_two(const std::string& text, c
 
 }  // namespace
 
-PoseSource source_of(std::vector<ListedPose> poses) {
-  PoseSource source;
-  source.count = poses.size();
-  source.digest = digest_of(poses);
-  source.pose =
-      [kept = std::make_shared<const std::vector<ListedPose>>(std::move(poses))](std::size_t i) {
-        return (*kept)[i];
-      };
-  return source;
-}
-
 Result<ShardJob> parse_turn(const std::string& text, const std::string& flag) {
   const auto two = parse_two(text, '/', flag);
   ARTUS_TRY(two);
@@ -165,20 +155,25 @@ Result<ShardJob> parse_frames(const std::string& text, const std::string& flag) 
   return job;
 }
 
-Result<ShardResult> write_shards(const std::shared_ptr<const Scene>& scene, const PoseSource& poses,
-                                 const ShardJob& job, const fs::path& folder,
-                                 const ShardOptions& options, const Progress& progress) {
+Result<ShardResult> write_shards(const std::shared_ptr<const Scene>& scene,
+                                 const FrameSource& frames, const ShardJob& job,
+                                 const fs::path& folder, const ShardOptions& options,
+                                 const Progress& progress) {
   constexpr std::size_t kMostRegions = 256;  // of an 8-bit picture
   if (options.sweep.settings.persistence != 0)
     return fail(ErrorCode::invalid, "a sweep is drawn without persistence", folder.string());
-  if (scene->joint().regions.size() > kMostRegions)
-    return fail(ErrorCode::invalid, "the joint has more regions than 8-bit labels can name");
-  const auto shards = shards_of(job, poses, options.frames);
+  const auto many = [](const auto& body) {
+    return body->joint().regions.size() > kMostRegions;
+  };
+  if (many(scene) ||
+      std::any_of(options.sweep.patients.begin(), options.sweep.patients.end(), many))
+    return fail(ErrorCode::invalid, "a joint has more regions than 8-bit labels can name");
+  const auto shards = shards_of(job, frames, options.frames);
   ARTUS_TRY(shards);
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) return fail(ErrorCode::unreadable, error.message(), folder.string());
-  const json asked = describe(scene, poses, options);
+  const json asked = describe(scene, frames, options);
   ShardResult result;
   result.shards = shards->size();
   std::unique_ptr<SweepDrawer> drawer;
@@ -189,8 +184,8 @@ Result<ShardResult> write_shards(const std::shared_ptr<const Scene>& scene, cons
     result.found += *there ? 1 : 0;
     if (*there) continue;
     if (!drawer) drawer = std::make_unique<SweepDrawer>(scene, options.sweep);
-    const Range range{shard * options.frames, std::min(poses.count, (shard + 1) * options.frames)};
-    const auto archive = draw_shard(*drawer, poses, range, options.sweep.stop);
+    const Range range{shard * options.frames, std::min(frames.count, (shard + 1) * options.frames)};
+    const auto archive = draw_shard(*drawer, frames, range, options.sweep.stop);
     ARTUS_TRY(archive);
     if (archive->empty()) break;
     ARTUS_TRY(write_shard(folder, shard, range, *archive, asked));

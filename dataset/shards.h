@@ -8,18 +8,10 @@
 
 #include "artus/core/progress.h"
 #include "artus/core/result.h"
-#include "artus/dataset/pose_list.h"
+#include "artus/dataset/frame_order.h"
 #include "artus/dataset/sweep.h"
 
 namespace artus {
-
-/// A long list of poses, any of which can be had alone.
-struct PoseSource {
-  std::size_t count = 0;
-  std::string digest;  ///< two lists share it only when they are the same
-  std::function<ListedPose(std::size_t)> pose;
-};
-[[nodiscard]] PoseSource source_of(std::vector<ListedPose> poses);
 
 /// Frames `first` to before `last`, or every `of`-th shard from the `turn`-th: what one job draws.
 struct ShardJob {
@@ -54,7 +46,7 @@ struct ShardResult {
 /// Errors: invalid (persistence; frames that cut a shard; more than 256 regions; the folder holds
 /// another sweep), unreadable.
 [[nodiscard]] Result<ShardResult> write_shards(const std::shared_ptr<const Scene>& scene,
-                                               const PoseSource& poses, const ShardJob& job,
+                                               const FrameSource& frames, const ShardJob& job,
                                                const std::filesystem::path& folder,
                                                const ShardOptions& options,
                                                const Progress& progress = {});

@@ -49,8 +49,8 @@ class FolderLock {
   int file_ = -1;
 };
 
-json describe(const CompiledJoint& joint, const std::vector<ListedPose>& poses,
-              const SweepOptions& options) {
+json describe_sweep(const CompiledJoint& joint, const std::vector<ListedPose>& poses,
+                    const SweepOptions& options) {
   json description = describe_sweep(joint, options);
   description["format"] = 1;
   description["poses"] = {{"count", poses.size()}, {"digest", digest_of(poses)}};
@@ -165,7 +165,7 @@ Result<SweepResult> run_sweep(const std::shared_ptr<const Scene>& scene,
   if (error) return fail(ErrorCode::unreadable, error.message(), folder.string());
   const auto lock = FolderLock::take(folder);
   ARTUS_TRY(lock);
-  ARTUS_TRY(claim_folder(folder, describe(scene->joint(), poses, options), options.restart));
+  ARTUS_TRY(claim_folder(folder, describe_sweep(scene->joint(), poses, options), options.restart));
   const fs::path file = folder / "truth.jsonl";
   const auto found = find_finished(file, folder);
   ARTUS_TRY(found);
@@ -176,7 +176,7 @@ Result<SweepResult> run_sweep(const std::shared_ptr<const Scene>& scene,
   std::ofstream lines(file, std::ios::binary | std::ios::app);
   for (std::size_t i = *found; i < poses.size(); ++i) {
     if (options.stop && options.stop()) break;
-    const auto truth = write_frame(drawer.draw(i, poses[i]), i, folder);
+    const auto truth = write_frame(drawer.draw(i, FrameOrder(poses[i])), i, folder);
     ARTUS_TRY(truth);
     // A name may hold bytes that are no text.
     lines << truth->dump(-1, ' ', false, json::error_handler_t::replace) + "\n" << std::flush;

@@ -12,6 +12,7 @@
 #include "artus/echo/image_settings.h"
 #include "artus/echo/needle_view.h"
 #include "artus/echo/transducer.h"
+#include "artus/echo/transducer_file.h"
 #include "artus/raycast/scene.h"
 
 namespace artus {
@@ -20,6 +21,8 @@ struct SweepOptions {
   Transducer transducer;
   ImageSettings settings;  ///< without persistence: a frame must not depend on the one before
   NeedleShape needle;
+  std::vector<std::shared_ptr<const Scene>> patients{};  ///< further joints that frames may name
+  std::vector<TransducerPreset> transducers{};           ///< further probes that frames may name
   bool restart = false;          ///< throw away what an earlier sweep left in the folder
   std::function<bool()> stop{};  ///< asked before each frame; true ends the sweep, to be continued
 };

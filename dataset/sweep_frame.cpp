@@ -1,75 +1,125 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/dataset/sweep_frame.h"
 
-#include <bit>
-#include <cstdint>
-#include <cstdio>
 #include <optional>
 
-#include "artus/core/noise.h"
 #include "artus/core/units.h"
 #include "artus/dataset/echo_truth.h"
 #include "artus/echo/image_io.h"
+#include "artus/echo/labels.h"
+#include "artus/echo/renderer.h"
+#include "artus/raycast/pressed_scene.h"
 
 namespace artus {
 namespace {
 
-std::uint64_t mix_pose(std::uint64_t hash, const Pose& pose) {
-  for (Eigen::Index i = 0; i < 3; ++i)
-    for (Eigen::Index j = 0; j < 4; ++j)
-      hash = mix_bits(hash ^ std::bit_cast<std::uint64_t>(pose(i, j)));
-  return hash;
+nlohmann::json identity_of(const CompiledJoint& joint) {
+  return {{"name", joint.name}, {"digest", joint.source_digest}};
+}
+
+nlohmann::json to_json(const NeedleShape& shape) {
+  return {{"outer_diameter_mm", shape.outer_diameter / kMillimetre},
+          {"bore_mm", shape.bore / kMillimetre},
+          {"length_mm", shape.length / kMillimetre},
+          {"echogenic", shape.echogenic}};
+}
+
+/// Truth of the needle: in the picture, and in the joint as lists of poses have it.
+nlohmann::json needle_truth(const NeedleView& needle, const NeedleTruth& truth,
+                            const std::optional<PixelPoint>& tip_shown) {
+  nlohmann::json out = to_json(truth, tip_shown);
+  const auto triple = [](const Vec3& p) {
+    return nlohmann::json{p.x() / kMillimetre, p.y() / kMillimetre, p.z() / kMillimetre};
+  };
+  const Vec3 tip = needle.X_JN.translation();
+  out["tip_mm"] = triple(tip);
+  out["entry_mm"] = triple(tip - needle.shape.length * needle.X_JN.linear().col(2));
+  out.update(to_json(needle.shape));
+  return out;
 }
 
 }  // namespace
 
-std::string digest_of(const std::vector<ListedPose>& poses) {
-  std::uint64_t hash = poses.size();
-  for (const ListedPose& pose : poses) {
-    for (const char c : pose.name) hash = mix_bits(hash ^ static_cast<unsigned char>(c));
-    hash = mix_bits(hash ^ std::bit_cast<std::uint64_t>(pose.time.value_or(-1)));
-    hash = mix_pose(mix_bits(hash ^ (pose.X_JN ? 1U : 0U)), pose.X_JP);
-    if (pose.X_JN) hash = mix_pose(hash, *pose.X_JN);
-  }
-  char text[20];
-  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
-  return text;
+nlohmann::json describe_sweep(const CompiledJoint& joint, const SweepOptions& options) {
+  nlohmann::json out{{"joint", identity_of(joint)},
+                     {"transducer", to_json(options.transducer)},
+                     {"settings", to_json(options.settings)},
+                     {"needle", to_json(options.needle)}};
+  for (const auto& patient : options.patients)
+    out["patients"].push_back(identity_of(patient->joint()));
+  for (const TransducerPreset& preset : options.transducers)
+    out["transducers"].push_back({{"name", preset.name}, {"values", to_json(preset.transducer)}});
+  return out;
 }
 
-nlohmann::json describe_sweep(const CompiledJoint& joint, const SweepOptions& options) {
-  return {{"joint", {{"name", joint.name}, {"digest", joint.source_digest}}},
-          {"transducer", to_json(options.transducer)},
-          {"settings", to_json(options.settings)},
-          {"needle",
-           {{"outer_diameter_mm", options.needle.outer_diameter / kMillimetre},
-            {"bore_mm", options.needle.bore / kMillimetre},
-            {"length_mm", options.needle.length / kMillimetre},
-            {"echogenic", options.needle.echogenic}}}};
-}
+/// A probe's tables and one body's.
+struct SweepDrawer::Scanner {
+  Scanner(std::shared_ptr<const Scene> body, const Transducer& transducer,
+          const ImageSettings& settings)
+      : scene(std::move(body)),
+        renderer(scene, transducer, settings),
+        truth(transducer, settings) {}
+  std::shared_ptr<const Scene> scene;
+  Renderer renderer;
+  LabelRenderer truth;
+};
 
 SweepDrawer::SweepDrawer(std::shared_ptr<const Scene> scene, const SweepOptions& options)
-    : scene_(std::move(scene)),
-      needle_(options.needle),
-      renderer_(scene_, options.transducer, options.settings),
-      truth_(options.transducer, options.settings) {}
+    : scene_(std::move(scene)), options_(options) {}
+SweepDrawer::~SweepDrawer() = default;
 
-SweepFrame SweepDrawer::draw(std::size_t index, const ListedPose& pose) {
-  std::optional<NeedleView> needle;
-  if (pose.X_JN) needle = NeedleView{*pose.X_JN, needle_};
-  const Frame& frame = renderer_.render(pose.X_JP, needle);
-  const LabelImage labels = truth_.render(*scene_, pose.X_JP, needle);
+SweepDrawer::Scanner& SweepDrawer::scanner(const FrameOrder& order) {
+  auto& place = scanners_[{order.patient, order.transducer}];
+  if (!place) {
+    const Transducer& transducer = order.transducer == 0
+                                       ? options_.transducer
+                                       : options_.transducers[order.transducer - 1].transducer;
+    place = std::make_unique<Scanner>(
+        order.patient == 0 ? scene_ : options_.patients[order.patient - 1], transducer,
+        options_.settings);
+  }
+  return *place;
+}
+
+nlohmann::json SweepDrawer::press(const FrameOrder& order, Pose& X_JP) {
+  const Scanner& at_rest = scanner(order);
+  const auto pressed = press_scene(at_rest.scene->shared_joint(), order.X_JP, {order.press, {}});
+  if (!pressed) return nullptr;  // no skin below the probe
+  pressed_ =
+      std::make_unique<Scanner>(pressed->scene, at_rest.renderer.transducer(), options_.settings);
+  X_JP = pressed->press.X_JP;
+  return {{"depth_mm", pressed->press.depth / kMillimetre},
+          {"force_n", pressed->press.normal_force},
+          {"settled", pressed->press.settled}};
+}
+
+SweepFrame SweepDrawer::draw(std::size_t index, const FrameOrder& order) {
   SweepFrame out;
-  out.truth = {{"index", index},
-               {"probe", probe_json(pose.X_JP)},
-               {"pixel_mm", frame.pixel / kMillimetre},
-               {"contact", contact_json(frame)},
-               {"regions", region_list(labels, scene_->joint())}};
-  if (!pose.name.empty()) out.truth["name"] = pose.name;
-  if (pose.time) out.truth["time_s"] = *pose.time;
-  if (needle) out.truth["needle"] = to_json(truth_.locate(*needle, pose.X_JP), frame.tip_shown);
+  out.truth["index"] = index;
+  Pose X_JP = order.X_JP;
+  pressed_.reset();
+  if (order.press > 0) out.truth["press"] = press(order, X_JP);
+  Scanner& scanner = pressed_ ? *pressed_ : this->scanner(order);
+  std::optional<NeedleView> needle;
+  if (order.X_JN) needle = NeedleView{*order.X_JN, order.needle.value_or(options_.needle)};
+  const Frame& frame = scanner.renderer.render(X_JP, needle);
+  const LabelImage labels = scanner.truth.render(*scanner.scene, X_JP, needle);
+  const CompiledJoint& joint = scanner.scene->joint();
+  out.truth["probe"] = probe_json(X_JP);
+  out.truth["pixel_mm"] = frame.pixel / kMillimetre;
+  out.truth["contact"] = contact_json(frame);
+  out.truth["regions"] = region_list(labels, joint);
+  if (!options_.patients.empty()) out.truth["joint"] = joint.name;
+  if (order.transducer > 0)
+    out.truth["transducer"] = options_.transducers[order.transducer - 1].name;
+  if (!order.name.empty()) out.truth["name"] = order.name;
+  if (order.time) out.truth["time_s"] = *order.time;
+  if (needle)
+    out.truth["needle"] =
+        needle_truth(*needle, scanner.truth.locate(*needle, X_JP), frame.tip_shown);
   out.pictures = {{"image", grey_image(frame)},
                   {"labels", id_image(labels)},
-                  {"shadow_mask", shadow_mask(frame, truth_.converter())}};
+                  {"shadow_mask", shadow_mask(frame, scanner.truth.converter())}};
   if (needle) out.pictures.emplace_back("needle_mask", needle_mask(labels));
   return out;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 #include <cstddef>
+#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -10,10 +11,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "artus/dataset/pose_list.h"
+#include "artus/dataset/frame_order.h"
 #include "artus/dataset/sweep.h"
-#include "artus/echo/labels.h"
-#include "artus/echo/renderer.h"
 
 namespace artus {
 
@@ -24,24 +23,29 @@ struct SweepFrame {
   std::vector<std::pair<std::string, cv::Mat>> pictures;
 };
 
-/// Draws poses one by one; a frame depends on its pose alone.
+/// Draws frames one by one; a frame depends on its order alone. A pressed one is drawn from the
+/// joint as it then lies, the needle where it stands: its probe has moved along the beam, and its
+/// truth has "press" (depth_mm, force_n, settled), null where nothing could be pressed.
 class SweepDrawer {
  public:
   SweepDrawer(std::shared_ptr<const Scene> scene, const SweepOptions& options);
+  ~SweepDrawer();
   /// The pictures look into the drawer until the next call.
-  [[nodiscard]] SweepFrame draw(std::size_t index, const ListedPose& pose);
+  [[nodiscard]] SweepFrame draw(std::size_t index, const FrameOrder& order);
 
  private:
+  struct Scanner;
+  [[nodiscard]] Scanner& scanner(const FrameOrder& order);
+  [[nodiscard]] nlohmann::json press(const FrameOrder& order, Pose& X_JP);
+
   std::shared_ptr<const Scene> scene_;
-  NeedleShape needle_;
-  Renderer renderer_;
-  LabelRenderer truth_;
+  SweepOptions options_;
+  std::map<std::pair<std::size_t, std::size_t>, std::unique_ptr<Scanner>> scanners_;
+  std::unique_ptr<Scanner> pressed_;  // of the last frame, when it was pressed
 };
 
-/// What was asked for, apart from the poses: joint, transducer, settings, needle.
+/// What was asked for, apart from the poses: joints, transducers, settings, needle.
 [[nodiscard]] nlohmann::json describe_sweep(const CompiledJoint& joint,
                                             const SweepOptions& options);
-/// A number of a list of poses, 16 hex digits.
-[[nodiscard]] std::string digest_of(const std::vector<ListedPose>& poses);
 
 }  // namespace artus

@@ -17,16 +17,16 @@
 namespace artus {
 namespace {
 
-constexpr std::size_t kBlock = 512;      // bytes
+constexpr std::size_t kTarBlock = 512;   // bytes
 constexpr std::size_t kNameSize = 100;   // bytes
 constexpr std::size_t kSizeField = 124;  // where the size stands
 constexpr std::size_t kSumField = 148;
 
-using Block = std::array<char, kBlock>;
+using Block = std::array<char, kTarBlock>;
 
 unsigned sum_of(const char* header) {
   unsigned sum = 0;
-  for (std::size_t i = 0; i < kBlock; ++i) {
+  for (std::size_t i = 0; i < kTarBlock; ++i) {
     const bool own = i >= kSumField && i < kSumField + 8;
     sum += own ? ' ' : static_cast<unsigned char>(header[i]);
   }
@@ -45,7 +45,7 @@ long long octal_at(const char* field, std::size_t size) {
 }
 
 std::size_t padded(std::size_t size) {
-  return (size + kBlock - 1) / kBlock * kBlock;
+  return (size + kTarBlock - 1) / kTarBlock * kTarBlock;
 }
 
 Result<void> write_and_sync(int file, std::string_view bytes, const std::string& name) {
@@ -78,26 +78,27 @@ void append_member(std::string& archive, std::string_view name, std::string_view
   std::snprintf(number.data(), number.size(), "%06o", sum_of(header.data()));
   put(header, kSumField, std::string_view(number.data(), 7));
   header[kSumField + 7] = ' ';
-  archive.append(header.data(), kBlock);
+  archive.append(header.data(), kTarBlock);
   archive.append(bytes);
   archive.append(padded(bytes.size()) - bytes.size(), '\0');
 }
 
 void finish_archive(std::string& archive) {
-  archive.append(2 * kBlock, '\0');
+  archive.append(2 * kTarBlock, '\0');
 }
 
 Result<std::vector<TarMember>> list_members(std::string_view archive) {
   std::vector<TarMember> members;
   while (true) {
-    if (archive.size() < kBlock) return fail(ErrorCode::corrupt, "the archive ends in the middle");
-    const std::string_view header = archive.substr(0, kBlock);
+    if (archive.size() < kTarBlock)
+      return fail(ErrorCode::corrupt, "the archive ends in the middle");
+    const std::string_view header = archive.substr(0, kTarBlock);
     if (header.find_first_not_of('\0') == std::string_view::npos) return members;
     const long long size = octal_at(header.data() + kSizeField, 12);
     if (size < 0 ||
         octal_at(header.data() + kSumField, 8) != static_cast<int>(sum_of(header.data())))
       return fail(ErrorCode::corrupt, "a member's header is damaged");
-    archive.remove_prefix(kBlock);
+    archive.remove_prefix(kTarBlock);
     const auto n = static_cast<std::size_t>(size);
     if (n > archive.size() || padded(n) > archive.size())
       return fail(ErrorCode::corrupt, "the archive ends in the middle");

@@ -16,18 +16,15 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "artus/core/rigid.h"
 #include "artus/core/text_file.h"
-#include "artus/core/units.h"
-#include "artus/dataset/pose_draw.h"
 #include "artus/dataset/secure_hash.h"
 #include "artus/dataset/shard_merge.h"
 #include "artus/dataset/shard_stats.h"
+#include "artus/dataset/stored_sweep.h"
 #include "artus/dataset/sweep_frame.h"
 #include "artus/dataset/tar_file.h"
-#include "artus/evidence/echo/echo_phantom.h"
+#include "tests/dataset/shards_fixture.h"
 #include "tests/support/process.h"
-#include "tests/support/temporary_folder.h"
 
 namespace artus {
 namespace {
@@ -46,43 +43,7 @@ TEST(Sha256, HasThePublishedValues) {
             "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
 }
 
-class Shards : public test::TemporaryFolder {
- protected:
-  void SetUp() override {
-    TemporaryFolder::SetUp();
-    const std::array<FlatLayer, 3> layers{{{"fat", 5e-3}, {"muscle", 12e-3}, {"bone", 20e-3}}};
-    scene_ = make_block_scene(layers);
-    options_.sweep.transducer.n_lines = 32;
-    options_.sweep.settings.n_samples = 256;
-    options_.sweep.settings.n_planes = 1;
-    options_.sweep.settings.pixel = 0.5e-3;
-    options_.frames = 3;
-    options_.engine = "1.0";
-    DrawRanges ranges;
-    ranges.lateral = {-5e-3, 5e-3};
-    source_ = drawn_poses(scene_, ranges, 7, 10);  // four shards, the last of one frame
-  }
-  [[nodiscard]] Result<ShardResult> write(const std::string& name, const ShardJob& job = {}) const {
-    return write_shards(scene_, source_, job, folder_ / name, options_);
-  }
-  [[nodiscard]] std::map<std::string, std::string> content(const std::string& name) const {
-    std::map<std::string, std::string> files;
-    for (const auto& entry : fs::directory_iterator(folder_ / name))
-      files[entry.path().filename().string()] = *read_bytes(entry.path());
-    return files;
-  }
-  [[nodiscard]] MergedSet merge(const std::vector<std::string>& names) const {
-    std::vector<fs::path> folders;
-    for (const std::string& name : names) folders.push_back(folder_ / name);
-    const auto set = merge_shards(folders, folder_ / "set.json");
-    EXPECT_TRUE(set) << set.error().to_string();
-    return set.value_or(MergedSet{});
-  }
-
-  std::shared_ptr<const Scene> scene_;
-  PoseSource source_;
-  ShardOptions options_;
-};
+using test::Shards;
 
 TEST_F(Shards, AreTheSameBytesWhoeverDrawsThem) {
   ASSERT_TRUE(write("whole"));
@@ -114,7 +75,7 @@ TEST_F(Shards, HoldASampleForEachFrameAsWebDatasetGroupsThem) {
   ASSERT_EQ(samples.size(), 3U);
   EXPECT_EQ(samples.begin()->first, "000000003");
   SweepDrawer drawer(scene_, options_.sweep);
-  const SweepFrame frame = drawer.draw(3, source_.pose(3));
+  const SweepFrame frame = drawer.draw(3, source_.frame(3));
   for (const TarMember& member : *members) {
     const std::vector<std::uint8_t> bytes(member.bytes.begin(), member.bytes.end());
     if (member.name == "000000003.png") {
@@ -220,12 +181,12 @@ TEST_F(Shards, StatisticsCountWhatIsInTheSet) {
   ASSERT_TRUE(statistics) << statistics.error().to_string();
   EXPECT_EQ(statistics->frames, 10U);
   std::size_t needles = 0;
-  for (std::size_t i = 0; i < 10; ++i) needles += source_.pose(i).X_JN ? 1 : 0;
+  for (std::size_t i = 0; i < 10; ++i) needles += source_.frame(i).X_JN ? 1 : 0;
   EXPECT_EQ(statistics->with_needle, needles);
   EXPECT_EQ(statistics->regions.at("fat"), 10U);
   const auto& x = statistics->values.at("probe x, mm");
   ASSERT_EQ(x.size(), 10U);
-  EXPECT_NEAR(x[4], 1e3 * source_.pose(4).X_JP.translation().x(), 1e-9);
+  EXPECT_NEAR(x[4], 1e3 * source_.frame(4).X_JP.translation().x(), 1e-9);
   const auto summary = to_json(*statistics)["least_quartiles_most"]["probe x, mm"];
   EXPECT_EQ(summary[0], *std::min_element(x.begin(), x.end()));
   EXPECT_EQ(summary[4], *std::max_element(x.begin(), x.end()));
@@ -234,60 +195,46 @@ TEST_F(Shards, StatisticsCountWhatIsInTheSet) {
   EXPECT_FALSE(read_statistics({folder_ / "nowhere"}));
 }
 
-TEST_F(Shards, ADrawnPoseDependsOnItsNumberAndTheSeedAlone) {
-  const DrawRanges ranges;
-  const PoseSource few = drawn_poses(scene_, ranges, 7, 5);
-  const PoseSource many = drawn_poses(scene_, ranges, 7, 1'000'000'000);
-  const PoseSource other = drawn_poses(scene_, ranges, 8, 5);
-  for (std::size_t i = 0; i < 5; ++i) {
-    EXPECT_EQ(few.pose(i).X_JP.matrix(), many.pose(i).X_JP.matrix());
-    EXPECT_NE(few.pose(i).X_JP.matrix(), other.pose(i).X_JP.matrix());
-    EXPECT_EQ(few.pose(i).X_JN.has_value(), many.pose(i).X_JN.has_value());
-  }
-  EXPECT_NE(few.digest, other.digest);
+TEST_F(Shards, AreReadBackWithTheirPosesAndPictures) {
+  ASSERT_TRUE(write("set"));
+  SweepDrawer drawer(scene_, options_.sweep);
+  std::size_t i = 0;
+  const auto read = read_sweep(folder_ / "set", [&](const StoredFrame& stored) -> Result<void> {
+    const FrameOrder order = source_.frame(i);
+    EXPECT_TRUE(stored.pose.X_JP.isApprox(order.X_JP, 1e-9)) << i;
+    EXPECT_EQ(stored.pose.X_JN.has_value(), order.X_JN.has_value());
+    if (order.X_JN) {
+      EXPECT_TRUE(stored.pose.X_JN->translation().isApprox(order.X_JN->translation(), 1e-9));
+      EXPECT_GT(stored.pose.X_JN->linear().col(2).dot(order.X_JN->linear().col(2)), 1 - 1e-9);
+    }
+    EXPECT_NEAR(stored.transducer.width, options_.sweep.transducer.width, 1e-12);
+    const SweepFrame frame = drawer.draw(i, order);
+    const cv::Mat& image = frame.pictures[0].second;
+    EXPECT_EQ(stored.grey, std::vector<std::uint8_t>(image.datastart, image.dataend));
+    ++i;
+    return {};
+  });
+  ASSERT_TRUE(read) << read.error().to_string();
+  EXPECT_EQ(i, 10U);
 }
 
-TEST_F(Shards, DrawnPosesFillTheirRangesAndStandOnTheSkin) {
-  DrawRanges ranges;
-  ranges.tilt = ranges.rock = {0, 0};
-  const PoseSource source = drawn_poses(scene_, ranges, 3, 2000);
-  const Pose& middle = scene_->joint().X_JP_default;
-  std::size_t needles = 0;
-  std::size_t flat = 0;  // in the probe's plane
-  double least = 1;
-  double most = -1;
-  for (std::size_t i = 0; i < source.count; ++i) {
-    const ListedPose pose = source.pose(i);
-    ASSERT_TRUE(is_rigid(pose.X_JP));
-    const Vec3 moved = middle.inverse() * pose.X_JP.translation();
-    least = std::min(least, moved.x());
-    most = std::max(most, moved.x());
-    EXPECT_NEAR(scene_->signed_distance_to_skin(pose.X_JP.translation(), 0.1), 0, 1e-9);
-    if (!pose.X_JN) continue;
-    ++needles;
-    const Pose X_PN = pose.X_JP.inverse() * *pose.X_JN;
-    flat += std::abs(X_PN.translation().y()) < 1e-9 && std::abs(X_PN(1, 2)) < 1e-9 ? 1 : 0;
-  }
-  EXPECT_NEAR(least, -10e-3, 0.1e-3);
-  EXPECT_NEAR(most, 10e-3, 0.1e-3);
-  EXPECT_NEAR(static_cast<double>(needles) / 2000, 0.7, 0.035);  // three standard deviations
-  EXPECT_NEAR(static_cast<double>(flat) / static_cast<double>(needles), 0.5, 0.041);
-}
-
-TEST(DrawRanges, AreReadWithEverythingThatIsWrong) {
-  const auto ranges = parse_draw_ranges(
-      "[probe]\nlateral_mm = [-3, 4]\ntilt_deg = [0, 0]\n[needle]\nshare = 0.25\n", "ranges.toml");
-  ASSERT_TRUE(ranges) << ranges.error().to_string();
-  EXPECT_DOUBLE_EQ(ranges->lateral.low, -3e-3);
-  EXPECT_DOUBLE_EQ(ranges->tilt.high, 0);
-  EXPECT_DOUBLE_EQ(ranges->needle_share, 0.25);
-  EXPECT_DOUBLE_EQ(ranges->turn.high, DrawRanges{}.turn.high);
-  const auto bad = parse_draw_ranges(
-      "[probe]\nlateral_mm = [4, -3]\nlaterl_mm = [0, 1]\n[patient]\n[needle]\nshare = 2\n",
-      "ranges.toml");
-  ASSERT_FALSE(bad);
-  for (const char* says : {"[low, high]", "laterl_mm", "patient", "share"})
-    EXPECT_THAT(bad.error().message, HasSubstr(says));
+TEST_F(Shards, ThatAreDamagedAreNotReadBack) {
+  const auto ignore = [](const StoredFrame&) -> Result<void> {
+    return {};
+  };
+  const auto nowhere = read_sweep(folder_ / "nowhere", ignore);
+  ASSERT_FALSE(nowhere);
+  EXPECT_EQ(nowhere.error().code, ErrorCode::not_found);
+  ASSERT_TRUE(write("set"));
+  std::string bytes = *read_bytes(folder_ / "set/shard-000000.tar");
+  const std::size_t picture = bytes.find("\x89PNG");
+  bytes[picture + 60] = static_cast<char>(bytes[picture + 60] ^ 0x55);
+  ASSERT_TRUE(write_text(folder_ / "set/shard-000000.tar", bytes.substr(0, 2000)));
+  EXPECT_FALSE(read_sweep(folder_ / "set", ignore));
+  const auto stopped = read_sweep(folder_ / "set", [](const StoredFrame&) -> Result<void> {
+    return fail(ErrorCode::failed, "enough");
+  });
+  EXPECT_FALSE(stopped);
 }
 
 }  // namespace
