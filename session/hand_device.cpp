@@ -41,6 +41,8 @@ DeviceSample HandDevice::read(std::int64_t now_ns) noexcept {
   sample_.buttons = wanted_.buttons;
   sample_.has_needle = wanted_.has_needle;
   sample_.has_probe = 1;
+  sample_.plunger = wanted_.has_plunger != 0 ? PlungerSign::force : PlungerSign::none;
+  sample_.plunger_force = wanted_.has_plunger != 0 ? wanted_.thumb_force : 0;
   sample_.state = connected_.load(std::memory_order_relaxed) ? PeerState::alive : PeerState::lost;
   return sample_;
 }

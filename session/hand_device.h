@@ -15,6 +15,8 @@ struct HandTarget {
   std::uint32_t buttons = 0;
   std::uint32_t has_needle = 1;
   std::uint32_t probe_jumps = 0;  ///< when it changes, the probe is at X_WP at once
+  double thumb_force = 0;         ///< N on the plunger, positive in
+  std::uint32_t has_plunger = 0;  ///< 1: the thumb is on it
 };
 
 /// A hand that goes where it is told, no faster than a hand moves: mouse and keyboard, a gamepad,

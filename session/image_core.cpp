@@ -5,6 +5,8 @@
 #include <optional>
 #include <utility>
 
+#include "artus/echo/doppler.h"
+
 namespace artus {
 namespace {
 
@@ -18,9 +20,25 @@ ImageCore::ImageCore(std::shared_ptr<const Scene> scene, const SessionParams& pa
       image_(params.image),
       needle_shape_(params.needle_shape),
       controls_(controls_of(params)),
-      renderer_(std::move(scene), params.transducer, params.image),
+      renderer_(scene, params.transducer, params.image),
       images_to_change_(static_cast<std::uint64_t>(std::ceil(kTableTime * params.image_rate))) {
   needle_shape_.length = needle_length_of(params);
+  if (!params.deform) return;
+  auto tissue =
+      TissueCore::make(scene->shared_joint(), scene->joint().X_JP_default, params.image_rate);
+  if (tissue)
+    tissue_.emplace(std::move(*tissue));
+  else
+    refusal_ = tissue.error().message;
+}
+
+void ImageCore::advance(const FrameInput& input) {
+  advanced_ = input.number;
+  if (!tissue_) return;
+  std::optional<Pose> X_JP;
+  if (input.has_probe != 0) X_JP = to_pose(input.X_JP);
+  tissue_->step(X_JP);
+  renderer_.set_scene(tissue_->scene());
 }
 
 void ImageCore::follow(const ImageControls& controls) {
@@ -52,6 +70,7 @@ void ImageCore::start_tables() {
 }
 
 const Frame& ImageCore::render(const FrameInput& input) {
+  if (advanced_ != input.number) advance(input);
   ++images_;
   if (!(input.controls == controls_)) follow(input.controls);
   if (next_.valid() && images_ == due_) take_tables();
@@ -59,8 +78,24 @@ const Frame& ImageCore::render(const FrameInput& input) {
   const bool shown = tables == renderer_.settings() && probe_ == transducer();
   if (!shown && !next_.valid()) start_tables();
   std::optional<NeedleView> needle;
-  if (input.has_needle != 0) needle = NeedleView{to_pose(input.X_JN), needle_shape_};
-  return renderer_.render(to_pose(input.X_JP), needle);
+  if (input.has_needle != 0)
+    needle = NeedleView{to_pose(input.X_JN), needle_shape_, velocity_of_needle(input)};
+  before_ = input;
+  frame_ = &renderer_.render(to_pose(input.X_JP), needle);
+  return *frame_;
+}
+
+Vec3 ImageCore::velocity_of_needle(const FrameInput& input) const noexcept {
+  constexpr std::int64_t kLongest = 500'000'000;  // ns; images further apart tell of no speed
+  const std::int64_t dt = input.sample_time_ns - before_.sample_time_ns;
+  if (!motion_wanted_ || before_.has_needle == 0 || dt <= 0 || dt > kLongest) return Vec3::Zero();
+  const Vec3 way = to_pose(input.X_JN).translation() - to_pose(before_.X_JN).translation();
+  return way / (1e-9 * static_cast<double>(dt));
+}
+
+std::vector<std::uint8_t> ImageCore::motion() const {
+  if (!motion_wanted_ || frame_ == nullptr || frame_->velocity.empty()) return {};
+  return motion_picture(*frame_, renderer_.converter(), renderer_.settings());
 }
 
 }  // namespace artus

@@ -3,10 +3,14 @@
 #include <cstdint>
 #include <future>
 #include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "artus/echo/echo_pipeline.h"
 #include "artus/echo/renderer.h"
 #include "artus/session/session_core.h"
+#include "artus/session/tissue_core.h"
 
 namespace artus {
 
@@ -20,9 +24,26 @@ class ImageCore {
   /// Requires: valid params, a scene.
   ImageCore(std::shared_ptr<const Scene> scene, const SessionParams& params);
 
+  /// The tissue's step to this image's instant, when it gives way; `render` does it otherwise. So
+  /// the probe's hand need not wait for the picture. Cost: TissueCore::step.
+  void advance(const FrameInput& input);
+
   /// Controls that are not valid keep those before. The frame stays valid until the next call.
   /// Cost: an image; waits where new tables are due and not ready.
   const Frame& render(const FrameInput& input);
+
+  /// Whether later images are looked at for what moves. Their greys do not depend on it.
+  void set_motion_wanted(bool wanted) noexcept { motion_wanted_ = wanted; }
+  /// Of the last image: what moves, see motion_picture. The needle moves as it did since the image
+  /// before. Empty unless wanted, and settings have Doppler.
+  [[nodiscard]] std::vector<std::uint8_t> motion() const;
+
+  /// Of the last image: what the tissue answers the probe's hand with; null: the body is rigid.
+  [[nodiscard]] const ProbePacket* packet() const noexcept {
+    return tissue_ ? &tissue_->packet() : nullptr;
+  }
+  /// Why the body is rigid though it should give way; empty: it does, or should not.
+  [[nodiscard]] const std::string& refusal() const noexcept { return refusal_; }
 
   [[nodiscard]] const Transducer& transducer() const noexcept { return renderer_.transducer(); }
   /// Images from the first with a knob in a new place to the first that new tables made.
@@ -30,6 +51,7 @@ class ImageCore {
 
  private:
   void follow(const ImageControls& controls);
+  [[nodiscard]] Vec3 velocity_of_needle(const FrameInput& input) const noexcept;
   void take_tables();
   void start_tables();
 
@@ -38,10 +60,16 @@ class ImageCore {
   NeedleShape needle_shape_;
   ImageControls controls_;
   Renderer renderer_;
+  std::optional<TissueCore> tissue_;  // empty: rigid
+  std::string refusal_;
+  std::uint64_t advanced_ = 0;  // number of the image that the tissue is ready for
   std::uint64_t images_to_change_;
   std::uint64_t images_ = 0;                         // rendered so far
   std::uint64_t due_ = 0;                            // image that takes next_ over
   std::future<std::unique_ptr<EchoPipeline>> next_;  // being made, or empty
+  FrameInput before_;                                // of the last image
+  bool motion_wanted_ = false;
+  const Frame* frame_ = nullptr;  // the last
 };
 
 }  // namespace artus

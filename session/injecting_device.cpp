@@ -12,6 +12,7 @@ constexpr double kBeforeSkin = -12e-3;  // m, tip before the skin at start and e
 constexpr double kWait = 0.5;           // s outside; longer than the guard's ramp
 constexpr double kRest = 0.8;           // s at the target; assumed, as in three-injections
 constexpr double kPress = 0.25;         // s on the bone; assumed
+constexpr double kLongest = 60;         // s of pushing before the hand gives up; assumed
 constexpr double kBoneFelt = 2.5e-3;    // m that the needle lags behind the hand on bone: 4 N
 constexpr double kFastOut = 2.0;        // withdrawal's speed over insertion's
 
@@ -25,7 +26,13 @@ std::vector<OperatorPhase> phases_of(const InjectionPlan& plan) {
   to_target.stop_at_bone = true;
   OperatorPhase to_bone = push_to(plan.deepest, plan.speed);
   to_bone.goal = OperatorPhase::Goal::bone;
-  return {press(kWait), to_target,     stay(kRest),
+  OperatorPhase at_target = stay(kRest);
+  if (plan.volume > 0) {
+    at_target = stay(kLongest);
+    at_target.thumb_force = plan.thumb;
+    at_target.until_given = true;
+  }
+  return {press(kWait), to_target,     at_target,
           to_bone,      press(kPress), pull_to(kBeforeSkin, kFastOut * plan.speed)};
 }
 
@@ -42,12 +49,14 @@ InjectingDevice::InjectingDevice(const InjectionPlan& plan, const DeviceLimits& 
   sample_.state = PeerState::alive;
   sample_.has_needle = 1;
   sample_.has_probe = 1;
+  if (plan.volume > 0) sample_.plunger = PlungerSign::force;
 }
 
 OperatorView InjectingDevice::view() const noexcept {
   const Vec3 meant = person_.intention(loop_.time()).X_JN.translation();
   const double lag = (meant - loop_.motion().X_JN.translation()).dot(plan_.direction_W);
   OperatorView view;
+  view.given = given_ - given_before_ >= plan_.volume;
   view.bone = static_cast<ContactState>(contact_) == ContactState::bone && lag > kBoneFelt;
   return view;
 }
@@ -55,6 +64,9 @@ OperatorView InjectingDevice::view() const noexcept {
 DeviceSample InjectingDevice::read(std::int64_t now_ns) noexcept {
   person_.observe(loop_.time(), loop_.motion().X_JN, view());
   if (person_.done()) person_.begin_again(loop_.time());
+  if (phase() != Phase::rest) given_before_ = given_;
+  const OperatorPhase* present = person_.present();
+  if (plan_.volume > 0) sample_.plunger_force = present != nullptr ? present->thumb_force : 0;
   loop_.advance(motor_, [this](double time) { return person_.intention(time); });
   sample_.X_WN = to_plain(loop_.measured());
   sample_.time_ns = now_ns;
@@ -66,6 +78,7 @@ void InjectingDevice::write(const DeviceFeedback& feedback) noexcept {
   motor_.force = Vec3(feedback.force[0], feedback.force[1], feedback.force[2]);
   motor_.torque = Vec3(feedback.torque[0], feedback.torque[1], feedback.torque[2]);
   contact_ = feedback.contact;
+  given_ = feedback.plunger.given;
 }
 
 }  // namespace artus

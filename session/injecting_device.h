@@ -17,6 +17,8 @@ struct InjectionPlan {
   double target = 20e-3;             ///< m, depth of the tip where the hand rests
   double deepest = 40e-3;            ///< m, where it turns back when no bone is felt
   double speed = 10e-3;              ///< m/s, of the hand's intention
+  double volume = 0;                 ///< m^3 that is given at the target, each time; 0: none
+  double thumb = 8;                  ///< N on the plunger meanwhile
 };
 
 /// A simulated hand on a simulated device, closed loop: the force that artus sends moves the
@@ -46,6 +48,8 @@ class InjectingDevice final : public InputDevice {
   Wrench motor_;
   DeviceSample sample_;
   std::uint32_t contact_ = 0;
+  double given_ = 0;         // m^3, in all
+  double given_before_ = 0;  // when the hand came to the target
 };
 
 }  // namespace artus

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/session/input_device.h"
 
+#include <cmath>
+
 namespace artus {
 
 const char* to_string(PeerState state) noexcept {
@@ -15,6 +17,13 @@ const char* to_string(PeerState state) noexcept {
       return "invalid";
   }
   return "";
+}
+
+bool is_plunger(const DeviceSample& sample) noexcept {
+  constexpr double kFarthest = 1;      // m
+  constexpr double kStrongest = 1000;  // N
+  return sample.plunger <= PlungerSign::force && std::abs(sample.plunger_travel) <= kFarthest &&
+         std::abs(sample.plunger_force) <= kStrongest;
 }
 
 }  // namespace artus

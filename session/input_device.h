@@ -29,6 +29,13 @@ struct Button {
   static constexpr std::uint32_t kExplore = 1U << 1U;    ///< give it up again
 };
 
+/// What a device says of its plunger.
+enum class PlungerSign : std::uint32_t {
+  none,    ///< it has none
+  travel,  ///< where it is: what pushes back is a spring between it and the stopper
+  force    ///< how hard the thumb pushes
+};
+
 /// What a device says in one tick. World frame W. Plain bytes: this is what is recorded.
 struct DeviceSample {
   PlainPose X_WN;            ///< needle
@@ -39,8 +46,25 @@ struct DeviceSample {
   PeerState state = PeerState::absent;
   std::uint32_t has_needle = 0;  ///< 0 or 1
   std::uint32_t has_probe = 0;   ///< 0 or 1
+  double plunger_travel = 0;     ///< m, positive in
+  double plunger_force = 0;      ///< N of the thumb, positive in
+  PlungerSign plunger = PlungerSign::none;
+  std::uint32_t reserved = 0;
 };
 static_assert(std::is_trivially_copyable_v<DeviceSample>);
+
+/// What the syringe does in a tick. Plain bytes.
+struct PlungerFeedback {
+  double thumb_force = 0;    ///< N on the thumb, positive out of the barrel
+  double pressure = 0;       ///< Pa in the barrel
+  double tip_pressure = 0;   ///< Pa around the bevel
+  double flow = 0;           ///< m^3/s out of the tip
+  double travel = 0;         ///< m, positive in
+  double given = 0;          ///< m^3 out of the tip in all
+  double drawn = 0;          ///< m^3 of the patient's own
+  std::uint32_t status = 0;  ///< PlungerStatus bits
+  std::uint32_t reserved = 0;
+};
 
 /// What a device is told in one tick. World frame W.
 struct DeviceFeedback {
@@ -56,7 +80,14 @@ struct DeviceFeedback {
   std::uint32_t status = 0;
   std::uint32_t contact = 0;
   std::uint32_t region = 0;
+  double probe_force[3] = {0, 0, 0};   ///< N, at the face's centre  NOLINT(*-avoid-c-arrays)
+  double probe_torque[3] = {0, 0, 0};  ///< N m  NOLINT(*-avoid-c-arrays)
+  double probe_share = 0;              ///< of the face that presses, 0..1
+  PlungerFeedback plunger;
 };
+
+/// Whether what it says of its plunger can be: finite, within a metre and a kilonewton.
+[[nodiscard]] bool is_plunger(const DeviceSample& sample) noexcept;
 
 /// One source of poses and one sink of forces: a shared-memory peer, a simulated hand, a recorded
 /// file, mouse and keyboard. The haptic thread alone calls read and write.

@@ -23,6 +23,7 @@ struct Recorder::Impl {
   std::unique_ptr<std::FILE, FileCloser> file;
   DroppingRing<TickRecord> ticks{16384};
   DroppingRing<FrameRecord> frames{1024};
+  DroppingRing<PacketRecord> packets{1024};
   std::atomic<std::uint64_t> unwritten{0};  // that the file did not take
   std::atomic<bool> stop{false};
   std::thread thread;
@@ -39,6 +40,8 @@ struct Recorder::Impl {
     while (ticks.pop(tick)) write(RecordStart::kTick, tick);
     FrameRecord frame;
     while (frames.pop(frame)) write(RecordStart::kFrame, frame);
+    PacketRecord packet;
+    while (packets.pop(packet)) write(RecordStart::kPacket, packet);
   }
   void run() {
     while (!stop) {
@@ -77,8 +80,13 @@ void Recorder::add(const FrameRecord& record) noexcept {
   impl_->frames.push(record);
 }
 
+void Recorder::add(const PacketRecord& record) noexcept {
+  impl_->packets.push(record);
+}
+
 std::uint64_t Recorder::dropped() const noexcept {
-  return impl_->ticks.dropped() + impl_->frames.dropped() + impl_->unwritten;
+  return impl_->ticks.dropped() + impl_->frames.dropped() + impl_->packets.dropped() +
+         impl_->unwritten;
 }
 
 }  // namespace artus

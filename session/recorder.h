@@ -23,6 +23,7 @@ class Recorder {
   /// From the haptic thread, and from the imaging thread.
   ARTUS_REALTIME void add(const TickRecord& record) noexcept;
   ARTUS_REALTIME void add(const FrameRecord& record) noexcept;
+  ARTUS_REALTIME void add(const PacketRecord& record) noexcept;
   [[nodiscard]] std::uint64_t dropped() const noexcept;
 
  private:

@@ -15,7 +15,9 @@ namespace {
 constexpr std::size_t kLongestHead = std::size_t{64} * 1024;  // bytes
 constexpr double kFar = 50;  // m from the joint's origin, of any pose that a device can make
 
-static_assert(sizeof(TickRecord) == 216 && sizeof(FrameRecord) == 192, "as documented");
+static_assert(sizeof(TickRecord) == 352 && sizeof(FrameRecord) == 200 &&
+                  sizeof(PacketRecord) == 456,
+              "as documented");
 
 template <class T>
 bool read(std::istream& in, T& value) {
@@ -34,6 +36,8 @@ Result<bool> read_into(std::istream& in, std::vector<T>& records, std::uint64_t&
                 std::string(fault) + " in record " + std::to_string(records.size() + 1), where);
   if constexpr (std::is_same_v<T, TickRecord>)
     last = record.input.tick;
+  else if constexpr (std::is_same_v<T, PacketRecord>)
+    last = record.tick;
   else
     last = record.input.number;
   records.push_back(record);
@@ -44,6 +48,7 @@ Result<bool> read_into(std::istream& in, std::vector<T>& records, std::uint64_t&
 struct Newest {
   std::uint64_t tick = 0;
   std::uint64_t frame = 0;
+  std::uint64_t packet = 0;
 };
 
 /// False at the end or at what a crash cut off.
@@ -55,6 +60,8 @@ Result<bool> read_record(std::istream& in, Recording& recording, Newest& newest,
     return read_into(in, recording.ticks, newest.tick, where);
   if (start.kind == RecordStart::kFrame && start.size == sizeof(FrameRecord))
     return read_into(in, recording.frames, newest.frame, where);
+  if (start.kind == RecordStart::kPacket && start.size == sizeof(PacketRecord))
+    return read_into(in, recording.packets, newest.packet, where);
   if (start.kind == RecordStart::kEnd && start.size == sizeof recording.dropped) {
     recording.complete = read(in, recording.dropped);
     if (recording.complete && in.peek() != std::istream::traits_type::eof())
@@ -82,6 +89,10 @@ TickRecord to_record(const HapticSnapshot& snapshot) noexcept {
   std::copy(std::begin(snapshot.feedback.force), std::end(snapshot.feedback.force), record.force);
   std::copy(std::begin(snapshot.feedback.torque), std::end(snapshot.feedback.torque),
             record.torque);
+  const DeviceFeedback& f = snapshot.feedback;
+  std::copy(std::begin(f.probe_force), std::end(f.probe_force), record.probe_force);
+  std::copy(std::begin(f.probe_torque), std::end(f.probe_torque), record.probe_torque);
+  record.plunger = f.plunger;
   record.status = snapshot.status;
   record.region = snapshot.feedback.region;
   return record;
@@ -95,7 +106,14 @@ const char* find_fault(const TickRecord& record, std::uint64_t last) noexcept {
   if (!is_flag(device.has_needle) || !is_flag(device.has_probe)) return "a flag that is none";
   if ((record.input.command & ~SessionCommand::kAll) != 0 || record.input.reserved != 0)
     return "a command that there is not";
-  if (!all_finite(record.force) || !all_finite(record.torque)) return "a force that is not finite";
+  if (!is_plunger(device) || device.reserved != 0) return "a plunger that is none";
+  const PlungerFeedback& p = record.plunger;
+  const double plunger[] = {p.thumb_force, p.pressure, p.tip_pressure, p.flow,
+                            p.travel,      p.given,    p.drawn};
+  if (!all_finite(plunger) || p.reserved != 0) return "a plunger's answer that is none";
+  if (!all_finite(record.force) || !all_finite(record.torque) || !all_finite(record.probe_force) ||
+      !all_finite(record.probe_torque))
+    return "a force that is not finite";
   return record.region > std::numeric_limits<RegionId>::max() ? "a region that no joint has"
                                                               : nullptr;
 }
@@ -110,6 +128,18 @@ const char* find_fault(const FrameRecord& record, std::uint64_t last) noexcept {
   const double knobs[] = {c.depth,     c.gain_db,        c.tgc_db_cm_mhz, c.dynamic_range_db,
                           c.frequency, c.elevation_focus};
   return all_finite(knobs) ? nullptr : "a knob's place that is no number";
+}
+
+const char* find_fault(const PacketRecord& record, std::uint64_t last) noexcept {
+  if (record.tick <= last) return "a packet that is not after the one before";
+  const ProbePacket& p = record.packet;
+  const auto finite = [](const auto& values) {
+    return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
+  };
+  if (!finite(p.X_JP) || !finite(p.wrench) || !finite(p.stiffness) ||
+      !(p.share >= 0 && p.share <= 1))
+    return "a packet that is none";
+  return nullptr;
 }
 
 Result<Recording> read_recording(std::istream& in, const std::string& where) {

@@ -15,24 +15,36 @@ namespace artus {
 /// A tick as it is kept: what went in, and what came out to compare a replay with.
 struct TickRecord {
   TickInput input;
-  double force[3] = {};   ///< N, frame W  NOLINT(*-avoid-c-arrays)
-  double torque[3] = {};  ///< N m  NOLINT(*-avoid-c-arrays)
+  double force[3] = {};         ///< N, frame W  NOLINT(*-avoid-c-arrays)
+  double torque[3] = {};        ///< N m  NOLINT(*-avoid-c-arrays)
+  double probe_force[3] = {};   ///< N, frame W  NOLINT(*-avoid-c-arrays)
+  double probe_torque[3] = {};  ///< N m  NOLINT(*-avoid-c-arrays)
+  PlungerFeedback plunger;
   std::uint32_t status = 0;
   std::uint32_t region = 0;
 };
 [[nodiscard]] ARTUS_REALTIME TickRecord to_record(const HapticSnapshot& snapshot) noexcept;
 
-/// An image as it is kept: what went in, and the digest of its pixels.
+/// An image as it is kept: what went in, and the digests of what came out.
 struct FrameRecord {
   FrameInput input;
   std::uint64_t digest = 0;
+  std::uint64_t packet = 0;  ///< digest of what the tissue answered the probe with; 0: rigid
 };
+
+/// What the tissue answers the probe with, and the first tick that felt it.
+struct PacketRecord {
+  std::uint64_t tick = 0;
+  ProbePacket packet;
+};
+static_assert(std::is_trivially_copyable_v<PacketRecord>);
 
 /// What stands before each record of the file, and the kinds there are (docs/recording-format.md).
 struct RecordStart {
   static constexpr std::uint32_t kTick = 1;
   static constexpr std::uint32_t kFrame = 2;
   static constexpr std::uint32_t kEnd = 3;
+  static constexpr std::uint32_t kPacket = 4;
   std::uint32_t kind = 0;
   std::uint32_t size = 0;  ///< bytes that follow
 };
@@ -42,6 +54,7 @@ struct Recording {
   RecordingHead head;
   std::vector<TickRecord> ticks;
   std::vector<FrameRecord> frames;
+  std::vector<PacketRecord> packets;
   std::uint64_t dropped = 0;  ///< ticks and frames that did not reach the file
   bool complete = false;      ///< the session ended in good order
 };
@@ -50,6 +63,7 @@ struct Recording {
 /// none. Every pose is one, every flag and count in its range, every result finite.
 [[nodiscard]] const char* find_fault(const TickRecord& record, std::uint64_t last) noexcept;
 [[nodiscard]] const char* find_fault(const FrameRecord& record, std::uint64_t last) noexcept;
+[[nodiscard]] const char* find_fault(const PacketRecord& record, std::uint64_t last) noexcept;
 
 /// Reads a recording; what a crash cut off is left out. Errors: not_found, those of parse_head,
 /// corrupt (a record that cannot be, with its number).

@@ -12,7 +12,10 @@ namespace {
 bool same(const TickRecord& a, const TickRecord& b) noexcept {
   // NOLINTBEGIN(bugprone-suspicious-memory-comparison): a replay gives the same bytes
   return std::memcmp(a.force, b.force, sizeof a.force) == 0 &&
-         std::memcmp(a.torque, b.torque, sizeof a.torque) == 0 && a.status == b.status &&
+         std::memcmp(a.torque, b.torque, sizeof a.torque) == 0 &&
+         std::memcmp(a.probe_force, b.probe_force, sizeof a.probe_force) == 0 &&
+         std::memcmp(a.probe_torque, b.probe_torque, sizeof a.probe_torque) == 0 &&
+         std::memcmp(&a.plunger, &b.plunger, sizeof a.plunger) == 0 && a.status == b.status &&
          a.region == b.region;
   // NOLINTEND(bugprone-suspicious-memory-comparison)
 }
@@ -32,7 +35,10 @@ Result<ReplayReport> replay(const Recording& recording, const std::shared_ptr<co
   report.dropped = recording.dropped;
   report.complete = recording.complete;
   HapticCore haptics(scene, params);
+  auto packet = recording.packets.begin();
   for (const TickRecord& recorded : recording.ticks) {
+    for (; packet != recording.packets.end() && packet->tick <= recorded.input.tick; ++packet)
+      haptics.take(packet->packet);
     const HapticSnapshot& out = haptics.step(recorded.input);
     ++report.ticks;
     if (!same(recorded, to_record(out))) {
@@ -46,7 +52,9 @@ Result<ReplayReport> replay(const Recording& recording, const std::shared_ptr<co
   for (const FrameRecord& recorded : recording.frames) {
     const Frame& frame = images.render(recorded.input);
     ++report.frames;
-    if (digest_of(frame) != recorded.digest) {
+    const ProbePacket* felt = images.packet();
+    const bool same_packet = felt == nullptr || digest_of(*felt) == recorded.packet;
+    if (digest_of(frame) != recorded.digest || !same_packet) {
       if (!report.first_different_frame) report.first_different_frame = recorded.input.number;
       ++report.different_frames;
     }

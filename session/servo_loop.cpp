@@ -32,6 +32,8 @@ void count(const HapticSnapshot& out, ServoReport& report) noexcept {
   if (out.feedback.contact == static_cast<std::uint32_t>(ContactState::bone)) ++report.on_bone;
   const double square = out.force_J[0] * out.force_J[0] + out.force_J[1] * out.force_J[1] +
                         out.force_J[2] * out.force_J[2];
+  report.most_thumb = std::max(report.most_thumb, std::abs(out.feedback.plunger.thumb_force));
+  report.given = out.feedback.plunger.given;
   report.most_force = std::max(report.most_force, std::sqrt(square));
 }
 

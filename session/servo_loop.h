@@ -34,6 +34,8 @@ struct ServoReport {
   std::uint64_t inserted = 0;  ///< ticks with the needle in the body
   std::uint64_t on_bone = 0;
   double most_force = 0;             ///< N sent
+  double most_thumb = 0;             ///< N sent to the plunger
+  double given = 0;                  ///< m^3 out of the needle's tip
   std::vector<std::string> refused;  ///< what the system did not grant, in words
 };
 

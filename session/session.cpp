@@ -27,6 +27,7 @@ TracePoint trace_point_of(const HapticSnapshot& out, double time) noexcept {
   point.lateral = static_cast<float>((force - along * axis).norm());
   point.region = static_cast<std::uint16_t>(out.feedback.region);
   point.contact = static_cast<std::uint16_t>(out.feedback.contact);
+  point.felt = (out.status & TickStatus::kLate) == 0;
   return point;
 }
 
@@ -139,8 +140,18 @@ void Session::run_haptics(const ThreadWishes& wishes) {
   while (!stop_.load(std::memory_order_relaxed)) {
     loop.wait();
     overruns_.store(loop.overruns(), std::memory_order_relaxed);
+    take_packet(loop.ticks() + 1);
     publish(loop.step(take_command()));
   }
+}
+
+/// The newest packet of the tissue, from tick `tick` on.
+void Session::take_packet(std::uint64_t tick) noexcept {
+  ProbePacket packet;
+  if (!packets_.try_load(packet) || packet.number == packet_felt_) return;
+  packet_felt_ = packet.number;
+  core_.take(packet);
+  if (recorder_) recorder_->add(PacketRecord{tick, packet});
 }
 
 std::uint32_t Session::take_command() noexcept {
@@ -177,7 +188,10 @@ void Session::run_imaging(const ThreadWishes& wishes) {
   while (!stop_.load(std::memory_order_relaxed)) {
     schedule.wait();
     try {
-      if (!core) core = std::make_unique<ImageCore>(scene_, params_);
+      if (!core) {
+        core = std::make_unique<ImageCore>(scene_, params_);
+        if (!core->refusal().empty()) tell("the tissue stays rigid: " + core->refusal());
+      }
       if (frozen_.load(std::memory_order_relaxed)) {
         n_images_ = 0;  // a pause is no gap
         share_again();
@@ -200,9 +214,17 @@ void Session::image(ImageCore& core, std::uint64_t number) {
     return;
   const std::int64_t begin = monotonic_ns();
   const FrameInput input = frame_input(snapshot, controls, number);
+  core.advance(input);
+  const ProbePacket* packet = core.packet();
+  if (packet != nullptr) {
+    packets_.store(*packet);
+    times_->tissue_step.add(monotonic_ns() - begin);
+  }
+  core.set_motion_wanted(motion_wanted_);
   const Frame& frame = core.render(input);
   ImageSnapshot& out = images_.slot();
   out.grey.assign(frame.image.begin(), frame.image.end());
+  out.motion = core.motion();
   out.width = frame.width;
   out.height = frame.height;
   out.pixel = frame.pixel;
@@ -211,7 +233,9 @@ void Session::image(ImageCore& core, std::uint64_t number) {
   out.ready_ns = monotonic_ns();
   if (shared_image_) share(out);
   if (on_image_) on_image_(out);
-  if (recorder_) recorder_->add(FrameRecord{input, digest_of(frame)});
+  if (recorder_)
+    recorder_->add(
+        FrameRecord{input, digest_of(frame), packet != nullptr ? digest_of(*packet) : 0});
   times_->image_render.add(out.ready_ns - begin);
   note_image(out.ready_ns);
   if (snapshot.input.device.state == PeerState::alive)

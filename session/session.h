@@ -27,12 +27,14 @@ class ImageCore;
 /// An image as the window gets it.
 struct ImageSnapshot {
   std::vector<std::uint8_t> grey;  ///< (height, width), x fastest
-  int width = 0;                   ///< pixels
-  int height = 0;                  ///< pixels
-  double pixel = 0;                ///< m
-  double probe_width = 0;          ///< m
-  FrameInput input;                ///< what it shows
-  std::int64_t ready_ns = 0;       ///< monotonic clock
+  /// As grey: what moves toward the probe or away, see motion_picture; empty unless it is wanted.
+  std::vector<std::uint8_t> motion;
+  int width = 0;              ///< pixels
+  int height = 0;             ///< pixels
+  double pixel = 0;           ///< m
+  double probe_width = 0;     ///< m
+  FrameInput input;           ///< what it shows
+  std::int64_t ready_ns = 0;  ///< monotonic clock
 };
 
 /// One tick for the force plot.
@@ -43,6 +45,7 @@ struct TracePoint {
   float lateral = 0;  ///< N, norm of the rest
   std::uint16_t region = 0;
   std::uint16_t contact = 0;
+  bool felt = true;  ///< false: the tick was too late, and the force rests
 };
 
 /// Where the time goes; each is written by one thread and may be read by any.
@@ -50,6 +53,7 @@ struct SessionTimes {
   LatencyHistogram haptic_compute;   ///< one tick from the pose to the published force
   LatencyHistogram haptic_cpu;       ///< the same in processor time: without what was taken from it
   LatencyHistogram haptic_lateness;  ///< wake-up after its schedule
+  LatencyHistogram tissue_step;      ///< of the tissue that gives way, with its scene
   LatencyHistogram image_render;
   LatencyHistogram image_interval;  ///< from image to image
   LatencyHistogram image_thirty;    ///< that the last 30 images took: 1 s is 30 Hz
@@ -100,6 +104,9 @@ class Session {
   [[nodiscard]] const Scene& scene() const noexcept { return *scene_; }
   [[nodiscard]] std::string_view device_name() const noexcept { return device_->name(); }
 
+  /// Colour Doppler of later images, see ImageSnapshot::motion. Requires params().image.doppler.
+  void set_motion_wanted(bool wanted) noexcept { motion_wanted_ = wanted; }
+
   // For one thread, the window's.
   void set_controls(const ImageControls& controls) noexcept { controls_.store(controls); }
   [[nodiscard]] const ImageSnapshot* newest_image() noexcept { return images_.newest(); }
@@ -119,6 +126,7 @@ class Session {
   void tell(const std::string& notice);
   void note_image(std::int64_t ready_ns);
   [[nodiscard]] std::uint32_t take_command() noexcept;
+  void take_packet(std::uint64_t tick) noexcept;
   void publish(const HapticSnapshot& out) noexcept;
   void image(ImageCore& core, std::uint64_t number);
   void share(const ImageSnapshot& image);
@@ -138,6 +146,8 @@ class Session {
 
   Seqlock<HapticSnapshot> haptic_;
   Seqlock<ImageControls> controls_;
+  Seqlock<ProbePacket> packets_;
+  std::uint64_t packet_felt_ = 0;  // number of the last that the haptic thread took
   NewestMailbox<ImageSnapshot> images_;
   std::unique_ptr<DroppingRing<TracePoint>> trace_;
   std::atomic<bool> stop_{false};
@@ -156,6 +166,7 @@ class Session {
   std::thread haptic_thread_;
   std::thread imaging_thread_;
   std::thread care_thread_;
+  std::atomic<bool> motion_wanted_{false};
 };
 
 }  // namespace artus

@@ -2,12 +2,14 @@
 #include "artus/session/session_core.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <utility>
 
 #include "artus/core/noise.h"
+#include "artus/operators/probe_hand.h"
 
 namespace artus {
 namespace {
@@ -43,7 +45,11 @@ NeedleRendererParams renderer_params(const SessionParams& params) {
 HapticCore::HapticCore(std::shared_ptr<const Scene> scene, const SessionParams& params)
     : scene_(std::move(scene)),
       needle_(scene_, make_table(scene_, params), renderer_params(params)),
-      gesture_(params.gesture, params.X_WJ) {}
+      gesture_(params.gesture, params.X_WJ),
+      probe_(params.haptic_rate, params.image_rate),
+      probe_guard_(params.guard, ProbeHandParams{}.device, 1 / params.haptic_rate),
+      syringe_(scene_->joint(), params),
+      device_(params.device) {}
 
 void HapticCore::step_needle(const DeviceSample& device, std::uint32_t command) noexcept {
   std::uint32_t why = 0;
@@ -72,6 +78,37 @@ void HapticCore::step_needle(const DeviceSample& device, std::uint32_t command) 
   copy(f.surface, out_.surface_J);
   copy(f.workspace, out_.workspace_J);
   if (!rest) out_.X_JN = to_plain(pose.X_JN);
+}
+
+/// The probe's hand feels the tissue while its pose is known and nobody paused.
+void HapticCore::step_probe(bool felt, const std::optional<Pose>& X_WP) noexcept {
+  std::optional<Pose> X_JP;
+  if (felt && X_WP) X_JP = gesture_.X_WJ().inverse() * *X_WP;
+  std::uint32_t status = 0;
+  const Wrench wrench =
+      probe_guard_.apply(probe_.step(X_JP), X_JP ? TickStatus::kOk : TickStatus::kStale, status);
+  const Eigen::Matrix3d R_WJ = gesture_.X_WJ().linear();
+  copy(R_WJ * wrench.force, out_.feedback.probe_force);
+  copy(R_WJ * wrench.torque, out_.feedback.probe_torque);
+  out_.feedback.probe_share = X_JP ? probe_.share() : 0;
+}
+
+/// The syringe after the needle, whose tip it needs; what of the thumb's force the fingers do not
+/// carry pushes the needle on, within the device's limits.
+void HapticCore::step_syringe(bool runs) noexcept {
+  const NeedleContact& contact = needle_.model().contact();
+  if (runs)
+    syringe_.step(out_.input.device, contact);
+  else
+    syringe_.rest();
+  out_.feedback.plunger = syringe_.feedback();
+  const bool fault = (out_.status & (TickStatus::kFaults | SessionStatus::kNoNeedle)) != 0 || !runs;
+  if (fault || syringe_.on_needle() == 0) return;
+  const Vec3 force = Vec3(out_.force_J[0], out_.force_J[1], out_.force_J[2]) +
+                     syringe_.on_needle() * contact.tick().axis;
+  const Wrench limited = saturate(device_, {force, Vec3::Zero()});
+  copy(limited.force, out_.force_J);
+  copy(gesture_.X_WJ().linear() * limited.force, out_.feedback.force);
 }
 
 void HapticCore::describe() noexcept {
@@ -105,6 +142,11 @@ void HapticCore::take(const TickInput& input) noexcept {
   if (wrong && device.state == PeerState::alive) device.state = PeerState::invalid;
   if (!needle) device.X_WN = before.X_WN;
   if (!probe) device.X_WP = before.X_WP;
+  if (is_plunger(device) && device.reserved == 0) return;
+  if (device.state == PeerState::alive) device.state = PeerState::invalid;
+  device.plunger = PlungerSign::none;
+  device.plunger_travel = device.plunger_force = 0;
+  device.reserved = 0;
 }
 
 const HapticSnapshot& HapticCore::step(const TickInput& input) noexcept {
@@ -114,12 +156,21 @@ const HapticSnapshot& HapticCore::step(const TickInput& input) noexcept {
   const bool paused = (input.command & SessionCommand::kPause) != 0;
   std::optional<Pose> X_WP;
   if (alive && device.has_probe != 0) X_WP = to_pose(device.X_WP);
-  if ((input.command & SessionCommand::kReset) != 0) gesture_.reset();
-  if (alive && !paused) gesture_.step(*scene_, device.buttons, X_WP);
+  if ((input.command & SessionCommand::kReset) != 0) {
+    gesture_.reset();
+    syringe_.reset();
+  }
+  // No entry is chosen while the needle is in the body.
+  const std::optional<Pose> choosing = out_.inserted == 0 ? X_WP : std::nullopt;
+  if (alive && !paused) gesture_.step(*scene_, device.buttons, choosing);
   out_.phase = gesture_.phase();
   out_.X_WJ = to_plain(gesture_.X_WJ());
   if (X_WP) out_.X_JP = to_plain(gesture_.X_WJ().inverse() * *X_WP);
   step_needle(device, input.command);
+  const bool runs =
+      alive && (input.command & (SessionCommand::kPause | SessionCommand::kLate)) == 0;
+  step_syringe(runs);
+  step_probe(runs, X_WP);
   describe();
   return out_;
 }
@@ -141,6 +192,18 @@ FrameInput frame_input(const HapticSnapshot& snapshot, const ImageControls& cont
   input.has_needle = snapshot.input.device.has_needle;
   input.has_probe = snapshot.input.device.has_probe;
   return input;
+}
+
+std::uint64_t digest_of(const ProbePacket& packet) noexcept {
+  std::uint64_t digest = mix_bits(packet.number);
+  const auto add = [&digest](double value) {
+    digest = mix_bits(digest ^ std::bit_cast<std::uint64_t>(value));
+  };
+  std::for_each(packet.X_JP.begin(), packet.X_JP.end(), add);
+  std::for_each(packet.wrench.begin(), packet.wrench.end(), add);
+  std::for_each(packet.stiffness.begin(), packet.stiffness.end(), add);
+  add(packet.share);
+  return digest;
 }
 
 std::uint64_t digest_of(const Frame& frame) noexcept {

@@ -7,8 +7,10 @@
 
 #include "artus/echo/renderer.h"
 #include "artus/haptics/needle/needle_renderer.h"
+#include "artus/haptics/probe/probe_tangent.h"
 #include "artus/session/input_device.h"
 #include "artus/session/session_params.h"
+#include "artus/session/syringe_core.h"
 #include "artus/session/two_phase_gesture.h"
 
 namespace artus {
@@ -70,17 +72,29 @@ class HapticCore {
   /// Requires: valid params, a scene.
   HapticCore(std::shared_ptr<const Scene> scene, const SessionParams& params);
 
+  /// What the tissue answers the probe's hand with from the next tick on.
+  ARTUS_REALTIME void take(const ProbePacket& packet) noexcept { probe_.take(packet); }
+
   /// One period. Errors: none; the status says what was wrong, and then the force is zero.
   ARTUS_REALTIME const HapticSnapshot& step(const TickInput& input) noexcept;
+
+  /// For who replays: volumes and places, between two ticks.
+  [[nodiscard]] const SyringeCore& syringe() const noexcept { return syringe_; }
 
  private:
   void take(const TickInput& input) noexcept;
   void step_needle(const DeviceSample& device, std::uint32_t command) noexcept;
+  void step_probe(bool felt, const std::optional<Pose>& X_WP) noexcept;
+  void step_syringe(bool runs) noexcept;
   void describe() noexcept;
 
   std::shared_ptr<const Scene> scene_;
   NeedleRenderer needle_;
   TwoPhaseGesture gesture_;
+  ProbeTangent probe_;
+  OutputGuard probe_guard_;
+  SyringeCore syringe_;
+  DeviceLimits device_;
   HapticSnapshot out_;
 };
 
@@ -114,5 +128,7 @@ static_assert(std::is_trivially_copyable_v<FrameInput>);
 
 /// A number that two images share only when their bytes are the same, as far as 64 bits can tell.
 [[nodiscard]] std::uint64_t digest_of(const Frame& frame) noexcept;
+/// The same of a packet.
+[[nodiscard]] std::uint64_t digest_of(const ProbePacket& packet) noexcept;
 
 }  // namespace artus

@@ -11,11 +11,23 @@ namespace artus {
 
 // The named members, for visit_fields (core/fields.h).
 
+template <Like<SyringeChoice> P, class F>
+void fields_of(P& choice, F&& visit) {
+  auto& [gauge, filled, barrel, air, unbalanced, liquid, seed] = choice;
+  visit("gauge", gauge);
+  visit("filled", filled);
+  visit("barrel", barrel);
+  visit("air", air);
+  visit("unbalanced", unbalanced);
+  visit("liquid", liquid);
+  visit("seed", seed);
+}
+
 /// All but the feel, whose choices may be unset, and the joint's place.
 template <Like<SessionParams> P, class F>
 void fields_of(P& params, F&& visit) {
   auto& [haptic_rate, image_rate, device, needle, passivity, guard, feel, gesture, X_WJ, transducer,
-         image, needle_shape] = params;
+         image, needle_shape, syringe, deform] = params;
   visit("haptic_rate", haptic_rate);
   visit("image_rate", image_rate);
   visit("device", device);
@@ -26,6 +38,8 @@ void fields_of(P& params, F&& visit) {
   visit("transducer", transducer);
   visit("image", image);
   visit("needle_shape", needle_shape);
+  visit("syringe", syringe);
+  visit("deform", deform);
 }
 
 }  // namespace artus

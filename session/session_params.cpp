@@ -76,6 +76,7 @@ Result<void> validate(const SessionParams& params) {
   ARTUS_TRY(validate(params.gesture));
   ARTUS_TRY(validate(params.needle_shape));
   ARTUS_TRY(validate(params.feel));
+  ARTUS_TRY(make_plunger_params(params.syringe, needle_length_of(params)));
   ARTUS_TRY(validate(params.transducer));
   return validate(params.image);
 }

@@ -9,6 +9,7 @@
 #include "artus/haptics/guard.h"
 #include "artus/haptics/needle/needle_feel.h"
 #include "artus/haptics/passivity.h"
+#include "artus/haptics/plunger/syringe_choice.h"
 #include "artus/session/two_phase_gesture.h"
 
 namespace artus {
@@ -28,6 +29,8 @@ struct SessionParams {
   Transducer transducer;
   ImageSettings image;
   NeedleShape needle_shape;  ///< of its length: see needle_length_of
+  SyringeChoice syringe;
+  bool deform = false;  ///< tissue gives way to the probe, in the picture and in its hand
 };
 
 /// m, hub to tip: the one length that the contact and the picture take.

@@ -15,10 +15,17 @@ PlainPose plain_pose(const double (&position)[3], const double (&rotation)[4]) n
   return pose;
 }
 
-constexpr std::uint32_t kKnownPresence = ARTUS_SHM_NEEDLE | ARTUS_SHM_PROBE;
+constexpr std::uint32_t kPlunger = ARTUS_SHM_PLUNGER_TRAVEL | ARTUS_SHM_PLUNGER_FORCE;
+constexpr std::uint32_t kKnownPresence = ARTUS_SHM_NEEDLE | ARTUS_SHM_PROBE | kPlunger;
+
+PlungerSign plunger_sign(std::uint32_t present) noexcept {
+  if ((present & ARTUS_SHM_PLUNGER_TRAVEL) != 0) return PlungerSign::travel;
+  return (present & ARTUS_SHM_PLUNGER_FORCE) != 0 ? PlungerSign::force : PlungerSign::none;
+}
 
 bool is_believable(const artus_shm_pos& pos, const DeviceSample& sample) noexcept {
-  return (pos.present & ~kKnownPresence) == 0 && (sample.has_needle == 0 || is_pose(sample.X_WN)) &&
+  return (pos.present & ~kKnownPresence) == 0 && (pos.present & kPlunger) != kPlunger &&
+         is_plunger(sample) && (sample.has_needle == 0 || is_pose(sample.X_WN)) &&
          (sample.has_probe == 0 || is_pose(sample.X_WP));
 }
 
@@ -34,6 +41,9 @@ void PosReader::take(const artus_shm_pos& pos, std::int64_t now_ns) noexcept {
   sample.buttons = pos.buttons;
   sample.has_needle = (pos.present & ARTUS_SHM_NEEDLE) != 0 ? 1 : 0;
   sample.has_probe = (pos.present & ARTUS_SHM_PROBE) != 0 ? 1 : 0;
+  sample.plunger = plunger_sign(pos.present);
+  if (sample.plunger == PlungerSign::travel) sample.plunger_travel = pos.plunger_travel;
+  if (sample.plunger == PlungerSign::force) sample.plunger_force = pos.plunger_force;
   constexpr std::int64_t kClockSlack = 1'000'000;  // ns between reading the clock here and there
   const bool sound = age > -kClockSlack && is_believable(pos, sample);
   sample.state = !sound               ? PeerState::invalid
@@ -42,6 +52,10 @@ void PosReader::take(const artus_shm_pos& pos, std::int64_t now_ns) noexcept {
   if (sound) number_ = pos.sample;
   if (!sound || sample.has_needle == 0) sample.X_WN = last_.X_WN;
   if (!sound || sample.has_probe == 0) sample.X_WP = last_.X_WP;
+  if (!sound) {
+    sample.plunger_travel = last_.plunger_travel;
+    sample.plunger_force = 0;
+  }
   last_ = sample;
   heard_ns_ = now_ns;
 }
@@ -119,6 +133,20 @@ void SharedMemoryDevice::write(const DeviceFeedback& feedback) noexcept {
   out.pos_time_ns = static_cast<std::uint64_t>(feedback.sample_time_ns);
   std::copy(std::begin(feedback.force), std::end(feedback.force), std::begin(out.force));
   std::copy(std::begin(feedback.torque), std::end(feedback.torque), std::begin(out.torque));
+  std::copy(std::begin(feedback.probe_force), std::end(feedback.probe_force),
+            std::begin(out.probe_force));
+  std::copy(std::begin(feedback.probe_torque), std::end(feedback.probe_torque),
+            std::begin(out.probe_torque));
+  out.probe_share = feedback.probe_share;
+  const PlungerFeedback& plunger = feedback.plunger;
+  out.thumb_force = plunger.thumb_force;
+  out.pressure = plunger.pressure;
+  out.tip_pressure = plunger.tip_pressure;
+  out.flow = plunger.flow;
+  out.travel = plunger.travel;
+  out.given = plunger.given;
+  out.drawn = plunger.drawn;
+  out.plunger_status = plunger.status;
   out.stiffness = feedback.stiffness;
   out.cutting_force = feedback.cutting_force;
   out.depth = feedback.depth;

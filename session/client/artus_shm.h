@@ -324,7 +324,10 @@ static inline int artus_shm_open(artus_shm_link* link, const char* prefix) {
   if (!artus_shm_is_prefix(prefix)) return errno = EINVAL, -1;
   memcpy(link->prefix, prefix, strlen(prefix) + 1);
   link->refusal = "POS";
-  if (artus_shm_follow_pos(link) != 0) return -1;
+  if (artus_shm_follow_pos(link) != 0) {
+    if (errno == EPROTO) link->refusal = "POS is of another version of artus' shared memory";
+    return -1;
+  }
   link->refusal = "FORCE";
   if (artus_shm_follow_force(link) != 0) {
     const int why = errno;

@@ -5,7 +5,7 @@
 #define ARTUS_SHM_LAYOUT_H
 #include <stdint.h>
 
-#define ARTUS_SHM_VERSION 1u
+#define ARTUS_SHM_VERSION 3u
 #define ARTUS_SHM_MAGIC_POS 0x31534f5053545241ull   /* "ARTSPOS1" */
 #define ARTUS_SHM_MAGIC_FORCE 0x3143524653545241ull /* "ARTSFRC1" */
 #define ARTUS_SHM_MAGIC_IMAGE 0x31474d4953545241ull /* "ARTSIMG1" */
@@ -27,7 +27,13 @@ typedef struct artus_shm_header {
   uint64_t sequence;   /* 56 odd while the payload is being written */
 } artus_shm_header;
 
-enum { ARTUS_SHM_NEEDLE = 1u, ARTUS_SHM_PROBE = 2u }; /* artus_shm_pos.present */
+/* artus_shm_pos.present; of the two of a plunger only one. */
+enum {
+  ARTUS_SHM_NEEDLE = 1u,
+  ARTUS_SHM_PROBE = 2u,
+  ARTUS_SHM_PLUNGER_TRAVEL = 4u,
+  ARTUS_SHM_PLUNGER_FORCE = 8u
+};
 
 /* POS: where needle and probe are, written by the device program. World frame W, metres.
  * Needle: origin at the tip, z from hub to tip. Probe: origin at the footprint's centre, x along
@@ -39,9 +45,11 @@ typedef struct artus_shm_pos {
   double needle_rotation[4]; /*  40 */
   double probe_position[3];  /*  72 m */
   double probe_rotation[4];  /*  96 */
-  uint32_t buttons; /* 128 bit 0: choose the entry point and calibrate; 1: back to exploring */
-  uint32_t present; /* 132 ARTUS_SHM_NEEDLE | ARTUS_SHM_PROBE */
-} artus_shm_pos;    /* 136 */
+  uint32_t buttons;      /* 128 bit 0: choose the entry point and calibrate; 1: back to exploring */
+  uint32_t present;      /* 132 ARTUS_SHM_NEEDLE | ARTUS_SHM_PROBE | one of ARTUS_SHM_PLUNGER_... */
+  double plunger_travel; /* 136 m, positive in, from where the plunger was when it was new */
+  double plunger_force;  /* 144 N of the thumb, positive pushes in */
+} artus_shm_pos;         /* 152 */
 
 /* artus_shm_force.status: bits 0-10 are those of artus' needle tick (docs/protocol.md). */
 enum {
@@ -69,7 +77,20 @@ typedef struct artus_shm_force {
   uint32_t layer;       /* 112 index of the region at the tip, 0: outside */
   uint32_t reserved;    /* 116 zero */
   char layer_name[40];  /* 120 its name, zero-terminated */
-} artus_shm_force;      /* 160 */
+  double
+      probe_force[3]; /* 160 N on the probe's hand, at the face's centre; 0 where tissue is rigid */
+  double probe_torque[3];  /* 184 N m */
+  double probe_share;      /* 208 of the face that presses, 0..1 */
+  double thumb_force;      /* 216 N on the thumb, positive out of the barrel */
+  double pressure;         /* 224 Pa in the barrel */
+  double tip_pressure;     /* 232 Pa of what lies around the bevel */
+  double flow;             /* 240 m3/s out of the tip; negative: drawn in */
+  double travel;           /* 248 m of the plunger, positive in */
+  double given;            /* 256 m3 out of the tip since the syringe was new */
+  double drawn;            /* 264 m3 of the patient's own in the syringe */
+  uint32_t plunger_status; /* 272 bits, see docs/protocol.md */
+  uint32_t reserved2;      /* 276 zero */
+} artus_shm_force;         /* 280 */
 
 /* IMAGE: the newest B-mode frame, written by artus. */
 typedef struct artus_shm_image {

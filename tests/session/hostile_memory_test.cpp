@@ -20,11 +20,6 @@
 namespace artus {
 namespace {
 
-void sleep_us(std::int64_t us) {
-  const timespec pause{us / 1'000'000, us % 1'000'000 * 1000};
-  nanosleep(&pause, nullptr);
-}
-
 /// A session that serves names of its own, and a client.
 class HostileMemory : public ::testing::Test {
  protected:
@@ -57,7 +52,7 @@ class HostileMemory : public ::testing::Test {
     pos.present = ARTUS_SHM_NEEDLE | ARTUS_SHM_PROBE;
     pos.needle_position[2] = -10e-3;
     artus_shm_write_pos(&link_, &pos);
-    sleep_us(1000);
+    test::sleep_us(1000);
     return artus_shm_read_force(&link_, &force_) == 1 && (force_.status & 0xffff0000U) == 0;
   }
   bool talk_until_answered() {
@@ -68,7 +63,7 @@ class HostileMemory : public ::testing::Test {
   bool wait_for(const std::function<bool()>& condition) {
     for (int i = 0; i < 5000; ++i) {
       if (condition()) return true;
-      sleep_us(1000);
+      test::sleep_us(1000);
     }
     return false;
   }
@@ -219,7 +214,7 @@ TEST_F(HostileMemory, ImageGoesOnWhileFrozenAndWithoutAProbe) {
   ASSERT_TRUE(wait_for([&] { return artus_shm_open_image(&screen, prefix_.c_str()) == 0; }));
   ASSERT_TRUE(sees_image(screen));
   session_->set_frozen(true);
-  sleep_us(200'000);
+  test::sleep_us(200'000);
   const std::uint64_t beat = screen.image.header->heartbeat;
   ASSERT_TRUE(wait_for([&] { return screen.image.header->heartbeat > beat + 3; }));
   const std::uint64_t frame = image_->frame;

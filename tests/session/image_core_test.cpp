@@ -2,8 +2,10 @@
 // Knobs of a running session: which image shows them, whatever the threads do meanwhile.
 #include "artus/session/image_core.h"
 
+#include <algorithm>
 #include <chrono>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -46,6 +48,36 @@ TEST_F(Knobs, GainShowsInTheNextImage) {
   controls_.gain_db += 12;
   const FrameInput input = input_at(controls_, 2);
   EXPECT_EQ(digest_of(core_.render(input)), digest_of_fresh(params_, input));
+}
+
+TEST(MotionOfImages, APushedNeedleIsBlueARestingOneIsNotSeenAndTheGreysStayTheSame) {
+  SessionParams params = test::make_small_session();
+  params.image.doppler = true;
+  params.image.doppler_limit = 0.05;
+  ImageCore core(test::make_layered_scene(), params);
+  ImageCore plain(test::make_layered_scene(), params);
+  core.set_motion_wanted(true);
+  const auto pushed_to = [&](double z, std::uint64_t number) {
+    FrameInput input = input_at(controls_of(params), number);
+    const Vec3 axis = Vec3(1, 0, 0.35).normalized();  // flat: it returns a strong echo
+    input.X_JN = to_plain(make_pose(z * axis, axis, Vec3::UnitX()));
+    input.X_JP = to_plain(make_pose(Vec3(0.01, 0, 0), Vec3::UnitZ(), Vec3::UnitX()));
+    input.sample_time_ns = static_cast<std::int64_t>(number) * 33'000'000;
+    EXPECT_EQ(digest_of(core.render(input)), digest_of(plain.render(input))) << number;
+    const std::vector<std::uint8_t> motion = core.motion();
+    return std::pair(
+        std::count_if(motion.begin(), motion.end(), [](int m) { return m > 0 && m < 128; }),
+        std::count_if(motion.begin(), motion.end(), [](int m) { return m >= 128; }));
+  };
+  EXPECT_EQ(pushed_to(20e-3, 1), std::pair(0L, 0L)) << "nothing is known of the first image";
+  const auto pushed = pushed_to(21e-3, 2);  // 30 mm/s
+  EXPECT_GT(pushed.first, 20);
+  EXPECT_EQ(pushed.second, 0);
+  EXPECT_EQ(pushed_to(21e-3, 3), std::pair(0L, 0L)) << "it rests";
+  const auto pulled = pushed_to(20e-3, 4);
+  EXPECT_EQ(pulled.first, 0);
+  EXPECT_GT(pulled.second, 20);
+  EXPECT_TRUE(plain.motion().empty());
 }
 
 TEST_F(Knobs, DepthShowsAFixedNumberOfImagesLaterAndNoneIsMissing) {

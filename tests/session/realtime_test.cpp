@@ -24,13 +24,13 @@ namespace {
 
 using test::use;
 
-constexpr std::int64_t kMillisecond = 1'000'000;  // ns
+constexpr std::int64_t kTickTime = 1'000'000;  // ns
 
 /// Reads and writes a device for `ticks` ms under the counters.
 template <class Device>
 void run_device(Device& device, int ticks) {
   for (int i = 0; i < ticks; ++i) {
-    use(device.read(i * kMillisecond));
+    use(device.read(i * kTickTime));
     device.write({});
   }
 }
@@ -64,6 +64,21 @@ TEST(RealTimeSession, TheInjectingHandNeitherAllocatesNorLocks) {
   ARTUS_RUNS_REALTIME(InjectingDevice::write, device.write({}));
 }
 
+TEST(RealTimeSession, TheSyringeNeitherAllocatesNorLocks) {
+  const auto scene = test::make_layered_scene();
+  SyringeCore syringe(scene->joint(), test::make_small_session());
+  const LayerTable table = make_layer_table(scene->joint(), {});
+  const NeedleContact contact({}, {}, table, 1e-3);
+  DeviceSample sample = test::sample_at(5e-3, kTickTime, 1);
+  sample.plunger = PlungerSign::force;
+  sample.plunger_force = 20;
+  ARTUS_RUNS_REALTIME(SyringeCore::step,
+                      for (int k = 0; k < 500; ++k) syringe.step(sample, contact));
+  EXPECT_GT(syringe.feedback().given, 0);
+  ARTUS_RUNS_REALTIME(SyringeCore::rest, syringe.rest());
+  ARTUS_RUNS_REALTIME(SyringeCore::reset, syringe.reset());
+}
+
 TEST(RealTimeSession, CoreAndLoopNeitherAllocateNorLockOnTheWayToBone) {
   const auto scene = test::make_layered_scene();
   HapticCore core(scene, test::make_small_session());
@@ -71,10 +86,13 @@ TEST(RealTimeSession, CoreAndLoopNeitherAllocateNorLockOnTheWayToBone) {
   for (int i = 0; i < 2000; ++i) {
     TickInput input;
     input.tick = static_cast<std::uint64_t>(i) + 1;
-    input.device = test::sample_at(-5e-3 + 2e-5 * i, i * kMillisecond, input.tick);
+    input.device = test::sample_at(-5e-3 + 2e-5 * i, i * kTickTime, input.tick);
     if (i == 1500) input.device.X_WN.position[0] = std::nan("");
     ARTUS_RUNS_REALTIME(HapticCore::step, inserted = core.step(input).inserted != 0 || inserted);
     ARTUS_RUNS_REALTIME(to_record, use(to_record(core.step(input))));
+    ProbePacket packet;
+    packet.number = input.tick;
+    ARTUS_RUNS_REALTIME(HapticCore::take, core.take(packet));
   }
   EXPECT_TRUE(inserted);
   HandDevice device(hand_at(-5e-3), 1e-3);
@@ -124,12 +142,12 @@ TEST(RealTimeSession, ClocksAndCountsNeitherAllocateNorLock) {
   LatencyHistogram histogram;
   ARTUS_RUNS_REALTIME(LatencyHistogram::add, histogram.add(1000));
   ARTUS_RUNS_REALTIME(LatencyHistogram::add_with_missed,
-                      histogram.add_with_missed(5 * kMillisecond, kMillisecond));
+                      histogram.add_with_missed(5 * kTickTime, kTickTime));
   EXPECT_EQ(histogram.count(), 6U);
   ARTUS_RUNS_REALTIME(monotonic_ns, use(monotonic_ns()));
   ARTUS_RUNS_REALTIME(thread_cpu_ns, use(thread_cpu_ns()));
-  LateWatch watch(kMillisecond);
-  ARTUS_RUNS_REALTIME(LateWatch::step, use(watch.step(30 * kMillisecond)));
+  LateWatch watch(kTickTime);
+  ARTUS_RUNS_REALTIME(LateWatch::step, use(watch.step(30 * kTickTime)));
 }
 
 class RealTimeFiles : public test::TemporaryFolder {};
@@ -143,6 +161,8 @@ TEST_F(RealTimeFiles, RecordingATickOrAFrameNeitherAllocatesNorLocks) {
   const FrameRecord frame;
   ARTUS_RUNS_REALTIME(Recorder::add, (*recorder)->add(tick));
   ARTUS_RUNS_REALTIME(Recorder::add, (*recorder)->add(frame));
+  const PacketRecord packet;
+  ARTUS_RUNS_REALTIME(Recorder::add, (*recorder)->add(packet));
   EXPECT_EQ((*recorder)->dropped(), 0U);
 }
 
@@ -179,13 +199,13 @@ TEST_F(RealTimeSharedMemory, TheDeviceBehindItNeitherAllocatesNorLocks) {
   PosReader reader;
   artus_shm_pos pos = artus_shm_pos_init();
   pos.sample = 1;
-  ARTUS_RUNS_REALTIME(PosReader::accept, use(reader.accept(true, pos, kMillisecond)));
+  ARTUS_RUNS_REALTIME(PosReader::accept, use(reader.accept(true, pos, kTickTime)));
   auto device = SharedMemoryDevice::open(prefix_, {"outside", "beyond", "skin"});
   ASSERT_TRUE(device) << device.error().to_string();
   DeviceFeedback feedback;
   feedback.region = 2;
   ARTUS_RUNS_REALTIME(SharedMemoryDevice::write, (*device)->write(feedback));
-  ARTUS_RUNS_REALTIME(SharedMemoryDevice::read, use((*device)->read(kMillisecond)));
+  ARTUS_RUNS_REALTIME(SharedMemoryDevice::read, use((*device)->read(kTickTime)));
 }
 
 }  // namespace

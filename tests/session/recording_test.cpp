@@ -46,11 +46,6 @@ std::string file_of(const TickRecord& tick, const FrameRecord& frame) {
   return bytes;
 }
 
-Result<Recording> parse(const std::string& bytes) {
-  std::istringstream in(bytes);
-  return read_recording(in, "here");
-}
-
 struct Wrong {
   const char* name;
   void (*spoil)(TickRecord&, FrameRecord&);
@@ -61,9 +56,9 @@ class WrongRecord : public ::testing::TestWithParam<Wrong> {};
 TEST_P(WrongRecord, IsRefused) {
   TickRecord tick = sound_tick(2);
   FrameRecord frame = sound_frame(1);
-  ASSERT_TRUE(parse(file_of(tick, frame)));
+  ASSERT_TRUE(test::parse_recording(file_of(tick, frame)));
   GetParam().spoil(tick, frame);
-  const auto recording = parse(file_of(tick, frame));
+  const auto recording = test::parse_recording(file_of(tick, frame));
   ASSERT_FALSE(recording);
   EXPECT_EQ(recording.error().code, ErrorCode::corrupt);
   EXPECT_FALSE(recording.error().message.empty());
@@ -105,6 +100,18 @@ const Wrong kWrongs[] = {
     {"Reserved",
      [](TickRecord& tick, FrameRecord&) {
        tick.input.reserved = 1;
+     }},
+    {"PlungerTravel",
+     [](TickRecord& tick, FrameRecord&) {
+       tick.input.device.plunger_travel = kNan;
+     }},
+    {"PlungerSign",
+     [](TickRecord& tick, FrameRecord&) {
+       tick.input.device.plunger = static_cast<PlungerSign>(3);
+     }},
+    {"PlungerAnswer",
+     [](TickRecord& tick, FrameRecord&) {
+       tick.plunger.pressure = kNan;
      }},
     {"TickTwice",
      [](TickRecord& tick, FrameRecord&) {
@@ -148,14 +155,14 @@ INSTANTIATE_TEST_SUITE_P(Kinds, WrongRecord, ::testing::ValuesIn(kWrongs),
                          [](const auto& wrong) { return std::string(wrong.param.name); });
 
 TEST(Recording, SomethingAfterItsEndIsRefused) {
-  EXPECT_FALSE(parse(file_of(sound_tick(2), sound_frame(1)) + "x"));
+  EXPECT_FALSE(test::parse_recording(file_of(sound_tick(2), sound_frame(1)) + "x"));
 }
 
 TEST(Recording, CutOffAnywhereItGivesWhatThereIsOrARefusal) {
   const std::string bytes = file_of(sound_tick(2), sound_frame(1));
   const std::size_t head = bytes.find('\n');
   for (std::size_t n = 0; n < bytes.size(); n += n < head ? 97 : 1) {
-    const auto recording = parse(bytes.substr(0, n));
+    const auto recording = test::parse_recording(bytes.substr(0, n));
     if (n < head)
       EXPECT_FALSE(recording) << n;
     else
@@ -169,7 +176,7 @@ TEST(Recording, BytesTurnedAtRandomNeverGiveAPoseThatIsNone) {
     std::string spoiled = bytes;
     for (std::uint64_t k = 0; k < 1 + i % 4; ++k)
       spoiled[mix_bits(7 * i + k) % spoiled.size()] = static_cast<char>(mix_bits(i * 31 + k));
-    const auto recording = parse(spoiled);
+    const auto recording = test::parse_recording(spoiled);
     if (!recording) continue;
     for (const TickRecord& tick : recording->ticks)
       ASSERT_TRUE(is_pose(tick.input.device.X_WN) && is_pose(tick.input.device.X_WP));

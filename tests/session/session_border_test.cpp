@@ -25,11 +25,6 @@ namespace {
 
 constexpr std::int64_t kMillisecond = 1'000'000;  // ns
 
-void sleep_us(std::int64_t us) {
-  const timespec pause{us / 1'000'000, us % 1'000'000 * 1000};
-  nanosleep(&pause, nullptr);
-}
-
 Session::Options plain_options() {
   Session::Options options;
   options.haptic_wishes = {};
@@ -76,7 +71,7 @@ TEST(SessionTick, DoesNotAllocate) {
         Session::start(test::make_layered_scene(), test::make_small_session(),
                        std::make_unique<CountingDevice>(std::move(hand), allocations), options);
     ASSERT_TRUE(session) << session.error().to_string();
-    for (int i = 0; i < 2000 && allocations < 0; ++i) sleep_us(10'000);
+    for (int i = 0; i < 2000 && allocations < 0; ++i) test::sleep_us(10'000);
   }
   std::filesystem::remove(options.recording);
   EXPECT_EQ(allocations, 0) << "from waking to sleeping, with a recorder and readers";
@@ -131,7 +126,7 @@ TEST_F(Border, AHandThatFallsSilentInTheTissueFeelsNothingWithinTwentyMillisecon
       pos.sample = pos.time_ns;
       last_ns = pos.time_ns;
       artus_shm_write_pos(&link, &pos);
-      sleep_us(1000);
+      test::sleep_us(1000);
     }
     ASSERT_EQ(artus_shm_read_force(&link, &force), 1);
     if (norm_of(force) > 0.3) ++felt;
@@ -140,7 +135,7 @@ TEST_F(Border, AHandThatFallsSilentInTheTissueFeelsNothingWithinTwentyMillisecon
     for (int i = 0; i < 100; ++i) {
       if (artus_shm_read_force(&link, &force) == 1 && norm_of(force) > 0)
         oldest = std::max(oldest, static_cast<std::int64_t>(force.time_ns - last_ns));
-      sleep_us(500);
+      test::sleep_us(500);
     }
     longest = std::max(longest, oldest);
   }
@@ -212,7 +207,7 @@ TEST_F(Border, GarbageAllOverPosNeverGivesAForceThatIsNotFiniteOrOverTheLimit) {
       for (const double t : force.torque) ASSERT_TRUE(std::isfinite(t));
       most = std::max(most, norm_of(force));
     }
-    if (i % 4 == 3) sleep_us(400);
+    if (i % 4 == 3) test::sleep_us(400);
   }
   EXPECT_GT(looked, 1000U);
   EXPECT_LE(most, params_.device.force * (1 + 1e-12));
@@ -230,7 +225,7 @@ TEST_F(Border, GarbageAllOverPosNeverGivesAForceThatIsNotFiniteOrOverTheLimit) {
     artus_shm_pos pos = pose_at(-10e-3);
     pos.sample = pos.time_ns;
     artus_shm_write_pos(&link, &pos);
-    sleep_us(1000);
+    test::sleep_us(1000);
     alive = artus_shm_read_force(&link, &force) == 1 && (force.status & 0xffff0000U) == 0;
   }
   EXPECT_TRUE(alive);

@@ -41,7 +41,7 @@ class SessionCore : public ::testing::Test {
   }
 };
 
-double norm_of(const DeviceFeedback& feedback) {
+double force_norm(const DeviceFeedback& feedback) {
   return Vec3(feedback.force[0], feedback.force[1], feedback.force[2]).norm();
 }
 
@@ -73,22 +73,22 @@ TEST_F(SessionCore, ForcesAreTurnedIntoTheWorldWithTheJoint) {
 }
 
 TEST_F(SessionCore, ALostDeviceGetsNoForceAtOnce) {
-  ASSERT_GT(norm_of(insert_to(15e-3).feedback), 0.5);
+  ASSERT_GT(force_norm(insert_to(15e-3).feedback), 0.5);
   const HapticSnapshot& out = step(15e-3, PeerState::lost);
-  EXPECT_EQ(norm_of(out.feedback), 0);
+  EXPECT_EQ(force_norm(out.feedback), 0);
   EXPECT_EQ(out.status, SessionStatus::kPeerLost);
 }
 
 TEST_F(SessionCore, APauseGivesNoForceAndForceComesBackSlowly) {
-  ASSERT_GT(norm_of(insert_to(15e-3).feedback), 0.5);
-  EXPECT_EQ(norm_of(step(15e-3, PeerState::alive, SessionCommand::kPause).feedback), 0);
-  EXPECT_LT(norm_of(step(15e-3).feedback), 0.1);
+  ASSERT_GT(force_norm(insert_to(15e-3).feedback), 0.5);
+  EXPECT_EQ(force_norm(step(15e-3, PeerState::alive, SessionCommand::kPause).feedback), 0);
+  EXPECT_LT(force_norm(step(15e-3).feedback), 0.1);
 }
 
 TEST_F(SessionCore, AResetForgetsTheInsertion) {
   ASSERT_EQ(insert_to(15e-3).inserted, 1U);
   const HapticSnapshot& out = step(-10e-3, PeerState::alive, SessionCommand::kReset);
-  EXPECT_EQ(norm_of(out.feedback), 0);
+  EXPECT_EQ(force_norm(out.feedback), 0);
   EXPECT_EQ(step(-10e-3).inserted, 0U);
 }
 
@@ -120,7 +120,7 @@ TEST_F(SessionCore, NoInputOfAPeerGivesAForceThatIsNotFiniteOrOverTheLimit) {
     const HapticSnapshot& out = core_.step(input);
     for (const double f : out.feedback.force) ASSERT_TRUE(std::isfinite(f));
     for (const double t : out.feedback.torque) ASSERT_TRUE(std::isfinite(t));
-    ASSERT_LE(norm_of(out.feedback), limit * (1 + 1e-12));
+    ASSERT_LE(force_norm(out.feedback), limit * (1 + 1e-12));
   }
 }
 
@@ -154,6 +154,18 @@ TEST_F(SessionCore, AButtonCalibratesOnceAndAnotherGoesBack) {
   EXPECT_TRUE(gesture.step(*scene_, Button::kExplore, X_WP));
   EXPECT_EQ(gesture.phase(), GesturePhase::exploring);
   EXPECT_TRUE(gesture.X_WJ().isApprox(Pose::Identity()));
+}
+
+TEST_F(SessionCore, NoEntryIsChosenWhileTheNeedleIsIn) {
+  const PlainPose before = insert_to(10e-3).X_WJ;
+  TickInput input;
+  input.tick = ++tick_;
+  input.device = test::sample_at(10e-3, static_cast<std::int64_t>(tick_) * kTick, tick_);
+  input.device.buttons = Button::kCalibrate;
+  const HapticSnapshot& out = core_.step(input);
+  ASSERT_EQ(out.inserted, 1U);
+  EXPECT_EQ(out.phase, GesturePhase::exploring);
+  EXPECT_TRUE(to_pose(out.X_WJ).isApprox(to_pose(before), 0));
 }
 
 TEST(PosReader, WhatWasThereBeforeIsNotAlive) {

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 #include <array>
+#include <cstdint>
+#include <ctime>
 #include <memory>
+#include <sstream>
+#include <string>
 
 #include "artus/session/injecting_device.h"
+#include "artus/session/recording.h"
 #include "artus/session/session_core.h"
 #include "tests/support/layered_body.h"
 
@@ -56,6 +61,16 @@ inline DeviceSample sample_at(double z, std::int64_t time_ns, std::uint64_t numb
   sample.has_needle = 1;
   sample.has_probe = 1;
   return sample;
+}
+
+inline Result<Recording> parse_recording(const std::string& bytes) {
+  std::istringstream in(bytes);
+  return read_recording(in, "here");
+}
+
+inline void sleep_us(std::int64_t us) {
+  const timespec pause{us / 1'000'000, us % 1'000'000 * 1000};
+  nanosleep(&pause, nullptr);
 }
 
 }  // namespace artus::test

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "artus/haptics/guard.h"
+#include "artus/haptics/plunger/bevel.h"
+#include "artus/session/input_device.h"
+#include "artus/session/session_params.h"
+
+namespace artus {
+
+/// The syringe of a session: the plunger as a device moves it, with the tip where the needle's
+/// contact says, and what thumb and needle feel of it. A pure function of its inputs.
+class SyringeCore {
+ public:
+  /// N/m of the spring between a device's plunger and the stopper. Source: the softness of 1e-11
+  /// m^3/Pa that a device at 1 kHz can render on a barrel of 5 ml.
+  static constexpr double kCoupling = 1300;
+  /// N that a thumb is ever pushed with; assumed: a strong push.
+  static constexpr double kMostForce = 40;
+
+  /// Requires: valid params.
+  SyringeCore(const CompiledJoint& joint, const SessionParams& params);
+
+  /// One period.
+  ARTUS_REALTIME void step(const DeviceSample& device, const NeedleContact& contact) noexcept;
+  /// One period in which time stands still for the syringe, and the thumb feels nothing.
+  ARTUS_REALTIME void rest() noexcept;
+  /// A new syringe, and a body that nothing was put into.
+  ARTUS_REALTIME void reset() noexcept;
+
+  [[nodiscard]] const PlungerFeedback& feedback() const noexcept { return out_; }
+  /// N along the needle, of the thumb's force: what of it the fingers do not carry.
+  [[nodiscard]] double on_needle() const noexcept { return on_needle_; }
+  [[nodiscard]] const Plunger& plunger() const noexcept { return plunger_; }
+
+ private:
+  void describe(double thumb, std::uint32_t faults) noexcept;
+
+  double bevel_;  // m
+  std::vector<std::uint32_t> of_region_;
+  Plunger plunger_;
+  OutputGuard guard_;
+  double zero_ = 0;  // m of the device's travel where the plunger's is 0
+  bool engaged_ = false;
+  double on_needle_ = 0;
+  PlungerFeedback out_;
+};
+
+}  // namespace artus

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/session/tissue_core.h"
+
+#include <cmath>
+#include <utility>
+
+namespace artus {
+namespace {
+
+constexpr double kFactorTime = 0.4;    // s that a factor of the tangent may take
+constexpr double kCageTime = 8;        // s that another cage may take
+constexpr double kFactorWay = 0.5e-3;  // m the face moves before its factor is too old
+constexpr double kFactorTurn = 0.02;   // rad
+constexpr double kStill = 1e-7;        // m; tissue that moves less has come to rest
+constexpr int kOutsideImages = 20;     // in a row before another cage is begun
+constexpr int kSteps = 2;              // Newton steps of an image
+
+double turn_between(const Pose& a, const Pose& b) {
+  return Eigen::AngleAxisd(a.linear().transpose() * b.linear()).angle();
+}
+
+}  // namespace
+
+Result<TissueCore> TissueCore::make(std::shared_ptr<const CompiledJoint> joint, const Pose& X_JP,
+                                    double image_rate) {
+  auto body = SoftBody::make(std::move(joint), X_JP);
+  ARTUS_TRY(body);
+  return TissueCore(std::move(*body), image_rate);
+}
+
+TissueCore::TissueCore(SoftBody body, double image_rate)
+    : body_(std::move(body)),
+      dt_(1 / image_rate),
+      factor_images_(static_cast<std::uint64_t>(std::ceil(kFactorTime * image_rate))),
+      cage_images_(static_cast<std::uint64_t>(std::ceil(kCageTime * image_rate))),
+      X_JP_factor_(body_.cage_pose()) {
+  body_.solver().refresh();
+  tissue_ = body_.snapshot();
+  scene_ = scenes_.at(tissue_);
+}
+
+bool TissueCore::in_reach(const Pose& X_JP) const {
+  const SoftBodyParams params;
+  const Pose X_CP = body_.cage_pose().inverse() * X_JP;
+  const Vec3 p = X_CP.translation();
+  return std::abs(p.x()) < params.reach && std::abs(p.y()) < params.reach &&
+         turn_between(body_.cage_pose(), X_JP) < 0.5;
+}
+
+/// Another cage where the probe stays out of this one's reach.
+void TissueCore::follow(const std::optional<Pose>& X_JP) {
+  outside_ = X_JP && !in_reach(*X_JP) ? outside_ + 1 : 0;
+  if (cage_.valid() && images_ == cage_due_) {
+    auto made = cage_.get();
+    if (made) {
+      if (body_.solver().refreshing()) body_.solver().end_refresh();
+      body_ = std::move(*made);
+      body_.solver().refresh();
+      X_JP_factor_ = body_.cage_pose();
+      tissue_ = nullptr;
+      still_ = false;
+    }
+    outside_ = 0;
+  }
+  if (cage_.valid() || outside_ < kOutsideImages) return;
+  cage_due_ = images_ + cage_images_;
+  cage_ = std::async(std::launch::async,
+                     [joint = body_.joint(), pose = *X_JP] { return SoftBody::make(joint, pose); });
+}
+
+/// A new factor of the tangent once the face has moved on; the state that it is of is the present
+/// one.
+void TissueCore::refresh(const std::optional<Pose>& X_JP) {
+  SoftSolver& solver = body_.solver();
+  if (solver.refreshing()) {
+    if (images_ >= factor_due_) solver.end_refresh();
+    return;
+  }
+  if (!X_JP || ((X_JP->translation() - X_JP_factor_.translation()).norm() < kFactorWay &&
+                turn_between(*X_JP, X_JP_factor_) < kFactorTurn))
+    return;
+  X_JP_factor_ = *X_JP;
+  factor_due_ = images_ + factor_images_;
+  solver.begin_refresh();
+}
+
+void TissueCore::step(const std::optional<Pose>& X_JP) {
+  ++images_;
+  follow(X_JP);
+  std::optional<Pose> face = X_JP;
+  if (face && !in_reach(*face)) face.reset();
+  const bool same = face.has_value() == X_JP_before_.has_value() &&
+                    (!face || face->matrix() == X_JP_before_->matrix());
+  refresh(face);
+  if (!(same && still_)) {
+    double moved = 0;
+    for (int k = 0; k < kSteps; ++k) {
+      const SoftStep& step = body_.step(face, dt_ / kSteps);
+      moved = std::max(moved, step.largest_move);
+      status_ = step.status;
+    }
+    still_ = same && moved < kStill && !body_.solver().refreshing();
+    tissue_ = body_.snapshot(tissue_.get());
+    scene_ = scenes_.at(tissue_);
+  }
+  X_JP_before_ = face;
+  describe(face);
+}
+
+void TissueCore::describe(const std::optional<Pose>& X_JP) {
+  const std::uint64_t number = packet_.number + 1;
+  packet_ = {};
+  packet_.number = number;
+  const Pose pose = X_JP.value_or(body_.cage_pose());
+  for (Eigen::Index i = 0; i < 12; ++i)
+    packet_.X_JP[static_cast<std::size_t>(i)] = pose.matrix()(i / 4, i % 4);
+  if (!X_JP) return;
+  const ContactForce contact = body_.force_J();
+  const Vec3 force = pose.linear().transpose() * contact.force;
+  const Vec3 torque = pose.linear().transpose() * contact.torque;
+  const Eigen::Matrix<double, 6, 6> stiffness = body_.contact_stiffness();
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    packet_.wrench[static_cast<std::size_t>(i)] = force[i];
+    packet_.wrench[static_cast<std::size_t>(i) + 3] = torque[i];
+  }
+  for (Eigen::Index i = 0; i < 36; ++i)
+    packet_.stiffness[static_cast<std::size_t>(i)] = stiffness(i / 6, i % 6);
+  packet_.share = contact.share;
+}
+
+}  // namespace artus

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <cstdint>
+#include <future>
+#include <memory>
+#include <optional>
+
+#include "artus/haptics/probe/probe_tangent.h"
+#include "artus/raycast/moving_scene.h"
+#include "artus/soft/soft_body.h"
+
+namespace artus {
+
+/// The body of a session as it gives way to the probe, image by image: one step of the tissue, one
+/// scene of that instant, and what the probe's hand feels of it. A pure function of the poses it
+/// was given: factors and cages are made on threads of their own and taken a fixed number of images
+/// later, never "when ready".
+class TissueCore {
+ public:
+  /// The cage is made around `X_JP`. Errors: those of SoftBody::make. Cost: some seconds.
+  [[nodiscard]] static Result<TissueCore> make(std::shared_ptr<const CompiledJoint> joint,
+                                               const Pose& X_JP, double image_rate);
+
+  /// The next image's instant, with the probe at `X_JP` or without one. A probe that stays outside
+  /// of what the cage reaches gets a cage of its own; until that is there the tissue is at rest
+  /// under it. Cost: see docs/deformation.md.
+  void step(const std::optional<Pose>& X_JP);
+
+  [[nodiscard]] const std::shared_ptr<const Scene>& scene() const noexcept { return scene_; }
+  /// Number 1 after the first step.
+  [[nodiscard]] const ProbePacket& packet() const noexcept { return packet_; }
+  [[nodiscard]] std::uint32_t status() const noexcept { return status_; }  ///< SoftStatus bits
+
+ private:
+  TissueCore(SoftBody body, double image_rate);
+  [[nodiscard]] bool in_reach(const Pose& X_JP) const;
+  void follow(const std::optional<Pose>& X_JP);
+  void refresh(const std::optional<Pose>& X_JP);
+  void describe(const std::optional<Pose>& X_JP);
+
+  SoftBody body_;
+  double dt_;                    // s between images
+  std::uint64_t factor_images_;  // from the start of a factor to its use
+  std::uint64_t cage_images_;
+  std::uint64_t images_ = 0;
+  std::uint64_t factor_due_ = 0;
+  std::uint64_t cage_due_ = 0;
+  int outside_ = 0;  // images in a row
+  Pose X_JP_factor_ = Pose::Identity();
+  std::optional<Pose> X_JP_before_;
+  bool still_ = false;  // nothing moved in the last step
+  std::future<Result<SoftBody>> cage_;
+  MovingScene scenes_;
+  std::shared_ptr<const DeformedBody> tissue_;
+  std::shared_ptr<const Scene> scene_;
+  ProbePacket packet_;
+  std::uint32_t status_ = 0;
+};
+
+}  // namespace artus

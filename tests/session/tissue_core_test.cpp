@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/session/tissue_core.h"
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "artus/session/image_core.h"
+#include "tests/session/session_support.h"
+#include "tests/support/meshed_block.h"
+
+namespace artus {
+namespace {
+
+std::shared_ptr<const CompiledJoint> make_soft_block() {
+  const std::array<FlatLayer, 4> layers{
+      {{"skin", 2e-3}, {"fat", 8e-3}, {"muscle", 20e-3}, {"bone", 10e-3}}};
+  return std::make_shared<const CompiledJoint>(
+      test::make_meshed_block(layers, 0.096, 0.064, 4e-3));
+}
+
+Pose pressed(const CompiledJoint& joint, double depth) {
+  Pose pose = joint.X_JP_default;
+  pose.translation() += depth * pose.linear().col(2);
+  return pose;
+}
+
+TEST(TissueCore, GivesTheHandAForceThatGrowsWithThePressAndNoneWhenLifted) {
+  const auto joint = make_soft_block();
+  auto core = TissueCore::make(joint, joint->X_JP_default, 30);
+  ASSERT_TRUE(core) << core.error().to_string();
+  std::vector<double> normal;
+  for (const double depth : {1e-3, 2e-3, 3e-3}) {
+    for (int i = 0; i < 15; ++i) core->step(pressed(*joint, depth));
+    normal.push_back(-core->packet().wrench[2]);
+  }
+  EXPECT_GT(normal[0], 0.01);
+  EXPECT_GT(normal[1], 1.5 * normal[0]);
+  EXPECT_GT(normal[2], normal[1]);
+  // what is felt between packets is near what the next one says
+  const ProbePacket at = core->packet();
+  const double slope = at.stiffness[6 * 2 + 2];
+  EXPECT_GT(slope, 0);
+  for (int i = 0; i < 15; ++i) core->step(pressed(*joint, 3.2e-3));
+  const double rise = -core->packet().wrench[2] - normal[2];
+  EXPECT_NEAR(slope * 0.2e-3, rise, 0.35 * rise);
+  for (int i = 0; i < 40; ++i) core->step(pressed(*joint, -20e-3));
+  for (const double value : core->packet().wrench) EXPECT_EQ(value, 0);
+  core->step(std::nullopt);
+  EXPECT_EQ(core->packet().share, 0);
+}
+
+TEST(TissueCore, GivesTheSameBytesAgain) {
+  const auto joint = make_soft_block();
+  SessionParams params = test::make_small_session();
+  params.deform = true;
+  const auto scene = std::make_shared<const Scene>(joint);
+  std::vector<std::uint64_t> first;
+  for (const int threads : {1, 2}) {
+    params.image.n_threads = threads;
+    ImageCore core(scene, params);
+    ASSERT_TRUE(core.refusal().empty()) << core.refusal();
+    std::vector<std::uint64_t> digests;
+    for (std::uint64_t i = 1; i <= 40; ++i) {
+      FrameInput input;
+      input.controls = controls_of(params);
+      input.X_JP =
+          to_plain(pressed(*joint, 1e-4 * static_cast<double>(std::min<std::uint64_t>(i, 20))));
+      input.number = i;
+      input.has_probe = 1;
+      digests.push_back(digest_of(core.render(input)));
+      digests.push_back(digest_of(*core.packet()));
+    }
+    if (first.empty()) first = digests;
+    EXPECT_EQ(first, digests);
+  }
+}
+
+TEST(TissueCore, RefusesABodyWithoutTetrahedraWithWords) {
+  SessionParams params = test::make_small_session();
+  params.deform = true;
+  const ImageCore core(test::make_layered_scene(), params);
+  EXPECT_NE(core.refusal().find("tetrahedra"), std::string::npos);
+  EXPECT_EQ(core.packet(), nullptr);
+}
+
+}  // namespace
+}  // namespace artus
