@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <array>
+
+#include <gtest/gtest.h>
+
+#include "artus/training/metrics/closed_body.h"
+#include "artus/training/metrics/force_layers.h"
+#include "artus/training/metrics/goals.h"
+#include "artus/training/metrics/needle_course.h"
+#include "artus/training/metrics/sight_course.h"
+#include "tests/session/session_support.h"
+#include "tests/support/real_time.h"
+
+namespace artus {
+namespace {
+
+/// The course along depths (mm) at 20 Hz, each reached in `n` even steps from the one before.
+std::vector<CoursePoint> course_of(std::initializer_list<double> depths, int n) {
+  std::vector<CoursePoint> course;
+  double last = *depths.begin();
+  for (const double goal : depths) {
+    for (int k = 1; k <= n; ++k) {
+      CoursePoint p;
+      p.time = 0.05 * static_cast<double>(course.size());
+      p.depth = std::max(0.0, 1e-3 * (last + (goal - last) * k / n));
+      p.tip = Vec3(0, 0, p.depth);
+      p.region = p.depth > 0 ? kFirstRegion : kOutside;
+      if (!course.empty()) {
+        p.step = std::abs(p.depth - course.back().depth);
+        p.advance = p.depth - course.back().depth;
+      }
+      course.push_back(p);
+    }
+    last = goal;
+  }
+  return course;
+}
+
+TEST(Course, PassesFollowWithdrawalsOfFiveMillimetres) {
+  EXPECT_EQ(find_passes(course_of({-5, 30, 0, -5}, 50)).size(), 1U);
+  EXPECT_EQ(find_passes(course_of({-5, 30, 26, 35}, 50)).size(), 1U);
+  EXPECT_EQ(find_passes(course_of({-5, 30, 24, 32}, 50)).size(), 2U);
+  EXPECT_EQ(find_passes(course_of({-5, 30, 24, 28, 10, 30}, 50)).size(), 2U);
+  EXPECT_EQ(find_passes(course_of({-5, -1}, 50)).size(), 0U);
+}
+
+TEST(Course, IdleIsInsideAndLongerThanThreeSeconds) {
+  EXPECT_EQ(find_idle(course_of({-5, 20, 20, 30}, 62)).size(), 1U);
+  EXPECT_EQ(find_idle(course_of({-5, 20, 20, 30}, 58)).size(), 0U);
+  EXPECT_EQ(find_idle(course_of({-5, -5, -5}, 100)).size(), 0U);
+}
+
+TEST(Course, MovementsLastAFifthOfASecond) {
+  const auto count = [](std::initializer_list<std::pair<double, int>> runs) {
+    std::vector<double> speeds;
+    for (const auto& [speed, n] : runs)
+      speeds.insert(speeds.end(), static_cast<std::size_t>(n), speed);
+    return count_movements(speeds, 0.05, 0.2);
+  };
+  EXPECT_EQ(count({{0, 10}, {0.06, 4}, {0, 10}}), 1);
+  EXPECT_EQ(count({{0, 10}, {0.06, 3}, {0, 10}}), 0);
+  EXPECT_EQ(count({{0.06, 6}, {0, 3}, {0.06, 6}}), 1);
+  EXPECT_EQ(count({{0.06, 6}, {0, 4}, {0.06, 6}}), 2);
+}
+
+TEST(Course, TotalsOfARealBlock) {
+  const auto scene = test::make_layered_scene();
+  std::vector<TrackPoint> track;
+  for (int i = 0; i <= 100; ++i) {
+    TrackPoint p;
+    p.time = 0.05 * i;
+    p.p = Vec3(0, 0, -5e-3 + 0.25e-3 * i);
+    track.push_back(p);
+  }
+  const auto course = make_course(*scene, track);
+  const CourseTotals sum = sum_course(course);
+  EXPECT_NEAR(sum.path, 25e-3, 1e-12);
+  EXPECT_NEAR(sum.deepest, 20e-3, 1e-9);
+  EXPECT_NEAR(sum.advanced, 20e-3, 0.26e-3);
+  EXPECT_NEAR(sum.swept_area, 0, 1e-15);
+  ASSERT_TRUE(sum.first_contact);
+  EXPECT_NEAR(*sum.first_contact, 1, 0.051);
+}
+
+TEST(Course, RedirectionsAreTurnsBetweenRests) {
+  const auto scene = test::make_layered_scene();
+  std::vector<TrackPoint> track;
+  const auto rest = [&](double angle, int n) {
+    for (int i = 0; i < n; ++i) {
+      TrackPoint p;
+      p.time = 0.05 * static_cast<double>(track.size());
+      p.q = Eigen::Quaterniond(Eigen::AngleAxisd(angle, Vec3::UnitY()));
+      p.p = Vec3(0, 0, 10e-3);
+      track.push_back(p);
+    }
+  };
+  rest(0, 20);
+  rest(0.08, 20);
+  EXPECT_EQ(find_redirections(make_course(*scene, track)).size(), 0U);
+  rest(0.2, 20);
+  EXPECT_EQ(find_redirections(make_course(*scene, track)).size(), 1U);
+}
+
+TEST(Goals, ARestBeforeTheWithdrawalIsThePlacement) {
+  const auto course = course_of({-5, 30, 28, 28, 0, -5}, 20);
+  const auto placed = find_placement(course);
+  ASSERT_TRUE(placed);
+  EXPECT_NEAR(course[*placed].depth, 28e-3, 1e-9);
+  const auto restless = course_of({-5, 30, 0, -5}, 20);
+  EXPECT_NEAR(restless[*find_placement(restless)].depth, 30e-3, 1e-9);
+  EXPECT_FALSE(find_placement(course_of({-5, -2}, 20)));
+}
+
+TEST(Goals, IntrusionsAreMeasuredFromTheZonesEdge) {
+  const auto scene = test::make_layered_scene();  // tendon from 24 to 29 mm
+  const AvoidZone zone{"tendon",
+                       make_region_body(scene->joint(), region_named(scene->joint(), "tendon")),
+                       2e-3, true};
+  const Intrusion in = find_intrusion(zone, course_of({-5, 25, 0, 23, 0}, 100));
+  EXPECT_NEAR(in.depth, 3e-3, 1e-9);
+  EXPECT_EQ(in.entries, 2);
+  EXPECT_EQ(find_intrusion(zone, course_of({-5, 21.9, 0}, 100)).entries, 0);
+}
+
+TEST(Goals, AFastTipDoesNotJumpOverAThinZone) {
+  const auto scene = test::make_layered_scene();  // bursa from 22 to 24 mm
+  const AvoidZone zone{
+      "bursa", make_region_body(scene->joint(), region_named(scene->joint(), "bursa")), 0, true};
+  EXPECT_EQ(find_intrusion(zone, course_of({1, 28}, 1)).entries, 1);
+}
+
+TEST(TipSight, SaysWhyATipIsNotSeen) {
+  const auto scene = test::make_layered_scene();
+  const TipSightFinder finder(Transducer{}, 40e-3, NeedleShape{});
+  const auto look = [&](const Vec3& tip, const Vec3& axis, double lift = 0) {
+    return finder.look(*scene, make_pose(Vec3(0, 0, -lift), Vec3::UnitZ(), Vec3::UnitX()),
+                       make_pose(tip, axis, Vec3::UnitY()));
+  };
+  const Vec3 flat = Vec3(1, 0, 0.2).normalized();
+  EXPECT_EQ(look(Vec3(0, 0, 20e-3), flat).loss, SightLoss::none);
+  EXPECT_EQ(look(Vec3(0, 3e-3, 20e-3), flat).loss, SightLoss::off_plane);
+  EXPECT_EQ(look(Vec3(25e-3, 0, 20e-3), flat).loss, SightLoss::off_sector);
+  EXPECT_EQ(look(Vec3(0, 0, 35e-3), flat).loss, SightLoss::shadow);
+  EXPECT_EQ(look(Vec3(0, 0, 20e-3), flat, 6e-3).loss, SightLoss::no_contact);
+  EXPECT_EQ(look(Vec3(0, 0, 20e-3), Vec3::UnitZ()).loss, SightLoss::angle);
+  EXPECT_NEAR(look(Vec3(0, -3e-3, 20e-3), flat).offset, -3e-3, 1e-12);
+}
+
+TEST(ForceLayers, SumsByLayerAndCountsTouches) {
+  ForceLayers forces(4);
+  FeltTick tick;
+  const auto run = [&](double from, double to, RegionId region, double force, bool bone) {
+    for (int i = 0; i < std::lround((to - from) * 1000); ++i) {
+      tick.time = from + 1e-3 * i;
+      tick.region = region;
+      tick.tissue = force;
+      tick.on_bone = bone;
+      tick.hard = bone ? 3 : 0;
+      forces.add(tick);
+    }
+  };
+  run(0, 1, 2, 0.5, false);
+  run(1, 2, 3, 1.5, true);
+  ARTUS_RUNS_REALTIME(ForceLayers::add, forces.add(tick));
+  run(2, 2.2, 3, 1, false);
+  run(2.2, 2.4, 3, 1, true);
+  run(2.4, 3, 3, 1, false);
+  run(3, 3.2, 3, 1, true);
+  EXPECT_EQ(forces.touch_count(), 2U);
+  EXPECT_EQ(forces.touches()[0].peak, 3);
+  EXPECT_NEAR(forces.layers()[2].impulse / forces.layers()[2].time, 0.5, 1e-9);
+  EXPECT_EQ(forces.layers()[3].peak, 1.5);
+}
+
+}  // namespace
+}  // namespace artus

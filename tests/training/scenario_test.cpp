@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/training/scenario.h"
+
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "artus/training/feedback.h"
+#include "artus/training/player.h"
+#include "artus/training/scenario_check.h"
+#include "artus/training/session_meter.h"
+#include "tests/support/temporary_folder.h"
+
+namespace artus {
+namespace {
+
+std::string changed(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
+
+Scenario align() {
+  return *find_scenario("gel-align");
+}
+
+TEST(Scenario, TheBundledOnesAreRead) {
+  ASSERT_GE(bundled_scenario_texts().size(), 4U);
+  for (const std::string_view text : bundled_scenario_texts()) {
+    const auto scenario = parse_scenario(text, "bundled");
+    ASSERT_TRUE(scenario) << scenario.error().to_string();
+    EXPECT_FALSE(scenario->pass.empty()) << scenario->name;
+  }
+}
+
+TEST(Scenario, AllThatIsWrongStandsInOneMessage) {
+  std::string text = align().text;
+  text = changed(text, "level = 2", "level = 12\ncolour = 3");
+  text = changed(text, "distance_mm = \"<= 2\"", "distanc_mm = \"<= 2\"");
+  text = changed(text, "gauge = 21", "gauge = 17");
+  const auto scenario = parse_scenario(text, "mine.toml");
+  ASSERT_FALSE(scenario);
+  const std::string message = scenario.error().to_string();
+  for (const char* part : {"level", "colour", "distanc_mm", "distance_mm", "gauge"})
+    EXPECT_NE(message.find(part), std::string::npos) << part << " in " << message;
+}
+
+TEST(Scenario, ANameThatThereIsNotListsThoseThereAre) {
+  const auto scenario = find_scenario("no-such");
+  ASSERT_FALSE(scenario);
+  EXPECT_NE(scenario.error().message.find("gel-align"), std::string::npos);
+}
+
+TEST(Scenario, AidsFadeWithSuccessAndGoOut) {
+  EXPECT_DOUBLE_EQ(faded(1, 0), 1);
+  EXPECT_DOUBLE_EQ(faded(1, 2), 0.49);
+  EXPECT_EQ(faded(1, 7), 0);
+}
+
+TEST(ScenarioCheck, SaysWhatCannotBeDone) {
+  const auto problems_of = [](const std::string& from, const std::string& to) {
+    const auto scenario = parse_scenario(changed(align().text, from, to), "mine");
+    EXPECT_TRUE(scenario) << scenario.error().to_string();
+    const auto scene = make_gel_scene(*scenario->gel);
+    std::string all;
+    for (const std::string& p : find_problems(*scenario, *scene)) all += p + "\n";
+    return all;
+  };
+  EXPECT_EQ(problems_of("level = 2", "level = 3"), "");
+  EXPECT_NE(problems_of("length = 70", "length = 20").find("needle 20.0 mm long"),
+            std::string::npos);
+  EXPECT_NE(problems_of("centre = [-26, 0, 0]", "centre = [-26, 0, -20]").find("off the skin"),
+            std::string::npos);
+  EXPECT_NE(problems_of("point = [5, 0, 20]", "point = [5, 8, 20]").find("plane"),
+            std::string::npos);
+  EXPECT_NE(problems_of("angle_to = 45", "angle_to = 10").find("degrees to the probe"),
+            std::string::npos);
+  EXPECT_NE(
+      problems_of("point = [5, 0, 20]", "structure = \"liver\"\npoint = [5, 0, 20]").find("liver"),
+      std::string::npos);
+  EXPECT_NE(problems_of("[pass]", "[[avoid]]\nstructure = \"muscle\"\n[pass]").find("swallows"),
+            std::string::npos);
+}
+
+TEST(Player, TheSameSeedGivesTheSameBytes) {
+  const auto scene = *make_gel_scene(*align().gel);
+  PlayOptions options;
+  options.seed = 4;
+  const auto one = play(align(), scene, novice_skill(), options);
+  const auto two = play(align(), scene, novice_skill(), options);
+  ASSERT_TRUE(one && two);
+  EXPECT_EQ(to_json(one->measures.metrics).dump(), to_json(two->measures.metrics).dump());
+  options.seed = 5;
+  const auto other = play(align(), scene, novice_skill(), options);
+  EXPECT_NE(to_json(one->measures.metrics).dump(), to_json(other->measures.metrics).dump());
+}
+
+class PlayerFiles : public test::TemporaryFolder {};
+
+TEST_F(PlayerFiles, ARecordedAttemptIsAssessedToTheSameDigits) {
+  const auto scene = *make_gel_scene(*align().gel);
+  PlayOptions options;
+  options.picture_rate = 0.3;
+  const auto played = play(align(), scene, expert_skill(), options);
+  ASSERT_TRUE(played);
+  ASSERT_TRUE(write_recording(played->recording, in("session.rec")));
+  const auto recording = read_recording(in("session.rec"));
+  ASSERT_TRUE(recording) << recording.error().to_string();
+  EXPECT_TRUE(recording->complete);
+  const auto meter = make_meter_options(align(), scene->joint(), recording->head.params);
+  const auto assessed = assess(*recording, scene, *meter, true);
+  ASSERT_TRUE(assessed);
+  EXPECT_EQ(to_json(assessed->metrics).dump(), to_json(played->measures.metrics).dump());
+}
+
+TEST(Player, AnExpertPassesAndANoviceRarely) {
+  const auto scene = *make_gel_scene(*align().gel);
+  const auto difficulty = measure_difficulty(align(), scene, 20, {});
+  ASSERT_TRUE(difficulty);
+  EXPECT_GE(difficulty->expert_passes, 19);
+  EXPECT_LE(difficulty->novice_passes, 8);
+}
+
+TEST(Feedback, NamesThreeFaultsAtMostWorstFirstWithCauseAndMend) {
+  const auto scene = *make_gel_scene(*align().gel);
+  PlayOptions options;
+  bool faulty = false;
+  for (options.seed = 1; options.seed <= 4; ++options.seed) {
+    const auto played = play(align(), scene, novice_skill(), options);
+    const Feedback feedback = make_feedback(played->measures, played->judgement);
+    EXPECT_LE(feedback.faults.size(), 3U);
+    EXPECT_FALSE(feedback.next.empty());
+    for (std::size_t i = 0; i < feedback.faults.size(); ++i) {
+      EXPECT_FALSE(feedback.faults[i].cause.empty());
+      EXPECT_FALSE(feedback.faults[i].mend.empty());
+      if (i > 0) {
+        EXPECT_GE(feedback.faults[i - 1].weight, feedback.faults[i].weight);
+      }
+    }
+    faulty = faulty || !feedback.faults.empty();
+  }
+  EXPECT_TRUE(faulty);
+}
+
+}  // namespace
+}  // namespace artus

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// What a session measures while it runs is what its recording says afterwards, to the last digit.
+#include "artus/training/session_meter.h"
+
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include "artus/session/image_core.h"
+#include "tests/session/session_support.h"
+#include "tests/support/real_time.h"
+
+namespace artus {
+namespace {
+
+template <class T>
+void put(std::ostream& out, std::uint32_t kind, const T& record) {
+  const RecordStart start{kind, sizeof(T)};
+  out.write(reinterpret_cast<const char*>(&start), sizeof start);
+  out.write(reinterpret_cast<const char*>(&record), sizeof record);
+}
+
+TEST(SessionMeter, LiveAndRecordedAreTheSameToTheLastDigit) {
+  const auto scene = test::make_layered_scene();
+  const SessionParams params = test::make_small_session();
+  const RecordingHead head = make_head(scene->joint(), params);
+  const double period = 1 / params.haptic_rate;
+  AttemptMeter live(scene, options_for(head));
+  std::stringstream file;
+  file << to_line(head) << '\n';
+  HapticCore haptics(scene, params);
+  ImageCore images(scene, params);
+  std::uint64_t frames = 0;
+  for (std::uint64_t n = 1; n <= 3000; ++n) {
+    TickInput input;
+    input.tick = n;
+    const double z = n < 2000 ? -5e-3 + 17e-6 * static_cast<double>(n) : 29e-3;
+    input.device = test::sample_at(z, static_cast<std::int64_t>(n) * 1000000, n);
+    const HapticSnapshot& out = haptics.step(input);
+    add_tick(live, out, period);
+    put(file, RecordStart::kTick, to_record(out));
+    if (n % 500 != 0) continue;
+    const FrameInput frame = frame_input(out, controls_of(params), ++frames);
+    const Frame& drawn = images.render(frame);
+    add_frame(live, frame, drawn, static_cast<double>(n) * period);
+    put(file, RecordStart::kFrame, FrameRecord{frame, digest_of(drawn)});
+  }
+  put(file, RecordStart::kEnd, std::uint64_t{0});
+  const auto recording = read_recording(file, "here");
+  ASSERT_TRUE(recording);
+  const auto replayed = assess(*recording, scene, options_for(head), true);
+  ASSERT_TRUE(replayed);
+  EXPECT_EQ(to_json(live.measure().metrics).dump(), to_json(replayed->metrics).dump());
+  const Metric* contacts = find_metric(replayed->metrics, "bone_contacts");
+  ASSERT_NE(contacts, nullptr);
+  EXPECT_TRUE(contacts->value);
+  EXPECT_TRUE(find_metric(replayed->metrics, "tip_visible")->value);
+}
+
+TEST(SessionMeter, TakesATickWithoutMemory) {
+  const auto scene = test::make_layered_scene();
+  const SessionParams params = test::make_small_session();
+  AttemptMeter meter(scene, options_for(make_head(scene->joint(), params)));
+  HapticCore haptics(scene, params);
+  TickInput input;
+  input.tick = 1;
+  input.device = test::sample_at(1e-3, 1000000, 1);
+  const HapticSnapshot& out = haptics.step(input);
+  ARTUS_RUNS_REALTIME(add_tick, add_tick(meter, out, 1e-3));
+}
+
+}  // namespace
+}  // namespace artus

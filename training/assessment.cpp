@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/training/assessment.h"
+
+#include <nlohmann/json.hpp>
+
+#include "artus/core/known_names.h"
+#include "artus/training/session_meter.h"
+
+namespace artus {
+namespace {
+
+Result<RegionId> region_of(const CompiledJoint& joint, const std::string& name) {
+  auto names = item_names(joint.regions);
+  names.erase(names.begin(), names.begin() + kFirstRegion);
+  const auto at = find_name(names, name, "structure");
+  ARTUS_TRY(at);
+  return static_cast<RegionId>(kFirstRegion + *at);
+}
+
+}  // namespace
+
+Result<Goals> make_goals(const CompiledJoint& joint, const GoalNames& names) {
+  Goals goals;
+  if (names.point) {
+    goals.target = Target{names.point_name, *names.point, nullptr};
+  } else if (!names.structure.empty()) {
+    const auto region = region_of(joint, names.structure);
+    ARTUS_TRY(region);
+    goals.target = Target{names.structure, std::nullopt, make_region_body(joint, *region)};
+  }
+  for (const auto& [name, margin] : names.avoid) {
+    const auto region = region_of(joint, name);
+    ARTUS_TRY(region);
+    goals.avoid.push_back({name, make_region_body(joint, *region), margin, false});
+  }
+  return goals;
+}
+
+Assessment assess_list(const TrackedList& list, const std::shared_ptr<const Scene>& scene,
+                       MeterOptions options) {
+  options.longest = list.poses.back().time - list.poses.front().time + 1;
+  AttemptMeter meter(scene, std::move(options));
+  RawMotion needle(scene, true);
+  RawMotion probe(nullptr, false);
+  for (const TrackedPose& pose : list.poses) {
+    if (pose.X_JN) {
+      meter.add_needle(pose.time, pose.X_JN->translation(),
+                       Eigen::Quaterniond(pose.X_JN->linear()));
+      needle.add(pose.time, *pose.X_JN);
+    }
+    if (pose.X_JP) {
+      meter.add_probe(pose.time, pose.X_JP->translation(), Eigen::Quaterniond(pose.X_JP->linear()));
+      probe.add(pose.time, *pose.X_JP);
+    }
+  }
+  AttemptMeasures measures = meter.measure();
+  Assessment out{std::move(measures.metrics), needle.metrics("Needle"), std::move(measures.events),
+                 list.notices};
+  for (Metric& m : probe.metrics("Probe")) out.table.push_back(std::move(m));
+  return out;
+}
+
+Result<Assessment> assess_recording(const Recording& recording,
+                                    const std::shared_ptr<const Scene>& scene, Goals goals,
+                                    bool pictures) {
+  MeterOptions meter = options_for(recording.head);
+  meter.goals = std::move(goals);
+  auto measures = assess(recording, scene, std::move(meter), pictures);
+  ARTUS_TRY(measures);
+  Assessment out{
+      std::move(measures->metrics), std::move(measures->raw), std::move(measures->events), {}};
+  if (recording.dropped > 0)
+    out.notices.push_back(std::to_string(recording.dropped) +
+                          " ticks or pictures are missing in the recording");
+  if (!recording.complete) out.notices.emplace_back("the recording was cut off");
+  return out;
+}
+
+nlohmann::json to_json(const Assessment& a) {
+  auto events = nlohmann::json::array();
+  for (const AttemptEvent& e : a.events)
+    events.push_back({{"time_s", e.time},
+                      {"kind", e.kind},
+                      {"region", e.region},
+                      {"value", e.value},
+                      {"text", e.text}});
+  return {{"metrics_version", kMetricsVersion},
+          {"metrics", to_json(a.metrics)},
+          {"perktutor", to_json(a.table)},
+          {"events", events},
+          {"notices", a.notices}};
+}
+
+}  // namespace artus

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/training/judgement.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+namespace artus {
+namespace {
+
+using Relation = Mark::Relation;
+constexpr std::array<std::pair<const char*, Relation>, 5> kRelations{
+    {{"<=", Relation::at_most},
+     {">=", Relation::at_least},
+     {"==", Relation::equal},
+     {"<", Relation::less},
+     {">", Relation::more}}};  // the longer before their beginnings
+
+/// How much of a mark is reached.
+double part_of(const Mark& mark, double value) {
+  if (holds(mark, value)) return 1;
+  const double scale = std::max(std::abs(mark.bound), 1.0);
+  const bool upward = mark.relation == Relation::at_least || mark.relation == Relation::more;
+  if (upward && mark.bound > 0) return std::clamp(value / mark.bound, 0.0, 1.0);
+  return std::clamp(1 - std::abs(value - mark.bound) / scale, 0.0, 1.0);
+}
+
+}  // namespace
+
+Result<Mark> parse_mark(const std::string& metric, const std::string& text) {
+  for (const auto& [sign, relation] : kRelations) {
+    const std::string prefix = sign;
+    if (text.rfind(prefix, 0) != 0) continue;
+    const std::size_t start = text.find_first_not_of(' ', prefix.size());
+    const char* end = text.data() + text.size();
+    double bound = 0;
+    if (start == std::string::npos) break;
+    const auto read = std::from_chars(text.data() + start, end, bound);
+    if (read.ec != std::errc() || read.ptr != end || !std::isfinite(bound)) break;
+    return Mark{metric, relation, bound, text};
+  }
+  return fail(ErrorCode::malformed,
+              "'" + text + "' is no mark: write <=, <, ==, > or >= and a number", metric);
+}
+
+bool holds(const Mark& mark, double value) noexcept {
+  switch (mark.relation) {
+    case Relation::less:
+      return value < mark.bound;
+    case Relation::at_most:
+      return value <= mark.bound;
+    case Relation::equal:
+      return value == mark.bound;
+    case Relation::at_least:
+      return value >= mark.bound;
+    case Relation::more:
+      return value > mark.bound;
+  }
+  return false;
+}
+
+Judgement judge(std::span<const Metric> metrics, std::span<const Mark> marks,
+                std::span<const ScoreWeight> weights, bool with_aids) {
+  Judgement out;
+  out.with_aids = with_aids;
+  out.passed = !with_aids && !marks.empty();
+  double sum = 0;
+  double total = 0;
+  for (const Mark& mark : marks) {
+    JudgedMark judged;
+    judged.mark = mark;
+    const Metric* metric = find_metric(metrics, mark.metric);
+    if (metric != nullptr) judged.value = metric->value;
+    judged.held = judged.value && holds(mark, *judged.value);
+    judged.part = judged.value ? part_of(mark, *judged.value) : 0;
+    for (const ScoreWeight& w : weights)
+      if (w.metric == mark.metric) judged.weight = w.weight;
+    out.passed = out.passed && judged.held;
+    sum += judged.weight * judged.part;
+    total += judged.weight;
+    out.marks.push_back(std::move(judged));
+  }
+  out.score = total > 0 ? 100 * sum / total : 0;
+  return out;
+}
+
+}  // namespace artus

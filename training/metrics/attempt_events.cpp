@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/training/metrics/attempt_events.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "artus/core/units.h"
+
+namespace artus {
+namespace {
+
+std::string text_of(const char* format, double value) {
+  std::array<char, 120> text{};
+  static_cast<void>(std::snprintf(text.data(), text.size(), format, value));
+  return text.data();
+}
+
+std::size_t index_at(const std::vector<CoursePoint>& course, double time) {
+  const auto at = std::lower_bound(course.begin(), course.end(), time,
+                                   [](const CoursePoint& p, double t) { return p.time < t; });
+  return at == course.end() ? course.size() - 1 : static_cast<std::size_t>(at - course.begin());
+}
+
+/// Why the tip was not seen over most of a run.
+std::string cause_of(const AttemptView& view, const Run& run) {
+  const auto& m = view.measures;
+  std::array<int, 6> votes{};
+  std::array<const TipSight*, 6> example{};
+  for (std::size_t i = index_at(m.course, run.from); i < m.course.size(); ++i) {
+    if (m.course[i].time > run.to) break;
+    if (!m.sights[i] || m.sights[i]->seen()) continue;
+    const auto loss = static_cast<std::size_t>(m.sights[i]->loss);
+    ++votes[loss];
+    const TipSight*& worst = example[loss];
+    if (worst == nullptr || std::abs(m.sights[i]->offset) > std::abs(worst->offset))
+      worst = &*m.sights[i];
+  }
+  const auto most =
+      static_cast<std::size_t>(std::max_element(votes.begin(), votes.end()) - votes.begin());
+  const TipSight* sight = example[most];
+  if (sight == nullptr) return "the tip was not seen";
+  switch (sight->loss) {
+    case SightLoss::off_plane:
+      return text_of(sight->offset > 0 ? "the tip was %.1f mm in front of the plane"
+                                       : "the tip was %.1f mm behind the plane",
+                     std::abs(sight->offset) / kMillimetre);
+    case SightLoss::angle:
+      return text_of("the needle stood at %.0f degrees to the probe's face and sent its echo away",
+                     sight->face_angle / kDegree);
+    case SightLoss::shadow:
+      return "the tip was in the shadow of " + view.scene.joint().regions[sight->shadow].name;
+    case SightLoss::no_contact:
+      return "the probe did not touch the skin above the tip";
+    case SightLoss::off_sector:
+      return "the tip was beside or below the picture";
+    case SightLoss::none:
+      break;
+  }
+  return "the tip was not seen";
+}
+
+}  // namespace
+
+std::vector<AttemptEvent> find_events(const AttemptView& view) {
+  const auto& m = view.measures;
+  std::vector<AttemptEvent> events;
+  if (m.course.empty()) return events;
+  const auto put = [&](double time, std::string kind, double value, std::string text) {
+    const CoursePoint& at = m.course[index_at(m.course, time)];
+    const std::string& region = view.scene.joint().regions[at.region].name;
+    events.push_back({time, std::move(kind), region, value, std::move(text)});
+  };
+  const CourseTotals sum = sum_course(m.course);
+  if (sum.first_contact) put(*sum.first_contact, "contact", 0, "the needle went through the skin");
+  for (const Run& run : sum_sight(m.course, m.sights).unseen)
+    put(run.from, "unseen", run.amount / kMillimetre, cause_of(view, run));
+  for (const BoneTouch& touch : m.touches)
+    put(touch.time, "bone", touch.peak,
+        text_of("the tip came onto bone at %.0f mm/s", touch.speed / kMillimetre));
+  for (const AvoidZone& zone : view.options.goals.avoid) {
+    const Intrusion in = find_intrusion(zone, m.course);
+    if (in.first)
+      put(*in.first, "avoid:" + zone.name, in.depth / kMillimetre,
+          text_of("the tip went %.1f mm into the zone around ", in.depth / kMillimetre) +
+              zone.name);
+  }
+  const auto passes = find_passes(m.course);
+  for (std::size_t i = 1; i < passes.size(); ++i)
+    put(passes[i], "pass", static_cast<double>(i + 1), "the needle was brought forward again");
+  for (const Run& run : find_idle(m.course))
+    put(run.from, "idle", run.amount, text_of("nothing moved for %.1f s", run.amount));
+  if (const auto placed = find_placement(m.course)) {
+    const auto& target = view.options.goals.target;
+    const double off = target ? distance_to(*target, m.course[*placed].tip) / kMillimetre : 0;
+    put(m.course[*placed].time, "placed", off,
+        target ? text_of("the needle was placed %.1f mm from the target", off)
+               : "the needle was placed");
+  }
+  std::stable_sort(events.begin(), events.end(),
+                   [](const auto& a, const auto& b) { return a.time < b.time; });
+  return events;
+}
+
+}  // namespace artus

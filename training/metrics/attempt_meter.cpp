@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/training/metrics/attempt_meter.h"
+
+#include <utility>
+
+#include "artus/training/metrics/attempt_events.h"
+#include "artus/training/metrics/attempt_metrics.h"
+
+namespace artus {
+namespace {
+
+void add_raw(std::vector<Metric>& out, const std::vector<TrackPoint>& track,
+             const std::shared_ptr<const Scene>& scene, bool needle) {
+  RawMotion raw(scene, needle);
+  for (const TrackPoint& point : track) raw.add(point.time, pose_of(point));
+  for (Metric& m : raw.metrics(needle ? "Needle" : "Probe")) {
+    m.rule = motion_rule();
+    out.push_back(std::move(m));
+  }
+}
+
+}  // namespace
+
+AttemptMeter::AttemptMeter(std::shared_ptr<const Scene> scene, MeterOptions options)
+    : scene_(std::move(scene)),
+      options_(std::move(options)),
+      finder_(options_.transducer, options_.image_depth, options_.needle),
+      needle_(options_.longest),
+      probe_(options_.longest),
+      forces_(scene_->joint().regions.size()) {}
+
+AttemptMeasures AttemptMeter::measure() const {
+  AttemptMeasures out;
+  out.needle = smooth(needle_.points());
+  out.probe = smooth(probe_.points());
+  out.course = make_course(*scene_, out.needle);
+  out.sights = look_along(*scene_, finder_, out.needle, out.probe);
+  out.layers = forces_.layers();
+  out.touches = forces_.touches();
+  const AttemptView view{*scene_, options_, out, images_, forces_.empty(), forces_.touch_count()};
+  out.metrics = compute_metrics(view);
+  out.events = find_events(view);
+  add_raw(out.raw, out.needle, scene_, true);
+  add_raw(out.raw, out.probe, nullptr, false);
+  return out;
+}
+
+}  // namespace artus

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "artus/training/metrics/force_layers.h"
+#include "artus/training/metrics/goals.h"
+#include "artus/training/metrics/image_sight.h"
+#include "artus/training/metrics/metric.h"
+#include "artus/training/metrics/needle_course.h"
+#include "artus/training/metrics/raw_motion.h"
+#include "artus/training/metrics/sight_course.h"
+#include "artus/training/metrics/tip_sight.h"
+
+namespace artus {
+
+/// What an attempt is measured with.
+struct MeterOptions {
+  Transducer transducer;
+  double image_depth = 40e-3;  ///< m
+  NeedleShape needle;
+  Goals goals;
+  double longest = 1800;  ///< s that are kept
+};
+
+/// Something that happened at a moment, for the report's clips and the record's events.
+struct AttemptEvent {
+  double time = 0;     ///< s
+  std::string kind;    ///< "contact", "unseen", "bone", "avoid:<name>", "pass", "placed", "idle"
+  std::string region;  ///< at the tip
+  double value = 0;    ///< mm, N or s, as the kind says
+  std::string text;    ///< with the cause, from the truth
+};
+
+/// Everything about an attempt that can be computed from its stream.
+struct AttemptMeasures {
+  std::vector<TrackPoint> needle;  ///< 20 Hz
+  std::vector<TrackPoint> probe;
+  std::vector<CoursePoint> course;
+  std::vector<std::optional<TipSight>> sights;
+  std::vector<LayerForce> layers;
+  std::vector<BoneTouch> touches;
+  std::vector<Metric> metrics;
+  std::vector<Metric> raw;  ///< PerkTutor's rows from the 20 Hz tracks
+  std::vector<AttemptEvent> events;
+};
+
+/// Measures an attempt while it runs. Poses and forces may come from the tick, pictures' sights and
+/// flow from other threads' own meters: no number depends on how these streams are interleaved, so
+/// a session, its replay and its assessment give the same digits. What is added only goes into
+/// memory taken at the start; everything else is computed by measure().
+class AttemptMeter {
+ public:
+  /// Requires: a scene, valid transducer.
+  AttemptMeter(std::shared_ptr<const Scene> scene, MeterOptions options);
+
+  ARTUS_REALTIME void add_needle(double time, const Vec3& p, const Eigen::Quaterniond& q) noexcept {
+    needle_.add(time, p, q);
+  }
+  ARTUS_REALTIME void add_probe(double time, const Vec3& p, const Eigen::Quaterniond& q) noexcept {
+    probe_.add(time, p, q);
+  }
+  ARTUS_REALTIME void add_felt(const FeltTick& tick) noexcept { forces_.add(tick); }
+  void add_sight(const ImageSight& sight) { images_.push_back(sight); }
+
+  [[nodiscard]] const MeterOptions& options() const noexcept { return options_; }
+
+  /// All numbers of what came so far. Cost: linear in points.
+  [[nodiscard]] AttemptMeasures measure() const;
+
+ private:
+  std::shared_ptr<const Scene> scene_;
+  MeterOptions options_;
+  TipSightFinder finder_;
+  PoseSampler needle_;
+  PoseSampler probe_;
+  ForceLayers forces_;
+  std::vector<ImageSight> images_;
+};
+
+}  // namespace artus

@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/training/metrics/attempt_metrics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "artus/core/units.h"
+#include "artus/training/metrics/smoothness.h"
+
+namespace artus {
+namespace {
+
+constexpr double kFastMove = 0.05;          // m/s
+constexpr double kFastTurn = 50 * kDegree;  // rad/s
+constexpr double kHold = 0.2;               // s
+constexpr double kMoving = 2e-3;            // m/s
+constexpr double kSquare = kMillimetre * kMillimetre;
+
+using Value = std::optional<double>;
+
+/// Puts metrics of one rule together.
+class Sheet {
+ public:
+  void rule(MetricRule rule) { rule_ = std::move(rule); }
+  void put(const char* role, const std::string& name, const char* unit, Value value,
+           const std::string& definition) {
+    if (value && !std::isfinite(*value)) value.reset();
+    out_.push_back({name, role, unit, value, definition, rule_});
+  }
+  std::vector<Metric> take() { return std::move(out_); }
+
+ private:
+  MetricRule rule_ = motion_rule();
+  std::vector<Metric> out_;
+};
+
+double mean_of(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double v : values) sum += v;
+  return values.empty() ? 0 : sum / static_cast<double>(values.size());
+}
+
+/// Pearson's correlation of two signals over what they share; empty when one does not vary.
+Value correlation(std::vector<double> a, std::vector<double> b) {
+  const std::size_t n = std::min(a.size(), b.size());
+  if (n < 2) return std::nullopt;
+  a.resize(n);
+  b.resize(n);
+  const double ma = mean_of(a);
+  const double mb = mean_of(b);
+  double ab = 0;
+  double aa = 0;
+  double bb = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    ab += (a[i] - ma) * (b[i] - mb);
+    aa += (a[i] - ma) * (a[i] - ma);
+    bb += (b[i] - mb) * (b[i] - mb);
+  }
+  if (aa <= 0 || bb <= 0) return std::nullopt;
+  return ab / std::sqrt(aa * bb);
+}
+
+void put_hand(Sheet& sheet, const char* role, const std::vector<TrackPoint>& track) {
+  const std::vector<double> speeds = speeds_of(track);
+  const std::vector<double> turns = turn_rates_of(track);
+  const bool there = !speeds.empty();
+  const auto sum = [](const std::vector<double>& values) {
+    double total = 0;
+    for (const double v : values) total += v / kTrackRate;
+    return total;
+  };
+  const auto when = [there](double value) {
+    return there ? Value(value) : Value();
+  };
+  sheet.put(role, "path_length_mm", "mm", when(sum(speeds) / kMillimetre),
+            "sum of the steps of the pose's origin");
+  sheet.put(role, "rotation_deg", "deg", when(sum(turns) / kDegree), "sum of the steps' angles");
+  sheet.put(role, "movements", "count", when(count_movements(speeds, kFastMove, kHold)),
+            "runs faster than 50 mm/s for 0.2 s or more, closed after 0.2 s below");
+  sheet.put(role, "rotations", "count", when(count_movements(turns, kFastTurn, kHold)),
+            "runs faster than 50 deg/s for 0.2 s or more, closed after 0.2 s below");
+  sheet.put(role, "sparc", "-", when(spectral_arc_length(speeds, kTrackRate)),
+            "spectral arc length of the speed, up to 10 Hz, from 0.05 of the largest; nearer to 0 "
+            "is smoother");
+  sheet.put(role, "ldlj", "-", when(log_dimensionless_jerk(speeds, kTrackRate)),
+            "log dimensionless jerk of the speed; nearer to 0 is smoother");
+}
+
+void put_course(Sheet& sheet, const AttemptView& view) {
+  const auto& course = view.measures.course;
+  const CourseTotals sum = sum_course(course);
+  const bool in = sum.first_contact.has_value();
+  const auto when = [in](double value) {
+    return in ? Value(value) : Value();
+  };
+  sheet.put("needle", "time_s", "s",
+            when(sum.last_inside.value_or(0) - sum.first_contact.value_or(0)),
+            "first to last instant with the tip inside the skin");
+  sheet.put("needle", "time_to_contact_s", "s",
+            when(sum.first_contact.value_or(0) - (course.empty() ? 0 : course.front().time)),
+            "start to the first instant with the tip inside");
+  sheet.put("needle", "time_in_tissue_s", "s", sum.time_in_tissue,
+            "intervals that end with the tip inside");
+  sheet.put("needle", "path_in_tissue_mm", "mm", sum.path_in_tissue / kMillimetre,
+            "steps that end with the tip inside");
+  sheet.put("needle", "swept_area_mm2", "mm2", sum.swept_area / kSquare,
+            "area between neighbouring shafts from tip to the skin on the line to 300 mm back; "
+            "both ends inside");
+  sheet.put("needle", "swept_volume_mm3", "mm3",
+            sum.swept_area * view.options.needle.outer_diameter / (kSquare * kMillimetre),
+            "swept area times the needle's outer diameter");
+  sheet.put("needle", "deepest_mm", "mm", sum.deepest / kMillimetre,
+            "largest way from the skin to the tip along the needle");
+  const auto idle = find_idle(course);
+  double still = 0;
+  for (const Run& run : idle) still += run.amount;
+  sheet.put("needle", "idle", "count", static_cast<double>(idle.size()),
+            "times slower than 2 mm/s inside for more than 3 s");
+  sheet.put("needle", "idle_s", "s", still, "sum of those times");
+  sheet.put("needle", "passes", "count", static_cast<double>(find_passes(course).size()),
+            "1 and every advance of 5 mm or more after a withdrawal of 5 mm or more");
+  sheet.put("needle", "redirections", "count",
+            static_cast<double>(find_redirections(course).size()),
+            "turns of the shaft by more than 5 degrees inside between two rests, without a pass");
+}
+
+void put_sight(Sheet& sheet, const AttemptView& view) {
+  const SightTotals sum = sum_sight(view.measures.course, view.measures.sights);
+  const bool there = sum.time > 0;
+  const auto scaled = [](Value value, double unit) {
+    return value ? Value(*value / unit) : value;
+  };
+  sheet.put("both", "in_plane_fraction", "-",
+            sum.advanced > 0 ? Value(sum.advanced_in_plane / sum.advanced) : Value(),
+            "share of the way advanced in tissue with the tip within half the slice's thickness at "
+            "its depth and the shaft within 5 degrees of the plane");
+  sheet.put("both", "plane_offset_median_mm", "mm",
+            scaled(percentile(sum.offsets, 0.5), kMillimetre), "tip to image plane, inside");
+  sheet.put("both", "plane_offset_p90_mm", "mm", scaled(percentile(sum.offsets, 0.9), kMillimetre),
+            "its 90th percentile");
+  sheet.put("both", "plane_angle_median_deg", "deg", scaled(percentile(sum.angles, 0.5), kDegree),
+            "shaft to image plane, inside");
+  sheet.put("both", "plane_angle_p90_deg", "deg", scaled(percentile(sum.angles, 0.9), kDegree),
+            "its 90th percentile");
+  sheet.put(
+      "both", "tip_seen", "-", there ? Value(sum.time_seen / sum.time) : Value(),
+      "share of the time in tissue with the tip between the outermost lines, not shadowed, and "
+      "its echo 6 dB above muscle after what angle and distance to the plane take");
+  double unseen = 0;
+  for (const Run& run : sum.unseen) unseen += run.amount;
+  sheet.put("both", "unseen_advances", "count",
+            there ? Value(static_cast<double>(sum.unseen.size())) : Value(),
+            "runs of 1 mm or more advanced in tissue while the tip is not seen");
+  sheet.put("both", "unseen_mm", "mm", there ? Value(unseen / kMillimetre) : Value(),
+            "way advanced in those runs");
+  std::vector<double> face;
+  double drift = 0;
+  double needling = 0;
+  const auto& m = view.measures;
+  const std::vector<double> probe = speeds_of(m.probe);
+  for (std::size_t i = 1; i < m.course.size(); ++i) {
+    if (!m.course[i].inside()) continue;
+    if (m.sights[i]) face.push_back(m.sights[i]->face_angle);
+    if (i - 1 >= probe.size() || m.course[i].step * kTrackRate < kMoving) continue;
+    needling += 1 / kTrackRate;
+    drift += probe[i - 1] / kTrackRate;
+  }
+  sheet.put("both", "face_angle_median_deg", "deg", scaled(percentile(face, 0.5), kDegree),
+            "shaft to the probe's face (the image's x axis), inside");
+  sheet.put("probe", "drift_mm_s", "mm/s",
+            needling > 0 ? Value(drift / needling / kMillimetre) : Value(),
+            "the probe's mean speed while the tip moves faster than 2 mm/s inside");
+  sheet.put("both", "bimanual", "-", correlation(speeds_of(m.needle), probe),
+            "correlation of the two hands' speeds");
+}
+
+void put_goals(Sheet& sheet, const AttemptView& view) {
+  const Goals& goals = view.options.goals;
+  const auto& course = view.measures.course;
+  if (goals.target) {
+    const auto placed = find_placement(course);
+    sheet.put(
+        "needle", "distance_mm", "mm",
+        placed ? Value(distance_to(*goals.target, course[*placed].tip) / kMillimetre) : Value(),
+        "tip to " + goals.target->name +
+            " where the needle was placed: its last rest inside of 0.5 s, else its deepest");
+  }
+  double time = 0;
+  double depth = 0;
+  int fatal = 0;
+  int entries = 0;
+  for (const AvoidZone& zone : goals.avoid) {
+    const Intrusion in = find_intrusion(zone, course);
+    time += in.time;
+    depth = std::max(depth, in.depth);
+    entries += in.entries;
+    if (zone.fatal) fatal += in.entries;
+    sheet.put("needle", "avoid_depth_mm:" + zone.name, "mm", in.depth / kMillimetre,
+              "deepest intrusion of the tip beyond the zone's edge");
+  }
+  if (goals.avoid.empty()) return;
+  sheet.put("needle", "avoid_time_s", "s", time, "time of the tip inside the zones to avoid");
+  sheet.put("needle", "avoid_depth_mm", "mm", depth / kMillimetre, "deepest intrusion of all");
+  sheet.put("needle", "avoid_entries", "count", entries, "times that the tip came into a zone");
+  sheet.put("needle", "avoid_fatal", "count", fatal,
+            "times that the tip came into a zone that must never be entered");
+}
+
+void put_forces(Sheet& sheet, const AttemptView& view) {
+  sheet.rule({"none, every tick", 0});
+  const auto& m = view.measures;
+  const auto when = [&view](double value) {
+    return view.no_forces ? Value() : Value(value);
+  };
+  double peak = 0;
+  double speed = 0;
+  double scratch = 0;
+  for (const BoneTouch& touch : m.touches) {
+    peak = std::max(peak, touch.peak);
+    speed = std::max(speed, touch.speed);
+    scratch += touch.scratch;
+  }
+  sheet.put("needle", "bone_contacts", "count", when(static_cast<double>(view.touch_count)),
+            "times that the tip came onto bone, 0.3 s or more apart");
+  sheet.put("needle", "bone_peak_n", "N", when(peak), "largest force on bone");
+  sheet.put("needle", "bone_speed_mm_s", "mm/s", when(speed / kMillimetre),
+            "fastest touch of bone");
+  sheet.put("needle", "bone_scratch_mm", "mm", when(scratch / kMillimetre),
+            "way of the tip while it stood on bone");
+  const auto& regions = view.scene.joint().regions;
+  for (std::size_t i = kFirstRegion; i < m.layers.size(); ++i) {
+    const LayerForce& layer = m.layers[i];
+    if (layer.time <= 0) continue;
+    const std::string& name = regions[i].name;
+    sheet.put("needle", "force_peak_n:" + name, "N", layer.peak,
+              "largest cutting and friction along the needle with the tip in this layer");
+    sheet.put("needle", "force_mean_n:" + name, "N", layer.impulse / layer.time, "its mean");
+    sheet.put("needle", "force_impulse_n_s:" + name, "N s", layer.impulse, "its sum over time");
+  }
+}
+
+void put_images(Sheet& sheet, const AttemptView& view) {
+  sheet.rule({"none, every picture", 0});
+  const auto& course = view.measures.course;
+  double inside = 0;
+  double visible = 0;
+  std::vector<double> contrast;
+  std::size_t k = 0;
+  for (const ImageSight& sight : view.images) {
+    while (k + 1 < course.size() && course[k + 1].time <= sight.time) ++k;
+    if (k >= course.size() || !course[k].inside()) continue;
+    ++inside;
+    visible += sight.visible ? 1 : 0;
+    if (sight.contrast_db) contrast.push_back(*sight.contrast_db);
+  }
+  sheet.put("both", "tip_visible", "-", inside > 0 ? Value(visible / inside) : Value(),
+            "share of the pictures in tissue in which the disc of 1.5 mm where the tip shows is "
+            "6 dB above the ring of 2 to 4 mm around it");
+  sheet.put("both", "tip_contrast_median_db", "dB", percentile(contrast, 0.5),
+            "that contrast's median");
+}
+
+}  // namespace
+
+std::vector<Metric> compute_metrics(const AttemptView& view) {
+  Sheet sheet;
+  put_course(sheet, view);
+  put_hand(sheet, "needle", view.measures.needle);
+  put_hand(sheet, "probe", view.measures.probe);
+  put_sight(sheet, view);
+  put_goals(sheet, view);
+  put_forces(sheet, view);
+  put_images(sheet, view);
+  return sheet.take();
+}
+
+std::vector<std::string> metric_names() {
+  const CompiledJoint empty = [] {
+    CompiledJoint joint;
+    joint.tissues.resize(1);
+    joint.regions.resize(kFirstRegion);
+    return joint;
+  }();
+  const Scene scene(std::make_shared<const CompiledJoint>(empty));
+  MeterOptions options;
+  options.goals.target = Target{"target", Vec3::Zero(), nullptr};
+  options.goals.avoid.push_back({});
+  const AttemptMeasures nothing;
+  std::vector<std::string> names;
+  for (const Metric& m : compute_metrics({scene, options, nothing, {}, true, 0}))
+    if (m.name.find(':') == std::string::npos &&
+        std::find(names.begin(), names.end(), m.name) == names.end())
+      names.push_back(m.name);
+  return names;
+}
+
+}  // namespace artus

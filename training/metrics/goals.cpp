@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/training/metrics/goals.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace artus {
+namespace {
+
+constexpr double kFar = 0.5;            // m within which structures are looked for
+constexpr double kRestSpeed = 2e-3;     // m/s
+constexpr double kRestTime = 0.5;       // s
+constexpr double kLookEvery = 0.25e-3;  // m
+
+/// m beyond the zone's edge; negative outside.
+double depth_in(const AvoidZone& zone, const Vec3& p) {
+  return zone.margin - zone.body->signed_distance_to_skin(p, kFar);
+}
+
+}  // namespace
+
+double distance_to(const Target& target, const Vec3& p_J) noexcept {
+  if (target.point) return (p_J - *target.point).norm();
+  if (target.body == nullptr) return 0;
+  return std::max(0.0, target.body->signed_distance_to_skin(p_J, kFar));
+}
+
+std::optional<std::size_t> find_placement(std::span<const CoursePoint> course) {
+  std::optional<std::size_t> rest;
+  std::optional<std::size_t> deepest;
+  std::size_t since = 0;
+  bool still = false;
+  for (std::size_t i = 1; i < course.size(); ++i) {
+    const CoursePoint& now = course[i];
+    const double dt = now.time - course[i - 1].time;
+    if (now.inside() && (!deepest || now.depth > course[*deepest].depth)) deepest = i;
+    const bool slow = now.inside() && now.step < kRestSpeed * dt;
+    if (slow && !still) since = i - 1;
+    still = slow;
+    if (still && now.time - course[since].time >= kRestTime) rest = i;
+  }
+  return rest ? rest : deepest;
+}
+
+Intrusion find_intrusion(const AvoidZone& zone, std::span<const CoursePoint> course) {
+  Intrusion out;
+  bool inside = false;
+  for (std::size_t i = 1; i < course.size(); ++i) {
+    const CoursePoint& from = course[i - 1];
+    const CoursePoint& to = course[i];
+    if (!to.inside() && !from.inside()) {
+      inside = false;
+      continue;
+    }
+    const auto n = std::max<long>(1, std::lround(std::ceil(to.step / kLookEvery)));
+    const double dt = (to.time - from.time) / static_cast<double>(n);
+    for (long k = 1; k <= n; ++k) {
+      const double share = static_cast<double>(k) / static_cast<double>(n);
+      const double depth = depth_in(zone, from.tip + share * (to.tip - from.tip));
+      const bool now = depth > 0;
+      if (now && !inside) {
+        ++out.entries;
+        if (!out.first) out.first = from.time + dt * static_cast<double>(k);
+      }
+      if (now) out.time += dt;
+      out.depth = std::max(out.depth, depth);
+      inside = now;
+    }
+  }
+  return out;
+}
+
+}  // namespace artus

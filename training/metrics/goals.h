@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "artus/raycast/scene.h"
+#include "artus/training/metrics/needle_course.h"
+
+namespace artus {
+
+/// Where the tip should come: a point, or anywhere in a structure.
+struct Target {
+  std::string name;
+  std::optional<Vec3> point;          ///< m, frame J
+  std::shared_ptr<const Scene> body;  ///< make_region_body; null for a point alone
+};
+
+/// Where the tip should not come: a structure with a margin around it.
+struct AvoidZone {
+  std::string name;
+  std::shared_ptr<const Scene> body;
+  double margin = 0;  ///< m
+  bool fatal = false;
+};
+
+/// What an attempt is measured against; all may be empty.
+struct Goals {
+  std::optional<Target> target;
+  std::vector<AvoidZone> avoid;
+};
+
+/// m from a point to the target's point, or to its structure's surface: 0 inside.
+[[nodiscard]] double distance_to(const Target& target, const Vec3& p_J) noexcept;
+
+/// Where the needle was placed: the last rest inside (slower than 2 mm/s for 0.5 s or more), else
+/// the deepest point. Empty when it never was inside.
+[[nodiscard]] std::optional<std::size_t> find_placement(std::span<const CoursePoint> course);
+
+/// What happened in one zone. Between points the tip is taken as going straight and looked at every
+/// 0.25 mm or finer.
+struct Intrusion {
+  double time = 0;              ///< s inside structure and margin
+  double depth = 0;             ///< m, deepest beyond the margin's edge
+  int entries = 0;              ///< times that the tip came in
+  std::optional<double> first;  ///< s, of the first entry
+};
+[[nodiscard]] Intrusion find_intrusion(const AvoidZone& zone, std::span<const CoursePoint> course);
+
+}  // namespace artus

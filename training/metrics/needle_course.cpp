@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/training/metrics/needle_course.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "artus/training/metrics/closed_body.h"
+#include "artus/training/metrics/swept_area.h"
+
+namespace artus {
+namespace {
+
+constexpr double kRestSpeed = 2e-3;  // m/s
+
+double angle_between(const Vec3& a, const Vec3& b) {
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+double speed_at(std::span<const CoursePoint> course, std::size_t i) {
+  const double dt = course[i].time - course[i - 1].time;
+  return dt > 0 ? course[i].step / dt : 0;
+}
+
+}  // namespace
+
+std::vector<CoursePoint> make_course(const Scene& scene, std::span<const TrackPoint> track) {
+  std::vector<CoursePoint> course;
+  course.reserve(track.size());
+  for (const TrackPoint& point : track) {
+    CoursePoint now;
+    now.time = point.time;
+    now.tip = point.p;
+    now.axis = axis_of(point);
+    now.region = scene.region_at(now.tip);
+    if (now.inside()) {
+      const auto entry = find_entry(scene, now.tip, now.axis);
+      now.entry = entry.value_or(now.tip);
+      now.depth = (now.tip - now.entry).norm();
+    }
+    if (!course.empty()) {
+      const Vec3 moved = now.tip - course.back().tip;
+      now.step = moved.norm();
+      if (now.inside()) now.advance = moved.dot(now.axis);
+    }
+    course.push_back(now);
+  }
+  return course;
+}
+
+CourseTotals sum_course(std::span<const CoursePoint> course) {
+  CourseTotals sum;
+  for (std::size_t i = 0; i < course.size(); ++i) {
+    const CoursePoint& now = course[i];
+    sum.path += now.step;
+    if (!now.inside()) continue;
+    if (!sum.first_contact) sum.first_contact = now.time;
+    sum.last_inside = now.time;
+    sum.deepest = std::max(sum.deepest, now.depth);
+    if (i == 0) continue;
+    const CoursePoint& before = course[i - 1];
+    sum.path_in_tissue += now.step;
+    sum.time_in_tissue += now.time - before.time;
+    sum.advanced += std::max(0.0, now.advance);
+    if (before.inside())
+      sum.swept_area += swept_area({before.tip, before.entry}, {now.tip, now.entry});
+  }
+  return sum;
+}
+
+std::vector<Run> find_idle(std::span<const CoursePoint> course, double speed, double longest) {
+  std::vector<Run> runs;
+  std::optional<double> since;
+  const auto close = [&](double at) {
+    if (since && at - *since > longest) runs.push_back({*since, at, at - *since});
+    since.reset();
+  };
+  for (std::size_t i = 1; i < course.size(); ++i) {
+    const bool still = course[i].inside() && speed_at(course, i) < speed;
+    if (still && !since) since = course[i - 1].time;
+    if (!still) close(course[i - 1].time);
+  }
+  if (!course.empty()) close(course.back().time);
+  return runs;
+}
+
+std::vector<double> find_passes(std::span<const CoursePoint> course, double way) {
+  std::vector<double> starts;
+  bool inward = true;
+  double extreme = 0;       // m, deepest of this pass or shallowest since it
+  double extreme_time = 0;  // s
+  for (const CoursePoint& now : course) {
+    if (starts.empty()) {
+      if (!now.inside()) continue;
+      starts.push_back(now.time);
+      extreme = now.depth;
+    }
+    if (inward ? now.depth > extreme : now.depth < extreme) {
+      extreme = now.depth;
+      extreme_time = now.time;
+    } else if (std::abs(now.depth - extreme) >= way) {
+      inward = !inward;
+      if (inward) starts.push_back(extreme_time);
+      extreme = now.depth;
+      extreme_time = now.time;
+    }
+  }
+  return starts;
+}
+
+std::vector<double> find_redirections(std::span<const CoursePoint> course, double angle,
+                                      double way) {
+  std::vector<double> times;
+  std::optional<Vec3> rest_axis;
+  double deepest = 0;
+  for (std::size_t i = 1; i < course.size(); ++i) {
+    const CoursePoint& now = course[i];
+    if (!now.inside()) {
+      rest_axis.reset();
+      deepest = 0;
+      continue;
+    }
+    deepest = std::max(deepest, now.depth);
+    if (deepest - now.depth >= way) {  // a pass begins anew
+      rest_axis.reset();
+      deepest = now.depth;
+    }
+    if (speed_at(course, i) >= kRestSpeed) continue;
+    if (rest_axis && angle_between(*rest_axis, now.axis) > angle) times.push_back(now.time);
+    if (!rest_axis || angle_between(*rest_axis, now.axis) > angle) rest_axis = now.axis;
+  }
+  return times;
+}
+
+int count_movements(std::span<const double> speeds, double threshold, double hold) {
+  const auto least = static_cast<std::ptrdiff_t>(std::ceil(hold * kTrackRate - 1e-9));
+  int count = 0;
+  std::ptrdiff_t fast = 0;
+  std::ptrdiff_t slow = least;
+  bool moving = false;
+  for (const double speed : speeds) {
+    if (speed > threshold) {
+      ++fast;
+      slow = 0;
+      if (!moving && fast >= least) {
+        moving = true;
+        ++count;
+      }
+    } else {
+      fast = 0;
+      if (++slow >= least) moving = false;
+    }
+  }
+  return count;
+}
+
+std::vector<double> speeds_of(std::span<const TrackPoint> track) {
+  std::vector<double> speeds;
+  for (std::size_t i = 1; i < track.size(); ++i)
+    speeds.push_back((track[i].p - track[i - 1].p).norm() * kTrackRate);
+  return speeds;
+}
+
+std::vector<double> turn_rates_of(std::span<const TrackPoint> track) {
+  std::vector<double> rates;
+  for (std::size_t i = 1; i < track.size(); ++i)
+    rates.push_back(track[i - 1].q.angularDistance(track[i].q) * kTrackRate);
+  return rates;
+}
+
+}  // namespace artus

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "artus/training/metrics/needle_course.h"
+#include "artus/training/metrics/tip_sight.h"
+
+namespace artus {
+
+/// Sight of the tip at each point of a course, from the probe's track on the same steps; empty
+/// where no probe was.
+[[nodiscard]] std::vector<std::optional<TipSight>> look_along(const Scene& scene,
+                                                              const TipSightFinder& finder,
+                                                              std::span<const TrackPoint> needle,
+                                                              std::span<const TrackPoint> probe);
+
+/// How the needle was kept in the picture.
+struct SightTotals {
+  double advanced = 0;           ///< m forward inside, with a probe there
+  double advanced_in_plane = 0;  ///< m of it with tip in the slice and shaft within 5 degrees
+  double time = 0;               ///< s inside with a probe there
+  double time_seen = 0;          ///< s of it with the tip seen
+  std::vector<double> offsets;   ///< m, |tip - plane| inside
+  std::vector<double> angles;    ///< rad, |shaft to plane| inside
+  std::vector<Run> unseen;       ///< runs of at least `least` m advanced unseen; amount in m
+};
+inline constexpr double kInPlane = 0.08726646259971647;  ///< rad: 5 degrees
+inline constexpr double kUnseenWay = 1e-3;               ///< m
+
+/// Requires: spans of one length.
+[[nodiscard]] SightTotals sum_sight(std::span<const CoursePoint> course,
+                                    std::span<const std::optional<TipSight>> sights);
+
+/// The value below which a share of `values` lies (nearest rank); empty for none.
+[[nodiscard]] std::optional<double> percentile(std::vector<double> values, double share);
+
+}  // namespace artus

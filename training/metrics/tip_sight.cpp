@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/training/metrics/tip_sight.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "artus/core/units.h"
+
+namespace artus {
+namespace {
+
+constexpr double kMostAir = 5e-3;     // m, as ImageSettings::gel_limit
+constexpr double kLeastContrast = 6;  // dB
+constexpr double kSpeed = kDisplaySpeedOfSound;
+
+bool stops_sound(const Tissue& tissue) {
+  return tissue.haptic.hard;
+}
+
+}  // namespace
+
+const char* to_string(SightLoss loss) noexcept {
+  switch (loss) {
+    case SightLoss::none:
+      return "seen";
+    case SightLoss::no_contact:
+      return "no contact";
+    case SightLoss::off_plane:
+      return "off plane";
+    case SightLoss::off_sector:
+      return "off sector";
+    case SightLoss::shadow:
+      return "shadow";
+    case SightLoss::angle:
+      return "angle";
+  }
+  return "?";
+}
+
+TipSightFinder::TipSightFinder(const Transducer& transducer, double depth, const NeedleShape& shape,
+                               double speckle_db)
+    : transducer_(transducer),
+      depth_(depth),
+      shape_(shape),
+      speckle_db_(speckle_db),
+      beam_(transducer, depth) {}
+
+bool TipSightFinder::in_sector(const Vec3& tip_P) const noexcept {
+  if (transducer_.radius > 0) {
+    const double along = tip_P.z() + transducer_.radius;
+    const double range = std::hypot(tip_P.x(), along) - transducer_.radius;
+    const double angle = std::abs(std::atan2(tip_P.x(), along));
+    return range > 0 && range < depth_ && angle <= transducer_.width / 2 / transducer_.radius;
+  }
+  const double x = tip_P.x() - tip_P.z() * std::tan(transducer_.steering);
+  return tip_P.z() > 0 && tip_P.z() < depth_ && std::abs(x) <= transducer_.width / 2;
+}
+
+TipSight TipSightFinder::look(const Scene& scene, const Pose& X_JP, const Pose& X_JN) const {
+  const Pose X_PN = X_JP.inverse() * X_JN;
+  const Vec3 tip = X_PN.translation();
+  const Vec3 axis = X_PN.linear().col(2);
+  TipSight sight;
+  sight.offset = tip.y();
+  sight.half_width = beam_.elevation_width(std::clamp(tip.z(), 0.0, depth_)) / 2;
+  sight.plane_angle = std::asin(std::clamp(axis.y(), -1.0, 1.0));
+  sight.face_angle = std::asin(std::min(1.0, std::abs(axis.z())));
+  const double echo =
+      needle_reflectivity(shape_, sight.face_angle, specular_phase(transducer_, kSpeed));
+  sight.contrast_db = 20 * std::log10(std::max(echo, 1e-9)) - speckle_db_;
+  const bool curved = transducer_.radius > 0;
+  const Vec3 centre(0, 0, -transducer_.radius);
+  const Vec3 face =
+      curved ? Vec3(centre + transducer_.radius * (Vec3(tip.x(), 0, tip.z()) - centre).normalized())
+             : Vec3(tip.x() - tip.z() * std::tan(transducer_.steering), 0, 0);
+  std::array<TissueInterval, 64> layers;
+  const QueryCount count =
+      scene.find_intervals({X_JP * face, X_JP * Vec3(tip.x(), 0, tip.z())}, layers);
+  double air = 0;
+  for (std::size_t i = 0; i < count.size; ++i) {
+    if (layers[i].region == kOutside) air += layers[i].exit - layers[i].entry;
+    if (layers[i].region >= kFirstRegion && sight.shadow == kOutside &&
+        stops_sound(scene.joint().tissue_of(layers[i].region)))
+      sight.shadow = layers[i].region;
+  }
+  const double heard = beam_.elevation_amplitude(sight.offset, std::clamp(tip.z(), 0.0, depth_));
+  const double aside_db = 20 * std::log10(std::max(heard, 1e-9));
+  const bool faint = sight.contrast_db + aside_db < kLeastContrast;
+  if (air > kMostAir)
+    sight.loss = SightLoss::no_contact;
+  else if (faint && aside_db < -kLeastContrast)
+    sight.loss = SightLoss::off_plane;
+  else if (!in_sector(tip))
+    sight.loss = SightLoss::off_sector;
+  else if (sight.shadow != kOutside)
+    sight.loss = SightLoss::shadow;
+  else if (faint)
+    sight.loss = SightLoss::angle;
+  return sight;
+}
+
+}  // namespace artus

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <functional>
+#include <memory>
+
+#include "artus/operators/scanning_operator.h"
+#include "artus/session/recording.h"
+#include "artus/training/metrics/attempt_meter.h"
+#include "artus/training/scenario.h"
+
+namespace artus {
+
+/// The body of a scenario that brings its own. Errors: not_found (a tissue).
+[[nodiscard]] Result<std::shared_ptr<const Scene>> make_gel_scene(const GelBlock& gel);
+
+/// The session that a scenario is played in. Errors: not_found (transducer).
+[[nodiscard]] Result<SessionParams> make_session_params(const Scenario& scenario);
+
+/// What a scenario's attempts are measured against. Errors: not_found (a structure), all in one.
+[[nodiscard]] Result<MeterOptions> make_meter_options(const Scenario& scenario,
+                                                      const CompiledJoint& joint,
+                                                      const SessionParams& params);
+
+/// An attempt as it was played.
+struct PlayedAttempt {
+  Recording recording;  ///< ticks, and frames when pictures were wanted
+  AttemptMeasures measures;
+  Judgement judgement;
+  double duration = 0;  ///< s
+};
+
+struct PlayOptions {
+  std::uint64_t seed = 1;
+  bool record = true;       ///< keep ticks
+  double picture_rate = 0;  ///< Hz, pictures kept in the recording; 0: none
+};
+
+/// Plays a scenario with simulated hands, without a clock: hands, device and forces in a closed
+/// loop at 1 kHz. The same bytes for the same skill and seed. Errors: those of make_session_params
+/// and make_meter_options. Cost: some 10 us a tick; pictures some 10 ms each.
+[[nodiscard]] Result<PlayedAttempt> play(const Scenario& scenario,
+                                         const std::shared_ptr<const Scene>& scene,
+                                         const OperatorSkill& skill, const PlayOptions& options);
+
+/// Writes a recording as a session would. Errors: unreadable.
+[[nodiscard]] Result<void> write_recording(const Recording& recording,
+                                           const std::filesystem::path& file);
+
+}  // namespace artus

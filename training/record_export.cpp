@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/training/record_export.h"
+
+#include <array>
+#include <cstdio>
+#include <map>
+
+namespace artus {
+namespace {
+
+std::string exact(double value) {
+  std::array<char, 40> text{};
+  static_cast<void>(std::snprintf(text.data(), text.size(), "%.17g", value));
+  return text.data();
+}
+
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"') out += '"';
+    out += c;
+  }
+  return out + '"';
+}
+
+using ByAttempt = std::map<std::string, std::vector<MetricValue>>;
+
+Result<ByAttempt> metrics_of(Records& records, const AttemptFilter& filter) {
+  auto values = records.metrics(filter);
+  ARTUS_TRY(values);
+  ByAttempt out;
+  for (MetricValue& v : *values) out[v.attempt].push_back(std::move(v));
+  return out;
+}
+
+}  // namespace
+
+Result<nlohmann::json> export_json(Records& records, const AttemptFilter& filter) {
+  const auto attempts = records.attempts(filter);
+  ARTUS_TRY(attempts);
+  auto metrics = metrics_of(records, filter);
+  ARTUS_TRY(metrics);
+  auto out = nlohmann::json::array();
+  for (const AttemptRecord& a : *attempts) {
+    auto values = nlohmann::json::array();
+    for (const MetricValue& m : (*metrics)[a.id])
+      values.push_back({{"name", m.name},
+                        {"role", m.role},
+                        {"unit", m.unit},
+                        {"value", m.value ? nlohmann::json(*m.value) : nlohmann::json()}});
+    out.push_back({{"attempt", a.id},
+                   {"person", a.person},
+                   {"scenario", a.scenario},
+                   {"scenario_hash", a.scenario_hash},
+                   {"level", a.level},
+                   {"started", a.started},
+                   {"finished", !a.ended.empty()},
+                   {"mode", a.mode},
+                   {"aided", a.aided},
+                   {"seed", a.seed},
+                   {"duration_s", a.duration},
+                   {"passed", a.passed},
+                   {"score", a.score},
+                   {"metrics", values}});
+  }
+  return out;
+}
+
+Result<std::string> export_csv(Records& records, const AttemptFilter& filter) {
+  const auto attempts = records.attempts(filter);
+  ARTUS_TRY(attempts);
+  auto metrics = metrics_of(records, filter);
+  ARTUS_TRY(metrics);
+  std::string out =
+      "person,scenario,attempt,started,finished,passed,score,metric,role,value,unit\n";
+  for (const AttemptRecord& a : *attempts)
+    for (const MetricValue& m : (*metrics)[a.id])
+      out += quoted(a.person) + ',' + quoted(a.scenario) + ',' + a.id + ',' + a.started + ',' +
+             (a.ended.empty() ? "0," : "1,") + (a.passed ? "1," : "0,") + exact(a.score) + ',' +
+             quoted(m.name) + ',' + m.role + ',' + (m.value ? exact(*m.value) : "") + ',' + m.unit +
+             '\n';
+  return out;
+}
+
+Result<std::string> export_tsv(Records& records, const AttemptFilter& filter) {
+  const auto values = records.metrics(filter);
+  ARTUS_TRY(values);
+  std::string out = "MetricName\tMetricRoles\tMetricUnit\tMetricValue\n";
+  for (const MetricValue& m : *values)
+    if (m.value) out += m.name + '\t' + m.role + '\t' + m.unit + '\t' + exact(*m.value) + '\n';
+  return out;
+}
+
+Result<nlohmann::json> export_xapi(Records& records, const AttemptFilter& filter,
+                                   const std::string& home) {
+  const std::string iri = home + (home.empty() || home.back() != '/' ? "/" : "");
+  const auto attempts = records.attempts(filter);
+  ARTUS_TRY(attempts);
+  auto metrics = metrics_of(records, filter);
+  ARTUS_TRY(metrics);
+  auto out = nlohmann::json::array();
+  for (const AttemptRecord& a : *attempts) {
+    if (a.ended.empty() || a.person.empty()) continue;
+    const std::string verb = a.aided ? "attempted" : (a.passed ? "passed" : "failed");
+    auto extensions = nlohmann::json::object();
+    for (const MetricValue& m : (*metrics)[a.id])
+      if (m.value) extensions[iri + "metric/" + m.name + "/" + m.role] = *m.value;
+    nlohmann::json result = {{"duration", "PT" + exact(a.duration) + "S"},
+                             {"extensions", extensions}};
+    if (!a.aided) {
+      result["score"] = {{"scaled", a.score / 100}};
+      result["success"] = a.passed;
+    }
+    out.push_back(
+        {{"actor",
+          {{"objectType", "Agent"}, {"account", {{"homePage", home}, {"name", a.person}}}}},
+         {"verb", {{"id", "http://adlnet.gov/expapi/verbs/" + verb}, {"display", {{"en", verb}}}}},
+         {"object", {{"objectType", "Activity"}, {"id", iri + "scenario/" + a.scenario}}},
+         {"result", result},
+         {"timestamp", a.ended}});
+  }
+  return out;
+}
+
+}  // namespace artus

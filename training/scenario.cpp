@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/training/scenario.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "artus/core/known_names.h"
+#include "artus/core/text_file.h"
+#include "artus/core/toml_table.h"
+#include "artus/core/units.h"
+#include "artus/training/bundled_scenarios.h"
+#include "artus/training/metrics/attempt_metrics.h"
+
+namespace artus {
+namespace {
+
+std::vector<std::string> step_names() {
+  return {"ask:side",      "ask:allergy", "ask:consent",   "auto:entry",
+          "auto:tip_seen", "auto:placed", "auto:withdrawn"};
+}
+
+void read_gel(TomlTable& toml, Scenario& scenario, Problems& problems) {
+  if (!toml.has("gel")) return;
+  GelBlock gel;
+  const toml::table* table = toml.table("gel");
+  if (table == nullptr) return;
+  TomlTable block(*table, "gel", problems);
+  gel.width = block.number("width", 20, 500, kMillimetre).value_or(gel.width);
+  for (const toml::table* layer : block.tables("layer")) {
+    TomlTable one(*layer, "gel layer", problems);
+    FlatLayer flat;
+    flat.tissue = one.required_text("tissue");
+    flat.thickness = one.required_number("thickness", 0.1, 200, kMillimetre);
+    one.finish();
+    gel.layers.push_back(flat);
+  }
+  if (gel.layers.empty()) block.problem("a block needs a [[gel.layer]]");
+  block.finish();
+  scenario.gel = gel;
+}
+
+void read_instruments(TomlTable& toml, Scenario& s, Problems& problems) {
+  if (const toml::table* table = toml.table("probe")) {
+    TomlTable probe(*table, "probe", problems);
+    s.transducer = probe.text("transducer").value_or(s.transducer);
+    s.depth = probe.number("depth", 10, 300, kMillimetre).value_or(s.depth);
+    const Vec3 p = probe.required_vector("position", kMillimetre);
+    const Vec3 z = probe.required_vector("direction");
+    const Vec3 x = probe.vector("lateral").value_or(Vec3::Zero());
+    if (z.norm() < 1e-9)
+      probe.problem_at("direction", "it must not be zero");
+    else
+      s.X_JP = make_pose(p, z, x);
+    probe.finish();
+  } else {
+    toml.problem("there must be a [probe]");
+  }
+  if (const toml::table* table = toml.table("needle")) {
+    TomlTable needle(*table, "needle", problems);
+    const double gauge = needle.number("gauge", 18, 25).value_or(s.gauge);
+    s.gauge = static_cast<int>(gauge);
+    if (!needle_of_gauge(s.gauge) || gauge != s.gauge)
+      needle.problem_at("gauge", "it must be 18, 20, 21, 22, 23 or 25");
+    s.needle_length = needle.number("length", 10, 200, kMillimetre).value_or(s.needle_length);
+    needle.finish();
+  }
+}
+
+void read_goals(TomlTable& toml, Scenario& s, Problems& problems) {
+  if (const toml::table* table = toml.table("target")) {
+    TomlTable target(*table, "target", problems);
+    s.target.structure = target.text("structure").value_or("");
+    s.target.point = target.required_vector("point", kMillimetre);
+    target.finish();
+  } else {
+    toml.problem("there must be a [target]");
+  }
+  for (const toml::table* table : toml.tables("avoid")) {
+    TomlTable zone(*table, "avoid", problems);
+    ScenarioAvoid avoid;
+    avoid.structure = zone.required_text("structure");
+    avoid.margin = zone.number("margin", 0, 50, kMillimetre).value_or(0);
+    avoid.fatal = zone.boolean("fatal").value_or(false);
+    zone.finish();
+    s.avoid.push_back(avoid);
+  }
+  if (const toml::table* table = toml.table("entry")) {
+    TomlTable entry(*table, "entry", problems);
+    s.entry.centre = entry.required_vector("centre", kMillimetre);
+    s.entry.radius = entry.number("radius", 0.5, 100, kMillimetre).value_or(s.entry.radius);
+    s.entry.plane = entry.text("plane").value_or(s.entry.plane);
+    if (s.entry.plane != "in" && s.entry.plane != "out" && s.entry.plane != "free")
+      entry.problem_at("plane", "it must be in, out or free");
+    s.entry.least_angle = entry.number("angle_from", 0, 90, kDegree).value_or(0);
+    s.entry.most_angle = entry.number("angle_to", 0, 90, kDegree).value_or(90 * kDegree);
+    if (s.entry.least_angle > s.entry.most_angle)
+      entry.problem_at("angle_from", "it must not be above angle_to");
+    entry.finish();
+  } else {
+    toml.problem("there must be an [entry]");
+  }
+}
+
+void read_aids(TomlTable& toml, Scenario& s, Problems& problems) {
+  const toml::table* table = toml.table("aids");
+  if (table == nullptr) return;
+  TomlTable aids(*table, "aids", problems);
+  for (const std::string& name : aid_names())
+    if (const auto value = aids.number(name, 0, 1)) s.aids.push_back({name, *value});
+  s.fade = aids.text("fade").value_or(s.fade);
+  if (s.fade != "success" && s.fade != "trials" && s.fade != "none")
+    aids.problem_at("fade", "it must be success, trials or none");
+  aids.finish();
+}
+
+bool is_metric(const std::string& name, const std::vector<std::string>& known) {
+  return std::find(known.begin(), known.end(), name.substr(0, name.find(':'))) != known.end() ||
+         name.rfind("force_", 0) == 0;
+}
+
+void read_marks(TomlTable& toml, Scenario& s, Problems& problems) {
+  const std::vector<std::string> known = metric_names();
+  if (const toml::table* table = toml.table("pass")) {
+    for (const auto& [key, node] : *table) {
+      const std::string name(key.str());
+      const auto text = node.value<std::string>();
+      if (!is_metric(name, known))
+        problems.add(node, "pass: '" + name + "' is no metric" + did_you_mean(name, known));
+      const auto mark = parse_mark(name, text.value_or(""));
+      if (!mark)
+        problems.add(node, "pass: " + mark.error().to_string());
+      else
+        s.pass.push_back(*mark);
+    }
+  }
+  if (s.pass.empty()) toml.problem("a scenario needs marks in [pass]");
+  if (const toml::table* table = toml.table("score")) {
+    for (const auto& [key, node] : *table) {
+      const std::string name(key.str());
+      const auto weight = node.value<double>();
+      if (!weight || !(*weight >= 0) || *weight > 1000)
+        problems.add(node, "score: the weight of '" + name + "' must be a number from 0 to 1000");
+      else
+        s.score.push_back({name, *weight});
+      const bool marked = std::any_of(s.pass.begin(), s.pass.end(),
+                                      [&](const Mark& m) { return m.metric == name; });
+      if (!marked) problems.add(node, "score: '" + name + "' is not among the marks of [pass]");
+    }
+  }
+}
+
+void read_head(TomlTable& toml, Scenario& s) {
+  if (toml.required_number("format", 1, 1) != 1) toml.problem_at("format", "it must be 1");
+  s.name = toml.required_text("name");
+  if (!is_plain_name(s.name, '-')) toml.problem_at("name", "it must be made of a-z, 0-9 and -");
+  s.title = toml.required_text("title");
+  s.joint = toml.text("joint").value_or("");
+  s.procedure = toml.text("procedure").value_or("");
+  s.level = static_cast<int>(toml.required_number("level", 0, 8));
+  s.seed = static_cast<std::uint64_t>(toml.number("seed", 0, 1e15).value_or(1));
+  s.time_limit = toml.number("time_limit", 5, 3600).value_or(s.time_limit);
+  if (toml.has("steps")) s.steps = toml.required_texts("steps");
+  const auto known = step_names();
+  for (const std::string& step : s.steps)
+    if (std::find(known.begin(), known.end(), step) == known.end())
+      toml.problem_at("steps", "'" + step + "' is no step" + did_you_mean(step, known));
+}
+
+}  // namespace
+
+std::vector<std::string> aid_names() {
+  return {"needle_overlay", "tip_marker",   "plane_beam", "labels",
+          "target_glow",    "haptic_guide", "haptic_wall"};
+}
+
+bool Scenario::aided() const noexcept {
+  return std::any_of(aids.begin(), aids.end(), [](const Aid& aid) { return aid.value > 0; });
+}
+
+double faded(double value, int successes) noexcept {
+  const double left = value * std::pow(0.7, successes);
+  return left < 0.1 ? 0 : left;
+}
+
+Result<Scenario> parse_scenario(std::string_view text, const std::string& name) {
+  const auto table = parse_toml(text, name);
+  ARTUS_TRY(table);
+  Problems problems;
+  TomlTable toml(*table, "scenario", problems);
+  Scenario scenario;
+  scenario.text = text;
+  read_head(toml, scenario);
+  read_gel(toml, scenario, problems);
+  if (scenario.joint.empty() != scenario.gel.has_value())
+    toml.problem("there must be a joint or a [gel], not both");
+  read_instruments(toml, scenario, problems);
+  read_goals(toml, scenario, problems);
+  read_aids(toml, scenario, problems);
+  read_marks(toml, scenario, problems);
+  toml.finish();
+  if (!problems.empty()) return problems.refusal(ErrorCode::invalid, name);
+  return scenario;
+}
+
+Result<Scenario> read_scenario(const std::filesystem::path& file) {
+  const auto text = read_bytes(file);
+  ARTUS_TRY(text);
+  return parse_scenario(*text, file.string());
+}
+
+std::vector<std::string_view> bundled_scenario_texts() {
+  const auto texts = bundled_scenarios();
+  return {texts.begin(), texts.end()};
+}
+
+Result<Scenario> find_scenario(const std::string& name_or_file) {
+  std::string names;
+  for (const std::string_view text : bundled_scenario_texts()) {
+    auto scenario = parse_scenario(text, "bundled");
+    ARTUS_TRY(scenario);
+    if (scenario->name == name_or_file) return scenario;
+    names += (names.empty() ? "" : ", ") + scenario->name;
+  }
+  std::error_code unknown;
+  if (std::filesystem::exists(name_or_file, unknown)) return read_scenario(name_or_file);
+  return fail(ErrorCode::not_found, "neither a file nor a scenario of artus: " + names,
+              name_or_file);
+}
+
+}  // namespace artus

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "artus/core/progress.h"
+#include "artus/training/player.h"
+
+namespace artus {
+
+/// What in a scenario cannot be done in its body, a line each: names that are missing, an entry off
+/// the skin, a needle too short, bone on the way, an angle out of its range, a way out of plane, a
+/// target in a zone to avoid or outside its structure, a probe off the skin. Empty: none.
+[[nodiscard]] std::vector<std::string> find_problems(const Scenario& scenario,
+                                                     const std::shared_ptr<const Scene>& scene);
+
+/// How simulated hands fare: the scenario's difficulty.
+struct Difficulty {
+  int tries = 20;
+  int expert_passes = 0;
+  int novice_passes = 0;
+  double expert_score = 0;  ///< mean
+  double novice_score = 0;
+  /// An expert passes 19 of 20 or more, a novice 8 of 20 or fewer.
+  [[nodiscard]] bool sound() const noexcept {
+    return 20 * expert_passes >= 19 * tries && 20 * novice_passes <= 8 * tries;
+  }
+};
+
+/// Plays with seeds 1 to `tries` each. The same at any number of threads. Errors: those of play.
+[[nodiscard]] Result<Difficulty> measure_difficulty(const Scenario& scenario,
+                                                    const std::shared_ptr<const Scene>& scene,
+                                                    int tries, const Progress& progress);
+
+}  // namespace artus
