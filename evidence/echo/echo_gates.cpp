@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "artus/core/known_names.h"
 #include "artus/core/text_file.h"
 #include "artus/echo/image_io.h"
 #include "artus/evidence/echo/echo_gates_list.h"
@@ -54,19 +55,11 @@ std::span<const std::string_view> echo_gates() noexcept {
 }
 
 Result<EchoGate> run_echo_gate(std::string_view name) {
-  for (std::size_t i = 0; i < kNames.size(); ++i) {
-    if (kNames[i] == name) {
-      EchoGate gate = kGates[i]();
-      gate.name = name;
-      return gate;
-    }
-  }
-  std::string all;
-  for (const std::string_view known : kNames) {
-    all += all.empty() ? "" : ", ";
-    all += known;
-  }
-  return fail(ErrorCode::not_found, "no gate '" + std::string(name) + "'; there are " + all);
+  const auto at = find_name(kNames, name, "gate");
+  ARTUS_TRY(at);
+  EchoGate gate = kGates.at(*at)();
+  gate.name = name;
+  return gate;
 }
 
 nlohmann::json to_json(std::span<const EchoGate> gates) {

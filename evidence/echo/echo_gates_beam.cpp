@@ -16,11 +16,6 @@ namespace {
 
 constexpr std::array<double, 4> kDepths{10e-3, 20e-3, 30e-3, 40e-3};  // m
 
-std::shared_ptr<const Scene> clear_block() {
-  const std::array<FlatLayer, 1> layers{{{"tissue_mimic", 60e-3}}};
-  return make_block_scene(layers, silence);
-}
-
 ImageSettings deep_settings() {
   ImageSettings settings = bare_settings();
   settings.depth = 45e-3;
@@ -111,7 +106,7 @@ EchoGate gate_lateral_width() {
   gate.title =
       "Lateral width of point targets under dynamic aperture at F/2 (wave model: 0.25 mm at "
       "12 MHz, 0.39 mm at 7.6 MHz)";
-  const auto scene = clear_block();
+  const auto scene = make_clear_block();
   PlotPanel panel{"depth, mm", "lateral width, mm", {}};
   for (const auto& [frequency, expected] : {std::pair(12e6, 0.25e-3), {7.6e6, 0.39e-3}}) {
     const auto widths = lateral_widths(scene, frequency);
@@ -141,7 +136,7 @@ EchoGate gate_slice_width() {
   const std::array<Row, 3> rows{{{4e-3, {1.4e-3, 0.64e-3, 1.0e-3, 1.6e-3}},
                                  {5e-3, {1.9e-3, 0.51e-3, 1.04e-3, 3.3e-3}},
                                  {6e-3, {2.3e-3, 0.43e-3, 1.95e-3, 4.3e-3}}}};
-  const auto scene = clear_block();
+  const auto scene = make_clear_block();
   PlotPanel panel{"depth, mm", "slice thickness, mm", {}};
   for (const Row& row : rows) {
     const auto widths = slice_widths(scene, row.height);

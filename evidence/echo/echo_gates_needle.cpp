@@ -16,11 +16,6 @@ namespace artus {
 namespace {
 
 /// Silent tissue at the display's speed: the needle alone.
-std::shared_ptr<const Scene> clear_block() {
-  const std::array<FlatLayer, 1> layers{{{"tissue_mimic", 60e-3}}};
-  return make_block_scene(layers, silence);
-}
-
 /// Grey (0..1 of 60 dB) of a shaft where it passes below the middle line at 15 mm.
 double shaft_grey(Renderer& renderer, double degrees, bool echogenic) {
   constexpr double kRange = 60;  // dB
@@ -64,7 +59,7 @@ EchoGate gate_needle_rings() {
       "outer diameter and bore of the gauge (nominal catalogue values), 5800 m/s in steel, water "
       "in "
       "the bore; how fast the lines decay";
-  Renderer renderer(clear_block(), Transducer{}, bare_settings());
+  Renderer renderer(make_clear_block(), Transducer{}, bare_settings());
   const Frame& frame = renderer.render(Pose::Identity(),
                                        needle_in_plane(Pose::Identity(), Vec3(12e-3, 0, 20e-3), 0));
   const auto line = envelope_line(frame, 128);
@@ -105,7 +100,7 @@ EchoGate gate_needle_angle() {
       "the mean slope of a shaft's surface, fitted to the published value at 75 degrees of plain "
       "and "
       "of echogenic needles: those two claims hold the chain, not the physics";
-  Renderer renderer(clear_block(), Transducer{}, bare_settings());
+  Renderer renderer(make_clear_block(), Transducer{}, bare_settings());
   PlotSeries plain{"plain", {}, {}, "linespoints"};
   PlotSeries dimpled{"echogenic", {}, {}, "linespoints"};
   for (int degrees = 0; degrees <= 75; degrees += 5) {
@@ -144,7 +139,7 @@ EchoGate gate_needle_offset() {
       "model, "
       "convolved with the shaft";
   gate.assumed = "outer diameter of the gauge (nominal catalogue value)";
-  Renderer renderer(clear_block(), Transducer{}, bare_settings());
+  Renderer renderer(make_clear_block(), Transducer{}, bare_settings());
   const NeedleShape shape;
   constexpr double kStep = 0.05e-3;  // m
   PlotPanel panel{"offset, mm", "brightness over the centred one", {}};

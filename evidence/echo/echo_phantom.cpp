@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "artus/core/check.h"
+#include "artus/core/known_names.h"
 #include "artus/core/units.h"
 
 namespace artus {
@@ -127,27 +128,26 @@ Result<EchoPhantom> make_needle(const PhantomOptions& options) {
   return phantom;
 }
 
-constexpr std::array<std::string_view, 5> kNames{"homogeneous", "points", "cyst", "layers",
-                                                 "needle"};
+using Maker = Result<EchoPhantom> (*)(const PhantomOptions&);
+
+constexpr std::array<std::string_view, 5> kPhantomNames{"homogeneous", "points", "cyst", "layers",
+                                                        "needle"};
+constexpr std::array<Maker, kPhantomNames.size()> kMakers{
+    [](const PhantomOptions&) -> Result<EchoPhantom> { return make_homogeneous(); },
+    [](const PhantomOptions&) -> Result<EchoPhantom> { return make_points(); },
+    [](const PhantomOptions&) -> Result<EchoPhantom> { return make_cyst(); },
+    [](const PhantomOptions&) -> Result<EchoPhantom> { return make_layers(); }, make_needle};
 
 }  // namespace
 
 std::span<const std::string_view> echo_phantoms() noexcept {
-  return kNames;
+  return kPhantomNames;
 }
 
 Result<EchoPhantom> make_echo_phantom(std::string_view name, const PhantomOptions& options) {
-  Result<EchoPhantom> phantom = [&]() -> Result<EchoPhantom> {
-    if (name == "homogeneous") return make_homogeneous();
-    if (name == "points") return make_points();
-    if (name == "cyst") return make_cyst();
-    if (name == "layers") return make_layers();
-    if (name == "needle") return make_needle(options);
-    std::string all;
-    for (const std::string_view known : kNames)
-      all += (all.empty() ? "" : ", ") + std::string(known);
-    return fail(ErrorCode::not_found, "no phantom '" + std::string(name) + "'; there are " + all);
-  }();
+  const auto at = find_name(kPhantomNames, name, "phantom");
+  ARTUS_TRY(at);
+  Result<EchoPhantom> phantom = kMakers.at(*at)(options);
   if (phantom) phantom->name = name;
   return phantom;
 }
@@ -183,6 +183,11 @@ void silence(CompiledJoint& joint) {
     tissue.acoustic.attenuation = 0;
     tissue.acoustic.backscatter = 0;
   }
+}
+
+std::shared_ptr<const Scene> make_clear_block() {
+  const std::array<FlatLayer, 1> layers{{{"tissue_mimic", 60e-3}}};
+  return make_block_scene(layers, silence);
 }
 
 NeedleView needle_in_plane(const Pose& X_JP, const Vec3& tip_P, double angle,

@@ -57,6 +57,9 @@ struct PhantomOptions {
 /// Makes every tissue silent and free of loss, so that interfaces or a needle stand alone.
 void silence(CompiledJoint& joint);
 
+/// A silent block of water-like tissue, 60 mm deep.
+[[nodiscard]] std::shared_ptr<const Scene> make_clear_block();
+
 /// A needle in the probe's plane whose tip is at `tip_P`, dipping by `angle` rad toward +x.
 [[nodiscard]] NeedleView needle_in_plane(const Pose& X_JP, const Vec3& tip_P, double angle,
                                          const NeedleShape& shape = {});

@@ -16,11 +16,13 @@
 #include "artus/dataset/video_file.h"
 #include "artus/echo/image_io.h"
 #include "artus/echo/renderer.h"
+#include "artus/session/tissue_core.h"
 
 namespace artus {
 namespace {
 
 constexpr int kCaptionHeight = 28;  // pixels
+constexpr int kHeldImages = 45;     // of tissue that comes to rest under the probe of a moment
 
 std::string file_stem(std::size_t index, const NamedMoment& moment) {
   char prefix[48];
@@ -59,8 +61,10 @@ void remove_old_images(const std::filesystem::path& folder) {
 class RunPainter {
  public:
   RunPainter(std::shared_ptr<const Scene> scene, const ThreeInjections& run,
-             std::filesystem::path folder, const RunImagesOptions& options)
+             std::filesystem::path folder, const RunImagesOptions& options,
+             std::optional<TissueCore> tissue)
       : scene_(std::move(scene)),
+        tissue_(std::move(tissue)),
         run_(&run),
         folder_(std::move(folder)),
         shape_(options.needle),
@@ -79,11 +83,18 @@ class RunPainter {
                       folder_ / (stem + ".png"),
                       folder_ / (stem + "-labels.png"),
                       locate_needle(needle, moment.X_JP, transducer, renderer_.settings())};
-    renderer_.set_contact(moment.coverage);
-    const Frame& frame = renderer_.render(moment.X_JP, needle);
+    Pose X_JP = moment.X_JP;
+    if (tissue_) {
+      X_JP = probe_at(moment.time).X_JP;
+      for (int k = 0; k < kHeldImages; ++k) press(X_JP);
+      image.needle = locate_needle(needle, X_JP, transducer, renderer_.settings());
+    } else {
+      renderer_.set_contact(moment.coverage);
+    }
+    const Frame& frame = renderer_.render(X_JP, needle);
     ARTUS_TRY(write_image(annotated_image(frame, transducer), image.bmode));
-    const auto labels =
-        render_labels(*scene_, moment.X_JP, transducer, renderer_.settings(), needle);
+    const Scene& body = tissue_ ? *tissue_->scene() : *scene_;
+    const auto labels = render_labels(body, X_JP, transducer, renderer_.settings(), needle);
     ARTUS_TRY(write_image(colour_labels(labels, scene_->joint()), image.labels));
     return image;
   }
@@ -115,17 +126,35 @@ class RunPainter {
   }
 
  private:
+  [[nodiscard]] const ProbeHandRow& probe_at(double time) const {
+    const auto row = std::lower_bound(run_->rows.begin(), run_->rows.end() - 1, time,
+                                      [](const NeedleRow& r, double t) { return r.time < t; });
+    return run_->probe[static_cast<std::size_t>(row - run_->rows.begin())];
+  }
+
+  /// The tissue one image later under the probe, and what the picture is then drawn of.
+  void press(const Pose& X_JP) {
+    tissue_->step(X_JP);
+    renderer_.set_scene(tissue_->scene());
+  }
+
   cv::Mat draw_tick(std::size_t tick, ProbeContactModel& contact) {
     const NeedleRow& row = run_->rows[tick];
     const ProbeHandRow& probe = run_->probe[tick];
-    static_cast<void>(contact.step(probe.X_JP));
-    renderer_.set_contact(contact.coverage());
-    const Frame& frame = renderer_.render(probe.image_pose(), NeedleView{row.X_JN, shape_});
+    if (tissue_) {
+      press(probe.X_JP);
+    } else {
+      static_cast<void>(contact.step(probe.X_JP));
+      renderer_.set_contact(contact.coverage());
+    }
+    const Pose X_JP = tissue_ ? probe.X_JP : probe.image_pose();
+    const Frame& frame = renderer_.render(X_JP, NeedleView{row.X_JN, shape_});
     return with_caption(annotated_image(frame, renderer_.transducer()), row, probe,
                         run_->region_names[row.region]);
   }
 
   std::shared_ptr<const Scene> scene_;
+  std::optional<TissueCore> tissue_;  // empty: rigid
   const ThreeInjections* run_;
   std::filesystem::path folder_;
   NeedleShape shape_;
@@ -140,7 +169,14 @@ Result<RunImages> write_run_images(const std::shared_ptr<const Scene>& scene,
   RunImages images;
   if (run.probe.empty() || run.moments.empty()) return images;
   remove_old_images(folder);
-  RunPainter painter(scene, run, folder, options);
+  std::optional<TissueCore> tissue;
+  if (options.deform) {
+    auto made = TissueCore::make(scene->shared_joint(), run.moments.front().X_JP_seat,
+                                 options.frames_per_second);
+    ARTUS_TRY(made);
+    tissue.emplace(std::move(*made));
+  }
+  RunPainter painter(scene, run, folder, options, std::move(tissue));
   for (std::size_t i = 0; i < run.moments.size(); ++i) {
     auto image = painter.draw_moment(i);
     ARTUS_TRY(image);

@@ -22,6 +22,7 @@ struct RunImagesOptions {
   ImageSettings settings;
   NeedleShape needle;  ///< its length is replaced by the run's
   bool video = true;
+  bool deform = false;            ///< tissue gives way to the probe; its force stays the columns'
   double frames_per_second = 15;  ///< of the video, which plays in real time
 };
 
@@ -44,7 +45,8 @@ struct RunImages {
 /// Draws what the probe saw during a run: a B-mode and a label image for every named moment, and a
 /// video of the whole run with the forces of the moment below. The probe is where its hand holds
 /// it, and lines whose elements do not touch are black. Errors: unreadable (cannot write),
-/// unsupported (no video codec). Cost: tens of ms a frame.
+/// unsupported (no video codec), those of TissueCore::make when it deforms. Cost: tens of ms a
+/// frame.
 [[nodiscard]] Result<RunImages> write_run_images(const std::shared_ptr<const Scene>& scene,
                                                  const ThreeInjections& run,
                                                  const std::filesystem::path& folder,

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "artus/core/known_names.h"
 #include "artus/evidence/needle/experiment_list.h"
 #include "artus/haptics/device.h"
 
@@ -69,23 +70,17 @@ std::span<const std::string_view> needle_experiments() noexcept {
 Result<Experiment> run_needle_experiment(std::string_view name, const ExperimentOptions& options) {
   const Result<DeviceLimits> device = find_device(options.device);
   ARTUS_TRY(device);
-  for (const Entry& entry : kEntries) {
-    if (entry.name != name) continue;
-    const auto layers = entry.layers > 0 ? numbered_layers(entry.layers) : table_layer_names();
-    ARTUS_TRY(
-        check(options.feel, {std::string(name), layers, entry.takes, std::string(entry.why_not)}));
-    Experiment experiment = entry.run(options, *device);
-    experiment.name = name;
-    for (NamedPlot& plot : experiment.plots)
-      if (plot.file.empty()) plot.file = experiment.name + ".png";
-    return experiment;
-  }
-  std::string all;
-  for (const std::string_view known : kNames) {
-    all += (all.empty() ? "" : ", ") + std::string(known);
-  }
-  return fail(ErrorCode::not_found,
-              "no needle experiment \"" + std::string(name) + "\"; there are " + all);
+  const auto at = find_name(kNames, name, "needle experiment");
+  ARTUS_TRY(at);
+  const Entry& entry = kEntries.at(*at);
+  const auto layers = entry.layers > 0 ? numbered_layers(entry.layers) : table_layer_names();
+  ARTUS_TRY(
+      check(options.feel, {std::string(name), layers, entry.takes, std::string(entry.why_not)}));
+  Experiment experiment = entry.run(options, *device);
+  experiment.name = name;
+  for (NamedPlot& plot : experiment.plots)
+    if (plot.file.empty()) plot.file = experiment.name + ".png";
+  return experiment;
 }
 
 Result<void> write_experiment(const Experiment& e, const std::filesystem::path& folder) {

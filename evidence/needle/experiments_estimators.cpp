@@ -12,8 +12,6 @@
 namespace artus {
 namespace {
 
-constexpr double kTwoPi = 6.283185307179586;
-
 struct EstimatorResult {
   double noise = 0;  // m/s, rms off the best sine
   double lag = 0;    // s

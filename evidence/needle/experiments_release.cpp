@@ -12,11 +12,11 @@
 namespace artus {
 namespace {
 
-constexpr double kDepth = 25e-3;    // m of intended insertion: friction grows with the shaft
-constexpr double kStiffness = 500;  // N/m, K_t
-constexpr double kFree = 1.0;       // s without a hand
-constexpr double kSettled = 0.5;    // s of them after which the needle should be at rest
-constexpr double kAtOnce = 1e-4;    // s in which the fingers open
+constexpr double kReleaseDepth = 25e-3;    // m of intended insertion: friction grows with the shaft
+constexpr double kReleaseStiffness = 500;  // N/m, K_t
+constexpr double kFree = 1.0;              // s without a hand
+constexpr double kSettled = 0.5;           // s of them after which the needle should be at rest
+constexpr double kAtOnce = 1e-4;           // s in which the fingers open
 constexpr std::uint64_t kHands = 10;
 
 enum class Around { none, wall, wall_and_friction };
@@ -41,11 +41,12 @@ std::string label_of(Around tissue) {
   return label;
 }
 
-std::vector<NeedleRow> run_release(Around tissue, double release_time, const DeviceLimits& device,
-                                   const ExperimentOptions& options, HandParams hand) {
+std::vector<NeedleRow> run_one_release(Around tissue, double release_time,
+                                       const DeviceLimits& device, const ExperimentOptions& options,
+                                       HandParams hand) {
   constexpr double kFarAway = 0.1;  // m, a skin that the needle never reaches
   BodyExperiment e;
-  e.layers = {plain_layer(1, kStiffness)};
+  e.layers = {plain_layer(1, kReleaseStiffness)};
   if (tissue == Around::wall_and_friction) e.layers[0].tissue.friction = 1;
   e.body = AnalyticBody::make_stack(Vec3::Zero(), Vec3::UnitZ(),
                                     {tissue == Around::none ? kFarAway : 0.0});
@@ -53,7 +54,7 @@ std::vector<NeedleRow> run_release(Around tissue, double release_time, const Dev
   e.feel = options.feel;
   e.hand = hand;
   e.hand.release_time = release_time;
-  e.phases = {stay(0.3), push_to(kDepth, 0.01), stay(1.5), let_go(kFree)};
+  e.phases = {stay(0.3), push_to(kReleaseDepth, 0.01), stay(1.5), let_go(kFree)};
   return run_body(e);
 }
 
@@ -64,7 +65,7 @@ struct Released {
   double ripple = 0;  // N peak to peak, at rest
 };
 
-Released measure(const std::vector<NeedleRow>& rows, const DeviceLimits& device) {
+Released measure_way_out(const std::vector<NeedleRow>& rows, const DeviceLimits& device) {
   const double release = rows.back().time - kFree;
   const Release let_go = measure_release(rows, release, rows.back().time, device);
   Released r;
@@ -112,8 +113,8 @@ struct Worst {
   double calm = 0;           // mm, of a hand without tremor
 };
 
-void add_claims(const DeviceLimits& device, Around tissue, double release, const Worst& worst,
-                std::vector<Claim>& claims) {
+void add_release_claims(const DeviceLimits& device, Around tissue, double release,
+                        const Worst& worst, std::vector<Claim>& claims) {
   if (tissue == Around::none) return;
   const std::string how = std::string(device.name) + ", " + name_of(tissue) +
                           (release == kAtOnce ? ", let go at once" : ", let go over 50 ms");
@@ -123,13 +124,14 @@ void add_claims(const DeviceLimits& device, Around tissue, double release, const
   if (tissue == Around::wall) {
     claims.push_back(claim_at_most(
         ClaimKind::independent, how + ", a hand without tremor: ejection", worst.calm, 0.2, "mm"));
-    const double grain = 0.5 * kStiffness * device.encoder_step * device.encoder_step;
+    const double grain = 0.5 * kReleaseStiffness * device.encoder_step * device.encoder_step;
     claims.push_back(claim_at_most(
         {ClaimKind::fitted, "the bound was set after the plain ejection had failed"},
         what + "energy given to the needle, in that of the wall's spring over an encoder step",
         worst.work / grain, 1, ""));
   } else {
-    const double step = 2 * device.encoder_step * (kStiffness + LugreParams{}.stiffness_limit);
+    const double step =
+        2 * device.encoder_step * (kReleaseStiffness + LugreParams{}.stiffness_limit);
     claims.push_back(
         claim_at_most({ClaimKind::fitted, "the bristle's bound was chosen by the rates"},
                       what + "force at rest, peak to peak, in two encoder steps' worth",
@@ -144,12 +146,13 @@ Worst run_hands(Around tissue, double release, const DeviceLimits& device,
   HandParams hand;
   hand.tremor_rms = 0;
   worst.calm =
-      measure(run_release(tissue, release, device, options, hand), device).out / kMillimetre;
+      measure_way_out(run_one_release(tissue, release, device, options, hand), device).out /
+      kMillimetre;
   for (std::uint64_t i = 0; i < kHands; ++i) {
     hand = HandParams{};
     hand.seed = options.seed + i;
-    std::vector<NeedleRow> rows = run_release(tissue, release, device, options, hand);
-    const Released r = measure(rows, device);
+    std::vector<NeedleRow> rows = run_one_release(tissue, release, device, options, hand);
+    const Released r = measure_way_out(rows, device);
     worst.ways.push_back(r.out / kMillimetre);
     worst.beyond = std::max(worst.beyond, r.beyond / kMillimetre);
     worst.work = std::max(worst.work, r.work);
@@ -182,7 +185,7 @@ Experiment run_wall_release(const ExperimentOptions& options, const DeviceLimits
                               to_csv(worst.ways[worst.ways.size() / 2]), to_csv(worst.ways.back()),
                               to_csv(worst.beyond), to_csv(worst.calm), to_csv(1e6 * worst.work),
                               to_csv(worst.ripple)});
-        add_claims(each, tissue, release, worst, out.claims);
+        add_release_claims(each, tissue, release, worst, out.claims);
         if (each.name != device.name || release != kAtOnce) continue;
         position.series.push_back(plot_released(rows, name_of(tissue), [](const NeedleRow& row) {
           return row.needle.X_JN.translation().z() / kMillimetre;

@@ -13,7 +13,7 @@
 namespace artus {
 namespace {
 
-constexpr double kSpeed = 0.01;       // m/s; assumed: the source's figures show 5 to 20 mm/s
+constexpr double kWallSpeed = 0.01;   // m/s; assumed: the source's figures show 5 to 20 mm/s
 constexpr double kStiffness = 500;    // N/m, K_t of the source
 constexpr double kStateOfRest = 0.3;  // s before the needle moves
 
@@ -106,8 +106,8 @@ Stop measure_stop(const std::vector<NeedleRow>& rows, double settling) {
 
 Experiment run_wall_move(const ExperimentOptions& options, const DeviceLimits& device) {
   BodyExperiment e = one_layer(options, device, 0);
-  e.start_outside = kSpeed * 0.35;
-  e.phases = {stay(kStateOfRest), push_to(15 * kMillimetre, kSpeed)};
+  e.start_outside = kWallSpeed * 0.35;
+  e.phases = {stay(kStateOfRest), push_to(15 * kMillimetre, kWallSpeed)};
   Experiment out;
   out.title = "Wall updated with movement: K_t 500 N/m, 1 N";
   out.source = "[Alamilla2020] Fig. 2-5, eqs. 2.14 and 2.15";
@@ -145,8 +145,8 @@ Experiment run_wall_stop(const ExperimentOptions& options, const DeviceLimits& d
   BodyExperiment e = one_layer(options, device, 0);
   e.entry = Vec3(0, 0, 0.15);
   e.body = AnalyticBody::make_stack(e.entry, e.direction, {0});
-  e.phases = {stay(kStateOfRest), push_to(12 * kMillimetre, kSpeed), stay(1.5),
-              push_to(20 * kMillimetre, kSpeed)};
+  e.phases = {stay(kStateOfRest), push_to(12 * kMillimetre, kWallSpeed), stay(1.5),
+              push_to(20 * kMillimetre, kWallSpeed)};
   Experiment out;
   out.title = "Wall updated with a stop: w0 15 cm, stop about 1.5 s, move again";
   out.source = "[Alamilla2020] Fig. 2-6, eqs. 2.16 and 2.17";
@@ -183,7 +183,7 @@ Experiment run_wall_both(const ExperimentOptions& options, const DeviceLimits& d
   BodyExperiment e = one_layer(options, device, 0.5);
   e.entry = Vec3(0, 0, 0.07);
   e.body = AnalyticBody::make_stack(e.entry, e.direction, {0});
-  e.phases = {stay(kStateOfRest), push_to(25 * kMillimetre, kSpeed), stay(2.5),
+  e.phases = {stay(kStateOfRest), push_to(25 * kMillimetre, kWallSpeed), stay(2.5),
               pull_to(-4 * kMillimetre, 0.015), stay(0.3)};
   Experiment out;
   out.title = "Cutting and attracted force: 1 N in, 0.5 N out, w0 7 cm";

@@ -15,8 +15,7 @@
 namespace artus {
 namespace {
 
-constexpr std::array<double, 3> kRates{1000, 2000, 10000};
-constexpr double kTwoPi = 6.283185307179586;
+constexpr std::array<double, 3> kSwayRates{1000, 2000, 10000};
 // m that the hand means to draw back to: deep, where a layer begins, near the skin, outside.
 constexpr std::array<double, 5> kBack{0.012, 0.004, 0.0025, 0.001, -0.001};
 
@@ -81,8 +80,8 @@ std::vector<LayerHaptics> layers(bool membranes) {
 }
 
 /// Total force as the motor holds it, at 10 kHz, frame J.
-std::vector<Vec3> run_at(double rate, double back, bool membranes, const ExperimentOptions& options,
-                         const DeviceLimits& device) {
+std::vector<Vec3> run_sway_at(double rate, double back, bool membranes,
+                              const ExperimentOptions& options, const DeviceLimits& device) {
   const std::vector<Corner> way = corners(back);
   BodyExperiment e;
   e.body = AnalyticBody::make_stack(Vec3::Zero(), Vec3::UnitZ(), {0, 0.004, 0.018, 0.021});
@@ -96,7 +95,7 @@ std::vector<Vec3> run_at(double rate, double back, bool membranes, const Experim
     return swaying(way, phase, t);
   };
   e.path_duration = way.back().time;
-  const auto held = static_cast<std::size_t>(std::lround(kRates.back() / rate));
+  const auto held = static_cast<std::size_t>(std::lround(kSwayRates.back() / rate));
   std::vector<Vec3> out;
   for (const NeedleRow& row : run_body(e)) out.insert(out.end(), held, row.forces.total.force);
   return out;
@@ -124,17 +123,18 @@ struct SwayShares {
 };
 
 /// All depths together; a row for each in `out`.
-SwayShares differences(bool membranes, const ExperimentOptions& options, const DeviceLimits& device,
-                       Experiment& out) {
+SwayShares sway_differences(bool membranes, const ExperimentOptions& options,
+                            const DeviceLimits& device, Experiment& out) {
   std::array<Squares, 2> off;
   Squares size;
   for (const double back : kBack) {
-    const std::vector<Vec3> fastest = run_at(kRates.back(), back, membranes, options, device);
+    const std::vector<Vec3> fastest =
+        run_sway_at(kSwayRates.back(), back, membranes, options, device);
     Squares here;
     for (const Vec3& force : fastest) here += squares(force);
     std::array<std::string, 2> cells;
     for (std::size_t i = 0; i < off.size(); ++i) {
-      const std::vector<Vec3> held = run_at(kRates[i], back, membranes, options, device);
+      const std::vector<Vec3> held = run_sway_at(kSwayRates[i], back, membranes, options, device);
       Squares difference;
       for (std::size_t k = 0; k < std::min(held.size(), fastest.size()); ++k)
         difference += squares(held[k] - fastest[k]);
@@ -160,12 +160,12 @@ SwayShares differences(bool membranes, const ExperimentOptions& options, const D
 void compare_rates_under_sway(const ExperimentOptions& options, Experiment& out) {
   const std::string hand = "a hand that sways, back to five depths and in again";
   const auto against = [](std::size_t i) {
-    return " at " + to_csv(kRates[i]) + " Hz against 10 kHz, RMS share";
+    return " at " + to_csv(kSwayRates[i]) + " Hz against 10 kHz, RMS share";
   };
   std::array<double, 2> aside{};
   for (const DeviceLimits& device : device_table()) {
     for (const bool membranes : {true, false}) {
-      const SwayShares off = differences(membranes, options, device, out);
+      const SwayShares off = sway_differences(membranes, options, device, out);
       for (std::size_t i = 0; i < aside.size(); ++i) {
         aside[i] = std::max(aside[i], off.aside[i]);
         std::string text = hand + ", " + std::string(device.name);

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "artus/core/known_names.h"
 #include "artus/core/text_file.h"
 #include "artus/evidence/probe/probe_experiment_list.h"
 
@@ -22,13 +23,9 @@ std::span<const std::string_view> probe_experiments() noexcept {
 
 Result<ProbeExperiment> run_probe_experiment(std::string_view name,
                                              const ProbeExperimentOptions& options) {
-  std::string all;
-  for (std::size_t i = 0; i < kNames.size(); ++i) {
-    if (kNames[i] == name) return kRuns[i](options);
-    all += (all.empty() ? "" : ", ") + std::string(kNames[i]);
-  }
-  return fail(ErrorCode::not_found,
-              "no probe experiment \"" + std::string(name) + "\"; there are " + all);
+  const auto at = find_name(kNames, name, "probe experiment");
+  ARTUS_TRY(at);
+  return kRuns.at(*at)(options);
 }
 
 Result<void> write_probe_experiment(const ProbeExperiment& e, const std::filesystem::path& folder) {

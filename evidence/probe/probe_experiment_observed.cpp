@@ -11,7 +11,7 @@
 namespace artus {
 namespace {
 
-constexpr double kEnd = PublishedTimes::kEnd;
+constexpr double kObservedEnd = PublishedTimes::kEnd;
 constexpr double kPeak = PublishedTimes::kPeak;
 constexpr double kPlateau = PublishedTimes::kPlateau;
 constexpr double kSettle = 1.0;          // s after the load that count as its peak
@@ -75,7 +75,7 @@ void observe_isp_errors(const std::vector<ProbeTrace>& traces, std::vector<Probe
     const std::string label = traces[i].label;
     const double load_time = laws[i].load_time;
     const ProbeWindow moving = measure_window(rows, load_time + kSettle, kPeak);
-    const ProbeWindow steady = measure_window(rows, kEnd - 2, kEnd);
+    const ProbeWindow steady = measure_window(rows, kObservedEnd - 2, kObservedEnd);
     const double limit = backstepping ? 5 : 3;
     out.push_back(observe_at_most(label + ": largest error in the transition",
                                   "about " + fixed(limit, 0) + " mm at most", limit,
@@ -107,14 +107,14 @@ void observe_voltages(const std::vector<ProbeTrace>& traces, bool steps,
   for (std::size_t i = 0; i < laws.size(); ++i) {
     const double start = laws[i].load_time + kSettle;
     const auto rows = steps ? between_steps(traces[i].rows, laws[i].load_time) : traces[i].rows;
-    const ProbeWindow w = measure_window(rows, start, kEnd);
+    const ProbeWindow w = measure_window(rows, start, kObservedEnd);
     ProbeObservation o = observe_range(
         traces[i].label + ": control voltage after the first peak" + (steps ? ", off steps" : ""),
         4.4, 5.3, w.lowest_voltage, w.highest_voltage, "V");
     o.reproduced = w.lowest_voltage >= 4.4 && w.highest_voltage <= 5.3;
     o.basis = basis_of(i);
     out.push_back(std::move(o));
-    const double travel = measure_window(traces[i].rows, start, kEnd).voltage_travel;
+    const double travel = measure_window(traces[i].rows, start, kObservedEnd).voltage_travel;
     if (travel < smoothest) {
       smoothest = travel;
       label = traces[i].label;
@@ -138,8 +138,8 @@ void observe_isp_motion(const std::vector<ProbeTrace>& traces, std::vector<Probe
   for (std::size_t i = 0; i < laws.size(); ++i) {
     const auto& rows = traces[i].rows;
     settling[i] = settling_time(rows, laws[i].load_time, kPeak);
-    least_return = std::min(
-        least_return, position_at(rows, kEnd - 1) - position_at(rows, laws[i].load_time + kSettle));
+    least_return = std::min(least_return, position_at(rows, kObservedEnd - 1) -
+                                              position_at(rows, laws[i].load_time + kSettle));
   }
   ProbeObservation faster;
   faster.what = "backstepping takes longer than PID and IPC to come within 1 mm of x_c";
@@ -164,7 +164,7 @@ void observe_isp_motion(const std::vector<ProbeTrace>& traces, std::vector<Probe
 
 void observe_pneumatic(const std::vector<ProbeTrace>& traces, double low, double high,
                        std::vector<ProbeObservation>& out) {
-  const ProbeWindow w = measure_window(traces[2].rows, published_laws()[2].load_time, kEnd);
+  const ProbeWindow w = measure_window(traces[2].rows, published_laws()[2].load_time, kObservedEnd);
   const auto add = [&](const char* end, double published, double artus, ClaimBasis basis) {
     ProbeObservation o;
     o.what = traces[2].label + ": " + end + " K_pneu";

@@ -396,7 +396,7 @@ void study_law(ControlLawKind law, std::size_t i, const ProbeExperimentOptions& 
   study.results.push_back(r);
 }
 
-std::vector<Claim> make_claims(const std::vector<LawResult>& results) {
+std::vector<Claim> make_study_claims(const std::vector<LawResult>& results) {
   std::vector<Claim> claims;
   for (const LawResult& r : results) {
     const std::string name = std::string(to_string(r.law)) + ", " + fixed(r.dry_friction, 1, "N: ");
@@ -425,7 +425,7 @@ ProbeExperiment run_probe_study(const ProbeExperimentOptions& options) {
     for (const ControlLawKind law : kLaws) study_law(law, i, options, study);
     study.push.panels[i].series.push_back({"ideal spring", {0, 14}, {0, 14}});
   }
-  e.claims = make_claims(study.results);
+  e.claims = make_study_claims(study.results);
   e.tables = {
       {"Disturbances at 1000 N/m:", std::move(study.disturbances)},
       {"Error of the felt force under a pressing hand, rms over rms:", std::move(study.rendering)},

@@ -52,6 +52,28 @@ struct HalfSpace {
   }
 };
 
+/// Worst error of the displacement under a point force, from `nearest` to 9 cubes away.
+double point_force_error(double nu, int nearest) {
+  constexpr double kForce = 1e-4;
+  constexpr double kCube = 2e-3;
+  const HalfSpace space(nu, kCube, 20e-3, 16e-3);
+  SoftSolver solver(space.model, {});
+  solver.set_prescribed(space.far_field(kForce, nu));
+  solver.set_loads({{Vec3::Zero(), Vec3(0, 0, kForce / 4)}});
+  solver.settle(std::nullopt, 1e-10, 20);
+  double worst = 0;
+  for (int cubes = nearest; cubes <= 9; ++cubes) {
+    for (const Vec3& way : {Vec3(1, 0, 0), Vec3(0, 0, 1), Vec3(1, 1, 1)}) {
+      const Vec3 p = cubes * kCube * way.normalized();
+      const Vec3 exact = boussinesq(p, kForce, space.block.layers[0].material.shear, nu);
+      const Vec3 u =
+          space.model->displacement_at(space.model->cage().locate(p), solver.displacements());
+      worst = std::max(worst, (u - exact).norm() / exact.norm());
+    }
+  }
+  return worst;
+}
+
 double punch_ratio(double nu, double radius_in_cubes) {
   constexpr double kRadius = 10e-3;
   constexpr double kPress = 0.01e-3;
@@ -178,27 +200,16 @@ SoftGate gate_uniaxial() {
 
 SoftGate gate_point_force() {
   SoftGate gate;
-  gate.title = "Force on a half-space, displacement beyond three cubes against Boussinesq";
-  constexpr double kNu = 0.3;
-  constexpr double kForce = 1e-4;
-  constexpr double kCube = 2e-3;
-  const HalfSpace space(kNu, kCube, 20e-3, 16e-3);
-  SoftSolver solver(space.model, {});
-  solver.set_prescribed(space.far_field(kForce, kNu));
-  solver.set_loads({{Vec3::Zero(), Vec3(0, 0, kForce / 4)}});
-  solver.settle(std::nullopt, 1e-10, 20);
-  double worst = 0;
-  for (double r = 3 * kCube; r <= 9 * kCube; r += kCube) {
-    for (const Vec3& way : {Vec3(1, 0, 0), Vec3(0, 0, 1), Vec3(1, 1, 1)}) {
-      const Vec3 p = r * way.normalized();
-      const Vec3 exact = boussinesq(p, kForce, space.block.layers[0].material.shear, kNu);
-      const Vec3 u =
-          space.model->displacement_at(space.model->cage().locate(p), solver.displacements());
-      worst = std::max(worst, (u - exact).norm() / exact.norm());
-    }
+  gate.title = "Force on a half-space, displacement by the distance in cubes against Boussinesq";
+  for (const double nu : {0.3, 0.47}) {
+    const std::string name = nu < 0.4 ? "nu 0.3, " : "nu 0.47, ";
+    gate.claims.push_back(claim_at_most(ClaimKind::independent, "V4: " + name + "from 3 to 9 cubes",
+                                        point_force_error(nu, 3), 0.03, "of the displacement"));
+    gate.claims.push_back(
+        claim_at_most({ClaimKind::fitted, "the distance was chosen by the answer"},
+                      "V4: " + name + "from 6 to 9 cubes", point_force_error(nu, 6), 0.03,
+                      "of the displacement"));
   }
-  gate.claims.push_back(claim_at_most(ClaimKind::independent, "V4: worst error from 3 to 9 cubes",
-                                      worst, 0.03, "of the displacement"));
   return gate;
 }
 

@@ -3,10 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include "artus/core/units.h"
+
 namespace artus {
 namespace {
 
-constexpr double kTwoPi = 6.283185307179586;
 constexpr double kRate = 1000;  // Hz
 
 // Energy, N^2 s, of what passes of a signal over `seconds`, the first `skip` of them left out.

@@ -4,12 +4,11 @@
 #include <cmath>
 #include <vector>
 
+#include "artus/core/units.h"
 #include "artus/evidence/needle/analytic_body.h"
 #include "artus/haptics/needle/needle_model.h"
 
 namespace artus::test {
-
-inline constexpr double kTwoPi = 6.283185307179586;
 
 /// A needle that sways by 1 mm at 4 Hz, in, back and in again. Poses are of time alone, so that
 /// each rate samples one path.

@@ -25,7 +25,7 @@ struct Swing {
 
 Pose pose_at(const Swing& way, double phase, double t) {
   constexpr double kOutside = -0.002;  // m
-  const double turned = test::kTwoPi * way.hz * t;
+  const double turned = kTwoPi * way.hz * t;
   const double share = std::min(1.0, t);
   const double deep = way.depth + way.swing * std::sin(2 * turned + phase);
   const double z = kOutside + share * (deep - kOutside);
@@ -77,7 +77,7 @@ TEST(SwayEnergy, TheMovingLineHasGivenTheHandNothingAtAnyInstant) {
     constexpr int kRuns = 60;
     for (int p = 0; p < 20; ++p) {
       for (const int rate : {1000, 2000, 5000}) {
-        const double given = most_given(ways[w], test::kTwoPi * p / 20, rate, &exchanged);
+        const double given = most_given(ways[w], kTwoPi * p / 20, rate, &exchanged);
         EXPECT_LT(given, kNothing) << "way " << w << ", phase " << p << ", " << rate << " Hz";
         worst = std::max(worst, given);
       }

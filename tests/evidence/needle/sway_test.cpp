@@ -93,7 +93,7 @@ TEST_P(SwayTest, PushedInAgainFromAnyDepthFeelsAlikeAtAnyRateWhateverThePhase) {
     const auto draw = static_cast<std::uint64_t>(GetParam() + 1000);
     Sway sway;
     sway.back = 0.5e-3 * (GetParam() + uniform_noise(draw, static_cast<std::uint64_t>(p)));
-    sway.phase = test::kTwoPi * p / kPhases;
+    sway.phase = kTwoPi * p / kPhases;
     sway.pivots = (p / 2) % 2 == 0;
     sway.membranes = p % 2 == 0;
     expect_same_at_all_rates(sway, worst);
@@ -112,7 +112,7 @@ TEST_P(SwayAtABorderTest, PushedInAgainFromExactlyABorderFeelsAlikeAtAnyRateWhat
   sway.first_border = 0.004;
   Worst worst{};
   for (int p = 0; p < kPhases; ++p) {
-    sway.phase = test::kTwoPi * p / kPhases;
+    sway.phase = kTwoPi * p / kPhases;
     expect_same_at_all_rates(sway, worst);
   }
   record(worst);

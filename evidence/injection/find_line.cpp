@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "artus/core/units.h"
+#include "artus/evidence/injection/injection_run.h"
+
+namespace artus {
+namespace {
+
+constexpr double kEnough = 1e-3;  // m in which a tip has room
+
+bool forbidden(const CompiledJoint& joint, RegionId region) {
+  const Tissue& tissue = joint.tissue_of(region);
+  return tissue.haptic.hard || tissue.name == "nerve" || tissue.name == "artery" ||
+         tissue.name == "vein" || tissue.name == "cartilage" || tissue.name == "labrum";
+}
+
+/// Where a line from outside comes to `point` along `direction`: the skin, and whether the way is
+/// free.
+std::optional<Vec3> free_entry(const Scene& scene, const Vec3& point, const Vec3& direction) {
+  constexpr double kLongest = 0.075;  // m
+  const Vec3 start = point - kLongest * direction;
+  std::optional<Vec3> entry;
+  for (const TissueInterval& s : tissue_intervals(scene, {start, point})) {
+    if (s.region == kOutside) {
+      entry = start + s.exit * direction;
+      continue;
+    }
+    if (s.region == kBeyond || forbidden(scene.joint(), s.region)) return std::nullopt;
+  }
+  return entry;
+}
+
+}  // namespace
+
+std::optional<LineLayer> find_layer(const Scene& scene, const Vec3& entry, const Vec3& direction,
+                                    RegionId region) {
+  const double before = kStartOutside;
+  std::optional<LineLayer> widest;
+  for (const TissueInterval& s :
+       tissue_intervals(scene, {entry - before * direction, entry + kSearch * direction})) {
+    if (s.region != region) continue;
+    if (s.exit - s.entry > kEnough) return LineLayer{s.entry - before, s.exit - before};
+    if (!widest || s.exit - s.entry > widest->to - widest->from)
+      widest = LineLayer{s.entry - before, s.exit - before};
+  }
+  return widest;
+}
+
+Result<std::pair<Vec3, Vec3>> find_line_into(const Scene& scene, RegionId region) {
+  constexpr int kPoints = 24;
+  constexpr int kDirections = 200;
+  const TetMesh& mesh = scene.joint().mesh;
+  std::vector<Vec3> points;
+  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
+    if (mesh.regions[t] != region) continue;
+    Vec3 p = Vec3::Zero();
+    for (const std::uint32_t v : mesh.tetrahedra[t]) p += mesh.vertices[v] / 4;
+    points.push_back(p);
+  }
+  const std::size_t stride = std::max<std::size_t>(1, points.size() / kPoints);
+  double best = 0;
+  std::pair<Vec3, Vec3> line;
+  for (std::size_t i = 0; i < points.size(); i += stride) {
+    for (int k = 0; k < kDirections; ++k) {
+      const double z = 1 - (2 * k + 1.0) / kDirections;
+      const double turn = k * std::numbers::pi * (3 - std::sqrt(5.0));
+      const double r = std::sqrt(1 - z * z);
+      const Vec3 direction(r * std::cos(turn), r * std::sin(turn), z);
+      const auto entry = free_entry(scene, points[i], direction);
+      if (!entry) continue;
+      const auto layer = find_layer(scene, *entry, direction, region);
+      if (!layer) continue;
+      // Thick for its depth: room to stop in, and not far.
+      const double merit =
+          std::min(layer->to - layer->from, 8e-3) / (15e-3 + (points[i] - *entry).norm());
+      if (merit <= best) continue;
+      best = merit;
+      line = {*entry, *entry + (layer->from + layer->to) / 2 * direction};
+    }
+  }
+  if (!(best > 0))
+    return fail(ErrorCode::not_found,
+                "no way from the skin into '" + scene.joint().regions[region].name +
+                    "' without bone, nerve or vessel; give --entry and --target");
+  return line;
+}
+
+std::optional<Pose> find_view_of(const Scene& scene, const Pose& X_JN) {
+  constexpr int kTurns = 24;
+  const Vec3 axis = X_JN.linear().col(2);
+  std::optional<Pose> best;
+  double least = std::numeric_limits<double>::infinity();
+  for (const double tilt : {50.0, 65.0, 35.0, 80.0}) {
+    for (int k = 0; k < kTurns; ++k) {
+      const Vec3 about =
+          Eigen::AngleAxisd(2 * std::numbers::pi * k / kTurns, axis) * Vec3(X_JN.linear().col(0));
+      const Vec3 look = Eigen::AngleAxisd(tilt * kDegree, about) * axis;
+      const auto skin = free_entry(scene, X_JN.translation(), look);
+      if (!skin) continue;
+      const double way = (*skin - X_JN.translation()).norm();
+      if (way >= least) continue;
+      least = way;
+      best = make_pose(*skin, look, about.cross(look));
+    }
+    if (best) break;
+  }
+  return best;
+}
+
+}  // namespace artus

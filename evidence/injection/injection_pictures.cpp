@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/evidence/injection/injection_pictures.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "artus/anatomy/body/space.h"
+#include "artus/core/units.h"
+#include "artus/echo/image_io.h"
+#include "artus/echo/labels.h"
+#include "artus/echo/renderer.h"
+#include "artus/evidence/medical/three_injections_analysis.h"
+#include "artus/soft/injected_body.h"
+
+namespace artus {
+namespace {
+
+constexpr double kGrid = 0.5e-3;     // m between parallel rays
+constexpr double kReach = 70e-3;     // m around the tip that they cover
+constexpr double kStep = 0.1e-3;     // m along the needle
+constexpr double kBelowTip = 12e-3;  // m that a picture shows below the tip
+constexpr double kDeepest = 90e-3;   // m
+constexpr double kHalfFace = 18e-3;  // m of the face, to whose sides the tip may lie
+constexpr double kAgree = 5;         // %
+
+/// Half way between the sides of the layer that a bolus parts, across it: where it opens most
+/// easily.
+Vec3 middle_of_layer(const Scene& scene, const Injected& place) {
+  constexpr double kReachAcross = 15e-3;  // m
+  const RegionId region = scene.region_at(place.tip);
+  const Vec3 across =
+      make_bolus(scene.joint(), region, place.tip, std::max(place.volume, 1e-9)).axes.col(2);
+  const Vec3 start = place.tip - kReachAcross * across;
+  for (const TissueInterval& s :
+       tissue_intervals(scene, {start, place.tip + kReachAcross * across}))
+    if (s.region == region && s.entry <= kReachAcross && s.exit >= kReachAcross)
+      return start + (s.entry + s.exit) / 2 * across;
+  return place.tip;
+}
+
+/// The places of a row as shapes, each where the needle met it.
+std::vector<Injected> places_at(const Scene& scene, const InjectionRun& run,
+                                const InjectionRow& row) {
+  const auto spaces = make_joint_spaces(scene.joint());
+  std::vector<Injected> places;
+  if (!spaces) return places;
+  const Vec3 axis = run.X_JN.linear().col(2);
+  for (std::size_t k = 0; k < run.places.size() && k < row.volumes.size(); ++k) {
+    const auto space = std::find_if(spaces->spaces.begin(), spaces->spaces.end(),
+                                    [&](const Space& s) { return s.name == run.places[k]; });
+    if (space == spaces->spaces.end() || space->law.kind == SpaceKind::open) continue;
+    for (double back = 0; back < 0.02; back += kStep) {
+      const Vec3 p = run.X_JN.translation() - back * axis;
+      const std::string& region = scene.joint().regions[scene.region_at(p)].name;
+      if (std::count(space->regions.begin(), space->regions.end(), region) == 0) continue;
+      const bool cavity = space->law.kind == SpaceKind::cavity;
+      places.push_back({region, row.volumes[k], cavity, p});
+      if (cavity) break;
+      // In tissue that the tip has only just left or reached, as deep in it as the liquid is wide.
+      const Vec3 inside = p - std::cbrt(row.volumes[k]) * axis;
+      if (k > 0 && scene.joint().regions[scene.region_at(inside)].name == region)
+        places.back().tip = inside;
+      places.back().tip = middle_of_layer(scene, places.back());
+      break;
+    }
+  }
+  return places;
+}
+
+std::shared_ptr<const Scene> scene_of(const Scene& scene, const InjectionRun& run,
+                                      const std::vector<Injected>& places) {
+  return std::make_shared<const Scene>(std::make_shared<const CompiledJoint>(
+      with_injected(scene.joint(), places, run.spec.plunger.liquid)));
+}
+
+/// m^3 of the named regions around the tip, by parallel rays.
+double volume_by_rays(const Scene& scene, const Pose& X_JN, std::span<const std::string> names) {
+  const Vec3 axis = X_JN.linear().col(2);
+  const Vec3 x = X_JN.linear().col(0);
+  const Vec3 y = X_JN.linear().col(1);
+  const auto n = static_cast<int>(kReach / kGrid);
+  double length = 0;
+  std::array<TissueInterval, 128> intervals;
+  for (int i = -n; i <= n; ++i) {
+    for (int j = -n; j <= n; ++j) {
+      const Vec3 middle = X_JN.translation() + kGrid * (i * x + j * y);
+      const QueryCount count =
+          scene.find_intervals({middle - kReach * axis, middle + kReach * axis}, intervals);
+      for (std::size_t k = 0; k < count.size; ++k) {
+        const std::string& name = scene.joint().regions[intervals[k].region].name;
+        if (std::find(names.begin(), names.end(), name) != names.end())
+          length += intervals[k].exit - intervals[k].entry;
+      }
+    }
+  }
+  return length * kGrid * kGrid;
+}
+
+/// m^2 of the named regions in the picture's plane, by its labels.
+double area_by_labels(const Scene& scene, const Pose& X_JP, const InjectionPictureOptions& options,
+                      std::span<const std::string> names) {
+  const LabelImage labels = render_labels(scene, X_JP, options.transducer, options.settings);
+  const auto pixels = std::count_if(labels.regions.begin(), labels.regions.end(), [&](RegionId r) {
+    return std::find(names.begin(), names.end(), scene.joint().regions[r].name) != names.end();
+  });
+  return static_cast<double>(pixels) * labels.pixel * labels.pixel;
+}
+
+/// m^2 of them within what the labels show, by rays across the plane: another way to the same.
+double area_by_rays(const Scene& scene, const Pose& X_JP, const InjectionPictureOptions& options,
+                    std::span<const std::string> names) {
+  constexpr double kApart = 0.2e-3;  // m
+  const double half = options.transducer.width / 2;
+  double length = 0;
+  for (double x = -half + kApart / 2; x < half; x += kApart) {
+    const Vec3 from = X_JP * Vec3(x, 0, 0);
+    for (const TissueInterval& s :
+         tissue_intervals(scene, {from, X_JP * Vec3(x, 0, options.settings.depth)})) {
+      const std::string& name = scene.joint().regions[s.region].name;
+      if (std::find(names.begin(), names.end(), name) != names.end()) length += s.exit - s.entry;
+    }
+  }
+  return length * kApart;
+}
+
+/// The last row whose given volume is at most `share` of the end's.
+const InjectionRow* row_at(const InjectionRun& run, double share) {
+  const InjectionRow* found = nullptr;
+  const auto sum = [](const InjectionRow& row) {
+    double all = 0;
+    for (const double v : row.volumes) all += v;
+    return all;
+  };
+  for (const InjectionRow& row : run.rows) {
+    if (row.phase == "withdraw") break;
+    if (sum(row) <= share * run.given) found = &row;
+  }
+  return found;
+}
+
+cv::Mat draw(const std::shared_ptr<const Scene>& scene, const InjectionRun& run, const Pose& X_JP,
+             const InjectionPictureOptions& options) {
+  const NeedleView needle{run.X_JN, options.needle, Vec3::Zero()};
+  const Frame frame = render_bmode(scene, X_JP, needle, options.transducer, options.settings);
+  cv::Mat bmode;
+  cv::cvtColor(annotated_image(frame, options.transducer), bmode, cv::COLOR_GRAY2BGR);
+  const LabelImage labels =
+      render_labels(*scene, X_JP, options.transducer, options.settings, needle);
+  cv::Mat colours = colour_labels(labels, scene->joint());
+  const int border = bmode.cols - colours.cols;
+  cv::copyMakeBorder(colours, colours, 4, 4, border / 2, border - border / 2, cv::BORDER_CONSTANT);
+  cv::Mat both;
+  cv::vconcat(bmode, colours, both);
+  return both;
+}
+
+/// Is the tip in front of the probe's face, with no bone before it?
+bool sees(const Scene& scene, const Pose& X_JP, const Vec3& tip) {
+  const Vec3 p = X_JP.inverse() * tip;
+  if (!(p.z() > 0) || std::abs(p.x()) > kHalfFace) return false;
+  const Vec3 above = X_JP * Vec3(p.x(), p.y(), 0);
+  const auto way = tissue_intervals(scene, {above, tip});
+  return std::none_of(way.begin(), way.end(), [&](const TissueInterval& s) {
+    return scene.joint().tissue_of(s.region).haptic.hard;
+  });
+}
+
+/// How far the roof is lifted, and over which width by half of it.
+void measure_opening(const Scene& scene, const std::vector<Injected>& places,
+                     InjectionPictures& out) {
+  for (const Injected& place : places) {
+    if (!place.cavity || !(place.volume > 0)) continue;
+    const CompiledJoint& joint = scene.joint();
+    const auto at = std::find_if(joint.regions.begin(), joint.regions.end(),
+                                 [&](const Region& r) { return r.name == place.region; });
+    const InflatedSpace space(joint, static_cast<RegionId>(at - joint.regions.begin()), place.tip);
+    const double opening = space.largest_opening(place.volume);
+    if (opening <= out.opening) continue;
+    out.opening = opening;
+    const std::vector<Vec3> moved = space.vertices(place.volume);
+    double widest = 0;
+    for (const Interface& f : joint.mesh.interfaces) {
+      if (joint.regions[f.front].name != place.region && joint.regions[f.back].name != place.region)
+        continue;
+      for (const std::uint32_t v : f.vertices)
+        if ((moved[v] - joint.mesh.vertices[v]).norm() >= opening / 2)
+          widest = std::max(widest, (joint.mesh.vertices[v] - place.tip).norm());
+    }
+    out.width = 2 * widest;
+  }
+}
+
+}  // namespace
+
+Result<InjectionPictures> write_injection_pictures(const std::shared_ptr<const Scene>& scene,
+                                                   const InjectionRun& run,
+                                                   const InjectionPictureOptions& options,
+                                                   const std::filesystem::path& folder) {
+  InjectionPictures out;
+  Pose X_JP = probe_in_plane(*scene, run.X_JN);
+  const bool over_it = sees(*scene, X_JP, run.X_JN.translation());
+  if (const auto view = over_it ? std::nullopt : find_view_of(*scene, run.X_JN)) X_JP = *view;
+  InjectionPictureOptions deep = options;
+  const double tip = (X_JP.inverse() * run.X_JN.translation()).z();
+  deep.settings.depth = std::clamp(tip + kBelowTip, options.settings.depth, kDeepest);
+  std::vector<std::string> names{"injected"};
+  std::vector<Injected> last;
+  std::shared_ptr<const Scene> body = scene;
+  for (const auto& [file, share] :
+       {std::pair{"before.png", 0.0}, {"during.png", 0.5}, {"after.png", 1.0}}) {
+    const InjectionRow* row = row_at(run, share);
+    if (row == nullptr) continue;
+    last = places_at(*scene, run, *row);
+    body = scene_of(*scene, run, last);
+    ARTUS_TRY(write_image(draw(body, run, X_JP, deep), folder / file));
+    out.files.emplace_back(file);
+  }
+  constexpr double kVisible = 10e-9;  // m^3, what with_injected leaves out
+  for (const Injected& place : last) {
+    if (place.volume >= kVisible) out.drawn_volume += place.volume;
+    if (place.cavity) names.push_back(place.region);
+  }
+  out.ray_volume = volume_by_rays(*body, run.X_JN, names) - volume_by_rays(*scene, run.X_JN, names);
+  out.label_area = area_by_labels(*body, X_JP, deep, names);
+  if (options.transducer.radius == 0) out.ray_area = area_by_rays(*body, X_JP, deep, names);
+  measure_opening(*scene, last, out);
+  return out;
+}
+
+Result<void> write_plate(std::span<const std::filesystem::path> pictures,
+                         std::span<const std::string> names, const std::filesystem::path& file) {
+  std::vector<cv::Mat> columns;
+  int height = 0;
+  for (std::size_t k = 0; k < pictures.size(); ++k) {
+    cv::Mat picture = cv::imread(pictures[k].string());
+    if (picture.empty())
+      return fail(ErrorCode::not_found, "there is no picture", pictures[k].string());
+    cv::copyMakeBorder(picture, picture, 28, 0, 4, 4, cv::BORDER_CONSTANT);
+    cv::putText(picture, names[k], {10, 20}, cv::FONT_HERSHEY_SIMPLEX, 0.55, {255, 255, 255}, 1,
+                cv::LINE_AA);
+    height = std::max(height, picture.rows);
+    columns.push_back(std::move(picture));
+  }
+  for (cv::Mat& column : columns)
+    cv::copyMakeBorder(column, column, 0, height - column.rows, 0, 0, cv::BORDER_CONSTANT);
+  cv::Mat plate;
+  cv::hconcat(columns, plate);
+  return write_image(plate, file);
+}
+
+std::vector<Claim> claims_of(const InjectionRun& run, const InjectionPictures& pictures) {
+  std::vector<Claim> claims;
+  if (pictures.drawn_volume > 0)
+    claims.push_back(claim_near({ClaimKind::input, "the shapes are scaled to the volumes"},
+                                "liquid that rays find in the drawn body",
+                                pictures.ray_volume * 1e6, pictures.drawn_volume * 1e6,
+                                kAgree / 100, "ml"));
+  if (pictures.ray_area > 0)
+    claims.push_back(claim_near(ClaimKind::independent, "area of liquid in the labels",
+                                pictures.label_area * 1e6, pictures.ray_area * 1e6, kAgree / 100,
+                                "mm2"));
+  if (run.target_like == "bursa")
+    claims.push_back(claim_within({ClaimKind::fitted, "the patch's radius was chosen for it"},
+                                  "the bursa opens at its widest by", pictures.opening * 1e3, 4, 2,
+                                  "mm"));
+  return claims;
+}
+
+}  // namespace artus

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "artus/echo/image_settings.h"
+#include "artus/echo/needle_view.h"
+#include "artus/echo/transducer.h"
+#include "artus/evidence/claim.h"
+#include "artus/evidence/injection/injection_run.h"
+
+namespace artus {
+
+/// What an injection looks like, and what of it can be measured in the body that is drawn.
+struct InjectionPictures {
+  std::vector<std::string> files;  ///< before.png, during.png, after.png; names in the folder
+  double opening = 0;       ///< m by which a space's walls are apart more than before; 0 for tissue
+  double width = 0;         ///< m over which they are so by half of that
+  double ray_volume = 0;    ///< m^3 of liquid that parallel rays half a millimetre apart find more
+                            ///< than before
+  double label_area = 0;    ///< m^2 of liquid in the labels after, its space's own included
+  double ray_area = 0;      ///< m^2 of the same by rays across the picture's plane
+  double drawn_volume = 0;  ///< m^3 that the shapes were made of
+};
+
+struct InjectionPictureOptions {
+  Transducer transducer;
+  ImageSettings settings;
+  NeedleShape needle;
+};
+
+/// Draws the plane of the needle before, half way and after, B-mode above the labels. The probe
+/// lies on the skin with the needle in its plane. Errors: unreadable.
+[[nodiscard]] Result<InjectionPictures> write_injection_pictures(
+    const std::shared_ptr<const Scene>& scene, const InjectionRun& run,
+    const InjectionPictureOptions& options, const std::filesystem::path& folder);
+
+/// The pictures after several injections beside each other, named. Errors: not_found, unreadable.
+[[nodiscard]] Result<void> write_plate(std::span<const std::filesystem::path> pictures,
+                                       std::span<const std::string> names,
+                                       const std::filesystem::path& file);
+
+/// That rays find what was given, within 5 %; of a bursa, that it opens by 2 to 6 mm.
+[[nodiscard]] std::vector<Claim> claims_of(const InjectionRun& run,
+                                           const InjectionPictures& pictures);
+
+}  // namespace artus

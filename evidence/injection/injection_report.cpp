@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/evidence/injection/injection_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include <nlohmann/json.hpp>
+
+#include "artus/core/text_file.h"
+#include "artus/core/units.h"
+
+namespace artus {
+namespace {
+
+constexpr double kMillilitre = 1e-6;    // m^3
+constexpr double kKilo = 1e3;           // Pa
+constexpr double kBalance = 1e-9;       // ml
+constexpr double kInPlace = 95;         // %
+constexpr std::size_t kPlotEvery = 10;  // rows
+
+/// Every tenth row is enough for a picture.
+std::vector<const InjectionRow*> thinned(const InjectionRun& run) {
+  std::vector<const InjectionRow*> rows;
+  for (std::size_t i = 0; i < run.rows.size(); i += kPlotEvery) rows.push_back(&run.rows[i]);
+  return rows;
+}
+
+template <class F>
+PlotSeries curve(const std::vector<const InjectionRow*>& rows, std::string label, double start,
+                 F value) {
+  PlotSeries series;
+  series.label = std::move(label);
+  for (const InjectionRow* row : rows) {
+    if (row->time < start) continue;
+    series.x.push_back(row->time - start);
+    series.y.push_back(value(*row));
+  }
+  return series;
+}
+
+double thumb_of(const InjectionRow& row) {
+  return row.thumb;
+}
+double barrel_of(const InjectionRow& row) {
+  return row.plunger.pressure / kKilo;
+}
+double tip_of(const InjectionRow& row) {
+  return row.plunger.tip_pressure / kKilo;
+}
+double flow_of(const InjectionRow& row) {
+  return row.plunger.flow / kMillilitre;
+}
+
+double sum_of(const InjectionRow& row) {
+  double sum = 0;
+  for (const double v : row.volumes) sum += v;
+  return sum / kMillilitre;
+}
+
+double start_of_push(const InjectionRun& run) {
+  const auto at = std::find_if(run.rows.begin(), run.rows.end(),
+                               [](const InjectionRow& row) { return row.phase == "inject"; });
+  return at == run.rows.end() ? 0 : at->time;
+}
+
+std::string text(double value) {
+  char buffer[32];  // NOLINT(*-avoid-c-arrays)
+  std::snprintf(buffer, sizeof buffer, "%.9g", value);
+  return buffer;
+}
+
+Result<void> write_trace(const InjectionRun& run, const std::filesystem::path& file) {
+  std::string out =
+      "time_s,phase,depth_mm,region,axial_n,thumb_n,barrel_kpa,tip_kpa,flow_ml_s,travel_mm,"
+      "content_ml,drawn_ml,status";
+  for (const std::string& place : run.places) out += "," + place + "_ml";
+  out += '\n';
+  for (const InjectionRow& row : run.rows) {
+    const PlungerState& p = row.plunger;
+    out += text(row.time) + ',' + std::string(row.phase) + ',' + text(row.depth / kMillimetre) +
+           ',' + run.regions[row.region] + ',' + text(row.axial) + ',' + text(row.thumb);
+    for (const double value :
+         {p.pressure / kKilo, p.tip_pressure / kKilo, p.flow / kMillilitre, p.travel / kMillimetre,
+          p.content / kMillilitre, p.drawn / kMillilitre})
+      out += ',' + text(value);
+    out += ',' + std::to_string(p.status);
+    for (const double v : row.volumes) out += ',' + text(v / kMillilitre);
+    out += '\n';
+  }
+  return write_text(file, out);
+}
+
+double share_in_target(const InjectionRun& run) {
+  return run.given > 0 ? 100 * run.volumes.front() / run.given : 0;
+}
+
+bool is_cavity(const InjectionRun& run) {
+  return run.target_like != "muscle" && run.target_like != "fat" && run.target_like != "tendon" &&
+         run.target_like != "nerve" && run.target_like != "skin" && run.target_like != "capsule";
+}
+
+}  // namespace
+
+std::vector<Claim> claims_of(const InjectionRun& run) {
+  std::vector<Claim> claims;
+  claims.push_back(claim_that({ClaimKind::input, "the target is on the line"},
+                              "the tip was in '" + run.target + "'", run.reached));
+  claims.push_back(claim_at_most({ClaimKind::input, "the scalars are written to balance"},
+                                 "what left the needle is somewhere",
+                                 std::abs(run.unbalanced) / kMillilitre, kBalance, "ml"));
+  if (is_cavity(run)) {
+    claims.push_back(claim_at_least(ClaimKind::independent, "volume in '" + run.target + "'",
+                                    share_in_target(run), kInPlace, "%"));
+    claims.push_back(claim_that(ClaimKind::independent, "all was given", run.complete));
+  }
+  return claims;
+}
+
+nlohmann::json summarize(const InjectionRun& run) {
+  auto places = nlohmann::json::object();
+  for (std::size_t k = 0; k < run.places.size(); ++k)
+    places[run.places[k]] = run.volumes[k] / kMillilitre;
+  auto patient = nlohmann::json::array();
+  for (const PatientLine& line : run.patient)
+    patient.push_back({{"time_s", line.time}, {"text", line.text}});
+  const double misplaced = run.given - run.volumes.front();
+  const auto claims = claims_of(run);
+  return {{"injection", run.spec.name},
+          {"target", run.target},
+          {"target_kind", run.target_like},
+          {"liquid", run.spec.plunger.liquid.name},
+          {"meant_ml", run.spec.volume / kMillilitre},
+          {"rate_ml_s", run.spec.rate / kMillilitre},
+          {"needle_mm", run.spec.plunger.needle.length / kMillimetre},
+          {"given_ml", run.given / kMillilitre},
+          {"drawn_ml", run.drawn / kMillilitre},
+          {"in_target_percent", share_in_target(run)},
+          {"misplaced_ml", misplaced / kMillilitre},
+          {"volumes_ml", places},
+          {"unbalanced_ml", run.unbalanced / kMillilitre},
+          {"highest_tip_kpa", run.highest_pressure / kKilo},
+          {"highest_thumb_n", run.highest_force},
+          {"tip_walk_mm", run.tip_walk / kMillimetre},
+          {"complete", run.complete},
+          {"status", run.status},
+          {"patient", patient},
+          {"verdict", verdict(claims)}};
+}
+
+Plot plot_of(const InjectionRun& run) {
+  const auto rows = thinned(run);
+  Plot plot;
+  plot.title = run.spec.name + ": " + run.spec.plunger.liquid.name + " into " + run.target;
+  plot.panels.push_back({"", "thumb, N", {curve(rows, "thumb", 0, thumb_of)}});
+  plot.panels.push_back(
+      {"", "pressure, kPa", {curve(rows, "barrel", 0, barrel_of), curve(rows, "tip", 0, tip_of)}});
+  plot.panels.push_back({"", "flow, ml/s", {curve(rows, "out of the needle", 0, flow_of)}});
+  PlotPanel volumes{"time, s", "volume, ml", {}};
+  for (std::size_t k = 0; k < run.places.size(); ++k)
+    volumes.series.push_back(curve(rows, run.places[k], 0, [k](const InjectionRow& row) {
+      return row.volumes[k] / kMillilitre;
+    }));
+  plot.panels.push_back(std::move(volumes));
+  return plot;
+}
+
+Plot plot_of(std::span<const InjectionRun> runs) {
+  Plot plot;
+  plot.title = "The same thumb in different places";
+  plot.panels = {{"", "thumb, N", {}},
+                 {"", "barrel, kPa", {}},
+                 {"", "flow, ml/s", {}},
+                 {"time since the push began, s", "volume given, ml", {}}};
+  for (const InjectionRun& run : runs) {
+    const auto rows = thinned(run);
+    const double start = start_of_push(run);
+    plot.panels[0].series.push_back(curve(rows, run.target, start, thumb_of));
+    plot.panels[1].series.push_back(curve(rows, run.target, start, barrel_of));
+    plot.panels[2].series.push_back(curve(rows, run.target, start, flow_of));
+    plot.panels[3].series.push_back(curve(rows, run.target, start, sum_of));
+  }
+  return plot;
+}
+
+Result<void> write_injection(const InjectionRun& run, const std::filesystem::path& folder) {
+  std::error_code ignored;
+  std::filesystem::create_directories(folder, ignored);
+  ARTUS_TRY(write_trace(run, folder / "trace.csv"));
+  return write_plot(folder / "injection.png", plot_of(run));
+}
+
+}  // namespace artus

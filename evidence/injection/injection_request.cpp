@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/evidence/injection/injection_request.h"
+
+#include <tuple>
+
+#include "artus/core/known_names.h"
+#include "artus/haptics/plunger/syringe_choice.h"
+
+namespace artus {
+namespace {
+
+constexpr double kOverfill = 0.4e-6;  // m^3 that is drawn up beyond what is meant to be given
+
+/// As much is drawn up as is meant to be given, and what stays in the barrel.
+Result<PlungerParams> plunger_of(const InjectionRequest& request) {
+  SyringeChoice choice;
+  choice.gauge = request.gauge;
+  choice.filled = request.volume;
+  choice.barrel = request.syringe > 0 ? request.syringe : request.volume;
+  choice.air = request.air;
+  choice.liquid = request.liquid;
+  choice.seed = request.seed;
+  auto params = make_plunger_params(choice, request.needle_length);
+  if (!params) return params;
+  params->syringe.filled += kOverfill;
+  params->syringe.volume += kOverfill;
+  return params;
+}
+
+/// Name, entry and target: the request's own line, or a planned one.
+Result<PlannedInjection> line_of(const InjectionRequest& request, const CompiledJoint& joint) {
+  PlannedInjection line;
+  if (request.line) {
+    line.name = "line";
+    std::tie(line.entry, line.target) = *request.line;
+    return line;
+  }
+  if (joint.injections.empty())
+    return fail(ErrorCode::not_found, "the joint plans none; give entry and target", "injection");
+  if (request.injection.empty()) return joint.injections.front();
+  const auto at = find_name(item_names(joint.injections), request.injection, "planned injection");
+  ARTUS_TRY(at);
+  return joint.injections[*at];
+}
+
+}  // namespace
+
+Result<InjectionRun> run_injection(const Scene& scene, const InjectionRequest& request) {
+  InjectionSpec spec;
+  const auto plunger = plunger_of(request);
+  ARTUS_TRY(plunger);
+  spec.plunger = *plunger;
+  spec.volume = request.volume;
+  spec.rate = request.rate;
+  spec.aspirate = request.aspirate;
+  spec.rate_hz = request.rate_hz;
+  spec.device = request.device;
+  spec.hand.seed = request.seed;
+  spec.technique = request.technique;
+  spec.feel = request.feel;
+  const auto line = line_of(request, scene.joint());
+  ARTUS_TRY(line);
+  spec.name = line->name;
+  spec.entry = line->entry;
+  spec.target = line->target;
+  if (request.into.empty()) return run_injection(scene, spec);
+  auto names = item_names(scene.joint().regions);
+  names.erase(names.begin(), names.begin() + kFirstRegion);
+  const auto at = find_name(names, request.into, "structure");
+  ARTUS_TRY(at);
+  spec.into = static_cast<RegionId>(kFirstRegion + *at);
+  if (!find_layer(scene, spec.entry, (spec.target - spec.entry).normalized(), *spec.into)) {
+    const auto found = find_line_into(scene, *spec.into);
+    ARTUS_TRY(found);
+    spec.name = "line into " + request.into;
+    std::tie(spec.entry, spec.target) = *found;
+  }
+  return run_injection(scene, spec);
+}
+
+}  // namespace artus

@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "artus/core/units.h"
+#include "artus/echo/frame_measure.h"
+#include "artus/echo/labels.h"
+#include "artus/echo/renderer.h"
+#include "artus/echo/strain_image.h"
+#include "artus/evidence/echo/echo_phantom.h"
+#include "artus/evidence/soft/soft_gates_list.h"
+#include "artus/raycast/moving_scene.h"
+#include "artus/soft/deformed_body.h"
+#include "artus/soft/soft_block.h"
+#include "artus/soft/soft_solver.h"
+
+namespace artus {
+namespace {
+
+constexpr double kHalf = 48e-3;         // m, of a block's edges
+constexpr double kThick = 48e-3;        // m
+constexpr double kBlockYoung = 10e3;    // Pa
+constexpr double kSphere = 5e-3;        // m, radius of the stiff ball
+constexpr double kRatio = 4;            // of its modulus to the block's
+constexpr double kCentreDepth = 20e-3;  // m, of the ball
+
+Vec3 centre() {
+  return {0, 0, kCentreDepth};
+}
+
+using Field = std::function<Vec3(const Vec3&)>;
+
+/// A block of one tissue that scatters everywhere alike, and a cage to move it by.
+struct MovedPhantom {
+  std::shared_ptr<const CompiledJoint> joint;
+  std::shared_ptr<const BodyMap> map;
+
+  explicit MovedPhantom(std::shared_ptr<const SoftModel> model) {
+    const std::array<FlatLayer, 1> layer{{{"tissue_mimic", kThick}}};
+    CompiledJoint block =
+        subdivided(make_layered_block(make_phantom_tissues(), layer, 2 * kHalf, 2 * kHalf), 5);
+    acoustic_of(block, "tissue_mimic").attenuation = 0;
+    joint = std::make_shared<const CompiledJoint>(std::move(block));
+    map = make_body_map(*joint, Pose::Identity(), std::move(model));
+  }
+  [[nodiscard]] std::shared_ptr<const Scene> scene(std::span<const Vec3> nodes) const {
+    return make_scene(std::make_shared<const DeformedBody>(joint, map, nodes, ContactForce{}));
+  }
+  [[nodiscard]] std::shared_ptr<const Scene> scene(const Field& u) const {
+    std::vector<Vec3> nodes;
+    for (const Vec3& p : map->model->cage().nodes()) nodes.push_back(u(p));
+    return scene(nodes);
+  }
+};
+
+std::shared_ptr<const SoftModel> plain_model() {
+  SoftBlock block;
+  block.half_x = block.half_y = kHalf;
+  block.layers = {{kThick, linear_material(kBlockYoung, 0.47)}};
+  return make_block_model(block, 6e-3);
+}
+
+/// The block with a stiffer ball in it, pressed against the probe by a plate that slides: held
+/// along z above and below, and in its planes of symmetry. `strain` of its height.
+std::vector<Vec3> press_ball(const std::shared_ptr<const SoftModel>& model, double strain) {
+  SoftSolver solver(model, {});
+  std::vector<Vec3> prescribed(model->cage().nodes().size(), Vec3::Zero());
+  for (std::size_t n = 0; n < prescribed.size(); ++n)
+    if (model->cage().nodes()[n].z() > kThick - 1e-9) prescribed[n].z() = -strain * kThick;
+  solver.set_prescribed(std::move(prescribed));
+  solver.settle(std::nullopt, 1e-7, 60);
+  return {solver.displacements().begin(), solver.displacements().end()};
+}
+
+std::shared_ptr<const SoftModel> ball_model() {
+  SoftModelParams params;
+  params.cage.low = Vec3(-kHalf, -kHalf, 0);
+  params.cage.high = Vec3(kHalf, kHalf, kThick);
+  params.cage.cell = 6e-3;
+  params.cage.zones = {{centre() - Vec3::Constant(7e-3), centre() + Vec3::Constant(7e-3), 1.5e-3},
+                       {centre() - Vec3::Constant(12e-3), centre() + Vec3::Constant(12e-3), 3e-3}};
+  params.held = [](const Vec3& p) {
+    HeldNode node;
+    node.held[0] = std::abs(p.x()) < 1e-9;
+    node.held[1] = std::abs(p.y()) < 1e-9;
+    node.held[2] = p.z() < 1e-9 || p.z() > kThick - 1e-9;
+    return node;
+  };
+  MaterialField field;
+  field.materials = {linear_material(kBlockYoung, 0.49),
+                     linear_material(kRatio * kBlockYoung, 0.49)};
+  field.at = [](const Vec3& p) {
+    const bool inside =
+        std::abs(p.x()) <= kHalf && std::abs(p.y()) <= kHalf && p.z() >= 0 && p.z() <= kThick;
+    if (!inside) return kNoMaterial;
+    return (p - centre()).norm() < kSphere ? 1 : 0;
+  };
+  return std::make_shared<const SoftModel>(field, params);
+}
+
+ImageSettings settings_of_gate() {
+  ImageSettings settings = bare_settings();
+  settings.n_threads = 0;
+  return settings;
+}
+
+/// Before and after: the probe stays, the tissue moves below it.
+StrainImage strain_of(const std::shared_ptr<const Scene>& before,
+                      const std::shared_ptr<const Scene>& after) {
+  Pose X_JP = Pose::Identity();
+  X_JP.translation().z() = 1e-3;  // inside, so that a skin that moves away opens no gap
+  const ImageSettings settings = settings_of_gate();
+  return compute_strain(render_bmode(before, X_JP, std::nullopt, {}, settings),
+                        render_bmode(after, X_JP, std::nullopt, {}, settings));
+}
+
+/// Mean of the strain that is known within `radius` of (x, z) in the picture.
+double mean_strain(const StrainImage& image, double x, double z, double radius) {
+  const Transducer probe;
+  double sum = 0;
+  int n = 0;
+  for (int l = 0; l < image.n_lines; ++l) {
+    for (int k = 0; k < image.n_depths; ++k) {
+      const double dx = (static_cast<double>(l) / (image.n_lines - 1) - 0.5) * probe.width - x;
+      const double dz = image.first_depth + k * image.step + 1e-3 - z;
+      const float e = image.strain[static_cast<std::size_t>(l * image.n_depths + k)];
+      if (std::hypot(dx, dz) > radius || std::isnan(e)) continue;
+      sum += e;
+      ++n;
+    }
+  }
+  return n > 0 ? sum / n : 0;
+}
+
+}  // namespace
+
+SoftGate gate_strain_image() {
+  SoftGate gate;
+  gate.title = "block matching finds the motion that the picture was drawn with (I1)";
+  const MovedPhantom phantom(plain_model());
+  for (const double percent : {0.5, 1.0}) {
+    const double strain = percent / 100;
+    const StrainImage image =
+        strain_of(phantom.scene([](const Vec3&) { return Vec3(Vec3::Zero()); }),
+                  phantom.scene([&](const Vec3& p) { return Vec3(0, 0, -strain * p.z()); }));
+    std::vector<double> errors;
+    double correlation = 0;
+    for (std::size_t i = 0; i < image.displacement.size(); ++i) {
+      const auto k = static_cast<double>(i % static_cast<std::size_t>(image.n_depths));
+      // a place at rest z moves to (1 - strain) z; the piece that is matched is the one before
+      const double z = 1e-3 + image.first_depth + k * image.step;
+      if (z > 0.85 * 40e-3) continue;
+      errors.push_back((image.displacement[i] + strain * z) / (40e-3 / 1024));
+      correlation += image.correlation[i];
+    }
+    const Moments moments = moments_of(errors);
+    const std::string at = std::to_string(percent).substr(0, 3) + " % strain: ";
+    gate.claims.push_back(claim_at_most(ClaimKind::independent, at + "bias of the motion",
+                                        std::abs(moments.mean), 0.1, "px"));
+    gate.claims.push_back(
+        claim_at_most(ClaimKind::independent, at + "its deviation", moments.deviation, 0.2, "px"));
+    if (percent < 0.75)
+      gate.claims.push_back(claim_at_least(ClaimKind::independent, at + "correlation",
+                                           correlation / static_cast<double>(errors.size()), 0.95,
+                                           ""));
+  }
+  return gate;
+}
+
+SoftGate gate_inclusion() {
+  SoftGate gate;
+  gate.title = "strain of a ball four times as stiff, from two pictures, against Eshelby (I3)";
+  const MovedPhantom phantom(ball_model());
+  const std::vector<Vec3> rest(phantom.map->model->cage().nodes().size(), Vec3::Zero());
+  const StrainImage image =
+      strain_of(phantom.scene(rest), phantom.scene(press_ball(phantom.map->model, 0.01)));
+  const double inside = mean_strain(image, 0, kCentreDepth, 0.5 * kSphere);
+  const double outside = 0.5 * (mean_strain(image, 15e-3, kCentreDepth, 3e-3) +
+                                mean_strain(image, -15e-3, kCentreDepth, 3e-3));
+  gate.claims.push_back(claim_near(ClaimKind::independent, "strain inside over strain outside",
+                                   inside / outside, 5 / (3 + 2 * kRatio), 0.1, ""));
+  return gate;
+}
+
+SoftGate gate_thinning() {
+  SoftGate gate;
+  gate.title = "layers of a pressed block: by the picture's labels and by the tissue (I5)";
+  SoftBlock block;
+  block.half_x = block.half_y = kHalf;
+  block.layers = {{9e-3, linear_material(3e3, 0.47)},
+                  {12e-3, linear_material(8e3, 0.47)},
+                  {27e-3, linear_material(100e3, 0.47)}};
+  const auto model =
+      make_block_model(block, 6e-3, {{Vec3(-27e-3, -12e-3, 0), Vec3(27e-3, 12e-3, 24e-3), 3e-3}});
+  const std::array<FlatLayer, 3> layers{{{"fat", 9e-3}, {"muscle", 12e-3}, {"tendon", 27e-3}}};
+  const auto tissues = read_bundled_tissues();
+  if (!tissues) return gate;
+  const auto joint = std::make_shared<const CompiledJoint>(
+      subdivided(make_layered_block(*tissues, layers, 2 * kHalf, 2 * kHalf), 5));
+  const auto map = make_body_map(*joint, Pose::Identity(), model);
+  SoftSolver solver(model, {});
+  std::vector<PointLoad> loads;
+  for (int i = -10; i <= 10; ++i)
+    for (int j = -2; j <= 2; ++j)
+      loads.push_back({Vec3(2e-3 * i, 1.2e-3 * j, 0), Vec3(0, 0, 1.0 / 105)});
+  solver.set_loads(std::move(loads));
+  solver.settle(std::nullopt, 1e-7, 60);
+  const auto body =
+      std::make_shared<const DeformedBody>(joint, map, solver.displacements(), ContactForce{});
+  const auto now = layer_thicknesses(block, *model, solver.displacements(), 0, 0);
+  ImageSettings settings = settings_of_gate();
+  settings.pixel = 0.05e-3;
+  Pose X_JP = Pose::Identity();
+  X_JP.translation().z() = body->displacement(Vec3::Zero()).z();
+  const LabelImage labels = render_labels(*make_scene(body), X_JP, {}, settings);
+  std::array<int, 2> pixels{};
+  for (int y = 0; y < labels.height; ++y) {
+    const auto region =
+        labels.regions[static_cast<std::size_t>(y * labels.width + labels.width / 2)];
+    for (std::size_t k = 0; k < 2; ++k)
+      if (region == kFirstRegion + k) ++pixels[k];
+  }
+  const std::array<const char*, 2> names{"fat", "muscle"};
+  for (std::size_t k = 0; k < 2; ++k)
+    gate.claims.push_back(claim_within(
+        ClaimKind::independent, std::string("I5: thickness of ") + names[k] + " in the picture",
+        pixels[k] * 0.05, now[k] * 1e3, 0.1, "mm"));
+  const double fat = 1 - now[0] / 9e-3;
+  const double muscle = 1 - now[1] / 12e-3;
+  gate.claims.push_back(claim_that({ClaimKind::input, "fat is given the lowest stiffness"},
+                                   "I5: fat thins more than muscle, muscle more than tendon",
+                                   fat > muscle && muscle > 1 - now[2] / 27e-3));
+  return gate;
+}
+
+SoftGate gate_speckle_pressed() {
+  SoftGate gate;
+  gate.title = "speckle of tissue compressed by 30 % (I6)";
+  const MovedPhantom phantom(plain_model());
+  Pose X_JP = Pose::Identity();
+  X_JP.translation().z() = 1e-3;
+  const auto scene = phantom.scene(
+      [](const Vec3& p) { return Vec3(0.19 * p.x(), 0.19 * p.y(), -0.3 * (p.z() - 1e-3)); });
+  const Frame frame = render_bmode(scene, X_JP, std::nullopt, {}, settings_of_gate());
+  std::vector<double> envelope;
+  for (int l = 24; l < frame.n_lines - 24; l += 4)
+    for (int i = 200; i < 700; i += 8)
+      envelope.push_back(envelope_line(frame, l)[static_cast<std::size_t>(i)]);
+  const Moments moments = moments_of(envelope);
+  gate.claims.push_back(claim_near(ClaimKind::independent, "mean over deviation of the envelope",
+                                   moments.mean / moments.deviation, 1.913, 0.05, ""));
+  gate.claims.push_back(claim_at_most(ClaimKind::independent, "distance from Rayleigh",
+                                      rayleigh_distance(envelope), 0.03, ""));
+  return gate;
+}
+
+}  // namespace artus

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/evidence/injection/injection_run.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "artus/evidence/injection/injection_report.h"
+#include "tests/support/layered_body.h"
+
+namespace artus {
+namespace {
+
+/// Skin, fat, muscle, a bursa of 2 mm from 14 mm on, tendon, bone.
+std::shared_ptr<const Scene> shoulder_like() {
+  const std::vector<FlatLayer> layers{{"skin", 2e-3},  {"fat", 4e-3},    {"muscle", 8e-3},
+                                      {"bursa", 2e-3}, {"tendon", 8e-3}, {"bone", 20e-3}};
+  return std::make_shared<const Scene>(
+      std::make_shared<const CompiledJoint>(test::make_layered_block(layers, 0.2, 0.2)));
+}
+
+InjectionSpec spec_into(const Scene& scene, const char* region, double volume) {
+  InjectionSpec spec;
+  spec.entry = Vec3::Zero();
+  spec.target = Vec3(0, 0, 30e-3);
+  spec.into = test::region_named(scene.joint(), region);
+  spec.volume = volume;
+  spec.rate = 0.2e-6;
+  spec.plunger.liquids = *read_bundled_liquids();
+  spec.plunger.liquid = *find_liquid(spec.plunger.liquids, "saline");
+  return spec;
+}
+
+TEST(InjectionRun, ATendonTakesAHandsForceAndABursaDoesNot) {
+  const auto scene = shoulder_like();
+  const auto bursa = run_injection(*scene, spec_into(*scene, "bursa", 0.5e-6));
+  const auto tendon = run_injection(*scene, spec_into(*scene, "tendon", 0.5e-6));
+  ASSERT_TRUE(bursa && tendon);
+  EXPECT_EQ(bursa->target, "bursa");
+  EXPECT_LT(std::abs(bursa->unbalanced), 1e-15);
+  EXPECT_LT(bursa->highest_force, tendon->highest_force);
+}
+
+TEST(InjectionRun, ABursaAsThinAsTheBevelIsLongTakesWhatIsMeantForIt) {
+  const auto scene = shoulder_like();
+  InjectionSpec spec = spec_into(*scene, "bursa", 1e-6);
+  spec.rate = 0.1e-6;
+  const auto run = run_injection(*scene, spec);
+  ASSERT_TRUE(run);
+  EXPECT_GE(run->volumes.front(), 0.95 * run->given);
+  EXPECT_NEAR(run->given, 1e-6, 0.05e-6);
+}
+
+TEST(InjectionRun, ComingBackUnderGentlePressureFlowsWhenTheBevelIsInTheBursa) {
+  const auto scene = shoulder_like();
+  InjectionSpec spec = spec_into(*scene, "bursa", 1e-6);
+  spec.technique = Technique::through_and_back;
+  spec.rate = 0.1e-6;
+  const auto run = run_injection(*scene, spec);
+  ASSERT_TRUE(run);
+  EXPECT_GE(run->volumes.front(), 0.95 * run->given);
+  double deepest = 0;
+  for (const InjectionRow& row : run->rows) deepest = std::max(deepest, row.depth);
+  EXPECT_GT(deepest, 16e-3);  // through the floor
+  const auto flowing = std::find_if(run->rows.begin(), run->rows.end(),
+                                    [](const InjectionRow& row) { return row.phase == "inject"; });
+  ASSERT_NE(flowing, run->rows.end());
+  EXPECT_LT(flowing->depth, deepest);
+  EXPECT_GT(flowing->depth, 14e-3);
+}
+
+TEST(InjectionRun, IsTheSameTwice) {
+  const auto scene = shoulder_like();
+  const InjectionSpec spec = spec_into(*scene, "muscle", 0.2e-6);
+  const auto a = run_injection(*scene, spec);
+  const auto b = run_injection(*scene, spec);
+  ASSERT_EQ(a->rows.size(), b->rows.size());
+  EXPECT_EQ(a->rows.back().plunger.travel, b->rows.back().plunger.travel);
+  EXPECT_EQ(summarize(*a).dump(), summarize(*b).dump());
+}
+
+TEST(InjectionRun, RefusesALineThatMissesAndAVolumeThatIsNone) {
+  const auto scene = shoulder_like();
+  InjectionSpec spec = spec_into(*scene, "bone", 1e-6);
+  spec.target = Vec3(0, 0.03, 0.01);
+  spec.entry = Vec3(0, 0, 0.005);
+  spec.into = test::region_named(scene->joint(), "bursa");
+  spec.target = spec.entry + Vec3(0.01, 0, 0);
+  EXPECT_FALSE(run_injection(*scene, spec));
+  InjectionSpec none = spec_into(*scene, "bursa", 0);
+  EXPECT_THAT(run_injection(*scene, none).error().message, testing::HasSubstr("volume"));
+}
+
+}  // namespace
+}  // namespace artus
