@@ -48,49 +48,69 @@ std::string decimal(double value) {
   return text;
 }
 
-void put_people_and_series(ElementWriter& out, const DicomSeries& series, std::uint64_t digest) {
+/// What one object of a study is; `digest` is the study's.
+struct ObjectKind {
+  const char* sop_class;
+  const char* image_type;
+  const char* modality;
+  const char* description;
+  std::uint64_t digest;
+  int series_number;
+};
+
+void put_people_and_series(ElementWriter& out, const DicomSeries& series, const ObjectKind& kind) {
   const std::string made_by = "artus " + series.engine;
+  const std::uint64_t number = 4 * static_cast<std::uint64_t>(kind.series_number - 1);
   out.text(DCM_SpecificCharacterSet, "ISO_IR 192");
-  out.text(DCM_ImageType, "DERIVED\\PRIMARY\\MUSCULOSKELETAL\\0001");
-  out.text(DCM_SOPClassUID, UID_UltrasoundMultiframeImageStorage);
-  out.text(DCM_SOPInstanceUID, identifier(digest));
-  out.text(DCM_StudyInstanceUID, identifier(digest ^ 1U));
-  out.text(DCM_SeriesInstanceUID, identifier(digest ^ 2U));
+  out.text(DCM_ImageType, kind.image_type);
+  out.text(DCM_SOPClassUID, kind.sop_class);
+  out.text(DCM_SOPInstanceUID, identifier(kind.digest ^ number));
+  out.text(DCM_StudyInstanceUID, identifier(kind.digest ^ 1U));
+  out.text(DCM_SeriesInstanceUID, identifier(kind.digest ^ 2U ^ number));
   for (const DcmTagKey& empty :
        {DCM_StudyDate, DCM_StudyTime, DCM_ContentDate, DCM_ContentTime, DCM_AccessionNumber,
         DCM_ReferringPhysicianName, DCM_PatientBirthDate, DCM_PatientSex, DCM_PatientOrientation})
     out.text(empty, "");
-  out.text(DCM_Modality, "US");
+  out.text(DCM_Modality, kind.modality);
   out.text(DCM_Manufacturer, "artus");
   out.text(DCM_ManufacturerModelName, "simulated ultrasound");
   out.text(DCM_SoftwareVersions, made_by);
-  out.text(DCM_SeriesDescription, "simulated ultrasound");
+  out.text(DCM_SeriesDescription, kind.description);
   out.text(DCM_Laterality, series.side == "left" ? "L" : series.side == "right" ? "R" : "");
   out.text(DCM_PatientName, "Simulated^Joint");
   out.text(DCM_PatientID, "SIMULATED");
   out.text(DCM_StudyID, "1");
-  out.text(DCM_SeriesNumber, "1");
+  out.text(DCM_SeriesNumber, std::to_string(kind.series_number));
   out.text(DCM_InstanceNumber, "1");
   out.text(DCM_DerivationDescription, "simulated by " + made_by + ", not of a patient");
-  out.text(DCM_ImageComments, "simulated ultrasound of the joint " + series.joint);
-  out.text(DCM_BurnedInAnnotation, "NO");
-  out.text(DCM_LossyImageCompression, "00");
+  out.text(DCM_ImageComments, std::string(kind.description) + " of the joint " + series.joint);
 }
 
-void put_pixels(ElementWriter& out, DcmItem& dataset, const ImageSequence& sequence,
-                double frame_time) {
-  out.number(DCM_SamplesPerPixel, 1);
-  out.text(DCM_PhotometricInterpretation, "MONOCHROME2");
-  out.text(DCM_NumberOfFrames, std::to_string(sequence.frames.size()));
-  out.note(dataset.putAndInsertTagKey(DCM_FrameIncrementPointer, DCM_FrameTime));
-  out.text(DCM_FrameTime, decimal(1e3 * frame_time));
-  out.text(DCM_CineRate, std::to_string(std::lround(1 / frame_time)));
-  out.number(DCM_Rows, static_cast<Uint16>(sequence.height));
-  out.number(DCM_Columns, static_cast<Uint16>(sequence.width));
+std::uint64_t study_of(const ImageSequence& sequence, const DicomSeries& series) {
+  return hash_bytes(to_mha(sequence), hash_bytes(series.joint));
+}
+
+void put_raster(ElementWriter& out, int width, int height, int samples) {
+  out.number(DCM_SamplesPerPixel, static_cast<Uint16>(samples));
+  out.text(DCM_PhotometricInterpretation, samples == 1 ? "MONOCHROME2" : "RGB");
+  if (samples > 1) out.number(DCM_PlanarConfiguration, 0);
+  out.number(DCM_Rows, static_cast<Uint16>(height));
+  out.number(DCM_Columns, static_cast<Uint16>(width));
   out.number(DCM_BitsAllocated, 8);
   out.number(DCM_BitsStored, 8);
   out.number(DCM_HighBit, 7);
   out.number(DCM_PixelRepresentation, 0);
+}
+
+void put_pixels(ElementWriter& out, DcmItem& dataset, const ImageSequence& sequence,
+                double frame_time) {
+  put_raster(out, sequence.width, sequence.height, 1);
+  out.text(DCM_BurnedInAnnotation, "NO");
+  out.text(DCM_LossyImageCompression, "00");
+  out.text(DCM_NumberOfFrames, std::to_string(sequence.frames.size()));
+  out.note(dataset.putAndInsertTagKey(DCM_FrameIncrementPointer, DCM_FrameTime));
+  out.text(DCM_FrameTime, decimal(1e3 * frame_time));
+  out.text(DCM_CineRate, std::to_string(std::lround(1 / frame_time)));
   std::vector<Uint8> pixels;
   for (const SequenceFrame& frame : sequence.frames)
     pixels.insert(pixels.end(), frame.grey.begin(), frame.grey.end());
@@ -121,6 +141,19 @@ void put_region(ElementWriter& out, DcmItem& dataset, const ImageSequence& seque
   out.note(region.condition());
 }
 
+Result<void> save(DcmFileFormat& out, const OFCondition& filled,
+                  const std::filesystem::path& file) {
+  if (filled.bad()) return fail(ErrorCode::failed, filled.text(), file.string());
+  const std::filesystem::path part = file.parent_path() / ("part-" + file.filename().string());
+  const OFCondition saved =
+      out.saveFile(part.c_str(), EXS_LittleEndianExplicit, EET_ExplicitLength);
+  if (saved.bad()) return fail(ErrorCode::unreadable, saved.text(), file.string());
+  std::error_code error;
+  std::filesystem::rename(part, file, error);
+  if (error) return fail(ErrorCode::unreadable, error.message(), file.string());
+  return {};
+}
+
 }  // namespace
 
 Result<void> write_dicom(const std::filesystem::path& file, const ImageSequence& sequence,
@@ -130,20 +163,32 @@ Result<void> write_dicom(const std::filesystem::path& file, const ImageSequence&
   DcmFileFormat out;
   DcmDataset& dataset = *out.getDataset();
   ElementWriter writer(dataset);
-  const std::uint64_t digest = hash_bytes(to_mha(sequence), hash_bytes(series.joint));
-  put_people_and_series(writer, series, digest);
+  put_people_and_series(
+      writer, series,
+      {UID_UltrasoundMultiframeImageStorage, "DERIVED\\PRIMARY\\MUSCULOSKELETAL\\0001", "US",
+       "simulated ultrasound", study_of(sequence, series), 1});
   put_pixels(writer, dataset, sequence, series.frame_time);
   put_region(writer, dataset, sequence, series.pixel);
-  if (writer.condition().bad())
-    return fail(ErrorCode::failed, writer.condition().text(), file.string());
-  const std::filesystem::path part = file.parent_path() / ("part-" + file.filename().string());
-  const OFCondition saved =
-      out.saveFile(part.c_str(), EXS_LittleEndianExplicit, EET_ExplicitLength);
-  if (saved.bad()) return fail(ErrorCode::unreadable, saved.text(), file.string());
-  std::error_code error;
-  std::filesystem::rename(part, file, error);
-  if (error) return fail(ErrorCode::unreadable, error.message(), file.string());
-  return {};
+  return save(out, writer.condition(), file);
+}
+
+Result<void> write_dicom_report(const std::filesystem::path& file, const ReportPage& page,
+                                const ImageSequence& sequence, const DicomSeries& series) {
+  ARTUS_REQUIRE(page.colours.size() == static_cast<std::size_t>(3 * page.width * page.height),
+                "a page has three bytes a pixel");
+  DcmFileFormat out;
+  DcmDataset& dataset = *out.getDataset();
+  ElementWriter writer(dataset);
+  put_people_and_series(writer, series,
+                        {UID_SecondaryCaptureImageStorage, "DERIVED\\SECONDARY", "OT",
+                         "report of a simulated session", study_of(sequence, series), 2});
+  writer.text(DCM_ConversionType, "WSD");
+  writer.text(DCM_BurnedInAnnotation, "YES");
+  writer.text(DCM_LossyImageCompression, "00");
+  put_raster(writer, page.width, page.height, 3);
+  writer.note(
+      dataset.putAndInsertUint8Array(DCM_PixelData, page.colours.data(), page.colours.size()));
+  return save(out, writer.condition(), file);
 }
 
 }  // namespace artus

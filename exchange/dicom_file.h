@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "artus/core/result.h"
 #include "artus/exchange/sequence_file.h"
@@ -24,5 +26,18 @@ struct DicomSeries {
 /// A.7, C.8.5.5, C.8.5.6.
 [[nodiscard]] Result<void> write_dicom(const std::filesystem::path& file,
                                        const ImageSequence& sequence, const DicomSeries& series);
+
+/// A page for people: red, green, blue.
+struct ReportPage {
+  int width = 0;                      ///< pixels
+  int height = 0;                     ///< pixels
+  std::vector<std::uint8_t> colours;  ///< (height, width, 3), colour fastest
+};
+
+/// Writes a page as a DICOM Secondary Capture Image of the same patient and study as `sequence`.
+/// Errors: as write_dicom. Source [DICOM] PS3.3 A.8.1, C.8.6.
+[[nodiscard]] Result<void> write_dicom_report(const std::filesystem::path& file,
+                                              const ReportPage& page, const ImageSequence& sequence,
+                                              const DicomSeries& series);
 
 }  // namespace artus

@@ -8,6 +8,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "artus/core/known_names.h"
 #include "artus/core/text_cursor.h"
 #include "artus/core/text_file.h"
 #include "artus/core/units.h"
@@ -47,30 +48,13 @@ std::vector<std::string> fields_of(std::string_view line) {
   }
 }
 
-const Landmark* find_landmark(const CompiledJoint& joint, const std::string& name) {
-  const auto found = std::find_if(joint.landmarks.begin(), joint.landmarks.end(),
-                                  [&](const Landmark& l) { return l.name == name; });
-  return found == joint.landmarks.end() ? nullptr : &*found;
-}
-
-tl::unexpected<Error> no_such_landmark(const CompiledJoint& joint, const std::string& name,
-                                       const std::string& where) {
-  std::string known;
-  for (const Landmark& landmark : joint.landmarks)
-    known += (known.empty() ? "" : ", ") + landmark.name;
-  return fail(ErrorCode::not_found,
-              "the joint has no landmark '" + name + "'; it has " +
-                  (known.empty() ? std::string("none") : known),
-              where);
-}
-
 Result<LandmarkPair> parse_pair(const std::vector<std::string>& fields, const CompiledJoint& joint,
                                 const std::string& where) {
   if (fields.size() != 4)
     return fail(ErrorCode::malformed, "a line is landmark,x_mm,y_mm,z_mm", where);
-  const Landmark* landmark = find_landmark(joint, fields[0]);
-  if (landmark == nullptr) return no_such_landmark(joint, fields[0], where);
-  LandmarkPair pair{fields[0], landmark->position, Vec3::Zero()};
+  const auto at = find_name(item_names(joint.landmarks), fields[0], "landmark", where);
+  ARTUS_TRY(at);
+  LandmarkPair pair{fields[0], joint.landmarks[*at].position, Vec3::Zero()};
   for (Eigen::Index i = 0; i < 3; ++i) {
     const auto number = parse_number(fields[static_cast<std::size_t>(i) + 1]);
     if (!number || !std::isfinite(*number))

@@ -182,6 +182,7 @@ RemoteAnswer SessionLink::turn(const RemoteCommand& command, double low, double 
 RemoteAnswer SessionLink::obey(const RemoteCommand& command) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (command.name == "Version") return {true, "artus " + options_.version};
+  if (command.name == "Scenario") return {false, "no scenario runs in this program"};
   if (session_ == nullptr) return {false, "the session does not run yet"};
   if (command.name == "Freeze" || command.name == "Unfreeze") {
     session_->set_frozen(command.name == "Freeze");
@@ -189,7 +190,6 @@ RemoteAnswer SessionLink::obey(const RemoteCommand& command) {
   }
   if (command.name == "Gain") return turn(command, -40, 60, 1, &ImageControls::gain_db);
   if (command.name == "Depth") return turn(command, 10, 200, kMillimetre, &ImageControls::depth);
-  if (command.name == "Scenario") return {false, "no scenario runs in this program"};
   return {false, "'" + command.name +
                      "' is not known; Version, Freeze, Unfreeze, Gain, Depth, Scenario are"};
 }

@@ -203,4 +203,17 @@ Result<std::vector<std::string>> parse_capability(std::string_view content) {
   return types;
 }
 
+Result<void> check_form(std::string_view type, std::string_view content) {
+  const auto form = [](const auto& parsed) -> Result<void> {
+    if (parsed || parsed.error().code != ErrorCode::malformed) return {};
+    return tl::unexpected<Error>(parsed.error());
+  };
+  if (type == "TRANSFORM") return form(parse_transform(content));
+  if (type == "STRING") return form(parse_string(content));
+  if (type == "SENSOR") return form(parse_sensor(content));
+  if (type == "STATUS") return form(parse_status(content));
+  if (type == "COMMAND") return form(parse_command(content));
+  return {};
+}
+
 }  // namespace artus::igtl

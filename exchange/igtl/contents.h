@@ -76,4 +76,8 @@ struct CommandText {
 [[nodiscard]] std::string pack_capability(const std::vector<std::string>& types);
 [[nodiscard]] Result<std::vector<std::string>> parse_capability(std::string_view content);
 
+/// Whether a content can be of its type at all. Errors: malformed, as the type's parse_ function;
+/// none for types that have no such function.
+[[nodiscard]] Result<void> check_form(std::string_view type, std::string_view content);
+
 }  // namespace artus::igtl

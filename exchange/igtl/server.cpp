@@ -199,8 +199,13 @@ void Server::close_client(const ClientLink* client, const Error& why) {
 
 void Server::serve(ClientLink& client, short events) {
   if ((events & (POLLIN | POLLHUP | POLLERR)) != 0) {
-    const auto received = client.receive([&](const Message& message) { answer(client, message); });
+    Result<void> sense;
+    const auto received = client.receive([&](const Message& message) {
+      if (sense) sense = check_form(message.type, message.content);
+      if (sense) answer(client, message);
+    });
     if (!received) return close_client(&client, received.error());
+    if (!sense) return close_client(&client, sense.error());
   }
   if (const auto sent = client.send(now_ns()); !sent) close_client(&client, sent.error());
 }

@@ -3,6 +3,8 @@
 
 #include <cstring>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <dcmtk/config/osconfig.h>
 #include <dcmtk/dcmdata/dctk.h>
@@ -64,14 +66,51 @@ TEST_F(DicomFile, IsTheSameBytesAgain) {
   EXPECT_EQ(*read_bytes(in("a.dcm")), *read_bytes(in("b.dcm")));
 }
 
+/// A page with a red corner.
+ReportPage some_page() {
+  ReportPage page{30, 20, std::vector<std::uint8_t>(1800, 255)};
+  page.colours[1] = page.colours[2] = 0;
+  return page;
+}
+
+TEST_F(DicomFile, AReportIsOfTheSameStudyInItsColours) {
+  ASSERT_TRUE(write_dicom(in("us.dcm"), some_sequence(), series_));
+  const auto written = write_dicom_report(in("report.dcm"), some_page(), some_sequence(), series_);
+  ASSERT_TRUE(written) << written.error().to_string();
+  DcmFileFormat images;
+  DcmFileFormat report;
+  ASSERT_TRUE(images.loadFile(in("us.dcm").c_str()).good());
+  ASSERT_TRUE(report.loadFile(in("report.dcm").c_str()).good());
+  const auto text = [](DcmFileFormat& file, const DcmTagKey& tag) {
+    OFString value;
+    EXPECT_TRUE(file.getDataset()->findAndGetOFString(tag, value).good());
+    return std::string(value.c_str());
+  };
+  EXPECT_EQ(text(report, DCM_SOPClassUID), UID_SecondaryCaptureImageStorage);
+  for (const DcmTagKey& same : {DCM_StudyInstanceUID, DCM_PatientID, DCM_PatientName})
+    EXPECT_EQ(text(report, same), text(images, same));
+  for (const DcmTagKey& other : {DCM_SeriesInstanceUID, DCM_SOPInstanceUID, DCM_SeriesNumber})
+    EXPECT_NE(text(report, other), text(images, other));
+  EXPECT_THAT(text(report, DCM_SeriesDescription), testing::HasSubstr("simulated"));
+  const Uint8* pixels = nullptr;
+  unsigned long count = 0;
+  ASSERT_TRUE(report.getDataset()->findAndGetUint8Array(DCM_PixelData, pixels, &count).good());
+  ASSERT_EQ(count, 1800U);
+  EXPECT_EQ(std::memcmp(pixels, some_page().colours.data(), 1800), 0);
+}
+
 TEST_F(DicomFile, TheValidatorOfOthersHasNoError) {
   if (test::run_process({"sh", "-c", "command -v dciodvfy"}).exit_code != 0)
     GTEST_SKIP() << "dciodvfy is not there (dicom3tools)";
   ASSERT_TRUE(write_dicom(in("us.dcm"), some_sequence(), series_));
-  const auto said = test::run_process({"dciodvfy", in("us.dcm")});
-  const std::string all = said.out + said.err;
-  EXPECT_THAT(all, testing::HasSubstr("USMultiFrameImage"));
-  EXPECT_THAT(all, testing::Not(testing::HasSubstr("Error"))) << all;
+  ASSERT_TRUE(write_dicom_report(in("report.dcm"), some_page(), some_sequence(), series_));
+  for (const auto& [file, kind] :
+       {std::pair{"us.dcm", "USMultiFrameImage"}, std::pair{"report.dcm", "SCImage"}}) {
+    const auto said = test::run_process({"dciodvfy", in(file)});
+    const std::string all = said.out + said.err;
+    EXPECT_THAT(all, testing::HasSubstr(kind));
+    EXPECT_THAT(all, testing::Not(testing::HasSubstr("Error"))) << all;
+  }
 }
 
 TEST_F(DicomFile, SaysWhereItCannotWrite) {

@@ -184,8 +184,11 @@ TEST_F(IgtlServer, AClientThatLiesIsClosedAlone) {
   huge.put(std::uint64_t{1} << 60U);
   std::string too_large = igtl::pack(text_message("x"));
   too_large.replace(42, 8, huge.bytes());
+  igtl::Message cut = text_message("x");
+  cut.type = "TRANSFORM";
+  cut.content.resize(47);
   for (const std::string& lie :
-       {flipped, too_large, std::string(58, '\xFF'),
+       {flipped, too_large, igtl::pack(cut), std::string(58, '\xFF'),
         std::string("GET / HTTP/1.1\r\nHost: x\r\n\r\n") + std::string(58, ' ')}) {
     IgtlClient liar(server_->port());
     liar.send(lie);
@@ -193,7 +196,9 @@ TEST_F(IgtlServer, AClientThatLiesIsClosedAlone) {
   }
   honest.send(text_message("still here"));
   EXPECT_TRUE(honest.wait_for("STATUS"));
-  EXPECT_THAT(notices(), HasSubstr("at most 64 MiB"));
+  const std::string told = notices();
+  EXPECT_THAT(told, HasSubstr("at most 64 MiB"));
+  EXPECT_THAT(told, HasSubstr("a TRANSFORM of another length"));
 }
 
 TEST_F(IgtlServer, OneWhoAsksFasterThanItReadsIsClosed) {

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "artus/exchange/reference_frame.h"
+#include "artus/exchange/sequence_maker.h"
 
 namespace artus {
 namespace {
@@ -94,6 +95,27 @@ TEST(SequenceFile, SaysWhatItCannotRead) {
   EXPECT_THAT(refusal("NDims = 3", "NDims"), HasSubstr("x.igs.mha:2"));
   EXPECT_FALSE(parse_mha("", "empty"));
   EXPECT_FALSE(parse_mha(good.substr(0, 100), "cut"));
+}
+
+TEST(SequenceMaker, TakesPicturesOfOneSizeAlone) {
+  const std::vector<std::uint8_t> grey(12, 7);
+  PlacedPicture picture;
+  picture.pixel = 0.1e-3;
+  picture.width = 4;
+  picture.height = 3;
+  picture.grey = grey;
+  picture.X_JP = make_pose(Vec3(0.01, 0, 0), Vec3::UnitZ(), Vec3::UnitX());
+  SequenceMaker maker;
+  ASSERT_TRUE(maker.add(picture, Transducer()));
+  EXPECT_EQ(maker.sequence().frames[0].grey, grey);
+  EXPECT_EQ(maker.sequence().frames[0].image_to_reference,
+            chained(ReferenceFrame().to_reference(picture.X_JP),
+                    image_to_probe(Transducer(), 0.1e-3, 3)));
+  picture.width = 3;
+  picture.height = 4;
+  const auto other = maker.add(picture, Transducer());
+  ASSERT_FALSE(other);
+  EXPECT_THAT(other.error().message, HasSubstr("frame 1 is of another size"));
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ Pose some_pose() {
   return make_pose(Vec3(0.04, -0.02, 0.1), Vec3(0.3, -0.5, 0.8), Vec3(1, 0.2, 0));
 }
 
-igtl::Message transform(const std::string& device, const igtl::Matrix& matrix) {
+igtl::Message tracker_transform(const std::string& device, const igtl::Matrix& matrix) {
   igtl::Message message;
   message.type = "TRANSFORM";
   message.device = device;
@@ -194,9 +194,9 @@ TEST(TrackerInbox, PutsCalibrationsAndRegistrationTogether) {
   calibration.X_JR = make_pose(Vec3(0.5, 0, 0), Vec3::UnitY(), Vec3::UnitX());
   TrackerInbox inbox(calibration, {"Stylus", "Needle"});
   const Pose X_RSensor = make_pose(Vec3(0.1, 0.2, 0.3), Vec3::UnitX(), Vec3::UnitZ());
-  ASSERT_TRUE(inbox.take(transform("Stylus", millimetres_of(X_RSensor)), 5));
-  ASSERT_TRUE(inbox.take(transform("Needle", millimetres_of(X_RSensor)), 6));
-  ASSERT_TRUE(inbox.take(transform("Other", igtl::Matrix::Zero()), 7));
+  ASSERT_TRUE(inbox.take(tracker_transform("Stylus", millimetres_of(X_RSensor)), 5));
+  ASSERT_TRUE(inbox.take(tracker_transform("Needle", millimetres_of(X_RSensor)), 6));
+  ASSERT_TRUE(inbox.take(tracker_transform("Other", igtl::Matrix::Zero()), 7));
   TrackedPoses poses;
   ASSERT_TRUE(inbox.load(poses));
   EXPECT_EQ(poses.probe_ns, 5);
@@ -213,7 +213,7 @@ class TrackerDeviceTest : public testing::Test {
   void send(const char* name, double x_mm, std::int64_t now_ns, const char* status = "") {
     igtl::Matrix matrix = igtl::Matrix::Identity();
     matrix(0, 3) = x_mm;
-    igtl::Message message = transform(name, matrix);
+    igtl::Message message = tracker_transform(name, matrix);
     if (*status != '\0') message.meta = {{"TransformStatus", status}};
     static_cast<void>(inbox_->take(message, now_ns));
   }
@@ -251,7 +251,7 @@ TEST_F(TrackerDeviceTest, WhatTheTrackerDidNotSeeIsNotTaken) {
 
 TEST_F(TrackerDeviceTest, PosesThatCannotBeAreNoPoses) {
   igtl::Matrix bad = igtl::Matrix::Zero();
-  EXPECT_FALSE(inbox_->take(transform("NeedleToReference", bad), 100 * kMs));
+  EXPECT_FALSE(inbox_->take(tracker_transform("NeedleToReference", bad), 100 * kMs));
   EXPECT_EQ(device_.read(101 * kMs).state, PeerState::invalid);
   send("NeedleToReference", 2, 102 * kMs);
   EXPECT_EQ(device_.read(103 * kMs).state, PeerState::alive);
