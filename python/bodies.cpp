@@ -152,7 +152,11 @@ void add_bodies(py::module_& module) {
       .def_property_readonly("name", [](const Joint& j) { return j.data().name; })
       .def_property_readonly("regions", &region_names, "Names by region id.")
       .def_property_readonly("tissues", &region_tissues, "Tissue of each region, by region id.")
-      .def_property_readonly("digest", [](const Joint& j) { return j.data().source_digest; })
+      .def_property_readonly("digest",
+                             [](const Joint& j) {
+                               return j.data().source_digest +
+                                      (j.scene->tissue() ? "-pressed" : "");
+                             })
       .def_property_readonly(
           "probe", [](const Joint& j) { return array_of(j.data().X_JP_default); },
           "(4, 4) m: the default pose of the probe.")

@@ -31,6 +31,14 @@ T value_of(Result<T> result) {
   if (!result) raise(result.error());
   return std::move(*result);
 }
+/// The same of what is asked for by name: a name that is not there is a ValueError, since no file
+/// is missing.
+template <class T>
+T value_by_name(Result<T> result) {
+  if (!result && result.error().code == ErrorCode::not_found)
+    result.error().code = ErrorCode::invalid;
+  return value_of(std::move(result));
+}
 
 /// One pose, 4 x 4, metres; `what` stands in the ValueError for wrong shapes, numbers that are not
 /// finite, axes that are not orthonormal, and translations above ten metres (millimetres?).
@@ -53,5 +61,8 @@ py::array view(const T* data, std::vector<py::ssize_t> shape, const py::object& 
 void add_bodies(py::module_& module);
 void add_images(py::module_& module);
 void add_forces(py::module_& module);
+void add_presses(py::module_& module);
+void add_injections(py::module_& module);
+void add_assessments(py::module_& module);
 
 }  // namespace artus::python

@@ -21,6 +21,7 @@ PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
 
 def _metadata():
     lines = ["Metadata-Version: 2.1", f"Name: {PROJECT['name']}", f"Version: {PROJECT['version']}"]
+    lines += [f"License: {PROJECT['license']['text']}"]
     lines += [f"Requires-Python: {PROJECT['requires-python']}"]
     lines += [f"Requires-Dist: {name}" for name in PROJECT["dependencies"]]
     return "\n".join(lines) + "\n"

@@ -45,7 +45,7 @@ py::dict run(const Joint& joint, const std::vector<Pose>& poses, double rate,
     const py::gil_scoped_release others_may_run;
     return compute_trajectory_forces(joint.scene, poses, rate, device);
   }();
-  return to_arrays(value_of(std::move(ticks)));
+  return to_arrays(value_by_name(std::move(ticks)));
 }
 
 py::dict forces(const Joint& joint, const Numbers& poses, double rate, const std::string& device) {

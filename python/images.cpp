@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+#include <array>
 #include <mutex>
 #include <optional>
+#include <string_view>
+#include <type_traits>
+#include <utility>
 
 #include <pybind11/stl.h>
 
-#include "artus/core/units.h"
+#include "artus/echo/image_fields.h"
 #include "artus/echo/labels.h"
 #include "artus/echo/renderer.h"
 #include "artus/echo/transducer_file.h"
@@ -25,73 +29,52 @@ struct Labels {
   LabelImage image;
 };
 
-/// Numbers by keyword, given to the settings of the same names. Unknown ones are refused.
-void take_setting(const std::string& key, const py::handle& value, Transducer& t,
-                  ImageSettings& s) {
-  const auto number = [&] {
-    return py::cast<double>(value);
+/// Short names that the tool has, too, of settings whose own names are longer.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kShort{
+    {{"focus", "elevation_focus"},
+     {"lines", "n_lines"},
+     {"samples", "n_samples"},
+     {"planes", "n_planes"},
+     {"compound", "compound_angles"},
+     {"threads", "n_threads"}}};
+
+std::string_view short_name(std::string_view name) {
+  for (const auto& [abbreviated, full] : kShort)
+    if (name == full) return abbreviated;
+  return name;
+}
+
+/// A value by keyword, given to the setting of that name. Unknown ones are refused with all names.
+void take_setting(const std::string& key, const py::handle& value, Transducer& transducer,
+                  ImageSettings& settings) {
+  bool taken = false;
+  std::string names;
+  const auto visit = [&](const std::string& name, auto& member) {
+    const std::string_view shown = short_name(name);
+    names += (names.empty() ? "" : ", ") + std::string(shown);
+    if (key != shown) return;
+    try {
+      member = py::cast<std::remove_reference_t<decltype(member)>>(value);
+    } catch (const py::cast_error&) {
+      throw py::type_error(key + " cannot be " + std::string(py::repr(value)));
+    }
+    taken = true;
   };
-  const auto whole = [&] {
-    return py::cast<int>(value);
-  };
-  const auto flag = [&] {
-    return py::cast<bool>(value);
-  };
-  if (key == "frequency")
-    t.frequency = number();
-  else if (key == "focus")
-    t.elevation_focus = number();
-  else if (key == "transmit_focus")
-    t.transmit_focus = number();
-  else if (key == "steering")
-    t.steering = number();
-  else if (key == "lines")
-    t.n_lines = whole();
-  else if (key == "depth")
-    s.depth = number();
-  else if (key == "samples")
-    s.n_samples = whole();
-  else if (key == "planes")
-    s.n_planes = whole();
-  else if (key == "pixel")
-    s.pixel = number();
-  else if (key == "gain_db")
-    s.gain_db = number();
-  else if (key == "dynamic_range_db")
-    s.dynamic_range_db = number();
-  else if (key == "tgc_db_cm_mhz")
-    s.tgc_db_cm_mhz = number();
-  else if (key == "smoothing")
-    s.smoothing = number();
-  else if (key == "compound")
-    s.compound_angles = whole();
-  else if (key == "persistence")
-    s.persistence = number();
-  else if (key == "refraction")
-    s.refraction = flag();
-  else if (key == "reverberation")
-    s.reverberation = flag();
-  else if (key == "texture")
-    s.texture = flag();
-  else if (key == "seed")
-    s.seed = py::cast<std::uint64_t>(value);
-  else if (key == "threads")
-    s.n_threads = whole();
-  else
-    throw py::type_error("unknown setting '" + key +
-                         "'; there are frequency, focus, transmit_focus, steering, lines, depth, "
-                         "samples, planes, pixel, gain_db, dynamic_range_db, tgc_db_cm_mhz, "
-                         "smoothing, compound, persistence, refraction, reverberation, texture, "
-                         "seed, threads");
+  visit_fields(transducer, visit);
+  visit_fields(settings, visit);
+  if (!taken) throw py::type_error("unknown setting '" + key + "'; there are " + names);
 }
 
 /// A renderer and the maker of its truth, for one thread at a time.
 class PyRenderer {
  public:
-  PyRenderer(const Joint& joint, const std::string& transducer, bool keep_lines,
+  PyRenderer(const Joint& joint, const std::string& transducer, bool keep_lines, int gauge,
              const py::kwargs& settings)
       : scene_(joint.scene), keep_lines_(keep_lines) {
     transducer_ = value_of(find_transducer(transducer)).transducer;
+    const auto shape = needle_of_gauge(gauge);
+    if (!shape) throw py::value_error("gauge must be 18, 20, 21, 22, 23 or 25");
+    needle_ = *shape;
     for (const auto& [key, value] : settings)
       take_setting(py::cast<std::string>(key), value, transducer_, settings_);
     check(validate(transducer_));
@@ -136,12 +119,9 @@ class PyRenderer {
   static void check(const Result<void>& valid) {
     if (!valid) raise(valid.error());
   }
-  [[nodiscard]] static std::optional<NeedleView> needle_of(const std::optional<Numbers>& needle) {
+  [[nodiscard]] std::optional<NeedleView> needle_of(const std::optional<Numbers>& needle) const {
     if (!needle) return std::nullopt;
-    NeedleView view;
-    view.X_JN = pose_of(*needle, "needle");
-    view.shape = *needle_of_gauge(22);
-    return view;
+    return NeedleView{pose_of(*needle, "needle"), needle_};
   }
   /// The parts that are kept; the lines alone are five megabytes.
   void copy(const Frame& from, Picture& to) const {
@@ -167,6 +147,7 @@ class PyRenderer {
   Transducer transducer_;
   ImageSettings settings_;
   bool keep_lines_;
+  NeedleShape needle_;
   std::unique_ptr<Renderer> renderer_;
   std::unique_ptr<LabelRenderer> labels_;
   std::mutex mutex_;  // between Python's threads
@@ -196,21 +177,30 @@ void add_pictures(py::module_& module) {
             return view(frame.image.data(), {frame.height, frame.width}, self);
           },
           "(height, width) uint8.")
-      .def_property_readonly("in_phase",
-                             [](const py::object& s) { return lines_view(s, &Frame::in_phase); })
-      .def_property_readonly("quadrature",
-                             [](const py::object& s) { return lines_view(s, &Frame::quadrature); })
-      .def_property_readonly("envelope",
-                             [](const py::object& s) { return lines_view(s, &Frame::envelope); })
-      .def_property_readonly("decibel",
-                             [](const py::object& s) { return lines_view(s, &Frame::decibel); })
-      .def_property_readonly("contact",
-                             [](const py::object& self) {
-                               const Frame& frame = py::cast<const Picture&>(self).frame;
-                               return view(frame.contact.data(), {frame.n_lines}, self);
-                             })
-      .def_property_readonly("pixel", [](const Picture& p) { return p.frame.pixel; })
-      .def_property_readonly("sample_depth", [](const Picture& p) { return p.frame.sample_depth; })
+      .def_property_readonly(
+          "in_phase", [](const py::object& s) { return lines_view(s, &Frame::in_phase); },
+          "(lines, samples) float32, with keep_lines=True.")
+      .def_property_readonly(
+          "quadrature", [](const py::object& s) { return lines_view(s, &Frame::quadrature); },
+          "(lines, samples) float32, with keep_lines=True.")
+      .def_property_readonly(
+          "envelope", [](const py::object& s) { return lines_view(s, &Frame::envelope); },
+          "(lines, samples) float32, with keep_lines=True.")
+      .def_property_readonly(
+          "decibel", [](const py::object& s) { return lines_view(s, &Frame::decibel); },
+          "(lines, samples) float32 dB, with keep_lines=True.")
+      .def_property_readonly(
+          "contact",
+          [](const py::object& self) {
+            const Frame& frame = py::cast<const Picture&>(self).frame;
+            return view(frame.contact.data(), {frame.n_lines}, self);
+          },
+          "(lines,) float32, 0 (in the air) to 1 (on the skin).")
+      .def_property_readonly(
+          "pixel", [](const Picture& p) { return p.frame.pixel; }, "m, the side of a pixel.")
+      .def_property_readonly(
+          "sample_depth", [](const Picture& p) { return p.frame.sample_depth; },
+          "m between samples.")
       .def_property_readonly("tip_shown", &tip_shown, "(x, y) in pixels, or None.");
   py::class_<Labels, std::shared_ptr<Labels>>(module, "Labels", "What truly lies in the plane.")
       .def_property_readonly(
@@ -220,12 +210,15 @@ void add_pictures(py::module_& module) {
             return view(image.regions.data(), {image.height, image.width}, self);
           },
           "(height, width) uint16, region ids.")
-      .def_property_readonly("needle",
-                             [](const py::object& self) {
-                               const LabelImage& image = py::cast<const Labels&>(self).image;
-                               return view(image.needle.data(), {image.height, image.width}, self);
-                             })
-      .def_property_readonly("pixel", [](const Labels& l) { return l.image.pixel; });
+      .def_property_readonly(
+          "needle",
+          [](const py::object& self) {
+            const LabelImage& image = py::cast<const Labels&>(self).image;
+            return view(image.needle.data(), {image.height, image.width}, self);
+          },
+          "(height, width) uint8, 255 where the shaft is in the plane.")
+      .def_property_readonly(
+          "pixel", [](const Labels& l) { return l.image.pixel; }, "m, the side of a pixel.");
 }
 
 }  // namespace
@@ -234,11 +227,17 @@ void add_images(py::module_& module) {
   add_pictures(module);
   py::class_<PyRenderer>(module, "Renderer",
                          "Turns probe poses into B-mode images of one joint, again and again.")
-      .def(py::init<const Joint&, const std::string&, bool, const py::kwargs&>(), py::arg("joint"),
-           py::arg("transducer") = "linear-6-18", py::arg("keep_lines") = false)
-      .def("render", &PyRenderer::render, py::arg("probe"), py::arg("needle") = py::none())
-      .def("labels", &PyRenderer::labels, py::arg("probe"), py::arg("needle") = py::none())
-      .def("truth", &PyRenderer::truth, py::arg("probe"), py::arg("needle"));
+      .def(py::init<const Joint&, const std::string&, bool, int, const py::kwargs&>(),
+           py::arg("joint"), py::arg("transducer") = "linear-6-18", py::arg("keep_lines") = false,
+           py::arg("gauge") = 22)
+      .def("render", &PyRenderer::render, py::arg("probe"), py::arg("needle") = py::none(),
+           "The Frame of a probe at (4, 4) m in J, with a needle at (4, 4) m, origin at its tip.")
+      .def("labels", &PyRenderer::labels, py::arg("probe"), py::arg("needle") = py::none(),
+           "The Labels of the same view: what truly lies in the plane.")
+      .def("truth", &PyRenderer::truth, py::arg("probe"), py::arg("needle"),
+           "Where the needle truly is: tip (x, y) in pixels, tip_offset m from the plane, "
+           "plane_angle "
+           "and face_angle rad, in_plane.");
 }
 
 }  // namespace artus::python

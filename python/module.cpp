@@ -7,4 +7,7 @@ PYBIND11_MODULE(_artus, module) {
   artus::python::add_bodies(module);
   artus::python::add_images(module);
   artus::python::add_forces(module);
+  artus::python::add_presses(module);
+  artus::python::add_injections(module);
+  artus::python::add_assessments(module);
 }

@@ -6,6 +6,7 @@ Lengths are metres, forces newton, poses 4 x 4 matrices X_JA of a frame A in the
 
 from __future__ import annotations
 
+import json
 import shutil
 import tempfile
 import tomllib
@@ -19,15 +20,19 @@ from ._artus import (
     Labels,
     Renderer,
     __version__,
+    _assess,
+    _inject,
+    _metrics,
     forces,
     insert,
     load,
     needle_intervals,
+    press,
 )
 
 __all__ = [
-    "Frame", "Joint", "Labels", "Renderer", "__version__", "compile", "forces", "insert", "load",
-    "needle_intervals", "pose", "sweep",
+    "Frame", "Joint", "Labels", "Renderer", "__version__", "assess", "compile", "forces", "inject",
+    "insert", "load", "metrics", "needle_intervals", "pose", "press", "sweep",
 ]
 
 
@@ -110,3 +115,46 @@ def sweep(joint, poses, *, start=0, stop=None, step=1, **settings):
             "tip_shown": frame.tip_shown,
             "truth": None if needle is None else renderer.truth(probe, needle),
         }
+
+
+def inject(joint, entry=None, target=None, *, injection="", into="", volume=5e-6, rate=1e-7,
+           liquid="lidocaine", gauge=22, needle_length=0.05, syringe=0.0, air=0.0, aspirate=3.0,
+           technique="direct", haptic_rate=1000.0, device="virtuose_6d_desktop", seed=1):
+    """Inject with a simulated hand and thumb, as `artus inject` does: a dict of arrays.
+
+    Along entry and target (3,) m, or a planned injection of the joint (its first without a name),
+    or into a structure `into`. `volume`, `syringe`, `air`: m^3 (1e-6 is a millilitre); `rate`: m^3/s;
+    `technique`: direct or through-and-back. Of each tick (n,): time s, depth m, region id, axial N,
+    thumb N, barrel_pressure and tip_pressure Pa, flow m^3/s, travel m, content m^3, status, phase
+    (a list of words); volumes {place: (n,) m^3}; needle (4, 4) m where it flowed most; summary: what
+    the tool writes into summary.json, in the units of its names.
+    """
+    arrays, summary = _inject(
+        joint, entry, target, injection=injection, into=into, volume=volume, rate=rate, liquid=liquid,
+        gauge=gauge, needle_length=needle_length, syringe=syringe, air=air, aspirate=aspirate,
+        technique=technique, haptic_rate=haptic_rate, device=device, seed=seed)
+    return {**arrays, "summary": json.loads(summary)}
+
+
+def _goals(target, avoid):
+    named = isinstance(target, str)
+    return None if named else target, target if named else "", list((avoid or {}).items())
+
+
+def metrics(joint, times, *, needle=None, probe=None, target=None, avoid=None, gauge=22, depth=0.04):
+    """Measure tracked poses, as `artus assess --poses` does: the dict of its metrics.json.
+
+    `times`: (n,) s that do not fall; `needle`, `probe`: (n, 4, 4) m, one or both; `target`: a
+    structure's name or a point (3,) m; `avoid`: {structure: margin in m}; `gauge` of the needle and
+    `depth` (m) of the picture decide what could be seen. Under "metrics" each number has its name,
+    role, unit, value (None where the poses do not say) and definition.
+    """
+    return json.loads(_metrics(joint, times, needle, probe, *_goals(target, avoid), gauge, depth))
+
+
+def assess(joint, recording, *, target=None, avoid=None, pictures=True):
+    """Measure a recording of `serve`, `view` or `play` in its joint: a dict as of metrics().
+
+    `pictures`: draw them again; without, tip_visible is None.
+    """
+    return json.loads(_assess(joint, recording, *_goals(target, avoid), pictures))

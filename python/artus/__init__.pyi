@@ -62,31 +62,48 @@ class Labels:
 
 class Renderer:
     """Turns probe poses into B-mode images of one joint. `transducer`: a bundled name or a .toml
-    file; `keep_lines`: frames keep (lines, samples) in_phase, quadrature, envelope and decibel."""
+    file; `keep_lines`: frames keep (lines, samples) in_phase, quadrature, envelope and decibel;
+    `gauge`: of the needle that is drawn."""
 
     def __init__(
         self,
         joint: Joint,
         transducer: str = "linear-6-18",
         keep_lines: bool = False,
+        gauge: int = 22,
         *,
-        frequency: float = ...,
-        focus: float = ...,
-        transmit_focus: float = ...,
+        width: float = ...,
+        radius: float = ...,
         steering: float = ...,
         lines: int = ...,
-        depth: float = 40e-3,
-        samples: int = 1024,
-        planes: int = 5,
-        pixel: float = 0.1e-3,
+        frequency: float = ...,
+        bandwidth: float = ...,
+        pulse_cycles: float = ...,
+        f_number: float = ...,
+        max_aperture: float = ...,
+        elevation_height: float = ...,
+        focus: float = ...,
+        transmit_focus: float = ...,
         gain_db: float = 9,
         dynamic_range_db: float = 60,
         tgc_db_cm_mhz: float = 0.7,
+        tgc_limit_db: float = 70,
         smoothing: float = 0,
-        compound: int = 1,
         persistence: float = 0,
+        depth: float = 40e-3,
+        samples: int = 1024,
+        planes: int = 5,
+        speckle_db: float = -40,
+        noise_db: float = -150,
+        gel_limit: float = 5e-3,
+        pixel: float = 0.1e-3,
+        compound: int = 1,
+        compound_spread: float = 0.14,
+        doppler: bool = False,
+        doppler_limit: float = 0.1,
         refraction: bool = True,
         reverberation: bool = True,
+        frequency_downshift: bool = True,
         texture: bool = True,
         seed: int = 1,
         threads: int = 0,
@@ -123,6 +140,13 @@ def insert(
     rate: float = 1000.0,
     device: str = "ideal",
 ) -> dict[str, NDArray[Any]]: ...
+def press(
+    joint: Joint,
+    probe: ArrayLike | None = None,
+    *,
+    depth: float | None = None,
+    force: float | None = None,
+) -> dict[str, Any]: ...
 def pose(
     position: ArrayLike, z: ArrayLike, x: ArrayLike = (1.0, 0.0, 0.0)
 ) -> NDArray[np.float64]: ...
@@ -135,3 +159,42 @@ def sweep(
     step: int = 1,
     **settings: Any,
 ) -> Iterator[dict[str, Any]]: ...
+def inject(
+    joint: Joint,
+    entry: ArrayLike | None = None,
+    target: ArrayLike | None = None,
+    *,
+    injection: str = "",
+    into: str = "",
+    volume: float = 5e-6,
+    rate: float = 1e-7,
+    liquid: str = "lidocaine",
+    gauge: int = 22,
+    needle_length: float = 0.05,
+    syringe: float = 0.0,
+    air: float = 0.0,
+    aspirate: float = 3.0,
+    technique: str = "direct",
+    haptic_rate: float = 1000.0,
+    device: str = "virtuose_6d_desktop",
+    seed: int = 1,
+) -> dict[str, Any]: ...
+def metrics(
+    joint: Joint,
+    times: ArrayLike,
+    *,
+    needle: ArrayLike | None = None,
+    probe: ArrayLike | None = None,
+    target: str | ArrayLike | None = None,
+    avoid: Mapping[str, float] | None = None,
+    gauge: int = 22,
+    depth: float = 0.04,
+) -> dict[str, Any]: ...
+def assess(
+    joint: Joint,
+    recording: str | PathLike[str],
+    *,
+    target: str | ArrayLike | None = None,
+    avoid: Mapping[str, float] | None = None,
+    pictures: bool = True,
+) -> dict[str, Any]: ...

@@ -1,18 +1,23 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
 """The module against the tool, and what its border refuses."""
 
+import ast
 import gc
+import inspect
+import json
 import re
 import resource
 import subprocess
 import sys
 import threading
 import time
+import tomllib
 
 import numpy as np
 import pytest
 
 import artus
+from pictures import read_png
 
 
 def run(*command):
@@ -21,48 +26,26 @@ def run(*command):
     return done.stdout
 
 
-def read_pgm(path):
-    """8- and 16-bit PNG by hand, so that the tests need no picture library."""
-    import struct
-    import zlib
-
-    data = path.read_bytes()
-    at, compressed, width, height, depth = 8, b"", 0, 0, 0
-    while at < len(data):
-        (size,) = struct.unpack(">I", data[at : at + 4])
-        kind, chunk = data[at + 4 : at + 8], data[at + 8 : at + 8 + size]
-        if kind == b"IHDR":
-            width, height, depth = struct.unpack(">IIB", chunk[:9])
-        if kind == b"IDAT":
-            compressed += chunk
-        at += 12 + size
-    raw, step = zlib.decompress(compressed), depth // 8
-    row, rows, before = width * step, [], np.zeros(width * step, np.int64)
-    for y in range(height):
-        kind = raw[y * (row + 1)]
-        line = np.frombuffer(raw, np.uint8, row, y * (row + 1) + 1).astype(np.int64)
-        out = np.zeros(row, np.int64)
-        for x in range(row):
-            left = out[x - step] if x >= step else 0
-            corner = before[x - step] if x >= step else 0
-            up = before[x]
-            if kind == 4:
-                p = left + up - corner
-                near = min((abs(p - left), 0), (abs(p - up), 1), (abs(p - corner), 2))[1]
-                guess = (left, up, corner)[near]
-            else:
-                guess = (0, left, up, (left + up) // 2)[kind]
-            out[x] = (line[x] + guess) % 256
-        rows.append(out)
-        before = out
-    pixels = np.array(rows, np.uint8)
-    return pixels if step == 1 else pixels.reshape(height, width, 2).view(">u2")[..., 0]
+def read_ply(path):
+    """Vertices and triangles of a PLY with nothing else in it, text or little endian."""
+    head, body = path.read_bytes().split(b"end_header\n", 1)
+    words = head.decode().split()
+    n, m = (int(words[words.index(w) + 1]) for w in ("vertex", "face"))
+    if "ascii" in words:
+        numbers = body.split()
+        vertices = np.array(numbers[: 3 * n], float).reshape(n, 3)
+        return vertices, np.array(numbers[3 * n :], int).reshape(m, 4)[:, 1:]
+    kind = "<f8" if "double" in words else "<f4"
+    vertices = np.frombuffer(body, kind, 3 * n).reshape(n, 3).astype(float)
+    faces = np.frombuffer(body, np.dtype([("n", "u1"), ("v", "<i4", 3)]), m,
+                          vertices.size * np.dtype(kind).itemsize)
+    return vertices, faces["v"]
 
 
 def test_image_has_the_bytes_of_the_tool(joint, tool, simple, tmp_path):
     run(tool, "image", "-j", simple, "--plain", "--needle", "default", "-o", tmp_path / "i.png")
     frame = artus.Renderer(joint).render(joint.probe, joint.needle)
-    assert np.array_equal(frame.image, read_pgm(tmp_path / "i.png"))
+    assert np.array_equal(frame.image, read_png((tmp_path / "i.png").read_bytes()))
 
 
 def test_labels_have_the_bytes_of_the_tool(joint, tool, simple, tmp_path):
@@ -73,9 +56,9 @@ def test_labels_have_the_bytes_of_the_tool(joint, tool, simple, tmp_path):
     )
     run(tool, "sweep", "-j", simple, "--poses", tmp_path / "poses.jsonl", "-o", tmp_path / "s")
     renderer = artus.Renderer(joint)
-    expected = read_pgm(tmp_path / "s/frames/000000-labels.png")
+    expected = read_png((tmp_path / "s/frames/000000-labels.png").read_bytes())
     assert np.array_equal(renderer.labels(joint.probe).regions, expected)
-    image = read_pgm(tmp_path / "s/frames/000000.png")
+    image = read_png((tmp_path / "s/frames/000000.png").read_bytes())
     assert np.array_equal(renderer.render(joint.probe).image, image)
 
 
@@ -190,6 +173,8 @@ def test_what_the_engine_refuses_is_an_exception_with_its_message(joint, tmp_pat
     (tmp_path / "bad.artus").write_bytes(b"not a joint")
     with pytest.raises(ValueError, match="bad.artus"):
         artus.load(tmp_path / "bad.artus")
+    with pytest.raises(ValueError, match="virtuose"):
+        artus.forces(joint, joint.needle[None], device="hand")
     with pytest.raises(ValueError, match="depth"):
         artus.Renderer(joint, depth=50)
     with pytest.raises(TypeError, match="unknown setting 'dept'"):
@@ -222,6 +207,206 @@ def test_surfaces_from_memory_are_compiled(source, tmp_path):
         artus.compile(folder, {"bone": (np.zeros(3), np.zeros((1, 3)))})
 
 
+def test_the_surfaces_of_a_joint_compile_from_arrays_as_from_files(source, tmp_path):
+    """Read by hand, given back as arrays: the same body, and so the same picture."""
+    folder = source / "meshes/simple-shoulder"
+    table = tomllib.loads((folder / "joint.toml").read_text())
+    files = {"body": table["body"]["file"]} | {s["name"]: s["file"] for s in table["structure"]
+                                               if "file" in s}
+    surfaces = {n: read_ply(folder / table.get("surfaces", ".") / f) for n, f in files.items()}
+    from_arrays = artus.compile(folder, surfaces, cache=tmp_path / "a")
+    from_files = artus.load(folder, cache=tmp_path / "b")
+    assert from_arrays.regions == from_files.regions
+    settings = {"lines": 64, "planes": 1, "samples": 256}
+    images = [artus.Renderer(j, **settings).render(j.probe, j.needle).image
+              for j in (from_arrays, from_files)]
+    assert np.array_equal(*images) and images[0].max() > 100
+    # another body, another picture: the skin two millimetres farther out
+    vertices, triangles = surfaces["body"]
+    wider = artus.compile(folder, {"body": (vertices * 1.04, triangles)}, cache=tmp_path / "c")
+    assert not np.array_equal(
+        artus.Renderer(wider, **settings).labels(wider.probe).regions,
+        artus.Renderer(from_files, **settings).labels(from_files.probe).regions)
+
+
+def test_forces_have_the_digits_of_the_tool(joint, tool, simple, tmp_path):
+    entry, target = joint.injections[0]
+    axis = (target - entry) / np.linalg.norm(target - entry)
+    tips = [entry + s * axis for s in np.linspace(-3e-3, 9e-3, 400)]
+    lines = []
+    for tip in tips:
+        texts = [",".join(repr(float(1e3 * v)) for v in p) for p in (tip - 35e-3 * axis, tip)]
+        lines.append('{"probe": {"position_mm": [0,0,0], "direction": [0,0,1]}, "needle": '
+                     '{"entry_mm": [%s], "tip_mm": [%s]}}' % tuple(texts))
+    (tmp_path / "p.jsonl").write_text("\n".join(lines) + "\n")
+    run(tool, "force", "-j", simple, "--poses", tmp_path / "p.jsonl", "-o", tmp_path / "f.csv")
+    rows = [line.split(",") for line in (tmp_path / "f.csv").read_text().splitlines()[1:]]
+    # the poses as the tool reads them: in millimetres, through text
+    poses = []
+    for line in lines:
+        pose = json.loads(line)["needle"]
+        hub, tip = (np.array(pose[k]) * 1e-3 for k in ("entry_mm", "tip_mm"))
+        poses.append(artus.pose(tip, tip - hub))
+    felt = artus.forces(joint, np.stack(poses))
+    assert len(rows) == 400 and felt["axial"].max() > 0.1
+    ours = np.column_stack([felt["force"], felt["axial"], felt["torque"]])
+    theirs = np.array([[float(v) for v in row[3:10]] for row in rows])
+    assert np.allclose(theirs, ours, rtol=6e-9, atol=1e-12)  # the table has nine digits
+    assert [row[2] for row in rows] == [joint.regions[r] for r in felt["region"]]
+    assert [int(row[10]) for row in rows] == list(felt["status"])
+
+
+def test_a_press_moves_the_picture_and_pushes_back(joint, renderer):
+    pressed = artus.press(joint, depth=2e-3)
+    assert pressed["settled"] and pressed["depth"] == 2e-3
+    assert 0.05 < pressed["force"] < 20
+    z = joint.probe[:3, 2]
+    assert np.allclose(pressed["probe"][:3, 3], joint.probe[:3, 3] + 2e-3 * z)
+    assert -pressed["force_J"] @ z == pytest.approx(pressed["force"])
+    body = pressed["joint"]
+    assert body.regions == joint.regions and body.digest != joint.digest
+    before = renderer.labels(joint.probe).regions
+    after = artus.Renderer(body, lines=64, planes=1, samples=256).labels(pressed["probe"]).regions
+    assert before.shape == after.shape
+    # the muscle below the middle of the face got thinner
+    muscle = joint.regions.index("muscle")
+    thickness = [(r[:, r.shape[1] // 2] == muscle).sum() for r in (before, after)]
+    assert thickness[1] < thickness[0] - 2  # pixels of 0.1 mm
+    with pytest.raises(ValueError, match="either depth"):
+        artus.press(joint)
+    with pytest.raises(ValueError, match="in metres"):
+        artus.press(joint, depth=2)
+
+
+def test_an_injection_has_the_digits_of_the_tool(joint, tool, simple, tmp_path):
+    run(tool, "inject", "-j", simple, "--volume-ml", "0.2", "--rate", "0.1", "--gauge", "23",
+        "--aspirate", "0.5", "--seed", "4", "--no-images", "-o", tmp_path)
+    ours = artus.inject(joint, volume=0.2e-6, rate=1e-7, gauge=23, aspirate=0.5, seed=4)
+    lines = (tmp_path / "trace.csv").read_text().splitlines()
+    names = lines[0].split(",")
+    rows = [dict(zip(names, line.split(","))) for line in lines[1:]]
+    assert len(rows) == len(ours["time"]) > 1000
+    assert ours["flow"].max() > 5e-8 and 0.1 < ours["thumb"].max() < 100
+    for name, key, unit in [("time_s", "time", 1), ("depth_mm", "depth", 1e-3),
+                            ("axial_n", "axial", 1), ("thumb_n", "thumb", 1),
+                            ("tip_kpa", "tip_pressure", 1e3), ("flow_ml_s", "flow", 1e-6),
+                            ("barrel_kpa", "barrel_pressure", 1e3), ("travel_mm", "travel", 1e-3)]:
+        theirs = unit * np.array([float(row[name]) for row in rows])
+        assert np.allclose(theirs, ours[key], rtol=6e-9, atol=1e-15), name
+    assert [row["phase"] for row in rows] == ours["phase"]
+    assert [row["region"] for row in rows] == [joint.regions[r] for r in ours["region"]]
+    for place, volume in ours["volumes"].items():
+        theirs = 1e-6 * np.array([float(row[f"{place}_ml"]) for row in rows])
+        assert np.allclose(theirs, volume, rtol=6e-9, atol=1e-15), place
+    told = json.loads((tmp_path / "summary.json").read_text())
+    assert {k: v for k, v in told.items() if k != "verdict"} == {
+        k: v for k, v in ours["summary"].items() if k != "verdict"}
+    assert told["given_ml"] > 0.1
+
+
+@pytest.mark.parametrize("change, says", [
+    ({"volume": 5}, "volume must be .*1e-6 is a millilitre"),
+    ({"volume": float("nan")}, "volume must be"),
+    ({"rate": 0.1}, "a millilitre a second"),
+    ({"liquid": "lidocain"}, "lidocaine"),
+    ({"gauge": 24}, "there are 18, 19"),
+    ({"into": "patella"}, "no structure"),
+    ({"injection": "ninth"}, "planned injection"),
+    ({"technique": "twice"}, "through-and-back"),
+    ({"device": "hand"}, "hand"),
+    ({"entry": [0, 0, 0]}, "both entry and target"),
+    ({"entry": [0, 0, 0], "target": [0, 0, 0]}, "the same point"),
+    ({"syringe": 1e-6}, "does not hold"),
+])
+def test_an_injection_that_cannot_be_is_refused_with_what_and_where(joint, change, says):
+    with pytest.raises(ValueError, match=says):
+        artus.inject(joint, **change)
+
+
+def test_a_word_for_a_number_is_a_type_error(joint):
+    with pytest.raises(TypeError, match="volume cannot be 'much'"):
+        artus.inject(joint, volume="much")
+
+
+def straight_way(joint, n=300):
+    """Times, needle poses and probe poses of a way to the first target and a rest there."""
+    entry, target = joint.injections[0]
+    axis = (target - entry) / np.linalg.norm(target - entry)
+    deep = np.linalg.norm(target - entry)
+    way = np.concatenate([np.linspace(-5e-3, deep, n), np.full(100, deep)])
+    times = np.arange(len(way)) / 50
+    return times, np.stack([artus.pose(entry + s * axis, axis) for s in way])
+
+
+def test_metrics_are_those_of_the_tool(joint, tool, simple, tmp_path):
+    times, needle = straight_way(joint)
+    lines = []
+    for time_s, pose in zip(times, needle):
+        w = 0.5 * np.sqrt(max(0, 1 + np.trace(pose[:3, :3])))
+        r = pose[:3, :3]
+        assert w > 0.05
+        q = [w, *((r[[2, 0, 1], [1, 2, 0]] - r[[1, 2, 0], [2, 0, 1]]) / (4 * w))]
+        lines.append(json.dumps({"time_s": time_s, "needle": {
+            "position_m": list(pose[:3, 3]), "quaternion_wxyz": q}}))
+    (tmp_path / "way.jsonl").write_text("\n".join(lines) + "\n")
+    told = json.loads(run(tool, "assess", "--poses", tmp_path / "way.jsonl", "-j", simple,
+                          "--target", "bursa", "--avoid", "bone:2", "--json"))
+    ours = artus.metrics(joint, times, needle=needle, target="bursa", avoid={"bone": 2e-3})
+    assert [m["name"] for m in ours["metrics"]] == [m["name"] for m in told["metrics"]]
+    for a, b in zip(ours["metrics"] + ours["perktutor"], told["metrics"] + told["perktutor"]):
+        assert {**a, "value": 0} == {**b, "value": 0}
+        assert (a["value"] is None) == (b["value"] is None), a["name"]
+        if a["value"] is not None:  # the list went through text and quaternions
+            assert a["value"] == pytest.approx(b["value"], rel=1e-6, abs=1e-6), a["name"]
+    values = {m["name"]: m["value"] for m in ours["metrics"] if m["role"] == "needle"}
+    way = 1e3 * np.linalg.norm(needle[-1, :3, 3] - needle[0, :3, 3])
+    assert values["path_length_mm"] == pytest.approx(way, rel=0.01)
+    assert [e["kind"] for e in ours["events"]].count("contact") == 1
+    near = artus.metrics(joint, times, needle=needle, target=needle[-1, :3, 3] + [3e-3, 0, 0])
+    (distance,) = [m for m in near["metrics"] if m["name"] == "distance_mm"]
+    assert distance["value"] == pytest.approx(3, abs=0.05)
+
+
+def test_a_recording_is_assessed_as_by_the_tool(tool, source, tmp_path, joint, simple):
+    times, needle = straight_way(joint)
+    rows = ["time_s,entry_x_mm,entry_y_mm,entry_z_mm,tip_x_mm,tip_y_mm,tip_z_mm,probe_x_mm,"
+            "probe_y_mm,probe_z_mm,direction_x,direction_y,direction_z"]
+    for time_s, pose in zip(times, needle):
+        tip, hub = 1e3 * pose[:3, 3], 1e3 * (pose[:3, 3] - 35e-3 * pose[:3, 2])
+        rows.append(",".join(repr(float(v)) for v in (
+            time_s, *hub, *tip, *(1e3 * joint.probe[:3, 3]), *joint.probe[:3, 2])))
+    (tmp_path / "way.csv").write_text("\n".join(rows) + "\n")
+    # such a list leads a session wherever a recording is read
+    led = json.loads(run(tool, "assess", tmp_path / "way.csv", "-j", simple, "--target", "bursa",
+                         "--no-pictures", "--json"))
+    peak = {m["name"]: m["value"] for m in led["metrics"]}
+    assert any("force" in name and value and value > 0.05 for name, value in peak.items())
+    with pytest.raises(FileNotFoundError, match="none.rec"):
+        artus.assess(joint, tmp_path / "none.rec")
+    with pytest.raises(ValueError, match="way.csv"):
+        artus.assess(joint, tmp_path / "way.csv")
+
+
+@pytest.mark.parametrize("change, says", [
+    ({"needle": None}, "needle, probe or both"),
+    ({"times": [0, 2, 1]}, r"times\[2\]"),
+    ({"times": [0, 1, float("nan")]}, r"times\[2\]"),
+    ({"times": [0, 1]}, "3 poses for 2 times"),
+    ({"times": [0, 1, 1e6]}, "in seconds"),
+    ({"times": []}, r"shape \(n,\)"),
+    ({"target": "brsa"}, "did you mean 'bursa'"),
+    ({"target": [100.0, 0, 0]}, "millimetres"),
+    ({"avoid": {"bone": 2}}, "in metres"),
+    ({"avoid": {"nerv": 0.002}}, "no structure"),
+    ({"gauge": 24}, "gauge"),
+    ({"depth": 40}, "depth"),
+])
+def test_poses_that_cannot_be_measured_are_refused(joint, change, says):
+    asked = {"times": [0, 1, 2], "needle": np.stack([joint.needle] * 3), **change}
+    with pytest.raises(ValueError, match=says):
+        artus.metrics(joint, **asked)
+
+
 def test_frames_do_not_pile_up(joint):
     renderer = artus.Renderer(joint, lines=16, planes=1, samples=64, pixel=1e-3, threads=1)
     entry, target = joint.injections[0]
@@ -252,16 +437,66 @@ def test_the_package_runs_as_a_program(simple):
     assert subprocess.run([sys.executable, "-m", "artus", "no.artus"]).returncode == 1
 
 
-def test_the_stub_names_what_the_module_has(source):
-    stub = (source / "python/artus/__init__.pyi").read_text()
-    named = set(re.findall(r"^(?:def|class) (\w+)|^(__version__)", stub, re.M))
-    names = {a or b for a, b in named}
-    assert names == set(artus.__all__)
-    for cls in ("Joint", "Frame", "Labels", "Renderer"):
-        body = re.search(rf"^class {cls}:.*?(?=^(?:class|def) )", stub, re.M | re.S).group()
-        methods = set(re.findall(r"def (\w+)\(", body)) - {"__init__"}
-        public = {m for m in dir(getattr(artus, cls)) if not m.startswith("_")}
-        assert methods == public
+def stub_tree(source):
+    return ast.parse((source / "python/artus/__init__.pyi").read_text())
+
+
+def of_stub(function, method=False):
+    """[(name, keyword alone, has a default)] of a function in the stub."""
+    a = function.args
+    plain = a.posonlyargs + a.args
+    rows = [(p.arg, False, i >= len(plain) - len(a.defaults)) for i, p in enumerate(plain)]
+    rows += [(p.arg, True, d is not None) for p, d in zip(a.kwonlyargs, a.kw_defaults)]
+    return rows[1:] if method else rows
+
+
+def of_module(function, method=False):
+    """The same of a function of the module: pybind writes it into the first line of its docstring."""
+    try:
+        parameters = inspect.signature(function).parameters.values()
+    except ValueError:
+        head = function.__doc__.splitlines()[0]
+        head = re.sub(r"array\[[^]]*\]", "array", re.sub(r"<[^>]*>", "0", head))  # types and values
+        rest = head[head.index("(") + 1 : head.rindex(") ->")]
+        rest = re.sub(r"\[[^\[\]]*\]", "", re.sub(r"\[[^\[\]]*\]", "", rest))  # Optional[...]
+        rows, alone = [], False
+        for part in (p.strip() for p in rest.split(", ")):
+            if part == "*":
+                alone = True
+            elif not part.startswith("**"):
+                rows.append((re.match(r"\w+", part).group(), alone, "=" in part))
+        return rows[1:] if method else rows
+    rows = [(p.name, p.kind == p.KEYWORD_ONLY, p.default is not p.empty)
+            for p in parameters if p.kind != p.VAR_KEYWORD]
+    return rows[1:] if method else rows
+
+
+def test_the_stub_has_the_names_and_signatures_of_the_module(source):
+    tree = stub_tree(source)
+    functions = {n.name: n for n in tree.body if isinstance(n, ast.FunctionDef)}
+    classes = {n.name: n for n in tree.body if isinstance(n, ast.ClassDef)}
+    assert set(functions) | set(classes) | {"__version__"} == set(artus.__all__)
+    for name, function in functions.items():
+        assert of_stub(function) == of_module(getattr(artus, name)), name
+    for name, body in classes.items():
+        cls = getattr(artus, name)
+        members = {m.name: m for m in body.body if isinstance(m, ast.FunctionDef)}
+        assert set(members) - {"__init__"} == {m for m in dir(cls) if not m.startswith("_")}
+        for member, function in members.items():
+            is_property = any(getattr(d, "id", "") == "property" for d in function.decorator_list)
+            assert is_property == isinstance(vars(cls).get(member), property), (name, member)
+            if not is_property and member != "__init__":
+                assert of_stub(function, True) == of_module(getattr(cls, member), True), member
+
+
+def test_the_stub_names_every_setting_of_a_renderer(source, joint):
+    (renderer,) = [n for n in stub_tree(source).body if getattr(n, "name", "") == "Renderer"]
+    rows = of_stub(renderer.body[1], True)
+    assert [r for r in rows if not r[1]] == of_module(artus.Renderer.__init__, True)
+    with pytest.raises(TypeError) as refusal:
+        artus.Renderer(joint, no_such_setting=1)
+    offered = re.search(r"there are (.*)", str(refusal.value)).group(1).split(", ")
+    assert [name for name, alone, _ in rows if alone] == offered
 
 
 def test_the_documents_example_runs(source, simple, tmp_path, monkeypatch):

@@ -2,6 +2,7 @@
 """A client of OpenIGTLink made of struct and sockets alone, as other people write them, against the tool."""
 
 import os
+import shutil
 import socket
 import struct
 import subprocess
@@ -9,102 +10,173 @@ import time
 
 import numpy as np
 import pytest
+from igtl_client import Client, crc64, header, message, message_1
 
-POLYNOMIAL = 0x42F0E1EBA9EA3693
-
-
-def table():
-    entries = []
-    for byte in range(256):
-        crc = byte << 56
-        for _ in range(8):
-            crc = ((crc << 1) ^ (POLYNOMIAL if crc >> 63 else 0)) & (2**64 - 1)
-        entries.append(crc)
-    return entries
+def free_port():
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
 
 
-TABLE = table()
-
-
-def crc64(data):
-    crc = 0
-    for byte in data:
-        crc = ((crc << 8) & (2**64 - 1)) ^ TABLE[(crc >> 56) ^ byte]
-    return crc
-
-
-def message(kind, device, content, meta=()):
-    """Header 2, with metadata behind the content."""
-    index = struct.pack(">H", len(meta))
-    data = b""
-    for key, value in meta:
-        index += struct.pack(">HHI", len(key), 3, len(value))
-        data += key.encode() + value.encode()
-    body = struct.pack(">HHII", 12, len(index), len(data), 1) + content + index + data
-    head = struct.pack(">H12s20sQQQ", 2, kind.encode(), device.encode(), 0, len(body), crc64(body))
-    return head + body
-
-
-class Client:
-    def __init__(self, port):
-        self.socket = socket.create_connection(("127.0.0.1", port), timeout=30)
-
-    def send(self, *arguments):
-        self.socket.sendall(message(*arguments))
-
-    def _take(self, size):
-        data = b""
-        while len(data) < size:
-            piece = self.socket.recv(size - len(data))
-            assert piece, "the server closed the connection"
-            data += piece
-        return data
-
-    def read(self):
-        version, kind, device, _, size, crc = struct.unpack(">H12s20sQQQ", self._take(58))
-        body = self._take(size)
-        kind, device = kind.rstrip(b"\0").decode(), device.rstrip(b"\0").decode()
-        if kind != "IMAGE" or version == 2:  # a picture's sum takes a tenth of a second here
-            assert crc64(body) == crc
-        meta = {}
-        if version == 2:
-            extension, index_size, data_size, _ = struct.unpack(">HHII", body[:12])
-            end = len(body) - index_size - data_size
-            at, place = end + 2, end + index_size
-            for _ in range(struct.unpack(">H", body[end : end + 2])[0] if index_size else 0):
-                key, _, value = struct.unpack(">HHI", body[at : at + 8])
-                meta[body[place : place + key].decode()] = body[place + key : place + key + value].decode()
-                at, place = at + 8, place + key + value
-            body = body[extension:end]
-        return version, kind, device, body, meta
-
-    def wait_for(self, kind, version=0):
-        end = time.monotonic() + 60
-        while time.monotonic() < end:
-            got = self.read()
-            if got[1] == kind and got[0] >= version:
-                return got
-        raise AssertionError(f"no {kind} came")
+def wait_until_it_listens(number, server):
+    for _ in range(600):
+        assert server.poll() is None, "the program ended"
+        try:
+            socket.create_connection(("127.0.0.1", number), timeout=1).close()
+            return
+        except OSError:
+            time.sleep(0.1)
 
 
 @pytest.fixture
 def port(tool, simple):
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        number = probe.getsockname()[1]
+    number = free_port()
     server = subprocess.Popen(
-        [tool, "serve", "-j", str(simple), "--input", "injection", "--igtl", str(number),
+        [tool, "serve", "-j", str(simple), "--rigid", "--input", "injection", "--igtl", str(number),
          "--prefix", f"artus-py-{os.getpid()}-", "--json"],
         stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    for _ in range(600):
-        try:
-            socket.create_connection(("127.0.0.1", number), timeout=1).close()
-            break
-        except OSError:
-            time.sleep(0.1)
+    wait_until_it_listens(number, server)
     yield number
+    assert server.poll() is None, "a client ended the session"
     server.terminate()
     assert server.wait(30) == 0
+
+
+# What a connector of 3D Slicer says at once, STATUS with header 2 and metadata, and a COMMAND of it: byte
+# for byte as the protocol has them, written down field by field with their check values.
+HELLO = bytes.fromhex(
+    "0002 535441545553000000000000 536c696365720000000000000000000000000000"  # 2, STATUS, Slicer
+    "0000000000000000 0000000000000052 4ee39fd663da9101"  # no time, 82 bytes, check value
+    "000c 000a 0000000c 00000001"  # extension of 12, index of 10, data of 12, number 1
+    "0001 0000000000000000 4e6f6e6500000000000000000000000000000000"  # OK, 0, None
+    "48656c6c6f2066726f6d20536c6963657200"  # Hello from Slicer
+    "0001 0007 0003 00000005 56657273696f6e 352e362e32")  # Version: 5.6.2
+COMMAND = bytes.fromhex(
+    "0002 434f4d4d414e440000000000 536c696365720000000000000000000000000000"  # 2, COMMAND, Slicer
+    "0000000000000000 000000000000005a df0a94abff8b24df"  # no time, 90 bytes, check value
+    "000c 000a 0000000c 00000001"
+    "00001267 56657273696f6e00000000000000000000000000 0003 0000001a"  # 4711, Version, ASCII, 26
+    "3c436f6d6d616e64204e616d653d2256657273696f6e22202f3e"  # <Command Name="Version" />
+    "0001 0006 0003 00000006 4f726967696e 536c69636572")  # Origin: Slicer
+
+
+def test_the_bytes_of_slicers_hello_and_command_are_answered_byte_for_byte(port):
+    client = Client(port)
+    client.socket.sendall(HELLO + COMMAND)
+    client.wait_for("RTS_COMMAND")
+    version = subprocess.run([os.environ["ARTUS_TOOL"], "--version"], capture_output=True, text=True)
+    text = f"<Command><Result>true</Result><Message>{version.stdout.strip()}</Message></Command>"
+    content = struct.pack(">I20sHI", 4711, b"Version", 3, len(text)) + text.encode()
+    expected = message("RTS_COMMAND", "Slicer", content, [("Status", "SUCCESS")])
+    got = client.raw
+    assert got[:34] == expected[:34] and got[42:] == expected[42:]  # all but the time
+    assert abs(struct.unpack(">Q", got[34:42])[0] / 2**32 - time.time()) < 300
+
+
+def test_bytes_may_come_one_by_one(port):
+    client = Client(port)
+    client.socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+    for byte in HELLO + COMMAND:
+        client.socket.sendall(bytes([byte]))
+    assert client.wait_for("RTS_COMMAND")[4] == {"Status": "SUCCESS"}
+
+
+def test_a_client_of_header_one_gets_header_one(port):
+    client = Client(port)
+    client.socket.sendall(message_1("GET_STATUS", "old", b"") + message_1("STT_SENSOR", "", b""))
+    assert client.wait_for("STATUS")[0] == 1
+    for kind, size in (("TRANSFORM", 48), ("SENSOR", 10 + 24)):
+        version, _, _, body, meta = client.wait_for(kind)
+        assert version == 1 and len(body) == size and not meta
+    command = struct.pack(">I20sHI", 3, b"Version", 3, 0)
+    client.socket.sendall(message_1("COMMAND", "old", command))
+    assert client.wait_for("RTS_COMMAND")[0] == 1
+
+
+def test_an_unknown_type_is_passed_over(port):
+    client = Client(port)
+    client.send("POLYDATA", "x", bytes(100_000))
+    client.socket.sendall(message_1("CLIENTINFO", "plus", b"<ClientInfo/>") + COMMAND)
+    assert client.wait_for("RTS_COMMAND")
+
+
+@pytest.mark.parametrize("bad", [
+    message_1("TRANSFORM", "ProbeToReference", bytes(48), crc=crc64(bytes(48)) ^ 1),
+    message_1("COMMAND", "x", b"12345678", crc=0),
+    message_1("COMMAND", "x", b"short"),
+    header(2, "STATUS", "x", 2**40, 0),
+    header(7, "STATUS", "x", 30, 0) + bytes(30),
+    message("STATUS", "x", b"")[:58] + struct.pack(">HHII", 12, 9999, 9999, 1),
+    b"GET / HTTP/1.1\r\nHost: localhost:18944\r\nUser-Agent: curl/7.88.1\r\nAccept: */*\r\n\r\n",
+], ids=["wrong sum", "no sum", "cut", "terabyte", "version 7", "lying extension", "browser"])
+def test_who_lies_is_closed_alone(port, bad):
+    honest, liar = Client(port), Client(port)
+    liar.socket.sendall(bad)
+    liar.socket.sendall(COMMAND)
+    assert liar.is_closed_within(20)
+    honest.socket.sendall(COMMAND)
+    assert honest.wait_for("RTS_COMMAND")[4] == {"Status": "SUCCESS"}
+
+
+def test_many_clients_are_served_while_some_read_nothing(port):
+    stalled = [Client(port, 4096) for _ in range(8)]
+    clients = [Client(port) for _ in range(24)]
+    for client in clients:
+        client.send("GET_STATUS", "x", b"")
+    for client in clients:
+        assert client.wait_for("STATUS")
+    times = {client.wait_for("IMAGE")[2] for client in clients}
+    assert times == {"Image_Reference"}
+    for client in stalled:
+        client.socket.close()
+    clients[0].wait_for("IMAGE")
+
+
+def test_more_clients_than_it_takes_are_turned_away(port):
+    clients = [Client(port) for _ in range(64)]
+    clients[63].socket.sendall(COMMAND)
+    assert clients[63].wait_for("RTS_COMMAND")
+    assert Client(port).is_closed_within(20)
+    clients[0].socket.sendall(COMMAND)
+    assert clients[0].wait_for("RTS_COMMAND")
+
+
+def test_what_cannot_be_done_is_answered_with_the_reason(port):
+    client = Client(port)
+    client.wait_for("IMAGE")  # the session runs
+    for name, value, why in [("Scenario", "shoulder", "scenario"), ("Gain", "loud", "Value from"),
+                             ("SelfDestruct", "", "is not known")]:
+        xml = f'<Command Name="{name}" Value="{value}" />'.encode()
+        content = struct.pack(">I20sHI", 1, name.encode(), 3, len(xml)) + xml
+        client.send("COMMAND", "Slicer", content)
+        meta = client.wait_for("RTS_COMMAND")[4]
+        assert meta["Status"] == "FAIL" and why in meta["ErrorMessage"], name
+
+
+@pytest.mark.skipif(shutil.which("xvfb-run") is None, reason="xvfb is not there")
+def test_the_window_is_seen_and_turned_from_outside(tool, simple, tmp_path):
+    number = free_port()
+    window = subprocess.Popen(
+        ["xvfb-run", "-a", tool, "view", "-j", str(simple), "--rigid", "--igtl", str(number), "--prefix",
+         f"artus-pw-{os.getpid()}-", "--layout", str(tmp_path / "layout.ini")],
+        stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, start_new_session=True)
+    try:
+        wait_until_it_listens(number, window)
+        client = Client(number)
+        client.socket.sendall(HELLO)
+        first = client.wait_for("IMAGE", version=2)
+        assert struct.unpack(">HHH", first[3][6:12]) == (400, 400, 1)
+        xml = b'<Command Name="Depth" Value="60" />'
+        client.send("COMMAND", "Slicer", struct.pack(">I20sHI", 1, b"Depth", 3, len(xml)) + xml)
+        assert client.wait_for("RTS_COMMAND")[4]["Status"] == "SUCCESS"
+        for _ in range(400):  # the knob turns in the window's next picture, the tables follow
+            height = struct.unpack(">H", client.wait_for("IMAGE")[3][8:10])[0]
+            if height == 600:
+                break
+        assert height == 600
+    finally:
+        os.killpg(window.pid, 15)
+        window.wait(60)
 
 
 def test_a_hello_with_metadata_is_understood_and_commands_are_answered(port):
