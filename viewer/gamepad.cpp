@@ -18,10 +18,11 @@ double shaped(double axis) {
 }  // namespace
 
 std::vector<UserEvent> events_of(const PadState& now, const PadState& before, double seconds) {
-  constexpr std::array<const char*, PadState::n_buttons> kKeys{"C", "X", "F", "R", "SPACE"};
+  constexpr std::array<Action, PadState::n_buttons> kActions{
+      Action::choose_entry, Action::explore, Action::freeze, Action::reset, Action::pause};
   std::vector<UserEvent> events;
-  for (std::size_t i = 0; i < kKeys.size(); ++i) {
-    if (now.buttons[i] && !before.buttons[i]) events.emplace_back(KeyEvent{kKeys[i]});
+  for (std::size_t i = 0; i < kActions.size(); ++i) {
+    if (now.buttons[i] && !before.buttons[i]) events.emplace_back(ActionEvent{kActions[i]});
   }
   PadEvent pad;
   pad.left_x = shaped(now.left[0]);

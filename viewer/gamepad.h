@@ -18,7 +18,7 @@ struct PadState {
 };
 
 /// What was done with the pad in `seconds` between two looks: the sticks beyond their dead zone,
-/// and a key for each button that went down (A chooses the entry, B goes back to exploring, X
+/// and an action for each button that went down (A chooses the entry, B goes back to exploring, X
 /// freezes, Y resets, start pauses). Pure.
 [[nodiscard]] std::vector<UserEvent> events_of(const PadState& now, const PadState& before,
                                                double seconds);

@@ -132,6 +132,17 @@ void set_sampling() {
 }
 }  // namespace
 
+void GlTexture::set_colour(int width, int height, std::span<const std::uint8_t> rgb) {
+  bind();
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB8, width, height, 0, GL_RGB, GL_UNSIGNED_BYTE, rgb.data());
+  const std::array<int, 4> swizzle{GL_RED, GL_GREEN, GL_BLUE, GL_ONE};
+  glTexParameteriv(GL_TEXTURE_2D, GL_TEXTURE_SWIZZLE_RGBA, swizzle.data());
+  set_sampling();
+  width_ = width;
+  height_ = height;
+}
+
 void GlTexture::set_grey(int width, int height, std::span<const std::uint8_t> grey) {
   bind();
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);

@@ -56,7 +56,7 @@ class GlMesh {
   int n_indices_ = 0;
 };
 
-/// A two-dimensional texture, grey (8 bit) or the colour target of a frame buffer.
+/// A two-dimensional texture, grey or coloured (8 bit), or the colour target of a frame buffer.
 class GlTexture {
  public:
   GlTexture();
@@ -64,6 +64,8 @@ class GlTexture {
   GlTexture(const GlTexture&) = delete;
   GlTexture& operator=(const GlTexture&) = delete;
   void set_grey(int width, int height, std::span<const std::uint8_t> grey);
+  /// (height, width, 3), red, green, blue.
+  void set_colour(int width, int height, std::span<const std::uint8_t> rgb);
   void set_target(int width, int height);
   void bind() const;
   [[nodiscard]] unsigned id() const noexcept { return id_; }

@@ -3,48 +3,20 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <map>
 #include <numbers>
 
 #include <epoxy/gl.h>
 
-#include "artus/echo/labels.h"
+#include "artus/viewer/colours.h"
+#include "artus/viewer/joint_shaders.h"
 
 namespace artus {
 namespace {
 
-constexpr const char* kSolidVertex = R"(#version 330 core
-layout(location = 0) in vec3 position;
-uniform mat4 view; uniform mat4 model; uniform vec4 plane;
-out vec3 place; out float ahead;
-void main() {
-  vec4 p = model * vec4(position, 1.0);
-  place = p.xyz;
-  ahead = dot(plane.xyz, p.xyz) - plane.w;
-  gl_Position = view * p;
-})";
-constexpr const char* kSolidFragment = R"(#version 330 core
-in vec3 place; in float ahead;
-uniform vec4 colour; uniform vec4 eye; uniform int lit;
-out vec4 result;
-void main() {
-  if (ahead > 0.0) discard;
-  float shade = 1.0;
-  if (lit == 1) {
-    vec3 n = normalize(cross(dFdx(place), dFdy(place)));
-    shade = 0.3 + 0.7 * abs(dot(n, normalize(eye.xyz - place)));
-  }
-  result = vec4(shade * colour.rgb, colour.a);
-})";
-constexpr const char* kPictureVertex = R"(#version 330 core
-layout(location = 0) in vec3 position;
-uniform mat4 view; uniform mat4 model;
-out vec2 uv;
-void main() { uv = position.xy; gl_Position = view * model * vec4(position, 1.0); })";
-constexpr const char* kPictureFragment = R"(#version 330 core
-in vec2 uv; uniform sampler2D image; out vec4 result;
-void main() { result = vec4(texture(image, uv).rrr, 1.0); })";
+constexpr float kOpaque = 0.99F;
 
 /// A plane that hides nothing.
 Eigen::Vector4f no_plane() {
@@ -145,44 +117,8 @@ JointView::JointView(const CompiledJoint& joint, GlProgram solid, GlProgram pict
       picture_(std::move(picture)),
       probe_width_(probe_width),
       needle_length_(needle_length) {
-  const auto palette = region_palette(joint);
-  std::map<std::string, std::size_t> look_of;
-  std::vector<std::vector<std::uint32_t>> triangles(joint.regions.size());
-  for (const Interface& face : joint.mesh.interfaces) {
-    for (const RegionId region : {face.front, face.back}) {
-      if (region < kFirstRegion) continue;
-      auto& list = triangles[region];
-      list.insert(list.end(), face.vertices.begin(), face.vertices.end());
-    }
-  }
-  for (std::size_t r = kFirstRegion; r < joint.regions.size(); ++r) {
-    if (triangles[r].empty()) continue;
-    const Tissue& tissue = joint.tissue_of(static_cast<RegionId>(r));
-    const auto [place, fresh] = look_of.try_emplace(tissue.name, looks_.size());
-    if (fresh) {
-      const auto& c = palette[r];
-      looks_.push_back({tissue.name,
-                        Eigen::Vector3f(static_cast<float>(c[0]), static_cast<float>(c[1]),
-                                        static_cast<float>(c[2])) /
-                            255.F,
-                        usual_alpha(tissue.acoustic.kind), true});
-    }
-    // Each part has its own points, so that a part is one small draw.
-    std::map<std::uint32_t, std::uint32_t> renumbered;
-    std::vector<Eigen::Vector3f> points;
-    for (std::uint32_t& v : triangles[r]) {
-      const auto [at, is_new] =
-          renumbered.try_emplace(v, static_cast<std::uint32_t>(points.size()));
-      if (is_new) points.emplace_back(joint.mesh.vertices[v].cast<float>());
-      v = at->second;
-    }
-    Vec3 centre = Vec3::Zero();
-    for (const auto& p : points) centre += p.cast<double>() / static_cast<double>(points.size());
-    GlMesh mesh;
-    mesh.set_points(points);
-    mesh.set_triangles(triangles[r]);
-    parts_.push_back({place->second, centre, std::move(mesh)});
-  }
+  find_parts(joint);
+  for (Sheet& sheet : find_sheets(joint)) sheets_.push_back({std::move(sheet), {}});
   camera_.centre = joint.X_JP_default * Vec3(0, 0, 15e-3);
   camera_.up = -joint.X_JP_default.linear().col(2);
   camera_.side = joint.X_JP_default.linear().col(0);
@@ -194,48 +130,127 @@ JointView::JointView(const CompiledJoint& joint, GlProgram solid, GlProgram pict
   set_quad(quad_);
 }
 
+// The regions that have a surface, and how their tissues are drawn at first.
+void JointView::find_parts(const CompiledJoint& joint) {
+  const std::vector<Rgb> palette = region_colours(joint);
+  std::map<std::string, std::size_t> look_of;
+  std::vector<Vec3> sums(joint.regions.size(), Vec3::Zero());
+  std::vector<double> counts(joint.regions.size(), 0);
+  for (const Interface& face : joint.mesh.interfaces) {
+    for (const RegionId region : {face.front, face.back}) {
+      for (const std::uint32_t v : face.vertices) sums[region] += joint.mesh.vertices[v];
+      counts[region] += 3;
+    }
+  }
+  part_of_.assign(joint.regions.size(), kNoPart);
+  for (std::size_t r = kFirstRegion; r < joint.regions.size(); ++r) {
+    if (counts[r] == 0) continue;
+    const Tissue& tissue = joint.tissue_of(static_cast<RegionId>(r));
+    const auto [place, fresh] = look_of.try_emplace(tissue.name, looks_.size());
+    if (fresh) {
+      const auto& c = palette[r];
+      looks_.push_back({tissue.name,
+                        Eigen::Vector3f(static_cast<float>(c[0]), static_cast<float>(c[1]),
+                                        static_cast<float>(c[2])) /
+                            255.F,
+                        usual_alpha(tissue.acoustic.kind), true});
+    }
+    part_of_[r] = parts_.size();
+    parts_.push_back({place->second, joint.regions[r].name, sums[r] / counts[r]});
+  }
+}
+
+const GlMesh& JointView::mesh_of(DrawnSheet& sheet) {
+  std::unique_ptr<GlMesh>& mesh = sheet.meshes[detail_.level()];
+  if (!mesh) {
+    const Surface surface = decimated(sheet.sheet.surface, DetailChooser::kCells[detail_.level()]);
+    mesh = std::make_unique<GlMesh>();
+    mesh->set_points(surface.points);
+    mesh->set_triangles(surface.indices);
+  }
+  return *mesh;
+}
+
 void JointView::draw_mesh(const GlMesh& mesh, const Eigen::Matrix4f& view,
                           const Eigen::Matrix4f& model, const Eigen::Vector4f& colour, bool lit) {
   solid_.set("view", view);
   solid_.set("model", model);
-  solid_.set("colour", colour);
-  solid_.set("lit", lit ? 1 : 0);
+  set_sides({colour, lit}, {colour, lit});
   mesh.draw_triangles();
+}
+
+void JointView::set_sides(const Side& front, const Side& behind) {
+  solid_.set("colour", front.colour);
+  solid_.set("behind", behind.colour);
+  solid_.set("lit", front.lit ? 1 : 0);
+  solid_.set("lit_behind", behind.lit ? 1 : 0);
+}
+
+JointView::Side JointView::side_of(RegionId region) const {
+  Side side{Eigen::Vector4f::Zero(), true};
+  if (part_of_[region] == kNoPart) return side;
+  const TissueLook& look = looks_[parts_[part_of_[region]].look];
+  if (look.visible && look.alpha > 0.01F) side.colour << look.colour, look.alpha;
+  return side;
+}
+
+// Who looks at a sheet from within an opaque structure does so because this one was cut open, and
+// sees the cut's plain colour; else the surface of what lies behind the sheet.
+void JointView::draw_opaque(DrawnSheet& sheet) {
+  Side front = side_of(sheet.sheet.front);
+  Side back = side_of(sheet.sheet.back);
+  const bool in_front = front.colour.w() > kOpaque;
+  const bool in_back = back.colour.w() > kOpaque;
+  if (!in_front && !in_back) return;
+  front.lit = !in_front;
+  back.lit = !in_back;
+  if (!in_front) front.colour = back.colour;
+  if (!in_back) back.colour = front.colour;
+  set_sides(front, back);
+  mesh_of(sheet).draw_triangles();
 }
 
 void JointView::draw_parts(const Eigen::Matrix4f& view, const Eigen::Vector4f& plane) {
   solid_.set("plane", plane);
-  std::vector<const Part*> order;
-  for (const Part& part : parts_) {
-    const TissueLook& look = looks_[part.look];
-    if (look.visible && look.alpha > 0.01F) order.push_back(&part);
-  }
-  const auto opaque = [&](const Part* p) {
-    return looks_[p->look].alpha > 0.99F;
-  };
-  std::stable_sort(order.begin(), order.end(), [&](const Part* a, const Part* b) {
-    if (opaque(a) != opaque(b)) return opaque(a);
-    if (looks_[a->look].alpha != looks_[b->look].alpha)
-      return looks_[a->look].alpha > looks_[b->look].alpha;
-    return (a->centre - eye_).squaredNorm() > (b->centre - eye_).squaredNorm();
-  });
-  for (const Part* part : order) {
-    const TissueLook& look = looks_[part->look];
-    glDepthMask(opaque(part) ? GL_TRUE : GL_FALSE);
+  solid_.set("view", view);
+  solid_.set("model", Eigen::Matrix4f(Eigen::Matrix4f::Identity()));
+  struct Veil {
+    DrawnSheet* sheet;
     Eigen::Vector4f colour;
-    colour << look.colour, look.alpha;
-    draw_mesh(part->mesh, view, Eigen::Matrix4f::Identity(), colour, true);
+    double distance;
+  };
+  std::vector<Veil> veils;
+  for (DrawnSheet& sheet : sheets_) {
+    draw_opaque(sheet);
+    const Eigen::Vector4f front = side_of(sheet.sheet.front).colour;
+    const Eigen::Vector4f back = side_of(sheet.sheet.back).colour;
+    if (front.w() > kOpaque || back.w() > kOpaque) continue;
+    for (const Eigen::Vector4f& colour : {front, back})
+      if (colour.w() > 0)
+        veils.push_back({&sheet, colour, (sheet.sheet.centre - eye_).squaredNorm()});
+  }
+  std::stable_sort(veils.begin(), veils.end(), [](const Veil& a, const Veil& b) {
+    return a.colour.w() != b.colour.w() ? a.colour.w() > b.colour.w() : a.distance > b.distance;
+  });
+  glDepthMask(GL_FALSE);
+  for (const Veil& veil : veils) {
+    set_sides({veil.colour, true}, {veil.colour, true});
+    mesh_of(*veil.sheet).draw_triangles();
   }
   glDepthMask(GL_TRUE);
   solid_.set("plane", no_plane());
 }
 
-void JointView::draw_tools(const Eigen::Matrix4f& view, const HapticSnapshot& now) {
+void JointView::draw_tools(const Eigen::Matrix4f& view, const JointScene& scene) {
+  const HapticSnapshot& now = scene.now;
   const Pose X_JP = to_pose(now.X_JP);
+  // The marked side, where the picture's dot is.
+  const Pose mark = X_JP * Eigen::Translation3d(-probe_width_ / 2 - 1e-3, 0, -2e-3);
+  draw_mesh(box_, view, to_model(mark, Vec3(3e-3, 4e-3, 10e-3)), {1.F, 0.86F, 0.35F, 1}, true);
   draw_mesh(box_, view, to_model(X_JP, Vec3(probe_width_, 10e-3, 30e-3)), {0.85F, 0.88F, 0.95F, 1},
             true);
   if (now.input.device.has_needle == 0) return;
-  const Pose X_JN = to_pose(now.X_JN);
+  const Pose& X_JN = scene.X_JN;
   const Pose shaft = X_JN * Eigen::Translation3d(0, 0, -needle_length_);
   draw_mesh(rod_, view, to_model(shaft, Vec3(0.6e-3, 0.6e-3, needle_length_)),
             {1.F, 0.95F, 0.4F, 1}, true);
@@ -289,8 +304,8 @@ void JointView::draw_image(const Eigen::Matrix4f& view, const ImageSnapshot& ima
   solid_.use();
 }
 
-void JointView::draw_trail(const Eigen::Matrix4f& view, const HapticSnapshot& now) {
-  const Eigen::Vector3f tip = to_pose(now.X_JN).translation().cast<float>();
+void JointView::draw_trail(const Eigen::Matrix4f& view, const Pose& X_JN) {
+  const Eigen::Vector3f tip = X_JN.translation().cast<float>();
   constexpr std::size_t kLongest = 2000;
   if (trail_.empty() || (trail_.back() - tip).norm() > 0.2e-3F) trail_.push_back(tip);
   if (trail_.size() > kLongest) trail_.pop_front();
@@ -298,8 +313,8 @@ void JointView::draw_trail(const Eigen::Matrix4f& view, const HapticSnapshot& no
   line_.set_points(points);
   solid_.set("view", view);
   solid_.set("model", Eigen::Matrix4f(Eigen::Matrix4f::Identity()));
-  solid_.set("colour", Eigen::Vector4f(0.2F, 1.F, 0.5F, 1.F));
-  solid_.set("lit", 0);
+  const Eigen::Vector4f green(0.2F, 1.F, 0.5F, 1.F);
+  set_sides({green, false}, {green, false});
   line_.draw_line_strip();
 }
 
@@ -314,15 +329,84 @@ void JointView::draw_entry(const Eigen::Matrix4f& view, const EntryChoice& entry
             {0.4F, 1.F, 0.6F, 1}, false);
 }
 
+// All that the picture depends on, rounded to what a person could see; the speckle in the image
+// plane is no motion.
+bool JointView::moved(int width, int height, const JointScene& scene) {
+  std::vector<double> now{static_cast<double>(width), static_cast<double>(height),
+                          static_cast<double>(detail_.level()), cut_away ? 1.0 : 0.0,
+                          static_cast<double>(scene.now.inserted)};
+  const auto add = [&now](double value, double step) {
+    now.push_back(std::round(value / step));
+  };
+  const auto add_pose = [&add](const Pose& pose) {
+    for (int i = 0; i < 3; ++i) add(pose.translation()[i], 0.05e-3);
+    for (int i = 0; i < 9; ++i) add(pose.linear()(i / 3, i % 3), 1e-3);
+  };
+  add_pose(to_pose(scene.now.X_JP));
+  add_pose(scene.X_JN);
+  for (int i = 0; i < 3; ++i) {
+    add(scene.now.force_J[i], 0.05);
+    add(scene.now.torque_J[i], 2e-3);
+  }
+  add(scene.now.cone, 0.01);
+  for (const double value : {camera_.yaw, camera_.pitch, camera_.distance}) add(value, 1e-4);
+  for (const TissueLook& look : looks_) {
+    add(look.alpha, 0.01);
+    add(look.visible ? 1 : 0, 1);
+  }
+  if (scene.image != nullptr) {
+    add_pose(to_pose(scene.image->input.X_JP));
+    add_pose(to_pose(scene.image->input.X_JN));
+    const ImageControls& c = scene.image->input.controls;
+    for (const double value : {c.depth, c.gain_db, c.dynamic_range_db, c.tgc_db_cm_mhz})
+      add(value, 1e-4);
+    add(scene.image->width, 1);
+  }
+  add(scene.entry ? 1 : 0, 1);
+  if (scene.entry)
+    for (int i = 0; i < 3; ++i) add(scene.entry->p_J[i], 0.1e-3);
+  const bool same = now == seen_;
+  seen_ = std::move(now);
+  return !same;
+}
+
 unsigned JointView::draw(int width, int height, const JointScene& scene) {
+  drew_ = moved(width, height, scene);
+  if (!drew_) return target_.texture();
+  for (DrawnSheet& sheet : sheets_) mesh_of(sheet);  // made once: no part of what a picture takes
+  const auto begin = std::chrono::steady_clock::now();
+  draw_all(width, height, scene);
+  glFinish();
+  detail_.note(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+  return target_.texture();
+}
+
+std::vector<ScreenLabel> JointView::labels(int width, int height) const {
+  std::vector<ScreenLabel> found;
+  for (const Part& part : parts_) {
+    const TissueLook& look = looks_[part.look];
+    if (!look.visible || look.alpha < 0.3F) continue;
+    Eigen::Vector4f p;
+    p << part.centre.cast<float>(), 1.F;
+    const Eigen::Vector4f q = view_ * p;
+    if (q.w() <= 0 || std::abs(q.x()) > q.w() || std::abs(q.y()) > q.w()) continue;
+    const ScreenLabel label{part.name, 0.5F * (1 + q.x() / q.w()) * static_cast<float>(width),
+                            0.5F * (1 - q.y() / q.w()) * static_cast<float>(height)};
+    found.push_back(label);
+  }
+  return found;
+}
+
+void JointView::draw_all(int width, int height, const JointScene& scene) {
   const HapticSnapshot& now = scene.now;
   const OrbitCamera& c = camera_;
   const Vec3 forward = c.up.cross(c.side).normalized();
   eye_ = c.centre +
          c.distance * (std::cos(c.pitch) * (std::sin(c.yaw) * c.side - std::cos(c.yaw) * forward) +
                        std::sin(c.pitch) * c.up);
-  const Eigen::Matrix4f view = perspective(0.7, static_cast<double>(width) / height, 0.01, 2.0) *
-                               look_at(eye_, c.centre, c.up);
+  view_ = perspective(0.7, static_cast<double>(width) / height, 0.01, 2.0) *
+          look_at(eye_, c.centre, c.up);
+  const Eigen::Matrix4f& view = view_;
   target_.begin(width, height);
   glEnable(GL_DEPTH_TEST);
   glEnable(GL_BLEND);
@@ -334,8 +418,8 @@ unsigned JointView::draw(int width, int height, const JointScene& scene) {
   eye << eye_.cast<float>(), 1.F;
   solid_.set("eye", eye);
   solid_.set("plane", no_plane());
-  draw_tools(view, now);
-  draw_trail(view, now);
+  draw_tools(view, scene);
+  draw_trail(view, scene.X_JN);
   if (scene.image != nullptr) draw_image(view, *scene.image, scene.image_texture);
   if (scene.entry) draw_entry(view, *scene.entry);
   Eigen::Vector4f plane = no_plane();
@@ -349,7 +433,6 @@ unsigned JointView::draw(int width, int height, const JointScene& scene) {
   if (now.input.device.has_needle != 0) draw_forces(view, now);
   glDisable(GL_DEPTH_TEST);
   target_.end();
-  return target_.texture();
 }
 
 }  // namespace artus

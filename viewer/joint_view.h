@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <array>
 #include <deque>
 #include <memory>
 #include <optional>
@@ -8,6 +9,9 @@
 
 #include "artus/session/session.h"
 #include "artus/viewer/gl_objects.h"
+#include "artus/viewer/joint_sheets.h"
+#include "artus/viewer/orbit_camera.h"
+#include "artus/viewer/surface_detail.h"
 
 namespace artus {
 
@@ -19,34 +23,40 @@ struct TissueLook {
   bool visible = true;
 };
 
-/// Where the joint is seen from.
-struct OrbitCamera {
-  Vec3 centre = Vec3::Zero();  ///< m, frame J
-  double yaw = 0;              ///< rad
-  double pitch = 0;            ///< rad
-  double distance = 0.2;       ///< m
-  Vec3 up = Vec3::UnitZ();
-  Vec3 side = Vec3::UnitX();
-};
-
 /// What there is to draw besides the joint.
 struct JointScene {
   const HapticSnapshot& now;
+  Pose X_JN;                   ///< the needle as it is, held by bone where the hand goes on
   const ImageSnapshot* image;  ///< null when there is none
   const GlTexture& image_texture;
   const std::optional<EntryChoice>& entry;  ///< where the needle would enter
+};
+
+/// A structure's name where its middle stands in the picture.
+struct ScreenLabel {
+  std::string name;
+  float x = 0;  ///< pixels from the left
+  float y = 0;  ///< pixels from the top
 };
 
 /// The joint in three dimensions with probe, needle, image plane, insertion cone, forces and the
 /// tip's trail. Draws frame J. Needs a current OpenGL 3.3 context for its whole life.
 class JointView {
  public:
+  static constexpr double kWishedTime = 25e-3;  ///< s that a picture may take
+
   [[nodiscard]] static Result<std::unique_ptr<JointView>> make(const CompiledJoint& joint,
                                                                double probe_width,
                                                                double needle_length);
 
-  /// Draws into a picture of its own and returns its texture.
+  /// Draws into a picture of its own, when anything in it moved since the last one, and returns its
+  /// texture. How finely the surfaces are drawn follows from the time that it takes.
   unsigned draw(int width, int height, const JointScene& scene);
+  /// Whether the last call drew, and at which level of detail (DetailChooser).
+  [[nodiscard]] bool drew() const noexcept { return drew_; }
+  [[nodiscard]] std::size_t level() const noexcept { return detail_.level(); }
+  /// Names of what is drawn and opaque enough to be seen, by the last picture's camera.
+  [[nodiscard]] std::vector<ScreenLabel> labels(int width, int height) const;
 
   std::vector<TissueLook>& looks() noexcept { return looks_; }
   OrbitCamera& camera() noexcept { return camera_; }
@@ -56,18 +66,36 @@ class JointView {
  private:
   JointView(const CompiledJoint& joint, GlProgram solid, GlProgram picture, double probe_width,
             double needle_length);
+  /// What is named.
   struct Part {
     std::size_t look;
+    std::string name;
     Vec3 centre;
-    GlMesh mesh;
   };
+  static constexpr std::size_t kNoPart = static_cast<std::size_t>(-1);
+  struct DrawnSheet {
+    Sheet sheet;
+    std::array<std::unique_ptr<GlMesh>, DetailChooser::kLevels> meshes;  // made when first drawn
+  };
+  /// How a surface looks from one of its sides; alpha 0: not at all.
+  struct Side {
+    Eigen::Vector4f colour;
+    bool lit;
+  };
+  void find_parts(const CompiledJoint& joint);
+  const GlMesh& mesh_of(DrawnSheet& sheet);
+  [[nodiscard]] Side side_of(RegionId region) const;
+  void set_sides(const Side& front, const Side& behind);
+  void draw_opaque(DrawnSheet& sheet);
+  [[nodiscard]] bool moved(int width, int height, const JointScene& scene);
+  void draw_all(int width, int height, const JointScene& scene);
   void draw_parts(const Eigen::Matrix4f& view, const Eigen::Vector4f& plane);
-  void draw_tools(const Eigen::Matrix4f& view, const HapticSnapshot& now);
+  void draw_tools(const Eigen::Matrix4f& view, const JointScene& scene);
   void draw_forces(const Eigen::Matrix4f& view, const HapticSnapshot& now);
   void draw_entry(const Eigen::Matrix4f& view, const EntryChoice& entry);
   void draw_image(const Eigen::Matrix4f& view, const ImageSnapshot& image,
                   const GlTexture& texture);
-  void draw_trail(const Eigen::Matrix4f& view, const HapticSnapshot& now);
+  void draw_trail(const Eigen::Matrix4f& view, const Pose& X_JN);
   void draw_mesh(const GlMesh& mesh, const Eigen::Matrix4f& view, const Eigen::Matrix4f& model,
                  const Eigen::Vector4f& colour, bool lit);
 
@@ -75,6 +103,8 @@ class JointView {
   GlProgram picture_;
   GlTarget target_;
   std::vector<Part> parts_;
+  std::vector<std::size_t> part_of_;  // by region; kNoPart: none
+  std::vector<DrawnSheet> sheets_;
   std::vector<TissueLook> looks_;
   OrbitCamera camera_;
   Vec3 eye_ = Vec3::Zero();
@@ -84,6 +114,10 @@ class JointView {
   GlMesh quad_;
   GlMesh line_;
   std::deque<Eigen::Vector3f> trail_;
+  DetailChooser detail_{kWishedTime};
+  std::vector<double> seen_;  // what decided how the last picture looks
+  bool drew_ = false;
+  Eigen::Matrix4f view_ = Eigen::Matrix4f::Identity();
   double probe_width_;
   double needle_length_;
 };

@@ -1,76 +1,34 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
-#include <deque>
-#include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "artus/session/session.h"
-#include "artus/viewer/hand_control.h"
+#include <imgui.h>
+
+#include "artus/viewer/colours.h"
 #include "artus/viewer/joint_view.h"
+#include "artus/viewer/view_state.h"
 
 namespace artus {
 
-/// A point of the B-mode image in millimetres from its upper left corner.
-struct ImagePoint {
-  double x_mm = 0;
-  double y_mm = 0;
+/// A panel between two lines of code: put where the layout has it, and the layout told when a
+/// person moved it. Nothing is drawn in a panel that is not shown.
+class PanelScope {
+ public:
+  PanelScope(Panel panel, Text title, ViewState& state, int flags = 0);
+  ~PanelScope();
+  PanelScope(const PanelScope&) = delete;
+  PanelScope& operator=(const PanelScope&) = delete;
+  explicit operator bool() const noexcept { return shown_; }
+
+ private:
+  bool begun_ = false;
+  bool shown_ = false;
 };
 
-/// Where the B-mode image stands in the window.
-struct ImagePlace {
-  double x = 0;      ///< pixels from the window's left to the image's first column
-  double y = 0;      ///< pixels from its top to the image's first row
-  double scale = 1;  ///< pixels a millimetre of tissue, both ways
-  [[nodiscard]] ImagePoint point_at(double px, double py) const noexcept {
-    return {(px - x) / scale, (py - y) / scale};
-  }
-};
-
-/// What the window remembers between two of its frames; the panels read and change it.
-struct ViewState {
-  bool expert = false;  ///< the 3D view is hidden, as in a real room
-  bool help = false;
-  bool quit = false;
-  bool true_scale = false;      ///< one millimetre of tissue is one millimetre of the screen
-  double pixels_per_mm = 3.78;  ///< of the screen
-  ImageControls controls;
-  ImagePlace image_place;
-  std::vector<ImagePoint> calipers;  ///< pairs
-  std::deque<TracePoint> trace;      ///< the last seconds
-  double trace_seconds = 10;
-  bool wants_screenshot = false;  ///< of the B-mode image
-  bool wants_clip = false;        ///< from then on, until it is false again
-  std::string message;            ///< last thing that was saved or refused
-};
-
-/// All that the panels show, gathered once a frame.
-struct PanelInput {
-  Session* session = nullptr;
-  HapticSnapshot now;
-  const ImageSnapshot* image = nullptr;
-  unsigned image_texture = 0;
-  unsigned joint_texture = 0;
-  Grab grab = Grab::nothing;
-  bool has_hand = false;
-  const char* gamepad = nullptr;     ///< its name; null: none
-  std::optional<EntryChoice> entry;  ///< where the needle would enter, while exploring
-  float scale = 1;                   ///< of the fonts, for the screen's resolution
-  double window_rate = 0;            ///< Hz
-};
-
-/// Where the joint's picture goes; its size for the next frame.
-struct JointArea {
-  int width = 640;
-  int height = 400;
-  bool hovered = false;
-};
-
-/// Where the next panel stands before a person moves it, as shares of the window.
-void place_panel(float x, float y, float width, float height);
-
-void draw_joint_panel(const PanelInput& in, ViewState& state, JointArea& area);
+void draw_guide_panel(const PanelInput& in, ViewState& state);
+void draw_welcome(const PanelInput& in, ViewState& state);
+void draw_joint_panel(const PanelInput& in, ViewState& state, JointView& view, JointArea& area);
 void draw_image_panel(const PanelInput& in, ViewState& state);
 void draw_scanner_panel(const PanelInput& in, ViewState& state);
 void draw_force_panel(const PanelInput& in, ViewState& state);
@@ -79,7 +37,31 @@ void draw_session_panel(const PanelInput& in, ViewState& state);
 void draw_tissue_panel(const PanelInput& in, ViewState& state, JointView& view);
 void draw_help(const PanelInput& in, ViewState& state);
 
+/// Text that is read on any ground: in the overlay's colour with a dark outline.
+void outlined_text(ImDrawList* list, const ImVec2& at, const std::string& text);
+/// A name and the point that it names, pixels from a picture's corner.
+struct NamedPoint {
+  std::string name;
+  float x;
+  float y;
+};
+/// Names in a picture of `size` at `corner`, each in the middle of its point as far as there is
+/// room.
+void draw_names(ImDrawList* list, const ImVec2& corner, const ImVec2& size,
+                const std::vector<NamedPoint>& names);
+void outlined_line(ImDrawList* list, const ImVec2& a, const ImVec2& b);
+[[nodiscard]] ImU32 to_imgui(const Rgb& colour, int alpha = 255) noexcept;
+[[nodiscard]] ImTextureID to_imgui(unsigned texture) noexcept;
+/// The table's text in the window's language.
+[[nodiscard]] inline const char* tell(const ViewState& state, Text which) noexcept {
+  return text(state.language, which);
+}
+/// "freeze (F)": a button's text with its key. After ### stands a name of no language.
+[[nodiscard]] std::string with_key(const ViewState& state, Text which, Action action);
+/// A button that asks for an action.
+void action_button(ViewState& state, Text which, Action action);
+
 /// What the bits of a tick's status say, for people; "all well" for none.
-[[nodiscard]] std::string describe_status(std::uint32_t status);
+[[nodiscard]] std::string describe_status(Language language, std::uint32_t status);
 
 }  // namespace artus

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "artus/session/session.h"
+#include "artus/viewer/caption.h"
 
 namespace artus {
 
@@ -18,16 +18,21 @@ class PictureSaver {
   PictureSaver(const PictureSaver&) = delete;
   PictureSaver& operator=(const PictureSaver&) = delete;
 
-  /// Writes a PNG; returns what to tell the person.
-  [[nodiscard]] std::string save(const ImageSnapshot& image);
+  /// Writes a PNG, with its caption unless `plain`; returns what to tell the person.
+  [[nodiscard]] std::string save(const ImageSnapshot& image, const Caption& caption, bool plain);
 
   /// Begins a clip (Motion JPEG, AVI) of images of this size.
-  [[nodiscard]] std::string begin_clip(const ImageSnapshot& image);
+  [[nodiscard]] std::string begin_clip(const ImageSnapshot& image, Language language);
   /// The clip shows `image` for `elapsed` s: it runs as fast as the session did. Images of another
   /// size (the depth was changed) are left out.
-  void add_to_clip(const ImageSnapshot& image, double elapsed);
-  [[nodiscard]] std::string end_clip();
+  void add_to_clip(const ImageSnapshot& image, const DisplayLook& look, double elapsed);
+  /// The clip is written to its end in the background.
+  void end_clip();
+  /// What to tell the person when a clip that was ended is written; empty until then, and later.
+  [[nodiscard]] std::string take_written(Language language);
   [[nodiscard]] bool in_clip() const noexcept;
+  /// s that the clip will play so far.
+  [[nodiscard]] double clip_seconds() const noexcept;
 
  private:
   struct Clip;
@@ -35,6 +40,7 @@ class PictureSaver {
 
   std::filesystem::path folder_;
   std::unique_ptr<Clip> clip_;
+  std::unique_ptr<Clip> closing_;
 };
 
 }  // namespace artus

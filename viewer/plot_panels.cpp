@@ -3,11 +3,12 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-
-#include <imgui.h>
+#include <map>
+#include <string>
 
 #include "artus/core/units.h"
-#include "artus/echo/labels.h"
+#include "artus/viewer/anatomy_names.h"
+#include "artus/viewer/label_places.h"
 #include "artus/viewer/panels.h"
 
 namespace artus {
@@ -75,15 +76,27 @@ double step_for(double range) {
   return 50;
 }
 
-ImU32 region_colour(const std::vector<std::array<std::uint8_t, 3>>& palette, std::size_t region,
-                    int alpha) {
-  if (region >= palette.size()) return kGrid;
-  const auto& c = palette[region];
-  return IM_COL32(c[0], c[1], c[2], alpha);
+/// Stretches of a trace in one layer each; entry and exit are depths, or times.
+template <class Trace, class X>
+std::vector<TissueInterval> bands_of(const Trace& trace, X x_of) {
+  std::vector<TissueInterval> bands;
+  for (const TracePoint& p : trace) {
+    if (!p.felt) continue;
+    const double x = x_of(p);
+    if (bands.empty() || bands.back().region != p.region) {
+      TissueInterval band;
+      band.entry = band.exit = x;
+      band.region = static_cast<RegionId>(p.region);
+      bands.push_back(band);
+    }
+    bands.back().entry = std::min(bands.back().entry, x);
+    bands.back().exit = std::max(bands.back().exit, x);
+  }
+  return bands;
 }
 
-template <class X>
-void draw_curve(ImDrawList* list, const Plot& plot, const std::deque<TracePoint>& trace, X x_of,
+template <class Trace, class X>
+void draw_curve(ImDrawList* list, const Plot& plot, const Trace& trace, X x_of,
                 float TracePoint::*value, ImU32 colour) {
   std::vector<ImVec2> points;
   points.reserve(trace.size());
@@ -96,38 +109,30 @@ void draw_curve(ImDrawList* list, const Plot& plot, const std::deque<TracePoint>
                     ImGui::GetFontSize() / 9);
 }
 
-/// Bands of the layers below a curve, with their names.
-template <class X>
-void draw_layers(ImDrawList* list, const Plot& plot, const PanelInput& in,
-                 const std::deque<TracePoint>& trace, X x_of) {
+/// Bands of the layers below a curve; each name once, at the widest of its bands, where there is
+/// room for it.
+void draw_layers(ImDrawList* list, const Plot& plot, const PanelInput& in, Language language,
+                 const std::vector<TissueInterval>& bands) {
   const CompiledJoint& joint = in.session->scene().joint();
-  const auto palette = region_palette(joint);
-  const float row = 1.05F * ImGui::GetFontSize();
-  int band = 0;
-  std::size_t i = 0;
+  const auto colours = region_colours(joint);
+  std::map<std::string, LabelBox> widest;
   list->PushClipRect(plot.from, plot.to, true);
-  while (i < trace.size()) {
-    std::size_t j = i;
-    double low = x_of(trace[i]);
-    double high = low;
-    while (j < trace.size() && trace[j].region == trace[i].region) {
-      low = std::min(low, x_of(trace[j]));
-      high = std::max(high, x_of(trace[j]));
-      ++j;
-    }
-    const std::size_t region = trace[i].region;
-    if (region != kOutside && high > plot.x_low) {
-      const ImVec2 a = plot.at(std::max(low, plot.x_low), plot.y_high);
-      const ImVec2 b = plot.at(std::min(high, plot.x_high), plot.y_low);
-      list->AddRectFilled(a, b, region_colour(palette, region, 60));
-      // Neighbours' names stand in rows under one another, so that narrow bands have theirs, too.
-      if (b.x - a.x > 5) {
-        const float y = a.y + 1 + row * static_cast<float>(band++ % 4);
-        list->AddText(ImVec2(a.x + 3, y), kText, joint.regions[region].name.c_str());
-      }
-    }
-    i = j;
+  for (std::size_t k = 0; k < bands.size(); ++k) {
+    const TissueInterval& band = bands[k];
+    if (band.region == kOutside || band.exit <= plot.x_low || band.region >= colours.size())
+      continue;
+    const ImVec2 a = plot.at(std::max(band.entry, plot.x_low), plot.y_high);
+    const ImVec2 b = plot.at(std::min(band.exit, plot.x_high), plot.y_low);
+    list->AddRectFilled(a, b, to_imgui(colours[band.region], 70));
+    LabelBox& box = widest[layer_name(language, joint, bands, k)];
+    if (b.x - a.x <= std::max(box.width, 3.F)) continue;
+    box = {a.x - plot.from.x, 1, b.x - a.x, ImGui::GetFontSize()};
   }
+  std::vector<NamedPoint> names;
+  for (const auto& [name, box] : widest)
+    if (box.width > 0) names.push_back({name, box.x + box.width / 2, 1 + box.height / 2});
+  std::sort(names.begin(), names.end(), [](const auto& a, const auto& b) { return a.x < b.x; });
+  draw_names(list, plot.from, ImVec2(plot.to.x - plot.from.x, plot.to.y - plot.from.y), names);
   list->PopClipRect();
 }
 
@@ -138,37 +143,38 @@ void draw_force_over_time(const PanelInput& in, const ViewState& state, Plot plo
   const auto x = [](const TracePoint& p) {
     return p.time;
   };
-  draw_layers(list, plot, in, state.trace, x);
+  draw_layers(list, plot, in, state.language, bands_of(state.trace, x));
   draw_frame(list, plot, step_for(plot.y_high - plot.y_low), "%4.1f");
   draw_curve(list, plot, state.trace, x, &TracePoint::lateral, kLateral);
   draw_curve(list, plot, state.trace, x, &TracePoint::force, kForce);
   const float font = ImGui::GetFontSize();
-  list->AddText(ImVec2(plot.from.x, plot.to.y + 2), kText, "against insertion, N, over 10 s");
+  list->AddText(ImVec2(plot.from.x, plot.to.y + 2), kText, tell(state, Text::plot_force_time));
   const ImVec2 legend(plot.from.x + 4, plot.to.y - 1.2F * font);
-  list->AddText(legend, kForce, "along");
-  list->AddText(ImVec2(legend.x + 4 * font, legend.y), kLateral, "sideways");
+  list->AddText(legend, kForce, tell(state, Text::plot_along));
+  list->AddText(ImVec2(legend.x + 4 * font, legend.y), kLateral, tell(state, Text::plot_sideways));
 }
 
 void draw_force_over_depth(const PanelInput& in, const ViewState& state, Plot plot) {
   ImDrawList* list = ImGui::GetWindowDrawList();
+  const std::vector<TracePoint>& trace = state.insertion.points();
   plot.x_low = 0;
   plot.x_high = 35;
-  for (const TracePoint& p : state.trace)
+  for (const TracePoint& p : trace) {
     plot.x_high = std::max(plot.x_high, p.depth / kMillimetre);
+    plot.y_high = std::max<double>(plot.y_high, p.force * 1.1);
+  }
   const auto x = [](const TracePoint& p) {
     return p.depth / kMillimetre;
   };
-  std::deque<TracePoint> inside;
-  for (const TracePoint& p : state.trace) {
-    if (p.region != kOutside) inside.push_back(p);
-  }
-  std::deque<TracePoint> sorted = inside;
+  std::vector<TracePoint> sorted = trace;
   std::stable_sort(sorted.begin(), sorted.end(),
                    [](const TracePoint& a, const TracePoint& b) { return a.depth < b.depth; });
-  draw_layers(list, plot, in, sorted, x);
+  draw_layers(list, plot, in, state.language, bands_of(sorted, x));
   draw_frame(list, plot, step_for(plot.y_high - plot.y_low), "%4.1f");
-  draw_curve(list, plot, inside, x, &TracePoint::force, kForce);
-  label(list, ImVec2(plot.from.x, plot.to.y + 2), "over depth, 0 to %.0f mm", plot.x_high);
+  draw_curve(list, plot, trace, x, &TracePoint::force, kForce);
+  const std::string title =
+      fill(tell(state, Text::plot_force_depth), {number(state.language, plot.x_high, 0)});
+  list->AddText(ImVec2(plot.from.x, plot.to.y + 2), kText, title.c_str());
 }
 
 /// Bars of a histogram over time on a logarithmic axis, 1 us to 1 s.
@@ -219,11 +225,8 @@ Plot plot_in(const ImVec2& at, const ImVec2& size, float left) {
 }  // namespace
 
 void draw_force_panel(const PanelInput& in, ViewState& state) {
-  if (state.expert)
-    place_panel(0.50F, 0.0F, 0.28F, 0.55F);
-  else
-    place_panel(0.0F, 0.60F, 0.50F, 0.40F);
-  ImGui::Begin(state.expert ? "Force##expert" : "Force");
+  const PanelScope scope(Panel::force, Text::panel_force, state);
+  if (!scope) return;
   const ImVec2 room = ImGui::GetContentRegionAvail();
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float left = 2.5F * ImGui::GetFontSize();
@@ -235,34 +238,30 @@ void draw_force_panel(const PanelInput& in, ViewState& state) {
   draw_force_over_time(in, state, time);
   draw_force_over_depth(in, state, depth);
   ImGui::Dummy(room);
-  ImGui::End();
 }
 
 void draw_rates_panel(const PanelInput& in, ViewState& state) {
-  if (state.expert)
-    place_panel(0.50F, 0.55F, 0.28F, 0.45F);
-  else
-    place_panel(0.50F, 0.60F, 0.28F, 0.40F);
-  ImGui::Begin(state.expert ? "Rates##expert" : "Rates");
+  const PanelScope scope(Panel::rates, Text::panel_rates, state);
+  if (!scope) return;
   const SessionTimes& t = in.session->times();
   const auto rate = [](const LatencyHistogram& h) {
     return h.count() > 0 ? 1e6 / std::max(h.percentile_us(0.5), 1.0) : 0.0;
   };
-  ImGui::Text("haptics %.0f Hz, compute p99.9 %.0f us   late p99 %.0f us",
-              in.session->params().haptic_rate, t.haptic_compute.percentile_us(0.999),
-              t.haptic_lateness.percentile_us(0.99));
-  ImGui::Text("images %.0f Hz, pose to image p95 %.0f ms   window %.0f Hz", rate(t.image_interval),
-              1e-3 * t.pose_to_image.percentile_us(0.95), in.window_rate);
+  ImGui::TextWrapped("haptics %.0f Hz, compute p99.9 %.0f us   late p99 %.0f us",
+                     in.session->params().haptic_rate, t.haptic_compute.percentile_us(0.999),
+                     t.haptic_lateness.percentile_us(0.99));
+  ImGui::TextWrapped("images %.0f Hz, pose to image p95 %.0f ms   window %.0f Hz",
+                     rate(t.image_interval), 1e-3 * t.pose_to_image.percentile_us(0.95),
+                     in.window_rate);
   const ImVec2 room = ImGui::GetContentRegionAvail();
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const Plot haptics = plot_in(at, ImVec2(room.x, room.y / 2), 2);
   const Plot images = plot_in(ImVec2(at.x, at.y + room.y / 2), ImVec2(room.x, room.y / 2), 2);
-  draw_times("haptics: compute, lateness; 1 us .. 1 s", t.haptic_compute, t.haptic_lateness,
-             haptics, 1e3, "1000 Hz");
-  draw_times("images: render, interval; 1 us .. 1 s", t.image_render, t.image_interval, images,
-             1e6 / 30, "30 Hz");
+  draw_times(tell(state, Text::plot_haptics), t.haptic_compute, t.haptic_lateness, haptics, 1e3,
+             "1000 Hz");
+  draw_times(tell(state, Text::plot_images), t.image_render, t.image_interval, images, 1e6 / 30,
+             "30 Hz");
   ImGui::Dummy(room);
-  ImGui::End();
 }
 
 }  // namespace artus

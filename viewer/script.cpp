@@ -19,7 +19,11 @@ bool read(std::istringstream& in, T&... values) {
 std::optional<ScriptStep> parse_input(const std::string& word, std::istringstream& in) {
   if (word == "key") {
     KeyEvent key;
-    if (read(in, key.key)) return UserEvent(key);
+    if (!read(in, key.key)) return std::nullopt;
+    const std::string shift = "shift+";
+    key.shift = key.key.rfind(shift, 0) == 0;
+    if (key.shift) key.key.erase(0, shift.size());
+    return UserEvent(key);
   } else if (word == "move") {
     MoveEvent move;
     if (read(in, move.x, move.y)) return UserEvent(move);

@@ -45,7 +45,7 @@ using ScriptStep = std::variant<UserEvent, WaitStep, TissueStep, ScreenshotStep,
                                 CameraStep, MeasureStep>;
 
 /// The steps of a script, one a line; `#` begins a comment:
-///   wait SECONDS | key NAME | move X Y | button N down|up | scroll NOTCHES [fine]
+///   wait SECONDS | key [shift+]NAME | move X Y | button N down|up | scroll NOTCHES [fine]
 ///   pad LEFT_X LEFT_Y RIGHT_X RIGHT_Y PUSH SECONDS | tissue NAME ALPHA | screenshot FILE
 ///   connect | disconnect | camera YAW_DEG PITCH_DEG DISTANCE_MM | measure X Y X Y
 /// Errors: malformed, with file and line.

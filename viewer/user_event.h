@@ -3,17 +3,26 @@
 #include <string>
 #include <variant>
 
+#include "artus/viewer/key_map.h"
+
 namespace artus {
 
 /// One thing that a person did; made by the window system or by a script, so that both go the same
-/// way. Keys are capital letters, digits, or names: ESCAPE, SPACE, HOME, F1.
+/// way. What a key means is the key map's.
 struct KeyEvent {
-  std::string key;
+  std::string key;  ///< the character that it types, as a capital letter, or a name: see KeyMap
+  bool shift = false;
+};
+/// A wish however it was made: by a key, a button of the window or of a gamepad.
+struct ActionEvent {
+  Action action = Action::none;
+  bool fine = false;  ///< a tenth as far
 };
 struct MoveEvent {
   double x = 0;       ///< pixels from the window's left
   double y = 0;       ///< pixels from its top
   bool fine = false;  ///< shift is held: what is in hand moves a tenth as far
+  bool tilt = false;  ///< ctrl is held: the probe in hand tilts
 };
 struct ButtonEvent {
   int button = 0;  ///< 0 left, 1 right, 2 middle
@@ -22,6 +31,7 @@ struct ButtonEvent {
 struct ScrollEvent {
   double notches = 0;
   bool fine = false;  ///< shift is held: a tenth
+  bool tilt = false;  ///< ctrl is held: the probe in hand is pressed or lifted
 };
 /// A gamepad's sticks held for a while; each -1 to 1, right and down positive.
 struct PadEvent {
@@ -32,6 +42,7 @@ struct PadEvent {
   double push = 0;     ///< right trigger less left trigger
   double seconds = 0;  ///< for how long
 };
-using UserEvent = std::variant<KeyEvent, MoveEvent, ButtonEvent, ScrollEvent, PadEvent>;
+using UserEvent =
+    std::variant<KeyEvent, ActionEvent, MoveEvent, ButtonEvent, ScrollEvent, PadEvent>;
 
 }  // namespace artus

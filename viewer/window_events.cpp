@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/viewer/window_events.h"
 
+#include <array>
+#include <string>
 #include <utility>
 
 #include <GLFW/glfw3.h>
@@ -12,44 +14,68 @@ WindowEvents& events_of(GLFWwindow* window) {
   return *static_cast<WindowEvents*>(glfwGetWindowUserPointer(window));
 }
 
-std::string name_of(int key) {
-  if ((key >= GLFW_KEY_A && key <= GLFW_KEY_Z) || (key >= GLFW_KEY_0 && key <= GLFW_KEY_9))
-    return {static_cast<char>(key)};
-  switch (key) {
-    case GLFW_KEY_ESCAPE:
-      return "ESCAPE";
-    case GLFW_KEY_SPACE:
-      return "SPACE";
-    case GLFW_KEY_HOME:
-      return "HOME";
-    case GLFW_KEY_F1:
-      return "F1";
-    default:
-      return {};
-  }
+/// The character that a key types, as a capital letter; empty for keys that type none.
+std::string typed_by(int key, int scancode) {
+  const char* typed = glfwGetKeyName(key, scancode);
+  std::string name = typed != nullptr ? typed : "";
+  if (name.size() == 1 && name[0] >= 'a' && name[0] <= 'z')
+    name[0] = static_cast<char>(name[0] - 'a' + 'A');
+  return name;
 }
 
-void on_key(GLFWwindow* window, int key, int /*scancode*/, int action, int /*mods*/) {
+std::string name_of(int key, int scancode) {
+  constexpr std::array<std::pair<int, const char*>, 14> kNamed{{{GLFW_KEY_ESCAPE, "ESCAPE"},
+                                                                {GLFW_KEY_SPACE, "SPACE"},
+                                                                {GLFW_KEY_HOME, "HOME"},
+                                                                {GLFW_KEY_TAB, "TAB"},
+                                                                {GLFW_KEY_ENTER, "ENTER"},
+                                                                {GLFW_KEY_KP_ENTER, "ENTER"},
+                                                                {GLFW_KEY_BACKSPACE, "BACKSPACE"},
+                                                                {GLFW_KEY_LEFT, "LEFT"},
+                                                                {GLFW_KEY_RIGHT, "RIGHT"},
+                                                                {GLFW_KEY_UP, "UP"},
+                                                                {GLFW_KEY_DOWN, "DOWN"},
+                                                                {GLFW_KEY_PAGE_UP, "PAGE_UP"},
+                                                                {GLFW_KEY_PAGE_DOWN, "PAGE_DOWN"},
+                                                                {GLFW_KEY_UNKNOWN, ""}}};
+  for (const auto& [known, name] : kNamed) {
+    if (known == key) return name;
+  }
+  if (key >= GLFW_KEY_F1 && key <= GLFW_KEY_F12) return "F" + std::to_string(key - GLFW_KEY_F1 + 1);
+  return typed_by(key, scancode);
+}
+
+bool is_shift(int key) {
+  return key == GLFW_KEY_LEFT_SHIFT || key == GLFW_KEY_RIGHT_SHIFT;
+}
+bool is_ctrl(int key) {
+  return key == GLFW_KEY_LEFT_CONTROL || key == GLFW_KEY_RIGHT_CONTROL;
+}
+
+void on_key(GLFWwindow* window, int key, int scancode, int action, int mods) {
   WindowEvents& events = events_of(window);
-  if (key == GLFW_KEY_LEFT_SHIFT || key == GLFW_KEY_RIGHT_SHIFT)
-    events.set_shift(action != GLFW_RELEASE);
+  // X11 tells of a modifier's own key the state before it.
+  const int own = is_shift(key) ? GLFW_MOD_SHIFT : is_ctrl(key) ? GLFW_MOD_CONTROL : 0;
+  events.set_modifiers(action == GLFW_RELEASE ? mods & ~own : mods | own);
   if (action == GLFW_RELEASE) return;
-  std::string name = name_of(key);
-  if (!name.empty()) events.add(KeyEvent{std::move(name)});
+  std::string name = name_of(key, scancode);
+  if (!name.empty()) events.add(KeyEvent{std::move(name), events.shift()});
 }
 
 void on_move(GLFWwindow* window, double x, double y) {
   WindowEvents& events = events_of(window);
-  events.add(MoveEvent{x, y, events.shift()});
+  events.add(MoveEvent{x, y, events.shift(), events.ctrl()});
 }
 
-void on_button(GLFWwindow* window, int button, int action, int /*mods*/) {
-  events_of(window).add(ButtonEvent{button, action == GLFW_PRESS});
+void on_button(GLFWwindow* window, int button, int action, int mods) {
+  WindowEvents& events = events_of(window);
+  events.set_modifiers(mods);
+  events.add(ButtonEvent{events.button(button), action == GLFW_PRESS});
 }
 
 void on_scroll(GLFWwindow* window, double /*x*/, double y) {
   WindowEvents& events = events_of(window);
-  events.add(ScrollEvent{y, events.shift()});
+  events.add(ScrollEvent{y, events.shift(), events.ctrl()});
 }
 
 PadState look_at_pad() {
@@ -79,13 +105,29 @@ WindowEvents::WindowEvents(GLFWwindow* window) : window_(window) {
   glfwSetScrollCallback(window, on_scroll);
 }
 
-std::vector<UserEvent> WindowEvents::take(double elapsed) {
+void WindowEvents::add(UserEvent event) {
+  queue_.add(std::move(event), glfwGetTime());
+}
+
+bool WindowEvents::shift() const noexcept {
+  return (modifiers_ & GLFW_MOD_SHIFT) != 0;
+}
+
+bool WindowEvents::ctrl() const noexcept {
+  return (modifiers_ & GLFW_MOD_CONTROL) != 0;
+}
+
+void WindowEvents::wait(double seconds) {
+  const double end = glfwGetTime() + seconds;
+  for (double left = seconds; left > 1e-4; left = end - glfwGetTime()) glfwWaitEventsTimeout(left);
+}
+
+std::vector<std::vector<TimedEvent>> WindowEvents::take(double elapsed) {
   glfwPollEvents();
-  std::vector<UserEvent> taken = std::exchange(events_, {});
   const PadState pad = look_at_pad();
-  for (UserEvent& event : artus::events_of(pad, pad_, elapsed)) taken.push_back(std::move(event));
+  for (UserEvent& event : artus::events_of(pad, pad_, elapsed)) add(std::move(event));
   pad_ = pad;
-  return taken;
+  return queue_.take_groups();
 }
 
 void WindowEvents::hold_cursor(bool held) {
@@ -97,6 +139,10 @@ void WindowEvents::hold_cursor(bool held) {
 const char* WindowEvents::gamepad_name() {
   return glfwJoystickIsGamepad(GLFW_JOYSTICK_1) == GLFW_TRUE ? glfwGetGamepadName(GLFW_JOYSTICK_1)
                                                              : nullptr;
+}
+
+Keyboard find_keyboard() {
+  return keyboard_of(typed_by(GLFW_KEY_Q, 0), typed_by(GLFW_KEY_Y, 0));
 }
 
 }  // namespace artus

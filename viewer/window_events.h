@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <string>
 #include <utility>
 #include <vector>
 
+#include "artus/viewer/event_queue.h"
 #include "artus/viewer/gamepad.h"
-#include "artus/viewer/user_event.h"
+#include "artus/viewer/key_map.h"
 
 struct GLFWwindow;
 
@@ -19,26 +21,37 @@ class WindowEvents {
   WindowEvents(const WindowEvents&) = delete;
   WindowEvents& operator=(const WindowEvents&) = delete;
 
-  /// What happened since the last call; `elapsed`: s since then, for a gamepad's sticks.
-  [[nodiscard]] std::vector<UserEvent> take(double elapsed);
+  /// Waits for `seconds`, and takes what happens meanwhile as it happens.
+  void wait(double seconds);
+  /// What happened since the last call, in groups for one look each; `elapsed`: s since then, for a
+  /// gamepad's sticks.
+  [[nodiscard]] std::vector<std::vector<TimedEvent>> take(double elapsed);
   /// While something is held the mouse moves without bounds and without a pointer.
   void hold_cursor(bool held);
+  /// The left button is where the right one was.
+  void set_left_handed(bool left_handed) noexcept { left_handed_ = left_handed; }
   /// Name of the first gamepad; null when there is none.
   [[nodiscard]] static const char* gamepad_name();
 
-  template <class Event>
-  void add(Event event) {
-    events_.emplace_back(std::in_place_type<Event>, std::move(event));
+  // For the window system's callbacks.
+  void add(UserEvent event);
+  void set_modifiers(int modifiers) noexcept { modifiers_ = modifiers; }
+  [[nodiscard]] bool shift() const noexcept;
+  [[nodiscard]] bool ctrl() const noexcept;
+  [[nodiscard]] int button(int button) const noexcept {
+    return left_handed_ && button < 2 ? 1 - button : button;
   }
-  void set_shift(bool shift) noexcept { shift_ = shift; }
-  [[nodiscard]] bool shift() const noexcept { return shift_; }
 
  private:
   GLFWwindow* window_;
-  std::vector<UserEvent> events_;
+  EventQueue queue_;
   PadState pad_;
-  bool shift_ = false;
+  int modifiers_ = 0;
   bool held_ = false;
+  bool left_handed_ = false;
 };
+
+/// How the keys lie, as the window system says. Requires: GLFW runs.
+[[nodiscard]] Keyboard find_keyboard();
 
 }  // namespace artus

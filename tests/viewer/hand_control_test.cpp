@@ -5,13 +5,25 @@
 
 #include <gtest/gtest.h>
 
+#include "artus/viewer/body_contact.h"
 #include "artus/viewer/gamepad.h"
 #include "artus/viewer/script.h"
+#include "tests/session/session_support.h"
 
 namespace artus {
 namespace {
 
-constexpr std::nullopt_t kNotInside = std::nullopt;
+const HandGround kNotInside;
+
+HandGround inside_at(const Vec3& entry_W) {
+  HandGround ground;
+  ground.entry_W = entry_W;
+  return ground;
+}
+
+ActionEvent wish(Action action) {
+  return {action, false};
+}
 
 HandTarget start_target() {
   HandTarget target;
@@ -23,7 +35,7 @@ HandTarget start_target() {
 TEST(HandControl, TheWheelPushesTheGrabbedNeedleAlongItsAxis) {
   HandControl control(start_target());
   EXPECT_FALSE(control.handle(ScrollEvent{4, false}, kNotInside));
-  EXPECT_TRUE(control.handle(KeyEvent{"N"}, kNotInside));
+  EXPECT_TRUE(control.handle(wish(Action::take_needle), kNotInside));
   EXPECT_TRUE(control.handle(ScrollEvent{4, false}, kNotInside));
   EXPECT_NEAR(control.target().X_WN.position[2], -8e-3, 1e-12);
   EXPECT_TRUE(control.handle(ScrollEvent{1, true}, kNotInside));
@@ -32,11 +44,11 @@ TEST(HandControl, TheWheelPushesTheGrabbedNeedleAlongItsAxis) {
 
 TEST(HandControl, AnInsertedNeedleTurnsAboutItsEntry) {
   HandControl control(start_target());
-  control.handle(KeyEvent{"N"}, kNotInside);
+  control.handle(wish(Action::take_needle), kNotInside);
   control.handle(ScrollEvent{50, false}, kNotInside);  // tip 15 mm beyond the skin at z = 0
   const Pose before = to_pose(control.target().X_WN);
-  control.handle(MoveEvent{100, 100}, Vec3(0, 0, 0));
-  control.handle(MoveEvent{150, 100}, Vec3(0, 0, 0));
+  control.handle(MoveEvent{100, 100}, inside_at(Vec3::Zero()));
+  control.handle(MoveEvent{150, 100}, inside_at(Vec3::Zero()));
   const Pose after = to_pose(control.target().X_WN);
   EXPECT_NEAR(after.translation().norm(), 15e-3, 1e-9);
   EXPECT_NEAR(after.translation().normalized().dot(after.linear().col(2)), 1, 1e-9)
@@ -47,7 +59,7 @@ TEST(HandControl, AnInsertedNeedleTurnsAboutItsEntry) {
 
 TEST(HandControl, ShiftMovesWhatIsInHandATenthAsFar) {
   HandControl control(start_target());
-  control.handle(KeyEvent{"P"}, kNotInside);
+  control.handle(wish(Action::take_probe), kNotInside);
   control.handle(MoveEvent{0, 0}, kNotInside);
   control.handle(MoveEvent{10, 0, true}, kNotInside);
   EXPECT_NEAR(control.target().X_WP.position[0], 0.0201, 1e-12);
@@ -55,7 +67,7 @@ TEST(HandControl, ShiftMovesWhatIsInHandATenthAsFar) {
 
 TEST(HandControl, TheMouseSlidesTheGrabbedProbeOnTheBody) {
   HandControl control(start_target());
-  control.handle(KeyEvent{"P"}, kNotInside);
+  control.handle(wish(Action::take_probe), kNotInside);
   control.handle(MoveEvent{0, 0}, kNotInside);
   control.handle(MoveEvent{10, -20}, kNotInside);
   EXPECT_NEAR(control.target().X_WP.position[0], 0.021, 1e-12);
@@ -65,18 +77,101 @@ TEST(HandControl, TheMouseSlidesTheGrabbedProbeOnTheBody) {
 
 TEST(HandControl, EscapeLetsGoAndHomeGoesBack) {
   HandControl control(start_target());
-  control.handle(KeyEvent{"N"}, kNotInside);
-  control.handle(KeyEvent{"W"}, kNotInside);
-  control.handle(KeyEvent{"ESCAPE"}, kNotInside);
+  control.handle(wish(Action::take_needle), kNotInside);
+  control.handle(wish(Action::push), kNotInside);
+  control.handle(wish(Action::let_go), kNotInside);
   EXPECT_EQ(control.grab(), Grab::nothing);
   EXPECT_FALSE(control.handle(MoveEvent{5, 5}, kNotInside));
-  control.handle(KeyEvent{"HOME"}, kNotInside);
+  control.handle(wish(Action::home), kNotInside);
   EXPECT_NEAR(control.target().X_WN.position[2], -10e-3, 1e-15);
+}
+
+/// The flat layers of the tests under W's z = 0; bone from 29 mm.
+class OverLayers : public ::testing::Test {
+ protected:
+  OverLayers() { ground_.body = {scene_.get(), Pose::Identity()}; }
+  [[nodiscard]] double tip(const HandControl& control) const {
+    return control.target().X_WN.position[2];
+  }
+  std::shared_ptr<const Scene> scene_ = test::make_layered_scene();
+  HandGround ground_;
+};
+
+TEST_F(OverLayers, TheNeedleGoesNoDeeperThanItsHubHoweverFarItIsPushed) {
+  HandControl control(start_target(), 20e-3);
+  control.handle(wish(Action::take_needle), ground_);
+  control.handle(ScrollEvent{200, false}, ground_);
+  EXPECT_NEAR(tip(control), 20e-3, 1e-9);
+  EXPECT_EQ(control.refusal(), Text::hub_on_skin);
+  control.handle(ScrollEvent{-2, false}, ground_);
+  EXPECT_NEAR(tip(control), 19e-3, 1e-9);
+  EXPECT_FALSE(control.refusal());
+}
+
+TEST_F(OverLayers, OnBoneAHandPressesAFewMillimetresAndNoMore) {
+  HandControl control(start_target(), 50e-3);
+  control.handle(wish(Action::take_needle), ground_);
+  control.handle(ScrollEvent{200, false}, ground_);
+  EXPECT_NEAR(tip(control), 29e-3 + HandControl::kBeyondBone, 1e-6);
+  EXPECT_EQ(control.refusal(), Text::bone_felt);
+}
+
+TEST_F(OverLayers, AWithdrawalIsUndoneAsOne) {
+  HandControl control(start_target(), 50e-3);
+  control.handle(ScrollEvent{1, false}, ground_);
+  control.handle(wish(Action::take_needle), ground_);
+  control.handle(ScrollEvent{40, false}, ground_);
+  ground_.entry_W = Vec3::Zero();
+  const double deep = tip(control);
+  control.handle(ScrollEvent{-6, false}, ground_);
+  control.handle(ScrollEvent{-4, false}, ground_);
+  EXPECT_NEAR(tip(control), deep - 5e-3, 1e-9);
+  control.handle(wish(Action::undo), ground_);
+  EXPECT_NEAR(tip(control), deep, 1e-9);
+  control.handle(wish(Action::undo), ground_);
+  EXPECT_EQ(control.refusal(), Text::nothing_to_undo);
+}
+
+TEST_F(OverLayers, ATiltedProbeSlidesOnTheSkin) {
+  HandControl control(start_target());
+  control.handle(wish(Action::take_probe), ground_);
+  control.handle(MoveEvent{0, 0}, ground_);
+  control.handle(MoveEvent{100, 0, false, true}, ground_);  // rocks by 10 degrees
+  const Vec3 axis = to_pose(control.target().X_WP).linear().col(2);
+  EXPECT_NEAR(std::acos(axis.z()), 10 * 0.017453292519943295, 1e-6);
+  control.handle(MoveEvent{150, 0}, ground_);
+  const Pose after = to_pose(control.target().X_WP);
+  EXPECT_NEAR(after.translation().z(), 0, 1e-6) << "still on the skin";
+  EXPECT_GT(std::abs(after.translation().x() - 20e-3), 4e-3);
+  EXPECT_NEAR(after.linear().col(2).dot(axis), 1, 1e-6) << "as tilted as before";
+}
+
+TEST_F(OverLayers, WhatCannotBeIsRefusedWithItsReason) {
+  HandControl control(start_target());
+  ground_.has_entry_choice = false;
+  control.handle(wish(Action::choose_entry), ground_);
+  EXPECT_EQ(control.refusal(), Text::cannot_choose_air);
+  ground_.has_entry_choice = true;
+  ground_.entry_W = Vec3::Zero();
+  control.handle(wish(Action::choose_entry), ground_);
+  EXPECT_EQ(control.refusal(), Text::cannot_choose_inside);
+  EXPECT_EQ(control.target().buttons, 0U);
+  control.handle(wish(Action::explore), ground_);
+  EXPECT_EQ(control.refusal(), Text::cannot_explore);
+}
+
+TEST(BodyContact, GapAndSlopeAreThoseOfTheSkin) {
+  const auto scene = test::make_layered_scene();
+  const BodyContact body{scene.get(), Pose::Identity()};
+  const Pose X_WP = make_pose(Vec3(0, 0, -3e-3), Vec3::UnitZ(), Vec3::UnitX());
+  EXPECT_NEAR(body.find_gap(X_WP).value_or(1), 3e-3, 1e-9);
+  EXPECT_LT((body.find_normal(X_WP).value_or(Vec3::Zero()) + Vec3::UnitZ()).norm(), 1e-9);
+  EXPECT_FALSE(body.find_gap(make_pose(Vec3(1, 0, 0), Vec3::UnitZ(), Vec3::UnitX())));
 }
 
 TEST(HandControl, AButtonIsAShortPress) {
   HandControl control(start_target());
-  control.handle(KeyEvent{"C"}, kNotInside);
+  control.handle(wish(Action::choose_entry), kNotInside);
   EXPECT_EQ(control.target().buttons, Button::kCalibrate);
   control.release();
   EXPECT_EQ(control.target().buttons, 0U);
@@ -84,7 +179,7 @@ TEST(HandControl, AButtonIsAShortPress) {
 
 TEST(HandControl, TheProbeStaysOnTheBodyWhenTheJointIsMoved) {
   HandControl control(start_target());
-  control.handle(KeyEvent{"N"}, kNotInside);
+  control.handle(wish(Action::take_needle), kNotInside);
   control.handle(ScrollEvent{3, false}, kNotInside);
   const Pose X_WP = to_pose(control.target().X_WP);
   Pose moved = Pose::Identity();
@@ -103,7 +198,7 @@ TEST(HandControl, AGamepadMovesProbeAndNeedleAtOnce) {
   EXPECT_TRUE(control.handle(PadEvent{1, 0, 0, 0, 0.5, 0.1}, kNotInside));
   EXPECT_NEAR(control.target().X_WP.position[0], 0.02 + 0.1 * HandControl::kPadSlide, 1e-12);
   EXPECT_NEAR(control.target().X_WN.position[2], -10e-3 + 0.05 * HandControl::kPadPush, 1e-12);
-  control.handle(PadEvent{0, 0, 1, 0, 0, 0.5}, Vec3(0, 0, -20e-3));
+  control.handle(PadEvent{0, 0, 1, 0, 0, 0.5}, inside_at(Vec3(0, 0, -20e-3)));
   EXPECT_NEAR(std::acos(to_pose(control.target().X_WN).linear()(2, 2)), 0.5 * HandControl::kPadTurn,
               1e-9);
 }
@@ -116,7 +211,7 @@ TEST(Gamepad, RestingSticksDoNothingAndAButtonActsOnce) {
   pressed.buttons[PadState::a] = true;
   const auto events = events_of(pressed, rest, 0.03);
   ASSERT_EQ(events.size(), 1U);
-  EXPECT_EQ(std::get<KeyEvent>(events[0]).key, "C");
+  EXPECT_EQ(std::get<ActionEvent>(events[0]).action, Action::choose_entry);
   EXPECT_TRUE(events_of(pressed, pressed, 0.03).empty());
 }
 
@@ -137,10 +232,11 @@ TEST(Script, EveryStepIsRead) {
   const auto steps = parse_script(
       "# a comment\nkey N\nwait 0.5\nscroll 3\nscroll -1 fine\nmove 10 20\nbutton 0 down\n"
       "tissue skin 0.1\nscreenshot a.png\ndisconnect\nconnect\ncamera 10 20 150\nmeasure 1 2 3 4\n"
-      "pad 0 0 0.5 0 1 0.2\n",
+      "pad 0 0 0.5 0 1 0.2\nkey shift+G\n",
       "test");
   ASSERT_TRUE(steps) << steps.error().to_string();
-  EXPECT_EQ(steps->size(), 13U);
+  ASSERT_EQ(steps->size(), 14U);
+  EXPECT_TRUE(std::get<KeyEvent>(std::get<UserEvent>((*steps)[13])).shift);
   const auto& fine = std::get<ScrollEvent>(std::get<UserEvent>((*steps)[3]));
   EXPECT_TRUE(fine.fine);
   EXPECT_EQ(fine.notches, -1);

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/viewer/anatomy_names.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+namespace artus {
+namespace {
+
+struct Name {
+  std::string_view name;
+  const char* french;
+};
+
+constexpr std::array<Name, 62> kFrench{{{"outside", "hors du corps"},
+                                        {"beyond", "hors du modèle"},
+                                        {"skin", "peau"},
+                                        {"fat", "graisse"},
+                                        {"subcutaneous_fat", "graisse"},
+                                        {"muscle", "muscle"},
+                                        {"tendon", "tendon"},
+                                        {"bone", "os"},
+                                        {"bursa", "bourse"},
+                                        {"nerve", "nerf"},
+                                        {"artery", "artère"},
+                                        {"vein", "veine"},
+                                        {"blood", "sang"},
+                                        {"ligament", "ligament"},
+                                        {"capsule", "capsule"},
+                                        {"cartilage", "cartilage"},
+                                        {"labrum", "bourrelet"},
+                                        {"fascia", "fascia"},
+                                        {"synovial_fluid", "liquide synovial"},
+                                        {"fluid", "liquide"},
+                                        {"joint_fluid", "liquide articulaire"},
+                                        {"humerus", "humérus"},
+                                        {"scapula", "scapula"},
+                                        {"clavicle", "clavicule"},
+                                        {"femur", "fémur"},
+                                        {"tibia", "tibia"},
+                                        {"patella", "patella"},
+                                        {"pelvis", "bassin"},
+                                        {"acetabulum", "acétabulum"},
+                                        {"humeral_cartilage", "cartilage huméral"},
+                                        {"glenoid_cartilage", "cartilage glénoïdien"},
+                                        {"glenoid_labrum", "bourrelet glénoïdien"},
+                                        {"acetabular_labrum", "bourrelet acétabulaire"},
+                                        {"axillary_nerve", "nerf axillaire"},
+                                        {"suprascapular_nerve", "nerf suprascapulaire"},
+                                        {"femoral_nerve", "nerf fémoral"},
+                                        {"femoral_artery", "artère fémorale"},
+                                        {"femoral_vein", "veine fémorale"},
+                                        {"circumflex_artery", "artère circonflexe"},
+                                        {"circumflex_vein", "veine circonflexe"},
+                                        {"axillary_artery", "artère axillaire"},
+                                        {"axillary_vein", "veine axillaire"},
+                                        {"subacromial_bursa", "bourse sous-acromiale"},
+                                        {"biceps_long_tendon", "tendon du long biceps"},
+                                        {"supraspinatus_tendon", "tendon du supra-épineux"},
+                                        {"infraspinatus_tendon", "tendon de l'infra-épineux"},
+                                        {"teres_minor_tendon", "tendon du petit rond"},
+                                        {"subscapularis_tendon", "tendon du subscapulaire"},
+                                        {"quadriceps_tendon", "tendon du quadriceps"},
+                                        {"patellar_tendon", "tendon patellaire"},
+                                        {"biceps_sheath", "gaine du biceps"},
+                                        {"glenohumeral_capsule", "capsule gléno-humérale"},
+                                        {"supraspinatus", "supra-épineux"},
+                                        {"infraspinatus", "infra-épineux"},
+                                        {"teres_minor", "petit rond"},
+                                        {"subscapularis", "subscapulaire"},
+                                        {"deltoid", "deltoïde"},
+                                        {"deltoid_acromial", "deltoïde acromial"},
+                                        {"deltoid_clavicular", "deltoïde claviculaire"},
+                                        {"deltoid_spinal", "deltoïde spinal"},
+                                        {"iliopsoas", "ilio-psoas"},
+                                        {"suprapatellar_recess", "récessus suprapatellaire"}}};
+
+bool is_filling(const CompiledJoint& joint, RegionId region) {
+  return region == kFirstRegion && joint.tissue_of(region).acoustic.kind == TissueKind::fat;
+}
+
+/// The tissue's name of the stretch beside the k-th; empty where there is none.
+std::string_view tissue_beside(const CompiledJoint& joint, std::span<const TissueInterval> line,
+                               std::size_t k, bool before) {
+  if (before ? k == 0 : k + 1 >= line.size()) return {};
+  const RegionId region = line[before ? k - 1 : k + 1].region;
+  return region < kFirstRegion ? std::string_view()
+                               : std::string_view(joint.tissue_of(region).name);
+}
+
+}  // namespace
+
+std::string clinical_name(Language language, const std::string& name) {
+  if (language == Language::french) {
+    for (const Name& known : kFrench) {
+      if (known.name == name) return known.french;
+    }
+  }
+  if (name == "outside") return "outside the body";
+  if (name == "beyond") return "beyond the model";
+  std::string plain = name;
+  std::replace(plain.begin(), plain.end(), '_', ' ');
+  return plain;
+}
+
+std::string layer_name(Language language, const CompiledJoint& joint,
+                       std::span<const TissueInterval> line, std::size_t k) {
+  const RegionId region = line[k].region;
+  if (!is_filling(joint, region)) return clinical_name(language, joint.regions[region].name);
+  const bool french = language == Language::french;
+  const std::string_view before = tissue_beside(joint, line, k, true);
+  const std::string_view after = tissue_beside(joint, line, k, false);
+  if (before == "bursa" || after == "bursa")
+    return french ? "graisse autour de la bourse" : "fat around the bursa";
+  if (before == "skin" || after == "skin" || before.empty())  // on the way in or out
+    return french ? "graisse sous la peau" : "fat under the skin";
+  return french ? "graisse entre les muscles" : "fat between the muscles";
+}
+
+}  // namespace artus

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <array>
+
+#include "artus/viewer/anatomy_names.h"
+#include "artus/viewer/panels.h"
+#include "artus/viewer/shade.h"
+
+namespace artus {
+namespace {
+
+constexpr Shade kGood{0.55F, 0.95F, 0.55F};
+constexpr Shade kWarning{1, 0.72F, 0.35F};
+constexpr Shade kGoal{1, 0.88F, 0.4F};
+
+/// In a narrow window one panel stands beside the picture; here it is chosen.
+void draw_choice_of_panels(ViewState& state) {
+  constexpr std::array<std::pair<Panel, Text>, 6> kChoices{{{Panel::joint, Text::panel_joint},
+                                                            {Panel::scanner, Text::panel_scanner},
+                                                            {Panel::session, Text::panel_session},
+                                                            {Panel::tissues, Text::panel_tissues},
+                                                            {Panel::force, Text::panel_force},
+                                                            {Panel::rates, Text::panel_rates}}};
+  const float right = ImGui::GetWindowContentRegionMax().x;
+  for (const auto& [panel, name] : kChoices) {
+    if (state.expert && (panel == Panel::joint || panel == Panel::tissues)) continue;
+    const float width =
+        ImGui::CalcTextSize(tell(state, name)).x + 2 * ImGui::GetStyle().FramePadding.x;
+    if (ImGui::GetCursorPosX() + width > right && ImGui::GetCursorPosX() > width) ImGui::NewLine();
+    const bool chosen = state.layout.chosen() == panel;
+    if (chosen)
+      ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
+    if (ImGui::SmallButton(tell(state, name))) state.layout.choose(panel);
+    if (chosen) ImGui::PopStyleColor();
+    ImGui::SameLine();
+  }
+  ImGui::NewLine();
+}
+
+void coloured(const std::string& said, const ImVec4& colour) {
+  ImGui::PushStyleColor(ImGuiCol_Text, colour);
+  ImGui::TextUnformatted(said.c_str());
+  ImGui::PopStyleColor();
+}
+
+/// The goal and the next step; in expert mode only what is wrong.
+void draw_task(const PanelInput& in, const ViewState& state) {
+  if (!state.expert) coloured(in.goal, kGoal);
+  const bool well = in.peer == PeerState::alive;
+  if (!state.expert || !well)
+    coloured(in.next, well ? ImGui::GetStyleColorVec4(ImGuiCol_Text) : ImVec4(kWarning));
+}
+
+/// That a clip runs, and the last message.
+void draw_message(const PanelInput& in, const ViewState& state) {
+  ImGui::PushTextWrapPos(0);
+  if (state.wants_clip)
+    ImGui::TextColored(ImVec4(1, 0.3F, 0.3F, 1), "\xe2\x97\x8f %s %s s", tell(state, Text::rec),
+                       number(state.language, in.clip_seconds, 1).c_str());
+  if (!state.message.empty()) coloured(state.message, kGood);
+  ImGui::PopTextWrapPos();
+}
+
+}  // namespace
+
+void draw_guide_panel(const PanelInput& in, ViewState& state) {
+  const PanelScope scope(Panel::guide, Text::panel_guide, state,
+                         ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoCollapse);
+  if (!scope) return;
+  const bool narrow = state.layout.narrow();
+  const float left =
+      (narrow ? 1.F : PanelLayout::kGuideShare) * ImGui::GetWindowContentRegionMax().x;
+  const ImVec2 top = ImGui::GetCursorPos();
+  ImGui::PushTextWrapPos(left);
+  draw_task(in, state);
+  ImGui::PopTextWrapPos();
+  if (!narrow) ImGui::SetCursorPos(ImVec2(left + ImGui::GetFontSize(), top.y));
+  if (!narrow) ImGui::BeginGroup();
+  draw_message(in, state);
+  if (!narrow) ImGui::EndGroup();
+  if (state.layout.narrow()) draw_choice_of_panels(state);
+}
+
+void draw_welcome(const PanelInput& in, ViewState& state) {
+  if (!state.welcome) return;
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos(ImVec2(size.x / 2, 0.62F * size.y), ImGuiCond_Always, ImVec2(0.5F, 0.5F));
+  ImGui::Begin("###welcome", nullptr,
+               ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoTitleBar |
+                   ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
+  ImGui::TextUnformatted(tell(state, Text::choice_title));
+  action_button(state, Text::choice_explore, Action::take_probe);
+  const auto& injections = in.session->scene().joint().injections;
+  for (std::size_t i = 0; in.has_hand && i < injections.size(); ++i) {
+    const std::string name = clinical_name(state.language, injections[i].name);
+    if (ImGui::Button((std::to_string(i + 1) + ": " + name).c_str())) state.planned = i;
+    if (i % 2 == 0 && i + 1 < injections.size() && !state.layout.narrow()) ImGui::SameLine();
+  }
+  action_button(state, Text::choice_help, Action::help);
+  ImGui::End();
+}
+
+void draw_help(const PanelInput& in, ViewState& state) {
+  if (!state.help) return;
+  constexpr std::array<std::pair<Action, Text>, 33> kHelp{
+      {{Action::take_probe, Text::help_take_probe},
+       {Action::choose_entry, Text::help_choose},
+       {Action::explore, Text::help_explore},
+       {Action::take_needle, Text::help_needle},
+       {Action::push, Text::help_push},
+       {Action::pull, Text::help_push},
+       {Action::let_go, Text::help_let_go},
+       {Action::home, Text::help_home},
+       {Action::undo, Text::help_undo},
+       {Action::turn_left, Text::help_turn},
+       {Action::left, Text::help_arrows},
+       {Action::freeze, Text::help_freeze},
+       {Action::cine_back, Text::help_cine},
+       {Action::save, Text::help_save},
+       {Action::clip, Text::help_clip},
+       {Action::true_scale, Text::help_scale},
+       {Action::measure, Text::help_measure},
+       {Action::clear_calipers, Text::help_clear},
+       {Action::depth_more, Text::help_depth},
+       {Action::gain_more, Text::help_gain},
+       {Action::zoom_in, Text::help_zoom},
+       {Action::flip, Text::help_flip},
+       {Action::dual, Text::help_dual},
+       {Action::doppler, Text::help_colour},
+       {Action::next_panel, Text::help_tab},
+       {Action::labels, Text::help_labels},
+       {Action::aids, Text::help_aids},
+       {Action::pause, Text::help_pause},
+       {Action::reset, Text::help_reset},
+       {Action::expert, Text::help_expert},
+       {Action::layout, Text::help_layout},
+       {Action::none, Text::help_tilt},
+       {Action::none, Text::help_shift}}};
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos(ImVec2(size.x / 2, size.y / 2), ImGuiCond_Appearing, ImVec2(0.5F, 0.5F));
+  ImGui::SetNextWindowSizeConstraints(ImVec2(0, 0), ImVec2(0.96F * size.x, 0.92F * size.y));
+  const std::string title = std::string(tell(state, Text::panel_keys)) + "###keys";
+  ImGui::Begin(title.c_str(), &state.help,
+               ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings);
+  for (const auto& [action, what] : kHelp) {
+    const std::string key = action == Action::none ? (what == Text::help_tilt ? "ctrl" : "shift")
+                                                   : state.keys.key_of(action);
+    ImGui::TextUnformatted(key.c_str());
+    ImGui::SameLine(8 * ImGui::GetFontSize());
+    ImGui::TextUnformatted(tell(state, what));
+  }
+  ImGui::TextUnformatted(tell(state, Text::help_joint));
+  ImGui::TextUnformatted(tell(state, Text::help_pad));
+  if (in.gamepad != nullptr) ImGui::Text("gamepad: %s", in.gamepad);
+  ImGui::End();
+}
+
+}  // namespace artus

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+
+namespace artus {
+
+// Surfaces: one colour a side, cut off beyond a plane; pictures: a grey or coloured texture.
+inline constexpr const char* kSolidVertex = R"(#version 330 core
+layout(location = 0) in vec3 position;
+uniform mat4 view; uniform mat4 model; uniform vec4 plane;
+out vec3 place; out float ahead;
+void main() {
+  vec4 p = model * vec4(position, 1.0);
+  place = p.xyz;
+  ahead = dot(plane.xyz, p.xyz) - plane.w;
+  gl_Position = view * p;
+})";
+inline constexpr const char* kSolidFragment = R"(#version 330 core
+in vec3 place; in float ahead;
+uniform vec4 colour; uniform vec4 behind; uniform vec4 eye; uniform int lit; uniform int lit_behind;
+out vec4 result;
+void main() {
+  vec4 own = gl_FrontFacing ? colour : behind;
+  if (ahead > 0.0 || own.a == 0.0) discard;
+  float shade = 0.85;
+  if ((gl_FrontFacing ? lit : lit_behind) == 1) {
+    vec3 n = normalize(cross(dFdx(place), dFdy(place)));
+    shade = 0.3 + 0.7 * abs(dot(n, normalize(eye.xyz - place)));
+  }
+  result = vec4(shade * own.rgb, own.a);
+})";
+inline constexpr const char* kPictureVertex = R"(#version 330 core
+layout(location = 0) in vec3 position;
+uniform mat4 view; uniform mat4 model;
+out vec2 uv;
+void main() { uv = position.xy; gl_Position = view * model * vec4(position, 1.0); })";
+inline constexpr const char* kPictureFragment = R"(#version 330 core
+in vec2 uv; uniform sampler2D image; out vec4 result;
+void main() { result = vec4(texture(image, uv).rgb, 1.0); })";
+
+}  // namespace artus

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <vector>
+
+#include "artus/anatomy/body/compiled_joint.h"
+#include "artus/viewer/surface_detail.h"
+
+namespace artus {
+
+/// All interfaces between two regions, so that what two structures share is drawn once and cannot
+/// lie before itself.
+struct Sheet {
+  RegionId front = kOutside;  ///< where the triangles' normals point
+  RegionId back = kOutside;
+  Vec3 centre = Vec3::Zero();  ///< m, frame J, mean of its points
+  /// Labelled such that a decimation moves the points that sheets share alike, and does not draw
+  /// two sides of a thin structure together.
+  Surface surface;
+};
+
+/// The joint's sheets, frame J. Cost: linear, some 0.2 s for a million interfaces.
+[[nodiscard]] std::vector<Sheet> find_sheets(const CompiledJoint& joint);
+
+}  // namespace artus

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/viewer/surface_detail.h"
+
+#include <cmath>
+#include <unordered_map>
+
+#include "artus/core/noise.h"
+
+namespace artus {
+
+Surface decimated(const Surface& surface, double cell) {
+  if (cell <= 0) return surface;
+  std::unordered_map<std::uint64_t, std::uint32_t> cube_of;  // by a number of cube and label
+  std::vector<std::uint32_t> moved;
+  std::vector<float> counts;
+  Surface out;
+  for (std::size_t i = 0; i < surface.points.size(); ++i) {
+    const Eigen::Vector3f& p = surface.points[i];
+    std::uint64_t key = surface.labels.empty() ? 0 : mix_bits(surface.labels[i]);
+    for (int k = 0; k < 3; ++k)
+      key = mix_bits(key ^ static_cast<std::uint64_t>(static_cast<std::int64_t>(
+                               std::floor(p[k] / static_cast<float>(cell)))));
+    const auto [at, fresh] =
+        cube_of.try_emplace(key, static_cast<std::uint32_t>(out.points.size()));
+    if (fresh) {
+      out.points.emplace_back(Eigen::Vector3f::Zero());
+      counts.push_back(0);
+    }
+    out.points[at->second] += p;
+    counts[at->second] += 1;
+    moved.push_back(at->second);
+  }
+  for (std::size_t i = 0; i < out.points.size(); ++i) out.points[i] /= counts[i];
+  for (std::size_t i = 0; i + 2 < surface.indices.size(); i += 3) {
+    const std::uint32_t a = moved[surface.indices[i]];
+    const std::uint32_t b = moved[surface.indices[i + 1]];
+    const std::uint32_t c = moved[surface.indices[i + 2]];
+    if (a != b && b != c && c != a) out.indices.insert(out.indices.end(), {a, b, c});
+  }
+  return out;
+}
+
+void DetailChooser::note(double seconds) noexcept {
+  took_[level_] = seconds;
+  slow_ = seconds > wished_ ? slow_ + 1 : 0;
+  fast_ = seconds < wished_ / 3 ? fast_ + 1 : 0;
+  constexpr int kSlowEnough = 2;
+  constexpr int kFastEnough = 30;
+  if (slow_ >= kSlowEnough && level_ + 1 < kLevels) {
+    ++level_;
+    slow_ = 0;
+  } else if (fast_ >= kFastEnough && level_ > 0 && took_[level_ - 1] < 3 * wished_) {
+    --level_;
+    fast_ = 0;
+  }
+}
+
+}  // namespace artus

@@ -1,0 +1,408 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/viewer/window_loop.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <backends/imgui_impl_opengl3.h>
+#include <epoxy/gl.h>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include <GLFW/glfw3.h>
+
+#include "artus/core/text_file.h"
+#include "artus/viewer/anatomy_names.h"
+#include "artus/viewer/caption.h"
+#include "artus/viewer/gui_context.h"
+#include "artus/viewer/panels.h"
+
+namespace artus {
+namespace {
+
+constexpr double kLifted = 1e-3;  // m between face and skin that count as lifted
+
+// Pixels a millimetre, as the system says; 96 an inch when it does not.
+double screen_density() {
+  int width_mm = 0;
+  int height_mm = 0;
+  GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+  if (monitor != nullptr) glfwGetMonitorPhysicalSize(monitor, &width_mm, &height_mm);
+  const GLFWvidmode* mode = monitor != nullptr ? glfwGetVideoMode(monitor) : nullptr;
+  return mode != nullptr && width_mm > 50 ? static_cast<double>(mode->width) / width_mm : 96 / 25.4;
+}
+
+}  // namespace
+
+WindowLoop::WindowLoop(GLFWwindow* window, std::unique_ptr<JointView> joint, Session& session,
+                       HandDevice* hand, const HandTarget& start, const WindowOptions& options)
+    : window_(window),
+      events_(window),
+      session_(session),
+      hand_(hand),
+      options_(options),
+      control_(start, needle_length_of(session.params())),
+      joint_(std::move(joint)),
+      saver_(options.pictures) {
+  state_.language = options.language;
+  state_.expert = options.expert;
+  state_.welcome = options.welcome;
+  state_.left_handed = options.left_handed;
+  state_.patient = options.patient;
+  state_.controls = sent_controls_ = controls_of(session.params());
+  state_.pixels_per_mm = options.pixels_per_mm > 0 ? options.pixels_per_mm : screen_density();
+  input_.session = &session;
+  input_.has_hand = hand != nullptr;
+}
+
+Result<void> WindowLoop::prepare() {
+  state_.keys = KeyMap(find_keyboard());
+  if (!options_.keys.empty()) {
+    const auto text = read_bytes(options_.keys);
+    ARTUS_TRY(text);
+    auto keys = KeyMap::parse(*text, options_.keys, find_keyboard());
+    ARTUS_TRY(keys);
+    state_.keys = std::move(*keys);
+  }
+  if (!options_.layout.empty()) state_.layout.read(options_.layout);
+  mark_ = make_body_mark(session_.scene().joint());
+  mark_texture_.set_grey(mark_.size, mark_.size, mark_.grey);
+  input_.mark = &mark_;
+  input_.mark_texture = mark_texture_.id();
+  if (options_.task < options_.tasks.size()) start_task(options_.task);
+  state_.message.clear();
+  return {};
+}
+
+Result<void> WindowLoop::run(WindowReport& report) {
+  const double period = 1 / options_.rate;
+  double due = glfwGetTime();
+  double before = due;
+  while (glfwWindowShouldClose(window_) == GLFW_FALSE && !state_.quit) {
+    if (options_.asked_to_close && options_.asked_to_close()) break;
+    const double now = glfwGetTime();
+    const double elapsed = std::max(1e-4, now - before);
+    before = now;
+    interval_ += 0.1 * (elapsed - interval_);
+    input_.window_rate = 1 / interval_;
+    feel();
+    take_image();
+    fit_window();
+    events_.set_left_handed(state_.left_handed);
+    for (const std::vector<TimedEvent>& group : events_.take(elapsed)) {
+      if (!options_.quit_after_script) handle_group(group);  // a script is alone at the window
+    }
+    run_script(elapsed);
+    if (hand_ != nullptr) hand_->set_target(control_.target());
+    events_.hold_cursor(control_.grab() != Grab::nothing);
+    draw(elapsed);
+    wish_final_picture();
+    ARTUS_TRY(save_window());
+    wanted_pictures_.clear();
+    glfwSwapBuffers(window_);
+    note_shown(elapsed, report);
+    save_pictures(elapsed);
+    if (options_.watch) options_.watch(status());
+    // Without graphics hardware a picture costs much; a third of the time is left to the others.
+    const double drawn = glfwGetTime();
+    due = std::max(due + period, drawn + 0.5 * std::min(drawn - now, period));
+    events_.wait(due - drawn);
+  }
+  if (input_.image != nullptr) report.calipers = state_.calipers[input_.image->input.number];
+  report.image_place = state_.image_place;
+  report.expert = state_.expert;
+  report.joint_level = joint_->level();
+  if (!options_.layout.empty()) ARTUS_TRY(state_.layout.write(options_.layout));
+  return {};
+}
+
+// When the joint was moved to the device, what the hand holds moves with it.
+void WindowLoop::follow_gesture(const HapticSnapshot& now) {
+  const Pose before = to_pose(input_.now.X_WJ);
+  const Pose after = to_pose(now.X_WJ);
+  if (now.phase != input_.now.phase) {
+    joint_->clear_trail();
+    state_.insertion.clear();
+    state_.message =
+        now.phase == GesturePhase::inserting
+            ? fill(tell(state_, Text::entry_chosen), {state_.keys.key_of(Action::take_needle)})
+            : tell(state_, Text::back_to_exploring);
+  }
+  if (input_.now.input.tick != 0 && !before.isApprox(after, 1e-12))
+    control_.follow_joint(before, after);
+  input_.entry.reset();
+  if (now.phase == GesturePhase::exploring && now.input.device.has_probe != 0 && now.inserted == 0)
+    input_.entry = choose_entry(session_.scene(), to_pose(now.X_JP), session_.params().gesture);
+}
+
+// Before the events of a picture: a hand that acts after the gesture changed acts where it was
+// moved to, however late the picture is. A button stays down until a tick has read it. The last
+// state of a device that is gone stays.
+void WindowLoop::feel() {
+  HapticSnapshot now;
+  if (session_.newest(now)) {
+    input_.peer = now.input.device.state;
+    input_.status = now.status;
+    const bool alive = input_.peer == PeerState::alive;
+    if (alive) {
+      follow_gesture(now);
+      input_.now = now;
+      alive_at_ = glfwGetTime();
+    }
+    if (now.input.device.buttons == control_.target().buttons) control_.release();
+  }
+  input_.lost_for = glfwGetTime() - alive_at_;
+  TracePoint point;
+  while (session_.next_trace_point(point)) {
+    state_.trace.push_back(point);
+    if (input_.peer == PeerState::alive) state_.insertion.add(point);
+  }
+  while (!state_.trace.empty() &&
+         state_.trace.back().time - state_.trace.front().time > state_.trace_seconds)
+    state_.trace.pop_front();
+  read_state();
+}
+
+void WindowLoop::read_state() {
+  if (input_.now.input.tick == 0) return;
+  input_.needle = read_needle(session_.scene(), input_.now, needle_length_of(session_.params()),
+                              target_J_, state_.language);
+  const Pose X_JP = to_pose(input_.now.X_JP);
+  const auto gap = BodyContact{&session_.scene(), Pose::Identity()}.find_gap(X_JP);
+  const bool lifted = input_.now.input.device.has_probe != 0 && (!gap || *gap > kLifted);
+  if (lifted != input_.probe_lifted && control_.grab() == Grab::probe)
+    state_.message = tell(state_, lifted ? Text::probe_lifts : Text::probe_rests);
+  input_.probe_lifted = lifted;
+}
+
+void WindowLoop::guide() {
+  GuideInput in;
+  in.language = state_.language;
+  in.keys = &state_.keys;
+  in.has_hand = hand_ != nullptr;
+  in.welcome = state_.welcome;
+  in.paused = session_.paused();
+  in.peer = input_.peer;
+  in.connect = options_.connect;
+  in.phase = input_.now.phase;
+  in.grab = control_.grab();
+  in.probe_lifted = input_.probe_lifted;
+  in.target = target_name_;
+  in.target_region = target_region_;
+  in.needle = input_.needle;
+  in.needle_length = needle_length_of(session_.params());
+  input_.next = guide_.next(in);
+  input_.goal = guide_.goal(in);
+}
+
+// The newest image, or while the scanner is frozen the one that the loop was left at.
+void WindowLoop::take_image() {
+  if (!session_.frozen()) {
+    input_.image = session_.newest_image();
+    fresh_image_ = input_.image != nullptr && input_.image->width > 0 &&
+                   input_.image->input.number != shown_image_;
+    if (fresh_image_) cine_.add(*input_.image, glfwGetTime());
+    input_.cine_age = 0;
+  } else if (cine_.size() > 0) {
+    const std::size_t at = std::min(state_.cine.value_or(cine_.size() - 1), cine_.size() - 1);
+    input_.image = &cine_.at(at);
+    input_.cine_age = cine_.age(at);
+    fresh_image_ = false;
+  }
+  input_.cine_size = cine_.size();
+  upload_image();
+  input_.grab = control_.grab();
+  input_.gamepad = WindowEvents::gamepad_name();
+  if (options_.turn_knobs) options_.turn_knobs(state_.controls);
+}
+
+void WindowLoop::show(const ImageSnapshot& image, GlTexture& texture) const {
+  if (state_.look.colour)
+    texture.set_colour(image.width, image.height, displayed_colour(image, state_.look));
+  else
+    texture.set_grey(image.width, image.height, displayed_grey(image, state_.look));
+}
+
+void WindowLoop::upload_image() {
+  if (input_.image == nullptr || input_.image->width == 0) return;
+  const ImageSnapshot& image = *input_.image;
+  const bool same_look = state_.look == shown_look_;
+  session_.set_motion_wanted(state_.look.colour);
+  if (image.input.number != shown_image_ || !same_look || image_texture_.width() == 0) {
+    show(image, image_texture_);
+    shown_image_ = image.input.number;
+    shown_look_ = state_.look;
+  }
+  input_.image_texture = image_texture_.id();
+  if (state_.dual && input_.kept == nullptr) {
+    kept_ = image;
+    show(image, kept_texture_);
+    input_.kept = &kept_;
+    input_.kept_texture = kept_texture_.id();
+  }
+  if (!state_.dual) input_.kept = nullptr;
+  if (state_.labels && !state_.expert)
+    input_.labels =
+        find_picture_labels(session_.scene(), to_pose(image.input.X_JP), image.width * image.pixel,
+                            image.height * image.pixel, state_.language);
+}
+
+void WindowLoop::draw_joint() {
+  const double begin = glfwGetTime();
+  input_.joint_texture = joint_->draw(area_.width, area_.height,
+                                      {input_.now, needle_pose(input_.now, input_.needle),
+                                       input_.image, image_texture_, input_.entry});
+  joint_took_ = joint_->drew() ? glfwGetTime() - begin : 0;
+}
+
+// One look of the panels at what was done; nothing is shown yet.
+void WindowLoop::pass(double elapsed) {
+  ImGuiIO& io = ImGui::GetIO();
+  io.DeltaTime = static_cast<float>(std::clamp(elapsed, 1e-4, 1.0));
+  last_pass_ = glfwGetTime();
+  input_.grab = control_.grab();
+  ImGui::NewFrame();
+  draw_guide_panel(input_, state_);
+  draw_joint_panel(input_, state_, *joint_, area_);
+  draw_image_panel(input_, state_);
+  draw_scanner_panel(input_, state_);
+  draw_session_panel(input_, state_);
+  draw_tissue_panel(input_, state_, *joint_);
+  draw_force_panel(input_, state_);
+  draw_rates_panel(input_, state_);
+  draw_welcome(input_, state_);
+  draw_help(input_, state_);
+  ImGui::EndFrame();
+  for (float& held : io.NavInputs) held = 0;
+  io.MouseWheel = 0;
+  do_wishes();
+}
+
+// Letters and panels follow the window's size and the screen's resolution.
+void WindowLoop::fit_window() {
+  int width = 0;
+  int height = 0;
+  glfwGetFramebufferSize(window_, &width, &height);
+  const float scale = find_gui_scale(window_, options_.font_scale);
+  if (std::abs(scale - input_.scale) > 0.01F || !ImGui::GetIO().Fonts->IsBuilt()) {
+    set_gui_scale(scale);
+    input_.scale = scale;
+  }
+  ImGui::GetIO().DisplaySize = ImVec2(static_cast<float>(width), static_cast<float>(height));
+  state_.layout.set_shape({width, height, scale, state_.expert});
+  ImGui_ImplOpenGL3_NewFrame();
+}
+
+void WindowLoop::draw(double elapsed) {
+  input_.clip_seconds = saver_.clip_seconds();
+  guide();
+  const bool shown = !state_.expert && state_.layout.place(Panel::joint).width > 0;
+  if (shown) draw_joint();
+  pass(elapsed);
+  ImGui::Render();
+  if (!(state_.controls == sent_controls_)) {
+    session_.set_controls(state_.controls);
+    sent_controls_ = state_.controls;
+  }
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  glViewport(0, 0, static_cast<int>(size.x), static_cast<int>(size.y));
+  glClearColor(0.05F, 0.05F, 0.06F, 1);
+  glClear(GL_COLOR_BUFFER_BIT);
+  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+}
+
+void WindowLoop::note_shown(double elapsed, WindowReport& report) {
+  report.pictures = ++pictures_;
+  report.interval.add(static_cast<std::int64_t>(1e9 * elapsed));
+  if (joint_took_ > 0) report.joint.add(static_cast<std::int64_t>(1e9 * joint_took_));
+  if (fresh_image_ && input_.peer == PeerState::alive)
+    report.pose_to_screen.add(monotonic_ns() - input_.image->input.sample_time_ns);
+}
+
+Caption WindowLoop::caption() const {
+  Caption caption;
+  caption.language = state_.language;
+  caption.patient = state_.patient;
+  const std::string& side = session_.scene().joint().side;
+  if (side == "left" || side == "right")
+    caption.side = tell(state_, side == "left" ? Text::side_left : Text::side_right);
+  caption.date = date_of_now();
+  const auto calipers = state_.calipers.find(input_.image->input.number);
+  if (calipers != state_.calipers.end()) caption.calipers = calipers->second;
+  caption.look = state_.look;
+  caption.mark = &mark_;
+  caption.doppler_limit = session_.params().image.doppler_limit;
+  return caption;
+}
+
+void WindowLoop::save_pictures(double elapsed) {
+  if (input_.image == nullptr || input_.image->width == 0) return;
+  const ImageSnapshot& image = *input_.image;
+  if (std::exchange(state_.wants_screenshot, false))
+    state_.message = saver_.save(image, caption(), options_.plain);
+  if (saver_.in_clip()) saver_.add_to_clip(image, state_.look, elapsed);
+  if (std::string said = saver_.take_written(state_.language); !said.empty())
+    state_.message = std::move(said);
+  if (state_.wants_clip == saver_.in_clip()) return;
+  if (state_.wants_clip)
+    state_.message = saver_.begin_clip(image, state_.language);
+  else
+    saver_.end_clip();
+  state_.wants_clip = saver_.in_clip();  // it may have been refused
+}
+
+// Without a script: one picture of the window as soon as everything is in it.
+void WindowLoop::wish_final_picture() {
+  if (!options_.script.empty() || options_.screenshot.empty() || !wants_final_) return;
+  constexpr std::uint64_t kSettled = 5;  // pictures, until all panels have their sizes
+  const bool image = input_.image != nullptr && input_.image->width > 0;
+  const bool joint = state_.expert || input_.joint_texture != 0;
+  if (!image || !joint || pictures_ < kSettled) return;
+  wants_final_ = false;
+  wanted_pictures_.push_back(options_.screenshot);
+  state_.quit = true;
+}
+
+// What was just drawn, before it is shown and the buffer's content is lost.
+Result<void> WindowLoop::save_window() const {
+  if (wanted_pictures_.empty()) return {};
+  int width = 0;
+  int height = 0;
+  glfwGetFramebufferSize(window_, &width, &height);
+  cv::Mat picture(height, width, CV_8UC3);
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadBuffer(GL_BACK);
+  glReadPixels(0, 0, width, height, GL_BGR, GL_UNSIGNED_BYTE, picture.data);
+  cv::flip(picture, picture, 0);
+  for (const std::filesystem::path& file : wanted_pictures_) {
+    if (!cv::haveImageWriter(file.string()) || !cv::imwrite(file.string(), picture))
+      return fail(ErrorCode::unreadable, "cannot write the picture", file);
+  }
+  return {};
+}
+
+WindowStatus WindowLoop::status() const {
+  WindowStatus now;
+  now.pictures = pictures_;
+  now.goal = input_.goal;
+  now.next = input_.next;
+  now.message = state_.message;
+  now.needle = input_.needle;
+  now.grab = control_.grab();
+  now.phase = input_.now.phase;
+  now.image_place = state_.image_place;
+  now.has_image = input_.image != nullptr && input_.image->width > 0;
+  for (const auto& [image, points] : state_.calipers) now.caliper_points += points.size();
+  now.frozen = session_.frozen();
+  now.recording = state_.wants_clip;
+  now.clip_seconds = saver_.clip_seconds();
+  now.look = state_.look;
+  now.reached = guide_.reached();
+  now.camera = joint_->camera();
+  now.controls = state_.controls;
+  now.picture_panel = state_.layout.place(Panel::picture);
+  return now;
+}
+
+}  // namespace artus

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "artus/viewer/body_mark.h"
+#include "artus/viewer/cine_loop.h"
+#include "artus/viewer/guide.h"
+#include "artus/viewer/hand_control.h"
+#include "artus/viewer/joint_view.h"
+#include "artus/viewer/picture_saver.h"
+#include "artus/viewer/view_state.h"
+#include "artus/viewer/window.h"
+#include "artus/viewer/window_events.h"
+
+namespace artus {
+
+/// The window's life between opening and closing: events, then what they change, then a picture,
+/// again and again. Needs a current OpenGL context and Dear ImGui's.
+class WindowLoop {
+ public:
+  WindowLoop(GLFWwindow* window, std::unique_ptr<JointView> joint, Session& session,
+             HandDevice* hand, const HandTarget& start, const WindowOptions& options);
+  /// Errors: unreadable (keys), malformed, invalid.
+  [[nodiscard]] Result<void> prepare();
+  Result<void> run(WindowReport& report);
+
+ private:
+  // window_input.cpp: what people do
+  void handle_group(const std::vector<TimedEvent>& group);
+  void handle(const UserEvent& event);
+  void act(const ActionEvent& wish);
+  bool act_on_window(Action action);
+  bool act_on_picture(Action action);
+  void act_on_arrow(Action action, bool fine);
+  void set_frozen(bool frozen);
+  void step_cine(int step);
+  void start_task(std::size_t task);
+  void do_wishes();
+  void run_script(double elapsed);
+  bool run_step(const ScriptStep& step, double elapsed);
+  [[nodiscard]] HandGround ground() const;
+
+  // window_loop.cpp: what is shown
+  void feel();
+  void take_image();
+  void upload_image();
+  void show(const ImageSnapshot& image, GlTexture& texture) const;
+  void follow_gesture(const HapticSnapshot& now);
+  void read_state();
+  void guide();
+  void fit_window();
+  void draw_joint();
+  void pass(double elapsed);
+  void draw(double elapsed);
+  void note_shown(double elapsed, WindowReport& report);
+  void save_pictures(double elapsed);
+  void wish_final_picture();
+  [[nodiscard]] Result<void> save_window() const;
+  [[nodiscard]] Caption caption() const;
+  [[nodiscard]] WindowStatus status() const;
+
+  GLFWwindow* window_;
+  WindowEvents events_;
+  Session& session_;
+  HandDevice* hand_;
+  const WindowOptions& options_;
+  HandControl control_;
+  std::unique_ptr<JointView> joint_;
+  PictureSaver saver_;
+  CineLoop cine_;
+  Guide guide_;
+  ViewState state_;
+  PanelInput input_;
+  JointArea area_;
+  GlTexture image_texture_;
+  GlTexture kept_texture_;
+  BodyMark mark_;
+  GlTexture mark_texture_;
+  ImageSnapshot kept_;
+  std::optional<Vec3> target_J_;  // of the task
+  std::string target_name_;
+  RegionId target_region_ = kOutside;
+  std::uint64_t shown_image_ = 0;
+  DisplayLook shown_look_;
+  bool fresh_image_ = false;
+  ImageControls sent_controls_;
+  std::size_t next_step_ = 0;
+  double waited_ = 0;
+  double interval_ = 0.1;    // s between pictures, smoothed
+  double last_pass_ = 0;     // s, of the window system's clock
+  double alive_at_ = 0;      // s, the last state of a living device
+  double joint_took_ = 0;    // s
+  bool navigating_ = false;  // arrows go from knob to knob
+  bool wants_final_ = true;
+  std::uint64_t pictures_ = 0;
+  std::vector<std::filesystem::path> wanted_pictures_;
+};
+
+}  // namespace artus
