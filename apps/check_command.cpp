@@ -18,7 +18,6 @@
 namespace artus {
 namespace {
 
-constexpr double kCubicCentimetre = 1e-6;  // m^3
 // A screen has 24 lines.
 constexpr std::size_t kMostToLookAt = 14;
 constexpr std::size_t kMostCrossings = 4;

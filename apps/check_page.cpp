@@ -7,22 +7,15 @@
 #include "artus/apps/joint_report.h"
 #include "artus/apps/mesh_picture.h"
 #include "artus/apps/report_colours.h"
+#include "artus/core/text_cursor.h"
 #include "artus/core/text_file.h"
+#include "artus/core/units.h"
 
 namespace artus {
 namespace {
 
-const cv::Size kLarge(520, 460);
-const cv::Size kSmall(300, 240);
 const cv::Vec3b kSurface(205, 195, 180);
 const cv::Vec3b kDefect(40, 40, 220);
-constexpr double kCubicCentimetre = 1e-6;  // m^3
-
-std::string number(double value, int decimals) {
-  std::array<char, 40> text{};
-  static_cast<void>(std::snprintf(text.data(), text.size(), "%.*f", decimals, value));
-  return text.data();
-}
 
 std::string line_of(const Finding& finding) {
   return finding.what +
@@ -68,7 +61,7 @@ const PreparedSurface* prepared_of(const JointFile& file, const JointCheck& chec
   return nullptr;
 }
 
-void add_overview(HtmlPage& page, const JointFile& file, const JointCheck& check) {
+void add_repaired_overview(HtmlPage& page, const JointFile& file, const JointCheck& check) {
   page.heading("All structures after repair, without the skin");
   std::vector<ColouredMesh> meshes;
   for (std::size_t i = 0; i < file.structures.size(); ++i)
@@ -76,7 +69,7 @@ void add_overview(HtmlPage& page, const JointFile& file, const JointCheck& check
       meshes.push_back(coloured(check.prepared.structures[i]->mesh,
                                 tissue_colour(file.structures[i].tissue, i)));
   for (const PictureView& view : picture_views(file.axes, file.side))
-    page.picture(draw_meshes(meshes, view, kLarge), view.name);
+    page.picture(draw_meshes(meshes, view, kLargePicture), view.name);
 }
 
 void add_surface(HtmlPage& page, const JointFile& file, const JointCheck& check, const Structure& s,
@@ -93,18 +86,18 @@ void add_surface(HtmlPage& page, const JointFile& file, const JointCheck& check,
     for (const Defect& d : defects)
       if (d.kind != DefectKind::several_components && d.position.allFinite())
         marks.push_back(d.position);
-    page.picture(draw_meshes(std::vector{with_defects(*mesh, defects)}, view, kSmall, marks),
+    page.picture(draw_meshes(std::vector{with_defects(*mesh, defects)}, view, kSmallPicture, marks),
                  defects.empty() ? "as it was read: no defect"
                                  : "as it was read; defects red, a ring at the first of each kind");
   }
   const PreparedSurface* prepared = prepared_of(file, check, s.name);
   if (prepared != nullptr && !checked.repairs.empty() && !prepared->mesh.triangles.empty())
-    page.picture(draw_meshes(std::vector{coloured(prepared->mesh, kSurface)}, view, kSmall),
-                 "after repair, " + number(checked.volume / kCubicCentimetre, 2) + " cm3");
+    page.picture(draw_meshes(std::vector{coloured(prepared->mesh, kSurface)}, view, kSmallPicture),
+                 "after repair, " + fixed_number(checked.volume / kCubicCentimetre, 2) + " cm3");
   page.close_card();
 }
 
-void add_table(HtmlPage& page, const JointFile& file, const JointCheck& check) {
+void add_surface_table(HtmlPage& page, const JointFile& file, const JointCheck& check) {
   page.heading("Surfaces");
   std::vector<std::vector<std::string>> rows;
   for (const CheckedSurface& s : check.surfaces) {
@@ -112,7 +105,7 @@ void add_table(HtmlPage& page, const JointFile& file, const JointCheck& check) {
     rows.push_back({s.name,
                     s.refused.empty() ? (s.repairs.empty() ? "sound" : "mended") : "refused",
                     prepared != nullptr ? std::to_string(prepared->mesh.triangles.size()) : "-",
-                    s.refused.empty() ? number(s.volume / kCubicCentimetre, 3) : "-",
+                    s.refused.empty() ? fixed_number(s.volume / kCubicCentimetre, 3) : "-",
                     std::to_string(s.repairs.size())});
   }
   page.table({{"surface", "of the structure; 'body' is the skin"},
@@ -154,8 +147,8 @@ Result<void> write_check_page(const JointFile& file, const JointCheck& check,
   page.paragraph(check.usable()
                      ? "Compile it: artus compile " + file.folder.string()
                      : "Mend what is refused in joint.toml or in the surfaces and check again.");
-  add_overview(page, file, check);
-  add_table(page, file, check);
+  add_repaired_overview(page, file, check);
+  add_surface_table(page, file, check);
   page.heading("Each surface");
   for (const CheckedSurface& checked : check.surfaces) {
     if (checked.name == file.body.name) add_surface(page, file, check, file.body, checked);

@@ -4,9 +4,8 @@
 #include <iostream>
 #include <memory>
 
-#include <sys/resource.h>
-
 #include "artus/anatomy/compile/compile.h"
+#include "artus/anatomy/compile/isolated.h"
 #include "artus/apps/command.h"
 #include "artus/apps/joint_report.h"
 #include "artus/core/text_file.h"
@@ -14,8 +13,6 @@
 
 namespace artus {
 namespace {
-
-constexpr double kCubicCentimetre = 1e-6;  // m^3
 
 struct CompileCommandOptions {
   std::filesystem::path joint;
@@ -78,9 +75,7 @@ ExitCode run_compile(const CompileCommandOptions& options) {
   const auto out = options.out.empty() ? std::filesystem::path(file->name + ".artus") : options.out;
   if (const auto written = write_compiled_joint(outcome->joint, out); !written)
     return report_error(written.error(), options.json);
-  rusage usage{};
-  if (getrusage(RUSAGE_SELF, &usage) == 0)  // writing takes memory, too
-    outcome->report.peak_memory = 1024.0 * static_cast<double>(usage.ru_maxrss);
+  outcome->report.peak_memory = peak_memory();  // writing takes memory, too
   const std::string report = to_json(outcome->report);
   if (!options.report.empty()) {
     const auto written = is_page(options.report)

@@ -12,6 +12,7 @@
 #include "artus/apps/joint_report.h"
 #include "artus/apps/mesh_picture.h"
 #include "artus/apps/report_colours.h"
+#include "artus/core/text_cursor.h"
 #include "artus/core/text_file.h"
 #include "artus/core/units.h"
 #include "artus/raycast/scene.h"
@@ -19,17 +20,8 @@
 namespace artus {
 namespace {
 
-const cv::Size kLarge(520, 460);
-const cv::Size kSmall(300, 240);
-constexpr double kCubicCentimetre = 1e-6;     // m^3
 constexpr double kWorst = 0.5 * kMillimetre;  // a distance that is red
 constexpr int kSlicePixels = 340;             // of each slice's sides
-
-std::string number(double value, int decimals) {
-  std::array<char, 40> text{};
-  static_cast<void>(std::snprintf(text.data(), text.size(), "%.*f", decimals, value));
-  return text.data();
-}
 
 cv::Vec3b colour_of(const CompiledJoint& joint, RegionId region) {
   if (region == kOutside) return {255, 255, 255};
@@ -65,7 +57,7 @@ void add_overview(HtmlPage& page, const JointFile& file, const CompiledJoint& jo
     if (joint.tissue_of(r).name != "skin")
       meshes.push_back(coloured(surface_of(joint, r), colour_of(joint, r)));
   for (const PictureView& view : picture_views(file.axes, file.side))
-    page.picture(draw_meshes(meshes, view, kLarge), view.name);
+    page.picture(draw_meshes(meshes, view, kLargePicture), view.name);
 }
 
 /// The plane through a point, and how its pixels lie.
@@ -162,12 +154,12 @@ void add_structures(HtmlPage& page, const JointFile& file, const CompileOutcome&
       if (const auto mesh = read_surface(file.surface_folder / surface->file, surface->unit))
         page.picture(draw_meshes(std::vector{by_distance(outcome.joint, region,
                                                          DistanceTree(coloured(*mesh, {}).mesh))},
-                                 view, kSmall),
+                                 view, kSmallPicture),
                      "distance to " + surface->file.string());
     } else if (report.tetrahedra > 0) {
       page.picture(draw_meshes(std::vector{coloured(surface_of(outcome.joint, region),
                                                     colour_of(outcome.joint, region))},
-                               view, kSmall),
+                               view, kSmallPicture),
                    "made by artus");
     }
     page.close_card();
@@ -182,11 +174,12 @@ void add_table(HtmlPage& page, const CompileReport& report) {
       rows.push_back({s.name, "refused", "-", "-", "-", "-", "-", "-", "-"});
       continue;
     }
-    rows.push_back({s.name, s.kind, number(s.region_volume / kCubicCentimetre, 3),
-                    number(s.lost_volume / kCubicCentimetre, 3),
-                    number(s.resolved_volume / kCubicCentimetre, 3),
-                    number(100 * s.volume_error(), 2), number(s.distance.mean / kMillimetre, 3),
-                    number(s.distance.percentile95 / kMillimetre, 3), std::to_string(s.parts)});
+    rows.push_back(
+        {s.name, s.kind, fixed_number(s.region_volume / kCubicCentimetre, 3),
+         fixed_number(s.lost_volume / kCubicCentimetre, 3),
+         fixed_number(s.resolved_volume / kCubicCentimetre, 3),
+         fixed_number(100 * s.volume_error(), 2), fixed_number(s.distance.mean / kMillimetre, 3),
+         fixed_number(s.distance.percentile95 / kMillimetre, 3), std::to_string(s.parts)});
   }
   page.table({{"structure", "the first line is what no structure claims"},
               {"kind", "surface: of a file; shell, cap, gap, end: made by artus; filler"},
@@ -200,7 +193,7 @@ void add_table(HtmlPage& page, const CompileReport& report) {
              rows);
   page.paragraph(std::to_string(report.tetrahedra) + " tetrahedra, " +
                  std::to_string(report.quality.inverted) + " inverted, " +
-                 number(report.quality.above_8_deg_percent(), 3) +
+                 fixed_number(report.quality.above_8_deg_percent(), 3) +
                  " % without a dihedral angle below 8 degrees.");
 }
 

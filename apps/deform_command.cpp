@@ -6,23 +6,21 @@
 
 #include "artus/apps/arguments.h"
 #include "artus/apps/command.h"
+#include "artus/apps/press_options.h"
 #include "artus/core/units.h"
 #include "artus/echo/image_io.h"
 #include "artus/echo/labels.h"
-#include "artus/raycast/scene.h"
+#include "artus/raycast/moving_scene.h"
 #include "artus/soft/cage_vtu.h"
 #include "artus/soft/press.h"
 
 namespace artus {
 namespace {
 
-constexpr double kDefaultPress = 3;  // N
-
 struct DeformOptions {
   JointOptions joint;
   std::string probe;
-  std::optional<double> press_n;  ///< empty, as press_mm: 3 N
-  std::optional<double> press_mm;
+  PressOptions press;  ///< neither: 3 N
   double cell_mm = SoftBodyParams{}.fine_cell / kMillimetre;
   double poisson_ratio = SoftBodyParams{}.poisson_ratio;
   std::filesystem::path out;
@@ -77,20 +75,32 @@ nlohmann::json volume_of(const DeformedBody& body) {
 
 nlohmann::json to_json(const Press& press, const SoftBody& body) {
   const SoftModel& model = body.solver().model();
-  const auto newtons = [](const Vec3& f) {
-    return nlohmann::json{f.x(), f.y(), f.z()};
+  const Vec3 reaction = body.cage_pose().linear() * body.solver().reaction();
+  nlohmann::json report = to_json(press);
+  report["reaction_n"] = {reaction.x(), reaction.y(), reaction.z()};
+  report["least_volume_ratio"] = body.solver().forces().least_volume;
+  report["stored_mj"] = body.solver().forces().energy * 1e3;
+  report["cells"] = model.cage().cells().size();
+  report["unknowns"] = 3 * model.n_unknowns();
+  return report;
+}
+
+/// The regions in the probe's plane before the face touched and as they then lie, side by side.
+Result<void> write_slices(const std::shared_ptr<const DeformedBody>& tissue,
+                          const Pose& X_JP_before, const Pose& X_JP,
+                          const std::filesystem::path& file) {
+  const auto draw = [&](const Scene& scene, const Pose& pose) {
+    return colour_labels(render_labels(scene, pose, Transducer{}, ImageSettings{}),
+                         tissue->joint());
   };
-  return {{"depth_mm", press.depth / kMillimetre},
-          {"normal_force_n", press.normal_force},
-          {"force_n", newtons(press.contact.force)},
-          {"torque_n_mm", newtons(press.contact.torque / kMillimetre)},
-          {"contact_share", press.contact.share},
-          {"settled", press.settled},
-          {"reaction_n", newtons(body.cage_pose().linear() * body.solver().reaction())},
-          {"least_volume_ratio", body.solver().forces().least_volume},
-          {"stored_mj", body.solver().forces().energy * 1e3},
-          {"cells", model.cage().cells().size()},
-          {"unknowns", 3 * model.n_unknowns()}};
+  const cv::Mat before = draw(Scene(tissue->shared_joint()), X_JP_before);
+  const cv::Mat after = draw(*make_scene(tissue), X_JP);
+  cv::Mat both;
+  cv::hconcat(
+      std::vector<cv::Mat>{before, cv::Mat(before.rows, 8, before.type(), cv::Scalar::all(0)),
+                           after},
+      both);
+  return write_image(both, file);
 }
 
 void print(const nlohmann::json& report) {
@@ -105,9 +115,6 @@ void print(const nlohmann::json& report) {
 }
 
 ExitCode run_deform(const DeformOptions& options) {
-  if (options.press_n && options.press_mm)
-    return report_error({ErrorCode::malformed, "give a force or a depth, not both", "--press-mm"},
-                        options.json);
   const auto joint = load(options.joint, make_progress_printer(options.json));
   if (!joint) return report_error(joint.error(), options.json);
   Pose X_JP = (*joint)->X_JP_default;
@@ -121,12 +128,10 @@ ExitCode run_deform(const DeformOptions& options) {
   params.poisson_ratio = options.poisson_ratio;
   auto body = SoftBody::make(*joint, X_JP, params);
   if (!body) return report_error(body.error(), options.json);
-  const auto press = options.press_mm
-                         ? Result<Press>(press_by(*body, X_JP, *options.press_mm * kMillimetre))
-                         : press_with(*body, X_JP, options.press_n.value_or(kDefaultPress));
-  if (!press) return report_error(press.error(), options.json);
-  const auto snapshot = body->snapshot();
-  auto report = to_json(*press, *body);
+  const auto pressed = press(*body, X_JP, options.press);
+  if (!pressed) return report_error(pressed.error(), options.json);
+  const std::shared_ptr<const DeformedBody>& snapshot = pressed->tissue;
+  auto report = to_json(pressed->press, *body);
   report["joint"] = (*joint)->name;
   report["layers"] = layers_below(*joint, *snapshot, X_JP);
   report["volume"] = volume_of(*snapshot);
@@ -136,10 +141,8 @@ ExitCode run_deform(const DeformOptions& options) {
     report["vtu"] = options.out.string();
   }
   if (!options.slice.empty()) {
-    const Scene scene(std::make_shared<const CompiledJoint>(snapshot->moved_joint()));
-    const LabelImage labels =
-        render_labels(scene, press->X_JP, Transducer{}, ImageSettings{}, std::nullopt);
-    if (const auto written = write_image(colour_labels(labels, **joint), options.slice); !written)
+    if (const auto written = write_slices(snapshot, X_JP, pressed->press.X_JP, options.slice);
+        !written)
       return report_error(written.error(), options.json);
     report["slice"] = options.slice.string();
   }
@@ -165,16 +168,13 @@ void add_deform_command(Command& app, ExitCode& code) {
   command->add_option(
       "--probe", options->probe,
       "x,y,z/dx,dy,dz/lx,ly,lz in mm: footprint, direction, lateral (default: the joint's)");
-  command->add_option("--press-n", options->press_n, "N on the hand (default 3)")
-      ->check(number_in(0.01, 30));
-  command->add_option("--press-mm", options->press_mm, "mm along the probe's axis instead")
-      ->check(number_in(0, 20));
+  add_press_options(command, options->press);
   command->add_option("--cell-mm", options->cell_mm, "edge of the cubes under the face (default 3)")
       ->check(number_in(0.75, 6));
   command->add_option("--poisson", options->poisson_ratio, "numerical Poisson ratio (default 0.47)")
       ->check(number_in(0.3, 0.495));
   command->add_option("--slice", options->slice,
-                      "the regions in the probe's plane as they then lie (.png)");
+                      "the regions in the probe's plane before and after, side by side (.png)");
   command->add_option("-o,--out", options->out, "the cage as VTK unstructured grid (.vtu)");
   command->add_flag("--json", options->json, "machine-readable output");
   on_run(command, code, [options] { return run_deform(*options); });

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "artus/apps/command.h"
+#include "artus/core/known_names.h"
 #include "artus/evidence/echo/echo_gates.h"
 #include "artus/evidence/echo/echo_patch.h"
 
@@ -75,15 +76,6 @@ ExitCode run_gates(const EchoGatesOptions& options) {
   return report.at("pass").get<bool>() ? ExitCode::ok : ExitCode::failed;
 }
 
-std::string list_of_names() {
-  std::string names;
-  for (const auto name : echo_gates()) {
-    names += names.empty() ? "" : ", ";
-    names += name;
-  }
-  return names;
-}
-
 }  // namespace
 
 void add_echo_gates_command(Command& app, ExitCode& code) {
@@ -91,7 +83,7 @@ void add_echo_gates_command(Command& app, ExitCode& code) {
   Command* command = add_command(
       app, "echo-gates",
       "Measure the image's physics on test objects, with a verdict on each value",
-      "Gates: " + list_of_names() +
+      "Gates: " + listed(echo_gates()) +
           "\nExit code 1 when a value is out of its bound.\n"
           "Examples:\n"
           "  artus echo-gates --out out/gates\n"

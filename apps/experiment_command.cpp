@@ -7,6 +7,7 @@
 #include "artus/apps/experiment_catalogue.h"
 #include "artus/apps/feel_options.h"
 #include "artus/apps/view_options.h"
+#include "artus/core/known_names.h"
 #include "artus/core/text_file.h"
 #include "artus/evidence/needle/experiment.h"
 
@@ -86,20 +87,13 @@ ExitCode run_experiments(const ExperimentCommandOptions& options) {
   return all_hold(all) ? ExitCode::ok : ExitCode::failed;
 }
 
-std::string list_of_names() {
-  std::string names;
-  for (const auto name : all_experiments())
-    names += (names.empty() ? "" : ", ") + std::string(name);
-  return names;
-}
-
 }  // namespace
 
 void add_experiment_command(Command& app, ExitCode& code) {
   auto options = std::make_shared<ExperimentCommandOptions>();
   Command* command = add_command(
       app, "experiment", "Replay a published experiment: trace, plot and a verdict on each claim",
-      "Experiments: " + list_of_names() +
+      "Experiments: " + listed(all_experiments()) +
           "\nEach claim is an input (put in), fitted (chosen with the answer in view) or "
           "independent;\n"
           "the last line counts them apart. Exit code 1 when a claim does not hold, also when\n"

@@ -3,13 +3,16 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <utility>
+
+#include <opencv2/imgproc.hpp>
 
 #include "artus/apps/pose_files.h"
-#include "artus/apps/view_options.h"
+#include "artus/apps/recording_page.h"
 #include "artus/core/units.h"
+#include "artus/echo/image_io.h"
 #include "artus/echo/renderer.h"
-#include "artus/exchange/reference_frame.h"
-#include "artus/exchange/sequence_file.h"
+#include "artus/exchange/sequence_maker.h"
 #include "artus/session/replay.h"
 #ifdef ARTUS_HAS_DICOM
 #include "artus/exchange/dicom_file.h"
@@ -18,45 +21,27 @@
 namespace artus {
 namespace {
 
-struct ExportOptions {
-  JointOptions joint;
-  ViewOptions view;
-  std::filesystem::path poses;
+struct ExportOptions : PoseListOptions {
   std::filesystem::path recording;
+  std::filesystem::path sweep;
   std::filesystem::path mha;
   std::filesystem::path dicom;
+  std::filesystem::path report;
   double rate = 0;
-  bool json = false;
 };
 
-/// Collects frames of one size.
-class SequenceMaker {
- public:
-  Result<void> add(const Frame& frame, const Transducer& transducer, double time,
-                   const std::pair<Pose, std::optional<Pose>>& poses) {
-    if (sequence_.frames.empty()) {
-      sequence_.width = frame.width;
-      sequence_.height = frame.height;
-    }
-    if (frame.width != sequence_.width || frame.height != sequence_.height)
-      return fail(ErrorCode::invalid,
-                  "the depth was changed in the middle: a sequence has images of one size");
-    SequenceFrame out;
-    out.time = time;
-    out.probe_to_reference = reference_.to_reference(poses.first);
-    out.image_to_reference =
-        chained(out.probe_to_reference, image_to_probe(transducer, frame.pixel, frame.height));
-    if (poses.second) out.needle_to_reference = reference_.to_reference(*poses.second);
-    out.grey.assign(frame.image.begin(), frame.image.end());
-    sequence_.frames.push_back(std::move(out));
-    return {};
-  }
-  [[nodiscard]] const ImageSequence& sequence() const noexcept { return sequence_; }
-
- private:
-  ReferenceFrame reference_;
-  ImageSequence sequence_;
+/// The images to be written, and the page about a recording.
+struct Export {
+  ImageSequence sequence;
+  std::string joint;
+  std::string side;
+  cv::Mat page;
 };
+
+PlacedPicture placed(const Frame& frame, double time, const Pose& X_JP,
+                     const std::optional<Pose>& X_JN) {
+  return {time, X_JP, X_JN, frame.pixel, frame.width, frame.height, frame.image};
+}
 
 Result<ImageSequence> sequence_of_poses(const ExportOptions& options, const LoadedView& loaded) {
   constexpr double kApart = 0.04;  // s between poses that have no time
@@ -70,84 +55,127 @@ Result<ImageSequence> sequence_of_poses(const ExportOptions& options, const Load
     std::optional<NeedleView> needle;
     if (pose.X_JN) needle = NeedleView{*pose.X_JN, loaded.view.needle_shape};
     const double time = pose.time.value_or(kApart * static_cast<double>(i));
-    ARTUS_TRY(maker.add(renderer.render(pose.X_JP, needle), loaded.view.transducer, time,
-                        {pose.X_JP, pose.X_JN}));
+    ARTUS_TRY(maker.add(placed(renderer.render(pose.X_JP, needle), time, pose.X_JP, pose.X_JN),
+                        loaded.view.transducer));
   }
   return maker.sequence();
 }
 
+/// The image's time since the first; by its number where the device had no clock.
+double time_of(const FrameInput& input, std::int64_t start, double rate) {
+  return start > 0 ? 1e-9 * static_cast<double>(input.sample_time_ns - start)
+                   : static_cast<double>(input.number - 1) / rate;
+}
+
 Result<ImageSequence> sequence_of_recording(const ExportOptions& options,
-                                            const std::shared_ptr<const Scene>& scene) {
-  const auto recording = read_recording(options.recording);
+                                            const std::shared_ptr<const Scene>& scene,
+                                            cv::Mat& page) {
+  const auto recording = read_any_recording(options.recording, scene);
   ARTUS_TRY(recording);
   if (recording->frames.empty())
     return fail(ErrorCode::invalid, "the recording has no images", options.recording.string());
+  const SessionParams& params = recording->head.params;
+  RecordingPage about(scene->joint().name, ARTUS_VERSION, params.haptic_rate);
   SequenceMaker maker;
   Result<void> all;
   const std::int64_t start = recording->frames.front().input.sample_time_ns;
   ReplayListener listener;
+  listener.on_tick = [&](const HapticSnapshot& tick) {
+    about.take(tick);
+  };
   listener.on_frame = [&](const FrameRecord& record, const Frame& frame) {
     const FrameInput& input = record.input;
     std::optional<Pose> needle;
     if (input.has_needle != 0) needle = to_pose(input.X_JN);
-    const double rate = recording->head.params.image_rate;
-    const double time = input.sample_time_ns > start
-                            ? 1e-9 * static_cast<double>(input.sample_time_ns - start)
-                            : static_cast<double>(input.number) / rate;
+    about.take(input, frame, params.transducer);
     if (all)
-      all =
-          maker.add(frame, recording->head.params.transducer, time, {to_pose(input.X_JP), needle});
+      all = maker.add(
+          placed(frame, time_of(input, start, params.image_rate), to_pose(input.X_JP), needle),
+          params.transducer);
   };
   const auto replayed = replay(*recording, scene, listener, options.view.threads);
   ARTUS_TRY(replayed);
   ARTUS_TRY(all);
+  page = about.draw();
   return maker.sequence();
 }
 
-Result<void> write_files(const ExportOptions& options, const ImageSequence& sequence,
-                         const CompiledJoint& joint) {
-  if (!options.mha.empty()) ARTUS_TRY(write_mha(options.mha, sequence));
-  if (options.dicom.empty()) return {};
+Result<ImageSequence> sequence_of(const ExportOptions& options, const LoadedView& loaded,
+                                  cv::Mat& page) {
+  if (!options.sweep.empty()) return sequence_of_sweep(options.sweep);
+  if (!options.poses.empty()) return sequence_of_poses(options, loaded);
+  return sequence_of_recording(options, loaded.scene, page);
+}
+
 #ifdef ARTUS_HAS_DICOM
+Result<void> write_dicom_files(const ExportOptions& options, const Export& out) {
+  const ImageSequence& sequence = out.sequence;
   DicomSeries series;
-  series.joint = joint.name;
-  series.side = joint.side;
+  series.joint = out.joint;
+  series.side = out.side;
   series.engine = ARTUS_VERSION;
   series.pixel = sequence.frames.front().image_to_reference.col(0).norm() * kMillimetre;
   const std::size_t n = sequence.frames.size();
   const double time = sequence.frames.back().time - sequence.frames.front().time;
   if (n > 1 && time > 0) series.frame_time = time / static_cast<double>(n - 1);
-  return write_dicom(options.dicom, sequence, series);
+  if (!options.dicom.empty()) ARTUS_TRY(write_dicom(options.dicom, sequence, series));
+  if (options.report.empty()) return {};
+  cv::Mat colours;
+  cv::cvtColor(out.page, colours, cv::COLOR_BGR2RGB);
+  return write_dicom_report(options.report,
+                            {colours.cols, colours.rows, {colours.datastart, colours.dataend}},
+                            sequence, series);
+}
 #else
-  static_cast<void>(joint);
-  return fail(ErrorCode::unsupported, "this artus was built without DCMTK", "--dicom");
+Result<void> write_dicom_files(const ExportOptions& /*options*/, const Export& /*out*/) {
+  return fail(ErrorCode::unsupported, "this artus was built without DCMTK", "--dicom, --report");
+}
 #endif
+
+Result<void> write_files(const ExportOptions& options, const Export& out) {
+  if (!options.mha.empty()) ARTUS_TRY(write_mha(options.mha, out.sequence));
+  const bool picture = options.report.extension() == ".png";
+  if (picture) ARTUS_TRY(write_image(out.page, options.report));
+  if (options.dicom.empty() && (options.report.empty() || picture)) return {};
+  return write_dicom_files(options, out);
+}
+
+/// What of the flags cannot go together.
+std::optional<Error> find_mistake(const ExportOptions& options) {
+  const int sources = static_cast<int>(!options.poses.empty()) +
+                      static_cast<int>(!options.recording.empty()) +
+                      static_cast<int>(!options.sweep.empty());
+  if (sources != 1)
+    return Error{ErrorCode::invalid, "give a recording, a list of poses or a sweep", "--recording"};
+  if (options.mha.empty() && options.dicom.empty() && options.report.empty())
+    return Error{ErrorCode::invalid, "say which file to write, --mha, --dicom or --report",
+                 "--mha"};
+  if (!options.report.empty() && options.recording.empty())
+    return Error{ErrorCode::invalid, "a report is about a recording", "--report"};
+  return std::nullopt;
 }
 
 ExitCode run_export(const ExportOptions& options) {
-  if (options.poses.empty() == options.recording.empty())
-    return report_error(
-        {ErrorCode::invalid, "give either a recording or a list of poses", "--recording"},
-        options.json);
-  if (options.mha.empty() && options.dicom.empty())
-    return report_error({ErrorCode::invalid, "say which file to write, --mha or --dicom", "--mha"},
-                        options.json);
+  if (const auto mistake = find_mistake(options)) return report_error(*mistake, options.json);
   const auto loaded = load_view(options.joint, options.view, options.json);
   if (!loaded) return report_error(loaded.error(), options.json);
-  const auto sequence = options.poses.empty() ? sequence_of_recording(options, loaded->scene)
-                                              : sequence_of_poses(options, *loaded);
-  if (!sequence) return report_error(sequence.error(), options.json);
-  const auto written = write_files(options, *sequence, loaded->joint());
+  Export out{{}, loaded->joint().name, loaded->joint().side, {}};
+  auto collected = sequence_of(options, *loaded, out.page);
+  if (!collected) return report_error(collected.error(), options.json);
+  out.sequence = std::move(*collected);
+  const auto written = write_files(options, out);
   if (!written) return report_error(written.error(), options.json);
+  const ImageSequence& sequence = out.sequence;
   if (options.json)
-    std::cout << nlohmann::json{{"frames", sequence->frames.size()},
-                                {"width", sequence->width},
-                                {"height", sequence->height}}
+    std::cout << nlohmann::json{{"frames", sequence.frames.size()},
+                                {"width", sequence.width},
+                                {"height", sequence.height}}
                      .dump(2)
               << '\n';
   else
-    std::printf("%zu frames of %d x %d pixels: %s %s\n", sequence->frames.size(), sequence->width,
-                sequence->height, options.mha.c_str(), options.dicom.c_str());
+    std::printf("%zu frames of %d x %d pixels: %s %s %s\n", sequence.frames.size(), sequence.width,
+                sequence.height, options.mha.c_str(), options.dicom.c_str(),
+                options.report.c_str());
   return ExitCode::ok;
 }
 
@@ -155,24 +183,27 @@ ExitCode run_export(const ExportOptions& options) {
 
 void add_export_command(Command& app, ExitCode& code) {
   auto options = std::make_shared<ExportOptions>();
-  Command* command =
-      add_command(app, "export", "Images with their places as other programs read them",
-                  "A sequence (.igs.mha) has ImageToReference, ProbeToReference and "
-                  "NeedleToReference for each\n"
-                  "frame, RAS in millimetres; 3D Slicer and PLUS read it.\n"
-                  "Examples:\n"
-                  "  artus export -j shoulder.artus --recording session.rec --mha session.igs.mha\n"
-                  "  artus export -j shoulder.artus --poses path.csv --rate 25 --mha path.igs.mha\n"
-                  "  artus export -j shoulder.artus --poses path.csv --rate 25 --dicom path.dcm");
-  add_joint_options(command, options->joint);
-  command->add_option("--recording", options->recording, "of serve or view");
-  command->add_option("--poses", options->poses, "list of poses (.jsonl, .csv, .mha)");
+  Command* command = add_command(
+      app, "export", "Images with their places as other programs read them",
+      "A sequence (.igs.mha) has ImageToReference, ProbeToReference and "
+      "NeedleToReference for each\n"
+      "frame, RAS in millimetres; 3D Slicer and PLUS read it.\n"
+      "Examples:\n"
+      "  artus export -j shoulder.artus --recording session.rec --mha session.igs.mha\n"
+      "  artus export -j shoulder.artus --recording session.rec --dicom us.dcm --report "
+      "report.dcm\n"
+      "  artus export -j shoulder.artus --poses path.csv --rate 25 --mha path.igs.mha\n"
+      "  artus export -j shoulder.artus --sweep out/sweep --mha sweep.igs.mha");
+  add_pose_list_options(command, *options);
+  command->add_option("--recording", options->recording,
+                      "of serve or view, or poses that lead a session (.jsonl, .csv, .mha)");
+  command->add_option("--sweep", options->sweep, "folder of a sweep or of its shards");
   command->add_option("--rate", options->rate, "images a second of a path with times; 0: as listed")
       ->check(number_in(0, 1000));
-  add_imaging_options(command, options->view);
   command->add_option("--mha", options->mha, "sequence for 3D Slicer and PLUS");
   command->add_option("--dicom", options->dicom, "Ultrasound Multi-frame Image for a PACS");
-  command->add_flag("--json", options->json, "machine-readable output");
+  command->add_option("--report", options->report,
+                      "a page about the recording: DICOM Secondary Capture, or .png");
   on_run(command, code, [options] { return run_export(*options); });
 }
 

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <utility>
 
+#include "artus/core/known_names.h"
 #include "artus/core/units.h"
 
 namespace artus {
@@ -46,17 +47,16 @@ Result<void> read_patient(const std::vector<std::string>& flags, PatientProfile&
     if (read.ec != std::errc{} || read.ptr != end || !(value >= 0 && value <= 10))
       return fail(ErrorCode::invalid, "\"" + text + "\" must be NAME=FACTOR, factor 0 to 10",
                   "--patient");
-    std::string known;
+    std::vector<std::string> factors;
     bool found = false;
     visit_fields(patient, [&, &wanted = name](const std::string& factor, double& member) {
-      known.append(known.empty() ? "" : ", ").append(factor);
+      factors.push_back(factor);
       if (factor != wanted) return;
       member = value;
       found = true;
     });
-    if (!found)
-      return fail(ErrorCode::not_found, "no factor \"" + name + "\"; there are " + known,
-                  "--patient");
+    const std::vector<std::string_view> known(factors.begin(), factors.end());
+    if (!found) ARTUS_TRY(find_name(known, name, "factor", "--patient"));
   }
   return {};
 }

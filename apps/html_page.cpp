@@ -19,8 +19,8 @@ font-size:.8em;color:#555}img{border:1px solid #ddd;max-width:100%}.card{border:
 border-radius:6px;padding:.3em 1em .6em;margin:.4em;
 display:inline-block;vertical-align:top;max-width:68em}.card h3{margin:.4em 0}p.point{margin:.25em 0}
 .tag{display:inline-block;min-width:4.5em;padding:0 .5em;margin-right:.6em;border-radius:3px;
-text-align:center;color:#fff;font-size:.85em}.refused{background:#b3261e}.look{background:#b26a00}
-.mended{background:#3a7d44}.note{background:#777})";
+text-align:center;color:#fff;font-size:.85em}.refused,.failed{background:#b3261e}.look{background:#b26a00}
+.mended,.passed,.do{background:#3a7d44}.note{background:#777}.drawing{width:100%;max-width:640px;margin:.4em 0})";
 
 std::string base64(const std::vector<std::uint8_t>& bytes) {
   constexpr const char* kDigits =
@@ -79,6 +79,11 @@ void HtmlPage::picture(const cv::Mat& image, const std::string& caption) {
            base64(bytes) + "\"><figcaption>" + text + "</figcaption></figure>\n";
 }
 
+void HtmlPage::drawing(const std::string& svg, const std::string& caption) {
+  body_ += "<figure class=\"drawing\">" + svg + "<figcaption>" + escape_html(caption) +
+           "</figcaption></figure>\n";
+}
+
 void HtmlPage::open_card(const std::string& text) {
   body_ += "<div class=\"card\"><h3>" + escape_html(text) + "</h3>\n";
 }
@@ -105,9 +110,10 @@ void HtmlPage::table(const std::vector<Column>& columns,
 }
 
 std::string HtmlPage::text() const {
-  return "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n<title>" + title_ +
-         "</title>\n<style>" + kStyle + "</style></head>\n<body>\n<h1>" + title_ + "</h1>\n" +
-         body_ + "</body></html>\n";
+  return "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n<meta "
+         "name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n<title>" +
+         title_ + "</title>\n<style>" + kStyle + "</style></head>\n<body>\n<h1>" + title_ +
+         "</h1>\n" + body_ + "</body></html>\n";
 }
 
 }  // namespace artus

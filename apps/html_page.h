@@ -21,6 +21,8 @@ class HtmlPage {
   /// One line a point; `kind` colours it ("refused", "look", "mended", "note").
   void point(const std::string& kind, const std::string& text);
   void picture(const cv::Mat& image, const std::string& caption);
+  /// A vector drawing, as it is: whoever made it escaped its text.
+  void drawing(const std::string& svg, const std::string& caption);
   /// A card that pictures and points stand in, with a heading.
   void open_card(const std::string& text);
   void close_card();

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "artus/apps/press_options.h"
 #include "artus/apps/sight.h"
 #include "artus/apps/view_options.h"
 #include "artus/core/units.h"
@@ -19,6 +20,7 @@ namespace {
 struct ImageOptions {
   JointOptions joint;
   ViewOptions view;
+  PressOptions press;
   std::filesystem::path out;
   std::filesystem::path envelope;
   bool plain = false;
@@ -38,6 +40,8 @@ cv::Mat picture_of(const Frame& frame, const View& view, const ImageOptions& opt
 ExitCode run_image(const ImageOptions& options) {
   auto loaded = load_view(options.joint, options.view, options.json);
   if (!loaded) return report_error(loaded.error(), options.json);
+  const auto pressed = press(*loaded, options.press);
+  if (!pressed) return report_error(pressed.error(), options.json);
   View& view = loaded->view;
   if (options.doppler_mm_s) {
     view.settings.doppler = true;
@@ -71,6 +75,7 @@ ExitCode run_image(const ImageOptions& options) {
       report["needle"] =
           to_json(locate_needle(*loaded->needle, loaded->X_JP, view.transducer, view.settings),
                   frame.tip_shown);
+    if (!pressed->is_null()) report["press"] = *pressed;
     if (!options.envelope.empty()) report["envelope"] = options.envelope.string();
     std::cout << report.dump(2) << '\n';
   } else {
@@ -91,9 +96,13 @@ void add_image_command(Command& app, ExitCode& code) {
       "  artus image -j meshes/shoulder --needle default -o needle.png --envelope envelope.tiff\n"
       "  artus image -j meshes/shoulder --probe=-39.6,-44.2,-5/0.66,0.75,0/0.75,-0.66,0 -o "
       "groove.png\n"
+      "  artus image -j meshes/shoulder --press-n 3 -o pressed.png\n"
+      "  artus image -j meshes/shoulder --press-n 2 --needle default --needle-way in -o tent.png\n"
       "  artus image -j meshes/shoulder --transducer curved-2-5 --depth 80 -o curved.png");
   add_joint_options(command, options->joint);
   add_view_options(command, options->view);
+  add_press_options(command, options->press);
+  add_drag_option(command, options->press);
   command->add_option("-o,--out", options->out, "image file (.png, .jpg, .tiff)")->required();
   command->add_option("--envelope", options->envelope,
                       "also write the envelope before compression (.tiff, 32-bit float)");

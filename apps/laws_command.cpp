@@ -5,6 +5,7 @@
 #include <string>
 
 #include "artus/apps/command.h"
+#include "artus/core/known_names.h"
 #include "artus/haptics/needle/law_catalogue.h"
 #include "artus/haptics/needle/layer_haptics.h"
 
@@ -86,12 +87,9 @@ nlohmann::json to_json(const Tissue& tissue) {
 ExitCode run_laws(const LawsOptions& options) {
   const std::vector<LawDescription> laws = find_laws(options.name);
   if (laws.empty()) {
-    std::string known;
-    for (const LawDescription& law : describe_laws())
-      known += (known.empty() ? "" : ", ") + words(law.name);
-    return report_error(
-        {ErrorCode::not_found, "no law \"" + options.name + "\"; there are " + known, "name"},
-        options.json);
+    const auto there_are = describe_laws();
+    return report_error(find_name(item_names(there_are), options.name, "law", "name").error(),
+                        options.json);
   }
   const auto tissues =
       options.tissues.empty() ? read_bundled_tissues() : read_tissues(options.tissues);

@@ -6,6 +6,7 @@
 
 #include "artus/apps/command.h"
 #include "artus/apps/shard_commands.h"
+#include "artus/apps/training_commands.h"
 
 namespace {
 
@@ -39,14 +40,22 @@ int run(int argc, char** argv) {
   artus::add_phantom_command(app, code);
   artus::add_echo_gates_command(app, code);
   artus::add_deform_command(app, code);
+  artus::add_elastogram_command(app, code);
   artus::add_soft_gates_command(app, code);
+  artus::add_injection_gates_command(app, code);
   artus::add_run_command(app, code);
   artus::add_experiment_command(app, code);
+  artus::add_inject_command(app, code);
   artus::add_laws_command(app, code);
   artus::add_loop_command(app, code);
   artus::add_serve_command(app, code);
   artus::add_view_command(app, code);
   artus::add_replay_command(app, code);
+  artus::add_assess_command(app, code);
+  artus::add_learners_command(app, code);
+  artus::add_play_command(app, code);
+  artus::add_rate_command(app, code);
+  artus::add_scenario_command(app, code);
   artus::add_register_command(app, code);
   artus::add_shm_monitor_command(app, code);
   int mistake = 0;  // CLI11's own many codes become one

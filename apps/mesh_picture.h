@@ -23,6 +23,10 @@ struct PictureView {
   Vec3 up = Vec3::UnitZ();
 };
 
+/// Of a page: what is looked at, and what is beside others.
+inline const cv::Size kLargePicture(520, 460);
+inline const cv::Size kSmallPicture(300, 240);
+
 /// The two views of a joint file's frame: from the front, and from its outer side (the right one
 /// where it has no side). Letters of `axes` as in the joint file.
 [[nodiscard]] std::vector<PictureView> picture_views(const std::string& axes,

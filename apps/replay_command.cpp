@@ -4,6 +4,7 @@
 #include <memory>
 #include <span>
 
+#include "artus/apps/pose_files.h"
 #include "artus/apps/session_options.h"
 #include "artus/echo/image_io.h"
 #include "artus/session/replay.h"
@@ -90,10 +91,11 @@ nlohmann::json to_json(const ReplayReport& r) {
 }
 
 ExitCode run_replay(const ReplayOptions& options) {
-  const auto recording = read_recording(options.recording);
-  if (!recording) return report_error(recording.error(), options.json);
   const auto joint = load(options.joint, make_progress_printer(options.json));
   if (!joint) return report_error(joint.error(), options.json);
+  const auto scene = std::make_shared<const Scene>(*joint);
+  const auto recording = read_any_recording(options.recording, scene);
+  if (!recording) return report_error(recording.error(), options.json);
   Trace trace;
   if (!options.trace.empty()) {
     trace.reset(std::fopen(options.trace.c_str(), "w"));
@@ -103,8 +105,8 @@ ExitCode run_replay(const ReplayOptions& options) {
   }
   if (!options.frames.empty()) std::filesystem::create_directories(options.frames);
   const double period = 1 / recording->head.params.haptic_rate;
-  const auto report = replay(*recording, std::make_shared<const Scene>(*joint),
-                             make_listener(options, **joint, trace.get(), period));
+  const auto report =
+      replay(*recording, scene, make_listener(options, **joint, trace.get(), period));
   if (!report) return report_error(report.error(), options.json);
   if (options.json)
     std::cout << to_json(*report).dump(2) << '\n';
@@ -119,11 +121,17 @@ void add_replay_command(Command& app, ExitCode& code) {
   auto options = std::make_shared<ReplayOptions>();
   Command* command = add_command(
       app, "replay", "Run a recorded session again and compare every force and image",
-      "Exit code 1 when a force or an image is not the same bytes.\n"
+      "Exit code 1 when a force or an image is not the same bytes. A list of poses, or a "
+      "tracker's\n"
+      "sequence, is run as a session first.\n"
       "Examples:\n"
       "  artus replay session.rec -j meshes/simple-shoulder\n"
-      "  artus replay session.rec -j real.artus --trace forces.csv --frames out/frames");
-  command->add_option("recording", options->recording, "file of --record")->required();
+      "  artus replay session.rec -j real.artus --trace forces.csv --frames out/frames\n"
+      "  artus replay tracked.igs.mha -j real.artus --trace forces.csv");
+  command
+      ->add_option("recording", options->recording,
+                   "file of --record, or poses (.jsonl, .csv, .mha) that lead a session")
+      ->required();
   add_joint_options(command, options->joint);
   command->add_option("--trace", options->trace,
                       "write forces, their components, contact and layer as CSV");

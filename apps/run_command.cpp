@@ -24,6 +24,7 @@ struct RunOptions {
   std::string device = "virtuose_6d_desktop";
   bool no_images = false;
   bool no_video = false;
+  bool rigid = false;
   bool json = false;
 };
 
@@ -84,7 +85,7 @@ ExitCode run_scenario(const RunOptions& options) {
   RunImages images;
   if (!options.no_images) {
     RunImagesOptions image_options{view->transducer, view->settings, view->needle_shape,
-                                   !options.no_video};
+                                   !options.no_video, !options.rigid};
     auto drawn = write_run_images(scene, *run, options.out, image_options, progress);
     if (!drawn) return report_error(drawn.error(), options.json);
     images = std::move(*drawn);
@@ -127,6 +128,8 @@ void add_run_command(Command& app, ExitCode& code) {
       ->capture_default_str();
   command->add_option("--device", options->device, "device whose force limits apply")
       ->capture_default_str();
+  command->add_flag("--rigid", options->rigid,
+                    "draw the body as it lies at rest; by default it gives way to the probe");
   command->add_flag("--no-images", options->no_images, "forces alone");
   command->add_flag("--no-video", options->no_video, "images of the named moments, but no video");
   command->add_flag("--json", options->json, "print the summary as JSON");

@@ -9,6 +9,7 @@
 
 #include "artus/apps/view_options.h"
 #include "artus/core/text_file.h"
+#include "artus/core/units.h"
 #include "artus/session/injecting_device.h"
 #include "artus/session/recorded_device.h"
 #include "artus/session/shared_memory_device.h"
@@ -29,13 +30,12 @@ Result<std::unique_ptr<InputDevice>> make_injection_device(const SessionOptions&
                                                            const SessionParams& params,
                                                            const CompiledJoint& joint) {
   constexpr double kBeyond = 20e-3;  // m past the target where bone is looked for
-  const auto plans = make_plan(options.plan, joint);
-  ARTUS_TRY(plans);
-  const auto i = static_cast<std::size_t>(options.injection - 1);
-  if (options.injection < 1 || i >= plans->size())
-    return fail(ErrorCode::not_found,
-                "the joint plans " + std::to_string(plans->size()) + " injections", "--injection");
-  const PlannedInjection& plan = (*plans)[i];
+  const auto chosen = chosen_injection(options, joint);
+  ARTUS_TRY(chosen);
+  if (!*chosen)
+    return fail(ErrorCode::not_found, "the joint plans no injection: give --entry and --target",
+                "--injection");
+  const PlannedInjection& plan = **chosen;
   const Vec3 way = plan.target - plan.entry;
   InjectionPlan injection;
   injection.entry_W = plan.entry;
@@ -44,6 +44,7 @@ Result<std::unique_ptr<InputDevice>> make_injection_device(const SessionOptions&
   injection.target = way.norm();
   injection.deepest = way.norm() + kBeyond;
   injection.speed = options.speed_mm_s * kMillimetre;
+  injection.volume = options.give_ml * kCubicCentimetre;
   return std::make_unique<InjectingDevice>(injection, params.device, params.haptic_rate);
 }
 
@@ -98,6 +99,14 @@ void add_session_options(Command* command, SessionOptions& options,
   command->add_option("--speed-mm-s", options.speed_mm_s, "of the simulated hand")
       ->check(number_in(0.1, 200))
       ->capture_default_str();
+  command->add_option("--give-ml", options.give_ml, "that the simulated hand injects each time")
+      ->check(number_in(0, 50))
+      ->capture_default_str();
+  command->add_option("--syringe-ml", options.syringe_ml, "drawn up; a plunger pushes it out")
+      ->check(number_in(0.1, 50))
+      ->capture_default_str();
+  command->add_option("--liquid", options.liquid, "in the syringe, of meshes/liquids.toml")
+      ->capture_default_str();
   command->add_option("--haptic-cpu", options.haptic_cpu, "processor of the haptic thread; -1: any")
       ->check(whole_number_in(-1, 1023))
       ->capture_default_str();
@@ -105,39 +114,59 @@ void add_session_options(Command* command, SessionOptions& options,
                       "write where the time went as CSV, bin by bin");
   command->add_option("--threads", options.threads, "of the imaging; 0: all processors")
       ->capture_default_str();
+  command->add_flag("--rigid", options.rigid,
+                    "tissue does not give way to the probe; by default it does, in the picture and "
+                    "in the probe's hand, and the first image comes some seconds later");
   add_igtl_options(command, options.igtl);
 }
 
 Result<SessionParams> make_session_params(const SessionOptions& options,
                                           const CompiledJoint& joint) {
   SessionParams params;
+  params.syringe.filled = options.syringe_ml * kCubicCentimetre;
+  params.syringe.liquid = options.liquid;
   const auto device = find_device(options.device);
   ARTUS_TRY(device);
   params.device = *device;
   params.haptic_rate = options.haptic_rate;
   params.image_rate = options.image_rate;
   params.image.n_threads = options.threads;
+  params.deform = !options.rigid;
   const auto feel = make_feel(options.feel, joint);
   ARTUS_TRY(feel);
   params.feel = *feel;
-  if (!joint.injections.empty()) {
-    const PlannedInjection& plan = joint.injections.front();
-    params.gesture.p_W = plan.entry;
-    params.gesture.axis_W = (plan.target - plan.entry).normalized();
+  const auto plan = chosen_injection(options, joint);
+  ARTUS_TRY(plan);
+  if (*plan) {
+    params.gesture.p_W = (*plan)->entry;
+    params.gesture.axis_W = ((*plan)->target - (*plan)->entry).normalized();
   }
   ARTUS_TRY(validate(params));
   return params;
 }
 
-HandTarget first_target(const CompiledJoint& joint) {
+Result<std::optional<PlannedInjection>> chosen_injection(const SessionOptions& options,
+                                                         const CompiledJoint& joint) {
+  const auto plans = make_plan(options.plan, joint);
+  ARTUS_TRY(plans);
+  if (plans->empty() && options.injection == 1) return std::optional<PlannedInjection>();
+  const auto i = static_cast<std::size_t>(options.injection - 1);
+  if (options.injection < 1 || i >= plans->size())
+    return fail(ErrorCode::not_found,
+                "there is no injection " + std::to_string(options.injection) +
+                    ": the joint plans " + std::to_string(plans->size()) + ", counted from 1",
+                "--injection");
+  return std::optional<PlannedInjection>((*plans)[i]);
+}
+
+HandTarget first_target(const CompiledJoint& joint, const std::optional<PlannedInjection>& plan) {
   constexpr double kAbove = 10e-3;  // m off the skin
   HandTarget target;
   target.X_WP = to_plain(joint.X_JP_default);
   Pose X_JN = joint.X_JN_default;
-  if (!joint.injections.empty()) {
-    const PlannedInjection& plan = joint.injections.front();
-    const Vec3 axis = (plan.target - plan.entry).normalized();
-    X_JN = make_pose(plan.entry - kAbove * axis, axis, joint.X_JP_default.linear().col(1));
+  if (plan) {
+    const Vec3 axis = (plan->target - plan->entry).normalized();
+    X_JN = make_pose(plan->entry - kAbove * axis, axis, joint.X_JP_default.linear().col(1));
   }
   target.X_WN = to_plain(X_JN);
   return target;
@@ -157,7 +186,9 @@ Result<std::unique_ptr<InputDevice>> make_device(const SessionOptions& options,
     return std::unique_ptr<InputDevice>(std::move(*device));
   }
   if (options.input == "hand") {
-    auto device = std::make_unique<HandDevice>(first_target(joint), 1 / params.haptic_rate);
+    const auto plan = chosen_injection(options, joint);
+    ARTUS_TRY(plan);
+    auto device = std::make_unique<HandDevice>(first_target(joint, *plan), 1 / params.haptic_rate);
     *hand = device.get();
     return std::unique_ptr<InputDevice>(std::move(device));
   }
@@ -179,6 +210,7 @@ void print_times(const SessionTimes& times, const SessionParams& params) {
   print_line("haptic compute", times.haptic_compute);
   print_line("haptic processor", times.haptic_cpu);
   print_line("haptic lateness", times.haptic_lateness);
+  if (times.tissue_step.count() > 0) print_line("tissue step", times.tissue_step);
   print_line("image render", times.image_render);
   print_line("image interval", times.image_interval);
   print_line("thirty images", times.image_thirty);
@@ -215,6 +247,7 @@ nlohmann::json to_json(const SessionTimes& times) {
   return {{"haptic_compute", to_json(times.haptic_compute)},
           {"haptic_cpu", to_json(times.haptic_cpu)},
           {"haptic_lateness", to_json(times.haptic_lateness)},
+          {"tissue_step", to_json(times.tissue_step)},
           {"image_render", to_json(times.image_render)},
           {"image_interval", to_json(times.image_interval)},
           {"image_thirty", to_json(times.image_thirty)},

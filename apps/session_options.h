@@ -2,6 +2,7 @@
 #pragma once
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "artus/apps/command.h"
@@ -26,8 +27,12 @@ struct SessionOptions {
   std::filesystem::path recording;
   double speed_mm_s = 10;
   int injection = 1;
+  double give_ml = 0;
+  double syringe_ml = 5;
+  std::string liquid = "saline";
   int haptic_cpu = -1;
   int threads = 0;
+  bool rigid = false;
   std::filesystem::path histograms;
   IgtlOptions igtl;
 };
@@ -40,9 +45,16 @@ void add_session_options(Command* command, SessionOptions& options,
 [[nodiscard]] Result<SessionParams> make_session_params(const SessionOptions& options,
                                                         const CompiledJoint& joint);
 
-/// Needle and probe at the start: the joint's default probe, the needle above the first planned
-/// entry.
-[[nodiscard]] HandTarget first_target(const CompiledJoint& joint);
+/// The injection that --injection chooses of the joint's, or of those of --entry and --target;
+/// empty when there is none to choose from and none was asked for. Errors: those of make_plan;
+/// not_found.
+[[nodiscard]] Result<std::optional<PlannedInjection>> chosen_injection(
+    const SessionOptions& options, const CompiledJoint& joint);
+
+/// Needle and probe at the start: the joint's default probe, the needle above the planned entry, or
+/// the joint's default needle.
+[[nodiscard]] HandTarget first_target(const CompiledJoint& joint,
+                                      const std::optional<PlannedInjection>& plan);
 
 /// The device that --input names; `hand` is set when it is the hand of mouse and keyboard.
 /// `tracker`: what --input igtl reads.

@@ -3,6 +3,7 @@
 #include <iostream>
 #include <memory>
 
+#include "artus/apps/press_options.h"
 #include "artus/apps/view_options.h"
 #include "artus/core/units.h"
 #include "artus/dataset/echo_truth.h"
@@ -15,6 +16,7 @@ namespace {
 struct SliceOptions {
   JointOptions joint;
   ViewOptions view;
+  PressOptions press;
   std::filesystem::path out;
   std::filesystem::path ids;
   bool json = false;
@@ -29,8 +31,10 @@ nlohmann::json legend_of(const LabelImage& labels, const CompiledJoint& joint) {
 }
 
 ExitCode run_slice(const SliceOptions& options) {
-  const auto loaded = load_view(options.joint, options.view, options.json);
+  auto loaded = load_view(options.joint, options.view, options.json);
   if (!loaded) return report_error(loaded.error(), options.json);
+  const auto pressed = press(*loaded, options.press);
+  if (!pressed) return report_error(pressed.error(), options.json);
   const CompiledJoint& joint = loaded->joint();
   const LabelImage labels = render_labels(*loaded->scene, loaded->X_JP, loaded->view.transducer,
                                           loaded->view.settings, loaded->needle);
@@ -42,12 +46,12 @@ ExitCode run_slice(const SliceOptions& options) {
 
   const auto legend = legend_of(labels, joint);
   if (options.json) {
-    std::cout << nlohmann::json{{"joint", joint.name},
-                                {"image", options.out.string()},
-                                {"pixel_mm", labels.pixel / kMillimetre},
-                                {"regions", legend}}
-                     .dump(2)
-              << '\n';
+    nlohmann::json report{{"joint", joint.name},
+                          {"image", options.out.string()},
+                          {"pixel_mm", labels.pixel / kMillimetre},
+                          {"regions", legend}};
+    if (!pressed->is_null()) report["press"] = *pressed;
+    std::cout << report.dump(2) << '\n';
     return ExitCode::ok;
   }
   std::printf("%4s %-28s %-16s %-12s %10s\n", "id", "region", "tissue", "red,grn,blu", "area mm2");
@@ -67,9 +71,12 @@ void add_slice_command(Command& app, ExitCode& code) {
       app, "slice", "The regions that truly lie in the probe's plane, at the B-mode image's scale",
       "Examples:\n"
       "  artus slice -j meshes/simple-shoulder -o labels.png\n"
+      "  artus slice -j meshes/shoulder --press-mm 5 -o pressed.png\n"
       "  artus slice -j meshes/shoulder --needle default -o labels.png --ids ids.png --json");
   add_joint_options(command, options->joint);
   add_view_options(command, options->view);
+  add_press_options(command, options->press);
+  add_drag_option(command, options->press);
   command->add_option("-o,--out", options->out, "colour image (.png)")->required();
   command->add_option("--ids", options->ids, "also write region ids (16-bit .png)");
   command->add_flag("--json", options->json, "machine-readable output");

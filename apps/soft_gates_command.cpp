@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "artus/apps/command.h"
+#include "artus/core/known_names.h"
 #include "artus/evidence/soft/soft_gates.h"
 
 namespace artus {
@@ -15,7 +16,7 @@ struct SoftGatesOptions {
   bool json = false;
 };
 
-ExitCode run_gates(const SoftGatesOptions& options) {
+ExitCode run_soft_gates(const SoftGatesOptions& options) {
   std::vector<std::string> names = options.only;
   if (names.empty()) names.assign(soft_gates().begin(), soft_gates().end());
   const Progress progress = make_progress_printer(options.json);
@@ -44,15 +45,6 @@ ExitCode run_gates(const SoftGatesOptions& options) {
   return all_hold(report.claims) ? ExitCode::ok : ExitCode::failed;
 }
 
-std::string list_of_names() {
-  std::string names;
-  for (const auto name : soft_gates()) {
-    names += names.empty() ? "" : ", ";
-    names += name;
-  }
-  return names;
-}
-
 }  // namespace
 
 void add_soft_gates_command(Command& app, ExitCode& code) {
@@ -60,7 +52,7 @@ void add_soft_gates_command(Command& app, ExitCode& code) {
   Command* command = add_command(
       app, "soft-gates",
       "Measure the mechanics of the tissue that gives way, with a verdict on each value",
-      "Gates: " + list_of_names() +
+      "Gates: " + listed(soft_gates()) +
           "\nExit code 1 when a value is out of its bound.\n"
           "Examples:\n"
           "  artus soft-gates --out out/soft\n"
@@ -68,7 +60,7 @@ void add_soft_gates_command(Command& app, ExitCode& code) {
   command->add_option("--only", options->only, "a gate, may be given several times (default: all)");
   command->add_option("-o,--out", options->out, "folder for the report")->required();
   command->add_flag("--json", options->json, "print the verdicts as JSON");
-  on_run(command, code, [options] { return run_gates(*options); });
+  on_run(command, code, [options] { return run_soft_gates(*options); });
 }
 
 }  // namespace artus

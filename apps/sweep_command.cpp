@@ -6,18 +6,15 @@
 #include <utility>
 
 #include "artus/apps/pose_files.h"
-#include "artus/apps/view_options.h"
 #include "artus/dataset/pose_draw.h"
 #include "artus/dataset/shards.h"
 #include "artus/dataset/sweep.h"
+#include "artus/echo/transducer_file.h"
 
 namespace artus {
 namespace {
 
-struct SweepCommandOptions {
-  JointOptions joint;
-  ViewOptions view;
-  std::filesystem::path poses;
+struct SweepCommandOptions : PoseListOptions {
   std::filesystem::path out;
   std::string shard;
   std::string frames;
@@ -25,7 +22,6 @@ struct SweepCommandOptions {
   std::int64_t draw = 0;
   std::filesystem::path ranges;
   bool restart = false;
-  bool json = false;
 };
 
 SweepOptions sweep_options_of(const SweepCommandOptions& options, const LoadedView& loaded) {
@@ -44,20 +40,48 @@ Result<ShardJob> job_of(const SweepCommandOptions& options) {
   return ShardJob{};
 }
 
-Result<PoseSource> poses_of(const SweepCommandOptions& options, const LoadedView& loaded) {
+/// Loads the joints and probes that the ranges name into `sweep`; probes under the same flags.
+Result<void> load_drawn(const SweepCommandOptions& options, const DrawRanges& ranges,
+                        SweepOptions& sweep) {
+  for (const std::string& name : ranges.transducers) {
+    ViewOptions view = options.view;
+    view.transducer = name;
+    const auto made = make_view(view);
+    ARTUS_TRY(made);
+    const auto preset = find_transducer(name);
+    ARTUS_TRY(preset);
+    sweep.transducers.push_back(*preset);
+    sweep.transducers.back().transducer = made->transducer;
+  }
+  for (const std::filesystem::path& file : ranges.joints) {
+    JointOptions patient = options.joint;
+    patient.joint = file;
+    const auto joint = load(patient, make_progress_printer(options.json));
+    ARTUS_TRY(joint);
+    sweep.patients.push_back(std::make_shared<const Scene>(*joint));
+  }
+  return {};
+}
+
+/// The frames that the flags ask for; `sweep` gets what drawn ones need besides.
+Result<FrameSource> frames_of(const SweepCommandOptions& options, const LoadedView& loaded,
+                              SweepOptions& sweep) {
   if (options.draw == 0) {
     auto poses = read_any_poses(options.poses);
     ARTUS_TRY(poses);
     return source_of(std::move(*poses));
   }
-  DrawRanges ranges;
-  if (!options.ranges.empty()) {
-    const auto read = read_draw_ranges(options.ranges);
-    ARTUS_TRY(read);
-    ranges = *read;
-  }
-  return drawn_poses(loaded.scene, ranges, options.view.seed,
-                     static_cast<std::size_t>(options.draw));
+  auto ranges =
+      options.ranges.empty() ? Result<DrawRanges>(DrawRanges()) : read_draw_ranges(options.ranges);
+  ARTUS_TRY(ranges);
+  ARTUS_TRY(load_drawn(options, *ranges, sweep));
+  DrawBase base{{loaded.scene}, sweep.needle};
+  base.patients.insert(base.patients.end(), sweep.patients.begin(), sweep.patients.end());
+  for (const auto& patient : base.patients)
+    if (ranges->press_share > 0 && patient->joint().mesh.tetrahedra.empty())
+      return fail(ErrorCode::invalid, "a joint without tetrahedra cannot be pressed",
+                  patient->joint().name);
+  return drawn_frames(base, *ranges, options.view.seed, static_cast<std::size_t>(options.draw));
 }
 
 ExitCode run_shards(const SweepCommandOptions& options) {
@@ -65,14 +89,14 @@ ExitCode run_shards(const SweepCommandOptions& options) {
   if (!job) return report_error(job.error(), options.json);
   const auto loaded = load_view(options.joint, options.view, options.json);
   if (!loaded) return report_error(loaded.error(), options.json);
-  const auto poses = poses_of(options, *loaded);
-  if (!poses) return report_error(poses.error(), options.json);
   ShardOptions shard_options;
   shard_options.sweep = sweep_options_of(options, *loaded);
+  const auto source = frames_of(options, *loaded, shard_options.sweep);
+  if (!source) return report_error(source.error(), options.json);
   shard_options.frames = static_cast<std::size_t>(options.frames_per_shard);
   shard_options.engine = ARTUS_VERSION;
   const auto begin = std::chrono::steady_clock::now();
-  const auto result = write_shards(loaded->scene, *poses, *job, options.out, shard_options,
+  const auto result = write_shards(loaded->scene, *source, *job, options.out, shard_options,
                                    make_progress_printer(options.json));
   if (!result) return report_error(result.error(), options.json);
   const double seconds =
@@ -138,7 +162,7 @@ void add_shard_options(Command* command, SweepCommandOptions& options) {
                    "draw so many poses at random, by --seed, in place of a list")
       ->check(whole_number_in(1, 1000000000000))
       ->group("Shards");
-  command->add_option("--ranges", options.ranges, "how far drawn poses spread (.toml)")
+  command->add_option("--ranges", options.ranges, "what drawn frames spread over (.toml)")
       ->group("Shards");
 }
 
@@ -158,13 +182,10 @@ void add_sweep_command(Command& app, ExitCode& code) {
       "--out out/deep\n"
       "  artus sweep -j shoulder.artus --draw 1000000 --seed 7 --shard 3/64 --out out/set\n"
       "(docs/datasets.md)");
-  add_joint_options(command, options->joint);
-  command->add_option("--poses", options->poses, "list of poses (.jsonl, .csv, .mha)");
+  add_pose_list_options(command, *options);
   add_shard_options(command, *options);
-  add_imaging_options(command, options->view);
   command->add_option("-o,--out", options->out, "folder for the results")->required();
   command->add_flag("--restart", options->restart, "throw away an earlier sweep of the folder");
-  command->add_flag("--json", options->json, "machine-readable output");
   on_run(command, code, [options] { return run_sweep_command(*options); });
 }
 

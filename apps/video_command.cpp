@@ -3,7 +3,7 @@
 #include <iostream>
 #include <memory>
 
-#include "artus/apps/view_options.h"
+#include "artus/apps/pose_files.h"
 #include "artus/dataset/sweep_video.h"
 
 namespace artus {
@@ -20,7 +20,7 @@ struct VideoOptions {
 };
 
 ExitCode run_video(const VideoOptions& options) {
-  const auto poses = read_poses(options.path);
+  const auto poses = read_any_poses(options.path);
   if (!poses) return report_error(poses.error(), options.json);
   const auto loaded = load_view(options.joint, options.view, options.json);
   if (!loaded) return report_error(loaded.error(), options.json);
@@ -56,7 +56,7 @@ void add_video_command(Command& app, ExitCode& code) {
       "  artus video -j shoulder.artus --path path.jsonl -o out/path.mp4\n"
       "  artus video -j shoulder.artus --path path.csv --labels --fps 15 -o out/path.avi");
   add_joint_options(command, options->joint);
-  command->add_option("--path", options->path, "list of poses (.jsonl, .csv)")->required();
+  command->add_option("--path", options->path, "list of poses (.jsonl, .csv, .mha)")->required();
   add_imaging_options(command, options->view);
   command->add_option("-o,--out", options->out, "video file (.mp4, .avi)")->required();
   command->add_option("--fps", options->frames_per_second, "frames a second")

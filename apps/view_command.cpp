@@ -1,28 +1,35 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <memory>
 #include <mutex>
+#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "artus/apps/interrupts.h"
 #include "artus/apps/session_options.h"
+#include "artus/viewer/surface_detail.h"
 #include "artus/viewer/window.h"
 
 namespace artus {
 namespace {
 
+constexpr double kDopplerLimit = 0.05;  // m/s; assumed: a needle that is jiggled does not wrap
+
 struct ViewerOptions {
   SessionOptions session;
   WindowOptions window;
+  std::string language;  // empty: as the system's
   std::filesystem::path script;
   bool report = false;
 };
 
-/// Where a user's window layout is kept between runs.
-std::filesystem::path layout_file() {
+/// Where a user's settings are kept between runs; empty: nowhere.
+std::filesystem::path config_folder() {
   const char* config = std::getenv("XDG_CONFIG_HOME");  // NOLINT(concurrency-mt-unsafe): start-up
   const char* home = std::getenv("HOME");               // NOLINT(concurrency-mt-unsafe)
   std::filesystem::path folder;
@@ -34,12 +41,16 @@ std::filesystem::path layout_file() {
     return {};
   std::error_code error;
   std::filesystem::create_directories(folder / "artus", error);
-  return error ? std::filesystem::path() : folder / "artus" / "layout.ini";
+  return error ? std::filesystem::path() : folder / "artus";
 }
 
 Result<void> read_script(const ViewerOptions& options, WindowOptions& window) {
   if (options.script.empty()) {
-    if (window.layout.empty()) window.layout = layout_file();
+    const std::filesystem::path folder = config_folder();
+    if (window.layout.empty() && window.screenshot.empty() && !folder.empty())
+      window.layout = folder / "layout.txt";
+    if (window.keys.empty() && std::filesystem::exists(folder / "keys.toml"))
+      window.keys = (folder / "keys.toml").string();
     return {};
   }
   std::ifstream in(options.script);
@@ -49,6 +60,44 @@ Result<void> read_script(const ViewerOptions& options, WindowOptions& window) {
   ARTUS_TRY(steps);
   window.script = std::move(*steps);
   window.quit_after_script = true;
+  return {};
+}
+
+/// The flag, or what the system says, or English.
+Language language_of(const std::string& flag) {
+  for (const char* name : {"LC_ALL", "LC_MESSAGES", "LANG"}) {
+    if (const auto known = find_language(flag)) return *known;
+    const char* value = std::getenv(name);  // NOLINT(concurrency-mt-unsafe): start-up
+    if (value != nullptr && *value != '\0') return find_language(value).value_or(Language::english);
+  }
+  return find_language(flag).value_or(Language::english);
+}
+
+/// How the device of this input is brought to life, when it was never there.
+std::string connect_hint(const SessionOptions& session) {
+  if (session.input == "shared-memory")
+    return "no device yet: start a program that writes /dev/shm/" + session.prefix +
+           "POS (docs/protocol.md), or: artus view --input hand";
+  if (session.input == "igtl")
+    return "no tracker yet: let it send transforms to this machine by OpenIGTLink "
+           "(docs/openigtlink.md)";
+  return "no device yet: artus view --input hand needs none";
+}
+
+/// Goals, starts, language and keys of the window.
+Result<void> prepare_window(const ViewerOptions& options, const CompiledJoint& joint,
+                            WindowOptions& window) {
+  const auto chosen = chosen_injection(options.session, joint);
+  ARTUS_TRY(chosen);
+  const auto plans = make_plan(options.session.plan, joint);
+  ARTUS_TRY(plans);
+  for (const PlannedInjection& plan : *plans)
+    window.tasks.push_back({plan, first_target(joint, plan)});
+  window.task = static_cast<std::size_t>(options.session.injection - 1);
+  window.language = language_of(options.language);
+  window.connect = connect_hint(options.session);
+  window.welcome = options.session.input == "hand" && window.script.empty() &&
+                   window.screenshot.empty() && !window.expert;
   return {};
 }
 
@@ -76,8 +125,12 @@ ExitCode run_view(const ViewerOptions& options) {
     return report_error(script.error(), false);
   const auto joint = load(options.session.joint, make_progress_printer(false));
   if (!joint) return report_error(joint.error(), false);
-  const auto params = make_session_params(options.session, **joint);
+  auto params = make_session_params(options.session, **joint);
   if (!params) return report_error(params.error(), false);
+  params->image.doppler = true;
+  params->image.doppler_limit = kDopplerLimit;
+  if (const auto ready = prepare_window(options, **joint, window); !ready)
+    return report_error(ready.error(), false);
   Interrupts interrupts;
   window.asked_to_close = [&interrupts] {
     return interrupts.wait(0);
@@ -109,15 +162,47 @@ ExitCode run_view(const ViewerOptions& options) {
   if (!session) return report_error(session.error(), false);
   if (*link) (*link)->attach(session->get());
   WindowReport report;
-  const auto shown = run_window(**session, hand, first_target(**joint), window, report);
+  const std::optional<PlannedInjection> plan =
+      window.tasks.empty() ? std::nullopt : std::optional(window.tasks[window.task].injection);
+  const auto shown = run_window(**session, hand, first_target(**joint, plan), window, report);
   if (*link) (*link)->attach(nullptr);
   if (options.report) {
     print_times((*session)->times(), (*session)->params());
     print_line("pose to screen", report.pose_to_screen);
+    print_line("window interval", report.interval);
+    print_line("3D view", report.joint);
+    std::printf("3D view at detail %zu of %zu\n", report.joint_level, DetailChooser::kLevels - 1);
   }
   if (!shown) return report_error(shown.error(), false);
   const auto written = write_histograms(options.session.histograms, (*session)->times());
   return written ? ExitCode::ok : report_error(written.error(), false);
+}
+
+/// How the window looks and listens.
+void add_window_options(Command* command, ViewerOptions& options) {
+  WindowOptions& window = options.window;
+  command->add_option("--width", window.width, "pixels")
+      ->check(whole_number_in(320, 16384))
+      ->capture_default_str();
+  command->add_option("--height", window.height, "pixels")
+      ->check(whole_number_in(240, 16384))
+      ->capture_default_str();
+  command->add_option("--window-rate", window.rate, "pictures a second, at most")
+      ->check(number_in(0.5, 240))
+      ->capture_default_str();
+  command
+      ->add_option("--font-scale", window.font_scale,
+                   "of the letters, besides what screen and window ask for")
+      ->check(number_in(0.5, 4))
+      ->capture_default_str();
+  command->add_option("--language", options.language, "en or fr (default: as the system's)")
+      ->one_of({"en", "fr"});
+  command->add_option("--keys", window.keys,
+                      "TOML file of other keys: push = \"8\" (default: keys.toml in "
+                      "~/.config/artus)");
+  command->add_flag("--left-handed", window.left_handed, "the mouse's buttons change places");
+  command->add_flag("--plain", window.plain, "saved images without ruler, settings and names");
+  command->add_option("--pseudonym", window.patient, "of the patient, written on the image");
 }
 
 }  // namespace
@@ -133,19 +218,19 @@ void add_view_command(Command& app, ExitCode& code) {
                                  "docs/view.script --screenshot out.png");
   add_session_options(command, options->session, "hand");
   WindowOptions& window = options->window;
-  command->add_option("--width", window.width, "pixels")->capture_default_str();
-  command->add_option("--height", window.height, "pixels")->capture_default_str();
-  command->add_option("--window-rate", window.rate, "pictures a second, at most")
-      ->capture_default_str();
+  add_window_options(command, *options);
   command
       ->add_option("--pixels-per-mm", window.pixels_per_mm,
                    "of the screen, for the image at true scale; 0: as the system says")
+      ->check(number_in(0, 100))
       ->capture_default_str();
   command->add_option("--layout", window.layout,
                       "where the panels' places are kept (default: the user's, none for scripts)");
   command->add_flag("--expert", window.expert, "without the 3D view");
   command->add_option("--script", options->script, "do what this file says, then end");
-  command->add_option("--screenshot", window.screenshot, "PNG of the window at the script's end");
+  command->add_option("--screenshot", window.screenshot,
+                      "PNG of the window: at the script's end, or, without one, "
+                      "as soon as picture and 3D view are there; then it ends");
   command->add_option("--pictures", window.pictures, "folder of saved images")
       ->capture_default_str();
   command->add_flag("--report", options->report, "print where the time went at the end");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/apps/view_options.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "artus/apps/arguments.h"
@@ -13,6 +14,7 @@ namespace artus {
 namespace {
 
 constexpr double kMegahertz = 1e6;  // Hz
+constexpr double kUsualDepth = 40;  // mm of a picture
 
 /// A flag's range in its own unit.
 FlagCheck within(const Range& range, double unit = 1) {
@@ -52,13 +54,14 @@ void add_imaging_options(Command* command, ViewOptions& options) {
       ->add_option("--transducer", options.transducer,
                    "linear-6-18, linear-4-9, hockey-7-15, curved-2-5, or a .toml file")
       ->capture_default_str();
-  command->add_option("--gauge", options.gauge, "needle gauge: 18, 20, 21, 22, 23 or 25")
+  command->add_option("--gauge", options.gauge, "needle gauge: 18 to 23, 25 or 27")
       ->capture_default_str();
   add_needle_length_option(command, options.needle_length_mm);
   command->add_flag("--echogenic", options.echogenic, "dimpled needle, seen at steep angles, too");
-  command->add_option("--depth", options.depth_mm, "image depth, mm")
-      ->check(within(ImageRanges::depth, kMillimetre))
-      ->capture_default_str();
+  command
+      ->add_option("--depth", options.depth_mm,
+                   "image depth, mm (default: 40, or more where the joint's needle goes deeper)")
+      ->check(within(ImageRanges::depth, kMillimetre));
   command->add_option("--gain", options.gain_db, "gain, dB")
       ->check(within(ImageRanges::gain_db))
       ->capture_default_str();
@@ -129,17 +132,17 @@ Result<View> make_view(const ViewOptions& options) {
   }
   const auto shape = needle_of_gauge(options.gauge);
   if (!shape)
-    return fail(
-        ErrorCode::invalid,
-        "no needle of gauge " + std::to_string(options.gauge) + "; choose 18, 20, 21, 22, 23 or 25",
-        "--gauge");
+    return fail(ErrorCode::invalid,
+                "no needle of gauge " + std::to_string(options.gauge) +
+                    "; choose 18, 19, 20, 21, 22, 23, 25 or 27",
+                "--gauge");
   view.needle_shape = *shape;
   view.needle_shape.echogenic = options.echogenic;
   if (options.needle_length_mm) view.needle_shape.length = *options.needle_length_mm * kMillimetre;
   const auto transducer = make_transducer(options);
   ARTUS_TRY(transducer);
   view.transducer = *transducer;
-  view.settings.depth = options.depth_mm * kMillimetre;
+  view.settings.depth = options.depth_mm.value_or(kUsualDepth) * kMillimetre;
   view.settings.gain_db = options.gain_db;
   view.settings.dynamic_range_db = options.dynamic_range_db;
   view.settings.pixel = options.pixel_mm * kMillimetre;
@@ -167,6 +170,19 @@ std::optional<NeedleView> View::needle(const CompiledJoint& joint) const {
   return std::nullopt;
 }
 
+namespace {
+
+/// Deep enough to show the joint's needle as planned, in steps of 10 mm.
+double find_depth(const CompiledJoint& joint) {
+  constexpr double kBeyondTip = 8e-3;  // m
+  constexpr double kStep = 10e-3;      // m
+  const Vec3 p_PN = joint.X_JP_default.inverse() * joint.X_JN_default.translation();
+  const double depth = kStep * std::ceil((p_PN.z() + kBeyondTip) / kStep - 1e-9);
+  return std::clamp(depth, kUsualDepth * kMillimetre, ImageRanges::depth.high);
+}
+
+}  // namespace
+
 Result<LoadedView> load_view(const JointOptions& joint_options, const ViewOptions& options,
                              bool quiet) {
   auto view = make_view(options);
@@ -177,6 +193,7 @@ Result<LoadedView> load_view(const JointOptions& joint_options, const ViewOption
   loaded.X_JP = view->probe(**joint);
   loaded.needle = view->needle(**joint);
   loaded.view = std::move(*view);
+  if (!options.depth_mm) loaded.view.settings.depth = find_depth(**joint);
   loaded.scene = std::make_shared<const Scene>(*joint);
   return loaded;
 }

@@ -25,7 +25,7 @@ struct ViewOptions {
   std::optional<double> transmit_focus_mm;
   std::optional<double> steering_deg;
   std::optional<int> lines;
-  double depth_mm = 40;
+  std::optional<double> depth_mm;  ///< else 40, or more where the joint's needle goes deeper
   double gain_db = ImageSettings{}.gain_db;
   double dynamic_range_db = ImageSettings{}.dynamic_range_db;
   double pixel_mm = 0.1;

@@ -60,7 +60,7 @@ class ExchangeTool : public test::TemporaryFolder {
 TEST_F(ExchangeTool, ServeShowsItsPicturesToAnotherProgram) {
   const int port = free_port();
   const pid_t process =
-      start_tool({"serve", "-j", kSimple, "--input", "injection", "--prefix",
+      start_tool({"serve", "-j", kSimple, "--rigid", "--input", "injection", "--prefix",
                   "artus-igtl-" + std::to_string(getpid()) + "-", "--igtl", std::to_string(port)});
   bool listens = false;
   for (int i = 0; i < 600 && !listens; ++i) {
@@ -150,6 +150,88 @@ TEST_F(ExchangeTool, APathIsExportedAsASequenceAndReadBackAsPoses) {
   const auto swept = test::artus(command);
   ASSERT_EQ(swept.exit_code, 0) << swept.err;
   EXPECT_TRUE(fs::exists(folder_ / "again/frames/000004.png"));
+}
+
+TEST_F(ExchangeTool, ARecordingIsExportedWithAPageAboutIt) {
+  const auto served =
+      test::artus({"serve", "-j", kSimple, "--rigid", "--input", "injection", "--seconds", "2",
+                   "--speed-mm-s", "40", "--image-rate", "10", "--prefix",
+                   "artus-export-" + std::to_string(getpid()) + "-", "--record", in("s.rec")});
+  ASSERT_EQ(served.exit_code, 0) << served.err;
+  const auto done = test::artus({"export", "-j", kSimple, "--recording", in("s.rec"), "--mha",
+                                 in("s.igs.mha"), "--report", in("page.png")});
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  const auto sequence = read_mha(in("s.igs.mha"));
+  ASSERT_TRUE(sequence) << sequence.error().to_string();
+  EXPECT_GT(sequence->frames.size(), 5U);
+  EXPECT_TRUE(sequence->frames.back().needle_to_reference.has_value());
+  for (std::size_t i = 1; i < sequence->frames.size(); ++i)
+    EXPECT_GT(sequence->frames[i].time, sequence->frames[i - 1].time);
+  EXPECT_GT(fs::file_size(in("page.png")), 20000U);
+  // What was written leads a session of its own, which is the same again.
+  const auto led = test::artus({"replay", in("s.igs.mha"), "-j", kSimple, "--trace", in("t.csv")});
+  EXPECT_EQ(led.exit_code, 0) << led.err;
+  EXPECT_THAT(led.out, HasSubstr(" 0 different;"));
+  const auto neither = test::artus({"export", "-j", kSimple, "--mha", in("x.mha")});
+  EXPECT_EQ(neither.exit_code, 2);
+  EXPECT_THAT(neither.err, HasSubstr("a recording, a list of poses or a sweep"));
+}
+
+TEST_F(ExchangeTool, ASweepIsExportedAsASequence) {
+  const std::vector<std::string> small{"--lines", "32", "--planes", "1", "--pixel", "0.5"};
+  const auto sweep = [&](std::vector<std::string> more) {
+    std::vector<std::string> command{"sweep", "-j", kSimple};
+    command.insert(command.end(), more.begin(), more.end());
+    command.insert(command.end(), small.begin(), small.end());
+    const auto done = test::artus(command);
+    EXPECT_EQ(done.exit_code, 0) << done.err;
+  };
+  sweep({"--draw", "5", "--frames-per-shard", "2", "-o", in("shards")});
+  for (const char* name : {"shards", "folder"}) {
+    if (name == std::string("folder")) sweep({"--poses", in("shards.igs.mha"), "-o", in("folder")});
+    const auto done = test::artus({"export", "-j", kSimple, "--sweep", in(name), "--mha",
+                                   in(name + std::string(".igs.mha"))});
+    ASSERT_EQ(done.exit_code, 0) << done.err;
+  }
+  // Through the sequence's matrices and back: the same places, and so the same pictures but for
+  // what is lost in a text of millimetres.
+  const auto first = read_mha(in("shards.igs.mha"));
+  const auto second = read_mha(in("folder.igs.mha"));
+  ASSERT_TRUE(first && second);
+  ASSERT_EQ(first->frames.size(), 5U);
+  ASSERT_EQ(second->frames.size(), 5U);
+  for (std::size_t i = 0; i < 5; ++i) {
+    EXPECT_TRUE(
+        first->frames[i].image_to_reference.isApprox(second->frames[i].image_to_reference, 1e-6));
+    EXPECT_EQ(first->frames[i].grey.size(), second->frames[i].grey.size());
+  }
+}
+
+TEST_F(ExchangeTool, PressedNeedlesAndProbesAreDrawnTheSameInAnyOrder) {
+  const std::string ranges =
+      write("ranges.toml",
+            "[needle]\ngauge = [18, 25]\nlength_mm = [35, 60]\n[press]\nshare = 0.5\n"
+            "depth_mm = [0.5, 2]\n[transducer]\nnames = [\"linear-6-18\", \"linear-4-9\"]\n");
+  const auto draw = [&](const std::string& name, const std::string& range) {
+    const auto done = test::artus(
+        {"sweep", "-j",       kSimple, "--draw",   "4",     "--seed",  "2",   "--ranges",
+         ranges,  "--lines",  "32",    "--planes", "1",     "--pixel", "0.5", "--frames-per-shard",
+         "2",     "--frames", range,   "-o",       in(name)});
+    ASSERT_EQ(done.exit_code, 0) << done.err;
+  };
+  draw("whole", "0:4");
+  draw("parts", "2:4");
+  draw("parts", "0:2");
+  EXPECT_EQ(content("parts"), content("whole"));
+  std::string all;
+  for (const auto& [name, bytes] : content("whole")) all += bytes;
+  EXPECT_NE(all.find("\"press\":{\"depth_mm\":"), std::string::npos);
+  EXPECT_NE(all.find("\"settled\":true"), std::string::npos);
+  const auto missing =
+      test::artus({"sweep", "-j", kSimple, "--draw", "2", "--ranges",
+                   write("bad.toml", "[transducer]\nnames = [\"sonar\"]\n"), "-o", in("bad")});
+  EXPECT_EQ(missing.exit_code, 2);
+  EXPECT_THAT(missing.err, HasSubstr("sonar"));
 }
 
 TEST_F(ExchangeTool, ForcesOfATrajectoryAreATable) {

@@ -33,7 +33,7 @@ class ServeProcess : public ::testing::TestWithParam<int> {
 };
 
 TEST_P(ServeProcess, EndsByASignalInGoodOrder) {
-  const pid_t process = start_tool({"serve", "-j", test::kSimple, "--prefix", prefix_});
+  const pid_t process = start_tool({"serve", "-j", test::kSimple, "--rigid", "--prefix", prefix_});
   const std::int64_t patience = monotonic_ns() + 60'000'000'000;
   while (!exists("IMAGE") && monotonic_ns() < patience) usleep(10'000);
   auto seen = SharedChannel<artus_shm_force>::open(prefix_, kForceLayout, SegmentAccess::observer);
@@ -82,11 +82,10 @@ TEST_P(ServeFlag, RecordsWhatReplaysToTheSameBytes) {
   const auto file = std::filesystem::temp_directory_path() /
                     ("artus-flag-" + std::to_string(getpid()) + GetParam().name + ".rec");
   std::vector<std::string> serve{
-      "serve",     "-j",           test::kSimple,
-      "--input",   "injection",    "--record",
-      file,        "--speed-mm-s", "60",
-      "--seconds", "1.2",          "--image-rate",
-      "5",         "--prefix",     "artus-flag-" + std::to_string(getpid()) + "-"};
+      "serve",        "-j",        test::kSimple, "--rigid",
+      "--input",      "injection", "--record",    file,
+      "--speed-mm-s", "60",        "--seconds",   "1.2",
+      "--image-rate", "5",         "--prefix",    "artus-flag-" + std::to_string(getpid()) + "-"};
   const auto& more = GetParam().arguments;
   serve.insert(serve.end(), more.begin(), more.end());
   const auto served = test::artus(serve);

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <cstdio>
+#include <iostream>
+#include <memory>
+
+#include "artus/apps/arguments.h"
+#include "artus/apps/feel_options.h"
+#include "artus/apps/view_options.h"
+#include "artus/core/text_file.h"
+#include "artus/core/units.h"
+#include "artus/evidence/injection/injection_pictures.h"
+#include "artus/evidence/injection/injection_report.h"
+#include "artus/evidence/injection/injection_request.h"
+
+namespace artus {
+namespace {
+
+struct InjectOptions {
+  JointOptions joint;
+  ViewOptions view;
+  FeelOptions feel;
+  std::string injection;
+  std::string entry;
+  std::string target;
+  std::vector<std::string> into;
+  double volume_ml = 5;
+  double rate_ml_s = 0.1;
+  std::string liquid = "lidocaine";
+  double syringe_ml = 0;
+  double air_ml = 0;
+  double aspirate_s = 3;
+  double length_mm = 50;
+  std::string technique = "direct";
+  double rate_hz = 1000;
+  std::string device = "virtuose_6d_desktop";
+  std::filesystem::path out;
+  bool no_images = false;
+  bool json = false;
+};
+
+/// What the flags ask for; the structure is left open.
+Result<InjectionRequest> request_of(const InjectOptions& options, const CompiledJoint& joint) {
+  InjectionRequest request;
+  request.injection = options.injection;
+  if (!options.entry.empty()) {
+    const auto entry = parse_point_mm(options.entry, "--entry");
+    ARTUS_TRY(entry);
+    const auto target = parse_point_mm(options.target, "--target");
+    ARTUS_TRY(target);
+    request.line = {*entry, *target};
+  }
+  request.volume = options.volume_ml * kCubicCentimetre;
+  request.rate = options.rate_ml_s * kCubicCentimetre;
+  request.liquid = options.liquid;
+  request.gauge = options.view.gauge;
+  request.needle_length = options.length_mm * kMillimetre;
+  request.syringe = options.syringe_ml * kCubicCentimetre;
+  request.air = options.air_ml * kCubicCentimetre;
+  request.aspirate = options.aspirate_s;
+  if (options.technique == "through-and-back") request.technique = Technique::through_and_back;
+  request.rate_hz = options.rate_hz;
+  request.device = options.device;
+  request.seed = options.view.seed;
+  const auto feel = make_feel(options.feel, joint);
+  ARTUS_TRY(feel);
+  request.feel = *feel;
+  return request;
+}
+
+void print(const nlohmann::json& report) {
+  std::printf("%s: %.3f of %.3f ml of %s given, %.1f %% in %s\n",
+              report["injection"].get<std::string>().c_str(), report["given_ml"].get<double>(),
+              report["meant_ml"].get<double>(), report["liquid"].get<std::string>().c_str(),
+              report["in_target_percent"].get<double>(),
+              report["target"].get<std::string>().c_str());
+  for (const auto& [place, volume] : report["volumes_ml"].items())
+    std::printf("  %-28s %9.4f ml\n", place.c_str(), volume.get<double>());
+  std::printf("thumb at most %.1f N, tip at most %.1f kPa, tip walked %.2f mm\n",
+              report["highest_thumb_n"].get<double>(), report["highest_tip_kpa"].get<double>(),
+              report["tip_walk_mm"].get<double>());
+  for (const auto& line : report["patient"])
+    std::printf("%6.1f s  \"%s\"\n", line["time_s"].get<double>(),
+                line["text"].get<std::string>().c_str());
+}
+
+struct Outcome {
+  nlohmann::json report;
+  std::vector<Claim> claims;
+};
+
+/// One run's files. Errors: those of files and gnuplot.
+Result<Outcome> write_run(const std::shared_ptr<const Scene>& scene, const InjectionRun& run,
+                          const View& view, bool images, const std::filesystem::path& folder) {
+  Outcome outcome;
+  ARTUS_TRY(write_injection(run, folder));
+  outcome.report = summarize(run);
+  outcome.claims = claims_of(run);
+  if (images && run.given > 0) {
+    const auto pictures = write_injection_pictures(
+        scene, run, {view.transducer, view.settings, view.needle_shape}, folder);
+    ARTUS_TRY(pictures);
+    for (Claim& claim : claims_of(run, *pictures)) outcome.claims.push_back(std::move(claim));
+    outcome.report["pictures"] = pictures->files;
+    outcome.report["opening_mm"] = pictures->opening / kMillimetre;
+    outcome.report["opening_width_mm"] = pictures->width / kMillimetre;
+    outcome.report["label_area_mm2"] = pictures->label_area / (kMillimetre * kMillimetre);
+    outcome.report["ray_volume_ml"] = pictures->ray_volume / kCubicCentimetre;
+  }
+  outcome.report["verdict"] = verdict(outcome.claims);
+  ARTUS_TRY(write_text(folder / "summary.json", outcome.report.dump(2) + "\n"));
+  return outcome;
+}
+
+/// Plots and pictures of several runs beside each other.
+Result<void> write_comparison(std::span<const InjectionRun> runs, const InjectOptions& options) {
+  std::vector<std::filesystem::path> pictures;
+  std::vector<std::string> names;
+  for (const InjectionRun& run : runs) {
+    const auto file = options.out / run.target / "after.png";
+    if (!std::filesystem::exists(file)) continue;
+    pictures.push_back(file);
+    names.push_back(run.target);
+  }
+  if (!pictures.empty()) ARTUS_TRY(write_plate(pictures, names, options.out / "pictures.png"));
+  return write_plot(options.out / "compared.png", plot_of(runs));
+}
+
+Result<ExitCode> inject(const InjectOptions& options) {
+  ViewOptions view_options = options.view;
+  const auto view = make_view(view_options);
+  ARTUS_TRY(view);
+  const auto joint = load(options.joint, make_progress_printer(options.json));
+  ARTUS_TRY(joint);
+  auto request = request_of(options, **joint);
+  ARTUS_TRY(request);
+  const auto scene = std::make_shared<const Scene>(*joint);
+  std::vector<std::string> into = options.into;
+  if (into.empty()) into.emplace_back();
+  std::vector<InjectionRun> runs;
+  auto reports = nlohmann::json::array();
+  bool holds = true;
+  for (const std::string& name : into) {
+    request->into = name;
+    const auto run = run_injection(*scene, *request);
+    ARTUS_TRY(run);
+    const auto folder = into.size() > 1 ? options.out / run->target : options.out;
+    const auto outcome = write_run(scene, *run, *view, !options.no_images, folder);
+    ARTUS_TRY(outcome);
+    if (!options.json) print(outcome->report);
+    for (const Claim& claim : outcome->claims)
+      if (!options.json) std::printf("%s\n", to_line(claim).c_str());
+    holds = holds && all_hold(outcome->claims);
+    reports.push_back(outcome->report);
+    runs.push_back(*run);
+  }
+  if (runs.size() > 1) ARTUS_TRY(write_comparison(runs, options));
+  if (options.json) std::cout << (reports.size() == 1 ? reports[0] : reports).dump(2) << '\n';
+  return holds ? ExitCode::ok : ExitCode::failed;
+}
+
+}  // namespace
+
+void add_inject_command(Command& app, ExitCode& code) {
+  auto options = std::make_shared<InjectOptions>();
+  Command* command = add_command(
+      app, "inject",
+      "Inject with a simulated hand and thumb: where the liquid goes, how it feels and looks",
+      "Writes trace.csv, injection.png, summary.json and the pictures before, during and after;\n"
+      "with several --into also compared.png and pictures.png. Exit code 1 when a claim does not\n"
+      "hold.\n"
+      "Examples:\n"
+      "  artus inject -j meshes/shoulder --volume-ml 5 --rate 0.1 --gauge 22 -o out/bursa\n"
+      "  artus inject -j shoulder.artus --technique through-and-back --volume-ml 5 -o out/back\n"
+      "  artus inject -j shoulder.artus --volume-ml 1 --into deltoid --into supraspinatus_tendon\n"
+      "    --into subcutaneous_fat --into joint_fluid -o out/cases");
+  add_joint_options(command, options->joint);
+  add_imaging_options(command, options->view);
+  add_feel_options(command, options->feel);
+  command->add_option("--injection", options->injection, "the joint's, by name (default: first)");
+  Option* entry = command->add_option("--entry", options->entry, "x,y,z in mm, in its place");
+  Option* target = command->add_option("--target", options->target, "x,y,z in mm, of the tip");
+  entry->needs(target);
+  target->needs(entry);
+  command->add_option("--into", options->into,
+                      "structure to inject: on that line, or on one that is found; repeatable");
+  command->add_option("--volume-ml", options->volume_ml, "ml to give")
+      ->check(number_in(0.01, 50))
+      ->capture_default_str();
+  command->add_option("--rate", options->rate_ml_s, "ml/s")
+      ->check(number_in(0.001, 5))
+      ->capture_default_str();
+  command->add_option("--liquid", options->liquid, "of meshes/liquids.toml")->capture_default_str();
+  command->add_option("--syringe-ml", options->syringe_ml, "barrel (default: the least that holds)")
+      ->check(number_in(0.1, 50));
+  command->add_option("--air-ml", options->air_ml, "air trapped behind the liquid")
+      ->check(number_in(0, 5));
+  command->add_option("--length-mm", options->length_mm, "needle; longer where the target is deep")
+      ->check(number_in(10, 200))
+      ->capture_default_str();
+  command->add_option("--aspirate", options->aspirate_s, "s of pulling before; 0: none")
+      ->check(number_in(0, 60))
+      ->capture_default_str();
+  command->add_option("--technique", options->technique, "direct or through-and-back")
+      ->one_of({"direct", "through-and-back"})
+      ->capture_default_str();
+  command->add_option("--haptic-rate", options->rate_hz, "Hz")
+      ->check(number_in(100, 20000))
+      ->capture_default_str();
+  command->add_option("--device", options->device, "device whose force limits apply")
+      ->capture_default_str();
+  command->add_option("-o,--out", options->out, "folder for the results")->required();
+  command->add_flag("--no-images", options->no_images, "forces alone");
+  command->add_flag("--json", options->json, "print the summary as JSON");
+  on_run(command, code, [options] {
+    const auto done = inject(*options);
+    return done ? *done : report_error(done.error(), options->json);
+  });
+}
+
+}  // namespace artus

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <cstdio>
+#include <iostream>
+#include <memory>
+
+#include "artus/apps/attempt_page.h"
+#include "artus/apps/training_commands.h"
+#include "artus/core/text_file.h"
+#include "artus/training/record_export.h"
+
+namespace artus {
+namespace {
+
+struct LearnersOptions {
+  std::string what;
+  std::string person;
+  std::filesystem::path records;
+  std::string role = "learner";
+  std::string cohort;
+  std::string scenario;
+  std::string format = "csv";
+  std::string home = "https://example.org";
+  std::filesystem::path out;
+  bool json = false;
+};
+
+/// The folders of a person's attempts that stand where this program wrote them.
+void remove_folders(const std::vector<AttemptRecord>& attempts) {
+  for (const AttemptRecord& a : attempts) {
+    if (a.folder.empty()) continue;
+    std::error_code ignored;
+    for (const char* file : {"session.rec", "scenario.toml", "attempt.json", "report.html"})
+      std::filesystem::remove(std::filesystem::path(a.folder) / file, ignored);
+    std::filesystem::remove(a.folder, ignored);  // only when nothing else is in it
+  }
+}
+
+Result<void> show(Records& records, const LearnersOptions& options) {
+  const auto attempts = records.attempts({options.person, options.cohort, options.scenario});
+  ARTUS_TRY(attempts);
+  if (options.json) {
+    const auto json = export_json(records, {options.person, options.cohort, options.scenario});
+    ARTUS_TRY(json);
+    std::cout << json->dump(2) << '\n';
+    return {};
+  }
+  for (const AttemptRecord& a : *attempts)
+    std::printf("%s  %s  %-16s %-18s %s  score %.0f%s\n", a.id.c_str(), a.started.c_str(),
+                a.person.empty() ? "(forgotten)" : a.person.c_str(), a.scenario.c_str(),
+                a.ended.empty() ? "unfinished" : (a.passed ? "passed" : "failed"), a.score,
+                a.aided ? "  with aids" : "");
+  return {};
+}
+
+Result<void> list(Records& records, const LearnersOptions& options) {
+  const auto persons = records.persons();
+  ARTUS_TRY(persons);
+  const auto attempts = records.attempts();
+  ARTUS_TRY(attempts);
+  auto json = nlohmann::json::array();
+  for (const PersonRecord& p : *persons) {
+    int total = 0;
+    int passed = 0;
+    int unfinished = 0;
+    for (const AttemptRecord& a : *attempts) {
+      if (a.person != p.id) continue;
+      ++total;
+      passed += a.passed ? 1 : 0;
+      unfinished += a.ended.empty() ? 1 : 0;
+    }
+    if (options.json)
+      json.push_back({{"person", p.id},
+                      {"role", p.role},
+                      {"cohort", p.cohort},
+                      {"attempts", total},
+                      {"passed", passed},
+                      {"unfinished", unfinished}});
+    else
+      std::printf("%-18s %-8s %-12s %4d attempts, %d passed, %d unfinished\n", p.id.c_str(),
+                  p.role.c_str(), p.cohort.c_str(), total, passed, unfinished);
+  }
+  if (options.json) std::cout << json.dump(2) << '\n';
+  return {};
+}
+
+Result<void> add(Records& records, const LearnersOptions& options) {
+  const std::string id = options.person.empty() ? make_random_id() : options.person;
+  ARTUS_TRY(records.add_person({id, options.role, options.cohort}));
+  std::printf("%s\n", id.c_str());
+  return {};
+}
+
+Result<void> export_all(Records& records, const LearnersOptions& options) {
+  const AttemptFilter filter{options.person, options.cohort, options.scenario};
+  Result<std::string> text;
+  if (options.format == "csv")
+    text = export_csv(records, filter);
+  else if (options.format == "tsv")
+    text = export_tsv(records, filter);
+  else
+    text = (options.format == "json" ? export_json(records, filter)
+                                     : export_xapi(records, filter, options.home))
+               .map([](const nlohmann::json& json) { return json.dump(2) + "\n"; });
+  ARTUS_TRY(text);
+  if (!options.out.empty()) return write_text(options.out, *text);
+  std::fputs(text->c_str(), stdout);
+  return {};
+}
+
+Result<void> report(Records& records, const LearnersOptions& options) {
+  if (options.out.empty()) return fail(ErrorCode::malformed, "name the page to write", "--out");
+  return options.person.empty() ? write_cohort_page(records, options.cohort, options.out)
+                                : write_learner_page(records, options.person, options.out);
+}
+
+Result<void> forget(Records& records, const LearnersOptions& options) {
+  if (options.person.empty()) return fail(ErrorCode::malformed, "name the person", "--person");
+  const auto attempts = records.attempts({options.person, "", ""});
+  ARTUS_TRY(attempts);
+  ARTUS_TRY(records.forget(options.person));
+  remove_folders(*attempts);
+  return {};
+}
+
+ExitCode run_learners(const LearnersOptions& options) {
+  auto records = Records::open(options.records);
+  if (!records) return report_error(records.error(), options.json);
+  Result<void> done;
+  if (options.what == "list") done = list(*records, options);
+  if (options.what == "show") done = show(*records, options);
+  if (options.what == "add") done = add(*records, options);
+  if (options.what == "export") done = export_all(*records, options);
+  if (options.what == "report") done = report(*records, options);
+  if (options.what == "forget") done = forget(*records, options);
+  return done ? ExitCode::ok : report_error(done.error(), options.json);
+}
+
+struct RateOptions {
+  std::filesystem::path records;
+  RatingRecord rating;
+  std::string comment;
+  double time = 0;
+};
+
+ExitCode run_rate(const RateOptions& options) {
+  auto records = Records::open(options.records);
+  if (!records) return report_error(records.error(), false);
+  if (const auto done = records->rate(options.rating); !done)
+    return report_error(done.error(), false);
+  if (!options.comment.empty()) {
+    const auto done = records->comment(options.rating.attempt, options.rating.rater, options.time,
+                                       options.comment);
+    if (!done) return report_error(done.error(), false);
+  }
+  return ExitCode::ok;
+}
+
+}  // namespace
+
+void add_learners_command(Command& app, ExitCode& code) {
+  auto options = std::make_shared<LearnersOptions>();
+  Command* command = add_command(
+      app, "learners", "Persons and their attempts: list, show, add, export, report, forget",
+      "Persons are pseudonyms; whose they are stays with the school. forget removes a person, the\n"
+      "details of all attempts and their folders; that there were attempts stays.\n"
+      "Examples:\n"
+      "  artus learners add --records school.db --cohort 2026\n"
+      "  artus learners list --records school.db\n"
+      "  artus learners show --records school.db --person a1\n"
+      "  artus learners export --records school.db --format xapi --home https://school.example\n"
+      "  artus learners report --records school.db --person a1 --out a1.html\n"
+      "  artus learners forget --records school.db --person a1");
+  command->add_option("what", options->what, "list, show, add, export, report or forget")
+      ->required()
+      ->one_of({"list", "show", "add", "export", "report", "forget"});
+  command->add_option("--records", options->records, "file of the records")->required();
+  command->add_option("--person", options->person, "pseudonym; add makes one when none is given");
+  command->add_option("--cohort", options->cohort, "group of persons");
+  command->add_option("--scenario", options->scenario, "name of a scenario");
+  command->add_option("--role", options->role, "of a person that is added")
+      ->one_of({"learner", "teacher", "rater"})
+      ->capture_default_str();
+  command->add_option("--format", options->format, "of the export")
+      ->one_of({"csv", "json", "tsv", "xapi"})
+      ->capture_default_str();
+  command->add_option("--home", options->home, "IRI of who gave the pseudonyms, for xapi")
+      ->capture_default_str();
+  command->add_option("--out,-o", options->out, "file to write");
+  command->add_flag("--json", options->json, "machine-readable output");
+  on_run(command, code, [options] { return run_learners(*options); });
+}
+
+void add_rate_command(Command& app, ExitCode& code) {
+  auto options = std::make_shared<RateOptions>();
+  Command* command = add_command(
+      app, "rate", "Store a rater's judgement of an attempt",
+      "Ratings stand beside the machine's numbers and never change them.\n"
+      "Example:\n"
+      "  artus rate 0123456789abcdef --records school.db --rater r1 --instrument OSAUS \\\n"
+      "    --item overall --value 4 --comment \"looked away\" --time 12.5");
+  command->add_option("attempt", options->rating.attempt, "of learners show")->required();
+  command->add_option("--records", options->records, "file of the records")->required();
+  command->add_option("--rater", options->rating.rater, "a person whose role is rater")->required();
+  command->add_option("--instrument", options->rating.instrument, "the form's name")->required();
+  command->add_option("--item", options->rating.item, "the form's item")->required();
+  command->add_option("--value", options->rating.value, "as the form counts")
+      ->required()
+      ->check(number_in(-1000, 1000));
+  command->add_option("--comment", options->comment, "free text");
+  command->add_option("--time", options->time, "s into the attempt that the comment is about")
+      ->check(number_in(0, 100000));
+  on_run(command, code, [options] { return run_rate(*options); });
+}
+
+}  // namespace artus

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <utility>
+
+#include "artus/apps/attempt_page.h"
+#include "artus/apps/scenario_options.h"
+#include "artus/apps/training_commands.h"
+#include "artus/core/text_file.h"
+#include "artus/training/player.h"
+
+namespace artus {
+namespace {
+
+struct PlayCommandOptions {
+  std::string scenario;
+  std::filesystem::path joint;
+  std::string hands = "expert";
+  std::int64_t seed = 1;
+  std::filesystem::path record;
+  std::filesystem::path report;
+  std::filesystem::path records;
+  std::string person;
+  double picture_rate = 0;
+  bool json = false;
+};
+
+Result<OperatorSkill> skill_of(const std::string& text) {
+  if (text == "expert") return expert_skill();
+  if (text == "novice") return novice_skill();
+  if (text.rfind("novice:", 0) == 0) {
+    const std::string trials = text.substr(7);
+    if (whole_number_in(0, 100000).problem(trials).empty()) return novice_skill(std::stoi(trials));
+  }
+  return fail(ErrorCode::malformed, "'" + text + "' is none of expert, novice and novice:TRIALS",
+              "--operator");
+}
+
+nlohmann::json to_json(const Scenario& scenario, const PlayedAttempt& attempt) {
+  auto marks = nlohmann::json::array();
+  for (const JudgedMark& m : attempt.judgement.marks)
+    marks.push_back({{"metric", m.mark.metric},
+                     {"mark", m.mark.text},
+                     {"value", m.value ? nlohmann::json(*m.value) : nlohmann::json()},
+                     {"held", m.held},
+                     {"part", m.part},
+                     {"weight", m.weight}});
+  return {{"scenario", scenario.name},
+          {"passed", attempt.judgement.passed},
+          {"score", attempt.judgement.score},
+          {"duration_s", attempt.duration},
+          {"marks", marks},
+          {"metrics_version", kMetricsVersion},
+          {"metrics", to_json(attempt.measures.metrics)}};
+}
+
+void print(const PlayedAttempt& attempt) {
+  const Judgement& j = attempt.judgement;
+  std::printf("%s, score %.0f, %.1f s\n", j.passed ? "passed" : "not passed", j.score,
+              attempt.duration);
+  for (const JudgedMark& m : j.marks)
+    std::printf("  %-20s %-8s %10.3f  %s\n", m.mark.metric.c_str(), m.mark.text.c_str(),
+                m.value.value_or(0), m.held ? "held" : (m.value ? "missed" : "not known"));
+  for (const AttemptEvent& e : attempt.measures.events)
+    std::printf("%9.2f s  %-10s %s\n", e.time, e.kind.c_str(), e.text.c_str());
+}
+
+/// The attempt in a folder.
+Result<void> write_folder(const Scenario& scenario, const PlayedAttempt& attempt,
+                          const nlohmann::json& json, const std::filesystem::path& folder) {
+  ARTUS_TRY(write_recording(attempt.recording, folder / "session.rec"));
+  ARTUS_TRY(write_text(folder / "scenario.toml", scenario.text));
+  return write_text(folder / "attempt.json", json.dump(2) + "\n");
+}
+
+/// Where the attempt is noted before it is played, so that one that is cut off shows.
+class Note {
+ public:
+  [[nodiscard]] static Result<Note> begin(const PlayCommandOptions& options,
+                                          const Scenario& scenario) {
+    Note note;
+    if (options.records.empty()) return note;
+    auto records = Records::open(options.records);
+    ARTUS_TRY(records);
+    note.records_ = std::make_unique<Records>(std::move(*records));
+    AttemptRecord& a = note.attempt_;
+    a.id = make_random_id();
+    a.person = options.person;
+    a.scenario = scenario.name;
+    a.scenario_hash = text_hash(scenario.text);
+    a.level = scenario.level;
+    a.started = utc_now();
+    a.mode = "demo";
+    a.aided = scenario.aided();
+    a.device = "simulated " + options.hands;
+    a.seed = static_cast<std::uint64_t>(options.seed);
+    a.folder = options.record.empty() ? "" : std::filesystem::absolute(options.record).string();
+    ARTUS_TRY(note.records_->begin(a, scenario.text));
+    return note;
+  }
+
+  [[nodiscard]] Result<void> finish(const PlayedAttempt& played) {
+    if (records_ == nullptr) return {};
+    attempt_.ended = utc_now();
+    attempt_.duration = played.duration;
+    attempt_.passed = played.judgement.passed;
+    attempt_.score = played.judgement.score;
+    return records_->finish(attempt_, played.measures.metrics, played.measures.events);
+  }
+
+ private:
+  std::unique_ptr<Records> records_;
+  AttemptRecord attempt_;
+};
+
+ExitCode run_play(const PlayCommandOptions& options) {
+  const auto skill = skill_of(options.hands);
+  if (!skill) return report_error(skill.error(), options.json);
+  const auto scenario = find_scenario(options.scenario);
+  if (!scenario) return report_error(scenario.error(), options.json);
+  auto note = Note::begin(options, *scenario);
+  if (!note) return report_error(note.error(), options.json);
+  const auto scene = load_scene(*scenario, options.joint, make_progress_printer(options.json));
+  if (!scene) return report_error(scene.error(), options.json);
+  PlayOptions play_options;
+  play_options.seed = static_cast<std::uint64_t>(options.seed);
+  play_options.picture_rate = options.picture_rate;
+  const auto attempt = play(*scenario, *scene, *skill, play_options);
+  if (!attempt) return report_error(attempt.error(), options.json);
+  const nlohmann::json json = to_json(*scenario, *attempt);
+  Result<void> kept;
+  if (!options.record.empty()) kept = write_folder(*scenario, *attempt, json, options.record);
+  if (kept && !options.report.empty())
+    kept = write_attempt_page(*scenario, *scene, *attempt, options.report);
+  if (kept) kept = note->finish(*attempt);
+  if (!kept) return report_error(kept.error(), options.json);
+  if (options.json)
+    std::cout << json.dump(2) << '\n';
+  else
+    print(*attempt);
+  return ExitCode::ok;
+}
+
+}  // namespace
+
+void add_play_command(Command& app, ExitCode& code) {
+  auto options = std::make_shared<PlayCommandOptions>();
+  Command* command = add_command(
+      app, "play", "Let simulated hands do a scenario, without a window",
+      "The same scenario, operator and seed give the same bytes.\n"
+      "Examples:\n"
+      "  artus play gel-align --operator expert --seed 3 --record out/attempt\n"
+      "  artus play gel-align --operator novice:20 --json\n"
+      "  artus play gel-steep --operator novice --report attempt.html\n"
+      "  artus play mine.toml --joint shoulder.artus --pictures 10 --record out/attempt");
+  command->add_option("scenario", options->scenario, "a file, or the name of a bundled one")
+      ->required();
+  command->add_option("--operator", options->hands, "expert, novice, or novice:TRIALS done")
+      ->capture_default_str();
+  command->add_option("--seed", options->seed, "of hands and errors")
+      ->check(whole_number_in(0, 1000000000))
+      ->capture_default_str();
+  command->add_option("--joint,-j", options->joint, "in place of the scenario's");
+  command->add_option("--record", options->record, "folder for recording, scenario and numbers");
+  command->add_option("--report", options->report, "page with verdict, faults and plots (.html)");
+  Option* records = command->add_option("--records", options->records,
+                                        "file of records that the attempt goes into");
+  Option* person = command->add_option("--person", options->person, "who, of those records");
+  person->needs(records);
+  records->needs(person);
+  command->add_option("--pictures", options->picture_rate, "pictures a second in the recording")
+      ->check(number_in(0, 60))
+      ->capture_default_str();
+  command->add_flag("--json", options->json, "machine-readable output");
+  on_run(command, code, [options] { return run_play(*options); });
+}
+
+}  // namespace artus

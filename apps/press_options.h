@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "artus/apps/view_options.h"
+#include "artus/soft/press.h"
+
+namespace artus {
+
+/// How hard the probe is pressed; neither: the body is rigid.
+struct PressOptions {
+  std::optional<double> newtons;
+  std::optional<double> millimetres;
+
+  std::string needle_way;  ///< "in", "out"; empty: the needle drags nothing
+
+  [[nodiscard]] bool wanted() const noexcept { return newtons || millimetres; }
+};
+void add_press_options(Command* command, PressOptions& options);
+
+/// A probe pressed on a joint until nothing moved, and the body that then is.
+struct PressedBody {
+  Press press;
+  std::shared_ptr<const DeformedBody> tissue;
+};
+
+/// Presses at `X_JP` as the flags say. Errors: malformed (force and depth), those of SoftBody and
+/// press_with.
+[[nodiscard]] Result<PressedBody> press(SoftBody& body, const Pose& X_JP,
+                                        const PressOptions& options);
+
+/// The flag for commands that draw a needle in the pressed body.
+void add_drag_option(Command* command, PressOptions& options);
+
+/// The view of the pressed body: scene and probe pose of that state, the needle dragging what it
+/// slides through when that is wanted. Nothing when no press is
+/// wanted. Returns what the hand feels, as JSON. Errors: as press.
+[[nodiscard]] Result<nlohmann::json> press(LoadedView& view, const PressOptions& options);
+
+[[nodiscard]] nlohmann::json to_json(const Press& press);
+
+}  // namespace artus

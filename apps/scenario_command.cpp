@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <utility>
+
+#include "artus/apps/scenario_options.h"
+#include "artus/apps/training_commands.h"
+#include "artus/training/scenario_check.h"
+
+namespace artus {
+namespace {
+
+struct ScenarioCheckOptions {
+  std::string what;
+  std::string file;
+  std::filesystem::path joint;
+  bool all = false;
+  bool no_play = false;
+  int tries = 20;
+  bool json = false;
+};
+
+/// What was found of one scenario.
+struct Checked {
+  Scenario scenario;
+  std::vector<std::string> problems;
+  std::optional<Difficulty> difficulty;
+  [[nodiscard]] bool good() const {
+    return problems.empty() && (!difficulty || difficulty->sound());
+  }
+};
+
+Result<Checked> check(Scenario scenario, const ScenarioCheckOptions& options) {
+  const Progress progress = make_progress_printer(options.json);
+  const auto scene = load_scene(scenario, options.joint, progress);
+  ARTUS_TRY(scene);
+  Checked out;
+  out.problems = find_problems(scenario, *scene);
+  if (out.problems.empty() && !options.no_play) {
+    const auto difficulty = measure_difficulty(scenario, *scene, options.tries, progress);
+    ARTUS_TRY(difficulty);
+    out.difficulty = *difficulty;
+  }
+  out.scenario = std::move(scenario);
+  return out;
+}
+
+nlohmann::json to_json(const Checked& c) {
+  nlohmann::json json = {{"name", c.scenario.name},
+                         {"level", c.scenario.level},
+                         {"problems", c.problems},
+                         {"good", c.good()}};
+  if (c.difficulty)
+    json["difficulty"] = {{"tries", c.difficulty->tries},
+                          {"expert_passes", c.difficulty->expert_passes},
+                          {"novice_passes", c.difficulty->novice_passes},
+                          {"expert_score", c.difficulty->expert_score},
+                          {"novice_score", c.difficulty->novice_score}};
+  return json;
+}
+
+void print(const Checked& c) {
+  std::printf("%-18s level %d  ", c.scenario.name.c_str(), c.scenario.level);
+  if (c.difficulty)
+    std::printf("expert %d of %d (score %.0f), novice %d of %d (score %.0f)  ",
+                c.difficulty->expert_passes, c.difficulty->tries, c.difficulty->expert_score,
+                c.difficulty->novice_passes, c.difficulty->tries, c.difficulty->novice_score);
+  std::printf("%s\n", c.good() ? "good" : "NOT GOOD");
+  for (const std::string& problem : c.problems) std::printf("  %s\n", problem.c_str());
+}
+
+ExitCode run_list(bool json) {
+  auto all = nlohmann::json::array();
+  for (const std::string_view text : bundled_scenario_texts()) {
+    const auto s = parse_scenario(text, "bundled");
+    if (!s) return report_error(s.error(), json);
+    if (json)
+      all.push_back({{"name", s->name}, {"level", s->level}, {"title", s->title}});
+    else
+      std::printf("%d  %-18s %s\n", s->level, s->name.c_str(), s->title.c_str());
+  }
+  if (json) std::cout << all.dump(2) << '\n';
+  return ExitCode::ok;
+}
+
+ExitCode run_scenario(const ScenarioCheckOptions& options) {
+  if (options.what == "list") return run_list(options.json);
+  if (options.all != options.file.empty())
+    return report_error({ErrorCode::malformed, "give one scenario, or --all", "--all"},
+                        options.json);
+  std::vector<Result<Scenario>> scenarios;
+  if (options.all)
+    for (const std::string_view text : bundled_scenario_texts())
+      scenarios.push_back(parse_scenario(text, "bundled"));
+  else
+    scenarios.push_back(find_scenario(options.file));
+  if (options.what == "show") {
+    for (const auto& s : scenarios) {
+      if (!s) return report_error(s.error(), options.json);
+      std::fputs(s->text.c_str(), stdout);
+    }
+    return ExitCode::ok;
+  }
+  bool good = true;
+  auto all = nlohmann::json::array();
+  for (auto& s : scenarios) {
+    if (!s) return report_error(s.error(), options.json);
+    const auto checked = check(std::move(*s), options);
+    if (!checked) return report_error(checked.error(), options.json);
+    good = good && checked->good();
+    if (options.json)
+      all.push_back(to_json(*checked));
+    else
+      print(*checked);
+  }
+  if (options.json) std::cout << all.dump(2) << '\n';
+  return good ? ExitCode::ok : ExitCode::failed;
+}
+
+}  // namespace
+
+Result<std::shared_ptr<const Scene>> load_scene(const Scenario& scenario,
+                                                const std::filesystem::path& joint,
+                                                const Progress& progress) {
+  if (scenario.gel) return make_gel_scene(*scenario.gel);
+  JointOptions options;
+  options.joint = joint.empty() ? std::filesystem::path(scenario.joint) : joint;
+  std::error_code unknown;
+  if (!std::filesystem::exists(options.joint, unknown))
+    if (const auto bundled = "meshes" / options.joint; std::filesystem::exists(bundled, unknown))
+      options.joint = bundled;
+  const auto loaded = load(options, progress);
+  ARTUS_TRY(loaded);
+  return std::make_shared<const Scene>(*loaded);
+}
+
+void add_scenario_command(Command& app, ExitCode& code) {
+  auto options = std::make_shared<ScenarioCheckOptions>();
+  Command* command = add_command(
+      app, "scenario", "List, show and check scenarios",
+      "check: can it be done at all, and do simulated hands find it right: an expert passes 19 of\n"
+      "20 seeds or more, a novice 8 or fewer. Exit code 1 when not.\n"
+      "Examples:\n"
+      "  artus scenario list\n"
+      "  artus scenario show gel-align > mine.toml\n"
+      "  artus scenario check mine.toml --json\n"
+      "  artus scenario check --all --no-play");
+  command->add_option("what", options->what, "list, show or check")
+      ->required()
+      ->one_of({"list", "show", "check"});
+  command->add_option("scenario", options->file, "a file, or the name of a bundled one");
+  command->add_flag("--all", options->all, "every bundled scenario");
+  command->add_option("--joint,-j", options->joint, "in place of the scenario's");
+  command->add_flag("--no-play", options->no_play, "only whether it can be done");
+  command->add_option("--tries", options->tries, "seeds of each simulated operator")
+      ->check(whole_number_in(1, 1000))
+      ->capture_default_str();
+  command->add_flag("--json", options->json, "machine-readable output");
+  on_run(command, code, [options] { return run_scenario(*options); });
+}
+
+}  // namespace artus
