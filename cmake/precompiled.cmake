@@ -21,10 +21,31 @@ function(artus_precompiled target)
   endif()
 endfunction()
 
+# artus_joined(target): up to six sources of one folder are compiled as one, which parses our own headers once for
+# them. An edit then costs its neighbours, too: whoever works on one of these rooms may set
+# ARTUS_JOINED_SOURCES=OFF. What the anonymous namespaces of a folder name must differ; the compiler says so.
+option(ARTUS_JOINED_SOURCES "Compile several sources of tests and of cold rooms as one" ON)
+function(artus_joined target)
+  if(NOT ARTUS_JOINED_SOURCES)
+    return()
+  endif()
+  get_target_property(sources ${target} SOURCES)
+  foreach(source IN LISTS sources)
+    get_filename_component(folder "here/${source}" DIRECTORY)
+    string(MAKE_C_IDENTIFIER "${folder}" folder)
+    list(APPEND in_${folder} ${source})
+    list(LENGTH in_${folder} count)
+    math(EXPR batch "(${count} - 1) / 6")
+    set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${folder}_${batch})
+  endforeach()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+endfunction()
+
 # artus_cold(target): compiled at -O1, which takes half the time of -O3, with one precompiled header for all
 # such targets, the first of them its owner.
 function(artus_cold target)
   target_compile_options(${target} PRIVATE -O1)
+  artus_joined(${target})
   get_property(owner GLOBAL PROPERTY ARTUS_COLD_OWNER)
   if(owner)
     artus_precompiled(${target} REUSE ${owner})

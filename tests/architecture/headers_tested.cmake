@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
 # Every header of these rooms is included by a test of its own room, which so can name what it promises.
 cmake_minimum_required(VERSION 3.25)
-set(rooms core anatomy/surfaces anatomy/body anatomy/compile raycast haptics haptics/needle haptics/probe haptics/actuator)
+set(rooms core anatomy/surfaces anatomy/body anatomy/compile raycast haptics haptics/needle haptics/probe haptics/plunger haptics/actuator)
 # What only the source files of one header include, and whose tests are that header's.
 set(inner raycast/embree_api.h anatomy/compile/distance_field_blocks.h)
 set(bad "")

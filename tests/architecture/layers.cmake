@@ -6,43 +6,50 @@ set(may_core "")
 set(may_anatomy/surfaces core)
 set(may_anatomy/body core)
 set(may_anatomy/compile core anatomy/surfaces anatomy/body)
-set(may_raycast core anatomy/body)
 set(may_soft core anatomy/body)
+set(may_raycast ${may_soft} soft)
 set(may_haptics ${may_raycast} raycast)
-set(may_haptics/needle ${may_haptics} haptics)
+set(may_haptics/needle ${may_haptics} haptics soft)
 set(may_haptics/probe ${may_haptics} haptics)
+set(may_haptics/plunger ${may_haptics} haptics haptics/needle)
 set(may_haptics/actuator ${may_haptics} haptics)
 set(may_echo ${may_raycast} raycast)
-set(may_operators ${may_haptics} haptics haptics/needle haptics/probe haptics/actuator)
-set(may_dataset ${may_echo} echo)
-set(may_session ${may_operators} echo operators)
+set(may_operators ${may_haptics} haptics haptics/needle haptics/probe haptics/plunger haptics/actuator)
+set(may_dataset ${may_echo} echo soft)
+set(may_session ${may_operators} soft echo operators)
 set(may_session/client "")
 list(APPEND may_session session/client)
-set(may_evidence ${may_operators} echo operators dataset session)
+set(may_training/metrics ${may_raycast} raycast echo)
+set(may_training ${may_session} session training/metrics)
+set(may_evidence ${may_operators} echo operators dataset session training training/metrics)
 set(may_evidence/needle ${may_evidence} evidence)
-set(may_evidence/soft ${may_evidence} soft evidence)
+set(may_evidence/soft ${may_evidence} soft evidence evidence/echo)
 set(may_evidence/probe ${may_evidence} evidence)
 set(may_evidence/echo ${may_evidence} evidence)
 set(may_evidence/medical ${may_evidence} evidence evidence/needle evidence/probe evidence/echo)
+set(may_evidence/injection ${may_evidence} soft evidence evidence/medical)
 set(may_exchange ${may_operators} echo operators dataset session session/client exchange/igtl)
 set(may_exchange/igtl core)
-set(may_python core anatomy/body anatomy/compile raycast haptics haptics/needle echo operators)
+set(may_python core anatomy/body anatomy/compile raycast haptics haptics/needle echo operators soft session training training/metrics
+  evidence evidence/injection)
 set(may_viewer ${may_operators} echo operators dataset session session/client)
-set(may_apps ${may_viewer} viewer exchange exchange/igtl anatomy/surfaces anatomy/compile evidence evidence/needle evidence/probe evidence/echo
-  evidence/soft evidence/medical soft)
 set(may_meshes/generate core anatomy/surfaces)
-set(rooms core anatomy/surfaces anatomy/body anatomy/compile raycast soft haptics haptics/needle haptics/probe haptics/actuator
-  echo operators dataset session session/client evidence evidence/needle evidence/probe evidence/echo evidence/soft evidence/medical
+set(may_apps ${may_viewer} training training/metrics viewer exchange exchange/igtl anatomy/surfaces anatomy/compile evidence evidence/needle evidence/probe evidence/echo
+  evidence/soft evidence/medical evidence/injection soft)
+set(rooms core anatomy/surfaces anatomy/body anatomy/compile raycast soft haptics haptics/needle haptics/probe haptics/plunger haptics/actuator
+  echo operators dataset session session/client training training/metrics evidence evidence/needle evidence/probe evidence/echo evidence/soft
+  evidence/medical evidence/injection
   exchange exchange/igtl python viewer apps meshes/generate)
 
 # folder lists that may include headers starting with the pattern
 set(outside "embree:raycast" "CGAL/:anatomy/surfaces,anatomy/compile,meshes/generate" "tetgen:anatomy/compile"
-  "toml:core,anatomy/body,echo,haptics/actuator" "opencv2/:echo,dataset,evidence/echo,evidence/medical,apps,viewer"
+  "toml:core,anatomy/body,echo,haptics/actuator,training" "opencv2/:echo,dataset,evidence/echo,evidence/medical,evidence/injection,apps,viewer"
   "CLI/:apps,meshes/generate" "boost/interprocess:session" "GLFW/:viewer" "imgui:viewer" "epoxy/:viewer" "gtest/:tests" "pybind11/:python" "dcmtk/:exchange"
-  "nlohmann/:anatomy/compile,session,dataset,exchange,evidence,evidence/needle,evidence/probe,evidence/echo,evidence/medical,apps,meshes/generate")
+  "sqlite3:training"
+  "nlohmann/:anatomy/compile,python,session,training,training/metrics,dataset,exchange,evidence,evidence/needle,evidence/probe,evidence/echo,evidence/medical,evidence/injection,apps,meshes/generate")
 
 set(bad "")
-foreach(folder core anatomy raycast soft haptics echo operators dataset session evidence exchange python viewer apps meshes)
+foreach(folder core anatomy raycast soft haptics echo operators dataset session training evidence exchange python viewer apps meshes)
   file(GLOB_RECURSE found RELATIVE ${ROOT} ${ROOT}/${folder}/*.h ${ROOT}/${folder}/*.cpp ${ROOT}/${folder}/*.hpp ${ROOT}/${folder}/*.c)
   list(LENGTH found n)
   if(n EQUAL 0)
