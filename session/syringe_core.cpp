@@ -21,9 +21,12 @@ PlungerParams plunger_params(const SessionParams& params) {
 }  // namespace
 
 SyringeCore::SyringeCore(const CompiledJoint& joint, const SessionParams& params)
+    : SyringeCore(spaces_of(joint), params) {}
+
+SyringeCore::SyringeCore(JointSpaces spaces, const SessionParams& params)
     : bevel_(0),
-      of_region_(spaces_of(joint).of_region),
-      plunger_(plunger_params(params), spaces_of(joint).spaces, 1 / params.haptic_rate),
+      of_region_(std::move(spaces.of_region)),
+      plunger_(plunger_params(params), std::move(spaces.spaces), 1 / params.haptic_rate),
       guard_(params.guard, {"thumb", kMostForce, 0, Vec3::Zero(), 0, 0, 0},
              1 / params.haptic_rate) {
   bevel_ = bevel_length(plunger_.params().needle.outer_diameter);

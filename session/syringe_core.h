@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "artus/anatomy/body/space.h"
 #include "artus/haptics/guard.h"
 #include "artus/haptics/plunger/bevel.h"
 #include "artus/session/input_device.h"
@@ -36,6 +37,7 @@ class SyringeCore {
   [[nodiscard]] const Plunger& plunger() const noexcept { return plunger_; }
 
  private:
+  SyringeCore(JointSpaces spaces, const SessionParams& params);
   void describe(double thumb, std::uint32_t faults) noexcept;
 
   double bevel_;  // m

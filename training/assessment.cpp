@@ -3,33 +3,22 @@
 
 #include <nlohmann/json.hpp>
 
-#include "artus/core/known_names.h"
+#include "artus/anatomy/body/find_region.h"
 #include "artus/training/session_meter.h"
 
 namespace artus {
-namespace {
-
-Result<RegionId> region_of(const CompiledJoint& joint, const std::string& name) {
-  auto names = item_names(joint.regions);
-  names.erase(names.begin(), names.begin() + kFirstRegion);
-  const auto at = find_name(names, name, "structure");
-  ARTUS_TRY(at);
-  return static_cast<RegionId>(kFirstRegion + *at);
-}
-
-}  // namespace
 
 Result<Goals> make_goals(const CompiledJoint& joint, const GoalNames& names) {
   Goals goals;
   if (names.point) {
     goals.target = Target{names.point_name, *names.point, nullptr};
   } else if (!names.structure.empty()) {
-    const auto region = region_of(joint, names.structure);
+    const auto region = find_region(joint, names.structure);
     ARTUS_TRY(region);
     goals.target = Target{names.structure, std::nullopt, make_region_body(joint, *region)};
   }
   for (const auto& [name, margin] : names.avoid) {
-    const auto region = region_of(joint, name);
+    const auto region = find_region(joint, name);
     ARTUS_TRY(region);
     goals.avoid.push_back({name, make_region_body(joint, *region), margin, false});
   }

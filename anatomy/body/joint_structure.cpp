@@ -5,13 +5,13 @@
 #include <array>
 
 #include "artus/core/known_names.h"
+#include "artus/core/units.h"
 
 namespace artus {
 namespace {
 
 constexpr double kLongest = 1e4;            // units of the file; no length of a joint is longer
 constexpr double kLargestInflation = 1000;  // ml, more than any space of a joint takes
-constexpr double kMillilitre = 1e-6;        // m^3
 
 /// A length key of the file: positive, in metres.
 double required_length(TomlTable& toml, std::string_view key, double unit) {
@@ -57,7 +57,7 @@ GapConstruct read_gap(TomlTable& toml, double unit) {
   gap.centre = toml.required_vector("centre", unit);
   gap.radius = required_length(toml, "radius", unit);
   gap.edge = toml.number("edge", 0, kLongest, unit).value_or(0);
-  gap.inflation = toml.number("inflation_ml", 0, kLargestInflation, kMillilitre).value_or(0);
+  gap.inflation = toml.number("inflation_ml", 0, kLargestInflation, kCubicCentimetre).value_or(0);
   return gap;
 }
 

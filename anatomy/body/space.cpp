@@ -9,32 +9,32 @@
 #include "artus/anatomy/body/space_toml.h"
 #include "artus/core/toml_fields.h"
 #include "artus/core/toml_library.h"
+#include "artus/core/units.h"
 
 namespace artus {
 namespace {
 
-constexpr double kKilo = 1e3;         // Pa
-constexpr double kMillilitre = 1e-6;  // m^3
+constexpr double kKilo = 1e3;  // Pa
 
 constexpr std::array<TomlField<SpaceLaw>, 18> kFields{{
     {"opening_kpa", &SpaceLaw::opening, 0, 1e5, kKilo},
     {"resistance_pa_s_m3", &SpaceLaw::resistance, 0, 1e15, 1},
     {"rest_kpa", &SpaceLaw::rest, -90, 1e3, kKilo},
-    {"stiffness_kpa_ml", &SpaceLaw::stiffness, 0, 1e6, kKilo / kMillilitre},
-    {"slack_ml", &SpaceLaw::slack, 0, 1e3, kMillilitre},
-    {"toe_ml", &SpaceLaw::toe, 0, 1e3, kMillilitre},
-    {"yield_ml", &SpaceLaw::yield, 0, 1e4, kMillilitre},
-    {"rupture_ml", &SpaceLaw::rupture, 0, 1e4, kMillilitre},
+    {"stiffness_kpa_ml", &SpaceLaw::stiffness, 0, 1e6, kKilo / kCubicCentimetre},
+    {"slack_ml", &SpaceLaw::slack, 0, 1e3, kCubicCentimetre},
+    {"toe_ml", &SpaceLaw::toe, 0, 1e3, kCubicCentimetre},
+    {"yield_ml", &SpaceLaw::yield, 0, 1e4, kCubicCentimetre},
+    {"rupture_ml", &SpaceLaw::rupture, 0, 1e4, kCubicCentimetre},
     {"suction_kpa", &SpaceLaw::suction, 0, 90, kKilo},
-    {"suction_ml", &SpaceLaw::suction_volume, 0, 1e3, kMillilitre},
+    {"suction_ml", &SpaceLaw::suction_volume, 0, 1e3, kCubicCentimetre},
     {"relaxing", &SpaceLaw::relaxing, 0, 10, 1},
     {"relaxation_s", &SpaceLaw::relaxation, 0, 1e5, 1},
     {"film_gap_mm", &SpaceLaw::film_gap, 0, 10, 1e-3},
     {"film_area_cm2", &SpaceLaw::film_area, 0, 1e3, 1e-4},
     {"peak_kpa", &SpaceLaw::peak, 0, 1e5, kKilo},
-    {"peak_ml", &SpaceLaw::peak_volume, 1e-4, 1e3, kMillilitre},
+    {"peak_ml", &SpaceLaw::peak_volume, 1e-4, 1e3, kCubicCentimetre},
     {"stop_kpa", &SpaceLaw::stop, 0, 1e5, kKilo},
-    {"contents_ml", &SpaceLaw::contents, 0, 1e5, kMillilitre},
+    {"contents_ml", &SpaceLaw::contents, 0, 1e5, kCubicCentimetre},
 }};
 
 void check_law(TomlTable& toml, const SpaceLaw& law) {

@@ -3,19 +3,19 @@
 
 #include <nlohmann/json.hpp>
 
+#include "artus/core/units.h"
+
 namespace artus {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kCubicCentimetre = 1e-6;  // m^3
-constexpr double kMillimetreHere = 1e-3;   // m
-constexpr double kMegabyte = 1e6;          // bytes
+constexpr double kMegabyte = 1e6;  // bytes
 
 Json to_value(const DistanceStatistics& d) {
-  return {{"mean_mm", d.mean / kMillimetreHere},
-          {"percentile95_mm", d.percentile95 / kMillimetreHere},
-          {"max_mm", d.max / kMillimetreHere}};
+  return {{"mean_mm", d.mean / kMillimetre},
+          {"percentile95_mm", d.percentile95 / kMillimetre},
+          {"max_mm", d.max / kMillimetre}};
 }
 
 Json to_value(const StructureReport& s) {
@@ -50,9 +50,9 @@ Json to_value(const TetQuality& q) {
 }
 
 void read(const Json& value, DistanceStatistics& d) {
-  d.mean = value.at("mean_mm").get<double>() * kMillimetreHere;
-  d.percentile95 = value.at("percentile95_mm").get<double>() * kMillimetreHere;
-  d.max = value.at("max_mm").get<double>() * kMillimetreHere;
+  d.mean = value.at("mean_mm").get<double>() * kMillimetre;
+  d.percentile95 = value.at("percentile95_mm").get<double>() * kMillimetre;
+  d.max = value.at("max_mm").get<double>() * kMillimetre;
 }
 
 StructureReport read_structure(const Json& value) {

@@ -33,7 +33,6 @@ std::string at(const Vec3& p) {
 }
 
 std::string cubic_centimetres(double volume) {
-  constexpr double kCubicCentimetre = 1e-6;  // m^3
   std::array<char, 32> text{};
   static_cast<void>(std::snprintf(text.data(), text.size(), "%.2g cm3", volume / kCubicCentimetre));
   return text.data();

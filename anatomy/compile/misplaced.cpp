@@ -16,7 +16,6 @@ constexpr std::size_t kSamples = 400;           // of each surface
 constexpr double kClearly = 0.5 * kMillimetre;  // beyond what surfaces that touch differ by
 constexpr double kMuchOutside = 0.02;           // of the samples, as compile warns of
 constexpr double kAll = 0.99;                   // of the samples
-constexpr double kCubicCentimetre = 1e-6;       // m^3
 
 template <class... Values>
 std::string format(const char* pattern, Values... values) {

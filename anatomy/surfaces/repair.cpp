@@ -18,7 +18,6 @@ namespace artus {
 namespace {
 
 constexpr double kSquareCentimetre = 1e-4;  // m^2
-constexpr double kCubicCentimetre = 1e-6;   // m^3
 /// CGAL's untangling takes time that grows fast with these; above them only cutting out is tried.
 constexpr std::size_t kFewTangledPairs = 30;
 /// Above these the intersections stay: so many are no accident of a file but how it was modelled.

@@ -3,51 +3,27 @@
 
 #include <array>
 
-#include "artus/core/known_names.h"
 #include "artus/evidence/injection/injection_gates_list.h"
 
 namespace artus {
 namespace {
 
-using Gate = InjectionGate (*)();
+constexpr std::array kGates{
+    NamedGate{"needle", gate_needle},   NamedGate{"compliance", gate_compliance},
+    NamedGate{"air", gate_air},         NamedGate{"leak", gate_leak},
+    NamedGate{"energy", gate_energy},   NamedGate{"mass", gate_mass},
+    NamedGate{"rates", gate_rates},     NamedGate{"hand", gate_hand},
+    NamedGate{"loss", gate_loss},       NamedGate{"aspiration", gate_aspiration},
+    NamedGate{"capsule", gate_capsule}, NamedGate{"bevel", gate_bevel}};
 
-constexpr std::array<std::string_view, 12> kNames{"needle", "compliance", "air",     "leak",
-                                                  "energy", "mass",       "rates",   "hand",
-                                                  "loss",   "aspiration", "capsule", "bevel"};
-constexpr std::array<Gate, kNames.size()> kGates{
-    gate_needle, gate_compliance, gate_air,  gate_leak,       gate_energy,  gate_mass,
-    gate_rates,  gate_hand,       gate_loss, gate_aspiration, gate_capsule, gate_bevel};
+constexpr GateSet kSet{
+    "injection-gates", "The syringe and the places that liquid goes to, against known answers",
+    "closed forms of flow and pressure, an independent model; each gate names its own", kGates};
 
 }  // namespace
 
-std::span<const std::string_view> injection_gates() noexcept {
-  return kNames;
-}
-
-Result<InjectionGate> run_injection_gate(std::string_view name) {
-  const auto at = find_name(kNames, name, "gate");
-  ARTUS_TRY(at);
-  InjectionGate gate = kGates.at(*at)();
-  gate.name = name;
-  return gate;
-}
-
-EvidenceReport report_of(std::span<const InjectionGate> gates) {
-  EvidenceReport report;
-  report.name = "injection-gates";
-  report.title = "The syringe and the places that liquid goes to, against known answers";
-  report.source =
-      "closed forms of flow and pressure, an independent model; each gate names its own";
-  TextTable table{{"gate", "what", "holds"}, {}};
-  for (const InjectionGate& gate : gates) {
-    table.rows.push_back({gate.name, gate.title, all_hold(gate.claims) ? "yes" : "no"});
-    for (Claim claim : gate.claims) {
-      claim.text = gate.name + ": " + claim.text;
-      report.claims.push_back(std::move(claim));
-    }
-  }
-  report.tables.emplace_back("Gates", std::move(table));
-  return report;
+const GateSet& injection_gates() noexcept {
+  return kSet;
 }
 
 namespace injection_gate {

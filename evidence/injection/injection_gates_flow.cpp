@@ -70,8 +70,8 @@ double power_law_drop(double q, double d, double length, double k, double n) {
 
 }  // namespace
 
-InjectionGate gate_needle() {
-  InjectionGate gate{"", "pressure drop of water by gauge and rate, a power law's closed form", {}};
+Gate gate_needle() {
+  Gate gate{"", "pressure drop of water by gauge and rate, a power law's closed form", {}};
   struct Row {
     int gauge;
     double length;
@@ -99,8 +99,8 @@ InjectionGate gate_needle() {
   return gate;
 }
 
-InjectionGate gate_compliance() {
-  InjectionGate gate{"", "constant pressure into a bursa: V = C dP (1 - exp(-t/RC))", {}};
+Gate gate_compliance() {
+  Gate gate{"", "constant pressure into a bursa: V = C dP (1 - exp(-t/RC))", {}};
   for (const double rate : {1e3, 10e3}) {
     PlungerParams params = water_syringe(0);
     params.syringe.break_loose = params.syringe.glide;
@@ -122,8 +122,8 @@ InjectionGate gate_compliance() {
   return gate;
 }
 
-InjectionGate gate_air() {
-  InjectionGate gate{"", "after-flow of a stopped plunger with 0.2 ml of air", {}};
+Gate gate_air() {
+  Gate gate{"", "after-flow of a stopped plunger with 0.2 ml of air", {}};
   PlungerParams params = water_syringe(0);
   params.syringe.compliance = 0;
   params.syringe.air = 0.2 * kMl;
@@ -150,8 +150,8 @@ InjectionGate gate_air() {
   return gate;
 }
 
-InjectionGate gate_leak() {
-  InjectionGate gate{"", "steady leak over a yield pressure: Q = (ps - py)/(R + Rl)", {}};
+Gate gate_leak() {
+  Gate gate{"", "steady leak over a yield pressure: Q = (ps - py)/(R + Rl)", {}};
   PlungerParams params = water_syringe(0);
   params.syringe.break_loose = params.syringe.glide;
   Space full = cavity("full", 100 * kMercury, 1 / 2e-12);
@@ -166,8 +166,8 @@ InjectionGate gate_leak() {
   return gate;
 }
 
-InjectionGate gate_energy() {
-  InjectionGate gate{"", "work of the thumb: friction, needle, target, barrel's spring", {}};
+Gate gate_energy() {
+  Gate gate{"", "work of the thumb: friction, needle, target, barrel's spring", {}};
   PlungerParams params = water_syringe(0);
   constexpr double kDt = 1e-4;
   Plunger plunger(params, {cavity("bursa", kRest, 1 / kCompliance)}, kDt);
@@ -189,8 +189,8 @@ InjectionGate gate_energy() {
   return gate;
 }
 
-InjectionGate gate_mass() {
-  InjectionGate gate{"", "volumes under wild thumbs, two places, a leak and a rupture", {}};
+Gate gate_mass() {
+  Gate gate{"", "volumes under wild thumbs, two places, a leak and a rupture", {}};
   double worst = 0;
   for (std::uint64_t seed = 100; seed < 110; ++seed)
     worst = std::max(worst, missing_volume(1e3, seed));
@@ -199,8 +199,8 @@ InjectionGate gate_mass() {
   return gate;
 }
 
-InjectionGate gate_rates() {
-  InjectionGate gate{"", "1, 2 and 10 kHz against 100 kHz under a trembling thumb, 2 % RMS", {}};
+Gate gate_rates() {
+  Gate gate{"", "1, 2 and 10 kHz against 100 kHz under a trembling thumb, 2 % RMS", {}};
   for (const int gauge : {18, 22, 25}) {
     const auto fine = flows_at(100e3, gauge);
     const double rms = std::sqrt(std::inner_product(fine.begin(), fine.end(), fine.begin(), 0.0));

@@ -55,8 +55,8 @@ SpaceLaw shoulder(double stiffness, double slack, double toe) {
 
 }  // namespace
 
-InjectionGate gate_hand() {
-  InjectionGate gate{"", "the hand's table: 7 places, 4 needles, 2 rates, a barrel of 5 ml", {}};
+Gate gate_hand() {
+  Gate gate{"", "the hand's table: 7 places, 4 needles, 2 rates, a barrel of 5 ml", {}};
   struct Target {
     const char* name;
     double pressure;
@@ -91,9 +91,8 @@ InjectionGate gate_hand() {
   return gate;
 }
 
-InjectionGate gate_loss() {
-  InjectionGate gate{
-      "", "loss of resistance: dF = A (p1 - p2) at a rate, dQ = (p1 - p2)/R at a force", {}};
+Gate gate_loss() {
+  Gate gate{"", "loss of resistance: dF = A (p1 - p2) at a rate, dQ = (p1 - p2)/R at a force", {}};
   const NeedleBore needle = *bore_of_gauge(22, 0.05);
   const double area = water_syringe(0).syringe.area();
   const double bursa = 20 * kMercury;
@@ -127,8 +126,8 @@ InjectionGate gate_loss() {
   return gate;
 }
 
-InjectionGate gate_aspiration() {
-  InjectionGate gate{"", "time to a flash of blood at -40 kPa, 0.07 ml of hub", {}};
+Gate gate_aspiration() {
+  Gate gate{"", "time to a flash of blood at -40 kPa, 0.07 ml of hub", {}};
   struct Row {
     int gauge;
     double length;
@@ -148,8 +147,8 @@ InjectionGate gate_aspiration() {
   return gate;
 }
 
-InjectionGate gate_capsule() {
-  InjectionGate gate{"", "pressure by volume of shoulders: toe, straight part", {}};
+Gate gate_capsule() {
+  Gate gate{"", "pressure by volume of shoulders: toe, straight part", {}};
   struct Row {
     const char* name;
     SpaceLaw law;
@@ -175,8 +174,8 @@ InjectionGate gate_capsule() {
 
 /// A bursa gives way at a tenth of muscle's pressure: whatever share of the bevel is in it, it gets
 /// what a gentle rate gives; a hard push parts the muscle, too.
-InjectionGate gate_bevel() {
-  InjectionGate gate{"", "a bevel in two layers: share of what goes into the bursa", {}};
+Gate gate_bevel() {
+  Gate gate{"", "a bevel in two layers: share of what goes into the bursa", {}};
   Space muscle = level("muscle", 0);
   muscle.law.kind = SpaceKind::split;
   muscle.law.opening = 8e3;

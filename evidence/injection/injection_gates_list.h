@@ -6,18 +6,18 @@
 /// The gates themselves, one function each; injection_gates.h runs them by name.
 namespace artus {
 
-[[nodiscard]] InjectionGate gate_needle();      ///< pressure drops, inverse, power law
-[[nodiscard]] InjectionGate gate_compliance();  ///< constant pressure into a bursa
-[[nodiscard]] InjectionGate gate_air();         ///< stopped plunger with trapped air
-[[nodiscard]] InjectionGate gate_leak();        ///< over a yield pressure
-[[nodiscard]] InjectionGate gate_energy();      ///< the thumb's work
-[[nodiscard]] InjectionGate gate_mass();        ///< volumes under wild thumbs
-[[nodiscard]] InjectionGate gate_rates();       ///< 1, 2, 10 kHz
-[[nodiscard]] InjectionGate gate_hand();        ///< thumb's force by target, needle and rate
-[[nodiscard]] InjectionGate gate_loss();        ///< loss of resistance, at constant rate and force
-[[nodiscard]] InjectionGate gate_aspiration();  ///< time to a flash by gauge
-[[nodiscard]] InjectionGate gate_capsule();     ///< pressure and volume of shoulders
-[[nodiscard]] InjectionGate gate_bevel();       ///< a tip half in two layers
+[[nodiscard]] Gate gate_needle();      ///< pressure drops, inverse, power law
+[[nodiscard]] Gate gate_compliance();  ///< constant pressure into a bursa
+[[nodiscard]] Gate gate_air();         ///< stopped plunger with trapped air
+[[nodiscard]] Gate gate_leak();        ///< over a yield pressure
+[[nodiscard]] Gate gate_energy();      ///< the thumb's work
+[[nodiscard]] Gate gate_mass();        ///< volumes under wild thumbs
+[[nodiscard]] Gate gate_rates();       ///< 1, 2, 10 kHz
+[[nodiscard]] Gate gate_hand();        ///< thumb's force by target, needle and rate
+[[nodiscard]] Gate gate_loss();        ///< loss of resistance, at constant rate and force
+[[nodiscard]] Gate gate_aspiration();  ///< time to a flash by gauge
+[[nodiscard]] Gate gate_capsule();     ///< pressure and volume of shoulders
+[[nodiscard]] Gate gate_bevel();       ///< a tip half in two layers
 
 /// What the gates inject with: 50 ml of water in a barrel of 5 ml's width, 22 G of 50 mm, 3 N to
 /// start, 2 N to glide.

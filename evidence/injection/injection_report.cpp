@@ -13,7 +13,6 @@
 namespace artus {
 namespace {
 
-constexpr double kMillilitre = 1e-6;    // m^3
 constexpr double kKilo = 1e3;           // Pa
 constexpr double kBalance = 1e-9;       // ml
 constexpr double kInPlace = 95;         // %
@@ -49,13 +48,13 @@ double tip_of(const InjectionRow& row) {
   return row.plunger.tip_pressure / kKilo;
 }
 double flow_of(const InjectionRow& row) {
-  return row.plunger.flow / kMillilitre;
+  return row.plunger.flow / kCubicCentimetre;
 }
 
 double sum_of(const InjectionRow& row) {
   double sum = 0;
   for (const double v : row.volumes) sum += v;
-  return sum / kMillilitre;
+  return sum / kCubicCentimetre;
 }
 
 double start_of_push(const InjectionRun& run) {
@@ -81,11 +80,11 @@ Result<void> write_trace(const InjectionRun& run, const std::filesystem::path& f
     out += text(row.time) + ',' + std::string(row.phase) + ',' + text(row.depth / kMillimetre) +
            ',' + run.regions[row.region] + ',' + text(row.axial) + ',' + text(row.thumb);
     for (const double value :
-         {p.pressure / kKilo, p.tip_pressure / kKilo, p.flow / kMillilitre, p.travel / kMillimetre,
-          p.content / kMillilitre, p.drawn / kMillilitre})
+         {p.pressure / kKilo, p.tip_pressure / kKilo, p.flow / kCubicCentimetre,
+          p.travel / kMillimetre, p.content / kCubicCentimetre, p.drawn / kCubicCentimetre})
       out += ',' + text(value);
     out += ',' + std::to_string(p.status);
-    for (const double v : row.volumes) out += ',' + text(v / kMillilitre);
+    for (const double v : row.volumes) out += ',' + text(v / kCubicCentimetre);
     out += '\n';
   }
   return write_text(file, out);
@@ -108,7 +107,7 @@ std::vector<Claim> claims_of(const InjectionRun& run) {
                               "the tip was in '" + run.target + "'", run.reached));
   claims.push_back(claim_at_most({ClaimKind::input, "the scalars are written to balance"},
                                  "what left the needle is somewhere",
-                                 std::abs(run.unbalanced) / kMillilitre, kBalance, "ml"));
+                                 std::abs(run.unbalanced) / kCubicCentimetre, kBalance, "ml"));
   if (is_cavity(run)) {
     claims.push_back(claim_at_least(ClaimKind::independent, "volume in '" + run.target + "'",
                                     share_in_target(run), kInPlace, "%"));
@@ -120,7 +119,7 @@ std::vector<Claim> claims_of(const InjectionRun& run) {
 nlohmann::json summarize(const InjectionRun& run) {
   auto places = nlohmann::json::object();
   for (std::size_t k = 0; k < run.places.size(); ++k)
-    places[run.places[k]] = run.volumes[k] / kMillilitre;
+    places[run.places[k]] = run.volumes[k] / kCubicCentimetre;
   auto patient = nlohmann::json::array();
   for (const PatientLine& line : run.patient)
     patient.push_back({{"time_s", line.time}, {"text", line.text}});
@@ -130,15 +129,15 @@ nlohmann::json summarize(const InjectionRun& run) {
           {"target", run.target},
           {"target_kind", run.target_like},
           {"liquid", run.spec.plunger.liquid.name},
-          {"meant_ml", run.spec.volume / kMillilitre},
-          {"rate_ml_s", run.spec.rate / kMillilitre},
+          {"meant_ml", run.spec.volume / kCubicCentimetre},
+          {"rate_ml_s", run.spec.rate / kCubicCentimetre},
           {"needle_mm", run.spec.plunger.needle.length / kMillimetre},
-          {"given_ml", run.given / kMillilitre},
-          {"drawn_ml", run.drawn / kMillilitre},
+          {"given_ml", run.given / kCubicCentimetre},
+          {"drawn_ml", run.drawn / kCubicCentimetre},
           {"in_target_percent", share_in_target(run)},
-          {"misplaced_ml", misplaced / kMillilitre},
+          {"misplaced_ml", misplaced / kCubicCentimetre},
           {"volumes_ml", places},
-          {"unbalanced_ml", run.unbalanced / kMillilitre},
+          {"unbalanced_ml", run.unbalanced / kCubicCentimetre},
           {"highest_tip_kpa", run.highest_pressure / kKilo},
           {"highest_thumb_n", run.highest_force},
           {"tip_walk_mm", run.tip_walk / kMillimetre},
@@ -159,7 +158,7 @@ Plot plot_of(const InjectionRun& run) {
   PlotPanel volumes{"time, s", "volume, ml", {}};
   for (std::size_t k = 0; k < run.places.size(); ++k)
     volumes.series.push_back(curve(rows, run.places[k], 0, [k](const InjectionRow& row) {
-      return row.volumes[k] / kMillilitre;
+      return row.volumes[k] / kCubicCentimetre;
     }));
   plot.panels.push_back(std::move(volumes));
   return plot;

@@ -3,6 +3,7 @@
 
 #include <tuple>
 
+#include "artus/anatomy/body/find_region.h"
 #include "artus/core/known_names.h"
 #include "artus/haptics/plunger/syringe_choice.h"
 
@@ -64,11 +65,9 @@ Result<InjectionRun> run_injection(const Scene& scene, const InjectionRequest& r
   spec.entry = line->entry;
   spec.target = line->target;
   if (request.into.empty()) return run_injection(scene, spec);
-  auto names = item_names(scene.joint().regions);
-  names.erase(names.begin(), names.begin() + kFirstRegion);
-  const auto at = find_name(names, request.into, "structure");
-  ARTUS_TRY(at);
-  spec.into = static_cast<RegionId>(kFirstRegion + *at);
+  const auto into = find_region(scene.joint(), request.into);
+  ARTUS_TRY(into);
+  spec.into = *into;
   if (!find_layer(scene, spec.entry, (spec.target - spec.entry).normalized(), *spec.into)) {
     const auto found = find_line_into(scene, *spec.into);
     ARTUS_TRY(found);

@@ -1,29 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
-
-#include "artus/core/result.h"
-#include "artus/evidence/report.h"
+#include "artus/evidence/gates.h"
 
 namespace artus {
 
-/// One gate of the tissue's mechanics: what was measured on a block, against what.
-struct SoftGate {
-  std::string name;
-  std::string title;  ///< what is measured, and where the bound comes from
-  std::vector<Claim> claims;
-};
-
-/// The names of all gates, in the order of the report.
-[[nodiscard]] std::span<const std::string_view> soft_gates() noexcept;
-
-/// Measures one gate; deterministic. Errors: not_found. Cost: 0.1 to 60 s.
-[[nodiscard]] Result<SoftGate> run_soft_gate(std::string_view name);
-
-/// All claims as one report.
-[[nodiscard]] EvidenceReport report_of(std::span<const SoftGate> gates);
+/// The mechanics of tissue that gives way, on blocks. Cost of a gate: 0.1 to 60 s.
+[[nodiscard]] const GateSet& soft_gates() noexcept;
 
 }  // namespace artus

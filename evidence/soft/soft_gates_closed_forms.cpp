@@ -136,8 +136,8 @@ double beam_ratio(double nu) {
 
 }  // namespace
 
-SoftGate gate_patch() {
-  SoftGate gate;
+Gate gate_patch() {
+  Gate gate;
   gate.title = "A linear displacement on the rim of a graded cage, hanging nodes inside";
   const double size = 24e-3;
   Eigen::Matrix3d slope;
@@ -171,8 +171,8 @@ SoftGate gate_patch() {
   return gate;
 }
 
-SoftGate gate_uniaxial() {
-  SoftGate gate;
+Gate gate_uniaxial() {
+  Gate gate;
   gate.title = "Compression by 0.1 % with free sides, nu 0.49, against F = E A e";
   SoftModelParams params;
   params.cage = {Vec3::Zero(), Vec3(9e-3, 9e-3, 12e-3), 3e-3, {}};
@@ -198,8 +198,8 @@ SoftGate gate_uniaxial() {
   return gate;
 }
 
-SoftGate gate_point_force() {
-  SoftGate gate;
+Gate gate_point_force() {
+  Gate gate;
   gate.title = "Force on a half-space, displacement by the distance in cubes against Boussinesq";
   for (const double nu : {0.3, 0.47}) {
     const std::string name = nu < 0.4 ? "nu 0.3, " : "nu 0.47, ";
@@ -213,8 +213,8 @@ SoftGate gate_point_force() {
   return gate;
 }
 
-SoftGate gate_cantilever() {
-  SoftGate gate;
+Gate gate_cantilever() {
+  Gate gate;
   gate.title = "Beam 10 x 10 x 100 mm in cubes of 1.25 mm, tip against Timoshenko's beam";
   const double soft = beam_ratio(0.3);
   const double stiff = beam_ratio(0.49);
@@ -227,8 +227,8 @@ SoftGate gate_cantilever() {
   return gate;
 }
 
-SoftGate gate_punch() {
-  SoftGate gate;
+Gate gate_punch() {
+  Gate gate;
   gate.title = "Flat round punch of 10 mm on a half-space, force against 2 a E/(1 - nu^2) d";
   for (const double nu : {0.3, 0.47}) {
     const std::string name = nu < 0.4 ? "nu 0.3" : "nu 0.47";

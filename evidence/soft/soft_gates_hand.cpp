@@ -216,8 +216,8 @@ PacketError packet_error(double packet_rate, double lost_from, double lost_for) 
 
 }  // namespace
 
-SoftGate gate_tent() {
-  SoftGate gate;
+Gate gate_tent() {
+  Gate gate;
   gate.title = "Skin before and after the needle goes through: layered block, 1.5 N to give way";
   const NeedledBlock body;
   const Tent thick = tent_of(body.compliance(kRadius21));
@@ -236,8 +236,8 @@ SoftGate gate_tent() {
   return gate;
 }
 
-SoftGate gate_drag() {
-  SoftGate gate;
+Gate gate_drag() {
+  Gate gate;
   gate.title =
       "Needle 15 mm beyond the skin's tent and out again: tissue dragged, action and reaction, "
       "energy";
@@ -279,8 +279,8 @@ SoftGate gate_drag() {
   return gate;
 }
 
-SoftGate gate_packets() {
-  SoftGate gate;
+Gate gate_packets() {
+  Gate gate;
   gate.title = "Probe's force between the tissue's packets, a contact that hardens moved at 0.5 Hz";
   for (const double rate : {30.0, 60.0, 120.0}) {
     const std::string at = "H8: " + std::to_string(static_cast<int>(rate)) + " packets a second, ";

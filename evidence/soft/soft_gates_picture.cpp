@@ -137,8 +137,8 @@ double mean_strain(const StrainImage& image, double x, double z, double radius) 
 
 }  // namespace
 
-SoftGate gate_strain_image() {
-  SoftGate gate;
+Gate gate_strain_image() {
+  Gate gate;
   gate.title = "block matching finds the motion that the picture was drawn with (I1)";
   const MovedPhantom phantom(plain_model());
   for (const double percent : {0.5, 1.0}) {
@@ -170,8 +170,8 @@ SoftGate gate_strain_image() {
   return gate;
 }
 
-SoftGate gate_inclusion() {
-  SoftGate gate;
+Gate gate_inclusion() {
+  Gate gate;
   gate.title = "strain of a ball four times as stiff, from two pictures, against Eshelby (I3)";
   const MovedPhantom phantom(ball_model());
   const std::vector<Vec3> rest(phantom.map->model->cage().nodes().size(), Vec3::Zero());
@@ -185,8 +185,8 @@ SoftGate gate_inclusion() {
   return gate;
 }
 
-SoftGate gate_thinning() {
-  SoftGate gate;
+Gate gate_thinning() {
+  Gate gate;
   gate.title = "layers of a pressed block: by the picture's labels and by the tissue (I5)";
   SoftBlock block;
   block.half_x = block.half_y = kHalf;
@@ -236,8 +236,8 @@ SoftGate gate_thinning() {
   return gate;
 }
 
-SoftGate gate_speckle_pressed() {
-  SoftGate gate;
+Gate gate_speckle_pressed() {
+  Gate gate;
   gate.title = "speckle of tissue compressed by 30 % (I6)";
   const MovedPhantom phantom(plain_model());
   Pose X_JP = Pose::Identity();

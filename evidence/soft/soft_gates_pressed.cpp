@@ -151,8 +151,8 @@ std::vector<Vec3> run_hand(PressedBlock& pressed, int frames, bool& finite) {
 
 }  // namespace
 
-SoftGate gate_layers() {
-  SoftGate gate;
+Gate gate_layers() {
+  Gate gate;
   gate.title =
       "Skin 2, fat 6, muscle 16 mm pressed 5 mm by a face of 40 x 6 mm, cubes of 3 mm against a "
       "quarter";
@@ -178,8 +178,8 @@ SoftGate gate_layers() {
   return gate;
 }
 
-SoftGate gate_volume() {
-  SoftGate gate;
+Gate gate_volume() {
+  Gate gate;
   gate.title = "Layered block of a joint's size (864 cm3) pressed by 8 mm: change of its volume";
   PressedBlock pressed({3e-3, kNu, true, 0, 2e-3, true});
   pressed.press(8e-3, 1e-5);
@@ -201,8 +201,8 @@ SoftGate gate_volume() {
   return gate;
 }
 
-SoftGate gate_balance() {
-  SoftGate gate;
+Gate gate_balance() {
+  Gate gate;
   gate.title =
       "Layered block pressed by 3 mm: force against reaction, compliance, energy of a path";
   PressedBlock pressed({3e-3, kNu, false, 0, 6e-3, false});
@@ -238,8 +238,8 @@ SoftGate gate_balance() {
   return gate;
 }
 
-SoftGate gate_turned() {
-  SoftGate gate;
+Gate gate_turned() {
+  Gate gate;
   gate.title = "The face turned by 30 degrees on the same block: the cage must not be felt";
   Setup setup{3e-3, kNu, false, 0, 9e-3, false};
   PressedBlock pressed(setup);
@@ -254,8 +254,8 @@ SoftGate gate_turned() {
   return gate;
 }
 
-SoftGate gate_limb() {
-  SoftGate gate;
+Gate gate_limb() {
+  Gate gate;
   gate.title =
       "12 mm of fat and 30 mm of muscle over bone under the face, slopes of stress over "
       "compression against [Isogai2022]";
@@ -286,8 +286,8 @@ SoftGate gate_limb() {
   return gate;
 }
 
-SoftGate gate_bytes() {
-  SoftGate gate;
+Gate gate_bytes() {
+  Gate gate;
   gate.title = "The same hand twice, factors made by a second thread and taken at fixed frames";
   bool finite = true;
   PressedBlock first({3e-3, kNu, false, 0.05, 4e-3, false});
@@ -300,8 +300,8 @@ SoftGate gate_bytes() {
   return gate;
 }
 
-SoftGate gate_wild_hand() {
-  SoftGate gate;
+Gate gate_wild_hand() {
+  Gate gate;
   gate.title = "10,000 frames of random presses to 16 mm, jumps and tilts";
   PressedBlock pressed({3e-3, kNu, false, 0.05, 6e-3, false});
   bool finite = true;

@@ -130,8 +130,8 @@ double smooth_energy(double cube) {
 
 }  // namespace
 
-SoftGate gate_vessel() {
-  SoftGate gate;
+Gate gate_vessel() {
+  Gate gate;
   gate.title = "Hollow sphere and tube under pressure, walls of 8 cubes cut by the cage, to Lame";
   gate.claims.push_back(claim_at_most({ClaimKind::fitted, "the cubes' evenness was chosen by it"},
                                       "V5: sphere, worst inside the wall",
@@ -141,8 +141,8 @@ SoftGate gate_vessel() {
   return gate;
 }
 
-SoftGate gate_convergence() {
-  SoftGate gate;
+Gate gate_convergence() {
+  Gate gate;
   gate.title = "Stored energy of two layers under a smooth load, cubes of 6, 3, 1.5 mm";
   const double coarse = smooth_energy(6e-3);
   const double middle = smooth_energy(3e-3);
@@ -154,8 +154,8 @@ SoftGate gate_convergence() {
   return gate;
 }
 
-SoftGate gate_reciprocity() {
-  SoftGate gate;
+Gate gate_reciprocity() {
+  Gate gate;
   gate.title = "Compliance of random points in a pressed block: C against its transpose";
   SoftBlock block;
   block.half_x = block.half_y = 24e-3;

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "artus/anatomy/body/find_region.h"
 #include "artus/anatomy/body/joint_digest.h"
 #include "tests/support/layered_body.h"
 
@@ -93,6 +94,18 @@ TEST(TransformedBody, KeepsVolumesAndTurnsAllThatHasADirection) {
   EXPECT_TRUE(moved.landmarks[0].position.isApprox(X * joint.landmarks[0].position));
   EXPECT_TRUE(moved.X_JP_default.isApprox(X * joint.X_JP_default));
   EXPECT_TRUE(moved.injections[0].target.isApprox(X * joint.injections[0].target));
+}
+
+TEST(FindRegion, FindsStructuresAndRefusesWhatIsNoneWithTheNamesThereAre) {
+  const std::array<FlatLayer, 2> layers{{{"skin", 1e-3}, {"fat", 2e-3}}};
+  const CompiledJoint joint = test::make_layered_block(layers, 0.01, 0.01);
+  const auto fat = find_region(joint, "fat");
+  ASSERT_TRUE(fat);
+  EXPECT_EQ(joint.regions[*fat].name, "fat");
+  const auto outside = find_region(joint, joint.regions[kOutside].name);
+  ASSERT_FALSE(outside);
+  EXPECT_EQ(outside.error().code, ErrorCode::not_found);
+  EXPECT_NE(outside.error().message.find("fat"), std::string::npos);
 }
 
 TEST(TetVolume, IsPositiveForAPositiveTetrahedronAndChangesSignWithTheOrder) {

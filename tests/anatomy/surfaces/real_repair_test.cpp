@@ -10,14 +10,13 @@
 #include "artus/anatomy/surfaces/surface_distance.h"
 #include "artus/anatomy/surfaces/surface_io.h"
 #include "artus/anatomy/surfaces/surface_topology.h"
+#include "artus/core/units.h"
 #include "tests/anatomy/surfaces/surface_samples.h"
 
 namespace artus {
 namespace {
 
 using testing::HasSubstr;
-
-constexpr double kCubicCentimetre = 1e-6;
 
 class RealRepair : public testing::Test {
  protected:

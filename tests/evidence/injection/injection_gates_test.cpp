@@ -7,8 +7,8 @@ namespace artus {
 namespace {
 
 TEST(InjectionGates, HoldEachByItself) {
-  for (const std::string_view name : injection_gates()) {
-    const auto gate = run_injection_gate(name);
+  for (const auto& [name, measure] : injection_gates().gates) {
+    const auto gate = run_gate(injection_gates(), name);
     ASSERT_TRUE(gate) << name;
     EXPECT_FALSE(gate->claims.empty()) << name;
     for (const Claim& claim : gate->claims) EXPECT_TRUE(claim.pass) << name << to_line(claim);
@@ -16,7 +16,7 @@ TEST(InjectionGates, HoldEachByItself) {
 }
 
 TEST(InjectionGates, AnUnknownNameIsRefusedWithTheNamesThereAre) {
-  const auto gate = run_injection_gate("no-such");
+  const auto gate = run_gate(injection_gates(), "no-such");
   ASSERT_FALSE(gate);
   EXPECT_EQ(gate.error().code, ErrorCode::not_found);
   EXPECT_NE(gate.error().message.find("aspiration"), std::string::npos);

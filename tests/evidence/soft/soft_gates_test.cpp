@@ -9,7 +9,7 @@ namespace {
 class SoftGates : public testing::TestWithParam<const char*> {};
 
 TEST_P(SoftGates, Hold) {
-  const auto gate = run_soft_gate(GetParam());
+  const auto gate = run_gate(soft_gates(), GetParam());
   ASSERT_TRUE(gate);
   EXPECT_FALSE(gate->claims.empty());
   for (const Claim& claim : gate->claims) EXPECT_TRUE(claim.pass) << to_line(claim);
@@ -22,17 +22,18 @@ INSTANTIATE_TEST_SUITE_P(All, SoftGates,
                                          "volume", "turned"));
 
 TEST(SoftGateList, UnknownNameIsRefusedWithTheNamesThereAre) {
-  const auto gate = run_soft_gate("no-such");
+  const auto gate = run_gate(soft_gates(), "no-such");
   ASSERT_FALSE(gate);
   EXPECT_EQ(gate.error().code, ErrorCode::not_found);
   EXPECT_NE(gate.error().message.find("punch"), std::string::npos);
 }
 
 TEST(SoftGateList, ReportNamesTheGateOfEachClaim) {
-  const auto gate = run_soft_gate("patch");
+  const auto gate = run_gate(soft_gates(), "patch");
   ASSERT_TRUE(gate);
-  const EvidenceReport report = report_of(std::vector{*gate});
+  const EvidenceReport report = report_of(soft_gates(), std::vector{*gate});
   ASSERT_EQ(report.claims.size(), gate->claims.size());
+  EXPECT_EQ(report.name, "soft-gates");
   EXPECT_EQ(report.claims[0].text.rfind("patch: ", 0), 0U);
 }
 

@@ -3,12 +3,12 @@
 #include <string>
 #include <vector>
 
+#include "artus/core/units.h"
 #include "artus/haptics/plunger/plunger.h"
 
 /// A plunger with one place at the tip whose answers are known.
 namespace artus::test {
 
-inline constexpr double kMillilitre = 1e-6;
 inline constexpr double kMercury = 133.322;                // Pa/mmHg
 inline constexpr double kPsi = 6894.757;                   // Pa
 inline constexpr double kCompliance = 0.09e-6 / kMercury;  // m^3/Pa of a bursa
@@ -17,8 +17,8 @@ inline constexpr double kRest = 8 * kMercury;              // Pa
 /// 5 ml of water behind 22 G of 50 mm; 3 N to start, 2 N to glide, no ageing.
 inline PlungerParams water_syringe(double entry_loss = NeedleFlow::kEntryLoss) {
   PlungerParams params;
-  params.syringe.volume = 50 * kMillilitre;  // longer than any test
-  params.syringe.filled = 50 * kMillilitre;
+  params.syringe.volume = 50 * kCubicCentimetre;  // longer than any test
+  params.syringe.filled = 50 * kCubicCentimetre;
   params.syringe.ageing = 0;
   params.liquid.density = 1000;
   params.entry_loss = entry_loss;

@@ -51,7 +51,7 @@ TEST(PlungerOracle, ABursaFillsAlike) {
 
 TEST(PlungerOracle, ABursaFillsAlikeWithTrappedAir) {
   PlungerParams params = water_syringe();
-  params.syringe.air = 0.2 * kMillilitre;
+  params.syringe.air = 0.2 * kCubicCentimetre;
   Plunger plunger(params, one_space(compliance(kRest, 1 / kCompliance)), 1e-4);
   constexpr std::array<OracleRow, 3> kRows{{{1, 0.008786693745, 7.43378114e-07, 87541.80622},
                                             {2, 0.01523465852, 1.479936457e-06, 87541.80622},

@@ -42,7 +42,7 @@ TEST(Plunger, FlowsOnAfterItStoppedWithTheTimeOfItsTrappedAir) {
   for (const double rate : {1e3, 2e3, 10e3}) {
     PlungerParams params = water_syringe(0);
     params.syringe.compliance = 0;
-    params.syringe.air = 0.2 * kMillilitre;
+    params.syringe.air = 0.2 * kCubicCentimetre;
     params.syringe.break_loose = 7;
     params.syringe.glide = 0;
     Plunger plunger(params, one_space(compliance(0, 1 / kCompliance)), 1 / rate);
@@ -61,7 +61,7 @@ TEST(Plunger, FlowsOnAfterItStoppedWithTheTimeOfItsTrappedAir) {
       worst = std::max(worst, std::abs(plunger.states()[0].volume - wanted));
     }
     EXPECT_LT(worst, 1e-3 * after) << rate;
-    EXPECT_NEAR(series * 60e3 / kMillilitre, 0.118, 0.001);
+    EXPECT_NEAR(series * 60e3 / kCubicCentimetre, 0.118, 0.001);
   }
 }
 
@@ -78,7 +78,7 @@ TEST(Plunger, LeaksOverAYieldPressureByTheTwoResistances) {
   const double force = params.syringe.glide + params.syringe.area() * (100 * kMercury + 2e4);
   for (int k = 0; k < 5000; ++k) plunger.step(thumb(force));
   EXPECT_NEAR(plunger.state().flow / (2e4 / (needle_resistance() + 2e10)), 1, 1e-3);
-  EXPECT_NEAR(plunger.state().flow / kMillilitre, 0.2222, 2e-4);
+  EXPECT_NEAR(plunger.state().flow / kCubicCentimetre, 0.2222, 2e-4);
 }
 
 TEST(Plunger, SpendsTheThumbsWorkOnFrictionNeedleTargetAndBarrel) {

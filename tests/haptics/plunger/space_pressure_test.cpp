@@ -7,13 +7,13 @@
 
 #include <gtest/gtest.h>
 
+#include "artus/core/units.h"
 #include "artus/haptics/plunger/patient.h"
 #include "artus/haptics/plunger/syringe.h"
 
 namespace artus {
 namespace {
 
-constexpr double kMillilitre = 1e-6;
 constexpr double kMercury = 133.322;  // Pa/mmHg
 
 SpaceLaw law_of(const std::string& name) {
@@ -37,8 +37,8 @@ TEST(SpacePressure, OfShouldersHasTheCurvesOfTheReference) {
     SpaceLaw law = law_of(row.space);
     for (std::size_t k = 0; k < 5; ++k) {
       const double ml = 5 * static_cast<double>(k + 1);
-      if (row.pressure[k] < 0 || ml * kMillilitre > law.yield) continue;
-      EXPECT_NEAR(pressure_of(law, ml * kMillilitre) / kMercury, row.pressure[k],
+      if (row.pressure[k] < 0 || ml * kCubicCentimetre > law.yield) continue;
+      EXPECT_NEAR(pressure_of(law, ml * kCubicCentimetre) / kMercury, row.pressure[k],
                   0.02 * row.pressure[k] + 1e-3)
           << row.space << ' ' << ml;
     }
@@ -48,7 +48,7 @@ TEST(SpacePressure, OfShouldersHasTheCurvesOfTheReference) {
 TEST(SpacePressure, OfTheBursaFollowsItsMeasuredComplianceAtRest) {
   const SpaceLaw law = law_of("bursa");
   for (const auto& [ml, mercury] : {std::pair{1.0, 19.1}, {5.0, 63.6}, {10.0, 119.1}})
-    EXPECT_NEAR(pressure_of(law, ml * kMillilitre) / kMercury, mercury, 0.02 * mercury);
+    EXPECT_NEAR(pressure_of(law, ml * kCubicCentimetre) / kMercury, mercury, 0.02 * mercury);
 }
 
 TEST(SpacePressure, HasNoStepAndTheSlopeThatItSays) {
@@ -75,8 +75,8 @@ TEST(SpacePressure, OfAClosedFilmIsTheCubeLawAndGoneAfterTenthsOfAMillilitre) {
   const SpaceLaw law = law_of("bursa");
   // 0.1 ml/s of water between plates 0.05, 0.1 and 0.2 mm apart: 37, 4.6 and 0.6 mmHg.
   EXPECT_NEAR(film_resistance(law, 0, 1e-3) * 1e-7 / kMercury, 37, 0.5);
-  EXPECT_NEAR(film_resistance(law, 0.1 * kMillilitre, 1e-3) * 1e-7 / kMercury, 4.6, 0.1);
-  EXPECT_NEAR(film_resistance(law, 0.3 * kMillilitre, 1e-3) * 1e-7 / kMercury, 0.58, 0.02);
+  EXPECT_NEAR(film_resistance(law, 0.1 * kCubicCentimetre, 1e-3) * 1e-7 / kMercury, 4.6, 0.1);
+  EXPECT_NEAR(film_resistance(law, 0.3 * kCubicCentimetre, 1e-3) * 1e-7 / kMercury, 0.58, 0.02);
   EXPECT_EQ(film_resistance(law_of("muscle"), 0, 1e-3), 0);
 }
 
