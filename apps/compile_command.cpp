@@ -93,6 +93,9 @@ ExitCode run_compile(const CompileCommandOptions& options) {
     std::printf(
         "the body is the one compiled before, since nothing that shapes it has changed; poses, "
         "injections and tissues are new\n");
+  if (outcome->report.parts_kept > 0)
+    std::printf("%zu repaired surfaces and distances are those of earlier compilations\n",
+                outcome->report.parts_kept);
   print_histogram(outcome->report.quality);
   std::printf(
       "%s: %zu tetrahedra, %zu interface triangles, %zu vertices; %.3f %% without a dihedral "

@@ -14,6 +14,7 @@
 #include "artus/anatomy/compile/dress_body.h"
 #include "artus/anatomy/compile/fit_interfaces.h"
 #include "artus/anatomy/compile/isolated.h"
+#include "artus/anatomy/compile/kept_parts.h"
 #include "artus/anatomy/compile/misplaced.h"
 #include "artus/anatomy/compile/plan_check.h"
 #include "artus/anatomy/compile/resolve.h"
@@ -24,6 +25,8 @@ namespace artus {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+constexpr std::uintmax_t kMostPartBytes = 1'000'000'000;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -164,8 +167,9 @@ Result<CompileOutcome> compile_joint(const JointFile& file, const CompileOptions
   auto digest = compute_source_digest(file);
   ARTUS_TRY(digest);
   std::vector<StructureReport> reports = start_reports(file);
+  const KeptParts parts(options.parts);
   auto surfaces = stages.run("reading and repairing surfaces", 0,
-                             [&] { return prepare_surfaces(file, reports); });
+                             [&] { return prepare_surfaces(file, reports, parts); });
   ARTUS_TRY(surfaces);
   ARTUS_TRY(check_refusals(file, reports, *surfaces, options));
   StructureReport filler;
@@ -175,8 +179,10 @@ Result<CompileOutcome> compile_joint(const JointFile& file, const CompileOptions
   report.structures.push_back(std::move(filler));
   report.structures.insert(report.structures.end(), reports.begin(), reports.end());
   auto space = stages.run("measuring distances", 0.1,
-                          [&] { return make_labelled_space(file, *surfaces, progress); });
+                          [&] { return make_labelled_space(file, *surfaces, progress, parts); });
   ARTUS_TRY(space);
+  parts.forget_old(kMostPartBytes);
+  report.parts_kept = parts.found();
   Result<Complex> complex = make_interfaces(*space, stages, report);
   ARTUS_TRY(complex);
   stages.run("measuring interfaces", 0.65, [&] {

@@ -12,6 +12,9 @@ namespace artus {
 struct CompileOptions {
   bool skip_refused = false;  ///< compile without the structures whose surfaces are refused
   bool check_plans = false;   ///< refuse poses and injections that cannot be used
+  /// Folder where what was made of single structures is kept, and found when they are unchanged:
+  /// repaired surfaces and their distances, at most 1 GB. Empty: nothing is kept.
+  std::filesystem::path parts;
 };
 
 struct CompileOutcome {
@@ -43,8 +46,9 @@ struct LoadOptions {
 /// As compile_joint, byte for byte, but a body of the same shape in the cache is not made again:
 /// only poses, injections, landmarks and tissues are put on it anew. A damaged or outdated cache
 /// file is rebuilt; a cache that cannot be written is no error. Of one joint the last few bodies
-/// are kept. Errors: those of compile_joint. Cost: of a kept body, reading it and the surfaces'
-/// bytes.
+/// are kept; of a body that is made anew, the unchanged structures are not repaired and measured
+/// again (`parts`, if not given, lies in the cache). Errors: those of compile_joint. Cost: of a
+/// kept body, reading it and the surfaces' bytes.
 [[nodiscard]] Result<CompileOutcome> compile_or_reuse(const JointFile& file,
                                                       const LoadOptions& options = {},
                                                       const Progress& progress = {});

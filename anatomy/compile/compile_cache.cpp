@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <algorithm>
-#include <array>
 #include <chrono>
-#include <cstdio>
 #include <cstdlib>
 #include <optional>
 #include <vector>
@@ -11,19 +9,12 @@
 #include "artus/anatomy/compile/compile.h"
 #include "artus/anatomy/compile/compiler_version.h"
 #include "artus/anatomy/compile/dress_body.h"
+#include "artus/anatomy/compile/kept_parts.h"
 #include "artus/anatomy/compile/plan_check.h"
-#include "artus/core/byte_stream.h"
 #include "artus/core/text_file.h"
 
 namespace artus {
 namespace {
-
-std::string to_hex(std::uint64_t value) {
-  std::array<char, 17> text{};
-  static_cast<void>(
-      std::snprintf(text.data(), text.size(), "%016llx", static_cast<unsigned long long>(value)));
-  return text.data();
-}
 
 /// Nothing in artus changes the environment while threads run.
 std::filesystem::path folder_from_environment(const char* name) {
@@ -41,6 +32,10 @@ std::filesystem::path default_cache() {
   return std::filesystem::temp_directory_path() / "artus-cache";
 }
 
+std::filesystem::path cache_of(const LoadOptions& options) {
+  return options.cache.empty() ? default_cache() : options.cache;
+}
+
 /// Where a body and the report of its making are kept.
 struct KeptBody {
   std::filesystem::path body;
@@ -48,7 +43,7 @@ struct KeptBody {
 };
 
 KeptBody place_of(const JointFile& file, const std::string& digest, const LoadOptions& options) {
-  const auto cache = options.cache.empty() ? default_cache() : options.cache;
+  const auto cache = cache_of(options);
   const std::string stem =
       file.name + "-" + digest + (options.compile.skip_refused ? "-partial" : "");
   return {cache / (stem + ".artus"), cache / (stem + ".json")};
@@ -108,21 +103,16 @@ void keep(const JointFile& file, const CompileOutcome& outcome, const KeptBody& 
 }  // namespace
 
 Result<std::string> compute_source_digest(const JointFile& file) {
-  std::uint64_t low = kCompilerVersion;
-  std::uint64_t high = ~kCompilerVersion;
-  const auto add = [&](std::string_view bytes) {
-    low = hash_bytes(bytes, low);
-    high = hash_bytes(bytes, high);
-  };
+  ContentDigest digest(kCompilerVersion);
   const auto add_file = [&](const std::filesystem::path& path) -> Result<void> {
     const Result<std::string> bytes = read_bytes(path);
     ARTUS_TRY(bytes);
-    add(*bytes);
+    digest.add(*bytes);
     return {};
   };
   const Result<std::string> shape = read_joint_shape(file.folder);
   ARTUS_TRY(shape);
-  add(*shape);
+  digest.add(*shape);
   std::vector<const Structure*> all{&file.body};
   for (const Structure& s : file.structures) all.push_back(&s);
   for (const Structure* s : all) {
@@ -130,7 +120,7 @@ Result<std::string> compute_source_digest(const JointFile& file) {
     if (surface == nullptr) continue;
     ARTUS_TRY(add_file(file.surface_folder / surface->file));
   }
-  return to_hex(low) + to_hex(high);
+  return digest.hex();
 }
 
 Result<CompileOutcome> compile_or_reuse(const JointFile& file, const LoadOptions& options,
@@ -143,7 +133,9 @@ Result<CompileOutcome> compile_or_reuse(const JointFile& file, const LoadOptions
   if (auto kept = find_kept(file, *digest, place)) {
     outcome = std::move(*kept);
   } else {
-    outcome = compile_joint(file, options.compile, progress);
+    CompileOptions compile = options.compile;
+    if (compile.parts.empty()) compile.parts = cache_of(options) / "parts";
+    outcome = compile_joint(file, compile, progress);
     ARTUS_TRY(outcome);
     keep(file, *outcome, place);
   }

@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "artus/anatomy/body/joint_structure.h"
+#include "artus/anatomy/compile/compiler_version.h"
 #include "artus/anatomy/compile/construct.h"
 
 namespace artus {
@@ -70,13 +71,35 @@ double construct_thickness(const Structure& s) {
   return 0;
 }
 
+void add(const FieldSampling& sampling, ContentDigest& digest) {
+  for (Eigen::Index a = 0; a < 3; ++a) {
+    digest.add_value(sampling.box.lower[a]);
+    digest.add_value(sampling.box.upper[a]);
+  }
+  digest.add_value(sampling.spacing);
+  digest.add_value(sampling.band);
+}
+
+ContentDigest digest_of(const SurfaceMesh& mesh, const FieldSampling& near,
+                        const std::optional<FieldSampling>& far) {
+  ContentDigest digest(kCompilerVersion);
+  ByteWriter surface;
+  surface.put_array(mesh.vertices);
+  surface.put_array(mesh.triangles);
+  digest.add(surface.bytes());
+  add(near, digest);
+  if (far) add(*far, digest);
+  return digest;
+}
+
 // Fields of all structures by index, surfaces first, then the constructs made from them.
 class FieldMaker {
  public:
   FieldMaker(const JointFile& file, const PreparedSurfaces& surfaces, const Box& box,
-             const Progress& progress)
+             const Progress& progress, const KeptParts& parts)
       : file_(file),
         progress_(progress),
+        parts_(parts),
         surfaces_(surfaces),
         box_(box),
         needs_(find_far_needs(file)),
@@ -132,15 +155,33 @@ class FieldMaker {
     const auto needed = needs_.find(name);
     const bool extended = needed != needs_.end();
     const double band = (extended ? kExtendedBandPerSpacing : kBandPerSpacing) * spacing;
-    Box around = grown(surface.tree.lower(), surface.tree.upper(), band);
-    auto field = DistanceField::compute(surface.tree, {intersection(box_, around), spacing, band});
-    if (!extended) return field;
+    const Box near = grown(surface.tree.lower(), surface.tree.upper(), band);
+    const FieldSampling sampling{intersection(box_, near), spacing, band};
+    if (!extended) return kept_field(surface, sampling, {});
     const double coarse = kFarSpacing * file_.facet_size;
     const double reach = std::max(needed->second.band + 2 * coarse, band + coarse);
-    around = grown(surface.tree.lower(), surface.tree.upper(), reach);
-    around =
-        intersection(around, grown(needed->second.box.lower, needed->second.box.upper, 2 * coarse));
-    field.extend(surface.tree, {intersection(box_, around), coarse, reach});
+    const Box far =
+        intersection(grown(surface.tree.lower(), surface.tree.upper(), reach),
+                     grown(needed->second.box.lower, needed->second.box.upper, 2 * coarse));
+    return kept_field(surface, sampling, FieldSampling{intersection(box_, far), coarse, reach});
+  }
+
+  // The field of a surface and, where one is given, its coarser one from afar.
+  [[nodiscard]] DistanceField kept_field(const PreparedSurface& surface, const FieldSampling& near,
+                                         const std::optional<FieldSampling>& far) const {
+    const ContentDigest digest =
+        parts_.keeps() ? digest_of(surface.mesh, near, far) : ContentDigest(0);
+    if (const auto bytes = parts_.find(digest)) {
+      ByteReader in(*bytes);
+      if (auto field = DistanceField::read(in); field && in.at_end()) return std::move(*field);
+    }
+    DistanceField field = DistanceField::compute(surface.tree, near);
+    if (far) field.extend(surface.tree, *far);
+    if (parts_.keeps()) {
+      ByteWriter out;
+      field.write(out);
+      parts_.keep(digest, out.bytes());
+    }
     return field;
   }
 
@@ -214,6 +255,7 @@ class FieldMaker {
 
   const JointFile& file_;
   const Progress& progress_;
+  const KeptParts& parts_;
   double n_told_ = 0;
   const PreparedSurfaces& surfaces_;
   Box box_;
@@ -296,7 +338,7 @@ Result<void> check_sizes(const JointFile& file, const PreparedSurfaces& surfaces
 }  // namespace
 
 Result<LabelledSpace> make_labelled_space(const JointFile& file, const PreparedSurfaces& surfaces,
-                                          const Progress& progress) {
+                                          const Progress& progress, const KeptParts& parts) {
   LabelledSpace space;
   const double margin = file.facet_size;
   Box box = grown(surfaces.body.tree.lower(), surfaces.body.tree.upper(), margin);
@@ -308,7 +350,7 @@ Result<LabelledSpace> make_labelled_space(const JointFile& file, const PreparedS
     return fail(ErrorCode::failed, "the region of interest lies outside the body", file.name);
   }
   ARTUS_TRY(check_sizes(file, surfaces, box));
-  FieldMaker maker(file, surfaces, box, progress);
+  FieldMaker maker(file, surfaces, box, progress, parts);
   maker.make_surfaces();
   maker.make_constructs();
   space.resolve.box = box;

@@ -2,6 +2,7 @@
 #pragma once
 #include "artus/anatomy/compile/compile_surfaces.h"
 #include "artus/anatomy/compile/gap.h"
+#include "artus/anatomy/compile/kept_parts.h"
 #include "artus/anatomy/compile/resolve.h"
 #include "artus/core/progress.h"
 
@@ -20,11 +21,13 @@ struct LabelledSpace {
 };
 
 /// Samples the distance fields of all structures and makes the constructs from them. Structures
-/// without a surface and constructs that name one are left out. Requires: `surfaces` of `file`.
+/// without a surface and constructs that name one are left out. Distances that are in `parts` are
+/// not measured again. Requires: `surfaces` of `file`.
 /// Errors: failed when body and region of interest do not meet; invalid when the mesh sizes ask for
 /// more than can be made.
 [[nodiscard]] Result<LabelledSpace> make_labelled_space(const JointFile& file,
                                                         const PreparedSurfaces& surfaces,
-                                                        const Progress& progress);
+                                                        const Progress& progress,
+                                                        const KeptParts& parts = {});
 
 }  // namespace artus

@@ -96,6 +96,7 @@ CompileReport read_report(const Json& value) {
   value.at("fill_method").get_to(report.fill_method);
   value.at("notes").get_to(report.notes);
   value.at("body_kept").get_to(report.body_kept);
+  value.at("parts_kept").get_to(report.parts_kept);
   for (const auto& [stage, seconds] : value.at("stages_s").items())
     report.stages.push_back({stage, seconds.get<double>()});
   value.at("seconds").get_to(report.seconds);
@@ -123,6 +124,7 @@ std::string to_json(const CompileReport& report) {
   value["fill_method"] = report.fill_method;
   value["notes"] = report.notes;
   value["body_kept"] = report.body_kept;
+  value["parts_kept"] = report.parts_kept;
   value["stages_s"] = Json::object();
   for (const StageTime& s : report.stages) value["stages_s"][s.stage] = s.seconds;
   value["seconds"] = report.seconds;

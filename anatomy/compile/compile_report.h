@@ -49,6 +49,7 @@ struct CompileReport {
   std::string fill_method;         ///< "quality", "plain", "kept": see FillMethod
   std::vector<std::string> notes;  ///< what was chosen where the joint file says nothing
   bool body_kept = false;          ///< the tetrahedra are those of an earlier compilation
+  std::size_t parts_kept = 0;      ///< repaired surfaces and distance fields of earlier ones
   std::vector<StageTime> stages;
   double seconds = 0;
   double peak_memory = 0;  ///< bytes, of the process or of one that it started

@@ -4,6 +4,7 @@
 
 #include "artus/anatomy/body/joint_file.h"
 #include "artus/anatomy/compile/compile_report.h"
+#include "artus/anatomy/compile/kept_parts.h"
 #include "artus/anatomy/surfaces/distance_tree.h"
 #include "artus/anatomy/surfaces/repair.h"
 
@@ -32,11 +33,14 @@ struct PreparedSurfaces {
 /// reading and of repair_as_declared.
 [[nodiscard]] Result<PreparedSurface> prepare_surface(const JointFile& file,
                                                       const SurfaceFile& surface,
-                                                      StructureReport& report);
+                                                      StructureReport& report,
+                                                      const KeptParts& parts = {});
 
-/// Reads and repairs all surfaces; notes repairs and refusals in `reports` (n_structures).
+/// Reads and repairs all surfaces; notes repairs and refusals in `reports` (n_structures). What is
+/// in `parts` is not repaired again.
 /// Errors: those of reading; defective when the body is refused.
 [[nodiscard]] Result<PreparedSurfaces> prepare_surfaces(const JointFile& file,
-                                                        std::vector<StructureReport>& reports);
+                                                        std::vector<StructureReport>& reports,
+                                                        const KeptParts& parts = {});
 
 }  // namespace artus

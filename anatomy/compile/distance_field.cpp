@@ -333,6 +333,42 @@ double DistanceField::integrate(const std::function<double(const Vec3&)>& weight
   return integrate_part(weight).volume;
 }
 
+void DistanceField::write(ByteWriter& out) const {
+  for (Eigen::Index a = 0; a < 3; ++a) out.put(origin_[a]);
+  out.put(spacing_);
+  out.put(band_);
+  for (const int n : blocks_) out.put(n);
+  out.put_array(slots_);
+  out.put_array(samples_);
+  out.put(static_cast<std::uint8_t>(far_ ? 1 : 0));
+  if (far_) far_->write(out);
+}
+
+std::optional<DistanceField> DistanceField::read(ByteReader& in) {
+  DistanceField field;
+  for (Eigen::Index a = 0; a < 3; ++a) field.origin_[a] = in.get<double>();
+  field.spacing_ = in.get<double>();
+  field.band_ = in.get<double>();
+  std::size_t n = 1;
+  for (int& blocks : field.blocks_) {
+    blocks = in.get<int>();
+    n *= static_cast<std::size_t>(std::clamp(blocks, 0, 1 << 20));
+  }
+  field.slots_ = in.get_array<std::int32_t>();
+  field.samples_ = in.get_array<float>();
+  const std::size_t n_stored = field.samples_.size() / kBlock;
+  const bool slots_stored =
+      std::all_of(field.slots_.begin(), field.slots_.end(),
+                  [&](std::int32_t s) { return s < 0 || static_cast<std::size_t>(s) < n_stored; });
+  if (!in.ok() || field.slots_.size() != n || !slots_stored || !(field.spacing_ > 0))
+    return std::nullopt;
+  if (in.get<std::uint8_t>() == 0) return field;
+  auto far = read(in);
+  if (!far) return std::nullopt;
+  field.far_ = std::make_shared<const DistanceField>(std::move(*far));
+  return field;
+}
+
 std::size_t DistanceField::memory() const noexcept {
   return samples_.size() * sizeof(float) + slots_.size() * sizeof(std::int32_t);
 }

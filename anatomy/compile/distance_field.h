@@ -4,9 +4,11 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "artus/anatomy/surfaces/distance_tree.h"
+#include "artus/core/byte_stream.h"
 
 namespace artus {
 
@@ -82,6 +84,11 @@ class DistanceField {
   /// Makes all but the largest connected part of the inside outside; returns the parts there were,
   /// the largest first. Parts are told apart on the samples. Cost: linear in the samples.
   std::vector<FieldPart> keep_largest_part();
+
+  /// All of it, what extend added too.
+  void write(ByteWriter& out) const;
+  /// What write wrote; empty when it cannot be a field.
+  [[nodiscard]] static std::optional<DistanceField> read(ByteReader& in);
 
   [[nodiscard]] double spacing() const noexcept { return spacing_; }
   [[nodiscard]] double band() const noexcept { return band_; }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // What an edit of joint.toml costs: nothing but reading when it does not shape the body.
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -8,7 +9,9 @@
 
 #include "artus/anatomy/compile/compile.h"
 #include "artus/anatomy/compile/dress_body.h"
+#include "artus/anatomy/compile/kept_parts.h"
 #include "tests/anatomy/compile/joint_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace artus {
 namespace {
@@ -95,6 +98,60 @@ TEST_F(KeptBodies, IsMadeAnewWhenAnythingThatShapesItChanges) {
   replace("file = \"head.ply\"", "file = \"head.ply\"\nfacet_distance = 0.3");
   EXPECT_FALSE(compile().report.body_kept) << "a structure's own sizes";
   EXPECT_TRUE(compile().report.body_kept);
+}
+
+TEST_F(KeptBodies, UnchangedStructuresAreNotRepairedAndMeasuredAgainAndTheBytesAreTheSame) {
+  EXPECT_EQ(compile().report.parts_kept, 0U);
+  folder_.add_sphere("other", Vec3(0, 0, -8), 5);
+  std::ofstream(folder_.path() / "joint.toml", std::ios::app)
+      << "[[structure]]\nname = \"other\"\ntissue = \"muscle\"\nfile = \"other.ply\"\n";
+  const CompileOutcome added = compile();
+  EXPECT_FALSE(added.report.body_kept);
+  EXPECT_EQ(added.report.parts_kept, 4U) << "surface and distances of body and head";
+  EXPECT_EQ(written(added), written(compile(false)));
+  folder_.add_sphere("head", Vec3(0, 0, 5), 7);
+  const CompileOutcome edited = compile();
+  EXPECT_EQ(edited.report.parts_kept, 4U) << "surface and distances of body and other";
+  EXPECT_EQ(written(edited), written(compile(false)));
+}
+
+TEST_F(KeptBodies, DamagedPartsAreMadeAnew) {
+  const std::string first = written(compile());
+  for (const auto& entry : fs::directory_iterator(options_.cache / "parts")) {
+    std::string bytes = bytes_of(entry.path());
+    ASSERT_GT(bytes.size(), 1000U);
+    bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
+    std::ofstream(entry.path(), std::ios::binary | std::ios::trunc) << bytes;
+  }
+  for (const auto& entry : fs::directory_iterator(options_.cache))
+    if (entry.is_regular_file()) fs::remove(entry.path());
+  const CompileOutcome again = compile();
+  EXPECT_EQ(again.report.parts_kept, 0U);
+  EXPECT_EQ(written(again), first);
+}
+
+using KeptPartsFolder = test::TemporaryFolder;
+
+TEST_F(KeptPartsFolder, ForgetsWhatWasUsedLongestAgo) {
+  const KeptParts parts(folder_);
+  const auto digest_of = [](int i) {
+    ContentDigest digest(1);
+    digest.add_value(i);
+    return digest;
+  };
+  const std::string bytes(1000, 'x');
+  const auto now = fs::file_time_type::clock::now();
+  for (int i = 0; i < 4; ++i) {
+    parts.keep(digest_of(i), bytes);
+    fs::last_write_time(folder_ / (digest_of(i).hex() + ".part"), now - std::chrono::hours(10 - i));
+  }
+  EXPECT_EQ(parts.find(digest_of(0)), bytes) << "it is the one used last now";
+  parts.forget_old(2500);
+  EXPECT_TRUE(parts.find(digest_of(0)));
+  EXPECT_FALSE(parts.find(digest_of(1)));
+  EXPECT_FALSE(parts.find(digest_of(2)));
+  EXPECT_TRUE(parts.find(digest_of(3)));
+  EXPECT_FALSE(KeptParts().find(digest_of(0))) << "one without a folder keeps nothing";
 }
 
 TEST_F(KeptBodies, BringsTheReportOfItsMaking) {
