@@ -102,7 +102,7 @@ TEST_F(Shards, AreReadByTheSystemsTar) {
   EXPECT_THAT(listed.out, HasSubstr("000000002.json"));
   const auto summed = test::run_process({"sha256sum", (folder_ / "set/shard-000000.tar").string()});
   const auto sidecar = nlohmann::json::parse(*read_bytes(folder_ / "set/shard-000000.json"));
-  EXPECT_EQ(summed.out.substr(0, 64), sidecar["sha256"]);
+  EXPECT_EQ(summed.out.substr(0, 64), sidecar["sha256"].get<std::string>());
   EXPECT_EQ(sidecar["sweep"]["engine"], "1.0");
 }
 
