@@ -85,7 +85,8 @@ Gate gate_needle() {
                                      flow.drop(2e-7) / 1e3, row.drop / 1e3, 0.02, "kPa"));
   }
   const NeedleFlow flow(*bore_of_gauge(22, 0.05), {}, 1000);
-  gate.claims.push_back(claim_near(ClaimKind::independent, "inverse of the drop at 0.2 ml/s",
+  gate.claims.push_back(claim_near({ClaimKind::input, "a quadratic and its own solution"},
+                                   "inverse of the drop at 0.2 ml/s",
                                    flow.flow(flow.drop(2e-7)) * 1e6, 0.2, 1e-9, "ml/s"));
   // Far above its knee Carreau's law is a power law of k = mu_0 lambda^(n-1).
   const Viscosity thin{100, 1e-9, 100, 0.5};
@@ -161,7 +162,8 @@ Gate gate_leak() {
   Plunger plunger(params, {full, level("sink", 0)}, 1e-3);
   const double force = params.syringe.glide + params.syringe.area() * (100 * kMercury + 2e4);
   for (int k = 0; k < 5000; ++k) plunger.step(thumb(force));
-  gate.claims.push_back(claim_near(ClaimKind::independent, "flow", plunger.state().flow * 1e6,
+  gate.claims.push_back(claim_near({ClaimKind::input, "a closed form of the values put in"}, "flow",
+                                   plunger.state().flow * 1e6,
                                    2e4 / (needle_resistance() + 2e10) * 1e6, kExact, "ml/s"));
   return gate;
 }

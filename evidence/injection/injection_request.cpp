@@ -16,16 +16,12 @@ constexpr double kOverfill = 0.4e-6;  // m^3 that is drawn up beyond what is mea
 Result<PlungerParams> plunger_of(const InjectionRequest& request) {
   SyringeChoice choice;
   choice.gauge = request.gauge;
-  choice.filled = request.volume;
-  choice.barrel = request.syringe > 0 ? request.syringe : request.volume;
+  choice.filled = request.volume + kOverfill;
+  choice.barrel = request.syringe;
   choice.air = request.air;
   choice.liquid = request.liquid;
   choice.seed = request.seed;
-  auto params = make_plunger_params(choice, request.needle_length);
-  if (!params) return params;
-  params->syringe.filled += kOverfill;
-  params->syringe.volume += kOverfill;
-  return params;
+  return make_plunger_params(choice, request.needle_length);
 }
 
 /// Name, entry and target: the request's own line, or a planned one.

@@ -31,7 +31,7 @@ Result<PlungerParams> make_plunger_params(const SyringeChoice& choice, double ne
   if (!bore)
     return fail(ErrorCode::not_found, "there are 18, 19, 20, 21, 22, 23, 25 and 27 gauge", "gauge");
   params.needle = *bore;
-  params.syringe = syringe_for(choice.barrel > 0 ? choice.barrel : choice.filled);
+  params.syringe = syringe_for(choice.barrel > 0 ? choice.barrel : choice.filled / kBeyondMark);
   params.syringe.volume *= kBeyondMark;
   if (params.syringe.volume < choice.filled)
     return fail(ErrorCode::invalid, "the syringe does not hold the volume", "syringe");

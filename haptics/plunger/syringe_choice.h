@@ -12,7 +12,7 @@ namespace artus {
 struct SyringeChoice {
   int gauge = 22;                 ///< of the needle
   double filled = 5e-6;           ///< m^3 of liquid drawn up
-  double barrel = 0;              ///< m^3; 0: the smallest that holds it
+  double barrel = 0;              ///< m^3; 0: the smallest that holds `filled`
   double air = 0;                 ///< m^3 trapped behind the liquid
   double unbalanced = 0.05;       ///< see PlungerParams
   std::string liquid = "saline";  ///< of meshes/liquids.toml
