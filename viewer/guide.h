@@ -18,6 +18,7 @@ struct GuideInput {
   bool has_hand = true;  ///< of mouse and keyboard
   bool welcome = false;  ///< nothing was chosen yet
   bool paused = false;
+  bool frozen = false;  ///< the picture
   PeerState peer = PeerState::alive;
   std::string connect;  ///< how a device that was never there is connected
   GesturePhase phase = GesturePhase::exploring;

@@ -8,6 +8,7 @@
 
 #include "artus/core/units.h"
 #include "artus/viewer/anatomy_names.h"
+#include "artus/viewer/curve.h"
 #include "artus/viewer/label_places.h"
 #include "artus/viewer/panels.h"
 
@@ -98,13 +99,16 @@ std::vector<TissueInterval> bands_of(const Trace& trace, X x_of) {
 template <class Trace, class X>
 void draw_curve(ImDrawList* list, const Plot& plot, const Trace& trace, X x_of,
                 float TracePoint::*value, ImU32 colour) {
-  std::vector<ImVec2> points;
-  points.reserve(trace.size());
+  std::vector<CurvePoint> curve;
+  curve.reserve(trace.size());
   for (const TracePoint& p : trace) {
     const double x = x_of(p);
     if (x < plot.x_low || x > plot.x_high) continue;
-    points.push_back(plot.at(x, p.*value));
+    const ImVec2 at = plot.at(x, p.*value);
+    curve.push_back({at.x, at.y});
   }
+  std::vector<ImVec2> points;
+  for (const CurvePoint& p : thinned(curve)) points.emplace_back(p.x, p.y);
   list->AddPolyline(points.data(), static_cast<int>(points.size()), colour, 0,
                     ImGui::GetFontSize() / 9);
 }
@@ -247,12 +251,18 @@ void draw_rates_panel(const PanelInput& in, ViewState& state) {
   const auto rate = [](const LatencyHistogram& h) {
     return h.count() > 0 ? 1e6 / std::max(h.percentile_us(0.5), 1.0) : 0.0;
   };
-  ImGui::TextWrapped("haptics %.0f Hz, compute p99.9 %.0f us   late p99 %.0f us",
-                     in.session->params().haptic_rate, t.haptic_compute.percentile_us(0.999),
-                     t.haptic_lateness.percentile_us(0.99));
-  ImGui::TextWrapped("images %.0f Hz, pose to image p95 %.0f ms   window %.0f Hz",
-                     rate(t.image_interval), 1e-3 * t.pose_to_image.percentile_us(0.95),
-                     in.window_rate);
+  const auto whole = [&state](double value) {
+    return number(state.language, value, 0);
+  };
+  const std::string haptic_line =
+      fill(tell(state, Text::rates_haptics), {whole(in.session->params().haptic_rate),
+                                              whole(t.haptic_compute.percentile_us(0.999)),
+                                              whole(t.haptic_lateness.percentile_us(0.99))});
+  const std::string image_line =
+      fill(tell(state, Text::rates_images),
+           {whole(rate(t.image_interval)), whole(1e-3 * t.pose_to_image.percentile_us(0.95)),
+            whole(in.window_rate)});
+  for (const std::string& line : {haptic_line, image_line}) ImGui::TextWrapped("%s", line.c_str());
   const ImVec2 room = ImGui::GetContentRegionAvail();
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const Plot haptics = plot_in(at, ImVec2(room.x, room.y / 2), 2);
