@@ -343,6 +343,9 @@ TEST(Guide, SaysTheNextStepOfAnInjection) {
   in.needle.on_bone = false;
   in.needle.region = 7;
   says("F freezes");
+  in.frozen = true;
+  says("F goes on");
+  in.frozen = false;
   EXPECT_TRUE(guide.reached());
   in.needle.region = 3;
   says("S pulls the needle out");
