@@ -44,7 +44,8 @@ struct ScreenLabel {
 /// tip's trail. Draws frame J. Needs a current OpenGL 3.3 context for its whole life.
 class JointView {
  public:
-  static constexpr double kWishedTime = 25e-3;  ///< s that a call may take
+  static constexpr double kWishedTime = 25e-3;     ///< s that a call may take
+  static constexpr double kWishedPicture = 50e-3;  ///< s that a picture may take in all
 
   [[nodiscard]] static Result<std::unique_ptr<JointView>> make(const CompiledJoint& joint,
                                                                double probe_width,
@@ -130,7 +131,7 @@ class JointView {
   GlMesh quad_;
   GlMesh line_;
   std::deque<Eigen::Vector3f> trail_;
-  DetailChooser detail_{kWishedTime};
+  DetailChooser detail_{kWishedPicture};
   std::vector<double> seen_;  // what decided how the last picture looks
   bool drew_ = false;
   Eigen::Matrix4f view_ = Eigen::Matrix4f::Identity();  // of the shown picture
