@@ -18,6 +18,8 @@ bool at_target(const GuideInput& in) {
 
 std::string Guide::goal(const GuideInput& in) const {
   if (in.target.empty()) return text(in.language, Text::goal_none);
+  if (in.target_is_bone)
+    return say(in, reached_ ? Text::goal_on_bone : Text::goal_bone, {in.target});
   return say(in, reached_ ? Text::goal_reached : Text::goal_region, {in.target});
 }
 

@@ -26,6 +26,7 @@ struct GuideInput {
   bool probe_lifted = false;
   std::string target;  ///< the structure's name; empty: there is no goal
   RegionId target_region = kOutside;
+  bool target_is_bone = false;  ///< it is touched, not entered
   NeedleReading needle;
   double needle_length = 0;  ///< m
 };

@@ -223,7 +223,7 @@ void draw_picture(const PanelInput& in, ViewState& state) {
   draw_calipers(sheet, state, in.image->input.number);
   sheet.list->PopClipRect();
   if (in.kept == nullptr)
-    draw_body_mark(sheet, in, ImVec2(right, at.y + size.y), right - at.x - size.x - 10 * unit);
+    draw_body_mark(sheet, in, ImVec2(right, at.y + size.y), right - at.x - size.x);
   ImGui::PushTextWrapPos(0);
   ImGui::TextUnformatted(settings.c_str());
   ImGui::PopTextWrapPos();

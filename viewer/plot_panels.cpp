@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <string>
 
@@ -38,13 +37,7 @@ struct Plot {
   }
 };
 
-void label(ImDrawList* list, const ImVec2& at, const char* format, double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), format, value);
-  list->AddText(at, kText, text.data());
-}
-
-void draw_frame(ImDrawList* list, const Plot& plot, double y_step, const char* y_format) {
+void draw_frame(ImDrawList* list, const Plot& plot, double y_step, Language language) {
   const float font = ImGui::GetFontSize();
   const auto first = static_cast<int>(std::ceil(plot.y_low / y_step));
   const auto last = static_cast<int>(std::floor(plot.y_high / y_step + 1e-9));
@@ -52,7 +45,9 @@ void draw_frame(ImDrawList* list, const Plot& plot, double y_step, const char* y
     const double y = i * y_step;
     const ImVec2 p = plot.at(plot.x_low, y);
     list->AddLine(p, ImVec2(plot.to.x, p.y), kGrid);
-    label(list, ImVec2(p.x - 2.3F * font, p.y - 0.5F * font), y_format, y);
+    const std::string said = number(language, y, 1);
+    list->AddText(ImVec2(p.x - 0.4F * font - ImGui::CalcTextSize(said.c_str()).x, p.y - 0.5F * font),
+                  kText, said.c_str());
   }
   list->AddRect(plot.from, plot.to, kAxis);
 }
@@ -148,7 +143,7 @@ void draw_force_over_time(const PanelInput& in, const ViewState& state, Plot plo
     return p.time;
   };
   draw_layers(list, plot, in, state.language, bands_of(state.trace, x));
-  draw_frame(list, plot, step_for(plot.y_high - plot.y_low), "%4.1f");
+  draw_frame(list, plot, step_for(plot.y_high - plot.y_low), state.language);
   draw_curve(list, plot, state.trace, x, &TracePoint::lateral, kLateral);
   draw_curve(list, plot, state.trace, x, &TracePoint::force, kForce);
   const float font = ImGui::GetFontSize();
@@ -174,7 +169,7 @@ void draw_force_over_depth(const PanelInput& in, const ViewState& state, Plot pl
   std::stable_sort(sorted.begin(), sorted.end(),
                    [](const TracePoint& a, const TracePoint& b) { return a.depth < b.depth; });
   draw_layers(list, plot, in, state.language, bands_of(sorted, x));
-  draw_frame(list, plot, step_for(plot.y_high - plot.y_low), "%4.1f");
+  draw_frame(list, plot, step_for(plot.y_high - plot.y_low), state.language);
   draw_curve(list, plot, trace, x, &TracePoint::force, kForce);
   const std::string title =
       fill(tell(state, Text::plot_force_depth), {number(state.language, plot.x_high, 0)});

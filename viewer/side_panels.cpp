@@ -66,7 +66,8 @@ std::string device_line(const PanelInput& in, const ViewState& state) {
   std::string name(in.session->device_name());
   for (const Text known : {Text::hand_device, Text::simulated_hand})
     if (name == text(Language::english, known)) name = tell(state, known);
-  return name + ": " + tell(state, kPeers.at(static_cast<std::size_t>(in.peer)));
+  return fill(tell(state, Text::device_line),
+              {name, tell(state, kPeers.at(static_cast<std::size_t>(in.peer)))});
 }
 
 }  // namespace

@@ -191,6 +191,7 @@ void WindowLoop::guide() {
   in.probe_lifted = input_.probe_lifted;
   in.target = target_name_;
   in.target_region = target_region_;
+  in.target_is_bone = session_.scene().joint().tissue_of(target_region_).haptic.hard;
   in.needle = input_.needle;
   in.needle_length = needle_length_of(session_.params());
   input_.next = guide_.next(in);

@@ -322,6 +322,9 @@ TEST(Guide, SaysTheNextStepOfAnInjection) {
   };
   says("P takes the probe");
   EXPECT_EQ(guide.goal(in), "Bring the tip into the subacromial bursa");
+  in.target_is_bone = true;
+  EXPECT_EQ(guide.goal(in), "Touch this bone with the tip: subacromial bursa");
+  in.target_is_bone = false;
   in.grab = Grab::probe;
   says("C chooses the entry");
   in.probe_lifted = true;
