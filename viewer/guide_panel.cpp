@@ -95,9 +95,9 @@ void draw_welcome(const PanelInput& in, ViewState& state) {
   action_button(state, Text::choice_explore, Action::take_probe);
   const auto& injections = in.session->scene().joint().injections;
   for (std::size_t i = 0; in.has_hand && i < injections.size(); ++i) {
-    const std::string name = fill(
-        tell(state, Text::choice_inject),
-        {std::to_string(i + 1), clinical_name(state.language, injections[i].name)});
+    const std::string name =
+        fill(tell(state, Text::choice_inject),
+             {std::to_string(i + 1), clinical_name(state.language, injections[i].name)});
     if (ImGui::Button(name.c_str())) state.planned = i;
     if (i % 2 == 0 && i + 1 < injections.size() && !state.layout.narrow()) ImGui::SameLine();
   }
@@ -150,9 +150,10 @@ void draw_help(const PanelInput& in, ViewState& state) {
                ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings);
   ImGui::PushTextWrapPos(0.9F * size.x);
   for (const auto& [action, what] : kHelp) {
-    const std::string key = action == Action::none
-                                ? tell(state, what == Text::help_tilt ? Text::key_ctrl : Text::key_shift)
-                                : state.keys.said_key(action, state.language);
+    const std::string key =
+        action == Action::none
+            ? tell(state, what == Text::help_tilt ? Text::key_ctrl : Text::key_shift)
+            : state.keys.said_key(action, state.language);
     ImGui::TextUnformatted(key.c_str());
     ImGui::SameLine(8 * ImGui::GetFontSize());
     ImGui::TextUnformatted(tell(state, what));

@@ -107,8 +107,8 @@ void draw_colour_box(const Sheet& sheet, const PanelInput& in, const ViewState& 
   outlined_text(sheet.list, ImVec2(low.x + 3, low.y + 1), said);
 }
 
-/// The map of the joint with the probe on it, as far to the right as there is room; in the picture's
-/// corner, as scanners have it, where there is none beside it: half as large.
+/// The map of the joint with the probe on it, as far to the right as there is room; in the
+/// picture's corner, as scanners have it, where there is none beside it: half as large.
 void draw_body_mark(const Sheet& sheet, const PanelInput& in, const ImVec2& corner, float beside) {
   if (in.mark == nullptr) return;
   const auto size = static_cast<float>(in.mark->size);

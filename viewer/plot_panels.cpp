@@ -46,8 +46,9 @@ void draw_frame(ImDrawList* list, const Plot& plot, double y_step, Language lang
     const ImVec2 p = plot.at(plot.x_low, y);
     list->AddLine(p, ImVec2(plot.to.x, p.y), kGrid);
     const std::string said = number(language, y, 1);
-    list->AddText(ImVec2(p.x - 0.4F * font - ImGui::CalcTextSize(said.c_str()).x, p.y - 0.5F * font),
-                  kText, said.c_str());
+    list->AddText(
+        ImVec2(p.x - 0.4F * font - ImGui::CalcTextSize(said.c_str()).x, p.y - 0.5F * font), kText,
+        said.c_str());
   }
   list->AddRect(plot.from, plot.to, kAxis);
 }
@@ -250,9 +251,9 @@ void draw_rates_panel(const PanelInput& in, ViewState& state) {
     return number(state.language, value, 0);
   };
   const std::string haptic_line =
-      fill(tell(state, Text::rates_haptics), {whole(in.session->params().haptic_rate),
-                                              whole(t.haptic_compute.percentile_us(0.999)),
-                                              whole(t.haptic_lateness.percentile_us(0.99))});
+      fill(tell(state, Text::rates_haptics),
+           {whole(in.session->params().haptic_rate), whole(t.haptic_compute.percentile_us(0.999)),
+            whole(t.haptic_lateness.percentile_us(0.99))});
   const std::string image_line =
       fill(tell(state, Text::rates_images),
            {whole(rate(t.image_interval)), whole(1e-3 * t.pose_to_image.percentile_us(0.95)),

@@ -99,7 +99,8 @@ void draw_session_panel(const PanelInput& in, ViewState& state) {
   const double rate = images.count() > 0 ? 1e6 / std::max(images.percentile_us(0.5), 1.0) : 0;
   wrapped(fill(tell(state, Text::rates_line),
                {number(state.language, rate, 0), number(state.language, in.window_rate, 0)}));
-  for (const std::string& refused : in.session->refusals()) wrapped(fill(tell(state, Text::refused), {refused}));
+  for (const std::string& refused : in.session->refusals())
+    wrapped(fill(tell(state, Text::refused), {refused}));
   const std::vector<std::string> notices = in.session->notices();
   constexpr std::size_t kShown = 3;
   for (std::size_t i = notices.size() - std::min(kShown, notices.size()); i < notices.size(); ++i)

@@ -124,10 +124,10 @@ void WindowLoop::follow_gesture(const HapticSnapshot& now) {
   if (now.phase != input_.now.phase) {
     joint_->clear_trail();
     state_.insertion.clear();
-    state_.message =
-        now.phase == GesturePhase::inserting
-            ? fill(tell(state_, Text::entry_chosen), {state_.keys.said_key(Action::take_needle, state_.language)})
-            : tell(state_, Text::back_to_exploring);
+    state_.message = now.phase == GesturePhase::inserting
+                         ? fill(tell(state_, Text::entry_chosen),
+                                {state_.keys.said_key(Action::take_needle, state_.language)})
+                         : tell(state_, Text::back_to_exploring);
   }
   if (input_.now.input.tick != 0 && !before.isApprox(after, 1e-12))
     control_.follow_joint(before, after);
