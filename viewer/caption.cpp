@@ -122,7 +122,7 @@ void draw_box(cv::Mat& picture, const ImageSnapshot& image, const Caption& capti
       static_cast<int>(std::lround(box.height * image.height)));
   cv::rectangle(picture, frame, bgr(kOverlay));
   const std::string said = doppler_line(caption.language, caption.doppler_limit);
-  write(picture, said, {kCaptionLeft, 32}, kOverlay);
+  write(picture, said, {kCaptionLeft + 16, 32}, kOverlay);  // beside the marked side
 }
 
 }  // namespace

@@ -181,8 +181,12 @@ void GlTarget::begin(int width, int height) {
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, colour_.id(), 0);
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_);
   }
+  resume();
+}
+
+void GlTarget::resume() const {
   glBindFramebuffer(GL_FRAMEBUFFER, frame_);
-  glViewport(0, 0, width, height);
+  glViewport(0, 0, colour_.width(), colour_.height());
 }
 
 void GlTarget::end() const {

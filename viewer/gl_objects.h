@@ -46,6 +46,9 @@ class GlMesh {
   void set_points(std::span<const Eigen::Vector3f> points);
   void set_triangles(std::span<const std::uint32_t> indices);
   void draw_triangles() const;
+  [[nodiscard]] std::size_t n_triangles() const noexcept {
+    return static_cast<std::size_t>(n_indices_) / 3;
+  }
   void draw_line_strip() const;
 
  private:
@@ -87,6 +90,8 @@ class GlTarget {
   GlTarget& operator=(const GlTarget&) = delete;
   /// Makes the size fit and draws into it from now on.
   void begin(int width, int height);
+  /// Draws into it again, upon what is there.
+  void resume() const;
   /// Back to the window.
   void end() const;
   [[nodiscard]] unsigned texture() const noexcept { return colour_.id(); }

@@ -45,6 +45,7 @@ void set_gui_scale(float scale) {
   ImGui_ImplOpenGL3_CreateFontsTexture();
   ImGui::GetStyle() = ImGuiStyle();
   ImGui::StyleColorsDark();
+  ImGui::GetStyle().Colors[ImGuiCol_WindowBg].w = 1;  // letters below do not shine through
   ImGui::GetStyle().ScaleAllSizes(scale);
 }
 

@@ -18,17 +18,21 @@ bool at_target(const GuideInput& in) {
 
 std::string Guide::goal(const GuideInput& in) const {
   if (in.target.empty()) return text(in.language, Text::goal_none);
+  if (in.target_is_bone)
+    return say(in, reached_ ? Text::goal_on_bone : Text::goal_bone, {in.target});
   return say(in, reached_ ? Text::goal_reached : Text::goal_region, {in.target});
 }
 
 // The needle is in the body.
 std::string Guide::with_needle(const GuideInput& in) const {
   const auto key = [&in](Action action) {
-    return in.keys->key_of(action);
+    return in.keys->said_key(action, in.language);
   };
   const std::string pull = key(Action::pull);
   if (in.needle.hub_on_skin)
     return say(in, Text::step_hub, {number(in.language, in.needle_length / kMillimetre, 0), pull});
+  if (at_target(in) && in.frozen)
+    return say(in, Text::step_frozen, {key(Action::save), key(Action::freeze)});
   if (at_target(in))
     return say(in, Text::step_reached, {key(Action::freeze), key(Action::save), pull});
   if (in.needle.on_bone) return say(in, Text::step_bone, {pull});
@@ -41,7 +45,7 @@ std::string Guide::with_needle(const GuideInput& in) const {
 std::string Guide::next(const GuideInput& in) {
   reached_ = reached_ || at_target(in);
   const auto key = [&in](Action action) {
-    return in.keys->key_of(action);
+    return in.keys->said_key(action, in.language);
   };
   if (in.peer == PeerState::absent) return say(in, Text::step_connect, {in.connect});
   if (in.peer != PeerState::alive) return say(in, Text::step_lost, {});

@@ -18,6 +18,7 @@ struct GuideInput {
   bool has_hand = true;  ///< of mouse and keyboard
   bool welcome = false;  ///< nothing was chosen yet
   bool paused = false;
+  bool frozen = false;  ///< the picture
   PeerState peer = PeerState::alive;
   std::string connect;  ///< how a device that was never there is connected
   GesturePhase phase = GesturePhase::exploring;
@@ -25,6 +26,7 @@ struct GuideInput {
   bool probe_lifted = false;
   std::string target;  ///< the structure's name; empty: there is no goal
   RegionId target_region = kOutside;
+  bool target_is_bone = false;  ///< it is touched, not entered
   NeedleReading needle;
   double needle_length = 0;  ///< m
 };

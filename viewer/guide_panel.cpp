@@ -80,10 +80,14 @@ void draw_guide_panel(const PanelInput& in, ViewState& state) {
   if (state.layout.narrow()) draw_choice_of_panels(state);
 }
 
+// Where the plots are still empty: the picture and the 3D view stay free.
 void draw_welcome(const PanelInput& in, ViewState& state) {
   if (!state.welcome) return;
   const ImVec2 size = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos(ImVec2(size.x / 2, 0.62F * size.y), ImGuiCond_Always, ImVec2(0.5F, 0.5F));
+  const ImVec2 middle = state.layout.narrow() ? ImVec2(size.x / 2, 0.62F * size.y)
+                                              : ImVec2(0.295F * size.x, 0.83F * size.y);
+  ImGui::SetNextWindowPos(middle, ImGuiCond_Always, ImVec2(0.5F, 0.5F));
+  ImGui::PushStyleColor(ImGuiCol_Border, ImVec4(kGoal));
   ImGui::Begin("###welcome", nullptr,
                ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoTitleBar |
                    ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
@@ -91,12 +95,15 @@ void draw_welcome(const PanelInput& in, ViewState& state) {
   action_button(state, Text::choice_explore, Action::take_probe);
   const auto& injections = in.session->scene().joint().injections;
   for (std::size_t i = 0; in.has_hand && i < injections.size(); ++i) {
-    const std::string name = clinical_name(state.language, injections[i].name);
-    if (ImGui::Button((std::to_string(i + 1) + ": " + name).c_str())) state.planned = i;
+    const std::string name =
+        fill(tell(state, Text::choice_inject),
+             {std::to_string(i + 1), clinical_name(state.language, injections[i].name)});
+    if (ImGui::Button(name.c_str())) state.planned = i;
     if (i % 2 == 0 && i + 1 < injections.size() && !state.layout.narrow()) ImGui::SameLine();
   }
   action_button(state, Text::choice_help, Action::help);
   ImGui::End();
+  ImGui::PopStyleColor();
 }
 
 void draw_help(const PanelInput& in, ViewState& state) {
@@ -141,16 +148,21 @@ void draw_help(const PanelInput& in, ViewState& state) {
   const std::string title = std::string(tell(state, Text::panel_keys)) + "###keys";
   ImGui::Begin(title.c_str(), &state.help,
                ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings);
+  ImGui::PushTextWrapPos(0.9F * size.x);
   for (const auto& [action, what] : kHelp) {
-    const std::string key = action == Action::none ? (what == Text::help_tilt ? "ctrl" : "shift")
-                                                   : state.keys.key_of(action);
+    const std::string key =
+        action == Action::none
+            ? tell(state, what == Text::help_tilt ? Text::key_ctrl : Text::key_shift)
+            : state.keys.said_key(action, state.language);
     ImGui::TextUnformatted(key.c_str());
     ImGui::SameLine(8 * ImGui::GetFontSize());
     ImGui::TextUnformatted(tell(state, what));
   }
   ImGui::TextUnformatted(tell(state, Text::help_joint));
   ImGui::TextUnformatted(tell(state, Text::help_pad));
-  if (in.gamepad != nullptr) ImGui::Text("gamepad: %s", in.gamepad);
+  if (in.gamepad != nullptr)
+    ImGui::TextUnformatted(fill(tell(state, Text::gamepad), {in.gamepad}).c_str());
+  ImGui::PopTextWrapPos();
   ImGui::End();
 }
 

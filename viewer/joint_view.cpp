@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -42,12 +41,6 @@ Eigen::Matrix4f perspective(double height_angle, double aspect, double near, dou
   m(2, 2) = (far + near) / (near - far);
   m(2, 3) = 2 * far * near / (near - far);
   m(3, 2) = -1;
-  return m.cast<float>();
-}
-
-Eigen::Matrix4f to_model(const Pose& pose, const Vec3& scale) {
-  Eigen::Matrix4d m = pose.matrix();
-  for (int i = 0; i < 3; ++i) m.col(i) *= scale[i];
   return m.cast<float>();
 }
 
@@ -171,14 +164,6 @@ const GlMesh& JointView::mesh_of(DrawnSheet& sheet) {
   return *mesh;
 }
 
-void JointView::draw_mesh(const GlMesh& mesh, const Eigen::Matrix4f& view,
-                          const Eigen::Matrix4f& model, const Eigen::Vector4f& colour, bool lit) {
-  solid_.set("view", view);
-  solid_.set("model", model);
-  set_sides({colour, lit}, {colour, lit});
-  mesh.draw_triangles();
-}
-
 void JointView::set_sides(const Side& front, const Side& behind) {
   solid_.set("colour", front.colour);
   solid_.set("behind", behind.colour);
@@ -196,137 +181,45 @@ JointView::Side JointView::side_of(RegionId region) const {
 
 // Who looks at a sheet from within an opaque structure does so because this one was cut open, and
 // sees the cut's plain colour; else the surface of what lies behind the sheet.
-void JointView::draw_opaque(DrawnSheet& sheet) {
+std::optional<JointView::Step> JointView::opaque_step(DrawnSheet& sheet) const {
   Side front = side_of(sheet.sheet.front);
   Side back = side_of(sheet.sheet.back);
   const bool in_front = front.colour.w() > kOpaque;
   const bool in_back = back.colour.w() > kOpaque;
-  if (!in_front && !in_back) return;
+  if (!in_front && !in_back) return std::nullopt;
   front.lit = !in_front;
   back.lit = !in_back;
   if (!in_front) front.colour = back.colour;
   if (!in_back) back.colour = front.colour;
-  set_sides(front, back);
-  mesh_of(sheet).draw_triangles();
+  return Step{&sheet, front, back, false};
 }
 
-void JointView::draw_parts(const Eigen::Matrix4f& view, const Eigen::Vector4f& plane) {
-  solid_.set("plane", plane);
-  solid_.set("view", view);
-  solid_.set("model", Eigen::Matrix4f(Eigen::Matrix4f::Identity()));
+// Opaque sheets, then what one looks through: the denser and the farther first.
+void JointView::plan_steps() {
   struct Veil {
-    DrawnSheet* sheet;
-    Eigen::Vector4f colour;
+    Step step;
     double distance;
   };
+  steps_.clear();
   std::vector<Veil> veils;
   for (DrawnSheet& sheet : sheets_) {
-    draw_opaque(sheet);
-    const Eigen::Vector4f front = side_of(sheet.sheet.front).colour;
-    const Eigen::Vector4f back = side_of(sheet.sheet.back).colour;
-    if (front.w() > kOpaque || back.w() > kOpaque) continue;
-    for (const Eigen::Vector4f& colour : {front, back})
-      if (colour.w() > 0)
-        veils.push_back({&sheet, colour, (sheet.sheet.centre - eye_).squaredNorm()});
+    if (const auto step = opaque_step(sheet)) {
+      steps_.push_back(*step);
+      continue;
+    }
+    const double distance = (sheet.sheet.centre - eye_).squaredNorm();
+    for (const RegionId region : {sheet.sheet.front, sheet.sheet.back}) {
+      const Side side = side_of(region);
+      if (side.colour.w() > 0) veils.push_back({{&sheet, side, side, true}, distance});
+    }
   }
   std::stable_sort(veils.begin(), veils.end(), [](const Veil& a, const Veil& b) {
-    return a.colour.w() != b.colour.w() ? a.colour.w() > b.colour.w() : a.distance > b.distance;
+    const float dense_a = a.step.front.colour.w();
+    const float dense_b = b.step.front.colour.w();
+    return dense_a != dense_b ? dense_a > dense_b : a.distance > b.distance;
   });
-  glDepthMask(GL_FALSE);
-  for (const Veil& veil : veils) {
-    set_sides({veil.colour, true}, {veil.colour, true});
-    mesh_of(*veil.sheet).draw_triangles();
-  }
-  glDepthMask(GL_TRUE);
-  solid_.set("plane", no_plane());
-}
-
-void JointView::draw_tools(const Eigen::Matrix4f& view, const JointScene& scene) {
-  const HapticSnapshot& now = scene.now;
-  const Pose X_JP = to_pose(now.X_JP);
-  // The marked side, where the picture's dot is.
-  const Pose mark = X_JP * Eigen::Translation3d(-probe_width_ / 2 - 1e-3, 0, -2e-3);
-  draw_mesh(box_, view, to_model(mark, Vec3(3e-3, 4e-3, 10e-3)), {1.F, 0.86F, 0.35F, 1}, true);
-  draw_mesh(box_, view, to_model(X_JP, Vec3(probe_width_, 10e-3, 30e-3)), {0.85F, 0.88F, 0.95F, 1},
-            true);
-  if (now.input.device.has_needle == 0) return;
-  const Pose& X_JN = scene.X_JN;
-  const Pose shaft = X_JN * Eigen::Translation3d(0, 0, -needle_length_);
-  draw_mesh(rod_, view, to_model(shaft, Vec3(0.6e-3, 0.6e-3, needle_length_)),
-            {1.F, 0.95F, 0.4F, 1}, true);
-  const Pose hub = shaft * Eigen::Translation3d(0, 0, -25e-3);
-  draw_mesh(rod_, view, to_model(hub, Vec3(4e-3, 4e-3, 25e-3)), {0.6F, 0.8F, 0.9F, 1}, true);
-}
-
-void JointView::draw_forces(const Eigen::Matrix4f& view, const HapticSnapshot& now) {
-  const Pose X_JN = to_pose(now.X_JN);
-  const Vec3 tip = X_JN.translation();
-  const auto arrow = [&](const Vec3& vector, double length, const Eigen::Vector4f& colour) {
-    if (length < 1e-3) return;
-    const Pose at = make_pose(tip - 40e-3 * X_JN.linear().col(2), vector, Vec3::UnitX());
-    draw_mesh(rod_, view, to_model(at, Vec3(0.8e-3, 0.8e-3, length)), colour, true);
-    const Pose head = at * Eigen::Translation3d(0, 0, length);
-    draw_mesh(cone_, view, to_model(head, Vec3(2e-3, 2e-3, 5e-3)), colour, true);
-  };
-  const Vec3 force(now.force_J[0], now.force_J[1], now.force_J[2]);
-  const Vec3 torque(now.torque_J[0], now.torque_J[1], now.torque_J[2]);
-  arrow(force, 8e-3 * force.norm(), {1.F, 0.3F, 0.2F, 1});   // 8 mm for a newton
-  arrow(torque, 0.2 * torque.norm(), {0.3F, 0.5F, 1.F, 1});  // 2 mm for 10 mN m
-  if (now.inserted == 0) return;
-  const Vec3 entry(now.entry_J[0], now.entry_J[1], now.entry_J[2]);
-  constexpr double kLength = 25e-3;  // m of the cone that is drawn outside the skin
-  const double radius = kLength * std::tan(std::min(now.cone, 1.4));
-  const Vec3 outward = -X_JN.linear().col(2);
-  const Pose base = make_pose(entry + kLength * outward, -outward, Vec3::UnitX());
-  glDepthMask(GL_FALSE);
-  draw_mesh(cone_, view, to_model(base, Vec3(radius, radius, kLength)), {1.F, 0.9F, 0.3F, 0.18F},
-            false);
-  glDepthMask(GL_TRUE);
-}
-
-void JointView::draw_image(const Eigen::Matrix4f& view, const ImageSnapshot& image,
-                           const GlTexture& texture) {
-  const double width = image.width * image.pixel;
-  const double height = image.height * image.pixel;
-  const Pose X_JP = to_pose(image.input.X_JP);
-  Eigen::Matrix4d model = Eigen::Matrix4d::Identity();  // u along the lateral axis, v into the body
-  model.block<3, 1>(0, 0) = width * X_JP.linear().col(0);
-  model.block<3, 1>(0, 1) = height * X_JP.linear().col(2);
-  model.block<3, 1>(0, 2) = X_JP.linear().col(1);
-  model.block<3, 1>(0, 3) = X_JP * Vec3(-width / 2, 0, 0);
-  picture_.use();
-  picture_.set("view", view);
-  picture_.set("model", Eigen::Matrix4f(model.cast<float>()));
-  picture_.set("image", 0);
-  glActiveTexture(GL_TEXTURE0);
-  texture.bind();
-  quad_.draw_triangles();
-  solid_.use();
-}
-
-void JointView::draw_trail(const Eigen::Matrix4f& view, const Pose& X_JN) {
-  const Eigen::Vector3f tip = X_JN.translation().cast<float>();
-  constexpr std::size_t kLongest = 2000;
-  if (trail_.empty() || (trail_.back() - tip).norm() > 0.2e-3F) trail_.push_back(tip);
-  if (trail_.size() > kLongest) trail_.pop_front();
-  const std::vector<Eigen::Vector3f> points(trail_.begin(), trail_.end());
-  line_.set_points(points);
-  solid_.set("view", view);
-  solid_.set("model", Eigen::Matrix4f(Eigen::Matrix4f::Identity()));
-  const Eigen::Vector4f green(0.2F, 1.F, 0.5F, 1.F);
-  set_sides({green, false}, {green, false});
-  line_.draw_line_strip();
-}
-
-void JointView::draw_entry(const Eigen::Matrix4f& view, const EntryChoice& entry) {
-  constexpr double kLength = 20e-3;  // m of the arrow outside the skin
-  const Pose from =
-      make_pose(entry.p_J - kLength * entry.direction_J, entry.direction_J, Vec3::UnitX());
-  draw_mesh(rod_, view, to_model(from, Vec3(0.4e-3, 0.4e-3, kLength - 4e-3)), {0.4F, 1.F, 0.6F, 1},
-            false);
-  draw_mesh(cone_, view,
-            to_model(from * Eigen::Translation3d(0, 0, kLength - 4e-3), Vec3(1.5e-3, 1.5e-3, 4e-3)),
-            {0.4F, 1.F, 0.6F, 1}, false);
+  for (const Veil& veil : veils) steps_.push_back(veil.step);
+  next_step_ = 0;
 }
 
 // All that the picture depends on, rounded to what a person could see; the speckle in the image
@@ -371,14 +264,61 @@ bool JointView::moved(int width, int height, const JointScene& scene) {
 }
 
 unsigned JointView::draw(int width, int height, const JointScene& scene) {
-  drew_ = moved(width, height, scene);
-  if (!drew_) return target_.texture();
-  for (DrawnSheet& sheet : sheets_) mesh_of(sheet);  // made once: no part of what a picture takes
-  const auto begin = std::chrono::steady_clock::now();
-  draw_all(width, height, scene);
+  drew_ = false;
+  const auto begin = Clock::now();
+  if (!making_ && moved(width, height, scene)) {
+    took_ = 0;
+    begin_picture(width, height, scene);
+    making_ = true;
+  }
+  if (making_) go_on(begin);
+  return shown_ ? targets_[*shown_].texture() : 0;
+}
+
+// The clock is looked at between bundles of sheets: waiting for the graphics costs, too.
+void JointView::go_on(Clock::time_point begin) {
+  constexpr std::size_t kBundle = 30000;      // triangles
+  constexpr std::size_t kWorthOfSheet = 500;  // triangles that asking for a sheet costs as much as
+  const auto since = [](Clock::time_point from) {
+    return std::chrono::duration<double>(Clock::now() - from).count();
+  };
+  targets_[1 - shown_.value_or(1)].resume();
+  begin_sheets(plane_);
+  double built = 0;  // s; meshes are made once: no part of what a picture takes
+  std::size_t bundle = 0;
+  for (; next_step_ < steps_.size(); ++next_step_) {
+    if (bundle > kBundle) {
+      glFinish();
+      bundle = 0;
+    }
+    if (bundle == 0 && since(begin) > kWishedTime) break;
+    const Step& step = steps_[next_step_];
+    const auto before = Clock::now();
+    const GlMesh& mesh = mesh_of(*step.sheet);
+    const double took = since(before);
+    built += took;
+    if (took > 1e-3) bundle = kBundle;
+    glDepthMask(step.veil ? GL_FALSE : GL_TRUE);
+    set_sides(step.front, step.behind);
+    mesh.draw_triangles();
+    bundle += mesh.n_triangles() + kWorthOfSheet;
+  }
+  glDepthMask(GL_TRUE);
+  const bool done = next_step_ == steps_.size();
+  if (done) {
+    solid_.set("plane", no_plane());
+    if (now_.input.device.has_needle != 0) draw_forces(making_view_, now_);
+  }
+  glDisable(GL_DEPTH_TEST);
+  targets_[0].end();
   glFinish();
-  detail_.note(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
-  return target_.texture();
+  took_ += since(begin) - built;
+  if (!done) return;
+  making_ = false;
+  drew_ = true;
+  shown_ = 1 - shown_.value_or(1);
+  view_ = making_view_;
+  detail_.note(took_);
 }
 
 std::vector<ScreenLabel> JointView::labels(int width, int height) const {
@@ -397,42 +337,47 @@ std::vector<ScreenLabel> JointView::labels(int width, int height) const {
   return found;
 }
 
-void JointView::draw_all(int width, int height, const JointScene& scene) {
-  const HapticSnapshot& now = scene.now;
+// Tools, the trail and the image plane, which cost little, and the plan of the rest.
+void JointView::begin_picture(int width, int height, const JointScene& scene) {
+  now_ = scene.now;
   const OrbitCamera& c = camera_;
   const Vec3 forward = c.up.cross(c.side).normalized();
   eye_ = c.centre +
          c.distance * (std::cos(c.pitch) * (std::sin(c.yaw) * c.side - std::cos(c.yaw) * forward) +
                        std::sin(c.pitch) * c.up);
-  view_ = perspective(0.7, static_cast<double>(width) / height, 0.01, 2.0) *
-          look_at(eye_, c.centre, c.up);
-  const Eigen::Matrix4f& view = view_;
-  target_.begin(width, height);
+  making_view_ = perspective(0.7, static_cast<double>(width) / height, 0.01, 2.0) *
+                 look_at(eye_, c.centre, c.up);
+  const int share = DetailChooser::kPixels[detail_.level()];
+  targets_[1 - shown_.value_or(1)].begin(width / share, height / share);
+  glClearColor(0.09F, 0.10F, 0.12F, 1);
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  begin_sheets(no_plane());
+  draw_tools(making_view_, scene);
+  draw_trail(making_view_, scene.X_JN);
+  if (scene.image != nullptr) draw_image(making_view_, *scene.image, scene.image_texture);
+  if (scene.entry) draw_entry(making_view_, *scene.entry);
+  plane_ = no_plane();
+  if (cut_away) {
+    const Pose X_JP = to_pose(now_.X_JP);
+    Vec3 normal = X_JP.linear().col(1);
+    if (normal.dot(eye_ - X_JP.translation()) < 0) normal = -normal;
+    plane_ << normal.cast<float>(), static_cast<float>(normal.dot(X_JP.translation()));
+  }
+  plan_steps();
+}
+
+// How surfaces are drawn, whatever was drawn elsewhere since.
+void JointView::begin_sheets(const Eigen::Vector4f& plane) {
   glEnable(GL_DEPTH_TEST);
   glEnable(GL_BLEND);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-  glClearColor(0.09F, 0.10F, 0.12F, 1);
-  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   solid_.use();
   Eigen::Vector4f eye;
   eye << eye_.cast<float>(), 1.F;
   solid_.set("eye", eye);
-  solid_.set("plane", no_plane());
-  draw_tools(view, scene);
-  draw_trail(view, scene.X_JN);
-  if (scene.image != nullptr) draw_image(view, *scene.image, scene.image_texture);
-  if (scene.entry) draw_entry(view, *scene.entry);
-  Eigen::Vector4f plane = no_plane();
-  if (cut_away) {
-    const Pose X_JP = to_pose(now.X_JP);
-    Vec3 normal = X_JP.linear().col(1);
-    if (normal.dot(eye_ - X_JP.translation()) < 0) normal = -normal;
-    plane << normal.cast<float>(), static_cast<float>(normal.dot(X_JP.translation()));
-  }
-  draw_parts(view, plane);
-  if (now.input.device.has_needle != 0) draw_forces(view, now);
-  glDisable(GL_DEPTH_TEST);
-  target_.end();
+  solid_.set("plane", plane);
+  solid_.set("view", making_view_);
+  solid_.set("model", Eigen::Matrix4f(Eigen::Matrix4f::Identity()));
 }
 
 }  // namespace artus

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 #include <array>
+#include <chrono>
 #include <deque>
 #include <memory>
 #include <optional>
@@ -43,17 +44,22 @@ struct ScreenLabel {
 /// tip's trail. Draws frame J. Needs a current OpenGL 3.3 context for its whole life.
 class JointView {
  public:
-  static constexpr double kWishedTime = 25e-3;  ///< s that a picture may take
+  static constexpr double kWishedTime = 25e-3;     ///< s that a call may take
+  static constexpr double kWishedPicture = 50e-3;  ///< s that a picture may take in all
 
   [[nodiscard]] static Result<std::unique_ptr<JointView>> make(const CompiledJoint& joint,
                                                                double probe_width,
                                                                double needle_length);
 
-  /// Draws into a picture of its own, when anything in it moved since the last one, and returns its
-  /// texture. How finely the surfaces are drawn follows from the time that it takes.
+  /// Draws into a picture of its own, when anything in it moved since the last one, and returns the
+  /// texture of the newest whole one; 0 before there is any. What takes longer than kWishedTime is
+  /// gone on with by the next calls, so that a slow picture holds nobody up; how finely the
+  /// surfaces are drawn follows from the time that it takes.
   unsigned draw(int width, int height, const JointScene& scene);
-  /// Whether the last call drew, and at which level of detail (DetailChooser).
+  /// Whether the last call ended a picture, the seconds that this took in all its calls, and at
+  /// which level of detail the next is drawn (DetailChooser).
   [[nodiscard]] bool drew() const noexcept { return drew_; }
+  [[nodiscard]] double took() const noexcept { return took_; }
   [[nodiscard]] std::size_t level() const noexcept { return detail_.level(); }
   /// Names of what is drawn and opaque enough to be seen, by the last picture's camera.
   [[nodiscard]] std::vector<ScreenLabel> labels(int width, int height) const;
@@ -82,14 +88,24 @@ class JointView {
     Eigen::Vector4f colour;
     bool lit;
   };
+  /// A sheet, and how it is drawn.
+  struct Step {
+    DrawnSheet* sheet;
+    Side front;
+    Side behind;
+    bool veil;
+  };
+  using Clock = std::chrono::steady_clock;
   void find_parts(const CompiledJoint& joint);
   const GlMesh& mesh_of(DrawnSheet& sheet);
   [[nodiscard]] Side side_of(RegionId region) const;
   void set_sides(const Side& front, const Side& behind);
-  void draw_opaque(DrawnSheet& sheet);
+  [[nodiscard]] std::optional<Step> opaque_step(DrawnSheet& sheet) const;
+  void plan_steps();
+  void begin_picture(int width, int height, const JointScene& scene);
+  void begin_sheets(const Eigen::Vector4f& plane);
+  void go_on(Clock::time_point begin);
   [[nodiscard]] bool moved(int width, int height, const JointScene& scene);
-  void draw_all(int width, int height, const JointScene& scene);
-  void draw_parts(const Eigen::Matrix4f& view, const Eigen::Vector4f& plane);
   void draw_tools(const Eigen::Matrix4f& view, const JointScene& scene);
   void draw_forces(const Eigen::Matrix4f& view, const HapticSnapshot& now);
   void draw_entry(const Eigen::Matrix4f& view, const EntryChoice& entry);
@@ -101,7 +117,8 @@ class JointView {
 
   GlProgram solid_;
   GlProgram picture_;
-  GlTarget target_;
+  std::array<GlTarget, 2> targets_;
+  std::optional<std::size_t> shown_;  // of targets_, the newest whole picture
   std::vector<Part> parts_;
   std::vector<std::size_t> part_of_;  // by region; kNoPart: none
   std::vector<DrawnSheet> sheets_;
@@ -114,10 +131,18 @@ class JointView {
   GlMesh quad_;
   GlMesh line_;
   std::deque<Eigen::Vector3f> trail_;
-  DetailChooser detail_{kWishedTime};
+  DetailChooser detail_{kWishedPicture};
   std::vector<double> seen_;  // what decided how the last picture looks
   bool drew_ = false;
-  Eigen::Matrix4f view_ = Eigen::Matrix4f::Identity();
+  Eigen::Matrix4f view_ = Eigen::Matrix4f::Identity();  // of the shown picture
+  // The picture in the making.
+  bool making_ = false;
+  std::vector<Step> steps_;
+  std::size_t next_step_ = 0;
+  HapticSnapshot now_;
+  Eigen::Matrix4f making_view_ = Eigen::Matrix4f::Identity();
+  Eigen::Vector4f plane_ = Eigen::Vector4f::Zero();
+  double took_ = 0;  // s
   double probe_width_;
   double needle_length_;
 };

@@ -60,9 +60,23 @@ constexpr std::array<KeyRow, kCount> kRows{{{"none", ""},
                                             {"help", "F1"},
                                             {"layout", "F2"}}};
 
-constexpr std::array<std::string_view, 12> kNamedKeys{
-    "ESCAPE", "SPACE", "HOME", "TAB",  "ENTER",   "BACKSPACE",
-    "LEFT",   "RIGHT", "UP",   "DOWN", "PAGE_UP", "PAGE_DOWN"};
+struct NamedKey {
+  std::string_view key;
+  Text said;
+};
+
+constexpr std::array<NamedKey, 12> kNamedKeys{{{"ESCAPE", Text::key_escape},
+                                               {"SPACE", Text::key_space},
+                                               {"HOME", Text::key_home},
+                                               {"TAB", Text::key_tab},
+                                               {"ENTER", Text::key_enter},
+                                               {"BACKSPACE", Text::key_backspace},
+                                               {"LEFT", Text::key_left},
+                                               {"RIGHT", Text::key_right},
+                                               {"UP", Text::key_up},
+                                               {"DOWN", Text::key_down},
+                                               {"PAGE_UP", Text::key_page_up},
+                                               {"PAGE_DOWN", Text::key_page_down}}};
 constexpr std::string_view kShift = "shift+";
 
 bool is_function_key(std::string_view key) {
@@ -74,7 +88,9 @@ bool is_function_key(std::string_view key) {
 
 bool is_key(std::string_view key) {
   if (key.substr(0, kShift.size()) == kShift) key.remove_prefix(kShift.size());
-  if (std::find(kNamedKeys.begin(), kNamedKeys.end(), key) != kNamedKeys.end()) return true;
+  for (const NamedKey& named : kNamedKeys) {
+    if (named.key == key) return true;
+  }
   if (key.size() == 1) return key[0] > ' ' && (key[0] < 'a' || key[0] > 'z');
   const bool one_letter = key.size() == 2 && (static_cast<unsigned char>(key[0]) & 0xe0U) == 0xc0U;
   return one_letter || is_function_key(key);  // a letter beyond ASCII is two bytes of UTF-8
@@ -173,6 +189,19 @@ std::string KeyMap::key_of(Action action) const {
     if (b.action == action) return b.key;
   }
   return {};
+}
+
+std::string KeyMap::said_key(Action action, Language language) const {
+  std::string key = key_of(action);
+  std::string said;
+  if (key.compare(0, kShift.size(), kShift) == 0) {
+    key.erase(0, kShift.size());
+    said = std::string(text(language, Text::key_shift)) + "+";
+  }
+  for (const NamedKey& named : kNamedKeys) {
+    if (named.key == key) return said + text(language, named.said);
+  }
+  return said + key;
 }
 
 }  // namespace artus

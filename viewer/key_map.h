@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "artus/core/result.h"
+#include "artus/viewer/strings.h"
 
 namespace artus {
 
@@ -79,8 +80,10 @@ class KeyMap {
   /// none for a key that means nothing. A key without an own meaning with shift means what it does
   /// without.
   [[nodiscard]] Action find(std::string_view key, bool shift) const;
-  /// The first key of an action, for people; empty when it has none.
+  /// The first key of an action, as a file of keys has it; empty when it has none.
   [[nodiscard]] std::string key_of(Action action) const;
+  /// The same as people say it: "Esc", in French "Échap"; "shift+D", "maj+D".
+  [[nodiscard]] std::string said_key(Action action, Language language) const;
 
  private:
   struct Binding {

@@ -80,7 +80,7 @@ void draw_names(ImDrawList* list, const ImVec2& corner, const ImVec2& size,
 }
 
 std::string with_key(const ViewState& state, Text which, Action action) {
-  const std::string key = state.keys.key_of(action);
+  const std::string key = state.keys.said_key(action, state.language);
   std::string shown = tell(state, which);
   if (!key.empty()) shown += " (" + key + ")";
   return shown + "###" + std::string(name_of(action));

@@ -107,11 +107,13 @@ void draw_colour_box(const Sheet& sheet, const PanelInput& in, const ViewState& 
   outlined_text(sheet.list, ImVec2(low.x + 3, low.y + 1), said);
 }
 
-/// The map of the joint with the probe on it, as far to the right as there is room.
-void draw_body_mark(const Sheet& sheet, const PanelInput& in, const ImVec2& corner) {
+/// The map of the joint with the probe on it, as far to the right as there is room; in the
+/// picture's corner, as scanners have it, where there is none beside it: half as large.
+void draw_body_mark(const Sheet& sheet, const PanelInput& in, const ImVec2& corner, float beside) {
   if (in.mark == nullptr) return;
-  const float scale = sheet.unit;
-  const float side = scale * static_cast<float>(in.mark->size);
+  const auto size = static_cast<float>(in.mark->size);
+  const float scale = sheet.unit * (beside < sheet.unit * size ? 0.5F : 1.F);
+  const float side = scale * size;
   const ImVec2 at(corner.x - side, corner.y - side);
   sheet.list->AddImage(to_imgui(in.mark_texture), at, corner);
   const MarkLine line =
@@ -190,7 +192,9 @@ void draw_picture(const PanelInput& in, ViewState& state) {
   ImVec2 room = ImGui::GetContentRegionAvail();
   const ImVec2 origin = ImGui::GetCursorScreenPos();
   const float right = origin.x + room.x;
-  room.y -= 1.1F * ImGui::GetFrameHeightWithSpacing();
+  const std::string settings = settings_line(state.language, *in.image);
+  const ImVec2 line = ImGui::CalcTextSize(settings.c_str(), nullptr, false, room.x);
+  room.y -= line.y + 0.6F * ImGui::GetFrameHeightWithSpacing();
   if (in.kept != nullptr) {
     room.x = 0.5F * room.x;
     draw_kept(in, ImVec2(origin.x + room.x + 6 * unit, origin.y), ImVec2(room.x - 8 * unit, room.y),
@@ -218,8 +222,11 @@ void draw_picture(const PanelInput& in, ViewState& state) {
   draw_colour_box(sheet, in, state);
   draw_calipers(sheet, state, in.image->input.number);
   sheet.list->PopClipRect();
-  if (in.kept == nullptr) draw_body_mark(sheet, in, ImVec2(right, at.y + size.y));
-  ImGui::TextUnformatted(settings_line(state.language, *in.image).c_str());
+  if (in.kept == nullptr)
+    draw_body_mark(sheet, in, ImVec2(right, at.y + size.y), right - at.x - size.x);
+  ImGui::PushTextWrapPos(0);
+  ImGui::TextUnformatted(settings.c_str());
+  ImGui::PopTextWrapPos();
 }
 
 }  // namespace

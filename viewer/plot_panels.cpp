@@ -2,12 +2,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <string>
 
 #include "artus/core/units.h"
 #include "artus/viewer/anatomy_names.h"
+#include "artus/viewer/curve.h"
 #include "artus/viewer/label_places.h"
 #include "artus/viewer/panels.h"
 
@@ -37,13 +37,7 @@ struct Plot {
   }
 };
 
-void label(ImDrawList* list, const ImVec2& at, const char* format, double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), format, value);
-  list->AddText(at, kText, text.data());
-}
-
-void draw_frame(ImDrawList* list, const Plot& plot, double y_step, const char* y_format) {
+void draw_frame(ImDrawList* list, const Plot& plot, double y_step, Language language) {
   const float font = ImGui::GetFontSize();
   const auto first = static_cast<int>(std::ceil(plot.y_low / y_step));
   const auto last = static_cast<int>(std::floor(plot.y_high / y_step + 1e-9));
@@ -51,7 +45,10 @@ void draw_frame(ImDrawList* list, const Plot& plot, double y_step, const char* y
     const double y = i * y_step;
     const ImVec2 p = plot.at(plot.x_low, y);
     list->AddLine(p, ImVec2(plot.to.x, p.y), kGrid);
-    label(list, ImVec2(p.x - 2.3F * font, p.y - 0.5F * font), y_format, y);
+    const std::string said = number(language, y, 1);
+    list->AddText(
+        ImVec2(p.x - 0.4F * font - ImGui::CalcTextSize(said.c_str()).x, p.y - 0.5F * font), kText,
+        said.c_str());
   }
   list->AddRect(plot.from, plot.to, kAxis);
 }
@@ -98,13 +95,16 @@ std::vector<TissueInterval> bands_of(const Trace& trace, X x_of) {
 template <class Trace, class X>
 void draw_curve(ImDrawList* list, const Plot& plot, const Trace& trace, X x_of,
                 float TracePoint::*value, ImU32 colour) {
-  std::vector<ImVec2> points;
-  points.reserve(trace.size());
+  std::vector<CurvePoint> curve;
+  curve.reserve(trace.size());
   for (const TracePoint& p : trace) {
     const double x = x_of(p);
     if (x < plot.x_low || x > plot.x_high) continue;
-    points.push_back(plot.at(x, p.*value));
+    const ImVec2 at = plot.at(x, p.*value);
+    curve.push_back({at.x, at.y});
   }
+  std::vector<ImVec2> points;
+  for (const CurvePoint& p : thinned(curve)) points.emplace_back(p.x, p.y);
   list->AddPolyline(points.data(), static_cast<int>(points.size()), colour, 0,
                     ImGui::GetFontSize() / 9);
 }
@@ -144,7 +144,7 @@ void draw_force_over_time(const PanelInput& in, const ViewState& state, Plot plo
     return p.time;
   };
   draw_layers(list, plot, in, state.language, bands_of(state.trace, x));
-  draw_frame(list, plot, step_for(plot.y_high - plot.y_low), "%4.1f");
+  draw_frame(list, plot, step_for(plot.y_high - plot.y_low), state.language);
   draw_curve(list, plot, state.trace, x, &TracePoint::lateral, kLateral);
   draw_curve(list, plot, state.trace, x, &TracePoint::force, kForce);
   const float font = ImGui::GetFontSize();
@@ -170,7 +170,7 @@ void draw_force_over_depth(const PanelInput& in, const ViewState& state, Plot pl
   std::stable_sort(sorted.begin(), sorted.end(),
                    [](const TracePoint& a, const TracePoint& b) { return a.depth < b.depth; });
   draw_layers(list, plot, in, state.language, bands_of(sorted, x));
-  draw_frame(list, plot, step_for(plot.y_high - plot.y_low), "%4.1f");
+  draw_frame(list, plot, step_for(plot.y_high - plot.y_low), state.language);
   draw_curve(list, plot, trace, x, &TracePoint::force, kForce);
   const std::string title =
       fill(tell(state, Text::plot_force_depth), {number(state.language, plot.x_high, 0)});
@@ -247,12 +247,18 @@ void draw_rates_panel(const PanelInput& in, ViewState& state) {
   const auto rate = [](const LatencyHistogram& h) {
     return h.count() > 0 ? 1e6 / std::max(h.percentile_us(0.5), 1.0) : 0.0;
   };
-  ImGui::TextWrapped("haptics %.0f Hz, compute p99.9 %.0f us   late p99 %.0f us",
-                     in.session->params().haptic_rate, t.haptic_compute.percentile_us(0.999),
-                     t.haptic_lateness.percentile_us(0.99));
-  ImGui::TextWrapped("images %.0f Hz, pose to image p95 %.0f ms   window %.0f Hz",
-                     rate(t.image_interval), 1e-3 * t.pose_to_image.percentile_us(0.95),
-                     in.window_rate);
+  const auto whole = [&state](double value) {
+    return number(state.language, value, 0);
+  };
+  const std::string haptic_line =
+      fill(tell(state, Text::rates_haptics),
+           {whole(in.session->params().haptic_rate), whole(t.haptic_compute.percentile_us(0.999)),
+            whole(t.haptic_lateness.percentile_us(0.99))});
+  const std::string image_line =
+      fill(tell(state, Text::rates_images),
+           {whole(rate(t.image_interval)), whole(1e-3 * t.pose_to_image.percentile_us(0.95)),
+            whole(in.window_rate)});
+  for (const std::string& line : {haptic_line, image_line}) ImGui::TextWrapped("%s", line.c_str());
   const ImVec2 room = ImGui::GetContentRegionAvail();
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const Plot haptics = plot_in(at, ImVec2(room.x, room.y / 2), 2);

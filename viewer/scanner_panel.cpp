@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <string>
 
 #include "artus/core/units.h"
 #include "artus/echo/setting_ranges.h"
@@ -9,26 +12,37 @@
 namespace artus {
 namespace {
 
-void draw_knob(const char* label, double& value, const Range& range, double unit,
-               const char* format) {
-  auto shown = static_cast<float>(value / unit);
-  if (ImGui::SliderFloat(label, &shown, static_cast<float>(range.low / unit),
-                         static_cast<float>(range.high / unit), format))
-    value = unit * shown;
+/// A knob's range, unit and digits.
+struct Scale {
+  Range range;
+  double unit;
+  int decimals;
+  const char* unit_name;
+};
+
+/// The number as the language writes it stands in the format, for Dear ImGui knows points alone.
+void draw_knob(const ViewState& state, Text label, double& value, const Scale& scale) {
+  auto shown = static_cast<float>(value / scale.unit);
+  const std::string said = number(state.language, shown, scale.decimals) + " " + scale.unit_name;
+  if (!ImGui::SliderFloat(tell(state, label), &shown,
+                          static_cast<float>(scale.range.low / scale.unit),
+                          static_cast<float>(scale.range.high / scale.unit), said.c_str()))
+    return;
+  const double steps = std::pow(10, scale.decimals);
+  value = scale.unit * std::clamp(std::round(steps * shown) / steps, scale.range.low / scale.unit,
+                                  scale.range.high / scale.unit);
 }
 
 void draw_knobs(ViewState& state) {
   ImGui::PushItemWidth(0.5F * ImGui::GetContentRegionAvail().x);
   ImageControls& c = state.controls;
-  draw_knob(tell(state, Text::depth), c.depth, KnobRanges::depth, kMillimetre, "%.0f mm");
-  draw_knob(tell(state, Text::gain), c.gain_db, KnobRanges::gain_db, 1, "%.0f dB");
-  draw_knob(tell(state, Text::slope), c.tgc_db_cm_mhz, KnobRanges::tgc_db_cm_mhz, 1,
-            "%.2f dB/cm/MHz");
-  draw_knob(tell(state, Text::range), c.dynamic_range_db, KnobRanges::dynamic_range_db, 1,
-            "%.0f dB");
-  draw_knob(tell(state, Text::frequency), c.frequency, KnobRanges::frequency, 1e6, "%.0f MHz");
-  draw_knob(tell(state, Text::focus), c.elevation_focus, KnobRanges::elevation_focus, kMillimetre,
-            "%.0f mm");
+  draw_knob(state, Text::depth, c.depth, {KnobRanges::depth, kMillimetre, 0, "mm"});
+  draw_knob(state, Text::gain, c.gain_db, {KnobRanges::gain_db, 1, 0, "dB"});
+  draw_knob(state, Text::slope, c.tgc_db_cm_mhz, {KnobRanges::tgc_db_cm_mhz, 1, 2, "dB/cm/MHz"});
+  draw_knob(state, Text::range, c.dynamic_range_db, {KnobRanges::dynamic_range_db, 1, 0, "dB"});
+  draw_knob(state, Text::frequency, c.frequency, {KnobRanges::frequency, 1e6, 0, "MHz"});
+  draw_knob(state, Text::focus, c.elevation_focus,
+            {KnobRanges::elevation_focus, kMillimetre, 0, "mm"});
   ImGui::PopItemWidth();
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "artus/core/units.h"
@@ -56,13 +57,26 @@ void draw_needle_state(const PanelInput& in, const ViewState& state) {
                  {number(language, in.needle.to_target / kMillimetre, 1)}));
 }
 
+/// Whose hand it is, and whether it is there; other programs' devices keep their names.
+std::string device_line(const PanelInput& in, const ViewState& state) {
+  constexpr std::array<Text, 4> kPeers{Text::peer_absent, Text::peer_alive, Text::peer_lost,
+                                       Text::peer_invalid};
+  static_assert(static_cast<int>(PeerState::absent) == 0 &&
+                static_cast<int>(PeerState::invalid) == 3);
+  std::string name(in.session->device_name());
+  for (const Text known : {Text::hand_device, Text::simulated_hand})
+    if (name == text(Language::english, known)) name = tell(state, known);
+  return fill(tell(state, Text::device_line),
+              {name, tell(state, kPeers.at(static_cast<std::size_t>(in.peer)))});
+}
+
 }  // namespace
 
 void draw_session_panel(const PanelInput& in, ViewState& state) {
   const PanelScope scope(Panel::session, Text::panel_session, state);
   if (!scope) return;
   const bool alive = in.peer == PeerState::alive;
-  wrapped(std::string(in.session->device_name()) + ": " + to_string(in.peer), alive ? kWell : kIll);
+  wrapped(device_line(in, state), alive ? kWell : kIll);
   const bool well = (in.status & (TickStatus::kFaults | 0xffff0000U)) == 0;
   if (alive) wrapped(describe_status(state.language, in.status), well ? kPlain : kIll);
   draw_needle_state(in, state);
@@ -85,7 +99,8 @@ void draw_session_panel(const PanelInput& in, ViewState& state) {
   const double rate = images.count() > 0 ? 1e6 / std::max(images.percentile_us(0.5), 1.0) : 0;
   wrapped(fill(tell(state, Text::rates_line),
                {number(state.language, rate, 0), number(state.language, in.window_rate, 0)}));
-  for (const std::string& refused : in.session->refusals()) wrapped("refused: " + refused);
+  for (const std::string& refused : in.session->refusals())
+    wrapped(fill(tell(state, Text::refused), {refused}));
   const std::vector<std::string> notices = in.session->notices();
   constexpr std::size_t kShown = 3;
   for (std::size_t i = notices.size() - std::min(kShown, notices.size()); i < notices.size(); ++i)
@@ -115,7 +130,7 @@ namespace {
 
 std::string what_is_in_hand(const PanelInput& in, const ViewState& state) {
   const auto key = [&state](Action action) {
-    return state.keys.key_of(action);
+    return state.keys.said_key(action, state.language);
   };
   if (in.grab == Grab::nothing) return {};
   return fill(tell(state, in.grab == Grab::needle ? Text::hold_needle : Text::hold_probe),
@@ -160,7 +175,7 @@ void draw_joint_panel(const PanelInput& in, ViewState& state, JointView& view, J
     const ImVec2 corner(at.x + 4, at.y + room.y - size.y - 4);
     list->AddRectFilled(ImVec2(corner.x - 2, corner.y - 2),
                         ImVec2(corner.x + size.x + 2, corner.y + size.y + 2),
-                        IM_COL32(0, 0, 0, 170));
+                        IM_COL32(0, 0, 0, 225));
     list->AddText(nullptr, 0, corner, to_imgui(kOverlay), said.c_str(), nullptr, room.x - 8);
     ImGui::PopTextWrapPos();
   }

@@ -19,6 +19,8 @@ constexpr std::array<Row, kTexts> kTable{{
   {"Bring the tip into the {}", "But : amener la pointe de l'aiguille dans cette structure : {}"},
   {"Explore the joint with the probe", "Explorer l'articulation avec la sonde"},
   {"Done: the tip is in the {}", "But atteint : {}"},
+  {"Touch this bone with the tip: {}", "But : toucher cet os de la pointe : {}"},
+  {"Done: the tip touches the {}", "But atteint, la pointe touche l'os : {}"},
   {"Next: {}", "Ensuite : {}"},
   {"The device is silent: no force. Put its cable back; the last state is kept", "L'appareil ne répond plus : aucune force. Rebrancher ; le dernier état est gardé"},
   {"Next: {} takes the probe to explore, {} the needle at the planned entry", "Ensuite : {} pour prendre la sonde et explorer, {} pour l'aiguille au point d'entrée prévu"},
@@ -31,12 +33,14 @@ constexpr std::array<Row, kTexts> kTable{{
   {"Bone: pull back with {} and aim beside it", "Os : reculer avec {} et viser à côté"},
   {"The hub is on the skin: this needle is {} mm long. Pull back with {}", "L'embase touche la peau : l'aiguille mesure {} mm. Reculer avec {}"},
   {"Next: {} freezes, {} saves the picture; then {} pulls the needle out", "Ensuite : {} pour figer, {} pour enregistrer l'image, puis {} pour retirer l'aiguille"},
+  {"Next: two clicks measure, {} saves the picture; {} goes on", "Ensuite : deux clics pour mesurer, {} pour enregistrer l'image, {} pour reprendre"},
   {"Next: {} pulls the needle out", "Ensuite : {} pour retirer l'aiguille"},
   {"Done. {} begins again", "Terminé. {} pour recommencer"},
   {"A simulated or other hand is at work: watch", "Une main simulée ou un autre appareil opère : observer"},
   {"Paused: {} goes on", "En pause : {} pour reprendre"},
   {"What would you like to do?", "Que voulez-vous faire ?"},
   {"Explore with the probe", "Explorer avec la sonde"},
+  {"Inject {}: {}", "Injection {} : {}"},
   {"Help: all keys", "Aide : toutes les touches"},
 
   {"Task", "Tâche"}, {"B-mode", "Mode B"}, {"Joint", "Articulation"}, {"Scanner", "Échographe"},
@@ -58,10 +62,14 @@ constexpr std::array<Row, kTexts> kTable{{
   {"turn within {} deg", "tourner de {}° au plus"}, {"images {} Hz, window {} Hz", "images {} Hz, fenêtre {} Hz"}, {"last state, {} s ago; now: {}", "dernier état, il y a {} s ; à présent : {}"},
   {"pause", "pause"}, {"reset", "recommencer"}, {"expert", "expert"}, {"aids", "aides"}, {"names", "noms"}, {"left-handed", "gaucher"},
   {"exploring", "exploration"}, {"inserting", "insertion"}, {"cut away at the image plane", "coupe au plan de l'image"},
+  {"refused: {}", "refusé : {}"}, {"{}: {}", "{} : {}"}, {"mouse and keyboard", "souris et clavier"}, {"simulated hand", "main simulée"},
+  {"absent", "absent"}, {"alive", "en marche"}, {"lost", "perdu"}, {"invalid", "invalide"},
 
-  {"against insertion, N, over 10 s", "contre l'insertion, N, sur 10 s"}, {"this insertion, 0 to {} mm", "cette insertion, 0 à {} mm"},
+  {"against insertion, N, over 10 s", "contre l'insertion, N, sur 10 s"}, {"insertion, {} mm", "insertion, {} mm"},
   {"along", "axiale"}, {"sideways", "latérale"},
   {"haptics: compute, lateness; 1 us .. 1 s", "haptique : calcul, retard ; 1 µs .. 1 s"}, {"images: render, interval; 1 us .. 1 s", "images : calcul, intervalle ; 1 µs .. 1 s"},
+  {"haptics {} Hz, compute p99.9 {} us   late p99 {} us", "haptique {} Hz, calcul p99,9 {} µs   retard p99 {} µs"},
+  {"images {} Hz, pose to image p95 {} ms   window {} Hz", "images {} Hz, pose à image p95 {} ms   fenêtre {} Hz"},
 
   {"saved {}", "enregistré : {}"}, {"cannot write {}", "impossible d'écrire {}"}, {"clip begun: {}", "vidéo commencée : {}"},
   {"saved clip of {} pictures: {}", "vidéo de {} images enregistrée : {}"}, {"REC", "REC"},
@@ -103,6 +111,10 @@ constexpr std::array<Row, kTexts> kTable{{
   {"forget the insertion", "oublier l'insertion"}, {"expert mode: no 3D view, no aids", "mode expert : ni vue 3D ni aides"}, {"panels back in their places", "panneaux remis en place"},
   {"left stick probe, right stick needle, triggers push and pull; A entry, B back, X freeze, Y reset", "manche gauche : sonde, droit : aiguille, gâchettes : enfoncer et retirer ; A entrée, B retour, X figer, Y recommencer"},
   {"drag turns the joint, wheel comes nearer", "glisser fait tourner l'articulation, la molette rapproche"},
+  {"gamepad: {}", "manette : {}"},
+  {"Esc", "Échap"}, {"Space", "Espace"}, {"Home", "Début"}, {"Tab", "Tab"}, {"Enter", "Entrée"}, {"Backspace", "Retour arrière"},
+  {"Left", "Gauche"}, {"Right", "Droite"}, {"Up", "Haut"}, {"Down", "Bas"}, {"Page up", "Page préc."}, {"Page down", "Page suiv."},
+  {"shift", "maj"}, {"ctrl", "ctrl"},
 }};
 // clang-format on
 

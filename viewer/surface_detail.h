@@ -26,9 +26,11 @@ struct Surface {
 /// longer than wished, finer when the finer one is known, or can be expected, to be fast enough.
 class DetailChooser {
  public:
-  static constexpr std::size_t kLevels = 4;
+  static constexpr std::size_t kLevels = 5;
   /// Edge of the cubes of each level, m; 0: as compiled.
-  static constexpr std::array<double, kLevels> kCells{0, 0.8e-3, 1.6e-3, 3.2e-3};
+  static constexpr std::array<double, kLevels> kCells{0, 0.8e-3, 1.6e-3, 3.2e-3, 5e-3};
+  /// Edge of what is drawn as one pixel, pixels.
+  static constexpr std::array<int, kLevels> kPixels{1, 1, 1, 1, 2};
 
   /// Begins at `level`, so that a slow machine shows something soon.
   explicit DetailChooser(double wished_seconds, std::size_t level = 2)

@@ -73,8 +73,8 @@ void WindowLoop::act(const ActionEvent& wish) {
   if (!state_.cross && hand_ != nullptr && control_.handle(action, wish.fine, ground())) {
     if (action == Action::undo) state_.message = tell(state_, Text::undone);
     if (control_.refusal() == Text::cannot_choose_again)
-      state_.message =
-          fill(tell(state_, Text::cannot_choose_again), {state_.keys.key_of(Action::explore)});
+      state_.message = fill(tell(state_, Text::cannot_choose_again),
+                            {state_.keys.said_key(Action::explore, state_.language)});
     else if (control_.refusal())
       state_.message = tell(state_, *control_.refusal());
     return;
@@ -167,7 +167,8 @@ bool WindowLoop::act_on_picture(Action action) {
       if (input_.image != nullptr)
         state_.cross = ImagePoint{500 * input_.image->width * input_.image->pixel,
                                   500 * input_.image->height * input_.image->pixel};
-      state_.message = fill(tell(state_, Text::caliper_here), {state_.keys.key_of(Action::accept)});
+      state_.message = fill(tell(state_, Text::caliper_here),
+                            {state_.keys.said_key(Action::accept, state_.language)});
       return true;
     case Action::depth_more:
     case Action::depth_less:
@@ -283,6 +284,7 @@ void WindowLoop::run_script(double elapsed) {
     if (!run_step(options_.script[next_step_], elapsed)) return;
     ++next_step_;
     elapsed = 0;
+    if (!wanted_pictures_.empty()) return;  // what follows is not on that picture
   }
   if (!options_.script.empty() && wants_final_ && !options_.screenshot.empty()) {
     wants_final_ = false;

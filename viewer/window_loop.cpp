@@ -124,10 +124,10 @@ void WindowLoop::follow_gesture(const HapticSnapshot& now) {
   if (now.phase != input_.now.phase) {
     joint_->clear_trail();
     state_.insertion.clear();
-    state_.message =
-        now.phase == GesturePhase::inserting
-            ? fill(tell(state_, Text::entry_chosen), {state_.keys.key_of(Action::take_needle)})
-            : tell(state_, Text::back_to_exploring);
+    state_.message = now.phase == GesturePhase::inserting
+                         ? fill(tell(state_, Text::entry_chosen),
+                                {state_.keys.said_key(Action::take_needle, state_.language)})
+                         : tell(state_, Text::back_to_exploring);
   }
   if (input_.now.input.tick != 0 && !before.isApprox(after, 1e-12))
     control_.follow_joint(before, after);
@@ -183,6 +183,7 @@ void WindowLoop::guide() {
   in.has_hand = hand_ != nullptr;
   in.welcome = state_.welcome;
   in.paused = session_.paused();
+  in.frozen = session_.frozen();
   in.peer = input_.peer;
   in.connect = options_.connect;
   in.phase = input_.now.phase;
@@ -190,6 +191,7 @@ void WindowLoop::guide() {
   in.probe_lifted = input_.probe_lifted;
   in.target = target_name_;
   in.target_region = target_region_;
+  in.target_is_bone = session_.scene().joint().tissue_of(target_region_).haptic.hard;
   in.needle = input_.needle;
   in.needle_length = needle_length_of(session_.params());
   input_.next = guide_.next(in);
@@ -249,11 +251,10 @@ void WindowLoop::upload_image() {
 }
 
 void WindowLoop::draw_joint() {
-  const double begin = glfwGetTime();
   input_.joint_texture = joint_->draw(area_.width, area_.height,
                                       {input_.now, needle_pose(input_.now, input_.needle),
                                        input_.image, image_texture_, input_.entry});
-  joint_took_ = joint_->drew() ? glfwGetTime() - begin : 0;
+  joint_took_ = joint_->drew() ? joint_->took() : 0;
 }
 
 // One look of the panels at what was done; nothing is shown yet.

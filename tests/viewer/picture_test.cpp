@@ -11,6 +11,7 @@
 #include "artus/viewer/body_mark.h"
 #include "artus/viewer/caption.h"
 #include "artus/viewer/cine_loop.h"
+#include "artus/viewer/curve.h"
 #include "artus/viewer/display_look.h"
 #include "artus/viewer/guide.h"
 #include "artus/viewer/image_place.h"
@@ -128,6 +129,28 @@ TEST(ImagePlace, FlippedPointsComeBack) {
     EXPECT_NEAR(p.x_mm, 12, 1e-12);
     EXPECT_NEAR(p.y_mm, 7, 1e-12);
   }
+}
+
+TEST(Curve, AThinnedCurveKeepsItsEndsAndExtremesInOrder) {
+  std::vector<CurvePoint> curve;
+  for (int i = 0; i < 10000; ++i)  // there and back over 100 columns
+    curve.push_back({100 - std::abs(0.02F * static_cast<float>(i) - 100),
+                     std::sin(0.7F * static_cast<float>(i))});
+  curve[4321].y = 9;
+  const auto kept = thinned(curve);
+  EXPECT_LE(kept.size(), 4U * 203U);
+  EXPECT_EQ(kept.front().x, curve.front().x);
+  EXPECT_EQ(kept.back().x, curve.back().x);
+  const auto higher = [](const CurvePoint& a, const CurvePoint& b) {
+    return a.y < b.y;
+  };
+  EXPECT_EQ(std::max_element(kept.begin(), kept.end(), higher)->y, 9);
+  std::size_t at = 0;
+  for (const CurvePoint& p : kept) {
+    while (at < curve.size() && (curve[at].x != p.x || curve[at].y != p.y)) ++at;
+    ASSERT_LT(at, curve.size()) << "each is a point of the curve, in its order";
+  }
+  EXPECT_TRUE(thinned({}).empty());
 }
 
 TEST(CineLoop, KeepsTheLastTwentySeconds) {
@@ -299,6 +322,9 @@ TEST(Guide, SaysTheNextStepOfAnInjection) {
   };
   says("P takes the probe");
   EXPECT_EQ(guide.goal(in), "Bring the tip into the subacromial bursa");
+  in.target_is_bone = true;
+  EXPECT_EQ(guide.goal(in), "Touch this bone with the tip: subacromial bursa");
+  in.target_is_bone = false;
   in.grab = Grab::probe;
   says("C chooses the entry");
   in.probe_lifted = true;
@@ -320,6 +346,9 @@ TEST(Guide, SaysTheNextStepOfAnInjection) {
   in.needle.on_bone = false;
   in.needle.region = 7;
   says("F freezes");
+  in.frozen = true;
+  says("F goes on");
+  in.frozen = false;
   EXPECT_TRUE(guide.reached());
   in.needle.region = 3;
   says("S pulls the needle out");

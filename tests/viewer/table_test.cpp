@@ -2,8 +2,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <set>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -13,6 +16,7 @@
 #include "artus/viewer/key_map.h"
 #include "artus/viewer/panel_layout.h"
 #include "artus/viewer/strings.h"
+#include "tests/support/paths.h"
 
 namespace artus {
 namespace {
@@ -58,6 +62,43 @@ TEST(KeyMap, NoKeyMeansTwoThingsOnAnyKeyboard) {
       const std::string key = map.key_of(static_cast<Action>(i));
       EXPECT_FALSE(key.empty()) << name_of(static_cast<Action>(i));
       EXPECT_TRUE(keys.insert(key).second) << key;
+    }
+  }
+}
+
+TEST(KeyMap, KeysAreSaidInTheLanguage) {
+  const KeyMap map;
+  EXPECT_EQ(map.said_key(Action::let_go, Language::english), "Esc");
+  EXPECT_EQ(map.said_key(Action::let_go, Language::french), "Échap");
+  EXPECT_EQ(map.said_key(Action::depth_less, Language::french), "maj+D");
+  EXPECT_EQ(map.said_key(Action::freeze, Language::french), "F");
+}
+
+/// The names of the structures and injections of a joint file.
+std::vector<std::string> names_in(const std::filesystem::path& joint) {
+  std::vector<std::string> names;
+  std::ifstream in(joint);
+  bool wanted = false;
+  for (std::string line; std::getline(in, line);) {
+    if (line.rfind("[[", 0) == 0) wanted = line == "[[structure]]" || line == "[[injection]]";
+    if (!wanted || line.rfind("name = \"", 0) != 0) continue;
+    names.push_back(line.substr(8, line.rfind('"') - 8));
+    wanted = false;
+  }
+  return names;
+}
+
+TEST(AnatomyNames, EveryStructureAndInjectionOfOurJointsHasAFrenchName) {
+  const std::set<std::string> alike{"fibula",    "tibia",     "patella", "scapula",
+                                    "sartorius", "cartilage", "tendon",  "muscle"};
+  for (const char* joint : {"simple-shoulder", "shoulder", "real-shoulder", "knee", "hip"}) {
+    const auto names = names_in(test::source_dir() / "meshes" / joint / "joint.toml");
+    EXPECT_GT(names.size(), 5U) << joint;
+    for (const std::string& name : names) {
+      if (alike.count(name) == 0) {
+        EXPECT_NE(clinical_name(Language::french, name), clinical_name(Language::english, name))
+            << joint;
+      }
     }
   }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/viewer/window_events.h"
 
+#include <array>
 #include <cstdlib>
 #include <filesystem>
 #include <random>
@@ -79,6 +80,11 @@ TEST_F(WindowEventsTest, ADragInThePictureMovesNoPanelAndDropsNoCaliper) {
     EXPECT_TRUE(same_place(person.seen().image_place, before));
     EXPECT_EQ(person.seen().caliper_points, 0U);
     EXPECT_FALSE(person.seen().frozen);
+    const PanelPlace& panel = person.seen().picture_panel;  // beside the picture the panel is empty
+    const double beside = (panel.x + panel.width) * 1280 - 30;
+    person.x().drag(beside, before.y + 60, beside - 60, before.y + 120);
+    person.wait_pictures(3);
+    EXPECT_TRUE(same_place(person.seen().image_place, before));
   });
 }
 
@@ -242,15 +248,31 @@ TEST_F(WindowEventsTest, TheProbeIsPressedOnAndTellsThatItLifts) {
   });
 }
 
+/// How many pixels of the window's uppermost 50 lines are about of a colour.
+int pixels_above(Person& person, const std::array<int, 3>& rgb) {
+  person.wait_pictures(3);
+  const auto file = std::filesystem::temp_directory_path() /
+                    ("artus-above-" + std::to_string(::getpid()) + ".png");
+  person.x().save_screen(file, 1280, 50);
+  const cv::Mat seen = cv::imread(file.string());
+  std::filesystem::remove(file);
+  const cv::Scalar colour(rgb[2], rgb[1], rgb[0]);
+  cv::Mat alike;
+  cv::inRange(seen, colour - cv::Scalar::all(25), colour + cv::Scalar::all(25), alike);
+  return cv::countNonZero(alike);
+}
+
 TEST_F(WindowEventsTest, ExpertsAreToldWhatIsRecordedAndWhere) {
   options_.expert = true;
   run([this](Person& person) {
     person.x().key("k");
     person.wait_until("REC", [](const WindowStatus& s) { return s.recording; });
+    EXPECT_GT(pixels_above(person, {255, 77, 77}), 20) << "the red mark and its seconds";
     person.x().key("k");
     person.wait_until("the file", [this](const WindowStatus& s) {
       return s.message.find((folder_ / "clip-1.avi").string()) != std::string::npos;
     });
+    EXPECT_GT(pixels_above(person, {140, 242, 140}), 50) << "the message stands in the window";
   });
 }
 

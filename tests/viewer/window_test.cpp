@@ -109,6 +109,7 @@ TEST_F(Window, AnInjectionWithKeyAndWheelGoesThroughTheLayers) {
       [](const auto& a, const auto& b) { return a.feedback.force[2] < b.feedback.force[2]; });
   EXPECT_LT(strongest->feedback.force[2], -0.5) << "muscle resists";
   EXPECT_TRUE(std::filesystem::exists(options_.screenshot));
+  EXPECT_GT(report_->joint.count(), 0U) << "whole pictures of the joint";
 }
 
 TEST_F(Window, AGamepadsTriggerInjects) {
