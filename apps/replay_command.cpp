@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+#include <array>
 #include <cstdio>
 #include <iostream>
 #include <memory>
@@ -25,21 +26,32 @@ struct TraceCloser {
 };
 using Trace = std::unique_ptr<std::FILE, TraceCloser>;
 
-/// A tick as a line: what was sent, its components before the guard, contact and layer.
+void write_numbers(std::FILE* out, std::span<const double> values) {
+  for (const double value : values) std::fprintf(out, ",%.9g", value);
+}
+
+/// The plunger's columns: travel, force on the thumb, pressures, flow, volumes and status.
+void write_plunger(std::FILE* out, const PlungerFeedback& p) {
+  constexpr double kKilopascal = 1e3;  // Pa
+  write_numbers(out, std::array{p.travel / kMillimetre, p.thumb_force, p.pressure / kKilopascal,
+                                p.tip_pressure / kKilopascal, p.flow / kCubicCentimetre,
+                                p.given / kCubicCentimetre, p.drawn / kCubicCentimetre});
+  std::fprintf(out, ",%u", p.status);
+}
+
+/// A tick as a line: what was sent, its components before the guard, contact and layer, plunger.
 void write_tick(std::FILE* out, const HapticSnapshot& s, double period, const std::string& layer) {
   std::fprintf(out, "%.6f,%llu,%.6f,%s,%s,%u,%u", static_cast<double>(s.input.tick) * period,
                static_cast<unsigned long long>(s.input.tick), s.feedback.depth / kMillimetre,
                layer.c_str(), to_string(static_cast<ContactState>(s.feedback.contact)), s.events,
                s.status);
-  const auto write = [out](std::span<const double> values) {
-    for (const double value : values) std::fprintf(out, ",%.9g", value);
-  };
-  write(s.feedback.force);
-  write(s.feedback.torque);
-  write(s.axial);
-  write(s.clamping_J);
-  write(s.surface_J);
-  write(s.workspace_J);
+  write_numbers(out, s.feedback.force);
+  write_numbers(out, s.feedback.torque);
+  write_numbers(out, s.axial);
+  write_numbers(out, s.clamping_J);
+  write_numbers(out, s.surface_J);
+  write_numbers(out, s.workspace_J);
+  write_plunger(out, s.feedback.plunger);
   std::fputc('\n', out);
 }
 
@@ -47,7 +59,8 @@ constexpr const char* kTraceHead =
     "time_s,tick,depth_mm,region,contact,events,status,force_x_n,force_y_n,force_z_n,torque_x_nm,"
     "torque_y_nm,torque_z_nm,prepuncture_n,cutting_n,attracted_n,friction_n,hard_n,clamping_x_n,"
     "clamping_y_n,clamping_z_n,surface_x_n,surface_y_n,surface_z_n,workspace_x_n,workspace_y_n,"
-    "workspace_z_n\n";
+    "workspace_z_n,plunger_mm,thumb_n,pressure_kpa,tip_pressure_kpa,flow_ml_s,given_ml,drawn_ml,"
+    "plunger_status\n";
 
 ReplayListener make_listener(const ReplayOptions& options, const CompiledJoint& joint,
                              std::FILE* trace, double period) {
@@ -134,7 +147,7 @@ void add_replay_command(Command& app, ExitCode& code) {
       ->required();
   add_joint_options(command, options->joint);
   command->add_option("--trace", options->trace,
-                      "write forces, their components, contact and layer as CSV");
+                      "write forces, their components, contact, layer and plunger as CSV");
   command->add_option("--frames", options->frames, "write the images as PNG into this folder");
   command->add_flag("--json", options->json, "machine-readable output");
   on_run(command, code, [options] { return run_replay(*options); });

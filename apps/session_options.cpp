@@ -105,6 +105,10 @@ void add_session_options(Command* command, SessionOptions& options,
   command->add_option("--syringe-ml", options.syringe_ml, "drawn up; a plunger pushes it out")
       ->check(number_in(0.1, 50))
       ->capture_default_str();
+  command
+      ->add_option("--gauge", options.gauge,
+                   "needle gauge, in the picture and for the flow: 18 to 23, 25 or 27")
+      ->capture_default_str();
   command->add_option("--liquid", options.liquid, "in the syringe, of meshes/liquids.toml")
       ->capture_default_str();
   command->add_option("--haptic-cpu", options.haptic_cpu, "processor of the haptic thread; -1: any")
@@ -123,6 +127,10 @@ void add_session_options(Command* command, SessionOptions& options,
 Result<SessionParams> make_session_params(const SessionOptions& options,
                                           const CompiledJoint& joint) {
   SessionParams params;
+  const auto shape = needle_of_flag(options.gauge);
+  ARTUS_TRY(shape);
+  params.needle_shape = *shape;
+  params.syringe.gauge = options.gauge;
   params.syringe.filled = options.syringe_ml * kCubicCentimetre;
   params.syringe.liquid = options.liquid;
   const auto device = find_device(options.device);

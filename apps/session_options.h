@@ -29,6 +29,7 @@ struct SessionOptions {
   int injection = 1;
   double give_ml = 0;
   double syringe_ml = 5;
+  int gauge = 22;
   std::string liquid = "saline";
   int haptic_cpu = -1;
   int threads = 0;

@@ -117,6 +117,14 @@ void add_view_options(Command* command, ViewOptions& options) {
   add_imaging_options(command, options);
 }
 
+Result<NeedleShape> needle_of_flag(int gauge) {
+  if (const auto shape = needle_of_gauge(gauge)) return *shape;
+  return fail(
+      ErrorCode::invalid,
+      "no needle of gauge " + std::to_string(gauge) + "; choose 18, 19, 20, 21, 22, 23, 25 or 27",
+      "--gauge");
+}
+
 Result<View> make_view(const ViewOptions& options) {
   View view;
   if (!options.probe.empty()) {
@@ -130,12 +138,8 @@ Result<View> make_view(const ViewOptions& options) {
     ARTUS_TRY(pose);
     view.X_JN = *pose;
   }
-  const auto shape = needle_of_gauge(options.gauge);
-  if (!shape)
-    return fail(ErrorCode::invalid,
-                "no needle of gauge " + std::to_string(options.gauge) +
-                    "; choose 18, 19, 20, 21, 22, 23, 25 or 27",
-                "--gauge");
+  const auto shape = needle_of_flag(options.gauge);
+  ARTUS_TRY(shape);
   view.needle_shape = *shape;
   view.needle_shape.echogenic = options.echogenic;
   if (options.needle_length_mm) view.needle_shape.length = *options.needle_length_mm * kMillimetre;

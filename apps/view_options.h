@@ -58,6 +58,9 @@ struct View {
   [[nodiscard]] std::optional<NeedleView> needle(const CompiledJoint& joint) const;
 };
 
+/// The needle that --gauge names. Errors: invalid (no such gauge).
+[[nodiscard]] Result<NeedleShape> needle_of_flag(int gauge);
+
 /// Errors: malformed or invalid, with the flag as place; those of the transducer's file.
 [[nodiscard]] Result<View> make_view(const ViewOptions& options);
 

@@ -39,8 +39,8 @@ class ImagingTool : public test::TemporaryFolder {
 };
 
 TEST_F(ImagingTool, EveryCommandHasHelpWithExamples) {
-  for (const char* command :
-       {"image", "slice", "phantom", "echo-gates", "sweep", "video", "deform", "soft-gates"}) {
+  for (const char* command : {"image", "slice", "phantom", "echo-gates", "sweep", "video", "deform",
+                              "soft-gates", "injection-gates"}) {
     const auto r = artus({command, "--help"});
     EXPECT_EQ(r.exit_code, 0) << command;
     EXPECT_NE(r.out.find(std::string("  artus ") + command), std::string::npos) << command;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // `artus serve` as a process: how it ends, and that what it recorded replays for any flags.
+#include <algorithm>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
@@ -97,10 +98,17 @@ TEST_P(ServeFlag, RecordsWhatReplaysToTheSameBytes) {
   EXPECT_NE(replayed.out.find("\"identical\": true"), std::string::npos);
   EXPECT_EQ(replayed.out.find("\"ticks\": 0"), std::string::npos);
   std::string head;
-  std::getline(std::ifstream(trace) >> std::ws, head);
-  for (const char* column : {"cutting_n", "friction_n", "hard_n", "clamping_x_n", "surface_z_n",
-                             "workspace_y_n", "contact", "region"})
+  std::ifstream lines(trace);
+  std::getline(lines, head);
+  for (const char* column :
+       {"cutting_n", "friction_n", "hard_n", "clamping_x_n", "surface_z_n", "workspace_y_n",
+        "contact", "region", "plunger_mm", "thumb_n", "pressure_kpa", "tip_pressure_kpa",
+        "flow_ml_s", "given_ml", "drawn_ml", "plunger_status"})
     EXPECT_NE(head.find(column), std::string::npos) << column;
+  std::string line;
+  while (std::getline(lines, line))
+    ASSERT_EQ(std::count(line.begin(), line.end(), ','), std::count(head.begin(), head.end(), ','))
+        << line;
   std::filesystem::remove(file);
   std::filesystem::remove(trace);
 }
@@ -118,6 +126,8 @@ INSTANTIATE_TEST_SUITE_P(
         Flag{"Workspace", {"--workspace-mm", "0", "0", "0", "200", "--workspace-push-n", "0.5"}},
         Flag{"Passivity", {"--passivity-control"}},
         Flag{"NeedleLength", {"--needle-length-mm", "50"}}, Flag{"Injection", {"--injection", "2"}},
+        Flag{"Gauge", {"--gauge", "25"}}, Flag{"Liquid", {"--liquid", "blood"}},
+        Flag{"Syringe", {"--syringe-ml", "2", "--give-ml", "0.1"}},
         Flag{"NoImages", {"--no-images"}}, Flag{"HapticCpu", {"--haptic-cpu", "0"}}),
     [](const auto& flag) { return std::string(flag.param.name); });
 
