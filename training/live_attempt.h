@@ -40,11 +40,11 @@ class LiveAttempt final : public SessionWitness {
 
   double period_;  // s
   AttemptMeter meter_;
-  std::vector<Moment> moments_;           // below n_moments_ they do not change
+  std::vector<Moment> moments_;  // below n_moments_ they do not change
   std::atomic<std::size_t> n_moments_{0};
-  std::atomic<double> last_{0};           // s, of the last tick
-  std::vector<Waiting> waiting_;          // the imaging thread's, until their tick is published
-  std::size_t at_ = 0;                    // moment of the last placed picture
+  std::atomic<double> last_{0};   // s, of the last tick
+  std::vector<Waiting> waiting_;  // the imaging thread's, until their tick is published
+  std::size_t at_ = 0;            // moment of the last placed picture
 };
 
 }  // namespace artus
