@@ -6,6 +6,9 @@
 
 #include "artus/apps/interrupts.h"
 #include "artus/apps/session_options.h"
+#include "artus/core/text_file.h"
+#include "artus/training/live_attempt.h"
+#include "artus/training/session_meter.h"
 
 namespace artus {
 namespace {
@@ -13,6 +16,7 @@ namespace {
 struct ServeOptions {
   SessionOptions session;
   double seconds = 0;
+  std::filesystem::path metrics;
   bool no_images = false;
   bool json = false;
 };
@@ -85,6 +89,20 @@ void report(const Session& session, bool json) {
               static_cast<unsigned long long>(session.unrecorded()));
 }
 
+/// What measures the session while it runs; null when nobody asked.
+std::unique_ptr<LiveAttempt> make_meter(const ServeOptions& options,
+                                        const std::shared_ptr<const Scene>& scene,
+                                        const SessionParams& params) {
+  if (options.metrics.empty()) return nullptr;
+  return std::make_unique<LiveAttempt>(scene, options_for(make_head(scene->joint(), params)),
+                                       params.haptic_rate);
+}
+
+Result<void> write_metrics(const ServeOptions& options, LiveAttempt* meter) {
+  if (meter == nullptr) return {};
+  return write_text(options.metrics, to_json(meter->measure().metrics).dump(2) + "\n");
+}
+
 ExitCode run_serve(const ServeOptions& options) {
   const auto joint = load(options.session.joint, make_progress_printer(options.json));
   if (!joint) return report_error(joint.error(), options.json);
@@ -108,8 +126,10 @@ ExitCode run_serve(const ServeOptions& options) {
     session_options.on_image = [&link](const ImageSnapshot& image) {
       (*link)->take_image(image);
     };
-  const auto session = Session::start(std::make_shared<const Scene>(*joint), *params,
-                                      std::move(*device), session_options);
+  const auto scene = std::make_shared<const Scene>(*joint);
+  const auto meter = make_meter(options, scene, *params);
+  session_options.witness = meter.get();
+  auto session = Session::start(scene, *params, std::move(*device), session_options);
   if (!session) return report_error(session.error(), options.json);
   if (*link) (*link)->attach(session->get());
   wait(**session, link->get(), interrupts, options);
@@ -117,7 +137,9 @@ ExitCode run_serve(const ServeOptions& options) {
   for (const std::string& refused : (*session)->refusals())
     std::fprintf(stderr, "the system refused %s\n", refused.c_str());
   report(**session, options.json);
-  const auto written = write_histograms(options.session.histograms, (*session)->times());
+  auto written = write_histograms(options.session.histograms, (*session)->times());
+  session->reset();  // ends it, and what was measured rests
+  if (written) written = write_metrics(options, meter.get());
   return written ? ExitCode::ok : report_error(written.error(), options.json);
 }
 
@@ -136,6 +158,8 @@ void add_serve_command(Command& app, ExitCode& code) {
   add_session_options(command, options->session, "shared-memory");
   command->add_option("--seconds", options->seconds, "stop after this time; 0: when interrupted")
       ->check(number_in(0, 86400));
+  command->add_option("--metrics", options->metrics,
+                      "file for the numbers of the gesture, measured while it is done (.json)");
   command->add_flag("--no-images", options->no_images, "draw nothing and write no IMAGE");
   command->add_flag("--json", options->json, "machine-readable report at the end");
   on_run(command, code, [options] { return run_serve(*options); });

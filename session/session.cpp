@@ -70,6 +70,7 @@ Result<std::unique_ptr<Session>> Session::start(std::shared_ptr<const Scene> sce
     session->recorder_ = std::move(*recorder);
   }
   session->on_image_ = options.on_image;
+  session->witness_ = options.witness;
   if (options.images && options.share_images) {
     auto channel = RenewedChannel<artus_shm_image>::open(options.image_segment_prefix, kImageLayout,
                                                          SegmentAccess::owner_writes);
@@ -163,6 +164,7 @@ std::uint32_t Session::take_command() noexcept {
 
 void Session::publish(const HapticSnapshot& out) noexcept {
   if (recorder_) recorder_->add(to_record(out));
+  if (witness_ != nullptr) witness_->on_tick(out);
   trace_->push(trace_point_of(out, 1e-9 * static_cast<double>(monotonic_ns() - start_ns_)));
   ticks_.store(out.input.tick, std::memory_order_relaxed);
 }
@@ -236,6 +238,7 @@ void Session::image(ImageCore& core, std::uint64_t number) {
   if (recorder_)
     recorder_->add(
         FrameRecord{input, digest_of(frame), packet != nullptr ? digest_of(*packet) : 0});
+  if (witness_ != nullptr) witness_->on_frame(input, frame);
   times_->image_render.add(out.ready_ns - begin);
   note_image(out.ready_ns);
   if (snapshot.input.device.state == PeerState::alive)

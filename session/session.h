@@ -60,6 +60,17 @@ struct SessionTimes {
   LatencyHistogram pose_to_image;   ///< from the device's time stamp to the finished image
 };
 
+/// Who looks on while a session runs, from within its threads, and must outlive it. Each call is
+/// made by one thread alone, in order; the two may run at the same time.
+class SessionWitness {
+ public:
+  virtual ~SessionWitness() = default;
+  /// Every tick, in the haptic thread.
+  ARTUS_REALTIME virtual void on_tick(const HapticSnapshot& tick) noexcept = 0;
+  /// Every drawn picture, in the imaging thread; what it throws is told like any failure.
+  virtual void on_frame(const FrameInput& input, const Frame& frame) = 0;
+};
+
 /// A running session: a haptic thread and an imaging thread over one scene and one device, and one
 /// that looks after what the outside world may spoil. The threads never wait for each other or for
 /// a reader; everybody takes the newest there is. What fails in imaging is told, and the hand goes
@@ -75,6 +86,7 @@ class Session {
     bool share_images = false;         ///< write IMAGE
     /// Called with each new image in the imaging thread; what it throws is told like any failure.
     std::function<void(const ImageSnapshot&)> on_image;
+    SessionWitness* witness = nullptr;  ///< not owned
   };
 
   /// Requires: valid params, a scene, a device. Errors: those of the recording and of IMAGE.
@@ -143,6 +155,7 @@ class Session {
   std::unique_ptr<artus_shm_image> image_bytes_;  // as last shared
   std::size_t n_image_bytes_ = 0;
   std::function<void(const ImageSnapshot&)> on_image_;
+  SessionWitness* witness_ = nullptr;
 
   Seqlock<HapticSnapshot> haptic_;
   Seqlock<ImageControls> controls_;

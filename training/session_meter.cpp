@@ -35,12 +35,9 @@ void add_tick(AttemptMeter& meter, const HapticSnapshot& snapshot, double period
   meter.add_felt(felt);
 }
 
-void add_frame(AttemptMeter& meter, const FrameInput& input, const Frame& frame, double time) {
-  if (input.has_needle == 0) return;
+ImageSight sight_of(const Transducer& transducer, const Frame& frame) {
   ImageSight sight;
-  sight.time = time;
   if (frame.tip_shown) {
-    const Transducer& transducer = meter.options().transducer;
     const double left = -0.5 * frame.pixel * frame.width;
     const double x = left + (frame.tip_shown->x + 0.5) * frame.pixel;
     const double top = std::min(0.0, scanline(transducer, 0).origin.z());
@@ -48,6 +45,13 @@ void add_frame(AttemptMeter& meter, const FrameInput& input, const Frame& frame,
     sight.contrast_db = tip_contrast(frame, transducer, x, z);
   }
   sight.visible = sight.contrast_db && *sight.contrast_db >= kVisibleContrast;
+  return sight;
+}
+
+void add_frame(AttemptMeter& meter, const FrameInput& input, const Frame& frame, double time) {
+  if (input.has_needle == 0) return;
+  ImageSight sight = sight_of(meter.options().transducer, frame);
+  sight.time = time;
   meter.add_sight(sight);
 }
 

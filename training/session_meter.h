@@ -10,8 +10,10 @@ namespace artus {
 ARTUS_REALTIME void add_tick(AttemptMeter& meter, const HapticSnapshot& snapshot,
                              double period) noexcept;
 
-/// What one picture adds: whether the tip stands out where it shows. `time`: s, on the ticks'
-/// clock.
+/// Whether the tip stands out where it shows in one picture, its time left open.
+[[nodiscard]] ImageSight sight_of(const Transducer& transducer, const Frame& frame);
+
+/// What one picture adds. `time`: s, on the ticks' clock.
 void add_frame(AttemptMeter& meter, const FrameInput& input, const Frame& frame, double time);
 
 /// Options of a meter for a recorded session: its probe, its needle, its first picture's depth.

@@ -76,7 +76,7 @@ std::vector<AttemptEvent> find_events(const AttemptView& view) {
   if (sum.first_contact) put(*sum.first_contact, "contact", 0, "the needle went through the skin");
   for (const Run& run : sum_sight(m.course, m.sights).unseen)
     put(run.from, "unseen", run.amount / kMillimetre, cause_of(view, run));
-  for (const BoneTouch& touch : m.touches)
+  for (const FeltTouch& touch : m.touches)
     put(touch.time, "bone", touch.peak,
         text_of("the tip came onto bone at %.0f mm/s", touch.speed / kMillimetre));
   for (const AvoidZone& zone : view.options.goals.avoid) {

@@ -39,7 +39,7 @@ struct AttemptMeasures {
   std::vector<CoursePoint> course;
   std::vector<std::optional<TipSight>> sights;
   std::vector<LayerForce> layers;
-  std::vector<BoneTouch> touches;
+  std::vector<FeltTouch> touches;
   std::vector<Metric> metrics;
   std::vector<Metric> raw;  ///< PerkTutor's rows from the 20 Hz tracks
   std::vector<AttemptEvent> events;

@@ -217,7 +217,7 @@ void put_forces(Sheet& sheet, const AttemptView& view) {
   double peak = 0;
   double speed = 0;
   double scratch = 0;
-  for (const BoneTouch& touch : m.touches) {
+  for (const FeltTouch& touch : m.touches) {
     peak = std::max(peak, touch.peak);
     speed = std::max(speed, touch.speed);
     scratch += touch.scratch;

@@ -32,7 +32,7 @@ void ForceLayers::add(const FeltTick& tick) noexcept {
       touches_.push_back({tick.time, 0, dt > 0 ? moved / dt : 0, 0});
   }
   if (tick.on_bone && !touches_.empty()) {
-    BoneTouch& touch = touches_.back();
+    FeltTouch& touch = touches_.back();
     touch.peak = std::max(touch.peak, tick.hard);
     if (last_.on_bone) touch.scratch += moved;
   }

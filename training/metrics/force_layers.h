@@ -26,7 +26,7 @@ struct LayerForce {
 };
 
 /// One touch of bone.
-struct BoneTouch {
+struct FeltTouch {
   double time = 0;     ///< s
   double peak = 0;     ///< N
   double speed = 0;    ///< m/s of the tip when it came
@@ -44,13 +44,13 @@ class ForceLayers {
   ARTUS_REALTIME void add(const FeltTick& tick) noexcept;
 
   [[nodiscard]] const std::vector<LayerForce>& layers() const noexcept { return layers_; }
-  [[nodiscard]] const std::vector<BoneTouch>& touches() const noexcept { return touches_; }
+  [[nodiscard]] const std::vector<FeltTouch>& touches() const noexcept { return touches_; }
   [[nodiscard]] std::size_t touch_count() const noexcept { return count_; }
   [[nodiscard]] bool empty() const noexcept { return !started_; }
 
  private:
   std::vector<LayerForce> layers_;
-  std::vector<BoneTouch> touches_;
+  std::vector<FeltTouch> touches_;
   std::size_t count_ = 0;
   FeltTick last_;
   double off_since_ = -1e9;  // s, when the last touch ended

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "artus/session/session.h"
+#include "artus/training/metrics/attempt_meter.h"
+
+namespace artus {
+
+/// Measures an attempt while its session runs: what the recording says afterwards, to the last
+/// digit, as long as the recording lost nothing and the attempt is within the options' `longest`.
+/// A picture counts at the first tick of the sample that it shows, as in `assess`. Memory: 16 bytes
+/// a tick of `longest`, beside the meter's.
+class LiveAttempt final : public SessionWitness {
+ public:
+  /// `rate`: Hz, of the ticks. Requires: a scene, valid options.
+  LiveAttempt(std::shared_ptr<const Scene> scene, MeterOptions options, double rate);
+
+  ARTUS_REALTIME void on_tick(const HapticSnapshot& tick) noexcept override;
+  void on_frame(const FrameInput& input, const Frame& frame) override;
+
+  /// All numbers. Requires: the session is over. Cost: linear in ticks.
+  [[nodiscard]] AttemptMeasures measure();
+
+ private:
+  /// The first tick of a sample of the device.
+  struct Moment {
+    std::int64_t sample_ns = 0;
+    double time = 0;  ///< s
+  };
+  struct Waiting {
+    std::int64_t sample_ns = 0;
+    std::optional<ImageSight> sight;  ///< empty: no needle
+  };
+  void place_sights(bool over);
+
+  double period_;  // s
+  AttemptMeter meter_;
+  std::vector<Moment> moments_;  // below n_moments_ they do not change
+  std::atomic<std::size_t> n_moments_{0};
+  std::atomic<double> last_{0};   // s, of the last tick
+  std::vector<Waiting> waiting_;  // the imaging thread's, until their tick is published
+  std::size_t at_ = 0;            // moment of the last placed picture
+};
+
+}  // namespace artus
