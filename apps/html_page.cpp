@@ -6,6 +6,8 @@
 
 #include <opencv2/imgcodecs.hpp>
 
+#include "artus/core/markup.h"
+
 namespace artus {
 namespace {
 
@@ -38,54 +40,37 @@ std::string base64(const std::vector<std::uint8_t>& bytes) {
 
 }  // namespace
 
-std::string escape_html(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '"')
-      out += "&quot;";
-    else
-      out += c;
-  }
-  return out;
-}
-
-HtmlPage::HtmlPage(const std::string& title) : title_(escape_html(title)) {}
+HtmlPage::HtmlPage(const std::string& title) : title_(escape_markup(title)) {}
 
 void HtmlPage::heading(const std::string& text) {
-  body_ += "<h2>" + escape_html(text) + "</h2>\n";
+  body_ += "<h2>" + escape_markup(text) + "</h2>\n";
 }
 
 void HtmlPage::paragraph(const std::string& text) {
-  body_ += "<p>" + escape_html(text) + "</p>\n";
+  body_ += "<p>" + escape_markup(text) + "</p>\n";
 }
 
 void HtmlPage::point(const std::string& kind, const std::string& text) {
-  body_ += "<p class=\"point\"><span class=\"tag " + escape_html(kind) + "\">" + escape_html(kind) +
-           "</span>" + escape_html(text) + "</p>\n";
+  body_ += "<p class=\"point\"><span class=\"tag " + escape_markup(kind) + "\">" +
+           escape_markup(kind) + "</span>" + escape_markup(text) + "</p>\n";
 }
 
 void HtmlPage::picture(const cv::Mat& image, const std::string& caption) {
   std::vector<std::uint8_t> bytes;
   cv::imencode(".jpg", image, bytes, {cv::IMWRITE_JPEG_QUALITY, 88});
-  const std::string text = escape_html(caption);
+  const std::string text = escape_markup(caption);
   body_ += "<figure><img alt=\"" + text + "\" width=\"" + std::to_string(image.cols) +
            "\" height=\"" + std::to_string(image.rows) + "\" src=\"data:image/jpeg;base64," +
            base64(bytes) + "\"><figcaption>" + text + "</figcaption></figure>\n";
 }
 
 void HtmlPage::drawing(const std::string& svg, const std::string& caption) {
-  body_ += "<figure class=\"drawing\">" + svg + "<figcaption>" + escape_html(caption) +
+  body_ += "<figure class=\"drawing\">" + svg + "<figcaption>" + escape_markup(caption) +
            "</figcaption></figure>\n";
 }
 
 void HtmlPage::open_card(const std::string& text) {
-  body_ += "<div class=\"card\"><h3>" + escape_html(text) + "</h3>\n";
+  body_ += "<div class=\"card\"><h3>" + escape_markup(text) + "</h3>\n";
 }
 
 void HtmlPage::close_card() {
@@ -95,17 +80,17 @@ void HtmlPage::close_card() {
 void HtmlPage::table(const std::vector<Column>& columns,
                      const std::vector<std::vector<std::string>>& rows) {
   body_ += "<table><thead><tr>";
-  for (const Column& c : columns) body_ += "<th>" + escape_html(c.name) + "</th>";
+  for (const Column& c : columns) body_ += "<th>" + escape_markup(c.name) + "</th>";
   body_ += "</tr></thead><tbody>\n";
   for (const auto& row : rows) {
     body_ += "<tr>";
-    for (const std::string& cell : row) body_ += "<td>" + escape_html(cell) + "</td>";
+    for (const std::string& cell : row) body_ += "<td>" + escape_markup(cell) + "</td>";
     body_ += "</tr>\n";
   }
   body_ += "</tbody></table>\n<dl>\n";
   for (const Column& c : columns)
     if (!c.meaning.empty())
-      body_ += "<dt>" + escape_html(c.name) + "</dt><dd>" + escape_html(c.meaning) + "</dd>\n";
+      body_ += "<dt>" + escape_markup(c.name) + "</dt><dd>" + escape_markup(c.meaning) + "</dd>\n";
   body_ += "</dl>\n";
 }
 

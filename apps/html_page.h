@@ -8,9 +8,6 @@
 
 namespace artus {
 
-/// `text` as it may stand in HTML.
-[[nodiscard]] std::string escape_html(std::string_view text);
-
 /// A page that needs nothing but itself: no server, no script, pictures inside.
 class HtmlPage {
  public:

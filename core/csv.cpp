@@ -5,13 +5,32 @@
 #include <charconv>
 
 namespace artus {
+namespace {
+
+std::string with_digits(double value, int digits) {
+  std::array<char, 40> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value,
+                                 std::chars_format::general, digits);
+  return {text.data(), end.ptr};
+}
+
+}  // namespace
 
 std::string to_csv(double value) {
-  constexpr int kDigits = 9;
-  std::array<char, 32> text{};
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value == 0 ? 0.0 : value,
-                                 std::chars_format::general, kDigits);
-  return {text.data(), end.ptr};
+  return with_digits(value == 0 ? 0.0 : value, 9);
+}
+
+std::string to_exact_csv(double value) {
+  return with_digits(value, 17);
+}
+
+std::string quoted_csv(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"') out += '"';
+    out += c;
+  }
+  return out + '"';
 }
 
 }  // namespace artus

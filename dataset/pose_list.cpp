@@ -5,11 +5,11 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <functional>
 
 #include <nlohmann/json.hpp>
 
 #include "artus/core/text_file.h"
+#include "artus/core/text_lines.h"
 #include "artus/core/units.h"
 
 namespace artus {
@@ -49,23 +49,6 @@ Result<ListedPose> to_pose(const Line& line, const std::string& where) {
   if (line.entry)
     pose.X_JN = make_pose(*line.tip * kMillimetre, *line.tip - *line.entry, Vec3::Zero());
   return pose;
-}
-
-/// Calls `each(text, where)` for every line that is not empty; `where` is name:line.
-Result<void> for_lines(
-    std::string_view text, const std::string& name,
-    const std::function<Result<void>(std::string_view, const std::string&)>& each) {
-  std::size_t number = 0;
-  while (!text.empty()) {
-    ++number;
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    std::string_view line = text.substr(0, end);
-    text.remove_prefix(std::min(end + 1, text.size()));
-    while (!line.empty() && (line.back() == '\r' || line.back() == ' ')) line.remove_suffix(1);
-    if (line.empty()) continue;
-    ARTUS_TRY(each(line, name + ":" + std::to_string(number)));
-  }
-  return {};
 }
 
 Result<void> append(std::vector<ListedPose>& poses, const Line& line, const std::string& where) {

@@ -1,27 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/training/record_export.h"
 
-#include <array>
-#include <cstdio>
 #include <map>
+
+#include "artus/core/csv.h"
 
 namespace artus {
 namespace {
-
-std::string exact(double value) {
-  std::array<char, 40> text{};
-  static_cast<void>(std::snprintf(text.data(), text.size(), "%.17g", value));
-  return text.data();
-}
-
-std::string quoted(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"') out += '"';
-    out += c;
-  }
-  return out + '"';
-}
 
 using ByAttempt = std::map<std::string, std::vector<MetricValue>>;
 
@@ -75,10 +60,10 @@ Result<std::string> export_csv(Records& records, const AttemptFilter& filter) {
       "person,scenario,attempt,started,finished,passed,score,metric,role,value,unit\n";
   for (const AttemptRecord& a : *attempts)
     for (const MetricValue& m : (*metrics)[a.id])
-      out += quoted(a.person) + ',' + quoted(a.scenario) + ',' + a.id + ',' + a.started + ',' +
-             (a.ended.empty() ? "0," : "1,") + (a.passed ? "1," : "0,") + exact(a.score) + ',' +
-             quoted(m.name) + ',' + m.role + ',' + (m.value ? exact(*m.value) : "") + ',' + m.unit +
-             '\n';
+      out += quoted_csv(a.person) + ',' + quoted_csv(a.scenario) + ',' + a.id + ',' + a.started +
+             ',' + (a.ended.empty() ? "0," : "1,") + (a.passed ? "1," : "0,") +
+             to_exact_csv(a.score) + ',' + quoted_csv(m.name) + ',' + m.role + ',' +
+             (m.value ? to_exact_csv(*m.value) : "") + ',' + m.unit + '\n';
   return out;
 }
 
@@ -87,7 +72,8 @@ Result<std::string> export_tsv(Records& records, const AttemptFilter& filter) {
   ARTUS_TRY(values);
   std::string out = "MetricName\tMetricRoles\tMetricUnit\tMetricValue\n";
   for (const MetricValue& m : *values)
-    if (m.value) out += m.name + '\t' + m.role + '\t' + m.unit + '\t' + exact(*m.value) + '\n';
+    if (m.value)
+      out += m.name + '\t' + m.role + '\t' + m.unit + '\t' + to_exact_csv(*m.value) + '\n';
   return out;
 }
 
@@ -105,7 +91,7 @@ Result<nlohmann::json> export_xapi(Records& records, const AttemptFilter& filter
     auto extensions = nlohmann::json::object();
     for (const MetricValue& m : (*metrics)[a.id])
       if (m.value) extensions[iri + "metric/" + m.name + "/" + m.role] = *m.value;
-    nlohmann::json result = {{"duration", "PT" + exact(a.duration) + "S"},
+    nlohmann::json result = {{"duration", "PT" + to_exact_csv(a.duration) + "S"},
                              {"extensions", extensions}};
     if (!a.aided) {
       result["score"] = {{"scaled", a.score / 100}};

@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <limits>
 
+#include "artus/core/markup.h"
+
 namespace artus {
 namespace {
 
@@ -21,23 +23,6 @@ std::string number(double value) {
   std::array<char, 32> text{};
   static_cast<void>(std::snprintf(text.data(), text.size(), "%.4g", value));
   return text.data();
-}
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '"')
-      out += "&quot;";
-    else
-      out += c;
-  }
-  return out;
 }
 
 struct Range {
@@ -105,7 +90,7 @@ class Canvas {
 std::string text_at(double x, double y, const std::string& text, const char* anchor,
                     const char* colour = "#444") {
   return "<text x=\"" + number(x) + "\" y=\"" + number(y) + "\" text-anchor=\"" + anchor +
-         "\" fill=\"" + colour + "\">" + escaped(text) + "</text>\n";
+         "\" fill=\"" + colour + "\">" + escape_markup(text) + "</text>\n";
 }
 
 std::string line(double x1, double y1, double x2, double y2, const char* style) {

@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "artus/core/text_file.h"
+#include "artus/core/text_lines.h"
 #include "artus/core/units.h"
 
 namespace artus {
@@ -344,26 +345,16 @@ Result<TrackedList> parse_tracked_list(std::string_view text, const std::string&
     return fail(ErrorCode::unsupported, "poses are read from .jsonl or .csv", name);
   Builder builder(options, name);
   std::optional<Header> header;
-  std::size_t number = 0;
-  while (!text.empty()) {
-    ++number;
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    std::string_view line = text.substr(0, end);
-    text.remove_prefix(std::min(end + 1, text.size()));
-    if (number == 1 && line.substr(0, 3) == "\xef\xbb\xbf") line.remove_prefix(3);
-    while (!line.empty() && (line.back() == '\r' || line.back() == ' ')) line.remove_suffix(1);
-    if (line.empty()) continue;
-    const std::string where = name + ":" + std::to_string(number);
-    if (extension == ".jsonl") {
-      ARTUS_TRY(add_json(builder, line, where));
-    } else if (!header) {
-      auto read = read_header(line, where);
-      ARTUS_TRY(read);
-      header = std::move(*read);
-    } else {
-      ARTUS_TRY(add_csv(builder, *header, line, where));
-    }
-  }
+  const auto read =
+      for_lines(text, name, [&](std::string_view line, const std::string& where) -> Result<void> {
+        if (extension == ".jsonl") return add_json(builder, line, where);
+        if (header) return add_csv(builder, *header, line, where);
+        auto first = read_header(line, where);
+        ARTUS_TRY(first);
+        header = std::move(*first);
+        return {};
+      });
+  ARTUS_TRY(read);
   return builder.finish();
 }
 

@@ -8,9 +8,11 @@
 
 #include "artus/core/byte_stream.h"
 #include "artus/core/csv.h"
+#include "artus/core/markup.h"
 #include "artus/core/progress.h"
 #include "artus/core/text_cursor.h"
 #include "artus/core/text_file.h"
+#include "artus/core/text_lines.h"
 #include "artus/core/toml_table.h"
 #include "artus/core/units.h"
 #include "tests/support/temporary_folder.h"
@@ -19,6 +21,36 @@ namespace artus {
 namespace {
 
 using testing::HasSubstr;
+
+TEST(ForLines, GivesWhatIsNotBlankWithItsPlaceWhateverEndsALine) {
+  std::vector<std::string> seen;
+  const auto read = for_lines("\xef\xbb\xbfone\r\n\n  \ntwo  \nthree", "list.csv",
+                              [&](std::string_view line, const std::string& where) -> Result<void> {
+                                seen.push_back(where + "=" + std::string(line));
+                                return {};
+                              });
+  ASSERT_TRUE(read);
+  EXPECT_THAT(seen, testing::ElementsAre("list.csv:1=one", "list.csv:4=two", "list.csv:5=three"));
+  int calls = 0;
+  const auto ended = for_lines("a\nb\n", "f", [&](std::string_view, const std::string& where) {
+    ++calls;
+    return Result<void>(fail(ErrorCode::invalid, "no", where));
+  });
+  ASSERT_FALSE(ended);
+  EXPECT_EQ(ended.error().where, "f:1");
+  EXPECT_EQ(calls, 1);
+}
+
+TEST(Markup, TextStaysText) {
+  EXPECT_EQ(escape_markup("<b title=\"x\">&amp;"), "&lt;b title=&quot;x&quot;&gt;&amp;amp;");
+}
+
+TEST(Csv, ExactNumbersComeBackAndTextIsOneField) {
+  for (const double value : {0.1, -1.0 / 3, 6.02214076e23, 1e-300, -0.0})
+    EXPECT_EQ(std::stod(to_exact_csv(value)), value);
+  EXPECT_EQ(to_exact_csv(0.5), "0.5");
+  EXPECT_EQ(quoted_csv("a \"b\", c"), "\"a \"\"b\"\", c\"");
+}
 
 TEST(ByteStream, WhatWasPutComesBackInOrder) {
   ByteWriter out;

@@ -1,27 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/training/metrics/metric.h"
 
-#include <cstdio>
+
+#include "artus/core/csv.h"
 
 namespace artus {
-namespace {
-
-std::string exact(double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.17g", value);
-  return text;
-}
-
-std::string quoted(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"') out += '"';
-    out += c;
-  }
-  return out + '"';
-}
-
-}  // namespace
+namespace {}  // namespace
 
 const Metric* find_metric(std::span<const Metric> metrics, const std::string& name,
                           const std::string& role) noexcept {
@@ -61,16 +45,18 @@ std::vector<Metric> metrics_from_json(const nlohmann::json& json) {
 std::string to_tsv(std::span<const Metric> metrics) {
   std::string out = "MetricName\tMetricRoles\tMetricUnit\tMetricValue\n";
   for (const Metric& m : metrics)
-    if (m.value) out += m.name + '\t' + m.role + '\t' + m.unit + '\t' + exact(*m.value) + '\n';
+    if (m.value)
+      out += m.name + '\t' + m.role + '\t' + m.unit + '\t' + to_exact_csv(*m.value) + '\n';
   return out;
 }
 
 std::string to_csv(std::span<const Metric> metrics) {
   std::string out = "metric,role,value,unit,filter,rate_hz,definition\n";
   for (const Metric& m : metrics)
-    out += quoted(m.name) + ',' + quoted(m.role) + ',' + (m.value ? exact(*m.value) : "") + ',' +
-           quoted(m.unit) + ',' + quoted(m.rule.filter) + ',' + exact(m.rule.rate) + ',' +
-           quoted(m.definition) + '\n';
+    out += quoted_csv(m.name) + ',' + quoted_csv(m.role) + ',' +
+           (m.value ? to_exact_csv(*m.value) : "") + ',' + quoted_csv(m.unit) + ',' +
+           quoted_csv(m.rule.filter) + ',' + to_exact_csv(m.rule.rate) + ',' +
+           quoted_csv(m.definition) + '\n';
   return out;
 }
 
