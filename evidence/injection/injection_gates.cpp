@@ -8,13 +8,18 @@
 namespace artus {
 namespace {
 
-constexpr std::array kGates{
-    NamedGate{"needle", gate_needle},   NamedGate{"compliance", gate_compliance},
-    NamedGate{"air", gate_air},         NamedGate{"leak", gate_leak},
-    NamedGate{"energy", gate_energy},   NamedGate{"mass", gate_mass},
-    NamedGate{"rates", gate_rates},     NamedGate{"hand", gate_hand},
-    NamedGate{"loss", gate_loss},       NamedGate{"aspiration", gate_aspiration},
-    NamedGate{"capsule", gate_capsule}, NamedGate{"bevel", gate_bevel}};
+constexpr std::array<NamedGate, 12> kGates{{{"needle", gate_needle},
+                                            {"compliance", gate_compliance},
+                                            {"air", gate_air},
+                                            {"leak", gate_leak},
+                                            {"energy", gate_energy},
+                                            {"mass", gate_mass},
+                                            {"rates", gate_rates},
+                                            {"hand", gate_hand},
+                                            {"loss", gate_loss},
+                                            {"aspiration", gate_aspiration},
+                                            {"capsule", gate_capsule},
+                                            {"bevel", gate_bevel}}};
 
 constexpr GateSet kSet{
     "injection-gates", "The syringe and the places that liquid goes to, against known answers",

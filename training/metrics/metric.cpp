@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/training/metrics/metric.h"
 
-
 #include "artus/core/csv.h"
 
 namespace artus {
