@@ -101,4 +101,10 @@ std::string fixed_number(double value, int decimals) {
   return text.data();
 }
 
+tl::unexpected<Error> TextCursor::not_a_number(std::string_view token) const {
+  const bool has_comma = token.find(',') != std::string_view::npos;
+  return malformed(quoted(token) + " is not a number" +
+                   (has_comma ? " (decimals take a point, not a comma)" : ""));
+}
+
 }  // namespace artus

@@ -35,6 +35,8 @@ class TextCursor {
 
   /// "name:line", for Error::where.
   [[nodiscard]] std::string where() const { return name_ + ":" + std::to_string(line_); }
+  /// The error of a token that should be a number, at the current line.
+  [[nodiscard]] tl::unexpected<Error> not_a_number(std::string_view token) const;
   /// A malformed-file error at the current line.
   [[nodiscard]] tl::unexpected<Error> malformed(std::string message) const {
     return fail(ErrorCode::malformed, std::move(message), where());

@@ -165,6 +165,10 @@ void read_needles(TomlTable& toml, double unit, JointFile& joint) {
     pass.line = line_of(*table);
     pass.name = toml_pass.required_text("name");
     read_pass(toml_pass, unit, pass.entry, pass.target);
+    const bool is_taken =
+        std::any_of(joint.injections.begin(), joint.injections.end(),
+                    [&](const PlannedInjection& other) { return other.name == pass.name; });
+    if (is_taken && !pass.name.empty()) toml_pass.problem_at("name", "is taken already");
     toml_pass.finish();
     joint.injections.push_back(std::move(pass));
   }

@@ -32,9 +32,18 @@ double known_distance(const DistanceField& field, const Vec3& p) {
              : std::copysign(std::numeric_limits<double>::infinity(), d);
 }
 
-// Volumes a layer has inside body and region of interest, and what higher layers leave of it. The
-// smoothed edge is that of the nearest boundary: where two coincide (a shell and the skin it
-// lines), a product of both would lose a sixth of a sample's width.
+// The share of a sample at `outside` of a layer (below 0: inside) that one at `other` of what comes
+// before it leaves. The smoothed edge is that of the nearest boundary: where two touch (a shell and
+// the skin it lines), a product of both would lose a sixth of a sample's width. Where two surfaces
+// run the same way, one beside the other, what is between them is left, so nothing where they
+// coincide: the nearest boundary alone would leave a quarter of a sample's width.
+double share_left(double outside, double other, double width) {
+  if (std::abs(outside - other) < std::abs(outside + other))
+    return std::max(0.0, smooth_inside(outside, width) - smooth_inside(other, width));
+  return smooth_inside(std::max(outside, -other), width);
+}
+
+// Volumes a layer has inside body and region of interest, and what higher layers leave of it.
 void integrate_layer(const RegionLabels& labels, std::size_t layer, StructureReport& report) {
   const DistanceField& field = labels.layers[layer].field;
   const double h = field.spacing();
@@ -47,9 +56,9 @@ void integrate_layer(const RegionLabels& labels, std::size_t layer, StructureRep
       if (labels.region_of_interest)
         outside = std::max(outside, signed_distance(*labels.region_of_interest, p));
       const double in_region = smooth_inside(outside, h);
-      for (const DistanceField* other : before)
-        outside = std::max(outside, -known_distance(*other, p));
-      return std::array<double, 2>{in_region, smooth_inside(outside, h)};
+      double taken = std::numeric_limits<double>::infinity();
+      for (const DistanceField* other : before) taken = std::min(taken, known_distance(*other, p));
+      return std::array<double, 2>{in_region, share_left(outside, taken, h)};
     };
   };
   const auto [in_region, rest] = field.integrate_blocks(weights_in);

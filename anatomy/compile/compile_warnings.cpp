@@ -80,8 +80,12 @@ std::string explain_nothing(const Structure& s, const CompileReport& report) {
   if (std::holds_alternative<SurfaceFile>(s.shape))
     return "nothing of it is in the joint: it lies outside the body or the region of interest, or "
            "others before it in the file take all of it; see to its units, frame and place";
-  return "nothing of it is in the joint: no place is as near to what it names as 'within' asks; "
-         "enlarge that";
+  if (std::holds_alternative<GapConstruct>(s.shape))
+    return "nothing of it is in the joint: no place between its roof and its floor is as near to "
+           "both as 'within' asks; see in pictures whether the two face each other, with nothing "
+           "but air or filler between them, and enlarge 'within' only if they do";
+  return "nothing of it is in the joint: no place is as near to what it names as its lengths ask; "
+         "see whether what it names lies where it should, and enlarge them only if it does";
 }
 
 void warn_of_volumes(const Structure& s, const CompileReport& report, StructureReport& mine) {
@@ -94,6 +98,10 @@ void warn_of_volumes(const Structure& s, const CompileReport& report, StructureR
                             " of it goes to structures before it in the file, most to '" +
                             mine.lost_to + "' around " + at(mine.lost_at) +
                             "; if that is not meant, put it before them");
+  if (mine.kind == "gap" && mine.parts > 1)
+    mine.warnings.push_back("it lies in " + std::to_string(mine.parts) +
+                            " places that are not joined, since others before it in the file lie "
+                            "between them: liquid in one does not reach the other");
   if (mine.kind == "surface" && std::abs(mine.volume_error()) > kLargestError)
     mine.warnings.push_back("its tetrahedra hold " + percent(std::abs(mine.volume_error())) +
                             (mine.volume_error() > 0 ? " more" : " less") +

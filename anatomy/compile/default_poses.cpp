@@ -94,22 +94,24 @@ std::vector<Stand> find_stands(const CompiledJoint& joint, const Sight& sight) {
   return stands;
 }
 
-/// Looks from the skin at something.
-Pose look(const Vec3& stand, const Sight& sight) {
-  return make_pose(stand, sight.target - stand, sight.needle.value_or(Vec3::UnitX()));
+/// Looks from the skin at something: in the needle's plane, or first along `lateral`.
+Pose look(const Vec3& stand, const Sight& sight, const Vec3& lateral = Vec3::UnitX()) {
+  return make_pose(stand, sight.target - stand, sight.needle.value_or(lateral));
 }
 
-/// The nearest place on the skin that looks past all bone and on which the whole face stands; the
-/// nearest that looks past bone where no face fits, the nearest of all where nothing does; none
-/// when there is none. What is looked at may lie on bone, so the last millimetre is not asked for.
-std::optional<Vec3> find_skin(const CompiledJoint& joint, const Sight& sight,
+/// From the nearest place on the skin that looks past all bone and on which the whole face stands
+/// with no more than gel below it; else the nearest on which it stands, the nearest that looks past
+/// bone, the nearest of all; none when there is none. What is looked at may lie on bone, so the
+/// last millimetre is not asked for.
+std::optional<Pose> find_skin(const CompiledJoint& joint, const Sight& sight,
                               const PlanGround& ground) {
   constexpr std::size_t kMostTried = 300;  // faces
   const std::vector<Stand> stands = find_stands(joint, sight);
   if (stands.empty()) return std::nullopt;
   const HardTriangles hard = hard_surfaces(joint);
   const HardTree tree(hard.begin(), hard.end());
-  std::optional<Vec3> first;
+  std::optional<Pose> first;
+  std::optional<Pose> standing;
   std::size_t n_tried = 0;
   for (const Stand& stand : stands) {
     if (stand.distance > kMillimetre) {
@@ -117,11 +119,17 @@ std::optional<Vec3> find_skin(const CompiledJoint& joint, const Sight& sight,
           sight.target + kMillimetre / stand.distance * (stand.position - sight.target);
       if (tree.do_intersect(Kernel::Segment_3(to_point(stand.position), to_point(end)))) continue;
     }
-    if (!first) first = stand.position;
-    if (stands_on_skin(ground, look(stand.position, sight))) return stand.position;
+    for (const Vec3& lateral : {Vec3(Vec3::UnitX()), Vec3(Vec3::UnitY()), Vec3(Vec3::UnitZ())}) {
+      const Pose X_JP = look(stand.position, sight, lateral);
+      if (!first) first = X_JP;
+      if (stands_on_skin(ground, X_JP, kGelReach)) return X_JP;
+      if (!standing && stands_on_skin(ground, X_JP)) standing = X_JP;
+      if (sight.needle) break;
+    }
     if (++n_tried == kMostTried) break;
   }
-  return first.value_or(stands.front().position);
+  if (standing) return standing;
+  return first.value_or(look(stands.front().position, sight));
 }
 
 /// Whether a needle with this pose comes through skin and meets no bone before its tip.
@@ -172,8 +180,8 @@ DefaultPoses find_default_poses(const JointFile& file, const CompiledJoint& join
   if (file.X_JP_default) {
     poses.X_JP = *file.X_JP_default;
   } else if (const auto skin = find_skin(joint, sight, ground)) {
-    poses.X_JP = look(*skin, sight);
-    notes.push_back(describe("probe", *skin));
+    poses.X_JP = *skin;
+    notes.push_back(describe("probe", skin->translation()));
   }
   if (file.X_JN_default) {
     poses.X_JN = *file.X_JN_default;

@@ -85,7 +85,10 @@ class Finder {
       return std::move(found_);
     }
     for (std::size_t i = 0; i < samples_.size(); ++i) {
-      if (samples_[i].empty()) continue;
+      if (samples_[i].empty()) {
+        tell_beyond(i);
+        continue;
+      }
       tell_outside(i, lies[i]);
       tell_swallowed(i);
       tell_twin(i);
@@ -111,6 +114,20 @@ class Finder {
             "export it with the structures or set its 'units'",
             n_outside, n, away.x() / kMillimetre, away.y() / kMillimetre, away.z() / kMillimetre,
             size.x() / kMillimetre, size.y() / kMillimetre, size.z() / kMillimetre));
+  }
+
+  // Far from the region of interest; what only has no vertex in it is not told.
+  void tell_beyond(std::size_t i) {
+    const auto& roi = file_.region_of_interest;
+    if (!roi || !surfaces_.structures[i]) return;
+    const DistanceTree& tree = surfaces_.structures[i]->tree;
+    const double reach = roi->half_extent ? roi->half_extent->norm() : roi->radius;
+    const double distance = tree.distance(roi->centre, 1);
+    if (distance <= reach || tree.winding_number(roi->centre) > 0.5) return;
+    add(Verdict::look, file_.structures[i],
+        format("all of it lies outside of the region of interest, by %.1f mm or more; nothing of "
+               "it will be in the joint; see to its frame and units, or take it out",
+               (distance - reach) / kMillimetre));
   }
 
   void tell_outside(std::size_t i, const Lie& lie) {
@@ -152,7 +169,40 @@ class Finder {
                  k < i ? "the bone stands before it in the file and takes all of it: put it before "
                          "the bone if it is meant, else see to its frame"
                        : "see to its frame if that is not meant"));
+      return;
     }
+    tell_shared_out(i);
+  }
+
+  // Inside of several that stand before it, none of which takes all.
+  void tell_shared_out(std::size_t i) {
+    constexpr double kNearlyAll = 0.9;  // of the samples
+    std::vector<std::size_t> others;
+    for (std::size_t k = 0; k < i; ++k)
+      if (surfaces_.structures[k] && !is_twin(i, k)) others.push_back(k);
+    std::size_t n_taken = 0;
+    std::vector<bool> takes(i, false);
+    for (const Vec3& p : samples_[i]) {
+      bool taken = false;
+      for (const std::size_t k : others) {
+        const DistanceTree& other = surfaces_.structures[k]->tree;
+        if ((p.array() < other.lower().array()).any() || (p.array() > other.upper().array()).any())
+          continue;
+        if (other.winding_number(p) <= 0.5 || other.distance(p, kClearly) < kClearly) continue;
+        takes[k] = true;
+        taken = true;
+      }
+      n_taken += taken ? 1U : 0U;
+    }
+    const double share = static_cast<double>(n_taken) / static_cast<double>(samples_[i].size());
+    if (share < kNearlyAll) return;
+    std::string names;
+    for (std::size_t k = 0; k < i; ++k)
+      if (takes[k]) names += (names.empty() ? "'" : ", '") + file_.structures[k].name + "'";
+    add(Verdict::look, file_.structures[i],
+        format("%.0f %% of it lies inside %s, which stand before it in the file and take that: put "
+               "it before them if it is meant, else see to its frame",
+               100 * share, names.substr(0, 100).c_str()));
   }
 
   [[nodiscard]] bool is_twin(std::size_t i, std::size_t k) const {

@@ -14,7 +14,6 @@ namespace {
 
 constexpr double kOnSkin = 2 * kMillimetre;       // what an entry may lie off the skin
 constexpr double kProbeOnSkin = 3 * kMillimetre;  // likewise the middle of a probe's face
-constexpr double kFaceReach = 12 * kMillimetre;   // what its ends may lie off it; gel fills that
 constexpr double kStays = 3 * kMillimetre;        // of the shaft that stays outside
 constexpr double kThinnest = 0.6 * kMillimetre;   // layer in which a tip can stop
 constexpr double kRoom = 5 * kMillimetre;         // that a mended region has to spare
@@ -280,11 +279,11 @@ Result<void> refuse_all(const std::vector<std::string>& lines, const JointFile& 
   return fail(ErrorCode::defective, message, where);
 }
 
-bool stands_on_skin(const PlanGround& ground, const Pose& X_JP) {
+bool stands_on_skin(const PlanGround& ground, const Pose& X_JP, double reach) {
   for (const double share : {-0.5, -0.25, 0.0, 0.25, 0.5}) {
     const Vec3 p = X_JP * Vec3(share * kPlannedFace, 0, 0);
     const Vec3 beam = X_JP.linear().col(2);
-    const auto depth = ground.skin_along(p, beam, kFaceReach);
+    const auto depth = ground.skin_along(p, beam, reach);
     if (!depth || !ground.in_region(p + *depth * beam)) return false;
   }
   return true;

@@ -44,8 +44,15 @@ struct PlanProblem {
 [[nodiscard]] std::vector<PlanProblem> find_plan_problems(const JointFile& file,
                                                           const PlanGround& ground);
 
-/// Whether a probe at this pose stands on skin of the region with its whole face.
-[[nodiscard]] bool stands_on_skin(const PlanGround& ground, const Pose& X_JP);
+/// m that the ends of a planned probe's face may lie off the skin.
+inline constexpr double kFaceReach = 12e-3;
+/// m of it that gel fills in the picture (ImageSettings::gel_limit); beyond, lines are lifted.
+inline constexpr double kGelReach = 5e-3;
+
+/// Whether a probe at this pose stands on skin of the region with its whole face, no part of it
+/// more than `reach` (m) off it.
+[[nodiscard]] bool stands_on_skin(const PlanGround& ground, const Pose& X_JP,
+                                  double reach = kFaceReach);
 
 /// The place on the skin nearest to `near` from which a needle reaches `target` past all bone;
 /// none when there is none among the nearest few thousand.

@@ -13,8 +13,8 @@ Result<void> read_vertex(TextCursor& text, SurfaceMesh& mesh) {
     const auto token = text.next_in_line();
     const auto value = parse_number(token);
     if (!value)
-      return text.malformed(token.empty() ? "a vertex needs three numbers"
-                                          : quoted(token) + " is not a number");
+      return token.empty() ? text.malformed("a vertex needs three numbers")
+                           : text.not_a_number(token);
     p[k] = *value;
   }
   mesh.vertices.push_back(p);

@@ -37,8 +37,8 @@ Result<Vec3> read_vertex(TextCursor& text) {
     const auto token = k == 0 ? next_token(text) : text.next_in_line();
     const auto value = parse_number(token);
     if (!value)
-      return text.malformed(token.empty() ? "the file ends within the vertices"
-                                          : quoted(token) + " is not a number");
+      return token.empty() ? text.malformed("the file ends within the vertices")
+                           : text.not_a_number(token);
     p[k] = *value;
   }
   text.skip_line();

@@ -196,8 +196,8 @@ class Body {
       const auto token = text_.next();
       const auto value = parse_number(token);
       if (!value)
-        return text_.malformed(token.empty() ? "the file ends too early; it is cut off"
-                                             : quoted(token) + " is not a number");
+        return token.empty() ? text_.malformed("the file ends too early; it is cut off")
+                             : text_.not_a_number(token);
       return *value;
     }
     const std::size_t size = size_of(type);

@@ -76,9 +76,7 @@ Result<Vec3> read_vector(TextCursor& text) {
   for (int k = 0; k < 3; ++k) {
     const auto token = text.next();
     const auto value = parse_number(token);
-    if (!value)
-      return text.malformed(quoted(token) +
-                            " is not a number (decimals take a point, not a comma)");
+    if (!value) return text.not_a_number(token);
     p[k] = *value;
   }
   return p;

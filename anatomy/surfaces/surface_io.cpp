@@ -61,7 +61,7 @@ Result<SurfaceMesh> parse_any(std::string_view bytes, const std::string& name) {
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // before text, of some editors
   if (bytes.starts_with(kByteOrderMark)) bytes.remove_prefix(kByteOrderMark.size());
   if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) return parse_ply(bytes, name);
-  if (bytes.starts_with("glTF"))
+  if (bytes.starts_with("glTF") || std::filesystem::path(name).extension() == ".gltf")
     return fail(ErrorCode::unsupported, "glTF is not read; export the surface as STL or PLY", name);
   if (is_binary_stl(bytes)) return parse_stl_binary(bytes, name);
   const auto extension = format_of_extension(name);

@@ -260,9 +260,9 @@ std::vector<Claim> claims_of(const InjectionRun& run, const InjectionPictures& p
                                 pictures.ray_volume * 1e6, pictures.drawn_volume * 1e6,
                                 kAgree / 100, "ml"));
   if (pictures.ray_area > 0)
-    claims.push_back(claim_near(ClaimKind::independent, "area of liquid in the labels",
-                                pictures.label_area * 1e6, pictures.ray_area * 1e6, kAgree / 100,
-                                "mm2"));
+    claims.push_back(claim_near({ClaimKind::input, "labels and rays see the same drawn scene"},
+                                "area of liquid in the labels", pictures.label_area * 1e6,
+                                pictures.ray_area * 1e6, kAgree / 100, "mm2"));
   constexpr double kPublished = 5e-6;  // m^3, what opens a bursa by 2 to 6 mm
   if (run.target_like == "bursa" && std::abs(run.given / kPublished - 1) < 0.2)
     claims.push_back(claim_within({ClaimKind::fitted, "the patch's radius was chosen for it"},

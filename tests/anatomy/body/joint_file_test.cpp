@@ -122,6 +122,14 @@ TEST(JointFile, ARegionIsABallOrABoxNotBoth) {
               HasSubstr("either 'radius'"));
 }
 
+TEST(JointFile, InjectionsHaveNamesOfTheirOwn) {
+  const std::string one = "[[injection]]\nname = \"a\"\nentry = [0,0,0]\ntarget = [0,0,9]\n";
+  std::string other = one;
+  other.replace(other.find("\"a\""), 3, "\"b\"");
+  EXPECT_EQ(messages_of(kHead + kBone + one + other), "");
+  EXPECT_THAT(messages_of(kHead + kBone + one + one), HasSubstr("'name' is taken already"));
+}
+
 TEST(JointFile, ATissueOfItsOwnMustBeComplete) {
   EXPECT_THAT(messages_of(kHead + kBone + "[tissue.wax.haptic]\ncutting_force_n = 1\n"),
               HasSubstr("the group [tissue.wax.acoustic] is missing"));

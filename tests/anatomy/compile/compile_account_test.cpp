@@ -61,6 +61,20 @@ TEST(MeasureJoint, VolumesAreThoseOfBallsLessTheLensThatTheFirstTakes) {
   EXPECT_NEAR(b.resolved_volume, whole - lens(10 * kMm, 12 * kMm), 0.05 * whole);
 }
 
+TEST(MeasureJoint, ASurfaceThatIsThereAlreadyLosesAllAndOneThatIsALittleLargerAThinShell) {
+  const BallsJoint joint{30 * kMm,
+                         {{"first", "muscle", Vec3(0, 0, 0), 10 * kMm},
+                          {"same", "muscle", Vec3(0, 0, 0), 10 * kMm},
+                          {"larger", "muscle", Vec3(0, 0, 0), 10.2 * kMm}}};
+  const CompileReport report = measured(joint);
+  const double whole = ball_volume(10 * kMm);
+  EXPECT_NEAR(report.structures[2].lost_volume, report.structures[2].region_volume, 0.002 * whole);
+  const double shell = ball_volume(10.2 * kMm) - whole;
+  EXPECT_NEAR(report.structures[3].region_volume - report.structures[3].lost_volume, shell,
+              0.6 * shell)
+      << "thinner than a sample is wide";
+}
+
 TEST(MeasureJoint, CountsWhatThereIsAndMeasuresHowFarInterfacesLieFromTheirSurface) {
   const CompileReport report = measured(make_joint());
   std::size_t tetrahedra = 0;

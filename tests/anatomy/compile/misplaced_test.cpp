@@ -71,6 +71,28 @@ TEST(Misplaced, WhatAnEarlierStructureTakesWholeIsToldAndTheOtherOrderMendsIt) {
   EXPECT_TRUE(misplaced({kBone, nerve, kMuscle}).empty());
 }
 
+TEST(Misplaced, WhatSeveralTakeTogetherIsToldWithTheirNames) {
+  const Ball other{"rectus", "muscle", Vec3(0, 0.036, 0), 0.012};
+  const Ball nerve{"nerve", "nerve", Vec3(0, 0.033, 0), 0.010};
+  const auto found = misplaced({kBone, kMuscle, other, nerve});
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].what, "nerve");
+  EXPECT_THAT(found[0].message, HasSubstr("'vastus', 'rectus'"));
+}
+
+TEST(Misplaced, WhatLiesFarFromTheRegionOfInterestIsTold) {
+  BallsJoint joint(0.08, {kBone, {"far", "muscle", Vec3(0, 0.06, 0), 0.01}});
+  joint.file.tissues = read_bundled_tissues().value();
+  joint.file.region_of_interest.emplace();
+  joint.file.region_of_interest->radius = 0.025;
+  const auto found = find_misplaced(joint.file, joint.surfaces);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].what, "far");
+  EXPECT_THAT(found[0].message, HasSubstr("outside of the region of interest, by 25.0 mm"));
+  joint.file.region_of_interest->radius = 0.055;
+  EXPECT_TRUE(find_misplaced(joint.file, joint.surfaces).empty());
+}
+
 TEST(Misplaced, TheSameSurfaceTwiceIsTold) {
   Ball twin = kMuscle;
   twin.name = "rectus";

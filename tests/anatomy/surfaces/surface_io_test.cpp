@@ -198,6 +198,24 @@ TEST(SurfaceIo, FaceOfAMissingVertexNamesBoth) {
   }
 }
 
+TEST(SurfaceIo, ADecimalCommaIsToldInEveryFormatOfText) {
+  for (const auto& [text, name] :
+       {std::pair<const char*, const char*>{"v 1,5 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "a.obj"},
+        {"OFF\n3 1 0\n1,5 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "a.off"},
+        {"solid a\nfacet normal 0 0 1\nouter loop\nvertex 1,5 0 0\n", "a.stl"},
+        {"ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+         "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+         "1,5 0 0\n1 0 0\n0 1 0\n3 0 1 2\n",
+         "a.ply"}}) {
+    const auto mesh = parse_surface(text, name, 1);
+    ASSERT_FALSE(mesh) << name;
+    EXPECT_THAT(mesh.error().message, HasSubstr("decimals take a point, not a comma")) << name;
+  }
+  const auto gltf = parse_surface("{\"asset\": {\"version\": \"2.0\"}}", "a.gltf", 1);
+  ASSERT_FALSE(gltf);
+  EXPECT_EQ(gltf.error().code, ErrorCode::unsupported);
+}
+
 TEST(SurfaceIo, NonFiniteCoordinatesAreKept) {
   const auto mesh = parse_surface("OFF\n3 1 0\nnan 0 0\ninf 0 0\n0 1e999 0\n3 0 1 2\n", "a.off", 1);
   ASSERT_TRUE(mesh) << mesh.error().to_string();
