@@ -139,6 +139,11 @@ Result<SessionParams> make_session_params(const SessionOptions& options,
   params.haptic_rate = options.haptic_rate;
   params.image_rate = options.image_rate;
   params.image.n_threads = options.threads;
+  if (options.input == "igtl") {      // a pose that is held is not stale
+    constexpr double kMargin = 5e-3;  // s
+    params.guard.stale_after =
+        std::max(params.guard.stale_after, 1e-3 * options.igtl.needle_hold_ms + kMargin);
+  }
   params.deform = !options.rigid;
   const auto feel = make_feel(options.feel, joint);
   ARTUS_TRY(feel);

@@ -46,7 +46,7 @@ std::vector<igtl::MetaEntry> force_entries(const HapticSnapshot& haptic, const S
           {"AxialForce_N", number_text(-force.dot(axis))},
           {"Depth_mm", number_text(haptic.feedback.depth / kMillimetre)},
           {"Layer", region < regions.size() ? regions[region].name : std::string()},
-          {"Status", number_text(haptic.status)},
+          {"Status", std::to_string(haptic.status)},
           {"HapticRate_Hz", number_text(session.params().haptic_rate)},
           {"ImageRate_Hz", number_text(session.params().image_rate)}};
 }

@@ -29,7 +29,8 @@ void add_tick(AttemptMeter& meter, const HapticSnapshot& snapshot, double period
   felt.time = time;
   felt.region = static_cast<RegionId>(snapshot.feedback.region);
   felt.tissue = std::abs(snapshot.axial[1] + snapshot.axial[2] + snapshot.axial[3]);
-  felt.hard = std::abs(snapshot.axial[4]);
+  felt.hard =
+      std::abs(snapshot.axial[1] + snapshot.axial[2] + snapshot.axial[3] + snapshot.axial[4]);
   felt.on_bone = snapshot.feedback.contact == static_cast<std::uint32_t>(ContactState::bone);
   felt.tip = vector_of(snapshot.X_JN.position);
   meter.add_felt(felt);

@@ -2,6 +2,7 @@
 #include "artus/exchange/igtl/contents.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -11,9 +12,9 @@
 namespace artus::igtl {
 namespace {
 
-constexpr std::size_t kCommandNameSize = 20;  // bytes
-constexpr std::size_t kErrorNameSize = 20;    // bytes
-constexpr std::size_t kTypeNameSize = 12;     // bytes of a type in a CAPABILITY
+constexpr std::array<std::size_t, 2> kCommandNameSizes{20, 128};  // bytes, see CommandText
+constexpr std::size_t kErrorNameSize = 20;                        // bytes
+constexpr std::size_t kTypeNameSize = 12;                         // bytes of a type in a CAPABILITY
 
 tl::unexpected<Error> wrong_length(const char* type) {
   return fail(ErrorCode::malformed, std::string("a ") + type + " of another length than it says");
@@ -170,7 +171,7 @@ Result<Status> parse_status(std::string_view content) {
 std::string pack_command(const CommandText& command) {
   BigEndianWriter out;
   out.put(command.number);
-  out.put_padded(command.name, kCommandNameSize);
+  out.put_padded(command.name, command.name_bytes);
   out.put(command.encoding);
   out.put(static_cast<std::uint32_t>(command.content.size()));
   out.put_bytes(command.content);
@@ -178,15 +179,18 @@ std::string pack_command(const CommandText& command) {
 }
 
 Result<CommandText> parse_command(std::string_view content) {
-  BigEndianReader in(content);
-  CommandText command;
-  command.number = in.get<std::uint32_t>();
-  command.name = in.get_padded(kCommandNameSize);
-  command.encoding = in.get<std::uint16_t>();
-  const auto size = in.get<std::uint32_t>();
-  command.content = std::string(in.get_bytes(size));
-  if (!in.ok() || !in.at_end()) return wrong_length("COMMAND");
-  return command;
+  for (const std::size_t name_bytes : kCommandNameSizes) {  // the one whose length is right
+    BigEndianReader in(content);
+    CommandText command;
+    command.name_bytes = name_bytes;
+    command.number = in.get<std::uint32_t>();
+    command.name = in.get_padded(name_bytes);
+    command.encoding = in.get<std::uint16_t>();
+    const auto size = in.get<std::uint32_t>();
+    command.content = std::string(in.get_bytes(size));
+    if (in.ok() && in.at_end()) return command;
+  }
+  return wrong_length("COMMAND");
 }
 
 std::string pack_capability(const std::vector<std::string>& types) {

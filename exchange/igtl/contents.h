@@ -65,9 +65,10 @@ struct Status {
 /// COMMAND, and RTS_COMMAND that answers it with the same number.
 struct CommandText {
   std::uint32_t number = 0;
-  std::string name;            ///< at most 20 bytes
-  std::uint16_t encoding = 3;  ///< MIBenum
-  std::string content;         ///< XML by custom
+  std::string name;             ///< at most `name_bytes`
+  std::uint16_t encoding = 3;   ///< MIBenum
+  std::string content;          ///< XML by custom
+  std::size_t name_bytes = 20;  ///< of the field: 20 by the specification, 128 in newer libraries
 };
 [[nodiscard]] std::string pack_command(const CommandText& command);
 [[nodiscard]] Result<CommandText> parse_command(std::string_view content);

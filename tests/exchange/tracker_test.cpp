@@ -286,6 +286,15 @@ TEST(RemoteCommand, AnswersSayToSlicerWhetherItWasDone) {
   EXPECT_EQ(yes.device, "Slicer");
   EXPECT_EQ(yes.meta_value("Status"), "SUCCESS");
   EXPECT_EQ(igtl::parse_command(yes.content)->number, 42U);
+  igtl::CommandText newer = command;
+  newer.name_bytes = 128;
+  const auto read = igtl::parse_command(igtl::pack_command(newer));
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->name, "Gain");
+  EXPECT_EQ(read->content, "<Command/>");
+  EXPECT_EQ(answer_message(asked, *read, {true, ""}).content.size(),
+            yes.content.size() + 108 - std::string("done").size())
+      << "the answer has the form of the question";
   const igtl::Message no = answer_message(asked, command, {false, "a < b & \"c\""});
   EXPECT_EQ(no.meta_value("Status"), "FAIL");
   EXPECT_EQ(no.meta_value("ErrorMessage"), "a < b & \"c\"");

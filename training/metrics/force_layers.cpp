@@ -16,10 +16,15 @@ void ForceLayers::add(const FeltTick& tick) noexcept {
   if (!started_) {
     started_ = true;
     last_ = tick;
+    moved_at_ = tick.time;
     return;
   }
   const double dt = tick.time - last_.time;
   const double moved = (tick.tip - last_.tip).norm();
+  if (moved > 0 && tick.time > moved_at_) {  // poses may come more slowly than ticks
+    speed_ = moved / (tick.time - moved_at_);
+    moved_at_ = tick.time;
+  }
   if (tick.region < layers_.size()) {
     LayerForce& layer = layers_[tick.region];
     layer.time += dt;
@@ -28,8 +33,7 @@ void ForceLayers::add(const FeltTick& tick) noexcept {
   }
   if (tick.on_bone && !last_.on_bone && tick.time - off_since_ >= kDeadTime) {
     ++count_;
-    if (touches_.size() < touches_.capacity())
-      touches_.push_back({tick.time, 0, dt > 0 ? moved / dt : 0, 0});
+    if (touches_.size() < touches_.capacity()) touches_.push_back({tick.time, 0, speed_, 0});
   }
   if (tick.on_bone && !touches_.empty()) {
     FeltTouch& touch = touches_.back();

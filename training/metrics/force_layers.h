@@ -13,7 +13,7 @@ struct FeltTick {
   double time = 0;          ///< s
   RegionId region = 0;      ///< at the tip
   double tissue = 0;        ///< N, cutting and friction along the needle, magnitude
-  double hard = 0;          ///< N, on bone or cartilage
+  double hard = 0;          ///< N, all of it along the needle, a tap on bone too; magnitude
   bool on_bone = false;     ///< the tip stands on a hard layer
   Vec3 tip = Vec3::Zero();  ///< m
 };
@@ -29,7 +29,7 @@ struct LayerForce {
 struct FeltTouch {
   double time = 0;     ///< s
   double peak = 0;     ///< N
-  double speed = 0;    ///< m/s of the tip when it came
+  double speed = 0;    ///< m/s of the tip when it came, by the last pose that moved it
   double scratch = 0;  ///< m that the tip moved while it stood on bone
 };
 
@@ -53,6 +53,8 @@ class ForceLayers {
   std::vector<FeltTouch> touches_;
   std::size_t count_ = 0;
   FeltTick last_;
+  double speed_ = 0;         // m/s between the last two poses that differ
+  double moved_at_ = 0;      // s
   double off_since_ = -1e9;  // s, when the last touch ended
   bool started_ = false;
 };

@@ -146,6 +146,22 @@ TEST(TipSight, SaysWhyATipIsNotSeen) {
   EXPECT_NEAR(look(Vec3(0, -3e-3, 20e-3), flat).offset, -3e-3, 1e-12);
 }
 
+TEST(ForceLayers, TheSpeedOfATouchIsTheHandsThoughPosesComeMoreSlowlyThanTicks) {
+  for (const int ticks_a_pose : {1, 10, 33}) {
+    ForceLayers forces(4);
+    for (int i = 0; i <= 990; ++i) {  // 10 mm/s, told every few ticks
+      FeltTick tick;
+      tick.time = 1e-3 * i;
+      tick.region = 2;
+      tick.tip = Vec3(0, 0, 0.01 * 1e-3 * (i / ticks_a_pose * ticks_a_pose));
+      tick.on_bone = i >= 700;
+      forces.add(tick);
+    }
+    ASSERT_EQ(forces.touches().size(), 1U);
+    EXPECT_NEAR(forces.touches()[0].speed, 0.01, 1e-9) << ticks_a_pose;
+  }
+}
+
 TEST(ForceLayers, SumsByLayerAndCountsTouches) {
   ForceLayers forces(4);
   FeltTick tick;
