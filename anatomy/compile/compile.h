@@ -28,7 +28,7 @@ struct CompileOutcome {
 /// Errors: what reading a surface gives; defective (a surface that cannot be repaired: all of them
 /// are named, with reasons, unless `skip_refused`; with `check_plans` also a body in another frame,
 /// poses and injections, all at once); failed (nothing inside the region of interest).
-/// Cost: two minutes on two cores and 1.2 GB for sixty structures in a ball of 14 cm.
+/// Cost: a minute on two cores and 1.2 GB for sixty structures in a ball of 14 cm.
 [[nodiscard]] Result<CompileOutcome> compile_joint(const JointFile& file,
                                                    const CompileOptions& options = {},
                                                    const Progress& progress = {});
