@@ -4,7 +4,7 @@
 # the installed package. HEADERS are the installable ones. PACKAGES are the outside libraries that whoever
 # asks for the component needs beyond those of its rooms, by the names of cmake/packages.cmake. OPTIONS
 # are the room's own compile options. COLD: no tick and no line of an image runs in it, so it is compiled for
-# a quick build.
+# a quick build. Small sources are compiled together (precompiled.cmake).
 function(artus_library name)
   cmake_parse_arguments(A "COLD" "" "HEADERS;SOURCES;DEPENDS;PRIVATE_DEPENDS;PACKAGES;OPTIONS" ${ARGN})
   add_library(artus_${name} STATIC ${A_SOURCES})
@@ -16,6 +16,7 @@ function(artus_library name)
   target_compile_features(artus_${name} PUBLIC cxx_std_20)
   artus_warnings(artus_${name})
   target_compile_options(artus_${name} PRIVATE ${A_OPTIONS})
+  artus_joined(artus_${name})
   if(A_COLD)
     artus_cold(artus_${name})
   elseif(name STREQUAL "core" OR A_OPTIONS)

@@ -22,9 +22,9 @@ function(artus_precompiled target)
 endfunction()
 
 # artus_joined(target): up to six sources of one folder are compiled as one, which parses our own headers once for
-# them. An edit then costs its neighbours, too: whoever works on one of these rooms may set
+# them. An edit then costs its neighbours, too: whoever works on one room for long may set
 # ARTUS_JOINED_SOURCES=OFF. What the anonymous namespaces of a folder name must differ; the compiler says so.
-option(ARTUS_JOINED_SOURCES "Compile several sources of tests and of cold rooms as one" ON)
+option(ARTUS_JOINED_SOURCES "Compile several sources of a folder as one" ON)
 function(artus_joined target)
   if(NOT ARTUS_JOINED_SOURCES)
     return()
@@ -45,7 +45,6 @@ endfunction()
 # such targets, the first of them its owner.
 function(artus_cold target)
   target_compile_options(${target} PRIVATE -O1)
-  artus_joined(${target})
   get_property(owner GLOBAL PROPERTY ARTUS_COLD_OWNER)
   if(owner)
     artus_precompiled(${target} REUSE ${owner})

@@ -10,7 +10,7 @@
 namespace artus {
 namespace {
 
-constexpr std::size_t kStride = 16;   // samples between exact values of the gain
+constexpr std::size_t kCouplingStride = 16;  // samples between exact values of the gain
 constexpr double kAirPitch = 1.2e-3;  // m. assumed: lens thickness, pitch of lines without contact
 constexpr int kAirLines = 9;
 constexpr double kAirDecay = 0.45;  // assumed
@@ -60,7 +60,7 @@ double ApertureCoupling::gain(int l, double z) const noexcept {
 void ApertureCoupling::apply(int l, double sample_depth, EchoSpan line) const noexcept {
   if (complete_) return;
   apply_ramp<double>(
-      {0, line.size(), kStride},
+      {0, line.size(), kCouplingStride},
       [&](std::size_t sample) { return gain(l, static_cast<double>(sample) * sample_depth); },
       [&](std::size_t i, float g) { scale_sample(line, i, g); });
 }

@@ -11,27 +11,28 @@
 namespace artus {
 namespace {
 
-constexpr std::size_t kStride = 4;   // samples between exact values of gain and texture
-constexpr double kGlitter = 0.5;     // assumed: rms variation of a fully diffuse interface
-constexpr double kTailShare = 0.35;  // assumed: scattering just behind a rough interface
-constexpr float kTailDecay = 0.8F;   // per sample
-constexpr std::size_t kTailGap = 3;  // samples behind the surface
-constexpr std::size_t kTail = 16;    // samples
-constexpr double kHaze = 0.1;        // assumed: -20 dB at the face, +6 for both orders of the way,
-                                     // -6 because its second leg is out of focus
-constexpr float kSheet = 1.6F;       // texture above which a sheet reflects coherently
-constexpr double kSheetEcho = 1.5;   // assumed: coherent amplitude over scattered, per unit above
+constexpr std::size_t kNodeStride = 4;  // samples between exact values of gain and texture
+constexpr double kGlitter = 0.5;        // assumed: rms variation of a fully diffuse interface
+constexpr double kTailShare = 0.35;     // assumed: scattering just behind a rough interface
+constexpr float kTailDecay = 0.8F;      // per sample
+constexpr std::size_t kTailGap = 3;     // samples behind the surface
+constexpr std::size_t kTail = 16;       // samples
+constexpr double kHaze = 0.1;       // assumed: -20 dB at the face, +6 for both orders of the way,
+                                    // -6 because its second leg is out of focus
+constexpr float kSheet = 1.6F;      // texture above which a sheet reflects coherently
+constexpr double kSheetEcho = 1.5;  // assumed: coherent amplitude over scattered, per unit above
 
-/// gain = weight * the straight lines between nodes kStride samples apart. Reads and writes up to
-/// the end of the last stride.
+/// gain = weight * the straight lines between nodes kNodeStride samples apart. Reads and writes up
+/// to the end of the last stride.
 ARTUS_SIMD
 void interpolate_gain(const float* nodes, const float* weight, float* gain,
                       std::size_t n_strides) noexcept {
   for (std::size_t k = 0; k < n_strides; ++k) {
     const float from = nodes[k];
-    const float step = (nodes[k + 1] - from) * (1.0F / kStride);
-    for (std::size_t j = 0; j < kStride; ++j) {
-      gain[k * kStride + j] = weight[k * kStride + j] * (from + static_cast<float>(j) * step);
+    const float step = (nodes[k + 1] - from) * (1.0F / kNodeStride);
+    for (std::size_t j = 0; j < kNodeStride; ++j) {
+      gain[k * kNodeStride + j] =
+          weight[k * kNodeStride + j] * (from + static_cast<float>(j) * step);
     }
   }
 }
@@ -133,7 +134,7 @@ void LineSynthesis::sample_moved_texture(const BeamRun& run, const RegionAcousti
                                          std::span<const BeamKnot> knots,
                                          std::span<float> nodes) const noexcept {
   const auto first = static_cast<std::size_t>(std::ceil(std::max(0.0, run.begin)));
-  for_knots(knots, first, kStride, nodes.size(), [&](const KnotPiece& piece) {
+  for_knots(knots, first, kNodeStride, nodes.size(), [&](const KnotPiece& piece) {
     const Vec3 place = run.middle.place + run.middle.gradient * (piece.rest - run.rest_middle_J);
     texture_->sample(region.kind, place, run.middle.gradient * piece.step,
                      nodes.subspan(piece.begin, piece.end - piece.begin));
@@ -155,8 +156,8 @@ void LineSynthesis::add_run(const BeamRun& run, const Ground& ground, std::span<
   const double value = speckle_ *
                        local_backscatter(ground.regions, region, run.middle.place.z(), run.along) *
                        std::exp(run.log_gain_begin + into * slope);
-  const std::size_t n_nodes = (n - 1) / kStride + 2;
-  const std::size_t behind = echoes.size() + kStride;  // the last stride may reach over the end
+  const std::size_t n_nodes = (n - 1) / kNodeStride + 2;
+  const std::size_t behind = echoes.size() + kNodeStride;  // the last stride may reach over the end
   const auto nodes = gain.subspan(behind, n_nodes);
   const std::size_t room = (n_nodes + kLanes - 1) / kLanes * kLanes;
   const auto sheets = gain.subspan(behind + room, n_nodes);
@@ -171,9 +172,9 @@ void LineSynthesis::add_run(const BeamRun& run, const Ground& ground, std::span<
     sample_moved_texture(run, region, ground.knots.subspan(run.first_knot, run.n_knots), nodes);
   } else {
     texture_->sample(region.kind, run.material + into * run.material_step,
-                     run.material_step * kStride, nodes);
+                     run.material_step * kNodeStride, nodes);
   }
-  fade_nodes(static_cast<float>(value), static_cast<float>(std::exp(slope * kStride)),
+  fade_nodes(static_cast<float>(value), static_cast<float>(std::exp(slope * kNodeStride)),
              reflects ? facing : 0.0F, nodes.data(), sheets.data(), n_nodes);
   const std::size_t n_strides = n_nodes - 1;
   if (reflects) {
@@ -253,7 +254,7 @@ void LineSynthesis::add_haze(const BeamTrace& trace, EchoSpan echoes) noexcept {
 
 void LineSynthesis::synthesise(const BeamTracer& tracer, const PlacedLine& placed,
                                LineScratch& scratch, EchoSpan echoes) const {
-  scratch.gain.resize(3 * echoes.size() + 8 * kStride);
+  scratch.gain.resize(3 * echoes.size() + 8 * kNodeStride);
   std::fill(echoes.re.begin(), echoes.re.end(), 0.0F);
   std::fill(echoes.im.begin(), echoes.im.end(), 0.0F);
   tracer.trace_bent(placed.origin_J, placed.direction_J, scratch.central, scratch.bent);

@@ -10,6 +10,7 @@
 #include "artus/echo/gain_ramp.h"
 #include "artus/echo/gaussian.h"
 #include "artus/echo/point_echo.h"
+#include "artus/echo/transducer.h"
 
 namespace artus {
 namespace {
@@ -18,16 +19,15 @@ constexpr double kRingLobe = 14;     // degrees from perpendicular within which 
 constexpr double kFirstRing = 0.4;   // assumed: of the shaft's echo
 constexpr double kRingDecay = 0.62;  // assumed: per round trip in the bore
 constexpr int kMaxRings = 24;
-constexpr double kFaceReflection = 0.1;  // assumed: as in propagation
-constexpr double kTipEcho = 0.09;        // assumed: -21 dB, the bevel's point seen from any side
-constexpr double kShadow = 0.8;          // assumed: share of the blocked aperture that is lost
-constexpr double kSideLobe = 0.016;      // assumed: -36 dB, of an apodised aperture, both ways
-constexpr double kSideLobeFall = 2e-3;   // m beside the echo at which a lobe has halved. assumed
-constexpr double kFarthestLobe = 8e-3;   // m
-constexpr double kTrackCell = 0.15e-3;   // m of track that scatters as one
+constexpr double kTipEcho = 0.09;       // assumed: -21 dB, the bevel's point seen from any side
+constexpr double kShadow = 0.8;         // assumed: share of the blocked aperture that is lost
+constexpr double kSideLobe = 0.016;     // assumed: -36 dB, of an apodised aperture, both ways
+constexpr double kSideLobeFall = 2e-3;  // m beside the echo at which a lobe has halved. assumed
+constexpr double kFarthestLobe = 8e-3;  // m
+constexpr double kTrackCell = 0.15e-3;  // m of track that scatters as one
 constexpr std::uint64_t kTrackSeed = 7;
-constexpr std::size_t kStride = 16;  // samples between exact values of the shadow
-constexpr double kSteepest = 6;      // slope beyond which a shaft is as good as upright
+constexpr std::size_t kShadowStride = 16;  // samples between exact values of the shadow
+constexpr double kSteepest = 6;            // slope beyond which a shaft is as good as upright
 
 }  // namespace
 
@@ -224,7 +224,7 @@ void NeedleEcho::shade(const PlacedLine& placed, std::span<float> light) const n
     const double covered = std::min(extent.end, half) - std::max(extent.begin, -half);
     return 1 - kShadow * extent.blocks * std::clamp(covered / (2 * half), 0.0, 1.0);
   };
-  apply_ramp<float>({static_cast<std::size_t>(from), light.size(), kStride}, passes,
+  apply_ramp<float>({static_cast<std::size_t>(from), light.size(), kShadowStride}, passes,
                     [&](std::size_t i, float share) { light[i] *= share; });
 }
 

@@ -10,8 +10,8 @@
 namespace artus {
 namespace {
 
-constexpr std::size_t kStride = 32;  // samples between exact values
-constexpr int kStep = 2;             // lines between those that are looked at
+constexpr std::size_t kPenumbraStride = 32;  // samples between exact values
+constexpr int kStep = 2;                     // lines between those that are looked at
 
 /// What neighbouring scanlines hide of the aperture of one scanline.
 class Horizon {
@@ -63,8 +63,10 @@ void add_penumbra(const Transducer& transducer, double sample_depth,
   const auto own = static_cast<std::size_t>(shadow_from[static_cast<std::size_t>(l)]);
   const float shallowest =
       *std::min_element(shadow_from.begin() + first, shadow_from.begin() + last);
-  const std::size_t begin = static_cast<std::size_t>(shallowest) / kStride * kStride;
-  const std::size_t end = std::min(line.size(), own + kStride);  // echoes reach beyond a surface
+  const std::size_t begin =
+      static_cast<std::size_t>(shallowest) / kPenumbraStride * kPenumbraStride;
+  const std::size_t end =
+      std::min(line.size(), own + kPenumbraStride);  // echoes reach beyond a surface
   if (begin >= end) return;
   const Horizon horizon(transducer, sample_depth, shadow_from, l);
   const auto gain_at = [&](std::size_t sample) {
@@ -72,9 +74,10 @@ void add_penumbra(const Transducer& transducer, double sample_depth,
         horizon.open(std::max<double>(1, static_cast<double>(sample)) * sample_depth);
     return open * open;
   };
-  const std::size_t strides = (end - begin + kStride - 1) / kStride;
-  apply_ramp<double>({begin, std::min(line.size(), begin + strides * kStride), kStride}, gain_at,
-                     [&](std::size_t i, float gain) { scale_sample(line, i, gain); });
+  const std::size_t strides = (end - begin + kPenumbraStride - 1) / kPenumbraStride;
+  apply_ramp<double>(
+      {begin, std::min(line.size(), begin + strides * kPenumbraStride), kPenumbraStride}, gain_at,
+      [&](std::size_t i, float gain) { scale_sample(line, i, gain); });
 }
 
 }  // namespace artus

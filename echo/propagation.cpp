@@ -18,7 +18,6 @@ constexpr double kAlongSurface =
     0.17;                         // cosine of 80 degrees: along a faceted surface, go straight
 constexpr double kSilence = -20;  // ln: 174 dB down, below any receiver
 constexpr double kMargin = 1.25;  // tissue as fast as tendon reaches deeper in the same time
-constexpr double kFaceReflection = 0.1;  // assumed: matching layers and lens send back -20 dB
 constexpr double kTiny = 1e-12;
 constexpr double kStill = 1e-9;  // m; tissue that moved less is where it was
 constexpr double kKnotBend =

@@ -36,6 +36,10 @@ struct Transducer {
   [[nodiscard]] double spectrum_sigma() const noexcept { return frequency * bandwidth / 2.355; }
 };
 
+/// What the face sends back of an echo that meets it again (matching layers and lens): -20 dB.
+/// Assumed.
+inline constexpr double kFaceReflection = 0.1;
+
 /// Full width at half maximum of the two-way amplitude across a beam, in wavelengths per F-number
 /// (wave model under dynamic aperture; between the 0.89 of a sinc^2 and a Gaussian's 1.0).
 inline constexpr double kTwoWayWidth = 0.97;

@@ -18,7 +18,7 @@ constexpr double kOut = 20e-3;         // m/s
 constexpr double kSearchSpeed = 3e-3;  // m/s
 constexpr double kSearchTime = 5;      // s
 constexpr double kBold = 5e-3;         // m
-constexpr double kBeyond = 8e-3;       // m past the target where anyone stops
+constexpr double kTooFar = 8e-3;       // m past the target where anyone stops
 constexpr double kAppear = 2e-3;       // m beyond where the tip should have come into the picture
 constexpr double kLearning = 0.069;    // a trial
 
@@ -133,7 +133,7 @@ void ScanningOperator::advance(double time, const Pose& X_JN, const ScanGlance& 
   } else {
     seen_time_ = -1;
   }
-  if (glance.stuck || left < -kBeyond || (left <= lag && (seen || bold_until_ > 0 || left < 0))) {
+  if (glance.stuck || left < -kTooFar || (left <= lag && (seen || bold_until_ > 0 || left < 0))) {
     begin(Phase::hold, time);
     return;
   }

@@ -11,15 +11,11 @@
 #include "artus/session/dropping_ring.h"
 
 namespace artus {
-namespace {
-
-struct FileCloser {
-  void operator()(std::FILE* file) const noexcept { std::fclose(file); }
-};
-
-}  // namespace
 
 struct Recorder::Impl {
+  struct FileCloser {
+    void operator()(std::FILE* file) const noexcept { std::fclose(file); }
+  };
   std::unique_ptr<std::FILE, FileCloser> file;
   DroppingRing<TickRecord> ticks{16384};
   DroppingRing<FrameRecord> frames{1024};

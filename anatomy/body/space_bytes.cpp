@@ -6,7 +6,7 @@ namespace {
 
 // Every number of a space in file order, for writing and reading alike.
 template <class S, class Value = std::conditional_t<std::is_const_v<S>, const double, double>>
-std::array<Value*, 20> numbers(S& s) {
+std::array<Value*, 20> numbers_of_space(S& s) {
   auto& law = s.law;
   return {&law.opening,     &law.resistance, &law.rest,     &law.stiffness,     &law.slack,
           &law.toe,         &law.yield,      &law.rupture,  &law.suction,       &law.suction_volume,
@@ -24,7 +24,7 @@ void put_spaces(ByteWriter& out, const std::vector<Space>& spaces) {
     out.put(static_cast<std::uint32_t>(s.regions.size()));
     for (const std::string& region : s.regions) out.put(std::string_view(region));
     out.put(static_cast<std::uint8_t>(s.law.kind));
-    for (const double* value : numbers(s)) out.put(*value);
+    for (const double* value : numbers_of_space(s)) out.put(*value);
   }
 }
 
@@ -37,7 +37,7 @@ std::vector<Space> get_spaces(ByteReader& in) {
     const auto kind = in.get<std::uint8_t>();
     if (kind >= kSpaceKindNames.size()) in.refuse();
     s.law.kind = static_cast<SpaceKind>(kind);
-    for (double* value : numbers(s)) *value = in.get<double>();
+    for (double* value : numbers_of_space(s)) *value = in.get<double>();
   }
   return spaces;
 }

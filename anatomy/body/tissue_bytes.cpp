@@ -8,7 +8,7 @@ namespace {
 
 // Every number of a tissue in file order, for writing and reading alike.
 template <class T, class Value = std::conditional_t<std::is_const_v<T>, const double, double>>
-std::array<Value*, 14> numbers(T& t) {
+std::array<Value*, 14> numbers_of_tissue(T& t) {
   return {
       &t.acoustic.speed_of_sound,    &t.acoustic.density,         &t.acoustic.attenuation,
       &t.acoustic.attenuation_power, &t.acoustic.backscatter,     &t.acoustic.interface_roughness,
@@ -31,7 +31,7 @@ void put_tissues(ByteWriter& out, const std::vector<Tissue>& tissues) {
   out.put(static_cast<std::uint32_t>(tissues.size()));
   for (const Tissue& t : tissues) {
     out.put(std::string_view(t.name));
-    for (const double* value : numbers(t)) out.put(*value);
+    for (const double* value : numbers_of_tissue(t)) out.put(*value);
     out.put(static_cast<std::uint8_t>(t.haptic.hard ? 1 : 0));
     out.put(static_cast<std::uint8_t>(t.acoustic.kind));
     out.put(static_cast<std::uint8_t>(t.haptic.cutting_law));
@@ -48,7 +48,7 @@ std::vector<Tissue> get_tissues(ByteReader& in) {
   std::vector<Tissue> tissues(in.get_count(4));
   for (Tissue& t : tissues) {
     t.name = in.get_text();
-    for (double* value : numbers(t)) *value = in.get<double>();
+    for (double* value : numbers_of_tissue(t)) *value = in.get<double>();
     t.haptic.hard = in.get<std::uint8_t>() != 0;
     t.acoustic.kind = get_choice<TissueKind>(in, kTissueKindNames.size());
     t.haptic.cutting_law = get_choice<CuttingLaw>(in, kCuttingLawNames.size());

@@ -2,11 +2,10 @@
 #include "artus/anatomy/compile/misplaced.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "artus/anatomy/compile/region_labels.h"
+#include "artus/core/printed.h"
 #include "artus/core/units.h"
 
 namespace artus {
@@ -16,13 +15,6 @@ constexpr std::size_t kSamples = 400;           // of each surface
 constexpr double kClearly = 0.5 * kMillimetre;  // beyond what surfaces that touch differ by
 constexpr double kMuchOutside = 0.02;           // of the samples, as compile warns of
 constexpr double kAll = 0.99;                   // of the samples
-
-template <class... Values>
-std::string format(const char* pattern, Values... values) {
-  std::array<char, 300> text{};
-  static_cast<void>(std::snprintf(text.data(), text.size(), pattern, values...));
-  return text.data();
-}
 
 /// Evenly chosen vertices of a surface that lie in the region of interest.
 std::vector<Vec3> samples_of(const SurfaceMesh& mesh, const std::optional<RegionOfInterest>& roi) {
@@ -108,7 +100,7 @@ class Finder {
     const Vec3 away = box.center() - middle(surfaces_.body.tree);
     const Vec3 size = surfaces_.body.tree.upper() - surfaces_.body.tree.lower();
     add(Verdict::refused, file_.body,
-        format(
+        printed(
             "%zu of %zu structures lie outside of it: their middle is (%.0f, %.0f, %.0f) mm from "
             "its own, and it measures %.0f x %.0f x %.0f mm; it is of another frame or unit: "
             "export it with the structures or set its 'units'",
@@ -125,9 +117,9 @@ class Finder {
     const double distance = tree.distance(roi->centre, 1);
     if (distance <= reach || tree.winding_number(roi->centre) > 0.5) return;
     add(Verdict::look, file_.structures[i],
-        format("all of it lies outside of the region of interest, by %.1f mm or more; nothing of "
-               "it will be in the joint; see to its frame and units, or take it out",
-               (distance - reach) / kMillimetre));
+        printed("all of it lies outside of the region of interest, by %.1f mm or more; nothing of "
+                "it will be in the joint; see to its frame and units, or take it out",
+                (distance - reach) / kMillimetre));
   }
 
   void tell_outside(std::size_t i, const Lie& lie) {
@@ -136,8 +128,8 @@ class Finder {
                                             "and units, or take it out"
                                           : "that part is cut off";
     add(Verdict::look, file_.structures[i],
-        format("%.0f %% of it lies outside of the skin, up to %.1f mm; %s", 100 * lie.outside,
-               lie.farthest / kMillimetre, rest));
+        printed("%.0f %% of it lies outside of the skin, up to %.1f mm; %s", 100 * lie.outside,
+                lie.farthest / kMillimetre, rest));
   }
 
   [[nodiscard]] bool is_hard(const Structure& s) const {
@@ -158,17 +150,18 @@ class Finder {
       const char* name = file_.structures[k].name.c_str();
       if (!in_bone) {
         add(Verdict::look, file_.structures[i],
-            format("all of it lies inside '%s', which stands before it in the file and takes all "
-                   "of it: put it before '%s'",
-                   name, name));
+            printed("all of it lies inside '%s', which stands before it in the file and takes all "
+                    "of it: put it before '%s'",
+                    name, name));
         return;
       }
       add(Verdict::look, file_.structures[i],
-          format("all of it lies inside the bone '%s', %.1f mm or more under its surface; %s", name,
-                 lie.least / kMillimetre,
-                 k < i ? "the bone stands before it in the file and takes all of it: put it before "
-                         "the bone if it is meant, else see to its frame"
-                       : "see to its frame if that is not meant"));
+          printed("all of it lies inside the bone '%s', %.1f mm or more under its surface; %s",
+                  name, lie.least / kMillimetre,
+                  k < i
+                      ? "the bone stands before it in the file and takes all of it: put it before "
+                        "the bone if it is meant, else see to its frame"
+                      : "see to its frame if that is not meant"));
       return;
     }
     tell_shared_out(i);
@@ -200,9 +193,10 @@ class Finder {
     for (std::size_t k = 0; k < i; ++k)
       if (takes[k]) names += (names.empty() ? "'" : ", '") + file_.structures[k].name + "'";
     add(Verdict::look, file_.structures[i],
-        format("%.0f %% of it lies inside %s, which stand before it in the file and take that: put "
-               "it before them if it is meant, else see to its frame",
-               100 * share, names.substr(0, 100).c_str()));
+        printed(
+            "%.0f %% of it lies inside %s, which stand before it in the file and take that: put "
+            "it before them if it is meant, else see to its frame",
+            100 * share, names.substr(0, 100).c_str()));
   }
 
   [[nodiscard]] bool is_twin(std::size_t i, std::size_t k) const {
@@ -225,11 +219,11 @@ class Finder {
     for (std::size_t k = 0; k < i; ++k) {
       if (!surfaces_.structures[k] || samples_[k].empty() || !is_twin(i, k)) continue;
       add(Verdict::look, file_.structures[i],
-          format("it is the same surface as '%s' (%.2f and %.2f cm3), which stands before it and "
-                 "takes all of it; take one of them out",
-                 file_.structures[k].name.c_str(),
-                 signed_volume(surfaces_.structures[i]->mesh) / kCubicCentimetre,
-                 signed_volume(surfaces_.structures[k]->mesh) / kCubicCentimetre));
+          printed("it is the same surface as '%s' (%.2f and %.2f cm3), which stands before it and "
+                  "takes all of it; take one of them out",
+                  file_.structures[k].name.c_str(),
+                  signed_volume(surfaces_.structures[i]->mesh) / kCubicCentimetre,
+                  signed_volume(surfaces_.structures[k]->mesh) / kCubicCentimetre));
       return;
     }
   }

@@ -2,11 +2,10 @@
 #include "artus/anatomy/compile/plan_check.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "artus/anatomy/compile/region_labels.h"
+#include "artus/core/printed.h"
 #include "artus/core/units.h"
 
 namespace artus {
@@ -19,16 +18,9 @@ constexpr double kThinnest = 0.6 * kMillimetre;   // layer in which a tip can st
 constexpr double kRoom = 5 * kMillimetre;         // that a mended region has to spare
 constexpr std::size_t kMostTried = 4000;          // places on the skin
 
-template <class... Values>
-std::string format(const char* pattern, Values... values) {
-  std::array<char, 400> text{};
-  static_cast<void>(std::snprintf(text.data(), text.size(), pattern, values...));
-  return text.data();
-}
-
 std::string place(const Vec3& p) {
-  return format("(%.1f, %.1f, %.1f) mm", p.x() / kMillimetre, p.y() / kMillimetre,
-                p.z() / kMillimetre);
+  return printed("(%.1f, %.1f, %.1f) mm", p.x() / kMillimetre, p.y() / kMillimetre,
+                 p.z() / kMillimetre);
 }
 
 std::vector<Vec3> skin_around(const PlanGround& ground, const Vec3& near) {
@@ -61,7 +53,7 @@ std::string hold_in_region(const RegionOfInterest& roi, const Vec3& p, PlanProbl
   }
   const double radius = kMillimetre * std::ceil(((p - roi.centre).norm() + kRoom) / kMillimetre);
   problem.mends.push_back({"radius", Vec3(radius, 0, 0)});
-  return format("enlarge it: radius = %.0f mm holds it", radius / kMillimetre);
+  return printed("enlarge it: radius = %.0f mm holds it", radius / kMillimetre);
 }
 
 /// Collects what is wrong with one plan after the other.
@@ -91,7 +83,7 @@ class Checker {
     if (!ground_.region) return;
     const Vec3& centre = ground_.region->centre;
     const double away = ground_.skin_tree.distance(centre, 10);
-    problem.message += format(": the nearest is %.1f mm from its centre; ", away / kMillimetre);
+    problem.message += printed(": the nearest is %.1f mm from its centre; ", away / kMillimetre);
     const double needed = away + kPlannedFace / 2;
     const Vec3 far =
         ground_.region->half_extent ? Vec3(Vec3::Constant(needed)) : Vec3(needed * Vec3::UnitX());
@@ -112,7 +104,7 @@ class Checker {
     const double off = ground_.skin_distance(p);
     if (off > 0) {
       PlanProblem& problem = add(
-          plan, line, format("its %s lies %.1f mm outside of the skin", key, off / kMillimetre));
+          plan, line, printed("its %s lies %.1f mm outside of the skin", key, off / kMillimetre));
       const auto skin = ground_.nearest_skin(p);
       if (!skin) return false;
       const Vec3 inside = *skin + 10 * kMillimetre * (*skin - p).normalized();
@@ -126,10 +118,10 @@ class Checker {
 
   bool check_in_region(const std::string& plan, int line, const char* key, const Vec3& p) {
     if (ground_.in_region(p)) return true;
-    PlanProblem& problem =
-        add(plan, line,
-            format("its %s lies %.1f mm outside of the region of interest, where nothing is made; ",
-                   key, signed_distance(*ground_.region, p) / kMillimetre));
+    PlanProblem& problem = add(
+        plan, line,
+        printed("its %s lies %.1f mm outside of the region of interest, where nothing is made; ",
+                key, signed_distance(*ground_.region, p) / kMillimetre));
     problem.message += hold_in_region(*ground_.region, p, problem);
     return false;
   }
@@ -139,8 +131,8 @@ class Checker {
     const double off = ground_.skin_distance(pass.entry);
     if (std::abs(off) <= kOnSkin) return true;
     PlanProblem& problem = add(plan, pass.line,
-                               format("its entry lies %.1f mm %s the skin",
-                                      std::abs(off) / kMillimetre, off > 0 ? "off" : "under"));
+                               printed("its entry lies %.1f mm %s the skin",
+                                       std::abs(off) / kMillimetre, off > 0 ? "off" : "under"));
     const Vec3 way = (pass.target - pass.entry).normalized();
     const auto along = ground_.skin_along(pass.entry, way, 2 * kLongestNeedle);
     const std::optional<Vec3> skin =
@@ -162,10 +154,11 @@ class Checker {
       return;
     }
     if (length > kLongestNeedle - kStays) {
-      offer_entry(add(plan, pass.line,
-                      format("its way of %.0f mm is more than the longest needle of %.0f mm can go",
-                             length / kMillimetre, kLongestNeedle / kMillimetre)),
-                  pass);
+      offer_entry(
+          add(plan, pass.line,
+              printed("its way of %.0f mm is more than the longest needle of %.0f mm can go",
+                      length / kMillimetre, kLongestNeedle / kMillimetre)),
+          pass);
       return;
     }
     if (ground_.is_compiled) check_layer(plan, pass, length);
@@ -174,9 +167,9 @@ class Checker {
   std::string where_in_the_way(const PlannedInjection& pass, const std::string& bone) const {
     for (const LineLayer& layer : ground_.layers({pass.entry, pass.target}))
       if (layer.name == bone)
-        return format(", %.1f mm after the entry and %.1f mm before the target",
-                      layer.entry / kMillimetre,
-                      ((pass.target - pass.entry).norm() - layer.entry) / kMillimetre);
+        return printed(", %.1f mm after the entry and %.1f mm before the target",
+                       layer.entry / kMillimetre,
+                       ((pass.target - pass.entry).norm() - layer.entry) / kMillimetre);
     return "";
   }
 
@@ -200,8 +193,8 @@ class Checker {
       if (!holds_target || layer.hard || layer.exit - layer.entry > kThinnest) continue;
       PlanProblem& problem =
           add(plan, pass.line,
-              format("its target lies in '%s', which is %.2f mm thick on its line",
-                     layer.name.c_str(), (layer.exit - layer.entry) / kMillimetre));
+              printed("its target lies in '%s', which is %.2f mm thick on its line",
+                      layer.name.c_str(), (layer.exit - layer.entry) / kMillimetre));
       for (const LineLayer& other : layers) {
         if (other.hard || other.name == "outside" || other.exit - other.entry < 2 * kMillimetre)
           continue;
@@ -218,12 +211,12 @@ class Checker {
     const double off = ground_.skin_distance(p);
     std::string message;
     if (std::abs(off) > kProbeOnSkin) {
-      message = format("its position lies %.1f mm %s the skin", std::abs(off) / kMillimetre,
-                       off > 0 ? "off" : "under");
+      message = printed("its position lies %.1f mm %s the skin", std::abs(off) / kMillimetre,
+                        off > 0 ? "off" : "under");
     } else if (!(ground_.skin_distance(p + 5 * kMillimetre * beam) < off - kMillimetre)) {
       message = "it looks along the skin or away from the body";
     } else if (!stands_on_skin(ground_, X_JP)) {
-      message = format(
+      message = printed(
           "its face of %.0f mm does not stand on skin of the region of interest with its whole "
           "length",
           kPlannedFace / kMillimetre);
@@ -240,8 +233,8 @@ class Checker {
       const Pose X = make_pose(stand, beam, X_JP.linear().col(0));
       if (!stands_on_skin(ground_, X)) continue;
       problem.message += "; it stands at position = " + place(stand) +
-                         format(" with direction = (%.3f, %.3f, %.3f), or leave [probe] out",
-                                beam.x(), beam.y(), beam.z());
+                         printed(" with direction = (%.3f, %.3f, %.3f), or leave [probe] out",
+                                 beam.x(), beam.y(), beam.z());
       problem.mends = {{"position", stand}, {"direction", beam}};
       return;
     }

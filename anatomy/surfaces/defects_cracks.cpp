@@ -10,7 +10,7 @@
 namespace artus {
 namespace {
 
-constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t kNoFan = std::numeric_limits<std::uint32_t>::max();
 
 /// Per vertex the length of its shortest open edge, m; infinite for vertices that have none.
 std::vector<double> shortest_open_edge(const SurfaceMesh& mesh, const std::vector<EdgeUse>& uses) {
@@ -74,13 +74,13 @@ std::vector<std::uint32_t> find_pinches(const SurfaceMesh& mesh, const std::vect
         fans.union_set(std::size_t{3} * first->face + corner_of(mesh.triangles[first->face], v),
                        std::size_t{3} * u->face + corner_of(mesh.triangles[u->face], v));
   });
-  std::vector<std::uint32_t> fan_of(mesh.vertices.size(), kNone);
+  std::vector<std::uint32_t> fan_of(mesh.vertices.size(), kNoFan);
   std::vector<bool> is_pinch(mesh.vertices.size(), false);
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
     for (std::size_t k = 0; k < 3; ++k) {
       const auto v = mesh.triangles[f][k];
       const auto fan = static_cast<std::uint32_t>(fans.find_set(3 * f + k));
-      if (fan_of[v] == kNone)
+      if (fan_of[v] == kNoFan)
         fan_of[v] = fan;
       else if (fan_of[v] != fan)
         is_pinch[v] = true;

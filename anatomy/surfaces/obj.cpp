@@ -35,7 +35,7 @@ Result<std::uint32_t> read_corner(const TextCursor& text, std::string_view token
   return static_cast<std::uint32_t>(zero_based);
 }
 
-Result<void> read_face(TextCursor& text, SurfaceMesh& mesh) {
+Result<void> read_obj_face(TextCursor& text, SurfaceMesh& mesh) {
   std::uint32_t first = 0;
   std::uint32_t previous = 0;
   std::size_t corners = 0;
@@ -66,7 +66,7 @@ Result<SurfaceMesh> parse_obj(std::string_view bytes, const std::string& name) {
     const auto word = text.next_in_line();
     Result<void> ok;
     if (word == "v") ok = read_vertex(text, mesh);
-    if (word == "f") ok = read_face(text, mesh);
+    if (word == "f") ok = read_obj_face(text, mesh);
     ARTUS_TRY(ok);
     if (mesh.vertices.size() >= std::numeric_limits<std::uint32_t>::max())
       return fail(ErrorCode::unsupported, "more than 4 billion vertices", name);

@@ -45,7 +45,7 @@ Result<Vec3> read_vertex(TextCursor& text) {
   return p;
 }
 
-Result<void> read_face(TextCursor& text, SurfaceMesh& mesh) {
+Result<void> read_off_face(TextCursor& text, SurfaceMesh& mesh) {
   const auto token = next_token(text);
   const auto corners = parse_integer(token);
   if (!corners || *corners < 0)
@@ -72,7 +72,7 @@ Result<void> read_face(TextCursor& text, SurfaceMesh& mesh) {
   return {};
 }
 
-Result<void> read_header(TextCursor& text) {
+Result<void> read_off_header(TextCursor& text) {
   auto word = next_token(text);
   if (word.starts_with("4") || word.starts_with("n") || !word.ends_with("OFF"))
     return fail(ErrorCode::unsupported,
@@ -85,7 +85,7 @@ Result<void> read_header(TextCursor& text) {
 
 Result<SurfaceMesh> parse_off(std::string_view bytes, const std::string& name) {
   TextCursor text(bytes, name);
-  ARTUS_TRY(read_header(text));
+  ARTUS_TRY(read_off_header(text));
   const auto n_vertices = read_count(text, "vertices", 6);
   ARTUS_TRY(n_vertices);
   const auto n_faces = read_count(text, "faces", 2);
@@ -101,7 +101,7 @@ Result<SurfaceMesh> parse_off(std::string_view bytes, const std::string& name) {
     ARTUS_TRY(p);
     mesh.vertices.push_back(*p);
   }
-  for (std::size_t i = 0; i < *n_faces; ++i) ARTUS_TRY(read_face(text, mesh));
+  for (std::size_t i = 0; i < *n_faces; ++i) ARTUS_TRY(read_off_face(text, mesh));
   return mesh;
 }
 

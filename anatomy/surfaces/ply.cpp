@@ -147,7 +147,7 @@ Result<Property> read_property(TextCursor& text) {
   return property;
 }
 
-Result<void> read_header_line(TextCursor& text, std::string_view word, Header& header) {
+Result<void> read_ply_header_line(TextCursor& text, std::string_view word, Header& header) {
   if (word == "format") {
     const auto encoding = read_encoding(text);
     ARTUS_TRY(encoding);
@@ -168,13 +168,13 @@ Result<void> read_header_line(TextCursor& text, std::string_view word, Header& h
 }
 
 /// Reads up to and including the line "end_header".
-Result<Header> read_header(TextCursor& text) {
+Result<Header> read_ply_header(TextCursor& text) {
   Header header;
   text.skip_line();  // "ply"
   while (!text.at_end()) {
     const auto word = text.next_in_line();
     const bool is_last = word == "end_header";
-    if (!is_last) ARTUS_TRY(read_header_line(text, word, header));
+    if (!is_last) ARTUS_TRY(read_ply_header_line(text, word, header));
     text.skip_line();
     if (is_last) return header;
   }
@@ -342,7 +342,7 @@ bool has_coordinates(const Header& header) {
 
 Result<SurfaceMesh> parse_ply(std::string_view bytes, const std::string& name) {
   TextCursor text(bytes, name);
-  const auto header = read_header(text);
+  const auto header = read_ply_header(text);
   ARTUS_TRY(header);
   if (!has_coordinates(*header))
     return fail(ErrorCode::malformed, "the PLY header has no vertices with x, y and z", name);

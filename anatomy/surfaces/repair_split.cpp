@@ -13,7 +13,7 @@
 namespace artus {
 namespace {
 
-constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t kNoVertex = std::numeric_limits<std::uint32_t>::max();
 
 /// Two faces that are neighbours over an edge; `agree` when they run along it in opposite senses.
 struct Link {
@@ -160,17 +160,17 @@ std::size_t split_pinches(SurfaceMesh& mesh) {
       fans.union_set(std::size_t{3} * l.a + corner_of(mesh.triangles[l.a], v),
                      std::size_t{3} * l.b + corner_of(mesh.triangles[l.b], v));
   // The first fan met at a vertex keeps it, each other gets a copy of its own.
-  std::vector<std::uint32_t> vertex_of_fan(3 * mesh.triangles.size(), kNone);
+  std::vector<std::uint32_t> vertex_of_fan(3 * mesh.triangles.size(), kNoVertex);
   std::vector<bool> is_taken(mesh.vertices.size(), false);
   const std::size_t before = mesh.vertices.size();
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
     for (std::size_t k = 0; k < 3; ++k) {
       auto& v = mesh.triangles[f][k];
       auto& own = vertex_of_fan[fans.find_set(3 * f + k)];
-      if (own == kNone && !is_taken[v]) {
+      if (own == kNoVertex && !is_taken[v]) {
         own = v;
         is_taken[v] = true;
-      } else if (own == kNone) {
+      } else if (own == kNoVertex) {
         own = static_cast<std::uint32_t>(mesh.vertices.size());
         const Vec3 copy = mesh.vertices[v];
         mesh.vertices.push_back(copy);

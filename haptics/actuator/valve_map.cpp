@@ -12,16 +12,16 @@ namespace {
 /// How much denser the samples are at the centre than at the ends; assumed: resolves the leakage.
 constexpr double kDensity = 4;
 /// Samples below the exhaust's and above the supply's pressure.
-constexpr std::size_t kBeyond = 24;
+constexpr std::size_t kBeyondEnds = 24;
 
 }  // namespace
 
 ValveMap::ValveMap(const ServovalveParams& valve, const CylinderParams& cylinder)
     : stroke_(cylinder.stroke),
       // Exhaust and supply are samples themselves: the flow has its kinks there.
-      step_((valve.supply - valve.exhaust) / static_cast<double>(kPressures - 1 - 2 * kBeyond)),
+      step_((valve.supply - valve.exhaust) / static_cast<double>(kPressures - 1 - 2 * kBeyondEnds)),
       flows_(kOpenings * kPressures) {
-  low_ = valve.exhaust - step_ * static_cast<double>(kBeyond);
+  low_ = valve.exhaust - step_ * static_cast<double>(kBeyondEnds);
   const std::size_t centre = kOpenings / 2;
   for (std::size_t i = 0; i <= centre; ++i) {
     // Exactly symmetric, with exact ends.

@@ -9,6 +9,7 @@
 #include "artus/core/byte_stream.h"
 #include "artus/core/csv.h"
 #include "artus/core/markup.h"
+#include "artus/core/printed.h"
 #include "artus/core/progress.h"
 #include "artus/core/text_cursor.h"
 #include "artus/core/text_file.h"
@@ -219,6 +220,13 @@ TEST(PlainName, IsLettersDigitsAndOneMore) {
   EXPECT_TRUE(is_plain_name("a_1", '_'));
   for (const char* wrong : {"", "A", "a-b", "a b"})
     EXPECT_FALSE(is_plain_name(wrong, '_')) << wrong;
+}
+
+TEST(Printed, IsWhatPrintfPrintsHoweverLong) {
+  EXPECT_EQ(printed("%.1f mm of %s", 2.25, "fat"), "2.2 mm of fat");
+  EXPECT_EQ(printed("nothing"), "nothing");
+  const std::string name(5000, 'a');
+  EXPECT_EQ(printed("<%s>", name.c_str()), "<" + name + ">");
 }
 
 TEST(Units, AreTheirDefinitions) {

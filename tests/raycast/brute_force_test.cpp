@@ -11,6 +11,7 @@
 
 #include "artus/raycast/scene.h"
 #include "tests/support/layered_body.h"
+#include "tests/support/trials.h"
 
 namespace artus {
 namespace {
@@ -30,7 +31,7 @@ Comparison compare(const CompiledJoint& joint, const Vec3& centre, double half, 
                    std::uint64_t seed) {
   const Scene scene(std::make_shared<const CompiledJoint>(joint));
   Comparison comparison;
-  for (int i = 0; i < segments; ++i) {
+  for (int i = 0; i < test::trials(segments); ++i) {
     const auto n = static_cast<std::uint64_t>(i);
     const Segment segment{test::random_point(seed, 2 * n, centre, half),
                           test::random_point(seed, 2 * n + 1, centre, half)};
@@ -64,7 +65,7 @@ TEST(FindIntervals, AgreesWithAllTrianglesOfNestedSpheresFarFromTheOrigin) {
       {{"skin", 0.06}, {"fat", 0.058}, {"muscle", 0.045}, {"tendon", 0.03}, {"bone", 0.02}}};
   const CompiledJoint joint = test::make_nested_spheres(layers, kFarOrigin, 2);
   const Comparison result = compare(joint, kFarOrigin, 0.08, 100'000, 11);
-  EXPECT_GT(result.queries, 70'000);
+  EXPECT_GT(result.queries, test::trials(70'000));
   EXPECT_EQ(result.different, 0);
   EXPECT_LT(result.worst, 5e-8);  // within 10 nm of an edge the neighbour's plane may be taken
   EXPECT_LE(result.coarse, 5);
@@ -73,7 +74,7 @@ TEST(FindIntervals, AgreesWithAllTrianglesOfNestedSpheresFarFromTheOrigin) {
 TEST(FindIntervals, AgreesWithAllTrianglesWhereManyRegionsMeet) {
   const auto body = test::make_cell_body(5, 0.02, kFarOrigin, 5, 0.2, 7);
   const Comparison result = compare(body.joint, kFarOrigin, 0.07, 100'000, 12);
-  EXPECT_GT(result.queries, 80'000);
+  EXPECT_GT(result.queries, test::trials(80'000));
   EXPECT_EQ(result.different, 0);
   EXPECT_LT(result.worst, 5e-8);  // within 10 nm of an edge the neighbour's plane may be taken
   EXPECT_LE(result.coarse, 5);
@@ -82,7 +83,7 @@ TEST(FindIntervals, AgreesWithAllTrianglesWhereManyRegionsMeet) {
 TEST(FindNearest, AgreesWithAllTriangles) {
   const auto body = test::make_cell_body(5, 0.02, kFarOrigin, 5, 0.2, 8);
   const Scene scene(std::make_shared<const CompiledJoint>(body.joint));
-  for (std::uint64_t i = 0; i < 5000; ++i) {
+  for (std::uint64_t i = 0; i < static_cast<std::uint64_t>(test::trials(5000)); ++i) {
     const Vec3 p = test::random_point(13, i, kFarOrigin, 0.08);
     const double expected = test::brute_force_distance(body.joint.mesh, p);
     const NearestInterface nearest = scene.find_nearest(p, 1);
@@ -127,7 +128,7 @@ TEST(SignedDistanceToSkin, HasTheSignOfTheRegionAndTheDistanceOfTheSkin) {
   std::erase_if(skin.interfaces, [](const Interface& face) {
     return face.front != kOutside && face.back != kOutside;
   });
-  for (std::uint64_t i = 0; i < 5000; ++i) {
+  for (std::uint64_t i = 0; i < static_cast<std::uint64_t>(test::trials(5000)); ++i) {
     const Vec3 p = test::random_point(16, i, kFarOrigin, 0.08);
     const double distance = scene.signed_distance_to_skin(p, 1);
     EXPECT_NEAR(std::abs(distance), test::brute_force_distance(skin, p), 1e-12);

@@ -10,6 +10,7 @@
 #include "artus/session/image_core.h"
 #include "tests/session/session_support.h"
 #include "tests/support/meshed_block.h"
+#include "tests/support/trials.h"
 
 namespace artus {
 namespace {
@@ -62,7 +63,7 @@ TEST(TissueCore, GivesTheSameBytesAgain) {
     ImageCore core(scene, params);
     ASSERT_TRUE(core.refusal().empty()) << core.refusal();
     std::vector<std::uint64_t> digests;
-    for (std::uint64_t i = 1; i <= 40; ++i) {
+    for (std::uint64_t i = 1; i <= 4 * static_cast<std::uint64_t>(test::trials(10)); ++i) {
       FrameInput input;
       input.controls = controls_of(params);
       input.X_JP =
