@@ -5,7 +5,8 @@
 
 namespace artus {
 
-/// What printf would print of numbers and C strings, of any length; empty for a pattern that it refuses.
+/// What printf would print of numbers and C strings, of any length; empty for a pattern that it
+/// refuses.
 template <class... Values>
 [[nodiscard]] std::string printed(const char* pattern, Values... values) {
   const int size = std::snprintf(nullptr, 0, pattern, values...);

@@ -24,4 +24,11 @@ Result<void> for_lines(
   return {};
 }
 
+std::string_view trimmed(std::string_view text) noexcept {
+  constexpr std::string_view kBlank(" \t\r\n\0", 5);
+  const std::size_t first = text.find_first_not_of(kBlank);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
+}
+
 }  // namespace artus

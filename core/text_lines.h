@@ -15,4 +15,7 @@ namespace artus {
     std::string_view text, const std::string& name,
     const std::function<Result<void>(std::string_view line, const std::string& where)>& each);
 
+/// Without the spaces, tabs, ends of lines and NULs around it; a view of the same characters.
+[[nodiscard]] std::string_view trimmed(std::string_view text) noexcept;
+
 }  // namespace artus

@@ -1,40 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/exchange/remote_command.h"
 
+#include "artus/core/markup.h"
+#include "artus/core/text_lines.h"
+
 namespace artus {
-namespace {
-
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '&':
-        out += "&amp;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
-
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view kBlank(" \t\r\n\0", 5);
-  const std::size_t first = text.find_first_not_of(kBlank);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
-}
-
-}  // namespace
+namespace {}  // namespace
 
 RemoteCommand remote_command_of(const igtl::CommandText& command) {
   RemoteCommand out{command.name, {}};
@@ -58,7 +29,7 @@ igtl::Message answer_message(const igtl::Message& asked, const igtl::CommandText
   igtl::CommandText said = command;
   said.encoding = 3;
   said.content = std::string("<Command><Result>") + (answer.done ? "true" : "false") +
-                 "</Result><Message>" + escaped(answer.text) + "</Message></Command>";
+                 "</Result><Message>" + escape_markup(answer.text) + "</Message></Command>";
   igtl::Message message;
   message.type = "RTS_COMMAND";
   message.device = asked.device;

@@ -9,6 +9,7 @@
 #include "artus/core/check.h"
 #include "artus/core/text_cursor.h"
 #include "artus/core/text_file.h"
+#include "artus/core/text_lines.h"
 #include "artus/exchange/reference_frame.h"
 
 namespace artus {
@@ -41,12 +42,6 @@ void put_matrix(std::string& out, std::size_t i, const char* name, const igtl::M
   const std::string key = std::string(name) + "ToReferenceTransform";
   put(out, frame_key(i, key.c_str()), numbers);
   put(out, frame_key(i, (key + "Status").c_str()), matrix != nullptr ? "OK" : "INVALID");
-}
-
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
-  while (!text.empty() && (text.back() == ' ' || text.back() == '\r')) text.remove_suffix(1);
-  return text;
 }
 
 /// The header's fields; `bytes` goes on behind it.

@@ -229,6 +229,12 @@ TEST(Printed, IsWhatPrintfPrintsHoweverLong) {
   EXPECT_EQ(printed("<%s>", name.c_str()), "<" + name + ">");
 }
 
+TEST(Trimmed, LosesWhatIsBlankAroundIt) {
+  EXPECT_EQ(trimmed("\t a b \r\n"), "a b");
+  EXPECT_EQ(trimmed(std::string_view("x\0\0", 3)), "x");
+  EXPECT_EQ(trimmed("  \n"), "");
+}
+
 TEST(Units, AreTheirDefinitions) {
   EXPECT_DOUBLE_EQ(kDegree * 180, std::numbers::pi);
   EXPECT_DOUBLE_EQ(kDecibelPerNeper, 20 / std::log(10.0));
