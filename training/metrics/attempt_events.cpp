@@ -4,18 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
+#include "artus/core/printed.h"
 #include "artus/core/units.h"
 
 namespace artus {
 namespace {
-
-std::string text_of(const char* format, double value) {
-  std::array<char, 120> text{};
-  static_cast<void>(std::snprintf(text.data(), text.size(), format, value));
-  return text.data();
-}
 
 std::size_t index_at(const std::vector<CoursePoint>& course, double time) {
   const auto at = std::lower_bound(course.begin(), course.end(), time,
@@ -43,11 +37,11 @@ std::string cause_of(const AttemptView& view, const Run& run) {
   if (sight == nullptr) return "the tip was not seen";
   switch (sight->loss) {
     case SightLoss::off_plane:
-      return text_of(sight->offset > 0 ? "the tip was %.1f mm in front of the plane"
+      return printed(sight->offset > 0 ? "the tip was %.1f mm in front of the plane"
                                        : "the tip was %.1f mm behind the plane",
                      std::abs(sight->offset) / kMillimetre);
     case SightLoss::angle:
-      return text_of("the needle stood at %.0f degrees to the probe's face and sent its echo away",
+      return printed("the needle stood at %.0f degrees to the probe's face and sent its echo away",
                      sight->face_angle / kDegree);
     case SightLoss::shadow:
       return "the tip was in the shadow of " + view.scene.joint().regions[sight->shadow].name;
@@ -73,29 +67,32 @@ std::vector<AttemptEvent> find_events(const AttemptView& view) {
     events.push_back({time, std::move(kind), region, value, std::move(text)});
   };
   const CourseTotals sum = sum_course(m.course);
-  if (sum.first_contact) put(*sum.first_contact, "contact", 0, "the needle went through the skin");
+  if (sum.first_contact)
+    put(*sum.first_contact, "contact", 0,
+        m.course.front().inside() ? "the needle was in the body from the beginning"
+                                  : "the needle went through the skin");
   for (const Run& run : sum_sight(m.course, m.sights).unseen)
     put(run.from, "unseen", run.amount / kMillimetre, cause_of(view, run));
   for (const FeltTouch& touch : m.touches)
     put(touch.time, "bone", touch.peak,
-        text_of("the tip came onto bone at %.0f mm/s", touch.speed / kMillimetre));
+        printed("the tip came onto bone at %.0f mm/s", touch.speed / kMillimetre));
   for (const AvoidZone& zone : view.options.goals.avoid) {
     const Intrusion in = find_intrusion(zone, m.course);
     if (in.first)
       put(*in.first, "avoid:" + zone.name, in.depth / kMillimetre,
-          text_of("the tip went %.1f mm into the zone around ", in.depth / kMillimetre) +
+          printed("the tip went %.1f mm into the zone around ", in.depth / kMillimetre) +
               zone.name);
   }
   const auto passes = find_passes(m.course);
   for (std::size_t i = 1; i < passes.size(); ++i)
     put(passes[i], "pass", static_cast<double>(i + 1), "the needle was brought forward again");
   for (const Run& run : find_idle(m.course))
-    put(run.from, "idle", run.amount, text_of("nothing moved for %.1f s", run.amount));
+    put(run.from, "idle", run.amount, printed("nothing moved for %.1f s", run.amount));
   if (const auto placed = find_placement(m.course)) {
     const auto& target = view.options.goals.target;
     const double off = target ? distance_to(*target, m.course[*placed].tip) / kMillimetre : 0;
     put(m.course[*placed].time, "placed", off,
-        target ? text_of("the needle was placed %.1f mm from the target", off)
+        target ? printed("the needle was placed %.1f mm from the target", off)
                : "the needle was placed");
   }
   std::stable_sort(events.begin(), events.end(),

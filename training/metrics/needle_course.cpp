@@ -4,13 +4,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "artus/core/units.h"
 #include "artus/training/metrics/closed_body.h"
 #include "artus/training/metrics/swept_area.h"
 
 namespace artus {
 namespace {
 
-constexpr double kRestSpeed = 2e-3;  // m/s
+constexpr double kRestSpeed = 2e-3;    // m/s
+constexpr double kRestTime = 0.5;      // s over which a shaft at rest
+constexpr double kRestTurn = kDegree;  // has turned less than this. assumed
+constexpr double kTurnBack = 0.5e-3;   // m of the way at which an advance has begun. assumed
 
 double angle_between(const Vec3& a, const Vec3& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
@@ -83,11 +87,22 @@ std::vector<Run> find_idle(std::span<const CoursePoint> course, double speed, do
   return runs;
 }
 
+namespace {
+
+/// Whether the needle neither moves nor turns at point `i`.
+bool rests(std::span<const CoursePoint> course, std::size_t i) {
+  if (speed_at(course, i) >= kRestSpeed) return false;
+  const auto steps = static_cast<std::size_t>(std::lround(kRestTime * kTrackRate));
+  return angle_between(course[i - std::min(i, steps)].axis, course[i].axis) < kRestTurn;
+}
+
+}  // namespace
+
 std::vector<double> find_passes(std::span<const CoursePoint> course, double way) {
   std::vector<double> starts;
   bool inward = true;
-  double extreme = 0;       // m, deepest of this pass or shallowest since it
-  double extreme_time = 0;  // s
+  double extreme = 0;    // m, deepest of this pass or shallowest since it
+  double turn_time = 0;  // s, when it was last there
   for (const CoursePoint& now : course) {
     if (starts.empty()) {
       if (!now.inside()) continue;
@@ -96,12 +111,14 @@ std::vector<double> find_passes(std::span<const CoursePoint> course, double way)
     }
     if (inward ? now.depth > extreme : now.depth < extreme) {
       extreme = now.depth;
-      extreme_time = now.time;
+      turn_time = now.time;
+    } else if (!inward && now.depth - extreme < kTurnBack) {
+      turn_time = now.time;
     } else if (std::abs(now.depth - extreme) >= way) {
       inward = !inward;
-      if (inward) starts.push_back(extreme_time);
+      if (inward) starts.push_back(turn_time);
       extreme = now.depth;
-      extreme_time = now.time;
+      turn_time = now.time;
     }
   }
   return starts;
@@ -124,7 +141,7 @@ std::vector<double> find_redirections(std::span<const CoursePoint> course, doubl
       rest_axis.reset();
       deepest = now.depth;
     }
-    if (speed_at(course, i) >= kRestSpeed) continue;
+    if (!rests(course, i)) continue;
     if (rest_axis && angle_between(*rest_axis, now.axis) > angle) times.push_back(now.time);
     if (!rest_axis || angle_between(*rest_axis, now.axis) > angle) rest_axis = now.axis;
   }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "artus/core/units.h"
 #include "artus/training/metrics/closed_body.h"
 #include "artus/training/metrics/force_layers.h"
 #include "artus/training/metrics/goals.h"
@@ -99,6 +100,31 @@ TEST(Course, RedirectionsAreTurnsBetweenRests) {
   EXPECT_EQ(find_redirections(make_course(*scene, track)).size(), 0U);
   rest(0.2, 20);
   EXPECT_EQ(find_redirections(make_course(*scene, track)).size(), 1U);
+}
+
+TEST(Course, APassBeginsWhereTheNeedleTurnsHoweverLongItRestsThere) {
+  const auto course = course_of({-5, 30, 10, 10, 10, 30}, 50);  // 2.5 s each
+  const auto passes = find_passes(course);
+  ASSERT_EQ(passes.size(), 2U);
+  EXPECT_NEAR(passes[1], 12.5, 0.15);
+}
+
+TEST(Course, OneSlowTurnIsOneRedirection) {
+  const auto scene = test::make_layered_scene();
+  for (const double rate : {3.0, 10.0}) {  // degrees a second about the tip
+    std::vector<TrackPoint> track;
+    const auto add = [&](double angle) {
+      TrackPoint p;
+      p.time = 0.05 * static_cast<double>(track.size());
+      p.q = Eigen::Quaterniond(Eigen::AngleAxisd(angle * kDegree, Vec3::UnitY()));
+      p.p = Vec3(0, 0, 10e-3);
+      track.push_back(p);
+    };
+    for (int i = 0; i < 40; ++i) add(0);
+    for (double angle = 0; angle < 24; angle += 0.05 * rate) add(angle);
+    for (int i = 0; i < 40; ++i) add(24);
+    EXPECT_EQ(find_redirections(make_course(*scene, track)).size(), 1U) << rate;
+  }
 }
 
 TEST(Goals, ARestBeforeTheWithdrawalIsThePlacement) {
