@@ -34,6 +34,9 @@ void add_tick(AttemptMeter& meter, const HapticSnapshot& snapshot, double period
   felt.on_bone = snapshot.feedback.contact == static_cast<std::uint32_t>(ContactState::bone);
   felt.tip = vector_of(snapshot.X_JN.position);
   meter.add_felt(felt);
+  const PlungerFeedback& plunger = snapshot.feedback.plunger;
+  meter.add_syringe({time, plunger.flow, plunger.given, plunger.thumb_force, plunger.pressure,
+                     felt.region, felt.tip});
 }
 
 ImageSight sight_of(const Transducer& transducer, const Frame& frame) {

@@ -31,12 +31,18 @@ TEST(SessionMeter, LiveAndRecordedAreTheSameToTheLastDigit) {
   HapticCore haptics(scene, params);
   ImageCore images(scene, params);
   std::uint64_t frames = 0;
+  double given = 0;
   for (std::uint64_t n = 1; n <= 3000; ++n) {
     TickInput input;
     input.tick = n;
     const double z = n < 2000 ? -5e-3 + 17e-6 * static_cast<double>(n) : 29e-3;
     input.device = test::sample_at(z, static_cast<std::int64_t>(n) * 1000000, n);
+    if (n > 1000 && n < 1600) {
+      input.device.plunger = PlungerSign::force;
+      input.device.plunger_force = 10;
+    }
     const HapticSnapshot& out = haptics.step(input);
+    given = out.feedback.plunger.given;
     add_tick(live, out, period);
     put(file, RecordStart::kTick, to_record(out));
     if (n % 500 != 0) continue;
@@ -55,6 +61,12 @@ TEST(SessionMeter, LiveAndRecordedAreTheSameToTheLastDigit) {
   ASSERT_NE(contacts, nullptr);
   EXPECT_TRUE(contacts->value);
   EXPECT_TRUE(find_metric(replayed->metrics, "tip_visible")->value);
+  EXPECT_GT(given, 0.01e-6);
+  EXPECT_NEAR(find_metric(replayed->metrics, "given_ml")->value.value_or(0), 1e6 * given, 1e-9);
+  double in_layers = 0;
+  for (const Metric& m : replayed->metrics)
+    if (m.name.rfind("given_ml:", 0) == 0) in_layers += m.value.value_or(0);
+  EXPECT_NEAR(in_layers, 1e6 * given, 1e-9);
 }
 
 TEST(SessionMeter, TakesATickWithoutMemory) {

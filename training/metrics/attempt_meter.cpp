@@ -37,6 +37,8 @@ AttemptMeasures AttemptMeter::measure() const {
   out.sights = look_along(*scene_, finder_, out.needle, out.probe);
   out.layers = forces_.layers();
   out.touches = forces_.touches();
+  out.syringe = syringe_.totals();
+  out.doses = syringe_.doses();
   const AttemptView view{*scene_, options_, out, images_, forces_.empty(), forces_.touch_count()};
   out.metrics = compute_metrics(view);
   out.events = find_events(view);

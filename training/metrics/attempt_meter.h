@@ -10,6 +10,7 @@
 #include "artus/training/metrics/needle_course.h"
 #include "artus/training/metrics/raw_motion.h"
 #include "artus/training/metrics/sight_course.h"
+#include "artus/training/metrics/syringe_course.h"
 #include "artus/training/metrics/tip_sight.h"
 
 namespace artus {
@@ -40,6 +41,8 @@ struct AttemptMeasures {
   std::vector<std::optional<TipSight>> sights;
   std::vector<LayerForce> layers;
   std::vector<FeltTouch> touches;
+  SyringeTotals syringe;
+  std::vector<Dose> doses;
   std::vector<Metric> metrics;
   std::vector<Metric> raw;  ///< PerkTutor's rows from the 20 Hz tracks
   std::vector<AttemptEvent> events;
@@ -61,6 +64,7 @@ class AttemptMeter {
     probe_.add(time, p, q);
   }
   ARTUS_REALTIME void add_felt(const FeltTick& tick) noexcept { forces_.add(tick); }
+  ARTUS_REALTIME void add_syringe(const SyringeTick& tick) noexcept { syringe_.add(tick); }
   void add_sight(const ImageSight& sight) { images_.push_back(sight); }
 
   [[nodiscard]] const MeterOptions& options() const noexcept { return options_; }
@@ -75,6 +79,7 @@ class AttemptMeter {
   PoseSampler needle_;
   PoseSampler probe_;
   ForceLayers forces_;
+  SyringeCourse syringe_;
   std::vector<ImageSight> images_;
 };
 

@@ -241,6 +241,66 @@ void put_forces(Sheet& sheet, const AttemptView& view) {
   }
 }
 
+void put_doses(Sheet& sheet, const AttemptView& view) {
+  const auto& doses = view.measures.doses;
+  const auto& target = view.options.goals.target;
+  const double given = view.measures.syringe.given;
+  const auto share = [given](double part) {
+    return given > 0 ? Value(part / given) : Value();
+  };
+  double off = 0;
+  double in_target = 0;
+  std::vector<double> by_region(view.scene.joint().regions.size());
+  for (const Dose& dose : doses) {
+    if (dose.region < by_region.size()) by_region[dose.region] += dose.volume;
+    if (!target) continue;
+    const double distance = distance_to(*target, dose.tip);
+    off += dose.volume * distance;
+    if (distance <= 0) in_target += dose.volume;
+  }
+  if (target) {
+    const auto mean = share(off);
+    sheet.put("syringe", "given_distance_mm", "mm", mean ? Value(*mean / kMillimetre) : mean,
+              "tip to " + target->name + ", mean over the volume given");
+    sheet.put("syringe", "in_target", "-", target->body ? share(in_target) : Value(),
+              "share of the volume that was given with the tip in " + target->name);
+  }
+  for (std::size_t i = 0; i < by_region.size(); ++i)
+    if (by_region[i] > 0)
+      sheet.put("syringe", "given_ml:" + view.scene.joint().regions[i].name, "ml",
+                by_region[i] / kCubicCentimetre, "given with the tip in this layer");
+}
+
+void put_syringe(Sheet& sheet, const AttemptView& view) {
+  sheet.rule({"none, every tick", 0});
+  const SyringeTotals& sum = view.measures.syringe;
+  const auto when = [&sum](double value) {
+    return sum.used ? Value(value) : Value();
+  };
+  sheet.put("syringe", "given_ml", "ml", when(sum.given / kCubicCentimetre),
+            "out of the tip in all, whatever was drawn back");
+  sheet.put("syringe", "flow_mean_ml_s", "ml/s",
+            sum.flowing > 0 ? Value(sum.given / sum.flowing / kCubicCentimetre) : Value(),
+            "volume given over the time that it flowed (more than 1 ul/s)");
+  sheet.put("syringe", "flow_peak_ml_s", "ml/s", when(sum.peak_flow / kCubicCentimetre),
+            "largest flow");
+  sheet.put("syringe", "plunger_peak_n", "N", when(sum.peak_thumb), "largest force on the thumb");
+  sheet.put("syringe", "pressure_peak_kpa", "kPa", when(sum.peak_pressure / 1e3),
+            "largest pressure in the barrel");
+  sheet.put("syringe", "tip_drift_mm", "mm", when(sum.tip_drift / kMillimetre),
+            "farthest way of the tip from where a flow began, while it lasted");
+  sheet.put("syringe", "test_dose_ml", "ml",
+            sum.pauses > 0 ? Value(sum.test_dose / kCubicCentimetre) : Value(),
+            "given before the first pause of 2 s or more; none when nothing came after one");
+  sheet.put("syringe", "look_pauses", "count", when(sum.pauses),
+            "pauses of 2 s or more between two flows");
+  sheet.put("syringe", "aspirations", "count", when(sum.aspirations),
+            "times that the barrel's pressure was below -5 kPa for 2 s or more");
+  sheet.put("syringe", "aspirated_first", "-", when(sum.aspirated_first ? 1 : 0),
+            "1 when one of them came before anything was given");
+  put_doses(sheet, view);
+}
+
 void put_images(Sheet& sheet, const AttemptView& view) {
   sheet.rule({"none, every picture", 0});
   const auto& course = view.measures.course;
@@ -272,6 +332,7 @@ std::vector<Metric> compute_metrics(const AttemptView& view) {
   put_sight(sheet, view);
   put_goals(sheet, view);
   put_forces(sheet, view);
+  put_syringe(sheet, view);
   put_images(sheet, view);
   return sheet.take();
 }

@@ -4,8 +4,6 @@
 #include "artus/core/csv.h"
 
 namespace artus {
-namespace {}  // namespace
-
 const Metric* find_metric(std::span<const Metric> metrics, const std::string& name,
                           const std::string& role) noexcept {
   for (const Metric& m : metrics)

@@ -106,6 +106,7 @@ TEST(AttemptMeter, TakesPosesAndForcesInTheTick) {
   ARTUS_RUNS_REALTIME(AttemptMeter::add_needle, meter.add_needle(1, Vec3::Zero(), q));
   ARTUS_RUNS_REALTIME(AttemptMeter::add_probe, meter.add_probe(1, Vec3::Zero(), q));
   ARTUS_RUNS_REALTIME(AttemptMeter::add_felt, meter.add_felt({}));
+  ARTUS_RUNS_REALTIME(AttemptMeter::add_syringe, meter.add_syringe({}));
 }
 
 TEST(AttemptMeter, WithoutPosesNothingIsClaimed) {
