@@ -9,6 +9,7 @@
 
 #include "artus/anatomy/compile/compile_surfaces.h"
 #include "artus/anatomy/compile/joint_check.h"
+#include "artus/anatomy/surfaces/enclosed_volume.h"
 #include "artus/anatomy/surfaces/surface_io.h"
 #include "artus/apps/command.h"
 #include "artus/apps/joint_report.h"
@@ -47,7 +48,8 @@ nlohmann::json to_json(const Result<RepairOutcome>& outcome) {
     actions.push_back(
         {{"kind", to_string(action.kind)}, {"count", action.count}, {"message", action.message}});
   return {{"actions", actions},
-          {"volume_cm3", outcome->volume / kCubicCentimetre},
+          {"volume_cm3", enclosed_volume(outcome->mesh) / kCubicCentimetre},
+          {"overlap", describe_overlap(outcome->mesh)},
           {"triangles", outcome->mesh.triangles.size()},
           {"self_intersections_left", outcome->self_intersections}};
 }
@@ -59,7 +61,9 @@ void print(const Result<RepairOutcome>& outcome) {
   }
   std::printf("%s: %zu triangles, %.3f cm3\n",
               outcome->actions.empty() ? "accepted unchanged" : "accepted after repair",
-              outcome->mesh.triangles.size(), outcome->volume / kCubicCentimetre);
+              outcome->mesh.triangles.size(), enclosed_volume(outcome->mesh) / kCubicCentimetre);
+  if (const std::string overlap = describe_overlap(outcome->mesh); !overlap.empty())
+    std::printf("%-7s %-26s %s\n", to_string(Verdict::look), "overlap", overlap.c_str());
   for (const auto& action : outcome->actions) std::printf("repair: %s\n", action.message.c_str());
   if (outcome->self_intersections > 0)
     std::printf("%zu pairs of its faces still cut through each other; compiling tolerates that\n",

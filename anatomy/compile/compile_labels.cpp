@@ -9,6 +9,7 @@
 #include "artus/anatomy/body/joint_structure.h"
 #include "artus/anatomy/compile/compiler_version.h"
 #include "artus/anatomy/compile/construct.h"
+#include "artus/anatomy/compile/cut_faces.h"
 
 namespace artus {
 namespace {
@@ -221,8 +222,24 @@ class FieldMaker {
       cuts_[i] = std::move(made.cuts);
     } else {
       fields_[i] = make_construct_field(s, named_, sampling);
+      const auto* shell = std::get_if<ShellConstruct>(&s.shape);
+      if (shell != nullptr && shell->inside.empty()) end_at_cuts(*shell, sampling, *fields_[i]);
     }
     named_[s.name] = &*fields_[i];
+  }
+
+  // A shell of the body lines its skin alone, not where the body was cut.
+  void end_at_cuts(const ShellConstruct& shell, const FieldSampling& sampling,
+                   DistanceField& field) const {
+    if (surfaces_.body.is_cut.empty()) return;
+    const DistanceTree skin(without_cuts(surfaces_.body.mesh, surfaces_.body.is_cut));
+    const double far = shell.thickness + 2 * kFarSpacing * file_.facet_size + sampling.band;
+    const DistanceField whole = std::move(field);
+    field = DistanceField::compute(
+        [&](const Vec3& p) {
+          return std::max(whole.value(p), skin.distance(p, far) - shell.thickness);
+        },
+        sampling);
   }
 
   // What a gap takes no place of: all but its roof and floor, what is a part of these, and gaps.
