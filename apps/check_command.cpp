@@ -70,6 +70,19 @@ void print(const Result<RepairOutcome>& outcome) {
                 outcome->self_intersections);
 }
 
+/// A size that a surface in metres has when it is read as millimetres.
+std::string describe_tiny(const SurfaceMesh& mesh, const SurfaceFile& file) {
+  constexpr double kTiny = 2.5 * kMillimetre;  // a part of a body of 2.5 m, in metres
+  Eigen::AlignedBox3d box;
+  for (const Vec3& p : mesh.vertices)
+    if (p.allFinite()) box.extend(p);
+  if (file.has_own_unit || box.isEmpty() || box.diagonal().norm() >= kTiny) return {};
+  return "it measures only " + std::to_string(box.diagonal().norm() / kMillimetre) +
+         " mm from corner to corner; if its file is in metres, say so (--units m, or units = \"m\" "
+         "in "
+         "joint.toml)";
+}
+
 ExitCode check_surface(const CheckOptions& options) {
   const std::map<std::string, double> units{{"mm", 1e-3}, {"cm", 1e-2}, {"m", 1.0}};
   SurfaceFile file;
@@ -92,6 +105,7 @@ ExitCode check_surface(const CheckOptions& options) {
                                 {"triangles", mesh->triangles.size()},
                                 {"defects", list},
                                 {"repair", to_json(outcome)},
+                                {"unit", describe_tiny(*mesh, file)},
                                 {"usable", outcome.has_value()}}
                      .dump(2)
               << '\n';
@@ -99,6 +113,8 @@ ExitCode check_surface(const CheckOptions& options) {
     std::printf("%s: %zu vertices, %zu triangles, %zu kinds of defect\n", options.path.c_str(),
                 mesh->vertices.size(), mesh->triangles.size(), defects.size());
     print(outcome);
+    if (const std::string tiny = describe_tiny(*mesh, file); outcome && !tiny.empty())
+      std::printf("%-7s %-26s %s\n", to_string(Verdict::look), "unit", tiny.c_str());
     for (const auto& defect : defects)
       std::printf("%-7s %-26s %s\n", to_string(verdict_of(defect, !outcome)),
                   to_string(defect.kind), defect.message.c_str());

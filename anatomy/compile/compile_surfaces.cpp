@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/anatomy/compile/compile_surfaces.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <utility>
 
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_group.h>
 
 #include "artus/anatomy/compile/compiler_version.h"
 #include "artus/anatomy/compile/cut_faces.h"
@@ -20,8 +23,9 @@
 namespace artus {
 namespace {
 
-constexpr double kSmallestBody = 10 * kMillimetre;  // from corner to corner: a finger's tip has more
-constexpr double kMuchTwice = 0.02;                 // of a volume
+constexpr double kSmallestBody =
+    10 * kMillimetre;                // from corner to corner: a finger's tip has more
+constexpr double kMuchTwice = 0.02;  // of a volume
 
 template <class... Values>
 std::string format(const char* pattern, Values... values) {
@@ -57,11 +61,50 @@ Result<void> check_place(const SurfaceMesh& mesh) {
   const double far = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff();
   if (far <= DefectOptions().farthest) return {};
   const Vec3 middle = box.center() / kMillimetre;
-  return fail(ErrorCode::defective,
-              format("its coordinates go up to %.4g mm, and no frame of a body lies so far from its "
-                     "origin: export it in the frame of the others (its middle is at %.6g, %.6g, "
-                     "%.6g mm), or give the unit of its file (units = \"m\", \"cm\" or \"mm\")",
-                     far / kMillimetre, middle.x(), middle.y(), middle.z()));
+  return fail(
+      ErrorCode::defective,
+      format("its coordinates go up to %.4g mm, and no frame of a body lies so far from its "
+             "origin: export it in the frame of the others (its middle is at %.6g, %.6g, "
+             "%.6g mm), or give the unit of its file (units = \"m\", \"cm\" or \"mm\")",
+             far / kMillimetre, middle.x(), middle.y(), middle.z()));
+}
+
+/// A refusal of a surface with vertices that are nowhere begins with these.
+Error told_with_lost_vertices(Error error, const SurfaceMesh& mesh) {
+  const auto n = std::count_if(mesh.vertices.begin(), mesh.vertices.end(),
+                               [](const Vec3& p) { return !p.allFinite(); });
+  if (n > 0)
+    error.message = format(
+                        "the coordinates of %td of %zu vertices are no numbers; export it again. "
+                        "Of what is left: ",
+                        n, mesh.vertices.size()) +
+                    error.message;
+  return error;
+}
+
+/// The structures by the size of their files, so that no large one is begun last.
+std::vector<std::size_t> largest_first(const JointFile& file) {
+  std::vector<std::uintmax_t> sizes(file.structures.size(), 0);
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    order.push_back(i);
+    std::error_code ignored;
+    if (const auto* surface = std::get_if<SurfaceFile>(&file.structures[i].shape))
+      sizes[i] = std::filesystem::file_size(file.surface_folder / surface->file, ignored);
+    if (ignored) sizes[i] = 0;
+  }
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return sizes[a] > sizes[b]; });
+  return order;
+}
+
+/// The body cannot be left out, so that is not offered.
+Error told_of_body(Error error, const JointFile& file) {
+  constexpr std::string_view kOffer = ", or leave it out (--skip-refused)";
+  if (const auto at = error.message.find(kOffer); at != std::string::npos)
+    error.message.erase(at, kOffer.size());
+  error.where = (file.folder / "joint.toml").string();
+  return error;
 }
 
 /// What repairing made of a surface file.
@@ -139,7 +182,10 @@ Result<PreparedSurface> prepare(const JointFile& file, const SurfaceFile& surfac
   const double volume = signed_volume(prepared.mesh);
   const double area = surface_area(prepared.mesh);
   if (!(volume > 0 && area > 0)) {
-    return fail(ErrorCode::defective, "it encloses no volume", report.name);
+    return fail(ErrorCode::defective,
+                "it encloses no volume; mend it where it was made, or leave it out "
+                "(--skip-refused)",
+                report.name);
   }
   report.surface_volume = volume;
   if (std::string overlap = describe_overlap(prepared.mesh); !overlap.empty()) {
@@ -159,9 +205,10 @@ std::string describe_overlap(const SurfaceMesh& mesh) {
   const double each = signed_volume(mesh);
   const double together = enclosed_volume(mesh);
   if (each - together <= kMuchTwice * each) return {};
-  return format("its %u pieces lie in each other: %.3g cm3 counted each, %.3g cm3 together, which "
-                "is what counts; where a surface is there twice, take one copy out of the file",
-                pieces.n, each / kCubicCentimetre, together / kCubicCentimetre);
+  return format(
+      "its %u pieces lie in each other: %.3g cm3 counted each, %.3g cm3 together, which "
+      "is what counts; where a surface is there twice, take one copy out of the file",
+      pieces.n, each / kCubicCentimetre, together / kCubicCentimetre);
 }
 
 Result<PreparedSurface> prepare_surface(const JointFile& file, const SurfaceFile& surface,
@@ -173,7 +220,11 @@ Result<PreparedSurface> prepare_body(const JointFile& file, StructureReport& rep
                                      const KeptParts& parts) {
   Result<PreparedSurface> body =
       prepare(file, std::get<SurfaceFile>(file.body.shape), true, report, parts);
-  if (body && !body->is_cut.empty()) {
+  if (!body) {
+    if (body.error().code != ErrorCode::defective) return body;
+    return tl::unexpected(told_of_body(body.error(), file));
+  }
+  if (!body->is_cut.empty()) {
     double area = 0;
     for (std::size_t i = 0; i < body->is_cut.size(); ++i)
       if (body->is_cut[i] != 0) area += triangle_area(body->mesh, body->mesh.triangles[i]);
@@ -198,21 +249,26 @@ Result<RepairOutcome> repair_as_declared(const SurfaceMesh& mesh, const SurfaceF
   RepairOptions options;
   options.thicken = surface.thicken;
   if (surface.repair == "wrap") options.wrap = WrapPolicy::always;
-  return repair_surface(mesh, options);
+  Result<RepairOutcome> outcome = repair_surface(mesh, options);
+  if (!outcome) return tl::unexpected(told_with_lost_vertices(outcome.error(), mesh));
+  return outcome;
 }
 
 Result<PreparedSurfaces> prepare_surfaces(const JointFile& file,
                                           std::vector<StructureReport>& reports,
                                           const KeptParts& parts) {
   PreparedSurfaces prepared;
-  StructureReport body_report;
-  body_report.name = "body";
-  Result<PreparedSurface> body = prepare_body(file, body_report, parts);
-  ARTUS_TRY(body);
-  prepared.body = std::move(*body);
   prepared.structures.resize(file.structures.size());
+  std::optional<Result<PreparedSurface>> body;
+  tbb::task_group beside;  // the body is one of the largest
+  beside.run([&] {
+    StructureReport report;
+    report.name = "body";
+    body = prepare_body(file, report, parts);
+  });
   std::vector<std::optional<Error>> errors(file.structures.size());
-  tbb::parallel_for(std::size_t{0}, file.structures.size(), [&](std::size_t i) {
+  const std::vector<std::size_t> order = largest_first(file);
+  const auto prepare_one = [&](std::size_t i) {
     const auto* surface = std::get_if<SurfaceFile>(&file.structures[i].shape);
     if (surface == nullptr) return;
     Result<PreparedSurface> result = prepare_surface(file, *surface, reports[i], parts);
@@ -222,7 +278,21 @@ Result<PreparedSurfaces> prepare_surfaces(const JointFile& file,
     } else {
       errors[i] = result.error();
     }
-  });
+  };
+  using Range = tbb::blocked_range<std::size_t>;
+  tbb::parallel_for(
+      Range(0, order.size(), 1),
+      [&](const Range& range) {
+        for (std::size_t k = range.begin(); k < range.end(); ++k) prepare_one(order[k]);
+      },
+      tbb::simple_partitioner());
+  beside.wait();
+  if (!*body) {
+    Error error = body->error();
+    if (error.code == ErrorCode::defective) error.message = "body: " + error.message;
+    return tl::unexpected(error);
+  }
+  prepared.body = std::move(**body);
   for (std::size_t i = 0; i < errors.size(); ++i) {
     if (!errors[i]) continue;
     if (errors[i]->code != ErrorCode::defective) return tl::unexpected(*errors[i]);

@@ -33,8 +33,8 @@ std::vector<Repaired> repair_all(const JointFile& joint, const Progress& progres
     one.report.name = one.structure->name;
     const auto* surface = std::get_if<SurfaceFile>(&one.structure->shape);
     if (surface == nullptr) return;
-    auto prepared = i == 0 ? prepare_body(joint, one.report)
-                           : prepare_surface(joint, *surface, one.report);
+    auto prepared =
+        i == 0 ? prepare_body(joint, one.report) : prepare_surface(joint, *surface, one.report);
     if (prepared) {
       one.surface = std::move(*prepared);
     } else {

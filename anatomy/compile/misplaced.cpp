@@ -175,8 +175,7 @@ class Finder {
                                           : "that part is cut off";
     add(Verdict::look, file_.structures[i],
         format("%.0f %% of its surface lies outside of the skin, up to %.1f mm; %s",
-               100 * lie.outside,
-               lie.farthest / kMillimetre, rest));
+               100 * lie.outside, lie.farthest / kMillimetre, rest));
   }
 
   /// The share of its area in the region that lies clearly outside of the body, and how far, by

@@ -170,10 +170,10 @@ class Checker {
     if (!check_in_region(plan, pass.line, "entry", pass.entry)) return false;
     const double off = ground_.skin_distance(pass.entry);
     if (std::abs(off) <= kOnSkin) return true;
-    PlanProblem& problem = add(plan, pass.line,
-                               format("its entry lies %.1f mm %s the skin%s",
-                                      std::abs(off) / kMillimetre, off > 0 ? "off" : "under",
-                                      on_cut(pass.entry)));
+    PlanProblem& problem =
+        add(plan, pass.line,
+            format("its entry lies %.1f mm %s the skin%s", std::abs(off) / kMillimetre,
+                   off > 0 ? "off" : "under", on_cut(pass.entry)));
     const Vec3 way = (pass.target - pass.entry).normalized();
     const auto along = ground_.skin_along(pass.entry, way, 2 * kLongestNeedle);
     const std::optional<Vec3> skin =

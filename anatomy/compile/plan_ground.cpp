@@ -115,10 +115,10 @@ class SurfaceLayers {
     for (std::size_t i = 0; i < file_->structures.size(); ++i) {
       const Structure& s = file_->structures[i];
       const auto* shell = std::get_if<ShellConstruct>(&s.shape);
-      const bool holds = surfaces_->structures[i] ? is_inside(surfaces_->structures[i]->tree, p)
-                                                  : shell != nullptr && shell->inside.empty() &&
-                                                        skin().distance(p, shell->thickness) <
-                                                            shell->thickness;
+      const bool holds = surfaces_->structures[i]
+                             ? is_inside(surfaces_->structures[i]->tree, p)
+                             : shell != nullptr && shell->inside.empty() &&
+                                   skin().distance(p, shell->thickness) < shell->thickness;
       if (holds) return named(s.name, s.tissue);
     }
     return named(file_->filler_name, file_->body.tissue);
