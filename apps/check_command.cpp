@@ -41,6 +41,11 @@ nlohmann::json to_json(const Defect& defect, bool is_refused) {
           {"message", defect.message}};
 }
 
+/// What is there twice counts once.
+double volume_of(const RepairOutcome& outcome) {
+  return describe_overlap(outcome.mesh).empty() ? outcome.volume : enclosed_volume(outcome.mesh);
+}
+
 nlohmann::json to_json(const Result<RepairOutcome>& outcome) {
   if (!outcome) return {{"refused", outcome.error().message}};
   auto actions = nlohmann::json::array();
@@ -48,7 +53,7 @@ nlohmann::json to_json(const Result<RepairOutcome>& outcome) {
     actions.push_back(
         {{"kind", to_string(action.kind)}, {"count", action.count}, {"message", action.message}});
   return {{"actions", actions},
-          {"volume_cm3", enclosed_volume(outcome->mesh) / kCubicCentimetre},
+          {"volume_cm3", volume_of(*outcome) / kCubicCentimetre},
           {"overlap", describe_overlap(outcome->mesh)},
           {"triangles", outcome->mesh.triangles.size()},
           {"self_intersections_left", outcome->self_intersections}};
@@ -61,7 +66,7 @@ void print(const Result<RepairOutcome>& outcome) {
   }
   std::printf("%s: %zu triangles, %.3f cm3\n",
               outcome->actions.empty() ? "accepted unchanged" : "accepted after repair",
-              outcome->mesh.triangles.size(), enclosed_volume(outcome->mesh) / kCubicCentimetre);
+              outcome->mesh.triangles.size(), volume_of(*outcome) / kCubicCentimetre);
   if (const std::string overlap = describe_overlap(outcome->mesh); !overlap.empty())
     std::printf("%-7s %-26s %s\n", to_string(Verdict::look), "overlap", overlap.c_str());
   for (const auto& action : outcome->actions) std::printf("repair: %s\n", action.message.c_str());

@@ -90,7 +90,8 @@ TEST_F(CheckedJoint, ASurfaceThatIsThereTwiceCountsOnceAndIsTold) {
   const JointCheck found = check(kHead);
   EXPECT_TRUE(found.usable());
   ASSERT_EQ(found.count(Verdict::look), 1U);
-  EXPECT_THAT(found.findings.front().message, HasSubstr("4.28 cm3 counted each, 2.16 cm3 together"));
+  EXPECT_THAT(found.findings.front().message,
+              HasSubstr("4.28 cm3 counted each, 2.16 cm3 together"));
   EXPECT_NEAR(found.surfaces[1].volume, 2.16e-6, 0.03e-6);
 }
 
