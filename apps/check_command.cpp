@@ -9,6 +9,7 @@
 
 #include "artus/anatomy/compile/compile_surfaces.h"
 #include "artus/anatomy/compile/joint_check.h"
+#include "artus/anatomy/surfaces/enclosed_volume.h"
 #include "artus/anatomy/surfaces/surface_io.h"
 #include "artus/apps/command.h"
 #include "artus/apps/joint_report.h"
@@ -40,6 +41,11 @@ nlohmann::json to_json(const Defect& defect, bool is_refused) {
           {"message", defect.message}};
 }
 
+/// What is there twice counts once.
+double volume_of(const RepairOutcome& outcome) {
+  return describe_overlap(outcome.mesh).empty() ? outcome.volume : enclosed_volume(outcome.mesh);
+}
+
 nlohmann::json to_json(const Result<RepairOutcome>& outcome) {
   if (!outcome) return {{"refused", outcome.error().message}};
   auto actions = nlohmann::json::array();
@@ -47,7 +53,8 @@ nlohmann::json to_json(const Result<RepairOutcome>& outcome) {
     actions.push_back(
         {{"kind", to_string(action.kind)}, {"count", action.count}, {"message", action.message}});
   return {{"actions", actions},
-          {"volume_cm3", outcome->volume / kCubicCentimetre},
+          {"volume_cm3", volume_of(*outcome) / kCubicCentimetre},
+          {"overlap", describe_overlap(outcome->mesh)},
           {"triangles", outcome->mesh.triangles.size()},
           {"self_intersections_left", outcome->self_intersections}};
 }
@@ -59,11 +66,26 @@ void print(const Result<RepairOutcome>& outcome) {
   }
   std::printf("%s: %zu triangles, %.3f cm3\n",
               outcome->actions.empty() ? "accepted unchanged" : "accepted after repair",
-              outcome->mesh.triangles.size(), outcome->volume / kCubicCentimetre);
+              outcome->mesh.triangles.size(), volume_of(*outcome) / kCubicCentimetre);
+  if (const std::string overlap = describe_overlap(outcome->mesh); !overlap.empty())
+    std::printf("%-7s %-26s %s\n", to_string(Verdict::look), "overlap", overlap.c_str());
   for (const auto& action : outcome->actions) std::printf("repair: %s\n", action.message.c_str());
   if (outcome->self_intersections > 0)
     std::printf("%zu pairs of its faces still cut through each other; compiling tolerates that\n",
                 outcome->self_intersections);
+}
+
+/// A size that a surface in metres has when it is read as millimetres.
+std::string describe_tiny(const SurfaceMesh& mesh, const SurfaceFile& file) {
+  constexpr double kTiny = 2.5 * kMillimetre;  // a part of a body of 2.5 m, in metres
+  Eigen::AlignedBox3d box;
+  for (const Vec3& p : mesh.vertices)
+    if (p.allFinite()) box.extend(p);
+  if (file.has_own_unit || box.isEmpty() || box.diagonal().norm() >= kTiny) return {};
+  return "it measures only " + std::to_string(box.diagonal().norm() / kMillimetre) +
+         " mm from corner to corner; if its file is in metres, say so (--units m, or units = \"m\" "
+         "in "
+         "joint.toml)";
 }
 
 ExitCode check_surface(const CheckOptions& options) {
@@ -88,6 +110,7 @@ ExitCode check_surface(const CheckOptions& options) {
                                 {"triangles", mesh->triangles.size()},
                                 {"defects", list},
                                 {"repair", to_json(outcome)},
+                                {"unit", describe_tiny(*mesh, file)},
                                 {"usable", outcome.has_value()}}
                      .dump(2)
               << '\n';
@@ -95,6 +118,8 @@ ExitCode check_surface(const CheckOptions& options) {
     std::printf("%s: %zu vertices, %zu triangles, %zu kinds of defect\n", options.path.c_str(),
                 mesh->vertices.size(), mesh->triangles.size(), defects.size());
     print(outcome);
+    if (const std::string tiny = describe_tiny(*mesh, file); outcome && !tiny.empty())
+      std::printf("%-7s %-26s %s\n", to_string(Verdict::look), "unit", tiny.c_str());
     for (const auto& defect : defects)
       std::printf("%-7s %-26s %s\n", to_string(verdict_of(defect, !outcome)),
                   to_string(defect.kind), defect.message.c_str());

@@ -127,10 +127,11 @@ Result<void> write_comparison(std::span<const InjectionRun> runs, const InjectOp
 
 Result<ExitCode> inject(const InjectOptions& options) {
   ViewOptions view_options = options.view;
-  const auto view = make_view(view_options);
+  auto view = make_view(view_options);
   ARTUS_TRY(view);
   const auto joint = load(options.joint, make_progress_printer(options.json));
   ARTUS_TRY(joint);
+  take_depth(view_options, **joint, *view);
   auto request = request_of(options, **joint);
   ARTUS_TRY(request);
   const auto scene = std::make_shared<const Scene>(*joint);

@@ -44,6 +44,8 @@ void print_summary(const ThreeInjections& run, const RunImages& images,
   std::printf("%zu ticks, %zu images%s in %s\n", run.rows.size(), images.moments.size(),
               images.video.empty() ? "" : " and a video", out.c_str());
   std::printf("%s\n", count_claims(run.claims).c_str());
+  if (const std::string lack = tell_lack_of_evidence(run.claims); !lack.empty())
+    std::printf("%s\n", lack.c_str());
 }
 
 /// summary.json: what the run measured, and the images.
@@ -57,11 +59,12 @@ Result<nlohmann::json> write_summary(const ThreeInjections& run, const RunImages
 }
 
 ExitCode run_scenario(const RunOptions& options) {
-  const auto view = make_view(options.view);
+  auto view = make_view(options.view);
   if (!view) return report_error(view.error(), options.json);
   const Progress progress = make_progress_printer(options.json);
   const auto joint = load(options.joint, progress);
   if (!joint) return report_error(joint.error(), options.json);
+  take_depth(options.view, **joint, *view);
   const auto plan = make_plan(options.plan, **joint);
   if (!plan) return report_error(plan.error(), options.json);
   const auto scene = std::make_shared<const Scene>(*joint);

@@ -187,6 +187,10 @@ double find_depth(const CompiledJoint& joint) {
 
 }  // namespace
 
+void take_depth(const ViewOptions& options, const CompiledJoint& joint, View& view) {
+  if (!options.depth_mm) view.settings.depth = find_depth(joint);
+}
+
 Result<LoadedView> load_view(const JointOptions& joint_options, const ViewOptions& options,
                              bool quiet) {
   auto view = make_view(options);
@@ -197,7 +201,7 @@ Result<LoadedView> load_view(const JointOptions& joint_options, const ViewOption
   loaded.X_JP = view->probe(**joint);
   loaded.needle = view->needle(**joint);
   loaded.view = std::move(*view);
-  if (!options.depth_mm) loaded.view.settings.depth = find_depth(**joint);
+  take_depth(options, **joint, loaded.view);
   loaded.scene = std::make_shared<const Scene>(*joint);
   return loaded;
 }

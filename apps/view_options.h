@@ -64,6 +64,9 @@ struct View {
 /// Errors: malformed or invalid, with the flag as place; those of the transducer's file.
 [[nodiscard]] Result<View> make_view(const ViewOptions& options);
 
+/// Without --depth: deep enough for the joint's needle as planned.
+void take_depth(const ViewOptions& options, const CompiledJoint& joint, View& view);
+
 /// A view of a joint that is loaded and indexed.
 struct LoadedView {
   View view;

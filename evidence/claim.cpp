@@ -92,6 +92,15 @@ std::string count_claims(std::span<const Claim> claims) {
          "; " + others(ClaimKind::input, " inputs checked");
 }
 
+std::string tell_lack_of_evidence(std::span<const Claim> claims) {
+  const bool has_evidence = std::any_of(claims.begin(), claims.end(), [](const Claim& c) {
+    return c.basis.kind == ClaimKind::independent;
+  });
+  if (has_evidence) return {};
+  return "no claim is independent: that they hold shows that what was put in comes out, and is no "
+         "evidence that the joint is right";
+}
+
 std::string to_line(const Claim& claim) {
   return std::string(claim.pass ? "holds" : "FAILS") + "  " + to_string(claim.basis.kind) + "  " +
          claim.text + ": " + in_short(claim.value) + " (" + claim.bound + ")";
@@ -121,7 +130,9 @@ nlohmann::json verdict(std::span<const Claim> claims) {
   for (const ClaimKind kind : kKinds)
     counts[to_string(kind)] = {{"hold", count(claims, kind, true)},
                                {"fail", count(claims, kind, false)}};
-  return {{"pass", all_hold(claims)}, {"counts", counts}, {"claims", list}};
+  nlohmann::json all{{"pass", all_hold(claims)}, {"counts", counts}, {"claims", list}};
+  if (const std::string lack = tell_lack_of_evidence(claims); !lack.empty()) all["evidence"] = lack;
+  return all;
 }
 
 }  // namespace artus

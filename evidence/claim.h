@@ -53,6 +53,10 @@ struct Claim {
 /// are said apart.
 [[nodiscard]] std::string count_claims(std::span<const Claim> claims);
 
+/// Nothing, or a sentence that says what claims are worth when none is independent: that they hold
+/// is no evidence.
+[[nodiscard]] std::string tell_lack_of_evidence(std::span<const Claim> claims);
+
 /// "FAILS  independent  ejection: 0.34 (<= 0.2 mm)"
 [[nodiscard]] std::string to_line(const Claim& claim);
 

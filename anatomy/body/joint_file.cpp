@@ -53,6 +53,16 @@ bool is_right_handed_frame(const std::string& axes) {
   return m.determinant() > 0.5;
 }
 
+constexpr double kFarthest = 10;  // m from the origin: no frame of a body lies farther
+
+/// A place in the joint's frame, in metres.
+Vec3 required_place(TomlTable& toml, std::string_view key, double unit) {
+  const Vec3 place = toml.required_vector(key, unit);
+  if (place.cwiseAbs().maxCoeff() > kFarthest)
+    toml.problem_at(key, "lies more than 10 m from the origin; see to its unit and frame");
+  return place;
+}
+
 int line_of(const toml::table& table) {
   return static_cast<int>(table.source().begin.line);
 }
@@ -97,7 +107,7 @@ void read_region(TomlTable& toml, double unit, JointFile& joint) {
   if (table == nullptr) return;
   TomlTable region(*table, "region_of_interest", toml.problems());
   RegionOfInterest roi;
-  roi.centre = region.required_vector("centre", unit);
+  roi.centre = required_place(region, "centre", unit);
   roi.radius = region.number("radius", 0, kLargestCoordinate, unit).value_or(0);
   roi.half_extent = region.vector("half_extent", unit);
   if (region.has("radius") == region.has("half_extent"))
@@ -105,6 +115,8 @@ void read_region(TomlTable& toml, double unit, JointFile& joint) {
   else if (region.has("radius") ? !(roi.radius > 0)
                                 : roi.half_extent && !(roi.half_extent->minCoeff() > 0))
     region.problem("must have a size greater than 0");
+  else if (std::max(roi.radius, roi.half_extent.value_or(Vec3::Zero()).maxCoeff()) > kFarthest)
+    region.problem("is larger than 10 m; give its size in the unit of the file, or leave it out");
   region.finish();
   joint.region_of_interest = roi;
 }
@@ -114,7 +126,7 @@ void read_landmarks(TomlTable& toml, double unit, JointFile& joint) {
     TomlTable landmark(*table, "landmark", toml.problems());
     Landmark out;
     out.name = landmark.required_text("name");
-    out.position = landmark.required_vector("position", unit);
+    out.position = required_place(landmark, "position", unit);
     landmark.finish();
     const bool is_taken = std::any_of(joint.landmarks.begin(), joint.landmarks.end(),
                                       [&](const Landmark& l) { return l.name == out.name; });
@@ -128,7 +140,7 @@ void read_probe(TomlTable& toml, double unit, JointFile& joint) {
   if (table == nullptr) return;
   TomlTable probe(*table, "probe", toml.problems());
   joint.probe_line = line_of(*table);
-  const Vec3 position = probe.required_vector("position", unit);
+  const Vec3 position = required_place(probe, "position", unit);
   const Vec3 direction = probe.required_vector("direction");
   const Vec3 lateral = probe.vector("lateral").value_or(Vec3::Zero());
   if (probe.has("direction") && !(direction.norm() > 0))
@@ -142,8 +154,8 @@ void read_probe(TomlTable& toml, double unit, JointFile& joint) {
 
 /// Entry and target of a needle pass, which must be two points.
 void read_pass(TomlTable& pass, double unit, Vec3& entry, Vec3& target) {
-  entry = pass.required_vector("entry", unit);
-  target = pass.required_vector("target", unit);
+  entry = required_place(pass, "entry", unit);
+  target = required_place(pass, "target", unit);
   if (pass.has("entry") && pass.has("target") && (target - entry).norm() < 1e-9)
     pass.problem("'entry' and 'target' must not be the same point");
 }

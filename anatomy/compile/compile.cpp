@@ -11,6 +11,7 @@
 #include "artus/anatomy/compile/compile_measure.h"
 #include "artus/anatomy/compile/compile_surfaces.h"
 #include "artus/anatomy/compile/compile_warnings.h"
+#include "artus/anatomy/compile/cut_faces.h"
 #include "artus/anatomy/compile/dress_body.h"
 #include "artus/anatomy/compile/fit_interfaces.h"
 #include "artus/anatomy/compile/isolated.h"
@@ -98,6 +99,21 @@ RegionId front_of_hull(const RegionLabels& labels, const Vec3& p) {
 double smallest_part(const std::vector<RegionSizing>& sizing, RegionId region) {
   const double size = sizing[region].facet_size;
   return size * size * size / 2;
+}
+
+// Where the body was cut it goes on beyond, as it does where the region of interest ends.
+void mark_cuts(TetMesh& mesh, const PreparedSurface& body) {
+  if (body.is_cut.empty()) return;
+  const DistanceTree cut(without_cuts(body.mesh, body.is_cut, true));
+  const DistanceTree skin(without_cuts(body.mesh, body.is_cut));
+  constexpr double kNear = 5e-3;  // m, no face of the hull lies farther from the body's surface
+  for (Interface& f : mesh.interfaces) {
+    if (f.front != kOutside) continue;
+    Vec3 centre = Vec3::Zero();
+    for (const auto v : f.vertices) centre += mesh.vertices[v] / 3;
+    const double to_cut = cut.distance(centre, kNear);
+    if (to_cut < kNear && to_cut < skin.distance(centre, kNear)) f.front = kBeyond;
+  }
 }
 
 // A mesh and who shares its faces.
@@ -196,6 +212,9 @@ Result<CompileOutcome> compile_joint(const JointFile& file, const CompileOptions
   space->labels.layers.shrink_to_fit();
   space->labels.index = {};
   ARTUS_TRY(fill(*complex, *space, stages, report));
+  mark_cuts(complex->mesh, surfaces->body);
+  for (const std::string& warning : surfaces->body.warnings)
+    report.notes.push_back("body: " + warning);
   append_warnings(file, space->labels, *surfaces, report);
   append_gap_cuts(file, *space, report);
   outcome.joint = dress_body(file, std::move(complex->mesh), std::move(*digest), report.notes);

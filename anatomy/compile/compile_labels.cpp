@@ -5,10 +5,15 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <mutex>
+
+#include <tbb/parallel_for.h>
 
 #include "artus/anatomy/body/joint_structure.h"
 #include "artus/anatomy/compile/compiler_version.h"
 #include "artus/anatomy/compile/construct.h"
+#include "artus/anatomy/compile/cut_faces.h"
+#include "artus/core/units.h"
 
 namespace artus {
 namespace {
@@ -111,15 +116,17 @@ class FieldMaker {
     tell(file_.body.name);
     body_ = surface_field(surfaces_.body, "", sizing_of(file_, file_.body, 0));
     named_[""] = &body_;
-    for (std::size_t i = 0; i < fields_.size(); ++i) {
-      if (!surfaces_.structures[i]) continue;
+    // Beside each other: one by one, the second core waits at the end of each.
+    tbb::parallel_for(std::size_t{0}, fields_.size(), [&](std::size_t i) {
+      if (!surfaces_.structures[i]) return;
       const PreparedSurface& surface = *surfaces_.structures[i];
       const Structure& s = file_.structures[i];
       sizing_[i] = sizing_of(file_, s, surface.thickness);
       tell(s.name);
       fields_[i] = surface_field(surface, s.name, sizing_[i]);
-      named_[s.name] = &*fields_[i];
-    }
+    });
+    for (std::size_t i = 0; i < fields_.size(); ++i)
+      if (fields_[i]) named_[file_.structures[i].name] = &*fields_[i];
   }
 
   // Constructs may name constructs: repeat until no further one can be made. Gaps wait for all
@@ -144,6 +151,7 @@ class FieldMaker {
 
   // Each structure takes its share of this stage.
   void tell(const std::string& name) {
+    const std::scoped_lock lock(telling_);
     if (progress_)
       progress_("measuring distances: " + name,
                 0.1 + 0.1 * n_told_++ / static_cast<double>(fields_.size() + 1));
@@ -221,8 +229,24 @@ class FieldMaker {
       cuts_[i] = std::move(made.cuts);
     } else {
       fields_[i] = make_construct_field(s, named_, sampling);
+      const auto* shell = std::get_if<ShellConstruct>(&s.shape);
+      if (shell != nullptr && shell->inside.empty()) end_at_cuts(*shell, sampling, *fields_[i]);
     }
     named_[s.name] = &*fields_[i];
+  }
+
+  // A shell of the body lines its skin alone, not where the body was cut.
+  void end_at_cuts(const ShellConstruct& shell, const FieldSampling& sampling,
+                   DistanceField& field) const {
+    if (surfaces_.body.is_cut.empty()) return;
+    const DistanceTree skin(without_cuts(surfaces_.body.mesh, surfaces_.body.is_cut));
+    const double far = shell.thickness + 2 * kFarSpacing * file_.facet_size + sampling.band;
+    const DistanceField whole = std::move(field);
+    field = DistanceField::compute(
+        [&](const Vec3& p) {
+          return std::max(whole.value(p), skin.distance(p, far) - shell.thickness);
+        },
+        sampling);
   }
 
   // What a gap takes no place of: all but its roof and floor, what is a part of these, and gaps.
@@ -256,6 +280,7 @@ class FieldMaker {
   const JointFile& file_;
   const Progress& progress_;
   const KeptParts& parts_;
+  std::mutex telling_;
   double n_told_ = 0;
   const PreparedSurfaces& surfaces_;
   Box box_;
@@ -305,6 +330,16 @@ Result<void> check_sizes(const JointFile& file, const PreparedSurfaces& surfaces
   constexpr double kAreaPerFacet = 0.65;  // of the square of its circumradius, usually
   constexpr double kBytesPerSample = 4;
   constexpr double kLayersOfBlocks = 4 * 8;  // samples across a surface's band
+  const double extent = (surfaces.body.tree.upper() - surfaces.body.tree.lower()).maxCoeff();
+  if (file.facet_size > extent / 2) {
+    std::array<char, 200> text{};
+    static_cast<void>(std::snprintf(
+        text.data(), text.size(),
+        "facet_size of [mesh] is %.4g mm, and the whole body measures %.4g mm; give it in the "
+        "unit of the file: some millimetres",
+        file.facet_size / kMillimetre, extent / kMillimetre));
+    return fail(ErrorCode::invalid, text.data(), file.name);
+  }
   const double volume = std::min((box.upper - box.lower).prod(), signed_volume(surfaces.body.mesh));
   const double cells = volume / (kVolumePerCell * std::pow(file.cell_size, 3));
   double facets = 0;

@@ -105,6 +105,26 @@ void find_taker(const RegionLabels& labels, std::size_t layer, CompileReport& re
   mine.lost_at = most->centre();
 }
 
+// Exact distances of points one beside the other: none is farther than the one before by more than
+// the way between them, which makes the search short.
+class NearbyDistances {
+ public:
+  explicit NearbyDistances(const DistanceTree& tree) : tree_(&tree) {}
+  double operator()(const Vec3& p) {
+    constexpr double kRounding = 1e-9;  // m
+    const double bound = std::min(kFar, distance_ + (p - last_).norm() + kRounding);
+    distance_ = tree_->distance(p, bound);
+    if (!(distance_ < bound)) distance_ = tree_->distance(p, kFar);
+    last_ = p;
+    return distance_;
+  }
+
+ private:
+  const DistanceTree* tree_;
+  Vec3 last_ = Vec3::Zero();
+  double distance_ = kFar;  // of the last
+};
+
 // Exact distances of four points of a triangle.
 std::array<DistanceSample, 4> measure(const TetMesh& mesh, const Interface& f,
                                       const DistanceTree& tree) {
@@ -115,9 +135,10 @@ std::array<DistanceSample, 4> measure(const TetMesh& mesh, const Interface& f,
   const Vec3& c = mesh.vertices[f.vertices[2]];
   const double area = (b - a).cross(c - a).norm() / 2;
   std::array<DistanceSample, 4> samples{};
+  NearbyDistances distance(tree);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const auto& w = kPoints[i];
-    samples[i] = {tree.distance(w[0] * a + w[1] * b + w[2] * c, kFar), area / 4};
+    samples[i] = {distance(w[0] * a + w[1] * b + w[2] * c), area / 4};
   }
   return samples;
 }
@@ -208,13 +229,14 @@ SamplesOf measure_surfaces(const TetMesh& mesh, const RegionLabels& labels,
     if (tree.empty()) return;
     const double spacing = kSpacings * labels.layers[layer].field.spacing();
     std::vector<SurfaceSample> samples;
+    NearbyDistances distance(tree);
     for (const Triangle& t : surface->mesh.triangles) {
       samples.clear();
       const auto& v = surface->mesh.vertices;
       append_samples({v[t[0]], v[t[1]], v[t[2]]}, spacing, samples);
       for (const SurfaceSample& s : samples)
         if (is_exposed(labels, layer, s.position))
-          measured[structure].push_back({tree.distance(s.position, kFar), s.area});
+          measured[structure].push_back({distance(s.position), s.area});
     }
   });
   return measured;

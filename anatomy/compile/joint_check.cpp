@@ -33,7 +33,8 @@ std::vector<Repaired> repair_all(const JointFile& joint, const Progress& progres
     one.report.name = one.structure->name;
     const auto* surface = std::get_if<SurfaceFile>(&one.structure->shape);
     if (surface == nullptr) return;
-    auto prepared = prepare_surface(joint, *surface, one.report);
+    auto prepared =
+        i == 0 ? prepare_body(joint, one.report) : prepare_surface(joint, *surface, one.report);
     if (prepared) {
       one.surface = std::move(*prepared);
     } else {
@@ -76,6 +77,10 @@ class Collector {
       for (const std::string& repair : one.report.repairs)
         check_.findings.push_back(
             {Verdict::mended, "repair", one.report.name, one.structure->line, repair});
+      if (!one.surface) continue;
+      for (const std::string& warning : one.surface->warnings)
+        check_.findings.push_back(
+            {Verdict::look, "surface", one.report.name, one.structure->line, warning});
     }
   }
 

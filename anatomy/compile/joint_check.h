@@ -25,8 +25,8 @@ enum class Verdict {
 /// One thing found in a joint; its message ends with what would do, where something should be done.
 struct Finding {
   Verdict verdict = Verdict::note;
-  std::string
-      kind;  ///< of a defect or a repair, "refused_surface", "plan", "misplaced", "mirrored"
+  std::string kind;  ///< of a defect or a repair, "refused_surface", "surface", "plan",
+                     ///< "misplaced", "mirrored"
   std::string what;  ///< the structure or plan
   int line = 0;      ///< of joint.toml; 0: of no line
   std::string message;

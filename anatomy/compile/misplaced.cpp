@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <tbb/parallel_for.h>
+
 #include "artus/anatomy/compile/region_labels.h"
 #include "artus/core/printed.h"
 #include "artus/core/units.h"
@@ -15,6 +17,7 @@ constexpr std::size_t kSamples = 400;           // of each surface
 constexpr double kClearly = 0.5 * kMillimetre;  // beyond what surfaces that touch differ by
 constexpr double kMuchOutside = 0.02;           // of the samples, as compile warns of
 constexpr double kAll = 0.99;                   // of the samples
+constexpr double kSlip = 1 * kMillimetre;       // what metres written as millimetres come to
 
 /// Evenly chosen vertices of a surface that lie in the region of interest.
 std::vector<Vec3> samples_of(const SurfaceMesh& mesh, const std::optional<RegionOfInterest>& roi) {
@@ -63,6 +66,7 @@ class Finder {
   }
 
   std::vector<Finding> run() {
+    tell_landmarks();
     std::size_t n = 0;
     std::size_t n_outside = 0;
     std::vector<Lie> lies(samples_.size());
@@ -91,6 +95,38 @@ class Finder {
  private:
   void add(Verdict verdict, const Structure& s, std::string message) {
     found_.push_back({verdict, "misplaced", s.name, s.line, std::move(message)});
+  }
+
+  // Landmarks far from the body: of another unit, or of another frame.
+  void tell_landmarks() {
+    constexpr double kFar = 20 * kMillimetre;
+    constexpr double kMetre = 1000;  // written as millimetres
+    const DistanceTree& body = surfaces_.body.tree;
+    std::size_t n_far = 0;
+    std::size_t n_metres = 0;
+    double most = 0;
+    for (const Landmark& landmark : file_.landmarks) {
+      const auto off = [&](const Vec3& p) {
+        return body.winding_number(p) > 0.5 ? 0 : body.distance(p, 10);
+      };
+      const double distance = off(landmark.position);
+      n_far += distance > kFar ? 1U : 0U;
+      most = std::max(most, distance);
+      if (landmark.position.norm() < kSlip && off(kMetre * landmark.position) <= kFar) ++n_metres;
+    }
+    Structure all;
+    all.name = "landmarks";
+    if (n_metres == file_.landmarks.size() && n_metres > 1) {
+      add(Verdict::look, all,
+          printed("all %zu lie within 1 mm of the origin, and 1000 times as far they lie in the "
+                  "body: they are in metres; write them in the unit of the file",
+                  n_metres));
+    } else if (n_far > 0) {
+      add(Verdict::look, all,
+          printed("%zu of %zu lie more than 20 mm outside of the skin, up to %.0f mm; see to their "
+                  "unit and frame",
+                  n_far, file_.landmarks.size(), most / kMillimetre));
+    }
   }
 
   void tell_frame(std::size_t n_outside, std::size_t n) {
@@ -122,14 +158,41 @@ class Finder {
                 (distance - reach) / kMillimetre));
   }
 
-  void tell_outside(std::size_t i, const Lie& lie) {
+  void tell_outside(std::size_t i, Lie lie) {
+    if (!(lie.outside > 0)) return;
+    lie = area_outside(i);  // samples only say where to look
     if (lie.outside <= kMuchOutside) return;
     const char* rest = lie.outside > kAll ? "nothing of it will be in the joint; see to its frame "
                                             "and units, or take it out"
                                           : "that part is cut off";
     add(Verdict::look, file_.structures[i],
-        printed("%.0f %% of it lies outside of the skin, up to %.1f mm; %s", 100 * lie.outside,
-                lie.farthest / kMillimetre, rest));
+        printed("%.0f %% of its surface lies outside of the skin, up to %.1f mm; %s",
+                100 * lie.outside, lie.farthest / kMillimetre, rest));
+  }
+
+  /// The share of its area in the region that lies clearly outside of the body, and how far, by
+  /// the middles of all its faces.
+  [[nodiscard]] Lie area_outside(std::size_t i) const {
+    const SurfaceMesh& mesh = surfaces_.structures[i]->mesh;
+    const DistanceTree& body = surfaces_.body.tree;
+    std::vector<double> area(mesh.triangles.size(), 0);
+    std::vector<double> off(mesh.triangles.size(), 0);
+    tbb::parallel_for(std::size_t{0}, area.size(), [&](std::size_t k) {
+      const Vec3 centre = triangle_centre(mesh, mesh.triangles[k]);
+      const auto& roi = file_.region_of_interest;
+      if (roi && signed_distance(*roi, centre) > 0) return;
+      area[k] = triangle_area(mesh, mesh.triangles[k]);
+      if (body.winding_number(centre) <= 0.5) off[k] = body.distance(centre, 1);
+    });
+    Lie lie;
+    double all = 0;
+    for (std::size_t k = 0; k < area.size(); ++k) {
+      all += area[k];
+      if (off[k] >= kClearly) lie.outside += area[k];
+      lie.farthest = std::max(lie.farthest, off[k]);
+    }
+    if (all > 0) lie.outside /= all;
+    return lie;
   }
 
   [[nodiscard]] bool is_hard(const Structure& s) const {

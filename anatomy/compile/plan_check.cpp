@@ -14,6 +14,8 @@ namespace {
 constexpr double kOnSkin = 2 * kMillimetre;       // what an entry may lie off the skin
 constexpr double kProbeOnSkin = 3 * kMillimetre;  // likewise the middle of a probe's face
 constexpr double kStays = 3 * kMillimetre;        // of the shaft that stays outside
+constexpr double kShortest = 2 * kMillimetre;     // way of a needle: less is a slip of the pen
+constexpr double kUsualDepth = 10 * kMillimetre;  // under the skin, where a target is offered
 constexpr double kThinnest = 0.6 * kMillimetre;   // layer in which a tip can stop
 constexpr double kRoom = 5 * kMillimetre;         // that a mended region has to spare
 constexpr std::size_t kMostTried = 4000;          // places on the skin
@@ -84,19 +86,49 @@ class Checker {
     const Vec3& centre = ground_.region->centre;
     const double away = ground_.skin_tree.distance(centre, 10);
     problem.message += printed(": the nearest is %.1f mm from its centre; ", away / kMillimetre);
+    if (const auto skin = ground_.nearest_any_skin(centre); skin && is_wide_enough()) {
+      problem.message += "move it: centre = " + place(*skin) + " is on the skin";
+      problem.mends.push_back({"centre", *skin});
+      return;
+    }
     const double needed = away + kPlannedFace / 2;
     const Vec3 far =
         ground_.region->half_extent ? Vec3(Vec3::Constant(needed)) : Vec3(needed * Vec3::UnitX());
     problem.message += hold_in_region(*ground_.region, centre + far, problem);
   }
 
+  /// Whether the region holds a probe's face where it is as it is, but elsewhere.
+  [[nodiscard]] bool is_wide_enough() const {
+    const RegionOfInterest& roi = *ground_.region;
+    return (roi.half_extent ? roi.half_extent->minCoeff() : roi.radius) >= kPlannedFace / 2 + kRoom;
+  }
+
   void check_pass(const std::string& plan, const PlannedInjection& pass) {
     const double length = (pass.target - pass.entry).norm();
     if (!(length > 0)) return;  // told where the file was read
+    if (length < kShortest) {
+      check_short(plan, pass, length);
+      return;
+    }
     const bool target_holds = check_place(plan, pass.line, "target", pass.target);
     const bool entry_holds = check_entry(plan, pass);
     if (!target_holds) return;
     if (entry_holds) check_way(plan, pass);
+  }
+
+  /// A way too short to be meant: metres for millimetres, or the entry written twice.
+  void check_short(const std::string& plan, const PlannedInjection& pass, double length) {
+    PlanProblem& problem =
+        add(plan, pass.line,
+            printed("its way from entry to target is %.2g mm, too short for a needle; see whether "
+                    "both are in the unit of the file",
+                    length / kMillimetre));
+    const Vec3 inward = inward_at(pass.entry);
+    if (inward.norm() == 0) return;
+    const Vec3 inside = pass.entry + kUsualDepth * inward;
+    if (ground_.skin_distance(inside) > 0) return;
+    problem.message += "; 10 mm under its entry is " + place(inside) + ": take that as target";
+    problem.mends.push_back({"target", inside});
   }
 
   /// The target: inside body and region.
@@ -107,7 +139,7 @@ class Checker {
           plan, line, printed("its %s lies %.1f mm outside of the skin", key, off / kMillimetre));
       const auto skin = ground_.nearest_skin(p);
       if (!skin) return false;
-      const Vec3 inside = *skin + 10 * kMillimetre * (*skin - p).normalized();
+      const Vec3 inside = *skin + kUsualDepth * (*skin - p).normalized();
       if (ground_.skin_distance(inside) > 0) return false;
       problem.message += "; 10 mm under the nearest skin is " + place(inside);
       problem.mends.push_back({key, inside});
@@ -130,9 +162,10 @@ class Checker {
     if (!check_in_region(plan, pass.line, "entry", pass.entry)) return false;
     const double off = ground_.skin_distance(pass.entry);
     if (std::abs(off) <= kOnSkin) return true;
-    PlanProblem& problem = add(plan, pass.line,
-                               printed("its entry lies %.1f mm %s the skin",
-                                       std::abs(off) / kMillimetre, off > 0 ? "off" : "under"));
+    PlanProblem& problem =
+        add(plan, pass.line,
+            printed("its entry lies %.1f mm %s the skin%s", std::abs(off) / kMillimetre,
+                    off > 0 ? "off" : "under", on_cut(pass.entry)));
     const Vec3 way = (pass.target - pass.entry).normalized();
     const auto along = ground_.skin_along(pass.entry, way, 2 * kLongestNeedle);
     const std::optional<Vec3> skin =
@@ -142,6 +175,12 @@ class Checker {
                        " the skin is at " + place(*skin) + ": take that as entry";
     problem.mends.push_back({"entry", *skin});
     return false;
+  }
+
+  /// Why a place that looks like skin is none.
+  [[nodiscard]] const char* on_cut(const Vec3& p) const {
+    const bool is_on = ground_.cut_tree.distance(p, kProbeOnSkin) < kProbeOnSkin;
+    return is_on ? " (where it lies the body was cut and closed)" : "";
   }
 
   void check_way(const std::string& plan, const PlannedInjection& pass) {
@@ -211,8 +250,8 @@ class Checker {
     const double off = ground_.skin_distance(p);
     std::string message;
     if (std::abs(off) > kProbeOnSkin) {
-      message = printed("its position lies %.1f mm %s the skin", std::abs(off) / kMillimetre,
-                        off > 0 ? "off" : "under");
+      message = printed("its position lies %.1f mm %s the skin%s", std::abs(off) / kMillimetre,
+                        off > 0 ? "off" : "under", on_cut(p));
     } else if (!(ground_.skin_distance(p + 5 * kMillimetre * beam) < off - kMillimetre)) {
       message = "it looks along the skin or away from the body";
     } else if (!stands_on_skin(ground_, X_JP)) {

@@ -17,7 +17,7 @@ inline constexpr double kLongestNeedle = 90e-3;
 /// What would mend a plan: `key` of its table set to `value`, both as the joint file has them but
 /// in metres.
 struct PlanMend {
-  std::string key;            ///< "entry", "target", "position", "radius", "half_extent"
+  std::string key;            ///< "entry", "target", "position", "direction", "centre", "radius" ..
   Vec3 value = Vec3::Zero();  ///< the radius in x
 };
 

@@ -10,6 +10,7 @@
 #include <CGAL/AABB_triangle_primitive.h>
 #include <CGAL/Simple_cartesian.h>
 
+#include "artus/anatomy/compile/cut_faces.h"
 #include "artus/anatomy/compile/region_labels.h"
 #include "artus/core/units.h"
 
@@ -77,7 +78,11 @@ bool is_inside(const DistanceTree& tree, const Vec3& p) {
 class SurfaceLayers {
  public:
   SurfaceLayers(const JointFile& file, const PreparedSurfaces& surfaces)
-      : file_(&file), surfaces_(&surfaces) {}
+      : file_(&file), surfaces_(&surfaces) {
+    const PreparedSurface& body = surfaces.body;
+    if (!body.is_cut.empty())
+      cut_skin_ = std::make_shared<const DistanceTree>(without_cuts(body.mesh, body.is_cut));
+  }
 
   std::vector<LineLayer> along(const Segment& line) const {
     constexpr double kStep = 0.2 * kMillimetre;
@@ -110,17 +115,22 @@ class SurfaceLayers {
     for (std::size_t i = 0; i < file_->structures.size(); ++i) {
       const Structure& s = file_->structures[i];
       const auto* shell = std::get_if<ShellConstruct>(&s.shape);
-      const bool holds = surfaces_->structures[i] ? is_inside(surfaces_->structures[i]->tree, p)
-                                                  : shell != nullptr && shell->inside.empty() &&
-                                                        surfaces_->body.tree.distance(
-                                                            p, shell->thickness) < shell->thickness;
+      const bool holds = surfaces_->structures[i]
+                             ? is_inside(surfaces_->structures[i]->tree, p)
+                             : shell != nullptr && shell->inside.empty() &&
+                                   skin().distance(p, shell->thickness) < shell->thickness;
       if (holds) return named(s.name, s.tissue);
     }
     return named(file_->filler_name, file_->body.tissue);
   }
 
+  [[nodiscard]] const DistanceTree& skin() const {
+    return cut_skin_ ? *cut_skin_ : surfaces_->body.tree;
+  }
+
   const JointFile* file_;
   const PreparedSurfaces* surfaces_;
+  std::shared_ptr<const DistanceTree> cut_skin_;  // of a body that was cut
 };
 
 /// The layers of a line from its crossings with all interfaces.
@@ -209,10 +219,19 @@ bool PlanGround::in_region(const Vec3& p) const {
 PlanGround make_ground(const JointFile& file, const PreparedSurfaces& surfaces) {
   PlanGround ground;
   ground.region = file.region_of_interest;
-  ground.skin = skin_in_region(surfaces.body.mesh, ground.region);
-  ground.hull = surfaces.body.tree;
-  ground.skin_tree = surfaces.body.tree;
+  const PreparedSurface& body = surfaces.body;
+  ground.skin = skin_in_region(without_cuts(body.mesh, body.is_cut), ground.region);
+  ground.hull = body.tree;
+  if (body.is_cut.empty()) {
+    ground.skin_tree = body.tree;
+  } else {
+    ground.skin_tree = DistanceTree(without_cuts(body.mesh, body.is_cut));
+    ground.cut_tree = DistanceTree(without_cuts(body.mesh, body.is_cut, true));
+  }
   ground.nearest_skin = nearest_of(ground.skin);
+  ground.nearest_any_skin = [&body](const Vec3& p) {
+    return nearest_of(without_cuts(body.mesh, body.is_cut))(p);
+  };
   for (std::size_t i = 0; i < file.structures.size(); ++i) {
     const auto tissue =
         std::find_if(file.tissues.begin(), file.tissues.end(),
@@ -251,6 +270,7 @@ PlanGround make_ground(const CompiledJoint& joint, const std::optional<RegionOfI
   }
   ground.hull = DistanceTree(hull);
   ground.nearest_skin = nearest_of(ground.skin);
+  ground.nearest_any_skin = ground.nearest_skin;
   ground.skin_tree = DistanceTree(ground.skin);
   for (std::size_t r = 0; r < parts.size(); ++r) {
     if (parts[r].triangles.empty()) continue;

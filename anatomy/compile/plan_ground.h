@@ -32,12 +32,15 @@ struct PlanGround {
   SurfaceMesh skin;                  ///< where something can stand: skin in the region
   DistanceTree hull{SurfaceMesh{}};  ///< of all that is meshed, closed
   DistanceTree skin_tree{SurfaceMesh{}};
+  DistanceTree cut_tree{SurfaceMesh{}};  ///< where the body's surface was cut and closed
   std::vector<HardPart> bones;
   std::optional<RegionOfInterest> region;
   bool is_compiled = false;  ///< constructs are among the layers
   std::function<std::vector<LineLayer>(const Segment&)> layers;
   /// The point of `skin` nearest to another; none where there is no skin.
   std::function<std::optional<Vec3>(const Vec3&)> nearest_skin;
+  /// The same of all skin, in the region or not; of a compiled body what is meshed of it.
+  std::function<std::optional<Vec3>(const Vec3&)> nearest_any_skin;
 
   /// Signed distance to the skin, m: negative inside. Cost: log n.
   [[nodiscard]] double skin_distance(const Vec3& p) const;

@@ -24,6 +24,18 @@ std::ptrdiff_t find_block(const LayerIndex& index, const Vec3& p) {
   return block;
 }
 
+/// Whether all of a box lies inside the region of interest, whose distance has its maximum over a
+/// box at a corner.
+bool holds(const RegionOfInterest& roi, const Box& box) {
+  for (int k = 0; k < 8; ++k) {
+    const Vec3 corner((k & 1) != 0 ? box.upper[0] : box.lower[0],
+                      (k & 2) != 0 ? box.upper[1] : box.lower[1],
+                      (k & 4) != 0 ? box.upper[2] : box.lower[2]);
+    if (signed_distance(roi, corner) >= 0) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 double signed_distance(const RegionOfInterest& roi, const Vec3& p) {
@@ -33,9 +45,11 @@ double signed_distance(const RegionOfInterest& roi, const Vec3& p) {
 }
 
 RegionId RegionLabels::at(const Vec3& p) const {
-  if (body.value(p) >= 0) return kOutside;
-  if (region_of_interest && signed_distance(*region_of_interest, p) >= 0) return kBeyond;
   const std::ptrdiff_t block = find_block(index, p);
+  if (block < 0 || index.meshed[static_cast<std::size_t>(block)] == 0) {
+    if (body.value(p) >= 0) return kOutside;
+    if (region_of_interest && signed_distance(*region_of_interest, p) >= 0) return kBeyond;
+  }
   if (block < 0) {
     for (const Layer& layer : layers) {
       if (layer.field.value(p) < 0) return layer.region;
@@ -61,6 +75,7 @@ void RegionLabels::make_index(const Box& box) {
     n_blocks *= static_cast<std::size_t>(index.blocks[a]);
   }
   std::vector<std::vector<std::uint16_t>> candidates(n_blocks);
+  index.meshed.assign(n_blocks, 0);
   tbb::parallel_for(std::size_t{0}, n_blocks, [&](std::size_t b) {
     const std::size_t nx = static_cast<std::size_t>(index.blocks[0]);
     const std::size_t ny = static_cast<std::size_t>(index.blocks[1]);
@@ -71,6 +86,8 @@ void RegionLabels::make_index(const Box& box) {
     // A hair wider than the block: rounding may put a point of its face into the neighbour.
     const Vec3 hair = Vec3::Constant(1e-6 * index.edge);
     const Box around{corner - hair, corner + Vec3::Constant(index.edge) + hair};
+    index.meshed[b] =
+        body.side_of(around) < 0 && (!region_of_interest || holds(*region_of_interest, around));
     for (std::size_t i = 0; i < layers.size(); ++i) {
       const int side = layers[i].field.side_of(around);
       if (side > 0) continue;

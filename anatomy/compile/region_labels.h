@@ -14,11 +14,13 @@ namespace artus {
 /// Signed distance to the region of interest's boundary, negative inside, m.
 [[nodiscard]] double signed_distance(const RegionOfInterest& roi, const Vec3& p);
 
-/// For each block of a box, the layers that can hold a point of it, in priority order.
+/// For each block of a box, the layers that can hold a point of it, in priority order, and whether
+/// it lies deep in the body.
 struct LayerIndex {
   Box box;
   double edge = 0;  ///< m, of a block; 0: no index
   std::array<int, 3> blocks{0, 0, 0};
+  std::vector<std::uint8_t> meshed;  ///< (n_blocks) 1: all of it in body and region of interest
   std::vector<std::uint32_t> first;  ///< (n_blocks + 1) into layers
   std::vector<std::uint16_t> layers;
 };

@@ -290,8 +290,17 @@ class Finder {
       for (const auto v : t) box.extend(sound_.vertices[v]);
     if (box.isEmpty()) return;
     const double size = box.diagonal().norm();
-    if (size >= options_.smallest && size <= options_.largest) return;
+    const double far = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff();
     std::array<char, 160> text{};
+    if (far > options_.farthest) {
+      static_cast<void>(std::snprintf(text.data(), text.size(),
+                                      "coordinates up to %.4g mm: no frame of a body lies so far "
+                                      "from its origin; is it of another unit or frame?",
+                                      far / kMillimetre));
+      add(DefectKind::implausible_size, {}, box.center(), text.data(), 1);
+      return;
+    }
+    if (size >= options_.smallest && size <= options_.largest) return;
     static_cast<void>(std::snprintf(text.data(), text.size(),
                                     "%.4g mm from corner to corner is no part of a body; is the "
                                     "unit of the file wrong (mm, cm, m)?",

@@ -26,7 +26,7 @@ enum class DefectKind {
   several_components,        ///< more than one connected piece
   pillow_component,          ///< a closed piece that encloses nothing
   zero_thickness_sheet,      ///< an open piece without an inside
-  implausible_size,          ///< no part of a body is so large or so small: a wrong unit
+  implausible_size,          ///< no part of a body is so large, small or far: a wrong unit
   unreadable_file,           ///< the surface file cannot be read; the message says why
   unknown_tissue,            ///< a structure of a tissue that the library does not have
   crossing_layers,           ///< two structures that cut through each other
@@ -60,6 +60,7 @@ struct DefectOptions {
   double crack_width = 0.5e-3;     ///< m, open vertices nearer than this belong together
   double smallest = 1e-3;          ///< m, of the box's diagonal
   double largest = 2.5;            ///< m
+  double farthest = 10;            ///< m, of a coordinate
 };
 
 /// Lists every kind of defect of `mesh`, at most one entry per kind, in the order of DefectKind.

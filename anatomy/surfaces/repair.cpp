@@ -78,7 +78,10 @@ class Repair {
                                             "); decimate the surface first");
     drop();
     if (mesh().triangles.empty())
-      return fail(ErrorCode::defective, "no triangle is left when the bad ones are dropped");
+      return fail(
+          ErrorCode::defective,
+          "no triangle is left when the bad ones are dropped; export it again, or leave it out "
+          "(--skip-refused)");
     outcome_.volume_before = Sums(mesh()).volume;
     ARTUS_TRY(close());
     if (options_.wrap == WrapPolicy::always) ARTUS_TRY(wrap());
@@ -358,7 +361,10 @@ class Repair {
       ARTUS_TRY(wrap());
     }
     outcome_.volume = signed_volume(mesh());
-    if (!(outcome_.volume > 0)) return fail(ErrorCode::defective, "it encloses no volume");
+    if (!(outcome_.volume > 0))
+      return fail(ErrorCode::defective,
+                  "it encloses no volume; mend it where it was made, or leave it out "
+                  "(--skip-refused)");
     if (outcome_.actions.empty()) outcome_.mesh = original_;
     return std::move(outcome_);
   }

@@ -42,6 +42,25 @@ void claim_touches(ThreeInjections& run) {
                                       run.touches[2].peak / slow, 1, ""));
 }
 
+// A joint that has the target has it crossed; a joint without one is told by the layers' list.
+void claim_target(const CompiledJoint& joint, ThreeInjections& run) {
+  const auto is_target = [&](RegionId region) {
+    return joint.tissue_of(region).name == run.options.target_tissue;
+  };
+  const bool has_target = std::any_of(joint.mesh.interfaces.begin(), joint.mesh.interfaces.end(),
+                                      [&](const Interface& f) {
+                                        return (f.front >= kFirstRegion && is_target(f.front)) ||
+                                               (f.back >= kFirstRegion && is_target(f.back));
+                                      });
+  if (!has_target) return;
+  std::set<int> crossed;
+  for (const NeedleRow& row : run.rows)
+    if (row.region >= kFirstRegion && is_target(row.region)) crossed.insert(row.pass);
+  run.claims.push_back(claim_at_least({ClaimKind::input, "the plan's lines"},
+                                      "injections that reach a " + run.options.target_tissue,
+                                      static_cast<double>(crossed.size()), 1, ""));
+}
+
 // Every injection that was re-aimed follows a new line.
 void claim_redirections(ThreeInjections& run) {
   std::set<int> aimed;
@@ -112,6 +131,7 @@ void analyze(const CompiledJoint& joint, bool reached, ThreeInjections& run) {
                                     "mean cutting force on the plateau in " + p.tissue, p.mean,
                                     p.expected, kPlateauShare, "N"));
   }
+  claim_target(joint, run);
   claim_touches(run);
   claim_redirections(run);
   for (std::size_t i = 0; i < run.rows.size(); ++i) {

@@ -69,6 +69,15 @@ TEST(Claim, LineAndTableSayTheKindAndWhetherItHolds) {
   EXPECT_THAT(table, HasSubstr(count_claims(claims)));
 }
 
+TEST(Claim, OfWhichNoneIsIndependentAreSaidToBeNoEvidence) {
+  auto claims = six_claims();
+  EXPECT_EQ(tell_lack_of_evidence(claims), "");
+  EXPECT_FALSE(verdict(claims).contains("evidence"));
+  claims = {claims[2], claims[4]};
+  EXPECT_THAT(tell_lack_of_evidence(claims), HasSubstr("no evidence"));
+  EXPECT_TRUE(verdict(claims).contains("evidence"));
+}
+
 TEST(Claim, AllHoldOnlyWhenEachDoes) {
   auto claims = six_claims();
   EXPECT_FALSE(all_hold(claims));

@@ -7,12 +7,12 @@
 namespace artus {
 namespace {
 
-constexpr double kFlows = 1e-9;     // m^3/s above which liquid flows
-constexpr double kDose = 1e-8;      // m^3
-constexpr double kPause = 2;        // s
-constexpr double kSuction = -5e3;   // Pa
-constexpr double kAspiration = 2;   // s
-constexpr double kPressed = 0.2;    // N below which nobody presses
+constexpr double kFlows = 1e-9;    // m^3/s above which liquid flows
+constexpr double kDose = 1e-8;     // m^3
+constexpr double kPause = 2;       // s
+constexpr double kSuction = -5e3;  // Pa
+constexpr double kAspiration = 2;  // s
+constexpr double kPressed = 0.2;   // N below which nobody presses
 
 }  // namespace
 

@@ -67,6 +67,34 @@ TEST_F(CheckedJoint, ASizeThatNoPartOfABodyHasIsRefusedByBothAndTheUnitMendsIt) 
   EXPECT_EQ(refusal(mended), "");
 }
 
+TEST_F(CheckedJoint, ABodyOfMetresReadAsMillimetresIsRefusedByBoth) {
+  folder_.add_sphere("body", Vec3(0, 0, 0), 0.9);  // 1.8 m, of a whole body
+  folder_.add_sphere("head", Vec3(0, 0, 0.2), 0.4);
+  const std::string toml = kHead;
+  EXPECT_FALSE(check(toml).usable());
+  EXPECT_THAT(refusal(toml), HasSubstr("is no body; give the unit of its file"));
+}
+
+TEST_F(CheckedJoint, CoordinatesThatNoFrameHasAreRefusedByBothAndTheFrameMendsIt) {
+  folder_.add_sphere("head", Vec3(1e7, 0, 5), 8);
+  EXPECT_FALSE(check(kHead).usable());
+  EXPECT_THAT(refusal(kHead), HasSubstr("no frame of a body lies so far from its origin"));
+  folder_.add_sphere("head", Vec3(0, 0, 5), 8);
+  EXPECT_TRUE(check(kHead).usable());
+}
+
+TEST_F(CheckedJoint, ASurfaceThatIsThereTwiceCountsOnceAndIsTold) {
+  SurfaceMesh twice = make_sphere(Vec3(0, 0, 5 * test::kMm), 8 * test::kMm);
+  append_mesh(twice, make_sphere(Vec3(0.1 * test::kMm, 0, 5 * test::kMm), 8 * test::kMm));
+  ASSERT_TRUE(write_surface(twice, folder_.path() / "head.ply", test::kMm));
+  const JointCheck found = check(kHead);
+  EXPECT_TRUE(found.usable());
+  ASSERT_EQ(found.count(Verdict::look), 1U);
+  EXPECT_THAT(found.findings.front().message,
+              HasSubstr("4.28 cm3 counted each, 2.16 cm3 together"));
+  EXPECT_NEAR(found.surfaces[1].volume, 2.16e-6, 0.03e-6);
+}
+
 TEST_F(CheckedJoint, AllRefusalsComeAtOnceAndFirstAndNothingElseOfThemIsCalledMended) {
   std::ofstream(folder_.path() / "head.ply")
       << "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"

@@ -49,9 +49,11 @@ TEST(Misplaced, WhatSticksOutOfTheSkinIsToldWithShareAndDistance) {
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].verdict, Verdict::look);
   EXPECT_THAT(found[0].message, testing::ContainsRegex("up to 1[12]\\."));
+  // Of a sphere about the skin's edge: where cos > (50.5^2 - 50^2 - 12^2) / (2 * 50 * 12).
+  EXPECT_THAT(found[0].message, testing::ContainsRegex("5[45] % of its surface lies outside"));
   out.centre = Vec3(0, 0.09, 0);
   EXPECT_THAT(misplaced({kBone, kMuscle, out}).at(0).message,
-              HasSubstr("100 % of it lies outside"));
+              HasSubstr("100 % of its surface lies outside"));
 }
 
 TEST(Misplaced, WhatLiesAllInABoneIsToldWithItsDepth) {
@@ -91,6 +93,23 @@ TEST(Misplaced, WhatLiesFarFromTheRegionOfInterestIsTold) {
   EXPECT_THAT(found[0].message, HasSubstr("outside of the region of interest, by 25.0 mm"));
   joint.file.region_of_interest->radius = 0.055;
   EXPECT_TRUE(find_misplaced(joint.file, joint.surfaces).empty());
+}
+
+TEST(Misplaced, LandmarksInMetresOrFarAwayAreTold) {
+  BallsJoint joint(0.05, {kBone, kMuscle});
+  joint.file.tissues = read_bundled_tissues().value();
+  joint.file.landmarks = {{"tip", Vec3(0, 0, 0.04)}, {"edge", Vec3(0.03, 0, 0)}};
+  EXPECT_TRUE(find_misplaced(joint.file, joint.surfaces).empty());
+  for (Landmark& landmark : joint.file.landmarks) landmark.position *= kMillimetre;
+  auto found = find_misplaced(joint.file, joint.surfaces);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_THAT(found[0].message, HasSubstr("they are in metres"));
+  joint.file.landmarks[0].position = Vec3(0, 0, 0.4);
+  joint.file.landmarks[1].position = Vec3(0.03, 0, 0);
+  found = find_misplaced(joint.file, joint.surfaces);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].what, "landmarks");
+  EXPECT_THAT(found[0].message, HasSubstr("1 of 2 lie more than 20 mm outside"));
 }
 
 TEST(Misplaced, TheSameSurfaceTwiceIsTold) {

@@ -41,6 +41,7 @@ class Plans : public testing::Test {
     for (const PlanMend& mend : problem.mends) {
       if (mend.key == "entry") pass().entry = mend.value;
       if (mend.key == "target") pass().target = mend.value;
+      if (mend.key == "centre") joint_.file.region_of_interest->centre = mend.value;
       if (mend.key == "radius") joint_.file.region_of_interest->radius = mend.value.x();
       if (mend.key == "half_extent") joint_.file.region_of_interest->half_extent = mend.value;
       if (mend.key == "position") joint_.file.X_JP_default->translation() = mend.value;
@@ -123,6 +124,22 @@ TEST_F(Plans, InARegionWithoutSkinAreMended) {
     }
     expect_mended("holds no skin");
   }
+}
+
+TEST_F(Plans, InARegionThatIsWideEnoughButOffTheSkinAreMendedByItsPlace) {
+  joint_.file.region_of_interest = RegionOfInterest{Vec3(0, 0, 0.2), 0.04, {}};
+  const auto found = problems();
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_THAT(found[0].message, HasSubstr("move it: centre = (0.0, 0.0, 50.0) mm"));
+  expect_mended("holds no skin");
+}
+
+TEST_F(Plans, WithAWayTooShortToBeMeantAreMended) {
+  pass().target = pass().entry + Vec3(0, 0, -0.1e-3);
+  const auto found = problems();
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_THAT(found[0].message, HasSubstr("is 0.1 mm, too short for a needle"));
+  expect_mended("too short");
 }
 
 TEST_F(Plans, WithAProbeThatDoesNotStandAreMended) {

@@ -164,6 +164,24 @@ TEST(ThreeInjections, ATargetInBoneWithoutABursaMeansTheLastLayerBeforeTheBone) 
   EXPECT_EQ(reached, 2);
 }
 
+TEST(ThreeInjections, OnAJointWhoseBursaNoLineReachesDoNotHold) {
+  const std::vector<test::FlatLayer> layers{
+      {"skin", .004}, {"muscle", .018}, {"tendon", .010}, {"bone", .03}, {"bursa", .003}};
+  const Scene behind(
+      std::make_shared<const CompiledJoint>(test::make_layered_block(layers, .2, .2)));
+  auto plans = kPlans;
+  for (PlannedInjection& plan : plans) plan.target.z() = .035;  // in the bone before the bursa
+  const auto run = run_three_injections(behind, plans);
+  ASSERT_TRUE(run) << run.error().to_string();
+  EXPECT_FALSE(all_hold(run->claims));
+  const auto claim = std::find_if(run->claims.begin(), run->claims.end(), [](const Claim& c) {
+    return c.text == "injections that reach a bursa";
+  });
+  ASSERT_NE(claim, run->claims.end());
+  EXPECT_EQ(claim->value, 0);
+  EXPECT_FALSE(tell_lack_of_evidence(run->claims).empty());
+}
+
 TEST(ThreeInjections, PlansThatCannotBeRunAreRefused) {
   EXPECT_FALSE(run_three_injections(scene(), std::span(kPlans).first(2)));
   ThreeInjectionsOptions unknown;
