@@ -15,6 +15,7 @@ namespace artus {
 namespace {
 
 constexpr double kHandTick = 1e-3;      // s
+constexpr double kHandSamples = 1000;   // 1/s at which forces of several rates are compared
 constexpr double kHandPuncture = 1.5;   // N, of skin in the tissue library
 constexpr double kFarthest = 60e-3;     // m in which the skin must give way
 constexpr double kRadius21 = 0.409e-3;  // m, of a 21 G needle
@@ -214,7 +215,79 @@ PacketError packet_error(double packet_rate, double lost_from, double lost_for) 
   return error;
 }
 
+/// N per m of a shaft that all points hold: by forces that move them alike.
+double shaft_stiffness(const NeedleCompliance& c) {
+  const auto n = static_cast<Eigen::Index>(c.points);
+  Eigen::MatrixXd C(n, n);
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index j = 0; j < n; ++j)
+      C(i, j) = c.by_load[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
+  return C.ldlt().solve(Eigen::VectorXd::Ones(n)).sum();
+}
+
+/// Force on the hand, N, kHandSamples times a second, of one way in, rest and out with tremor.
+std::vector<double> stroke(const NeedleCompliance& tissue, double rate) {
+  Insertion needle(tissue, rate);
+  std::vector<double> force;
+  const int every = static_cast<int>(std::lround(rate / kHandSamples));
+  const int n = static_cast<int>(std::lround(6 * rate));
+  for (int k = 1; k <= n; ++k) {
+    const double t = k / rate;
+    const double way = t < 2 ? t / 2 : t < 4 ? 1 : (6 - t) / 2;
+    const double z = -2e-3 + 24e-3 * way + 1e-4 * std::sin(2 * std::numbers::pi * 9 * t);
+    const double now = needle.at(z).total.force.z();
+    if (k % every == 0) force.push_back(now);
+  }
+  return force;
+}
+
 }  // namespace
+
+Gate gate_shaft() {
+  Gate gate;
+  gate.title = "Compliance of a rigid shaft in one tissue by the cubes' size, on and between nodes";
+  SoftBlock block;
+  block.half_x = block.half_y = 24e-3;
+  block.layers = {{36e-3, linear_material(3e3, 0.47)}};
+  std::vector<double> found;
+  for (const double cube : {2e-3, 3e-3, 4e-3, 6e-3}) {
+    SoftSolver solver(make_block_model(block, cube), {});
+    solver.refresh();
+    NeedleLine track = NeedledBlock::track(kRadius21);
+    track.length = 24e-3;
+    found.push_back(1 / shaft_stiffness(compute_needle_compliance(solver, track)));
+    track.entry = Vec3(0.5 * cube, 0.5 * cube, 0);
+    found.push_back(1 / shaft_stiffness(compute_needle_compliance(solver, track)));
+  }
+  const auto [least, most] = std::minmax_element(found.begin(), found.end());
+  gate.claims.push_back(claim_near({ClaimKind::independent, "cubes' radius by [Peaceman1978]"},
+                                   "N3: most compliant against least, cubes of 2, 3, 4 and 6 mm",
+                                   *most * 1e3, *least * 1e3, 0.1, "mm/N"));
+  return gate;
+}
+
+Gate gate_needle_rates() {
+  Gate gate;
+  gate.title =
+      "In, rest and out with a tremor of 9 Hz in the layered block, tissue giving way: 1, 2, 5 kHz "
+      "against 10";
+  const NeedleCompliance tissue = NeedledBlock().compliance(kRadius21);
+  const std::vector<double> truth = stroke(tissue, 10e3);
+  for (const double rate : {1e3, 2e3, 5e3}) {
+    const std::vector<double> force = stroke(tissue, rate);
+    double off = 0;
+    double own = 0;
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+      off += std::pow(force[i] - truth[i], 2);
+      own += std::pow(truth[i], 2);
+    }
+    gate.claims.push_back(claim_at_most(
+        ClaimKind::independent,
+        "R1: " + std::to_string(static_cast<int>(rate / 1000)) + " kHz, RMS of the difference",
+        std::sqrt(off / own), 0.02, "of the force"));
+  }
+  return gate;
+}
 
 Gate gate_tent() {
   Gate gate;

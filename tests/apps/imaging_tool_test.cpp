@@ -181,6 +181,31 @@ TEST_F(ImagingTool, APressedJointHasForcesLayersAndACage) {
   EXPECT_EQ(artus({"deform", "-j", kSimple, "--press-n", "1", "--press-mm", "1"}).exit_code, 2);
 }
 
+TEST_F(ImagingTool, NeedleThatGoesInPushesTheTissueOnAndOneDrawnBackPullsItAlong) {
+  const auto slice = [&](const std::string& way) {
+    const auto r = artus({"slice", "-j", kSimple, "--press-n", "1", "--needle", "default",
+                          "--needle-way", way, "-o", in(way + ".png"), "--json"});
+    EXPECT_EQ(r.exit_code, 0) << r.err << r.out;
+    return nlohmann::json::parse(r.out).at("press").at("needle");
+  };
+  const auto inward = slice("in");
+  EXPECT_GT(inward.at("tip_force_n").get<double>(), 0);
+  EXPECT_GT(inward.at("tissue_moved_mm").get<double>(), 0.1);
+  EXPECT_LT(inward.at("tissue_moved_mm").get<double>(), 5);
+  const auto outward = slice("out");
+  EXPECT_EQ(outward.at("tip_force_n").get<double>(), 0);
+  EXPECT_LT(outward.at("force_n").get<double>(), 0);
+  EXPECT_LT(outward.at("tissue_moved_mm").get<double>(), -0.02);
+  EXPECT_GT(cv::norm(cv::imread(in("in.png")), cv::imread(in("out.png"))), 0);
+}
+
+TEST_F(ImagingTool, NeedleDragsNothingInARigidBody) {
+  const auto r = artus({"slice", "-j", kSimple, "--needle", "default", "--needle-way", "in", "-o",
+                        in("rigid.png")});
+  EXPECT_EQ(r.exit_code, 2);
+  EXPECT_NE(r.err.find("--press-n"), std::string::npos) << r.err;
+}
+
 TEST_F(ImagingTool, ASweepContinuesAndAVideoFollowsThePath) {
   const std::string list = poses();
   const std::vector<std::string> sweep{"sweep", "-j",    kSimple, "--poses",
