@@ -17,6 +17,8 @@ namespace {
 constexpr double kHandTick = 1e-3;      // s
 constexpr double kHandSamples = 1000;   // 1/s at which forces of several rates are compared
 constexpr double kHandPuncture = 1.5;   // N, of skin in the tissue library
+constexpr double kHandCut = 1;          // N, that cuts skin there
+constexpr double kHandWall = 1500;      // N/m, K_t of skin there
 constexpr double kFarthest = 60e-3;     // m in which the skin must give way
 constexpr double kRadius21 = 0.409e-3;  // m, of a 21 G needle
 constexpr double kRadius25 = 0.257e-3;  // m, of a 25 G needle
@@ -92,8 +94,8 @@ class Insertion {
  private:
   static LayerTable table() {
     LayerHaptics layer;
-    layer.tissue.cutting_force = 0.6;
-    layer.tissue.wall_stiffness = 500;
+    layer.tissue.cutting_force = kHandCut;
+    layer.tissue.wall_stiffness = kHandWall;
     layer.tissue.puncture_force = kHandPuncture;
     layer.tissue.friction = 1;
     std::vector<LayerHaptics> regions(kFirstRegion + 1);
@@ -116,16 +118,19 @@ class Insertion {
 /// mm that the skin is pushed in when it gives way, and how far the tip then comes into the
 /// material with a still hand.
 struct Tent {
-  double height = 0;
+  double skin = 0;    // m, from touching to giving way
+  double height = 0;  // m of it by the tissue below, the rest is the membrane's own
   double jump = 0;
   double let_go = 0;
   double fall_time = 0;  // s, to a tenth of what is let go
+  double snap_time = 0;  // s, to a tenth of the way to what the cut still holds
 };
 
 Tent tent_of(const NeedleCompliance& tissue) {
   Insertion needle(tissue);
   needle.puncture();
   Tent tent;
+  tent.skin = needle.z();
   tent.height = needle.model().coupling().tip_displacement();
   const double depth = needle.model().contact().tick().depth;
   std::vector<double> fall;
@@ -135,9 +140,14 @@ Tent tent_of(const NeedleCompliance& tissue) {
   }
   tent.let_go = tent.height - fall.back();
   tent.jump = needle.model().contact().tick().depth - depth;
-  const auto fallen = std::find_if(fall.begin(), fall.end(),
-                                   [&](double u) { return u - fall.back() < 0.1 * tent.let_go; });
-  tent.fall_time = static_cast<double>(fallen - fall.begin() + 1) * kHandTick;
+  const auto time_to = [&](double level) {
+    const auto fallen = std::find_if(fall.begin(), fall.end(), [&](double u) {
+      return u - level < 0.1 * (tent.height - level);
+    });
+    return static_cast<double>(fallen - fall.begin() + 1) * kHandTick;
+  };
+  tent.fall_time = time_to(fall.back());
+  tent.snap_time = time_to(kHandCut * needle.model().coupling().tip_compliance(depth, kHandWall));
   return tent;
 }
 
@@ -297,15 +307,19 @@ Gate gate_tent() {
   const Tent thin = tent_of(body.compliance(kRadius25));
   const ClaimBasis bound{ClaimKind::fitted, "2 to 5 mm is recalled, no table was found: assumed"};
   gate.claims.push_back(
-      claim_within(bound, "H3: tent under a 21 G needle", thick.height * 1e3, 3.5, 1.5, "mm"));
+      claim_within(bound, "H3: tent under a 21 G needle", thick.skin * 1e3, 3.5, 1.5, "mm"));
   gate.claims.push_back(
-      claim_within(bound, "H3: tent under a 25 G needle", thin.height * 1e3, 3.5, 1.5, "mm"));
+      claim_within(bound, "H3: tent under a 25 G needle", thin.skin * 1e3, 3.5, 1.5, "mm"));
   gate.claims.push_back(claim_near(ClaimKind::independent,
                                    "H3: tip's way into the material with a still hand",
                                    thick.jump * 1e3, thick.let_go * 1e3, 0.1, "mm"));
-  gate.claims.push_back(claim_within({ClaimKind::fitted, "the relaxation time was chosen for it"},
-                                     "H4: time in which the tent falls to a tenth", thick.fall_time,
-                                     0.085, 0.065, "s"));
+  const ClaimBasis time{ClaimKind::fitted, "the relaxation time was chosen for it"};
+  gate.claims.push_back(claim_within(
+      time, "H4: time of nine tenths of the way from the tent to what the cut still holds",
+      thick.snap_time, 0.085, 0.065, "s"));
+  gate.claims.push_back(claim_within(
+      time, "H4: time in which the whole tent falls to a tenth, the cut's force coming to rest",
+      thick.fall_time, 0.085, 0.065, "s"));
   return gate;
 }
 

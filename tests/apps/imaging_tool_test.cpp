@@ -200,8 +200,8 @@ TEST_F(ImagingTool, NeedleThatGoesInPushesTheTissueOnAndOneDrawnBackPullsItAlong
 }
 
 TEST_F(ImagingTool, NeedleDragsNothingInARigidBody) {
-  const auto r = artus({"slice", "-j", kSimple, "--needle", "default", "--needle-way", "in", "-o",
-                        in("rigid.png")});
+  const auto r = artus(
+      {"slice", "-j", kSimple, "--needle", "default", "--needle-way", "in", "-o", in("rigid.png")});
   EXPECT_EQ(r.exit_code, 2);
   EXPECT_NE(r.err.find("--press-n"), std::string::npos) << r.err;
 }
