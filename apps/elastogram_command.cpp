@@ -22,8 +22,8 @@ struct ElastogramOptions {
   JointOptions joint;
   ViewOptions view;
   PressOptions press;
-  double more_mm = 0.15;
-  double full_percent = 3;
+  double more_mm = 0.05;
+  double full_percent = 1;
   std::filesystem::path out;
   std::filesystem::path csv;
   bool json = false;

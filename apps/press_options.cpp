@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kDefaultPress = 3;  // N
 
-constexpr double kPart = 0.5e-3;  // m by which tissue is pushed on at a time
+constexpr double kPart = 1e-3;  // m by which tissue is pushed on at a time
 
 /// The material point that is now at `p`, as a term of length one along the needle, frame C.
 PointLoad along_needle(const PressedBody& pressed, const Pose& X_CJ, const Vec3& p,
@@ -26,7 +26,7 @@ bool push_on(SoftBody& body, const Pose& X_JP, const PointLoad& term, double pus
   const double from = solver.constraint_sum(0);
   for (double way = kPart; way < push; way += kPart) {
     solver.set_constraint_value(0, from + way);
-    body.settle(X_JP, 5e-5, 6);
+    body.settle(X_JP, 5e-5, 4);
   }
   solver.set_constraint_value(0, from + push);
   return body.settle(X_JP, 2e-6, 60);

@@ -181,22 +181,28 @@ TEST_F(ImagingTool, APressedJointHasForcesLayersAndACage) {
   EXPECT_EQ(artus({"deform", "-j", kSimple, "--press-n", "1", "--press-mm", "1"}).exit_code, 2);
 }
 
-TEST_F(ImagingTool, NeedleThatGoesInPushesTheTissueOnAndOneDrawnBackPullsItAlong) {
-  const auto slice = [&](const std::string& way) {
-    const auto r = artus({"slice", "-j", kSimple, "--press-n", "1", "--needle", "default",
-                          "--needle-way", way, "-o", in(way + ".png"), "--json"});
-    EXPECT_EQ(r.exit_code, 0) << r.err << r.out;
-    return nlohmann::json::parse(r.out).at("press").at("needle");
-  };
-  const auto inward = slice("in");
-  EXPECT_GT(inward.at("tip_force_n").get<double>(), 0);
-  EXPECT_GT(inward.at("tissue_moved_mm").get<double>(), 0.1);
-  EXPECT_LT(inward.at("tissue_moved_mm").get<double>(), 5);
-  const auto outward = slice("out");
-  EXPECT_EQ(outward.at("tip_force_n").get<double>(), 0);
-  EXPECT_LT(outward.at("force_n").get<double>(), 0);
-  EXPECT_LT(outward.at("tissue_moved_mm").get<double>(), -0.02);
-  EXPECT_GT(cv::norm(cv::imread(in("in.png")), cv::imread(in("out.png"))), 0);
+/// What the report of a slice says of a needle that was last moved so, in simple-shoulder.
+nlohmann::json needle_moved(const std::string& way, const std::string& file) {
+  const auto r = artus({"slice", "-j", kSimple, "--press-mm", "1", "--needle", "default",
+                        "--needle-way", way, "-o", file, "--json"});
+  EXPECT_EQ(r.exit_code, 0) << r.err << r.out;
+  return nlohmann::json::parse(r.out).at("press").at("needle");
+}
+
+TEST_F(ImagingTool, NeedleThatGoesInPushesTheTissueOn) {
+  const auto needle = needle_moved("in", in("in.png"));
+  EXPECT_GT(needle.at("tip_force_n").get<double>(), 0);
+  EXPECT_GT(needle.at("tissue_moved_mm").get<double>(), 0.1);
+  EXPECT_LT(needle.at("tissue_moved_mm").get<double>(), 5);
+  EXPECT_TRUE(std::filesystem::exists(in("in.png")));
+}
+
+TEST_F(ImagingTool, NeedleDrawnBackPullsTissueAlong) {
+  const auto needle = needle_moved("out", in("out.png"));
+  EXPECT_EQ(needle.at("tip_force_n").get<double>(), 0);
+  EXPECT_LT(needle.at("force_n").get<double>(), 0);
+  EXPECT_LT(needle.at("tissue_moved_mm").get<double>(), -0.02);
+  EXPECT_TRUE(std::filesystem::exists(in("out.png")));
 }
 
 TEST_F(ImagingTool, NeedleDragsNothingInARigidBody) {
