@@ -22,8 +22,8 @@ struct ElastogramOptions {
   JointOptions joint;
   ViewOptions view;
   PressOptions press;
-  double more_mm = 0.15;
-  double full_percent = 3;
+  double more_mm = 0.05;
+  double full_percent = 1;
   std::filesystem::path out;
   std::filesystem::path csv;
   bool json = false;
@@ -40,15 +40,22 @@ float strain_at(const StrainImage& strain, const Transducer& probe, const Vec3& 
   return strain.strain[static_cast<std::size_t>(l * strain.n_depths + k)];
 }
 
+constexpr int kLinesMatched = 9;       // 1.4 mm of the face, as wide as a matched piece is long
+constexpr std::uint8_t kDarkest = 16;  // of 255; below it there is no echo to follow, only shadow
+
 /// Soft red, stiff blue over the grey picture, grey alone where nothing is known: as scanners do.
 cv::Mat coloured(const Frame& frame, const StrainImage& strain, const View& view, double full) {
   const ScanConverter converter(view.transducer, view.settings);
+  const cv::Mat picture = grey_image(frame);
+  cv::Mat lit;
+  cv::blur(picture, lit, cv::Size(9, 9));
   cv::Mat shade(frame.height, frame.width, CV_8UC1, cv::Scalar(0));
   cv::Mat known(frame.height, frame.width, CV_8UC1, cv::Scalar(0));
   for (int y = 0; y < frame.height; ++y) {
     for (int x = 0; x < frame.width; ++x) {
       const float e = strain_at(strain, view.transducer, converter.point_of(x, y));
-      if (std::isnan(e) || !converter.inside(x, y)) continue;
+      if (std::isnan(e) || !converter.inside(x, y) || lit.at<std::uint8_t>(y, x) < kDarkest)
+        continue;
       shade.at<std::uint8_t>(y, x) = cv::saturate_cast<std::uint8_t>(-255 * e / full);
       known.at<std::uint8_t>(y, x) = 255;
     }
@@ -56,7 +63,7 @@ cv::Mat coloured(const Frame& frame, const StrainImage& strain, const View& view
   cv::Mat colour;
   cv::applyColorMap(shade, colour, cv::COLORMAP_JET);
   cv::Mat grey;
-  cv::cvtColor(grey_image(frame), grey, cv::COLOR_GRAY2BGR);
+  cv::cvtColor(picture, grey, cv::COLOR_GRAY2BGR);
   cv::Mat mixed;
   cv::addWeighted(grey, 0.55, colour, 0.45, 0, mixed);
   mixed.copyTo(grey, known);
@@ -103,7 +110,9 @@ ExitCode run_elastogram(const ElastogramOptions& options) {
     return report_error(sight.error(), options.json);
   renderer.set_scene(scenes.at(second->tissue));
   const Frame& after = renderer.render(second->press.X_JP, loaded->needle);
-  const StrainImage strain = compute_strain(before, after);
+  StrainParams matched;
+  matched.lines = kLinesMatched;
+  const StrainImage strain = compute_strain(before, after, matched);
 
   const cv::Mat picture = coloured(before, strain, view, options.full_percent / 100);
   if (const auto written =

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "artus/haptics/needle/lugre_friction.h"
+#include "artus/haptics/needle/needle_coupling.h"
 
 namespace artus {
 namespace {
@@ -12,32 +13,52 @@ namespace {
 constexpr double kSpacing = 1.5e-3;  // m
 constexpr double kSpeed = 10e-3;     // m/s
 
+double compliance_in(const Haptic& layer, double tissue) {
+  return std::min(tissue, most_tissue_compliance(layer.wall_stiffness));
+}
+
+/// The first membrane that still holds or, where none does, the layer at the tip.
+void push_tip(const Scene& scene, const std::vector<TissueInterval>& layers, double tip,
+              double tissue, NeedleDrag& drag) {
+  for (const TissueInterval& i : layers) {
+    if (i.region < kFirstRegion) continue;
+    const Haptic& layer = scene.joint().tissue_of(i.region).haptic;
+    if (layer.hard) continue;
+    const double compliance = compliance_in(layer, tissue);
+    const double pushed = tip - i.entry;
+    if (layer.puncture_force > 0 && pushed < layer.puncture_force * compliance) {
+      drag = {{}, pushed, pushed / compliance, i.region};
+      return;
+    }
+    if (i.exit >= tip) drag = {{}, layer.cutting_force * compliance, layer.cutting_force, kOutside};
+  }
+}
+
 }  // namespace
 
-std::vector<PointLoad> sliding_loads(const Scene& scene, const NeedleView& needle, NeedleWay way) {
+NeedleDrag find_drag(const Scene& scene, const NeedleView& needle, NeedleWay way,
+                     double tissue_compliance) {
   const LugreParams friction;
   const double level = lugre_level(friction, kSpeed);
+  const double length = needle.shape.length;
   const Vec3 axis = needle.X_JN.linear().col(2);
-  const Vec3 tip = needle.X_JN.translation();
-  const Segment shaft{tip - needle.shape.length * axis, tip};
-  std::vector<PointLoad> loads;
-  const Haptic* at_tip = nullptr;
-  for (const TissueInterval& i : tissue_intervals(scene, shaft)) {
-    at_tip = nullptr;
-    if (i.region < kFirstRegion) continue;
+  const Segment shaft{needle.X_JN.translation() - length * axis, needle.X_JN.translation()};
+  const auto layers = tissue_intervals(scene, shaft);
+  NeedleDrag drag;
+  if (way == NeedleWay::in) push_tip(scene, layers, length, tissue_compliance, drag);
+  for (const TissueInterval& i : layers) {
+    const double exit = std::min(i.exit, length - drag.push);  // beyond, tissue is before the tip
+    if (i.region < kFirstRegion || exit <= i.entry) continue;
     const Haptic& tissue = scene.joint().tissue_of(i.region).haptic;
     if (tissue.hard) continue;
-    at_tip = &tissue;
-    const double length = i.exit - i.entry;
-    const double held = tissue.cutting_force * tissue.friction * level * length / friction.length;
-    const int n = std::max(1, static_cast<int>(std::lround(length / kSpacing)));
+    const double in_layer = exit - i.entry;
+    const double held = tissue.cutting_force * tissue.friction * level * in_layer / friction.length;
+    const int n = std::max(1, static_cast<int>(std::lround(in_layer / kSpacing)));
     for (int k = 0; k < n; ++k)
-      loads.push_back({shaft.start + (i.entry + length * (k + 0.5) / n) * axis,
-                       (way == NeedleWay::in ? 1 : -1) * held / n * axis});
+      drag.shaft.push_back({shaft.start + (i.entry + in_layer * (k + 0.5) / n) * axis,
+                            (way == NeedleWay::in ? 1 : -1) * held / n * axis});
   }
-  if (at_tip != nullptr && way == NeedleWay::in)
-    loads.push_back({tip, at_tip->cutting_force * axis});
-  return loads;
+  return drag;
 }
 
 }  // namespace artus

@@ -11,29 +11,66 @@ namespace {
 
 constexpr double kDefaultPress = 3;  // N
 
-/// Loads the body with what the needle puts on it, and lets it come to rest under the held probe.
-nlohmann::json drag(SoftBody& body, const LoadedView& view, PressedBody& pressed,
-                    const std::string& way) {
-  const auto loads = sliding_loads(*make_scene(pressed.tissue), *view.needle,
-                                   way == "in" ? NeedleWay::in : NeedleWay::out);
-  const Pose X_CJ = body.cage_pose().inverse();
-  std::vector<PointLoad> in_cage;
-  double sum = 0;
-  for (const PointLoad& load : loads) {
-    in_cage.push_back(
-        {X_CJ * pressed.tissue->to_rest(load.p_rest).p_rest, X_CJ.linear() * load.force});
-    sum += load.force.dot(view.needle->X_JN.linear().col(2));
+constexpr double kPart = 1e-3;  // m by which tissue is pushed on at a time
+
+/// The material point that is now at `p`, as a term of length one along the needle, frame C.
+PointLoad along_needle(const PressedBody& pressed, const Pose& X_CJ, const Vec3& p,
+                       const Vec3& axis) {
+  return {X_CJ * pressed.tissue->to_rest(p).p_rest, X_CJ.linear() * axis};
+}
+
+/// Pushes the tissue before the tip on until what is to lie there does, part by part.
+bool push_on(SoftBody& body, const Pose& X_JP, const PointLoad& term, double push) {
+  SoftSolver& solver = body.solver();
+  solver.set_constraints({{{term}, 0}});
+  const double from = solver.constraint_sum(0);
+  for (double way = kPart; way < push; way += kPart) {
+    solver.set_constraint_value(0, from + way);
+    body.settle(X_JP, 5e-5, 4);
   }
-  body.solver().set_loads(std::move(in_cage));
-  const bool settled = body.settle(pressed.press.X_JP, 2e-6, 60);
+  solver.set_constraint_value(0, from + push);
+  return body.settle(X_JP, 2e-6, 60);
+}
+
+/// Lets the body give way to the needle under the held probe.
+Result<nlohmann::json> drag(SoftBody& body, const LoadedView& view, PressedBody& pressed,
+                            const std::string& way) {
+  const Pose X_CJ = body.cage_pose().inverse();
+  const Vec3 axis = view.needle->X_JN.linear().col(2);
+  const Vec3 tip = view.needle->X_JN.translation();
+  SoftSolver& solver = body.solver();
+  const auto scene = make_scene(pressed.tissue);
+  solver.set_constraints({{{along_needle(pressed, X_CJ, tip, axis)}, 0}});
+  const double compliance = solver.constraint_compliance()(0, 0);
+  solver.set_constraints({});
+  const NeedleDrag needle =
+      find_drag(*scene, *view.needle, way == "in" ? NeedleWay::in : NeedleWay::out, compliance);
+  std::vector<PointLoad> in_cage;
+  double sum = needle.tip_force;
+  for (const PointLoad& load : needle.shaft) {
+    in_cage.push_back(along_needle(pressed, X_CJ, load.p_rest, load.force));
+    sum += load.force.dot(axis);
+  }
+  solver.set_loads(std::move(in_cage));
+  const Pose& X_JP = pressed.press.X_JP;
+  bool settled = body.settle(X_JP, needle.push > 0 ? 5e-5 : 2e-6, 60);
+  if (needle.push > 0)
+    settled = push_on(body, X_JP, along_needle(pressed, X_CJ, tip - needle.push * axis, axis),
+                      needle.push);
+  if (!settled)
+    return fail(ErrorCode::failed, "the tissue does not come to rest under this needle",
+                "--needle-way");
   const auto before = pressed.tissue;
   pressed.tissue = body.snapshot();
-  const Vec3 tip = before->to_rest(view.needle->X_JN.translation()).p_rest;
-  const Vec3 moved = pressed.tissue->displacement(tip) - before->displacement(tip);
-  return {{"way", way},
-          {"force_n", sum},
-          {"tissue_moved_mm", moved.dot(view.needle->X_JN.linear().col(2)) / kMillimetre},
-          {"settled", settled}};
+  const Vec3 at_tip = before->to_rest(tip - needle.push * axis).p_rest;
+  const Vec3 moved = pressed.tissue->displacement(at_tip) - before->displacement(at_tip);
+  nlohmann::json report{{"way", way},
+                        {"force_n", sum},
+                        {"tip_force_n", needle.tip_force},
+                        {"tissue_moved_mm", moved.dot(axis) / kMillimetre},
+                        {"least_volume_ratio", solver.forces().least_volume}};
+  if (needle.tented != kOutside) report["tented"] = view.joint().regions[needle.tented].name;
+  return report;
 }
 
 }  // namespace
@@ -77,8 +114,11 @@ Result<nlohmann::json> press(LoadedView& view, const PressOptions& options) {
   auto pressed = press(*body, view.X_JP, options);
   ARTUS_TRY(pressed);
   auto report = to_json(pressed->press);
-  if (view.needle && !options.needle_way.empty())
-    report["needle"] = drag(*body, view, *pressed, options.needle_way);
+  if (view.needle && !options.needle_way.empty()) {
+    auto needle = drag(*body, view, *pressed, options.needle_way);
+    ARTUS_TRY(needle);
+    report["needle"] = std::move(*needle);
+  }
   view.scene = make_scene(pressed->tissue);
   view.X_JP = pressed->press.X_JP;
   return report;

@@ -66,7 +66,7 @@ struct Matcher {
     const double right = correlate(line, sample, best + 1);
     const double bend = left - 2 * peak + right;
     const double off = bend < 0 ? std::clamp(0.5 * (left - right) / bend, -0.5, 0.5) : 0;
-    return {best + off, peak};
+    return {best + off, peak - 0.25 * (left - right) * off};
   }
 };
 

@@ -69,7 +69,8 @@ NeedleCompliance compute_needle_compliance(const SoftSolver& solver, const Needl
     solver.factor().solve(x);
     moved.col(i) = x;
     const auto k = static_cast<std::size_t>(i);
-    out.by_load[k][k] = near_field(model, place, track, out.spacing);
+    out.near_field[k] = near_field(model, place, track, out.spacing);
+    out.by_load[k][k] = out.near_field[k];
   }
   const Eigen::MatrixXd product = loads.transpose() * moved;
   for (std::size_t i = 0; i < points; ++i) {

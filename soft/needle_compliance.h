@@ -18,6 +18,8 @@ struct NeedleCompliance {
   std::size_t points = 0;               ///< 0: the tissue is rigid
   double spacing = 2.5e-3;              ///< m
   std::array<Column, kMost> by_load{};  ///< m/N, symmetric, positive definite
+  Column near_field{};                  ///< m/N, what of by_load's diagonal the needle's own
+                                        ///< neighbourhood adds to the field of the cubes
 };
 
 /// The forces of a needle on the tissue along its track, N, positive into the body.
@@ -39,7 +41,9 @@ struct NeedleLine {
 /// line inside a cube only feels a cube's stiffness, so the field between the needle's radius r and
 /// the radius R at which the cube's field begins is added to each point: ln(R/r) / (2 pi mu l), l
 /// the point's length and mu the tissue's shear modulus there; R is 0.2 to 0.7 cubes, by where the
-/// track passes between the nodes. Points in what is held are as rigid as that near field.
+/// track passes between the nodes. It is the shaft's, given apart as `near_field`: what lies that
+/// close to the tip is in the laws of cutting and puncture, which were measured at the hand. Points
+/// in what is held are as rigid as that near field.
 /// Requires: length and radius > 0. Cost: a solution of the factor for each point.
 [[nodiscard]] NeedleCompliance compute_needle_compliance(const SoftSolver& solver,
                                                          const NeedleLine& track,

@@ -8,7 +8,7 @@
 namespace artus {
 namespace {
 
-constexpr std::array<NamedGate, 22> kGates{{{"patch", gate_patch},
+constexpr std::array<NamedGate, 26> kGates{{{"patch", gate_patch},
                                             {"uniaxial", gate_uniaxial},
                                             {"point-force", gate_point_force},
                                             {"cantilever", gate_cantilever},
@@ -27,6 +27,10 @@ constexpr std::array<NamedGate, 22> kGates{{{"patch", gate_patch},
                                             {"inclusion", gate_inclusion},
                                             {"speckle", gate_speckle_pressed},
                                             {"thinning", gate_thinning},
+                                            {"carried", gate_carried},
+                                            {"border", gate_border},
+                                            {"shaft", gate_shaft},
+                                            {"needle-rates", gate_needle_rates},
                                             {"tent", gate_tent},
                                             {"drag", gate_drag},
                                             {"packets", gate_packets}}};

@@ -23,6 +23,10 @@ namespace artus {
 [[nodiscard]] Gate gate_reciprocity();      ///< compliance against its transpose
 [[nodiscard]] Gate gate_thinning();         ///< layers in the picture against the tissue's
 [[nodiscard]] Gate gate_limb();             ///< fat and muscle over bone against published ones
+[[nodiscard]] Gate gate_carried();          ///< speckle where the tissue went
+[[nodiscard]] Gate gate_border();           ///< echo of a moved border and its speckle's edge
+[[nodiscard]] Gate gate_shaft();            ///< a needle's compliance by cube size
+[[nodiscard]] Gate gate_needle_rates();     ///< a coupled needle at several rates of the loop
 [[nodiscard]] Gate gate_tent();             ///< skin before and after a needle
 [[nodiscard]] Gate gate_drag();             ///< a needle's load, in and out
 [[nodiscard]] Gate gate_packets();          ///< the probe's force between updates

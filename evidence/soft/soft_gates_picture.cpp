@@ -135,6 +135,85 @@ double mean_strain(const StrainImage& image, double x, double z, double radius) 
   return n > 0 ? sum / n : 0;
 }
 
+constexpr double kBorder = 9e-3;  // m, of the layers that gate_border presses
+
+/// What of a border is drawn: its echo without speckle, or the speckle behind it without echo.
+enum class BorderShown { echo, speckle };
+
+struct BorderProfile {
+  double at = 0;     // m below where the tissue's border is, mean over the lines
+  double moved = 0;  // m of the border on the middle line
+};
+
+std::shared_ptr<const CompiledJoint> border_joint(BorderShown shown) {
+  const std::array<FlatLayer, 2> layers{{{"gel", kBorder}, {"tissue_mimic", kThick - kBorder}}};
+  CompiledJoint joint =
+      subdivided(make_layered_block(make_phantom_tissues(), layers, 2 * kHalf, 2 * kHalf), 5);
+  Acoustic& below = acoustic_of(joint, "tissue_mimic");
+  Acoustic& above = acoustic_of(joint, "gel");
+  below.attenuation = above.attenuation = 0;
+  above.backscatter = 0;
+  above.speed_of_sound = below.speed_of_sound;
+  above.density = below.density;
+  if (shown == BorderShown::echo) {
+    below.backscatter = 0;
+    above.density *= 0.9;
+  }
+  return std::make_shared<const CompiledJoint>(std::move(joint));
+}
+
+/// Depth below the probe's face, m, at which the border lies on a line at x.
+double border_depth(const DeformedBody& body, double x, double face) {
+  double low = face;
+  double high = kBorder + 5e-3;
+  for (int k = 0; k < 40; ++k) {
+    const double z = 0.5 * (low + high);
+    (body.to_rest({x, 0, z}).p_rest.z() < kBorder ? low : high) = z;
+  }
+  return low - face;
+}
+
+BorderProfile border_profile(const std::shared_ptr<const SoftModel>& model,
+                             std::span<const Vec3> nodes, BorderShown shown) {
+  const auto joint = border_joint(shown);
+  const auto body = std::make_shared<const DeformedBody>(
+      joint, make_body_map(*joint, Pose::Identity(), model), nodes, ContactForce{});
+  Pose X_JP = Pose::Identity();
+  X_JP.translation().z() = body->displacement(Vec3::Zero()).z() + 1e-3;
+  const double face = X_JP.translation().z();
+  const Frame frame = render_bmode(make_scene(body), X_JP, std::nullopt, {}, settings_of_gate());
+  const double to_sample = kDisplaySpeedOfSound /
+                           joint->tissue_of(kFirstRegion).acoustic.speed_of_sound /
+                           frame.sample_depth;
+  constexpr int kAround = 48;  // samples on both sides of the border
+  std::vector<double> power(2 * kAround + 1, 0.0);
+  const Transducer probe;
+  for (int l = 24; l < frame.n_lines - 24; ++l) {
+    const double x = (static_cast<double>(l) / (frame.n_lines - 1) - 0.5) * probe.width;
+    const double at = border_depth(*body, x, face) * to_sample;
+    const auto line = envelope_line(frame, l);
+    for (int k = -kAround; k <= kAround; ++k) {
+      const double s = at + k;
+      const auto i = static_cast<std::size_t>(s);
+      const double share = s - static_cast<double>(i);
+      const double value = (1 - share) * line[i] + share * line[i + 1];
+      power[static_cast<std::size_t>(k + kAround)] += value * value;
+    }
+  }
+  double found = 0;
+  if (shown == BorderShown::echo) {
+    found = static_cast<double>(std::max_element(power.begin(), power.end()) - power.begin());
+  } else {
+    double plateau = 0;
+    for (std::size_t k = 2 * kAround - 23; k < power.size(); ++k) plateau += power[k] / 24;
+    std::size_t k = 1;
+    while (k + 1 < power.size() && power[k] < 0.5 * plateau) ++k;
+    found = static_cast<double>(k) -
+            (power[k] - 0.5 * plateau) / std::max(power[k] - power[k - 1], 1e-300);
+  }
+  return {(found - kAround) / to_sample, border_depth(*body, 0, face) + face - kBorder};
+}
+
 }  // namespace
 
 Gate gate_strain_image() {
@@ -167,6 +246,89 @@ Gate gate_strain_image() {
                                            correlation / static_cast<double>(errors.size()), 0.95,
                                            ""));
   }
+  return gate;
+}
+
+Gate gate_carried() {
+  Gate gate;
+  gate.title = "one half of a block moves and gives way, the other stays (I2)";
+  const MovedPhantom phantom(plain_model());
+  constexpr double kMoves = 6e-3;  // m, x beyond which the whole motion is there
+  const auto u = [](const Vec3& p) {
+    const double share = std::clamp(p.x() / kMoves, 0.0, 1.0);
+    return Vec3(0, 0, share * (0.15e-3 - 0.005 * p.z()));
+  };
+  const auto rest = phantom.scene([](const Vec3&) { return Vec3(Vec3::Zero()); });
+  const auto moved = phantom.scene(u);
+  Pose X_JP = Pose::Identity();
+  X_JP.translation().z() = 1e-3;
+  const ImageSettings settings = settings_of_gate();
+  const Frame before = render_bmode(rest, X_JP, std::nullopt, {}, settings);
+  const Frame after = render_bmode(moved, X_JP, std::nullopt, {}, settings);
+  const StrainImage image = compute_strain(before, after);
+  const Transducer probe;
+  std::vector<double> errors;
+  for (int l = 0; l < image.n_lines; ++l) {
+    const double x = (static_cast<double>(l) / (image.n_lines - 1) - 0.5) * probe.width;
+    if (x < 9e-3) continue;  // the beam is as wide as that
+    for (int k = 0; k < image.n_depths; ++k) {
+      const double z = 1e-3 + image.first_depth + k * image.step;
+      if (z > 34e-3) break;
+      errors.push_back(image.displacement[static_cast<std::size_t>(l * image.n_depths + k)] -
+                       u({x, 0, z}).z());
+    }
+  }
+  const Moments moments = moments_of(errors);
+  constexpr double kBound = 5 + 0.1 * 40e3 / 1024;  // um and a tenth of a sample
+  gate.claims.push_back(claim_at_most(ClaimKind::independent,
+                                      "I2: speckle is where its tissue went, mean error",
+                                      std::abs(moments.mean) * 1e6, kBound, "um"));
+  gate.claims.push_back(claim_at_most(ClaimKind::independent, "I2: deviation of the error",
+                                      moments.deviation * 1e6, kBound, "um"));
+  bool same = true;
+  for (int l = 0; l < before.n_lines; ++l) {
+    const double x = (static_cast<double>(l) / (before.n_lines - 1) - 0.5) * probe.width;
+    if (x > -0.5 * probe.max_aperture - 1e-3) break;
+    const auto a = envelope_line(before, l);
+    const auto b = envelope_line(after, l);
+    same = same && std::equal(a.begin(), a.end(), b.begin());
+  }
+  gate.claims.push_back(claim_that(ClaimKind::independent,
+                                   "I2: lines whose beams meet nothing that moved keep their bytes",
+                                   same));
+  return gate;
+}
+
+Gate gate_border() {
+  Gate gate;
+  gate.title =
+      "a silent layer over a speckled one, pressed: the border's echo and the speckle's "
+      "edge, each drawn alone (I4)";
+  const auto model = plain_model();
+  SoftSolver solver(model, {});
+  std::vector<PointLoad> loads;
+  // Alike across the picture's plane, so that what the beam sees beside it is no other depth.
+  for (int i = -10; i <= 10; ++i)
+    for (int j = -9; j <= 9; ++j)
+      loads.push_back({Vec3(2e-3 * i, 5e-3 * j, 0), Vec3(0, 0, (6.0 + 0.3 * i) / 399)});
+  solver.set_loads(std::move(loads));
+  solver.settle(std::nullopt, 1e-7, 60);
+  const BorderProfile echo = border_profile(model, solver.displacements(), BorderShown::echo);
+  const BorderProfile edge = border_profile(model, solver.displacements(), BorderShown::speckle);
+  const std::vector<Vec3> rest(model->cage().nodes().size(), Vec3::Zero());
+  const double echo_rest = border_profile(model, rest, BorderShown::echo).at;
+  const double edge_rest = border_profile(model, rest, BorderShown::speckle).at;
+  gate.claims.push_back(claim_within(
+      ClaimKind::independent, "I4: what the deformation adds to the way between them at rest",
+      (edge.at - echo.at - edge_rest + echo_rest) * 1e3, 0, 0.1, "mm"));
+  gate.claims.push_back(claim_within(ClaimKind::independent,
+                                     "I4: speckle's edge below the border's echo",
+                                     (edge.at - echo.at) * 1e3, 0, 0.1, "mm"));
+  gate.claims.push_back(claim_within(ClaimKind::independent,
+                                     "I4: border's echo below where the tissue has it",
+                                     echo.at * 1e3, 0, 0.1, "mm"));
+  gate.claims.push_back(claim_at_least({ClaimKind::input, "so much was pressed"},
+                                       "I4: the border has moved", echo.moved * 1e3, 1, "mm"));
   return gate;
 }
 

@@ -57,31 +57,39 @@ double NeedleCoupling::stored() const noexcept {
   return energy;
 }
 
-double NeedleCoupling::tip_compliance(double depth) const noexcept {
+double NeedleCoupling::dragged(std::size_t point) const noexcept {
+  return displacement(point) - compliance_.near_field[point] * load_.shaft[point];
+}
+
+double NeedleCoupling::tip_compliance(double depth, double wall_stiffness) const noexcept {
   if (!active()) return 0;
   const Between b = between(compliance_, depth);
   const double other = 1 - b.share;
   const auto& C = compliance_.by_load;
-  return other * other * C[b.low][b.low] + 2 * other * b.share * C[b.low][b.high] +
-         b.share * b.share * C[b.high][b.high];
+  const auto& near = compliance_.near_field;
+  const double tissue =
+      other * other * (C[b.low][b.low] - near[b.low]) +
+      2 * other * b.share * (C[b.low][b.high] - (b.low == b.high ? near[b.low] : 0)) +
+      b.share * b.share * (C[b.high][b.high] - near[b.high]);
+  if (!(wall_stiffness > 0)) return tissue;
+  return std::min(tissue, most_tissue_compliance(wall_stiffness, params_.most_wall));
 }
 
 double NeedleCoupling::local_stiffness(double wall_stiffness, double depth) const noexcept {
   if (!active() || !(wall_stiffness > 0)) return wall_stiffness;
-  const double left = 1 / wall_stiffness - tip_compliance(depth);
-  return 1 / std::max(left, 1 / (params_.most_wall * wall_stiffness));
+  return 1 / (1 / wall_stiffness - tip_compliance(depth, wall_stiffness));
 }
 
-void NeedleCoupling::follow_tip(double depth, double tip_force) noexcept {
+void NeedleCoupling::follow_tip(double depth, double tip_force, double wall_stiffness) noexcept {
   load_.tip = tip_force;
   load_.tip_depth = depth;
   const Between b = between(compliance_, depth);
-  const double shaft = (1 - b.share) * displacement(b.low) + b.share * displacement(b.high);
-  const double pushed = shaft + tip_compliance(depth) * tip_force;
+  const double shaft = (1 - b.share) * dragged(b.low) + b.share * dragged(b.high);
+  const double pushed = shaft + tip_compliance(depth, wall_stiffness) * tip_force;
   tip_displacement_ += follow_ * (pushed - tip_displacement_);
 }
 
-double NeedleCoupling::step(double moved, double depth, double tip_force,
+double NeedleCoupling::step(double moved, double depth, double tip_force, double wall_stiffness,
                             std::span<const double> limits) noexcept {
   const std::size_t n = std::min(compliance_.points, limits.size());
   if (n == 0) return 0;
@@ -103,7 +111,7 @@ double NeedleCoupling::step(double moved, double depth, double tip_force,
     sum += load_.shaft[i];
     lost_ += load_.shaft[i] * slip[i];
   }
-  follow_tip(depth, tip_force);
+  follow_tip(depth, tip_force, wall_stiffness);
   return -sum;
 }
 

@@ -14,6 +14,13 @@ struct NeedleCouplingParams {
   double most_wall = 8;      ///< of K_t, at most; assumed: what a loop of 1 kHz can render
 };
 
+/// m/N that tissue has at most which was measured with a layer's K_t (`wall_stiffness`, N/m > 0):
+/// the wall keeps the rest.
+[[nodiscard]] inline double most_tissue_compliance(double wall_stiffness,
+                                                   double most_wall = 8) noexcept {
+  return (1 - 1 / most_wall) / wall_stiffness;
+}
+
 /// Tissue that gives way to a needle, in the fast loop. The tip's force pushes the tissue before
 /// it, so that the tip is less deep in the material than in space; the shaft holds the tissue along
 /// the track and drags it until friction gives way, point by point (stick and slip). The forces on
@@ -32,9 +39,12 @@ class NeedleCoupling {
   [[nodiscard]] bool active() const noexcept { return compliance_.points > 0; }
   /// How far the tissue at the tip is pushed in, m along the axis.
   [[nodiscard]] double tip_displacement() const noexcept { return tip_displacement_; }
-  /// m/N at the tip, at `depth` (m) in the material.
-  [[nodiscard]] ARTUS_REALTIME double tip_compliance(double depth) const noexcept;
-  /// A layer's K_t without the tissue's compliance that was measured with it: 1/K = 1/K_t - c.
+  /// m/N of the tissue around the tip, at `depth` (m) in the material: the cubes' own field,
+  /// without the needle's neighbourhood. A layer's K_t (`wall_stiffness`, N/m; 0: none is known)
+  /// was measured with the tissue in it, so the tissue has 1 - 1/most_wall of 1/K_t at most.
+  [[nodiscard]] ARTUS_REALTIME double tip_compliance(double depth,
+                                                     double wall_stiffness = 0) const noexcept;
+  /// K_t without the tissue's compliance that was measured with it: 1/K = 1/K_t - c.
   [[nodiscard]] ARTUS_REALTIME double local_stiffness(double wall_stiffness,
                                                       double depth) const noexcept;
   [[nodiscard]] std::size_t points() const noexcept { return compliance_.points; }
@@ -44,10 +54,10 @@ class NeedleCoupling {
   [[nodiscard]] double spacing() const noexcept { return compliance_.spacing; }
 
   /// Advances by one period in which the needle moved by `moved` m along its axis in space. `depth`
-  /// m: of the tip in the material; `tip_force` N that the tip puts on the tissue; `limits` N that
-  /// friction can hold at each point: those behind the tip only. Returns the shaft's force on the
-  /// hand, N along the axis.
-  ARTUS_REALTIME double step(double moved, double depth, double tip_force,
+  /// m: of the tip in the material; `tip_force` N that the tip puts on the tissue, whose layer has
+  /// `wall_stiffness` (tip_compliance); `limits` N that friction can hold at each point: those
+  /// behind the tip only. Returns the shaft's force on the hand, N along the axis.
+  ARTUS_REALTIME double step(double moved, double depth, double tip_force, double wall_stiffness,
                              std::span<const double> limits) noexcept;
 
   [[nodiscard]] const NeedleLoad& load() const noexcept { return load_; }
@@ -57,7 +67,8 @@ class NeedleCoupling {
 
  private:
   [[nodiscard]] double displacement(std::size_t point) const noexcept;  // by the shaft's forces
-  void follow_tip(double depth, double tip_force) noexcept;
+  [[nodiscard]] double dragged(std::size_t point) const noexcept;       // beside the shaft
+  void follow_tip(double depth, double tip_force, double wall_stiffness) noexcept;
 
   double follow_;  // share of the way in a tick
   NeedleCouplingParams params_;

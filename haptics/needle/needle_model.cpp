@@ -146,7 +146,9 @@ void NeedleModel::couple(const Pose& X_JN, const NeedleTick& tick) noexcept {
   }
   const double moved = (X_JN.translation() - last_tip_).dot(tick.axis);
   const double moved_in = contact_.inserted() ? moved : 0;
-  forces_.friction = coupling_.step(moved_in, tick.depth, tip_force, limits);
+  const Haptic& at_tip =
+      tick.dimple > 0 ? tick.membrane.tissue : contact_.tick().layer.tissue;  // K_t as measured
+  forces_.friction = coupling_.step(moved_in, tick.depth, tip_force, at_tip.wall_stiffness, limits);
 }
 
 void NeedleModel::sum_up(const NeedleTick& tick) noexcept {

@@ -181,6 +181,37 @@ TEST_F(ImagingTool, APressedJointHasForcesLayersAndACage) {
   EXPECT_EQ(artus({"deform", "-j", kSimple, "--press-n", "1", "--press-mm", "1"}).exit_code, 2);
 }
 
+/// What the report of a slice says of a needle that was last moved so, in simple-shoulder.
+nlohmann::json needle_moved(const std::string& way, const std::string& file) {
+  const auto r = artus({"slice", "-j", kSimple, "--press-mm", "1", "--needle", "default",
+                        "--needle-way", way, "-o", file, "--json"});
+  EXPECT_EQ(r.exit_code, 0) << r.err << r.out;
+  return nlohmann::json::parse(r.out).at("press").at("needle");
+}
+
+TEST_F(ImagingTool, NeedleThatGoesInPushesTheTissueOn) {
+  const auto needle = needle_moved("in", in("in.png"));
+  EXPECT_GT(needle.at("tip_force_n").get<double>(), 0);
+  EXPECT_GT(needle.at("tissue_moved_mm").get<double>(), 0.1);
+  EXPECT_LT(needle.at("tissue_moved_mm").get<double>(), 5);
+  EXPECT_TRUE(std::filesystem::exists(in("in.png")));
+}
+
+TEST_F(ImagingTool, NeedleDrawnBackPullsTissueAlong) {
+  const auto needle = needle_moved("out", in("out.png"));
+  EXPECT_EQ(needle.at("tip_force_n").get<double>(), 0);
+  EXPECT_LT(needle.at("force_n").get<double>(), 0);
+  EXPECT_LT(needle.at("tissue_moved_mm").get<double>(), -0.02);
+  EXPECT_TRUE(std::filesystem::exists(in("out.png")));
+}
+
+TEST_F(ImagingTool, NeedleDragsNothingInARigidBody) {
+  const auto r = artus(
+      {"slice", "-j", kSimple, "--needle", "default", "--needle-way", "in", "-o", in("rigid.png")});
+  EXPECT_EQ(r.exit_code, 2);
+  EXPECT_NE(r.err.find("--press-n"), std::string::npos) << r.err;
+}
+
 TEST_F(ImagingTool, ASweepContinuesAndAVideoFollowsThePath) {
   const std::string list = poses();
   const std::vector<std::string> sweep{"sweep", "-j",    kSimple, "--poses",

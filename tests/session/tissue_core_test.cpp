@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "artus/echo/renderer.h"
 #include "artus/session/image_core.h"
 #include "tests/session/session_support.h"
 #include "tests/support/meshed_block.h"
@@ -76,6 +77,26 @@ TEST(TissueCore, GivesTheSameBytesAgain) {
     if (first.empty()) first = digests;
     EXPECT_EQ(first, digests);
   }
+}
+
+TEST(TissueCore, StillProbeGivesTheSamePictureAgainOnceTheTissueHasComeToRest) {
+  const auto joint = make_soft_block();
+  auto core = TissueCore::make(joint, joint->X_JP_default, 30);
+  ASSERT_TRUE(core) << core.error().to_string();
+  const Pose X_JP = pressed(*joint, 2e-3);
+  for (int i = 0; i < 60; ++i) core->step(X_JP);
+  const auto look = [&] {
+    return render_bmode(core->scene(), X_JP, std::nullopt, {}, {});
+  };
+  const Frame before = look();
+  const ProbePacket felt = core->packet();
+  for (int i = 0; i < 30; ++i) core->step(X_JP);
+  const Frame after = look();
+  EXPECT_EQ(before.in_phase, after.in_phase);
+  EXPECT_EQ(before.image, after.image);
+  EXPECT_EQ(felt.wrench, core->packet().wrench);
+  core->step(pressed(*joint, 2.1e-3));
+  EXPECT_NE(look().in_phase, after.in_phase) << "it moves again with the probe";
 }
 
 TEST(TissueCore, RefusesABodyWithoutTetrahedraWithWords) {

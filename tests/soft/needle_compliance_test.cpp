@@ -62,6 +62,9 @@ TEST(NeedleCompliance, IsSymmetricPositiveAndGrowsThinnerNeedlesAndSofterTissue)
   EXPECT_NEAR(of_thin.by_load[7][7] - c.by_load[7][7],
               std::log(2) / (2 * std::numbers::pi * shear * 1.5e-3), 1e-6);
   EXPECT_EQ(of_thin.by_load[7][8], c.by_load[7][8]);
+  EXPECT_NEAR(of_thin.by_load[7][7] - of_thin.near_field[7], c.by_load[7][7] - c.near_field[7],
+              1e-12);
+  EXPECT_GT(c.near_field[7], 0);
 }
 
 TEST(NeedleCompliance, LoadsOfAMovedShaftMoveItBack) {

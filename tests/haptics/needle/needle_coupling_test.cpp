@@ -39,7 +39,7 @@ std::vector<double> limits_to(const NeedleCoupling& needle, double depth, double
 TEST(NeedleCoupling, WithoutComplianceTheTissueIsRigid) {
   NeedleCoupling needle(kCouplingTick);
   EXPECT_FALSE(needle.active());
-  EXPECT_EQ(needle.step(1e-3, 0.01, 1, {}), 0);
+  EXPECT_EQ(needle.step(1e-3, 0.01, 1, 0, {}), 0);
   EXPECT_EQ(needle.tip_displacement(), 0);
   EXPECT_EQ(needle.local_stiffness(500, 0.01), 500);
 }
@@ -48,14 +48,14 @@ TEST(NeedleCoupling, TentIsTheForceTimesTheTipsComplianceAndFallsWithTheRelaxati
   NeedleCoupling needle(kCouplingTick);
   needle.take(tissue());
   const std::vector<double> none(16, 0.0);
-  for (int k = 0; k < 1000; ++k) needle.step(0, 0, 1.5, none);
+  for (int k = 0; k < 1000; ++k) needle.step(0, 0, 1.5, 0, none);
   const double tent = needle.tip_displacement();
   EXPECT_NEAR(tent, 1.5 * 1.6e-3, 1e-9);
   // The membrane gives way: what is left to cut holds 0.3 N.
   int ticks = 0;
   const double rest = 0.3 * 1.6e-3;
   while (needle.tip_displacement() - rest > 0.1 * (tent - rest)) {
-    needle.step(0, 0, 0.3, none);
+    needle.step(0, 0, 0.3, 0, none);
     ++ticks;
   }
   EXPECT_NEAR(ticks * kCouplingTick, std::log(10) * NeedleCouplingParams{}.relaxation, 2e-3);
@@ -68,7 +68,40 @@ TEST(NeedleCoupling, WallBehindTheTissueMakesTheStiffnessThatWasMeasuredWithBoth
   EXPECT_NEAR(1 / local + needle.tip_compliance(0.02), 1.0 / 600, 1e-12);
   // Tissue softer than the whole was: bounded.
   needle.take(tissue(5));
-  EXPECT_EQ(needle.local_stiffness(600, 0.02), 8 * 600.0);
+  EXPECT_NEAR(needle.local_stiffness(600, 0.02), 8 * 600.0, 1e-9);
+}
+
+TEST(NeedleCoupling, TissueSofterThanTheMeasuredStiffnessGivesWayByWhatThatLeavesIt) {
+  NeedleCoupling needle(kCouplingTick);
+  needle.take(tissue(5));
+  const std::vector<double> none(16, 0.0);
+  for (int k = 0; k < 1000; ++k) needle.step(0, 0, 1.5, 600, none);
+  EXPECT_NEAR(needle.tip_displacement(), 1.5 * (1 - 1.0 / 8) / 600, 1e-9);
+  for (int k = 0; k < 1000; ++k) needle.step(0, 0, 1.5, 0, none);
+  EXPECT_NEAR(needle.tip_displacement(), 1.5 * 5 * 1.6e-3, 1e-9) << "no stiffness is known";
+}
+
+TEST(NeedleCoupling, TheNeedlesOwnNeighbourhoodMovesWithTheShaftAndNotBeforeTheTip) {
+  NeedleCompliance with = tissue();
+  for (std::size_t i = 0; i < with.points; ++i) {
+    with.near_field[i] = 5e-3;
+    with.by_load[i][i] += with.near_field[i];
+  }
+  NeedleCoupling needle(kCouplingTick);
+  needle.take(tissue());
+  const double depth = needle.depth_of(3);
+  const double plain = needle.tip_compliance(depth);
+  const double between = needle.tip_compliance(depth + 1e-3);
+  needle.take(with);
+  EXPECT_NEAR(needle.tip_compliance(depth), plain, 1e-12);
+  EXPECT_NEAR(needle.tip_compliance(depth + 1e-3), between, 1e-12);
+  // The shaft sticks: each point takes its own way, 1e-5 m, nearly all of it in its neighbourhood.
+  const std::vector<double> hold(16, 1.0);
+  double force = 0;
+  for (int k = 0; k < 200; ++k) force = needle.step(k == 0 ? 1e-5 : 0, depth, 0, 0, hold);
+  EXPECT_LT(force, 0);
+  EXPECT_GT(needle.tip_displacement(), 0);
+  EXPECT_LT(needle.tip_displacement(), 1e-5) << "beside the needle it moves less than on it";
 }
 
 TEST(NeedleCoupling, ShaftDragsUntilEachPointSlipsAndThenHoldsTheSumOfTheLimits) {
@@ -78,7 +111,7 @@ TEST(NeedleCoupling, ShaftDragsUntilEachPointSlipsAndThenHoldsTheSumOfTheLimits)
   const double n = static_cast<double>(std::count(limits.begin(), limits.end(), 0.1));
   // A first small way sticks: the force is the way over the compliance of a rigid shaft.
   double force = 0;
-  for (int k = 0; k < 200; ++k) force = needle.step(k == 0 ? 1e-5 : 0, 0.02, 0, limits);
+  for (int k = 0; k < 200; ++k) force = needle.step(k == 0 ? 1e-5 : 0, 0.02, 0, 0, limits);
   Eigen::MatrixXd C(static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(n));
   for (Eigen::Index i = 0; i < C.rows(); ++i) {
     for (Eigen::Index j = 0; j < C.cols(); ++j)
@@ -86,14 +119,14 @@ TEST(NeedleCoupling, ShaftDragsUntilEachPointSlipsAndThenHoldsTheSumOfTheLimits)
   }
   const double stiffness = C.ldlt().solve(Eigen::VectorXd::Ones(C.rows())).sum();
   EXPECT_NEAR(-force, stiffness * 1e-5, 0.02 * stiffness * 1e-5);
-  for (int k = 0; k < 1000; ++k) force = needle.step(1e-5, 0.02, 0, limits);
+  for (int k = 0; k < 1000; ++k) force = needle.step(1e-5, 0.02, 0, 0, limits);
   EXPECT_NEAR(-force, 0.1 * n, 1e-9);
   // It stops: the tissue stays dragged. It leaves: nothing is held.
-  for (int k = 0; k < 1000; ++k) force = needle.step(0, 0.02, 0, limits);
+  for (int k = 0; k < 1000; ++k) force = needle.step(0, 0.02, 0, 0, limits);
   EXPECT_NEAR(-force, 0.1 * n, 1e-9);
   EXPECT_GT(needle.tip_displacement(), 1e-4);
   const std::vector<double> none(16, 0.0);
-  for (int k = 0; k < 1000; ++k) force = needle.step(0, 0, 0, none);
+  for (int k = 0; k < 1000; ++k) force = needle.step(0, 0, 0, 0, none);
   EXPECT_EQ(force, 0);
   EXPECT_LT(needle.tip_displacement(), 1e-9);
 }
@@ -116,7 +149,7 @@ TEST(NeedleCoupling, FrictionTakesEnergyInEveryTickOfATremblingHand) {
                            3e-4 * std::sin(2 * std::numbers::pi * 9 * t);
       const double moved = depth - before;
       before = depth;
-      const double force = needle.step(moved, depth, 0, limits_to(needle, depth, 0.08));
+      const double force = needle.step(moved, depth, 0, 0, limits_to(needle, depth, 0.08));
       work -= force * moved;
       least = std::min(least, needle.dissipated() - lost);
       lost = needle.dissipated();
@@ -133,7 +166,7 @@ TEST(NeedleCoupling, EnergyOfANewComplianceIsMetered) {
   NeedleCoupling needle(kCouplingTick);
   needle.take(tissue());
   const auto limits = limits_to(needle, 0.03, 0.1);
-  for (int k = 0; k < 500; ++k) needle.step(1e-5, 0.03, 0, limits);
+  for (int k = 0; k < 500; ++k) needle.step(1e-5, 0.03, 0, 0, limits);
   const double before = needle.stored();
   needle.take(tissue(1.1));
   EXPECT_NEAR(needle.given(), 0.1 * before, 1e-12);
@@ -144,7 +177,7 @@ TEST(NeedleCoupling, NeitherAllocatesNorLocks) {
   const NeedleCompliance soft = tissue();
   const std::array<double, 16> limits{0.1, 0.1, 0.1};
   ARTUS_RUNS_REALTIME(NeedleCoupling::take, needle.take(soft));
-  ARTUS_RUNS_REALTIME(NeedleCoupling::step, test::use(needle.step(1e-4, 0.01, 0.5, limits)));
+  ARTUS_RUNS_REALTIME(NeedleCoupling::step, test::use(needle.step(1e-4, 0.01, 0.5, 0, limits)));
   ARTUS_RUNS_REALTIME(NeedleCoupling::tip_compliance, test::use(needle.tip_compliance(0.01)));
   ARTUS_RUNS_REALTIME(NeedleCoupling::local_stiffness,
                       test::use(needle.local_stiffness(500, 0.01)));
