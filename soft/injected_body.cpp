@@ -14,7 +14,7 @@
 namespace artus {
 namespace {
 
-constexpr double kVisible = 10e-9;       // m^3
+constexpr double kVisible = 1e-9;        // m^3
 constexpr double kLongestSplit = 15e-3;  // m, half of the length; 10 to 30 mm in all, assumed
 constexpr int kSubdivisions = 3;         // of an icosahedron
 

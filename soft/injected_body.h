@@ -44,7 +44,7 @@ struct Injected {
   bool cavity = false;      ///< a space that opens; otherwise tissue that parts
   Vec3 tip = Vec3::Zero();  ///< m, frame J, where it came in; of tissue, inside the region
 };
-/// All of them, one after another. What is less than 10 mm^3 is not drawn, nor what went outside.
+/// All of them, one after another. What is less than 1 mm^3 is not drawn, nor what went outside.
 [[nodiscard]] CompiledJoint with_injected(const CompiledJoint& joint,
                                           const std::vector<Injected>& places,
                                           const Liquid& liquid);

@@ -237,7 +237,7 @@ Result<InjectionPictures> write_injection_pictures(const std::shared_ptr<const S
     ARTUS_TRY(write_image(draw(body, run, X_JP, deep), folder / file));
     out.files.emplace_back(file);
   }
-  constexpr double kVisible = 10e-9;  // m^3, what with_injected leaves out
+  constexpr double kVisible = 1e-9;  // m^3, what with_injected leaves out
   for (const Injected& place : last) {
     if (place.volume >= kVisible) out.drawn_volume += place.volume;
     if (place.cavity) names.push_back(place.region);
