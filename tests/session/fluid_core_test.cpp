@@ -87,7 +87,7 @@ std::vector<std::uint64_t> pictures_of(const std::shared_ptr<const Scene>& scene
   ImageCore images(scene, params);
   std::vector<std::uint64_t> digests;
   std::uint64_t frames = 0;
-  for (std::uint64_t n = 1; n <= 2600; ++n) {
+  for (std::uint64_t n = 1; n <= 1900; ++n) {
     const double depth = std::min(-10e-3 + 20e-6 * static_cast<double>(n), 23.9e-3);
     TickInput input;
     input.tick = n;
@@ -122,7 +122,7 @@ std::vector<std::uint64_t> pressed_pictures(const std::shared_ptr<const Scene>& 
   ImageCore core(scene, params);
   EXPECT_TRUE(core.refusal().empty()) << core.refusal();
   std::vector<std::uint64_t> digests;
-  for (std::uint64_t i = 1; i <= 12; ++i) {
+  for (std::uint64_t i = 1; i <= 6; ++i) {
     FrameInput input;
     input.controls = controls_of(params);
     Pose X_JP = scene->joint().X_JP_default;
