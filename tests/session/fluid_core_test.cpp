@@ -22,8 +22,8 @@ std::shared_ptr<const Scene> make_soft_scene() {
                                          {"bursa", 2e-3},
                                          {"tendon", 5e-3},
                                          {"bone", 30e-3}}};
-  return std::make_shared<const Scene>(std::make_shared<const CompiledJoint>(
-      test::make_meshed_block(layers, 0.096, 0.064, 4e-3)));
+  return std::make_shared<const Scene>(
+      std::make_shared<const CompiledJoint>(test::make_meshed_block(layers, 0.096, 0.064, 4e-3)));
 }
 
 RegionId region_named(const CompiledJoint& joint, const std::string& name) {
