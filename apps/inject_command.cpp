@@ -102,6 +102,7 @@ Result<Outcome> write_run(const std::shared_ptr<const Scene>& scene, const Injec
     for (Claim& claim : claims_of(run, *pictures)) outcome.claims.push_back(std::move(claim));
     outcome.report["pictures"] = pictures->files;
     outcome.report["opening_mm"] = pictures->opening / kMillimetre;
+    outcome.report["opening_length_mm"] = pictures->length / kMillimetre;
     outcome.report["opening_width_mm"] = pictures->width / kMillimetre;
     outcome.report["label_area_mm2"] = pictures->label_area / (kMillimetre * kMillimetre);
     outcome.report["ray_volume_ml"] = pictures->ray_volume / kCubicCentimetre;

@@ -30,7 +30,7 @@ std::vector<RegionAcoustics> with_courses_of(const std::vector<RegionAcoustics>&
                                              const CompiledJoint& joint,
                                              const Transducer& transducer) {
   std::vector<RegionAcoustics> regions = make_region_acoustics(joint, transducer);
-  for (std::size_t i = 0; i < regions.size(); ++i) {
+  for (std::size_t i = 0; i < regions.size() && i < known.size(); ++i) {
     regions[i].course = known[i].course;
     regions[i].continues_as = known[i].continues_as;
     regions[i].junction = known[i].junction;
@@ -119,6 +119,15 @@ void Renderer::set_scene(std::shared_ptr<const Scene> scene) {
   const bool same_body = impl_->body.scene->shared_joint() == scene->shared_joint();
   impl_->body.scene = std::move(scene);
   if (!same_body) impl_->find_regions();
+}
+
+void Renderer::set_filled_scene(std::shared_ptr<const Scene> scene) {
+  ARTUS_REQUIRE(scene != nullptr, "no scene");
+  EchoBody& body = impl_->body;
+  const bool same_joint = body.scene->shared_joint() == scene->shared_joint();
+  body.scene = std::move(scene);
+  if (same_joint) return;
+  body.regions = with_courses_of(body.regions, body.scene->joint(), impl_->pipeline->transducer());
 }
 
 const Transducer& Renderer::transducer() const noexcept {

@@ -13,6 +13,12 @@ namespace {
 /// s that new tables may take; see bench_echo for how long they do.
 constexpr double kTableTime = 0.3;
 
+Liquid liquid_of(const SessionParams& params) {
+  auto made = make_plunger_params(params.syringe, needle_length_of(params));
+  ARTUS_REQUIRE(made.has_value(), "the parameters must be valid");
+  return std::move(made->liquid);
+}
+
 }  // namespace
 
 ImageCore::ImageCore(std::shared_ptr<const Scene> scene, const SessionParams& params)
@@ -21,6 +27,8 @@ ImageCore::ImageCore(std::shared_ptr<const Scene> scene, const SessionParams& pa
       needle_shape_(params.needle_shape),
       controls_(controls_of(params)),
       renderer_(scene, params.transducer, params.image),
+      rest_(scene),
+      fluid_(scene->shared_joint(), liquid_of(params), params.image_rate),
       images_to_change_(static_cast<std::uint64_t>(std::ceil(kTableTime * params.image_rate))) {
   needle_shape_.length = needle_length_of(params);
   if (!params.deform) return;
@@ -34,11 +42,18 @@ ImageCore::ImageCore(std::shared_ptr<const Scene> scene, const SessionParams& pa
 
 void ImageCore::advance(const FrameInput& input) {
   advanced_ = input.number;
-  if (!tissue_) return;
-  std::optional<Pose> X_JP;
-  if (input.has_probe != 0) X_JP = to_pose(input.X_JP);
-  tissue_->step(X_JP);
-  renderer_.set_scene(tissue_->scene());
+  if (tissue_) {
+    std::optional<Pose> X_JP;
+    if (input.has_probe != 0) X_JP = to_pose(input.X_JP);
+    tissue_->step(X_JP);
+  }
+  const std::shared_ptr<const Scene>& body = tissue_ ? tissue_->scene() : rest_;
+  const auto& filled = fluid_.step({std::begin(input.sites), input.n_sites}, body->tissue());
+  if (filled || filled_)
+    renderer_.set_filled_scene(filled ? filled : body);
+  else if (tissue_)
+    renderer_.set_scene(body);
+  filled_ = filled != nullptr;
 }
 
 void ImageCore::follow(const ImageControls& controls) {

@@ -9,6 +9,7 @@
 
 #include "artus/echo/echo_pipeline.h"
 #include "artus/echo/renderer.h"
+#include "artus/session/fluid_core.h"
 #include "artus/session/session_core.h"
 #include "artus/session/tissue_core.h"
 
@@ -18,7 +19,7 @@ namespace artus {
 /// runs. Gain, range and time gain show in the next image. Depth, frequency and focus need new
 /// tables: these are made on a thread of their own while the images go on, and are taken over a
 /// fixed number of images later, never "when ready". Knobs that move on meanwhile are followed from
-/// there.
+/// there. What the syringe put into the body opens it in the picture: see FluidCore.
 class ImageCore {
  public:
   /// Requires: valid params, a scene.
@@ -62,6 +63,9 @@ class ImageCore {
   Renderer renderer_;
   std::optional<TissueCore> tissue_;  // empty: rigid
   std::string refusal_;
+  std::shared_ptr<const Scene> rest_;
+  FluidCore fluid_;
+  bool filled_ = false;         // the last image had liquid in the body
   std::uint64_t advanced_ = 0;  // number of the image that the tissue is ready for
   std::uint64_t images_to_change_;
   std::uint64_t images_ = 0;                         // rendered so far

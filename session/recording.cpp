@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kLongestHead = std::size_t{64} * 1024;  // bytes
 constexpr double kFar = 50;  // m from the joint's origin, of any pose that a device can make
 
-static_assert(sizeof(TickRecord) == 352 && sizeof(FrameRecord) == 200 &&
+static_assert(sizeof(TickRecord) == 352 && sizeof(FrameRecord) == 368 &&
                   sizeof(PacketRecord) == 456,
               "as documented");
 
@@ -124,6 +124,11 @@ const char* find_fault(const FrameRecord& record, std::uint64_t last) noexcept {
   if (!is_pose(input.X_JP, kFar) || !is_pose(input.X_JN, kFar))
     return "an image's pose that is none";
   if (!is_flag(input.has_needle) || !is_flag(input.has_probe)) return "a flag that is none";
+  if (input.n_sites > kMostSites || input.reserved != 0) return "more liquid than there can be";
+  for (const InjectedSite& site : input.sites)
+    if (!all_finite(site.p_J) || !(site.volume >= 0 && site.volume < 1) || !is_flag(site.cavity) ||
+        site.region > std::numeric_limits<RegionId>::max())
+      return "liquid in a place that is none";
   const ImageControls& c = input.controls;
   const double knobs[] = {c.depth,     c.gain_db,        c.tgc_db_cm_mhz, c.dynamic_range_db,
                           c.frequency, c.elevation_focus};

@@ -102,6 +102,9 @@ void HapticCore::step_syringe(bool runs) noexcept {
   else
     syringe_.rest();
   out_.feedback.plunger = syringe_.feedback();
+  const auto sites = syringe_.sites();
+  std::copy(sites.begin(), sites.end(), std::begin(out_.sites));
+  out_.n_sites = static_cast<std::uint32_t>(sites.size());
   const bool fault = (out_.status & (TickStatus::kFaults | SessionStatus::kNoNeedle)) != 0 || !runs;
   if (fault || syringe_.on_needle() == 0) return;
   const Vec3 force = Vec3(out_.force_J[0], out_.force_J[1], out_.force_J[2]) +
@@ -191,6 +194,8 @@ FrameInput frame_input(const HapticSnapshot& snapshot, const ImageControls& cont
   input.number = number;
   input.has_needle = snapshot.input.device.has_needle;
   input.has_probe = snapshot.input.device.has_probe;
+  input.n_sites = snapshot.n_sites;
+  std::copy_n(std::begin(snapshot.sites), snapshot.n_sites, std::begin(input.sites));
   return input;
 }
 

@@ -61,6 +61,9 @@ struct HapticSnapshot {
   std::uint32_t events = 0;  ///< ContactEvent bits
   GesturePhase phase = GesturePhase::exploring;
   std::uint32_t inserted = 0;
+  InjectedSite sites[kMostSites] = {};  ///< NOLINT(*-avoid-c-arrays)
+  std::uint32_t n_sites = 0;
+  std::uint32_t reserved = 0;
 };
 static_assert(std::is_trivially_copyable_v<TickInput>);
 static_assert(std::is_trivially_copyable_v<HapticSnapshot>);
@@ -119,6 +122,9 @@ struct FrameInput {
   std::uint64_t number = 0;
   std::uint32_t has_needle = 0;
   std::uint32_t has_probe = 0;
+  InjectedSite sites[kMostSites] = {};  ///< what liquid went to  NOLINT(*-avoid-c-arrays)
+  std::uint32_t n_sites = 0;
+  std::uint32_t reserved = 0;
 };
 static_assert(std::is_trivially_copyable_v<FrameInput>);
 

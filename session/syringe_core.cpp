@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/session/syringe_core.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace artus {
@@ -35,6 +36,7 @@ SyringeCore::SyringeCore(JointSpaces spaces, const SessionParams& params)
 void SyringeCore::reset() noexcept {
   plunger_.reset();
   engaged_ = false;
+  n_sites_ = 0;
 }
 
 void SyringeCore::rest() noexcept {
@@ -58,7 +60,31 @@ void SyringeCore::step(const DeviceSample& device, const NeedleContact& contact)
   }
   engaged_ = held;
   const PlungerState& state = plunger_.step(input);
+  note_sites(input, contact);
   describe(held ? state.force : 0, held ? TickStatus::kOk : TickStatus::kStale);
+}
+
+void SyringeCore::note_sites(const PlungerInput& input, const NeedleContact& contact) noexcept {
+  const auto states = plunger_.states();
+  for (std::size_t k = 0; k < n_sites_; ++k) sites_[k].volume = states[space_of_site_[k]].volume;
+  for (const TipShare& share : input.tip) {
+    const SpaceKind kind = plunger_.spaces()[share.space].law.kind;
+    const bool shown = kind == SpaceKind::cavity || kind == SpaceKind::split;
+    if (!(share.share > 0) || !shown || !(states[share.space].volume > 0)) continue;
+    const auto known = space_of_site_.begin() + static_cast<std::ptrdiff_t>(n_sites_);
+    if (n_sites_ == kMostSites || std::find(space_of_site_.begin(), known, share.space) != known)
+      continue;
+    const auto region = std::find(of_region_.begin(), of_region_.end(), share.space);
+    const auto first = static_cast<std::uint32_t>(region - of_region_.begin());
+    InjectedSite& site = sites_[n_sites_];
+    const NeedleTick& tick = contact.tick();
+    const Vec3 p = tick.tip - bevel_ / 2 * tick.axis;
+    for (Eigen::Index i = 0; i < 3; ++i) site.p_J[i] = p[i];
+    site.volume = states[share.space].volume;
+    site.region = of_region_[contact.region()] == share.space ? contact.region() : first;
+    site.cavity = kind == SpaceKind::cavity ? 1 : 0;
+    space_of_site_[n_sites_++] = share.space;
+  }
 }
 
 void SyringeCore::describe(double thumb, std::uint32_t faults) noexcept {

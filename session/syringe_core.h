@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "artus/anatomy/body/space.h"
@@ -10,6 +12,16 @@
 #include "artus/session/session_params.h"
 
 namespace artus {
+
+/// A place that liquid went into, where it did so first. Plain bytes.
+struct InjectedSite {
+  double p_J[3] = {};        ///< m, the middle of the bevel then  NOLINT(*-avoid-c-arrays)
+  double volume = 0;         ///< m^3 in it
+  std::uint32_t region = 0;  ///< RegionId
+  std::uint32_t cavity = 0;  ///< 1: a space that opens; 0: tissue that parts
+};
+/// Places that are told of; what goes into more is not drawn.
+inline constexpr std::size_t kMostSites = 4;
 
 /// The syringe of a session: the plunger as a device moves it, with the tip where the needle's
 /// contact says, and what thumb and needle feel of it. A pure function of its inputs.
@@ -35,10 +47,15 @@ class SyringeCore {
   /// N along the needle, of the thumb's force: what of it the fingers do not carry.
   [[nodiscard]] double on_needle() const noexcept { return on_needle_; }
   [[nodiscard]] const Plunger& plunger() const noexcept { return plunger_; }
+  /// In the order in which something came to them.
+  [[nodiscard]] std::span<const InjectedSite> sites() const noexcept {
+    return {sites_.data(), n_sites_};
+  }
 
  private:
   SyringeCore(JointSpaces spaces, const SessionParams& params);
   void describe(double thumb, std::uint32_t faults) noexcept;
+  void note_sites(const PlungerInput& input, const NeedleContact& contact) noexcept;
 
   double bevel_;  // m
   std::vector<std::uint32_t> of_region_;
@@ -47,6 +64,9 @@ class SyringeCore {
   double zero_ = 0;  // m of the device's travel where the plunger's is 0
   bool engaged_ = false;
   double on_needle_ = 0;
+  std::array<InjectedSite, kMostSites> sites_;
+  std::array<std::uint32_t, kMostSites> space_of_site_{};
+  std::size_t n_sites_ = 0;
   PlungerFeedback out_;
 };
 

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <optional>
+#include <utility>
 
 #include <Eigen/Dense>
 
@@ -20,6 +23,46 @@ constexpr double kWidest = kCells * kCell / 2;
 constexpr int kSteps = 60;
 constexpr int kHalvings = 20;
 constexpr double kExact = 1e-16;  // m^3
+
+constexpr double kRound = 0.9 * std::numbers::pi;  // of the sphere that the map covers
+constexpr double kThinnest = 0.1e-3;               // m between a floor and a roof
+// The part of the way from floor to roof that is drawn out; walls rougher than the rest follow.
+constexpr double kFixed = 0.25;
+
+/// Of cell i, the place of its middle on the map.
+double middle(int i) {
+  return kCell * (i - kCells / 2 + 0.5);
+}
+
+int cell_of(double x) {
+  return static_cast<int>(std::floor(x / kCell)) + kCells / 2;
+}
+
+std::size_t at(int u, int v) {
+  return static_cast<std::size_t>(std::clamp(v, 0, kCells - 1) * kCells +
+                                  std::clamp(u, 0, kCells - 1));
+}
+
+/// Of a plate held at its rim, of radius 1.
+double profile(double q) {
+  return q < 1 ? (1 - q * q) * (1 - q * q) : 0;
+}
+
+/// Where the line from `origin` along `d` meets the triangle, and whether it leaves by it.
+std::optional<std::pair<double, bool>> meet(const Vec3& origin, const Vec3& d, const Vec3& a,
+                                            const Vec3& b, const Vec3& c) {
+  const Vec3 ab = b - a;
+  const Vec3 ac = c - a;
+  const Vec3 p = d.cross(ac);
+  const double det = ab.dot(p);
+  if (det == 0) return std::nullopt;
+  const Vec3 from = origin - a;
+  const double u = from.dot(p) / det;
+  const Vec3 q = from.cross(ab);
+  const double v = d.dot(q) / det;
+  if (u < 0 || v < 0 || u + v > 1) return std::nullopt;
+  return std::pair{ac.dot(q) / det, ab.cross(ac).dot(d) > 0};
+}
 
 double six_volumes(const Vec3& a, const Vec3& b, const Vec3& c) {
   return a.dot(b.cross(c));
@@ -57,7 +100,6 @@ InflatedSpace::InflatedSpace(const CompiledJoint& joint, RegionId region, const 
   map_walls();
   find_shut(joint);
   find_lifts();
-  leave_floor(joint, region);
 }
 
 /// |x|^2 = 2 c.x + d by least squares over the walls near the tip.
@@ -99,52 +141,133 @@ Vec3 InflatedSpace::polar(const Vec3& p) const {
           sign_ * (distance - sphere_)};
 }
 
-std::size_t InflatedSpace::cell(double u, double v) const {
-  const auto at = [](double x) {
-    return std::clamp(static_cast<int>(std::floor(x / kCell)) + kCells / 2, 0, kCells - 1);
+/// By cell, where a line along the height is inside the space, from below.
+std::vector<std::vector<InflatedSpace::Span>> InflatedSpace::find_spans() const {
+  struct Hit {
+    double height;
+    bool leaves;
   };
-  return static_cast<std::size_t>(at(v) * kCells + at(u));
-}
-
-void InflatedSpace::map_walls() {
-  const auto n = static_cast<std::size_t>(kCells * kCells);
-  low_.assign(n, std::numeric_limits<double>::infinity());
-  top_.assign(n, -std::numeric_limits<double>::infinity());
+  std::vector<std::vector<Hit>> hits(floor_.size());
   for (const auto& [ia, ib, ic] : triangles_) {
     const Vec3 a = polar(rest_[ia]);
-    const Vec3 ab = polar(rest_[ib]) - a;
-    const Vec3 ac = polar(rest_[ic]) - a;
-    const int steps =
-        1 + static_cast<int>(2 * std::max({ab.norm(), ac.norm(), (ab - ac).norm()}) / kCell);
-    if (steps > 4 * kCells) continue;  // round the far side of the sphere
-    for (int i = 0; i <= steps; ++i) {
-      for (int j = 0; i + j <= steps; ++j) {
-        const Vec3 p = a + ab * i / steps + ac * j / steps;
-        const std::size_t c = cell(p.x(), p.y());
-        low_[c] = std::min(low_[c], p.z());
-        top_[c] = std::max(top_[c], p.z());
+    const Vec3 b = polar(rest_[ib]);
+    const Vec3 c = polar(rest_[ic]);
+    const Vec3 low = a.cwiseMin(b).cwiseMin(c);
+    const Vec3 high = a.cwiseMax(b).cwiseMax(c);
+    if ((high - low).head<2>().norm() > sphere_) continue;  // round the far side
+    for (int v = std::max(cell_of(low.y()) - 1, 0); v <= cell_of(high.y()) + 1 && v < kCells; ++v) {
+      for (int u = std::max(cell_of(low.x()) - 1, 0); u <= cell_of(high.x()) + 1 && u < kCells;
+           ++u) {
+        const double r = std::hypot(middle(u), middle(v));
+        if (r > kRound * sphere_) continue;
+        const Vec3 across = (middle(u) * side_ + middle(v) * up_.cross(side_)).normalized();
+        const Vec3 d = std::cos(r / sphere_) * up_ + std::sin(r / sphere_) * across;
+        const auto met = meet(centre_, d, rest_[ia], rest_[ib], rest_[ic]);
+        if (met && met->first > 0)
+          hits[at(u, v)].push_back({sign_ * (met->first - sphere_), met->second == (sign_ > 0)});
       }
     }
   }
+  std::vector<std::vector<Span>> spans(hits.size());
+  for (std::size_t k = 0; k < hits.size(); ++k) {
+    std::sort(hits[k].begin(), hits[k].end(),
+              [](const Hit& x, const Hit& y) { return x.height < y.height; });
+    for (std::size_t i = 0; i + 1 < hits[k].size(); ++i)
+      if (!hits[k][i].leaves && hits[k][i + 1].leaves)
+        spans[k].push_back({hits[k][i].height, hits[k][i + 1].height});
+  }
+  return spans;
+}
+
+/// From the tip outward, of each cell the part of the space that goes on from its neighbour's.
+void InflatedSpace::map_walls() {
+  const auto n = static_cast<std::size_t>(kCells * kCells);
+  open_.assign(n, false);
+  floor_.assign(n, 0);
+  roof_.assign(n, 0);
+  const auto spans = find_spans();
+  std::vector<std::pair<int, int>> reached;
+  const auto gap = [](const Span& x, const Span& y) {
+    return std::max(x[0], y[0]) - std::min(x[1], y[1]);
+  };
+  const auto take = [&](int u, int v, const Span& from, double farthest) {
+    const std::size_t c = at(u, v);
+    if (open_[c] || spans[c].empty()) return;
+    const Span& best = *std::min_element(
+        spans[c].begin(), spans[c].end(),
+        [&](const Span& x, const Span& y) { return gap(x, from) < gap(y, from); });
+    if (gap(best, from) > farthest) return;
+    open_[c] = true;
+    floor_[c] = best[0];
+    roof_[c] = best[1];
+    reached.emplace_back(u, v);
+  };
+  constexpr int kStart = 5;  // cells around the tip, where the space may be met first
+  for (int k = 0; k <= kStart && reached.empty(); ++k)
+    for (int dv = -k; dv <= k && reached.empty(); ++dv)
+      for (int du = -k; du <= k && reached.empty(); ++du)
+        take(kCells / 2 + du, kCells / 2 + dv, {0, 0}, kWidest);
+  for (std::size_t k = 0; k < reached.size(); ++k) {
+    const auto [u, v] = reached[k];
+    const Span here{floor_[at(u, v)], roof_[at(u, v)]};
+    for (const auto& [du, dv] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}})
+      if (u + du >= 0 && u + du < kCells && v + dv >= 0 && v + dv < kCells)
+        take(u + du, v + dv, here, kCell);
+  }
+  smooth_walls();
+}
+
+/// Goes on with the walls beside the sheet and takes the roughness of single cells from them.
+void InflatedSpace::smooth_walls() {
+  std::vector<bool> known = open_;
+  const auto pass = [&](bool all) {
+    const std::vector<double> floor = floor_;
+    const std::vector<double> roof = roof_;
+    const std::vector<bool> before = known;
+    for (int v = 0; v < kCells; ++v) {
+      for (int u = 0; u < kCells; ++u) {
+        if (!all && before[at(u, v)]) continue;
+        double n = 0;
+        double low = 0;
+        double high = 0;
+        for (int dv = -1; dv <= 1; ++dv) {
+          for (int du = -1; du <= 1; ++du) {
+            const std::size_t c = at(u + du, v + dv);
+            if (!before[c]) continue;
+            n += 1;
+            low += floor[c];
+            high += roof[c];
+          }
+        }
+        if (n == 0) continue;
+        known[at(u, v)] = true;
+        floor_[at(u, v)] = low / n;
+        roof_[at(u, v)] = high / n;
+      }
+    }
+  };
+  for (int k = 0; k < kCells; ++k) pass(false);
+  pass(true);
+  for (std::size_t c = 0; c < roof_.size(); ++c)
+    roof_[c] = std::max(roof_[c], floor_[c] + kThinnest);
 }
 
 /// Where the space may open: away from its own rim and from bone that lies on it, which does not
 /// give way.
 void InflatedSpace::find_shut(const CompiledJoint& joint) {
-  std::vector<bool> shut(top_.size());
-  for (std::size_t c = 0; c < top_.size(); ++c) shut[c] = top_[c] < low_[c];
+  std::vector<bool> shut = open_;
+  shut.flip();
   for (const Interface& f : joint.mesh.interfaces) {
     if (!joint.tissue_of(f.front).haptic.hard && !joint.tissue_of(f.back).haptic.hard) continue;
     for (const std::uint32_t v : f.vertices) {
       const Vec3 p = polar(rest_[v]);
-      const std::size_t here = cell(p.x(), p.y());
-      const double roof = top_[here] >= low_[here] ? top_[here] : 0;
+      const double roof = between(roof_, p.x(), p.y());
       if (p.z() < roof) continue;
       const double together = 1 / (1 + (p.z() - roof) / params_.spread);
-      shut[cell(together * p.x(), together * p.y())] = true;
+      shut[at(cell_of(together * p.x()), cell_of(together * p.y()))] = true;
     }
   }
-  inside_.assign(top_.size(), 0);
+  inside_.assign(shut.size(), 0);
   const int reach = static_cast<int>(std::ceil(params_.rim / kCell));
   for (int v = 0; v < kCells; ++v) {
     for (int u = 0; u < kCells; ++u) {
@@ -163,89 +286,46 @@ void InflatedSpace::find_shut(const CompiledJoint& joint) {
   }
 }
 
-/// Between cells, so that the roof has no steps.
-double InflatedSpace::wall_mask(double u, double v) const {
-  const double x = u / kCell - 0.5;
-  const double y = v / kCell - 0.5;
+/// Of a map by cells, between their middles, so that nothing has steps.
+double InflatedSpace::between(const std::vector<double>& map, double u, double v) const {
+  const double x = u / kCell + kCells / 2 - 0.5;
+  const double y = v / kCell + kCells / 2 - 0.5;
   const double fx = x - std::floor(x);
   const double fy = y - std::floor(y);
-  const auto at = [&](double dx, double dy) {
-    return inside_[cell((std::floor(x) + dx + 0.5) * kCell, (std::floor(y) + dy + 0.5) * kCell)];
-  };
-  return (1 - fy) * ((1 - fx) * at(0, 0) + fx * at(1, 0)) +
-         fy * ((1 - fx) * at(0, 1) + fx * at(1, 1));
+  const int i = static_cast<int>(std::floor(x));
+  const int j = static_cast<int>(std::floor(y));
+  return (1 - fy) * ((1 - fx) * map[at(i, j)] + fx * map[at(i + 1, j)]) +
+         fy * ((1 - fx) * map[at(i, j + 1)] + fx * map[at(i + 1, j + 1)]);
 }
 
-/// Of each vertex, how much the walls that it belongs to look upward; 0 where it is of none.
-std::vector<double> InflatedSpace::facing() const {
-  std::vector<double> facing(rest_.size(), 0);
-  for (const auto& triangle : triangles_) {
-    const Vec3& a = rest_[triangle[0]];
-    const Vec3 normal = (rest_[triangle[1]] - a).cross(rest_[triangle[2]] - a);
-    for (const std::uint32_t v : triangle) facing[v] += sign_ * normal.dot(rest_[v] - centre_);
-  }
-  return facing;
-}
-
+/// Along each line of height the lift never falls faster than one comes up, so what is above stays
+/// above.
 void InflatedSpace::find_lifts() {
-  const std::vector<double> walls = facing();
   for (std::uint32_t i = 0; i < rest_.size(); ++i) {
     const Vec3 p = polar(rest_[i]);
-    const std::size_t here = cell(p.x(), p.y());
-    // Where the space is not below a point itself, its neighbours tell at which height it would be.
-    const bool known = top_[here] >= low_[here];
-    const double middle = known ? (low_[here] + top_[here]) / 2 : 0;
-    if (walls[i] != 0 ? walls[i] < 0 : !(p.z() > middle)) continue;
-    const double above = std::max(0.0, p.z() - (known ? top_[here] : 0));
-    const double together = 1 / (1 + above / params_.spread);
+    if (std::hypot(p.x(), p.y()) > kRound * sphere_) continue;
+    const double floor = between(floor_, p.x(), p.y());
+    const double roof = between(roof_, p.x(), p.y());
+    const double part = (p.z() - floor) / (roof - floor);
+    const double drawn = std::clamp((part - kFixed) / (1 - 2 * kFixed), 0.0, 1.0);
+    const double together = 1 / (1 + std::max(0.0, p.z() - roof) / params_.spread);
     const double u = together * p.x();
     const double v = together * p.y();
-    const double share = together * together * wall_mask(u, v);
+    const double share = drawn * together * together * between(inside_, u, v);
     const double r = std::hypot(u, v);
     if (!(share > 0) || r >= kWidest) continue;
     lifts_.push_back({i, sign_ * (rest_[i] - centre_).normalized(), r, share});
   }
 }
 
-/// A structure that lies below nearly everywhere, a tendon or the bone, is not torn by the few of
-/// its vertices that a wrinkled floor puts above: none of them is lifted.
-void InflatedSpace::leave_floor(const CompiledJoint& joint, RegionId region) {
-  constexpr double kFloor = 0.8;  // of its vertices; assumed
-  struct Votes {
-    double lifted = 0;
-    double all = 0;
-  };
-  std::vector<bool> lifted(rest_.size(), false);
-  for (const Lift& lift : lifts_) lifted[lift.vertex] = true;
-  std::vector<Votes> votes(joint.regions.size());
-  const auto visit = [&](auto&& take) {
-    for (const Interface& f : joint.mesh.interfaces)
-      for (const RegionId side : {f.front, f.back})
-        if (side >= kFirstRegion && side != region)
-          for (const std::uint32_t v : f.vertices) take(side, v);
-  };
-  visit([&](RegionId side, std::uint32_t v) {
-    const Vec3 p = polar(rest_[v]);
-    if (top_[cell(p.x(), p.y())] < low_[cell(p.x(), p.y())]) return;
-    votes[side].all += 1;
-    if (lifted[v]) votes[side].lifted += 1;
-  });
-  visit([&](RegionId side, std::uint32_t v) {
-    if (votes[side].lifted < (1 - kFloor) * votes[side].all) lifted[v] = false;
-  });
-  lifts_.erase(std::remove_if(lifts_.begin(), lifts_.end(),
-                              [&](const Lift& lift) { return !lifted[lift.vertex]; }),
-               lifts_.end());
-}
-
-/// m^2 of (1 - (r/a)^2) over the map, of all of it or where the space may open.
+/// m^2 of the plate over the map, of all of it or where the space may open.
 double InflatedSpace::open_area(double radius, bool everywhere) const {
   double sum = 0;
   for (int v = 0; v < kCells; ++v) {
     for (int u = 0; u < kCells; ++u) {
-      const double q = kCell * std::hypot(u - kCells / 2, v - kCells / 2) / radius;
+      const double q = std::hypot(middle(u), middle(v)) / radius;
       const double inside = inside_[static_cast<std::size_t>(v * kCells + u)];
-      if (q < 1) sum += (1 - q * q) * (everywhere ? 1 : inside);
+      sum += profile(q) * (everywhere ? 1 : inside);
     }
   }
   return sum * kCell * kCell;
@@ -266,8 +346,8 @@ double InflatedSpace::radius(double volume) const {
 std::vector<Vec3> InflatedSpace::lifted(double height, double radius) const {
   std::vector<Vec3> vertices = rest_;
   for (const Lift& lift : lifts_) {
-    const double q = lift.r / radius;
-    if (q < 1) vertices[lift.vertex] += height * lift.share * (1 - q * q) * lift.direction;
+    const double part = lift.share * profile(lift.r / radius);
+    vertices[lift.vertex] += height * part * lift.direction;
   }
   return vertices;
 }
@@ -307,8 +387,7 @@ double InflatedSpace::largest_opening(double volume) const {
   const double a = radius(std::max(volume, 1e-12));
   double largest = 0;
   for (const Lift& lift : lifts_) {
-    const double q = lift.r / a;
-    if (q < 1) largest = std::max(largest, height * lift.share * (1 - q * q));
+    largest = std::max(largest, height * lift.share * profile(lift.r / a));
   }
   return largest;
 }

@@ -8,20 +8,21 @@
 
 namespace artus {
 
-/// How a cleft opens; assumed: all of it. A membrane, h = h0 (1 - (r/a)^2), around the tip, over
-/// the area that it has where nothing keeps the cleft shut: beside a rim or bone it reaches
-/// farther.
+/// How a cleft opens; assumed: all of it. A plate held at its rim, h = h0 (1 - (r/a)^2)^2, around
+/// the tip, over the area that it has where nothing keeps the cleft shut: beside a rim or bone it
+/// reaches farther.
 struct OpeningParams {
-  double fill = 3e-6;     ///< m^3 at which the fluid has come to its widest
-  double widest = 25e-3;  ///< m, radius of the patch there
-  double rim = 4e-3;      ///< m from the cleft's own rim over which it stays shut
-  double spread = 20e-3;  ///< m above the roof at which the lift is twice as wide
+  double fill = 3e-6;       ///< m^3 at which the fluid has come to its widest
+  double widest = 28.5e-3;  ///< m, radius of the patch there; fitted: 5 ml open by less than 6 mm
+  double rim = 4e-3;        ///< m from the cleft's own rim over which it stays shut
+  double spread = 20e-3;    ///< m above the roof at which the lift is twice as wide
 };
 
 /// A thin space between a roof and a floor that is pushed open by a volume: the roof and what lies
-/// on it are lifted, the floor stays. The lift spreads upward so that the same volume passes every
-/// level: what lies above keeps its volume. The walls lie along a sphere fitted to them, which
-/// suits a bursa on a head as well as a flat one. What lies below nearly everywhere stays whole.
+/// on it are lifted, the floor stays, and what lies between is drawn out, so that no wall folds
+/// over another. The lift spreads upward so that the same volume passes every level: what lies
+/// above keeps its volume. The walls lie along a sphere fitted to them, which suits a bursa on a
+/// head as well as a flat one. Of a space that lies over itself the sheet around the tip opens.
 /// Volumes are those of the region's triangles, so truth, labels and picture agree.
 class InflatedSpace {
  public:
@@ -46,14 +47,14 @@ class InflatedSpace {
     double share;    // of the lift at the roof
   };
   void fit_sphere(const CompiledJoint& joint, const Vec3& tip);
+  using Span = std::array<double, 2>;  // m, heights of a floor and a roof
+  [[nodiscard]] std::vector<std::vector<Span>> find_spans() const;
   void map_walls();
+  void smooth_walls();
   void find_shut(const CompiledJoint& joint);
-  [[nodiscard]] std::vector<double> facing() const;
   void find_lifts();
-  void leave_floor(const CompiledJoint& joint, RegionId region);
   [[nodiscard]] Vec3 polar(const Vec3& p) const;
-  [[nodiscard]] double wall_mask(double u, double v) const;
-  [[nodiscard]] std::size_t cell(double u, double v) const;
+  [[nodiscard]] double between(const std::vector<double>& map, double u, double v) const;
   [[nodiscard]] double radius(double volume) const;
   [[nodiscard]] double open_area(double radius, bool everywhere) const;
   [[nodiscard]] std::vector<Vec3> lifted(double height, double radius) const;
@@ -69,8 +70,9 @@ class InflatedSpace {
   double sphere_ = 1;  // m
   double sign_ = 1;    // 1: the roof is farther from the centre than the floor
   double rest_volume_ = 0;
-  std::vector<double> low_;     // m, height of the space's floor by cell; above top_: none
-  std::vector<double> top_;     // m, of its roof
+  std::vector<bool> open_;      // by cell: the sheet around the tip is there
+  std::vector<double> floor_;   // m, its height, also beside the sheet
+  std::vector<double> roof_;    // m
   std::vector<double> inside_;  // 0 at the rim .. 1
   std::vector<Lift> lifts_;
 };

@@ -14,7 +14,7 @@
 namespace artus {
 namespace {
 
-constexpr double kVisible = 10e-9;       // m^3
+constexpr double kVisible = 1e-9;        // m^3
 constexpr double kLongestSplit = 15e-3;  // m, half of the length; 10 to 30 mm in all, assumed
 constexpr int kSubdivisions = 3;         // of an icosahedron
 
@@ -69,6 +69,79 @@ Sphere make_sphere() {
   for (const auto& [a, b, c] : s.triangles)
     s.volume += s.points[a].dot(s.points[b].cross(s.points[c])) / 6;
   return s;
+}
+
+using Cut = std::uint32_t;  // vertex in the middle of an edge
+constexpr Cut kWhole = std::numeric_limits<Cut>::max();
+
+/// The triangle in pieces by which of its edges ab, bc, ca are cut.
+void add_pieces(const Interface& f, std::array<Cut, 3> cuts, std::vector<Interface>& out) {
+  const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    out.push_back(f);
+    out.back().vertices = {a, b, c};
+  };
+  const auto is_cut = [&](std::size_t k) {
+    return cuts[k] != kWhole;
+  };
+  auto v = f.vertices;
+  // Turned until the first edge is cut and, of two, the second as well.
+  for (int turn = 0; turn < 2 && !(is_cut(0) && (is_cut(1) || !is_cut(2))); ++turn) {
+    std::rotate(cuts.begin(), cuts.begin() + 1, cuts.end());
+    std::rotate(v.begin(), v.begin() + 1, v.end());
+  }
+  const auto [a, b, c] = v;
+  if (!is_cut(0)) {
+    add(a, b, c);
+  } else if (!is_cut(1)) {
+    add(a, cuts[0], c);
+    add(cuts[0], b, c);
+  } else {
+    add(cuts[0], b, cuts[1]);
+    if (is_cut(2)) {
+      add(a, cuts[0], cuts[2]);
+      add(cuts[2], cuts[1], c);
+      add(cuts[0], cuts[1], cuts[2]);
+    } else {
+      add(a, cuts[0], cuts[1]);
+      add(a, cuts[1], c);
+    }
+  }
+}
+
+/// Cuts interfaces at the middles of the edges that are too long for the map beside the unit ball
+/// of `in`, so that they follow it: a wall of few triangles would cut through the liquid. An edge
+/// is judged by its ends alone, so neighbours agree.
+void refine_beside(CompiledJoint& joint, const Eigen::Matrix3d& in, const Vec3& centre) {
+  constexpr int kTimes = 6;
+  constexpr double kFar = 3;      // radii beyond which the map hardly bends anything
+  constexpr double kLong = 0.25;  // of an edge against its distance from the middle
+  constexpr double kNear = 0.4;   // radii; closer to the middle edges need not be shorter for that
+  std::vector<Vec3>& points = joint.mesh.vertices;
+  for (int k = 0; k < kTimes; ++k) {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
+    const auto cut = [&](std::uint32_t one, std::uint32_t other) -> Cut {
+      const std::pair<std::uint32_t, std::uint32_t> ends = std::minmax(one, other);
+      const Vec3 from = in * (points[ends.first] - centre);
+      const Vec3 along = in * (points[ends.second] - points[ends.first]);
+      const double length = along.norm();
+      if (!(length > 0)) return kWhole;
+      const double t = std::clamp(-from.dot(along) / (length * length), 0.0, 1.0);
+      const double nearest = (from + t * along).norm();
+      if (nearest > kFar || length < kLong * std::max(nearest, kNear)) return kWhole;
+      const auto [at, is_new] =
+          middles.try_emplace(ends, static_cast<std::uint32_t>(points.size()));
+      if (is_new) points.push_back((points[ends.first] + points[ends.second]) / 2);
+      return at->second;
+    };
+    std::vector<Interface> finer;
+    finer.reserve(joint.mesh.interfaces.size());
+    for (const Interface& f : joint.mesh.interfaces) {
+      const auto& [a, b, c] = f.vertices;
+      add_pieces(f, {cut(a, b), cut(b, c), cut(c, a)}, finer);
+    }
+    if (middles.empty()) break;
+    joint.mesh.interfaces = std::move(finer);
+  }
 }
 
 Vec3 toward_skin(const CompiledJoint& joint, const Vec3& p) {
@@ -141,6 +214,7 @@ CompiledJoint with_bolus(const CompiledJoint& joint, const Bolus& bolus, const L
   const Eigen::Matrix3d out = bolus.axes * (scale * bolus.proportion).asDiagonal();
   const Eigen::Matrix3d in = out.inverse();
   CompiledJoint with = joint;
+  refine_beside(with, in, bolus.centre);
   for (Vec3& p : with.mesh.vertices) {
     const Vec3 y = in * (p - bolus.centre);
     const double rho = y.norm();

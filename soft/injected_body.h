@@ -26,7 +26,8 @@ struct Bolus {
 
 /// The joint with the bolus as a region of its own, "injected", of `liquid`. All around is pushed
 /// aside by the map rho -> (rho^3 + 1)^(1/3) of the ellipsoid's own radius, which keeps every
-/// volume; bones, too, move by what that is at their place. The new region's polyhedron holds the
+/// volume; bones, too, move by what that is at their place. Interfaces beside it are cut finer (new
+/// vertices after the joint's), so that they follow that map. The new region's polyhedron holds the
 /// volume to rounding. It has interfaces alone, no tetrahedra. Requires: volume > 0, fewer than
 /// 65535 regions.
 [[nodiscard]] CompiledJoint with_bolus(const CompiledJoint& joint, const Bolus& bolus,
@@ -43,7 +44,7 @@ struct Injected {
   bool cavity = false;      ///< a space that opens; otherwise tissue that parts
   Vec3 tip = Vec3::Zero();  ///< m, frame J, where it came in; of tissue, inside the region
 };
-/// All of them, one after another. What is less than 10 mm^3 is not drawn, nor what went outside.
+/// All of them, one after another. What is less than 1 mm^3 is not drawn, nor what went outside.
 [[nodiscard]] CompiledJoint with_injected(const CompiledJoint& joint,
                                           const std::vector<Injected>& places,
                                           const Liquid& liquid);

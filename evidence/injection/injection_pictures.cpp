@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -169,7 +170,22 @@ bool sees(const Scene& scene, const Pose& X_JP, const Vec3& tip) {
   });
 }
 
-/// How far the roof is lifted, and over which width by half of it.
+/// m^2 of the named region's walls that come apart by at least `least` m.
+double area_apart(const CompiledJoint& joint, const std::vector<Vec3>& moved,
+                  const std::string& region, double least) {
+  double area = 0;
+  for (const Interface& f : joint.mesh.interfaces) {
+    if (joint.regions[f.front].name != region && joint.regions[f.back].name != region) continue;
+    const auto& p = joint.mesh.vertices;
+    const auto& [a, b, c] = f.vertices;
+    double apart = 0;
+    for (const std::uint32_t v : f.vertices) apart += (moved[v] - p[v]).norm() / 3;
+    if (apart >= least) area += (p[b] - p[a]).cross(p[c] - p[a]).norm() / 2;
+  }
+  return area;
+}
+
+/// How far the roof is lifted, and by half of that over which length and over a disc of which size.
 void measure_opening(const Scene& scene, const std::vector<Injected>& places,
                      InjectionPictures& out) {
   for (const Injected& place : places) {
@@ -190,7 +206,9 @@ void measure_opening(const Scene& scene, const std::vector<Injected>& places,
         if ((moved[v] - joint.mesh.vertices[v]).norm() >= opening / 2)
           widest = std::max(widest, (joint.mesh.vertices[v] - place.tip).norm());
     }
-    out.width = 2 * widest;
+    out.length = 2 * widest;
+    const double area = area_apart(joint, moved, place.region, opening / 2);
+    out.width = std::sqrt(4 * area / std::numbers::pi);
   }
 }
 
@@ -219,7 +237,7 @@ Result<InjectionPictures> write_injection_pictures(const std::shared_ptr<const S
     ARTUS_TRY(write_image(draw(body, run, X_JP, deep), folder / file));
     out.files.emplace_back(file);
   }
-  constexpr double kVisible = 10e-9;  // m^3, what with_injected leaves out
+  constexpr double kVisible = 1e-9;  // m^3, what with_injected leaves out
   for (const Injected& place : last) {
     if (place.volume >= kVisible) out.drawn_volume += place.volume;
     if (place.cavity) names.push_back(place.region);

@@ -18,7 +18,8 @@ namespace artus {
 struct InjectionPictures {
   std::vector<std::string> files;  ///< before.png, during.png, after.png; names in the folder
   double opening = 0;       ///< m by which a space's walls are apart more than before; 0 for tissue
-  double width = 0;         ///< m over which they are so by half of that
+  double length = 0;        ///< m, twice the farthest from the tip at which they are so by half
+  double width = 0;         ///< m across a disc of the area on which they are so by half
   double ray_volume = 0;    ///< m^3 of liquid that parallel rays half a millimetre apart find more
                             ///< than before
   double label_area = 0;    ///< m^2 of liquid in the labels after, its space's own included

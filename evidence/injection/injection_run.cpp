@@ -21,10 +21,12 @@ constexpr double kBackSpeed = 1.5e-3;      // m/s while feeling for the space; a
 constexpr double kThrough = 2e-3;          // m that the tip goes through a thin space; assumed
 constexpr double kFarthestThrough = 6e-3;  // m behind the space, of what resists; assumed
 constexpr double kGentle = 3.5;            // N on the plunger meanwhile, 3-5 in practice
-constexpr double kPull = -6;               // N of aspiration; assumed
-constexpr double kReady = 0.5;             // s while the guard ramps up
-constexpr double kBeforeFloor = 0.3e-3;    // m that the tip stays above a floor; assumed
-constexpr double kSpare = 5e-3;            // m of shaft that stay outside
+constexpr double kNotice = 0.2;  // s until it is seen that the target does not fill; assumed
+constexpr double kEased = 1e-3;  // m that it goes on without pressing then; assumed
+constexpr double kPull = -6;     // N of aspiration; assumed
+constexpr double kReady = 0.5;   // s while the guard ramps up
+constexpr double kBeforeFloor = 0.3e-3;  // m that the tip stays above a floor; assumed
+constexpr double kSpare = 5e-3;          // m of shaft that stay outside
 
 OperatorPhase named(OperatorPhase phase, const char* label) {
   phase.label = label;
@@ -166,12 +168,28 @@ class Trial {
     const double now = plunger_.states()[target_].volume;
     const double flow = (now - target_volume_) * spec_.rate_hz;
     target_volume_ = now;
-    return flow > kFlows;
+    fills_ = flow > kFlows;
+    return fills_;
   }
 
   /// It does not go in: the hand gives up instead of pushing harder.
   [[nodiscard]] bool done_pushing() const { return pushed_in_vain_ > kPatience; }
   static constexpr double kPatience = 6;  // s; assumed
+
+  /// What goes in while the target does not open goes elsewhere: the hand lets go, draws back some
+  /// more and tries again.
+  void ease(PlungerInput& input, double depth) {
+    if (plunger_.state().flow <= kFlows || fills_) {
+      strayed_ = 0;
+    } else {
+      strayed_ += 1 / spec_.rate_hz;
+    }
+    if (strayed_ > kNotice && !(std::abs(depth - eased_at_) < kEased)) {
+      eased_at_ = depth;
+      strayed_ = 0;
+    }
+    if (std::abs(depth - eased_at_) < kEased) input.force = 0;
+  }
 
   void push(const InjectionOperator& person, const NeedleContact& contact) {
     const OperatorPhase* phase = person.present();
@@ -180,6 +198,7 @@ class Trial {
     if (phase != nullptr && phase->thumb_rate > 0) {
       pushed_in_vain_ = plunger_.state().flow > kFlows ? 0 : pushed_in_vain_ + dt;
     }
+    if (phase != nullptr && phase->until_flow) ease(input, contact.tick().depth);
     input.tip =
         bevel_shares(contact, bevel_length(spec_.plunger.needle.outer_diameter), of_region_);
     input.depth = contact.tick().depth;
@@ -239,6 +258,9 @@ class Trial {
   std::vector<std::vector<double>> history_;
   double pushed_in_vain_ = 0;
   double target_volume_ = 0;
+  bool fills_ = false;
+  double strayed_ = 0;   // s of flow elsewhere
+  double eased_at_ = 1;  // m, depth at which the hand let go; 1: nowhere
   double least_ = 1;
   double most_ = 0;
 };

@@ -65,6 +65,26 @@ TEST_P(WrongRecord, IsRefused) {
 }
 
 const Wrong kWrongs[] = {
+    {"SitesTooMany",
+     [](TickRecord&, FrameRecord& frame) {
+       frame.input.n_sites = kMostSites + 1;
+     }},
+    {"SiteNotFinite",
+     [](TickRecord&, FrameRecord& frame) {
+       frame.input.sites[1].p_J[2] = kNan;
+     }},
+    {"SiteVolume",
+     [](TickRecord&, FrameRecord& frame) {
+       frame.input.sites[0].volume = -1e-9;
+     }},
+    {"SiteRegion",
+     [](TickRecord&, FrameRecord& frame) {
+       frame.input.sites[0].region = 70000;
+     }},
+    {"SiteKind",
+     [](TickRecord&, FrameRecord& frame) {
+       frame.input.sites[3].cavity = 2;
+     }},
     {"NeedleNotFinite",
      [](TickRecord& tick, FrameRecord&) {
        tick.input.device.X_WN.position[1] = kNan;

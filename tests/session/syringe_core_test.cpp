@@ -53,6 +53,24 @@ TEST_F(SessionSyringe, AThumbsForceFillsTheBursaThatTheTipIsIn) {
   EXPECT_GT(felt.flow, 0);
 }
 
+TEST_F(SessionSyringe, TellsThePictureWhereTheLiquidWentAndForgetsItWithTheSyringe) {
+  insert_to(23.9e-3);
+  EXPECT_TRUE(core_.syringe().sites().empty());
+  for (int k = 0; k < 5000; ++k) step(23.9e-3, PlungerSign::force, 5);
+  ASSERT_FALSE(core_.syringe().sites().empty());
+  const InjectedSite& site = core_.syringe().sites().front();
+  EXPECT_EQ(scene_->joint().regions[site.region].name, "bursa");
+  EXPECT_EQ(site.cavity, 1U);
+  EXPECT_DOUBLE_EQ(site.volume, volume_in("bursa"));
+  EXPECT_NEAR(site.p_J[2], 23e-3, 0.5e-3) << "the middle of the bevel";
+  TickInput reset;
+  reset.tick = ++tick_;
+  reset.device = test::sample_at(23.9e-3, static_cast<std::int64_t>(tick_) * kTick, tick_);
+  reset.command = SessionCommand::kReset;
+  core_.step(reset);
+  EXPECT_TRUE(core_.syringe().sites().empty());
+}
+
 TEST_F(SessionSyringe, APlungerThatTellsItsTravelIsPushedBackByASpringAndFromWhereItIs) {
   insert_to(15e-3);
   const double start = 0.31;  // m, wherever the device's own zero is

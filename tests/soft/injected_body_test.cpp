@@ -15,8 +15,9 @@ constexpr RegionId kAbove = 2;
 constexpr RegionId kCleft = 3;
 constexpr RegionId kBelow = 4;
 
-/// Flat walls 1 mm apart, 120 mm wide, as grids of 2 mm; skin 20 mm above.
-CompiledJoint make_cleft() {
+/// Flat walls 1 mm apart, 120 mm wide, as grids of 2 mm; skin 20 mm above. `twice`: the same 3 mm
+/// higher, as where a bursa lies over itself.
+CompiledJoint make_cleft(bool twice = false) {
   CompiledJoint joint;
   joint.tissues.resize(2);
   joint.tissues[0].name = "muscle";
@@ -49,6 +50,10 @@ CompiledJoint make_cleft() {
   add(20e-3, kOutside, kAbove);  // normals along +z
   add(1e-3, kAbove, kCleft);
   add(0, kCleft, kBelow);
+  if (twice) {
+    add(4e-3, kAbove, kCleft);
+    add(3e-3, kCleft, kAbove);
+  }
   return joint;
 }
 
@@ -75,19 +80,38 @@ double enclosed(const CompiledJoint& joint, const std::vector<Vec3>& moved) {
   return volume;
 }
 
-TEST(InflatedSpace, OpensAFlatCleftByItsVolumeAndTheMembranesHeight) {
+TEST(InflatedSpace, OpensAFlatCleftByItsVolumeAndThePlatesHeight) {
   const CompiledJoint joint = make_cleft();
   const InflatedSpace space(joint, kCleft, Vec3(0, 0, 0.5e-3));
   for (const double volume : {0.5e-6, 3e-6, 5e-6}) {
     const auto moved = space.vertices(volume);
     EXPECT_NEAR(enclosed(joint, moved) - enclosed(joint, joint.mesh.vertices), volume, 1e-15);
     EXPECT_NEAR(flux_between(joint, moved, kAbove), volume, 0.01 * volume);
-    const double a = 25e-3 * std::cbrt(std::min(1.0, volume / 3e-6));
-    EXPECT_NEAR(space.largest_opening(volume), 2 * volume / (std::numbers::pi * a * a),
+    const double a = 28.5e-3 * std::cbrt(std::min(1.0, volume / 3e-6));
+    EXPECT_NEAR(space.largest_opening(volume), 3 * volume / (std::numbers::pi * a * a),
                 0.02 * volume / (a * a));
     EXPECT_EQ(flux_between(joint, moved, kCleft), 0) << "the floor stays";
   }
   EXPECT_EQ(space.vertices(0), joint.mesh.vertices);
+}
+
+TEST(InflatedSpace, OpensTheSheetThatTheTipIsInAndLiftsTheOneAboveItWhole) {
+  const CompiledJoint joint = make_cleft(true);
+  const auto moved = InflatedSpace(joint, kCleft, Vec3(0, 0, 0.5e-3)).vertices(5e-6);
+  const std::size_t n = joint.mesh.vertices.size() / 5;  // of a wall
+  double opening = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double roof = moved[n + i].z();
+    const double floor = moved[2 * n + i].z();
+    const double upper_roof = moved[3 * n + i].z();
+    const double upper_floor = moved[4 * n + i].z();
+    EXPECT_EQ(floor, 0);
+    EXPECT_GT(roof, floor);
+    EXPECT_GT(upper_floor, roof) << "no wall passes another";
+    EXPECT_GT(upper_roof, upper_floor);
+    opening = std::max(opening, roof - floor);
+  }
+  EXPECT_GT(opening, 5e-3);
 }
 
 TEST(InflatedSpace, PassesItsVolumeThroughTheSkin) {
@@ -133,6 +157,35 @@ TEST(Bolus, HasItsVolumeAndPushesEveryWallBesideItByAsMuch) {
     return std::atan(a * b / (h * std::sqrt(a * a + b * b + h * h))) / std::numbers::pi;
   };
   EXPECT_NEAR(up + down, 1e-6 * (share(10e-3) + share(9e-3)), 0.02e-6);
+}
+
+TEST(Bolus, IsNotCutByAWallOfLargeTriangles) {
+  CompiledJoint joint = make_cleft();
+  // A wall across the bolus's upper half, of two triangles.
+  const auto first = static_cast<std::uint32_t>(joint.mesh.vertices.size());
+  for (const auto& [x, y] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}})
+    joint.mesh.vertices.emplace_back(30e-3 * x, 30e-3 * y, 11e-3);
+  for (const auto& t : {std::array{0U, 1U, 2U}, std::array{0U, 2U, 3U}}) {
+    Interface f;
+    f.vertices = {first + t[0], first + t[1], first + t[2]};
+    f.front = kBelow;
+    f.back = kAbove;
+    joint.mesh.interfaces.push_back(f);
+  }
+  const Bolus bolus = make_bolus(joint, kAbove, Vec3(0, 0, 10e-3), 1e-6);
+  const CompiledJoint with = with_bolus(joint, bolus, Liquid{});
+  const double scale = std::cbrt(1e-6 / (4 * std::numbers::pi / 3 * bolus.proportion.prod()));
+  const Eigen::Matrix3d in =
+      (scale * bolus.proportion).cwiseInverse().asDiagonal() * bolus.axes.transpose();
+  std::size_t pieces = 0;
+  for (const Interface& f : with.mesh.interfaces) {
+    if (f.front != kBelow || f.back != kAbove) continue;
+    ++pieces;
+    Vec3 middle = Vec3::Zero();
+    for (const std::uint32_t v : f.vertices) middle += with.mesh.vertices[v] / 3;
+    EXPECT_GT((in * (middle - bolus.centre)).norm(), 0.95) << "in the liquid";
+  }
+  EXPECT_GT(pieces, 100U);
 }
 
 TEST(InjectedBody, LeavesOutWhatCannotBeSeen) {

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/session/fluid_core.h"
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "artus/session/image_core.h"
+#include "tests/session/session_support.h"
+#include "tests/support/meshed_block.h"
+
+namespace artus {
+namespace {
+
+/// Flat layers whose walls have vertices to be lifted by.
+std::shared_ptr<const Scene> make_soft_scene() {
+  const std::array<FlatLayer, 6> layers{{{"skin", 2e-3},
+                                         {"fat", 5e-3},
+                                         {"muscle", 15e-3},
+                                         {"bursa", 2e-3},
+                                         {"tendon", 5e-3},
+                                         {"bone", 30e-3}}};
+  return std::make_shared<const Scene>(
+      std::make_shared<const CompiledJoint>(test::make_meshed_block(layers, 0.096, 0.064, 4e-3)));
+}
+
+RegionId region_named(const CompiledJoint& joint, const std::string& name) {
+  for (std::size_t r = 0; r < joint.regions.size(); ++r)
+    if (joint.regions[r].name == name) return static_cast<RegionId>(r);
+  return kOutside;
+}
+
+InjectedSite site_in(const CompiledJoint& joint, const std::string& name, double depth,
+                     double volume) {
+  InjectedSite site;
+  site.p_J[2] = depth;
+  site.volume = volume;
+  site.region = region_named(joint, name);
+  site.cavity = name == "bursa" ? 1 : 0;
+  return site;
+}
+
+/// m of a region along +z at the origin.
+double thickness(const Scene& scene, const std::string& name) {
+  double sum = 0;
+  for (const TissueInterval& s :
+       tissue_intervals(scene, {Vec3(1e-4, 2e-4, -20e-3), Vec3(1e-4, 2e-4, 40e-3)}))
+    if (scene.joint().regions[s.region].name == name) sum += s.exit - s.entry;
+  return sum;
+}
+
+TEST(FluidCore, OpensABursaAFixedNumberOfImagesAfterTheLiquidCame) {
+  const auto scene = make_soft_scene();
+  FluidCore core(scene->shared_joint(), Liquid{}, 30);
+  EXPECT_EQ(core.step({}, nullptr), nullptr);
+  const std::vector<InjectedSite> sites{site_in(scene->joint(), "bursa", 23e-3, 2e-6)};
+  for (std::uint64_t k = 0; k < core.images_to_change(); ++k)
+    EXPECT_EQ(core.step(sites, nullptr), nullptr) << k;
+  const auto filled = core.step(sites, nullptr);
+  ASSERT_NE(filled, nullptr);
+  EXPECT_NEAR(thickness(*scene, "bursa"), 2e-3, 1e-6);
+  EXPECT_GT(thickness(*filled, "bursa"), 3e-3);
+  EXPECT_NEAR(thickness(*filled, "tendon"), 5e-3, 1e-6) << "the floor stays";
+  EXPECT_EQ(core.step(sites, nullptr), filled) << "no more, no other shape";
+  EXPECT_EQ(core.step({}, nullptr), nullptr) << "a new syringe";
+}
+
+TEST(FluidCore, PartsMuscleWhereTheBevelWas) {
+  const auto scene = make_soft_scene();
+  FluidCore core(scene->shared_joint(), Liquid{}, 30);
+  const std::vector<InjectedSite> sites{site_in(scene->joint(), "muscle", 14e-3, 1e-6)};
+  std::shared_ptr<const Scene> filled;
+  for (std::uint64_t k = 0; k <= core.images_to_change(); ++k) filled = core.step(sites, nullptr);
+  ASSERT_NE(filled, nullptr);
+  EXPECT_EQ(filled->joint().regions[filled->region_at(Vec3(0, 0, 14e-3))].name, "injected");
+  EXPECT_GT(thickness(*filled, "injected"), 1e-3);
+}
+
+/// Images of a session whose simulated thumb presses, as live and replay make them.
+std::vector<std::uint64_t> pictures_of(const std::shared_ptr<const Scene>& scene, int threads,
+                                       double force) {
+  SessionParams params = test::make_small_session();
+  params.image.n_threads = threads;
+  HapticCore haptics(scene, params);
+  ImageCore images(scene, params);
+  std::vector<std::uint64_t> digests;
+  std::uint64_t frames = 0;
+  for (std::uint64_t n = 1; n <= 1900; ++n) {
+    const double depth = std::min(-10e-3 + 20e-6 * static_cast<double>(n), 23.9e-3);
+    TickInput input;
+    input.tick = n;
+    input.device = test::sample_at(depth, static_cast<std::int64_t>(n) * 1'000'000, n);
+    input.device.plunger = n > 1700 ? PlungerSign::force : PlungerSign::none;
+    input.device.plunger_force = force;
+    const HapticSnapshot& out = haptics.step(input);
+    if (n > 1600 && n % 33 == 0)
+      digests.push_back(digest_of(images.render(frame_input(out, controls_of(params), ++frames))));
+  }
+  return digests;
+}
+
+TEST(FluidCore, APictureOfASessionShowsTheFlowWithinAHundredMillisecondsAndTheSameBytesAgain) {
+  const auto scene = make_soft_scene();
+  const auto pressed = pictures_of(scene, 1, 8);
+  EXPECT_EQ(pressed, pictures_of(scene, 2, 8));
+  const auto rested = pictures_of(scene, 1, 0);
+  ASSERT_EQ(pressed.size(), rested.size());
+  // 0.13 ml/s from tick 1700 on; images come every 33 ms, the first at 1617.
+  EXPECT_EQ(pressed[2], rested[2]) << "at 1683";
+  EXPECT_NE(pressed[6], rested[6]) << "at 1815";
+  EXPECT_NE(pressed.back(), rested.back());
+}
+
+/// Images of a probe that presses over a bursa that holds `volume`.
+std::vector<std::uint64_t> pressed_pictures(const std::shared_ptr<const Scene>& scene, int threads,
+                                            double volume) {
+  SessionParams params = test::make_small_session();
+  params.deform = true;
+  params.image.n_threads = threads;
+  ImageCore core(scene, params);
+  EXPECT_TRUE(core.refusal().empty()) << core.refusal();
+  std::vector<std::uint64_t> digests;
+  for (std::uint64_t i = 1; i <= 6; ++i) {
+    FrameInput input;
+    input.controls = controls_of(params);
+    Pose X_JP = scene->joint().X_JP_default;
+    X_JP.translation() += 1e-4 * static_cast<double>(i) * X_JP.linear().col(2);
+    input.X_JP = to_plain(X_JP);
+    input.number = i;
+    input.has_probe = 1;
+    if (volume > 0) {
+      input.sites[0] = site_in(scene->joint(), "bursa", 23e-3, volume);
+      input.n_sites = 1;
+    }
+    digests.push_back(digest_of(core.render(input)));
+  }
+  return digests;
+}
+
+TEST(FluidCore, IsInABodyThatGivesWayToTheProbeToo) {
+  const auto scene = make_soft_scene();
+  const auto filled = pressed_pictures(scene, 1, 2e-6);
+  EXPECT_EQ(filled, pressed_pictures(scene, 2, 2e-6));
+  const auto empty = pressed_pictures(scene, 1, 0);
+  EXPECT_EQ(filled.front(), empty.front());
+  EXPECT_NE(filled.back(), empty.back());
+}
+
+}  // namespace
+}  // namespace artus
