@@ -40,6 +40,10 @@ struct WindowStatus {
   OrbitCamera camera;
   ImageControls controls;
   DisplayLook look;
+  PictureView view;          ///< what is seen of a zoomed picture
+  bool dual = false;         ///< a kept picture stands beside
+  bool help = false;         ///< the keys are shown
+  KeyMap keys;               ///< as they act now
   PanelPlace picture_panel;  ///< as the layout has it
 };
 
