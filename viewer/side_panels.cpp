@@ -24,7 +24,7 @@ void wrapped(const std::string& said, const ImVec4& colour = kPlain) {
 
 /// The gauge of a catalogue's needle; "?" for any other.
 std::string gauge_of(const NeedleShape& shape) {
-  for (const int gauge : {18, 20, 21, 22, 23, 25}) {
+  for (const int gauge : {18, 19, 20, 21, 22, 23, 25, 27}) {
     const auto known = needle_of_gauge(gauge);
     if (known && std::abs(known->outer_diameter - shape.outer_diameter) < 1e-6)
       return std::to_string(gauge);

@@ -71,9 +71,9 @@ std::optional<std::vector<std::string>> match(std::string_view pattern, std::str
     hole = pattern.find("{}");
     const std::string_view behind = pattern.substr(0, hole);
     const bool last = hole == std::string_view::npos;
-    const std::size_t at = !last           ? said.find(behind)
+    const std::size_t at = !last                          ? said.find(behind)
                            : said.size() >= behind.size() ? said.size() - behind.size()
-                                           : std::string_view::npos;
+                                                          : std::string_view::npos;
     if (at == std::string_view::npos || said.substr(at, behind.size()) != behind)
       return std::nullopt;
     places.emplace_back(said.substr(0, at));

@@ -21,8 +21,7 @@
 namespace artus {
 namespace {
 
-constexpr double kLifted = 1e-3;     // m between face and skin that count as lifted
-constexpr double kMessageTime = 12;  // s; assumed: what was said so long ago is no longer so
+constexpr double kLifted = 1e-3;  // m between face and skin that count as lifted
 
 // Pixels a millimetre, as the system says; 96 an inch when it does not.
 double screen_density() {
@@ -124,7 +123,7 @@ void WindowLoop::say(std::string message) {
 }
 
 void WindowLoop::forget_message() {
-  if (glfwGetTime() - said_at_ > kMessageTime) state_.message.clear();
+  if (glfwGetTime() - said_at_ > options_.message_seconds) state_.message.clear();
 }
 
 // When the joint was moved to the device, what the hand holds moves with it.
