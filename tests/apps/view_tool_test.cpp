@@ -54,22 +54,20 @@ TEST(View, AnInjectionIsChosenWithEveryInput) {
   const std::string script = stem.string() + ".script";
   std::ofstream(script) << "wait 0.2\n";
   for (const char* input : {"hand", "injection"}) {
-    for (const std::size_t which : {0U, 1U}) {  // one point of entry, two directions 0.34 apart
-      const std::string file = stem.string() + ".rec";
-      const auto viewed =
-          test::run_process({"xvfb-run", "-a", ARTUS_TOOL, "view", "-j", test::kSimple, "--input",
-                             input, "--injection", std::to_string(which + 1), "--record", file,
-                             "--script", script, "--rigid"});
-      ASSERT_EQ(viewed.exit_code, 0) << viewed.err;
-      const auto recording = read_recording(file);
-      ASSERT_TRUE(recording) << recording.error().to_string();
-      ASSERT_FALSE(recording->ticks.empty());
-      const PlannedInjection& plan = joint->injections[which];
-      const Vec3 axis = (plan.target - plan.entry).normalized();
-      const Pose X_WN = to_pose(recording->ticks.back().input.device.X_WN);
-      EXPECT_LT((X_WN.linear().col(2) - axis).norm(), 0.05) << input << ' ' << which;
-      std::filesystem::remove(file);
-    }
+    constexpr std::size_t which = 1;  // enters where the first does, in a direction 0.34 apart
+    const std::string file = stem.string() + ".rec";
+    const auto viewed = test::run_process(
+        {"xvfb-run", "-a", ARTUS_TOOL, "view", "-j", test::kSimple, "--input", input, "--injection",
+         std::to_string(which + 1), "--record", file, "--script", script, "--rigid"});
+    ASSERT_EQ(viewed.exit_code, 0) << viewed.err;
+    const auto recording = read_recording(file);
+    ASSERT_TRUE(recording) << recording.error().to_string();
+    ASSERT_FALSE(recording->ticks.empty());
+    const PlannedInjection& plan = joint->injections[which];
+    const Vec3 axis = (plan.target - plan.entry).normalized();
+    const Pose X_WN = to_pose(recording->ticks.back().input.device.X_WN);
+    EXPECT_LT((X_WN.linear().col(2) - axis).norm(), 0.05) << input << ' ' << which;
+    std::filesystem::remove(file);
   }
   std::filesystem::remove(script);
 }
