@@ -48,9 +48,12 @@ void WindowLoop::handle(const UserEvent& event) {
   if (control_.refusal()) say(tell(state_, *control_.refusal()));
   if (const auto* move = std::get_if<MoveEvent>(&event)) {
     const ImVec2 away(-FLT_MAX, -FLT_MAX);
-    io.MousePos = held ? away : ImVec2(static_cast<float>(move->x), static_cast<float>(move->y));
+    io.MousePos = held || move->hidden
+                      ? away
+                      : ImVec2(static_cast<float>(move->x), static_cast<float>(move->y));
     navigating_ = false;
   } else if (const auto* button = std::get_if<ButtonEvent>(&event)) {
+    if (button->down && button->hidden) return;  // made before the pointer was back
     if (button->button >= 0 && button->button < 3) io.MouseDown[button->button] = button->down;
   } else if (const auto* scroll = std::get_if<ScrollEvent>(&event); scroll != nullptr && !taken) {
     io.MouseWheel += static_cast<float>(scroll->notches);

@@ -26,6 +26,32 @@ TEST_F(WindowEventsTest, EscapeClosesTheHelpAndThenLetsGo) {
   });
 }
 
+TEST_F(WindowEventsTest, APressBeforeThePointerIsBackTakesHoldOfNothing) {
+  options_.rate = 2;
+  run([](Person& person) {
+    const WindowStatus before = person.seen();
+    const double title_x = (before.picture_panel.x + 0.1) * 1280;
+    person.x().move(title_x, before.picture_panel.y * 720 + 8);
+    person.x().key("n");
+    person.wait_until("in hand", [](const WindowStatus& s) { return s.grab == Grab::needle; });
+    person.wait_pictures(2);
+    person.x().key("Escape");  // the next picture is half a second away
+    person.x().move_by(2, 1);
+    Person::rest(0.02);
+    person.x().button(1, true);
+    for (int i = 0; i < 4; ++i) {
+      person.x().move_by(12, 20);
+      Person::rest(0.02);
+    }
+    person.x().button(1, false);
+    person.wait_until("let go", [](const WindowStatus& s) { return s.grab == Grab::nothing; });
+    person.wait_pictures(3);
+    EXPECT_EQ(person.seen().picture_panel.x, before.picture_panel.x);
+    EXPECT_EQ(person.seen().picture_panel.y, before.picture_panel.y);
+    EXPECT_EQ(person.seen().caliper_points, 0U);
+  });
+}
+
 TEST_F(WindowEventsTest, AFlippedZoomedPictureIsMovedAndMeasuredAtItsTrueScale) {
   std::vector<ImagePoint> measured;
   run([&measured](Person& person) {
