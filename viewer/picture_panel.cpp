@@ -79,8 +79,11 @@ void draw_calipers(const Sheet& sheet, const ViewState& state) {
     draw_cross(sheet, p);
     if (i % 2 == 0) continue;
     outlined_line(sheet.list, sheet.at(points[i - 1]), p);
-    outlined_text(sheet.list, ImVec2(p.x + 7 * sheet.unit, p.y - 16 * sheet.unit),
-                  number(state.language, distance_mm(points[i - 1], points[i]), 1) + " mm");
+    const std::string said =
+        number(state.language, distance_mm(points[i - 1], points[i]), 1) + " mm";
+    const float most = sheet.corner.x + sheet.size.x - ImGui::CalcTextSize(said.c_str()).x;
+    outlined_text(sheet.list, ImVec2(std::min(p.x + 7 * sheet.unit, most), p.y - 16 * sheet.unit),
+                  said);
   }
 }
 
