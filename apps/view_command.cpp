@@ -74,14 +74,10 @@ Language language_of(const std::string& flag) {
 }
 
 /// How the device of this input is brought to life, when it was never there.
-std::string connect_hint(const SessionOptions& session) {
+std::string connect_hint(const SessionOptions& session, Language language) {
   if (session.input == "shared-memory")
-    return "no device yet: start a program that writes /dev/shm/" + session.prefix +
-           "POS (docs/protocol.md), or: artus view --input hand";
-  if (session.input == "igtl")
-    return "no tracker yet: let it send transforms to this machine by OpenIGTLink "
-           "(docs/openigtlink.md)";
-  return "no device yet: artus view --input hand needs none";
+    return fill(text(language, Text::connect_shared), {"/dev/shm/" + session.prefix + "POS"});
+  return text(language, session.input == "igtl" ? Text::connect_igtl : Text::connect_hand);
 }
 
 /// Goals, starts, language and keys of the window.
@@ -95,7 +91,7 @@ Result<void> prepare_window(const ViewerOptions& options, const CompiledJoint& j
     window.tasks.push_back({plan, first_target(joint, plan)});
   window.task = static_cast<std::size_t>(options.session.injection - 1);
   window.language = language_of(options.language);
-  window.connect = connect_hint(options.session);
+  window.connect = connect_hint(options.session, window.language);
   window.welcome = options.session.input == "hand" && window.script.empty() &&
                    window.screenshot.empty() && !window.expert;
   return {};

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/viewer/guide.h"
 
+#include <cmath>
+
 #include "artus/core/units.h"
 
 namespace artus {
 namespace {
+
+constexpr double kBeside =
+    5e-3;  // m; assumed: beyond it the probe goes to the needle, not the needle to it
 
 std::string say(const GuideInput& in, Text which, std::initializer_list<std::string_view> values) {
   return fill(text(in.language, which), values);
@@ -37,6 +42,10 @@ std::string Guide::with_needle(const GuideInput& in) const {
     return say(in, Text::step_reached, {key(Action::freeze), key(Action::save), pull});
   if (in.needle.on_bone) return say(in, Text::step_bone, {pull});
   if (reached_) return say(in, Text::step_withdraw, {pull});
+  if (std::abs(in.needle.plane_offset) > kBeside)
+    return say(in, Text::step_follow,
+               {number(in.language, std::abs(in.needle.plane_offset) / kMillimetre, 0),
+                key(Action::take_probe)});
   if (!in.needle.in_plane) return say(in, Text::step_steer, {});
   if (in.target.empty()) return say(in, Text::step_push, {key(Action::push), pull});
   return say(in, Text::step_advance, {number(in.language, in.needle.to_target / kMillimetre, 0)});

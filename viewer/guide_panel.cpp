@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+#include <algorithm>
 #include <array>
 
 #include "artus/viewer/anatomy_names.h"
+#include "artus/viewer/help_rows.h"
 #include "artus/viewer/panels.h"
 #include "artus/viewer/shade.h"
 
@@ -108,40 +110,11 @@ void draw_welcome(const PanelInput& in, ViewState& state) {
 
 void draw_help(const PanelInput& in, ViewState& state) {
   if (!state.help) return;
-  constexpr std::array<std::pair<Action, Text>, 33> kHelp{
-      {{Action::take_probe, Text::help_take_probe},
-       {Action::choose_entry, Text::help_choose},
-       {Action::explore, Text::help_explore},
-       {Action::take_needle, Text::help_needle},
-       {Action::push, Text::help_push},
-       {Action::pull, Text::help_push},
-       {Action::let_go, Text::help_let_go},
-       {Action::home, Text::help_home},
-       {Action::undo, Text::help_undo},
-       {Action::turn_left, Text::help_turn},
-       {Action::left, Text::help_arrows},
-       {Action::freeze, Text::help_freeze},
-       {Action::cine_back, Text::help_cine},
-       {Action::save, Text::help_save},
-       {Action::clip, Text::help_clip},
-       {Action::true_scale, Text::help_scale},
-       {Action::measure, Text::help_measure},
-       {Action::clear_calipers, Text::help_clear},
-       {Action::depth_more, Text::help_depth},
-       {Action::gain_more, Text::help_gain},
-       {Action::zoom_in, Text::help_zoom},
-       {Action::flip, Text::help_flip},
-       {Action::dual, Text::help_dual},
-       {Action::doppler, Text::help_colour},
-       {Action::next_panel, Text::help_tab},
-       {Action::labels, Text::help_labels},
-       {Action::aids, Text::help_aids},
-       {Action::pause, Text::help_pause},
-       {Action::reset, Text::help_reset},
-       {Action::expert, Text::help_expert},
-       {Action::layout, Text::help_layout},
-       {Action::none, Text::help_tilt},
-       {Action::none, Text::help_shift}}};
+  std::vector<HelpRow> rows = help_rows(state.keys, state.language);
+  rows.push_back({tell(state, Text::key_ctrl), tell(state, Text::help_tilt)});
+  rows.push_back({tell(state, Text::key_shift), tell(state, Text::help_shift)});
+  float keys = 0;
+  for (const HelpRow& row : rows) keys = std::max(keys, ImGui::CalcTextSize(row.keys.c_str()).x);
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos(ImVec2(size.x / 2, size.y / 2), ImGuiCond_Appearing, ImVec2(0.5F, 0.5F));
   ImGui::SetNextWindowSizeConstraints(ImVec2(0, 0), ImVec2(0.96F * size.x, 0.92F * size.y));
@@ -149,14 +122,10 @@ void draw_help(const PanelInput& in, ViewState& state) {
   ImGui::Begin(title.c_str(), &state.help,
                ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings);
   ImGui::PushTextWrapPos(0.9F * size.x);
-  for (const auto& [action, what] : kHelp) {
-    const std::string key =
-        action == Action::none
-            ? tell(state, what == Text::help_tilt ? Text::key_ctrl : Text::key_shift)
-            : state.keys.said_key(action, state.language);
-    ImGui::TextUnformatted(key.c_str());
-    ImGui::SameLine(8 * ImGui::GetFontSize());
-    ImGui::TextUnformatted(tell(state, what));
+  for (const HelpRow& row : rows) {
+    ImGui::TextUnformatted(row.keys.c_str());
+    ImGui::SameLine(keys + 2 * ImGui::GetFontSize());
+    ImGui::TextUnformatted(row.what);
   }
   ImGui::TextUnformatted(tell(state, Text::help_joint));
   ImGui::TextUnformatted(tell(state, Text::help_pad));

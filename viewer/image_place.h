@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <algorithm>
 #include <cmath>
 
 namespace artus {
@@ -27,6 +28,25 @@ struct ImagePlace {
     return x + (flipped ? -scale : scale) * p.x_mm;
   }
   [[nodiscard]] double y_of(const ImagePoint& p) const noexcept { return y + scale * p.y_mm; }
+};
+
+/// What is seen of a zoomed picture: 1 / zoom of its width and of its depth, from the shares `u`,
+/// `v` of its width and depth on (of its own columns, flipped or not). It never leaves the picture.
+struct PictureView {
+  static constexpr double kMost = 4;
+  double zoom = 1;
+  double u = 0;
+  double v = 0;
+  void move(double du, double dv) noexcept {
+    u = std::clamp(u + du, 0.0, 1 - 1 / zoom);
+    v = std::clamp(v + dv, 0.0, 1 - 1 / zoom);
+  }
+  /// The middle of what is seen stays.
+  void zoom_by(double factor) noexcept {
+    const double before = 1 / zoom;
+    zoom = std::clamp(zoom * factor, 1.0, kMost);
+    move((before - 1 / zoom) / 2, (before - 1 / zoom) / 2);
+  }
 };
 
 }  // namespace artus

@@ -75,7 +75,8 @@ std::vector<PictureLabel> find_picture_labels(const Scene& scene, const Pose& X_
   constexpr int kColumns = 31;
   constexpr double kThin = 0.8e-3;  // m; what is thinner has no room for a name
   struct Best {
-    double thickness = 0;
+    double worth = 0;
+    double thickness = 0;  // m
     PictureLabel label;
   };
   std::map<RegionId, Best> best;
@@ -89,14 +90,19 @@ std::vector<PictureLabel> find_picture_labels(const Scene& scene, const Pose& X_
       Best& b = best[s.region];
       // The middle of the picture is where a name is looked for.
       const double worth = thickness * (1 - 0.8 * std::abs(x) / width);
-      if (worth <= b.thickness) continue;
-      b.thickness = worth;
+      if (worth <= b.worth) continue;
+      b.worth = worth;
+      b.thickness = thickness;
       b.label = {layer_name(language, scene.joint(), line, k), s.region,
                  (x + width / 2) / kMillimetre, (s.entry + s.exit) / 2 / kMillimetre};
     }
   }
+  std::vector<Best> found;
+  for (const auto& [region, b] : best) found.push_back(b);
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Best& a, const Best& b) { return a.thickness < b.thickness; });
   std::vector<PictureLabel> labels;
-  for (const auto& [region, b] : best) labels.push_back(b.label);
+  for (const Best& b : found) labels.push_back(b.label);
   return labels;
 }
 

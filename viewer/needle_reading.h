@@ -39,7 +39,8 @@ struct PictureLabel {
   double x_mm = 0;
   double y_mm = 0;
 };
-/// The names of what truly lies in the image plane at X_JP, each once, where it is thickest.
+/// The names of what truly lies in the image plane at X_JP, each once, where it is thickest; the
+/// thinnest first, whose names have the least room to give way.
 /// Cost: one query for each of some 30 columns.
 [[nodiscard]] std::vector<PictureLabel> find_picture_labels(const Scene& scene, const Pose& X_JP,
                                                             double width, double depth,

@@ -86,9 +86,11 @@ std::string with_key(const ViewState& state, Text which, Action action) {
   return shown + "###" + std::string(name_of(action));
 }
 
-void action_button(ViewState& state, Text which, Action action) {
+void action_button(ViewState& state, Text which, Action action, bool on) {
+  if (on) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
   if (ImGui::Button(with_key(state, which, action).c_str()))
     state.wishes.push_back({action, false});
+  if (on) ImGui::PopStyleColor();
 }
 
 std::string describe_status(Language language, std::uint32_t status) {

@@ -58,8 +58,8 @@ void outlined_line(ImDrawList* list, const ImVec2& a, const ImVec2& b);
 }
 /// "freeze (F)": a button's text with its key. After ### stands a name of no language.
 [[nodiscard]] std::string with_key(const ViewState& state, Text which, Action action);
-/// A button that asks for an action.
-void action_button(ViewState& state, Text which, Action action);
+/// A button that asks for an action; bright while what it asks for is `on`.
+void action_button(ViewState& state, Text which, Action action, bool on = false);
 
 /// What the bits of a tick's status say, for people; "all well" for none.
 [[nodiscard]] std::string describe_status(Language language, std::uint32_t status);

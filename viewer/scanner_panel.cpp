@@ -67,11 +67,11 @@ void next_in_row(float width) {
   if (ImGui::GetContentRegionAvail().x < width) ImGui::NewLine();
 }
 
-void row_button(ViewState& state, Text which, Action action) {
+void row_button(ViewState& state, Text which, Action action, bool on = false) {
   const std::string label = with_key(state, which, action);
   const std::string shown = label.substr(0, label.find("###"));
   next_in_row(ImGui::CalcTextSize(shown.c_str()).x + 2 * ImGui::GetStyle().FramePadding.x);
-  action_button(state, which, action);
+  action_button(state, which, action, on);
 }
 
 void draw_cine(const PanelInput& in, ViewState& state) {
@@ -91,9 +91,9 @@ void draw_scanner_panel(const PanelInput& in, ViewState& state) {
   draw_knobs(state);
   draw_time_gain(state);
   const bool frozen = in.session->frozen();
-  action_button(state, frozen ? Text::go_on : Text::freeze, Action::freeze);
+  action_button(state, frozen ? Text::go_on : Text::freeze, Action::freeze, frozen);
   row_button(state, Text::save, Action::save);
-  row_button(state, state.wants_clip ? Text::end_clip : Text::clip, Action::clip);
+  row_button(state, state.wants_clip ? Text::end_clip : Text::clip, Action::clip, state.wants_clip);
   draw_cine(in, state);
   for (std::size_t i = 0; i < kPresets.size(); ++i) {
     const char* name = tell(state, kPresets[i].name);
@@ -103,15 +103,15 @@ void draw_scanner_panel(const PanelInput& in, ViewState& state) {
   if (ImGui::Button(tell(state, Text::usual_settings))) {
     state.controls = controls_of(in.session->params());
     state.look = {};
-    state.zoom = 1;
+    state.view = {};
   }
-  row_button(state, Text::flip, Action::flip);
-  row_button(state, Text::dual, Action::dual);
-  row_button(state, Text::colour, Action::doppler);
-  row_button(state, Text::true_scale, Action::true_scale);
+  row_button(state, Text::flip, Action::flip, state.look.flipped);
+  row_button(state, Text::dual, Action::dual, state.dual);
+  row_button(state, Text::colour, Action::doppler, state.look.colour);
+  row_button(state, Text::true_scale, Action::true_scale, state.true_scale);
   row_button(state, Text::no_calipers, Action::clear_calipers);
   const std::string zoom = std::string(tell(state, Text::zoom)) + " " +
-                           number(state.language, state.zoom, 1) + "###zoom";
+                           number(state.language, state.view.zoom, 1) + "###zoom";
   ImGui::TextUnformatted(zoom.substr(0, zoom.find("###")).c_str());
   ImGui::SameLine();
   if (ImGui::SmallButton("-")) state.wishes.push_back({Action::zoom_out, false});

@@ -7,6 +7,7 @@
 #include "artus/viewer/anatomy_names.h"
 #include "artus/viewer/panels.h"
 #include "artus/viewer/shade.h"
+#include "artus/viewer/system_words.h"
 
 namespace artus {
 namespace {
@@ -23,7 +24,7 @@ void wrapped(const std::string& said, const ImVec4& colour = kPlain) {
 
 /// The gauge of a catalogue's needle; "?" for any other.
 std::string gauge_of(const NeedleShape& shape) {
-  for (const int gauge : {18, 20, 21, 22, 23, 25}) {
+  for (const int gauge : {18, 19, 20, 21, 22, 23, 25, 27}) {
     const auto known = needle_of_gauge(gauge);
     if (known && std::abs(known->outer_diameter - shape.outer_diameter) < 1e-6)
       return std::to_string(gauge);
@@ -57,15 +58,13 @@ void draw_needle_state(const PanelInput& in, const ViewState& state) {
                  {number(language, in.needle.to_target / kMillimetre, 1)}));
 }
 
-/// Whose hand it is, and whether it is there; other programs' devices keep their names.
+/// Whose hand it is, and whether it is there.
 std::string device_line(const PanelInput& in, const ViewState& state) {
   constexpr std::array<Text, 4> kPeers{Text::peer_absent, Text::peer_alive, Text::peer_lost,
                                        Text::peer_invalid};
   static_assert(static_cast<int>(PeerState::absent) == 0 &&
                 static_cast<int>(PeerState::invalid) == 3);
-  std::string name(in.session->device_name());
-  for (const Text known : {Text::hand_device, Text::simulated_hand})
-    if (name == text(Language::english, known)) name = tell(state, known);
+  const std::string name = said_by_system(state.language, std::string(in.session->device_name()));
   return fill(tell(state, Text::device_line),
               {name, tell(state, kPeers.at(static_cast<std::size_t>(in.peer)))});
 }
@@ -100,11 +99,11 @@ void draw_session_panel(const PanelInput& in, ViewState& state) {
   wrapped(fill(tell(state, Text::rates_line),
                {number(state.language, rate, 0), number(state.language, in.window_rate, 0)}));
   for (const std::string& refused : in.session->refusals())
-    wrapped(fill(tell(state, Text::refused), {refused}));
+    wrapped(fill(tell(state, Text::refused), {said_by_system(state.language, refused)}));
   const std::vector<std::string> notices = in.session->notices();
   constexpr std::size_t kShown = 3;
   for (std::size_t i = notices.size() - std::min(kShown, notices.size()); i < notices.size(); ++i)
-    wrapped(notices[i]);
+    wrapped(said_by_system(state.language, notices[i]));
 }
 
 void draw_tissue_panel(const PanelInput& in, ViewState& state, JointView& view) {
@@ -119,7 +118,7 @@ void draw_tissue_panel(const PanelInput& in, ViewState& state, JointView& view) 
                        ImVec2(ImGui::GetFontSize(), ImGui::GetFontSize()));
     ImGui::SameLine();
     ImGui::SetNextItemWidth(5 * in.scale * 13);
-    ImGui::SliderFloat("##alpha", &look.alpha, 0, 1, "%.2f");
+    ImGui::SliderFloat("##alpha", &look.alpha, 0, 1, number(state.language, look.alpha, 2).c_str());
     ImGui::SameLine();
     ImGui::TextUnformatted(clinical_name(state.language, look.name).c_str());
     ImGui::PopID();

@@ -23,10 +23,13 @@ struct MoveEvent {
   double y = 0;       ///< pixels from its top
   bool fine = false;  ///< shift is held: what is in hand moves a tenth as far
   bool tilt = false;  ///< ctrl is held: the probe in hand tilts
+  /// There is no pointer: only how far the mouse went means something.
+  bool hidden = false;
 };
 struct ButtonEvent {
   int button = 0;  ///< 0 left, 1 right, 2 middle
   bool down = false;
+  bool hidden = false;  ///< there is no pointer: it points at nothing
 };
 struct ScrollEvent {
   double notches = 0;

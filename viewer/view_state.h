@@ -35,13 +35,13 @@ struct ViewState {
   double pixels_per_mm = 3.78;  ///< of the screen
   ImageControls controls;
   DisplayLook look;
-  double zoom = 1;  ///< of the picture, about its middle
+  PictureView view;  ///< what is seen of the picture
   std::string patient;
   ImagePlace image_place;
   std::map<std::uint64_t, std::vector<ImagePoint>> calipers;  ///< pairs, by the image's number
   std::optional<ImagePoint> cross;  ///< a caliper's next point, moved by keys
   std::optional<std::size_t> cine;  ///< which picture of the loop is shown; empty: the live one
-  bool drags_box = false;           ///< the mouse holds the colour box
+  bool drags_box = false;           ///< the mouse holds the colour box, not the picture
   bool dual = false;                ///< a kept picture stands beside the live one
   std::deque<TracePoint> trace;     ///< the last seconds
   InsertionTrace insertion;

@@ -40,6 +40,10 @@ struct WindowStatus {
   OrbitCamera camera;
   ImageControls controls;
   DisplayLook look;
+  PictureView view;          ///< what is seen of a zoomed picture
+  bool dual = false;         ///< a kept picture stands beside
+  bool help = false;         ///< the keys are shown
+  KeyMap keys;               ///< as they act now
   PanelPlace picture_panel;  ///< as the layout has it
 };
 
@@ -64,6 +68,7 @@ struct WindowOptions {
   bool quit_after_script = false;
   std::filesystem::path layout;          ///< where the panels' places are kept; empty: nowhere
   std::filesystem::path pictures = ".";  ///< folder of saved images and clips
+  double message_seconds = 12;           ///< s that a message stands; assumed
   std::function<bool()> asked_to_close;  ///< asked between two pictures; empty: nobody else closes
   /// Called between two pictures: other programs' hands on the knobs. Empty: there are none.
   std::function<void(ImageControls&)> turn_knobs;

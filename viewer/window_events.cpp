@@ -64,13 +64,13 @@ void on_key(GLFWwindow* window, int key, int scancode, int action, int mods) {
 
 void on_move(GLFWwindow* window, double x, double y) {
   WindowEvents& events = events_of(window);
-  events.add(MoveEvent{x, y, events.shift(), events.ctrl()});
+  events.add(MoveEvent{x, y, events.shift(), events.ctrl(), events.hidden()});
 }
 
 void on_button(GLFWwindow* window, int button, int action, int mods) {
   WindowEvents& events = events_of(window);
   events.set_modifiers(mods);
-  events.add(ButtonEvent{events.button(button), action == GLFW_PRESS});
+  events.add(ButtonEvent{events.button(button), action == GLFW_PRESS, events.hidden()});
 }
 
 void on_scroll(GLFWwindow* window, double /*x*/, double y) {

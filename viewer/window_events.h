@@ -38,6 +38,7 @@ class WindowEvents {
   void set_modifiers(int modifiers) noexcept { modifiers_ = modifiers; }
   [[nodiscard]] bool shift() const noexcept;
   [[nodiscard]] bool ctrl() const noexcept;
+  [[nodiscard]] bool hidden() const noexcept { return held_; }
   [[nodiscard]] int button(int button) const noexcept {
     return left_handed_ && button < 2 ? 1 - button : button;
   }

@@ -3,6 +3,7 @@
 #include <array>
 #include <cfloat>
 #include <cmath>
+#include <utility>
 
 #include <GLFW/glfw3.h>
 
@@ -10,6 +11,7 @@
 #include "artus/echo/setting_ranges.h"
 #include "artus/viewer/anatomy_names.h"
 #include "artus/viewer/panels.h"
+#include "artus/viewer/system_words.h"
 #include "artus/viewer/window_loop.h"
 
 namespace artus {
@@ -43,12 +45,15 @@ void WindowLoop::handle(const UserEvent& event) {
   }
   const bool held = control_.grab() != Grab::nothing;
   const bool taken = hand_ != nullptr && control_.handle(event, ground());
-  if (control_.refusal()) state_.message = tell(state_, *control_.refusal());
+  if (control_.refusal()) say(tell(state_, *control_.refusal()));
   if (const auto* move = std::get_if<MoveEvent>(&event)) {
     const ImVec2 away(-FLT_MAX, -FLT_MAX);
-    io.MousePos = held ? away : ImVec2(static_cast<float>(move->x), static_cast<float>(move->y));
+    io.MousePos = held || move->hidden
+                      ? away
+                      : ImVec2(static_cast<float>(move->x), static_cast<float>(move->y));
     navigating_ = false;
   } else if (const auto* button = std::get_if<ButtonEvent>(&event)) {
+    if (button->down && button->hidden) return;  // made before the pointer was back
     if (button->button >= 0 && button->button < 3) io.MouseDown[button->button] = button->down;
   } else if (const auto* scroll = std::get_if<ScrollEvent>(&event); scroll != nullptr && !taken) {
     io.MouseWheel += static_cast<float>(scroll->notches);
@@ -62,21 +67,25 @@ void WindowLoop::act(const ActionEvent& wish) {
       Action::explore,    Action::choose_entry, Action::none};
   const Action action = wish.action;
   if (action == Action::none) return;
-  if (action == Action::let_go) navigating_ = false;
-  if (action == Action::let_go) state_.cross.reset();
+  if (action == Action::let_go) {
+    navigating_ = false;
+    state_.cross.reset();
+    if (std::exchange(state_.help, false)) return;  // what lies over the rest goes first
+  }
   const bool of_hands = std::find(kOfHands.begin(), kOfHands.end(), action) != kOfHands.end();
   if (hand_ == nullptr && of_hands) {
-    state_.message = fill(tell(state_, Text::no_hand), {std::string(session_.device_name())});
+    say(fill(tell(state_, Text::no_hand),
+             {said_by_system(state_.language, std::string(session_.device_name()))}));
     return;
   }
   if (of_hands) state_.welcome = false;
   if (!state_.cross && hand_ != nullptr && control_.handle(action, wish.fine, ground())) {
-    if (action == Action::undo) state_.message = tell(state_, Text::undone);
+    if (action == Action::undo) say(tell(state_, Text::undone));
     if (control_.refusal() == Text::cannot_choose_again)
-      state_.message = fill(tell(state_, Text::cannot_choose_again),
-                            {state_.keys.said_key(Action::explore, state_.language)});
+      say(fill(tell(state_, Text::cannot_choose_again),
+               {state_.keys.said_key(Action::explore, state_.language)}));
     else if (control_.refusal())
-      state_.message = tell(state_, *control_.refusal());
+      say(tell(state_, *control_.refusal()));
     return;
   }
   if (act_on_window(action) || act_on_picture(action)) return;
@@ -108,7 +117,7 @@ bool WindowLoop::act_on_window(Action action) {
       return true;
     case Action::layout:
       state_.layout.put_back();
-      state_.message = tell(state_, Text::layout_back);
+      say(tell(state_, Text::layout_back));
       return true;
     case Action::next_panel: {
       if (state_.layout.narrow() && !state_.welcome) state_.layout.choose_next();
@@ -130,7 +139,9 @@ void WindowLoop::set_frozen(bool frozen) {
   session_.set_frozen(frozen);
   if (frozen) return;
   state_.cine.reset();  // measures belong to the picture that they were made on
-  state_.calipers.clear();
+  std::erase_if(state_.calipers, [this](const auto& measured) {
+    return input_.kept == nullptr || measured.first != kept_.input.number;
+  });
   state_.cross.reset();
 }
 
@@ -167,8 +178,8 @@ bool WindowLoop::act_on_picture(Action action) {
       if (input_.image != nullptr)
         state_.cross = ImagePoint{500 * input_.image->width * input_.image->pixel,
                                   500 * input_.image->height * input_.image->pixel};
-      state_.message = fill(tell(state_, Text::caliper_here),
-                            {state_.keys.said_key(Action::accept, state_.language)});
+      say(fill(tell(state_, Text::caliper_here),
+               {state_.keys.said_key(Action::accept, state_.language)}));
       return true;
     case Action::depth_more:
     case Action::depth_less:
@@ -180,7 +191,7 @@ bool WindowLoop::act_on_picture(Action action) {
       return true;
     case Action::zoom_in:
     case Action::zoom_out:
-      state_.zoom = std::clamp(state_.zoom * (action == Action::zoom_in ? 1.25 : 0.8), 1.0, 4.0);
+      state_.view.zoom_by(action == Action::zoom_in ? 1.25 : 0.8);
       return true;
     case Action::flip:
       state_.look.flipped = !state_.look.flipped;
@@ -190,7 +201,7 @@ bool WindowLoop::act_on_picture(Action action) {
       return true;
     case Action::doppler:
       state_.look.colour = !state_.look.colour;
-      if (state_.look.colour) state_.message = tell(state_, Text::colour_on);
+      if (state_.look.colour) say(tell(state_, Text::colour_on));
       return true;
     case Action::cine_back:
     case Action::cine_forward:
@@ -201,7 +212,8 @@ bool WindowLoop::act_on_picture(Action action) {
   }
 }
 
-// Nothing is in hand: arrows move a caliper's cross, go from knob to knob, or turn the joint.
+// Nothing is in hand: arrows move a caliper's cross, go from knob to knob, move the colour box or
+// what is seen of a zoomed picture, or turn the joint.
 void WindowLoop::act_on_arrow(Action action, bool fine) {
   ImGuiIO& io = ImGui::GetIO();
   const int dx = action == Action::right ? 1 : action == Action::left ? -1 : 0;
@@ -221,6 +233,9 @@ void WindowLoop::act_on_arrow(Action action, bool fine) {
   } else if (state_.look.colour) {
     const double step = fine ? 0.01 : 0.05;
     state_.look.box.move(step * (state_.look.flipped ? -dx : dx), step * dy);
+  } else if (state_.view.zoom > 1) {
+    const double step = (fine ? 0.01 : 0.05) / state_.view.zoom;
+    state_.view.move(step * (state_.look.flipped ? -dx : dx), step * dy);
   } else {
     OrbitCamera& camera = joint_->camera();
     camera.yaw += (fine ? 0.01 : 0.1) * dx;

@@ -117,6 +117,15 @@ Result<void> WindowLoop::run(WindowReport& report) {
   return {};
 }
 
+void WindowLoop::say(std::string message) {
+  state_.message = std::move(message);
+  said_at_ = glfwGetTime();
+}
+
+void WindowLoop::forget_message() {
+  if (glfwGetTime() - said_at_ > options_.message_seconds) state_.message.clear();
+}
+
 // When the joint was moved to the device, what the hand holds moves with it.
 void WindowLoop::follow_gesture(const HapticSnapshot& now) {
   const Pose before = to_pose(input_.now.X_WJ);
@@ -124,10 +133,10 @@ void WindowLoop::follow_gesture(const HapticSnapshot& now) {
   if (now.phase != input_.now.phase) {
     joint_->clear_trail();
     state_.insertion.clear();
-    state_.message = now.phase == GesturePhase::inserting
-                         ? fill(tell(state_, Text::entry_chosen),
-                                {state_.keys.said_key(Action::take_needle, state_.language)})
-                         : tell(state_, Text::back_to_exploring);
+    say(now.phase == GesturePhase::inserting
+            ? fill(tell(state_, Text::entry_chosen),
+                   {state_.keys.said_key(Action::take_needle, state_.language)})
+            : tell(state_, Text::back_to_exploring));
   }
   if (input_.now.input.tick != 0 && !before.isApprox(after, 1e-12))
     control_.follow_joint(before, after);
@@ -172,7 +181,7 @@ void WindowLoop::read_state() {
   const auto gap = BodyContact{&session_.scene(), Pose::Identity()}.find_gap(X_JP);
   const bool lifted = input_.now.input.device.has_probe != 0 && (!gap || *gap > kLifted);
   if (lifted != input_.probe_lifted && control_.grab() == Grab::probe)
-    state_.message = tell(state_, lifted ? Text::probe_lifts : Text::probe_rests);
+    say(tell(state_, lifted ? Text::probe_lifts : Text::probe_rests));
   input_.probe_lifted = lifted;
 }
 
@@ -297,6 +306,7 @@ void WindowLoop::fit_window() {
 
 void WindowLoop::draw(double elapsed) {
   input_.clip_seconds = saver_.clip_seconds();
+  forget_message();
   guide();
   const bool shown = !state_.expert && state_.layout.place(Panel::joint).width > 0;
   if (shown) draw_joint();
@@ -341,13 +351,12 @@ void WindowLoop::save_pictures(double elapsed) {
   if (input_.image == nullptr || input_.image->width == 0) return;
   const ImageSnapshot& image = *input_.image;
   if (std::exchange(state_.wants_screenshot, false))
-    state_.message = saver_.save(image, caption(), options_.plain);
+    say(saver_.save(image, caption(), options_.plain));
   if (saver_.in_clip()) saver_.add_to_clip(image, state_.look, elapsed);
-  if (std::string said = saver_.take_written(state_.language); !said.empty())
-    state_.message = std::move(said);
+  if (std::string said = saver_.take_written(state_.language); !said.empty()) say(std::move(said));
   if (state_.wants_clip == saver_.in_clip()) return;
   if (state_.wants_clip)
-    state_.message = saver_.begin_clip(image, state_.language);
+    say(saver_.begin_clip(image, state_.language));
   else
     saver_.end_clip();
   state_.wants_clip = saver_.in_clip();  // it may have been refused
@@ -402,6 +411,10 @@ WindowStatus WindowLoop::status() const {
   now.reached = guide_.reached();
   now.camera = joint_->camera();
   now.controls = state_.controls;
+  now.view = state_.view;
+  now.dual = state_.dual;
+  now.help = state_.help;
+  now.keys = state_.keys;
   now.picture_panel = state_.layout.place(Panel::picture);
   return now;
 }

@@ -45,6 +45,8 @@ class WindowLoop {
   [[nodiscard]] HandGround ground() const;
 
   // window_loop.cpp: what is shown
+  void say(std::string message);
+  void forget_message();
   void feel();
   void take_image();
   void upload_image();
@@ -94,6 +96,7 @@ class WindowLoop {
   double last_pass_ = 0;     // s, of the window system's clock
   double alive_at_ = 0;      // s, the last state of a living device
   double joint_took_ = 0;    // s
+  double said_at_ = 0;       // s, the last message
   bool navigating_ = false;  // arrows go from knob to knob
   bool wants_final_ = true;
   std::uint64_t pictures_ = 0;

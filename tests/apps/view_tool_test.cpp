@@ -6,8 +6,12 @@
 #include <string>
 #include <vector>
 
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+
 #include <gtest/gtest.h>
 
+#include "artus/session/recording.h"
 #include "tests/apps/run_tool.h"
 
 namespace artus {
@@ -34,6 +38,67 @@ TEST(View, AnInjectionThatIsNotThereIsRefusedWithEveryInput) {
       EXPECT_NE(result.err.find("--injection"), std::string::npos) << result.err;
     }
   }
+}
+
+bool has_virtual_display() {
+  // NOLINTNEXTLINE(*-command-processor,*-mt-unsafe): before any thread is started
+  return std::system("command -v xvfb-run >/dev/null") == 0;
+}
+
+TEST(View, AnInjectionIsChosenWithEveryInput) {
+  if (!has_virtual_display()) GTEST_SKIP() << "xvfb-run is not installed";
+  const auto joint = read_compiled_joint(test::kSimple);
+  ASSERT_TRUE(joint) << joint.error().to_string();
+  const auto stem =
+      std::filesystem::temp_directory_path() / ("artus-plan-" + std::to_string(getpid()));
+  const std::string script = stem.string() + ".script";
+  std::ofstream(script) << "wait 0.2\n";
+  for (const char* input : {"hand", "injection"}) {
+    constexpr std::size_t which = 1;  // enters where the first does, in a direction 0.34 apart
+    const std::string file = stem.string() + ".rec";
+    const auto viewed = test::run_process(
+        {"xvfb-run", "-a", ARTUS_TOOL, "view", "-j", test::kSimple, "--input", input, "--injection",
+         std::to_string(which + 1), "--record", file, "--script", script, "--rigid"});
+    ASSERT_EQ(viewed.exit_code, 0) << viewed.err;
+    const auto recording = read_recording(file);
+    ASSERT_TRUE(recording) << recording.error().to_string();
+    ASSERT_FALSE(recording->ticks.empty());
+    const PlannedInjection& plan = joint->injections[which];
+    const Vec3 axis = (plan.target - plan.entry).normalized();
+    const Pose X_WN = to_pose(recording->ticks.back().input.device.X_WN);
+    EXPECT_LT((X_WN.linear().col(2) - axis).norm(), 0.05) << input << ' ' << which;
+    std::filesystem::remove(file);
+  }
+  std::filesystem::remove(script);
+}
+
+TEST(View, WithoutADisplayItSaysWhatToDoForAPersonAndForCi) {
+  const auto result = test::run_process({"env", "-u", "DISPLAY", "-u", "WAYLAND_DISPLAY",
+                                         ARTUS_TOOL, "view", "-j", test::kSimple, "--rigid"});
+  EXPECT_NE(result.exit_code, 0);
+  EXPECT_NE(result.err.find("graphical session"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("xvfb-run"), std::string::npos) << result.err;
+}
+
+TEST(View, AScreenshotWithoutAScriptIsOnePictureOfAWholeWindowAndTheEnd) {
+  if (!has_virtual_display()) GTEST_SKIP() << "xvfb-run is not installed";
+  const auto file =
+      std::filesystem::temp_directory_path() / ("artus-shot-" + std::to_string(getpid()) + ".png");
+  const auto result = test::run_process({"timeout", "60", "xvfb-run", "-a", ARTUS_TOOL, "view",
+                                         "-j", test::kSimple, "--rigid", "--width", "1000",
+                                         "--height", "600", "--screenshot", file.string()});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const cv::Mat picture = cv::imread(file.string(), cv::IMREAD_GRAYSCALE);
+  ASSERT_EQ(picture.size(), cv::Size(1000, 600));
+  const auto detail = [&picture](const cv::Rect& place) {
+    cv::Mat mean;
+    cv::Mat deviation;
+    cv::meanStdDev(picture(place), mean, deviation);
+    return deviation.at<double>(0);
+  };
+  EXPECT_GT(detail({100, 130, 180, 180}), 10) << "the 3D view is in it";
+  EXPECT_GT(detail({440, 130, 180, 180}), 10) << "the B-mode image is in it";
+  std::filesystem::remove(file);
 }
 
 /// Flags of `view` away from their defaults, and keys of its window.
@@ -66,9 +131,7 @@ void expect_replays(const Shown& shown) {
 
 // One after the other: two virtual displays that begin at once may take the same number.
 TEST(View, RecordsWhatReplaysToTheSameBytesForFlagsAndKnobs) {
-  // NOLINTNEXTLINE(*-command-processor,*-mt-unsafe): before any thread is started
-  if (std::system("command -v xvfb-run >/dev/null") != 0)
-    GTEST_SKIP() << "xvfb-run is not installed";
+  if (!has_virtual_display()) GTEST_SKIP() << "xvfb-run is not installed";
   const std::vector<Shown> all{{"Feel",
                                 {"--cutting", "voigt", "--bone-tap", "impulse", "--patient",
                                  "cutting=1.3", "--needle-length-mm", "50", "--device", "delta"}},

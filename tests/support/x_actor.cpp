@@ -107,6 +107,15 @@ void XActor::key(const std::string& name, const std::string& modifier) {
   rest(10);
 }
 
+void XActor::key_at(int keycode) {
+  XTestFakeKeyEvent(impl_->display, static_cast<unsigned>(keycode), True, 0);
+  XFlush(impl_->display);
+  rest(15);
+  XTestFakeKeyEvent(impl_->display, static_cast<unsigned>(keycode), False, 0);
+  XFlush(impl_->display);
+  rest(10);
+}
+
 void XActor::save_screen(const std::filesystem::path& file, int width, int height) {
   XImage* image =
       XGetImage(impl_->display, DefaultRootWindow(impl_->display), 0, 0,

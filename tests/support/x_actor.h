@@ -29,6 +29,8 @@ class XActor {
   void wheel(int notches);
   /// By its X name: "n", "Escape", "F1"; `modifier` is held meanwhile when it has a name.
   void key(const std::string& name, const std::string& modifier = {});
+  /// The key at a place of the keyboard (its X keycode), whatever it types.
+  void key_at(int keycode);
   /// The screen's upper left part as PNG.
   void save_screen(const std::filesystem::path& file, int width, int height);
 

@@ -280,6 +280,16 @@ TEST(NeedleReading, ThePicturesLabelsStandInTheirStructures) {
     const Vec3 p(1e-3 * label.x_mm - 20e-3, 0, 1e-3 * label.y_mm);
     EXPECT_EQ(scene->region_at(p), label.region) << label.name;
   }
+  EXPECT_NE(labels.front().name, labels.back().name);
+  const auto thickness = [&](const PictureLabel& label) {
+    const double x = 1e-3 * label.x_mm - 20e-3;
+    double sum = 0;
+    for (const auto& s : tissue_intervals(*scene, {Vec3(x, 0, 0), Vec3(x, 0, 35e-3)}))
+      if (s.region == label.region) sum += s.exit - s.entry;
+    return sum;
+  };
+  for (std::size_t i = 1; i < labels.size(); ++i)
+    EXPECT_LE(thickness(labels[i - 1]), thickness(labels[i]) + 1e-9) << "the thinnest first";
 }
 
 TEST(AnatomyNames, FillingFatIsNamedByWhereItLies) {
@@ -338,6 +348,9 @@ TEST(Guide, SaysTheNextStepOfAnInjection) {
   in.needle.inside = true;
   in.needle.in_plane = false;
   says("not in the picture's plane");
+  in.needle.plane_offset = -9e-3;
+  says("9 mm beside the picture: P takes the probe");
+  in.needle.plane_offset = 0;
   in.needle.in_plane = true;
   in.needle.to_target = 12e-3;
   says("12 mm to go");

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <regex>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -13,9 +15,12 @@
 #include "artus/viewer/anatomy_names.h"
 #include "artus/viewer/colours.h"
 #include "artus/viewer/event_queue.h"
+#include "artus/viewer/help_rows.h"
+#include "artus/viewer/image_place.h"
 #include "artus/viewer/key_map.h"
 #include "artus/viewer/panel_layout.h"
 #include "artus/viewer/strings.h"
+#include "artus/viewer/system_words.h"
 #include "tests/support/paths.h"
 
 namespace artus {
@@ -52,6 +57,121 @@ TEST(Strings, PlacesAreFilledInOrderAndNumbersAreTheLanguages) {
   EXPECT_EQ(number(Language::english, -0.04, 1), "0.0");
   EXPECT_EQ(find_language("fr_FR.UTF-8"), Language::french);
   EXPECT_FALSE(find_language("de"));
+}
+
+std::string content_of(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  std::stringstream all;
+  all << in.rdbuf();
+  return all.str();
+}
+
+TEST(Strings, NoPanelSaysWordsThatAreNotInTheTable) {
+  // What a function that shows text is given first; names behind ## are of no language.
+  const std::regex shown(
+      "(Button|SmallButton|Checkbox|TextUnformatted|TextWrapped|Text|SliderInt|outlined_text|"
+      "wrapped|coloured|say|SetTooltip|Selectable|MenuItem|fill)\\(\\s*\"([^\"]*)\"");
+  const std::set<std::string> no_words{"-", "+", "?", "%s"};
+  std::size_t files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(test::source_dir() / "viewer")) {
+    if (entry.path().extension() != ".cpp") continue;
+    ++files;
+    const std::string code = content_of(entry.path());
+    for (std::sregex_iterator i(code.begin(), code.end(), shown), end; i != end; ++i) {
+      const std::string said = (*i)[2];
+      const bool name = said.rfind("##", 0) == 0 || (*i)[1] == "InvisibleButton" ||
+                        said == "picture" || said == "joint";
+      EXPECT_TRUE(name || no_words.count(said) == 1) << entry.path() << ": " << i->str();
+    }
+  }
+  EXPECT_GT(files, 20U);
+}
+
+TEST(SystemWords, WhatTheSystemSaysIsSaidInFrench) {
+  const auto french = [](const std::string& english) {
+    return said_by_system(Language::french, english);
+  };
+  EXPECT_EQ(french("haptics: SCHED_FIFO priority: Operation not permitted"),
+            "haptique : priorité SCHED_FIFO : opération non autorisée");
+  EXPECT_EQ(french("imaging: nice value -10: Permission denied"),
+            "imagerie : priorité (nice) -10 : permission refusée");
+  EXPECT_EQ(french("shared memory /artusPOS was removed; made anew"),
+            "mémoire partagée /artusPOS supprimée ; recréée");
+  EXPECT_EQ(french("an image of 700 x 900 pixels is too large for IMAGE"),
+            "une image de 700 x 900 pixels est trop grande pour IMAGE");
+  EXPECT_EQ(french("imaging failed: std::bad_alloc; it is tried again"),
+            "l'imagerie a échoué : mémoire insuffisante ; elle est tentée de nouveau");
+  EXPECT_EQ(french("what nobody knows"), "what nobody knows");
+  EXPECT_EQ(said_by_system(Language::english, "mouse and keyboard"), "mouse and keyboard");
+}
+
+/// What a file's code says by one of these calls, or names with them.
+std::vector<std::string> said_in(const char* file, const std::string& call) {
+  const std::string code = content_of(test::source_dir() / "session" / file);
+  const std::regex said(call + "\"([^\"]+)\"");
+  std::vector<std::string> all;
+  for (std::sregex_iterator i(code.begin(), code.end(), said), end; i != end; ++i)
+    all.push_back((*i)[1]);
+  return all;
+}
+
+TEST(SystemWords, EverythingThatTheSessionTellsIsInTheTable) {
+  const std::string table = content_of(test::source_dir() / "viewer" / "system_words.cpp");
+  std::size_t n = 0;
+  for (const auto& [file, call] :
+       {std::pair{"session.cpp", "tell\\("},
+        {"session.cpp", "ask\\("},
+        {"session_thread.cpp", "refused\\.push_back\\("},
+        {"shared_memory.cpp", "return "},
+        {"hand_device.h", "name\\(\\) const noexcept override \\{ return "},
+        {"injecting_device.h", "name\\(\\) const noexcept override \\{ return "},
+        {"recorded_device.h", "name\\(\\) const noexcept override \\{ return "},
+        {"shared_memory_device.h", "name\\(\\) const noexcept override \\{ return "}}) {
+    const auto all = said_in(file, call);
+    EXPECT_FALSE(all.empty()) << file << ' ' << call;
+    n += all.size();
+    for (const std::string& said : all) {
+      EXPECT_NE(table.find(said), std::string::npos) << file << ": " << said;
+    }
+  }
+  EXPECT_GE(n, 15U);
+}
+
+TEST(HelpRows, EveryActionIsToldWithItsKeyInBothLanguages) {
+  for (const Language language : {Language::english, Language::french}) {
+    for (const Keyboard keyboard : {Keyboard::qwerty, Keyboard::azerty, Keyboard::qwertz}) {
+      const KeyMap map(keyboard);
+      std::string keys;
+      for (const HelpRow& row : help_rows(map, language)) {
+        keys += ", " + row.keys + ", ";
+        EXPECT_FALSE(std::string(row.what).empty()) << row.keys;
+      }
+      for (int i = 1; i < static_cast<int>(Action::n_actions); ++i) {
+        const auto action = static_cast<Action>(i);
+        EXPECT_NE(keys.find(", " + map.said_key(action, language) + ", "), std::string::npos)
+            << name_of(action);
+      }
+    }
+  }
+}
+
+TEST(PictureView, AZoomKeepsItsMiddleAndNeverLeavesThePicture) {
+  PictureView view;
+  view.move(0.3, 0.3);
+  EXPECT_EQ(view.u, 0) << "the whole picture is seen";
+  view.zoom_by(2);
+  EXPECT_NEAR(view.u, 0.25, 1e-12);
+  EXPECT_NEAR(view.v, 0.25, 1e-12);
+  view.move(-1, 1);
+  EXPECT_EQ(view.u, 0);
+  EXPECT_NEAR(view.v, 0.5, 1e-12) << "down to the lower edge";
+  view.zoom_by(100);
+  EXPECT_EQ(view.zoom, PictureView::kMost);
+  EXPECT_NEAR(view.v + 0.5 / view.zoom, 0.75, 1e-12);
+  view.zoom_by(1e-3);
+  EXPECT_EQ(view.zoom, 1);
+  EXPECT_EQ(view.u, 0);
+  EXPECT_EQ(view.v, 0);
 }
 
 TEST(KeyMap, NoKeyMeansTwoThingsOnAnyKeyboard) {
