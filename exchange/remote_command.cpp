@@ -1,37 +1,62 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/exchange/remote_command.h"
 
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include "artus/core/markup.h"
+
 namespace artus {
 namespace {
-
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '&':
-        out += "&amp;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
 
 std::string_view trimmed(std::string_view text) {
   constexpr std::string_view kBlank(" \t\r\n\0", 5);
   const std::size_t first = text.find_first_not_of(kBlank);
   if (first == std::string_view::npos) return {};
   return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
+}
+
+/// Text of an attribute as it was meant: the five entities of XML are read.
+std::string unescaped(std::string_view text) {
+  constexpr std::array<std::pair<std::string_view, char>, 5> kEntities{
+      {{"&lt;", '<'}, {"&gt;", '>'}, {"&amp;", '&'}, {"&quot;", '"'}, {"&apos;", '\''}}};
+  std::string out;
+  while (!text.empty()) {
+    const auto entity =
+        std::find_if(kEntities.begin(), kEntities.end(), [&](const auto& candidate) {
+          return text.substr(0, candidate.first.size()) == candidate.first;
+        });
+    const bool found = entity != kEntities.end();
+    out += found ? entity->second : text.front();
+    text.remove_prefix(found ? entity->first.size() : 1);
+  }
+  return out;
+}
+
+/// What stands in quotes of either kind behind `name` in the first tag, blanks about '=' or not;
+/// up to the end where the quote is not closed.
+std::optional<std::string_view> attribute(std::string_view tag, std::string_view name) {
+  constexpr std::string_view kBlank = " \t\r\n";
+  const auto skip = [&](std::size_t n) {
+    tag.remove_prefix(std::min(n, tag.size()));
+  };
+  skip(tag.find_first_of(" \t\r\n/>"));  // the element's name
+  while (true) {
+    skip(tag.find_first_not_of(kBlank));
+    const std::string_view key = tag.substr(0, tag.find_first_of(" \t\r\n=/>"));
+    skip(key.size());
+    skip(tag.find_first_not_of(kBlank));
+    if (key.empty() || tag.empty() || tag.front() != '=') return std::nullopt;
+    skip(1);
+    skip(tag.find_first_not_of(kBlank));
+    if (tag.empty() || (tag.front() != '"' && tag.front() != '\'')) return std::nullopt;
+    const char quote = tag.front();
+    skip(1);
+    const std::string_view value = tag.substr(0, tag.find(quote));
+    if (key == name) return value;
+    skip(value.size() + 1);
+  }
 }
 
 }  // namespace
@@ -43,11 +68,10 @@ RemoteCommand remote_command_of(const igtl::CommandText& command) {
     out.value = std::string(content);
     return out;
   }
-  for (const std::string_view key : {" Value=\"", " value=\""}) {
-    const std::size_t begin = content.find(key);
-    if (begin == std::string_view::npos) continue;
-    const std::string_view rest = content.substr(begin + key.size());
-    out.value = std::string(trimmed(rest.substr(0, rest.find('"'))));
+  for (const std::string_view key : {"Value", "value"}) {
+    const auto value = attribute(content, key);
+    if (!value) continue;
+    out.value = unescaped(trimmed(*value));
     break;
   }
   return out;
@@ -58,7 +82,7 @@ igtl::Message answer_message(const igtl::Message& asked, const igtl::CommandText
   igtl::CommandText said = command;
   said.encoding = 3;
   said.content = std::string("<Command><Result>") + (answer.done ? "true" : "false") +
-                 "</Result><Message>" + escaped(answer.text) + "</Message></Command>";
+                 "</Result><Message>" + escape_markup(answer.text) + "</Message></Command>";
   igtl::Message message;
   message.type = "RTS_COMMAND";
   message.device = asked.device;
