@@ -115,9 +115,6 @@ Result<void> write_dicom_files(const ExportOptions& options, const Export& out) 
   series.side = out.side;
   series.engine = ARTUS_VERSION;
   series.pixel = sequence.frames.front().image_to_reference.col(0).norm() * kMillimetre;
-  const std::size_t n = sequence.frames.size();
-  const double time = sequence.frames.back().time - sequence.frames.front().time;
-  if (n > 1 && time > 0) series.frame_time = time / static_cast<double>(n - 1);
   if (!options.dicom.empty()) ARTUS_TRY(write_dicom(options.dicom, sequence, series));
   if (options.report.empty()) return {};
   cv::Mat colours;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/exchange/dicom_file.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <system_error>
@@ -102,15 +103,36 @@ void put_raster(ElementWriter& out, int width, int height, int samples) {
   out.number(DCM_PixelRepresentation, 0);
 }
 
+/// When the frames were: one time apart, or the list of them where they differ.
+void put_times(ElementWriter& out, DcmItem& dataset, const ImageSequence& sequence,
+               double frame_time) {
+  const std::vector<SequenceFrame>& frames = sequence.frames;
+  const double whole = frames.back().time - frames.front().time;
+  if (whole > 0) frame_time = whole / static_cast<double>(frames.size() - 1);
+  bool even = true;
+  std::string vector = "0";
+  for (std::size_t i = 1; i < frames.size(); ++i) {
+    constexpr double kNoticed = 0.5e-6;  // s, below the six digits that are written
+    const double apart = frames[i].time - frames[i - 1].time;
+    even = even && (whole <= 0 || std::abs(apart - frame_time) < kNoticed);
+    vector += "\\" + decimal(1e3 * apart);
+  }
+  out.note(dataset.putAndInsertTagKey(DCM_FrameIncrementPointer,
+                                      even ? DCM_FrameTime : DCM_FrameTimeVector));
+  if (even)
+    out.text(DCM_FrameTime, decimal(1e3 * frame_time));
+  else
+    out.text(DCM_FrameTimeVector, vector);
+  out.text(DCM_CineRate, std::to_string(std::max(1L, std::lround(1 / frame_time))));
+}
+
 void put_pixels(ElementWriter& out, DcmItem& dataset, const ImageSequence& sequence,
                 double frame_time) {
   put_raster(out, sequence.width, sequence.height, 1);
   out.text(DCM_BurnedInAnnotation, "NO");
   out.text(DCM_LossyImageCompression, "00");
   out.text(DCM_NumberOfFrames, std::to_string(sequence.frames.size()));
-  out.note(dataset.putAndInsertTagKey(DCM_FrameIncrementPointer, DCM_FrameTime));
-  out.text(DCM_FrameTime, decimal(1e3 * frame_time));
-  out.text(DCM_CineRate, std::to_string(std::lround(1 / frame_time)));
+  put_times(out, dataset, sequence, frame_time);
   std::vector<Uint8> pixels;
   for (const SequenceFrame& frame : sequence.frames)
     pixels.insert(pixels.end(), frame.grey.begin(), frame.grey.end());

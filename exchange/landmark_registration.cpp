@@ -25,6 +25,26 @@ double spread_across_line(const Eigen::Matrix3Xd& points) {
   return std::sqrt(across / static_cast<double>(points.cols()));
 }
 
+/// How far points lie from their middle, m (rms).
+double spread(const Eigen::Matrix3Xd& points) {
+  const Eigen::Matrix3Xd centred = points.colwise() - points.rowwise().mean();
+  return std::sqrt(centred.squaredNorm() / static_cast<double>(points.cols()));
+}
+
+/// The unit that the touched points seem to be in, when it is not the millimetre.
+const char* find_other_unit(double touched, double known) {
+  struct Unit {
+    const char* name;
+    double millimetres;
+  };
+  constexpr double kAlike = 1.25;
+  for (const Unit& unit : {Unit{"metres", 1e3}, Unit{"centimetres", 10}, Unit{"inches", 25.4}}) {
+    const double ratio = touched * unit.millimetres / known;
+    if (ratio < kAlike && ratio > 1 / kAlike) return unit.name;
+  }
+  return nullptr;
+}
+
 std::string list_residuals(const std::vector<LandmarkPair>& pairs, const Registration& fit) {
   std::string list;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
@@ -77,6 +97,16 @@ Result<Registration> register_landmarks(const std::vector<LandmarkPair>& pairs, 
   for (Eigen::Index i = 0; i < n; ++i) {
     touched.col(i) = pairs[static_cast<std::size_t>(i)].p_R;
     known.col(i) = pairs[static_cast<std::size_t>(i)].p_J;
+  }
+  const double spread_touched = spread(touched);
+  const double spread_known = spread(known);
+  if (const char* unit = find_other_unit(spread_touched, spread_known)) {
+    char text[160];
+    std::snprintf(text, sizeof text,
+                  "the touched points spread over %.3g mm, the landmarks over %.3g mm: these look "
+                  "like %s, and x_mm, y_mm and z_mm are millimetres",
+                  spread_touched / kMillimetre, spread_known / kMillimetre, unit);
+    return fail(ErrorCode::invalid, text);
   }
   if (spread_across_line(touched) < kFlattest || spread_across_line(known) < kFlattest)
     return fail(ErrorCode::invalid,

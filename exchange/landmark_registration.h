@@ -25,8 +25,9 @@ struct Registration {
   double rms = 0;                 ///< m, of them
 };
 
-/// Least squares without scale. Errors: invalid, when there are fewer than three pairs, when they
-/// lie on a line (within 2 mm), or when rms is above `limit` (m): the message lists the residuals.
+/// Least squares without scale. Errors: invalid, when there are fewer than three pairs, when the
+/// touched points spread as if they had been given in metres, centimetres or inches, when they lie
+/// on a line (within 2 mm), or when rms is above `limit` (m): the message lists the residuals.
 /// Source [Umeyama1991].
 [[nodiscard]] Result<Registration> register_landmarks(const std::vector<LandmarkPair>& pairs,
                                                       double limit);

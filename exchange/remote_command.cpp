@@ -1,11 +1,59 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/exchange/remote_command.h"
 
+#include <algorithm>
+#include <array>
+#include <optional>
+
 #include "artus/core/markup.h"
 #include "artus/core/text_lines.h"
 
 namespace artus {
-namespace {}  // namespace
+namespace {
+
+/// Text of an attribute as it was meant: the five entities of XML are read.
+std::string unescaped(std::string_view text) {
+  constexpr std::array<std::pair<std::string_view, char>, 5> kEntities{
+      {{"&lt;", '<'}, {"&gt;", '>'}, {"&amp;", '&'}, {"&quot;", '"'}, {"&apos;", '\''}}};
+  std::string out;
+  while (!text.empty()) {
+    const auto entity =
+        std::find_if(kEntities.begin(), kEntities.end(), [&](const auto& candidate) {
+          return text.substr(0, candidate.first.size()) == candidate.first;
+        });
+    const bool found = entity != kEntities.end();
+    out += found ? entity->second : text.front();
+    text.remove_prefix(found ? entity->first.size() : 1);
+  }
+  return out;
+}
+
+/// What stands in quotes of either kind behind `name` in the first tag, blanks about '=' or not;
+/// up to the end where the quote is not closed.
+std::optional<std::string_view> attribute(std::string_view tag, std::string_view name) {
+  constexpr std::string_view kBlank = " \t\r\n";
+  const auto skip = [&](std::size_t n) {
+    tag.remove_prefix(std::min(n, tag.size()));
+  };
+  skip(tag.find_first_of(" \t\r\n/>"));  // the element's name
+  while (true) {
+    skip(tag.find_first_not_of(kBlank));
+    const std::string_view key = tag.substr(0, tag.find_first_of(" \t\r\n=/>"));
+    skip(key.size());
+    skip(tag.find_first_not_of(kBlank));
+    if (key.empty() || tag.empty() || tag.front() != '=') return std::nullopt;
+    skip(1);
+    skip(tag.find_first_not_of(kBlank));
+    if (tag.empty() || (tag.front() != '"' && tag.front() != '\'')) return std::nullopt;
+    const char quote = tag.front();
+    skip(1);
+    const std::string_view value = tag.substr(0, tag.find(quote));
+    if (key == name) return value;
+    skip(value.size() + 1);
+  }
+}
+
+}  // namespace
 
 RemoteCommand remote_command_of(const igtl::CommandText& command) {
   RemoteCommand out{command.name, {}};
@@ -14,11 +62,10 @@ RemoteCommand remote_command_of(const igtl::CommandText& command) {
     out.value = std::string(content);
     return out;
   }
-  for (const std::string_view key : {" Value=\"", " value=\""}) {
-    const std::size_t begin = content.find(key);
-    if (begin == std::string_view::npos) continue;
-    const std::string_view rest = content.substr(begin + key.size());
-    out.value = std::string(trimmed(rest.substr(0, rest.find('"'))));
+  for (const std::string_view key : {"Value", "value"}) {
+    const auto value = attribute(content, key);
+    if (!value) continue;
+    out.value = unescaped(trimmed(*value));
     break;
   }
   return out;

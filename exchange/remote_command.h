@@ -13,7 +13,8 @@ namespace artus {
 /// What somebody asks by a COMMAND message.
 struct RemoteCommand {
   std::string name;
-  /// The attribute Value of the content's XML, or the whole content where that is no XML.
+  /// The attribute Value of the content's first XML element, in quotes of either kind; or the whole
+  /// content where that is no XML.
   std::string value;
 };
 [[nodiscard]] RemoteCommand remote_command_of(const igtl::CommandText& command);

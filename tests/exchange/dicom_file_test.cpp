@@ -60,6 +60,46 @@ TEST_F(DicomFile, HasThePixelsTheScaleAndTheWord) {
   EXPECT_DOUBLE_EQ(delta, 0.01);  // cm
 }
 
+/// The elements that say when frames were; "-" for one that is not there.
+struct FrameTimes {
+  std::string pointer;
+  std::string each;
+  std::string vector;
+  std::string rate;
+};
+
+FrameTimes times_in(const std::filesystem::path& path) {
+  DcmFileFormat file;
+  EXPECT_TRUE(file.loadFile(path.c_str()).good());
+  const auto text = [&](const DcmTagKey& tag) {
+    OFString value;
+    return file.getDataset()->findAndGetOFStringArray(tag, value).good()
+               ? std::string(value.c_str())
+               : std::string("-");
+  };
+  return {text(DCM_FrameIncrementPointer), text(DCM_FrameTime), text(DCM_FrameTimeVector),
+          text(DCM_CineRate)};
+}
+
+TEST_F(DicomFile, FramesAtUnevenTimesHaveTheListOfThem) {
+  ImageSequence sequence = some_sequence();
+  const std::vector<double> times{2, 2.05, 2.1, 2.25, 2.4};
+  for (std::size_t i = 0; i < 5; ++i) sequence.frames[i].time = times[i];
+  ASSERT_TRUE(write_dicom(in("uneven.dcm"), sequence, series_));
+  const FrameTimes uneven = times_in(in("uneven.dcm"));
+  EXPECT_EQ(uneven.pointer, "(0018,1065)");
+  EXPECT_EQ(uneven.vector, "0\\50\\50\\150\\150");
+  EXPECT_EQ(uneven.each, "-");
+  EXPECT_EQ(uneven.rate, "10");
+  for (std::size_t i = 0; i < 5; ++i) sequence.frames[i].time = 0.02 * static_cast<double>(i);
+  ASSERT_TRUE(write_dicom(in("even.dcm"), sequence, series_));
+  const FrameTimes even = times_in(in("even.dcm"));
+  EXPECT_EQ(even.pointer, "(0018,1063)");
+  EXPECT_EQ(even.vector, "-");
+  EXPECT_EQ(even.each, "20");
+  EXPECT_EQ(even.rate, "50");
+}
+
 TEST_F(DicomFile, IsTheSameBytesAgain) {
   ASSERT_TRUE(write_dicom(in("a.dcm"), some_sequence(), series_));
   ASSERT_TRUE(write_dicom(in("b.dcm"), some_sequence(), series_));
@@ -103,9 +143,13 @@ TEST_F(DicomFile, TheValidatorOfOthersHasNoError) {
   if (test::run_process({"sh", "-c", "command -v dciodvfy"}).exit_code != 0)
     GTEST_SKIP() << "dciodvfy is not there (dicom3tools)";
   ASSERT_TRUE(write_dicom(in("us.dcm"), some_sequence(), series_));
+  ImageSequence uneven = some_sequence();
+  for (std::size_t i = 0; i < 5; ++i) uneven.frames[i].time = 0.01 * static_cast<double>(i * i);
+  ASSERT_TRUE(write_dicom(in("uneven.dcm"), uneven, series_));
   ASSERT_TRUE(write_dicom_report(in("report.dcm"), some_page(), some_sequence(), series_));
   for (const auto& [file, kind] :
-       {std::pair{"us.dcm", "USMultiFrameImage"}, std::pair{"report.dcm", "SCImage"}}) {
+       {std::pair{"us.dcm", "USMultiFrameImage"}, std::pair{"uneven.dcm", "USMultiFrameImage"},
+        std::pair{"report.dcm", "SCImage"}}) {
     const auto said = test::run_process({"dciodvfy", in(file)});
     const std::string all = said.out + said.err;
     EXPECT_THAT(all, testing::HasSubstr(kind));

@@ -135,6 +135,19 @@ TEST(Registration, RefusesTwoPointsAndALine) {
   EXPECT_THAT(fit.error().message, HasSubstr("on a line"));
 }
 
+TEST(Registration, SaysThatPointsAreInAnotherUnit) {
+  const auto refusal = [](double scale) {
+    auto pairs = touched(joint_with_landmarks(), some_pose());
+    for (LandmarkPair& pair : pairs) pair.p_R *= scale;
+    const auto fit = register_landmarks(pairs, 1e3);
+    return fit ? std::string() : fit.error().message;
+  };
+  EXPECT_THAT(refusal(1e-3), HasSubstr("look like metres"));
+  EXPECT_THAT(refusal(0.1), HasSubstr("look like centimetres"));
+  EXPECT_EQ(refusal(1), "");
+  EXPECT_EQ(refusal(1.1), "") << "a joint of another size is the residuals' affair";
+}
+
 TEST(Registration, ReadsPairsByTheJointsNames) {
   const CompiledJoint joint = joint_with_landmarks();
   const auto pairs = parse_landmark_pairs(
@@ -274,6 +287,13 @@ TEST(RemoteCommand, TakesItsValueFromXmlOrPlainText) {
   EXPECT_EQ(value_of("<Command Name=\"Gain\"/>"), "");
   EXPECT_EQ(value_of(""), "");
   EXPECT_EQ(value_of("<Command Value=\"unfinished"), "unfinished");
+  EXPECT_EQ(value_of("<Command Name='Gain' Value='12.5'/>"), "12.5");
+  EXPECT_EQ(value_of("<Command Name='a \"Value=\"9' Value = '12.5' />"), "12.5");
+  EXPECT_EQ(value_of("<Command\n\tValue=\"a &lt;&amp;&apos;b\"></Command>"), "a <&'b");
+  EXPECT_EQ(value_of("<Command NewValue=\"3\"/>"), "");
+  for (const char* broken : {"<", "<Command Value", "<Command Value=", "<Command Value=3/>",
+                             "<Command Name='", "<Command ='3'/>"})
+    EXPECT_EQ(value_of(broken), "") << broken;
 }
 
 TEST(RemoteCommand, AnswersSayToSlicerWhetherItWasDone) {
