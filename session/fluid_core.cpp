@@ -9,7 +9,8 @@
 namespace artus {
 namespace {
 
-constexpr double kShapeTime = 0.06;  // s that a shape may take
+constexpr double kShapeTime = 0.06;  // s that the first shape may take: a flow is seen at once
+constexpr double kGrowthTime = 0.3;  // s that a later one may: images need not wait for it
 constexpr double kVisible = 1e-9;    // m^3, of a shape's first liquid and least growth
 constexpr double kGrowth = 0.01;     // of what is there
 
@@ -41,8 +42,9 @@ bool FluidCore::has_changed(std::span<const InjectedSite> sites) const {
 }
 
 void FluidCore::start(std::span<const InjectedSite> sites, const DeformedBody* tissue) {
+  const double later = kGrowthTime / kShapeTime * static_cast<double>(images_to_change_);
+  due_ = images_ + (begun_.empty() ? images_to_change_ : static_cast<std::uint64_t>(later));
   begun_.assign(sites.begin(), sites.end());
-  due_ = images_ + images_to_change_;
   std::shared_ptr<const BodyMap> cage;
   if (tissue != nullptr) cage = tissue->shared_map();
   next_ = std::async(std::launch::async, [joint = joint_, liquid = liquid_, sites = begun_, cage] {

@@ -27,6 +27,7 @@ constexpr double kBelowTip = 12e-3;  // m that a picture shows below the tip
 constexpr double kDeepest = 90e-3;   // m
 constexpr double kHalfFace = 18e-3;  // m of the face, to whose sides the tip may lie
 constexpr double kAgree = 5;         // %
+constexpr double kDrawn = 10e-9;     // m^3; a smaller rest on the needle's way is left out
 
 /// Half way between the sides of the layer that a bolus parts, across it: where it opens most
 /// easily.
@@ -53,7 +54,9 @@ std::vector<Injected> places_at(const Scene& scene, const InjectionRun& run,
   for (std::size_t k = 0; k < run.places.size() && k < row.volumes.size(); ++k) {
     const auto space = std::find_if(spaces->spaces.begin(), spaces->spaces.end(),
                                     [&](const Space& s) { return s.name == run.places[k]; });
-    if (space == spaces->spaces.end() || space->law.kind == SpaceKind::open) continue;
+    if (space == spaces->spaces.end() || space->law.kind == SpaceKind::open ||
+        row.volumes[k] < kDrawn)
+      continue;
     for (double back = 0; back < 0.02; back += kStep) {
       const Vec3 p = run.X_JN.translation() - back * axis;
       const std::string& region = scene.joint().regions[scene.region_at(p)].name;
@@ -237,9 +240,8 @@ Result<InjectionPictures> write_injection_pictures(const std::shared_ptr<const S
     ARTUS_TRY(write_image(draw(body, run, X_JP, deep), folder / file));
     out.files.emplace_back(file);
   }
-  constexpr double kVisible = 1e-9;  // m^3, what with_injected leaves out
   for (const Injected& place : last) {
-    if (place.volume >= kVisible) out.drawn_volume += place.volume;
+    out.drawn_volume += place.volume;
     if (place.cavity) names.push_back(place.region);
   }
   out.ray_volume = volume_by_rays(*body, run.X_JN, names) - volume_by_rays(*scene, run.X_JN, names);

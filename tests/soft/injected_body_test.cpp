@@ -196,7 +196,7 @@ TEST(InjectedBody, LeavesOutWhatCannotBeSeen) {
   const Vec3 tip(0, 0, 0.5e-3);
   const CompiledJoint with = with_injected(
       joint,
-      {{"cleft", 2e-6, true, tip}, {"above", 1e-9, false, tip}, {"outside", 1e-6, false, tip}},
+      {{"cleft", 2e-6, true, tip}, {"above", 0.9e-9, false, tip}, {"outside", 1e-6, false, tip}},
       liquid);
   EXPECT_EQ(with.regions.size(), joint.regions.size());
   EXPECT_EQ(with.tissue_of(kCleft).name, "injected_saline");
