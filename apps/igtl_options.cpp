@@ -72,7 +72,8 @@ Result<std::unique_ptr<InputDevice>> make_tracker_device(const IgtlOptions& opti
 
 Result<std::unique_ptr<SessionLink>> open_session_link(
     const IgtlOptions& options, const TrackerInput& input,
-    std::function<void(double ImageControls::*, double)> turn) {
+    std::function<void(double ImageControls::*, double)> turn,
+    std::function<RemoteAnswer(const std::string&)> begin) {
   if (options.listen.empty()) return std::unique_ptr<SessionLink>();
   const auto where = igtl::parse_address(options.listen, "--igtl");
   ARTUS_TRY(where);
@@ -82,6 +83,7 @@ Result<std::unique_ptr<SessionLink>> open_session_link(
   link_options.inbox = input.inbox;
   link_options.version = ARTUS_VERSION;
   link_options.turn = std::move(turn);
+  link_options.begin = std::move(begin);
   auto link = SessionLink::open(link_options);
   ARTUS_TRY(link);
   std::fprintf(stderr, "OpenIGTLink: listening on %s port %d\n", where->address.c_str(),

@@ -33,10 +33,11 @@ struct TrackerInput {
 [[nodiscard]] Result<std::unique_ptr<InputDevice>> make_tracker_device(const IgtlOptions& options,
                                                                        const TrackerInput& input);
 
-/// Listens as --igtl says, and says where on stderr; null without it. `turn`: see
+/// Listens as --igtl says, and says where on stderr; null without it. `turn`, `begin`: see
 /// SessionLink::Options. Errors: as SessionLink::open, malformed (--igtl).
 [[nodiscard]] Result<std::unique_ptr<SessionLink>> open_session_link(
     const IgtlOptions& options, const TrackerInput& input,
-    std::function<void(double ImageControls::*, double)> turn = {});
+    std::function<void(double ImageControls::*, double)> turn = {},
+    std::function<RemoteAnswer(const std::string&)> begin = {});
 
 }  // namespace artus

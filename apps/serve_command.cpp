@@ -3,11 +3,16 @@
 #include <cstdio>
 #include <iostream>
 #include <memory>
+#include <mutex>
+#include <optional>
+#include <utility>
 
 #include "artus/apps/interrupts.h"
+#include "artus/apps/scenario_options.h"
 #include "artus/apps/session_options.h"
 #include "artus/core/text_file.h"
 #include "artus/training/live_attempt.h"
+#include "artus/training/player.h"
 #include "artus/training/session_meter.h"
 
 namespace artus {
@@ -19,6 +24,74 @@ struct ServeOptions {
   std::filesystem::path metrics;
   bool no_images = false;
   bool json = false;
+};
+
+/// Body and settings of a session.
+struct Setting {
+  std::shared_ptr<const Scene> scene;
+  SessionParams params;
+};
+
+/// The scenario that another program asks for by a command, until the session is free for it.
+class AskedScenario {
+ public:
+  explicit AskedScenario(const ServeOptions& options)
+      : kept_(!options.session.recording.empty() || !options.metrics.empty() ||
+              !options.session.histograms.empty()) {}
+
+  /// Only scenarios that come with artus: who connects reads no files.
+  [[nodiscard]] RemoteAnswer ask(const std::string& name) {
+    if (kept_) return {false, "a session that is kept in a file takes no other scenario"};
+    std::string names;
+    for (const std::string_view text : bundled_scenario_texts()) {
+      auto scenario = parse_scenario(text, "bundled");
+      if (!scenario) continue;
+      if (scenario->name == name) {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        scenario_ = std::move(*scenario);
+        return {true, "the scenario " + name + " begins"};
+      }
+      names += (names.empty() ? "" : ", ") + scenario->name;
+    }
+    return {false, "there is no scenario '" + name + "' but " + names};
+  }
+  [[nodiscard]] std::optional<Scenario> take() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return std::exchange(scenario_, std::nullopt);
+  }
+
+ private:
+  bool kept_;
+  std::mutex mutex_;  // between the server's thread and the one that waits
+  std::optional<Scenario> scenario_;
+};
+
+/// The flags' settings with the scenario's body, transducer, picture and needle.
+Result<Setting> setting_of(const ServeOptions& options, const Scenario& scenario) {
+  const auto scene = load_scene(scenario, {}, make_progress_printer(options.json));
+  ARTUS_TRY(scene);
+  auto params = make_session_params(options.session, (*scene)->joint());
+  ARTUS_TRY(params);
+  const auto own = make_session_params(scenario);
+  ARTUS_TRY(own);
+  params->transducer = own->transducer;
+  params->image.depth = own->image.depth;
+  params->image.seed = own->image.seed;
+  params->needle_shape = own->needle_shape;
+  params->feel.needle_length = own->feel.needle_length;
+  params->syringe.gauge = scenario.gauge;
+  ARTUS_TRY(validate(*params));
+  return Setting{*scene, *params};
+}
+
+/// What sessions one after the other share; the pointers outlive them.
+struct Serving {
+  const ServeOptions* options;
+  Interrupts* interrupts;
+  const TrackerInput* tracker;
+  SessionLink* link;  ///< may be null
+  AskedScenario* asked;
+  std::int64_t end_ns;  ///< 0: when interrupted
 };
 
 void print_status(const Session& session) {
@@ -48,23 +121,26 @@ void print_notices(SessionLink* link) {
     std::fprintf(stderr, "%s\n", notice.c_str());
 }
 
-void wait(const Session& session, SessionLink* link, Interrupts& interrupts,
-          const ServeOptions& options) {
-  const double seconds = options.seconds;
-  const std::int64_t end = monotonic_ns() + static_cast<std::int64_t>(seconds * 1e9);
+/// Until the end, or until there is another scenario's setting to go on with.
+std::optional<Setting> wait(const Session& session, const Serving& serving) {
   std::size_t seen = 0;
   for (;;) {
     double pause = 1;  // s
-    if (seconds > 0) {
-      const std::int64_t left = end - monotonic_ns();
-      if (left <= 0) return;
+    if (serving.end_ns > 0) {
+      const std::int64_t left = serving.end_ns - monotonic_ns();
+      if (left <= 0) return std::nullopt;
       pause = std::min(pause, 1e-9 * static_cast<double>(left));
     }
-    const bool interrupted = interrupts.wait(pause);
+    const bool interrupted = serving.interrupts->wait(pause);
     seen = print_notices(session, seen);
-    print_notices(link);
-    if (interrupted) return;
-    if (!options.json) print_status(session);
+    print_notices(serving.link);
+    if (interrupted) return std::nullopt;
+    if (!serving.options->json) print_status(session);
+    if (const auto scenario = serving.asked->take()) {
+      auto next = setting_of(*serving.options, *scenario);
+      if (next) return std::move(*next);
+      std::fprintf(stderr, "%s\n", next.error().to_string().c_str());
+    }
   }
 }
 
@@ -103,6 +179,41 @@ Result<void> write_metrics(const ServeOptions& options, LiveAttempt* meter) {
   return write_text(options.metrics, to_json(meter->measure().metrics).dump(2) + "\n");
 }
 
+/// One session to its end; what follows it, if anything.
+Result<std::optional<Setting>> run_session(const Serving& serving, const Setting& setting) {
+  const ServeOptions& options = *serving.options;
+  HandDevice* hand = nullptr;
+  auto device =
+      make_device(options.session, setting.params, setting.scene->joint(), *serving.tracker, &hand);
+  ARTUS_TRY(device);
+  Session::Options session_options;
+  session_options.haptic_wishes.cpu = options.session.haptic_cpu;
+  session_options.recording = options.session.recording;
+  session_options.images = !options.no_images;
+  session_options.share_images = !options.no_images;
+  session_options.image_segment_prefix = options.session.prefix;
+  SessionLink* link = serving.link;
+  if (link != nullptr)
+    session_options.on_image = [link](const ImageSnapshot& image) {
+      link->take_image(image);
+    };
+  const auto meter = make_meter(options, setting.scene, setting.params);
+  session_options.witness = meter.get();
+  auto session = Session::start(setting.scene, setting.params, std::move(*device), session_options);
+  ARTUS_TRY(session);
+  if (link != nullptr) link->attach(session->get());
+  auto next = wait(**session, serving);
+  if (link != nullptr) link->attach(nullptr);
+  for (const std::string& refused : (*session)->refusals())
+    std::fprintf(stderr, "the system refused %s\n", refused.c_str());
+  report(**session, options.json);
+  const auto histograms = write_histograms(options.session.histograms, (*session)->times());
+  session->reset();  // ends it, and what was measured rests
+  ARTUS_TRY(histograms);
+  ARTUS_TRY(write_metrics(options, meter.get()));
+  return next;
+}
+
 ExitCode run_serve(const ServeOptions& options) {
   const auto joint = load(options.session.joint, make_progress_printer(options.json));
   if (!joint) return report_error(joint.error(), options.json);
@@ -111,36 +222,27 @@ ExitCode run_serve(const ServeOptions& options) {
   Interrupts interrupts;
   const auto tracker = make_tracker_input(options.session.igtl);
   if (!tracker) return report_error(tracker.error(), options.json);
-  HandDevice* hand = nullptr;
-  auto device = make_device(options.session, *params, **joint, *tracker, &hand);
-  if (!device) return report_error(device.error(), options.json);
-  const auto link = open_session_link(options.session.igtl, *tracker);
+  AskedScenario asked(options);
+  const auto link =
+      open_session_link(options.session.igtl, *tracker, {},
+                        [&asked](const std::string& name) { return asked.ask(name); });
   if (!link) return report_error(link.error(), options.json);
-  Session::Options session_options;
-  session_options.haptic_wishes.cpu = options.session.haptic_cpu;
-  session_options.recording = options.session.recording;
-  session_options.images = !options.no_images;
-  session_options.share_images = !options.no_images;
-  session_options.image_segment_prefix = options.session.prefix;
-  if (*link)
-    session_options.on_image = [&link](const ImageSnapshot& image) {
-      (*link)->take_image(image);
-    };
-  const auto scene = std::make_shared<const Scene>(*joint);
-  const auto meter = make_meter(options, scene, *params);
-  session_options.witness = meter.get();
-  auto session = Session::start(scene, *params, std::move(*device), session_options);
-  if (!session) return report_error(session.error(), options.json);
-  if (*link) (*link)->attach(session->get());
-  wait(**session, link->get(), interrupts, options);
-  if (*link) (*link)->attach(nullptr);
-  for (const std::string& refused : (*session)->refusals())
-    std::fprintf(stderr, "the system refused %s\n", refused.c_str());
-  report(**session, options.json);
-  auto written = write_histograms(options.session.histograms, (*session)->times());
-  session->reset();  // ends it, and what was measured rests
-  if (written) written = write_metrics(options, meter.get());
-  return written ? ExitCode::ok : report_error(written.error(), options.json);
+  const std::int64_t end =
+      options.seconds > 0 ? monotonic_ns() + static_cast<std::int64_t>(options.seconds * 1e9) : 0;
+  const Serving serving{&options, &interrupts, &*tracker, link->get(), &asked, end};
+  Setting setting{std::make_shared<const Scene>(*joint), *params};
+  std::optional<Setting> before;  // to go back to, when a scenario does not start
+  for (;;) {
+    auto next = run_session(serving, setting);
+    if (!next && !before) return report_error(next.error(), options.json);
+    if (next && !*next) return ExitCode::ok;
+    if (!next) {
+      std::fprintf(stderr, "%s\n", next.error().to_string().c_str());
+      setting = *std::exchange(before, std::nullopt);
+      continue;
+    }
+    before = std::exchange(setting, std::move(**next));
+  }
 }
 
 }  // namespace

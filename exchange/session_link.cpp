@@ -182,7 +182,9 @@ RemoteAnswer SessionLink::turn(const RemoteCommand& command, double low, double 
 RemoteAnswer SessionLink::obey(const RemoteCommand& command) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (command.name == "Version") return {true, "artus " + options_.version};
-  if (command.name == "Scenario") return {false, "no scenario runs in this program"};
+  if (command.name == "Scenario")
+    return options_.begin ? options_.begin(command.value)
+                          : RemoteAnswer{false, "no scenario runs in this program"};
   if (session_ == nullptr) return {false, "the session does not run yet"};
   if (command.name == "Freeze" || command.name == "Unfreeze") {
     session_->set_frozen(command.name == "Freeze");

@@ -28,6 +28,9 @@ class SessionLink {
     /// Turns a knob of the scanner; called in the server's thread. Null: the link itself sets the
     /// session's, which then nobody else may.
     std::function<void(double ImageControls::*knob, double value)> turn;
+    /// Begins the scenario of that name, or says why not; called in the server's thread, and the
+    /// link must not be used in it. Null: none runs here.
+    std::function<RemoteAnswer(const std::string& name)> begin;
   };
   /// Errors: as Server::listen.
   [[nodiscard]] static Result<std::unique_ptr<SessionLink>> open(const Options& options);

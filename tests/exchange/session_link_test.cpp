@@ -50,6 +50,7 @@ class SessionLinkTest : public testing::Test {
     options.server.where.port = 0;
     options.inbox = std::move(inbox);
     options.version = "1.2.3";
+    options.begin = begin_;
     auto link = SessionLink::open(options);
     ASSERT_TRUE(link) << link.error().to_string();
     link_ = std::move(*link);
@@ -76,6 +77,7 @@ class SessionLinkTest : public testing::Test {
   }
 
   SessionParams params_ = test::make_small_session();
+  std::function<RemoteAnswer(const std::string&)> begin_;
   std::unique_ptr<SessionLink> link_;
   std::unique_ptr<Session> session_;
 };
@@ -163,6 +165,20 @@ TEST_F(SessionLinkTest, RefusesCommandsWithTheReason) {
     EXPECT_EQ(answer.meta_value("Status"), "FAIL") << name;
     EXPECT_THAT(std::string(answer.meta_value("ErrorMessage")), HasSubstr(why)) << name;
   }
+}
+
+TEST_F(SessionLinkTest, HandsAScenarioToTheProgramThatRunsThem) {
+  begin_ = [](const std::string& name) {
+    return RemoteAnswer{name == "gel", "asked for " + name};
+  };
+  start(test::make_injecting_hand());
+  IgtlClient client(port());
+  const igtl::Message yes = say(client, command(1, "Scenario", "<Command Value='gel'/>"));
+  EXPECT_EQ(yes.meta_value("Status"), "SUCCESS");
+  EXPECT_THAT(yes.content, HasSubstr("asked for gel"));
+  const igtl::Message no = say(client, command(2, "Scenario", "knee"));
+  EXPECT_EQ(no.meta_value("Status"), "FAIL");
+  EXPECT_EQ(no.meta_value("ErrorMessage"), "asked for knee");
 }
 
 TEST_F(SessionLinkTest, AnswersWhatItCanAndHowItIs) {

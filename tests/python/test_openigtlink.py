@@ -153,6 +153,57 @@ def test_what_cannot_be_done_is_answered_with_the_reason(port):
         assert meta["Status"] == "FAIL" and why in meta["ErrorMessage"], name
 
 
+def ask(client, name, value):
+    xml = f"<Command Name='{name}' Value='{value}' />".encode()
+    client.send("COMMAND", "Slicer", struct.pack(">I20sHI", 1, name.encode(), 3, len(xml)) + xml)
+    return client.wait_for("RTS_COMMAND")[4]
+
+
+def height_of(client):
+    return struct.unpack(">H", client.wait_for("IMAGE", version=2)[3][8:10])[0]
+
+
+def test_a_scenario_of_artus_begins_by_command(tool, simple):
+    number = free_port()
+    server = subprocess.Popen(
+        [tool, "serve", "-j", str(simple), "--rigid", "--input", "igtl", "--probe-hold-ms", "60000", "--igtl",
+         str(number), "--prefix", f"artus-ps-{os.getpid()}-", "--json"],
+        stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
+    wait_until_it_listens(number, server)
+    client = Client(number)
+    looks_down = np.diag([-1.0, -1.0, 1.0]).T.ravel().tolist() + [0.0, 0.0, 0.0]  # where gel has its skin
+    client.send("TRANSFORM", "ProbeToReference", struct.pack(">12f", *looks_down))
+    assert height_of(client) == 400
+    refused = ask(client, "Scenario", "/etc/passwd")
+    assert refused["Status"] == "FAIL" and "gel-steep" in refused["ErrorMessage"]
+    assert ask(client, "Scenario", "gel-steep")["Status"] == "SUCCESS"
+    assert any(height_of(client) == 500 for _ in range(400))  # this scenario's depth is 50 mm
+    assert ask(client, "Scenario", "gel-hold")["Status"] == "SUCCESS"
+    assert any(height_of(client) == 400 for _ in range(400))
+    server.terminate()
+    assert server.stdout.read().count(b'"frames"') == 3  # one report a session
+    assert server.wait(30) == 0
+
+
+def test_a_scenario_that_cannot_start_leaves_the_session_as_it_was(tool, simple):
+    number = free_port()
+    server = subprocess.Popen(
+        [tool, "serve", "-j", str(simple), "--rigid", "--input", "injection", "--injection", "2", "--igtl",
+         str(number), "--prefix", f"artus-pf-{os.getpid()}-", "--json"],
+        stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+    wait_until_it_listens(number, server)
+    client = Client(number)
+    client.socket.sendall(HELLO)
+    assert height_of(client) == 400
+    assert ask(client, "Scenario", "gel-steep")["Status"] == "SUCCESS"
+    end = time.monotonic() + 2.5
+    while time.monotonic() < end:
+        assert height_of(client) == 400
+    server.terminate()
+    assert b"no injection 2" in server.stderr.read()  # gel plans none
+    assert server.wait(30) == 0
+
+
 @pytest.mark.skipif(shutil.which("xvfb-run") is None, reason="xvfb is not there")
 def test_the_window_is_seen_and_turned_from_outside(tool, simple, tmp_path):
     number = free_port()
