@@ -9,6 +9,7 @@
 #include "artus/apps/arguments.h"
 #include "artus/apps/pose_files.h"
 #include "artus/apps/training_commands.h"
+#include "artus/apps/view_options.h"
 #include "artus/core/text_file.h"
 #include "artus/core/units.h"
 #include "artus/training/assessment.h"
@@ -93,7 +94,9 @@ Result<Assessment> assess_poses(const AssessOptions& options) {
   ARTUS_TRY(scene);
   MeterOptions meter;
   meter.image_depth = options.depth_mm * kMillimetre;
-  if (const auto shape = needle_of_gauge(options.gauge)) meter.needle = *shape;
+  const auto shape = needle_of_flag(options.gauge);
+  ARTUS_TRY(shape);
+  meter.needle = *shape;
   auto goals = goals_of(options, (*scene)->joint());
   ARTUS_TRY(goals);
   meter.goals = std::move(*goals);
@@ -183,7 +186,7 @@ void add_assess_command(Command& app, ExitCode& code) {
   command->add_option("--target", options->target, "a structure's name, or x,y,z in mm");
   command->add_option("--avoid", options->avoid, "NAME or NAME:MARGIN in mm; several times");
   command->add_option("--gauge", options->gauge, "of the needle, with --poses")
-      ->check(whole_number_in(18, 25))
+      ->check(whole_number_in(18, 27))
       ->capture_default_str();
   command->add_option("--depth", options->depth_mm, "of the picture in mm, with --poses")
       ->check(number_in(10, 300))

@@ -5,10 +5,8 @@
 #include <memory>
 
 #include "artus/apps/interrupts.h"
+#include "artus/apps/live_metrics.h"
 #include "artus/apps/session_options.h"
-#include "artus/core/text_file.h"
-#include "artus/training/live_attempt.h"
-#include "artus/training/session_meter.h"
 
 namespace artus {
 namespace {
@@ -89,20 +87,6 @@ void report(const Session& session, bool json) {
               static_cast<unsigned long long>(session.unrecorded()));
 }
 
-/// What measures the session while it runs; null when nobody asked.
-std::unique_ptr<LiveAttempt> make_meter(const ServeOptions& options,
-                                        const std::shared_ptr<const Scene>& scene,
-                                        const SessionParams& params) {
-  if (options.metrics.empty()) return nullptr;
-  return std::make_unique<LiveAttempt>(scene, options_for(make_head(scene->joint(), params)),
-                                       params.haptic_rate);
-}
-
-Result<void> write_metrics(const ServeOptions& options, LiveAttempt* meter) {
-  if (meter == nullptr) return {};
-  return write_text(options.metrics, to_json(meter->measure().metrics).dump(2) + "\n");
-}
-
 ExitCode run_serve(const ServeOptions& options) {
   const auto joint = load(options.session.joint, make_progress_printer(options.json));
   if (!joint) return report_error(joint.error(), options.json);
@@ -127,8 +111,9 @@ ExitCode run_serve(const ServeOptions& options) {
       (*link)->take_image(image);
     };
   const auto scene = std::make_shared<const Scene>(*joint);
-  const auto meter = make_meter(options, scene, *params);
-  session_options.witness = meter.get();
+  const auto meter = make_live_meter(options.metrics, scene, *params);
+  if (!meter) return report_error(meter.error(), options.json);
+  session_options.witness = meter->get();
   auto session = Session::start(scene, *params, std::move(*device), session_options);
   if (!session) return report_error(session.error(), options.json);
   if (*link) (*link)->attach(session->get());
@@ -139,7 +124,7 @@ ExitCode run_serve(const ServeOptions& options) {
   report(**session, options.json);
   auto written = write_histograms(options.session.histograms, (*session)->times());
   session->reset();  // ends it, and what was measured rests
-  if (written) written = write_metrics(options, meter.get());
+  if (written) written = write_live_metrics(options.metrics, meter->get());
   return written ? ExitCode::ok : report_error(written.error(), options.json);
 }
 
@@ -158,8 +143,7 @@ void add_serve_command(Command& app, ExitCode& code) {
   add_session_options(command, options->session, "shared-memory");
   command->add_option("--seconds", options->seconds, "stop after this time; 0: when interrupted")
       ->check(number_in(0, 86400));
-  command->add_option("--metrics", options->metrics,
-                      "file for the numbers of the gesture, measured while it is done (.json)");
+  add_live_metrics_option(command, options->metrics);
   command->add_flag("--no-images", options->no_images, "draw nothing and write no IMAGE");
   command->add_flag("--json", options->json, "machine-readable report at the end");
   on_run(command, code, [options] { return run_serve(*options); });

@@ -73,7 +73,10 @@ std::vector<AttemptEvent> find_events(const AttemptView& view) {
     events.push_back({time, std::move(kind), region, value, std::move(text)});
   };
   const CourseTotals sum = sum_course(m.course);
-  if (sum.first_contact) put(*sum.first_contact, "contact", 0, "the needle went through the skin");
+  if (sum.first_contact)
+    put(*sum.first_contact, "contact", 0,
+        m.course.front().inside() ? "the needle was inside from the start"
+                                  : "the needle went through the skin");
   for (const Run& run : sum_sight(m.course, m.sights).unseen)
     put(run.from, "unseen", run.amount / kMillimetre, cause_of(view, run));
   for (const FeltTouch& touch : m.touches)

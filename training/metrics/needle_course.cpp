@@ -10,11 +10,31 @@
 namespace artus {
 namespace {
 
-constexpr double kRestSpeed = 2e-3;  // m/s
+constexpr double kRestSpeed = 2e-3;               // m/s
+constexpr double kShallow = 0.2e-3;               // m, still at the shallowest
+constexpr double kHeldAngle = 0.017453292519943;  // rad, 1 degree
+constexpr double kHeldTime = 0.5;                 // s
 
 double angle_between(const Vec3& a, const Vec3& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
+
+/// Whether the shaft has held its direction for kHeldTime.
+class HeldDirection {
+ public:
+  bool add(double time, const Vec3& axis) {
+    if (!axis_ || angle_between(*axis_, axis) > kHeldAngle) {
+      axis_ = axis;
+      since_ = time;
+    }
+    return time - since_ > kHeldTime - 1e-9;
+  }
+  void reset() { axis_.reset(); }
+
+ private:
+  std::optional<Vec3> axis_;
+  double since_ = 0;  // s
+};
 
 double speed_at(std::span<const CoursePoint> course, std::size_t i) {
   const double dt = course[i].time - course[i - 1].time;
@@ -53,7 +73,10 @@ CourseTotals sum_course(std::span<const CoursePoint> course) {
     const CoursePoint& now = course[i];
     sum.path += now.step;
     if (!now.inside()) continue;
-    if (!sum.first_contact) sum.first_contact = now.time;
+    if (!sum.first_contact) {
+      sum.first_contact = now.time;
+      sum.entered = i > 0 ? course[i - 1].time : now.time;
+    }
     sum.last_inside = now.time;
     sum.deepest = std::max(sum.deepest, now.depth);
     if (i == 0) continue;
@@ -94,8 +117,8 @@ std::vector<double> find_passes(std::span<const CoursePoint> course, double way)
       starts.push_back(now.time);
       extreme = now.depth;
     }
-    if (inward ? now.depth > extreme : now.depth < extreme) {
-      extreme = now.depth;
+    if (inward ? now.depth > extreme : now.depth < extreme + kShallow) {
+      extreme = inward ? now.depth : std::min(extreme, now.depth);
       extreme_time = now.time;
     } else if (std::abs(now.depth - extreme) >= way) {
       inward = !inward;
@@ -110,23 +133,32 @@ std::vector<double> find_passes(std::span<const CoursePoint> course, double way)
 std::vector<double> find_redirections(std::span<const CoursePoint> course, double angle,
                                       double way) {
   std::vector<double> times;
-  std::optional<Vec3> rest_axis;
+  std::optional<Vec3> rest_axis;  // goes along with a turn that is counted until it is over
+  HeldDirection held;
+  bool turning = false;
   double deepest = 0;
   for (std::size_t i = 1; i < course.size(); ++i) {
     const CoursePoint& now = course[i];
     if (!now.inside()) {
       rest_axis.reset();
+      held.reset();
+      turning = false;
       deepest = 0;
       continue;
     }
+    if (held.add(now.time, now.axis)) turning = false;
     deepest = std::max(deepest, now.depth);
     if (deepest - now.depth >= way) {  // a pass begins anew
       rest_axis.reset();
       deepest = now.depth;
     }
     if (speed_at(course, i) >= kRestSpeed) continue;
-    if (rest_axis && angle_between(*rest_axis, now.axis) > angle) times.push_back(now.time);
-    if (!rest_axis || angle_between(*rest_axis, now.axis) > angle) rest_axis = now.axis;
+    const bool turned = rest_axis && angle_between(*rest_axis, now.axis) > angle;
+    if (turned && !turning) {
+      times.push_back(now.time);
+      turning = true;
+    }
+    if (!rest_axis || turned || turning) rest_axis = now.axis;
   }
   return times;
 }

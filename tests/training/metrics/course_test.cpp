@@ -44,6 +44,19 @@ TEST(Course, PassesFollowWithdrawalsOfFiveMillimetres) {
   EXPECT_EQ(find_passes(course_of({-5, -1}, 50)).size(), 0U);
 }
 
+TEST(Course, APassIsDatedWhenTheNeedleGoesForwardAgain) {
+  const auto course = course_of({-5, 30, 10, 10, 30}, 100);  // back at 15 s, forward from 20 s
+  const auto passes = find_passes(course);
+  ASSERT_EQ(passes.size(), 2U);
+  EXPECT_NEAR(passes[1], 20, 0.11);
+}
+
+TEST(Course, NoTimeInTissueIsLongerThanTheTime) {
+  const CourseTotals sum = sum_course(course_of({-5, 30, 30}, 50));
+  ASSERT_TRUE(sum.entered && sum.last_inside);
+  EXPECT_NEAR(sum.time_in_tissue, *sum.last_inside - *sum.entered, 1e-12);
+}
+
 TEST(Course, IdleIsInsideAndLongerThanThreeSeconds) {
   EXPECT_EQ(find_idle(course_of({-5, 20, 20, 30}, 62)).size(), 1U);
   EXPECT_EQ(find_idle(course_of({-5, 20, 20, 30}, 58)).size(), 0U);
@@ -99,6 +112,24 @@ TEST(Course, RedirectionsAreTurnsBetweenRests) {
   EXPECT_EQ(find_redirections(make_course(*scene, track)).size(), 0U);
   rest(0.2, 20);
   EXPECT_EQ(find_redirections(make_course(*scene, track)).size(), 1U);
+}
+
+TEST(Course, ALongTurnAtRestIsOneRedirection) {
+  std::vector<CoursePoint> course = course_of({10, 10}, 300);  // 30 s
+  const auto turn = [&](double degrees, std::size_t from, std::size_t n) {
+    for (std::size_t i = from; i < course.size(); ++i) {
+      const double part = std::min(1.0, static_cast<double>(i - from) / static_cast<double>(n));
+      const double now = degrees * part * 3.141592653589793 / 180;
+      course[i].axis = Eigen::AngleAxisd(now, Vec3::UnitY()) * course[i].axis;
+    }
+  };
+  turn(23, 100, 60);  // 8 degrees a second
+  EXPECT_EQ(find_redirections(course).size(), 1U);
+  turn(-23, 200, 60);
+  EXPECT_EQ(find_redirections(course).size(), 2U);
+  turn(23, 300, 20);
+  turn(-23, 325, 20);  // there and back with hardly a rest
+  EXPECT_EQ(find_redirections(course).size(), 3U);
 }
 
 TEST(Goals, ARestBeforeTheWithdrawalIsThePlacement) {
