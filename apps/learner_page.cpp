@@ -75,7 +75,7 @@ void add_scenario(HtmlPage& page, const std::string& name,
   const Chart chart = lc_cusum(x, kRates, kLimit);
   const FailureBelief belief = believe(x, kMemory);
   const double wrong =
-      lc_cusum_pass_rate(kRates, kLimit, kRates.unacceptable, std::max<std::size_t>(n, 1), 5000);
+      lc_cusum_pass_rate(kRates, kLimit, kRates.unacceptable, std::max<std::size_t>(n, 1));
   page.point(chart.signal ? "mended" : "note",
              chart.signal ? "Adequate since attempt " + std::to_string(*chart.signal) + "."
                           : "Not yet shown to be adequate.");

@@ -99,10 +99,10 @@ cv::Vec3b lit(const cv::Vec3b& colour, double facing) {
 }
 
 void draw_scale(cv::Mat& image, double pixels_per_m) {
-  constexpr int kMargin = 8;  // pixels
+  constexpr int kFromEdge = 8;  // pixels
   const int length = static_cast<int>(std::lround(10 * kMillimetre * pixels_per_m));
   if (length < 4 || length > image.cols / 2) return;
-  const cv::Point left(kMargin, image.rows - kMargin);
+  const cv::Point left(kFromEdge, image.rows - kFromEdge);
   cv::line(image, left, left + cv::Point(length, 0), cv::Scalar::all(0), 2);
   cv::putText(image, "10 mm", left + cv::Point(0, -5), cv::FONT_HERSHEY_SIMPLEX, 0.35,
               cv::Scalar::all(0), 1, cv::LINE_AA);

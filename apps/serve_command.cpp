@@ -8,12 +8,10 @@
 #include <utility>
 
 #include "artus/apps/interrupts.h"
+#include "artus/apps/live_metrics.h"
 #include "artus/apps/scenario_options.h"
 #include "artus/apps/session_options.h"
-#include "artus/core/text_file.h"
-#include "artus/training/live_attempt.h"
 #include "artus/training/player.h"
-#include "artus/training/session_meter.h"
 
 namespace artus {
 namespace {
@@ -165,20 +163,6 @@ void report(const Session& session, bool json) {
               static_cast<unsigned long long>(session.unrecorded()));
 }
 
-/// What measures the session while it runs; null when nobody asked.
-std::unique_ptr<LiveAttempt> make_meter(const ServeOptions& options,
-                                        const std::shared_ptr<const Scene>& scene,
-                                        const SessionParams& params) {
-  if (options.metrics.empty()) return nullptr;
-  return std::make_unique<LiveAttempt>(scene, options_for(make_head(scene->joint(), params)),
-                                       params.haptic_rate);
-}
-
-Result<void> write_metrics(const ServeOptions& options, LiveAttempt* meter) {
-  if (meter == nullptr) return {};
-  return write_text(options.metrics, to_json(meter->measure().metrics).dump(2) + "\n");
-}
-
 /// One session to its end; what follows it, if anything.
 Result<std::optional<Setting>> run_session(const Serving& serving, const Setting& setting) {
   const ServeOptions& options = *serving.options;
@@ -197,8 +181,9 @@ Result<std::optional<Setting>> run_session(const Serving& serving, const Setting
     session_options.on_image = [link](const ImageSnapshot& image) {
       link->take_image(image);
     };
-  const auto meter = make_meter(options, setting.scene, setting.params);
-  session_options.witness = meter.get();
+  const auto meter = make_live_meter(options.metrics, setting.scene, setting.params);
+  ARTUS_TRY(meter);
+  session_options.witness = meter->get();
   auto session = Session::start(setting.scene, setting.params, std::move(*device), session_options);
   ARTUS_TRY(session);
   if (link != nullptr) link->attach(session->get());
@@ -210,7 +195,7 @@ Result<std::optional<Setting>> run_session(const Serving& serving, const Setting
   const auto histograms = write_histograms(options.session.histograms, (*session)->times());
   session->reset();  // ends it, and what was measured rests
   ARTUS_TRY(histograms);
-  ARTUS_TRY(write_metrics(options, meter.get()));
+  ARTUS_TRY(write_live_metrics(options.metrics, meter->get()));
   return next;
 }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "artus/apps/interrupts.h"
+#include "artus/apps/live_metrics.h"
 #include "artus/apps/session_options.h"
 #include "artus/viewer/surface_detail.h"
 #include "artus/viewer/window.h"
@@ -25,6 +26,7 @@ struct ViewerOptions {
   WindowOptions window;
   std::string language;  // empty: as the system's
   std::filesystem::path script;
+  std::filesystem::path metrics;
   bool report = false;
 };
 
@@ -115,6 +117,14 @@ class RemoteTurns {
   std::vector<std::pair<double ImageControls::*, double>> turns_;
 };
 
+void print_report(const Session& session, const WindowReport& report) {
+  print_times(session.times(), session.params());
+  print_line("pose to screen", report.pose_to_screen);
+  print_line("window interval", report.interval);
+  print_line("3D view", report.joint);
+  std::printf("3D view at detail %zu of %zu\n", report.joint_level, DetailChooser::kLevels - 1);
+}
+
 ExitCode run_view(const ViewerOptions& options) {
   WindowOptions window = options.window;
   if (const auto script = read_script(options, window); !script)
@@ -153,8 +163,11 @@ ExitCode run_view(const ViewerOptions& options) {
     session_options.on_image = [&link](const ImageSnapshot& image) {
       (*link)->take_image(image);
     };
-  const auto session = Session::start(std::make_shared<const Scene>(*joint), *params,
-                                      std::move(*device), session_options);
+  const auto scene = std::make_shared<const Scene>(*joint);
+  const auto meter = make_live_meter(options.metrics, scene, *params);
+  if (!meter) return report_error(meter.error(), false);
+  session_options.witness = meter->get();
+  auto session = Session::start(scene, *params, std::move(*device), session_options);
   if (!session) return report_error(session.error(), false);
   if (*link) (*link)->attach(session->get());
   WindowReport report;
@@ -162,15 +175,11 @@ ExitCode run_view(const ViewerOptions& options) {
       window.tasks.empty() ? std::nullopt : std::optional(window.tasks[window.task].injection);
   const auto shown = run_window(**session, hand, first_target(**joint, plan), window, report);
   if (*link) (*link)->attach(nullptr);
-  if (options.report) {
-    print_times((*session)->times(), (*session)->params());
-    print_line("pose to screen", report.pose_to_screen);
-    print_line("window interval", report.interval);
-    print_line("3D view", report.joint);
-    std::printf("3D view at detail %zu of %zu\n", report.joint_level, DetailChooser::kLevels - 1);
-  }
+  if (options.report) print_report(**session, report);
   if (!shown) return report_error(shown.error(), false);
-  const auto written = write_histograms(options.session.histograms, (*session)->times());
+  auto written = write_histograms(options.session.histograms, (*session)->times());
+  session->reset();  // ends it, and what was measured rests
+  if (written) written = write_live_metrics(options.metrics, meter->get());
   return written ? ExitCode::ok : report_error(written.error(), false);
 }
 
@@ -229,6 +238,7 @@ void add_view_command(Command& app, ExitCode& code) {
                       "as soon as picture and 3D view are there; then it ends");
   command->add_option("--pictures", window.pictures, "folder of saved images")
       ->capture_default_str();
+  add_live_metrics_option(command, options->metrics);
   command->add_flag("--report", options->report, "print where the time went at the end");
   on_run(command, code, [options] { return run_view(*options); });
 }

@@ -98,7 +98,9 @@ void add_hand_faults(const AttemptMeasures& m, std::vector<Fault>& out) {
                    beside("the probe moved while needling", drift, "mm/s", kDrift.band),
                    "both hands moved at once", "Rest the probe hand on the patient."});
   const double passes = value_of(m, kPasses.metric);
-  if (const AttemptEvent* e = worst_event(m, "pass"); e != nullptr && passes > kPasses.band)
+  const auto e = std::find_if(m.events.begin(), m.events.end(),
+                              [](const AttemptEvent& event) { return event.kind == "pass"; });
+  if (e != m.events.end() && passes > kPasses.band)
     out.push_back({"passes", e->time, weight_of(kPasses, passes),
                    beside("passes", passes, "", kPasses.band),
                    "the way was not chosen before the skin", "Choose the line before the skin."});

@@ -3,11 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include <boost/math/special_functions/beta.hpp>
 
 #include "artus/core/check.h"
-#include "artus/core/noise.h"
 
 namespace artus {
 namespace {
@@ -67,24 +68,30 @@ Chart lc_cusum(std::span<const bool> failures, const FailureRates& rates, double
                    std::log((1 - rates.acceptable) / (1 - rates.unacceptable)), limit, true);
 }
 
-double lc_cusum_pass_rate(const FailureRates& rates, double limit, double rate, std::size_t trials,
-                          std::size_t runs, unsigned long long seed) {
+double lc_cusum_pass_rate(const FailureRates& rates, double limit, double rate,
+                          std::size_t trials) {
   require(rates);
   const double good = std::log((1 - rates.acceptable) / (1 - rates.unacceptable));
   const double bad = std::log(rates.acceptable / rates.unacceptable);
-  std::size_t passed = 0;
-  for (std::size_t run = 0; run < runs; ++run) {
-    double sum = 0;
-    for (std::size_t i = 0; i < trials; ++i) {
-      const bool failed = uniform_noise(seed, run * trials + i) < rate;
-      sum = std::max(0.0, sum + (failed ? bad : good));
-      if (sum >= limit) {
-        ++passed;
-        break;
-      }
+  using Since = std::pair<int, int>;  // successes and failures since the sum was last 0
+  std::map<Since, double> share{{{0, 0}, 1.0}};
+  double passed = 0;
+  for (std::size_t i = 0; i < trials; ++i) {
+    std::map<Since, double> next;
+    for (const auto& [since, of_all] : share) {
+      const auto go_on = [&](const Since& to, double chance) {
+        const double sum = to.first * good + to.second * bad;
+        if (sum >= limit)
+          passed += of_all * chance;
+        else
+          next[sum > 0 ? to : Since{0, 0}] += of_all * chance;
+      };
+      go_on({since.first + 1, since.second}, 1 - rate);
+      go_on({since.first, since.second + 1}, rate);
     }
+    share = std::move(next);
   }
-  return static_cast<double>(passed) / static_cast<double>(runs);
+  return passed;
 }
 
 double FailureBelief::below(double p) const {

@@ -18,6 +18,7 @@ void LiveAttempt::on_tick(const HapticSnapshot& tick) noexcept {
   const std::int64_t sample = tick.input.device.time_ns;
   const double time = static_cast<double>(tick.input.tick) * period_;
   const std::size_t n = n_moments_.load(std::memory_order_relaxed);
+  if (n == moments_.size()) full_.store(true, std::memory_order_relaxed);
   if (n < moments_.size() && (n == 0 || sample > moments_[n - 1].sample_ns)) {
     moments_[n] = {sample, time};
     n_moments_.store(n + 1, std::memory_order_release);

@@ -23,6 +23,10 @@ class LiveAttempt final : public SessionWitness {
   ARTUS_REALTIME void on_tick(const HapticSnapshot& tick) noexcept override;
   void on_frame(const FrameInput& input, const Frame& frame) override;
 
+  /// Whether the session went on beyond `longest`, of which nothing is measured. Any thread.
+  [[nodiscard]] bool full() const noexcept { return full_.load(std::memory_order_relaxed); }
+  [[nodiscard]] double longest() const noexcept { return meter_.options().longest; }  ///< s
+
   /// All numbers. Requires: the session is over. Cost: linear in ticks.
   [[nodiscard]] AttemptMeasures measure();
 
@@ -42,6 +46,7 @@ class LiveAttempt final : public SessionWitness {
   AttemptMeter meter_;
   std::vector<Moment> moments_;  // below n_moments_ they do not change
   std::atomic<std::size_t> n_moments_{0};
+  std::atomic<bool> full_{false};
   std::atomic<double> last_{0};   // s, of the last tick
   std::vector<Waiting> waiting_;  // the imaging thread's, until their tick is published
   std::size_t at_ = 0;            // moment of the last placed picture

@@ -65,6 +65,29 @@ TEST(Serve, WithoutImagesMakesNoSegmentAndDrawsNothing) {
   EXPECT_NE(served.out.find("\"frames\": 0"), std::string::npos);
 }
 
+TEST(Serve, NumbersThatCannotBeWrittenAreRefusedBeforeTheSession) {
+  for (const char* command : {"serve", "view"}) {
+    const auto refused =
+        test::artus({command, "-j", test::kSimple, "--rigid", "--metrics", "/proc/live.json"});
+    EXPECT_NE(refused.exit_code, 0) << command;
+    EXPECT_NE(refused.err.find("/proc/live.json"), std::string::npos) << refused.err;
+  }
+}
+
+TEST(Assess, TakesTheNeedlesThatThereAre) {
+  const std::filesystem::path list = std::filesystem::path(testing::TempDir()) / "gauges.csv";
+  std::ofstream(list) << "time_s,entry_x_mm,entry_y_mm,entry_z_mm,tip_x_mm,tip_y_mm,tip_z_mm\n"
+                         "0,0,0,-10,0,0,10\n1,0,0,-10,0,0,12\n";
+  const auto with = [&](const char* gauge) {
+    return test::artus(
+        {"assess", "--poses", list.string(), "-j", test::kSimple, "--gauge", gauge, "--json"});
+  };
+  EXPECT_EQ(with("27").exit_code, 0);
+  const auto refused = with("24");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("23, 25 or 27"), std::string::npos) << refused.err;
+}
+
 TEST(Serve, RefusesAPrefixThatIsNone) {
   const auto served = test::artus({"serve", "-j", test::kSimple, "--prefix", "a/b"});
   EXPECT_EQ(served.exit_code, 2);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/training/assessment.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -46,6 +48,23 @@ TEST(Assessment, AStraightWayIsAsLongAsItIs) {
   const auto json = to_json(done);
   EXPECT_EQ(json.at("notices").at(0), "told");
   EXPECT_EQ(json.at("metrics").size(), done.metrics.size());
+}
+
+TEST(Assessment, ANeedleThatIsInsideAtTheStartDidNotGoThroughTheSkin) {
+  const auto scene = test::make_layered_scene();
+  const auto contact_from = [&](double depth) {
+    TrackedList list;
+    for (int i = 0; i <= 200; ++i) {
+      const Vec3 tip(0, 0, depth + 10e-3 * 0.01 * i);
+      list.poses.push_back({0.01 * i, make_pose(tip, Vec3::UnitZ(), Vec3::UnitX()), {}});
+    }
+    const Assessment done = assess_list(list, scene, {});
+    const auto contact = std::find_if(done.events.begin(), done.events.end(),
+                                      [](const AttemptEvent& e) { return e.kind == "contact"; });
+    return contact == done.events.end() ? std::string() : contact->text;
+  };
+  EXPECT_EQ(contact_from(-5e-3), "the needle went through the skin");
+  EXPECT_EQ(contact_from(5e-3), "the needle was inside from the start");
 }
 
 }  // namespace

@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "artus/core/noise.h"
+
 namespace artus {
 namespace {
 
@@ -71,8 +73,33 @@ TEST(LearningCurve, FalseAndTruePassesOfTheLcCusum) {
        {Row{1.5, 0.2, 50, 0.48}, Row{1.5, 0.2, 100, 0.78}, Row{2.0, 0.2, 50, 0.24},
         Row{2.0, 0.2, 100, 0.48}, Row{2.5, 0.2, 50, 0.10}, Row{2.5, 0.2, 100, 0.25},
         Row{1.5, 0.1, 50, 0.93}, Row{2.0, 0.1, 50, 0.80}, Row{2.5, 0.1, 50, 0.64}})
-    EXPECT_NEAR(lc_cusum_pass_rate(rates, row.limit, row.rate, row.trials), row.share, 0.0125)
+    EXPECT_NEAR(lc_cusum_pass_rate(rates, row.limit, row.rate, row.trials), row.share, 0.01)
         << row.limit << ' ' << row.rate << ' ' << row.trials;
+}
+
+TEST(LearningCurve, SimulatedLearnersPassAsTheExactDistributionSays) {
+  constexpr int kLearners = 20000;
+  const FailureRates rates{0.1, 0.2};
+  for (const double rate : {0.2, 0.1}) {
+    int passed = 0;
+    for (int learner = 0; learner < kLearners; ++learner) {
+      std::array<bool, 60> x{};
+      for (std::size_t i = 0; i < x.size(); ++i)
+        x[i] = uniform_noise(11, static_cast<std::uint64_t>(learner) * x.size() + i) < rate;
+      passed += lc_cusum(x, rates, 2.5).signal ? 1 : 0;
+    }
+    EXPECT_NEAR(static_cast<double>(passed) / kLearners, lc_cusum_pass_rate(rates, 2.5, rate, 60),
+                0.01)
+        << rate;
+  }
+}
+
+TEST(LearningCurve, AtALimitOfTwoAndAHalfSixtyTrialsPassOneInEightOfTheInadequate) {
+  const FailureRates rates{0.1, 0.2};
+  EXPECT_NEAR(lc_cusum_pass_rate(rates, 2.5, 0.2, 60), 0.1268, 5e-5);
+  EXPECT_NEAR(lc_cusum_pass_rate(rates, 2.5, 0.1, 60), 0.7375, 5e-5);
+  EXPECT_LT(lc_cusum_pass_rate(rates, 2.5, 0.2, 57), 0.12);
+  EXPECT_GT(lc_cusum_pass_rate(rates, 2.5, 0.2, 58), 0.12);
 }
 
 TEST(LearningCurve, TrialsUntilTheBeliefInARatePasses) {

@@ -64,6 +64,7 @@ TEST_F(LiveAttemptTest, TakesATickWithoutMemoryEvenWhenItIsFull) {
     input.device = test::sample_at(1e-3, static_cast<std::int64_t>(n) * 1000000, n);
     const HapticSnapshot& out = haptics.step(input);
     ARTUS_RUNS_REALTIME(LiveAttempt::on_tick, live.on_tick(out));
+    EXPECT_EQ(live.full(), n > 1001) << n;
   }
   EXPECT_NEAR(live.measure().needle.back().time, 1, 0.2);
 }

@@ -69,7 +69,7 @@ std::vector<AttemptEvent> find_events(const AttemptView& view) {
   const CourseTotals sum = sum_course(m.course);
   if (sum.first_contact)
     put(*sum.first_contact, "contact", 0,
-        m.course.front().inside() ? "the needle was in the body from the beginning"
+        m.course.front().inside() ? "the needle was inside from the start"
                                   : "the needle went through the skin");
   for (const Run& run : sum_sight(m.course, m.sights).unseen)
     put(run.from, "unseen", run.amount / kMillimetre, cause_of(view, run));

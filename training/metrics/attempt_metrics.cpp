@@ -95,9 +95,9 @@ void put_course(Sheet& sheet, const AttemptView& view) {
   const auto when = [in](double value) {
     return in ? Value(value) : Value();
   };
-  sheet.put("needle", "time_s", "s",
-            when(sum.last_inside.value_or(0) - sum.first_contact.value_or(0)),
-            "first to last instant with the tip inside the skin");
+  sheet.put("needle", "time_s", "s", when(sum.last_inside.value_or(0) - sum.entered.value_or(0)),
+            "begin of the first interval that ends with the tip inside the skin, to the last "
+            "instant inside");
   sheet.put("needle", "time_to_contact_s", "s",
             when(sum.first_contact.value_or(0) - (course.empty() ? 0 : course.front().time)),
             "start to the first instant with the tip inside");
@@ -121,9 +121,10 @@ void put_course(Sheet& sheet, const AttemptView& view) {
   sheet.put("needle", "idle_s", "s", still, "sum of those times");
   sheet.put("needle", "passes", "count", static_cast<double>(find_passes(course).size()),
             "1 and every advance of 5 mm or more after a withdrawal of 5 mm or more");
-  sheet.put("needle", "redirections", "count",
-            static_cast<double>(find_redirections(course).size()),
-            "turns of the shaft by more than 5 degrees inside between two rests, without a pass");
+  sheet.put(
+      "needle", "redirections", "count", static_cast<double>(find_redirections(course).size()),
+      "turns of the shaft by more than 5 degrees inside between two rests, without a pass; a turn "
+      "ends when the shaft keeps within 1 degree for 0.5 s");
 }
 
 void put_sight(Sheet& sheet, const AttemptView& view) {

@@ -4,21 +4,37 @@
 #include <algorithm>
 #include <cmath>
 
-#include "artus/core/units.h"
 #include "artus/training/metrics/closed_body.h"
 #include "artus/training/metrics/swept_area.h"
 
 namespace artus {
 namespace {
 
-constexpr double kRestSpeed = 2e-3;    // m/s
-constexpr double kRestTime = 0.5;      // s over which a shaft at rest
-constexpr double kRestTurn = kDegree;  // has turned less than this. assumed
-constexpr double kTurnBack = 0.5e-3;   // m of the way at which an advance has begun. assumed
+constexpr double kRestSpeed = 2e-3;               // m/s
+constexpr double kShallow = 0.2e-3;               // m, still at the shallowest
+constexpr double kHeldAngle = 0.017453292519943;  // rad, 1 degree
+constexpr double kHeldTime = 0.5;                 // s
 
 double angle_between(const Vec3& a, const Vec3& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
+
+/// Whether the shaft has held its direction for kHeldTime.
+class HeldDirection {
+ public:
+  bool add(double time, const Vec3& axis) {
+    if (!axis_ || angle_between(*axis_, axis) > kHeldAngle) {
+      axis_ = axis;
+      since_ = time;
+    }
+    return time - since_ > kHeldTime - 1e-9;
+  }
+  void reset() { axis_.reset(); }
+
+ private:
+  std::optional<Vec3> axis_;
+  double since_ = 0;  // s
+};
 
 double speed_at(std::span<const CoursePoint> course, std::size_t i) {
   const double dt = course[i].time - course[i - 1].time;
@@ -57,7 +73,10 @@ CourseTotals sum_course(std::span<const CoursePoint> course) {
     const CoursePoint& now = course[i];
     sum.path += now.step;
     if (!now.inside()) continue;
-    if (!sum.first_contact) sum.first_contact = now.time;
+    if (!sum.first_contact) {
+      sum.first_contact = now.time;
+      sum.entered = i > 0 ? course[i - 1].time : now.time;
+    }
     sum.last_inside = now.time;
     sum.deepest = std::max(sum.deepest, now.depth);
     if (i == 0) continue;
@@ -87,38 +106,25 @@ std::vector<Run> find_idle(std::span<const CoursePoint> course, double speed, do
   return runs;
 }
 
-namespace {
-
-/// Whether the needle neither moves nor turns at point `i`.
-bool rests(std::span<const CoursePoint> course, std::size_t i) {
-  if (speed_at(course, i) >= kRestSpeed) return false;
-  const auto steps = static_cast<std::size_t>(std::lround(kRestTime * kTrackRate));
-  return angle_between(course[i - std::min(i, steps)].axis, course[i].axis) < kRestTurn;
-}
-
-}  // namespace
-
 std::vector<double> find_passes(std::span<const CoursePoint> course, double way) {
   std::vector<double> starts;
   bool inward = true;
-  double extreme = 0;    // m, deepest of this pass or shallowest since it
-  double turn_time = 0;  // s, when it was last there
+  double extreme = 0;       // m, deepest of this pass or shallowest since it
+  double extreme_time = 0;  // s
   for (const CoursePoint& now : course) {
     if (starts.empty()) {
       if (!now.inside()) continue;
       starts.push_back(now.time);
       extreme = now.depth;
     }
-    if (inward ? now.depth > extreme : now.depth < extreme) {
-      extreme = now.depth;
-      turn_time = now.time;
-    } else if (!inward && now.depth - extreme < kTurnBack) {
-      turn_time = now.time;
+    if (inward ? now.depth > extreme : now.depth < extreme + kShallow) {
+      extreme = inward ? now.depth : std::min(extreme, now.depth);
+      extreme_time = now.time;
     } else if (std::abs(now.depth - extreme) >= way) {
       inward = !inward;
-      if (inward) starts.push_back(turn_time);
+      if (inward) starts.push_back(extreme_time);
       extreme = now.depth;
-      turn_time = now.time;
+      extreme_time = now.time;
     }
   }
   return starts;
@@ -127,23 +133,32 @@ std::vector<double> find_passes(std::span<const CoursePoint> course, double way)
 std::vector<double> find_redirections(std::span<const CoursePoint> course, double angle,
                                       double way) {
   std::vector<double> times;
-  std::optional<Vec3> rest_axis;
+  std::optional<Vec3> rest_axis;  // goes along with a turn that is counted until it is over
+  HeldDirection held;
+  bool turning = false;
   double deepest = 0;
   for (std::size_t i = 1; i < course.size(); ++i) {
     const CoursePoint& now = course[i];
     if (!now.inside()) {
       rest_axis.reset();
+      held.reset();
+      turning = false;
       deepest = 0;
       continue;
     }
+    if (held.add(now.time, now.axis)) turning = false;
     deepest = std::max(deepest, now.depth);
     if (deepest - now.depth >= way) {  // a pass begins anew
       rest_axis.reset();
       deepest = now.depth;
     }
-    if (!rests(course, i)) continue;
-    if (rest_axis && angle_between(*rest_axis, now.axis) > angle) times.push_back(now.time);
-    if (!rest_axis || angle_between(*rest_axis, now.axis) > angle) rest_axis = now.axis;
+    if (speed_at(course, i) >= kRestSpeed) continue;
+    const bool turned = rest_axis && angle_between(*rest_axis, now.axis) > angle;
+    if (turned && !turning) {
+      times.push_back(now.time);
+      turning = true;
+    }
+    if (!rest_axis || turned || turning) rest_axis = now.axis;
   }
   return times;
 }

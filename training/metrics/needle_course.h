@@ -28,11 +28,12 @@ struct CoursePoint {
 
 /// Totals of a course, SI.
 struct CourseTotals {
-  double path = 0;            ///< m, sum of steps
-  double path_in_tissue = 0;  ///< m, steps that end inside
-  double time_in_tissue = 0;  ///< s, intervals that end inside; the one of the first contact, too
-  double swept_area = 0;      ///< m^2, both ends inside
-  double advanced = 0;        ///< m forward along the needle inside
+  double path = 0;                      ///< m, sum of steps
+  double path_in_tissue = 0;            ///< m, steps that end inside
+  double time_in_tissue = 0;            ///< s, intervals that end inside
+  double swept_area = 0;                ///< m^2, both ends inside
+  double advanced = 0;                  ///< m forward along the needle inside
+  std::optional<double> entered;        ///< s, begin of the first interval that ends inside
   std::optional<double> first_contact;  ///< s, the first point inside
   std::optional<double> last_inside;    ///< s
   double deepest = 0;                   ///< m
@@ -51,15 +52,15 @@ struct Run {
 [[nodiscard]] std::vector<Run> find_idle(std::span<const CoursePoint> course, double speed = 2e-3,
                                          double longest = 3);
 
-/// When each pass of the needle began: the first point inside, and where the needle was last drawn
-/// back farthest (within 0.5 mm) before every advance of at least `way` m that follows a withdrawal
-/// of at least `way`.
+/// When each pass of the needle began: the first advance inside, and every advance of at least
+/// `way` m that follows a withdrawal of at least `way`, dated when the needle was last within
+/// 0.2 mm of its shallowest before it.
 [[nodiscard]] std::vector<double> find_passes(std::span<const CoursePoint> course,
                                               double way = 5e-3);
 
-/// When the shaft had turned inside the body by more than `angle` rad between two rests (the tip
-/// slower than 2 mm/s and less than a degree turned in half a second), without a withdrawal of
-/// `way` m between them.
+/// When the shaft had turned inside the body by more than `angle` rad between two rests (slower
+/// than 2 mm/s), without a withdrawal of `way` m between them. One turn counts once: the next can
+/// begin when the shaft has held its direction within 1 degree for half a second.
 [[nodiscard]] std::vector<double> find_redirections(std::span<const CoursePoint> course,
                                                     double angle = 0.08726646259971647,
                                                     double way = 5e-3);

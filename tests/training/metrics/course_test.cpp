@@ -127,6 +127,24 @@ TEST(Course, OneSlowTurnIsOneRedirection) {
   }
 }
 
+TEST(Course, ALongTurnAtRestIsOneRedirection) {
+  std::vector<CoursePoint> course = course_of({10, 10}, 300);  // 30 s
+  const auto turn = [&](double degrees, std::size_t from, std::size_t n) {
+    for (std::size_t i = from; i < course.size(); ++i) {
+      const double part = std::min(1.0, static_cast<double>(i - from) / static_cast<double>(n));
+      const double now = degrees * part * 3.141592653589793 / 180;
+      course[i].axis = Eigen::AngleAxisd(now, Vec3::UnitY()) * course[i].axis;
+    }
+  };
+  turn(23, 100, 60);  // 8 degrees a second
+  EXPECT_EQ(find_redirections(course).size(), 1U);
+  turn(-23, 200, 60);
+  EXPECT_EQ(find_redirections(course).size(), 2U);
+  turn(23, 300, 20);
+  turn(-23, 325, 20);  // there and back with hardly a rest
+  EXPECT_EQ(find_redirections(course).size(), 3U);
+}
+
 TEST(Goals, ARestBeforeTheWithdrawalIsThePlacement) {
   const auto course = course_of({-5, 30, 28, 28, 0, -5}, 20);
   const auto placed = find_placement(course);
