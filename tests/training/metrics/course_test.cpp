@@ -45,6 +45,12 @@ TEST(Course, PassesFollowWithdrawalsOfFiveMillimetres) {
   EXPECT_EQ(find_passes(course_of({-5, -1}, 50)).size(), 0U);
 }
 
+TEST(Course, NoTimeInTissueIsLongerThanTheTime) {
+  const CourseTotals sum = sum_course(course_of({-5, 30, 30}, 50));
+  ASSERT_TRUE(sum.entered && sum.last_inside);
+  EXPECT_NEAR(sum.time_in_tissue, *sum.last_inside - *sum.entered, 1e-12);
+}
+
 TEST(Course, IdleIsInsideAndLongerThanThreeSeconds) {
   EXPECT_EQ(find_idle(course_of({-5, 20, 20, 30}, 62)).size(), 1U);
   EXPECT_EQ(find_idle(course_of({-5, 20, 20, 30}, 58)).size(), 0U);
