@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/session/fluid_core.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -14,11 +15,19 @@ constexpr double kGrowthTime = 0.3;  // s that a later one may: images need not 
 constexpr double kVisible = 1e-9;    // m^3, of a shape's first liquid and least growth
 constexpr double kGrowth = 0.01;     // of what is there
 
+/// Whether the region is anywhere in the body; a recording may name one that a gap left empty.
+bool is_there(const CompiledJoint& joint, RegionId region) {
+  const auto& all = joint.mesh.interfaces;
+  return region < joint.regions.size() &&
+         std::any_of(all.begin(), all.end(),
+                     [&](const Interface& f) { return f.front == region || f.back == region; });
+}
+
 std::vector<Injected> injected_of(const CompiledJoint& joint,
                                   const std::vector<InjectedSite>& sites) {
   std::vector<Injected> injected;
   for (const InjectedSite& site : sites)
-    if (site.region < joint.regions.size())
+    if (is_there(joint, site.region))
       injected.push_back({joint.regions[site.region].name, site.volume, site.cavity != 0,
                           Vec3(site.p_J[0], site.p_J[1], site.p_J[2])});
   return injected;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fstream>
 #include <istream>
+#include <iterator>
 #include <limits>
 #include <type_traits>
 #include <utility>
@@ -118,6 +119,10 @@ const char* find_fault(const TickRecord& record, std::uint64_t last) noexcept {
                                                               : nullptr;
 }
 
+bool is_place(const double (&p_J)[3]) noexcept {  // NOLINT(*-avoid-c-arrays)
+  return std::all_of(std::begin(p_J), std::end(p_J), [](double x) { return std::abs(x) <= kFar; });
+}
+
 const char* find_fault(const FrameRecord& record, std::uint64_t last) noexcept {
   const FrameInput& input = record.input;
   if (input.number <= last) return "an image that is not after the one before";
@@ -126,7 +131,7 @@ const char* find_fault(const FrameRecord& record, std::uint64_t last) noexcept {
   if (!is_flag(input.has_needle) || !is_flag(input.has_probe)) return "a flag that is none";
   if (input.n_sites > kMostSites || input.reserved != 0) return "more liquid than there can be";
   for (const InjectedSite& site : input.sites)
-    if (!all_finite(site.p_J) || !(site.volume >= 0 && site.volume < 1) || !is_flag(site.cavity) ||
+    if (!is_place(site.p_J) || !(site.volume >= 0 && site.volume < 1) || !is_flag(site.cavity) ||
         site.region > std::numeric_limits<RegionId>::max())
       return "liquid in a place that is none";
   const ImageControls& c = input.controls;

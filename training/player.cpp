@@ -176,6 +176,7 @@ Result<MeterOptions> make_meter_options(const Scenario& scenario, const Compiled
     target.body = make_region_body(joint, *region);
   }
   options.goals.target = target;
+  options.goals.entry = scenario.entry.centre;
   for (const ScenarioAvoid& avoid : scenario.avoid) {
     const auto region = find_region(joint, avoid.structure);
     ARTUS_TRY(region);

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <set>
+#include <sstream>
 #include <utility>
 
 #include "artus/core/known_names.h"
@@ -121,6 +122,25 @@ bool is_metric(const std::string& name, const std::vector<std::string>& known) {
          name.rfind("force_", 0) == 0;
 }
 
+/// The entry's radius and angles as marks, where the file has none of its own on these metrics.
+void add_entry_marks(Scenario& s) {
+  const auto own = [&s](const std::string& metric) {
+    return std::any_of(s.pass.begin(), s.pass.end(),
+                       [&](const Mark& mark) { return mark.metric == metric; });
+  };
+  const bool judge_angle = !own("entry_angle_deg");
+  const auto add = [&s](const char* metric, const char* relation, double bound) {
+    std::ostringstream text;
+    text << relation << ' ' << bound;
+    if (const auto mark = parse_mark(metric, text.str())) s.pass.push_back(*mark);
+  };
+  if (!own("entry_offset_mm")) add("entry_offset_mm", "<=", s.entry.radius / kMillimetre);
+  if (judge_angle && s.entry.least_angle > 0)
+    add("entry_angle_deg", ">=", s.entry.least_angle / kDegree);
+  if (judge_angle && s.entry.most_angle < 90 * kDegree)
+    add("entry_angle_deg", "<=", s.entry.most_angle / kDegree);
+}
+
 void read_marks(TomlTable& toml, Scenario& s, Problems& problems) {
   const std::vector<std::string> known = metric_names();
   if (const toml::table* table = toml.table("pass")) {
@@ -137,6 +157,7 @@ void read_marks(TomlTable& toml, Scenario& s, Problems& problems) {
     }
   }
   if (s.pass.empty()) toml.problem("a scenario needs marks in [pass]");
+  add_entry_marks(s);
   if (const toml::table* table = toml.table("score")) {
     for (const auto& [key, node] : *table) {
       const std::string name(key.str());

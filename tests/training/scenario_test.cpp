@@ -45,6 +45,40 @@ TEST(Scenario, AllThatIsWrongStandsInOneMessage) {
     EXPECT_NE(message.find(part), std::string::npos) << part << " in " << message;
 }
 
+TEST(Scenario, RadiusAndAnglesOfTheEntryAreMarks) {
+  const auto marks_of = [](const std::string& text, const std::string& metric) {
+    std::string all;
+    const auto scenario = parse_scenario(text, "mine.toml");
+    EXPECT_TRUE(scenario) << scenario.error().to_string();
+    for (const Mark& mark : scenario->pass)
+      if (mark.metric == metric) all += mark.text + ";";
+    return all;
+  };
+  EXPECT_EQ(marks_of(align().text, "entry_offset_mm"), "<= 5;");
+  EXPECT_EQ(marks_of(align().text, "entry_angle_deg"), "<= 45;");
+  EXPECT_EQ(marks_of(changed(align().text, "angle_to = 45", "angle_from = 20\nangle_to = 45"),
+                     "entry_angle_deg"),
+            ">= 20;<= 45;");
+  EXPECT_EQ(marks_of(changed(align().text, "angle_to = 45", ""), "entry_angle_deg"), "");
+  EXPECT_EQ(marks_of(changed(align().text, "[pass]", "[pass]\nentry_offset_mm = \"<= 2\""),
+                     "entry_offset_mm"),
+            "<= 2;");
+}
+
+TEST(Player, GoingInElsewhereDoesNotPass) {
+  const auto scene = *make_gel_scene(*align().gel);
+  Scenario scenario = align();
+  const auto passes = [&] {
+    const auto played = play(scenario, scene, expert_skill(), {});
+    EXPECT_TRUE(played);
+    return played && played->judgement.passed;
+  };
+  EXPECT_TRUE(passes());
+  for (Mark& mark : scenario.pass)
+    if (mark.metric == "entry_offset_mm") mark.bound = 0.01;
+  EXPECT_FALSE(passes());
+}
+
 TEST(Scenario, ANameThatThereIsNotListsThoseThereAre) {
   const auto scenario = find_scenario("no-such");
   ASSERT_FALSE(scenario);

@@ -177,6 +177,27 @@ void put_sight(Sheet& sheet, const AttemptView& view) {
             "correlation of the two hands' speeds");
 }
 
+/// Where and how the needle first went in; nothing where no entry is asked for.
+void put_entry(Sheet& sheet, const AttemptView& view) {
+  if (!view.options.goals.entry) return;
+  const auto& course = view.measures.course;
+  const auto& sights = view.measures.sights;
+  const auto first = std::find_if(course.begin(), course.end(),
+                                  [](const CoursePoint& point) { return point.inside(); });
+  Value offset;
+  Value angle;
+  if (first != course.end()) {
+    offset = (first->entry - *view.options.goals.entry).norm() / kMillimetre;
+    const auto& sight = sights[static_cast<std::size_t>(first - course.begin())];
+    if (sight) angle = sight->face_angle / kDegree;
+  }
+  sheet.put("needle", "entry_offset_mm", "mm", offset,
+            "where the shaft crossed the skin at the first instant with the tip inside, to the "
+            "entry asked for");
+  sheet.put("both", "entry_angle_deg", "deg", angle,
+            "shaft to the probe's face at the first instant with the tip inside");
+}
+
 void put_goals(Sheet& sheet, const AttemptView& view) {
   const Goals& goals = view.options.goals;
   const auto& course = view.measures.course;
@@ -331,6 +352,7 @@ std::vector<Metric> compute_metrics(const AttemptView& view) {
   put_hand(sheet, "needle", view.measures.needle);
   put_hand(sheet, "probe", view.measures.probe);
   put_sight(sheet, view);
+  put_entry(sheet, view);
   put_goals(sheet, view);
   put_forces(sheet, view);
   put_syringe(sheet, view);
@@ -349,6 +371,7 @@ std::vector<std::string> metric_names() {
   MeterOptions options;
   options.goals.target = Target{"target", Vec3::Zero(), nullptr};
   options.goals.avoid.push_back({});
+  options.goals.entry = Vec3::Zero();
   const AttemptMeasures nothing;
   std::vector<std::string> names;
   for (const Metric& m : compute_metrics({scene, options, nothing, {}, true, 0}))

@@ -19,6 +19,7 @@ Goals tendon_goals(const CompiledJoint& joint) {
       Target{"bursa", std::nullopt, make_region_body(joint, region_named(joint, "bursa"))};
   goals.avoid.push_back(
       {"tendon", make_region_body(joint, region_named(joint, "tendon")), 0, true});
+  goals.entry = Vec3(-17e-3, 4e-3, 0);
   return goals;
 }
 
@@ -59,6 +60,16 @@ TEST(AttemptMeter, AnInsertionInPlaneIsSeenAllTheWay) {
   EXPECT_EQ(value(m, "avoid_fatal"), 0);
   EXPECT_NEAR(value(m, "swept_area_mm2"), 0, 0.01);
   EXPECT_NEAR(value(m, "face_angle_median_deg"), std::asin(0.6) * 57.29578, 0.01);
+}
+
+TEST(AttemptMeter, TheEntryIsHeldAgainstTheOneAskedFor) {
+  const AttemptMeasures m = insert(38e-3, 0);
+  EXPECT_NEAR(value(m, "entry_offset_mm"), 5, 1e-3);
+  EXPECT_NEAR(value(m, "entry_angle_deg"), std::asin(0.6) * 57.29578, 0.01);
+  const AttemptMeasures never = insert(-1e-3, 0);
+  const Metric* offset = find_metric(never.metrics, "entry_offset_mm");
+  ASSERT_NE(offset, nullptr);
+  EXPECT_FALSE(offset->value);
 }
 
 TEST(AttemptMeter, BesideThePlaneTheAdvanceIsUnseenAndSaysWhy) {
