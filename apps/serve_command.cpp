@@ -11,6 +11,7 @@
 #include "artus/apps/live_metrics.h"
 #include "artus/apps/scenario_options.h"
 #include "artus/apps/session_options.h"
+#include "artus/training/player.h"
 
 namespace artus {
 namespace {

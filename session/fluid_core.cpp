@@ -16,7 +16,7 @@ constexpr double kVisible = 1e-9;    // m^3, of a shape's first liquid and least
 constexpr double kGrowth = 0.01;     // of what is there
 
 /// Whether the region is anywhere in the body; a recording may name one that a gap left empty.
-bool is_there(const CompiledJoint& joint, RegionId region) {
+bool is_there(const CompiledJoint& joint, std::uint32_t region) {
   const auto& all = joint.mesh.interfaces;
   return region < joint.regions.size() &&
          std::any_of(all.begin(), all.end(),
