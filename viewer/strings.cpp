@@ -18,9 +18,9 @@ constexpr auto kTexts = static_cast<std::size_t>(Text::n_texts);
 constexpr std::array<Row, kTexts> kTable{{
   {"Bring the tip into the {}", "But : amener la pointe de l'aiguille dans cette structure : {}"},
   {"Explore the joint with the probe", "Explorer l'articulation avec la sonde"},
-  {"Done: the tip is in the {}", "But atteint : {}"},
+  {"Done: the tip came into the {}", "But atteint : {}"},
   {"Touch this bone with the tip: {}", "But : toucher cet os de la pointe : {}"},
-  {"Done: the tip touches the {}", "But atteint, la pointe touche l'os : {}"},
+  {"Done: the tip touched the {}", "But atteint, la pointe a touché l'os : {}"},
   {"Next: {}", "Ensuite : {}"},
   {"The device is silent: no force. Put its cable back; the last state is kept", "L'appareil ne répond plus : aucune force. Rebrancher ; le dernier état est gardé"},
   {"Next: {} takes the probe to explore, {} the needle at the planned entry", "Ensuite : {} pour prendre la sonde et explorer, {} pour l'aiguille au point d'entrée prévu"},

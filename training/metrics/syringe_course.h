@@ -13,7 +13,7 @@ namespace artus {
 struct SyringeTick {
   double time = 0;          ///< s
   double flow = 0;          ///< m^3/s out of the tip
-  double given = 0;         ///< m^3 out of the tip in all; less after an aspiration
+  double given = 0;         ///< m^3 out of the tip in all; what is drawn is apart
   double thumb = 0;         ///< N on the thumb, positive out of the barrel
   double pressure = 0;      ///< Pa in the barrel, above the air's
   RegionId region = 0;      ///< at the tip
