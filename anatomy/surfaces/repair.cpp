@@ -40,6 +40,7 @@ struct Sums {
   double sized_volume = 0;  ///< m^3, whichever way a piece is wound
   double area = 0;          ///< m^2
   double opening_area = 0;  ///< m^2
+  double opening_span = 0;  ///< m^2
 
   explicit Sums(const SurfaceMesh& mesh) {
     const auto uses = make_edge_uses(mesh);
@@ -48,6 +49,7 @@ struct Sums {
       sized_volume += std::abs(m.signed_volume);
       area += m.area;
       opening_area += m.opening_area;
+      opening_span += m.opening_span;
     }
   }
 };
@@ -240,14 +242,18 @@ class Repair {
   }
 
   Result<void> fill() {
-    constexpr double kLikeSheet = 0.9;  // its openings are as large as itself
+    // A sheet's openings are as large as itself, and one bent half round spans 2 / pi of itself;
+    // the teeth of a rim make the fan over it large, but not what it spans.
+    constexpr double kLikeSheet = 0.9;
+    constexpr double kSpansSheet = 0.5;
     if (count_edges(mesh()).open == 0) return {};
     const SurfaceMesh open = mesh();
     const Sums before(open);
     Filling holes = fill_all(false);
     const bool must_close = options_.wrap == WrapPolicy::always;
     if (!must_close && holes.doubtful_area > options_.largest_fill_share * before.area) {
-      const bool encloses = before.opening_area < kLikeSheet * before.area;
+      const bool encloses = before.opening_area < kLikeSheet * before.area ||
+                            before.opening_span < kSpansSheet * before.area;
       return fail(ErrorCode::defective,
                   with_number("its openings are too large to be closed safely (%.0f %% of the "
                               "surface's own area); ",

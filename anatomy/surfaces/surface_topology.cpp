@@ -160,13 +160,16 @@ std::vector<PieceMeasure> measure_pieces(const SurfaceMesh& mesh, const std::vec
     Vec3 centre = Vec3::Zero();
     for (const auto v : rim) centre += mesh.vertices[v] - o;
     centre /= static_cast<double>(rim.size());
+    auto& piece = out[piece_at[rim[0]]];
+    Vec3 span = Vec3::Zero();
     for (std::size_t k = 0; k < rim.size(); ++k) {
       const Vec3 a = mesh.vertices[rim[k]] - o;
       const Vec3 b = mesh.vertices[rim[(k + 1) % rim.size()]] - o;
-      auto& piece = out[piece_at[rim[0]]];
+      span += (a - centre).cross(b - centre) / 2;
       piece.signed_volume += a.dot(b.cross(centre)) / 6;
       piece.opening_area += (a - centre).cross(b - centre).norm() / 2;
     }
+    piece.opening_span += span.norm();
   }
   return out;
 }

@@ -57,7 +57,8 @@ struct PieceMeasure {
   double signed_volume = 0;  ///< m^3, openings closed by a fan to their centre
   double rim_length = 0;     ///< m
   double opening_area = 0;   ///< m^2, of those fans
-  bool is_closed = true;     ///< no open edge
+  double opening_span = 0;  ///< m^2, of the openings as seen along their normals: teeth add nothing
+  bool is_closed = true;    ///< no open edge
   bool is_consistent = true;
 
   /// Closed, but encloses nothing: faces that lie back to back.

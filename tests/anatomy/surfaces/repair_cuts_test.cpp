@@ -203,6 +203,22 @@ TEST(Advice, WrapIsOfferedForWhatEnclosesAVolumeAndWorks) {
   expect_closed_without_crossings(*out);
 }
 
+TEST(Advice, TeethOfARimMakeNoSheetOfABody) {
+  const SurfaceMesh ball = make_sphere(Vec3::Zero(), 50 * kMm);
+  std::vector<bool> keep;
+  for (const Triangle& t : ball.triangles) {
+    const Vec3 c = triangle_centre(ball, t);
+    const int sector =
+        static_cast<int>(std::floor(std::atan2(c.y(), c.x()) * 16 / std::numbers::pi));
+    keep.push_back(c.z() < (sector % 2 == 0 ? 25 * kMm : -25 * kMm));
+  }
+  const auto refused = repair_surface(keep_faces(ball, keep));
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().message, HasSubstr("too large to be closed safely"));
+  EXPECT_THAT(refused.error().message, Not(HasSubstr("thicken")));
+  EXPECT_THAT(refused.error().message, HasSubstr("repair = \"wrap\""));
+}
+
 TEST(Advice, ThickeningIsOfferedForSheetsAloneAndWorks) {
   SurfaceMesh sheet;
   sheet.vertices = {Vec3::Zero(), Vec3(0.02, 0, 0), Vec3(0, 0.03, 0), Vec3(0.02, 0.03, 0)};
