@@ -4,16 +4,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "artus/core/units.h"
 #include "artus/training/metrics/closed_body.h"
 #include "artus/training/metrics/swept_area.h"
 
 namespace artus {
 namespace {
 
-constexpr double kRestSpeed = 2e-3;               // m/s
-constexpr double kShallow = 0.2e-3;               // m, still at the shallowest
-constexpr double kHeldAngle = 0.017453292519943;  // rad, 1 degree
-constexpr double kHeldTime = 0.5;                 // s
+constexpr double kRestSpeed = 2e-3;     // m/s
+constexpr double kShallow = 0.2e-3;     // m, still at the shallowest
+constexpr double kHeldAngle = kDegree;  // rad
+constexpr double kHeldTime = 0.5;       // s
 
 double angle_between(const Vec3& a, const Vec3& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
