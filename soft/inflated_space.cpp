@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -15,14 +14,13 @@
 namespace artus {
 namespace {
 
-constexpr int kCells = 121;           // of the map of walls, along each side
-constexpr double kCell = 1e-3;        // m
-constexpr double kFitRadius = 25e-3;  // m around the tip, of the walls that the sphere follows
-constexpr double kFlat = 0.5;         // m, radius beyond which walls are flat
+constexpr int kCells = 121;     // of the map of walls, along each side
+constexpr double kCell = 1e-3;  // m
 constexpr double kWidest = kCells * kCell / 2;
 constexpr int kSteps = 60;
 constexpr int kHalvings = 20;
 constexpr double kExact = 1e-16;  // m^3
+constexpr double kEdge = 1e-9;    // of a triangle's side
 
 constexpr double kRound = 0.9 * std::numbers::pi;  // of the sphere that the map covers
 constexpr double kThinnest = 0.1e-3;               // m between a floor and a roof
@@ -60,29 +58,13 @@ std::optional<std::pair<double, bool>> meet(const Vec3& origin, const Vec3& d, c
   const double u = from.dot(p) / det;
   const Vec3 q = from.cross(ab);
   const double v = d.dot(q) / det;
-  if (u < 0 || v < 0 || u + v > 1) return std::nullopt;
+  // A line along an edge meets both triangles rather than none.
+  if (u < -kEdge || v < -kEdge || u + v > 1 + kEdge) return std::nullopt;
   return std::pair{ac.dot(q) / det, ab.cross(ac).dot(d) > 0};
 }
 
 double six_volumes(const Vec3& a, const Vec3& b, const Vec3& c) {
   return a.dot(b.cross(c));
-}
-
-/// The nearest point of the body's skin, as far as vertices tell.
-Vec3 nearest_skin(const CompiledJoint& joint, const Vec3& p) {
-  double least = std::numeric_limits<double>::infinity();
-  Vec3 nearest = p + Vec3::UnitZ();
-  for (const Interface& f : joint.mesh.interfaces) {
-    if (f.front != kOutside && f.back != kOutside) continue;
-    for (const std::uint32_t v : f.vertices) {
-      const double d = (joint.mesh.vertices[v] - p).squaredNorm();
-      if (d < least) {
-        least = d;
-        nearest = joint.mesh.vertices[v];
-      }
-    }
-  }
-  return nearest;
 }
 
 }  // namespace
@@ -95,38 +77,9 @@ InflatedSpace::InflatedSpace(const CompiledJoint& joint, RegionId region, const 
     if (f.back == region) triangles_.push_back(f.vertices);
   }
   ARTUS_REQUIRE(!triangles_.empty(), "the region must have interfaces");
-  fit_sphere(joint, tip);
+  choose_frame(joint, tip);
   rest_volume_ = volume_of(rest_);
-  map_walls();
-  find_shut(joint);
   find_lifts();
-}
-
-/// |x|^2 = 2 c.x + d by least squares over the walls near the tip.
-void InflatedSpace::fit_sphere(const CompiledJoint& joint, const Vec3& tip) {
-  Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
-  Eigen::Vector4d right = Eigen::Vector4d::Zero();
-  for (const auto& triangle : triangles_) {
-    for (const std::uint32_t v : triangle) {
-      const Vec3 x = rest_[v] - tip;
-      if (x.norm() > kFitRadius) continue;
-      const Eigen::Vector4d row(2 * x.x(), 2 * x.y(), 2 * x.z(), 1);
-      normal += row * row.transpose();
-      right += row * x.squaredNorm();
-    }
-  }
-  normal += 1e-9 * normal.trace() * Eigen::Matrix4d::Identity();
-  const Eigen::Vector4d found = normal.ldlt().solve(right);
-  const Vec3 skin = nearest_skin(joint, tip);
-  Vec3 to_centre = found.head<3>();
-  const Vec3 out = (skin - tip).normalized();
-  if (!to_centre.allFinite() || to_centre.norm() > kFlat || to_centre.norm() < 5e-3)
-    to_centre = -kFlat * out;
-  centre_ = tip + to_centre;
-  sphere_ = to_centre.norm();
-  sign_ = to_centre.dot(out) < 0 ? 1 : -1;
-  up_ = -to_centre.normalized();
-  side_ = up_.unitOrthogonal();
 }
 
 /// (u, v, height): m along the sphere from the tip's direction, and above it toward the roof.
@@ -252,21 +205,33 @@ void InflatedSpace::smooth_walls() {
     roof_[c] = std::max(roof_[c], floor_[c] + kThinnest);
 }
 
-/// Where the space may open: away from its own rim and from bone that lies on it, which does not
-/// give way.
-void InflatedSpace::find_shut(const CompiledJoint& joint) {
-  std::vector<bool> shut = open_;
-  shut.flip();
+/// Where bone lies on the space, by cell: it does not give way.
+std::vector<bool> InflatedSpace::find_bone(const CompiledJoint& joint) const {
+  std::vector<bool> bone(open_.size(), false);
+  const auto mark = [&](const Vec3& point) {
+    const Vec3 p = polar(point);
+    const double roof = between(roof_, p.x(), p.y());
+    if (p.z() < roof) return;
+    const double together = 1 / (1 + (p.z() - roof) / params_.spread);
+    bone[at(cell_of(together * p.x()), cell_of(together * p.y()))] = true;
+  };
   for (const Interface& f : joint.mesh.interfaces) {
     if (!joint.tissue_of(f.front).haptic.hard && !joint.tissue_of(f.back).haptic.hard) continue;
-    for (const std::uint32_t v : f.vertices) {
-      const Vec3 p = polar(rest_[v]);
-      const double roof = between(roof_, p.x(), p.y());
-      if (p.z() < roof) continue;
-      const double together = 1 / (1 + (p.z() - roof) / params_.spread);
-      shut[at(cell_of(together * p.x()), cell_of(together * p.y()))] = true;
-    }
+    const Vec3& a = rest_[f.vertices[0]];
+    const Vec3 ab = rest_[f.vertices[1]] - a;
+    const Vec3 ac = rest_[f.vertices[2]] - a;
+    const double longest = std::max({ab.norm(), ac.norm(), (ac - ab).norm()});
+    const int n = std::clamp(static_cast<int>(std::ceil(longest / kCell)), 1, kCells);
+    for (int i = 0; i <= n; ++i)
+      for (int j = 0; i + j <= n; ++j) mark(a + (ab * i + ac * j) / n);
   }
+  return bone;
+}
+
+/// Where the space may open: away from its own rim and from bone that lies on it.
+void InflatedSpace::find_shut(const CompiledJoint& joint) {
+  std::vector<bool> shut = find_bone(joint);
+  for (std::size_t c = 0; c < shut.size(); ++c) shut[c] = shut[c] || !open_[c];
   inside_.assign(shut.size(), 0);
   const int reach = static_cast<int>(std::ceil(params_.rim / kCell));
   for (int v = 0; v < kCells; ++v) {
@@ -324,8 +289,7 @@ double InflatedSpace::open_area(double radius, bool everywhere) const {
   for (int v = 0; v < kCells; ++v) {
     for (int u = 0; u < kCells; ++u) {
       const double q = std::hypot(middle(u), middle(v)) / radius;
-      const double inside = inside_[static_cast<std::size_t>(v * kCells + u)];
-      sum += profile(q) * (everywhere ? 1 : inside);
+      sum += profile(q) * (everywhere ? 1 : inside_[static_cast<std::size_t>(v * kCells + u)]);
     }
   }
   return sum * kCell * kCell;
@@ -375,6 +339,10 @@ double InflatedSpace::height_for(double volume) const {
     at_high = volume_of(lifted(high, a)) - rest_volume_ - volume;
   }
   return high;
+}
+
+bool InflatedSpace::confines(double volume) const {
+  return radius(std::max(volume, 1e-12)) > 0.99 * kWidest;
 }
 
 std::vector<Vec3> InflatedSpace::vertices(double volume) const {

@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "artus/anatomy/body/compiled_joint.h"
@@ -22,8 +23,9 @@ struct OpeningParams {
 /// on it are lifted, the floor stays, and what lies between is drawn out, so that no wall folds
 /// over another. The lift spreads upward so that the same volume passes every level: what lies
 /// above keeps its volume. The walls lie along a sphere fitted to them, which suits a bursa on a
-/// head as well as a flat one. Of a space that lies over itself the sheet around the tip opens.
-/// Volumes are those of the region's triangles, so truth, labels and picture agree.
+/// head as well as a flat one; where they are none, as of a thick recess, along a plane. Of a space
+/// that lies over itself the sheet around the tip opens. Volumes are those of the region's
+/// triangles, so truth, labels and picture agree.
 class InflatedSpace {
  public:
   /// `tip`: m, frame J, where the liquid comes in. Requires: a region with interfaces.
@@ -36,6 +38,9 @@ class InflatedSpace {
 
   /// m by which the walls are apart more than at rest where they are most so.
   [[nodiscard]] double largest_opening(double volume) const;
+  /// Whether the space is too small for the patch that `volume` m^3 would open in a wide one: then
+  /// all of it opens, as far as it takes.
+  [[nodiscard]] bool confines(double volume) const;
   /// m^3 of the space at rest.
   [[nodiscard]] double rest_volume() const noexcept { return rest_volume_; }
 
@@ -46,11 +51,20 @@ class InflatedSpace {
     double r;        // m along the sphere from the tip's direction, already drawn together
     double share;    // of the lift at the roof
   };
-  void fit_sphere(const CompiledJoint& joint, const Vec3& tip);
+  [[nodiscard]] std::optional<Vec3> find_centre(const Vec3& tip) const;
+  [[nodiscard]] Vec3 find_normal(const Vec3& tip) const;
+  /// Where the walls' centre lies from the tip, m, and the way in which they open.
+  struct Frame {
+    Vec3 to_centre;
+    Vec3 toward;
+  };
+  void set_frame(const CompiledJoint& joint, const Vec3& tip, const Frame& frame);
+  void choose_frame(const CompiledJoint& joint, const Vec3& tip);
   using Span = std::array<double, 2>;  // m, heights of a floor and a roof
   [[nodiscard]] std::vector<std::vector<Span>> find_spans() const;
   void map_walls();
   void smooth_walls();
+  [[nodiscard]] std::vector<bool> find_bone(const CompiledJoint& joint) const;
   void find_shut(const CompiledJoint& joint);
   void find_lifts();
   [[nodiscard]] Vec3 polar(const Vec3& p) const;

@@ -18,6 +18,7 @@ namespace artus {
 struct InjectionPictures {
   std::vector<std::string> files;  ///< before.png, during.png, after.png; names in the folder
   double opening = 0;       ///< m by which a space's walls are apart more than before; 0 for tissue
+  bool confined = false;    ///< the space is too small for a patch: all of it opens
   double length = 0;        ///< m, twice the farthest from the tip at which they are so by half
   double width = 0;         ///< m across a disc of the area on which they are so by half
   double ray_volume = 0;    ///< m^3 of liquid that parallel rays half a millimetre apart find more

@@ -167,9 +167,9 @@ std::vector<std::string> injection_trace(const InjectionSetup& setup,
       status = s.status;
       const SpaceState& place = plunger.states()[0];
       std::string line;
-      for (const double v : {s.travel, s.pressure, s.flow, s.force, s.on_needle, s.tip_pressure,
-                             s.bevel_pressure, s.content, s.drawn, place.volume, place.drawn,
-                             place.relaxing})
+      for (const double v :
+           {s.travel, s.pressure, s.flow, s.force, s.on_needle, s.tip_pressure, s.bevel_pressure,
+            s.content, s.drawn, place.volume, place.drawn, place.relaxing})
         line += to_csv(v * 1e6) + ',';
       lines.push_back(line + std::to_string(s.status) + ' ' + std::to_string(i));
     }
@@ -179,8 +179,9 @@ std::vector<std::string> injection_trace(const InjectionSetup& setup,
 
 Subject<InjectionSetup> stroke(const std::string& name, const InjectionSetup& setup,
                                const std::vector<Thumb>& strokes) {
-  return {name, setup,
-          [strokes](const InjectionSetup& s) { return injection_trace(s, strokes); }};
+  return {name, setup, [strokes](const InjectionSetup& s) {
+            return injection_trace(s, strokes);
+          }};
 }
 
 /// A bag in which every term of its curve counts within two millilitres.
