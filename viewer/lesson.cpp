@@ -66,8 +66,7 @@ void WindowLoop::lead_lesson() {
   const Pose X_JN = to_pose(image.input.X_JN);
   const ImagePoint tip = on_picture(image, X_JN.translation());
   const Vec3 hub = X_JN * Vec3(0, 0, -needle_length_of(session_.params()));
-  if (aids.needle > 0)
-    input_.marks.push_back({tip, on_picture(image, hub), aids.needle, false});
+  if (aids.needle > 0) input_.marks.push_back({tip, on_picture(image, hub), aids.needle, false});
   if (aids.tip > 0) input_.marks.push_back({tip, std::nullopt, aids.tip, input_.needle.in_plane});
 }
 

@@ -43,8 +43,8 @@ struct Page {
   std::string title;
   std::vector<PageLine> lines;
   std::vector<PageChoice> choices;
-  std::size_t at = 0;     ///< the choice that is marked
-  bool may_back = false;  ///< one can go back from here
+  std::size_t at = 0;                  ///< the choice that is marked
+  bool may_back = false;               ///< one can go back from here
   std::function<void(Page&)> refresh;  ///< called before each look; empty: it stays as it is
   std::function<bool()> done;          ///< ends a page without choices; empty: only choices do
 };

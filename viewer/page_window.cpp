@@ -163,8 +163,8 @@ class PageGui {
     };
     const std::string said =
         page_.may_back
-            ? fill(text(language, Text::page_keys_back), {key(Action::up), key(Action::down),
-                                                          key(Action::accept), key(Action::let_go)})
+            ? fill(text(language, Text::page_keys_back),
+                   {key(Action::up), key(Action::down), key(Action::accept), key(Action::let_go)})
             : fill(text(language, Text::page_keys),
                    {key(Action::up), key(Action::down), key(Action::accept)});
     draw_lines({{said, Tone::dim}});

@@ -16,7 +16,7 @@ StageGui::StageGui(Screen& screen, const PageOptions& options)
     : screen_(screen), options_(options), events_(screen.window()) {}
 
 Result<void> StageGui::begin(const std::string& stage) {
-  steps_.clear();
+  steps_.erase(steps_.begin(), steps_.begin() + static_cast<std::ptrdiff_t>(next_step_));
   next_step_ = 0;
   waited_ = 0;
   if (options_.script == nullptr || stage.empty()) return {};

@@ -17,7 +17,8 @@ class StageGui {
  public:
   StageGui(Screen& screen, const PageOptions& options);
 
-  /// Takes the script's steps for a stage. Errors: as StagedScript::take.
+  /// Takes the script's steps for a stage; without a name, those that the last one left. Errors: as
+  /// StagedScript::take.
   [[nodiscard]] Result<void> begin(const std::string& stage);
   /// Shows looks until `step` says that it is over. `look` draws one; `act` is called with what was
   /// done, before the look that shows it. True: the window was closed, or the script is at its end.

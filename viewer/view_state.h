@@ -31,11 +31,11 @@ struct ViewState {
   bool aids = true;     ///< layer, target and plane are told
   bool labels = false;  ///< structures are named
   bool quit = false;
-  bool finished = false;        ///< a task was said to be done
+  bool finished = false;           ///< a task was said to be done
   const Lesson* lesson = nullptr;  ///< the task; null: the window is free
-  bool left_handed = false;     ///< the mouse's buttons change places
-  bool true_scale = false;      ///< one millimetre of tissue is one millimetre of the screen
-  double pixels_per_mm = 3.78;  ///< of the screen
+  bool left_handed = false;        ///< the mouse's buttons change places
+  bool true_scale = false;         ///< one millimetre of tissue is one millimetre of the screen
+  double pixels_per_mm = 3.78;     ///< of the screen
   ImageControls controls;
   DisplayLook look;
   PictureView view;  ///< what is seen of the picture

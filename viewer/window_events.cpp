@@ -89,8 +89,8 @@ PadState look_at_pad() {
   const auto down = [&state](int button) {
     return state.buttons[button] == GLFW_PRESS;
   };
-  pad.buttons = {down(GLFW_GAMEPAD_BUTTON_A), down(GLFW_GAMEPAD_BUTTON_B),
-                 down(GLFW_GAMEPAD_BUTTON_X), down(GLFW_GAMEPAD_BUTTON_Y),
+  pad.buttons = {down(GLFW_GAMEPAD_BUTTON_A),     down(GLFW_GAMEPAD_BUTTON_B),
+                 down(GLFW_GAMEPAD_BUTTON_X),     down(GLFW_GAMEPAD_BUTTON_Y),
                  down(GLFW_GAMEPAD_BUTTON_START), down(GLFW_GAMEPAD_BUTTON_BACK)};
   return pad;
 }

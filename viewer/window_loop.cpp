@@ -384,8 +384,7 @@ void WindowLoop::wish_final_picture() {
 
 // What was just drawn, before it is shown and the buffer's content is lost.
 Result<void> WindowLoop::save_window() const {
-  for (const std::filesystem::path& file : wanted_pictures_)
-    ARTUS_TRY(save_screen(window_, file));
+  for (const std::filesystem::path& file : wanted_pictures_) ARTUS_TRY(save_screen(window_, file));
   return {};
 }
 
