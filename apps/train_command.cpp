@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <algorithm>
+#include <chrono>
+#include <future>
 #include <memory>
 #include <utility>
 
 #include "artus/apps/interrupts.h"
 #include "artus/apps/train_pages.h"
+#include "artus/apps/train_review.h"
 #include "artus/apps/training_commands.h"
 #include "artus/apps/view_options.h"
 #include "artus/apps/window_options.h"
@@ -245,6 +248,23 @@ class TrainFlow {
     return at_;
   }
 
+  Result<Stage> review() {
+    auto making = std::async(std::launch::async,
+                             [this] { return make_review(task_, outcome_, language_); });
+    const auto ready = [&making] {
+      return making.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+    };
+    const auto waited = show(make_busy_page(Said::busy_review, ready, language_));
+    ARTUS_TRY(waited);
+    const auto made = making.get();
+    ARTUS_TRY(made);
+    if (waited->kind != PageAnswer::Kind::done) return Stage::leave;
+    pages_.reset();
+    const auto back = run_review(*room_.screen, page_options_, *made);
+    ARTUS_TRY(back);
+    return *back ? Stage::end : Stage::leave;
+  }
+
   Result<Stage> end() {
     const auto next = next_task();
     ARTUS_TRY(next);
@@ -253,7 +273,7 @@ class TrainFlow {
     if (answer->kind != PageAnswer::Kind::chosen) return Stage::leave;
     switch (static_cast<AfterAttempt>(answer->choice)) {
       case AfterAttempt::review:
-        return Stage::end;
+        return review();
       case AfterAttempt::again:
         asked_.clear();
         return Stage::briefing;

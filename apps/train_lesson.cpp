@@ -2,6 +2,7 @@
 #include "artus/apps/train_lesson.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "artus/core/units.h"
@@ -135,9 +136,17 @@ LessonOptions TrainLesson::options() {
 
 std::string goal_words(const Scenario& scenario, Language language) {
   const Vec3 target_P = scenario.X_JP.inverse() * scenario.target.point;
-  if (scenario.target.structure.empty())
+  if (scenario.target.structure.empty()) {
+    constexpr double kMiddle = 0.5e-3;  // m
+    const double beside = target_P.x();
+    const std::string where =
+        std::abs(beside) < kMiddle
+            ? said(language, Said::brief_middle)
+            : fill(said(language, beside < 0 ? Said::brief_left : Said::brief_right),
+                   {number(language, std::abs(beside) / kMillimetre, 0)});
     return fill(said(language, Said::brief_target_point),
-                {number(language, target_P.z() / kMillimetre, 0)});
+                {number(language, target_P.z() / kMillimetre, 0), where});
+  }
   return fill(said(language, Said::brief_target_in),
               {clinical_name(language, scenario.target.structure)});
 }

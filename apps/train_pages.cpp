@@ -81,7 +81,8 @@ void add_verdict(const TrainOutcome& outcome, Language language, std::vector<Pag
   for (const JudgedMark& mark : judgement.marks) {
     const std::string value =
         mark.value ? number(language, *mark.value, 2) : said(language, Said::end_unknown);
-    lines.push_back({mark_words(language, mark.mark) + " - " + value + ", " +
+    lines.push_back({metric_words(language, mark.mark.metric) + ": " + value + " (" +
+                         bound_words(language, mark.mark) + "), " +
                          said(language, mark.held ? Said::end_held : Said::end_missed),
                      mark.held ? Tone::good : Tone::bad});
   }

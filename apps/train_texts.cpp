@@ -29,7 +29,10 @@ constexpr std::array<Words, static_cast<std::size_t>(Said::n_said)> kSaid{{
   {"new", "nouveau"},
   {"Time: {} s", "Temps : {} s"},
   {"Probe {}, needle {} G of {} mm", "Sonde {}, aiguille {} G de {} mm"},
-  {"Bring the tip to a point {} mm deep", "Amener la pointe à un point profond de {} mm"},
+  {"Bring the tip to the point {} mm deep{}", "Amener la pointe au point situé à {} mm de profondeur{}"},
+  {", {} mm to the left of the picture's middle", ", {} mm à gauche du milieu de l'image"},
+  {", {} mm to the right of the picture's middle", ", {} mm à droite du milieu de l'image"},
+  {" in the picture's middle", " au milieu de l'image"},
   {"Bring the tip into the {}", "Amener la pointe dans cette structure : {}"},
   {"What is judged", "Ce qui est jugé"},
   {"The needle goes in at the end of the probe that has the mark", "L'aiguille entre du côté repéré de la sonde"},
@@ -91,7 +94,14 @@ constexpr std::array<Words, static_cast<std::size_t>(Said::n_said)> kSaid{{
   {"exactly {}", "exactement {}"},
   {"at least {}", "au moins {}"},
   {"more than {}", "plus de {}"},
-  {"The tip can be seen", "La pointe est visible"},
+  {"The tip is in: {}. It lies {} mm beside the picture's plane, whose slice is {} mm thick to either side there", "La pointe est dans : {}. Elle est à {} mm du plan de l'image, dont l'épaisseur y est de {} mm de chaque côté"},
+  {"It can be seen.", "Elle est visible."},
+  {"It cannot be seen: the probe does not touch there.", "Elle n'est pas visible : la sonde ne touche pas à cet endroit."},
+  {"It cannot be seen: the beam passes beside it.", "Elle n'est pas visible : le faisceau passe à côté."},
+  {"It cannot be seen: it is beside or below the picture.", "Elle n'est pas visible : elle est à côté ou sous l'image."},
+  {"It cannot be seen: it lies in the shadow of the {}.", "Elle n'est pas visible : elle est dans l'ombre de cette structure : {}."},
+  {"It cannot be seen: at {} degrees to the face the echo goes elsewhere ({} dB over muscle).", "Elle n'est pas visible : à {} degrés de la face, l'écho part ailleurs ({} dB au-dessus du muscle)."},
+  {"The review is being prepared ...", "Préparation de la revue ..."},
 }};
 
 struct MetricWords {
@@ -156,7 +166,7 @@ std::string metric_words(Language language, const std::string& metric) {
   return metric;
 }
 
-std::string mark_words(Language language, const Mark& mark) {
+std::string bound_words(Language language, const Mark& mark) {
   constexpr std::array<Said, 5> kRelations{Said::relation_less, Said::relation_at_most,
                                            Said::relation_equal, Said::relation_at_least,
                                            Said::relation_more};
@@ -164,9 +174,12 @@ std::string mark_words(Language language, const Mark& mark) {
                 static_cast<int>(Mark::Relation::more) == 4);
   const double tenths = 10 * mark.bound;
   const int decimals = mark.bound == std::round(mark.bound) ? 0 : tenths == std::round(tenths) ? 1 : 2;
-  return metric_words(language, mark.metric) + ": " +
-         fill(said(language, kRelations.at(static_cast<std::size_t>(mark.relation))),
+  return fill(said(language, kRelations.at(static_cast<std::size_t>(mark.relation))),
               {number(language, mark.bound, decimals)});
+}
+
+std::string mark_words(Language language, const Mark& mark) {
+  return metric_words(language, mark.metric) + ": " + bound_words(language, mark);
 }
 
 std::string step_words(Language language, const std::string& step) {

@@ -26,6 +26,9 @@ enum class Said {
   what_time,
   what_instruments,
   brief_target_point,
+  brief_left,
+  brief_right,
+  brief_middle,
   brief_target_in,
   brief_judged,
   brief_entry,
@@ -87,14 +90,23 @@ enum class Said {
   relation_equal,
   relation_at_least,
   relation_more,
+  sight_where,
   sight_seen,
+  sight_no_contact,
+  sight_off_plane,
+  sight_off_sector,
+  sight_shadow,
+  sight_angle,
+  busy_review,
   n_said
 };
 
 [[nodiscard]] const char* said(Language language, Said which) noexcept;
 /// A metric in words, with its unit; its name where the table has none.
 [[nodiscard]] std::string metric_words(Language language, const std::string& metric);
-/// "Distance of the tip from the target, mm: at most 2".
+/// What a mark asks for: "at most 2".
+[[nodiscard]] std::string bound_words(Language language, const Mark& mark);
+/// "tip from the target, mm: at most 2".
 [[nodiscard]] std::string mark_words(Language language, const Mark& mark);
 /// A step of a scenario in words.
 [[nodiscard]] std::string step_words(Language language, const std::string& step);

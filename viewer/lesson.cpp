@@ -20,12 +20,12 @@ void wrapped_line(const std::string& said, const ImVec4& colour) {
   ImGui::PopStyleColor();
 }
 
-ImagePoint on_picture(const ImageSnapshot& image, const Vec3& p_J) {
+}  // namespace
+
+ImagePoint point_on_picture(const ImageSnapshot& image, const Vec3& p_J) {
   const Vec3 p_P = to_pose(image.input.X_JP).inverse() * p_J;
   return {p_P.x() / kMillimetre + 500 * image.width * image.pixel, p_P.z() / kMillimetre};
 }
-
-}  // namespace
 
 NeedleReading seen_from_outside(NeedleReading reading) {
   reading.layer.clear();
@@ -61,12 +61,12 @@ void WindowLoop::lead_lesson() {
   const ImageSnapshot& image = *input_.image;
   const LessonAids& aids = options_.lesson->aids;
   if (aids.target > 0 && aids.target_J)
-    input_.marks.push_back({on_picture(image, *aids.target_J), std::nullopt, aids.target, false});
+    input_.marks.push_back({point_on_picture(image, *aids.target_J), std::nullopt, aids.target, false});
   if (image.input.has_needle == 0) return;
   const Pose X_JN = to_pose(image.input.X_JN);
-  const ImagePoint tip = on_picture(image, X_JN.translation());
+  const ImagePoint tip = point_on_picture(image, X_JN.translation());
   const Vec3 hub = X_JN * Vec3(0, 0, -needle_length_of(session_.params()));
-  if (aids.needle > 0) input_.marks.push_back({tip, on_picture(image, hub), aids.needle, false});
+  if (aids.needle > 0) input_.marks.push_back({tip, point_on_picture(image, hub), aids.needle, false});
   if (aids.tip > 0) input_.marks.push_back({tip, std::nullopt, aids.tip, input_.needle.in_plane});
 }
 

@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "artus/core/geometry.h"
-#include "artus/session/session_core.h"
+#include "artus/session/session.h"
+#include "artus/viewer/image_place.h"
 #include "artus/viewer/needle_reading.h"
 
 namespace artus {
@@ -50,6 +51,9 @@ struct LessonAids {
 /// A reading without what only the truth tells of a needle inside: where the tip is, what it
 /// touches, whether the picture has it.
 [[nodiscard]] NeedleReading seen_from_outside(NeedleReading reading);
+
+/// Where a point of the joint lies on a picture, whether its slice has it or not.
+[[nodiscard]] ImagePoint point_on_picture(const ImageSnapshot& image, const Vec3& p_J);
 
 /// A task in a window: who leads it, and what is shown of the truth. Without aids the body is seen
 /// from outside alone, and nothing is told that a real room would not tell.
