@@ -17,10 +17,9 @@ std::shared_ptr<const PagePicture> draw(const Scenario& scenario,
   Renderer renderer(scene, params->transducer, params->image);
   NeedleShape shape = params->needle_shape;
   shape.length = needle_length_of(*params);
-  const Frame& frame = renderer.render(
-      scenario.X_JP, NeedleView{planned_needle(scenario), shape, Vec3::Zero()});
-  return std::make_shared<const PagePicture>(
-      PagePicture{frame.width, frame.height, frame.image});
+  const Frame& frame =
+      renderer.render(scenario.X_JP, NeedleView{planned_needle(scenario), shape, Vec3::Zero()});
+  return std::make_shared<const PagePicture>(PagePicture{frame.width, frame.height, frame.image});
 }
 
 }  // namespace

@@ -39,8 +39,8 @@ class TrainBodies {
   void collect();
 
   std::filesystem::path joint_;
-  std::map<std::string, Body> bodies_;                                     // by what makes them
-  std::map<std::string, std::shared_ptr<const PagePicture>> pictures_;    // by scenario
+  std::map<std::string, Body> bodies_;                                  // by what makes them
+  std::map<std::string, std::shared_ptr<const PagePicture>> pictures_;  // by scenario
   std::future<Made> making_;
 };
 

@@ -30,7 +30,8 @@ struct TrainCommandOptions {
   std::string scenario;
 };
 
-/// The keys that a file or the user's own says. Requires: an open screen. Errors: those of KeyMap::parse.
+/// The keys that a file or the user's own says. Requires: an open screen. Errors: those of
+/// KeyMap::parse.
 Result<KeyMap> keys_of(const WindowOptions& window) {
   const Keyboard keyboard = find_keyboard();
   if (window.keys.empty()) return KeyMap(keyboard);
@@ -219,9 +220,10 @@ class TrainFlow {
       if (answer->kind != PageAnswer::Kind::chosen) return Stage::leave;
       const BriefingChoice& choice = choices[answer->choice];
       if (choice.kind != BriefingChoice::Kind::ask) {
-        task_ = {person_,
-                 with_faded_aids(scenario_, *tally, choice.kind == BriefingChoice::Kind::begin_aided),
-                 scene_, asked_};
+        task_ = {
+            person_,
+            with_faded_aids(scenario_, *tally, choice.kind == BriefingChoice::Kind::begin_aided),
+            scene_, asked_};
         return Stage::attempt;
       }
       asked_.insert(choice.step);
@@ -249,8 +251,8 @@ class TrainFlow {
   }
 
   Result<Stage> review() {
-    auto making = std::async(std::launch::async,
-                             [this] { return make_review(task_, outcome_, language_); });
+    auto making =
+        std::async(std::launch::async, [this] { return make_review(task_, outcome_, language_); });
     const auto ready = [&making] {
       return making.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
     };
@@ -312,7 +314,8 @@ Result<void> take_places(TrainCommandOptions& options) {
   if (options.records.empty()) {
     const std::filesystem::path folder = data_folder();
     if (folder.empty())
-      return fail(ErrorCode::unreadable, "there is no folder for records: name a file", "--records");
+      return fail(ErrorCode::unreadable, "there is no folder for records: name a file",
+                  "--records");
     options.records = folder / "records.db";
   }
   if (options.attempts.empty())

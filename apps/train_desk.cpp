@@ -12,12 +12,12 @@ namespace {
 /// "grey-heron-42": easy to keep in mind, and of nobody's name.
 std::string make_pseudonym() {
   constexpr std::array<const char*, 16> kColours{
-      "amber", "azure", "black", "blue",   "bronze", "coral", "green", "grey",
+      "amber", "azure", "black", "blue",   "bronze", "coral", "green",  "grey",
       "ivory", "jade",  "lilac", "orange", "red",    "ruby",  "silver", "white"};
   constexpr std::array<const char*, 24> kBirds{
-      "avocet", "bunting", "crane", "curlew", "dipper", "dove",  "eagle",  "falcon",
-      "finch",  "gull",    "heron", "hoopoe", "ibis",   "jay",   "kestrel", "lark",
-      "linnet", "magpie",  "osprey", "owl",   "plover", "raven", "robin",  "wren"};
+      "avocet", "bunting", "crane",  "curlew", "dipper", "dove",  "eagle",   "falcon",
+      "finch",  "gull",    "heron",  "hoopoe", "ibis",   "jay",   "kestrel", "lark",
+      "linnet", "magpie",  "osprey", "owl",    "plover", "raven", "robin",   "wren"};
   std::random_device random;
   const auto of = [&random](unsigned n) {
     return static_cast<std::size_t>(random() % n);

@@ -11,11 +11,11 @@ namespace artus {
 
 /// What someone did, in all or of one scenario.
 struct TrainTally {
-  int attempts = 0;    ///< that were finished
+  int attempts = 0;  ///< that were finished
   int passes = 0;
-  int successes = 0;   ///< that held all marks, with aids or without
-  double best = 0;     ///< score
-  std::string last;    ///< UTC, when the last began; empty: never
+  int successes = 0;  ///< that held all marks, with aids or without
+  double best = 0;    ///< score
+  std::string last;   ///< UTC, when the last began; empty: never
 };
 
 /// Who trains here and what they did: the records behind the pages of `artus train`.

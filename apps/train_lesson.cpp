@@ -112,7 +112,8 @@ Lesson TrainLesson::lead(const LessonView& view) {
   lesson.patient_hurts = hurts_;
   lesson.over = time > longest();
   for (const std::string& step : scenario_.steps) {
-    const bool of_truth = step == "auto:tip_seen" || step == "auto:placed" || step == "auto:withdrawn";
+    const bool of_truth =
+        step == "auto:tip_seen" || step == "auto:placed" || step == "auto:withdrawn";
     lesson.steps.push_back({step_words(language_, step), done_.count(step) != 0,
                             !of_truth || scenario_.level <= kToldAtOnce});
   }

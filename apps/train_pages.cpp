@@ -33,8 +33,8 @@ std::string instrument_words(const Scenario& scenario, Language language) {
 std::vector<PageLine> about_task(const OfferedTask& task, Language language) {
   const Scenario& scenario = task.scenario;
   std::vector<PageLine> lines{{goal_words(scenario, language)}};
-  lines.push_back({fill(said(language, Said::what_time),
-                        {number(language, scenario.time_limit, 0)})});
+  lines.push_back(
+      {fill(said(language, Said::what_time), {number(language, scenario.time_limit, 0)})});
   if (task.tally.attempts > 0) lines.push_back({tally_words(language, task.tally), Tone::dim});
   add_marks(scenario, language, lines);
   return lines;
@@ -75,15 +75,17 @@ void add_hands(const KeyMap& keys, Language language, std::vector<PageLine>& lin
 
 void add_verdict(const TrainOutcome& outcome, Language language, std::vector<PageLine>& lines) {
   const Judgement& judgement = outcome.played.judgement;
-  lines.push_back({fill(said(language, Said::end_score), {number(language, judgement.score, 0),
-                                                          number(language, outcome.played.duration, 0)})});
+  lines.push_back(
+      {fill(said(language, Said::end_score),
+            {number(language, judgement.score, 0), number(language, outcome.played.duration, 0)})});
   lines.push_back({said(language, Said::end_marks), Tone::heading});
   for (const JudgedMark& mark : judgement.marks) {
     const std::string value =
         mark.value ? number(language, *mark.value, 2) : said(language, Said::end_unknown);
-    lines.push_back({metric_words(language, mark.mark.metric) + ": " + value + " (" +
-                         bound_words(language, mark.mark) + "), " +
-                         said(language, mark.held ? Said::end_held : Said::end_missed),
+    lines.push_back({fill(said(language, Said::colon),
+                          {metric_words(language, mark.mark.metric),
+                           value + " (" + bound_words(language, mark.mark) + "), " +
+                               said(language, mark.held ? Said::end_held : Said::end_missed)}),
                      mark.held ? Tone::good : Tone::bad});
   }
 }
@@ -127,16 +129,14 @@ Page make_what_page(const std::vector<OfferedTask>& tasks, const std::string& pe
   page.at = at;
   for (const OfferedTask& task : tasks) {
     const bool passed = task.tally.passes > 0;
-    const std::string state =
-        passed ? said(language, Said::what_passed)
-               : task.tally.attempts > 0 ? number(language, task.tally.best, 0)
-                                         : said(language, Said::what_new);
-    page.choices.push_back({task.scenario.title,
-                            fill(said(language, Said::level_is),
-                                 {std::to_string(task.scenario.level)}) +
-                                "   " + state,
-                            passed ? Tone::good : Tone::plain, about_task(task, language),
-                            nullptr});
+    const std::string state = passed                    ? said(language, Said::what_passed)
+                              : task.tally.attempts > 0 ? number(language, task.tally.best, 0)
+                                                        : said(language, Said::what_new);
+    page.choices.push_back(
+        {task.scenario.title,
+         fill(said(language, Said::level_is), {std::to_string(task.scenario.level)}) + "   " +
+             state,
+         passed ? Tone::good : Tone::plain, about_task(task, language), nullptr});
   }
   page.refresh = [&tasks, &bodies](Page& shown) {
     if (shown.at >= tasks.size()) return;
@@ -156,9 +156,8 @@ std::vector<BriefingChoice> briefing_choices(const Scenario& scenario) {
 }
 
 Page make_briefing_page(const Scenario& scenario, const std::set<std::string>& asked,
-                        const std::string& side,
-                        const std::shared_ptr<const PagePicture>& picture, const KeyMap& keys,
-                        Language language) {
+                        const std::string& side, const std::shared_ptr<const PagePicture>& picture,
+                        const KeyMap& keys, Language language) {
   Page page;
   page.stage = "briefing";
   page.title = scenario.title;
@@ -166,8 +165,8 @@ Page make_briefing_page(const Scenario& scenario, const std::set<std::string>& a
   page.lines = {{goal_words(scenario, language)}};
   const Vec3 entry_P = scenario.X_JP.inverse() * scenario.entry.centre;
   if (scenario.entry.plane == "in")
-    page.lines.push_back({said(language, entry_P.x() < 0 ? Said::brief_entry
-                                                         : Said::brief_entry_far)});
+    page.lines.push_back(
+        {said(language, entry_P.x() < 0 ? Said::brief_entry : Said::brief_entry_far)});
   page.lines.push_back({instrument_words(scenario, language)});
   page.lines.push_back(
       {fill(said(language, Said::what_time), {number(language, scenario.time_limit, 0)})});
@@ -176,7 +175,8 @@ Page make_briefing_page(const Scenario& scenario, const std::set<std::string>& a
   std::vector<PageLine> about{{said(language, Said::brief_view), Tone::dim}};
   add_marks(scenario, language, about);
   for (const BriefingChoice& choice : briefing_choices(scenario)) {
-    std::string name = said(language, scenario.aided() ? Said::brief_without_aids : Said::brief_begin);
+    std::string name =
+        said(language, scenario.aided() ? Said::brief_without_aids : Said::brief_begin);
     std::string beside;
     if (choice.kind == BriefingChoice::Kind::begin_aided)
       name = said(language, Said::brief_begin_aided);
@@ -198,15 +198,18 @@ Page make_end_page(const TrainOutcome& outcome, const std::string& next, Languag
   page.stage = "end";
   const bool all_held = std::all_of(judgement.marks.begin(), judgement.marks.end(),
                                     [](const JudgedMark& mark) { return mark.held; });
-  page.title = said(language, judgement.passed                      ? Said::end_passed
+  page.title = said(language, judgement.passed                  ? Said::end_passed
                               : all_held && judgement.with_aids ? Said::end_aided
-                                                                    : Said::end_not_passed);
+                                                                : Said::end_not_passed);
   add_verdict(outcome, language, page.lines);
-  page.lines.push_back({fill(said(language, Said::end_report), {outcome.report.string()}), Tone::dim});
+  page.lines.push_back(
+      {fill(said(language, Said::end_report), {outcome.report.string()}), Tone::dim});
   std::vector<PageLine> about;
   if (!feedback.faults.empty()) about.push_back({said(language, Said::end_faults), Tone::heading});
   for (const Fault& fault : feedback.faults) {
-    about.push_back({number(language, fault.time, 1) + " s: " + fault.what, Tone::bad});
+    about.push_back(
+        {fill(said(language, Said::colon), {number(language, fault.time, 1) + " s", fault.what}),
+         Tone::bad});
     about.push_back({fill(text(language, Text::review_cause), {fault.cause})});
     about.push_back({fill(text(language, Text::review_do), {fault.mend}), Tone::good});
   }
@@ -215,9 +218,9 @@ Page make_end_page(const TrainOutcome& outcome, const std::string& next, Languag
   about.push_back({feedback.next});
   for (const Said choice : {Said::end_review, Said::end_again, Said::end_next, Said::end_other,
                             Said::end_who, Said::end_leave})
-    page.choices.push_back({choice == Said::end_next ? fill(said(language, choice), {next})
-                                                     : said(language, choice),
-                            "", Tone::plain, about, nullptr});
+    page.choices.push_back(
+        {choice == Said::end_next ? fill(said(language, choice), {next}) : said(language, choice),
+         "", Tone::plain, about, nullptr});
   return page;
 }
 

@@ -22,9 +22,9 @@ std::string why_of(const TipSightFinder& finder, const Scene& scene, const Hapti
     return number(language, length / kMillimetre, 1);
   };
   const auto& region = scene.joint().regions[state.feedback.region];
-  std::string where = fill(said(language, Said::sight_where),
-                           {clinical_name(language, region.name), mm(std::abs(sight.offset)),
-                            mm(sight.half_width)});
+  std::string where = fill(
+      said(language, Said::sight_where),
+      {clinical_name(language, region.name), mm(std::abs(sight.offset)), mm(sight.half_width)});
   switch (sight.loss) {
     case SightLoss::none:
       return where + ". " + said(language, Said::sight_seen);
@@ -42,9 +42,8 @@ std::string why_of(const TipSightFinder& finder, const Scene& scene, const Hapti
       break;
   }
   return where + ". " +
-         fill(said(language, Said::sight_angle),
-              {number(language, sight.face_angle / kDegree, 0),
-               number(language, sight.contrast_db, 0)});
+         fill(said(language, Said::sight_angle), {number(language, sight.face_angle / kDegree, 0),
+                                                  number(language, sight.contrast_db, 0)});
 }
 
 /// Where the picture's clock stands against the moments': the last that was there.
@@ -83,7 +82,8 @@ Result<ReviewFilm> make_film(const Recording& recording,
   ReplayListener listener;
   listener.on_tick = [&](const HapticSnapshot& state) {
     if (n++ % every != 0) return;
-    const double time = static_cast<double>(state.input.tick - recording.ticks.front().input.tick) / rate;
+    const double time =
+        static_cast<double>(state.input.tick - recording.ticks.front().input.tick) / rate;
     film.moments.push_back({time, state, frames.at(state)});
   };
   const auto replayed = replay(ticks, scene, listener);
@@ -108,11 +108,12 @@ Result<Review> make_review(const TrainTask& task, const TrainOutcome& outcome, L
   ARTUS_TRY(beside);
   review.expert = std::move(*beside);
   const auto& ticks = played.recording.ticks;
-  const double begin = ticks.empty() ? 0
-                                     : static_cast<double>(ticks.front().input.tick) /
-                                           review.params.haptic_rate;
+  const double begin =
+      ticks.empty() ? 0 : static_cast<double>(ticks.front().input.tick) / review.params.haptic_rate;
+  constexpr double kSeen =
+      0.5;  // s into a fault, when there is something to see of it: the report's
   for (const Fault& fault : make_feedback(played.measures, played.judgement).faults)
-    review.faults.push_back({fault.time - begin, fault.what, fault.cause, fault.mend});
+    review.faults.push_back({fault.time - begin + kSeen, fault.what, fault.cause, fault.mend});
   const TipSightFinder finder(review.params.transducer, review.params.image.depth,
                               review.params.needle_shape);
   review.why = [finder, scene = task.scene, language](const HapticSnapshot& state) {

@@ -89,6 +89,7 @@ constexpr std::array<Words, static_cast<std::size_t>(Said::n_said)> kSaid{{
   {"Another task", "Un autre exercice"},
   {"Someone else", "Quelqu'un d'autre"},
   {"Leave", "Quitter"},
+  {"{}: {}", "{} : {}"},
   {"at most {}", "au plus {}"},
   {"less than {}", "moins de {}"},
   {"exactly {}", "exactement {}"},
@@ -173,13 +174,16 @@ std::string bound_words(Language language, const Mark& mark) {
   static_assert(static_cast<int>(Mark::Relation::less) == 0 &&
                 static_cast<int>(Mark::Relation::more) == 4);
   const double tenths = 10 * mark.bound;
-  const int decimals = mark.bound == std::round(mark.bound) ? 0 : tenths == std::round(tenths) ? 1 : 2;
+  const int decimals = mark.bound == std::round(mark.bound) ? 0
+                       : tenths == std::round(tenths)       ? 1
+                                                            : 2;
   return fill(said(language, kRelations.at(static_cast<std::size_t>(mark.relation))),
               {number(language, mark.bound, decimals)});
 }
 
 std::string mark_words(Language language, const Mark& mark) {
-  return metric_words(language, mark.metric) + ": " + bound_words(language, mark);
+  return fill(said(language, Said::colon),
+              {metric_words(language, mark.metric), bound_words(language, mark)});
 }
 
 std::string step_words(Language language, const std::string& step) {

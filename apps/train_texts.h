@@ -85,6 +85,7 @@ enum class Said {
   end_other,
   end_who,
   end_leave,
+  colon,
   relation_at_most,
   relation_less,
   relation_equal,

@@ -61,12 +61,14 @@ void WindowLoop::lead_lesson() {
   const ImageSnapshot& image = *input_.image;
   const LessonAids& aids = options_.lesson->aids;
   if (aids.target > 0 && aids.target_J)
-    input_.marks.push_back({point_on_picture(image, *aids.target_J), std::nullopt, aids.target, false});
+    input_.marks.push_back(
+        {point_on_picture(image, *aids.target_J), std::nullopt, aids.target, false});
   if (image.input.has_needle == 0) return;
   const Pose X_JN = to_pose(image.input.X_JN);
   const ImagePoint tip = point_on_picture(image, X_JN.translation());
   const Vec3 hub = X_JN * Vec3(0, 0, -needle_length_of(session_.params()));
-  if (aids.needle > 0) input_.marks.push_back({tip, point_on_picture(image, hub), aids.needle, false});
+  if (aids.needle > 0)
+    input_.marks.push_back({tip, point_on_picture(image, hub), aids.needle, false});
   if (aids.tip > 0) input_.marks.push_back({tip, std::nullopt, aids.tip, input_.needle.in_plane});
 }
 

@@ -92,9 +92,8 @@ class ReviewGui {
   }
 
   [[nodiscard]] Result<bool> run() {
-    auto joint =
-        JointView::make(review_.scene->joint(), review_.params.transducer.width,
-                        needle_length_of(review_.params));
+    auto joint = JointView::make(review_.scene->joint(), review_.params.transducer.width,
+                                 needle_length_of(review_.params));
     ARTUS_TRY(joint);
     joint_ = std::move(*joint);
     ARTUS_TRY(stage_.begin("review"));
@@ -108,8 +107,8 @@ class ReviewGui {
   enum class Beside { inside, expert, mended };
 
   void act(const UserEvent& event) {
-    constexpr double kStep = 0.1;   // s an arrow
-    constexpr double kSpeed = 4;    // s of film a second of a stick
+    constexpr double kStep = 0.1;  // s an arrow
+    constexpr double kSpeed = 4;   // s of film a second of a stick
     if (const auto* pad = std::get_if<PadEvent>(&event))
       cursor_.go_to(cursor_.time() + kSpeed * pad->left_x * pad->seconds);
     const auto* wish = std::get_if<ActionEvent>(&event);
@@ -324,8 +323,8 @@ class ReviewGui {
     ImDrawList* list = ImGui::GetWindowDrawList();
     list->AddPolyline(points.data(), static_cast<int>(points.size()), colour, false,
                       1.3F * stage_.scale());
-    const std::string said = std::string(text(options_.language, name)) + " " +
-                             number(options_.language, most, 1);
+    const std::string said =
+        std::string(text(options_.language, name)) + " " + number(options_.language, most, 1);
     list->AddText(ImVec2(from.x + 4, from.y), colour, said.c_str());
   }
 
@@ -341,19 +340,18 @@ class ReviewGui {
     ImDrawList* list = ImGui::GetWindowDrawList();
     const ImVec2 end(from.x + size.x, from.y + size.y);
     list->AddRectFilled(from, end, IM_COL32(25, 25, 30, 255));
-    const bool thumb = std::any_of(
-        review_.film.moments.begin(), review_.film.moments.end(),
-        [](const ReviewMoment& m) { return m.state.feedback.plunger.thumb_force > 0; });
+    const bool thumb =
+        std::any_of(review_.film.moments.begin(), review_.film.moments.end(),
+                    [](const ReviewMoment& m) { return m.state.feedback.plunger.thumb_force > 0; });
     const ImVec2 row(size.x, size.y / (thumb ? 3 : 2));
     draw_curve(from, row, kDepthColour, Text::review_depth, [](const HapticSnapshot& s) {
       return s.inserted != 0 ? s.feedback.depth / kMillimetre : 0;
     });
     draw_curve(ImVec2(from.x, from.y + row.y), row, kForceColour, Text::review_force, axial_force);
     if (thumb)
-      draw_curve(ImVec2(from.x, from.y + 2 * row.y), row, kThumbColour, Text::review_thumb,
-                 [](const HapticSnapshot& s) {
-                   return std::max(0.0, s.feedback.plunger.thumb_force);
-                 });
+      draw_curve(
+          ImVec2(from.x, from.y + 2 * row.y), row, kThumbColour, Text::review_thumb,
+          [](const HapticSnapshot& s) { return std::max(0.0, s.feedback.plunger.thumb_force); });
     const auto x_of = [&](double time) {
       return from.x + size.x * static_cast<float>(time / length);
     };

@@ -127,9 +127,10 @@ Result<bool> StageGui::run(const std::function<void(const UserEvent&)>& act,
     pass(elapsed, look);
     ARTUS_TRY(show());
     if (over()) return false;
-    if (scripted && had_steps && next_step_ >= steps_.size() && wanted_.empty()) {
+    if (scripted && next_step_ >= steps_.size() && wanted_.empty()) {
       if (options_.script->over()) return true;
-      return fail(ErrorCode::failed, "its steps end, and nothing was chosen", "script");
+      if (had_steps)
+        return fail(ErrorCode::failed, "its steps end, and nothing was chosen", "script");
     }
     events_.wait(kPeriod - (glfwGetTime() - now));
   }
