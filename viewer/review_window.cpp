@@ -331,7 +331,7 @@ class ReviewGui {
   void draw_time_line(float height) {
     const ImVec2 from = ImGui::GetCursorScreenPos();
     const ImVec2 size(ImGui::GetContentRegionAvail().x, height);
-    ImGui::InvisibleButton("time", size);
+    ImGui::InvisibleButton("###time", size);
     const double length = std::max(review_.film.length(), 1e-3);
     if (ImGui::IsItemActive()) {
       cursor_.play(false);
