@@ -14,7 +14,8 @@ struct Words {
 };
 
 // clang-format off
-constexpr std::array<Words, static_cast<std::size_t>(Said::n_said)> kSaid{{
+constexpr auto kCount = static_cast<std::size_t>(Said::n_said);
+constexpr std::array<Words, kCount> kSaid{{
   {"Who trains?", "Qui s'exerce ?"},
   {"Records know people by a pseudonym only.", "Les dossiers ne connaissent que des pseudonymes."},
   {"Someone new", "Quelqu'un de nouveau"},
