@@ -6,10 +6,10 @@
 #include <fstream>
 #include <string>
 
-#include <nlohmann/json.hpp>
 #include <unistd.h>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "artus/apps/train_desk.h"
 #include "artus/apps/train_lesson.h"
@@ -35,8 +35,8 @@ class Train : public ::testing::Test {
 
   [[nodiscard]] std::filesystem::path records() const { return folder_ / "records.db"; }
 
-  [[nodiscard]] std::vector<AttemptRecord> attempts() const {
-    auto file = Records::open(records());
+  [[nodiscard]] std::vector<AttemptRecord> attempts(const std::string& visit) const {
+    auto file = Records::open(folder_ / visit / "records.db");
     EXPECT_TRUE(file) << file.error().to_string();
     return *file->attempts();
   }
@@ -44,22 +44,27 @@ class Train : public ::testing::Test {
   std::filesystem::path folder_;
 };
 
-/// The tool under a virtual display, with a script of steps.
-test::ProcessResult train(const std::filesystem::path& folder, const std::string& script,
-                          const std::vector<std::string>& more = {}) {
-  const auto file = folder / "steps.script";
-  std::ofstream(file) << script;
-  std::vector<std::string> command{"timeout", "120",    "xvfb-run",
-                                   "-a",      ARTUS_TOOL, "train",
-                                   "--records", (folder / "records.db").string(), "--script",
-                                   file.string(), "--language", "en", "--width", "900", "--height",
-                                   "560"};
-  command.insert(command.end(), more.begin(), more.end());
-  constexpr int kNoServer = 5;  // xvfb-run's own code: the display before it was not gone yet
-  auto result = test::run_process(command);
-  for (int again = 0; result.exit_code == kNoServer && again < 5; ++again)
-    result = test::run_process(command);
-  return result;
+/// A run of the tool: its script, and what else stands on its command line.
+struct Visit {
+  std::string name;
+  std::string script;
+  std::string more;
+};
+
+/// Runs of the tool one after the other under one virtual display (one that ends and one that
+/// begins may take the same number); each keeps its records in its own folder. Prints "NAME exit
+/// CODE".
+test::ProcessResult visit(const std::filesystem::path& folder, const std::vector<Visit>& visits) {
+  std::string commands;
+  for (const Visit& v : visits) {
+    const auto own = folder / v.name;
+    std::filesystem::create_directories(own);
+    std::ofstream(own / "steps.script") << v.script;
+    commands += std::string("timeout 120 ") + ARTUS_TOOL + " train " + v.more + " --records " +
+                (own / "records.db").string() + " --script " + (own / "steps.script").string() +
+                " --language en --width 900 --height 560; echo " + v.name + " exit $?\n";
+  }
+  return test::run_process({"xvfb-run", "-a", "sh", "-c", commands});
 }
 
 constexpr const char* kWholeSession =
@@ -75,21 +80,9 @@ constexpr const char* kWholeSession =
     "stage briefing\nkey ESCAPE\n"
     "stage what\n";
 
-TEST_F(Train, SomeoneNewComesFromTheFirstPageToTheReviewAndTheNextTaskByKeysAndWheel) {
-  if (!test::has_virtual_display()) GTEST_SKIP() << "xvfb-run is not installed";
-  const auto result = train(folder_, kWholeSession);
-  ASSERT_EQ(result.exit_code, 0) << result.err;
-  const auto done = attempts();
-  ASSERT_EQ(done.size(), 1U);
-  const AttemptRecord& attempt = done.front();
-  EXPECT_EQ(attempt.scenario, "gel-find");
-  EXPECT_FALSE(attempt.ended.empty());
-  EXPECT_EQ(attempt.mode, "test");
-  EXPECT_EQ(attempt.device, "hand");
+/// What was kept of an attempt.
+void expect_same_as_its_recording(const AttemptRecord& attempt) {
   const std::filesystem::path kept = attempt.folder;
-  EXPECT_TRUE(std::filesystem::exists(kept / "report.html"));
-  EXPECT_TRUE(std::filesystem::exists(kept / "scenario.toml"));
-
   const auto text = read_bytes(kept / "attempt.json");
   ASSERT_TRUE(text);
   const auto json = nlohmann::json::parse(*text);
@@ -98,10 +91,8 @@ TEST_F(Train, SomeoneNewComesFromTheFirstPageToTheReviewAndTheNextTaskByKeysAndW
   const Metric* distance = find_metric(live, "distance_mm");
   ASSERT_TRUE(distance != nullptr && distance->value) << "the needle was in the gel";
   EXPECT_LT(*distance->value, 5) << "81 notches are 40.5 mm, to the point 15 + 25.3 mm away";
-
-  // The same numbers as of its recording, to the last digit.
-  const auto assessed = test::artus({"assess", (kept / "session.rec").string(), "--scenario",
-                                     "gel-find", "--json"});
+  const auto assessed =
+      test::artus({"assess", (kept / "session.rec").string(), "--scenario", "gel-find", "--json"});
   ASSERT_EQ(assessed.exit_code, 0) << assessed.err;
   const auto again = metrics_from_json(nlohmann::json::parse(assessed.out)["metrics"]);
   ASSERT_EQ(again.size(), live.size());
@@ -115,24 +106,36 @@ TEST_F(Train, SomeoneNewComesFromTheFirstPageToTheReviewAndTheNextTaskByKeysAndW
   EXPECT_GT(with_value, 30U);
 }
 
-TEST_F(Train, AWindowThatIsClosedInTheMiddleLeavesAnUnfinishedAttempt) {
+TEST_F(Train, SomeoneNewComesFromTheFirstPageToTheReviewAndTheNextTaskByKeysAndWheel) {
   if (!test::has_virtual_display()) GTEST_SKIP() << "xvfb-run is not installed";
-  const auto result = train(folder_,
-                            "stage who\nkey ENTER\nstage pseudonym\nkey ENTER\n"
-                            "stage briefing\nkey ENTER\nstage attempt\nawait picture 20\n",
-                            {"gel-find"});
-  ASSERT_EQ(result.exit_code, 0) << result.err;
-  const auto done = attempts();
-  ASSERT_EQ(done.size(), 1U);
-  EXPECT_TRUE(done.front().ended.empty()) << "it shows as unfinished";
-}
-
-TEST_F(Train, AScriptThatDoesNotFitThePagesIsToldWhereItStops) {
-  if (!test::has_virtual_display()) GTEST_SKIP() << "xvfb-run is not installed";
-  const auto result = train(folder_, "stage who\nkey ENTER\nstage review\nkey ESCAPE\n");
-  EXPECT_EQ(result.exit_code, 1);
-  EXPECT_NE(result.err.find("'pseudonym'"), std::string::npos) << result.err;
+  const auto result =
+      visit(folder_, {{"whole", kWholeSession, ""},
+                      {"closed",
+                       "stage who\nkey ENTER\nstage pseudonym\nkey ENTER\n"
+                       "stage briefing\nkey ENTER\nstage attempt\nawait picture 20\n",
+                       "gel-find"},
+                      {"wrong", "stage who\nkey ENTER\nstage review\nkey ESCAPE\n", ""}});
+  EXPECT_NE(result.out.find("whole exit 0"), std::string::npos) << result.out << result.err;
+  EXPECT_NE(result.out.find("closed exit 0"), std::string::npos) << result.out << result.err;
+  EXPECT_NE(result.out.find("wrong exit 1"), std::string::npos) << result.out << result.err;
+  EXPECT_NE(result.err.find("'pseudonym'"), std::string::npos) << "where it stops: " << result.err;
   EXPECT_NE(result.err.find("'review'"), std::string::npos) << result.err;
+
+  const auto closed = attempts("closed");
+  ASSERT_EQ(closed.size(), 1U);
+  EXPECT_TRUE(closed.front().ended.empty()) << "it shows as unfinished";
+
+  const auto done = attempts("whole");
+  ASSERT_EQ(done.size(), 1U);
+  const AttemptRecord& attempt = done.front();
+  EXPECT_EQ(attempt.scenario, "gel-find");
+  EXPECT_FALSE(attempt.ended.empty());
+  EXPECT_EQ(attempt.mode, "test");
+  EXPECT_EQ(attempt.device, "hand");
+  const std::filesystem::path kept = attempt.folder;
+  EXPECT_TRUE(std::filesystem::exists(kept / "report.html"));
+  EXPECT_TRUE(std::filesystem::exists(kept / "scenario.toml"));
+  expect_same_as_its_recording(attempt);
 }
 
 TEST_F(Train, WhatCannotBeIsRefusedBeforeAWindowIsOpened) {

@@ -109,7 +109,8 @@ TEST(ReviewFilm, TellsTheMomentAtATimeAndWhenTheNeedleWentIn) {
   EXPECT_EQ(film.at(99).time, 2);
 }
 
-/// A needle in a block, 20 degrees flat, turned by `turn` about the beam and `beside` off the plane.
+/// A needle in a block, 20 degrees flat, turned by `turn` about the beam and `beside` off the
+/// plane.
 Pose needle_at(double turn, double beside) {
   const Vec3 along(std::cos(20 * kDegree) * std::cos(turn), std::cos(20 * kDegree) * std::sin(turn),
                    std::sin(20 * kDegree));
