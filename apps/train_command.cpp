@@ -12,6 +12,7 @@
 #include "artus/apps/view_options.h"
 #include "artus/apps/window_options.h"
 #include "artus/core/text_file.h"
+#include "artus/training/feedback.h"
 #include "artus/viewer/window_events.h"
 
 namespace artus {
@@ -239,9 +240,15 @@ class TrainFlow {
     return outcome_.finished ? Stage::end : Stage::leave;
   }
 
-  /// The first task above this one that was not passed, when this one was; else the same again.
+  /// The first task above this one that was not passed, when this one was; else the one that the
+  /// feedback names, or the same again.
   Result<std::size_t> next_task() {
-    if (!outcome_.played.judgement.passed) return at_;
+    if (!outcome_.played.judgement.passed) {
+      const auto told = make_feedback(outcome_.played.measures, outcome_.played.judgement).next;
+      for (std::size_t i = 0; i < scenarios_.size(); ++i)
+        if (told.find("(" + scenarios_[i].name + ")") != std::string::npos) return i;
+      return at_;
+    }
     for (std::size_t i = at_ + 1; i < scenarios_.size(); ++i) {
       auto tally = room_.desk->tally(person_, scenarios_[i].name);
       ARTUS_TRY(tally);

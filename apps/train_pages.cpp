@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "artus/apps/train_lesson.h"
@@ -81,7 +82,8 @@ void add_verdict(const TrainOutcome& outcome, Language language, std::vector<Pag
   lines.push_back({said(language, Said::end_marks), Tone::heading});
   for (const JudgedMark& mark : judgement.marks) {
     const std::string value =
-        mark.value ? number(language, *mark.value, 2) : said(language, Said::end_unknown);
+        mark.value ? number(language, *mark.value, *mark.value == std::round(*mark.value) ? 0 : 2)
+                   : said(language, Said::end_unknown);
     lines.push_back({fill(said(language, Said::colon),
                           {metric_words(language, mark.mark.metric),
                            value + " (" + bound_words(language, mark.mark) + "), " +
