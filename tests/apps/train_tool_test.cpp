@@ -113,7 +113,7 @@ TEST_F(Train, SomeoneNewComesFromTheFirstPageToTheReviewAndTheNextTaskByKeysAndW
                       {"closed",
                        "stage who\nkey ENTER\nstage pseudonym\nkey ENTER\n"
                        "stage briefing\nkey ENTER\nstage attempt\nawait picture 20\n",
-                       "gel-find"},
+                       "gel-find --igtl 127.0.0.1:0"},
                       {"wrong", "stage who\nkey ENTER\nstage review\nkey ESCAPE\n", ""}});
   EXPECT_NE(result.out.find("whole exit 0"), std::string::npos) << result.out << result.err;
   EXPECT_NE(result.out.find("closed exit 0"), std::string::npos) << result.out << result.err;
@@ -121,6 +121,7 @@ TEST_F(Train, SomeoneNewComesFromTheFirstPageToTheReviewAndTheNextTaskByKeysAndW
   EXPECT_NE(result.err.find("'pseudonym'"), std::string::npos) << "where it stops: " << result.err;
   EXPECT_NE(result.err.find("'review'"), std::string::npos) << result.err;
 
+  EXPECT_NE(result.err.find("OpenIGTLink: listening"), std::string::npos) << result.err;
   const auto closed = attempts("closed");
   ASSERT_EQ(closed.size(), 1U);
   EXPECT_TRUE(closed.front().ended.empty()) << "it shows as unfinished";
