@@ -55,13 +55,13 @@ void TrainLesson::say(Said what, double time, bool hurts) {
 }
 
 /// Which steps are done by now.
-void TrainLesson::follow(const LessonView& view, double time) {
-  static_cast<void>(time);
+void TrainLesson::follow(const LessonView& view) {
   const bool inside = view.needle.inside;
   if (inside) done_.insert("auto:entry");
   const Pose X_JN = to_pose(view.now.X_JN);
-  if (inside && finder_.look(*scene_, to_pose(view.now.X_JP), X_JN).seen())
-    done_.insert("auto:tip_seen");
+  const TipSight sight = finder_.look(*scene_, to_pose(view.now.X_JP), X_JN);
+  if (inside && sight.seen()) done_.insert("auto:tip_seen");
+  beam_on_tip_ = sight.loss != SightLoss::off_plane;
   if (inside && (X_JN.translation() - scenario_.target.point).norm() <= reach_of(scenario_))
     done_.insert("auto:placed");
   if (inside && !scenario_.target.structure.empty() &&
@@ -99,7 +99,7 @@ Lesson TrainLesson::lead(const LessonView& view) {
   if (first_tick_ == 0) first_tick_ = view.now.input.tick;
   const double time = period_ * static_cast<double>(view.now.input.tick - first_tick_);
   if (view.now.input.tick != 0) {
-    follow(view, time);
+    follow(view);
     listen(view, time);
   }
   Lesson lesson;
@@ -111,6 +111,7 @@ Lesson TrainLesson::lead(const LessonView& view) {
   lesson.patient = patient_;
   lesson.patient_hurts = hurts_;
   lesson.over = time > longest();
+  lesson.beam_on_tip = beam_on_tip_;
   for (const std::string& step : scenario_.steps) {
     const bool of_truth =
         step == "auto:tip_seen" || step == "auto:placed" || step == "auto:withdrawn";

@@ -27,7 +27,7 @@ class TrainLesson {
   [[nodiscard]] double longest() const noexcept { return 2 * scenario_.time_limit + 50; }
 
  private:
-  void follow(const LessonView& view, double time);
+  void follow(const LessonView& view);
   void listen(const LessonView& view, double time);
   void say(Said what, double time, bool hurts);
   void say_calmly();
@@ -40,6 +40,7 @@ class TrainLesson {
   std::set<std::string> done_;
   Language language_;
   std::uint64_t first_tick_ = 0;
+  bool beam_on_tip_ = true;
   bool was_on_bone_ = false;
   bool was_in_zone_ = false;
   bool was_inside_ = false;

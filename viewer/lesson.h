@@ -35,12 +35,13 @@ struct Lesson {
   std::string patient;         ///< what the patient says; empty: nothing
   bool patient_hurts = false;  ///< and how
   bool over = false;           ///< the window ends
+  bool beam_on_tip = true;     ///< the picture's beam does not pass beside the tip
 };
 
 /// What is shown of the truth to help, 0 off to 1 full.
 struct LessonAids {
   double needle = 0;  ///< the shaft's line on the picture
-  double tip = 0;     ///< a ring at the tip, filled while it is in the picture's slice
+  double tip = 0;     ///< a ring at the tip, filled while the beam is on it
   double target = 0;  ///< a ring at the target
   double labels = 0;  ///< structures' names
   double plane = 0;   ///< the body cut open along the picture's plane, in 3D

@@ -205,6 +205,27 @@ TEST(TrainTask, TheHandsBeginOffTheSkinAndFromLevelTwoOnBesideThePlane) {
   }
 }
 
+TEST(TrainTask, TheBeamIsNotOnATipThatLiesBesideIt) {
+  const auto scenario = find_scenario("gel-align");
+  ASSERT_TRUE(scenario);
+  const auto scene = make_gel_scene(*scenario->gel);
+  const auto params = make_session_params(*scenario);
+  ASSERT_TRUE(scene && params);
+  TrainLesson lesson(*scenario, *scene, *params, {}, Language::english);
+  for (const double beside : {0.0, 1.5e-3}) {
+    HapticSnapshot now;
+    now.input.tick = 1;
+    now.X_JP = to_plain(scenario->X_JP);
+    now.X_JN =
+        to_plain(make_pose(Vec3(0, beside, 18e-3), Vec3(1, 0, 0.5).normalized(), Vec3::Zero()));
+    NeedleReading needle;
+    needle.inside = true;
+    const Lesson told = lesson.lead({now, needle});
+    EXPECT_EQ(told.beam_on_tip, beside == 0) << beside;
+    EXPECT_FALSE(told.over);
+  }
+}
+
 TEST(TrainTask, EveryBundledScenarioIsSaidInWordsInBothLanguages) {
   for (const std::string_view text : bundled_scenario_texts()) {
     const auto scenario = parse_scenario(text, "bundled");
