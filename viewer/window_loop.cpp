@@ -187,6 +187,7 @@ void WindowLoop::read_state() {
 }
 
 void WindowLoop::guide() {
+  if (options_.lesson) lead_lesson();
   GuideInput in;
   in.language = state_.language;
   in.keys = &state_.keys;
@@ -204,7 +205,6 @@ void WindowLoop::guide() {
   in.target_is_bone = session_.scene().joint().tissue_of(target_region_).haptic.hard;
   in.needle = input_.needle;
   in.needle_length = needle_length_of(session_.params());
-  if (options_.lesson) lead_lesson();
   if (options_.lesson && !options_.lesson->aids.any()) in.needle = seen_from_outside(in.needle);
   input_.next = guide_.next(in);
   input_.goal = options_.lesson ? lesson_.goal : guide_.goal(in);
