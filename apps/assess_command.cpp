@@ -8,11 +8,13 @@
 #include "artus/anatomy/surfaces/surface_io.h"
 #include "artus/apps/arguments.h"
 #include "artus/apps/pose_files.h"
+#include "artus/apps/scenario_options.h"
 #include "artus/apps/training_commands.h"
 #include "artus/apps/view_options.h"
 #include "artus/core/text_file.h"
 #include "artus/core/units.h"
 #include "artus/training/assessment.h"
+#include "artus/training/player.h"
 
 namespace artus {
 namespace {
@@ -22,6 +24,7 @@ struct AssessOptions {
   std::filesystem::path poses;
   JointOptions joint;
   std::filesystem::path tissue;
+  std::string scenario;
   std::string tissue_unit = "mm";
   std::string target;
   std::vector<std::string> avoid;
@@ -103,7 +106,22 @@ Result<Assessment> assess_poses(const AssessOptions& options) {
   return assess_list(*list, *scene, std::move(meter));
 }
 
+/// A recording of a scenario's attempt, against its goals.
+Result<Assessment> assess_attempt(const AssessOptions& options) {
+  const auto scenario = find_scenario(options.scenario);
+  ARTUS_TRY(scenario);
+  const auto scene =
+      load_scene(*scenario, options.joint.joint, make_progress_printer(options.json));
+  ARTUS_TRY(scene);
+  const auto recording = read_any_recording(options.recording, *scene);
+  ARTUS_TRY(recording);
+  auto meter = make_meter_options(*scenario, (*scene)->joint(), recording->head.params);
+  ARTUS_TRY(meter);
+  return assess_recording(*recording, *scene, std::move(meter->goals), !options.no_pictures);
+}
+
 Result<Assessment> assess_file(const AssessOptions& options) {
+  if (!options.scenario.empty()) return assess_attempt(options);
   const auto scene = load_body(options);
   ARTUS_TRY(scene);
   const auto recording = read_any_recording(options.recording, *scene);
@@ -140,9 +158,12 @@ ExitCode run_assess(const AssessOptions& options) {
   };
   if (options.recording.empty() == options.poses.empty())
     return refuse("give a recording or a list of poses", "--poses");
-  if (options.tissue.empty() == options.joint.joint.empty())
+  if (!options.scenario.empty() && options.recording.empty())
+    return refuse("a scenario goes with a recording of one of its attempts", "--scenario");
+  const bool has_body = !options.scenario.empty() || !options.joint.joint.empty();
+  if (options.tissue.empty() != has_body)
     return refuse("give a joint or a closed surface (--tissue)", "--joint");
-  if (!options.recording.empty() && options.joint.joint.empty())
+  if (!options.recording.empty() && !has_body)
     return refuse("a recording needs the joint that it was made with", "--joint");
   const auto assessment = options.poses.empty() ? assess_file(options) : assess_poses(options);
   if (!assessment) return report_error(assessment.error(), options.json);
@@ -171,6 +192,7 @@ void add_assess_command(Command& app, ExitCode& code) {
       "Examples:\n"
       "  artus assess session.rec -j meshes/simple-shoulder --target bursa --out out\n"
       "  artus assess --poses tracked.csv --tissue phantom.stl --out out\n"
+      "  artus assess attempts/ID/session.rec --scenario gel-find\n"
       "  artus assess tracked.igs.mha -j meshes/simple-shoulder --target bursa\n"
       "  artus assess --poses tracked.jsonl -j shoulder.artus --target=-18.7,-6.3,25 \\\n"
       "    --avoid axillary_nerve:3 --json");
@@ -183,6 +205,8 @@ void add_assess_command(Command& app, ExitCode& code) {
   command->add_option("--tissue-unit", options->tissue_unit, "of the surface's file")
       ->one_of({"mm", "m"})
       ->capture_default_str();
+  command->add_option("--scenario", options->scenario,
+                      "of which the recording is an attempt: body, target, zones and entry");
   command->add_option("--target", options->target, "a structure's name, or x,y,z in mm");
   command->add_option("--avoid", options->avoid, "NAME or NAME:MARGIN in mm; several times");
   command->add_option("--gauge", options->gauge, "of the needle, with --poses")

@@ -56,6 +56,7 @@ int run(int argc, char** argv) {
   artus::add_play_command(app, code);
   artus::add_rate_command(app, code);
   artus::add_scenario_command(app, code);
+  artus::add_train_command(app, code);
   artus::add_register_command(app, code);
   artus::add_shm_monitor_command(app, code);
   int mistake = 0;  // CLI11's own many codes become one

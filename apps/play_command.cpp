@@ -4,10 +4,10 @@
 #include <memory>
 #include <utility>
 
+#include "artus/apps/attempt_files.h"
 #include "artus/apps/attempt_page.h"
 #include "artus/apps/scenario_options.h"
 #include "artus/apps/training_commands.h"
-#include "artus/core/text_file.h"
 #include "artus/training/player.h"
 
 namespace artus {
@@ -37,24 +37,6 @@ Result<OperatorSkill> skill_of(const std::string& text) {
               "--operator");
 }
 
-nlohmann::json to_json(const Scenario& scenario, const PlayedAttempt& attempt) {
-  auto marks = nlohmann::json::array();
-  for (const JudgedMark& m : attempt.judgement.marks)
-    marks.push_back({{"metric", m.mark.metric},
-                     {"mark", m.mark.text},
-                     {"value", m.value ? nlohmann::json(*m.value) : nlohmann::json()},
-                     {"held", m.held},
-                     {"part", m.part},
-                     {"weight", m.weight}});
-  return {{"scenario", scenario.name},
-          {"passed", attempt.judgement.passed},
-          {"score", attempt.judgement.score},
-          {"duration_s", attempt.duration},
-          {"marks", marks},
-          {"metrics_version", kMetricsVersion},
-          {"metrics", to_json(attempt.measures.metrics)}};
-}
-
 void print(const PlayedAttempt& attempt) {
   const Judgement& j = attempt.judgement;
   std::printf("%s, score %.0f, %.1f s\n", j.passed ? "passed" : "not passed", j.score,
@@ -68,10 +50,9 @@ void print(const PlayedAttempt& attempt) {
 
 /// The attempt in a folder.
 Result<void> write_folder(const Scenario& scenario, const PlayedAttempt& attempt,
-                          const nlohmann::json& json, const std::filesystem::path& folder) {
+                          const std::filesystem::path& folder) {
   ARTUS_TRY(write_recording(attempt.recording, folder / "session.rec"));
-  ARTUS_TRY(write_text(folder / "scenario.toml", scenario.text));
-  return write_text(folder / "attempt.json", json.dump(2) + "\n");
+  return write_attempt_files(scenario, attempt, folder);
 }
 
 /// Where the attempt is noted before it is played, so that one that is cut off shows.
@@ -128,15 +109,14 @@ ExitCode run_play(const PlayCommandOptions& options) {
   play_options.picture_rate = options.picture_rate;
   const auto attempt = play(*scenario, *scene, *skill, play_options);
   if (!attempt) return report_error(attempt.error(), options.json);
-  const nlohmann::json json = to_json(*scenario, *attempt);
   Result<void> kept;
-  if (!options.record.empty()) kept = write_folder(*scenario, *attempt, json, options.record);
+  if (!options.record.empty()) kept = write_folder(*scenario, *attempt, options.record);
   if (kept && !options.report.empty())
     kept = write_attempt_page(*scenario, *scene, *attempt, options.report);
   if (kept) kept = note->finish(*attempt);
   if (!kept) return report_error(kept.error(), options.json);
   if (options.json)
-    std::cout << json.dump(2) << '\n';
+    std::cout << to_json(*scenario, *attempt).dump(2) << '\n';
   else
     print(*attempt);
   return ExitCode::ok;

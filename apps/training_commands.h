@@ -9,5 +9,6 @@ void add_learners_command(Command& app, ExitCode& code);
 void add_play_command(Command& app, ExitCode& code);
 void add_rate_command(Command& app, ExitCode& code);
 void add_scenario_command(Command& app, ExitCode& code);
+void add_train_command(Command& app, ExitCode& code);
 
 }  // namespace artus

@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <cstdio>
-#include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -13,6 +10,7 @@
 #include "artus/apps/interrupts.h"
 #include "artus/apps/live_metrics.h"
 #include "artus/apps/session_options.h"
+#include "artus/apps/window_options.h"
 #include "artus/viewer/surface_detail.h"
 #include "artus/viewer/window.h"
 
@@ -30,49 +28,20 @@ struct ViewerOptions {
   bool report = false;
 };
 
-/// Where a user's settings are kept between runs; empty: nowhere.
-std::filesystem::path config_folder() {
-  const char* config = std::getenv("XDG_CONFIG_HOME");  // NOLINT(concurrency-mt-unsafe): start-up
-  const char* home = std::getenv("HOME");               // NOLINT(concurrency-mt-unsafe)
-  std::filesystem::path folder;
-  if (config != nullptr && *config != '\0')
-    folder = config;
-  else if (home != nullptr)
-    folder = std::filesystem::path(home) / ".config";
-  else
-    return {};
-  std::error_code error;
-  std::filesystem::create_directories(folder / "artus", error);
-  return error ? std::filesystem::path() : folder / "artus";
-}
-
-Result<void> read_script(const ViewerOptions& options, WindowOptions& window) {
+/// The script's steps, or a person's own places and keys.
+Result<void> take_script(const ViewerOptions& options, WindowOptions& window) {
   if (options.script.empty()) {
     const std::filesystem::path folder = config_folder();
     if (window.layout.empty() && window.screenshot.empty() && !folder.empty())
       window.layout = folder / "layout.txt";
-    if (window.keys.empty() && std::filesystem::exists(folder / "keys.toml"))
-      window.keys = (folder / "keys.toml").string();
+    take_own_keys(window);
     return {};
   }
-  std::ifstream in(options.script);
-  if (!in) return fail(ErrorCode::not_found, "cannot read the script", options.script);
-  const std::string text((std::istreambuf_iterator<char>(in)), {});
-  auto steps = parse_script(text, options.script);
+  auto steps = read_script(options.script);
   ARTUS_TRY(steps);
   window.script = std::move(*steps);
   window.quit_after_script = true;
   return {};
-}
-
-/// The flag, or what the system says, or English.
-Language language_of(const std::string& flag) {
-  for (const char* name : {"LC_ALL", "LC_MESSAGES", "LANG"}) {
-    if (const auto known = find_language(flag)) return *known;
-    const char* value = std::getenv(name);  // NOLINT(concurrency-mt-unsafe): start-up
-    if (value != nullptr && *value != '\0') return find_language(value).value_or(Language::english);
-  }
-  return find_language(flag).value_or(Language::english);
 }
 
 /// How the device of this input is brought to life, when it was never there.
@@ -127,7 +96,7 @@ void print_report(const Session& session, const WindowReport& report) {
 
 ExitCode run_view(const ViewerOptions& options) {
   WindowOptions window = options.window;
-  if (const auto script = read_script(options, window); !script)
+  if (const auto script = take_script(options, window); !script)
     return report_error(script.error(), false);
   const auto joint = load(options.session.joint, make_progress_printer(false));
   if (!joint) return report_error(joint.error(), false);
@@ -183,33 +152,6 @@ ExitCode run_view(const ViewerOptions& options) {
   return written ? ExitCode::ok : report_error(written.error(), false);
 }
 
-/// How the window looks and listens.
-void add_window_options(Command* command, ViewerOptions& options) {
-  WindowOptions& window = options.window;
-  command->add_option("--width", window.width, "pixels")
-      ->check(whole_number_in(320, 16384))
-      ->capture_default_str();
-  command->add_option("--height", window.height, "pixels")
-      ->check(whole_number_in(240, 16384))
-      ->capture_default_str();
-  command->add_option("--window-rate", window.rate, "pictures a second, at most")
-      ->check(number_in(0.5, 240))
-      ->capture_default_str();
-  command
-      ->add_option("--font-scale", window.font_scale,
-                   "of the letters, besides what screen and window ask for")
-      ->check(number_in(0.5, 4))
-      ->capture_default_str();
-  command->add_option("--language", options.language, "en or fr (default: as the system's)")
-      ->one_of({"en", "fr"});
-  command->add_option("--keys", window.keys,
-                      "TOML file of other keys: push = \"8\" (default: keys.toml in "
-                      "~/.config/artus)");
-  command->add_flag("--left-handed", window.left_handed, "the mouse's buttons change places");
-  command->add_flag("--plain", window.plain, "saved images without ruler, settings and names");
-  command->add_option("--pseudonym", window.patient, "of the patient, written on the image");
-}
-
 }  // namespace
 
 void add_view_command(Command& app, ExitCode& code) {
@@ -223,7 +165,9 @@ void add_view_command(Command& app, ExitCode& code) {
                                  "docs/view.script --screenshot out.png");
   add_session_options(command, options->session, "hand");
   WindowOptions& window = options->window;
-  add_window_options(command, *options);
+  add_window_options(command, window, options->language);
+  command->add_flag("--plain", window.plain, "saved images without ruler, settings and names");
+  command->add_option("--pseudonym", window.patient, "of the patient, written on the image");
   command
       ->add_option("--pixels-per-mm", window.pixels_per_mm,
                    "of the screen, for the image at true scale; 0: as the system says")

@@ -18,8 +18,9 @@ double shaped(double axis) {
 }  // namespace
 
 std::vector<UserEvent> events_of(const PadState& now, const PadState& before, double seconds) {
-  constexpr std::array<Action, PadState::n_buttons> kActions{
-      Action::choose_entry, Action::explore, Action::freeze, Action::reset, Action::pause};
+  constexpr std::array<Action, PadState::n_buttons> kActions{Action::choose_entry, Action::explore,
+                                                             Action::freeze,       Action::reset,
+                                                             Action::pause,        Action::finish};
   std::vector<UserEvent> events;
   for (std::size_t i = 0; i < kActions.size(); ++i) {
     if (now.buttons[i] && !before.buttons[i]) events.emplace_back(ActionEvent{kActions[i]});

@@ -12,7 +12,7 @@ struct Row {
 };
 
 constexpr Action kNone = Action::none;
-constexpr std::array<Row, 31> kRows{{
+constexpr std::array<Row, 32> kRows{{
     {{Action::take_probe, kNone, kNone, kNone}, Text::help_take_probe},
     {{Action::choose_entry, kNone, kNone, kNone}, Text::help_choose},
     {{Action::explore, kNone, kNone, kNone}, Text::help_explore},
@@ -43,6 +43,7 @@ constexpr std::array<Row, 31> kRows{{
     {{Action::reset, kNone, kNone, kNone}, Text::help_reset},
     {{Action::expert, kNone, kNone, kNone}, Text::help_expert},
     {{Action::layout, kNone, kNone, kNone}, Text::help_layout},
+    {{Action::finish, kNone, kNone, kNone}, Text::help_finish},
     {{Action::help, kNone, kNone, kNone}, Text::help_help},
 }};
 

@@ -58,7 +58,8 @@ constexpr std::array<KeyRow, kCount> kRows{{{"none", ""},
                                             {"aids", "F4"},
                                             {"expert", "E"},
                                             {"help", "F1"},
-                                            {"layout", "F2"}}};
+                                            {"layout", "F2"},
+                                            {"finish", "F10"}}};
 
 struct NamedKey {
   std::string_view key;

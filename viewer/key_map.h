@@ -53,6 +53,7 @@ enum class Action {
   expert,
   help,
   layout,
+  finish,
   n_actions
 };
 

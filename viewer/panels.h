@@ -35,6 +35,9 @@ void draw_force_panel(const PanelInput& in, ViewState& state);
 void draw_rates_panel(const PanelInput& in, ViewState& state);
 void draw_session_panel(const PanelInput& in, ViewState& state);
 void draw_tissue_panel(const PanelInput& in, ViewState& state, JointView& view);
+/// A task's steps and clock, in the session panel's place; and its patient, in the tissues'.
+void draw_lesson_panel(const PanelInput& in, ViewState& state);
+void draw_patient_panel(ViewState& state);
 void draw_help(const PanelInput& in, ViewState& state);
 
 /// Text that is read on any ground: in the overlay's colour with a dark outline.

@@ -212,6 +212,21 @@ void draw_aids(const Sheet& sheet, const PanelInput& in, const ViewState& state)
              ImVec2(sheet.size.x, std::max(sheet.size.y - 2 * line, 0.F)), names);
 }
 
+/// What a task shows of the truth to help; of the shown picture.
+void draw_lesson_marks(const Sheet& sheet, const PanelInput& in) {
+  for (const PictureMark& mark : in.marks) {
+    const ImU32 colour = to_imgui(kOverlay, static_cast<int>(255 * mark.alpha));
+    const ImVec2 at = sheet.at(mark.at);
+    const float radius = 6 * sheet.unit;
+    if (mark.to)
+      sheet.list->AddLine(at, sheet.at(*mark.to), colour, 1.5F * sheet.unit);
+    else if (mark.full)
+      sheet.list->AddCircleFilled(at, radius, colour);
+    else
+      sheet.list->AddCircle(at, radius, colour, 0, 1.5F * sheet.unit);
+  }
+}
+
 std::string live_or_frozen(const PanelInput& in, const ViewState& state) {
   if (!in.session->frozen()) return {};
   std::string said = tell(state, Text::frozen);
@@ -294,6 +309,7 @@ void draw_picture(const PanelInput& in, ViewState& state) {
   sheet.list->PushClipRect(
       sheet.corner, ImVec2(sheet.corner.x + sheet.size.x, sheet.corner.y + sheet.size.y), true);
   draw_colour_box(sheet, in, state);
+  draw_lesson_marks(sheet, in);
   if (state.cross) draw_cross(sheet, sheet.at(*state.cross));
   sheet.list->PopClipRect();
   draw_body_mark(sheet, in, columns.left(1) - (in.kept != nullptr ? 4 * sheet.unit : 0));

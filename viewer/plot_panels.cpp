@@ -109,6 +109,11 @@ void draw_curve(ImDrawList* list, const Plot& plot, const Trace& trace, X x_of,
                     ImGui::GetFontSize() / 9);
 }
 
+/// A task that is judged without aids does not tell in what the tip is.
+bool tells_layers(const ViewState& state) {
+  return state.lesson == nullptr || state.aids;
+}
+
 /// Bands of the layers below a curve; each name once, at the widest of its bands, where there is
 /// room for it.
 void draw_layers(ImDrawList* list, const Plot& plot, const PanelInput& in, Language language,
@@ -143,7 +148,7 @@ void draw_force_over_time(const PanelInput& in, const ViewState& state, Plot plo
   const auto x = [](const TracePoint& p) {
     return p.time;
   };
-  draw_layers(list, plot, in, state.language, bands_of(state.trace, x));
+  if (tells_layers(state)) draw_layers(list, plot, in, state.language, bands_of(state.trace, x));
   draw_frame(list, plot, step_for(plot.y_high - plot.y_low), state.language);
   draw_curve(list, plot, state.trace, x, &TracePoint::lateral, kLateral);
   draw_curve(list, plot, state.trace, x, &TracePoint::force, kForce);
@@ -169,7 +174,7 @@ void draw_force_over_depth(const PanelInput& in, const ViewState& state, Plot pl
   std::vector<TracePoint> sorted = trace;
   std::stable_sort(sorted.begin(), sorted.end(),
                    [](const TracePoint& a, const TracePoint& b) { return a.depth < b.depth; });
-  draw_layers(list, plot, in, state.language, bands_of(sorted, x));
+  if (tells_layers(state)) draw_layers(list, plot, in, state.language, bands_of(sorted, x));
   draw_frame(list, plot, step_for(plot.y_high - plot.y_low), state.language);
   draw_curve(list, plot, trace, x, &TracePoint::force, kForce);
   const std::string title =

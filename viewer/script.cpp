@@ -65,6 +65,14 @@ std::optional<ScriptStep> parse_other(const std::string& word, std::istringstrea
     if (read(in, file)) return ScreenshotStep{file};
   } else if (word == "connect" || word == "disconnect") {
     return ConnectStep{word == "connect"};
+  } else if (word == "stage") {
+    StageStep stage;
+    if (read(in, stage.stage)) return stage;
+  } else if (word == "await") {
+    AwaitStep await;
+    if (read(in, await.what, await.seconds) && await.seconds > 0 &&
+        (await.what == "picture" || await.what == "inside" || await.what == "outside"))
+      return await;
   } else if (word == "camera") {
     CameraStep camera;
     if (read(in, camera.yaw, camera.pitch, camera.distance))
@@ -104,6 +112,20 @@ Result<std::vector<ScriptStep>> parse_script(std::string_view text, const std::s
     steps.push_back(*step);
   }
   return steps;
+}
+
+Result<std::vector<ScriptStep>> StagedScript::take(const std::string& stage) {
+  std::vector<ScriptStep> own;
+  if (!given() || over()) return own;
+  const auto* head = std::get_if<StageStep>(&steps_[next_]);
+  if (head == nullptr || head->stage != stage)
+    return fail(ErrorCode::failed,
+                "this is '" + stage + "', and the script goes on with " +
+                    (head == nullptr ? "no stage" : "'" + head->stage + "'"),
+                "script");
+  for (++next_; !over() && !std::holds_alternative<StageStep>(steps_[next_]); ++next_)
+    own.push_back(steps_[next_]);
+  return own;
 }
 
 }  // namespace artus

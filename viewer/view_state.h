@@ -13,6 +13,7 @@
 #include "artus/viewer/image_place.h"
 #include "artus/viewer/insertion_trace.h"
 #include "artus/viewer/key_map.h"
+#include "artus/viewer/lesson.h"
 #include "artus/viewer/needle_reading.h"
 #include "artus/viewer/panel_layout.h"
 #include "artus/viewer/strings.h"
@@ -30,9 +31,11 @@ struct ViewState {
   bool aids = true;     ///< layer, target and plane are told
   bool labels = false;  ///< structures are named
   bool quit = false;
-  bool left_handed = false;     ///< the mouse's buttons change places
-  bool true_scale = false;      ///< one millimetre of tissue is one millimetre of the screen
-  double pixels_per_mm = 3.78;  ///< of the screen
+  bool finished = false;           ///< a task was said to be done
+  const Lesson* lesson = nullptr;  ///< the task; null: the window is free
+  bool left_handed = false;        ///< the mouse's buttons change places
+  bool true_scale = false;         ///< one millimetre of tissue is one millimetre of the screen
+  double pixels_per_mm = 3.78;     ///< of the screen
   ImageControls controls;
   DisplayLook look;
   PictureView view;  ///< what is seen of the picture
@@ -51,6 +54,14 @@ struct ViewState {
   std::string message;                 ///< last thing that was saved or refused
   std::vector<ActionEvent> wishes;     ///< of buttons, done after the panels
   std::optional<std::size_t> planned;  ///< an injection that was just chosen
+};
+
+/// A ring on the picture, or the end of a line that goes on to `to`.
+struct PictureMark {
+  ImagePoint at;
+  std::optional<ImagePoint> to;
+  double alpha = 1;
+  bool full = false;  ///< a disc in place of a ring
 };
 
 /// All that the panels show, gathered once a frame.
@@ -76,6 +87,7 @@ struct PanelInput {
   const char* gamepad = nullptr;     ///< its name; null: none
   std::optional<EntryChoice> entry;  ///< where the needle would enter, while exploring
   std::vector<PictureLabel> labels;  ///< on the picture, when they are wanted
+  std::vector<PictureMark> marks;    ///< of a task's aids
   std::string goal;
   std::string next;
   float scale = 1;         ///< of the fonts, for the screen's resolution

@@ -9,11 +9,14 @@
 #include "artus/core/result.h"
 #include "artus/session/session.h"
 #include "artus/viewer/key_map.h"
+#include "artus/viewer/lesson.h"
 #include "artus/viewer/orbit_camera.h"
 #include "artus/viewer/script.h"
 #include "artus/viewer/view_state.h"
 
 namespace artus {
+
+class Screen;
 
 /// An injection that the window can offer, and where both hands stand before it.
 struct PlannedTask {
@@ -73,6 +76,7 @@ struct WindowOptions {
   /// Called between two pictures: other programs' hands on the knobs. Empty: there are none.
   std::function<void(ImageControls&)> turn_knobs;
   std::function<void(const WindowStatus&)> watch;  ///< called after each picture; may be empty
+  std::optional<LessonOptions> lesson;             ///< a task; empty: the window is free
 };
 
 /// What a window leaves behind when it is closed.
@@ -80,6 +84,7 @@ struct WindowReport {
   std::vector<ImagePoint> calipers;  ///< pairs, as they stood on the last picture
   ImagePlace image_place;            ///< of the last picture
   bool expert = false;
+  bool finished = false;            ///< a lesson's: its end was asked for, or it was over
   std::uint64_t pictures = 0;       ///< shown
   LatencyHistogram interval;        ///< from picture to picture
   LatencyHistogram joint;           ///< that a drawn 3D view took
@@ -93,5 +98,9 @@ struct WindowReport {
 /// (a picture cannot be written), those of the file of keys.
 [[nodiscard]] Result<void> run_window(Session& session, HandDevice* hand, const HandTarget& start,
                                       const WindowOptions& options, WindowReport& report);
+/// The same on a screen that stays.
+[[nodiscard]] Result<void> run_window(Screen& screen, Session& session, HandDevice* hand,
+                                      const HandTarget& start, const WindowOptions& options,
+                                      WindowReport& report);
 
 }  // namespace artus

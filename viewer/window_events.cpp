@@ -89,9 +89,9 @@ PadState look_at_pad() {
   const auto down = [&state](int button) {
     return state.buttons[button] == GLFW_PRESS;
   };
-  pad.buttons = {down(GLFW_GAMEPAD_BUTTON_A), down(GLFW_GAMEPAD_BUTTON_B),
-                 down(GLFW_GAMEPAD_BUTTON_X), down(GLFW_GAMEPAD_BUTTON_Y),
-                 down(GLFW_GAMEPAD_BUTTON_START)};
+  pad.buttons = {down(GLFW_GAMEPAD_BUTTON_A),     down(GLFW_GAMEPAD_BUTTON_B),
+                 down(GLFW_GAMEPAD_BUTTON_X),     down(GLFW_GAMEPAD_BUTTON_Y),
+                 down(GLFW_GAMEPAD_BUTTON_START), down(GLFW_GAMEPAD_BUTTON_BACK)};
   return pad;
 }
 
@@ -103,6 +103,15 @@ WindowEvents::WindowEvents(GLFWwindow* window) : window_(window) {
   glfwSetCursorPosCallback(window, on_move);
   glfwSetMouseButtonCallback(window, on_button);
   glfwSetScrollCallback(window, on_scroll);
+}
+
+WindowEvents::~WindowEvents() {
+  hold_cursor(false);
+  glfwSetKeyCallback(window_, nullptr);
+  glfwSetCursorPosCallback(window_, nullptr);
+  glfwSetMouseButtonCallback(window_, nullptr);
+  glfwSetScrollCallback(window_, nullptr);
+  glfwSetWindowUserPointer(window_, nullptr);
 }
 
 void WindowEvents::add(UserEvent event) {

@@ -12,12 +12,12 @@ struct GLFWwindow;
 
 namespace artus {
 
-/// Collects what a person does at a window of GLFW. Must outlive the window's last event; one a
-/// window (it takes the window's user pointer).
+/// Collects what a person does at a window of GLFW while it lives; one a window at a time (it takes
+/// the window's user pointer). Leaves the window with its pointer and without a listener.
 class WindowEvents {
  public:
   explicit WindowEvents(GLFWwindow* window);
-  ~WindowEvents() = default;
+  ~WindowEvents();
   WindowEvents(const WindowEvents&) = delete;
   WindowEvents& operator=(const WindowEvents&) = delete;
 

@@ -92,8 +92,22 @@ void WindowLoop::act(const ActionEvent& wish) {
   act_on_arrow(action, wish.fine);
 }
 
+/// In a task that is judged without aids nothing shows the truth, and nothing begins again.
+bool WindowLoop::refuse_aid(Action action) {
+  const bool aid = action == Action::expert || action == Action::aids || action == Action::labels ||
+                   action == Action::reset;
+  if (!options_.lesson || !aid) return false;
+  if (options_.lesson->aids.any() && action != Action::reset) return false;
+  say(tell(state_, Text::lesson_no_aids));
+  return true;
+}
+
 bool WindowLoop::act_on_window(Action action) {
+  if (refuse_aid(action)) return true;
   switch (action) {
+    case Action::finish:
+      if (options_.lesson) state_.quit = state_.finished = true;
+      return true;
     case Action::pause:
       session_.set_paused(!session_.paused());
       return true;
@@ -265,6 +279,11 @@ void WindowLoop::do_wishes() {
   act({Action::take_needle, false});
 }
 
+bool WindowLoop::holds(const std::string& what) const {
+  if (what == "picture") return input_.image != nullptr && input_.image->width > 0;
+  return input_.needle.inside == (what == "inside");
+}
+
 bool WindowLoop::run_step(const ScriptStep& step, double elapsed) {
   if (const auto* event = std::get_if<UserEvent>(&step)) {
     handle_group({{*event, glfwGetTime()}});
@@ -284,6 +303,10 @@ bool WindowLoop::run_step(const ScriptStep& step, double elapsed) {
     joint_->camera().yaw = camera->yaw;
     joint_->camera().pitch = camera->pitch;
     joint_->camera().distance = camera->distance;
+  } else if (const auto* await = std::get_if<AwaitStep>(&step)) {
+    waited_ += elapsed;
+    if (waited_ < await->seconds && !holds(await->what)) return false;
+    waited_ = 0;
   } else if (const auto* measure = std::get_if<MeasureStep>(&step)) {
     if (input_.image == nullptr) return true;
     set_frozen(true);

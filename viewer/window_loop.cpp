@@ -7,8 +7,6 @@
 
 #include <backends/imgui_impl_opengl3.h>
 #include <epoxy/gl.h>
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
 
 #include <GLFW/glfw3.h>
 
@@ -17,6 +15,7 @@
 #include "artus/viewer/caption.h"
 #include "artus/viewer/gui_context.h"
 #include "artus/viewer/panels.h"
+#include "artus/viewer/screen.h"
 
 namespace artus {
 namespace {
@@ -52,6 +51,7 @@ WindowLoop::WindowLoop(GLFWwindow* window, std::unique_ptr<JointView> joint, Ses
   state_.patient = options.patient;
   state_.controls = sent_controls_ = controls_of(session.params());
   state_.pixels_per_mm = options.pixels_per_mm > 0 ? options.pixels_per_mm : screen_density();
+  if (options.lesson) begin_lesson();
   input_.session = &session;
   input_.has_hand = hand != nullptr;
 }
@@ -112,6 +112,7 @@ Result<void> WindowLoop::run(WindowReport& report) {
   if (input_.image != nullptr) report.calipers = state_.calipers[input_.image->input.number];
   report.image_place = state_.image_place;
   report.expert = state_.expert;
+  report.finished = state_.finished;
   report.joint_level = joint_->level();
   if (!options_.layout.empty()) ARTUS_TRY(state_.layout.write(options_.layout));
   return {};
@@ -186,6 +187,7 @@ void WindowLoop::read_state() {
 }
 
 void WindowLoop::guide() {
+  if (options_.lesson) lead_lesson();
   GuideInput in;
   in.language = state_.language;
   in.keys = &state_.keys;
@@ -203,8 +205,9 @@ void WindowLoop::guide() {
   in.target_is_bone = session_.scene().joint().tissue_of(target_region_).haptic.hard;
   in.needle = input_.needle;
   in.needle_length = needle_length_of(session_.params());
+  if (options_.lesson && !options_.lesson->aids.any()) in.needle = seen_from_outside(in.needle);
   input_.next = guide_.next(in);
-  input_.goal = guide_.goal(in);
+  input_.goal = options_.lesson ? lesson_.goal : guide_.goal(in);
 }
 
 // The newest image, or while the scanner is frozen the one that the loop was left at.
@@ -277,8 +280,13 @@ void WindowLoop::pass(double elapsed) {
   draw_joint_panel(input_, state_, *joint_, area_);
   draw_image_panel(input_, state_);
   draw_scanner_panel(input_, state_);
-  draw_session_panel(input_, state_);
-  draw_tissue_panel(input_, state_, *joint_);
+  if (state_.lesson != nullptr) {
+    draw_lesson_panel(input_, state_);
+    draw_patient_panel(state_);
+  } else {
+    draw_session_panel(input_, state_);
+    draw_tissue_panel(input_, state_, *joint_);
+  }
   draw_force_panel(input_, state_);
   draw_rates_panel(input_, state_);
   draw_welcome(input_, state_);
@@ -376,19 +384,7 @@ void WindowLoop::wish_final_picture() {
 
 // What was just drawn, before it is shown and the buffer's content is lost.
 Result<void> WindowLoop::save_window() const {
-  if (wanted_pictures_.empty()) return {};
-  int width = 0;
-  int height = 0;
-  glfwGetFramebufferSize(window_, &width, &height);
-  cv::Mat picture(height, width, CV_8UC3);
-  glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glReadBuffer(GL_BACK);
-  glReadPixels(0, 0, width, height, GL_BGR, GL_UNSIGNED_BYTE, picture.data);
-  cv::flip(picture, picture, 0);
-  for (const std::filesystem::path& file : wanted_pictures_) {
-    if (!cv::haveImageWriter(file.string()) || !cv::imwrite(file.string(), picture))
-      return fail(ErrorCode::unreadable, "cannot write the picture", file);
-  }
+  for (const std::filesystem::path& file : wanted_pictures_) ARTUS_TRY(save_screen(window_, file));
   return {};
 }
 

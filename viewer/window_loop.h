@@ -11,6 +11,7 @@
 #include "artus/viewer/guide.h"
 #include "artus/viewer/hand_control.h"
 #include "artus/viewer/joint_view.h"
+#include "artus/viewer/lesson.h"
 #include "artus/viewer/picture_saver.h"
 #include "artus/viewer/view_state.h"
 #include "artus/viewer/window.h"
@@ -35,6 +36,7 @@ class WindowLoop {
   void act(const ActionEvent& wish);
   bool act_on_window(Action action);
   bool act_on_picture(Action action);
+  bool refuse_aid(Action action);
   void act_on_arrow(Action action, bool fine);
   void set_frozen(bool frozen);
   void step_cine(int step);
@@ -43,6 +45,7 @@ class WindowLoop {
   void run_script(double elapsed);
   bool run_step(const ScriptStep& step, double elapsed);
   [[nodiscard]] HandGround ground() const;
+  [[nodiscard]] bool holds(const std::string& what) const;
 
   // window_loop.cpp: what is shown
   void say(std::string message);
@@ -54,6 +57,8 @@ class WindowLoop {
   void follow_gesture(const HapticSnapshot& now);
   void read_state();
   void guide();
+  void begin_lesson();
+  void lead_lesson();
   void fit_window();
   void draw_joint();
   void pass(double elapsed);
@@ -76,6 +81,7 @@ class WindowLoop {
   CineLoop cine_;
   Guide guide_;
   ViewState state_;
+  Lesson lesson_;
   PanelInput input_;
   JointArea area_;
   GlTexture image_texture_;

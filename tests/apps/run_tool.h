@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,12 @@ inline const std::string kSimple = artus::test::test_joints().string() + "/simpl
   std::vector<std::string> command{ARTUS_TOOL};
   command.insert(command.end(), arguments.begin(), arguments.end());
   return run_process(command);
+}
+
+/// Whether windows can be tried here.
+[[nodiscard]] inline bool has_virtual_display() {
+  // NOLINTNEXTLINE(*-command-processor,*-mt-unsafe): before any thread is started
+  return std::system("command -v xvfb-run >/dev/null") == 0;
 }
 
 /// Starts this build's tool, silent, and does not wait for it.

@@ -40,13 +40,8 @@ TEST(View, AnInjectionThatIsNotThereIsRefusedWithEveryInput) {
   }
 }
 
-bool has_virtual_display() {
-  // NOLINTNEXTLINE(*-command-processor,*-mt-unsafe): before any thread is started
-  return std::system("command -v xvfb-run >/dev/null") == 0;
-}
-
 TEST(View, AnInjectionIsChosenWithEveryInput) {
-  if (!has_virtual_display()) GTEST_SKIP() << "xvfb-run is not installed";
+  if (!test::has_virtual_display()) GTEST_SKIP() << "xvfb-run is not installed";
   const auto joint = read_compiled_joint(test::kSimple);
   ASSERT_TRUE(joint) << joint.error().to_string();
   const auto stem =
@@ -81,7 +76,7 @@ TEST(View, WithoutADisplayItSaysWhatToDoForAPersonAndForCi) {
 }
 
 TEST(View, AScreenshotWithoutAScriptIsOnePictureOfAWholeWindowAndTheEnd) {
-  if (!has_virtual_display()) GTEST_SKIP() << "xvfb-run is not installed";
+  if (!test::has_virtual_display()) GTEST_SKIP() << "xvfb-run is not installed";
   const auto file =
       std::filesystem::temp_directory_path() / ("artus-shot-" + std::to_string(getpid()) + ".png");
   const auto result = test::run_process({"timeout", "60", "xvfb-run", "-a", ARTUS_TOOL, "view",
@@ -131,7 +126,7 @@ void expect_replays(const Shown& shown) {
 
 // One after the other: two virtual displays that begin at once may take the same number.
 TEST(View, RecordsWhatReplaysToTheSameBytesForFlagsAndKnobs) {
-  if (!has_virtual_display()) GTEST_SKIP() << "xvfb-run is not installed";
+  if (!test::has_virtual_display()) GTEST_SKIP() << "xvfb-run is not installed";
   const std::vector<Shown> all{{"Feel",
                                 {"--cutting", "voigt", "--bone-tap", "impulse", "--patient",
                                  "cutting=1.3", "--needle-length-mm", "50", "--device", "delta"}},

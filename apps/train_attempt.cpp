@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/apps/train_attempt.h"
+
+#include <cstdio>
+#include <utility>
+
+#include "artus/apps/attempt_files.h"
+#include "artus/apps/attempt_page.h"
+#include "artus/apps/train_lesson.h"
+#include "artus/training/live_attempt.h"
+
+namespace artus {
+namespace {
+
+/// The scenario's session with the hand's device and link.
+Result<SessionParams> params_of(const TrainRoom& room, const TrainTask& task) {
+  auto params = make_session_params(task.scenario);
+  ARTUS_TRY(params);
+  const SessionOptions& options = *room.session;
+  const auto device = find_device(options.device);
+  ARTUS_TRY(device);
+  params->device = *device;
+  params->image.n_threads = options.threads;
+  params->syringe.gauge = task.scenario.gauge;
+  if (options.input == "igtl") {      // a pose that is held is not stale
+    constexpr double kMargin = 5e-3;  // s
+    params->guard.stale_after =
+        std::max(params->guard.stale_after, 1e-3 * options.igtl.needle_hold_ms + kMargin);
+  }
+  ARTUS_TRY(validate(*params));
+  return params;
+}
+
+/// The window while someone works; true: they said that they are done.
+Result<bool> show(const TrainRoom& room, const TrainTask& task, TrainLesson& lesson,
+                  Session& session, HandDevice* hand) {
+  WindowOptions window = *room.window;
+  auto steps = room.script->take("attempt");
+  ARTUS_TRY(steps);
+  window.script = std::move(*steps);
+  window.quit_after_script = room.script->given();
+  window.lesson = lesson.options();
+  window.patient = "";
+  WindowReport report;
+  ARTUS_TRY(run_window(*room.screen, session, hand, first_hands(task.scenario), window, report));
+  return report.finished;
+}
+
+/// The session from its start to its end; what was measured rests then.
+Result<bool> work(const TrainRoom& room, const TrainTask& task, const SessionParams& params,
+                  LiveAttempt& meter, const std::filesystem::path& recording) {
+  HandDevice* hand = nullptr;
+  std::unique_ptr<InputDevice> device;
+  if (room.session->input == "hand") {
+    auto own = std::make_unique<HandDevice>(first_hands(task.scenario), 1 / params.haptic_rate);
+    hand = own.get();
+    device = std::move(own);
+  } else {
+    auto other = make_device(*room.session, params, task.scene->joint(), *room.tracker, &hand);
+    ARTUS_TRY(other);
+    device = std::move(*other);
+  }
+  const auto link = open_session_link(room.session->igtl, *room.tracker);
+  ARTUS_TRY(link);
+  Session::Options options;
+  options.haptic_wishes.cpu = room.session->haptic_cpu;
+  options.recording = recording;
+  options.share_images = room.session->input == "shared-memory";
+  options.image_segment_prefix = room.session->prefix;
+  options.witness = &meter;
+  if (*link)
+    options.on_image = [&link](const ImageSnapshot& image) {
+      (*link)->take_image(image);
+    };
+  TrainLesson lesson(task.scenario, task.scene, params, task.asked, room.window->language);
+  auto session = Session::start(task.scene, params, std::move(device), options);
+  ARTUS_TRY(session);
+  if (*link) (*link)->attach(session->get());
+  auto finished = show(room, task, lesson, **session, hand);
+  if (*link) (*link)->attach(nullptr);
+  return finished;
+}
+
+}  // namespace
+
+Result<TrainOutcome> run_attempt(const TrainRoom& room, const TrainTask& task) {
+  const auto params = params_of(room, task);
+  ARTUS_TRY(params);
+  auto options = make_meter_options(task.scenario, task.scene->joint(), *params);
+  ARTUS_TRY(options);
+  LiveAttempt meter(task.scene, std::move(*options), params->haptic_rate);
+  TrainOutcome out;
+  auto record = room.desk->begin(task.person, task.scenario, room.session->input);
+  ARTUS_TRY(record);
+  out.record = *record;
+  const std::filesystem::path folder = out.record.folder;
+  const auto finished = work(room, task, *params, meter, folder / "session.rec");
+  ARTUS_TRY(finished);
+  out.finished = *finished;
+  if (!out.finished) return out;
+  auto recording = read_recording(folder / "session.rec");
+  ARTUS_TRY(recording);
+  out.played.recording = std::move(*recording);
+  out.played.measures = meter.measure();
+  for (const std::string& step : task.asked)
+    out.played.measures.events.push_back({0, step, "", 0, "answered before the attempt"});
+  out.played.judgement = judge(out.played.measures.metrics, task.scenario.pass, task.scenario.score,
+                               task.scenario.aided());
+  const auto& ticks = out.played.recording.ticks;
+  if (!ticks.empty())
+    out.played.duration = static_cast<double>(ticks.back().input.tick - ticks.front().input.tick) /
+                          params->haptic_rate;
+  ARTUS_TRY(write_attempt_files(task.scenario, out.played, folder));
+  out.report = folder / "report.html";
+  ARTUS_TRY(write_attempt_page(task.scenario, task.scene, out.played, out.report));
+  ARTUS_TRY(room.desk->finish(out.record, out.played));
+  return out;
+}
+
+}  // namespace artus

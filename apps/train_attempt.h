@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <memory>
+#include <set>
+#include <string>
+
+#include "artus/apps/session_options.h"
+#include "artus/apps/train_desk.h"
+#include "artus/training/player.h"
+#include "artus/viewer/screen.h"
+#include "artus/viewer/window.h"
+
+namespace artus {
+
+/// What attempts one after the other share; the pointers outlive them.
+struct TrainRoom {
+  Screen* screen = nullptr;
+  TrainDesk* desk = nullptr;
+  const SessionOptions* session = nullptr;  ///< input, device and link
+  const WindowOptions* window = nullptr;    ///< how it looks; its script is of no use here
+  StagedScript* script = nullptr;
+  const TrackerInput* tracker = nullptr;
+};
+
+/// An attempt that someone is about to make.
+struct TrainTask {
+  std::string person;
+  Scenario scenario;  ///< with its aids as they are for this person
+  std::shared_ptr<const Scene> scene;
+  std::set<std::string> asked;  ///< steps that were answered before
+};
+
+/// What came of it.
+struct TrainOutcome {
+  bool finished = false;  ///< false: the window was closed; the records show it as unfinished
+  AttemptRecord record;
+  PlayedAttempt played;
+  std::filesystem::path report;  ///< the page that was written
+};
+
+/// Lets a person do a task in the window, judges it by what was measured meanwhile, and keeps
+/// recording, numbers, page and record. Errors: those of the session, the window, the files and the
+/// records.
+[[nodiscard]] Result<TrainOutcome> run_attempt(const TrainRoom& room, const TrainTask& task);
+
+}  // namespace artus

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <set>
+#include <string>
+#include <vector>
+
+#include "artus/apps/train_attempt.h"
+#include "artus/apps/train_bodies.h"
+#include "artus/apps/train_texts.h"
+#include "artus/viewer/page.h"
+
+namespace artus {
+
+/// A learner and what they did, for the page that asks who is there.
+struct KnownLearner {
+  std::string name;
+  TrainTally tally;
+};
+/// Who: the learners, those who came last first, then someone new.
+[[nodiscard]] Page make_who_page(const std::vector<KnownLearner>& learners, Language language);
+/// The pseudonym of someone new.
+[[nodiscard]] Page make_welcome_page(const std::string& person, Language language);
+
+/// A scenario and what the learner did of it.
+struct OfferedTask {
+  Scenario scenario;
+  TrainTally tally;
+};
+/// What: the scenarios by level, with picture and what was done; `at`: the one that is marked.
+[[nodiscard]] Page make_what_page(const std::vector<OfferedTask>& tasks, const std::string& person,
+                                  TrainBodies& bodies, std::size_t at, Language language);
+
+/// What a choice of the briefing asks for.
+struct BriefingChoice {
+  enum class Kind { ask, begin_aided, begin } kind = Kind::begin;
+  std::string step;  ///< of ask
+};
+[[nodiscard]] std::vector<BriefingChoice> briefing_choices(const Scenario& scenario);
+/// What it is about, and the questions to the patient; `scenario` with its aids as they would be.
+[[nodiscard]] Page make_briefing_page(const Scenario& scenario, const std::set<std::string>& asked,
+                                      const std::string& side,
+                                      const std::shared_ptr<const PagePicture>& picture,
+                                      const KeyMap& keys, Language language);
+
+/// What can be done after an attempt, in the page's order.
+enum class AfterAttempt { review, again, next, other, who, leave };
+/// How it went; `next`: title of the task that follows.
+[[nodiscard]] Page make_end_page(const TrainOutcome& outcome, const std::string& next,
+                                 Language language);
+
+/// "Wait": until `done`.
+[[nodiscard]] Page make_busy_page(Said what, std::function<bool()> done, Language language);
+
+}  // namespace artus

@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// `artus train` as a process: a whole session of someone new by keys and wheel alone, from who to
+// the review and the next task; what is kept of it; and what its flags and scripts refuse.
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "artus/apps/train_desk.h"
+#include "artus/apps/train_lesson.h"
+#include "artus/apps/train_pages.h"
+#include "artus/apps/train_review.h"
+#include "artus/apps/train_texts.h"
+#include "artus/core/text_file.h"
+#include "artus/core/units.h"
+#include "artus/training/records.h"
+#include "tests/apps/run_tool.h"
+
+namespace artus {
+namespace {
+
+class Train : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (std::filesystem::temp_directory_path() / "artus-train-XXXXXX").string();
+    ASSERT_NE(mkdtemp(name.data()), nullptr);
+    folder_ = name;
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  [[nodiscard]] std::filesystem::path records() const { return folder_ / "records.db"; }
+
+  [[nodiscard]] std::vector<AttemptRecord> attempts(const std::string& visit) const {
+    auto file = Records::open(folder_ / visit / "records.db");
+    EXPECT_TRUE(file) << file.error().to_string();
+    return *file->attempts();
+  }
+
+  std::filesystem::path folder_;
+};
+
+/// A run of the tool: its script, and what else stands on its command line.
+struct Visit {
+  std::string name;
+  std::string script;
+  std::string more;
+};
+
+/// Runs of the tool one after the other under one virtual display (one that ends and one that
+/// begins may take the same number); each keeps its records in its own folder. Prints "NAME exit
+/// CODE".
+test::ProcessResult visit(const std::filesystem::path& folder, const std::vector<Visit>& visits) {
+  std::string commands;
+  for (const Visit& v : visits) {
+    const auto own = folder / v.name;
+    std::filesystem::create_directories(own);
+    std::ofstream(own / "steps.script") << v.script;
+    commands += std::string("timeout 120 ") + ARTUS_TOOL + " train " + v.more + " --records " +
+                (own / "records.db").string() + " --script " + (own / "steps.script").string() +
+                " --language en --width 900 --height 560; echo " + v.name + " exit $?\n";
+  }
+  return test::run_process({"xvfb-run", "-a", "sh", "-c", commands});
+}
+
+constexpr const char* kWholeSession =
+    "stage who\nkey ENTER\n"
+    "stage pseudonym\nkey ENTER\n"
+    "stage what\nkey ENTER\n"
+    "stage briefing\nkey ENTER\n"
+    "stage attempt\nawait picture 20\nkey N\nscroll 81\nawait inside 20\nwait 2\nscroll -90\n"
+    "await outside 20\nkey F10\n"
+    "stage end\nkey ENTER\n"
+    "stage review\nkey RIGHT\nkey F3\nkey U\nkey F6\nkey U\nkey ESCAPE\n"
+    "stage end\nkey DOWN\nkey DOWN\nkey ENTER\n"
+    "stage briefing\nkey ESCAPE\n"
+    "stage what\n";
+
+/// What was kept of an attempt.
+void expect_same_as_its_recording(const AttemptRecord& attempt) {
+  const std::filesystem::path kept = attempt.folder;
+  const auto text = read_bytes(kept / "attempt.json");
+  ASSERT_TRUE(text);
+  const auto json = nlohmann::json::parse(*text);
+  EXPECT_EQ(json["passed"].get<bool>(), attempt.passed);
+  const auto live = metrics_from_json(json["metrics"]);
+  const Metric* distance = find_metric(live, "distance_mm");
+  ASSERT_TRUE(distance != nullptr && distance->value) << "the needle was in the gel";
+  EXPECT_LT(*distance->value, 5) << "81 notches are 40.5 mm, to the point 15 + 25.3 mm away";
+  const auto assessed =
+      test::artus({"assess", (kept / "session.rec").string(), "--scenario", "gel-find", "--json"});
+  ASSERT_EQ(assessed.exit_code, 0) << assessed.err;
+  const auto again = metrics_from_json(nlohmann::json::parse(assessed.out)["metrics"]);
+  ASSERT_EQ(again.size(), live.size());
+  std::size_t with_value = 0;
+  for (const Metric& metric : live) {
+    const Metric* other = find_metric(again, metric.name, metric.role);
+    ASSERT_NE(other, nullptr) << metric.name;
+    EXPECT_EQ(other->value, metric.value) << metric.name;
+    with_value += metric.value ? 1 : 0;
+  }
+  EXPECT_GT(with_value, 30U);
+}
+
+TEST_F(Train, SomeoneNewComesFromTheFirstPageToTheReviewAndTheNextTaskByKeysAndWheel) {
+  if (!test::has_virtual_display()) GTEST_SKIP() << "xvfb-run is not installed";
+  const auto result =
+      visit(folder_, {{"whole", kWholeSession, ""},
+                      {"closed",
+                       "stage who\nkey ENTER\nstage pseudonym\nkey ENTER\n"
+                       "stage briefing\nkey ENTER\nstage attempt\nawait picture 20\n",
+                       "gel-find --igtl 127.0.0.1:0"},
+                      {"wrong", "stage who\nkey ENTER\nstage review\nkey ESCAPE\n", ""}});
+  EXPECT_NE(result.out.find("whole exit 0"), std::string::npos) << result.out << result.err;
+  EXPECT_NE(result.out.find("closed exit 0"), std::string::npos) << result.out << result.err;
+  EXPECT_NE(result.out.find("wrong exit 1"), std::string::npos) << result.out << result.err;
+  EXPECT_NE(result.err.find("'pseudonym'"), std::string::npos) << "where it stops: " << result.err;
+  EXPECT_NE(result.err.find("'review'"), std::string::npos) << result.err;
+
+  EXPECT_NE(result.err.find("OpenIGTLink: listening"), std::string::npos) << result.err;
+  const auto closed = attempts("closed");
+  ASSERT_EQ(closed.size(), 1U);
+  EXPECT_TRUE(closed.front().ended.empty()) << "it shows as unfinished";
+
+  const auto done = attempts("whole");
+  ASSERT_EQ(done.size(), 1U);
+  const AttemptRecord& attempt = done.front();
+  EXPECT_EQ(attempt.scenario, "gel-find");
+  EXPECT_FALSE(attempt.ended.empty());
+  EXPECT_EQ(attempt.mode, "test");
+  EXPECT_EQ(attempt.device, "hand");
+  const std::filesystem::path kept = attempt.folder;
+  EXPECT_TRUE(std::filesystem::exists(kept / "report.html"));
+  EXPECT_TRUE(std::filesystem::exists(kept / "scenario.toml"));
+  expect_same_as_its_recording(attempt);
+}
+
+TEST_F(Train, WhatCannotBeIsRefusedBeforeAWindowIsOpened) {
+  const auto scenario = test::artus({"train", "gel-fnd", "--records", records().string()});
+  EXPECT_EQ(scenario.exit_code, 1);
+  EXPECT_NE(scenario.err.find("gel-find"), std::string::npos) << "the names: " << scenario.err;
+  const auto place = test::artus({"train", "--records", "/dev/null/no/records.db"});
+  EXPECT_EQ(place.exit_code, 1);
+  EXPECT_NE(place.err.find("records.db"), std::string::npos) << place.err;
+}
+
+TEST_F(Train, PseudonymsAreNobodysAndAttemptsAreCounted) {
+  auto desk = TrainDesk::open(records(), folder_ / "attempts");
+  ASSERT_TRUE(desk) << desk.error().to_string();
+  const auto first = desk->add_learner("2026");
+  const auto second = desk->add_learner("2026");
+  ASSERT_TRUE(first && second);
+  EXPECT_NE(*first, *second);
+  EXPECT_EQ(desk->learners()->size(), 2U);
+  const auto scenario = find_scenario("gel-find");
+  ASSERT_TRUE(scenario);
+  auto record = desk->begin(*first, *scenario, "hand");
+  ASSERT_TRUE(record) << record.error().to_string();
+  EXPECT_TRUE(std::filesystem::is_directory(record->folder));
+  EXPECT_EQ(desk->tally(*first, "gel-find")->attempts, 0) << "not finished";
+  PlayedAttempt played;
+  played.judgement.passed = true;
+  played.judgement.score = 100;
+  ASSERT_TRUE(desk->finish(*record, played));
+  const auto tally = desk->tally(*first, "gel-find");
+  EXPECT_EQ(tally->attempts, 1);
+  EXPECT_EQ(tally->passes, 1);
+  EXPECT_EQ(tally->successes, 1);
+  EXPECT_EQ(desk->tally(*second, "")->attempts, 0);
+  EXPECT_EQ(desk->tally(*first, "gel-hold")->attempts, 0);
+}
+
+TEST(TrainTask, AidsFadeByWhatTheirScenarioSaysAndGoOffWhenTheyAreNotWanted) {
+  auto scenario = find_scenario("gel-find");
+  ASSERT_TRUE(scenario);
+  scenario->aids = {{"labels", 1}, {"tip_marker", 0.5}};
+  scenario->fade = "success";
+  TrainTally tally;
+  tally.attempts = 5;
+  tally.successes = 2;
+  const auto value = [](const Scenario& s, std::size_t i) {
+    return s.aids.at(i).value;
+  };
+  EXPECT_NEAR(value(with_faded_aids(*scenario, tally, true), 0), 0.49, 1e-12);
+  scenario->fade = "trials";
+  EXPECT_NEAR(value(with_faded_aids(*scenario, tally, true), 0), std::pow(0.7, 5), 1e-12);
+  EXPECT_EQ(value(with_faded_aids(*scenario, tally, true), 1), 0) << "below 0.1 it is off";
+  scenario->fade = "none";
+  EXPECT_EQ(value(with_faded_aids(*scenario, tally, true), 0), 1);
+  EXPECT_FALSE(with_faded_aids(*scenario, tally, false).aided());
+}
+
+TEST(TrainTask, TheHandsBeginOffTheSkinAndFromLevelTwoOnBesideThePlane) {
+  for (const char* name : {"gel-find", "gel-align"}) {
+    const auto scenario = find_scenario(name);
+    ASSERT_TRUE(scenario);
+    const HandTarget hands = first_hands(*scenario);
+    const Vec3 tip_P = scenario->X_JP.inverse() * to_pose(hands.X_WN).translation();
+    EXPECT_LT(tip_P.z(), -1e-3) << name;
+    EXPECT_NEAR(tip_P.y(), scenario->level >= 2 ? 6e-3 : 0, 1e-9) << name;
+  }
+}
+
+TEST(TrainTask, TheBeamIsNotOnATipThatLiesBesideIt) {
+  const auto scenario = find_scenario("gel-align");
+  ASSERT_TRUE(scenario);
+  const auto scene = make_gel_scene(*scenario->gel);
+  const auto params = make_session_params(*scenario);
+  ASSERT_TRUE(scene && params);
+  TrainLesson lesson(*scenario, *scene, *params, {}, Language::english);
+  for (const double beside : {0.0, 1.5e-3}) {
+    HapticSnapshot now;
+    now.input.tick = 1;
+    now.X_JP = to_plain(scenario->X_JP);
+    now.X_JN =
+        to_plain(make_pose(Vec3(0, beside, 18e-3), Vec3(1, 0, 0.5).normalized(), Vec3::Zero()));
+    NeedleReading needle;
+    needle.inside = true;
+    const Lesson told = lesson.lead({now, needle});
+    EXPECT_EQ(told.beam_on_tip, beside == 0) << beside;
+    EXPECT_FALSE(told.over);
+  }
+}
+
+TEST(TrainTask, EveryBundledScenarioIsSaidInWordsInBothLanguages) {
+  for (const std::string_view text : bundled_scenario_texts()) {
+    const auto scenario = parse_scenario(text, "bundled");
+    ASSERT_TRUE(scenario);
+    for (const Language language : {Language::english, Language::french}) {
+      EXPECT_FALSE(goal_words(*scenario, language).empty());
+      for (const Mark& mark : scenario->pass)
+        EXPECT_NE(metric_words(language, mark.metric), mark.metric)
+            << scenario->name << ": no words for " << mark.metric;
+      for (const std::string& step : scenario->steps)
+        EXPECT_NE(step_words(language, step), step) << scenario->name;
+    }
+  }
+}
+
+TEST(TrainTask, MarksAreSaidWithTheirBounds) {
+  const auto mark = parse_mark("distance_mm", "<= 1.5");
+  ASSERT_TRUE(mark);
+  EXPECT_EQ(mark_words(Language::english, *mark), "tip from the target, mm: at most 1.5");
+  EXPECT_EQ(mark_words(Language::french, *mark), "pointe à la cible, mm : au plus 1,5");
+  EXPECT_EQ(bound_words(Language::english, *parse_mark("avoid_fatal", "== 0")), "exactly 0");
+}
+
+TEST(TrainTask, EveryTextOfItsPagesIsThereInBothLanguages) {
+  for (int i = 0; i < static_cast<int>(Said::n_said); ++i) {
+    for (const Language language : {Language::english, Language::french}) {
+      const char* words = said(language, static_cast<Said>(i));
+      ASSERT_NE(words, nullptr) << i;
+      EXPECT_FALSE(std::string(words).empty()) << i;
+    }
+  }
+  EXPECT_STREQ(said(Language::english, Said::busy_review), "The review is being prepared ...");
+}
+
+TEST(TrainTask, AReviewHasTheExpertsRunAndTheTruthOfEachMoment) {
+  const auto scenario = find_scenario("gel-align");
+  ASSERT_TRUE(scenario);
+  const auto scene = make_gel_scene(*scenario->gel);
+  ASSERT_TRUE(scene);
+  PlayOptions options;
+  options.seed = 2;
+  auto played = play(*scenario, *scene, novice_skill(), options);
+  ASSERT_TRUE(played);
+  TrainTask task{"someone", *scenario, *scene, {}};
+  TrainOutcome outcome;
+  outcome.played = std::move(*played);
+  const auto review = make_review(task, outcome, Language::english);
+  ASSERT_TRUE(review) << review.error().to_string();
+  ASSERT_FALSE(review->film.moments.empty());
+  EXPECT_NEAR(review->film.length(), outcome.played.duration, 0.1);
+  ASSERT_TRUE(review->expert);
+  EXPECT_GT(review->expert->contact(), 0);
+  EXPECT_GT(review->film.contact(), 0);
+  const double inside = review->film.contact() + 0.1;
+  EXPECT_NE(review->why(review->film.at(inside).state).find("beside the picture's plane"),
+            std::string::npos);
+  EXPECT_EQ(review->why(review->film.at(0).state).find("plane"), std::string::npos)
+      << "outside there is nothing to see";
+  for (const ReviewFault& fault : review->faults) {
+    EXPECT_GE(fault.time, 0);
+    EXPECT_FALSE(fault.mend.empty());
+  }
+}
+
+}  // namespace
+}  // namespace artus
