@@ -12,7 +12,7 @@ double after_flow(const Syringe& syringe, double pressure, double tip_pressure) 
 }
 
 void ThumbDose::step(bool pushes, double given, double pressure, double tip_pressure, double flow,
-                double dt) noexcept {
+                     double dt) noexcept {
   if (!pushes || enough_) return;
   in_vain_ = flow > kFlows ? 0 : in_vain_ + dt;
   const double rest = flow > kFlows ? after_flow(syringe_, pressure, tip_pressure) : 0;

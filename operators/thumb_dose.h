@@ -4,9 +4,9 @@
 
 namespace artus {
 
-/// m^3 that a barrel still gives when the thumb lets go of its plunger: what its pressure (Pa) holds
-/// above that around the bevel. A pressure that overcomes the stopper's friction pushes the stopper
-/// back first and gives nothing of that.
+/// m^3 that a barrel still gives when the thumb lets go of its plunger: what its pressure (Pa)
+/// holds above that around the bevel. A pressure that overcomes the stopper's friction pushes the
+/// stopper back first and gives nothing of that.
 [[nodiscard]] ARTUS_REALTIME double after_flow(const Syringe& syringe, double pressure,
                                                double tip_pressure) noexcept;
 
