@@ -10,7 +10,7 @@ namespace artus {
 namespace {
 
 constexpr double kOverDrawn = 0.4e-6;  // m^3 drawn up beyond the doses; assumed
-constexpr double kInTargets = 95;    // %
+constexpr double kInTargets = 95;      // %
 
 }  // namespace
 
@@ -76,9 +76,8 @@ void TargetSyringe::finish(std::span<const RegionId> targets, ThreeInjections& o
   for (std::uint32_t k = 0; k < plunger.states().size(); ++k) {
     const SpaceState& state = plunger.states()[k];
     everywhere += state.volume - state.drawn;
-    const bool target = std::any_of(targets.begin(), targets.end(), [&](RegionId region) {
-      return space_of_region_[region] == k;
-    });
+    const bool target = std::any_of(targets.begin(), targets.end(),
+                                    [&](RegionId region) { return space_of_region_[region] == k; });
     const bool cavity = plunger.spaces()[k].law.kind == SpaceKind::cavity;
     out.into_cavity = out.into_cavity || (target && cavity);
     if (state.volume > 0) out.given.push_back({plunger.spaces()[k].name, state.volume, target});
