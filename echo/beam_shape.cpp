@@ -69,7 +69,10 @@ BeamShape::BeamShape(const Transducer& transducer, const ImageSettings& settings
 void BeamShape::size_scatterers(const Transducer& transducer) {
   const double pulse = transducer.pulse_cycles * transducer.wavelength() / 2;
   const double beam = profile_.lateral_width(0);
-  scatterer_.axial = std::max(0.5 * pulse, kSmallest);
+  // A whole number of samples, so that each scatterer gets as many of them wherever it lies: else
+  // the echo of tissue that moves by part of a sample is another one.
+  scatterer_.axial =
+      std::max(1.0, std::round(std::max(0.5 * pulse, kSmallest) / sample_depth_)) * sample_depth_;
   scatterer_.lateral = std::clamp(pitch_, 0.3 * beam, 0.65 * beam);
   scatterer_.elevation = profile_.elevation_width(transducer.elevation_focus);
 }

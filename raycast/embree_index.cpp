@@ -9,7 +9,7 @@
 
 #include <Eigen/Geometry>
 
-#include "artus/raycast/closest_point.h"
+#include "artus/core/closest_point.h"
 #include "artus/raycast/embree_api.h"
 
 namespace artus {

@@ -123,14 +123,14 @@ CompiledJoint DeformedBody::moved_joint() const {
   return moved;
 }
 
-DeformedBody::Motion DeformedBody::motion_C(const Vec3& p_C) const noexcept {
+DeformedBody::PlacedMotion DeformedBody::motion_in_cage(const Vec3& p_C) const noexcept {
   const Cage& cage = map_->model->cage();
   const CagePlace place = cage.locate(p_C, kReach);
   if (place.cell < 0) return {};
   const CageCell& cell = cage.cells()[static_cast<std::size_t>(place.cell)];
-  Motion motion = interpolate(place, cell, cage.edge(cell), u_);
-  motion.gradient.diagonal().array() += 1;
-  return motion;
+  PlacedMotion placed{interpolate(place, cell, cage.edge(cell), u_), place.cell};
+  placed.motion.gradient.diagonal().array() += 1;
+  return placed;
 }
 
 DeformedBody::Motion DeformedBody::in_J(const Motion& motion) const noexcept {
@@ -139,7 +139,7 @@ DeformedBody::Motion DeformedBody::in_J(const Motion& motion) const noexcept {
 }
 
 DeformedBody::Motion DeformedBody::motion(const Vec3& p_rest) const noexcept {
-  return in_J(motion_C(X_CJ_ * p_rest));
+  return in_J(motion_in_cage(X_CJ_ * p_rest).motion);
 }
 
 Vec3 DeformedBody::displacement(const Vec3& p_rest) const noexcept {
@@ -154,7 +154,7 @@ DeformedBody::Rest DeformedBody::to_rest(const Vec3& p, const Vec3& guess) const
   double way = 1;  // shorter steps where full ones go round in circles
   double before = 1e9;
   for (int k = 0; k < kMostSteps && !found; ++k) {
-    motion = motion_C(rest_C);
+    motion = motion_in_cage(rest_C).motion;
     const Vec3 error = p_C - rest_C - motion.displacement;
     const double size = error.norm();
     found = size < kExact;

@@ -59,6 +59,15 @@ class DeformedBody {
   [[nodiscard]] Motion motion(const Vec3& p_rest) const noexcept;
   [[nodiscard]] Vec3 displacement(const Vec3& p_rest) const noexcept;
 
+  /// The same in the cage's frame, with the cube it comes from (-1: outside). Cost: as motion.
+  struct PlacedMotion {
+    Motion motion;
+    std::int32_t cell = -1;
+  };
+  [[nodiscard]] PlacedMotion motion_in_cage(const Vec3& p_C) const noexcept;
+  /// From frame J to the cage's.
+  [[nodiscard]] const Pose& to_cage() const noexcept { return X_CJ_; }
+
   /// X(x), by Newton steps that start at `p - guess`; with the motion of the point found. Exact to
   /// 1e-7 m where the body is not folded, beside a cube's face to 1e-5 m. Cost: 0.1 us a step, one
   /// with a good guess.
@@ -83,7 +92,6 @@ class DeformedBody {
  private:
   std::shared_ptr<const CompiledJoint> joint_;
   std::shared_ptr<const BodyMap> map_;
-  [[nodiscard]] Motion motion_C(const Vec3& p_C) const noexcept;
   [[nodiscard]] Motion in_J(const Motion& motion) const noexcept;
   void keep_far(const DeformedBody& before);
 

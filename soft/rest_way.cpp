@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/soft/rest_way.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace artus {
+namespace {
+
+constexpr double kKnotPitch = 3e-4;     // m, knots that a bend asks for do not come closer
+constexpr double kLeastStep = 5e-5;     // m, past a cube's face
+constexpr double kOutsideStep = 3e-3;   // m, where there is no cube
+constexpr double kOneStep = 3e-5;  // m off the tangent, four times the error half way; one Newton
+                                   // step leaves next to nothing of it
+
+}  // namespace
+
+RestWay::RestWay(const DeformedBody& body, const Vec3& origin_J, const Vec3& direction_J) noexcept
+    : body_(&body),
+      origin_J_(origin_J),
+      direction_J_(direction_J),
+      origin_C_(body.to_cage() * origin_J),
+      direction_C_(body.to_cage().linear() * direction_J) {}
+
+void RestWay::finish(RestKnot& knot) const noexcept {
+  const Pose& X_JC = body_->map().X_JC;
+  knot.onward_C = knot.gradient_C.inverse() * direction_C_;
+  knot.onward_J = X_JC.linear() * knot.onward_C;
+  const Vec3 moved = origin_C_ + knot.along * direction_C_ - knot.rest_C;
+  knot.moved = moved.norm();
+  knot.displacement_J = X_JC.linear() * moved;
+  knot.rest_J = origin_J_ + knot.along * direction_J_ - knot.displacement_J;
+}
+
+RestKnot RestWay::at(double along, const Vec3& guess_J) const noexcept {
+  RestKnot knot;
+  knot.along = along;
+  const DeformedBody::Rest rest = body_->to_rest(origin_J_ + along * direction_J_, guess_J);
+  knot.rest_C = body_->to_cage() * rest.p_rest;
+  const DeformedBody::PlacedMotion there = body_->motion_in_cage(knot.rest_C);
+  knot.gradient_C = there.motion.gradient;
+  knot.cell = there.cell;
+  finish(knot);
+  return knot;
+}
+
+/// How far the line goes on until it leaves the cube, m.
+double RestWay::to_face(const RestKnot& left) const noexcept {
+  if (left.cell < 0) return kOutsideStep;
+  const Cage& cage = body_->map().model->cage();
+  const CageCell& cell = cage.cells()[static_cast<std::size_t>(left.cell)];
+  const Vec3 low = cage.low_corner(cell);
+  const double edge = cage.edge(cell);
+  double way = std::numeric_limits<double>::infinity();
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    const double slope = left.onward_C[k];
+    if (std::abs(slope) < 1e-9) continue;
+    const double face = slope > 0 ? low[k] + edge : low[k];
+    way = std::min(way, (face - left.rest_C[k]) / slope);
+  }
+  return std::clamp(way + 1e-6, kLeastStep, edge * 4);
+}
+
+RestKnot RestWay::next(const RestKnot& left) const noexcept {
+  RestKnot knot;
+  for (double step = to_face(left);; step *= 0.5) {
+    knot.along = left.along + step;
+    const Vec3 guess = left.rest_C + step * left.onward_C;
+    const DeformedBody::PlacedMotion there = body_->motion_in_cage(guess);
+    const Vec3 error =
+        origin_C_ + knot.along * direction_C_ - guess - there.motion.displacement;
+    if (error.norm() < kOneStep) {
+      knot.rest_C = guess + there.motion.gradient.inverse() * error;
+      knot.gradient_C = there.motion.gradient;
+      knot.cell = there.cell;
+      finish(knot);
+      return knot;
+    }
+    if (step > 2 * kKnotPitch) continue;
+    return at(knot.along, body_->map().X_JC.linear() * there.motion.displacement);
+  }
+}
+
+Eigen::Matrix3d RestWay::gradient_J(const RestKnot& knot) const noexcept {
+  const Eigen::Matrix3d R = body_->map().X_JC.linear();
+  return R * knot.gradient_C * R.transpose();
+}
+
+}  // namespace artus
