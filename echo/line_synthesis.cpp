@@ -37,21 +37,21 @@ void interpolate_gain(const float* nodes, const float* weight, float* gain,
   }
 }
 
-constexpr std::size_t kLanes = 8;
+constexpr std::size_t kFadeLanes = 8;
 
 /// Multiplies nodes by an amplitude that starts at `value` and changes by `ratio` from node to
-/// node, and sets what their sheets reflect coherently. Goes on to a full multiple of kLanes.
+/// node, and sets what their sheets reflect coherently. Goes on to a full multiple of kFadeLanes.
 ARTUS_SIMD
 void fade_nodes(float value, float ratio, float facing, float* nodes, float* sheets,
                 std::size_t n) noexcept {
-  std::array<float, kLanes> amplitude{};
+  std::array<float, kFadeLanes> amplitude{};
   float step = 1;
   for (float& a : amplitude) {
     a = value * step;
     step *= ratio;
   }
-  for (std::size_t k = 0; k < n; k += kLanes) {
-    for (std::size_t j = 0; j < kLanes; ++j) {
+  for (std::size_t k = 0; k < n; k += kFadeLanes) {
+    for (std::size_t j = 0; j < kFadeLanes; ++j) {
       const float node = nodes[k + j];
       const float above = 0.5F * (node - kSheet + std::abs(node - kSheet));
       sheets[k + j] = amplitude[j] * facing * above;
@@ -94,13 +94,13 @@ void for_knots(const BeamRun& run, std::span<const BeamKnot> knots, std::size_t 
   for (std::size_t k = 0; k + 1 < knots.size(); ++k) {
     const double to = at(knots[k + 1]);
     piece.begin = piece.end;
-    piece.end = k + 2 == knots.size() ? n
-                                      : static_cast<std::size_t>(
-                                            std::clamp(std::ceil(to), 0.0, static_cast<double>(n)));
+    piece.end =
+        k + 2 == knots.size()
+            ? n
+            : static_cast<std::size_t>(std::clamp(std::ceil(to), 0.0, static_cast<double>(n)));
     if (piece.end > piece.begin && to > from) {
       piece.step = (knots[k + 1].rest.rest_J - knots[k].rest.rest_J) / (to - from);
-      piece.rest =
-          knots[k].rest.rest_J + (static_cast<double>(piece.begin) - from) * piece.step;
+      piece.rest = knots[k].rest.rest_J + (static_cast<double>(piece.begin) - from) * piece.step;
       use(piece);
     } else {
       piece.end = piece.begin;
@@ -161,7 +161,7 @@ void LineSynthesis::add_run(const BeamRun& run, const Ground& ground, std::span<
   const std::size_t n_nodes = (n - 1) / kNodeStride + 2;
   const std::size_t behind = echoes.size() + kNodeStride;  // the last stride may reach over the end
   const auto nodes = gain.subspan(behind, n_nodes);
-  const std::size_t room = (n_nodes + kLanes - 1) / kLanes * kLanes;
+  const std::size_t room = (n_nodes + kFadeLanes - 1) / kFadeLanes * kFadeLanes;
   const auto sheets = gain.subspan(behind + room, n_nodes);
   const double across =
       region.kind == TissueKind::fat ? run.across * run.across : 1 - run.along * run.along;

@@ -19,7 +19,7 @@ constexpr double kAlongSurface =
 constexpr double kSilence = -20;  // ln: 174 dB down, below any receiver
 constexpr double kMargin = 1.25;  // tissue as fast as tendon reaches deeper in the same time
 constexpr double kTiny = 1e-12;
-constexpr double kStill = 1e-9;  // m; tissue that moved less is where it was
+constexpr double kStill = 1e-9;       // m; tissue that moved less is where it was
 constexpr double kRepeatFrom = 0.02;  // echoes above -34 dB repeat
 // rad, bend at which a beam has lost a neper. assumed: half the acceptance of an F/2 aperture; the
 // rest of the aperture went another way and no longer adds up
@@ -231,7 +231,8 @@ void BeamTracer::find_rest(Walk& walk, BeamRun& run) const noexcept {
   run.n_knots = trace.n_knots - run.first_knot;
   const double middle = 0.5 * (run.path_begin + run.path_end);
   const BeamKnot& knot = trace.knots[knot_before(walk, middle)];
-  run.rest_middle_J = knot.rest.rest_J + (middle - knot.path) / walk.time_scale * knot.rest.onward_J;
+  run.rest_middle_J =
+      knot.rest.rest_J + (middle - knot.path) / walk.time_scale * knot.rest.onward_J;
   walk.gradient = walk.way->gradient_J(knot.rest);
 }
 

@@ -22,11 +22,11 @@ namespace {
 
 using Twist = Eigen::Matrix<double, 6, 1>;  // turn (rad), then the way of the frame's origin (m)
 
-constexpr double kUnitModulus = 15e3;    // Pa, muscle's: conductance 1
+constexpr double kUnitModulus = 15e3;  // Pa, muscle's: conductance 1
 constexpr double kLeastConductance = 0.2;
 constexpr double kMostConductance = 30;
 constexpr double kFilmConductance = 0.02;  // of bursa and joint fluid: what is slack slides
-constexpr double kShareTolerance = 1e-6;        // of the shares
+constexpr double kShareTolerance = 1e-6;   // of the shares
 constexpr double kWhole = 1e-9;            // a share this near to 0 or 1 is 0 or 1
 constexpr double kTouch = 0.5e-3;          // m, by which bones may share a place
 constexpr double kMostFolded = 0.02;
@@ -43,7 +43,8 @@ Twist twist_of(const Pose& X) {
   const Vec3 w = turn.angle() * turn.axis();
   const double a = turn.angle();
   const Eigen::Matrix3d W = cross_matrix(w);
-  const double second = a < 1e-4 ? 1.0 / 12 : (1 - a * std::sin(a) / (2 * (1 - std::cos(a)))) / (a * a);
+  const double second =
+      a < 1e-4 ? 1.0 / 12 : (1 - a * std::sin(a) / (2 * (1 - std::cos(a)))) / (a * a);
   Twist twist;
   twist << w, (Eigen::Matrix3d::Identity() - 0.5 * W + second * W * W) * X.translation();
   return twist;
@@ -57,8 +58,7 @@ Pose pose_of(const Twist& twist) {
   const double second = a < 1e-4 ? 1.0 / 6 : (a - std::sin(a)) / (a * a * a);
   Pose X = Pose::Identity();
   if (a > 0) X.linear() = Eigen::AngleAxisd(a, w / a).toRotationMatrix();
-  X.translation() =
-      (Eigen::Matrix3d::Identity() + first * W + second * W * W) * twist.tail<3>();
+  X.translation() = (Eigen::Matrix3d::Identity() + first * W + second * W * W) * twist.tail<3>();
   return X;
 }
 
@@ -162,8 +162,7 @@ struct Motions {
 
   [[nodiscard]] Pose of(RegionId bone) const {
     const auto at = std::find(bones.begin(), bones.end(), bone);
-    return at == bones.end() ? Pose::Identity()
-                             : X_J[static_cast<std::size_t>(at - bones.begin())];
+    return at == bones.end() ? Pose::Identity() : X_J[static_cast<std::size_t>(at - bones.begin())];
   }
 };
 
@@ -245,7 +244,8 @@ void turn_fibres(const CompiledJoint& rest, std::span<const Twist> twists, Compi
     const double part = 0.25 * tet_volume(rest.mesh, t);
     const RegionId region = rest.mesh.regions[t];
     volume[region] += 4 * part;
-    for (const std::uint32_t v : rest.mesh.tetrahedra[t]) turn[region] += part * twists[v].head<3>();
+    for (const std::uint32_t v : rest.mesh.tetrahedra[t])
+      turn[region] += part * twists[v].head<3>();
   }
   for (std::size_t r = kFirstRegion; r < turn.size(); ++r) {
     if (!(volume[r] > 0)) continue;
@@ -299,7 +299,8 @@ Result<BoneShares> compute_bone_shares(const CompiledJoint& joint,
     if (bone_of[v] == kOutside && in_tissue[v]) unknown[v] = n_unknowns++;
   }
   std::vector<Eigen::Triplet<double>> entries;
-  Eigen::MatrixXd right = Eigen::MatrixXd::Zero(n_unknowns, static_cast<Eigen::Index>(bones.size()));
+  Eigen::MatrixXd right =
+      Eigen::MatrixXd::Zero(n_unknowns, static_cast<Eigen::Index>(bones.size()));
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
     const Tissue& tissue = joint.tissue_of(mesh.regions[t]);
     if (tissue.haptic.hard) continue;

@@ -8,11 +8,14 @@
 namespace artus {
 namespace {
 
-constexpr double kKnotPitch = 3e-4;     // m, knots that a bend asks for do not come closer
-constexpr double kLeastStep = 5e-5;     // m, past a cube's face
-constexpr double kOutsideStep = 3e-3;   // m, where there is no cube
+constexpr double kKnotPitch = 3e-4;    // m, knots that a bend asks for do not come closer
+constexpr double kLeastStep = 5e-5;    // m, past a cube's face
+constexpr double kOutsideStep = 3e-3;  // m, where there is no cube
 constexpr double kOneStep = 3e-5;  // m off the tangent, four times the error half way; one Newton
                                    // step leaves next to nothing of it
+
+constexpr double kNearTangent = 8e-6;    // m off the tangent over more than a cube
+constexpr double kFarthestAhead = 8e-3;  // m
 
 }  // namespace
 
@@ -64,21 +67,25 @@ double RestWay::to_face(const RestKnot& left) const noexcept {
 
 RestKnot RestWay::next(const RestKnot& left) const noexcept {
   RestKnot knot;
-  for (double step = to_face(left);; step *= 0.5) {
+  const double face = to_face(left);
+  double step = face + left.ahead;
+  while (true) {
     knot.along = left.along + step;
     const Vec3 guess = left.rest_C + step * left.onward_C;
     const DeformedBody::PlacedMotion there = body_->motion_in_cage(guess);
-    const Vec3 error =
-        origin_C_ + knot.along * direction_C_ - guess - there.motion.displacement;
-    if (error.norm() < kOneStep) {
+    const Vec3 error = origin_C_ + knot.along * direction_C_ - guess - there.motion.displacement;
+    const double off = error.norm();
+    if (off < (step > face ? kNearTangent : kOneStep)) {
       knot.rest_C = guess + there.motion.gradient.inverse() * error;
       knot.gradient_C = there.motion.gradient;
       knot.cell = there.cell;
+      if (off < kNearTangent) knot.ahead = std::min(kFarthestAhead, std::max(face, 2 * left.ahead));
       finish(knot);
       return knot;
     }
-    if (step > 2 * kKnotPitch) continue;
-    return at(knot.along, body_->map().X_JC.linear() * there.motion.displacement);
+    if (step <= 2 * kKnotPitch)
+      return at(knot.along, body_->map().X_JC.linear() * there.motion.displacement);
+    step = step > face ? face : 0.5 * step;
   }
 }
 

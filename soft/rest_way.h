@@ -8,15 +8,16 @@ namespace artus {
 
 /// Where the tissue of one point of a line was at rest.
 struct RestKnot {
-  double along = 0;                 ///< m from the line's start
-  Vec3 rest_J = Vec3::Zero();       ///< m
-  Vec3 onward_J = Vec3::UnitZ();    ///< how `rest_J` goes on per metre of line
+  double along = 0;               ///< m from the line's start
+  Vec3 rest_J = Vec3::Zero();     ///< m
+  Vec3 onward_J = Vec3::UnitZ();  ///< how `rest_J` goes on per metre of line
   Vec3 displacement_J = Vec3::Zero();
-  double moved = 0;  ///< m, its length
-  Vec3 rest_C = Vec3::Zero();       ///< m, in the cage's frame, as the next three
+  double moved = 0;            ///< m, its length
+  Vec3 rest_C = Vec3::Zero();  ///< m, in the cage's frame, as the next three
   Vec3 onward_C = Vec3::UnitZ();
   Eigen::Matrix3d gradient_C = Eigen::Matrix3d::Identity();  ///< F from here on
-  std::int32_t cell = -1;           ///< of the cage; -1: outside
+  std::int32_t cell = -1;                                    ///< of the cage; -1: outside
+  double ahead = 0;  ///< m beyond the cube that are worth a try: it went on straight
 };
 
 /// A straight line through a body that gives way, and the way that its tissue had at rest: knots

@@ -17,9 +17,9 @@ constexpr double kLargestShift = 0.2;  // m
 std::set<std::string, std::less<>> bones_of(const JointFile& joint) {
   std::set<std::string, std::less<>> bones;
   for (const Structure& s : joint.structures) {
-    const bool hard =
-        std::any_of(joint.tissues.begin(), joint.tissues.end(),
-                    [&](const Tissue& t) { return t.name == s.tissue && t.haptic.hard; });
+    const bool hard = std::any_of(joint.tissues.begin(), joint.tissues.end(), [&](const Tissue& t) {
+      return t.name == s.tissue && t.haptic.hard;
+    });
     if (hard) bones.insert(s.name);
   }
   return bones;
@@ -49,8 +49,8 @@ Pose read_motion(TomlTable& move, double unit, const JointFile& joint) {
     if (move.has("axis") && !(axis.norm() > 0))
       move.problem_at("axis", "must not be zero");
     else if (axis.norm() > 0)
-      X_J = Eigen::Translation3d(centre) *
-            Eigen::AngleAxisd(degrees * kDegree, axis.normalized()) * Eigen::Translation3d(-centre);
+      X_J = Eigen::Translation3d(centre) * Eigen::AngleAxisd(degrees * kDegree, axis.normalized()) *
+            Eigen::Translation3d(-centre);
   }
   const Vec3 shift = move.vector("shift", unit).value_or(Vec3::Zero());
   if (shift.norm() > kLargestShift) move.problem_at("shift", "is longer than 20 cm");

@@ -16,7 +16,7 @@ using testing::HasSubstr;
 
 /// Muscle of 20 mm between two bones.
 CompiledJoint bones_and_muscle() {
-  const std::array<test::FlatLayer, 3> layers{{{"bone", 6e-3}, {"muscle", 20e-3}, {"bone", 6e-3}}};
+  const std::array<FlatLayer, 3> layers{{{"bone", 6e-3}, {"muscle", 20e-3}, {"bone", 6e-3}}};
   return test::make_meshed_block(layers, 40e-3, 40e-3, 2e-3);
 }
 
@@ -53,9 +53,12 @@ TEST(PoseJoint, BonesAreRigidAndWhatStaysKeepsItsBytes) {
   ASSERT_TRUE(posed) << posed.error().to_string();
   for (std::size_t v = 0; v < rest.mesh.vertices.size(); ++v) {
     const Vec3& p = rest.mesh.vertices[v];
-    if (p.z() < 6e-3 + 1e-9) EXPECT_EQ(posed->joint.mesh.vertices[v], p);
-    if (p.z() > 26e-3 - 1e-9)
+    if (p.z() < 6e-3 + 1e-9) {
+      EXPECT_EQ(posed->joint.mesh.vertices[v], p);
+    }
+    if (p.z() > 26e-3 - 1e-9) {
       EXPECT_LT((posed->joint.mesh.vertices[v] - pose.motions[0].X_J * p).norm(), 1e-12);
+    }
   }
 }
 
@@ -80,7 +83,7 @@ TEST(PoseJoint, WhatIsPlacedInTissueGoesWithItAndFibresTurnHalfAsFar) {
 }
 
 TEST(PoseJoint, SlackFilmTakesTheWayThatTissueDoesNot) {
-  const std::array<test::FlatLayer, 5> layers{
+  const std::array<FlatLayer, 5> layers{
       {{"bone", 4e-3}, {"muscle", 8e-3}, {"bursa", 2e-3}, {"muscle", 8e-3}, {"bone", 4e-3}}};
   const CompiledJoint rest = test::make_meshed_block(layers, 30e-3, 30e-3, 2e-3);
   const std::array<std::string, 1> bones{"bone_2"};

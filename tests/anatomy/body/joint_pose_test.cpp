@@ -25,7 +25,7 @@ const std::string kArm =
     "[[structure]]\nname = \"biceps\"\ntissue = \"muscle\"\nfile = \"b.stl\"\n"
     "[[landmark]]\nname = \"trochlea\"\nposition = [10, 0, 0]\n";
 
-std::string refusal(const std::string& pose) {
+std::string refused(const std::string& pose) {
   const auto joint = parse_joint(kArm + pose, "j");
   return joint ? "" : joint.error().to_string();
 }
@@ -53,7 +53,7 @@ TEST(JointPose, TurnsAboutAnAxisThroughALandmarkAndThenShifts) {
 
 TEST(JointPose, TellsWhatIsWrongWithIt) {
   const auto move = [](const std::string& keys) {
-    return refusal("[pose.a]\n[[pose.a.move]]\n" + keys);
+    return refused("[pose.a]\n[[pose.a.move]]\n" + keys);
   };
   const std::string turn = "axis = [0, 0, 1]\nthrough = [0, 0, 0]\ndegrees = 10\n";
   EXPECT_EQ(move("structures = [\"ulna\"]\n" + turn), "");
@@ -79,8 +79,8 @@ TEST(JointPose, TellsWhatIsWrongWithIt) {
       HasSubstr("did you mean 'trochlea'?"));
   EXPECT_THAT(move("structures = [\"ulna\"]\nshift = [300, 0, 0]\n"), HasSubstr("20 cm"));
   EXPECT_THAT(move("structures = [\"ulna\"]\n" + turn + "angle = 3\n"), HasSubstr("angle"));
-  EXPECT_THAT(refusal("[pose.Up]\n"), HasSubstr("a-z"));
-  EXPECT_THAT(refusal("[pose.a]\nmoves = 1\n"), HasSubstr("moves"));
+  EXPECT_THAT(refused("[pose.Up]\n"), HasSubstr("a-z"));
+  EXPECT_THAT(refused("[pose.a]\nmoves = 1\n"), HasSubstr("moves"));
 }
 
 TEST_F(JointPoseFile, IsKeptInACompiledFile) {
