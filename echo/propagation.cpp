@@ -65,6 +65,7 @@ struct BeamTracer::Walk {
   double bend_loss = 0;                // Np, see kBendLobe
   const BeamTrace* central = nullptr;  // of the middle plane, for the others
   std::size_t central_run = 0;         // the one beside this beam's place
+  std::size_t central_knot = 0;        // the first behind the last one made
   Vec3 line_start = {};                // of the straight piece, as the next four
   Vec3 line_direction = {};            // unit
   double line_path = 0;                // m, at its start
@@ -77,6 +78,29 @@ struct BeamTracer::Walk {
   [[nodiscard]] double log_gain(double sigma) const noexcept {
     const double shift = slope * sigma;
     return log_transmission - bend_loss - attenuation + 0.5 * shift * shift;
+  }
+  /// m of this line from its start to a place on the beam.
+  [[nodiscard]] double along(double at_path) const noexcept {
+    return (at_path - line_path) / time_scale;
+  }
+  /// The first knot of the middle plane behind a place on the beam, of the line that is there;
+  /// null: none. Only ever asked for places farther on.
+  [[nodiscard]] const BeamKnot* knot_after(double at_path) noexcept {
+    if (central == nullptr) return nullptr;
+    const auto in_force = [&](std::size_t k) {  // not past its line's end
+      return k + 1 == central->n_knots || central->knots[k + 1].path > central->knots[k].path;
+    };
+    while (central_knot < central->n_knots &&
+           (central->knots[central_knot].path <= at_path || !in_force(central_knot)))
+      ++central_knot;
+    return central_knot < central->n_knots ? &central->knots[central_knot] : nullptr;
+  }
+  /// The last one before or at it.
+  [[nodiscard]] const BeamKnot* knot_beside(double at_path) noexcept {
+    const BeamKnot* after = knot_after(at_path);
+    if (after == nullptr || central_knot == 0) return after;
+    const BeamKnot& before = central->knots[central_knot - 1];
+    return before.path <= at_path ? &before : after;
   }
   /// Goes on straight from `from`.
   void begin_line(const Vec3& from, const Vec3& direction, double scale) noexcept {
@@ -141,7 +165,7 @@ bool BeamTracer::enter(Walk& walk, const TissueInterval& interval,
     if (tissue_ != nullptr && place_knots(walk, walk.path)) {
       const RestKnot& knot = trace.knots[knot_before(walk, walk.path)].rest;
       if (knot.moved > kStill) {
-        const double onward = (walk.path - walk.line_path) / walk.time_scale - knot.along;
+        const double onward = walk.along(walk.path) - knot.along;
         echo.rest_J = knot.rest_J + onward * knot.onward_J;
         echo.step_J = echo.step_J.norm() * knot.onward_J;
       }
@@ -199,14 +223,23 @@ bool BeamTracer::place_knots(Walk& walk, double path) const noexcept {
     if (trace.n_knots + 2 > BeamTrace::kMaxKnots) return false;
     walk.way.emplace(*tissue_, walk.line_start, walk.line_direction);
     walk.line_knot = trace.n_knots;
-    const double along = (walk.path - walk.line_path) / walk.time_scale;
-    trace.knots[trace.n_knots++] = {walk.path, walk.way->at(along, walk.displacement)};
+    const BeamKnot* beside = walk.knot_beside(walk.path);
+    const double along = walk.along(walk.path);
+    trace.knots[trace.n_knots++] = {walk.path, beside != nullptr
+                                                   ? walk.way->beside(beside->rest, along)
+                                                   : walk.way->at(along, walk.displacement)};
   }
   while (trace.knots[trace.n_knots - 1].path < path || trace.n_knots < walk.line_knot + 2) {
     if (trace.n_knots == BeamTrace::kMaxKnots) break;
+    const BeamKnot& last = trace.knots[trace.n_knots - 1];
     BeamKnot& next = trace.knots[trace.n_knots];
-    next.rest = walk.way->next(trace.knots[trace.n_knots - 1].rest);
-    next.path = walk.line_path + next.rest.along * walk.time_scale;
+    const BeamKnot* beside = walk.knot_after(last.path);
+    if (beside != nullptr) {
+      next = {beside->path, walk.way->beside(beside->rest, walk.along(beside->path))};
+    } else {
+      next.rest = walk.way->next(last.rest);
+      next.path = walk.line_path + next.rest.along * walk.time_scale;
+    }
     ++trace.n_knots;
   }
   return true;

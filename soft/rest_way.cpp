@@ -28,7 +28,8 @@ RestWay::RestWay(const DeformedBody& body, const Vec3& origin_J, const Vec3& dir
 
 void RestWay::finish(RestKnot& knot) const noexcept {
   const Pose& X_JC = body_->map().X_JC;
-  knot.onward_C = knot.gradient_C.inverse() * direction_C_;
+  knot.inverse_C = knot.gradient_C.inverse();
+  knot.onward_C = knot.inverse_C * direction_C_;
   knot.onward_J = X_JC.linear() * knot.onward_C;
   const Vec3 moved = origin_C_ + knot.along * direction_C_ - knot.rest_C;
   knot.moved = moved.norm();
@@ -87,6 +88,23 @@ RestKnot RestWay::next(const RestKnot& left) const noexcept {
       return at(knot.along, body_->map().X_JC.linear() * there.motion.displacement);
     step = step > face ? face : 0.5 * step;
   }
+}
+
+RestKnot RestWay::beside(const RestKnot& other, double along) const noexcept {
+  RestKnot knot = other;
+  knot.along = along;
+  const Eigen::Matrix3d R = body_->map().X_JC.linear();
+  const Vec3 p_J = origin_J_ + along * direction_J_;
+  const Vec3 off_C = R.transpose() * (p_J - other.rest_J - other.displacement_J);
+  const Vec3 rest_off_C = other.inverse_C * off_C;
+  knot.rest_C += rest_off_C;
+  knot.rest_J += R * rest_off_C;
+  knot.displacement_J = p_J - knot.rest_J;
+  knot.moved = knot.displacement_J.norm();
+  knot.onward_C = other.inverse_C * direction_C_;
+  knot.onward_J = R * knot.onward_C;
+  knot.ahead = 0;
+  return knot;
 }
 
 Eigen::Matrix3d RestWay::gradient_J(const RestKnot& knot) const noexcept {
