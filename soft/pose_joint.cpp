@@ -270,42 +270,37 @@ void move_places(const TissueMotion& motion, const JointPose& pose, CompiledJoin
       pose.X_JP.value_or(motion.at(joint.X_JP_default.translation()) * joint.X_JP_default);
 }
 
-}  // namespace
-
-Result<BoneShares> compute_bone_shares(const CompiledJoint& joint,
-                                       std::span<const std::string> bones) {
-  const TetMesh& mesh = joint.mesh;
-  const std::vector<RegionId> bone_of = bones_of_vertices(joint);
-  BoneShares shares;
-  const auto n = static_cast<Eigen::Index>(mesh.vertices.size());
-  shares.of_vertex.setZero(n, static_cast<Eigen::Index>(bones.size()));
-  for (std::size_t b = 0; b < bones.size(); ++b) {
-    const auto bone = find_bone(joint, bones[b]);
-    ARTUS_TRY(bone);
-    if (std::find(bone_of.begin(), bone_of.end(), *bone) == bone_of.end())
-      return fail(ErrorCode::not_found, "'" + bones[b] + "' has no volume", joint.name);
-    for (Eigen::Index v = 0; v < n; ++v) {
-      if (bone_of[static_cast<std::size_t>(v)] == *bone)
-        shares.of_vertex(v, static_cast<Eigen::Index>(b)) = 1;
-    }
-  }
-  std::vector<int> unknown(mesh.vertices.size(), -1);
-  int n_unknowns = 0;
+/// The vertices in soft tissue alone, numbered; -1: the others.
+std::vector<int> number_unknowns(const TetMesh& mesh, std::span<const RegionId> bone_of) {
   std::vector<bool> in_tissue(mesh.vertices.size(), false);
   for (const auto& tet : mesh.tetrahedra) {
     for (const std::uint32_t v : tet) in_tissue[v] = true;
   }
+  std::vector<int> unknown(mesh.vertices.size(), -1);
+  int n = 0;
   for (std::size_t v = 0; v < unknown.size(); ++v) {
-    if (bone_of[v] == kOutside && in_tissue[v]) unknown[v] = n_unknowns++;
+    if (bone_of[v] == kOutside && in_tissue[v]) unknown[v] = n++;
   }
+  return unknown;
+}
+
+/// The equations of the unknown shares, with those of bones on their right side.
+struct ShareEquations {
+  Eigen::SparseMatrix<double> matrix;
+  Eigen::MatrixXd right;  // (n_unknowns, n_bones)
+};
+
+ShareEquations assemble_shares(const CompiledJoint& joint, std::span<const int> unknown,
+                               const Eigen::MatrixXd& of_vertex) {
+  const int n = 1 + *std::max_element(unknown.begin(), unknown.end());
+  ShareEquations equations{Eigen::SparseMatrix<double>(n, n),
+                           Eigen::MatrixXd::Zero(n, of_vertex.cols())};
   std::vector<Eigen::Triplet<double>> entries;
-  Eigen::MatrixXd right =
-      Eigen::MatrixXd::Zero(n_unknowns, static_cast<Eigen::Index>(bones.size()));
-  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
-    const Tissue& tissue = joint.tissue_of(mesh.regions[t]);
+  for (std::size_t t = 0; t < joint.mesh.tetrahedra.size(); ++t) {
+    const Tissue& tissue = joint.tissue_of(joint.mesh.regions[t]);
     if (tissue.haptic.hard) continue;
-    const Eigen::Matrix4d K = conductance_of(tissue) * stiffness_of(mesh, t);
-    const auto& tet = mesh.tetrahedra[t];
+    const Eigen::Matrix4d K = conductance_of(tissue) * stiffness_of(joint.mesh, t);
+    const auto& tet = joint.mesh.tetrahedra[t];
     for (int i = 0; i < 4; ++i) {
       const int row = unknown[tet[static_cast<std::size_t>(i)]];
       if (row < 0) continue;
@@ -314,19 +309,41 @@ Result<BoneShares> compute_bone_shares(const CompiledJoint& joint,
         if (unknown[other] >= 0)
           entries.emplace_back(row, unknown[other], K(i, j));
         else
-          right.row(row) -= K(i, j) * shares.of_vertex.row(other);
+          equations.right.row(row) -= K(i, j) * of_vertex.row(other);
       }
     }
   }
-  Eigen::SparseMatrix<double> matrix(n_unknowns, n_unknowns);
-  matrix.setFromTriplets(entries.begin(), entries.end());
+  equations.matrix.setFromTriplets(entries.begin(), entries.end());
+  return equations;
+}
+
+}  // namespace
+
+Result<BoneShares> compute_bone_shares(const CompiledJoint& joint,
+                                       std::span<const std::string> bones) {
+  const std::vector<RegionId> bone_of = bones_of_vertices(joint);
+  BoneShares shares;
+  shares.of_vertex.setZero(static_cast<Eigen::Index>(bone_of.size()),
+                           static_cast<Eigen::Index>(bones.size()));
+  for (std::size_t b = 0; b < bones.size(); ++b) {
+    const auto bone = find_bone(joint, bones[b]);
+    ARTUS_TRY(bone);
+    if (std::find(bone_of.begin(), bone_of.end(), *bone) == bone_of.end())
+      return fail(ErrorCode::not_found, "'" + bones[b] + "' has no volume", joint.name);
+    for (std::size_t v = 0; v < bone_of.size(); ++v) {
+      if (bone_of[v] == *bone)
+        shares.of_vertex(static_cast<Eigen::Index>(v), static_cast<Eigen::Index>(b)) = 1;
+    }
+  }
+  const std::vector<int> unknown = number_unknowns(joint.mesh, bone_of);
+  const ShareEquations equations = assemble_shares(joint, unknown, shares.of_vertex);
   Eigen::ConjugateGradient<Eigen::SparseMatrix<double>, Eigen::Lower | Eigen::Upper,
                            Eigen::IncompleteCholesky<double>>
       solver;
   solver.setTolerance(kShareTolerance);
   solver.setMaxIterations(5000);
-  solver.compute(matrix);
-  const Eigen::MatrixXd solved = solver.solve(right);
+  solver.compute(equations.matrix);
+  const Eigen::MatrixXd solved = solver.solve(equations.right);
   if (solver.info() != Eigen::Success || !solved.allFinite())
     return fail(ErrorCode::failed, "how the tissue goes with the bones was not found", joint.name);
   for (std::size_t v = 0; v < unknown.size(); ++v) {

@@ -8,6 +8,8 @@
 
 #include "artus/anatomy/body/compiled_joint.h"
 #include "artus/anatomy/body/joint_file.h"
+#include "artus/anatomy/body/joint_pose_bytes.h"
+#include "artus/anatomy/body/joint_pose_toml.h"
 #include "tests/support/layered_body.h"
 #include "tests/support/temporary_folder.h"
 
@@ -81,6 +83,24 @@ TEST(JointPose, TellsWhatIsWrongWithIt) {
   EXPECT_THAT(move("structures = [\"ulna\"]\n" + turn + "angle = 3\n"), HasSubstr("angle"));
   EXPECT_THAT(refused("[pose.Up]\n"), HasSubstr("a-z"));
   EXPECT_THAT(refused("[pose.a]\nmoves = 1\n"), HasSubstr("moves"));
+}
+
+TEST(JointPose, BytesThatAreNoRigidMotionAreRefused) {
+  ByteWriter out;
+  Pose sheared = Pose::Identity();
+  sheared.matrix()(0, 1) = 0.1;
+  put_poses(out, {{"bent", "", {{"ulna", sheared}}, {}}});
+  ByteReader in(out.bytes());
+  static_cast<void>(get_poses(in));
+  EXPECT_FALSE(in.ok());
+}
+
+TEST(JointPose, ProbeWithoutADirectionIsNoPose) {
+  const auto table = parse_toml("position = [1, 2, 3]\ndirection = [0, 0, 0]", "t").value();
+  Problems problems;
+  TomlTable toml(table, "probe", problems);
+  EXPECT_FALSE(read_probe_pose(toml, 1e-3));
+  EXPECT_FALSE(problems.empty());
 }
 
 TEST_F(JointPoseFile, IsKeptInACompiledFile) {
