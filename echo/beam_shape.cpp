@@ -35,14 +35,15 @@ void scale_add_pair(float weight, const float* before, const float* behind, floa
   for (std::size_t i = 0; i < n; ++i) out[i] += weight * (before[i] + behind[i]);
 }
 
-/// Power of a weighted sum of unit scatterers at `spacing`, which `share` cells.
-template <class T, class Share>
-double shared_power(const std::vector<T>& weights, double spacing, double cell, Share share) {
+/// Power of a weighted sum of unit scatterers at `spacing`, some of which lie in one cell.
+template <class T>
+double shared_power(const std::vector<T>& weights, double spacing, double cell) {
   double sum = 0;
   for (std::size_t i = 0; i < weights.size(); ++i) {
     for (std::size_t j = 0; j < weights.size(); ++j) {
       const double apart = spacing * (static_cast<double>(i) - static_cast<double>(j));
-      sum += share(apart, cell) * static_cast<double>(weights[i]) * static_cast<double>(weights[j]);
+      sum += ScatterField::shared(apart, cell) * static_cast<double>(weights[i]) *
+             static_cast<double>(weights[j]);
     }
   }
   return sum;
@@ -68,10 +69,7 @@ BeamShape::BeamShape(const Transducer& transducer, const ImageSettings& settings
 void BeamShape::size_scatterers(const Transducer& transducer) {
   const double pulse = transducer.pulse_cycles * transducer.wavelength() / 2;
   const double beam = profile_.lateral_width(0);
-  // A whole number of samples, so that each scatterer gets as many of them wherever it lies: else
-  // the echo of tissue that moves by part of a sample is another one.
-  scatterer_.axial =
-      std::max(1.0, std::round(std::max(0.5 * pulse, kSmallest) / sample_depth_)) * sample_depth_;
+  scatterer_.axial = std::max(0.5 * pulse, kSmallest);
   scatterer_.lateral = std::clamp(pitch_, 0.3 * beam, 0.65 * beam);
   scatterer_.elevation = profile_.elevation_width(transducer.elevation_focus);
 }
@@ -115,8 +113,7 @@ void BeamShape::tabulate_planes(const ImageSettings& settings) {
   }
   echo_weight_.assign(static_cast<std::size_t>(planes) * n, 0.0F);
   speckle_weight_.assign(static_cast<std::size_t>(planes) * n + kPadding, 0.0F);
-  const double pulse_power =
-      shared_power(pulse_, sample_depth_, scatterer_.axial, ScatterField::shared);
+  const double pulse_power = shared_power(pulse_, sample_depth_, scatterer_.axial);
   std::vector<double> lateral(static_cast<std::size_t>(2 * reach_ + 1));
   std::vector<double> weight(static_cast<std::size_t>(planes));
   for (std::size_t i = 0; i < n; ++i) {
@@ -139,8 +136,7 @@ void BeamShape::tabulate_planes(const ImageSettings& settings) {
       lateral[static_cast<std::size_t>(at_k)] =
           kernel_[static_cast<std::size_t>(std::abs(k)) * n + i];
     }
-    const double lateral_power =
-        shared_power(lateral, line_spacing(z), scatterer_.lateral, ScatterField::shared_across);
+    const double lateral_power = shared_power(lateral, line_spacing(z), scatterer_.lateral);
     const double unit = 1 / std::sqrt(plane_power * lateral_power * pulse_power);
     for (std::size_t p = 0; p < weight.size(); ++p) {
       echo_weight_[p * n + i] = static_cast<float>(weight[p] / sum);

@@ -30,16 +30,6 @@ inline std::uint32_t hash_cell(std::uint32_t x, std::uint32_t y, std::uint32_t z
   return h ^ (h >> 15U);
 }
 
-inline float real_part(std::uint32_t h) noexcept {
-  return static_cast<float>(static_cast<std::int32_t>(h & 255U) -
-                            static_cast<std::int32_t>((h >> 8U) & 255U));
-}
-
-inline float imaginary_part(std::uint32_t h) noexcept {
-  return static_cast<float>(static_cast<std::int32_t>((h >> 16U) & 255U) -
-                            static_cast<std::int32_t>(h >> 24U));
-}
-
 // The difference of two uniform bytes has variance (256^2 - 1) / 6; twice that for both parts.
 constexpr float kUnitPower = 1.0F / 147.8F;
 
@@ -67,16 +57,15 @@ void add_scatterers(const ScattererWalk& scatterers, const float* gain, float* r
     // rows shifted against each other by parts of a cell that never repeat
     const std::uint32_t z = (z0 + i * dz) >> 16U;
     const std::uint32_t y = (y0 + i * dy + z * 40503U) >> 16U;
-    const std::uint32_t across = x0 + i * dx + z * 27146U + y * 49297U;
-    const std::uint32_t x = across >> 16U;
-    // between the middles of two cells beside each other, each has its share
-    const float to = static_cast<float>(static_cast<std::int32_t>(across & 0xffffU)) / 65536.0F;
-    const float from = 1 - to;
+    const std::uint32_t x = (x0 + i * dx + z * 27146U + y * 49297U) >> 16U;
     const std::uint32_t h = hash_cell(x, y, z, seed);
-    const std::uint32_t k = hash_cell(x + 1, y, z, seed);
-    const float g = gain[i] * unit / std::sqrt(from * from + to * to);
-    re[i] += g * (from * real_part(h) + to * real_part(k));
-    im[i] += g * (from * imaginary_part(h) + to * imaginary_part(k));
+    const auto a =
+        static_cast<std::int32_t>(h & 255U) - static_cast<std::int32_t>((h >> 8U) & 255U);
+    const auto b =
+        static_cast<std::int32_t>((h >> 16U) & 255U) - static_cast<std::int32_t>(h >> 24U);
+    const float g = gain[i] * unit;
+    re[i] += g * static_cast<float>(a);
+    im[i] += g * static_cast<float>(b);
   }
 }
 
@@ -161,23 +150,6 @@ void ScatterField::add(const ScatterView& view, const Vec3& p_J, const Vec3& ste
 
 double ScatterField::shared(double distance, double cell) noexcept {
   return std::max(0.0, 1 - std::abs(distance) / cell);
-}
-
-double ScatterField::shared_across(double distance, double cell) noexcept {
-  const double d = std::abs(distance) / cell;
-  if (d >= 2) return 0;
-  constexpr int kPlaces = 64;  // in a cell
-  double sum = 0;
-  for (int k = 0; k < kPlaces; ++k) {
-    const double a = (k + 0.5) / kPlaces;
-    const double whole = std::floor(a + d);
-    const double b = a + d - whole;
-    double product = 0;
-    if (whole == 0) product = (1 - a) * (1 - b) + a * b;
-    if (whole == 1) product = a * (1 - b);
-    sum += product / std::sqrt(((1 - a) * (1 - a) + a * a) * ((1 - b) * (1 - b) + b * b));
-  }
-  return sum / kPlaces;
 }
 
 void add_white_noise(std::uint64_t seed, int line, std::span<const float> gain, std::span<float> re,

@@ -47,8 +47,8 @@ struct ScatterView {
 /// they must be turned with the view: 40 elevation axes and steps of 15 degrees within the plane
 /// are fixed in the body, and the nearest is taken, blending over the last degree. Real speckle
 /// changes alike when the beam's angle leaves its aperture. Rows of cells are staggered, so a probe
-/// that moves by part of a cell changes that part of the scatterers, and those of lines beside each
-/// other blend: speckle moves with the tissue without a jump.
+/// that moves by part of a cell changes that part of the scatterers: speckle moves with the tissue
+/// without a jump.
 class ScatterField {
  public:
   explicit ScatterField(std::uint64_t seed, const ScattererSize& size = {});
@@ -67,9 +67,6 @@ class ScatterField {
   /// Share of samples `distance` apart (m) that lie in the same cell of size `cell`: their
   /// correlation.
   [[nodiscard]] static double shared(double distance, double cell) noexcept;
-  /// Correlation of samples `distance` apart across the lines (m): between the middles of two cells
-  /// of size `cell` beside each other, each has its share.
-  [[nodiscard]] static double shared_across(double distance, double cell) noexcept;
 
   [[nodiscard]] const ScattererSize& size() const noexcept { return size_; }
 
