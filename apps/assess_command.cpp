@@ -106,7 +106,8 @@ Result<Assessment> assess_poses(const AssessOptions& options) {
 Result<Assessment> assess_file(const AssessOptions& options) {
   const auto scene = load_body(options);
   ARTUS_TRY(scene);
-  const auto recording = read_any_recording(options.recording, *scene);
+  const auto recording = read_any_recording(
+      options.recording, *scene, options.no_pictures ? LedPictures::none : LedPictures::listed);
   ARTUS_TRY(recording);
   auto goals = goals_of(options, (*scene)->joint());
   ARTUS_TRY(goals);
