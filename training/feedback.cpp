@@ -131,10 +131,13 @@ Run fastest_drift(const AttemptMeasures& m) {
 
 void add_syringe_faults(const AttemptMeasures& m, std::vector<Fault>& out) {
   const double astray = misplaced_ml(m.metrics);
-  if (const AttemptEvent* e = worst_event(m, "misplaced"); e != nullptr)
+  if (const AttemptEvent* e = worst_event(m, "misplaced"); e != nullptr) {
+    // Liquid goes where the tip is: one cause, one fault.
+    std::erase_if(out, [](const Fault& fault) { return fault.kind == "off_target"; });
     out.push_back({"misplaced", e->time, weight_of(kMisplaced, astray),
                    beside("given beside the target", astray, "ml", kMisplaced.band), e->text,
                    "Give half a ml and look: the line must split."});
+  }
   if (const AttemptEvent* e = worst_event(m, "flow"); e != nullptr && unaspirated(m.metrics))
     out.push_back({"unaspirated", e->time, weight_of(kUnaspirated, 1),
                    printed("%.1f ml given without an aspiration before", e->value),
