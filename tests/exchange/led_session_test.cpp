@@ -94,6 +94,7 @@ std::string numbers(LedPictures pictures, bool assessed_pictures) {
   }
   SessionParams params = test::make_small_session();
   params.deform = true;
+  params.image_rate = 8;
   const auto recording = record_led_session(poses, scene, params, pictures);
   EXPECT_TRUE(recording);
   EXPECT_EQ(recording->packets.empty(), pictures != LedPictures::drawn);

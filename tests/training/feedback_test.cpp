@@ -12,7 +12,9 @@
 
 #include "artus/anatomy/body/find_region.h"
 #include "artus/training/assessment.h"
+#include "artus/training/past_attempts.h"
 #include "tests/session/session_support.h"
+#include "tests/support/temporary_folder.h"
 
 namespace artus {
 namespace {
@@ -238,6 +240,38 @@ TEST(Feedback, PastAttemptsAreReadFromTheirNumbers) {
     EXPECT_THAT(past.kinds, testing::Contains(kind));
   for (const std::string& kind : {std::string("misplaced"), std::string("fast")})
     EXPECT_EQ(skill_of_fault(kind), Skill::inject);
+}
+
+class FeedbackRecords : public test::TemporaryFolder {};
+
+TEST_F(FeedbackRecords, FinishedAttemptsWithoutAidsCountByTheirAge) {
+  auto records = Records::open(in("school.db"));
+  ASSERT_TRUE(records);
+  ASSERT_TRUE(records->add_person({"p", "learner", ""}));
+  const std::vector<Metric> drift{{"drift_mm_s", "probe", "mm/s", 3.0, "", {}}};
+  AttemptRecord a;
+  a.person = "p";
+  a.scenario = "gel-hold";
+  for (const bool aided : {false, true}) {
+    a.id = aided ? "aided" : "counts";
+    a.started = "2026-01-01T00:00:00Z";
+    a.aided = aided;
+    ASSERT_TRUE(records->begin(a, "text"));
+    a.ended = "2026-01-01T00:01:00Z";
+    ASSERT_TRUE(records->finish(a, drift, {}));
+    a.ended.clear();
+  }
+  a.id = "unfinished";
+  a.aided = false;
+  ASSERT_TRUE(records->begin(a, "text"));
+  std::tm now{};
+  now.tm_year = 126;
+  now.tm_mday = 15;  // two weeks later
+  const auto before = read_past_attempts(*records, "p", timegm(&now));
+  ASSERT_TRUE(before);
+  ASSERT_EQ(before->size(), 1U);
+  EXPECT_NEAR(before->front().weeks, 2, 1e-9);
+  EXPECT_THAT(before->front().kinds, testing::ElementsAre("drift"));
 }
 
 }  // namespace
