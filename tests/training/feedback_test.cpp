@@ -47,8 +47,7 @@ class Hands {
       probe_ = probe + s * slide;
       time_ += 0.01;
       const Pose X_JN = make_pose(tip(), axis_, Vec3::UnitY());
-      const Pose X_JP =
-          make_pose(Vec3(1e-3 * probe_ - 5e-3, 0, 0), Vec3::UnitZ(), Vec3::UnitX());
+      const Pose X_JP = make_pose(Vec3(1e-3 * probe_ - 5e-3, 0, 0), Vec3::UnitZ(), Vec3::UnitX());
       meter_->add_needle(time_, X_JN.translation(), Eigen::Quaterniond(X_JN.linear()));
       meter_->add_probe(time_, X_JP.translation(), Eigen::Quaterniond(X_JP.linear()));
       give();
@@ -71,7 +70,8 @@ class Hands {
   }
   void give() {
     given_ += 1e-8 * std::max(0.0, ml_s_);
-    SyringeTick tick{time_, 1e-6 * ml_s_, given_, ml_s_ > 0 ? 20.0 : 0.0, 1e3 * kpa_, kOutside, tip()};
+    SyringeTick tick{time_,      1e-6 * ml_s_, given_, ml_s_ > 0 ? 20.0 : 0.0,
+                     1e3 * kpa_, kOutside,     tip()};
     const auto region = find_region(scene_->joint(), depth_ > 22 ? "bursa" : "muscle");
     tick.region = *region;
     meter_->add_syringe(tick);
