@@ -92,6 +92,45 @@ TEST_F(SessionCore, AResetForgetsTheInsertion) {
   EXPECT_EQ(step(-10e-3).inserted, 0U);
 }
 
+/// One packet of the tissue, and a hand that moves on and turns in every tick after it.
+TEST_F(SessionCore, BetweenTheTissuesUpdatesTheProbeFeelsForceAndTorqueByItsWholeStiffness) {
+  using Vec6 = Eigen::Matrix<double, 6, 1>;
+  const Pose pressed = to_pose(test::sample_at(0, 0, 0).X_WP);
+  Vec6 wrench;
+  wrench << 0.2, -0.1, -3, 0.01, 0.02, -0.005;
+  const Vec6 coupled = (Vec6() << 8, -5, 12, 0.3, -0.4, 0.2).finished();
+  Eigen::Matrix<double, 6, 6> K = coupled * coupled.transpose();
+  K.diagonal() += (Vec6() << 200, 250, 700, 1.5, 2, 0.7).finished();
+  ProbePacket packet;
+  packet.number = 1;
+  packet.share = 0.5;
+  for (Eigen::Index i = 0; i < 12; ++i)
+    packet.X_JP[static_cast<std::size_t>(i)] = pressed.matrix()(i / 4, i % 4);
+  Eigen::Map<Vec6>(packet.wrench.data()) = wrench;
+  Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(packet.stiffness.data()) = K;
+  core_.take(packet);
+  for (int i = 0; i < 400; ++i) step(-10e-3);  // the ramp after the start is over
+  const Vec3 axis = Vec3(1, -2, 0.5).normalized();
+  for (int i = 0; i <= 30; ++i) {
+    Vec6 motion;
+    motion << 2e-5 * i, -1e-5 * i, 3e-5 * i, 1e-3 * i * axis;
+    const Pose now =
+        pressed * Eigen::Translation3d(motion.head<3>()) * Eigen::AngleAxisd(1e-3 * i, axis);
+    TickInput input;
+    input.tick = ++tick_;
+    input.device = test::sample_at(-10e-3, static_cast<std::int64_t>(tick_) * kTick, tick_);
+    input.device.X_WP = to_plain(now);
+    const DeviceFeedback& felt = core_.step(input).feedback;
+    const Vec6 expected = wrench - K * motion;
+    const Vec3 force = pressed.linear() * expected.head<3>();
+    const Vec3 torque = pressed.linear() * expected.tail<3>();
+    for (std::size_t k = 0; k < 3; ++k) {
+      ASSERT_NEAR(felt.probe_force[k], force[static_cast<Eigen::Index>(k)], 1e-9) << i;
+      ASSERT_NEAR(felt.probe_torque[k], torque[static_cast<Eigen::Index>(k)], 1e-9) << i;
+    }
+  }
+}
+
 TEST_F(SessionCore, NoInputOfAPeerGivesAForceThatIsNotFiniteOrOverTheLimit) {
   const double limit = params_.device.force;
   artus_shm_pos pos{};

@@ -6,7 +6,8 @@
 //   build/release/bench/haptics/bench_needle [joint folder or compiled file]
 // Reading: each of a million ticks is timed alone; the counters are percentiles in microseconds,
 //   the clock's own cost (about 0.03 us) is in them. "Time" is the mean and decides nothing.
-//   "query" is the part of the tick spent in the scene. Run on a quiet core: what else the machine
+//   "query" is the part of the tick spent in the scene; "needle_tick_in_tissue" is the tick with
+//   16 points of tissue that gives way. Run on a quiet core: what else the machine
 //   does shows in p99.9 and max.
 // Workload: strokes along the joint's planned injections and lines beside them, 5 to 30 mm/s with
 //   tremor, from 10 mm before the skin onto bone or target and back. The joint is the one named;
@@ -177,13 +178,29 @@ NeedleParams all_laws(const Body& body) {
   return params;
 }
 
-void bench_tick(benchmark::State& state, const Body& body) {
+/// All points of a track in tissue of some kPa; the values cost the same whatever they are.
+NeedleCompliance giving_way() {
+  NeedleCompliance c;
+  c.points = NeedleCompliance::kMost;
+  for (std::size_t i = 0; i < c.points; ++i) {
+    for (std::size_t j = 0; j < c.points; ++j) {
+      const double apart = std::abs(static_cast<double>(i) - static_cast<double>(j));
+      c.by_load[i][j] = i == j ? 1.6e-3 : 0.9e-3 * std::exp(-0.25 * apart);
+    }
+  }
+  return c;
+}
+
+enum class BenchTissue { rigid, gives_way };
+
+void bench_tick(benchmark::State& state, const Body& body, BenchTissue tissue) {
   NeedleRendererParams params;
   params.needle = all_laws(body);
   params.passivity.control = true;
   params.device = find_device("virtuose_6d_desktop").value();
   params.rate_hz = kRate;
   NeedleRenderer renderer(body.scene, make_layer_table(*body.joint), params);
+  if (tissue == BenchTissue::gives_way) renderer.take(giving_way());
   Alternatives alternatives(renderer.period());
   long inserted = 0;
   long bone = 0;
@@ -246,7 +263,13 @@ int main(int argc, char** argv) {
         ->Iterations(artus::bench::kTicks)
         ->Unit(benchmark::kMicrosecond);
   };
-  add("needle_tick", artus::bench::bench_tick);
+  const auto tick_in = [](artus::bench::BenchTissue tissue) {
+    return [tissue](benchmark::State& state, const artus::bench::Body& b) {
+      artus::bench::bench_tick(state, b, tissue);
+    };
+  };
+  add("needle_tick", tick_in(artus::bench::BenchTissue::rigid));
+  add("needle_tick_in_tissue", tick_in(artus::bench::BenchTissue::gives_way));
   add("query", artus::bench::bench_query);
   benchmark::RunSpecifiedBenchmarks();
   return 0;

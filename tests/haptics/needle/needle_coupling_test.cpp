@@ -162,6 +162,47 @@ TEST(NeedleCoupling, FrictionTakesEnergyInEveryTickOfATremblingHand) {
   }
 }
 
+/// Hands that tremble, jump and twist, at depths and in layers that change as they like, in tissue
+/// that is another one every 333 ticks. The hand's work and what new compliances bring cover what
+/// the tissue stores and friction takes, in every tick; let go, the tissue is back.
+TEST(NeedleCoupling, WildHandsGetNoEnergyThatIsNotMeteredAndTheTissueIsBackAtRest) {
+  constexpr std::uint64_t kSeed = 91;
+  NeedleCoupling needle(kCouplingTick);
+  needle.take(tissue());
+  double work = 0;
+  double before = 0;
+  double least = 0;
+  double largest = 0;
+  for (std::uint64_t k = 0; k < 100'000; ++k) {
+    const auto random = [k](std::uint64_t i) {
+      return uniform_noise(kSeed, 8 * k + i);
+    };
+    if (k % 333 == 332) needle.take(tissue(0.3 + 2 * random(0)));
+    const double jump = random(1) < 0.01 ? 0.03 : 1e-4;
+    const double moved = jump * normal_noise(kSeed + 1, k);
+    const double depth = 0.05 * random(2) - 0.005;
+    const auto limits = limits_to(needle, depth, 0.3 * random(3));
+    const double tip_force = 4 * random(4) - 1;
+    const double force = needle.step(moved, depth, tip_force, 2000 * random(5), limits);
+    const double most = 0.3 * static_cast<double>(needle.points());
+    ASSERT_LE(std::abs(force), most) << k;
+    work -= force * moved;
+    largest = std::max(largest, needle.stored());
+    // Each tick's step forward takes a little more than it stores and friction takes: never less.
+    const double taken = work + needle.given() - needle.stored() - needle.dissipated();
+    least = std::min(least, taken - before);
+    before = taken;
+    ASSERT_TRUE(std::isfinite(needle.tip_displacement() + taken)) << k;
+  }
+  EXPECT_GT(work, 1) << "the hands did work";
+  EXPECT_GT(largest, 1e-3);
+  EXPECT_GT(least, -1e-12 * work) << "rounding of the sums";
+  const std::vector<double> none(16, 0.0);
+  for (int k = 0; k < 1000; ++k) EXPECT_EQ(needle.step(0, -0.01, 0, 0, none), 0);
+  EXPECT_LT(std::abs(needle.tip_displacement()), 1e-7);
+  EXPECT_EQ(needle.stored(), 0);
+}
+
 TEST(NeedleCoupling, EnergyOfANewComplianceIsMetered) {
   NeedleCoupling needle(kCouplingTick);
   needle.take(tissue());

@@ -151,5 +151,63 @@ TEST(NeedleFaults, NeverGetAnUnsafeForceOutOverAMillionTicks) {
   EXPECT_GT(fullest, 3) << "full forces are met between the faults";
 }
 
+/// Points along the track that each give way and take their neighbours along.
+NeedleCompliance giving_way(double scale) {
+  NeedleCompliance c;
+  c.points = NeedleCompliance::kMost;
+  for (std::size_t i = 0; i < c.points; ++i) {
+    for (std::size_t j = 0; j < c.points; ++j) {
+      const double apart = std::abs(static_cast<double>(i) - static_cast<double>(j));
+      c.by_load[i][j] = scale * (i == j ? 1.6e-3 : 0.9e-3 * std::exp(-0.25 * apart));
+    }
+  }
+  return c;
+}
+
+/// The same in tissue that gives way, another one every half second. What the faults leave behind
+/// must be gone once the needle is out.
+TEST(NeedleFaults, InTissueThatGivesWayLeaveForcesInLimitsAndTheTissueAtRest) {
+  NeedleRendererParams params;
+  params.guard.workspace_half = Vec3::Constant(0.25);
+  params.device = find_device("virtuose_6d_desktop").value();
+  params.rate_hz = 1 / kTick;
+  const auto scene = test::block();
+  NeedleRenderer renderer(scene, make_layer_table(scene->joint()), params);
+  const NeedleCoupling& tissue = renderer.model().coupling();
+  long felt = 0;
+  long faults = 0;
+  double deepest = 0;
+  Bursts bursts;
+  TimedPose before;
+  constexpr std::uint64_t kTicks = 100'000;
+  for (std::uint64_t i = 0; i < kTicks; ++i) {
+    if (i % 500 == 0) renderer.take(giving_way(0.3 + 2 * uniform_noise(kSeed + 20, i)));
+    const Fault fault = bursts.at(i);
+    const TimedPose sane = test::stroke(kTick * static_cast<double>(i));
+    if (!bursts.faulty) before = sane;
+    const RenderedNeedle& out = renderer.step(broken(fault, kSeed, i, sane, before));
+    ASSERT_TRUE(out.command.force.allFinite() && out.command.torque.allFinite()) << i;
+    ASSERT_TRUE(std::isfinite(out.energy_to_hand + tissue.stored() + tissue.dissipated())) << i;
+    ASSERT_LE(out.command.force.norm(), params.device.force * (1 + 1e-9)) << i;
+    ASSERT_LE(out.command.torque.norm(), params.device.torque * (1 + 1e-9)) << i;
+    ASSERT_LT(std::abs(tissue.tip_displacement()), 0.05) << i;
+    deepest = std::max(deepest, tissue.tip_displacement());
+    if (out.command.force.norm() > 0.5) ++felt;
+    if ((out.status & TickStatus::kFaults) != 0) ++faults;
+  }
+  EXPECT_GT(felt, 20'000);
+  EXPECT_GT(faults, 1000);
+  EXPECT_GT(deepest, 1e-3) << "the tissue gave way between the faults";
+  TimedPose away = test::stroke(0);
+  for (std::uint64_t i = 0; i < 2000; ++i) {
+    away.time = kTick * static_cast<double>(kTicks + 3000 + i);
+    static_cast<void>(renderer.step(away));
+  }
+  EXPECT_FALSE(renderer.model().contact().inserted());
+  EXPECT_LT(std::abs(tissue.tip_displacement()), 1e-7);
+  EXPECT_EQ(tissue.stored(), 0);
+  EXPECT_EQ(renderer.step({away.X_JN, away.time + kTick}).command.force.norm(), 0);
+}
+
 }  // namespace
 }  // namespace artus
