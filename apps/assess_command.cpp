@@ -124,7 +124,8 @@ Result<Assessment> assess_file(const AssessOptions& options) {
   if (!options.scenario.empty()) return assess_attempt(options);
   const auto scene = load_body(options);
   ARTUS_TRY(scene);
-  const auto recording = read_any_recording(options.recording, *scene);
+  const auto recording = read_any_recording(
+      options.recording, *scene, options.no_pictures ? LedPictures::none : LedPictures::listed);
   ARTUS_TRY(recording);
   auto goals = goals_of(options, (*scene)->joint());
   ARTUS_TRY(goals);

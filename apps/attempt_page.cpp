@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <utility>
 
 #include "artus/apps/html_page.h"
 #include "artus/core/text_cursor.h"
@@ -112,8 +113,10 @@ void add_numbers(HtmlPage& page, const std::vector<Metric>& metrics) {
 }  // namespace
 
 Result<void> write_attempt_page(const Scenario& scenario, const std::shared_ptr<const Scene>& scene,
-                                const PlayedAttempt& attempt, const std::filesystem::path& file) {
-  const Feedback feedback = make_feedback(attempt.measures, attempt.judgement);
+                                const PlayedAttempt& attempt, const std::filesystem::path& file,
+                                std::vector<PastAttempt> before) {
+  const Feedback feedback =
+      make_feedback(attempt.measures, attempt.judgement, {scenario.level, std::move(before)});
   HtmlPage page(scenario.title + ": one attempt");
   page.point(attempt.judgement.passed ? "passed" : "failed",
              feedback.verdict + " Score " + fixed_number(attempt.judgement.score, 0) + " of 100, " +

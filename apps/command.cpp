@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #include "artus/anatomy/compile/compile.h"
+#include "artus/soft/pose_joint.h"
 
 namespace artus {
 
@@ -99,6 +100,8 @@ void add_joint_options(Command* command, JointOptions& options) {
   command->add_option("--cache", options.cache, "folder for compiled joints (default: user cache)");
   command->add_flag("--skip-refused", options.skip_refused,
                     "leave out structures that cannot be repaired instead of stopping");
+  command->add_option("--pose", options.pose,
+                      "how the joint is held: a [pose.NAME] of its file; else as it was compiled");
 }
 
 Result<std::shared_ptr<const CompiledJoint>> load(const JointOptions& options,
@@ -109,6 +112,13 @@ Result<std::shared_ptr<const CompiledJoint>> load(const JointOptions& options,
   load_options.compile.skip_refused = options.skip_refused;
   auto joint = load_joint(options.joint, load_options, progress);
   ARTUS_TRY(joint);
+  if (!options.pose.empty()) {
+    const auto pose = find_pose(*joint, options.pose);
+    ARTUS_TRY(pose);
+    auto posed = pose_joint(*joint, *pose);
+    ARTUS_TRY(posed);
+    return std::make_shared<const CompiledJoint>(std::move(posed->joint));
+  }
   return std::make_shared<const CompiledJoint>(std::move(*joint));
 }
 

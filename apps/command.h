@@ -39,16 +39,17 @@ ExitCode report_error(const Error& error, bool json);
 /// terminal, one line a stage otherwise. `quiet` gives one that prints nothing.
 [[nodiscard]] Progress make_progress_printer(bool quiet);
 
-/// --joint, --surfaces, --cache, --skip-refused: where a joint comes from.
+/// --joint, --surfaces, --cache, --skip-refused, --pose: where a joint comes from, how it is held.
 struct JointOptions {
   std::filesystem::path joint;
   std::filesystem::path surfaces;
   std::filesystem::path cache;
   bool skip_refused = false;
+  std::string pose;
 };
 void add_joint_options(Command* command, JointOptions& options);
 
-/// Loads a compiled file, or compiles a joint folder (kept for the next time).
+/// Loads a compiled file, or compiles a joint folder (kept for the next time), in its pose.
 [[nodiscard]] Result<std::shared_ptr<const CompiledJoint>> load(const JointOptions& options,
                                                                 const Progress& progress);
 

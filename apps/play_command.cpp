@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <cstdio>
+#include <ctime>
 #include <iostream>
 #include <memory>
 #include <utility>
@@ -8,6 +9,7 @@
 #include "artus/apps/attempt_page.h"
 #include "artus/apps/scenario_options.h"
 #include "artus/apps/training_commands.h"
+#include "artus/training/past_attempts.h"
 #include "artus/training/player.h"
 
 namespace artus {
@@ -81,6 +83,12 @@ class Note {
     return note;
   }
 
+  /// What the same person did before; nothing where no records are kept.
+  [[nodiscard]] Result<std::vector<PastAttempt>> before() {
+    if (records_ == nullptr) return std::vector<PastAttempt>{};
+    return read_past_attempts(*records_, attempt_.person, std::time(nullptr));
+  }
+
   [[nodiscard]] Result<void> finish(const PlayedAttempt& played) {
     if (records_ == nullptr) return {};
     attempt_.ended = utc_now();
@@ -111,8 +119,11 @@ ExitCode run_play(const PlayCommandOptions& options) {
   if (!attempt) return report_error(attempt.error(), options.json);
   Result<void> kept;
   if (!options.record.empty()) kept = write_folder(*scenario, *attempt, options.record);
-  if (kept && !options.report.empty())
-    kept = write_attempt_page(*scenario, *scene, *attempt, options.report);
+  if (kept && !options.report.empty()) {
+    auto before = note->before();
+    if (!before) return report_error(before.error(), options.json);
+    kept = write_attempt_page(*scenario, *scene, *attempt, options.report, std::move(*before));
+  }
   if (kept) kept = note->finish(*attempt);
   if (!kept) return report_error(kept.error(), options.json);
   if (options.json)

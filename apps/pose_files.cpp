@@ -2,7 +2,6 @@
 #include "artus/apps/pose_files.h"
 
 #include "artus/apps/session_options.h"
-#include "artus/exchange/led_session.h"
 #include "artus/exchange/sequence_file.h"
 
 namespace artus {
@@ -24,7 +23,8 @@ Result<std::vector<ListedPose>> read_any_poses(const std::filesystem::path& file
 }
 
 Result<Recording> read_any_recording(const std::filesystem::path& file,
-                                     const std::shared_ptr<const Scene>& scene) {
+                                     const std::shared_ptr<const Scene>& scene,
+                                     LedPictures pictures) {
   const auto extension = file.extension();
   if (extension != ".mha" && extension != ".jsonl" && extension != ".csv")
     return read_recording(file);
@@ -32,7 +32,7 @@ Result<Recording> read_any_recording(const std::filesystem::path& file,
   ARTUS_TRY(poses);
   const auto params = make_session_params(SessionOptions{}, scene->joint());
   ARTUS_TRY(params);
-  return record_led_session(*poses, scene, *params);
+  return record_led_session(*poses, scene, *params, pictures);
 }
 
 }  // namespace artus

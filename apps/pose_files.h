@@ -7,6 +7,7 @@
 #include "artus/apps/view_options.h"
 #include "artus/core/result.h"
 #include "artus/dataset/pose_list.h"
+#include "artus/exchange/led_session.h"
 #include "artus/session/recording.h"
 
 namespace artus {
@@ -25,8 +26,10 @@ void add_pose_list_options(Command* command, PoseListOptions& options);
 [[nodiscard]] Result<std::vector<ListedPose>> read_any_poses(const std::filesystem::path& file);
 
 /// A recording, or what a session records in which such poses lead probe and needle (with serve's
-/// settings). Errors: those of read_recording, read_any_poses and record_led_session.
+/// settings; `pictures`: of a led one). Errors: those of read_recording, read_any_poses and
+/// record_led_session.
 [[nodiscard]] Result<Recording> read_any_recording(const std::filesystem::path& file,
-                                                   const std::shared_ptr<const Scene>& scene);
+                                                   const std::shared_ptr<const Scene>& scene,
+                                                   LedPictures pictures = LedPictures::drawn);
 
 }  // namespace artus

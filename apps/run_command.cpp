@@ -7,6 +7,7 @@
 #include "artus/apps/plan_options.h"
 #include "artus/apps/view_options.h"
 #include "artus/core/text_file.h"
+#include "artus/core/units.h"
 #include "artus/evidence/medical/run_images.h"
 #include "artus/evidence/medical/three_injections.h"
 
@@ -25,6 +26,10 @@ struct RunOptions {
   bool no_images = false;
   bool no_video = false;
   bool rigid = false;
+  bool dry = false;
+  double give_ml = 0.5;
+  double give_ml_s = 0.25;
+  std::string liquid = "lidocaine";
   bool json = false;
 };
 
@@ -41,6 +46,9 @@ void print_summary(const ThreeInjections& run, const RunImages& images,
                   p.least, p.most, p.rise * 1e3);
   }
   for (const auto& claim : run.claims) std::printf("%s\n", to_line(claim).c_str());
+  for (const GivenTo& to : run.given)
+    std::printf("%-28s %9.4f ml%s\n", to.place.c_str(), to.volume / kCubicCentimetre,
+                to.target ? "  target" : "");
   std::printf("%zu ticks, %zu images%s in %s\n", run.rows.size(), images.moments.size(),
               images.video.empty() ? "" : " and a video", out.c_str());
   std::printf("%s\n", count_claims(run.claims).c_str());
@@ -80,6 +88,12 @@ ExitCode run_scenario(const RunOptions& options) {
   run_options.feel = *feel;
   run_options.probe.contact.footprint.length = view->transducer.width;
   run_options.probe.contact.footprint.width = view->transducer.elevation_height;
+  if (!options.dry) {
+    run_options.dose.volume = options.give_ml * kCubicCentimetre;
+    run_options.dose.rate = options.give_ml_s * kCubicCentimetre;
+    run_options.dose.syringe.gauge = options.view.gauge;
+    run_options.dose.syringe.liquid = options.liquid;
+  }
   const auto run = run_three_injections(*scene, *plan, run_options, progress);
   if (!run) return report_error(run.error(), options.json);
   if (const auto written = write_three_injections(*run, options.out); !written)
@@ -110,11 +124,14 @@ void add_run_command(Command& app, ExitCode& code) {
       app, "run",
       "Replay the published medical test with a simulated hand: forces, images, video, verdicts",
       "three-injections: two slow injections to the bursa with a change of direction and a touch\n"
-      "of bone, then a fast straight one. Writes trace.csv, forces.png, summary.json, a B-mode "
+      "of bone, then a fast straight one. At each target the thumb gives a dose; --dry gives "
+      "none,\n"
+      "as in the published runs. Writes trace.csv, forces.png, summary.json, a B-mode "
       "and\n"
       "a label image for each named moment, and a video. Exit code 1 when a claim does not hold.\n"
       "Examples:\n"
       "  artus run three-injections -j meshes/simple-shoulder --out out/run\n"
+      "  artus run three-injections -j meshes/simple-shoulder --out out/dry --dry\n"
       "  artus run three-injections -j meshes/shoulder --out out/run --rate 10000 --no-video "
       "--json\n"
       "  artus run three-injections -j meshes/shoulder --out out/run --target=-24.6,-9,18");
@@ -131,6 +148,14 @@ void add_run_command(Command& app, ExitCode& code) {
       ->capture_default_str();
   command->add_option("--device", options->device, "device whose force limits apply")
       ->capture_default_str();
+  command->add_flag("--dry", options->dry, "the published runs: nothing is injected");
+  command->add_option("--give-ml", options->give_ml, "ml at each target")
+      ->check(number_in(0.01, 10))
+      ->capture_default_str();
+  command->add_option("--give-rate", options->give_ml_s, "ml/s")
+      ->check(number_in(0.001, 5))
+      ->capture_default_str();
+  command->add_option("--liquid", options->liquid, "of meshes/liquids.toml")->capture_default_str();
   command->add_flag("--rigid", options->rigid,
                     "draw the body as it lies at rest; by default it gives way to the probe");
   command->add_flag("--no-images", options->no_images, "forces alone");

@@ -45,6 +45,9 @@ Result<std::unique_ptr<InputDevice>> make_injection_device(const SessionOptions&
   injection.deepest = way.norm() + kBeyond;
   injection.speed = options.speed_mm_s * kMillimetre;
   injection.volume = options.give_ml * kCubicCentimetre;
+  const auto plunger = make_plunger_params(params.syringe, needle_length_of(params));
+  ARTUS_TRY(plunger);
+  injection.syringe = plunger->syringe;
   return std::make_unique<InjectingDevice>(injection, params.device, params.haptic_rate);
 }
 

@@ -37,21 +37,21 @@ void interpolate_gain(const float* nodes, const float* weight, float* gain,
   }
 }
 
-constexpr std::size_t kLanes = 8;
+constexpr std::size_t kFadeLanes = 8;
 
 /// Multiplies nodes by an amplitude that starts at `value` and changes by `ratio` from node to
-/// node, and sets what their sheets reflect coherently. Goes on to a full multiple of kLanes.
+/// node, and sets what their sheets reflect coherently. Goes on to a full multiple of kFadeLanes.
 ARTUS_SIMD
 void fade_nodes(float value, float ratio, float facing, float* nodes, float* sheets,
                 std::size_t n) noexcept {
-  std::array<float, kLanes> amplitude{};
+  std::array<float, kFadeLanes> amplitude{};
   float step = 1;
   for (float& a : amplitude) {
     a = value * step;
     step *= ratio;
   }
-  for (std::size_t k = 0; k < n; k += kLanes) {
-    for (std::size_t j = 0; j < kLanes; ++j) {
+  for (std::size_t k = 0; k < n; k += kFadeLanes) {
+    for (std::size_t j = 0; j < kFadeLanes; ++j) {
       const float node = nodes[k + j];
       const float above = 0.5F * (node - kSheet + std::abs(node - kSheet));
       sheets[k + j] = amplitude[j] * facing * above;
@@ -71,8 +71,8 @@ void scale_add(float factor, const float* in, float* out, std::size_t n) noexcep
   for (std::size_t i = 0; i < n; ++i) out[i] += factor * in[i];
 }
 
-/// What of a row of `n` values, `stride` samples apart from sample `first` on, lies between two
-/// knots; the last two reach to the end.
+/// What of a row of `n` values, `stride` samples apart from the run's first sample on, lies between
+/// two knots; the last two reach to the end.
 struct KnotPiece {
   std::size_t begin = 0;
   std::size_t end = 0;
@@ -81,35 +81,38 @@ struct KnotPiece {
 };
 
 template <class Use>
-void for_knots(std::span<const BeamKnot> knots, std::size_t first, std::size_t stride,
+void for_knots(const BeamRun& run, std::span<const BeamKnot> knots, std::size_t stride,
                std::size_t n, Use use) noexcept {
-  const auto index_of = [&](double sample) {
-    const double at =
-        std::ceil((sample - static_cast<double>(first)) / static_cast<double>(stride));
-    return static_cast<std::size_t>(std::clamp(at, 0.0, static_cast<double>(n)));
+  const double first = std::ceil(std::max(0.0, run.begin));
+  const double samples_per_m = (run.end - run.begin) / (run.path_end - run.path_begin);
+  const auto at = [&](const BeamKnot& knot) {  // in values
+    return (run.begin + (knot.path - run.path_begin) * samples_per_m - first) /
+           static_cast<double>(stride);
   };
   KnotPiece piece;
+  double from = at(knots.front());
   for (std::size_t k = 0; k + 1 < knots.size(); ++k) {
-    const BeamKnot& from = knots[k];
-    const BeamKnot& to = knots[k + 1];
+    const double to = at(knots[k + 1]);
     piece.begin = piece.end;
-    piece.end = k + 2 == knots.size() ? n : index_of(to.sample);
-    if (piece.end <= piece.begin || !(to.sample > from.sample)) {
+    piece.end =
+        k + 2 == knots.size()
+            ? n
+            : static_cast<std::size_t>(std::clamp(std::ceil(to), 0.0, static_cast<double>(n)));
+    if (piece.end > piece.begin && to > from) {
+      piece.step = (knots[k + 1].rest.rest_J - knots[k].rest.rest_J) / (to - from);
+      piece.rest = knots[k].rest.rest_J + (static_cast<double>(piece.begin) - from) * piece.step;
+      use(piece);
+    } else {
       piece.end = piece.begin;
-      continue;
     }
-    const Vec3 a_sample = (to.rest_J - from.rest_J) / (to.sample - from.sample);
-    piece.step = a_sample * static_cast<double>(stride);
-    piece.rest =
-        from.rest_J + (static_cast<double>(first + piece.begin * stride) - from.sample) * a_sample;
-    use(piece);
+    from = to;
   }
 }
 
-void add_moved_scatterers(std::span<const BeamKnot> knots, std::size_t first,
+void add_moved_scatterers(const BeamRun& run, std::span<const BeamKnot> knots,
                           const ScatterView& view, std::span<const float> gain,
                           EchoSpan echoes) noexcept {
-  for_knots(knots, first, 1, gain.size(), [&](const KnotPiece& piece) {
+  for_knots(run, knots, 1, gain.size(), [&](const KnotPiece& piece) {
     const std::size_t n = piece.end - piece.begin;
     const EchoSpan here = echoes.part(piece.begin, n);
     ScatterField::add(view, piece.rest, piece.step, gain.subspan(piece.begin, n), here.re, here.im);
@@ -133,8 +136,7 @@ LineSynthesis::LineSynthesis(const BeamShape& shape, const ScatterField& scatter
 void LineSynthesis::sample_moved_texture(const BeamRun& run, const RegionAcoustics& region,
                                          std::span<const BeamKnot> knots,
                                          std::span<float> nodes) const noexcept {
-  const auto first = static_cast<std::size_t>(std::ceil(std::max(0.0, run.begin)));
-  for_knots(knots, first, kNodeStride, nodes.size(), [&](const KnotPiece& piece) {
+  for_knots(run, knots, kNodeStride, nodes.size(), [&](const KnotPiece& piece) {
     const Vec3 place = run.middle.place + run.middle.gradient * (piece.rest - run.rest_middle_J);
     texture_->sample(region.kind, place, run.middle.gradient * piece.step,
                      nodes.subspan(piece.begin, piece.end - piece.begin));
@@ -159,7 +161,7 @@ void LineSynthesis::add_run(const BeamRun& run, const Ground& ground, std::span<
   const std::size_t n_nodes = (n - 1) / kNodeStride + 2;
   const std::size_t behind = echoes.size() + kNodeStride;  // the last stride may reach over the end
   const auto nodes = gain.subspan(behind, n_nodes);
-  const std::size_t room = (n_nodes + kLanes - 1) / kLanes * kLanes;
+  const std::size_t room = (n_nodes + kFadeLanes - 1) / kFadeLanes * kFadeLanes;
   const auto sheets = gain.subspan(behind + room, n_nodes);
   const double across =
       region.kind == TissueKind::fat ? run.across * run.across : 1 - run.along * run.along;
@@ -184,7 +186,7 @@ void LineSynthesis::add_run(const BeamRun& run, const Ground& ground, std::span<
   interpolate_gain(nodes.data(), weight.data() + first, gain.data(), n_strides);
   const EchoSpan here = echoes.part(first, n);
   if (run.n_knots > 0) {
-    add_moved_scatterers(ground.knots.subspan(run.first_knot, run.n_knots), first, ground.view,
+    add_moved_scatterers(run, ground.knots.subspan(run.first_knot, run.n_knots), ground.view,
                          gain.first(n), here);
   } else {
     ScatterField::add(ground.view, p_J, run.step_J, gain.first(n), here.re, here.im);

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "artus/core/units.h"
-#include "artus/soft/deformed_body.h"
 
 namespace artus {
 namespace {
@@ -19,10 +19,7 @@ constexpr double kAlongSurface =
 constexpr double kSilence = -20;  // ln: 174 dB down, below any receiver
 constexpr double kMargin = 1.25;  // tissue as fast as tendon reaches deeper in the same time
 constexpr double kTiny = 1e-12;
-constexpr double kStill = 1e-9;  // m; tissue that moved less is where it was
-constexpr double kKnotBend =
-    2e-5;  // m off the straight way in a knot's middle: four times its error
-constexpr double kKnotPitch = 3e-4;   // m, knots do not come closer
+constexpr double kStill = 1e-9;       // m; tissue that moved less is where it was
 constexpr double kRepeatFrom = 0.02;  // echoes above -34 dB repeat
 // rad, bend at which a beam has lost a neper. assumed: half the acceptance of an F/2 aperture; the
 // rest of the aperture went another way and no longer adds up
@@ -68,12 +65,51 @@ struct BeamTracer::Walk {
   double bend_loss = 0;                // Np, see kBendLobe
   const BeamTrace* central = nullptr;  // of the middle plane, for the others
   std::size_t central_run = 0;         // the one beside this beam's place
-  Place place = {};                    // of the tissue last met, where it was at rest
+  std::size_t central_knot = 0;        // the first behind the last one made
+  Vec3 line_start = {};                // of the straight piece, as the next four
+  Vec3 line_direction = {};            // unit
+  double line_path = 0;                // m, at its start
+  double time_scale = 1;               // length of beam over length of line
+  std::optional<RestWay> way = {};     // once it is needed
+  std::size_t line_knot = 0;           // the way's first
+  Vec3 displacement = Vec3::Zero();    // m, of the tissue last met
   Eigen::Matrix3d gradient = Eigen::Matrix3d::Identity();  // of deformation, in the run's middle
 
   [[nodiscard]] double log_gain(double sigma) const noexcept {
     const double shift = slope * sigma;
     return log_transmission - bend_loss - attenuation + 0.5 * shift * shift;
+  }
+  /// m of this line from its start to a place on the beam.
+  [[nodiscard]] double along(double at_path) const noexcept {
+    return (at_path - line_path) / time_scale;
+  }
+  /// The first knot of the middle plane behind a place on the beam, of the line that is there;
+  /// null: none. Only ever asked for places farther on.
+  [[nodiscard]] const BeamKnot* knot_after(double at_path) noexcept {
+    if (central == nullptr) return nullptr;
+    const auto in_force = [&](std::size_t k) {  // not past its line's end
+      return k + 1 == central->n_knots || central->knots[k + 1].path > central->knots[k].path;
+    };
+    while (central_knot < central->n_knots &&
+           (central->knots[central_knot].path <= at_path || !in_force(central_knot)))
+      ++central_knot;
+    return central_knot < central->n_knots ? &central->knots[central_knot] : nullptr;
+  }
+  /// The last one before or at it.
+  [[nodiscard]] const BeamKnot* knot_beside(double at_path) noexcept {
+    const BeamKnot* after = knot_after(at_path);
+    if (after == nullptr || central_knot == 0) return after;
+    const BeamKnot& before = central->knots[central_knot - 1];
+    return before.path <= at_path ? &before : after;
+  }
+  /// Goes on straight from `from`.
+  void begin_line(const Vec3& from, const Vec3& direction, double scale) noexcept {
+    if (way) displacement = trace.knots[trace.n_knots - 1].rest.displacement_J;
+    way.reset();
+    line_start = from;
+    line_direction = direction;
+    line_path = path;
+    time_scale = scale;
   }
   /// Goes on along `direction`.
   void turn(const Vec3& direction) noexcept {
@@ -126,11 +162,12 @@ bool BeamTracer::enter(Walk& walk, const TissueInterval& interval,
     echo.cosine = cosine;
     echo.rest_J = point;
     echo.step_J = walk.wave * (sample_depth_ * to.speed / kDisplaySpeedOfSound);
-    if (tissue_ != nullptr) {
-      const DeformedBody::Rest rest = tissue_->to_rest(point, walk.place.displacement);
-      if (rest.motion.displacement.norm() > kStill) {
-        echo.rest_J = rest.p_rest;
-        echo.step_J = rest.motion.gradient.inverse() * echo.step_J;
+    if (tissue_ != nullptr && place_knots(walk, walk.path)) {
+      const RestKnot& knot = trace.knots[knot_before(walk, walk.path)].rest;
+      if (knot.moved > kStill) {
+        const double onward = walk.along(walk.path) - knot.along;
+        echo.rest_J = knot.rest_J + onward * knot.onward_J;
+        echo.step_J = echo.step_J.norm() * knot.onward_J;
       }
     }
   }
@@ -178,54 +215,58 @@ MaterialPoint BeamTracer::find_material(Walk& walk, const RegionAcoustics& regio
   return locate_in_material(region, run.rest_middle_J);
 }
 
-BeamTracer::Place BeamTracer::find_place(const Vec3& p_J, double share,
-                                         const Vec3& guess) const noexcept {
-  const DeformedBody::Rest rest = tissue_->to_rest(p_J, guess);
-  return {share, p_J, rest.p_rest, rest.motion.displacement, rest.motion.gradient};
+/// Sees to knots from here, or from where they begin on this line, to `path` or beyond. False
+/// where there is no room for them.
+bool BeamTracer::place_knots(Walk& walk, double path) const noexcept {
+  BeamTrace& trace = walk.trace;
+  if (!walk.way) {
+    if (trace.n_knots + 2 > BeamTrace::kMaxKnots) return false;
+    walk.way.emplace(*tissue_, walk.line_start, walk.line_direction);
+    walk.line_knot = trace.n_knots;
+    const BeamKnot* beside = walk.knot_beside(walk.path);
+    const double along = walk.along(walk.path);
+    trace.knots[trace.n_knots++] = {walk.path, beside != nullptr
+                                                   ? walk.way->beside(beside->rest, along)
+                                                   : walk.way->at(along, walk.displacement)};
+  }
+  while (trace.knots[trace.n_knots - 1].path < path || trace.n_knots < walk.line_knot + 2) {
+    if (trace.n_knots == BeamTrace::kMaxKnots) break;
+    const BeamKnot& last = trace.knots[trace.n_knots - 1];
+    BeamKnot& next = trace.knots[trace.n_knots];
+    const BeamKnot* beside = walk.knot_after(last.path);
+    if (beside != nullptr) {
+      next = {beside->path, walk.way->beside(beside->rest, walk.along(beside->path))};
+    } else {
+      next.rest = walk.way->next(last.rest);
+      next.path = walk.line_path + next.rest.along * walk.time_scale;
+    }
+    ++trace.n_knots;
+  }
+  return true;
 }
 
-/// Finds where the tissue along the run was at rest, `way` (m) from its begin to its end: halves
-/// until each knot lies where the way goes on straight from the one before.
-void BeamTracer::place_knots(Walk& walk, BeamRun& run, const Vec3& way) const noexcept {
-  BeamTrace& trace = walk.trace;
-  const auto add = [&](const Place& place) {
-    if (trace.n_knots == BeamTrace::kMaxKnots) return;
-    trace.knots[trace.n_knots++] = {run.begin + place.share * (run.end - run.begin), place.rest};
-  };
-  run.first_knot = trace.n_knots;
-  Place left = walk.place;
-  left.share = 0;
-  if ((left.p_J - run.p_J).squaredNorm() > kStill * kStill)
-    left = find_place(run.p_J, 0, left.displacement);
-  add(left);
-  double moved = left.displacement.norm();
-  std::array<double, 12> ahead{1};  // shares of the way, the nearest last
-  std::size_t n = 1;
-  while (n > 0) {
-    const double share = ahead[n - 1];
-    const Vec3 p_J = run.p_J + share * way;
-    const Vec3 onward = left.gradient.inverse() * (p_J - left.p_J);
-    const Place right = find_place(p_J, share, p_J - left.rest - onward);
-    const bool bent = (right.rest - left.rest - onward).norm() > kKnotBend;
-    if (bent && (p_J - left.p_J).norm() > 2 * kKnotPitch && n < ahead.size()) {
-      ahead[n++] = 0.5 * (left.share + share);
-      continue;
-    }
-    add(right);
-    moved = std::max(moved, right.displacement.norm());
-    if (left.share <= 0.5 && share > 0.5) {
-      const double between = (0.5 - left.share) / (share - left.share);
-      run.rest_middle_J = left.rest + between * (right.rest - left.rest);
-      walk.gradient = between < 0.5 ? left.gradient : right.gradient;
-    }
-    left = right;
-    --n;
-  }
-  walk.place = left;
+/// The knot of this line after which `path` comes.
+std::size_t BeamTracer::knot_before(const Walk& walk, double path) noexcept {
+  std::size_t k = walk.trace.n_knots - 2;
+  while (k > walk.line_knot && walk.trace.knots[k].path > path) --k;
+  return k;
+}
+
+/// Notes where the tissue along the run was at rest.
+void BeamTracer::find_rest(Walk& walk, BeamRun& run) const noexcept {
+  if (!place_knots(walk, run.path_end)) return;
+  const BeamTrace& trace = walk.trace;
+  run.first_knot = knot_before(walk, run.path_begin);
+  double moved = 0;
+  for (std::size_t k = run.first_knot; k < trace.n_knots; ++k)
+    moved = std::max(moved, trace.knots[k].rest.moved);
+  if (!(moved > kStill)) return;
   run.n_knots = trace.n_knots - run.first_knot;
-  if (moved > kStill && run.n_knots > 1) return;
-  trace.n_knots = run.first_knot;
-  run.n_knots = 0;
+  const double middle = 0.5 * (run.path_begin + run.path_end);
+  const BeamKnot& knot = trace.knots[knot_before(walk, middle)];
+  run.rest_middle_J =
+      knot.rest.rest_J + (middle - knot.path) / walk.time_scale * knot.rest.onward_J;
+  walk.gradient = walk.way->gradient_J(knot.rest);
 }
 
 /// Notes how the run lies to the fibres at its middle, `half_way` (m) from its begin. Returns the
@@ -236,7 +277,7 @@ double BeamTracer::follow_fibres(Walk& walk, const RegionAcoustics& region, Beam
   run.across = 1;
   run.n_knots = 0;
   if (tissue_ != nullptr && walk.region >= kFirstRegion && region.backscatter > 0)
-    place_knots(walk, run, 2 * half_way);
+    find_rest(walk, run);
   const bool moved = run.n_knots > 0;
   switch (region.kind) {
     case TissueKind::fat:
@@ -282,13 +323,13 @@ bool BeamTracer::cross(Walk& walk, const Vec3& point, const Vec3& direction, dou
     run.region = walk.region;
     run.log_gain_begin = walk.log_gain(spectrum_sigma_);
     run.path_begin = walk.path;
+    run.path_end = walk.path + piece;
     run.end = walk.sample + piece * samples_per_m;
     const double loss = follow_fibres(walk, region, run, 0.5 * piece / time_scale * direction);
     walk.path += piece;
     walk.sample = run.end;
     walk.attenuation += piece * region.attenuation * loss;
     walk.slope += piece * region.attenuation_slope * loss;
-    run.path_end = walk.path;
     run.log_gain_end = walk.log_gain(spectrum_sigma_);
     if (walk.sample >= n_samples_ || run.log_gain_end < kSilence) return false;
   }
@@ -300,6 +341,7 @@ bool BeamTracer::cross(Walk& walk, const Vec3& point, const Vec3& direction, dou
 bool BeamTracer::pass(Walk& walk, const Vec3& from, const Vec3& direction, double length,
                       double time_scale) const noexcept {
   auto& intervals = walk.trace.intervals;
+  walk.begin_line(from, direction, time_scale);
   const QueryCount count = scene_->find_intervals({from, from + length * direction}, intervals);
   for (std::size_t k = 0; k < count.size; ++k) {
     const TissueInterval& interval = intervals[k];

@@ -9,10 +9,9 @@
 #include "artus/echo/region_acoustics.h"
 #include "artus/echo/transducer.h"
 #include "artus/raycast/scene.h"
+#include "artus/soft/rest_way.h"
 
 namespace artus {
-
-class DeformedBody;
 
 /// A straight stretch of a beam inside one region, in displayed samples.
 struct BeamRun {
@@ -32,14 +31,14 @@ struct BeamRun {
   double across = 1;                  ///< |cosine| between wave and the normal of sheets
   Vec3 rest_middle_J = Vec3::Zero();  ///< m, the run's middle, where its tissue was at rest
   MaterialPoint middle;               ///< the region's own coordinates there
-  std::size_t first_knot = 0;         ///< of BeamTrace::knots
-  std::size_t n_knots = 0;            ///< 0: the tissue is where it was at rest
+  std::size_t first_knot = 0;         ///< of BeamTrace::knots, the last one before the run
+  std::size_t n_knots = 0;            ///< to the first behind it; 0: the tissue is at rest
 };
 
 /// Where a piece of tissue on a beam was at rest; between knots the way is straight there, too.
 struct BeamKnot {
-  double sample = 0;
-  Vec3 rest_J = Vec3::Zero();  ///< m
+  double path = 0;  ///< m along the beam from the face
+  RestKnot rest;
 };
 
 /// An echo of an interface.
@@ -56,7 +55,7 @@ struct BeamEcho {
 struct BeamTrace {
   static constexpr std::size_t kMax = 192;
   static constexpr std::size_t kMaxIntervals = 128;
-  static constexpr std::size_t kMaxKnots = 1024;
+  static constexpr std::size_t kMaxKnots = 512;
   std::array<BeamRun, kMax> runs;
   std::array<BeamKnot, kMaxKnots> knots;
   std::array<BeamEcho, kMax> echoes;
@@ -116,16 +115,7 @@ class BeamTracer {
                    BeamTrace& trace) const noexcept;
 
  private:
-  /// A point of a beam and where its tissue was at rest.
-  struct Place {
-    double share = 0;  // of a run
-    Vec3 p_J = Vec3::Zero();
-    Vec3 rest = Vec3::Zero();
-    Vec3 displacement = Vec3::Zero();
-    Eigen::Matrix3d gradient = Eigen::Matrix3d::Identity();
-  };
   struct Walk;
-  [[nodiscard]] Place find_place(const Vec3& p_J, double share, const Vec3& guess) const noexcept;
   bool start(Walk& walk, RegionId region, double length) const noexcept;
   bool cross(Walk& walk, const Vec3& point, const Vec3& direction, double length,
              double time_scale) const noexcept;
@@ -136,7 +126,9 @@ class BeamTracer {
                                      const BeamRun& run) noexcept;
   double follow_fibres(Walk& walk, const RegionAcoustics& region, BeamRun& run,
                        const Vec3& half_way) const noexcept;
-  void place_knots(Walk& walk, BeamRun& run, const Vec3& way) const noexcept;
+  bool place_knots(Walk& walk, double path) const noexcept;
+  static std::size_t knot_before(const Walk& walk, double path) noexcept;
+  void find_rest(Walk& walk, BeamRun& run) const noexcept;
   void add_repeats(BeamTrace& trace) const noexcept;
 
   const Scene* scene_;

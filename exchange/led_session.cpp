@@ -2,6 +2,7 @@
 #include "artus/exchange/led_session.h"
 
 #include <cmath>
+#include <optional>
 
 #include "artus/session/image_core.h"
 
@@ -27,24 +28,26 @@ TickInput input_of(const ListedPose& pose, const SessionParams& params, std::uin
 
 Result<Recording> record_led_session(const std::vector<ListedPose>& poses,
                                      const std::shared_ptr<const Scene>& scene,
-                                     const SessionParams& params) {
+                                     const SessionParams& params, LedPictures pictures) {
   const auto path = sample_path(poses, params.haptic_rate);
   ARTUS_TRY(path);
   Recording recording;
   recording.head = make_head(scene->joint(), params);
   recording.complete = true;
   HapticCore haptics(scene, params);
-  ImageCore images(scene, params);
+  std::optional<ImageCore> images;
+  if (pictures == LedPictures::drawn) images.emplace(scene, params);
   const ImageControls controls = controls_of(params);
   for (std::size_t i = 0; i < path->size(); ++i) {
     const HapticSnapshot& felt = haptics.step(input_of((*path)[i], params, i + 1));
     recording.ticks.push_back(to_record(felt));
+    if (pictures == LedPictures::none) continue;
     const auto n_images = static_cast<double>(recording.frames.size());
     if (static_cast<double>(i) * params.image_rate < n_images * params.haptic_rate) continue;
     FrameRecord frame;
     frame.input = frame_input(felt, controls, recording.frames.size() + 1);
-    frame.digest = digest_of(images.render(frame.input));
-    if (const ProbePacket* packet = images.packet()) {
+    if (images) frame.digest = digest_of(images->render(frame.input));
+    if (const ProbePacket* packet = images ? images->packet() : nullptr) {
       frame.packet = digest_of(*packet);
       recording.packets.push_back({felt.input.tick + 1, *packet});
       haptics.take(*packet);

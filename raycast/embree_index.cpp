@@ -9,7 +9,7 @@
 
 #include <Eigen/Geometry>
 
-#include "artus/raycast/closest_point.h"
+#include "artus/core/closest_point.h"
 #include "artus/raycast/embree_api.h"
 
 namespace artus {
@@ -37,7 +37,7 @@ struct Passage {
 };
 
 Passage pass(const EmbreeIndex& index, std::uint32_t i, const Line& line) noexcept {
-  const FacetPlane& plane = index.plane(i);
+  const FacetPlane plane = index.plane(i);
   Passage passage;
   passage.cosine = plane.normal.dot(line.direction);
   passage.depth = (plane.offset - plane.normal.dot(line.origin)) / passage.cosine;
@@ -103,7 +103,7 @@ void gather_hit(const RTCFilterFunctionNArguments* args) noexcept {
   // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): Embree's way to pass state.
   auto& query = *reinterpret_cast<GatherQuery*>(args->context);
   const Candidate candidate{interface_of(args), RTCRayN_tfar(args->ray, args->N, 0)};
-  __builtin_prefetch(&query.index->plane(candidate.interface));
+  query.index->prefetch_plane(candidate.interface);
   const float u = RTCHitN_u(args->hit, args->N, 0);
   const float v = RTCHitN_v(args->hit, args->N, 0);
   query.doubtful |= std::min({u, v, 1 - u - v}) < kDoubtfulBarycentric;
@@ -149,7 +149,7 @@ bool consider_facet(RTCPointQueryFunctionArguments* args) noexcept {
   const Vec3 q = closest_point_on_triangle(query.p, query.index->corners(i));
   const double squared = (query.p - q).squaredNorm();
   if (squared > query.max_squared) return false;
-  const FacetPlane& plane = query.index->plane(i);
+  const FacetPlane plane = query.index->plane(i);
   const double side = std::abs(plane.normal.dot(query.p) - plane.offset);
   const double tie = 1e-12 * query.best.squared_distance + 1e-26;
   const double gain = query.best.squared_distance - squared;
@@ -182,13 +182,6 @@ EmbreeDevice make_device(const std::string& isa) {
   EmbreeDevice device(rtcNewDevice(config.c_str()));
   if (device == nullptr) throw_on_error(nullptr, ("make a device with " + config).c_str());
   return device;
-}
-
-FacetPlane make_plane(const std::array<Vec3, 3>& corners) {
-  FacetPlane plane;
-  plane.normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
-  plane.offset = plane.normal.dot(corners[0]);
-  return plane;
 }
 
 void check_interface(const Interface& interface, std::span<const Vec3> vertices) {
@@ -231,7 +224,7 @@ EmbreeIndex::EmbreeIndex(std::span<const Vec3> vertices, std::span<const Interfa
   for (const Interface& interface : interfaces) {
     const auto i = static_cast<std::uint32_t>(triangles_.size());
     triangles_.push_back(interface.vertices);
-    facets_.push_back({make_plane(corners(i)), {interface.front, interface.back}});
+    facets_.push_back({make_plane(i), {interface.front, interface.back}});
     for (const Vec3& corner : corners(i)) radius_ = std::max(radius_, corner.norm());
     if (touches(facets_.back().sides, kBeyond)) boundary.push_back(i);
     if (touches(facets_.back().sides, kOutside)) skin.push_back(i);
@@ -338,8 +331,9 @@ void EmbreeIndex::move(std::span<const Vec3> vertices) {
 
 /// A triangle with a vertex that is near is in the first part, whichever of its vertices moved.
 void EmbreeIndex::move_triangles(bool near, bool far) {
-  for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
-    if (in_near_[i] || far) facets_[i].plane = make_plane(corners(i));
+  near_moved_ = near_moved_ || near || far;
+  for (std::uint32_t i = 0; far && i < triangles_.size(); ++i) {
+    if (!in_near_[i]) facets_[i].plane = make_plane(i);
   }
   for (EmbreeParts* parts : {&all_, &boundary_, &skin_}) {
     for (unsigned k = 0; k < 2; ++k) {
@@ -352,6 +346,19 @@ void EmbreeIndex::move_triangles(bool near, bool far) {
     rtcCommitScene(parts->scene.get());
   }
   throw_on_error(device_.get(), "move the interfaces");
+}
+
+FacetPlane EmbreeIndex::make_plane(std::uint32_t i) const noexcept {
+  const std::array<Vec3, 3> p = corners(i);
+  FacetPlane plane;
+  plane.normal = (p[1] - p[0]).cross(p[2] - p[0]).normalized();
+  plane.offset = plane.normal.dot(p[0]);
+  return plane;
+}
+
+void EmbreeIndex::prefetch_plane(std::uint32_t i) const noexcept {
+  __builtin_prefetch(&facets_[i]);
+  if (near_moved_) __builtin_prefetch(&triangles_[i]);
 }
 
 std::array<Vec3, 3> EmbreeIndex::corners(std::uint32_t i) const noexcept {

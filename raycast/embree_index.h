@@ -93,7 +93,13 @@ class EmbreeIndex {
 
   [[nodiscard]] const Vec3& centre() const noexcept { return centre_; }
   [[nodiscard]] double radius() const noexcept { return radius_; }  ///< m, of a ball around centre
-  [[nodiscard]] const FacetPlane& plane(std::uint32_t i) const noexcept { return facets_[i].plane; }
+  /// Of what moves each time it is made of the corners anew: a picture asks for fewer than there
+  /// are.
+  [[nodiscard]] FacetPlane plane(std::uint32_t i) const noexcept {
+    return near_moved_ && in_near_[i] ? make_plane(i) : facets_[i].plane;
+  }
+  /// Fetches what `plane` will need.
+  void prefetch_plane(std::uint32_t i) const noexcept;
   [[nodiscard]] const FacetSides& sides(std::uint32_t i) const noexcept { return facets_[i].sides; }
 
   /// All facets the line meets, in any order, depths in double.
@@ -120,6 +126,7 @@ class EmbreeIndex {
   [[nodiscard]] std::array<Vec3, 3> corners(std::uint32_t i) const noexcept;
 
  private:
+  [[nodiscard]] FacetPlane make_plane(std::uint32_t i) const noexcept;
   [[nodiscard]] bool can_move() const noexcept { return !in_near_.empty(); }
   void fill_coordinates();
   [[nodiscard]] EmbreeParts make_parts(std::vector<std::uint32_t> members) const;
@@ -133,6 +140,7 @@ class EmbreeIndex {
   std::vector<Facet> facets_;                            // (n_interfaces)
   std::vector<bool> near_vertex_;                        // (n_vertices), or empty: none moves
   std::vector<bool> in_near_;                            // (n_interfaces), or empty
+  bool near_moved_ = false;                              // whether any of them ever did
   EmbreeDevice device_;
   EmbreeBuffer coordinates_;  // (n_vertices, 3) float
   EmbreeParts all_;

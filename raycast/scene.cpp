@@ -99,7 +99,7 @@ struct Scene::Impl {
   /// Unit normal of a hit's interface against the line's direction.
   [[nodiscard]] Vec3 normal_against(const Hit& hit, const Line& line) const noexcept {
     if (hit.interface == kNoInterface) return Vec3::Zero();
-    const Vec3& normal = index.plane(hit.interface).normal;
+    const Vec3 normal = index.plane(hit.interface).normal;
     return normal.dot(line.direction) > 0 ? Vec3(-normal) : normal;
   }
 
@@ -248,7 +248,7 @@ double Scene::signed_distance_to_skin(const Vec3& p_J, double max_distance) cons
     const double infinity = std::numeric_limits<double>::infinity();
     return impl_->region_at(p) == kOutside ? infinity : -infinity;
   }
-  const FacetPlane& plane = impl_->index.plane(nearest->interface);
+  const FacetPlane plane = impl_->index.plane(nearest->interface);
   const FacetSides& sides = impl_->index.sides(nearest->interface);
   const double side = plane.normal.dot(p) - plane.offset;
   const double distance = std::sqrt(nearest->squared_distance);

@@ -41,8 +41,10 @@ std::vector<OperatorPhase> phases_of(const InjectionPlan& plan) {
 InjectingDevice::InjectingDevice(const InjectionPlan& plan, const DeviceLimits& device,
                                  double rate_hz, const HandParams& hand)
     : plan_(plan),
+      period_(1 / rate_hz),
       person_(plan.entry_W, plan.direction_W, kBeforeSkin, phases_of(plan)),
-      loop_({rate_hz, physics_rate(rate_hz)}, device, hand, person_.start()) {
+      loop_({rate_hz, physics_rate(rate_hz)}, device, hand, person_.start()),
+      dose_(plan.syringe, plan.volume) {
   ARTUS_REQUIRE(std::abs(plan.direction_W.norm() - 1) < 1e-9, "the direction must be a unit");
   ARTUS_REQUIRE(plan.speed > 0 && plan.target <= plan.deepest, "an injection goes somewhere");
   sample_.X_WP = to_plain(plan.X_WP);
@@ -56,7 +58,7 @@ OperatorView InjectingDevice::view() const noexcept {
   const Vec3 meant = person_.intention(loop_.time()).X_JN.translation();
   const double lag = (meant - loop_.motion().X_JN.translation()).dot(plan_.direction_W);
   OperatorView view;
-  view.given = given_ - given_before_ >= plan_.volume;
+  view.given = dose_.enough() && felt_.flow < ThumbDose::kFlows;
   view.bone = static_cast<ContactState>(contact_) == ContactState::bone && lag > kBoneFelt;
   return view;
 }
@@ -64,9 +66,12 @@ OperatorView InjectingDevice::view() const noexcept {
 DeviceSample InjectingDevice::read(std::int64_t now_ns) noexcept {
   person_.observe(loop_.time(), loop_.motion().X_JN, view());
   if (person_.done()) person_.begin_again(loop_.time());
-  if (phase() != Phase::rest) given_before_ = given_;
+  if (phase() != Phase::rest) dose_.begin(felt_.given);
+  dose_.step(phase() == Phase::rest, felt_.given, felt_.pressure, felt_.tip_pressure, felt_.flow,
+             period_);
   const OperatorPhase* present = person_.present();
-  if (plan_.volume > 0) sample_.plunger_force = present != nullptr ? present->thumb_force : 0;
+  const bool pushes = plan_.volume > 0 && present != nullptr && !dose_.enough();
+  sample_.plunger_force = pushes ? present->thumb_force : 0;
   loop_.advance(motor_, [this](double time) { return person_.intention(time); });
   sample_.X_WN = to_plain(loop_.measured());
   sample_.time_ns = now_ns;
@@ -78,7 +83,7 @@ void InjectingDevice::write(const DeviceFeedback& feedback) noexcept {
   motor_.force = Vec3(feedback.force[0], feedback.force[1], feedback.force[2]);
   motor_.torque = Vec3(feedback.torque[0], feedback.torque[1], feedback.torque[2]);
   contact_ = feedback.contact;
-  given_ = feedback.plunger.given;
+  felt_ = feedback.plunger;
 }
 
 }  // namespace artus

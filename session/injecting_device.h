@@ -4,12 +4,14 @@
 
 #include "artus/operators/hand_loop.h"
 #include "artus/operators/injection_operator.h"
+#include "artus/operators/thumb_dose.h"
 #include "artus/session/input_device.h"
 
 namespace artus {
 
 /// What a simulated person does with the needle, over and over: in along a line to the target, or
-/// until bone stops it, a rest, on to bone, and out again. Frame W.
+/// until bone stops it, a rest in which it may give something and waits until that is in, on to
+/// bone, and out again. Frame W.
 struct InjectionPlan {
   Vec3 entry_W = Vec3::Zero();       ///< m, on the skin
   Vec3 direction_W = Vec3::UnitZ();  ///< unit, into the body
@@ -19,6 +21,7 @@ struct InjectionPlan {
   double speed = 10e-3;              ///< m/s, of the hand's intention
   double volume = 0;                 ///< m^3 that is given at the target, each time; 0: none
   double thumb = 8;                  ///< N on the plunger meanwhile
+  Syringe syringe;                   ///< that it knows, to let go before the mark
 };
 
 /// A simulated hand on a simulated device, closed loop: the force that artus sends moves the
@@ -43,13 +46,14 @@ class InjectingDevice final : public InputDevice {
   [[nodiscard]] OperatorView view() const noexcept;
 
   InjectionPlan plan_;
+  double period_;  // s
   InjectionOperator person_;
   HandLoop loop_;
   Wrench motor_;
   DeviceSample sample_;
   std::uint32_t contact_ = 0;
-  double given_ = 0;         // m^3, in all
-  double given_before_ = 0;  // when the hand came to the target
+  PlungerFeedback felt_;
+  ThumbDose dose_;
 };
 
 }  // namespace artus

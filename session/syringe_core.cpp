@@ -58,7 +58,7 @@ void SyringeCore::step(const DeviceSample& device, const NeedleContact& contact)
   } else if (device.plunger == PlungerSign::force) {
     input.force = device.plunger_force;
   }
-  engaged_ = held;
+  engaged_ = device.plunger == PlungerSign::travel;
   const PlungerState& state = plunger_.step(input);
   note_sites(input, contact);
   describe(held ? state.force : 0, held ? TickStatus::kOk : TickStatus::kStale);

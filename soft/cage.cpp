@@ -221,6 +221,16 @@ void Cage::hang_nodes() {
   }
 }
 
+std::int32_t Cage::cell_around(const Vec3& p_C) const noexcept {
+  const Vec3 s = (p_C - origin_) / step_;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double at = s[static_cast<Eigen::Index>(k)];
+    if (!(at >= 0 && at < size_[k])) return kNone;
+  }
+  return leaf_of_[index({static_cast<std::int32_t>(s.x()), static_cast<std::int32_t>(s.y()),
+                         static_cast<std::int32_t>(s.z())})];
+}
+
 CagePlace Cage::locate(const Vec3& p_C, int reach) const noexcept {
   CagePlace place;
   const Vec3 s = (p_C - origin_) / step_;

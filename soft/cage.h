@@ -65,6 +65,8 @@ class Cage {
   [[nodiscard]] Vec3 low_corner(const CageCell& cell) const noexcept;
   [[nodiscard]] double finest() const noexcept { return step_; }  ///< m, of the lattice
 
+  /// The cell around a point; -1: none, or the point lies on the lattice's far side.
+  [[nodiscard]] std::int32_t cell_around(const Vec3& p_C) const noexcept;
   /// The cell around a point with its trilinear weights; a point in no cell is given the nearest
   /// cell within `reach` lattice steps, with weights of the nearest point of that cell.
   [[nodiscard]] CagePlace locate(const Vec3& p_C, int reach = 0) const noexcept;

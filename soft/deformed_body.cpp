@@ -26,11 +26,24 @@ std::size_t interface_vertices(const TetMesh& mesh) {
   return n;
 }
 
-/// u and its gradient in a cube, by the weights of its corners.
-DeformedBody::Motion interpolate(const CagePlace& place, const CageCell& cell, double edge,
+/// The corners of the cubes of some places, ascending.
+std::vector<std::uint32_t> nodes_of_places(const Cage& cage, std::span<const CagePlace> places) {
+  std::vector<bool> found(cage.nodes().size(), false);
+  for (const CagePlace& place : places) {
+    if (place.cell < 0) continue;
+    for (const std::uint32_t n : cage.cells()[static_cast<std::size_t>(place.cell)].nodes)
+      found[n] = true;
+  }
+  std::vector<std::uint32_t> nodes;
+  for (std::uint32_t n = 0; n < found.size(); ++n) {
+    if (found[n]) nodes.push_back(n);
+  }
+  return nodes;
+}
+
+/// u and its gradient in a cube, at `s` of its edges from its lowest corner.
+DeformedBody::Motion interpolate(const Vec3& s, const CageCell& cell, double edge,
                                  std::span<const Vec3> u) noexcept {
-  const auto& w = place.weights;
-  const Vec3 s(w[1] + w[3] + w[5] + w[7], w[2] + w[3] + w[6] + w[7], w[4] + w[5] + w[6] + w[7]);
   const Vec3 t = Vec3::Ones() - s;
   std::array<Vec3, 8> c;
   for (std::size_t a = 0; a < 8; ++a) c[a] = u[cell.nodes[a]];
@@ -80,19 +93,27 @@ std::shared_ptr<const BodyMap> make_body_map(const CompiledJoint& joint, const P
       });
   map->n_near = static_cast<std::size_t>(middle - map->moving.begin());
   for (const std::uint32_t v : map->moving) map->places.push_back(place_of(v));
+  map->far_nodes = nodes_of_places(cage, std::span(map->places).subspan(map->n_near));
+  map->n_vertices = interface_vertices(joint.mesh);
   map->model = std::move(model);
   return map;
 }
 
-void DeformedBody::keep_far(const DeformedBody& before) {
-  double farthest = 0;
-  for (std::size_t k = map_->n_near; k < map_->moving.size(); ++k) {
-    const std::uint32_t v = map_->moving[k];
-    farthest = std::max(farthest, (vertices_[v] - before.vertices_[v]).squaredNorm());
+bool DeformedBody::may_keep_far(const DeformedBody& before) const {
+  if (before.map_ != map_) return false;
+  for (std::size_t k = 0; k < map_->far_nodes.size(); ++k) {
+    const Vec3 moved = u_[map_->far_nodes[k]] - before.far_u_[k];
+    if (moved.squaredNorm() > kFarTolerance * kFarTolerance) return false;
   }
-  if (farthest > kFarTolerance * kFarTolerance) return;
-  for (std::size_t k = map_->n_near; k < map_->moving.size(); ++k)
-    vertices_[map_->moving[k]] = before.vertices_[map_->moving[k]];
+  return true;
+}
+
+void DeformedBody::move_vertices(std::size_t first, std::size_t last) {
+  const Eigen::Matrix3d R = map_->X_JC.linear();
+  for (std::size_t k = first; k < last; ++k) {
+    const Vec3 u = map_->model->displacement_at(map_->places[k], u_);
+    if (u.squaredNorm() > kStill * kStill) vertices_[map_->moving[k]] += R * u;
+  }
 }
 
 DeformedBody::DeformedBody(std::shared_ptr<const CompiledJoint> joint,
@@ -105,14 +126,17 @@ DeformedBody::DeformedBody(std::shared_ptr<const CompiledJoint> joint,
       X_CJ_(map_->X_JC.inverse()),
       contact_(contact_J) {
   const auto& rest = joint_->mesh.vertices;
-  vertices_.assign(rest.begin(),
-                   rest.begin() + static_cast<std::ptrdiff_t>(interface_vertices(joint_->mesh)));
-  const Eigen::Matrix3d R = map_->X_JC.linear();
-  for (std::size_t k = 0; k < map_->moving.size(); ++k) {
-    const Vec3 u = map_->model->displacement_at(map_->places[k], u_);
-    if (u.norm() > kStill) vertices_[map_->moving[k]] += R * u;
+  vertices_.assign(rest.begin(), rest.begin() + static_cast<std::ptrdiff_t>(map_->n_vertices));
+  move_vertices(0, map_->n_near);
+  if (before != nullptr && may_keep_far(*before)) {
+    far_u_ = before->far_u_;
+    for (std::size_t k = map_->n_near; k < map_->moving.size(); ++k)
+      vertices_[map_->moving[k]] = before->vertices_[map_->moving[k]];
+    return;
   }
-  if (before != nullptr && before->map_ == map_) keep_far(*before);
+  move_vertices(map_->n_near, map_->moving.size());
+  far_u_.reserve(map_->far_nodes.size());
+  for (const std::uint32_t n : map_->far_nodes) far_u_.push_back(u_[n]);
 }
 
 CompiledJoint DeformedBody::moved_joint() const {
@@ -123,14 +147,17 @@ CompiledJoint DeformedBody::moved_joint() const {
   return moved;
 }
 
-DeformedBody::Motion DeformedBody::motion_C(const Vec3& p_C) const noexcept {
+DeformedBody::PlacedMotion DeformedBody::motion_in_cage(const Vec3& p_C) const noexcept {
   const Cage& cage = map_->model->cage();
-  const CagePlace place = cage.locate(p_C, kReach);
-  if (place.cell < 0) return {};
-  const CageCell& cell = cage.cells()[static_cast<std::size_t>(place.cell)];
-  Motion motion = interpolate(place, cell, cage.edge(cell), u_);
-  motion.gradient.diagonal().array() += 1;
-  return motion;
+  std::int32_t number = cage.cell_around(p_C);
+  if (number < 0) number = cage.locate(p_C, kReach).cell;
+  if (number < 0) return {};
+  const CageCell& cell = cage.cells()[static_cast<std::size_t>(number)];
+  const double edge = cage.edge(cell);
+  const Vec3 s = ((p_C - cage.low_corner(cell)) / edge).cwiseMax(0).cwiseMin(1);
+  PlacedMotion placed{interpolate(s, cell, edge, u_), number};
+  placed.motion.gradient.diagonal().array() += 1;
+  return placed;
 }
 
 DeformedBody::Motion DeformedBody::in_J(const Motion& motion) const noexcept {
@@ -139,7 +166,7 @@ DeformedBody::Motion DeformedBody::in_J(const Motion& motion) const noexcept {
 }
 
 DeformedBody::Motion DeformedBody::motion(const Vec3& p_rest) const noexcept {
-  return in_J(motion_C(X_CJ_ * p_rest));
+  return in_J(motion_in_cage(X_CJ_ * p_rest).motion);
 }
 
 Vec3 DeformedBody::displacement(const Vec3& p_rest) const noexcept {
@@ -154,7 +181,7 @@ DeformedBody::Rest DeformedBody::to_rest(const Vec3& p, const Vec3& guess) const
   double way = 1;  // shorter steps where full ones go round in circles
   double before = 1e9;
   for (int k = 0; k < kMostSteps && !found; ++k) {
-    motion = motion_C(rest_C);
+    motion = motion_in_cage(rest_C).motion;
     const Vec3 error = p_C - rest_C - motion.displacement;
     const double size = error.norm();
     found = size < kExact;

@@ -17,6 +17,8 @@ struct BodyMap {
   std::vector<std::uint32_t> moving;
   std::vector<CagePlace> places;  ///< (moving)
   std::size_t n_near = 0;
+  std::size_t n_vertices = 0;            ///< of the joint's interfaces
+  std::vector<std::uint32_t> far_nodes;  ///< of the cubes that hold the others
 };
 
 /// The map of a joint in a cage at X_JC: all vertices of its interfaces found in their cubes.
@@ -29,9 +31,9 @@ struct BodyMap {
 /// J.
 class DeformedBody {
  public:
-  /// Far vertices stay where `before` (an earlier state of the same map, or none) has them while
-  /// none of them is farther than 20 um from its place: what indexes the surfaces then has less to
-  /// do. The others are where u says.
+  /// Far vertices stay where `before` (an earlier state of the same map, or none) has them while no
+  /// node around them is farther than 20 um from where it was then: what indexes the surfaces then
+  /// has less to do. The others are where u says.
   DeformedBody(std::shared_ptr<const CompiledJoint> joint, std::shared_ptr<const BodyMap> map,
                std::span<const Vec3> node_displacements, const ContactForce& contact_J,
                const DeformedBody* before = nullptr);
@@ -59,6 +61,15 @@ class DeformedBody {
   [[nodiscard]] Motion motion(const Vec3& p_rest) const noexcept;
   [[nodiscard]] Vec3 displacement(const Vec3& p_rest) const noexcept;
 
+  /// The same in the cage's frame, with the cube it comes from (-1: outside). Cost: as motion.
+  struct PlacedMotion {
+    Motion motion;
+    std::int32_t cell = -1;
+  };
+  [[nodiscard]] PlacedMotion motion_in_cage(const Vec3& p_C) const noexcept;
+  /// From frame J to the cage's.
+  [[nodiscard]] const Pose& to_cage() const noexcept { return X_CJ_; }
+
   /// X(x), by Newton steps that start at `p - guess`; with the motion of the point found. Exact to
   /// 1e-7 m where the body is not folded, beside a cube's face to 1e-5 m. Cost: 0.1 us a step, one
   /// with a good guess.
@@ -83,11 +94,12 @@ class DeformedBody {
  private:
   std::shared_ptr<const CompiledJoint> joint_;
   std::shared_ptr<const BodyMap> map_;
-  [[nodiscard]] Motion motion_C(const Vec3& p_C) const noexcept;
   [[nodiscard]] Motion in_J(const Motion& motion) const noexcept;
-  void keep_far(const DeformedBody& before);
+  [[nodiscard]] bool may_keep_far(const DeformedBody& before) const;
+  void move_vertices(std::size_t first, std::size_t last);
 
-  std::vector<Vec3> u_;  // (n_nodes) frame C
+  std::vector<Vec3> u_;      // (n_nodes) frame C
+  std::vector<Vec3> far_u_;  // (far_nodes) the same where the far vertices were moved last
   Pose X_CJ_ = Pose::Identity();
   std::vector<Vec3> vertices_;  // frame J
   ContactForce contact_;

@@ -32,12 +32,6 @@ struct SoftBodyParams {
   SoftSolverParams solver;
 };
 
-/// A bone that moved as a rigid body: its point p of the rest is at X_J * p.
-struct BoneMotion {
-  std::string structure;        ///< region name of a hard tissue
-  Pose X_J = Pose::Identity();  ///< frame J
-};
-
 /// A joint that gives way: its cage around a probe pose, and the solver of its state. Frame C of
 /// the cage is the probe's frame at that pose, so that the cubes lie along the footprint. Not
 /// thread safe; snapshots are immutable and may be read by any number of threads.

@@ -5,7 +5,11 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <utility>
+
+#include "artus/core/printed.h"
+#include "artus/core/units.h"
 
 namespace artus {
 namespace {
@@ -24,10 +28,34 @@ constexpr Kind kBone{"bone_contacts", 3, 1};
 constexpr Kind kDrift{"drift_mm_s", 3, 0.5};
 constexpr Kind kPasses{"passes", 3, 2};
 constexpr Kind kAngle{"face_angle_median_deg", 2, 50};
+constexpr Kind kIdle{"idle_s", 1, 10};
+constexpr Kind kMisplaced{"misplaced_ml", 5, 0.5};  // given_ml beside in_target
+constexpr Kind kUnaspirated{"aspirated_first", 4, 1};
+constexpr Kind kPressure{"pressure_peak_kpa", 4, 100};
+constexpr Kind kFast{"flow_peak_ml_s", 2, 0.3};
+constexpr double kGiven = 0.1;    // ml from which something was injected
+constexpr double kAgain = 1.5;    // weight of a fault that was in the attempt before
+constexpr double kHalfLife = 20;  // weeks
+constexpr double kWeak = 0.5;     // share of clean attempts below which a skill is trained
+constexpr int kIdleLevel = 5;
 
-double value_of(const AttemptMeasures& m, const char* name) {
-  const Metric* metric = find_metric(m.metrics, name);
+double value_of(std::span<const Metric> metrics, const char* name) {
+  const Metric* metric = find_metric(metrics, name);
   return metric != nullptr ? metric->value.value_or(0) : 0;
+}
+double value_of(const AttemptMeasures& m, const char* name) {
+  return value_of(m.metrics, name);
+}
+
+/// ml beside the target; 0 where the target is no structure.
+double misplaced_ml(std::span<const Metric> metrics) {
+  const Metric* hit = find_metric(metrics, "in_target");
+  if (hit == nullptr || !hit->value) return 0;
+  return value_of(metrics, "given_ml") * (1 - *hit->value);
+}
+
+bool unaspirated(std::span<const Metric> metrics) {
+  return value_of(metrics, "given_ml") > kGiven && value_of(metrics, kUnaspirated.metric) == 0;
 }
 
 double weight_of(const Kind& kind, double value) {
@@ -88,15 +116,67 @@ void add_needle_faults(const AttemptMeasures& m, std::vector<Fault>& out) {
                    "Before you stop, look where the tip is, not where it should be."});
 }
 
+/// The moment at which the probe was fastest while the tip moved inside, and its speed there.
+Run fastest_drift(const AttemptMeasures& m) {
+  constexpr double kMoving = 2e-3;  // m/s, as drift_mm_s
+  const std::vector<double> speeds = speeds_of(m.probe);
+  Run worst;
+  for (std::size_t i = 1; i < m.course.size() && i <= speeds.size(); ++i) {
+    if (!m.course[i].inside() || m.course[i].step * kTrackRate < kMoving) continue;
+    if (speeds[i - 1] > worst.amount)
+      worst = {m.course[i - 1].time, m.course[i].time, speeds[i - 1]};
+  }
+  return worst;
+}
+
+void add_syringe_faults(const AttemptMeasures& m, std::vector<Fault>& out) {
+  const double astray = misplaced_ml(m.metrics);
+  if (const AttemptEvent* e = worst_event(m, "misplaced"); e != nullptr) {
+    // Liquid goes where the tip is: one cause, one fault.
+    std::erase_if(out, [](const Fault& fault) { return fault.kind == "off_target"; });
+    out.push_back({"misplaced", e->time, weight_of(kMisplaced, astray),
+                   beside("given beside the target", astray, "ml", kMisplaced.band), e->text,
+                   "Give half a ml and look: the line must split."});
+  }
+  if (const AttemptEvent* e = worst_event(m, "flow"); e != nullptr && unaspirated(m.metrics))
+    out.push_back({"unaspirated", e->time, weight_of(kUnaspirated, 1),
+                   printed("%.1f ml given without an aspiration before", e->value),
+                   "the barrel was not drawn back for 2 s; the tip was in " + e->region,
+                   "Pull back for 3 s before you give."});
+  const double pressure = value_of(m, kPressure.metric);
+  if (const AttemptEvent* e = worst_event(m, "pressure"); e != nullptr && pressure > kPressure.band)
+    out.push_back({"pressure", e->time, weight_of(kPressure, pressure),
+                   beside("pressure in the barrel", pressure, "kPa", kPressure.band),
+                   "the tip was in " + e->region,
+                   "Do not push on: pull back a millimetre until it flows."});
+  const double flow = value_of(m, kFast.metric);
+  if (const AttemptEvent* e = worst_event(m, "fastest"); e != nullptr && flow > kFast.band)
+    out.push_back(
+        {"fast", e->time, weight_of(kFast, flow), beside("fastest flow", flow, "ml/s", kFast.band),
+         "the thumb pushed with " + printed("%.0f N", value_of(m, "plunger_peak_n")) + " at most",
+         "Below 0.3 ml/s you feel the tissue."});
+}
+
+void add_idle(const AttemptMeasures& m, std::vector<Fault>& out) {
+  const double idle = value_of(m, kIdle.metric);
+  const AttemptEvent* e = worst_event(m, "idle");
+  if (e == nullptr || idle <= kIdle.band) return;
+  out.push_back({"idle", e->time, weight_of(kIdle, idle),
+                 beside("needle at rest inside", idle, "s", kIdle.band), e->text,
+                 "Look and decide before the skin, then go."});
+}
+
 void add_hand_faults(const AttemptMeasures& m, std::vector<Fault>& out) {
   const double start = m.course.empty() ? 0 : m.course.front().time;
   const AttemptEvent* contact = worst_event(m, "contact");
   const double entry = contact != nullptr ? contact->time : start;
   const double drift = value_of(m, kDrift.metric);
-  if (drift > kDrift.band)
-    out.push_back({"drift", entry, weight_of(kDrift, drift),
+  if (const Run worst = fastest_drift(m); drift > kDrift.band && worst.amount > 0)
+    out.push_back({"drift", worst.from, weight_of(kDrift, drift),
                    beside("the probe moved while needling", drift, "mm/s", kDrift.band),
-                   "both hands moved at once", "Rest the probe hand on the patient."});
+                   printed("both hands moved at once, the probe with %.1f mm/s at the fastest",
+                           worst.amount / kMillimetre),
+                   "Rest the probe hand on the patient."});
   const double passes = value_of(m, kPasses.metric);
   const auto e = std::find_if(m.events.begin(), m.events.end(),
                               [](const AttemptEvent& event) { return event.kind == "pass"; });
@@ -125,20 +205,83 @@ std::string praise(const AttemptMeasures& m) {
   return "";
 }
 
-std::string next_task(const Judgement& judgement, const std::vector<Fault>& faults) {
+/// Which skill is the weakest, by this attempt and those before.
+std::optional<Skill> weakest_skill(const PastAttempt& now, const FeedbackContext& context) {
+  std::array<double, 4> clean{};
+  std::array<double, 4> count{};
+  const auto add = [&](const PastAttempt& attempt) {
+    std::array<bool, 4> faulty{};
+    for (const std::string& kind : attempt.kinds)
+      faulty[static_cast<std::size_t>(skill_of_fault(kind))] = true;
+    for (std::size_t k = 0; k < faulty.size(); ++k) {
+      if (static_cast<Skill>(k) == Skill::inject && !attempt.injected) continue;
+      count[k] += 1;
+      if (!faulty[k]) clean[k] += std::exp2(-attempt.weeks / kHalfLife);
+    }
+  };
+  std::for_each(context.before.begin(), context.before.end(), add);
+  add(now);
+  std::optional<Skill> weakest;
+  double least = kWeak;
+  for (std::size_t k = 0; k < clean.size(); ++k) {
+    if (count[k] == 0 || clean[k] / count[k] >= least) continue;
+    least = clean[k] / count[k];
+    weakest = static_cast<Skill>(k);
+  }
+  return weakest;
+}
+
+std::string task_of(Skill skill) {
+  switch (skill) {
+    case Skill::view:
+      return "Follow the tip to a shallow point on the gel block (gel-find).";
+    case Skill::align:
+      return "Hold the needle in the plane on the gel block (gel-hold).";
+    case Skill::steer:
+      return "Touch the point at 20 mm on the gel block (gel-align).";
+    case Skill::inject:
+      break;
+  }
+  return "The same task once more: draw back, give half a ml, look, then the rest.";
+}
+
+std::string next_task(const Judgement& judgement, const std::optional<Skill>& weakest) {
   if (judgement.with_aids) return "The same once more with the aids off: only that counts.";
+  if (weakest) return task_of(*weakest);
   if (judgement.passed) return "Once more to make sure, then the next level.";
-  if (faults.empty()) return "The same task once more.";
-  const std::string& kind = faults.front().kind;
-  if (kind == "unseen" || kind == "drift" || kind == "angle")
-    return "Hold the needle in the plane on the gel block (gel-hold).";
-  if (kind == "off_target") return "Touch the point at 20 mm on the gel block (gel-align).";
-  return "The same task once more, slower in the last centimetre.";
+  return "The same task once more.";
 }
 
 }  // namespace
 
-Feedback make_feedback(const AttemptMeasures& measures, const Judgement& judgement) {
+Skill skill_of_fault(const std::string& kind) noexcept {
+  if (kind == "unseen" || kind == "angle") return Skill::view;
+  if (kind == "drift" || kind == "passes") return Skill::align;
+  if (kind == "misplaced" || kind == "unaspirated" || kind == "pressure" || kind == "fast")
+    return Skill::inject;
+  return Skill::steer;
+}
+
+PastAttempt past_attempt(double weeks, std::span<const Metric> metrics) {
+  PastAttempt out;
+  out.weeks = weeks;
+  out.injected = value_of(metrics, "given_ml") > kGiven;
+  for (const auto& [kind, name] :
+       {std::pair{&kOffTarget, "off_target"}, std::pair{&kUnseen, "unseen"},
+        std::pair{&kDrift, "drift"}, std::pair{&kPasses, "passes"}, std::pair{&kAngle, "angle"},
+        std::pair{&kPressure, "pressure"}, std::pair{&kFast, "fast"}, std::pair{&kIdle, "idle"}})
+    if (value_of(metrics, kind->metric) > kind->band) out.kinds.emplace_back(name);
+  if (value_of(metrics, kBone.metric) >= kBone.band) out.kinds.emplace_back("bone");
+  if (misplaced_ml(metrics) > kMisplaced.band) out.kinds.emplace_back("misplaced");
+  if (unaspirated(metrics)) out.kinds.emplace_back("unaspirated");
+  for (const Metric& m : metrics)
+    if (m.name.rfind("avoid_depth_mm:", 0) == 0 && m.value.value_or(0) > 0)
+      out.kinds.push_back("avoid:" + m.name.substr(m.name.find(':') + 1));
+  return out;
+}
+
+Feedback make_feedback(const AttemptMeasures& measures, const Judgement& judgement,
+                       const FeedbackContext& context) {
   constexpr std::size_t kMost = 3;
   Feedback out;
   out.verdict = judgement.passed ? "Passed." : "Not passed";
@@ -151,9 +294,19 @@ Feedback make_feedback(const AttemptMeasures& measures, const Judgement& judgeme
   }
   add_needle_faults(measures, out.faults);
   add_hand_faults(measures, out.faults);
+  add_syringe_faults(measures, out.faults);
+  if (context.level >= kIdleLevel) add_idle(measures, out.faults);
+  PastAttempt now;
+  now.injected = value_of(measures, "given_ml") > kGiven;
+  for (Fault& fault : out.faults) {
+    now.kinds.push_back(fault.kind);
+    if (context.before.empty()) continue;
+    const auto& last = context.before.back().kinds;
+    if (std::find(last.begin(), last.end(), fault.kind) != last.end()) fault.weight *= kAgain;
+  }
   std::stable_sort(out.faults.begin(), out.faults.end(),
                    [](const Fault& a, const Fault& b) { return a.weight > b.weight; });
-  out.next = next_task(judgement, out.faults);
+  out.next = next_task(judgement, weakest_skill(now, context));
   if (out.faults.size() > kMost) out.faults.resize(kMost);
   out.good = praise(measures);
   return out;

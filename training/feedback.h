@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <span>
 #include <string>
 #include <vector>
 
@@ -10,9 +11,11 @@ namespace artus {
 
 /// One thing that went wrong, with what a learner needs to see it and to mend it.
 struct Fault {
-  std::string kind;  ///< "unseen", "bone", "avoid:<name>", "drift", "passes", "off_target", "angle"
-  double time = 0;   ///< s, of the moment to look at
-  double weight = 0;  ///< severity of the kind times size beside its band, 0 to 3
+  std::string kind;   ///< "unseen", "bone", "avoid:<name>", "drift", "passes", "off_target",
+                      ///< "angle", "idle", "misplaced", "unaspirated", "pressure", "fast"
+  double time = 0;    ///< s, of the moment to look at
+  double weight = 0;  ///< severity of the kind times size beside its band, 0 to 3; half as much
+                      ///< again for a fault of the attempt before, too
   std::string what;   ///< what was seen or felt, with its value and the band
   std::string cause;  ///< from the truth
   std::string mend;   ///< what to do
@@ -26,7 +29,30 @@ struct Feedback {
   std::string next;           ///< one next task
 };
 
+/// What hands and eyes can do, each trained by a task of its own; of two that
+/// are as weak the earlier is trained first.
+enum class Skill { view, align, steer, inject };
+[[nodiscard]] Skill skill_of_fault(const std::string& kind) noexcept;
+
+/// An attempt before this one.
+struct PastAttempt {
+  double weeks = 0;                ///< ago
+  bool injected = false;           ///< liquid was given
+  std::vector<std::string> kinds;  ///< of its faults
+};
+/// The same from an attempt's numbers, as records keep them.
+[[nodiscard]] PastAttempt past_attempt(double weeks, std::span<const Metric> metrics);
+
+/// What is known beside the attempt.
+struct FeedbackContext {
+  int level = 0;                    ///< of the scenario; idle times are told from 5 on
+  std::vector<PastAttempt> before;  ///< oldest first
+};
+
 /// Bands are those of trained people where published, else assumed; they are told with each fault.
-[[nodiscard]] Feedback make_feedback(const AttemptMeasures& measures, const Judgement& judgement);
+/// The next task is that of the weakest skill: the share of attempts without a fault of it, each
+/// worth half as much after 20 weeks (assumed).
+[[nodiscard]] Feedback make_feedback(const AttemptMeasures& measures, const Judgement& judgement,
+                                     const FeedbackContext& context = {});
 
 }  // namespace artus

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "artus/anatomy/body/joint_digest.h"
+#include "artus/anatomy/body/joint_pose_bytes.h"
 #include "artus/anatomy/body/space_bytes.h"
 #include "artus/anatomy/body/tissue_bytes.h"
 #include "artus/core/byte_stream.h"
@@ -40,19 +41,6 @@ Vec3 get_vec3(ByteReader& in) {
   return v;
 }
 
-void put(ByteWriter& out, const Pose& pose) {
-  for (Eigen::Index column = 0; column < 4; ++column)
-    put(out, Vec3(pose.matrix().col(column).head<3>()));
-}
-
-Pose get_pose(ByteReader& in) {
-  Pose pose = Pose::Identity();
-  for (Eigen::Index column = 0; column < 4; ++column) {
-    pose.matrix().col(column).head<3>() = get_vec3(in);
-  }
-  return pose;
-}
-
 void put_regions(ByteWriter& out, const std::vector<Region>& regions) {
   out.put(static_cast<std::uint32_t>(regions.size()));
   for (const Region& r : regions) {
@@ -80,8 +68,8 @@ void put_scene(ByteWriter& out, const CompiledJoint& joint) {
     out.put(std::string_view(l.name));
     put(out, l.position);
   }
-  put(out, joint.X_JP_default);
-  put(out, joint.X_JN_default);
+  put_pose(out, joint.X_JP_default);
+  put_pose(out, joint.X_JN_default);
   out.put(static_cast<std::uint32_t>(joint.injections.size()));
   for (const PlannedInjection& i : joint.injections) {
     out.put(std::string_view(i.name));
@@ -168,7 +156,8 @@ std::string to_bytes(const CompiledJoint& joint) {
   put_regions(out, joint.regions);
   put_scene(out, joint);
   put_mesh(out, joint.mesh);
-  if (!joint.spaces.empty()) put_spaces(out, joint.spaces);
+  if (!joint.spaces.empty() || !joint.poses.empty()) put_spaces(out, joint.spaces);
+  if (!joint.poses.empty()) put_poses(out, joint.poses);
   return out.bytes();
 }
 
@@ -182,6 +171,7 @@ CompiledJoint from_bytes(ByteReader& in) {
   get_scene(in, joint);
   joint.mesh = get_mesh(in);
   if (!in.at_end()) joint.spaces = get_spaces(in);
+  if (!in.at_end()) joint.poses = get_poses(in);
   return joint;
 }
 
@@ -263,6 +253,7 @@ Result<CompiledJoint> read_compiled_joint(const std::filesystem::path& file) {
 std::string compute_joint_digest(const CompiledJoint& joint) {
   CompiledJoint body = joint;
   body.source_digest.clear();  // the same body may come of other sources
+  body.poses.clear();          // and be held in other ways
   std::array<char, 17> text{};
   std::snprintf(text.data(), text.size(), "%016llx",
                 static_cast<unsigned long long>(hash_bytes(to_bytes(body))));

@@ -33,8 +33,9 @@ struct CompiledJoint {
   Pose X_JP_default = Pose::Identity();
   Pose X_JN_default = Pose::Identity();
   std::vector<PlannedInjection> injections;
-  std::string source_digest;  ///< hex digest of joint file, tissues and surfaces
-  std::vector<Space> spaces;  ///< the joint's own; make_joint_spaces adds the tissues'
+  std::string source_digest;     ///< hex digest of joint file, tissues and surfaces
+  std::vector<Space> spaces;     ///< the joint's own; make_joint_spaces adds the tissues'
+  std::vector<JointPose> poses;  ///< how it may be held (pose_joint)
 
   [[nodiscard]] const Tissue& tissue_of(RegionId region) const {
     return tissues[regions[region].tissue];

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <set>
 
+#include "artus/anatomy/body/joint_pose_toml.h"
 #include "artus/anatomy/body/joint_structure.h"
 #include "artus/anatomy/body/space_toml.h"
 #include "artus/anatomy/body/tissue_toml.h"
@@ -51,16 +52,6 @@ bool is_right_handed_frame(const std::string& axes) {
     m(std::abs(a) - 1, k) = a > 0 ? 1 : -1;
   }
   return m.determinant() > 0.5;
-}
-
-constexpr double kFarthest = 10;  // m from the origin: no frame of a body lies farther
-
-/// A place in the joint's frame, in metres.
-Vec3 required_place(TomlTable& toml, std::string_view key, double unit) {
-  const Vec3 place = toml.required_vector(key, unit);
-  if (place.cwiseAbs().maxCoeff() > kFarthest)
-    toml.problem_at(key, "lies more than 10 m from the origin; see to its unit and frame");
-  return place;
 }
 
 int line_of(const toml::table& table) {
@@ -115,7 +106,7 @@ void read_region(TomlTable& toml, double unit, JointFile& joint) {
   else if (region.has("radius") ? !(roi.radius > 0)
                                 : roi.half_extent && !(roi.half_extent->minCoeff() > 0))
     region.problem("must have a size greater than 0");
-  else if (std::max(roi.radius, roi.half_extent.value_or(Vec3::Zero()).maxCoeff()) > kFarthest)
+  else if (std::max(roi.radius, roi.half_extent.value_or(Vec3::Zero()).maxCoeff()) > kFarthestPlace)
     region.problem("is larger than 10 m; give its size in the unit of the file, or leave it out");
   region.finish();
   joint.region_of_interest = roi;
@@ -140,16 +131,7 @@ void read_probe(TomlTable& toml, double unit, JointFile& joint) {
   if (table == nullptr) return;
   TomlTable probe(*table, "probe", toml.problems());
   joint.probe_line = line_of(*table);
-  const Vec3 position = required_place(probe, "position", unit);
-  const Vec3 direction = probe.required_vector("direction");
-  const Vec3 lateral = probe.vector("lateral").value_or(Vec3::Zero());
-  if (probe.has("direction") && !(direction.norm() > 0))
-    probe.problem_at("direction", "must not be zero");
-  else if (direction.norm() > 0)
-    joint.X_JP_default = make_pose(position, direction, lateral);
-  if (lateral.norm() > 0 && lateral.cross(direction).norm() < 1e-6 * lateral.norm())
-    probe.problem_at("lateral", "must not be along 'direction'");
-  probe.finish();
+  joint.X_JP_default = read_probe_pose(probe, unit);
 }
 
 /// Entry and target of a needle pass, which must be two points.
@@ -279,6 +261,7 @@ Result<JointFile> parse_joint(std::string_view text, const std::filesystem::path
   read_landmarks(toml, unit, joint);
   read_probe(toml, unit, joint);
   read_needles(toml, unit, joint);
+  joint.poses = read_poses(toml, unit, joint);
   auto spaces = read_spaces(toml, region_names(joint));
   ARTUS_TRY(spaces);
   joint.spaces = std::move(*spaces);

@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "artus/anatomy/body/joint_pose.h"
 #include "artus/anatomy/body/space.h"
 #include "artus/anatomy/body/tissue.h"
 #include "artus/core/geometry.h"
@@ -120,6 +121,7 @@ struct JointFile {
   std::optional<Pose> X_JN_default;          ///< default needle pose: tip at the target
   std::vector<PlannedInjection> injections;  ///< of the three-injections scenario
   std::vector<Space> spaces;                 ///< where liquid may go, as far as the file says
+  std::vector<JointPose> poses;              ///< how the joint may be held
 };
 
 /// Reads `folder`/joint.toml. `surface_folder` replaces the file's own when not empty; otherwise

@@ -11,9 +11,9 @@
 namespace artus {
 namespace {
 
-constexpr std::array<std::string_view, 11> kShapeNothing{
+constexpr std::array<std::string_view, 12> kShapeNothing{
     "title",  "side",      "axes",   "surfaces",       "landmark", "probe",
-    "needle", "injection", "tissue", "tissue_library", "space"};
+    "needle", "injection", "tissue", "tissue_library", "space",    "pose"};
 
 }  // namespace
 

@@ -92,6 +92,7 @@ CompiledJoint dress_body(const JointFile& file, TetMesh mesh, std::string digest
   joint.X_JN_default = poses.X_JN;
   joint.injections = file.injections;
   joint.spaces = file.spaces;
+  joint.poses = file.poses;
   joint.source_digest = std::move(digest);
   return joint;
 }

@@ -10,6 +10,7 @@
 #include "artus/haptics/plunger/patient.h"
 #include "artus/operators/hand_loop.h"
 #include "artus/operators/injection_operator.h"
+#include "artus/operators/thumb_dose.h"
 
 namespace artus {
 namespace {
@@ -92,7 +93,8 @@ class Trial {
         out_(out),
         of_region_(std::move(spaces.of_region)),
         plunger_(spec.plunger, std::move(spaces.spaces), 1 / spec.rate_hz),
-        thumb_(spec.thumb) {
+        thumb_(spec.thumb),
+        dose_(spec.plunger.syringe, spec.volume) {
     params_.device = device;
     params_.rate_hz = spec.rate_hz;
     apply(spec.feel, params_.needle);
@@ -113,7 +115,7 @@ class Trial {
       record(t, measured, rendered, contact, person);
       OperatorView view = view_of(renderer.model());
       view.flows = flows_into_target();
-      view.given = given() >= spec_.volume || done_pushing();
+      view.given = dose_.enough();
       person.observe(t, measured, view);
       Wrench motor = rendered.command;
       motor.force += plunger_.state().on_needle * contact.tick().axis;
@@ -154,7 +156,7 @@ class Trial {
   }
 
  private:
-  static constexpr double kFlows = 5e-9;  // m^3/s that is seen
+  static constexpr double kFlows = ThumbDose::kFlows;
   static constexpr double kNearlyAll = 0.98;
 
   [[nodiscard]] double given() const {
@@ -171,10 +173,6 @@ class Trial {
     fills_ = flow > kFlows;
     return fills_;
   }
-
-  /// It does not go in: the hand gives up instead of pushing harder.
-  [[nodiscard]] bool done_pushing() const { return pushed_in_vain_ > kPatience; }
-  static constexpr double kPatience = 6;  // s; assumed
 
   /// What goes in while the target does not open goes elsewhere: the hand lets go, draws back some
   /// more and tries again.
@@ -195,14 +193,13 @@ class Trial {
     const OperatorPhase* phase = person.present();
     const double dt = 1 / spec_.rate_hz;
     PlungerInput input = thumb_.step(phase, plunger_.state(), spec_.plunger.syringe.area(), dt);
-    if (phase != nullptr && phase->thumb_rate > 0) {
-      pushed_in_vain_ = plunger_.state().flow > kFlows ? 0 : pushed_in_vain_ + dt;
-    }
     if (phase != nullptr && phase->until_flow) ease(input, contact.tick().depth);
     input.tip =
         bevel_shares(contact, bevel_length(spec_.plunger.needle.outer_diameter), of_region_);
     input.depth = contact.tick().depth;
-    plunger_.step(input);
+    const PlungerState& now = plunger_.step(input);
+    dose_.step(phase != nullptr && phase->until_given, given(), now.pressure, now.tip_pressure,
+               now.flow, dt);
   }
 
   void record(double t, const Pose& measured, const RenderedNeedle& rendered,
@@ -251,12 +248,12 @@ class Trial {
   std::vector<std::uint32_t> of_region_;
   Plunger plunger_;
   Thumb thumb_;
+  ThumbDose dose_;
   NeedleRendererParams params_;
   std::shared_ptr<const Scene> borrowed_;
   std::size_t target_ = 0;
   std::vector<std::size_t> shown_;
   std::vector<std::vector<double>> history_;
-  double pushed_in_vain_ = 0;
   double target_volume_ = 0;
   bool fills_ = false;
   double strayed_ = 0;   // s of flow elsewhere

@@ -16,6 +16,7 @@
 #include "artus/dataset/video_file.h"
 #include "artus/echo/image_io.h"
 #include "artus/echo/renderer.h"
+#include "artus/session/fluid_core.h"
 #include "artus/session/tissue_core.h"
 
 namespace artus {
@@ -68,6 +69,7 @@ class RunPainter {
         run_(&run),
         folder_(std::move(folder)),
         shape_(options.needle),
+        rate_(options.frames_per_second),
         renderer_(scene_, options.transducer, options.settings) {
     shape_.length = run.needle_length;
   }
@@ -84,17 +86,17 @@ class RunPainter {
                       folder_ / (stem + "-labels.png"),
                       locate_needle(needle, moment.X_JP, transducer, renderer_.settings())};
     Pose X_JP = moment.X_JP;
+    const std::size_t row = row_at(moment.time);
     if (tissue_) {
-      X_JP = probe_at(moment.time).X_JP;
-      for (int k = 0; k < kHeldImages; ++k) press(X_JP);
+      X_JP = run_->probe[row].X_JP;
       image.needle = locate_needle(needle, X_JP, transducer, renderer_.settings());
     } else {
       renderer_.set_contact(moment.coverage);
     }
+    for (int k = 0; k < kHeldImages; ++k) draw_body(X_JP, row);
     const Frame& frame = renderer_.render(X_JP, needle);
     ARTUS_TRY(write_image(annotated_image(frame, transducer), image.bmode));
-    const Scene& body = tissue_ ? *tissue_->scene() : *scene_;
-    const auto labels = render_labels(body, X_JP, transducer, renderer_.settings(), needle);
+    const auto labels = render_labels(*body_, X_JP, transducer, renderer_.settings(), needle);
     ARTUS_TRY(write_image(colour_labels(labels, scene_->joint()), image.labels));
     return image;
   }
@@ -103,6 +105,7 @@ class RunPainter {
   Result<void> draw_video(double rate, RunImages& images, const Progress& progress) {
     std::optional<VideoFile> video;
     ProbeContactModel contact(scene_, run_->options.probe.contact);
+    fluid_.reset();
     const int n_frames = static_cast<int>(std::floor(run_->rows.back().time * rate)) + 1;
     std::size_t next = 0;
     for (int i = 0; i < n_frames; ++i) {
@@ -126,24 +129,36 @@ class RunPainter {
   }
 
  private:
-  [[nodiscard]] const ProbeHandRow& probe_at(double time) const {
+  [[nodiscard]] std::size_t row_at(double time) const {
     const auto row = std::lower_bound(run_->rows.begin(), run_->rows.end() - 1, time,
                                       [](const NeedleRow& r, double t) { return r.time < t; });
-    return run_->probe[static_cast<std::size_t>(row - run_->rows.begin())];
+    return static_cast<std::size_t>(row - run_->rows.begin());
   }
 
-  /// The tissue one image later under the probe, and what the picture is then drawn of.
-  void press(const Pose& X_JP) {
-    tissue_->step(X_JP);
-    renderer_.set_scene(tissue_->scene());
+  /// The body one image later under the probe, with what was injected until then: what the picture
+  /// is drawn of.
+  void draw_body(const Pose& X_JP, std::size_t row) {
+    if (tissue_) tissue_->step(X_JP);
+    body_ = tissue_ ? tissue_->scene() : scene_;
+    std::shared_ptr<const Scene> filled;
+    if (!run_->syringe.empty()) {
+      if (!fluid_) fluid_.emplace(scene_->shared_joint(), run_->liquid, rate_);
+      const SyringeRow& syringe = run_->syringe[row];
+      filled = fluid_->step({syringe.sites.data(), syringe.n_sites}, body_->tissue());
+    }
+    if (filled || filled_)
+      renderer_.set_filled_scene(filled ? filled : body_);
+    else if (tissue_)
+      renderer_.set_scene(body_);
+    filled_ = filled != nullptr;
+    if (filled_) body_ = filled;
   }
 
   cv::Mat draw_tick(std::size_t tick, ProbeContactModel& contact) {
     const NeedleRow& row = run_->rows[tick];
     const ProbeHandRow& probe = run_->probe[tick];
-    if (tissue_) {
-      press(probe.X_JP);
-    } else {
+    draw_body(probe.X_JP, tick);
+    if (!tissue_) {
       static_cast<void>(contact.step(probe.X_JP));
       renderer_.set_contact(contact.coverage());
     }
@@ -158,6 +173,10 @@ class RunPainter {
   const ThreeInjections* run_;
   std::filesystem::path folder_;
   NeedleShape shape_;
+  double rate_;                     // images a second
+  std::optional<FluidCore> fluid_;  // empty: nothing was drawn of it yet
+  bool filled_ = false;
+  std::shared_ptr<const Scene> body_;
   Renderer renderer_;
 };
 

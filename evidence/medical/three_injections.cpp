@@ -8,8 +8,10 @@
 #include <optional>
 
 #include "artus/core/units.h"
+#include "artus/evidence/medical/target_syringe.h"
 #include "artus/evidence/medical/three_injections_analysis.h"
 #include "artus/evidence/medical/three_injections_probe.h"
+#include "artus/haptics/plunger/bevel.h"
 #include "artus/operators/hand_loop.h"
 #include "artus/operators/injection_operator.h"
 
@@ -142,6 +144,7 @@ struct Pass {
   Vec3 direction = Vec3::UnitZ();
   std::vector<OperatorPhase> phases;
   double deepest = 0;  // m, bone or target
+  RegionId target = kOutside;
 };
 
 OperatorPhase reach_target(const ThreeInjectionsOptions& options, const LinePlan& plan,
@@ -150,6 +153,20 @@ OperatorPhase reach_target(const ThreeInjectionsOptions& options, const LinePlan
       advance_to(Goal::region, options.slow_speed, plan.target + kStartOutside, std::move(label));
   phase.region = plan.region;
   phase.depth = kIntoTarget;
+  const auto bore = bore_of_gauge(options.dose.syringe.gauge, kSearch);
+  if (options.dose.volume > 0 && bore)
+    phase.depth = std::max(kIntoTarget, bevel_length(bore->outer_diameter));
+  return phase;
+}
+
+// What is done at a target: a rest, or the thumb gives a dose.
+OperatorPhase at_target(const ThreeInjectionsOptions& options, std::string label) {
+  if (!(options.dose.volume > 0)) return wait(Kind::hold, kHold);
+  constexpr double kSlack = 20;  // s beyond what the rate takes, until the hand gives up
+  OperatorPhase phase =
+      wait(Kind::hold, 2 * options.dose.volume / options.dose.rate + kSlack, std::move(label));
+  phase.thumb_rate = options.dose.rate;
+  phase.until_given = true;
   return phase;
 }
 
@@ -169,8 +186,9 @@ Pass plan_slow(const Scene& scene, const PlannedInjection& planned, const Vec3& 
                const LinePlan& first, const ThreeInjectionsOptions& options) {
   Pass pass{planned.entry, direction, {wait(Kind::hold, kReady)}, first.target};
   const std::string& target = scene.joint().tissue_of(first.region).name;
+  pass.target = first.region;
   pass.phases.push_back(reach_target(options, first, target + " reached"));
-  pass.phases.push_back(wait(Kind::hold, kHold));
+  pass.phases.push_back(at_target(options, target + " injected"));
   const double back = std::max(kMinRemaining, first.target - options.withdrawal);
   std::optional<double> bone = first.bone;
   const auto second =
@@ -183,7 +201,7 @@ Pass plan_slow(const Scene& scene, const PlannedInjection& planned, const Vec3& 
     pass.phases.push_back(turn);
     const auto plan = plan_line(scene, planned.entry, *second, options.target_tissue, first.region);
     pass.phases.push_back(reach_target(options, *plan, "second part of " + target + " reached"));
-    pass.phases.push_back(wait(Kind::hold, kHold));
+    pass.phases.push_back(at_target(options, "second part of " + target + " injected"));
     pass.deepest = std::max(pass.deepest, plan->target);
     bone = plan->bone;
   }
@@ -227,7 +245,10 @@ Result<std::array<Pass, 3>> plan_passes(const Scene& scene,
       passes[i] = plan_slow(scene, planned, direction, *first, options);
     } else {
       passes[i] = Pass{planned.entry, direction, {wait(Kind::hold, kReady)}, first->target};
+      passes[i].target = first->region;
       if (!first->bone) passes[i].phases.push_back(reach_target(options, *first, "target reached"));
+      if (!first->bone && options.dose.volume > 0)
+        passes[i].phases.push_back(at_target(options, "target injected"));
       add_bone_and_exit(passes[i], options, first->bone, options.fast_speed);
     }
   }
@@ -253,8 +274,12 @@ std::shared_ptr<const Scene> borrow(const Scene& scene) {
 class Recorder {
  public:
   Recorder(const Scene& scene, const ThreeInjectionsOptions& options, const DeviceLimits& device,
-           ThreeInjections& out)
-      : scene_(&scene), options_(&options), device_(&device), out_(&out) {}
+           std::optional<TargetSyringe> syringe, ThreeInjections& out)
+      : scene_(&scene),
+        options_(&options),
+        device_(&device),
+        syringe_(std::move(syringe)),
+        out_(&out) {}
 
   bool run(const Pass& pass, int number, double start_time) {
     InjectionOperator person(pass.entry, pass.direction, -kStartOutside, pass.phases);
@@ -280,14 +305,29 @@ class Recorder {
       out_->rows.push_back(row);
       if ((row.events & ContactEvent::kSkinPunctured) != 0) mark(row, "skin punctured");
       if ((row.events & ContactEvent::kBoneTouched) != 0) mark(row, "bone touched");
-      const OperatorPhase* ended = person.observe(t, measured, view_of(renderer.model()));
+      OperatorView view = view_of(renderer.model());
+      Wrench motor = rendered.command;
+      if (syringe_) motor.force += push(person, renderer.model().contact(), view);
+      const OperatorPhase* ended = person.observe(t, measured, view);
       if (ended != nullptr && !ended->label.empty()) mark(row, ended->label);
-      loop.advance(rendered.command, [&person](double at) { return person.intention(at); });
+      loop.advance(motor, [&person](double at) { return person.intention(at); });
     }
     return !person.timed_out();
   }
 
+  void finish(std::span<const RegionId> targets) {
+    if (syringe_) syringe_->finish(targets, *out_);
+  }
+
  private:
+  // N on the needle, of the thumb.
+  Vec3 push(const InjectionOperator& person, const NeedleContact& contact, OperatorView& view) {
+    const double along = syringe_->step(person.present(), contact);
+    out_->syringe.push_back(syringe_->row());
+    view.given = syringe_->given();
+    return along * contact.tick().axis;
+  }
+
   void mark(const NeedleRow& row, const std::string& label) {
     for (const NamedMoment& m : out_->moments) {
       if (m.pass == row.pass && m.label == label) return;
@@ -303,8 +343,31 @@ class Recorder {
   const Scene* scene_;
   const ThreeInjectionsOptions* options_;
   const DeviceLimits* device_;
+  std::optional<TargetSyringe> syringe_;
   ThreeInjections* out_;
 };
+
+std::size_t count_doses(const std::array<Pass, 3>& passes) {
+  std::size_t n = 0;
+  for (const Pass& pass : passes)
+    n += static_cast<std::size_t>(
+        std::count_if(pass.phases.begin(), pass.phases.end(),
+                      [](const OperatorPhase& p) { return p.until_given; }));
+  return n;
+}
+
+Result<std::optional<TargetSyringe>> syringe_of(const Scene& scene,
+                                                const ThreeInjectionsOptions& options,
+                                                const std::array<Pass, 3>& passes,
+                                                ThreeInjections& out) {
+  const std::size_t doses = count_doses(passes);
+  if (doses == 0) return std::optional<TargetSyringe>{};
+  if (!(options.dose.rate > 0)) return fail(ErrorCode::invalid, "the rate must be above 0", "dose");
+  out.asked = options.dose.volume * static_cast<double>(doses);
+  auto made = TargetSyringe::make(scene.joint(), options, out.needle_length, doses);
+  ARTUS_TRY(made);
+  return std::optional<TargetSyringe>(std::move(*made));
+}
 
 }  // namespace
 
@@ -320,17 +383,21 @@ Result<ThreeInjections> run_three_injections(const Scene& scene,
   out.options = options;
   out.needle_length = options.feel.needle_length.value_or(choose_needle(*passes));
   for (const Region& region : scene.joint().regions) out.region_names.push_back(region.name);
-  Recorder recorder(scene, options, *device, out);
+  auto syringe = syringe_of(scene, options, *passes, out);
+  ARTUS_TRY(syringe);
+  Recorder recorder(scene, options, *device, std::move(*syringe), out);
   bool reached = true;
   for (std::size_t i = 0; i < passes->size(); ++i) {
     if (progress) progress("injection", static_cast<double>(i) / 3);
     const double start = out.rows.empty() ? 0 : out.rows.back().time + 1 / options.rate_hz;
     reached = recorder.run((*passes)[i], static_cast<int>(i) + 1, start) && reached;
   }
+  recorder.finish(std::array{(*passes)[0].target, (*passes)[1].target, (*passes)[2].target});
   if (progress) progress("injection", 1);
   if (!out.moments.empty()) run_probe_hand(borrow(scene), out);
   analyze(scene.joint(), reached, out);
   if (!out.probe.empty()) claim_probe(out);
+  claim_doses(out);
   return out;
 }
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -7,6 +9,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "artus/anatomy/body/joint_file.h"
+#include "artus/anatomy/body/liquid.h"
 #include "artus/core/progress.h"
 #include "artus/evidence/claim.h"
 #include "artus/evidence/needle/needle_trace.h"
@@ -14,8 +17,16 @@
 #include "artus/haptics/needle/needle_feel.h"
 #include "artus/operators/probe_hand.h"
 #include "artus/operators/simulated_hand.h"
+#include "artus/session/syringe_core.h"
 
 namespace artus {
+
+/// What is given at each target of a run.
+struct TargetDose {
+  SyringeChoice syringe;  ///< of the whole run; what is drawn up is made enough for it
+  double volume = 0;      ///< m^3 at each target; 0: a dry run, as published
+  double rate = 1e-7;     ///< m^3/s
+};
 
 /// How the published medical test is run; every value has a default.
 struct ThreeInjectionsOptions {
@@ -31,6 +42,7 @@ struct ThreeInjectionsOptions {
                           ///< reaches the bone
   HandParams hand;        ///< its seed is replaced by `seed`
   ProbeHandParams probe;  ///< the other hand; likewise
+  TargetDose dose;
 };
 
 /// An instant worth a picture.
@@ -54,9 +66,29 @@ struct BoneTouch {
   double duration = 0;        ///< s, from the touch to the tap's last non-zero row
 };
 
+/// The syringe in one tick. SI.
+struct SyringeRow {
+  PlungerFeedback plunger;
+  std::uint32_t n_sites = 0;
+  std::array<InjectedSite, kMostSites> sites;
+};
+
+/// What one place has at the end of a run, and whether a target is in it.
+struct GivenTo {
+  std::string place;
+  double volume = 0;  ///< m^3
+  bool target = false;
+};
+
 struct ThreeInjections {
   std::vector<NeedleRow> rows;
   std::vector<ProbeHandRow> probe;  ///< as many, at the same times
+  std::vector<SyringeRow> syringe;  ///< likewise; empty: a dry run
+  std::vector<GivenTo> given;       ///< by place, those that got something
+  Liquid liquid;                    ///< that was drawn up
+  bool into_cavity = false;         ///< a target is in a place that opens, as a bursa
+  double asked = 0;                 ///< m^3 at all targets together
+  double unbalanced = 0;            ///< m^3 out of the needle, less what is somewhere
   std::vector<NamedMoment> moments;
   std::vector<LayerPlateau> plateaus;
   std::vector<BoneTouch> touches;
@@ -68,11 +100,14 @@ struct ThreeInjections {
 
 /// The published medical test [Alamilla2020] section 4.6 with a simulated hand and device: the
 /// first two injections go slowly to the bursa, withdraw, re-aim inside the cone, reach another
-/// part of it and touch bone slowly; the third goes fast and straight to the bone. The other hand
+/// part of it and touch bone slowly; the third goes fast and straight to the bone. With a dose the
+/// thumb gives it wherever the needle stops at a target, the bevel's whole opening in it where the
+/// layer is thick enough, and what the thumb pushes moves the needle. The other hand
 /// presses the probe on the skin, its plane in the needle's line. Deterministic for a scene,
 /// options and seed. Works on any joint with a target; a line without bone behind it
 /// skips the touch and says so in a claim. Errors: not_found (no such device), invalid (fewer than
-/// three injections, an entry inside or a target outside the body).
+/// three injections, an entry inside or a target outside the body; a dose that no syringe holds),
+/// those of make_plunger_params.
 [[nodiscard]] Result<ThreeInjections> run_three_injections(
     const Scene& scene, std::span<const PlannedInjection> injections,
     const ThreeInjectionsOptions& options = {}, const Progress& progress = {});

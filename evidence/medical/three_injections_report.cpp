@@ -87,6 +87,52 @@ void append_probe(const ProbeHandRow& row, std::string& line) {
   line += ',' + std::to_string(row.status);
 }
 
+// So do the syringe's.
+template <class F>
+PlotSeries syringe_series(const ThreeInjections& run, const char* label, F value) {
+  PlotSeries s = plot_rows(run.rows, label, [](const NeedleRow& /*row*/) { return 0.0; });
+  for (std::size_t i = 0; i < s.y.size(); ++i) s.y[i] = value(run.syringe[i].plunger);
+  return s;
+}
+
+void add_syringe_panels(const ThreeInjections& run, Plot& plot) {
+  using Felt = const PlungerFeedback&;
+  const std::string time = "time (s)";
+  plot.panels.push_back(
+      {time,
+       "thumb (N), given (ml)",
+       {syringe_series(run, "thumb (N)", [](Felt f) { return f.thumb_force; }),
+        syringe_series(run, "given (ml)", [](Felt f) { return f.given / kCubicCentimetre; })}});
+}
+
+constexpr const char* kSyringeHeader =
+    ",thumb_n,barrel_pa,tip_pa,flow_m3_s,plunger_m,given_m3,plunger_status";
+
+void append_syringe(const PlungerFeedback& felt, std::string& line) {
+  for (const double value :
+       {felt.thumb_force, felt.pressure, felt.tip_pressure, felt.flow, felt.travel, felt.given})
+    line += ',' + to_csv(value);
+  line += ',' + std::to_string(felt.status);
+}
+
+nlohmann::json doses_json(const ThreeInjections& run) {
+  const TargetDose& dose = run.options.dose;
+  auto places = nlohmann::json::object();
+  double all = 0;
+  for (const GivenTo& to : run.given) {
+    places[to.place] = {{"ml", to.volume / kCubicCentimetre}, {"target", to.target}};
+    all += to.volume;
+  }
+  return {{"liquid", dose.syringe.liquid},
+          {"gauge", dose.syringe.gauge},
+          {"ml_each", dose.volume / kCubicCentimetre},
+          {"rate_ml_s", dose.rate / kCubicCentimetre},
+          {"asked_ml", run.asked / kCubicCentimetre},
+          {"given_ml", all / kCubicCentimetre},
+          {"unbalanced_ml", run.unbalanced / kCubicCentimetre},
+          {"places", places}};
+}
+
 Plot force_plot(const ThreeInjections& run) {
   using Row = const NeedleRow&;
   const std::string time = "time (s)";
@@ -115,6 +161,7 @@ Plot force_plot(const ThreeInjections& run) {
          return r.cone / kDegree;
        })}}};
   if (!run.probe.empty()) add_probe_panels(run, plot);
+  if (!run.syringe.empty()) add_syringe_panels(run, plot);
   return plot;
 }
 
@@ -138,6 +185,7 @@ nlohmann::json summarize(const ThreeInjections& run) {
       "step of the device",
       "the probe's force of 3 N, its hand's ways and times, friction of gel and skin",
       "2 % of a layer's force"};
+  if (!run.syringe.empty()) out["injected"] = doses_json(run);
   for (const LayerPlateau& p : run.plateaus) {
     out["plateaus"].push_back({{"tissue", p.tissue},
                                {"expected_n", p.expected},
@@ -172,14 +220,16 @@ Result<void> write_three_injections(const ThreeInjections& run,
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) return fail(ErrorCode::unreadable, error.message(), folder.string());
-  MoreColumns probe;
-  if (!run.probe.empty()) {
-    probe.header = kProbeHeader;
-    probe.append = [&run](std::size_t i, std::string& line) {
-      append_probe(run.probe[i], line);
-    };
-  }
-  ARTUS_TRY(write_needle_csv(folder / "trace.csv", run.rows, run.region_names, probe));
+  MoreColumns more;
+  std::string header;
+  if (!run.probe.empty()) header += kProbeHeader;
+  if (!run.syringe.empty()) header += kSyringeHeader;
+  more.header = header;
+  more.append = [&run](std::size_t i, std::string& line) {
+    if (!run.probe.empty()) append_probe(run.probe[i], line);
+    if (!run.syringe.empty()) append_syringe(run.syringe[i].plunger, line);
+  };
+  ARTUS_TRY(write_needle_csv(folder / "trace.csv", run.rows, run.region_names, more));
   return write_plot(folder / "forces.png", force_plot(run));
 }
 

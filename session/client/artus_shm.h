@@ -331,6 +331,7 @@ static inline int artus_shm_open(artus_shm_link* link, const char* prefix) {
   link->refusal = "FORCE";
   if (artus_shm_follow_force(link) != 0) {
     const int why = errno;
+    if (why == EPROTO) link->refusal = "FORCE is of another version of artus' shared memory";
     artus_shm_unmap(&link->pos);
     return errno = why, -1;
   }

@@ -105,6 +105,19 @@ TEST_F(Tool, RunsTheMainJobWithAllItsFilesAndEveryClaimHolds) {
       EXPECT_TRUE(std::filesystem::exists(folder_ / "run" / image.at(kind).get<std::string>()));
 }
 
+TEST_F(Tool, TheMainJobInjectsUnlessItIsDry) {
+  const auto wet = artus(
+      {"run", "three-injections", "-j", kSimple, "--out", in("wet"), "--no-images", "--json"});
+  ASSERT_EQ(wet.exit_code, 0) << wet.out << wet.err;
+  const auto injected = nlohmann::json::parse(wet.out).at("injected");
+  EXPECT_NEAR(injected.at("given_ml").get<double>(), injected.at("asked_ml").get<double>(), 0.04);
+  EXPECT_GT(injected.at("places").at("bursa").at("ml").get<double>(), 1.9);
+  const auto dry = artus({"run", "three-injections", "-j", kSimple, "--out", in("dry"),
+                          "--no-images", "--json", "--dry"});
+  ASSERT_EQ(dry.exit_code, 0) << dry.out << dry.err;
+  EXPECT_FALSE(nlohmann::json::parse(dry.out).contains("injected"));
+}
+
 TEST_F(Tool, TheMainJobHoldsOnAKneeAndAHip) {
   for (const char* joint : {"knee", "hip"}) {
     const auto r = artus({"run", "three-injections", "-j",

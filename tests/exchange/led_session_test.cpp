@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/exchange/led_session.h"
 
+#include <algorithm>
+#include <array>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "artus/session/replay.h"
+#include "artus/training/assessment.h"
 #include "tests/session/session_support.h"
+#include "tests/support/meshed_block.h"
 
 namespace artus {
 namespace {
@@ -72,6 +78,38 @@ TEST(LedSession, ANeedleThatIsNotListedIsNotThere) {
   }
   poses[1].time.reset();
   EXPECT_FALSE(record_led_session(poses, test::make_layered_scene(), test::make_small_session()));
+}
+
+/// All numbers of a led session in a body that gives way, as JSON.
+std::string numbers(LedPictures pictures, bool assessed_pictures) {
+  const std::array<FlatLayer, 4> layers{
+      {{"skin", 2e-3}, {"fat", 8e-3}, {"muscle", 20e-3}, {"bone", 10e-3}}};
+  const auto joint =
+      std::make_shared<const CompiledJoint>(test::make_meshed_block(layers, 0.096, 0.064, 4e-3));
+  const auto scene = std::make_shared<const Scene>(joint);
+  std::vector<ListedPose> poses = straight_path();
+  for (ListedPose& pose : poses) {
+    pose.X_JP = joint->X_JP_default;
+    pose.X_JP.translation() += 3e-3 * pose.X_JP.linear().col(2);
+  }
+  SessionParams params = test::make_small_session();
+  params.deform = true;
+  params.image_rate = 8;
+  const auto recording = record_led_session(poses, scene, params, pictures);
+  EXPECT_TRUE(recording);
+  EXPECT_EQ(recording->packets.empty(), pictures != LedPictures::drawn);
+  const auto assessed = assess_recording(*recording, scene, {}, assessed_pictures);
+  EXPECT_TRUE(assessed);
+  const Metric* visible = find_metric(assessed->metrics, "tip_visible");
+  EXPECT_EQ(visible != nullptr && visible->value, assessed_pictures);
+  const Metric* force = find_metric(assessed->metrics, "force_peak_n:muscle");
+  EXPECT_TRUE(force != nullptr && force->value.value_or(0) > 0.05);
+  return to_json(*assessed).dump();
+}
+
+TEST(LedSession, IsAssessedToTheSameDigitsWhetherItsPicturesWereDrawnBeforeOrNot) {
+  EXPECT_EQ(numbers(LedPictures::listed, true), numbers(LedPictures::drawn, true));
+  EXPECT_EQ(numbers(LedPictures::none, false), numbers(LedPictures::drawn, false));
 }
 
 }  // namespace

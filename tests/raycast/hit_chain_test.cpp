@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "artus/raycast/facet.h"
+
 namespace artus {
 namespace {
 
@@ -23,6 +25,11 @@ std::vector<Hit> repaired(const std::vector<Hit>& hits, const Truth& truth = {},
   const auto chain = std::make_unique<HitChain>();
   repair_chain(hits, {0, 6, doubtful}, {Truth::at, &truth}, *chain);
   return {chain->hits.begin(), chain->hits.begin() + static_cast<std::ptrdiff_t>(chain->size)};
+}
+
+TEST(Facet, IsOneCacheLine) {
+  EXPECT_EQ(sizeof(Facet), 64U);
+  EXPECT_EQ(alignof(Facet), 64U);
 }
 
 TEST(IsChain, AcceptsContiguousRegionsAndRefusesBreaksAndTouches) {

@@ -15,8 +15,9 @@ namespace {
 
 constexpr double kRate = 1000;  // Hz
 
-InjectionPlan plan_into_the_bursa() {
+InjectionPlan plan_into_the_bursa(double volume) {
   InjectionPlan plan;
+  plan.volume = volume;
   plan.X_WP = make_pose(Vec3(0.01, 0, 0), Vec3::UnitZ(), Vec3::UnitX());
   plan.target = 23e-3;  // the bursa lies between 22 and 24 mm, bone at 29 mm
   plan.deepest = 40e-3;
@@ -27,7 +28,8 @@ InjectionPlan plan_into_the_bursa() {
 /// The device in a closed loop with the session's haptic core.
 class Loop {
  public:
-  explicit Loop(bool feel) : feel_(feel) {}
+  explicit Loop(bool feel, double volume = 0)
+      : feel_(feel), device_(plan_into_the_bursa(volume), params_.device, kRate) {}
   const HapticSnapshot& step() {
     TickInput input;
     input.tick = ++tick_;
@@ -45,7 +47,7 @@ class Loop {
   std::shared_ptr<const Scene> scene_ = test::make_layered_scene();
   SessionParams params_ = test::make_small_session();
   HapticCore core_{scene_, params_};
-  InjectingDevice device_{plan_into_the_bursa(), params_.device, kRate};
+  InjectingDevice device_;
   std::uint64_t tick_ = 0;
 };
 
@@ -85,6 +87,18 @@ TEST(InjectingDevice, ComesOutAndBeginsAgain) {
     inside = now;
   }
   EXPECT_GE(injections, 2);
+}
+
+TEST(InjectingDevice, GivesWhatIsMeantAndNotWhatItsBarrelHoldsMore) {
+  Loop loop(true, 0.1e-6);
+  double given = 0;
+  for (int i = 0; i < 12000; ++i) {
+    const HapticSnapshot& out = loop.step();
+    if (loop.phase() == InjectingDevice::Phase::rest) given = out.feedback.plunger.given;
+    if (loop.phase() > InjectingDevice::Phase::rest) break;
+  }
+  EXPECT_EQ(loop.phase(), InjectingDevice::Phase::to_bone);
+  EXPECT_NEAR(given, 0.1e-6, 0.01e-6) << "0.118 ml when the thumb lets go at the mark";
 }
 
 TEST(InjectingDevice, ReadAndWriteDoNotAllocate) {

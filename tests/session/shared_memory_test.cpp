@@ -92,6 +92,34 @@ TEST_F(SharedMemory, AnObserverIsToldWhatIsMissing) {
   EXPECT_EQ(none.error().code, ErrorCode::not_found);
 }
 
+TEST_F(SharedMemory, AClientOfAnotherVersionIsRefusedAndToldWhichSegment) {
+  const auto make_old = [&](const SegmentLayout& layout, const char* name, std::uint32_t version) {
+    artus_shm_header head{};
+    head.magic = layout.magic;
+    head.version = version;
+    head.payload = layout.payload_size;
+    std::string bytes(sizeof head + layout.payload_size, 0);
+    head.size = static_cast<std::uint32_t>(bytes.size());
+    std::memcpy(bytes.data(), &head, sizeof head);
+    const std::string path = "/dev/shm/" + prefix_ + name;
+    std::ofstream(path, std::ios::binary) << bytes;
+    chmod(path.c_str(), 0600);
+  };
+  artus_shm_link link;
+  make_old(kForceLayout, "FORCE", ARTUS_SHM_VERSION - 1);
+  EXPECT_EQ(artus_shm_open(&link, prefix_.c_str()), -1);
+  EXPECT_EQ(errno, EPROTO);
+  EXPECT_STREQ(link.refusal, "FORCE is of another version of artus' shared memory");
+  make_old(kPosLayout, "POS", ARTUS_SHM_VERSION - 1);
+  EXPECT_EQ(artus_shm_open(&link, prefix_.c_str()), -1);
+  EXPECT_EQ(errno, EPROTO);
+  EXPECT_STREQ(link.refusal, "POS is of another version of artus' shared memory");
+  make_old(kForceLayout, "FORCE", ARTUS_SHM_VERSION);
+  make_old(kPosLayout, "POS", ARTUS_SHM_VERSION);
+  EXPECT_EQ(artus_shm_open(&link, prefix_.c_str()), 0) << "of this version the same bytes are good";
+  artus_shm_close(&link);
+}
+
 struct LeftOver {
   const char* name;
   std::size_t size;

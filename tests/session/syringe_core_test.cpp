@@ -37,6 +37,15 @@ class SessionSyringe : public ::testing::Test {
     return -1;
   }
 
+  /// m^3 that left the syringe and are nowhere.
+  double lost() const {
+    const Plunger& plunger = core_.syringe().plunger();
+    double left = plunger.params().syringe.filled - plunger.state().content;
+    for (const SpaceState& state : plunger.states()) left -= state.volume - state.drawn;
+    return left;
+  }
+  bool told(std::uint32_t bit) const { return (core_.syringe().feedback().status & bit) != 0; }
+
   std::shared_ptr<const Scene> scene_ = test::make_layered_scene();
   SessionParams params_ = test::make_small_session();
   HapticCore core_{scene_, params_};
@@ -117,6 +126,50 @@ TEST_F(SessionSyringe, PushingTheThumbPushesTheNeedleOnByItsUnbalancedShare) {
   for (int k = 0; k < 1000; ++k) step(15e-3, PlungerSign::force, 10);
   const double after = step(15e-3, PlungerSign::force, 10).force_J[2];
   EXPECT_NEAR(after - before, 0.05 * 10, 0.02);
+}
+
+TEST_F(SessionSyringe, ADeviceThatTurnsFromForceToTravelIsNotPushedByWhereItsZeroIs) {
+  insert_to(15e-3);
+  for (int k = 0; k < 500; ++k) step(15e-3, PlungerSign::force, 2);
+  step(15e-3, PlungerSign::travel, 0.31);
+  const double felt = step(15e-3, PlungerSign::travel, 0.31).feedback.plunger.thumb_force;
+  EXPECT_NEAR(felt, 0, 1e-9);
+}
+
+TEST_F(SessionSyringe, ATravelThatJumpsIsFeltAsALimitedForceAndLosesNothing) {
+  insert_to(15e-3);
+  for (const double jump : {0.5, -0.5, 0.0}) {
+    for (int k = 0; k < 3000; ++k) {
+      const HapticSnapshot& out = step(15e-3, PlungerSign::travel, k < 10 ? 0 : jump);
+      ASSERT_LE(std::abs(out.feedback.plunger.thumb_force), SyringeCore::kMostForce + 1e-9);
+    }
+    EXPECT_NEAR(lost(), 0, 1e-15) << jump;
+    EXPECT_LE(core_.syringe().plunger().state().content,
+              core_.syringe().plunger().params().syringe.volume + 1e-15);
+    EXPECT_TRUE(jump == 0 || told(PlungerStatus::kLimited)) << jump;
+  }
+}
+
+TEST_F(SessionSyringe, APlungerThatIsRunToItsEndSaysSoAndGivesNoMore) {
+  insert_to(23.9e-3);
+  for (int k = 0; k < 60000 && !told(PlungerStatus::kEmpty); ++k)
+    step(23.9e-3, PlungerSign::force, 12);
+  for (int k = 0; k < 5000; ++k) step(23.9e-3, PlungerSign::force, 12);
+  EXPECT_TRUE(told(PlungerStatus::kEmpty));
+  EXPECT_NEAR(core_.syringe().feedback().flow, 0, 1e-12);
+  EXPECT_LE(core_.syringe().feedback().given,
+            core_.syringe().plunger().params().syringe.filled * (1 + 1e-12));
+  EXPECT_NEAR(lost(), 0, 1e-15);
+}
+
+TEST_F(SessionSyringe, OutOfTheBodyThePushSquirtsIntoTheAirAgainstTheBoreAlone) {
+  for (int k = 0; k < 3000; ++k) step(-5e-3, PlungerSign::force, 5);
+  EXPECT_TRUE(told(PlungerStatus::kOutside));
+  EXPECT_GT(volume_in("outside"), 0.1e-6);
+  EXPECT_EQ(core_.syringe().feedback().tip_pressure, 0);
+  EXPECT_NEAR(core_.syringe().feedback().thumb_force, 5, 1e-9);
+  EXPECT_NEAR(lost(), 0, 1e-15);
+  EXPECT_TRUE(core_.syringe().sites().empty()) << "and nothing of it is drawn";
 }
 
 TEST_F(SessionSyringe, AResetGivesANewSyringe) {

@@ -41,8 +41,9 @@ std::string cause_of(const AttemptView& view, const Run& run) {
                                        : "the tip was %.1f mm behind the plane",
                      std::abs(sight->offset) / kMillimetre);
     case SightLoss::angle:
-      return printed("the needle stood at %.0f degrees to the probe's face and sent its echo away",
-                     sight->face_angle / kDegree);
+      return printed(
+          "the needle stood at %.0f degrees to the probe's face: %.0f dB lost to the angle",
+          sight->face_angle / kDegree, sight->angle_db);
     case SightLoss::shadow:
       return "the tip was in the shadow of " + view.scene.joint().regions[sight->shadow].name;
     case SightLoss::no_contact:
@@ -53,6 +54,39 @@ std::string cause_of(const AttemptView& view, const Run& run) {
       break;
   }
   return "the tip was not seen";
+}
+
+/// What the syringe did, at its moments; none where nothing was given.
+template <class Put>
+void add_syringe_events(const AttemptView& view, const Put& put) {
+  constexpr double kNoticed = 0.5e-6;  // m^3 beside the target from which it is one
+  const SyringeTotals& sum = view.measures.syringe;
+  const auto& doses = view.measures.doses;
+  if (doses.empty()) return;
+  const auto& regions = view.scene.joint().regions;
+  put(doses.front().time, "flow", sum.given / kCubicCentimetre,
+      sum.aspirated_first ? "liquid flowed after an aspiration" : "liquid flowed, unaspirated");
+  put(sum.peak_flow_time, "fastest", sum.peak_flow / kCubicCentimetre,
+      printed("%.2f ml/s at the fastest", sum.peak_flow / kCubicCentimetre));
+  put(sum.peak_pressure_time, "pressure", sum.peak_pressure / 1e3,
+      printed("%.0f kPa in the barrel", sum.peak_pressure / 1e3));
+  const auto& target = view.options.goals.target;
+  if (!target || !target->body) return;
+  std::vector<double> astray(regions.size());
+  double all = 0;
+  double noticed = 0;
+  for (const Dose& dose : doses) {
+    if (dose.region >= astray.size() || distance_to(*target, dose.tip) <= 0) continue;
+    if (all < kNoticed) noticed = dose.time;
+    all += dose.volume;
+    astray[dose.region] += dose.volume;
+  }
+  if (all < kNoticed) return;
+  const auto most = std::max_element(astray.begin(), astray.end());
+  put(noticed, "misplaced", all / kCubicCentimetre,
+      printed("%.1f ml with the tip in ", *most / kCubicCentimetre) +
+          regions[static_cast<std::size_t>(most - astray.begin())].name +
+          (sum.pauses > 0 ? "" : ", and no pause to look after the first of it"));
 }
 
 }  // namespace
@@ -95,6 +129,7 @@ std::vector<AttemptEvent> find_events(const AttemptView& view) {
         target ? printed("the needle was placed %.1f mm from the target", off)
                : "the needle was placed");
   }
+  add_syringe_events(view, put);
   std::stable_sort(events.begin(), events.end(),
                    [](const auto& a, const auto& b) { return a.time < b.time; });
   return events;

@@ -27,9 +27,10 @@ struct MeterOptions {
 /// Something that happened at a moment, for the report's clips and the record's events.
 struct AttemptEvent {
   double time = 0;     ///< s
-  std::string kind;    ///< "contact", "unseen", "bone", "avoid:<name>", "pass", "placed", "idle"
+  std::string kind;    ///< "contact", "unseen", "bone", "avoid:<name>", "pass", "placed", "idle",
+                       ///< "flow", "misplaced", "pressure", "fastest"
   std::string region;  ///< at the tip
-  double value = 0;    ///< mm, N or s, as the kind says
+  double value = 0;    ///< mm, N, s, ml, kPa or ml/s, as the kind says
   std::string text;    ///< with the cause, from the truth
 };
 

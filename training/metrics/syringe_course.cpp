@@ -28,6 +28,7 @@ void SyringeCourse::give(const SyringeTick& tick, double volume) noexcept {
   if (doses_.empty()) return;
   doses_.back().volume += volume;
   doses_.back().tip = tick.tip;
+  doses_.back().time = tick.time;
 }
 
 void SyringeCourse::add(const SyringeTick& tick) noexcept {
@@ -62,6 +63,8 @@ void SyringeCourse::add(const SyringeTick& tick) noexcept {
     ++sum_.aspirations;
   }
   if (tick.given > last_.given) give(tick, tick.given - last_.given);
+  if (tick.flow > sum_.peak_flow) sum_.peak_flow_time = tick.time;
+  if (tick.pressure > sum_.peak_pressure) sum_.peak_pressure_time = tick.time;
   sum_.peak_flow = std::max(sum_.peak_flow, tick.flow);
   sum_.peak_thumb = std::max(sum_.peak_thumb, tick.thumb);
   sum_.peak_pressure = std::max(sum_.peak_pressure, tick.pressure);

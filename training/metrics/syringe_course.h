@@ -25,21 +25,24 @@ struct Dose {
   double volume = 0;        ///< m^3
   RegionId region = 0;      ///< at the tip
   Vec3 tip = Vec3::Zero();  ///< m, frame J, when the last of it was given
+  double time = 0;          ///< s, then
 };
 
 /// Totals of a syringe's use, SI.
 struct SyringeTotals {
-  bool used = false;             ///< something was given or drawn, or the thumb pressed
-  double given = 0;              ///< m^3, all that went in, whatever was drawn back
-  double flowing = 0;            ///< s with more than 1 ul/s
-  double peak_flow = 0;          ///< m^3/s
-  double peak_thumb = 0;         ///< N
-  double peak_pressure = 0;      ///< Pa
-  double tip_drift = 0;          ///< m, farthest from where a flow began while it lasted
-  double test_dose = 0;          ///< m^3 before the first pause; 0 when nothing came after a pause
-  int pauses = 0;                ///< of 2 s or more between two flows
-  int aspirations = 0;           ///< times that the barrel sucked (below -5 kPa) for 2 s or more
-  bool aspirated_first = false;  ///< one of them before anything was given
+  bool used = false;              ///< something was given or drawn, or the thumb pressed
+  double given = 0;               ///< m^3, all that went in, whatever was drawn back
+  double flowing = 0;             ///< s with more than 1 ul/s
+  double peak_flow = 0;           ///< m^3/s
+  double peak_thumb = 0;          ///< N
+  double peak_pressure = 0;       ///< Pa
+  double peak_flow_time = 0;      ///< s, when that flow was first reached
+  double peak_pressure_time = 0;  ///< s
+  double tip_drift = 0;           ///< m, farthest from where a flow began while it lasted
+  double test_dose = 0;           ///< m^3 before the first pause; 0 when nothing came after a pause
+  int pauses = 0;                 ///< of 2 s or more between two flows
+  int aspirations = 0;            ///< times that the barrel sucked (below -5 kPa) for 2 s or more
+  bool aspirated_first = false;   ///< one of them before anything was given
 };
 
 /// Follows a syringe tick by tick.

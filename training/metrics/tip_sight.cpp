@@ -14,6 +14,10 @@ constexpr double kMostAir = 5e-3;     // m, as ImageSettings::gel_limit
 constexpr double kLeastContrast = 6;  // dB
 constexpr double kSpeed = kDisplaySpeedOfSound;
 
+double decibels(double amplitude) {
+  return 20 * std::log10(std::max(amplitude, 1e-9));
+}
+
 bool stops_sound(const Tissue& tissue) {
   return tissue.haptic.hard;
 }
@@ -44,7 +48,8 @@ TipSightFinder::TipSightFinder(const Transducer& transducer, double depth, const
       depth_(depth),
       shape_(shape),
       speckle_db_(speckle_db),
-      beam_(transducer, depth) {}
+      beam_(transducer, depth),
+      flat_db_(decibels(needle_reflectivity(shape, 0, specular_phase(transducer, kSpeed)))) {}
 
 bool TipSightFinder::in_sector(const Vec3& tip_P) const noexcept {
   if (transducer_.radius > 0) {
@@ -68,7 +73,8 @@ TipSight TipSightFinder::look(const Scene& scene, const Pose& X_JP, const Pose& 
   sight.face_angle = std::asin(std::min(1.0, std::abs(axis.z())));
   const double echo =
       needle_reflectivity(shape_, sight.face_angle, specular_phase(transducer_, kSpeed));
-  sight.contrast_db = 20 * std::log10(std::max(echo, 1e-9)) - speckle_db_;
+  sight.contrast_db = decibels(echo) - speckle_db_;
+  sight.angle_db = flat_db_ - decibels(echo);
   const bool curved = transducer_.radius > 0;
   const Vec3 centre(0, 0, -transducer_.radius);
   const Vec3 face =
@@ -85,7 +91,7 @@ TipSight TipSightFinder::look(const Scene& scene, const Pose& X_JP, const Pose& 
       sight.shadow = layers[i].region;
   }
   const double heard = beam_.elevation_amplitude(sight.offset, std::clamp(tip.z(), 0.0, depth_));
-  const double aside_db = 20 * std::log10(std::max(heard, 1e-9));
+  const double aside_db = decibels(heard);
   const bool faint = sight.contrast_db + aside_db < kLeastContrast;
   if (air > kMostAir)
     sight.loss = SightLoss::no_contact;

@@ -19,6 +19,7 @@ struct TipSight {
   double plane_angle = 0;      ///< rad, asin of shaft . normal, signed
   double face_angle = 0;       ///< rad, between the shaft and the probe's face
   double contrast_db = 0;      ///< of the shaft's echo over muscle's speckle
+  double angle_db = 0;         ///< of that echo, lost to the angle beside a shaft that lies flat
   RegionId shadow = kOutside;  ///< the region that shadows the tip
   [[nodiscard]] bool seen() const noexcept { return loss == SightLoss::none; }
 };
@@ -45,6 +46,7 @@ class TipSightFinder {
   NeedleShape shape_;
   double speckle_db_;
   BeamProfile beam_;
+  double flat_db_;  // echo of a shaft along the face
 };
 
 }  // namespace artus

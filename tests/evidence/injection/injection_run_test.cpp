@@ -94,5 +94,34 @@ TEST(InjectionRun, RefusesALineThatMissesAndAVolumeThatIsNone) {
   EXPECT_THAT(run_injection(*scene, none).error().message, testing::HasSubstr("volume"));
 }
 
+TEST(InjectionRun, MoreThanABursaHoldsTearsItAndIsFoundAroundIt) {
+  const auto scene = shoulder_like();
+  InjectionSpec spec = spec_into(*scene, "bursa", 45e-6);
+  spec.plunger.syringe = syringe_for(46e-6);
+  spec.rate = 1e-6;
+  const auto run = run_injection(*scene, spec);
+  ASSERT_TRUE(run);
+  EXPECT_NE(run->status & PlungerStatus::kRuptured, 0U) << run->given << " m^3 given";
+  EXPECT_LE(run->highest_force, spec.plunger.most_force);
+  EXPECT_LT(std::abs(run->unbalanced), 1e-15);
+  EXPECT_LT(run->volumes.front(), 0.95 * run->given);
+  EXPECT_FALSE(all_hold(claims_of(*run)));
+}
+
+TEST(InjectionRun, GrainsThatSettleInAThinNeedleStopTheHand) {
+  const auto scene = shoulder_like();
+  InjectionSpec spec = spec_into(*scene, "bursa", 1e-6);
+  spec.plunger.liquid = *find_liquid(spec.plunger.liquids, "steroid");
+  spec.plunger.needle = *bore_of_gauge(27, 0.05);
+  spec.plunger.clog_time = 0.5;  // s; in the mean 20, here soon
+  const auto run = run_injection(*scene, spec);
+  ASSERT_TRUE(run);
+  EXPECT_NE(run->status & PlungerStatus::kClogged, 0U);
+  EXPECT_FALSE(run->complete);
+  EXPECT_FALSE(all_hold(claims_of(*run)));
+  EXPECT_LE(run->highest_force, spec.plunger.most_force);
+  EXPECT_LT(std::abs(run->unbalanced), 1e-15);
+}
+
 }  // namespace
 }  // namespace artus

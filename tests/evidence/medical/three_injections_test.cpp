@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include "artus/evidence/medical/target_syringe.h"
 #include "tests/support/layered_body.h"
 
 namespace artus {
@@ -86,6 +87,44 @@ TEST(ThreeInjections, MomentsTellTheStoryInOrder) {
   EXPECT_THAT(first, ::testing::ElementsAre("skin punctured", "bursa reached", "withdrawn",
                                             "re-aimed", "second part of bursa reached",
                                             "bone touched", "bone pressed", "needle out"));
+}
+
+TEST(ThreeInjections, ADoseIsGivenAtEachTargetAndTheBursaHasIt) {
+  ThreeInjectionsOptions options;
+  options.dose.volume = 0.2e-6;
+  options.dose.rate = 0.2e-6;
+  const ThreeInjections run = run_three_injections(scene(), kPlans, options).value();
+  for (const Claim& c : run.claims)
+    EXPECT_TRUE(c.pass) << c.text << ": " << c.value << ' ' << c.bound;
+  ASSERT_EQ(run.syringe.size(), run.rows.size());
+  EXPECT_NEAR(run.asked, 0.8e-6, 1e-15) << "the third goes straight to the bone";
+  EXPECT_TRUE(run.into_cavity);
+  double given = 0;
+  for (const GivenTo& to : run.given) given += to.volume;
+  EXPECT_NEAR(given, run.syringe.back().plunger.given, 1e-15);
+  EXPECT_NEAR(given, run.asked, 0.02 * run.asked);
+  ASSERT_GT(run.syringe.back().n_sites, 0U);
+  EXPECT_EQ(run.region_names[run.syringe.back().sites[0].region], "bursa");
+  EXPECT_EQ(std::count_if(run.moments.begin(), run.moments.end(),
+                          [](const NamedMoment& m) {
+                            return m.label.find(" injected") != std::string::npos;
+                          }),
+            4);
+  EXPECT_TRUE(first_run().syringe.empty()) << "dry unless a dose is asked for";
+  EXPECT_TRUE(first_run().given.empty());
+}
+
+TEST(ThreeInjections, ABursaThatGotNothingFailsAndADoseWithoutARateIsRefused) {
+  ThreeInjectionsOptions options;
+  options.dose.volume = 0.2e-6;
+  ThreeInjections empty;
+  empty.syringe.resize(1);
+  empty.into_cavity = true;
+  claim_doses(empty);
+  ASSERT_EQ(empty.claims.size(), 2U);
+  EXPECT_FALSE(empty.claims.back().pass) << "nothing came into the bursa";
+  options.dose.rate = 0;
+  EXPECT_FALSE(run_three_injections(scene(), kPlans, options));
 }
 
 TEST(ThreeInjections, ProbePlaneHoldsTheNeedleAndTheFootprintIsOnTheSkin) {

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/raycast/closest_point.h"
+#include "artus/core/closest_point.h"
 
 #include <gtest/gtest.h>
 
 #include "artus/core/noise.h"
-#include "artus/raycast/facet.h"
 
 namespace artus {
 namespace {
@@ -43,11 +42,6 @@ TEST(ClosestPoint, OfATriangleWithoutAreaIsOnItsSegment) {
   EXPECT_TRUE(closest_point_on_triangle(Vec3(0.5, 3, 0), flat).isApprox(Vec3(0.5, 0, 0)));
   const std::array<Vec3, 3> point{Vec3::UnitX(), Vec3::UnitX(), Vec3::UnitX()};
   EXPECT_TRUE(closest_point_on_triangle(Vec3::Zero(), point).isApprox(Vec3::UnitX()));
-}
-
-TEST(Facet, IsOneCacheLine) {
-  EXPECT_EQ(sizeof(Facet), 64U);
-  EXPECT_EQ(alignof(Facet), 64U);
 }
 
 }  // namespace

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <vector>
+
+#include "artus/anatomy/body/joint_pose.h"
+#include "artus/core/byte_stream.h"
+
+namespace artus {
+
+/// Poses in a compiled file. A reader that meets bad values refuses (ByteReader::ok).
+void put_pose(ByteWriter& out, const Pose& pose);
+[[nodiscard]] Pose get_pose(ByteReader& in);
+void put_poses(ByteWriter& out, const std::vector<JointPose>& poses);
+[[nodiscard]] std::vector<JointPose> get_poses(ByteReader& in);
+
+}  // namespace artus

@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// Attempts whose faults and causes are known, and what their learner is told.
+#include "artus/training/feedback.h"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include <gmock/gmock.h>
+
+#include <gtest/gtest.h>
+
+#include "artus/anatomy/body/find_region.h"
+#include "artus/training/assessment.h"
+#include "artus/training/past_attempts.h"
+#include "tests/session/session_support.h"
+#include "tests/support/temporary_folder.h"
+
+namespace artus {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+/// Both hands over six flat layers, told at 100 Hz; the needle in the picture's plane at 35 degrees
+/// to the probe's face unless said otherwise.
+class Hands {
+ public:
+  explicit Hands(double face_angle = 35) {
+    axis_ = Vec3(std::cos(face_angle * kDegree), 0, std::sin(face_angle * kDegree));
+    MeterOptions options;
+    options.longest = 120;
+    GoalNames names;
+    names.structure = "bursa";
+    options.goals = *make_goals(scene_->joint(), names);
+    meter_ = std::make_unique<AttemptMeter>(scene_, options);
+  }
+  /// Tip from its depth to `depth` in mm along the needle's line, which meets the point (0, aside,
+  /// 15 mm); the probe slides by `slide` mm.
+  void go(double seconds, double depth, double slide = 0) {
+    const double from = depth_;
+    const double probe = probe_;
+    const int n = static_cast<int>(100 * seconds + 0.5);
+    for (int i = 1; i <= n; ++i) {
+      const double s = static_cast<double>(i) / n;
+      depth_ = from + s * (depth - from);
+      probe_ = probe + s * slide;
+      time_ += 0.01;
+      const Pose X_JN = make_pose(tip(), axis_, Vec3::UnitY());
+      const Pose X_JP = make_pose(Vec3(1e-3 * probe_ - 5e-3, 0, 0), Vec3::UnitZ(), Vec3::UnitX());
+      meter_->add_needle(time_, X_JN.translation(), Eigen::Quaterniond(X_JN.linear()));
+      meter_->add_probe(time_, X_JP.translation(), Eigen::Quaterniond(X_JP.linear()));
+      give();
+    }
+  }
+  /// The syringe for some seconds with the needle at rest.
+  void inject(double seconds, double ml_s, double kpa) {
+    ml_s_ = ml_s;
+    kpa_ = kpa;
+    go(seconds, depth_);
+    ml_s_ = kpa_ = 0;
+  }
+  [[nodiscard]] double time() const { return time_; }
+  [[nodiscard]] AttemptMeasures measure() const { return meter_->measure(); }
+  double aside = 0;  ///< mm, of the needle from the plane
+
+ private:
+  [[nodiscard]] Vec3 tip() const {
+    return Vec3(0, 1e-3 * aside, 15e-3) + axis_ * ((1e-3 * depth_ - 15e-3) / axis_.z());
+  }
+  void give() {
+    given_ += 1e-8 * std::max(0.0, ml_s_);
+    SyringeTick tick{time_,      1e-6 * ml_s_, given_, ml_s_ > 0 ? 20.0 : 0.0,
+                     1e3 * kpa_, kOutside,     tip()};
+    const auto region = find_region(scene_->joint(), depth_ > 22 ? "bursa" : "muscle");
+    tick.region = *region;
+    meter_->add_syringe(tick);
+  }
+
+  std::shared_ptr<const Scene> scene_ = test::make_layered_scene();
+  std::unique_ptr<AttemptMeter> meter_;
+  Vec3 axis_;
+  double time_ = 0;
+  double depth_ = -5;  // mm
+  double probe_ = 0;   // mm
+  double given_ = 0;   // m^3
+  double ml_s_ = 0;
+  double kpa_ = 0;
+};
+
+const Fault* fault_of(const Feedback& feedback, const std::string& kind) {
+  const auto at = std::find_if(feedback.faults.begin(), feedback.faults.end(),
+                               [&](const Fault& fault) { return fault.kind == kind; });
+  return at == feedback.faults.end() ? nullptr : &*at;
+}
+
+TEST(Feedback, AGoodInjectionHasNoFault) {
+  Hands hands;
+  hands.go(4, 23);
+  hands.inject(3, -0.01, -10);
+  hands.inject(5, 0.2, 40);
+  hands.go(2, -5);
+  const Feedback told = make_feedback(hands.measure(), {true, false, 100, {}}, {5, {}});
+  EXPECT_THAT(told.faults, testing::IsEmpty())
+      << told.faults.front().kind << ": " << told.faults.front().what;
+  EXPECT_THAT(told.next, HasSubstr("next level"));
+}
+
+TEST(Feedback, LiquidInTheWrongLayerIsToldWithLayerMomentAndHaste) {
+  Hands hands;
+  hands.go(4, 18);
+  const double began = hands.time();
+  hands.inject(5, 0.2, 40);
+  const AttemptMeasures m = hands.measure();
+  const Feedback told = make_feedback(m, {});
+  ASSERT_FALSE(told.faults.empty());
+  EXPECT_EQ(told.faults.front().kind, "misplaced");
+  EXPECT_NEAR(told.faults.front().time, began + 2.5, 0.2);  // half a millilitre
+  EXPECT_THAT(told.faults.front().what, HasSubstr("1.0 ml"));
+  EXPECT_THAT(told.faults.front().cause, HasSubstr("muscle"));
+  EXPECT_THAT(told.faults.front().cause, HasSubstr("no pause"));
+  const Fault* unaspirated = fault_of(told, "unaspirated");
+  ASSERT_NE(unaspirated, nullptr);
+  EXPECT_NEAR(unaspirated->time, began, 0.2);
+  EXPECT_THAT(told.next, HasSubstr("half a ml"));  // the weakest skill
+}
+
+TEST(Feedback, PressureAndHasteAreToldAtTheirPeaks) {
+  Hands hands;
+  hands.go(4, 23);
+  hands.inject(3, -0.01, -10);
+  hands.inject(2, 0.2, 40);
+  const double pressed = hands.time();
+  hands.inject(1, 0.6, 180);
+  hands.inject(2, 0.2, 40);
+  const Feedback told = make_feedback(hands.measure(), {});
+  EXPECT_EQ(fault_of(told, "misplaced"), nullptr);
+  EXPECT_EQ(fault_of(told, "unaspirated"), nullptr);
+  const Fault* pressure = fault_of(told, "pressure");
+  ASSERT_NE(pressure, nullptr);
+  EXPECT_NEAR(pressure->time, pressed, 0.1);
+  EXPECT_THAT(pressure->what, HasSubstr("180.0 kPa"));
+  EXPECT_THAT(pressure->cause, HasSubstr("bursa"));
+  const Fault* fast = fault_of(told, "fast");
+  ASSERT_NE(fast, nullptr);
+  EXPECT_NEAR(fast->time, pressed, 0.1);
+  EXPECT_THAT(fast->cause, HasSubstr("20 N"));
+}
+
+TEST(Feedback, DriftIsShownWhereTheProbeWasFastest) {
+  Hands hands;
+  hands.go(2, 8);
+  const double slid = hands.time();
+  hands.go(1, 12, 6);
+  hands.go(2, 20);
+  const Feedback told = make_feedback(hands.measure(), {});
+  const Fault* drift = fault_of(told, "drift");
+  ASSERT_NE(drift, nullptr);
+  EXPECT_GT(drift->time, slid);
+  EXPECT_LT(drift->time, slid + 1);
+  EXPECT_THAT(drift->cause, HasSubstr("mm/s"));
+}
+
+TEST(Feedback, ATipBesideThePlaneAndASteepNeedleAreToldApart) {
+  Hands aside;
+  aside.aside = -2.1;
+  aside.go(4, 20);
+  const Feedback beside = make_feedback(aside.measure(), {});
+  const Fault* unseen = fault_of(beside, "unseen");
+  ASSERT_NE(unseen, nullptr);
+  EXPECT_THAT(unseen->cause, HasSubstr("2.1 mm behind the plane"));
+  EXPECT_THAT(unseen->mend, HasSubstr("move the probe"));
+  Hands steep(80);
+  steep.go(4, 20);
+  const Feedback upright = make_feedback(steep.measure(), {});
+  unseen = fault_of(upright, "unseen");
+  ASSERT_NE(unseen, nullptr);
+  EXPECT_THAT(unseen->cause, HasSubstr("80 degrees"));
+  EXPECT_THAT(unseen->cause, HasSubstr("dB lost to the angle"));
+  EXPECT_THAT(unseen->cause, Not(HasSubstr(" 0 dB")));
+  EXPECT_THAT(unseen->mend, HasSubstr("Enter further"));
+}
+
+TEST(Feedback, AFaultOfTheAttemptBeforeWeighsHalfAsMuchAgain) {
+  Hands hands;
+  hands.go(2, 8);
+  hands.go(1, 12, 6);
+  hands.go(2, 20);
+  const AttemptMeasures m = hands.measure();
+  const double once = fault_of(make_feedback(m, {}), "drift")->weight;
+  const PastAttempt same{1, false, {"drift"}};
+  const PastAttempt other{1, false, {"bone"}};
+  EXPECT_EQ(fault_of(make_feedback(m, {}, {0, {other, same}}), "drift")->weight, 1.5 * once);
+  EXPECT_EQ(fault_of(make_feedback(m, {}, {0, {same, other}}), "drift")->weight, once);
+}
+
+TEST(Feedback, IdleTimesAreToldFromLevelFiveOn) {
+  Hands hands;
+  hands.go(3, 15);
+  hands.go(15, 15);
+  hands.go(1, 23);
+  const AttemptMeasures m = hands.measure();
+  EXPECT_EQ(fault_of(make_feedback(m, {}, {4, {}}), "idle"), nullptr);
+  const Feedback told = make_feedback(m, {}, {5, {}});
+  ASSERT_NE(fault_of(told, "idle"), nullptr);
+  EXPECT_THAT(fault_of(told, "idle")->cause, HasSubstr("nothing moved"));
+}
+
+TEST(Feedback, TheNextTaskIsOfTheWeakestSkillAndOldPracticeFades) {
+  Hands hands;
+  hands.go(4, 23);
+  const AttemptMeasures clean = hands.measure();
+  const Judgement passed{true, false, 100, {}};
+  const auto next = [&](std::vector<PastAttempt> before) {
+    return make_feedback(clean, passed, {0, std::move(before)}).next;
+  };
+  EXPECT_THAT(next({}), HasSubstr("next level"));
+  const PastAttempt bone{1, false, {"bone"}};
+  EXPECT_THAT(next({bone, bone, bone}), HasSubstr("gel-align"));
+  const PastAttempt drift{1, false, {"drift"}};
+  EXPECT_THAT(next({bone, bone, bone, drift, drift}), HasSubstr("gel-align"));
+  EXPECT_THAT(next({bone, bone, drift, drift, drift}), HasSubstr("gel-hold"));
+  const PastAttempt lately{1, false, {}};
+  const PastAttempt long_ago{60, false, {}};
+  EXPECT_THAT(next({lately, lately, lately}), HasSubstr("next level"));
+  EXPECT_THAT(next({long_ago, long_ago, long_ago}), HasSubstr("gel-find"));  // looking first
+}
+
+TEST(Feedback, PastAttemptsAreReadFromTheirNumbers) {
+  Hands hands;
+  hands.go(4, 18, 8);
+  hands.inject(2, 0.6, 180);
+  const AttemptMeasures m = hands.measure();
+  const PastAttempt past = past_attempt(3, m.metrics);
+  EXPECT_EQ(past.weeks, 3);
+  EXPECT_TRUE(past.injected);
+  for (const Fault& fault : make_feedback(m, {}).faults)
+    EXPECT_THAT(past.kinds, testing::Contains(fault.kind));
+  for (const char* kind : {"drift", "misplaced", "unaspirated", "pressure", "fast"})
+    EXPECT_THAT(past.kinds, testing::Contains(kind));
+  for (const std::string& kind : {std::string("misplaced"), std::string("fast")})
+    EXPECT_EQ(skill_of_fault(kind), Skill::inject);
+}
+
+class FeedbackRecords : public test::TemporaryFolder {};
+
+TEST_F(FeedbackRecords, FinishedAttemptsWithoutAidsCountByTheirAge) {
+  auto records = Records::open(in("school.db"));
+  ASSERT_TRUE(records);
+  ASSERT_TRUE(records->add_person({"p", "learner", ""}));
+  const std::vector<Metric> drift{{"drift_mm_s", "probe", "mm/s", 3.0, "", {}}};
+  AttemptRecord a;
+  a.person = "p";
+  a.scenario = "gel-hold";
+  for (const bool aided : {false, true}) {
+    a.id = aided ? "aided" : "counts";
+    a.started = "2026-01-01T00:00:00Z";
+    a.aided = aided;
+    ASSERT_TRUE(records->begin(a, "text"));
+    a.ended = "2026-01-01T00:01:00Z";
+    ASSERT_TRUE(records->finish(a, drift, {}));
+    a.ended.clear();
+  }
+  a.id = "unfinished";
+  a.aided = false;
+  ASSERT_TRUE(records->begin(a, "text"));
+  std::tm now{};
+  now.tm_year = 126;
+  now.tm_mday = 15;  // two weeks later
+  const auto before = read_past_attempts(*records, "p", timegm(&now));
+  ASSERT_TRUE(before);
+  ASSERT_EQ(before->size(), 1U);
+  EXPECT_NEAR(before->front().weeks, 2, 1e-9);
+  EXPECT_THAT(before->front().kinds, testing::ElementsAre("drift"));
+}
+
+}  // namespace
+}  // namespace artus
