@@ -9,6 +9,7 @@
 
 #include "artus/apps/interrupts.h"
 #include "artus/apps/live_metrics.h"
+#include "artus/apps/remote_wishes.h"
 #include "artus/apps/scenario_options.h"
 #include "artus/apps/session_options.h"
 #include "artus/training/player.h"
@@ -28,40 +29,6 @@ struct ServeOptions {
 struct Setting {
   std::shared_ptr<const Scene> scene;
   SessionParams params;
-};
-
-/// The scenario that another program asks for by a command, until the session is free for it.
-class AskedScenario {
- public:
-  explicit AskedScenario(const ServeOptions& options)
-      : kept_(!options.session.recording.empty() || !options.metrics.empty() ||
-              !options.session.histograms.empty()) {}
-
-  /// Only scenarios that come with artus: who connects reads no files.
-  [[nodiscard]] RemoteAnswer ask(const std::string& name) {
-    if (kept_) return {false, "a session that is kept in a file takes no other scenario"};
-    std::string names;
-    for (const std::string_view text : bundled_scenario_texts()) {
-      auto scenario = parse_scenario(text, "bundled");
-      if (!scenario) continue;
-      if (scenario->name == name) {
-        const std::lock_guard<std::mutex> lock(mutex_);
-        scenario_ = std::move(*scenario);
-        return {true, "the scenario " + name + " begins"};
-      }
-      names += (names.empty() ? "" : ", ") + scenario->name;
-    }
-    return {false, "there is no scenario '" + name + "' but " + names};
-  }
-  [[nodiscard]] std::optional<Scenario> take() {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    return std::exchange(scenario_, std::nullopt);
-  }
-
- private:
-  bool kept_;
-  std::mutex mutex_;  // between the server's thread and the one that waits
-  std::optional<Scenario> scenario_;
 };
 
 /// The flags' settings with the scenario's body, transducer, picture and needle.
@@ -88,7 +55,7 @@ struct Serving {
   Interrupts* interrupts;
   const TrackerInput* tracker;
   SessionLink* link;  ///< may be null
-  AskedScenario* asked;
+  RemoteScenario* asked;
   std::int64_t end_ns;  ///< 0: when interrupted
 };
 
@@ -207,7 +174,10 @@ ExitCode run_serve(const ServeOptions& options) {
   Interrupts interrupts;
   const auto tracker = make_tracker_input(options.session.igtl);
   if (!tracker) return report_error(tracker.error(), options.json);
-  AskedScenario asked(options);
+  RemoteScenario asked;
+  if (!options.session.recording.empty() || !options.metrics.empty() ||
+      !options.session.histograms.empty())
+    asked.refuse("a session that is kept in a file takes no other scenario");
   const auto link =
       open_session_link(options.session.igtl, *tracker, {},
                         [&asked](const std::string& name) { return asked.ask(name); });

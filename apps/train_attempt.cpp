@@ -41,6 +41,9 @@ Result<bool> show(const TrainRoom& room, const TrainTask& task, TrainLesson& les
   window.quit_after_script = room.script->given();
   window.lesson = lesson.options();
   window.patient = "";
+  window.turn_knobs = [&room](ImageControls& controls) {
+    room.turns->take(controls);
+  };
   WindowReport report;
   ARTUS_TRY(run_window(*room.screen, session, hand, first_hands(task.scenario), window, report));
   return report.finished;
@@ -60,24 +63,22 @@ Result<bool> work(const TrainRoom& room, const TrainTask& task, const SessionPar
     ARTUS_TRY(other);
     device = std::move(*other);
   }
-  const auto link = open_session_link(room.session->igtl, *room.tracker);
-  ARTUS_TRY(link);
   Session::Options options;
   options.haptic_wishes.cpu = room.session->haptic_cpu;
   options.recording = recording;
   options.share_images = room.session->input == "shared-memory";
   options.image_segment_prefix = room.session->prefix;
   options.witness = &meter;
-  if (*link)
-    options.on_image = [&link](const ImageSnapshot& image) {
-      (*link)->take_image(image);
+  if (room.link != nullptr)
+    options.on_image = [&room](const ImageSnapshot& image) {
+      room.link->take_image(image);
     };
   TrainLesson lesson(task.scenario, task.scene, params, task.asked, room.window->language);
   auto session = Session::start(task.scene, params, std::move(device), options);
   ARTUS_TRY(session);
-  if (*link) (*link)->attach(session->get());
+  if (room.link != nullptr) room.link->attach(session->get());
   auto finished = show(room, task, lesson, **session, hand);
-  if (*link) (*link)->attach(nullptr);
+  if (room.link != nullptr) room.link->attach(nullptr);
   return finished;
 }
 

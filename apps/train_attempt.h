@@ -4,6 +4,7 @@
 #include <set>
 #include <string>
 
+#include "artus/apps/remote_wishes.h"
 #include "artus/apps/session_options.h"
 #include "artus/apps/train_desk.h"
 #include "artus/training/player.h"
@@ -20,6 +21,8 @@ struct TrainRoom {
   const WindowOptions* window = nullptr;    ///< how it looks; its script is of no use here
   StagedScript* script = nullptr;
   const TrackerInput* tracker = nullptr;
+  SessionLink* link = nullptr;  ///< to other programs; null: none may listen
+  RemoteTurns* turns = nullptr;
 };
 
 /// An attempt that someone is about to make.

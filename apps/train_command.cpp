@@ -66,9 +66,10 @@ Result<std::vector<Scenario>> scenarios_of(const TrainCommandOptions& options) {
 class TrainFlow {
  public:
   TrainFlow(const TrainCommandOptions& options, TrainRoom room, PageOptions pages,
-            std::vector<Scenario> scenarios)
+            std::vector<Scenario> scenarios, RemoteScenario& remote)
       : options_(options),
         room_(room),
+        remote_(&remote),
         page_options_(std::move(pages)),
         language_(page_options_.language),
         scenarios_(std::move(scenarios)),
@@ -109,6 +110,23 @@ class TrainFlow {
   Result<PageAnswer> show(Page page) {
     if (!pages_) pages_ = std::make_unique<PageWindow>(*room_.screen, page_options_);
     return pages_->show(std::move(page));
+  }
+
+  /// A page on which another program may choose the task, too: then it is done.
+  Result<PageAnswer> offer(Page page) {
+    remote_->refuse("");
+    page.done = [this] {
+      return remote_->asked();
+    };
+    auto answer = show(std::move(page));
+    remote_->refuse("nobody is free for it now");
+    return answer;
+  }
+
+  /// What another program asked for is briefed next.
+  Stage take_remote() {
+    if (const auto scenario = remote_->take()) choose(*scenario);
+    return Stage::briefing;
   }
 
   Result<Stage> who() {
@@ -170,8 +188,9 @@ class TrainFlow {
       ARTUS_TRY(tally);
       tasks.push_back({scenario, *tally});
     }
-    const auto answer = show(make_what_page(tasks, person_, bodies_, at_, language_));
+    const auto answer = offer(make_what_page(tasks, person_, bodies_, at_, language_));
     ARTUS_TRY(answer);
+    if (answer->kind == PageAnswer::Kind::done) return take_remote();
     if (answer->kind == PageAnswer::Kind::back) return Stage::who;
     if (answer->kind != PageAnswer::Kind::chosen) return Stage::leave;
     choose(tasks[answer->choice].scenario);
@@ -215,8 +234,9 @@ class TrainFlow {
         for (PageChoice& choice : shown.choices) choice.picture = bodies_.picture(scenario_);
       };
       if (at > 0) page.stage.clear();  // the same page: the script's steps go on
-      const auto answer = show(std::move(page));
+      const auto answer = offer(std::move(page));
       ARTUS_TRY(answer);
+      if (answer->kind == PageAnswer::Kind::done) return take_remote();
       if (answer->kind == PageAnswer::Kind::back) return Stage::what;
       if (answer->kind != PageAnswer::Kind::chosen) return Stage::leave;
       const BriefingChoice& choice = choices[answer->choice];
@@ -277,8 +297,9 @@ class TrainFlow {
   Result<Stage> end() {
     const auto next = next_task();
     ARTUS_TRY(next);
-    const auto answer = show(make_end_page(outcome_, scenarios_[*next].title, language_));
+    const auto answer = offer(make_end_page(outcome_, scenarios_[*next].title, language_));
     ARTUS_TRY(answer);
+    if (answer->kind == PageAnswer::Kind::done) return take_remote();
     if (answer->kind != PageAnswer::Kind::chosen) return Stage::leave;
     switch (static_cast<AfterAttempt>(answer->choice)) {
       case AfterAttempt::review:
@@ -301,6 +322,7 @@ class TrainFlow {
 
   const TrainCommandOptions& options_;
   TrainRoom room_;
+  RemoteScenario* remote_;
   PageOptions page_options_;
   Language language_;
   std::vector<Scenario> scenarios_;
@@ -355,11 +377,19 @@ Result<void> train(TrainCommandOptions options) {
   ARTUS_TRY(screen);
   auto keys = keys_of(options.window);
   ARTUS_TRY(keys);
-  const TrainRoom room{screen->get(),   &*desk,  &options.session,
-                       &options.window, &script, &*tracker};
+  RemoteTurns turns;
+  RemoteScenario remote;
+  remote.refuse("nobody has said yet who trains");
+  const auto link = open_session_link(
+      options.session.igtl, *tracker,
+      [&turns](double ImageControls::*knob, double value) { turns.add(knob, value); },
+      [&remote](const std::string& name) { return remote.ask(name); });
+  ARTUS_TRY(link);
+  const TrainRoom room{screen->get(), &*desk,    &options.session, &options.window,
+                       &script,       &*tracker, link->get(),      &turns};
   PageOptions pages{options.window.language, std::move(*keys), options.window.font_scale, &script,
                     options.window.asked_to_close};
-  return TrainFlow(options, room, std::move(pages), std::move(*scenarios)).run();
+  return TrainFlow(options, room, std::move(pages), std::move(*scenarios), remote).run();
 }
 
 }  // namespace

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <cstdio>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "artus/apps/interrupts.h"
 #include "artus/apps/live_metrics.h"
+#include "artus/apps/remote_wishes.h"
 #include "artus/apps/session_options.h"
 #include "artus/apps/window_options.h"
 #include "artus/viewer/surface_detail.h"
@@ -67,24 +66,6 @@ Result<void> prepare_window(const ViewerOptions& options, const CompiledJoint& j
                    window.screenshot.empty() && !window.expert;
   return {};
 }
-
-/// Knobs that other programs turned, until the window takes them over.
-class RemoteTurns {
- public:
-  void add(double ImageControls::*knob, double value) {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    turns_.emplace_back(knob, value);
-  }
-  void take(ImageControls& controls) {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    for (const auto& [knob, value] : turns_) controls.*knob = value;
-    turns_.clear();
-  }
-
- private:
-  std::mutex mutex_;
-  std::vector<std::pair<double ImageControls::*, double>> turns_;
-};
 
 void print_report(const Session& session, const WindowReport& report) {
   print_times(session.times(), session.params());

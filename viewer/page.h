@@ -46,7 +46,7 @@ struct Page {
   std::size_t at = 0;                  ///< the choice that is marked
   bool may_back = false;               ///< one can go back from here
   std::function<void(Page&)> refresh;  ///< called before each look; empty: it stays as it is
-  std::function<bool()> done;          ///< ends a page without choices; empty: only choices do
+  std::function<bool()> done;          ///< ends the page without a choice; empty: only choices do
 };
 
 /// How a page ended.

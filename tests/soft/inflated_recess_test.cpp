@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Spaces that are no sheet on a head: thick, round, long, steep, under bone. Each opens by what is given.
+// Spaces that are no sheet on a head: thick, round, long, steep, under bone. Each opens by what is
+// given.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -32,7 +33,9 @@ void add_wall(CompiledJoint& joint, const std::array<Vec3, 3>& corners, RegionId
 /// A plane at height z in pieces of 5 mm.
 void add_plane(CompiledJoint& joint, double z, RegionId front, RegionId back) {
   constexpr int kN = 12;
-  const auto p = [z](int i, int j) { return Vec3(5e-3 * i, 5e-3 * j, z); };
+  const auto p = [z](int i, int j) {
+    return Vec3(5e-3 * i, 5e-3 * j, z);
+  };
   for (int j = -kN; j < kN; ++j) {
     for (int i = -kN; i < kN; ++i) {
       add_wall(joint, {p(i, j), p(i + 1, j), p(i + 1, j + 1)}, front, back);
@@ -57,8 +60,7 @@ CompiledJoint make_recess(const Vec3& axes, const Eigen::Quaterniond& turn, doub
     const double polar = std::numbers::pi * ring / kRings;
     const double round = 2 * std::numbers::pi * side / kSides;
     return Vec3(turn * axes.cwiseProduct(Vec3(std::sin(polar) * std::cos(round),
-                                              std::sin(polar) * std::sin(round),
-                                              std::cos(polar))));
+                                              std::sin(polar) * std::sin(round), std::cos(polar))));
   };
   for (int r = 0; r < kRings; ++r) {
     for (int s = 0; s < kSides; ++s) {
@@ -120,8 +122,8 @@ TEST(InflatedRecess, OpensTowardTheSkinByItsVolumeWhateverItsShapeAndWhereverThe
 }
 
 TEST(InflatedRecess, OpensInwardWhereBoneLiesOnAllOfIt) {
-  const CompiledJoint joint = make_recess(Vec3(14e-3, 10e-3, 2e-3), Eigen::Quaterniond::Identity(),
-                                          3e-3);
+  const CompiledJoint joint =
+      make_recess(Vec3(14e-3, 10e-3, 2e-3), Eigen::Quaterniond::Identity(), 3e-3);
   const InflatedSpace space(joint, kRecess, Vec3::Zero());
   EXPECT_NEAR(open(joint, space, 1e-6).given, 1e-6, 1e-12);
   const auto moved = space.vertices(1e-6);
