@@ -185,6 +185,30 @@ def test_a_scenario_of_artus_begins_by_command(tool, simple):
     assert server.wait(30) == 0
 
 
+@pytest.mark.skipif(shutil.which("xvfb-run") is None, reason="xvfb-run is not installed")
+def test_the_trainer_takes_a_scenario_between_attempts_and_knobs_in_one(tool, tmp_path):
+    number = free_port()
+    script = tmp_path / "steps.script"
+    script.write_text("stage who\nwait 2\nkey ENTER\nstage pseudonym\nkey ENTER\nstage what\nwait 60\n"
+                      "stage briefing\nkey ENTER\nstage attempt\nawait picture 20\nwait 3\nkey F10\n"
+                      "stage end\nkey ESCAPE\n")
+    trainer = subprocess.Popen(
+        ["xvfb-run", "-a", tool, "train", "--records", str(tmp_path / "records.db"), "--script", str(script),
+         "--language", "en", "--igtl", str(number), "--width", "640", "--height", "480"],
+        stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+    wait_until_it_listens(number, trainer)
+    client = Client(number)
+    client.socket.sendall(HELLO)
+    assert "who trains" in ask(client, "Scenario", "gel-steep")["ErrorMessage"]
+    assert "does not run" in ask(client, "Gain", "10")["ErrorMessage"]
+    while ask(client, "Scenario", "gel-steep")["Status"] != "SUCCESS":
+        time.sleep(0.1)
+    assert height_of(client) == 500  # the attempt at it, whose picture is 50 mm deep
+    assert ask(client, "Gain", "10")["Status"] == "SUCCESS"
+    assert "free" in ask(client, "Scenario", "gel-hold")["ErrorMessage"]
+    assert trainer.wait(60) == 0, trainer.stderr.read()
+
+
 def test_a_scenario_that_cannot_start_leaves_the_session_as_it_was(tool, simple):
     number = free_port()
     server = subprocess.Popen(
