@@ -35,6 +35,7 @@ struct InjectOptions {
   std::string device = "virtuose_6d_desktop";
   std::filesystem::path out;
   bool no_images = false;
+  bool no_video = false;
   bool json = false;
 };
 
@@ -90,15 +91,21 @@ struct Outcome {
 
 /// One run's files. Errors: those of files and gnuplot.
 Result<Outcome> write_run(const std::shared_ptr<const Scene>& scene, const InjectionRun& run,
-                          const View& view, bool images, const std::filesystem::path& folder) {
+                          const View& view, const InjectOptions& options,
+                          const std::filesystem::path& folder) {
   Outcome outcome;
   ARTUS_TRY(write_injection(run, folder));
   outcome.report = summarize(run);
   outcome.claims = claims_of(run);
-  if (images && run.given > 0) {
-    const auto pictures = write_injection_pictures(
-        scene, run, {view.transducer, view.settings, view.needle_shape}, folder);
+  if (!options.no_images && run.given > 0) {
+    const InjectionPictureOptions looks{view.transducer, view.settings, view.needle_shape};
+    const auto pictures = write_injection_pictures(scene, run, looks, folder);
     ARTUS_TRY(pictures);
+    if (!options.no_video) {
+      const auto video = write_injection_video(scene, run, looks, folder);
+      ARTUS_TRY(video);
+      outcome.report["video"] = *video;
+    }
     for (Claim& claim : claims_of(run, *pictures)) outcome.claims.push_back(std::move(claim));
     outcome.report["pictures"] = pictures->files;
     outcome.report["opening_mm"] = pictures->opening / kMillimetre;
@@ -146,7 +153,7 @@ Result<ExitCode> inject(const InjectOptions& options) {
     const auto run = run_injection(*scene, *request);
     ARTUS_TRY(run);
     const auto folder = into.size() > 1 ? options.out / run->target : options.out;
-    const auto outcome = write_run(scene, *run, *view, !options.no_images, folder);
+    const auto outcome = write_run(scene, *run, *view, options, folder);
     ARTUS_TRY(outcome);
     if (!options.json) print(outcome->report);
     for (const Claim& claim : outcome->claims)
@@ -167,8 +174,9 @@ void add_inject_command(Command& app, ExitCode& code) {
   Command* command = add_command(
       app, "inject",
       "Inject with a simulated hand and thumb: where the liquid goes, how it feels and looks",
-      "Writes trace.csv, injection.png, summary.json and the pictures before, during and after;\n"
-      "with several --into also compared.png and pictures.png. Exit code 1 when a claim does not\n"
+      "Writes trace.csv, injection.png, summary.json, the pictures before, during and after, and\n"
+      "injection.mp4; with several --into also compared.png and pictures.png. Exit code 1 when a "
+      "claim does not\n"
       "hold.\n"
       "Examples:\n"
       "  artus inject -j meshes/shoulder --volume-ml 5 --rate 0.1 --gauge 22 -o out/bursa\n"
@@ -212,6 +220,7 @@ void add_inject_command(Command& app, ExitCode& code) {
       ->capture_default_str();
   command->add_option("-o,--out", options->out, "folder for the results")->required();
   command->add_flag("--no-images", options->no_images, "forces alone");
+  command->add_flag("--no-video", options->no_video, "pictures before, during and after alone");
   command->add_flag("--json", options->json, "print the summary as JSON");
   on_run(command, code, [options] {
     const auto done = inject(*options);

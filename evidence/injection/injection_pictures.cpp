@@ -5,12 +5,16 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <utility>
 
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "artus/anatomy/body/space.h"
+#include "artus/core/printed.h"
 #include "artus/core/units.h"
+#include "artus/dataset/video_file.h"
 #include "artus/echo/image_io.h"
 #include "artus/echo/labels.h"
 #include "artus/echo/renderer.h"
@@ -27,6 +31,9 @@ constexpr double kBelowTip = 12e-3;  // m that a picture shows below the tip
 constexpr double kDeepest = 90e-3;   // m
 constexpr double kHalfFace = 18e-3;  // m of the face, to whose sides the tip may lie
 constexpr double kAgree = 5;         // %
+constexpr int kFrames = 36;          // of a video
+constexpr double kFrameRate = 9;     // 1/s
+constexpr double kAround = 2;        // s before the first flow and after the last in it
 constexpr double kDrawn = 10e-9;     // m^3; a smaller rest on the needle's way is left out
 
 /// Half way between the sides of the layer that a bolus parts, across it: where it opens most
@@ -216,19 +223,72 @@ void measure_opening(const Scene& scene, const std::vector<Injected>& places,
   }
 }
 
+/// Where the probe lies, and how deep it looks.
+std::pair<Pose, InjectionPictureOptions> view_of(const Scene& scene, const InjectionRun& run,
+                                                 const InjectionPictureOptions& options) {
+  Pose X_JP = probe_in_plane(scene, run.X_JN);
+  const bool over_it = sees(scene, X_JP, run.X_JN.translation());
+  if (const auto view = over_it ? std::nullopt : find_view_of(scene, run.X_JN)) X_JP = *view;
+  InjectionPictureOptions deep = options;
+  const double tip = (X_JP.inverse() * run.X_JN.translation()).z();
+  deep.settings.depth = std::clamp(tip + kBelowTip, options.settings.depth, kDeepest);
+  return {X_JP, deep};
+}
+
+/// The row of a time, of rows in order of time.
+const InjectionRow& row_of(const InjectionRun& run, double time) {
+  const auto row = std::lower_bound(run.rows.begin(), run.rows.end(), time,
+                                    [](const InjectionRow& r, double t) { return r.time < t; });
+  return row == run.rows.end() ? run.rows.back() : *row;
+}
+
 }  // namespace
+
+Result<std::string> write_injection_video(const std::shared_ptr<const Scene>& scene,
+                                          const InjectionRun& run,
+                                          const InjectionPictureOptions& options,
+                                          const std::filesystem::path& folder) {
+  const auto injects = [](const InjectionRow& row) {
+    return row.phase == "inject";
+  };
+  const auto first = std::find_if(run.rows.begin(), run.rows.end(), injects);
+  if (first == run.rows.end()) return fail(ErrorCode::invalid, "nothing was injected", "the run");
+  const auto last = std::find_if(run.rows.rbegin(), run.rows.rend(), injects);
+  const auto [X_JP, deep] = view_of(*scene, run, options);
+  std::optional<VideoFile> video;
+  for (int k = 0; k < kFrames; ++k) {
+    const double from = first->time - kAround;
+    const InjectionRow& row = row_of(run, from + k * (last->time + kAround - from) / (kFrames - 1));
+    const auto body = scene_of(*scene, run, places_at(*scene, run, row));
+    Pose X_JN = run.X_JN;
+    X_JN.translation() += (row.depth - run.depth) * X_JN.linear().col(2);
+    const Frame frame = render_bmode(body, X_JP, NeedleView{X_JN, deep.needle, Vec3::Zero()},
+                                     deep.transducer, deep.settings);
+    cv::Mat picture = annotated_image(frame, deep.transducer);
+    cv::putText(picture,
+                printed("%.1f s  %.2f ml  %.1f N  %.0f kPa", row.time - first->time,
+                        (run.spec.plunger.syringe.filled - row.plunger.content) / kCubicCentimetre,
+                        row.thumb, 1e-3 * row.plunger.pressure),
+                {40, picture.rows - 8}, cv::FONT_HERSHEY_SIMPLEX, 0.45, cv::Scalar(255), 1,
+                cv::LINE_AA);
+    if (!video) {
+      auto opened = VideoFile::open(folder / "injection.mp4", picture.size(), false, kFrameRate);
+      ARTUS_TRY(opened);
+      video = std::move(*opened);
+    }
+    video->write(picture);
+  }
+  const auto written = video->finish();
+  ARTUS_TRY(written);
+  return written->filename().string();
+}
 
 Result<InjectionPictures> write_injection_pictures(const std::shared_ptr<const Scene>& scene,
                                                    const InjectionRun& run,
                                                    const InjectionPictureOptions& options,
                                                    const std::filesystem::path& folder) {
   InjectionPictures out;
-  Pose X_JP = probe_in_plane(*scene, run.X_JN);
-  const bool over_it = sees(*scene, X_JP, run.X_JN.translation());
-  if (const auto view = over_it ? std::nullopt : find_view_of(*scene, run.X_JN)) X_JP = *view;
-  InjectionPictureOptions deep = options;
-  const double tip = (X_JP.inverse() * run.X_JN.translation()).z();
-  deep.settings.depth = std::clamp(tip + kBelowTip, options.settings.depth, kDeepest);
+  const auto [X_JP, deep] = view_of(*scene, run, options);
   std::vector<std::string> names{"injected"};
   std::vector<Injected> last;
   std::shared_ptr<const Scene> body = scene;

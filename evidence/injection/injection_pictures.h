@@ -40,6 +40,15 @@ struct InjectionPictureOptions {
     const std::shared_ptr<const Scene>& scene, const InjectionRun& run,
     const InjectionPictureOptions& options, const std::filesystem::path& folder);
 
+/// The same plane from two seconds before the thumb pushes until two after, in 36 pictures of four
+/// seconds however long it took, with time, volume, force and pressure in each. Returns the file's
+/// name in the folder: injection.mp4, or .avi where there is no codec. Errors: invalid (nothing was
+/// injected), unreadable, unsupported.
+[[nodiscard]] Result<std::string> write_injection_video(const std::shared_ptr<const Scene>& scene,
+                                                        const InjectionRun& run,
+                                                        const InjectionPictureOptions& options,
+                                                        const std::filesystem::path& folder);
+
 /// The pictures after several injections beside each other, named. Errors: not_found, unreadable.
 [[nodiscard]] Result<void> write_plate(std::span<const std::filesystem::path> pictures,
                                        std::span<const std::string> names,

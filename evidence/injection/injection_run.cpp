@@ -234,6 +234,7 @@ class Trial {
       most_ = std::max(most_, row.depth);
       out_.tip_walk = most_ - least_;
       out_.X_JN = measured;
+      out_.depth = row.depth;
     }
     const auto shares =
         bevel_shares(contact, bevel_length(spec_.plunger.needle.outer_diameter), of_region_);

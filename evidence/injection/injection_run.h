@@ -68,6 +68,7 @@ struct InjectionRun {
   std::string target;                ///< name of the space that was meant
   std::string target_like;           ///< its profile
   Pose X_JN = Pose::Identity();      ///< where the needle was while it flowed most
+  double depth = 0;                  ///< m of its tip along the line then, as in the rows
   double given = 0;                  ///< m^3 that left the needle
   double drawn = 0;                  ///< m^3 of the patient's own
   double highest_pressure = 0;       ///< Pa at the tip while it flowed
