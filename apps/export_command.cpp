@@ -190,6 +190,7 @@ void add_export_command(Command& app, ExitCode& code) {
       "  artus export -j shoulder.artus --recording session.rec --dicom us.dcm --report "
       "report.dcm\n"
       "  artus export -j shoulder.artus --poses path.csv --rate 25 --mha path.igs.mha\n"
+      "  artus export -j shoulder.artus --poses out/run/poses.csv --rate 25 --mha run.igs.mha\n"
       "  artus export -j shoulder.artus --sweep out/sweep --mha sweep.igs.mha");
   add_pose_list_options(command, *options);
   command->add_option("--recording", options->recording,

@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "artus/core/csv.h"
 #include "artus/core/text_file.h"
 #include "artus/core/text_lines.h"
 #include "artus/core/units.h"
@@ -290,6 +291,30 @@ Result<std::vector<ListedPose>> sample_path(const std::vector<ListedPose>& poses
     ListedPose pose{t < 1 ? a.name : b.name, time, between(a.X_JP, b.X_JP, t), std::nullopt};
     if (a.X_JN && b.X_JN) pose.X_JN = between(*a.X_JN, *b.X_JN, t);
     out.push_back(std::move(pose));
+  }
+  return out;
+}
+
+std::string poses_csv(std::span<const ListedPose> poses) {
+  constexpr double kShaft = 0.1;  // m
+  std::string out = "name,time_s";
+  for (const Column& column : kColumns) (out += ',') += column.name;
+  out += '\n';
+  for (const ListedPose& pose : poses) {
+    Line line;
+    line.position = pose.X_JP.translation() / kMillimetre;
+    line.direction = pose.X_JP.linear().col(2);
+    line.lateral = pose.X_JP.linear().col(0);
+    if (pose.X_JN) {
+      line.tip = pose.X_JN->translation() / kMillimetre;
+      line.entry = *line.tip - pose.X_JN->linear().col(2) * (kShaft / kMillimetre);
+    }
+    ((out += pose.name) += ',') += pose.time ? to_exact_csv(*pose.time) : "";
+    for (const Column& column : kColumns) {
+      const auto& vector = line.*column.member;
+      (out += ',') += vector ? to_exact_csv((*vector)[column.axis]) : "";
+    }
+    out += '\n';
   }
   return out;
 }

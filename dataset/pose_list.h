@@ -2,6 +2,7 @@
 #pragma once
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -36,5 +37,9 @@ struct ListedPose {
 /// one. Errors: invalid (some poses have a time and others have none).
 [[nodiscard]] Result<std::vector<ListedPose>> sample_path(const std::vector<ListedPose>& poses,
                                                           double rate);
+
+/// The same as CSV, as read_poses takes it: each number with seventeen digits, the needle by its
+/// tip and a point 100 mm before it. Requires: names without commas and line ends.
+[[nodiscard]] std::string poses_csv(std::span<const ListedPose> poses);
 
 }  // namespace artus

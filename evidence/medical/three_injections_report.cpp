@@ -4,7 +4,9 @@
 #include <nlohmann/json.hpp>
 
 #include "artus/core/csv.h"
+#include "artus/core/text_file.h"
 #include "artus/core/units.h"
+#include "artus/dataset/pose_list.h"
 #include "artus/evidence/medical/three_injections.h"
 #include "artus/evidence/plot.h"
 
@@ -113,6 +115,18 @@ void append_syringe(const PlungerFeedback& felt, std::string& line) {
        {felt.thumb_force, felt.pressure, felt.tip_pressure, felt.flow, felt.travel, felt.given})
     line += ',' + to_csv(value);
   line += ',' + std::to_string(felt.status);
+}
+
+// Both hands' poses at the rate of a video.
+std::vector<ListedPose> poses_of(const ThreeInjections& run) {
+  constexpr double kPoseRate = 50;  // 1/s
+  std::vector<ListedPose> poses;
+  for (std::size_t i = 0; i < run.rows.size(); ++i) {
+    const double time = run.rows[i].time;
+    if (time * kPoseRate < static_cast<double>(poses.size())) continue;
+    poses.push_back({"", time, run.probe[i].X_JP, run.rows[i].X_JN});
+  }
+  return poses;
 }
 
 nlohmann::json doses_json(const ThreeInjections& run) {
@@ -230,6 +244,9 @@ Result<void> write_three_injections(const ThreeInjections& run,
     if (!run.syringe.empty()) append_syringe(run.syringe[i].plunger, line);
   };
   ARTUS_TRY(write_needle_csv(folder / "trace.csv", run.rows, run.region_names, more));
+  if (!run.probe.empty()) {
+    ARTUS_TRY(write_text(folder / "poses.csv", poses_csv(poses_of(run))));
+  }
   return write_plot(folder / "forces.png", force_plot(run));
 }
 

@@ -103,6 +103,10 @@ TEST_F(Tool, RunsTheMainJobWithAllItsFilesAndEveryClaimHolds) {
   for (const auto& image : summary.at("images"))
     for (const char* kind : {"bmode", "labels"})
       EXPECT_TRUE(std::filesystem::exists(folder_ / "run" / image.at(kind).get<std::string>()));
+  const auto sequence = artus({"export", "-j", kSimple, "--poses", in("run/poses.csv"), "--rate",
+                               "0.2", "--lines", "16", "--mha", in("run.igs.mha"), "--json"});
+  ASSERT_EQ(sequence.exit_code, 0) << sequence.err;
+  EXPECT_GE(nlohmann::json::parse(sequence.out).at("frames").get<int>(), 5);
 }
 
 TEST_F(Tool, TheMainJobInjectsUnlessItIsDry) {

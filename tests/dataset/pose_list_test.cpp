@@ -40,6 +40,26 @@ TEST(PoseList, ReadsTheSameFromCsv) {
   EXPECT_FALSE((*poses)[1].X_JN.has_value());
 }
 
+TEST(PoseList, ReadsWhatItWrites) {
+  const auto poses = parse_poses_jsonl(kTwo, "two.jsonl");
+  ASSERT_TRUE(poses);
+  std::vector<ListedPose> written = *poses;
+  written.push_back(
+      {"alone", 2.1, make_pose(Vec3(1e-2, 0, 3e-3), Vec3(1, 2, 3), Vec3(0, 3, -2)), {}});
+  const auto read = parse_poses_csv(poses_csv(written), "written.csv");
+  ASSERT_TRUE(read) << read.error().to_string();
+  ASSERT_EQ(read->size(), 3U);
+  for (std::size_t i = 0; i < read->size(); ++i) {
+    const ListedPose& a = (*read)[i];
+    const ListedPose& b = written[i];
+    EXPECT_EQ(a.name, b.name);
+    EXPECT_EQ(a.time, b.time);
+    EXPECT_TRUE(a.X_JP.isApprox(b.X_JP, 1e-14));
+    ASSERT_EQ(a.X_JN.has_value(), b.X_JN.has_value());
+    EXPECT_TRUE(!a.X_JN || a.X_JN->isApprox(*b.X_JN, 1e-14));
+  }
+}
+
 TEST(PoseList, RefusesWhatIsNoPoseWithFileAndLine) {
   const std::string good = R"({"probe": {"position_mm": [1, 2, 3], "direction": [0, 0, 1]}})"
                            "\n";

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/evidence/injection/injection_pictures.h"
 
-#include <gtest/gtest.h>
 #include <opencv2/videoio.hpp>
+
+#include <gtest/gtest.h>
 
 #include "artus/anatomy/body/space.h"
 #include "artus/evidence/injection/injection_report.h"
