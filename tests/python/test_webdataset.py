@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 
 from pictures import read_png
-from test_module import run
+from tooling import run
 
 KEYS = {"json", "png", "labels.png", "shadow.png"}
 
