@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include <opencv2/imgproc.hpp>
 
+#include "artus/core/printed.h"
 #include "artus/core/units.h"
 #include "artus/echo/image_io.h"
 
@@ -22,12 +22,6 @@ const cv::Scalar kGrid(215, 215, 215);
 
 void write_at(cv::Mat& page, const std::string& text, const cv::Point& where, double size) {
   cv::putText(page, text, where, cv::FONT_HERSHEY_SIMPLEX, size, kInk, 1, cv::LINE_AA);
-}
-
-std::string text_of(const char* format, double value) {
-  char text[80];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
 }
 
 /// A round step of at most `most` to a span.
@@ -56,12 +50,12 @@ void draw_curve(cv::Mat& page, const cv::Rect& place, const std::string& title,
   const double rung = round_step(high - low, 6);
   for (double v = std::ceil(low / rung) * rung; v <= high; v += rung) {
     cv::line(page, at(0, v), at(seconds, v), kGrid);
-    write_at(page, text_of("%g", v), at(0, v) + cv::Point(-52, 5), 0.45);
+    write_at(page, printed("%g", v), at(0, v) + cv::Point(-52, 5), 0.45);
   }
   const double step = round_step(seconds, 10);
   for (double t = 0; t <= seconds; t += step) {
     cv::line(page, at(t, low), at(t, high), kGrid);
-    write_at(page, text_of("%g", t), at(t, low) + cv::Point(-8, 22), 0.45);
+    write_at(page, printed("%g", t), at(t, low) + cv::Point(-8, 22), 0.45);
   }
   std::vector<cv::Point> line;
   for (std::size_t i = 0; i < values.size(); ++i)
@@ -104,22 +98,22 @@ cv::Mat RecordingPage::draw() const {
   write_at(page, "artus: a simulated session, not of a patient", {kMargin, 70}, 0.9);
   const double seconds = static_cast<double>(force_.size()) / rate_;
   write_at(page,
-           "joint " + joint_ + ", " + text_of("%.1f s, ", seconds) + std::to_string(images_) +
+           "joint " + joint_ + ", " + printed("%.1f s, ", seconds) + std::to_string(images_) +
                " images; made by artus " + engine_,
            {kMargin, 105}, 0.55);
   const auto most = [](const std::vector<double>& values) {
     return values.empty() ? 0.0 : *std::max_element(values.begin(), values.end());
   };
   write_at(page,
-           text_of("largest force %.2f N, ", most(force_)) +
-               text_of("deepest %.1f mm below the skin", most(depth_)),
+           printed("largest force %.2f N, ", most(force_)) +
+               printed("deepest %.1f mm below the skin", most(depth_)),
            {kMargin, 130}, 0.55);
   const int width = kWidth - 2 * kMargin;
   draw_curve(page, {kMargin, 190, width, 250}, "force against insertion, N, over s", force_, rate_);
   draw_curve(page, {kMargin, 520, width, 250}, "depth of the needle's tip, mm, over s", depth_,
              rate_);
   if (picture_.empty()) return page;
-  write_at(page, text_of("the image with the tip %.1f mm deep", deepest_), {kMargin, 838}, 0.55);
+  write_at(page, printed("the image with the tip %.1f mm deep", deepest_), {kMargin, 838}, 0.55);
   put_picture(page, picture_, {kMargin, 855, width, kHeight - 855 - kMargin / 2});
   return page;
 }

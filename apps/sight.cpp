@@ -2,10 +2,9 @@
 #include "artus/apps/sight.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <limits>
 
+#include "artus/core/printed.h"
 #include "artus/core/units.h"
 
 namespace artus {
@@ -39,13 +38,11 @@ Result<void> check_sight(const Frame& frame, const LoadedView& view) {
   if (!stand) return fail(ErrorCode::invalid, "the joint has no skin to stand on", "--probe");
   const Vec3 p = stand->translation() / kMillimetre;
   const Vec3 z = stand->linear().col(2);
-  std::array<char, 300> text{};
-  static_cast<void>(std::snprintf(
-      text.data(), text.size(),
+  const std::string text = printed(
       "no part of the probe touches skin, so there is no image; the nearest skin is %.1f mm away, "
       "where --probe=%.1f,%.1f,%.1f/%.3f,%.3f,%.3f stands",
-      (p - probe / kMillimetre).norm(), p.x(), p.y(), p.z(), z.x(), z.y(), z.z()));
-  return fail(ErrorCode::invalid, text.data(), "--probe");
+      (p - probe / kMillimetre).norm(), p.x(), p.y(), p.z(), z.x(), z.y(), z.z());
+  return fail(ErrorCode::invalid, text, "--probe");
 }
 
 }  // namespace artus

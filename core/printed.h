@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <cstdint>
 #include <cstdio>
 #include <string>
 
@@ -13,6 +14,11 @@ template <class... Values>
   std::string text(size > 0 ? static_cast<std::size_t>(size) : 0, '\0');
   if (size > 0) static_cast<void>(std::snprintf(text.data(), text.size() + 1, pattern, values...));
   return text;
+}
+
+/// Sixteen hexadecimal digits.
+[[nodiscard]] inline std::string in_hexadecimal(std::uint64_t value) {
+  return printed("%016llx", static_cast<unsigned long long>(value));
 }
 
 }  // namespace artus

@@ -3,11 +3,11 @@
 
 #include <bit>
 #include <cstdint>
-#include <cstdio>
 #include <memory>
 #include <utility>
 
 #include "artus/core/noise.h"
+#include "artus/core/printed.h"
 
 namespace artus {
 namespace {
@@ -29,9 +29,7 @@ std::string digest_of(const std::vector<ListedPose>& poses) {
     hash = mix_pose(mix_bits(hash ^ (pose.X_JN ? 1U : 0U)), pose.X_JP);
     if (pose.X_JN) hash = mix_pose(hash, *pose.X_JN);
   }
-  char text[20];
-  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
-  return text;
+  return in_hexadecimal(hash);
 }
 
 FrameSource source_of(std::vector<ListedPose> poses) {

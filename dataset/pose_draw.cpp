@@ -3,9 +3,9 @@
 
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "artus/core/noise.h"
+#include "artus/core/printed.h"
 
 namespace artus {
 namespace {
@@ -117,11 +117,8 @@ FrameSource drawn_frames(const DrawBase& base, const DrawRanges& ranges, std::ui
                          std::size_t count) {
   FrameSource source;
   source.count = count;
-  char text[24];
-  std::snprintf(text, sizeof text, "drawn-%016llx",
-                static_cast<unsigned long long>(
-                    mix_bits(mix_bits(mix_bits(seed) ^ count) ^ hash_of(ranges))));
-  source.digest = text;
+  source.digest =
+      "drawn-" + in_hexadecimal(mix_bits(mix_bits(mix_bits(seed) ^ count) ^ hash_of(ranges)));
   source.frame = [base, ranges, seed](std::size_t i) {
     const Dice dice(seed, i);
     FrameOrder frame;

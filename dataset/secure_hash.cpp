@@ -5,7 +5,8 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
+
+#include "artus/core/printed.h"
 
 namespace artus {
 namespace {
@@ -74,9 +75,8 @@ std::string sha256_hex(std::string_view bytes) {
   for (at = 0; at < last.size(); at += kBlock) take_block(state, last.data() + at);
   std::string hex;
   for (const std::uint32_t word : state) {
-    std::array<char, 9> text{};
-    std::snprintf(text.data(), text.size(), "%08x", word);
-    hex += text.data();
+    const std::string text = printed("%08x", word);
+    hex += text;
   }
   return hex;
 }

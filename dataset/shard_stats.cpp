@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <utility>
 
 #include <opencv2/imgproc.hpp>
 
+#include "artus/core/printed.h"
 #include "artus/core/text_file.h"
 #include "artus/dataset/tar_file.h"
 
@@ -77,9 +77,7 @@ void write_at(cv::Mat& page, const std::string& text, const cv::Point& where, do
 }
 
 std::string short_number(double value) {
-  char text[24];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
+  return printed("%.3g", value);
 }
 
 /// Bars of counts in a box at `corner`.
@@ -163,11 +161,9 @@ cv::Mat histogram_page(const SetStatistics& statistics) {
   const int regions_top = rows * kHeight + 50;
   const int height = regions_top + 60 + 18 * static_cast<int>(statistics.regions.size());
   cv::Mat page(height, kStatColumns * kWidth, CV_8UC3, cv::Scalar::all(255));
-  char head[160];
-  std::snprintf(head, sizeof head,
-                "%zu frames, %zu with a needle, of these %zu in plane, %zu with the tip shown",
-                statistics.frames, statistics.with_needle, statistics.in_plane,
-                statistics.tip_shown);
+  const std::string head =
+      printed("%zu frames, %zu with a needle, of these %zu in plane, %zu with the tip shown",
+              statistics.frames, statistics.with_needle, statistics.in_plane, statistics.tip_shown);
   write_at(page, head, {kMargin, 28}, 0.6);
   int box = 0;
   for (const auto& [name, list] : statistics.values) {

@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <cstdio>
 #include <utility>
 
 #include <opencv2/imgcodecs.hpp>
 
 #include <nlohmann/json.hpp>
 
+#include "artus/core/printed.h"
 #include "artus/core/text_file.h"
 #include "artus/dataset/secure_hash.h"
 #include "artus/dataset/sweep_frame.h"
@@ -28,8 +28,7 @@ struct Range {
 };
 
 fs::path shard_file(const fs::path& folder, std::size_t shard, const char* extension) {
-  char name[32];
-  std::snprintf(name, sizeof name, "shard-%06zu%s", shard, extension);
+  const std::string name = printed("shard-%06zu%s", shard, extension);
   return folder / name;
 }
 
@@ -43,14 +42,13 @@ std::string png_of(const cv::Mat& picture) {
 void append_frame(std::string& archive, std::size_t index, const SweepFrame& frame) {
   constexpr std::array<const char*, 4> kEndings{".png", ".labels.png", ".shadow.png",
                                                 ".needle.png"};
-  char key[24];
-  std::snprintf(key, sizeof key, "%09zu", index);
-  append_member(archive, std::string(key) + ".json",
+  const std::string key = printed("%09zu", index);
+  append_member(archive, key + ".json",
                 frame.truth.dump(-1, ' ', false, json::error_handler_t::replace));
   for (std::size_t i = 0; i < frame.pictures.size(); ++i) {
     cv::Mat picture = frame.pictures[i].second;
     if (i == 1) picture.convertTo(picture, CV_8U);
-    append_member(archive, std::string(key) + kEndings[i], png_of(picture));
+    append_member(archive, key + kEndings[i], png_of(picture));
   }
 }
 

@@ -2,7 +2,6 @@
 #include "artus/dataset/sweep.h"
 
 #include <array>
-#include <cstdio>
 #include <fstream>
 #include <string>
 #include <utility>
@@ -13,6 +12,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "artus/core/printed.h"
 #include "artus/core/text_file.h"
 #include "artus/dataset/sweep_frame.h"
 #include "artus/echo/image_io.h"
@@ -138,12 +138,11 @@ Result<void> claim_folder(const fs::path& folder, const json& description, bool 
 
 /// Writes a frame's pictures and returns its line.
 Result<json> write_frame(SweepFrame frame, std::size_t index, const fs::path& folder) {
-  char stem[32];
-  std::snprintf(stem, sizeof stem, "frames/%06zu", index);
+  const std::string stem = printed("frames/%06zu", index);
   constexpr std::array<const char*, 4> kEndings{".png", "-labels.png", "-shadow.png",
                                                 "-needle.png"};
   for (std::size_t i = 0; i < frame.pictures.size(); ++i) {
-    const std::string name = std::string(stem) + kEndings[i];
+    const std::string name = stem + kEndings[i];
     const auto picture = [&](const fs::path& part) {
       return write_image(frame.pictures[i].second, part);
     };

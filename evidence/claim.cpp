@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 #include <nlohmann/json.hpp>
 
 #include "artus/core/csv.h"
+#include "artus/core/printed.h"
 
 namespace artus {
 namespace {
@@ -22,9 +22,7 @@ std::string with_unit(double value, const std::string& unit) {
 }
 
 std::string in_short(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.4g", value);
-  return text.data();
+  return printed("%.4g", value);
 }
 
 std::ptrdiff_t count(std::span<const Claim> claims, ClaimKind kind, bool pass) {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/evidence/table.h"
 
-#include <array>
-#include <cstdio>
+#include "artus/core/printed.h"
 
 namespace artus {
 namespace {
@@ -44,9 +43,8 @@ std::string to_markdown(const TextTable& table) {
 }
 
 std::string fixed(double value, int digits, const std::string& unit) {
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), "%.*f", digits, value);
-  return unit.empty() ? text.data() : text.data() + (" " + unit);
+  const std::string text = printed("%.*f", digits, value);
+  return unit.empty() ? text : text + (" " + unit);
 }
 
 }  // namespace artus

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <system_error>
 #include <vector>
 
@@ -12,6 +11,7 @@
 
 #include "artus/core/byte_stream.h"
 #include "artus/core/check.h"
+#include "artus/core/printed.h"
 
 namespace artus {
 namespace {
@@ -44,9 +44,7 @@ std::string identifier(std::uint64_t number) {
 }
 
 std::string decimal(double value) {
-  char text[20];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return text;
+  return printed("%.6g", value);
 }
 
 /// What one object of a study is; `digest` is the study's.

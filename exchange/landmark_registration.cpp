@@ -9,6 +9,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "artus/core/known_names.h"
+#include "artus/core/printed.h"
 #include "artus/core/text_cursor.h"
 #include "artus/core/text_file.h"
 #include "artus/core/units.h"
@@ -48,8 +49,7 @@ const char* find_other_unit(double touched, double known) {
 std::string list_residuals(const std::vector<LandmarkPair>& pairs, const Registration& fit) {
   std::string list;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    char text[48];
-    std::snprintf(text, sizeof text, " %.2f mm", fit.residuals[i] / kMillimetre);
+    const std::string text = printed(" %.2f mm", fit.residuals[i] / kMillimetre);
     list += (list.empty() ? "" : ", ") + pairs[i].name + text;
   }
   return list;
@@ -101,12 +101,11 @@ Result<Registration> register_landmarks(const std::vector<LandmarkPair>& pairs, 
   const double spread_touched = spread(touched);
   const double spread_known = spread(known);
   if (const char* unit = find_other_unit(spread_touched, spread_known)) {
-    char text[160];
-    std::snprintf(text, sizeof text,
-                  "the touched points spread over %.3g mm, the landmarks over %.3g mm: these look "
-                  "like %s, and x_mm, y_mm and z_mm are millimetres",
-                  spread_touched / kMillimetre, spread_known / kMillimetre, unit);
-    return fail(ErrorCode::invalid, text);
+    return fail(
+        ErrorCode::invalid,
+        printed("the touched points spread over %.3g mm, the landmarks over %.3g mm: these look "
+                "like %s, and x_mm, y_mm and z_mm are millimetres",
+                spread_touched / kMillimetre, spread_known / kMillimetre, unit));
   }
   if (spread_across_line(touched) < kFlattest || spread_across_line(known) < kFlattest)
     return fail(ErrorCode::invalid,
@@ -121,10 +120,9 @@ Result<Registration> register_landmarks(const std::vector<LandmarkPair>& pairs, 
   }
   fit.rms = std::sqrt(sum / static_cast<double>(pairs.size()));
   if (!(fit.rms <= limit)) {
-    char text[96];
-    std::snprintf(text, sizeof text,
-                  "the landmarks fit to %.2f mm only, above %.2f mm: ", fit.rms / kMillimetre,
-                  limit / kMillimetre);
+    const std::string text =
+        printed("the landmarks fit to %.2f mm only, above %.2f mm: ", fit.rms / kMillimetre,
+                limit / kMillimetre);
     return fail(ErrorCode::invalid, text + list_residuals(pairs, fit));
   }
   return fit;

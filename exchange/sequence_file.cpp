@@ -2,11 +2,11 @@
 #include "artus/exchange/sequence_file.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <map>
 #include <utility>
 
 #include "artus/core/check.h"
+#include "artus/core/printed.h"
 #include "artus/core/text_cursor.h"
 #include "artus/core/text_file.h"
 #include "artus/core/text_lines.h"
@@ -21,9 +21,7 @@ constexpr std::size_t kMostFrames = 1000000;  // that a file is believed to have
 using Fields = std::map<std::string, std::string, std::less<>>;
 
 std::string frame_key(std::size_t i, const char* what) {
-  char text[80];
-  std::snprintf(text, sizeof text, "Seq_Frame%04zu_%s", i, what);
-  return text;
+  return printed("Seq_Frame%04zu_%s", i, what);
 }
 
 void put(std::string& out, const std::string& key, const std::string& value) {

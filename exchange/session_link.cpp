@@ -2,9 +2,9 @@
 #include "artus/exchange/session_link.h"
 
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
+#include "artus/core/printed.h"
 #include "artus/core/text_cursor.h"
 #include "artus/core/units.h"
 #include "artus/session/session_thread.h"
@@ -21,9 +21,7 @@ std::uint64_t utc_of(std::int64_t monotonic) {
 }
 
 std::string number_text(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return text;
+  return printed("%.6g", value);
 }
 
 igtl::Message message_of(const char* type, const char* device, std::uint64_t time,

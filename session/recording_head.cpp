@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/session/recording_head.h"
 
-#include <cstdio>
 #include <utility>
 
 #include <nlohmann/json.hpp>
 
 #include "artus/anatomy/body/joint_digest.h"
 #include "artus/core/byte_stream.h"
+#include "artus/core/printed.h"
 #include "artus/session/fields_json.h"
 #include "artus/session/needle_feel_json.h"
 #include "artus/session/session_fields.h"
@@ -20,10 +20,7 @@ constexpr const char* kName = "artus_recording";
 constexpr const char* kDigest = "digest";
 
 std::string digest_of(const nlohmann::json& json) {
-  char text[17];
-  std::snprintf(text, sizeof text, "%016llx",
-                static_cast<unsigned long long>(hash_bytes(json.dump())));
-  return text;
+  return in_hexadecimal(hash_bytes(json.dump()));
 }
 
 /// The first three rows of the pose's matrix: the same bits again when they are read.

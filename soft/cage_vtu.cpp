@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/soft/cage_vtu.h"
 
-#include <cstdio>
 #include <numeric>
 #include <string>
 
+#include "artus/core/printed.h"
 #include "artus/core/text_file.h"
 #include "artus/core/units.h"
 
@@ -14,8 +14,7 @@ namespace {
 constexpr std::array<std::size_t, 8> kVtkOrder{0, 1, 3, 2, 4, 5, 7, 6};
 
 void put(std::string& text, double value) {
-  char number[32];
-  std::snprintf(number, sizeof number, "%.7g ", value);
+  const std::string number = printed("%.7g ", value);
   text += number;
 }
 

@@ -2,9 +2,7 @@
 #include "artus/soft/pose_joint.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <optional>
 
@@ -13,6 +11,7 @@
 
 #include "artus/core/closest_point.h"
 #include "artus/core/known_names.h"
+#include "artus/core/printed.h"
 #include "artus/core/rigid.h"
 #include "artus/core/units.h"
 #include "artus/soft/tet_locator.h"
@@ -185,11 +184,11 @@ Result<void> check_bones(const CompiledJoint& joint, const TetLocator& locator,
       const double depth = distance_to(joint.mesh, other, q);
       if (!(depth > deepest)) continue;
       deepest = depth;
-      std::array<char, 160> text{};
-      std::snprintf(text.data(), text.size(), "%.1f mm into '%s', at (%.1f, %.1f, %.1f) mm",
-                    depth / kMillimetre, joint.regions[other].name.c_str(), p.x() / kMillimetre,
-                    p.y() / kMillimetre, p.z() / kMillimetre);
-      worst = "'" + joint.regions[bone].name + "' would run " + text.data();
+      const std::string text =
+          printed("%.1f mm into '%s', at (%.1f, %.1f, %.1f) mm", depth / kMillimetre,
+                  joint.regions[other].name.c_str(), p.x() / kMillimetre, p.y() / kMillimetre,
+                  p.z() / kMillimetre);
+      worst = "'" + joint.regions[bone].name + "' would run " + text;
     }
   }
   if (!worst.empty()) return fail(ErrorCode::invalid, worst, joint.name);

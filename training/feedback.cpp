@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 #include <utility>
 
@@ -63,10 +62,7 @@ double weight_of(const Kind& kind, double value) {
 }
 
 std::string beside(const char* what, double value, const char* unit, double band) {
-  std::array<char, 200> text{};
-  static_cast<void>(std::snprintf(text.data(), text.size(), "%s: %.1f %s; asked for: below %.1f",
-                                  what, value, unit, band));
-  return text.data();
+  return printed("%s: %.1f %s; asked for: below %.1f", what, value, unit, band);
 }
 
 const AttemptEvent* worst_event(const AttemptMeasures& m, const std::string& kind) {

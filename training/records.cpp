@@ -2,12 +2,12 @@
 #include "artus/training/records.h"
 
 #include <array>
-#include <cstdio>
 #include <ctime>
 #include <random>
 #include <utility>
 
 #include "artus/core/byte_stream.h"
+#include "artus/core/printed.h"
 #include "artus/training/bundled_schemas.h"
 
 namespace artus {
@@ -258,9 +258,7 @@ Result<void> Records::comment(const std::string& attempt, const std::string& per
 
 std::string make_random_id() {
   std::random_device random;
-  std::array<char, 17> text{};
-  static_cast<void>(std::snprintf(text.data(), text.size(), "%08x%08x", random(), random()));
-  return text.data();
+  return printed("%08x%08x", random(), random());
 }
 
 std::string utc_now() {
@@ -273,10 +271,7 @@ std::string utc_now() {
 }
 
 std::string text_hash(std::string_view text) {
-  std::array<char, 17> out{};
-  static_cast<void>(std::snprintf(out.data(), out.size(), "%016llx",
-                                  static_cast<unsigned long long>(hash_bytes(std::string(text)))));
-  return out.data();
+  return in_hexadecimal(hash_bytes(text));
 }
 
 }  // namespace artus

@@ -3,10 +3,10 @@
 
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include <tbb/parallel_for.h>
 
+#include "artus/core/printed.h"
 #include "artus/core/units.h"
 
 namespace artus {
@@ -16,41 +16,35 @@ constexpr double kOnSkin = 5e-3;      // m
 constexpr double kInTarget = 0.5e-3;  // m
 constexpr double kOffPlane = 5 * kDegree;
 
-std::string with(const char* format, double a, double b = 0) {
-  std::array<char, 200> text{};
-  static_cast<void>(std::snprintf(text.data(), text.size(), format, a, b));
-  return text.data();
-}
-
 /// Collects what the way from entry to target meets.
 void check_way(const Scenario& s, const Scene& scene, std::vector<std::string>& out) {
   const Vec3 way = s.target.point - s.entry.centre;
   if (way.norm() > s.needle_length)
-    out.push_back(with("the target is %.1f mm from the entry, the needle %.1f mm long",
-                       way.norm() / kMillimetre, s.needle_length / kMillimetre));
+    out.push_back(printed("the target is %.1f mm from the entry, the needle %.1f mm long",
+                          way.norm() / kMillimetre, s.needle_length / kMillimetre));
   std::array<TissueInterval, 128> layers;
   const QueryCount count = scene.find_intervals({s.entry.centre, s.target.point}, layers);
   for (std::size_t i = 0; i < count.size; ++i) {
     const TissueInterval& layer = layers[i];
     if (layer.region < kFirstRegion || !scene.joint().tissue_of(layer.region).haptic.hard) continue;
     out.push_back("bone is on the way: " + scene.joint().regions[layer.region].name +
-                  with(" at %.1f mm", layer.entry / kMillimetre));
+                  printed(" at %.1f mm", layer.entry / kMillimetre));
     break;
   }
   const Vec3 axis = s.X_JP.linear().transpose() * way.normalized();
   const double face = std::asin(std::min(1.0, std::abs(axis.z())));
   if (face < s.entry.least_angle || face > s.entry.most_angle)
     out.push_back(
-        with("the way stands at %.1f degrees to the probe's face, out of angle_from and "
-             "angle_to",
-             face / kDegree));
+        printed("the way stands at %.1f degrees to the probe's face, out of angle_from and "
+                "angle_to",
+                face / kDegree));
   if (s.entry.plane == "in" && std::abs(std::asin(std::clamp(axis.y(), -1.0, 1.0))) > kOffPlane)
-    out.push_back(
-        with("the way leaves the picture's plane by %.1f degrees", std::asin(axis.y()) / kDegree));
+    out.push_back(printed("the way leaves the picture's plane by %.1f degrees",
+                          std::asin(axis.y()) / kDegree));
   const Vec3 target_P = s.X_JP.inverse() * s.target.point;
   if (s.entry.plane == "in" && std::abs(target_P.y()) > 1e-3)
-    out.push_back(with("the target lies %.1f mm beside the picture's plane",
-                       std::abs(target_P.y()) / kMillimetre));
+    out.push_back(printed("the target lies %.1f mm beside the picture's plane",
+                          std::abs(target_P.y()) / kMillimetre));
 }
 
 }  // namespace
@@ -65,16 +59,17 @@ std::vector<std::string> find_problems(const Scenario& s,
   const Goals& goals = options->goals;
   const double off = distance_to(*goals.target, s.target.point);
   if (off > kInTarget)
-    out.push_back(with("the target's point lies %.1f mm outside its structure", off / kMillimetre));
+    out.push_back(
+        printed("the target's point lies %.1f mm outside its structure", off / kMillimetre));
   for (const AvoidZone& zone : goals.avoid)
     if (zone.body->signed_distance_to_skin(s.target.point, 0.2) < zone.margin)
       out.push_back("the zone around " + zone.name + " swallows the target");
   const double skin = scene->signed_distance_to_skin(s.entry.centre, 0.2);
   if (!(std::abs(skin) <= kOnSkin))
-    out.push_back(with("the entry lies %.1f mm off the skin", std::abs(skin) / kMillimetre));
+    out.push_back(printed("the entry lies %.1f mm off the skin", std::abs(skin) / kMillimetre));
   const double face = scene->signed_distance_to_skin(s.X_JP.translation(), 0.2);
   if (!(std::abs(face) <= kOnSkin))
-    out.push_back(with("the probe stands %.1f mm off the skin", std::abs(face) / kMillimetre));
+    out.push_back(printed("the probe stands %.1f mm off the skin", std::abs(face) / kMillimetre));
   check_way(s, *scene, out);
   return out;
 }

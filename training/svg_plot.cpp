@@ -2,12 +2,11 @@
 #include "artus/training/svg_plot.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 #include "artus/core/markup.h"
+#include "artus/core/printed.h"
 
 namespace artus {
 namespace {
@@ -20,9 +19,7 @@ constexpr double kTop = 26;
 constexpr double kBottom = 44;
 
 std::string number(double value) {
-  std::array<char, 32> text{};
-  static_cast<void>(std::snprintf(text.data(), text.size(), "%.4g", value));
-  return text.data();
+  return printed("%.4g", value);
 }
 
 struct Range {

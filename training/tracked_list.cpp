@@ -5,12 +5,12 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <utility>
 
 #include <nlohmann/json.hpp>
 
+#include "artus/core/printed.h"
 #include "artus/core/text_file.h"
 #include "artus/core/text_lines.h"
 #include "artus/core/units.h"
@@ -197,13 +197,11 @@ class Builder {
       list_.notices.push_back(std::to_string(same) +
                               " poses have the time of the one before: they move without speed");
     if (gaps > 0) {
-      std::array<char, 160> text{};
-      static_cast<void>(std::snprintf(
-          text.data(), text.size(),
+      const std::string text = printed(
           "%d gaps of more than %.3g s, the widest %.3g s from %.3f s: both hands are taken to go "
           "straight across",
-          gaps, options_.gap, widest, widest_at));
-      list_.notices.emplace_back(text.data());
+          gaps, options_.gap, widest, widest_at);
+      list_.notices.emplace_back(text);
     }
   }
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 
 #include <unistd.h>
@@ -14,6 +13,7 @@
 #include "artus/anatomy/body/space_bytes.h"
 #include "artus/anatomy/body/tissue_bytes.h"
 #include "artus/core/byte_stream.h"
+#include "artus/core/printed.h"
 
 namespace artus {
 namespace {
@@ -254,10 +254,7 @@ std::string compute_joint_digest(const CompiledJoint& joint) {
   CompiledJoint body = joint;
   body.source_digest.clear();  // the same body may come of other sources
   body.poses.clear();          // and be held in other ways
-  std::array<char, 17> text{};
-  std::snprintf(text.data(), text.size(), "%016llx",
-                static_cast<unsigned long long>(hash_bytes(to_bytes(body))));
-  return text.data();
+  return in_hexadecimal(hash_bytes(to_bytes(body)));
 }
 
 }  // namespace artus

@@ -2,7 +2,6 @@
 #include "artus/anatomy/compile/compile_labels.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <mutex>
@@ -13,6 +12,7 @@
 #include "artus/anatomy/compile/compiler_version.h"
 #include "artus/anatomy/compile/construct.h"
 #include "artus/anatomy/compile/cut_faces.h"
+#include "artus/core/printed.h"
 #include "artus/core/units.h"
 
 namespace artus {
@@ -332,13 +332,11 @@ Result<void> check_sizes(const JointFile& file, const PreparedSurfaces& surfaces
   constexpr double kLayersOfBlocks = 4 * 8;  // samples across a surface's band
   const double extent = (surfaces.body.tree.upper() - surfaces.body.tree.lower()).maxCoeff();
   if (file.facet_size > extent / 2) {
-    std::array<char, 200> text{};
-    static_cast<void>(std::snprintf(
-        text.data(), text.size(),
+    const std::string text = printed(
         "facet_size of [mesh] is %.4g mm, and the whole body measures %.4g mm; give it in the "
         "unit of the file: some millimetres",
-        file.facet_size / kMillimetre, extent / kMillimetre));
-    return fail(ErrorCode::invalid, text.data(), file.name);
+        file.facet_size / kMillimetre, extent / kMillimetre);
+    return fail(ErrorCode::invalid, text, file.name);
   }
   const double volume = std::min((box.upper - box.lower).prod(), signed_volume(surfaces.body.mesh));
   const double cells = volume / (kVolumePerCell * std::pow(file.cell_size, 3));
@@ -356,13 +354,11 @@ Result<void> check_sizes(const JointFile& file, const PreparedSurfaces& surfaces
     if (const auto& surface = surfaces.structures[i])
       add(file.structures[i], *surface, surface->thickness);
   const auto refuse = [&](double count, const char* of_what, const char* key) {
-    std::array<char, 240> text{};
-    static_cast<void>(std::snprintf(
-        text.data(), text.size(),
+    const std::string text = printed(
         "the sizes of [mesh] ask for about %.1e %s, more than can be compiled; enlarge %s, or set "
         "a smaller [region_of_interest]",
-        count, of_what, key));
-    return fail(ErrorCode::invalid, text.data(), file.name);
+        count, of_what, key);
+    return fail(ErrorCode::invalid, text, file.name);
   };
   if (cells > kMostElements) return refuse(cells, "tetrahedra", "cell_size");
   if (facets > kMostElements) return refuse(facets, "interface triangles", "facet_size");

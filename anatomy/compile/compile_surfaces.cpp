@@ -2,8 +2,6 @@
 #include "artus/anatomy/compile/compile_surfaces.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <utility>
 
 #include <tbb/blocked_range.h>
@@ -17,6 +15,7 @@
 #include "artus/anatomy/surfaces/surface_io.h"
 #include "artus/anatomy/surfaces/surface_topology.h"
 #include "artus/core/byte_stream.h"
+#include "artus/core/printed.h"
 #include "artus/core/text_file.h"
 #include "artus/core/units.h"
 
@@ -26,13 +25,6 @@ namespace {
 constexpr double kSmallestBody =
     10 * kMillimetre;                // from corner to corner: a finger's tip has more
 constexpr double kMuchTwice = 0.02;  // of a volume
-
-template <class... Values>
-std::string format(const char* pattern, Values... values) {
-  std::array<char, 300> text{};
-  static_cast<void>(std::snprintf(text.data(), text.size(), pattern, values...));
-  return text.data();
-}
 
 Eigen::AlignedBox3d box_of(const SurfaceMesh& mesh) {
   Eigen::AlignedBox3d box;
@@ -49,9 +41,9 @@ Result<void> check_size(const SurfaceMesh& mesh, double smallest, const char* wh
   const double size = box.isEmpty() ? smallest : box.diagonal().norm();
   if (size >= smallest && size <= options.largest) return {};
   return fail(ErrorCode::defective,
-              format("%.4g mm from corner to corner is no %s; give the unit of its file (units = "
-                     "\"m\", \"cm\" or \"mm\")",
-                     size / kMillimetre, what));
+              printed("%.4g mm from corner to corner is no %s; give the unit of its file (units = "
+                      "\"m\", \"cm\" or \"mm\")",
+                      size / kMillimetre, what));
 }
 
 /// Refuses what lies so far away that single precision leaves nothing of its shape.
@@ -63,10 +55,10 @@ Result<void> check_place(const SurfaceMesh& mesh) {
   const Vec3 middle = box.center() / kMillimetre;
   return fail(
       ErrorCode::defective,
-      format("its coordinates go up to %.4g mm, and no frame of a body lies so far from its "
-             "origin: export it in the frame of the others (its middle is at %.6g, %.6g, "
-             "%.6g mm), or give the unit of its file (units = \"m\", \"cm\" or \"mm\")",
-             far / kMillimetre, middle.x(), middle.y(), middle.z()));
+      printed("its coordinates go up to %.4g mm, and no frame of a body lies so far from its "
+              "origin: export it in the frame of the others (its middle is at %.6g, %.6g, "
+              "%.6g mm), or give the unit of its file (units = \"m\", \"cm\" or \"mm\")",
+              far / kMillimetre, middle.x(), middle.y(), middle.z()));
 }
 
 /// A refusal of a surface with vertices that are nowhere begins with these.
@@ -74,7 +66,7 @@ Error told_with_lost_vertices(Error error, const SurfaceMesh& mesh) {
   const auto n = std::count_if(mesh.vertices.begin(), mesh.vertices.end(),
                                [](const Vec3& p) { return !p.allFinite(); });
   if (n > 0)
-    error.message = format(
+    error.message = printed(
                         "the coordinates of %td of %zu vertices are no numbers; export it again. "
                         "Of what is left: ",
                         n, mesh.vertices.size()) +
@@ -205,7 +197,7 @@ std::string describe_overlap(const SurfaceMesh& mesh) {
   const double each = signed_volume(mesh);
   const double together = enclosed_volume(mesh);
   if (each - together <= kMuchTwice * each) return {};
-  return format(
+  return printed(
       "its %u pieces lie in each other: %.3g cm3 counted each, %.3g cm3 together, which "
       "is what counts; where a surface is there twice, take one copy out of the file",
       pieces.n, each / kCubicCentimetre, together / kCubicCentimetre);
@@ -229,9 +221,9 @@ Result<PreparedSurface> prepare_body(const JointFile& file, StructureReport& rep
     for (std::size_t i = 0; i < body->is_cut.size(); ++i)
       if (body->is_cut[i] != 0) area += triangle_area(body->mesh, body->mesh.triangles[i]);
     body->warnings.push_back(
-        format("%.3g cm2 of it close a flat cut and are no skin: no probe or needle is set there, "
-               "and a shell ends there",
-               area / (1e-4)));
+        printed("%.3g cm2 of it close a flat cut and are no skin: no probe or needle is set there, "
+                "and a shell ends there",
+                area / (1e-4)));
   }
   return body;
 }

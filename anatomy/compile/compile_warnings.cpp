@@ -2,13 +2,12 @@
 #include "artus/anatomy/compile/compile_warnings.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "artus/anatomy/body/joint_structure.h"
 #include "artus/anatomy/compile/compile_measure.h"
 #include "artus/anatomy/surfaces/defects.h"
+#include "artus/core/printed.h"
 #include "artus/core/units.h"
 
 namespace artus {
@@ -20,22 +19,16 @@ constexpr double kMuchCut = 0.01;           // of a gap's volume
 constexpr double kLargestError = 0.03;      // of the volume its surface promises
 
 std::string percent(double share) {
-  std::array<char, 32> text{};
-  static_cast<void>(std::snprintf(text.data(), text.size(), "%.0f %%", 100 * share));
-  return text.data();
+  return printed("%.0f %%", 100 * share);
 }
 
 std::string at(const Vec3& p) {
-  std::array<char, 96> text{};
-  static_cast<void>(std::snprintf(text.data(), text.size(), "(%.1f, %.1f, %.1f) mm",
-                                  p.x() / kMillimetre, p.y() / kMillimetre, p.z() / kMillimetre));
-  return text.data();
+  return printed("(%.1f, %.1f, %.1f) mm", p.x() / kMillimetre, p.y() / kMillimetre,
+                 p.z() / kMillimetre);
 }
 
 std::string cubic_centimetres(double volume) {
-  std::array<char, 32> text{};
-  static_cast<void>(std::snprintf(text.data(), text.size(), "%.2g cm3", volume / kCubicCentimetre));
-  return text.data();
+  return printed("%.2g cm3", volume / kCubicCentimetre);
 }
 
 void warn_of_outliers(const JointFile& file, const PreparedSurfaces& surfaces,

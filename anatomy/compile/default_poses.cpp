@@ -2,9 +2,7 @@
 #include "artus/anatomy/compile/default_poses.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 #include <vector>
 
@@ -14,6 +12,7 @@
 #include <CGAL/Simple_cartesian.h>
 
 #include "artus/anatomy/compile/plan_check.h"
+#include "artus/core/printed.h"
 #include "artus/core/units.h"
 
 namespace artus {
@@ -159,13 +158,10 @@ Pose needle_under(const Pose& X_JP, double depth, const PlanGround& ground) {
 }
 
 std::string describe(const char* what, const Vec3& p) {
-  std::array<char, 200> text{};
-  static_cast<void>(std::snprintf(text.data(), text.size(),
-                                  "joint.toml has no [%s]: one is set at (%.1f, %.1f, %.1f) mm; "
-                                  "give your own",
-                                  what, p.x() / kMillimetre, p.y() / kMillimetre,
-                                  p.z() / kMillimetre));
-  return text.data();
+  return printed(
+      "joint.toml has no [%s]: one is set at (%.1f, %.1f, %.1f) mm; "
+      "give your own",
+      what, p.x() / kMillimetre, p.y() / kMillimetre, p.z() / kMillimetre);
 }
 
 }  // namespace

@@ -2,13 +2,12 @@
 #include "artus/anatomy/compile/kept_parts.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <cstring>
 #include <thread>
 #include <vector>
 
 #include "artus/core/byte_stream.h"
+#include "artus/core/printed.h"
 #include "artus/core/text_file.h"
 
 namespace artus {
@@ -30,11 +29,7 @@ void ContentDigest::add(std::string_view bytes) noexcept {
 }
 
 std::string ContentDigest::hex() const {
-  std::array<char, 33> text{};
-  static_cast<void>(std::snprintf(text.data(), text.size(), "%016llx%016llx",
-                                  static_cast<unsigned long long>(low_),
-                                  static_cast<unsigned long long>(high_)));
-  return text.data();
+  return in_hexadecimal(low_) + in_hexadecimal(high_);
 }
 
 std::optional<std::string> KeptParts::find(const ContentDigest& digest) const {

@@ -2,22 +2,19 @@
 #include "artus/anatomy/surfaces/defects.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <map>
 #include <numeric>
 
 #include "artus/anatomy/surfaces/defects_cracks.h"
 #include "artus/anatomy/surfaces/surface_topology.h"
+#include "artus/core/printed.h"
 #include "artus/core/units.h"
 
 namespace artus {
 namespace {
 
 std::string at(const Vec3& p) {
-  std::array<char, 96> text{};
-  static_cast<void>(std::snprintf(text.data(), text.size(), " at (%.2f, %.2f, %.2f) mm",
-                                  p.x() * 1e3, p.y() * 1e3, p.z() * 1e3));
-  return text.data();
+  return printed(" at (%.2f, %.2f, %.2f) mm", p.x() * 1e3, p.y() * 1e3, p.z() * 1e3);
 }
 
 std::string counted(std::size_t n, const char* one, const char* many) {
@@ -291,21 +288,20 @@ class Finder {
     if (box.isEmpty()) return;
     const double size = box.diagonal().norm();
     const double far = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff();
-    std::array<char, 160> text{};
     if (far > options_.farthest) {
-      static_cast<void>(std::snprintf(text.data(), text.size(),
-                                      "coordinates up to %.4g mm: no frame of a body lies so far "
-                                      "from its origin; is it of another unit or frame?",
-                                      far / kMillimetre));
-      add(DefectKind::implausible_size, {}, box.center(), text.data(), 1);
+      add(DefectKind::implausible_size, {}, box.center(),
+          printed("coordinates up to %.4g mm: no frame of a body lies so far "
+                  "from its origin; is it of another unit or frame?",
+                  far / kMillimetre),
+          1);
       return;
     }
     if (size >= options_.smallest && size <= options_.largest) return;
-    static_cast<void>(std::snprintf(text.data(), text.size(),
-                                    "%.4g mm from corner to corner is no part of a body; is the "
-                                    "unit of the file wrong (mm, cm, m)?",
-                                    size / kMillimetre));
-    add(DefectKind::implausible_size, {}, box.center(), text.data(), 1);
+    add(DefectKind::implausible_size, {}, box.center(),
+        printed("%.4g mm from corner to corner is no part of a body; is the "
+                "unit of the file wrong (mm, cm, m)?",
+                size / kMillimetre),
+        1);
   }
 
   const SurfaceMesh& mesh_;

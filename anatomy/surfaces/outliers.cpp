@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "artus/anatomy/surfaces/defects.h"
+#include "artus/core/printed.h"
 #include "artus/core/units.h"
 
 namespace artus {
@@ -27,15 +27,12 @@ double median(std::vector<double> values) {
 }
 
 std::string describe_size(double size, double usual) {
-  std::array<char, 200> text{};
-  static_cast<void>(std::snprintf(
-      text.data(), text.size(),
+  return printed(
       "is %.4g mm from corner to corner, its like about %.4g mm: %.4g times %s; if its unit is "
       "wrong, "
       "give this file its own 'units'; if it is right, do so, too, to say so",
       size / kMillimetre, usual / kMillimetre, size > usual ? size / usual : usual / size,
-      size > usual ? "too large" : "too small"));
-  return text.data();
+      size > usual ? "too large" : "too small");
 }
 
 /// The usual size of what `surfaces[i]` should be like: the others of its tissue, or all others.
@@ -100,13 +97,12 @@ std::vector<Defect> find_outliers(const std::vector<NamedSurface>& surfaces) {
     const auto around = surroundings_of(boxes, i);
     const double away = boxes[i].exteriorDistance(around.centre);
     if (away > 2 * around.reach) {
-      std::array<char, 160> text{};
-      static_cast<void>(std::snprintf(text.data(), text.size(),
-                                      "lies %.4g mm from the middle of the others, which reach "
-                                      "%.4g mm; is it of another unit or frame?",
-                                      away / kMillimetre, around.reach / kMillimetre));
+      const std::string text = printed(
+          "lies %.4g mm from the middle of the others, which reach "
+          "%.4g mm; is it of another unit or frame?",
+          away / kMillimetre, around.reach / kMillimetre);
       defects.push_back(
-          {DefectKind::place_outlier, surfaces[i].name, 1, {}, boxes[i].center(), text.data()});
+          {DefectKind::place_outlier, surfaces[i].name, 1, {}, boxes[i].center(), text});
     }
   }
   return defects;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 
 #include "artus/anatomy/surfaces/defects.h"
@@ -12,6 +11,7 @@
 #include "artus/anatomy/surfaces/repair_steps.h"
 #include "artus/anatomy/surfaces/surface_distance.h"
 #include "artus/anatomy/surfaces/surface_topology.h"
+#include "artus/core/printed.h"
 #include "artus/core/units.h"
 
 namespace artus {
@@ -23,12 +23,6 @@ constexpr std::size_t kFewTangledPairs = 30;
 /// Above these the intersections stay: so many are no accident of a file but how it was modelled.
 constexpr std::size_t kMostTangledPairs = 500;
 constexpr std::size_t kMostUntangledFaces = 60'000;
-
-std::string with_number(const char* format, double value) {
-  std::array<char, 160> text{};
-  static_cast<void>(std::snprintf(text.data(), text.size(), format, value));
-  return text.data();
-}
 
 std::string plural(std::size_t n, const char* one, const char* many) {
   return std::to_string(n) + " " + (n == 1 ? one : many);
@@ -182,7 +176,7 @@ class Repair {
     const Filling caps = cap_flat_ends(
         mesh(), {options_.crack_width, is_sheet ? options_.largest_fill_share : kWiderThanDeep,
                  is_sheet ? 0 : kDeeperThanSheet});
-    const auto area = with_number(" (%.3g cm2)", caps.area / kSquareCentimetre);
+    const auto area = printed(" (%.3g cm2)", caps.area / kSquareCentimetre);
     note(RepairKind::capped_ends, caps.n, caps.area,
          {"is capped" + area, "are capped" + area, "flat opening", "flat openings"});
   }
@@ -200,7 +194,7 @@ class Repair {
         widest = width;
       }
     }
-    const auto width = with_number(" up to %.2g mm wide", widest / kMillimetre);
+    const auto width = printed(" up to %.2g mm wide", widest / kMillimetre);
     note(RepairKind::welded_vertices, n, widest,
          {"is sewn over a crack" + width, "are sewn over cracks" + width, "vertex", "vertices"});
     if (n > 0) {
@@ -212,7 +206,7 @@ class Repair {
   Result<void> treat_sheets() {
     if (options_.thicken > 0) {
       const std::size_t n = thicken_sheets(mesh(), options_.thicken, options_.largest_fill_share);
-      const auto thickness = with_number(" %.3g mm thick", options_.thicken / kMillimetre);
+      const auto thickness = printed(" %.3g mm thick", options_.thicken / kMillimetre);
       note(RepairKind::thickened_sheets, n, options_.thicken,
            {"is made a plate" + thickness, "are made plates" + thickness, "sheet", "sheets"});
       return {};
@@ -255,16 +249,16 @@ class Repair {
       const bool encloses = before.opening_area < kLikeSheet * before.area ||
                             before.opening_span < kSpansSheet * before.area;
       return fail(ErrorCode::defective,
-                  with_number("its openings are too large to be closed safely (%.0f %% of the "
-                              "surface's own area); ",
-                              100 * holes.area / before.area)
+                  printed("its openings are too large to be closed safely (%.0f %% of the "
+                          "surface's own area); ",
+                          100 * holes.area / before.area)
                       .append(encloses ? kMendSolid : kMendSheet));
     }
     if (!keeps_volume(before)) {
       mesh() = open;
       holes = fill_all(true);
     }
-    const auto area = with_number(" (%.3g cm2)", holes.area / kSquareCentimetre);
+    const auto area = printed(" (%.3g cm2)", holes.area / kSquareCentimetre);
     note(RepairKind::filled_holes, holes.n, holes.area,
          {"is filled" + area, "are filled" + area, "hole", "holes"});
     if (!must_close && !keeps_volume(before))
@@ -284,11 +278,8 @@ class Repair {
 
   /// " from 84 to 101 cm3"
   [[nodiscard]] std::string changed_volume(double before) {
-    std::array<char, 80> text{};
-    static_cast<void>(std::snprintf(text.data(), text.size(), " from %.4g to %.4g cm3",
-                                    before / kCubicCentimetre,
-                                    Sums(mesh()).sized_volume / kCubicCentimetre));
-    return text.data();
+    return printed(" from %.4g to %.4g cm3", before / kCubicCentimetre,
+                   Sums(mesh()).sized_volume / kCubicCentimetre);
   }
 
   /// The finest wrap that stays outside: one that enters by an opening is hollow and loses volume.
@@ -314,19 +305,17 @@ class Repair {
     const double after = signed_volume(*wrapped);
     if (!(std::abs(after - before) <= kMostChange * before))
       return fail(ErrorCode::defective,
-                  with_number("a wrap of it holds %.4g cm3", after / kCubicCentimetre) +
-                      with_number(" where it holds %.4g cm3; ", before / kCubicCentimetre) +
+                  printed("a wrap of it holds %.4g cm3", after / kCubicCentimetre) +
+                      printed(" where it holds %.4g cm3; ", before / kCubicCentimetre) +
                       kMendElsewhere);
     const DistanceStatistics moved = measure_distance(mesh(), *wrapped);
-    std::array<char, 240> text{};
-    static_cast<void>(std::snprintf(
-        text.data(), text.size(),
+    const std::string text = printed(
         "wrapped: %.3g mm away in the mean, 95 %% within %.3g mm, at most %.3g mm (both ways), "
         "volume %.4g -> %.4g cm3 (%+.1f %%)",
         moved.mean / kMillimetre, moved.percentile95 / kMillimetre, moved.max / kMillimetre,
-        before / kCubicCentimetre, after / kCubicCentimetre, 100 * (after / before - 1)));
+        before / kCubicCentimetre, after / kCubicCentimetre, 100 * (after / before - 1));
     mesh() = std::move(*wrapped);
-    outcome_.actions.push_back({RepairKind::wrapped, 1, moved.max, text.data()});
+    outcome_.actions.push_back({RepairKind::wrapped, 1, moved.max, text});
     outcome_.self_intersections = 0;
     return {};
   }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "artus/core/printed.h"
 #include "artus/core/units.h"
 #include "artus/echo/frame_measure.h"
 #include "artus/echo/image_io.h"
@@ -23,9 +24,7 @@ ImageSettings deep_settings() {
 }
 
 std::string in_mm(double length) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g mm", length / kMillimetre);
-  return text;
+  return printed("%.4g mm", length / kMillimetre);
 }
 
 /// One point at each depth, `elevation` (m) beside the image's plane.
@@ -110,15 +109,14 @@ EchoGate gate_lateral_width() {
   PlotPanel panel{"depth, mm", "lateral width, mm", {}};
   for (const auto& [frequency, expected] : {std::pair(12e6, 0.25e-3), {7.6e6, 0.39e-3}}) {
     const auto widths = lateral_widths(scene, frequency);
-    char label[32];
-    std::snprintf(label, sizeof label, "%.3g MHz", frequency / 1e6);
+    const std::string label = printed("%.3g MHz", frequency / 1e6);
     for (std::size_t i = 0; i < widths.size(); ++i)
       gate.claims.push_back(claim_near(
           {ClaimKind::input, "0.97 wavelengths times the F-number is the beam's own formula"},
-          std::string(label) + ", " + in_mm(kDepths[i]) + " deep", widths[i] / kMillimetre,
+          label + ", " + in_mm(kDepths[i]) + " deep", widths[i] / kMillimetre,
           expected / kMillimetre, 0.15, "mm"));
     panel.series.push_back(over_depth(label, widths));
-    panel.series.push_back(over_depth(std::string(label) + ", wave model",
+    panel.series.push_back(over_depth(label + ", wave model",
                                       std::vector<double>(kDepths.size(), expected), "points"));
   }
   gate.plot = {"lateral width of point targets", {panel}};

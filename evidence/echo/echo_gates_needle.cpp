@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "artus/core/printed.h"
 #include "artus/core/units.h"
 #include "artus/echo/frame_measure.h"
 #include "artus/echo/gaussian.h"
@@ -156,14 +157,12 @@ EchoGate gate_needle_offset() {
       value.push_back(peak_value(frame, 128, depth - 2e-3, depth + 1e-3));
     }
     const double half = full_width(offset, value) / 2;
-    char text[48];
-    std::snprintf(text, sizeof text, "half-brightness offset %.0f mm deep", depth / kMillimetre);
+    const std::string deep = printed("%.0f mm deep", depth / kMillimetre);
     gate.claims.push_back(
-        claim_near(ClaimKind::independent, text, half / kMillimetre,
+        claim_near(ClaimKind::independent, "half-brightness offset " + deep, half / kMillimetre,
                    expected_half_offset(width, shape.outer_diameter) / kMillimetre, 0.2, "mm"));
     PlotSeries series;
-    std::snprintf(text, sizeof text, "%.0f mm deep", depth / kMillimetre);
-    series.label = text;
+    series.label = deep;
     for (std::size_t i = 0; i < offset.size(); ++i) {
       series.x.push_back(offset[i] / kMillimetre);
       series.y.push_back(value[i] / value.front());

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include <nlohmann/json.hpp>
 
+#include "artus/core/printed.h"
 #include "artus/core/text_file.h"
 #include "artus/core/units.h"
 
@@ -64,9 +64,7 @@ double start_of_push(const InjectionRun& run) {
 }
 
 std::string text(double value) {
-  char buffer[32];  // NOLINT(*-avoid-c-arrays)
-  std::snprintf(buffer, sizeof buffer, "%.9g", value);
-  return buffer;
+  return printed("%.9g", value);
 }
 
 Result<void> write_trace(const InjectionRun& run, const std::filesystem::path& file) {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 #include <utility>
 
@@ -12,6 +11,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "artus/core/printed.h"
 #include "artus/core/units.h"
 #include "artus/dataset/video_file.h"
 #include "artus/echo/image_io.h"
@@ -26,8 +26,7 @@ constexpr int kCaptionHeight = 28;  // pixels
 constexpr int kHeldImages = 45;     // of tissue that comes to rest under the probe of a moment
 
 std::string file_stem(std::size_t index, const NamedMoment& moment) {
-  char prefix[48];
-  std::snprintf(prefix, sizeof prefix, "%02zu-injection-%d-", index + 1, moment.pass);
+  const std::string prefix = printed("%02zu-injection-%d-", index + 1, moment.pass);
   std::string stem = prefix;
   for (const char c : moment.label)
     stem += std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '-';
@@ -38,10 +37,9 @@ cv::Mat with_caption(const cv::Mat& image, const NeedleRow& row, const ProbeHand
                      const std::string& layer) {
   cv::Mat framed;
   cv::copyMakeBorder(image, framed, 0, kCaptionHeight, 0, 0, cv::BORDER_CONSTANT, cv::Scalar(0));
-  char text[128];
-  std::snprintf(text, sizeof text, "%5.2f s  %5.1f mm  %4.1f N  probe %4.1f N  %s", row.time,
-                std::max(0.0, row.depth) / kMillimetre, row.command.force.norm(),
-                probe.normal_force, layer.c_str());
+  const std::string text = printed("%5.2f s  %5.1f mm  %4.1f N  probe %4.1f N  %s", row.time,
+                                   std::max(0.0, row.depth) / kMillimetre, row.command.force.norm(),
+                                   probe.normal_force, layer.c_str());
   cv::putText(framed, text, {6, framed.rows - 9}, cv::FONT_HERSHEY_SIMPLEX, 0.45, cv::Scalar(220),
               1, cv::LINE_AA);
   return framed;
