@@ -11,10 +11,10 @@
 namespace artus {
 namespace {
 
-constexpr double kBent = 3e-3;         // m beside its line that a beam is looked for
-constexpr double kTailStep = 0.25e-3;  // m
-constexpr double kTailFall = 0.7071;   // per step: 6 dB in two
-constexpr double kFaint = 5.6e-3;      // -45 dB, as for tissue that moves
+constexpr double kBent = 3e-3;        // m beside its line that a beam is looked for
+constexpr double kTailStep = 0.1e-3;  // m
+constexpr double kTailFall = 0.871;   // per step: 6 dB in five
+constexpr double kFaint = 5.6e-3;     // -45 dB, as for tissue that moves
 
 }  // namespace
 
@@ -27,8 +27,8 @@ void DriftingEcho::place(std::span<const DriftingPoint> points, const Pose& X_JP
   X_PJ_ = X_JP.inverse();
   points_.clear();
   for (const DriftingPoint& point : points)
-    points_.push_back({X_PJ_ * point.p_J, X_PJ_.linear() * point.v_J, point.amplitude, point.tail,
-                       point.phase});
+    points_.push_back(
+        {X_PJ_ * point.p_J, X_PJ_.linear() * point.v_J, point.amplitude, point.tail, point.phase});
 }
 
 void DriftingEcho::add(const SoundedLine& sounded, EchoSpan echoes) const noexcept {
@@ -79,8 +79,8 @@ void DriftingEcho::colour(std::span<const PlacedLine> lines, double limit,
       if (!may_show_motion(std::abs(toward), limit)) continue;
       const double middle = depth / shape_->sample_depth();
       const double reach = 0.5 * pulse_ / shape_->sample_depth();
-      const double end = std::min(static_cast<double>(frame.shadow_from[l]),
-                                  static_cast<double>(n_samples) - 1);
+      const double end =
+          std::min(static_cast<double>(frame.shadow_from[l]), static_cast<double>(n_samples) - 1);
       const auto row = std::span(frame.velocity).subspan(l * n_samples, n_samples);
       for (double s = std::max(0.0, std::ceil(middle - reach)); s <= std::min(middle + reach, end);
            ++s) {

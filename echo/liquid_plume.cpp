@@ -26,8 +26,8 @@ constexpr double kMemory = 0.3;                      // s, of swirls
 constexpr double kSwirl = 0.35;                      // of the speed, sideways. assumed
 constexpr double kSpread = 0.12;                     // rad, of the jet. assumed
 constexpr double kWall = 0.1e-3;                     // m that a point keeps from a wall
-constexpr double kLife = 15;                         // s of a bubble of 20 um, as its square. assumed
-constexpr double kTailRadius = 40e-6;                // m, from which on a bubble rings visibly. assumed
+constexpr double kLife = 15;           // s of a bubble of 20 um, as its square. assumed
+constexpr double kTailRadius = 40e-6;  // m, from which on a bubble rings visibly. assumed
 
 enum Draw : std::uint64_t { kKind, kRadius, kWhen, kAside, kAcross, kPhase, kTurn, kDraws = 16 };
 
@@ -102,8 +102,12 @@ void LiquidPlume::emit(const Scene& scene, const PlumeSource& source, double flo
   const Vec3 across = source.axis_J.cross(aside);
   for (; owed_ >= 1; owed_ -= 1) {
     const std::uint64_t id = kDraws * next_++;
-    const auto uniform = [&](Draw draw) { return uniform_noise(seed_, id + draw); };
-    const auto normal = [&](Draw draw) { return normal_noise(seed_, id + draw); };
+    const auto uniform = [&](Draw draw) {
+      return uniform_noise(seed_, id + draw);
+    };
+    const auto normal = [&](Draw draw) {
+      return normal_noise(seed_, id + draw);
+    };
     const bool bubble = uniform(kKind) * (kBubbles + grains) < kBubbles;
     const double radius =
         bubble ? kBubbleRadius * std::exp(kBubbleSpread * normal(kRadius)) : kClumpRadius;
@@ -115,8 +119,9 @@ void LiquidPlume::emit(const Scene& scene, const PlumeSource& source, double flo
     point.amplitude = bubble ? kBubbleEcho * radius : 3 * kMuscle * liquid_.backscatter;
     point.tail = bubble && radius > kTailRadius ? 2e-3 : 0;
     point.phase = 2 * std::numbers::pi * uniform(kPhase);
-    const Vec3 direction = (source.axis_J + kSpread * (normal(kAside) * aside +
-                                                       normal(kAcross) * across)).normalized();
+    const Vec3 direction =
+        (source.axis_J + kSpread * (normal(kAside) * aside + normal(kAcross) * across))
+            .normalized();
     const double x = way_of_jet(u0, fall, uniform(kWhen) * dt);
     bool hit = false;
     point.p_J = drift(scene, source.p_J, x * direction, hit);

@@ -14,10 +14,10 @@ namespace artus {
 
 /// The needle's opening, and what came out of it.
 struct PlumeSource {
-  Vec3 p_J = Vec3::Zero();          ///< m, middle of the bevel
-  Vec3 axis_J = Vec3::UnitZ();      ///< unit, out of the tip
-  double bore = 0.413e-3;           ///< m
-  double given = 0;                 ///< m^3 into places that hold it, since the beginning
+  Vec3 p_J = Vec3::Zero();      ///< m, middle of the bevel
+  Vec3 axis_J = Vec3::UnitZ();  ///< unit, out of the tip
+  double bore = 0.413e-3;       ///< m
+  double given = 0;             ///< m^3 into places that hold it, since the beginning
 };
 
 /// What is seen to move in injected liquid: small bubbles and, of a suspension, clumps of grains.
@@ -58,8 +58,8 @@ class LiquidPlume {
   double owed_ = 0;  // seeds that are not whole yet
   std::uint64_t next_ = 0;
   std::shared_ptr<const CompiledJoint> known_;  // whose regions these are
-  std::vector<bool> wet_;  // of its regions: whether liquid was injected
-  std::vector<DriftingPoint> points_;  // oldest first
+  std::vector<bool> wet_;                       // of its regions: whether liquid was injected
+  std::vector<DriftingPoint> points_;           // oldest first
   std::vector<Seed> seeds_;
 };
 

@@ -89,7 +89,7 @@ TEST(LiquidPlume, ComesToRestAndRisesByStokesLaw) {
     const auto same = std::find_if(before.begin(), before.end(),
                                    [&](const DriftingPoint& p) { return p.phase == point.phase; });
     ASSERT_NE(same, before.end());
-    if (same->p_J.z() < kRoof + 1e-3) continue;  // gathered under the roof
+    if (same->p_J.z() < kRoof + 1e-3) continue;   // gathered under the roof
     const double radius = point.amplitude / 500;  // 0.025 at 50 um
     const double rise = 2.0 / 9 * 1000 * 9.81 * radius * radius / 1e-3;
     EXPECT_NEAR((same->p_J.z() - point.p_J.z()) / kFrame, rise, 0.05 * rise + 2e-4);
