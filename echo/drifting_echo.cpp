@@ -11,17 +11,16 @@
 namespace artus {
 namespace {
 
-constexpr double kBent = 3e-3;        // m beside its line that a beam is looked for
-constexpr double kTailStep = 0.1e-3;  // m
-constexpr double kTailFall = 0.871;   // per step: 6 dB in five
-constexpr double kFaint = 5.6e-3;     // -45 dB, as for tissue that moves
+constexpr double kBent = 3e-3;          // m beside its line that a beam is looked for
+constexpr double kTailStep = 0.1e-3;    // m
+constexpr double kTailFall = 0.871;     // per step: 6 dB in five
+constexpr double kColourCell = 0.5e-3;  // m to each side: Doppler's longer pulse. assumed
+constexpr double kFaint = 5.6e-3;       // -45 dB, as for tissue that moves
 
 }  // namespace
 
 DriftingEcho::DriftingEcho(const Transducer& transducer, const BeamShape& shape) noexcept
-    : shape_(&shape),
-      pulse_(transducer.pulse_cycles * transducer.wavelength() / 2),
-      wavenumber_(4 * std::numbers::pi / transducer.wavelength()) {}
+    : shape_(&shape), wavenumber_(4 * std::numbers::pi / transducer.wavelength()) {}
 
 void DriftingEcho::place(std::span<const DriftingPoint> points, const Pose& X_JP) {
   X_PJ_ = X_JP.inverse();
@@ -71,14 +70,13 @@ void DriftingEcho::colour(std::span<const PlacedLine> lines, double limit,
       const Vec3 p = point.p_P - line.origin;
       const double depth = p.dot(line.direction);
       if (depth <= 0) continue;
-      const double half =
-          0.5 * std::max(shape_->profile().lateral_width(depth), shape_->line_spacing(depth));
+      const double half = std::max(kColourCell, 0.5 * shape_->profile().lateral_width(depth));
       if (frame.contact[l] <= 0 || std::abs(p.dot(lines[l].across)) > half) continue;
       if (point.amplitude * shape_->profile().elevation_amplitude(p.y(), depth) < kFaint) continue;
       const double toward = wrap_velocity(-point.v_P.dot(line.direction), limit);
       if (!may_show_motion(std::abs(toward), limit)) continue;
       const double middle = depth / shape_->sample_depth();
-      const double reach = 0.5 * pulse_ / shape_->sample_depth();
+      const double reach = kColourCell / shape_->sample_depth();
       const double end =
           std::min(static_cast<double>(frame.shadow_from[l]), static_cast<double>(n_samples) - 1);
       const auto row = std::span(frame.velocity).subspan(l * n_samples, n_samples);

@@ -34,8 +34,9 @@ class DriftingEcho {
   /// Adds them to one scanline before the beam's shape is applied.
   void add(const SoundedLine& sounded, EchoSpan echoes) const noexcept;
 
-  /// Colours what moves fast enough for the wall filter, where no bone or gas hides it: the beam's
-  /// width and the pulse's length around each point. `limit`: m/s at which velocities wrap round.
+  /// Colours what moves fast enough for the wall filter, where no bone or gas hides it: half a
+  /// millimetre around each point, or the beam's width. `limit`: m/s at which velocities wrap
+  /// round.
   void colour(std::span<const PlacedLine> lines, double limit, Frame& frame) const noexcept;
 
  private:
@@ -48,7 +49,6 @@ class DriftingEcho {
   };
 
   const BeamShape* shape_;
-  double pulse_;       // m
   double wavenumber_;  // rad/m of depth, both ways
   Pose X_PJ_ = Pose::Identity();
   std::vector<Placed> points_;

@@ -27,6 +27,13 @@ constexpr double kSwirl = 0.35;                      // of the speed, sideways. 
 constexpr double kSpread = 0.12;                     // rad, of the jet. assumed
 constexpr double kWall = 0.1e-3;                     // m that a point keeps from a wall
 constexpr double kLife = 15;           // s of a bubble of 20 um, as its square. assumed
+constexpr double kTail = 2e-3;         // m
+constexpr double kForever = 1e9;       // s
+constexpr double kDeflected = 5e-3;    // m that a jet goes on along a wall. assumed
+constexpr int kTracers = 16;           // of an image: the jet itself. assumed
+constexpr double kTracerEcho = 0.007;  // 3 dB below muscle's speckle. assumed
+constexpr double kTracerLife = 0.05;   // s
+constexpr double kJetTime = 10e-3;     // s along which they are spread
 constexpr double kTailRadius = 40e-6;  // m, from which on a bubble rings visibly. assumed
 
 enum Draw : std::uint64_t { kKind, kRadius, kWhen, kAside, kAcross, kPhase, kTurn, kDraws = 16 };
@@ -91,49 +98,59 @@ void LiquidPlume::add(const DriftingPoint& point, const Seed& seed) {
   seeds_.push_back(seed);
 }
 
+/// Takes a point along with the jet for `time` s since it left the bevel.
+void LiquidPlume::leave(const Scene& scene, const Jet& jet, double time, DriftingPoint point,
+                        const Seed& seed) {
+  const std::uint64_t id = kDraws * next_ - kDraws;
+  const double turn = 2 * std::numbers::pi * uniform_noise(seed_, id + kTurn);
+  const Vec3 direction = (jet.axis + kSpread * (normal_noise(seed_, id + kAside) * jet.aside +
+                                                normal_noise(seed_, id + kAcross) * jet.across))
+                             .normalized();
+  const double x = way_of_jet(jet.speed, jet.fall, time);
+  bool hit = false;
+  point.phase = 2 * std::numbers::pi * uniform_noise(seed_, id + kPhase);
+  point.p_J = drift(scene, jet.p_J, x * direction, hit);
+  point.v_J = std::min(jet.speed, jet.fall / std::max(x, 1e-6)) * direction;
+  if (hit) {  // what hits a wall goes on along it, all ways
+    const Vec3 away = kSwirl * (std::cos(turn) * jet.aside + std::sin(turn) * jet.across);
+    const double rest = std::max(0.0, x - (point.p_J - jet.p_J).norm());
+    point.v_J = point.v_J.norm() * away;
+    point.p_J = drift(scene, point.p_J, std::min(rest, kDeflected) * away, hit);
+  }
+  if (is_liquid(scene, point.p_J)) add(point, seed);
+}
+
 void LiquidPlume::emit(const Scene& scene, const PlumeSource& source, double flow, double dt) {
+  Jet jet;
+  jet.p_J = source.p_J;
+  jet.axis = source.axis_J;
+  jet.aside = source.axis_J.unitOrthogonal();
+  jet.across = source.axis_J.cross(jet.aside);
+  jet.speed = flow / (std::numbers::pi / 4 * source.bore * source.bore);
+  const double viscosity = liquid_.viscosity.at(8 * jet.speed / source.bore) / liquid_.density;
+  jet.fall = 3 * (4.0 / 3 * flow * jet.speed) / (8 * std::numbers::pi * viscosity);
   const double grains = liquid_.solids > 0 ? kClumps : 0;
   owed_ += (kBubbles + grains) * flow * dt;
-  const double area = std::numbers::pi / 4 * source.bore * source.bore;
-  const double u0 = flow / area;
-  const double viscosity = liquid_.viscosity.at(8 * u0 / source.bore) / liquid_.density;
-  const double fall = 3 * (4.0 / 3 * flow * u0) / (8 * std::numbers::pi * viscosity);  // m^2/s
-  const Vec3 aside = source.axis_J.unitOrthogonal();
-  const Vec3 across = source.axis_J.cross(aside);
   for (; owed_ >= 1; owed_ -= 1) {
     const std::uint64_t id = kDraws * next_++;
-    const auto uniform = [&](Draw draw) {
-      return uniform_noise(seed_, id + draw);
-    };
-    const auto normal = [&](Draw draw) {
-      return normal_noise(seed_, id + draw);
-    };
-    const bool bubble = uniform(kKind) * (kBubbles + grains) < kBubbles;
+    const bool bubble = uniform_noise(seed_, id + kKind) * (kBubbles + grains) < kBubbles;
     const double radius =
-        bubble ? kBubbleRadius * std::exp(kBubbleSpread * normal(kRadius)) : kClumpRadius;
-    const double lighter = bubble ? liquid_.density : liquid_.density - kGrainDensity;
+        bubble ? kBubbleRadius * std::exp(kBubbleSpread * normal_noise(seed_, id + kRadius))
+               : kClumpRadius;
+    const double lighter = liquid_.density - (bubble ? 0 : kGrainDensity);
     DriftingPoint point;
+    point.amplitude = bubble ? kBubbleEcho * radius : 3 * kMuscle * liquid_.backscatter;
+    point.tail = bubble && radius > kTailRadius ? kTail : 0;
     Seed seed;
     seed.rise = 2.0 / 9 * lighter * kGravity * radius * radius / liquid_.viscosity.zero;
-    seed.life = bubble ? kLife * std::pow(radius / 20e-6, 2) : 1e9;
-    point.amplitude = bubble ? kBubbleEcho * radius : 3 * kMuscle * liquid_.backscatter;
-    point.tail = bubble && radius > kTailRadius ? 2e-3 : 0;
-    point.phase = 2 * std::numbers::pi * uniform(kPhase);
-    const Vec3 direction =
-        (source.axis_J + kSpread * (normal(kAside) * aside + normal(kAcross) * across))
-            .normalized();
-    const double x = way_of_jet(u0, fall, uniform(kWhen) * dt);
-    bool hit = false;
-    point.p_J = drift(scene, source.p_J, x * direction, hit);
-    point.v_J = std::min(u0, fall / std::max(x, 1e-6)) * direction;
-    if (hit) {  // what hits a wall goes on along it, all ways
-      const double turn = 2 * std::numbers::pi * uniform(kTurn);
-      const Vec3 away = kSwirl * (std::cos(turn) * aside + std::sin(turn) * across);
-      const double rest = std::max(0.0, x - (point.p_J - source.p_J).norm());
-      point.v_J = point.v_J.norm() * away;
-      point.p_J = drift(scene, point.p_J, std::min(rest, 5e-3) * away, hit);
-    }
-    if (is_liquid(scene, point.p_J)) add(point, seed);
+    seed.life = bubble ? kLife * std::pow(radius / 20e-6, 2) : kForever;
+    leave(scene, jet, uniform_noise(seed_, id + kWhen) * dt, point, seed);
+  }
+  for (int k = 0; k < kTracers; ++k) {
+    DriftingPoint point;
+    point.amplitude = kTracerEcho;
+    ++next_;
+    leave(scene, jet, (k + 0.5) / kTracers * std::min(dt, kJetTime), point, {0, 0, kTracerLife});
   }
 }
 

@@ -20,11 +20,11 @@ struct PlumeSource {
   double given = 0;             ///< m^3 into places that hold it, since the beginning
 };
 
-/// What is seen to move in injected liquid: small bubbles and, of a suspension, clumps of grains.
-/// They leave the bevel with the jet, a round laminar one whose speed is u_0 = Q/A and farther on
-/// 3 K/(8 pi nu x), K = 4/3 Q^2/A; swirl with a memory of 0.3 s; rise or settle by Stokes' law in
-/// the liquid's viscosity at rest; stop at walls, and are gone where there is no liquid any more.
-/// Bubbles dissolve. Sequential and a pure function of its inputs and the seed.
+/// What is seen to move in injected liquid: the faint jet, small bubbles and, of a suspension,
+/// clumps of grains. They leave the bevel with the jet, a round laminar one whose speed is u_0 =
+/// Q/A and farther on 3 K/(8 pi nu x), K = 4/3 Q^2/A; swirl with a memory of 0.3 s; rise or settle
+/// by Stokes' law in the liquid's viscosity at rest; stop at walls, and are gone where there is no
+/// liquid any more. Bubbles dissolve. Sequential and a pure function of its inputs and the seed.
 /// assumed: how many there are and of which sizes, and that the echo grows with the radius.
 class LiquidPlume {
  public:
@@ -46,10 +46,20 @@ class LiquidPlume {
     double age = 0;   // s
     double life = 0;  // s
   };
+  struct Jet {
+    Vec3 p_J = Vec3::Zero();
+    Vec3 axis = Vec3::UnitZ();  // unit, as the next two
+    Vec3 aside = Vec3::UnitX();
+    Vec3 across = Vec3::UnitY();
+    double speed = 0;  // m/s where it leaves
+    double fall = 0;   // m^2/s: its speed times the distance, farther on
+  };
   void find_liquid(const Scene& scene);
   [[nodiscard]] bool is_liquid(const Scene& scene, const Vec3& p_J) const noexcept;
   Vec3 drift(const Scene& scene, const Vec3& from, const Vec3& way, bool& hit) const noexcept;
   void emit(const Scene& scene, const PlumeSource& source, double flow, double dt);
+  void leave(const Scene& scene, const Jet& jet, double time, DriftingPoint point,
+             const Seed& seed);
   void add(const DriftingPoint& point, const Seed& seed);
 
   Liquid liquid_;

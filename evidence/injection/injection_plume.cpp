@@ -8,9 +8,9 @@
 namespace artus {
 namespace {
 
-constexpr double kPictureTime = 1.0 / 30;   // s
-constexpr double kFollowed = 6;      // s
-constexpr double kOpening = 0.7e-3;    // m from the tip to the middle of its opening
+constexpr double kPictureTime = 1.0 / 30;  // s
+constexpr double kFollowed = 6;            // s
+constexpr double kOpening = 0.7e-3;        // m from the tip to the middle of its opening
 
 }  // namespace
 

@@ -98,6 +98,19 @@ TEST(LiquidPlume, ComesToRestAndRisesByStokesLaw) {
   EXPECT_GT(seen, 3);
 }
 
+TEST(LiquidPlume, TheJetIsThereOnlyWhileItFlows) {
+  const auto scene = filled_body();
+  const auto fast = [](const LiquidPlume& plume) {
+    return std::count_if(plume.points().begin(), plume.points().end(),
+                         [](const DriftingPoint& point) { return point.v_J.norm() > 0.05; });
+  };
+  EXPECT_GE(fast(after(*scene, water(), 1e-7, 10, 0)), 16);
+  EXPECT_EQ(fast(after(*scene, water(), 1e-7, 10, 60)), 0);
+  Liquid thick = water();
+  thick.viscosity = {10, 10, 0, 1};
+  EXPECT_LT(fast(after(*scene, thick, 1e-7, 10, 0)), 5) << "no jet goes far in honey";
+}
+
 TEST(LiquidPlume, GrainsSinkAndThickLiquidHoldsThem) {
   const auto scene = filled_body();
   Liquid suspension = water();
