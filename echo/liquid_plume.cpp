@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kMost = 800;
 constexpr double kBubbles = 400 / kCubicCentimetre;  // per m^3 drawn up and shaken. assumed
-constexpr double kClumps = 1500 / kCubicCentimetre;  // per m^3 of a suspension. assumed
+constexpr double kClumps = 600 / kCubicCentimetre;   // per m^3 of a suspension. assumed
 constexpr double kBubbleRadius = 25e-6;              // m, median. assumed
 constexpr double kBubbleSpread = 0.5;                // of the radius' logarithm. assumed
 constexpr double kBubbleEcho = 0.025 / 50e-6;        // per m of radius: 50 um as a needle's track
