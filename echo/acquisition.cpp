@@ -46,7 +46,8 @@ Acquisition::Acquisition(const Transducer& transducer, const ImageSettings& sett
       texture_(settings.seed, settings.texture),
       synthesis_(shape, scatter_, texture_, transducer, settings),
       coupling_(transducer),
-      spread_(transducer, settings.depth, settings.n_samples) {
+      spread_(transducer, settings.depth, settings.n_samples),
+      drifting_(transducer, shape) {
   const auto lines = static_cast<std::size_t>(n_lines_);
   lines_.resize(lines);
   tips_.resize(lines);
@@ -81,6 +82,7 @@ void Acquisition::run(const EchoBody& body, const EchoView& view, BlockWorkers& 
                       Frame& frame) {
   X_PJ_ = view.X_JP.inverse();
   place_tracks(body, view);
+  drifting_.place(body.drifting, view.X_JP);
   Pass pass{view, BeamTracer(*body.scene, body.regions, view.probe, settings_), std::nullopt,
             frame};
   if (view.needle) {
@@ -110,6 +112,7 @@ void Acquisition::listen(const Pass& pass, int l, LineScratch& scratch) {
   spread_.note(l, scratch.bent);
   const SoundedLine sounded{placed, scratch.central, scratch.bent};
   for (const Track& track : tracks_) track.echo.add_track(track.amplitude, sounded, echoes);
+  drifting_.add(sounded, echoes);
   if (pass.needle) add_needle(pass, sounded);
   coupling_.apply(l, shape_->sample_depth(), echoes);
   const bool touches = scratch.central.contact;
@@ -155,6 +158,10 @@ void Acquisition::add_reflectors(const EchoBody& body, int l, std::span<float> r
     add_point_echo(sample, reflector.amplitude * lateral * elevation * coupling_.gain(l, depth),
                    re);
   }
+}
+
+void Acquisition::colour_drifting(Frame& frame) const noexcept {
+  drifting_.colour(lines_, settings_.doppler_limit, frame);
 }
 
 std::optional<Vec3> Acquisition::find_shown_tip() const noexcept {

@@ -9,6 +9,7 @@
 #include "artus/echo/beam_shape.h"
 #include "artus/echo/beam_spread.h"
 #include "artus/echo/block_workers.h"
+#include "artus/echo/drifting_echo.h"
 #include "artus/echo/frame.h"
 #include "artus/echo/line_synthesis.h"
 #include "artus/echo/needle_echo.h"
@@ -26,6 +27,7 @@ struct EchoBody {
   std::vector<RegionAcoustics> regions;  ///< of the scene's joint, at the transducer's frequency
   std::vector<PointReflector> reflectors;
   std::vector<NeedleTrack> tracks;
+  std::vector<DriftingPoint> drifting;
 };
 
 /// From where: `probe` is the transducer, steered as one view of a compound image is.
@@ -61,6 +63,9 @@ class Acquisition {
   /// Adds the body's point reflectors to scanline `l` once it is spread sideways.
   void add_reflectors(const EchoBody& body, int l, std::span<float> re) const noexcept;
 
+  /// Colours the drifting points that move fast, see DriftingEcho. Requires: a frame of Doppler.
+  void colour_drifting(Frame& frame) const noexcept;
+
   /// Where the lines that see the needle's tip show it, frame P; empty when none does.
   [[nodiscard]] std::optional<Vec3> find_shown_tip() const noexcept;
 
@@ -84,6 +89,7 @@ class Acquisition {
   LineSynthesis synthesis_;
   ApertureCoupling coupling_;
   BeamSpread spread_;
+  DriftingEcho drifting_;
   Pose X_PJ_ = Pose::Identity();
   std::vector<PlacedLine> lines_;     // (n_lines)
   std::vector<LineScratch> scratch_;  // (blocks)

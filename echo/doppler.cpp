@@ -15,10 +15,14 @@ constexpr float kThreshold = 5.6e-3F;  // -45 dB: echoes above show in colour. a
 
 }  // namespace
 
+double wrap_velocity(double toward, double limit) noexcept {
+  return toward - 2 * limit * std::round(toward / (2 * limit));
+}
+
 void detect_motion(std::span<const float> re, std::span<const float> im,
                    std::span<const float> time_gain, double toward, double limit,
                    std::span<float> velocity) noexcept {
-  const double wrapped = toward - 2 * limit * std::round(toward / (2 * limit));
+  const double wrapped = wrap_velocity(toward, limit);
   const bool passes = std::abs(wrapped) > kWallFilter * limit;
   const auto shown = static_cast<float>(wrapped);
   for (std::size_t i = 0; i < velocity.size(); ++i) {

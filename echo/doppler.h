@@ -19,6 +19,9 @@ void detect_motion(std::span<const float> re, std::span<const float> im,
                    std::span<const float> time_gain, double toward, double limit,
                    std::span<float> velocity) noexcept;
 
+/// m/s as shown: velocities beyond `limit` wrap round.
+[[nodiscard]] double wrap_velocity(double toward, double limit) noexcept;
+
 /// Whether what moves at `speed` (m/s) may show in any direction, or is too slow for the wall
 /// filter.
 [[nodiscard]] bool may_show_motion(double speed, double limit) noexcept;

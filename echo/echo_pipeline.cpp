@@ -100,6 +100,7 @@ void EchoPipeline::render(const EchoBody& body, const Pose& X_JP,
     std::optional<Vec3> v_P;
     if (needle) v_P = X_JP.linear().transpose() * needle->v_JN;
     shaping_.find_motion(acquisition_, v_P, workers_, frame_);
+    acquisition_.colour_drifting(frame_);
   }
   const StageClock clock(times_.display);
   display_.show(workers_, frame_);

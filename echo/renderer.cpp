@@ -93,6 +93,15 @@ void Renderer::set_point_reflectors(std::vector<PointReflector> reflectors) {
   impl_->body.reflectors = std::move(reflectors);
 }
 
+void Renderer::set_drifting_points(std::span<const DriftingPoint> points) {
+  for (const DriftingPoint& point : points) {
+    ARTUS_REQUIRE(point.p_J.allFinite() && point.v_J.allFinite() &&
+                      std::isfinite(point.amplitude + point.tail + point.phase),
+                  "a drifting point is not finite");
+  }
+  impl_->body.drifting.assign(points.begin(), points.end());
+}
+
 void Renderer::set_needle_tracks(std::vector<NeedleTrack> tracks) {
   for (const NeedleTrack& track : tracks) {
     ARTUS_REQUIRE(

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "artus/echo/drifting_echo.h"
 #include "artus/echo/frame.h"
 #include "artus/echo/image_settings.h"
 #include "artus/echo/needle_view.h"
@@ -51,6 +52,9 @@ class Renderer {
 
   /// Tracks of withdrawn needles that later frames show.
   void set_needle_tracks(std::vector<NeedleTrack> tracks);
+
+  /// What drifts in liquid in the next frame and later ones.
+  void set_drifting_points(std::span<const DriftingPoint> points);
 
   /// Gain, range, time gain, smoothing and persistence of the next frame on. Requires: valid.
   /// Cost: some 10 us.

@@ -29,6 +29,8 @@ ImageCore::ImageCore(std::shared_ptr<const Scene> scene, const SessionParams& pa
       renderer_(scene, params.transducer, params.image),
       rest_(scene),
       fluid_(scene->shared_joint(), liquid_of(params), params.image_rate),
+      plume_(liquid_of(params)),
+      image_time_(1 / params.image_rate),
       images_to_change_(static_cast<std::uint64_t>(std::ceil(kTableTime * params.image_rate))) {
   needle_shape_.length = needle_length_of(params);
   if (!params.deform) return;
@@ -53,7 +55,28 @@ void ImageCore::advance(const FrameInput& input) {
     renderer_.set_filled_scene(filled ? filled : body);
   else if (tissue_)
     renderer_.set_scene(body);
+  let_drift(input, filled.get());
   filled_ = filled != nullptr;
+}
+
+void ImageCore::let_drift(const FrameInput& input, const Scene* filled) {
+  constexpr double kBevel = 0.7e-3;  // m from the tip to the middle of its opening
+  constexpr double kLongest = 0.5;   // s; images further apart are not of one course
+  if (filled == nullptr) {
+    if (filled_) plume_.clear();
+    if (filled_) renderer_.set_drifting_points({});
+    return;
+  }
+  const double since = 1e-9 * static_cast<double>(input.sample_time_ns - before_.sample_time_ns);
+  std::optional<PlumeSource> source;
+  if (input.has_needle != 0) {
+    const Pose X_JN = to_pose(input.X_JN);
+    const Vec3 axis = X_JN.linear().col(2);
+    source = {X_JN.translation() - kBevel * axis, axis, needle_shape_.bore, 0};
+    for (std::uint32_t k = 0; k < input.n_sites; ++k) source->given += input.sites[k].volume;
+  }
+  plume_.step(*filled, source, Vec3::UnitZ(), since > 0 && since < kLongest ? since : image_time_);
+  renderer_.set_drifting_points(plume_.points());
 }
 
 void ImageCore::follow(const ImageControls& controls) {

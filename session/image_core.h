@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "artus/echo/echo_pipeline.h"
+#include "artus/echo/liquid_plume.h"
 #include "artus/echo/renderer.h"
 #include "artus/session/fluid_core.h"
 #include "artus/session/session_core.h"
@@ -19,7 +20,8 @@ namespace artus {
 /// runs. Gain, range and time gain show in the next image. Depth, frequency and focus need new
 /// tables: these are made on a thread of their own while the images go on, and are taken over a
 /// fixed number of images later, never "when ready". Knobs that move on meanwhile are followed from
-/// there. What the syringe put into the body opens it in the picture: see FluidCore.
+/// there. What the syringe put into the body opens it in the picture, and what
+/// drifts in it is seen: see FluidCore and LiquidPlume.
 class ImageCore {
  public:
   /// Requires: valid params, a scene.
@@ -53,6 +55,7 @@ class ImageCore {
  private:
   void follow(const ImageControls& controls);
   [[nodiscard]] Vec3 velocity_of_needle(const FrameInput& input) const noexcept;
+  void let_drift(const FrameInput& input, const Scene* filled);
   void take_tables();
   void start_tables();
 
@@ -65,8 +68,10 @@ class ImageCore {
   std::string refusal_;
   std::shared_ptr<const Scene> rest_;
   FluidCore fluid_;
+  LiquidPlume plume_;
   bool filled_ = false;         // the last image had liquid in the body
   std::uint64_t advanced_ = 0;  // number of the image that the tissue is ready for
+  double image_time_;           // s
   std::uint64_t images_to_change_;
   std::uint64_t images_ = 0;                         // rendered so far
   std::uint64_t due_ = 0;                            // image that takes next_ over

@@ -18,6 +18,7 @@
 #include "artus/echo/image_io.h"
 #include "artus/echo/labels.h"
 #include "artus/echo/renderer.h"
+#include "artus/evidence/injection/injection_plume.h"
 #include "artus/evidence/medical/three_injections_analysis.h"
 #include "artus/soft/injected_body.h"
 
@@ -154,9 +155,11 @@ const InjectionRow* row_at(const InjectionRun& run, double share) {
 }
 
 cv::Mat draw(const std::shared_ptr<const Scene>& scene, const InjectionRun& run, const Pose& X_JP,
-             const InjectionPictureOptions& options) {
+             const InjectionPictureOptions& options, std::span<const DriftingPoint> drifting) {
   const NeedleView needle{run.X_JN, options.needle, Vec3::Zero()};
-  const Frame frame = render_bmode(scene, X_JP, needle, options.transducer, options.settings);
+  Renderer renderer(scene, options.transducer, options.settings);
+  renderer.set_drifting_points(drifting);
+  const Frame& frame = renderer.render(X_JP, needle);
   cv::Mat bmode;
   cv::cvtColor(annotated_image(frame, options.transducer), bmode, cv::COLOR_GRAY2BGR);
   const LabelImage labels =
@@ -235,13 +238,6 @@ std::pair<Pose, InjectionPictureOptions> view_of(const Scene& scene, const Injec
   return {X_JP, deep};
 }
 
-/// The row of a time, of rows in order of time.
-const InjectionRow& row_of(const InjectionRun& run, double time) {
-  const auto row = std::lower_bound(run.rows.begin(), run.rows.end(), time,
-                                    [](const InjectionRow& r, double t) { return r.time < t; });
-  return row == run.rows.end() ? run.rows.back() : *row;
-}
-
 }  // namespace
 
 Result<std::string> write_injection_video(const std::shared_ptr<const Scene>& scene,
@@ -255,6 +251,7 @@ Result<std::string> write_injection_video(const std::shared_ptr<const Scene>& sc
   if (first == run.rows.end()) return fail(ErrorCode::invalid, "nothing was injected", "the run");
   const auto last = std::find_if(run.rows.rbegin(), run.rows.rend(), injects);
   const auto [X_JP, deep] = view_of(*scene, run, options);
+  InjectionPlume plume(*scene, run, deep.needle.bore);
   std::optional<VideoFile> video;
   for (int k = 0; k < kFrames; ++k) {
     const double from = first->time - kAround;
@@ -262,8 +259,9 @@ Result<std::string> write_injection_video(const std::shared_ptr<const Scene>& sc
     const auto body = scene_of(*scene, run, places_at(*scene, run, row));
     Pose X_JN = run.X_JN;
     X_JN.translation() += (row.depth - run.depth) * X_JN.linear().col(2);
-    const Frame frame = render_bmode(body, X_JP, NeedleView{X_JN, deep.needle, Vec3::Zero()},
-                                     deep.transducer, deep.settings);
+    Renderer renderer(body, deep.transducer, deep.settings);
+    renderer.set_drifting_points(plume.at(*body, row.time));
+    const Frame& frame = renderer.render(X_JP, NeedleView{X_JN, deep.needle, Vec3::Zero()});
     cv::Mat picture = annotated_image(frame, deep.transducer);
     cv::putText(picture,
                 printed("%.1f s  %.2f ml  %.1f N  %.0f kPa", row.time - first->time,
@@ -290,6 +288,7 @@ Result<InjectionPictures> write_injection_pictures(const std::shared_ptr<const S
   InjectionPictures out;
   const auto [X_JP, deep] = view_of(*scene, run, options);
   std::vector<std::string> names{"injected"};
+  InjectionPlume plume(*scene, run, deep.needle.bore);
   std::vector<Injected> last;
   std::shared_ptr<const Scene> body = scene;
   for (const auto& [file, share] :
@@ -298,7 +297,8 @@ Result<InjectionPictures> write_injection_pictures(const std::shared_ptr<const S
     if (row == nullptr) continue;
     last = places_at(*scene, run, *row);
     body = scene_of(*scene, run, last);
-    ARTUS_TRY(write_image(draw(body, run, X_JP, deep), folder / file));
+    const auto drifting = plume.at(*body, row->time);
+    ARTUS_TRY(write_image(draw(body, run, X_JP, deep, drifting), folder / file));
     out.files.emplace_back(file);
   }
   for (const Injected& place : last) {

@@ -284,6 +284,12 @@ std::optional<RegionId> bursa_on(const Scene& scene, const Vec3& entry, const Ve
 
 }  // namespace
 
+const InjectionRow& row_of(const InjectionRun& run, double time) {
+  const auto row = std::lower_bound(run.rows.begin(), run.rows.end(), time,
+                                    [](const InjectionRow& r, double t) { return r.time < t; });
+  return row == run.rows.end() ? run.rows.back() : *row;
+}
+
 Result<InjectionRun> run_injection(const Scene& scene, const InjectionSpec& spec) {
   const auto device = find_device(spec.device);
   ARTUS_TRY(device);

@@ -86,6 +86,9 @@ struct InjectionRun {
 /// not above 0).
 [[nodiscard]] Result<InjectionRun> run_injection(const Scene& scene, const InjectionSpec& spec);
 
+/// The first row at `time` or later, else the last. Requires: a run with rows.
+[[nodiscard]] const InjectionRow& row_of(const InjectionRun& run, double time);
+
 /// A stretch of a line in one structure, m from its entry.
 struct LineLayer {
   double from = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/session/fluid_core.h"
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <vector>
@@ -173,6 +174,38 @@ TEST(FluidCore, IsInABodyThatGivesWayToTheProbeToo) {
   const auto empty = pressed_pictures(scene, 1, 0);
   EXPECT_EQ(filled.front(), empty.front());
   EXPECT_NE(filled.back(), empty.back());
+}
+
+/// Pixels in colour of the last of `flowing` images with 0.1 ml/s and `still` without.
+std::ptrdiff_t coloured_pixels(const std::shared_ptr<const Scene>& scene, std::uint64_t flowing,
+                               std::uint64_t still) {
+  SessionParams params = test::make_small_session();
+  params.transducer.n_lines = 128;
+  params.image.doppler = true;
+  ImageCore core(scene, params);
+  core.set_motion_wanted(true);
+  for (std::uint64_t i = 1; i <= flowing + still; ++i) {
+    FrameInput input;
+    input.controls = controls_of(params);
+    input.X_JP = to_plain(scene->joint().X_JP_default);
+    input.X_JN = to_plain(make_pose(Vec3(0, 0, 23e-3), Vec3(1, 0, 1), Vec3::UnitY()));
+    input.has_probe = 1;
+    input.has_needle = 1;
+    input.number = i;
+    input.sample_time_ns = static_cast<std::int64_t>(i) * 33'000'000;
+    input.sites[0] =
+        site_in(scene->joint(), "bursa", 23e-3, 3.3e-9 * static_cast<double>(std::min(i, flowing)));
+    input.n_sites = 1;
+    static_cast<void>(core.render(input));
+  }
+  const auto motion = core.motion();
+  return std::count_if(motion.begin(), motion.end(), [](std::uint8_t level) { return level != 0; });
+}
+
+TEST(FluidCore, TheJetIsAFlashOfColourWhileItFlowsAndNoLonger) {
+  const auto scene = make_soft_scene();
+  EXPECT_GT(coloured_pixels(scene, 40, 0), 5);
+  EXPECT_EQ(coloured_pixels(scene, 40, 45), 0);
 }
 
 }  // namespace
