@@ -118,6 +118,26 @@ std::vector<PictureView> picture_views(const std::string& axes, const std::strin
   return {{"from the front", left, up}, {"from the right", front, up}};
 }
 
+SurfaceMesh region_surface(const CompiledJoint& joint, RegionId region) {
+  SurfaceMesh mesh;
+  std::vector<std::uint32_t> index(joint.mesh.vertices.size(), UINT32_MAX);
+  for (const Interface& f : joint.mesh.interfaces) {
+    if (f.front != region && f.back != region) continue;
+    Triangle t{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      std::uint32_t& v = index[f.vertices[k]];
+      if (v == UINT32_MAX) {
+        v = static_cast<std::uint32_t>(mesh.vertices.size());
+        mesh.vertices.push_back(joint.mesh.vertices[f.vertices[k]]);
+      }
+      t[k] = v;
+    }
+    if (f.front == region) std::swap(t[1], t[2]);
+    mesh.triangles.push_back(t);
+  }
+  return mesh;
+}
+
 ColouredMesh coloured(const SurfaceMesh& mesh, const cv::Vec3b& colour) {
   ColouredMesh out;
   out.mesh.vertices = mesh.vertices;

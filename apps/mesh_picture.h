@@ -6,6 +6,7 @@
 
 #include <opencv2/core.hpp>
 
+#include "artus/anatomy/body/compiled_joint.h"
 #include "artus/anatomy/surfaces/surface_mesh.h"
 
 namespace artus {
@@ -31,6 +32,9 @@ inline const cv::Size kSmallPicture(300, 240);
 /// where it has no side). Letters of `axes` as in the joint file.
 [[nodiscard]] std::vector<PictureView> picture_views(const std::string& axes,
                                                      const std::string& side);
+
+/// The interfaces around one region, seen from outside; its own triangles alone, compact.
+[[nodiscard]] SurfaceMesh region_surface(const CompiledJoint& joint, RegionId region);
 
 /// One colour for all triangles of a surface. Triangles with indices out of range or corners that
 /// are not finite are left out.

@@ -140,11 +140,37 @@ Page make_what_page(const std::vector<OfferedTask>& tasks, const std::string& pe
              state,
          passed ? Tone::good : Tone::plain, about_task(task, language), nullptr});
   }
+  if (std::any_of(tasks.begin(), tasks.end(),
+                  [](const OfferedTask& task) { return task.tally.attempts > 0; }))
+    page.choices.push_back({said(language, Said::what_earlier), "", Tone::heading, {}, nullptr});
   page.refresh = [&tasks, &bodies](Page& shown) {
     if (shown.at >= tasks.size()) return;
     bodies.want(tasks[shown.at].scenario);
     shown.choices[shown.at].picture = bodies.picture(tasks[shown.at].scenario);
   };
+  return page;
+}
+
+Page make_earlier_page(const std::vector<EarlierAttempt>& attempts, Language language) {
+  Page page;
+  page.stage = "earlier";
+  page.title = said(language, Said::what_earlier);
+  page.may_back = true;
+  for (const auto& [record, title] : attempts) {
+    const Said how = record.passed  ? Said::end_passed
+                     : record.aided ? Said::end_aided
+                                    : Said::end_not_passed;
+    std::string when = record.started;
+    std::replace(when.begin(), when.end(), 'T', ' ');
+    page.choices.push_back(
+        {title,
+         when,
+         record.passed ? Tone::good : Tone::plain,
+         {{said(language, how)},
+          {fill(said(language, Said::end_score),
+                {number(language, record.score, 0), number(language, record.duration, 0)})}},
+         nullptr});
+  }
   return page;
 }
 
@@ -195,7 +221,7 @@ Page make_briefing_page(const Scenario& scenario, const std::set<std::string>& a
 
 Page make_end_page(const TrainOutcome& outcome, const std::string& next, Language language) {
   const Judgement& judgement = outcome.played.judgement;
-  const Feedback feedback = make_feedback(outcome.played.measures, judgement);
+  const Feedback& feedback = outcome.feedback;
   Page page;
   page.stage = "end";
   const bool all_held = std::all_of(judgement.marks.begin(), judgement.marks.end(),

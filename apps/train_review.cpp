@@ -112,7 +112,7 @@ Result<Review> make_review(const TrainTask& task, const TrainOutcome& outcome, L
       ticks.empty() ? 0 : static_cast<double>(ticks.front().input.tick) / review.params.haptic_rate;
   constexpr double kSeen =
       0.5;  // s into a fault, when there is something to see of it: the report's
-  for (const Fault& fault : make_feedback(played.measures, played.judgement).faults)
+  for (const Fault& fault : outcome.feedback.faults)
     review.faults.push_back({fault.time - begin + kSeen, fault.what, fault.cause, fault.mend});
   const TipSightFinder finder(review.params.transducer, review.params.image.depth,
                               review.params.needle_shape);

@@ -30,6 +30,8 @@ constexpr std::array<Words, kCount> kSaid{{
   {"new", "nouveau"},
   {"Time: {} s", "Temps : {} s"},
   {"Probe {}, needle {} G of {} mm", "Sonde {}, aiguille {} G de {} mm"},
+  {"Look at an earlier attempt", "Revoir un essai précédent"},
+  {"The attempt is being read ...", "Lecture de l'essai ..."},
   {"Bring the tip to the point {} mm deep{}", "Amener la pointe au point situé à {} mm de profondeur{}"},
   {", {} mm to the left of the picture's middle", ", {} mm à gauche du milieu de l'image"},
   {", {} mm to the right of the picture's middle", ", {} mm à droite du milieu de l'image"},

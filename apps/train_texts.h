@@ -25,6 +25,8 @@ enum class Said {
   what_new,
   what_time,
   what_instruments,
+  what_earlier,
+  busy_earlier,
   brief_target_point,
   brief_left,
   brief_right,

@@ -231,25 +231,30 @@ std::optional<Skill> weakest_skill(const PastAttempt& now, const FeedbackContext
   return weakest;
 }
 
-std::string task_of(Skill skill) {
+/// A skill's task: what to do, and the scenario for it.
+struct SkillTask {
+  const char* what;
+  const char* scenario;
+};
+SkillTask task_of(Skill skill) {
   switch (skill) {
     case Skill::view:
-      return "Follow the tip to a shallow point on the gel block (gel-find).";
+      return {"Follow the tip to a shallow point on the gel block (gel-find).", "gel-find"};
     case Skill::align:
-      return "Hold the needle in the plane on the gel block (gel-hold).";
+      return {"Hold the needle in the plane on the gel block (gel-hold).", "gel-hold"};
     case Skill::steer:
-      return "Touch the point at 20 mm on the gel block (gel-align).";
+      return {"Touch the point at 20 mm on the gel block (gel-align).", "gel-align"};
     case Skill::inject:
       break;
   }
-  return "The same task once more: draw back, give half a ml, look, then the rest.";
+  return {"The same task once more: draw back, give half a ml, look, then the rest.", ""};
 }
 
-std::string next_task(const Judgement& judgement, const std::optional<Skill>& weakest) {
-  if (judgement.with_aids) return "The same once more with the aids off: only that counts.";
+SkillTask next_task(const Judgement& judgement, const std::optional<Skill>& weakest) {
+  if (judgement.with_aids) return {"The same once more with the aids off: only that counts.", ""};
   if (weakest) return task_of(*weakest);
-  if (judgement.passed) return "Once more to make sure, then the next level.";
-  return "The same task once more.";
+  if (judgement.passed) return {"Once more to make sure, then the next level.", ""};
+  return {"The same task once more.", ""};
 }
 
 }  // namespace
@@ -306,7 +311,9 @@ Feedback make_feedback(const AttemptMeasures& measures, const Judgement& judgeme
   }
   std::stable_sort(out.faults.begin(), out.faults.end(),
                    [](const Fault& a, const Fault& b) { return a.weight > b.weight; });
-  out.next = next_task(judgement, weakest_skill(now, context));
+  const SkillTask next = next_task(judgement, weakest_skill(now, context));
+  out.next = next.what;
+  out.next_scenario = next.scenario;
   if (out.faults.size() > kMost) out.faults.resize(kMost);
   out.good = praise(measures);
   return out;

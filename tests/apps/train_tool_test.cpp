@@ -16,6 +16,7 @@
 #include "artus/apps/train_pages.h"
 #include "artus/apps/train_review.h"
 #include "artus/apps/train_texts.h"
+#include "artus/core/markup.h"
 #include "artus/core/text_file.h"
 #include "artus/core/units.h"
 #include "artus/training/records.h"
@@ -67,7 +68,13 @@ test::ProcessResult visit(const std::filesystem::path& folder, const std::vector
   return test::run_process({"xvfb-run", "-a", "sh", "-c", commands});
 }
 
-constexpr const char* kWholeSession =
+std::string many_times(int n, const std::string& step) {
+  std::string steps;
+  for (int i = 0; i < n; ++i) steps += step;
+  return steps;
+}
+
+const std::string kWholeSession =
     "stage who\nkey ENTER\n"
     "stage pseudonym\nkey ENTER\n"
     "stage what\nkey ENTER\n"
@@ -78,7 +85,13 @@ constexpr const char* kWholeSession =
     "stage review\nkey RIGHT\nkey F3\nkey U\nkey F6\nkey U\nkey ESCAPE\n"
     "stage end\nkey DOWN\nkey DOWN\nkey ENTER\n"
     "stage briefing\nkey ESCAPE\n"
-    "stage what\n";
+    "stage what\n" +
+    many_times(20, "key DOWN\n") +
+    "key ENTER\n"
+    "stage earlier\nkey ENTER\n"
+    "stage end\nkey ENTER\n"
+    "stage review\nkey ESCAPE\n"
+    "stage end\n";
 
 /// What was kept of an attempt.
 void expect_same_as_its_recording(const AttemptRecord& attempt) {
@@ -104,6 +117,31 @@ void expect_same_as_its_recording(const AttemptRecord& attempt) {
     with_value += metric.value ? 1 : 0;
   }
   EXPECT_GT(with_value, 30U);
+}
+
+/// Opened again it is told as it was when it was made.
+void expect_the_same_when_it_is_looked_at_again(TrainDesk desk, const AttemptRecord& attempt) {
+  const auto finished = desk.finished(attempt.person);
+  ASSERT_TRUE(finished) << finished.error().to_string();
+  ASSERT_EQ(finished->size(), 1U);
+  const auto scenario = find_scenario(attempt.scenario);
+  const auto scene = make_gel_scene(*scenario->gel);
+  ASSERT_TRUE(scene);
+  const auto again = read_attempt(desk, {attempt.person, *scenario, *scene, {}}, finished->front());
+  ASSERT_TRUE(again) << again.error().to_string();
+  EXPECT_TRUE(again->finished);
+  EXPECT_EQ(again->played.judgement.passed, attempt.passed);
+  EXPECT_EQ(again->played.judgement.score, attempt.score);
+  EXPECT_EQ(again->played.duration, attempt.duration);
+  const auto kept = read_bytes(std::filesystem::path(attempt.folder) / "attempt.json");
+  ASSERT_TRUE(kept);
+  const auto json = nlohmann::json::parse(*kept);
+  EXPECT_EQ(to_json(again->played.measures.metrics), json["metrics"]);
+  const auto page = read_bytes(again->report);
+  ASSERT_TRUE(page);
+  EXPECT_NE(page->find(escape_markup(again->feedback.next)), std::string::npos);
+  std::filesystem::remove(std::filesystem::path(attempt.folder) / "session.rec");
+  EXPECT_TRUE(desk.finished(attempt.person)->empty()) << "nothing is offered that is not there";
 }
 
 TEST_F(Train, SomeoneNewComesFromTheFirstPageToTheReviewAndTheNextTaskByKeysAndWheel) {
@@ -137,6 +175,8 @@ TEST_F(Train, SomeoneNewComesFromTheFirstPageToTheReviewAndTheNextTaskByKeysAndW
   EXPECT_TRUE(std::filesystem::exists(kept / "report.html"));
   EXPECT_TRUE(std::filesystem::exists(kept / "scenario.toml"));
   expect_same_as_its_recording(attempt);
+  expect_the_same_when_it_is_looked_at_again(
+      *TrainDesk::open(folder_ / "whole" / "records.db", folder_ / "whole" / "attempts"), attempt);
 }
 
 TEST_F(Train, WhatCannotBeIsRefusedBeforeAWindowIsOpened) {

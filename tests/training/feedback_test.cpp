@@ -212,7 +212,10 @@ TEST(Feedback, TheNextTaskIsOfTheWeakestSkillAndOldPracticeFades) {
   const AttemptMeasures clean = hands.measure();
   const Judgement passed{true, false, 100, {}};
   const auto next = [&](std::vector<PastAttempt> before) {
-    return make_feedback(clean, passed, {0, std::move(before)}).next;
+    const Feedback told = make_feedback(clean, passed, {0, std::move(before)});
+    EXPECT_EQ(told.next.find('(') == std::string::npos, told.next_scenario.empty());
+    EXPECT_THAT(told.next, HasSubstr(told.next_scenario));
+    return told.next;
   };
   EXPECT_THAT(next({}), HasSubstr("next level"));
   const PastAttempt bone{1, false, {"bone"}};
@@ -261,13 +264,16 @@ TEST_F(FeedbackRecords, FinishedAttemptsWithoutAidsCountByTheirAge) {
     ASSERT_TRUE(records->finish(a, drift, {}));
     a.ended.clear();
   }
-  a.id = "unfinished";
   a.aided = false;
-  ASSERT_TRUE(records->begin(a, "text"));
-  std::tm now{};
-  now.tm_year = 126;
-  now.tm_mday = 15;  // two weeks later
-  const auto before = read_past_attempts(*records, "p", timegm(&now));
+  for (const char* id : {"unfinished", "this one", "later"}) {
+    a.id = id;
+    a.started = a.id == "unfinished" ? "2026-01-02T00:00:00Z" : "2026-01-15T00:00:00Z";
+    ASSERT_TRUE(records->begin(a, "text"));
+    if (a.id != "later") continue;
+    ASSERT_TRUE(records->finish(a, drift, {}));
+  }
+  a.id = "this one";
+  const auto before = read_past_attempts(*records, a);
   ASSERT_TRUE(before);
   ASSERT_EQ(before->size(), 1U);
   EXPECT_NEAR(before->front().weeks, 2, 1e-9);
