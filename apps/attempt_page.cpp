@@ -81,7 +81,8 @@ void add_faults(HtmlPage& page, const Scenario& scenario, const Feedback& feedba
     if (!attempt.measures.probe.empty() && !attempt.measures.needle.empty())
       page.clip(clips.around(fault.time),
                 "half as fast as it was: the picture, and the joint cut open at its plane with the "
-                "needle (blue), its tip (orange) and the target (green)");
+                "needle (blue), its tip (orange), the target (green)" +
+                    std::string(scenario.avoid.empty() ? "" : " and what is to be spared (red)"));
     page.close_card();
   }
 }
@@ -147,9 +148,13 @@ void add_numbers(HtmlPage& page, const std::vector<Metric>& metrics) {
     if (m.value)
       rows.push_back(
           {m.name, m.role, fixed_number(*m.value, 3), m.unit, m.definition, m.rule.filter});
-  page.table(
-      {{"metric", ""}, {"of", ""}, {"value", ""}, {"unit", ""}, {"definition", ""}, {"filter", ""}},
-      rows);
+  page.table({{"metric", ""},
+              {"of", ""},
+              {"value", ""},
+              {"unit", ""},
+              {"definition", "", true},
+              {"filter", "", true}},
+             rows);
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ void add_overview(HtmlPage& page, const JointFile& file, const CompiledJoint& jo
   for (RegionId r = kFirstRegion + 1; r < joint.regions.size(); ++r)
     if (joint.tissue_of(r).name != "skin")
       meshes.push_back(coloured(region_surface(joint, r), colour_of(joint, r)));
-  for (const PictureView& view : picture_views(file.axes, file.side))
+  for (const MeshView& view : picture_views(file.axes, file.side))
     page.picture(draw_meshes(meshes, view, kLargePicture), view.name);
 }
 
@@ -119,7 +119,7 @@ void add_structures(HtmlPage& page, const JointFile& file, const CompileOutcome&
       "Red where another structure cut something off, where the region of interest ends, or where "
       "a "
       "repair had to make a surface; elsewhere give the structure a smaller facet_distance.");
-  const PictureView view = picture_views(file.axes, file.side).front();
+  const MeshView view = picture_views(file.axes, file.side).front();
   for (std::size_t i = 0; i < file.structures.size(); ++i) {
     const Structure& s = file.structures[i];
     const StructureReport& report = outcome.report.structures[i + 1];  // behind the filler

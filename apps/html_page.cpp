@@ -15,7 +15,7 @@ namespace {
 constexpr const char* kStyle = R"(body{font:15px/1.45 sans-serif;margin:2em auto;max-width:75em;
 padding:0 1em;color:#222}h1{font-size:1.6em}h2{font-size:1.25em;margin-top:2em;border-bottom:1px
 solid #ccc}table{border-collapse:collapse;font-size:.9em}th,td{padding:.25em .7em;text-align:right;
-border-bottom:1px solid #e3e3e3}th:first-child,td:first-child{text-align:left}tr:hover
+border-bottom:1px solid #e3e3e3}th:first-child,td:first-child{text-align:left;white-space:nowrap}tr:hover
 td{background:#f4f8fc}dl{display:grid;grid-template-columns:max-content auto;gap:.2em 1em;
 font-size:.9em}dt{font-weight:bold}dd{margin:0}figure{display:inline-block;margin:.4em}figcaption{
 font-size:.8em;color:#555}img{border:1px solid #ddd;max-width:100%}.card{border:1px solid #ddd;
@@ -24,10 +24,12 @@ display:inline-block;vertical-align:top;max-width:68em}.card h3{margin:.4em 0}p.
 .tag{display:inline-block;min-width:4.5em;padding:0 .5em;margin-right:.6em;border-radius:3px;
 text-align:center;color:#fff;font-size:.85em}.refused,.failed{background:#b3261e}.look{background:#b26a00}
 .mended,.passed,.do{background:#3a7d44}.note{background:#777}.drawing{width:100%;max-width:640px;margin:.4em 0}
-img{height:auto}.rows{overflow-x:auto}.clip div{display:grid}.clip img{grid-area:1/1;opacity:0;
+img{height:auto}.rows{overflow-x:auto}.words{text-align:left;color:#555}.clip div{display:grid}.clip img{grid-area:1/1;opacity:0;
 animation:turn 4s step-end infinite}@keyframes turn{0%{opacity:1}12.5%,100%{opacity:0}}
 @media(max-width:40em){body{margin:.6em auto;padding:0 .6em}h1{font-size:1.3em}.card{display:block;
-padding:.2em .6em .5em;margin:.4em 0}figure{margin:.4em 0}th,td{padding:.2em .4em}dl{display:block}}
+padding:.2em .6em .5em;margin:.4em 0}figure{margin:.4em 0}th,td{padding:.2em .4em}dl{display:block}
+.told thead{display:none}.told tr{display:flex;flex-wrap:wrap;border-bottom:1px solid #e3e3e3}.told
+td{border:0}.told .words{flex-basis:100%}}
 @media(prefers-reduced-motion:reduce){.clip div{grid-template-columns:1fr 1fr}.clip img{grid-area:auto;
 opacity:1;animation:none}.clip img:nth-child(even){display:none}}
 @media print{body{font-size:9.5pt;max-width:none;margin:0;padding:0}.rows{overflow:visible}h2,h3{
@@ -106,12 +108,17 @@ void HtmlPage::close_card() {
 
 void HtmlPage::table(const std::vector<Column>& columns,
                      const std::vector<std::vector<std::string>>& rows) {
-  body_ += "<div class=\"rows\"><table><thead><tr>";
+  const bool told =
+      std::any_of(columns.begin(), columns.end(), [](const Column& c) { return c.words; });
+  body_ +=
+      std::string("<div class=\"rows\"><table") + (told ? " class=\"told\"" : "") + "><thead><tr>";
   for (const Column& c : columns) body_ += "<th>" + escape_markup(c.name) + "</th>";
   body_ += "</tr></thead><tbody>\n";
   for (const auto& row : rows) {
     body_ += "<tr>";
-    for (const std::string& cell : row) body_ += "<td>" + escape_markup(cell) + "</td>";
+    for (std::size_t i = 0; i < row.size(); ++i)
+      body_ +=
+          (columns[i].words ? "<td class=\"words\">" : "<td>") + escape_markup(row[i]) + "</td>";
     body_ += "</tr>\n";
   }
   body_ += "</tbody></table></div>\n<dl>\n";

@@ -32,6 +32,7 @@ class HtmlPage {
   struct Column {
     std::string name;
     std::string meaning;
+    bool words = false;  ///< its cells are sentences: on a phone they stand on lines of their own
   };
   void table(const std::vector<Column>& columns, const std::vector<std::vector<std::string>>& rows);
 

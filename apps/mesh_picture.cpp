@@ -26,7 +26,7 @@ Vec3 direction_of(const std::string& axes, char letter, char opposite) {
 /// Maps the joint's frame to pixels.
 class Projection {
  public:
-  Projection(std::span<const ColouredMesh> meshes, const PictureView& view, cv::Size size)
+  Projection(std::span<const ColouredMesh> meshes, const MeshView& view, cv::Size size)
       : view_(view), toward_(view.right.cross(view.up)) {
     Eigen::AlignedBox2d box;
     for (const ColouredMesh& m : meshes)
@@ -51,7 +51,7 @@ class Projection {
   [[nodiscard]] Eigen::Vector2d flat(const Vec3& p) const {
     return {p.dot(view_.right), p.dot(view_.up)};
   }
-  PictureView view_;
+  MeshView view_;
   Vec3 toward_;
   Eigen::Vector2d centre_, middle_;
   double scale_ = 1;
@@ -110,7 +110,7 @@ void draw_scale(cv::Mat& image, double pixels_per_m) {
 
 }  // namespace
 
-std::vector<PictureView> picture_views(const std::string& axes, const std::string& side) {
+std::vector<MeshView> picture_views(const std::string& axes, const std::string& side) {
   const Vec3 left = direction_of(axes, 'L', 'R');
   const Vec3 front = direction_of(axes, 'A', 'P');
   const Vec3 up = direction_of(axes, 'S', 'I');
@@ -150,7 +150,7 @@ ColouredMesh coloured(const SurfaceMesh& mesh, const cv::Vec3b& colour) {
   return out;
 }
 
-cv::Mat draw_meshes(std::span<const ColouredMesh> meshes, const PictureView& view, cv::Size size,
+cv::Mat draw_meshes(std::span<const ColouredMesh> meshes, const MeshView& view, cv::Size size,
                     std::span<const Vec3> marks) {
   const Projection project(meshes, view, size);
   Canvas canvas(size);

@@ -101,8 +101,9 @@ MomentView::MomentView(const Scenario& scenario, const Scene& scene, const Sessi
   const CompiledJoint& joint = scene.joint();
   for (RegionId r = kFirstRegion; r < joint.regions.size(); ++r) {
     const std::string& name = joint.regions[r].name;
-    const bool spared = std::any_of(scenario.avoid.begin(), scenario.avoid.end(),
-                                    [&](const ScenarioAvoid& zone) { return zone.structure == name; });
+    const bool spared =
+        std::any_of(scenario.avoid.begin(), scenario.avoid.end(),
+                    [&](const ScenarioAvoid& zone) { return zone.structure == name; });
     const bool sought = !name.empty() && name == scenario.target.structure;
     const Tissue& tissue = joint.tissue_of(r);
     if (!spared && !sought && !tissue.haptic.hard) continue;
@@ -153,18 +154,16 @@ cv::Mat MomentView::draw(const Pose& X_JP, const Pose& X_JN, cv::Size size) cons
   if (around.contains(tip)) {
     constexpr double kStep = 1e-3;  // m
     double length = 0;
-    while (length + kStep <= length_ &&
-           around.contains(X_PN * Vec3(0, 0, -(length + kStep))))
+    while (length + kStep <= length_ && around.contains(X_PN * Vec3(0, 0, -(length + kStep))))
       length += kStep;
-    if (length > 0)
-      meshes.push_back(tube(X_PN * Vec3(0, 0, -length), tip, kShaft, kNeedleColour));
+    if (length > 0) meshes.push_back(tube(X_PN * Vec3(0, 0, -length), tip, kShaft, kNeedleColour));
     meshes.push_back(ball(tip, kSphere, kTipColour));
     const Vec3 shown(tip.x(), 0, tip.z());
     if (std::abs(tip.y()) > kSphere) meshes.push_back(tube(tip, shown, kThin, kTipColour));
   }
   constexpr double kTurned = 40 * kDegree;
   constexpr double kRaised = 25 * kDegree;
-  PictureView view;
+  MeshView view;
   view.right = Vec3(std::cos(kTurned), -std::sin(kTurned), 0);
   const Vec3 toward(std::cos(kRaised) * std::sin(kTurned), std::cos(kRaised) * std::cos(kTurned),
                     -std::sin(kRaised));

@@ -109,10 +109,30 @@ Result<void> train(TrainCommandOptions options) {
   return run_training(options.wishes, room, std::move(pages), std::move(*scenarios), remote);
 }
 
+/// What holds where no flag says otherwise.
+TrainCommandOptions first_options() {
+  TrainCommandOptions options;
+  options.session.input = "hand";
+  options.session.device = "virtuose_6d_desktop";
+  return options;
+}
+
 }  // namespace
 
+ExitCode start_training(const WindowOptions& window, const std::string& language) {
+  TrainCommandOptions options = first_options();
+  options.window.width = window.width;
+  options.window.height = window.height;
+  options.window.font_scale = window.font_scale;
+  options.window.left_handed = window.left_handed;
+  options.window.keys = window.keys;
+  options.language = language;
+  const auto trained = train(options);
+  return trained ? ExitCode::ok : report_error(trained.error(), false);
+}
+
 void add_train_command(Command& app, ExitCode& code) {
-  auto options = std::make_shared<TrainCommandOptions>();
+  auto options = std::make_shared<TrainCommandOptions>(first_options());
   Command* command = add_command(
       app, "train", "The trainer: who, what, briefing, attempt, verdict and review in one window",
       "Records and attempts are kept for each user, or where the flags say.\n"
@@ -121,8 +141,6 @@ void add_train_command(Command& app, ExitCode& code) {
       "  artus train --records school.db --cohort 2026 --input shared-memory --device touch\n"
       "  artus train gel-find --person grey-heron-42\n"
       "  artus train mine.toml --igtl 18944 --input igtl");
-  options->session.input = "hand";
-  options->session.device = "virtuose_6d_desktop";
   command->add_option("scenario", options->wishes.scenario,
                       "a file, or the name of a bundled one; else the window asks");
   command->add_option("--person", options->wishes.person, "who trains; else the window asks");

@@ -155,7 +155,7 @@ class TrainFlow {
   /// Title of a scenario by its name; the name of one that is not offered.
   [[nodiscard]] std::string title_of(const std::string& name) const {
     for (const Scenario& scenario : scenarios_)
-      if (scenario.name == name) return scenario.title;
+      if (scenario.name == name) return title_words(language_, scenario);
     return name;
   }
 
@@ -293,7 +293,8 @@ class TrainFlow {
   Result<Stage> end() {
     const auto next = next_task();
     ARTUS_TRY(next);
-    const auto answer = offer(make_end_page(outcome_, scenarios_[*next].title, language_));
+    const auto answer =
+        offer(make_end_page(outcome_, title_words(language_, scenarios_[*next]), language_));
     ARTUS_TRY(answer);
     if (answer->kind == PageAnswer::Kind::done) return take_remote();
     if (answer->kind != PageAnswer::Kind::chosen) return Stage::leave;

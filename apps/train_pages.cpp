@@ -6,9 +6,9 @@
 #include <cmath>
 #include <utility>
 
+#include "artus/apps/feedback_words.h"
 #include "artus/apps/train_lesson.h"
 #include "artus/core/units.h"
-#include "artus/training/feedback.h"
 
 namespace artus {
 namespace {
@@ -135,7 +135,7 @@ Page make_what_page(const std::vector<OfferedTask>& tasks, const std::string& pe
                               : task.tally.attempts > 0 ? number(language, task.tally.best, 0)
                                                         : said(language, Said::what_new);
     page.choices.push_back(
-        {task.scenario.title,
+        {title_words(language, task.scenario),
          fill(said(language, Said::level_is), {std::to_string(task.scenario.level)}) + "   " +
              state,
          passed ? Tone::good : Tone::plain, about_task(task, language), nullptr});
@@ -188,7 +188,7 @@ Page make_briefing_page(const Scenario& scenario, const std::set<std::string>& a
                         const KeyMap& keys, Language language) {
   Page page;
   page.stage = "briefing";
-  page.title = scenario.title;
+  page.title = title_words(language, scenario);
   page.may_back = true;
   page.lines = {{goal_words(scenario, language)}};
   const Vec3 entry_P = scenario.X_JP.inverse() * scenario.entry.centre;
@@ -222,6 +222,9 @@ Page make_briefing_page(const Scenario& scenario, const std::set<std::string>& a
 Page make_end_page(const TrainOutcome& outcome, const std::string& next, Language language) {
   const Judgement& judgement = outcome.played.judgement;
   const Feedback& feedback = outcome.feedback;
+  const auto in_words = [language](const std::string& line) {
+    return feedback_words(language, line);
+  };
   Page page;
   page.stage = "end";
   const bool all_held = std::all_of(judgement.marks.begin(), judgement.marks.end(),
@@ -235,15 +238,15 @@ Page make_end_page(const TrainOutcome& outcome, const std::string& next, Languag
   std::vector<PageLine> about;
   if (!feedback.faults.empty()) about.push_back({said(language, Said::end_faults), Tone::heading});
   for (const Fault& fault : feedback.faults) {
-    about.push_back(
-        {fill(said(language, Said::colon), {number(language, fault.time, 1) + " s", fault.what}),
-         Tone::bad});
-    about.push_back({fill(text(language, Text::review_cause), {fault.cause})});
-    about.push_back({fill(text(language, Text::review_do), {fault.mend}), Tone::good});
+    about.push_back({fill(said(language, Said::colon),
+                          {number(language, fault.time, 1) + " s", in_words(fault.what)}),
+                     Tone::bad});
+    about.push_back({fill(text(language, Text::review_cause), {in_words(fault.cause)})});
+    about.push_back({fill(text(language, Text::review_do), {in_words(fault.mend)}), Tone::good});
   }
   if (!feedback.good.empty())
-    about.push_back({fill(said(language, Said::end_well), {feedback.good}), Tone::good});
-  about.push_back({feedback.next});
+    about.push_back({fill(said(language, Said::end_well), {in_words(feedback.good)}), Tone::good});
+  about.push_back({in_words(feedback.next)});
   for (const Said choice : {Said::end_review, Said::end_again, Said::end_next, Said::end_other,
                             Said::end_who, Said::end_leave})
     page.choices.push_back(

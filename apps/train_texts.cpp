@@ -189,6 +189,11 @@ std::string mark_words(Language language, const Mark& mark) {
               {metric_words(language, mark.metric), bound_words(language, mark)});
 }
 
+const std::string& title_words(Language language, const Scenario& scenario) {
+  const bool french = language == Language::french && !scenario.title_fr.empty();
+  return french ? scenario.title_fr : scenario.title;
+}
+
 std::string step_words(Language language, const std::string& step) {
   for (const StepWords& known : kStepWords)
     if (step == known.step) return said(language, known.words);

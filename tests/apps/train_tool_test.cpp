@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "artus/apps/feedback_words.h"
 #include "artus/apps/train_desk.h"
 #include "artus/apps/train_lesson.h"
 #include "artus/apps/train_pages.h"
@@ -270,6 +271,9 @@ TEST(TrainTask, EveryBundledScenarioIsSaidInWordsInBothLanguages) {
   for (const std::string_view text : bundled_scenario_texts()) {
     const auto scenario = parse_scenario(text, "bundled");
     ASSERT_TRUE(scenario);
+    EXPECT_FALSE(scenario->title_fr.empty()) << scenario->name;
+    EXPECT_EQ(title_words(Language::english, *scenario), scenario->title);
+    EXPECT_EQ(title_words(Language::french, *scenario), scenario->title_fr);
     for (const Language language : {Language::english, Language::french}) {
       EXPECT_FALSE(goal_words(*scenario, language).empty());
       for (const Mark& mark : scenario->pass)
@@ -287,6 +291,49 @@ TEST(TrainTask, MarksAreSaidWithTheirBounds) {
   EXPECT_EQ(mark_words(Language::english, *mark), "tip from the target, mm: at most 1.5");
   EXPECT_EQ(mark_words(Language::french, *mark), "pointe à la cible, mm : au plus 1,5");
   EXPECT_EQ(bound_words(Language::english, *parse_mark("avoid_fatal", "== 0")), "exactly 0");
+}
+
+TEST(TrainTask, WhatFeedbackSaysIsSaidInFrenchWithItsNumbersAndStructures) {
+  const auto french = [](const char* english) {
+    return feedback_words(Language::french, english);
+  };
+  EXPECT_EQ(french("advanced without seeing the tip: 2.5 mm; asked for: below 1.0, and onto bone"),
+            "avancé sans voir la pointe : 2,5 mm ; demandé : moins de 1,0, et jusqu'à l'os");
+  EXPECT_EQ(french("touches of bone: 2.0 ; asked for: below 1.0"),
+            "contacts avec l'os : 2,0  ; demandé : moins de 1,0");
+  EXPECT_EQ(french("the tip was in the shadow of humerus"),
+            "la pointe était dans l'ombre de cette structure : humérus");
+  EXPECT_EQ(french("1.5 ml with the tip in bursa, and no pause to look after the first of it"),
+            "1,5 ml, pointe dans : bourse, sans pause pour regarder après les premières gouttes");
+  EXPECT_EQ(french("the needle's angle to the probe's face: 62.1 degrees; asked for: below 50.0"),
+            "angle de l'aiguille à la face de la sonde : 62,1 degrés ; demandé : moins de 50,0");
+  EXPECT_EQ(french("a sentence that nobody said"), "a sentence that nobody said");
+  EXPECT_EQ(feedback_words(Language::english, "passes"), "passes");
+}
+
+/// No line of what novices are told stays English.
+TEST(TrainTask, WhatNovicesAreToldIsThereInFrench) {
+  std::size_t lines = 0;
+  for (const char* name : {"gel-find", "gel-align", "gel-steep"}) {
+    const auto scenario = find_scenario(name);
+    const auto scene = make_gel_scene(*scenario->gel);
+    ASSERT_TRUE(scene);
+    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+      PlayOptions options;
+      options.seed = seed;
+      const auto played = play(*scenario, *scene, novice_skill(), options);
+      ASSERT_TRUE(played);
+      const Feedback told = make_feedback(played->measures, played->judgement);
+      std::vector<std::string> all{told.next};
+      if (!told.good.empty()) all.push_back(told.good);
+      for (const Fault& fault : told.faults)
+        for (const std::string& line : {fault.what, fault.cause, fault.mend}) all.push_back(line);
+      for (const std::string& line : all)
+        EXPECT_NE(feedback_words(Language::french, line), line) << name << " " << seed;
+      lines += all.size();
+    }
+  }
+  EXPECT_GT(lines, 40U);
 }
 
 TEST(TrainTask, EveryTextOfItsPagesIsThereInBothLanguages) {
