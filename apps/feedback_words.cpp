@@ -97,8 +97,7 @@ std::optional<std::vector<std::string>> holes_of(std::string_view pattern, std::
   const std::string_view before = pattern.substr(0, hole);
   if (text.substr(0, before.size()) != before) return std::nullopt;
   text.remove_prefix(before.size());
-  if (hole == std::string_view::npos)
-    return text.empty() ? std::optional(holes) : std::nullopt;
+  if (hole == std::string_view::npos) return text.empty() ? std::optional(holes) : std::nullopt;
   const std::string_view rest = pattern.substr(hole + 2);
   const std::string_view next = rest.substr(0, rest.find("{}"));
   for (std::size_t end = 0; end <= text.size(); ++end) {

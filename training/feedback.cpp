@@ -54,6 +54,29 @@ double misplaced_ml(std::span<const Metric> metrics) {
   return value_of(metrics, "given_ml") * (1 - *hit->value);
 }
 
+/// mm advanced without seeing a tip that the picture could have shown: who enters beside it as
+/// asked cannot see the tip before its edge.
+double unseen_mm(std::span<const Metric> metrics) {
+  return std::max(0.0, value_of(metrics, kUnseen.metric) - value_of(metrics, "unseen_entry_mm"));
+}
+
+/// The run that most of it was in. The way to the picture's edge, which the first run begins with,
+/// is none of it.
+const AttemptEvent* worst_unseen(const AttemptMeasures& m) {
+  const AttemptEvent* worst = nullptr;
+  double most = 0;
+  double entry = value_of(m.metrics, "unseen_entry_mm");
+  for (const AttemptEvent& e : m.events) {
+    if (e.kind != "unseen") continue;
+    if (e.value - entry > most) {
+      worst = &e;
+      most = e.value - entry;
+    }
+    entry = 0;
+  }
+  return worst;
+}
+
 bool unaspirated(std::span<const Metric> metrics) {
   return value_of(metrics, "given_ml") > kGiven && value_of(metrics, kUnaspirated.metric) == 0;
 }
@@ -90,8 +113,8 @@ void add_needle_faults(const AttemptMeasures& m, std::vector<Fault>& out) {
                    beside("into what must be spared", e->value, "mm", 0), e->text,
                    "Stop when you lose the tip. Tilt the probe until it is back, then advance."});
   const AttemptEvent* bone = worst_event(m, "bone");
-  const double unseen = value_of(m, kUnseen.metric);
-  if (const AttemptEvent* e = worst_event(m, "unseen")) {
+  const double unseen = unseen_mm(m.metrics);
+  if (const AttemptEvent* e = worst_unseen(m); e != nullptr && unseen > kUnseen.band) {
     const bool on_bone = bone != nullptr && bone->time >= e->time && bone->time < e->time + 3;
     Fault fault{"unseen",
                 e->time,
@@ -272,10 +295,11 @@ PastAttempt past_attempt(double weeks, std::span<const Metric> metrics) {
   out.weeks = weeks;
   out.injected = value_of(metrics, "given_ml") > kGiven;
   for (const auto& [kind, name] :
-       {std::pair{&kOffTarget, "off_target"}, std::pair{&kUnseen, "unseen"},
-        std::pair{&kDrift, "drift"}, std::pair{&kPasses, "passes"}, std::pair{&kAngle, "angle"},
+       {std::pair{&kOffTarget, "off_target"}, std::pair{&kDrift, "drift"},
+        std::pair{&kPasses, "passes"}, std::pair{&kAngle, "angle"},
         std::pair{&kPressure, "pressure"}, std::pair{&kFast, "fast"}, std::pair{&kIdle, "idle"}})
     if (value_of(metrics, kind->metric) > kind->band) out.kinds.emplace_back(name);
+  if (unseen_mm(metrics) > kUnseen.band) out.kinds.emplace_back("unseen");
   if (value_of(metrics, kBone.metric) >= kBone.band) out.kinds.emplace_back("bone");
   if (misplaced_ml(metrics) > kMisplaced.band) out.kinds.emplace_back("misplaced");
   if (unaspirated(metrics)) out.kinds.emplace_back("unaspirated");

@@ -181,6 +181,24 @@ TEST(Feedback, ATipBesideThePlaneAndASteepNeedleAreToldApart) {
   EXPECT_THAT(unseen->mend, HasSubstr("Enter further"));
 }
 
+TEST(Feedback, TheWayToThePicturesEdgeIsNobodysFault) {
+  Hands flat(15);  // comes in 30 mm beside the probe's middle, whose picture is 20 mm wide there
+  flat.go(4, 15);
+  const AttemptMeasures m = flat.measure();
+  const Metric* unseen = find_metric(m.metrics, "unseen_mm");
+  const Metric* entry = find_metric(m.metrics, "unseen_entry_mm");
+  ASSERT_TRUE(unseen != nullptr && entry != nullptr && unseen->value && entry->value);
+  EXPECT_GT(*entry->value, 10);
+  EXPECT_NEAR(*unseen->value, *entry->value, 1);
+  EXPECT_EQ(fault_of(make_feedback(m, {}), "unseen"), nullptr);
+  EXPECT_THAT(past_attempt(0, m.metrics).kinds, Not(testing::Contains("unseen")));
+  Hands beside(15);
+  beside.go(1, 3);  // never in the picture
+  const AttemptMeasures never = beside.measure();
+  EXPECT_EQ(find_metric(never.metrics, "unseen_entry_mm")->value, 0);
+  EXPECT_NE(fault_of(make_feedback(never, {}), "unseen"), nullptr);
+}
+
 TEST(Feedback, AFaultOfTheAttemptBeforeWeighsHalfAsMuchAgain) {
   Hands hands;
   hands.go(2, 8);
