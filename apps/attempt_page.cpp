@@ -164,8 +164,8 @@ Result<void> write_attempt_page(const Scenario& scenario, const std::shared_ptr<
                                 const std::filesystem::path& file) {
   HtmlPage page(scenario.title + ": one attempt");
   page.point(attempt.judgement.passed ? "passed" : "failed",
-             feedback.verdict + " Score " + fixed_number(attempt.judgement.score, 0) + " of 100, " +
-                 fixed_number(attempt.duration, 0) + " s.");
+             feedback.verdict + " Score " + std::to_string(whole_points(attempt.judgement.score)) +
+                 " of 100, " + fixed_number(attempt.duration, 0) + " s.");
   if (!feedback.good.empty()) page.paragraph("Well done: " + feedback.good);
   page.paragraph("Next: " + feedback.next);
   add_faults(page, scenario, feedback, attempt, scene);

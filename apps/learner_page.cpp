@@ -10,6 +10,7 @@
 #include "artus/apps/html_page.h"
 #include "artus/core/text_cursor.h"
 #include "artus/core/text_file.h"
+#include "artus/training/judgement.h"
 #include "artus/training/learning_curve.h"
 #include "artus/training/learning_fit.h"
 #include "artus/training/metrics/sight_course.h"
@@ -109,8 +110,8 @@ void add_scenario(HtmlPage& page, const std::string& name,
   for (const AttemptRecord& a : attempts)
     rows.push_back({to_the_minute(a.started),
                     a.ended.empty() ? "unfinished" : (a.passed ? "passed" : "failed"),
-                    a.ended.empty() ? "-" : fixed_number(a.score, 0), a.aided ? "yes" : "no",
-                    a.id});
+                    a.ended.empty() ? "-" : std::to_string(whole_points(a.score)),
+                    a.aided ? "yes" : "no", a.id});
   page.table({{"when", "UTC"},
               {"", ""},
               {"score", "of 100"},

@@ -16,7 +16,7 @@ namespace {
 std::string tally_words(Language language, const TrainTally& tally) {
   return fill(said(language, Said::what_done),
               {std::to_string(tally.attempts), std::to_string(tally.passes),
-               number(language, tally.best, 0)});
+               std::to_string(whole_points(tally.best))});
 }
 
 /// What is asked of an attempt, a line a mark.
@@ -77,8 +77,8 @@ void add_hands(const KeyMap& keys, Language language, std::vector<PageLine>& lin
 void add_verdict(const TrainOutcome& outcome, Language language, std::vector<PageLine>& lines) {
   const Judgement& judgement = outcome.played.judgement;
   lines.push_back(
-      {fill(said(language, Said::end_score),
-            {number(language, judgement.score, 0), number(language, outcome.played.duration, 0)})});
+      {fill(said(language, Said::end_score), {std::to_string(whole_points(judgement.score)),
+                                              number(language, outcome.played.duration, 0)})});
   lines.push_back({said(language, Said::end_marks), Tone::heading});
   for (const JudgedMark& mark : judgement.marks) {
     const std::string value =
@@ -131,9 +131,10 @@ Page make_what_page(const std::vector<OfferedTask>& tasks, const std::string& pe
   page.at = at;
   for (const OfferedTask& task : tasks) {
     const bool passed = task.tally.passes > 0;
-    const std::string state = passed                    ? said(language, Said::what_passed)
-                              : task.tally.attempts > 0 ? number(language, task.tally.best, 0)
-                                                        : said(language, Said::what_new);
+    const std::string state = passed ? said(language, Said::what_passed)
+                              : task.tally.attempts > 0
+                                  ? std::to_string(whole_points(task.tally.best))
+                                  : said(language, Said::what_new);
     page.choices.push_back(
         {title_words(language, task.scenario),
          fill(said(language, Said::level_is), {std::to_string(task.scenario.level)}) + "   " +
@@ -167,8 +168,8 @@ Page make_earlier_page(const std::vector<EarlierAttempt>& attempts, Language lan
          when,
          record.passed ? Tone::good : Tone::plain,
          {{said(language, how)},
-          {fill(said(language, Said::end_score),
-                {number(language, record.score, 0), number(language, record.duration, 0)})}},
+          {fill(said(language, Said::end_score), {std::to_string(whole_points(record.score)),
+                                                  number(language, record.duration, 0)})}},
          nullptr});
   }
   return page;
