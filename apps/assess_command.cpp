@@ -106,6 +106,16 @@ Result<Assessment> assess_poses(const AssessOptions& options) {
   return assess_list(*list, *scene, std::move(meter));
 }
 
+/// Says that pictures will be drawn again, which is what takes long.
+void tell_pictures(const AssessOptions& options, const Recording& recording) {
+  constexpr std::size_t kMany = 400;  // some seconds
+  if (options.json || options.no_pictures || recording.frames.size() < kMany) return;
+  std::fprintf(stderr,
+               "drawing %zu pictures again for tip_visible; --no-pictures measures all else at "
+               "once\n",
+               recording.frames.size());
+}
+
 /// A recording of a scenario's attempt, against its goals.
 Result<Assessment> assess_attempt(const AssessOptions& options) {
   const auto scenario = find_scenario(options.scenario);
@@ -115,6 +125,7 @@ Result<Assessment> assess_attempt(const AssessOptions& options) {
   ARTUS_TRY(scene);
   const auto recording = read_any_recording(options.recording, *scene);
   ARTUS_TRY(recording);
+  tell_pictures(options, *recording);
   auto meter = make_meter_options(*scenario, (*scene)->joint(), recording->head.params);
   ARTUS_TRY(meter);
   return assess_recording(*recording, *scene, std::move(meter->goals), !options.no_pictures);
@@ -127,6 +138,7 @@ Result<Assessment> assess_file(const AssessOptions& options) {
   const auto recording = read_any_recording(
       options.recording, *scene, options.no_pictures ? LedPictures::none : LedPictures::listed);
   ARTUS_TRY(recording);
+  tell_pictures(options, *recording);
   auto goals = goals_of(options, (*scene)->joint());
   ARTUS_TRY(goals);
   return assess_recording(*recording, *scene, std::move(*goals), !options.no_pictures);

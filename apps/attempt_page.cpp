@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
+#include <cmath>
 #include <utility>
 
+#include <opencv2/imgproc.hpp>
+
 #include "artus/apps/html_page.h"
+#include "artus/apps/moment_view.h"
 #include "artus/core/text_cursor.h"
 #include "artus/core/text_file.h"
 #include "artus/core/units.h"
@@ -17,29 +20,69 @@
 namespace artus {
 namespace {
 
-/// The picture that the learner had at a time.
-cv::Mat picture_at(Renderer& renderer, const AttemptMeasures& m, const NeedleShape& shape,
-                   double time) {
-  const auto at = [time](const std::vector<TrackPoint>& track) {
-    const auto found = std::lower_bound(track.begin(), track.end(), time,
-                                        [](const TrackPoint& p, double t) { return p.time < t; });
-    return pose_of(found == track.end() ? track.back() : *found);
-  };
-  return grey_image(renderer.render(at(m.probe), NeedleView{at(m.needle), shape, Vec3::Zero()}));
+/// Where a hand was at a time.
+Pose pose_at(const std::vector<TrackPoint>& track, double time) {
+  const auto found = std::lower_bound(track.begin(), track.end(), time,
+                                      [](const TrackPoint& p, double t) { return p.time < t; });
+  return pose_of(found == track.end() ? track.back() : *found);
 }
 
-void add_faults(HtmlPage& page, const Feedback& feedback, const PlayedAttempt& attempt,
-                const std::shared_ptr<const Scene>& scene) {
-  const SessionParams& params = attempt.recording.head.params;
-  Renderer renderer(scene, params.transducer, params.image);
+/// An attempt's moments as the learner had them on the screen, with the joint open beside.
+class Clips {
+ public:
+  Clips(const Scenario& scenario, const PlayedAttempt& attempt,
+        const std::shared_ptr<const Scene>& scene)
+      : measures_(attempt.measures),
+        params_(attempt.recording.head.params),
+        renderer_(scene, params_.transducer, params_.image),
+        joint_(scenario, *scene, params_) {}
+
+  /// Two seconds from half a second before `time` on.
+  [[nodiscard]] std::array<cv::Mat, HtmlPage::kClipLength> around(double time) {
+    std::array<cv::Mat, HtmlPage::kClipLength> out;
+    for (std::size_t i = 0; i < out.size(); ++i)
+      out[i] = at(time - 0.5 + 0.25 * static_cast<double>(i));
+    return out;
+  }
+
+ private:
+  cv::Mat at(double time) {
+    const Pose X_JP = pose_at(measures_.probe, time);
+    const Pose X_JN = pose_at(measures_.needle, time);
+    const cv::Mat grey =
+        grey_image(renderer_.render(X_JP, NeedleView{X_JN, params_.needle_shape, Vec3::Zero()}));
+    cv::Mat picture;
+    const int width = static_cast<int>(std::lround(1.0 * kHeight * grey.cols / grey.rows));
+    cv::resize(grey, picture, cv::Size(width, kHeight), 0, 0, cv::INTER_AREA);
+    cv::cvtColor(picture, picture, cv::COLOR_GRAY2BGR);
+    cv::putText(picture, fixed_number(time, 2) + " s", cv::Point(6, kHeight - 8),
+                cv::FONT_HERSHEY_SIMPLEX, 0.45, cv::Scalar(90, 220, 255), 1, cv::LINE_AA);
+    cv::Mat both;
+    cv::hconcat(picture, joint_.draw(X_JP, X_JN, cv::Size(kHeight, kHeight)), both);
+    return both;
+  }
+
+  static constexpr int kHeight = 300;  // pixels
+  const AttemptMeasures& measures_;
+  const SessionParams& params_;
+  Renderer renderer_;
+  MomentView joint_;
+};
+
+void add_faults(HtmlPage& page, const Scenario& scenario, const Feedback& feedback,
+                const PlayedAttempt& attempt, const std::shared_ptr<const Scene>& scene) {
   page.heading(feedback.faults.empty() ? "No fault stood out" : "What went wrong, the worst first");
+  if (feedback.faults.empty()) return;
+  Clips clips(scenario, attempt, scene);
   for (const Fault& fault : feedback.faults) {
     page.open_card("At " + fixed_number(fault.time, 1) + " s");
     page.paragraph(fault.what + ". Why: " + fault.cause + ".");
     page.point("do", fault.mend);
-    if (!attempt.measures.probe.empty())
-      page.picture(picture_at(renderer, attempt.measures, params.needle_shape, fault.time + 0.5),
-                   "the picture at " + fixed_number(fault.time + 0.5, 1) + " s");
+    if (!attempt.measures.probe.empty() && !attempt.measures.needle.empty())
+      page.clip(clips.around(fault.time),
+                "half as fast as it was: the picture, and the joint cut open at its plane with the "
+                "needle (blue), its tip (orange), the target (green)" +
+                    std::string(scenario.avoid.empty() ? "" : " and what is to be spared (red)"));
     page.close_card();
   }
 }
@@ -105,25 +148,27 @@ void add_numbers(HtmlPage& page, const std::vector<Metric>& metrics) {
     if (m.value)
       rows.push_back(
           {m.name, m.role, fixed_number(*m.value, 3), m.unit, m.definition, m.rule.filter});
-  page.table(
-      {{"metric", ""}, {"of", ""}, {"value", ""}, {"unit", ""}, {"definition", ""}, {"filter", ""}},
-      rows);
+  page.table({{"metric", ""},
+              {"of", ""},
+              {"value", ""},
+              {"unit", ""},
+              {"definition", "", true},
+              {"filter", "", true}},
+             rows);
 }
 
 }  // namespace
 
 Result<void> write_attempt_page(const Scenario& scenario, const std::shared_ptr<const Scene>& scene,
-                                const PlayedAttempt& attempt, const std::filesystem::path& file,
-                                std::vector<PastAttempt> before) {
-  const Feedback feedback =
-      make_feedback(attempt.measures, attempt.judgement, {scenario.level, std::move(before)});
+                                const PlayedAttempt& attempt, const Feedback& feedback,
+                                const std::filesystem::path& file) {
   HtmlPage page(scenario.title + ": one attempt");
   page.point(attempt.judgement.passed ? "passed" : "failed",
-             feedback.verdict + " Score " + fixed_number(attempt.judgement.score, 0) + " of 100, " +
-                 fixed_number(attempt.duration, 0) + " s.");
+             feedback.verdict + " Score " + std::to_string(whole_points(attempt.judgement.score)) +
+                 " of 100, " + fixed_number(attempt.duration, 0) + " s.");
   if (!feedback.good.empty()) page.paragraph("Well done: " + feedback.good);
   page.paragraph("Next: " + feedback.next);
-  add_faults(page, feedback, attempt, scene);
+  add_faults(page, scenario, feedback, attempt, scene);
   add_plots(page, scenario, attempt.measures);
   add_marks(page, attempt.judgement);
   add_numbers(page, attempt.measures.metrics);

@@ -11,13 +11,12 @@
 namespace artus {
 
 /// Report of one attempt: verdict, faults with the picture of their moment, plots, numbers with
-/// their definitions. Static, needs nothing else. `before`: earlier attempts of the same person,
-/// oldest first. Errors: those of write_text.
+/// their definitions. Static, needs nothing else. Errors: those of write_text.
 [[nodiscard]] Result<void> write_attempt_page(const Scenario& scenario,
                                               const std::shared_ptr<const Scene>& scene,
                                               const PlayedAttempt& attempt,
-                                              const std::filesystem::path& file,
-                                              std::vector<PastAttempt> before = {});
+                                              const Feedback& feedback,
+                                              const std::filesystem::path& file);
 
 /// Report of a learner: the chart of one scenario with its chance of a false pass, what is believed
 /// of the rate of failure, each attempt.

@@ -68,7 +68,7 @@ void add_repaired_overview(HtmlPage& page, const JointFile& file, const JointChe
     if (check.prepared.structures[i])
       meshes.push_back(coloured(check.prepared.structures[i]->mesh,
                                 tissue_colour(file.structures[i].tissue, i)));
-  for (const PictureView& view : picture_views(file.axes, file.side))
+  for (const MeshView& view : picture_views(file.axes, file.side))
     page.picture(draw_meshes(meshes, view, kLargePicture), view.name);
 }
 
@@ -79,7 +79,7 @@ void add_surface(HtmlPage& page, const JointFile& file, const JointCheck& check,
                  std::to_string(s.line) + ")");
   for (const Finding& f : check.findings)
     if (f.what == s.name) page.point(to_string(f.verdict), f.message);
-  const PictureView view = picture_views(file.axes, file.side).front();
+  const MeshView view = picture_views(file.axes, file.side).front();
   if (const auto mesh = read_surface(file.surface_folder / surface.file, surface.unit)) {
     const auto defects = find_defects(*mesh);
     std::vector<Vec3> marks;

@@ -29,34 +29,13 @@ cv::Vec3b colour_of(const CompiledJoint& joint, RegionId region) {
   return tissue_colour(joint.tissue_of(region).name, region);
 }
 
-/// The interfaces around one region; its own triangles alone, compact.
-SurfaceMesh surface_of(const CompiledJoint& joint, RegionId region) {
-  SurfaceMesh mesh;
-  std::vector<std::uint32_t> index(joint.mesh.vertices.size(), UINT32_MAX);
-  for (const Interface& f : joint.mesh.interfaces) {
-    if (f.front != region && f.back != region) continue;
-    Triangle t{};
-    for (std::size_t k = 0; k < 3; ++k) {
-      std::uint32_t& v = index[f.vertices[k]];
-      if (v == UINT32_MAX) {
-        v = static_cast<std::uint32_t>(mesh.vertices.size());
-        mesh.vertices.push_back(joint.mesh.vertices[f.vertices[k]]);
-      }
-      t[k] = v;
-    }
-    if (f.front == region) std::swap(t[1], t[2]);
-    mesh.triangles.push_back(t);
-  }
-  return mesh;
-}
-
 void add_overview(HtmlPage& page, const JointFile& file, const CompiledJoint& joint) {
   page.heading("The compiled body, without skin and fat");
   std::vector<ColouredMesh> meshes;
   for (RegionId r = kFirstRegion + 1; r < joint.regions.size(); ++r)
     if (joint.tissue_of(r).name != "skin")
-      meshes.push_back(coloured(surface_of(joint, r), colour_of(joint, r)));
-  for (const PictureView& view : picture_views(file.axes, file.side))
+      meshes.push_back(coloured(region_surface(joint, r), colour_of(joint, r)));
+  for (const MeshView& view : picture_views(file.axes, file.side))
     page.picture(draw_meshes(meshes, view, kLargePicture), view.name);
 }
 
@@ -127,7 +106,7 @@ void add_slices(HtmlPage& page, const JointFile& file, const CompiledJoint& join
 
 /// A region's surface coloured by its distance to the file it came from.
 ColouredMesh by_distance(const CompiledJoint& joint, RegionId region, const DistanceTree& source) {
-  ColouredMesh out = coloured(surface_of(joint, region), {});
+  ColouredMesh out = coloured(region_surface(joint, region), {});
   for (std::size_t i = 0; i < out.colours.size(); ++i)
     out.colours[i] = distance_colour(
         source.distance(triangle_centre(out.mesh, out.mesh.triangles[i]), 2 * kWorst), kWorst);
@@ -140,7 +119,7 @@ void add_structures(HtmlPage& page, const JointFile& file, const CompileOutcome&
       "Red where another structure cut something off, where the region of interest ends, or where "
       "a "
       "repair had to make a surface; elsewhere give the structure a smaller facet_distance.");
-  const PictureView view = picture_views(file.axes, file.side).front();
+  const MeshView view = picture_views(file.axes, file.side).front();
   for (std::size_t i = 0; i < file.structures.size(); ++i) {
     const Structure& s = file.structures[i];
     const StructureReport& report = outcome.report.structures[i + 1];  // behind the filler
@@ -157,7 +136,7 @@ void add_structures(HtmlPage& page, const JointFile& file, const CompileOutcome&
                                  view, kSmallPicture),
                      "distance to " + surface->file.string());
     } else if (report.tetrahedra > 0) {
-      page.picture(draw_meshes(std::vector{coloured(surface_of(outcome.joint, region),
+      page.picture(draw_meshes(std::vector{coloured(region_surface(outcome.joint, region),
                                                     colour_of(outcome.joint, region))},
                                view, kSmallPicture),
                    "made by artus");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <array>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,6 +19,10 @@ class HtmlPage {
   /// One line a point; `kind` colours it ("refused", "look", "mended", "note").
   void point(const std::string& kind, const std::string& text);
   void picture(const cv::Mat& image, const std::string& caption);
+  /// Pictures of one size one after the other, half a second each, again and again; in print, and
+  /// for people who want no motion, every other one side by side.
+  static constexpr std::size_t kClipLength = 8;
+  void clip(const std::array<cv::Mat, kClipLength>& images, const std::string& caption);
   /// A vector drawing, as it is: whoever made it escaped its text.
   void drawing(const std::string& svg, const std::string& caption);
   /// A card that pictures and points stand in, with a heading.
@@ -27,6 +32,7 @@ class HtmlPage {
   struct Column {
     std::string name;
     std::string meaning;
+    bool words = false;  ///< its cells are sentences: on a phone they stand on lines of their own
   };
   void table(const std::vector<Column>& columns, const std::vector<std::vector<std::string>>& rows);
 

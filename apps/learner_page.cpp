@@ -10,6 +10,7 @@
 #include "artus/apps/html_page.h"
 #include "artus/core/text_cursor.h"
 #include "artus/core/text_file.h"
+#include "artus/training/judgement.h"
 #include "artus/training/learning_curve.h"
 #include "artus/training/learning_fit.h"
 #include "artus/training/metrics/sight_course.h"
@@ -66,6 +67,13 @@ SvgPlot plot_scores(const std::vector<AttemptRecord>& attempts) {
   return {"attempt without aids", "score", {scores}, {}, {{100, ""}, {0, ""}}};
 }
 
+/// "2026-01-31 12:00" of "2026-01-31T12:00:00Z".
+std::string to_the_minute(const std::string& utc) {
+  std::string shown = utc.substr(0, 16);
+  std::replace(shown.begin(), shown.end(), 'T', ' ');
+  return shown;
+}
+
 void add_scenario(HtmlPage& page, const std::string& name,
                   const std::vector<AttemptRecord>& attempts) {
   page.heading(name);
@@ -100,14 +108,15 @@ void add_scenario(HtmlPage& page, const std::string& name,
   }
   std::vector<std::vector<std::string>> rows;
   for (const AttemptRecord& a : attempts)
-    rows.push_back({a.started, a.id,
+    rows.push_back({to_the_minute(a.started),
                     a.ended.empty() ? "unfinished" : (a.passed ? "passed" : "failed"),
-                    a.ended.empty() ? "-" : fixed_number(a.score, 0), a.aided ? "yes" : "no"});
+                    a.ended.empty() ? "-" : std::to_string(whole_points(a.score)),
+                    a.aided ? "yes" : "no", a.id});
   page.table({{"when", "UTC"},
-              {"attempt", ""},
               {"", ""},
               {"score", "of 100"},
-              {"aids", "nothing passes with aids on"}},
+              {"aids", "nothing passes with aids on"},
+              {"attempt", "for artus rate"}},
              rows);
 }
 
@@ -181,6 +190,11 @@ Result<void> write_cohort_page(Records& records, const std::string& cohort,
   HtmlPage page(cohort.empty() ? "All learners" : "Cohort " + cohort);
   std::map<std::pair<std::string, std::string>, std::vector<AttemptRecord>> groups;
   for (const AttemptRecord& a : *attempts) groups[{a.scenario, a.person}].push_back(a);
+  std::map<std::string, std::map<std::string, std::vector<AttemptRecord>>> scenarios;
+  for (const auto& [key, own] : groups)
+    if (!key.second.empty()) scenarios[key.first][key.second] = own;
+  for (const auto& [scenario, learners] : scenarios)
+    add_curve(page, scenario, count_trials(learners));
   std::vector<std::vector<std::string>> rows;
   for (const auto& [key, own] : groups) {
     std::size_t n = 0;
@@ -200,11 +214,6 @@ Result<void> write_cohort_page(Records& records, const std::string& cohort,
               {"passed", "without aids"},
               {"adequate at", "attempt at which the LC-CUSUM signals"}},
              rows);
-  std::map<std::string, std::map<std::string, std::vector<AttemptRecord>>> scenarios;
-  for (const auto& [key, own] : groups)
-    if (!key.second.empty()) scenarios[key.first][key.second] = own;
-  for (const auto& [scenario, learners] : scenarios)
-    add_curve(page, scenario, count_trials(learners));
   std::map<std::string, std::vector<double>> spread;
   for (const MetricValue& m : *metrics)
     if (m.value) spread[m.name + " (" + m.role + ", " + m.unit + ")"].push_back(*m.value);

@@ -138,6 +138,7 @@ ExitCode run_learners(const LearnersOptions& options) {
 struct RateOptions {
   std::filesystem::path records;
   RatingRecord rating;
+  bool not_blinded = false;
   std::string comment;
   double time = 0;
 };
@@ -145,8 +146,9 @@ struct RateOptions {
 ExitCode run_rate(const RateOptions& options) {
   auto records = Records::open(options.records);
   if (!records) return report_error(records.error(), false);
-  if (const auto done = records->rate(options.rating); !done)
-    return report_error(done.error(), false);
+  RatingRecord rating = options.rating;
+  rating.blinded = !options.not_blinded;
+  if (const auto done = records->rate(rating); !done) return report_error(done.error(), false);
   if (!options.comment.empty()) {
     const auto done = records->comment(options.rating.attempt, options.rating.rater, options.time,
                                        options.comment);
@@ -206,6 +208,7 @@ void add_rate_command(Command& app, ExitCode& code) {
   command->add_option("--value", options->rating.value, "as the form counts")
       ->required()
       ->check(number_in(-1000, 1000));
+  command->add_flag("--not-blinded", options->not_blinded, "the rater knew who, or the verdict");
   command->add_option("--comment", options->comment, "free text");
   command->add_option("--time", options->time, "s into the attempt that the comment is about")
       ->check(number_in(0, 100000));

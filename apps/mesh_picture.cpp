@@ -26,7 +26,7 @@ Vec3 direction_of(const std::string& axes, char letter, char opposite) {
 /// Maps the joint's frame to pixels.
 class Projection {
  public:
-  Projection(std::span<const ColouredMesh> meshes, const PictureView& view, cv::Size size)
+  Projection(std::span<const ColouredMesh> meshes, const MeshView& view, cv::Size size)
       : view_(view), toward_(view.right.cross(view.up)) {
     Eigen::AlignedBox2d box;
     for (const ColouredMesh& m : meshes)
@@ -51,7 +51,7 @@ class Projection {
   [[nodiscard]] Eigen::Vector2d flat(const Vec3& p) const {
     return {p.dot(view_.right), p.dot(view_.up)};
   }
-  PictureView view_;
+  MeshView view_;
   Vec3 toward_;
   Eigen::Vector2d centre_, middle_;
   double scale_ = 1;
@@ -110,12 +110,32 @@ void draw_scale(cv::Mat& image, double pixels_per_m) {
 
 }  // namespace
 
-std::vector<PictureView> picture_views(const std::string& axes, const std::string& side) {
+std::vector<MeshView> picture_views(const std::string& axes, const std::string& side) {
   const Vec3 left = direction_of(axes, 'L', 'R');
   const Vec3 front = direction_of(axes, 'A', 'P');
   const Vec3 up = direction_of(axes, 'S', 'I');
   if (side == "left") return {{"from the front", left, up}, {"from the left", Vec3(-front), up}};
   return {{"from the front", left, up}, {"from the right", front, up}};
+}
+
+SurfaceMesh region_surface(const CompiledJoint& joint, RegionId region) {
+  SurfaceMesh mesh;
+  std::vector<std::uint32_t> index(joint.mesh.vertices.size(), UINT32_MAX);
+  for (const Interface& f : joint.mesh.interfaces) {
+    if (f.front != region && f.back != region) continue;
+    Triangle t{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      std::uint32_t& v = index[f.vertices[k]];
+      if (v == UINT32_MAX) {
+        v = static_cast<std::uint32_t>(mesh.vertices.size());
+        mesh.vertices.push_back(joint.mesh.vertices[f.vertices[k]]);
+      }
+      t[k] = v;
+    }
+    if (f.front == region) std::swap(t[1], t[2]);
+    mesh.triangles.push_back(t);
+  }
+  return mesh;
 }
 
 ColouredMesh coloured(const SurfaceMesh& mesh, const cv::Vec3b& colour) {
@@ -130,7 +150,7 @@ ColouredMesh coloured(const SurfaceMesh& mesh, const cv::Vec3b& colour) {
   return out;
 }
 
-cv::Mat draw_meshes(std::span<const ColouredMesh> meshes, const PictureView& view, cv::Size size,
+cv::Mat draw_meshes(std::span<const ColouredMesh> meshes, const MeshView& view, cv::Size size,
                     std::span<const Vec3> marks) {
   const Projection project(meshes, view, size);
   Canvas canvas(size);

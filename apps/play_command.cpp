@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <cstdio>
-#include <ctime>
 #include <iostream>
 #include <memory>
 #include <utility>
@@ -86,7 +85,7 @@ class Note {
   /// What the same person did before; nothing where no records are kept.
   [[nodiscard]] Result<std::vector<PastAttempt>> before() {
     if (records_ == nullptr) return std::vector<PastAttempt>{};
-    return read_past_attempts(*records_, attempt_.person, std::time(nullptr));
+    return read_past_attempts(*records_, attempt_);
   }
 
   [[nodiscard]] Result<void> finish(const PlayedAttempt& played) {
@@ -122,7 +121,9 @@ ExitCode run_play(const PlayCommandOptions& options) {
   if (kept && !options.report.empty()) {
     auto before = note->before();
     if (!before) return report_error(before.error(), options.json);
-    kept = write_attempt_page(*scenario, *scene, *attempt, options.report, std::move(*before));
+    const Feedback feedback =
+        make_feedback(attempt->measures, attempt->judgement, {scenario->level, std::move(*before)});
+    kept = write_attempt_page(*scenario, *scene, *attempt, feedback, options.report);
   }
   if (kept) kept = note->finish(*attempt);
   if (!kept) return report_error(kept.error(), options.json);

@@ -4,10 +4,14 @@
 #include <cstdio>
 #include <utility>
 
+#include <nlohmann/json.hpp>
+
 #include "artus/apps/attempt_files.h"
 #include "artus/apps/attempt_page.h"
 #include "artus/apps/train_lesson.h"
+#include "artus/core/text_file.h"
 #include "artus/training/live_attempt.h"
+#include "artus/training/session_meter.h"
 
 namespace artus {
 namespace {
@@ -82,6 +86,38 @@ Result<bool> work(const TrainRoom& room, const TrainTask& task, const SessionPar
   return finished;
 }
 
+/// What only the pictures tell, as it was measured while they were shown.
+Result<void> fill_from_pictures(const std::filesystem::path& file, std::vector<Metric>& metrics) {
+  const auto text = read_bytes(file);
+  ARTUS_TRY(text);
+  const auto json = nlohmann::json::parse(*text, nullptr, false);
+  if (!json.is_object() || !json.contains("metrics"))
+    return fail(ErrorCode::corrupt, "it has no metrics", file.string());
+  const std::vector<Metric> kept = metrics_from_json(json["metrics"]);
+  for (Metric& metric : metrics)
+    if (const Metric* known = find_metric(kept, metric.name, metric.role);
+        !metric.value && known != nullptr)
+      metric.value = known->value;
+  return {};
+}
+
+/// Judges what was measured and says what the person is told of it.
+Result<void> judge_outcome(TrainDesk& desk, const Scenario& scenario, TrainOutcome& out) {
+  PlayedAttempt& played = out.played;
+  played.judgement =
+      judge(played.measures.metrics, scenario.pass, scenario.score, out.record.aided);
+  const auto& ticks = played.recording.ticks;
+  if (!ticks.empty())
+    played.duration = static_cast<double>(ticks.back().input.tick - ticks.front().input.tick) /
+                      played.recording.head.params.haptic_rate;
+  auto before = desk.before(out.record);
+  ARTUS_TRY(before);
+  out.feedback =
+      make_feedback(played.measures, played.judgement, {scenario.level, std::move(*before)});
+  out.report = std::filesystem::path(out.record.folder) / "report.html";
+  return {};
+}
+
 }  // namespace
 
 Result<TrainOutcome> run_attempt(const TrainRoom& room, const TrainTask& task) {
@@ -105,16 +141,30 @@ Result<TrainOutcome> run_attempt(const TrainRoom& room, const TrainTask& task) {
   out.played.measures = meter.measure();
   for (const std::string& step : task.asked)
     out.played.measures.events.push_back({0, step, "", 0, "answered before the attempt"});
-  out.played.judgement = judge(out.played.measures.metrics, task.scenario.pass, task.scenario.score,
-                               task.scenario.aided());
-  const auto& ticks = out.played.recording.ticks;
-  if (!ticks.empty())
-    out.played.duration = static_cast<double>(ticks.back().input.tick - ticks.front().input.tick) /
-                          params->haptic_rate;
+  ARTUS_TRY(judge_outcome(*room.desk, task.scenario, out));
   ARTUS_TRY(write_attempt_files(task.scenario, out.played, folder));
-  out.report = folder / "report.html";
-  ARTUS_TRY(write_attempt_page(task.scenario, task.scene, out.played, out.report));
+  ARTUS_TRY(write_attempt_page(task.scenario, task.scene, out.played, out.feedback, out.report));
   ARTUS_TRY(room.desk->finish(out.record, out.played));
+  return out;
+}
+
+Result<TrainOutcome> read_attempt(TrainDesk& desk, const TrainTask& task,
+                                  const AttemptRecord& record) {
+  const std::filesystem::path folder = record.folder;
+  TrainOutcome out;
+  out.finished = true;
+  out.record = record;
+  auto recording = read_recording(folder / "session.rec");
+  ARTUS_TRY(recording);
+  out.played.recording = std::move(*recording);
+  auto options =
+      make_meter_options(task.scenario, task.scene->joint(), out.played.recording.head.params);
+  ARTUS_TRY(options);
+  auto measures = assess(out.played.recording, task.scene, std::move(*options), false);
+  ARTUS_TRY(measures);
+  ARTUS_TRY(fill_from_pictures(folder / "attempt.json", measures->metrics));
+  out.played.measures = std::move(*measures);
+  ARTUS_TRY(judge_outcome(desk, task.scenario, out));
   return out;
 }
 

@@ -7,6 +7,7 @@
 #include "artus/apps/remote_wishes.h"
 #include "artus/apps/session_options.h"
 #include "artus/apps/train_desk.h"
+#include "artus/training/feedback.h"
 #include "artus/training/player.h"
 #include "artus/viewer/screen.h"
 #include "artus/viewer/window.h"
@@ -38,6 +39,7 @@ struct TrainOutcome {
   bool finished = false;  ///< false: the window was closed; the records show it as unfinished
   AttemptRecord record;
   PlayedAttempt played;
+  Feedback feedback;             ///< with what this person did before
   std::filesystem::path report;  ///< the page that was written
 };
 
@@ -45,5 +47,11 @@ struct TrainOutcome {
 /// recording, numbers, page and record. Errors: those of the session, the window, the files and the
 /// records.
 [[nodiscard]] Result<TrainOutcome> run_attempt(const TrainRoom& room, const TrainTask& task);
+
+/// A finished attempt as its folder has it: replayed and measured again (the same numbers; those of
+/// its pictures are the kept ones), told with what came before it. Errors: those of the files, the
+/// replay and the records. Cost: that of its ticks.
+[[nodiscard]] Result<TrainOutcome> read_attempt(TrainDesk& desk, const TrainTask& task,
+                                                const AttemptRecord& record);
 
 }  // namespace artus

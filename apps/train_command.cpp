@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <algorithm>
-#include <chrono>
-#include <future>
 #include <memory>
 #include <utility>
 
 #include "artus/apps/interrupts.h"
-#include "artus/apps/train_pages.h"
-#include "artus/apps/train_review.h"
+#include "artus/apps/train_flow.h"
 #include "artus/apps/training_commands.h"
 #include "artus/apps/view_options.h"
 #include "artus/apps/window_options.h"
 #include "artus/core/text_file.h"
-#include "artus/training/feedback.h"
 #include "artus/viewer/window_events.h"
 
 namespace artus {
@@ -25,10 +21,7 @@ struct TrainCommandOptions {
   std::filesystem::path script;
   std::filesystem::path records;
   std::filesystem::path attempts;
-  std::filesystem::path joint;
-  std::string person;
-  std::string cohort;
-  std::string scenario;
+  TrainWishes wishes;
 };
 
 /// The keys that a file or the user's own says. Requires: an open screen. Errors: those of
@@ -49,8 +42,8 @@ Result<std::vector<Scenario>> scenarios_of(const TrainCommandOptions& options) {
     ARTUS_TRY(scenario);
     all.push_back(std::move(*scenario));
   }
-  if (!options.scenario.empty()) {
-    auto asked = find_scenario(options.scenario);
+  if (!options.wishes.scenario.empty()) {
+    auto asked = find_scenario(options.wishes.scenario);
     ARTUS_TRY(asked);
     const bool known = std::any_of(all.begin(), all.end(), [&](const Scenario& s) {
       return s.name == asked->name && s.text == asked->text;
@@ -61,282 +54,6 @@ Result<std::vector<Scenario>> scenarios_of(const TrainCommandOptions& options) {
                    [](const Scenario& a, const Scenario& b) { return a.level < b.level; });
   return all;
 }
-
-/// One after the other: who, what, briefing, attempt, verdict; and again.
-class TrainFlow {
- public:
-  TrainFlow(const TrainCommandOptions& options, TrainRoom room, PageOptions pages,
-            std::vector<Scenario> scenarios, RemoteScenario& remote)
-      : options_(options),
-        room_(room),
-        remote_(&remote),
-        page_options_(std::move(pages)),
-        language_(page_options_.language),
-        scenarios_(std::move(scenarios)),
-        bodies_(options.joint) {}
-
-  /// Until someone leaves or the window is closed.
-  [[nodiscard]] Result<void> run() {
-    Stage next = Stage::who;
-    while (next != Stage::leave) {
-      auto after = step(next);
-      ARTUS_TRY(after);
-      next = *after;
-    }
-    return {};
-  }
-
- private:
-  enum class Stage { who, what, briefing, attempt, end, leave };
-
-  Result<Stage> step(Stage now) {
-    switch (now) {
-      case Stage::who:
-        return who();
-      case Stage::what:
-        return what();
-      case Stage::briefing:
-        return brief();
-      case Stage::attempt:
-        return attempt();
-      case Stage::end:
-        return end();
-      case Stage::leave:
-        break;
-    }
-    return Stage::leave;
-  }
-
-  Result<PageAnswer> show(Page page) {
-    if (!pages_) pages_ = std::make_unique<PageWindow>(*room_.screen, page_options_);
-    return pages_->show(std::move(page));
-  }
-
-  /// A page on which another program may choose the task, too: then it is done.
-  Result<PageAnswer> offer(Page page) {
-    remote_->refuse("");
-    page.done = [this] {
-      return remote_->asked();
-    };
-    auto answer = show(std::move(page));
-    remote_->refuse("nobody is free for it now");
-    return answer;
-  }
-
-  /// What another program asked for is briefed next.
-  Stage take_remote() {
-    if (const auto scenario = remote_->take()) choose(*scenario);
-    return Stage::briefing;
-  }
-
-  Result<Stage> who() {
-    auto names = room_.desk->learners();
-    ARTUS_TRY(names);
-    if (!options_.person.empty() && person_.empty()) {
-      if (std::find(names->begin(), names->end(), options_.person) == names->end())
-        return fail(ErrorCode::not_found,
-                    "the records have no learner '" + options_.person +
-                        "': without --person the window makes one, or: artus learners add",
-                    "--person");
-      person_ = options_.person;
-      return what_next();
-    }
-    std::vector<KnownLearner> learners;
-    for (const std::string& name : *names) {
-      auto tally = room_.desk->tally(name, "");
-      ARTUS_TRY(tally);
-      learners.push_back({name, *tally});
-    }
-    std::stable_sort(learners.begin(), learners.end(),
-                     [](const auto& a, const auto& b) { return a.tally.last > b.tally.last; });
-    const auto answer = show(make_who_page(learners, language_));
-    ARTUS_TRY(answer);
-    if (answer->kind != PageAnswer::Kind::chosen) return Stage::leave;
-    if (answer->choice < learners.size()) {
-      person_ = learners[answer->choice].name;
-      return what_next();
-    }
-    auto fresh = room_.desk->add_learner(options_.cohort);
-    ARTUS_TRY(fresh);
-    person_ = *fresh;
-    const auto seen = show(make_welcome_page(person_, language_));
-    ARTUS_TRY(seen);
-    return seen->kind == PageAnswer::Kind::chosen ? what_next() : Result<Stage>(Stage::leave);
-  }
-
-  /// The scenario of the command line goes first, once.
-  Result<Stage> what_next() {
-    if (options_.scenario.empty() || asked_for_) return Stage::what;
-    asked_for_ = true;
-    auto asked = find_scenario(options_.scenario);
-    ARTUS_TRY(asked);
-    choose(*asked);
-    return Stage::briefing;
-  }
-
-  void choose(const Scenario& scenario) {
-    scenario_ = scenario;
-    asked_.clear();
-    for (std::size_t i = 0; i < scenarios_.size(); ++i)
-      if (scenarios_[i].name == scenario.name) at_ = i;
-  }
-
-  Result<Stage> what() {
-    std::vector<OfferedTask> tasks;
-    for (const Scenario& scenario : scenarios_) {
-      auto tally = room_.desk->tally(person_, scenario.name);
-      ARTUS_TRY(tally);
-      tasks.push_back({scenario, *tally});
-    }
-    const auto answer = offer(make_what_page(tasks, person_, bodies_, at_, language_));
-    ARTUS_TRY(answer);
-    if (answer->kind == PageAnswer::Kind::done) return take_remote();
-    if (answer->kind == PageAnswer::Kind::back) return Stage::who;
-    if (answer->kind != PageAnswer::Kind::chosen) return Stage::leave;
-    choose(tasks[answer->choice].scenario);
-    return Stage::briefing;
-  }
-
-  /// The scenario's body, with a page that asks to wait while it is made. False: the window was
-  /// closed meanwhile.
-  Result<bool> prepare() {
-    bodies_.want(scenario_);
-    const auto done = [this] {
-      bodies_.want(scenario_);
-      return bodies_.ready(scenario_);
-    };
-    if (!done()) {
-      const auto waited = show(make_busy_page(Said::busy_body, done, language_));
-      ARTUS_TRY(waited);
-      if (waited->kind != PageAnswer::Kind::done) return false;
-    }
-    auto scene = bodies_.scene(scenario_);
-    ARTUS_TRY(scene);
-    scene_ = *scene;
-    return true;
-  }
-
-  Result<Stage> brief() {
-    const auto there = prepare();
-    ARTUS_TRY(there);
-    if (!*there) return Stage::leave;
-    auto tally = room_.desk->tally(person_, scenario_.name);
-    ARTUS_TRY(tally);
-    const Scenario offered = with_faded_aids(scenario_, *tally, true);
-    const std::vector<BriefingChoice> choices = briefing_choices(offered);
-    std::size_t at = 0;
-    for (;;) {
-      Page page = make_briefing_page(offered, asked_, scene_->joint().side,
-                                     bodies_.picture(scenario_), page_options_.keys, language_);
-      page.at = at;
-      page.refresh = [this](Page& shown) {
-        bodies_.want(scenario_);
-        for (PageChoice& choice : shown.choices) choice.picture = bodies_.picture(scenario_);
-      };
-      if (at > 0) page.stage.clear();  // the same page: the script's steps go on
-      const auto answer = offer(std::move(page));
-      ARTUS_TRY(answer);
-      if (answer->kind == PageAnswer::Kind::done) return take_remote();
-      if (answer->kind == PageAnswer::Kind::back) return Stage::what;
-      if (answer->kind != PageAnswer::Kind::chosen) return Stage::leave;
-      const BriefingChoice& choice = choices[answer->choice];
-      if (choice.kind != BriefingChoice::Kind::ask) {
-        task_ = {
-            person_,
-            with_faded_aids(scenario_, *tally, choice.kind == BriefingChoice::Kind::begin_aided),
-            scene_, asked_};
-        return Stage::attempt;
-      }
-      asked_.insert(choice.step);
-      at = std::min(answer->choice + 1, choices.size() - 1);
-    }
-  }
-
-  Result<Stage> attempt() {
-    pages_.reset();  // the session's window takes the screen
-    auto outcome = run_attempt(room_, task_);
-    ARTUS_TRY(outcome);
-    outcome_ = std::move(*outcome);
-    return outcome_.finished ? Stage::end : Stage::leave;
-  }
-
-  /// The first task above this one that was not passed, when this one was; else the one that the
-  /// feedback names, or the same again.
-  Result<std::size_t> next_task() {
-    if (!outcome_.played.judgement.passed) {
-      const auto told = make_feedback(outcome_.played.measures, outcome_.played.judgement).next;
-      for (std::size_t i = 0; i < scenarios_.size(); ++i)
-        if (told.find("(" + scenarios_[i].name + ")") != std::string::npos) return i;
-      return at_;
-    }
-    for (std::size_t i = at_ + 1; i < scenarios_.size(); ++i) {
-      auto tally = room_.desk->tally(person_, scenarios_[i].name);
-      ARTUS_TRY(tally);
-      if (tally->passes == 0) return i;
-    }
-    return at_;
-  }
-
-  Result<Stage> review() {
-    auto making =
-        std::async(std::launch::async, [this] { return make_review(task_, outcome_, language_); });
-    const auto ready = [&making] {
-      return making.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
-    };
-    const auto waited = show(make_busy_page(Said::busy_review, ready, language_));
-    ARTUS_TRY(waited);
-    const auto made = making.get();
-    ARTUS_TRY(made);
-    if (waited->kind != PageAnswer::Kind::done) return Stage::leave;
-    pages_.reset();
-    const auto back = run_review(*room_.screen, page_options_, *made);
-    ARTUS_TRY(back);
-    return *back ? Stage::end : Stage::leave;
-  }
-
-  Result<Stage> end() {
-    const auto next = next_task();
-    ARTUS_TRY(next);
-    const auto answer = offer(make_end_page(outcome_, scenarios_[*next].title, language_));
-    ARTUS_TRY(answer);
-    if (answer->kind == PageAnswer::Kind::done) return take_remote();
-    if (answer->kind != PageAnswer::Kind::chosen) return Stage::leave;
-    switch (static_cast<AfterAttempt>(answer->choice)) {
-      case AfterAttempt::review:
-        return review();
-      case AfterAttempt::again:
-        asked_.clear();
-        return Stage::briefing;
-      case AfterAttempt::next:
-        choose(scenarios_[*next]);
-        return Stage::briefing;
-      case AfterAttempt::other:
-        return Stage::what;
-      case AfterAttempt::who:
-        return Stage::who;
-      case AfterAttempt::leave:
-        break;
-    }
-    return Stage::leave;
-  }
-
-  const TrainCommandOptions& options_;
-  TrainRoom room_;
-  RemoteScenario* remote_;
-  PageOptions page_options_;
-  Language language_;
-  std::vector<Scenario> scenarios_;
-  TrainBodies bodies_;
-  std::unique_ptr<PageWindow> pages_;
-  std::string person_;
-  Scenario scenario_;
-  std::size_t at_ = 0;  // of scenarios_, the one that was chosen last
-  std::set<std::string> asked_;
-  bool asked_for_ = false;
-  std::shared_ptr<const Scene> scene_;
-  TrainTask task_;
-  TrainOutcome outcome_;
-};
 
 /// Where records and attempts are kept.
 Result<void> take_places(TrainCommandOptions& options) {
@@ -389,13 +106,33 @@ Result<void> train(TrainCommandOptions options) {
                        &script,       &*tracker, link->get(),      &turns};
   PageOptions pages{options.window.language, std::move(*keys), options.window.font_scale, &script,
                     options.window.asked_to_close};
-  return TrainFlow(options, room, std::move(pages), std::move(*scenarios), remote).run();
+  return run_training(options.wishes, room, std::move(pages), std::move(*scenarios), remote);
+}
+
+/// What holds where no flag says otherwise.
+TrainCommandOptions first_options() {
+  TrainCommandOptions options;
+  options.session.input = "hand";
+  options.session.device = "virtuose_6d_desktop";
+  return options;
 }
 
 }  // namespace
 
+ExitCode start_training(const WindowOptions& window, const std::string& language) {
+  TrainCommandOptions options = first_options();
+  options.window.width = window.width;
+  options.window.height = window.height;
+  options.window.font_scale = window.font_scale;
+  options.window.left_handed = window.left_handed;
+  options.window.keys = window.keys;
+  options.language = language;
+  const auto trained = train(options);
+  return trained ? ExitCode::ok : report_error(trained.error(), false);
+}
+
 void add_train_command(Command& app, ExitCode& code) {
-  auto options = std::make_shared<TrainCommandOptions>();
+  auto options = std::make_shared<TrainCommandOptions>(first_options());
   Command* command = add_command(
       app, "train", "The trainer: who, what, briefing, attempt, verdict and review in one window",
       "Records and attempts are kept for each user, or where the flags say.\n"
@@ -404,17 +141,15 @@ void add_train_command(Command& app, ExitCode& code) {
       "  artus train --records school.db --cohort 2026 --input shared-memory --device touch\n"
       "  artus train gel-find --person grey-heron-42\n"
       "  artus train mine.toml --igtl 18944 --input igtl");
-  options->session.input = "hand";
-  options->session.device = "virtuose_6d_desktop";
-  command->add_option("scenario", options->scenario,
+  command->add_option("scenario", options->wishes.scenario,
                       "a file, or the name of a bundled one; else the window asks");
-  command->add_option("--person", options->person, "who trains; else the window asks");
-  command->add_option("--cohort", options->cohort, "of someone new");
+  command->add_option("--person", options->wishes.person, "who trains; else the window asks");
+  command->add_option("--cohort", options->wishes.cohort, "of someone new");
   command->add_option("--records", options->records,
                       "file of the records (default: records.db in ~/.local/share/artus)");
   command->add_option("--attempts", options->attempts,
                       "folder of the attempts (default: attempts, beside the records)");
-  command->add_option("--joint,-j", options->joint, "in place of the scenarios' own");
+  command->add_option("--joint,-j", options->wishes.joint, "in place of the scenarios' own");
   SessionOptions& session = options->session;
   command
       ->add_option("--input", session.input,

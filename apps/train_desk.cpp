@@ -6,6 +6,8 @@
 #include <random>
 #include <utility>
 
+#include "artus/training/past_attempts.h"
+
 namespace artus {
 namespace {
 
@@ -78,6 +80,22 @@ Result<TrainTally> TrainDesk::tally(const std::string& person, const std::string
     tally.last = std::max(tally.last, attempt.started);
   }
   return tally;
+}
+
+Result<std::vector<AttemptRecord>> TrainDesk::finished(const std::string& person) {
+  auto attempts = records_.attempts({person, "", ""});
+  ARTUS_TRY(attempts);
+  std::erase_if(*attempts, [](const AttemptRecord& attempt) {
+    std::error_code ignored;
+    return attempt.ended.empty() || attempt.folder.empty() ||
+           !std::filesystem::exists(std::filesystem::path(attempt.folder) / "session.rec", ignored);
+  });
+  std::reverse(attempts->begin(), attempts->end());
+  return attempts;
+}
+
+Result<std::vector<PastAttempt>> TrainDesk::before(const AttemptRecord& attempt) {
+  return read_past_attempts(records_, attempt);
 }
 
 Result<AttemptRecord> TrainDesk::begin(const std::string& person, const Scenario& scenario,

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "artus/training/feedback.h"
 #include "artus/training/player.h"
 #include "artus/training/records.h"
 
@@ -30,6 +31,11 @@ class TrainDesk {
   [[nodiscard]] Result<std::string> add_learner(const std::string& cohort);
   /// `scenario`: empty: all.
   [[nodiscard]] Result<TrainTally> tally(const std::string& person, const std::string& scenario);
+
+  /// What someone finished and can look at again, the latest first: their recordings are there.
+  [[nodiscard]] Result<std::vector<AttemptRecord>> finished(const std::string& person);
+  /// What the same person had done when an attempt began.
+  [[nodiscard]] Result<std::vector<PastAttempt>> before(const AttemptRecord& attempt);
 
   /// Notes that an attempt begins and makes its folder; `aided`: with aids. Errors: unreadable.
   [[nodiscard]] Result<AttemptRecord> begin(const std::string& person, const Scenario& scenario,

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <utility>
 
+#include "artus/apps/feedback_words.h"
 #include "artus/apps/train_lesson.h"
 #include "artus/core/units.h"
-#include "artus/training/feedback.h"
 
 namespace artus {
 namespace {
@@ -16,7 +16,7 @@ namespace {
 std::string tally_words(Language language, const TrainTally& tally) {
   return fill(said(language, Said::what_done),
               {std::to_string(tally.attempts), std::to_string(tally.passes),
-               number(language, tally.best, 0)});
+               std::to_string(whole_points(tally.best))});
 }
 
 /// What is asked of an attempt, a line a mark.
@@ -77,8 +77,8 @@ void add_hands(const KeyMap& keys, Language language, std::vector<PageLine>& lin
 void add_verdict(const TrainOutcome& outcome, Language language, std::vector<PageLine>& lines) {
   const Judgement& judgement = outcome.played.judgement;
   lines.push_back(
-      {fill(said(language, Said::end_score),
-            {number(language, judgement.score, 0), number(language, outcome.played.duration, 0)})});
+      {fill(said(language, Said::end_score), {std::to_string(whole_points(judgement.score)),
+                                              number(language, outcome.played.duration, 0)})});
   lines.push_back({said(language, Said::end_marks), Tone::heading});
   for (const JudgedMark& mark : judgement.marks) {
     const std::string value =
@@ -131,20 +131,47 @@ Page make_what_page(const std::vector<OfferedTask>& tasks, const std::string& pe
   page.at = at;
   for (const OfferedTask& task : tasks) {
     const bool passed = task.tally.passes > 0;
-    const std::string state = passed                    ? said(language, Said::what_passed)
-                              : task.tally.attempts > 0 ? number(language, task.tally.best, 0)
-                                                        : said(language, Said::what_new);
+    const std::string state = passed ? said(language, Said::what_passed)
+                              : task.tally.attempts > 0
+                                  ? std::to_string(whole_points(task.tally.best))
+                                  : said(language, Said::what_new);
     page.choices.push_back(
-        {task.scenario.title,
+        {title_words(language, task.scenario),
          fill(said(language, Said::level_is), {std::to_string(task.scenario.level)}) + "   " +
              state,
          passed ? Tone::good : Tone::plain, about_task(task, language), nullptr});
   }
+  if (std::any_of(tasks.begin(), tasks.end(),
+                  [](const OfferedTask& task) { return task.tally.attempts > 0; }))
+    page.choices.push_back({said(language, Said::what_earlier), "", Tone::heading, {}, nullptr});
   page.refresh = [&tasks, &bodies](Page& shown) {
     if (shown.at >= tasks.size()) return;
     bodies.want(tasks[shown.at].scenario);
     shown.choices[shown.at].picture = bodies.picture(tasks[shown.at].scenario);
   };
+  return page;
+}
+
+Page make_earlier_page(const std::vector<EarlierAttempt>& attempts, Language language) {
+  Page page;
+  page.stage = "earlier";
+  page.title = said(language, Said::what_earlier);
+  page.may_back = true;
+  for (const auto& [record, title] : attempts) {
+    const Said how = record.passed  ? Said::end_passed
+                     : record.aided ? Said::end_aided
+                                    : Said::end_not_passed;
+    std::string when = record.started;
+    std::replace(when.begin(), when.end(), 'T', ' ');
+    page.choices.push_back(
+        {title,
+         when,
+         record.passed ? Tone::good : Tone::plain,
+         {{said(language, how)},
+          {fill(said(language, Said::end_score), {std::to_string(whole_points(record.score)),
+                                                  number(language, record.duration, 0)})}},
+         nullptr});
+  }
   return page;
 }
 
@@ -162,7 +189,7 @@ Page make_briefing_page(const Scenario& scenario, const std::set<std::string>& a
                         const KeyMap& keys, Language language) {
   Page page;
   page.stage = "briefing";
-  page.title = scenario.title;
+  page.title = title_words(language, scenario);
   page.may_back = true;
   page.lines = {{goal_words(scenario, language)}};
   const Vec3 entry_P = scenario.X_JP.inverse() * scenario.entry.centre;
@@ -195,7 +222,10 @@ Page make_briefing_page(const Scenario& scenario, const std::set<std::string>& a
 
 Page make_end_page(const TrainOutcome& outcome, const std::string& next, Language language) {
   const Judgement& judgement = outcome.played.judgement;
-  const Feedback feedback = make_feedback(outcome.played.measures, judgement);
+  const Feedback& feedback = outcome.feedback;
+  const auto in_words = [language](const std::string& line) {
+    return feedback_words(language, line);
+  };
   Page page;
   page.stage = "end";
   const bool all_held = std::all_of(judgement.marks.begin(), judgement.marks.end(),
@@ -209,15 +239,15 @@ Page make_end_page(const TrainOutcome& outcome, const std::string& next, Languag
   std::vector<PageLine> about;
   if (!feedback.faults.empty()) about.push_back({said(language, Said::end_faults), Tone::heading});
   for (const Fault& fault : feedback.faults) {
-    about.push_back(
-        {fill(said(language, Said::colon), {number(language, fault.time, 1) + " s", fault.what}),
-         Tone::bad});
-    about.push_back({fill(text(language, Text::review_cause), {fault.cause})});
-    about.push_back({fill(text(language, Text::review_do), {fault.mend}), Tone::good});
+    about.push_back({fill(said(language, Said::colon),
+                          {number(language, fault.time, 1) + " s", in_words(fault.what)}),
+                     Tone::bad});
+    about.push_back({fill(text(language, Text::review_cause), {in_words(fault.cause)})});
+    about.push_back({fill(text(language, Text::review_do), {in_words(fault.mend)}), Tone::good});
   }
   if (!feedback.good.empty())
-    about.push_back({fill(said(language, Said::end_well), {feedback.good}), Tone::good});
-  about.push_back({feedback.next});
+    about.push_back({fill(said(language, Said::end_well), {in_words(feedback.good)}), Tone::good});
+  about.push_back({in_words(feedback.next)});
   for (const Said choice : {Said::end_review, Said::end_again, Said::end_next, Said::end_other,
                             Said::end_who, Said::end_leave})
     page.choices.push_back(

@@ -26,9 +26,19 @@ struct OfferedTask {
   Scenario scenario;
   TrainTally tally;
 };
-/// What: the scenarios by level, with picture and what was done; `at`: the one that is marked.
+/// What: the scenarios by level, with picture and what was done, and after them the way to earlier
+/// attempts when there are any; `at`: the one that is marked.
 [[nodiscard]] Page make_what_page(const std::vector<OfferedTask>& tasks, const std::string& person,
                                   TrainBodies& bodies, std::size_t at, Language language);
+
+/// A finished attempt with the title of its task.
+struct EarlierAttempt {
+  AttemptRecord record;
+  std::string title;
+};
+/// Which attempt to look at again.
+[[nodiscard]] Page make_earlier_page(const std::vector<EarlierAttempt>& attempts,
+                                     Language language);
 
 /// What a choice of the briefing asks for.
 struct BriefingChoice {

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <utility>
 
+#include "artus/apps/feedback_words.h"
 #include "artus/apps/train_texts.h"
 #include "artus/core/units.h"
 #include "artus/session/replay.h"
-#include "artus/training/feedback.h"
 #include "artus/viewer/anatomy_names.h"
 
 namespace artus {
@@ -94,7 +94,7 @@ Result<ReviewFilm> make_film(const Recording& recording,
 Result<Review> make_review(const TrainTask& task, const TrainOutcome& outcome, Language language) {
   const PlayedAttempt& played = outcome.played;
   Review review;
-  review.title = task.scenario.title;
+  review.title = title_words(language, task.scenario);
   review.scene = task.scene;
   review.params = played.recording.head.params;
   review.target_J = task.scenario.target.point;
@@ -112,8 +112,10 @@ Result<Review> make_review(const TrainTask& task, const TrainOutcome& outcome, L
       ticks.empty() ? 0 : static_cast<double>(ticks.front().input.tick) / review.params.haptic_rate;
   constexpr double kSeen =
       0.5;  // s into a fault, when there is something to see of it: the report's
-  for (const Fault& fault : make_feedback(played.measures, played.judgement).faults)
-    review.faults.push_back({fault.time - begin + kSeen, fault.what, fault.cause, fault.mend});
+  for (const Fault& fault : outcome.feedback.faults)
+    review.faults.push_back({fault.time - begin + kSeen, feedback_words(language, fault.what),
+                             feedback_words(language, fault.cause),
+                             feedback_words(language, fault.mend)});
   const TipSightFinder finder(review.params.transducer, review.params.image.depth,
                               review.params.needle_shape);
   review.why = [finder, scene = task.scene, language](const HapticSnapshot& state) {

@@ -30,6 +30,8 @@ constexpr std::array<Words, kCount> kSaid{{
   {"new", "nouveau"},
   {"Time: {} s", "Temps : {} s"},
   {"Probe {}, needle {} G of {} mm", "Sonde {}, aiguille {} G de {} mm"},
+  {"Look at an earlier attempt", "Revoir un essai précédent"},
+  {"The attempt is being read ...", "Lecture de l'essai ..."},
   {"Bring the tip to the point {} mm deep{}", "Amener la pointe au point situé à {} mm de profondeur{}"},
   {", {} mm to the left of the picture's middle", ", {} mm à gauche du milieu de l'image"},
   {", {} mm to the right of the picture's middle", ", {} mm à droite du milieu de l'image"},
@@ -185,6 +187,11 @@ std::string bound_words(Language language, const Mark& mark) {
 std::string mark_words(Language language, const Mark& mark) {
   return fill(said(language, Said::colon),
               {metric_words(language, mark.metric), bound_words(language, mark)});
+}
+
+const std::string& title_words(Language language, const Scenario& scenario) {
+  const bool french = language == Language::french && !scenario.title_fr.empty();
+  return french ? scenario.title_fr : scenario.title;
 }
 
 std::string step_words(Language language, const std::string& step) {

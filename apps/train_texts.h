@@ -25,6 +25,8 @@ enum class Said {
   what_new,
   what_time,
   what_instruments,
+  what_earlier,
+  busy_earlier,
   brief_target_point,
   brief_left,
   brief_right,
@@ -109,6 +111,8 @@ enum class Said {
 [[nodiscard]] std::string bound_words(Language language, const Mark& mark);
 /// "tip from the target, mm: at most 2".
 [[nodiscard]] std::string mark_words(Language language, const Mark& mark);
+/// A scenario's title; the English one where it has none in the language.
+[[nodiscard]] const std::string& title_words(Language language, const Scenario& scenario);
 /// A step of a scenario in words.
 [[nodiscard]] std::string step_words(Language language, const std::string& step);
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <string>
+
 #include "artus/apps/command.h"
+#include "artus/apps/window_options.h"
 
 namespace artus {
 
@@ -10,5 +13,8 @@ void add_play_command(Command& app, ExitCode& code);
 void add_rate_command(Command& app, ExitCode& code);
 void add_scenario_command(Command& app, ExitCode& code);
 void add_train_command(Command& app, ExitCode& code);
+
+/// `artus train` as it is without flags, in a window like another one. `language`: as its flag.
+[[nodiscard]] ExitCode start_training(const WindowOptions& window, const std::string& language);
 
 }  // namespace artus

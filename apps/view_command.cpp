@@ -9,6 +9,7 @@
 #include "artus/apps/live_metrics.h"
 #include "artus/apps/remote_wishes.h"
 #include "artus/apps/session_options.h"
+#include "artus/apps/training_commands.h"
 #include "artus/apps/window_options.h"
 #include "artus/viewer/surface_detail.h"
 #include "artus/viewer/window.h"
@@ -64,6 +65,7 @@ Result<void> prepare_window(const ViewerOptions& options, const CompiledJoint& j
   window.connect = connect_hint(options.session, window.language);
   window.welcome = options.session.input == "hand" && window.script.empty() &&
                    window.screenshot.empty() && !window.expert;
+  window.training = window.welcome;
   return {};
 }
 
@@ -75,7 +77,8 @@ void print_report(const Session& session, const WindowReport& report) {
   std::printf("3D view at detail %zu of %zu\n", report.joint_level, DetailChooser::kLevels - 1);
 }
 
-ExitCode run_view(const ViewerOptions& options) {
+/// `training`: whether the window led there.
+ExitCode run_view(const ViewerOptions& options, bool& training) {
   WindowOptions window = options.window;
   if (const auto script = take_script(options, window); !script)
     return report_error(script.error(), false);
@@ -124,6 +127,7 @@ ExitCode run_view(const ViewerOptions& options) {
   const std::optional<PlannedInjection> plan =
       window.tasks.empty() ? std::nullopt : std::optional(window.tasks[window.task].injection);
   const auto shown = run_window(**session, hand, first_target(**joint, plan), window, report);
+  training = report.training;
   if (*link) (*link)->attach(nullptr);
   if (options.report) print_report(**session, report);
   if (!shown) return report_error(shown.error(), false);
@@ -165,7 +169,12 @@ void add_view_command(Command& app, ExitCode& code) {
       ->capture_default_str();
   add_live_metrics_option(command, options->metrics);
   command->add_flag("--report", options->report, "print where the time went at the end");
-  on_run(command, code, [options] { return run_view(*options); });
+  on_run(command, code, [options] {
+    bool training = false;
+    const ExitCode viewed = run_view(*options, training);
+    return viewed == ExitCode::ok && training ? start_training(options->window, options->language)
+                                              : viewed;
+  });
 }
 
 }  // namespace artus

@@ -53,6 +53,29 @@ double misplaced_ml(std::span<const Metric> metrics) {
   return value_of(metrics, "given_ml") * (1 - *hit->value);
 }
 
+/// mm advanced without seeing a tip that the picture could have shown: who enters beside it as
+/// asked cannot see the tip before its edge.
+double unseen_mm(std::span<const Metric> metrics) {
+  return std::max(0.0, value_of(metrics, kUnseen.metric) - value_of(metrics, "unseen_entry_mm"));
+}
+
+/// The run that most of it was in. The way to the picture's edge, which the first run begins with,
+/// is none of it.
+const AttemptEvent* worst_unseen(const AttemptMeasures& m) {
+  const AttemptEvent* worst = nullptr;
+  double most = 0;
+  double entry = value_of(m.metrics, "unseen_entry_mm");
+  for (const AttemptEvent& e : m.events) {
+    if (e.kind != "unseen") continue;
+    if (e.value - entry > most) {
+      worst = &e;
+      most = e.value - entry;
+    }
+    entry = 0;
+  }
+  return worst;
+}
+
 bool unaspirated(std::span<const Metric> metrics) {
   return value_of(metrics, "given_ml") > kGiven && value_of(metrics, kUnaspirated.metric) == 0;
 }
@@ -86,8 +109,8 @@ void add_needle_faults(const AttemptMeasures& m, std::vector<Fault>& out) {
                    beside("into what must be spared", e->value, "mm", 0), e->text,
                    "Stop when you lose the tip. Tilt the probe until it is back, then advance."});
   const AttemptEvent* bone = worst_event(m, "bone");
-  const double unseen = value_of(m, kUnseen.metric);
-  if (const AttemptEvent* e = worst_event(m, "unseen")) {
+  const double unseen = unseen_mm(m.metrics);
+  if (const AttemptEvent* e = worst_unseen(m); e != nullptr && unseen > kUnseen.band) {
     const bool on_bone = bone != nullptr && bone->time >= e->time && bone->time < e->time + 3;
     Fault fault{"unseen",
                 e->time,
@@ -227,25 +250,30 @@ std::optional<Skill> weakest_skill(const PastAttempt& now, const FeedbackContext
   return weakest;
 }
 
-std::string task_of(Skill skill) {
+/// A skill's task: what to do, and the scenario for it.
+struct SkillTask {
+  const char* what;
+  const char* scenario;
+};
+SkillTask task_of(Skill skill) {
   switch (skill) {
     case Skill::view:
-      return "Follow the tip to a shallow point on the gel block (gel-find).";
+      return {"Follow the tip to a shallow point on the gel block (gel-find).", "gel-find"};
     case Skill::align:
-      return "Hold the needle in the plane on the gel block (gel-hold).";
+      return {"Hold the needle in the plane on the gel block (gel-hold).", "gel-hold"};
     case Skill::steer:
-      return "Touch the point at 20 mm on the gel block (gel-align).";
+      return {"Touch the point at 20 mm on the gel block (gel-align).", "gel-align"};
     case Skill::inject:
       break;
   }
-  return "The same task once more: draw back, give half a ml, look, then the rest.";
+  return {"The same task once more: draw back, give half a ml, look, then the rest.", ""};
 }
 
-std::string next_task(const Judgement& judgement, const std::optional<Skill>& weakest) {
-  if (judgement.with_aids) return "The same once more with the aids off: only that counts.";
+SkillTask next_task(const Judgement& judgement, const std::optional<Skill>& weakest) {
+  if (judgement.with_aids) return {"The same once more with the aids off: only that counts.", ""};
   if (weakest) return task_of(*weakest);
-  if (judgement.passed) return "Once more to make sure, then the next level.";
-  return "The same task once more.";
+  if (judgement.passed) return {"Once more to make sure, then the next level.", ""};
+  return {"The same task once more.", ""};
 }
 
 }  // namespace
@@ -263,10 +291,11 @@ PastAttempt past_attempt(double weeks, std::span<const Metric> metrics) {
   out.weeks = weeks;
   out.injected = value_of(metrics, "given_ml") > kGiven;
   for (const auto& [kind, name] :
-       {std::pair{&kOffTarget, "off_target"}, std::pair{&kUnseen, "unseen"},
-        std::pair{&kDrift, "drift"}, std::pair{&kPasses, "passes"}, std::pair{&kAngle, "angle"},
+       {std::pair{&kOffTarget, "off_target"}, std::pair{&kDrift, "drift"},
+        std::pair{&kPasses, "passes"}, std::pair{&kAngle, "angle"},
         std::pair{&kPressure, "pressure"}, std::pair{&kFast, "fast"}, std::pair{&kIdle, "idle"}})
     if (value_of(metrics, kind->metric) > kind->band) out.kinds.emplace_back(name);
+  if (unseen_mm(metrics) > kUnseen.band) out.kinds.emplace_back("unseen");
   if (value_of(metrics, kBone.metric) >= kBone.band) out.kinds.emplace_back("bone");
   if (misplaced_ml(metrics) > kMisplaced.band) out.kinds.emplace_back("misplaced");
   if (unaspirated(metrics)) out.kinds.emplace_back("unaspirated");
@@ -302,7 +331,9 @@ Feedback make_feedback(const AttemptMeasures& measures, const Judgement& judgeme
   }
   std::stable_sort(out.faults.begin(), out.faults.end(),
                    [](const Fault& a, const Fault& b) { return a.weight > b.weight; });
-  out.next = next_task(judgement, weakest_skill(now, context));
+  const SkillTask next = next_task(judgement, weakest_skill(now, context));
+  out.next = next.what;
+  out.next_scenario = next.scenario;
   if (out.faults.size() > kMost) out.faults.resize(kMost);
   out.good = praise(measures);
   return out;

@@ -27,6 +27,7 @@ struct Feedback {
   std::vector<Fault> faults;  ///< three at most, worst first; those of one cause are one
   std::string good;           ///< one thing done well; may be empty
   std::string next;           ///< one next task
+  std::string next_scenario;  ///< its name among the bundled ones; empty: none is named
 };
 
 /// What hands and eyes can do, each trained by a task of its own; of two that

@@ -61,6 +61,11 @@ bool holds(const Mark& mark, double value) noexcept {
   return false;
 }
 
+int whole_points(double score) noexcept {
+  constexpr double kRounding = 1e-9;
+  return static_cast<int>(std::floor(score + kRounding));
+}
+
 Judgement judge(std::span<const Metric> metrics, std::span<const Mark> marks,
                 std::span<const ScoreWeight> weights, bool with_aids) {
   Judgement out;

@@ -40,6 +40,9 @@ struct Judgement {
   std::vector<JudgedMark> marks;
 };
 
+/// Whole points of a score for people: rounded down, so that 100 means that every mark held.
+[[nodiscard]] int whole_points(double score) noexcept;
+
 /// A metric's weight in the score.
 struct ScoreWeight {
   std::string metric;

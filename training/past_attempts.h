@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
-#include <ctime>
-#include <string>
 #include <vector>
 
 #include "artus/training/feedback.h"
@@ -9,10 +7,10 @@
 
 namespace artus {
 
-/// A person's finished attempts without aids, oldest first, as feedback wants them. `now`: UTC.
-/// Errors: those of Records. Cost: linear in the person's numbers.
+/// What the same person had finished without aids when an attempt began, oldest first, as feedback
+/// wants it; `weeks` before the attempt's begin. Errors: those of Records. Cost: linear in the
+/// person's numbers.
 [[nodiscard]] Result<std::vector<PastAttempt>> read_past_attempts(Records& records,
-                                                                  const std::string& person,
-                                                                  std::time_t now);
+                                                                  const AttemptRecord& attempt);
 
 }  // namespace artus

@@ -18,11 +18,41 @@ Result<ByAttempt> metrics_of(Records& records, const AttemptFilter& filter) {
   return out;
 }
 
+/// What raters said of an attempt.
+struct ByPeople {
+  std::vector<nlohmann::json> ratings;
+  std::vector<nlohmann::json> comments;
+};
+Result<std::map<std::string, ByPeople>> judged_by_people(Records& records) {
+  const auto ratings = records.ratings("");
+  ARTUS_TRY(ratings);
+  const auto comments = records.comments("");
+  ARTUS_TRY(comments);
+  std::map<std::string, ByPeople> out;
+  for (const RatingRecord& r : *ratings)
+    out[r.attempt].ratings.push_back({{"rater", r.rater},
+                                      {"instrument", r.instrument},
+                                      {"item", r.item},
+                                      {"value", r.value},
+                                      {"blinded", r.blinded}});
+  for (const CommentRecord& c : *comments)
+    out[c.attempt].comments.push_back({{"person", c.person}, {"time_s", c.time}, {"text", c.text}});
+  return out;
+}
+
+nlohmann::json listed(const std::vector<nlohmann::json>& objects) {
+  auto out = nlohmann::json::array();
+  for (const nlohmann::json& object : objects) out.push_back(object);
+  return out;
+}
+
 }  // namespace
 
 Result<nlohmann::json> export_json(Records& records, const AttemptFilter& filter) {
   const auto attempts = records.attempts(filter);
   ARTUS_TRY(attempts);
+  auto judged = judged_by_people(records);
+  ARTUS_TRY(judged);
   auto metrics = metrics_of(records, filter);
   ARTUS_TRY(metrics);
   auto out = nlohmann::json::array();
@@ -46,7 +76,9 @@ Result<nlohmann::json> export_json(Records& records, const AttemptFilter& filter
                    {"duration_s", a.duration},
                    {"passed", a.passed},
                    {"score", a.score},
-                   {"metrics", values}});
+                   {"metrics", values},
+                   {"ratings", listed((*judged)[a.id].ratings)},
+                   {"comments", listed((*judged)[a.id].comments)}});
   }
   return out;
 }

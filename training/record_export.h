@@ -8,7 +8,7 @@
 
 namespace artus {
 
-/// Attempts with all their metrics, one object an attempt.
+/// Attempts with all their metrics, ratings and comments, one object an attempt.
 [[nodiscard]] Result<nlohmann::json> export_json(Records& records, const AttemptFilter& filter);
 /// A line a metric of an attempt:
 /// person,scenario,attempt,started,passed,score,metric,role,value,unit.

@@ -256,6 +256,20 @@ Result<void> Records::comment(const std::string& attempt, const std::string& per
   return add.bind(attempt).bind(person).bind(time).bind(text).run();
 }
 
+Result<std::vector<CommentRecord>> Records::comments(const std::string& attempt) {
+  SqliteStatement ask(file_,
+                      "SELECT attempt, person, t, text FROM comment "
+                      "WHERE ?1 = '' OR attempt = ?1 ORDER BY rowid");
+  ask.bind(attempt);
+  std::vector<CommentRecord> out;
+  for (;;) {
+    const auto row = ask.step();
+    ARTUS_TRY(row);
+    if (!*row) return out;
+    out.push_back({ask.text(0), ask.text(1), ask.number(2), ask.text(3)});
+  }
+}
+
 std::string make_random_id() {
   std::random_device random;
   return printed("%08x%08x", random(), random());

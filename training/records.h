@@ -38,7 +38,7 @@ struct AttemptRecord {
   double score = 0;
 };
 
-/// A rating or a comment of a person on an attempt.
+/// A rating of a person on an attempt.
 struct RatingRecord {
   std::string attempt;
   std::string rater;
@@ -46,6 +46,14 @@ struct RatingRecord {
   std::string item;
   double value = 0;
   bool blinded = true;
+};
+
+/// What somebody wrote about an attempt.
+struct CommentRecord {
+  std::string attempt;
+  std::string person;
+  double time = 0;  ///< s into the attempt
+  std::string text;
 };
 
 /// One value of one metric over a set of attempts.
@@ -90,6 +98,8 @@ class Records {
 
   [[nodiscard]] Result<void> rate(const RatingRecord& rating);
   [[nodiscard]] Result<std::vector<RatingRecord>> ratings(const std::string& attempt);
+  /// Those of one attempt; of all when it is empty. By the time at which they were given.
+  [[nodiscard]] Result<std::vector<CommentRecord>> comments(const std::string& attempt);
   [[nodiscard]] Result<void> comment(const std::string& attempt, const std::string& person,
                                      double time, const std::string& text);
 

@@ -178,6 +178,7 @@ void read_head(TomlTable& toml, Scenario& s) {
   s.name = toml.required_text("name");
   if (!is_plain_name(s.name, '-')) toml.problem_at("name", "it must be made of a-z, 0-9 and -");
   s.title = toml.required_text("title");
+  s.title_fr = toml.text("title_fr").value_or("");
   s.joint = toml.text("joint").value_or("");
   s.procedure = toml.text("procedure").value_or("");
   s.level = static_cast<int>(toml.required_number("level", 0, 8));

@@ -53,7 +53,8 @@ struct Aid {
 struct Scenario {
   std::string name;
   std::string title;
-  std::string joint;  ///< a joint folder or compiled file; empty: `gel`
+  std::string title_fr;  ///< the same in French; empty: there is none
+  std::string joint;     ///< a joint folder or compiled file; empty: `gel`
   std::optional<GelBlock> gel;
   std::string procedure;
   int level = 0;  ///< rung of the ladder, 0 to 8

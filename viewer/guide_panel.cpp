@@ -103,6 +103,8 @@ void draw_welcome(const PanelInput& in, ViewState& state) {
     if (ImGui::Button(name.c_str())) state.planned = i;
     if (i % 2 == 0 && i + 1 < injections.size() && !state.layout.narrow()) ImGui::SameLine();
   }
+  if (state.offers_training && ImGui::Button(tell(state, Text::choice_train)))
+    state.quit = state.training = true;
   action_button(state, Text::choice_help, Action::help);
   ImGui::End();
   ImGui::PopStyleColor();

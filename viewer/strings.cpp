@@ -42,6 +42,7 @@ constexpr std::array<Row, kTexts> kTable{{
   {"What would you like to do?", "Que voulez-vous faire ?"},
   {"Explore with the probe", "Explorer avec la sonde"},
   {"Inject {}: {}", "Injection {} : {}"},
+  {"Train: tasks with a verdict, a review and a record", "S'entraîner : exercices avec verdict, revue et dossier"},
   {"Help: all keys", "Aide : toutes les touches"},
 
   {"no device yet: artus view --input hand needs none", "aucun appareil : artus view --input hand n'en demande pas"},

@@ -40,6 +40,7 @@ enum class Text {
   choice_title,
   choice_explore,
   choice_inject,
+  choice_train,
   choice_help,
   connect_hand,
   connect_shared,

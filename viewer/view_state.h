@@ -32,6 +32,8 @@ struct ViewState {
   bool labels = false;  ///< structures are named
   bool quit = false;
   bool finished = false;           ///< a task was said to be done
+  bool offers_training = false;    ///< the welcome has a way to it
+  bool training = false;           ///< it was taken
   const Lesson* lesson = nullptr;  ///< the task; null: the window is free
   bool left_handed = false;        ///< the mouse's buttons change places
   bool true_scale = false;         ///< one millimetre of tissue is one millimetre of the screen

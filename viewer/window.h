@@ -55,6 +55,7 @@ struct WindowOptions {
   int height = 720;  ///< pixels
   bool expert = false;
   bool welcome = false;      ///< offers the three choices at first
+  bool training = false;     ///< and a fourth: the way to training, which ends the window
   double rate = 30;          ///< Hz, at most
   double pixels_per_mm = 0;  ///< of the screen; 0: as the system says
   double font_scale = 1;     ///< of the letters, besides what screen and window ask for
@@ -85,6 +86,7 @@ struct WindowReport {
   ImagePlace image_place;            ///< of the last picture
   bool expert = false;
   bool finished = false;            ///< a lesson's: its end was asked for, or it was over
+  bool training = false;            ///< the way to training was taken
   std::uint64_t pictures = 0;       ///< shown
   LatencyHistogram interval;        ///< from picture to picture
   LatencyHistogram joint;           ///< that a drawn 3D view took

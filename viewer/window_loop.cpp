@@ -47,6 +47,7 @@ WindowLoop::WindowLoop(GLFWwindow* window, std::unique_ptr<JointView> joint, Ses
   state_.language = options.language;
   state_.expert = options.expert;
   state_.welcome = options.welcome;
+  state_.offers_training = options.training;
   state_.left_handed = options.left_handed;
   state_.patient = options.patient;
   state_.controls = sent_controls_ = controls_of(session.params());
@@ -113,6 +114,7 @@ Result<void> WindowLoop::run(WindowReport& report) {
   report.image_place = state_.image_place;
   report.expert = state_.expert;
   report.finished = state_.finished;
+  report.training = state_.training;
   report.joint_level = joint_->level();
   if (!options_.layout.empty()) ARTUS_TRY(state_.layout.write(options_.layout));
   return {};

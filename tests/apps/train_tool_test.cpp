@@ -11,11 +11,13 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "artus/apps/feedback_words.h"
 #include "artus/apps/train_desk.h"
 #include "artus/apps/train_lesson.h"
 #include "artus/apps/train_pages.h"
 #include "artus/apps/train_review.h"
 #include "artus/apps/train_texts.h"
+#include "artus/core/markup.h"
 #include "artus/core/text_file.h"
 #include "artus/core/units.h"
 #include "artus/training/records.h"
@@ -67,7 +69,13 @@ test::ProcessResult visit(const std::filesystem::path& folder, const std::vector
   return test::run_process({"xvfb-run", "-a", "sh", "-c", commands});
 }
 
-constexpr const char* kWholeSession =
+std::string many_times(int n, const std::string& step) {
+  std::string steps;
+  for (int i = 0; i < n; ++i) steps += step;
+  return steps;
+}
+
+const std::string kWholeSession =
     "stage who\nkey ENTER\n"
     "stage pseudonym\nkey ENTER\n"
     "stage what\nkey ENTER\n"
@@ -78,7 +86,13 @@ constexpr const char* kWholeSession =
     "stage review\nkey RIGHT\nkey F3\nkey U\nkey F6\nkey U\nkey ESCAPE\n"
     "stage end\nkey DOWN\nkey DOWN\nkey ENTER\n"
     "stage briefing\nkey ESCAPE\n"
-    "stage what\n";
+    "stage what\n" +
+    many_times(20, "key DOWN\n") +
+    "key ENTER\n"
+    "stage earlier\nkey ENTER\n"
+    "stage end\nkey ENTER\n"
+    "stage review\nkey ESCAPE\n"
+    "stage end\n";
 
 /// What was kept of an attempt.
 void expect_same_as_its_recording(const AttemptRecord& attempt) {
@@ -104,6 +118,31 @@ void expect_same_as_its_recording(const AttemptRecord& attempt) {
     with_value += metric.value ? 1 : 0;
   }
   EXPECT_GT(with_value, 30U);
+}
+
+/// Opened again it is told as it was when it was made.
+void expect_the_same_when_it_is_looked_at_again(TrainDesk desk, const AttemptRecord& attempt) {
+  const auto finished = desk.finished(attempt.person);
+  ASSERT_TRUE(finished) << finished.error().to_string();
+  ASSERT_EQ(finished->size(), 1U);
+  const auto scenario = find_scenario(attempt.scenario);
+  const auto scene = make_gel_scene(*scenario->gel);
+  ASSERT_TRUE(scene);
+  const auto again = read_attempt(desk, {attempt.person, *scenario, *scene, {}}, finished->front());
+  ASSERT_TRUE(again) << again.error().to_string();
+  EXPECT_TRUE(again->finished);
+  EXPECT_EQ(again->played.judgement.passed, attempt.passed);
+  EXPECT_EQ(again->played.judgement.score, attempt.score);
+  EXPECT_EQ(again->played.duration, attempt.duration);
+  const auto kept = read_bytes(std::filesystem::path(attempt.folder) / "attempt.json");
+  ASSERT_TRUE(kept);
+  const auto json = nlohmann::json::parse(*kept);
+  EXPECT_EQ(to_json(again->played.measures.metrics), json["metrics"]);
+  const auto page = read_bytes(again->report);
+  ASSERT_TRUE(page);
+  EXPECT_NE(page->find(escape_markup(again->feedback.next)), std::string::npos);
+  std::filesystem::remove(std::filesystem::path(attempt.folder) / "session.rec");
+  EXPECT_TRUE(desk.finished(attempt.person)->empty()) << "nothing is offered that is not there";
 }
 
 TEST_F(Train, SomeoneNewComesFromTheFirstPageToTheReviewAndTheNextTaskByKeysAndWheel) {
@@ -137,6 +176,8 @@ TEST_F(Train, SomeoneNewComesFromTheFirstPageToTheReviewAndTheNextTaskByKeysAndW
   EXPECT_TRUE(std::filesystem::exists(kept / "report.html"));
   EXPECT_TRUE(std::filesystem::exists(kept / "scenario.toml"));
   expect_same_as_its_recording(attempt);
+  expect_the_same_when_it_is_looked_at_again(
+      *TrainDesk::open(folder_ / "whole" / "records.db", folder_ / "whole" / "attempts"), attempt);
 }
 
 TEST_F(Train, WhatCannotBeIsRefusedBeforeAWindowIsOpened) {
@@ -230,6 +271,9 @@ TEST(TrainTask, EveryBundledScenarioIsSaidInWordsInBothLanguages) {
   for (const std::string_view text : bundled_scenario_texts()) {
     const auto scenario = parse_scenario(text, "bundled");
     ASSERT_TRUE(scenario);
+    EXPECT_FALSE(scenario->title_fr.empty()) << scenario->name;
+    EXPECT_EQ(title_words(Language::english, *scenario), scenario->title);
+    EXPECT_EQ(title_words(Language::french, *scenario), scenario->title_fr);
     for (const Language language : {Language::english, Language::french}) {
       EXPECT_FALSE(goal_words(*scenario, language).empty());
       for (const Mark& mark : scenario->pass)
@@ -247,6 +291,49 @@ TEST(TrainTask, MarksAreSaidWithTheirBounds) {
   EXPECT_EQ(mark_words(Language::english, *mark), "tip from the target, mm: at most 1.5");
   EXPECT_EQ(mark_words(Language::french, *mark), "pointe à la cible, mm : au plus 1,5");
   EXPECT_EQ(bound_words(Language::english, *parse_mark("avoid_fatal", "== 0")), "exactly 0");
+}
+
+TEST(TrainTask, WhatFeedbackSaysIsSaidInFrenchWithItsNumbersAndStructures) {
+  const auto french = [](const char* english) {
+    return feedback_words(Language::french, english);
+  };
+  EXPECT_EQ(french("advanced without seeing the tip: 2.5 mm; asked for: below 1.0, and onto bone"),
+            "avancé sans voir la pointe : 2,5 mm ; demandé : moins de 1,0, et jusqu'à l'os");
+  EXPECT_EQ(french("touches of bone: 2.0 ; asked for: below 1.0"),
+            "contacts avec l'os : 2,0  ; demandé : moins de 1,0");
+  EXPECT_EQ(french("the tip was in the shadow of humerus"),
+            "la pointe était dans l'ombre de cette structure : humérus");
+  EXPECT_EQ(french("1.5 ml with the tip in bursa, and no pause to look after the first of it"),
+            "1,5 ml, pointe dans : bourse, sans pause pour regarder après les premières gouttes");
+  EXPECT_EQ(french("the needle's angle to the probe's face: 62.1 degrees; asked for: below 50.0"),
+            "angle de l'aiguille à la face de la sonde : 62,1 degrés ; demandé : moins de 50,0");
+  EXPECT_EQ(french("a sentence that nobody said"), "a sentence that nobody said");
+  EXPECT_EQ(feedback_words(Language::english, "passes"), "passes");
+}
+
+/// No line of what novices are told stays English.
+TEST(TrainTask, WhatNovicesAreToldIsThereInFrench) {
+  std::size_t lines = 0;
+  for (const char* name : {"gel-find", "gel-align", "gel-steep"}) {
+    const auto scenario = find_scenario(name);
+    const auto scene = make_gel_scene(*scenario->gel);
+    ASSERT_TRUE(scene);
+    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+      PlayOptions options;
+      options.seed = seed;
+      const auto played = play(*scenario, *scene, novice_skill(), options);
+      ASSERT_TRUE(played);
+      const Feedback told = make_feedback(played->measures, played->judgement);
+      std::vector<std::string> all{told.next};
+      if (!told.good.empty()) all.push_back(told.good);
+      for (const Fault& fault : told.faults)
+        for (const std::string& line : {fault.what, fault.cause, fault.mend}) all.push_back(line);
+      for (const std::string& line : all)
+        EXPECT_NE(feedback_words(Language::french, line), line) << name << " " << seed;
+      lines += all.size();
+    }
+  }
+  EXPECT_GT(lines, 40U);
 }
 
 TEST(TrainTask, EveryTextOfItsPagesIsThereInBothLanguages) {

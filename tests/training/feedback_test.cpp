@@ -181,6 +181,24 @@ TEST(Feedback, ATipBesideThePlaneAndASteepNeedleAreToldApart) {
   EXPECT_THAT(unseen->mend, HasSubstr("Enter further"));
 }
 
+TEST(Feedback, TheWayToThePicturesEdgeIsNobodysFault) {
+  Hands flat(15);  // comes in 30 mm beside the probe's middle, whose picture is 20 mm wide there
+  flat.go(4, 15);
+  const AttemptMeasures m = flat.measure();
+  const Metric* unseen = find_metric(m.metrics, "unseen_mm");
+  const Metric* entry = find_metric(m.metrics, "unseen_entry_mm");
+  ASSERT_TRUE(unseen != nullptr && entry != nullptr && unseen->value && entry->value);
+  EXPECT_GT(*entry->value, 10);
+  EXPECT_NEAR(*unseen->value, *entry->value, 1);
+  EXPECT_EQ(fault_of(make_feedback(m, {}), "unseen"), nullptr);
+  EXPECT_THAT(past_attempt(0, m.metrics).kinds, Not(testing::Contains("unseen")));
+  Hands beside(15);
+  beside.go(1, 3);  // never in the picture
+  const AttemptMeasures never = beside.measure();
+  EXPECT_EQ(find_metric(never.metrics, "unseen_entry_mm")->value, 0);
+  EXPECT_NE(fault_of(make_feedback(never, {}), "unseen"), nullptr);
+}
+
 TEST(Feedback, AFaultOfTheAttemptBeforeWeighsHalfAsMuchAgain) {
   Hands hands;
   hands.go(2, 8);
@@ -212,7 +230,10 @@ TEST(Feedback, TheNextTaskIsOfTheWeakestSkillAndOldPracticeFades) {
   const AttemptMeasures clean = hands.measure();
   const Judgement passed{true, false, 100, {}};
   const auto next = [&](std::vector<PastAttempt> before) {
-    return make_feedback(clean, passed, {0, std::move(before)}).next;
+    const Feedback told = make_feedback(clean, passed, {0, std::move(before)});
+    EXPECT_EQ(told.next.find('(') == std::string::npos, told.next_scenario.empty());
+    EXPECT_THAT(told.next, HasSubstr(told.next_scenario));
+    return told.next;
   };
   EXPECT_THAT(next({}), HasSubstr("next level"));
   const PastAttempt bone{1, false, {"bone"}};
@@ -261,13 +282,16 @@ TEST_F(FeedbackRecords, FinishedAttemptsWithoutAidsCountByTheirAge) {
     ASSERT_TRUE(records->finish(a, drift, {}));
     a.ended.clear();
   }
-  a.id = "unfinished";
   a.aided = false;
-  ASSERT_TRUE(records->begin(a, "text"));
-  std::tm now{};
-  now.tm_year = 126;
-  now.tm_mday = 15;  // two weeks later
-  const auto before = read_past_attempts(*records, "p", timegm(&now));
+  for (const char* id : {"unfinished", "this one", "later"}) {
+    a.id = id;
+    a.started = a.id == "unfinished" ? "2026-01-02T00:00:00Z" : "2026-01-15T00:00:00Z";
+    ASSERT_TRUE(records->begin(a, "text"));
+    if (a.id != "later") continue;
+    ASSERT_TRUE(records->finish(a, drift, {}));
+  }
+  a.id = "this one";
+  const auto before = read_past_attempts(*records, a);
   ASSERT_TRUE(before);
   ASSERT_EQ(before->size(), 1U);
   EXPECT_NEAR(before->front().weeks, 2, 1e-9);

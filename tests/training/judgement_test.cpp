@@ -52,5 +52,12 @@ TEST(Judgement, MarksAreRelationsAndNumbers) {
     EXPECT_FALSE(parse_mark("m", text)) << text;
 }
 
+TEST(Judgement, AHundredPointsMeanThatEveryMarkHeld) {
+  EXPECT_EQ(whole_points(100), 100);
+  EXPECT_EQ(whole_points(100 - 1e-12), 100);
+  EXPECT_EQ(whole_points(99.97), 99);
+  EXPECT_EQ(whole_points(0), 0);
+}
+
 }  // namespace
 }  // namespace artus

@@ -158,6 +158,31 @@ TEST_F(RecordsTest, AKilledProgramLosesNothingThatWasFinished) {
   EXPECT_EQ(ask.text(0), "ok");
 }
 
+TEST_F(RecordsTest, WhatRatersSaidIsExportedBesideTheNumbers) {
+  Records records = open();
+  ASSERT_TRUE(records.add_person({"p1", "learner", ""}));
+  ASSERT_TRUE(records.add_person({"r1", "rater", ""}));
+  ASSERT_TRUE(records.begin(attempt("a1"), "text"));
+  ASSERT_TRUE(records.finish(attempt("a1"), metrics(), {}));
+  ASSERT_TRUE(records.begin(attempt("a2"), "text"));
+  ASSERT_TRUE(records.rate({"a1", "r1", "OSAUS", "overall", 4, true}));
+  ASSERT_TRUE(records.rate({"a1", "r1", "OSAUS", "overall", 3, false}));
+  ASSERT_TRUE(records.comment("a1", "r1", 12.5, "looked <away>"));
+  const auto json = export_json(records, {});
+  ASSERT_TRUE(json);
+  ASSERT_EQ(json->size(), 2U);
+  const auto& rated = (*json)[0];
+  ASSERT_EQ(rated["ratings"].size(), 2U) << "given twice, kept twice";
+  EXPECT_EQ(rated["ratings"][0]["value"], 4);
+  EXPECT_EQ(rated["ratings"][1]["blinded"], false);
+  ASSERT_EQ(rated["comments"].size(), 1U);
+  EXPECT_EQ(rated["comments"][0]["text"], "looked <away>");
+  EXPECT_EQ(rated["comments"][0]["time_s"], 12.5);
+  EXPECT_TRUE((*json)[1]["ratings"].empty());
+  ASSERT_TRUE(records.forget("p1"));
+  EXPECT_TRUE((*export_json(records, {}))[0]["comments"].empty());
+}
+
 TEST_F(RecordsTest, ExportsSayTheSame) {
   Records records = open();
   ASSERT_TRUE(records.add_person({"p1", "learner", ""}));

@@ -26,6 +26,18 @@ TEST_F(WindowEventsTest, EscapeClosesTheHelpAndThenLetsGo) {
   });
 }
 
+TEST_F(WindowEventsTest, TheWelcomeLeadsToTrainingByKeysAndTheWindowEnds) {
+  options_.welcome = options_.training = true;
+  run([](Person& person) {
+    person.x().key("Tab");
+    for (int i = 0; i < 8; ++i) person.x().key("Down");
+    person.x().key("Up");  // above the help, which is the last
+    person.x().key("Return");
+    Person::rest(2);  // a window that has ended shows nothing more
+  });
+  EXPECT_TRUE(report_->training);
+}
+
 TEST_F(WindowEventsTest, APressBeforeThePointerIsBackTakesHoldOfNothing) {
   options_.rate = 2;
   run([](Person& person) {

@@ -156,6 +156,10 @@ void put_sight(Sheet& sheet, const AttemptView& view) {
             "runs of 1 mm or more advanced in tissue while the tip is not seen");
   sheet.put("both", "unseen_mm", "mm", there ? Value(unseen / kMillimetre) : Value(),
             "way advanced in those runs");
+  sheet.put("both", "unseen_entry_mm", "mm",
+            there ? Value(sum.outside_picture / kMillimetre) : Value(),
+            "way advanced in tissue before the tip first came between the picture's edges; 0 when "
+            "it never did");
   std::vector<double> face;
   double drift = 0;
   double needling = 0;

@@ -23,6 +23,8 @@ SightTotals sum_sight(std::span<const CoursePoint> course,
                       std::span<const std::optional<TipSight>> sights) {
   SightTotals sum;
   Run run;
+  double coming = 0;  // m inside, and never yet between the picture's edges
+  bool came = false;
   const auto close = [&] {
     if (run.amount >= kUnseenWay) sum.unseen.push_back(run);
     run = {};
@@ -42,6 +44,12 @@ SightTotals sum_sight(std::span<const CoursePoint> course,
       sum.advanced_in_plane += way;
     sum.offsets.push_back(std::abs(sight.offset));
     sum.angles.push_back(std::abs(sight.plane_angle));
+    if (sight.loss == SightLoss::off_sector && !came) {
+      coming += way;
+    } else if (!came) {
+      came = true;
+      sum.outside_picture = coming;
+    }
     if (sight.seen()) {
       sum.time_seen += dt;
       close();

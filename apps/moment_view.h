@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <vector>
+
+#include "artus/apps/mesh_picture.h"
+#include "artus/raycast/scene.h"
+#include "artus/session/session_params.h"
+#include "artus/training/scenario.h"
+
+namespace artus {
+
+/// Draws an attempt's moments in three dimensions for a page: the joint cut open at the picture's
+/// plane and seen obliquely from the side, its bones, the target (green) and what must be spared
+/// (red), the probe's face, the picture's outline, the needle, and the way from its tip to the
+/// plane. The view stands still beside the probe.
+class MomentView {
+ public:
+  MomentView(const Scenario& scenario, const Scene& scene, const SessionParams& params);
+
+  /// (height, width) blue, green, red. Cost: linear in the triangles of what is drawn.
+  [[nodiscard]] cv::Mat draw(const Pose& X_JP, const Pose& X_JN, cv::Size size) const;
+
+ private:
+  [[nodiscard]] std::vector<ColouredMesh> outline() const;
+
+  std::vector<ColouredMesh> body_;  // frame J
+  Transducer transducer_;
+  double depth_;   // m
+  double length_;  // m, of the needle
+};
+
+}  // namespace artus
