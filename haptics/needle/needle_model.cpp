@@ -2,6 +2,7 @@
 #include "artus/haptics/needle/needle_model.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace artus {
 namespace {
@@ -31,7 +32,14 @@ NeedleModel::NeedleModel(const NeedleParams& params, const LayerTable& table, do
       plasticity_(params.plasticity),
       god_object_(params.prepuncture.god_object),
       workspace_(params.workspace),
-      coupling_(dt) {}
+      coupling_(dt),
+      follow_(1 - std::exp(-dt / NeedleCouplingParams{}.relaxation)) {}
+
+void NeedleModel::take(const NeedlePacket& packet) noexcept {
+  const Vec3 carried(packet.carried[0], packet.carried[1], packet.carried[2]);
+  if (carried.allFinite()) carried_to_ = carried;
+  if (coupling_.active() || !contact_.inserted()) coupling_.take(packet.compliance);
+}
 
 void NeedleModel::reset() noexcept {
   contact_.reset();
@@ -112,14 +120,17 @@ const NeedleForces& NeedleModel::step(const Pose& X_JN,
   }
   if (coupling_.active()) couple(X_JN, tick);
   sum_up(tick);
-  last_tip_ = X_JN.translation();
+  last_tip_ = X_JN.translation() - carried_;
+  carried_ += follow_ * (carried_to_ - carried_);
   return forces_;
 }
 
-/// Where the needle is in the material: back by what the tissue at its tip was pushed in.
+/// Where the needle is in the material: back by what the tissue at its tip was moved, by others and
+/// by itself.
 Pose NeedleModel::material(const Pose& X_JN) const noexcept {
-  if (!coupling_.active()) return X_JN;
   Pose X = X_JN;
+  X.translation() -= carried_;
+  if (!coupling_.active()) return X;
   const Vec3 axis = contact_.inserted() ? contact_.tick().axis : Vec3(X_JN.linear().col(2));
   X.translation() -= coupling_.tip_displacement() * axis;
   return X;
@@ -144,7 +155,7 @@ void NeedleModel::couple(const Pose& X_JN, const NeedleTick& tick) noexcept {
       if (depth >= s.entry && depth < s.exit && depth < tick.depth) limits[i] = per_point * grip_;
     }
   }
-  const double moved = (X_JN.translation() - last_tip_).dot(tick.axis);
+  const double moved = (X_JN.translation() - carried_ - last_tip_).dot(tick.axis);
   const double moved_in = contact_.inserted() ? moved : 0;
   const Haptic& at_tip =
       tick.dimple > 0 ? tick.membrane.tissue : contact_.tick().layer.tissue;  // K_t as measured

@@ -5,6 +5,7 @@
 
 #include "artus/haptics/needle/clamping.h"
 #include "artus/haptics/needle/needle_coupling.h"
+#include "artus/haptics/needle/needle_packet.h"
 #include "artus/haptics/needle/needle_params.h"
 
 namespace artus {
@@ -42,6 +43,10 @@ class NeedleModel {
   ARTUS_REALTIME void take(const NeedleCompliance& compliance) noexcept {
     coupling_.take(compliance);
   }
+  /// The same, and where the tissue at the tip is carried by others (a probe): followed with the
+  /// coupling's relaxation time. To a needle that is in the body already rigid tissue stays rigid
+  /// until it is out again: its forces would jump. What is not a number is left out.
+  ARTUS_REALTIME void take(const NeedlePacket& packet) noexcept;
   /// A tick in which nothing is known: the forces stay.
   ARTUS_REALTIME void hold() noexcept { contact_.hold(); }
   /// Requires: a finite, rigid pose; the intervals of query_segment(X_JN).
@@ -77,6 +82,9 @@ class NeedleModel {
   GodObject god_object_;
   HemisphereWorkspace workspace_;
   NeedleCoupling coupling_;
+  Vec3 carried_ = Vec3::Zero();     // m, frame J, of the tissue at the tip
+  Vec3 carried_to_ = Vec3::Zero();  // by the newest packet
+  double follow_;                   // share of the way in a tick
   NeedleTick felt_;  // the contact's tick, with the wall as stiff as without the tissue around
   double grip_ = 0;  // friction's level g(v), which falls with its relaxation time
   Vec3 last_tip_ = Vec3::Zero();
