@@ -55,9 +55,10 @@ std::optional<NeedleLine> NeedleTissue::find_track(const SoftBody& body, const S
   const Vec3 start = tip - kBehind * axis;
   const QueryCount count = scene.find_intervals({start, tip + kAhead * axis}, met);
   const auto end = met.begin() + static_cast<std::ptrdiff_t>(count.size);
-  const auto skin = std::adjacent_find(
-      std::make_reverse_iterator(end), met.rend(),
-      [](const auto& in, const auto& out) { return in.region >= kFirstRegion && out.region == kOutside; });
+  const auto skin = std::adjacent_find(std::make_reverse_iterator(end), met.rend(),
+                                       [](const auto& in, const auto& out) {
+                                         return in.region >= kFirstRegion && out.region == kOutside;
+                                       });
   if (skin == met.rend()) return std::nullopt;
   const Vec3 entry = start + skin->entry * axis;
   const DeformedBody& tissue = *scene.tissue();
@@ -83,8 +84,8 @@ void NeedleTissue::step(const SoftBody& body, const Scene& scene,
   const double share = 1 - std::exp(-dt_ / SoftSolverParams{}.relaxation);
   pushed_ += share * (cube_displacement(packet_.compliance, needle->load) - pushed_);
   const Vec3 tip = needle->X_JN.translation();
-  const Vec3 carried = tip - scene.tissue()->to_rest(tip).p_rest -
-                       pushed_ * needle->X_JN.linear().col(2);
+  const Vec3 carried =
+      tip - scene.tissue()->to_rest(tip).p_rest - pushed_ * needle->X_JN.linear().col(2);
   std::copy(carried.begin(), carried.end(), packet_.carried.begin());
   if (next_.valid()) return;
   const auto track = find_track(body, scene, needle->X_JN);

@@ -138,10 +138,13 @@ bool is_compliance(const NeedleCompliance& c) noexcept {
   const auto small = [](double v) {
     return std::abs(v) <= kSoftest;
   };
-  for (std::size_t i = 0; i < NeedleCompliance::kMost; ++i) {
-    if (!std::all_of(c.by_load[i].begin(), c.by_load[i].end(), small)) return false;
-    if (i < c.points && !(c.by_load[i][i] > 0)) return false;
-  }
+  const auto all_small = [&small](const auto& row) {
+    return std::all_of(row.begin(), row.end(), small);
+  };
+  if (!all_small(c.near_field) || !std::all_of(c.by_load.begin(), c.by_load.end(), all_small))
+    return false;
+  for (std::size_t i = 0; i < c.points; ++i)
+    if (!(c.by_load[i][i] > 0)) return false;
   return true;
 }
 

@@ -68,7 +68,7 @@ class Insertion {
  public:
   explicit Insertion(const NeedleCompliance& tissue, double rate = 1 / kHandTick)
       : tick_(table(), params(rate)), dt_(1 / rate) {
-    if (tissue.points > 0) tick_.take(tissue);
+    if (tissue.points > 0) tick_.take({{}, tissue});
   }
   const NeedleForces& at(double z) {
     z_ = z;
@@ -87,7 +87,7 @@ class Insertion {
     const int n = std::max(1, static_cast<int>(std::lround(std::abs(to - from) / speed / dt_)));
     for (int k = 1; k <= n; ++k) at(from + (to - from) * k / n);
   }
-  void take(const NeedleCompliance& tissue) { tick_.take(tissue); }
+  void take(const NeedleCompliance& tissue) { tick_.take({{}, tissue}); }
   [[nodiscard]] const NeedleModel& model() const { return tick_.model(); }
   [[nodiscard]] double z() const { return z_; }
 

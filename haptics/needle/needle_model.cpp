@@ -33,7 +33,8 @@ NeedleModel::NeedleModel(const NeedleParams& params, const LayerTable& table, do
       god_object_(params.prepuncture.god_object),
       workspace_(params.workspace),
       coupling_(dt),
-      follow_(1 - std::exp(-dt / NeedleCouplingParams{}.relaxation)) {}
+      follow_(1 - std::exp(-dt / NeedleCouplingParams{}.relaxation)),
+      hand_(params.contact.motion) {}
 
 void NeedleModel::take(const NeedlePacket& packet) noexcept {
   const Vec3 carried(packet.carried[0], packet.carried[1], packet.carried[2]);
@@ -92,8 +93,7 @@ const NeedleForces& NeedleModel::step(const Pose& X_JN,
   contact_.update(material(X_JN), intervals);
   felt_ = contact_.tick();
   const NeedleTick& tick = felt_;
-  felt_.layer.tissue.wall_stiffness =
-      coupling_.local_stiffness(tick.layer.tissue.wall_stiffness, tick.depth);
+  if (coupling_.active()) feel_tissue();
   forces_ = NeedleForces{};
   if (params_.use_workspace) forces_.workspace = workspace_.step(tick).force;
   if (contact_.inserted()) {
@@ -123,6 +123,22 @@ const NeedleForces& NeedleModel::step(const Pose& X_JN,
   last_tip_ = X_JN.translation() - carried_;
   carried_ += follow_ * (carried_to_ - carried_);
   return forces_;
+}
+
+/// K_t and the time in which a needle at rest settles were measured at a hand, with the tissue in
+/// them: the wall is as stiff as leaves both together K_t, and a needle rests when the hand does,
+/// though the tissue comes onto it.
+void NeedleModel::feel_tissue() noexcept {
+  const double measured = felt_.layer.tissue.wall_stiffness;
+  felt_.layer.tissue.wall_stiffness = coupling_.local_stiffness(measured, felt_.depth);
+  if (measured > 0) felt_.stiffening = felt_.layer.tissue.wall_stiffness / measured;
+  if (!contact_.inserted()) return;
+  const double depth = felt_.depth + coupling_.tip_displacement();
+  if ((contact_.events() & ContactEvent::kSkinPunctured) != 0) hand_.reset(depth, Motion::inward);
+  if ((contact_.events() & ContactEvent::kAdopted) != 0) hand_.reset(depth, Motion::still);
+  if (felt_.line_gain != 0) hand_.shift(felt_.line_gain);
+  hand_.step(depth, felt_.dt);
+  felt_.stillness = hand_.stillness();
 }
 
 /// Where the needle is in the material: back by what the tissue at its tip was moved, by others and

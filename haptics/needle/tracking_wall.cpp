@@ -33,7 +33,9 @@ void TrackingWall::settle(const NeedleTick& tick, double x) noexcept {
   const double still = tick.stillness * tick.dt;
   const double moving = tick.dt - still;
   // A straight line for a needle at rest; one that trembles is met where it is, without a step.
-  if (still > 0) wall_ += (x - wall_) * (settle_left_ > still ? still / settle_left_ : 1);
+  // Tissue that is let go comes after: the wall goes so much farther that the hand finds T_s.
+  const double way = still * tick.stiffening;
+  if (still > 0) wall_ += (x - wall_) * (settle_left_ > way ? way / settle_left_ : 1);
   settle_left_ += moving * params_.settling_time / params_.moving_time - still;
   settle_left_ = std::clamp(settle_left_, 0.0, params_.settling_time);
 }

@@ -4,9 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <memory>
-#include <vector>
+#include <numeric>
 
 #include <gtest/gtest.h>
 
@@ -18,11 +17,21 @@
 namespace artus {
 namespace {
 
+constexpr double kSkinWall = 1500;     // N/m, as the tissue library has it
+constexpr double kSkinPuncture = 1.5;  // N
+constexpr double kMuscleCut = 2;       // N
+
 std::shared_ptr<const Scene> make_needled_block() {
   const std::array<FlatLayer, 4> layers{
       {{"skin", 2e-3}, {"fat", 8e-3}, {"muscle", 20e-3}, {"bone", 10e-3}}};
-  return std::make_shared<const Scene>(std::make_shared<const CompiledJoint>(
-      test::make_meshed_block(layers, 0.096, 0.064, 4e-3)));
+  CompiledJoint joint = test::make_meshed_block(layers, 0.096, 0.064, 4e-3);
+  for (Tissue& tissue : joint.tissues) {
+    if (tissue.haptic.hard) continue;
+    const bool skin = tissue.name == "skin";
+    tissue.haptic.wall_stiffness = skin ? kSkinWall : 500;
+    tissue.haptic.puncture_force = skin ? kSkinPuncture : 0;
+  }
+  return std::make_shared<const Scene>(std::make_shared<const CompiledJoint>(std::move(joint)));
 }
 
 SessionParams make_soft_session(bool deform) {
@@ -45,7 +54,8 @@ class SoftSession {
   const HapticSnapshot& at(double depth) {
     TickInput input;
     input.tick = recording_.ticks.size() + 1;
-    input.device = test::sample_at(0, static_cast<std::int64_t>(1e6) * static_cast<std::int64_t>(input.tick), input.tick);
+    input.device = test::sample_at(
+        0, static_cast<std::int64_t>(1e6) * static_cast<std::int64_t>(input.tick), input.tick);
     Pose X_JN = X_JP_;
     X_JN.translation() = entry() + depth * axis();
     input.device.X_WN = to_plain(X_JN);
@@ -107,7 +117,20 @@ double punctured_at(SoftSession& session) {
   return depth;
 }
 
-TEST(NeedleTissue, SkinTentsInTheHandAndInThePictureBeforeItGivesWay) {
+/// m by which the tissue at the tip was pushed in, by the hand's law and in the picture.
+double tent_in_hand(const HapticSnapshot& out, double depth) {
+  return depth - out.feedback.depth;
+}
+double tent_in_picture(const SoftSession& session, double depth) {
+  const Vec3 tip = session.entry() + depth * session.axis();
+  return (tip - session.now().tissue()->to_rest(tip).p_rest).dot(session.axis());
+}
+
+double sum_of_shaft(const NeedleLoad& load) {
+  return std::accumulate(load.shaft.begin(), load.shaft.end(), 0.0);
+}
+
+TEST(NeedleTissue, TentsAndDragsInTheHandAsInThePictureAndRestsAsRigidTissueDoes) {
   const auto scene = make_needled_block();
   SoftSession rigid(scene, make_soft_session(false));
   SoftSession soft(scene, make_soft_session(true));
@@ -115,29 +138,77 @@ TEST(NeedleTissue, SkinTentsInTheHandAndInThePictureBeforeItGivesWay) {
   for (SoftSession* session : {&rigid, &soft}) {
     session->move(-1e-3, 20e-3);
     session->hold(0.6);
+    session->move(0.6e-3, 5e-3);
   }
-  // The needle presses the skin without going through it.
-  rigid.move(0.6e-3, 5e-3);
-  soft.move(0.6e-3, 5e-3);
-  const HapticSnapshot& pressed = soft.hold(1);
-  printf("inserted %u %u depth %g\n", pressed.inserted, rigid.hold(0.01).inserted, pressed.feedback.depth);
-  const double force = -pressed.axial[0];
-  printf("force %g tip load %g depth %g\n", force, pressed.load.tip, pressed.load.tip_depth);
-  const auto& tissue = *soft.now().tissue();
-  printf("picture %g\n", tissue.displacement(soft.entry()).dot(soft.axis()));
-  const double hand = punctured_at(rigid);
-  const double hand_soft = punctured_at(soft);
-  printf("punctured %g %g\n", hand, hand_soft);
-  soft.move(15e-3, 10e-3);
-  const HapticSnapshot& in = soft.hold(1);
-  printf("in: axial %g %g %g %g tip load %g\n", in.axial[0], in.axial[1], in.axial[2], in.axial[3], in.load.tip);
-  const Vec3 tip = soft.entry() + 15e-3 * soft.axis();
-  printf("picture at tip %g carried %g %g %g depth %g\n", (tip - soft.now().tissue()->to_rest(tip).p_rest).dot(soft.axis()),
-     soft.images().packet()->needle.carried[0], soft.images().packet()->needle.carried[1], soft.images().packet()->needle.carried[2], in.feedback.depth);
-  rigid.move(15e-3, 10e-3);
-  const HapticSnapshot& inr = rigid.hold(1);
-  printf("in rigid: axial %g %g %g %g depth %g\n", inr.axial[0], inr.axial[1], inr.axial[2], inr.axial[3], inr.feedback.depth);
-  EXPECT_GT(hand_soft, hand);
+  const HapticSnapshot pressed = soft.hold(1);
+  ASSERT_EQ(pressed.inserted, 0U);
+  const double tent = tent_in_hand(pressed, 0.6e-3);
+  const double compliance = most_tissue_compliance(kSkinWall);
+  EXPECT_NEAR(tent, -pressed.axial[0] * compliance, 0.1 * tent);  // the cubes are not linear
+  EXPECT_NEAR(tent_in_picture(soft, 0.6e-3), tent, 0.05 * tent);
+  // It gives way at the same force, so later by what the tissue gave way before.
+  EXPECT_NEAR(punctured_at(soft) - punctured_at(rigid), kSkinPuncture * compliance, 0.15e-3);
+  const HapticSnapshot cutting = soft.move(15e-3, 10e-3);
+  EXPECT_NEAR(cutting.axial[1], rigid.move(15e-3, 10e-3).axial[1], 0.02 * kMuscleCut);
+  EXPECT_GT(sum_of_shaft(cutting.load), 0);
+  EXPECT_NEAR(tent_in_picture(soft, 15e-3), tent_in_hand(cutting, 15e-3), 0.2e-3);
+  // A hand that rests: the force of the cut fades, and the tissue comes onto the needle.
+  EXPECT_LT(-soft.hold(0.5).axial[1], 0.05 * kMuscleCut);
+  EXPECT_LT(-rigid.hold(0.5).axial[1], 0.05 * kMuscleCut);
+  EXPECT_LT(tent_in_picture(soft, 15e-3), 0.2 * tent_in_hand(cutting, 15e-3));
+  const HapticSnapshot back = soft.move(10e-3, 10e-3);
+  EXPECT_LT(sum_of_shaft(back.load), 0);
+  EXPECT_LT(tent_in_picture(soft, 10e-3), 0) << "the way out drags the tissue out";
+  soft.move(-10e-3, 50e-3);
+  const HapticSnapshot out = soft.hold(1.5);
+  EXPECT_EQ(sum_of_shaft(out.load), 0);
+  EXPECT_EQ(out.load.tip, 0);
+  for (const Vec3& u : soft.now().tissue()->node_displacements()) EXPECT_LT(u.norm(), 1e-6);
+}
+
+TEST(NeedleTissue, MeetsTheSkinWhereThePressedProbeHasItInThePicture) {
+  SoftSession soft(make_needled_block(), make_soft_session(true));
+  for (int k = 0; k <= 100; ++k) {
+    soft.press(3e-5 * k);
+    soft.hold(0.01);
+  }
+  soft.move(-3e-3, 20e-3);
+  soft.hold(1);
+  double depth = -3e-3;
+  while (soft.at(depth).axial[0] == 0 && depth < 10e-3) depth += 5e-6;
+  const double moved = tent_in_picture(soft, depth);
+  EXPECT_GT(moved, 0.3e-3) << "the skin beside the face goes in with it";
+  const Vec3 tip = soft.entry() + depth * soft.axis();
+  EXPECT_NEAR(soft.now().signed_distance_to_skin(tip, 10e-3), 0, 0.1e-3);
+  EXPECT_NEAR(depth, moved, 0.1e-3);
+}
+
+TEST(NeedleTissue, ReplaysByteForByteAtAnyNumberOfThreads) {
+  const auto scene = make_needled_block();
+  SoftSession soft(scene, make_soft_session(true));
+  soft.press(1e-3);
+  soft.move(-1e-3, 60e-3);
+  soft.hold(0.25);
+  soft.move(7e-3, 40e-3);
+  soft.move(5e-3, 40e-3);
+  Recording recording = soft.recording();
+  ASSERT_TRUE(std::any_of(recording.frames.begin(), recording.frames.end(),
+                          [](const FrameRecord& f) { return f.input.load.tip > 0; }));
+  for (const int threads : {1, 2}) {
+    const auto report = replay(recording, scene, {}, threads);
+    ASSERT_TRUE(report) << report.error().to_string();
+    EXPECT_EQ(report->different_ticks, 0U) << *report->first_different_tick;
+    EXPECT_EQ(report->different_frames, 0U) << *report->first_different_frame;
+  }
+  // What it compares can be told apart: another compliance is felt, another load is seen.
+  for (PacketRecord& packet : recording.packets)
+    for (auto& column : packet.packet.needle.compliance.by_load)
+      for (double& c : column) c *= 0.25;
+  for (FrameRecord& frame : recording.frames) frame.input.load.tip *= 2;
+  const auto other = replay(recording, scene);
+  ASSERT_TRUE(other);
+  EXPECT_GT(other->different_ticks, 100U);
+  EXPECT_GT(other->different_frames, 3U);
 }
 
 }  // namespace
