@@ -21,6 +21,7 @@ std::vector<NeedleRow> run_body(const BodyExperiment& e) {
   apply(e.feel, params.needle);
   apply(e.feel, params.passivity);
   NeedleTickStep tick(LayerTable(std::move(by_region)), params);
+  tick.take({{}, e.tissue});
   std::vector<NeedleRow> rows;
   const auto intend = [&e, &person](double at) {
     return e.path ? e.path(at) : person.intention(at);

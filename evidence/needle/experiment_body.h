@@ -17,6 +17,7 @@ struct BodyExperiment {
   std::vector<LayerHaptics> layers;  ///< outermost first
   std::vector<std::string> names;    ///< of the layers; empty: those of layer_names()
   NeedleFeel feel;                   ///< what the run changes of layers and parameters
+  NeedleCompliance tissue;           ///< that gives way to the needle; no points: rigid
   Vec3 entry = Vec3::Zero();         ///< m, on the skin
   Vec3 direction = Vec3::UnitZ();    ///< unit
   double start_outside = 0.005;      ///< m before the skin

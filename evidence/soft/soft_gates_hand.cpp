@@ -5,6 +5,7 @@
 #include <numbers>
 #include <vector>
 
+#include "artus/evidence/soft/needled_block.h"
 #include "artus/evidence/soft/soft_gates_list.h"
 #include "artus/haptics/needle/needle_tick_step.h"
 #include "artus/haptics/probe/probe_tangent.h"
@@ -22,34 +23,6 @@ constexpr double kHandWall = 1500;      // N/m, K_t of skin there
 constexpr double kFarthest = 60e-3;     // m in which the skin must give way
 constexpr double kRadius21 = 0.409e-3;  // m, of a 21 G needle
 constexpr double kRadius25 = 0.257e-3;  // m, of a 25 G needle
-
-/// Skin, fat and muscle over bone, and a solver with its factor at rest.
-struct NeedledBlock {
-  SoftBlock block;
-  std::unique_ptr<SoftSolver> solver;
-
-  NeedledBlock() {
-    block.half_x = block.half_y = 36e-3;
-    block.layers = {{2e-3, linear_material(120e3, 0.47)},
-                    {6e-3, linear_material(2.4e3, 0.47)},
-                    {28e-3, linear_material(7.5e3, 0.47)}};
-    const Vec3 zone(9e-3, 9e-3, 36e-3);
-    solver = std::make_unique<SoftSolver>(
-        make_block_model(block, 6e-3, {{Vec3(-zone.x(), -zone.y(), 0), zone, 3e-3}}),
-        std::vector<std::uint32_t>{});
-    solver->refresh();
-  }
-  [[nodiscard]] static NeedleLine track(double radius) {
-    NeedleLine line;
-    line.entry = Vec3(1e-3, 0.7e-3, 0);
-    line.length = 32e-3;
-    line.radius = radius;
-    return line;
-  }
-  [[nodiscard]] NeedleCompliance compliance(double radius) const {
-    return compute_needle_compliance(*solver, track(radius));
-  }
-};
 
 /// Tissue of one kind below z = 0.
 struct OneTissue {
