@@ -47,6 +47,7 @@ Result<EvidenceReport> run_experiment(std::string_view name, const std::filesyst
     if (options.tissue.points > 0) {
       const Result<Experiment> tissue = run_needle_experiment(name, options);
       ARTUS_TRY(tissue);
+      ARTUS_TRY(write_experiment(*tissue, folder / "tissue"));
       experiment->tables.emplace_back(kBesideTable, beside(experiment->claims, tissue->claims));
     }
     ARTUS_TRY(write_experiment(*experiment, folder));

@@ -17,7 +17,7 @@ inline constexpr std::string_view kBesideTable =
 /// Runs any of all_experiments() and writes it into `folder`: the whole of `artus experiment <name>
 /// --out dir`. A needle experiment whose options have tissue that gives way is run rigid, as
 /// published, and with the tissue; the report is the rigid one, with a table of both claims side by
-/// side (kBesideTable).
+/// side (kBesideTable), and the other one is in the folder tissue/.
 [[nodiscard]] Result<EvidenceReport> run_experiment(std::string_view name,
                                                     const std::filesystem::path& folder,
                                                     const ExperimentOptions& options = {});

@@ -75,7 +75,7 @@ Change measure_change(const TableLayer& from, const TableLayer& to,
   return change;
 }
 
-// One layer from its surface on, as a hand that moves by 2 mm/s feels it.
+// One layer from its surface on, as a hand that moves by 10 mm/s feels it.
 struct Rise {
   double plateau = 0;  // N
   double slope = 0;    // N/m of the hand's way, from a fifth to four fifths of the plateau
@@ -91,7 +91,7 @@ Rise measure_rise(const TableLayer& layer, const ExperimentOptions& options,
   e.device = device;
   e.hand.tremor_rms = 0;
   e.start_outside = 1e-3;
-  e.phases = {stay(0.1), push_to(3 * layer.force / layer.stiffness, 2e-3)};
+  e.phases = {stay(0.1), push_to(3 * layer.force / layer.stiffness, 10e-3)};
   const std::vector<NeedleRow> rows = run_body(e);
   Rise rise;
   for (const NeedleRow& r : rows) rise.plateau = std::max(rise.plateau, resistance(r));
@@ -185,7 +185,7 @@ Experiment run_layer_changes(const ExperimentOptions& options, const DeviceLimit
                                      "plateaus of the soft layers off the table's, most", plateau,
                                      0.02, "of the force"));
   out.claims.push_back(claim_at_most({ClaimKind::input, "K_t, without the tissue's share of it"},
-                                     "slopes at the hand that moves 2 mm/s off K_t, most", slope,
+                                     "slopes at the hand that moves 10 mm/s off K_t, most", slope,
                                      0.02, "of K_t"));
   for (std::size_t k = 0; k < kTable.size(); ++k)
     out.published.push_back(

@@ -58,7 +58,7 @@ void NeedleModel::start_laws() noexcept {
   const double x = tick.depth;
   const bool puncture = (contact_.events() & ContactEvent::kSkinPunctured) != 0;
   const double stiffness = std::max(tick.layer.tissue.wall_stiffness, 1e-6);
-  wall_.start(puncture ? std::max(0.0, tick.gave_way - tick.torn / stiffness) : x, x);
+  wall_.start(puncture ? std::max(0.0, tick.gave_way - tick.torn / stiffness) : x, x, tick.pushed);
   reset_all(x, direct_, spring_, voigt_, prepuncture_, friction_, hard_, clamping_, orientation_,
             plasticity_);
 }
@@ -132,8 +132,9 @@ void NeedleModel::feel_tissue() noexcept {
   const double measured = felt_.layer.tissue.wall_stiffness;
   felt_.layer.tissue.wall_stiffness = coupling_.local_stiffness(measured, felt_.depth);
   if (measured > 0) felt_.stiffening = felt_.layer.tissue.wall_stiffness / measured;
+  felt_.pushed = coupling_.tip_displacement();
   if (!contact_.inserted()) return;
-  const double depth = felt_.depth + coupling_.tip_displacement();
+  const double depth = felt_.depth + felt_.pushed;
   if ((contact_.events() & ContactEvent::kSkinPunctured) != 0) hand_.reset(depth, Motion::inward);
   if ((contact_.events() & ContactEvent::kAdopted) != 0) hand_.reset(depth, Motion::still);
   if (felt_.line_gain != 0) hand_.shift(felt_.line_gain);

@@ -10,7 +10,7 @@ void TrackingWall::reset(double depth) noexcept {
   start(depth, depth);
 }
 
-void TrackingWall::start(double w0, double depth) noexcept {
+void TrackingWall::start(double w0, double depth, double pushed) noexcept {
   wall_ = w0;
   cut_ = w0;
   stiffness_ = 0;
@@ -18,6 +18,7 @@ void TrackingWall::start(double w0, double depth) noexcept {
   attracted_limit_ = 0;
   settle_left_ = params_.settling_time;
   last_x_ = depth;
+  last_pushed_ = pushed;
   last_force_ = 0;
   energy_ = 0;
 }
@@ -70,7 +71,7 @@ double TrackingWall::soft_force(const NeedleTick& tick, double x) noexcept {
 
 Wrench TrackingWall::step(const NeedleTick& tick) noexcept {
   const double x = tick.depth;
-  const double moved = x - last_x_;
+  const double moved = (x - last_x_) + (tick.pushed - last_pushed_);  // by the hand
   energy_ -= last_force_ * moved;
   const double beyond = std::max(0.0, x - tick.bone_depth);
   double force = soft_force(tick, x - beyond);
@@ -85,6 +86,7 @@ Wrench TrackingWall::step(const NeedleTick& tick) noexcept {
     force = std::clamp(force, -allowed, allowed);
   }
   last_x_ = x;
+  last_pushed_ = tick.pushed;
   last_force_ = force;
   return {force * tick.axis, Vec3::Zero()};
 }
