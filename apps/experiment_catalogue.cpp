@@ -3,9 +3,30 @@
 
 #include <algorithm>
 
+#include "artus/core/csv.h"
 #include "artus/evidence/probe/probe_experiment.h"
 
 namespace artus {
+
+namespace {
+
+std::string said(const Claim& claim) {
+  return std::string(claim.pass ? "holds" : "FAILS") + ", " + to_csv(claim.value);
+}
+
+/// Claims of the same text, one a row; one that only one of the two makes stands alone.
+TextTable beside(const std::vector<Claim>& rigid, const std::vector<Claim>& tissue) {
+  TextTable table{{"claim", "bound", "rigid", "with tissue"}, {}};
+  for (const Claim& claim : rigid) {
+    const auto other = std::find_if(tissue.begin(), tissue.end(),
+                                    [&](const Claim& c) { return c.text == claim.text; });
+    table.rows.push_back(
+        {claim.text, claim.bound, said(claim), other != tissue.end() ? said(*other) : "not made"});
+  }
+  return table;
+}
+
+}  // namespace
 
 std::vector<std::string_view> all_experiments() {
   const auto needle = needle_experiments();
@@ -19,8 +40,16 @@ Result<EvidenceReport> run_experiment(std::string_view name, const std::filesyst
                                       const ExperimentOptions& options) {
   const auto probe = probe_experiments();
   if (std::find(probe.begin(), probe.end(), name) == probe.end()) {
-    const Result<Experiment> experiment = run_needle_experiment(name, options);
+    ExperimentOptions rigid = options;
+    rigid.tissue = {};
+    Result<Experiment> experiment = run_needle_experiment(name, rigid);
     ARTUS_TRY(experiment);
+    if (options.tissue.points > 0) {
+      const Result<Experiment> tissue = run_needle_experiment(name, options);
+      ARTUS_TRY(tissue);
+      ARTUS_TRY(write_experiment(*tissue, folder / "tissue"));
+      experiment->tables.emplace_back(kBesideTable, beside(experiment->claims, tissue->claims));
+    }
     ARTUS_TRY(write_experiment(*experiment, folder));
     return static_cast<const EvidenceReport&>(*experiment);
   }

@@ -10,6 +10,7 @@
 #include "artus/core/known_names.h"
 #include "artus/core/text_file.h"
 #include "artus/evidence/needle/experiment.h"
+#include "artus/evidence/soft/needled_block.h"
 
 namespace artus {
 namespace {
@@ -17,6 +18,7 @@ namespace {
 struct ExperimentCommandOptions {
   std::string name;
   bool all = false;
+  bool tissue = false;
   std::filesystem::path out;
   ExperimentOptions experiment;
   std::int64_t seed = 1;
@@ -24,9 +26,23 @@ struct ExperimentCommandOptions {
   bool json = false;
 };
 
-void print(const std::string& name, const std::vector<Claim>& claims) {
-  std::printf("%s\n", name.c_str());
-  for (const auto& claim : claims) std::printf("  %s\n", to_line(claim).c_str());
+constexpr double kRadius21 = 0.409e-3;  // m, of a 21 G needle
+
+const TextTable* find_beside(const EvidenceReport& report) {
+  for (const auto& [title, table] : report.tables)
+    if (title == kBesideTable) return &table;
+  return nullptr;
+}
+
+void print(const EvidenceReport& report) {
+  std::printf("%s\n", report.name.c_str());
+  for (const auto& claim : report.claims) std::printf("  %s\n", to_line(claim).c_str());
+  const TextTable* beside = find_beside(report);
+  if (beside == nullptr) return;
+  std::printf("  with tissue that gives way:\n");
+  for (const auto& row : beside->rows)
+    std::printf("    %s: %s (rigid: %s; %s)\n", row[0].c_str(), row[3].c_str(), row[2].c_str(),
+                row[1].c_str());
 }
 
 /// What the flags mean. Errors: invalid, with the flag.
@@ -45,6 +61,7 @@ Result<ExperimentOptions> make_options(const ExperimentCommandOptions& options) 
                 "experiment",
                 "--all");
   run.feel = *feel;
+  if (options.tissue) run.tissue = NeedledBlock().compliance(kRadius21);
   return run;
 }
 
@@ -73,7 +90,9 @@ ExitCode run_experiments(const ExperimentCommandOptions& options) {
     all.insert(all.end(), claims.begin(), claims.end());
     report += "\n## " + names[i] + "\n\n" + to_markdown(*experiment, names[i]);
     verdicts[names[i]] = verdict(claims);
-    if (!options.json) print(names[i], claims);
+    if (const TextTable* beside = find_beside(*experiment))
+      for (const auto& row : beside->rows) verdicts[names[i]]["with_tissue"][row[0]] = row[3];
+    if (!options.json) print(*experiment);
   }
   if (options.all)
     if (const auto written =
@@ -105,6 +124,7 @@ void add_experiment_command(Command& app, ExitCode& code) {
           "  artus experiment wall-stop --cutting voigt --out out/stop-voigt\n"
           "  artus experiment rates --cutting muscle=spring --patient friction=1.5 --out "
           "out/rates\n"
+          "  artus experiment layer-changes --tissue --out out/layers\n"
           "  artus experiment --all --out out/experiments     (with report.md)");
   command->add_option("name", options->name, "which experiment");
   command->add_flag("--all", options->all, "all of them, with one report");
@@ -116,6 +136,8 @@ void add_experiment_command(Command& app, ExitCode& code) {
       ->capture_default_str();
   command->add_option("--mock", options->experiment.mock,
                       "TOML file of the pneumatic probe mock (default: the bundled one)");
+  command->add_flag("--tissue", options->tissue,
+                    "run the needle's experiments in tissue that gives way, too, and report both");
   add_feel_options(command, options->feel);
   add_needle_length_option(command, options->feel.needle_length_mm);
   command->add_flag("--json", options->json, "print the verdicts as JSON");

@@ -121,9 +121,10 @@ void add_session_options(Command* command, SessionOptions& options,
                       "write where the time went as CSV, bin by bin");
   command->add_option("--threads", options.threads, "of the imaging; 0: all processors")
       ->capture_default_str();
-  command->add_flag("--rigid", options.rigid,
-                    "tissue does not give way to the probe; by default it does, in the picture and "
-                    "in the probe's hand, and the first image comes some seconds later");
+  command->add_flag(
+      "--rigid", options.rigid,
+      "tissue does not give way to probe and needle; by default it does, in the picture and "
+      "in both hands, and the first image comes some seconds later");
   add_igtl_options(command, options.igtl);
 }
 

@@ -47,7 +47,7 @@ Result<Recording> record_led_session(const std::vector<ListedPose>& poses,
     FrameRecord frame;
     frame.input = frame_input(felt, controls, recording.frames.size() + 1);
     if (images) frame.digest = digest_of(images->render(frame.input));
-    if (const ProbePacket* packet = images ? images->packet() : nullptr) {
+    if (const TissuePacket* packet = images ? images->packet() : nullptr) {
       frame.packet = digest_of(*packet);
       recording.packets.push_back({felt.input.tick + 1, *packet});
       haptics.take(*packet);

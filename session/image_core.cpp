@@ -47,7 +47,9 @@ void ImageCore::advance(const FrameInput& input) {
   if (tissue_) {
     std::optional<Pose> X_JP;
     if (input.has_probe != 0) X_JP = to_pose(input.X_JP);
-    tissue_->step(X_JP);
+    std::optional<NeedleGrip> needle;
+    if (input.has_needle != 0) needle = NeedleGrip{to_pose(input.X_JN), input.load};
+    tissue_->step(X_JP, needle);
   }
   const std::shared_ptr<const Scene>& body = tissue_ ? tissue_->scene() : rest_;
   const auto& filled = fluid_.step({std::begin(input.sites), input.n_sites}, body->tissue());

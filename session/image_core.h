@@ -41,9 +41,13 @@ class ImageCore {
   /// before. Empty unless wanted, and settings have Doppler.
   [[nodiscard]] std::vector<std::uint8_t> motion() const;
 
-  /// Of the last image: what the tissue answers the probe's hand with; null: the body is rigid.
-  [[nodiscard]] const ProbePacket* packet() const noexcept {
+  /// Of the last image: what the tissue answers the hands with; null: the body is rigid.
+  [[nodiscard]] const TissuePacket* packet() const noexcept {
     return tissue_ ? &tissue_->packet() : nullptr;
+  }
+  /// The body of the last image, without what was injected.
+  [[nodiscard]] const std::shared_ptr<const Scene>& scene() const noexcept {
+    return tissue_ ? tissue_->scene() : rest_;
   }
   /// Why the body is rigid though it should give way; empty: it does, or should not.
   [[nodiscard]] const std::string& refusal() const noexcept { return refusal_; }

@@ -14,10 +14,11 @@ namespace artus {
 namespace {
 
 constexpr std::size_t kLongestHead = std::size_t{64} * 1024;  // bytes
-constexpr double kFar = 50;  // m from the joint's origin, of any pose that a device can make
+constexpr double kFar = 50;       // m from the joint's origin, of any pose that a device can make
+constexpr double kSoftest = 1e3;  // m/N, of any tissue
 
-static_assert(sizeof(TickRecord) == 352 && sizeof(FrameRecord) == 368 &&
-                  sizeof(PacketRecord) == 456,
+static_assert(sizeof(TickRecord) == 352 && sizeof(FrameRecord) == 512 &&
+                  sizeof(PacketRecord) == 2672,
               "as documented");
 
 template <class T>
@@ -76,6 +77,10 @@ bool is_flag(std::uint32_t value) noexcept {
   return value <= 1;
 }
 
+bool is_force(double value) noexcept {
+  return std::abs(value) <= 1e3;  // N
+}
+
 template <std::size_t N>
 bool all_finite(const double (&values)[N]) noexcept {
   return std::all_of(std::begin(values), std::end(values),
@@ -123,6 +128,26 @@ bool is_place(const double (&p_J)[3]) noexcept {  // NOLINT(*-avoid-c-arrays)
   return std::all_of(std::begin(p_J), std::end(p_J), [](double x) { return std::abs(x) <= kFar; });
 }
 
+bool is_load(const NeedleLoad& load) noexcept {
+  return std::all_of(load.shaft.begin(), load.shaft.end(), is_force) && is_force(load.tip) &&
+         std::abs(load.tip_depth) <= kFar;
+}
+
+bool is_compliance(const NeedleCompliance& c) noexcept {
+  if (c.points > NeedleCompliance::kMost || !(c.spacing > 0 && c.spacing < 1)) return false;
+  const auto small = [](double v) {
+    return std::abs(v) <= kSoftest;
+  };
+  const auto all_small = [&small](const auto& row) {
+    return std::all_of(row.begin(), row.end(), small);
+  };
+  if (!all_small(c.near_field) || !std::all_of(c.by_load.begin(), c.by_load.end(), all_small))
+    return false;
+  for (std::size_t i = 0; i < c.points; ++i)
+    if (!(c.by_load[i][i] > 0)) return false;
+  return true;
+}
+
 const char* find_fault(const FrameRecord& record, std::uint64_t last) noexcept {
   const FrameInput& input = record.input;
   if (input.number <= last) return "an image that is not after the one before";
@@ -134,6 +159,7 @@ const char* find_fault(const FrameRecord& record, std::uint64_t last) noexcept {
     if (!is_place(site.p_J) || !(site.volume >= 0 && site.volume < 1) || !is_flag(site.cavity) ||
         site.region > std::numeric_limits<RegionId>::max())
       return "liquid in a place that is none";
+  if (!is_load(input.load)) return "a needle's load that is none";
   const ImageControls& c = input.controls;
   const double knobs[] = {c.depth,     c.gain_db,        c.tgc_db_cm_mhz, c.dynamic_range_db,
                           c.frequency, c.elevation_focus};
@@ -142,12 +168,13 @@ const char* find_fault(const FrameRecord& record, std::uint64_t last) noexcept {
 
 const char* find_fault(const PacketRecord& record, std::uint64_t last) noexcept {
   if (record.tick <= last) return "a packet that is not after the one before";
-  const ProbePacket& p = record.packet;
+  const ProbePacket& p = record.packet.probe;
+  const NeedlePacket& n = record.packet.needle;
   const auto finite = [](const auto& values) {
     return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
   };
   if (!finite(p.X_JP) || !finite(p.wrench) || !finite(p.stiffness) ||
-      !(p.share >= 0 && p.share <= 1))
+      !(p.share >= 0 && p.share <= 1) || !finite(n.carried) || !is_compliance(n.compliance))
     return "a packet that is none";
   return nullptr;
 }

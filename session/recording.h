@@ -29,13 +29,13 @@ struct TickRecord {
 struct FrameRecord {
   FrameInput input;
   std::uint64_t digest = 0;
-  std::uint64_t packet = 0;  ///< digest of what the tissue answered the probe with; 0: rigid
+  std::uint64_t packet = 0;  ///< digest of what the tissue answered the hands with; 0: rigid
 };
 
-/// What the tissue answers the probe with, and the first tick that felt it.
+/// What the tissue answers the hands with, and the first tick that felt it.
 struct PacketRecord {
   std::uint64_t tick = 0;
-  ProbePacket packet;
+  TissuePacket packet;
 };
 static_assert(std::is_trivially_copyable_v<PacketRecord>);
 

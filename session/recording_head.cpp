@@ -15,7 +15,7 @@
 namespace artus {
 namespace {
 
-constexpr int kVersion = 9;
+constexpr int kVersion = 10;
 constexpr const char* kName = "artus_recording";
 constexpr const char* kDigest = "digest";
 

@@ -52,7 +52,7 @@ Result<ReplayReport> replay(const Recording& recording, const std::shared_ptr<co
   for (const FrameRecord& recorded : recording.frames) {
     const Frame& frame = images.render(recorded.input);
     ++report.frames;
-    const ProbePacket* felt = images.packet();
+    const TissuePacket* felt = images.packet();
     const bool same_packet = felt == nullptr || digest_of(*felt) == recorded.packet;
     if (digest_of(frame) != recorded.digest || !same_packet) {
       if (!report.first_different_frame) report.first_different_frame = recorded.input.number;

@@ -148,9 +148,9 @@ void Session::run_haptics(const ThreadWishes& wishes) {
 
 /// The newest packet of the tissue, from tick `tick` on.
 void Session::take_packet(std::uint64_t tick) noexcept {
-  ProbePacket packet;
-  if (!packets_.try_load(packet) || packet.number == packet_felt_) return;
-  packet_felt_ = packet.number;
+  TissuePacket packet;
+  if (!packets_.try_load(packet) || packet.probe.number == packet_felt_) return;
+  packet_felt_ = packet.probe.number;
   core_.take(packet);
   if (recorder_) recorder_->add(PacketRecord{tick, packet});
 }
@@ -217,7 +217,7 @@ void Session::image(ImageCore& core, std::uint64_t number) {
   const std::int64_t begin = monotonic_ns();
   const FrameInput input = frame_input(snapshot, controls, number);
   core.advance(input);
-  const ProbePacket* packet = core.packet();
+  const TissuePacket* packet = core.packet();
   if (packet != nullptr) {
     packets_.store(*packet);
     times_->tissue_step.add(monotonic_ns() - begin);

@@ -159,7 +159,7 @@ class Session {
 
   Seqlock<HapticSnapshot> haptic_;
   Seqlock<ImageControls> controls_;
-  Seqlock<ProbePacket> packets_;
+  Seqlock<TissuePacket> packets_;
   std::uint64_t packet_felt_ = 0;  // number of the last that the haptic thread took
   NewestMailbox<ImageSnapshot> images_;
   std::unique_ptr<DroppingRing<TracePoint>> trace_;

@@ -130,6 +130,7 @@ void HapticCore::describe() noexcept {
   feedback.sample_time_ns = out_.input.device.time_ns;
   out_.inserted = contact.inserted() ? 1 : 0;
   out_.cone = contact.cone();
+  out_.load = needle_.model().coupling().cube_load();
   out_.events = contact.events();
   copy(tick.entry, out_.entry_J);
 }
@@ -194,20 +195,31 @@ FrameInput frame_input(const HapticSnapshot& snapshot, const ImageControls& cont
   input.number = number;
   input.has_needle = snapshot.input.device.has_needle;
   input.has_probe = snapshot.input.device.has_probe;
+  input.load = snapshot.load;
   input.n_sites = snapshot.n_sites;
   std::copy_n(std::begin(snapshot.sites), snapshot.n_sites, std::begin(input.sites));
   return input;
 }
 
-std::uint64_t digest_of(const ProbePacket& packet) noexcept {
-  std::uint64_t digest = mix_bits(packet.number);
+std::uint64_t digest_of(const TissuePacket& packet) noexcept {
+  const ProbePacket& probe = packet.probe;
+  std::uint64_t digest = mix_bits(probe.number);
   const auto add = [&digest](double value) {
     digest = mix_bits(digest ^ std::bit_cast<std::uint64_t>(value));
   };
-  std::for_each(packet.X_JP.begin(), packet.X_JP.end(), add);
-  std::for_each(packet.wrench.begin(), packet.wrench.end(), add);
-  std::for_each(packet.stiffness.begin(), packet.stiffness.end(), add);
-  add(packet.share);
+  const auto add_all = [&add](const auto& values) {
+    std::for_each(values.begin(), values.end(), add);
+  };
+  add_all(probe.X_JP);
+  add_all(probe.wrench);
+  add_all(probe.stiffness);
+  add(probe.share);
+  const NeedlePacket& needle = packet.needle;
+  add_all(needle.carried);
+  add(static_cast<double>(needle.compliance.points));
+  add(needle.compliance.spacing);
+  for (const auto& column : needle.compliance.by_load) add_all(column);
+  add_all(needle.compliance.near_field);
   return digest;
 }
 

@@ -7,10 +7,10 @@
 
 #include "artus/echo/renderer.h"
 #include "artus/haptics/needle/needle_renderer.h"
-#include "artus/haptics/probe/probe_tangent.h"
 #include "artus/session/input_device.h"
 #include "artus/session/session_params.h"
 #include "artus/session/syringe_core.h"
+#include "artus/session/tissue_packet.h"
 #include "artus/session/two_phase_gesture.h"
 
 namespace artus {
@@ -57,6 +57,7 @@ struct HapticSnapshot {
   double torque_J[3] = {};     ///< N m  NOLINT(*-avoid-c-arrays)
   double entry_J[3] = {};      ///< m, where the needle went in  NOLINT(*-avoid-c-arrays)
   double cone = 0;             ///< rad, within which the needle may turn
+  NeedleLoad load;             ///< of the needle on the tissue, N; zero where it is rigid
   std::uint32_t status = 0;
   std::uint32_t events = 0;  ///< ContactEvent bits
   GesturePhase phase = GesturePhase::exploring;
@@ -75,8 +76,11 @@ class HapticCore {
   /// Requires: valid params, a scene.
   HapticCore(std::shared_ptr<const Scene> scene, const SessionParams& params);
 
-  /// What the tissue answers the probe's hand with from the next tick on.
-  ARTUS_REALTIME void take(const ProbePacket& packet) noexcept { probe_.take(packet); }
+  /// What the tissue answers the hands with from the next tick on.
+  ARTUS_REALTIME void take(const TissuePacket& packet) noexcept {
+    probe_.take(packet.probe);
+    needle_.take(packet.needle);
+  }
 
   /// One period. Errors: none; the status says what was wrong, and then the force is zero.
   ARTUS_REALTIME const HapticSnapshot& step(const TickInput& input) noexcept;
@@ -125,6 +129,7 @@ struct FrameInput {
   InjectedSite sites[kMostSites] = {};  ///< what liquid went to  NOLINT(*-avoid-c-arrays)
   std::uint32_t n_sites = 0;
   std::uint32_t reserved = 0;
+  NeedleLoad load;  ///< as HapticSnapshot::load
 };
 static_assert(std::is_trivially_copyable_v<FrameInput>);
 
@@ -135,6 +140,6 @@ static_assert(std::is_trivially_copyable_v<FrameInput>);
 /// A number that two images share only when their bytes are the same, as far as 64 bits can tell.
 [[nodiscard]] std::uint64_t digest_of(const Frame& frame) noexcept;
 /// The same of a packet.
-[[nodiscard]] std::uint64_t digest_of(const ProbePacket& packet) noexcept;
+[[nodiscard]] std::uint64_t digest_of(const TissuePacket& packet) noexcept;
 
 }  // namespace artus

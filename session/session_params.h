@@ -30,7 +30,7 @@ struct SessionParams {
   ImageSettings image;
   NeedleShape needle_shape;  ///< of its length: see needle_length_of
   SyringeChoice syringe;
-  bool deform = false;  ///< tissue gives way to the probe, in the picture and in its hand
+  bool deform = false;  ///< tissue gives way to probe and needle, in picture and hands
 };
 
 /// m, hub to tip: the one length that the contact and the picture take.

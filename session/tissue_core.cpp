@@ -33,7 +33,8 @@ TissueCore::TissueCore(SoftBody body, double image_rate)
       dt_(1 / image_rate),
       factor_images_(static_cast<std::uint64_t>(std::ceil(kFactorTime * image_rate))),
       cage_images_(static_cast<std::uint64_t>(std::ceil(kCageTime * image_rate))),
-      X_JP_factor_(body_.cage_pose()) {
+      X_JP_factor_(body_.cage_pose()),
+      needle_(image_rate) {
   body_.solver().refresh();
   tissue_ = body_.snapshot();
   scene_ = scenes_.at(tissue_);
@@ -53,6 +54,7 @@ void TissueCore::follow(const std::optional<Pose>& X_JP) {
   if (cage_.valid() && images_ == cage_due_) {
     auto made = cage_.get();
     if (made) {
+      needle_.forget();
       if (body_.solver().refreshing()) body_.solver().end_refresh();
       body_ = std::move(*made);
       body_.solver().refresh();
@@ -73,7 +75,10 @@ void TissueCore::follow(const std::optional<Pose>& X_JP) {
 void TissueCore::refresh(const std::optional<Pose>& X_JP) {
   SoftSolver& solver = body_.solver();
   if (solver.refreshing()) {
-    if (images_ >= factor_due_) solver.end_refresh();
+    if (images_ < factor_due_) return;
+    needle_.let_go();
+    solver.end_refresh();
+    needle_.renew();
     return;
   }
   if (!X_JP || ((X_JP->translation() - X_JP_factor_.translation()).norm() < kFactorWay &&
@@ -84,7 +89,7 @@ void TissueCore::refresh(const std::optional<Pose>& X_JP) {
   solver.begin_refresh();
 }
 
-void TissueCore::step(const std::optional<Pose>& X_JP) {
+void TissueCore::step(const std::optional<Pose>& X_JP, const std::optional<NeedleGrip>& needle) {
   ++images_;
   follow(X_JP);
   std::optional<Pose> face = X_JP;
@@ -92,7 +97,8 @@ void TissueCore::step(const std::optional<Pose>& X_JP) {
   const bool same = face.has_value() == X_JP_before_.has_value() &&
                     (!face || face->matrix() == X_JP_before_->matrix());
   refresh(face);
-  if (!(same && still_)) {
+  const bool pushed = tissue_ && needle_.load(body_, *tissue_, needle);
+  if (pushed || !(same && still_)) {
     double moved = 0;
     for (int k = 0; k < kSteps; ++k) {
       const SoftStep& step = body_.step(face, dt_ / kSteps);
@@ -104,28 +110,31 @@ void TissueCore::step(const std::optional<Pose>& X_JP) {
     scene_ = scenes_.at(tissue_);
   }
   X_JP_before_ = face;
+  needle_.step(body_, *scene_, needle);
   describe(face);
 }
 
 void TissueCore::describe(const std::optional<Pose>& X_JP) {
-  const std::uint64_t number = packet_.number + 1;
-  packet_ = {};
-  packet_.number = number;
+  ProbePacket& felt = packet_.probe;
+  const std::uint64_t number = felt.number + 1;
+  felt = {};
+  felt.number = number;
+  packet_.needle = needle_.packet();
   const Pose pose = X_JP.value_or(body_.cage_pose());
   for (Eigen::Index i = 0; i < 12; ++i)
-    packet_.X_JP[static_cast<std::size_t>(i)] = pose.matrix()(i / 4, i % 4);
+    felt.X_JP[static_cast<std::size_t>(i)] = pose.matrix()(i / 4, i % 4);
   if (!X_JP) return;
   const ContactForce contact = body_.force_J();
   const Vec3 force = pose.linear().transpose() * contact.force;
   const Vec3 torque = pose.linear().transpose() * contact.torque;
   const Eigen::Matrix<double, 6, 6> stiffness = body_.contact_stiffness();
   for (Eigen::Index i = 0; i < 3; ++i) {
-    packet_.wrench[static_cast<std::size_t>(i)] = force[i];
-    packet_.wrench[static_cast<std::size_t>(i) + 3] = torque[i];
+    felt.wrench[static_cast<std::size_t>(i)] = force[i];
+    felt.wrench[static_cast<std::size_t>(i) + 3] = torque[i];
   }
   for (Eigen::Index i = 0; i < 36; ++i)
-    packet_.stiffness[static_cast<std::size_t>(i)] = stiffness(i / 6, i % 6);
-  packet_.share = contact.share;
+    felt.stiffness[static_cast<std::size_t>(i)] = stiffness(i / 6, i % 6);
+  felt.share = contact.share;
 }
 
 }  // namespace artus

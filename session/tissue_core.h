@@ -5,30 +5,31 @@
 #include <memory>
 #include <optional>
 
-#include "artus/haptics/probe/probe_tangent.h"
 #include "artus/raycast/moving_scene.h"
+#include "artus/session/needle_tissue.h"
+#include "artus/session/tissue_packet.h"
 #include "artus/soft/soft_body.h"
 
 namespace artus {
 
-/// The body of a session as it gives way to the probe, image by image: one step of the tissue, one
-/// scene of that instant, and what the probe's hand feels of it. A pure function of the poses it
-/// was given: factors and cages are made on threads of their own and taken a fixed number of images
-/// later, never "when ready".
+/// The body of a session as it gives way to probe and needle, image by image: one step of the
+/// tissue, one scene of that instant, and what the hands feel of it. A pure function of the poses
+/// it was given: factors and cages are made on threads of their own and taken a fixed number of
+/// images later, never "when ready".
 class TissueCore {
  public:
   /// The cage is made around `X_JP`. Errors: those of SoftBody::make. Cost: some seconds.
   [[nodiscard]] static Result<TissueCore> make(std::shared_ptr<const CompiledJoint> joint,
                                                const Pose& X_JP, double image_rate);
 
-  /// The next image's instant, with the probe at `X_JP` or without one. A probe that stays outside
-  /// of what the cage reaches gets a cage of its own; until that is there the tissue is at rest
-  /// under it. Cost: see docs/deformation.md.
-  void step(const std::optional<Pose>& X_JP);
+  /// The next image's instant, with the probe at `X_JP` or without one, and so the needle. A probe
+  /// that stays outside of what the cage reaches gets a cage of its own; until that is there the
+  /// tissue is at rest under it. Cost: see docs/deformation.md.
+  void step(const std::optional<Pose>& X_JP, const std::optional<NeedleGrip>& needle = {});
 
   [[nodiscard]] const std::shared_ptr<const Scene>& scene() const noexcept { return scene_; }
   /// Number 1 after the first step.
-  [[nodiscard]] const ProbePacket& packet() const noexcept { return packet_; }
+  [[nodiscard]] const TissuePacket& packet() const noexcept { return packet_; }
   [[nodiscard]] std::uint32_t status() const noexcept { return status_; }  ///< SoftStatus bits
 
  private:
@@ -50,10 +51,11 @@ class TissueCore {
   std::optional<Pose> X_JP_before_;
   bool still_ = false;  // nothing moved in the last step
   std::future<Result<SoftBody>> cage_;
+  NeedleTissue needle_;  // after body_: it ends before what it works on
   MovingScene scenes_;
   std::shared_ptr<const DeformedBody> tissue_;
   std::shared_ptr<const Scene> scene_;
-  ProbePacket packet_;
+  TissuePacket packet_;
   std::uint32_t status_ = 0;
 };
 

@@ -47,6 +47,39 @@ double near_field(const SoftModel& model, const CagePlace& place, const NeedleLi
 
 }  // namespace
 
+TrackPlace find_on_track(const NeedleCompliance& compliance, double depth) noexcept {
+  const auto last = static_cast<double>(compliance.points - 1);
+  const double at = std::clamp(depth / compliance.spacing - 0.5, 0.0, last);
+  TrackPlace place;
+  place.low = static_cast<std::size_t>(at);
+  place.high = std::min(place.low + 1, compliance.points - 1);
+  place.share = at - static_cast<double>(place.low);
+  return place;
+}
+
+double cube_compliance(const NeedleCompliance& compliance, double depth) noexcept {
+  const TrackPlace b = find_on_track(compliance, depth);
+  const double other = 1 - b.share;
+  const auto& C = compliance.by_load;
+  const auto& near = compliance.near_field;
+  return other * other * (C[b.low][b.low] - near[b.low]) +
+         2 * other * b.share * (C[b.low][b.high] - (b.low == b.high ? near[b.low] : 0)) +
+         b.share * b.share * (C[b.high][b.high] - near[b.high]);
+}
+
+double cube_displacement(const NeedleCompliance& compliance, const NeedleLoad& load) noexcept {
+  if (compliance.points == 0) return 0;
+  const TrackPlace b = find_on_track(compliance, load.tip_depth);
+  const auto of_shaft = [&](std::size_t point) {
+    double u = -compliance.near_field[point] * load.shaft[point];
+    for (std::size_t j = 0; j < compliance.points; ++j)
+      u += compliance.by_load[point][j] * load.shaft[j];
+    return u;
+  };
+  return (1 - b.share) * of_shaft(b.low) + b.share * of_shaft(b.high) +
+         cube_compliance(compliance, load.tip_depth) * load.tip;
+}
+
 NeedleCompliance compute_needle_compliance(const SoftSolver& solver, const NeedleLine& track,
                                            std::size_t points) {
   ARTUS_REQUIRE(points > 0 && points <= NeedleCompliance::kMost, "1 to 16 points");

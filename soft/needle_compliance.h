@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "artus/core/check.h"
 #include "artus/soft/soft_solver.h"
 
 namespace artus {
@@ -28,6 +29,24 @@ struct NeedleLoad {
   double tip = 0;
   double tip_depth = 0;  ///< m, material
 };
+
+/// The two points around a depth.
+struct TrackPlace {
+  std::size_t low = 0;
+  std::size_t high = 0;
+  double share = 0;  ///< of the high one
+};
+/// Where `depth` (m) lies between a track's points, the nearest one beyond their ends. Requires: a
+/// point.
+[[nodiscard]] ARTUS_REALTIME TrackPlace find_on_track(const NeedleCompliance& compliance,
+                                                      double depth) noexcept;
+/// m/N of a force at `depth` on what lies there, by the cubes alone: without the needle's own
+/// neighbourhood. Requires: a point.
+[[nodiscard]] ARTUS_REALTIME double cube_compliance(const NeedleCompliance& compliance,
+                                                    double depth) noexcept;
+/// m along the track by which the cubes at the load's tip give way to it. Zero without points.
+[[nodiscard]] ARTUS_REALTIME double cube_displacement(const NeedleCompliance& compliance,
+                                                      const NeedleLoad& load) noexcept;
 
 /// A track in the body's rest shape, frame C of the cage.
 struct NeedleLine {

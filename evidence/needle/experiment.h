@@ -9,6 +9,7 @@
 #include "artus/evidence/needle/needle_trace.h"
 #include "artus/evidence/report.h"
 #include "artus/haptics/needle/needle_feel.h"
+#include "artus/haptics/needle/needle_packet.h"
 
 namespace artus {
 
@@ -16,6 +17,7 @@ struct ExperimentOptions {
   std::uint64_t seed = 1;
   std::string device = "virtuose_6d_desktop";  ///< a name of device_table()
   NeedleFeel feel;                             ///< what is not set is as published
+  NeedleCompliance tissue;     ///< around the needle's track; no points: rigid, as published
   std::filesystem::path mock;  ///< TOML file of the pneumatic probe mock; empty: the bundled one
 };
 

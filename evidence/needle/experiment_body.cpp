@@ -21,6 +21,7 @@ std::vector<NeedleRow> run_body(const BodyExperiment& e) {
   apply(e.feel, params.needle);
   apply(e.feel, params.passivity);
   NeedleTickStep tick(LayerTable(std::move(by_region)), params);
+  tick.take({{}, e.tissue});
   std::vector<NeedleRow> rows;
   const auto intend = [&e, &person](double at) {
     return e.path ? e.path(at) : person.intention(at);
@@ -33,6 +34,9 @@ std::vector<NeedleRow> run_body(const BodyExperiment& e) {
     const Pose measured = loop.measured();
     const RenderedNeedle& rendered = tick.step({measured, t}, e.body);
     rows.push_back(make_needle_row(t, measured, rendered, tick.model()));
+    const double pushed = tick.model().coupling().tip_displacement();
+    rows.back().depth += pushed;  // as the hand has it
+    rows.back().wall += pushed;
     rows.back().energy_to_hand = loop.energy_to_hand();
     rows.back().hand = loop.hand_force();
     rows.back().needle = loop.motion();

@@ -17,6 +17,7 @@ struct BodyExperiment {
   std::vector<LayerHaptics> layers;  ///< outermost first
   std::vector<std::string> names;    ///< of the layers; empty: those of layer_names()
   NeedleFeel feel;                   ///< what the run changes of layers and parameters
+  NeedleCompliance tissue;           ///< that gives way to the needle; no points: rigid
   Vec3 entry = Vec3::Zero();         ///< m, on the skin
   Vec3 direction = Vec3::UnitZ();    ///< unit
   double start_outside = 0.005;      ///< m before the skin
@@ -31,7 +32,8 @@ struct BodyExperiment {
   double rate_hz = 1000;
 };
 
-/// Runs it closed loop; a row a tick.
+/// Runs it closed loop; a row a tick. Depths are the hand's: those of the material and what the
+/// tissue at the tip is pushed in.
 [[nodiscard]] std::vector<NeedleRow> run_body(const BodyExperiment& experiment);
 
 /// A layer with f_R, f_A in N and K_t in N/m, and nothing else: no membrane, friction or clamping.

@@ -27,6 +27,7 @@ BodyExperiment make_body(const ExperimentOptions& options, const DeviceLimits& d
   e.layers[0].tissue.friction = 1;
   e.device = device;
   e.feel = options.feel;
+  e.tissue = options.tissue;
   e.hand.seed = options.seed;
   e.phases = {stay(0.3),
               push_to(0.012, 0.012),

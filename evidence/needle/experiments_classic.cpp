@@ -79,6 +79,7 @@ std::vector<NeedleRow> run_release(CuttingLaw law, double stiffness, const Devic
   e.body = AnalyticBody::make_stack(e.entry, e.direction, {0});
   e.device = device;
   e.feel = options.feel;
+  e.tissue = options.tissue;
   e.hand = hand;
   e.phases = {stay(0.3),   push_to(kDepth, kSpeed), stay(kHeld),
               let_go(0.4), pull_to(-4e-3, 0.02),    stay(0.2)};

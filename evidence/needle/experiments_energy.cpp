@@ -33,10 +33,12 @@ LayerTable random_layers(bool all_laws, const NeedleFeel& feel) {
 
 // J given to the hand by the total force over one random walk from outside the skin and back.
 double energy_of_history(const LayerTable& table, const NeedleParams& needle,
-                         const AnalyticBody& body, std::uint64_t seed) {
+                         const AnalyticBody& body, const NeedleCompliance& tissue,
+                         std::uint64_t seed) {
   constexpr std::uint64_t kTicks = 500;
   std::array<TissueInterval, 32> buffer{};
   NeedleModel model(needle, table, 1e-3);
+  model.take({{}, tissue});
   double z = -1e-4;
   double goal = 0;
   double energy = 0;
@@ -72,7 +74,8 @@ Experiment run_wall_energy(const ExperimentOptions& options, const DeviceLimits&
     PlotSeries given{what, {}, {}, "points pt 7 ps 0.2"};
     for (std::uint64_t h = 0; h < kHistories; ++h) {
       given.x.push_back(static_cast<double>(h));
-      given.y.push_back(energy_of_history(table, needle, body, options.seed * 1000003 + h));
+      given.y.push_back(
+          energy_of_history(table, needle, body, options.tissue, options.seed * 1000003 + h));
     }
     out.claims.push_back(claim_at_most({ClaimKind::input, "the laws are built to give none"},
                                        what + ": most energy given over a closed cycle, of 10 000",

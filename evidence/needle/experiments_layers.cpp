@@ -34,21 +34,26 @@ struct Change {
 };
 
 // A needle pushed at 10 mm/s through 12 mm of one layer into another, as the hand feels it.
-Change measure_change(const TableLayer& from, const TableLayer& to, const NeedleFeel& feel,
-                      const DeviceLimits& device) {
+Change measure_change(const TableLayer& from, const TableLayer& to,
+                      const ExperimentOptions& options, const DeviceLimits& device) {
   constexpr double kInterface = 0.012;  // m
   constexpr double kBeyond = 0.009;     // m of the second layer; of a hard one as far as it lets
   const bool hard = std::string_view(to.name) == "bone";
+  const double given = options.tissue.points > 0  // m that the tissue before the tip gives way
+                           ? from.force * most_tissue_compliance(from.stiffness)
+                           : 0;
   BodyExperiment e;
   e.body = AnalyticBody::make_stack(Vec3::Zero(), Vec3::UnitZ(), {0, kInterface});
   e.layers = {plain_layer(from.force, from.stiffness),
               hard ? bone_layer(to.force, to.stiffness) : plain_layer(to.force, to.stiffness)};
   e.names = {from.name, to.name};
-  e.feel = feel;
+  e.feel = options.feel;
+  e.tissue = options.tissue;
   e.device = device;
   e.hand.tremor_rms = 0;
-  e.phases = {stay(0.1),
-              push_to(hard ? kInterface + to.force / to.stiffness : kInterface + kBeyond, 0.01)};
+  e.phases = {
+      stay(0.1),
+      push_to(hard ? kInterface + to.force / to.stiffness + given : kInterface + kBeyond, 0.01)};
   const std::vector<NeedleRow> rows = run_body(e);
   Change change;
   double count = 0;
@@ -72,6 +77,53 @@ Change measure_change(const TableLayer& from, const TableLayer& to, const Needle
     break;
   }
   return change;
+}
+
+// One layer from its surface on, as a hand that moves by 10 mm/s feels it.
+struct Rise {
+  double plateau = 0;  // N
+  double slope = 0;    // N/m of the hand's way, from a fifth to four fifths of the plateau
+};
+
+Rise measure_rise(const TableLayer& layer, const ExperimentOptions& options,
+                  const DeviceLimits& device) {
+  BodyExperiment e;
+  e.layers = {plain_layer(layer.force, layer.stiffness)};
+  e.names = {layer.name};
+  e.feel = options.feel;
+  e.tissue = options.tissue;
+  e.device = device;
+  e.hand.tremor_rms = 0;
+  e.start_outside = 1e-3;
+  e.phases = {stay(0.1), push_to(3 * layer.force / layer.stiffness, 10e-3)};
+  const std::vector<NeedleRow> rows = run_body(e);
+  Rise rise;
+  for (const NeedleRow& r : rows) rise.plateau = std::max(rise.plateau, resistance(r));
+  const auto reached = [&](double share) {
+    return std::find_if(rows.begin(), rows.end(),
+                        [&](const NeedleRow& r) { return resistance(r) >= share * rise.plateau; });
+  };
+  const auto low = reached(0.2);
+  const auto high = reached(0.8);
+  rise.slope = (resistance(*high) - resistance(*low)) /
+               (high->needle.X_JN.translation() - low->needle.X_JN.translation()).z();
+  return rise;
+}
+
+// Plateau and slope of each soft layer, at the hand.
+void claim_rises(const ExperimentOptions& options, const DeviceLimits& device,
+                 std::vector<Claim>& claims) {
+  for (const TableLayer& layer : kTable) {
+    const std::string name = layer.name;
+    if (name == "bone") continue;
+    const Rise rise = measure_rise(layer, options, device);
+    claims.push_back(claim_near({ClaimKind::input, "the table's f_R"},
+                                name + ": plateau at the hand", rise.plateau, layer.force, 0.02,
+                                "N"));
+    claims.push_back(claim_near({ClaimKind::input, "K_t, without the tissue's share of it"},
+                                name + ": slope at the hand", rise.slope, layer.stiffness, 0.02,
+                                "N/m"));
+  }
 }
 
 constexpr double kJnd = 0.07;      // share of the force, [Pang1991] for 2.5 to 10 N
@@ -104,7 +156,7 @@ struct Changes {
   }
 };
 
-Changes measure_changes(const NeedleFeel& feel, const DeviceLimits& device) {
+Changes measure_changes(const ExperimentOptions& options, const DeviceLimits& device) {
   Changes all;
   for (std::size_t k = 0; k < kTable.size(); ++k)
     all.by_layer.push_back(
@@ -113,7 +165,7 @@ Changes measure_changes(const NeedleFeel& feel, const DeviceLimits& device) {
     if (std::string_view(from.name) == "bone") continue;  // nothing lies beyond it
     for (std::size_t k = 0; k < kTable.size(); ++k) {
       if (from.force != kTable[k].force)
-        all.add(from, k, measure_change(from, kTable[k], feel, device));
+        all.add(from, k, measure_change(from, kTable[k], options, device));
     }
   }
   return all;
@@ -125,7 +177,7 @@ Experiment run_layer_changes(const ExperimentOptions& options, const DeviceLimit
   Experiment out;
   out.title = "Layer changes of table 4.2, felt at 10 mm/s, in just-noticeable differences";
   out.source = "[Alamilla2020] table 4.2; [Pang1991] for the just-noticeable difference";
-  Changes all = measure_changes(options.feel, device);
+  Changes all = measure_changes(options, device);
   out.claims = {
       claim_at_most({ClaimKind::input, "the table's f_R"},
                     "measured step off the table's, share of the step", all.off, 0.05, ""),
@@ -134,6 +186,7 @@ Experiment run_layer_changes(const ExperimentOptions& options, const DeviceLimit
       claim_at_most({ClaimKind::input, "f_R / K_t of the layers"},
                     "the longest way until nine tenths of the step are felt", all.longest, 4.5,
                     "mm")};
+  claim_rises(options, device, out.claims);
   for (std::size_t k = 0; k < kTable.size(); ++k)
     out.published.push_back(
         {kTable[k].name, to_csv(kTable[k].force) + " N", to_csv(all.felt[k]) + " N"});

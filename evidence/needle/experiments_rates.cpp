@@ -173,14 +173,16 @@ double rms_difference(const std::vector<double>& a, const std::vector<double>& b
 constexpr std::array<double, 3> kRates{1000, 2000, 10000};
 constexpr std::uint64_t kTremorSeeds = 6;
 
-std::vector<NeedleRow> run_at(double rate, const Insertion& insertion, const NeedleFeel& feel,
-                              const DeviceLimits& device, const HandParams& hand) {
+std::vector<NeedleRow> run_at(double rate, const Insertion& insertion,
+                              const ExperimentOptions& options, const DeviceLimits& device,
+                              const HandParams& hand) {
   constexpr double kAfter = 0.35;  // s outside
   BodyExperiment e;
   e.body = AnalyticBody::make_stack(Vec3::Zero(), Vec3::UnitZ(), insertion.begins);
   e.layers = layers_of(insertion);
   e.names = table_layer_names();
-  e.feel = feel;
+  e.feel = options.feel;
+  e.tissue = options.tissue;
   e.device = device;
   e.hand = hand;
   e.rate_hz = rate;
@@ -194,11 +196,11 @@ std::vector<NeedleRow> run_at(double rate, const Insertion& insertion, const Nee
 using Shares = std::array<double, 2>;  // at 1 and at 2 kHz
 
 // RMS share of the difference to 10 kHz.
-Shares differences(const Insertion& insertion, const NeedleFeel& feel, const DeviceLimits& device,
-                   const HandParams& hand) {
+Shares differences(const Insertion& insertion, const ExperimentOptions& options,
+                   const DeviceLimits& device, const HandParams& hand) {
   std::array<std::vector<double>, kRates.size()> forces;
   for (std::size_t i = 0; i < kRates.size(); ++i)
-    forces[i] = held_at_10khz(run_at(kRates[i], insertion, feel, device, hand), kRates[i]);
+    forces[i] = held_at_10khz(run_at(kRates[i], insertion, options, device, hand), kRates[i]);
   return {rms_difference(forces[2], forces[0]), rms_difference(forces[2], forces[1])};
 }
 
@@ -234,14 +236,14 @@ void compare_rates(const Insertion& insertion, const ExperimentOptions& options,
   for (const DeviceLimits& device : device_table()) {
     HandParams hand;
     hand.tremor_rms = 0;
-    const Shares calm = differences(insertion, options.feel, device, hand);
+    const Shares calm = differences(insertion, options, device, hand);
     add_row(insertion.name, device, "no tremor", calm, out);
     claim_shares(insertion.basis, insertion.name, device, "no tremor", calm, out);
     hand = HandParams{};
     std::vector<Shares> tremors;
     for (std::uint64_t i = 0; i < kTremorSeeds; ++i) {
       hand.seed = options.seed + i;
-      tremors.push_back(differences(insertion, options.feel, device, hand));
+      tremors.push_back(differences(insertion, options, device, hand));
       add_row(insertion.name, device, "tremor " + std::to_string(hand.seed), tremors.back(), out);
     }
     const std::string all = std::to_string(kTremorSeeds) + " tremors together";
@@ -261,7 +263,7 @@ void compare_rates_on_drawn_bodies(const ExperimentOptions& options, Experiment&
       const Insertion insertion = draw_insertion(draw, i);
       HandParams hand;
       hand.seed = draw + i;
-      bodies.push_back(differences(insertion, options.feel, device, hand));
+      bodies.push_back(differences(insertion, options, device, hand));
       add_row(insertion.name, device, "tremor of its own", bodies.back(), out);
     }
     const std::string hands = "bodies and tremors together";
@@ -281,7 +283,7 @@ void show_rates(const Insertion& insertion, const ExperimentOptions& options,
   HandParams calm;
   calm.tremor_rms = 0;
   for (const double rate : kRates) {
-    ExperimentTrace trace{to_csv(rate) + "hz", run_at(rate, insertion, options.feel, device, calm),
+    ExperimentTrace trace{to_csv(rate) + "hz", run_at(rate, insertion, options, device, calm),
                           region_names(table_layer_names())};
     const std::string label = to_csv(rate / 1000) + " kHz";
     plot.panels[0].series.push_back(plot_rows(trace.rows, label, axial));

@@ -52,6 +52,7 @@ std::vector<NeedleRow> run_one_release(Around tissue, double release_time,
                                     {tissue == Around::none ? kFarAway : 0.0});
   e.device = device;
   e.feel = options.feel;
+  e.tissue = options.tissue;
   e.hand = hand;
   e.hand.release_time = release_time;
   e.phases = {stay(0.3), push_to(kReleaseDepth, 0.01), stay(1.5), let_go(kFree)};

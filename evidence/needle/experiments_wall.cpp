@@ -29,6 +29,7 @@ BodyExperiment one_layer(const ExperimentOptions& options, const DeviceLimits& d
   e.layers = {plain_layer(1, kStiffness, attracted)};
   e.device = device;
   e.feel = options.feel;
+  e.tissue = options.tissue;
   e.hand.seed = options.seed;
   return e;
 }
@@ -324,6 +325,7 @@ Experiment run_wall_nine(const ExperimentOptions& options, const DeviceLimits& d
   e.entry = aside - std::sqrt(kRadius * kRadius - aside.squaredNorm()) * e.direction;
   e.device = device;
   e.feel = options.feel;
+  e.tissue = options.tissue;
   e.hand.seed = options.seed;
   e.needle.contact.needle_length = 0.15;
   e.phases = {stay(kStateOfRest), push_to(0.105, 0.02), stay(0.8), pull_to(-0.004, 0.05)};
@@ -351,6 +353,7 @@ Experiment run_wall_seven(const ExperimentOptions& options, const DeviceLimits& 
                                     {0, 0.008, 0.016, 0.024, 0.032, 0.040, 0.048});
   e.device = device;
   e.feel = options.feel;
+  e.tissue = options.tissue;
   e.hand.seed = options.seed;
   e.needle.contact.needle_length = 0.09;
   constexpr double kFallSpeed = 0.015;  // m/s

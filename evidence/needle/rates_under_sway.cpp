@@ -87,6 +87,7 @@ std::vector<Vec3> run_sway_at(double rate, double back, bool membranes,
   e.body = AnalyticBody::make_stack(Vec3::Zero(), Vec3::UnitZ(), {0, 0.004, 0.018, 0.021});
   e.layers = layers(membranes);
   e.feel = options.feel;
+  e.tissue = options.tissue;
   e.device = device;
   e.hand.tremor_rms = 0;
   e.rate_hz = rate;

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <vector>
 
+#include "artus/evidence/soft/needled_block.h"
 #include "artus/evidence/soft/soft_gates_list.h"
 #include "artus/haptics/needle/needle_tick_step.h"
 #include "artus/haptics/probe/probe_tangent.h"
@@ -23,34 +24,6 @@ constexpr double kFarthest = 60e-3;     // m in which the skin must give way
 constexpr double kRadius21 = 0.409e-3;  // m, of a 21 G needle
 constexpr double kRadius25 = 0.257e-3;  // m, of a 25 G needle
 
-/// Skin, fat and muscle over bone, and a solver with its factor at rest.
-struct NeedledBlock {
-  SoftBlock block;
-  std::unique_ptr<SoftSolver> solver;
-
-  NeedledBlock() {
-    block.half_x = block.half_y = 36e-3;
-    block.layers = {{2e-3, linear_material(120e3, 0.47)},
-                    {6e-3, linear_material(2.4e3, 0.47)},
-                    {28e-3, linear_material(7.5e3, 0.47)}};
-    const Vec3 zone(9e-3, 9e-3, 36e-3);
-    solver = std::make_unique<SoftSolver>(
-        make_block_model(block, 6e-3, {{Vec3(-zone.x(), -zone.y(), 0), zone, 3e-3}}),
-        std::vector<std::uint32_t>{});
-    solver->refresh();
-  }
-  [[nodiscard]] static NeedleLine track(double radius) {
-    NeedleLine line;
-    line.entry = Vec3(1e-3, 0.7e-3, 0);
-    line.length = 32e-3;
-    line.radius = radius;
-    return line;
-  }
-  [[nodiscard]] NeedleCompliance compliance(double radius) const {
-    return compute_needle_compliance(*solver, track(radius));
-  }
-};
-
 /// Tissue of one kind below z = 0.
 struct OneTissue {
   QueryCount find_intervals(const Segment& segment, std::span<TissueInterval> out) const noexcept {
@@ -68,7 +41,7 @@ class Insertion {
  public:
   explicit Insertion(const NeedleCompliance& tissue, double rate = 1 / kHandTick)
       : tick_(table(), params(rate)), dt_(1 / rate) {
-    if (tissue.points > 0) tick_.take(tissue);
+    if (tissue.points > 0) tick_.take({{}, tissue});
   }
   const NeedleForces& at(double z) {
     z_ = z;
@@ -87,7 +60,7 @@ class Insertion {
     const int n = std::max(1, static_cast<int>(std::lround(std::abs(to - from) / speed / dt_)));
     for (int k = 1; k <= n; ++k) at(from + (to - from) * k / n);
   }
-  void take(const NeedleCompliance& tissue) { tick_.take(tissue); }
+  void take(const NeedleCompliance& tissue) { tick_.take({{}, tissue}); }
   [[nodiscard]] const NeedleModel& model() const { return tick_.model(); }
   [[nodiscard]] double z() const { return z_; }
 

@@ -35,7 +35,9 @@ struct NeedleTick {
   Vec3 angular_velocity = Vec3::Zero();                               ///< rad/s
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();    ///< q_c
   Eigen::Quaterniond orientation_0 = Eigen::Quaterniond::Identity();  ///< q_0, when line stored
-  double stillness = 0;                  ///< 1 at rest, 0 on the move (see MotionDetector)
+  double stillness = 0;   ///< 1 at rest, 0 on the move (see MotionDetector)
+  double pushed = 0;      ///< m the tissue at the tip is pushed in: the hand is so much deeper
+  double stiffening = 1;  ///< K of the wall over K_t, where tissue beside it gives way, too
   Vec3 surface_normal = -Vec3::UnitZ();  ///< of the skin where the needle crosses it, outward
   double dimple = 0;                     ///< m a membrane that still holds is pushed in; 0: none
   LayerHaptics membrane;                 ///< the layer behind that membrane

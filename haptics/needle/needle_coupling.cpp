@@ -5,26 +5,6 @@
 #include <cmath>
 
 namespace artus {
-namespace {
-
-/// The two points around a depth: the tip lies between them.
-struct Between {
-  std::size_t low = 0;
-  std::size_t high = 0;
-  double share = 0;  // of the high one
-};
-
-Between between(const NeedleCompliance& c, double depth) noexcept {
-  const auto last = static_cast<double>(c.points - 1);
-  const double at = std::clamp(depth / c.spacing - 0.5, 0.0, last);
-  Between b;
-  b.low = static_cast<std::size_t>(at);
-  b.high = std::min(b.low + 1, c.points - 1);
-  b.share = at - static_cast<double>(b.low);
-  return b;
-}
-
-}  // namespace
 
 NeedleCoupling::NeedleCoupling(double dt, const NeedleCouplingParams& params) noexcept
     : follow_(1 - std::exp(-dt / params.relaxation)), params_(params) {}
@@ -33,6 +13,10 @@ void NeedleCoupling::take(const NeedleCompliance& compliance) noexcept {
   const double before = stored();
   compliance_ = compliance;
   compliance_.points = std::min(compliance_.points, NeedleCompliance::kMost);
+  if (!active()) {
+    load_ = {};
+    tip_displacement_ = 0;
+  }
   given_ += stored() - before;
 }
 
@@ -41,6 +25,14 @@ void NeedleCoupling::reset() noexcept {
   tip_displacement_ = 0;
   lost_ = 0;
   given_ = 0;
+}
+
+NeedleLoad NeedleCoupling::cube_load() const noexcept {
+  NeedleLoad load = load_;
+  if (!active() || load.tip == 0) return load;
+  const double cubes = cube_compliance(compliance_, load.tip_depth);
+  if (cubes > 0) load.tip *= tip_compliance(load.tip_depth, wall_stiffness_) / cubes;
+  return load;
 }
 
 double NeedleCoupling::displacement(std::size_t point) const noexcept {
@@ -63,14 +55,7 @@ double NeedleCoupling::dragged(std::size_t point) const noexcept {
 
 double NeedleCoupling::tip_compliance(double depth, double wall_stiffness) const noexcept {
   if (!active()) return 0;
-  const Between b = between(compliance_, depth);
-  const double other = 1 - b.share;
-  const auto& C = compliance_.by_load;
-  const auto& near = compliance_.near_field;
-  const double tissue =
-      other * other * (C[b.low][b.low] - near[b.low]) +
-      2 * other * b.share * (C[b.low][b.high] - (b.low == b.high ? near[b.low] : 0)) +
-      b.share * b.share * (C[b.high][b.high] - near[b.high]);
+  const double tissue = cube_compliance(compliance_, depth);
   if (!(wall_stiffness > 0)) return tissue;
   return std::min(tissue, most_tissue_compliance(wall_stiffness, params_.most_wall));
 }
@@ -82,8 +67,9 @@ double NeedleCoupling::local_stiffness(double wall_stiffness, double depth) cons
 
 void NeedleCoupling::follow_tip(double depth, double tip_force, double wall_stiffness) noexcept {
   load_.tip = tip_force;
+  wall_stiffness_ = wall_stiffness;
   load_.tip_depth = depth;
-  const Between b = between(compliance_, depth);
+  const TrackPlace b = find_on_track(compliance_, depth);
   const double shaft = (1 - b.share) * dragged(b.low) + b.share * dragged(b.high);
   const double pushed = shaft + tip_compliance(depth, wall_stiffness) * tip_force;
   tip_displacement_ += follow_ * (pushed - tip_displacement_);

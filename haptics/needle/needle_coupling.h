@@ -31,8 +31,8 @@ class NeedleCoupling {
   /// Requires: dt > 0 s, the fixed period of the loop; sweeps > 0.
   explicit NeedleCoupling(double dt, const NeedleCouplingParams& params = {}) noexcept;
 
-  /// What the body is like from now on. Forces stay; the energy stored changes and is metered by
-  /// given().
+  /// What the body is like from now on. Forces stay, unless it is rigid; the energy stored changes
+  /// and is metered by given().
   ARTUS_REALTIME void take(const NeedleCompliance& compliance) noexcept;
   ARTUS_REALTIME void reset() noexcept;
 
@@ -61,6 +61,9 @@ class NeedleCoupling {
                              std::span<const double> limits) noexcept;
 
   [[nodiscard]] const NeedleLoad& load() const noexcept { return load_; }
+  /// The load under which the cubes give way as the hand feels it: of the tip's force the share
+  /// that moves them by tip_compliance(), where they are softer than K_t says.
+  [[nodiscard]] ARTUS_REALTIME NeedleLoad cube_load() const noexcept;
   [[nodiscard]] double stored() const noexcept;                       ///< J, by the shaft's forces
   [[nodiscard]] double dissipated() const noexcept { return lost_; }  ///< J, by friction
   [[nodiscard]] double given() const noexcept { return given_; }      ///< J, by new compliances
@@ -74,6 +77,7 @@ class NeedleCoupling {
   NeedleCouplingParams params_;
   NeedleCompliance compliance_;
   NeedleLoad load_;
+  double wall_stiffness_ = 0;  // N/m, K_t where the tip is
   double tip_displacement_ = 0;
   double lost_ = 0;
   double given_ = 0;

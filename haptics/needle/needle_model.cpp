@@ -2,6 +2,7 @@
 #include "artus/haptics/needle/needle_model.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace artus {
 namespace {
@@ -31,7 +32,15 @@ NeedleModel::NeedleModel(const NeedleParams& params, const LayerTable& table, do
       plasticity_(params.plasticity),
       god_object_(params.prepuncture.god_object),
       workspace_(params.workspace),
-      coupling_(dt) {}
+      coupling_(dt),
+      follow_(1 - std::exp(-dt / NeedleCouplingParams{}.relaxation)),
+      hand_(params.contact.motion) {}
+
+void NeedleModel::take(const NeedlePacket& packet) noexcept {
+  const Vec3 carried(packet.carried[0], packet.carried[1], packet.carried[2]);
+  if (carried.allFinite()) carried_to_ = carried;
+  if (coupling_.active() || !contact_.inserted()) coupling_.take(packet.compliance);
+}
 
 void NeedleModel::reset() noexcept {
   contact_.reset();
@@ -49,7 +58,7 @@ void NeedleModel::start_laws() noexcept {
   const double x = tick.depth;
   const bool puncture = (contact_.events() & ContactEvent::kSkinPunctured) != 0;
   const double stiffness = std::max(tick.layer.tissue.wall_stiffness, 1e-6);
-  wall_.start(puncture ? std::max(0.0, tick.gave_way - tick.torn / stiffness) : x, x);
+  wall_.start(puncture ? std::max(0.0, tick.gave_way - tick.torn / stiffness) : x, x, tick.pushed);
   reset_all(x, direct_, spring_, voigt_, prepuncture_, friction_, hard_, clamping_, orientation_,
             plasticity_);
 }
@@ -84,8 +93,7 @@ const NeedleForces& NeedleModel::step(const Pose& X_JN,
   contact_.update(material(X_JN), intervals);
   felt_ = contact_.tick();
   const NeedleTick& tick = felt_;
-  felt_.layer.tissue.wall_stiffness =
-      coupling_.local_stiffness(tick.layer.tissue.wall_stiffness, tick.depth);
+  if (coupling_.active()) feel_tissue();
   forces_ = NeedleForces{};
   if (params_.use_workspace) forces_.workspace = workspace_.step(tick).force;
   if (contact_.inserted()) {
@@ -112,14 +120,34 @@ const NeedleForces& NeedleModel::step(const Pose& X_JN,
   }
   if (coupling_.active()) couple(X_JN, tick);
   sum_up(tick);
-  last_tip_ = X_JN.translation();
+  last_tip_ = X_JN.translation() - carried_;
+  carried_ += follow_ * (carried_to_ - carried_);
   return forces_;
 }
 
-/// Where the needle is in the material: back by what the tissue at its tip was pushed in.
+/// K_t and the time in which a needle at rest settles were measured at a hand, with the tissue in
+/// them: the wall is as stiff as leaves both together K_t, and a needle rests when the hand does,
+/// though the tissue comes onto it.
+void NeedleModel::feel_tissue() noexcept {
+  const double measured = felt_.layer.tissue.wall_stiffness;
+  felt_.layer.tissue.wall_stiffness = coupling_.local_stiffness(measured, felt_.depth);
+  if (measured > 0) felt_.stiffening = felt_.layer.tissue.wall_stiffness / measured;
+  felt_.pushed = coupling_.tip_displacement();
+  if (!contact_.inserted()) return;
+  const double depth = felt_.depth + felt_.pushed;
+  if ((contact_.events() & ContactEvent::kSkinPunctured) != 0) hand_.reset(depth, Motion::inward);
+  if ((contact_.events() & ContactEvent::kAdopted) != 0) hand_.reset(depth, Motion::still);
+  if (felt_.line_gain != 0) hand_.shift(felt_.line_gain);
+  hand_.step(depth, felt_.dt);
+  felt_.stillness = hand_.stillness();
+}
+
+/// Where the needle is in the material: back by what the tissue at its tip was moved, by others and
+/// by itself.
 Pose NeedleModel::material(const Pose& X_JN) const noexcept {
-  if (!coupling_.active()) return X_JN;
   Pose X = X_JN;
+  X.translation() -= carried_;
+  if (!coupling_.active()) return X;
   const Vec3 axis = contact_.inserted() ? contact_.tick().axis : Vec3(X_JN.linear().col(2));
   X.translation() -= coupling_.tip_displacement() * axis;
   return X;
@@ -144,7 +172,7 @@ void NeedleModel::couple(const Pose& X_JN, const NeedleTick& tick) noexcept {
       if (depth >= s.entry && depth < s.exit && depth < tick.depth) limits[i] = per_point * grip_;
     }
   }
-  const double moved = (X_JN.translation() - last_tip_).dot(tick.axis);
+  const double moved = (X_JN.translation() - carried_ - last_tip_).dot(tick.axis);
   const double moved_in = contact_.inserted() ? moved : 0;
   const Haptic& at_tip =
       tick.dimple > 0 ? tick.membrane.tissue : contact_.tick().layer.tissue;  // K_t as measured

@@ -5,6 +5,7 @@
 
 #include "artus/haptics/needle/clamping.h"
 #include "artus/haptics/needle/needle_coupling.h"
+#include "artus/haptics/needle/needle_packet.h"
 #include "artus/haptics/needle/needle_params.h"
 
 namespace artus {
@@ -38,10 +39,11 @@ class NeedleModel {
     return contact_.query_segment(material(X_JN));
   }
   /// Tissue that gives way to the needle from now on: laws then see the pose in the material, and
-  /// the shaft's friction is that of tissue which it drags. Without: the rigid body.
-  ARTUS_REALTIME void take(const NeedleCompliance& compliance) noexcept {
-    coupling_.take(compliance);
-  }
+  /// the shaft's friction is that of tissue which it drags. Without: the rigid body. Where others
+  /// (a probe) carry the tissue, it is followed with the coupling's relaxation time. To a needle
+  /// that is in the body already rigid tissue stays rigid until it is out again: its forces would
+  /// jump. What is not a number is left out.
+  ARTUS_REALTIME void take(const NeedlePacket& packet) noexcept;
   /// A tick in which nothing is known: the forces stay.
   ARTUS_REALTIME void hold() noexcept { contact_.hold(); }
   /// Requires: a finite, rigid pose; the intervals of query_segment(X_JN).
@@ -56,6 +58,7 @@ class NeedleModel {
 
  private:
   [[nodiscard]] Pose material(const Pose& X_JN) const noexcept;
+  void feel_tissue() noexcept;
   void couple(const Pose& X_JN, const NeedleTick& tick) noexcept;
   void sum_up(const NeedleTick& tick) noexcept;
   void start_laws() noexcept;
@@ -77,6 +80,10 @@ class NeedleModel {
   GodObject god_object_;
   HemisphereWorkspace workspace_;
   NeedleCoupling coupling_;
+  Vec3 carried_ = Vec3::Zero();     // m, frame J, of the tissue at the tip
+  Vec3 carried_to_ = Vec3::Zero();  // by the newest packet
+  double follow_;                   // share of the way in a tick
+  MotionDetector hand_;             // of the needle, whatever the tissue at its tip does
   NeedleTick felt_;  // the contact's tick, with the wall as stiff as without the tissue around
   double grip_ = 0;  // friction's level g(v), which falls with its relaxation time
   Vec3 last_tip_ = Vec3::Zero();

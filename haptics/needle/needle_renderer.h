@@ -21,7 +21,7 @@ class NeedleRenderer {
   }
 
   /// NeedleModel::take.
-  ARTUS_REALTIME void take(const NeedleCompliance& compliance) noexcept { tick_.take(compliance); }
+  ARTUS_REALTIME void take(const NeedlePacket& packet) noexcept { tick_.take(packet); }
 
   [[nodiscard]] const NeedleModel& model() const noexcept { return tick_.model(); }
   [[nodiscard]] const LayerTable& table() const noexcept { return tick_.table(); }

@@ -57,7 +57,7 @@ class NeedleTickStep {
   }
 
   /// NeedleModel::take.
-  ARTUS_REALTIME void take(const NeedleCompliance& compliance) noexcept { model_.take(compliance); }
+  ARTUS_REALTIME void take(const NeedlePacket& packet) noexcept { model_.take(packet); }
 
   [[nodiscard]] const NeedleModel& model() const noexcept { return model_; }
   [[nodiscard]] const LayerTable& table() const noexcept { return table_; }

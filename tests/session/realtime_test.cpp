@@ -90,8 +90,10 @@ TEST(RealTimeSession, CoreAndLoopNeitherAllocateNorLockOnTheWayToBone) {
     if (i == 1500) input.device.X_WN.position[0] = std::nan("");
     ARTUS_RUNS_REALTIME(HapticCore::step, inserted = core.step(input).inserted != 0 || inserted);
     ARTUS_RUNS_REALTIME(to_record, use(to_record(core.step(input))));
-    ProbePacket packet;
-    packet.number = input.tick;
+    TissuePacket packet;
+    packet.probe.number = input.tick;
+    packet.needle.carried = {0, 1e-4, 1e-5 * i};
+    packet.needle.compliance = test::make_even_compliance();
     ARTUS_RUNS_REALTIME(HapticCore::take, core.take(packet));
   }
   EXPECT_TRUE(inserted);

@@ -46,6 +46,25 @@ std::string file_of(const TickRecord& tick, const FrameRecord& frame) {
   return bytes;
 }
 
+TEST(RecordedPacket, IsRefusedWhenNoTissueCanBeLikeIt) {
+  PacketRecord sound;
+  sound.tick = 1;
+  sound.packet.needle.compliance = test::make_even_compliance();
+  EXPECT_EQ(find_fault(sound, 0), nullptr);
+  EXPECT_NE(find_fault(sound, 1), nullptr);
+  const auto refuses = [&sound](const auto& spoil) {
+    PacketRecord wrong = sound;
+    spoil(wrong.packet.needle);
+    return find_fault(wrong, 0) != nullptr;
+  };
+  EXPECT_TRUE(refuses([](NeedlePacket& n) { n.carried[1] = kNan; }));
+  EXPECT_TRUE(refuses([](NeedlePacket& n) { n.compliance.points = NeedleCompliance::kMost + 1; }));
+  EXPECT_TRUE(refuses([](NeedlePacket& n) { n.compliance.spacing = 0; }));
+  EXPECT_TRUE(refuses([](NeedlePacket& n) { n.compliance.by_load[2][2] = 0; }));
+  EXPECT_TRUE(refuses([](NeedlePacket& n) { n.compliance.by_load[2][5] = 1e9; }));
+  EXPECT_TRUE(refuses([](NeedlePacket& n) { n.compliance.near_field[0] = kNan; }));
+}
+
 struct Wrong {
   const char* name;
   void (*spoil)(TickRecord&, FrameRecord&);
@@ -65,6 +84,14 @@ TEST_P(WrongRecord, IsRefused) {
 }
 
 const Wrong kWrongs[] = {
+    {"NeedleLoadNotFinite",
+     [](TickRecord&, FrameRecord& frame) {
+       frame.input.load.shaft[3] = kNan;
+     }},
+    {"NeedleLoadTooDeep",
+     [](TickRecord&, FrameRecord& frame) {
+       frame.input.load.tip_depth = 1e3;
+     }},
     {"SitesTooMany",
      [](TickRecord&, FrameRecord& frame) {
        frame.input.n_sites = kMostSites + 1;

@@ -108,7 +108,7 @@ TEST_F(SessionCore, BetweenTheTissuesUpdatesTheProbeFeelsForceAndTorqueByItsWhol
     packet.X_JP[static_cast<std::size_t>(i)] = pressed.matrix()(i / 4, i % 4);
   Eigen::Map<Vec6>(packet.wrench.data()) = wrench;
   Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(packet.stiffness.data()) = K;
-  core_.take(packet);
+  core_.take({packet, {}});
   for (int i = 0; i < 400; ++i) step(-10e-3);  // the ramp after the start is over
   const Vec3 axis = Vec3(1, -2, 0.5).normalized();
   for (int i = 0; i <= 30; ++i) {

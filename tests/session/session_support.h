@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <ctime>
 #include <memory>
@@ -61,6 +62,17 @@ inline DeviceSample sample_at(double z, std::int64_t time_ns, std::uint64_t numb
   sample.has_needle = 1;
   sample.has_probe = 1;
   return sample;
+}
+
+/// Tissue that gives way alike at all depths, less far from where it is pushed.
+inline NeedleCompliance make_even_compliance(double by = 2e-3) {
+  NeedleCompliance c;
+  c.points = NeedleCompliance::kMost;
+  for (std::size_t i = 0; i < c.points; ++i) {
+    for (std::size_t j = 0; j < c.points; ++j)
+      c.by_load[i][j] = by * std::exp(-std::abs(static_cast<double>(i) - static_cast<double>(j)));
+  }
+  return c;
 }
 
 inline Result<Recording> parse_recording(const std::string& bytes) {

@@ -35,22 +35,22 @@ TEST(TissueCore, GivesTheHandAForceThatGrowsWithThePressAndNoneWhenLifted) {
   std::vector<double> normal;
   for (const double depth : {1e-3, 2e-3, 3e-3}) {
     for (int i = 0; i < 15; ++i) core->step(pressed(*joint, depth));
-    normal.push_back(-core->packet().wrench[2]);
+    normal.push_back(-core->packet().probe.wrench[2]);
   }
   EXPECT_GT(normal[0], 0.01);
   EXPECT_GT(normal[1], 1.5 * normal[0]);
   EXPECT_GT(normal[2], normal[1]);
   // what is felt between packets is near what the next one says
-  const ProbePacket at = core->packet();
+  const ProbePacket at = core->packet().probe;
   const double slope = at.stiffness[6 * 2 + 2];
   EXPECT_GT(slope, 0);
   for (int i = 0; i < 15; ++i) core->step(pressed(*joint, 3.2e-3));
-  const double rise = -core->packet().wrench[2] - normal[2];
+  const double rise = -core->packet().probe.wrench[2] - normal[2];
   EXPECT_NEAR(slope * 0.2e-3, rise, 0.35 * rise);
   for (int i = 0; i < 40; ++i) core->step(pressed(*joint, -20e-3));
-  for (const double value : core->packet().wrench) EXPECT_EQ(value, 0);
+  for (const double value : core->packet().probe.wrench) EXPECT_EQ(value, 0);
   core->step(std::nullopt);
-  EXPECT_EQ(core->packet().share, 0);
+  EXPECT_EQ(core->packet().probe.share, 0);
 }
 
 TEST(TissueCore, GivesTheSameBytesAgain) {
@@ -89,12 +89,12 @@ TEST(TissueCore, StillProbeGivesTheSamePictureAgainOnceTheTissueHasComeToRest) {
     return render_bmode(core->scene(), X_JP, std::nullopt, {}, {});
   };
   const Frame before = look();
-  const ProbePacket felt = core->packet();
+  const ProbePacket felt = core->packet().probe;
   for (int i = 0; i < 30; ++i) core->step(X_JP);
   const Frame after = look();
   EXPECT_EQ(before.in_phase, after.in_phase);
   EXPECT_EQ(before.image, after.image);
-  EXPECT_EQ(felt.wrench, core->packet().wrench);
+  EXPECT_EQ(felt.wrench, core->packet().probe.wrench);
   core->step(pressed(*joint, 2.1e-3));
   EXPECT_NE(look().in_phase, after.in_phase) << "it moves again with the probe";
 }

@@ -200,7 +200,7 @@ void bench_tick(benchmark::State& state, const Body& body, BenchTissue tissue) {
   params.device = find_device("virtuose_6d_desktop").value();
   params.rate_hz = kRate;
   NeedleRenderer renderer(body.scene, make_layer_table(*body.joint), params);
-  if (tissue == BenchTissue::gives_way) renderer.take(giving_way());
+  if (tissue == BenchTissue::gives_way) renderer.take({{}, giving_way()});
   Alternatives alternatives(renderer.period());
   long inserted = 0;
   long bone = 0;

@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "artus/evidence/soft/needled_block.h"
 #include "artus/haptics/needle/needle_contact.h"
 
 namespace artus {
@@ -82,6 +85,36 @@ INSTANTIATE_TEST_SUITE_P(All, NeedleExperiment,
                            }
                            return name;
                          });
+
+/// Closed loop with a device's mass and encoder, where a wall without the tissue's share of K_t is
+/// eight times as stiff: plateaus and slopes are those of rigid tissue, but the skin's slope, which
+/// the tissue's lag makes less, and changes of layers, which the hand finds later by the tent.
+TEST(NeedleExperiments, Table42HoldsAtTheHandInTissueThatGivesWay) {
+  ExperimentOptions options;
+  options.tissue = NeedledBlock().compliance(0.4e-3);
+  const auto run = run_needle_experiment("layer-changes", options);
+  ASSERT_TRUE(run) << run.error().to_string();
+  std::vector<std::string> failed;
+  for (const Claim& claim : run->claims)
+    if (!claim.pass) failed.push_back(claim.text);
+  EXPECT_EQ(failed,
+            (std::vector<std::string>{"the longest way until nine tenths of the step are felt",
+                                      "skin: slope at the hand"}));
+}
+
+TEST(NeedleExperiments, WallDoesNotChatterInTissueThatGivesWay) {
+  ExperimentOptions options;
+  options.tissue = NeedledBlock().compliance(0.4e-3);
+  const auto run = run_needle_experiment("wall-move", options);
+  ASSERT_TRUE(run) << run.error().to_string();
+  const auto& rows = run->traces.front().rows;
+  double most = 0;  // N, from tick to tick once the needle is in
+  for (std::size_t i = 1; i < rows.size(); ++i)
+    if (rows[i - 1].depth > 1e-4)
+      most = std::max(most, std::abs(rows[i].forces.cutting - rows[i - 1].forces.cutting));
+  EXPECT_LT(most, 0.1);
+  EXPECT_NEAR(rows.back().forces.cutting, -1, 0.01);
+}
 
 TEST(NeedleExperiments, UnknownNameIsRefusedWithTheNamesThereAre) {
   const auto refused = run_needle_experiment("wall-of-china");

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "artus/core/noise.h"
+#include "artus/haptics/needle/needle_packet.h"
 #include "artus/haptics/needle/needle_tick_step.h"
 #include "tests/support/real_time.h"
 
@@ -102,6 +103,22 @@ TEST(NeedleCoupling, TheNeedlesOwnNeighbourhoodMovesWithTheShaftAndNotBeforeTheT
   EXPECT_LT(force, 0);
   EXPECT_GT(needle.tip_displacement(), 0);
   EXPECT_LT(needle.tip_displacement(), 1e-5) << "beside the needle it moves less than on it";
+}
+
+TEST(NeedleCoupling, CubesAreLoadedSoThatTheyGiveWayAsTheHandFeels) {
+  NeedleCoupling needle(kCouplingTick);
+  const NeedleCompliance soft = tissue(5);  // softer than K_t leaves it
+  needle.take(soft);
+  const auto limits = limits_to(needle, 0.02, 0.05);
+  for (int k = 0; k < 500; ++k) test::use(needle.step(1e-5, 0.02, 0.8, 500, limits));
+  const NeedleLoad load = needle.cube_load();
+  EXPECT_LT(load.tip, 0.8);
+  EXPECT_EQ(load.shaft, needle.load().shaft);
+  EXPECT_NEAR(cube_displacement(soft, load), needle.tip_displacement(),
+              1e-3 * needle.tip_displacement());
+  needle.take({});
+  EXPECT_EQ(needle.cube_load().tip, 0) << "rigid tissue bears no load that moves it";
+  EXPECT_EQ(needle.tip_displacement(), 0);
 }
 
 TEST(NeedleCoupling, ShaftDragsUntilEachPointSlipsAndThenHoldsTheSumOfTheLimits) {
@@ -222,6 +239,7 @@ TEST(NeedleCoupling, NeitherAllocatesNorLocks) {
   ARTUS_RUNS_REALTIME(NeedleCoupling::tip_compliance, test::use(needle.tip_compliance(0.01)));
   ARTUS_RUNS_REALTIME(NeedleCoupling::local_stiffness,
                       test::use(needle.local_stiffness(500, 0.01)));
+  ARTUS_RUNS_REALTIME(NeedleCoupling::cube_load, test::use(needle.cube_load()));
   ARTUS_RUNS_REALTIME(NeedleCoupling::reset, needle.reset());
 }
 
@@ -240,7 +258,7 @@ struct SoftHalfSpace {
 class CoupledInsertion {
  public:
   explicit CoupledInsertion(double compliance) : tick_(table(), params()) {
-    if (compliance > 0) tick_.take(tissue(compliance));
+    if (compliance > 0) tick_.take({{}, tissue(compliance)});
   }
   /// Moves the tip by `way` at `speed`; the last tick's result.
   const RenderedNeedle& move(double way, double speed) {
@@ -254,6 +272,8 @@ class CoupledInsertion {
     time_ += kCouplingTick;
     return tick_.step({make_pose(Vec3(0, 0, z), Vec3::UnitZ(), Vec3::UnitX()), time_}, body_);
   }
+  void carry(double by) { tick_.take({{0, 0, by}, {}}); }
+  void soften(double scale) { tick_.take({{}, tissue(scale)}); }
   [[nodiscard]] const NeedleModel& model() const { return tick_.model(); }
   [[nodiscard]] double z() const { return z_; }
 
@@ -319,6 +339,29 @@ TEST(NeedleCoupling, ClosedWayGivesTheHandNoEnergy) {
     EXPECT_TRUE(needle.model().forces().total.force.allFinite());
   }
   EXPECT_GT(work, 0);
+}
+
+TEST(NeedleCoupling, TissueThatAProbeCarriesIsMetWhereItIs) {
+  CoupledInsertion needle(0);
+  needle.carry(1.5e-3);
+  for (int k = 0; k < 300; ++k) needle.at(-1e-3);
+  while (needle.model().forces().prepuncture == 0 && needle.z() < 5e-3)
+    needle.at(needle.z() + 2e-6);
+  EXPECT_NEAR(needle.z(), 1.5e-3, 1e-5);
+  needle.carry(std::nan(""));
+  const double before = needle.model().forces().prepuncture;
+  needle.at(needle.z());
+  EXPECT_NEAR(needle.model().forces().prepuncture, before, 1e-3) << "what is no number is left out";
+}
+
+TEST(NeedleCoupling, TissueThatComesWhileTheNeedleIsInStaysRigidUntilItIsOut) {
+  CoupledInsertion rigid(0);
+  rigid.move(10e-3, 10e-3);
+  rigid.soften(1);
+  EXPECT_FALSE(rigid.model().coupling().active());
+  rigid.move(-20e-3, 20e-3);
+  rigid.soften(1);
+  EXPECT_TRUE(rigid.model().coupling().active());
 }
 
 }  // namespace

@@ -181,7 +181,7 @@ TEST(NeedleFaults, InTissueThatGivesWayLeaveForcesInLimitsAndTheTissueAtRest) {
   TimedPose before;
   constexpr std::uint64_t kTicks = 100'000;
   for (std::uint64_t i = 0; i < kTicks; ++i) {
-    if (i % 500 == 0) renderer.take(giving_way(0.3 + 2 * uniform_noise(kSeed + 20, i)));
+    if (i % 500 == 0) renderer.take({{}, giving_way(0.3 + 2 * uniform_noise(kSeed + 20, i))});
     const Fault fault = bursts.at(i);
     const TimedPose sane = test::stroke(kTick * static_cast<double>(i));
     if (!bursts.faulty) before = sane;

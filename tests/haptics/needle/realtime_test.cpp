@@ -244,7 +244,7 @@ TEST(RealTimeNeedle, ModelNeitherAllocatesNorLocks) {
   soft.spacing = 10e-3;
   for (std::size_t i = 0; i < soft.points; ++i) soft.by_load[i][i] = 1e-3;
   model.reset();
-  ARTUS_RUNS_REALTIME(NeedleModel::take, model.take(soft));
+  ARTUS_RUNS_REALTIME(NeedleModel::take, model.take({{}, soft}));
   for (int i = 0; i < 1100; ++i) {
     const Pose X_JN = LayeredInsertion::pose(i);
     ARTUS_RUNS_REALTIME(NeedleModel::query_segment, segment = model.query_segment(X_JN));

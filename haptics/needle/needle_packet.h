@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <array>
+
+#include "artus/soft/needle_compliance.h"
+
+namespace artus {
+
+/// What the tissue around a needle is like, from one update of the body to the next. Plain numbers:
+/// handed from thread to thread, and recorded.
+struct NeedlePacket {
+  std::array<double, 3> carried{};  ///< m, frame J: how far the tissue at the tip is from its rest,
+                                    ///< without what the needle itself pushed it
+  NeedleCompliance compliance;      ///< along the track; no points: the tissue is rigid to it
+};
+
+}  // namespace artus
