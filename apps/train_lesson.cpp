@@ -103,7 +103,7 @@ Lesson TrainLesson::lead(const LessonView& view) {
     listen(view, time);
   }
   Lesson lesson;
-  lesson.title = scenario_.title;
+  lesson.title = title_words(language_, scenario_);
   lesson.goal = goal_words(scenario_, language_);
   lesson.late = time > scenario_.time_limit;
   lesson.clock = fill(said(language_, Said::clock),

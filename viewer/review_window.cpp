@@ -377,7 +377,8 @@ class ReviewGui {
     if (!near) return;
     const ReviewFault& fault = review_.faults[*near];
     ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(1, 0.75F, 0.25F, 1));
-    wrapped(number(options_.language, fault.time, 1) + " s: " + fault.what);
+    wrapped(number(options_.language, fault.time, 1) +
+            (options_.language == Language::french ? " s : " : " s: ") + fault.what);
     ImGui::PopStyleColor();
     wrapped(fill(text(options_.language, Text::review_cause), {fault.cause}));
     wrapped(fill(text(options_.language, Text::review_do), {fault.mend}));

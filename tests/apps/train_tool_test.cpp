@@ -252,7 +252,7 @@ TEST(TrainTask, TheBeamIsNotOnATipThatLiesBesideIt) {
   const auto scene = make_gel_scene(*scenario->gel);
   const auto params = make_session_params(*scenario);
   ASSERT_TRUE(scene && params);
-  TrainLesson lesson(*scenario, *scene, *params, {}, Language::english);
+  TrainLesson lesson(*scenario, *scene, *params, {}, Language::french);
   for (const double beside : {0.0, 1.5e-3}) {
     HapticSnapshot now;
     now.input.tick = 1;
@@ -262,6 +262,7 @@ TEST(TrainTask, TheBeamIsNotOnATipThatLiesBesideIt) {
     NeedleReading needle;
     needle.inside = true;
     const Lesson told = lesson.lead({now, needle});
+    EXPECT_EQ(told.title, title_words(Language::french, *scenario));
     EXPECT_EQ(told.beam_on_tip, beside == 0) << beside;
     EXPECT_FALSE(told.over);
   }
