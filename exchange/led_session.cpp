@@ -49,8 +49,9 @@ Result<Recording> record_led_session(const std::vector<ListedPose>& poses,
     if (images) frame.digest = digest_of(images->render(frame.input));
     if (const TissuePacket* packet = images ? images->packet() : nullptr) {
       frame.packet = digest_of(*packet);
-      recording.packets.push_back({felt.input.tick + 1, *packet});
-      haptics.take(*packet);
+      const TissuePacket to_probe{packet->probe, {}};
+      recording.packets.push_back({felt.input.tick + 1, to_probe});
+      haptics.take(to_probe);
     }
     recording.frames.push_back(frame);
   }

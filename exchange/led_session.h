@@ -21,8 +21,9 @@ enum class LedPictures {
 /// of a tracker's sequence): whoever reads recordings can read such lists, too. With times they are
 /// sampled at the session's haptic rate, without each is one tick; images come at its image rate.
 /// Without drawn pictures the probe's hand feels nothing; what the needle and the syringe feel is
-/// the same. Requires: valid params. Errors: those of sample_path. Cost: of the session's ticks,
-/// and of its images when they are drawn.
+/// the same: to them tissue is rigid, whatever the pictures' tissue does. Requires: valid params.
+/// Errors: those of sample_path. Cost: of the session's ticks, and of its images when they are
+/// drawn.
 [[nodiscard]] Result<Recording> record_led_session(const std::vector<ListedPose>& poses,
                                                    const std::shared_ptr<const Scene>& scene,
                                                    const SessionParams& params,

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <future>
 #include <optional>
+#include <vector>
 
 #include "artus/haptics/needle/needle_packet.h"
 #include "artus/raycast/scene.h"
