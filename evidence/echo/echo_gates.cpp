@@ -15,13 +15,11 @@
 namespace artus {
 namespace {
 
-using Gate = EchoGate (*)();
-
 constexpr std::array<std::string_view, 13> kNames{
     "speckle",    "lateral-width", "slice-width",  "attenuation",   "matched-impedance",
     "interfaces", "needle-rings",  "needle-angle", "needle-offset", "tendon",
     "fat-shift",  "enhancement",   "motion"};
-constexpr std::array<Gate, kNames.size()> kGates{
+constexpr std::array<EchoGate (*)(), kNames.size()> kGates{
     gate_speckle,      gate_lateral_width,     gate_slice_width,
     gate_attenuation,  gate_matched_impedance, gate_interfaces,
     gate_needle_rings, gate_needle_angle,      gate_needle_offset,

@@ -12,7 +12,7 @@
 
 #include "artus/core/progress.h"
 #include "artus/core/result.h"
-#include "artus/evidence/claim.h"
+#include "artus/evidence/gates.h"
 #include "artus/evidence/plot.h"
 
 namespace artus {
@@ -23,13 +23,10 @@ struct GatePicture {
   cv::Mat image;
 };
 
-/// One gate of the image's physics: what was measured on rendered frames, against what.
-struct EchoGate {
-  std::string name;
-  std::string title;    ///< what is measured, and where the bound comes from
+/// A gate of the image's physics, measured on rendered frames, with what shows it.
+struct EchoGate : Gate {
   std::string assumed;  ///< what it rests on that has no published source; empty: nothing
-  std::vector<Claim> claims;
-  Plot plot;  ///< no panels: none
+  Plot plot;            ///< no panels: none
   std::vector<GatePicture> pictures;
 };
 

@@ -15,8 +15,8 @@
 namespace artus {
 namespace {
 
-/// Flat layers whose walls have vertices to be lifted by.
-std::shared_ptr<const Scene> make_soft_scene() {
+/// Flat layers of `length` x `width`, m, whose walls have vertices to be lifted by.
+std::shared_ptr<const Scene> make_soft_scene(double length = 0.096, double width = 0.064) {
   const std::array<FlatLayer, 6> layers{{{"skin", 2e-3},
                                          {"fat", 5e-3},
                                          {"muscle", 15e-3},
@@ -24,7 +24,7 @@ std::shared_ptr<const Scene> make_soft_scene() {
                                          {"tendon", 5e-3},
                                          {"bone", 30e-3}}};
   return std::make_shared<const Scene>(
-      std::make_shared<const CompiledJoint>(test::make_meshed_block(layers, 0.096, 0.064, 4e-3)));
+      std::make_shared<const CompiledJoint>(test::make_meshed_block(layers, length, width, 4e-3)));
 }
 
 RegionId region_named(const CompiledJoint& joint, const std::string& name) {
@@ -168,7 +168,7 @@ std::vector<std::uint64_t> pressed_pictures(const std::shared_ptr<const Scene>& 
 }
 
 TEST(FluidCore, IsInABodyThatGivesWayToTheProbeToo) {
-  const auto scene = make_soft_scene();
+  const auto scene = make_soft_scene(0.064, 0.048);
   const auto filled = pressed_pictures(scene, 1, 2e-6);
   EXPECT_EQ(filled, pressed_pictures(scene, 2, 2e-6));
   const auto empty = pressed_pictures(scene, 1, 0);

@@ -19,7 +19,7 @@ namespace {
 std::shared_ptr<const CompiledJoint> make_soft_block() {
   const std::array<FlatLayer, 4> layers{
       {{"skin", 2e-3}, {"fat", 8e-3}, {"muscle", 20e-3}, {"bone", 10e-3}}};
-  return std::make_shared<const CompiledJoint>(test::make_meshed_block(layers, 0.096, 0.064, 4e-3));
+  return std::make_shared<const CompiledJoint>(test::make_meshed_block(layers, 0.064, 0.048, 4e-3));
 }
 
 Pose pressed(const CompiledJoint& joint, double depth) {
