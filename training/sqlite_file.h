@@ -72,6 +72,8 @@ class SqliteTransaction {
   /// Errors: those of the database; takes the right to write at once.
   [[nodiscard]] static Result<SqliteTransaction> begin(SqliteFile& file);
   ~SqliteTransaction();
+  SqliteTransaction(const SqliteTransaction&) = delete;
+  SqliteTransaction& operator=(const SqliteTransaction&) = delete;
   SqliteTransaction(SqliteTransaction&& other) noexcept;
   SqliteTransaction& operator=(SqliteTransaction&&) = delete;
   [[nodiscard]] Result<void> commit();

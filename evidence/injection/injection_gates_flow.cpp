@@ -11,7 +11,7 @@
 namespace artus {
 namespace {
 
-using namespace injection_gate;
+using namespace injection_gate;  // NOLINT(google-build-using-namespace): what the gates share
 
 constexpr double kExact = 1e-3;  // of a closed form
 

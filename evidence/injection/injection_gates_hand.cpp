@@ -9,7 +9,7 @@
 namespace artus {
 namespace {
 
-using namespace injection_gate;
+using namespace injection_gate;  // NOLINT(google-build-using-namespace): what the gates share
 
 /// N of the thumb beyond friction, at a rate into a place of one pressure.
 double steady_force(double pressure, const NeedleBore& needle, double rate) {
@@ -153,9 +153,9 @@ Gate gate_aspiration() {
 Gate gate_capsule() {
   Gate gate{"", "pressure by volume of shoulders: toe, straight part", {}};
   struct Row {
-    const char* name;
+    const char* name = nullptr;
     SpaceLaw law;
-    std::array<double, 3> mercury;  // at 5, 10, 15 ml
+    std::array<double, 3> mercury{};  // at 5, 10, 15 ml
   };
   const std::array<Row, 4> rows{
       {{"healthy", shoulder(2, 10, 10), {0, 0, 2.5}},

@@ -11,6 +11,7 @@
 #include "artus/core/noise.h"
 #include "artus/haptics/needle/needle_renderer.h"
 #include "tests/haptics/needle/block_stroke.h"
+#include "tests/support/trials.h"
 
 namespace artus {
 namespace {
@@ -66,6 +67,7 @@ TimedPose broken(Fault fault, std::uint64_t seed, std::uint64_t i, TimedPose pos
 }
 
 constexpr std::uint64_t kSeed = 5;
+constexpr std::uint64_t kManyTicks = test::trials(1'000'000);
 
 /// Sane stretches of random length between bursts of one fault or of all at random; asked tick by
 /// tick.
@@ -106,7 +108,7 @@ TEST(NeedleFaults, NeverGetAnUnsafeForceOutOverAMillionTicks) {
   double fullest = 0;
   Bursts bursts;
   TimedPose before;
-  for (std::uint64_t i = 0; i < 1'000'000; ++i) {
+  for (std::uint64_t i = 0; i < kManyTicks; ++i) {
     const double t = kTick * static_cast<double>(i);
     const Fault fault = bursts.at(i);
     const TimedPose sane = test::stroke(t);
@@ -144,10 +146,10 @@ TEST(NeedleFaults, NeverGetAnUnsafeForceOutOverAMillionTicks) {
   for (const std::uint32_t bit :
        {TickStatus::kNotFinite, TickStatus::kNotRigid, TickStatus::kTeleport,
         TickStatus::kTimeReversed, TickStatus::kStale, TickStatus::kOutOfWorkspace}) {
-    EXPECT_GT(of(bit), 500) << "bit " << bit << " must be met";
+    EXPECT_GT(of(bit), test::trials(500)) << "bit " << bit << " must be met";
   }
-  EXPECT_GT(recoveries, 500) << "bursts after which the ramp came to its end";
-  EXPECT_GT(felt, 200'000);
+  EXPECT_GT(recoveries, test::trials(500)) << "bursts after which the ramp came to its end";
+  EXPECT_GT(felt, test::trials(200'000));
   EXPECT_GT(fullest, 3) << "full forces are met between the faults";
 }
 
