@@ -125,6 +125,55 @@ void add_plots(HtmlPage& page, const Scenario& scenario, const AttemptMeasures& 
       "the tip's path as the intended picture would show it");
 }
 
+/// The largest value of each 20th of a second.
+template <class Value>
+SvgCurve peaks(const Recording& recording, const char* name, const char* colour, Value value) {
+  constexpr double kBin = 0.05;  // s
+  SvgCurve curve{name, {}, {}, colour};
+  for (const TickRecord& tick : recording.ticks) {
+    const double bin = std::floor(
+        static_cast<double>(tick.input.tick) / recording.head.params.haptic_rate / kBin + 1e-9);
+    const double at = (bin + 0.5) * kBin;
+    if (curve.x.empty() || at > curve.x.back()) {
+      curve.x.push_back(at);
+      curve.y.push_back(value(tick));
+    } else {
+      curve.y.back() = std::max(curve.y.back(), value(tick));
+    }
+  }
+  return curve;
+}
+
+double length_of(const double (&v)[3]) {  // NOLINT(*-avoid-c-arrays)
+  return std::hypot(v[0], v[1], v[2]);
+}
+
+/// What both hands and the thumb felt.
+void add_felt(HtmlPage& page, const Recording& recording) {
+  if (recording.ticks.empty()) return;
+  page.heading("What the hands felt");
+  const SvgCurve needle =
+      peaks(recording, "needle", "#1f5fa8", [](const TickRecord& t) { return length_of(t.force); });
+  const SvgCurve probe = peaks(recording, "probe", "#a8461f",
+                               [](const TickRecord& t) { return length_of(t.probe_force); });
+  page.drawing(to_svg({"time, s", "force, N", {needle, probe}, {}, {}}),
+               "force on the needle's and on the probe's hand, the largest of each 50 ms");
+  const bool injects = std::any_of(
+      recording.ticks.begin(), recording.ticks.end(),
+      [](const TickRecord& t) { return t.plunger.thumb_force != 0 || t.plunger.given > 0; });
+  if (!injects) return;
+  const SvgCurve thumb = peaks(recording, "thumb, N", "#1f5fa8",
+                               [](const TickRecord& t) { return std::abs(t.plunger.thumb_force); });
+  const SvgCurve pressure =
+      peaks(recording, "at the tip, 10 kPa", "#a8461f",
+            [](const TickRecord& t) { return 1e-4 * t.plunger.tip_pressure; });
+  const SvgCurve given = peaks(recording, "given, ml", "#2a7d3a", [](const TickRecord& t) {
+    return t.plunger.given / kCubicCentimetre;
+  });
+  page.drawing(to_svg({"time, s", "N, 10 kPa, ml", {thumb, pressure, given}, {}, {}}),
+               "the syringe: force on the thumb, pressure at the tip and what was given");
+}
+
 void add_marks(HtmlPage& page, const Judgement& judgement) {
   page.heading("Marks");
   std::vector<std::vector<std::string>> rows;
@@ -170,6 +219,7 @@ Result<void> write_attempt_page(const Scenario& scenario, const std::shared_ptr<
   page.paragraph("Next: " + feedback.next);
   add_faults(page, scenario, feedback, attempt, scene);
   add_plots(page, scenario, attempt.measures);
+  add_felt(page, attempt.recording);
   add_marks(page, attempt.judgement);
   add_numbers(page, attempt.measures.metrics);
   return write_text(file, page.text());

@@ -18,9 +18,9 @@ double shaped(double axis) {
 }  // namespace
 
 std::vector<UserEvent> events_of(const PadState& now, const PadState& before, double seconds) {
-  constexpr std::array<Action, PadState::n_buttons> kActions{Action::choose_entry, Action::explore,
-                                                             Action::freeze,       Action::reset,
-                                                             Action::pause,        Action::finish};
+  constexpr std::array<Action, PadState::n_buttons> kActions{
+      Action::choose_entry, Action::explore, Action::freeze,      Action::reset,
+      Action::pause,        Action::finish,  Action::take_plunger};
   std::vector<UserEvent> events;
   for (std::size_t i = 0; i < kActions.size(); ++i) {
     if (now.buttons[i] && !before.buttons[i]) events.emplace_back(ActionEvent{kActions[i]});
@@ -32,7 +32,8 @@ std::vector<UserEvent> events_of(const PadState& now, const PadState& before, do
   pad.right_y = shaped(now.right[1]);
   pad.push = shaped((now.right_trigger - now.left_trigger) / 2);
   pad.seconds = seconds;
-  if (pad.left_x != 0 || pad.left_y != 0 || pad.right_x != 0 || pad.right_y != 0 || pad.push != 0)
+  if (pad.left_x != 0 || pad.left_y != 0 || pad.right_x != 0 || pad.right_y != 0 || pad.push != 0 ||
+      shaped((before.right_trigger - before.left_trigger) / 2) != 0)  // so that a release is told
     events.emplace_back(pad);
   return events;
 }

@@ -118,7 +118,13 @@ void HandControl::place_needle(const PlainPose& X_WN) {
 bool HandControl::take(Grab what) {
   if (grab_ != what) have_cursor_ = false;  // the pointer may have been elsewhere since
   grab_ = what;
+  target_.has_plunger = what == Grab::plunger ? 1 : 0;
+  target_.thumb_force = 0;
   return true;
+}
+
+void HandControl::press_thumb(double force) {
+  target_.thumb_force = std::clamp(force, -kMostDraw, kMostThumb);
 }
 
 bool HandControl::choose_entry(const HandGround& ground) {
@@ -145,6 +151,7 @@ void HandControl::go_home() {
   const std::uint32_t jumps = target_.probe_jumps;
   target_ = start_;
   target_.probe_jumps = jumps;
+  target_.has_plunger = grab_ == Grab::plunger ? 1 : 0;
   before_pull_.reset();
 }
 
@@ -178,12 +185,16 @@ bool HandControl::handle(Action action, bool fine, const HandGround& ground) {
       return take(Grab::needle);
     case Action::take_probe:
       return take(Grab::probe);
+    case Action::take_plunger:
+      return take(grab_ == Grab::plunger ? Grab::nothing : Grab::plunger);
     case Action::let_go:
       return take(Grab::nothing);
     case Action::push:
     case Action::pull:
       if (grab_ == Grab::probe)
         press_probe(sign * step * kPress, ground);
+      else if (grab_ == Grab::plunger)
+        press_thumb(target_.thumb_force + sign * step * kThumb);
       else
         push(sign * step * kPush, ground);
       return true;
@@ -234,6 +245,7 @@ bool HandControl::handle_move(const MoveEvent& move, const HandGround& ground) {
 bool HandControl::handle_scroll(const ScrollEvent& scroll, const HandGround& ground) {
   const double notches = scroll.fine ? 0.1 * scroll.notches : scroll.notches;
   if (grab_ == Grab::needle) push(kPush * notches, ground);
+  if (grab_ == Grab::plunger) press_thumb(target_.thumb_force + kThumb * notches);
   if (grab_ == Grab::probe && scroll.tilt)
     press_probe(kPress * notches, ground);
   else if (grab_ == Grab::probe)
@@ -247,7 +259,10 @@ bool HandControl::handle_pad(const PadEvent& pad, const HandGround& ground) {
     slide_probe(slide * pad.left_x, slide * pad.left_y, ground);
   if (pad.right_x != 0 || pad.right_y != 0)
     steer_needle(pad.right_x, pad.right_y, slide, kPadTurn * pad.seconds, ground);
-  if (pad.push != 0) push(kPadPush * pad.seconds * pad.push, ground);
+  if (grab_ == Grab::plunger)
+    press_thumb(kMostThumb * pad.push);
+  else if (pad.push != 0)
+    push(kPadPush * pad.seconds * pad.push, ground);
   return true;
 }
 

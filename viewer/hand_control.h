@@ -12,7 +12,7 @@
 namespace artus {
 
 /// What the mouse holds.
-enum class Grab { nothing, needle, probe };
+enum class Grab { nothing, needle, probe, plunger };
 
 /// What the hands meet.
 struct HandGround {
@@ -27,11 +27,15 @@ struct HandGround {
 /// turns it about the entry point, or moves it sideways while it is outside; it goes no deeper than
 /// its hub, and a few millimetres of the hand's way beyond bone, which press. With the probe
 /// grabbed, the mouse slides it on the skin, whose slope it follows, and the wheel turns it; with
-/// ctrl the mouse rocks and fans it, and the wheel presses it on. A gamepad moves both at once.
+/// ctrl the mouse rocks and fans it, and the wheel presses it on. With the thumb on the plunger,
+/// the wheel presses it and draws it back. A gamepad moves both at once, or its triggers press.
 class HandControl {
  public:
   static constexpr double kPush = 0.5e-3;                      ///< m a notch
   static constexpr double kPress = 0.25e-3;                    ///< m a notch, of the probe
+  static constexpr double kThumb = 0.5;                        ///< N a notch, of the thumb
+  static constexpr double kMostThumb = 30;                     ///< N. assumed: a strong push
+  static constexpr double kMostDraw = 12;                      ///< N of drawing back. assumed
   static constexpr double kSlide = 0.1e-3;                     ///< m a pixel
   static constexpr double kTurn = 0.1 * 0.017453292519943295;  ///< rad a pixel
   static constexpr double kArrow = 10;                         ///< pixels a press of an arrow
@@ -63,6 +67,7 @@ class HandControl {
 
  private:
   bool take(Grab what);
+  void press_thumb(double force);
   bool choose_entry(const HandGround& ground);
   bool explore(const HandGround& ground);
   bool move_with_arrow(Action action, bool fine, const HandGround& ground);

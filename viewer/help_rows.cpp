@@ -12,12 +12,13 @@ struct Row {
 };
 
 constexpr Action kNone = Action::none;
-constexpr std::array<Row, 32> kRows{{
+constexpr std::array<Row, 33> kRows{{
     {{Action::take_probe, kNone, kNone, kNone}, Text::help_take_probe},
     {{Action::choose_entry, kNone, kNone, kNone}, Text::help_choose},
     {{Action::explore, kNone, kNone, kNone}, Text::help_explore},
     {{Action::take_needle, kNone, kNone, kNone}, Text::help_needle},
     {{Action::push, Action::pull, kNone, kNone}, Text::help_push},
+    {{Action::take_plunger, kNone, kNone, kNone}, Text::help_plunger},
     {{Action::let_go, kNone, kNone, kNone}, Text::help_let_go},
     {{Action::home, kNone, kNone, kNone}, Text::help_home},
     {{Action::undo, kNone, kNone, kNone}, Text::help_undo},

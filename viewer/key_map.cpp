@@ -20,6 +20,7 @@ struct KeyRow {
 constexpr std::array<KeyRow, kCount> kRows{{{"none", ""},
                                             {"take_probe", "P"},
                                             {"take_needle", "N"},
+                                            {"take_plunger", "J"},
                                             {"let_go", "ESCAPE"},
                                             {"push", "W"},
                                             {"pull", "S"},

@@ -14,6 +14,7 @@ enum class Action {
   none,
   take_probe,
   take_needle,
+  take_plunger,
   let_go,
   push,
   pull,

@@ -85,6 +85,7 @@ void draw_lesson_panel(const PanelInput& in, ViewState& state) {
         step.known ? "" : " (" + std::string(tell(state, Text::lesson_later)) + ")";
     wrapped_line(mark + step.text + later, !step.known ? kDim : step.done ? kDone : kOpen);
   }
+  draw_syringe(in, state);
   if (in.peer != PeerState::alive) wrapped_line(describe_status(state.language, in.status), kAlarm);
   action_button(state, Text::lesson_finish, Action::finish);
   ImGui::SameLine();
@@ -92,10 +93,11 @@ void draw_lesson_panel(const PanelInput& in, ViewState& state) {
   ImGui::Checkbox(tell(state, Text::left_handed), &state.left_handed);
 }
 
-void draw_patient_panel(ViewState& state) {
+void draw_patient_panel(const PanelInput& in, ViewState& state) {
   const PanelScope scope(Panel::tissues, Text::lesson_patient, state);
   if (!scope) return;
   wrapped_line(state.lesson->patient, state.lesson->patient_hurts ? kAlarm : kOpen);
+  draw_patient_words(in, state);
 }
 
 }  // namespace artus

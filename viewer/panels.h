@@ -37,7 +37,10 @@ void draw_session_panel(const PanelInput& in, ViewState& state);
 void draw_tissue_panel(const PanelInput& in, ViewState& state, JointView& view);
 /// A task's steps and clock, in the session panel's place; and its patient, in the tissues'.
 void draw_lesson_panel(const PanelInput& in, ViewState& state);
-void draw_patient_panel(ViewState& state);
+void draw_patient_panel(const PanelInput& in, ViewState& state);
+/// Lines of another panel: the syringe, once it is used; and what the patient says of it.
+void draw_syringe(const PanelInput& in, const ViewState& state);
+void draw_patient_words(const PanelInput& in, const ViewState& state);
 void draw_help(const PanelInput& in, ViewState& state);
 
 /// Text that is read on any ground: in the overlay's colour with a dark outline.

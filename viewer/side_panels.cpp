@@ -79,6 +79,8 @@ void draw_session_panel(const PanelInput& in, ViewState& state) {
   const bool well = (in.status & (TickStatus::kFaults | 0xffff0000U)) == 0;
   if (alive) wrapped(describe_status(state.language, in.status), well ? kPlain : kIll);
   draw_needle_state(in, state);
+  draw_syringe(in, state);
+  draw_patient_words(in, state);
   const SessionParams& params = in.session->params();
   wrapped(fill(tell(state, Text::needle_size),
                {gauge_of(params.needle_shape),
@@ -132,8 +134,10 @@ std::string what_is_in_hand(const PanelInput& in, const ViewState& state) {
     return state.keys.said_key(action, state.language);
   };
   if (in.grab == Grab::nothing) return {};
-  return fill(tell(state, in.grab == Grab::needle ? Text::hold_needle : Text::hold_probe),
-              {key(Action::push), key(Action::pull), key(Action::let_go)});
+  const Text held = in.grab == Grab::needle    ? Text::hold_needle
+                    : in.grab == Grab::plunger ? Text::hold_plunger
+                                               : Text::hold_probe;
+  return fill(tell(state, held), {key(Action::push), key(Action::pull), key(Action::let_go)});
 }
 
 }  // namespace

@@ -17,6 +17,7 @@
 #include "artus/viewer/needle_reading.h"
 #include "artus/viewer/panel_layout.h"
 #include "artus/viewer/strings.h"
+#include "artus/viewer/syringe_reading.h"
 
 namespace artus {
 
@@ -74,6 +75,7 @@ struct PanelInput {
   std::uint32_t status = 0;              ///< of the newest tick
   double lost_for = 0;                   ///< s since the last state
   NeedleReading needle;                  ///< in `now`
+  SyringeReading syringe;                ///< likewise
   const ImageSnapshot* image = nullptr;  ///< shown: live or of the cine loop
   const ImageSnapshot* kept = nullptr;   ///< of a dual picture
   unsigned image_texture = 0;

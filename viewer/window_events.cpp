@@ -89,9 +89,10 @@ PadState look_at_pad() {
   const auto down = [&state](int button) {
     return state.buttons[button] == GLFW_PRESS;
   };
-  pad.buttons = {down(GLFW_GAMEPAD_BUTTON_A),     down(GLFW_GAMEPAD_BUTTON_B),
-                 down(GLFW_GAMEPAD_BUTTON_X),     down(GLFW_GAMEPAD_BUTTON_Y),
-                 down(GLFW_GAMEPAD_BUTTON_START), down(GLFW_GAMEPAD_BUTTON_BACK)};
+  pad.buttons = {down(GLFW_GAMEPAD_BUTTON_A),           down(GLFW_GAMEPAD_BUTTON_B),
+                 down(GLFW_GAMEPAD_BUTTON_X),           down(GLFW_GAMEPAD_BUTTON_Y),
+                 down(GLFW_GAMEPAD_BUTTON_START),       down(GLFW_GAMEPAD_BUTTON_BACK),
+                 down(GLFW_GAMEPAD_BUTTON_RIGHT_BUMPER)};
   return pad;
 }
 

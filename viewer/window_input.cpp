@@ -61,10 +61,10 @@ void WindowLoop::handle(const UserEvent& event) {
 }
 
 void WindowLoop::act(const ActionEvent& wish) {
-  constexpr std::array<Action, 11> kOfHands{
-      Action::take_probe, Action::take_needle,  Action::push,      Action::pull,
-      Action::home,       Action::undo,         Action::turn_left, Action::turn_right,
-      Action::explore,    Action::choose_entry, Action::none};
+  constexpr std::array<Action, 12> kOfHands{
+      Action::take_probe, Action::take_needle,  Action::push,         Action::pull,
+      Action::home,       Action::undo,         Action::turn_left,    Action::turn_right,
+      Action::explore,    Action::choose_entry, Action::take_plunger, Action::none};
   const Action action = wish.action;
   if (action == Action::none) return;
   if (action == Action::let_go) {

@@ -55,6 +55,7 @@ WindowLoop::WindowLoop(GLFWwindow* window, std::unique_ptr<JointView> joint, Ses
   if (options.lesson) begin_lesson();
   input_.session = &session;
   input_.has_hand = hand != nullptr;
+  if (auto spaces = make_joint_spaces(session.scene().joint())) spaces_ = std::move(*spaces);
 }
 
 Result<void> WindowLoop::prepare() {
@@ -180,6 +181,9 @@ void WindowLoop::read_state() {
   if (input_.now.input.tick == 0) return;
   input_.needle = read_needle(session_.scene(), input_.now, needle_length_of(session_.params()),
                               target_J_, state_.language);
+  if (!spaces_.spaces.empty())
+    input_.syringe =
+        read_syringe(session_.scene(), spaces_, input_.now, session_.params().syringe.filled);
   const Pose X_JP = to_pose(input_.now.X_JP);
   const auto gap = BodyContact{&session_.scene(), Pose::Identity()}.find_gap(X_JP);
   const bool lifted = input_.now.input.device.has_probe != 0 && (!gap || *gap > kLifted);
@@ -284,7 +288,7 @@ void WindowLoop::pass(double elapsed) {
   draw_scanner_panel(input_, state_);
   if (state_.lesson != nullptr) {
     draw_lesson_panel(input_, state_);
-    draw_patient_panel(state_);
+    draw_patient_panel(input_, state_);
   } else {
     draw_session_panel(input_, state_);
     draw_tissue_panel(input_, state_, *joint_);

@@ -83,6 +83,7 @@ class WindowLoop {
   ViewState state_;
   Lesson lesson_;
   PanelInput input_;
+  JointSpaces spaces_;
   JointArea area_;
   GlTexture image_texture_;
   GlTexture kept_texture_;

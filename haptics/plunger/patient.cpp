@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/haptics/plunger/patient.h"
 
+#include <array>
+
 namespace artus {
 namespace {
 
@@ -13,21 +15,34 @@ constexpr double kHasty = 0.6e-6;  // m^3/s
 
 }  // namespace
 
+PatientFeeling feeling_of(const PatientInput& input) noexcept {
+  const bool pushed = input.flow > kFelt;
+  if (input.like == "nerve" && ((pushed && input.open) || input.volume > 0))
+    return PatientFeeling::shoots;
+  if (input.torn) return PatientFeeling::gave_way;
+  if ((input.like == "vein" || input.like == "artery") && input.volume > kMuch)
+    return PatientFeeling::racing;
+  if (!pushed || !input.open) return PatientFeeling::nothing;
+  if (input.pressure > input.stop || input.pressure > kHurts) return PatientFeeling::hurts;
+  if (input.flow > kHasty) return PatientFeeling::burns;
+  if (input.pressure > kPresses && input.volume > kSome) return PatientFeeling::pressed;
+  return PatientFeeling::nothing;
+}
+
 std::string patient_says(const Plunger& plunger, std::size_t tip) {
+  constexpr std::array<const char*, 7> kWords{"",
+                                              "Ow! It shoots down my arm.",
+                                              "Something gave way.",
+                                              "My heart is racing.",
+                                              "That hurts.",
+                                              "That is too fast, it burns.",
+                                              "I feel pressure."};
   const Space& space = plunger.spaces()[tip];
   const SpaceState& state = plunger.states()[tip];
-  const double p = plunger.pressure(tip);
-  const bool pushed = plunger.state().flow > kFelt;
-  if (space.like == "nerve" && ((pushed && state.open) || state.volume > 0))
-    return "Ow! It shoots down my arm.";
-  if (state.ruptured) return "Something gave way.";
-  if ((space.like == "vein" || space.like == "artery") && state.volume > kMuch)
-    return "My heart is racing.";
-  if (!pushed || !state.open) return {};
-  if (p > space.law.stop || p > kHurts) return "That hurts.";
-  if (plunger.state().flow > kHasty) return "That is too fast, it burns.";
-  if (p > kPresses && state.volume > kSome) return "I feel pressure.";
-  return {};
+  const PatientFeeling feeling =
+      feeling_of({space.like, space.law.stop, plunger.pressure(tip), state.volume,
+                  plunger.state().flow, state.open, state.ruptured});
+  return kWords.at(static_cast<std::size_t>(feeling));
 }
 
 }  // namespace artus

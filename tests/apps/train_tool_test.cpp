@@ -173,7 +173,9 @@ TEST_F(Train, SomeoneNewComesFromTheFirstPageToTheReviewAndTheNextTaskByKeysAndW
   EXPECT_EQ(attempt.mode, "test");
   EXPECT_EQ(attempt.device, "hand");
   const std::filesystem::path kept = attempt.folder;
-  EXPECT_TRUE(std::filesystem::exists(kept / "report.html"));
+  std::ifstream page(kept / "report.html");
+  const std::string report{std::istreambuf_iterator<char>(page), {}};
+  EXPECT_NE(report.find("force on the needle's"), std::string::npos) << report.substr(0, 200);
   EXPECT_TRUE(std::filesystem::exists(kept / "scenario.toml"));
   expect_same_as_its_recording(attempt);
   expect_the_same_when_it_is_looked_at_again(

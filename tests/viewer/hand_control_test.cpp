@@ -57,6 +57,50 @@ TEST(HandControl, AnInsertedNeedleTurnsAboutItsEntry) {
               1e-6);
 }
 
+TEST(HandControl, TheWheelPressesThePlungerUnderTheThumbAndNothingElse) {
+  HandControl control(start_target());
+  EXPECT_EQ(control.target().has_plunger, 0U);
+  control.handle(wish(Action::take_plunger), kNotInside);
+  EXPECT_EQ(control.grab(), Grab::plunger);
+  EXPECT_EQ(control.target().has_plunger, 1U);
+  EXPECT_EQ(control.target().thumb_force, 0);
+  control.handle(ScrollEvent{4, false}, kNotInside);
+  control.handle(wish(Action::push), kNotInside);
+  EXPECT_NEAR(control.target().thumb_force, 5 * HandControl::kThumb, 1e-12);
+  control.handle(ScrollEvent{-1, true}, kNotInside);
+  EXPECT_NEAR(control.target().thumb_force, 4.9 * HandControl::kThumb, 1e-12);
+  control.handle(MoveEvent{0, 0}, kNotInside);
+  control.handle(MoveEvent{90, 50}, kNotInside);
+  EXPECT_TRUE(to_pose(control.target().X_WN).isApprox(to_pose(start_target().X_WN)));
+  EXPECT_TRUE(to_pose(control.target().X_WP).isApprox(to_pose(start_target().X_WP)));
+  control.handle(ScrollEvent{1000, false}, kNotInside);
+  EXPECT_EQ(control.target().thumb_force, HandControl::kMostThumb);
+  control.handle(ScrollEvent{-1000, false}, kNotInside);
+  EXPECT_EQ(control.target().thumb_force, -HandControl::kMostDraw);
+  control.handle(wish(Action::take_plunger), kNotInside);
+  EXPECT_EQ(control.grab(), Grab::nothing);
+  EXPECT_EQ(control.target().has_plunger, 0U);
+  EXPECT_EQ(control.target().thumb_force, 0) << "a thumb that is off presses nothing";
+}
+
+TEST(HandControl, AGamepadsTriggersPressThePlungerAsFarAsTheyAreHeld) {
+  HandControl control(start_target());
+  control.handle(wish(Action::take_plunger), kNotInside);
+  PadEvent pad;
+  pad.push = 0.5;
+  pad.seconds = 0.02;
+  control.handle(pad, kNotInside);
+  EXPECT_NEAR(control.target().thumb_force, 0.5 * HandControl::kMostThumb, 1e-12);
+  PadState free;
+  PadState held = free;
+  held.right_trigger = 1;
+  const auto events = events_of(free, held, 0.02);
+  ASSERT_EQ(events.size(), 1U) << "that a trigger was let go is told";
+  control.handle(events.front(), kNotInside);
+  EXPECT_EQ(control.target().thumb_force, 0);
+  EXPECT_TRUE(to_pose(control.target().X_WN).isApprox(to_pose(start_target().X_WN)));
+}
+
 TEST(HandControl, ShiftMovesWhatIsInHandATenthAsFar) {
   HandControl control(start_target());
   control.handle(wish(Action::take_probe), kNotInside);
