@@ -23,11 +23,11 @@ void draw_syringe(const PanelInput& in, const ViewState& state) {
   const SyringeReading& syringe = in.syringe;
   if (!syringe.used) return;
   const Language language = state.language;
-  wrapped_words(fill(tell(state, Text::syringe_line),
-                     {number(language, syringe.left / kCubicCentimetre, 2),
-                      number(language, syringe.given / kCubicCentimetre, 2),
-                      number(language, syringe.flow / kCubicCentimetre, 2)}),
-                kRead);
+  wrapped_words(
+      fill(tell(state, Text::syringe_line), {number(language, syringe.left / kCubicCentimetre, 2),
+                                             number(language, syringe.given / kCubicCentimetre, 2),
+                                             number(language, syringe.flow / kCubicCentimetre, 2)}),
+      kRead);
   wrapped_words(fill(tell(state, Text::thumb_line), {number(language, syringe.thumb, 1),
                                                      number(language, 1e-3 * syringe.pressure, 0)}),
                 kRead);

@@ -25,10 +25,9 @@ SyringeReading read_syringe(const Scene& scene, const JointSpaces& spaces,
     if (now.sites[k].region < spaces.of_region.size() &&
         spaces.of_region[now.sites[k].region] == spaces.of_region[region])
       inside += now.sites[k].volume;
-  reading.patient =
-      feeling_of({space.like, space.law.stop, felt.tip_pressure, inside, felt.flow,
-                  (felt.status & PlungerStatus::kClosed) == 0,
-                  (felt.status & PlungerStatus::kRuptured) != 0});
+  reading.patient = feeling_of({space.like, space.law.stop, felt.tip_pressure, inside, felt.flow,
+                                (felt.status & PlungerStatus::kClosed) == 0,
+                                (felt.status & PlungerStatus::kRuptured) != 0});
   return reading;
 }
 
