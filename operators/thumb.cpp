@@ -7,7 +7,9 @@ namespace artus {
 
 PlungerInput Thumb::step(const OperatorPhase* phase, const PlungerState& plunger, double area,
                          double dt) noexcept {
+  constexpr double kAllOfIt = 0.99;  // of the strongest push
   PlungerInput input;
+  strains_ = false;
   const bool by_rate = phase != nullptr && phase->thumb_rate > 0;
   if (!by_rate) {
     pressing_ = false;
@@ -17,7 +19,9 @@ PlungerInput Thumb::step(const OperatorPhase* phase, const PlungerState& plunger
   if (!pressing_) position_ = plunger.travel;
   pressing_ = true;
   position_ += phase->thumb_rate / area * dt;
-  position_ = std::min(position_, plunger.travel + params_.most_force / params_.stiffness);
+  const double most_ahead = params_.most_force / params_.stiffness;
+  position_ = std::min(position_, plunger.travel + most_ahead);
+  strains_ = position_ - plunger.travel >= kAllOfIt * most_ahead;
   input.position = position_;
   input.stiffness = params_.stiffness;
   return input;

@@ -23,10 +23,15 @@ class Thumb {
   ARTUS_REALTIME PlungerInput step(const OperatorPhase* phase, const PlungerState& plunger,
                                    double area, double dt) noexcept;
 
+  /// It presses to keep a rate, and as hard as it will: what does not flow now will not. Before, at
+  /// a slow rate on a wide barrel, the stopper may not even have broken loose.
+  [[nodiscard]] bool strains() const noexcept { return strains_; }
+
  private:
   ThumbParams params_;
   double position_ = 0;  // m, where it wants the plunger
   bool pressing_ = false;
+  bool strains_ = false;
 };
 
 }  // namespace artus

@@ -24,7 +24,8 @@ class ThumbDose {
     enough_ = false;
   }
 
-  /// One period of `dt` s with `given` m^3 out in all. `pushes`: the thumb means to give.
+  /// One period of `dt` s with `given` m^3 out in all. `pushes`: the thumb gives, or tries as hard
+  /// as it will.
   ARTUS_REALTIME void step(bool pushes, double given, double pressure, double tip_pressure,
                            double flow, double dt) noexcept;
 

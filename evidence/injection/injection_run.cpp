@@ -198,8 +198,9 @@ class Trial {
         bevel_shares(contact, bevel_length(spec_.plunger.needle.outer_diameter), of_region_);
     input.depth = contact.tick().depth;
     const PlungerState& now = plunger_.step(input);
-    dose_.step(phase != nullptr && phase->until_given, given(), now.pressure, now.tip_pressure,
-               now.flow, dt);
+    const bool pushes = phase != nullptr && phase->until_given &&
+                        (now.flow > ThumbDose::kFlows || thumb_.strains());
+    dose_.step(pushes, given(), now.pressure, now.tip_pressure, now.flow, dt);
   }
 
   void record(double t, const Pose& measured, const RenderedNeedle& rendered,

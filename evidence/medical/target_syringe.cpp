@@ -52,7 +52,8 @@ double TargetSyringe::step(const OperatorPhase* phase, const NeedleContact& cont
   sample.plunger_travel = wish.position;
   core_.step(sample, contact);
   const PlungerFeedback& now = core_.feedback();
-  dose_.step(meant, now.given, now.pressure, now.tip_pressure, now.flow, dt_);
+  const bool pushes = meant && (now.flow > ThumbDose::kFlows || thumb_.strains());
+  dose_.step(pushes, now.given, now.pressure, now.tip_pressure, now.flow, dt_);
   return core_.on_needle();
 }
 

@@ -29,7 +29,7 @@ double given_after_release(double air, double push, double place) {
   for (int k = 0; k < 20000; ++k) plunger.step(input);
   const double after = plunger.states()[0].volume - before;
   const double told = after_flow(params.syringe, at.pressure, at.tip_pressure);
-  EXPECT_NEAR(told, after, 0.1 * after + 1e-10);
+  EXPECT_NEAR(told, after, 0.1 * after + 1e-10);  // fitted
   return after;
 }
 

@@ -98,7 +98,8 @@ TEST(InjectingDevice, GivesWhatIsMeantAndNotWhatItsBarrelHoldsMore) {
     if (loop.phase() > InjectingDevice::Phase::rest) break;
   }
   EXPECT_EQ(loop.phase(), InjectingDevice::Phase::to_bone);
-  EXPECT_NEAR(given, 0.1e-6, 0.01e-6) << "0.118 ml when the thumb lets go at the mark";
+  EXPECT_NEAR(given, 0.1e-6, 0.01e-6)  // fitted
+      << "0.118 ml when the thumb lets go at the mark";
 }
 
 TEST(InjectingDevice, ReadAndWriteDoNotAllocate) {

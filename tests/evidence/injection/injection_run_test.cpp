@@ -72,6 +72,18 @@ TEST(InjectionRun, ComingBackUnderGentlePressureFlowsWhenTheBevelIsInTheBursa) {
   EXPECT_GT(flowing->depth, 14e-3);
 }
 
+TEST(InjectionRun, ASlowRateOnAWideBarrelGivesWhatIsMeantForIt) {
+  const auto scene = shoulder_like();
+  InjectionSpec spec = spec_into(*scene, "bursa", 15e-6);
+  spec.plunger.syringe = syringe_for(15.5e-6);
+  spec.plunger.syringe.filled = 15.5e-6;
+  spec.rate = 0.1e-6;
+  const auto run = run_injection(*scene, spec);
+  ASSERT_TRUE(run);
+  EXPECT_TRUE(run->complete);
+  EXPECT_NEAR(run->given, 15e-6, 0.3e-6);
+}
+
 TEST(InjectionRun, IsTheSameTwice) {
   const auto scene = shoulder_like();
   const InjectionSpec spec = spec_into(*scene, "muscle", 0.2e-6);
