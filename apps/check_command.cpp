@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 
+#include "artus/anatomy/body/joint_variant.h"
 #include "artus/anatomy/compile/compile_surfaces.h"
 #include "artus/anatomy/compile/joint_check.h"
 #include "artus/anatomy/surfaces/enclosed_volume.h"
@@ -254,7 +255,7 @@ void add_check_command(Command& app, ExitCode& code) {
   command->add_flag("--all", options->all, "of a joint: also what was mended and needs nothing");
   command->add_flag("--json", options->json, "machine-readable output");
   on_run(command, code, [options] {
-    return std::filesystem::is_directory(options->path) ? check_folder(*options)
+    return is_joint_folder(options->path) ? check_folder(*options)
                                                         : check_surface(*options);
   });
 }

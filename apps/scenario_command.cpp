@@ -4,6 +4,7 @@
 #include <memory>
 #include <utility>
 
+#include "artus/anatomy/body/joint_variant.h"
 #include "artus/apps/scenario_options.h"
 #include "artus/apps/training_commands.h"
 #include "artus/training/scenario_check.h"
@@ -125,10 +126,10 @@ Result<std::shared_ptr<const Scene>> load_scene(const Scenario& scenario,
                                                 const Progress& progress) {
   if (scenario.gel) return make_gel_scene(*scenario.gel);
   JointOptions options;
-  options.joint = joint.empty() ? std::filesystem::path(scenario.joint) : joint;
+  options.joint = joint.empty() ? scenario.body() : joint;
   std::error_code unknown;
-  if (!std::filesystem::exists(options.joint, unknown))
-    if (const auto bundled = "meshes" / options.joint; std::filesystem::exists(bundled, unknown))
+  if (!is_joint_folder(options.joint) && !std::filesystem::exists(options.joint, unknown))
+    if (const auto bundled = "meshes" / options.joint; is_joint_folder(bundled))
       options.joint = bundled;
   const auto loaded = load(options, progress);
   ARTUS_TRY(loaded);

@@ -44,7 +44,7 @@ Result<Setting> setting_of(const ServeOptions& options, const Scenario& scenario
   params->image.seed = own->image.seed;
   params->needle_shape = own->needle_shape;
   params->feel.needle_length = own->feel.needle_length;
-  params->syringe.gauge = scenario.gauge;
+  params->syringe = own->syringe;
   ARTUS_TRY(validate(*params));
   return Setting{*scene, *params};
 }

@@ -25,7 +25,6 @@ Result<SessionParams> params_of(const TrainRoom& room, const TrainTask& task) {
   ARTUS_TRY(device);
   params->device = *device;
   params->image.n_threads = options.threads;
-  params->syringe.gauge = task.scenario.gauge;
   if (options.input == "igtl") {      // a pose that is held is not stale
     constexpr double kMargin = 5e-3;  // s
     params->guard.stale_after =

@@ -30,7 +30,7 @@ Pose planned_needle(const Scenario& scenario) {
 }
 
 std::string TrainBodies::key_of(const Scenario& scenario) const {
-  if (!scenario.gel) return joint_.empty() ? scenario.joint : joint_.string();
+  if (!scenario.gel) return (joint_.empty() ? scenario.body() : joint_).string();
   std::string key = "gel " + std::to_string(scenario.gel->width);
   for (const FlatLayer& layer : scenario.gel->layers)
     key += " " + layer.tissue + " " + std::to_string(layer.thickness);

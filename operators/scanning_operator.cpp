@@ -44,6 +44,8 @@ OperatorSkill novice_skill(int trials) {
   novice.judge_sd = 2.5e-3;
   novice.correction = 1;
   novice.speed = 12e-3;
+  novice.haste = 2;
+  novice.aspirate = 0;
   novice.tremor_rms = 40e-6;
   const OperatorSkill expert = expert_skill();
   const double left = std::pow(1 - kLearning, std::max(0, trials));
@@ -55,7 +57,8 @@ OperatorSkill novice_skill(int trials) {
         &OperatorSkill::view_turn_sd, &OperatorSkill::see, &OperatorSkill::reaction,
         &OperatorSkill::unseen_stop, &OperatorSkill::advance_unseen, &OperatorSkill::search_right,
         &OperatorSkill::drift, &OperatorSkill::follow, &OperatorSkill::judge_sd,
-        &OperatorSkill::correction, &OperatorSkill::speed, &OperatorSkill::tremor_rms})
+        &OperatorSkill::correction, &OperatorSkill::speed, &OperatorSkill::haste,
+        &OperatorSkill::aspirate, &OperatorSkill::tremor_rms})
     learn(of, novice, expert);
   return novice;
 }
@@ -183,7 +186,7 @@ void ScanningOperator::look(double time, const Pose& X_JN, const ScanGlance& gla
       search(time, glance, seen);
       break;
     case Phase::hold:
-      if (time - phase_time_ >= kHold) begin(Phase::withdraw, time);
+      if (time - phase_time_ >= kHold && glance.given) begin(Phase::withdraw, time);
       break;
     case Phase::withdraw:
       if (way(time) <= -kApproach) begin(Phase::done, time);

@@ -23,6 +23,8 @@ struct OperatorSkill {
   double judge_sd = 0.4e-3;     ///< m, of the distance that is judged left
   double correction = 3;        ///< deg/s of turning toward the target while the tip is seen
   double speed = 8e-3;          ///< m/s of advance
+  double haste = 1;             ///< times the rate that is asked for, of the thumb
+  double aspirate = 2.5;        ///< s that the thumb draws back before it gives
   double tremor_rms = 20e-6;    ///< m an axis
 };
 [[nodiscard]] OperatorSkill expert_skill();
@@ -45,6 +47,7 @@ struct ScanGlance {
   double offset = 0;     ///< m, of the tip from the plane: what a look at the hands tells
   double depth = 0;      ///< m, of the tip along its way from the entry
   bool stuck = false;    ///< something hard is felt
+  bool given = true;     ///< all is given that was to be, or nothing was
 };
 
 /// Two simulated hands, one with the probe and one with the needle, that see the tip only when it
@@ -60,6 +63,8 @@ class ScanningOperator {
   [[nodiscard]] Intention intention(double t) const noexcept;
   /// Where the probe is held.
   [[nodiscard]] Pose probe(double t) const noexcept;
+  /// The needle is where the hands mean it to be: they rest and inject.
+  [[nodiscard]] bool holds() const noexcept { return phase_ == Phase::hold; }
   [[nodiscard]] bool done() const noexcept { return phase_ == Phase::done; }
 
  private:

@@ -9,6 +9,8 @@
 #include "artus/core/text_file.h"
 #include "artus/echo/transducer_file.h"
 #include "artus/operators/hand_loop.h"
+#include "artus/operators/thumb.h"
+#include "artus/operators/thumb_dose.h"
 #include "artus/session/image_core.h"
 #include "artus/training/session_meter.h"
 
@@ -50,6 +52,46 @@ double appears_at(const Scenario& scenario, const Scene& scene, const TipSightFi
   return 0;
 }
 
+/// The thumb of a simulated hand.
+class SyringeHand {
+ public:
+  SyringeHand(const Syringe& syringe, const ScenarioSyringe& meant, const OperatorSkill& skill)
+      : area_(syringe.area()), dose_(syringe, meant.volume), wanted_(meant.volume > 0) {
+    push_.thumb_rate = skill.haste * meant.rate;
+    pull_.thumb_force = -kPull;
+    draws_ = skill.aspirate;
+  }
+
+  /// What the device says of it in the next tick. `gives`: the needle is where it is meant to be.
+  void step(bool gives, const Plunger& plunger, double given, double dt, DeviceSample& sample) {
+    sample.plunger = wanted_ ? PlungerSign::force : PlungerSign::none;
+    const bool pulls = wanted_ && gives && draws_ > 0;
+    if (pulls) draws_ -= dt;
+    const bool pushes = wanted_ && gives && !pulls && !dose_.enough();
+    const PlungerState& state = plunger.state();
+    const PlungerInput thumb =
+        thumb_.step(pulls ? &pull_ : pushes ? &push_ : nullptr, state, area_, dt);
+    sample.plunger_force = thumb.force + thumb.stiffness * (thumb.position - state.travel);
+    dose_.step(pushes, given, state.pressure, state.tip_pressure, state.flow, dt);
+    flows_ = state.flow > ThumbDose::kFlows;
+  }
+
+  /// Nothing is left to give, or nothing goes in.
+  [[nodiscard]] bool done() const noexcept { return !wanted_ || (dose_.enough() && !flows_); }
+
+ private:
+  static constexpr double kMostForce = 40;  // N; assumed: a strong push
+  static constexpr double kPull = 8;        // N; assumed
+  double area_;                             // m^2
+  ThumbDose dose_;
+  bool wanted_;
+  bool flows_ = false;
+  OperatorPhase push_;
+  OperatorPhase pull_;
+  double draws_ = 0;  // s that it still draws back
+  Thumb thumb_{{SyringeCore::kCoupling, kMostForce}};
+};
+
 /// One attempt while it is played.
 class Stage {
  public:
@@ -64,6 +106,7 @@ class Stage {
                {scenario.entry.centre, scenario.target.point, scenario.X_JP, scenario.time_limit,
                 appears_at(scenario, *scene_, finder_)},
                mix_seed(scenario.seed, options.seed)),
+        thumb_(core_.syringe().plunger().params().syringe, scenario.syringe, skill),
         loop_({kRate, kPhysics}, params.device, hand_of(skill, options.seed),
               hands_.intention(0).X_JN) {
     if (options.picture_rate > 0) images_ = std::make_unique<ImageCore>(scene_, params);
@@ -80,7 +123,9 @@ class Stage {
     input.device.number = tick_;
     input.device.state = PeerState::alive;
     input.device.has_needle = input.device.has_probe = 1;
+    thumb_.step(hands_.holds(), core_.syringe().plunger(), given_, 1 / kRate, input.device);
     const HapticSnapshot& out = core_.step(input);
+    given_ = out.feedback.plunger.given;
     add_tick(meter, out, 1 / kRate);
     if (options_.record) attempt.recording.ticks.push_back(to_record(out));
     if (images_ && static_cast<double>(tick_) * options_.picture_rate >=
@@ -107,6 +152,7 @@ class Stage {
     seen.offset = sight.offset;
     seen.depth = out.inserted != 0 ? out.feedback.depth : 0;
     seen.stuck = out.feedback.contact == static_cast<std::uint32_t>(ContactState::bone);
+    seen.given = thumb_.done();
     hands_.look(t, X_JN, seen);
   }
 
@@ -123,7 +169,9 @@ class Stage {
   TipSightFinder finder_;
   HapticCore core_;
   ScanningOperator hands_;
+  SyringeHand thumb_;
   HandLoop loop_;
+  double given_ = 0;  // m^3
   std::unique_ptr<ImageCore> images_;
   std::uint64_t tick_ = 0;
   std::uint64_t frames_ = 0;
@@ -156,6 +204,7 @@ Result<SessionParams> make_session_params(const Scenario& scenario) {
   params.image.seed = scenario.seed;
   params.needle_shape = needle_of_gauge(scenario.gauge).value_or(NeedleShape{});
   params.feel.needle_length = scenario.needle_length;
+  params.syringe = syringe_of(scenario);
   ARTUS_TRY(validate(params));
   return params;
 }

@@ -8,6 +8,7 @@
 #include <sstream>
 #include <utility>
 
+#include "artus/anatomy/body/joint_variant.h"
 #include "artus/core/known_names.h"
 #include "artus/core/text_file.h"
 #include "artus/core/toml_table.h"
@@ -20,7 +21,7 @@ namespace {
 
 std::vector<std::string> step_names() {
   return {"ask:side",      "ask:allergy", "ask:consent",   "auto:entry",
-          "auto:tip_seen", "auto:placed", "auto:withdrawn"};
+          "auto:tip_seen", "auto:placed", "auto:injected", "auto:withdrawn"};
 }
 
 void read_gel(TomlTable& toml, Scenario& scenario, Problems& problems) {
@@ -68,6 +69,20 @@ void read_instruments(TomlTable& toml, Scenario& s, Problems& problems) {
     s.needle_length = needle.number("length", 10, 200, kMillimetre).value_or(s.needle_length);
     needle.finish();
   }
+}
+
+void read_syringe(TomlTable& toml, Scenario& s, Problems& problems) {
+  const toml::table* table = toml.table("syringe");
+  if (table == nullptr) return;
+  TomlTable syringe(*table, "syringe", problems);
+  s.syringe.volume = syringe.required_number("volume_ml", 0.01, 60, kCubicCentimetre);
+  s.syringe.rate = syringe.number("rate_ml_s", 0.001, 10, kCubicCentimetre).value_or(0.1e-6);
+  s.syringe.barrel = syringe.number("barrel_ml", 0.5, 60, kCubicCentimetre).value_or(0);
+  s.syringe.liquid = syringe.text("liquid").value_or(s.syringe.liquid);
+  syringe.finish();
+  SyringeChoice choice = syringe_of(s);
+  if (const auto made = make_plunger_params(choice, s.needle_length); !made)
+    syringe.problem(made.error().message);
 }
 
 void read_goals(TomlTable& toml, Scenario& s, Problems& problems) {
@@ -180,6 +195,9 @@ void read_head(TomlTable& toml, Scenario& s) {
   s.title = toml.required_text("title");
   s.title_fr = toml.text("title_fr").value_or("");
   s.joint = toml.text("joint").value_or("");
+  if (toml.has("variants")) s.variants = toml.required_texts("variants");
+  if (s.joint.empty() && !s.variants.empty())
+    toml.problem_at("variants", "they are of a joint, and there is none");
   s.procedure = toml.text("procedure").value_or("");
   s.level = static_cast<int>(toml.required_number("level", 0, 8));
   s.seed = static_cast<std::uint64_t>(toml.number("seed", 0, 1e15).value_or(1));
@@ -202,6 +220,22 @@ bool Scenario::aided() const noexcept {
   return std::any_of(aids.begin(), aids.end(), [](const Aid& aid) { return aid.value > 0; });
 }
 
+std::filesystem::path Scenario::body() const {
+  std::filesystem::path body = joint;
+  for (const std::string& variant : variants) body = with_variant(body, variant);
+  return body;
+}
+
+SyringeChoice syringe_of(const Scenario& scenario) {
+  SyringeChoice choice;
+  choice.gauge = scenario.gauge;
+  if (scenario.syringe.volume <= 0) return choice;
+  choice.liquid = scenario.syringe.liquid;
+  choice.filled = scenario.syringe.volume;
+  choice.barrel = scenario.syringe.barrel;
+  return choice;
+}
+
 double faded(double value, int successes) noexcept {
   const double left = value * std::pow(0.7, successes);
   return left < 0.1 ? 0 : left;
@@ -219,6 +253,7 @@ Result<Scenario> parse_scenario(std::string_view text, const std::string& name) 
   if (scenario.joint.empty() != scenario.gel.has_value())
     toml.problem("there must be a joint or a [gel], not both");
   read_instruments(toml, scenario, problems);
+  read_syringe(toml, scenario, problems);
   read_goals(toml, scenario, problems);
   read_aids(toml, scenario, problems);
   read_marks(toml, scenario, problems);

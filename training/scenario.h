@@ -10,6 +10,7 @@
 #include "artus/anatomy/body/layered_body.h"
 #include "artus/core/geometry.h"
 #include "artus/core/result.h"
+#include "artus/haptics/plunger/syringe_choice.h"
 #include "artus/training/judgement.h"
 
 namespace artus {
@@ -43,6 +44,14 @@ struct ScenarioEntry {
   double most_angle = 1.5708;  ///< rad
 };
 
+/// What is to be injected once the tip is in place; without volume nothing is.
+struct ScenarioSyringe {
+  double volume = 0;              ///< m^3
+  double rate = 0.1e-6;           ///< m^3/s that is asked for
+  double barrel = 0;              ///< m^3; 0: the smallest that holds it
+  std::string liquid = "saline";  ///< of meshes/liquids.toml
+};
+
 /// What may be shown to help, 0 off to 1 full.
 struct Aid {
   std::string name;
@@ -55,6 +64,7 @@ struct Scenario {
   std::string title;
   std::string title_fr;  ///< the same in French; empty: there is none
   std::string joint;     ///< a joint folder or compiled file; empty: `gel`
+  std::vector<std::string> variants;  ///< of the joint: what this patient has
   std::optional<GelBlock> gel;
   std::string procedure;
   int level = 0;  ///< rung of the ladder, 0 to 8
@@ -64,6 +74,7 @@ struct Scenario {
   Pose X_JP = Pose::Identity();  ///< the view that shows target and way
   int gauge = 22;
   double needle_length = 50e-3;  ///< m
+  ScenarioSyringe syringe;
   ScenarioTarget target;
   std::vector<ScenarioAvoid> avoid;
   ScenarioEntry entry;
@@ -75,7 +86,12 @@ struct Scenario {
   std::vector<std::string> steps;
   std::string text;  ///< the file as read
   [[nodiscard]] bool aided() const noexcept;
+  /// The joint with its variants, as load_joint takes it.
+  [[nodiscard]] std::filesystem::path body() const;
 };
+
+/// The syringe as it lies ready: what is to be given, and nothing more.
+[[nodiscard]] SyringeChoice syringe_of(const Scenario& scenario);
 
 /// The names of aids that a scenario may use.
 [[nodiscard]] std::vector<std::string> aid_names();

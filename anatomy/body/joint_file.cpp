@@ -9,6 +9,7 @@
 
 #include "artus/anatomy/body/joint_pose_toml.h"
 #include "artus/anatomy/body/joint_structure.h"
+#include "artus/anatomy/body/joint_variant_toml.h"
 #include "artus/anatomy/body/space_toml.h"
 #include "artus/anatomy/body/tissue_toml.h"
 #include "artus/core/text_file.h"
@@ -200,13 +201,18 @@ std::set<std::string, std::less<>> region_names(const JointFile& joint) {
   return names;
 }
 
-/// ARTUS_SURFACES_<NAME> of the environment, NAME in capitals with '-' as '_'; empty when unset.
-std::filesystem::path surfaces_of_environment(const std::string& joint_name) {
+/// ARTUS_SURFACES_<NAME>, NAME in capitals with '-' as '_', without variants.
+std::string surfaces_variable(const std::string& joint_name) {
   std::string variable = "ARTUS_SURFACES_";
-  for (const char c : joint_name)
+  for (const char c : joint_name.substr(0, joint_name.find('+')))
     variable += c == '-' ? '_' : static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  const char* value =
-      std::getenv(variable.c_str());  // NOLINT(concurrency-mt-unsafe): read at start
+  return variable;
+}
+
+/// What the environment says there; empty when unset.
+std::filesystem::path surfaces_of_environment(const std::string& joint_name) {
+  const char* value = std::getenv(
+      surfaces_variable(joint_name).c_str());  // NOLINT(concurrency-mt-unsafe): read at start
   return value == nullptr ? std::filesystem::path{} : std::filesystem::path{value};
 }
 
@@ -222,15 +228,12 @@ void check_file(const JointFile& joint, const Structure& structure, Problems& pr
 
 Result<void> check_files(const JointFile& joint, const std::string& where) {
   std::error_code ignored;
-  if (!std::filesystem::is_directory(joint.surface_folder, ignored)) {
-    std::string variable = joint.name;
-    for (char& c : variable)
-      c = c == '-' ? '_' : static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  if (!std::filesystem::is_directory(joint.surface_folder, ignored))
     return fail(ErrorCode::not_found,
                 "the surface folder " + joint.surface_folder.string() +
-                    " does not exist; name it with --surfaces DIR or ARTUS_SURFACES_" + variable,
+                    " does not exist; name it with --surfaces DIR or " +
+                    surfaces_variable(joint.name),
                 where);
-  }
   Problems problems;
   check_file(joint, joint.body, problems);
   for (const auto& s : joint.structures) check_file(joint, s, problems);
@@ -240,20 +243,23 @@ Result<void> check_files(const JointFile& joint, const std::string& where) {
 
 }  // namespace
 
-Result<JointFile> parse_joint(std::string_view text, const std::filesystem::path& folder,
+Result<JointFile> parse_joint(std::string_view text, const std::filesystem::path& path,
                               const std::filesystem::path& surface_folder) {
-  const std::string where = (folder / "joint.toml").string();
-  const auto document = parse_toml(text, where);
+  const JointChoice choice = split_variants(path);
+  const std::string where = (choice.folder / "joint.toml").string();
+  auto document = parse_toml(text, where);
   ARTUS_TRY(document);
   Problems problems;
-  TomlTable toml(*document, "joint", problems);
   JointFile joint;
-  joint.folder = folder;
+  joint.folder = choice.folder;
+  joint.variants = choose_variants(*document, choice.variants, problems);
+  TomlTable toml(*document, "joint", problems);
   read_identity(toml, joint);
+  for (const std::string& variant : choice.variants) joint.name += "+" + variant;
   const double unit = length_unit(toml, "units", kMillimetre);
   if (!toml.has("units")) toml.problem("'units' is missing (\"mm\", \"cm\" or \"m\")");
   const auto surfaces = toml.text("surfaces").value_or(".");
-  joint.surface_folder = surface_folder.empty() ? folder / surfaces : surface_folder;
+  joint.surface_folder = surface_folder.empty() ? joint.folder / surfaces : surface_folder;
   ARTUS_TRY(read_joint_tissues(toml, joint));
   read_mesh_sizes(toml, unit, joint);
   read_region(toml, unit, joint);
@@ -270,12 +276,12 @@ Result<JointFile> parse_joint(std::string_view text, const std::filesystem::path
   return joint;
 }
 
-Result<JointFile> read_joint(const std::filesystem::path& folder,
+Result<JointFile> read_joint(const std::filesystem::path& path,
                              const std::filesystem::path& surface_folder) {
-  const auto file = folder / "joint.toml";
+  const auto file = split_variants(path).folder / "joint.toml";
   const auto bytes = read_bytes(file);
   ARTUS_TRY(bytes);
-  auto joint = parse_joint(*bytes, folder, surface_folder);
+  auto joint = parse_joint(*bytes, path, surface_folder);
   ARTUS_TRY(joint);
   if (surface_folder.empty())
     if (auto from_environment = surfaces_of_environment(joint->name); !from_environment.empty())

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "artus/anatomy/body/joint_pose.h"
+#include "artus/anatomy/body/joint_variant.h"
 #include "artus/anatomy/body/space.h"
 #include "artus/anatomy/body/tissue.h"
 #include "artus/core/geometry.h"
@@ -100,7 +101,7 @@ struct RegionOfInterest {
 
 /// A joint file, parsed and valid: units are metres, names are unique and known.
 struct JointFile {
-  std::string name;
+  std::string name;                      ///< with its variants: "shoulder+effusion"
   std::string title;                     ///< one line for people
   std::string side;                      ///< "left", "right" or "none"
   std::string axes;                      ///< "LPS", "RAS", ...: direction of +x +y +z
@@ -122,20 +123,22 @@ struct JointFile {
   std::vector<PlannedInjection> injections;  ///< of the three-injections scenario
   std::vector<Space> spaces;                 ///< where liquid may go, as far as the file says
   std::vector<JointPose> poses;              ///< how the joint may be held
+  std::vector<JointVariant> variants;        ///< all that the file declares, which are chosen
 };
 
-/// Reads `folder`/joint.toml. `surface_folder` replaces the file's own when not empty; otherwise
+/// Reads joint.toml in the folder that `joint` names, with the variants that it asks for
+/// (split_variants). `surface_folder` replaces the file's own when not empty; otherwise
 /// the environment's ARTUS_SURFACES_<NAME> does (joint name in capitals, '-' as '_') when set.
 /// Errors: not_found (file, surface folder, tissue library), malformed (with line and column),
 /// invalid (unknown key or tissue, duplicate name, missing value, construct of an unknown
 /// structure); every problem of the file is named in one message.
-[[nodiscard]] Result<JointFile> read_joint(const std::filesystem::path& folder,
+[[nodiscard]] Result<JointFile> read_joint(const std::filesystem::path& joint,
                                            const std::filesystem::path& surface_folder = {});
 
 /// The same from memory, without looking whether the surface files exist: `text` is the content
-/// of `folder`/joint.toml. A tissue library that `text` names is read.
+/// of joint.toml. A tissue library that `text` names is read.
 [[nodiscard]] Result<JointFile> parse_joint(std::string_view text,
-                                            const std::filesystem::path& folder,
+                                            const std::filesystem::path& joint,
                                             const std::filesystem::path& surface_folder = {});
 
 }  // namespace artus

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "artus/anatomy/body/joint_shape.h"
+#include "artus/anatomy/body/joint_variant.h"
 #include "artus/anatomy/compile/compile.h"
 #include "artus/anatomy/compile/compiler_version.h"
 #include "artus/anatomy/compile/dress_body.h"
@@ -110,7 +111,7 @@ Result<std::string> compute_source_digest(const JointFile& file) {
     digest.add(*bytes);
     return {};
   };
-  const Result<std::string> shape = read_joint_shape(file.folder);
+  const Result<std::string> shape = read_joint_shape(file.folder, chosen_names(file.variants));
   ARTUS_TRY(shape);
   digest.add(*shape);
   std::vector<const Structure*> all{&file.body};
@@ -153,8 +154,7 @@ Result<CompileOutcome> compile_or_reuse(const JointFile& file, const LoadOptions
 
 Result<CompiledJoint> load_joint(const std::filesystem::path& path, const LoadOptions& options,
                                  const Progress& progress) {
-  std::error_code error;
-  if (!std::filesystem::is_directory(path, error)) return read_compiled_joint(path);
+  if (!is_joint_folder(path)) return read_compiled_joint(path);
   const Result<JointFile> file = read_joint(path, options.surfaces);
   ARTUS_TRY(file);
   Result<CompileOutcome> outcome = compile_or_reuse(*file, options, progress);

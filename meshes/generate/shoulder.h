@@ -28,5 +28,11 @@ struct ShoulderSize {
 [[nodiscard]] std::vector<Solid> make_shoulder_bones(const ShoulderSize& size);
 [[nodiscard]] std::vector<Solid> make_shoulder_soft_tissue(const ShoulderSize& size);
 [[nodiscard]] std::vector<Solid> make_shoulder_vessels(const ShoulderSize& size);
+/// What only some variants of the joint have: deposit, tear, recess, ligaments, the
+/// acromioclavicular joint, what lies around the suprascapular nerve.
+[[nodiscard]] std::vector<Solid> make_shoulder_variants(const ShoulderSize& size);
+
+/// The outer skin.
+[[nodiscard]] Field make_shoulder_body(const ShoulderSize& size);
 
 }  // namespace artus

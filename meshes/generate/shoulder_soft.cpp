@@ -113,12 +113,17 @@ Field make_trunk(const Millimetres& mm) {
 
 }  // namespace
 
+Field make_shoulder_body(const ShoulderSize& size) {
+  const Millimetres mm(size.head_radius);
+  const double skin_end =
+      mm.length(kBursaBeginsMm) + size.bursa + size.deltoid + size.fat + size.skin;
+  return unite(grow(make_core(mm, 24), skin_end), make_trunk(mm), mm.length(30));
+}
+
 std::vector<Solid> make_shoulder_soft_tissue(const ShoulderSize& size) {
   const Millimetres mm(size.head_radius);
   const double bursa_begin = mm.length(kBursaBeginsMm);
   const double deltoid_begin = bursa_begin + size.bursa;
-  const double skin_end = deltoid_begin + size.deltoid + size.fat + size.skin;
-  const Field body = unite(grow(make_core(mm, 24), skin_end), make_trunk(mm), mm.length(30));
   const Vec3 core_top = mm.at(0, 1, 29);
   const Vec3 above(0, 0, 1);
   const Vec3 core_side = mm.at(-28.5, 1, 0.5);
@@ -127,7 +132,7 @@ std::vector<Solid> make_shoulder_soft_tissue(const ShoulderSize& size) {
       make_tube({{mm.at(20, -12, -16), mm.length(2.6)}, {mm.at(25, -14, -4), mm.length(2.2)}}),
       mm.length(3));
   return {
-      {"body", body, Vec3::Zero(), mm.length(420), 6e-3, 0.25e-3},
+      {"body", make_shoulder_body(size), Vec3::Zero(), mm.length(420), 6e-3, 0.25e-3},
       {"deltoid", make_deltoid(mm, size, deltoid_begin),
        core_side - Vec3(deltoid_begin + 0.5 * size.deltoid, 0, 0), mm.length(200), 2.6e-3, 0.15e-3},
       {"subacromial_bursa", make_bursa(mm, size),
@@ -159,6 +164,7 @@ std::vector<Solid> make_shoulder(const ShoulderSize& size) {
   std::vector<Solid> solids = make_shoulder_soft_tissue(size);
   for (Solid& s : make_shoulder_bones(size)) solids.push_back(std::move(s));
   for (Solid& s : make_shoulder_vessels(size)) solids.push_back(std::move(s));
+  for (Solid& s : make_shoulder_variants(size)) solids.push_back(std::move(s));
   return solids;
 }
 

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace artus {
+
+/// Something that a joint can have or lack: a disease, a structure that only some trainings need.
+struct JointVariant {
+  std::string name;   ///< [a-z0-9_]+
+  std::string title;  ///< one line for people
+  bool chosen = false;
+};
+
+[[nodiscard]] std::vector<std::string> chosen_names(const std::vector<JointVariant>& variants);
+
+/// A joint folder and the variants that are asked for.
+struct JointChoice {
+  std::filesystem::path folder;
+  std::vector<std::string> variants;  ///< in alphabetical order, each once
+};
+
+/// Takes "meshes/shoulder+calcific_deposit+effusion" apart. A folder whose own name has a '+' is
+/// that folder.
+[[nodiscard]] JointChoice split_variants(const std::filesystem::path& joint);
+
+/// `joint` with one more variant asked for.
+[[nodiscard]] std::filesystem::path with_variant(std::filesystem::path joint,
+                                                 const std::string& variant);
+
+/// Whether `joint` is a folder, with or without variants, and no compiled file.
+[[nodiscard]] bool is_joint_folder(const std::filesystem::path& joint);
+
+}  // namespace artus

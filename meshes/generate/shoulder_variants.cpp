@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/meshes/generate/millimetres.h"
+#include "artus/meshes/generate/shoulder.h"
+#include "artus/meshes/generate/sweep.h"
+
+namespace artus {
+namespace {
+
+// The supraspinatus tendon where it bends over the head: its middle, its own directions (toward the
+// insertion, across, out of the head).
+const Vec3 kAlongTendon = Vec3(-0.767, -0.21, -0.607).normalized();
+const Vec3 kOutOfTendon = Vec3(-0.62, -0.12, 0.775).normalized();
+
+Field make_in_tendon(const Vec3& centre, const Vec3& half_axes) {
+  const Vec3 out = (kOutOfTendon - kAlongTendon * kAlongTendon.dot(kOutOfTendon)).normalized();
+  Eigen::Matrix3d axes;
+  axes << kAlongTendon, out.cross(kAlongTendon), out;
+  return make_ellipsoid(centre, half_axes, axes);
+}
+
+// Between head and posterior labrum, where the capsule lies on the cartilage.
+Field make_posterior_recess(const Millimetres& mm, const ShoulderSize& size) {
+  const double inner = size.head_radius + size.cartilage - 0.2e-3;
+  const Field film = subtract(make_ball(Vec3::Zero(), inner + 1.7e-3),
+                              make_ball(Vec3::Zero(), inner), 0.2e-3);
+  return intersect(film, make_ball(mm.at(13, 24.5, -2), mm.length(9)), 0.4e-3);
+}
+
+// From the base of the coracoid over the biceps tendon to both tubercles.
+Field make_coracohumeral_ligament(const Millimetres& mm, double thickness) {
+  const double half = 0.5 * thickness;
+  return make_ribbon({{mm.at(32, -8, 21), Vec3(-0.2, -0.5, 1), mm.length(6), half},
+                      {mm.at(20, -12, 26.5), Vec3(0, -0.5, 1), mm.length(7), half},
+                      {mm.at(6, -16.5, 27.5), Vec3(-0.1, -0.6, 1), mm.length(7), half},
+                      {mm.at(-6, -21, 22.5), Vec3(-0.4, -0.8, 0.7), mm.length(6), half}});
+}
+
+// Under the skin above the fossa, from the acromion to the neck.
+Field make_trapezius(const Millimetres& mm, const ShoulderSize& size) {
+  const Field body = make_shoulder_body(size);
+  const Field layer = subtract(grow(body, -7e-3), grow(body, -19e-3), 0.2e-3);
+  return intersect(layer, make_ball(mm.at(64, 26, 60), mm.length(46)), mm.length(3));
+}
+
+std::vector<TubeStation> make_course(const std::vector<Vec3>& points, double radius) {
+  std::vector<TubeStation> stations;
+  for (const Vec3& p : points) stations.push_back({p, radius});
+  return stations;
+}
+
+}  // namespace
+
+std::vector<Solid> make_shoulder_variants(const ShoulderSize& size) {
+  const Millimetres mm(size.head_radius);
+  const Vec3 deposit = mm.at(-12.9, -3.5, 23.4);
+  const Vec3 tear = mm.at(-18.3, -4.6, 18.6);
+  const Vec3 ac = mm.at(15.8, 7, 41);
+  const Vec3 recess = Vec3(13, 24.5, -2).normalized() * (size.head_radius + size.cartilage + 0.6e-3);
+  return {
+      {"calcific_deposit",
+       make_in_tendon(deposit, mm.at(6, 4.5, 1.9)), deposit, mm.length(40), 0.9e-3, 0.05e-3},
+      {"supraspinatus_tear",
+       make_in_tendon(tear, mm.at(5.5, 6, 5)), tear, mm.length(40), 1.2e-3, 0.06e-3},
+      {"posterior_recess", make_posterior_recess(mm, size), recess, mm.length(50), 1e-3, 0.05e-3},
+      {"coracohumeral_ligament", make_coracohumeral_ligament(mm, 1.6e-3), mm.at(6, -16.5, 27.5),
+       mm.length(80), 1.2e-3, 0.06e-3},
+      {"coracohumeral_ligament_thick", make_coracohumeral_ligament(mm, 3e-3),
+       mm.at(6, -16.5, 27.5), mm.length(80), 1.2e-3, 0.06e-3},
+      {"acromioclavicular_cavity", make_ellipsoid(ac, mm.at(3, 6, 4.5)), ac, mm.length(30), 0.9e-3,
+       0.05e-3},
+      {"acromioclavicular_capsule", make_ellipsoid(ac, mm.at(6.5, 8.5, 6.5)), ac, mm.length(40),
+       1.3e-3, 0.06e-3},
+      {"suprascapular_artery",
+       make_tube(make_course({mm.at(63, -2, 42), mm.at(60.5, 12, 31.5), mm.at(60, 24, 19),
+                              mm.at(56.5, 34, 12.5), mm.at(52, 40.5, -1)},
+                             mm.length(1.3))),
+       mm.at(60.5, 12, 31.5), mm.length(120), 1.2e-3, 0.06e-3},
+      {"transverse_scapular_ligament",
+       make_tube(make_course({mm.at(43, 11, 19), mm.at(54, 13, 25.7), mm.at(65, 22, 25)},
+                             mm.length(1.3))),
+       mm.at(54, 13, 25.7), mm.length(60), 1.2e-3, 0.06e-3},
+      {"suprascapular_canal",
+       make_tube(make_course({mm.at(58, 2, 29), mm.at(54, 12, 21.5), mm.at(51, 24, 11.8),
+                              mm.at(48, 33, 7)},
+                             mm.length(4.2))),
+       mm.at(54, 12, 21.5), mm.length(80), 1.5e-3, 0.08e-3},
+      {"trapezius", make_trapezius(mm, size), mm.at(64, 26, 58), mm.length(120), 2.6e-3, 0.15e-3}};
+}
+
+}  // namespace artus
