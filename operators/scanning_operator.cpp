@@ -20,6 +20,8 @@ constexpr double kSearchTime = 5;      // s
 constexpr double kBold = 5e-3;         // m
 constexpr double kTooFar = 8e-3;       // m past the target where anyone stops
 constexpr double kAppear = 2e-3;       // m beyond where the tip should have come into the picture
+constexpr double kNudge = 0.7e-3;      // m at a time when liquid runs elsewhere; assumed
+constexpr int kMostNudges = 4;         // assumed
 constexpr double kLearning = 0.069;    // a trial
 
 }  // namespace
@@ -46,6 +48,7 @@ OperatorSkill novice_skill(int trials) {
   novice.speed = 12e-3;
   novice.haste = 2;
   novice.aspirate = 0;
+  novice.look = 0.2;
   novice.tremor_rms = 40e-6;
   const OperatorSkill expert = expert_skill();
   const double left = std::pow(1 - kLearning, std::max(0, trials));
@@ -58,7 +61,7 @@ OperatorSkill novice_skill(int trials) {
         &OperatorSkill::unseen_stop, &OperatorSkill::advance_unseen, &OperatorSkill::search_right,
         &OperatorSkill::drift, &OperatorSkill::follow, &OperatorSkill::judge_sd,
         &OperatorSkill::correction, &OperatorSkill::speed, &OperatorSkill::haste,
-        &OperatorSkill::aspirate, &OperatorSkill::tremor_rms})
+        &OperatorSkill::aspirate, &OperatorSkill::look, &OperatorSkill::tremor_rms})
     learn(of, novice, expert);
   return novice;
 }
@@ -152,6 +155,21 @@ void ScanningOperator::advance(double time, const Pose& X_JN, const ScanGlance& 
     begin(Phase::search, time);
 }
 
+/// The needle rests until all is given; when the line does not split, it is moved a little toward
+/// where it should be.
+void ScanningOperator::hold(double time, const Pose& X_JN, const ScanGlance& glance) {
+  if (time - phase_time_ < kHold) return;
+  if (glance.given) {
+    begin(Phase::withdraw, time);
+  } else if (glance.astray && nudges_ < kMostNudges) {
+    ++nudges_;
+    if (draw() >= skill_.look) return;
+    const double left = (plan_.target - X_JN.translation()).dot(direction_);
+    phase_way_ += std::copysign(kNudge, left);
+    phase_time_ = time;
+  }
+}
+
 /// The probe hand looks for the needle; a good one moves toward it.
 void ScanningOperator::search(double time, const ScanGlance& glance, bool seen) {
   const double plane = plane_ + plane_speed_ * (time - plane_time_);
@@ -186,7 +204,7 @@ void ScanningOperator::look(double time, const Pose& X_JN, const ScanGlance& gla
       search(time, glance, seen);
       break;
     case Phase::hold:
-      if (time - phase_time_ >= kHold && glance.given) begin(Phase::withdraw, time);
+      hold(time, X_JN, glance);
       break;
     case Phase::withdraw:
       if (way(time) <= -kApproach) begin(Phase::done, time);

@@ -25,6 +25,7 @@ struct OperatorSkill {
   double speed = 8e-3;          ///< m/s of advance
   double haste = 1;             ///< times the rate that is asked for, of the thumb
   double aspirate = 2.5;        ///< s that the thumb draws back before it gives
+  double look = 0.95;           ///< chance of noticing that what is given runs elsewhere
   double tremor_rms = 20e-6;    ///< m an axis
 };
 [[nodiscard]] OperatorSkill expert_skill();
@@ -47,6 +48,7 @@ struct ScanGlance {
   double offset = 0;     ///< m, of the tip from the plane: what a look at the hands tells
   double depth = 0;      ///< m, of the tip along its way from the entry
   bool stuck = false;    ///< something hard is felt
+  bool astray = false;   ///< enough is given to be seen, and it does not run into the target
   bool given = true;     ///< all is given that was to be, or nothing was
 };
 
@@ -74,6 +76,7 @@ class ScanningOperator {
   void search(double time, const ScanGlance& glance, bool seen);
   void follow(double time, double offset);
   void correct(const Pose& X_JN);
+  void hold(double time, const Pose& X_JN, const ScanGlance& glance);
   [[nodiscard]] double draw() noexcept;
   [[nodiscard]] double gauss() noexcept;
   [[nodiscard]] double way(double t) const noexcept;
@@ -92,6 +95,7 @@ class ScanningOperator {
   double judged_ = 0;       // m, this attempt's bias of judged distance
   double seen_depth_ = 0;   // m, where the tip was last seen
   double seen_time_ = -1;   // s, since when it is seen
+  int nudges_ = 0;          // that were made while injecting
   double bold_until_ = 0;   // m, depth to which the hand goes on unseen
   double plane_ = 0;        // m, of the probe beside its plan
   double plane_turn_ = 0;   // rad

@@ -20,6 +20,7 @@ namespace {
 constexpr double kRate = 1000;          // Hz
 constexpr std::uint64_t kGlances = 50;  // ticks from one to the next
 constexpr double kPhysics = 4000;       // Hz
+constexpr double kSeenVolume = 0.3e-6;  // m^3 that split a line visibly; assumed
 
 Result<RegionId> find_region(const CompiledJoint& joint, const std::string& name) {
   for (std::size_t i = kFirstRegion; i < joint.regions.size(); ++i)
@@ -109,6 +110,8 @@ class Stage {
         thumb_(core_.syringe().plunger().params().syringe, scenario.syringe, skill),
         loop_({kRate, kPhysics}, params.device, hand_of(skill, options.seed),
               hands_.intention(0).X_JN) {
+    const auto region = find_region(scene_->joint(), scenario.target.structure);
+    if (region) target_ = *region;
     if (options.picture_rate > 0) images_ = std::make_unique<ImageCore>(scene_, params);
   }
 
@@ -153,6 +156,7 @@ class Stage {
     seen.depth = out.inserted != 0 ? out.feedback.depth : 0;
     seen.stuck = out.feedback.contact == static_cast<std::uint32_t>(ContactState::bone);
     seen.given = thumb_.done();
+    seen.astray = given_ > kSeenVolume && out.feedback.region != target_;
     hands_.look(t, X_JN, seen);
   }
 
@@ -172,6 +176,7 @@ class Stage {
   SyringeHand thumb_;
   HandLoop loop_;
   double given_ = 0;  // m^3
+  std::uint32_t target_ = kOutside;
   std::unique_ptr<ImageCore> images_;
   std::uint64_t tick_ = 0;
   std::uint64_t frames_ = 0;
