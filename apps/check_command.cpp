@@ -255,8 +255,7 @@ void add_check_command(Command& app, ExitCode& code) {
   command->add_flag("--all", options->all, "of a joint: also what was mended and needs nothing");
   command->add_flag("--json", options->json, "machine-readable output");
   on_run(command, code, [options] {
-    return is_joint_folder(options->path) ? check_folder(*options)
-                                                        : check_surface(*options);
+    return is_joint_folder(options->path) ? check_folder(*options) : check_surface(*options);
   });
 }
 

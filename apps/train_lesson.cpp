@@ -11,7 +11,8 @@
 namespace artus {
 namespace {
 
-constexpr int kToldAtOnce = 3;  // the highest level whose truth is told while it is done
+constexpr double kAlmostAll = 0.9;  // of what is to be given
+constexpr int kToldAtOnce = 3;      // the highest level whose truth is told while it is done
 
 double value_of(const Scenario& scenario, const std::string& name) {
   for (const Aid& aid : scenario.aids)
@@ -67,6 +68,9 @@ void TrainLesson::follow(const LessonView& view) {
   if (inside && !scenario_.target.structure.empty() &&
       scene_->joint().regions[view.needle.region].name == scenario_.target.structure)
     done_.insert("auto:placed");
+  if (scenario_.syringe.volume > 0 &&
+      view.now.feedback.plunger.given >= kAlmostAll * scenario_.syringe.volume)
+    done_.insert("auto:injected");
   if (!inside && done_.count("auto:placed") != 0) done_.insert("auto:withdrawn");
 }
 

@@ -9,6 +9,7 @@
 #include "artus/apps/feedback_words.h"
 #include "artus/apps/train_lesson.h"
 #include "artus/core/units.h"
+#include "artus/viewer/anatomy_names.h"
 
 namespace artus {
 namespace {
@@ -31,9 +32,20 @@ std::string instrument_words(const Scenario& scenario, Language language) {
                number(language, scenario.needle_length / kMillimetre, 0)});
 }
 
+/// What is to be given, when something is.
+void add_syringe(const Scenario& scenario, Language language, std::vector<PageLine>& lines) {
+  const ScenarioSyringe& syringe = scenario.syringe;
+  if (syringe.volume <= 0) return;
+  lines.push_back({fill(said(language, Said::what_syringe),
+                        {number(language, syringe.volume / kCubicCentimetre, 1),
+                         clinical_name(language, syringe.liquid),
+                         number(language, syringe.rate / kCubicCentimetre, 2)})});
+}
+
 std::vector<PageLine> about_task(const OfferedTask& task, Language language) {
   const Scenario& scenario = task.scenario;
   std::vector<PageLine> lines{{goal_words(scenario, language)}};
+  add_syringe(scenario, language, lines);
   lines.push_back(
       {fill(said(language, Said::what_time), {number(language, scenario.time_limit, 0)})});
   if (task.tally.attempts > 0) lines.push_back({tally_words(language, task.tally), Tone::dim});
@@ -63,7 +75,8 @@ Said answer_to(const std::string& step, const std::string& side) {
 }
 
 /// How mouse and keys move the hands.
-void add_hands(const KeyMap& keys, Language language, std::vector<PageLine>& lines) {
+void add_hands(const Scenario& scenario, const KeyMap& keys, Language language,
+               std::vector<PageLine>& lines) {
   const auto key = [&](Action action) {
     return keys.said_key(action, language);
   };
@@ -71,6 +84,8 @@ void add_hands(const KeyMap& keys, Language language, std::vector<PageLine>& lin
   lines.push_back({fill(said(language, Said::brief_needle),
                         {key(Action::take_needle), key(Action::push), key(Action::pull)})});
   lines.push_back({fill(said(language, Said::brief_probe), {key(Action::take_probe)})});
+  if (scenario.syringe.volume > 0)
+    lines.push_back({fill(said(language, Said::brief_plunger), {key(Action::take_plunger)})});
   lines.push_back({fill(said(language, Said::brief_done), {key(Action::finish)})});
 }
 
@@ -197,9 +212,10 @@ Page make_briefing_page(const Scenario& scenario, const std::set<std::string>& a
     page.lines.push_back(
         {said(language, entry_P.x() < 0 ? Said::brief_entry : Said::brief_entry_far)});
   page.lines.push_back({instrument_words(scenario, language)});
+  add_syringe(scenario, language, page.lines);
   page.lines.push_back(
       {fill(said(language, Said::what_time), {number(language, scenario.time_limit, 0)})});
-  add_hands(keys, language, page.lines);
+  add_hands(scenario, keys, language, page.lines);
   if (scenario.aided()) page.lines.push_back({said(language, Said::brief_aided_note), Tone::dim});
   std::vector<PageLine> about{{said(language, Said::brief_view), Tone::dim}};
   add_marks(scenario, language, about);

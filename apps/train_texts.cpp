@@ -30,6 +30,7 @@ constexpr std::array<Words, kCount> kSaid{{
   {"new", "nouveau"},
   {"Time: {} s", "Temps : {} s"},
   {"Probe {}, needle {} G of {} mm", "Sonde {}, aiguille {} G de {} mm"},
+  {"Draw back first, then give {} ml of {} at {} ml/s", "Aspirer d'abord, puis injecter {} ml ({}) à {} ml/s"},
   {"Look at an earlier attempt", "Revoir un essai précédent"},
   {"The attempt is being read ...", "Lecture de l'essai ..."},
   {"Bring the tip to the point {} mm deep{}", "Amener la pointe au point situé à {} mm de profondeur{}"},
@@ -44,6 +45,7 @@ constexpr std::array<Words, kCount> kSaid{{
   {"Your hands", "Vos mains"},
   {"{} takes the probe: the mouse slides it, the wheel turns it", "{} pour prendre la sonde : la souris la glisse, la molette la tourne"},
   {"{} takes the needle: the mouse moves and turns it, wheel or {} pushes, {} pulls", "{} pour prendre l'aiguille : la souris la déplace et l'oriente, molette ou {} pour enfoncer, {} pour retirer"},
+  {"{} puts the thumb on the plunger: the wheel then presses it", "{} met le pouce sur le piston : la molette le presse alors"},
   {"{} when the needle is out again: then it is judged", "{} une fois l'aiguille retirée : alors c'est jugé"},
   {"Begin", "Commencer"},
   {"Begin with aids", "Commencer avec les aides"},
@@ -64,6 +66,7 @@ constexpr std::array<Words, kCount> kSaid{{
   {"needle in", "aiguille entrée"},
   {"tip seen", "pointe vue"},
   {"tip in place", "pointe en place"},
+  {"liquid given", "liquide injecté"},
   {"needle out again", "aiguille retirée"},
   {"{} s of {}", "{} s sur {}"},
   {"A gel block: it says nothing.", "Un bloc de gel : il ne dit rien."},
@@ -112,7 +115,7 @@ struct MetricWords {
   const char* metric;
   Words words;
 };
-constexpr std::array<MetricWords, 24> kMetricWords{{
+constexpr std::array<MetricWords, 25> kMetricWords{{
   {"distance_mm", {"tip from the target, mm", "pointe à la cible, mm"}},
   {"plane_offset_p90_mm", {"tip beside the picture's plane, mm", "pointe hors du plan de l'image, mm"}},
   {"unseen_advances", {"times advanced without seeing the tip", "avancées sans voir la pointe"}},
@@ -134,6 +137,7 @@ constexpr std::array<MetricWords, 24> kMetricWords{{
   {"drift_mm_s", {"probe's motion while needling, mm/s", "mouvement de la sonde pendant le geste, mm/s"}},
   {"given_ml", {"volume given, ml", "volume injecté, ml"}},
   {"in_target", {"share of the volume in the target", "part du volume dans la cible"}},
+  {"flow_peak_ml_s", {"fastest flow, ml/s", "débit maximal, ml/s"}},
   {"pressure_peak_kpa", {"largest pressure, kPa", "pression maximale, kPa"}},
   {"plunger_peak_n", {"largest force of the thumb, N", "force maximale du pouce, N"}},
   {"aspirated_first", {"aspirated before giving", "aspiration avant l'injection"}},
@@ -143,10 +147,10 @@ struct StepWords {
   const char* step;
   Said words;
 };
-constexpr std::array<StepWords, 7> kStepWords{{
+constexpr std::array<StepWords, 8> kStepWords{{
   {"ask:side", Said::step_ask_side}, {"ask:allergy", Said::step_ask_allergy}, {"ask:consent", Said::step_ask_consent},
   {"auto:entry", Said::step_entry}, {"auto:tip_seen", Said::step_tip_seen}, {"auto:placed", Said::step_placed},
-  {"auto:withdrawn", Said::step_withdrawn},
+  {"auto:injected", Said::step_injected}, {"auto:withdrawn", Said::step_withdrawn},
 }};
 // clang-format on
 

@@ -70,8 +70,10 @@ class SyringeHand {
     if (pulls) draws_ -= dt;
     const bool pushes = wanted_ && gives && !pulls && !dose_.enough();
     const PlungerState& state = plunger.state();
-    const PlungerInput thumb =
-        thumb_.step(pulls ? &pull_ : pushes ? &push_ : nullptr, state, area_, dt);
+    const PlungerInput thumb = thumb_.step(pulls    ? &pull_
+                                           : pushes ? &push_
+                                                    : nullptr,
+                                           state, area_, dt);
     sample.plunger_force = thumb.force + thumb.stiffness * (thumb.position - state.travel);
     dose_.step(pushes, given, state.pressure, state.tip_pressure, state.flow, dt);
     flows_ = state.flow > ThumbDose::kFlows;

@@ -62,8 +62,8 @@ struct Aid {
 struct Scenario {
   std::string name;
   std::string title;
-  std::string title_fr;  ///< the same in French; empty: there is none
-  std::string joint;     ///< a joint folder or compiled file; empty: `gel`
+  std::string title_fr;               ///< the same in French; empty: there is none
+  std::string joint;                  ///< a joint folder or compiled file; empty: `gel`
   std::vector<std::string> variants;  ///< of the joint: what this patient has
   std::optional<GelBlock> gel;
   std::string procedure;

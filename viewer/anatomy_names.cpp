@@ -13,7 +13,7 @@ struct Name {
   const char* french;
 };
 
-constexpr std::array<Name, 132> kFrench{
+constexpr std::array<Name, 145> kFrench{
     {{"outside", "hors du corps"},
      {"beyond", "hors du modèle"},
      {"skin", "peau"},
@@ -36,6 +36,19 @@ constexpr std::array<Name, 132> kFrench{
      {"fluid", "liquide"},
      {"joint_fluid", "liquide articulaire"},
      {"humerus", "humérus"},
+     {"calcific_deposit", "calcification"},
+     {"calcification", "calcification"},
+     {"supraspinatus_tear", "rupture du supra-épineux"},
+     {"posterior_recess", "récessus postérieur"},
+     {"acromioclavicular_cavity", "interligne acromio-claviculaire"},
+     {"suprascapular_artery", "artère suprascapulaire"},
+     {"transverse_scapular_ligament", "ligament transverse de la scapula"},
+     {"suprascapular_canal", "canal suprascapulaire"},
+     {"trapezius", "trapèze"},
+     {"saline", "sérum physiologique"},
+     {"lidocaine", "lidocaïne"},
+     {"steroid", "corticoïde"},
+     {"steroid_mixture", "mélange de corticoïde"},
      {"scapula", "scapula"},
      {"clavicle", "clavicule"},
      {"femur", "fémur"},

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/anatomy/body/joint_variant_toml.h"
-
 #include <algorithm>
 #include <array>
 #include <optional>
 #include <string_view>
 
+#include "artus/anatomy/body/joint_variant_toml.h"
 #include "artus/core/known_names.h"
 
 namespace artus {
@@ -145,6 +144,11 @@ JointChoice split_variants(const std::filesystem::path& joint) {
   const std::string name = joint.filename().string();
   std::size_t plus = name.find('+');
   if (plus == std::string::npos || plus == 0) return choice;
+  for (std::size_t at = name.rfind('+'); at > plus; at = name.rfind('+', at - 1)) {
+    if (!std::filesystem::is_directory(joint.parent_path() / name.substr(0, at), ignored)) continue;
+    plus = at;
+    break;
+  }
   choice.folder = joint.parent_path() / name.substr(0, plus);
   while (plus != std::string::npos) {
     const std::size_t next = name.find('+', plus + 1);

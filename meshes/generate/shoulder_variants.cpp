@@ -21,8 +21,8 @@ Field make_in_tendon(const Vec3& centre, const Vec3& half_axes) {
 // Between head and posterior labrum, where the capsule lies on the cartilage.
 Field make_posterior_recess(const Millimetres& mm, const ShoulderSize& size) {
   const double inner = size.head_radius + size.cartilage - 0.2e-3;
-  const Field film = subtract(make_ball(Vec3::Zero(), inner + 1.7e-3),
-                              make_ball(Vec3::Zero(), inner), 0.2e-3);
+  const Field film =
+      subtract(make_ball(Vec3::Zero(), inner + 1.7e-3), make_ball(Vec3::Zero(), inner), 0.2e-3);
   return intersect(film, make_ball(mm.at(13, 24.5, -2), mm.length(9)), 0.4e-3);
 }
 
@@ -55,17 +55,18 @@ std::vector<Solid> make_shoulder_variants(const ShoulderSize& size) {
   const Vec3 deposit = mm.at(-12.9, -3.5, 23.4);
   const Vec3 tear = mm.at(-18.3, -4.6, 18.6);
   const Vec3 ac = mm.at(15.8, 7, 41);
-  const Vec3 recess = Vec3(13, 24.5, -2).normalized() * (size.head_radius + size.cartilage + 0.6e-3);
+  const Vec3 recess =
+      Vec3(13, 24.5, -2).normalized() * (size.head_radius + size.cartilage + 0.6e-3);
   return {
-      {"calcific_deposit",
-       make_in_tendon(deposit, mm.at(6, 4.5, 1.9)), deposit, mm.length(40), 0.9e-3, 0.05e-3},
-      {"supraspinatus_tear",
-       make_in_tendon(tear, mm.at(5.5, 6, 5)), tear, mm.length(40), 1.2e-3, 0.06e-3},
+      {"calcific_deposit", make_in_tendon(deposit, mm.at(6, 4.5, 1.9)), deposit, mm.length(40),
+       0.9e-3, 0.05e-3},
+      {"supraspinatus_tear", make_in_tendon(tear, mm.at(5.5, 6, 5)), tear, mm.length(40), 1.2e-3,
+       0.06e-3},
       {"posterior_recess", make_posterior_recess(mm, size), recess, mm.length(50), 1e-3, 0.05e-3},
       {"coracohumeral_ligament", make_coracohumeral_ligament(mm, 1.6e-3), mm.at(6, -16.5, 27.5),
        mm.length(80), 1.2e-3, 0.06e-3},
-      {"coracohumeral_ligament_thick", make_coracohumeral_ligament(mm, 3e-3),
-       mm.at(6, -16.5, 27.5), mm.length(80), 1.2e-3, 0.06e-3},
+      {"coracohumeral_ligament_thick", make_coracohumeral_ligament(mm, 3e-3), mm.at(6, -16.5, 27.5),
+       mm.length(80), 1.2e-3, 0.06e-3},
       {"acromioclavicular_cavity", make_ellipsoid(ac, mm.at(3, 6, 4.5)), ac, mm.length(30), 0.9e-3,
        0.05e-3},
       {"acromioclavicular_capsule", make_ellipsoid(ac, mm.at(6.5, 8.5, 6.5)), ac, mm.length(40),
@@ -80,9 +81,9 @@ std::vector<Solid> make_shoulder_variants(const ShoulderSize& size) {
                              mm.length(1.3))),
        mm.at(54, 13, 25.7), mm.length(60), 1.2e-3, 0.06e-3},
       {"suprascapular_canal",
-       make_tube(make_course({mm.at(58, 2, 29), mm.at(54, 12, 21.5), mm.at(51, 24, 11.8),
-                              mm.at(48, 33, 7)},
-                             mm.length(4.2))),
+       make_tube(make_course(
+           {mm.at(58, 2, 29), mm.at(54, 12, 21.5), mm.at(51, 24, 11.8), mm.at(48, 33, 7)},
+           mm.length(4.2))),
        mm.at(54, 12, 21.5), mm.length(80), 1.5e-3, 0.08e-3},
       {"trapezius", make_trapezius(mm, size), mm.at(64, 26, 58), mm.length(120), 2.6e-3, 0.15e-3}};
 }

@@ -79,6 +79,59 @@ TEST(Player, GoingInElsewhereDoesNotPass) {
   EXPECT_FALSE(passes());
 }
 
+double number_of(const PlayedAttempt& played, const std::string& name) {
+  const Metric* metric = find_metric(played.measures.metrics, name);
+  EXPECT_NE(metric, nullptr) << name;
+  return metric != nullptr ? metric->value.value_or(-1) : -1;
+}
+
+Scenario aligned_with(const std::string& more) {
+  const auto scenario = parse_scenario(align().text + more, "mine");
+  EXPECT_TRUE(scenario) << scenario.error().to_string();
+  return *scenario;
+}
+
+TEST(Scenario, TheSyringeHoldsWhatIsToBeGiven) {
+  const Scenario scenario = aligned_with("[syringe]\nvolume_ml = 3\nliquid = \"lidocaine\"\n");
+  const SyringeChoice syringe = syringe_of(scenario);
+  EXPECT_DOUBLE_EQ(syringe.filled, 3e-6);
+  EXPECT_EQ(syringe.liquid, "lidocaine");
+  EXPECT_EQ(syringe.gauge, scenario.gauge);
+  const auto refused = [](const std::string& more) {
+    const auto bad = parse_scenario(align().text + more, "mine");
+    return bad ? std::string() : bad.error().to_string();
+  };
+  EXPECT_NE(refused("[syringe]\nvolume_ml = 3\nliquid = \"wine\"\n").find("wine"),
+            std::string::npos);
+  EXPECT_NE(refused("[syringe]\nvolume_ml = 5\nbarrel_ml = 2\n"), "");
+  EXPECT_NE(refused("[syringe]\nvolume_ml = 5\ncolour = 1\n").find("colour"), std::string::npos);
+}
+
+TEST(Scenario, VariantsAreOfAJoint) {
+  const auto gel = parse_scenario("variants = [\"tear\"]\n" + align().text, "mine");
+  ASSERT_FALSE(gel);
+  EXPECT_NE(gel.error().to_string().find("variants"), std::string::npos);
+  EXPECT_EQ(find_scenario("barbotage-1")->body(), "shoulder+calcific_deposit");
+  EXPECT_EQ(find_scenario("sasd-lateral-1")->body(), "shoulder");
+}
+
+TEST(Player, HandsDrawBackAndGiveWhatIsAskedAtItsRate) {
+  const Scenario scenario = aligned_with("[syringe]\nvolume_ml = 1\nrate_ml_s = 0.2\n");
+  const auto scene = *make_gel_scene(*scenario.gel);
+  const auto expert = play(scenario, scene, expert_skill(), {});
+  const auto novice = play(scenario, scene, novice_skill(), {});
+  ASSERT_TRUE(expert && novice);
+  EXPECT_NEAR(number_of(*expert, "given_ml"), 1, 0.05);
+  EXPECT_NEAR(number_of(*expert, "flow_mean_ml_s"), 0.2, 0.04);
+  EXPECT_EQ(number_of(*expert, "aspirated_first"), 1);
+  EXPECT_EQ(number_of(*novice, "aspirated_first"), 0);
+  EXPECT_GT(number_of(*novice, "flow_peak_ml_s"), number_of(*expert, "flow_peak_ml_s"));
+  const auto dry = play(align(), scene, expert_skill(), {});
+  ASSERT_TRUE(dry);
+  const Metric* given = find_metric(dry->measures.metrics, "given_ml");
+  EXPECT_TRUE(given == nullptr || !given->value);
+}
+
 TEST(Scenario, ANameThatThereIsNotListsThoseThereAre) {
   const auto scenario = find_scenario("no-such");
   ASSERT_FALSE(scenario);
