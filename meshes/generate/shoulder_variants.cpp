@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+#include <array>
+
 #include "artus/meshes/generate/millimetres.h"
 #include "artus/meshes/generate/shoulder.h"
 #include "artus/meshes/generate/sweep.h"
@@ -28,11 +30,16 @@ Field make_posterior_recess(const Millimetres& mm, const ShoulderSize& size) {
 
 // From the base of the coracoid over the biceps tendon to both tubercles.
 Field make_coracohumeral_ligament(const Millimetres& mm, double thickness) {
-  const double half = 0.5 * thickness;
-  return make_ribbon({{mm.at(32, -8, 21), Vec3(-0.2, -0.5, 1), mm.length(6), half},
-                      {mm.at(20, -12, 26.5), Vec3(0, -0.5, 1), mm.length(7), half},
-                      {mm.at(6, -16.5, 27.5), Vec3(-0.1, -0.6, 1), mm.length(7), half},
-                      {mm.at(-6, -21, 22.5), Vec3(-0.4, -0.8, 0.7), mm.length(6), half}});
+  const std::vector<std::array<Vec3, 2>> edges{{mm.at(33, -2, 23), mm.at(31, -12, 18)},
+                                               {mm.at(20, -7, 28), mm.at(19, -18, 23)},
+                                               {mm.at(6, -11, 29.5), mm.at(5, -22, 23)},
+                                               {mm.at(-5, -17, 25.5), mm.at(-7, -24, 18)}};
+  std::vector<std::array<Vec3, 3>> triangles;
+  for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
+    triangles.push_back({edges[i][0], edges[i][1], edges[i + 1][0]});
+    triangles.push_back({edges[i][1], edges[i + 1][1], edges[i + 1][0]});
+  }
+  return make_plate(triangles, 0.5 * thickness);
 }
 
 // Under the skin above the fossa, from the acromion to the neck.
@@ -63,10 +70,10 @@ std::vector<Solid> make_shoulder_variants(const ShoulderSize& size) {
       {"supraspinatus_tear", make_in_tendon(tear, mm.at(5.5, 6, 5)), tear, mm.length(40), 1.2e-3,
        0.06e-3},
       {"posterior_recess", make_posterior_recess(mm, size), recess, mm.length(50), 1e-3, 0.05e-3},
-      {"coracohumeral_ligament", make_coracohumeral_ligament(mm, 1.6e-3), mm.at(6, -16.5, 27.5),
-       mm.length(80), 1.2e-3, 0.06e-3},
-      {"coracohumeral_ligament_thick", make_coracohumeral_ligament(mm, 3e-3), mm.at(6, -16.5, 27.5),
-       mm.length(80), 1.2e-3, 0.06e-3},
+      {"coracohumeral_ligament", make_coracohumeral_ligament(mm, 1.6e-3), mm.at(6, -11, 29.5),
+       mm.length(80), 1e-3, 0.06e-3},
+      {"coracohumeral_ligament_thick", make_coracohumeral_ligament(mm, 3e-3), mm.at(6, -11, 29.5),
+       mm.length(80), 1e-3, 0.06e-3},
       {"acromioclavicular_cavity", make_ellipsoid(ac, mm.at(3, 6, 4.5)), ac, mm.length(30), 0.9e-3,
        0.05e-3},
       {"acromioclavicular_capsule", make_ellipsoid(ac, mm.at(6.5, 8.5, 6.5)), ac, mm.length(40),

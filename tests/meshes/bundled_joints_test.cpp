@@ -131,14 +131,17 @@ TEST(BundledJoints, SupraspinatusTendonIsFiveToSixMillimetresThickOverTheHead) {
 TEST(BundledJoints, EverySurfaceFileIsUsedByTheJointFile) {
   for (const char* name : {"simple-shoulder", "shoulder", "knee", "hip"}) {
     const JointFile joint = read_bundled_joint(name);
+    std::vector<Structure> all = joint.structures;
+    for (const JointVariant& variant : joint.variants) {
+      const JointFile other = read_bundled_joint(with_variant(name, variant.name).c_str());
+      all.insert(all.end(), other.structures.begin(), other.structures.end());
+    }
     for (const auto& entry : std::filesystem::directory_iterator(joint.surface_folder)) {
       const auto uses = [&](const Structure& s) {
         const auto* file = std::get_if<SurfaceFile>(&s.shape);
         return file != nullptr && file->file.filename() == entry.path().filename();
       };
-      EXPECT_TRUE(uses(joint.body) ||
-                  std::any_of(joint.structures.begin(), joint.structures.end(), uses))
-          << entry.path();
+      EXPECT_TRUE(uses(joint.body) || std::any_of(all.begin(), all.end(), uses)) << entry.path();
     }
   }
 }
