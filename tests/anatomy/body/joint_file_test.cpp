@@ -232,13 +232,13 @@ TEST(TissueLibrary, EveryGroupNamesItsSourceOrSaysAssumed) {
 }
 
 TEST(TissueLibrary, AttenuationBecomesNeperPerMetre) {
-  const auto tissues = parse_tissues(documented_example(1), "t");
+  const auto tissues = parse_tissues(documented_example(2), "t");
   ASSERT_TRUE(tissues) << tissues.error().to_string();
   EXPECT_NEAR((*tissues)[0].acoustic.attenuation * kDecibelPerNeper, 75, 1e-9);  // 0.75 dB/cm
 }
 
 TEST(TissueLibrary, ValuesOutOfTheirRangeAreRefusedWithTheirPlace) {
-  std::string text = documented_example(1);
+  std::string text = documented_example(2);
   text.replace(text.find("0.49"), 4, "0.51");
   const auto tissues = parse_tissues(text, "t.toml");
   ASSERT_FALSE(tissues);
