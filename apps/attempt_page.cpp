@@ -190,16 +190,27 @@ void add_marks(HtmlPage& page, const Judgement& judgement) {
              rows);
 }
 
-void add_numbers(HtmlPage& page, const std::vector<Metric>& metrics) {
+/// Between what most experts stay; empty where nobody knows.
+std::string band_of(std::span<const Norm> norms, const Metric& metric) {
+  for (const Norm& n : norms)
+    if (n.metric == metric.name && n.role == metric.role)
+      return fixed_number(n.p10, 3) + " to " + fixed_number(n.p90, 3);
+  return "";
+}
+
+void add_numbers(HtmlPage& page, const std::vector<Metric>& metrics, std::span<const Norm> norms) {
   page.heading("All numbers");
   std::vector<std::vector<std::string>> rows;
   for (const Metric& m : metrics)
     if (m.value)
-      rows.push_back(
-          {m.name, m.role, fixed_number(*m.value, 3), m.unit, m.definition, m.rule.filter});
+      rows.push_back({m.name, m.role, fixed_number(*m.value, 3), band_of(norms, m), m.unit,
+                      m.definition, m.rule.filter});
+  const std::string experts =
+      norms.empty() ? "nobody's yet" : "of " + std::to_string(norms.front().n) + " attempts";
   page.table({{"metric", ""},
               {"of", ""},
               {"value", ""},
+              {"experts, 10 to 90 %", experts},
               {"unit", ""},
               {"definition", "", true},
               {"filter", "", true}},
@@ -210,7 +221,7 @@ void add_numbers(HtmlPage& page, const std::vector<Metric>& metrics) {
 
 Result<void> write_attempt_page(const Scenario& scenario, const std::shared_ptr<const Scene>& scene,
                                 const PlayedAttempt& attempt, const Feedback& feedback,
-                                const std::filesystem::path& file) {
+                                std::span<const Norm> norms, const std::filesystem::path& file) {
   HtmlPage page(scenario.title + ": one attempt");
   page.point(attempt.judgement.passed ? "passed" : "failed",
              feedback.verdict + " Score " + std::to_string(whole_points(attempt.judgement.score)) +
@@ -221,7 +232,7 @@ Result<void> write_attempt_page(const Scenario& scenario, const std::shared_ptr<
   add_plots(page, scenario, attempt.measures);
   add_felt(page, attempt.recording);
   add_marks(page, attempt.judgement);
-  add_numbers(page, attempt.measures.metrics);
+  add_numbers(page, attempt.measures.metrics, norms);
   return write_text(file, page.text());
 }
 

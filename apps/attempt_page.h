@@ -2,6 +2,7 @@
 #pragma once
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "artus/training/feedback.h"
@@ -11,11 +12,12 @@
 namespace artus {
 
 /// Report of one attempt: verdict, faults with the picture of their moment, plots, numbers with
-/// their definitions. Static, needs nothing else. Errors: those of write_text.
+/// their definitions and what experts do (`norms`, may be empty). Static, needs nothing else.
+/// Errors: those of write_text.
 [[nodiscard]] Result<void> write_attempt_page(const Scenario& scenario,
                                               const std::shared_ptr<const Scene>& scene,
                                               const PlayedAttempt& attempt,
-                                              const Feedback& feedback,
+                                              const Feedback& feedback, std::span<const Norm> norms,
                                               const std::filesystem::path& file);
 
 /// Report of a learner: the chart of one scenario with its chance of a false pass, what is believed

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+#include <cmath>
 #include <cstdio>
 #include <iostream>
 #include <memory>
@@ -6,6 +7,7 @@
 #include "artus/apps/attempt_page.h"
 #include "artus/apps/training_commands.h"
 #include "artus/core/text_file.h"
+#include "artus/training/norms.h"
 #include "artus/training/record_export.h"
 
 namespace artus {
@@ -113,6 +115,31 @@ Result<void> report(Records& records, const LearnersOptions& options) {
                                 : write_learner_page(records, options.person, options.out);
 }
 
+nlohmann::json to_json(const Norm& n) {
+  return {{"metric", n.metric}, {"of", n.role},   {"unit", n.unit},
+          {"attempts", n.n},    {"mean", n.mean}, {"sd", n.sd},
+          {"p10", n.p10},       {"p50", n.p50},   {"p90", n.p90}};
+}
+
+Result<void> norms(Records& records, const LearnersOptions& options) {
+  if (options.scenario.empty()) return fail(ErrorCode::malformed, "name it", "--scenario");
+  const std::string group = options.cohort.empty() ? kExperts : options.cohort;
+  const auto made = renew_norms(records, options.scenario, group);
+  ARTUS_TRY(made);
+  if (options.json) {
+    auto json = nlohmann::json::array();
+    for (const Norm& n : *made) json.push_back(to_json(n));
+    std::cout << json.dump(2) << '\n';
+    return {};
+  }
+  std::printf("%-30s %-8s %4s %10s %10s %10s %10s\n", "metric", "of", "n", "mean", "10 %", "50 %",
+              "90 %");
+  for (const Norm& n : *made)
+    std::printf("%-30s %-8s %4d %10.3f %10.3f %10.3f %10.3f %s\n", n.metric.c_str(), n.role.c_str(),
+                n.n, n.mean, n.p10, n.p50, n.p90, n.unit.c_str());
+  return {};
+}
+
 Result<void> forget(Records& records, const LearnersOptions& options) {
   if (options.person.empty()) return fail(ErrorCode::malformed, "name the person", "--person");
   const auto attempts = records.attempts({options.person, "", ""});
@@ -131,6 +158,7 @@ ExitCode run_learners(const LearnersOptions& options) {
   if (options.what == "add") done = add(*records, options);
   if (options.what == "export") done = export_all(*records, options);
   if (options.what == "report") done = report(*records, options);
+  if (options.what == "norms") done = norms(*records, options);
   if (options.what == "forget") done = forget(*records, options);
   return done ? ExitCode::ok : report_error(done.error(), options.json);
 }
@@ -138,14 +166,47 @@ ExitCode run_learners(const LearnersOptions& options) {
 struct RateOptions {
   std::filesystem::path records;
   RatingRecord rating;
+  bool next = false;
+  bool json = false;
   bool not_blinded = false;
   std::string comment;
   double time = 0;
+  [[nodiscard]] bool valued() const { return !std::isnan(rating.value); }
 };
+
+/// What the rater may know of the attempt that is next.
+Result<void> tell_next(Records& records, const RateOptions& options) {
+  const auto left = records.unrated(options.rating.rater, options.rating.instrument);
+  ARTUS_TRY(left);
+  if (options.json) {
+    nlohmann::json json = {{"left", left->size()}};
+    if (!left->empty())
+      json.update({{"attempt", left->front().id},
+                   {"scenario", left->front().scenario},
+                   {"folder", left->front().folder}});
+    std::cout << json.dump(2) << '\n';
+  } else if (left->empty()) {
+    std::printf("all finished attempts are rated\n");
+  } else {
+    std::printf("%s  %s  %s  (%zu left)\n", left->front().id.c_str(),
+                left->front().scenario.c_str(), left->front().folder.c_str(), left->size());
+  }
+  return {};
+}
 
 ExitCode run_rate(const RateOptions& options) {
   auto records = Records::open(options.records);
-  if (!records) return report_error(records.error(), false);
+  if (!records) return report_error(records.error(), options.json);
+  if (options.next) {
+    const auto told = tell_next(*records, options);
+    return told ? ExitCode::ok : report_error(told.error(), options.json);
+  }
+  if (options.rating.attempt.empty() || options.rating.item.empty() || !options.valued())
+    return report_error(
+        {ErrorCode::malformed,
+         "a rating takes an attempt, --item and --value; --next tells which attempt is next",
+         "rate"},
+        options.json);
   RatingRecord rating = options.rating;
   rating.blinded = !options.not_blinded;
   if (const auto done = records->rate(rating); !done) return report_error(done.error(), false);
@@ -162,19 +223,22 @@ ExitCode run_rate(const RateOptions& options) {
 void add_learners_command(Command& app, ExitCode& code) {
   auto options = std::make_shared<LearnersOptions>();
   Command* command = add_command(
-      app, "learners", "Persons and their attempts: list, show, add, export, report, forget",
+      app, "learners", "Persons and their attempts: list, show, add, export, report, norms, forget",
       "Persons are pseudonyms; whose they are stays with the school. forget removes a person, the\n"
-      "details of all attempts and their folders; that there were attempts stays.\n"
+      "details of all attempts and their folders; that there were attempts stays. norms computes\n"
+      "what a cohort does in a scenario; that of 'experts' stands in every report beside the\n"
+      "learner's numbers.\n"
       "Examples:\n"
       "  artus learners add --records school.db --cohort 2026\n"
       "  artus learners list --records school.db\n"
       "  artus learners show --records school.db --person a1\n"
       "  artus learners export --records school.db --format xapi --home https://school.example\n"
       "  artus learners report --records school.db --person a1 --out a1.html\n"
+      "  artus learners norms --records school.db --scenario gel-align --cohort experts\n"
       "  artus learners forget --records school.db --person a1");
-  command->add_option("what", options->what, "list, show, add, export, report or forget")
+  command->add_option("what", options->what, "list, show, add, export, report, norms or forget")
       ->required()
-      ->one_of({"list", "show", "add", "export", "report", "forget"});
+      ->one_of({"list", "show", "add", "export", "report", "norms", "forget"});
   command->add_option("--records", options->records, "file of the records")->required();
   command->add_option("--person", options->person, "pseudonym; add makes one when none is given");
   command->add_option("--cohort", options->cohort, "group of persons");
@@ -194,24 +258,29 @@ void add_learners_command(Command& app, ExitCode& code) {
 
 void add_rate_command(Command& app, ExitCode& code) {
   auto options = std::make_shared<RateOptions>();
+  options->rating.value = std::nan("");
   Command* command = add_command(
       app, "rate", "Store a rater's judgement of an attempt",
-      "Ratings stand beside the machine's numbers and never change them.\n"
-      "Example:\n"
+      "Ratings stand beside the machine's numbers and never change them. --next tells which "
+      "attempt\n"
+      "the rater has not rated yet, in an order of the rater's own, and not whose it is.\n"
+      "Examples:\n"
+      "  artus rate --next --records school.db --rater r1 --instrument OSAUS\n"
       "  artus rate 0123456789abcdef --records school.db --rater r1 --instrument OSAUS \\\n"
       "    --item overall --value 4 --comment \"looked away\" --time 12.5");
-  command->add_option("attempt", options->rating.attempt, "of learners show")->required();
+  command->add_option("attempt", options->rating.attempt, "of --next, or of learners show");
   command->add_option("--records", options->records, "file of the records")->required();
   command->add_option("--rater", options->rating.rater, "a person whose role is rater")->required();
   command->add_option("--instrument", options->rating.instrument, "the form's name")->required();
-  command->add_option("--item", options->rating.item, "the form's item")->required();
+  command->add_flag("--next", options->next, "tell which attempt is next, and rate none");
+  command->add_option("--item", options->rating.item, "the form's item");
   command->add_option("--value", options->rating.value, "as the form counts")
-      ->required()
       ->check(number_in(-1000, 1000));
   command->add_flag("--not-blinded", options->not_blinded, "the rater knew who, or the verdict");
   command->add_option("--comment", options->comment, "free text");
   command->add_option("--time", options->time, "s into the attempt that the comment is about")
       ->check(number_in(0, 100000));
+  command->add_flag("--json", options->json, "machine-readable output");
   on_run(command, code, [options] { return run_rate(*options); });
 }
 

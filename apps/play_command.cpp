@@ -8,6 +8,7 @@
 #include "artus/apps/attempt_page.h"
 #include "artus/apps/scenario_options.h"
 #include "artus/apps/training_commands.h"
+#include "artus/training/norms.h"
 #include "artus/training/past_attempts.h"
 #include "artus/training/player.h"
 
@@ -88,6 +89,12 @@ class Note {
     return read_past_attempts(*records_, attempt_);
   }
 
+  /// What experts do; nothing where no records are kept.
+  [[nodiscard]] Result<std::vector<Norm>> norms() {
+    if (records_ == nullptr) return std::vector<Norm>{};
+    return records_->norms(attempt_.scenario_hash, kExperts);
+  }
+
   [[nodiscard]] Result<void> finish(const PlayedAttempt& played) {
     if (records_ == nullptr) return {};
     attempt_.ended = utc_now();
@@ -123,7 +130,9 @@ ExitCode run_play(const PlayCommandOptions& options) {
     if (!before) return report_error(before.error(), options.json);
     const Feedback feedback =
         make_feedback(attempt->measures, attempt->judgement, {scenario->level, std::move(*before)});
-    kept = write_attempt_page(*scenario, *scene, *attempt, feedback, options.report);
+    const auto norms = note->norms();
+    if (!norms) return report_error(norms.error(), options.json);
+    kept = write_attempt_page(*scenario, *scene, *attempt, feedback, *norms, options.report);
   }
   if (kept) kept = note->finish(*attempt);
   if (!kept) return report_error(kept.error(), options.json);

@@ -142,7 +142,10 @@ Result<TrainOutcome> run_attempt(const TrainRoom& room, const TrainTask& task) {
     out.played.measures.events.push_back({0, step, "", 0, "answered before the attempt"});
   ARTUS_TRY(judge_outcome(*room.desk, task.scenario, out));
   ARTUS_TRY(write_attempt_files(task.scenario, out.played, folder));
-  ARTUS_TRY(write_attempt_page(task.scenario, task.scene, out.played, out.feedback, out.report));
+  const auto norms = room.desk->norms(out.record);
+  ARTUS_TRY(norms);
+  ARTUS_TRY(
+      write_attempt_page(task.scenario, task.scene, out.played, out.feedback, *norms, out.report));
   ARTUS_TRY(room.desk->finish(out.record, out.played));
   return out;
 }

@@ -6,6 +6,7 @@
 #include <random>
 #include <utility>
 
+#include "artus/training/norms.h"
 #include "artus/training/past_attempts.h"
 
 namespace artus {
@@ -92,6 +93,10 @@ Result<std::vector<AttemptRecord>> TrainDesk::finished(const std::string& person
   });
   std::reverse(attempts->begin(), attempts->end());
   return attempts;
+}
+
+Result<std::vector<Norm>> TrainDesk::norms(const AttemptRecord& attempt) {
+  return records_.norms(attempt.scenario_hash, kExperts);
 }
 
 Result<std::vector<PastAttempt>> TrainDesk::before(const AttemptRecord& attempt) {

@@ -36,6 +36,8 @@ class TrainDesk {
   [[nodiscard]] Result<std::vector<AttemptRecord>> finished(const std::string& person);
   /// What the same person had done when an attempt began.
   [[nodiscard]] Result<std::vector<PastAttempt>> before(const AttemptRecord& attempt);
+  /// What experts do in the attempt's scenario.
+  [[nodiscard]] Result<std::vector<Norm>> norms(const AttemptRecord& attempt);
 
   /// Notes that an attempt begins and makes its folder; `aided`: with aids. Errors: unreadable.
   [[nodiscard]] Result<AttemptRecord> begin(const std::string& person, const Scenario& scenario,

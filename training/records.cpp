@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/training/records.h"
 
+#include <algorithm>
 #include <array>
 #include <ctime>
 #include <random>
@@ -232,6 +233,66 @@ Result<void> Records::rate(const RatingRecord& r) {
   add.bind(r.attempt).bind(r.rater).bind(r.instrument).bind(r.item).bind(r.value);
   ARTUS_TRY(add.bind(std::int64_t{r.blinded}).bind(utc_now()).run());
   return transaction->commit();
+}
+
+Result<std::vector<AttemptRecord>> Records::unrated(const std::string& rater,
+                                                    const std::string& instrument) {
+  ARTUS_TRY(
+      require_row(file_, "SELECT 1 FROM person WHERE role = 'rater' AND id = ?", rater, "rater"));
+  SqliteStatement ask(file_,
+                      "SELECT a.id, s.name, a.folder FROM attempt a JOIN scenario s ON s.hash = "
+                      "a.scenario WHERE a.ended IS NOT NULL AND a.folder IS NOT NULL AND a.folder "
+                      "<> '' AND NOT EXISTS(SELECT 1 FROM rating r WHERE r.attempt = a.id AND "
+                      "r.rater = ?1 AND r.instrument = ?2)");
+  ask.bind(rater).bind(instrument);
+  std::vector<AttemptRecord> out;
+  for (;;) {
+    const auto row = ask.step();
+    ARTUS_TRY(row);
+    if (!*row) break;
+    AttemptRecord attempt;
+    attempt.id = ask.text(0);
+    attempt.scenario = ask.text(1);
+    attempt.folder = ask.text(2);
+    out.push_back(std::move(attempt));
+  }
+  std::sort(out.begin(), out.end(), [&](const AttemptRecord& a, const AttemptRecord& b) {
+    return text_hash(rater + a.id) < text_hash(rater + b.id);
+  });
+  return out;
+}
+
+Result<void> Records::set_norms(const std::string& scenario_hash, const std::string& group,
+                                std::span<const Norm> norms) {
+  auto transaction = SqliteTransaction::begin(file_);
+  ARTUS_TRY(transaction);
+  SqliteStatement former(file_, "DELETE FROM norm WHERE scenario = ? AND grp = ?");
+  ARTUS_TRY(former.bind(scenario_hash).bind(group).run());
+  SqliteStatement add(file_,
+                      "INSERT INTO norm(scenario, grp, metric, role, unit, version, n, mean, sd, "
+                      "p10, p50, p90) VALUES(?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  for (const Norm& norm : norms) {
+    add.bind(scenario_hash).bind(group).bind(norm.metric).bind(norm.role).bind(norm.unit);
+    add.bind(std::int64_t{kMetricsVersion}).bind(std::int64_t{norm.n}).bind(norm.mean);
+    ARTUS_TRY(add.bind(norm.sd).bind(norm.p10).bind(norm.p50).bind(norm.p90).run());
+  }
+  return transaction->commit();
+}
+
+Result<std::vector<Norm>> Records::norms(const std::string& scenario_hash,
+                                         const std::string& group) {
+  SqliteStatement ask(file_,
+                      "SELECT metric, role, unit, n, mean, sd, p10, p50, p90 FROM norm WHERE "
+                      "scenario = ? AND grp = ? AND version = ? ORDER BY role, metric");
+  ask.bind(scenario_hash).bind(group).bind(std::int64_t{kMetricsVersion});
+  std::vector<Norm> out;
+  for (;;) {
+    const auto row = ask.step();
+    ARTUS_TRY(row);
+    if (!*row) return out;
+    out.push_back({ask.text(0), ask.text(1), ask.text(2), static_cast<int>(ask.whole(3)),
+                   ask.number(4), ask.number(5), ask.number(6), ask.number(7), ask.number(8)});
+  }
 }
 
 Result<std::vector<RatingRecord>> Records::ratings(const std::string& attempt) {

@@ -65,6 +65,19 @@ struct MetricValue {
   std::optional<double> value;
 };
 
+/// What a group does in a scenario, of one metric.
+struct Norm {
+  std::string metric;
+  std::string role;
+  std::string unit;
+  int n = 0;  ///< attempts
+  double mean = 0;
+  double sd = 0;
+  double p10 = 0;
+  double p50 = 0;
+  double p90 = 0;
+};
+
 /// Which attempts are meant; empty texts: all.
 struct AttemptFilter {
   std::string person;
@@ -96,6 +109,17 @@ class Records {
   [[nodiscard]] Result<std::vector<MetricValue>> metrics(const AttemptFilter& filter = {});
   [[nodiscard]] Result<std::vector<AttemptEvent>> events(const std::string& attempt);
 
+  /// In the place of those that the group had in this scenario (hash of its text).
+  [[nodiscard]] Result<void> set_norms(const std::string& scenario_hash, const std::string& group,
+                                       std::span<const Norm> norms);
+  /// By role and name; empty when there are none.
+  [[nodiscard]] Result<std::vector<Norm>> norms(const std::string& scenario_hash,
+                                                const std::string& group);
+
+  /// Finished attempts that `rater` has not rated with `instrument`, in an order that tells nothing
+  /// and is the rater's own; without who did them, when, and how they ended.
+  [[nodiscard]] Result<std::vector<AttemptRecord>> unrated(const std::string& rater,
+                                                           const std::string& instrument);
   [[nodiscard]] Result<void> rate(const RatingRecord& rating);
   [[nodiscard]] Result<std::vector<RatingRecord>> ratings(const std::string& attempt);
   /// Those of one attempt; of all when it is empty. By the time at which they were given.
