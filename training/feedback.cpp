@@ -177,7 +177,8 @@ void add_syringe_faults(const AttemptMeasures& m, std::vector<Fault>& out) {
 }
 
 void add_idle(const AttemptMeasures& m, std::vector<Fault>& out) {
-  const double idle = value_of(m, kIdle.metric);
+  // A needle that rests while something is given is where it should be.
+  const double idle = value_of(m, kIdle.metric) - value_of(m, "syringe_s");
   const AttemptEvent* e = worst_event(m, "idle");
   if (e == nullptr || idle <= kIdle.band) return;
   out.push_back({"idle", e->time, weight_of(kIdle, idle),

@@ -224,6 +224,14 @@ TEST(Feedback, IdleTimesAreToldFromLevelFiveOn) {
   EXPECT_THAT(fault_of(told, "idle")->cause, HasSubstr("nothing moved"));
 }
 
+TEST(Feedback, ANeedleThatRestsWhileSomethingIsGivenIsNotIdle) {
+  Hands hands;
+  hands.go(3, 15);
+  hands.inject(15, 0.1, 20);
+  hands.go(1, 23);
+  EXPECT_EQ(fault_of(make_feedback(hands.measure(), {}, {5, {}}), "idle"), nullptr);
+}
+
 TEST(Feedback, TheNextTaskIsOfTheWeakestSkillAndOldPracticeFades) {
   Hands hands;
   hands.go(4, 23);

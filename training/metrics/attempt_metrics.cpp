@@ -305,6 +305,8 @@ void put_syringe(Sheet& sheet, const AttemptView& view) {
   };
   sheet.put("syringe", "given_ml", "ml", when(sum.given / kCubicCentimetre),
             "out of the tip in all, whatever was drawn back");
+  sheet.put("syringe", "syringe_s", "s", when(sum.busy),
+            "time that it flowed, the barrel sucked or the thumb pressed or pulled");
   sheet.put("syringe", "flow_mean_ml_s", "ml/s",
             sum.flowing > 0 ? Value(sum.given / sum.flowing / kCubicCentimetre) : Value(),
             "volume given over the time that it flowed (more than 1 ul/s)");

@@ -68,7 +68,9 @@ void SyringeCourse::add(const SyringeTick& tick) noexcept {
   sum_.peak_flow = std::max(sum_.peak_flow, tick.flow);
   sum_.peak_thumb = std::max(sum_.peak_thumb, tick.thumb);
   sum_.peak_pressure = std::max(sum_.peak_pressure, tick.pressure);
-  sum_.used = sum_.used || flows || sucks || std::abs(tick.thumb) > kPressed;
+  const bool busy = flows || sucks || std::abs(tick.thumb) > kPressed;
+  if (busy) sum_.busy += tick.time - last_.time;
+  sum_.used = sum_.used || busy;
   last_ = tick;
 }
 

@@ -33,6 +33,7 @@ struct SyringeTotals {
   bool used = false;              ///< something was given or drawn, or the thumb pressed
   double given = 0;               ///< m^3, all that went in, whatever was drawn back
   double flowing = 0;             ///< s with more than 1 ul/s
+  double busy = 0;                ///< s that it flowed, sucked or the thumb pressed or pulled
   double peak_flow = 0;           ///< m^3/s
   double peak_thumb = 0;          ///< N
   double peak_pressure = 0;       ///< Pa

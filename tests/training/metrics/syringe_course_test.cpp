@@ -43,6 +43,7 @@ TEST_F(Syringe, TellsFlowVolumePeaksAndPauses) {
   EXPECT_TRUE(sum.used);
   EXPECT_NEAR(sum.given, 2.3e-6, 1e-15);
   EXPECT_NEAR(sum.flowing, 7, 1e-9);
+  EXPECT_NEAR(sum.busy, 7, 1e-9);
   EXPECT_NEAR(sum.peak_flow, 0.5e-6, 1e-18);
   EXPECT_NEAR(sum.peak_thumb, 5, 1e-12);
   EXPECT_NEAR(sum.peak_pressure, 25e3, 1e-9);
