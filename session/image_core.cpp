@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "artus/echo/doppler.h"
+#include "artus/haptics/plunger/bevel.h"
 
 namespace artus {
 namespace {
@@ -62,8 +63,7 @@ void ImageCore::advance(const FrameInput& input) {
 }
 
 void ImageCore::let_drift(const FrameInput& input, const Scene* filled) {
-  constexpr double kBevel = 0.7e-3;  // m from the tip to the middle of its opening
-  constexpr double kLongest = 0.5;   // s; images further apart are not of one course
+  constexpr double kLongest = 0.5;  // s; images further apart are not of one course
   if (filled == nullptr) {
     if (filled_) plume_.clear();
     if (filled_) renderer_.set_drifting_points({});
@@ -74,7 +74,7 @@ void ImageCore::let_drift(const FrameInput& input, const Scene* filled) {
   if (input.has_needle != 0) {
     const Pose X_JN = to_pose(input.X_JN);
     const Vec3 axis = X_JN.linear().col(2);
-    source = {X_JN.translation() - kBevel * axis, axis, needle_shape_.bore, 0};
+    source = {X_JN.translation() - bevel_middle(needle_shape_.outer_diameter) * axis, axis, needle_shape_.bore, 0};
     for (std::uint32_t k = 0; k < input.n_sites; ++k) source->given += input.sites[k].volume;
   }
   plume_.step(*filled, source, Vec3::UnitZ(), since > 0 && since < kLongest ? since : image_time_);

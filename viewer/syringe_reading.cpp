@@ -3,21 +3,22 @@
 
 #include <algorithm>
 
+#include "artus/haptics/plunger/bevel.h"
+
 namespace artus {
 
 SyringeReading read_syringe(const Scene& scene, const JointSpaces& spaces,
-                            const HapticSnapshot& now, double filled) noexcept {
-  constexpr double kBevel = 0.7e-3;  // m from the tip to the middle of its opening
+                            const HapticSnapshot& now, const SessionParams& params) noexcept {
   const PlungerFeedback& felt = now.feedback.plunger;
   SyringeReading reading;
   reading.used = now.input.device.plunger != PlungerSign::none || felt.given > 0;
-  reading.left = std::max(0.0, filled - felt.given);
+  reading.left = std::max(0.0, params.syringe.filled - felt.given);
   reading.given = felt.given;
   reading.flow = felt.flow;
   reading.thumb = felt.thumb_force;
   reading.pressure = felt.tip_pressure;
   const Pose X_JN = to_pose(now.X_JN);
-  const RegionId region = scene.region_at(X_JN * Vec3(0, 0, -kBevel));
+  const RegionId region = scene.region_at(X_JN * Vec3(0, 0, -bevel_middle(params.needle_shape.outer_diameter)));
   if (!reading.used || now.inserted == 0 || region >= spaces.of_region.size()) return reading;
   const Space& space = spaces.spaces[spaces.of_region[region]];
   double inside = space.law.kind == SpaceKind::open ? felt.given : 0;  // m^3; it is not told of

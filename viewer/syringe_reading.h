@@ -18,8 +18,9 @@ struct SyringeReading {
   PatientFeeling patient = PatientFeeling::nothing;
 };
 
-/// `filled`: m^3 that was drawn up. `spaces`: of the scene's joint. Cost: one query.
+/// `params`: of the session. `spaces`: of the scene's joint. Cost: one query.
 [[nodiscard]] SyringeReading read_syringe(const Scene& scene, const JointSpaces& spaces,
-                                          const HapticSnapshot& now, double filled) noexcept;
+                                          const HapticSnapshot& now,
+                                          const SessionParams& params) noexcept;
 
 }  // namespace artus

@@ -183,7 +183,7 @@ void WindowLoop::read_state() {
                               target_J_, state_.language);
   if (!spaces_.spaces.empty())
     input_.syringe =
-        read_syringe(session_.scene(), spaces_, input_.now, session_.params().syringe.filled);
+        read_syringe(session_.scene(), spaces_, input_.now, session_.params());
   const Pose X_JP = to_pose(input_.now.X_JP);
   const auto gap = BodyContact{&session_.scene(), Pose::Identity()}.find_gap(X_JP);
   const bool lifted = input_.now.input.device.has_probe != 0 && (!gap || *gap > kLifted);

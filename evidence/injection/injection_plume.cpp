@@ -4,13 +4,13 @@
 #include <algorithm>
 
 #include "artus/anatomy/body/space.h"
+#include "artus/haptics/plunger/bevel.h"
 
 namespace artus {
 namespace {
 
 constexpr double kPictureTime = 1.0 / 30;  // s
 constexpr double kFollowed = 6;            // s
-constexpr double kOpening = 0.7e-3;        // m from the tip to the middle of its opening
 
 }  // namespace
 
@@ -27,9 +27,10 @@ InjectionPlume::InjectionPlume(const Scene& scene, const InjectionRun& run, doub
 
 PlumeSource InjectionPlume::source_at(double time) const {
   const InjectionRow& row = row_of(*run_, time);
+  const double opening = bevel_middle(run_->spec.plunger.needle.outer_diameter);
   const Vec3 axis = run_->X_JN.linear().col(2);
   PlumeSource source;
-  source.p_J = run_->X_JN.translation() + (row.depth - run_->depth - kOpening) * axis;
+  source.p_J = run_->X_JN.translation() + (row.depth - run_->depth - opening) * axis;
   source.axis_J = axis;
   source.bore = bore_;
   for (std::size_t k = 0; k < holds_.size() && k < row.volumes.size(); ++k)

@@ -14,6 +14,11 @@ namespace artus {
   return 2.5 * outer_diameter;
 }
 
+/// m from the tip to the middle of its opening: where liquid leaves the needle.
+[[nodiscard]] constexpr double bevel_middle(double outer_diameter) noexcept {
+  return 0.5 * bevel_length(outer_diameter);
+}
+
 /// In which places the opening of a needle's bevel lies: the layer of the tip and the one before
 /// it, by the bevel's length in each. Outside the body, in air. `of_region`: (n_regions), as
 /// JointSpaces has it. A thin layer between two others counts for what it takes of the bevel.

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <thread>
 
 #include <fcntl.h>
@@ -83,6 +84,50 @@ class HostileMemory : public ::testing::Test {
   std::unique_ptr<artus_shm_image> image_ = std::make_unique<artus_shm_image>();
   std::uint64_t sample_ = 0;
 };
+
+TEST_F(HostileMemory, APlungerThatCannotBeIsRefusedAndTheNextOneServed) {
+  struct Wrong {
+    std::uint32_t sign;
+    double travel;
+    double force;
+  };
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  constexpr std::uint32_t kTravel = ARTUS_SHM_PLUNGER_TRAVEL;
+  constexpr std::uint32_t kForce = ARTUS_SHM_PLUNGER_FORCE;
+  const std::vector<Wrong> all{{kTravel, kNan, 0},       {kTravel, kInfinity, 0},
+                               {kTravel, 1e300, 0},      {kTravel, -1e300, 0},
+                               {kForce, 0, kNan},        {kForce, 0, -kInfinity},
+                               {kForce, 0, 1e9},         {kForce, 0, -1e300},
+                               {kTravel | kForce, 0, 0}, {kForce | 0x80000000U, 0, 5}};
+  ASSERT_TRUE(talk_until_answered());
+  const auto say = [&](const Wrong& wrong) {
+    artus_shm_pos pos = artus_shm_pos_init();
+    pos.sample = ++sample_;
+    pos.present = ARTUS_SHM_NEEDLE | ARTUS_SHM_PROBE | wrong.sign;
+    pos.needle_position[2] = -10e-3;
+    pos.plunger_travel = wrong.travel;
+    pos.plunger_force = wrong.force;
+    artus_shm_write_pos(&link_, &pos);
+    test::sleep_us(1000);
+    if (artus_shm_read_force(&link_, &force_) != 1) return;
+    for (const double v : {force_.force[0], force_.force[1], force_.force[2], force_.thumb_force,
+                           force_.pressure, force_.flow, force_.given, force_.drawn, force_.travel})
+      ASSERT_TRUE(std::isfinite(v));
+    ASSERT_LE(std::abs(force_.thumb_force), SyringeCore::kMostForce);
+  };
+  for (const Wrong& wrong : all) {
+    for (int i = 0; i < 30; ++i) say(wrong);
+    EXPECT_EQ(force_.given, 0) << wrong.travel << ' ' << wrong.force;
+    EXPECT_NE(force_.status, 0U) << wrong.travel << ' ' << wrong.force;
+    ASSERT_TRUE(talk_until_answered()) << "the next sample is served";
+  }
+  // In the air a syringe gives what is pushed, against nothing but the needle.
+  for (int i = 0; i < 3000 && force_.given <= 0; ++i) say({kForce, 0, 15});
+  EXPECT_GT(force_.given, 0);
+  EXPECT_LT(force_.given, 5.1e-6);
+  EXPECT_NEAR(force_.tip_pressure, 0, 1);
+}
 
 struct Spoiling {
   const char* name;

@@ -27,7 +27,7 @@ class SyringeReadingTest : public testing::Test {
     now.inserted = 1;
     now.input.device.plunger = PlungerSign::force;
     now.feedback.plunger = felt;
-    return read_syringe(*scene_, spaces_, now, 5e-6);
+    return read_syringe(*scene_, spaces_, now, SessionParams{});
   }
 
   std::shared_ptr<const Scene> scene_;
@@ -35,7 +35,7 @@ class SyringeReadingTest : public testing::Test {
 };
 
 TEST_F(SyringeReadingTest, TellsWhatIsLeftAndIsSilentUntilItIsUsed) {
-  EXPECT_FALSE(read_syringe(*scene_, spaces_, HapticSnapshot{}, 5e-6).used);
+  EXPECT_FALSE(read_syringe(*scene_, spaces_, HapticSnapshot{}, SessionParams{}).used);
   PlungerFeedback felt;
   felt.given = 1.2e-6;
   felt.thumb_force = 3;
