@@ -9,6 +9,7 @@
 #include "artus/core/printed.h"
 #include "artus/core/text_file.h"
 #include "artus/core/units.h"
+#include "artus/operators/thumb_dose.h"
 
 namespace artus {
 namespace {
@@ -114,6 +115,33 @@ std::vector<Claim> claims_of(const InjectionRun& run) {
   return claims;
 }
 
+double mean_flow(const InjectionRun& run) {
+  double sum = 0;
+  int n = 0;
+  for (const InjectionRow& row : run.rows) {
+    if (row.phase != "inject" || row.plunger.flow <= ThumbDose::kFlows) continue;
+    sum += row.plunger.flow;
+    ++n;
+  }
+  return n > 0 ? sum / n : 0;
+}
+
+std::vector<std::string> notes_of(const InjectionRun& run) {
+  constexpr double kKept = 0.8;  // of the rate; slower is another injection than was asked for
+  std::vector<std::string> notes;
+  const double flow = mean_flow(run);
+  if (run.given > 0 && flow < kKept * run.spec.rate)
+    notes.push_back(printed("the rate was not kept: %.3g of %.3g ml/s, with up to %.0f N on a "
+                            "plunger of %.0f mm2; a smaller barrel or a wider needle gives more",
+                            flow / kCubicCentimetre, run.spec.rate / kCubicCentimetre,
+                            run.highest_force,
+                            run.spec.plunger.syringe.area() / (kMillimetre * kMillimetre)));
+  if (run.given > 0 && !run.complete)
+    notes.push_back(printed("not all was given: %.3g of %.3g ml", run.given / kCubicCentimetre,
+                            run.spec.volume / kCubicCentimetre));
+  return notes;
+}
+
 nlohmann::json summarize(const InjectionRun& run) {
   auto places = nlohmann::json::object();
   for (std::size_t k = 0; k < run.places.size(); ++k)
@@ -129,6 +157,8 @@ nlohmann::json summarize(const InjectionRun& run) {
           {"liquid", run.spec.plunger.liquid.name},
           {"meant_ml", run.spec.volume / kCubicCentimetre},
           {"rate_ml_s", run.spec.rate / kCubicCentimetre},
+          {"flow_ml_s", mean_flow(run) / kCubicCentimetre},
+          {"notes", notes_of(run)},
           {"needle_mm", run.spec.plunger.needle.length / kMillimetre},
           {"given_ml", run.given / kCubicCentimetre},
           {"drawn_ml", run.drawn / kCubicCentimetre},

@@ -16,6 +16,12 @@ namespace artus {
 /// reached its place, and into a bursa, joint or sheath at least 95 % of what was given.
 [[nodiscard]] std::vector<Claim> claims_of(const InjectionRun& run);
 
+/// m^3/s, mean over the time of the push in which it flowed; 0: never.
+[[nodiscard]] double mean_flow(const InjectionRun& run);
+
+/// What was asked for and not done, a sentence each: a rate below four fifths of it, a volume.
+[[nodiscard]] std::vector<std::string> notes_of(const InjectionRun& run);
+
 /// Places, volumes, pressures, forces, the patient's words and claims, in the units of the names.
 [[nodiscard]] nlohmann::json summarize(const InjectionRun& run);
 

@@ -84,6 +84,24 @@ TEST(InjectionRun, ASlowRateOnAWideBarrelGivesWhatIsMeantForIt) {
   EXPECT_NEAR(run->given, 15e-6, 0.3e-6);
 }
 
+TEST(InjectionRun, ARateThatTheThumbCannotKeepIsTold) {
+  const auto scene = shoulder_like();
+  InjectionSpec spec = spec_into(*scene, "bursa", 4e-6);
+  spec.rate = 0.1e-6;
+  const auto kept = run_injection(*scene, spec);
+  ASSERT_TRUE(kept);
+  EXPECT_NEAR(mean_flow(*kept), 0.1e-6, 0.01e-6);
+  EXPECT_TRUE(notes_of(*kept).empty()) << notes_of(*kept).front();
+  spec.plunger.syringe = syringe_for(50e-6);
+  spec.plunger.syringe.filled = 5e-6;
+  spec.rate = 2e-6;
+  const auto slow = run_injection(*scene, spec);
+  ASSERT_TRUE(slow);
+  EXPECT_LT(mean_flow(*slow), 1.6e-6);
+  ASSERT_FALSE(notes_of(*slow).empty());
+  EXPECT_NE(notes_of(*slow).front().find("rate was not kept"), std::string::npos);
+}
+
 TEST(InjectionRun, IsTheSameTwice) {
   const auto scene = shoulder_like();
   const InjectionSpec spec = spec_into(*scene, "muscle", 0.2e-6);
