@@ -79,8 +79,7 @@ void print(const nlohmann::json& report) {
   std::printf("thumb at most %.1f N, tip at most %.1f kPa, tip walked %.2f mm\n",
               report["highest_thumb_n"].get<double>(), report["highest_tip_kpa"].get<double>(),
               report["tip_walk_mm"].get<double>());
-  for (const auto& note : report["notes"])
-    std::printf("! %s\n", note.get<std::string>().c_str());
+  for (const auto& note : report["notes"]) std::printf("! %s\n", note.get<std::string>().c_str());
   for (const auto& line : report["patient"])
     std::printf("%6.1f s  \"%s\"\n", line["time_s"].get<double>(),
                 line["text"].get<std::string>().c_str());

@@ -10,6 +10,8 @@
 namespace artus {
 namespace {
 
+constexpr std::size_t kMostBodies = 3;  // some 200 MB each
+
 std::shared_ptr<const PagePicture> draw(const Scenario& scenario,
                                         const std::shared_ptr<const Scene>& scene) {
   const auto params = make_session_params(scenario);
@@ -42,12 +44,24 @@ void TrainBodies::collect() {
     return;
   Made made = making_.get();
   pictures_.insert_or_assign(made.scenario, made.picture);
+  if (bodies_.count(made.body) == 0) kept_.push_back(made.body);
   bodies_.insert_or_assign(made.body, std::move(made.scene));
+  if (kept_.size() <= kMostBodies) return;
+  bodies_.erase(kept_.front());
+  kept_.pop_front();
 }
 
 void TrainBodies::want(const Scenario& scenario) {
   collect();
-  if (making_.valid() || pictures_.count(scenario.name) != 0) return;
+  if (!making_.valid() && pictures_.count(scenario.name) == 0) begin(scenario);
+}
+
+void TrainBodies::prepare(const Scenario& scenario) {
+  collect();
+  if (!making_.valid() && bodies_.count(key_of(scenario)) == 0) begin(scenario);
+}
+
+void TrainBodies::begin(const Scenario& scenario) {
   const std::string key = key_of(scenario);
   const auto known = bodies_.find(key);
   const std::optional<Body> body =

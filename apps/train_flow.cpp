@@ -205,9 +205,9 @@ class TrainFlow {
   /// The scenario's body, with a page that asks to wait while it is made. False: the window was
   /// closed meanwhile.
   Result<bool> prepare() {
-    bodies_.want(scenario_);
+    bodies_.prepare(scenario_);
     const auto done = [this] {
-      bodies_.want(scenario_);
+      bodies_.prepare(scenario_);
       return bodies_.ready(scenario_);
     };
     if (!done()) {

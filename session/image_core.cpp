@@ -74,7 +74,8 @@ void ImageCore::let_drift(const FrameInput& input, const Scene* filled) {
   if (input.has_needle != 0) {
     const Pose X_JN = to_pose(input.X_JN);
     const Vec3 axis = X_JN.linear().col(2);
-    source = {X_JN.translation() - bevel_middle(needle_shape_.outer_diameter) * axis, axis, needle_shape_.bore, 0};
+    source = {X_JN.translation() - bevel_middle(needle_shape_.outer_diameter) * axis, axis,
+              needle_shape_.bore, 0};
     for (std::uint32_t k = 0; k < input.n_sites; ++k) source->given += input.sites[k].volume;
   }
   plume_.step(*filled, source, Vec3::UnitZ(), since > 0 && since < kLongest ? since : image_time_);

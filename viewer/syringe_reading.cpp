@@ -18,7 +18,8 @@ SyringeReading read_syringe(const Scene& scene, const JointSpaces& spaces,
   reading.thumb = felt.thumb_force;
   reading.pressure = felt.tip_pressure;
   const Pose X_JN = to_pose(now.X_JN);
-  const RegionId region = scene.region_at(X_JN * Vec3(0, 0, -bevel_middle(params.needle_shape.outer_diameter)));
+  const RegionId region =
+      scene.region_at(X_JN * Vec3(0, 0, -bevel_middle(params.needle_shape.outer_diameter)));
   if (!reading.used || now.inserted == 0 || region >= spaces.of_region.size()) return reading;
   const Space& space = spaces.spaces[spaces.of_region[region]];
   double inside = space.law.kind == SpaceKind::open ? felt.given : 0;  // m^3; it is not told of

@@ -182,8 +182,7 @@ void WindowLoop::read_state() {
   input_.needle = read_needle(session_.scene(), input_.now, needle_length_of(session_.params()),
                               target_J_, state_.language);
   if (!spaces_.spaces.empty())
-    input_.syringe =
-        read_syringe(session_.scene(), spaces_, input_.now, session_.params());
+    input_.syringe = read_syringe(session_.scene(), spaces_, input_.now, session_.params());
   const Pose X_JP = to_pose(input_.now.X_JP);
   const auto gap = BodyContact{&session_.scene(), Pose::Identity()}.find_gap(X_JP);
   const bool lifted = input_.now.input.device.has_probe != 0 && (!gap || *gap > kLifted);

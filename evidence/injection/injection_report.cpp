@@ -131,11 +131,11 @@ std::vector<std::string> notes_of(const InjectionRun& run) {
   std::vector<std::string> notes;
   const double flow = mean_flow(run);
   if (run.given > 0 && flow < kKept * run.spec.rate)
-    notes.push_back(printed("the rate was not kept: %.3g of %.3g ml/s, with up to %.0f N on a "
-                            "plunger of %.0f mm2; a smaller barrel or a wider needle gives more",
-                            flow / kCubicCentimetre, run.spec.rate / kCubicCentimetre,
-                            run.highest_force,
-                            run.spec.plunger.syringe.area() / (kMillimetre * kMillimetre)));
+    notes.push_back(
+        printed("the rate was not kept: %.3g of %.3g ml/s, with up to %.0f N on a "
+                "plunger of %.0f mm2; a smaller barrel or a wider needle gives more",
+                flow / kCubicCentimetre, run.spec.rate / kCubicCentimetre, run.highest_force,
+                run.spec.plunger.syringe.area() / (kMillimetre * kMillimetre)));
   if (run.given > 0 && !run.complete)
     notes.push_back(printed("not all was given: %.3g of %.3g ml", run.given / kCubicCentimetre,
                             run.spec.volume / kCubicCentimetre));
