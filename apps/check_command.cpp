@@ -182,6 +182,9 @@ void print_joint(const JointFile& joint, const JointCheck& check, bool all) {
   std::printf("%zu surfaces are mended, %zu need nothing done%s\n", count_mended(check),
               check.surfaces.size() - std::min(check.surfaces.size(), count_mended(check)),
               all ? "" : "; --all lists what was found and done");
+  for (const JointVariant& variant : joint.variants)
+    if (!variant.chosen)
+      std::printf("can have +%s: %s\n", variant.name.c_str(), variant.title.c_str());
   std::printf("%s: %zu structures, %zu refusals, %zu to look at: %s\n", joint.name.c_str(),
               joint.structures.size(), check.count(Verdict::refused), check.count(Verdict::look),
               check.usable() ? "can be compiled" : "cannot be compiled as it is");
@@ -198,8 +201,13 @@ nlohmann::json to_json(const JointFile& joint, const JointCheck& check) {
   auto crossings = nlohmann::json::array();
   for (const Defect& c : check.crossings)
     crossings.push_back({{"first", c.structure}, {"second", other_of(c)}, {"faces", c.count}});
+  auto variants = nlohmann::json::array();
+  for (const JointVariant& variant : joint.variants)
+    variants.push_back(
+        {{"name", variant.name}, {"title", variant.title}, {"chosen", variant.chosen}});
   return {{"joint", joint.name},
           {"structures", joint.structures.size()},
+          {"variants", variants},
           {"findings", findings},
           {"crossings", crossings},
           {"usable", check.usable()}};
