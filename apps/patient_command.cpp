@@ -101,17 +101,16 @@ ExitCode run_patient(const PatientCommandOptions& options) {
     return ExitCode::ok;
   }
   if (options.what == "show" && options.patient.empty())
-    return report_error({ErrorCode::malformed, "say whom to show: artus patient show NAME",
-                         "--patient"},
-                        options.json);
+    return report_error(
+        {ErrorCode::malformed, "say whom to show: artus patient show NAME", "--patient"},
+        options.json);
   auto all = nlohmann::json::array();
   const std::int64_t count = options.what == "draw" ? options.count : 1;
   for (std::int64_t i = 0; i < count; ++i) {
     const std::string drawn = "seed=" + std::to_string(options.seed + i);
-    const std::string patient =
-        options.what == "show"    ? options.patient
-        : options.patient.empty() ? drawn
-                                  : options.patient + "," + drawn;
+    const std::string patient = options.what == "show"    ? options.patient
+                                : options.patient.empty() ? drawn
+                                                          : options.patient + "," + drawn;
     const auto values = values_of(options, patient);
     if (!values) return report_error(values.error(), options.json);
     if (options.json)
@@ -129,7 +128,8 @@ void add_patient_command(Command& app, ExitCode& code) {
   auto options = std::make_shared<PatientCommandOptions>();
   Command* command = add_command(
       app, "patient", "List, show and draw patients: what differs from body to body",
-      "list: those that have a name, and what a joint can be given. show: the values of one. draw:\n"
+      "list: those that have a name, and what a joint can be given. show: the values of one. "
+      "draw:\n"
       "values from the published distributions, given those of a patient. What is printed can be\n"
       "said wherever a patient can, and after '@' behind a joint.\n"
       "Examples:\n"
@@ -140,7 +140,8 @@ void add_patient_command(Command& app, ExitCode& code) {
   command->add_option("what", options->what, "list, show or draw")
       ->required()
       ->one_of({"list", "show", "draw"});
-  command->add_option("patient", options->patient, "a name, fat=12, or several with commas between");
+  command->add_option("patient", options->patient,
+                      "a name, fat=12, or several with commas between");
   command->add_option("--joint,-j", options->joint, "the joint that is to be this patient's");
   command->add_option("--seed", options->seed, "of the first that is drawn")
       ->check(whole_number_in(0, 1000000000))

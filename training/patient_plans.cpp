@@ -21,8 +21,8 @@ std::optional<Vec3> middle_of_target(const Scenario& s, const Scene& scene) {
   const Vec3 way = (s.target.point - s.entry.centre).normalized();
   const double aimed = (s.target.point - s.entry.centre).norm();
   std::optional<double> nearest;
-  for (const TissueInterval& layer : tissue_intervals(
-           scene, {s.entry.centre, s.entry.centre + (aimed + kBeyondTarget) * way})) {
+  for (const TissueInterval& layer :
+       tissue_intervals(scene, {s.entry.centre, s.entry.centre + (aimed + kBeyondTarget) * way})) {
     if (!is_region(scene, layer.region, s.target.structure)) continue;
     const double middle = (layer.entry + layer.exit) / 2;
     if (!nearest || std::abs(middle - aimed) < std::abs(*nearest - aimed)) nearest = middle;

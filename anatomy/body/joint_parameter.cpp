@@ -72,13 +72,14 @@ std::vector<ParameterEntry> read_entries_of(const toml::table& joint, Problems& 
     if (value.is_table() && is_plain_name(name, '_'))
       entries.push_back(read_parameter(name, *value.as_table(), problems));
     else
-      problems.add(value, "parameter '" + name + "' must be a table [parameter.NAME], NAME of a-z, " +
-                              "0-9 and _");
+      problems.add(value, "parameter '" + name +
+                              "' must be a table [parameter.NAME], NAME of a-z, " + "0-9 and _");
   }
   return entries;
 }
 
-/// The tables that all but the last part of a key names; tissues' own are made where there are none.
+/// The tables that all but the last part of a key names; tissues' own are made where there are
+/// none.
 std::vector<toml::table*> find_tables(toml::table& joint, std::string_view path) {
   std::vector<toml::table*> found{&joint};
   const bool may_make = path.rfind("tissue.", 0) == 0;
@@ -160,11 +161,10 @@ Result<void> check_value(const std::string& name, double value, const Population
   const Quantity* quantity = population.find(name);
   if (const JointParameter* p = find_parameter(parameters, name)) {
     if (value >= p->least && value <= p->most) return {};
-    return fail(ErrorCode::invalid,
-                "patient: " + name + printed("=%.6g", value) +
-                    printed(" is beyond what the joint can take, %.6g to %.6g ", p->least,
-                            p->most) +
-                    p->unit);
+    return fail(ErrorCode::invalid, "patient: " + name + printed("=%.6g", value) +
+                                        printed(" is beyond what the joint can take, %.6g to %.6g ",
+                                                p->least, p->most) +
+                                        p->unit);
   }
   if (quantity != nullptr && quantity->person) return {};
   std::vector<std::string_view> known = item_names(parameters);

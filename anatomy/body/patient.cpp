@@ -157,10 +157,9 @@ class Among {
       : q_(quantity),
         sex_(value_of(known, "sex").value_or(0) >= 0.5 ? 1 : 0),
         age_(value_of(known, "age").value_or(0)),
-        excluded_(std::any_of(quantity.unless.begin(), quantity.unless.end(),
-                              [&](const std::string& other) {
-                                return value_of(known, other).value_or(0) >= 0.5;
-                              })) {}
+        excluded_(std::any_of(
+            quantity.unless.begin(), quantity.unless.end(),
+            [&](const std::string& other) { return value_of(known, other).value_or(0) >= 0.5; })) {}
 
   [[nodiscard]] double value(double score) const {
     if (q_.sd[sex_] > 0) return q_.mean[sex_] + q_.sd[sex_] * std::clamp(score, -kClip, kClip);

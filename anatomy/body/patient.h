@@ -18,9 +18,9 @@ struct Quantity {
   std::string name;
   std::string title;
   std::string unit;
-  bool person = false;             ///< says who it is; no joint need have it
-  std::array<double, 2> mean{};    ///< of men, of women
-  std::array<double, 2> sd{};      ///< likewise; 0: not normal
+  bool person = false;                               ///< says who it is; no joint need have it
+  std::array<double, 2> mean{};                      ///< of men, of women
+  std::array<double, 2> sd{};                        ///< likewise; 0: not normal
   std::vector<std::pair<double, double>> quantiles;  ///< value, share of people below it
   std::vector<std::pair<double, double>> chance;     ///< from this age on, probability
   std::vector<std::string> unless;  ///< earlier yes or no: never yes together with any of these

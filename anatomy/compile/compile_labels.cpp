@@ -35,7 +35,7 @@ constexpr double kFacetPerThickness = 1.2;
 constexpr double kDistancePerThickness = 0.12;
 constexpr double kFinestFacet = 0.25;     // of the joint's facet size
 constexpr double kFinestDistance = 0.25;  // of the joint's facet distance
-constexpr double kSpareGrowth = 0.5;      // of a growth, that distances are known beyond it
+constexpr double kGrowthKnown = 1.5;      // of a growth: how far distances are known
 constexpr double kSkinKnown = 40e-3;      // m under the skin, where its normal is known
 
 RegionSizing sizing_of(const JointFile& file, const Structure& s, double thickness) {
@@ -123,8 +123,8 @@ class FieldMaker {
 
   void make_surfaces() {
     tell(file_.body.name);
-    const DistanceField modelled =
-        surface_field(surfaces_.body, file_.body, sizing_of(file_, file_.body, 0));
+    const RegionSizing size = sizing_of(file_, file_.body, 0);
+    const DistanceField modelled = surface_field(surfaces_.body, file_.body, size);
     body_ = grown_body(modelled);
     named_[""] = &body_;
     // Beside each other: one by one, the second core waits at the end of each.
@@ -137,7 +137,7 @@ class FieldMaker {
       fields_[i] = surface_field(surface, s, sizing_[i]);
       if (const double grow = growth_of(s); grow != 0)
         fields_[i] = swept_field(*fields_[i], modelled, grow, surface.thickness,
-                                 room_for(surface, grow, *fields_[i], fields_[i]->band()));
+                                 room_for(surface, s.name, grow, *fields_[i]));
     });
     for (std::size_t i = 0; i < fields_.size(); ++i)
       if (fields_[i]) named_[file_.structures[i].name] = &*fields_[i];
@@ -146,8 +146,7 @@ class FieldMaker {
   // Constructs may name constructs: repeat until no further one can be made. Gaps wait for all
   // that can be made without them, since they take no place of others.
   void make_constructs() {
-    while (make_next(false) || make_next(true)) {
-    }
+    while (make_next(false) || make_next(true)) continue;
   }
 
   // What was known from afar served the constructs alone.
@@ -191,27 +190,28 @@ class FieldMaker {
     const bool is_body = &s == &file_.body;
     std::optional<FarNeed> need;
     if (const auto at = needs_.find(is_body ? "" : s.name); at != needs_.end()) need = at->second;
-    double band = std::abs(growth_of(s)) * (1 + kSpareGrowth);
+    double band = std::abs(growth_of(s)) * kGrowthKnown;
     if (is_body && std::any_of(file_.structures.begin(), file_.structures.end(),
                                [](const Structure& other) { return growth_of(other) != 0; }))
       band = std::max(band, kSkinKnown);
+    constexpr double kFar = std::numeric_limits<double>::infinity();
     if (band == 0) return need;
-    const Vec3 anywhere = Vec3::Constant(std::numeric_limits<double>::infinity());
-    return FarNeed{std::max(band, need ? need->band : 0), {-anywhere, anywhere}};
+    return FarNeed{band + (need ? need->band : 0), {Vec3::Constant(-kFar), Vec3::Constant(kFar)}};
   }
 
   // The body with its skin moved; it tells from afar what the modelled one does.
   [[nodiscard]] DistanceField grown_body(const DistanceField& modelled) const {
     const double grow = growth_of(file_.body);
     if (grow == 0) return modelled;
-    const auto needed = needs_.find("");
-    const double far = needed == needs_.end() ? 0 : needed->second.band;
-    const double band = far + kExtendedBandPerSpacing * modelled.spacing();
-    return offset_field(modelled, grow, room_for(surfaces_.body, grow, modelled, band));
+    return offset_field(modelled, grow, room_for(surfaces_.body, "", grow, modelled));
   }
 
-  [[nodiscard]] FieldSampling room_for(const PreparedSurface& surface, double grow,
-                                       const DistanceField& field, double band) const {
+  // A grown field's samples: as far from it as constructs must know it.
+  [[nodiscard]] FieldSampling room_for(const PreparedSurface& surface, const std::string& name,
+                                       double grow, const DistanceField& field) const {
+    const auto needed = needs_.find(name);
+    const double far = needed == needs_.end() ? 0 : needed->second.band;
+    const double band = far + kExtendedBandPerSpacing * field.spacing();
     const Box box = grown(surface.tree.lower(), surface.tree.upper(), std::abs(grow) + band);
     return {intersection(box_, box), field.spacing(), band};
   }

@@ -55,8 +55,8 @@ TEST(Patient, NothingIsDrawnBeyondTwoStandardDeviations) {
   double least = 1e9;
   double most = -1e9;
   for (int seed = 0; seed < kDraws; ++seed) {
-    const double fat = value_of(
-        draw_patient(population, static_cast<std::uint64_t>(seed), {{"sex", 0}}), "fat");
+    const double fat =
+        value_of(draw_patient(population, static_cast<std::uint64_t>(seed), {{"sex", 0}}), "fat");
     least = std::min(least, fat);
     most = std::max(most, fat);
   }
@@ -75,8 +75,8 @@ double clipped_product(double r) {
       const double x = -kFar + (i + 0.5) * step;
       const double e = -kFar + (j + 0.5) * step;
       const double y = r * x + std::sqrt(1 - r * r) * e;
-      sum += std::clamp(x, -2.0, 2.0) * std::clamp(y, -2.0, 2.0) *
-             std::exp(-(x * x + e * e) / 2) * step * step;
+      sum += std::clamp(x, -2.0, 2.0) * std::clamp(y, -2.0, 2.0) * std::exp(-(x * x + e * e) / 2) *
+             step * step;
     }
   return sum / (2 * M_PI);
 }
@@ -99,8 +99,8 @@ TEST(Patient, GivenABodyMassTheFatFollowsByItsRegression) {
   // min(1.3 + 0.76 e, 2) = 1.3 - 0.76 (p(k) - k (1 - P(k))), k = 0.7 / 0.76
   const double s = std::sqrt(1 - 0.65 * 0.65);
   const double k = 0.7 / s;
-  const double cut = s * (std::exp(-k * k / 2) / std::sqrt(2 * M_PI) -
-                          k * std::erfc(k / std::sqrt(2.0)) / 2);
+  const double cut =
+      s * (std::exp(-k * k / 2) / std::sqrt(2 * M_PI) - k * std::erfc(k / std::sqrt(2.0)) / 2);
   const double mean = mean_of(bundled(), {{"sex", 0}, {"bmi", 34.5}},
                               [](const auto& v) { return (value_of(v, "fat") - 5.9) / 1.75; });
   EXPECT_NEAR(mean, 1.3 - cut, 4 * s / std::sqrt(kDraws));
@@ -113,7 +113,9 @@ TEST(Patient, SharesOfBursaeAndTearsAreThoseOfTheTables) {
     return mean_of(population, given,
                    [&](const auto& v) { return value_of(v, name) > above ? 1.0 : 0.0; });
   };
-  const auto error = [](double p) { return 4 * std::sqrt(p * (1 - p) / kDraws) + 1e-9; };
+  const auto error = [](double p) {
+    return 4 * std::sqrt(p * (1 - p) / kDraws) + 1e-9;
+  };
   // A drawn value is rounded to 0.01, so the edges of the published classes lie between two.
   EXPECT_NEAR(share({}, "bursa", 1.005), 129 / 200.0, error(0.6) + 0.003);
   EXPECT_NEAR(share({}, "bursa", 2.005), 47 / 200.0, error(0.2) + 0.003);
