@@ -155,8 +155,7 @@ TEST(GrownField, ABallMovedAlongTheSkinsNormalCoversTheWayOfItsOuterHalf) {
   const Box box{Vec3::Constant(-15 * kMm), Vec3::Constant(15 * kMm)};
   const FieldSampling sampling{box, 0.5 * kMm, 14 * kMm};
   const auto field_of = [&](const Vec3& centre, double radius) {
-    return DistanceField::compute(DistanceTree(test::make_sphere(centre * kMm, radius * kMm)),
-                                  sampling);
+    return DistanceField::compute(DistanceTree(make_sphere(centre * kMm, radius * kMm)), sampling);
   };
   const DistanceField skin = field_of(Vec3(0, 0, -40), 40);
   const DistanceField ball = field_of(Vec3(0, 0, -8), 3);
