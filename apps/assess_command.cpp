@@ -14,6 +14,7 @@
 #include "artus/core/text_file.h"
 #include "artus/core/units.h"
 #include "artus/training/assessment.h"
+#include "artus/training/patient_plans.h"
 #include "artus/training/player.h"
 
 namespace artus {
@@ -118,11 +119,12 @@ void tell_pictures(const AssessOptions& options, const Recording& recording) {
 
 /// A recording of a scenario's attempt, against its goals.
 Result<Assessment> assess_attempt(const AssessOptions& options) {
-  const auto scenario = find_scenario(options.scenario);
+  auto scenario = find_scenario(options.scenario);
   ARTUS_TRY(scenario);
   const auto scene =
       load_scene(*scenario, options.joint.joint, make_progress_printer(options.json));
   ARTUS_TRY(scene);
+  follow_patient(*scenario, **scene);
   const auto recording = read_any_recording(options.recording, *scene);
   ARTUS_TRY(recording);
   tell_pictures(options, *recording);

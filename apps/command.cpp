@@ -13,6 +13,7 @@
 
 #include <unistd.h>
 
+#include "artus/anatomy/body/joint_variant.h"
 #include "artus/anatomy/compile/compile.h"
 #include "artus/soft/pose_joint.h"
 
@@ -90,6 +91,13 @@ FlagCheck whole_number_in(std::int64_t low, std::int64_t high) {
                    wanted};
 }
 
+void add_patient_option(Command* command, std::string& patient) {
+  command->add_option(
+      "--patient", patient,
+      "whose joint it is: a name of `artus patient list`, seed=7 (drawn), fat=12, or "
+      "several with commas between; also JOINT@PATIENT");
+}
+
 void add_joint_options(Command* command, JointOptions& options) {
   command
       ->add_option("--joint,-j", options.joint,
@@ -110,7 +118,9 @@ Result<std::shared_ptr<const CompiledJoint>> load(const JointOptions& options,
   load_options.surfaces = options.surfaces;
   load_options.cache = options.cache;
   load_options.compile.skip_refused = options.skip_refused;
-  auto joint = load_joint(options.joint, load_options, progress);
+  auto joint = load_joint(
+      options.patient.empty() ? options.joint : with_patient(options.joint, options.patient),
+      load_options, progress);
   ARTUS_TRY(joint);
   if (!options.pose.empty()) {
     const auto pose = find_pose(*joint, options.pose);

@@ -46,7 +46,10 @@ struct JointOptions {
   std::filesystem::path cache;
   bool skip_refused = false;
   std::string pose;
+  std::string patient;
 };
+/// --patient, for commands whose --patient is not that of the needle's forces.
+void add_patient_option(Command* command, std::string& patient);
 void add_joint_options(Command* command, JointOptions& options);
 
 /// Loads a compiled file, or compiles a joint folder (kept for the next time), in its pose.

@@ -100,6 +100,7 @@ void add_image_command(Command& app, ExitCode& code) {
       "  artus image -j meshes/shoulder --press-n 2 --needle default --needle-way in -o tent.png\n"
       "  artus image -j meshes/shoulder --transducer curved-2-5 --depth 80 -o curved.png");
   add_joint_options(command, options->joint);
+  add_patient_option(command, options->joint.patient);
   add_view_options(command, options->view);
   add_press_options(command, options->press);
   add_drag_option(command, options->press);

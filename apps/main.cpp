@@ -53,6 +53,7 @@ int run(int argc, char** argv) {
   artus::add_replay_command(app, code);
   artus::add_assess_command(app, code);
   artus::add_learners_command(app, code);
+  artus::add_patient_command(app, code);
   artus::add_play_command(app, code);
   artus::add_rate_command(app, code);
   artus::add_scenario_command(app, code);

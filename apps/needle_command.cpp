@@ -94,6 +94,7 @@ void add_needle_command(Command& app, ExitCode& code) {
       "  artus needle -j meshes/simple-shoulder --entry=-51.8,0,-13.9 --tip=-20,0,-5\n"
       "  artus needle -j real.artus --entry=-235,-60,1330 --tip=-195,-50,1340 --json");
   add_joint_options(command, options->joint);
+  add_patient_option(command, options->joint.patient);
   Option* entry =
       command->add_option("--entry", options->entry, "start of the line, usually on the skin");
   Option* tip = command->add_option("--tip", options->tip, "needle tip");

@@ -10,6 +10,7 @@
 #include "artus/apps/training_commands.h"
 #include "artus/training/norms.h"
 #include "artus/training/past_attempts.h"
+#include "artus/training/patient_plans.h"
 #include "artus/training/player.h"
 
 namespace artus {
@@ -18,6 +19,7 @@ namespace {
 struct PlayCommandOptions {
   std::string scenario;
   std::filesystem::path joint;
+  std::string patient;
   std::string hands = "expert";
   std::int64_t seed = 1;
   std::filesystem::path record;
@@ -112,12 +114,14 @@ class Note {
 ExitCode run_play(const PlayCommandOptions& options) {
   const auto skill = skill_of(options.hands);
   if (!skill) return report_error(skill.error(), options.json);
-  const auto scenario = find_scenario(options.scenario);
+  auto scenario = find_scenario(options.scenario);
+  if (scenario && !options.patient.empty()) scenario = of_patient(*scenario, options.patient);
   if (!scenario) return report_error(scenario.error(), options.json);
   auto note = Note::begin(options, *scenario);
   if (!note) return report_error(note.error(), options.json);
   const auto scene = load_scene(*scenario, options.joint, make_progress_printer(options.json));
   if (!scene) return report_error(scene.error(), options.json);
+  follow_patient(*scenario, **scene);
   PlayOptions play_options;
   play_options.seed = static_cast<std::uint64_t>(options.seed);
   play_options.picture_rate = options.picture_rate;
@@ -154,6 +158,7 @@ void add_play_command(Command& app, ExitCode& code) {
       "  artus play gel-align --operator expert --seed 3 --record out/attempt\n"
       "  artus play gel-align --operator novice:20 --json\n"
       "  artus play gel-steep --operator novice --report attempt.html\n"
+      "  artus play sasd-lateral-2 --patient obese_m_bmi38 --record out/attempt\n"
       "  artus play mine.toml --joint shoulder.artus --pictures 10 --record out/attempt");
   command->add_option("scenario", options->scenario, "a file, or the name of a bundled one")
       ->required();
@@ -163,6 +168,7 @@ void add_play_command(Command& app, ExitCode& code) {
       ->check(whole_number_in(0, 1000000000))
       ->capture_default_str();
   command->add_option("--joint,-j", options->joint, "in place of the scenario's");
+  add_patient_option(command, options->patient);
   command->add_option("--record", options->record, "folder for recording, scenario and numbers");
   command->add_option("--report", options->report, "page with verdict, faults and plots (.html)");
   Option* records = command->add_option("--records", options->records,

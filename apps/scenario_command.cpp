@@ -7,6 +7,7 @@
 #include "artus/anatomy/body/joint_variant.h"
 #include "artus/apps/scenario_options.h"
 #include "artus/apps/training_commands.h"
+#include "artus/training/patient_plans.h"
 #include "artus/training/scenario_check.h"
 
 namespace artus {
@@ -16,6 +17,7 @@ struct ScenarioCheckOptions {
   std::string what;
   std::string file;
   std::filesystem::path joint;
+  std::string patient;
   bool all = false;
   bool no_play = false;
   int tries = 20;
@@ -34,8 +36,14 @@ struct Checked {
 
 Result<Checked> check(Scenario scenario, const ScenarioCheckOptions& options) {
   const Progress progress = make_progress_printer(options.json);
+  if (!options.patient.empty()) {
+    auto other = of_patient(scenario, options.patient);
+    ARTUS_TRY(other);
+    scenario = std::move(*other);
+  }
   const auto scene = load_scene(scenario, options.joint, progress);
   ARTUS_TRY(scene);
+  follow_patient(scenario, **scene);
   Checked out;
   out.problems = find_problems(scenario, *scene);
   if (out.problems.empty() && !options.no_play) {
@@ -153,6 +161,7 @@ void add_scenario_command(Command& app, ExitCode& code) {
   command->add_option("scenario", options->file, "a file, or the name of a bundled one");
   command->add_flag("--all", options->all, "every bundled scenario");
   command->add_option("--joint,-j", options->joint, "in place of the scenario's");
+  add_patient_option(command, options->patient);
   command->add_flag("--no-play", options->no_play, "only whether it can be done");
   command->add_option("--tries", options->tries, "seeds of each simulated operator")
       ->check(whole_number_in(1, 1000))

@@ -74,6 +74,7 @@ void add_slice_command(Command& app, ExitCode& code) {
       "  artus slice -j meshes/shoulder --press-mm 5 -o pressed.png\n"
       "  artus slice -j meshes/shoulder --needle default -o labels.png --ids ids.png --json");
   add_joint_options(command, options->joint);
+  add_patient_option(command, options->joint.patient);
   add_view_options(command, options->view);
   add_press_options(command, options->press);
   add_drag_option(command, options->press);

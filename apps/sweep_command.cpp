@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "artus/apps/pose_files.h"
+#include "artus/core/noise.h"
 #include "artus/dataset/pose_draw.h"
 #include "artus/dataset/shards.h"
 #include "artus/dataset/sweep.h"
@@ -56,6 +57,14 @@ Result<void> load_drawn(const SweepCommandOptions& options, const DrawRanges& ra
   for (const std::filesystem::path& file : ranges.joints) {
     JointOptions patient = options.joint;
     patient.joint = file;
+    const auto joint = load(patient, make_progress_printer(options.json));
+    ARTUS_TRY(joint);
+    sweep.patients.push_back(std::make_shared<const Scene>(*joint));
+  }
+  for (std::size_t i = 0; i < ranges.drawn_patients; ++i) {
+    constexpr std::uint64_t kSeeds = 1'000'000'000;
+    JointOptions patient = options.joint;
+    patient.patient = "seed=" + std::to_string(mix_bits(mix_bits(options.view.seed) ^ i) % kSeeds);
     const auto joint = load(patient, make_progress_printer(options.json));
     ARTUS_TRY(joint);
     sweep.patients.push_back(std::make_shared<const Scene>(*joint));

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "artus/echo/renderer.h"
+#include "artus/training/patient_plans.h"
 #include "artus/training/player.h"
 
 namespace artus {
@@ -12,8 +13,10 @@ namespace {
 
 constexpr std::size_t kMostBodies = 3;  // some 200 MB each
 
-std::shared_ptr<const PagePicture> draw(const Scenario& scenario,
+std::shared_ptr<const PagePicture> draw(const Scenario& modelled,
                                         const std::shared_ptr<const Scene>& scene) {
+  Scenario scenario = modelled;
+  follow_patient(scenario, *scene);
   const auto params = make_session_params(scenario);
   if (!params) return nullptr;
   Renderer renderer(scene, params->transducer, params->image);

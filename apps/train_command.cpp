@@ -9,6 +9,7 @@
 #include "artus/apps/view_options.h"
 #include "artus/apps/window_options.h"
 #include "artus/core/text_file.h"
+#include "artus/training/patient_plans.h"
 #include "artus/viewer/window_events.h"
 
 namespace artus {
@@ -34,7 +35,7 @@ Result<KeyMap> keys_of(const WindowOptions& window) {
   return KeyMap::parse(*text, window.keys, keyboard);
 }
 
-/// The bundled scenarios by level, and one from a file.
+/// The bundled scenarios by level, and one from a file; all of the patient that is wished for.
 Result<std::vector<Scenario>> scenarios_of(const TrainCommandOptions& options) {
   std::vector<Scenario> all;
   for (const std::string_view text : bundled_scenario_texts()) {
@@ -49,6 +50,12 @@ Result<std::vector<Scenario>> scenarios_of(const TrainCommandOptions& options) {
       return s.name == asked->name && s.text == asked->text;
     });
     if (!known) all.push_back(std::move(*asked));
+  }
+  for (Scenario& scenario : all) {
+    if (options.wishes.patient.empty() || scenario.joint.empty()) continue;
+    auto other = of_patient(scenario, options.wishes.patient);
+    ARTUS_TRY(other);
+    scenario = std::move(*other);
   }
   std::stable_sort(all.begin(), all.end(),
                    [](const Scenario& a, const Scenario& b) { return a.level < b.level; });
@@ -150,6 +157,7 @@ void add_train_command(Command& app, ExitCode& code) {
   command->add_option("--attempts", options->attempts,
                       "folder of the attempts (default: attempts, beside the records)");
   command->add_option("--joint,-j", options->wishes.joint, "in place of the scenarios' own");
+  add_patient_option(command, options->wishes.patient);
   SessionOptions& session = options->session;
   command
       ->add_option("--input", session.input,

@@ -10,6 +10,7 @@
 
 #include "artus/apps/train_pages.h"
 #include "artus/apps/train_review.h"
+#include "artus/training/patient_plans.h"
 
 namespace artus {
 namespace {
@@ -125,6 +126,7 @@ class TrainFlow {
     auto asked = find_scenario(wishes_.scenario);
     ARTUS_TRY(asked);
     choose(*asked);
+    if (!wishes_.patient.empty()) scenario_ = scenarios_[at_];  // that of the patient
     return Stage::briefing;
   }
 
@@ -218,6 +220,7 @@ class TrainFlow {
     auto scene = bodies_.scene(scenario_);
     ARTUS_TRY(scene);
     scene_ = *scene;
+    follow_patient(scenario_, *scene_);
     return true;
   }
 

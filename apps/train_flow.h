@@ -16,6 +16,7 @@ struct TrainWishes {
   std::string cohort;           ///< of someone new
   std::string scenario;         ///< a file, or the name of a bundled one
   std::filesystem::path joint;  ///< in place of the scenarios' own
+  std::string patient;          ///< in place of theirs
 };
 
 /// Shows who, what, briefing, attempt, verdict and review one after the other until someone leaves

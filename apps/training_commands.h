@@ -9,6 +9,7 @@ namespace artus {
 
 void add_assess_command(Command& app, ExitCode& code);
 void add_learners_command(Command& app, ExitCode& code);
+void add_patient_command(Command& app, ExitCode& code);
 void add_play_command(Command& app, ExitCode& code);
 void add_rate_command(Command& app, ExitCode& code);
 void add_scenario_command(Command& app, ExitCode& code);

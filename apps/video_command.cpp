@@ -56,6 +56,7 @@ void add_video_command(Command& app, ExitCode& code) {
       "  artus video -j shoulder.artus --path path.jsonl -o out/path.mp4\n"
       "  artus video -j shoulder.artus --path path.csv --labels --fps 15 -o out/path.avi");
   add_joint_options(command, options->joint);
+  add_patient_option(command, options->joint.patient);
   command->add_option("--path", options->path, "list of poses (.jsonl, .csv, .mha)")->required();
   add_imaging_options(command, options->view);
   command->add_option("-o,--out", options->out, "video file (.mp4, .avi)")->required();

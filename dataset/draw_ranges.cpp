@@ -108,6 +108,7 @@ Result<DrawRanges> parse_draw_ranges(std::string_view text, const std::string& n
   read("patient", [&name](TomlTable& table, DrawRanges& out) {
     for (const std::string& file : texts_at(table, "joints"))
       out.joints.push_back(std::filesystem::path(name).parent_path() / file);
+    out.drawn_patients = static_cast<std::size_t>(table.number("drawn", 1, 1000).value_or(0));
   });
   root.finish();
   if (!problems.empty()) return problems.refusal(ErrorCode::invalid, name);
@@ -132,7 +133,8 @@ std::uint64_t hash_of(const DrawRanges& r) {
     out.put(share);
   out.put_array(r.gauges);
   for (const std::string& transducer : r.transducers) out.put(std::string_view(transducer));
-  out.put(static_cast<std::uint64_t>(r.joints.size()));  // their digests are in the sidecar
+  // Their digests are in the sidecar.
+  out.put(static_cast<std::uint64_t>(r.joints.size() + r.drawn_patients));
   return hash_bytes(out.bytes());
 }
 

@@ -38,6 +38,7 @@ struct DrawRanges {
   std::optional<double> echogenic_share;  ///< of the needles that are dimpled
   std::vector<std::string> transducers;   ///< names or .toml files
   std::vector<std::filesystem::path> joints;  ///< further patients beside the sweep's joint
+  std::size_t drawn_patients = 0;             ///< so many of the sweep's joint, drawn by its seed
   double press_share = 0;                     ///< of the frames in which the probe presses
   DrawRange press_depth{0, 4e-3};             ///< m, along the beam
 };

@@ -198,6 +198,9 @@ void read_head(TomlTable& toml, Scenario& s) {
   if (toml.has("variants")) s.variants = toml.required_texts("variants");
   if (s.joint.empty() && !s.variants.empty())
     toml.problem_at("variants", "they are of a joint, and there is none");
+  s.patient = toml.text("patient").value_or("");
+  if (s.joint.empty() && !s.patient.empty())
+    toml.problem_at("patient", "is of a joint, and there is none");
   s.procedure = toml.text("procedure").value_or("");
   s.level = static_cast<int>(toml.required_number("level", 0, 8));
   s.seed = static_cast<std::uint64_t>(toml.number("seed", 0, 1e15).value_or(1));
@@ -223,7 +226,7 @@ bool Scenario::aided() const noexcept {
 std::filesystem::path Scenario::body() const {
   std::filesystem::path body = joint;
   for (const std::string& variant : variants) body = with_variant(body, variant);
-  return body;
+  return patient.empty() ? body : with_patient(body, patient);
 }
 
 SyringeChoice syringe_of(const Scenario& scenario) {

@@ -65,6 +65,7 @@ struct Scenario {
   std::string title_fr;               ///< the same in French; empty: there is none
   std::string joint;                  ///< a joint folder or compiled file; empty: `gel`
   std::vector<std::string> variants;  ///< of the joint: what this patient has
+  std::string patient;                ///< whose joint it is (resolve_patient); empty: as modelled
   std::optional<GelBlock> gel;
   std::string procedure;
   int level = 0;  ///< rung of the ladder, 0 to 8
@@ -86,7 +87,7 @@ struct Scenario {
   std::vector<std::string> steps;
   std::string text;  ///< the file as read
   [[nodiscard]] bool aided() const noexcept;
-  /// The joint with its variants, as load_joint takes it.
+  /// The joint with its variants and patient, as load_joint takes it.
   [[nodiscard]] std::filesystem::path body() const;
 };
 

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <set>
 
+#include "artus/anatomy/body/joint_parameter_toml.h"
 #include "artus/anatomy/body/joint_pose_toml.h"
 #include "artus/anatomy/body/joint_structure.h"
 #include "artus/anatomy/body/joint_variant_toml.h"
@@ -201,10 +202,10 @@ std::set<std::string, std::less<>> region_names(const JointFile& joint) {
   return names;
 }
 
-/// ARTUS_SURFACES_<NAME>, NAME in capitals with '-' as '_', without variants.
+/// ARTUS_SURFACES_<NAME>, NAME in capitals with '-' as '_', without variants and patient.
 std::string surfaces_variable(const std::string& joint_name) {
   std::string variable = "ARTUS_SURFACES_";
-  for (const char c : joint_name.substr(0, joint_name.find('+')))
+  for (const char c : joint_name.substr(0, joint_name.find_first_of("+@")))
     variable += c == '-' ? '_' : static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
   return variable;
 }
@@ -252,10 +253,17 @@ Result<JointFile> parse_joint(std::string_view text, const std::filesystem::path
   Problems problems;
   JointFile joint;
   joint.folder = choice.folder;
-  joint.variants = choose_variants(*document, choice.variants, problems);
+  joint.parameters = read_parameters(*document, problems);
+  auto patient = resolve_patient(choice.patient, joint.parameters);
+  if (!patient) return fail(patient.error().code, patient.error().message, where);
+  joint.patient = std::move(*patient);
+  const std::vector<std::string> variants =
+      apply_patient(*document, joint.patient, choice.variants, problems);
+  joint.variants = choose_variants(*document, variants, problems);
   TomlTable toml(*document, "joint", problems);
   read_identity(toml, joint);
   for (const std::string& variant : choice.variants) joint.name += "+" + variant;
+  if (!joint.patient.empty()) joint.name += "@" + to_text(joint.patient);
   const double unit = length_unit(toml, "units", kMillimetre);
   if (!toml.has("units")) toml.problem("'units' is missing (\"mm\", \"cm\" or \"m\")");
   const auto surfaces = toml.text("surfaces").value_or(".");

@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "artus/anatomy/body/joint_parameter.h"
 #include "artus/anatomy/body/joint_pose.h"
 #include "artus/anatomy/body/joint_variant.h"
 #include "artus/anatomy/body/space.h"
@@ -59,6 +60,9 @@ struct SurfaceFile {
   bool has_own_unit = false;    ///< the joint file says `units` for this file: its size is meant
   std::string repair = "auto";  ///< "auto", "none", "wrap"
   double thicken = 0;           ///< m; an open sheet becomes a plate of this thickness (0: refused)
+  /// m, how far its side that faces the skin is moved outward, along the skin's normal; negative:
+  /// inward. Of the body: all of its skin.
+  double grow = 0;
 };
 
 /// How fibres run where the structure is bent: from the end that lies farthest against the fibre
@@ -101,11 +105,11 @@ struct RegionOfInterest {
 
 /// A joint file, parsed and valid: units are metres, names are unique and known.
 struct JointFile {
-  std::string name;                      ///< with its variants: "shoulder+effusion"
-  std::string title;                     ///< one line for people
-  std::string side;                      ///< "left", "right" or "none"
-  std::string axes;                      ///< "LPS", "RAS", ...: direction of +x +y +z
-  std::filesystem::path folder;          ///< where joint.toml is
+  std::string name;              ///< with variants and patient: "shoulder+effusion@fat=12,bmi=31"
+  std::string title;             ///< one line for people
+  std::string side;              ///< "left", "right" or "none"
+  std::string axes;              ///< "LPS", "RAS", ...: direction of +x +y +z
+  std::filesystem::path folder;  ///< where joint.toml is
   std::filesystem::path surface_folder;  ///< where the surface files are
   Structure body;                        ///< the outer skin; its tissue is the filler's
   std::string filler_name;               ///< region name of what no structure claims
@@ -124,14 +128,16 @@ struct JointFile {
   std::vector<Space> spaces;                 ///< where liquid may go, as far as the file says
   std::vector<JointPose> poses;              ///< how the joint may be held
   std::vector<JointVariant> variants;        ///< all that the file declares, which are chosen
+  std::vector<JointParameter> parameters;    ///< all that the file declares
+  std::vector<PatientValue> patient;         ///< whose joint it is; empty: as modelled
 };
 
 /// Reads joint.toml in the folder that `joint` names, with the variants that it asks for
-/// (split_variants). `surface_folder` replaces the file's own when not empty; otherwise
-/// the environment's ARTUS_SURFACES_<NAME> does (joint name in capitals, '-' as '_') when set.
-/// Errors: not_found (file, surface folder, tissue library), malformed (with line and column),
-/// invalid (unknown key or tissue, duplicate name, missing value, construct of an unknown
-/// structure); every problem of the file is named in one message.
+/// and of the patient it names (split_variants). `surface_folder` replaces the file's own when not
+/// empty; otherwise the environment's ARTUS_SURFACES_<NAME> does (joint name in capitals, '-' as
+/// '_') when set. Errors: not_found (file, surface folder, tissue library), malformed (with line
+/// and column), invalid (unknown key or tissue, duplicate name, missing value, construct of an
+/// unknown structure); every problem of the file is named in one message.
 [[nodiscard]] Result<JointFile> read_joint(const std::filesystem::path& joint,
                                            const std::filesystem::path& surface_folder = {});
 

@@ -5,6 +5,7 @@
 #include <sstream>
 #include <string_view>
 
+#include "artus/anatomy/body/joint_parameter_toml.h"
 #include "artus/anatomy/body/joint_variant_toml.h"
 #include "artus/core/text_file.h"
 #include "artus/core/toml_table.h"
@@ -19,14 +20,16 @@ constexpr std::array<std::string_view, 12> kShapeNothing{
 }  // namespace
 
 Result<std::string> read_joint_shape(const std::filesystem::path& folder,
-                                     const std::vector<std::string>& variants) {
+                                     const std::vector<std::string>& variants,
+                                     const std::vector<PatientValue>& patient) {
   const auto file = folder / "joint.toml";
   const auto text = read_bytes(file);
   ARTUS_TRY(text);
   auto document = parse_toml(*text, file.string());
   ARTUS_TRY(document);
   Problems problems;
-  static_cast<void>(choose_variants(*document, variants, problems));
+  const auto chosen = apply_patient(*document, patient, variants, problems);
+  static_cast<void>(choose_variants(*document, chosen, problems));
   if (!problems.empty()) return problems.refusal(ErrorCode::invalid, file.string());
   for (const std::string_view key : kShapeNothing) document->erase(key);
   if (auto* structures = document->get_as<toml::array>("structure"))

@@ -29,6 +29,7 @@ SurfaceFile read_surface_file(TomlTable& toml, double unit) {
   if (surface.repair != "auto" && surface.repair != "none" && surface.repair != "wrap")
     toml.problem_at("repair", "must be \"auto\", \"none\" or \"wrap\"");
   surface.thicken = toml.number("thicken", 0, kLongest, unit).value_or(0);
+  surface.grow = toml.number("grow", -kLongest, kLongest, unit).value_or(0);
   return surface;
 }
 

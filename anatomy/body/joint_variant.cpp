@@ -138,10 +138,16 @@ std::vector<std::string> chosen_names(const std::vector<JointVariant>& variants)
 }
 
 JointChoice split_variants(const std::filesystem::path& joint) {
-  JointChoice choice{joint, {}};
+  JointChoice choice{joint, {}, {}};
   std::error_code ignored;
   if (std::filesystem::exists(joint, ignored)) return choice;
-  const std::string name = joint.filename().string();
+  std::string name = joint.filename().string();
+  if (const std::size_t at = name.find('@'); at != std::string::npos && at > 0) {
+    choice.patient = name.substr(at + 1);
+    name.resize(at);
+    choice.folder = joint.parent_path() / name;
+    if (std::filesystem::exists(choice.folder, ignored)) return choice;
+  }
   std::size_t plus = name.find('+');
   if (plus == std::string::npos || plus == 0) return choice;
   for (std::size_t at = name.rfind('+'); at > plus; at = name.rfind('+', at - 1)) {
@@ -162,8 +168,19 @@ JointChoice split_variants(const std::filesystem::path& joint) {
 }
 
 std::filesystem::path with_variant(std::filesystem::path joint, const std::string& variant) {
-  if (joint.has_filename()) return joint += "+" + variant;
-  return joint.parent_path() += "+" + variant;  // "shoulder/"
+  if (!joint.has_filename()) joint = joint.parent_path();  // "shoulder/"
+  const std::string patient = split_variants(joint).patient;
+  return with_patient(with_patient(joint, {}) += "+" + variant, patient);
+}
+
+std::filesystem::path with_patient(const std::filesystem::path& joint, const std::string& patient) {
+  std::filesystem::path out = joint.has_filename() ? joint : joint.parent_path();
+  if (const std::string old = split_variants(out).patient; !old.empty()) {
+    std::string name = out.filename().string();
+    name.resize(name.find('@'));
+    out.replace_filename(name);
+  }
+  return patient.empty() ? out : out += "@" + patient;
 }
 
 bool is_joint_folder(const std::filesystem::path& joint) {

@@ -15,19 +15,24 @@ struct JointVariant {
 
 [[nodiscard]] std::vector<std::string> chosen_names(const std::vector<JointVariant>& variants);
 
-/// A joint folder and the variants that are asked for.
+/// A joint folder, the variants that are asked for and whose joint it is.
 struct JointChoice {
   std::filesystem::path folder;
   std::vector<std::string> variants;  ///< in alphabetical order, each once
+  std::string patient;                ///< as resolve_patient reads it; empty: as modelled
 };
 
-/// Takes "meshes/shoulder+calcific_deposit+effusion" apart. A folder whose own name has a '+' is
-/// that folder.
+/// Takes "meshes/shoulder+calcific_deposit+effusion@adult_f_bmi30" apart. A folder whose own name
+/// has a '+' or '@' is that folder.
 [[nodiscard]] JointChoice split_variants(const std::filesystem::path& joint);
 
 /// `joint` with one more variant asked for.
 [[nodiscard]] std::filesystem::path with_variant(std::filesystem::path joint,
                                                  const std::string& variant);
+
+/// `joint` of the patient that is asked for, in place of any other. Empty: as modelled.
+[[nodiscard]] std::filesystem::path with_patient(const std::filesystem::path& joint,
+                                                 const std::string& patient);
 
 /// Whether `joint` is a folder, with or without variants, and no compiled file.
 [[nodiscard]] bool is_joint_folder(const std::filesystem::path& joint);

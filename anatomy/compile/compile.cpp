@@ -102,17 +102,18 @@ double smallest_part(const std::vector<RegionSizing>& sizing, RegionId region) {
 }
 
 // Where the body was cut it goes on beyond, as it does where the region of interest ends.
-void mark_cuts(TetMesh& mesh, const PreparedSurface& body) {
+void mark_cuts(TetMesh& mesh, const PreparedSurface& body, double grow) {
   if (body.is_cut.empty()) return;
   const DistanceTree cut(without_cuts(body.mesh, body.is_cut, true));
   const DistanceTree skin(without_cuts(body.mesh, body.is_cut));
-  constexpr double kNear = 5e-3;  // m, no face of the hull lies farther from the body's surface
+  // m, no face of the hull lies farther from the body's surface
+  const double near = 5e-3 + std::abs(grow);
   for (Interface& f : mesh.interfaces) {
     if (f.front != kOutside) continue;
     Vec3 centre = Vec3::Zero();
     for (const auto v : f.vertices) centre += mesh.vertices[v] / 3;
-    const double to_cut = cut.distance(centre, kNear);
-    if (to_cut < kNear && to_cut < skin.distance(centre, kNear)) f.front = kBeyond;
+    const double to_cut = cut.distance(centre, near);
+    if (to_cut < near && to_cut < skin.distance(centre, near)) f.front = kBeyond;
   }
 }
 
@@ -212,7 +213,7 @@ Result<CompileOutcome> compile_joint(const JointFile& file, const CompileOptions
   space->labels.layers.shrink_to_fit();
   space->labels.index = {};
   ARTUS_TRY(fill(*complex, *space, stages, report));
-  mark_cuts(complex->mesh, surfaces->body);
+  mark_cuts(complex->mesh, surfaces->body, std::get<SurfaceFile>(file.body.shape).grow);
   for (const std::string& warning : surfaces->body.warnings)
     report.notes.push_back("body: " + warning);
   append_warnings(file, space->labels, *surfaces, report);

@@ -7,6 +7,7 @@
 
 #include "artus/anatomy/body/joint_shape.h"
 #include "artus/anatomy/body/joint_variant.h"
+#include "artus/anatomy/body/skin_line.h"
 #include "artus/anatomy/compile/compile.h"
 #include "artus/anatomy/compile/compiler_version.h"
 #include "artus/anatomy/compile/dress_body.h"
@@ -37,6 +38,12 @@ std::filesystem::path cache_of(const LoadOptions& options) {
   return options.cache.empty() ? default_cache() : options.cache;
 }
 
+/// What the bodies of a joint are called in the cache; those of all its patients alike.
+std::string stem_of(const JointFile& file) {
+  const std::size_t patient = file.name.find('@');
+  return patient == std::string::npos ? file.name : file.name.substr(0, patient) + "@patient";
+}
+
 /// Where a body and the report of its making are kept.
 struct KeptBody {
   std::filesystem::path body;
@@ -46,7 +53,7 @@ struct KeptBody {
 KeptBody place_of(const JointFile& file, const std::string& digest, const LoadOptions& options) {
   const auto cache = cache_of(options);
   const std::string stem =
-      file.name + "-" + digest + (options.compile.skip_refused ? "-partial" : "");
+      stem_of(file) + "-" + digest + (options.compile.skip_refused ? "-partial" : "");
   return {cache / (stem + ".artus"), cache / (stem + ".json")};
 }
 
@@ -71,7 +78,10 @@ std::optional<CompileOutcome> find_kept(const JointFile& file, const std::string
 /// Removes all but the newest bodies of the joint, so that a cache does not grow without end.
 void forget_old(const JointFile& file, const std::filesystem::path& cache) {
   constexpr std::size_t kKept = 4;
+  constexpr std::size_t kKeptPatients = 64;
   constexpr std::size_t kDigest = 32;  // hex digits
+  const std::string name = stem_of(file);
+  const std::size_t kept = file.patient.empty() ? kKept : kKeptPatients;
   struct Old {
     std::filesystem::file_time_type time;
     std::filesystem::path path;
@@ -80,14 +90,14 @@ void forget_old(const JointFile& file, const std::filesystem::path& cache) {
   std::error_code ignored;
   for (const auto& entry : std::filesystem::directory_iterator(cache, ignored)) {
     const std::string stem = entry.path().stem().string();
-    const bool ours = entry.path().extension() == ".artus" && stem.rfind(file.name + "-", 0) == 0 &&
-                      stem.find_first_not_of("0123456789abcdef", file.name.size() + 1) >=
-                          file.name.size() + 1 + kDigest;
+    const bool ours =
+        entry.path().extension() == ".artus" && stem.rfind(name + "-", 0) == 0 &&
+        stem.find_first_not_of("0123456789abcdef", name.size() + 1) >= name.size() + 1 + kDigest;
     if (ours) bodies.push_back({entry.last_write_time(ignored), entry.path()});
   }
   std::sort(bodies.begin(), bodies.end(),
             [](const Old& a, const Old& b) { return a.time > b.time; });
-  for (std::size_t i = kKept; i < bodies.size(); ++i) {
+  for (std::size_t i = kept; i < bodies.size(); ++i) {
     std::filesystem::remove(bodies[i].path, ignored);
     std::filesystem::remove(bodies[i].path.replace_extension(".json"), ignored);
   }
@@ -101,6 +111,19 @@ void keep(const JointFile& file, const CompileOutcome& outcome, const KeptBody& 
   forget_old(file, place.body.parent_path());
 }
 
+/// The file with its plans where the compiled body has them.
+JointFile with_plans_of(JointFile file, const CompiledJoint& joint) {
+  file.injections = joint.injections;
+  if (file.X_JP_default) file.X_JP_default = joint.X_JP_default;
+  if (file.needle)
+    file.needle->entry =
+        std::get<SurfaceFile>(file.body.shape).grow == 0
+            ? file.needle->entry
+            : moved_onto_skin(joint, file.needle->entry,
+                              (file.needle->target - file.needle->entry).normalized());
+  return file;
+}
+
 }  // namespace
 
 Result<std::string> compute_source_digest(const JointFile& file) {
@@ -111,7 +134,8 @@ Result<std::string> compute_source_digest(const JointFile& file) {
     digest.add(*bytes);
     return {};
   };
-  const Result<std::string> shape = read_joint_shape(file.folder, chosen_names(file.variants));
+  const Result<std::string> shape =
+      read_joint_shape(file.folder, chosen_names(file.variants), file.patient);
   ARTUS_TRY(shape);
   digest.add(*shape);
   std::vector<const Structure*> all{&file.body};
@@ -143,7 +167,8 @@ Result<CompileOutcome> compile_or_reuse(const JointFile& file, const LoadOptions
   if (options.compile.check_plans) {
     std::vector<std::string> problems;
     const PlanGround ground = make_ground(outcome->joint, file.region_of_interest);
-    for (const PlanProblem& p : find_plan_problems(file, ground)) problems.push_back(to_line(p));
+    for (const PlanProblem& p : find_plan_problems(with_plans_of(file, outcome->joint), ground))
+      problems.push_back(to_line(p));
     ARTUS_TRY(refuse_all(problems, file));
   }
   if (outcome->report.body_kept)

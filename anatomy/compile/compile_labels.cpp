@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <mutex>
 
 #include <tbb/parallel_for.h>
@@ -12,6 +13,7 @@
 #include "artus/anatomy/compile/compiler_version.h"
 #include "artus/anatomy/compile/construct.h"
 #include "artus/anatomy/compile/cut_faces.h"
+#include "artus/anatomy/compile/grown_field.h"
 #include "artus/core/printed.h"
 #include "artus/core/units.h"
 
@@ -33,6 +35,8 @@ constexpr double kFacetPerThickness = 1.2;
 constexpr double kDistancePerThickness = 0.12;
 constexpr double kFinestFacet = 0.25;     // of the joint's facet size
 constexpr double kFinestDistance = 0.25;  // of the joint's facet distance
+constexpr double kGrowthKnown = 1.5;      // of a growth: how far distances are known
+constexpr double kSkinKnown = 40e-3;      // m under the skin, where its normal is known
 
 RegionSizing sizing_of(const JointFile& file, const Structure& s, double thickness) {
   RegionSizing size;
@@ -67,6 +71,11 @@ Box grown(const Vec3& lower, const Vec3& upper, double margin) {
 Box box_of(const RegionOfInterest& roi) {
   const Vec3 half = roi.half_extent.value_or(Vec3::Constant(roi.radius));
   return {roi.centre - half, roi.centre + half};
+}
+
+double growth_of(const Structure& s) {
+  const auto* file = std::get_if<SurfaceFile>(&s.shape);
+  return file != nullptr ? file->grow : 0;
 }
 
 double construct_thickness(const Structure& s) {
@@ -114,7 +123,9 @@ class FieldMaker {
 
   void make_surfaces() {
     tell(file_.body.name);
-    body_ = surface_field(surfaces_.body, "", sizing_of(file_, file_.body, 0));
+    const RegionSizing size = sizing_of(file_, file_.body, 0);
+    const DistanceField modelled = surface_field(surfaces_.body, file_.body, size);
+    body_ = grown_body(modelled);
     named_[""] = &body_;
     // Beside each other: one by one, the second core waits at the end of each.
     tbb::parallel_for(std::size_t{0}, fields_.size(), [&](std::size_t i) {
@@ -123,7 +134,10 @@ class FieldMaker {
       const Structure& s = file_.structures[i];
       sizing_[i] = sizing_of(file_, s, surface.thickness);
       tell(s.name);
-      fields_[i] = surface_field(surface, s.name, sizing_[i]);
+      fields_[i] = surface_field(surface, s, sizing_[i]);
+      if (const double grow = growth_of(s); grow != 0)
+        fields_[i] = swept_field(*fields_[i], modelled, grow, surface.thickness,
+                                 room_for(surface, s.name, grow, *fields_[i]));
     });
     for (std::size_t i = 0; i < fields_.size(); ++i)
       if (fields_[i]) named_[file_.structures[i].name] = &*fields_[i];
@@ -132,8 +146,7 @@ class FieldMaker {
   // Constructs may name constructs: repeat until no further one can be made. Gaps wait for all
   // that can be made without them, since they take no place of others.
   void make_constructs() {
-    while (make_next(false) || make_next(true)) {
-    }
+    while (make_next(false) || make_next(true)) continue;
   }
 
   // What was known from afar served the constructs alone.
@@ -157,21 +170,50 @@ class FieldMaker {
                 0.1 + 0.1 * n_told_++ / static_cast<double>(fields_.size() + 1));
   }
 
-  DistanceField surface_field(const PreparedSurface& surface, const std::string& name,
+  DistanceField surface_field(const PreparedSurface& surface, const Structure& s,
                               const RegionSizing& size) const {
     const double spacing = spacing_of(file_, size, surface.thickness);
-    const auto needed = needs_.find(name);
-    const bool extended = needed != needs_.end();
-    const double band = (extended ? kExtendedBandPerSpacing : kBandPerSpacing) * spacing;
+    const std::optional<FarNeed> needed = far_need_of(s);
+    const double band = (needed ? kExtendedBandPerSpacing : kBandPerSpacing) * spacing;
     const Box near = grown(surface.tree.lower(), surface.tree.upper(), band);
     const FieldSampling sampling{intersection(box_, near), spacing, band};
-    if (!extended) return kept_field(surface, sampling, {});
+    if (!needed) return kept_field(surface, sampling, {});
     const double coarse = kFarSpacing * file_.facet_size;
-    const double reach = std::max(needed->second.band + 2 * coarse, band + coarse);
-    const Box far =
-        intersection(grown(surface.tree.lower(), surface.tree.upper(), reach),
-                     grown(needed->second.box.lower, needed->second.box.upper, 2 * coarse));
+    const double reach = std::max(needed->band + 2 * coarse, band + coarse);
+    const Box far = intersection(grown(surface.tree.lower(), surface.tree.upper(), reach),
+                                 grown(needed->box.lower, needed->box.upper, 2 * coarse));
     return kept_field(surface, sampling, FieldSampling{intersection(box_, far), coarse, reach});
+  }
+
+  // What constructs and growth must know of a structure from afar.
+  [[nodiscard]] std::optional<FarNeed> far_need_of(const Structure& s) const {
+    const bool is_body = &s == &file_.body;
+    std::optional<FarNeed> need;
+    if (const auto at = needs_.find(is_body ? "" : s.name); at != needs_.end()) need = at->second;
+    double band = std::abs(growth_of(s)) * kGrowthKnown;
+    if (is_body && std::any_of(file_.structures.begin(), file_.structures.end(),
+                               [](const Structure& other) { return growth_of(other) != 0; }))
+      band = std::max(band, kSkinKnown);
+    constexpr double kFar = std::numeric_limits<double>::infinity();
+    if (band == 0) return need;
+    return FarNeed{band + (need ? need->band : 0), {Vec3::Constant(-kFar), Vec3::Constant(kFar)}};
+  }
+
+  // The body with its skin moved; it tells from afar what the modelled one does.
+  [[nodiscard]] DistanceField grown_body(const DistanceField& modelled) const {
+    const double grow = growth_of(file_.body);
+    if (grow == 0) return modelled;
+    return offset_field(modelled, grow, room_for(surfaces_.body, "", grow, modelled));
+  }
+
+  // A grown field's samples: as far from it as constructs must know it.
+  [[nodiscard]] FieldSampling room_for(const PreparedSurface& surface, const std::string& name,
+                                       double grow, const DistanceField& field) const {
+    const auto needed = needs_.find(name);
+    const double far = needed == needs_.end() ? 0 : needed->second.band;
+    const double band = far + kExtendedBandPerSpacing * field.spacing();
+    const Box box = grown(surface.tree.lower(), surface.tree.upper(), std::abs(grow) + band);
+    return {intersection(box_, box), field.spacing(), band};
   }
 
   // The field of a surface and, where one is given, its coarser one from afar.
@@ -371,7 +413,7 @@ Result<void> check_sizes(const JointFile& file, const PreparedSurfaces& surfaces
 Result<LabelledSpace> make_labelled_space(const JointFile& file, const PreparedSurfaces& surfaces,
                                           const Progress& progress, const KeptParts& parts) {
   LabelledSpace space;
-  const double margin = file.facet_size;
+  const double margin = file.facet_size + std::max(growth_of(file.body), 0.0);
   Box box = grown(surfaces.body.tree.lower(), surfaces.body.tree.upper(), margin);
   if (file.region_of_interest) {
     const Box roi = box_of(*file.region_of_interest);

@@ -173,21 +173,34 @@ DistanceField DistanceField::compute(const DistanceTree& tree, const FieldSampli
   return field;
 }
 
+void DistanceField::sample_of(const BlockSource& at_centre,
+                              const std::function<double(const Vec3&)>& function) {
+  sample(at_centre, [&](const Vec3& corner, float* out) {
+    for (int i = 0; i < kBlock; ++i) {
+      const Vec3 index(i % kSide, i / kSide % kSide, i / kPlane);
+      const double value = function(corner + spacing_ * index);
+      out[i] = static_cast<float>(std::clamp(value, -band_, band_));
+    }
+  });
+}
+
 DistanceField DistanceField::compute(const std::function<double(const Vec3&)>& function,
                                      const FieldSampling& sampling) {
   DistanceField field;
   field.layout(sampling);
-  field.sample(
+  field.sample_of(
       [&](const Vec3& centre, double bound) {
         return value_for_block(function, centre, bound, field.spacing_);
       },
-      [&](const Vec3& corner, float* out) {
-        for (int i = 0; i < kBlock; ++i) {
-          const Vec3 index(i % kSide, i / kSide % kSide, i / kPlane);
-          const double value = function(corner + field.spacing_ * index);
-          out[i] = static_cast<float>(std::clamp(value, -field.band_, field.band_));
-        }
-      });
+      function);
+  return field;
+}
+
+DistanceField DistanceField::compute_throughout(const std::function<double(const Vec3&)>& function,
+                                                const FieldSampling& sampling) {
+  DistanceField field;
+  field.layout(sampling);
+  field.sample_of([&](const Vec3& centre, double /*bound*/) { return function(centre); }, function);
   return field;
 }
 

@@ -49,6 +49,11 @@ class DistanceField {
   [[nodiscard]] static DistanceField compute(const std::function<double(const Vec3&)>& function,
                                              const FieldSampling& sampling);
 
+  /// The same of a function that is nowhere less than half a distance: its values hold throughout
+  /// the band, as those of a surface do.
+  [[nodiscard]] static DistanceField compute_throughout(
+      const std::function<double(const Vec3&)>& function, const FieldSampling& sampling);
+
   /// Adds a coarser field of a wider band for where this one is clamped: distances far from a
   /// surface are smooth. Beyond its box what is clamped here counts as `sampling.band` away.
   /// Requires: `sampling.band` larger than this band.
@@ -104,6 +109,7 @@ class DistanceField {
   [[nodiscard]] bool covers(const Vec3& p) const noexcept;
   void layout(const FieldSampling& sampling);
   void sample(const BlockSource& at_centre, const BlockFiller& fill);
+  void sample_of(const BlockSource& at_centre, const std::function<double(const Vec3&)>& function);
   [[nodiscard]] Vec3 block_corner(std::size_t block) const noexcept;
 
   Vec3 origin_ = Vec3::Zero();

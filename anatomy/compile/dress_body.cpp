@@ -6,6 +6,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "artus/anatomy/body/skin_line.h"
 #include "artus/anatomy/compile/compile_labels.h"
 #include "artus/anatomy/compile/default_poses.h"
 
@@ -75,6 +76,14 @@ std::vector<Region> make_regions(const JointFile& file, const TetMesh& mesh) {
   return regions;
 }
 
+/// Where the patient's skin is not where it was modelled, plans go on from it as they did.
+void follow_skin(CompiledJoint& joint) {
+  Pose& X_JP = joint.X_JP_default;
+  X_JP.translation() = moved_onto_skin(joint, X_JP.translation(), X_JP.linear().col(2));
+  for (PlannedInjection& pass : joint.injections)
+    pass.entry = moved_onto_skin(joint, pass.entry, (pass.target - pass.entry).normalized());
+}
+
 }  // namespace
 
 CompiledJoint dress_body(const JointFile& file, TetMesh mesh, std::string digest,
@@ -91,6 +100,7 @@ CompiledJoint dress_body(const JointFile& file, TetMesh mesh, std::string digest
   joint.X_JP_default = poses.X_JP;
   joint.X_JN_default = poses.X_JN;
   joint.injections = file.injections;
+  if (std::get<SurfaceFile>(file.body.shape).grow != 0) follow_skin(joint);
   joint.spaces = file.spaces;
   joint.poses = file.poses;
   joint.source_digest = std::move(digest);

@@ -192,7 +192,8 @@ TEST(DrawRanges, AreReadWithEverythingThatIsWrong) {
   EXPECT_DOUBLE_EQ(ranges->turn.high, DrawRanges{}.turn.high);
   const auto rich = parse_draw_ranges(
       "[needle]\ngauge = [20]\nlength_mm = [40, 60]\nechogenic = 0.3\n[press]\nshare = 0.2\n"
-      "depth_mm = [1, 3]\n[transducer]\nnames = [\"a\", \"b\"]\n[patient]\njoints = [\"c\"]\n",
+      "depth_mm = [1, 3]\n[transducer]\nnames = [\"a\", \"b\"]\n[patient]\njoints = [\"c\"]\ndrawn "
+      "= 5\n",
       "there/ranges.toml");
   ASSERT_TRUE(rich) << rich.error().to_string();
   EXPECT_THAT(rich->gauges, ElementsAre(20));
@@ -200,6 +201,7 @@ TEST(DrawRanges, AreReadWithEverythingThatIsWrong) {
   EXPECT_DOUBLE_EQ(rich->press_depth.low, 1e-3);
   EXPECT_THAT(rich->transducers, ElementsAre("a", "b"));
   EXPECT_THAT(rich->joints, ElementsAre(fs::path("there/c")));
+  EXPECT_EQ(rich->drawn_patients, 5U);
   const auto bad = parse_draw_ranges(
       "[probe]\nlateral_mm = [4, -3]\nlaterl_mm = [0, 1]\n[patients]\n[needle]\nshare = 2\n"
       "gauge = [22, 24]\nlength_mm = [5, 50]\n[press]\ndepth_mm = [-1, 2]\n",

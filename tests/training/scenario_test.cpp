@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "artus/training/feedback.h"
+#include "artus/training/patient_plans.h"
 #include "artus/training/player.h"
 #include "artus/training/scenario_check.h"
 #include "artus/training/session_meter.h"
@@ -43,6 +44,38 @@ TEST(Scenario, AllThatIsWrongStandsInOneMessage) {
   const std::string message = scenario.error().to_string();
   for (const char* part : {"level", "colour", "distanc_mm", "distance_mm", "gauge"})
     EXPECT_NE(message.find(part), std::string::npos) << part << " in " << message;
+}
+
+TEST(Scenario, APatientStandsInTheTextAndInTheNameOfTheBody) {
+  const auto modelled = find_scenario("sasd-lateral-2");
+  ASSERT_TRUE(modelled);
+  const auto thick = of_patient(*modelled, "fat=15");
+  ASSERT_TRUE(thick) << thick.error().to_string();
+  EXPECT_EQ(thick->body(), modelled->body().string() + "@fat=15");
+  const auto again = of_patient(*thick, "seed=2");
+  ASSERT_TRUE(again) << again.error().to_string();
+  EXPECT_EQ(again->patient, "seed=2");
+  EXPECT_EQ(parse_scenario(again->text, "again")->body(), modelled->body().string() + "@seed=2");
+  EXPECT_FALSE(of_patient(align(), "fat=15"));  // a block of gel is nobody's
+  EXPECT_FALSE(parse_scenario("patient = \"fat=3\"\n" + align().text, "gel"));
+}
+
+TEST(Scenario, PlansFollowThePatientsSkin) {
+  Scenario scenario = align();
+  const auto scene = *make_gel_scene(*scenario.gel);
+  const Vec3 entry = scenario.entry.centre;
+  const Vec3 way = (scenario.target.point - entry).normalized();
+  scenario.entry.centre -= 5e-3 * way;
+  const double probe_z = scenario.X_JP.translation().z();
+  scenario.X_JP.translation() -= 7e-3 * scenario.X_JP.linear().col(2);
+  const Scenario off = scenario;
+  follow_patient(scenario, *scene);
+  EXPECT_EQ(scenario.entry.centre, off.entry.centre);  // nobody's plans stay
+  scenario.patient = "fat=3";
+  follow_patient(scenario, *scene);
+  EXPECT_LT((scenario.entry.centre - entry).norm(), 1e-6);
+  EXPECT_NEAR(scenario.X_JP.translation().z(), probe_z, 1e-6);
+  EXPECT_EQ(scenario.target.point, off.target.point);
 }
 
 TEST(Scenario, RadiusAndAnglesOfTheEntryAreMarks) {
