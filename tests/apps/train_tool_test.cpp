@@ -77,7 +77,7 @@ const std::string kWholeSession =
     "stage end\nkey DOWN\nkey DOWN\nkey ENTER\n"
     "stage briefing\nkey ESCAPE\n"
     "stage what\n" +
-    many_times(20, "key DOWN\n") +
+    many_times(99, "key DOWN\n") +  // to the last of the page, whatever scenarios there are
     "key ENTER\n"
     "stage earlier\nkey ENTER\n"
     "stage end\nkey ENTER\n"
