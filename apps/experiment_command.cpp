@@ -5,8 +5,7 @@
 #include <vector>
 
 #include "artus/apps/experiment_catalogue.h"
-#include "artus/apps/feel_options.h"
-#include "artus/apps/view_options.h"
+#include "artus/apps/hand_options.h"
 #include "artus/core/known_names.h"
 #include "artus/core/text_file.h"
 #include "artus/evidence/needle/experiment.h"
@@ -132,8 +131,7 @@ void add_experiment_command(Command& app, ExitCode& code) {
   command->add_option("--seed", options->seed, "seed of hand and noise")
       ->check(whole_number_in(0, 999999999))
       ->capture_default_str();
-  command->add_option("--device", options->experiment.device, "device whose limits apply")
-      ->capture_default_str();
+  add_device_option(command, options->experiment.device);
   command->add_option("--mock", options->experiment.mock,
                       "TOML file of the pneumatic probe mock (default: the bundled one)");
   command->add_flag("--tissue", options->tissue,

@@ -4,7 +4,7 @@
 #include <memory>
 #include <sstream>
 
-#include "artus/apps/feel_options.h"
+#include "artus/apps/hand_options.h"
 #include "artus/apps/pose_files.h"
 #include "artus/core/csv.h"
 #include "artus/core/text_file.h"
@@ -95,11 +95,8 @@ void add_force_command(Command& app, ExitCode& code) {
   add_joint_options(command, options->joint);
   add_feel_options(command, options->feel);
   command->add_option("--poses", options->poses, "list of poses (.jsonl, .csv, .mha)")->required();
-  command->add_option("--rate", options->rate, "ticks a second, Hz")
-      ->check(number_in(100, 20000))
-      ->capture_default_str();
-  command->add_option("--device", options->device, "whose force limits hold")
-      ->capture_default_str();
+  add_haptic_rate_option(command, options->rate, "--rate,--haptic-rate");
+  add_device_option(command, options->device);
   command->add_option("-o,--out", options->out, "CSV")->required();
   command->add_flag("--json", options->json, "machine-readable output");
   on_run(command, code, [options] { return run_force(*options); });

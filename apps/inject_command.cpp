@@ -4,8 +4,7 @@
 #include <memory>
 
 #include "artus/apps/arguments.h"
-#include "artus/apps/feel_options.h"
-#include "artus/apps/view_options.h"
+#include "artus/apps/hand_options.h"
 #include "artus/core/text_file.h"
 #include "artus/core/units.h"
 #include "artus/evidence/injection/injection_pictures.h"
@@ -15,32 +14,25 @@
 namespace artus {
 namespace {
 
+constexpr double kUsualLength = 50;  // mm of the needle
+
 struct InjectOptions {
-  JointOptions joint;
-  ViewOptions view;
-  FeelOptions feel;
+  HandOptions hand;
   std::string injection;
   std::string entry;
   std::string target;
   std::vector<std::string> into;
   double volume_ml = 5;
   double rate_ml_s = 0.1;
-  std::string liquid = "lidocaine";
   double syringe_ml = 0;
   double air_ml = 0;
   double aspirate_s = 3;
-  double length_mm = 50;
   std::string technique = "direct";
-  double rate_hz = 1000;
-  std::string device = "virtuose_6d_desktop";
-  std::filesystem::path out;
-  bool no_images = false;
-  bool no_video = false;
-  bool json = false;
 };
 
 /// What the flags ask for; the structure is left open.
-Result<InjectionRequest> request_of(const InjectOptions& options, const CompiledJoint& joint) {
+Result<InjectionRequest> request_of(const InjectOptions& options, const NeedleFeel& feel) {
+  const HandOptions& hand = options.hand;
   InjectionRequest request;
   request.injection = options.injection;
   if (!options.entry.empty()) {
@@ -52,19 +44,17 @@ Result<InjectionRequest> request_of(const InjectOptions& options, const Compiled
   }
   request.volume = options.volume_ml * kCubicCentimetre;
   request.rate = options.rate_ml_s * kCubicCentimetre;
-  request.liquid = options.liquid;
-  request.gauge = options.view.gauge;
-  request.needle_length = options.length_mm * kMillimetre;
+  request.liquid = hand.liquid;
+  request.gauge = hand.view.gauge;
+  request.needle_length = hand.view.needle_length_mm.value_or(kUsualLength) * kMillimetre;
   request.syringe = options.syringe_ml * kCubicCentimetre;
   request.air = options.air_ml * kCubicCentimetre;
   request.aspirate = options.aspirate_s;
   if (options.technique == "through-and-back") request.technique = Technique::through_and_back;
-  request.rate_hz = options.rate_hz;
-  request.device = options.device;
-  request.seed = options.view.seed;
-  const auto feel = make_feel(options.feel, joint);
-  ARTUS_TRY(feel);
-  request.feel = *feel;
+  request.rate_hz = hand.rate_hz;
+  request.device = hand.device;
+  request.seed = hand.view.seed;
+  request.feel = feel;
   return request;
 }
 
@@ -98,11 +88,12 @@ Result<Outcome> write_run(const std::shared_ptr<const Scene>& scene, const Injec
   ARTUS_TRY(write_injection(run, folder));
   outcome.report = summarize(run);
   outcome.claims = claims_of(run);
-  if (!options.no_images && run.given > 0) {
-    const InjectionPictureOptions looks{view.transducer, view.settings, view.needle_shape};
+  if (!options.hand.no_images && run.given > 0) {
+    InjectionPictureOptions looks{view.transducer, view.settings, view.needle_shape};
+    looks.needle.length = run.spec.plunger.needle.length;
     const auto pictures = write_injection_pictures(scene, run, looks, folder);
     ARTUS_TRY(pictures);
-    if (!options.no_video) {
+    if (!options.hand.no_video) {
       const auto video = write_injection_video(scene, run, looks, folder);
       ARTUS_TRY(video);
       outcome.report["video"] = *video;
@@ -125,25 +116,21 @@ Result<void> write_comparison(std::span<const InjectionRun> runs, const InjectOp
   std::vector<std::filesystem::path> pictures;
   std::vector<std::string> names;
   for (const InjectionRun& run : runs) {
-    const auto file = options.out / run.target / "after.png";
+    const auto file = options.hand.out / run.target / "after.png";
     if (!std::filesystem::exists(file)) continue;
     pictures.push_back(file);
     names.push_back(run.target);
   }
-  if (!pictures.empty()) ARTUS_TRY(write_plate(pictures, names, options.out / "pictures.png"));
-  return write_plot(options.out / "compared.png", plot_of(runs));
+  if (!pictures.empty()) ARTUS_TRY(write_plate(pictures, names, options.hand.out / "pictures.png"));
+  return write_plot(options.hand.out / "compared.png", plot_of(runs));
 }
 
 Result<ExitCode> inject(const InjectOptions& options) {
-  ViewOptions view_options = options.view;
-  auto view = make_view(view_options);
-  ARTUS_TRY(view);
-  const auto joint = load(options.joint, make_progress_printer(options.json));
-  ARTUS_TRY(joint);
-  take_depth(view_options, **joint, *view);
-  auto request = request_of(options, **joint);
+  const auto loaded = load_hand(options.hand);
+  ARTUS_TRY(loaded);
+  const auto& scene = loaded->at.scene;
+  auto request = request_of(options, loaded->feel);
   ARTUS_TRY(request);
-  const auto scene = std::make_shared<const Scene>(*joint);
   std::vector<std::string> into = options.into;
   if (into.empty()) into.emplace_back();
   std::vector<InjectionRun> runs;
@@ -153,18 +140,18 @@ Result<ExitCode> inject(const InjectOptions& options) {
     request->into = name;
     const auto run = run_injection(*scene, *request);
     ARTUS_TRY(run);
-    const auto folder = into.size() > 1 ? options.out / run->target : options.out;
-    const auto outcome = write_run(scene, *run, *view, options, folder);
+    const auto folder = into.size() > 1 ? options.hand.out / run->target : options.hand.out;
+    const auto outcome = write_run(scene, *run, loaded->at.view, options, folder);
     ARTUS_TRY(outcome);
-    if (!options.json) print(outcome->report);
+    if (!options.hand.json) print(outcome->report);
     for (const Claim& claim : outcome->claims)
-      if (!options.json) std::printf("%s\n", to_line(claim).c_str());
+      if (!options.hand.json) std::printf("%s\n", to_line(claim).c_str());
     holds = holds && all_hold(outcome->claims);
     reports.push_back(outcome->report);
     runs.push_back(*run);
   }
   if (runs.size() > 1) ARTUS_TRY(write_comparison(runs, options));
-  if (options.json) std::cout << (reports.size() == 1 ? reports[0] : reports).dump(2) << '\n';
+  if (options.hand.json) std::cout << (reports.size() == 1 ? reports[0] : reports).dump(2) << '\n';
   return holds ? ExitCode::ok : ExitCode::failed;
 }
 
@@ -184,9 +171,14 @@ void add_inject_command(Command& app, ExitCode& code) {
       "  artus inject -j shoulder.artus --technique through-and-back --volume-ml 5 -o out/back\n"
       "  artus inject -j shoulder.artus --volume-ml 1 --into deltoid --into supraspinatus_tendon\n"
       "    --into subcutaneous_fat --into joint_fluid -o out/cases");
-  add_joint_options(command, options->joint);
-  add_imaging_options(command, options->view);
-  add_feel_options(command, options->feel);
+  add_hand_options(command, options->hand);
+  add_haptic_rate_option(command, options->hand.rate_hz);
+  command->get_option("--needle-length-mm")
+      ->description("hub to tip (default: 50); longer where the target is deep");
+  command
+      ->add_option("--length-mm", options->hand.view.needle_length_mm,
+                   "older name of --needle-length-mm")
+      ->check(number_in(10, 300));
   command->add_option("--injection", options->injection, "the joint's, by name (default: first)");
   Option* entry = command->add_option("--entry", options->entry, "x,y,z in mm, in its place");
   Option* target = command->add_option("--target", options->target, "x,y,z in mm, of the tip");
@@ -200,32 +192,19 @@ void add_inject_command(Command& app, ExitCode& code) {
   command->add_option("--rate", options->rate_ml_s, "ml/s")
       ->check(number_in(0.001, 5))
       ->capture_default_str();
-  command->add_option("--liquid", options->liquid, "of meshes/liquids.toml")->capture_default_str();
   command->add_option("--syringe-ml", options->syringe_ml, "barrel (default: the least that holds)")
       ->check(number_in(0.1, 50));
   command->add_option("--air-ml", options->air_ml, "air trapped behind the liquid")
       ->check(number_in(0, 5));
-  command->add_option("--length-mm", options->length_mm, "needle; longer where the target is deep")
-      ->check(number_in(10, 200))
-      ->capture_default_str();
   command->add_option("--aspirate", options->aspirate_s, "s of pulling before; 0: none")
       ->check(number_in(0, 60))
       ->capture_default_str();
   command->add_option("--technique", options->technique, "direct or through-and-back")
       ->one_of({"direct", "through-and-back"})
       ->capture_default_str();
-  command->add_option("--haptic-rate", options->rate_hz, "Hz")
-      ->check(number_in(100, 20000))
-      ->capture_default_str();
-  command->add_option("--device", options->device, "device whose force limits apply")
-      ->capture_default_str();
-  command->add_option("-o,--out", options->out, "folder for the results")->required();
-  command->add_flag("--no-images", options->no_images, "forces alone");
-  command->add_flag("--no-video", options->no_video, "pictures before, during and after alone");
-  command->add_flag("--json", options->json, "print the summary as JSON");
   on_run(command, code, [options] {
     const auto done = inject(*options);
-    return done ? *done : report_error(done.error(), options->json);
+    return done ? *done : report_error(done.error(), options->hand.json);
   });
 }
 

@@ -7,10 +7,9 @@
 #include <vector>
 
 #include "artus/anatomy/body/layered_body.h"
-#include "artus/apps/feel_options.h"
+#include "artus/apps/hand_options.h"
 #include "artus/apps/interrupts.h"
 #include "artus/apps/session_options.h"
-#include "artus/apps/view_options.h"
 #include "artus/session/injecting_device.h"
 #include "artus/session/servo_loop.h"
 
@@ -187,11 +186,8 @@ void add_loop_command(Command& app, ExitCode& code) {
   command->add_option("--seconds", options->servo.seconds, "how long")
       ->check(number_in(0.01, 86400))
       ->capture_default_str();
-  command->add_option("--rate", options->servo.rate_hz, "ticks a second, Hz")
-      ->check(number_in(100, 20000))
-      ->capture_default_str();
-  command->add_option("--device", options->device, "whose mass and force limits hold")
-      ->capture_default_str();
+  add_haptic_rate_option(command, options->servo.rate_hz, "--rate,--haptic-rate");
+  add_device_option(command, options->device);
   command->add_option("--speed-mm-s", options->speed_mm_s, "of the simulated hand")
       ->check(number_in(0.1, 200))
       ->capture_default_str();

@@ -3,9 +3,8 @@
 #include <iostream>
 #include <memory>
 
-#include "artus/apps/feel_options.h"
+#include "artus/apps/hand_options.h"
 #include "artus/apps/plan_options.h"
-#include "artus/apps/view_options.h"
 #include "artus/core/text_file.h"
 #include "artus/core/units.h"
 #include "artus/evidence/medical/run_images.h"
@@ -16,21 +15,12 @@ namespace {
 
 struct RunOptions {
   std::string scenario;
-  JointOptions joint;
-  ViewOptions view;
-  FeelOptions feel;
+  HandOptions hand;
   PlanOptions plan;
-  std::filesystem::path out;
-  double rate_hz = 1000;
-  std::string device = "virtuose_6d_desktop";
-  bool no_images = false;
-  bool no_video = false;
   bool rigid = false;
   bool dry = false;
   double give_ml = 0.5;
   double give_ml_s = 0.25;
-  std::string liquid = "lidocaine";
-  bool json = false;
 };
 
 void print_summary(const ThreeInjections& run, const RunImages& images,
@@ -67,52 +57,47 @@ Result<nlohmann::json> write_summary(const ThreeInjections& run, const RunImages
 }
 
 ExitCode run_scenario(const RunOptions& options) {
-  auto view = make_view(options.view);
-  if (!view) return report_error(view.error(), options.json);
-  const Progress progress = make_progress_printer(options.json);
-  const auto joint = load(options.joint, progress);
-  if (!joint) return report_error(joint.error(), options.json);
-  take_depth(options.view, **joint, *view);
-  const auto plan = make_plan(options.plan, **joint);
-  if (!plan) return report_error(plan.error(), options.json);
-  const auto scene = std::make_shared<const Scene>(*joint);
+  const HandOptions& hand = options.hand;
+  const auto loaded = load_hand(hand);
+  if (!loaded) return report_error(loaded.error(), hand.json);
+  const View& view = loaded->at.view;
+  const CompiledJoint& joint = loaded->at.joint();
+  const auto plan = make_plan(options.plan, joint);
+  if (!plan) return report_error(plan.error(), hand.json);
+  const Progress progress = make_progress_printer(hand.json);
 
   ThreeInjectionsOptions run_options;
-  run_options.rate_hz = options.rate_hz;
-  run_options.seed = options.view.seed;
-  run_options.device = options.device;
-  FeelOptions feel_options = options.feel;
-  feel_options.needle_length_mm = options.view.needle_length_mm;
-  const auto feel = make_feel(feel_options, **joint);
-  if (!feel) return report_error(feel.error(), options.json);
-  run_options.feel = *feel;
-  run_options.probe.contact.footprint.length = view->transducer.width;
-  run_options.probe.contact.footprint.width = view->transducer.elevation_height;
+  run_options.rate_hz = hand.rate_hz;
+  run_options.seed = hand.view.seed;
+  run_options.device = hand.device;
+  run_options.feel = loaded->feel;
+  run_options.probe.contact.footprint.length = view.transducer.width;
+  run_options.probe.contact.footprint.width = view.transducer.elevation_height;
   if (!options.dry) {
     run_options.dose.volume = options.give_ml * kCubicCentimetre;
     run_options.dose.rate = options.give_ml_s * kCubicCentimetre;
-    run_options.dose.syringe.gauge = options.view.gauge;
-    run_options.dose.syringe.liquid = options.liquid;
+    run_options.dose.syringe.gauge = hand.view.gauge;
+    run_options.dose.syringe.liquid = hand.liquid;
   }
-  const auto run = run_three_injections(*scene, *plan, run_options, progress);
-  if (!run) return report_error(run.error(), options.json);
-  if (const auto written = write_three_injections(*run, options.out); !written)
-    return report_error(written.error(), options.json);
+  const auto run = run_three_injections(*loaded->at.scene, *plan, run_options, progress);
+  if (!run) return report_error(run.error(), hand.json);
+  if (const auto written = write_three_injections(*run, hand.out); !written)
+    return report_error(written.error(), hand.json);
 
   RunImages images;
-  if (!options.no_images) {
-    RunImagesOptions image_options{view->transducer, view->settings, view->needle_shape,
-                                   !options.no_video, !options.rigid};
-    auto drawn = write_run_images(scene, *run, options.out, image_options, progress);
-    if (!drawn) return report_error(drawn.error(), options.json);
+  if (!hand.no_images) {
+    RunImagesOptions image_options{view.transducer, view.settings, view.needle_shape,
+                                   !hand.no_video, !options.rigid};
+    auto drawn = write_run_images(loaded->at.scene, *run, hand.out, image_options, progress);
+    if (!drawn) return report_error(drawn.error(), hand.json);
     images = std::move(*drawn);
   }
-  const auto summary = write_summary(*run, images, (*joint)->name, options.out);
-  if (!summary) return report_error(summary.error(), options.json);
-  if (options.json)
+  const auto summary = write_summary(*run, images, joint.name, hand.out);
+  if (!summary) return report_error(summary.error(), hand.json);
+  if (hand.json)
     std::cout << summary->dump(2) << '\n';
   else
-    print_summary(*run, images, options.out);
+    print_summary(*run, images, hand.out);
   return all_hold(run->claims) ? ExitCode::ok : ExitCode::failed;
 }
 
@@ -138,16 +123,9 @@ void add_run_command(Command& app, ExitCode& code) {
   command->add_option("scenario", options->scenario, "three-injections")
       ->required()
       ->one_of({"three-injections"});
-  add_joint_options(command, options->joint);
-  add_view_options(command, options->view);
-  add_feel_options(command, options->feel);
+  add_hand_options(command, options->hand);
+  add_haptic_rate_option(command, options->hand.rate_hz, "--rate,--haptic-rate");
   add_plan_options(command, options->plan);
-  command->add_option("-o,--out", options->out, "folder for the results")->required();
-  command->add_option("--rate", options->rate_hz, "haptic rate, Hz")
-      ->check(number_in(100, 20000))
-      ->capture_default_str();
-  command->add_option("--device", options->device, "device whose force limits apply")
-      ->capture_default_str();
   command->add_flag("--dry", options->dry, "the published runs: nothing is injected");
   command->add_option("--give-ml", options->give_ml, "ml at each target")
       ->check(number_in(0.01, 10))
@@ -155,12 +133,8 @@ void add_run_command(Command& app, ExitCode& code) {
   command->add_option("--give-rate", options->give_ml_s, "ml/s")
       ->check(number_in(0.001, 5))
       ->capture_default_str();
-  command->add_option("--liquid", options->liquid, "of meshes/liquids.toml")->capture_default_str();
   command->add_flag("--rigid", options->rigid,
                     "draw the body as it lies at rest; by default it gives way to the probe");
-  command->add_flag("--no-images", options->no_images, "forces alone");
-  command->add_flag("--no-video", options->no_video, "images of the named moments, but no video");
-  command->add_flag("--json", options->json, "print the summary as JSON");
   on_run(command, code, [options] { return run_scenario(*options); });
 }
 

@@ -137,12 +137,9 @@ Result<std::optional<Setting>> run_session(const Serving& serving, const Setting
   auto device =
       make_device(options.session, setting.params, setting.scene->joint(), *serving.tracker, &hand);
   ARTUS_TRY(device);
-  Session::Options session_options;
-  session_options.haptic_wishes.cpu = options.session.haptic_cpu;
-  session_options.recording = options.session.recording;
+  Session::Options session_options = make_thread_options(options.session);
   session_options.images = !options.no_images;
   session_options.share_images = !options.no_images;
-  session_options.image_segment_prefix = options.session.prefix;
   SessionLink* link = serving.link;
   if (link != nullptr)
     session_options.on_image = [link](const ImageSnapshot& image) {
@@ -215,8 +212,7 @@ void add_serve_command(Command& app, ExitCode& code) {
   add_session_options(command, options->session, "shared-memory");
   command->add_option("--seconds", options->seconds, "stop after this time; 0: when interrupted")
       ->check(number_in(0, 86400));
-  command->add_option("--metrics", options->metrics,
-                      "file for the numbers of the gesture, measured while it is done (.json)");
+  add_live_metrics_option(command, options->metrics);
   command->add_flag("--no-images", options->no_images, "draw nothing and write no IMAGE");
   command->add_flag("--json", options->json, "machine-readable report at the end");
   on_run(command, code, [options] { return run_serve(*options); });

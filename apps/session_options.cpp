@@ -7,7 +7,7 @@
 #include <sstream>
 #include <utility>
 
-#include "artus/apps/view_options.h"
+#include "artus/apps/hand_options.h"
 #include "artus/core/text_file.h"
 #include "artus/core/units.h"
 #include "artus/session/injecting_device.h"
@@ -78,13 +78,8 @@ void add_session_options(Command* command, SessionOptions& options,
   add_joint_options(command, options.joint);
   add_feel_options(command, options.feel);
   add_needle_length_option(command, options.feel.needle_length_mm);
-  command
-      ->add_option("--device", options.device,
-                   "whose force limits hold: touch, virtuose_6d_desktop, delta, ideal")
-      ->capture_default_str();
-  command->add_option("--haptic-rate", options.haptic_rate, "ticks a second, Hz")
-      ->check(number_in(100, 20000))
-      ->capture_default_str();
+  add_device_option(command, options.device);
+  add_haptic_rate_option(command, options.haptic_rate);
   command->add_option("--image-rate", options.image_rate, "images a second, Hz")
       ->check(number_in(1, 120))
       ->capture_default_str();
@@ -108,10 +103,7 @@ void add_session_options(Command* command, SessionOptions& options,
   command->add_option("--syringe-ml", options.syringe_ml, "drawn up; a plunger pushes it out")
       ->check(number_in(0.1, 50))
       ->capture_default_str();
-  command
-      ->add_option("--gauge", options.gauge,
-                   "needle gauge, in the picture and for the flow: 18 to 23, 25 or 27")
-      ->capture_default_str();
+  add_gauge_option(command, options.gauge);
   command->add_option("--liquid", options.liquid, "in the syringe, of meshes/liquids.toml")
       ->capture_default_str();
   command->add_option("--haptic-cpu", options.haptic_cpu, "processor of the haptic thread; -1: any")
@@ -119,8 +111,7 @@ void add_session_options(Command* command, SessionOptions& options,
       ->capture_default_str();
   command->add_option("--histograms", options.histograms,
                       "write where the time went as CSV, bin by bin");
-  command->add_option("--threads", options.threads, "of the imaging; 0: all processors")
-      ->capture_default_str();
+  add_threads_option(command, options.threads);
   command->add_flag(
       "--rigid", options.rigid,
       "tissue does not give way to probe and needle; by default it does, in the picture and "
@@ -174,6 +165,14 @@ Result<std::optional<PlannedInjection>> chosen_injection(const SessionOptions& o
                     ": the joint plans " + std::to_string(plans->size()) + ", counted from 1",
                 "--injection");
   return std::optional<PlannedInjection>((*plans)[i]);
+}
+
+Session::Options make_thread_options(const SessionOptions& options) {
+  Session::Options made;
+  made.haptic_wishes.cpu = options.haptic_cpu;
+  made.recording = options.recording;
+  made.image_segment_prefix = options.prefix;
+  return made;
 }
 
 HandTarget first_target(const CompiledJoint& joint, const std::optional<PlannedInjection>& plan) {

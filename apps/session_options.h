@@ -46,6 +46,9 @@ void add_session_options(Command* command, SessionOptions& options,
 [[nodiscard]] Result<SessionParams> make_session_params(const SessionOptions& options,
                                                         const CompiledJoint& joint);
 
+/// Where its threads run, what they keep and the names of what they share.
+[[nodiscard]] Session::Options make_thread_options(const SessionOptions& options);
+
 /// The injection that --injection chooses of the joint's, or of those of --entry and --target;
 /// empty when there is none to choose from and none was asked for. Errors: those of make_plan;
 /// not_found.

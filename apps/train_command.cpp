@@ -3,10 +3,10 @@
 #include <memory>
 #include <utility>
 
+#include "artus/apps/hand_options.h"
 #include "artus/apps/interrupts.h"
 #include "artus/apps/train_flow.h"
 #include "artus/apps/training_commands.h"
-#include "artus/apps/view_options.h"
 #include "artus/apps/window_options.h"
 #include "artus/core/text_file.h"
 #include "artus/training/patient_plans.h"
@@ -164,16 +164,12 @@ void add_train_command(Command& app, ExitCode& code) {
                    "hand (mouse, keyboard, gamepad), shared-memory, igtl (a tracker, see --igtl), "
                    "or a recording")
       ->capture_default_str();
-  command
-      ->add_option("--device", session.device,
-                   "whose force limits hold: touch, virtuose_6d_desktop, delta, ideal")
-      ->capture_default_str();
+  add_device_option(command, session.device);
   add_prefix_option(command, session.prefix);
   command->add_option("--haptic-cpu", session.haptic_cpu, "processor of the haptic thread; -1: any")
       ->check(whole_number_in(-1, 1023))
       ->capture_default_str();
-  command->add_option("--threads", session.threads, "of the imaging; 0: all processors")
-      ->capture_default_str();
+  add_threads_option(command, session.threads);
   add_igtl_options(command, session.igtl);
   add_window_options(command, options->window, options->language);
   command->add_option("--script", options->script, "do what this file says, then end");

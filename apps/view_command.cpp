@@ -107,11 +107,8 @@ ExitCode run_view(const ViewerOptions& options, bool& training) {
       options.session.igtl, *tracker,
       [&turns](double ImageControls::*knob, double value) { turns.add(knob, value); });
   if (!link) return report_error(link.error(), false);
-  Session::Options session_options;
-  session_options.haptic_wishes.cpu = options.session.haptic_cpu;
-  session_options.recording = options.session.recording;
+  Session::Options session_options = make_thread_options(options.session);
   session_options.share_images = options.session.input == "shared-memory";
-  session_options.image_segment_prefix = options.session.prefix;
   if (*link)
     session_options.on_image = [&link](const ImageSnapshot& image) {
       (*link)->take_image(image);

@@ -49,13 +49,26 @@ void add_needle_length_option(Command* command, std::optional<double>& length_mm
       ->check(number_in(10, 300));
 }
 
+void add_gauge_option(Command* command, int& gauge) {
+  command
+      ->add_option("--gauge", gauge,
+                   "needle gauge, in the picture and for the flow: 18 to 23, 25 or 27")
+      ->capture_default_str();
+}
+
+void add_threads_option(Command* command, int& threads) {
+  command
+      ->add_option("--threads", threads, "of the imaging; 0: all. The image does not depend on it")
+      ->check(whole_within(ImageRanges::n_threads))
+      ->capture_default_str();
+}
+
 void add_imaging_options(Command* command, ViewOptions& options) {
   command
       ->add_option("--transducer", options.transducer,
                    "linear-6-18, linear-4-9, hockey-7-15, curved-2-5, or a .toml file")
       ->capture_default_str();
-  command->add_option("--gauge", options.gauge, "needle gauge: 18 to 23, 25 or 27")
-      ->capture_default_str();
+  add_gauge_option(command, options.gauge);
   add_needle_length_option(command, options.needle_length_mm);
   command->add_flag("--echogenic", options.echogenic, "dimpled needle, seen at steep angles, too");
   command
@@ -101,10 +114,7 @@ void add_imaging_options(Command* command, ViewOptions& options) {
   command->add_option("--planes", options.planes, "elevation planes of the slice's thickness")
       ->check(whole_within(ImageRanges::n_planes))
       ->capture_default_str();
-  command
-      ->add_option("--threads", options.threads, "threads; 0: all. The image does not depend on it")
-      ->check(whole_within(ImageRanges::n_threads))
-      ->capture_default_str();
+  add_threads_option(command, options.threads);
   command->add_option("--seed", options.seed, "seed of speckle and noise")->capture_default_str();
 }
 

@@ -39,6 +39,10 @@ struct ViewOptions {
 /// --needle-length-mm, hub to tip, for the forces and for the picture.
 void add_needle_length_option(Command* command, std::optional<double>& length_mm);
 
+/// --gauge, checked by needle_of_flag; --threads.
+void add_gauge_option(Command* command, int& gauge);
+void add_threads_option(Command* command, int& threads);
+
 /// The flags of transducer, image and needle type, without poses.
 void add_imaging_options(Command* command, ViewOptions& options);
 

@@ -38,18 +38,12 @@ void draw_choice_of_panels(ViewState& state) {
   ImGui::NewLine();
 }
 
-void coloured(const std::string& said, const ImVec4& colour) {
-  ImGui::PushStyleColor(ImGuiCol_Text, colour);
-  ImGui::TextUnformatted(said.c_str());
-  ImGui::PopStyleColor();
-}
-
 /// The goal and the next step; in expert mode only what is wrong.
 void draw_task(const PanelInput& in, const ViewState& state) {
-  if (!state.expert) coloured(in.goal, kGoal);
+  if (!state.expert) wrapped_text(in.goal, kGoal);
   const bool well = in.peer == PeerState::alive;
   if (!state.expert || !well)
-    coloured(in.next, well ? ImGui::GetStyleColorVec4(ImGuiCol_Text) : ImVec4(kWarning));
+    wrapped_text(in.next, well ? ImGui::GetStyleColorVec4(ImGuiCol_Text) : ImVec4(kWarning));
 }
 
 /// That a clip runs, and the last message.
@@ -58,7 +52,7 @@ void draw_message(const PanelInput& in, const ViewState& state) {
   if (state.wants_clip)
     ImGui::TextColored(ImVec4(1, 0.3F, 0.3F, 1), "\xe2\x97\x8f %s %s s", tell(state, Text::rec),
                        number(state.language, in.clip_seconds, 1).c_str());
-  if (!state.message.empty()) coloured(state.message, kGood);
+  if (!state.message.empty()) wrapped_text(state.message, kGood);
   ImGui::PopTextWrapPos();
 }
 

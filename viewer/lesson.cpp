@@ -14,12 +14,6 @@ constexpr Shade kOpen{0.85F, 0.85F, 0.85F};
 constexpr Shade kDim{0.6F, 0.6F, 0.6F};
 constexpr Shade kAlarm{1, 0.55F, 0.4F};
 
-void wrapped_line(const std::string& said, const ImVec4& colour) {
-  ImGui::PushStyleColor(ImGuiCol_Text, colour);
-  ImGui::TextWrapped("%s", said.c_str());
-  ImGui::PopStyleColor();
-}
-
 }  // namespace
 
 ImagePoint point_on_picture(const ImageSnapshot& image, const Vec3& p_J) {
@@ -77,16 +71,16 @@ void draw_lesson_panel(const PanelInput& in, ViewState& state) {
   const PanelScope scope(Panel::session, Text::lesson_panel, state);
   if (!scope) return;
   const Lesson& lesson = *state.lesson;
-  wrapped_line(lesson.title, kOpen);
-  wrapped_line(lesson.clock, lesson.late ? kAlarm : kOpen);
+  wrapped_text(lesson.title, kOpen);
+  wrapped_text(lesson.clock, lesson.late ? kAlarm : kOpen);
   for (const LessonStep& step : lesson.steps) {
     const std::string mark = step.known && step.done ? "+ " : "-  ";
     const std::string later =
         step.known ? "" : " (" + std::string(tell(state, Text::lesson_later)) + ")";
-    wrapped_line(mark + step.text + later, !step.known ? kDim : step.done ? kDone : kOpen);
+    wrapped_text(mark + step.text + later, !step.known ? kDim : step.done ? kDone : kOpen);
   }
   draw_syringe(in, state);
-  if (in.peer != PeerState::alive) wrapped_line(describe_status(state.language, in.status), kAlarm);
+  if (in.peer != PeerState::alive) wrapped_text(describe_status(state.language, in.status), kAlarm);
   action_button(state, Text::lesson_finish, Action::finish);
   ImGui::SameLine();
   if (ImGui::SmallButton("?")) state.help = !state.help;
@@ -96,7 +90,7 @@ void draw_lesson_panel(const PanelInput& in, ViewState& state) {
 void draw_patient_panel(const PanelInput& in, ViewState& state) {
   const PanelScope scope(Panel::tissues, Text::lesson_patient, state);
   if (!scope) return;
-  wrapped_line(state.lesson->patient, state.lesson->patient_hurts ? kAlarm : kOpen);
+  wrapped_text(state.lesson->patient, state.lesson->patient_hurts ? kAlarm : kOpen);
   draw_patient_words(in, state);
 }
 

@@ -30,11 +30,7 @@ ImVec4 colour_of(Tone tone) {
 }
 
 void draw_lines(const std::vector<PageLine>& lines) {
-  for (const PageLine& line : lines) {
-    ImGui::PushStyleColor(ImGuiCol_Text, colour_of(line.tone));
-    ImGui::TextWrapped("%s", line.text.c_str());
-    ImGui::PopStyleColor();
-  }
+  for (const PageLine& line : lines) wrapped_text(line.text, colour_of(line.tone));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "artus/viewer/lesson.h"
 #include "artus/viewer/panels.h"
 #include "artus/viewer/review.h"
+#include "artus/viewer/shade.h"
 #include "artus/viewer/stage_gui.h"
 
 namespace artus {
@@ -20,6 +21,7 @@ constexpr ImU32 kDepthColour = IM_COL32(120, 190, 255, 255);
 constexpr ImU32 kForceColour = IM_COL32(255, 120, 90, 255);
 constexpr ImU32 kThumbColour = IM_COL32(140, 230, 140, 255);
 constexpr ImU32 kFaultColour = IM_COL32(255, 190, 60, 255);
+constexpr Shade kFaultText{1, 0.75F, 0.25F};
 
 /// Draws the picture of any moment. Knobs that stood otherwise need other tables.
 class MomentPicture {
@@ -376,10 +378,9 @@ class ReviewGui {
     const auto near = cursor_.near();
     if (!near) return;
     const ReviewFault& fault = review_.faults[*near];
-    ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(1, 0.75F, 0.25F, 1));
-    wrapped(number(options_.language, fault.time, 1) +
-            (options_.language == Language::french ? " s : " : " s: ") + fault.what);
-    ImGui::PopStyleColor();
+    wrapped_text(number(options_.language, fault.time, 1) +
+                     (options_.language == Language::french ? " s : " : " s: ") + fault.what,
+                 kFaultText);
     wrapped(fill(text(options_.language, Text::review_cause), {fault.cause}));
     wrapped(fill(text(options_.language, Text::review_do), {fault.mend}));
   }

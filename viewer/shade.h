@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <string>
+
 #include <imgui.h>
 
 namespace artus {
@@ -9,5 +11,12 @@ struct Shade {
   float red, green, blue;
   operator ImVec4() const { return {red, green, blue, 1}; }  // NOLINT(google-explicit-constructor)
 };
+
+/// A text in one colour, as many lines as the window's width, or the wrap that is pushed, asks for.
+inline void wrapped_text(const std::string& said, const ImVec4& colour) {
+  ImGui::PushStyleColor(ImGuiCol_Text, colour);
+  ImGui::TextWrapped("%s", said.c_str());
+  ImGui::PopStyleColor();
+}
 
 }  // namespace artus

@@ -17,9 +17,7 @@ constexpr Shade kIll{1, 0.45F, 0.35F};
 constexpr Shade kPlain{0.85F, 0.85F, 0.85F};
 
 void wrapped(const std::string& said, const ImVec4& colour = kPlain) {
-  ImGui::PushStyleColor(ImGuiCol_Text, colour);
-  ImGui::TextWrapped("%s", said.c_str());
-  ImGui::PopStyleColor();
+  wrapped_text(said, colour);
 }
 
 /// The gauge of a catalogue's needle; "?" for any other.

@@ -11,26 +11,20 @@ namespace {
 constexpr Shade kRead{0.85F, 0.85F, 0.85F};
 constexpr Shade kComplains{1, 0.55F, 0.4F};
 
-void wrapped_words(const std::string& said, const ImVec4& colour) {
-  ImGui::PushStyleColor(ImGuiCol_Text, colour);
-  ImGui::TextWrapped("%s", said.c_str());
-  ImGui::PopStyleColor();
-}
-
 }  // namespace
 
 void draw_syringe(const PanelInput& in, const ViewState& state) {
   const SyringeReading& syringe = in.syringe;
   if (!syringe.used) return;
   const Language language = state.language;
-  wrapped_words(
+  wrapped_text(
       fill(tell(state, Text::syringe_line), {number(language, syringe.left / kCubicCentimetre, 2),
                                              number(language, syringe.given / kCubicCentimetre, 2),
                                              number(language, syringe.flow / kCubicCentimetre, 2)}),
       kRead);
-  wrapped_words(fill(tell(state, Text::thumb_line), {number(language, syringe.thumb, 1),
-                                                     number(language, 1e-3 * syringe.pressure, 0)}),
-                kRead);
+  wrapped_text(fill(tell(state, Text::thumb_line), {number(language, syringe.thumb, 1),
+                                                    number(language, 1e-3 * syringe.pressure, 0)}),
+               kRead);
 }
 
 void draw_patient_words(const PanelInput& in, const ViewState& state) {
@@ -38,8 +32,8 @@ void draw_patient_words(const PanelInput& in, const ViewState& state) {
                                        Text::patient_racing, Text::patient_hurts,
                                        Text::patient_burns,  Text::patient_pressed};
   if (in.syringe.patient == PatientFeeling::nothing) return;
-  wrapped_words(tell(state, kWords.at(static_cast<std::size_t>(in.syringe.patient) - 1)),
-                kComplains);
+  wrapped_text(tell(state, kWords.at(static_cast<std::size_t>(in.syringe.patient) - 1)),
+               kComplains);
 }
 
 }  // namespace artus

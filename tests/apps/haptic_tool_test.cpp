@@ -6,12 +6,28 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "artus/apps/command.h"
 #include "tests/apps/run_tool.h"
 
 namespace artus {
 namespace {
 
 using test::artus;
+using test::kSimple;
+
+/// What the tool says to a command line that it refuses, before anything is run; empty when it
+/// takes it. In this process: a hundred of them take no longer than one start of the tool.
+std::string refusal(const std::vector<const char*>& line) {
+  ExitCode code = ExitCode::ok;
+  Command app("artus");
+  add_loop_command(app, code);
+  add_experiment_command(app, code);
+  int mistake = 0;
+  ::testing::internal::CaptureStderr();
+  const bool taken = app.parse(static_cast<int>(line.size()), line.data(), mistake);
+  std::string said = ::testing::internal::GetCapturedStderr();
+  return taken || mistake == 0 ? "" : said;
+}
 
 TEST(HapticTool, LoopReportsItsHistogramsWithoutAJoint) {
   const auto run = artus({"loop", "--seconds", "0.5", "--rate", "2000", "--json"});
@@ -53,15 +69,50 @@ TEST(HapticTool, NumbersThatMakeNoSenseAreRefusedAtTheFlag) {
                            "--friction-set", "--workspace-push-n"}) {
     for (const char* value :
          {"nan", "inf", "-inf", "-5", "1e300", "99999999999999999999", "abc", ""}) {
-      const auto run = artus({"loop", flag, value});
-      EXPECT_EQ(run.exit_code, 2) << flag << " '" << value << "'";
-      EXPECT_NE(run.err.find(flag), std::string::npos) << flag << ' ' << run.err;
+      const std::string said = refusal({"artus", "loop", flag, value});
+      EXPECT_NE(said.find(flag), std::string::npos) << flag << " '" << value << "' " << said;
     }
   }
   for (const char* value : {"nan", "-1", "1.5", "99999999999999999999", ""}) {
-    const auto run = artus({"experiment", "wall-move", "--out", "out", "--seed", value});
-    EXPECT_EQ(run.exit_code, 2) << value;
-    EXPECT_NE(run.err.find("--seed"), std::string::npos) << run.err;
+    const std::string said =
+        refusal({"artus", "experiment", "wall-move", "--out", "out", "--seed", value});
+    EXPECT_NE(said.find("--seed"), std::string::npos) << value << ' ' << said;
+  }
+  const auto run = artus({"loop", "--rate", "nan"});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_NE(run.err.find("--rate"), std::string::npos) << run.err;
+}
+
+TEST(HapticTool, ANeedlesLengthIsOneNumberForFlowForceAndPicture) {
+  const auto length = [](const std::vector<std::string>& flags) {
+    std::vector<std::string> all{"inject",
+                                 "-j",
+                                 kSimple,
+                                 "--volume-ml",
+                                 "0.1",
+                                 "--rate",
+                                 "0.5",
+                                 "--aspirate",
+                                 "0",
+                                 "--no-images",
+                                 "--json",
+                                 "--out",
+                                 ::testing::TempDir() + "artus-inject-length"};
+    all.insert(all.end(), flags.begin(), flags.end());
+    const auto run = artus(all);
+    EXPECT_FALSE(run.out.empty()) << run.err;
+    return run.out.empty() ? 0 : nlohmann::json::parse(run.out).at("needle_mm").get<double>();
+  };
+  EXPECT_EQ(length({}), 50);
+  EXPECT_EQ(length({"--needle-length-mm", "80"}), 80);
+  EXPECT_EQ(length({"--length-mm", "80"}), 80);
+}
+
+TEST(HapticTool, TheTestOfThreeInjectionsTakesNoPoseThatItDoesNotUse) {
+  for (const char* flag : {"--probe", "--needle"}) {
+    const auto run = artus({"run", "three-injections", "-j", kSimple, "--out", "out", flag, "1"});
+    EXPECT_EQ(run.exit_code, 2) << flag;
+    EXPECT_NE(run.err.find(flag), std::string::npos) << run.err;
   }
 }
 

@@ -6,8 +6,6 @@
 #include <fstream>
 #include <string>
 
-#include <unistd.h>
-
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -22,19 +20,13 @@
 #include "artus/core/units.h"
 #include "artus/training/records.h"
 #include "tests/apps/run_tool.h"
+#include "tests/support/temporary_folder.h"
 
 namespace artus {
 namespace {
 
-class Train : public ::testing::Test {
+class Train : public test::TemporaryFolder {
  protected:
-  void SetUp() override {
-    std::string name = (std::filesystem::temp_directory_path() / "artus-train-XXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   [[nodiscard]] std::filesystem::path records() const { return folder_ / "records.db"; }
 
   [[nodiscard]] std::vector<AttemptRecord> attempts(const std::string& visit) const {
@@ -42,8 +34,6 @@ class Train : public ::testing::Test {
     EXPECT_TRUE(file) << file.error().to_string();
     return *file->attempts();
   }
-
-  std::filesystem::path folder_;
 };
 
 /// A run of the tool: its script, and what else stands on its command line.
@@ -87,7 +77,7 @@ const std::string kWholeSession =
     "stage end\nkey DOWN\nkey DOWN\nkey ENTER\n"
     "stage briefing\nkey ESCAPE\n"
     "stage what\n" +
-    many_times(20, "key DOWN\n") +
+    many_times(99, "key DOWN\n") +  // to the last of the page, whatever scenarios there are
     "key ENTER\n"
     "stage earlier\nkey ENTER\n"
     "stage end\nkey ENTER\n"

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/session/session_support.h"
+#include "tests/support/temporary_folder.h"
 #include "tests/viewer/person.h"
 
 namespace artus::test {
@@ -20,23 +21,18 @@ inline HandTarget over_the_skin() {
 }
 
 /// A person with a mouse and a keyboard at the window of a session on six flat layers.
-class WindowEventsTest : public ::testing::Test {
+class WindowEventsTest : public TemporaryFolder {
  protected:
   void SetUp() override {
+    TemporaryFolder::SetUp();
     if (std::getenv("DISPLAY") == nullptr) GTEST_SKIP() << "no display; ctest runs it under Xvfb";
     x_ = XActor::open();
     ASSERT_NE(x_, nullptr) << "the display has no XTEST";
-    std::string name = (std::filesystem::temp_directory_path() / "artus-events-XXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name;
     options_.pictures = folder_;
     PlannedTask task;
     task.injection = {"bursa", Vec3::Zero(), Vec3(0, 0, 23e-3)};
     task.start = over_the_skin();
     options_.tasks = {task};
-  }
-  void TearDown() override {
-    if (!folder_.empty()) std::filesystem::remove_all(folder_);
   }
 
   void run(const std::function<void(Person&)>& does) {
@@ -56,7 +52,6 @@ class WindowEventsTest : public ::testing::Test {
   SessionParams params_ = make_small_session();
   Session* session_ = nullptr;
   HandDevice* hand_ = nullptr;
-  std::filesystem::path folder_;
   WindowOptions options_;
   std::unique_ptr<WindowReport> report_;
 };

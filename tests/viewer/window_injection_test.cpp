@@ -2,12 +2,11 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include <unistd.h>
-
 #include <gtest/gtest.h>
 
 #include "artus/core/units.h"
 #include "tests/support/paths.h"
+#include "tests/support/temporary_folder.h"
 #include "tests/viewer/person.h"
 
 namespace artus {
@@ -32,7 +31,8 @@ struct Screen {
   double font_scale;
 };
 
-class WindowInjection : public ::testing::TestWithParam<Screen> {};
+class WindowInjection : public test::TemporaryFolder,
+                        public ::testing::WithParamInterface<Screen> {};
 
 /// Probe, entry, needle, bursa, freeze, caliper, save, clip, and out again.
 void inject(Person& person, const std::function<void(const char*)>& photograph) {
@@ -104,9 +104,7 @@ TEST_P(WindowInjection, APersonBringsTheTipIntoTheBursaByMouseAndKeyboard) {
   ASSERT_TRUE(joint) << joint.error().to_string();
   const auto scene = std::make_shared<const Scene>(std::make_shared<const CompiledJoint>(*joint));
   const char* kept = std::getenv("ARTUS_SCREENSHOTS");
-  std::string name = (std::filesystem::temp_directory_path() / "artus-injection-XXXXXX").string();
-  ASSERT_NE(mkdtemp(name.data()), nullptr);
-  const std::filesystem::path folder = kept != nullptr ? kept : name;
+  const std::filesystem::path folder = kept != nullptr ? kept : folder_;
   const Screen screen = GetParam();
   const std::string prefix = std::to_string(screen.width) + "-" +
                              std::to_string(static_cast<int>(screen.font_scale)) + "-";
@@ -115,7 +113,7 @@ TEST_P(WindowInjection, APersonBringsTheTipIntoTheBursaByMouseAndKeyboard) {
   options.height = screen.height;
   options.font_scale = screen.font_scale;
   options.welcome = true;
-  options.pictures = name;
+  options.pictures = folder_;
   options.tasks = {first_task(*joint)};
   SessionParams params;
   params.device = *find_device("touch");
@@ -134,14 +132,12 @@ TEST_P(WindowInjection, APersonBringsTheTipIntoTheBursaByMouseAndKeyboard) {
   };
   const auto report = person.sit_before(**session, hand, options.tasks[0].start, options,
                                         [&](Person& p) { inject(p, photograph); });
-  EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(name) / "bmode-1.png"));
-  EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(name) / "clip-1.avi"));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "bmode-1.png"));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "clip-1.avi"));
   RecordProperty("window_ms_p50", std::to_string(1e-3 * report->interval.percentile_us(0.5)));
   if (kept != nullptr)
-    std::filesystem::copy_file(std::filesystem::path(name) / "bmode-1.png",
-                               folder / (prefix + "saved.png"),
+    std::filesystem::copy_file(folder_ / "bmode-1.png", folder / (prefix + "saved.png"),
                                std::filesystem::copy_options::overwrite_existing);
-  std::filesystem::remove_all(name);
 }
 
 INSTANTIATE_TEST_SUITE_P(Screens, WindowInjection,

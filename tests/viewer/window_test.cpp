@@ -10,13 +10,13 @@
 
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/videoio.hpp>
-#include <unistd.h>
 
 #include <gtest/gtest.h>
 
 #include "artus/core/units.h"
 #include "artus/session/replay.h"
 #include "tests/session/session_support.h"
+#include "tests/support/temporary_folder.h"
 
 namespace artus {
 namespace {
@@ -29,20 +29,15 @@ HandTarget above_the_skin() {
 }
 
 /// A window that a script drives, over a recorded session with the hand of mouse and keyboard.
-class Window : public ::testing::Test {
+class Window : public test::TemporaryFolder {
  protected:
   void SetUp() override {
+    TemporaryFolder::SetUp();
     if (std::getenv("DISPLAY") == nullptr) GTEST_SKIP() << "no display; ctest runs it under Xvfb";
-    std::string name = (std::filesystem::temp_directory_path() / "artus-window-XXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name;
     options_.width = 960;
     options_.height = 540;
     options_.quit_after_script = true;
     options_.pictures = folder_;
-  }
-  void TearDown() override {
-    if (!folder_.empty()) std::filesystem::remove_all(folder_);
   }
 
   /// Runs the script and fills report_ and recording_.
@@ -88,7 +83,6 @@ class Window : public ::testing::Test {
 
   std::shared_ptr<const Scene> scene_ = test::make_layered_scene();
   SessionParams params_ = test::make_small_session();
-  std::filesystem::path folder_;
   WindowOptions options_;
   std::unique_ptr<WindowReport> report_;
   Recording recording_;
