@@ -140,6 +140,44 @@ TEST(PlungerOracle, ResistanceIsLostAlikeAtConstantForce) {
   }
 }
 
+TEST(PlungerOracle, ResistanceIsLostOrGainedAlikeAtAConstantRate) {
+  struct Row {
+    double diameter;  // m, of the barrel
+    double from;      // Pa
+    double to;        // Pa
+    double fall;      // N at the thumb
+  };
+  // Tendon to bursa, muscle to bursa, beside a nerve into it; 5 ml, then 10 ml.
+  constexpr std::array<Row, 6> kRows{{{0.01206, 300e3, 20 * kMercury, 33.964750},
+                                      {0.01206, 20e3, 20 * kMercury, 1.980032},
+                                      {0.01206, 6 * kPsi, 25 * kPsi, -14.964323},
+                                      {0.0145, 300e3, 20 * kMercury, 49.098680},
+                                      {0.0145, 20e3, 20 * kMercury, 2.862290},
+                                      {0.0145, 6 * kPsi, 25 * kPsi, -21.632089}}};
+  for (const Row& row : kRows) {
+    PlungerParams params = water_syringe();
+    params.syringe.diameter = row.diameter;
+    std::vector<Space> spaces = one_space(level(row.from), "from");
+    spaces.push_back(one_space(level(row.to), "to")[0]);
+    Plunger plunger(params, spaces, 1e-3);
+    PlungerInput input = thumb(0);
+    input.stiffness = 2000;
+    const double speed = 1e-7 / params.syringe.area();
+    const double ahead = (params.syringe.area() * row.from + 4) / input.stiffness;
+    double before = 0;
+    // 10 ml at this rate take 18 s to press 21.6 N into the spring; 40 s are enough for all.
+    for (int k = 0; k < 60000; ++k) {
+      if (k == 20000) {
+        before = plunger.state().force;
+        input.tip[0].space = 1;
+      }
+      input.position = ahead + speed * 1e-3 * k;
+      plunger.step(input);
+    }
+    EXPECT_NEAR((before - plunger.state().force) / row.fall, 1, 2e-3) << row.diameter << row.from;
+  }
+}
+
 TEST(PlungerOracle, TheThumbsWorkIsSpentAlike) {
   constexpr double kDt = 1e-4;
   PlungerParams params = water_syringe(0);
