@@ -147,7 +147,7 @@ TEST(PlungerOracle, ResistanceIsLostOrGainedAlikeAtAConstantRate) {
     double to;        // Pa
     double fall;      // N at the thumb
   };
-  // Tendon to bursa, muscle to bursa, beside a nerve into it; 5 ml, then 10 ml.
+  // Area times step of pressure: tendon to bursa, muscle to bursa, beside a nerve into it.
   constexpr std::array<Row, 6> kRows{{{0.01206, 300e3, 20 * kMercury, 33.964750},
                                       {0.01206, 20e3, 20 * kMercury, 1.980032},
                                       {0.01206, 6 * kPsi, 25 * kPsi, -14.964323},
