@@ -78,6 +78,128 @@ TEST(PlungerOracle, ALeakOverAYieldPressureSettlesAlike) {
       plunger, 1e-3, kRows, [](double) { return 10.0; }, 1e-6);
 }
 
+TEST(PlungerOracle, AThinNeedleFillsAComplianceAlikeAtConstantPressure) {
+  PlungerParams params = water_syringe(0);
+  params.syringe.diameter = 14.5e-3;  // 10 ml
+  params.syringe.break_loose = params.syringe.glide;
+  params.needle = *bore_of_gauge(25, 0.038);
+  Plunger plunger(params, one_space(compliance(kRest, 1 / kCompliance)), 1e-3);
+  const double force = params.syringe.glide + params.syringe.area() * (kRest + 50 * kMercury);
+  constexpr std::array<OracleRow, 4> kRows{{{1, 0.0001657184133, 1.96323996e-08, 7732.676},
+                                            {20, 0.002328621056, 3.767924349e-07, 7732.676},
+                                            {100, 0.009698601736, 1.593797078e-06, 7732.676},
+                                            {200, 0.01593193808, 2.623107684e-06, 7732.676}}};
+  expect_rows(
+      plunger, 1e-3, kRows, [&](double) { return force; }, 1e-7);
+}
+
+TEST(PlungerOracle, AStoppedPlungerWithAirFlowsOnAlike) {
+  PlungerParams params = water_syringe(0);
+  params.syringe.compliance = 0;
+  params.syringe.air = 0.2 * kCubicCentimetre;
+  params.syringe.break_loose = 7;
+  params.syringe.glide = 0;
+  Plunger plunger(params, one_space(compliance(0, 1 / kCompliance)), 1e-4);
+  constexpr std::array<OracleRow, 5> kRows{{{0.05, 0.001211012115, 4.195882355e-08, 48826.72731},
+                                            {0.1, 0.001211012115, 7.115379888e-08, 34035.82294},
+                                            {0.2, 0.001211012115, 1.056020923e-07, 16583.4563},
+                                            {0.5, 0.001211012115, 1.342632739e-07, 2062.985174},
+                                            {1, 0.001211012115, 1.378344011e-07, 253.7628145}}};
+  expect_rows(
+      plunger, 1e-4, kRows, [](double t) { return t < 1.5e-4 ? 8.0 : 4.0; }, 1e-7);
+}
+
+TEST(PlungerOracle, ResistanceIsLostAlikeAtConstantForce) {
+  struct Needle {
+    int gauge;
+    double length;
+    double before;  // m^3/s in 20 kPa
+    double after;   // m^3/s in 20 mmHg
+    double travel;  // m, after 0.3 s
+    double given;   // m^3
+  };
+  constexpr std::array<Needle, 2> kNeedles{
+      {{22, 0.05, 1.846226491e-07, 3.529566383e-07, 0.001086133948, 8.905359257e-08},
+       {18, 0.04, 1.631482009e-06, 2.568774958e-06, 0.006232275525, 6.769031925e-07}}};
+  for (const Needle& row : kNeedles) {
+    PlungerParams params = water_syringe();
+    params.needle = *bore_of_gauge(row.gauge, row.length);
+    std::vector<Space> spaces = one_space(level(20e3), "muscle");
+    spaces.push_back(one_space(level(20 * kMercury), "bursa")[0]);
+    Plunger plunger(params, spaces, 1e-3);
+    PlungerInput input = thumb(6);
+    for (int k = 1; k <= 300; ++k) {
+      if (k == 101) input.tip[0].space = 1;
+      plunger.step(input);
+      const double flow = k <= 100 ? row.before : row.after;
+      ASSERT_NEAR(plunger.state().flow / flow, 1, 1e-3) << row.gauge << ' ' << k;
+    }
+    const double given = plunger.states()[0].volume + plunger.states()[1].volume;
+    EXPECT_NEAR(given / row.given, 1, 1e-3) << row.gauge;
+    EXPECT_NEAR(plunger.state().travel / row.travel, 1, 1e-3) << row.gauge;
+  }
+}
+
+TEST(PlungerOracle, ResistanceIsLostOrGainedAlikeAtAConstantRate) {
+  struct Row {
+    double diameter;  // m, of the barrel
+    double from;      // Pa
+    double to;        // Pa
+    double fall;      // N at the thumb
+  };
+  // Area times step of pressure: tendon to bursa, muscle to bursa, beside a nerve into it.
+  constexpr std::array<Row, 6> kRows{{{0.01206, 300e3, 20 * kMercury, 33.964750},
+                                      {0.01206, 20e3, 20 * kMercury, 1.980032},
+                                      {0.01206, 6 * kPsi, 25 * kPsi, -14.964323},
+                                      {0.0145, 300e3, 20 * kMercury, 49.098680},
+                                      {0.0145, 20e3, 20 * kMercury, 2.862290},
+                                      {0.0145, 6 * kPsi, 25 * kPsi, -21.632089}}};
+  for (const Row& row : kRows) {
+    PlungerParams params = water_syringe();
+    params.syringe.diameter = row.diameter;
+    std::vector<Space> spaces = one_space(level(row.from), "from");
+    spaces.push_back(one_space(level(row.to), "to")[0]);
+    Plunger plunger(params, spaces, 1e-3);
+    PlungerInput input = thumb(0);
+    input.stiffness = 2000;
+    const double speed = 1e-7 / params.syringe.area();
+    const double ahead = (params.syringe.area() * row.from + 4) / input.stiffness;
+    double before = 0;
+    // 10 ml at this rate take 18 s to press 21.6 N into the spring; 40 s are enough for all.
+    for (int k = 0; k < 60000; ++k) {
+      if (k == 20000) {
+        before = plunger.state().force;
+        input.tip[0].space = 1;
+      }
+      input.position = ahead + speed * 1e-3 * k;
+      plunger.step(input);
+    }
+    EXPECT_NEAR((before - plunger.state().force) / row.fall, 1, 2e-3) << row.diameter << row.from;
+  }
+}
+
+TEST(PlungerOracle, TheThumbsWorkIsSpentAlike) {
+  constexpr double kDt = 1e-4;
+  PlungerParams params = water_syringe(0);
+  Plunger plunger(params, one_space(compliance(kRest, 1 / kCompliance)), kDt);
+  const double force = 4 + params.syringe.area() * (kRest + 50 * kMercury);
+  const double resistance =
+      NeedleFlow(params.needle, params.liquid.viscosity, params.liquid.density, 0).resistance();
+  double needle = 0;
+  for (int k = 0; k < 50000; ++k) {
+    const double flow = plunger.step(thumb(force)).flow;
+    needle += flow * flow * resistance * kDt;
+  }
+  const double travel = plunger.state().travel;
+  const double volume = plunger.states()[0].volume;
+  const double pressure = plunger.state().pressure;
+  EXPECT_NEAR(force * travel / 0.07110518081, 1, 1e-3);
+  EXPECT_NEAR(params.syringe.glide * travel / 0.02912170079, 1, 1e-3);
+  EXPECT_NEAR(needle / 0.03761187263, 1, 1e-3);
+  EXPECT_NEAR((kRest * volume + volume * volume / (2 * kCompliance)) / 0.003734537203, 1, 1e-3);
+  EXPECT_NEAR(params.syringe.softness() * pressure * pressure / 0.0006371099612, 1, 1e-3);
+}
+
 TEST(PlungerOracle, TheHandsTableIsReproduced) {
   struct Target {
     const char* name;
