@@ -73,8 +73,10 @@ TEST(DeformedBody, WhatStaysHasTheBytesOfTheStateBefore) {
   for (std::size_t k = block.map->n_near; k < block.map->moving.size(); ++k) {
     const std::uint32_t v = block.map->moving[k];
     const double x = block.joint->mesh.vertices[v].x();
-    if (x < 23e-3) ASSERT_EQ(after->vertices()[v], before->vertices()[v]);
-    if (x > 31e-3) ASSERT_EQ(after->vertices()[v], alone->vertices()[v]);
+    const bool still = after->vertices()[v] == before->vertices()[v];
+    const bool there = after->vertices()[v] == alone->vertices()[v];
+    ASSERT_TRUE(x > 23e-3 || still);
+    ASSERT_TRUE(x < 31e-3 || there);
     ASSERT_LT((after->vertices()[v] - alone->vertices()[v]).norm(), 20e-6);
   }
 }
