@@ -30,7 +30,8 @@ void push_tip(const Scene& scene, const std::vector<TissueInterval>& layers, dou
       drag = {{}, pushed, pushed / compliance, i.region};
       return;
     }
-    if (i.exit >= tip) drag = {{}, layer.cutting_force * compliance, layer.cutting_force, kOutside};
+    if (&i == &layers.back())  // not by its exit, which is the tip's but for rounding
+      drag = {{}, layer.cutting_force * compliance, layer.cutting_force, kOutside};
   }
 }
 

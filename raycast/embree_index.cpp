@@ -209,14 +209,10 @@ bool touches(const FacetSides& sides, RegionId last) noexcept {
 }  // namespace
 
 EmbreeIndex::EmbreeIndex(std::span<const Vec3> vertices, std::span<const Interface> interfaces,
-                         const std::string& isa, std::span<const std::uint32_t> near)
+                         const std::string& isa, bool moves)
     : centre_(find_centre(vertices, interfaces)) {
   vertices_.reserve(vertices.size());
   for (const Vec3& v : vertices) vertices_.emplace_back(v - centre_);
-  if (!near.empty()) {
-    near_vertex_.assign(vertices.size(), false);
-    for (const std::uint32_t v : near) near_vertex_.at(v) = true;
-  }
   triangles_.reserve(interfaces.size());
   facets_.reserve(interfaces.size());
   std::vector<std::uint32_t> boundary;
@@ -228,10 +224,8 @@ EmbreeIndex::EmbreeIndex(std::span<const Vec3> vertices, std::span<const Interfa
     for (const Vec3& corner : corners(i)) radius_ = std::max(radius_, corner.norm());
     if (touches(facets_.back().sides, kBeyond)) boundary.push_back(i);
     if (touches(facets_.back().sides, kOutside)) skin.push_back(i);
-    if (!near.empty())
-      in_near_.push_back(std::any_of(interface.vertices.begin(), interface.vertices.end(),
-                                     [&](std::uint32_t v) { return near_vertex_[v]; }));
   }
+  if (moves) make_blocks();
   std::vector<std::uint32_t> all(interfaces.size());
   std::iota(all.begin(), all.end(), 0U);
   device_ = make_device(isa);
@@ -263,32 +257,33 @@ void EmbreeIndex::fill_coordinates() {
   }
 }
 
-/// One geometry, or two: the first of what moves each time. Members are listed where they are not
-/// all interfaces in their order.
+/// Members are listed where they are not all interfaces in their order.
 EmbreeParts EmbreeIndex::make_parts(std::vector<std::uint32_t> members) const {
   EmbreeParts parts;
   parts.none = members.empty();
   const bool whole = !can_move() && members.size() == triangles_.size();
   if (can_move()) {
-    for (const std::uint32_t i : members) parts.members[in_near_[i] ? 0 : 1].push_back(i);
+    parts.members.resize(kMostBlocks);
+    for (const std::uint32_t i : members) parts.members[block_of_[i]].push_back(i);
   } else {
-    parts.members[0] = std::move(members);
+    parts.members.push_back(std::move(members));
   }
   parts.scene.reset(rtcNewScene(device_.get()));
   rtcSetSceneFlags(parts.scene.get(), can_move() ? RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_DYNAMIC
                                                  : RTC_SCENE_FLAG_ROBUST);
   rtcSetSceneBuildQuality(parts.scene.get(),
                           can_move() ? RTC_BUILD_QUALITY_LOW : RTC_BUILD_QUALITY_MEDIUM);
-  for (unsigned k = 0; k < 2; ++k) {
-    if (k == 1 && parts.members[1].empty()) continue;
+  parts.geometries.resize(parts.members.size());
+  for (std::size_t k = 0; k < parts.members.size(); ++k) {
+    if (parts.members[k].empty()) continue;
     RTCGeometry geometry = make_geometry(parts.members[k]);
     if (!whole) rtcSetGeometryUserData(geometry, parts.members[k].data());
     rtcCommitGeometry(geometry);
-    rtcAttachGeometryByID(parts.scene.get(), geometry, k);
+    rtcAttachGeometryByID(parts.scene.get(), geometry, static_cast<unsigned>(k));
     rtcReleaseGeometry(geometry);
     parts.geometries[k] = geometry;
   }
-  if (whole) parts.members[0].clear();
+  if (whole) parts.members.clear();
   rtcCommitScene(parts.scene.get());
   return parts;
 }
@@ -312,8 +307,7 @@ RTCGeometryTy* EmbreeIndex::make_geometry(std::span<const std::uint32_t> members
 
 void EmbreeIndex::move(std::span<const Vec3> vertices) {
   ARTUS_REQUIRE(can_move() && vertices.size() <= vertices_.size(), "an index that cannot move");
-  bool near = false;
-  bool far = false;
+  std::uint64_t blocks = 0;
   auto* const coordinates = static_cast<float*>(rtcGetBufferData(coordinates_.get()));
   for (std::size_t v = 0; v < vertices.size(); ++v) {
     const Vec3 place = vertices[v] - centre_;
@@ -321,25 +315,20 @@ void EmbreeIndex::move(std::span<const Vec3> vertices) {
     vertices_[v] = place;
     for (int k = 0; k < 3; ++k)
       coordinates[3 * v + static_cast<std::size_t>(k)] = static_cast<float>(place[k]);
-    (near_vertex_[v] ? near : far) = true;
+    blocks |= blocks_at_[v];
   }
-  if (near || far) move_triangles(near, far);
+  if (blocks != 0) refit(blocks);
   radius_ = 0;
   for (std::size_t v = 0; v < vertices.size(); ++v)
     radius_ = std::max(radius_, vertices_[v].norm());
 }
 
-/// A triangle with a vertex that is near is in the first part, whichever of its vertices moved.
-void EmbreeIndex::move_triangles(bool near, bool far) {
-  near_moved_ = near_moved_ || near || far;
-  for (std::uint32_t i = 0; far && i < triangles_.size(); ++i) {
-    if (!in_near_[i]) facets_[i].plane = make_plane(i);
-  }
+void EmbreeIndex::refit(std::uint64_t blocks) {
+  moved_ = true;
   for (EmbreeParts* parts : {&all_, &boundary_, &skin_}) {
-    for (unsigned k = 0; k < 2; ++k) {
+    for (std::size_t k = 0; k < parts->geometries.size(); ++k) {
       RTCGeometry geometry = parts->geometries[k];
-      const bool moved = k == 0 ? near || far : far;
-      if (!moved || geometry == nullptr || parts->members[k].empty()) continue;
+      if ((blocks >> k & 1U) == 0 || geometry == nullptr) continue;
       rtcUpdateGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0);
       rtcCommitGeometry(geometry);
     }
@@ -358,7 +347,7 @@ FacetPlane EmbreeIndex::make_plane(std::uint32_t i) const noexcept {
 
 void EmbreeIndex::prefetch_plane(std::uint32_t i) const noexcept {
   __builtin_prefetch(&facets_[i]);
-  if (near_moved_) __builtin_prefetch(&triangles_[i]);
+  if (moved_) __builtin_prefetch(&triangles_[i]);
 }
 
 std::array<Vec3, 3> EmbreeIndex::corners(std::uint32_t i) const noexcept {

@@ -60,10 +60,9 @@ struct Trace {
 }  // namespace
 
 struct Scene::Impl {
-  Impl(std::shared_ptr<const CompiledJoint> shared, const SceneOptions& options,
-       std::span<const std::uint32_t> near = {})
+  Impl(std::shared_ptr<const CompiledJoint> shared, const SceneOptions& options, bool moves = false)
       : joint(std::move(shared)),
-        index(joint->mesh.vertices, joint->mesh.interfaces, options.isa, near),
+        index(joint->mesh.vertices, joint->mesh.interfaces, options.isa, moves),
         directions(probe_directions()),
         has_beyond(std::any_of(joint->mesh.interfaces.begin(), joint->mesh.interfaces.end(),
                                [](const Interface& interface) {
@@ -141,9 +140,7 @@ Scene::Scene(std::shared_ptr<const CompiledJoint> joint, const SceneOptions& opt
   impl_ = std::make_unique<Impl>(std::move(joint), options);
 }
 Scene::Scene(const DeformedBody& tissue, const SceneOptions& options)
-    : impl_(std::make_unique<Impl>(
-          tissue.shared_joint(), options,
-          std::span(tissue.map().moving).first(std::max<std::size_t>(1, tissue.map().n_near)))) {}
+    : impl_(std::make_unique<Impl>(tissue.shared_joint(), options, true)) {}
 
 void Scene::move(std::shared_ptr<const DeformedBody> tissue) {
   if (tissue) impl_->index.move(tissue->vertices());

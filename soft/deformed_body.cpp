@@ -99,20 +99,39 @@ std::shared_ptr<const BodyMap> make_body_map(const CompiledJoint& joint, const P
   return map;
 }
 
-bool DeformedBody::may_keep_far(const DeformedBody& before) const {
-  if (before.map_ != map_) return false;
-  for (std::size_t k = 0; k < map_->far_nodes.size(); ++k) {
-    const Vec3 moved = u_[map_->far_nodes[k]] - before.far_u_[k];
-    if (moved.squaredNorm() > kFarTolerance * kFarTolerance) return false;
-  }
-  return true;
+void DeformedBody::move_vertex(std::size_t k, std::span<const Vec3> u) {
+  const Vec3 moved = map_->model->displacement_at(map_->places[k], u);
+  if (moved.squaredNorm() > kStill * kStill)
+    vertices_[map_->moving[k]] += map_->X_JC.linear() * moved;
 }
 
-void DeformedBody::move_vertices(std::size_t first, std::size_t last) {
-  const Eigen::Matrix3d R = map_->X_JC.linear();
-  for (std::size_t k = first; k < last; ++k) {
-    const Vec3 u = map_->model->displacement_at(map_->places[k], u_);
-    if (u.squaredNorm() > kStill * kStill) vertices_[map_->moving[k]] += R * u;
+/// Far vertices whose cube has no node that went on stay as they were.
+void DeformedBody::move_far(const DeformedBody* before) {
+  if (before != nullptr && before->map_ != map_) before = nullptr;
+  std::vector<Vec3> u = u_;
+  std::vector<bool> went_on(u.size(), true);
+  far_u_.reserve(map_->far_nodes.size());
+  for (std::size_t k = 0; k < map_->far_nodes.size(); ++k) {
+    const std::uint32_t n = map_->far_nodes[k];
+    if (before != nullptr) {
+      went_on[n] = (u_[n] - before->far_u_[k]).squaredNorm() > kFarTolerance * kFarTolerance;
+      if (!went_on[n]) u[n] = before->far_u_[k];
+    }
+    far_u_.push_back(u[n]);
+  }
+  std::vector<bool> still;
+  for (const CageCell& cell : map_->model->cage().cells())
+    still.push_back(std::none_of(cell.nodes.begin(), cell.nodes.end(),
+                                 [&](std::uint32_t n) { return went_on[n]; }));
+  for (std::size_t k = map_->n_near; k < map_->moving.size(); ++k) {
+    const std::int32_t cell = map_->places[k].cell;
+    if (cell < 0) continue;
+    const std::uint32_t v = map_->moving[k];
+    if (still[static_cast<std::size_t>(cell)]) {
+      vertices_[v] = before->vertices_[v];
+    } else {
+      move_vertex(k, u);
+    }
   }
 }
 
@@ -127,16 +146,8 @@ DeformedBody::DeformedBody(std::shared_ptr<const CompiledJoint> joint,
       contact_(contact_J) {
   const auto& rest = joint_->mesh.vertices;
   vertices_.assign(rest.begin(), rest.begin() + static_cast<std::ptrdiff_t>(map_->n_vertices));
-  move_vertices(0, map_->n_near);
-  if (before != nullptr && may_keep_far(*before)) {
-    far_u_ = before->far_u_;
-    for (std::size_t k = map_->n_near; k < map_->moving.size(); ++k)
-      vertices_[map_->moving[k]] = before->vertices_[map_->moving[k]];
-    return;
-  }
-  move_vertices(map_->n_near, map_->moving.size());
-  far_u_.reserve(map_->far_nodes.size());
-  for (const std::uint32_t n : map_->far_nodes) far_u_.push_back(u_[n]);
+  for (std::size_t k = 0; k < map_->n_near; ++k) move_vertex(k, u_);
+  move_far(before);
 }
 
 CompiledJoint DeformedBody::moved_joint() const {

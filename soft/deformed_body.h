@@ -31,9 +31,9 @@ struct BodyMap {
 /// J.
 class DeformedBody {
  public:
-  /// Far vertices stay where `before` (an earlier state of the same map, or none) has them while no
-  /// node around them is farther than 20 um from where it was then: what indexes the surfaces then
-  /// has less to do. The others are where u says.
+  /// A node of the coarsest cubes moves far vertices only when it is 20 um from where it last did
+  /// (`before`: an earlier state of the same map, or none): what indexes the surfaces then has less
+  /// to do. The others are where u says.
   DeformedBody(std::shared_ptr<const CompiledJoint> joint, std::shared_ptr<const BodyMap> map,
                std::span<const Vec3> node_displacements, const ContactForce& contact_J,
                const DeformedBody* before = nullptr);
@@ -95,11 +95,11 @@ class DeformedBody {
   std::shared_ptr<const CompiledJoint> joint_;
   std::shared_ptr<const BodyMap> map_;
   [[nodiscard]] Motion in_J(const Motion& motion) const noexcept;
-  [[nodiscard]] bool may_keep_far(const DeformedBody& before) const;
-  void move_vertices(std::size_t first, std::size_t last);
+  void move_vertex(std::size_t k, std::span<const Vec3> u);
+  void move_far(const DeformedBody* before);
 
   std::vector<Vec3> u_;      // (n_nodes) frame C
-  std::vector<Vec3> far_u_;  // (far_nodes) the same where the far vertices were moved last
+  std::vector<Vec3> far_u_;  // (far_nodes) the same where a node moved its far vertices last
   Pose X_CJ_ = Pose::Identity();
   std::vector<Vec3> vertices_;  // frame J
   ContactForce contact_;

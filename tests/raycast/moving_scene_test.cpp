@@ -94,6 +94,27 @@ TEST(MovingScene, AnswersAsASceneBuiltOfTheMovedSurfaces) {
         << i << ": " << moved[i] << ", " << built[i];
 }
 
+TEST(MovingScene, FollowsWhatMovesInOnePlaceAfterAnother) {
+  const test::MovedBlock block = make_block();
+  MovingScene scenes;
+  const Scene* same = nullptr;
+  for (const double place : {-30e-3, 33e-3, 12e-3}) {  // each lets the one before come back to rest
+    const auto body = block.moved([&](const Vec3& p) {
+      const double aside = (p - Vec3(place, -place, p.z())).norm();
+      return aside < 12e-3 ? Vec3(0.4 * dent({aside, 0, p.z()})) : Vec3(Vec3::Zero());
+    });
+    const auto scene = scenes.at(body);
+    EXPECT_TRUE(same == nullptr || same == scene.get());
+    same = scene.get();
+    const auto moved = answers(*scene);
+    const auto built = answers(Scene(std::make_shared<const CompiledJoint>(body->moved_joint())));
+    ASSERT_EQ(moved.size(), built.size());
+    for (std::size_t i = 0; i < moved.size(); ++i)
+      EXPECT_TRUE(moved[i] == built[i] || std::abs(moved[i] - built[i]) < 1e-9)
+          << place << ", " << i << ": " << moved[i] << ", " << built[i];
+  }
+}
+
 TEST(MovingScene, LeavesASceneAloneWhileItIsHeldAndUsesItAgainAfterwards) {
   const test::MovedBlock block = make_block();
   MovingScene scenes;
