@@ -205,12 +205,9 @@ nlohmann::json to_json(const JointFile& joint, const JointCheck& check) {
   for (const JointVariant& variant : joint.variants)
     variants.push_back(
         {{"name", variant.name}, {"title", variant.title}, {"chosen", variant.chosen}});
-  return {{"joint", joint.name},
-          {"structures", joint.structures.size()},
-          {"variants", variants},
-          {"findings", findings},
-          {"crossings", crossings},
-          {"usable", check.usable()}};
+  return {{"joint", joint.name},    {"structures", joint.structures.size()},
+          {"variants", variants},   {"findings", findings},
+          {"crossings", crossings}, {"usable", check.usable()}};
 }
 
 ExitCode check_folder(const CheckOptions& options) {
