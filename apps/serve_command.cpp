@@ -45,6 +45,7 @@ Result<Setting> setting_of(const ServeOptions& options, const Scenario& scenario
   params->needle_shape = own->needle_shape;
   params->feel.needle_length = own->feel.needle_length;
   params->syringe = own->syringe;
+  params->aids = own->aids;
   ARTUS_TRY(validate(*params));
   return Setting{*scene, *params};
 }

@@ -9,6 +9,7 @@
 #include "artus/haptics/needle/needle_renderer.h"
 #include "artus/session/input_device.h"
 #include "artus/session/session_params.h"
+#include "artus/session/hand_aids.h"
 #include "artus/session/syringe_core.h"
 #include "artus/session/tissue_packet.h"
 #include "artus/session/two_phase_gesture.h"
@@ -93,6 +94,7 @@ class HapticCore {
   void step_needle(const DeviceSample& device, std::uint32_t command) noexcept;
   void step_probe(bool felt, const std::optional<Pose>& X_WP) noexcept;
   void step_syringe(bool runs) noexcept;
+  void add_force(const Vec3& more_J, bool runs) noexcept;
   void describe() noexcept;
 
   std::shared_ptr<const Scene> scene_;
@@ -101,6 +103,7 @@ class HapticCore {
   ProbeTangent probe_;
   OutputGuard probe_guard_;
   SyringeCore syringe_;
+  HandAid aid_;
   DeviceLimits device_;
   HapticSnapshot out_;
 };

@@ -23,11 +23,21 @@ void fields_of(P& choice, F&& visit) {
   visit("seed", seed);
 }
 
+template <Like<HandAids> P, class F>
+void fields_of(P& aids, F&& visit) {
+  auto& [entry, target, guide, wall, keep_out] = aids;
+  visit("entry", entry);
+  visit("target", target);
+  visit("guide", guide);
+  visit("wall", wall);
+  visit("keep_out", keep_out);
+}
+
 /// All but the feel, whose choices may be unset, and the joint's place.
 template <Like<SessionParams> P, class F>
 void fields_of(P& params, F&& visit) {
   auto& [haptic_rate, image_rate, device, needle, passivity, guard, feel, gesture, X_WJ, transducer,
-         image, needle_shape, syringe, deform] = params;
+         image, needle_shape, syringe, aids, deform] = params;
   visit("haptic_rate", haptic_rate);
   visit("image_rate", image_rate);
   visit("device", device);
@@ -39,6 +49,7 @@ void fields_of(P& params, F&& visit) {
   visit("image", image);
   visit("needle_shape", needle_shape);
   visit("syringe", syringe);
+  visit("aids", aids);
   visit("deform", deform);
 }
 

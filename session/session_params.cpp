@@ -56,6 +56,18 @@ Result<void> validate(const NeedleShape& shape) {
   return {};
 }
 
+Result<void> validate(const HandAids& aids) {
+  constexpr double kStiffest = 1000;  // N/m
+  const auto held = [](double stiffness) {
+    return stiffness >= 0 && stiffness <= kStiffest;
+  };
+  if (!held(aids.guide) || !held(aids.wall))
+    return fail(ErrorCode::invalid, "must be 0 to 1000 N/m", "aids");
+  if (!is_near(aids.entry) || !is_near(aids.target))
+    return fail(ErrorCode::invalid, "needs points within 10 m", "aids");
+  return {};
+}
+
 }  // namespace
 
 static_assert(static_cast<int>(HardLaw::impulse) == 1, "choices are of two");
@@ -75,6 +87,7 @@ Result<void> validate(const SessionParams& params) {
   if (!is_rigid(params.X_WJ)) return fail(ErrorCode::invalid, "is no rigid pose", "X_WJ");
   ARTUS_TRY(validate(params.gesture));
   ARTUS_TRY(validate(params.needle_shape));
+  ARTUS_TRY(validate(params.aids));
   ARTUS_TRY(validate(params.feel));
   ARTUS_TRY(make_plunger_params(params.syringe, needle_length_of(params)));
   ARTUS_TRY(validate(params.transducer));

@@ -14,6 +14,15 @@
 
 namespace artus {
 
+/// Help for the needle hand in training (HandAid); none unless something asks for it.
+struct HandAids {
+  Vec3 entry = Vec3::Zero();   ///< m, frame J: the planned line goes through it
+  Vec3 target = Vec3::Zero();  ///< m, frame J
+  double guide = 0;            ///< N/m across to that line
+  double wall = 0;             ///< N/m along the needle within `keep_out`
+  std::string keep_out;        ///< names of structures, one on each line
+};
+
 /// All that a session's results depend on besides its inputs and the joint. `feel` is the user's
 /// choice and goes before `needle` and `passivity`, which are as published.
 struct SessionParams {
@@ -30,6 +39,7 @@ struct SessionParams {
   ImageSettings image;
   NeedleShape needle_shape;  ///< of its length: see needle_length_of
   SyringeChoice syringe;
+  HandAids aids;
   bool deform = false;  ///< tissue gives way to probe and needle, in picture and hands
 };
 

@@ -20,6 +20,8 @@ namespace {
 constexpr double kRate = 1000;          // Hz
 constexpr std::uint64_t kGlances = 50;  // ticks from one to the next
 constexpr double kPhysics = 4000;       // Hz
+constexpr double kGuide = 300;          // N/m of a whole haptic_guide; assumed
+constexpr double kWall = 1000;          // N/m of a whole haptic_wall; assumed
 constexpr double kSeenVolume = 0.3e-6;  // m^3 that split a line visibly; assumed
 
 Result<RegionId> find_region(const CompiledJoint& joint, const std::string& name) {
@@ -199,6 +201,19 @@ Result<std::shared_ptr<const Scene>> make_gel_scene(const GelBlock& gel) {
       make_layered_block(*tissues, gel.layers, gel.width, gel.width)));
 }
 
+HandAids aids_of(const Scenario& scenario) {
+  HandAids aids;
+  aids.entry = scenario.entry.centre;
+  aids.target = scenario.target.point;
+  for (const Aid& aid : scenario.aids) {
+    if (aid.name == "haptic_guide") aids.guide = kGuide * aid.value;
+    if (aid.name == "haptic_wall") aids.wall = kWall * aid.value;
+  }
+  for (const ScenarioAvoid& avoid : scenario.avoid)
+    aids.keep_out += (aids.keep_out.empty() ? "" : "\n") + avoid.structure;
+  return aids;
+}
+
 Result<SessionParams> make_session_params(const Scenario& scenario) {
   SessionParams params;
   const auto device = find_device("virtuose_6d_desktop");
@@ -212,6 +227,7 @@ Result<SessionParams> make_session_params(const Scenario& scenario) {
   params.needle_shape = needle_of_gauge(scenario.gauge).value_or(NeedleShape{});
   params.feel.needle_length = scenario.needle_length;
   params.syringe = syringe_of(scenario);
+  params.aids = aids_of(scenario);
   ARTUS_TRY(validate(params));
   return params;
 }

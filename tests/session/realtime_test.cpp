@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "artus/session/dropping_ring.h"
+#include "artus/session/hand_aids.h"
 #include "artus/session/hand_device.h"
 #include "artus/session/haptic_loop.h"
 #include "artus/session/injecting_device.h"
@@ -24,13 +25,12 @@ namespace {
 
 using test::use;
 
-constexpr std::int64_t kTickTime = 1'000'000;  // ns
 
 /// Reads and writes a device for `ticks` ms under the counters.
 template <class Device>
 void run_device(Device& device, int ticks) {
   for (int i = 0; i < ticks; ++i) {
-    use(device.read(i * kTickTime));
+    use(device.read(i * test::kTickTime));
     device.write({});
   }
 }
@@ -69,7 +69,7 @@ TEST(RealTimeSession, TheSyringeNeitherAllocatesNorLocks) {
   SyringeCore syringe(scene->joint(), test::make_small_session());
   const LayerTable table = make_layer_table(scene->joint(), {});
   const NeedleContact contact({}, {}, table, 1e-3);
-  DeviceSample sample = test::sample_at(5e-3, kTickTime, 1);
+  DeviceSample sample = test::sample_at(5e-3, test::kTickTime, 1);
   sample.plunger = PlungerSign::force;
   sample.plunger_force = 20;
   ARTUS_RUNS_REALTIME(SyringeCore::step,
@@ -79,6 +79,21 @@ TEST(RealTimeSession, TheSyringeNeitherAllocatesNorLocks) {
   ARTUS_RUNS_REALTIME(SyringeCore::reset, syringe.reset());
 }
 
+TEST(RealTimeSession, AidsOfTheHandNeitherAllocateNorLock) {
+  const auto scene = test::make_layered_scene();
+  HandAid aid(scene->joint(), {Vec3::Zero(), Vec3::UnitZ(), 300, 1000, "muscle\nbursa"});
+  const auto needle = make_needle_renderer(scene, "virtuose_6d_desktop", 1000);
+  ASSERT_TRUE(needle);
+  Vec3 most = Vec3::Zero();
+  ARTUS_RUNS_REALTIME(HandAid::step, for (int k = 0; k < 2000; ++k) {
+    const Vec3 tip(1e-3, 0, -2e-3 + 1e-5 * k);
+    (*needle)->step({make_pose(tip, Vec3::UnitZ(), Vec3::UnitX()), 1e-3 * k});
+    most = most.cwiseMin(aid.step((*needle)->model().contact(), tip));
+  });
+  EXPECT_LT(most.x(), -0.1);
+  EXPECT_LT(most.z(), -0.1);
+}
+
 TEST(RealTimeSession, CoreAndLoopNeitherAllocateNorLockOnTheWayToBone) {
   const auto scene = test::make_layered_scene();
   HapticCore core(scene, test::make_small_session());
@@ -86,7 +101,7 @@ TEST(RealTimeSession, CoreAndLoopNeitherAllocateNorLockOnTheWayToBone) {
   for (int i = 0; i < 2000; ++i) {
     TickInput input;
     input.tick = static_cast<std::uint64_t>(i) + 1;
-    input.device = test::sample_at(-5e-3 + 2e-5 * i, i * kTickTime, input.tick);
+    input.device = test::sample_at(-5e-3 + 2e-5 * i, i * test::kTickTime, input.tick);
     if (i == 1500) input.device.X_WN.position[0] = std::nan("");
     ARTUS_RUNS_REALTIME(HapticCore::step, inserted = core.step(input).inserted != 0 || inserted);
     ARTUS_RUNS_REALTIME(to_record, use(to_record(core.step(input))));
@@ -144,12 +159,12 @@ TEST(RealTimeSession, ClocksAndCountsNeitherAllocateNorLock) {
   LatencyHistogram histogram;
   ARTUS_RUNS_REALTIME(LatencyHistogram::add, histogram.add(1000));
   ARTUS_RUNS_REALTIME(LatencyHistogram::add_with_missed,
-                      histogram.add_with_missed(5 * kTickTime, kTickTime));
+                      histogram.add_with_missed(5 * test::kTickTime, test::kTickTime));
   EXPECT_EQ(histogram.count(), 6U);
   ARTUS_RUNS_REALTIME(monotonic_ns, use(monotonic_ns()));
   ARTUS_RUNS_REALTIME(thread_cpu_ns, use(thread_cpu_ns()));
-  LateWatch watch(kTickTime);
-  ARTUS_RUNS_REALTIME(LateWatch::step, use(watch.step(30 * kTickTime)));
+  LateWatch watch(test::kTickTime);
+  ARTUS_RUNS_REALTIME(LateWatch::step, use(watch.step(30 * test::kTickTime)));
 }
 
 class RealTimeFiles : public test::TemporaryFolder {};
@@ -201,13 +216,13 @@ TEST_F(RealTimeSharedMemory, TheDeviceBehindItNeitherAllocatesNorLocks) {
   PosReader reader;
   artus_shm_pos pos = artus_shm_pos_init();
   pos.sample = 1;
-  ARTUS_RUNS_REALTIME(PosReader::accept, use(reader.accept(true, pos, kTickTime)));
+  ARTUS_RUNS_REALTIME(PosReader::accept, use(reader.accept(true, pos, test::kTickTime)));
   auto device = SharedMemoryDevice::open(prefix_, {"outside", "beyond", "skin"});
   ASSERT_TRUE(device) << device.error().to_string();
   DeviceFeedback feedback;
   feedback.region = 2;
   ARTUS_RUNS_REALTIME(SharedMemoryDevice::write, (*device)->write(feedback));
-  ARTUS_RUNS_REALTIME(SharedMemoryDevice::read, use((*device)->read(kTickTime)));
+  ARTUS_RUNS_REALTIME(SharedMemoryDevice::read, use((*device)->read(test::kTickTime)));
 }
 
 }  // namespace

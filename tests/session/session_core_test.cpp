@@ -15,7 +15,6 @@
 namespace artus {
 namespace {
 
-constexpr std::int64_t kTick = 1'000'000;  // ns
 
 class SessionCore : public ::testing::Test {
  protected:
@@ -28,7 +27,7 @@ class SessionCore : public ::testing::Test {
                              std::uint32_t command = 0) {
     TickInput input;
     input.tick = ++tick_;
-    input.device = test::sample_at(z, static_cast<std::int64_t>(tick_) * kTick, tick_);
+    input.device = test::sample_at(z, static_cast<std::int64_t>(tick_) * test::kTickTime, tick_);
     input.device.state = state;
     input.command = command;
     return core_.step(input);
@@ -63,7 +62,7 @@ TEST_F(SessionCore, ForcesAreTurnedIntoTheWorldWithTheJoint) {
   for (double z = -10e-3; z < 15e-3 + 20e-6; z += 20e-6) {
     TickInput input;
     ++n;
-    input.device = test::sample_at(0, static_cast<std::int64_t>(n) * kTick, n);
+    input.device = test::sample_at(0, static_cast<std::int64_t>(n) * test::kTickTime, n);
     input.device.X_WN = to_plain(make_pose(Vec3(z, 0, 0), Vec3::UnitX(), Vec3::UnitY()));
     input.tick = n;
     out = core.step(input);
@@ -118,7 +117,7 @@ TEST_F(SessionCore, BetweenTheTissuesUpdatesTheProbeFeelsForceAndTorqueByItsWhol
         pressed * Eigen::Translation3d(motion.head<3>()) * Eigen::AngleAxisd(1e-3 * i, axis);
     TickInput input;
     input.tick = ++tick_;
-    input.device = test::sample_at(-10e-3, static_cast<std::int64_t>(tick_) * kTick, tick_);
+    input.device = test::sample_at(-10e-3, static_cast<std::int64_t>(tick_) * test::kTickTime, tick_);
     input.device.X_WP = to_plain(now);
     const DeviceFeedback& felt = core_.step(input).feedback;
     const Vec6 expected = wrench - K * motion;
@@ -137,7 +136,7 @@ TEST_F(SessionCore, NoInputOfAPeerGivesAForceThatIsNotFiniteOrOverTheLimit) {
   PosReader reader;
   auto* bytes = reinterpret_cast<unsigned char*>(&pos);
   for (std::uint64_t i = 1; i < 20000; ++i) {
-    const std::int64_t now = static_cast<std::int64_t>(i) * kTick;
+    const std::int64_t now = static_cast<std::int64_t>(i) * test::kTickTime;
     if (i % 3 != 0) {  // garbage: all bytes, or one word of a good sample
       pos = artus_shm_pos_init();
       for (std::size_t b = 0; b < sizeof pos; ++b) {
@@ -199,7 +198,7 @@ TEST_F(SessionCore, NoEntryIsChosenWhileTheNeedleIsIn) {
   const PlainPose before = insert_to(10e-3).X_WJ;
   TickInput input;
   input.tick = ++tick_;
-  input.device = test::sample_at(10e-3, static_cast<std::int64_t>(tick_) * kTick, tick_);
+  input.device = test::sample_at(10e-3, static_cast<std::int64_t>(tick_) * test::kTickTime, tick_);
   input.device.buttons = Button::kCalibrate;
   const HapticSnapshot& out = core_.step(input);
   ASSERT_EQ(out.inserted, 1U);
@@ -211,7 +210,7 @@ TEST(PosReader, WhatWasThereBeforeIsNotAlive) {
   PosReader reader;
   artus_shm_pos pos = artus_shm_pos_init();
   pos.sample = 77;
-  EXPECT_EQ(reader.accept(true, pos, 5 * kTick).state, PeerState::absent);
+  EXPECT_EQ(reader.accept(true, pos, 5 * test::kTickTime).state, PeerState::absent);
 }
 
 TEST(PosReader, ASilentPeerIsLostBeforeTwentyMilliseconds) {
@@ -220,10 +219,10 @@ TEST(PosReader, ASilentPeerIsLostBeforeTwentyMilliseconds) {
   pos.sample = 0;
   EXPECT_EQ(reader.accept(true, pos, 0).state, PeerState::absent);
   pos.sample = 1;
-  pos.time_ns = kTick;
-  EXPECT_EQ(reader.accept(true, pos, kTick).state, PeerState::alive);
-  EXPECT_EQ(reader.accept(true, pos, 15 * kTick).state, PeerState::alive);
-  EXPECT_EQ(reader.accept(false, pos, 17 * kTick).state, PeerState::lost);
+  pos.time_ns = test::kTickTime;
+  EXPECT_EQ(reader.accept(true, pos, test::kTickTime).state, PeerState::alive);
+  EXPECT_EQ(reader.accept(true, pos, 15 * test::kTickTime).state, PeerState::alive);
+  EXPECT_EQ(reader.accept(false, pos, 17 * test::kTickTime).state, PeerState::lost);
 }
 
 TEST(PosReader, AClockFromAnotherTimeIsInvalid) {
@@ -232,7 +231,7 @@ TEST(PosReader, AClockFromAnotherTimeIsInvalid) {
   EXPECT_EQ(reader.accept(true, pos, 0).state, PeerState::absent);
   pos.sample = 1;
   pos.time_ns = 100'000'000'000;
-  EXPECT_EQ(reader.accept(true, pos, kTick).state, PeerState::invalid);
+  EXPECT_EQ(reader.accept(true, pos, test::kTickTime).state, PeerState::invalid);
 }
 
 TEST(SessionParams, TheNeedleHasOneLengthForTheHandAndForThePicture) {
@@ -254,8 +253,8 @@ class HeardReader : public ::testing::Test {
   DeviceSample hear(std::uint64_t number, std::int64_t ms, std::uint64_t writer = 1) {
     artus_shm_pos pos = artus_shm_pos_init();
     pos.sample = number;
-    pos.time_ns = static_cast<std::uint64_t>(ms * kTick);
-    return reader_.accept(true, pos, ms * kTick, writer);
+    pos.time_ns = static_cast<std::uint64_t>(ms * test::kTickTime);
+    return reader_.accept(true, pos, ms * test::kTickTime, writer);
   }
   PosReader reader_;
 };
@@ -283,9 +282,9 @@ TEST_F(HeardReader, AfterSilenceTheCountMayBeginAgain) {
 TEST_F(HeardReader, GarbageDoesNotRaiseTheCount) {
   artus_shm_pos pos = artus_shm_pos_init();
   pos.sample = ~std::uint64_t{0};
-  pos.time_ns = 11 * kTick;
+  pos.time_ns = 11 * test::kTickTime;
   pos.present = 0xff;
-  EXPECT_EQ(reader_.accept(true, pos, 11 * kTick, 1).state, PeerState::invalid);
+  EXPECT_EQ(reader_.accept(true, pos, 11 * test::kTickTime, 1).state, PeerState::invalid);
   EXPECT_EQ(hear(1001, 12).state, PeerState::alive);
 }
 

@@ -15,6 +15,8 @@
 
 namespace artus::test {
 
+inline constexpr std::int64_t kTickTime = 1'000'000;  // ns, at 1 kHz
+
 /// Six flat layers from skin to bone, 31 mm, entry at the origin, +z into the body.
 inline std::shared_ptr<const Scene> make_layered_scene() {
   const std::array<FlatLayer, 6> layers{{{"skin", 2e-3},

@@ -13,7 +13,6 @@
 namespace artus {
 namespace {
 
-constexpr std::int64_t kTick = 1'000'000;  // ns
 
 /// A session's haptic core with the needle driven in to a depth, and a plunger after that.
 class SessionSyringe : public ::testing::Test {
@@ -21,7 +20,7 @@ class SessionSyringe : public ::testing::Test {
   const HapticSnapshot& step(double z, PlungerSign sign, double value) {
     TickInput input;
     input.tick = ++tick_;
-    input.device = test::sample_at(z, static_cast<std::int64_t>(tick_) * kTick, tick_);
+    input.device = test::sample_at(z, static_cast<std::int64_t>(tick_) * test::kTickTime, tick_);
     input.device.plunger = sign;
     (sign == PlungerSign::travel ? input.device.plunger_travel : input.device.plunger_force) =
         value;
@@ -74,7 +73,7 @@ TEST_F(SessionSyringe, TellsThePictureWhereTheLiquidWentAndForgetsItWithTheSyrin
   EXPECT_NEAR(site.p_J[2], 23e-3, 0.5e-3) << "the middle of the bevel";
   TickInput reset;
   reset.tick = ++tick_;
-  reset.device = test::sample_at(23.9e-3, static_cast<std::int64_t>(tick_) * kTick, tick_);
+  reset.device = test::sample_at(23.9e-3, static_cast<std::int64_t>(tick_) * test::kTickTime, tick_);
   reset.command = SessionCommand::kReset;
   core_.step(reset);
   EXPECT_TRUE(core_.syringe().sites().empty());
@@ -96,7 +95,7 @@ TEST_F(SessionSyringe, TheThumbFeelsNothingWhenTheDeviceIsLostOrNobodyIsOnIt) {
   EXPECT_GT(core_.syringe().feedback().thumb_force, 9);
   TickInput lost;
   lost.tick = ++tick_;
-  lost.device = test::sample_at(15e-3, static_cast<std::int64_t>(tick_) * kTick, tick_);
+  lost.device = test::sample_at(15e-3, static_cast<std::int64_t>(tick_) * test::kTickTime, tick_);
   lost.device.state = PeerState::lost;
   const double travel = core_.syringe().feedback().travel;
   EXPECT_EQ(core_.step(lost).feedback.plunger.thumb_force, 0);
@@ -179,7 +178,7 @@ TEST_F(SessionSyringe, AResetGivesANewSyringe) {
   TickInput reset;
   reset.tick = ++tick_;
   reset.command = SessionCommand::kReset;
-  reset.device = test::sample_at(15e-3, static_cast<std::int64_t>(tick_) * kTick, tick_);
+  reset.device = test::sample_at(15e-3, static_cast<std::int64_t>(tick_) * test::kTickTime, tick_);
   EXPECT_EQ(core_.step(reset).feedback.plunger.given, 0);
 }
 

@@ -140,6 +140,20 @@ TEST(Scenario, TheSyringeHoldsWhatIsToBeGiven) {
   EXPECT_NE(refused("[syringe]\nvolume_ml = 5\ncolour = 1\n").find("colour"), std::string::npos);
 }
 
+TEST(Scenario, HapticAidsReachTheHandAndFadeWithTheirValue) {
+  Scenario scenario = align();
+  scenario.aids = {{"haptic_guide", 0.5}, {"haptic_wall", 1}};
+  scenario.avoid = {{"nerve", 0, true}, {"artery", 0, false}};
+  const auto params = make_session_params(scenario);
+  ASSERT_TRUE(params);
+  EXPECT_DOUBLE_EQ(params->aids.guide, 150);
+  EXPECT_DOUBLE_EQ(params->aids.wall, 1000);
+  EXPECT_EQ(params->aids.keep_out, "nerve\nartery");
+  scenario.aids.clear();
+  const auto without = make_session_params(scenario);
+  EXPECT_EQ(without->aids.guide + without->aids.wall, 0);
+}
+
 TEST(Scenario, VariantsAreOfAJoint) {
   const auto gel = parse_scenario("variants = [\"tear\"]\n" + align().text, "mine");
   ASSERT_FALSE(gel);
