@@ -77,7 +77,6 @@ class Note {
     a.level = scenario.level;
     a.started = utc_now();
     a.mode = "demo";
-    a.aided = scenario.aided();
     a.device = "simulated " + options.hands;
     a.seed = static_cast<std::uint64_t>(options.seed);
     a.folder = options.record.empty() ? "" : std::filesystem::absolute(options.record).string();

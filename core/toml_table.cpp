@@ -53,6 +53,7 @@ void TomlTable::missing(std::string_view key) {
 }
 
 void TomlTable::problem_at(std::string_view key, const std::string& message) {
+  known_.emplace(key);
   const toml::node* node = table_.get(key);
   problems_.add(node != nullptr ? node->source() : table_.source(),
                 what_ + ": '" + std::string(key) + "' " + message);

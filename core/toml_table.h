@@ -54,6 +54,7 @@ class TomlTable {
   void finish();
 
   void problem(const std::string& message) { problems_.add(table_, what_ + ": " + message); }
+  /// A key that is told of is known.
   void problem_at(std::string_view key, const std::string& message);
   [[nodiscard]] const toml::table& raw() const noexcept { return table_; }
   [[nodiscard]] const std::string& what() const noexcept { return what_; }

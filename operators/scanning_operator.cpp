@@ -48,6 +48,7 @@ OperatorSkill novice_skill(int trials) {
   novice.speed = 12e-3;
   novice.haste = 2;
   novice.aspirate = 0;
+  novice.know = 0.35;
   novice.look = 0.2;
   novice.tremor_rms = 40e-6;
   const OperatorSkill expert = expert_skill();
@@ -61,7 +62,7 @@ OperatorSkill novice_skill(int trials) {
         &OperatorSkill::unseen_stop, &OperatorSkill::advance_unseen, &OperatorSkill::search_right,
         &OperatorSkill::drift, &OperatorSkill::follow, &OperatorSkill::judge_sd,
         &OperatorSkill::correction, &OperatorSkill::speed, &OperatorSkill::haste,
-        &OperatorSkill::aspirate, &OperatorSkill::look, &OperatorSkill::tremor_rms})
+        &OperatorSkill::aspirate, &OperatorSkill::know, &OperatorSkill::look, &OperatorSkill::tremor_rms})
     learn(of, novice, expert);
   return novice;
 }

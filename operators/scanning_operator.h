@@ -25,6 +25,7 @@ struct OperatorSkill {
   double speed = 8e-3;          ///< m/s of advance
   double haste = 1;             ///< times the rate that is asked for, of the thumb
   double aspirate = 2.5;        ///< s that the thumb draws back before it gives
+  double know = 0.95;           ///< chance of knowing a structure by its look when it comes in view
   double look = 0.95;           ///< chance of noticing that what is given runs elsewhere
   double tremor_rms = 20e-6;    ///< m an axis
 };

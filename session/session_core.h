@@ -7,9 +7,9 @@
 
 #include "artus/echo/renderer.h"
 #include "artus/haptics/needle/needle_renderer.h"
+#include "artus/session/hand_aids.h"
 #include "artus/session/input_device.h"
 #include "artus/session/session_params.h"
-#include "artus/session/hand_aids.h"
 #include "artus/session/syringe_core.h"
 #include "artus/session/tissue_packet.h"
 #include "artus/session/two_phase_gesture.h"

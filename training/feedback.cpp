@@ -32,6 +32,7 @@ constexpr Kind kMisplaced{"misplaced_ml", 5, 0.5};  // given_ml beside in_target
 constexpr Kind kUnaspirated{"aspirated_first", 4, 1};
 constexpr Kind kPressure{"pressure_peak_kpa", 4, 100};
 constexpr Kind kFast{"flow_peak_ml_s", 2, 0.3};
+constexpr double kNotFound = 6;   // weight: without a view there is no needle
 constexpr double kGiven = 0.1;    // ml from which something was injected
 constexpr double kAgain = 1.5;    // weight of a fault that was in the attempt before
 constexpr double kHalfLife = 20;  // weeks
@@ -135,6 +136,17 @@ void add_needle_faults(const AttemptMeasures& m, std::vector<Fault>& out) {
                    "Before you stop, look where the tip is, not where it should be."});
 }
 
+void add_look_faults(const AttemptMeasures& m, std::vector<Fault>& out) {
+  const AttemptEvent* e = worst_event(m, "not_found");
+  if (e == nullptr) return;
+  out.push_back({"not_found", e->time, kNotFound,
+                 printed("shown: %.0f of %.0f; not shown: ", value_of(m, "found"),
+                         static_cast<double>(m.sought.size())) +
+                     e->region,
+                 e->text,
+                 "Sweep all of it slowly. Stop when it shows, bring it to the middle, and rest."});
+}
+
 /// The moment at which the probe was fastest while the tip moved inside, and its speed there.
 Run fastest_drift(const AttemptMeasures& m) {
   constexpr double kMoving = 2e-3;  // m/s, as drift_mm_s
@@ -213,6 +225,9 @@ void add_hand_faults(const AttemptMeasures& m, std::vector<Fault>& out) {
 
 std::string praise(const AttemptMeasures& m) {
   const Metric* seen = find_metric(m.metrics, "tip_seen");
+  if (const std::size_t n = m.sought.size();
+      n > 0 && value_of(m, "found") == static_cast<double>(n))
+    return "You found all that was asked for.";
   const Metric* plane = find_metric(m.metrics, "in_plane_fraction");
   if (seen != nullptr && seen->value && *seen->value >= 0.9)
     return "You kept the tip in sight nearly all the time.";
@@ -280,7 +295,7 @@ SkillTask next_task(const Judgement& judgement, const std::optional<Skill>& weak
 }  // namespace
 
 Skill skill_of_fault(const std::string& kind) noexcept {
-  if (kind == "unseen" || kind == "angle") return Skill::view;
+  if (kind == "unseen" || kind == "angle" || kind == "not_found") return Skill::view;
   if (kind == "drift" || kind == "passes") return Skill::align;
   if (kind == "misplaced" || kind == "unaspirated" || kind == "pressure" || kind == "fast")
     return Skill::inject;
@@ -318,6 +333,7 @@ Feedback make_feedback(const AttemptMeasures& measures, const Judgement& judgeme
         missed += (missed.empty() ? ": " : ", ") + m.mark.metric + " should be " + m.mark.text;
     out.verdict += missed.empty() && judgement.with_aids ? ": aids were on." : missed + ".";
   }
+  add_look_faults(measures, out.faults);
   add_needle_faults(measures, out.faults);
   add_hand_faults(measures, out.faults);
   add_syringe_faults(measures, out.faults);

@@ -2,27 +2,19 @@
 #include "artus/training/player.h"
 
 #include <algorithm>
-#include <sstream>
 #include <utility>
 
 #include "artus/anatomy/body/tissue.h"
 #include "artus/core/text_file.h"
 #include "artus/echo/transducer_file.h"
-#include "artus/operators/hand_loop.h"
-#include "artus/operators/thumb.h"
-#include "artus/operators/thumb_dose.h"
-#include "artus/session/image_core.h"
 #include "artus/training/session_meter.h"
+#include "artus/training/stage.h"
 
 namespace artus {
 namespace {
 
-constexpr double kRate = 1000;          // Hz
-constexpr std::uint64_t kGlances = 50;  // ticks from one to the next
-constexpr double kPhysics = 4000;       // Hz
-constexpr double kGuide = 300;          // N/m of a whole haptic_guide; assumed
-constexpr double kWall = 1000;          // N/m of a whole haptic_wall; assumed
-constexpr double kSeenVolume = 0.3e-6;  // m^3 that split a line visibly; assumed
+constexpr double kGuide = 300;  // N/m of a whole haptic_guide; assumed
+constexpr double kWall = 1000;  // N/m of a whole haptic_wall; assumed
 
 Result<RegionId> find_region(const CompiledJoint& joint, const std::string& name) {
   for (std::size_t i = kFirstRegion; i < joint.regions.size(); ++i)
@@ -37,168 +29,23 @@ void put(std::string& out, std::uint32_t kind, const T& record) {
   out.append(reinterpret_cast<const char*>(&record), sizeof record);
 }
 
-HandParams hand_of(const OperatorSkill& skill, std::uint64_t seed) {
-  HandParams hand;
-  hand.tremor_rms = skill.tremor_rms;
-  hand.seed = seed;
-  return hand;
-}
-
-/// m from the entry where the tip comes into the picture on the intended way; 0: nowhere.
-double appears_at(const Scenario& scenario, const Scene& scene, const TipSightFinder& finder) {
-  constexpr double kStep = 0.5e-3;  // m
-  const Vec3 way = scenario.target.point - scenario.entry.centre;
-  for (double along = kStep; along < way.norm(); along += kStep) {
-    const Vec3 tip = scenario.entry.centre + along * way.normalized();
-    if (finder.look(scene, scenario.X_JP, make_pose(tip, way, Vec3::Zero())).seen()) return along;
-  }
-  return 0;
-}
-
-/// The thumb of a simulated hand.
-class SyringeHand {
- public:
-  SyringeHand(const Syringe& syringe, const ScenarioSyringe& meant, const OperatorSkill& skill)
-      : area_(syringe.area()), dose_(syringe, meant.volume), wanted_(meant.volume > 0) {
-    push_.thumb_rate = skill.haste * meant.rate;
-    pull_.thumb_force = -kPull;
-    draws_ = skill.aspirate;
-  }
-
-  /// What the device says of it in the next tick. `gives`: the needle is where it is meant to be.
-  void step(bool gives, const Plunger& plunger, double given, double dt, DeviceSample& sample) {
-    sample.plunger = wanted_ ? PlungerSign::force : PlungerSign::none;
-    const bool pulls = wanted_ && gives && draws_ > 0;
-    if (pulls) draws_ -= dt;
-    const bool pushes = wanted_ && gives && !pulls && !dose_.enough();
-    const PlungerState& state = plunger.state();
-    const PlungerInput thumb = thumb_.step(pulls    ? &pull_
-                                           : pushes ? &push_
-                                                    : nullptr,
-                                           state, area_, dt);
-    sample.plunger_force = thumb.force + thumb.stiffness * (thumb.position - state.travel);
-    dose_.step(pushes, given, state.pressure, state.tip_pressure, state.flow, dt);
-    flows_ = state.flow > ThumbDose::kFlows;
-  }
-
-  /// Nothing is left to give, or nothing goes in.
-  [[nodiscard]] bool done() const noexcept { return !wanted_ || (dose_.enough() && !flows_); }
-
- private:
-  static constexpr double kMostForce = 40;  // N; assumed: a strong push
-  static constexpr double kPull = 8;        // N; assumed
-  double area_;                             // m^2
-  ThumbDose dose_;
-  bool wanted_;
-  bool flows_ = false;
-  OperatorPhase push_;
-  OperatorPhase pull_;
-  double draws_ = 0;  // s that it still draws back
-  Thumb thumb_{{SyringeCore::kCoupling, kMostForce}};
-};
-
-/// One attempt while it is played.
-class Stage {
- public:
-  Stage(const Scenario& scenario, std::shared_ptr<const Scene> scene, const SessionParams& params,
-        const OperatorSkill& skill, const PlayOptions& options)
-      : scene_(std::move(scene)),
-        params_(params),
-        options_(options),
-        finder_(params.transducer, params.image.depth, params.needle_shape),
-        core_(scene_, params),
-        hands_(skill,
-               {scenario.entry.centre, scenario.target.point, scenario.X_JP, scenario.time_limit,
-                appears_at(scenario, *scene_, finder_)},
-               mix_seed(scenario.seed, options.seed)),
-        thumb_(core_.syringe().plunger().params().syringe, scenario.syringe, skill),
-        loop_({kRate, kPhysics}, params.device, hand_of(skill, options.seed),
-              hands_.intention(0).X_JN) {
-    const auto region = find_region(scene_->joint(), scenario.target.structure);
-    if (region) target_ = *region;
-    if (options.picture_rate > 0) images_ = std::make_unique<ImageCore>(scene_, params);
-  }
-
-  /// One tick. False when the attempt is over.
-  bool step(PlayedAttempt& attempt, AttemptMeter& meter) {
-    const double t = loop_.time();
-    TickInput input;
-    input.tick = ++tick_;
-    input.device.X_WN = to_plain(loop_.measured());
-    input.device.X_WP = to_plain(hands_.probe(t));
-    input.device.time_ns = static_cast<std::int64_t>(tick_) * 1'000'000;
-    input.device.number = tick_;
-    input.device.state = PeerState::alive;
-    input.device.has_needle = input.device.has_probe = 1;
-    thumb_.step(hands_.holds(), core_.syringe().plunger(), given_, 1 / kRate, input.device);
-    const HapticSnapshot& out = core_.step(input);
-    given_ = out.feedback.plunger.given;
-    add_tick(meter, out, 1 / kRate);
-    if (options_.record) attempt.recording.ticks.push_back(to_record(out));
-    if (images_ && static_cast<double>(tick_) * options_.picture_rate >=
-                       kRate * static_cast<double>(frames_ + 1))
-      draw(out, attempt, meter);
-    if (tick_ % kGlances == 1) glance(t, out);
-    const auto& f = out.feedback;
-    const Wrench motor{Vec3(f.force[0], f.force[1], f.force[2]),
-                       Vec3(f.torque[0], f.torque[1], f.torque[2])};
-    loop_.advance(motor, [this](double at) { return hands_.intention(at); });
-    return !hands_.done();
-  }
-
-  [[nodiscard]] double time() const noexcept { return loop_.time(); }
-
- private:
-  static std::uint64_t mix_seed(std::uint64_t a, std::uint64_t b) { return a * 1'000'003 + b; }
-
-  void glance(double t, const HapticSnapshot& out) {
-    const Pose X_JN = to_pose(out.X_JN);
-    const TipSight sight = finder_.look(*scene_, to_pose(out.X_JP), X_JN);
-    ScanGlance seen;
-    seen.visible = sight.seen() && out.feedback.region != kOutside;
-    seen.offset = sight.offset;
-    seen.depth = out.inserted != 0 ? out.feedback.depth : 0;
-    seen.stuck = out.feedback.contact == static_cast<std::uint32_t>(ContactState::bone);
-    seen.given = thumb_.done();
-    seen.astray = given_ > kSeenVolume && out.feedback.region != target_;
-    hands_.look(t, X_JN, seen);
-  }
-
-  void draw(const HapticSnapshot& out, PlayedAttempt& attempt, AttemptMeter& meter) {
-    const FrameInput input = frame_input(out, controls_of(params_), ++frames_);
-    const Frame& frame = images_->render(input);
-    add_frame(meter, input, frame, static_cast<double>(tick_) / kRate);
-    attempt.recording.frames.push_back({input, digest_of(frame)});
-  }
-
-  std::shared_ptr<const Scene> scene_;
-  SessionParams params_;
-  PlayOptions options_;
-  TipSightFinder finder_;
-  HapticCore core_;
-  ScanningOperator hands_;
-  SyringeHand thumb_;
-  HandLoop loop_;
-  double given_ = 0;  // m^3
-  std::uint32_t target_ = kOutside;
-  std::unique_ptr<ImageCore> images_;
-  std::uint64_t tick_ = 0;
-  std::uint64_t frames_ = 0;
-};
-
 }  // namespace
 
 Result<std::shared_ptr<const Scene>> make_gel_scene(const GelBlock& gel) {
   const auto tissues = read_bundled_tissues();
   ARTUS_TRY(tissues);
-  for (const FlatLayer& layer : gel.layers) {
+  std::vector<std::string> names;
+  for (const FlatLayer& layer : gel.layers) names.push_back(layer.tissue);
+  for (const Ball& ball : gel.balls) names.push_back(ball.tissue);
+  for (const std::string& name : names) {
     const bool known = std::any_of(tissues->begin(), tissues->end(),
-                                   [&](const Tissue& t) { return t.name == layer.tissue; });
-    if (!known)
-      return fail(ErrorCode::not_found, "there is no tissue '" + layer.tissue + "'", "gel");
+                                   [&](const Tissue& t) { return t.name == name; });
+    if (!known) return fail(ErrorCode::not_found, "there is no tissue '" + name + "'", "gel");
   }
-  return std::make_shared<const Scene>(std::make_shared<const CompiledJoint>(
-      make_layered_block(*tissues, gel.layers, gel.width, gel.width)));
+  CompiledJoint block = make_layered_block(*tissues, gel.layers, gel.width, gel.width);
+  for (const Ball& ball : gel.balls)
+    add_ball(block, ball, static_cast<RegionId>(kFirstRegion + layer_of(gel, ball)));
+  return std::make_shared<const Scene>(std::make_shared<const CompiledJoint>(std::move(block)));
 }
 
 HandAids aids_of(const Scenario& scenario) {
@@ -239,6 +86,11 @@ Result<MeterOptions> make_meter_options(const Scenario& scenario, const Compiled
   options.image_depth = params.image.depth;
   options.needle = params.needle_shape;
   options.longest = 2 * scenario.time_limit + 60;
+  if (!scenario.find.empty()) {
+    for (const std::string& name : scenario.find) ARTUS_TRY(find_region(joint, name));
+    options.goals.sought = scenario.find;
+    return options;
+  }
   Target target{scenario.target.structure, std::nullopt, nullptr};
   if (scenario.target.structure.empty()) {
     target = {"the target", scenario.target.point, nullptr};
@@ -258,8 +110,10 @@ Result<MeterOptions> make_meter_options(const Scenario& scenario, const Compiled
   return options;
 }
 
-Result<PlayedAttempt> play(const Scenario& scenario, const std::shared_ptr<const Scene>& scene,
+Result<PlayedAttempt> play(const Scenario& with_aids, const std::shared_ptr<const Scene>& scene,
                            const OperatorSkill& skill, const PlayOptions& options) {
+  Scenario scenario = with_aids;
+  scenario.aids.clear();
   const auto params = make_session_params(scenario);
   ARTUS_TRY(params);
   auto meter_options = make_meter_options(scenario, scene->joint(), *params);
@@ -268,11 +122,11 @@ Result<PlayedAttempt> play(const Scenario& scenario, const std::shared_ptr<const
   attempt.recording.head = make_head(scene->joint(), *params);
   attempt.recording.complete = true;
   AttemptMeter meter(scene, std::move(*meter_options));
-  Stage stage(scenario, scene, *params, skill, options);
   const double longest = scenario.time_limit + 30;
-  while (stage.time() < longest && stage.step(attempt, meter)) {
+  const auto stage = make_stage(scenario, scene, *params, skill, options);
+  while (stage->time() < longest && stage->step(attempt, meter)) {
   }
-  attempt.duration = stage.time();
+  attempt.duration = stage->time();
   attempt.measures = meter.measure();
   attempt.judgement =
       judge(attempt.measures.metrics, scenario.pass, scenario.score, scenario.aided());

@@ -24,6 +24,18 @@ std::vector<std::string> step_names() {
           "auto:tip_seen", "auto:placed", "auto:injected", "auto:withdrawn"};
 }
 
+/// Why a ball cannot lie where it should in what there is so far; empty: it can.
+std::string why_not(const Ball& ball, const GelBlock& gel) {
+  constexpr double kApart = 0.1e-3;  // m
+  const double reach = ball.radius + kApart;
+  if (layer_of(gel, ball) == gel.layers.size())
+    return "it must lie wholly in one layer and in the block";
+  for (const Ball& other : gel.balls)
+    if ((other.centre - ball.centre).norm() < reach + other.radius)
+      return "it must lie apart from the other balls";
+  return "";
+}
+
 void read_gel(TomlTable& toml, Scenario& scenario, Problems& problems) {
   if (!toml.has("gel")) return;
   GelBlock gel;
@@ -40,6 +52,17 @@ void read_gel(TomlTable& toml, Scenario& scenario, Problems& problems) {
     gel.layers.push_back(flat);
   }
   if (gel.layers.empty()) block.problem("a block needs a [[gel.layer]]");
+  for (const toml::table* ball : block.tables("ball")) {
+    TomlTable one(*ball, "gel ball", problems);
+    Ball round;
+    round.tissue = one.required_text("tissue");
+    round.centre = one.required_vector("centre", kMillimetre);
+    round.radius = one.required_number("radius", 0.5, 50, kMillimetre);
+    one.finish();
+    const std::string problem = why_not(round, gel);
+    if (!problem.empty()) one.problem(problem);
+    gel.balls.push_back(round);
+  }
   block.finish();
   scenario.gel = gel;
 }
@@ -85,7 +108,20 @@ void read_syringe(TomlTable& toml, Scenario& s, Problems& problems) {
     syringe.problem(made.error().message);
 }
 
+/// A task of looking has no needle, and nothing that one needs.
+void read_find(TomlTable& toml, Scenario& s) {
+  if (!toml.has("find")) return;
+  constexpr std::size_t kMost = 12;
+  s.find = toml.required_texts("find");
+  if (s.find.empty() || s.find.size() > kMost)
+    toml.problem_at("find", "it must name 1 to 12 structures");
+  for (const char* key : {"needle", "target", "entry", "avoid", "syringe"})
+    if (toml.has(key))
+      toml.problem_at(key, "what is to be found is shown with the probe alone: leave it or find out");
+}
+
 void read_goals(TomlTable& toml, Scenario& s, Problems& problems) {
+  if (!s.find.empty()) return;
   if (const toml::table* table = toml.table("target")) {
     TomlTable target(*table, "target", problems);
     s.target.structure = target.text("structure").value_or("");
@@ -172,7 +208,7 @@ void read_marks(TomlTable& toml, Scenario& s, Problems& problems) {
     }
   }
   if (s.pass.empty()) toml.problem("a scenario needs marks in [pass]");
-  add_entry_marks(s);
+  if (s.find.empty()) add_entry_marks(s);
   if (const toml::table* table = toml.table("score")) {
     for (const auto& [key, node] : *table) {
       const std::string name(key.str());
@@ -213,6 +249,20 @@ void read_head(TomlTable& toml, Scenario& s) {
 }
 
 }  // namespace
+
+std::size_t layer_of(const GelBlock& gel, const Ball& ball) {
+  constexpr double kApart = 0.1e-3;  // m
+  const double reach = ball.radius + kApart;
+  if (std::max(std::abs(ball.centre.x()), std::abs(ball.centre.y())) + reach > gel.width / 2)
+    return gel.layers.size();
+  double top = 0;
+  for (std::size_t i = 0; i < gel.layers.size(); ++i) {
+    const double bottom = top + gel.layers[i].thickness;
+    if (ball.centre.z() - reach >= top && ball.centre.z() + reach <= bottom) return i;
+    top = bottom;
+  }
+  return gel.layers.size();
+}
 
 std::vector<std::string> aid_names() {
   return {"needle_overlay", "tip_marker",   "plane_beam", "labels",
@@ -255,6 +305,7 @@ Result<Scenario> parse_scenario(std::string_view text, const std::string& name) 
   read_gel(toml, scenario, problems);
   if (scenario.joint.empty() != scenario.gel.has_value())
     toml.problem("there must be a joint or a [gel], not both");
+  read_find(toml, scenario);
   read_instruments(toml, scenario, problems);
   read_syringe(toml, scenario, problems);
   read_goals(toml, scenario, problems);

@@ -16,9 +16,10 @@
 namespace artus {
 
 /// A block of layers, made when the scenario is played, in place of a joint. Its top is z = 0, the
-/// body lies along +z; regions are named like their tissue, a second layer "<tissue>_2".
+/// body lies along +z; regions are named like their tissue, a second one "<tissue>_2".
 struct GelBlock {
   std::vector<FlatLayer> layers;  ///< top first
+  std::vector<Ball> balls;        ///< each wholly in one layer, none in another
   double width = 0.12;            ///< m, along x and y
 };
 
@@ -76,6 +77,9 @@ struct Scenario {
   int gauge = 22;
   double needle_length = 50e-3;  ///< m
   ScenarioSyringe syringe;
+  /// Structures to be shown one after another: a task for the probe alone, without needle. Empty:
+  /// a task for the needle.
+  std::vector<std::string> find;
   ScenarioTarget target;
   std::vector<ScenarioAvoid> avoid;
   ScenarioEntry entry;
@@ -93,6 +97,9 @@ struct Scenario {
 
 /// The syringe as it lies ready: what is to be given, and nothing more.
 [[nodiscard]] SyringeChoice syringe_of(const Scenario& scenario);
+
+/// The layer that a ball lies wholly in; their number when there is none.
+[[nodiscard]] std::size_t layer_of(const GelBlock& gel, const Ball& ball);
 
 /// The names of aids that a scenario may use.
 [[nodiscard]] std::vector<std::string> aid_names();

@@ -16,6 +16,10 @@ constexpr double kOnSkin = 5e-3;      // m
 constexpr double kInTarget = 0.5e-3;  // m
 constexpr double kOffPlane = 5 * kDegree;
 
+std::string off_skin(const std::string& what, double distance) {
+  return what + printed(" %.1f mm off the skin", std::abs(distance) / kMillimetre);
+}
+
 /// Collects what the way from entry to target meets.
 void check_way(const Scenario& s, const Scene& scene, std::vector<std::string>& out) {
   const Vec3 way = s.target.point - s.entry.centre;
@@ -56,6 +60,11 @@ std::vector<std::string> find_problems(const Scenario& s,
   if (!params) return {params.error().to_string()};
   const auto options = make_meter_options(s, scene->joint(), *params);
   if (!options) return {options.error().to_string()};
+  if (!s.find.empty()) {
+    const double face = scene->signed_distance_to_skin(s.X_JP.translation(), 0.2);
+    if (!(std::abs(face) <= kOnSkin)) out.push_back(off_skin("the probe stands", face));
+    return out;
+  }
   const Goals& goals = options->goals;
   const double off = distance_to(*goals.target, s.target.point);
   if (off > kInTarget)
@@ -66,10 +75,10 @@ std::vector<std::string> find_problems(const Scenario& s,
       out.push_back("the zone around " + zone.name + " swallows the target");
   const double skin = scene->signed_distance_to_skin(s.entry.centre, 0.2);
   if (!(std::abs(skin) <= kOnSkin))
-    out.push_back(printed("the entry lies %.1f mm off the skin", std::abs(skin) / kMillimetre));
+    out.push_back(off_skin("the entry lies", skin));
   const double face = scene->signed_distance_to_skin(s.X_JP.translation(), 0.2);
   if (!(std::abs(face) <= kOnSkin))
-    out.push_back(printed("the probe stands %.1f mm off the skin", std::abs(face) / kMillimetre));
+    out.push_back(off_skin("the probe stands", face));
   check_way(s, *scene, out);
   return out;
 }

@@ -159,6 +159,11 @@ CompiledJoint make_layered_block(const std::vector<Tissue>& tissues,
   return joint;
 }
 
+void add_ball(CompiledJoint& joint, const Ball& ball, RegionId within, int subdivisions) {
+  const RegionId inside = add_region(joint, ball.tissue, ball.tissue);
+  add_sphere(joint, ball.centre, ball.radius, subdivisions, {within, inside});
+}
+
 CompiledJoint make_nested_spheres(const std::vector<Tissue>& tissues,
                                   std::span<const SphereLayer> layers, const Vec3& centre,
                                   int subdivisions) {

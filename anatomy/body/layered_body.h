@@ -37,6 +37,17 @@ struct SphereLayer {
                                                double depth_y,
                                                const Vec3& top_centre = Vec3::Zero());
 
+/// A ball in a layer.
+struct Ball {
+  std::string tissue;
+  Vec3 centre = Vec3::Zero();  ///< m
+  double radius = 0;           ///< m
+};
+
+/// Puts a ball of 20 * 4^subdivisions triangles into `within`, as a region named like its tissue
+/// (a second one "<tissue>_2"). Requires: it lies wholly in that region, beside other balls.
+void add_ball(CompiledJoint& joint, const Ball& ball, RegionId within, int subdivisions = 3);
+
 /// Spheres inside each other around `centre`: icosahedra split `subdivisions` times
 /// (20 * 4^subdivisions triangles each), vertices on the spheres. Regions named as in
 /// make_layered_block.

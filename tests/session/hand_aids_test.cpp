@@ -9,7 +9,6 @@
 namespace artus {
 namespace {
 
-
 /// The force in a session whose needle goes straight in, with the planned line 2 mm beside it.
 class HandAidTest : public ::testing::Test {
  protected:

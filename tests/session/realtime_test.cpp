@@ -25,7 +25,6 @@ namespace {
 
 using test::use;
 
-
 /// Reads and writes a device for `ticks` ms under the counters.
 template <class Device>
 void run_device(Device& device, int ticks) {
@@ -85,11 +84,12 @@ TEST(RealTimeSession, AidsOfTheHandNeitherAllocateNorLock) {
   const auto needle = make_needle_renderer(scene, "virtuose_6d_desktop", 1000);
   ASSERT_TRUE(needle);
   Vec3 most = Vec3::Zero();
-  ARTUS_RUNS_REALTIME(HandAid::step, for (int k = 0; k < 2000; ++k) {
-    const Vec3 tip(1e-3, 0, -2e-3 + 1e-5 * k);
-    (*needle)->step({make_pose(tip, Vec3::UnitZ(), Vec3::UnitX()), 1e-3 * k});
-    most = most.cwiseMin(aid.step((*needle)->model().contact(), tip));
-  });
+  ARTUS_RUNS_REALTIME(
+      HandAid::step, for (int k = 0; k < 2000; ++k) {
+        const Vec3 tip(1e-3, 0, -2e-3 + 1e-5 * k);
+        (*needle)->step({make_pose(tip, Vec3::UnitZ(), Vec3::UnitX()), 1e-3 * k});
+        most = most.cwiseMin(aid.step((*needle)->model().contact(), tip));
+      });
   EXPECT_LT(most.x(), -0.1);
   EXPECT_LT(most.z(), -0.1);
 }

@@ -15,7 +15,6 @@
 namespace artus {
 namespace {
 
-
 class SessionCore : public ::testing::Test {
  protected:
   std::shared_ptr<const Scene> scene_ = test::make_layered_scene();
@@ -117,7 +116,8 @@ TEST_F(SessionCore, BetweenTheTissuesUpdatesTheProbeFeelsForceAndTorqueByItsWhol
         pressed * Eigen::Translation3d(motion.head<3>()) * Eigen::AngleAxisd(1e-3 * i, axis);
     TickInput input;
     input.tick = ++tick_;
-    input.device = test::sample_at(-10e-3, static_cast<std::int64_t>(tick_) * test::kTickTime, tick_);
+    input.device =
+        test::sample_at(-10e-3, static_cast<std::int64_t>(tick_) * test::kTickTime, tick_);
     input.device.X_WP = to_plain(now);
     const DeviceFeedback& felt = core_.step(input).feedback;
     const Vec6 expected = wrench - K * motion;

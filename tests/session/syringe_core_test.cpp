@@ -13,7 +13,6 @@
 namespace artus {
 namespace {
 
-
 /// A session's haptic core with the needle driven in to a depth, and a plunger after that.
 class SessionSyringe : public ::testing::Test {
  protected:
@@ -73,7 +72,8 @@ TEST_F(SessionSyringe, TellsThePictureWhereTheLiquidWentAndForgetsItWithTheSyrin
   EXPECT_NEAR(site.p_J[2], 23e-3, 0.5e-3) << "the middle of the bevel";
   TickInput reset;
   reset.tick = ++tick_;
-  reset.device = test::sample_at(23.9e-3, static_cast<std::int64_t>(tick_) * test::kTickTime, tick_);
+  reset.device =
+      test::sample_at(23.9e-3, static_cast<std::int64_t>(tick_) * test::kTickTime, tick_);
   reset.command = SessionCommand::kReset;
   core_.step(reset);
   EXPECT_TRUE(core_.syringe().sites().empty());

@@ -89,11 +89,31 @@ void add_syringe_events(const AttemptView& view, const Put& put) {
           (sum.pauses > 0 ? "" : ", and no pause to look after the first of it"));
 }
 
+/// What was shown with the probe, and why the first that was not shown was not.
+void add_sought_events(const AttemptView& view, std::vector<AttemptEvent>& events) {
+  const auto& m = view.measures;
+  for (const Sought& one : m.sought) {
+    if (one.found >= 0) {
+      events.push_back({one.found, "found", one.name, one.found, one.name + " was shown"});
+      continue;
+    }
+    const double end = m.probe.empty() ? 0 : m.probe.back().time;
+    events.push_back(
+        {end, "not_found", one.name, one.seen,
+         one.seen > 0 ? printed("it was in the picture for %.1f s, and not in its middle for "
+                                "%.1f s on end",
+                                one.seen, StructureSearch::kHold)
+                      : "it was never in the picture while it was asked for"});
+    return;
+  }
+}
+
 }  // namespace
 
 std::vector<AttemptEvent> find_events(const AttemptView& view) {
   const auto& m = view.measures;
   std::vector<AttemptEvent> events;
+  add_sought_events(view, events);
   if (m.course.empty()) return events;
   const auto put = [&](double time, std::string kind, double value, std::string text) {
     const CoursePoint& at = m.course[index_at(m.course, time)];

@@ -39,6 +39,10 @@ AttemptMeasures AttemptMeter::measure() const {
   out.touches = forces_.touches();
   out.syringe = syringe_.totals();
   out.doses = syringe_.doses();
+  StructureSearch search(scene_->joint(), options_.goals.sought, options_.transducer,
+                         options_.image_depth);
+  for (const TrackPoint& point : out.probe) search.look(*scene_, point.time, pose_of(point));
+  out.sought.assign(search.sought().begin(), search.sought().end());
   const AttemptView view{*scene_, options_, out, images_, forces_.empty(), forces_.touch_count()};
   out.metrics = compute_metrics(view);
   out.events = find_events(view);

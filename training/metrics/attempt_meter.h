@@ -10,6 +10,7 @@
 #include "artus/training/metrics/needle_course.h"
 #include "artus/training/metrics/raw_motion.h"
 #include "artus/training/metrics/sight_course.h"
+#include "artus/training/metrics/structure_search.h"
 #include "artus/training/metrics/syringe_course.h"
 #include "artus/training/metrics/tip_sight.h"
 
@@ -28,7 +29,7 @@ struct MeterOptions {
 struct AttemptEvent {
   double time = 0;     ///< s
   std::string kind;    ///< "contact", "unseen", "bone", "avoid:<name>", "pass", "placed", "idle",
-                       ///< "flow", "misplaced", "pressure", "fastest"
+                       ///< "flow", "misplaced", "pressure", "fastest", "found", "not_found"
   std::string region;  ///< at the tip
   double value = 0;    ///< mm, N, s, ml, kPa or ml/s, as the kind says
   std::string text;    ///< with the cause, from the truth
@@ -44,6 +45,7 @@ struct AttemptMeasures {
   std::vector<FeltTouch> touches;
   SyringeTotals syringe;
   std::vector<Dose> doses;
+  std::vector<Sought> sought;
   std::vector<Metric> metrics;
   std::vector<Metric> raw;  ///< PerkTutor's rows from the 20 Hz tracks
   std::vector<AttemptEvent> events;

@@ -234,6 +234,22 @@ void put_goals(Sheet& sheet, const AttemptView& view) {
             "times that the tip came into a zone that must never be entered");
 }
 
+/// What was to be shown with the probe; nothing where nothing was.
+void put_sought(Sheet& sheet, const AttemptView& view) {
+  const auto& sought = view.measures.sought;
+  if (sought.empty()) return;
+  double count = 0;
+  for (const Sought& one : sought) count += one.found >= 0 ? 1 : 0;
+  sheet.put("probe", "found", "count", count,
+            "structures that were shown when asked for: each in turn, its middle within 4 mm of the "
+            "beam's middle for 1.5 s");
+  const double last = sought.back().found;
+  const auto& probe = view.measures.probe;
+  sheet.put("probe", "find_s", "s",
+            last >= 0 && !probe.empty() ? Value(last - probe.front().time) : Value(),
+            "start to the moment at which the last of them was found");
+}
+
 void put_forces(Sheet& sheet, const AttemptView& view) {
   sheet.rule({"none, every tick", 0});
   const auto& m = view.measures;
@@ -360,6 +376,7 @@ std::vector<Metric> compute_metrics(const AttemptView& view) {
   put_sight(sheet, view);
   put_entry(sheet, view);
   put_goals(sheet, view);
+  put_sought(sheet, view);
   put_forces(sheet, view);
   put_syringe(sheet, view);
   put_images(sheet, view);
@@ -378,7 +395,8 @@ std::vector<std::string> metric_names() {
   options.goals.target = Target{"target", Vec3::Zero(), nullptr};
   options.goals.avoid.push_back({});
   options.goals.entry = Vec3::Zero();
-  const AttemptMeasures nothing;
+  AttemptMeasures nothing;
+  nothing.sought.resize(1);
   std::vector<std::string> names;
   for (const Metric& m : compute_metrics({scene, options, nothing, {}, true, 0}))
     if (m.name.find(':') == std::string::npos &&

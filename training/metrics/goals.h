@@ -30,6 +30,7 @@ struct Goals {
   std::optional<Target> target;
   std::vector<AvoidZone> avoid;
   std::optional<Vec3> entry;  ///< m, frame J: where on the skin the needle should go in
+  std::vector<std::string> sought;  ///< structures to be shown, one after another
 };
 
 /// m from a point to the target's point, or to its structure's surface: 0 inside.
