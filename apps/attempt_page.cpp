@@ -48,9 +48,13 @@ class Clips {
  private:
   cv::Mat at(double time) {
     const Pose X_JP = pose_at(measures_.probe, time);
-    const Pose X_JN = pose_at(measures_.needle, time);
-    const cv::Mat grey =
-        grey_image(renderer_.render(X_JP, NeedleView{X_JN, params_.needle_shape, Vec3::Zero()}));
+    std::optional<Pose> X_JN;
+    std::optional<NeedleView> needle;
+    if (!measures_.needle.empty()) {
+      X_JN = pose_at(measures_.needle, time);
+      needle = NeedleView{*X_JN, params_.needle_shape, Vec3::Zero()};
+    }
+    const cv::Mat grey = grey_image(renderer_.render(X_JP, needle));
     cv::Mat picture;
     const int width = static_cast<int>(std::lround(1.0 * kHeight * grey.cols / grey.rows));
     cv::resize(grey, picture, cv::Size(width, kHeight), 0, 0, cv::INTER_AREA);
@@ -78,11 +82,14 @@ void add_faults(HtmlPage& page, const Scenario& scenario, const Feedback& feedba
     page.open_card("At " + fixed_number(fault.time, 1) + " s");
     page.paragraph(fault.what + ". Why: " + fault.cause + ".");
     page.point("do", fault.mend);
-    if (!attempt.measures.probe.empty() && !attempt.measures.needle.empty())
+    const std::string needle =
+        attempt.measures.needle.empty()
+            ? ""
+            : " with the needle (blue), its tip (orange), the target (green)";
+    if (!attempt.measures.probe.empty())
       page.clip(clips.around(fault.time),
-                "half as fast as it was: the picture, and the joint cut open at its plane with the "
-                "needle (blue), its tip (orange), the target (green)" +
-                    std::string(scenario.avoid.empty() ? "" : " and what is to be spared (red)"));
+                "half as fast as it was: the picture, and the joint cut open at its plane" +
+                    needle + (scenario.avoid.empty() ? "" : " and what is to be spared (red)"));
     page.close_card();
   }
 }
@@ -92,6 +99,36 @@ std::vector<SvgBand> unseen_bands(const AttemptMeasures& m) {
   for (const Run& run : sum_sight(m.course, m.sights).unseen)
     bands.push_back({run.from, run.to, "#f6d5d0", ""});
   return bands;
+}
+
+/// Where the probe went on the skin, and where it showed what was asked for.
+void add_search(HtmlPage& page, const Scenario& scenario, const AttemptMeasures& m) {
+  page.heading("What was shown");
+  SvgCurve way{"probe", {}, {}};
+  const auto put = [&scenario](SvgCurve& curve, const Vec3& p_J) {
+    const Vec3 p = scenario.X_JP.inverse() * p_J;
+    curve.x.push_back(p.x() / kMillimetre);
+    curve.y.push_back(p.y() / kMillimetre);
+  };
+  for (const TrackPoint& point : m.probe) put(way, point.p);
+  std::vector<SvgCurve> curves{way};
+  constexpr std::array kColours{"#2a7d3a", "#a8461f", "#7a3f9a", "#b58900", "#0b7a8a", "#777"};
+  std::vector<std::vector<std::string>> rows;
+  for (const Sought& one : m.sought) {
+    rows.push_back({one.name, one.found >= 0 ? fixed_number(one.found, 1) : "not shown",
+                    fixed_number(one.seen, 1)});
+    if (one.found < 0) continue;
+    SvgCurve place{one.name, {}, {}, kColours.at((curves.size() - 1) % kColours.size()), true};
+    put(place, pose_at(m.probe, one.found).translation());
+    curves.push_back(std::move(place));
+  }
+  page.drawing(
+      to_svg({"along the probe's face at the start, mm", "across it, mm", curves, {}, {}, true}),
+      "the probe's way on the skin, and where it stood when each was found");
+  page.table({{"asked for, in this order", ""},
+              {"found", "at s"},
+              {"in the picture", "s, while it was asked for"}},
+             rows);
 }
 
 void add_plots(HtmlPage& page, const Scenario& scenario, const AttemptMeasures& m) {
@@ -150,7 +187,10 @@ double length_of(const double (&v)[3]) {  // NOLINT(*-avoid-c-arrays)
 
 /// What both hands and the thumb felt.
 void add_felt(HtmlPage& page, const Recording& recording) {
-  if (recording.ticks.empty()) return;
+  const auto felt = [](const TickRecord& t) {
+    return length_of(t.force) > 0 || length_of(t.probe_force) > 0;
+  };
+  if (std::none_of(recording.ticks.begin(), recording.ticks.end(), felt)) return;
   page.heading("What the hands felt");
   const SvgCurve needle =
       peaks(recording, "needle", "#1f5fa8", [](const TickRecord& t) { return length_of(t.force); });
@@ -229,7 +269,10 @@ Result<void> write_attempt_page(const Scenario& scenario, const std::shared_ptr<
   if (!feedback.good.empty()) page.paragraph("Well done: " + feedback.good);
   page.paragraph("Next: " + feedback.next);
   add_faults(page, scenario, feedback, attempt, scene);
-  add_plots(page, scenario, attempt.measures);
+  if (scenario.find.empty())
+    add_plots(page, scenario, attempt.measures);
+  else
+    add_search(page, scenario, attempt.measures);
   add_felt(page, attempt.recording);
   add_marks(page, attempt.judgement);
   add_numbers(page, attempt.measures.metrics, norms);

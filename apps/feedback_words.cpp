@@ -19,7 +19,7 @@ struct Sentence {
 };
 
 // clang-format off
-constexpr std::array<Sentence, 56> kSentences{{
+constexpr std::array<Sentence, 61> kSentences{{
   // what, before its value
   {"into what must be spared", "dans ce qui doit être épargné"},
   {"advanced without seeing the tip", "avancé sans voir la pointe"},
@@ -36,7 +36,10 @@ constexpr std::array<Sentence, 56> kSentences{{
   {"{}: {} {}; asked for: below {}, and onto bone", "{} : {} {} ; demandé : moins de {}, et jusqu'à l'os"},
   {"{}: {} {}; asked for: below {}", "{} : {} {} ; demandé : moins de {}"},
   {"{} ml given without an aspiration before", "{} ml injectés sans aspiration préalable"},
+  {"shown: {} of {}; not shown: {}", "montrées : {} sur {} ; pas montrée : {}"},
   // why
+  {"it was in the picture for {} s, and not in its middle for {} s on end", "dans l'image pendant {} s, mais pas au milieu pendant {} s de suite"},
+  {"it was never in the picture while it was asked for", "jamais dans l'image tant qu'elle était demandée"},
   {"the tip was not seen", "la pointe n'était pas vue"},
   {"the tip was {} mm in front of the plane", "la pointe était {} mm en avant du plan"},
   {"the tip was {} mm behind the plane", "la pointe était {} mm en arrière du plan"},
@@ -72,7 +75,9 @@ constexpr std::array<Sentence, 56> kSentences{{
   {"Rest the probe hand on the patient.", "Posez la main de la sonde sur le patient."},
   {"Choose the line before the skin.", "Choisissez la ligne avant la peau."},
   {"Flatter: enter further from the probe.", "Plus à plat : entrez plus loin de la sonde."},
+  {"Sweep all of it slowly. Stop when it shows, bring it to the middle, and rest.", "Balayez tout, lentement. Arrêtez dès qu'elle apparaît, amenez-la au milieu et restez-y."},
   // done well
+  {"You found all that was asked for.", "Vous avez trouvé tout ce qui était demandé."},
   {"You kept the tip in sight nearly all the time.", "Vous avez gardé la pointe en vue presque tout le temps."},
   {"You kept the needle in the plane while you advanced.", "Vous avez gardé l'aiguille dans le plan en avançant."},
   {"You came there in a single pass.", "Vous y êtes arrivé en un seul passage."},
@@ -82,7 +87,8 @@ constexpr std::array<Sentence, 56> kSentences{{
   {"Once more to make sure, then the next level.", "Encore une fois pour confirmer, puis le niveau suivant."},
   {"The same task once more.", "Le même exercice encore une fois."},
 }};
-constexpr std::array<Sentence, 4> kTasks{{
+constexpr std::array<Sentence, 5> kTasks{{
+  {"Find the structures in the gel block with the probe ({}).", "Trouver les structures du bloc de gel avec la sonde ({})."},
   {"Follow the tip to a shallow point on the gel block ({}).", "Suivre la pointe jusqu'à un point peu profond, sur le bloc de gel ({})."},
   {"Hold the needle in the plane on the gel block ({}).", "Garder l'aiguille dans le plan, sur le bloc de gel ({})."},
   {"Touch the point at 20 mm on the gel block ({}).", "Toucher le point à 20 mm, sur le bloc de gel ({})."},

@@ -104,7 +104,9 @@ MomentView::MomentView(const Scenario& scenario, const Scene& scene, const Sessi
     const bool spared =
         std::any_of(scenario.avoid.begin(), scenario.avoid.end(),
                     [&](const ScenarioAvoid& zone) { return zone.structure == name; });
-    const bool sought = !name.empty() && name == scenario.target.structure;
+    const bool sought = !name.empty() && (name == scenario.target.structure ||
+                                          std::find(scenario.find.begin(), scenario.find.end(),
+                                                    name) != scenario.find.end());
     const Tissue& tissue = joint.tissue_of(r);
     if (!spared && !sought && !tissue.haptic.hard) continue;
     const cv::Vec3b colour = spared   ? kSpareColour
@@ -112,7 +114,7 @@ MomentView::MomentView(const Scenario& scenario, const Scene& scene, const Sessi
                                       : tissue_colour(tissue.name, r);
     body_.push_back(coloured(region_surface(joint, r), colour));
   }
-  if (scenario.target.structure.empty())
+  if (scenario.target.structure.empty() && scenario.find.empty())
     body_.push_back(ball(scenario.target.point, kSphere, kTargetColour));
 }
 
@@ -139,7 +141,22 @@ std::vector<ColouredMesh> MomentView::outline() const {
   return out;
 }
 
-cv::Mat MomentView::draw(const Pose& X_JP, const Pose& X_JN, cv::Size size) const {
+/// The shaft as far as the drawing reaches, its tip, and how far that is beside the plane.
+void MomentView::add_needle(const Pose& X_PN, const Eigen::AlignedBox3d& around,
+                            std::vector<ColouredMesh>& meshes) const {
+  const Vec3 tip = X_PN.translation();
+  if (!around.contains(tip)) return;
+  constexpr double kStep = 1e-3;  // m
+  double length = 0;
+  while (length + kStep <= length_ && around.contains(X_PN * Vec3(0, 0, -(length + kStep))))
+    length += kStep;
+  if (length > 0) meshes.push_back(tube(X_PN * Vec3(0, 0, -length), tip, kShaft, kNeedleColour));
+  meshes.push_back(ball(tip, kSphere, kTipColour));
+  const Vec3 shown(tip.x(), 0, tip.z());
+  if (std::abs(tip.y()) > kSphere) meshes.push_back(tube(tip, shown, kThin, kTipColour));
+}
+
+cv::Mat MomentView::draw(const Pose& X_JP, const std::optional<Pose>& X_JN, cv::Size size) const {
   const Pose X_PJ = X_JP.inverse();
   const double half = 0.5 * transducer_.width + kBeside;
   const Eigen::AlignedBox3d behind(Vec3(-half, -kBehind, -0.5 * kBeside),
@@ -149,18 +166,7 @@ cv::Mat MomentView::draw(const Pose& X_JP, const Pose& X_JN, cv::Size size) cons
   std::vector<ColouredMesh> meshes = outline();
   meshes.push_back(corners_of({Vec3(-half, -kBeside, -kBeside), Vec3(half, kBeside, depth_)}));
   for (const ColouredMesh& mesh : body_) meshes.push_back(cut(mesh, X_PJ, behind));
-  const Pose X_PN = X_PJ * X_JN;
-  const Vec3 tip = X_PN.translation();
-  if (around.contains(tip)) {
-    constexpr double kStep = 1e-3;  // m
-    double length = 0;
-    while (length + kStep <= length_ && around.contains(X_PN * Vec3(0, 0, -(length + kStep))))
-      length += kStep;
-    if (length > 0) meshes.push_back(tube(X_PN * Vec3(0, 0, -length), tip, kShaft, kNeedleColour));
-    meshes.push_back(ball(tip, kSphere, kTipColour));
-    const Vec3 shown(tip.x(), 0, tip.z());
-    if (std::abs(tip.y()) > kSphere) meshes.push_back(tube(tip, shown, kThin, kTipColour));
-  }
+  if (X_JN) add_needle(X_PJ * *X_JN, around, meshes);
   constexpr double kTurned = 40 * kDegree;
   constexpr double kRaised = 25 * kDegree;
   MeshView view;

@@ -36,6 +36,8 @@ TrainLesson::TrainLesson(Scenario scenario, std::shared_ptr<const Scene> scene,
       scene_(std::move(scene)),
       period_(1 / params.haptic_rate),
       finder_(params.transducer, params.image.depth, params.needle_shape),
+      search_(scene_->joint(), scenario_.find, params.transducer, params.image.depth,
+              StructureSearch::kTold),
       done_(std::move(asked)),
       language_(language) {
   if (auto options = make_meter_options(scenario_, scene_->joint(), params))
@@ -103,6 +105,7 @@ Lesson TrainLesson::lead(const LessonView& view) {
   if (first_tick_ == 0) first_tick_ = view.now.input.tick;
   const double time = period_ * static_cast<double>(view.now.input.tick - first_tick_);
   if (view.now.input.tick != 0) {
+    if (view.now.input.device.has_probe != 0) search_.look(*scene_, time, to_pose(view.now.X_JP));
     follow(view);
     listen(view, time);
   }
@@ -122,7 +125,22 @@ Lesson TrainLesson::lead(const LessonView& view) {
     lesson.steps.push_back({step_words(language_, step), done_.count(step) != 0,
                             !of_truth || scenario_.level <= kToldAtOnce});
   }
+  if (!scenario_.find.empty()) lead_search(time, lesson);
   return lesson;
+}
+
+/// What is to be shown now, and what was.
+void TrainLesson::lead_search(double time, Lesson& lesson) const {
+  constexpr double kRead = 1.5;  // s that the last word stands
+  for (const Sought& one : search_.sought())
+    lesson.steps.push_back({clinical_name(language_, one.name), one.found >= 0, true});
+  if (search_.done()) {
+    lesson.goal = said(language_, Said::find_done);
+    lesson.over = lesson.over || time > search_.sought().back().found + kRead;
+    return;
+  }
+  const Sought& now = search_.sought()[search_.found()];
+  lesson.goal = fill(said(language_, Said::find_now), {clinical_name(language_, now.name)});
 }
 
 LessonOptions TrainLesson::options() {
@@ -130,17 +148,24 @@ LessonOptions TrainLesson::options() {
   options.lead = [this](const LessonView& view) {
     return lead(view);
   };
+  options.needle = scenario_.find.empty();
   LessonAids& aids = options.aids;
   aids.needle = value_of(scenario_, "needle_overlay");
   aids.tip = value_of(scenario_, "tip_marker");
   aids.target = value_of(scenario_, "target_glow");
   aids.labels = value_of(scenario_, "labels");
   aids.plane = value_of(scenario_, "plane_beam");
-  aids.target_J = scenario_.target.point;
+  if (scenario_.find.empty()) aids.target_J = scenario_.target.point;
   return options;
 }
 
 std::string goal_words(const Scenario& scenario, Language language) {
+  if (!scenario.find.empty()) {
+    std::string names;
+    for (const std::string& name : scenario.find)
+      names += (names.empty() ? "" : ", ") + clinical_name(language, name);
+    return fill(said(language, Said::brief_find), {names});
+  }
   const Vec3 target_P = scenario.X_JP.inverse() * scenario.target.point;
   if (scenario.target.structure.empty()) {
     constexpr double kMiddle = 0.5e-3;  // m
@@ -160,7 +185,9 @@ std::string goal_words(const Scenario& scenario, Language language) {
 HandTarget first_hands(const Scenario& scenario) {
   constexpr double kAbove = 15e-3;  // m of the tip from the entry
   constexpr int kAimed = 1;         // the highest level that begins in the plane
-  const Vec3 way = (scenario.target.point - scenario.entry.centre).normalized();
+  const Vec3 way = scenario.find.empty()
+                       ? (scenario.target.point - scenario.entry.centre).normalized()
+                       : Vec3(scenario.X_JP.linear().col(2));
   Vec3 tip = scenario.entry.centre - kAbove * way;
   if (scenario.level > kAimed) {
     constexpr double kBeside = 6e-3;  // m
@@ -168,6 +195,7 @@ HandTarget first_hands(const Scenario& scenario) {
     tip += kBeside * scenario.X_JP.linear().col(1) - kBack * way;
   }
   HandTarget target;
+  target.has_needle = scenario.find.empty() ? 1 : 0;
   target.X_WN = to_plain(make_pose(tip, way, Vec3::Zero()));
   target.X_WP = to_plain(scenario.X_JP);
   return target;

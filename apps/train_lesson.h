@@ -28,6 +28,7 @@ class TrainLesson {
 
  private:
   void follow(const LessonView& view);
+  void lead_search(double time, Lesson& lesson) const;
   void listen(const LessonView& view, double time);
   void say(Said what, double time, bool hurts);
   void say_calmly();
@@ -36,6 +37,7 @@ class TrainLesson {
   std::shared_ptr<const Scene> scene_;
   double period_;  // s of a tick
   TipSightFinder finder_;
+  StructureSearch search_;
   Goals goals_;
   std::set<std::string> done_;
   Language language_;

@@ -27,6 +27,7 @@ void add_marks(const Scenario& scenario, Language language, std::vector<PageLine
 }
 
 std::string instrument_words(const Scenario& scenario, Language language) {
+  if (!scenario.find.empty()) return fill(said(language, Said::what_probe), {scenario.transducer});
   return fill(said(language, Said::what_instruments),
               {scenario.transducer, std::to_string(scenario.gauge),
                number(language, scenario.needle_length / kMillimetre, 0)});
@@ -81,12 +82,15 @@ void add_hands(const Scenario& scenario, const KeyMap& keys, Language language,
     return keys.said_key(action, language);
   };
   lines.push_back({said(language, Said::brief_hands_title), Tone::heading});
-  lines.push_back({fill(said(language, Said::brief_needle),
-                        {key(Action::take_needle), key(Action::push), key(Action::pull)})});
+  const bool needle = scenario.find.empty();
+  if (needle)
+    lines.push_back({fill(said(language, Said::brief_needle),
+                          {key(Action::take_needle), key(Action::push), key(Action::pull)})});
   lines.push_back({fill(said(language, Said::brief_probe), {key(Action::take_probe)})});
   if (scenario.syringe.volume > 0)
     lines.push_back({fill(said(language, Said::brief_plunger), {key(Action::take_plunger)})});
-  lines.push_back({fill(said(language, Said::brief_done), {key(Action::finish)})});
+  lines.push_back(
+      {fill(said(language, needle ? Said::brief_done : Said::brief_found), {key(Action::finish)})});
 }
 
 void add_verdict(const TrainOutcome& outcome, Language language, std::vector<PageLine>& lines) {
@@ -208,7 +212,7 @@ Page make_briefing_page(const Scenario& scenario, const std::set<std::string>& a
   page.may_back = true;
   page.lines = {{goal_words(scenario, language)}};
   const Vec3 entry_P = scenario.X_JP.inverse() * scenario.entry.centre;
-  if (scenario.entry.plane == "in")
+  if (scenario.find.empty() && scenario.entry.plane == "in")
     page.lines.push_back(
         {said(language, entry_P.x() < 0 ? Said::brief_entry : Said::brief_entry_far)});
   page.lines.push_back({instrument_words(scenario, language)});
@@ -217,7 +221,8 @@ Page make_briefing_page(const Scenario& scenario, const std::set<std::string>& a
       {fill(said(language, Said::what_time), {number(language, scenario.time_limit, 0)})});
   add_hands(scenario, keys, language, page.lines);
   if (scenario.aided()) page.lines.push_back({said(language, Said::brief_aided_note), Tone::dim});
-  std::vector<PageLine> about{{said(language, Said::brief_view), Tone::dim}};
+  std::vector<PageLine> about;
+  if (scenario.find.empty()) about.push_back({said(language, Said::brief_view), Tone::dim});
   add_marks(scenario, language, about);
   for (const BriefingChoice& choice : briefing_choices(scenario)) {
     std::string name =

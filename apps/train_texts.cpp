@@ -30,6 +30,7 @@ constexpr std::array<Words, kCount> kSaid{{
   {"new", "nouveau"},
   {"Time: {} s", "Temps : {} s"},
   {"Probe {}, needle {} G of {} mm", "Sonde {}, aiguille {} G de {} mm"},
+  {"Probe {}", "Sonde {}"},
   {"Draw back first, then give {} ml of {} at {} ml/s", "Aspirer d'abord, puis injecter {} ml ({}) à {} ml/s"},
   {"Look at an earlier attempt", "Revoir un essai précédent"},
   {"The attempt is being read ...", "Lecture de l'essai ..."},
@@ -38,6 +39,9 @@ constexpr std::array<Words, kCount> kSaid{{
   {", {} mm to the right of the picture's middle", ", {} mm à droite du milieu de l'image"},
   {" in the picture's middle", " au milieu de l'image"},
   {"Bring the tip into the {}", "Amener la pointe dans cette structure : {}"},
+  {"Show, one after another: {}. Bring each to the picture's middle and rest there for 2 s", "Montrer, l'un après l'autre : {}. Amener chacun au milieu de l'image et y rester 2 s"},
+  {"Show this, in the picture's middle: {}", "Montrer, au milieu de l'image : {}"},
+  {"All were shown", "Tout a été montré"},
   {"What is judged", "Ce qui est jugé"},
   {"The needle goes in at the end of the probe that has the mark", "L'aiguille entre du côté repéré de la sonde"},
   {"The needle goes in at the end of the probe without the mark", "L'aiguille entre du côté de la sonde sans repère"},
@@ -47,6 +51,7 @@ constexpr std::array<Words, kCount> kSaid{{
   {"{} takes the needle: the mouse moves and turns it, wheel or {} pushes, {} pulls", "{} pour prendre l'aiguille : la souris la déplace et l'oriente, molette ou {} pour enfoncer, {} pour retirer"},
   {"{} puts the thumb on the plunger: the wheel then presses it", "{} met le pouce sur le piston : la molette le presse alors"},
   {"{} when the needle is out again: then it is judged", "{} une fois l'aiguille retirée : alors c'est jugé"},
+  {"It ends by itself when all are shown, or with {}", "Fin quand tout est montré, ou avec {}"},
   {"Begin", "Commencer"},
   {"Begin with aids", "Commencer avec les aides"},
   {"Begin without aids: only that counts", "Commencer sans aide : cela seul compte"},
@@ -115,7 +120,9 @@ struct MetricWords {
   const char* metric;
   Words words;
 };
-constexpr std::array<MetricWords, 25> kMetricWords{{
+constexpr std::array<MetricWords, 27> kMetricWords{{
+  {"found", {"structures shown", "structures montrées"}},
+  {"find_s", {"time until all were shown, s", "temps pour tout montrer, s"}},
   {"distance_mm", {"tip from the target, mm", "pointe à la cible, mm"}},
   {"plane_offset_p90_mm", {"tip beside the picture's plane, mm", "pointe hors du plan de l'image, mm"}},
   {"unseen_advances", {"times advanced without seeing the tip", "avancées sans voir la pointe"}},

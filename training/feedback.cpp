@@ -242,13 +242,15 @@ std::string praise(const AttemptMeasures& m) {
 
 /// Which skill is the weakest, by this attempt and those before.
 std::optional<Skill> weakest_skill(const PastAttempt& now, const FeedbackContext& context) {
-  std::array<double, 4> clean{};
-  std::array<double, 4> count{};
+  constexpr std::size_t kSkills = 5;
+  std::array<double, kSkills> clean{};
+  std::array<double, kSkills> count{};
   const auto add = [&](const PastAttempt& attempt) {
-    std::array<bool, 4> faulty{};
+    std::array<bool, kSkills> faulty{};
     for (const std::string& kind : attempt.kinds)
       faulty[static_cast<std::size_t>(skill_of_fault(kind))] = true;
     for (std::size_t k = 0; k < faulty.size(); ++k) {
+      if (attempt.looked != (static_cast<Skill>(k) == Skill::look)) continue;
       if (static_cast<Skill>(k) == Skill::inject && !attempt.injected) continue;
       count[k] += 1;
       if (!faulty[k]) clean[k] += std::exp2(-attempt.weeks / kHalfLife);
@@ -273,6 +275,8 @@ struct SkillTask {
 };
 SkillTask task_of(Skill skill) {
   switch (skill) {
+    case Skill::look:
+      return {"Find the structures in the gel block with the probe (gel-look).", "gel-look"};
     case Skill::view:
       return {"Follow the tip to a shallow point on the gel block (gel-find).", "gel-find"};
     case Skill::align:
@@ -295,7 +299,8 @@ SkillTask next_task(const Judgement& judgement, const std::optional<Skill>& weak
 }  // namespace
 
 Skill skill_of_fault(const std::string& kind) noexcept {
-  if (kind == "unseen" || kind == "angle" || kind == "not_found") return Skill::view;
+  if (kind == "not_found") return Skill::look;
+  if (kind == "unseen" || kind == "angle") return Skill::view;
   if (kind == "drift" || kind == "passes") return Skill::align;
   if (kind == "misplaced" || kind == "unaspirated" || kind == "pressure" || kind == "fast")
     return Skill::inject;
@@ -306,6 +311,9 @@ PastAttempt past_attempt(double weeks, std::span<const Metric> metrics) {
   PastAttempt out;
   out.weeks = weeks;
   out.injected = value_of(metrics, "given_ml") > kGiven;
+  out.looked = find_metric(metrics, "found") != nullptr;
+  if (const Metric* time = find_metric(metrics, "find_s"); time != nullptr && !time->value)
+    out.kinds.emplace_back("not_found");
   for (const auto& [kind, name] :
        {std::pair{&kOffTarget, "off_target"}, std::pair{&kDrift, "drift"},
         std::pair{&kPasses, "passes"}, std::pair{&kAngle, "angle"},
@@ -340,6 +348,7 @@ Feedback make_feedback(const AttemptMeasures& measures, const Judgement& judgeme
   if (context.level >= kIdleLevel) add_idle(measures, out.faults);
   PastAttempt now;
   now.injected = value_of(measures, "given_ml") > kGiven;
+  now.looked = !measures.sought.empty();
   for (Fault& fault : out.faults) {
     now.kinds.push_back(fault.kind);
     if (context.before.empty()) continue;

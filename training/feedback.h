@@ -32,7 +32,7 @@ struct Feedback {
 
 /// What hands and eyes can do, each trained by a task of its own; of two that
 /// are as weak the earlier is trained first.
-enum class Skill { view, align, steer, inject };
+enum class Skill { look, view, align, steer, inject };
 [[nodiscard]] Skill skill_of_fault(const std::string& kind) noexcept;
 
 /// An attempt before this one.
@@ -40,6 +40,7 @@ struct PastAttempt {
   double weeks = 0;                ///< ago
   bool injected = false;           ///< liquid was given
   std::vector<std::string> kinds;  ///< of its faults
+  bool looked = false;             ///< structures were to be shown, without needle
 };
 /// The same from an attempt's numbers, as records keep them.
 [[nodiscard]] PastAttempt past_attempt(double weeks, std::span<const Metric> metrics);

@@ -61,6 +61,7 @@ struct LessonAids {
 struct LessonOptions {
   std::function<Lesson(const LessonView&)> lead;  ///< called before each picture
   LessonAids aids;
+  bool needle = true;  ///< false: a task for the probe alone
 };
 
 }  // namespace artus

@@ -145,6 +145,7 @@ void WindowLoop::follow_gesture(const HapticSnapshot& now) {
   if (input_.now.input.tick != 0 && !before.isApprox(after, 1e-12))
     control_.follow_joint(before, after);
   input_.entry.reset();
+  if (options_.lesson && !options_.lesson->needle) return;
   if (now.phase == GesturePhase::exploring && now.input.device.has_probe != 0 && now.inserted == 0)
     input_.entry = choose_entry(session_.scene(), to_pose(now.X_JP), session_.params().gesture);
 }
@@ -211,7 +212,14 @@ void WindowLoop::guide() {
   in.needle = input_.needle;
   in.needle_length = needle_length_of(session_.params());
   if (options_.lesson && !options_.lesson->aids.any()) in.needle = seen_from_outside(in.needle);
-  input_.next = guide_.next(in);
+  const bool looks = options_.lesson && !options_.lesson->needle && in.peer == PeerState::alive;
+  if (!looks)
+    input_.next = guide_.next(in);
+  else if (in.grab == Grab::probe)
+    input_.next.clear();
+  else
+    input_.next = state_.keys.said_key(Action::take_probe, state_.language) + ": " +
+                  tell(state_, Text::choice_explore);
   input_.goal = options_.lesson ? lesson_.goal : guide_.goal(in);
 }
 

@@ -68,7 +68,7 @@ std::string many_times(int n, const std::string& step) {
 const std::string kWholeSession =
     "stage who\nkey ENTER\n"
     "stage pseudonym\nkey ENTER\n"
-    "stage what\nkey ENTER\n"
+    "stage what\nkey DOWN\nkey ENTER\n"
     "stage briefing\nkey ENTER\n"
     "stage attempt\nawait picture 20\nkey N\nscroll 81\nawait inside 20\nwait 2\nscroll -90\n"
     "await outside 20\nkey F10\n"
@@ -258,6 +258,40 @@ TEST(TrainTask, TheBeamIsNotOnATipThatLiesBesideIt) {
     EXPECT_EQ(told.beam_on_tip, beside == 0) << beside;
     EXPECT_FALSE(told.over);
   }
+}
+
+TEST(TrainTask, ALookingTaskAsksForOneAfterAnotherAndEndsByItself) {
+  const auto scenario = find_scenario("gel-look");
+  ASSERT_TRUE(scenario);
+  const auto scene = make_gel_scene(*scenario->gel);
+  const auto params = make_session_params(*scenario);
+  ASSERT_TRUE(scene && params);
+  EXPECT_EQ(first_hands(*scenario).has_needle, 0U);
+  TrainLesson lesson(*scenario, *scene, *params, {}, Language::english);
+  std::uint64_t tick = 0;
+  Lesson told;
+  for (const std::string& name : scenario->find) {
+    const auto ball = std::find_if(scenario->gel->balls.begin(), scenario->gel->balls.end(),
+                                   [&](const Ball& b) { return b.tissue == name; });
+    for (int k = 0; k < 50; ++k) {
+      HapticSnapshot now;
+      now.input.tick = tick += 40;
+      now.input.device.has_probe = 1;
+      now.X_JP = to_plain(
+          make_pose(Vec3(ball->centre.x(), ball->centre.y(), 0), Vec3::UnitZ(), Vec3::UnitX()));
+      told = lesson.lead({now, {}});
+      if (k == 0) {
+        EXPECT_NE(told.goal.find(name), std::string::npos) << told.goal;
+        EXPECT_EQ(told.steps.size(), 5U);
+        EXPECT_FALSE(told.over);
+      }
+    }
+  }
+  EXPECT_TRUE(std::all_of(told.steps.begin(), told.steps.end(),
+                          [](const auto& step) { return step.done; }));
+  HapticSnapshot later;
+  later.input.tick = tick + 2000;
+  EXPECT_TRUE(lesson.lead({later, {}}).over);
 }
 
 TEST(TrainTask, EveryBundledScenarioIsSaidInWordsInBothLanguages) {

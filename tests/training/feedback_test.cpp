@@ -255,6 +255,34 @@ TEST(Feedback, TheNextTaskIsOfTheWeakestSkillAndOldPracticeFades) {
   EXPECT_THAT(next({long_ago, long_ago, long_ago}), HasSubstr("gel-find"));  // looking first
 }
 
+TEST(Feedback, WhoDidNotFindWhatWasAskedForIsToldWhyAndLooksAgain) {
+  AttemptMeasures m;
+  m.sought = {{"artery", 2, 4, 2}, {"nerve", 3, -1, 0.7}};
+  m.metrics = {{"found", "probe", "count", 1.0, "", {}}, {"find_s", "probe", "s", {}, "", {}}};
+  m.events = {{4, "found", "artery", 4, ""}, {60, "not_found", "nerve", 0.7, "why"}};
+  const Feedback told = make_feedback(m, {}, {});
+  const Fault* fault = fault_of(told, "not_found");
+  ASSERT_NE(fault, nullptr);
+  EXPECT_EQ(fault->what, "shown: 1 of 2; not shown: nerve");
+  EXPECT_EQ(fault->cause, "why");
+  EXPECT_EQ(told.next_scenario, "gel-look");
+  const PastAttempt past = past_attempt(1, m.metrics);
+  EXPECT_TRUE(past.looked);
+  EXPECT_THAT(past.kinds, testing::Contains("not_found"));
+  // What was looked for says nothing of the needle, nor the other way round.
+  Hands hands;
+  hands.go(4, 23);
+  const Judgement passed{true, false, 100, {}};
+  EXPECT_EQ(make_feedback(hands.measure(), passed, {0, {past, past, past}}).next_scenario,
+            "gel-look");
+  m.metrics = {{"found", "probe", "count", 2.0, "", {}}, {"find_s", "probe", "s", 9.0, "", {}}};
+  m.sought[1].found = 9;
+  m.events.pop_back();
+  const Feedback good = make_feedback(m, passed, {});
+  EXPECT_EQ(good.good, "You found all that was asked for.");
+  EXPECT_TRUE(good.faults.empty());
+}
+
 TEST(Feedback, PastAttemptsAreReadFromTheirNumbers) {
   Hands hands;
   hands.go(4, 18, 8);

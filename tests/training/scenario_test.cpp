@@ -10,6 +10,7 @@
 #include "artus/training/player.h"
 #include "artus/training/scenario_check.h"
 #include "artus/training/session_meter.h"
+#include "artus/training/stage.h"
 #include "tests/support/temporary_folder.h"
 
 namespace artus {
@@ -227,6 +228,55 @@ TEST(Player, TheSameSeedGivesTheSameBytes) {
   options.seed = 5;
   const auto other = play(align(), scene, novice_skill(), options);
   EXPECT_NE(to_json(one->measures.metrics).dump(), to_json(other->measures.metrics).dump());
+}
+
+TEST(Player, ALookingTaskIsPlayedAndJudgedWithoutNeedleAndAids) {
+  const Scenario look = *find_scenario("gel-look");
+  ASSERT_TRUE(look.aided());
+  const auto scene = *make_gel_scene(*look.gel);
+  const auto params = make_session_params(look);
+  ASSERT_TRUE(params);
+  const auto played = play(look, scene, expert_skill(), {});
+  ASSERT_TRUE(played);
+  EXPECT_TRUE(played->judgement.passed);
+  EXPECT_FALSE(played->judgement.with_aids);
+  ASSERT_EQ(played->measures.sought.size(), 5U);
+  EXPECT_TRUE(played->measures.needle.empty());
+  for (const TickRecord& tick : played->recording.ticks)
+    ASSERT_EQ(tick.input.device.has_needle, 0U);
+  Scenario impossible = look;
+  impossible.find = {"artery", "skin", "liver"};
+  EXPECT_FALSE(play(impossible, scene, expert_skill(), {}));
+
+  const auto again = make_stage(look, scene, *params, expert_skill(), {});
+  AttemptMeter meter(scene, *make_meter_options(look, scene->joint(), *params));
+  PlayedAttempt same;
+  while (again->step(same, meter)) {
+  }
+  EXPECT_EQ(same.recording.ticks.size(), played->recording.ticks.size());
+  EXPECT_EQ(to_json(meter.measure().metrics).dump(), to_json(played->measures.metrics).dump());
+}
+
+TEST(Scenario, AFindTaskHasNoNeedleAndBallsLieApartInOneLayer) {
+  const std::string look = find_scenario("gel-look")->text;
+  const auto told = [&](const std::string& from, const std::string& to) {
+    const auto scenario = parse_scenario(changed(look, from, to), "mine");
+    return scenario ? std::string() : scenario.error().message;
+  };
+  EXPECT_EQ(told("level = 0", "level = 1"), "");
+  EXPECT_NE(told("[aids]", "[target]\npoint = [0, 0, 1]\n[needle]\ngauge = 22\n[aids]")
+                .find("'target' what is to be found is shown with the probe alone"),
+            std::string::npos);
+  EXPECT_NE(told("find = [\"artery\", \"bone\", \"tendon\", \"fat\", \"nerve\"]", "find = []")
+                .find("1 to 12"),
+            std::string::npos);
+  EXPECT_NE(told("centre = [26, -22, 14]", "centre = [26, -22, 4]").find("in one layer"),
+            std::string::npos);
+  EXPECT_NE(told("centre = [26, -22, 14]", "centre = [53, -22, 14]").find("in the block"),
+            std::string::npos);
+  EXPECT_NE(told("centre = [22, 16, 16]", "centre = [26, -20, 16]").find("apart"),
+            std::string::npos);
+  EXPECT_NE(told("radius = 4", "radius = \"big\"").find("radius"), std::string::npos);
 }
 
 class PlayerFiles : public test::TemporaryFolder {};

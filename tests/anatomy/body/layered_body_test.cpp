@@ -5,6 +5,7 @@
 #include <array>
 #include <map>
 #include <numbers>
+#include <tuple>
 
 #include <gtest/gtest.h>
 
@@ -63,6 +64,26 @@ TEST(NestedSpheres, HaveNearlyTheVolumesOfTheirShellsFromBelow) {
   EXPECT_LT(volume_of(joint, region_named(joint, "bone")), inner);
   EXPECT_NEAR(volume_of(joint, region_named(joint, "fat")), outer - inner, 0.004 * outer);
   expect_closed(joint);
+}
+
+TEST(AddBall, IsARegionOfItsOwnInItsLayer) {
+  const std::array<FlatLayer, 2> layers{{{"fat", 10e-3}, {"muscle", 30e-3}}};
+  CompiledJoint joint = test::make_layered_block(layers, 0.1, 0.1);
+  add_ball(joint, {"bursa", Vec3(5e-3, 0, 25e-3), 4e-3}, region_named(joint, "muscle"));
+  add_ball(joint, {"fat", Vec3(-15e-3, 0, 25e-3), 6e-3}, region_named(joint, "muscle"));
+  for (const auto& [name, centre, radius] : {std::tuple{"bursa", Vec3(5e-3, 0, 25e-3), 4e-3},
+                                             std::tuple{"fat_2", Vec3(-15e-3, 0, 25e-3), 6e-3}}) {
+    const RegionId region = region_named(joint, name);
+    int n = 0;
+    for (const Interface& face : joint.mesh.interfaces) {
+      if (face.back != region) continue;
+      ++n;
+      EXPECT_EQ(face.front, region_named(joint, "muscle"));
+      for (const std::uint32_t v : face.vertices)
+        EXPECT_NEAR((joint.mesh.vertices[v] - centre).norm(), radius, 1e-12);
+    }
+    EXPECT_EQ(n, 20 * 64) << name;
+  }
 }
 
 TEST(BlockWithSphere, HoldsItsInclusion) {
