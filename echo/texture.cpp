@@ -19,34 +19,38 @@ struct Sheets {
 };
 
 /// How a kind of tissue looks: sheets in a dark bed. Axes: x across the stacked sheets, y beside
-/// them, z along the fibres.
+/// them, z along the fibres. The tile is eight coarse features long along z.
 struct Recipe {
   TissueKind kind = TissueKind::plain;
   std::array<double, 3> cell{};         // m
   std::array<std::uint32_t, 3> bits{};  // the tile has 2^bits cells
   Sheets coarse;
   Sheets fine;
+  /// Cells along z by which the next tile along x and along y lies on: the same sheets do not come
+  /// again one tile deeper or beside, but first two deeper and one beside.
+  [[nodiscard]] constexpr int shift_x() const { return 3 * coarse.feature[2]; }
+  [[nodiscard]] constexpr int shift_y() const { return 2 * coarse.feature[2]; }
 };
 
 constexpr std::array<Recipe, 4> kRecipes{{
     {TissueKind::muscle,
      {0.1e-3, 0.3e-3, 2e-3},
-     {7, 6, 6},
+     {7, 6, 7},
      {{16, 16, 16}, 0.12e-3, 15, 0.9},
      {{8, 8, 8}, 0.10e-3, 8, 0.85}},
     {TissueKind::fat,
      {0.1e-3, 0.5e-3, 0.5e-3},
-     {7, 6, 6},
+     {7, 6, 7},
      {{32, 16, 16}, 0.12e-3, 9, 0.95},
      {{16, 8, 8}, 0.09e-3, 1.5, 0.9}},
     {TissueKind::tendon,
      {0.06e-3, 0.12e-3, 1.5e-3},
-     {7, 6, 5},
+     {7, 6, 6},
      {{8, 8, 8}, 0.06e-3, 4, 0.9},
      {{4, 4, 4}, 0.05e-3, 1.5, 0.9}},
     {TissueKind::nerve,
      {0.08e-3, 0.08e-3, 2e-3},
-     {6, 6, 5},
+     {6, 6, 7},
      {{8, 8, 16}, 0.09e-3, 4, 0.5},
      {{4, 4, 8}, 0.05e-3, 0.5, 0.5}},
 }};
@@ -55,11 +59,15 @@ double smooth(double t) {
   return t * t * (3 - 2 * t);
 }
 
-/// Smooth periodic noise, -1..1: random values on a coarse grid, blended in between.
+/// Smooth noise on a tile, -1..1, that goes on in the tiles around: random values on a coarse grid,
+/// blended in between. A step over the end along x or y also moves on along z.
 class ValueNoise {
  public:
-  ValueNoise(std::uint64_t seed, const std::array<int, 3>& sides, const std::array<int, 3>& feature)
-      : feature_(feature) {
+  ValueNoise(std::uint64_t seed, const Recipe& recipe, const std::array<int, 3>& sides,
+             const std::array<int, 3>& feature)
+      : feature_(feature),
+        shift_x_(recipe.shift_x() / feature[2]),
+        shift_y_(recipe.shift_y() / feature[2]) {
     for (std::size_t a = 0; a < 3; ++a) n_[a] = sides[a] / feature[a];
     const std::size_t size =
         static_cast<std::size_t>(n_[0] * n_[1]) * static_cast<std::size_t>(n_[2]);
@@ -69,38 +77,41 @@ class ValueNoise {
     }
   }
 
-  /// Adds `factor` times the values along x at (y, z), a row of the tile.
+  /// Adds `factor` times the values along x at (y, z), a row of the tile and the first value
+  /// beyond. y may be the first beyond the tile.
   void add_row(int y, int z, float factor, std::vector<float>& row) const {
     const double ty = smooth(static_cast<double>(y % feature_[1]) / feature_[1]);
     const double tz = smooth(static_cast<double>(z % feature_[2]) / feature_[2]);
+    const int y0 = y / feature_[1];
+    const int z0 = z / feature_[2];
     const auto node = [&](int x) {
-      const int y0 = y / feature_[1];
-      const int z0 = z / feature_[2];
-      const int y1 = (y0 + 1) % n_[1];
-      const int z1 = (z0 + 1) % n_[2];
-      const double near = (1 - ty) * value(x, y0, z0) + ty * value(x, y1, z0);
-      const double far = (1 - ty) * value(x, y0, z1) + ty * value(x, y1, z1);
+      const double near = (1 - ty) * value(x, y0, z0) + ty * value(x, y0 + 1, z0);
+      const double far = (1 - ty) * value(x, y0, z0 + 1) + ty * value(x, y0 + 1, z0 + 1);
       return static_cast<float>((1 - tz) * near + tz * far) * factor;
     };
     const auto width = static_cast<std::size_t>(feature_[0]);
     float next = node(0);
     for (int k = 0; k < n_[0]; ++k) {
       const float here = next;
-      next = node((k + 1) % n_[0]);
+      next = node(k + 1);
       float* out = row.data() + static_cast<std::size_t>(k) * width;
       for (std::size_t j = 0; j < width; ++j) {
         out[j] += here + blend_[j] * (next - here);
       }
     }
+    row[static_cast<std::size_t>(n_[0]) * width] += next;
   }
 
  private:
   [[nodiscard]] double value(int x, int y, int z) const {
-    const int at = (z * n_[1] + y) * n_[0] + x;
+    z += x / n_[0] * shift_x_ + y / n_[1] * shift_y_;
+    const int at = (z % n_[2] * n_[1] + y % n_[1]) * n_[0] + x % n_[0];
     return grid_[static_cast<std::size_t>(at)];
   }
 
   std::array<int, 3> feature_;
+  int shift_x_;
+  int shift_y_;
   std::array<int, 3> n_{};
   std::vector<double> grid_;
   std::vector<float> blend_;  // within a feature along x
@@ -111,12 +122,12 @@ void add_sheets(const Recipe& recipe, const Sheets& sheets, std::uint64_t seed,
                 const std::array<int, 3>& sides, std::vector<float>& tile) {
   std::array<int, 3> half{};
   for (std::size_t a = 0; a < 3; ++a) half[a] = std::max(1, sheets.feature[a] / 2);
-  const ValueNoise large(seed, sides, sheets.feature);
-  const ValueNoise small(seed + 1, sides, half);
-  const ValueNoise strength(seed + 2, sides, half);
+  const ValueNoise large(seed, recipe, sides, sheets.feature);
+  const ValueNoise small(seed + 1, recipe, sides, half);
+  const ValueNoise strength(seed + 2, recipe, sides, half);
   const auto width = static_cast<std::size_t>(sides[0]);
   const auto make_row = [&](int y, int z, std::vector<float>& row) {
-    row.assign(width, 0.0F);
+    row.assign(width + 1, 0.0F);
     large.add_row(y, z, 1, row);
     small.add_row(y, z, 0.3F, row);
   };
@@ -128,13 +139,13 @@ void add_sheets(const Recipe& recipe, const Sheets& sheets, std::uint64_t seed,
     make_row(0, z, beside);
     for (int y = 0; y < sides[1]; ++y, out += width) {
       std::swap(row, beside);
-      make_row((y + 1) % sides[1], z, beside);
-      comes_and_goes.assign(width, 0.7F);
+      make_row(y + 1, z, beside);
+      comes_and_goes.assign(width + 1, 0.7F);
       strength.add_row(y, z, 0.9F, comes_and_goes);
       for (std::size_t x = 0; x < width; ++x) {
         const double middle = row[x];
         if (std::abs(middle) > 0.4 || comes_and_goes[x] <= 0) continue;  // far from any sheet
-        const double slope_x = (row[(x + 1) % width] - middle) / recipe.cell[0];
+        const double slope_x = (row[x + 1] - middle) / recipe.cell[0];
         const double slope_y = (beside[x] - middle) / recipe.cell[1];
         const double slope = std::sqrt(slope_x * slope_x + slope_y * slope_y) + 1e-9;
         const double distance = middle / (slope * sheets.half_thickness);
@@ -206,12 +217,15 @@ void TissueTexture::sample(TissueKind kind, const Vec3& place, const Vec3& step_
   const std::uint32_t x_mask = (1U << tile.bits[0]) - 1;
   const std::uint32_t y_mask = (1U << tile.bits[1]) - 1;
   const std::uint32_t z_mask = (1U << tile.bits[2]) - 1;
+  const auto shift_x = static_cast<std::uint32_t>(recipe->shift_x());
+  const auto shift_y = static_cast<std::uint32_t>(recipe->shift_y());
   const float unit = tile.unit;
   for (float& factor : out) {
     // coarse cells begin at staggered places, so that their borders draw no lines
     const std::uint32_t i = x >> 16U;
     const std::uint32_t j = (y + (i * 40503U & 0xffffU)) >> 16U;
-    const std::uint32_t k = (z + ((i * 27146U + j * 49297U) & 0xffffU)) >> 16U;
+    const std::uint32_t k = ((z + ((i * 27146U + j * 49297U) & 0xffffU)) >> 16U) +
+                            (i >> tile.bits[0]) * shift_x + (j >> tile.bits[1]) * shift_y;
     const std::uint32_t at =
         (((k & z_mask) << tile.bits[1] | (j & y_mask)) << tile.bits[0]) | (i & x_mask);
     factor = unit * static_cast<float>(values[at]);

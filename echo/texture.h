@@ -13,12 +13,13 @@ namespace artus {
 
 /// The fine structure of tissues as a factor on their speckle amplitude: perimysium sheets along
 /// muscle fibres, septa in fat, fibrils of tendon, fascicles of nerve. They live
-/// in each region's own coordinates, so they follow its fibres and belong to the body. Periodic
-/// over 8 mm and more, precomputed, mean square one. assumed: feature sizes, chosen beside real
-/// images (perimysium about 1.6 mm apart, septa 3 mm).
+/// in each region's own coordinates, so they follow its fibres and belong to the body.
+/// Precomputed tiles of 5 mm and more, each shifted along the fibres against its neighbours, so
+/// that the same look does not come again before two tiles deeper and one beside; mean square one.
+/// assumed: feature sizes, chosen beside real images (perimysium about 1.6 mm apart, septa 3 mm).
 class TissueTexture {
  public:
-  /// Cost: tens of ms and 1.5 MB when `enabled`.
+  /// Cost: tens of ms and 3.5 MB when `enabled`.
   TissueTexture(std::uint64_t seed, bool enabled);
 
   /// Whether regions of this kind have a texture at all.

@@ -83,8 +83,8 @@ void record(const Worst& worst) {
   }
 }
 
-// In every second stretch of 1 mm as many depths as phases, drawn at random; parallel or about the entry,
-// with membranes or without, by turns.
+// In every second stretch of 1 mm as many depths as phases, drawn at random; parallel or about the
+// entry, with membranes or without, by turns.
 class SwayTest : public ::testing::TestWithParam<int> {};
 
 TEST_P(SwayTest, PushedInAgainFromAnyDepthFeelsAlikeAtAnyRateWhateverThePhase) {
