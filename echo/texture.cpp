@@ -19,7 +19,8 @@ struct Sheets {
 };
 
 /// How a kind of tissue looks: sheets in a dark bed. Axes: x across the stacked sheets, y beside
-/// them, z along the fibres. The tile is eight coarse features long along z.
+/// them, z along the fibres. The tile is eight coarse features long along z; a nerve's, which no
+/// nerve is as thick as, two.
 struct Recipe {
   TissueKind kind = TissueKind::plain;
   std::array<double, 3> cell{};         // m
@@ -50,7 +51,7 @@ constexpr std::array<Recipe, 4> kRecipes{{
      {{4, 4, 4}, 0.05e-3, 1.5, 0.9}},
     {TissueKind::nerve,
      {0.08e-3, 0.08e-3, 2e-3},
-     {6, 6, 7},
+     {6, 6, 5},
      {{8, 8, 16}, 0.09e-3, 4, 0.5},
      {{4, 4, 8}, 0.05e-3, 0.5, 0.5}},
 }};

@@ -19,7 +19,7 @@ namespace artus {
 /// assumed: feature sizes, chosen beside real images (perimysium about 1.6 mm apart, septa 3 mm).
 class TissueTexture {
  public:
-  /// Cost: tens of ms and 3.5 MB when `enabled`.
+  /// Cost: tens of ms and 3 MB when `enabled`.
   TissueTexture(std::uint64_t seed, bool enabled);
 
   /// Whether regions of this kind have a texture at all.

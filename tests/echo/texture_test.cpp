@@ -18,7 +18,7 @@ struct Kind {
 const std::array<Kind, 4> kKinds{{{TissueKind::muscle, {12.8e-3, 19.2e-3, 256e-3}},
                                   {TissueKind::fat, {12.8e-3, 32e-3, 64e-3}},
                                   {TissueKind::tendon, {7.68e-3, 7.68e-3, 96e-3}},
-                                  {TissueKind::nerve, {5.12e-3, 5.12e-3, 256e-3}}}};
+                                  {TissueKind::nerve, {5.12e-3, 5.12e-3, 64e-3}}}};
 
 class TextureTest : public ::testing::TestWithParam<Kind> {
  protected:
@@ -57,8 +57,11 @@ double correlation(const std::vector<float>& a, const std::vector<float>& b) {
   return ab / std::sqrt(aa * bb);
 }
 
+/// Tissues that are wider than their tiles: all but nerve.
+class WideTextureTest : public TextureTest {};
+
 // A texture that comes again shows as a pattern of rows and columns in a wide muscle.
-TEST_P(TextureTest, DoesNotComeAgainOneTileDeeperBesideOrAlongTheFibres) {
+TEST_P(WideTextureTest, DoesNotComeAgainOneTileDeeperBesideOrAlongTheFibres) {
   const Vec3& tile = GetParam().tile;
   const Vec3 corner(0.3e-3, 0.2e-3, 0.1 * tile.z());
   const std::vector<float> here = patch(corner);
@@ -112,6 +115,8 @@ std::string name_of_kind(const ::testing::TestParamInfo<Kind>& info) {
   return std::array{"muscle", "fat", "tendon", "nerve"}.at(info.index);
 }
 INSTANTIATE_TEST_SUITE_P(Kinds, TextureTest, ::testing::ValuesIn(kKinds), name_of_kind);
+INSTANTIATE_TEST_SUITE_P(Kinds, WideTextureTest,
+                         ::testing::ValuesIn(kKinds.begin(), kKinds.begin() + 3), name_of_kind);
 
 }  // namespace
 }  // namespace artus
