@@ -34,6 +34,7 @@ struct AssessOptions {
   double depth_mm = 40;
   bool sort = false;
   bool no_pictures = false;
+  bool draw = false;
   bool json = false;
 };
 
@@ -107,13 +108,21 @@ Result<Assessment> assess_poses(const AssessOptions& options) {
   return assess_list(*list, *scene, std::move(meter));
 }
 
-/// Says that pictures will be drawn again, which is what takes long.
+/// Sights as the session measured them, or of pictures that are drawn now.
+SightSource sights_of(const AssessOptions& options) {
+  if (options.no_pictures) return SightSource::none;
+  return options.draw ? SightSource::drawn : SightSource::recorded;
+}
+
+/// Says that pictures will be drawn, which is what takes long.
 void tell_pictures(const AssessOptions& options, const Recording& recording) {
   constexpr std::size_t kMany = 400;  // some seconds
+  const bool never_drawn = std::none_of(recording.frames.begin(), recording.frames.end(),
+                                        [](const FrameRecord& frame) { return frame.digest != 0; });
   if (options.json || options.no_pictures || recording.frames.size() < kMany) return;
+  if (!options.draw && !never_drawn) return;
   std::fprintf(stderr,
-               "drawing %zu pictures again for tip_visible; --no-pictures measures all else at "
-               "once\n",
+               "drawing %zu pictures for tip_visible; --no-pictures measures all else at once\n",
                recording.frames.size());
 }
 
@@ -130,7 +139,7 @@ Result<Assessment> assess_attempt(const AssessOptions& options) {
   tell_pictures(options, *recording);
   auto meter = make_meter_options(*scenario, (*scene)->joint(), recording->head.params);
   ARTUS_TRY(meter);
-  return assess_recording(*recording, *scene, std::move(meter->goals), !options.no_pictures);
+  return assess_recording(*recording, *scene, std::move(meter->goals), sights_of(options));
 }
 
 Result<Assessment> assess_file(const AssessOptions& options) {
@@ -143,7 +152,7 @@ Result<Assessment> assess_file(const AssessOptions& options) {
   tell_pictures(options, *recording);
   auto goals = goals_of(options, (*scene)->joint());
   ARTUS_TRY(goals);
-  return assess_recording(*recording, *scene, std::move(*goals), !options.no_pictures);
+  return assess_recording(*recording, *scene, std::move(*goals), sights_of(options));
 }
 
 void print(const Assessment& a) {
@@ -232,7 +241,9 @@ void add_assess_command(Command& app, ExitCode& code) {
   command->add_option("--out,-o", options->out, "folder for the files");
   command->add_flag("--sort", options->sort, "put poses by their times first");
   command->add_flag("--no-pictures", options->no_pictures,
-                    "do not draw a recording's pictures again (tip_visible has no value)");
+                    "leave pictures out (tip_visible has no value)");
+  command->add_flag("--draw", options->draw,
+                    "draw a recording's pictures again in place of what was measured then");
   command->add_flag("--json", options->json, "print all as JSON");
   on_run(command, code, [options] { return run_assess(*options); });
 }

@@ -4,8 +4,6 @@
 #include <cstdio>
 #include <utility>
 
-#include <nlohmann/json.hpp>
-
 #include "artus/apps/attempt_files.h"
 #include "artus/apps/attempt_page.h"
 #include "artus/apps/train_lesson.h"
@@ -85,21 +83,6 @@ Result<bool> work(const TrainRoom& room, const TrainTask& task, const SessionPar
   return finished;
 }
 
-/// What only the pictures tell, as it was measured while they were shown.
-Result<void> fill_from_pictures(const std::filesystem::path& file, std::vector<Metric>& metrics) {
-  const auto text = read_bytes(file);
-  ARTUS_TRY(text);
-  const auto json = nlohmann::json::parse(*text, nullptr, false);
-  if (!json.is_object() || !json.contains("metrics"))
-    return fail(ErrorCode::corrupt, "it has no metrics", file.string());
-  const std::vector<Metric> kept = metrics_from_json(json["metrics"]);
-  for (Metric& metric : metrics)
-    if (const Metric* known = find_metric(kept, metric.name, metric.role);
-        !metric.value && known != nullptr)
-      metric.value = known->value;
-  return {};
-}
-
 /// Judges what was measured and says what the person is told of it.
 Result<void> judge_outcome(TrainDesk& desk, const Scenario& scenario, TrainOutcome& out) {
   PlayedAttempt& played = out.played;
@@ -162,9 +145,9 @@ Result<TrainOutcome> read_attempt(TrainDesk& desk, const TrainTask& task,
   auto options =
       make_meter_options(task.scenario, task.scene->joint(), out.played.recording.head.params);
   ARTUS_TRY(options);
-  auto measures = assess(out.played.recording, task.scene, std::move(*options), false);
+  auto measures =
+      assess(out.played.recording, task.scene, std::move(*options), SightSource::recorded);
   ARTUS_TRY(measures);
-  ARTUS_TRY(fill_from_pictures(folder / "attempt.json", measures->metrics));
   out.played.measures = std::move(*measures);
   ARTUS_TRY(judge_outcome(desk, task.scenario, out));
   return out;

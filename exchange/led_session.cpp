@@ -46,7 +46,7 @@ Result<Recording> record_led_session(const std::vector<ListedPose>& poses,
     if (static_cast<double>(i) * params.image_rate < n_images * params.haptic_rate) continue;
     FrameRecord frame;
     frame.input = frame_input(felt, controls, recording.frames.size() + 1);
-    if (images) frame.digest = digest_of(images->render(frame.input));
+    if (images) frame = to_record(frame.input, images->render(frame.input), params.transducer);
     if (const TissuePacket* packet = images ? images->packet() : nullptr) {
       frame.packet = digest_of(*packet);
       const TissuePacket to_probe{packet->probe, {}};

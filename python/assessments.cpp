@@ -94,7 +94,8 @@ std::string assess(const Joint& joint, const std::filesystem::path& file, const 
     const py::gil_scoped_release others_may_run;
     const auto recording = read_recording(file);
     ARTUS_TRY(recording);
-    return assess_recording(*recording, joint.scene, std::move(goals), pictures);
+    return assess_recording(*recording, joint.scene, std::move(goals),
+                            pictures ? SightSource::recorded : SightSource::none);
   }();
   return to_json(value_of(std::move(done))).dump();
 }

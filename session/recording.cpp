@@ -10,6 +10,8 @@
 #include <type_traits>
 #include <utility>
 
+#include "artus/echo/tip_contrast.h"
+
 namespace artus {
 namespace {
 
@@ -17,7 +19,7 @@ constexpr std::size_t kLongestHead = std::size_t{64} * 1024;  // bytes
 constexpr double kFar = 50;       // m from the joint's origin, of any pose that a device can make
 constexpr double kSoftest = 1e3;  // m/N, of any tissue
 
-static_assert(sizeof(TickRecord) == 352 && sizeof(FrameRecord) == 512 &&
+static_assert(sizeof(TickRecord) == 352 && sizeof(FrameRecord) == 520 &&
                   sizeof(PacketRecord) == 2672,
               "as documented");
 
@@ -88,6 +90,14 @@ bool all_finite(const double (&values)[N]) noexcept {
 }
 
 }  // namespace
+
+FrameRecord to_record(const FrameInput& input, const Frame& frame, const Transducer& transducer) {
+  FrameRecord record;
+  record.input = input;
+  record.digest = digest_of(frame);
+  if (const auto contrast = tip_contrast(frame, transducer)) record.tip_contrast = *contrast;
+  return record;
+}
 
 TickRecord to_record(const HapticSnapshot& snapshot) noexcept {
   TickRecord record;
@@ -163,7 +173,8 @@ const char* find_fault(const FrameRecord& record, std::uint64_t last) noexcept {
   const ImageControls& c = input.controls;
   const double knobs[] = {c.depth,     c.gain_db,        c.tgc_db_cm_mhz, c.dynamic_range_db,
                           c.frequency, c.elevation_focus};
-  return all_finite(knobs) ? nullptr : "a knob's place that is no number";
+  if (!all_finite(knobs)) return "a knob's place that is no number";
+  return std::isinf(record.tip_contrast) ? "a contrast that is endless" : nullptr;
 }
 
 const char* find_fault(const PacketRecord& record, std::uint64_t last) noexcept {

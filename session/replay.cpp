@@ -54,7 +54,10 @@ Result<ReplayReport> replay(const Recording& recording, const std::shared_ptr<co
     ++report.frames;
     const TissuePacket* felt = images.packet();
     const bool same_packet = felt == nullptr || digest_of(*felt) == recorded.packet;
-    if (digest_of(frame) != recorded.digest || !same_packet) {
+    const FrameRecord now = to_record(recorded.input, frame, images.transducer());
+    const bool same_sight = std::bit_cast<std::uint64_t>(now.tip_contrast) ==
+                            std::bit_cast<std::uint64_t>(recorded.tip_contrast);
+    if (now.digest != recorded.digest || !same_packet || !same_sight) {
       if (!report.first_different_frame) report.first_different_frame = recorded.input.number;
       ++report.different_frames;
     }

@@ -235,9 +235,11 @@ void Session::image(ImageCore& core, std::uint64_t number) {
   out.ready_ns = monotonic_ns();
   if (shared_image_) share(out);
   if (on_image_) on_image_(out);
-  if (recorder_)
-    recorder_->add(
-        FrameRecord{input, digest_of(frame), packet != nullptr ? digest_of(*packet) : 0});
+  if (recorder_) {
+    FrameRecord record = to_record(input, frame, core.transducer());
+    if (packet != nullptr) record.packet = digest_of(*packet);
+    recorder_->add(record);
+  }
   if (witness_ != nullptr) witness_->on_frame(input, frame);
   times_->image_render.add(out.ready_ns - begin);
   note_image(out.ready_ns);

@@ -51,10 +51,10 @@ Assessment assess_list(const TrackedList& list, const std::shared_ptr<const Scen
 
 Result<Assessment> assess_recording(const Recording& recording,
                                     const std::shared_ptr<const Scene>& scene, Goals goals,
-                                    bool pictures) {
+                                    SightSource sights) {
   MeterOptions meter = options_for(recording.head);
   meter.goals = std::move(goals);
-  auto measures = assess(recording, scene, std::move(meter), pictures);
+  auto measures = assess(recording, scene, std::move(meter), sights);
   ARTUS_TRY(measures);
   Assessment out{
       std::move(measures->metrics), std::move(measures->raw), std::move(measures->events), {}};

@@ -10,6 +10,7 @@
 
 #include "artus/session/recording.h"
 #include "artus/training/metrics/attempt_meter.h"
+#include "artus/training/session_meter.h"
 #include "artus/training/tracked_list.h"
 
 namespace artus {
@@ -43,7 +44,7 @@ struct Assessment {
 /// again, without which tip_visible has no value. Errors: those of replay.
 [[nodiscard]] Result<Assessment> assess_recording(const Recording& recording,
                                                   const std::shared_ptr<const Scene>& scene,
-                                                  Goals goals, bool pictures);
+                                                  Goals goals, SightSource sights);
 
 /// All of it, as metrics.json has it.
 [[nodiscard]] nlohmann::json to_json(const Assessment& assessment);

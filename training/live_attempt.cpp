@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "artus/echo/tip_contrast.h"
 #include "artus/training/session_meter.h"
 
 namespace artus {
@@ -28,7 +29,7 @@ void LiveAttempt::on_tick(const HapticSnapshot& tick) noexcept {
 
 void LiveAttempt::on_frame(const FrameInput& input, const Frame& frame) {
   std::optional<ImageSight> sight;
-  if (input.has_needle != 0) sight = sight_of(meter_.options().transducer, frame);
+  if (input.has_needle != 0) sight = sight_of(tip_contrast(frame, meter_.options().transducer));
   waiting_.push_back({input.sample_time_ns, sight});
   place_sights(false);
 }

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
+#include "artus/echo/tip_contrast.h"
 #include "artus/session/replay.h"
 
 namespace artus {
@@ -39,22 +41,16 @@ void add_tick(AttemptMeter& meter, const HapticSnapshot& snapshot, double period
                      felt.region, felt.tip});
 }
 
-ImageSight sight_of(const Transducer& transducer, const Frame& frame) {
+ImageSight sight_of(std::optional<double> contrast_db) {
   ImageSight sight;
-  if (frame.tip_shown) {
-    const double left = -0.5 * frame.pixel * frame.width;
-    const double x = left + (frame.tip_shown->x + 0.5) * frame.pixel;
-    const double top = std::min(0.0, scanline(transducer, 0).origin.z());
-    const double z = top + (frame.tip_shown->y + 0.5) * frame.pixel;
-    sight.contrast_db = tip_contrast(frame, transducer, x, z);
-  }
-  sight.visible = sight.contrast_db && *sight.contrast_db >= kVisibleContrast;
+  sight.contrast_db = contrast_db;
+  sight.visible = contrast_db && *contrast_db >= kVisibleContrast;
   return sight;
 }
 
 void add_frame(AttemptMeter& meter, const FrameInput& input, const Frame& frame, double time) {
   if (input.has_needle == 0) return;
-  ImageSight sight = sight_of(meter.options().transducer, frame);
+  ImageSight sight = sight_of(tip_contrast(frame, meter.options().transducer));
   sight.time = time;
   meter.add_sight(sight);
 }
@@ -67,34 +63,75 @@ MeterOptions options_for(const RecordingHead& head) {
   return options;
 }
 
+namespace {
+
+/// Times of pictures on the ticks' clock: of the last tick that was not before them. To be asked
+/// in order.
+class TickClock {
+ public:
+  explicit TickClock(const Recording& recording)
+      : ticks_(recording.ticks), period_(1 / recording.head.params.haptic_rate) {}
+
+  [[nodiscard]] double time_of(const FrameInput& input) noexcept {
+    while (at_ + 1 < ticks_.size() && ticks_[at_].input.device.time_ns < input.sample_time_ns)
+      ++at_;
+    return ticks_.empty() ? 0 : static_cast<double>(ticks_[at_].input.tick) * period_;
+  }
+
+ private:
+  const std::vector<TickRecord>& ticks_;
+  double period_;  // s
+  std::size_t at_ = 0;
+};
+
+/// Pictures that a list of poses asked for are not drawn before somebody wants to see them.
+bool were_drawn(const Recording& recording) {
+  return std::any_of(recording.frames.begin(), recording.frames.end(),
+                     [](const FrameRecord& frame) { return frame.digest != 0; });
+}
+
+void add_recorded_sights(AttemptMeter& meter, const Recording& recording) {
+  TickClock clock(recording);
+  for (const FrameRecord& frame : recording.frames) {
+    const double time = clock.time_of(frame.input);
+    if (frame.input.has_needle == 0) continue;
+    const double contrast = frame.tip_contrast;
+    ImageSight sight = sight_of(std::isnan(contrast) ? std::nullopt : std::optional(contrast));
+    sight.time = time;
+    meter.add_sight(sight);
+  }
+}
+
+}  // namespace
+
 Result<AttemptMeasures> assess(const Recording& recording,
                                const std::shared_ptr<const Scene>& scene, MeterOptions options,
-                               bool pictures) {
+                               SightSource sights) {
   const double period = 1 / recording.head.params.haptic_rate;
   if (!recording.ticks.empty())
     options.longest = 1 + period * static_cast<double>(recording.ticks.back().input.tick -
                                                        recording.ticks.front().input.tick);
   AttemptMeter meter(scene, std::move(options));
+  const bool recorded = sights == SightSource::recorded && were_drawn(recording);
+  const bool draws = sights != SightSource::none && !recorded;
   ReplayListener listener;
   listener.on_tick = [&](const HapticSnapshot& s) {
     add_tick(meter, s, period);
   };
-  std::size_t k = 0;
+  TickClock clock(recording);
   listener.on_frame = [&](const FrameRecord& record, const Frame& frame) {
-    const auto& ticks = recording.ticks;
-    while (k + 1 < ticks.size() && ticks[k].input.device.time_ns < record.input.sample_time_ns) ++k;
-    const double time = ticks.empty() ? 0 : static_cast<double>(ticks[k].input.tick) * period;
-    add_frame(meter, record.input, frame, time);
+    add_frame(meter, record.input, frame, clock.time_of(record.input));
   };
   Recording ticks_alone;
   const Recording* played = &recording;
-  if (!pictures) {
+  if (!draws) {
     ticks_alone.head = recording.head;
     ticks_alone.ticks = recording.ticks;
     played = &ticks_alone;
   }
   const auto report = replay(*played, scene, listener);
   ARTUS_TRY(report);
+  if (recorded) add_recorded_sights(meter, recording);
   return meter.measure();
 }
 

@@ -10,8 +10,8 @@ namespace artus {
 ARTUS_REALTIME void add_tick(AttemptMeter& meter, const HapticSnapshot& snapshot,
                              double period) noexcept;
 
-/// Whether the tip stands out where it shows in one picture, its time left open.
-[[nodiscard]] ImageSight sight_of(const Transducer& transducer, const Frame& frame);
+/// Whether a tip stands out that does so by `contrast_db`, its time left open.
+[[nodiscard]] ImageSight sight_of(std::optional<double> contrast_db);
 
 /// What one picture adds. `time`: s, on the ticks' clock.
 void add_frame(AttemptMeter& meter, const FrameInput& input, const Frame& frame, double time);
@@ -19,10 +19,17 @@ void add_frame(AttemptMeter& meter, const FrameInput& input, const Frame& frame,
 /// Options of a meter for a recorded session: its probe, its needle, its first picture's depth.
 [[nodiscard]] MeterOptions options_for(const RecordingHead& head);
 
-/// Measures a recording by replaying its ticks, and its pictures too when asked. Errors: those of
-/// replay.
+/// Where the sights of a recording's pictures come from.
+enum class SightSource {
+  none,      ///< pictures are not measured
+  recorded,  ///< as they were when they were drawn; pictures that never were are drawn
+  drawn      ///< each picture is drawn again
+};
+
+/// Measures a recording by replaying its ticks, and its pictures as `sights` says: those recorded
+/// and those drawn again are the same. Errors: those of replay.
 [[nodiscard]] Result<AttemptMeasures> assess(const Recording& recording,
                                              const std::shared_ptr<const Scene>& scene,
-                                             MeterOptions options, bool pictures);
+                                             MeterOptions options, SightSource sights);
 
 }  // namespace artus

@@ -116,7 +116,7 @@ class PlayedSession {
     const FrameInput input = frame_input(out, controls_of(params_), ++frames_);
     const Frame& frame = images_->render(input);
     add_frame(meter, input, frame, static_cast<double>(tick_) / kRate);
-    attempt.recording.frames.push_back({input, digest_of(frame)});
+    attempt.recording.frames.push_back(to_record(input, frame, params_.transducer));
   }
 
   SessionParams params_;

@@ -155,6 +155,6 @@ def metrics(joint, times, *, needle=None, probe=None, target=None, avoid=None, g
 def assess(joint, recording, *, target=None, avoid=None, pictures=True):
     """Measure a recording of `serve`, `view` or `play` in its joint: a dict as of metrics().
 
-    `pictures`: draw them again; without, tip_visible is None.
+    `pictures`: what was seen in them, as it was recorded; without, tip_visible is None.
     """
     return json.loads(_assess(joint, recording, *_goals(target, avoid), pictures))

@@ -81,7 +81,7 @@ TEST(LedSession, ANeedleThatIsNotListedIsNotThere) {
 }
 
 /// All numbers of a led session in a body that gives way, as JSON.
-std::string numbers(LedPictures pictures, bool assessed_pictures) {
+std::string numbers(LedPictures pictures, SightSource sights) {
   const std::array<FlatLayer, 4> layers{
       {{"skin", 2e-3}, {"fat", 8e-3}, {"muscle", 20e-3}, {"bone", 10e-3}}};
   const auto joint =
@@ -98,18 +98,21 @@ std::string numbers(LedPictures pictures, bool assessed_pictures) {
   const auto recording = record_led_session(poses, scene, params, pictures);
   EXPECT_TRUE(recording);
   EXPECT_EQ(recording->packets.empty(), pictures != LedPictures::drawn);
-  const auto assessed = assess_recording(*recording, scene, {}, assessed_pictures);
+  const auto assessed = assess_recording(*recording, scene, {}, sights);
   EXPECT_TRUE(assessed);
   const Metric* visible = find_metric(assessed->metrics, "tip_visible");
-  EXPECT_EQ(visible != nullptr && visible->value, assessed_pictures);
+  EXPECT_EQ(visible != nullptr && visible->value, sights != SightSource::none);
   const Metric* force = find_metric(assessed->metrics, "force_peak_n:muscle");
   EXPECT_TRUE(force != nullptr && force->value.value_or(0) > 0.05);
   return to_json(*assessed).dump();
 }
 
 TEST(LedSession, IsAssessedToTheSameDigitsWhetherItsPicturesWereDrawnBeforeOrNot) {
-  EXPECT_EQ(numbers(LedPictures::listed, true), numbers(LedPictures::drawn, true));
-  EXPECT_EQ(numbers(LedPictures::none, false), numbers(LedPictures::drawn, false));
+  const std::string drawn = numbers(LedPictures::drawn, SightSource::recorded);
+  EXPECT_EQ(drawn, numbers(LedPictures::listed, SightSource::recorded));
+  EXPECT_EQ(drawn, numbers(LedPictures::drawn, SightSource::drawn));
+  EXPECT_EQ(numbers(LedPictures::none, SightSource::none),
+            numbers(LedPictures::drawn, SightSource::none));
 }
 
 }  // namespace

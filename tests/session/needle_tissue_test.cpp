@@ -90,9 +90,8 @@ class SoftSession {
 
  private:
   void draw(const HapticSnapshot& out) {
-    FrameRecord frame;
-    frame.input = frame_input(out, controls_of(params_), recording_.frames.size() + 1);
-    frame.digest = digest_of(images_.render(frame.input));
+    const FrameInput input = frame_input(out, controls_of(params_), recording_.frames.size() + 1);
+    FrameRecord frame = to_record(input, images_.render(input), images_.transducer());
     if (const TissuePacket* packet = images_.packet()) {
       frame.packet = digest_of(*packet);
       recording_.packets.push_back({out.input.tick + 1, *packet});

@@ -60,7 +60,8 @@ std::string record(const std::shared_ptr<const Scene>& scene, const SessionParam
     write_record(out, RecordStart::kTick, to_record(snapshot));
     if (n % 600 != 0) return;
     const FrameInput frame = frame_input(snapshot, controls_of(params), ++frames);
-    write_record(out, RecordStart::kFrame, FrameRecord{frame, digest_of(images.render(frame))});
+    write_record(out, RecordStart::kFrame,
+                 to_record(frame, images.render(frame), images.transducer()));
   };
   for (int i = 0; i < 520; ++i) tick(0, -8e-3 + 75e-6 * i, 0);
   for (int i = 0; i < 300; ++i) tick(0, 31e-3 - 130e-6 * i, 0);

@@ -42,7 +42,7 @@ TEST_F(LiveAttemptTest, ARunningSessionSaysWhatItsRecordingSays) {
   const auto recording = read_recording(in("session.rec"));
   ASSERT_TRUE(recording) << recording.error().to_string();
   ASSERT_GE(recording->frames.size(), 10U);
-  const auto replayed = assess(*recording, scene, short_options(head), true);
+  const auto replayed = assess(*recording, scene, short_options(head), SightSource::drawn);
   ASSERT_TRUE(replayed);
   const AttemptMeasures measured = live.measure();
   EXPECT_EQ(to_json(measured.metrics).dump(), to_json(replayed->metrics).dump());

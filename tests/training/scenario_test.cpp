@@ -292,7 +292,7 @@ TEST_F(PlayerFiles, ARecordedAttemptIsAssessedToTheSameDigits) {
   ASSERT_TRUE(recording) << recording.error().to_string();
   EXPECT_TRUE(recording->complete);
   const auto meter = make_meter_options(align(), scene->joint(), recording->head.params);
-  const auto assessed = assess(*recording, scene, *meter, true);
+  const auto assessed = assess(*recording, scene, *meter, SightSource::recorded);
   ASSERT_TRUE(assessed);
   EXPECT_EQ(to_json(assessed->metrics).dump(), to_json(played->measures.metrics).dump());
 }

@@ -49,13 +49,20 @@ TEST(SessionMeter, LiveAndRecordedAreTheSameToTheLastDigit) {
     const FrameInput frame = frame_input(out, controls_of(params), ++frames);
     const Frame& drawn = images.render(frame);
     add_frame(live, frame, drawn, static_cast<double>(n) * period);
-    put(file, RecordStart::kFrame, FrameRecord{frame, digest_of(drawn)});
+    put(file, RecordStart::kFrame, to_record(frame, drawn, params.transducer));
   }
   put(file, RecordStart::kEnd, std::uint64_t{0});
   const auto recording = read_recording(file, "here");
   ASSERT_TRUE(recording);
-  const auto replayed = assess(*recording, scene, options_for(head), true);
+  const auto replayed = assess(*recording, scene, options_for(head), SightSource::drawn);
   ASSERT_TRUE(replayed);
+  const auto kept = assess(*recording, scene, options_for(head), SightSource::recorded);
+  ASSERT_TRUE(kept);
+  EXPECT_EQ(to_json(kept->metrics).dump(), to_json(replayed->metrics).dump());
+  EXPECT_TRUE(find_metric(kept->metrics, "tip_visible")->value);
+  const auto none = assess(*recording, scene, options_for(head), SightSource::none);
+  ASSERT_TRUE(none);
+  EXPECT_FALSE(find_metric(none->metrics, "tip_visible")->value);
   EXPECT_EQ(to_json(live.measure().metrics).dump(), to_json(replayed->metrics).dump());
   const Metric* contacts = find_metric(replayed->metrics, "bone_contacts");
   ASSERT_NE(contacts, nullptr);

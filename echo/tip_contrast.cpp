@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/training/metrics/image_sight.h"
+#include "artus/echo/tip_contrast.h"
 
 #include <algorithm>
 #include <cmath>
@@ -44,6 +44,15 @@ std::optional<double> tip_contrast(const Frame& frame, const Transducer& transdu
   }
   if (disc.n == 0 || ring.n == 0 || ring.sum <= 0) return std::nullopt;
   return 10 * std::log10(std::max(disc.sum / disc.n, 1e-30) / (ring.sum / ring.n));
+}
+
+std::optional<double> tip_contrast(const Frame& frame, const Transducer& transducer) noexcept {
+  if (!frame.tip_shown) return std::nullopt;
+  const double left = -0.5 * frame.pixel * frame.width;
+  const double x = left + (frame.tip_shown->x + 0.5) * frame.pixel;
+  const double top = std::min(0.0, scanline(transducer, 0).origin.z());
+  const double z = top + (frame.tip_shown->y + 0.5) * frame.pixel;
+  return tip_contrast(frame, transducer, x, z);
 }
 
 }  // namespace artus
