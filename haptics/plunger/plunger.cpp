@@ -13,7 +13,8 @@
 namespace artus {
 namespace {
 
-constexpr double kAfterTear = 0.2;          // of the pressure; assumed
+constexpr double kAfterTear = 0.2;  // of the walls' tension; assumed
+constexpr double kAround = 1e3;  // Pa that parts what lies around a torn place; assumed, as of fat
 constexpr double kClogFactor = 100;         // on the needle's resistance; assumed
 constexpr double kClogTime = 0.2;           // s in which it clogs; assumed
 constexpr double kWidestClogged = 0.22e-3;  // m of bore; 27 G and thinner
@@ -69,7 +70,8 @@ Plunger::Plunger(const PlungerParams& params, std::vector<Space> spaces, double 
       leaks_.push_back({k, static_cast<std::uint32_t>(to - spaces_.begin()), space.leak_opening,
                         space.leak_resistance, false});
     if (space.law.kind == SpaceKind::cavity) {
-      leaks_.push_back({k, around, 0, params_.lost_resistance, true});
+      // What leaks lies under what pressed on the place, and has to part it.
+      leaks_.push_back({k, around, space.law.rest + kAround, params_.lost_resistance, true});
     }
   }
   reset();
@@ -95,7 +97,18 @@ void Plunger::clear_needle() noexcept {
 double Plunger::pressure(std::size_t space) const noexcept {
   const SpaceState& s = states_[space];
   const double p = pressure_of(spaces_[space].law, s.volume - s.drawn) + s.relaxing;
-  return s.ruptured ? kAfterTear * p : p;
+  // A tear takes the tension of the walls, not what presses on them from outside.
+  const double rest = spaces_[space].law.rest;
+  return s.ruptured ? rest + kAfterTear * (p - rest) : p;
+}
+
+/// Pa/m^3 by which the pressure rises with what is put in, as long as nothing relaxes; never below
+/// 0.
+double Plunger::rise(std::size_t space) const noexcept {
+  const SpaceState& s = states_[space];
+  const SpaceLaw& law = spaces_[space].law;
+  const double slope = std::max(0.0, slope_of(law, s.volume - s.drawn) * (1 + law.relaxing));
+  return s.ruptured ? kAfterTear * slope : slope;
 }
 
 void Plunger::open(const TipShare& tip, double depth) noexcept {
@@ -149,10 +162,9 @@ Plunger::Branch Plunger::branch(const TipShare& tip, double step, bool out) cons
   // What has parted tissue stays there.
   if (!out && (law.kind == SpaceKind::split || flow_in(tip) == nullptr)) return {};
   const double volume = s.volume - s.drawn;
-  const double slope = std::max(0.0, slope_of(law, volume) * (1 + law.relaxing));
   const double near = bevel_share_ * own_.resistance() + law.resistance +
                       film_resistance(law, volume, params_.liquid.viscosity.at(kFilmRate));
-  return {true, pressure(tip.space), near / tip.share + step * slope / 2};
+  return {true, pressure(tip.space), near / tip.share + step * rise(tip.space) / 2};
 }
 
 /// The bore ends in both branches; one against whose pressure nothing flows takes no part.
@@ -227,8 +239,7 @@ bool Plunger::leak(const PlungerInput& input, double step) noexcept {
     if (leak.by_rupture && !from.ruptured) return;
     const double dp = pressure(leak.from) - pressure(leak.to) - leak.opening;
     if (!(dp > 0) || !(from.volume > 0)) return;
-    const double slope = std::max(0.0, slope_of(spaces_[leak.from].law, from.volume)) +
-                         std::max(0.0, slope_of(spaces_[leak.to].law, states_[leak.to].volume));
+    const double slope = rise(leak.from) + rise(leak.to);
     const double volume = std::min(dp / (leak.resistance + 0.5 * step * slope) * step, from.volume);
     any = true;
     change_volume(leak.from, -volume);

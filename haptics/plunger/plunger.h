@@ -116,6 +116,7 @@ class Plunger {
   [[nodiscard]] ARTUS_REALTIME double pressure(std::size_t space) const noexcept;
 
  private:
+  [[nodiscard]] double rise(std::size_t space) const noexcept;
   struct Leak {
     std::uint32_t from;
     std::uint32_t to;

@@ -46,7 +46,8 @@ double Plunger::gliding(double thumb, double stiffness) const noexcept {
   return (net + soft * state_.pressure) / (area_ + soft);
 }
 
-/// The stopper's mean speed in the way it goes; not above 0: then it sticks, and nothing has changed.
+/// The stopper's mean speed in the way it goes; not above 0: then it sticks, and nothing has
+/// changed.
 double Plunger::glide(const PlungerInput& input, const Push& push) noexcept {
   const double soft = push.stiffness * softness_ / area_;
   const double slope = push.stiffness / (area_ * (area_ + soft));  // Pa/m^3 that is out
@@ -117,7 +118,8 @@ double Plunger::move_to_event(const PlungerInput& input, const Push& push) noexc
     break_loose(way, push.from, push.stiffness);
     return 0;
   }
-  const Before before{state_, {states_[input.tip[0].space], states_[input.tip[1].space]}, way_, gait_};
+  const Before before{
+      state_, {states_[input.tip[0].space], states_[input.tip[1].space]}, way_, gait_};
   const double shut = easiest(input, state_.bevel_pressure).over;
   move(input, push);
   const double pulls = felt(push, before.state.travel) - area_ * state_.pressure;
@@ -151,8 +153,7 @@ double Plunger::felt(const Push& push, double travel) const noexcept {
   return push.to - push.stiffness * (state_.travel - travel);
 }
 
-void Plunger::take_flows(const PlungerInput& input, const Parting& parting,
-                         double step) noexcept {
+void Plunger::take_flows(const PlungerInput& input, const Parting& parting, double step) noexcept {
   const std::array<double, 2>& flows = parting.flows;
   for (std::size_t k = 0; k < 2; ++k) {
     const double volume = flows[k] * step;
@@ -169,7 +170,8 @@ void Plunger::take_flows(const PlungerInput& input, const Parting& parting,
 /// A whole tick; gives the thumb's force at its end, N.
 double Plunger::run(const PlungerInput& input, Push push) noexcept {
   for (int k = 0;; ++k) {
-    if (const Shut shut = easiest(input, state_.bevel_pressure); shut.tip != nullptr && shut.over > 0 && (k == 0 || state_.flow == 0))
+    if (const Shut shut = easiest(input, state_.bevel_pressure);
+        shut.tip != nullptr && shut.over > 0 && (k == 0 || state_.flow == 0))
       open(*shut.tip, input.depth);
     const double travel = state_.travel;
     double share = 1;

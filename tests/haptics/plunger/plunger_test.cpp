@@ -268,6 +268,29 @@ TEST(Plunger, BeyondItsCapacityASpaceTearsAndLosesPressureButNoVolume) {
   EXPECT_NEAR(plunger.states()[0].volume + around, 50e-6 - plunger.state().content, 1e-15);
 }
 
+TEST(Plunger, ATornSpaceKeepsWhatItsSlackWallsHold) {
+  // A fifth of the walls' tension against the 1 kPa that parts what lies around: 5 kPa of the
+  // curve.
+  SpaceLaw bursa = compliance(1066.6, 1.48136e9);
+  bursa.yield = 15e-6;
+  bursa.rupture = 20e-6;
+  SpaceLaw joint = compliance(0, 2.66644e9);
+  joint.slack = 3e-6;
+  joint.toe = 5e-6;
+  joint.yield = 9e-6;
+  joint.rupture = 11e-6;
+  for (const auto& [law, kept] : {std::pair(bursa, 5e3 / 1.48136e9),
+                                  std::pair(joint, 3e-6 + std::sqrt(2 * 5e-6 * 5e3 / 2.66644e9))}) {
+    Plunger plunger(water_syringe(), one_space(law), 1e-3);
+    for (int k = 0; k < 200000 && (plunger.state().status & PlungerStatus::kRuptured) == 0; ++k)
+      plunger.step(thumb(12));
+    ASSERT_NE(plunger.state().status & PlungerStatus::kRuptured, 0U);
+    for (int k = 0; k < 90000; ++k) plunger.step(thumb(0));
+    EXPECT_NEAR(plunger.states()[0].volume / kept, 1, 0.01);
+    EXPECT_NEAR(plunger.pressure(0) - law.rest, 1e3, 10);
+  }
+}
+
 TEST(Plunger, GrainsClogAThinNeedleAtRestAndShakingFreesIt) {
   PlungerParams params = water_syringe();
   params.liquid.solids = 0.03;
