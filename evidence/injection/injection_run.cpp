@@ -77,8 +77,11 @@ std::vector<OperatorPhase> phases_of(const InjectionSpec& spec, const LineLayer&
     }
   }
   phases.push_back(inject);
+  // A tense space would push the plunger back, and with it what was given.
   phases.push_back(named(stay(1.5), "wait"));
+  phases.back().thumb_holds = true;
   phases.push_back(named(pull_to(-kStartOutside, 2 * kSpeed), "withdraw"));
+  phases.back().thumb_holds = true;
   for (OperatorPhase& phase : phases)
     if (phase.duration == 0) phase.duration = 3 * kSearch / kSpeed;
   return phases;

@@ -84,6 +84,18 @@ TEST(InjectionRun, ASlowRateOnAWideBarrelGivesWhatIsMeantForIt) {
   EXPECT_NEAR(run->given, 15e-6, 0.3e-6);
 }
 
+TEST(InjectionRun, ATenseBursaDoesNotPushBackWhatWasGiven) {
+  // 18.8 kPa on a barrel of 20 ml are more than the stopper's friction.
+  const auto scene = shoulder_like();
+  InjectionSpec spec = spec_into(*scene, "bursa", 12e-6);
+  spec.plunger.syringe = syringe_for(20e-6);
+  spec.rate = 0.5e-6;
+  const auto run = run_injection(*scene, spec);
+  ASSERT_TRUE(run);
+  EXPECT_GT(run->highest_pressure * spec.plunger.syringe.area(), spec.plunger.syringe.break_loose);
+  EXPECT_NEAR(run->given / spec.volume, 1, 0.003);
+}
+
 TEST(InjectionRun, ARateThatTheThumbCannotKeepIsTold) {
   const auto scene = shoulder_like();
   InjectionSpec spec = spec_into(*scene, "bursa", 4e-6);
