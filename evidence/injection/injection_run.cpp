@@ -97,7 +97,7 @@ class Trial {
         of_region_(std::move(spaces.of_region)),
         plunger_(spec.plunger, std::move(spaces.spaces), 1 / spec.rate_hz),
         thumb_(spec.thumb),
-        dose_(spec.plunger.syringe, spec.volume) {
+        dose_(spec.plunger.syringe, spec.volume, true) {
     params_.device = device;
     params_.rate_hz = spec.rate_hz;
     apply(spec.feel, params_.needle);
