@@ -96,6 +96,17 @@ TEST(InjectionRun, ATenseBursaDoesNotPushBackWhatWasGiven) {
   EXPECT_NEAR(run->given / spec.volume, 1, 0.003);
 }
 
+TEST(InjectionRun, AThinNeedleIsWaitedForUntilTheBarrelHasGivenWhatItHolds) {
+  // Some 200 kPa, 0.2 ml in the barrel, out within a second's time constant.
+  const auto scene = shoulder_like();
+  InjectionSpec spec = spec_into(*scene, "bursa", 1e-6);
+  spec.plunger.needle = *bore_of_gauge(27, 0.05);
+  const auto run = run_injection(*scene, spec);
+  ASSERT_TRUE(run);
+  EXPECT_NEAR(run->given / spec.volume, 1, 0.01);
+  EXPECT_GE(run->volumes.front(), 0.97 * run->given);
+}
+
 TEST(InjectionRun, ARateThatTheThumbCannotKeepIsTold) {
   const auto scene = shoulder_like();
   InjectionSpec spec = spec_into(*scene, "bursa", 4e-6);
