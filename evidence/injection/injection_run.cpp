@@ -89,8 +89,8 @@ std::vector<OperatorPhase> phases_of(const InjectionSpec& spec, const LineLayer&
   // A tense space would push the plunger back, and with it what was given.
   phases.push_back(named(stay(waiting(spec.plunger)), "wait"));
   phases.back().thumb_holds = true;
+  // Let go before it comes out: what a tendon's pressure holds in the barrel would go elsewhere.
   phases.push_back(named(pull_to(-kStartOutside, 2 * kSpeed), "withdraw"));
-  phases.back().thumb_holds = true;
   for (OperatorPhase& phase : phases)
     if (phase.duration == 0) phase.duration = 3 * kSearch / kSpeed;
   return phases;

@@ -42,6 +42,11 @@ TEST(InjectionRun, ATendonTakesAHandsForceAndABursaDoesNot) {
   EXPECT_EQ(bursa->target, "bursa");
   EXPECT_LT(std::abs(bursa->unbalanced), 1e-15);
   EXPECT_LT(bursa->highest_force, tendon->highest_force);
+  // What the tendon's pressure holds in the barrel springs back before the needle is drawn out, but
+  // for what the stopper's friction keeps.
+  const Syringe& syringe = tendon->spec.plunger.syringe;
+  EXPECT_GT(tendon->given, 0.98 * 0.5e-6);
+  EXPECT_LT(tendon->given, 0.5e-6 + syringe.softness() * syringe.break_loose / syringe.area());
 }
 
 TEST(InjectionRun, ABursaAsThinAsTheBevelIsLongTakesWhatIsMeantForIt) {
