@@ -9,12 +9,12 @@
 namespace artus {
 namespace {
 
-constexpr double kLookGlance = 0.05;  // s
-constexpr double kSweep = 15e-3;      // m/s; assumed
-constexpr double kGo = 40e-3;         // m/s to a place that is remembered; assumed
-constexpr double kCentre = 15e-3;     // m/s; assumed
-constexpr double kLookPatience = 4;   // s that a wrong one is shown; assumed
-constexpr double kOverlap = 0.8;      // of the picture's width from lane to lane
+constexpr double kLookGlance = 0.05;        // s
+constexpr double kSweep = 15e-3;        // m/s; assumed
+constexpr double kGo = 40e-3;           // m/s to a place that is remembered; assumed
+constexpr double kCentre = 15e-3;       // m/s; assumed
+constexpr double kLookPatience = 4;         // s that a wrong one is shown; assumed
+constexpr double kOverlap = 0.8;        // of the picture's width from lane to lane
 
 }  // namespace
 
@@ -76,8 +76,7 @@ void LookingOperator::centre(double time, const LookGlance& glance) {
   if (time - taken_time_ < skill_.reaction) return;
   const auto& x = glance.x[*taken_];
   if (x && std::abs(*x) > skill_.judge_sd) move_to({x_ + *x, y_}, kCentre);
-  if (!x)
-    y_ += (lanes_[next_].y > y_ ? -1 : 1) * 0.3 * kCentre * kLookGlance;  // it came on past it
+  if (!x) y_ += (lanes_[next_].y > y_ ? -1 : 1) * 0.3 * kCentre * kLookGlance;  // it came on past it
 }
 
 void LookingOperator::look(double time, const LookGlance& glance) {

@@ -56,13 +56,13 @@ OperatorSkill novice_skill(int trials) {
   const auto learn = [left](double OperatorSkill::*of, OperatorSkill& a, const OperatorSkill& b) {
     a.*of = b.*of + left * (a.*of - b.*of);
   };
-  for (const auto of : {&OperatorSkill::aim_sd, &OperatorSkill::entry_sd, &OperatorSkill::view_sd,
-                        &OperatorSkill::view_turn_sd, &OperatorSkill::see, &OperatorSkill::reaction,
-                        &OperatorSkill::unseen_stop, &OperatorSkill::advance_unseen,
-                        &OperatorSkill::search_right, &OperatorSkill::drift, &OperatorSkill::follow,
-                        &OperatorSkill::judge_sd, &OperatorSkill::correction, &OperatorSkill::speed,
-                        &OperatorSkill::haste, &OperatorSkill::aspirate, &OperatorSkill::know,
-                        &OperatorSkill::look, &OperatorSkill::tremor_rms})
+  for (const auto of :
+       {&OperatorSkill::aim_sd, &OperatorSkill::entry_sd, &OperatorSkill::view_sd,
+        &OperatorSkill::view_turn_sd, &OperatorSkill::see, &OperatorSkill::reaction,
+        &OperatorSkill::unseen_stop, &OperatorSkill::advance_unseen, &OperatorSkill::search_right,
+        &OperatorSkill::drift, &OperatorSkill::follow, &OperatorSkill::judge_sd,
+        &OperatorSkill::correction, &OperatorSkill::speed, &OperatorSkill::haste,
+        &OperatorSkill::aspirate, &OperatorSkill::know, &OperatorSkill::look, &OperatorSkill::tremor_rms})
     learn(of, novice, expert);
   return novice;
 }

@@ -39,9 +39,9 @@ struct PlayOptions {
   double picture_rate = 0;  ///< Hz, pictures kept in the recording; 0: none
 };
 
-/// Plays a scenario with simulated hands, without its aids and without a clock: hands, device and
-/// forces in a closed loop at 1 kHz. The same bytes for the same skill and seed. Errors: those of
-/// make_session_params and make_meter_options. Cost: some 10 us a tick; pictures some 10 ms each.
+/// Plays a scenario with simulated hands, without its aids and without a clock: hands, device and forces in a closed
+/// loop at 1 kHz. The same bytes for the same skill and seed. Errors: those of make_session_params
+/// and make_meter_options. Cost: some 10 us a tick; pictures some 10 ms each.
 [[nodiscard]] Result<PlayedAttempt> play(const Scenario& scenario,
                                          const std::shared_ptr<const Scene>& scene,
                                          const OperatorSkill& skill, const PlayOptions& options);

@@ -74,9 +74,11 @@ std::vector<std::string> find_problems(const Scenario& s,
     if (zone.body->signed_distance_to_skin(s.target.point, 0.2) < zone.margin)
       out.push_back("the zone around " + zone.name + " swallows the target");
   const double skin = scene->signed_distance_to_skin(s.entry.centre, 0.2);
-  if (!(std::abs(skin) <= kOnSkin)) out.push_back(off_skin("the entry lies", skin));
+  if (!(std::abs(skin) <= kOnSkin))
+    out.push_back(off_skin("the entry lies", skin));
   const double face = scene->signed_distance_to_skin(s.X_JP.translation(), 0.2);
-  if (!(std::abs(face) <= kOnSkin)) out.push_back(off_skin("the probe stands", face));
+  if (!(std::abs(face) <= kOnSkin))
+    out.push_back(off_skin("the probe stands", face));
   check_way(s, *scene, out);
   return out;
 }

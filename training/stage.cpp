@@ -134,8 +134,8 @@ std::uint64_t mix_seed(std::uint64_t a, std::uint64_t b) {
 /// An attempt with a needle while it is played.
 class NeedleStage final : public Stage {
  public:
-  NeedleStage(const Scenario& scenario, std::shared_ptr<const Scene> scene,
-              const SessionParams& params, const OperatorSkill& skill, const PlayOptions& options)
+  NeedleStage(const Scenario& scenario, std::shared_ptr<const Scene> scene, const SessionParams& params,
+        const OperatorSkill& skill, const PlayOptions& options)
       : scene_(std::move(scene)),
         finder_(params.transducer, params.image.depth, params.needle_shape),
         session_(scene_, params, options),
@@ -240,8 +240,7 @@ class LookStage final : public Stage {
     const Vec3 beam = X.linear().col(2);
     const Vec3 from = X.translation() - kReach * beam;
     std::array<TissueInterval, 64> layers;
-    const QueryCount count =
-        scene_->find_intervals({from, X.translation() + kReach * beam}, layers);
+    const QueryCount count = scene_->find_intervals({from, X.translation() + kReach * beam}, layers);
     for (std::size_t i = 0; i < count.size; ++i) {
       if (layers[i].region < kFirstRegion) continue;
       X.translation() = from + layers[i].entry * beam;

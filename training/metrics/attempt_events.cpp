@@ -98,12 +98,12 @@ void add_sought_events(const AttemptView& view, std::vector<AttemptEvent>& event
       continue;
     }
     const double end = m.probe.empty() ? 0 : m.probe.back().time;
-    events.push_back({end, "not_found", one.name, one.seen,
-                      one.seen > 0
-                          ? printed("it was in the picture for %.1f s, and not in its middle for "
-                                    "%.1f s on end",
-                                    one.seen, StructureSearch::kHold)
-                          : "it was never in the picture while it was asked for"});
+    events.push_back(
+        {end, "not_found", one.name, one.seen,
+         one.seen > 0 ? printed("it was in the picture for %.1f s, and not in its middle for "
+                                "%.1f s on end",
+                                one.seen, StructureSearch::kHold)
+                      : "it was never in the picture while it was asked for"});
     return;
   }
 }

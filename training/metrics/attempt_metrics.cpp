@@ -240,10 +240,9 @@ void put_sought(Sheet& sheet, const AttemptView& view) {
   if (sought.empty()) return;
   double count = 0;
   for (const Sought& one : sought) count += one.found >= 0 ? 1 : 0;
-  sheet.put(
-      "probe", "found", "count", count,
-      "structures that were shown when asked for: each in turn, its middle within 4 mm of the "
-      "beam's middle for 1.5 s");
+  sheet.put("probe", "found", "count", count,
+            "structures that were shown when asked for: each in turn, its middle within 4 mm of the "
+            "beam's middle for 1.5 s");
   const double last = sought.back().found;
   const auto& probe = view.measures.probe;
   sheet.put("probe", "find_s", "s",

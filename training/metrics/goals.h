@@ -29,7 +29,7 @@ struct AvoidZone {
 struct Goals {
   std::optional<Target> target;
   std::vector<AvoidZone> avoid;
-  std::optional<Vec3> entry;        ///< m, frame J: where on the skin the needle should go in
+  std::optional<Vec3> entry;  ///< m, frame J: where on the skin the needle should go in
   std::vector<std::string> sought;  ///< structures to be shown, one after another
 };
 
