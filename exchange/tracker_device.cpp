@@ -11,6 +11,8 @@ TrackerInbox::TrackerInbox(const TrackerCalibration& calibration, const Names& n
     : calibration_(calibration), reference_(calibration.X_JR), names_(names) {}
 
 Result<void> TrackerInbox::take(const igtl::Message& message, std::int64_t now_ns) {
+  if (message.type == "SENSOR" && message.device == names_.plunger)
+    return take_plunger(message, now_ns);
   const bool probe = message.device == names_.probe;
   if (message.type != "TRANSFORM" || !(probe || message.device == names_.needle)) return {};
   const std::string_view status = message.meta_value("TransformStatus");
@@ -35,6 +37,27 @@ Result<void> TrackerInbox::take(const igtl::Message& message, std::int64_t now_n
   return {};
 }
 
+Result<void> TrackerInbox::take_plunger(const igtl::Message& message, std::int64_t now_ns) {
+  const auto sensor = igtl::parse_sensor(message.content);
+  DeviceSample said;
+  if (sensor && sensor->values.size() == 1) {
+    if (sensor->unit == igtl::kNewton) said.plunger = PlungerSign::force;
+    if (sensor->unit == igtl::kMetre) said.plunger = PlungerSign::travel;
+    said.plunger_force = said.plunger_travel = 0;
+    (said.plunger == PlungerSign::force ? said.plunger_force : said.plunger_travel) =
+        sensor->values[0];
+  }
+  const bool sound = said.plunger != PlungerSign::none && is_plunger(said);
+  newest_.sign = sound ? said.plunger : PlungerSign::none;
+  newest_.plunger = sound ? sensor->values[0] : 0;
+  newest_.plunger_ns = now_ns;
+  poses_.store(newest_);
+  if (!sound)
+    return fail(ErrorCode::invalid,
+                message.device + ": a plunger is one number, at most 1000 N or 1 m");
+  return {};
+}
+
 DeviceSample TrackerDevice::read(std::int64_t now_ns) noexcept {
   TrackedPoses poses;
   if (inbox_->load(poses)) seen_ = poses;
@@ -47,6 +70,11 @@ DeviceSample TrackerDevice::read(std::int64_t now_ns) noexcept {
   sample.number = seen_.number;
   sample.has_needle = fresh(seen_.needle_ns, holds_.needle_ns) ? 1 : 0;
   sample.has_probe = fresh(seen_.probe_ns, holds_.probe_ns) ? 1 : 0;
+  if (fresh(seen_.plunger_ns, holds_.needle_ns)) {
+    sample.plunger = seen_.sign;
+    if (seen_.sign == PlungerSign::travel) sample.plunger_travel = seen_.plunger;
+    if (seen_.sign == PlungerSign::force) sample.plunger_force = seen_.plunger;
+  }
   sample.time_ns = sample.has_needle != 0 ? seen_.needle_ns : seen_.probe_ns;
   const std::int64_t heard = std::max(seen_.needle_ns, seen_.probe_ns);
   if (sample.has_needle != 0 || sample.has_probe != 0)

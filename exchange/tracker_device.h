@@ -13,29 +13,35 @@
 
 namespace artus {
 
-/// What a tracker said last, in the world W. Plain bytes.
+/// What a tracker said last, in the world W, and what the thumb does. Plain bytes.
 struct TrackedPoses {
   PlainPose X_WN;
   PlainPose X_WP;
   std::int64_t needle_ns = 0;  ///< monotonic clock, when it arrived; 0: never
   std::int64_t probe_ns = 0;
-  std::uint64_t number = 0;     ///< grows with every pose that was taken
-  std::int64_t refused_ns = 0;  ///< when a pose last came that cannot be one
+  std::int64_t plunger_ns = 0;
+  double plunger = 0;                    ///< N or m, by `sign`
+  PlungerSign sign = PlungerSign::none;  ///< what the thumb was last told by
+  std::uint64_t number = 0;              ///< grows with every pose that was taken
+  std::int64_t refused_ns = 0;           ///< when a pose last came that cannot be one
 };
 
-/// Takes TRANSFORM messages of probe and needle, by their device names, for a TrackerDevice. One
-/// thread fills it (the server's), any may look.
+/// Takes TRANSFORM messages of probe and needle and SENSOR messages of the plunger, by their device
+/// names, for a TrackerDevice. One thread fills it (the server's), any may look.
 class TrackerInbox {
  public:
   struct Names {
     std::string probe = "ProbeToReference";
     std::string needle = "NeedleToReference";
+    std::string plunger = "Plunger";
   };
   TrackerInbox(const TrackerCalibration& calibration, const Names& names);
 
   /// A message of one of the two names; others are left alone. A pose with metadata
-  /// TransformStatus other than OK was not seen by the tracker: it is not taken. Errors: as
-  /// ReferenceFrame::from_reference, and what is no TRANSFORM.
+  /// TransformStatus other than OK was not seen by the tracker: it is not taken. The plunger's
+  /// SENSOR has one number, the thumb's force in newton (at most 1000) or the plunger's travel in
+  /// metres (at most 1), positive in. Errors: as ReferenceFrame::from_reference, what is no
+  /// TRANSFORM, a plunger that cannot be; then the thumb lets go.
   [[nodiscard]] Result<void> take(const igtl::Message& message, std::int64_t now_ns);
 
   [[nodiscard]] ARTUS_REALTIME bool load(TrackedPoses& out) const noexcept {
@@ -43,6 +49,8 @@ class TrackerInbox {
   }
 
  private:
+  [[nodiscard]] Result<void> take_plunger(const igtl::Message& message, std::int64_t now_ns);
+
   TrackerCalibration calibration_;
   ReferenceFrame reference_;
   Names names_;
@@ -52,7 +60,8 @@ class TrackerInbox {
 
 /// Needle and probe of a tracker, or of another program that sends its poses. A probe that is
 /// silent is held for a while, as its picture may be; a needle that is silent is gone, since no
-/// force may be made of an old pose. Forces are written nowhere: a tracker has no motors.
+/// force may be made of an old pose; a thumb that is silent as long has let go. Forces are written
+/// nowhere: a tracker has no motors.
 class TrackerDevice final : public InputDevice {
  public:
   struct Holds {

@@ -23,6 +23,7 @@ struct OperatorPhase {
   Vec3 direction = Vec3::Zero();  ///< turn: the new line through the entry
   double thumb_force = 0;         ///< N that the thumb gives the plunger meanwhile; negative pulls
   double thumb_rate = 0;          ///< m^3/s that it means to give; 0: by force
+  bool thumb_holds = false;       ///< it lets the plunger neither go on nor slide back
   bool until_flow = false;        ///< ends, too, when liquid flows out of the tip
   bool until_given = false;       ///< ends, too, when all that was meant has been given
   std::string label;              ///< of the moment when the phase ends; empty: none

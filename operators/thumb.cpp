@@ -13,7 +13,10 @@ PlungerInput Thumb::step(const OperatorPhase* phase, const PlungerState& plunger
   const bool by_rate = phase != nullptr && phase->thumb_rate > 0;
   if (!by_rate) {
     pressing_ = false;
-    if (phase != nullptr) input.force = phase->thumb_force;
+    if (phase == nullptr) return input;
+    // What the barrel pushes back with: between the two the stopper's friction keeps it.
+    const double back = std::clamp(area * plunger.pressure, 0.0, params_.most_force);
+    input.force = phase->thumb_holds ? back : phase->thumb_force;
     return input;
   }
   if (!pressing_) position_ = plunger.travel;

@@ -12,8 +12,8 @@ struct ThumbParams {
 };
 
 /// Moves a plunger as an operator's phase says: at a rate, by a position that runs ahead of the
-/// plunger as far as the force allows, or by a force. When it breaks loose the stopper starts with
-/// a pulse, as hands do.
+/// plunger as far as the force allows, or by a force, or holds it where it is. When it breaks loose
+/// the stopper starts with a pulse, as hands do.
 class Thumb {
  public:
   explicit Thumb(const ThumbParams& params = {}) noexcept : params_(params) {}

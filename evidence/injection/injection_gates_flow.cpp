@@ -16,9 +16,9 @@ using namespace injection_gate;  // NOLINT(google-build-using-namespace): what t
 constexpr double kExact = 1e-3;  // of a closed form
 
 /// Flow (m^3/s) at each hundredth of a second under a trembling thumb.
-std::vector<double> flows_at(double rate, int gauge) {
+std::vector<double> flows_at(double rate, const NeedleBore& needle, double tremor) {
   PlungerParams params = water_syringe(NeedleFlow::kEntryLoss);
-  params.needle = *bore_of_gauge(gauge, 0.04);
+  params.needle = needle;
   Space muscle = level("muscle", 0);
   muscle.law.kind = SpaceKind::split;
   muscle.law.opening = 8e3;
@@ -28,9 +28,9 @@ std::vector<double> flows_at(double rate, int gauge) {
   std::vector<double> flows;
   PlungerInput input = thumb(0);
   input.stiffness = 2000;
-  for (int k = 0; k < static_cast<int>(4 * rate); ++k) {
+  for (int k = 0; k < static_cast<int>(2 * rate); ++k) {
     const double t = k / rate;
-    input.position = 4e-3 * t + 0.2e-3 * std::sin(60 * t);
+    input.position = 4e-3 * t + tremor * std::sin(60 * t);
     plunger.step(input);
     if (k % static_cast<int>(rate / 100) == 0) flows.push_back(plunger.state().flow);
   }
@@ -202,20 +202,26 @@ Gate gate_mass() {
 }
 
 Gate gate_rates() {
-  Gate gate{"", "1, 2 and 10 kHz against 100 kHz under a trembling thumb, 2 % RMS", {}};
-  for (const int gauge : {18, 22, 25}) {
-    const auto fine = flows_at(100e3, gauge);
-    const double rms = std::sqrt(std::inner_product(fine.begin(), fine.end(), fine.begin(), 0.0));
+  Gate gate{
+      "", "1, 2 and 10 kHz against 20 kHz, 4 lengths and 3 tremors of the thumb, 2 % RMS", {}};
+  for (const int gauge : {18, 19, 20, 21, 22, 23, 25, 27}) {
     double worst = 0;
-    for (const double rate : {1e3, 2e3, 10e3}) {
-      const auto flows = flows_at(rate, gauge);
-      double sum = 0;
-      for (std::size_t k = 0; k < flows.size(); ++k) sum += std::pow(flows[k] - fine[k], 2);
-      worst = std::max(worst, std::sqrt(sum) / rms);
+    for (const double length : {0.016, 0.038, 0.07, 0.12}) {
+      const NeedleBore needle = *bore_of_gauge(gauge, length);
+      for (const double tremor : {1e-4, 2e-4, 3e-4}) {
+        const auto fine = flows_at(20e3, needle, tremor);
+        const double whole = std::inner_product(fine.begin(), fine.end(), fine.begin(), 0.0);
+        for (const double rate : {1e3, 2e3, 10e3}) {
+          const auto flows = flows_at(rate, needle, tremor);
+          double sum = 0;
+          for (std::size_t k = 0; k < flows.size(); ++k) sum += std::pow(flows[k] - fine[k], 2);
+          worst = std::max(worst, std::sqrt(sum / whole));
+        }
+      }
     }
-    gate.claims.push_back(
-        claim_at_most({ClaimKind::fitted, "needles and tremor were chosen; others differ more"},
-                      std::to_string(gauge) + " G", 100 * worst, 2, "% RMS"));
+    gate.claims.push_back(claim_at_most(ClaimKind::independent,
+                                        std::to_string(gauge) + " G, worst of 36", 100 * worst, 2,
+                                        "% RMS"));
   }
   return gate;
 }

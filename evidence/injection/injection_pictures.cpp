@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -25,6 +26,7 @@
 namespace artus {
 namespace {
 
+constexpr double kApart = 0.2e-3;    // m between rays across a picture
 constexpr double kGrid = 0.5e-3;     // m between parallel rays
 constexpr double kReach = 70e-3;     // m around the tip that they cover
 constexpr double kStep = 0.1e-3;     // m along the needle
@@ -122,21 +124,37 @@ double area_by_labels(const Scene& scene, const Pose& X_JP, const InjectionPictu
   return static_cast<double>(pixels) * labels.pixel * labels.pixel;
 }
 
-/// m^2 of them within what the labels show, by rays across the plane: another way to the same.
-double area_by_rays(const Scene& scene, const Pose& X_JP, const InjectionPictureOptions& options,
-                    std::span<const std::string> names) {
-  constexpr double kApart = 0.2e-3;  // m
+/// m of them below each point of the probe's face, kApart apart, within what the labels show: by
+/// rays across the picture's plane, another way to the same.
+std::vector<double> depths_by_rays(const Scene& scene, const Pose& X_JP,
+                                   const InjectionPictureOptions& options,
+                                   std::span<const std::string> names) {
   const double half = options.transducer.width / 2;
-  double length = 0;
+  std::vector<double> depths;
   for (double x = -half + kApart / 2; x < half; x += kApart) {
+    double& depth = depths.emplace_back();
     const Vec3 from = X_JP * Vec3(x, 0, 0);
     for (const TissueInterval& s :
          tissue_intervals(scene, {from, X_JP * Vec3(x, 0, options.settings.depth)})) {
       const std::string& name = scene.joint().regions[s.region].name;
-      if (std::find(names.begin(), names.end(), name) != names.end()) length += s.exit - s.entry;
+      if (std::find(names.begin(), names.end(), name) != names.end()) depth += s.exit - s.entry;
     }
   }
-  return length * kApart;
+  return depths;
+}
+
+/// What rays find in the picture's plane: area, and how far the liquid is thicker than before.
+void measure_seen(const Scene& before, const Scene& after, const Pose& X_JP,
+                  const InjectionPictureOptions& options, std::span<const std::string> names,
+                  InjectionPictures& out) {
+  const std::vector<double> was = depths_by_rays(before, X_JP, options, names);
+  std::vector<double> more = depths_by_rays(after, X_JP, options, names);
+  out.ray_area = kApart * std::accumulate(more.begin(), more.end(), 0.0);
+  for (std::size_t k = 0; k < more.size(); ++k) more[k] -= was[k];
+  out.seen_opening = *std::max_element(more.begin(), more.end());
+  out.seen_width =
+      kApart * static_cast<double>(std::count_if(
+                   more.begin(), more.end(), [&](double m) { return m >= out.seen_opening / 2; }));
 }
 
 /// The last row whose given volume is at most `share` of the end's.
@@ -307,7 +325,7 @@ Result<InjectionPictures> write_injection_pictures(const std::shared_ptr<const S
   }
   out.ray_volume = volume_by_rays(*body, run.X_JN, names) - volume_by_rays(*scene, run.X_JN, names);
   out.label_area = area_by_labels(*body, X_JP, deep, names);
-  if (options.transducer.radius == 0) out.ray_area = area_by_rays(*body, X_JP, deep, names);
+  if (options.transducer.radius == 0) measure_seen(*scene, *body, X_JP, deep, names, out);
   measure_opening(*scene, last, out);
   return out;
 }

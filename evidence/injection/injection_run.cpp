@@ -51,6 +51,15 @@ double beyond(const Scene& scene, const InjectionSpec& spec, const LineLayer& la
   return layer.to + kThrough;
 }
 
+/// s until what the barrel holds has run out through the needle.
+double waiting(const PlungerParams& plunger) {
+  constexpr double kShortest = 1.5;  // s; assumed
+  constexpr double kLongest = 10;    // s, as is taught
+  constexpr double kTimes = 5;       // of its time constant: to within a hundredth
+  const NeedleFlow bore(plunger.needle, plunger.liquid.viscosity, plunger.liquid.density);
+  return std::clamp(kTimes * bore.resistance() * plunger.syringe.softness(), kShortest, kLongest);
+}
+
 std::vector<OperatorPhase> phases_of(const InjectionSpec& spec, const LineLayer& layer,
                                      double target, double through) {
   std::vector<OperatorPhase> phases{named(stay(kReady), "ready")};
@@ -77,7 +86,10 @@ std::vector<OperatorPhase> phases_of(const InjectionSpec& spec, const LineLayer&
     }
   }
   phases.push_back(inject);
-  phases.push_back(named(stay(1.5), "wait"));
+  // A tense space would push the plunger back, and with it what was given.
+  phases.push_back(named(stay(waiting(spec.plunger)), "wait"));
+  phases.back().thumb_holds = true;
+  // Let go before it comes out: what a tendon's pressure holds in the barrel would go elsewhere.
   phases.push_back(named(pull_to(-kStartOutside, 2 * kSpeed), "withdraw"));
   for (OperatorPhase& phase : phases)
     if (phase.duration == 0) phase.duration = 3 * kSearch / kSpeed;
@@ -94,7 +106,7 @@ class Trial {
         of_region_(std::move(spaces.of_region)),
         plunger_(spec.plunger, std::move(spaces.spaces), 1 / spec.rate_hz),
         thumb_(spec.thumb),
-        dose_(spec.plunger.syringe, spec.volume) {
+        dose_(spec.plunger.syringe, spec.volume, true) {
     params_.device = device;
     params_.rate_hz = spec.rate_hz;
     apply(spec.feel, params_.needle);

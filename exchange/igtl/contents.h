@@ -48,6 +48,8 @@ struct Sensor {
 /// The protocol's code for newton: no prefix, SI unit 0x0B, to the power of one.
 /// Source [OpenIGTLink] unit specification.
 inline constexpr std::uint64_t kNewton = 0x02C4000000000000;
+/// The same for metre, SI unit 0x01.
+inline constexpr std::uint64_t kMetre = 0x0044000000000000;
 [[nodiscard]] std::string pack_sensor(const Sensor& sensor);
 [[nodiscard]] Result<Sensor> parse_sensor(std::string_view content);
 

@@ -13,13 +13,12 @@
 namespace artus {
 namespace {
 
-constexpr double kVacuum = -90e3;           // Pa, below which a liquid is not drawn
-constexpr double kAfterTear = 0.2;          // of the pressure; assumed
+constexpr double kAfterTear = 0.2;  // of the walls' tension; assumed
+constexpr double kAround = 1e3;  // Pa that parts what lies around a torn place; assumed, as of fat
 constexpr double kClogFactor = 100;         // on the needle's resistance; assumed
 constexpr double kClogTime = 0.2;           // s in which it clogs; assumed
 constexpr double kWidestClogged = 0.22e-3;  // m of bore; 27 G and thinner
 constexpr double kFilmRate = 1e3;  // 1/s at which a thinning liquid runs in a film; assumed
-constexpr double kStill = 1e-12;   // m^3/s
 
 double fade(const SpaceLaw& law, double dt) noexcept {
   return law.relaxation > 0 ? std::exp(-dt / law.relaxation) : 0;
@@ -39,6 +38,8 @@ Plunger::Plunger(const PlungerParams& params, std::vector<Space> spaces, double 
     : params_(params),
       dt_(dt),
       area_(params.syringe.area()),
+      in_end_(params.syringe.filled / area_),
+      out_end_(in_end_ - params.syringe.volume / area_),
       softness_(params.syringe.softness()),
       bevel_share_(
           std::min(0.5, bevel_length(params.needle.outer_diameter) / params.needle.length)),
@@ -69,7 +70,8 @@ Plunger::Plunger(const PlungerParams& params, std::vector<Space> spaces, double 
       leaks_.push_back({k, static_cast<std::uint32_t>(to - spaces_.begin()), space.leak_opening,
                         space.leak_resistance, false});
     if (space.law.kind == SpaceKind::cavity) {
-      leaks_.push_back({k, around, 0, params_.lost_resistance, true});
+      // What leaks lies under what pressed on the place, and has to part it.
+      leaks_.push_back({k, around, space.law.rest + kAround, params_.lost_resistance, true});
     }
   }
   reset();
@@ -80,6 +82,7 @@ void Plunger::reset() noexcept {
   state_ = {};
   state_.content = params_.syringe.filled;
   way_ = 0;
+  started_ = false;
   clear_needle();
 }
 
@@ -94,19 +97,29 @@ void Plunger::clear_needle() noexcept {
 double Plunger::pressure(std::size_t space) const noexcept {
   const SpaceState& s = states_[space];
   const double p = pressure_of(spaces_[space].law, s.volume - s.drawn) + s.relaxing;
-  return s.ruptured ? kAfterTear * p : p;
+  // A tear takes the tension of the walls, not what presses on them from outside.
+  const double rest = spaces_[space].law.rest;
+  return s.ruptured ? rest + kAfterTear * (p - rest) : p;
 }
 
-/// What needs no pressure opens at once. Of the rest the place that gives way most easily; another
-/// one in a later tick, when the pressure inside the bevel is still enough for it.
-void Plunger::open_places(const PlungerInput& input, double pressure) noexcept {
-  const auto open = [&input](SpaceState& s) {
-    s.open = true;
-    s.open_depth = input.depth;
-    s.idle = 0;
-  };
-  SpaceState* easiest = nullptr;
-  double most = 0;
+/// Pa/m^3 by which the pressure rises with what is put in, as long as nothing relaxes; never below
+/// 0.
+double Plunger::rise(std::size_t space) const noexcept {
+  const SpaceState& s = states_[space];
+  const SpaceLaw& law = spaces_[space].law;
+  const double slope = std::max(0.0, slope_of(law, s.volume - s.drawn) * (1 + law.relaxing));
+  return s.ruptured ? kAfterTear * slope : slope;
+}
+
+void Plunger::open(const TipShare& tip, double depth) noexcept {
+  SpaceState& s = states_[tip.space];
+  s.open = true;
+  s.open_depth = depth;
+  s.idle = 0;
+}
+
+/// Closes what the tip has left; what needs no pressure opens at once.
+void Plunger::meet_places(const PlungerInput& input) noexcept {
   for (const TipShare& tip : input.tip) {
     if (!(tip.share > 0)) continue;
     SpaceState& s = states_[tip.space];
@@ -114,16 +127,22 @@ void Plunger::open_places(const PlungerInput& input, double pressure) noexcept {
     const bool left = std::abs(input.depth - s.open_depth) > params_.reopen_distance;
     s.idle += dt_;
     if (s.open && (left || s.idle > params_.reopen_time)) s.open = false;
-    if (s.open || law.kind == SpaceKind::solid) continue;
-    const double over = pressure - opening_of(law, s.volume - s.drawn) - s.relaxing;
-    if (!(law.opening > 0)) {
-      open(s);
-    } else if (over > most) {
-      most = over;
-      easiest = &s;
-    }
+    if (!s.open && law.kind != SpaceKind::solid && !(law.opening > 0)) open(tip, input.depth);
   }
-  if (easiest != nullptr) open(*easiest);
+}
+
+/// Of what is shut the place that gives way most easily. Another one opens later, when the pressure
+/// inside the bevel is still enough for it.
+Plunger::Shut Plunger::easiest(const PlungerInput& input, double pressure) const noexcept {
+  Shut shut;
+  for (const TipShare& tip : input.tip) {
+    const SpaceState& s = states_[tip.space];
+    const SpaceLaw& law = spaces_[tip.space].law;
+    if (!(tip.share > 0) || s.open || law.kind == SpaceKind::solid) continue;
+    const double over = pressure - opening_of(law, s.volume - s.drawn) - s.relaxing;
+    if (shut.tip == nullptr || over > shut.over) shut = {&tip, over};
+  }
+  return shut;
 }
 
 /// What a place gives back: what was put in, otherwise its own contents; null: nothing.
@@ -135,25 +154,25 @@ const NeedleFlow* Plunger::flow_in(const TipShare& tip) const noexcept {
   return &others_[static_cast<std::size_t>(contents)];
 }
 
-/// A place meets what is half a tick later.
-Plunger::Branch Plunger::branch(const TipShare& tip, bool out) const noexcept {
+/// A place meets what is half a step later.
+Plunger::Branch Plunger::branch(const TipShare& tip, double step, bool out) const noexcept {
   const SpaceState& s = states_[tip.space];
   if (!s.open || !(tip.share > 0)) return {};
   const SpaceLaw& law = spaces_[tip.space].law;
   // What has parted tissue stays there.
   if (!out && (law.kind == SpaceKind::split || flow_in(tip) == nullptr)) return {};
   const double volume = s.volume - s.drawn;
-  const double slope = std::max(0.0, slope_of(law, volume) * (1 + law.relaxing));
   const double near = bevel_share_ * own_.resistance() + law.resistance +
                       film_resistance(law, volume, params_.liquid.viscosity.at(kFilmRate));
-  return {true, pressure(tip.space), near / tip.share + dt_ * slope / 2};
+  return {true, pressure(tip.space), near / tip.share + step * rise(tip.space) / 2};
 }
 
 /// The bore ends in both branches; one against whose pressure nothing flows takes no part.
 Plunger::Parting Plunger::part(const PlungerInput& input, const Drive& drive,
                                bool out) const noexcept {
   const double way = out ? 1 : -1;
-  std::array<Branch, 2> branches{branch(input.tip[0], out), branch(input.tip[1], out)};
+  std::array<Branch, 2> branches{branch(input.tip[0], drive.step, out),
+                                 branch(input.tip[1], drive.step, out)};
   for (Branch& b : branches) b.open = b.open && way * (drive.pressure - b.pressure) > 0;
   const std::size_t first = branches[0].open ? 0 : 1;
   Parting parting;
@@ -171,7 +190,7 @@ Plunger::Parting Plunger::part(const PlungerInput& input, const Drive& drive,
       drawn += b.pressure / b.resistance;
     }
     const double behind = drawn / conductance;
-    const double extra = std::max(0.0, 1 / conductance - in_bevel) + clogged + dt_ * drive.slope;
+    const double extra = std::max(0.0, 1 / conductance - in_bevel) + clogged + drive.lag;
     const double q = bore.flow(drive.pressure - behind, extra);
     parting.pressure = behind + q / conductance;
     bool all = true;
@@ -190,43 +209,6 @@ Plunger::Parting Plunger::flow_out(const PlungerInput& input, const Drive& drive
   Parting parting = part(input, drive, true);
   if (parting.flows[0] == 0 && parting.flows[1] == 0) parting = part(input, drive, false);
   return parting;
-}
-
-/// The gliding stopper: the thumb's spring beside the barrel's. Without a spring the pressure is
-/// what the thumb's force leaves.
-Plunger::Drive Plunger::gliding(double thumb, double stiffness, int way) const noexcept {
-  const double net = thumb - way * params_.syringe.glide;
-  const double soft = stiffness * softness_ / area_;  // m^2
-  return {(net + soft * state_.pressure) / (area_ + soft), stiffness / (area_ * (area_ + soft))};
-}
-
-/// False when the stopper would not go its way: then it sticks, and nothing has changed.
-bool Plunger::glide(const PlungerInput& input, double thumb) noexcept {
-  const Drive drive = gliding(thumb, input.stiffness, way_);
-  const Parting parting = flow_out(input, drive);
-  const double out = (parting.flows[0] + parting.flows[1]) * dt_;
-  double next = drive.pressure - drive.slope * out;
-  double dx = (softness_ * (next - state_.pressure) + out) / area_;
-  if (dx * way_ <= 0) return false;
-  const double in_end = params_.syringe.filled / area_;
-  const double out_end = in_end - params_.syringe.volume / area_;
-  const double x = std::clamp(state_.travel + dx, out_end, in_end);
-  if (x != state_.travel + dx) {
-    dx = x - state_.travel;
-    next = state_.pressure + (area_ * dx - out) / softness_;
-    way_ = 0;
-  }
-  state_.travel = x;
-  state_.pressure = next;
-  take_flows(input, parting);
-  return true;
-}
-
-void Plunger::rest(const PlungerInput& input) noexcept {
-  way_ = 0;
-  const Parting parting = flow_out(input, {state_.pressure, 0.5 / softness_});
-  state_.pressure -= (parting.flows[0] + parting.flows[1]) * dt_ / softness_;
-  take_flows(input, parting);
 }
 
 void Plunger::change_volume(std::size_t space, double by) noexcept {
@@ -249,31 +231,17 @@ void Plunger::take_out(std::size_t space, double volume) noexcept {
   state_.drawn += own;
 }
 
-void Plunger::take_flows(const PlungerInput& input, const Parting& parting) noexcept {
-  const std::array<double, 2>& flows = parting.flows;
-  state_.flow = flows[0] + flows[1];
-  state_.bevel_pressure = state_.flow == 0 ? state_.pressure : parting.pressure;
-  for (std::size_t k = 0; k < 2; ++k) {
-    const double volume = flows[k] * dt_;
-    const std::size_t space = input.tip[k].space;
-    if (volume > 0)
-      change_volume(space, volume);
-    else if (volume < 0)
-      take_out(space, -volume);
-    if (std::abs(flows[k]) > kStill) states_[space].idle = 0;
-    state_.content -= volume;
-  }
-}
-
-void Plunger::leak(const PlungerInput& input) noexcept {
+/// False when nothing did.
+bool Plunger::leak(const PlungerInput& input, double step) noexcept {
+  bool any = false;
   const auto pass = [&](const Leak& leak) {
     const SpaceState& from = states_[leak.from];
     if (leak.by_rupture && !from.ruptured) return;
     const double dp = pressure(leak.from) - pressure(leak.to) - leak.opening;
     if (!(dp > 0) || !(from.volume > 0)) return;
-    const double slope = std::max(0.0, slope_of(spaces_[leak.from].law, from.volume)) +
-                         std::max(0.0, slope_of(spaces_[leak.to].law, states_[leak.to].volume));
-    const double volume = std::min(dp / (leak.resistance + 0.5 * dt_ * slope) * dt_, from.volume);
+    const double slope = rise(leak.from) + rise(leak.to);
+    const double volume = std::min(dp / (leak.resistance + 0.5 * step * slope) * step, from.volume);
+    any = true;
     change_volume(leak.from, -volume);
     change_volume(leak.to, volume);
   };
@@ -282,7 +250,7 @@ void Plunger::leak(const PlungerInput& input) noexcept {
   for (const TipShare& tip : input.tip)
     if (tip.share > 0 && spaces_[tip.space].law.kind == SpaceKind::cavity)
       pass({tip.space, around, params_.grip, params_.track_resistance, false});
-  for (std::size_t k = 0; k < states_.size(); ++k) states_[k].relaxing *= fading_[k];
+  return any;
 }
 
 /// Grains settle in a thin bore while nothing moves.
@@ -290,65 +258,6 @@ void Plunger::clog() noexcept {
   const bool may = params_.liquid.solids > 0 && params_.needle.diameter <= kWidestClogged;
   const bool settled = may && rest_time_ > clog_after_;
   if (clogging_ > 0 || settled) clogging_ = std::min(1.0, clogging_ + dt_ / kClogTime);
-}
-
-void Plunger::describe(const PlungerInput& input, double thumb) noexcept {
-  const double in_end = params_.syringe.filled / area_;
-  const double out_end = in_end - params_.syringe.volume / area_;
-  std::uint32_t& status = state_.status;
-  if (way_ != 0) status |= PlungerStatus::kMoving;
-  if (std::abs(state_.flow) > kStill) status |= PlungerStatus::kFlowing;
-  if (state_.travel >= in_end) status |= PlungerStatus::kEmpty;
-  if (state_.travel <= out_end && params_.syringe.volume > params_.syringe.filled)
-    status |= PlungerStatus::kDrawnOut;
-  if (clogging_ > 0) status |= PlungerStatus::kClogged;
-  if (state_.drawn > params_.syringe.dead_space) status |= PlungerStatus::kFlash;
-  state_.tip_pressure = 0;
-  bool any_open = false;
-  for (const TipShare& tip : input.tip) {
-    if (!(tip.share > 0)) continue;
-    // Tissue that has not parted presses on nothing.
-    const bool parted = states_[tip.space].open || states_[tip.space].volume > 0 ||
-                        spaces_[tip.space].law.kind != SpaceKind::split;
-    const double p = parted ? pressure(tip.space) : 0;
-    state_.tip_pressure += tip.share * p;
-    any_open = any_open || states_[tip.space].open;
-    if (states_[tip.space].ruptured) status |= PlungerStatus::kRuptured;
-    if (p > spaces_[tip.space].law.stop) status |= PlungerStatus::kTense;
-    if (tip.space == outside_) status |= PlungerStatus::kOutside;
-  }
-  if (!any_open) status |= PlungerStatus::kClosed;
-  state_.force = thumb - input.stiffness * state_.travel;
-  state_.on_needle = params_.unbalanced * state_.force;
-}
-
-const PlungerState& Plunger::step(const PlungerInput& input) noexcept {
-  PlungerInput in = input;
-  state_.status = 0;
-  if (!std::isfinite(in.force) || !std::isfinite(in.position) || !std::isfinite(in.stiffness) ||
-      !(in.stiffness >= 0) || !std::isfinite(in.depth)) {
-    in.force = in.position = in.stiffness = in.depth = 0;
-    state_.status |= PlungerStatus::kNotFinite;
-  }
-  const double least = area_ * kVacuum - params_.syringe.glide;
-  const double spring = in.stiffness * state_.travel;
-  const double wish = in.force + in.stiffness * in.position - spring;
-  const double now = std::clamp(wish, std::max(least, -params_.most_force), params_.most_force);
-  if (now != wish) state_.status |= PlungerStatus::kLimited;
-  const double net = now - area_ * state_.pressure;
-  const double age = std::log10(std::max(1.0, rest_time_));
-  const double hold = params_.syringe.break_loose * (1 + params_.syringe.ageing * age);
-  const double in_end = params_.syringe.filled / area_;
-  const double out_end = in_end - params_.syringe.volume / area_;
-  if (way_ == 0 && net > hold && state_.travel < in_end) way_ = 1;
-  if (way_ == 0 && -net > hold && state_.travel > out_end) way_ = -1;
-  open_places(in, state_.bevel_pressure);
-  if (way_ == 0 || !glide(in, now)) rest(in);
-  leak(in);
-  rest_time_ = way_ == 0 ? rest_time_ + dt_ : 0;
-  clog();
-  describe(in, now + spring);
-  return state_;
 }
 
 }  // namespace artus

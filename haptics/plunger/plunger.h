@@ -57,7 +57,7 @@ struct SpaceState {
 struct PlungerState {
   double pressure = 0;        ///< Pa in the barrel
   double travel = 0;          ///< m, positive in
-  double flow = 0;            ///< m^3/s out of the tip
+  double flow = 0;            ///< m^3/s out of the tip, at the tick's end
   double force = 0;           ///< N, what the thumb feels: friction and pressure
   double on_needle = 0;       ///< N, what of it pushes the needle on
   double tip_pressure = 0;    ///< Pa in the tip's places, by share
@@ -116,6 +116,7 @@ class Plunger {
   [[nodiscard]] ARTUS_REALTIME double pressure(std::size_t space) const noexcept;
 
  private:
+  [[nodiscard]] double rise(std::size_t space) const noexcept;
   struct Leak {
     std::uint32_t from;
     std::uint32_t to;
@@ -123,12 +124,42 @@ class Plunger {
     double resistance;
     bool by_rupture;
   };
-  /// The barrel as the needle sees it in this tick: p = pressure - slope * volume out.
+  /// The barrel as the needle sees it in a step: p = pressure - lag * flow, where the flow is
+  /// taken.
   struct Drive {
     double pressure;
-    double slope;  // Pa/m^3
+    double lag;   // Pa s/m^3
+    double step;  // s
   };
-  void open_places(const PlungerInput& input, double pressure) noexcept;
+  /// The thumb in a step: its force runs from one to the other, less what the stopper's way takes.
+  struct Push {
+    double from;       // N
+    double to;         // N, if the stopper stayed
+    double stiffness;  // N/m
+    double step;       // s
+    [[nodiscard]] Push part(double share) const noexcept {
+      return {from, from + share * (to - from), stiffness, share * step};
+    }
+  };
+  /// The stopper's mean speed in the way it goes, in its last step.
+  struct Gait {
+    double speed = 0;  // m/s
+    double step = 0;   // s
+  };
+  struct Before {
+    PlungerState state;
+    std::array<SpaceState, 2> spaces;
+    int way;
+    Gait gait;
+  };
+  /// A place that is not open to the tip, and by how much the pressure is over its opening, Pa.
+  struct Shut {
+    const TipShare* tip = nullptr;
+    double over = 0;
+  };
+  void open(const TipShare& tip, double depth) noexcept;
+  void meet_places(const PlungerInput& input) noexcept;
+  [[nodiscard]] Shut easiest(const PlungerInput& input, double pressure) const noexcept;
   /// One of the tip's places as the bevel sees it: takes (p - pressure) / resistance.
   struct Branch {
     bool open = false;
@@ -140,24 +171,34 @@ class Plunger {
     std::array<double, 2> flows{};
     double pressure = 0;
   };
-  [[nodiscard]] Branch branch(const TipShare& tip, bool out) const noexcept;
+  [[nodiscard]] Branch branch(const TipShare& tip, double step, bool out) const noexcept;
   [[nodiscard]] const NeedleFlow* flow_in(const TipShare& tip) const noexcept;
   [[nodiscard]] Parting part(const PlungerInput& input, const Drive& drive,
                              bool out) const noexcept;
   [[nodiscard]] Parting flow_out(const PlungerInput& input, const Drive& drive) const noexcept;
-  [[nodiscard]] Drive gliding(double thumb, double stiffness, int way) const noexcept;
-  bool glide(const PlungerInput& input, double thumb) noexcept;
-  void rest(const PlungerInput& input) noexcept;
-  void take_flows(const PlungerInput& input, const Parting& parting) noexcept;
+  [[nodiscard]] double instant(double slope, double step) const noexcept;
+  [[nodiscard]] double gliding(double thumb, double stiffness) const noexcept;
+  double glide(const PlungerInput& input, const Push& push) noexcept;
+  void rest(const PlungerInput& input, double step) noexcept;
+  void move(const PlungerInput& input, const Push& push) noexcept;
+  void meet(const PlungerInput& input) noexcept;
+  [[nodiscard]] int breaks_loose(double net) const noexcept;
+  void break_loose(int way, double thumb, double stiffness) noexcept;
+  double move_to_event(const PlungerInput& input, const Push& push) noexcept;
+  [[nodiscard]] double felt(const Push& push, double travel) const noexcept;
+  double run(const PlungerInput& input, Push push) noexcept;
+  void take_flows(const PlungerInput& input, const Parting& parting, double step) noexcept;
   void take_out(std::size_t space, double volume) noexcept;
   void change_volume(std::size_t space, double by) noexcept;
-  void leak(const PlungerInput& input) noexcept;
+  bool leak(const PlungerInput& input, double step) noexcept;
   void clog() noexcept;
   void describe(const PlungerInput& input, double thumb) noexcept;
 
   PlungerParams params_;
   double dt_;
   double area_;
+  double in_end_;   // m of travel, the barrel's end
+  double out_end_;  // m, its rim
   double softness_;
   double bevel_share_;  // of the needle's length
   NeedleFlow own_;
@@ -169,7 +210,10 @@ class Plunger {
   std::vector<Leak> leaks_;
   PlungerState state_;
   std::uint32_t outside_ = 0;
-  int way_ = 0;           // of the stopper: 1 in, -1 out, 0 at rest
+  int way_ = 0;  // of the stopper: 1 in, -1 out, 0 at rest
+  Gait gait_;
+  double hold_ = 0;       // N, to break loose now
+  bool started_ = false;  // the thumb's force has been told
   double rest_time_ = 0;  // s
   double clogging_ = 0;   // 0 free .. 1 clogged
   double clog_after_;     // s at rest

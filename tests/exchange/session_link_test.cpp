@@ -6,6 +6,7 @@
 #include <array>
 #include <chrono>
 #include <cstdio>
+#include <limits>
 #include <memory>
 #include <thread>
 #include <vector>
@@ -216,6 +217,40 @@ class Tracker {
   IgtlClient client_;
   std::vector<std::int64_t> sent_;
 };
+
+TEST_F(SessionLinkTest, AThumbThatCannotBeGivesNothingAndTheNextOneIsServed) {
+  const auto inbox = std::make_shared<TrackerInbox>(TrackerCalibration(), TrackerInbox::Names());
+  start(std::make_unique<TrackerDevice>(inbox, TrackerDevice::Holds{500'000'000, 500'000'000}),
+        inbox);
+  Tracker tracker(port());  // its needle is in the air
+  IgtlClient hand(port());
+  const auto press = [&](std::uint64_t unit, double value) {
+    igtl::Message message;
+    message.type = "SENSOR";
+    message.device = "Plunger";
+    message.content = igtl::pack_sensor({unit, {value}});
+    hand.send(message);
+    tracker.send(0);
+    test::sleep_us(5000);
+    HapticSnapshot haptic;
+    if (!session_->newest(haptic)) return PlungerFeedback{};
+    const PlungerFeedback& felt = haptic.feedback.plunger;
+    for (const double v : {felt.thumb_force, felt.pressure, felt.flow, felt.given, felt.drawn})
+      EXPECT_TRUE(std::isfinite(v));
+    EXPECT_LE(std::abs(felt.thumb_force), SyringeCore::kMostForce);
+    return felt;
+  };
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  for (const double wrong : {kNan, kInfinity, 1e300, -1e300, 2000.0})
+    for (const std::uint64_t unit : {igtl::kNewton, igtl::kMetre})
+      for (int i = 0; i < 10; ++i) EXPECT_EQ(press(unit, wrong).given, 0) << wrong;
+  PlungerFeedback felt;
+  for (int i = 0; i < 1000 && felt.given <= 0; ++i) felt = press(igtl::kNewton, 15);
+  EXPECT_GT(felt.given, 0);
+  EXPECT_LT(felt.given, 5.1e-6);
+  EXPECT_NEAR(felt.tip_pressure, 0, 1);
+}
 
 TEST_F(SessionLinkTest, ATrackersPosesAreInThePictureSoon) {
   const auto inbox = std::make_shared<TrackerInbox>(TrackerCalibration(), TrackerInbox::Names());

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Frames, calibrations, registration, and the device that a tracker's poses arrive at.
+#include <limits>
 #include <memory>
 #include <string>
 
@@ -260,6 +261,55 @@ TEST_F(TrackerDeviceTest, WhatTheTrackerDidNotSeeIsNotTaken) {
   send("ProbeToReference", 60, 120 * kMs, "OK");
   EXPECT_NEAR(device_.read(121 * kMs).X_WP.position[0], -60e-3, 1e-9);
   EXPECT_EQ(device_.read(121 * kMs).number, 2U);
+}
+
+igtl::Message plunger_message(std::uint64_t unit, const std::vector<double>& values) {
+  igtl::Message message;
+  message.type = "SENSOR";
+  message.device = "Plunger";
+  message.content = igtl::pack_sensor({unit, values});
+  return message;
+}
+
+TEST_F(TrackerDeviceTest, AThumbIsAForceOrATravelUntilItIsSilent) {
+  ASSERT_TRUE(inbox_->take(plunger_message(igtl::kNewton, {4.5}), 1'000));
+  DeviceSample sample = device_.read(2'000);
+  EXPECT_EQ(sample.plunger, PlungerSign::force);
+  EXPECT_EQ(sample.plunger_force, 4.5);
+  EXPECT_EQ(sample.has_needle, 0);
+  ASSERT_TRUE(inbox_->take(plunger_message(igtl::kMetre, {-3e-3}), 3'000));
+  sample = device_.read(4'000);
+  EXPECT_EQ(sample.plunger, PlungerSign::travel);
+  EXPECT_EQ(sample.plunger_travel, -3e-3);
+  EXPECT_EQ(sample.plunger_force, 0);
+  EXPECT_EQ(device_.read(3'000 + kPeerTimeout).plunger, PlungerSign::none);
+}
+
+TEST_F(TrackerDeviceTest, AThumbThatCannotBeLetsGoAndIsTold) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  igtl::Message cut = plunger_message(igtl::kNewton, {1});
+  cut.content.pop_back();
+  for (const igtl::Message& wrong :
+       {plunger_message(igtl::kNewton, {kNan}), plunger_message(igtl::kNewton, {kInfinity}),
+        plunger_message(igtl::kNewton, {-1e300}), plunger_message(igtl::kMetre, {1e300}),
+        plunger_message(igtl::kMetre, {kNan}), plunger_message(igtl::kMetre, {1.5}),
+        plunger_message(igtl::kNewton, {}), plunger_message(igtl::kNewton, {1, 2}),
+        plunger_message(0, {1}), cut}) {
+    ASSERT_TRUE(inbox_->take(plunger_message(igtl::kNewton, {5}), 1'000));
+    const auto taken = inbox_->take(wrong, 2'000);
+    ASSERT_FALSE(taken);
+    EXPECT_THAT(taken.error().message, HasSubstr("Plunger"));
+    const DeviceSample sample = device_.read(3'000);
+    EXPECT_EQ(sample.plunger, PlungerSign::none);
+    EXPECT_EQ(sample.plunger_force, 0);
+    EXPECT_EQ(sample.plunger_travel, 0);
+  }
+  // Another program's sensor of another name is nobody's thumb.
+  igtl::Message other = plunger_message(igtl::kNewton, {7});
+  other.device = "Load";
+  ASSERT_TRUE(inbox_->take(other, 4'000));
+  EXPECT_EQ(device_.read(5'000).plunger, PlungerSign::none);
 }
 
 TEST_F(TrackerDeviceTest, PosesThatCannotBeAreNoPoses) {

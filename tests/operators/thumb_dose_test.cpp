@@ -38,6 +38,8 @@ TEST(ThumbDose, KnowsWhatABarrelStillGivesWithAndWithoutAirAndWhereTheStopperSli
   EXPECT_GT(given_after_release(0.2e-6, 4, 2e3), 40e-9);
   EXPECT_GT(given_after_release(0, 12, 2e3), 10e-9) << "the stopper springs back";
   EXPECT_EQ(after_flow(Syringe{}, 300e3, 200e3), 0) << "in a tendon all of it springs back";
+  EXPECT_NEAR(after_flow(Syringe{}, 300e3, 200e3, true), 1e-7, 1e-12)
+      << "but for a thumb that holds";
 }
 
 TEST(ThumbDose, LetsGoBeforeTheMarkAndStaysSoUntilTheNext) {

@@ -22,6 +22,19 @@ TEST(Thumb, RestsWithoutAPhaseAndGivesAForceWhereThatIsMeant) {
   EXPECT_EQ(input.stiffness, 0);
 }
 
+TEST(Thumb, HoldsAPlungerAgainstWhatPushesItBack) {
+  Thumb thumb;
+  OperatorPhase hold = stay(1);
+  hold.thumb_holds = true;
+  PlungerState tense;
+  tense.pressure = 25e3;
+  EXPECT_DOUBLE_EQ(thumb.step(&hold, tense, kArea, kDt).force, 25e3 * kArea);
+  tense.pressure = 25e6;
+  EXPECT_EQ(thumb.step(&hold, tense, kArea, kDt).force, ThumbParams{}.most_force);
+  tense.pressure = -25e3;
+  EXPECT_EQ(thumb.step(&hold, tense, kArea, kDt).force, 0);
+}
+
 TEST(Thumb, RunsAheadAtItsRateUpToItsStrongestPush) {
   Thumb thumb;
   PlungerState held;

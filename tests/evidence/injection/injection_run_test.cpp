@@ -42,6 +42,11 @@ TEST(InjectionRun, ATendonTakesAHandsForceAndABursaDoesNot) {
   EXPECT_EQ(bursa->target, "bursa");
   EXPECT_LT(std::abs(bursa->unbalanced), 1e-15);
   EXPECT_LT(bursa->highest_force, tendon->highest_force);
+  // What the tendon's pressure holds in the barrel springs back before the needle is drawn out, but
+  // for what the stopper's friction keeps.
+  const Syringe& syringe = tendon->spec.plunger.syringe;
+  EXPECT_GT(tendon->given, 0.98 * 0.5e-6);
+  EXPECT_LT(tendon->given, 0.5e-6 + syringe.softness() * syringe.break_loose / syringe.area());
 }
 
 TEST(InjectionRun, ABursaAsThinAsTheBevelIsLongTakesWhatIsMeantForIt) {
@@ -82,6 +87,29 @@ TEST(InjectionRun, ASlowRateOnAWideBarrelGivesWhatIsMeantForIt) {
   ASSERT_TRUE(run);
   EXPECT_TRUE(run->complete);
   EXPECT_NEAR(run->given, 15e-6, 0.3e-6);
+}
+
+TEST(InjectionRun, ATenseBursaDoesNotPushBackWhatWasGiven) {
+  // 18.8 kPa on a barrel of 20 ml are more than the stopper's friction.
+  const auto scene = shoulder_like();
+  InjectionSpec spec = spec_into(*scene, "bursa", 12e-6);
+  spec.plunger.syringe = syringe_for(20e-6);
+  spec.rate = 0.5e-6;
+  const auto run = run_injection(*scene, spec);
+  ASSERT_TRUE(run);
+  EXPECT_GT(run->highest_pressure * spec.plunger.syringe.area(), spec.plunger.syringe.break_loose);
+  EXPECT_NEAR(run->given / spec.volume, 1, 0.003);
+}
+
+TEST(InjectionRun, AThinNeedleIsWaitedForUntilTheBarrelHasGivenWhatItHolds) {
+  // Some 200 kPa, 0.2 ml in the barrel, out within a second's time constant.
+  const auto scene = shoulder_like();
+  InjectionSpec spec = spec_into(*scene, "bursa", 1e-6);
+  spec.plunger.needle = *bore_of_gauge(27, 0.05);
+  const auto run = run_injection(*scene, spec);
+  ASSERT_TRUE(run);
+  EXPECT_NEAR(run->given / spec.volume, 1, 0.01);
+  EXPECT_GE(run->volumes.front(), 0.97 * run->given);
 }
 
 TEST(InjectionRun, ARateThatTheThumbCannotKeepIsTold) {

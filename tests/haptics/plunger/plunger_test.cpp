@@ -173,41 +173,6 @@ TEST(Plunger, KeepsEveryVolumeToOneBillionthOfAMillilitre) {
   EXPECT_LT(std::abs(unbalanced_volume(10e3, 7)), 1e-15);
 }
 
-/// Flow (m^3/s) at each hundredth of a second under a trembling thumb.
-std::vector<double> flows_at(double rate, int gauge) {
-  PlungerParams params = water_syringe();
-  params.needle = *bore_of_gauge(gauge, 0.04);
-  SpaceLaw split;
-  split.kind = SpaceKind::split;
-  split.opening = 8e3;
-  split.peak = 20e3;
-  split.peak_volume = 0.1e-6;
-  Plunger plunger(params, one_space(split), 1 / rate);
-  std::vector<double> flows;
-  PlungerInput input = thumb(0);
-  input.stiffness = 2000;
-  for (int k = 0; k < static_cast<int>(4 * rate); ++k) {
-    const double t = k / rate;
-    input.position = 4e-3 * t + 0.2e-3 * std::sin(60 * t);
-    plunger.step(input);
-    if (k % static_cast<int>(rate / 100) == 0) flows.push_back(plunger.state().flow);
-  }
-  return flows;
-}
-
-TEST(Plunger, IsTheSameAtOneTwoAndTenKilohertzWithinTwoPercent) {
-  for (const int gauge : {18, 22, 25}) {
-    const auto fine = flows_at(100e3, gauge);
-    const double rms = std::sqrt(std::inner_product(fine.begin(), fine.end(), fine.begin(), 0.0));
-    for (const double rate : {1e3, 2e3, 10e3}) {
-      const auto flows = flows_at(rate, gauge);
-      double sum = 0;
-      for (std::size_t k = 0; k < flows.size(); ++k) sum += std::pow(flows[k] - fine[k], 2);
-      EXPECT_LT(std::sqrt(sum), 0.02 * rms) << gauge << ' ' << rate;
-    }
-  }
-}
-
 TEST(Plunger, SeesBloodAfterTheHubAtTheTimesOfTheReference) {
   // At -40 kPa, blood of 3.5 mPa s, hub of 0.07 ml, needles of 40, 50, 50 and 38 mm.
   struct Row {
@@ -301,6 +266,29 @@ TEST(Plunger, BeyondItsCapacityASpaceTearsAndLosesPressureButNoVolume) {
   const double around = plunger.states().back().volume;
   EXPECT_GT(around, 0);
   EXPECT_NEAR(plunger.states()[0].volume + around, 50e-6 - plunger.state().content, 1e-15);
+}
+
+TEST(Plunger, ATornSpaceKeepsWhatItsSlackWallsHold) {
+  // A fifth of the walls' tension against the 1 kPa that parts what lies around: 5 kPa of the
+  // curve.
+  SpaceLaw bursa = compliance(1066.6, 1.48136e9);
+  bursa.yield = 15e-6;
+  bursa.rupture = 20e-6;
+  SpaceLaw joint = compliance(0, 2.66644e9);
+  joint.slack = 3e-6;
+  joint.toe = 5e-6;
+  joint.yield = 9e-6;
+  joint.rupture = 11e-6;
+  for (const auto& [law, kept] : {std::pair(bursa, 5e3 / 1.48136e9),
+                                  std::pair(joint, 3e-6 + std::sqrt(2 * 5e-6 * 5e3 / 2.66644e9))}) {
+    Plunger plunger(water_syringe(), one_space(law), 1e-3);
+    for (int k = 0; k < 200000 && (plunger.state().status & PlungerStatus::kRuptured) == 0; ++k)
+      plunger.step(thumb(12));
+    ASSERT_NE(plunger.state().status & PlungerStatus::kRuptured, 0U);
+    for (int k = 0; k < 90000; ++k) plunger.step(thumb(0));
+    EXPECT_NEAR(plunger.states()[0].volume / kept, 1, 0.01);
+    EXPECT_NEAR(plunger.pressure(0) - law.rest, 1e3, 10);
+  }
 }
 
 TEST(Plunger, GrainsClogAThinNeedleAtRestAndShakingFreesIt) {
