@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/SVD>
 
 #include "artus/soft/kernels.h"
 
@@ -156,6 +157,43 @@ void add_cofactor_derivative(const Matrix3& F, double factor, Matrix9& H) noexce
   }
 }
 
+/// mu I + volume cof cof^T + squeeze d cof/dF, without its negative values, mode by mode: by the
+/// singular values of F, twists have mu + squeeze times the third value, flips mu less it, and the
+/// three stretches a matrix of their own. Source [Smith2018], 4.3.
+void add_positive_part(const Matrix3& F, double mu, double volume, double squeeze,
+                       Matrix9& H) noexcept {
+  const Eigen::JacobiSVD<Matrix3> svd(F, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Matrix3 U = svd.matrixU();
+  const Matrix3 V = svd.matrixV();
+  Vec3 s = svd.singularValues();
+  if (U.determinant() * V.determinant() < 0) {
+    U.col(2) *= -1;
+    s[2] *= -1;
+  }
+  const auto add = [&](double value, const Matrix3& mode) {
+    if (!(value > 0)) return;
+    const Matrix3 turned = U * mode * V.transpose();
+    const Eigen::Map<const Eigen::Matrix<double, 9, 1>> m(turned.data());
+    H += value * m * m.transpose();
+  };
+  for (int k = 0; k < 3; ++k) {
+    Matrix3 mode = Matrix3::Zero();
+    const int i = (k + 1) % 3;
+    const int j = (k + 2) % 3;
+    mode(i, j) = mode(j, i) = std::sqrt(0.5);
+    add(mu - squeeze * s[k], mode);
+    mode(j, i) *= -1;
+    add(mu + squeeze * s[k], mode);
+  }
+  const Vec3 areas(s[1] * s[2], s[2] * s[0], s[0] * s[1]);
+  Matrix3 stretches;
+  stretches << 0, s[2], s[1], s[2], 0, s[0], s[1], s[0], 0;
+  stretches = squeeze * stretches + mu * Matrix3::Identity() + volume * areas * areas.transpose();
+  const Eigen::SelfAdjointEigenSolver<Matrix3> solver(stretches);
+  for (int k = 0; k < 3; ++k)
+    add(solver.eigenvalues()[k], solver.eigenvectors().col(k).asDiagonal());
+}
+
 void add_sheet_tangent(const Sheet& sheet, const Plane& plane, double factor, Matrix9& H) noexcept {
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver;
   solver.computeDirect(sheet.stress);
@@ -203,22 +241,33 @@ double evenness_of(const CellMaterial& m) noexcept {
   return weight > 0 ? std::min(m.bulk, sum / weight) : 0;
 }
 
+/// Pa by which a part of a cube that is squeezed below kLeastPart of its volume pushes back.
+double crush_of(double bulk, double J) noexcept {
+  return bulk / kLeastPart * std::max(0.0, 1 - J / kLeastPart);
+}
+
 /// Second derivative of the energy density at one point without the mean dilatation's own part.
 Matrix9 point_tangent(const CellMaterial& m, std::size_t g, const Kinematics& k, double pressure,
                       const Plane& plane) noexcept {
   const Matrix3& F = k.F[g];
   const Hardened hard = harden(m.hardening[g], psi_of(F, k.J[g]));
   const double mu = m.shear[g] * hard.factor;
-  Matrix9 H = mu * Matrix9::Identity();
+  const double even = evenness_of(m);
+  const double crushed = k.J[g] < kLeastPart ? m.bulk / (kLeastPart * kLeastPart) : 0;
+  const double volume = mu + even + crushed;
+  const double squeeze =
+      mu * (k.J[g] - 2) + pressure + even * (k.J[g] - k.mean_J) - crush_of(m.bulk, k.J[g]);
   const Eigen::Map<const Eigen::Matrix<double, 9, 1>> cof(k.cof[g].data());
-  H += mu * cof * cof.transpose();
+  Matrix9 H = Matrix9::Zero();
+  if (std::abs(squeeze) <= mu) {
+    H = mu * Matrix9::Identity() + volume * cof * cof.transpose();
+    add_cofactor_derivative(F, squeeze, H);
+  } else {
+    add_positive_part(F, mu, volume, squeeze, H);
+  }
   const Matrix3 slope = F + (k.J[g] - 2) * k.cof[g];
   const Eigen::Map<const Eigen::Matrix<double, 9, 1>> s(slope.data());
   H += m.shear[g] * hard.slope * s * s.transpose();
-  const double even = evenness_of(m);
-  H += even * cof * cof.transpose();
-  add_cofactor_derivative(
-      F, std::clamp(mu * (k.J[g] - 2) + pressure + even * (k.J[g] - k.mean_J), -mu, mu), H);
   if (m.sheet[g] > 0) add_sheet_tangent(make_sheet(F, plane), plane, m.sheet[g], H);
   if (m.fibre_modulus > 0) add_fibre_tangent(m, F, H);
   return H;

@@ -8,6 +8,10 @@
 
 namespace artus {
 
+/// Below this share of its volume a part of a cube resists as its bulk does. Assumed: far below
+/// what a probe's 3 N ask of a cube, far above where a part turns inside out.
+inline constexpr double kLeastPart = 0.4;
+
 /// The mechanics of one cube: an average over its eighths, one integration point in each.
 struct CellMaterial {
   std::array<double, 8> weight{};     ///< share of the eighth that is tissue, 0..1
@@ -32,15 +36,18 @@ struct CellResponse {
 
 /// Trilinear cube with one mean dilatation (Q1P0), so that nearly incompressible tissue does not
 /// lock: W = sum_g V_g [mu_g/b (exp(b psi_g) - 1) + W_sheet + W_fibre] + V lambda/2 (mean J -
-/// J0)^2. The sheet's energy mu_s/2 (tr c + 1/det c - 3) is that of an incompressible membrane with
-/// the stretch c in the plane across `sheet_normal`. `u` m, frame C; `edge` m; `target` J0, 1 at
-/// rest. A model computes four cubes at once (kernels.h).
+/// J0)^2 + sum_g V_g lambda/2 <1 - J_g/kLeastPart>^2, the last since a mean alone lets one corner
+/// of a cube vanish while the others swell. The sheet's energy mu_s/2 (tr c + 1/det c - 3) is that
+/// of an incompressible membrane with the stretch c in the plane across `sheet_normal`. `u` m,
+/// frame C; `edge` m; `target` J0, 1 at rest. A model computes four cubes at once (kernels.h).
 [[nodiscard]] CellResponse cell_response(const CellMaterial& material, double edge,
                                          const CellVector& u, double target = 1) noexcept;
 
-/// Second derivative of the energy, with the parts that could make it indefinite held back: the
-/// pressure's share of the stress stiffness within [-mu, mu], a sheet's compression, a fibre's
-/// slack. For steps that converge, not exact. Cost: about 20 us.
+/// Second derivative of the energy, with the parts that could make it indefinite held back: at each
+/// point whose stress is above mu what has negative stiffness, a sheet's compression, a fibre's
+/// slack. What stiffens is all there: without it, steps under pressures far above mu pass their end
+/// and turn back for ever. For steps that converge, not exact. Cost: about 20 us, twice that where
+/// stresses are above mu.
 [[nodiscard]] CellMatrix cell_tangent(const CellMaterial& material, double edge,
                                       const CellVector& u, double target = 1) noexcept;
 

@@ -228,8 +228,12 @@ void SoftSolver::solve_root(bool pressed, double alpha, Eigen::VectorXd& r) {
 }
 
 const SoftStep& SoftSolver::step(const std::optional<Pose>& X_CP, double dt) {
+  return go(X_CP, 1 - std::exp(-dt / params_.relaxation));
+}
+
+/// A step by the share `alpha` of its way.
+const SoftStep& SoftSolver::go(const std::optional<Pose>& X_CP, double alpha) {
   SoftStep out;
-  const double alpha = 1 - std::exp(-dt / params_.relaxation);
   const Eigen::VectorXd before = x_;
   const Eigen::VectorXd multipliers = multipliers_;
   Eigen::VectorXd r = forces_.on_unknowns;
@@ -274,13 +278,26 @@ const SoftStep& SoftSolver::step(const std::optional<Pose>& X_CP, double dt) {
 }
 
 bool SoftSolver::settle(const std::optional<Pose>& X_CP, double tolerance, int most_steps) {
+  constexpr double kLeastShare = 0.25;
+  double share = 1;
+  Eigen::VectorXd last_way = Eigen::VectorXd::Zero(x_.size());
   for (int k = 0; k < most_steps; ++k) {
     const bool fresh = refresh();
-    const SoftStep& s = step(X_CP, std::numeric_limits<double>::infinity());
+    const Eigen::VectorXd before = x_;
+    const SoftStep& s = go(X_CP, share);
     if (!fresh) last_.status |= kSoftNoFactor;
     if ((s.status & (kSoftLagging | kSoftLimited | kSoftTakenBack)) == 0 &&
-        s.largest_move < tolerance)
+        s.largest_move < share * tolerance)
       return true;
+    const Eigen::VectorXd way = x_ - before;
+    const double along = way.dot(last_way);
+    const double turns = 0.2 * way.norm() * last_way.norm();
+    if (along < -turns) {
+      share = std::max(kLeastShare, 0.5 * share);
+    } else if (along > turns) {
+      share = std::min(1.0, 1.5 * share);
+    }
+    last_way = way;
   }
   return false;
 }

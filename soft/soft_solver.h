@@ -104,8 +104,10 @@ class SoftSolver {
   /// infinite: without relaxation.
   const SoftStep& step(const std::optional<Pose>& X_CP, double dt);
 
-  /// Steps without relaxation, refreshing before each, until nothing moves more than `tolerance`
-  /// (m). False when that needs more than `most_steps`.
+  /// Steps without relaxation, refreshing before each, until the way left is below `tolerance` (m)
+  /// at every node. A step that turns back on the one before goes half of its way, since between
+  /// two states of contact whole ones may go to and fro for ever. False when `most_steps` are not
+  /// enough.
   bool settle(const std::optional<Pose>& X_CP, double tolerance = 1e-7, int most_steps = 200);
 
   [[nodiscard]] std::span<const Vec3> displacements() const noexcept { return u_; }
@@ -127,6 +129,7 @@ class SoftSolver {
     Eigen::MatrixXd by_load;     // (3 n_unknowns, n)
     Eigen::MatrixXd compliance;  // (n, n)
   };
+  const SoftStep& go(const std::optional<Pose>& X_CP, double alpha);
   [[nodiscard]] Pose advance(const Pose& target, std::uint32_t& status) const;
   [[nodiscard]] Columns columns_of(const Cholesky& factor) const;
   void hold_constraints(double alpha, Eigen::VectorXd& r);

@@ -129,6 +129,63 @@ TEST(Element, TangentIsSymmetricAndAtRestPositiveButForRigidMotions) {
   EXPECT_GT(solver.eigenvalues()[6], 1e-4 * solver.eigenvalues()[23]);
 }
 
+CellMaterial fat_like() {
+  CellMaterial m;
+  for (std::size_t g = 0; g < 8; ++g) {
+    m.weight[g] = 1;
+    m.shear[g] = 800;
+  }
+  m.bulk = 50e3;
+  return m;
+}
+
+/// A cube squeezed to the share `z` of its height and wide enough to be left with `volume`.
+CellVector squeezed(double edge, double z, double volume) {
+  CellVector u = CellVector::Zero();
+  const double wide = std::sqrt(volume / z);
+  for (Eigen::Index n = 0; n < 8; ++n) {
+    u[3 * n] = (n & 1) != 0 ? edge * (wide - 1) : 0;
+    u[3 * n + 1] = (n & 2) != 0 ? edge * (wide - 1) : 0;
+    u[3 * n + 2] = (n & 4) != 0 ? edge * (z - 1) : 0;
+  }
+  return u;
+}
+
+TEST(Element, TangentUnderAPressureFarAboveShearIsPositiveAndKeepsWhatStiffens) {
+  constexpr double kEdge = 3e-3;
+  constexpr double kStep = 1e-9;
+  const CellMaterial m = fat_like();
+  const CellVector u = squeezed(kEdge, 0.8, 0.8);  // 10 kPa, 12 times mu
+  const CellMatrix K = cell_tangent(m, kEdge, u);
+  const Eigen::SelfAdjointEigenSolver<CellMatrix> solver(K);
+  EXPECT_GT(solver.eigenvalues()[0], -1e-9 * solver.eigenvalues()[23]);
+  // By the forces, no way is stiffer than the tangent says: a whole step does not pass its end.
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const CellVector way = random_displacement(1, seed);
+    const CellVector change = cell_response(m, kEdge, u + kStep * way).force -
+                              cell_response(m, kEdge, u - kStep * way).force;
+    const double exact = -change.dot(way) / (2 * kStep);
+    EXPECT_LE(exact, way.dot(K * way) * (1 + 1e-5)) << seed;
+  }
+}
+
+TEST(Element, CrushedPartPushesBackThoughTheMeanVolumeStays) {
+  constexpr double kEdge = 3e-3;
+  const CellMaterial m = fat_like();
+  const auto energy = [&](double z) {
+    return cell_response(m, kEdge, squeezed(kEdge, z, z)).energy;
+  };
+  // lambda/2 (1 - J)^2 and the shear's share are the whole above kLeastPart, less than it below.
+  const double volume = kEdge * kEdge * kEdge;
+  const auto plain = [&](double z) {
+    const double psi = 0.5 * (z * z - 1) - (z - 1) + 0.5 * (z - 1) * (z - 1);
+    return volume * (800 * psi + 25e3 * (z - 1) * (z - 1));
+  };
+  EXPECT_NEAR(energy(0.5), plain(0.5), 1e-9 * plain(0.5));
+  const double below = 0.5 * kLeastPart;
+  EXPECT_NEAR(energy(below) - plain(below), volume * 25e3 * 0.25, 1e-9 * plain(below));
+}
+
 TEST(Element, FeelsNothingOfARotation) {
   const double edge = 3e-3;
   const Eigen::Matrix3d R = Eigen::AngleAxisd(0.8, Vec3(1, 2, 3).normalized()).toRotationMatrix();

@@ -130,6 +130,34 @@ TEST(SoftSolver, FaceIsNotPassedAndItsForceIsTheReaction) {
   }
 }
 
+TEST(SoftSolver, BareFatComesToRestUnderADeepPress) {
+  SoftBlock block;
+  block.quarter = true;
+  block.half_x = 36e-3;
+  block.half_y = 24e-3;
+  SoftMaterial fat = linear_material(2350, kNu);
+  fat.bulk = 50e3;
+  fat.hardening = 2.4;
+  block.layers = {{12e-3, fat}, {12e-3, linear_material(7500, kNu)}};
+  const Vec3 zone(27e-3, 12e-3, 12e-3);
+  const auto model = make_block_model(block, 6e-3, {{-zone, zone, 3e-3}});
+  const SkinPatch skin = make_flat_skin(block, 3e-3);
+  const Vec3 reach(22e-3, 5e-3, 1);
+  SoftSolver solver(model, contact_unknowns(*model, skin, -reach, reach));
+  ProbeFace face;
+  face.length -= 1.8e-3;
+  face.width -= 1.8e-3;
+  face.friction = 0;
+  solver.set_face(skin, face);
+  double before = 0;
+  for (int mm = 1; mm <= 6; ++mm) {
+    EXPECT_TRUE(solver.settle(face_at(1e-3 * mm), 2e-6, 60)) << mm;
+    const double force = -solver.last().contact.force.z();
+    EXPECT_GT(force, before) << mm;
+    before = force;
+  }
+}
+
 TEST(SoftSolver, FrictionIsAtMostItsShareOfThePressure) {
   Pressed pressed(0.3);
   pressed.solver->settle(face_at(3e-3));
