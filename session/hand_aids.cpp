@@ -2,12 +2,13 @@
 #include "artus/session/hand_aids.h"
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 namespace artus {
 
-HandAid::HandAid(const CompiledJoint& joint, const HandAids& aids)
-    : aids_(aids), keep_out_(joint.regions.size(), 0) {
+HandAid::HandAid(const CompiledJoint& joint, const HandAids& aids, double period)
+    : aids_(aids), most_step_(kSlew * period), keep_out_(joint.regions.size(), 0) {
   const Vec3 way = aids.target - aids.entry;
   if (way.norm() > 0) direction_ = way.normalized();
   std::istringstream names(aids.keep_out);
@@ -16,7 +17,18 @@ HandAid::HandAid(const CompiledJoint& joint, const HandAids& aids)
       if (joint.regions[r].name == name) keep_out_[r] = 1;
 }
 
-Vec3 HandAid::step(const NeedleContact& contact, const Vec3& tip) noexcept {
+Vec3 HandAid::step(const NeedleContact& contact, const Vec3& tip, bool runs) noexcept {
+  const Vec3 change = wanted(contact, tip) - force_;
+  const double size = change.norm();
+  if (!runs || !std::isfinite(size))
+    force_.setZero();
+  else
+    force_ += size > most_step_ ? Vec3(most_step_ / size * change) : change;
+  return force_;
+}
+
+/// What both ask for here, N.
+Vec3 HandAid::wanted(const NeedleContact& contact, const Vec3& tip) noexcept {
   const bool inside = contact.inserted();
   const RegionId region = contact.region();
   const bool within = inside && region < keep_out_.size() && keep_out_[region] != 0;

@@ -18,14 +18,24 @@ class HandAid {
   /// m within the skin over which the line begins to draw.
   static constexpr double kBegins = 5e-3;
 
-  /// Names of `aids.keep_out` that the joint does not have are of no effect.
-  HandAid(const CompiledJoint& joint, const HandAids& aids);
+  /// N/s by which it comes and goes at most, whatever the needle does; assumed.
+  static constexpr double kSlew = 100;
 
-  /// One tick: N, frame J, with the tip at `tip` (m, frame J). Zero outside the skin.
-  [[nodiscard]] ARTUS_REALTIME Vec3 step(const NeedleContact& contact, const Vec3& tip) noexcept;
+  /// Names of `aids.keep_out` that the joint does not have are of no effect. `period`: s, of a
+  /// tick.
+  HandAid(const CompiledJoint& joint, const HandAids& aids, double period);
+
+  /// One tick: N, frame J, with the tip at `tip` (m, frame J). Fades to zero outside the skin; at
+  /// once zero, and from there again, when the session does not run.
+  [[nodiscard]] ARTUS_REALTIME Vec3 step(const NeedleContact& contact, const Vec3& tip,
+                                         bool runs) noexcept;
 
  private:
+  [[nodiscard]] Vec3 wanted(const NeedleContact& contact, const Vec3& tip) noexcept;
+
   HandAids aids_;
+  double most_step_;  // N
+  Vec3 force_ = Vec3::Zero();
   Vec3 direction_ = Vec3::UnitZ();
   std::vector<char> keep_out_;  // by region
   bool within_ = false;

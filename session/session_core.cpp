@@ -49,7 +49,7 @@ HapticCore::HapticCore(std::shared_ptr<const Scene> scene, const SessionParams& 
       probe_(params.haptic_rate, params.image_rate),
       probe_guard_(params.guard, ProbeHandParams{}.device, 1 / params.haptic_rate),
       syringe_(scene_->joint(), params),
-      aid_(scene_->joint(), params.aids),
+      aid_(scene_->joint(), params.aids, 1 / params.haptic_rate),
       device_(params.device) {}
 
 void HapticCore::step_needle(const DeviceSample& device, std::uint32_t command) noexcept {
@@ -109,10 +109,13 @@ void HapticCore::step_syringe(bool runs) noexcept {
   add_force(syringe_.on_needle() * contact.tick().axis, runs);
 }
 
+bool HapticCore::is_sound(bool runs) const noexcept {
+  return runs && (out_.status & (TickStatus::kFaults | SessionStatus::kNoNeedle)) == 0;
+}
+
 /// More force on the needle's hand, N, within the device's limits; none while something is wrong.
 void HapticCore::add_force(const Vec3& more_J, bool runs) noexcept {
-  const bool fault = (out_.status & (TickStatus::kFaults | SessionStatus::kNoNeedle)) != 0 || !runs;
-  if (fault || more_J.isZero(0)) return;
+  if (!is_sound(runs) || more_J.isZero(0)) return;
   const Vec3 force = Vec3(out_.force_J[0], out_.force_J[1], out_.force_J[2]) + more_J;
   const Wrench limited = saturate(device_, {force, Vec3::Zero()});
   copy(limited.force, out_.force_J);
@@ -179,7 +182,8 @@ const HapticSnapshot& HapticCore::step(const TickInput& input) noexcept {
   const bool runs =
       alive && (input.command & (SessionCommand::kPause | SessionCommand::kLate)) == 0;
   step_syringe(runs);
-  add_force(aid_.step(needle_.model().contact(), to_pose(out_.X_JN).translation()), runs);
+  add_force(aid_.step(needle_.model().contact(), to_pose(out_.X_JN).translation(), is_sound(runs)),
+            runs);
   step_probe(runs, X_WP);
   describe();
   return out_;

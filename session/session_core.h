@@ -94,6 +94,7 @@ class HapticCore {
   void step_needle(const DeviceSample& device, std::uint32_t command) noexcept;
   void step_probe(bool felt, const std::optional<Pose>& X_WP) noexcept;
   void step_syringe(bool runs) noexcept;
+  [[nodiscard]] bool is_sound(bool runs) const noexcept;
   void add_force(const Vec3& more_J, bool runs) noexcept;
   void describe() noexcept;
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/session/hand_aids.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "artus/session/session_core.h"
@@ -64,6 +67,37 @@ TEST_F(HandAidTest, TheWallPushesBackWithinWhatIsToBeAvoidedAndNowhereElse) {
   EXPECT_LT(more.z(), -0.2);
   EXPECT_GE(more.z(), -1000 * 1.6e-3);  // it came in at 22 mm
   EXPECT_NEAR(more.x(), 0, 1e-9);
+}
+
+TEST_F(HandAidTest, ComesAndGoesWithoutAJumpAndIsZeroWhileTheSessionDoesNotRun) {
+  params_.aids.guide = 1000;
+  params_.aids.target = params_.aids.entry + Vec3(0, 0, 0.05);
+  HapticCore core(scene_, params_);
+  std::uint64_t tick = 0;
+  double last = 0;
+  double largest = 0;
+  double z = -10e-3;
+  const auto run = [&](int ticks, double step, std::uint32_t command) {
+    for (int k = 0; k < ticks; ++k) {
+      TickInput input;
+      input.tick = ++tick;
+      input.command = command;
+      z += step;
+      input.device = test::sample_at(z, static_cast<std::int64_t>(tick) * test::kTickTime, tick);
+      const double aside = core.step(input).force_J[0];
+      if (command == 0) largest = std::max(largest, std::abs(aside - last));
+      last = aside;
+    }
+  };
+  run(1100, 20e-6, 0);
+  EXPECT_NEAR(last, 2, 1e-6);
+  run(300, 0, SessionCommand::kPause);
+  EXPECT_EQ(last, 0);
+  run(100, 0, 0);
+  EXPECT_NEAR(last, 2, 1e-6);
+  run(400, -100e-6, 0);
+  EXPECT_EQ(last, 0) << "out again";
+  EXPECT_LE(largest, HandAid::kSlew * 1e-3 + 1e-9);
 }
 
 TEST_F(HandAidTest, WhatIsNoStiffnessIsRefused) {

@@ -80,7 +80,7 @@ TEST(RealTimeSession, TheSyringeNeitherAllocatesNorLocks) {
 
 TEST(RealTimeSession, AidsOfTheHandNeitherAllocateNorLock) {
   const auto scene = test::make_layered_scene();
-  HandAid aid(scene->joint(), {Vec3::Zero(), Vec3::UnitZ(), 300, 1000, "muscle\nbursa"});
+  HandAid aid(scene->joint(), {Vec3::Zero(), Vec3::UnitZ(), 300, 1000, "muscle\nbursa"}, 1e-3);
   const auto needle = make_needle_renderer(scene, "virtuose_6d_desktop", 1000);
   ASSERT_TRUE(needle);
   Vec3 most = Vec3::Zero();
@@ -88,7 +88,7 @@ TEST(RealTimeSession, AidsOfTheHandNeitherAllocateNorLock) {
       HandAid::step, for (int k = 0; k < 2000; ++k) {
         const Vec3 tip(1e-3, 0, -2e-3 + 1e-5 * k);
         (*needle)->step({make_pose(tip, Vec3::UnitZ(), Vec3::UnitX()), 1e-3 * k});
-        most = most.cwiseMin(aid.step((*needle)->model().contact(), tip));
+        most = most.cwiseMin(aid.step((*needle)->model().contact(), tip, true));
       });
   EXPECT_LT(most.x(), -0.1);
   EXPECT_LT(most.z(), -0.1);
