@@ -117,8 +117,7 @@ void read_find(TomlTable& toml, Scenario& s) {
     toml.problem_at("find", "it must name 1 to 12 structures");
   for (const char* key : {"needle", "target", "entry", "avoid", "syringe"})
     if (toml.has(key))
-      toml.problem_at(key,
-                      "what is to be found is shown with the probe alone: leave it or find out");
+      toml.problem_at(key, "does not go with find, which is a task for the probe alone");
 }
 
 void read_goals(TomlTable& toml, Scenario& s, Problems& problems) {
