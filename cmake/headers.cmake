@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
-# The target `headers` compiles every installable header by itself. Three outside headers take most of that time: a
+# The target `headers` compiles every installable header by itself. Four outside headers take most of that time: a
 # header that includes some of them, itself or through one of ours, finds just those parsed already, so that
 # nothing that they bring can hide what another header forgot.
-set(ARTUS_SLOW_HEADERS Eigen/Core filesystem tl/expected.hpp)
+set(ARTUS_SLOW_HEADERS Eigen/Geometry filesystem future tl/expected.hpp)
 
 # artus_slow_headers_in(artus/room/name.h RESULT): which of them it includes, at any remove.
 function(artus_slow_headers_in header result)

@@ -20,18 +20,7 @@ struct Segment {
 /// The pose whose z axis is along `z`, whose x axis is as near to `x_hint` as orthogonality
 /// allows, and whose origin is `p`. Requires: `z` not zero; a parallel or zero hint is replaced by
 /// a fixed deterministic one.
-[[nodiscard]] inline Pose make_pose(const Vec3& p, const Vec3& z, const Vec3& x_hint) {
-  const Vec3 ez = z.normalized();
-  Vec3 ex = x_hint - ez * ez.dot(x_hint);
-  if (ex.norm() < 1e-9 * (1 + x_hint.norm())) ex = ez.unitOrthogonal();
-  ex.normalize();
-  Pose pose = Pose::Identity();
-  pose.linear().col(0) = ex;
-  pose.linear().col(1) = ez.cross(ex);
-  pose.linear().col(2) = ez;
-  pose.translation() = p;
-  return pose;
-}
+[[nodiscard]] Pose make_pose(const Vec3& p, const Vec3& z, const Vec3& x_hint);
 
 /// The smallest rotation that turns the direction of `from` into that of `to`; of opposite ones,
 /// about some axis square to them. Requires: neither is zero.

@@ -12,7 +12,7 @@ namespace artus {
 namespace {
 
 constexpr double kOutermost = 0.9;   // widths from the axis: the beam is 20 dB down there
-constexpr double kTail = 3;          // standard deviations kept of the pulse
+constexpr double kPulseTail = 3;     // standard deviations kept of the pulse
 constexpr double kBeamTail = 4.2;    // standard deviations from which the beam is left out: -77 dB
 constexpr double kLongest = 1.25;    // of the displayed depth, as far as beams are followed
 constexpr std::size_t kPadding = 8;  // floats behind the last weight that may be read
@@ -77,7 +77,7 @@ void BeamShape::size_scatterers(const Transducer& transducer) {
 void BeamShape::tabulate_pulse(const Transducer& transducer) {
   const double width = transducer.pulse_cycles * transducer.wavelength() / 2;
   const double sigma = width * kSigmaPerWidth / sample_depth_;
-  const int half = std::max(1, static_cast<int>(std::ceil(kTail * sigma)));
+  const int half = std::max(1, static_cast<int>(std::ceil(kPulseTail * sigma)));
   for (int k = -half; k <= half; ++k) {
     pulse_.push_back(static_cast<float>(std::exp(-0.5 * k * k / (sigma * sigma))));
   }

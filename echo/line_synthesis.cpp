@@ -11,12 +11,12 @@
 namespace artus {
 namespace {
 
-constexpr std::size_t kNodeStride = 4;  // samples between exact values of gain and texture
-constexpr double kGlitter = 0.5;        // assumed: rms variation of a fully diffuse interface
-constexpr double kTailShare = 0.35;     // assumed: scattering just behind a rough interface
-constexpr float kTailDecay = 0.8F;      // per sample
-constexpr std::size_t kTailGap = 3;     // samples behind the surface
-constexpr std::size_t kTail = 16;       // samples
+constexpr std::size_t kNodeStride = 4;    // samples between exact values of gain and texture
+constexpr double kGlitter = 0.5;          // assumed: rms variation of a fully diffuse interface
+constexpr double kTailShare = 0.35;       // assumed: scattering just behind a rough interface
+constexpr float kTailDecay = 0.8F;        // per sample
+constexpr std::size_t kTailGap = 3;       // samples behind the surface
+constexpr std::size_t kTailSamples = 16;  // samples
 constexpr double kHaze = 0.1;       // assumed: -20 dB at the face, +6 for both orders of the way,
                                     // -6 because its second leg is out of focus
 constexpr float kSheet = 1.6F;      // texture above which a sheet reflects coherently
@@ -231,7 +231,7 @@ void LineSynthesis::add_echo(const BeamEcho& echo, const ScatterView& view,
   }
   const std::size_t from = first + kTailGap;
   if (echo.diffuse_share < 0.05 || from >= echoes.size()) return;
-  std::array<float, kTail> gain{};
+  std::array<float, kTailSamples> gain{};
   float value = amplitude * static_cast<float>(kTailShare * echo.diffuse_share);
   for (float& g : gain) {
     g = value;

@@ -19,17 +19,7 @@ struct PlacedLine {
 };
 
 /// The `index`-th scanline of a probe at X_JP. Requires: a valid transducer, 0 <= index < n_lines.
-[[nodiscard]] inline PlacedLine place_line(const Transducer& probe, int index,
-                                           const Pose& X_JP) noexcept {
-  PlacedLine placed;
-  placed.index = index;
-  placed.line = scanline(probe, index);
-  placed.across = Vec3(placed.line.direction.z(), 0, -placed.line.direction.x());
-  placed.origin_J = X_JP * placed.line.origin;
-  placed.direction_J = X_JP.linear() * placed.line.direction;
-  placed.elevation_J = X_JP.linear().col(1);
-  return placed;
-}
+[[nodiscard]] PlacedLine place_line(const Transducer& probe, int index, const Pose& X_JP) noexcept;
 
 /// A line's echoes in phase and in quadrature; both spans have one length.
 struct EchoSpan {

@@ -19,8 +19,8 @@ constexpr double kCell = 1e-3;  // m
 constexpr double kWidest = kCells * kCell / 2;
 constexpr int kSteps = 60;
 constexpr int kHalvings = 20;
-constexpr double kExact = 1e-16;  // m^3
-constexpr double kEdge = 1e-9;    // of a triangle's side
+constexpr double kExactVolume = 1e-16;  // m^3
+constexpr double kEdge = 1e-9;          // of a triangle's side
 
 constexpr double kRound = 0.9 * std::numbers::pi;  // of the sphere that the map covers
 constexpr double kThinnest = 0.1e-3;               // m between a floor and a roof
@@ -330,7 +330,7 @@ double InflatedSpace::height_for(double volume) const {
   double at_low = -volume;
   double high = volume / (a * a);
   double at_high = volume_of(lifted(high, a)) - rest_volume_ - volume;
-  for (int k = 0; k < kSteps && std::abs(at_high) > kExact; ++k) {
+  for (int k = 0; k < kSteps && std::abs(at_high) > kExactVolume; ++k) {
     if (at_high == at_low) break;
     const double next = high - at_high * (high - low) / (at_high - at_low);
     low = high;

@@ -71,11 +71,11 @@ Sphere make_sphere() {
   return s;
 }
 
-using Cut = std::uint32_t;  // vertex in the middle of an edge
-constexpr Cut kWhole = std::numeric_limits<Cut>::max();
+using MidVertex = std::uint32_t;  // vertex in the middle of an edge
+constexpr MidVertex kWhole = std::numeric_limits<MidVertex>::max();
 
 /// The triangle in pieces by which of its edges ab, bc, ca are cut.
-void add_pieces(const Interface& f, std::array<Cut, 3> cuts, std::vector<Interface>& out) {
+void add_pieces(const Interface& f, std::array<MidVertex, 3> cuts, std::vector<Interface>& out) {
   const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     out.push_back(f);
     out.back().vertices = {a, b, c};
@@ -119,7 +119,7 @@ void refine_beside(CompiledJoint& joint, const Eigen::Matrix3d& in, const Vec3& 
   std::vector<Vec3>& points = joint.mesh.vertices;
   for (int k = 0; k < kTimes; ++k) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
-    const auto cut = [&](std::uint32_t one, std::uint32_t other) -> Cut {
+    const auto cut = [&](std::uint32_t one, std::uint32_t other) -> MidVertex {
       const std::pair<std::uint32_t, std::uint32_t> ends = std::minmax(one, other);
       const Vec3 from = in * (points[ends.first] - centre);
       const Vec3 along = in * (points[ends.second] - points[ends.first]);

@@ -4,7 +4,7 @@
 // function of a library: what a library inlines here could be taken by others for other CPUs.
 
 using D = double __attribute__((vector_size(32), may_alias));
-using S = float __attribute__((vector_size(32), may_alias, aligned(4)));  // 8 lanes
+using S = float __attribute__((vector_size(32)));  // 8 lanes
 
 constexpr std::size_t kWide = 8;
 
@@ -242,11 +242,14 @@ void cells(const CellPack& pack, CellPackState& s) {
   lanes(s.least_volume) = least;
 }
 
-inline S& wide(float* p) noexcept {
-  return *reinterpret_cast<S*>(p);
+// Eight floats at any address: not every compiler keeps a weaker alignment of S behind a reference.
+inline S load(const float* p) noexcept {
+  S a;
+  __builtin_memcpy(&a, p, sizeof a);
+  return a;
 }
-inline const S& wide(const float* p) noexcept {
-  return *reinterpret_cast<const S*>(p);
+inline void store(S a, float* p) noexcept {
+  __builtin_memcpy(p, &a, sizeof a);
 }
 
 // x (n) -= four columns of A (n, stride) times y (4).
@@ -257,8 +260,9 @@ inline void subtract_columns(const float* A, std::size_t stride, std::size_t n, 
   const float* E = C + stride;
   std::size_t i = 0;
   for (; i + kWide <= n; i += kWide)
-    wide(x + i) = wide(x + i) - wide(A + i) * y[0] - wide(B + i) * y[1] - wide(C + i) * y[2] -
-                  wide(E + i) * y[3];
+    store(load(x + i) - load(A + i) * y[0] - load(B + i) * y[1] - load(C + i) * y[2] -
+              load(E + i) * y[3],
+          x + i);
   for (; i < n; ++i) x[i] = x[i] - A[i] * y[0] - B[i] * y[1] - C[i] * y[2] - E[i] * y[3];
 }
 
@@ -278,11 +282,11 @@ inline void multiply_columns(const float* A, std::size_t stride, std::size_t n, 
   S e = S{};
   std::size_t i = 0;
   for (; i + kWide <= n; i += kWide) {
-    const S v = wide(x + i);
-    a += wide(A + i) * v;
-    b += wide(B + i) * v;
-    c += wide(C + i) * v;
-    e += wide(E + i) * v;
+    const S v = load(x + i);
+    a += load(A + i) * v;
+    b += load(B + i) * v;
+    c += load(C + i) * v;
+    e += load(E + i) * v;
   }
   out[0] = sum_of(a);
   out[1] = sum_of(b);
@@ -343,7 +347,7 @@ void multiply(const float* A, std::size_t rows, std::size_t columns, const float
   for (; j < columns; ++j) {
     const float* column = A + j * rows;
     std::size_t i = 0;
-    for (; i + kWide <= rows; i += kWide) wide(y + i) += wide(column + i) * x[j];
+    for (; i + kWide <= rows; i += kWide) store(load(y + i) + load(column + i) * x[j], y + i);
     for (; i < rows; ++i) y[i] += column[i] * x[j];
   }
 }

@@ -12,7 +12,7 @@ struct Row {
 };
 
 constexpr Action kNone = Action::none;
-constexpr std::array<Row, 33> kRows{{
+constexpr std::array<Row, 33> kHelpRows{{
     {{Action::take_probe, kNone, kNone, kNone}, Text::help_take_probe},
     {{Action::choose_entry, kNone, kNone, kNone}, Text::help_choose},
     {{Action::explore, kNone, kNone, kNone}, Text::help_explore},
@@ -52,7 +52,7 @@ constexpr std::array<Row, 33> kRows{{
 
 std::vector<HelpRow> help_rows(const KeyMap& keys, Language language) {
   std::vector<HelpRow> rows;
-  for (const Row& row : kRows) {
+  for (const Row& row : kHelpRows) {
     HelpRow shown{"", text(language, row.what)};
     for (const Action action : row.actions) {
       if (action == kNone) continue;

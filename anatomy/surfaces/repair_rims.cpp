@@ -22,7 +22,7 @@ using FaceBase = CGAL::Constrained_triangulation_face_base_2<
 using Flat = CGAL::Constrained_Delaunay_triangulation_2<
     Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
     CGAL::No_constraint_intersection_tag>;
-using Point = Kernel::Point_2;
+using PlanePoint = Kernel::Point_2;
 
 constexpr double kPlanar = 0.01;  // radii
 constexpr double kJagged = 0.25;  // radii
@@ -32,15 +32,15 @@ constexpr int kUnknown = -1;
 struct View {
   Vec3 u, v;
   explicit View(const Vec3& normal) : u(normal.unitOrthogonal()), v(normal.cross(u)) {}
-  [[nodiscard]] Point operator()(const Vec3& p) const { return {p.dot(u), p.dot(v)}; }
+  [[nodiscard]] PlanePoint operator()(const Vec3& p) const { return {p.dot(u), p.dot(v)}; }
 };
 
 bool is_inside(const SurfaceMesh& mesh, const Rim& rim, const View& view, const Vec3& p) {
-  const Point q = view(p);
+  const PlanePoint q = view(p);
   bool inside = false;
   for (std::size_t k = 0; k < rim.size(); ++k) {
-    const Point a = view(mesh.vertices[rim[k]]);
-    const Point b = view(mesh.vertices[rim[(k + 1) % rim.size()]]);
+    const PlanePoint a = view(mesh.vertices[rim[k]]);
+    const PlanePoint b = view(mesh.vertices[rim[(k + 1) % rim.size()]]);
     if ((a.y() > q.y()) == (b.y() > q.y())) continue;
     const double x = a.x() + (q.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
     if (q.x() < x) inside = !inside;

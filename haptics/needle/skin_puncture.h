@@ -56,13 +56,7 @@ class SkinPuncture {
 
   /// The needle at `depth` m on its way from the last tick to `now`; `now` where that is not known.
   [[nodiscard]] ARTUS_REALTIME NeedlePlace between(const NeedlePlace& now,
-                                                   double depth) const noexcept {
-    if (!known_ || !(now.depth > last_.depth)) return now;
-    const double share = std::clamp((depth - last_.depth) / (now.depth - last_.depth), 0.0, 1.0);
-    return {last_.tip + share * (now.tip - last_.tip),
-            last_.orientation.slerp(share, now.orientation),
-            last_.depth + share * (now.depth - last_.depth)};
-  }
+                                                   double depth) const noexcept;
 
   /// How far the skin was pushed in a tick ago, m, at most `now`.
   [[nodiscard]] ARTUS_REALTIME double last_dimple(double now) const noexcept {
@@ -75,10 +69,7 @@ class SkinPuncture {
  private:
   static constexpr double kAside = 2e-3;  // m that skin goes with a tip; assumed
 
-  void go_away(const NeedlePlace& now) noexcept {
-    const double away = std::max(-now.depth, (now.tip - hole_).norm() - kAside);
-    away_ = std::min(edge_, std::max(away_, away));
-  }
+  void go_away(const NeedlePlace& now) noexcept;
 
   double edge_;
   Vec3 hole_ = Vec3::Zero();

@@ -19,7 +19,7 @@
 namespace artus {
 namespace {
 
-constexpr std::array<test::FlatLayer, 4> kBorderLayers{
+const std::array<test::FlatLayer, 4> kBorderLayers{
     {{"skin", 2e-3}, {"fat", 6e-3}, {"muscle", 14e-3}, {"bone", 20e-3}}};
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();

@@ -13,7 +13,7 @@
 namespace artus {
 namespace {
 
-constexpr std::array<test::FlatLayer, 1> kContactBlock{{{"muscle", 60e-3}}};
+const std::array<test::FlatLayer, 1> kContactBlock{{{"muscle", 60e-3}}};
 
 /// Elements of the footprint of which those from `first` on are lifted.
 std::vector<float> lifted_from(std::size_t first) {

@@ -14,7 +14,7 @@
 namespace artus {
 namespace {
 
-constexpr std::array<test::FlatLayer, 1> kOptionsBlock{{{"muscle", 60e-3}}};
+const std::array<test::FlatLayer, 1> kOptionsBlock{{{"muscle", 60e-3}}};
 
 std::shared_ptr<const Scene> lossless(double backscatter) {
   return test::make_block_scene(kOptionsBlock, [&](CompiledJoint& joint) {

@@ -18,7 +18,7 @@ namespace {
 
 using test::FlatLayer;
 
-constexpr std::array<FlatLayer, 4> kLayers{
+const std::array<FlatLayer, 4> kLayers{
     {{"skin", 2e-3}, {"fat", 6e-3}, {"muscle", 14e-3}, {"bone", 20e-3}}};
 
 TEST(Renderer, LabelsSayWhatLiesInThePlane) {

@@ -13,7 +13,7 @@ namespace {
 
 using test::FlatLayer;
 
-constexpr std::array<FlatLayer, 1> kMuscleBlock{{{"muscle", 60e-3}}};
+const std::array<FlatLayer, 1> kMuscleBlock{{{"muscle", 60e-3}}};
 
 std::shared_ptr<const Scene> lossless_muscle() {
   return test::make_block_scene(kMuscleBlock, [](CompiledJoint& joint) {

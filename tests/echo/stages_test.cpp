@@ -18,7 +18,7 @@
 namespace artus {
 namespace {
 
-constexpr std::array<test::FlatLayer, 3> kStageLayers{
+const std::array<test::FlatLayer, 3> kStageLayers{
     {{"skin", 2e-3}, {"fat", 6e-3}, {"muscle", 30e-3}}};
 
 NeedleView some_needle() {

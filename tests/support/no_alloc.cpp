@@ -4,7 +4,7 @@
 #include "tests/support/no_alloc.h"
 
 #include <cstddef>
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if defined(ARTUS_SANITIZED)
 #define HOOKS 0
 #else
 #define HOOKS 1

@@ -6,7 +6,7 @@
 #include <dlfcn.h>
 #include <pthread.h>
 #include <semaphore.h>
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if defined(ARTUS_SANITIZED)
 #define HOOKS 0
 #else
 #define HOOKS 1

@@ -6,7 +6,7 @@ namespace artus::test {
 /// How often to try something at random: a tenth under the sanitizers, which look at how memory is
 /// used and not at how rare a difference is.
 [[nodiscard]] constexpr int trials(int n) noexcept {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if defined(ARTUS_SANITIZED)
   return n / 10;
 #else
   return n;

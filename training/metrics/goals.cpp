@@ -8,7 +8,6 @@ namespace artus {
 namespace {
 
 constexpr double kFar = 0.5;            // m within which structures are looked for
-constexpr double kRestSpeed = 2e-3;     // m/s
 constexpr double kRestTime = 0.5;       // s
 constexpr double kLookEvery = 0.25e-3;  // m
 

@@ -11,7 +11,6 @@
 namespace artus {
 namespace {
 
-constexpr double kRestSpeed = 2e-3;     // m/s
 constexpr double kShallow = 0.2e-3;     // m, still at the shallowest
 constexpr double kHeldAngle = kDegree;  // rad
 constexpr double kHeldTime = 0.5;       // s

@@ -9,6 +9,9 @@
 
 namespace artus {
 
+/// m/s below which a tip is at rest; assumed.
+inline constexpr double kRestSpeed = 2e-3;
+
 /// Where the needle is at an even step of time, in the body as it rests.
 struct CoursePoint {
   double time = 0;             ///< s
@@ -49,8 +52,8 @@ struct Run {
 
 /// Stretches inside the body, longer than `longest` s, in which the tip goes slower than `speed`
 /// m/s.
-[[nodiscard]] std::vector<Run> find_idle(std::span<const CoursePoint> course, double speed = 2e-3,
-                                         double longest = 3);
+[[nodiscard]] std::vector<Run> find_idle(std::span<const CoursePoint> course,
+                                         double speed = kRestSpeed, double longest = 3);
 
 /// When each pass of the needle began: the first advance inside, and every advance of at least
 /// `way` m that follows a withdrawal of at least `way`, dated when the needle was last within

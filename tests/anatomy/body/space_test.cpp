@@ -20,14 +20,14 @@ namespace {
 
 using testing::HasSubstr;
 
-const std::string kJoint =
+const std::string kSpacesElbow =
     "format = 1\nname = \"elbow\"\nunits = \"mm\"\naxes = \"LPS\"\n"
     "[body]\nfile = \"body.stl\"\ntissue = \"fat\"\n"
     "[[structure]]\nname = \"ulna\"\ntissue = \"bone\"\nfile = \"ulna.stl\"\n"
     "[[structure]]\nname = \"recess\"\ntissue = \"synovial_fluid\"\nfile = \"recess.stl\"\n";
 
 std::string refusal(const std::string& text) {
-  const auto joint = parse_joint(kJoint + text, "j");
+  const auto joint = parse_joint(kSpacesElbow + text, "j");
   return joint ? "" : joint.error().to_string();
 }
 
@@ -75,7 +75,7 @@ TEST(Spaces, EveryTissueOfTheLibraryHasOne) {
 }
 
 TEST(Spaces, AJointsOwnStandOnAProfileAndOverrideIt) {
-  const auto joint = parse_joint(kJoint +
+  const auto joint = parse_joint(kSpacesElbow +
                                      "[[space]]\nname = \"cavity\"\nregions = [\"recess\"]\n"
                                      "like = \"capsulitis_man\"\nrupture_ml = 30\n",
                                  "j");
