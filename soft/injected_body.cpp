@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <span>
 #include <utility>
 
 #include "artus/core/check.h"
@@ -16,6 +17,7 @@ namespace {
 
 constexpr double kVisible = 1e-9;        // m^3
 constexpr double kLongestSplit = 15e-3;  // m, half of the length; 10 to 30 mm in all, assumed
+constexpr double kBall = 4 * std::numbers::pi / 3;
 constexpr int kSubdivisions = 3;         // of an icosahedron
 
 struct Sphere {
@@ -117,30 +119,43 @@ void refine_beside(CompiledJoint& joint, const Eigen::Matrix3d& in, const Vec3& 
   constexpr double kLong = 0.25;  // of an edge against its distance from the middle
   constexpr double kNear = 0.4;   // radii; closer to the middle edges need not be shorter for that
   std::vector<Vec3>& points = joint.mesh.vertices;
+  const auto is_long = [&](std::uint32_t one, std::uint32_t other) {
+    const std::pair<std::uint32_t, std::uint32_t> ends = std::minmax(one, other);
+    const Vec3 from = in * (points[ends.first] - centre);
+    const Vec3 along = in * (points[ends.second] - points[ends.first]);
+    const double length = along.norm();
+    if (!(length > 0)) return false;
+    const double t = std::clamp(-from.dot(along) / (length * length), 0.0, 1.0);
+    const double nearest = (from + t * along).norm();
+    return nearest <= kFar && length >= kLong * std::max(nearest, kNear);
+  };
+  const auto is_whole = [&](const Interface& f) {
+    const auto& [a, b, c] = f.vertices;
+    return !is_long(a, b) && !is_long(b, c) && !is_long(c, a);
+  };
+  std::vector<Interface>& faces = joint.mesh.interfaces;
+  std::size_t whole = 0;  // faces that need no cut come first
   for (int k = 0; k < kTimes; ++k) {
+    const auto begin = faces.begin() + static_cast<std::ptrdiff_t>(whole);
+    const auto cut_from = std::stable_partition(begin, faces.end(), is_whole);
+    whole = static_cast<std::size_t>(cut_from - faces.begin());
+    if (cut_from == faces.end()) break;
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
     const auto cut = [&](std::uint32_t one, std::uint32_t other) -> Cut {
+      if (!is_long(one, other)) return kWhole;
       const std::pair<std::uint32_t, std::uint32_t> ends = std::minmax(one, other);
-      const Vec3 from = in * (points[ends.first] - centre);
-      const Vec3 along = in * (points[ends.second] - points[ends.first]);
-      const double length = along.norm();
-      if (!(length > 0)) return kWhole;
-      const double t = std::clamp(-from.dot(along) / (length * length), 0.0, 1.0);
-      const double nearest = (from + t * along).norm();
-      if (nearest > kFar || length < kLong * std::max(nearest, kNear)) return kWhole;
       const auto [at, is_new] =
           middles.try_emplace(ends, static_cast<std::uint32_t>(points.size()));
       if (is_new) points.push_back((points[ends.first] + points[ends.second]) / 2);
       return at->second;
     };
     std::vector<Interface> finer;
-    finer.reserve(joint.mesh.interfaces.size());
-    for (const Interface& f : joint.mesh.interfaces) {
-      const auto& [a, b, c] = f.vertices;
-      add_pieces(f, {cut(a, b), cut(b, c), cut(c, a)}, finer);
+    for (auto f = cut_from; f != faces.end(); ++f) {
+      const auto& [a, b, c] = f->vertices;
+      add_pieces(*f, {cut(a, b), cut(b, c), cut(c, a)}, finer);
     }
-    if (middles.empty()) break;
-    joint.mesh.interfaces = std::move(finer);
+    faces.resize(whole);
+    faces.insert(faces.end(), finer.begin(), finer.end());
   }
 }
 
@@ -177,10 +192,16 @@ TissueId liquid_tissue(CompiledJoint& joint, const Liquid& liquid) {
   return static_cast<TissueId>(joint.tissues.size() - 1);
 }
 
-}  // namespace
+/// How a tissue is parted: axes along the fibres, beside them and toward the skin.
+struct Parting {
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  // unit, in columns
+  Vec3 full = Vec3::Ones();                            // m, semi-axes of one that is full
+  double longest = 1;                                  // m, half of a length
+  double apart = 0;  // m between the planes of two; 0: one opens alone
+  int rows = 0;      // of them beside each other along the fibres, to either side
+};
 
-Bolus make_bolus(const CompiledJoint& joint, RegionId region, const Vec3& tip, double volume) {
-  Bolus bolus{region, tip, Eigen::Matrix3d::Identity(), Vec3::Ones(), volume};
+Parting parting_of(const CompiledJoint& joint, RegionId region, const Vec3& tip) {
   const TissueKind kind = joint.tissue_of(region).acoustic.kind;
   const Vec3 skin = toward_skin(joint, tip);
   Vec3 along = joint.regions[region].fibre_axis;
@@ -190,50 +211,147 @@ Bolus make_bolus(const CompiledJoint& joint, RegionId region, const Vec3& tip, d
   along = fibrous ? along.normalized() : skin.unitOrthogonal();
   Vec3 up = skin - skin.dot(along) * along;
   up = up.norm() > 1e-3 ? up.normalized() : along.unitOrthogonal();
-  bolus.axes.col(0) = along;
-  bolus.axes.col(1) = up.cross(along);
-  bolus.axes.col(2) = up;
+  Parting parting;
+  parting.axes << along, up.cross(along), up;
   if (kind == TissueKind::muscle) {
-    bolus.proportion = Vec3(3, 2, 0.6);
-  } else if (fibrous || kind == TissueKind::nerve) {
-    bolus.proportion = Vec3(8, 3, 0.5);
-    // No longer than fibres part; what does not fit goes aside.
-    const double ball = 4 * std::numbers::pi / 3;
-    const double side = std::sqrt(volume / (ball * kLongestSplit * 3 * 0.5));
-    if (8 * side > kLongestSplit) bolus.proportion.x() = kLongestSplit / side;
+    parting.full = Vec3(10e-3, 5e-3, 0.7e-3);
+    parting.apart = 2e-3;
+    parting.rows = 1;
+  } else if (kind == TissueKind::nerve) {
+    parting.full = Vec3(8e-3, 3e-3, 0.5e-3);
+    parting.longest = kLongestSplit;
+  } else if (fibrous) {
+    parting.full = Vec3(12e-3, 6e-3, 0.4e-3);
+    parting.longest = kLongestSplit;
+    parting.apart = 1e-3;
   } else {
-    bolus.proportion = Vec3(4, 4, 1);
+    parting.full = Vec3(4e-3, 4e-3, 1e-3);
   }
-  return bolus;
+  return parting;
 }
 
-CompiledJoint with_bolus(const CompiledJoint& joint, const Bolus& bolus, const Liquid& liquid) {
-  ARTUS_REQUIRE(bolus.volume > 0, "a volume above 0");
-  const Sphere sphere = make_sphere();
-  const double scale = std::cbrt(bolus.volume / (sphere.volume * bolus.proportion.prod()));
+/// Whether each point lies in the region: by the solid angle under which it sees the walls.
+std::vector<bool> are_inside(const CompiledJoint& joint, RegionId region,
+                             const std::vector<Vec3>& points) {
+  std::vector<double> angle(points.size());
+  for (const Interface& f : joint.mesh.interfaces) {
+    if ((f.front == region) == (f.back == region)) continue;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      const auto to = [&](std::size_t v) -> Vec3 {
+        return joint.mesh.vertices[f.vertices[v]] - points[k];
+      };
+      const Vec3 a = to(0);
+      const Vec3 b = to(1);
+      const Vec3 c = to(2);
+      const double la = a.norm();
+      const double lb = b.norm();
+      const double lc = c.norm();
+      const double half = std::atan2(
+          a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+      angle[k] += f.back == region ? half : -half;
+    }
+  }
+  std::vector<bool> inside;
+  for (const double a : angle) inside.push_back(a > std::numbers::pi);
+  return inside;
+}
+
+/// Where liquid opens the region, at rest: first around the tip, then in the order of how far away.
+std::vector<Vec3> centres_of(const Parting& parting, const CompiledJoint& joint, RegionId region,
+                             const Vec3& tip) {
+  constexpr int kPlanes = 3;        // to either side of the tip's
+  constexpr int kBeside = 1;        // to either side of it in a plane
+  constexpr double kRow = 1.7;      // half lengths from one to the next along the fibres
+  constexpr double kSide = 1.4;     // half widths beside them
+  constexpr double kStagger = 0.4;  // half lengths by which planes are shifted, there and back
+  std::vector<Vec3> centres{tip};
+  if (!(parting.apart > 0)) return centres;
+  std::vector<Vec3> places;  // along, beside, up, m
+  for (int m = -kPlanes; m <= kPlanes; ++m)
+    for (int j = -kBeside; j <= kBeside; ++j)
+      for (int i = -parting.rows; i <= parting.rows; ++i) {
+        if (m == 0 && j == 0 && i == 0) continue;
+        const double shift = m % 2 == 0 ? 0 : (m > 0 ? kStagger : -kStagger);
+        places.emplace_back((kRow * i + shift) * parting.full.x(),
+                            (kSide * j + 0.5 * shift) * parting.full.y(), parting.apart * m);
+      }
+  // A plane away is as easy as a quarter of a length, or of a width, away.
+  const Vec3 easy(parting.full.x() / 2, parting.full.y() / 2, parting.apart);
+  std::stable_sort(places.begin(), places.end(), [&](const Vec3& a, const Vec3& b) {
+    return a.cwiseQuotient(easy).squaredNorm() < b.cwiseQuotient(easy).squaredNorm();
+  });
+  for (Vec3& place : places) place = tip + parting.axes * place;
+  const std::vector<bool> inside = are_inside(joint, region, places);
+  for (std::size_t k = 0; k < places.size(); ++k)
+    if (inside[k]) centres.push_back(places[k]);
+  return centres;
+}
+
+/// Opens one as region `number`, and takes the centres of `later` along.
+void open_bolus(CompiledJoint& with, const Bolus& bolus, RegionId number, std::span<Bolus> later) {
+  static const Sphere kUnit = make_sphere();
+  const double scale = std::cbrt(bolus.volume / (kUnit.volume * bolus.proportion.prod()));
   const Eigen::Matrix3d out = bolus.axes * (scale * bolus.proportion).asDiagonal();
   const Eigen::Matrix3d in = out.inverse();
-  CompiledJoint with = joint;
   refine_beside(with, in, bolus.centre);
-  for (Vec3& p : with.mesh.vertices) {
+  const auto push = [&](Vec3& p) {
     const Vec3 y = in * (p - bolus.centre);
     const double rho = y.norm();
-    if (rho < 1e-9) {
+    if (rho < 1e-9)
       p = bolus.centre + out.col(0);
-      continue;
-    }
-    p = bolus.centre + out * (std::cbrt(1 + 1 / (rho * rho * rho)) * y);
-  }
-  const auto number = static_cast<RegionId>(with.regions.size());
-  with.regions.push_back({"injected", liquid_tissue(with, liquid), Vec3::Zero()});
+    else
+      p = bolus.centre + out * (std::cbrt(1 + 1 / (rho * rho * rho)) * y);
+  };
+  for (Vec3& p : with.mesh.vertices) push(p);
+  for (std::size_t k = 0; k + 1 < later.size(); ++k) push(later[k].centre);  // the last is the tip's
   const auto first = static_cast<std::uint32_t>(with.mesh.vertices.size());
-  for (const Vec3& p : sphere.points) with.mesh.vertices.push_back(bolus.centre + out * p);
-  for (const auto& [a, b, c] : sphere.triangles) {
+  for (const Vec3& p : kUnit.points) with.mesh.vertices.push_back(bolus.centre + out * p);
+  for (const auto& [a, b, c] : kUnit.triangles) {
     Interface f;
     f.vertices = {first + a, first + b, first + c};
     f.front = bolus.region;
     f.back = number;
     with.mesh.interfaces.push_back(f);
+  }
+}
+
+}  // namespace
+
+std::vector<Bolus> make_boluses(const CompiledJoint& joint, RegionId region, const Vec3& tip,
+                                double volume) {
+  ARTUS_REQUIRE(volume > 0, "a volume above 0");
+  const Parting parting = parting_of(joint, region, tip);
+  const double most = kBall * parting.full.prod();
+  std::vector<Vec3> centres = centres_of(parting, joint, region, tip);
+  const double wanted = std::ceil(volume / most);
+  if (wanted < static_cast<double>(centres.size()))
+    centres.resize(static_cast<std::size_t>(wanted));
+  const double each = std::max(most, volume / static_cast<double>(centres.size()));
+  std::vector<Bolus> boluses;
+  double left = volume;
+  for (const Vec3& centre : centres) {
+    Bolus bolus{region, centre, parting.axes, parting.full, std::min(each, left)};
+    left -= bolus.volume;
+    // No longer than fibres part; what does not fit goes aside.
+    const double cross = kBall * bolus.proportion.y() * bolus.proportion.z();
+    const double scale = std::cbrt(bolus.volume / (cross * bolus.proportion.x()));
+    if (scale * bolus.proportion.x() > parting.longest)
+      bolus.proportion.x() =
+          parting.longest / std::sqrt(bolus.volume / (cross * parting.longest));
+    if (bolus.volume > 0) boluses.push_back(bolus);
+  }
+  std::reverse(boluses.begin(), boluses.end());
+  return boluses;
+}
+
+CompiledJoint with_boluses(const CompiledJoint& joint, std::vector<Bolus> boluses,
+                           const Liquid& liquid) {
+  CompiledJoint with = joint;
+  const auto number = static_cast<RegionId>(with.regions.size());
+  with.regions.push_back({"injected", liquid_tissue(with, liquid), Vec3::Zero()});
+  for (std::size_t k = 0; k < boluses.size(); ++k) {
+    ARTUS_REQUIRE(boluses[k].volume > 0, "a volume above 0");
+    open_bolus(with, boluses[k], number, std::span(boluses).subspan(k + 1));
   }
   return with;
 }
@@ -261,7 +379,7 @@ CompiledJoint with_injected(const CompiledJoint& joint, const std::vector<Inject
     if (region < kFirstRegion) continue;
     with = place.cavity
                ? with_filled_space(with, region, place.tip, place.volume, liquid)
-               : with_bolus(with, make_bolus(with, region, place.tip, place.volume), liquid);
+               : with_boluses(with, make_boluses(with, region, place.tip, place.volume), liquid);
   }
   return with;
 }

@@ -45,7 +45,7 @@ Vec3 middle_of_layer(const Scene& scene, const Injected& place) {
   constexpr double kReachAcross = 15e-3;  // m
   const RegionId region = scene.region_at(place.tip);
   const Vec3 across =
-      make_bolus(scene.joint(), region, place.tip, std::max(place.volume, 1e-9)).axes.col(2);
+      make_boluses(scene.joint(), region, place.tip, 1e-9).front().axes.col(2);
   const Vec3 start = place.tip - kReachAcross * across;
   for (const TissueInterval& s :
        tissue_intervals(scene, {start, place.tip + kReachAcross * across}))
