@@ -116,7 +116,7 @@ void add_pieces(const Interface& f, std::array<Cut, 3> cuts, std::vector<Interfa
 void refine_beside(CompiledJoint& joint, const Eigen::Matrix3d& in, const Vec3& centre) {
   constexpr int kTimes = 6;
   constexpr double kFar = 3;      // radii beyond which the map hardly bends anything
-  constexpr double kLong = 0.25;  // of an edge against its distance from the middle
+  constexpr double kLong = 0.17;  // of an edge against its distance from the middle
   constexpr double kNear = 0.4;   // radii; closer to the middle edges need not be shorter for that
   std::vector<Vec3>& points = joint.mesh.vertices;
   const auto is_long = [&](std::uint32_t one, std::uint32_t other) {
@@ -192,99 +192,135 @@ TissueId liquid_tissue(CompiledJoint& joint, const Liquid& liquid) {
   return static_cast<TissueId>(joint.tissues.size() - 1);
 }
 
-/// How a tissue is parted: axes along the fibres, beside them and toward the skin.
+/// How a tissue is parted.
 struct Parting {
-  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  // unit, in columns
-  Vec3 full = Vec3::Ones();                            // m, semi-axes of one that is full
-  double longest = 1;                                  // m, half of a length
-  double apart = 0;  // m between the planes of two; 0: one opens alone
-  int rows = 0;      // of them beside each other along the fibres, to either side
+  Vec3 full = Vec3::Ones();  // m, semi-axes of one that is full: along fibres, beside, toward skin
+  double longest = 1;        // m, half of a length
+  double apart = 0;          // m between the planes of two; 0: one opens alone
+  int rows = 0;              // of them behind each other along the fibres, to either side
 };
 
-Parting parting_of(const CompiledJoint& joint, RegionId region, const Vec3& tip) {
+Parting parting_of(const CompiledJoint& joint, RegionId region, bool fibrous) {
   const TissueKind kind = joint.tissue_of(region).acoustic.kind;
-  const Vec3 skin = toward_skin(joint, tip);
+  if (kind == TissueKind::muscle) return {Vec3(10e-3, 5e-3, 0.7e-3), 1, 2e-3, 1};
+  if (kind == TissueKind::nerve) return {Vec3(8e-3, 3e-3, 0.5e-3), kLongestSplit, 0, 0};
+  if (fibrous) return {Vec3(12e-3, 8e-3, 0.6e-3), kLongestSplit, 1.5e-3, 0};
+  return {Vec3(4e-3, 4e-3, 1e-3)};
+}
+
+/// Unit, in columns: along the fibres, beside them, toward the skin. A region has one axis for all
+/// of its fibres; near the skin they run along it.
+Eigen::Matrix3d axes_at(const CompiledJoint& joint, RegionId region, const Vec3& p, bool& fibrous) {
+  const Vec3 skin = toward_skin(joint, p);
   Vec3 along = joint.regions[region].fibre_axis;
-  // A region has one axis for all of its fibres; near the skin they run along it.
   along -= along.dot(skin) * skin;
-  const bool fibrous = along.norm() > 0.1;
+  fibrous = along.norm() > 0.1;
   along = fibrous ? along.normalized() : skin.unitOrthogonal();
   Vec3 up = skin - skin.dot(along) * along;
   up = up.norm() > 1e-3 ? up.normalized() : along.unitOrthogonal();
-  Parting parting;
-  parting.axes << along, up.cross(along), up;
-  if (kind == TissueKind::muscle) {
-    parting.full = Vec3(10e-3, 5e-3, 0.7e-3);
-    parting.apart = 2e-3;
-    parting.rows = 1;
-  } else if (kind == TissueKind::nerve) {
-    parting.full = Vec3(8e-3, 3e-3, 0.5e-3);
-    parting.longest = kLongestSplit;
-  } else if (fibrous) {
-    parting.full = Vec3(12e-3, 6e-3, 0.4e-3);
-    parting.longest = kLongestSplit;
-    parting.apart = 1e-3;
-  } else {
-    parting.full = Vec3(4e-3, 4e-3, 1e-3);
-  }
-  return parting;
+  Eigen::Matrix3d axes;
+  axes << along, up.cross(along), up;
+  return axes;
 }
 
-/// Whether each point lies in the region: by the solid angle under which it sees the walls.
-std::vector<bool> are_inside(const CompiledJoint& joint, RegionId region,
-                             const std::vector<Vec3>& points) {
-  std::vector<double> angle(points.size());
-  for (const Interface& f : joint.mesh.interfaces) {
-    if ((f.front == region) == (f.back == region)) continue;
-    for (std::size_t k = 0; k < points.size(); ++k) {
-      const auto to = [&](std::size_t v) -> Vec3 {
-        return joint.mesh.vertices[f.vertices[v]] - points[k];
-      };
-      const Vec3 a = to(0);
-      const Vec3 b = to(1);
-      const Vec3 c = to(2);
-      const double la = a.norm();
-      const double lb = b.norm();
-      const double lc = c.norm();
-      const double half = std::atan2(
-          a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
-      angle[k] += f.back == region ? half : -half;
+/// The surface of one region.
+class Walls {
+ public:
+  static constexpr double kFarAway = 1;  // m, where there is none
+
+  Walls(const CompiledJoint& joint, RegionId region) {
+    for (const Interface& f : joint.mesh.interfaces) {
+      if ((f.front == region) == (f.back == region)) continue;
+      const Vec3& a = joint.mesh.vertices[f.vertices[0]];
+      const Vec3 ab = joint.mesh.vertices[f.vertices[1]] - a;
+      const Vec3 ac = joint.mesh.vertices[f.vertices[2]] - a;
+      walls_.push_back({a, ab, ac, f.back == region ? 1.0 : -1.0});
     }
   }
-  std::vector<bool> inside;
-  for (const double a : angle) inside.push_back(a > std::numbers::pi);
-  return inside;
-}
+  /// m from p along d (unit) to the first wall; 0 where that leads into the region.
+  [[nodiscard]] double reach(const Vec3& p, const Vec3& d) const {
+    double nearest = kFarAway;
+    bool out = true;
+    for (const Wall& wall : walls_) {
+      const Vec3 normal = wall.ab.cross(wall.ac);
+      const double facing = d.dot(normal);
+      const double t = (wall.a - p).dot(normal) / facing;
+      if (!(t > 0 && t < nearest)) continue;
+      const Vec3 q = p + t * d - wall.a;
+      const double whole = normal.squaredNorm();
+      const double u = q.cross(wall.ac).dot(normal) / whole;
+      const double v = wall.ab.cross(q).dot(normal) / whole;
+      if (u < 0 || v < 0 || u + v > 1) continue;
+      nearest = t;
+      out = facing * wall.outward > 0;
+    }
+    return out ? nearest : 0;
+  }
+  /// The shorter of the two ways.
+  [[nodiscard]] double reach_both(const Vec3& p, const Vec3& d) const {
+    return std::min(reach(p, d), reach(p, -d));
+  }
 
-/// Where liquid opens the region, at rest: first around the tip, then in the order of how far away.
-std::vector<Vec3> centres_of(const Parting& parting, const CompiledJoint& joint, RegionId region,
-                             const Vec3& tip) {
+ private:
+  struct Wall {
+    Vec3 a;
+    Vec3 ab;
+    Vec3 ac;
+    double outward;  // 1: its normal leads out of the region
+  };
+  std::vector<Wall> walls_;
+};
+
+/// Where liquid opens a tissue beside the tip, in the order of how far away, m along the tip's own
+/// axes.
+std::vector<Vec3> places_of(const Parting& parting) {
   constexpr int kPlanes = 3;        // to either side of the tip's
-  constexpr int kBeside = 1;        // to either side of it in a plane
   constexpr double kRow = 1.7;      // half lengths from one to the next along the fibres
   constexpr double kSide = 1.4;     // half widths beside them
   constexpr double kStagger = 0.4;  // half lengths by which planes are shifted, there and back
-  std::vector<Vec3> centres{tip};
-  if (!(parting.apart > 0)) return centres;
-  std::vector<Vec3> places;  // along, beside, up, m
+  std::vector<Vec3> places;
+  if (!(parting.apart > 0)) return places;
   for (int m = -kPlanes; m <= kPlanes; ++m)
-    for (int j = -kBeside; j <= kBeside; ++j)
+    for (int j = -1; j <= 1; ++j)
       for (int i = -parting.rows; i <= parting.rows; ++i) {
         if (m == 0 && j == 0 && i == 0) continue;
         const double shift = m % 2 == 0 ? 0 : (m > 0 ? kStagger : -kStagger);
         places.emplace_back((kRow * i + shift) * parting.full.x(),
                             (kSide * j + 0.5 * shift) * parting.full.y(), parting.apart * m);
       }
-  // A plane away is as easy as a quarter of a length, or of a width, away.
+  // A plane away is as easy as half of a half length, or of a half width, away.
   const Vec3 easy(parting.full.x() / 2, parting.full.y() / 2, parting.apart);
   std::stable_sort(places.begin(), places.end(), [&](const Vec3& a, const Vec3& b) {
     return a.cwiseQuotient(easy).squaredNorm() < b.cwiseQuotient(easy).squaredNorm();
   });
-  for (Vec3& place : places) place = tip + parting.axes * place;
-  const std::vector<bool> inside = are_inside(joint, region, places);
-  for (std::size_t k = 0; k < places.size(); ++k)
-    if (inside[k]) centres.push_back(places[k]);
-  return centres;
+  return places;
+}
+
+/// Keeps it within the walls along and beside the fibres, shifted by at most `slide` of a half
+/// length or width. False where its middle is outside, or there is too little room.
+bool fit_between(const Walls& walls, double slide, Bolus& bolus) {
+  constexpr double kFilm = 0.3e-3;  // m of tissue above and below
+  constexpr double kShare = 0.75;   // of the way to a wall, which is pushed on
+  constexpr double kLeast = 0.35;   // of a full one's length and width
+  const Vec3 up = bolus.axes.col(2);
+  for (const Vec3& way : {up, Vec3(-up)}) {
+    const double room = walls.reach(bolus.centre, way);
+    if (room < kFilm || room == Walls::kFarAway) return false;
+  }
+  for (const int k : {0, 1}) {
+    const Vec3 way = bolus.axes.col(k);
+    const double ahead = kShare * walls.reach(bolus.centre, way);
+    const double behind = kShare * walls.reach(bolus.centre, -way);
+    double& half = bolus.proportion[k];
+    const double least = kLeast * half;
+    half = std::min(half, (ahead + behind) / 2);
+    const double most = slide * std::max(half, least);
+    const double shift = std::clamp(std::clamp(0.0, half - behind, ahead - half), -most, most);
+    half = std::max(least, std::min({half, ahead - shift, behind + shift}));
+    if (std::min(ahead - shift, behind + shift) < least) return false;
+    bolus.centre += shift * way;
+  }
+  return true;
 }
 
 /// Opens one as region `number`, and takes the centres of `later` along.
@@ -319,26 +355,41 @@ void open_bolus(CompiledJoint& with, const Bolus& bolus, RegionId number, std::s
 
 std::vector<Bolus> make_boluses(const CompiledJoint& joint, RegionId region, const Vec3& tip,
                                 double volume) {
+  constexpr double kTipSlide = 0.6;  // so that the tip stays in its own
+  constexpr double kSlide = 0.5;
+  constexpr double kThickest = 0.5;  // half thickness against how far apart: what is between stays
   ARTUS_REQUIRE(volume > 0, "a volume above 0");
-  const Parting parting = parting_of(joint, region, tip);
-  const double most = kBall * parting.full.prod();
-  std::vector<Vec3> centres = centres_of(parting, joint, region, tip);
-  const double wanted = std::ceil(volume / most);
-  if (wanted < static_cast<double>(centres.size()))
-    centres.resize(static_cast<std::size_t>(wanted));
-  const double each = std::max(most, volume / static_cast<double>(centres.size()));
-  std::vector<Bolus> boluses;
-  double left = volume;
-  for (const Vec3& centre : centres) {
-    Bolus bolus{region, centre, parting.axes, parting.full, std::min(each, left)};
-    left -= bolus.volume;
+  bool fibrous = false;
+  const Eigen::Matrix3d axes = axes_at(joint, region, tip, fibrous);
+  const Parting parting = parting_of(joint, region, fibrous);
+  std::vector<Bolus> boluses{{region, tip, axes, parting.full, volume}};
+  if (!(parting.apart > 0)) {
     // No longer than fibres part; what does not fit goes aside.
-    const double cross = kBall * bolus.proportion.y() * bolus.proportion.z();
-    const double scale = std::cbrt(bolus.volume / (cross * bolus.proportion.x()));
-    if (scale * bolus.proportion.x() > parting.longest)
-      bolus.proportion.x() =
-          parting.longest / std::sqrt(bolus.volume / (cross * parting.longest));
-    if (bolus.volume > 0) boluses.push_back(bolus);
+    Vec3& full = boluses[0].proportion;
+    const double side = std::sqrt(volume / (kBall * full.y() * full.z() * parting.longest));
+    full.x() = std::min(full.x(), parting.longest / side);
+    return boluses;
+  }
+  const Walls walls(joint, region);
+  static_cast<void>(fit_between(walls, kTipSlide, boluses[0]));
+  double held = boluses[0].volume = kBall * boluses[0].proportion.prod();
+  for (const Vec3& place : places_of(parting)) {
+    if (held >= volume) break;
+    Bolus bolus{region, tip + axes * place, axes, parting.full, 0};
+    bolus.axes = axes_at(joint, region, bolus.centre, fibrous);
+    if (!fit_between(walls, kSlide, bolus)) continue;
+    bolus.volume = kBall * bolus.proportion.prod();
+    held += bolus.volume;
+    boluses.push_back(bolus);
+  }
+  if (held > volume) {
+    boluses.back().volume -= held - volume;
+  } else {  // no room for more: all become thicker, then larger
+    const double growth = volume / held;
+    for (Bolus& bolus : boluses) {
+      bolus.volume *= growth;
+      bolus.proportion.z() *= std::min(growth, kThickest * parting.apart / parting.full.z());
+    }
   }
   std::reverse(boluses.begin(), boluses.end());
   return boluses;
