@@ -300,7 +300,7 @@ std::vector<Vec3> places_of(const Parting& parting) {
 /// length or width. False where its middle is outside, or there is too little room.
 bool fit_between(const Walls& walls, double slide, Bolus& bolus) {
   constexpr double kFilm = 0.3e-3;  // m of tissue above and below
-  constexpr double kShare = 0.75;   // of the way to a wall, which is pushed on
+  constexpr double kShare = 0.9;    // of the way to a wall, which is pushed on
   constexpr double kLeast = 0.35;   // of a full one's length and width
   const Vec3 up = bolus.axes.col(2);
   for (const Vec3& way : {up, Vec3(-up)}) {
@@ -384,11 +384,13 @@ std::vector<Bolus> make_boluses(const CompiledJoint& joint, RegionId region, con
   }
   if (held > volume) {
     boluses.back().volume -= held - volume;
-  } else {  // no room for more: all become thicker, then larger
+  } else {  // no room for more: all become thicker, then wider and longer, as walls give way
     const double growth = volume / held;
+    const double thicker = std::min(growth, kThickest * parting.apart / parting.full.z());
+    const double wider = std::sqrt(growth / thicker);
     for (Bolus& bolus : boluses) {
       bolus.volume *= growth;
-      bolus.proportion.z() *= std::min(growth, kThickest * parting.apart / parting.full.z());
+      bolus.proportion = bolus.proportion.cwiseProduct(Vec3(wider, wider, thicker));
     }
   }
   std::reverse(boluses.begin(), boluses.end());
