@@ -18,7 +18,7 @@ namespace {
 constexpr double kVisible = 1e-9;        // m^3
 constexpr double kLongestSplit = 15e-3;  // m, half of the length; 10 to 30 mm in all, assumed
 constexpr double kBall = 4 * std::numbers::pi / 3;
-constexpr int kSubdivisions = 3;         // of an icosahedron
+constexpr int kSubdivisions = 3;  // of an icosahedron
 
 struct Sphere {
   std::vector<Vec3> points;
@@ -339,7 +339,8 @@ void open_bolus(CompiledJoint& with, const Bolus& bolus, RegionId number, std::s
       p = bolus.centre + out * (std::cbrt(1 + 1 / (rho * rho * rho)) * y);
   };
   for (Vec3& p : with.mesh.vertices) push(p);
-  for (std::size_t k = 0; k + 1 < later.size(); ++k) push(later[k].centre);  // the last is the tip's
+  for (std::size_t k = 0; k + 1 < later.size(); ++k)
+    push(later[k].centre);  // the last is the tip's
   const auto first = static_cast<std::uint32_t>(with.mesh.vertices.size());
   for (const Vec3& p : kUnit.points) with.mesh.vertices.push_back(bolus.centre + out * p);
   for (const auto& [a, b, c] : kUnit.triangles) {
