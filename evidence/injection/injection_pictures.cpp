@@ -151,6 +151,7 @@ void measure_seen(const Scene& before, const Scene& after, const Pose& X_JP,
   out.ray_area = kApart * std::accumulate(more.begin(), more.end(), 0.0);
   for (std::size_t k = 0; k < more.size(); ++k) more[k] -= was[k];
   out.seen_opening = *std::max_element(more.begin(), more.end());
+  if (!(out.seen_opening > 0)) return;  // nothing is seen, no width of it either
   out.seen_width =
       kApart * static_cast<double>(std::count_if(
                    more.begin(), more.end(), [&](double m) { return m >= out.seen_opening / 2; }));
