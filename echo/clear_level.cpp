@@ -26,8 +26,7 @@ double volume_above(const Facet& facet, double level) {
   if (high <= 0) return 0;
   const double mean = (low + middle + high) / 3;
   if (low >= 0) return facet.area * mean;
-  if (middle <= 0)
-    return facet.area * high * high * high / (3 * (high - low) * (high - middle));
+  if (middle <= 0) return facet.area * high * high * high / (3 * (high - low) * (high - middle));
   return facet.area * (mean - low * low * low / (3 * (middle - low) * (high - low)));
 }
 
@@ -84,7 +83,8 @@ double ClearLevels::height(RegionId region, double fallen) const noexcept {
   if (next == above.begin()) return table->top;
   if (next == above.end()) return table->top - (kLevels - 1) * table->step;
   const double before = *(next - 1);
-  const double at = static_cast<double>(next - above.begin()) - 1 + (cleared - before) / (*next - before);
+  const double at =
+      static_cast<double>(next - above.begin()) - 1 + (cleared - before) / (*next - before);
   return table->top - at * table->step;
 }
 

@@ -129,8 +129,12 @@ void refine_beside(CompiledJoint& joint, const Eigen::Matrix3d& in, const Vec3& 
     const double nearest = (from + t * along).norm();
     return nearest <= kFar && length >= kLong * std::max(nearest, kNear);
   };
+  const double stretch = in.norm();  // at least what a length becomes
   const auto is_whole = [&](const Interface& f) {
     const auto& [a, b, c] = f.vertices;
+    const double reach =
+        std::max((points[b] - points[a]).norm(), (points[c] - points[a]).norm()) * stretch;
+    if ((in * (points[a] - centre)).norm() - reach > kFar) return true;
     return !is_long(a, b) && !is_long(b, c) && !is_long(c, a);
   };
   std::vector<Interface>& faces = joint.mesh.interfaces;

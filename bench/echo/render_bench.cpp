@@ -178,9 +178,12 @@ void render_by_turns(benchmark::State& state, const View& view, const Filled& fi
 
 void add_filled(const std::string& name, const View& view, const std::vector<Injected>& places) {
   const Filled filled = fill(view, places);
-  benchmark::RegisterBenchmark(("fluid/" + name).c_str(), [view, filled](benchmark::State& state) {
-    render_by_turns(state, view, filled);
-  })->Unit(benchmark::kMillisecond)->UseRealTime()->Iterations(300);
+  benchmark::RegisterBenchmark(
+      ("fluid/" + name).c_str(),
+      [view, filled](benchmark::State& state) { render_by_turns(state, view, filled); })
+      ->Unit(benchmark::kMillisecond)
+      ->UseRealTime()
+      ->Iterations(300);
 }
 
 /// 5 ml where the joint's first injection ends, 1 ml where its needle crosses the first muscle, and
@@ -192,8 +195,8 @@ void add_filled_joint(const View& view) {
   for (const TissueInterval& s : tissue_intervals(*view.scene, {plan.entry, plan.target})) {
     if (joint.tissue_of(s.region).acoustic.kind != TissueKind::muscle) continue;
     const Vec3 way = (plan.target - plan.entry).normalized();
-    places.push_back({joint.regions[s.region].name, 1e-6, false,
-                      plan.entry + (s.entry + s.exit) / 2 * way});
+    places.push_back(
+        {joint.regions[s.region].name, 1e-6, false, plan.entry + (s.entry + s.exit) / 2 * way});
     add_filled("muscle", view, places);
     break;
   }

@@ -140,6 +140,7 @@ TEST(FluidCore, APictureOfASessionShowsTheFlowWithinAHundredMillisecondsAndTheSa
       pressed.ticks[static_cast<std::size_t>(first - pressed.digests.begin())];
   EXPECT_GT(shown, pressed.flows);
   EXPECT_LE(shown, pressed.flows + 100);
+  RecordProperty("shown_after_ms", static_cast<int>(shown - pressed.flows));
   EXPECT_NE(pressed.digests.back(), rested.digests.back());
 }
 
