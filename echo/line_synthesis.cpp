@@ -178,6 +178,11 @@ void LineSynthesis::add_run(const BeamRun& run, const Ground& ground, std::span<
   }
   fade_nodes(static_cast<float>(value), static_cast<float>(std::exp(slope * kNodeStride)),
              reflects ? facing : 0.0F, nodes.data(), sheets.data(), n_nodes);
+  if (std::isfinite(region.clear_above)) {
+    for (std::size_t k = 0; k < n_nodes; ++k)
+      nodes[k] *= settled_share(
+          region, region.up_J.dot(p_J + static_cast<double>(k * kNodeStride) * run.step_J));
+  }
   const std::size_t n_strides = n_nodes - 1;
   if (reflects) {
     interpolate_gain(sheets.data(), weight.data() + first, gain.data(), n_strides);

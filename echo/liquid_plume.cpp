@@ -28,6 +28,7 @@ constexpr double kSpread = 0.12;                     // rad, of the jet. assumed
 constexpr double kWall = 0.1e-3;                     // m that a point keeps from a wall
 constexpr double kLife = 15;           // s of a bubble of 20 um, as its square. assumed
 constexpr double kTail = 2e-3;         // m
+constexpr double kStirred = 1;         // s. assumed
 constexpr double kForever = 1e9;       // s
 constexpr double kDeflected = 5e-3;    // m that a jet goes on along a wall. assumed
 constexpr int kTracers = 16;           // of an image: the jet itself. assumed
@@ -45,12 +46,20 @@ double way_of_jet(double u0, double fall, double time) noexcept {
   return std::sqrt(core * core + 2 * fall * (time - core / u0));
 }
 
+/// m/s at which a single grain sinks, by Stokes' law.
+double settling_speed(const Liquid& liquid) noexcept {
+  const double heavier = std::max(0.0, kGrainDensity - liquid.density);
+  return 2.0 / 9 * heavier * kGravity * liquid.grain_radius * liquid.grain_radius /
+         liquid.viscosity.zero;
+}
+
 }  // namespace
 
 LiquidPlume::LiquidPlume(const Liquid& liquid, std::uint64_t seed) : liquid_(liquid), seed_(seed) {}
 
 void LiquidPlume::clear() {
   given_ = 0;
+  fallen_ = 0;
   owed_ = 0;
   next_ = 0;
   points_.clear();
@@ -177,8 +186,12 @@ void LiquidPlume::step(const Scene& scene, const std::optional<PlumeSource>& sou
   }
   points_.resize(kept);
   seeds_.resize(kept);
+  const double flow = source ? std::max(0.0, source->given - given_) / dt : 0;
+  if (flow > 0)
+    fallen_ *= std::exp(-dt / kStirred);
+  else if (liquid_.solids > 0 && given_ > 0)
+    fallen_ += dt * settling_speed(liquid_);
   if (!source) return;
-  const double flow = std::max(0.0, source->given - given_) / dt;
   given_ = source->given;
   if (flow > 0 && is_liquid(scene, source->p_J)) emit(scene, *source, flow, dt);
 }

@@ -37,6 +37,9 @@ class LiquidPlume {
   /// As at the beginning.
   void clear();
 
+  /// m that a single grain of the liquid has sunk since it last flowed, which stirs it up again
+  /// (within a second. assumed); 0 without grains.
+  [[nodiscard]] double fallen() const noexcept { return fallen_; }
   /// At most 800; the oldest give way to new ones.
   [[nodiscard]] std::span<const DriftingPoint> points() const noexcept { return points_; }
 
@@ -65,7 +68,8 @@ class LiquidPlume {
   Liquid liquid_;
   std::uint64_t seed_;
   double given_ = 0;
-  double owed_ = 0;  // seeds that are not whole yet
+  double fallen_ = 0;  // m
+  double owed_ = 0;    // seeds that are not whole yet
   std::uint64_t next_ = 0;
   std::shared_ptr<const CompiledJoint> known_;  // whose regions these are
   std::vector<bool> wet_;                       // of its regions: whether liquid was injected

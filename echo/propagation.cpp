@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kThinnest = 2e-6;  // m, an interval shorter than this is rounding
 constexpr double kStraight = 2e-3;  // sine of a bend that is not worth another query
+constexpr double kAside = 25e-6;    // m that a bend may lead aside within a thin layer
 constexpr double kPiece = 4e-3;     // m, longest run: the downshift curves the loss slowly
 constexpr double kAlongSurface =
     0.17;                         // cosine of 80 degrees: along a faceted surface, go straight
@@ -352,7 +353,8 @@ bool BeamTracer::pass(Walk& walk, const Vec3& from, const Vec3& direction, doubl
       if (!start(walk, interval.region, thickness * time_scale)) return false;
     } else if (interval.region != walk.region) {
       if (!enter(walk, interval, point)) return false;
-      if (walk.bends && walk.wave.cross(direction).norm() > kStraight) return true;
+      const double bend = walk.bends ? walk.wave.cross(direction).norm() : 0;
+      if (bend > kStraight && bend * thickness > kAside) return true;
     }
     if (!cross(walk, point, direction, thickness * time_scale, time_scale)) return false;
   }

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -30,7 +33,19 @@ struct RegionAcoustics {
   /// Muscle and its tendon: what the fibres go on as, and where (m, the course's third coordinate).
   RegionId continues_as = kOutside;
   double junction = 0;
+  /// A suspension that settles: grains are missing above this height along `up_J`, m; see
+  /// ClearLevels. Infinite: none are.
+  double clear_above = std::numeric_limits<double>::infinity();
+  double clear_blur = 0;  ///< m to either side over which they thin out
+  Vec3 up_J = Vec3::UnitZ();
 };
+
+/// Factor on the speckle amplitude of a suspension at a height along its up_J, m: the root of the
+/// share of grains that is left.
+[[nodiscard]] inline float settled_share(const RegionAcoustics& region, double height) noexcept {
+  const double below = region.clear_above + region.clear_blur - height;
+  return static_cast<float>(std::sqrt(std::clamp(below / (2 * region.clear_blur), 0.0, 1.0)));
+}
 
 /// A region's own coordinates around a point: (across sheets, beside them, along fibres), m.
 [[nodiscard]] MaterialPoint locate_in_material(const RegionAcoustics& region,

@@ -12,6 +12,8 @@ namespace artus {
 namespace {
 
 constexpr double kFarthest = 1000;  // m from the joint, beyond which a pose is a mistake
+constexpr double kFinest = 0.1e-3;  // m, of a settling suspension's upper side
+constexpr double kSizes = 0.3;      // by which its grains' speeds differ. assumed
 
 bool is_usable(const Pose& pose) noexcept {
   return is_rigid(pose) && pose.translation().norm() <= kFarthest;
@@ -45,10 +47,27 @@ struct Renderer::Impl {
   std::vector<float> contact;  // as set, for the next pipeline
   std::unique_ptr<EchoPipeline> pipeline;
 
+  Settling settling;
+  std::shared_ptr<const CompiledJoint> levelled;  // whose levels these are; null: none are known
+  ClearLevels levels;
+
   void find_regions() {
     const CompiledJoint& joint = body.scene->joint();
     body.regions = make_region_acoustics(joint, pipeline->transducer());
     pipeline->workers().execute([&] { add_courses(joint, body.regions); });
+    settle();
+  }
+  void settle() {
+    if (settling.fallen > 0 && levelled != body.scene->shared_joint()) {
+      levelled = body.scene->shared_joint();
+      levels = ClearLevels(*levelled, settling.up_J);
+    }
+    for (std::size_t r = 0; r < body.regions.size(); ++r) {
+      RegionAcoustics& region = body.regions[r];
+      region.clear_above = levels.height(static_cast<RegionId>(r), settling.fallen);
+      region.clear_blur = kFinest + kSizes * settling.fallen;
+      region.up_J = settling.up_J;
+    }
   }
 };
 
@@ -119,6 +138,7 @@ void Renderer::set_pipeline(std::unique_ptr<EchoPipeline> pipeline) {
   ARTUS_REQUIRE(pipeline != nullptr, "no pipeline");
   EchoBody& body = impl_->body;
   body.regions = with_courses_of(body.regions, body.scene->joint(), pipeline->transducer());
+  impl_->settle();
   pipeline->set_contact(impl_->contact);
   impl_->pipeline = std::move(pipeline);
 }
@@ -137,6 +157,15 @@ void Renderer::set_filled_scene(std::shared_ptr<const Scene> scene) {
   body.scene = std::move(scene);
   if (same_joint) return;
   body.regions = with_courses_of(body.regions, body.scene->joint(), impl_->pipeline->transducer());
+  impl_->settle();
+}
+
+void Renderer::set_settling(const Settling& settling) {
+  ARTUS_REQUIRE(settling.up_J.allFinite() && std::isfinite(settling.fallen),
+                "how far it settled is not finite");
+  if (settling.up_J != impl_->settling.up_J) impl_->levelled = nullptr;
+  impl_->settling = settling;
+  impl_->settle();
 }
 
 const Transducer& Renderer::transducer() const noexcept {

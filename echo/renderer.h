@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "artus/echo/clear_level.h"
 #include "artus/echo/drifting_echo.h"
 #include "artus/echo/frame.h"
 #include "artus/echo/image_settings.h"
@@ -55,6 +56,10 @@ class Renderer {
 
   /// What drifts in liquid in the next frame and later ones.
   void set_drifting_points(std::span<const DriftingPoint> points);
+
+  /// How far the suspensions in the body have settled in the next frame and later ones. Cost: some
+  /// passes over the interfaces for a body that is new.
+  void set_settling(const Settling& settling);
 
   /// Gain, range, time gain, smoothing and persistence of the next frame on. Requires: valid.
   /// Cost: some 10 us.

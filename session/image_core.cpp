@@ -67,6 +67,7 @@ void ImageCore::let_drift(const FrameInput& input, const Scene* filled) {
   if (filled == nullptr) {
     if (filled_) plume_.clear();
     if (filled_) renderer_.set_drifting_points({});
+    if (filled_) renderer_.set_settling({});
     return;
   }
   const double since = 1e-9 * static_cast<double>(input.sample_time_ns - before_.sample_time_ns);
@@ -80,6 +81,7 @@ void ImageCore::let_drift(const FrameInput& input, const Scene* filled) {
   }
   plume_.step(*filled, source, Vec3::UnitZ(), since > 0 && since < kLongest ? since : image_time_);
   renderer_.set_drifting_points(plume_.points());
+  renderer_.set_settling({Vec3::UnitZ(), plume_.fallen()});
 }
 
 void ImageCore::follow(const ImageControls& controls) {

@@ -44,8 +44,7 @@ constexpr double kDrawn = 10e-9;     // m^3; a smaller rest on the needle's way 
 Vec3 middle_of_layer(const Scene& scene, const Injected& place) {
   constexpr double kReachAcross = 15e-3;  // m
   const RegionId region = scene.region_at(place.tip);
-  const Vec3 across =
-      make_bolus(scene.joint(), region, place.tip, std::max(place.volume, 1e-9)).axes.col(2);
+  const Vec3 across = make_boluses(scene.joint(), region, place.tip, 1e-9).front().axes.col(2);
   const Vec3 start = place.tip - kReachAcross * across;
   for (const TissueInterval& s :
        tissue_intervals(scene, {start, place.tip + kReachAcross * across}))
@@ -152,6 +151,7 @@ void measure_seen(const Scene& before, const Scene& after, const Pose& X_JP,
   out.ray_area = kApart * std::accumulate(more.begin(), more.end(), 0.0);
   for (std::size_t k = 0; k < more.size(); ++k) more[k] -= was[k];
   out.seen_opening = *std::max_element(more.begin(), more.end());
+  if (!(out.seen_opening > 0)) return;  // nothing is seen, no width of it either
   out.seen_width =
       kApart * static_cast<double>(std::count_if(
                    more.begin(), more.end(), [&](double m) { return m >= out.seen_opening / 2; }));
@@ -173,10 +173,10 @@ const InjectionRow* row_at(const InjectionRun& run, double share) {
 }
 
 cv::Mat draw(const std::shared_ptr<const Scene>& scene, const InjectionRun& run, const Pose& X_JP,
-             const InjectionPictureOptions& options, std::span<const DriftingPoint> drifting) {
+             const InjectionPictureOptions& options, InjectionPlume& plume, double time) {
   const NeedleView needle{run.X_JN, options.needle, Vec3::Zero()};
   Renderer renderer(scene, options.transducer, options.settings);
-  renderer.set_drifting_points(drifting);
+  plume.show(renderer, *scene, time);
   const Frame& frame = renderer.render(X_JP, needle);
   cv::Mat bmode;
   cv::cvtColor(annotated_image(frame, options.transducer), bmode, cv::COLOR_GRAY2BGR);
@@ -278,7 +278,7 @@ Result<std::string> write_injection_video(const std::shared_ptr<const Scene>& sc
     Pose X_JN = run.X_JN;
     X_JN.translation() += (row.depth - run.depth) * X_JN.linear().col(2);
     Renderer renderer(body, deep.transducer, deep.settings);
-    renderer.set_drifting_points(plume.at(*body, row.time));
+    plume.show(renderer, *body, row.time);
     const Frame& frame = renderer.render(X_JP, NeedleView{X_JN, deep.needle, Vec3::Zero()});
     cv::Mat picture = annotated_image(frame, deep.transducer);
     cv::putText(picture,
@@ -315,8 +315,7 @@ Result<InjectionPictures> write_injection_pictures(const std::shared_ptr<const S
     if (row == nullptr) continue;
     last = places_at(*scene, run, *row);
     body = scene_of(*scene, run, last);
-    const auto drifting = plume.at(*body, row->time);
-    ARTUS_TRY(write_image(draw(body, run, X_JP, deep, drifting), folder / file));
+    ARTUS_TRY(write_image(draw(body, run, X_JP, deep, plume, row->time), folder / file));
     out.files.emplace_back(file);
   }
   for (const Injected& place : last) {

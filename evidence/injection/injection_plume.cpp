@@ -45,4 +45,9 @@ std::span<const DriftingPoint> InjectionPlume::at(const Scene& body, double time
   return plume_.points();
 }
 
+void InjectionPlume::show(Renderer& renderer, const Scene& body, double time) {
+  renderer.set_drifting_points(at(body, time));
+  renderer.set_settling({Vec3::UnitZ(), plume_.fallen()});
+}
+
 }  // namespace artus

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "artus/echo/liquid_plume.h"
+#include "artus/echo/renderer.h"
 #include "artus/evidence/injection/injection_run.h"
 
 namespace artus {
@@ -17,6 +18,8 @@ class InjectionPlume {
   /// The points at `time` of the run, s, in the body of then; times must rise. Steps of a thirtieth
   /// of a second; of a longer pause only the last 6 s are followed.
   [[nodiscard]] std::span<const DriftingPoint> at(const Scene& body, double time);
+  /// The same, and what has settled, in the next picture of `renderer`, which shows that body.
+  void show(Renderer& renderer, const Scene& body, double time);
 
  private:
   [[nodiscard]] PlumeSource source_at(double time) const;

@@ -69,6 +69,11 @@ double flux_between(const CompiledJoint& joint, const std::vector<Vec3>& moved, 
   return volume;
 }
 
+/// One lens in the tissue above.
+Bolus make_lens() {
+  return {kAbove, Vec3(0, 0, 10e-3), Eigen::Matrix3d::Identity(), Vec3(3, 2, 0.6), 1e-6};
+}
+
 /// m^3 between the cleft's walls, whose rims do not move.
 double enclosed(const CompiledJoint& joint, const std::vector<Vec3>& moved) {
   double volume = 0;
@@ -124,9 +129,8 @@ TEST(Bolus, HasItsVolumeAndPushesEveryWallBesideItByAsMuch) {
   const CompiledJoint joint = make_cleft();
   Liquid liquid;
   liquid.name = "saline";
-  const Bolus bolus = make_bolus(joint, kAbove, Vec3(0, 0, 10e-3), 1e-6);
-  EXPECT_EQ(bolus.proportion, Vec3(3, 2, 0.6));
-  const CompiledJoint with = with_bolus(joint, bolus, liquid);
+  const Bolus bolus = make_lens();
+  const CompiledJoint with = with_boluses(joint, {bolus}, liquid);
   EXPECT_EQ(with.regions.back().name, "injected");
   double volume = 0;
   for (const Interface& f : with.mesh.interfaces) {
@@ -172,8 +176,8 @@ TEST(Bolus, IsNotCutByAWallOfLargeTriangles) {
     f.back = kAbove;
     joint.mesh.interfaces.push_back(f);
   }
-  const Bolus bolus = make_bolus(joint, kAbove, Vec3(0, 0, 10e-3), 1e-6);
-  const CompiledJoint with = with_bolus(joint, bolus, Liquid{});
+  const Bolus bolus = make_lens();
+  const CompiledJoint with = with_boluses(joint, {bolus}, Liquid{});
   const double scale = std::cbrt(1e-6 / (4 * std::numbers::pi / 3 * bolus.proportion.prod()));
   const Eigen::Matrix3d in =
       (scale * bolus.proportion).cwiseInverse().asDiagonal() * bolus.axes.transpose();
