@@ -104,9 +104,7 @@ Result<void> write_slices(const std::shared_ptr<const DeformedBody>& tissue,
 }
 
 void print(const nlohmann::json& report) {
-  std::printf("pressed %.2f mm, %.3f N, %.0f %% of the face%s\n", report["depth_mm"].get<double>(),
-              report["normal_force_n"].get<double>(), 100 * report["contact_share"].get<double>(),
-              report["settled"].get<bool>() ? "" : ", still moving");
+  print_press(report);
   std::printf("%-28s %-14s %9s %9s %8s\n", "region", "tissue", "before mm", "after mm", "thinned");
   for (const auto& layer : report["layers"])
     std::printf("%-28s %-14s %9.2f %9.2f %6.1f %%\n", layer["region"].get<std::string>().c_str(),

@@ -90,10 +90,7 @@ nlohmann::json summary_of(const StrainImage& strain) {
 ExitCode run_elastogram(const ElastogramOptions& options) {
   auto loaded = load_view(options.joint, options.view, options.json);
   if (!loaded) return report_error(loaded.error(), options.json);
-  if (loaded->view.transducer.radius > 0)
-    return report_error({ErrorCode::unsupported, "needs a straight probe", "--transducer"},
-                        options.json);
-  auto body = SoftBody::make(loaded->scene->shared_joint(), loaded->X_JP);
+  auto body = make_soft_body(loaded->scene->shared_joint(), loaded->X_JP, loaded->view.transducer);
   if (!body) return report_error(body.error(), options.json);
   const auto first = press(*body, loaded->X_JP, options.press);
   if (!first) return report_error(first.error(), options.json);

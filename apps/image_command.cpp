@@ -81,6 +81,7 @@ ExitCode run_image(const ImageOptions& options) {
   } else {
     std::printf("%s: %d x %d pixels of %.3f mm\n", options.out.c_str(), image.cols, image.rows,
                 frame.pixel / kMillimetre);
+    print_press(*pressed);
   }
   return ExitCode::ok;
 }

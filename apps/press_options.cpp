@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/apps/press_options.h"
 
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
 #include "artus/apps/command.h"
 #include "artus/apps/needle_drag.h"
 #include "artus/core/units.h"
@@ -94,6 +98,17 @@ void add_press_options(Command* command, PressOptions& options) {
       ->check(number_in(0, 25));
 }
 
+Result<SoftBody> make_soft_body(std::shared_ptr<const CompiledJoint> joint, const Pose& X_JP,
+                                const Transducer& transducer) {
+  if (transducer.radius > 0)
+    return fail(ErrorCode::unsupported, "only a straight probe can be pressed", "--transducer");
+  SoftBodyParams params;
+  const double spacing = params.face.length / params.face.points_x;
+  params.face.length = transducer.width;
+  params.face.points_x = std::max(1, static_cast<int>(std::lround(transducer.width / spacing)));
+  return SoftBody::make(std::move(joint), X_JP, params);
+}
+
 Result<PressedBody> press(SoftBody& body, const Pose& X_JP, const PressOptions& options) {
   if (options.newtons && options.millimetres)
     return fail(ErrorCode::malformed, "give a force or a depth, not both", "--press-mm");
@@ -109,7 +124,7 @@ Result<nlohmann::json> press(LoadedView& view, const PressOptions& options) {
     return fail(ErrorCode::malformed, "needs a pressed probe (--press-n) and a needle (--needle)",
                 "--needle-way");
   if (!options.wanted()) return nlohmann::json();
-  auto body = SoftBody::make(view.scene->shared_joint(), view.X_JP);
+  auto body = make_soft_body(view.scene->shared_joint(), view.X_JP, view.view.transducer);
   ARTUS_TRY(body);
   auto pressed = press(*body, view.X_JP, options);
   ARTUS_TRY(pressed);
@@ -134,6 +149,13 @@ nlohmann::json to_json(const Press& press) {
           {"torque_n_mm", three(press.contact.torque / kMillimetre)},
           {"contact_share", press.contact.share},
           {"settled", press.settled}};
+}
+
+void print_press(const nlohmann::json& press) {
+  if (press.is_null()) return;
+  std::printf("pressed %.2f mm, %.3f N, %.0f %% of the face%s\n", press["depth_mm"].get<double>(),
+              press["normal_force_n"].get<double>(), 100 * press["contact_share"].get<double>(),
+              press["settled"].get<bool>() ? "" : ", still moving");
 }
 
 }  // namespace artus

@@ -31,6 +31,12 @@ struct PressedBody {
 [[nodiscard]] Result<PressedBody> press(SoftBody& body, const Pose& X_JP,
                                         const PressOptions& options);
 
+/// A body whose probe has the face of `transducer`: as long as its row of scanlines, as wide as
+/// ProbeFace has it. Errors: unsupported (a curved face, which contact does not know), those of
+/// SoftBody::make.
+[[nodiscard]] Result<SoftBody> make_soft_body(std::shared_ptr<const CompiledJoint> joint,
+                                              const Pose& X_JP, const Transducer& transducer);
+
 /// The flag for commands that draw a needle in the pressed body.
 void add_drag_option(Command* command, PressOptions& options);
 
@@ -40,5 +46,9 @@ void add_drag_option(Command* command, PressOptions& options);
 [[nodiscard]] Result<nlohmann::json> press(LoadedView& view, const PressOptions& options);
 
 [[nodiscard]] nlohmann::json to_json(const Press& press);
+
+/// One line of what `to_json` gives, with a word when the tissue has not come to rest. Nothing when
+/// nothing was pressed.
+void print_press(const nlohmann::json& press);
 
 }  // namespace artus

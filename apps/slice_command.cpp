@@ -54,6 +54,7 @@ ExitCode run_slice(const SliceOptions& options) {
     std::cout << report.dump(2) << '\n';
     return ExitCode::ok;
   }
+  print_press(*pressed);
   std::printf("%4s %-28s %-16s %-12s %10s\n", "id", "region", "tissue", "red,grn,blu", "area mm2");
   for (const auto& row : legend)
     std::printf("%4d %-28s %-16s %3d,%3d,%3d  %10.1f\n", row["id"].get<int>(),

@@ -319,7 +319,8 @@ Gate gate_drag() {
                                       -0.05, "N"));
   body.solver->set_loads(
       loads_of(load, NeedledBlock::track(kRadius21), needle.model().coupling().spacing()));
-  body.solver->settle(std::nullopt, 1e-9, 60);
+  gate.claims.push_back(claim_at_rest("H6: the block under the needle's load",
+                                      body.solver->settle(std::nullopt, 1e-9, 60)));
   const double given = sum + load.tip;
   gate.claims.push_back(claim_near(ClaimKind::independent,
                                    "H6: what holds the body against the needle's load",

@@ -1,9 +1,23 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <string>
+
 #include "artus/evidence/soft/soft_gates.h"
 
 /// The gates themselves, one function each; soft_gates.h runs them by name.
 namespace artus {
+
+/// What was measured, and whether all that it was measured on had come to rest.
+struct Settled {
+  double value = 0;
+  bool at_rest = false;
+};
+
+/// What a gate measures is of a state at rest: `at_rest` is what each SoftSolver::settle of it
+/// answered, all together.
+[[nodiscard]] inline Claim claim_at_rest(const std::string& what, bool at_rest) {
+  return claim_that(ClaimKind::independent, what + " is at rest where it is measured", at_rest);
+}
 
 [[nodiscard]] Gate gate_patch();         ///< linear field in a graded cage
 [[nodiscard]] Gate gate_uniaxial();      ///< compression with free sides

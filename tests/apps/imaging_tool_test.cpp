@@ -181,6 +181,30 @@ TEST_F(ImagingTool, APressedJointHasForcesLayersAndACage) {
   EXPECT_EQ(artus({"deform", "-j", kSimple, "--press-n", "1", "--press-mm", "1"}).exit_code, 2);
 }
 
+TEST_F(ImagingTool, PressesTheFaceOfTheProbeThatDraws) {
+  const auto newtons = [&](const std::string& transducer) {
+    const auto r = artus({"slice", "-j", kSimple, "--transducer", transducer, "--press-mm", "5",
+                          "-o", in("face.png"), "--json"});
+    EXPECT_EQ(r.exit_code, 0) << r.err << r.out;
+    return nlohmann::json::parse(r.out).at("press").at("normal_force_n").get<double>();
+  };
+  // 25 mm of face for 40: less force for the same way, once more of a round skin than the shorter
+  // one reaches lies below the plane of the face.
+  EXPECT_LT(newtons("hockey-7-15"), 0.9 * newtons("linear-6-18"));
+  const auto curved = artus({"image", "-j", kSimple, "--transducer", "curved-2-5", "--press-mm",
+                             "2", "-o", in("curved.png")});
+  EXPECT_EQ(curved.exit_code, 2);
+  EXPECT_NE(curved.err.find("straight"), std::string::npos) << curved.err;
+}
+
+TEST_F(ImagingTool, APressedPictureSaysWhatWasPressed) {
+  for (const char* command : {"image", "slice"}) {
+    const auto r = artus({command, "-j", kSimple, "--press-mm", "1", "-o", in("pressed.png")});
+    ASSERT_EQ(r.exit_code, 0) << r.err;
+    EXPECT_NE(r.out.find("pressed 1.00 mm"), std::string::npos) << r.out;
+  }
+}
+
 /// What the report of a slice says of a needle that was last moved so, in simple-shoulder.
 nlohmann::json needle_moved(const std::string& way, const std::string& file) {
   const auto r = artus({"slice", "-j", kSimple, "--press-mm", "1", "--needle", "default",
