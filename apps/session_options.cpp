@@ -47,7 +47,7 @@ Result<std::unique_ptr<InputDevice>> make_injection_device(const SessionOptions&
   injection.volume = options.give_ml * kCubicCentimetre;
   const auto plunger = make_plunger_params(params.syringe, needle_length_of(params));
   ARTUS_TRY(plunger);
-  injection.syringe = plunger->syringe;
+  injection.plunger = *plunger;
   return std::make_unique<InjectingDevice>(injection, params.device, params.haptic_rate);
 }
 

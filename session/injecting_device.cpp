@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "artus/haptics/needle/needle_contact.h"
+#include "artus/session/syringe_core.h"
 
 namespace artus {
 namespace {
@@ -12,7 +13,7 @@ constexpr double kBeforeSkin = -12e-3;  // m, tip before the skin at start and e
 constexpr double kWait = 0.5;           // s outside; longer than the guard's ramp
 constexpr double kRest = 0.8;           // s at the target; assumed, as in three-injections
 constexpr double kPress = 0.25;         // s on the bone; assumed
-constexpr double kLongest = 60;         // s of pushing before the hand gives up; assumed
+constexpr double kOverTime = 20;        // s beyond twice its time that a dose may take; assumed
 constexpr double kBoneFelt = 2.5e-3;    // m that the needle lags behind the hand on bone: 4 N
 constexpr double kFastOut = 2.0;        // withdrawal's speed over insertion's
 
@@ -28,8 +29,8 @@ std::vector<OperatorPhase> phases_of(const InjectionPlan& plan) {
   to_bone.goal = OperatorPhase::Goal::bone;
   OperatorPhase at_target = stay(kRest);
   if (plan.volume > 0) {
-    at_target = stay(kLongest);
-    at_target.thumb_force = plan.thumb;
+    at_target = stay(2 * plan.volume / plan.rate + kOverTime);
+    at_target.thumb_rate = plan.rate;
     at_target.until_given = true;
   }
   return {press(kWait), to_target,     at_target,
@@ -44,34 +45,45 @@ InjectingDevice::InjectingDevice(const InjectionPlan& plan, const DeviceLimits& 
       period_(1 / rate_hz),
       person_(plan.entry_W, plan.direction_W, kBeforeSkin, phases_of(plan)),
       loop_({rate_hz, physics_rate(rate_hz)}, device, hand, person_.start()),
-      dose_(plan.syringe, plan.volume) {
+      thumb_({SyringeCore::kCoupling, SyringeCore::kMostForce}),
+      dose_(plan.plunger, plan.volume) {
   ARTUS_REQUIRE(std::abs(plan.direction_W.norm() - 1) < 1e-9, "the direction must be a unit");
   ARTUS_REQUIRE(plan.speed > 0 && plan.target <= plan.deepest, "an injection goes somewhere");
+  ARTUS_REQUIRE(plan.rate > 0, "a dose takes some time");
   sample_.X_WP = to_plain(plan.X_WP);
   sample_.state = PeerState::alive;
   sample_.has_needle = 1;
   sample_.has_probe = 1;
-  if (plan.volume > 0) sample_.plunger = PlungerSign::force;
 }
 
 OperatorView InjectingDevice::view() const noexcept {
   const Vec3 meant = person_.intention(loop_.time()).X_JN.translation();
   const double lag = (meant - loop_.motion().X_JN.translation()).dot(plan_.direction_W);
   OperatorView view;
-  view.given = dose_.enough() && felt_.flow < ThumbDose::kFlows;
+  view.given = dose_.done();
   view.bone = static_cast<ContactState>(contact_) == ContactState::bone && lag > kBoneFelt;
   return view;
+}
+
+void InjectingDevice::press_plunger() noexcept {
+  const bool meant = phase() == Phase::rest;
+  if (!meant) dose_.begin(felt_.given);
+  PlungerState plunger;
+  plunger.travel = felt_.travel;
+  plunger.pressure = felt_.pressure;
+  const PlungerInput wish = thumb_.step(meant ? dose_.present(person_.present()) : nullptr, plunger,
+                                        plan_.plunger.syringe.area(), period_);
+  sample_.plunger = wish.stiffness > 0 ? PlungerSign::travel : PlungerSign::force;
+  sample_.plunger_travel = wish.position;
+  sample_.plunger_force = wish.force;
+  const bool pushes = meant && (felt_.flow > ThumbDose::kFlows || thumb_.strains());
+  dose_.step(pushes, felt_.given, felt_.pressure, felt_.tip_pressure, felt_.flow, period_);
 }
 
 DeviceSample InjectingDevice::read(std::int64_t now_ns) noexcept {
   person_.observe(loop_.time(), loop_.motion().X_JN, view());
   if (person_.done()) person_.begin_again(loop_.time());
-  if (phase() != Phase::rest) dose_.begin(felt_.given);
-  dose_.step(phase() == Phase::rest, felt_.given, felt_.pressure, felt_.tip_pressure, felt_.flow,
-             period_);
-  const OperatorPhase* present = person_.present();
-  const bool pushes = plan_.volume > 0 && present != nullptr && !dose_.enough();
-  sample_.plunger_force = pushes ? present->thumb_force : 0;
+  if (plan_.volume > 0) press_plunger();
   loop_.advance(motor_, [this](double time) { return person_.intention(time); });
   sample_.X_WN = to_plain(loop_.measured());
   sample_.time_ns = now_ns;

@@ -4,6 +4,7 @@
 
 #include "artus/operators/hand_loop.h"
 #include "artus/operators/injection_operator.h"
+#include "artus/operators/thumb.h"
 #include "artus/operators/thumb_dose.h"
 #include "artus/session/input_device.h"
 
@@ -20,8 +21,8 @@ struct InjectionPlan {
   double deepest = 40e-3;            ///< m, where it turns back when no bone is felt
   double speed = 10e-3;              ///< m/s, of the hand's intention
   double volume = 0;                 ///< m^3 that is given at the target, each time; 0: none
-  double thumb = 8;                  ///< N on the plunger meanwhile
-  Syringe syringe;                   ///< that it knows, to let go before the mark
+  double rate = 0.25e-6;             ///< m^3/s at which it means to
+  PlungerParams plunger;             ///< that it knows, to stop before the mark
 };
 
 /// A simulated hand on a simulated device, closed loop: the force that artus sends moves the
@@ -44,6 +45,7 @@ class InjectingDevice final : public InputDevice {
 
  private:
   [[nodiscard]] OperatorView view() const noexcept;
+  void press_plunger() noexcept;
 
   InjectionPlan plan_;
   double period_;  // s
@@ -53,6 +55,7 @@ class InjectingDevice final : public InputDevice {
   DeviceSample sample_;
   std::uint32_t contact_ = 0;
   PlungerFeedback felt_;
+  Thumb thumb_;
   ThumbDose dose_;
 };
 

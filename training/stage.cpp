@@ -42,8 +42,8 @@ double appears_at(const Scenario& scenario, const Scene& scene, const TipSightFi
 /// The thumb of a simulated hand.
 class SyringeHand {
  public:
-  SyringeHand(const Syringe& syringe, const ScenarioSyringe& meant, const OperatorSkill& skill)
-      : area_(syringe.area()), dose_(syringe, meant.volume), wanted_(meant.volume > 0) {
+  SyringeHand(const PlungerParams& params, const ScenarioSyringe& meant, const OperatorSkill& skill)
+      : area_(params.syringe.area()), dose_(params, meant.volume), wanted_(meant.volume > 0) {
     push_.thumb_rate = skill.haste * meant.rate;
     pull_.thumb_force = -kPull;
     draws_ = skill.aspirate;
@@ -54,19 +54,16 @@ class SyringeHand {
     sample.plunger = wanted_ ? PlungerSign::force : PlungerSign::none;
     const bool pulls = wanted_ && gives && draws_ > 0;
     if (pulls) draws_ -= dt;
-    const bool pushes = wanted_ && gives && !pulls && !dose_.enough();
+    const bool pushes = wanted_ && gives && !pulls;
     const PlungerState& state = plunger.state();
-    const PlungerInput thumb = thumb_.step(pulls    ? &pull_
-                                           : pushes ? &push_
-                                                    : nullptr,
-                                           state, area_, dt);
+    const OperatorPhase* pressing = pushes ? dose_.present(&push_) : nullptr;
+    const PlungerInput thumb = thumb_.step(pulls ? &pull_ : pressing, state, area_, dt);
     sample.plunger_force = thumb.force + thumb.stiffness * (thumb.position - state.travel);
     dose_.step(pushes, given, state.pressure, state.tip_pressure, state.flow, dt);
-    flows_ = state.flow > ThumbDose::kFlows;
   }
 
   /// Nothing is left to give, or nothing goes in.
-  [[nodiscard]] bool done() const noexcept { return !wanted_ || (dose_.enough() && !flows_); }
+  [[nodiscard]] bool done() const noexcept { return !wanted_ || dose_.done(); }
 
  private:
   static constexpr double kMostForce = 40;  // N; assumed: a strong push
@@ -74,7 +71,6 @@ class SyringeHand {
   double area_;                             // m^2
   ThumbDose dose_;
   bool wanted_;
-  bool flows_ = false;
   OperatorPhase push_;
   OperatorPhase pull_;
   double draws_ = 0;  // s that it still draws back
@@ -143,7 +139,7 @@ class NeedleStage final : public Stage {
                {scenario.entry.centre, scenario.target.point, scenario.X_JP, scenario.time_limit,
                 appears_at(scenario, *scene_, finder_)},
                mix_seed(scenario.seed, options.seed)),
-        thumb_(session_.core().syringe().plunger().params().syringe, scenario.syringe, skill),
+        thumb_(session_.core().syringe().plunger().params(), scenario.syringe, skill),
         loop_({kRate, kPhysics}, params.device, hand_of(skill, options.seed),
               hands_.intention(0).X_JN) {
     const auto& regions = scene_->joint().regions;

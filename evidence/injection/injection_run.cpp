@@ -51,15 +51,6 @@ double beyond(const Scene& scene, const InjectionSpec& spec, const LineLayer& la
   return layer.to + kThrough;
 }
 
-/// s until what the barrel holds has run out through the needle.
-double waiting(const PlungerParams& plunger) {
-  constexpr double kShortest = 1.5;  // s; assumed
-  constexpr double kLongest = 10;    // s, as is taught
-  constexpr double kTimes = 5;       // of its time constant: to within a hundredth
-  const NeedleFlow bore(plunger.needle, plunger.liquid.viscosity, plunger.liquid.density);
-  return std::clamp(kTimes * bore.resistance() * plunger.syringe.softness(), kShortest, kLongest);
-}
-
 std::vector<OperatorPhase> phases_of(const InjectionSpec& spec, const LineLayer& layer,
                                      double target, double through) {
   std::vector<OperatorPhase> phases{named(stay(kReady), "ready")};
@@ -87,7 +78,7 @@ std::vector<OperatorPhase> phases_of(const InjectionSpec& spec, const LineLayer&
   }
   phases.push_back(inject);
   // A tense space would push the plunger back, and with it what was given.
-  phases.push_back(named(stay(waiting(spec.plunger)), "wait"));
+  phases.push_back(named(stay(run_out_time(spec.plunger)), "wait"));
   phases.back().thumb_holds = true;
   // Let go before it comes out: what a tendon's pressure holds in the barrel would go elsewhere.
   phases.push_back(named(pull_to(-kStartOutside, 2 * kSpeed), "withdraw"));
@@ -106,7 +97,7 @@ class Trial {
         of_region_(std::move(spaces.of_region)),
         plunger_(spec.plunger, std::move(spaces.spaces), 1 / spec.rate_hz),
         thumb_(spec.thumb),
-        dose_(spec.plunger.syringe, spec.volume, true) {
+        dose_(spec.plunger, spec.volume) {
     params_.device = device;
     params_.rate_hz = spec.rate_hz;
     apply(spec.feel, params_.needle);

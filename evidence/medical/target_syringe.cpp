@@ -18,7 +18,7 @@ TargetSyringe::TargetSyringe(const CompiledJoint& joint, const SessionParams& pa
     : dt_(1 / params.haptic_rate),
       core_(joint, params),
       thumb_({SyringeCore::kCoupling, SyringeCore::kMostForce}),
-      dose_(core_.plunger().params().syringe, volume) {
+      dose_(core_.plunger().params(), volume) {
   const auto spaces = make_joint_spaces(joint);
   ARTUS_REQUIRE(spaces.has_value(), "a joint's spaces are checked when it is compiled");
   space_of_region_ = spaces->of_region;
@@ -43,13 +43,13 @@ double TargetSyringe::step(const OperatorPhase* phase, const NeedleContact& cont
   const bool meant = phase != nullptr && phase->until_given;
   if (meant && !pushing_) dose_.begin(core_.feedback().given);
   pushing_ = meant;
-  const bool gives = meant && !dose_.enough();
   const Plunger& plunger = core_.plunger();
-  const PlungerInput wish =
-      thumb_.step(gives ? phase : nullptr, plunger.state(), plunger.params().syringe.area(), dt_);
+  const PlungerInput wish = thumb_.step(meant ? dose_.present(phase) : nullptr, plunger.state(),
+                                        plunger.params().syringe.area(), dt_);
   DeviceSample sample;
-  sample.plunger = gives ? PlungerSign::travel : PlungerSign::force;
+  sample.plunger = wish.stiffness > 0 ? PlungerSign::travel : PlungerSign::force;
   sample.plunger_travel = wish.position;
+  sample.plunger_force = wish.force;
   core_.step(sample, contact);
   const PlungerFeedback& now = core_.feedback();
   const bool pushes = meant && (now.flow > ThumbDose::kFlows || thumb_.strains());
@@ -58,7 +58,7 @@ double TargetSyringe::step(const OperatorPhase* phase, const NeedleContact& cont
 }
 
 bool TargetSyringe::given() const noexcept {
-  return dose_.enough() && core_.feedback().flow < ThumbDose::kFlows;
+  return dose_.done();
 }
 
 SyringeRow TargetSyringe::row() const {

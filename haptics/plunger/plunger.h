@@ -60,7 +60,8 @@ struct PlungerState {
   double flow = 0;            ///< m^3/s out of the tip, at the tick's end
   double force = 0;           ///< N, what the thumb feels: friction and pressure
   double on_needle = 0;       ///< N, what of it pushes the needle on
-  double tip_pressure = 0;    ///< Pa in the tip's places, by share
+  double tip_pressure = 0;    ///< Pa of what is open to the tip, the lowest of two; when nothing
+                              ///< is, of the tip's places by share
   double bevel_pressure = 0;  ///< Pa inside the bevel, after the bore
   double content = 0;         ///< m^3 of liquid in the syringe
   double drawn = 0;           ///< m^3 of the patient's own in it

@@ -4,6 +4,7 @@
 // own instant. So a tick's length hardly matters.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "artus/haptics/plunger/plunger.h"
 #include "artus/haptics/plunger/space_pressure.h"
@@ -196,20 +197,22 @@ void Plunger::describe(const PlungerInput& input, double thumb) noexcept {
     status |= PlungerStatus::kDrawnOut;
   if (clogging_ > 0) status |= PlungerStatus::kClogged;
   if (state_.drawn > params_.syringe.dead_space) status |= PlungerStatus::kFlash;
-  state_.tip_pressure = 0;
-  bool any_open = false;
+  double by_share = 0;
+  double lowest = std::numeric_limits<double>::infinity();
   for (const TipShare& tip : input.tip) {
     if (!(tip.share > 0)) continue;
     // Tissue that has not parted presses on nothing.
     const bool parted = states_[tip.space].open || states_[tip.space].volume > 0 ||
                         spaces_[tip.space].law.kind != SpaceKind::split;
     const double p = parted ? pressure(tip.space) : 0;
-    state_.tip_pressure += tip.share * p;
-    any_open = any_open || states_[tip.space].open;
+    by_share += tip.share * p;
+    if (states_[tip.space].open) lowest = std::min(lowest, p);
     if (states_[tip.space].ruptured) status |= PlungerStatus::kRuptured;
     if (p > spaces_[tip.space].law.stop) status |= PlungerStatus::kTense;
     if (tip.space == outside_) status |= PlungerStatus::kOutside;
   }
+  const bool any_open = std::isfinite(lowest);
+  state_.tip_pressure = any_open ? lowest : by_share;
   if (!any_open) status |= PlungerStatus::kClosed;
   state_.force = thumb;
   state_.on_needle = params_.unbalanced * state_.force;

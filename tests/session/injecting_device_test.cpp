@@ -28,8 +28,9 @@ InjectionPlan plan_into_the_bursa(double volume) {
 /// The device in a closed loop with the session's haptic core.
 class Loop {
  public:
-  explicit Loop(bool feel, double volume = 0)
-      : feel_(feel), device_(plan_into_the_bursa(volume), params_.device, kRate) {}
+  explicit Loop(bool feel) : Loop(feel, plan_into_the_bursa(0), {}) {}
+  Loop(bool feel, InjectionPlan plan, const SyringeChoice& syringe)
+      : feel_(feel), params_(with(syringe)), device_(meant(plan), params_.device, kRate) {}
   const HapticSnapshot& step() {
     TickInput input;
     input.tick = ++tick_;
@@ -43,9 +44,19 @@ class Loop {
   [[nodiscard]] InjectingDevice::Phase phase() const { return device_.phase(); }
 
  private:
+  static SessionParams with(const SyringeChoice& syringe) {
+    SessionParams params = test::make_small_session();
+    params.syringe = syringe;
+    return params;
+  }
+  [[nodiscard]] InjectionPlan meant(InjectionPlan plan) const {
+    plan.plunger = core_.syringe().plunger().params();
+    return plan;
+  }
+
   bool feel_;
+  SessionParams params_;
   std::shared_ptr<const Scene> scene_ = test::make_layered_scene();
-  SessionParams params_ = test::make_small_session();
   HapticCore core_{scene_, params_};
   InjectingDevice device_;
   std::uint64_t tick_ = 0;
@@ -89,17 +100,38 @@ TEST(InjectingDevice, ComesOutAndBeginsAgain) {
   EXPECT_GE(injections, 2);
 }
 
-TEST(InjectingDevice, GivesWhatIsMeantAndNotWhatItsBarrelHoldsMore) {
-  Loop loop(true, 0.1e-6);
+/// m^3 that are out once the hand has let go of the plunger and drawn the needle out.
+double given_of(double volume, double rate, const SyringeChoice& syringe) {
+  InjectionPlan plan = plan_into_the_bursa(volume);
+  plan.rate = rate;
+  Loop loop(true, plan, syringe);
   double given = 0;
-  for (int i = 0; i < 12000; ++i) {
-    const HapticSnapshot& out = loop.step();
-    if (loop.phase() == InjectingDevice::Phase::rest) given = out.feedback.plunger.given;
-    if (loop.phase() > InjectingDevice::Phase::rest) break;
+  for (int i = 0; i < 100000 && loop.phase() != InjectingDevice::Phase::withdraw; ++i)
+    given = loop.step().feedback.plunger.given;
+  EXPECT_EQ(loop.phase(), InjectingDevice::Phase::withdraw);
+  return given;
+}
+
+TEST(InjectingDevice, GivesWhatIsMeant) {
+  struct Dose {
+    double volume;  // m^3
+    double rate;    // m^3/s
+    double filled;  // m^3
+  };
+  for (const Dose& d :
+       {Dose{0.1e-6, 0.1e-6, 1e-6}, Dose{0.1e-6, 0.25e-6, 5e-6}, Dose{0.5e-6, 0.25e-6, 1e-6},
+        Dose{1e-6, 0.25e-6, 2.5e-6}, Dose{5e-6, 0.25e-6, 6e-6}, Dose{10e-6, 0.4e-6, 12e-6},
+        Dose{20e-6, 0.8e-6, 22e-6}}) {
+    SyringeChoice syringe;
+    syringe.filled = d.filled;
+    EXPECT_NEAR(given_of(d.volume, d.rate, syringe) / d.volume, 1, 0.02)
+        << d.volume << " by a barrel of " << d.filled;
   }
-  EXPECT_EQ(loop.phase(), InjectingDevice::Phase::to_bone);
-  EXPECT_NEAR(given, 0.1e-6, 0.01e-6)  // fitted
-      << "0.118 ml when the thumb lets go at the mark";
+  for (const int gauge : {18, 25, 27}) {
+    SyringeChoice syringe;
+    syringe.gauge = gauge;
+    EXPECT_NEAR(given_of(1e-6, 0.1e-6, syringe) / 1e-6, 1, 0.02) << gauge;
+  }
 }
 
 TEST(InjectingDevice, ReadAndWriteDoNotAllocate) {
