@@ -329,8 +329,8 @@ bool fit_between(const Walls& walls, double slide, Bolus& bolus) {
 
 /// Opens one as region `number`, and takes the centres of `later` along.
 void open_bolus(CompiledJoint& with, const Bolus& bolus, RegionId number, std::span<Bolus> later) {
-  static const Sphere kUnit = make_sphere();
-  const double scale = std::cbrt(bolus.volume / (kUnit.volume * bolus.proportion.prod()));
+  const Sphere unit = make_sphere();
+  const double scale = std::cbrt(bolus.volume / (unit.volume * bolus.proportion.prod()));
   const Eigen::Matrix3d out = bolus.axes * (scale * bolus.proportion).asDiagonal();
   const Eigen::Matrix3d in = out.inverse();
   refine_beside(with, in, bolus.centre);
@@ -346,8 +346,8 @@ void open_bolus(CompiledJoint& with, const Bolus& bolus, RegionId number, std::s
   for (std::size_t k = 0; k + 1 < later.size(); ++k)
     push(later[k].centre);  // the last is the tip's
   const auto first = static_cast<std::uint32_t>(with.mesh.vertices.size());
-  for (const Vec3& p : kUnit.points) with.mesh.vertices.push_back(bolus.centre + out * p);
-  for (const auto& [a, b, c] : kUnit.triangles) {
+  for (const Vec3& p : unit.points) with.mesh.vertices.push_back(bolus.centre + out * p);
+  for (const auto& [a, b, c] : unit.triangles) {
     Interface f;
     f.vertices = {first + a, first + b, first + c};
     f.front = bolus.region;

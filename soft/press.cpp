@@ -43,6 +43,8 @@ Press press_by(SoftBody& body, const Pose& X_JP, double depth) {
 Result<Press> press_with(SoftBody& body, const Pose& X_JP, double force, double most_depth) {
   ARTUS_REQUIRE(force > 0, "a force above zero");
   Press below = hold(body, X_JP, 0, Until::near);
+  while (below.normal_force >= force && below.depth - kStep > -most_depth)
+    below = hold(body, X_JP, below.depth - kStep, Until::near);
   Press above = below;
   while (above.normal_force < force) {
     if (above.depth + kStep > most_depth)
@@ -55,14 +57,18 @@ Result<Press> press_with(SoftBody& body, const Pose& X_JP, double force, double 
   Press last = hold(body, X_JP, above.depth, Until::settled);
   Press best = hold(body, X_JP, 0.5 * (below.depth + above.depth), Until::settled);
   for (int k = 0; k < kMostTries && std::abs(best.normal_force / force - 1) > kNear; ++k) {
+    if (!last.settled && !best.settled) break;  // neither force means what a slope could be made of
     const double slope = (best.normal_force - last.normal_force) / (best.depth - last.depth);
     const double way = std::clamp((force - best.normal_force) / slope, -kStep, kStep);
     if (!std::isfinite(way)) break;
     last = best;
-    best = hold(body, X_JP, std::clamp(best.depth + way, 0.0, most_depth), Until::settled);
+    best = hold(body, X_JP, std::clamp(best.depth + way, -most_depth, most_depth), Until::settled);
   }
   if (std::abs(best.normal_force / force - 1) > kNear)
-    return fail(ErrorCode::failed, "the press did not settle at the force asked for");
+    return fail(ErrorCode::failed, "the tissue does not come to rest under the force asked for: " +
+                                       std::to_string(best.normal_force) + " N at " +
+                                       std::to_string(1e3 * best.depth) +
+                                       " mm; a probe wholly on the skin presses steadily");
   return best;
 }
 

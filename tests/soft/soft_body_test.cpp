@@ -50,6 +50,21 @@ TEST_F(SoftBodyTest, LocatorFindsEachTetrahedronAtItsMiddle) {
   EXPECT_EQ(locator.find(Vec3(std::nan(""), 0, 0)), -1);
 }
 
+TEST_F(SoftBodyTest, AFaceThatBeginsInsideTheSkinIsLiftedUntilItHoldsTheForce) {
+  auto on_skin = SoftBody::make(joint, joint->X_JP_default, quick());
+  auto inside = SoftBody::make(joint, joint->X_JP_default, quick());
+  ASSERT_TRUE(on_skin && inside);
+  const auto pressed = press_with(*on_skin, joint->X_JP_default, 1.0);
+  ASSERT_TRUE(pressed) << pressed.error().to_string();
+  constexpr double kDeeper = 3e-3;  // m than where the hand holds 1 N
+  Pose X_JP = joint->X_JP_default;
+  X_JP.translation() += (pressed->depth + kDeeper) * X_JP.linear().col(2);
+  const auto lifted = press_with(*inside, X_JP, 1.0);
+  ASSERT_TRUE(lifted) << lifted.error().to_string();
+  EXPECT_NEAR(lifted->normal_force, 1.0, 0.005);
+  EXPECT_NEAR(lifted->depth, -kDeeper, 0.1e-3);
+}
+
 TEST_F(SoftBodyTest, PressedJointHoldsTheHandAndItsBonesStay) {
   auto body = SoftBody::make(joint, joint->X_JP_default, quick());
   ASSERT_TRUE(body);
