@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "artus/anatomy/body/liquid.h"
+
 namespace artus {
 namespace {
 
@@ -51,7 +53,7 @@ ClearLevels::ClearLevels(const CompiledJoint& joint, const Vec3& up_J) {
   for (std::size_t r = kFirstRegion; r < joint.regions.size(); ++r) {
     const auto region = static_cast<RegionId>(r);
     const Tissue& tissue = joint.tissue_of(region);
-    if (!tissue.name.starts_with("injected_") || !(tissue.acoustic.backscatter > 0)) continue;
+    if (!is_injected(tissue.name) || !(tissue.acoustic.backscatter > 0)) continue;
     const std::vector<Facet> facets = facets_of(joint, region, up_J);
     if (facets.empty()) continue;
     Table table;

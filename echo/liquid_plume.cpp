@@ -72,7 +72,7 @@ void LiquidPlume::find_liquid(const Scene& scene) {
   wet_.clear();
   for (const Region& region : known_->regions)
     wet_.push_back(region.tissue < known_->tissues.size() &&
-                   known_->tissues[region.tissue].name.starts_with("injected_"));
+                   is_injected(known_->tissues[region.tissue].name));
 }
 
 bool LiquidPlume::is_liquid(const Scene& scene, const Vec3& p_J) const noexcept {

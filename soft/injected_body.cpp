@@ -180,7 +180,7 @@ Vec3 toward_skin(const CompiledJoint& joint, const Vec3& p) {
 /// The liquid as a tissue of the joint: what sound meets in it, with its grains. The tissue of that
 /// name, or water-like where the joint has none.
 TissueId liquid_tissue(CompiledJoint& joint, const Liquid& liquid) {
-  const std::string name = "injected_" + liquid.name;
+  const std::string name = injected_tissue_name(liquid);
   const auto find = [&](const std::string& wanted) {
     return std::find_if(joint.tissues.begin(), joint.tissues.end(),
                         [&](const Tissue& t) { return t.name == wanted; });

@@ -11,6 +11,8 @@
 namespace artus {
 namespace {
 
+constexpr std::string_view kInjected = "injected_";
+
 constexpr double kMilli = 1e-3;
 constexpr double kMicro = 1e-6;
 
@@ -63,6 +65,14 @@ Result<std::vector<Liquid>> read_liquids(const std::filesystem::path& file) {
 
 Result<std::vector<Liquid>> read_bundled_liquids() {
   return parse_liquids(kBundledLiquids, "bundled liquids");
+}
+
+std::string injected_tissue_name(const Liquid& liquid) {
+  return std::string(kInjected) + liquid.name;
+}
+
+bool is_injected(std::string_view tissue_name) noexcept {
+  return tissue_name.starts_with(kInjected);
 }
 
 Result<Liquid> find_liquid(std::span<const Liquid> liquids, std::string_view name) {

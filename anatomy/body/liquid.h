@@ -45,6 +45,10 @@ struct Liquid {
 /// The liquids that come with artus (meshes/liquids.toml, built in).
 [[nodiscard]] Result<std::vector<Liquid>> read_bundled_liquids();
 
+/// What the tissue of a region that holds an injected liquid is called, and whether a tissue is such.
+[[nodiscard]] std::string injected_tissue_name(const Liquid& liquid);
+[[nodiscard]] bool is_injected(std::string_view tissue_name) noexcept;
+
 /// Errors: not_found, with the names there are.
 [[nodiscard]] Result<Liquid> find_liquid(std::span<const Liquid> liquids, std::string_view name);
 
