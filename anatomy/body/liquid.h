@@ -45,7 +45,8 @@ struct Liquid {
 /// The liquids that come with artus (meshes/liquids.toml, built in).
 [[nodiscard]] Result<std::vector<Liquid>> read_bundled_liquids();
 
-/// What the tissue of a region that holds an injected liquid is called, and whether a tissue is such.
+/// What the tissue of a region that holds an injected liquid is called, and whether a tissue is
+/// such.
 [[nodiscard]] std::string injected_tissue_name(const Liquid& liquid);
 [[nodiscard]] bool is_injected(std::string_view tissue_name) noexcept;
 
