@@ -143,7 +143,7 @@ constexpr double kBorder = 9e-3;  // m, of the layers that gate_border presses
 enum class BorderShown { echo, speckle };
 
 struct BorderProfile {
-  double at = 0;     // m below where the tissue's border is, mean over the lines
+  double at = 0;     // m below where the tissue's border is, mean over lines and planes
   double moved = 0;  // m of the border on the middle line
 };
 
@@ -157,6 +157,8 @@ std::shared_ptr<const CompiledJoint> border_joint(BorderShown shown) {
   above.backscatter = 0;
   above.speed_of_sound = below.speed_of_sound;
   above.density = below.density;
+  // The wall of a liquid would reflect though both sound alike.
+  above.kind = below.kind;
   if (shown == BorderShown::echo) {
     below.backscatter = 0;
     above.density *= 0.9;
@@ -164,56 +166,75 @@ std::shared_ptr<const CompiledJoint> border_joint(BorderShown shown) {
   return std::make_shared<const CompiledJoint>(std::move(joint));
 }
 
-/// Depth below the probe's face, m, at which the border lies on a line at x.
-double border_depth(const DeformedBody& body, double x, double face) {
+/// Depth below the probe's face, m, at which the border lies on a line at x in the plane at y.
+double border_depth(const DeformedBody& body, double x, double y, double face) {
   double low = face;
   double high = kBorder + 5e-3;
   for (int k = 0; k < 40; ++k) {
     const double z = 0.5 * (low + high);
-    (body.to_rest({x, 0, z}).p_rest.z() < kBorder ? low : high) = z;
+    (body.to_rest({x, y, z}).p_rest.z() < kBorder ? low : high) = z;
   }
   return low - face;
 }
+
+/// Power of the lines of many planes around the border, each line by its own border's place.
+struct BorderPower {
+  static constexpr int kAround = 48;      // samples on both sides of the border
+  static constexpr int kPlanes = 4;       // on both sides of the middle one
+  static constexpr double kApart = 4e-3;  // m, wider than the beam: each has speckle of its own
+  std::vector<double> power = std::vector<double>(2 * kAround + 1, 0.0);
+  double to_sample = 0;  // of a depth in m
+
+  /// `speeds`: the display's speed of sound over the tissue's.
+  void add_plane(const std::shared_ptr<const DeformedBody>& body, double y, double speeds) {
+    Pose X_JP = Pose::Identity();
+    X_JP.translation() = Vec3(0, y, body->displacement(Vec3(0, y, 0)).z() + 1e-3);
+    const Frame frame = render_bmode(make_scene(body), X_JP, std::nullopt, {}, settings_of_gate());
+    to_sample = speeds / frame.sample_depth;
+    const Transducer probe;
+    for (int l = 24; l < frame.n_lines - 24; ++l) {
+      const double x = (static_cast<double>(l) / (frame.n_lines - 1) - 0.5) * probe.width;
+      const double at = border_depth(*body, x, y, X_JP.translation().z()) * to_sample;
+      const auto line = envelope_line(frame, l);
+      for (int k = -kAround; k <= kAround; ++k) {
+        const double s = at + k;
+        const auto i = static_cast<std::size_t>(s);
+        const double share = s - static_cast<double>(i);
+        const double value = (1 - share) * line[i] + share * line[i + 1];
+        power[static_cast<std::size_t>(k + kAround)] += value * value;
+      }
+    }
+  }
+
+  /// m below where the tissue's border is: the echo's peak, or where speckle has half its power.
+  [[nodiscard]] double find(BorderShown shown) const {
+    double found = 0;
+    if (shown == BorderShown::echo) {
+      found = static_cast<double>(std::max_element(power.begin(), power.end()) - power.begin());
+    } else {
+      double plateau = 0;
+      for (std::size_t k = 2 * kAround - 23; k < power.size(); ++k) plateau += power[k] / 24;
+      std::size_t k = 1;
+      while (k + 1 < power.size() && power[k] < 0.5 * plateau) ++k;
+      found = static_cast<double>(k) -
+              (power[k] - 0.5 * plateau) / std::max(power[k] - power[k - 1], 1e-300);
+    }
+    return (found - kAround) / to_sample;
+  }
+};
 
 BorderProfile border_profile(const std::shared_ptr<const SoftModel>& model,
                              std::span<const Vec3> nodes, BorderShown shown) {
   const auto joint = border_joint(shown);
   const auto body = std::make_shared<const DeformedBody>(
       joint, make_body_map(*joint, Pose::Identity(), model), nodes, ContactForce{});
-  Pose X_JP = Pose::Identity();
-  X_JP.translation().z() = body->displacement(Vec3::Zero()).z() + 1e-3;
-  const double face = X_JP.translation().z();
-  const Frame frame = render_bmode(make_scene(body), X_JP, std::nullopt, {}, settings_of_gate());
-  const double to_sample = kDisplaySpeedOfSound /
-                           joint->tissue_of(kFirstRegion).acoustic.speed_of_sound /
-                           frame.sample_depth;
-  constexpr int kAround = 48;  // samples on both sides of the border
-  std::vector<double> power(2 * kAround + 1, 0.0);
-  const Transducer probe;
-  for (int l = 24; l < frame.n_lines - 24; ++l) {
-    const double x = (static_cast<double>(l) / (frame.n_lines - 1) - 0.5) * probe.width;
-    const double at = border_depth(*body, x, face) * to_sample;
-    const auto line = envelope_line(frame, l);
-    for (int k = -kAround; k <= kAround; ++k) {
-      const double s = at + k;
-      const auto i = static_cast<std::size_t>(s);
-      const double share = s - static_cast<double>(i);
-      const double value = (1 - share) * line[i] + share * line[i + 1];
-      power[static_cast<std::size_t>(k + kAround)] += value * value;
-    }
-  }
-  double found = 0;
-  if (shown == BorderShown::echo) {
-    found = static_cast<double>(std::max_element(power.begin(), power.end()) - power.begin());
-  } else {
-    double plateau = 0;
-    for (std::size_t k = 2 * kAround - 23; k < power.size(); ++k) plateau += power[k] / 24;
-    std::size_t k = 1;
-    while (k + 1 < power.size() && power[k] < 0.5 * plateau) ++k;
-    found = static_cast<double>(k) -
-            (power[k] - 0.5 * plateau) / std::max(power[k] - power[k - 1], 1e-300);
-  }
-  return {(found - kAround) / to_sample, border_depth(*body, 0, face) + face - kBorder};
+  const double speeds =
+      kDisplaySpeedOfSound / joint->tissue_of(kFirstRegion).acoustic.speed_of_sound;
+  BorderPower power;
+  for (int p = -BorderPower::kPlanes; p <= BorderPower::kPlanes; ++p)
+    power.add_plane(body, p * BorderPower::kApart, speeds);
+  const double face = body->displacement(Vec3::Zero()).z() + 1e-3;
+  return {power.find(shown), border_depth(*body, 0, 0, face) + face - kBorder};
 }
 
 }  // namespace
