@@ -35,15 +35,17 @@ void scale_add_pair(float weight, const float* before, const float* behind, floa
   for (std::size_t i = 0; i < n; ++i) out[i] += weight * (before[i] + behind[i]);
 }
 
-/// Power of a weighted sum of unit scatterers at `spacing`, some of which lie in one cell.
+/// Power of a weighted sum of unit scatterers at `spacing`, of which `shared(distance, cell)` is
+/// the correlation.
 template <class T>
-double shared_power(const std::vector<T>& weights, double spacing, double cell) {
+double shared_power(const std::vector<T>& weights, double spacing, double cell,
+                    double (*shared)(double, double) noexcept) {
   double sum = 0;
   for (std::size_t i = 0; i < weights.size(); ++i) {
     for (std::size_t j = 0; j < weights.size(); ++j) {
       const double apart = spacing * (static_cast<double>(i) - static_cast<double>(j));
-      sum += ScatterField::shared(apart, cell) * static_cast<double>(weights[i]) *
-             static_cast<double>(weights[j]);
+      sum +=
+          shared(apart, cell) * static_cast<double>(weights[i]) * static_cast<double>(weights[j]);
     }
   }
   return sum;
@@ -113,7 +115,8 @@ void BeamShape::tabulate_planes(const ImageSettings& settings) {
   }
   echo_weight_.assign(static_cast<std::size_t>(planes) * n, 0.0F);
   speckle_weight_.assign(static_cast<std::size_t>(planes) * n + kPadding, 0.0F);
-  const double pulse_power = shared_power(pulse_, sample_depth_, scatterer_.axial);
+  const double pulse_power =
+      shared_power(pulse_, sample_depth_, scatterer_.axial, ScatterField::shared_axially);
   std::vector<double> lateral(static_cast<std::size_t>(2 * reach_ + 1));
   std::vector<double> weight(static_cast<std::size_t>(planes));
   for (std::size_t i = 0; i < n; ++i) {
@@ -136,7 +139,8 @@ void BeamShape::tabulate_planes(const ImageSettings& settings) {
       lateral[static_cast<std::size_t>(at_k)] =
           kernel_[static_cast<std::size_t>(std::abs(k)) * n + i];
     }
-    const double lateral_power = shared_power(lateral, line_spacing(z), scatterer_.lateral);
+    const double lateral_power =
+        shared_power(lateral, line_spacing(z), scatterer_.lateral, ScatterField::shared);
     const double unit = 1 / std::sqrt(plane_power * lateral_power * pulse_power);
     for (std::size_t p = 0; p < weight.size(); ++p) {
       echo_weight_[p * n + i] = static_cast<float>(weight[p] / sum);

@@ -33,6 +33,21 @@ inline std::uint32_t hash_cell(std::uint32_t x, std::uint32_t y, std::uint32_t z
 // The difference of two uniform bytes has variance (256^2 - 1) / 6; twice that for both parts.
 constexpr float kUnitPower = 1.0F / 147.8F;
 
+/// The cell of row z that the walk's sample i lies in; rows are shifted against each other by parts
+/// of a cell that never repeat.
+inline std::uint32_t hash_row(const LatticeWalk& walk, std::uint32_t i, std::uint32_t z,
+                              std::uint32_t seed) noexcept {
+  const std::uint32_t y = (walk.start[1] + i * walk.step[1] + z * 40503U) >> 16U;
+  const std::uint32_t x = (walk.start[0] + i * walk.step[0] + z * 27146U + y * 49297U) >> 16U;
+  return hash_cell(x, y, z, seed);
+}
+
+/// Of the lowest two bytes.
+inline float difference(std::uint32_t h) noexcept {
+  return static_cast<float>(static_cast<std::int32_t>(h & 255U) -
+                            static_cast<std::int32_t>((h >> 8U) & 255U));
+}
+
 /// The scatterers of one lattice along a walk.
 struct ScattererWalk {
   LatticeWalk walk;
@@ -46,26 +61,20 @@ void add_scatterers(const ScattererWalk& scatterers, const float* gain, float* r
   const LatticeWalk& walk = scatterers.walk;
   const std::uint32_t seed = scatterers.seed;
   const float unit = scatterers.unit;
-  const std::uint32_t x0 = walk.start[0];
-  const std::uint32_t y0 = walk.start[1];
   const std::uint32_t z0 = walk.start[2];
-  const std::uint32_t dx = walk.step[0];
-  const std::uint32_t dy = walk.step[1];
   const std::uint32_t dz = walk.step[2];
   const auto count = static_cast<std::uint32_t>(n);
   for (std::uint32_t i = 0; i < count; ++i) {
-    // rows shifted against each other by parts of a cell that never repeat
-    const std::uint32_t z = (z0 + i * dz) >> 16U;
-    const std::uint32_t y = (y0 + i * dy + z * 40503U) >> 16U;
-    const std::uint32_t x = (x0 + i * dx + z * 27146U + y * 49297U) >> 16U;
-    const std::uint32_t h = hash_cell(x, y, z, seed);
-    const auto a =
-        static_cast<std::int32_t>(h & 255U) - static_cast<std::int32_t>((h >> 8U) & 255U);
-    const auto b =
-        static_cast<std::int32_t>((h >> 16U) & 255U) - static_cast<std::int32_t>(h >> 24U);
-    const float g = gain[i] * unit;
-    re[i] += g * static_cast<float>(a);
-    im[i] += g * static_cast<float>(b);
+    const std::uint32_t at = z0 + i * dz;
+    const std::uint32_t z = at >> 16U;
+    const float behind = static_cast<float>(at & 0xffffU) * (1.0F / 65536);
+    const float before = 1 - behind;
+    const float unit_power = unit / std::sqrt(before * before + behind * behind);
+    const std::uint32_t first = hash_row(walk, i, z, seed);
+    const std::uint32_t second = hash_row(walk, i, z + 1, seed);
+    const float g = gain[i] * unit_power;
+    re[i] += g * (before * difference(first) + behind * difference(second));
+    im[i] += g * (before * difference(first >> 16U) + behind * difference(second >> 16U));
   }
 }
 
@@ -150,6 +159,22 @@ void ScatterField::add(const ScatterView& view, const Vec3& p_J, const Vec3& ste
 
 double ScatterField::shared(double distance, double cell) noexcept {
   return std::max(0.0, 1 - std::abs(distance) / cell);
+}
+
+double ScatterField::shared_axially(double distance, double cell) noexcept {
+  constexpr int kSteps = 64;  // of where in its cell the first sample lies
+  const double apart = std::abs(distance) / cell;
+  double sum = 0;
+  for (int k = 0; k < kSteps; ++k) {
+    const double first = (k + 0.5) / kSteps;
+    const double second = first + apart;
+    const double cells = std::floor(second);
+    const double behind = second - cells;
+    const double power = std::hypot(first, 1 - first) * std::hypot(behind, 1 - behind);
+    if (cells == 0) sum += ((1 - first) * (1 - behind) + first * behind) / power;
+    if (cells == 1) sum += first * (1 - behind) / power;
+  }
+  return sum / kSteps;
 }
 
 void add_white_noise(std::uint64_t seed, int line, std::span<const float> gain, std::span<float> re,

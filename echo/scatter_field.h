@@ -68,6 +68,10 @@ class ScatterField {
   /// correlation.
   [[nodiscard]] static double shared(double distance, double cell) noexcept;
 
+  /// Correlation of samples `distance` apart (m) along the beam, where scatterers of cells `cell`
+  /// long blend into each other.
+  [[nodiscard]] static double shared_axially(double distance, double cell) noexcept;
+
   [[nodiscard]] const ScattererSize& size() const noexcept { return size_; }
 
  private:
