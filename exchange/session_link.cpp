@@ -34,19 +34,54 @@ igtl::Message message_of(const char* type, const char* device, std::uint64_t tim
   return message;
 }
 
+std::string name_of(const std::vector<Region>& regions, std::uint32_t region) {
+  return region < regions.size() ? regions[region].name : std::string();
+}
+
 /// What is felt, as words beside the picture.
 std::vector<igtl::MetaEntry> force_entries(const HapticSnapshot& haptic, const Session& session) {
   const Vec3 force(haptic.force_J[0], haptic.force_J[1], haptic.force_J[2]);
   const Vec3 axis = to_pose(haptic.X_JN).linear().col(2);
   const auto& regions = session.scene().joint().regions;
-  const std::uint32_t region = haptic.feedback.region;
   return {{"Force_N", number_text(force.norm())},
           {"AxialForce_N", number_text(-force.dot(axis))},
           {"Depth_mm", number_text(haptic.feedback.depth / kMillimetre)},
-          {"Layer", region < regions.size() ? regions[region].name : std::string()},
+          {"Layer", name_of(regions, haptic.feedback.region)},
           {"Status", std::to_string(haptic.status)},
           {"HapticRate_Hz", number_text(session.params().haptic_rate)},
           {"ImageRate_Hz", number_text(session.params().image_rate)}};
+}
+
+/// The syringe, as words beside the picture.
+std::vector<igtl::MetaEntry> syringe_entries(const HapticSnapshot& haptic,
+                                             const std::vector<Region>& regions) {
+  constexpr double kKilopascal = 1e3;  // Pa
+  const PlungerFeedback& plunger = haptic.feedback.plunger;
+  std::string into;
+  for (std::uint32_t k = 0; k < haptic.n_sites; ++k)
+    into += (k == 0 ? "" : ", ") + name_of(regions, haptic.sites[k].region) + " " +
+            number_text(haptic.sites[k].volume / kCubicCentimetre);
+  return {{"ThumbForce_N", number_text(plunger.thumb_force)},
+          {"BarrelPressure_kPa", number_text(plunger.pressure / kKilopascal)},
+          {"TipPressure_kPa", number_text(plunger.tip_pressure / kKilopascal)},
+          {"Flow_ml_s", number_text(plunger.flow / kCubicCentimetre)},
+          {"Given_ml", number_text(plunger.given / kCubicCentimetre)},
+          {"Drawn_ml", number_text(plunger.drawn / kCubicCentimetre)},
+          {"Into_ml", into},
+          {"PlungerStatus", std::to_string(plunger.status)}};
+}
+
+/// The syringe in numbers, a message for each unit.
+void append_syringe(std::vector<igtl::Message>& messages, const PlungerFeedback& plunger,
+                    std::uint64_t time) {
+  const auto append = [&](const char* name, igtl::Sensor sensor) {
+    messages.push_back(message_of("SENSOR", name, time, igtl::pack_sensor(sensor)));
+  };
+  append("ThumbForce", {igtl::kNewton, {plunger.thumb_force}});
+  append("PlungerTravel", {igtl::kMetre, {plunger.travel}});
+  append("SyringePressure", {igtl::kPascal, {plunger.pressure, plunger.tip_pressure}});
+  append("SyringeFlow", {igtl::kCubicMetrePerSecond, {plunger.flow}});
+  append("SyringeVolume", {igtl::kCubicMetre, {plunger.given, plunger.drawn}});
 }
 
 void append_forces(std::vector<igtl::Message>& messages, const HapticSnapshot& haptic,
@@ -94,9 +129,12 @@ std::vector<igtl::Message> messages_of(const ImageSnapshot& image, const HapticS
     messages.push_back(message_of("IMAGE", "Image_Reference", time, igtl::pack_image(out)));
     messages.back().id = static_cast<std::uint32_t>(image.input.number);
     messages.back().meta = {{"Modality", "simulated ultrasound"}};
-    if (haptic != nullptr)
-      for (igtl::MetaEntry& entry : force_entries(*haptic, session))
-        messages.back().meta.push_back(std::move(entry));
+    if (haptic != nullptr) {
+      std::vector<igtl::MetaEntry>& meta = messages.back().meta;
+      for (const igtl::MetaEntry& entry : force_entries(*haptic, session)) meta.push_back(entry);
+      for (const igtl::MetaEntry& entry : syringe_entries(*haptic, session.scene().joint().regions))
+        meta.push_back(entry);
+    }
   }
   if (image.input.has_probe != 0)
     messages.push_back(
@@ -105,7 +143,10 @@ std::vector<igtl::Message> messages_of(const ImageSnapshot& image, const HapticS
     messages.push_back(
         message_of("TRANSFORM", "NeedleToReference", time,
                    igtl::pack_transform(reference.to_reference(to_pose(image.input.X_JN)))));
-  if (haptic != nullptr) append_forces(messages, *haptic, reference, time);
+  if (haptic != nullptr) {
+    append_forces(messages, *haptic, reference, time);
+    append_syringe(messages, haptic->feedback.plunger, time);
+  }
   return messages;
 }
 

@@ -16,8 +16,10 @@ namespace artus {
 
 /// A session on OpenIGTLink: pictures, poses and forces out; a tracker's poses and commands in.
 /// Out, with each image: IMAGE Image_Reference (header 2 with Force_N and more as metadata),
-/// TRANSFORM ProbeToReference and NeedleToReference; STRING and SENSOR Force to those who asked
-/// with STT_STRING and STT_SENSOR. In: see TrackerInbox, docs/openigtlink.md for commands.
+/// TRANSFORM ProbeToReference and NeedleToReference; to those who asked with STT_STRING STRING
+/// Force, with STT_SENSOR SENSOR Force and of the syringe ThumbForce, PlungerTravel,
+/// SyringePressure, SyringeFlow, SyringeVolume. In: see TrackerInbox, docs/openigtlink.md for
+/// commands.
 class SessionLink {
  public:
   struct Options {

@@ -18,6 +18,12 @@ double smooth(double s) noexcept {
   s = std::clamp(s, 0.0, 1.0);
   return s * s * (3 - 2 * s);
 }
+
+// m into a layer at which a hand that looks for it stops.
+double deepest_in(const OperatorPhase& phase, double thickness) noexcept {
+  const double half = 0.5 * thickness;
+  return phase.before_floor > 0 ? std::max(half, thickness - phase.before_floor) : half;
+}
 }  // namespace
 
 OperatorView view_of(const NeedleModel& model) noexcept {
@@ -94,7 +100,7 @@ bool InjectionOperator::goal_met(const OperatorPhase& phase, double time, double
       return depth >= phase.depth;
     case Goal::region:
       return view.region == phase.region && view.into_layer >= 0 &&
-             view.into_layer >= std::min(phase.depth, 0.5 * view.thickness);
+             view.into_layer >= std::min(phase.depth, deepest_in(phase, view.thickness));
     case Goal::bone:
       break;
   }

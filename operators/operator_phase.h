@@ -17,6 +17,8 @@ struct OperatorPhase {
   double speed = 0;               ///< m/s, advance and withdraw
   double depth = 0;               ///< m along the line; for Goal::region how deep into it at least;
                                   ///< for Goal::bone where to give up, 0: nowhere
+  double before_floor = 0;        ///< m above the end of a layer that Goal::region stops at the
+                                  ///< latest, however deep it meant to go; 0: half way through
   bool stop_at_bone = false;      ///< advance: bone ends it, too
   RegionId region = kOutside;     ///< Goal::region
   double duration = 0;            ///< s; hold, turn, wait: exactly; others: at most

@@ -1,23 +1,42 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <array>
+#include <cstddef>
+
 #include "artus/haptics/plunger/plunger.h"
 #include "artus/operators/operator_phase.h"
 
 namespace artus {
 
-/// m^3 that a barrel still gives when the thumb goes no further and holds its plunger: what its
-/// pressure (Pa) holds above that around the bevel.
-[[nodiscard]] ARTUS_REALTIME double after_flow(const Syringe& syringe, double pressure,
-                                               double tip_pressure) noexcept;
+/// What a barrel still gives when the thumb goes no further and holds its plunger for a while: its
+/// pressure runs out through the bore, at once where the liquid is thin, and hardly at all at the
+/// end where a liquid is the thicker the slower it runs.
+class HeldBarrel {
+ public:
+  /// `seconds`: of holding. Cost: 20 us.
+  HeldBarrel(const PlungerParams& params, double seconds);
 
-/// s in which what a held barrel gives has run out through the needle to within a hundredth: five
-/// times the time constant of bore and barrel, at least 1.5 (assumed) and at most 10, as is taught.
+  /// m^3, from a pressure of `over` Pa in the barrel above that around the bevel.
+  [[nodiscard]] ARTUS_REALTIME double gives(double over) const noexcept;
+
+ private:
+  static constexpr std::size_t kPoints = 128;
+  static constexpr double kLeast = 1;   // Pa, the first
+  static constexpr double kMost = 1e7;  // Pa, the last
+  double softness_;                     // m^3/Pa
+  double points_per_octave_;
+  std::array<double, kPoints> share_{};  // that runs out, by the logarithm of the pressure
+};
+
+/// s for which a plunger is held, in which what a barrel of thin liquid gives has run out to within
+/// a hundredth: five times the time constant of bore and barrel, at least 1.5 (assumed) and at most
+/// 10, as is taught.
 [[nodiscard]] double run_out_time(const PlungerParams& params);
 
 /// What the thumb does of one dose. It presses until what is out and what the barrel will still
-/// give are what was meant, as a hand stops before the mark, or until nothing has gone in for 6 s
-/// (assumed). Then it holds the plunger, which a tense space would push back, until the barrel has
-/// run out, and lets go.
+/// give while it is held are what was meant, as a hand stops before the mark, or until nothing has
+/// gone in for 6 s (assumed). Then it holds the plunger, which a tense space would push back, until
+/// the barrel has run out, and lets go.
 class ThumbDose {
  public:
   /// `volume`: m^3 that are meant.
@@ -50,9 +69,9 @@ class ThumbDose {
 
  private:
   static constexpr double kPatience = 6;  // s; assumed
-  Syringe syringe_;
   double volume_;
   double run_out_;  // s
+  HeldBarrel barrel_;
   OperatorPhase hold_;
   double before_ = 0;
   double in_vain_ = 0;  // s

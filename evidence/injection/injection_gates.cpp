@@ -8,13 +8,14 @@
 namespace artus {
 namespace {
 
-constexpr std::array<NamedGate, 12> kGates{{{"needle", gate_needle},
+constexpr std::array<NamedGate, 13> kGates{{{"needle", gate_needle},
                                             {"compliance", gate_compliance},
                                             {"air", gate_air},
                                             {"leak", gate_leak},
                                             {"energy", gate_energy},
                                             {"mass", gate_mass},
                                             {"rates", gate_rates},
+                                            {"places", gate_places},
                                             {"hand", gate_hand},
                                             {"loss", gate_loss},
                                             {"aspiration", gate_aspiration},
@@ -23,7 +24,8 @@ constexpr std::array<NamedGate, 12> kGates{{{"needle", gate_needle},
 
 constexpr GateSet kSet{
     "injection-gates", "The syringe and the places that liquid goes to, against known answers",
-    "closed forms of flow and pressure, an independent model; each gate names its own", kGates};
+    "closed forms of flow and pressure, integrals, an independent model; each gate names its own",
+    kGates};
 
 }  // namespace
 

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 #include "artus/core/noise.h"
 #include "artus/evidence/injection/injection_gates_list.h"
@@ -14,28 +12,6 @@ namespace {
 using namespace injection_gate;  // NOLINT(google-build-using-namespace): what the gates share
 
 constexpr double kExact = 1e-3;  // of a closed form
-
-/// Flow (m^3/s) at each hundredth of a second under a trembling thumb.
-std::vector<double> flows_at(double rate, const NeedleBore& needle, double tremor) {
-  PlungerParams params = water_syringe(NeedleFlow::kEntryLoss);
-  params.needle = needle;
-  Space muscle = level("muscle", 0);
-  muscle.law.kind = SpaceKind::split;
-  muscle.law.opening = 8e3;
-  muscle.law.peak = 20e3;
-  muscle.law.peak_volume = 0.1e-6;
-  Plunger plunger(params, {muscle}, 1 / rate);
-  std::vector<double> flows;
-  PlungerInput input = thumb(0);
-  input.stiffness = 2000;
-  for (int k = 0; k < static_cast<int>(2 * rate); ++k) {
-    const double t = k / rate;
-    input.position = 4e-3 * t + tremor * std::sin(60 * t);
-    plunger.step(input);
-    if (k % static_cast<int>(rate / 100) == 0) flows.push_back(plunger.state().flow);
-  }
-  return flows;
-}
 
 /// m^3 that are missing after ten seconds of a wild thumb over two places, with leak and rupture.
 double missing_volume(double rate, std::uint64_t seed) {
@@ -198,31 +174,6 @@ Gate gate_mass() {
     worst = std::max(worst, missing_volume(1e3, seed));
   gate.claims.push_back(claim_at_most({ClaimKind::input, "the scalars are written to balance"},
                                       "most that is missing in ten runs", worst * 1e6, 1e-9, "ml"));
-  return gate;
-}
-
-Gate gate_rates() {
-  Gate gate{
-      "", "1, 2 and 10 kHz against 20 kHz, 4 lengths and 3 tremors of the thumb, 2 % RMS", {}};
-  for (const int gauge : {18, 19, 20, 21, 22, 23, 25, 27}) {
-    double worst = 0;
-    for (const double length : {0.016, 0.038, 0.07, 0.12}) {
-      const NeedleBore needle = *bore_of_gauge(gauge, length);
-      for (const double tremor : {1e-4, 2e-4, 3e-4}) {
-        const auto fine = flows_at(20e3, needle, tremor);
-        const double whole = std::inner_product(fine.begin(), fine.end(), fine.begin(), 0.0);
-        for (const double rate : {1e3, 2e3, 10e3}) {
-          const auto flows = flows_at(rate, needle, tremor);
-          double sum = 0;
-          for (std::size_t k = 0; k < flows.size(); ++k) sum += std::pow(flows[k] - fine[k], 2);
-          worst = std::max(worst, std::sqrt(sum / whole));
-        }
-      }
-    }
-    gate.claims.push_back(claim_at_most(ClaimKind::independent,
-                                        std::to_string(gauge) + " G, worst of 36", 100 * worst, 2,
-                                        "% RMS"));
-  }
   return gate;
 }
 

@@ -12,7 +12,8 @@ namespace artus {
 [[nodiscard]] Gate gate_leak();        ///< over a yield pressure
 [[nodiscard]] Gate gate_energy();      ///< the thumb's work
 [[nodiscard]] Gate gate_mass();        ///< volumes under wild thumbs
-[[nodiscard]] Gate gate_rates();       ///< 1, 2, 10 kHz
+[[nodiscard]] Gate gate_rates();       ///< 1, 2, 10 kHz against an integral
+[[nodiscard]] Gate gate_places();      ///< bundled places against an integral
 [[nodiscard]] Gate gate_hand();        ///< thumb's force by target, needle and rate
 [[nodiscard]] Gate gate_loss();        ///< loss of resistance, at constant rate and force
 [[nodiscard]] Gate gate_aspiration();  ///< time to a flash by gauge

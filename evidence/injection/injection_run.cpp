@@ -267,6 +267,21 @@ class Trial {
   double most_ = 0;
 };
 
+/// m along the line where the tip stops: the bevel's opening in the middle of a layer, not the tip
+/// behind which it lies.
+double tip_in_middle(const LineLayer& layer, double opening) {
+  const double middle = (layer.from + layer.to) / 2;
+  return std::max(std::min(middle + opening / 2, layer.to - kBeforeFloor), middle);
+}
+
+/// The same as near to `wanted` in the layer as has the whole opening in it.
+double tip_near(const LineLayer& layer, double opening, double wanted) {
+  if (wanted < layer.from || wanted > layer.to) return wanted;
+  const double first = layer.from + opening;
+  const double last = layer.to - kBeforeFloor;
+  return first <= last ? std::clamp(wanted, first, last) : tip_in_middle(layer, opening);
+}
+
 /// As in three-injections a bursa on the line is what is meant; none when the target is in a cavity
 /// already or there is no bursa.
 std::optional<RegionId> bursa_on(const Scene& scene, const Vec3& entry, const Vec3& target) {
@@ -315,10 +330,11 @@ Result<InjectionRun> run_injection(const Scene& scene, const InjectionSpec& spec
   InjectionRun out;
   out.spec = spec;
   for (const Region& r : scene.joint().regions) out.regions.push_back(r.name);
-  // The bevel's opening is aimed at the middle of the layer, not the tip behind which it lies.
+  const bool solid = spaces->spaces[spaces->of_region[region]].law.kind == SpaceKind::solid;
   const double opening = bevel_length(spec.plunger.needle.outer_diameter);
-  const double aimed = std::min((layer->from + layer->to + opening) / 2, layer->to - kBeforeFloor);
-  const double target = into ? std::max(aimed, (layer->from + layer->to) / 2) : way.norm();
+  const double target = into    ? tip_in_middle(*layer, opening)
+                        : solid ? way.norm()
+                                : tip_near(*layer, opening, way.norm());
   out.spec.plunger.needle.length =
       std::max(spec.plunger.needle.length, layer->to + kFarthestThrough + kSpare);
   const double through = beyond(scene, out.spec, *layer, direction, *spaces);

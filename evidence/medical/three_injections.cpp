@@ -25,6 +25,8 @@ constexpr double kStartOutside = 0.012;  // m before the skin
 constexpr double kSearch = 0.15;         // m along a line for target and bone
 constexpr double kMinRemaining = 0.006;  // m that stay in at a withdrawal
 constexpr double kIntoTarget = 0.6e-3;   // m into the target layer at least
+constexpr double kBeforeRoof = 0.3e-3;   // m of the target behind the bevel's opening; assumed
+constexpr double kBeforeFloor = 0.3e-3;  // m that the tip stays above a floor; assumed
 constexpr double kHold = 0.8;            // s at a target; assumed
 constexpr double kTurn = 1.2;            // s to re-aim; assumed
 constexpr double kPause = 1.0;           // s between injections; assumed
@@ -154,8 +156,11 @@ OperatorPhase reach_target(const ThreeInjectionsOptions& options, const LinePlan
   phase.region = plan.region;
   phase.depth = kIntoTarget;
   const auto bore = bore_of_gauge(options.dose.syringe.gauge, kSearch);
-  if (options.dose.volume > 0 && bore)
-    phase.depth = std::max(kIntoTarget, bevel_length(bore->outer_diameter));
+  if (options.dose.volume > 0 && bore) {
+    // The bevel's whole opening, or as much of it as there is room for.
+    phase.depth = std::max(kIntoTarget, bevel_length(bore->outer_diameter) + kBeforeRoof);
+    phase.before_floor = kBeforeFloor;
+  }
   return phase;
 }
 

@@ -50,6 +50,10 @@ struct Sensor {
 inline constexpr std::uint64_t kNewton = 0x02C4000000000000;
 /// The same for metre, SI unit 0x01.
 inline constexpr std::uint64_t kMetre = 0x0044000000000000;
+/// Pascal, SI unit 0x0C; cubic metre; cubic metre a second (second: SI unit 0x03).
+inline constexpr std::uint64_t kPascal = 0x0304000000000000;
+inline constexpr std::uint64_t kCubicMetre = 0x004C000000000000;
+inline constexpr std::uint64_t kCubicMetrePerSecond = 0x004C3F0000000000;
 [[nodiscard]] std::string pack_sensor(const Sensor& sensor);
 [[nodiscard]] Result<Sensor> parse_sensor(std::string_view content);
 

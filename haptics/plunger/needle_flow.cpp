@@ -24,7 +24,7 @@ constexpr std::array<Gauge, 8> kGauges{{{18, 0.838e-3, 1.270e-3},
 
 constexpr double kSlowest = 1e-3;  // 1/s, shear rates of the table at the wall
 constexpr double kFastest = 1e8;
-constexpr int kSubsteps = 16;        // of the integral between two points of it
+constexpr int kSubsteps = 8;         // of the integral between two points of it
 constexpr double kUsualFlow = 1e-7;  // m^3/s
 
 }  // namespace

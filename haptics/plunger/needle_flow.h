@@ -41,7 +41,7 @@ class NeedleFlow {
   [[nodiscard]] double resistance() const noexcept { return resistance_; }
 
  private:
-  static constexpr std::size_t kPoints = 256;
+  static constexpr std::size_t kPoints = 512;
   void tabulate(const NeedleBore& bore, const Viscosity& viscosity);
 
   bool newtonian_;

@@ -18,6 +18,8 @@ constexpr double kAround = 1e3;  // Pa that parts what lies around a torn place;
 constexpr double kClogFactor = 100;         // on the needle's resistance; assumed
 constexpr double kClogTime = 0.2;           // s in which it clogs; assumed
 constexpr double kWidestClogged = 0.22e-3;  // m of bore; 27 G and thinner
+constexpr double kMostFall =
+    0.25;                          // of the bevel's resistance, by which a place may fall in a tick
 constexpr double kFilmRate = 1e3;  // 1/s at which a thinning liquid runs in a film; assumed
 
 double fade(const SpaceLaw& law, double dt) noexcept {
@@ -80,6 +82,7 @@ Plunger::Plunger(const PlungerParams& params, std::vector<Space> spaces, double 
 void Plunger::reset() noexcept {
   std::fill(states_.begin(), states_.end(), SpaceState{});
   state_ = {};
+  flows_ = {};
   state_.content = params_.syringe.filled;
   way_ = 0;
   started_ = false;
@@ -102,12 +105,12 @@ double Plunger::pressure(std::size_t space) const noexcept {
   return s.ruptured ? rest + kAfterTear * (p - rest) : p;
 }
 
-/// Pa/m^3 by which the pressure rises with what is put in, as long as nothing relaxes; never below
-/// 0.
+/// Pa/m^3 by which the pressure rises with what is put in, as long as nothing relaxes; a split's
+/// falls.
 double Plunger::rise(std::size_t space) const noexcept {
   const SpaceState& s = states_[space];
   const SpaceLaw& law = spaces_[space].law;
-  const double slope = std::max(0.0, slope_of(law, s.volume - s.drawn) * (1 + law.relaxing));
+  const double slope = slope_of(law, s.volume - s.drawn) * (1 + law.relaxing);
   return s.ruptured ? kAfterTear * slope : slope;
 }
 
@@ -154,8 +157,11 @@ const NeedleFlow* Plunger::flow_in(const TipShare& tip) const noexcept {
   return &others_[static_cast<std::size_t>(contents)];
 }
 
-/// A place meets what is half a step later.
-Plunger::Branch Plunger::branch(const TipShare& tip, double step, bool out) const noexcept {
+/// A place meets what is half a step later: its pressure by what flows in it, the gap of its film
+/// by what flowed into it until now.
+Plunger::Branch Plunger::branch(const PlungerInput& input, std::size_t which, double step,
+                                bool out) const noexcept {
+  const TipShare& tip = input.tip[which];
   const SpaceState& s = states_[tip.space];
   if (!s.open || !(tip.share > 0)) return {};
   const SpaceLaw& law = spaces_[tip.space].law;
@@ -163,16 +169,20 @@ Plunger::Branch Plunger::branch(const TipShare& tip, double step, bool out) cons
   if (!out && (law.kind == SpaceKind::split || flow_in(tip) == nullptr)) return {};
   const double volume = s.volume - s.drawn;
   const double near = bevel_share_ * own_.resistance() + law.resistance +
-                      film_resistance(law, volume, params_.liquid.viscosity.at(kFilmRate));
-  return {true, pressure(tip.space), near / tip.share + step * rise(tip.space) / 2};
+                      film_resistance(law, volume + step / 2 * flows_[which],
+                                      params_.liquid.viscosity.at(kFilmRate));
+  // Never so much that the bore would seem to help.
+  const double least = -kMostFall * bevel_share_ * own_.resistance();
+  return {true, pressure(tip.space),
+          near / tip.share + std::max(least, step * rise(tip.space) / 2)};
 }
 
 /// The bore ends in both branches; one against whose pressure nothing flows takes no part.
 Plunger::Parting Plunger::part(const PlungerInput& input, const Drive& drive,
                                bool out) const noexcept {
   const double way = out ? 1 : -1;
-  std::array<Branch, 2> branches{branch(input.tip[0], drive.step, out),
-                                 branch(input.tip[1], drive.step, out)};
+  std::array<Branch, 2> branches{branch(input, 0, drive.step, out),
+                                 branch(input, 1, drive.step, out)};
   for (Branch& b : branches) b.open = b.open && way * (drive.pressure - b.pressure) > 0;
   const std::size_t first = branches[0].open ? 0 : 1;
   Parting parting;
@@ -190,7 +200,8 @@ Plunger::Parting Plunger::part(const PlungerInput& input, const Drive& drive,
       drawn += b.pressure / b.resistance;
     }
     const double behind = drawn / conductance;
-    const double extra = std::max(0.0, 1 / conductance - in_bevel) + clogged + drive.lag;
+    const double extra =
+        std::max(-kMostFall * in_bevel, 1 / conductance - in_bevel) + clogged + drive.lag;
     const double q = bore.flow(drive.pressure - behind, extra);
     parting.pressure = behind + q / conductance;
     bool all = true;
@@ -239,7 +250,7 @@ bool Plunger::leak(const PlungerInput& input, double step) noexcept {
     if (leak.by_rupture && !from.ruptured) return;
     const double dp = pressure(leak.from) - pressure(leak.to) - leak.opening;
     if (!(dp > 0) || !(from.volume > 0)) return;
-    const double slope = rise(leak.from) + rise(leak.to);
+    const double slope = std::max(0.0, rise(leak.from)) + std::max(0.0, rise(leak.to));
     const double volume = std::min(dp / (leak.resistance + 0.5 * step * slope) * step, from.volume);
     any = true;
     change_volume(leak.from, -volume);

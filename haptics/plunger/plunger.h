@@ -150,6 +150,7 @@ class Plunger {
   struct Before {
     PlungerState state;
     std::array<SpaceState, 2> spaces;
+    std::array<double, 2> flows;
     int way;
     Gait gait;
   };
@@ -172,7 +173,8 @@ class Plunger {
     std::array<double, 2> flows{};
     double pressure = 0;
   };
-  [[nodiscard]] Branch branch(const TipShare& tip, double step, bool out) const noexcept;
+  [[nodiscard]] Branch branch(const PlungerInput& input, std::size_t which, double step,
+                              bool out) const noexcept;
   [[nodiscard]] const NeedleFlow* flow_in(const TipShare& tip) const noexcept;
   [[nodiscard]] Parting part(const PlungerInput& input, const Drive& drive,
                              bool out) const noexcept;
@@ -210,6 +212,7 @@ class Plunger {
   std::vector<double> fading_;  // (n_spaces) of `relaxing` in a tick
   std::vector<Leak> leaks_;
   PlungerState state_;
+  std::array<double, 2> flows_{};  // m^3/s into the tip's places, now
   std::uint32_t outside_ = 0;
   int way_ = 0;  // of the stopper: 1 in, -1 out, 0 at rest
   Gait gait_;

@@ -90,6 +90,7 @@ void Plunger::move(const PlungerInput& input, const Push& push) noexcept {
 /// What flows now.
 void Plunger::meet(const PlungerInput& input) noexcept {
   const Parting now = flow_out(input, {state_.pressure, 0, 0});
+  flows_ = now.flows;
   state_.flow = now.flows[0] + now.flows[1];
   state_.bevel_pressure = state_.flow == 0 ? state_.pressure : now.pressure;
 }
@@ -120,7 +121,7 @@ double Plunger::move_to_event(const PlungerInput& input, const Push& push) noexc
     return 0;
   }
   const Before before{
-      state_, {states_[input.tip[0].space], states_[input.tip[1].space]}, way_, gait_};
+      state_, {states_[input.tip[0].space], states_[input.tip[1].space]}, flows_, way_, gait_};
   const double shut = easiest(input, state_.bevel_pressure).over;
   move(input, push);
   const double pulls = felt(push, before.state.travel) - area_ * state_.pressure;
@@ -135,6 +136,7 @@ double Plunger::move_to_event(const PlungerInput& input, const Push& push) noexc
   first = std::min(first, opening);
   state_ = before.state;
   for (std::size_t k = 0; k < 2; ++k) states_[input.tip[k].space] = before.spaces[k];
+  flows_ = before.flows;
   way_ = before.way;
   gait_ = before.gait;
   const Push some = push.part(first);

@@ -150,6 +150,17 @@ TEST(IgtlPeer, ReadsOurTextsStatesAndForces) {
   auto newton = igtl::Unit::New();
   newton->Append(igtl::Unit::SI_DERIVED_NEWTON, 1);
   EXPECT_EQ(newton->Pack(), ours::kNewton);
+  auto metre = igtl::Unit::New();
+  metre->Append(igtl::Unit::SI_BASE_METER, 1);
+  EXPECT_EQ(metre->Pack(), ours::kMetre);
+  auto pascal = igtl::Unit::New();
+  pascal->Append(igtl::Unit::SI_DERIVED_PASCAL, 1);
+  EXPECT_EQ(pascal->Pack(), ours::kPascal);
+  auto volume = igtl::Unit::New();
+  volume->Append(igtl::Unit::SI_BASE_METER, 3);
+  EXPECT_EQ(volume->Pack(), ours::kCubicMetre);
+  volume->Append(igtl::Unit::SI_BASE_SECOND, -1);
+  EXPECT_EQ(volume->Pack(), ours::kCubicMetrePerSecond);
 }
 
 TEST(IgtlPeer, SendsTextsAndStatesThatWeRead) {

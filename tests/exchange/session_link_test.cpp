@@ -16,6 +16,7 @@
 #include <gtest/gtest.h>
 
 #include "artus/core/text_cursor.h"
+#include "artus/haptics/plunger/syringe_choice.h"
 #include "artus/session/session_thread.h"
 #include "tests/exchange/igtl_client.h"
 #include "tests/session/session_support.h"
@@ -120,7 +121,8 @@ TEST_F(SessionLinkTest, SendsForcesToThoseWhoAsk) {
   client.send(ask);
   double most = 0;
   for (int i = 0; i < 60; ++i) {
-    const auto message = client.wait_for("SENSOR");
+    const auto message = client.wait_for(
+        [](const igtl::Message& m) { return m.type == "SENSOR" && m.device == "Force"; });
     ASSERT_TRUE(message);
     const auto sensor = igtl::parse_sensor(message->content);
     ASSERT_TRUE(sensor);
@@ -250,6 +252,69 @@ TEST_F(SessionLinkTest, AThumbThatCannotBeGivesNothingAndTheNextOneIsServed) {
   EXPECT_GT(felt.given, 0);
   EXPECT_LT(felt.given, 5.1e-6);
   EXPECT_NEAR(felt.tip_pressure, 0, 1);
+}
+
+/// What another program's thumb is answered with: force, pressures, flow and volumes, each in its
+/// unit, as the session has them.
+TEST_F(SessionLinkTest, AThumbIsAnsweredWithForcePressureFlowAndVolumes) {
+  const auto inbox = std::make_shared<TrackerInbox>(TrackerCalibration(), TrackerInbox::Names());
+  params_.syringe.filled = 50e-6;
+  start(std::make_unique<TrackerDevice>(inbox, TrackerDevice::Holds{500'000'000, 500'000'000}),
+        inbox);
+  Tracker tracker(port());  // its needle is in the air
+  IgtlClient hand(port());
+  igtl::Message ask;
+  ask.version = 2;
+  ask.type = "STT_SENSOR";
+  hand.send(ask);
+  const auto press = [&](double force) {
+    igtl::Message message;
+    message.type = "SENSOR";
+    message.device = "Plunger";
+    message.content = igtl::pack_sensor({igtl::kNewton, {force}});
+    hand.send(message);
+    tracker.send(0);
+  };
+  constexpr double kPush = 12;  // N
+  const auto numbers = [&](const char* name, std::uint64_t unit, std::size_t n) {
+    press(kPush);
+    const auto message = hand.wait_for(
+        [&](const igtl::Message& m) { return m.type == "SENSOR" && m.device == name; });
+    const auto sensor = message ? igtl::parse_sensor(message->content) : igtl::Sensor{};
+    EXPECT_TRUE(message && sensor) << name;
+    EXPECT_EQ(sensor ? sensor->unit : 0, unit) << name;
+    std::vector<double> values = sensor ? sensor->values : std::vector<double>();
+    EXPECT_EQ(values.size(), n) << name;
+    values.resize(n);
+    return values;
+  };
+  for (int i = 0; i < 100 && numbers("ThumbForce", igtl::kNewton, 1)[0] < 0.99 * kPush; ++i) {
+  }
+  EXPECT_NEAR(numbers("ThumbForce", igtl::kNewton, 1)[0], kPush, 0.01 * kPush);
+  const auto plunger = session_->params().syringe;
+  const PlungerParams params = *make_plunger_params(plunger, needle_length_of(session_->params()));
+  const auto pressures = numbers("SyringePressure", igtl::kPascal, 2);
+  const double pressure = (kPush - params.syringe.glide) / params.syringe.area();
+  EXPECT_NEAR(pressures[0], pressure, 0.01 * pressure);
+  EXPECT_NEAR(pressures[1], 0, 1) << "air";
+  const NeedleFlow bore(params.needle, params.liquid.viscosity, params.liquid.density);
+  const double flow = bore.flow(pressure);
+  EXPECT_NEAR(numbers("SyringeFlow", igtl::kCubicMetrePerSecond, 1)[0], flow, 0.02 * flow);
+  const double before = numbers("SyringeVolume", igtl::kCubicMetre, 2)[0];
+  const double travel = numbers("PlungerTravel", igtl::kMetre, 1)[0];
+  EXPECT_GT(before, 0);
+  EXPECT_NEAR(travel * params.syringe.area(), before, 0.5 * flow + 1e-7) << "of half a second";
+  double after = before;
+  for (int i = 0; i < 100 && after <= before; ++i)
+    after = numbers("SyringeVolume", igtl::kCubicMetre, 2)[0];
+  EXPECT_GT(after, before);
+  const auto picture =
+      hand.wait_for([](const igtl::Message& m) { return m.type == "IMAGE" && m.version == 2; });
+  ASSERT_TRUE(picture);
+  EXPECT_NEAR(parse_number(std::string(picture->meta_value("BarrelPressure_kPa"))).value_or(0),
+              1e-3 * pressure, 1e-4 * pressure);
+  EXPECT_FALSE(picture->meta_value("TipPressure_kPa").empty());
+  EXPECT_GT(parse_number(std::string(picture->meta_value("Given_ml"))).value_or(0), 0);
 }
 
 TEST_F(SessionLinkTest, ATrackersPosesAreInThePictureSoon) {

@@ -70,6 +70,23 @@ TEST(InjectionOperator, StopsInTheLayerItLooksForWhenItSeesTheTipDeepEnough) {
   EXPECT_TRUE(person().done());
 }
 
+TEST(InjectionOperator, GoesDeeperThanHalfALayerOnlyWhereItIsToldHowNearItsEnd) {
+  OperatorPhase phase = push_to(3e-3, 0.01);
+  phase.goal = OperatorPhase::Goal::region;
+  phase.region = kTarget;
+  for (const double before_floor : {0.0, 0.3e-3, 3e-3}) {
+    phase.before_floor = before_floor;
+    const double ends = before_floor == 0.3e-3 ? 2.7e-3 : 1.5e-3;  // of 3 mm
+    Person person({phase});
+    person.view = {kTarget, ends - 0.1e-3, 3e-3, false};
+    person.until_next(0.1);
+    EXPECT_FALSE(person().done()) << before_floor;
+    person.view.into_layer = ends + 0.1e-3;
+    person.until_next(0.1);
+    EXPECT_TRUE(person().done()) << before_floor;
+  }
+}
+
 TEST(InjectionOperator, IsSureOfBoneOnlyAfterAWhile) {
   OperatorPhase phase = push_to(0, 0.01);
   phase.goal = OperatorPhase::Goal::bone;

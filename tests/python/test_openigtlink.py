@@ -282,3 +282,44 @@ def test_pictures_have_pixels_place_and_forces(port):
     assert np.allclose(np.linalg.norm(matrix[:, :3], axis=0), 0.1, atol=1e-6)  # mm a pixel
     grey = np.frombuffer(body, np.uint8, offset=72)
     assert grey.size == 400 * 400 and grey.std() > 10
+
+
+NEWTON, METRE, PASCAL = 0x02C4 << 48, 0x0044 << 48, 0x0304 << 48
+CUBIC_METRE, CUBIC_METRE_PER_SECOND = 0x004C << 48, 0x004C3F << 40
+
+
+def test_a_thumb_is_answered_with_force_pressure_flow_and_volumes(tool, simple):
+    number = free_port()
+    server = subprocess.Popen(
+        [tool, "serve", "-j", str(simple), "--rigid", "--input", "igtl", "--needle-hold-ms", "1000", "--syringe-ml", "50", "--igtl",
+         str(number), "--prefix", f"artus-pt-{os.getpid()}-", "--json"],
+        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    wait_until_it_listens(number, server)
+    client = Client(number)
+    client.send("STT_SENSOR", "", b"")
+    in_the_air = [1.0, 0, 0, 0, 1.0, 0, 0, 0, 1.0, 0, 0, -500.0]
+    asked = {"ThumbForce": (NEWTON, 1), "PlungerTravel": (METRE, 1), "SyringePressure": (PASCAL, 2),
+             "SyringeFlow": (CUBIC_METRE_PER_SECOND, 1), "SyringeVolume": (CUBIC_METRE, 2)}
+    got = {}
+
+    def ready():
+        return set(got) == set(asked) and got["ThumbForce"][0] > 14.9 and got["SyringeVolume"][0] > 1e-7
+
+    end = time.monotonic() + 60
+    while not ready() and time.monotonic() < end:
+        client.send("TRANSFORM", "NeedleToReference", struct.pack(">12f", *in_the_air))
+        client.send("SENSOR", "Plunger", struct.pack(">BBQd", 1, 0, NEWTON, 15.0))
+        for _ in range(8):
+            _, kind, device, body, _ = client.read()
+            if kind == "SENSOR" and device in asked:
+                count, _, unit = struct.unpack(">BBQ", body[:10])
+                assert (unit, count) == asked[device]
+                got[device] = struct.unpack(f">{count}d", body[10:])
+    assert ready(), got
+    area = np.pi * 26.7e-3**2 / 4  # the barrel of 50 ml glides with 5 N
+    assert abs(got["SyringePressure"][0] - 10 / area) < 0.02 * 10 / area
+    assert abs(got["SyringePressure"][1]) < 1  # the needle is in the air
+    assert 0 < got["SyringeFlow"][0] < 2e-6 and got["SyringeVolume"][1] == 0
+    assert abs(got["PlungerTravel"][0] * area - got["SyringeVolume"][0]) < 1e-6
+    server.terminate()
+    assert server.wait(30) == 0

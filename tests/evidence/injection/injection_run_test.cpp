@@ -112,6 +112,36 @@ TEST(InjectionRun, AThinNeedleIsWaitedForUntilTheBarrelHasGivenWhatItHolds) {
   EXPECT_GE(run->volumes.front(), 0.97 * run->given);
 }
 
+TEST(InjectionRun, AThickLiquidIsGivenInFullThoughABarrelKeepsSomeOfIt) {
+  const auto scene = shoulder_like();
+  for (const char* liquid : {"hyaluronic_light", "hyaluronic", "hyaluronic_crosslinked"})
+    for (const int gauge : {18, 22, 25}) {
+      InjectionSpec spec = spec_into(*scene, "bursa", 1e-6);
+      spec.rate = 0.1e-6;
+      spec.plunger.syringe = syringe_for(2e-6);
+      spec.plunger.liquid = *find_liquid(spec.plunger.liquids, liquid);
+      spec.plunger.needle = *bore_of_gauge(gauge, 0.05);
+      const auto run = run_injection(*scene, spec);
+      ASSERT_TRUE(run);
+      EXPECT_NEAR(run->given / spec.volume, 1, 0.01) << liquid << ' ' << gauge;
+    }
+}
+
+TEST(InjectionRun, AWideNeedlesWholeOpeningGoesIntoTheSpaceThatThePlanIsIn) {
+  const std::vector<FlatLayer> layers{
+      {"skin", 2e-3}, {"fat", 8e-3}, {"bursa", 5e-3}, {"bone", 20e-3}};
+  const Scene scene(
+      std::make_shared<const CompiledJoint>(test::make_layered_block(layers, 0.2, 0.2)));
+  InjectionSpec spec = spec_into(scene, "bursa", 1e-6);
+  spec.into.reset();
+  spec.target = Vec3(0, 0, 11e-3);  // 1 mm of 3.2 mm of opening
+  spec.plunger.needle = *bore_of_gauge(18, 0.05);
+  const auto run = run_injection(scene, spec);
+  ASSERT_TRUE(run);
+  EXPECT_EQ(run->target, "bursa");
+  EXPECT_GE(run->volumes.front(), 0.99 * run->given);
+}
+
 TEST(InjectionRun, ARateThatTheThumbCannotKeepIsTold) {
   const auto scene = shoulder_like();
   InjectionSpec spec = spec_into(*scene, "bursa", 4e-6);

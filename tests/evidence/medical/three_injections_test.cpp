@@ -114,6 +114,24 @@ TEST(ThreeInjections, ADoseIsGivenAtEachTargetAndTheBursaHasIt) {
   EXPECT_TRUE(first_run().given.empty());
 }
 
+/// The opening of 18 G is 3.2 mm long and the bursa 2 mm thick along the line: what of it fits,
+/// fits.
+TEST(ThreeInjections, AWideNeedlesOpeningIsAsDeepInTheTargetAsThereIsRoom) {
+  ThreeInjectionsOptions options;
+  options.dose.volume = 0.2e-6;
+  options.dose.rate = 0.2e-6;
+  options.dose.syringe.gauge = 18;
+  const ThreeInjections run = run_three_injections(scene(), kPlans, options).value();
+  double given = 0;
+  double there = 0;
+  for (const GivenTo& to : run.given) {
+    given += to.volume;
+    if (to.target) there += to.volume;
+  }
+  EXPECT_NEAR(given, run.asked, 0.02 * run.asked);
+  EXPECT_GE(there, 0.95 * given);
+}
+
 TEST(ThreeInjections, ABursaThatGotNothingFailsAndADoseWithoutARateIsRefused) {
   ThreeInjectionsOptions options;
   options.dose.volume = 0.2e-6;
