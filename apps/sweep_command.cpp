@@ -51,7 +51,7 @@ Result<void> check_faces(const SweepOptions& sweep) {
     return {};
   };
   for (const TransducerPreset& preset : sweep.transducers)
-    ARTUS_TRY(check(preset.transducer, preset.name));
+    ARTUS_TRY(check(preset.transducer, "--ranges " + preset.name));
   if (sweep.transducers.empty()) ARTUS_TRY(check(sweep.transducer, "--transducer"));
   return {};
 }

@@ -47,7 +47,8 @@ struct ScatterView {
 /// they must be turned with the view: 40 elevation axes and steps of 15 degrees within the plane
 /// are fixed in the body, and the nearest is taken, blending over the last degree. Real speckle
 /// changes alike when the beam's angle leaves its aperture. Rows of cells are staggered, so a probe
-/// that moves by part of a cell changes that part of the scatterers: speckle moves with the tissue
+/// that moves by part of a cell changes that part of the scatterers; along the beam neighbours
+/// blend into each other at constant power: speckle moves with the tissue by parts of a sample and
 /// without a jump.
 class ScatterField {
  public:

@@ -10,6 +10,7 @@
 #include <igtlTransformMessage.h>
 #include <igtlUnit.h>
 #include <igtl_header.h>
+#include <igtl_unit.h>
 
 #include <gtest/gtest.h>
 
@@ -159,8 +160,13 @@ TEST(IgtlPeer, ReadsOurTextsStatesAndForces) {
   auto volume = igtl::Unit::New();
   volume->Append(igtl::Unit::SI_BASE_METER, 3);
   EXPECT_EQ(volume->Pack(), ours::kCubicMetre);
-  volume->Append(igtl::Unit::SI_BASE_SECOND, -1);
-  EXPECT_EQ(volume->Pack(), ours::kCubicMetrePerSecond);
+  // The class's second Append writes over the first; its C code has room for all.
+  igtl_unit_data flow{};
+  flow.unit[0] = IGTL_UNIT_SI_BASE_METER;
+  flow.exp[0] = 3;
+  flow.unit[1] = IGTL_UNIT_SI_BASE_SECOND;
+  flow.exp[1] = -1;
+  EXPECT_EQ(igtl_unit_pack(&flow), ours::kCubicMetrePerSecond);
 }
 
 TEST(IgtlPeer, SendsTextsAndStatesThatWeRead) {
