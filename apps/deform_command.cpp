@@ -10,6 +10,8 @@
 #include "artus/core/units.h"
 #include "artus/echo/image_io.h"
 #include "artus/echo/labels.h"
+#include "artus/echo/pressing_face.h"
+#include "artus/echo/transducer_file.h"
 #include "artus/raycast/moving_scene.h"
 #include "artus/soft/cage_vtu.h"
 #include "artus/soft/press.h"
@@ -20,6 +22,7 @@ namespace {
 struct DeformOptions {
   JointOptions joint;
   std::string probe;
+  std::string transducer = "linear-6-18";
   PressOptions press;  ///< neither: 3 N
   double cell_mm = SoftBodyParams{}.fine_cell / kMillimetre;
   double poisson_ratio = SoftBodyParams{}.poisson_ratio;
@@ -87,11 +90,10 @@ nlohmann::json to_json(const Press& press, const SoftBody& body) {
 
 /// The regions in the probe's plane before the face touched and as they then lie, side by side.
 Result<void> write_slices(const std::shared_ptr<const DeformedBody>& tissue,
-                          const Pose& X_JP_before, const Pose& X_JP,
+                          const Pose& X_JP_before, const Pose& X_JP, const Transducer& transducer,
                           const std::filesystem::path& file) {
   const auto draw = [&](const Scene& scene, const Pose& pose) {
-    return colour_labels(render_labels(scene, pose, Transducer{}, ImageSettings{}),
-                         tissue->joint());
+    return colour_labels(render_labels(scene, pose, transducer, ImageSettings{}), tissue->joint());
   };
   const cv::Mat before = draw(Scene(tissue->shared_joint()), X_JP_before);
   const cv::Mat after = draw(*make_scene(tissue), X_JP);
@@ -112,6 +114,11 @@ void print(const nlohmann::json& report) {
                 layer["after_mm"].get<double>(), layer["thinned_percent"].get<double>());
 }
 
+Error at_flag(Error error) {
+  if (error.where.empty() || error.where == "transducer") error.where = "--transducer";
+  return error;
+}
+
 ExitCode run_deform(const DeformOptions& options) {
   const auto joint = load(options.joint, make_progress_printer(options.json));
   if (!joint) return report_error(joint.error(), options.json);
@@ -124,6 +131,11 @@ ExitCode run_deform(const DeformOptions& options) {
   SoftBodyParams params;
   params.fine_cell = options.cell_mm * kMillimetre;
   params.poisson_ratio = options.poisson_ratio;
+  auto probe = find_transducer(options.transducer);
+  if (!probe) return report_error(at_flag(probe.error()), options.json);
+  const auto face = pressing_face(probe->transducer);
+  if (!face) return report_error(at_flag(face.error()), options.json);
+  params.face = *face;
   auto body = SoftBody::make(*joint, X_JP, params);
   if (!body) return report_error(body.error(), options.json);
   const auto pressed = press(*body, X_JP, options.press);
@@ -139,7 +151,8 @@ ExitCode run_deform(const DeformOptions& options) {
     report["vtu"] = options.out.string();
   }
   if (!options.slice.empty()) {
-    if (const auto written = write_slices(snapshot, X_JP, pressed->press.X_JP, options.slice);
+    if (const auto written =
+            write_slices(snapshot, X_JP, pressed->press.X_JP, probe->transducer, options.slice);
         !written)
       return report_error(written.error(), options.json);
     report["slice"] = options.slice.string();
@@ -166,6 +179,10 @@ void add_deform_command(Command& app, ExitCode& code) {
   command->add_option(
       "--probe", options->probe,
       "x,y,z/dx,dy,dz/lx,ly,lz in mm: footprint, direction, lateral (default: the joint's)");
+  command
+      ->add_option("--transducer", options->transducer,
+                   "the probe whose face presses: name of a preset or file (.toml)")
+      ->capture_default_str();
   add_press_options(command, options->press);
   command->add_option("--cell-mm", options->cell_mm, "edge of the cubes under the face (default 3)")
       ->check(number_in(0.75, 6));

@@ -8,6 +8,7 @@
 #include "artus/apps/command.h"
 #include "artus/apps/needle_drag.h"
 #include "artus/core/units.h"
+#include "artus/echo/pressing_face.h"
 #include "artus/raycast/moving_scene.h"
 
 namespace artus {
@@ -100,12 +101,11 @@ void add_press_options(Command* command, PressOptions& options) {
 
 Result<SoftBody> make_soft_body(std::shared_ptr<const CompiledJoint> joint, const Pose& X_JP,
                                 const Transducer& transducer) {
-  if (transducer.radius > 0)
-    return fail(ErrorCode::unsupported, "only a straight probe can be pressed", "--transducer");
   SoftBodyParams params;
-  const double spacing = params.face.length / params.face.points_x;
-  params.face.length = transducer.width;
-  params.face.points_x = std::max(1, static_cast<int>(std::lround(transducer.width / spacing)));
+  auto face = pressing_face(transducer);
+  if (!face) face.error().where = "--transducer";
+  ARTUS_TRY(face);
+  params.face = *face;
   return SoftBody::make(std::move(joint), X_JP, params);
 }
 

@@ -10,6 +10,7 @@
 #include "artus/dataset/pose_draw.h"
 #include "artus/dataset/shards.h"
 #include "artus/dataset/sweep.h"
+#include "artus/echo/pressing_face.h"
 #include "artus/echo/transducer_file.h"
 
 namespace artus {
@@ -39,6 +40,20 @@ Result<ShardJob> job_of(const SweepCommandOptions& options) {
   if (!options.shard.empty()) return parse_turn(options.shard, "--shard");
   if (!options.frames.empty()) return parse_frames(options.frames, "--frames");
   return ShardJob{};
+}
+
+/// Whether every probe that may be drawn can press.
+Result<void> check_faces(const SweepOptions& sweep) {
+  const auto check = [](const Transducer& transducer, const std::string& name) -> Result<void> {
+    auto face = pressing_face(transducer);
+    if (!face) face.error().where = name;
+    ARTUS_TRY(face);
+    return {};
+  };
+  for (const TransducerPreset& preset : sweep.transducers)
+    ARTUS_TRY(check(preset.transducer, preset.name));
+  if (sweep.transducers.empty()) ARTUS_TRY(check(sweep.transducer, "--transducer"));
+  return {};
 }
 
 /// Loads the joints and probes that the ranges name into `sweep`; probes under the same flags.
@@ -90,6 +105,7 @@ Result<FrameSource> frames_of(const SweepCommandOptions& options, const LoadedVi
     if (ranges->press_share > 0 && patient->joint().mesh.tetrahedra.empty())
       return fail(ErrorCode::invalid, "a joint without tetrahedra cannot be pressed",
                   patient->joint().name);
+  if (ranges->press_share > 0) ARTUS_TRY(check_faces(sweep));
   return drawn_frames(base, *ranges, options.view.seed, static_cast<std::size_t>(options.draw));
 }
 

@@ -7,6 +7,7 @@
 #include "artus/dataset/echo_truth.h"
 #include "artus/echo/image_io.h"
 #include "artus/echo/labels.h"
+#include "artus/echo/pressing_face.h"
 #include "artus/echo/renderer.h"
 #include "artus/raycast/pressed_scene.h"
 
@@ -83,7 +84,10 @@ SweepDrawer::Scanner& SweepDrawer::scanner(const FrameOrder& order) {
 
 nlohmann::json SweepDrawer::press(const FrameOrder& order, Pose& X_JP) {
   const Scanner& at_rest = scanner(order);
-  const auto pressed = press_scene(at_rest.scene->shared_joint(), order.X_JP, {order.press, {}});
+  const auto face = pressing_face(at_rest.renderer.transducer());
+  if (!face) return nullptr;  // curved
+  const auto pressed =
+      press_scene(at_rest.scene->shared_joint(), order.X_JP, {order.press, {}}, *face);
   if (!pressed) return nullptr;  // no skin below the probe
   pressed_ =
       std::make_unique<Scanner>(pressed->scene, at_rest.renderer.transducer(), options_.settings);

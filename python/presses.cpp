@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <optional>
+#include <string>
 #include <utility>
 
 #include <pybind11/stl.h>
 
+#include "artus/echo/pressing_face.h"
+#include "artus/echo/transducer_file.h"
 #include "artus/python/borders.h"
 #include "artus/raycast/pressed_scene.h"
 
@@ -11,7 +14,7 @@ namespace artus::python {
 namespace {
 
 py::dict press(const Joint& joint, const std::optional<Numbers>& probe, std::optional<double> depth,
-               std::optional<double> force) {
+               std::optional<double> force, const std::string& transducer) {
   constexpr double kDeepest = 25e-3;  // m
   constexpr double kStrongest = 30;   // N
   if (depth.has_value() == force.has_value())
@@ -25,9 +28,10 @@ py::dict press(const Joint& joint, const std::optional<Numbers>& probe, std::opt
     throw py::value_error("a joint without tetrahedra cannot be pressed");
   if (joint.scene->tissue())
     throw py::value_error("the joint is pressed already: press the one at rest");
+  const ProbeFace face = value_of(pressing_face(value_of(find_transducer(transducer)).transducer));
   const PressedScene pressed = value_of([&] {
     const py::gil_scoped_release others_may_run;
-    return press_scene(joint.scene->shared_joint(), X_JP, {depth, force});
+    return press_scene(joint.scene->shared_joint(), X_JP, {depth, force}, face);
   }());
   const Press& how = pressed.press;
   py::dict out;
@@ -48,8 +52,10 @@ void add_presses(py::module_& module) {
   module.def(
       "press", &press, py::arg("joint"), py::arg("probe") = py::none(), py::kw_only(),
       py::arg("depth") = py::none(), py::arg("force") = py::none(),
+      py::arg("transducer") = "linear-6-18",
       "Press a probe from (4, 4) m on the skin by `depth` m or with `force` N: a dict of the "
-      "joint as it then lies, the probe's pose there, and the force on the hand.");
+      "joint as it then lies, the probe's pose there, and the force on the hand. `transducer` "
+      "says how long the face is; a curved one raises.");
 }
 
 }  // namespace artus::python

@@ -8,9 +8,11 @@
 namespace artus {
 
 Result<PressedScene> press_scene(std::shared_ptr<const CompiledJoint> joint, const Pose& X_JP,
-                                 const PressGoal& goal) {
+                                 const PressGoal& goal, const ProbeFace& face) {
   ARTUS_REQUIRE(goal.depth.has_value() != goal.force.has_value(), "a depth or a force");
-  auto body = SoftBody::make(std::move(joint), X_JP);
+  SoftBodyParams params;
+  params.face = face;
+  auto body = SoftBody::make(std::move(joint), X_JP, params);
   ARTUS_TRY(body);
   const auto press = goal.depth ? Result<Press>(press_by(*body, X_JP, *goal.depth))
                                 : press_with(*body, X_JP, *goal.force);

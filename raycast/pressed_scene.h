@@ -20,10 +20,11 @@ struct PressedScene {
   Press press;
 };
 
-/// Presses once and keeps the result, for pictures and truth that need no motion. Requires: one of
-/// the two, a depth of 0 or more, a force above 0. Errors: those of SoftBody::make and press_with.
-/// Cost: seconds for a joint of 1e6 tetrahedra.
+/// Presses `face` once and keeps the result, for pictures and truth that need no motion. Requires:
+/// one of the two, a depth of 0 or more, a force above 0. Errors: those of SoftBody::make and
+/// press_with. Cost: seconds for a joint of 1e6 tetrahedra.
 [[nodiscard]] Result<PressedScene> press_scene(std::shared_ptr<const CompiledJoint> joint,
-                                               const Pose& X_JP, const PressGoal& goal);
+                                               const Pose& X_JP, const PressGoal& goal,
+                                               const ProbeFace& face = {});
 
 }  // namespace artus

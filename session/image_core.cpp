@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "artus/echo/doppler.h"
+#include "artus/echo/pressing_face.h"
 #include "artus/haptics/plunger/bevel.h"
 
 namespace artus {
@@ -35,8 +36,13 @@ ImageCore::ImageCore(std::shared_ptr<const Scene> scene, const SessionParams& pa
       images_to_change_(static_cast<std::uint64_t>(std::ceil(kTableTime * params.image_rate))) {
   needle_shape_.length = needle_length_of(params);
   if (!params.deform) return;
-  auto tissue =
-      TissueCore::make(scene->shared_joint(), scene->joint().X_JP_default, params.image_rate);
+  const auto make_tissue = [&]() -> Result<TissueCore> {
+    const auto face = pressing_face(params.transducer);
+    ARTUS_TRY(face);
+    return TissueCore::make(scene->shared_joint(), scene->joint().X_JP_default, params.image_rate,
+                            *face);
+  };
+  auto tissue = make_tissue();
   if (tissue)
     tissue_.emplace(std::move(*tissue));
   else

@@ -19,17 +19,24 @@ double turn_between(const Pose& a, const Pose& b) {
   return Eigen::AngleAxisd(a.linear().transpose() * b.linear()).angle();
 }
 
+SoftBodyParams params_with(const ProbeFace& face) {
+  SoftBodyParams params;
+  params.face = face;
+  return params;
+}
+
 }  // namespace
 
 Result<TissueCore> TissueCore::make(std::shared_ptr<const CompiledJoint> joint, const Pose& X_JP,
-                                    double image_rate) {
-  auto body = SoftBody::make(std::move(joint), X_JP);
+                                    double image_rate, const ProbeFace& face) {
+  auto body = SoftBody::make(std::move(joint), X_JP, params_with(face));
   ARTUS_TRY(body);
-  return TissueCore(std::move(*body), image_rate);
+  return TissueCore(std::move(*body), image_rate, face);
 }
 
-TissueCore::TissueCore(SoftBody body, double image_rate)
+TissueCore::TissueCore(SoftBody body, double image_rate, const ProbeFace& face)
     : body_(std::move(body)),
+      face_(face),
       dt_(1 / image_rate),
       factor_images_(static_cast<std::uint64_t>(std::ceil(kFactorTime * image_rate))),
       cage_images_(static_cast<std::uint64_t>(std::ceil(kCageTime * image_rate))),
@@ -66,8 +73,9 @@ void TissueCore::follow(const std::optional<Pose>& X_JP) {
   }
   if (cage_.valid() || outside_ < kOutsideImages) return;
   cage_due_ = images_ + cage_images_;
-  cage_ = std::async(std::launch::async,
-                     [joint = body_.joint(), pose = *X_JP] { return SoftBody::make(joint, pose); });
+  cage_ = std::async(std::launch::async, [joint = body_.joint(), pose = *X_JP, face = face_] {
+    return SoftBody::make(joint, pose, params_with(face));
+  });
 }
 
 /// A new factor of the tangent once the face has moved on; the state that it is of is the present

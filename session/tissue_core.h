@@ -18,9 +18,11 @@ namespace artus {
 /// images later, never "when ready".
 class TissueCore {
  public:
-  /// The cage is made around `X_JP`. Errors: those of SoftBody::make. Cost: some seconds.
+  /// The cage is made around `X_JP`, for a probe with `face`. Errors: those of SoftBody::make.
+  /// Cost: some seconds.
   [[nodiscard]] static Result<TissueCore> make(std::shared_ptr<const CompiledJoint> joint,
-                                               const Pose& X_JP, double image_rate);
+                                               const Pose& X_JP, double image_rate,
+                                               const ProbeFace& face = {});
 
   /// The next image's instant, with the probe at `X_JP` or without one, and so the needle. A probe
   /// that stays outside of what the cage reaches gets a cage of its own; until that is there the
@@ -33,13 +35,14 @@ class TissueCore {
   [[nodiscard]] std::uint32_t status() const noexcept { return status_; }  ///< SoftStatus bits
 
  private:
-  TissueCore(SoftBody body, double image_rate);
+  TissueCore(SoftBody body, double image_rate, const ProbeFace& face);
   [[nodiscard]] bool in_reach(const Pose& X_JP) const;
   void follow(const std::optional<Pose>& X_JP);
   void refresh(const std::optional<Pose>& X_JP);
   void describe(const std::optional<Pose>& X_JP);
 
   SoftBody body_;
+  ProbeFace face_;
   double dt_;                    // s between images
   std::uint64_t factor_images_;  // from the start of a factor to its use
   std::uint64_t cage_images_;

@@ -11,10 +11,11 @@ namespace artus {
 namespace {
 
 constexpr int kMostSteps = 60;
-constexpr int kNewtonSteps = 8;  // then smaller ones
-constexpr double kExact = 1e-7;  // m
-constexpr double kSure = 3e-5;   // m, an error of which one Newton step leaves next to nothing
-constexpr double kStill = 1e-9;  // m; what moves less has not moved: its bytes stay
+constexpr int kNewtonSteps = 8;      // then smaller ones
+constexpr double kExact = 1e-7;      // m
+constexpr double kSure = 3e-5;       // m, an error of which one Newton step leaves next to nothing
+constexpr double kLayerStep = 1e-3;  // m
+constexpr double kStill = 1e-9;      // m; what moves less has not moved: its bytes stay
 constexpr double kFarTolerance = 20e-6;  // m
 constexpr int kReach = 2;                // lattice steps, of points beside the cage: the skin's rim
 
@@ -64,6 +65,33 @@ DeformedBody::Motion interpolate(const Vec3& s, const CageCell& cell, double edg
   return motion;
 }
 
+/// The column of a cube through a point: from its low end to its high end as they now lie, m, and
+/// how that changes along x and y.
+struct Column {
+  Vec3 way;
+  Vec3 along_x;
+  Vec3 along_y;
+};
+
+Column column_at(const Vec3& s, const CageCell& cell, double edge,
+                 std::span<const Vec3> u) noexcept {
+  std::array<Vec3, 4> c;
+  for (std::size_t a = 0; a < 4; ++a) c[a] = u[cell.nodes[a + 4]] - u[cell.nodes[a]];
+  const Vec3 near = c[0] + s.x() * (c[1] - c[0]);
+  const Vec3 far = c[2] + s.x() * (c[3] - c[2]);
+  return {Vec3(0, 0, edge) + near + s.y() * (far - near),
+          ((1 - s.y()) * (c[1] - c[0]) + s.y() * (c[3] - c[2])) / edge, (far - near) / edge};
+}
+
+/// Moves a point on along its column as its layers ask.
+void add_layers(const LayerMotion::Shift& shift, const Column& column, double edge,
+                DeformedBody::Motion& motion) noexcept {
+  motion.displacement += shift.along * column.way;
+  motion.gradient += column.way * shift.slope.transpose() / edge;
+  motion.gradient.col(0) += shift.along * column.along_x;
+  motion.gradient.col(1) += shift.along * column.along_y;
+}
+
 }  // namespace
 
 std::shared_ptr<const BodyMap> make_body_map(const CompiledJoint& joint, const Pose& X_JC,
@@ -100,7 +128,15 @@ std::shared_ptr<const BodyMap> make_body_map(const CompiledJoint& joint, const P
 }
 
 void DeformedBody::move_vertex(std::size_t k, std::span<const Vec3> u) {
-  const Vec3 moved = map_->model->displacement_at(map_->places[k], u);
+  const CagePlace& place = map_->places[k];
+  Vec3 moved = map_->model->displacement_at(place, u);
+  if (layers_.layered(place.cell)) {
+    const auto& w = place.weights;
+    const Vec3 s(w[1] + w[3] + w[5] + w[7], w[2] + w[3] + w[6] + w[7], w[4] + w[5] + w[6] + w[7]);
+    const Cage& cage = map_->model->cage();
+    const CageCell& cell = cage.cells()[static_cast<std::size_t>(place.cell)];
+    moved += layers_.at(place.cell, s).along * column_at(s, cell, cage.edge(cell), u).way;
+  }
   if (moved.squaredNorm() > kStill * kStill)
     vertices_[map_->moving[k]] += map_->X_JC.linear() * moved;
 }
@@ -142,6 +178,7 @@ DeformedBody::DeformedBody(std::shared_ptr<const CompiledJoint> joint,
     : joint_(std::move(joint)),
       map_(std::move(map)),
       u_(node_displacements.begin(), node_displacements.end()),
+      layers_(map_->model->cage(), map_->model->layers(), u_),
       X_CJ_(map_->X_JC.inverse()),
       contact_(contact_J) {
   const auto& rest = joint_->mesh.vertices;
@@ -168,6 +205,8 @@ DeformedBody::PlacedMotion DeformedBody::motion_in_cage(const Vec3& p_C) const n
   const Vec3 s = ((p_C - cage.low_corner(cell)) / edge).cwiseMax(0).cwiseMin(1);
   PlacedMotion placed{interpolate(s, cell, edge, u_), number};
   placed.motion.gradient.diagonal().array() += 1;
+  if (layers_.layered(number))
+    add_layers(layers_.at(number, s), column_at(s, cell, edge, u_), edge, placed.motion);
   return placed;
 }
 
@@ -192,14 +231,19 @@ DeformedBody::Rest DeformedBody::to_rest(const Vec3& p, const Vec3& guess) const
   double way = 1;  // shorter steps where full ones go round in circles
   double before = 1e9;
   for (int k = 0; k < kMostSteps && !found; ++k) {
-    motion = motion_in_cage(rest_C).motion;
+    const PlacedMotion placed = motion_in_cage(rest_C);
+    motion = placed.motion;
     const Vec3 error = p_C - rest_C - motion.displacement;
     const double size = error.norm();
     found = size < kExact;
     if (found) break;
-    if (k < kNewtonSteps && motion.gradient.determinant() > 0.02) {
-      rest_C += motion.gradient.inverse() * error;
-      found = size < kSure;
+    const bool layered = layers_.layered(placed.cell);
+    if (k < (layered ? kMostSteps : kNewtonSteps) && motion.gradient.determinant() > 0.01) {
+      Vec3 step = motion.gradient.inverse() * error;
+      // From within a thin layer a step that is too long must end in the next.
+      if (layered && step.norm() > kLayerStep) step *= kLayerStep / step.norm();
+      rest_C += step;
+      found = size < kSure && !layered;
       if (found) motion.displacement = p_C - rest_C;
       continue;
     }

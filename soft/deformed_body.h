@@ -67,6 +67,8 @@ class DeformedBody {
     std::int32_t cell = -1;
   };
   [[nodiscard]] PlacedMotion motion_in_cage(const Vec3& p_C) const noexcept;
+  /// How the tissues inside the cubes share what the cubes are squeezed by.
+  [[nodiscard]] const LayerMotion& layers() const noexcept { return layers_; }
   /// From frame J to the cage's.
   [[nodiscard]] const Pose& to_cage() const noexcept { return X_CJ_; }
 
@@ -98,7 +100,8 @@ class DeformedBody {
   void move_vertex(std::size_t k, std::span<const Vec3> u);
   void move_far(const DeformedBody* before);
 
-  std::vector<Vec3> u_;      // (n_nodes) frame C
+  std::vector<Vec3> u_;  // (n_nodes) frame C
+  LayerMotion layers_;
   std::vector<Vec3> far_u_;  // (far_nodes) the same where a node moved its far vertices last
   Pose X_CJ_ = Pose::Identity();
   std::vector<Vec3> vertices_;  // frame J

@@ -8,9 +8,10 @@
 namespace artus {
 namespace {
 
-constexpr double kKnotPitch = 3e-4;    // m, knots that a bend asks for do not come closer
-constexpr double kLeastStep = 5e-5;    // m, past a cube's face
-constexpr double kOutsideStep = 3e-3;  // m, where there is no cube
+constexpr double kKnotPitch = 3e-4;       // m, knots that a bend asks for do not come closer
+constexpr double kLeastStep = 5e-5;       // m, past a cube's face
+constexpr double kLeastLayerStep = 1e-5;  // m, past a layer's border within a cube
+constexpr double kOutsideStep = 3e-3;     // m, where there is no cube
 constexpr double kOneStep = 3e-5;  // m off the tangent, four times the error half way; one Newton
                                    // step leaves next to nothing of it
 
@@ -49,7 +50,17 @@ RestKnot RestWay::at(double along, const Vec3& guess_J) const noexcept {
   return knot;
 }
 
-/// How far the line goes on until it leaves the cube, m.
+/// Whether the line meets cubes of several tissues between two ways from the left knot, m: there it
+/// bends and comes back.
+bool RestWay::meets_layers(const RestKnot& left, double from, double to) const noexcept {
+  const Cage& cage = body_->map().model->cage();
+  for (const double way : {from + kLeastStep, 0.5 * (from + to), to}) {
+    if (body_->layers().layered(cage.cell_around(left.rest_C + way * left.onward_C))) return true;
+  }
+  return false;
+}
+
+/// How far the line goes on until it leaves the cube or, where several tissues share one, bends, m.
 double RestWay::to_face(const RestKnot& left) const noexcept {
   if (left.cell < 0) return kOutsideStep;
   const Cage& cage = body_->map().model->cage();
@@ -63,13 +74,21 @@ double RestWay::to_face(const RestKnot& left) const noexcept {
     const double face = slope > 0 ? low[k] + edge : low[k];
     way = std::min(way, (face - left.rest_C[k]) / slope);
   }
-  return std::clamp(way + 1e-6, kLeastStep, edge * 4);
+  if (!body_->layers().layered(left.cell)) return std::clamp(way + 1e-6, kLeastStep, edge * 4);
+  const double slope = left.onward_C.z();
+  if (std::abs(slope) > 1e-9) {
+    const double level =
+        body_->layers().next_bend(left.cell, (left.rest_C.z() - low.z()) / edge, slope > 0);
+    way = std::min(way, (low.z() + level * edge - left.rest_C.z()) / slope);
+  }
+  return std::clamp(way + 1e-6, kLeastLayerStep, edge * 4);
 }
 
 RestKnot RestWay::next(const RestKnot& left) const noexcept {
   RestKnot knot;
   const double face = to_face(left);
   double step = face + left.ahead;
+  if (left.ahead > 0 && meets_layers(left, face, step)) step = face;
   while (true) {
     knot.along = left.along + step;
     const Vec3 guess = left.rest_C + step * left.onward_C;
@@ -80,7 +99,8 @@ RestKnot RestWay::next(const RestKnot& left) const noexcept {
       knot.rest_C = guess + there.motion.gradient.inverse() * error;
       knot.gradient_C = there.motion.gradient;
       knot.cell = there.cell;
-      if (off < kNearTangent) knot.ahead = std::min(kFarthestAhead, std::max(face, 2 * left.ahead));
+      if (off < kNearTangent && !body_->layers().layered(left.cell))
+        knot.ahead = std::min(kFarthestAhead, std::max(face, 2 * left.ahead));
       finish(knot);
       return knot;
     }

@@ -42,6 +42,7 @@ class RestWay {
 
  private:
   [[nodiscard]] double to_face(const RestKnot& left) const noexcept;
+  [[nodiscard]] bool meets_layers(const RestKnot& left, double from, double to) const noexcept;
   void finish(RestKnot& knot) const noexcept;
 
   const DeformedBody* body_;

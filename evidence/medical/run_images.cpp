@@ -15,6 +15,7 @@
 #include "artus/core/units.h"
 #include "artus/dataset/video_file.h"
 #include "artus/echo/image_io.h"
+#include "artus/echo/pressing_face.h"
 #include "artus/echo/renderer.h"
 #include "artus/session/fluid_core.h"
 #include "artus/session/tissue_core.h"
@@ -188,8 +189,10 @@ Result<RunImages> write_run_images(const std::shared_ptr<const Scene>& scene,
   remove_old_images(folder);
   std::optional<TissueCore> tissue;
   if (options.deform) {
+    const auto face = pressing_face(options.transducer);
+    ARTUS_TRY(face);
     auto made = TissueCore::make(scene->shared_joint(), run.moments.front().X_JP_seat,
-                                 options.frames_per_second);
+                                 options.frames_per_second, *face);
     ARTUS_TRY(made);
     tissue.emplace(std::move(*made));
   }

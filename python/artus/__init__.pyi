@@ -146,6 +146,7 @@ def press(
     *,
     depth: float | None = None,
     force: float | None = None,
+    transducer: str = "linear-6-18",
 ) -> dict[str, Any]: ...
 def pose(
     position: ArrayLike, z: ArrayLike, x: ArrayLike = (1.0, 0.0, 0.0)

@@ -232,6 +232,12 @@ TEST_F(ExchangeTool, PressedNeedlesAndProbesAreDrawnTheSameInAnyOrder) {
                    write("bad.toml", "[transducer]\nnames = [\"sonar\"]\n"), "-o", in("bad")});
   EXPECT_EQ(missing.exit_code, 2);
   EXPECT_THAT(missing.err, HasSubstr("sonar"));
+  const auto curved = test::artus(
+      {"sweep", "-j", kSimple, "--draw", "2", "--ranges",
+       write("curved.toml", "[transducer]\nnames = [\"curved-2-5\"]\n[press]\nshare = 0.5\n"), "-o",
+       in("curved")});
+  EXPECT_EQ(curved.exit_code, 2);
+  EXPECT_THAT(curved.err, HasSubstr("curved-2-5: only a straight probe"));
 }
 
 TEST_F(ExchangeTool, ForcesOfATrajectoryAreATable) {

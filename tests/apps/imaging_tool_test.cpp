@@ -197,6 +197,23 @@ TEST_F(ImagingTool, PressesTheFaceOfTheProbeThatDraws) {
   EXPECT_NE(curved.err.find("straight"), std::string::npos) << curved.err;
 }
 
+TEST_F(ImagingTool, DeformPressesTheFaceOfTheProbeThatIsNamed) {
+  const auto newtons = [&](const char* command, const std::string& transducer) {
+    std::vector<std::string> line{command,    "-j",         kSimple, "--transducer",
+                                  transducer, "--press-mm", "2",     "--json"};
+    if (std::string(command) == "slice") line.insert(line.end(), {"-o", in("face.png")});
+    const auto r = artus(line);
+    EXPECT_EQ(r.exit_code, 0) << r.err << r.out;
+    const auto report = nlohmann::json::parse(r.out);
+    return (report.contains("press") ? report["press"] : report).at("normal_force_n").get<double>();
+  };
+  EXPECT_EQ(newtons("deform", "hockey-7-15"), newtons("slice", "hockey-7-15"));
+  EXPECT_NE(newtons("deform", "hockey-7-15"), newtons("deform", "linear-6-18"));
+  const auto curved = artus({"deform", "-j", kSimple, "--transducer", "curved-2-5"});
+  EXPECT_EQ(curved.exit_code, 2);
+  EXPECT_NE(curved.err.find("--transducer: only a straight"), std::string::npos) << curved.err;
+}
+
 TEST_F(ImagingTool, APressedPictureSaysWhatWasPressed) {
   for (const char* command : {"image", "slice"}) {
     const auto r = artus({command, "-j", kSimple, "--press-mm", "1", "-o", in("pressed.png")});

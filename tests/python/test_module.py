@@ -185,6 +185,10 @@ def test_a_press_moves_the_picture_and_pushes_back(joint, renderer):
     muscle = joint.regions.index("muscle")
     thickness = [(r[:, r.shape[1] // 2] == muscle).sum() for r in (before, after)]
     assert thickness[1] < thickness[0] - 2  # pixels of 0.1 mm
+    shorter = artus.press(joint, depth=2e-3, transducer="hockey-7-15")
+    assert shorter["force"] != pressed["force"]
+    with pytest.raises(Exception, match="only a straight probe"):
+        artus.press(joint, depth=2e-3, transducer="curved-2-5")
     with pytest.raises(ValueError, match="either depth"):
         artus.press(joint)
     with pytest.raises(ValueError, match="in metres"):

@@ -53,6 +53,28 @@ TEST(TissueCore, GivesTheHandAForceThatGrowsWithThePressAndNoneWhenLifted) {
   EXPECT_EQ(core->packet().probe.share, 0);
 }
 
+TEST(TissueCore, PressesTheFaceOfItsProbe) {
+  const auto joint = make_soft_block();
+  ProbeFace shorter;
+  shorter.length = 25e-3;
+  shorter.points_x = 10;
+  std::vector<double> normal;
+  for (const ProbeFace& face : {ProbeFace(), shorter}) {
+    auto core = TissueCore::make(joint, joint->X_JP_default, 30, face);
+    ASSERT_TRUE(core) << core.error().to_string();
+    for (int i = 0; i < 15; ++i) core->step(pressed(*joint, 2e-3));
+    normal.push_back(-core->packet().probe.wrench[2]);
+  }
+  EXPECT_LT(normal[1], 0.85 * normal[0]);
+  EXPECT_GT(normal[1], 0.4 * normal[0]);
+  SessionParams params = test::make_small_session();
+  params.deform = true;
+  params.transducer.radius = 60e-3;
+  const ImageCore curved(std::make_shared<const Scene>(joint), params);
+  EXPECT_NE(curved.refusal().find("only a straight probe"), std::string::npos);
+  EXPECT_EQ(curved.packet(), nullptr);
+}
+
 TEST(TissueCore, GivesTheSameBytesAgain) {
   const auto joint = make_soft_block();
   SessionParams params = test::make_small_session();
