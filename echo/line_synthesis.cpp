@@ -83,11 +83,11 @@ struct KnotPiece {
 template <class Use>
 void for_knots(const BeamRun& run, std::span<const BeamKnot> knots, std::size_t stride,
                std::size_t n, Use use) noexcept {
-  const double first = std::ceil(std::max(0.0, run.begin));
-  const double samples_per_m = (run.end - run.begin) / (run.path_end - run.path_begin);
+  const double per_sample = 1 / static_cast<double>(stride);
+  const double per_m = per_sample * (run.end - run.begin) / (run.path_end - run.path_begin);
+  const double before = (run.begin - std::ceil(std::max(0.0, run.begin))) * per_sample;
   const auto at = [&](const BeamKnot& knot) {  // in values
-    return (run.begin + (knot.path - run.path_begin) * samples_per_m - first) /
-           static_cast<double>(stride);
+    return before + (knot.path - run.path_begin) * per_m;
   };
   KnotPiece piece;
   double from = at(knots.front());
@@ -99,7 +99,7 @@ void for_knots(const BeamRun& run, std::span<const BeamKnot> knots, std::size_t 
             ? n
             : static_cast<std::size_t>(std::clamp(std::ceil(to), 0.0, static_cast<double>(n)));
     if (piece.end > piece.begin && to > from) {
-      piece.step = (knots[k + 1].rest.rest_J - knots[k].rest.rest_J) / (to - from);
+      piece.step = (knots[k + 1].rest.rest_J - knots[k].rest.rest_J) * (1 / (to - from));
       piece.rest = knots[k].rest.rest_J + (static_cast<double>(piece.begin) - from) * piece.step;
       use(piece);
     } else {

@@ -74,7 +74,7 @@ struct BeamTracer::Walk {
   std::optional<RestWay> way = {};     // once it is needed
   std::size_t line_knot = 0;           // the way's first
   Vec3 displacement = Vec3::Zero();    // m, of the tissue last met
-  Eigen::Matrix3d gradient = Eigen::Matrix3d::Identity();  // of deformation, in the run's middle
+  const RestKnot* middle = nullptr;    // in the middle of a run that moved
 
   [[nodiscard]] double log_gain(double sigma) const noexcept {
     const double shift = slope * sigma;
@@ -105,7 +105,12 @@ struct BeamTracer::Walk {
   }
   /// Goes on straight from `from`.
   void begin_line(const Vec3& from, const Vec3& direction, double scale) noexcept {
-    if (way) displacement = trace.knots[trace.n_knots - 1].rest.displacement_J;
+    if (way) {  // as the last knot and its gradient say
+      const RestKnot& last = *trace.knots[trace.n_knots - 1].tissue;
+      const Vec3 off = from - last.rest_J - last.displacement_J;
+      displacement = from - last.rest_J - Vec3(last.inverse_J * off);
+      if (!displacement.allFinite()) displacement = last.displacement_J;
+    }
     way.reset();
     line_start = from;
     line_direction = direction;
@@ -164,7 +169,7 @@ bool BeamTracer::enter(Walk& walk, const TissueInterval& interval,
     echo.rest_J = point;
     echo.step_J = walk.wave * (sample_depth_ * to.speed / kDisplaySpeedOfSound);
     if (tissue_ != nullptr && place_knots(walk, walk.path)) {
-      const RestKnot& knot = trace.knots[knot_before(walk, walk.path)].rest;
+      const RestPoint& knot = trace.knots[knot_before(walk, walk.path)].rest;
       if (knot.moved > kStill) {
         const double onward = walk.along(walk.path) - knot.along;
         echo.rest_J = knot.rest_J + onward * knot.onward_J;
@@ -220,28 +225,35 @@ MaterialPoint BeamTracer::find_material(Walk& walk, const RegionAcoustics& regio
 /// where there is no room for them.
 bool BeamTracer::place_knots(Walk& walk, double path) const noexcept {
   BeamTrace& trace = walk.trace;
+  const auto add = [&](double at_path, const RestKnot& knot) {
+    trace.tissue[trace.n_tissue] = knot;
+    const RestPoint& point = knot;
+    trace.knots[trace.n_knots++] = {at_path, point, &trace.tissue[trace.n_tissue++]};
+  };
+  const auto add_beside = [&](double at_path, const RestKnot& knot) {
+    trace.knots[trace.n_knots++] = {at_path, walk.way->beside(knot, walk.along(at_path)), &knot};
+  };
   if (!walk.way) {
     if (trace.n_knots + 2 > BeamTrace::kMaxKnots) return false;
     walk.way.emplace(*tissue_, walk.line_start, walk.line_direction);
     walk.line_knot = trace.n_knots;
-    const BeamKnot* beside = walk.knot_beside(walk.path);
-    const double along = walk.along(walk.path);
-    trace.knots[trace.n_knots++] = {walk.path, beside != nullptr
-                                                   ? walk.way->beside(beside->rest, along)
-                                                   : walk.way->at(along, walk.displacement)};
+    if (const BeamKnot* beside = walk.knot_beside(walk.path)) {
+      add_beside(walk.path, *beside->tissue);
+    } else {
+      add(walk.path, walk.way->at(walk.along(walk.path), walk.displacement));
+    }
   }
   while (trace.knots[trace.n_knots - 1].path < path || trace.n_knots < walk.line_knot + 2) {
     if (trace.n_knots == BeamTrace::kMaxKnots) break;
     const BeamKnot& last = trace.knots[trace.n_knots - 1];
-    BeamKnot& next = trace.knots[trace.n_knots];
-    const BeamKnot* beside = walk.knot_after(last.path);
-    if (beside != nullptr) {
-      next = {beside->path, walk.way->beside(beside->rest, walk.along(beside->path))};
-    } else {
-      next.rest = walk.way->next(last.rest);
-      next.path = walk.line_path + next.rest.along * walk.time_scale;
+    if (const BeamKnot* beside = walk.knot_after(last.path)) {
+      add_beside(beside->path, *beside->tissue);
+      continue;
     }
-    ++trace.n_knots;
+    const bool own = trace.n_tissue > 0 && last.tissue == &trace.tissue[trace.n_tissue - 1];
+    const RestKnot next =
+        walk.way->next(own ? *last.tissue : walk.way->knot_beside(*last.tissue, last.rest.along));
+    add(walk.line_path + next.along * walk.time_scale, next);
   }
   return true;
 }
@@ -267,7 +279,7 @@ void BeamTracer::find_rest(Walk& walk, BeamRun& run) const noexcept {
   const BeamKnot& knot = trace.knots[knot_before(walk, middle)];
   run.rest_middle_J =
       knot.rest.rest_J + (middle - knot.path) / walk.time_scale * knot.rest.onward_J;
-  walk.gradient = walk.way->gradient_J(knot.rest);
+  walk.middle = knot.tissue;
 }
 
 /// Notes how the run lies to the fibres at its middle, `half_way` (m) from its begin. Returns the
@@ -296,12 +308,12 @@ double BeamTracer::follow_fibres(Walk& walk, const RegionAcoustics& region, Beam
   run.material_step = middle.gradient * run.step_J;
   const Vec3 sheet_at_rest = middle.gradient.row(0);
   const Vec3 sheet =
-      moved ? Vec3(walk.gradient.inverse().transpose() * sheet_at_rest) : sheet_at_rest;
+      moved ? Vec3(walk.middle->inverse_J.transpose() * sheet_at_rest) : sheet_at_rest;
   run.across = std::abs(run.direction_J.dot(sheet)) / (sheet.norm() + kTiny);
   if (region.kind == TissueKind::fat || (!region.course && region.fibre.squaredNorm() < 0.5))
     return 1;
   const Vec3 fibre_at_rest = sheet_at_rest.cross(middle.gradient.row(1).transpose());
-  const Vec3 fibre = moved ? Vec3(walk.gradient * fibre_at_rest) : fibre_at_rest;
+  const Vec3 fibre = moved ? walk.way->carried(*walk.middle, fibre_at_rest) : fibre_at_rest;
   run.along = std::min(1.0, std::abs(run.direction_J.dot(fibre)) / (fibre.norm() + kTiny));
   return fibre_attenuation(region.kind, run.along);
 }

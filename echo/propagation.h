@@ -38,7 +38,8 @@ struct BeamRun {
 /// Where a piece of tissue on a beam was at rest; between knots the way is straight there, too.
 struct BeamKnot {
   double path = 0;  ///< m along the beam from the face
-  RestKnot rest;
+  RestPoint rest;
+  const RestKnot* tissue = nullptr;  ///< how it gives way there: of this beam or the one beside it
 };
 
 /// An echo of an interface.
@@ -58,10 +59,12 @@ struct BeamTrace {
   static constexpr std::size_t kMaxKnots = 512;
   std::array<BeamRun, kMax> runs;
   std::array<BeamKnot, kMaxKnots> knots;
+  std::array<RestKnot, kMaxKnots> tissue;  ///< of the knots that were not found beside a beam's
   std::array<BeamEcho, kMax> echoes;
   std::size_t n_runs = 0;
   std::size_t n_echoes = 0;
   std::size_t n_knots = 0;
+  std::size_t n_tissue = 0;
   double shadow_from = 0;    ///< sample behind which nothing returns; large when there is none
   double end_sample = 0;     ///< where bone or gas ended the beam
   double end_amplitude = 0;  ///< of its echo there; 0: nothing did
@@ -74,6 +77,7 @@ struct BeamTrace {
     n_runs = 0;
     n_echoes = 0;
     n_knots = 0;
+    n_tissue = 0;
     end_amplitude = 0;
     contact = true;
   }

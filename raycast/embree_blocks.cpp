@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <algorithm>
+#include <limits>
 #include <numeric>
 
 #include <Eigen/Geometry>
@@ -17,9 +18,10 @@ Vec3 sum_of(const std::array<Vec3, 3>& corners) noexcept {
 
 }  // namespace
 
-/// Blocks of neighbours: halves, by the middles along the longest side, of halves.
+/// Blocks of neighbours: halves, by the middles along the longest side, of halves. Coordinates are
+/// kept block by block, so that fitting one reads one piece of memory.
 void EmbreeIndex::make_blocks() {
-  std::vector<std::uint32_t> order(triangles_.size());
+  std::vector<std::uint32_t> order(facets_.size());
   std::iota(order.begin(), order.end(), 0U);
   std::vector<std::span<std::uint32_t>> blocks{order};
   while (2 * blocks.size() <= kMostBlocks && order.size() / blocks.size() >= 2 * kLeastBlock) {
@@ -42,13 +44,22 @@ void EmbreeIndex::make_blocks() {
     }
     blocks = std::move(halves);
   }
-  block_of_.resize(triangles_.size());
+  block_of_.resize(facets_.size());
   blocks_at_.assign(vertices_.size(), 0);
+  constexpr auto kNone = std::numeric_limits<std::uint32_t>::max();
+  slots_.assign(vertices_.size(), kNone);
+  std::uint32_t next = 0;
   for (std::size_t k = 0; k < blocks.size(); ++k) {
     for (const std::uint32_t i : blocks[k]) {
       block_of_[i] = static_cast<std::uint8_t>(k);
-      for (const std::uint32_t v : triangles_[i]) blocks_at_[v] |= std::uint64_t{1} << k;
+      for (const std::uint32_t v : facets_[i].vertices) {
+        blocks_at_[v] |= std::uint64_t{1} << k;
+        if (slots_[v] == kNone) slots_[v] = next++;
+      }
     }
+  }
+  for (std::uint32_t& slot : slots_) {
+    if (slot == kNone) slot = next++;
   }
 }
 

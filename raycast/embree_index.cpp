@@ -34,11 +34,13 @@ double clamp_to_extent(const EmbreeIndex& index, std::uint32_t i, const Vec3& or
 struct Passage {
   double cosine = 0;  // of direction and normal
   double depth = 0;
+  Vec3 normal;
 };
 
 Passage pass(const EmbreeIndex& index, std::uint32_t i, const Line& line) noexcept {
   const FacetPlane plane = index.plane(i);
-  Passage passage;
+  Passage passage;  // NOLINT(cppcoreguidelines-pro-type-member-init): the normal is set here
+  passage.normal = plane.normal;
   passage.cosine = plane.normal.dot(line.direction);
   passage.depth = (plane.offset - plane.normal.dot(line.origin)) / passage.cosine;
   if (std::abs(passage.cosine) < kGrazing) [[unlikely]] {
@@ -202,6 +204,10 @@ Vec3 find_centre(std::span<const Vec3> vertices, std::span<const Interface> inte
   return interfaces.empty() ? Vec3(Vec3::Zero()) : box.center();
 }
 
+void store(const Vec3& p, float* coordinates) noexcept {
+  for (int k = 0; k < 3; ++k) coordinates[k] = static_cast<float>(p[k]);
+}
+
 bool touches(const FacetSides& sides, RegionId last) noexcept {
   return sides.front <= last || sides.back <= last;
 }
@@ -213,14 +219,13 @@ EmbreeIndex::EmbreeIndex(std::span<const Vec3> vertices, std::span<const Interfa
     : centre_(find_centre(vertices, interfaces)) {
   vertices_.reserve(vertices.size());
   for (const Vec3& v : vertices) vertices_.emplace_back(v - centre_);
-  triangles_.reserve(interfaces.size());
   facets_.reserve(interfaces.size());
   std::vector<std::uint32_t> boundary;
   std::vector<std::uint32_t> skin;
   for (const Interface& interface : interfaces) {
-    const auto i = static_cast<std::uint32_t>(triangles_.size());
-    triangles_.push_back(interface.vertices);
-    facets_.push_back({make_plane(i), {interface.front, interface.back}});
+    const auto i = static_cast<std::uint32_t>(facets_.size());
+    facets_.push_back({{}, {interface.front, interface.back}, interface.vertices});
+    facets_[i].plane = make_plane(i);
     for (const Vec3& corner : corners(i)) radius_ = std::max(radius_, corner.norm());
     if (touches(facets_.back().sides, kBeyond)) boundary.push_back(i);
     if (touches(facets_.back().sides, kOutside)) skin.push_back(i);
@@ -252,16 +257,15 @@ void EmbreeRelease::operator()(RTCSceneTy* scene) const noexcept {
 
 void EmbreeIndex::fill_coordinates() {
   auto* coordinates = static_cast<float*>(rtcGetBufferData(coordinates_.get()));
-  for (const Vec3& v : vertices_) {
-    for (int k = 0; k < 3; ++k) *coordinates++ = static_cast<float>(v[k]);
-  }
+  for (std::uint32_t v = 0; v < vertices_.size(); ++v)
+    store(vertices_[v], coordinates + 3 * std::size_t{slot(v)});
 }
 
 /// Members are listed where they are not all interfaces in their order.
 EmbreeParts EmbreeIndex::make_parts(std::vector<std::uint32_t> members) const {
   EmbreeParts parts;
   parts.none = members.empty();
-  const bool whole = !can_move() && members.size() == triangles_.size();
+  const bool whole = !can_move() && members.size() == facets_.size();
   if (can_move()) {
     parts.members.resize(kMostBlocks);
     for (const std::uint32_t i : members) parts.members[block_of_[i]].push_back(i);
@@ -297,7 +301,9 @@ RTCGeometryTy* EmbreeIndex::make_geometry(std::span<const std::uint32_t> members
         rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                 3 * sizeof(std::uint32_t), members.size()));
     throw_on_error(device_.get(), "store the interfaces");
-    for (const std::uint32_t i : members) indices = std::copy_n(triangles_[i].begin(), 3, indices);
+    for (const std::uint32_t i : members) {
+      for (const std::uint32_t v : facets_[i].vertices) *indices++ = slot(v);
+    }
   }
   if (can_move()) rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_REFIT);
   rtcSetGeometryOccludedFilterFunction(geometry, gather_hit);
@@ -309,18 +315,17 @@ void EmbreeIndex::move(std::span<const Vec3> vertices) {
   ARTUS_REQUIRE(can_move() && vertices.size() <= vertices_.size(), "an index that cannot move");
   std::uint64_t blocks = 0;
   auto* const coordinates = static_cast<float*>(rtcGetBufferData(coordinates_.get()));
+  double squared = 0;
   for (std::size_t v = 0; v < vertices.size(); ++v) {
     const Vec3 place = vertices[v] - centre_;
+    squared = std::max(squared, place.squaredNorm());
     if (place == vertices_[v]) continue;
     vertices_[v] = place;
-    for (int k = 0; k < 3; ++k)
-      coordinates[3 * v + static_cast<std::size_t>(k)] = static_cast<float>(place[k]);
+    store(place, coordinates + 3 * std::size_t{slots_[v]});
     blocks |= blocks_at_[v];
   }
+  radius_ = std::sqrt(squared);
   if (blocks != 0) refit(blocks);
-  radius_ = 0;
-  for (std::size_t v = 0; v < vertices.size(); ++v)
-    radius_ = std::max(radius_, vertices_[v].norm());
 }
 
 void EmbreeIndex::refit(std::uint64_t blocks) {
@@ -347,11 +352,10 @@ FacetPlane EmbreeIndex::make_plane(std::uint32_t i) const noexcept {
 
 void EmbreeIndex::prefetch_plane(std::uint32_t i) const noexcept {
   __builtin_prefetch(&facets_[i]);
-  if (moved_) __builtin_prefetch(&triangles_[i]);
 }
 
 std::array<Vec3, 3> EmbreeIndex::corners(std::uint32_t i) const noexcept {
-  const auto& [a, b, c] = triangles_[i];
+  const auto& [a, b, c] = facets_[i].vertices;
   return {vertices_[a], vertices_[b], vertices_[c]};
 }
 
@@ -359,6 +363,7 @@ void EmbreeIndex::gather(const Line& line, HitBuffer& out) const noexcept {
   out.size = 0;
   out.overflow = false;
   out.doubtful = false;
+  out.n_normals = 0;
   if (!(line.far > line.near)) return;
   GatherQuery query;  // NOLINT(cppcoreguidelines-pro-type-member-init): written before read
   query.index = this;
@@ -370,6 +375,12 @@ void EmbreeIndex::gather(const Line& line, HitBuffer& out) const noexcept {
   find_occluded(all_.scene.get(), query.context, ray);
   out.overflow = query.overflow;
   out.doubtful = query.doubtful;
+  if (moved_) {  // all corners are on their way before the first is used
+    for (std::size_t k = 0; k < query.size; ++k) {
+      for (const std::uint32_t v : facets_[query.candidates[k].interface].vertices)
+        __builtin_prefetch(&vertices_[v]);
+    }
+  }
   for (std::size_t k = 0; k < query.size; ++k) {
     const std::uint32_t i = query.candidates[k].interface;
     const Passage passage = pass(*this, i, line);
@@ -377,6 +388,11 @@ void EmbreeIndex::gather(const Line& line, HitBuffer& out) const noexcept {
       continue;
     const FacetSides sides = this->sides(i);
     const bool inward = passage.cosine < 0;
+    if (moved_) {
+      out.facets[out.size] = i;
+      out.normals[out.size] = passage.normal;
+      out.n_normals = out.size + 1;
+    }
     out.hits[out.size++] = {passage.depth, i, inward ? sides.front : sides.back,
                             inward ? sides.back : sides.front};
   }

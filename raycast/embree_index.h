@@ -33,6 +33,20 @@ struct HitBuffer {
   std::size_t size;
   bool overflow;  ///< more than kMaxHits were met; the nearest are kept
   bool doubtful;  ///< a hit lies so near to an edge that its neighbours' hits may be missing
+  /// Of surfaces that moved: the normals that were made for the depths, so that who goes through
+  /// the hits does not make them again.
+  std::array<std::uint32_t, kMaxHits> facets;
+  std::array<Vec3, kMaxHits> normals;
+  std::size_t n_normals;
+
+  /// The normal of a facet that was met, looked for from place `near` on; null: not kept.
+  [[nodiscard]] const Vec3* normal_of(std::uint32_t interface, std::size_t near) const noexcept {
+    for (std::size_t k = 0; k < n_normals; ++k) {
+      const std::size_t i = near + k < n_normals ? near + k : near + k - n_normals;
+      if (i < n_normals && facets[i] == interface) return &normals[i];
+    }
+    return nullptr;
+  }
 };
 
 /// The first facet a line meets beyond t = 0.
@@ -128,6 +142,9 @@ class EmbreeIndex {
 
   [[nodiscard]] FacetPlane make_plane(std::uint32_t i) const noexcept;
   [[nodiscard]] bool can_move() const noexcept { return !block_of_.empty(); }
+  [[nodiscard]] std::uint32_t slot(std::uint32_t v) const noexcept {
+    return slots_.empty() ? v : slots_[v];
+  }
   void fill_coordinates();
   [[nodiscard]] EmbreeParts make_parts(std::vector<std::uint32_t> members) const;
   [[nodiscard]] RTCGeometryTy* make_geometry(std::span<const std::uint32_t> members) const;
@@ -136,12 +153,12 @@ class EmbreeIndex {
 
   Vec3 centre_ = Vec3::Zero();
   double radius_ = 0;
-  std::vector<Vec3> vertices_;                           // relative to centre_
-  std::vector<std::array<std::uint32_t, 3>> triangles_;  // (n_interfaces)
-  std::vector<Facet> facets_;                            // (n_interfaces)
-  std::vector<std::uint8_t> block_of_;                   // (n_interfaces), or empty: none moves
-  std::vector<std::uint64_t> blocks_at_;                 // (n_vertices) a bit for each block there
-  bool moved_ = false;                                   // whether any vertex ever did
+  std::vector<Vec3> vertices_;            // relative to centre_
+  std::vector<Facet> facets_;             // (n_interfaces)
+  std::vector<std::uint8_t> block_of_;    // (n_interfaces), or empty: none moves
+  std::vector<std::uint64_t> blocks_at_;  // (n_vertices) a bit for each block there
+  std::vector<std::uint32_t> slots_;      // (n_vertices) in coordinates_, or empty
+  bool moved_ = false;                    // whether any vertex ever did
   EmbreeDevice device_;
   EmbreeBuffer coordinates_;  // (n_vertices, 3) float
   EmbreeParts all_;

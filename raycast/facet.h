@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -25,6 +26,7 @@ struct FacetSides {
 struct alignas(64) Facet {
   FacetPlane plane;
   FacetSides sides;
+  std::array<std::uint32_t, 3> vertices{};
 };
 
 /// One passage of a line through a facet. Without initialisers: a query's room for hits is on its

@@ -95,10 +95,13 @@ struct Scene::Impl {
     return fallback;
   }
 
-  /// Unit normal of a hit's interface against the line's direction.
-  [[nodiscard]] Vec3 normal_against(const Hit& hit, const Line& line) const noexcept {
+  /// Unit normal of a hit's interface against the line's direction; the hit is the one at `place`
+  /// of those of `buffer`, or near it.
+  [[nodiscard]] Vec3 normal_against(const Hit& hit, const Line& line, const HitBuffer& buffer,
+                                    std::size_t place) const noexcept {
     if (hit.interface == kNoInterface) return Vec3::Zero();
-    const Vec3 normal = index.plane(hit.interface).normal;
+    const Vec3* known = buffer.normal_of(hit.interface, place);
+    const Vec3 normal = known != nullptr ? *known : index.plane(hit.interface).normal;
     return normal.dot(line.direction) > 0 ? Vec3(-normal) : normal;
   }
 
@@ -168,12 +171,14 @@ QueryCount Scene::find_crossings(const Segment& segment, std::span<Crossing> out
   const Track track = make_track(impl_->index, segment);
   if (!track.valid || !(track.length > 0)) return count;
   Trace scratch;  // NOLINT(cppcoreguidelines-pro-type-member-init): 12 KB, written before read
-  for (const Hit& hit : impl_->trace(track, scratch)) {
+  const std::span<const Hit> hits = impl_->trace(track, scratch);
+  for (const Hit& hit : hits) {
     if (hit.depth < 0 || hit.interface == kNoInterface) continue;
     if (hit.depth >= track.length) break;
     if (count.size == out.size()) return {count.size, true};
-    out[count.size++] = {hit.depth, impl_->normal_against(hit, track.line), hit.from, hit.to,
-                         hit.interface};
+    const auto place = static_cast<std::size_t>(&hit - hits.data());
+    out[count.size++] = {hit.depth, impl_->normal_against(hit, track.line, scratch.buffer, place),
+                         hit.from, hit.to, hit.interface};
   }
   count.truncated = scratch.buffer.overflow;
   return count;
@@ -208,7 +213,8 @@ QueryCount Scene::find_intervals(const Segment& segment,
     }
     current->entry = hit.depth;
     current->region = hit.to;
-    current->entry_normal = impl_->normal_against(hit, track.line);
+    const auto place = static_cast<std::size_t>(&hit - hits.data());
+    current->entry_normal = impl_->normal_against(hit, track.line, scratch.buffer, place);
     current->entry_interface = hit.interface;
   }
   ARTUS_ASSERT(current->entry <= track.length);

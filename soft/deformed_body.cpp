@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <tuple>
 
 #include <Eigen/SVD>
+
+#include "artus/soft/kernels.h"
 
 namespace artus {
 namespace {
@@ -26,19 +29,79 @@ std::size_t interface_vertices(const TetMesh& mesh) {
   return n;
 }
 
-/// The corners of the cubes of some places, ascending.
-std::vector<std::uint32_t> nodes_of_places(const Cage& cage, std::span<const CagePlace> places) {
+/// The corners of some cubes, ascending.
+std::vector<std::uint32_t> nodes_of(const Cage& cage, std::span<const CubeVertices> cubes) {
   std::vector<bool> found(cage.nodes().size(), false);
-  for (const CagePlace& place : places) {
-    if (place.cell < 0) continue;
-    for (const std::uint32_t n : cage.cells()[static_cast<std::size_t>(place.cell)].nodes)
-      found[n] = true;
+  for (const CubeVertices& cube : cubes) {
+    for (const std::uint32_t n : cage.cells()[cube.cell].nodes) found[n] = true;
   }
   std::vector<std::uint32_t> nodes;
   for (std::uint32_t n = 0; n < found.size(); ++n) {
     if (found[n]) nodes.push_back(n);
   }
   return nodes;
+}
+
+/// Which share of a cube's edges lies before a point, from its weights.
+Vec3 share_of(const CagePlace& place) noexcept {
+  Vec3 share = Vec3::Zero();
+  for (std::size_t a = 0; a < 8; ++a) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      if ((a >> k & 1U) != 0) share[static_cast<Eigen::Index>(k)] += place.weights[a];
+    }
+  }
+  return share;
+}
+
+/// Vertices of the interfaces, each once.
+std::vector<std::uint32_t> vertices_of(const TetMesh& mesh) {
+  std::vector<std::uint32_t> vertices;
+  for (const Interface& i : mesh.interfaces)
+    vertices.insert(vertices.end(), i.vertices.begin(), i.vertices.end());
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  return vertices;
+}
+
+/// Fills `moving`, `shares` and `cubes`: near cubes, far ones, no cube.
+void sort_into_cubes(const TetMesh& mesh, const Cage& cage, BodyMap& map) {
+  std::int32_t least = std::numeric_limits<std::int32_t>::max();
+  std::int32_t largest = 0;
+  for (const CageCell& cell : cage.cells()) {
+    least = std::min(least, cell.span);
+    largest = std::max(largest, cell.span);
+  }
+  struct Placed {
+    int zone = 2;  // 0: near; 1: far; 2: in no cube
+    CagePlace place;
+    std::uint32_t vertex = 0;
+  };
+  const Pose X_CJ = map.X_JC.inverse();
+  std::vector<Placed> all;
+  for (const std::uint32_t v : vertices_of(mesh)) {
+    Placed placed{2, cage.locate(X_CJ * mesh.vertices[v], kReach), v};
+    if (placed.place.cell >= 0) {
+      const std::int32_t span = cage.cells()[static_cast<std::size_t>(placed.place.cell)].span;
+      placed.zone = least == largest || span < largest ? 0 : 1;
+    }
+    all.push_back(placed);
+  }
+  std::sort(all.begin(), all.end(), [](const Placed& a, const Placed& b) {
+    return std::tie(a.zone, a.place.cell, a.vertex) < std::tie(b.zone, b.place.cell, b.vertex);
+  });
+  for (const Placed& placed : all) {
+    const auto k = static_cast<std::uint32_t>(map.moving.size());
+    map.moving.push_back(placed.vertex);
+    map.shares.push_back(share_of(placed.place));
+    if (placed.zone == 2) continue;
+    const auto cell = static_cast<std::uint32_t>(placed.place.cell);
+    if (map.cubes.empty() || map.cubes.back().cell != cell) map.cubes.push_back({cell, k, k});
+    map.cubes.back().end = k + 1;
+    if (placed.zone == 0) {
+      map.n_near = k + 1;
+      map.n_near_cubes = map.cubes.size();
+    }
+  }
 }
 
 /// u and its gradient in a cube, at `s` of its edges from its lowest corner.
@@ -70,39 +133,51 @@ std::shared_ptr<const BodyMap> make_body_map(const CompiledJoint& joint, const P
                                              std::shared_ptr<const SoftModel> model) {
   auto map = std::make_shared<BodyMap>();
   map->X_JC = X_JC;
-  for (const Interface& i : joint.mesh.interfaces)
-    map->moving.insert(map->moving.end(), i.vertices.begin(), i.vertices.end());
-  std::sort(map->moving.begin(), map->moving.end());
-  map->moving.erase(std::unique(map->moving.begin(), map->moving.end()), map->moving.end());
   const Cage& cage = model->cage();
-  const Pose X_CJ = X_JC.inverse();
-  const auto place_of = [&](std::uint32_t v) {
-    return cage.locate(X_CJ * joint.mesh.vertices[v], kReach);
-  };
-  std::int32_t least = std::numeric_limits<std::int32_t>::max();
-  std::int32_t largest = 0;
-  for (const CageCell& cell : cage.cells()) {
-    least = std::min(least, cell.span);
-    largest = std::max(largest, cell.span);
-  }
-  const auto middle =
-      std::stable_partition(map->moving.begin(), map->moving.end(), [&](std::uint32_t v) {
-        const std::int32_t cell = place_of(v).cell;
-        return cell >= 0 &&
-               (least == largest || cage.cells()[static_cast<std::size_t>(cell)].span < largest);
-      });
-  map->n_near = static_cast<std::size_t>(middle - map->moving.begin());
-  for (const std::uint32_t v : map->moving) map->places.push_back(place_of(v));
-  map->far_nodes = nodes_of_places(cage, std::span(map->places).subspan(map->n_near));
+  sort_into_cubes(joint.mesh, cage, *map);
+  map->far_nodes = nodes_of(cage, std::span(map->cubes).subspan(map->n_near_cubes));
   map->n_vertices = interface_vertices(joint.mesh);
   map->model = std::move(model);
   return map;
 }
 
-void DeformedBody::move_vertex(std::size_t k, std::span<const Vec3> u) {
-  const Vec3 moved = map_->model->displacement_at(map_->places[k], u);
-  if (moved.squaredNorm() > kStill * kStill)
-    vertices_[map_->moving[k]] += map_->X_JC.linear() * moved;
+namespace {
+
+/// Terms of the displacement in a cube, frame J: 1, x, y, xy, z, xz, yz, xyz of the share of its
+/// edges.
+CubeTerms terms_of(const CageCell& cell, std::span<const Vec3> u, const Eigen::Matrix3d& R) {
+  std::array<Vec3, 8> c;
+  for (std::size_t a = 0; a < 8; ++a) c[a] = R * u[cell.nodes[a]];
+  for (std::size_t axis = 1; axis < 8; axis *= 2) {
+    for (std::size_t a = 0; a < 8; ++a) {
+      if ((a & axis) != 0) c[a] -= c[a - axis];
+    }
+  }
+  CubeTerms terms;
+  for (std::size_t a = 0; a < 8; ++a) {
+    for (std::size_t k = 0; k < 3; ++k) terms.of[a][k] = c[a][static_cast<Eigen::Index>(k)];
+  }
+  return terms;
+}
+
+}  // namespace
+
+void DeformedBody::move_cube(const CubeVertices& cube, std::span<const Vec3> u) {
+  const CageCell& cell = map_->model->cage().cells()[cube.cell];
+  const auto moves = [&](std::uint32_t n) {
+    return u[n].squaredNorm() > kStill * kStill;
+  };
+  if (std::none_of(cell.nodes.begin(), cell.nodes.end(), moves)) return;
+  const CubeTerms terms = terms_of(cell, u, map_->X_JC.linear());
+  std::array<Lanes, 64> moved;  // NOLINT(cppcoreguidelines-pro-type-member-init): written first
+  for (std::uint32_t from = cube.begin; from < cube.end; from += 64) {
+    const std::uint32_t n = std::min<std::uint32_t>(64, cube.end - from);
+    soft_kernels().carry(terms, map_->shares[from].data(), n, moved.data());
+    for (std::uint32_t k = 0; k < n; ++k) {
+      const Vec3 by(moved[k][0], moved[k][1], moved[k][2]);
+      if (by.squaredNorm() > kStill * kStill) vertices_[map_->moving[from + k]] += by;
+    }
+  }
 }
 
 /// Far vertices whose cube has no node that went on stay as they were.
@@ -123,15 +198,13 @@ void DeformedBody::move_far(const DeformedBody* before) {
   for (const CageCell& cell : map_->model->cage().cells())
     still.push_back(std::none_of(cell.nodes.begin(), cell.nodes.end(),
                                  [&](std::uint32_t n) { return went_on[n]; }));
-  for (std::size_t k = map_->n_near; k < map_->moving.size(); ++k) {
-    const std::int32_t cell = map_->places[k].cell;
-    if (cell < 0) continue;
-    const std::uint32_t v = map_->moving[k];
-    if (still[static_cast<std::size_t>(cell)]) {
-      vertices_[v] = before->vertices_[v];
-    } else {
-      move_vertex(k, u);
+  for (const CubeVertices& cube : std::span(map_->cubes).subspan(map_->n_near_cubes)) {
+    if (!still[cube.cell]) {
+      move_cube(cube, u);
+      continue;
     }
+    for (std::uint32_t k = cube.begin; k < cube.end; ++k)
+      vertices_[map_->moving[k]] = before->vertices_[map_->moving[k]];
   }
 }
 
@@ -146,7 +219,8 @@ DeformedBody::DeformedBody(std::shared_ptr<const CompiledJoint> joint,
       contact_(contact_J) {
   const auto& rest = joint_->mesh.vertices;
   vertices_.assign(rest.begin(), rest.begin() + static_cast<std::ptrdiff_t>(map_->n_vertices));
-  for (std::size_t k = 0; k < map_->n_near; ++k) move_vertex(k, u_);
+  for (const CubeVertices& cube : std::span(map_->cubes).first(map_->n_near_cubes))
+    move_cube(cube, u_);
   move_far(before);
 }
 

@@ -8,15 +8,24 @@
 
 namespace artus {
 
+/// The vertices of one cube: [begin, end) of BodyMap::moving.
+struct CubeVertices {
+  std::uint32_t cell = 0;
+  std::uint32_t begin = 0;
+  std::uint32_t end = 0;
+};
+
 /// What all snapshots of a body share: the model and where its surfaces lie in the cage.
 struct BodyMap {
   Pose X_JC = Pose::Identity();
   std::shared_ptr<const SoftModel> model;
   /// Vertices of the joint's interfaces that lie in the cage; the first `n_near` in its finer cubes
-  /// near the probe.
+  /// near the probe, cube by cube; last those in no cube, which do not move.
   std::vector<std::uint32_t> moving;
-  std::vector<CagePlace> places;  ///< (moving)
+  std::vector<Vec3> shares;         ///< (moving) of the cube's edges, from its lowest corner
+  std::vector<CubeVertices> cubes;  ///< as `moving` has them
   std::size_t n_near = 0;
+  std::size_t n_near_cubes = 0;
   std::size_t n_vertices = 0;            ///< of the joint's interfaces
   std::vector<std::uint32_t> far_nodes;  ///< of the cubes that hold the others
 };
@@ -95,7 +104,7 @@ class DeformedBody {
   std::shared_ptr<const CompiledJoint> joint_;
   std::shared_ptr<const BodyMap> map_;
   [[nodiscard]] Motion in_J(const Motion& motion) const noexcept;
-  void move_vertex(std::size_t k, std::span<const Vec3> u);
+  void move_cube(const CubeVertices& cube, std::span<const Vec3> u);
   void move_far(const DeformedBody* before);
 
   std::vector<Vec3> u_;      // (n_nodes) frame C

@@ -40,6 +40,12 @@ struct alignas(32) CellPackState {
 
 /// The inner loops of a step, compiled for the plain CPU and for wider registers. All sums stand in
 /// the same order in both, without fused multiply-adds: the bytes are the same.
+/// What a cube's displacement is made of, lanes x, y, z and one that is not used: factors of 1, x,
+/// y, xy, z, xz, yz, xyz.
+struct alignas(32) CubeTerms {
+  std::array<Lanes, 8> of{};
+};
+
 struct SoftKernels {
   /// cell_response of four cubes.
   void (*cells)(const CellPack& pack, CellPackState& state);
@@ -50,6 +56,8 @@ struct SoftKernels {
   void (*backward)(const float* L, std::size_t rows, std::size_t columns, float* x);
   /// y (rows) += A x, A (rows, columns), row fastest.
   void (*multiply)(const float* A, std::size_t rows, std::size_t columns, const float* x, float* y);
+  /// moved (n) = the terms at `share` (n, 3), coordinate fastest.
+  void (*carry)(const CubeTerms& terms, const double* share, std::size_t n, Lanes* moved);
 };
 
 /// Those of the widest registers this CPU has; a CPU without AVX2 gets the plain ones.

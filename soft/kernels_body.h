@@ -352,4 +352,18 @@ void multiply(const float* A, std::size_t rows, std::size_t columns, const float
   }
 }
 
-constexpr SoftKernels kKernels{cells, forward, backward, multiply};
+void carry(const CubeTerms& terms, const double* share, std::size_t n, Lanes* moved) {
+  D c[8];
+  for (std::size_t a = 0; a < 8; ++a) c[a] = lanes(terms.of[a]);
+  for (std::size_t i = 0; i < n; ++i, share += 3) {
+    const D x = splat(share[0]);
+    const D y = splat(share[1]);
+    const D z = splat(share[2]);
+    const D low = (c[0] + x * c[1]) + y * (c[2] + x * c[3]);
+    const D high = (c[4] + x * c[5]) + y * (c[6] + x * c[7]);
+    const D sum = low + z * high;
+    for (std::size_t k = 0; k < 4; ++k) moved[i][k] = sum[k];
+  }
+}
+
+constexpr SoftKernels kKernels{cells, forward, backward, multiply, carry};

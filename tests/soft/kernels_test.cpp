@@ -75,6 +75,33 @@ TEST(SoftKernels, WidestRegistersGiveThePlainOnesBytes) {
   }
 }
 
+TEST(SoftKernels, CarryIsTheTrilinearSumAndWidestRegistersGiveThePlainOnesBytes) {
+  CubeTerms terms;
+  std::vector<double> share;
+  for (std::size_t a = 0; a < 8; ++a) {
+    for (std::size_t k = 0; k < 4; ++k) terms.of[a][k] = uniform_noise(1, 4 * a + k) - 0.5;
+  }
+  constexpr std::size_t kPoints = 7;
+  for (std::size_t i = 0; i < 3 * kPoints; ++i) share.push_back(uniform_noise(2, i));
+  std::array<Lanes, kPoints> a{};
+  std::array<Lanes, kPoints> b{};
+  soft_kernels().carry(terms, share.data(), kPoints, a.data());
+  plain_soft_kernels().carry(terms, share.data(), kPoints, b.data());
+  EXPECT_EQ(std::memcmp(a.data(), b.data(), sizeof a), 0);
+  for (std::size_t i = 0; i < kPoints; ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      double sum = 0;
+      for (std::size_t t = 0; t < 8; ++t) {
+        double factor = terms.of[t][k];
+        for (std::size_t axis = 0; axis < 3; ++axis)
+          factor *= (t >> axis & 1U) != 0 ? share[3 * i + axis] : 1;
+        sum += factor;
+      }
+      EXPECT_NEAR(a[i][k], sum, 1e-14);
+    }
+  }
+}
+
 TEST(SoftKernels, ForwardAndBackwardSolveWithTheirTrapezium) {
   const std::size_t rows = 29;
   const std::size_t columns = 14;

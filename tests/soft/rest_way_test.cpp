@@ -51,9 +51,26 @@ TEST(RestWay, LineBesideFindsTheTissueToTheFirstOrder) {
   const Vec3 direction = Vec3::UnitZ();
   const RestWay middle(*body, Vec3(4e-3, 0.5e-3, 5e-3), direction);
   const RestWay side(*body, Vec3(4e-3, 1.0e-3, 5e-3), direction);
-  const RestKnot knot = side.beside(middle.at(4e-3), 4e-3);
-  EXPECT_LT((knot.rest_J - side.at(4e-3).rest_J).norm(), 2e-5);
-  EXPECT_NEAR(knot.moved, knot.displacement_J.norm(), 1e-15);
+  const RestPoint point = side.beside(middle.at(4e-3), 4e-3);
+  const RestKnot exact = side.at(4e-3);
+  EXPECT_LT((point.rest_J - exact.rest_J).norm(), 2e-5);
+  EXPECT_NEAR(point.moved, exact.moved, 2e-5);
+  const RestKnot knot = side.knot_beside(middle.at(4e-3), 4e-3);
+  EXPECT_EQ(knot.rest_J, point.rest_J);
+  EXPECT_LT((knot.rest_C - exact.rest_C).norm(), 2e-5);
+  EXPECT_LT((side.next(knot).rest_J - side.at(side.next(knot).along).rest_J).norm(), 1e-5);
+}
+
+TEST(RestWay, CarriesAFibreAsTheTissueDoes) {
+  const auto body = pressed_block();
+  const RestWay way(*body, Vec3(4e-3, 0.5e-3, 2e-3), Vec3(0.1, 0.02, 1).normalized());
+  const RestKnot knot = way.at(5e-3);
+  const Vec3 fibre = Vec3(1, 0.3, -0.4).normalized();
+  const double step = 1e-5;
+  const Vec3 ahead = knot.rest_J + step * fibre;
+  const Vec3 moved = ahead + body->displacement(ahead) - knot.rest_J - knot.displacement_J;
+  EXPECT_LT((way.carried(knot, fibre) - moved / step).norm(), 1e-2);
+  EXPECT_GT((way.carried(knot, fibre) - fibre).norm(), 0.02) << "it was turned at all";
 }
 
 TEST(RestWay, OfABodyAtRestIsTheLineItself) {
