@@ -104,6 +104,7 @@ Result<Outcome> write_run(const std::shared_ptr<const Scene>& scene, const Injec
     outcome.report["opening_length_mm"] = pictures->length / kMillimetre;
     outcome.report["opening_width_mm"] = pictures->width / kMillimetre;
     outcome.report["seen_opening_mm"] = pictures->seen_opening / kMillimetre;
+    outcome.report["seen_thickness_mm"] = pictures->seen_thickness / kMillimetre;
     outcome.report["seen_width_mm"] = pictures->seen_width / kMillimetre;
     outcome.report["label_area_mm2"] = pictures->label_area / (kMillimetre * kMillimetre);
     outcome.report["ray_volume_ml"] = pictures->ray_volume / kCubicCentimetre;

@@ -4,9 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Dense>
+
+#include "artus/core/check.h"
 
 namespace artus {
 namespace {
@@ -319,6 +323,32 @@ std::optional<MaterialMap> fit_fibre_course(const CompiledJoint& joint, RegionId
     coefficients(0, c) = 0;
   }
   return MaterialMap(frame.centre, frame.scale, coefficients);
+}
+
+std::function<Vec3(RegionId, const Vec3&)> make_fibre_field(
+    std::shared_ptr<const CompiledJoint> joint) {
+  ARTUS_REQUIRE(joint != nullptr, "a joint is needed");
+  struct Courses {
+    std::shared_ptr<const CompiledJoint> joint;
+    std::optional<MaterialMap> depth;
+    std::map<RegionId, std::optional<MaterialMap>> of;
+  };
+  const auto courses = std::make_shared<Courses>();
+  courses->joint = std::move(joint);
+  return [courses](RegionId region, const Vec3& p_J) -> Vec3 {
+    const CompiledJoint& body = *courses->joint;
+    if (region >= body.regions.size()) return Vec3::Zero();
+    const TissueKind kind = body.tissue_of(region).acoustic.kind;
+    if (kind != TissueKind::muscle && kind != TissueKind::tendon && kind != TissueKind::nerve)
+      return Vec3::Zero();
+    if (courses->of.empty()) courses->depth = fit_skin_depth(body);
+    const auto [at, is_new] = courses->of.try_emplace(region);
+    if (is_new && courses->depth) at->second = fit_fibre_course(body, region, courses->depth);
+    if (!at->second) return Vec3::Zero();
+    const MaterialPoint point = at->second->evaluate(p_J);
+    const Vec3 fibre = Vec3(point.gradient.row(0)).cross(Vec3(point.gradient.row(1)));
+    return fibre.norm() > 1e-9 ? Vec3(fibre.normalized()) : Vec3(Vec3::Zero());
+  };
 }
 
 }  // namespace artus

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <functional>
+#include <memory>
 #include <optional>
 
 #include "artus/anatomy/body/compiled_joint.h"
@@ -35,5 +37,11 @@ struct Continuation {
 [[nodiscard]] std::optional<MaterialMap> fit_fibre_course(const CompiledJoint& joint,
                                                           RegionId region,
                                                           const std::optional<MaterialMap>& depth);
+
+/// Unit, frame J, along the fibres that pictures of the joint show in a muscle, tendon or nerve;
+/// zero where there are none. Each region's course is fitted when it is first asked for, some 30 ms
+/// the first time; one thread at a time. Requires: a joint.
+[[nodiscard]] std::function<Vec3(RegionId, const Vec3&)> make_fibre_field(
+    std::shared_ptr<const CompiledJoint> joint);
 
 }  // namespace artus

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "artus/core/check.h"
+#include "artus/echo/fibre_course.h"
 
 namespace artus {
 namespace {
@@ -40,6 +41,7 @@ FluidCore::FluidCore(std::shared_ptr<const CompiledJoint> joint, Liquid liquid, 
       liquid_(std::move(liquid)),
       images_to_change_(static_cast<std::uint64_t>(std::ceil(kShapeTime * image_rate))) {
   ARTUS_REQUIRE(joint_ != nullptr && image_rate > 0, "a joint and an image rate are needed");
+  fibres_ = make_fibre_field(joint_);
 }
 
 bool FluidCore::has_changed(std::span<const InjectedSite> sites) const {
@@ -56,16 +58,17 @@ void FluidCore::start(std::span<const InjectedSite> sites, const DeformedBody* t
   begun_.assign(sites.begin(), sites.end());
   std::shared_ptr<const BodyMap> cage;
   if (tissue != nullptr) cage = tissue->shared_map();
-  next_ = std::async(std::launch::async, [joint = joint_, liquid = liquid_, sites = begun_, cage] {
-    Shape shape;
-    shape.joint = std::make_shared<const CompiledJoint>(
-        with_injected(*joint, injected_of(*joint, sites), liquid));
-    if (cage)
-      shape.map = make_body_map(*shape.joint, cage->X_JC, cage->model);
-    else
-      shape.scene = std::make_shared<const Scene>(shape.joint);
-    return shape;
-  });
+  next_ = std::async(std::launch::async,
+                     [joint = joint_, liquid = liquid_, fibres = fibres_, sites = begun_, cage] {
+                       Shape shape;
+                       shape.joint = std::make_shared<const CompiledJoint>(
+                           with_injected(*joint, injected_of(*joint, sites), liquid, fibres));
+                       if (cage)
+                         shape.map = make_body_map(*shape.joint, cage->X_JC, cage->model);
+                       else
+                         shape.scene = std::make_shared<const Scene>(shape.joint);
+                       return shape;
+                     });
 }
 
 /// In a cage that was changed meanwhile it lies elsewhere.

@@ -46,6 +46,7 @@ class FluidCore {
 
   std::shared_ptr<const CompiledJoint> joint_;
   Liquid liquid_;
+  FibreField fibres_;  // of joint_; asked by the thread that makes a shape alone
   std::uint64_t images_to_change_;
   std::uint64_t images_ = 0;
   std::uint64_t due_ = 0;

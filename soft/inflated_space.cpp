@@ -46,6 +46,21 @@ double profile(double q) {
   return q < 1 ? (1 - q * q) * (1 - q * q) : 0;
 }
 
+/// Of a plate held along a straight rim, at `s` of half its span from there.
+double strip(double s) {
+  const double part = std::clamp(s, 0.0, 1.0);
+  return part * part * (2 - part) * (2 - part);
+}
+
+/// Of each vertex, whether it belongs to a surface of bone.
+std::vector<bool> find_hard(const CompiledJoint& joint) {
+  std::vector<bool> hard(joint.mesh.vertices.size(), false);
+  for (const Interface& f : joint.mesh.interfaces)
+    if (joint.tissue_of(f.front).haptic.hard || joint.tissue_of(f.back).haptic.hard)
+      for (const std::uint32_t v : f.vertices) hard[v] = true;
+  return hard;
+}
+
 /// Where the line from `origin` along `d` meets the triangle, and whether it leaves by it.
 std::optional<std::pair<double, bool>> meet(const Vec3& origin, const Vec3& d, const Vec3& a,
                                             const Vec3& b, const Vec3& c) {
@@ -79,7 +94,7 @@ InflatedSpace::InflatedSpace(const CompiledJoint& joint, RegionId region, const 
   ARTUS_REQUIRE(!triangles_.empty(), "the region must have interfaces");
   choose_frame(joint, tip);
   rest_volume_ = volume_of(rest_);
-  find_lifts();
+  find_lifts(joint);
 }
 
 /// (u, v, height): m along the sphere from the tip's direction, and above it toward the roof.
@@ -213,7 +228,12 @@ std::vector<bool> InflatedSpace::find_bone(const CompiledJoint& joint) const {
     const double roof = between(roof_, p.x(), p.y());
     if (p.z() < roof) return;
     const double together = 1 / (1 + (p.z() - roof) / params_.spread);
-    bone[at(cell_of(together * p.x()), cell_of(together * p.y()))] = true;
+    // All four that `between` reads there.
+    const int u = cell_of(together * p.x() - kCell / 2);
+    const int v = cell_of(together * p.y() - kCell / 2);
+    if (u < -1 || v < -1 || u >= kCells || v >= kCells) return;
+    for (const auto& [i, j] : {std::pair{u, v}, {u + 1, v}, {u, v + 1}, {u + 1, v + 1}})
+      bone[at(i, j)] = true;
   };
   for (const Interface& f : joint.mesh.interfaces) {
     if (!joint.tissue_of(f.front).haptic.hard && !joint.tissue_of(f.back).haptic.hard) continue;
@@ -228,27 +248,52 @@ std::vector<bool> InflatedSpace::find_bone(const CompiledJoint& joint) const {
   return bone;
 }
 
-/// Where the space may open: away from its own rim and from bone that lies on it.
-void InflatedSpace::find_shut(const CompiledJoint& joint) {
+/// How far each cell is from where the space stays shut: its own rim, and bone that lies on it.
+void InflatedSpace::find_room(const CompiledJoint& joint) {
   std::vector<bool> shut = find_bone(joint);
   for (std::size_t c = 0; c < shut.size(); ++c) shut[c] = shut[c] || !open_[c];
-  inside_.assign(shut.size(), 0);
-  const int reach = static_cast<int>(std::ceil(params_.rim / kCell));
+  std::vector<std::pair<int, int>> rim;  // cells that are shut beside one that is not
+  for (int v = 0; v < kCells; ++v)
+    for (int u = 0; u < kCells; ++u)
+      if (shut[at(u, v)] &&
+          !(shut[at(u + 1, v)] && shut[at(u - 1, v)] && shut[at(u, v + 1)] && shut[at(u, v - 1)]))
+        rim.emplace_back(u, v);
+  room_.assign(shut.size(), 0);
   for (int v = 0; v < kCells; ++v) {
     for (int u = 0; u < kCells; ++u) {
-      double nearest = params_.rim;
-      for (int dv = -reach; dv <= reach; ++dv) {
-        for (int du = -reach; du <= reach; ++du) {
-          const int x = u + du;
-          const int y = v + dv;
-          const bool off = x < 0 || y < 0 || x >= kCells || y >= kCells;
-          if (off || shut[static_cast<std::size_t>(y * kCells + x)])
-            nearest = std::min(nearest, kCell * std::hypot(du, dv));
-        }
-      }
-      inside_[static_cast<std::size_t>(v * kCells + u)] = nearest / params_.rim;
+      if (shut[at(u, v)]) continue;
+      const int off = 1 + std::min({u, v, kCells - 1 - u, kCells - 1 - v});
+      int nearest = off * off;
+      for (const auto& [x, y] : rim)
+        nearest = std::min(nearest, (x - u) * (x - u) + (y - v) * (y - v));
+      room_[at(u, v)] = kCell * std::sqrt(nearest);
     }
   }
+  smooth_room();
+}
+
+/// Takes the edges from it along which two rims are equally far. What is shut stays so.
+void InflatedSpace::smooth_room() {
+  constexpr int kPasses = 3;
+  for (int k = 0; k < kPasses; ++k) {
+    const std::vector<double> before = room_;
+    for (int v = 0; v < kCells; ++v) {
+      for (int u = 0; u < kCells; ++u) {
+        if (before[at(u, v)] == 0) continue;
+        double sum = 0;
+        for (int dv = -1; dv <= 1; ++dv)
+          for (int du = -1; du <= 1; ++du) sum += before[at(u + du, v + dv)];
+        room_[at(u, v)] = sum / 9;
+      }
+    }
+  }
+  most_room_ = *std::max_element(room_.begin(), room_.end());
+}
+
+/// Of the most: around the tip a disc of `radius`, held at its rim and where it stays shut.
+double InflatedSpace::opening(double r, double room, double radius) const {
+  const double half_span = std::min(radius, most_room_);
+  return half_span > 0 ? profile(r / radius) * strip(room / half_span) : 0;
 }
 
 /// Of a map by cells, between their middles, so that nothing has steps.
@@ -264,9 +309,11 @@ double InflatedSpace::between(const std::vector<double>& map, double u, double v
 }
 
 /// Along each line of height the lift never falls faster than one comes up, so what is above stays
-/// above.
-void InflatedSpace::find_lifts() {
+/// above. Bone is not lifted, whatever the map of cells says.
+void InflatedSpace::find_lifts(const CompiledJoint& joint) {
+  const std::vector<bool> hard = find_hard(joint);
   for (std::uint32_t i = 0; i < rest_.size(); ++i) {
+    if (hard[i]) continue;
     const Vec3 p = polar(rest_[i]);
     if (std::hypot(p.x(), p.y()) > kRound * sphere_) continue;
     const double floor = between(floor_, p.x(), p.y());
@@ -276,23 +323,28 @@ void InflatedSpace::find_lifts() {
     const double together = 1 / (1 + std::max(0.0, p.z() - roof) / params_.spread);
     const double u = together * p.x();
     const double v = together * p.y();
-    const double share = drawn * together * together * between(inside_, u, v);
+    const double share = drawn * together * together;
+    const double room = between(room_, u, v);
     const double r = std::hypot(u, v);
-    if (!(share > 0) || r >= kWidest) continue;
-    lifts_.push_back({i, sign_ * (rest_[i] - centre_).normalized(), r, share});
+    if (!(share * room > 0) || r >= kWidest) continue;
+    lifts_.push_back({i, sign_ * (rest_[i] - centre_).normalized(), r, room, share});
   }
 }
 
-/// m^2 of the plate over the map, of all of it or where the space may open.
+/// m^2 of the plate over the map, were it as high as a free one in its middle: of a free one, or
+/// where the space may open.
 double InflatedSpace::open_area(double radius, bool everywhere) const {
   double sum = 0;
+  double most = everywhere ? 1 : 0;
   for (int v = 0; v < kCells; ++v) {
     for (int u = 0; u < kCells; ++u) {
-      const double q = std::hypot(middle(u), middle(v)) / radius;
-      sum += profile(q) * (everywhere ? 1 : inside_[static_cast<std::size_t>(v * kCells + u)]);
+      const double r = std::hypot(middle(u), middle(v));
+      const double part = everywhere ? profile(r / radius) : opening(r, room_[at(u, v)], radius);
+      sum += part;
+      most = std::max(most, part);
     }
   }
-  return sum * kCell * kCell;
+  return most > 0 ? sum / most * kCell * kCell : 0;
 }
 
 double InflatedSpace::radius(double volume) const {
@@ -310,7 +362,7 @@ double InflatedSpace::radius(double volume) const {
 std::vector<Vec3> InflatedSpace::lifted(double height, double radius) const {
   std::vector<Vec3> vertices = rest_;
   for (const Lift& lift : lifts_) {
-    const double part = lift.share * profile(lift.r / radius);
+    const double part = lift.share * opening(lift.r, lift.room, radius);
     vertices[lift.vertex] += height * part * lift.direction;
   }
   return vertices;
@@ -355,7 +407,7 @@ double InflatedSpace::largest_opening(double volume) const {
   const double a = radius(std::max(volume, 1e-12));
   double largest = 0;
   for (const Lift& lift : lifts_) {
-    largest = std::max(largest, height * lift.share * profile(lift.r / a));
+    largest = std::max(largest, height * lift.share * opening(lift.r, lift.room, a));
   }
   return largest;
 }

@@ -10,22 +10,22 @@
 namespace artus {
 
 /// How a cleft opens; assumed: all of it. A plate held at its rim, h = h0 (1 - (r/a)^2)^2, around
-/// the tip, over the area that it has where nothing keeps the cleft shut: beside a rim or bone it
-/// reaches farther.
+/// the tip. Beside the space's own rim, or bone that lies on it, the plate is held there as well:
+/// times that of a strip held along it, (s (2 - s))^2 at s half spans from it, of half a span a or
+/// as far as there is room. What it has less for that it reaches farther elsewhere.
 struct OpeningParams {
   double fill = 3e-6;       ///< m^3 at which the fluid has come to its widest
   double widest = 28.5e-3;  ///< m, radius of the patch there; fitted: 5 ml open by less than 6 mm
-  double rim = 4e-3;        ///< m from the cleft's own rim over which it stays shut
   double spread = 20e-3;    ///< m above the roof at which the lift is twice as wide
 };
 
 /// A thin space between a roof and a floor that is pushed open by a volume: the roof and what lies
 /// on it are lifted, the floor stays, and what lies between is drawn out, so that no wall folds
 /// over another. The lift spreads upward so that the same volume passes every level: what lies
-/// above keeps its volume. The walls lie along a sphere fitted to them, which suits a bursa on a
-/// head as well as a flat one; where they are none, as of a thick recess, along a plane. Of a space
-/// that lies over itself the sheet around the tip opens. Volumes are those of the region's
-/// triangles, so truth, labels and picture agree.
+/// above keeps its volume. Bone stays where it is, and so does what lies under it. The walls lie
+/// along a sphere fitted to them, which suits a bursa on a head as well as a flat one; where they
+/// are none, as of a thick recess, along a plane. Of a space that lies over itself the sheet around
+/// the tip opens. Volumes are those of the region's triangles, so truth, labels and picture agree.
 class InflatedSpace {
  public:
   /// `tip`: m, frame J, where the liquid comes in. Requires: a region with interfaces.
@@ -49,6 +49,7 @@ class InflatedSpace {
     std::uint32_t vertex;
     Vec3 direction;  // unit
     double r;        // m along the sphere from the tip's direction, already drawn together
+    double room;     // m from there to what stays shut
     double share;    // of the lift at the roof
   };
   [[nodiscard]] std::optional<Vec3> find_centre(const Vec3& tip) const;
@@ -65,10 +66,12 @@ class InflatedSpace {
   void map_walls();
   void smooth_walls();
   [[nodiscard]] std::vector<bool> find_bone(const CompiledJoint& joint) const;
-  void find_shut(const CompiledJoint& joint);
-  void find_lifts();
+  void find_room(const CompiledJoint& joint);
+  void smooth_room();
+  void find_lifts(const CompiledJoint& joint);
   [[nodiscard]] Vec3 polar(const Vec3& p) const;
   [[nodiscard]] double between(const std::vector<double>& map, double u, double v) const;
+  [[nodiscard]] double opening(double r, double room, double radius) const;
   [[nodiscard]] double radius(double volume) const;
   [[nodiscard]] double open_area(double radius, bool everywhere) const;
   [[nodiscard]] std::vector<Vec3> lifted(double height, double radius) const;
@@ -84,10 +87,11 @@ class InflatedSpace {
   double sphere_ = 1;  // m
   double sign_ = 1;    // 1: the roof is farther from the centre than the floor
   double rest_volume_ = 0;
-  std::vector<bool> open_;      // by cell: the sheet around the tip is there
-  std::vector<double> floor_;   // m, its height, also beside the sheet
-  std::vector<double> roof_;    // m
-  std::vector<double> inside_;  // 0 at the rim .. 1
+  std::vector<bool> open_;     // by cell: the sheet around the tip is there
+  std::vector<double> floor_;  // m, its height, also beside the sheet
+  std::vector<double> roof_;   // m
+  std::vector<double> room_;   // m to the nearest cell that stays shut; 0 there
+  double most_room_ = 0;       // m
   std::vector<Lift> lifts_;
 };
 

@@ -77,7 +77,7 @@ void InflatedSpace::set_frame(const CompiledJoint& joint, const Vec3& tip, const
   up_ = -frame.to_centre.normalized();
   side_ = up_.unitOrthogonal();
   map_walls();
-  find_shut(joint);
+  find_room(joint);
 }
 
 /// The sphere of the walls, where half of a patch finds room along it; otherwise, of that, their

@@ -5,37 +5,18 @@
 
 #include "artus/anatomy/body/compiled_joint.h"
 #include "artus/anatomy/body/liquid.h"
-#include "artus/soft/inflated_space.h"
+#include "artus/soft/bolus.h"
 
 namespace artus {
 
-/// An ellipsoid of liquid that parts tissue.
-struct Bolus {
-  RegionId region = kFirstRegion;                      ///< that it lies in
-  Vec3 centre = Vec3::Zero();                          ///< m, frame J, before those opened earlier
-  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< unit, in columns
-  Vec3 proportion = Vec3::Ones();                      ///< of the semi-axes
-  double volume = 0;                                   ///< m^3
-};
-
-/// What a volume that comes in at `tip` opens in a region, in the order of opening, the one around
-/// the tip last. Muscle: streaks along the fibres between its fascicles, 10 : 5 : 0.7 mm, 0.15 ml
-/// each and 2 mm apart. Tendon and what else has fibres: clefts between fibrils that stay, 9 : 6 :
-/// 0.4 mm, 0.09 ml each and 1 mm apart, half of a length 15 mm at most. Both are staggered along
-/// the fibres, flat toward the skin, lie in the region alone and grow where there is no room for
-/// more. Nerve: one spindle of 8 : 3 : 0.5; fat: one lens of 4 : 4 : 1. assumed: all of it.
-/// Requires: volume > 0. Cost: linear in the region's interfaces.
-[[nodiscard]] std::vector<Bolus> make_boluses(const CompiledJoint& joint, RegionId region,
-                                              const Vec3& tip, double volume);
-
 /// The joint with the boluses as one more region, "injected", of `liquid`. One after another
-/// pushes all around it aside by the map rho -> (rho^3 + 1)^(1/3) of the ellipsoid's own radius,
-/// which keeps every volume; bones, too, move by what that is at their place. Interfaces beside it
-/// are cut finer (new vertices after the joint's), so that they follow that map. The polyhedron of
-/// the last holds its volume to rounding, the others to 1 %. It has interfaces alone, no
-/// tetrahedra. Requires: volumes > 0, fewer than 65535 regions.
-[[nodiscard]] CompiledJoint with_boluses(const CompiledJoint& joint, std::vector<Bolus> boluses,
-                                         const Liquid& liquid);
+/// pushes what is around it aside as Cleft says: along its own last axis, so that no wall passes
+/// another, by as much as its volume, and no bone. Interfaces beside it are cut finer (new vertices
+/// after the joint's), so that they follow. The polyhedron of each holds its volume to rounding,
+/// the earlier ones until the later push them, to 1 %. It has interfaces alone, no tetrahedra.
+/// Requires: volumes > 0, fewer than 65535 regions.
+[[nodiscard]] CompiledJoint with_boluses(const CompiledJoint& joint,
+                                         const std::vector<Bolus>& boluses, const Liquid& liquid);
 
 /// The joint with `volume` m^3 more in `region`, which from then on is of `liquid`.
 [[nodiscard]] CompiledJoint with_filled_space(const CompiledJoint& joint, RegionId region,
@@ -49,8 +30,9 @@ struct Injected {
   Vec3 tip = Vec3::Zero();  ///< m, frame J, where it came in; of tissue, inside the region
 };
 /// All of them, one after another. What is less than 1 mm^3 is not drawn, nor what went outside.
+/// `fibres`: of the joint at rest; empty: each region's one axis.
 [[nodiscard]] CompiledJoint with_injected(const CompiledJoint& joint,
-                                          const std::vector<Injected>& places,
-                                          const Liquid& liquid);
+                                          const std::vector<Injected>& places, const Liquid& liquid,
+                                          const FibreField& fibres = {});
 
 }  // namespace artus

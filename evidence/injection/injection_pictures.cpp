@@ -16,11 +16,13 @@
 #include "artus/core/printed.h"
 #include "artus/core/units.h"
 #include "artus/dataset/video_file.h"
+#include "artus/echo/fibre_course.h"
 #include "artus/echo/image_io.h"
 #include "artus/echo/labels.h"
 #include "artus/echo/renderer.h"
 #include "artus/evidence/injection/injection_plume.h"
 #include "artus/evidence/medical/three_injections_analysis.h"
+#include "artus/soft/inflated_space.h"
 #include "artus/soft/injected_body.h"
 
 namespace artus {
@@ -85,9 +87,10 @@ std::vector<Injected> places_at(const Scene& scene, const InjectionRun& run,
 }
 
 std::shared_ptr<const Scene> scene_of(const Scene& scene, const InjectionRun& run,
-                                      const std::vector<Injected>& places) {
+                                      const std::vector<Injected>& places,
+                                      const FibreField& fibres) {
   return std::make_shared<const Scene>(std::make_shared<const CompiledJoint>(
-      with_injected(scene.joint(), places, run.spec.plunger.liquid)));
+      with_injected(scene.joint(), places, run.spec.plunger.liquid, fibres)));
 }
 
 /// m^3 of the named regions around the tip, by parallel rays.
@@ -142,6 +145,42 @@ std::vector<double> depths_by_rays(const Scene& scene, const Pose& X_JP,
   return depths;
 }
 
+/// m of the shortest straight way through the liquid at `middle`: its thickness square to its
+/// walls.
+double thickness_at(const Scene& scene, const Vec3& middle, std::span<const std::string> names) {
+  constexpr int kDirections = 400;
+  double least = kReach;
+  for (int k = 0; k < kDirections; ++k) {
+    const double z = (k + 0.5) / kDirections;  // of half a sphere
+    const double turn = k * std::numbers::pi * (3 - std::sqrt(5.0));
+    const double r = std::sqrt(1 - z * z);
+    const Vec3 way = kReach / 2 * Vec3(r * std::cos(turn), r * std::sin(turn), z);
+    for (const TissueInterval& s : tissue_intervals(scene, {middle - way, middle + way})) {
+      const std::string& name = scene.joint().regions[s.region].name;
+      if (s.entry < kReach / 2 && s.exit > kReach / 2 &&
+          std::find(names.begin(), names.end(), name) != names.end())
+        least = std::min(least, s.exit - s.entry);
+    }
+  }
+  return least;
+}
+
+/// The middle of the longest stretch of liquid below x of the probe's face.
+Vec3 middle_below(const Scene& scene, const Pose& X_JP, double x, double depth,
+                  std::span<const std::string> names) {
+  double longest = 0;
+  double middle = 0;
+  for (const TissueInterval& s :
+       tissue_intervals(scene, {X_JP * Vec3(x, 0, 0), X_JP * Vec3(x, 0, depth)})) {
+    const std::string& name = scene.joint().regions[s.region].name;
+    if (std::find(names.begin(), names.end(), name) == names.end()) continue;
+    if (s.exit - s.entry <= longest) continue;
+    longest = s.exit - s.entry;
+    middle = (s.entry + s.exit) / 2;
+  }
+  return X_JP * Vec3(x, 0, middle);
+}
+
 /// What rays find in the picture's plane: area, and how far the liquid is thicker than before.
 void measure_seen(const Scene& before, const Scene& after, const Pose& X_JP,
                   const InjectionPictureOptions& options, std::span<const std::string> names,
@@ -150,8 +189,13 @@ void measure_seen(const Scene& before, const Scene& after, const Pose& X_JP,
   std::vector<double> more = depths_by_rays(after, X_JP, options, names);
   out.ray_area = kApart * std::accumulate(more.begin(), more.end(), 0.0);
   for (std::size_t k = 0; k < more.size(); ++k) more[k] -= was[k];
-  out.seen_opening = *std::max_element(more.begin(), more.end());
+  const auto thickest = std::max_element(more.begin(), more.end());
+  out.seen_opening = *thickest;
   if (!(out.seen_opening > 0)) return;  // nothing is seen, no width of it either
+  const double x =
+      kApart * (static_cast<double>(thickest - more.begin()) + 0.5) - options.transducer.width / 2;
+  out.seen_thickness =
+      thickness_at(after, middle_below(after, X_JP, x, options.settings.depth, names), names);
   out.seen_width =
       kApart * static_cast<double>(std::count_if(
                    more.begin(), more.end(), [&](double m) { return m >= out.seen_opening / 2; }));
@@ -270,11 +314,12 @@ Result<std::string> write_injection_video(const std::shared_ptr<const Scene>& sc
   const auto last = std::find_if(run.rows.rbegin(), run.rows.rend(), injects);
   const auto [X_JP, deep] = view_of(*scene, run, options);
   InjectionPlume plume(*scene, run, deep.needle.bore);
+  const FibreField fibres = make_fibre_field(scene->shared_joint());
   std::optional<VideoFile> video;
   for (int k = 0; k < kFrames; ++k) {
     const double from = first->time - kAround;
     const InjectionRow& row = row_of(run, from + k * (last->time + kAround - from) / (kFrames - 1));
-    const auto body = scene_of(*scene, run, places_at(*scene, run, row));
+    const auto body = scene_of(*scene, run, places_at(*scene, run, row), fibres);
     Pose X_JN = run.X_JN;
     X_JN.translation() += (row.depth - run.depth) * X_JN.linear().col(2);
     Renderer renderer(body, deep.transducer, deep.settings);
@@ -307,6 +352,7 @@ Result<InjectionPictures> write_injection_pictures(const std::shared_ptr<const S
   const auto [X_JP, deep] = view_of(*scene, run, options);
   std::vector<std::string> names{"injected"};
   InjectionPlume plume(*scene, run, deep.needle.bore);
+  const FibreField fibres = make_fibre_field(scene->shared_joint());
   std::vector<Injected> last;
   std::shared_ptr<const Scene> body = scene;
   for (const auto& [file, share] :
@@ -314,7 +360,7 @@ Result<InjectionPictures> write_injection_pictures(const std::shared_ptr<const S
     const InjectionRow* row = row_at(run, share);
     if (row == nullptr) continue;
     last = places_at(*scene, run, *row);
-    body = scene_of(*scene, run, last);
+    body = scene_of(*scene, run, last, fibres);
     ARTUS_TRY(write_image(draw(body, run, X_JP, deep, plume, row->time), folder / file));
     out.files.emplace_back(file);
   }

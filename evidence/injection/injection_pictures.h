@@ -26,8 +26,9 @@ struct InjectionPictures {
   double label_area = 0;    ///< m^2 of liquid in the labels after, its space's own included
   double ray_area = 0;      ///< m^2 of the same by rays across the picture's plane
   double seen_opening = 0;  ///< m of liquid, more than before, where that is most in the plane
-  double seen_width = 0;    ///< m of the probe's face below which it is at least half as much
-  double drawn_volume = 0;  ///< m^3 that the shapes were made of
+  double seen_thickness = 0;  ///< m of liquid there, square to its walls
+  double seen_width = 0;      ///< m of the probe's face below which it is at least half as much
+  double drawn_volume = 0;    ///< m^3 that the shapes were made of
 };
 
 struct InjectionPictureOptions {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -113,6 +114,24 @@ TEST(FibreCourse, OfALayerRunsBesideTheSkinAndHasNoEnds) {
   }
   // Between ends the flow dies away where one begins.
   EXPECT_LT(along_the_bar(FibreCourse::ends, 4) / along_the_bar(FibreCourse::ends, 45), 0.5);
+}
+
+TEST(FibreCourse, IsAFieldOfDirectionsForWhoeverPartsTheFibres) {
+  auto joint = std::make_shared<CompiledJoint>(make_bent_bar(30e-3, 40e-3, 12e-3));
+  add_skin(*joint, 40e-3);
+  joint->tissues.push_back(joint->tissues[0]);
+  joint->tissues[1].acoustic.kind = TissueKind::bone;
+  joint->regions.push_back({"bone", 1, Vec3::Zero()});
+  const auto fibres = make_fibre_field(joint);
+  const auto course = fit_fibre_course(*joint, kFirstRegion, fit_skin_depth(*joint));
+  for (const double degrees : {30.0, 60.0}) {
+    const Vec3 p = 35e-3 * Vec3(std::sin(degrees * kDegree), 0, std::cos(degrees * kDegree));
+    const auto gradient = course->evaluate(p).gradient;
+    const Vec3 drawn = Vec3(gradient.row(0)).cross(Vec3(gradient.row(1))).normalized();
+    EXPECT_NEAR(std::abs(fibres(kFirstRegion, p).dot(drawn)), 1, 1e-9);
+  }
+  EXPECT_EQ(fibres(kFirstRegion + 1, Vec3::Zero()), Vec3::Zero()) << "bone has none";
+  EXPECT_EQ(fibres(99, Vec3::Zero()), Vec3::Zero());
 }
 
 TEST(FibreCourse, TellsPlacesApartByMicrometres) {

@@ -183,7 +183,7 @@ TEST(InjectedPicture, MoreLiquidOpensMoreStreaksAndNoneJumps) {
     EXPECT_NEAR(sum, volume, 1e-15);
     EXPECT_GE(boluses.size(), most);
     EXPECT_GE(largest, before);
-    EXPECT_EQ(boluses.back().centre, Vec3(0, 0, 14e-3)) << "the tip's own";
+    EXPECT_LT((boluses.back().centre - Vec3(0, 0, 14e-3)).norm(), 0.8e-3) << "the tip's own";
     most = boluses.size();
     before = largest;
   }
