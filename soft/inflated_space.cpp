@@ -292,7 +292,7 @@ void InflatedSpace::smooth_room() {
 
 /// Of the most: around the tip a disc of `radius`, held at its rim and where it stays shut.
 double InflatedSpace::opening(double r, double room, double radius) const {
-  const double half_span = std::min(radius, most_room_);
+  const double half_span = std::min(params_.held, most_room_);
   return half_span > 0 ? profile(r / radius) * strip(room / half_span) : 0;
 }
 

@@ -11,11 +11,12 @@ namespace artus {
 
 /// How a cleft opens; assumed: all of it. A plate held at its rim, h = h0 (1 - (r/a)^2)^2, around
 /// the tip. Beside the space's own rim, or bone that lies on it, the plate is held there as well:
-/// times that of a strip held along it, (s (2 - s))^2 at s half spans from it, of half a span a or
-/// as far as there is room. What it has less for that it reaches farther elsewhere.
+/// times what a strip of half span `held` (or as far as there is room) is there, (s (2 - s))^2 at s
+/// half spans from it. What it has less for that it reaches farther elsewhere.
 struct OpeningParams {
   double fill = 3e-6;       ///< m^3 at which the fluid has come to its widest
   double widest = 28.5e-3;  ///< m, radius of the patch there; fitted: 5 ml open by less than 6 mm
+  double held = 14e-3;      ///< m from bone or rim at which the plate no longer feels it
   double spread = 20e-3;    ///< m above the roof at which the lift is twice as wide
 };
 
