@@ -10,7 +10,6 @@
 #include "artus/core/units.h"
 #include "artus/echo/image_io.h"
 #include "artus/echo/labels.h"
-#include "artus/echo/pressing_face.h"
 #include "artus/echo/transducer_file.h"
 #include "artus/raycast/moving_scene.h"
 #include "artus/soft/cage_vtu.h"
@@ -114,11 +113,6 @@ void print(const nlohmann::json& report) {
                 layer["after_mm"].get<double>(), layer["thinned_percent"].get<double>());
 }
 
-Error at_flag(Error error) {
-  if (error.where.empty() || error.where == "transducer") error.where = "--transducer";
-  return error;
-}
-
 ExitCode run_deform(const DeformOptions& options) {
   const auto joint = load(options.joint, make_progress_printer(options.json));
   if (!joint) return report_error(joint.error(), options.json);
@@ -132,9 +126,12 @@ ExitCode run_deform(const DeformOptions& options) {
   params.fine_cell = options.cell_mm * kMillimetre;
   params.poisson_ratio = options.poisson_ratio;
   auto probe = find_transducer(options.transducer);
-  if (!probe) return report_error(at_flag(probe.error()), options.json);
-  const auto face = pressing_face(probe->transducer);
-  if (!face) return report_error(at_flag(face.error()), options.json);
+  if (!probe) {
+    if (probe.error().where.empty()) probe.error().where = "--transducer";
+    return report_error(probe.error(), options.json);
+  }
+  const auto face = pressing_face_at(probe->transducer, "--transducer");
+  if (!face) return report_error(face.error(), options.json);
   params.face = *face;
   auto body = SoftBody::make(*joint, X_JP, params);
   if (!body) return report_error(body.error(), options.json);

@@ -99,11 +99,16 @@ void add_press_options(Command* command, PressOptions& options) {
       ->check(number_in(0, 25));
 }
 
+Result<ProbeFace> pressing_face_at(const Transducer& transducer, const std::string& flag) {
+  auto face = pressing_face(transducer);
+  if (!face) face.error().where = flag;
+  return face;
+}
+
 Result<SoftBody> make_soft_body(std::shared_ptr<const CompiledJoint> joint, const Pose& X_JP,
                                 const Transducer& transducer) {
   SoftBodyParams params;
-  auto face = pressing_face(transducer);
-  if (!face) face.error().where = "--transducer";
+  const auto face = pressing_face_at(transducer, "--transducer");
   ARTUS_TRY(face);
   params.face = *face;
   return SoftBody::make(std::move(joint), X_JP, params);

@@ -31,6 +31,10 @@ struct PressedBody {
 [[nodiscard]] Result<PressedBody> press(SoftBody& body, const Pose& X_JP,
                                         const PressOptions& options);
 
+/// The face of a probe that `flag` named. Errors: unsupported, at `flag` (a curved one).
+[[nodiscard]] Result<ProbeFace> pressing_face_at(const Transducer& transducer,
+                                                 const std::string& flag);
+
 /// A body whose probe has the face of `transducer`: as long as its row of scanlines, as wide as
 /// ProbeFace has it. Errors: unsupported (a curved face, which contact does not know), those of
 /// SoftBody::make.

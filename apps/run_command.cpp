@@ -5,9 +5,9 @@
 
 #include "artus/apps/hand_options.h"
 #include "artus/apps/plan_options.h"
+#include "artus/apps/press_options.h"
 #include "artus/core/text_file.h"
 #include "artus/core/units.h"
-#include "artus/echo/pressing_face.h"
 #include "artus/evidence/medical/run_images.h"
 #include "artus/evidence/medical/three_injections.h"
 
@@ -63,10 +63,9 @@ ExitCode run_scenario(const RunOptions& options) {
   if (!loaded) return report_error(loaded.error(), hand.json);
   const View& view = loaded->at.view;
   const CompiledJoint& joint = loaded->at.joint();
-  if (auto face = pressing_face(view.transducer); !face && !hand.no_images && !options.rigid) {
-    face.error().where = "--transducer without --rigid, which draws the tissue at rest";
-    return report_error(face.error(), hand.json);
-  }
+  const auto face = pressing_face_at(
+      view.transducer, "--transducer without --rigid, which draws the tissue at rest");
+  if (!face && !hand.no_images && !options.rigid) return report_error(face.error(), hand.json);
   const auto plan = make_plan(options.plan, joint);
   if (!plan) return report_error(plan.error(), hand.json);
   const Progress progress = make_progress_printer(hand.json);

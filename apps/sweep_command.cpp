@@ -6,11 +6,11 @@
 #include <utility>
 
 #include "artus/apps/pose_files.h"
+#include "artus/apps/press_options.h"
 #include "artus/core/noise.h"
 #include "artus/dataset/pose_draw.h"
 #include "artus/dataset/shards.h"
 #include "artus/dataset/sweep.h"
-#include "artus/echo/pressing_face.h"
 #include "artus/echo/transducer_file.h"
 
 namespace artus {
@@ -44,15 +44,9 @@ Result<ShardJob> job_of(const SweepCommandOptions& options) {
 
 /// Whether every probe that may be drawn can press.
 Result<void> check_faces(const SweepOptions& sweep) {
-  const auto check = [](const Transducer& transducer, const std::string& name) -> Result<void> {
-    auto face = pressing_face(transducer);
-    if (!face) face.error().where = name;
-    ARTUS_TRY(face);
-    return {};
-  };
   for (const TransducerPreset& preset : sweep.transducers)
-    ARTUS_TRY(check(preset.transducer, "--ranges " + preset.name));
-  if (sweep.transducers.empty()) ARTUS_TRY(check(sweep.transducer, "--transducer"));
+    ARTUS_TRY(pressing_face_at(preset.transducer, "--ranges " + preset.name));
+  if (sweep.transducers.empty()) ARTUS_TRY(pressing_face_at(sweep.transducer, "--transducer"));
   return {};
 }
 
