@@ -1,54 +1,40 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <algorithm>
-#include <numeric>
-
-#include <Eigen/Geometry>
+#include <array>
+#include <map>
 
 #include "artus/raycast/embree_index.h"
 
 namespace artus {
-namespace {
 
-constexpr std::size_t kLeastBlock = 256;  // triangles
-
-Vec3 sum_of(const std::array<Vec3, 3>& corners) noexcept {
-  return corners[0] + corners[1] + corners[2];
-}
-
-}  // namespace
-
-/// Blocks of neighbours: halves, by the middles along the longest side, of halves.
-void EmbreeIndex::make_blocks() {
-  std::vector<std::uint32_t> order(triangles_.size());
-  std::iota(order.begin(), order.end(), 0U);
-  std::vector<std::span<std::uint32_t>> blocks{order};
-  while (2 * blocks.size() <= kMostBlocks && order.size() / blocks.size() >= 2 * kLeastBlock) {
-    std::vector<std::span<std::uint32_t>> halves;
-    for (const std::span<std::uint32_t> block : blocks) {
-      Eigen::AlignedBox3d box;
-      for (const std::uint32_t i : block) box.extend(sum_of(corners(i)));
-      Eigen::Index axis = 0;
-      box.sizes().maxCoeff(&axis);
-      const auto before = [&](std::uint32_t a, std::uint32_t b) {
-        const double x = sum_of(corners(a))[axis];
-        const double y = sum_of(corners(b))[axis];
-        return x < y || (x == y && a < b);
-      };
-      const std::size_t half = block.size() / 2;
-      std::nth_element(block.begin(), block.begin() + static_cast<std::ptrdiff_t>(half),
-                       block.end(), before);
-      halves.push_back(block.first(half));
-      halves.push_back(block.subspan(half));
+/// A block for the triangles of each group, and one for those between it and groups of larger
+/// numbers, so that a group that moves alone leaves most of its neighbours' triangles alone.
+void EmbreeIndex::make_blocks(const VertexGrouping& groups) {
+  const std::uint32_t still = groups.n;
+  const auto group = [&](std::uint32_t v) {
+    return v < groups.of.size() ? std::min(groups.of[v], still) : still;
+  };
+  std::map<std::array<std::uint32_t, 2>, std::uint32_t> known;  // by group, and whether between
+  blocks_at_.resize(still);
+  for (const auto& [a, b, c] : triangles_) {
+    const auto [least, most] = std::minmax({group(a), group(b), group(c)});
+    const std::array<std::uint32_t, 2> key{least, least == most ? 0U : 1U};
+    const std::uint32_t block =
+        known.try_emplace(key, static_cast<std::uint32_t>(known.size())).first->second;
+    block_of_.push_back(block);
+    for (const std::uint32_t v : {a, b, c}) {
+      if (group(v) < still) blocks_at_[group(v)].push_back(block);
     }
-    blocks = std::move(halves);
   }
-  block_of_.resize(triangles_.size());
-  blocks_at_.assign(vertices_.size(), 0);
-  for (std::size_t k = 0; k < blocks.size(); ++k) {
-    for (const std::uint32_t i : blocks[k]) {
-      block_of_[i] = static_cast<std::uint8_t>(k);
-      for (const std::uint32_t v : triangles_[i]) blocks_at_[v] |= std::uint64_t{1} << k;
-    }
+  for (std::vector<std::uint32_t>& blocks : blocks_at_) {
+    std::sort(blocks.begin(), blocks.end());
+    blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
+  }
+  unfitted_.assign(known.size(), false);
+  radii_.assign(still + 1U, 0);
+  for (const auto& corners : triangles_) {
+    for (const std::uint32_t v : corners)
+      radii_[group(v)] = std::max(radii_[group(v)], vertices_[v].norm());
   }
 }
 

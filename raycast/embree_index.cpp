@@ -209,7 +209,7 @@ bool touches(const FacetSides& sides, RegionId last) noexcept {
 }  // namespace
 
 EmbreeIndex::EmbreeIndex(std::span<const Vec3> vertices, std::span<const Interface> interfaces,
-                         const std::string& isa, bool moves)
+                         const std::string& isa, const VertexGrouping& groups)
     : centre_(find_centre(vertices, interfaces)) {
   vertices_.reserve(vertices.size());
   for (const Vec3& v : vertices) vertices_.emplace_back(v - centre_);
@@ -225,7 +225,7 @@ EmbreeIndex::EmbreeIndex(std::span<const Vec3> vertices, std::span<const Interfa
     if (touches(facets_.back().sides, kBeyond)) boundary.push_back(i);
     if (touches(facets_.back().sides, kOutside)) skin.push_back(i);
   }
-  if (moves) make_blocks();
+  if (groups.n > 0) make_blocks(groups);
   std::vector<std::uint32_t> all(interfaces.size());
   std::iota(all.begin(), all.end(), 0U);
   device_ = make_device(isa);
@@ -263,7 +263,7 @@ EmbreeParts EmbreeIndex::make_parts(std::vector<std::uint32_t> members) const {
   parts.none = members.empty();
   const bool whole = !can_move() && members.size() == triangles_.size();
   if (can_move()) {
-    parts.members.resize(kMostBlocks);
+    parts.members.resize(unfitted_.size());
     for (const std::uint32_t i : members) parts.members[block_of_[i]].push_back(i);
   } else {
     parts.members.push_back(std::move(members));
@@ -305,35 +305,39 @@ RTCGeometryTy* EmbreeIndex::make_geometry(std::span<const std::uint32_t> members
   return geometry;
 }
 
-void EmbreeIndex::move(std::span<const Vec3> vertices) {
-  ARTUS_REQUIRE(can_move() && vertices.size() <= vertices_.size(), "an index that cannot move");
-  std::uint64_t blocks = 0;
+void EmbreeIndex::move(std::size_t group, std::span<const std::uint32_t> vertices,
+                       std::span<const Vec3> places) {
+  ARTUS_REQUIRE(group < blocks_at_.size() && places.size() == vertices.size(),
+                "a group of an index that can move");
   auto* const coordinates = static_cast<float*>(rtcGetBufferData(coordinates_.get()));
-  for (std::size_t v = 0; v < vertices.size(); ++v) {
-    const Vec3 place = vertices[v] - centre_;
-    if (place == vertices_[v]) continue;
-    vertices_[v] = place;
+  double squared = 0;
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    const Vec3 place = places[i] - centre_;
+    vertices_[vertices[i]] = place;
     for (int k = 0; k < 3; ++k)
-      coordinates[3 * v + static_cast<std::size_t>(k)] = static_cast<float>(place[k]);
-    blocks |= blocks_at_[v];
+      coordinates[3 * std::size_t{vertices[i]} + static_cast<std::size_t>(k)] =
+          static_cast<float>(place[k]);
+    squared = std::max(squared, place.squaredNorm());
   }
-  if (blocks != 0) refit(blocks);
-  radius_ = 0;
-  for (std::size_t v = 0; v < vertices.size(); ++v)
-    radius_ = std::max(radius_, vertices_[v].norm());
+  radii_[group] = std::sqrt(squared);
+  for (const std::uint32_t block : blocks_at_[group]) unfitted_[block] = true;
+  moved_ = true;
 }
 
-void EmbreeIndex::refit(std::uint64_t blocks) {
-  moved_ = true;
+void EmbreeIndex::fit() {
+  radius_ = *std::max_element(radii_.begin(), radii_.end());
   for (EmbreeParts* parts : {&all_, &boundary_, &skin_}) {
+    bool some = false;
     for (std::size_t k = 0; k < parts->geometries.size(); ++k) {
       RTCGeometry geometry = parts->geometries[k];
-      if ((blocks >> k & 1U) == 0 || geometry == nullptr) continue;
+      if (!unfitted_[k] || geometry == nullptr) continue;
       rtcUpdateGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0);
       rtcCommitGeometry(geometry);
+      some = true;
     }
-    rtcCommitScene(parts->scene.get());
+    if (some) rtcCommitScene(parts->scene.get());
   }
+  unfitted_.assign(unfitted_.size(), false);
   throw_on_error(device_.get(), "move the interfaces");
 }
 

@@ -71,24 +71,32 @@ struct EmbreeParts {
   }
 };
 
+/// Which vertices are moved together.
+struct VertexGrouping {
+  std::span<const std::uint32_t> of;  ///< the first vertices' groups; `n` and more: never moved
+  std::uint32_t n = 0;                ///< groups; 0: nothing moves
+};
+
 /// Triangles in an Embree bounding volume hierarchy (version 3 or 4), with their planes in double
 /// precision. Coordinates are taken relative to the centre of the triangles, so that a joint far
 /// from its frame's origin loses nothing in Embree's single precision; every reported number is
 /// recomputed in double. Traversal is robust (watertight at shared edges); hits do not depend on
 /// the hierarchy, so neither do they on the number of threads that built it. Nothing changes but by
-/// `move`.
+/// `move` and `fit`.
 class EmbreeIndex {
  public:
-  /// `isa` as in SceneOptions; `moves`: whether `move` will be called. Requires: indices in range,
-  /// front and back of each interface differ. Errors: std::runtime_error when Embree refuses.
+  /// `isa` as in SceneOptions. Requires: indices in range, front and back of each interface differ.
+  /// Errors: std::runtime_error when Embree refuses.
   EmbreeIndex(std::span<const Vec3> vertices, std::span<const Interface> interfaces,
-              const std::string& isa, bool moves = false);
+              const std::string& isa, const VertexGrouping& groups = {});
 
-  /// Puts the vertices elsewhere and fits the hierarchy to them, block by block of neighbouring
-  /// triangles: a block in which nothing moved costs nothing. Requires: built to move; as many
-  /// vertices as then, or the first ones of them, finite. No query runs meanwhile. Cost: 0.05 us a
-  /// triangle of the blocks that moved.
-  void move(std::span<const Vec3> vertices);
+  /// Puts the vertices of a group (`vertices`, all of them) to `places`, finite. Then `fit` fits
+  /// the hierarchy to them, block by block: the triangles of a group, and those between it and
+  /// others. What did not move costs nothing. No query runs meanwhile. Cost: 0.05 us a triangle of
+  /// the blocks that moved.
+  void move(std::size_t group, std::span<const std::uint32_t> vertices,
+            std::span<const Vec3> places);
+  void fit();
 
   [[nodiscard]] const Vec3& centre() const noexcept { return centre_; }
   [[nodiscard]] double radius() const noexcept { return radius_; }  ///< m, of a ball around centre
@@ -124,23 +132,22 @@ class EmbreeIndex {
   [[nodiscard]] std::array<Vec3, 3> corners(std::uint32_t i) const noexcept;
 
  private:
-  static constexpr std::size_t kMostBlocks = 64;  // as many as a word has bits
-
   [[nodiscard]] FacetPlane make_plane(std::uint32_t i) const noexcept;
   [[nodiscard]] bool can_move() const noexcept { return !block_of_.empty(); }
   void fill_coordinates();
   [[nodiscard]] EmbreeParts make_parts(std::vector<std::uint32_t> members) const;
   [[nodiscard]] RTCGeometryTy* make_geometry(std::span<const std::uint32_t> members) const;
-  void make_blocks();
-  void refit(std::uint64_t blocks);
+  void make_blocks(const VertexGrouping& groups);
 
   Vec3 centre_ = Vec3::Zero();
   double radius_ = 0;
   std::vector<Vec3> vertices_;                           // relative to centre_
   std::vector<std::array<std::uint32_t, 3>> triangles_;  // (n_interfaces)
   std::vector<Facet> facets_;                            // (n_interfaces)
-  std::vector<std::uint8_t> block_of_;                   // (n_interfaces), or empty: none moves
-  std::vector<std::uint64_t> blocks_at_;                 // (n_vertices) a bit for each block there
+  std::vector<std::uint32_t> block_of_;                  // (n_interfaces), or empty: none moves
+  std::vector<std::vector<std::uint32_t>> blocks_at_;    // (groups) that have a triangle there
+  std::vector<double> radii_;                            // (groups, and what never moves) m
+  std::vector<bool> unfitted_;                           // (blocks)
   bool moved_ = false;                                   // whether any vertex ever did
   EmbreeDevice device_;
   EmbreeBuffer coordinates_;  // (n_vertices, 3) float

@@ -60,9 +60,10 @@ struct Trace {
 }  // namespace
 
 struct Scene::Impl {
-  Impl(std::shared_ptr<const CompiledJoint> shared, const SceneOptions& options, bool moves = false)
+  Impl(std::shared_ptr<const CompiledJoint> shared, const SceneOptions& options,
+       const VertexGrouping& groups = {})
       : joint(std::move(shared)),
-        index(joint->mesh.vertices, joint->mesh.interfaces, options.isa, moves),
+        index(joint->mesh.vertices, joint->mesh.interfaces, options.isa, groups),
         directions(probe_directions()),
         has_beyond(std::any_of(joint->mesh.interfaces.begin(), joint->mesh.interfaces.end(),
                                [](const Interface& interface) {
@@ -107,6 +108,7 @@ struct Scene::Impl {
 
   std::shared_ptr<const CompiledJoint> joint;
   std::shared_ptr<const DeformedBody> tissue;
+  std::vector<std::shared_ptr<const DeformedBody::Moved>> fitted;  // what `index` was fitted to
   EmbreeIndex index;
   std::array<Vec3, 6> directions;
   bool has_beyond;
@@ -140,10 +142,22 @@ Scene::Scene(std::shared_ptr<const CompiledJoint> joint, const SceneOptions& opt
   impl_ = std::make_unique<Impl>(std::move(joint), options);
 }
 Scene::Scene(const DeformedBody& tissue, const SceneOptions& options)
-    : impl_(std::make_unique<Impl>(tissue.shared_joint(), options, true)) {}
+    : impl_(std::make_unique<Impl>(
+          tissue.shared_joint(), options,
+          VertexGrouping{tissue.map().group_of,
+                         static_cast<std::uint32_t>(tissue.map().groups.size())})) {
+  impl_->fitted.resize(tissue.groups().size());
+}
 
 void Scene::move(std::shared_ptr<const DeformedBody> tissue) {
-  if (tissue) impl_->index.move(tissue->vertices());
+  if (tissue) {
+    for (std::size_t g = 0; g < impl_->fitted.size(); ++g) {
+      if (impl_->fitted[g] == tissue->groups()[g]) continue;
+      impl_->fitted[g] = tissue->groups()[g];
+      impl_->index.move(g, tissue->map().groups[g].vertices, impl_->fitted[g]->vertices);
+    }
+    impl_->index.fit();
+  }
   impl_->tissue = std::move(tissue);
 }
 

@@ -123,11 +123,15 @@ CellMaterial average_cell(const MaterialField& field, const CellMixture& mix, do
   std::array<Sums, 8> sums{};
   Sums all;
   double bulk_compliance = 0;
+  double drain = 0;
+  double drain_pressure = 0;
   std::vector<double> log_shear(mix.samples.size(), std::nan(""));
   for (std::size_t i = 0; i < mix.samples.size(); ++i) {
     if (mix.samples[i] < 0) continue;
-    const Moduli m =
-        moduli_of(field.materials[static_cast<std::size_t>(mix.samples[i])], hard_shear);
+    const SoftMaterial& material = field.materials[static_cast<std::size_t>(mix.samples[i])];
+    const Moduli m = moduli_of(material, hard_shear);
+    drain += material.drain_pressure > 0 ? 1 : 0;
+    drain_pressure += material.drain_pressure;
     log_shear[i] = std::log(m.shear);
     bulk_compliance += 1 / m.bulk;
     for (Sums* s : {&sums[eighth_of(static_cast<int>(i), mix.n)], &all}) {
@@ -140,6 +144,8 @@ CellMaterial average_cell(const MaterialField& field, const CellMixture& mix, do
   CellMaterial out;
   if (all.n == 0) return out;
   out.bulk = all.n / bulk_compliance;
+  out.drain = drain / all.n;
+  if (drain > 0) out.drain_pressure = drain_pressure / drain;
   const Layering layering = layering_of(mix, log_shear);
   out.sheet_normal = layering.normal;
   const double in_eighth = static_cast<double>(mix.samples.size()) / 8;

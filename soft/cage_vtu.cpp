@@ -88,7 +88,7 @@ void put_cell_data(std::string& text, const DeformedBody& body) {
     const Eigen::Matrix3d E =
         R * (0.5 * (F.transpose() * F - Eigen::Matrix3d::Identity())) * R.transpose();
     put(volume, J);
-    put(pressure, -m.bulk * (J - 1));
+    put(pressure, cell_pressure(m, J));
     for (int k = 0; k < 9; ++k) put(strain, E(k / 3, k % 3));
     put(shear, std::accumulate(m.shear.begin(), m.shear.end(), 0.0) / 8);
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <map>
 
 #include <Eigen/SVD>
 
@@ -11,12 +12,17 @@ namespace artus {
 namespace {
 
 constexpr int kMostSteps = 60;
-constexpr int kNewtonSteps = 8;  // then smaller ones
-constexpr double kExact = 1e-7;  // m
-constexpr double kSure = 3e-5;   // m, an error of which one Newton step leaves next to nothing
-constexpr double kStill = 1e-9;  // m; what moves less has not moved: its bytes stay
-constexpr double kFarTolerance = 20e-6;  // m
-constexpr int kReach = 2;                // lattice steps, of points beside the cage: the skin's rim
+constexpr int kNewtonSteps = 8;      // then smaller ones
+constexpr int kLayerSteps = 40;      // the same in cubes of several tissues
+constexpr double kLayerStep = 1e-3;  // m
+constexpr double kExact = 1e-7;      // m
+constexpr double kSure = 3e-5;       // m, an error of which one Newton step leaves next to nothing
+constexpr double kStill = 1e-9;      // m; what moves less has not moved: its bytes stay
+constexpr double kFar = 20e-6;       // m, tolerance in the coarsest cubes
+constexpr double kAside = 40e-6;     // m, the same beside what pictures show; see docs
+constexpr double kLookedAt = 9e-3;   // m from the plane of the picture
+constexpr std::int32_t kGroup = 2;   // coarsest cubes along a group's edge
+constexpr int kReach = 2;            // lattice steps, of points beside the cage: the skin's rim
 
 std::size_t interface_vertices(const TetMesh& mesh) {
   std::size_t n = 0;
@@ -26,19 +32,21 @@ std::size_t interface_vertices(const TetMesh& mesh) {
   return n;
 }
 
-/// The corners of the cubes of some places, ascending.
-std::vector<std::uint32_t> nodes_of_places(const Cage& cage, std::span<const CagePlace> places) {
-  std::vector<bool> found(cage.nodes().size(), false);
-  for (const CagePlace& place : places) {
-    if (place.cell < 0) continue;
-    for (const std::uint32_t n : cage.cells()[static_cast<std::size_t>(place.cell)].nodes)
-      found[n] = true;
-  }
-  std::vector<std::uint32_t> nodes;
-  for (std::uint32_t n = 0; n < found.size(); ++n) {
-    if (found[n]) nodes.push_back(n);
-  }
-  return nodes;
+/// How far a cube's nodes may move before its vertices do: pictures are of the plane y = 0.
+double tolerance_of(const Cage& cage, const CageCell& cell, bool coarsest) noexcept {
+  const double low = cage.low_corner(cell).y();
+  if (std::max(low, -low - cage.edge(cell)) > kLookedAt) return kAside;
+  return coarsest ? kFar : 0;
+}
+
+/// The points of the map that a group's vertices hang on.
+std::vector<std::uint32_t> points_of(std::span<const MapPlace> places) {
+  std::vector<std::uint32_t> points;
+  for (const MapPlace& place : places)
+    points.insert(points.end(), place.points.begin(), place.points.end());
+  std::sort(points.begin(), points.end());
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  return points;
 }
 
 /// u and its gradient in a cube, at `s` of its edges from its lowest corner.
@@ -70,68 +78,77 @@ std::shared_ptr<const BodyMap> make_body_map(const CompiledJoint& joint, const P
                                              std::shared_ptr<const SoftModel> model) {
   auto map = std::make_shared<BodyMap>();
   map->X_JC = X_JC;
-  for (const Interface& i : joint.mesh.interfaces)
-    map->moving.insert(map->moving.end(), i.vertices.begin(), i.vertices.end());
-  std::sort(map->moving.begin(), map->moving.end());
-  map->moving.erase(std::unique(map->moving.begin(), map->moving.end()), map->moving.end());
   const Cage& cage = model->cage();
   const Pose X_CJ = X_JC.inverse();
-  const auto place_of = [&](std::uint32_t v) {
-    return cage.locate(X_CJ * joint.mesh.vertices[v], kReach);
-  };
   std::int32_t least = std::numeric_limits<std::int32_t>::max();
   std::int32_t largest = 0;
   for (const CageCell& cell : cage.cells()) {
     least = std::min(least, cell.span);
     largest = std::max(largest, cell.span);
   }
-  const auto middle =
-      std::stable_partition(map->moving.begin(), map->moving.end(), [&](std::uint32_t v) {
-        const std::int32_t cell = place_of(v).cell;
-        return cell >= 0 &&
-               (least == largest || cage.cells()[static_cast<std::size_t>(cell)].span < largest);
-      });
-  map->n_near = static_cast<std::size_t>(middle - map->moving.begin());
-  for (const std::uint32_t v : map->moving) map->places.push_back(place_of(v));
-  map->far_nodes = nodes_of_places(cage, std::span(map->places).subspan(map->n_near));
-  map->n_vertices = interface_vertices(joint.mesh);
+  std::vector<bool> used(interface_vertices(joint.mesh), false);
+  for (const Interface& i : joint.mesh.interfaces) {
+    for (const std::uint32_t v : i.vertices) used[v] = true;
+  }
+  using Key = std::array<std::int32_t, 4>;  // a group's place, and its tolerance in nm
+  std::map<Key, VertexGroup> groups;
+  for (std::uint32_t v = 0; v < used.size(); ++v) {
+    const CagePlace place =
+        used[v] ? cage.locate(X_CJ * joint.mesh.vertices[v], kReach) : CagePlace{};
+    if (place.cell < 0) continue;
+    const CageCell& cell = cage.cells()[static_cast<std::size_t>(place.cell)];
+    const double tolerance = tolerance_of(cage, cell, least < largest && cell.span == largest);
+    const std::int32_t side = kGroup * largest;
+    VertexGroup& group =
+        groups[{cell.corner[0] / side, cell.corner[1] / side, cell.corner[2] / side,
+                static_cast<std::int32_t>(1e9 * tolerance)}];
+    group.tolerance = tolerance;
+    group.vertices.push_back(v);
+    group.places.push_back(model->layers().place(cage, place));
+  }
+  map->group_of.assign(used.size(), static_cast<std::uint32_t>(groups.size()));
+  for (auto& [key, group] : groups) {
+    group.points = points_of(group.places);
+    for (const std::uint32_t v : group.vertices)
+      map->group_of[v] = static_cast<std::uint32_t>(map->groups.size());
+    map->groups.push_back(std::move(group));
+  }
   map->model = std::move(model);
   return map;
 }
 
-void DeformedBody::move_vertex(std::size_t k, std::span<const Vec3> u) {
-  const Vec3 moved = map_->model->displacement_at(map_->places[k], u);
-  if (moved.squaredNorm() > kStill * kStill)
-    vertices_[map_->moving[k]] += map_->X_JC.linear() * moved;
-}
-
-/// Far vertices whose cube has no node that went on stay as they were.
-void DeformedBody::move_far(const DeformedBody* before) {
-  if (before != nullptr && before->map_ != map_) before = nullptr;
-  std::vector<Vec3> u = u_;
-  std::vector<bool> went_on(u.size(), true);
-  far_u_.reserve(map_->far_nodes.size());
-  for (std::size_t k = 0; k < map_->far_nodes.size(); ++k) {
-    const std::uint32_t n = map_->far_nodes[k];
-    if (before != nullptr) {
-      went_on[n] = (u_[n] - before->far_u_[k]).squaredNorm() > kFarTolerance * kFarTolerance;
-      if (!went_on[n]) u[n] = before->far_u_[k];
+void DeformedBody::carry(const DeformedBody* before) {
+  const bool follows = before != nullptr && before->map_ == map_;
+  const Eigen::Matrix3d R = map_->X_JC.linear();
+  std::vector<Vec3> moved;  // of all points, frame J
+  moved.reserve(u_.size());
+  for (const Vec3& u : u_) moved.emplace_back(R * u);
+  groups_.reserve(map_->groups.size());
+  for (const VertexGroup& group : map_->groups) {
+    const double limit = group.tolerance * group.tolerance;
+    if (follows) {
+      const auto& old = before->groups_[groups_.size()];
+      bool stays = true;
+      for (std::size_t k = 0; stays && k < group.points.size(); ++k)
+        stays = (u_[group.points[k]] - old->points[k]).squaredNorm() <= limit;
+      if (stays) {
+        groups_.push_back(old);
+        continue;
+      }
     }
-    far_u_.push_back(u[n]);
-  }
-  std::vector<bool> still;
-  for (const CageCell& cell : map_->model->cage().cells())
-    still.push_back(std::none_of(cell.nodes.begin(), cell.nodes.end(),
-                                 [&](std::uint32_t n) { return went_on[n]; }));
-  for (std::size_t k = map_->n_near; k < map_->moving.size(); ++k) {
-    const std::int32_t cell = map_->places[k].cell;
-    if (cell < 0) continue;
-    const std::uint32_t v = map_->moving[k];
-    if (still[static_cast<std::size_t>(cell)]) {
-      vertices_[v] = before->vertices_[v];
-    } else {
-      move_vertex(k, u);
+    auto now = std::make_shared<Moved>();
+    now->points.reserve(group.points.size());
+    for (const std::uint32_t p : group.points) now->points.push_back(u_[p]);
+    now->vertices.reserve(group.vertices.size());
+    for (std::size_t k = 0; k < group.vertices.size(); ++k) {
+      const MapPlace& place = group.places[k];
+      Vec3 way = Vec3::Zero();
+      for (std::size_t a = 0; a < 8; ++a)
+        way += static_cast<double>(place.weights[a]) * moved[place.points[a]];
+      const Vec3& rest = joint_->mesh.vertices[group.vertices[k]];
+      now->vertices.push_back(way.squaredNorm() > kStill * kStill ? Vec3(rest + way) : rest);
     }
+    groups_.push_back(std::move(now));
   }
 }
 
@@ -141,19 +158,28 @@ DeformedBody::DeformedBody(std::shared_ptr<const CompiledJoint> joint,
                            const DeformedBody* before)
     : joint_(std::move(joint)),
       map_(std::move(map)),
-      u_(node_displacements.begin(), node_displacements.end()),
+      u_(move_map(map_->model->cage(), map_->model->layers(), node_displacements)),
       X_CJ_(map_->X_JC.inverse()),
       contact_(contact_J) {
+  carry(before);
+}
+
+std::vector<Vec3> DeformedBody::vertices() const {
   const auto& rest = joint_->mesh.vertices;
-  vertices_.assign(rest.begin(), rest.begin() + static_cast<std::ptrdiff_t>(map_->n_vertices));
-  for (std::size_t k = 0; k < map_->n_near; ++k) move_vertex(k, u_);
-  move_far(before);
+  std::vector<Vec3> all(rest.begin(),
+                        rest.begin() + static_cast<std::ptrdiff_t>(map_->group_of.size()));
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    const auto& vertices = map_->groups[g].vertices;
+    for (std::size_t k = 0; k < vertices.size(); ++k) all[vertices[k]] = groups_[g]->vertices[k];
+  }
+  return all;
 }
 
 CompiledJoint DeformedBody::moved_joint() const {
   CompiledJoint moved = *joint_;
-  std::copy(vertices_.begin(), vertices_.end(), moved.mesh.vertices.begin());
-  for (std::size_t v = vertices_.size(); v < moved.mesh.vertices.size(); ++v)
+  const std::vector<Vec3> interfaces = vertices();
+  std::copy(interfaces.begin(), interfaces.end(), moved.mesh.vertices.begin());
+  for (std::size_t v = interfaces.size(); v < moved.mesh.vertices.size(); ++v)
     moved.mesh.vertices[v] += displacement(moved.mesh.vertices[v]);
   return moved;
 }
@@ -166,9 +192,63 @@ DeformedBody::PlacedMotion DeformedBody::motion_in_cage(const Vec3& p_C) const n
   const CageCell& cell = cage.cells()[static_cast<std::size_t>(number)];
   const double edge = cage.edge(cell);
   const Vec3 s = ((p_C - cage.low_corner(cell)) / edge).cwiseMax(0).cwiseMin(1);
-  PlacedMotion placed{interpolate(s, cell, edge, u_), number};
+  LayerMap::Around four;
+  PlacedMotion placed{map_->model->layers().around(number, s, four)
+                          ? between_columns(four, s.z(), edge)
+                          : interpolate(s, cell, edge, u_),
+                      number};
   placed.motion.gradient.diagonal().array() += 1;
   return placed;
+}
+
+/// u and its gradient between four columns.
+DeformedBody::Motion DeformedBody::between_columns(const LayerMap::Around& four, double s_z,
+                                                   double edge) const noexcept {
+  const LayerMap& map = map_->model->layers();
+  const Vec3* const points = &u_[map_->model->cage().nodes().size()];
+  std::array<Vec3, 4> c;
+  std::array<Vec3, 4> slope;
+  for (std::size_t a = 0; a < 4; ++a) {
+    const std::uint32_t k = map.below(map.columns()[four.columns[a]], s_z);
+    const auto from = static_cast<double>(map.levels()[k]);
+    slope[a] = (points[k + 1] - points[k]) / (static_cast<double>(map.levels()[k + 1]) - from);
+    c[a] = points[k] + (s_z - from) * slope[a];
+  }
+  const auto between = [&](const std::array<Vec3, 4>& v) {
+    return Vec3((1 - four.y) * ((1 - four.x) * v[0] + four.x * v[1]) +
+                four.y * ((1 - four.x) * v[2] + four.x * v[3]));
+  };
+  Motion motion;
+  motion.displacement = between(c);
+  Eigen::Matrix3d& g = motion.gradient;
+  g.col(0) = ((1 - four.y) * (c[1] - c[0]) + four.y * (c[3] - c[2])) / four.width;
+  g.col(1) = ((1 - four.x) * (c[2] - c[0]) + four.x * (c[3] - c[1])) / four.width;
+  g.col(2) = between(slope);
+  g /= edge;
+  return motion;
+}
+
+DeformedBody::Piece DeformedBody::piece_around(const Vec3& p_C,
+                                               std::int32_t number) const noexcept {
+  const SoftModel& model = *map_->model;
+  const CageCell& cell = model.cage().cells()[static_cast<std::size_t>(number)];
+  const double edge = model.cage().edge(cell);
+  const Vec3 low = model.cage().low_corner(cell);
+  const Vec3 s = (p_C - low) / edge;
+  LayerMap::Around four;
+  Piece piece{low, low + Vec3::Constant(edge)};
+  if (!model.layers().around(number, s, four)) return piece;
+  double below = 0;
+  double above = 1;
+  for (const std::uint32_t column : four.columns) {
+    const std::uint32_t k = model.layers().below(model.layers().columns()[column], s.z());
+    below = std::max(below, static_cast<double>(model.layers().levels()[k]));
+    above = std::min(above, static_cast<double>(model.layers().levels()[k + 1]));
+  }
+  piece.high = low + edge * Vec3(four.low.x() + four.width, four.low.y() + four.width, above);
+  piece.low = low + edge * Vec3(four.low.x(), four.low.y(), below);
+  piece.whole = false;
+  return piece;
 }
 
 DeformedBody::Motion DeformedBody::in_J(const Motion& motion) const noexcept {
@@ -192,14 +272,19 @@ DeformedBody::Rest DeformedBody::to_rest(const Vec3& p, const Vec3& guess) const
   double way = 1;  // shorter steps where full ones go round in circles
   double before = 1e9;
   for (int k = 0; k < kMostSteps && !found; ++k) {
-    motion = motion_in_cage(rest_C).motion;
+    const PlacedMotion placed = motion_in_cage(rest_C);
+    motion = placed.motion;
     const Vec3 error = p_C - rest_C - motion.displacement;
     const double size = error.norm();
     found = size < kExact;
     if (found) break;
-    if (k < kNewtonSteps && motion.gradient.determinant() > 0.02) {
-      rest_C += motion.gradient.inverse() * error;
-      found = size < kSure;
+    const bool cut = map_->model->layers().cuts(placed.cell);
+    if (k < (cut ? kLayerSteps : kNewtonSteps) && motion.gradient.determinant() > 0.02) {
+      Vec3 step = motion.gradient.inverse() * error;
+      // From within a thin layer a step that is too long must end in the next.
+      if (cut && step.norm() > kLayerStep) step *= kLayerStep / step.norm();
+      rest_C += step;
+      found = size < kSure && !cut;
       if (found) motion.displacement = p_C - rest_C;
       continue;
     }

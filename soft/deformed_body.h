@@ -8,17 +8,21 @@
 
 namespace artus {
 
+/// Vertices of the interfaces that are carried together: neighbours, equally near to what is looked
+/// at.
+struct VertexGroup {
+  std::vector<std::uint32_t> vertices;
+  std::vector<MapPlace> places;       ///< (vertices)
+  std::vector<std::uint32_t> points;  ///< of the map, that move them, ascending
+  double tolerance = 0;               ///< m that a point may move before the vertices do
+};
+
 /// What all snapshots of a body share: the model and where its surfaces lie in the cage.
 struct BodyMap {
   Pose X_JC = Pose::Identity();
   std::shared_ptr<const SoftModel> model;
-  /// Vertices of the joint's interfaces that lie in the cage; the first `n_near` in its finer cubes
-  /// near the probe.
-  std::vector<std::uint32_t> moving;
-  std::vector<CagePlace> places;  ///< (moving)
-  std::size_t n_near = 0;
-  std::size_t n_vertices = 0;            ///< of the joint's interfaces
-  std::vector<std::uint32_t> far_nodes;  ///< of the cubes that hold the others
+  std::vector<VertexGroup> groups;
+  std::vector<std::uint32_t> group_of;  ///< (vertices of the interfaces); groups.size(): none moves
 };
 
 /// The map of a joint in a cage at X_JC: all vertices of its interfaces found in their cubes.
@@ -31,9 +35,9 @@ struct BodyMap {
 /// J.
 class DeformedBody {
  public:
-  /// A node of the coarsest cubes moves far vertices only when it is 20 um from where it last did
-  /// (`before`: an earlier state of the same map, or none): what indexes the surfaces then has less
-  /// to do. The others are where u says.
+  /// The vertices of a group are carried anew when a point of the map that moves them is farther
+  /// than the group's tolerance from where it last did (`before`: an earlier state of the same map,
+  /// or none): what indexes the surfaces then has less to do.
   DeformedBody(std::shared_ptr<const CompiledJoint> joint, std::shared_ptr<const BodyMap> map,
                std::span<const Vec3> node_displacements, const ContactForce& contact_J,
                const DeformedBody* before = nullptr);
@@ -44,9 +48,19 @@ class DeformedBody {
   }
   [[nodiscard]] const std::shared_ptr<const BodyMap>& shared_map() const noexcept { return map_; }
 
-  /// Where the vertices of the interfaces are now, m (n_interface_vertices): the first ones of
-  /// TetMesh::vertices.
-  [[nodiscard]] std::span<const Vec3> vertices() const noexcept { return vertices_; }
+  /// A group's vertices where they were carried last, m, frame J, and the displacements of the
+  /// group's points that did it, frame C. States share what did not go on.
+  struct Moved {
+    std::vector<Vec3> vertices;
+    std::vector<Vec3> points;
+  };
+  /// Of each group of the map.
+  [[nodiscard]] std::span<const std::shared_ptr<const Moved>> groups() const noexcept {
+    return groups_;
+  }
+  /// Where the vertices of the interfaces are now, m: the first ones of TetMesh::vertices. Cost:
+  /// gathers them from the groups.
+  [[nodiscard]] std::vector<Vec3> vertices() const;
 
   /// The joint with all vertices where they are now: a body like any other, for a Scene of this
   /// instant. Fibre axes and landmarks stay as they were. Cost: a copy of the joint.
@@ -67,6 +81,14 @@ class DeformedBody {
     std::int32_t cell = -1;
   };
   [[nodiscard]] PlacedMotion motion_in_cage(const Vec3& p_C) const noexcept;
+  /// The box around a point, frame C, m, in which the map is one polynomial: its cube or, where
+  /// several tissues share that, a part of it between their borders. `whole` says which.
+  struct Piece {
+    Vec3 low = Vec3::Zero();
+    Vec3 high = Vec3::Zero();
+    bool whole = true;
+  };
+  [[nodiscard]] Piece piece_around(const Vec3& p_C, std::int32_t cell) const noexcept;
   /// From frame J to the cage's.
   [[nodiscard]] const Pose& to_cage() const noexcept { return X_CJ_; }
 
@@ -87,21 +109,21 @@ class DeformedBody {
 
   [[nodiscard]] const ContactForce& contact() const noexcept { return contact_; }  ///< frame J
   [[nodiscard]] std::span<const Vec3> node_displacements() const noexcept {
-    return u_;
+    return std::span(u_).first(map_->model->cage().nodes().size());
   }  ///< frame C
   [[nodiscard]] const BodyMap& map() const noexcept { return *map_; }
 
  private:
   std::shared_ptr<const CompiledJoint> joint_;
   std::shared_ptr<const BodyMap> map_;
+  [[nodiscard]] Motion between_columns(const LayerMap::Around& four, double s_z,
+                                       double edge) const noexcept;
   [[nodiscard]] Motion in_J(const Motion& motion) const noexcept;
-  void move_vertex(std::size_t k, std::span<const Vec3> u);
-  void move_far(const DeformedBody* before);
+  void carry(const DeformedBody* before);
 
-  std::vector<Vec3> u_;      // (n_nodes) frame C
-  std::vector<Vec3> far_u_;  // (far_nodes) the same where a node moved its far vertices last
+  std::vector<Vec3> u_;  // (n_nodes, then the points of the map's columns) frame C
   Pose X_CJ_ = Pose::Identity();
-  std::vector<Vec3> vertices_;  // frame J
+  std::vector<std::shared_ptr<const Moved>> groups_;
   ContactForce contact_;
 };
 

@@ -246,6 +246,23 @@ double crush_of(double bulk, double J) noexcept {
   return bulk / kLeastPart * std::max(0.0, 1 - J / kLeastPart);
 }
 
+/// Pressure (negative) of the mean dilatation and its slope, by `excess` = mean J - J0; as
+/// kernels_body.h has it.
+struct VolumeLaw {
+  double pressure = 0;
+  double slope = 0;
+};
+
+VolumeLaw volume_law(const CellMaterial& m, double excess) noexcept {
+  if (!(m.drain > 0) || excess >= 0) return {m.bulk * excess, m.bulk};
+  const double soft = std::min(0.5 * m.bulk, m.drain_pressure / m.drain);
+  const double rise = (kDrainEnd - kDrainBegin) * m.drain;
+  const double ramp = std::clamp(-excess - kDrainBegin * m.drain, 0.0, rise);
+  const double beyond = std::max(-excess - kDrainEnd * m.drain, 0.0);
+  return {soft * excess - (m.bulk - soft) * (0.5 * ramp * ramp / rise + beyond),
+          soft + (m.bulk - soft) * ramp / rise};
+}
+
 /// Second derivative of the energy density at one point without the mean dilatation's own part.
 Matrix9 point_tangent(const CellMaterial& m, std::size_t g, const Kinematics& k, double pressure,
                       const Plane& plane) noexcept {
@@ -294,7 +311,7 @@ CellMatrix cell_tangent(const CellMaterial& m, double edge, const CellVector& u,
                         double target) noexcept {
   const Kinematics k = kinematics_of(m, edge, u);
   const double volume = edge * edge * edge / 8;
-  const double pressure = m.bulk * (k.mean_J - target);
+  const VolumeLaw law = volume_law(m, k.mean_J - target);
   const Plane plane = plane_across(m.sheet_normal);
   CellMatrix K = CellMatrix::Zero();
   CellVector dilatation = CellVector::Zero();
@@ -302,7 +319,7 @@ CellMatrix cell_tangent(const CellMaterial& m, double edge, const CellVector& u,
     if (m.weight[g] <= 0) continue;
     const Gradients d = gauss_gradients(g) / edge;
     const double w = volume * m.weight[g];
-    const Matrix9 H = w * point_tangent(m, g, k, pressure, plane);
+    const Matrix9 H = w * point_tangent(m, g, k, law.pressure, plane);
     Eigen::Matrix<double, 9, 24> B = Eigen::Matrix<double, 9, 24>::Zero();
     for (int a = 0; a < 8; ++a) {
       for (int J = 0; J < 3; ++J) {
@@ -315,12 +332,16 @@ CellMatrix cell_tangent(const CellMaterial& m, double edge, const CellVector& u,
         w * B.transpose() * Eigen::Map<const Eigen::Matrix<double, 9, 1>>(k.cof[g].data());
   }
   if (k.weight > 0)
-    K += (m.bulk - evenness_of(m)) / (volume * k.weight) * dilatation * dilatation.transpose();
+    K += (law.slope - evenness_of(m)) / (volume * k.weight) * dilatation * dilatation.transpose();
   return K;
 }
 
 Eigen::Matrix3d cell_gradient(double edge, const CellVector& u) noexcept {
   return gradient_of(gradients_at(Vec3::Constant(0.5)), edge, u);
+}
+
+double cell_pressure(const CellMaterial& m, double J, double target) noexcept {
+  return -volume_law(m, J - target).pressure;
 }
 
 double cell_dilatation(const CellMaterial& m, double edge, const CellVector& u) noexcept {

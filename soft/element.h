@@ -19,6 +19,8 @@ struct CellMaterial {
   std::array<double, 8> sheet{};      ///< Pa, mu that only stretching in the sheet's plane feels
   std::array<double, 8> hardening{};  ///< b of SoftMaterial
   double bulk = 0;                    ///< Pa, lambda
+  double drain = 0;                   ///< share of the tissue that is fluid and can leave
+  double drain_pressure = 0;          ///< Pa under which it does
   double fibre_modulus = 0;           ///< Pa
   Vec3 sheet_normal = Vec3::UnitZ();  ///< unit
   Vec3 fibre = Vec3::UnitX();         ///< unit
@@ -38,10 +40,18 @@ struct CellResponse {
 /// lock: W = sum_g V_g [mu_g/b (exp(b psi_g) - 1) + W_sheet + W_fibre] + V lambda/2 (mean J -
 /// J0)^2 + sum_g V_g lambda/2 <1 - J_g/kLeastPart>^2, the last since a mean alone lets one corner
 /// of a cube vanish while the others swell. The sheet's energy mu_s/2 (tr c + 1/det c - 3) is that
-/// of an incompressible membrane with the stretch c in the plane across `sheet_normal`. `u` m,
-/// frame C; `edge` m; `target` J0, 1 at rest. A model computes four cubes at once (kernels.h).
+/// of an incompressible membrane with the stretch c in the plane across `sheet_normal`. Fluid of a
+/// share f that drains makes the pressure of a smaller volume, q = J0 - mean J, less: k q up to
+/// 0.8 f with k = drain_pressure/f, beyond 1.2 f again with the slope lambda, between them the
+/// slope goes over evenly; so much of the fluid has left for where nothing presses, and all of it
+/// comes back. `u` m, frame C; `edge` m; `target` J0, 1 at rest. A model computes four cubes at
+/// once (kernels.h).
 [[nodiscard]] CellResponse cell_response(const CellMaterial& material, double edge,
                                          const CellVector& u, double target = 1) noexcept;
+
+/// Where the slope of a draining cube's pressure begins and ends to rise, in its fluid's share.
+inline constexpr double kDrainBegin = 0.8;
+inline constexpr double kDrainEnd = 1.2;
 
 /// Second derivative of the energy, with the parts that could make it indefinite held back: at each
 /// point whose stress is above mu what has negative stiffness, a sheet's compression, a fibre's
@@ -53,6 +63,10 @@ struct CellResponse {
 
 /// Deformation gradient at the cube's centre.
 [[nodiscard]] Eigen::Matrix3d cell_gradient(double edge, const CellVector& u) noexcept;
+
+/// Pa on the cube's volume where its mean dilatation is `J`: what is squeezed presses.
+[[nodiscard]] double cell_pressure(const CellMaterial& material, double J,
+                                   double target = 1) noexcept;
 
 /// Mean dilatation J of the cube's tissue.
 [[nodiscard]] double cell_dilatation(const CellMaterial& material, double edge,

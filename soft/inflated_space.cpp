@@ -17,6 +17,7 @@ namespace {
 constexpr int kCells = 121;     // of the map of walls, along each side
 constexpr double kCell = 1e-3;  // m
 constexpr double kWidest = kCells * kCell / 2;
+constexpr double kNextCell = 1.5 * kCell;  // to beyond any cell beside one
 constexpr int kSteps = 60;
 constexpr int kHalvings = 20;
 constexpr double kExactVolume = 1e-16;  // m^3
@@ -72,7 +73,10 @@ double six_volumes(const Vec3& a, const Vec3& b, const Vec3& c) {
 InflatedSpace::InflatedSpace(const CompiledJoint& joint, RegionId region, const Vec3& tip,
                              const OpeningParams& params)
     : params_(params), rest_(joint.mesh.vertices) {
+  bone_.assign(rest_.size(), false);
   for (const Interface& f : joint.mesh.interfaces) {
+    if (joint.tissue_of(f.front).haptic.hard || joint.tissue_of(f.back).haptic.hard)
+      for (const std::uint32_t v : f.vertices) bone_[v] = true;
     if (f.front == region) triangles_.push_back({f.vertices[0], f.vertices[2], f.vertices[1]});
     if (f.back == region) triangles_.push_back(f.vertices);
   }
@@ -205,14 +209,14 @@ void InflatedSpace::smooth_walls() {
     roof_[c] = std::max(roof_[c], floor_[c] + kThinnest);
 }
 
-/// Where bone lies on the space, by cell: it does not give way.
+/// Where bone lies on the space, or in the upper half of it, by cell: it does not give way.
 std::vector<bool> InflatedSpace::find_bone(const CompiledJoint& joint) const {
   std::vector<bool> bone(open_.size(), false);
   const auto mark = [&](const Vec3& point) {
     const Vec3 p = polar(point);
     const double roof = between(roof_, p.x(), p.y());
-    if (p.z() < roof) return;
-    const double together = 1 / (1 + (p.z() - roof) / params_.spread);
+    if (p.z() < (between(floor_, p.x(), p.y()) + roof) / 2) return;
+    const double together = 1 / (1 + std::max(0.0, p.z() - roof) / params_.spread);
     bone[at(cell_of(together * p.x()), cell_of(together * p.y()))] = true;
   };
   for (const Interface& f : joint.mesh.interfaces) {
@@ -233,10 +237,11 @@ void InflatedSpace::find_shut(const CompiledJoint& joint) {
   std::vector<bool> shut = find_bone(joint);
   for (std::size_t c = 0; c < shut.size(); ++c) shut[c] = shut[c] || !open_[c];
   inside_.assign(shut.size(), 0);
-  const int reach = static_cast<int>(std::ceil(params_.rim / kCell));
+  const double farthest = params_.rim + kNextCell;
+  const int reach = static_cast<int>(std::ceil(farthest / kCell));
   for (int v = 0; v < kCells; ++v) {
     for (int u = 0; u < kCells; ++u) {
-      double nearest = params_.rim;
+      double nearest = farthest;
       for (int dv = -reach; dv <= reach; ++dv) {
         for (int du = -reach; du <= reach; ++du) {
           const int x = u + du;
@@ -246,7 +251,8 @@ void InflatedSpace::find_shut(const CompiledJoint& joint) {
             nearest = std::min(nearest, kCell * std::hypot(du, dv));
         }
       }
-      inside_[static_cast<std::size_t>(v * kCells + u)] = nearest / params_.rim;
+      const double part = std::max(0.0, nearest - kNextCell) / params_.rim;
+      inside_[static_cast<std::size_t>(v * kCells + u)] = part * part * (3 - 2 * part);
     }
   }
 }
@@ -278,7 +284,7 @@ void InflatedSpace::find_lifts() {
     const double v = together * p.y();
     const double share = drawn * together * together * between(inside_, u, v);
     const double r = std::hypot(u, v);
-    if (!(share > 0) || r >= kWidest) continue;
+    if (!(share > 0) || r >= kWidest || bone_[i]) continue;
     lifts_.push_back({i, sign_ * (rest_[i] - centre_).normalized(), r, share});
   }
 }

@@ -14,7 +14,7 @@ namespace artus {
 /// reaches farther.
 struct OpeningParams {
   double fill = 3e-6;       ///< m^3 at which the fluid has come to its widest
-  double widest = 28.5e-3;  ///< m, radius of the patch there; fitted: 5 ml open by less than 6 mm
+  double widest = 29.5e-3;  ///< m, radius of the patch there; fitted: 5 ml open by less than 6 mm
   double rim = 4e-3;        ///< m from the cleft's own rim over which it stays shut
   double spread = 20e-3;    ///< m above the roof at which the lift is twice as wide
 };
@@ -84,6 +84,7 @@ class InflatedSpace {
   double sphere_ = 1;  // m
   double sign_ = 1;    // 1: the roof is farther from the centre than the floor
   double rest_volume_ = 0;
+  std::vector<bool> bone_;      // by vertex
   std::vector<bool> open_;      // by cell: the sheet around the tip is there
   std::vector<double> floor_;   // m, its height, also beside the sheet
   std::vector<double> roof_;    // m

@@ -5,12 +5,13 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <numbers>
 #include <span>
 #include <utility>
 
 #include "artus/core/check.h"
+#include "artus/core/noise.h"
+#include "artus/soft/bolus_opening.h"
 
 namespace artus {
 namespace {
@@ -18,150 +19,6 @@ namespace {
 constexpr double kVisible = 1e-9;        // m^3
 constexpr double kLongestSplit = 15e-3;  // m, half of the length; 10 to 30 mm in all, assumed
 constexpr double kBall = 4 * std::numbers::pi / 3;
-constexpr int kSubdivisions = 3;  // of an icosahedron
-
-struct Sphere {
-  std::vector<Vec3> points;
-  std::vector<std::array<std::uint32_t, 3>> triangles;  // normals outward
-  double volume = 0;                                    // of the polyhedron
-};
-
-Sphere make_icosahedron() {
-  const double t = std::numbers::phi;
-  Sphere s;
-  for (const auto& [a, b, c] : std::initializer_list<std::array<double, 3>>{{-1, t, 0},
-                                                                            {1, t, 0},
-                                                                            {-1, -t, 0},
-                                                                            {1, -t, 0},
-                                                                            {0, -1, t},
-                                                                            {0, 1, t},
-                                                                            {0, -1, -t},
-                                                                            {0, 1, -t},
-                                                                            {t, 0, -1},
-                                                                            {t, 0, 1},
-                                                                            {-t, 0, -1},
-                                                                            {-t, 0, 1}})
-    s.points.push_back(Vec3(a, b, c).normalized());
-  s.triangles = {{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11},
-                 {1, 5, 9},  {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
-                 {3, 9, 4},  {3, 4, 2},  {3, 2, 6},   {3, 6, 8},  {3, 8, 9},
-                 {4, 9, 5},  {2, 4, 11}, {6, 2, 10},  {8, 6, 7},  {9, 8, 1}};
-  return s;
-}
-
-Sphere make_sphere() {
-  Sphere s = make_icosahedron();
-  for (int k = 0; k < kSubdivisions; ++k) {
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
-    const auto middle = [&](std::uint32_t a, std::uint32_t b) {
-      const auto [at, is_new] =
-          middles.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(s.points.size()));
-      if (is_new) s.points.push_back((s.points[a] + s.points[b]).normalized());
-      return at->second;
-    };
-    std::vector<std::array<std::uint32_t, 3>> finer;
-    for (const auto& [a, b, c] : s.triangles) {
-      const std::uint32_t ab = middle(a, b);
-      const std::uint32_t bc = middle(b, c);
-      const std::uint32_t ca = middle(c, a);
-      finer.insert(finer.end(), {{a, ab, ca}, {b, bc, ab}, {c, ca, bc}, {ab, bc, ca}});
-    }
-    s.triangles = std::move(finer);
-  }
-  for (const auto& [a, b, c] : s.triangles)
-    s.volume += s.points[a].dot(s.points[b].cross(s.points[c])) / 6;
-  return s;
-}
-
-using MidVertex = std::uint32_t;  // vertex in the middle of an edge
-constexpr MidVertex kWhole = std::numeric_limits<MidVertex>::max();
-
-/// The triangle in pieces by which of its edges ab, bc, ca are cut.
-void add_pieces(const Interface& f, std::array<MidVertex, 3> cuts, std::vector<Interface>& out) {
-  const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    out.push_back(f);
-    out.back().vertices = {a, b, c};
-  };
-  const auto is_cut = [&](std::size_t k) {
-    return cuts[k] != kWhole;
-  };
-  auto v = f.vertices;
-  // Turned until the first edge is cut and, of two, the second as well.
-  for (int turn = 0; turn < 2 && !(is_cut(0) && (is_cut(1) || !is_cut(2))); ++turn) {
-    std::rotate(cuts.begin(), cuts.begin() + 1, cuts.end());
-    std::rotate(v.begin(), v.begin() + 1, v.end());
-  }
-  const auto [a, b, c] = v;
-  if (!is_cut(0)) {
-    add(a, b, c);
-  } else if (!is_cut(1)) {
-    add(a, cuts[0], c);
-    add(cuts[0], b, c);
-  } else {
-    add(cuts[0], b, cuts[1]);
-    if (is_cut(2)) {
-      add(a, cuts[0], cuts[2]);
-      add(cuts[2], cuts[1], c);
-      add(cuts[0], cuts[1], cuts[2]);
-    } else {
-      add(a, cuts[0], cuts[1]);
-      add(a, cuts[1], c);
-    }
-  }
-}
-
-/// Cuts interfaces at the middles of the edges that are too long for the map beside the unit ball
-/// of `in`, so that they follow it: a wall of few triangles would cut through the liquid. An edge
-/// is judged by its ends alone, so neighbours agree.
-void refine_beside(CompiledJoint& joint, const Eigen::Matrix3d& in, const Vec3& centre) {
-  constexpr int kTimes = 6;
-  constexpr double kFar = 3;      // radii beyond which the map hardly bends anything
-  constexpr double kLong = 0.17;  // of an edge against its distance from the middle
-  constexpr double kNear = 0.4;   // radii; closer to the middle edges need not be shorter for that
-  std::vector<Vec3>& points = joint.mesh.vertices;
-  const auto is_long = [&](std::uint32_t one, std::uint32_t other) {
-    const std::pair<std::uint32_t, std::uint32_t> ends = std::minmax(one, other);
-    const Vec3 from = in * (points[ends.first] - centre);
-    const Vec3 along = in * (points[ends.second] - points[ends.first]);
-    const double length = along.norm();
-    if (!(length > 0)) return false;
-    const double t = std::clamp(-from.dot(along) / (length * length), 0.0, 1.0);
-    const double nearest = (from + t * along).norm();
-    return nearest <= kFar && length >= kLong * std::max(nearest, kNear);
-  };
-  const double stretch = in.norm();  // at least what a length becomes
-  const auto is_whole = [&](const Interface& f) {
-    const auto& [a, b, c] = f.vertices;
-    const double reach =
-        std::max((points[b] - points[a]).norm(), (points[c] - points[a]).norm()) * stretch;
-    if ((in * (points[a] - centre)).norm() - reach > kFar) return true;
-    return !is_long(a, b) && !is_long(b, c) && !is_long(c, a);
-  };
-  std::vector<Interface>& faces = joint.mesh.interfaces;
-  std::size_t whole = 0;  // faces that need no cut come first
-  for (int k = 0; k < kTimes; ++k) {
-    const auto begin = faces.begin() + static_cast<std::ptrdiff_t>(whole);
-    const auto cut_from = std::stable_partition(begin, faces.end(), is_whole);
-    whole = static_cast<std::size_t>(cut_from - faces.begin());
-    if (cut_from == faces.end()) break;
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
-    const auto cut = [&](std::uint32_t one, std::uint32_t other) -> MidVertex {
-      if (!is_long(one, other)) return kWhole;
-      const std::pair<std::uint32_t, std::uint32_t> ends = std::minmax(one, other);
-      const auto [at, is_new] =
-          middles.try_emplace(ends, static_cast<std::uint32_t>(points.size()));
-      if (is_new) points.push_back((points[ends.first] + points[ends.second]) / 2);
-      return at->second;
-    };
-    std::vector<Interface> finer;
-    for (auto f = cut_from; f != faces.end(); ++f) {
-      const auto& [a, b, c] = f->vertices;
-      add_pieces(*f, {cut(a, b), cut(b, c), cut(c, a)}, finer);
-    }
-    faces.resize(whole);
-    faces.insert(faces.end(), finer.begin(), finer.end());
-  }
-}
 
 Vec3 toward_skin(const CompiledJoint& joint, const Vec3& p) {
   double least = std::numeric_limits<double>::infinity();
@@ -202,13 +59,15 @@ struct Parting {
   double longest = 1;        // m, half of a length
   double apart = 0;          // m between the planes of two; 0: one opens alone
   int rows = 0;              // of them behind each other along the fibres, to either side
+  double ragged = 0;         // of an outline
+  double uneven = 0;         // by which lengths and widths differ from a full one's, of it
 };
 
 Parting parting_of(const CompiledJoint& joint, RegionId region, bool fibrous) {
   const TissueKind kind = joint.tissue_of(region).acoustic.kind;
-  if (kind == TissueKind::muscle) return {Vec3(10e-3, 5e-3, 0.7e-3), 1, 2e-3, 1};
+  if (kind == TissueKind::muscle) return {Vec3(10e-3, 5e-3, 0.7e-3), 1, 2e-3, 1, 0.2, 0.3};
   if (kind == TissueKind::nerve) return {Vec3(8e-3, 3e-3, 0.5e-3), kLongestSplit, 0, 0};
-  if (fibrous) return {Vec3(12e-3, 8e-3, 0.6e-3), kLongestSplit, 1.5e-3, 0};
+  if (fibrous) return {Vec3(12e-3, 8e-3, 0.6e-3), kLongestSplit, 1.5e-3, 0, 0.1, 0.2};
   return {Vec3(4e-3, 4e-3, 1e-3)};
 }
 
@@ -327,35 +186,6 @@ bool fit_between(const Walls& walls, double slide, Bolus& bolus) {
   return true;
 }
 
-/// Opens one as region `number`, and takes the centres of `later` along.
-void open_bolus(CompiledJoint& with, const Bolus& bolus, RegionId number, std::span<Bolus> later) {
-  const Sphere unit = make_sphere();
-  const double scale = std::cbrt(bolus.volume / (unit.volume * bolus.proportion.prod()));
-  const Eigen::Matrix3d out = bolus.axes * (scale * bolus.proportion).asDiagonal();
-  const Eigen::Matrix3d in = out.inverse();
-  refine_beside(with, in, bolus.centre);
-  const auto push = [&](Vec3& p) {
-    const Vec3 y = in * (p - bolus.centre);
-    const double rho = y.norm();
-    if (rho < 1e-9)
-      p = bolus.centre + out.col(0);
-    else
-      p = bolus.centre + out * (std::cbrt(1 + 1 / (rho * rho * rho)) * y);
-  };
-  for (Vec3& p : with.mesh.vertices) push(p);
-  for (std::size_t k = 0; k + 1 < later.size(); ++k)
-    push(later[k].centre);  // the last is the tip's
-  const auto first = static_cast<std::uint32_t>(with.mesh.vertices.size());
-  for (const Vec3& p : unit.points) with.mesh.vertices.push_back(bolus.centre + out * p);
-  for (const auto& [a, b, c] : unit.triangles) {
-    Interface f;
-    f.vertices = {first + a, first + b, first + c};
-    f.front = bolus.region;
-    f.back = number;
-    with.mesh.interfaces.push_back(f);
-  }
-}
-
 }  // namespace
 
 std::vector<Bolus> make_boluses(const CompiledJoint& joint, RegionId region, const Vec3& tip,
@@ -367,7 +197,7 @@ std::vector<Bolus> make_boluses(const CompiledJoint& joint, RegionId region, con
   bool fibrous = false;
   const Eigen::Matrix3d axes = axes_at(joint, region, tip, fibrous);
   const Parting parting = parting_of(joint, region, fibrous);
-  std::vector<Bolus> boluses{{region, tip, axes, parting.full, volume}};
+  std::vector<Bolus> boluses{{region, tip, axes, parting.full, volume, parting.ragged, 0}};
   if (!(parting.apart > 0)) {
     // No longer than fibres part; what does not fit goes aside.
     Vec3& full = boluses[0].proportion;
@@ -378,9 +208,12 @@ std::vector<Bolus> make_boluses(const CompiledJoint& joint, RegionId region, con
   const Walls walls(joint, region);
   static_cast<void>(fit_between(walls, kTipSlide, boluses[0]));
   double held = boluses[0].volume = kBall * boluses[0].proportion.prod();
+  std::uint64_t number = 0;
   for (const Vec3& place : places_of(parting)) {
     if (held >= volume) break;
-    Bolus bolus{region, tip + axes * place, axes, parting.full, 0};
+    Bolus bolus{region, tip + axes * place, axes, parting.full, 0, parting.ragged, ++number};
+    for (const int k : {0, 1})
+      bolus.proportion[k] *= 1 + parting.uneven * (2 * uniform_noise(number, 1000 + k) - 1);
     bolus.axes = axes_at(joint, region, bolus.centre, fibrous);
     if (!fit_between(walls, kSlide, bolus)) continue;
     bolus.volume = kBall * bolus.proportion.prod();
@@ -407,9 +240,14 @@ CompiledJoint with_boluses(const CompiledJoint& joint, std::vector<Bolus> boluse
   CompiledJoint with = joint;
   const auto number = static_cast<RegionId>(with.regions.size());
   with.regions.push_back({"injected", liquid_tissue(with, liquid), Vec3::Zero()});
+  ARTUS_REQUIRE(!boluses.empty(), "something to open");
+  BolusOpening opening(with, number);
+  const Vec3 tip = boluses.back().centre;
   for (std::size_t k = 0; k < boluses.size(); ++k) {
     ARTUS_REQUIRE(boluses[k].volume > 0, "a volume above 0");
-    open_bolus(with, boluses[k], number, std::span(boluses).subspan(k + 1));
+    // The tip does not go along with what is pushed; where liquid has come to it, that will do.
+    if (k + 1 == boluses.size() && !opening.is_liquid(tip)) boluses[k].centre = tip;
+    opening.open(boluses[k], std::span(boluses).subspan(k + 1));
   }
   return with;
 }

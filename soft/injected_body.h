@@ -16,6 +16,8 @@ struct Bolus {
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< unit, in columns
   Vec3 proportion = Vec3::Ones();                      ///< of the semi-axes
   double volume = 0;                                   ///< m^3
+  double ragged = 0;         ///< of its outline: 0.3 makes radii differ by a fifth; 0: smooth
+  std::uint64_t number = 0;  ///< that its outline is drawn by
 };
 
 /// What a volume that comes in at `tip` opens in a region, in the order of opening, the one around
@@ -29,11 +31,10 @@ struct Bolus {
                                               const Vec3& tip, double volume);
 
 /// The joint with the boluses as one more region, "injected", of `liquid`. One after another
-/// pushes all around it aside by the map rho -> (rho^3 + 1)^(1/3) of the ellipsoid's own radius,
-/// which keeps every volume; bones, too, move by what that is at their place. Interfaces beside it
-/// are cut finer (new vertices after the joint's), so that they follow that map. The polyhedron of
-/// the last holds its volume to rounding, the others to 1 %. It has interfaces alone, no
-/// tetrahedra. Requires: volumes > 0, fewer than 65535 regions.
+/// pushes all around it aside as BolusOpening says: bones stay, to the last bit. Interfaces beside
+/// it are cut finer (new vertices after the joint's), so that they follow that map. Their polyhedra
+/// hold the volume to 1e-15 m^3. It has interfaces alone, no tetrahedra. Requires: volumes > 0,
+/// fewer than 65535 regions.
 [[nodiscard]] CompiledJoint with_boluses(const CompiledJoint& joint, std::vector<Bolus> boluses,
                                          const Liquid& liquid);
 

@@ -33,6 +33,9 @@ void CellPack::set(std::size_t lane, const CellMaterial& m, double edge_length) 
     has_hardening = has_hardening || m.hardening[g] > 0;
   }
   bulk[lane] = m.bulk;
+  drain[lane] = m.drain;
+  drain_soft[lane] = m.drain > 0 ? std::min(0.5 * m.bulk, m.drain_pressure / m.drain) : m.bulk;
+  has_drain = has_drain || m.drain > 0;
   fibre_modulus[lane] = m.fibre_modulus;
   has_fibre = has_fibre || m.fibre_modulus > 0;
   const Vec3 along = m.sheet_normal.unitOrthogonal();

@@ -17,6 +17,8 @@ struct alignas(32) CellPack {
   std::array<Lanes, 8> sheet{};
   std::array<Lanes, 8> hardening{};
   Lanes bulk{};
+  Lanes drain{};       ///< share of fluid that can leave
+  Lanes drain_soft{};  ///< Pa, slope of the pressure while it does
   Lanes fibre_modulus{};
   std::array<Lanes, 3> fibre{};
   std::array<Lanes, 6> plane{};  ///< two unit vectors along the sheet, one after the other
@@ -24,6 +26,7 @@ struct alignas(32) CellPack {
   bool has_sheet = false;
   bool has_fibre = false;
   bool has_hardening = false;
+  bool has_drain = false;
   /// Puts a cube into a lane; lanes that get none do not count.
   void set(std::size_t lane, const CellMaterial& material, double edge_length) noexcept;
 };

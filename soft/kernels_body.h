@@ -207,6 +207,23 @@ inline void add_nodal_forces(const D line[3][3][4], CellPackState& s) noexcept {
   }
 }
 
+// What draining fluid takes from the pressure and from lambda/2 excess^2, both of a volume that is
+// too small; see element.cpp's volume_law.
+inline void drain(const CellPack& pack, D excess, D& pressure, D& energy) noexcept {
+  const D share = lanes(pack.drain);
+  const D some = share > 0.0 ? share : splat(1.0);
+  const D soft = lanes(pack.drain_soft);
+  const D stiff = lanes(pack.bulk) - soft;
+  const D q = larger(splat(0.0) - excess, splat(0.0));
+  const D rise = (kDrainEnd - kDrainBegin) * some;
+  const D ramp = smaller(larger(q - kDrainBegin * some, splat(0.0)), rise);
+  const D beyond = larger(q - kDrainEnd * some, splat(0.0));
+  const D held = 0.5 * ramp * ramp / rise + beyond;
+  const D stored = ramp * ramp * ramp / (6.0 * rise) + 0.5 * beyond * (rise + beyond);
+  pressure += stiff * (q - held);
+  energy -= stiff * (0.5 * q * q - stored);
+}
+
 void cells(const CellPack& pack, CellPackState& s) {
   const D edge = lanes(pack.edge);
   Gradient gradient;
@@ -216,8 +233,13 @@ void cells(const CellPack& pack, CellPackState& s) {
   const D volume = edge * edge * edge * 0.125;
   const D area = edge * edge * 0.125;
   const D excess = points.mean_J - lanes(s.target);
-  const D pressure = lanes(pack.bulk) * excess;
+  D pressure = lanes(pack.bulk) * excess;
   D energy = volume * points.weight * 0.5 * lanes(pack.bulk) * excess * excess;
+  if (pack.has_drain) {
+    D stored = splat(0.0);
+    drain(pack, excess, pressure, stored);
+    energy += volume * points.weight * stored;
+  }
   D least = splat(1.0);
   D line[3][3][4];
   for (auto& component : line) {

@@ -19,10 +19,11 @@ constexpr double kLeastShear = 100;  // Pa; assumed: far below any solid tissue
 constexpr double kLeastBulk = 50e3;  // Pa; assumed: a fifth of volume at 10 kPa at most
 
 // Below 1 Pa nothing holds a cube; above 1 GPa it is hard, and told so by the tissue library.
-constexpr std::array<TomlField<SoftTissue>, 3> kFields{{
+constexpr std::array<TomlField<SoftTissue>, 4> kFields{{
     {"shear_pa", &SoftTissue::shear, 1, 1e9, 1, true},
     {"hardening", &SoftTissue::hardening, 0, 20, 1, false},
     {"fibre_modulus_pa", &SoftTissue::fibre_modulus, 0, 1e9, 1, false},
+    {"drain_pa", &SoftTissue::drain_pressure, 0, 1e6, 1, false},
 }};
 
 SoftTissue read_row(const std::string& name, const toml::table& table, Problems& problems) {
@@ -65,6 +66,7 @@ SoftMaterial make_soft_material(const Tissue& tissue, std::span<const SoftTissue
   if (row != values.end()) {
     m.shear = row->shear;
     m.hardening = row->hardening;
+    m.drain_pressure = row->drain_pressure;
     if (fibre.squaredNorm() > 0) m.fibre_modulus = row->fibre_modulus;
   } else {
     m.shear = std::max(kLeastShear, tissue.mechanical.youngs_modulus / 3);

@@ -25,15 +25,18 @@ struct SoftMaterial {
   double fibre_modulus = 0;   ///< Pa, k
   Vec3 fibre = Vec3::Zero();  ///< unit, a; zero: no fibres
   bool hard = false;          ///< bone and metal: moves as a rigid body
+  /// Pa under which its fluid leaves for where nothing presses (element.h); 0: it stays.
+  double drain_pressure = 0;
 };
 
 /// The mechanical values of a tissue, with where they come from.
 struct SoftTissue {
-  std::string tissue;        ///< name in the tissue library
-  double shear = 0;          ///< Pa
-  double hardening = 0;      ///< b
-  double fibre_modulus = 0;  ///< Pa
-  std::string source;        ///< reference or "assumed: why"
+  std::string tissue;         ///< name in the tissue library
+  double shear = 0;           ///< Pa
+  double hardening = 0;       ///< b
+  double fibre_modulus = 0;   ///< Pa
+  double drain_pressure = 0;  ///< Pa
+  std::string source;         ///< reference or "assumed: why"
 };
 
 /// Rows [soft.NAME] of a file, in its order. Errors: malformed (with line), invalid.

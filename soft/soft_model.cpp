@@ -40,11 +40,15 @@ SoftModel::SoftModel(const MaterialField& field, const SoftModelParams& params)
 
 void SoftModel::average_materials(const MaterialField& field, int samples) {
   materials_.reserve(cage_.cells().size());
+  std::vector<CellMixture> mixtures;
+  mixtures.reserve(cage_.cells().size());
   for (const CageCell& cell : cage_.cells()) {
     const double edge = cage_.edge(cell);
     const int n = samples_for(edge, cage_.finest(), samples);
-    materials_.push_back(average_cell(field, sample_cell(field, cage_.low_corner(cell), edge, n)));
+    mixtures.push_back(sample_cell(field, cage_.low_corner(cell), edge, n));
+    materials_.push_back(average_cell(field, mixtures.back()));
   }
+  layers_ = LayerMap(cage_, field, mixtures);
   packs_.resize((materials_.size() + kLanes - 1) / kLanes);
   for (std::size_t c = 0; c < materials_.size(); ++c)
     packs_[c / kLanes].set(c % kLanes, materials_[c], cage_.edge(cage_.cells()[c]));

@@ -10,6 +10,7 @@
 #include "artus/soft/cage.h"
 #include "artus/soft/cholesky.h"
 #include "artus/soft/kernels.h"
+#include "artus/soft/layer_map.h"
 #include "artus/soft/material.h"
 
 namespace artus {
@@ -55,6 +56,8 @@ class SoftModel {
 
   [[nodiscard]] const Cage& cage() const noexcept { return cage_; }
   [[nodiscard]] std::span<const CellMaterial> materials() const noexcept { return materials_; }
+  /// What the cubes hold inside, for DeformedBody.
+  [[nodiscard]] const LayerMap& layers() const noexcept { return layers_; }
   [[nodiscard]] std::size_t n_unknowns() const noexcept { return unknown_nodes_.size(); }
   [[nodiscard]] std::span<const std::uint32_t> unknown_nodes() const noexcept {
     return unknown_nodes_;
@@ -96,8 +99,9 @@ class SoftModel {
   void release_held(BlockMatrix& matrix) const;
 
   Cage cage_;
-  std::vector<CellMaterial> materials_;       // (n_cells)
-  std::vector<CellPack> packs_;               // the same, four cubes each
+  std::vector<CellMaterial> materials_;  // (n_cells)
+  std::vector<CellPack> packs_;          // the same, four cubes each
+  LayerMap layers_;
   std::vector<HeldNode> held_;                // (n_nodes)
   std::vector<std::uint32_t> unknown_of_;     // (n_nodes)
   std::vector<std::uint32_t> unknown_nodes_;  // (n_unknowns)

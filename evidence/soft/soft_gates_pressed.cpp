@@ -277,8 +277,9 @@ Gate gate_turned() {
 Gate gate_limb() {
   Gate gate;
   gate.title =
-      "2 mm of skin, 12 mm of fat and 30 mm of muscle over bone under the face, stress over "
-      "compression (secants) against [Isogai2022]";
+      "2 mm of skin, 12 mm of fat and 30 mm of muscle over bone under the face, slope of stress "
+      "over "
+      "compression against [Isogai2022]";
   constexpr double kArea = 40e-3 * 6e-3;  // m^2; the source's indenter is not known here: assumed
   Limb limb;
   std::vector<Limb::State> curve;
@@ -289,11 +290,13 @@ Gate gate_limb() {
     curve.push_back(state);
     most_force = state.force;
   }
-  const auto secant_at = [&](double force, double Limb::State::*strain) {
+  // The source's moduli are slopes of the curve, not stress over strain: between the states on both
+  // sides of the force.
+  const auto slope_at = [&](double force, double Limb::State::*strain) {
     for (std::size_t i = 1; i < curve.size(); ++i) {
       if (curve[i].force < force) continue;
-      const double share = (force - curve[i - 1].force) / (curve[i].force - curve[i - 1].force);
-      return force / kArea / std::lerp(curve[i - 1].*strain, curve[i].*strain, share);
+      return (curve[i].force - curve[i - 1].force) / kArea /
+             (curve[i].*strain - curve[i - 1].*strain);
     }
     return 0.0;
   };
@@ -309,9 +312,9 @@ Gate gate_limb() {
                                    hardens));
   const ClaimBasis basis{ClaimKind::independent, "the indenter's area is assumed to be the face's"};
   gate.claims.push_back(claim_within(basis, "H1: fat at 1 N, mean and 2 deviations of 21 men",
-                                     1e-3 * secant_at(1, &Limb::State::fat), 26.1, 38.0, "kPa"));
+                                     1e-3 * slope_at(1, &Limb::State::fat), 26.1, 38.0, "kPa"));
   gate.claims.push_back(claim_within(basis, "H1: muscle at 5 N, mean and 2 deviations of 21 men",
-                                     1e-3 * secant_at(5, &Limb::State::muscle), 62.2, 20.6, "kPa"));
+                                     1e-3 * slope_at(5, &Limb::State::muscle), 62.2, 20.6, "kPa"));
   return gate;
 }
 

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/soft/deformed_body.h"
 
+#include <algorithm>
+#include <cmath>
+#include <set>
+
 #include <gtest/gtest.h>
 
 #include "tests/support/moved_block.h"
@@ -29,56 +33,63 @@ struct GradedBlock {
     return std::make_shared<const DeformedBody>(joint, map, u, ContactForce{}, before);
   }
 
-  [[nodiscard]] double depth(const DeformedBody& body, std::size_t k) const {
-    const std::uint32_t v = map->moving[k];
-    return body.vertices()[v].z() - joint->mesh.vertices[v].z();
-  }
-
   std::shared_ptr<const CompiledJoint> joint;
   std::shared_ptr<const BodyMap> map;
 };
 
-TEST(DeformedBody, FarVerticesFollowTheirOwnCubesNodesInStepsOfTwentyMicrometres) {
+TEST(DeformedBody, GroupsFollowTheirOwnPointsInStepsOfTheirTolerance) {
   const GradedBlock block;
-  ASSERT_GT(block.map->n_near, 100U);
-  ASSERT_GT(block.map->moving.size(), block.map->n_near + 100);
+  std::set<double> tolerances;
+  for (const VertexGroup& group : block.map->groups) tolerances.insert(group.tolerance);
+  EXPECT_EQ(tolerances, (std::set<double>{0, 20e-6, 40e-6}));
   std::shared_ptr<const DeformedBody> body = block.moved(0, 0);
   std::size_t kept = 0;
-  for (int i = 1; i <= 12; ++i) {
-    const double near = 5e-6 * i;
+  for (int i = 1; i <= 20; ++i) {
+    const double near = 6e-6 * i;
     const double far = 50e-6 * i;
     body = block.moved(near, far, body.get());
-    const double held = 5e-6 * (i / 5 * 5);  // 20 um are not more than 20 um
-    for (std::size_t k = 0; k < block.map->moving.size(); ++k) {
-      const double x = block.joint->mesh.vertices[block.map->moving[k]].x();
-      const double depth = block.depth(*body, k);
-      if (k < block.map->n_near) {
-        ASSERT_NEAR(depth, near, 1e-9);
-      } else if (x < 23e-3) {
-        ASSERT_NEAR(depth, held, 1e-9) << i;
-        ++kept;
-      } else if (x > 31e-3) {
-        ASSERT_NEAR(depth, far, 1e-9) << i;
+    const auto vertices = body->vertices();
+    for (const VertexGroup& group : block.map->groups) {
+      const int steps = 1 + static_cast<int>(group.tolerance / 6e-6);
+      const double held = 6e-6 * (i / steps * steps);
+      const auto x_of = [&](std::uint32_t v) {
+        return block.joint->mesh.vertices[v].x();
+      };
+      const double most = x_of(
+          *std::max_element(group.vertices.begin(), group.vertices.end(),
+                            [&](std::uint32_t a, std::uint32_t b) { return x_of(a) < x_of(b); }));
+      for (const std::uint32_t v : group.vertices) {
+        const double depth = vertices[v].z() - block.joint->mesh.vertices[v].z();
+        if (x_of(v) > 31e-3) {
+          ASSERT_NEAR(depth, far, 1e-9) << i;
+        } else if (most < 23e-3) {
+          ASSERT_NEAR(depth, held, 1e-9) << i;
+          kept += held < near ? 1 : 0;
+        }
       }
     }
   }
   EXPECT_GT(kept, 1000U);
 }
 
-TEST(DeformedBody, WhatStaysHasTheBytesOfTheStateBefore) {
+TEST(DeformedBody, WhatStaysIsTheStateBefore) {
   const GradedBlock block;
   const auto before = block.moved(1e-3, 2e-3);
   const auto after = block.moved(1e-3 + 15e-6, 3e-3, before.get());
   const auto alone = block.moved(1e-3 + 15e-6, 3e-3);
-  for (std::size_t k = block.map->n_near; k < block.map->moving.size(); ++k) {
-    const std::uint32_t v = block.map->moving[k];
-    const double x = block.joint->mesh.vertices[v].x();
-    const bool still = after->vertices()[v] == before->vertices()[v];
-    const bool there = after->vertices()[v] == alone->vertices()[v];
-    ASSERT_TRUE(x > 23e-3 || still);
-    ASSERT_TRUE(x < 31e-3 || there);
-    ASSERT_LT((after->vertices()[v] - alone->vertices()[v]).norm(), 20e-6);
+  const auto now = after->vertices();
+  const auto fresh = alone->vertices();
+  std::size_t shared = 0;
+  for (std::size_t g = 0; g < block.map->groups.size(); ++g) {
+    if (after->groups()[g] == before->groups()[g]) {
+      ++shared;
+      EXPECT_GT(block.map->groups[g].tolerance, 15e-6);
+      continue;
+    }
+    for (const std::uint32_t v : block.map->groups[g].vertices) ASSERT_EQ(now[v], fresh[v]);
   }
+  EXPECT_GT(shared, block.map->groups.size() / 4);
+  for (std::size_t v = 0; v < now.size(); ++v) ASSERT_LT((now[v] - fresh[v]).norm(), 40e-6);
 }
 
 }  // namespace

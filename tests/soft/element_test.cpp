@@ -97,6 +97,56 @@ TEST(Element, ForceIsMinusTheGradientOfTheEnergy) {
   }
 }
 
+/// A cube of which a fifth drains under 2 kPa, squeezed to the share `J` of its volume.
+CellVector squeezed_to(double J, double edge) {
+  CellVector u = random_displacement(1e-9, 5);
+  for (int a = 4; a < 8; ++a) u[3 * a + 2] -= (1 - J) * edge;
+  return u;
+}
+
+CellMaterial draining() {
+  CellMaterial m;
+  for (std::size_t g = 0; g < 8; ++g) {
+    m.weight[g] = 1;
+    m.shear[g] = 1000;
+  }
+  m.bulk = 50e3;
+  m.drain = 0.2;
+  m.drain_pressure = 2e3;
+  return m;
+}
+
+TEST(Element, FluidThatDrainsLeavesUnderItsPressureAndThenTheRestResists) {
+  const CellMaterial m = draining();
+  EXPECT_NEAR(cell_pressure(m, 0.9), 1e3, 1e-9);  // half of it has left
+  EXPECT_NEAR(cell_pressure(m, 0.84), 1.6e3, 1e-9);
+  const double slope = (cell_pressure(m, 0.70) - cell_pressure(m, 0.72)) / 0.02;
+  EXPECT_NEAR(slope, 50e3, 1e-6);
+  EXPECT_NEAR(cell_pressure(m, 1.01), -500, 1e-9);  // nothing is drawn in
+  for (const double J : {0.97, 0.82, 0.7}) {
+    const double edge = 3e-3;
+    const CellVector u = squeezed_to(J, edge);
+    const CellVector force = cell_response(m, edge, u).force;
+    const CellMatrix K = cell_tangent(m, edge, u);
+    CellMaterial stiff = m;
+    stiff.drain = 0;
+    EXPECT_LT(cell_response(m, edge, u).energy, cell_response(stiff, edge, u).energy);
+    for (int i = 0; i < 24; ++i) {
+      CellVector plus = u;
+      CellVector minus = u;
+      plus[i] += 1e-8;
+      minus[i] -= 1e-8;
+      const CellResponse after = cell_response(m, edge, plus);
+      const CellResponse before = cell_response(m, edge, minus);
+      EXPECT_NEAR(force[i], -(after.energy - before.energy) / 2e-8, 1e-5 * force.norm()) << J;
+      // What is held back is 0.4 % there; the slope of a body that does not drain is far off.
+      if (J > 0.95) {
+        EXPECT_LT((K.col(i) + (after.force - before.force) / 2e-8).norm(), 1e-2 * K.norm()) << i;
+      }
+    }
+  }
+}
+
 TEST(Element, TangentIsTheForcesDerivativeWhereNothingIsHeldBack) {
   CellMaterial m = mixed_material();
   const double edge = 3e-3;

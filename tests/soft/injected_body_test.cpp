@@ -92,7 +92,8 @@ TEST(InflatedSpace, OpensAFlatCleftByItsVolumeAndThePlatesHeight) {
     const auto moved = space.vertices(volume);
     EXPECT_NEAR(enclosed(joint, moved) - enclosed(joint, joint.mesh.vertices), volume, 1e-15);
     EXPECT_NEAR(flux_between(joint, moved, kAbove), volume, 0.01 * volume);
-    const double a = 28.5e-3 * std::cbrt(std::min(1.0, volume / 3e-6));
+    const double a =
+        OpeningParams{}.widest * std::cbrt(std::min(1.0, volume / OpeningParams{}.fill));
     EXPECT_NEAR(space.largest_opening(volume), 3 * volume / (std::numbers::pi * a * a),
                 0.02 * volume / (a * a));
     EXPECT_EQ(flux_between(joint, moved, kCleft), 0) << "the floor stays";
