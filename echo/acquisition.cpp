@@ -83,8 +83,9 @@ void Acquisition::run(const EchoBody& body, const EchoView& view, BlockWorkers& 
   X_PJ_ = view.X_JP.inverse();
   place_tracks(body, view);
   drifting_.place(body.drifting, view.X_JP);
-  Pass pass{view, BeamTracer(*body.scene, body.regions, view.probe, settings_), std::nullopt,
-            frame};
+  const SmoothGradient* const tissue = body.tissue ? &*body.tissue : nullptr;
+  Pass pass{view, BeamTracer(*body.scene, tissue, body.regions, view.probe, settings_),
+            std::nullopt, frame};
   if (view.needle) {
     pass.needle.emplace(*view.needle, view.X_JP, view.probe, *shape_);
   } else {

@@ -24,6 +24,7 @@ namespace artus {
 /// What there is to be seen, whatever looks at it.
 struct EchoBody {
   std::shared_ptr<const Scene> scene;
+  std::optional<SmoothGradient> tissue;  ///< of the scene's; none: it is at rest
   std::vector<RegionAcoustics> regions;  ///< of the scene's joint, at the transducer's frequency
   std::vector<PointReflector> reflectors;
   std::vector<NeedleTrack> tracks;

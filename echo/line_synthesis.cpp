@@ -71,52 +71,30 @@ void scale_add(float factor, const float* in, float* out, std::size_t n) noexcep
   for (std::size_t i = 0; i < n; ++i) out[i] += factor * in[i];
 }
 
-/// What of a row of `n` values, `stride` samples apart from the run's first sample on, lies between
-/// two knots; the last two reach to the end.
-struct KnotPiece {
-  std::size_t begin = 0;
-  std::size_t end = 0;
-  Vec3 rest = Vec3::Zero();  // m, at `begin`
-  Vec3 step = Vec3::Zero();  // m per value
-};
-
-template <class Use>
-void for_knots(const BeamRun& run, std::span<const BeamKnot> knots, std::size_t stride,
-               std::size_t n, Use use) noexcept {
-  const double first = std::ceil(std::max(0.0, run.begin));
+/// The straight pieces of a run of `n` samples from `first` on whose tissue has moved: from knot to
+/// knot, the last two reach to the end.
+void place_pieces(const BeamRun& run, std::span<const BeamKnot> knots, std::size_t first,
+                  std::size_t n, std::vector<ScatterPiece>& pieces) noexcept {
   const double samples_per_m = (run.end - run.begin) / (run.path_end - run.path_begin);
-  const auto at = [&](const BeamKnot& knot) {  // in values
-    return (run.begin + (knot.path - run.path_begin) * samples_per_m - first) /
-           static_cast<double>(stride);
+  const auto at = [&](const BeamKnot& knot) {  // in samples from `first`
+    return run.begin + (knot.path - run.path_begin) * samples_per_m - static_cast<double>(first);
   };
-  KnotPiece piece;
+  std::size_t begin = 0;
   double from = at(knots.front());
   for (std::size_t k = 0; k + 1 < knots.size(); ++k) {
     const double to = at(knots[k + 1]);
-    piece.begin = piece.end;
-    piece.end =
+    const std::size_t end =
         k + 2 == knots.size()
             ? n
             : static_cast<std::size_t>(std::clamp(std::ceil(to), 0.0, static_cast<double>(n)));
-    if (piece.end > piece.begin && to > from) {
-      piece.step = (knots[k + 1].rest.rest_J - knots[k].rest.rest_J) / (to - from);
-      piece.rest = knots[k].rest.rest_J + (static_cast<double>(piece.begin) - from) * piece.step;
-      use(piece);
-    } else {
-      piece.end = piece.begin;
+    if (end > begin && to > from) {
+      const Vec3 step = (knots[k + 1].rest.rest_J - knots[k].rest.rest_J) / (to - from);
+      const Vec3 rest = knots[k].rest.rest_J + (static_cast<double>(begin) - from) * step;
+      pieces.push_back({first + begin, first + end, rest, step});
+      begin = end;
     }
     from = to;
   }
-}
-
-void add_moved_scatterers(const BeamRun& run, std::span<const BeamKnot> knots,
-                          const ScatterView& view, std::span<const float> gain,
-                          EchoSpan echoes) noexcept {
-  for_knots(run, knots, 1, gain.size(), [&](const KnotPiece& piece) {
-    const std::size_t n = piece.end - piece.begin;
-    const EchoSpan here = echoes.part(piece.begin, n);
-    ScatterField::add(view, piece.rest, piece.step, gain.subspan(piece.begin, n), here.re, here.im);
-  });
 }
 
 }  // namespace
@@ -133,19 +111,32 @@ LineSynthesis::LineSynthesis(const BeamShape& shape, const ScatterField& scatter
       n_planes_(settings.n_planes),
       pitch_(transducer.pitch()) {}
 
+/// The nodes of a run whose tissue lay in `pieces`; those behind the last sample go on straight.
 void LineSynthesis::sample_moved_texture(const BeamRun& run, const RegionAcoustics& region,
-                                         std::span<const BeamKnot> knots,
+                                         std::span<const ScatterPiece> pieces,
                                          std::span<float> nodes) const noexcept {
-  for_knots(run, knots, kNodeStride, nodes.size(), [&](const KnotPiece& piece) {
-    const Vec3 place = run.middle.place + run.middle.gradient * (piece.rest - run.rest_middle_J);
-    texture_->sample(region.kind, place, run.middle.gradient * piece.step,
-                     nodes.subspan(piece.begin, piece.end - piece.begin));
-  });
+  const std::size_t first = pieces.front().begin;
+  std::size_t begin = 0;
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    const ScatterPiece& piece = pieces[k];
+    const std::size_t end =
+        k + 1 == pieces.size() ? nodes.size() : (piece.end - first + kNodeStride - 1) / kNodeStride;
+    if (begin >= end) continue;
+    const auto into =
+        static_cast<double>(first + begin * kNodeStride) - static_cast<double>(piece.begin);
+    const Vec3 rest = piece.p_J + into * piece.step_J;
+    texture_->sample(region.kind,
+                     run.middle.place + run.middle.gradient * (rest - run.rest_middle_J),
+                     run.middle.gradient * (static_cast<double>(kNodeStride) * piece.step_J),
+                     nodes.subspan(begin, end - begin));
+    begin = end;
+  }
 }
 
 void LineSynthesis::add_run(const BeamRun& run, const Ground& ground, std::span<const float> weight,
                             EchoSpan echoes) const {
   const std::span<float> gain = ground.gain;
+  std::vector<ScatterPiece>& pieces = ground.pieces;
   const RegionAcoustics& region = ground.regions[run.region];
   if (region.backscatter <= 0) return;
   const auto first = static_cast<std::size_t>(std::ceil(std::max(0.0, run.begin)));
@@ -163,6 +154,10 @@ void LineSynthesis::add_run(const BeamRun& run, const Ground& ground, std::span<
   const auto nodes = gain.subspan(behind, n_nodes);
   const std::size_t room = (n_nodes + kFadeLanes - 1) / kFadeLanes * kFadeLanes;
   const auto sheets = gain.subspan(behind + room, n_nodes);
+  const std::size_t first_piece = pieces.size();
+  if (run.n_knots > 0)
+    place_pieces(run, ground.knots.subspan(run.first_knot, run.n_knots), first, n, pieces);
+  if (pieces.size() == first_piece) pieces.push_back({first, last, p_J, run.step_J});
   const double across =
       region.kind == TissueKind::fat ? run.across * run.across : 1 - run.along * run.along;
   const auto facing = static_cast<float>(kSheetEcho * across);
@@ -171,7 +166,7 @@ void LineSynthesis::add_run(const BeamRun& run, const Ground& ground, std::span<
   if (!textured) {
     std::fill(nodes.begin(), nodes.end(), 1.0F);
   } else if (run.n_knots > 0) {
-    sample_moved_texture(run, region, ground.knots.subspan(run.first_knot, run.n_knots), nodes);
+    sample_moved_texture(run, region, std::span(pieces).subspan(first_piece), nodes);
   } else {
     texture_->sample(region.kind, run.material + into * run.material_step,
                      run.material_step * kNodeStride, nodes);
@@ -185,27 +180,23 @@ void LineSynthesis::add_run(const BeamRun& run, const Ground& ground, std::span<
   }
   const std::size_t n_strides = n_nodes - 1;
   if (reflects) {
-    interpolate_gain(sheets.data(), weight.data() + first, gain.data(), n_strides);
-    accumulate(gain.data(), echoes.re.data() + first, n);
+    interpolate_gain(sheets.data(), weight.data() + first, gain.data() + first, n_strides);
+    accumulate(gain.data() + first, echoes.re.data() + first, n);
   }
-  interpolate_gain(nodes.data(), weight.data() + first, gain.data(), n_strides);
-  const EchoSpan here = echoes.part(first, n);
-  if (run.n_knots > 0) {
-    add_moved_scatterers(run, ground.knots.subspan(run.first_knot, run.n_knots), ground.view,
-                         gain.first(n), here);
-  } else {
-    ScatterField::add(ground.view, p_J, run.step_J, gain.first(n), here.re, here.im);
-  }
+  interpolate_gain(nodes.data(), weight.data() + first, gain.data() + first, n_strides);
 }
 
 void LineSynthesis::add_plane(int plane, const BeamTrace& trace, Ground& ground,
                               EchoSpan echoes) const {
   ground.knots = trace.knots;
+  ground.pieces.clear();
   const std::span<const float> speckle = shape_->speckle_weight(plane);
   const std::span<const float> share = shape_->echo_weight(plane);
   for (std::size_t i = 0; i < trace.n_runs; ++i) {
     add_run(trace.runs[i], ground, speckle, echoes);
   }
+  ScatterField::add(ground.view, ground.pieces, ground.gain.first(echoes.size()), ground.room,
+                    echoes.re, echoes.im);
   for (std::size_t i = 0; i < trace.n_echoes; ++i) {
     add_echo(trace.echoes[i], ground.view, share, echoes);
   }
@@ -262,12 +253,14 @@ void LineSynthesis::add_haze(const BeamTrace& trace, EchoSpan echoes) noexcept {
 void LineSynthesis::synthesise(const BeamTracer& tracer, const PlacedLine& placed,
                                LineScratch& scratch, EchoSpan echoes) const {
   scratch.gain.resize(3 * echoes.size() + 8 * kNodeStride);
+  scratch.pieces.reserve(BeamTrace::kMax + BeamTrace::kMaxKnots);
+  scratch.room.resize(echoes.size());
   std::fill(echoes.re.begin(), echoes.re.end(), 0.0F);
   std::fill(echoes.im.begin(), echoes.im.end(), 0.0F);
   tracer.trace_bent(placed.origin_J, placed.direction_J, scratch.central, scratch.bent);
   const Vec3& elevation = placed.elevation_J;
   scratch.view = scatter_->make_view(placed.direction_J, elevation);
-  Ground ground{tracer.regions(), scratch.view, scratch.gain, {}};
+  Ground ground{tracer.regions(), scratch.view, scratch.gain, scratch.pieces, scratch.room, {}};
   for (int p = 0; p < n_planes_; ++p) {
     if (shape_->plane_offset(p) == 0) {
       add_plane(p, scratch.central, ground, echoes);

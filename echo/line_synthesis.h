@@ -23,6 +23,8 @@ struct LineScratch {
   BeamPath plane;
   ScatterView view;
   std::vector<float> gain;
+  std::vector<ScatterPiece> pieces;
+  ScatterRoom room;
 };
 
 /// Makes the echoes of one scanline before the beam's shape spreads them: every elevation plane is
@@ -42,12 +44,15 @@ class LineSynthesis {
   struct Ground {
     std::span<const RegionAcoustics> regions;
     const ScatterView& view;
-    std::span<float> gain;            // room for a line's gains, nodes and sheets
+    std::span<float> gain;              // a plane's gains, and room for nodes and sheets
+    std::vector<ScatterPiece>& pieces;  // of the plane at hand, ascending
+    ScatterRoom& room;
     std::span<const BeamKnot> knots;  // of the plane at hand
   };
   void add_plane(int plane, const BeamTrace& trace, Ground& ground, EchoSpan echoes) const;
   void sample_moved_texture(const BeamRun& run, const RegionAcoustics& region,
-                            std::span<const BeamKnot> knots, std::span<float> nodes) const noexcept;
+                            std::span<const ScatterPiece> pieces,
+                            std::span<float> nodes) const noexcept;
   void add_run(const BeamRun& run, const Ground& ground, std::span<const float> weight,
                EchoSpan echoes) const;
   void add_echo(const BeamEcho& echo, const ScatterView& view, std::span<const float> share,

@@ -28,27 +28,6 @@ constexpr double kBendLobe = 12 * kDegree;
 
 }  // namespace
 
-bool BeamTrace::find_sample(double path, double& sample, double& log_gain) const noexcept {
-  for (std::size_t i = 0; i < n_runs; ++i) {
-    const BeamRun& run = runs[i];
-    if (path > run.path_end) continue;
-    const double length = run.path_end - run.path_begin;
-    const double t = length > 0 ? std::clamp((path - run.path_begin) / length, 0.0, 1.0) : 0;
-    sample = run.begin + t * (run.end - run.begin);
-    log_gain = run.log_gain_begin + t * (run.log_gain_end - run.log_gain_begin);
-    return true;
-  }
-  return false;
-}
-
-Vec3 BeamPath::at(double length_m) const noexcept {
-  if (size < 2) return p_J[0];
-  std::size_t i = 0;
-  while (i + 2 < size && length_m > length[i + 1]) ++i;
-  const double t = (length_m - length[i]) / (length[i + 1] - length[i]);
-  return p_J[i] + t * (p_J[i + 1] - p_J[i]);
-}
-
 /// Where a beam is and what it has lost.
 struct BeamTracer::Walk {
   BeamTrace& trace;
@@ -76,6 +55,25 @@ struct BeamTracer::Walk {
   Vec3 displacement = Vec3::Zero();    // m, of the tissue last met
   Eigen::Matrix3d gradient = Eigen::Matrix3d::Identity();  // of deformation, in the run's middle
 
+  /// The knot of this line after which a place on the beam comes. Requires: knots to there.
+  [[nodiscard]] const BeamKnot& knot_before(double at_path) const noexcept {
+    std::size_t k = trace.n_knots - 2;
+    while (k > line_knot && trace.knots[k].path > at_path) --k;
+    return trace.knots[k];
+  }
+  /// Where the tissue there was at rest.
+  [[nodiscard]] Vec3 rest_at(double at_path) const noexcept {
+    const RestKnot& knot = knot_before(at_path).rest;
+    return knot.rest_J + (along(at_path) - knot.along) * knot.onward_J;
+  }
+  /// How it is turned and stretched.
+  [[nodiscard]] Eigen::Matrix3d gradient_at(double at_path) const noexcept {
+    const BeamKnot* const before = &knot_before(at_path);
+    const BeamKnot* const behind = before + 1;
+    const double share =
+        std::clamp((at_path - before->path) / (behind->path - before->path + kTiny), 0.0, 1.0);
+    return before->gradient_J + share * (behind->gradient_J - before->gradient_J);
+  }
   [[nodiscard]] double log_gain(double sigma) const noexcept {
     const double shift = slope * sigma;
     return log_transmission - bend_loss - attenuation + 0.5 * shift * shift;
@@ -105,7 +103,7 @@ struct BeamTracer::Walk {
   }
   /// Goes on straight from `from`.
   void begin_line(const Vec3& from, const Vec3& direction, double scale) noexcept {
-    if (way) displacement = trace.knots[trace.n_knots - 1].rest.displacement_J;
+    if (way) displacement = from - rest_at(path);
     way.reset();
     line_start = from;
     line_direction = direction;
@@ -119,10 +117,11 @@ struct BeamTracer::Walk {
   }
 };
 
-BeamTracer::BeamTracer(const Scene& scene, std::span<const RegionAcoustics> regions,
-                       const Transducer& transducer, const ImageSettings& settings) noexcept
+BeamTracer::BeamTracer(const Scene& scene, const SmoothGradient* tissue,
+                       std::span<const RegionAcoustics> regions, const Transducer& transducer,
+                       const ImageSettings& settings) noexcept
     : scene_(&scene),
-      tissue_(scene.tissue().get()),
+      tissue_(tissue),
       regions_(regions),
       sample_depth_(settings.depth / settings.n_samples),
       n_samples_(settings.n_samples),
@@ -131,6 +130,20 @@ BeamTracer::BeamTracer(const Scene& scene, std::span<const RegionAcoustics> regi
       max_path_(settings.depth * kMargin),
       refraction_(settings.refraction),
       reverberation_(settings.reverberation) {}
+
+/// Where the interface at which the interval begins faces, against the wave.
+Vec3 BeamTracer::find_normal(Walk& walk, const TissueInterval& interval) const noexcept {
+  const Vec3& facet = interval.entry_normal;
+  if (tissue_ == nullptr || interval.entry_interface == kNoInterface ||
+      !place_knots(walk, walk.path) || !(walk.knot_before(walk.path).rest.moved > kStill))
+    return facet;
+  const TetMesh& mesh = scene_->joint().mesh;
+  const auto& [a, b, c] = mesh.interfaces[interval.entry_interface].vertices;
+  const Vec3 at_rest =
+      (mesh.vertices[b] - mesh.vertices[a]).cross(mesh.vertices[c] - mesh.vertices[a]);
+  const Vec3 normal = carried_normal(walk.gradient_at(walk.path), at_rest).normalized();
+  return normal.dot(facet) < 0 ? Vec3(-normal) : normal;
+}
 
 /// Crosses into the interval's region at `point`. False when no sound goes on.
 bool BeamTracer::enter(Walk& walk, const TissueInterval& interval,
@@ -143,7 +156,8 @@ bool BeamTracer::enter(Walk& walk, const TissueInterval& interval,
   if (junction) return true;
   if (interval.region == kBeyond) return false;
   const bool air = walk.touched && interval.region == kOutside;
-  const double cosine = -walk.wave.dot(interval.entry_normal);
+  const Vec3 normal = find_normal(walk, interval);
+  const double cosine = -walk.wave.dot(normal);
   if (cosine < kAlongSurface) return !to.opaque && !air;
   InterfaceResponse response = compute_interface(from, to, cosine);
   if (air) response = {1, 1, 0, 0};
@@ -164,10 +178,9 @@ bool BeamTracer::enter(Walk& walk, const TissueInterval& interval,
     echo.rest_J = point;
     echo.step_J = walk.wave * (sample_depth_ * to.speed / kDisplaySpeedOfSound);
     if (tissue_ != nullptr && place_knots(walk, walk.path)) {
-      const RestKnot& knot = trace.knots[knot_before(walk, walk.path)].rest;
+      const RestKnot& knot = walk.knot_before(walk.path).rest;
       if (knot.moved > kStill) {
-        const double onward = walk.along(walk.path) - knot.along;
-        echo.rest_J = knot.rest_J + onward * knot.onward_J;
+        echo.rest_J = walk.rest_at(walk.path);
         echo.step_J = echo.step_J.norm() * knot.onward_J;
       }
     }
@@ -182,8 +195,7 @@ bool BeamTracer::enter(Walk& walk, const TissueInterval& interval,
   walk.log_transmission += std::log(transmission);
   if (walk.bends && response.transmission > 0) {
     const double ratio = to.speed / from.speed;
-    const Vec3 bent =
-        ratio * walk.wave + (ratio * cosine - response.cosine_out) * interval.entry_normal;
+    const Vec3 bent = ratio * walk.wave + (ratio * cosine - response.cosine_out) * normal;
     walk.turn(bent.normalized());
   }
   return true;
@@ -216,58 +228,69 @@ MaterialPoint BeamTracer::find_material(Walk& walk, const RegionAcoustics& regio
   return locate_in_material(region, run.rest_middle_J);
 }
 
+/// The knot from which a line's knots begin, here.
+BeamKnot BeamTracer::first_knot(Walk& walk) const noexcept {
+  BeamKnot knot;
+  knot.path = walk.path;
+  const double along = walk.along(walk.path);
+  if (const BeamKnot* beside = walk.knot_beside(walk.path)) {
+    knot.rest = walk.way->beside(beside->rest, along);
+    knot.gradient_J = beside->gradient_J;
+  } else {
+    knot.rest = walk.way->at(along, walk.displacement);
+    knot.gradient_J = tissue_->at(knot.rest.rest_C, knot.rest.cell);
+  }
+  return knot;
+}
+
+/// The one behind the last.
+BeamKnot BeamTracer::next_knot(Walk& walk) const noexcept {
+  const BeamKnot& last = walk.trace.knots[walk.trace.n_knots - 1];
+  BeamKnot knot;
+  if (const BeamKnot* beside = walk.knot_after(last.path)) {
+    knot.path = beside->path;
+    knot.rest = walk.way->beside(beside->rest, walk.along(beside->path));
+    knot.gradient_J = beside->gradient_J;
+  } else {
+    knot.rest = walk.way->next(last.rest);
+    knot.path = walk.line_path + knot.rest.along * walk.time_scale;
+    knot.gradient_J = tissue_->at(knot.rest.rest_C, knot.rest.cell);
+  }
+  return knot;
+}
+
 /// Sees to knots from here, or from where they begin on this line, to `path` or beyond. False
 /// where there is no room for them.
 bool BeamTracer::place_knots(Walk& walk, double path) const noexcept {
   BeamTrace& trace = walk.trace;
   if (!walk.way) {
     if (trace.n_knots + 2 > BeamTrace::kMaxKnots) return false;
-    walk.way.emplace(*tissue_, walk.line_start, walk.line_direction);
+    walk.way.emplace(tissue_->body(), walk.line_start, walk.line_direction);
     walk.line_knot = trace.n_knots;
-    const BeamKnot* beside = walk.knot_beside(walk.path);
-    const double along = walk.along(walk.path);
-    trace.knots[trace.n_knots++] = {walk.path, beside != nullptr
-                                                   ? walk.way->beside(beside->rest, along)
-                                                   : walk.way->at(along, walk.displacement)};
+    trace.knots[trace.n_knots] = first_knot(walk);
+    ++trace.n_knots;
   }
   while (trace.knots[trace.n_knots - 1].path < path || trace.n_knots < walk.line_knot + 2) {
     if (trace.n_knots == BeamTrace::kMaxKnots) break;
-    const BeamKnot& last = trace.knots[trace.n_knots - 1];
-    BeamKnot& next = trace.knots[trace.n_knots];
-    const BeamKnot* beside = walk.knot_after(last.path);
-    if (beside != nullptr) {
-      next = {beside->path, walk.way->beside(beside->rest, walk.along(beside->path))};
-    } else {
-      next.rest = walk.way->next(last.rest);
-      next.path = walk.line_path + next.rest.along * walk.time_scale;
-    }
+    trace.knots[trace.n_knots] = next_knot(walk);
     ++trace.n_knots;
   }
   return true;
-}
-
-/// The knot of this line after which `path` comes.
-std::size_t BeamTracer::knot_before(const Walk& walk, double path) noexcept {
-  std::size_t k = walk.trace.n_knots - 2;
-  while (k > walk.line_knot && walk.trace.knots[k].path > path) --k;
-  return k;
 }
 
 /// Notes where the tissue along the run was at rest.
 void BeamTracer::find_rest(Walk& walk, BeamRun& run) const noexcept {
   if (!place_knots(walk, run.path_end)) return;
   const BeamTrace& trace = walk.trace;
-  run.first_knot = knot_before(walk, run.path_begin);
+  run.first_knot = static_cast<std::size_t>(&walk.knot_before(run.path_begin) - trace.knots.data());
   double moved = 0;
   for (std::size_t k = run.first_knot; k < trace.n_knots; ++k)
     moved = std::max(moved, trace.knots[k].rest.moved);
   if (!(moved > kStill)) return;
   run.n_knots = trace.n_knots - run.first_knot;
   const double middle = 0.5 * (run.path_begin + run.path_end);
-  const BeamKnot& knot = trace.knots[knot_before(walk, middle)];
-  run.rest_middle_J =
-      knot.rest.rest_J + (middle - knot.path) / walk.time_scale * knot.rest.onward_J;
-  walk.gradient = walk.way->gradient_J(knot.rest);
+  run.rest_middle_J = walk.rest_at(middle);
+  walk.gradient = walk.gradient_at(middle);
 }
 
 /// Notes how the run lies to the fibres at its middle, `half_way` (m) from its begin. Returns the
@@ -295,8 +318,7 @@ double BeamTracer::follow_fibres(Walk& walk, const RegionAcoustics& region, Beam
   run.material = middle.place - middle.gradient * half_way;
   run.material_step = middle.gradient * run.step_J;
   const Vec3 sheet_at_rest = middle.gradient.row(0);
-  const Vec3 sheet =
-      moved ? Vec3(walk.gradient.inverse().transpose() * sheet_at_rest) : sheet_at_rest;
+  const Vec3 sheet = moved ? carried_normal(walk.gradient, sheet_at_rest) : sheet_at_rest;
   run.across = std::abs(run.direction_J.dot(sheet)) / (sheet.norm() + kTiny);
   if (region.kind == TissueKind::fat || (!region.course && region.fibre.squaredNorm() < 0.5))
     return 1;

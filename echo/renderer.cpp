@@ -51,6 +51,11 @@ struct Renderer::Impl {
   std::shared_ptr<const CompiledJoint> levelled;  // whose levels these are; null: none are known
   ClearLevels levels;
 
+  void take(std::shared_ptr<const Scene> scene) {
+    body.scene = std::move(scene);
+    body.tissue.reset();
+    if (body.scene->tissue() != nullptr) body.tissue.emplace(body.scene->tissue());
+  }
   void find_regions() {
     const CompiledJoint& joint = body.scene->joint();
     body.regions = make_region_acoustics(joint, pipeline->transducer());
@@ -74,7 +79,7 @@ struct Renderer::Impl {
 Renderer::Renderer(std::shared_ptr<const Scene> scene, std::unique_ptr<EchoPipeline> pipeline)
     : impl_(std::make_unique<Impl>()) {
   ARTUS_REQUIRE(scene != nullptr && pipeline != nullptr, "no scene, or no pipeline");
-  impl_->body.scene = std::move(scene);
+  impl_->take(std::move(scene));
   impl_->pipeline = std::move(pipeline);
   impl_->find_regions();
 }
@@ -146,7 +151,7 @@ void Renderer::set_pipeline(std::unique_ptr<EchoPipeline> pipeline) {
 void Renderer::set_scene(std::shared_ptr<const Scene> scene) {
   ARTUS_REQUIRE(scene != nullptr, "no scene");
   const bool same_body = impl_->body.scene->shared_joint() == scene->shared_joint();
-  impl_->body.scene = std::move(scene);
+  impl_->take(std::move(scene));
   if (!same_body) impl_->find_regions();
 }
 
@@ -154,7 +159,7 @@ void Renderer::set_filled_scene(std::shared_ptr<const Scene> scene) {
   ARTUS_REQUIRE(scene != nullptr, "no scene");
   EchoBody& body = impl_->body;
   const bool same_joint = body.scene->shared_joint() == scene->shared_joint();
-  body.scene = std::move(scene);
+  impl_->take(std::move(scene));
   if (same_joint) return;
   body.regions = with_courses_of(body.regions, body.scene->joint(), impl_->pipeline->transducer());
   impl_->settle();

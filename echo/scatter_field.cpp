@@ -33,49 +33,92 @@ inline std::uint32_t hash_cell(std::uint32_t x, std::uint32_t y, std::uint32_t z
 // The difference of two uniform bytes has variance (256^2 - 1) / 6; twice that for both parts.
 constexpr float kUnitPower = 1.0F / 147.8F;
 
-/// The cell of row z that the walk's sample i lies in; rows are shifted against each other by parts
-/// of a cell that never repeat.
-inline std::uint32_t hash_row(const LatticeWalk& walk, std::uint32_t i, std::uint32_t z,
-                              std::uint32_t seed) noexcept {
-  const std::uint32_t y = (walk.start[1] + i * walk.step[1] + z * 40503U) >> 16U;
-  const std::uint32_t x = (walk.start[0] + i * walk.step[0] + z * 27146U + y * 49297U) >> 16U;
-  return hash_cell(x, y, z, seed);
-}
-
 /// Of the lowest two bytes.
 inline float difference(std::uint32_t h) noexcept {
   return static_cast<float>(static_cast<std::int32_t>(h & 255U) -
                             static_cast<std::int32_t>((h >> 8U) & 255U));
 }
 
-/// The scatterers of one lattice along a walk.
-struct ScattererWalk {
-  LatticeWalk walk;
+/// The scatterers of one lattice.
+struct Scatterers {
   std::uint32_t seed = 0;
   float unit = 1;  // factor that makes their power one, or a share of it
 };
 
+/// The cell of row z at (x, y); rows are shifted against each other by parts of a cell that never
+/// repeat.
+inline std::uint32_t hash_row(std::uint32_t x, std::uint32_t y, std::uint32_t z,
+                              std::uint32_t seed) noexcept {
+  const std::uint32_t row = (y + z * 40503U) >> 16U;
+  return hash_cell((x + z * 27146U + row * 49297U) >> 16U, row, z, seed);
+}
+
+/// A place in a lattice, 16.16 fixed-point cells.
+struct LatticePlace {
+  std::uint32_t x;
+  std::uint32_t y;
+  std::uint32_t z;
+};
+
+/// Adds gain times the scatterer at a place.
+inline void add_scatterer(const Scatterers& scatterers, const LatticePlace& at, float gain,
+                          float& re, float& im) noexcept {
+  const std::uint32_t z = at.z >> 16U;
+  const float behind = static_cast<float>(at.z & 0xffffU) * (1.0F / 65536);
+  const float before = 1 - behind;
+  const float unit_power = scatterers.unit / std::sqrt(before * before + behind * behind);
+  const std::uint32_t first = hash_row(at.x, at.y, z, scatterers.seed);
+  const std::uint32_t second = hash_row(at.x, at.y, z + 1, scatterers.seed);
+  const float g = gain * unit_power;
+  re += g * (before * difference(first) + behind * difference(second));
+  im += g * (before * difference(first >> 16U) + behind * difference(second >> 16U));
+}
+
+/// Along a straight walk.
 ARTUS_SIMD
-void add_scatterers(const ScattererWalk& scatterers, const float* gain, float* re, float* im,
-                    std::size_t n) noexcept {
-  const LatticeWalk& walk = scatterers.walk;
-  const std::uint32_t seed = scatterers.seed;
-  const float unit = scatterers.unit;
-  const std::uint32_t z0 = walk.start[2];
-  const std::uint32_t dz = walk.step[2];
+void add_scatterers(const Scatterers& scatterers, const LatticeWalk& walk, const float* gain,
+                    float* re, float* im, std::size_t n) noexcept {
   const auto count = static_cast<std::uint32_t>(n);
   for (std::uint32_t i = 0; i < count; ++i) {
-    const std::uint32_t at = z0 + i * dz;
-    const std::uint32_t z = at >> 16U;
-    const float behind = static_cast<float>(at & 0xffffU) * (1.0F / 65536);
-    const float before = 1 - behind;
-    const float unit_power = unit / std::sqrt(before * before + behind * behind);
-    const std::uint32_t first = hash_row(walk, i, z, seed);
-    const std::uint32_t second = hash_row(walk, i, z + 1, seed);
-    const float g = gain[i] * unit_power;
-    re[i] += g * (before * difference(first) + behind * difference(second));
-    im[i] += g * (before * difference(first >> 16U) + behind * difference(second >> 16U));
+    add_scatterer(scatterers,
+                  {walk.start[0] + i * walk.step[0], walk.start[1] + i * walk.step[1],
+                   walk.start[2] + i * walk.step[2]},
+                  gain[i], re[i], im[i]);
   }
+}
+
+/// Where a line's samples are in a lattice, one row a coordinate.
+struct LatticeRows {
+  const std::uint32_t* x;
+  const std::uint32_t* y;
+  const std::uint32_t* z;
+};
+
+/// Along any walk.
+ARTUS_SIMD
+void add_scatterers(const Scatterers& scatterers, const LatticeRows& rows, const float* gain,
+                    float* re, float* im, std::size_t n) noexcept {
+  for (std::size_t i = 0; i < n; ++i)
+    add_scatterer(scatterers, {rows.x[i], rows.y[i], rows.z[i]}, gain[i], re[i], im[i]);
+}
+
+constexpr std::uint32_t kWalkLanes = 16;
+
+/// One coordinate of a straight walk, up to a full multiple of kWalkLanes.
+ARTUS_SIMD
+void walk_row(std::uint32_t start, std::uint32_t step, std::uint32_t* row, std::size_t n) noexcept {
+  for (std::size_t i = 0; i < n; i += kWalkLanes) {
+    const std::uint32_t from = start + static_cast<std::uint32_t>(i) * step;
+    for (std::uint32_t j = 0; j < kWalkLanes; ++j) row[i + j] = from + j * step;
+  }
+}
+
+LatticeWalk make_walk(const ScatterView::Lattice& lattice, const Vec3& p_J,
+                      const Vec3& step_J) noexcept {
+  const Vec3 start = lattice.cells_J * p_J;
+  const Vec3 step = lattice.cells_J * step_J;
+  return {{to_fixed_cells(start.x()), to_fixed_cells(start.y()), to_fixed_cells(start.z())},
+          {to_fixed_cells(step.x()), to_fixed_cells(step.y()), to_fixed_cells(step.z())}};
 }
 
 }  // namespace
@@ -147,13 +190,37 @@ void ScatterField::add(const ScatterView& view, const Vec3& p_J, const Vec3& ste
   ARTUS_ASSERT(gain.size() == re.size() && gain.size() == im.size());
   for (std::size_t k = 0; k < view.size; ++k) {
     const ScatterView::Lattice& lattice = view.lattices[k];
-    const Vec3 start = lattice.cells_J * p_J;
-    const Vec3 step = lattice.cells_J * step_J;
-    const LatticeWalk walk{
-        {to_fixed_cells(start.x()), to_fixed_cells(start.y()), to_fixed_cells(start.z())},
-        {to_fixed_cells(step.x()), to_fixed_cells(step.y()), to_fixed_cells(step.z())}};
-    add_scatterers({walk, lattice.seed, kUnitPower * lattice.weight}, gain.data(), re.data(),
-                   im.data(), gain.size());
+    add_scatterers({lattice.seed, kUnitPower * lattice.weight}, make_walk(lattice, p_J, step_J),
+                   gain.data(), re.data(), im.data(), gain.size());
+  }
+}
+
+void ScatterRoom::resize(std::size_t n) {
+  for (auto& row : cells_) row.resize(n + kWalkLanes);
+}
+
+void ScatterField::add(const ScatterView& view, std::span<const ScatterPiece> pieces,
+                       std::span<const float> gain, ScatterRoom& room, std::span<float> re,
+                       std::span<float> im) noexcept {
+  ARTUS_ASSERT(gain.size() == re.size() && gain.size() == im.size());
+  ARTUS_ASSERT(room.cells_[0].size() >= gain.size() + kWalkLanes);
+  auto& [x, y, z] = room.cells_;
+  for (std::size_t k = 0; k < view.size; ++k) {
+    const ScatterView::Lattice& lattice = view.lattices[k];
+    const Scatterers scatterers{lattice.seed, kUnitPower * lattice.weight};
+    for (std::size_t i = 0; i < pieces.size();) {
+      const std::size_t begin = pieces[i].begin;  // of what is covered without a gap
+      std::size_t end = begin;
+      for (; i < pieces.size() && pieces[i].begin == end; ++i) {
+        const LatticeWalk walk = make_walk(lattice, pieces[i].p_J, pieces[i].step_J);
+        const std::size_t n = pieces[i].end - end;
+        for (std::size_t a = 0; a < 3; ++a)
+          walk_row(walk.start[a], walk.step[a], room.cells_[a].data() + end, n);
+        end = pieces[i].end;
+      }
+      add_scatterers(scatterers, LatticeRows{x.data() + begin, y.data() + begin, z.data() + begin},
+                     gain.data() + begin, re.data() + begin, im.data() + begin, end - begin);
+    }
   }
 }
 
@@ -180,7 +247,7 @@ double ScatterField::shared_axially(double distance, double cell) noexcept {
 void add_white_noise(std::uint64_t seed, int line, std::span<const float> gain, std::span<float> re,
                      std::span<float> im) noexcept {
   const LatticeWalk walk{{static_cast<std::uint32_t>(line) << 16U, 0, 0}, {0, 0, 1U << 16U}};
-  add_scatterers({walk, static_cast<std::uint32_t>(mix_bits(seed)), kUnitPower}, gain.data(),
+  add_scatterers({static_cast<std::uint32_t>(mix_bits(seed)), kUnitPower}, walk, gain.data(),
                  re.data(), im.data(), gain.size());
 }
 

@@ -15,6 +15,7 @@
 #include "artus/echo/line_shaping.h"
 #include "artus/echo/placed_line.h"
 #include "artus/echo/scan_converter.h"
+#include "artus/echo/scatter_field.h"
 
 namespace artus {
 namespace {
@@ -54,6 +55,37 @@ TEST(BlockWorkers, GiveEachLineToOneBlockAtAnyNumberOfThreads) {
       }
     }
   }
+}
+
+TEST(ScatterField, OfManyPiecesIsThatOfEach) {
+  const ScatterField field(3, {0.4e-3, 1.5e-3, 0.1e-3});
+  const Vec3 direction = Vec3(0.2, 0.1, 1).normalized();
+  const ScatterView view =
+      field.make_view(direction, direction.cross(Vec3(1, 0.3, 0)).normalized());
+  const std::array<ScatterPiece, 4> pieces{{{3, 20, Vec3(1e-3, 2e-3, 3e-3), 4e-5 * direction},
+                                            {20, 21, Vec3(2e-3, 2e-3, 3e-3), 3e-5 * direction},
+                                            {40, 77, Vec3(0, -2e-3, 5e-3), Vec3(0, 0, 3e-5)},
+                                            {77, 90, Vec3(0, -2e-3, 6e-3), Vec3(1e-5, 0, 3e-5)}}};
+  constexpr std::size_t kSamples = 90;
+  std::vector<float> gain;
+  for (std::size_t i = 0; i < kSamples; ++i) gain.push_back(0.01F * static_cast<float>(i + 1));
+  std::vector<float> re(kSamples, 0.5F);
+  std::vector<float> im(kSamples, -0.5F);
+  std::vector<float> re_each = re;
+  std::vector<float> im_each = im;
+  ScatterRoom room;
+  room.resize(kSamples);
+  ScatterField::add(view, pieces, gain, room, re, im);
+  for (const ScatterPiece& piece : pieces) {
+    const std::size_t n = piece.end - piece.begin;
+    ScatterField::add(view, piece.p_J, piece.step_J, std::span(gain).subspan(piece.begin, n),
+                      std::span(re_each).subspan(piece.begin, n),
+                      std::span(im_each).subspan(piece.begin, n));
+  }
+  EXPECT_EQ(re, re_each);
+  EXPECT_EQ(im, im_each);
+  EXPECT_NE(re[30 + 20], 0.5F);
+  EXPECT_EQ(re[30], 0.5F) << "between the pieces";
 }
 
 TEST(CompoundMean, OfEqualViewsIsTheView) {

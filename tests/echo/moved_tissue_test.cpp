@@ -7,6 +7,7 @@
 
 #include "artus/core/units.h"
 #include "artus/echo/labels.h"
+#include "artus/echo/propagation.h"
 #include "artus/echo/renderer.h"
 #include "artus/raycast/moving_scene.h"
 #include "tests/echo/echo_fixture.h"
@@ -129,6 +130,27 @@ TEST(MovedTissue, HasInterfacesAndSpeckleInOnePlace) {
     EXPECT_NEAR(static_cast<double>(first), shown, 0.25e-3 / frame.sample_depth) << l;
   }
   EXPECT_GT(labels.width, 0);
+}
+
+TEST(MovedTissue, BendsItsBordersWithoutTheStepsOfTheCubes) {
+  const std::array<test::FlatLayer, 2> list{{{"fat", 9e-3}, {"muscle", 51e-3}}};
+  const test::MovedBlock block = test::make_moved_block(list);
+  const double bend = 5;  // 1/m; a cube of 3 mm has one slope, 0.015 off at its sides
+  const auto body = block.moved([&](const Vec3& p) { return Vec3(0, 0, bend * p.x() * p.x()); });
+  const auto scene = make_scene(body);
+  const SmoothGradient smooth(body);
+  const Transducer transducer;
+  const std::vector<RegionAcoustics> regions = make_region_acoustics(*block.joint, transducer);
+  const BeamTracer beams(*scene, &smooth, regions, transducer, ImageSettings{});
+  const auto trace = std::make_unique<BeamTrace>();
+  BeamPath path;
+  for (double x = -16.1e-3; x < 16e-3; x += 0.4e-3) {
+    const double slope = 2 * bend * x;
+    const double top = bend * x * x;
+    beams.trace_bent(Vec3(x, 0.3e-3, top + 2e-3), Vec3::UnitZ(), *trace, path);
+    ASSERT_GE(trace->n_echoes, 1U);
+    EXPECT_NEAR(trace->echoes[0].cosine, 1 / std::sqrt(1 + slope * slope), 2e-6) << x;
+  }
 }
 
 TEST(MovedTissue, TurnsItsFibresWithIt) {
