@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/operators/probe_hand.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace artus {
@@ -25,12 +26,40 @@ ProbeHand::ProbeHand(std::shared_ptr<const Scene> scene, const ProbeHandParams& 
     : params_(params),
       loop_({rate_hz, kPhysicsRate}, params.device, params.hand, lifted(seat, params.standoff)),
       contact_(std::move(scene), params.contact),
-      guard_(params.guard, params.device, 1 / rate_hz) {}
+      guard_(params.guard, params.device, 1 / rate_hz) {
+  if (params.packet_rate > 0) tissue_.emplace(rate_hz, params.packet_rate);
+}
+
+void ProbeHand::take(const ProbePacket& packet) noexcept {
+  constexpr std::size_t kAlongBeam = 14;  // of the 6 by 6
+  if (!tissue_) return;
+  tissue_->take(packet);
+  tissue_stiffness_ = packet.stiffness[kAlongBeam];
+}
 
 ProbeHandRow ProbeHand::feel() {
   ProbeHandRow row;
   row.X_JP = loop_.measured();
   row.energy_to_hand = loop_.energy_to_hand();
+  if (tissue_)
+    feel_tissue(row);
+  else
+    feel_columns(row);
+  return row;
+}
+
+void ProbeHand::feel_tissue(ProbeHandRow& row) {
+  const Wrench& wrench = tissue_->step(row.X_JP);
+  const Vec3 beam = row.X_JP.linear().col(2);
+  row.normal_force = std::max(0.0, -wrench.force.dot(beam));
+  row.friction = wrench.force - wrench.force.dot(beam) * beam;
+  row.torque = wrench.torque;
+  row.stiffness = tissue_stiffness_;
+  row.contact_share = tissue_->share();
+  command_ = guard_.apply(wrench, TickStatus::kOk, row.status);
+}
+
+void ProbeHand::feel_columns(ProbeHandRow& row) {
   const ProbeContact& contact = contact_.step(row.X_JP);
   row.normal_force = contact.normal_force;
   row.edge_force = contact.edge_force;
@@ -42,7 +71,6 @@ ProbeHandRow ProbeHand::feel() {
   row.contact_share = contact.contact_share;
   row.status = contact.status;
   command_ = guard_.apply(contact.wrench, contact.status, row.status);
-  return row;
 }
 
 /// The hand's spring leads to the wanted place along the skin, but along the beam it pushes with a

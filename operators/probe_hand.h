@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 #include <memory>
+#include <optional>
 
 #include "artus/haptics/guard.h"
 #include "artus/haptics/probe/probe_contact.h"
+#include "artus/haptics/probe/probe_tangent.h"
 #include "artus/operators/hand_loop.h"
 
 namespace artus {
@@ -21,8 +23,10 @@ struct ProbeHandParams {
   double standoff = 0.012;                  ///< m above the skin before and after
   DeviceLimits device{"probe", 40, 2, Vec3::Constant(1), 0.37, 2, 1e-6};  ///< moving mass of the
                                                                           ///< mock; rest assumed
-  ProbeContactParams contact;
+  ProbeContactParams contact;  ///< of the rigid body's columns
   GuardParams guard;
+  double packet_rate = 0;  ///< 1/s of the tissue's answers (ProbeHand::take), which are then felt
+                           ///< instead of columns; 0: the body is rigid
 };
 
 /// What the hand means to do at an instant.
@@ -35,19 +39,19 @@ struct ProbeIntention {
 /// One tick of the probe hand. Frame J.
 struct ProbeHandRow {
   Pose X_JP = Pose::Identity();    ///< as measured
-  double normal_force = 0;         ///< N >= 0, of the tissue
+  double normal_force = 0;         ///< N, of the tissue; no pull
   Vec3 edge_force = Vec3::Zero();  ///< N on the hand, of the tissue under the edges
   Vec3 friction = Vec3::Zero();    ///< N on the hand
   Vec3 torque = Vec3::Zero();      ///< N m on the hand
   double slip = 0;                 ///< m slid since the face touched
   double stiffness = 0;            ///< N/m, K_c, what the actuator has to render
-  double indentation = 0;          ///< m, of the deepest column
+  double indentation = 0;          ///< m, of the deepest column; 0 where tissue gives way
   double contact_share = 0;        ///< 0..1 of the face
   double energy_to_hand = 0;       ///< J given since the start
   std::uint32_t status = 0;        ///< TickStatus bits
 
-  /// Where the picture is taken from: the tissue is not compressed in it, so the face is drawn back
-  /// to where it meets the skin as it lies.
+  /// Where the picture of a rigid body is taken from: the tissue is not compressed in it, so the
+  /// face is drawn back to where it meets the skin as it lies.
   [[nodiscard]] Pose image_pose() const;
 };
 
@@ -57,6 +61,9 @@ class ProbeHand {
   /// Starts at rest, `standoff` above `seat`. Requires: a scene, a rate that divides 20 kHz.
   ProbeHand(std::shared_ptr<const Scene> scene, const ProbeHandParams& params, double rate_hz,
             const Pose& seat);
+
+  /// What the tissue answers from the next tick on, of a hand with a packet_rate.
+  void take(const ProbePacket& packet) noexcept;
 
   /// One haptic period; the row is what was felt in it. `intend(t)`: a ProbeIntention.
   template <class Intend>
@@ -68,11 +75,15 @@ class ProbeHand {
 
  private:
   [[nodiscard]] ProbeHandRow feel();
+  void feel_columns(ProbeHandRow& row);
+  void feel_tissue(ProbeHandRow& row);
   [[nodiscard]] Intention lean(const ProbeIntention& wanted) const;
 
   ProbeHandParams params_;
   HandLoop loop_;
   ProbeContactModel contact_;
+  std::optional<ProbeTangent> tissue_;  // empty: the body is rigid
+  double tissue_stiffness_ = 0;         // N/m along the beam, of the newest packet
   OutputGuard guard_;
   Wrench command_;
 };

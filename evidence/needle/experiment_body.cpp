@@ -34,9 +34,6 @@ std::vector<NeedleRow> run_body(const BodyExperiment& e) {
     const Pose measured = loop.measured();
     const RenderedNeedle& rendered = tick.step({measured, t}, e.body);
     rows.push_back(make_needle_row(t, measured, rendered, tick.model()));
-    const double pushed = tick.model().coupling().tip_displacement();
-    rows.back().depth += pushed;  // as the hand has it
-    rows.back().wall += pushed;
     rows.back().energy_to_hand = loop.energy_to_hand();
     rows.back().hand = loop.hand_force();
     rows.back().needle = loop.motion();

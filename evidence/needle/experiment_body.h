@@ -32,8 +32,7 @@ struct BodyExperiment {
   double rate_hz = 1000;
 };
 
-/// Runs it closed loop; a row a tick. Depths are the hand's: those of the material and what the
-/// tissue at the tip is pushed in.
+/// Runs it closed loop; a row a tick.
 [[nodiscard]] std::vector<NeedleRow> run_body(const BodyExperiment& experiment);
 
 /// A layer with f_R, f_A in N and K_t in N/m, and nothing else: no membrane, friction or clamping.

@@ -30,7 +30,8 @@ constexpr std::array<TableLayer, 6> kTable{{{"skin", 1, 1500},
 struct Change {
   double before = 0;    // N, mean of the last millimetre before the change
   double after = 0;     // N, mean of what follows the rise
-  double distance = 0;  // m, from the interface until nine tenths of the step are felt
+  double distance = 0;  // m, until nine tenths of the step are felt, from the interface as it lies
+                        // when the tip meets it: pushed on by the tip where tissue gives way
 };
 
 // A needle pushed at 10 mm/s through 12 mm of one layer into another, as the hand feels it.
@@ -71,11 +72,13 @@ Change measure_change(const TableLayer& from, const TableLayer& to,
   }
   change.after /= std::max(count, 1.0);
   const double step = change.after - change.before;
-  for (const NeedleRow& r : rows) {
-    if (r.depth < kInterface || (resistance(r) - change.before) / step < 0.9) continue;
-    change.distance = r.depth - kInterface;
-    break;
-  }
+  const auto met = std::find_if(rows.begin(), rows.end(), [](const NeedleRow& r) {
+    return r.depth - r.pushed >= kInterface;
+  });
+  const auto felt = std::find_if(met, rows.end(), [&](const NeedleRow& r) {
+    return r.depth - r.pushed >= kInterface && (resistance(r) - change.before) / step >= 0.9;
+  });
+  if (felt != rows.end()) change.distance = felt->depth - (kInterface + met->pushed);
   return change;
 }
 
@@ -120,7 +123,7 @@ void claim_rises(const ExperimentOptions& options, const DeviceLimits& device,
     claims.push_back(claim_near({ClaimKind::input, "the table's f_R"},
                                 name + ": plateau at the hand", rise.plateau, layer.force, 0.02,
                                 "N"));
-    claims.push_back(claim_near({ClaimKind::input, "K_t, without the tissue's share of it"},
+    claims.push_back(claim_near({ClaimKind::input, "K_t, the tissue's share in it"},
                                 name + ": slope at the hand", rise.slope, layer.stiffness, 0.02,
                                 "N/m"));
   }

@@ -83,7 +83,8 @@ NeedleRow make_needle_row(double time, const Pose& X_JN, const RenderedNeedle& r
   row.command = rendered.command;
   row.incoming_speed = model.hard_contact().incoming_speed();
   if (row.state == ContactState::away) return row;
-  row.depth = tick.depth;
+  row.depth = tick.depth + tick.pushed;
+  row.pushed = tick.pushed;
   row.velocity = tick.velocity;
   row.wall = model.wall().wall();
   row.in_bone = std::max(0.0, tick.depth - tick.bone_depth);

@@ -23,8 +23,9 @@ struct NeedleRow {
   std::uint32_t events = 0;  ///< ContactEvent bits
   std::uint32_t status = 0;  ///< TickStatus bits
   RegionId region = kOutside;
-  int pass = 0;  ///< which injection, from 1
-  double depth = 0;
+  int pass = 0;       ///< which injection, from 1
+  double depth = 0;   ///< m, of the tip as the hand has it
+  double pushed = 0;  ///< m of it that the tissue at the tip is pushed in; not in the trace's file
   double velocity = 0;        ///< m/s, axial, estimated
   double wall = 0;            ///< m, the tracking wall's anchor
   double cone = 0;            ///< rad, alpha(depth)

@@ -35,9 +35,9 @@ struct NeedleTick {
   Vec3 angular_velocity = Vec3::Zero();                               ///< rad/s
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();    ///< q_c
   Eigen::Quaterniond orientation_0 = Eigen::Quaterniond::Identity();  ///< q_0, when line stored
-  double stillness = 0;   ///< 1 at rest, 0 on the move (see MotionDetector)
-  double pushed = 0;      ///< m the tissue at the tip is pushed in: the hand is so much deeper
-  double stiffening = 1;  ///< K of the wall over K_t, where tissue beside it gives way, too
+  double stillness = 0;  ///< 1 at rest, 0 on the move (see MotionDetector)
+  double pushed = 0;     ///< m the tissue at the tip is pushed in; in what the laws see `depth` and
+                         ///< `tip` are the hand's, so much deeper than the tip is in the material
   Vec3 surface_normal = -Vec3::UnitZ();  ///< of the skin where the needle crosses it, outward
   double dimple = 0;                     ///< m a membrane that still holds is pushed in; 0: none
   LayerHaptics membrane;                 ///< the layer behind that membrane
@@ -51,15 +51,18 @@ struct NeedleTick {
   const LayerTable* table = nullptr;
   double needle_length = 0.035;  ///< m
 
-  /// Sum over the layers that the shaft is in of value(layer) * length, with the depth clipped to
-  /// the tip.
+  /// Sum over the layers that the shaft is in of value(layer) * length, up to the tip. What the
+  /// tissue is pushed in is a longer way through the layer at the tip: the hand's depth in all.
   template <class F>
   [[nodiscard]] double sum_over_shaft(F value) const noexcept {
     double sum = 0;
+    const double tip_depth = depth - pushed;
     for (const ShaftLayer& s : shaft) {
       const double from = s.entry > 0 ? s.entry : 0;
-      const double to = s.exit < depth ? s.exit : depth;
-      if (to > from) sum += value((*table)[s.region].tissue) * (to - from);
+      const double to = s.exit < tip_depth ? s.exit : tip_depth;
+      if (!(to > from)) continue;
+      const double length = to - from + (s.exit > tip_depth ? pushed : 0);
+      sum += value((*table)[s.region].tissue) * (length > 0 ? length : 0);
     }
     return sum;
   }

@@ -110,15 +110,15 @@ void NeedleContact::start_line(const NeedlePlace& place) noexcept {
   tick_.gave_way = place.depth;
   clearance_ = tick_.depth;
   open_ = tick_.depth;
-  motion_.reset(tick_.depth, Motion::inward);
+  motion_.reset(hand_place(), Motion::inward);
 }
 
 void NeedleContact::adopt(const NeedlePlace& now) noexcept {
   adopt_ = false;
   start_line(now);
-  depths_.reset(now.depth);
+  depths_.reset(now.depth + tick_.pushed);
   tick_.velocity = 0;
-  motion_.reset(now.depth, Motion::still);
+  motion_.reset(now.depth + tick_.pushed + carried(), Motion::still);
   events_ |= ContactEvent::kAdopted;
 }
 
@@ -163,7 +163,7 @@ void NeedleContact::approach(const Pose& X_JN, std::span<const TissueInterval> i
     depths_.reset(0);
     was_outside_ = false;
   }
-  tick_.velocity = (depth - depths_.push(depth)) / depths_.duration(dt_);
+  tick_.velocity = (hand_depth() - depths_.push(hand_depth())) / depths_.duration(dt_);
   if (adopt_) return adopt(now);
   const LayerHaptics& skin = (*table_)[intervals[first].region];
   const double thickness = intervals[first].exit - intervals[first].entry;
@@ -363,7 +363,8 @@ void NeedleContact::update_velocity(const Pose& X_JN) noexcept {
                : Vec3(Vec3::Zero());
 }
 
-void NeedleContact::update(const Pose& X_JN, std::span<const TissueInterval> intervals) noexcept {
+void NeedleContact::update(const Pose& X_JN, std::span<const TissueInterval> intervals,
+                           const TipTissue& tissue) noexcept {
   events_ = 0;
   tick_.line_gain = 0;
   tick_.line_kept = 1;
@@ -372,6 +373,8 @@ void NeedleContact::update(const Pose& X_JN, std::span<const TissueInterval> int
   const Vec3 last_tip = tick_.tip;
   moved_ = adopt_ ? 0 : (X_JN.translation() - last_tip).norm();
   tick_.tip = X_JN.translation();
+  tick_.pushed = tissue.pushed;
+  carried_J_ = tissue.carried_J;
   update_velocity(X_JN);
   if (!inserted_) {
     approach(X_JN, intervals);
@@ -381,11 +384,11 @@ void NeedleContact::update(const Pose& X_JN, std::span<const TissueInterval> int
     store_layers(intervals, params_.behind_skin);
     const double last_clearance = std::exchange(clearance_, clearance());
     if (clearance_ < 0) return leave_skin(last_tip, last_clearance);
-    const double before = depths_.push(tick_.depth);
-    tick_.velocity = (tick_.depth - before) / depths_.duration(dt_);
+    const double before = depths_.push(hand_depth());
+    tick_.velocity = (hand_depth() - before) / depths_.duration(dt_);
     follow_line(X_JN);
   }
-  motion_.step(tick_.depth, dt_);
+  motion_.step(hand_place(), dt_);
   tick_.stillness = motion_.stillness();
   tick_.incoming_speed = std::max(0.0, tick_.velocity);
   find_tip_layers();

@@ -57,6 +57,12 @@ struct ContactParams {
   double velocity_window = 0.01;  ///< s; lag half of it; only for laws that need a velocity
 };
 
+/// How the tissue at the tip gave way, m.
+struct TipTissue {
+  double pushed = 0;              ///< along the needle, by its tip
+  Vec3 carried_J = Vec3::Zero();  ///< from its rest, by all else
+};
+
 /// The needle's contact with the layers: finds the entry, stores the insertion line at the first
 /// puncture, keeps what of the track is cut, decides which membrane still holds, and re-takes the
 /// line inside the cone alpha(depth). One scene query a tick, by the caller: query_segment gives
@@ -76,15 +82,20 @@ class NeedleContact {
   /// The line whose tissue intervals update needs, frame J. Requires: a finite, rigid pose.
   [[nodiscard]] ARTUS_REALTIME Segment query_segment(const Pose& X_JN) const noexcept;
 
-  /// Advances by one period. `intervals` are those of query_segment(X_JN).
-  ARTUS_REALTIME void update(const Pose& X_JN, std::span<const TissueInterval> intervals) noexcept;
+  /// Advances by one period. `intervals` are those of query_segment(X_JN), which is where the
+  /// needle is in the material, the tissue at its tip lying as `tissue` says. Layers are met by the
+  /// depth in the material; speed and way are those of the hand against what carries the tissue,
+  /// and it rests when it does so in space.
+  ARTUS_REALTIME void update(const Pose& X_JN, std::span<const TissueInterval> intervals,
+                             const TipTissue& tissue = {}) noexcept;
 
   [[nodiscard]] ContactState state() const noexcept { return state_; }
   [[nodiscard]] std::uint32_t events() const noexcept { return events_; }
   [[nodiscard]] RegionId region() const noexcept { return region_; }  ///< at the tip
   [[nodiscard]] bool inserted() const noexcept { return inserted_; }
   [[nodiscard]] double cone() const noexcept;  ///< alpha at this depth, rad
-  /// What the force laws see; valid until the next update.
+  /// What the force laws see, with the tip's place and depth in the material; valid until the next
+  /// update.
   [[nodiscard]] const NeedleTick& tick() const noexcept { return tick_; }
 
  private:
@@ -99,6 +110,11 @@ class NeedleContact {
   void tear(double force, double dimple) noexcept;
   void follow_line(const Pose& X_JN) noexcept;
   [[nodiscard]] double clearance() const noexcept;
+  [[nodiscard]] double hand_depth() const noexcept { return tick_.depth + tick_.pushed; }
+  /// m along the line, whatever the tissue does: a hand rests in space, and tissue that comes onto
+  /// its needle as the force fades shall not seem to be a hand that moves.
+  [[nodiscard]] double hand_place() const noexcept { return hand_depth() + carried(); }
+  [[nodiscard]] double carried() const noexcept { return carried_J_.dot(tick_.axis); }
   void leave_skin(const Vec3& last_tip, double last_clearance) noexcept;
   [[nodiscard]] std::ptrdiff_t last_passed() const noexcept;
   void feel(const ShaftLayer& stretch, bool skin) noexcept;
@@ -116,6 +132,7 @@ class NeedleContact {
   InsertionLine line_;
   SkinPuncture skin_;
   MotionDetector motion_;
+  Vec3 carried_J_ = Vec3::Zero();
   SampleWindow<double> depths_;
   SampleWindow<Eigen::Vector4d> orientations_;
 

@@ -57,12 +57,7 @@ double NeedleCoupling::tip_compliance(double depth, double wall_stiffness) const
   if (!active()) return 0;
   const double tissue = cube_compliance(compliance_, depth);
   if (!(wall_stiffness > 0)) return tissue;
-  return std::min(tissue, most_tissue_compliance(wall_stiffness, params_.most_wall));
-}
-
-double NeedleCoupling::local_stiffness(double wall_stiffness, double depth) const noexcept {
-  if (!active() || !(wall_stiffness > 0)) return wall_stiffness;
-  return 1 / (1 / wall_stiffness - tip_compliance(depth, wall_stiffness));
+  return std::min(tissue, most_tissue_compliance(wall_stiffness));
 }
 
 void NeedleCoupling::follow_tip(double depth, double tip_force, double wall_stiffness) noexcept {

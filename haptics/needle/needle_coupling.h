@@ -11,21 +11,22 @@ struct NeedleCouplingParams {
   double relaxation = 0.02;  ///< s in which tissue follows the tip's force to 63 %; assumed: a tent
                              ///< falls to a tenth within 46 ms
   int sweeps = 8;            ///< over the points a tick
-  double most_wall = 8;      ///< of K_t, at most; assumed: what a loop of 1 kHz can render
 };
 
 /// m/N that tissue has at most which was measured with a layer's K_t (`wall_stiffness`, N/m > 0):
-/// the wall keeps the rest.
-[[nodiscard]] inline double most_tissue_compliance(double wall_stiffness,
-                                                   double most_wall = 8) noexcept {
-  return (1 - 1 / most_wall) / wall_stiffness;
+/// the rest of the hand's way is in the tip's own neighbourhood, where it cuts.
+[[nodiscard]] inline double most_tissue_compliance(double wall_stiffness) noexcept {
+  constexpr double kShare = 7.0 / 8;  // of 1/K_t; assumed
+  return kShare / wall_stiffness;
 }
 
 /// Tissue that gives way to a needle, in the fast loop. The tip's force pushes the tissue before
-/// it, so that the tip is less deep in the material than in space; the shaft holds the tissue along
-/// the track and drags it until friction gives way, point by point (stick and slip). The forces on
-/// the tissue minimise 1/2 l^T C l with |l_i| <= f_i under the shaft's motion, so friction takes
-/// energy in every tick. With no compliance set it does nothing: the tissue is rigid.
+/// it, so that the tip is less deep in the material than in space. That way is part of the one
+/// which the laws' stiffness was measured with: it says where layers are met and what the picture
+/// shows, not how stiff the hand finds them. The shaft holds the tissue along the track and drags
+/// it until friction gives way, point by point (stick and slip). The forces on the tissue minimise
+/// 1/2 l^T C l with |l_i| <= f_i under the shaft's motion, so friction takes energy in every tick.
+/// With no compliance set it does nothing: the tissue is rigid.
 class NeedleCoupling {
  public:
   /// Requires: dt > 0 s, the fixed period of the loop; sweeps > 0.
@@ -41,12 +42,9 @@ class NeedleCoupling {
   [[nodiscard]] double tip_displacement() const noexcept { return tip_displacement_; }
   /// m/N of the tissue around the tip, at `depth` (m) in the material: the cubes' own field,
   /// without the needle's neighbourhood. A layer's K_t (`wall_stiffness`, N/m; 0: none is known)
-  /// was measured with the tissue in it, so the tissue has 1 - 1/most_wall of 1/K_t at most.
+  /// was measured with the tissue in it, so the tissue has most_tissue_compliance() at most.
   [[nodiscard]] ARTUS_REALTIME double tip_compliance(double depth,
                                                      double wall_stiffness = 0) const noexcept;
-  /// K_t without the tissue's compliance that was measured with it: 1/K = 1/K_t - c.
-  [[nodiscard]] ARTUS_REALTIME double local_stiffness(double wall_stiffness,
-                                                      double depth) const noexcept;
   [[nodiscard]] std::size_t points() const noexcept { return compliance_.points; }
   [[nodiscard]] double depth_of(std::size_t point) const noexcept {
     return (static_cast<double>(point) + 0.5) * compliance_.spacing;

@@ -33,8 +33,7 @@ NeedleModel::NeedleModel(const NeedleParams& params, const LayerTable& table, do
       god_object_(params.prepuncture.god_object),
       workspace_(params.workspace),
       coupling_(dt),
-      follow_(1 - std::exp(-dt / NeedleCouplingParams{}.relaxation)),
-      hand_(params.contact.motion) {}
+      follow_(1 - std::exp(-dt / NeedleCouplingParams{}.relaxation)) {}
 
 void NeedleModel::take(const NeedlePacket& packet) noexcept {
   const Vec3 carried(packet.carried[0], packet.carried[1], packet.carried[2]);
@@ -58,7 +57,7 @@ void NeedleModel::start_laws() noexcept {
   const double x = tick.depth;
   const bool puncture = (contact_.events() & ContactEvent::kSkinPunctured) != 0;
   const double stiffness = std::max(tick.layer.tissue.wall_stiffness, 1e-6);
-  wall_.start(puncture ? std::max(0.0, tick.gave_way - tick.torn / stiffness) : x, x, tick.pushed);
+  wall_.start(puncture ? std::max(0.0, tick.gave_way - tick.torn / stiffness) : x, x);
   reset_all(x, direct_, spring_, voigt_, prepuncture_, friction_, hard_, clamping_, orientation_,
             plasticity_);
 }
@@ -90,10 +89,9 @@ double NeedleModel::cutting_force(const NeedleTick& tick) noexcept {
 
 const NeedleForces& NeedleModel::step(const Pose& X_JN,
                                       std::span<const TissueInterval> intervals) noexcept {
-  contact_.update(material(X_JN), intervals);
-  felt_ = contact_.tick();
+  contact_.update(material(X_JN), intervals, {coupling_.tip_displacement(), carried_});
+  feel_as_the_hand();
   const NeedleTick& tick = felt_;
-  if (coupling_.active()) feel_tissue();
   forces_ = NeedleForces{};
   if (params_.use_workspace) forces_.workspace = workspace_.step(tick).force;
   if (contact_.inserted()) {
@@ -118,28 +116,22 @@ const NeedleForces& NeedleModel::step(const Pose& X_JN,
   } else {
     forces_.prepuncture = axial_force(prepuncture_, tick);
   }
-  if (coupling_.active()) couple(X_JN, tick);
+  if (coupling_.active()) couple(X_JN);
   sum_up(tick);
   last_tip_ = X_JN.translation() - carried_;
   carried_ += follow_ * (carried_to_ - carried_);
   return forces_;
 }
 
-/// K_t and the time in which a needle at rest settles were measured at a hand, with the tissue in
-/// them: the wall is as stiff as leaves both together K_t, and a needle rests when the hand does,
-/// though the tissue comes onto it.
-void NeedleModel::feel_tissue() noexcept {
-  const double measured = felt_.layer.tissue.wall_stiffness;
-  felt_.layer.tissue.wall_stiffness = coupling_.local_stiffness(measured, felt_.depth);
-  if (measured > 0) felt_.stiffening = felt_.layer.tissue.wall_stiffness / measured;
-  felt_.pushed = coupling_.tip_displacement();
+/// The laws' constants were measured at a hand, with all that gives way before the tip in them:
+/// they see the hand's depth. Where layers and membranes are met is a matter of the material.
+void NeedleModel::feel_as_the_hand() noexcept {
+  felt_ = contact_.tick();
   if (!contact_.inserted()) return;
-  const double depth = felt_.depth + felt_.pushed;
-  if ((contact_.events() & ContactEvent::kSkinPunctured) != 0) hand_.reset(depth, Motion::inward);
-  if ((contact_.events() & ContactEvent::kAdopted) != 0) hand_.reset(depth, Motion::still);
-  if (felt_.line_gain != 0) hand_.shift(felt_.line_gain);
-  hand_.step(depth, felt_.dt);
-  felt_.stillness = hand_.stillness();
+  felt_.tip += felt_.pushed * felt_.axis;
+  felt_.depth += felt_.pushed;
+  felt_.bone_depth += felt_.pushed;
+  felt_.gave_way += felt_.pushed;
 }
 
 /// Where the needle is in the material: back by what the tissue at its tip was moved, by others and
@@ -153,12 +145,14 @@ Pose NeedleModel::material(const Pose& X_JN) const noexcept {
   return X;
 }
 
-/// The tip pushes soft tissue, not the bone under it; the shaft drags what friction holds.
-void NeedleModel::couple(const Pose& X_JN, const NeedleTick& tick) noexcept {
+/// The tip pushes soft tissue, not the bone under it; the shaft drags what friction holds. What it
+/// holds of a needle at rest relaxes as a slower needle's does (LugreParams::relaxation_time).
+void NeedleModel::couple(const Pose& X_JN) noexcept {
+  const NeedleTick& tick = contact_.tick();
   const double cut = forces_.cutting + forces_.attracted;
   const double held = tick.depth > tick.bone_depth ? tick.layer.tissue.cutting_force : -cut;
   const double tip_force = -forces_.prepuncture + std::min(-cut, held);
-  const double level = lugre_level(params_.friction, tick.velocity);
+  const double level = (1 - tick.stillness) * lugre_level(params_.friction, tick.velocity);
   grip_ += std::max(0.0, level - grip_) +
            std::min(0.0, level - grip_) * std::min(1.0, tick.dt / params_.friction.relaxation_time);
   NeedleCompliance::Column limits{};
@@ -174,8 +168,7 @@ void NeedleModel::couple(const Pose& X_JN, const NeedleTick& tick) noexcept {
   }
   const double moved = (X_JN.translation() - carried_ - last_tip_).dot(tick.axis);
   const double moved_in = contact_.inserted() ? moved : 0;
-  const Haptic& at_tip =
-      tick.dimple > 0 ? tick.membrane.tissue : contact_.tick().layer.tissue;  // K_t as measured
+  const Haptic& at_tip = tick.dimple > 0 ? tick.membrane.tissue : tick.layer.tissue;
   forces_.friction = coupling_.step(moved_in, tick.depth, tip_force, at_tip.wall_stiffness, limits);
 }
 

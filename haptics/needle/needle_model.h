@@ -38,8 +38,9 @@ class NeedleModel {
   [[nodiscard]] ARTUS_REALTIME Segment query_segment(const Pose& X_JN) const noexcept {
     return contact_.query_segment(material(X_JN));
   }
-  /// Tissue that gives way to the needle from now on: laws then see the pose in the material, and
-  /// the shaft's friction is that of tissue which it drags. Without: the rigid body. Where others
+  /// Tissue that gives way to the needle from now on: layers are then met where the tip is in the
+  /// material, the laws go on by the hand's depth, at which their constants were measured, and the
+  /// shaft's friction is that of tissue which it drags. Without: the rigid body. Where others
   /// (a probe) carry the tissue, it is followed with the coupling's relaxation time. To a needle
   /// that is in the body already rigid tissue stays rigid until it is out again: its forces would
   /// jump. What is not a number is left out.
@@ -58,8 +59,8 @@ class NeedleModel {
 
  private:
   [[nodiscard]] Pose material(const Pose& X_JN) const noexcept;
-  void feel_tissue() noexcept;
-  void couple(const Pose& X_JN, const NeedleTick& tick) noexcept;
+  void feel_as_the_hand() noexcept;
+  void couple(const Pose& X_JN) noexcept;
   void sum_up(const NeedleTick& tick) noexcept;
   void start_laws() noexcept;
   void take_line() noexcept;
@@ -83,9 +84,8 @@ class NeedleModel {
   Vec3 carried_ = Vec3::Zero();     // m, frame J, of the tissue at the tip
   Vec3 carried_to_ = Vec3::Zero();  // by the newest packet
   double follow_;                   // share of the way in a tick
-  MotionDetector hand_;             // of the needle, whatever the tissue at its tip does
-  NeedleTick felt_;  // the contact's tick, with the wall as stiff as without the tissue around
-  double grip_ = 0;  // friction's level g(v), which falls with its relaxation time
+  NeedleTick felt_;                 // the contact's tick, with tip and depth as the hand has them
+  double grip_ = 0;                 // friction's level g(v), which falls with its relaxation time
   Vec3 last_tip_ = Vec3::Zero();
   NeedleForces forces_;
 };

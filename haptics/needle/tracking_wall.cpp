@@ -10,7 +10,7 @@ void TrackingWall::reset(double depth) noexcept {
   start(depth, depth);
 }
 
-void TrackingWall::start(double w0, double depth, double pushed) noexcept {
+void TrackingWall::start(double w0, double depth) noexcept {
   wall_ = w0;
   cut_ = w0;
   stiffness_ = 0;
@@ -18,7 +18,6 @@ void TrackingWall::start(double w0, double depth, double pushed) noexcept {
   attracted_limit_ = 0;
   settle_left_ = params_.settling_time;
   last_x_ = depth;
-  last_pushed_ = pushed;
   last_force_ = 0;
   energy_ = 0;
 }
@@ -34,9 +33,7 @@ void TrackingWall::settle(const NeedleTick& tick, double x) noexcept {
   const double still = tick.stillness * tick.dt;
   const double moving = tick.dt - still;
   // A straight line for a needle at rest; one that trembles is met where it is, without a step.
-  // Tissue that is let go comes after: the wall goes so much farther that the hand finds T_s.
-  const double way = still * tick.stiffening;
-  if (still > 0) wall_ += (x - wall_) * (settle_left_ > way ? way / settle_left_ : 1);
+  if (still > 0) wall_ += (x - wall_) * (settle_left_ > still ? still / settle_left_ : 1);
   settle_left_ += moving * params_.settling_time / params_.moving_time - still;
   settle_left_ = std::clamp(settle_left_, 0.0, params_.settling_time);
 }
@@ -71,7 +68,7 @@ double TrackingWall::soft_force(const NeedleTick& tick, double x) noexcept {
 
 Wrench TrackingWall::step(const NeedleTick& tick) noexcept {
   const double x = tick.depth;
-  const double moved = (x - last_x_) + (tick.pushed - last_pushed_);  // by the hand
+  const double moved = x - last_x_;
   energy_ -= last_force_ * moved;
   const double beyond = std::max(0.0, x - tick.bone_depth);
   double force = soft_force(tick, x - beyond);
@@ -86,7 +83,6 @@ Wrench TrackingWall::step(const NeedleTick& tick) noexcept {
     force = std::clamp(force, -allowed, allowed);
   }
   last_x_ = x;
-  last_pushed_ = tick.pushed;
   last_force_ = force;
   return {force * tick.axis, Vec3::Zero()};
 }

@@ -22,8 +22,8 @@ struct TrackingWallParams {
 /// part settles at that share of the pace (NeedleTick::stillness): a hand that yields to the fading
 /// force slows the fading down and creeps into its rest without jerks. The energy given back is
 /// never more than what was taken since reset, whatever the layers, their stiffness or the sampling
-/// do: on the way back the force is bounded by the account, which is the hand's: tissue that gives
-/// way moves the wall, too, and that is no work of the hand. Source [Alamilla2020] eqs. 2.14-2.19;
+/// do: on the way back the force is bounded by the account. Depths are the hand's: K_t was measured
+/// there, with all that gives way before the tip in it. Source [Alamilla2020] eqs. 2.14-2.19;
 /// (2.14) w = x - D (printed D - x), (2.16) a straight line, n ticks written as a settling time,
 /// eps as a band of speeds.
 class TrackingWall {
@@ -32,9 +32,8 @@ class TrackingWall {
   ARTUS_REALTIME void reset(double depth) noexcept;
   ARTUS_REALTIME Wrench step(const NeedleTick& tick) noexcept;
 
-  /// Starts an insertion at the skin: nothing is cut, the wall is at `w0`, the tip at `depth`, the
-  /// tissue before it pushed in by `pushed`.
-  ARTUS_REALTIME void start(double w0, double depth, double pushed = 0) noexcept;
+  /// Starts an insertion at the skin: nothing is cut, the wall is at `w0`, the tip at `depth`.
+  ARTUS_REALTIME void start(double w0, double depth) noexcept;
 
   /// The line moved where the needle is: depths are `by` m more, what is felt stays, and of the cut
   /// track in front of the tip the share `kept` is left.
@@ -57,7 +56,6 @@ class TrackingWall {
   double attracted_limit_ = 0;  // N, f_A likewise
   double settle_left_ = 0;      // s
   double last_x_ = 0;
-  double last_pushed_ = 0;
   double last_force_ = 0;
   double energy_ = 0;
 };
