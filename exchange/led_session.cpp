@@ -36,24 +36,27 @@ Result<Recording> record_led_session(const std::vector<ListedPose>& poses,
   recording.complete = true;
   HapticCore haptics(scene, params);
   std::optional<ImageCore> images;
-  if (pictures == LedPictures::drawn) images.emplace(scene, params);
+  if (params.deform || pictures == LedPictures::drawn) images.emplace(scene, params);
   const ImageControls controls = controls_of(params);
+  std::uint64_t n_images = 0;
   for (std::size_t i = 0; i < path->size(); ++i) {
     const HapticSnapshot& felt = haptics.step(input_of((*path)[i], params, i + 1));
     recording.ticks.push_back(to_record(felt));
-    if (pictures == LedPictures::none) continue;
-    const auto n_images = static_cast<double>(recording.frames.size());
-    if (static_cast<double>(i) * params.image_rate < n_images * params.haptic_rate) continue;
+    if (static_cast<double>(i) * params.image_rate <
+        static_cast<double>(n_images) * params.haptic_rate)
+      continue;
     FrameRecord frame;
-    frame.input = frame_input(felt, controls, recording.frames.size() + 1);
-    if (images) frame = to_record(frame.input, images->render(frame.input), params.transducer);
-    if (const TissuePacket* packet = images ? images->packet() : nullptr) {
-      frame.packet = digest_of(*packet);
-      const TissuePacket to_probe{packet->probe, {}};
-      recording.packets.push_back({felt.input.tick + 1, to_probe});
-      haptics.take(to_probe);
+    frame.input = frame_input(felt, controls, ++n_images);
+    ImagedBody body;
+    if (images) body = images->advance(frame.input);
+    if (pictures == LedPictures::drawn)
+      frame = to_record(frame.input, images->render(frame.input, body), params.transducer);
+    if (body.packet) {
+      frame.packet = digest_of(*body.packet);
+      recording.packets.push_back({felt.input.tick + 1, *body.packet});
+      haptics.take(*body.packet);
     }
-    recording.frames.push_back(frame);
+    if (pictures != LedPictures::none) recording.frames.push_back(frame);
   }
   return recording;
 }

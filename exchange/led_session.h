@@ -12,7 +12,7 @@ namespace artus {
 
 /// What a led session's recording holds of its pictures.
 enum class LedPictures {
-  drawn,   ///< inputs and digests, and what the tissue answered the probe with
+  drawn,   ///< inputs and digests
   listed,  ///< inputs alone: for who draws them again and does not compare
   none
 };
@@ -20,10 +20,9 @@ enum class LedPictures {
 /// The recording of a session in which probe and needle are led through listed poses (of a list, or
 /// of a tracker's sequence): whoever reads recordings can read such lists, too. With times they are
 /// sampled at the session's haptic rate, without each is one tick; images come at its image rate.
-/// Without drawn pictures the probe's hand feels nothing; what the needle and the syringe feel is
-/// the same: to them tissue is rigid, whatever the pictures' tissue does. Requires: valid params.
-/// Errors: those of sample_path. Cost: of the session's ticks, and of its images when they are
-/// drawn.
+/// Tissue gives way to both hands as in any session, whether pictures are drawn or not. Requires:
+/// valid params. Errors: those of sample_path. Cost: of the session's ticks, of the tissue's steps
+/// when it gives way, and of the images when they are drawn.
 [[nodiscard]] Result<Recording> record_led_session(const std::vector<ListedPose>& poses,
                                                    const std::shared_ptr<const Scene>& scene,
                                                    const SessionParams& params,

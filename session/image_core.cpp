@@ -30,6 +30,7 @@ ImageCore::ImageCore(std::shared_ptr<const Scene> scene, const SessionParams& pa
       controls_(controls_of(params)),
       renderer_(scene, params.transducer, params.image),
       rest_(scene),
+      drawn_(scene),
       fluid_(scene->shared_joint(), liquid_of(params), params.image_rate),
       plume_(liquid_of(params)),
       image_time_(1 / params.image_rate),
@@ -49,21 +50,24 @@ ImageCore::ImageCore(std::shared_ptr<const Scene> scene, const SessionParams& pa
     refusal_ = tissue.error().message;
 }
 
-void ImageCore::advance(const FrameInput& input) {
-  advanced_ = input.number;
-  if (tissue_) {
-    std::optional<Pose> X_JP;
-    if (input.has_probe != 0) X_JP = to_pose(input.X_JP);
-    std::optional<NeedleGrip> needle;
-    if (input.has_needle != 0) needle = NeedleGrip{to_pose(input.X_JN), input.load};
-    tissue_->step(X_JP, needle);
-  }
-  const std::shared_ptr<const Scene>& body = tissue_ ? tissue_->scene() : rest_;
+ImagedBody ImageCore::advance(const FrameInput& input) {
+  if (!tissue_) return {input.number, rest_, {}};
+  std::optional<Pose> X_JP;
+  if (input.has_probe != 0) X_JP = to_pose(input.X_JP);
+  std::optional<NeedleGrip> needle;
+  if (input.has_needle != 0) needle = NeedleGrip{to_pose(input.X_JN), input.load};
+  tissue_->step(X_JP, needle);
+  return {input.number, tissue_->scene(), tissue_->packet()};
+}
+
+/// What is drawn: the body with what was injected.
+void ImageCore::lay(const FrameInput& input, const std::shared_ptr<const Scene>& body) {
   const auto& filled = fluid_.step({std::begin(input.sites), input.n_sites}, body->tissue());
+  drawn_ = filled ? filled : body;
   if (filled || filled_)
-    renderer_.set_filled_scene(filled ? filled : body);
+    renderer_.set_filled_scene(drawn_);
   else if (tissue_)
-    renderer_.set_scene(body);
+    renderer_.set_scene(drawn_);
   let_drift(input, filled.get());
   filled_ = filled != nullptr;
 }
@@ -118,8 +122,8 @@ void ImageCore::start_tables() {
   });
 }
 
-const Frame& ImageCore::render(const FrameInput& input) {
-  if (advanced_ != input.number) advance(input);
+const Frame& ImageCore::render(const FrameInput& input, const ImagedBody& body) {
+  lay(input, body.scene);
   ++images_;
   if (!(input.controls == controls_)) follow(input.controls);
   if (next_.valid() && images_ == due_) take_tables();

@@ -16,6 +16,13 @@
 
 namespace artus {
 
+/// The body at an image's instant, before its picture.
+struct ImagedBody {
+  std::uint64_t number = 0;            ///< of the image; 0: of none
+  std::shared_ptr<const Scene> scene;  ///< without what was injected
+  std::optional<TissuePacket> packet;  ///< what it answers the hands with; empty: it is rigid
+};
+
 /// The imaging half of a session as a pure function of its inputs: what runs live is what a replay
 /// runs. Gain, range and time gain show in the next image. Depth, frequency and focus need new
 /// tables: these are made on a thread of their own while the images go on, and are taken over a
@@ -27,13 +34,16 @@ class ImageCore {
   /// Requires: valid params, a scene.
   ImageCore(std::shared_ptr<const Scene> scene, const SessionParams& params);
 
-  /// The tissue's step to this image's instant, when it gives way; `render` does it otherwise. So
-  /// the probe's hand need not wait for the picture. Cost: TissueCore::step.
-  void advance(const FrameInput& input);
+  /// The tissue's step to this image's instant, when it gives way: what the hands feel need not
+  /// wait for the picture. May run beside render() of an image before. Cost: TissueCore::step.
+  [[nodiscard]] ImagedBody advance(const FrameInput& input);
 
-  /// Controls that are not valid keep those before. The frame stays valid until the next call.
-  /// Cost: an image; waits where new tables are due and not ready.
-  const Frame& render(const FrameInput& input);
+  /// The picture of `body`, which is this input's. Controls that are not valid keep those before.
+  /// The frame stays valid until the next call. Cost: an image; waits where new tables are due and
+  /// not ready.
+  const Frame& render(const FrameInput& input, const ImagedBody& body);
+  /// Both.
+  const Frame& render(const FrameInput& input) { return render(input, advance(input)); }
 
   /// Whether later images are looked at for what moves. Their greys do not depend on it.
   void set_motion_wanted(bool wanted) noexcept { motion_wanted_ = wanted; }
@@ -41,14 +51,16 @@ class ImageCore {
   /// before. Empty unless wanted, and settings have Doppler.
   [[nodiscard]] std::vector<std::uint8_t> motion() const;
 
-  /// Of the last image: what the tissue answers the hands with; null: the body is rigid.
+  /// Of the last step: what the tissue answers the hands with; null: the body is rigid.
   [[nodiscard]] const TissuePacket* packet() const noexcept {
     return tissue_ ? &tissue_->packet() : nullptr;
   }
-  /// The body of the last image, without what was injected.
+  /// The body of the last step, without what was injected.
   [[nodiscard]] const std::shared_ptr<const Scene>& scene() const noexcept {
     return tissue_ ? tissue_->scene() : rest_;
   }
+  /// The body that the last image was drawn from, with what was injected.
+  [[nodiscard]] const std::shared_ptr<const Scene>& drawn_scene() const noexcept { return drawn_; }
   /// Why the body is rigid though it should give way; empty: it does, or should not.
   [[nodiscard]] const std::string& refusal() const noexcept { return refusal_; }
 
@@ -57,6 +69,7 @@ class ImageCore {
   [[nodiscard]] std::uint64_t images_to_change() const noexcept { return images_to_change_; }
 
  private:
+  void lay(const FrameInput& input, const std::shared_ptr<const Scene>& body);
   void follow(const ImageControls& controls);
   [[nodiscard]] Vec3 velocity_of_needle(const FrameInput& input) const noexcept;
   void let_drift(const FrameInput& input, const Scene* filled);
@@ -71,11 +84,11 @@ class ImageCore {
   std::optional<TissueCore> tissue_;  // empty: rigid
   std::string refusal_;
   std::shared_ptr<const Scene> rest_;
+  std::shared_ptr<const Scene> drawn_;
   FluidCore fluid_;
   LiquidPlume plume_;
-  bool filled_ = false;         // the last image had liquid in the body
-  std::uint64_t advanced_ = 0;  // number of the image that the tissue is ready for
-  double image_time_;           // s
+  bool filled_ = false;  // the last image had liquid in the body
+  double image_time_;    // s
   std::uint64_t images_to_change_;
   std::uint64_t images_ = 0;                         // rendered so far
   std::uint64_t due_ = 0;                            // image that takes next_ over

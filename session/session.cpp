@@ -5,9 +5,10 @@
 #include <exception>
 #include <utility>
 
+#include "artus/core/noise.h"
 #include "artus/session/dropping_ring.h"
 #include "artus/session/haptic_loop.h"
-#include "artus/session/image_core.h"
+#include "artus/session/image_handover.h"
 
 namespace artus {
 namespace {
@@ -52,6 +53,7 @@ Session::Session(std::shared_ptr<const Scene> scene, const SessionParams& params
       core_(scene_, params_),
       times_(std::make_unique<SessionTimes>()),
       trace_(std::make_unique<DroppingRing<TracePoint>>(8192)),
+      handover_(std::make_unique<ImageHandover>()),
       start_ns_(monotonic_ns()) {
   controls_.store(controls_of(params_));
 }
@@ -71,6 +73,7 @@ Result<std::unique_ptr<Session>> Session::start(std::shared_ptr<const Scene> sce
   }
   session->on_image_ = options.on_image;
   session->witness_ = options.witness;
+  session->gauges_ = options.gauge;
   if (options.images && options.share_images) {
     auto channel = RenewedChannel<artus_shm_image>::open(options.image_segment_prefix, kImageLayout,
                                                          SegmentAccess::owner_writes);
@@ -82,8 +85,10 @@ Result<std::unique_ptr<Session>> Session::start(std::shared_ptr<const Scene> sce
   const ThreadWishes haptics = options.haptic_wishes;
   const ThreadWishes imaging = options.imaging_wishes;
   session->haptic_thread_ = std::thread([running, haptics] { running->run_haptics(haptics); });
-  if (options.images)
+  if (options.images) {
+    session->drawing_thread_ = std::thread([running, imaging] { running->run_drawing(imaging); });
     session->imaging_thread_ = std::thread([running, imaging] { running->run_imaging(imaging); });
+  }
   session->care_thread_ = std::thread([running] { running->run_care(); });
   return session;
 }
@@ -92,6 +97,8 @@ Session::~Session() {
   stop_ = true;
   for (std::thread* thread : {&haptic_thread_, &imaging_thread_, &care_thread_})
     if (thread->joinable()) thread->join();
+  handover_->end();
+  if (drawing_thread_.joinable()) drawing_thread_.join();
   if (shared_image_) shared_image_->remove_own();
 }
 
@@ -178,75 +185,116 @@ void Session::run_care() {
     } catch (...) {
       tell(reason_of(std::current_exception()));
     }
+    if (gauges_) gauge();
     rest(kCarePeriod);
   }
 }
 
+/// A chain of dependent operations without memory, some tenths of a millisecond.
+void Session::gauge() {
+  constexpr int kOperations = 100'000;
+  const std::int64_t begin = monotonic_ns();
+  std::uint64_t x = 1;
+  for (int i = 0; i < kOperations; ++i) x = mix_bits(x);
+  if (x != 0) times_->fixed_work.add(monotonic_ns() - begin);  // never zero: it is not left out
+}
+
 void Session::run_imaging(const ThreadWishes& wishes) {
-  ask("imaging", wishes);  // before the renderer's workers start, which inherit it
+  ask("imaging", wishes);
   std::unique_ptr<ImageCore> core;
   PeriodicSchedule schedule(params_.image_rate);
   std::uint64_t number = 0;
   while (!stop_.load(std::memory_order_relaxed)) {
     schedule.wait();
+    std::string failure = handover_->take_failure();
     try {
-      if (!core) {
+      if (failure.empty() && !core) {
         core = std::make_unique<ImageCore>(scene_, params_);
         if (!core->refusal().empty()) tell("the tissue stays rigid: " + core->refusal());
       }
-      if (frozen_.load(std::memory_order_relaxed)) {
+      if (failure.empty() && frozen_.load(std::memory_order_relaxed)) {
+        handover_->rest();
         n_images_ = 0;  // a pause is no gap
+        answered_ns_ = 0;
         share_again();
-      } else {
-        image(*core, ++number);
+      } else if (failure.empty() && advance(*core, number + 1)) {
+        ++number;
       }
     } catch (...) {
-      tell("imaging failed: " + reason_of(std::current_exception()) + "; it is tried again");
-      core.reset();
-      rest(kAfterFailure);
+      failure = reason_of(std::current_exception());
     }
+    if (failure.empty()) continue;
+    tell("imaging failed: " + failure + "; it is tried again");
+    handover_->rest();
+    core.reset();
+    rest(kAfterFailure);
   }
+  handover_->rest();
 }
 
-void Session::image(ImageCore& core, std::uint64_t number) {
+/// The tissue's step to image `number`, and its picture to who draws. False: nothing is known yet.
+bool Session::advance(ImageCore& core, std::uint64_t number) {
   HapticSnapshot snapshot;
   ImageControls controls;
   if (ticks_.load(std::memory_order_relaxed) == 0 || !haptic_.load(snapshot, 1000) ||
       !controls_.load(controls, 1000))
-    return;
+    return false;
   const std::int64_t begin = monotonic_ns();
   const FrameInput input = frame_input(snapshot, controls, number);
-  core.advance(input);
-  const TissuePacket* packet = core.packet();
-  if (packet != nullptr) {
-    packets_.store(*packet);
-    times_->tissue_step.add(monotonic_ns() - begin);
+  ImagedBody body = core.advance(input);
+  if (body.packet) {
+    packets_.store(*body.packet);
+    const std::int64_t now = monotonic_ns();
+    times_->tissue_step.add(now - begin);
+    if (answered_ns_ > 0) times_->tissue_interval.add(now - answered_ns_);
+    answered_ns_ = now;
   }
+  handover_->put({&core, input, std::move(body), snapshot.input.device.state == PeerState::alive});
+  return true;
+}
+
+void Session::run_drawing(const ThreadWishes& wishes) {
+  ask("imaging", wishes);  // before the renderer's workers start, which inherit it
+  while (const ImageJob* job = handover_->take()) {
+    std::string failure;
+    try {
+      draw(*job);
+    } catch (...) {
+      failure = reason_of(std::current_exception());
+    }
+    handover_->done(std::move(failure));
+  }
+}
+
+void Session::draw(const ImageJob& job) {
+  ImageCore& core = *job.core;
+  const std::int64_t begin = monotonic_ns();
   core.set_motion_wanted(motion_wanted_);
-  const Frame& frame = core.render(input);
   ImageSnapshot& out = images_.slot();
+  out.body = nullptr;  // of an image long gone: its scene is used again
+  const Frame& frame = core.render(job.input, job.body);
   out.grey.assign(frame.image.begin(), frame.image.end());
   out.motion = core.motion();
   out.width = frame.width;
   out.height = frame.height;
   out.pixel = frame.pixel;
   out.probe_width = core.transducer().width;
-  out.input = input;
+  out.input = job.input;
+  out.body = core.drawn_scene();
   out.ready_ns = monotonic_ns();
   if (shared_image_) share(out);
   if (on_image_) on_image_(out);
   if (recorder_) {
-    FrameRecord record = to_record(input, frame, core.transducer());
-    if (packet != nullptr) record.packet = digest_of(*packet);
+    FrameRecord record = to_record(job.input, frame, core.transducer());
+    if (job.body.packet) record.packet = digest_of(*job.body.packet);
     recorder_->add(record);
   }
-  if (witness_ != nullptr) witness_->on_frame(input, frame);
+  if (witness_ != nullptr) witness_->on_frame(job.input, frame);
   times_->image_render.add(out.ready_ns - begin);
   note_image(out.ready_ns);
-  if (snapshot.input.device.state == PeerState::alive)
-    times_->pose_to_image.add(out.ready_ns - input.sample_time_ns);
+  if (job.alive) times_->pose_to_image.add(out.ready_ns - job.input.sample_time_ns);
   images_.publish();
-  frames_.store(number, std::memory_order_relaxed);
+  frames_.store(job.input.number, std::memory_order_relaxed);
 }
 
 void Session::note_image(std::int64_t ready_ns) {

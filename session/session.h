@@ -23,17 +23,21 @@ namespace artus {
 template <class T>
 class DroppingRing;
 class ImageCore;
+class ImageHandover;
+struct ImageJob;
 
 /// An image as the window gets it.
 struct ImageSnapshot {
   std::vector<std::uint8_t> grey;  ///< (height, width), x fastest
   /// As grey: what moves toward the probe or away, see motion_picture; empty unless it is wanted.
   std::vector<std::uint8_t> motion;
-  int width = 0;              ///< pixels
-  int height = 0;             ///< pixels
-  double pixel = 0;           ///< m
-  double probe_width = 0;     ///< m
-  FrameInput input;           ///< what it shows
+  int width = 0;           ///< pixels
+  int height = 0;          ///< pixels
+  double pixel = 0;        ///< m
+  double probe_width = 0;  ///< m
+  FrameInput input;        ///< what it shows
+  /// What it was drawn from: the body as it gave way at its instant, with what was injected.
+  std::shared_ptr<const Scene> body;
   std::int64_t ready_ns = 0;  ///< monotonic clock
 };
 
@@ -54,10 +58,13 @@ struct SessionTimes {
   LatencyHistogram haptic_cpu;       ///< the same in processor time: without what was taken from it
   LatencyHistogram haptic_lateness;  ///< wake-up after its schedule
   LatencyHistogram tissue_step;      ///< of the tissue that gives way, with its scene
-  LatencyHistogram image_render;
-  LatencyHistogram image_interval;  ///< from image to image
-  LatencyHistogram image_thirty;    ///< that the last 30 images took: 1 s is 30 Hz
-  LatencyHistogram pose_to_image;   ///< from the device's time stamp to the finished image
+  LatencyHistogram tissue_interval;  ///< from one of its answers to the hands to the next
+  LatencyHistogram image_render;     ///< of a picture, once its body is laid
+  LatencyHistogram image_interval;   ///< from image to image
+  LatencyHistogram image_thirty;     ///< that the last 30 images took: 1 s is 30 Hz
+  LatencyHistogram pose_to_image;    ///< from the device's time stamp to the finished image
+  LatencyHistogram fixed_work;  ///< clock time of a work that is always the same: what it spreads
+                                ///< is the machine's
 };
 
 /// Who looks on while a session runs, from within its threads, and must outlive it. Each call is
@@ -72,9 +79,10 @@ class SessionWitness {
 };
 
 /// A running session: a haptic thread and an imaging thread over one scene and one device, and one
-/// that looks after what the outside world may spoil. The threads never wait for each other or for
-/// a reader; everybody takes the newest there is. What fails in imaging is told, and the hand goes
-/// on.
+/// that looks after what the outside world may spoil. They never wait for each other or for a
+/// reader; everybody takes the newest there is. Imaging is two in turn: while one draws an image
+/// the other makes the tissue's next step, and no image is left out between them. What fails in
+/// imaging is told, and the hand goes on.
 class Session {
  public:
   struct Options {
@@ -84,6 +92,7 @@ class Session {
     std::string image_segment_prefix;  ///< of IMAGE
     bool images = true;                ///< false: nothing is drawn
     bool share_images = false;         ///< write IMAGE
+    bool gauge = false;                ///< time a fixed work beside (SessionTimes::fixed_work)
     /// Called with each new image in the imaging thread; what it throws is told like any failure.
     std::function<void(const ImageSnapshot&)> on_image;
     SessionWitness* witness = nullptr;  ///< not owned
@@ -133,14 +142,17 @@ class Session {
           std::unique_ptr<InputDevice> device);
   void run_haptics(const ThreadWishes& wishes);
   void run_imaging(const ThreadWishes& wishes);
+  void run_drawing(const ThreadWishes& wishes);
   void run_care();
+  void gauge();
   void ask(const char* who, const ThreadWishes& wishes);
   void tell(const std::string& notice);
   void note_image(std::int64_t ready_ns);
   [[nodiscard]] std::uint32_t take_command() noexcept;
   void take_packet(std::uint64_t tick) noexcept;
   void publish(const HapticSnapshot& out) noexcept;
-  void image(ImageCore& core, std::uint64_t number);
+  [[nodiscard]] bool advance(ImageCore& core, std::uint64_t number);
+  void draw(const ImageJob& job);
   void share(const ImageSnapshot& image);
   void share_again() noexcept;
   void rest(std::int64_t ns) const noexcept;
@@ -156,6 +168,7 @@ class Session {
   std::size_t n_image_bytes_ = 0;
   std::function<void(const ImageSnapshot&)> on_image_;
   SessionWitness* witness_ = nullptr;
+  bool gauges_ = false;
 
   Seqlock<HapticSnapshot> haptic_;
   Seqlock<ImageControls> controls_;
@@ -163,6 +176,8 @@ class Session {
   std::uint64_t packet_felt_ = 0;  // number of the last that the haptic thread took
   NewestMailbox<ImageSnapshot> images_;
   std::unique_ptr<DroppingRing<TracePoint>> trace_;
+  std::unique_ptr<ImageHandover> handover_;
+  std::int64_t answered_ns_ = 0;  // when the tissue last answered the hands
   std::atomic<bool> stop_{false};
   std::atomic<bool> paused_{false};
   std::atomic<bool> frozen_{false};
@@ -178,6 +193,7 @@ class Session {
   std::vector<std::string> notices_;
   std::thread haptic_thread_;
   std::thread imaging_thread_;
+  std::thread drawing_thread_;
   std::thread care_thread_;
   std::atomic<bool> motion_wanted_{false};
 };

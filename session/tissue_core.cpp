@@ -11,7 +11,7 @@ constexpr double kFactorTime = 0.4;    // s that a factor of the tangent may tak
 constexpr double kCageTime = 8;        // s that another cage may take
 constexpr double kFactorWay = 0.5e-3;  // m the face moves before its factor is too old
 constexpr double kFactorTurn = 0.02;   // rad
-constexpr double kStill = 1e-7;        // m; tissue that moves less has come to rest
+constexpr double kStill = 1e-9;        // m; tissue that moves less has come to rest: some 1e-4 mm
 constexpr int kOutsideImages = 20;     // in a row before another cage is begun
 constexpr int kSteps = 2;              // Newton steps of an image
 
@@ -47,17 +47,16 @@ TissueCore::TissueCore(SoftBody body, double image_rate, const ProbeFace& face)
   scene_ = scenes_.at(tissue_);
 }
 
-bool TissueCore::in_reach(const Pose& X_JP) const {
+bool TissueCore::is_within_reach(const Pose& X_JC, const Pose& X_JP) {
   const SoftBodyParams params;
-  const Pose X_CP = body_.cage_pose().inverse() * X_JP;
-  const Vec3 p = X_CP.translation();
+  const Vec3 p = (X_JC.inverse() * X_JP).translation();
   return std::abs(p.x()) < params.reach && std::abs(p.y()) < params.reach &&
-         turn_between(body_.cage_pose(), X_JP) < 0.5;
+         turn_between(X_JC, X_JP) < 0.5;
 }
 
 /// Another cage where the probe stays out of this one's reach.
 void TissueCore::follow(const std::optional<Pose>& X_JP) {
-  outside_ = X_JP && !in_reach(*X_JP) ? outside_ + 1 : 0;
+  outside_ = X_JP && !reaches(*X_JP) ? outside_ + 1 : 0;
   if (cage_.valid() && images_ == cage_due_) {
     auto made = cage_.get();
     if (made) {
@@ -101,7 +100,7 @@ void TissueCore::step(const std::optional<Pose>& X_JP, const std::optional<Needl
   ++images_;
   follow(X_JP);
   std::optional<Pose> face = X_JP;
-  if (face && !in_reach(*face)) face.reset();
+  if (face && !reaches(*face)) face.reset();
   const bool same = face.has_value() == X_JP_before_.has_value() &&
                     (!face || face->matrix() == X_JP_before_->matrix());
   refresh(face);
@@ -113,7 +112,9 @@ void TissueCore::step(const std::optional<Pose>& X_JP, const std::optional<Needl
       moved = std::max(moved, step.largest_move);
       status_ = step.status;
     }
-    still_ = same && moved < kStill && !body_.solver().refreshing();
+    // A face that lags behind its hand has yet to meet the skin.
+    still_ =
+        same && moved < kStill && (status_ & kSoftLagging) == 0 && !body_.solver().refreshing();
     tissue_ = body_.snapshot(tissue_.get());
     scene_ = scenes_.at(tissue_);
   }

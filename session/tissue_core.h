@@ -33,10 +33,14 @@ class TissueCore {
   /// Number 1 after the first step.
   [[nodiscard]] const TissuePacket& packet() const noexcept { return packet_; }
   [[nodiscard]] std::uint32_t status() const noexcept { return status_; }  ///< SoftStatus bits
+  /// Whether a cage made around `X_JC` is made for a face at `X_JP`; this one.
+  [[nodiscard]] static bool is_within_reach(const Pose& X_JC, const Pose& X_JP);
+  [[nodiscard]] bool reaches(const Pose& X_JP) const {
+    return is_within_reach(body_.cage_pose(), X_JP);
+  }
 
  private:
   TissueCore(SoftBody body, double image_rate, const ProbeFace& face);
-  [[nodiscard]] bool in_reach(const Pose& X_JP) const;
   void follow(const std::optional<Pose>& X_JP);
   void refresh(const std::optional<Pose>& X_JP);
   void describe(const std::optional<Pose>& X_JP);

@@ -97,7 +97,12 @@ std::string numbers(LedPictures pictures, SightSource sights) {
   params.image_rate = 8;
   const auto recording = record_led_session(poses, scene, params, pictures);
   EXPECT_TRUE(recording);
-  EXPECT_EQ(recording->packets.empty(), pictures != LedPictures::drawn);
+  EXPECT_FALSE(recording->packets.empty());
+  EXPECT_TRUE(
+      std::any_of(recording->packets.begin(), recording->packets.end(),
+                  [](const PacketRecord& p) { return p.packet.needle.compliance.points > 0; }))
+      << "the needle feels the tissue, too";
+  EXPECT_EQ(recording->frames.empty(), pictures == LedPictures::none);
   const auto assessed = assess_recording(*recording, scene, {}, sights);
   EXPECT_TRUE(assessed);
   const Metric* visible = find_metric(assessed->metrics, "tip_visible");

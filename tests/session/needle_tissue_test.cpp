@@ -52,17 +52,26 @@ class SoftSession {
 
   /// One tick with the tip `depth` (m) below the resting skin, beside the probe's middle.
   const HapticSnapshot& at(double depth) {
-    TickInput input;
-    input.tick = recording_.ticks.size() + 1;
-    input.device = test::sample_at(
-        0, static_cast<std::int64_t>(1e6) * static_cast<std::int64_t>(input.tick), input.tick);
+    depth_ = depth;
+    return at(sample());
+  }
+  /// What a device says that has both hands where they are.
+  [[nodiscard]] DeviceSample sample() const {
+    const std::uint64_t tick = recording_.ticks.size() + 1;
+    DeviceSample device = test::sample_at(
+        0, std::llround(1e9 * static_cast<double>(tick) / params_.haptic_rate), tick);
     Pose X_JN = X_JP_;
-    X_JN.translation() = entry() + depth * axis();
-    input.device.X_WN = to_plain(X_JN);
+    X_JN.translation() = entry() + depth_ * axis();
+    device.X_WN = to_plain(X_JN);
     Pose X_JP = X_JP_;
     X_JP.translation() += press_ * X_JP_.linear().col(2);
-    input.device.X_WP = to_plain(X_JP);
-    depth_ = depth;
+    device.X_WP = to_plain(X_JP);
+    return device;
+  }
+  const HapticSnapshot& at(const DeviceSample& device) {
+    TickInput input;
+    input.tick = recording_.ticks.size() + 1;
+    input.device = device;
     const HapticSnapshot& out = haptics_.step(input);
     recording_.ticks.push_back(to_record(out));
     const double images = static_cast<double>(recording_.frames.size());
@@ -73,15 +82,17 @@ class SoftSession {
   /// From where the tip is, m/s.
   const HapticSnapshot& move(double depth, double speed) {
     const double from = depth_;
-    const int n = std::max(1, static_cast<int>(std::abs(depth - from) / speed * 1e3));
+    const int n =
+        std::max(1, static_cast<int>(std::abs(depth - from) / speed * params_.haptic_rate));
     for (int k = 1; k < n; ++k) at(from + (depth - from) * k / n);
     return at(depth);
   }
   const HapticSnapshot& hold(double seconds) {
-    for (int k = 1; k < seconds * 1e3; ++k) at(depth_);
+    for (int k = 1; k < seconds * params_.haptic_rate; ++k) at(depth_);
     return at(depth_);
   }
   void press(double by) { press_ = by; }
+  [[nodiscard]] double depth() const { return depth_; }
   [[nodiscard]] Vec3 entry() const { return X_JP_ * Vec3(4e-3, 11e-3, 0); }
   [[nodiscard]] Vec3 axis() const { return X_JP_.linear().col(2); }
   [[nodiscard]] const Scene& now() const { return *images_.scene(); }
@@ -208,6 +219,115 @@ TEST(NeedleTissue, ReplaysByteForByteAtAnyNumberOfThreads) {
   ASSERT_TRUE(other);
   EXPECT_GT(other->different_ticks, 100U);
   EXPECT_GT(other->different_frames, 3U);
+}
+
+/// Force on each hand along the needle and the beam, N.
+Vec3 felt_by(const HapticSnapshot& out) {
+  return {
+      Vec3(out.force_J[0], out.force_J[1], out.force_J[2]).norm(),
+      Vec3(out.feedback.probe_force[0], out.feedback.probe_force[1], out.feedback.probe_force[2])
+          .norm(),
+      0};
+}
+
+/// A probe that presses and a needle that goes in, smoothly: the ticks in which the tissue's answer
+/// is a new one are felt no more than half a just-noticeable difference (7 %, assumed).
+TEST(NeedleTissue, NewAnswersOfTheTissueAreNoStepsInTheHands) {
+  SoftSession soft(make_needled_block(), make_soft_session(true));
+  constexpr double kHalfJnd = 0.035;
+  constexpr double kWeak = 0.3;  // N, below which a share of it says nothing
+  Vec3 before = Vec3::Zero();
+  Vec3 worst = Vec3::Zero();
+  std::size_t answers = 0;
+  std::size_t compliances = 0;
+  double depth = -12e-3;
+  for (int k = 0; k < 4000; ++k) {
+    soft.press(-4e-3 + 8e-3 * std::min(1.0, k / 2000.0));
+    depth += k < 800 ? 1e-5 : 7e-6;
+    const std::size_t known = soft.recording().packets.size();
+    const HapticSnapshot out = soft.at(depth);
+    const auto& packets = soft.recording().packets;
+    const bool fresh = known >= 1 && packets[known - 1].tick == out.input.tick;
+    const bool happened = (out.events & ~ContactEvent::kRedirected) != 0;
+    const Vec3 now = felt_by(out);
+    if (fresh && !happened && k > 500) {
+      ++answers;
+      for (Eigen::Index i = 0; i < 2; ++i)
+        worst[i] = std::max(worst[i], std::abs(now[i] - before[i]) / std::max(now[i], kWeak));
+    }
+    before = now;
+    compliances += known >= 2 && packets[known - 1].packet.needle.compliance.by_load !=
+                                     packets[known - 2].packet.needle.compliance.by_load;
+  }
+  EXPECT_GT(answers, 50U);
+  EXPECT_GT(compliances, 0U);
+  EXPECT_GT(before.x(), 1) << "the needle cuts";
+  EXPECT_GT(before.y(), 1) << "the probe presses";
+  EXPECT_LT(worst.x(), kHalfJnd);
+  EXPECT_LT(worst.y(), kHalfJnd);
+}
+
+/// What a device's program may do to a session: jump, send what is no pose, press beyond reason, go
+/// through bone, fall silent. Forces stay finite and within limits, faults are told in the tick in
+/// which they are met, nobody who does nothing wrong is left without force, and the tissue comes to
+/// rest again.
+TEST(NeedleTissue, HandsThatDoWhatNoHandDoesAreSafeAndTheTissueIsBackAtRest) {
+  for (const double rate : {1000.0, 5000.0}) {
+    SessionParams params = make_soft_session(true);
+    params.haptic_rate = rate;
+    SoftSession soft(make_needled_block(), params);
+    double most = 0;
+    const auto check = [&](const HapticSnapshot& out) {
+      const Vec3 felt = felt_by(out);
+      ASSERT_TRUE(felt.allFinite());
+      most = std::max(most, felt.maxCoeff());
+      ASSERT_LE(felt.x(), params.device.force + 1e-9);
+      if ((out.status & TickStatus::kFaults) != 0) {
+        ASSERT_EQ(felt.x(), 0);
+      }
+    };
+    const auto run = [&](double seconds, double speed) {
+      for (int k = 0; k < seconds * rate; ++k) check(soft.at(soft.depth() + speed / rate));
+    };
+    soft.move(-1e-3, 60e-3);
+    soft.press(2e-3);
+    soft.hold(0.5);
+    EXPECT_GT(felt_by(soft.hold(0.05)).y(), 0.1);
+    run(0.25, 40e-3);
+    EXPECT_GT(felt_by(soft.hold(0.01)).x(), 0.5);
+    // The needle jumps by 50 mm: told at once, and felt again after the ramp.
+    const HapticSnapshot jumped = soft.at(soft.depth() - 50e-3);
+    EXPECT_NE(jumped.status & TickStatus::kTeleport, 0U);
+    check(jumped);
+    EXPECT_GT(felt_by(jumped).y(), 0.1) << "the probe's hand did nothing wrong";
+    check(soft.at(soft.depth() + 50e-3));
+    soft.hold(0.3);
+    run(0.1, 30e-3);
+    EXPECT_GT(felt_by(soft.hold(0.01)).x(), 0.3) << "a needle that moves on is felt";
+    // No pose at all.
+    DeviceSample wrong = soft.sample();
+    wrong.X_WN.position[1] = std::nan("");
+    wrong.X_WP.position[0] = std::nan("");
+    const HapticSnapshot refused = soft.at(wrong);
+    EXPECT_NE(refused.status & SessionStatus::kPeerInvalid, 0U);
+    EXPECT_EQ(felt_by(refused).x(), 0);
+    EXPECT_EQ(felt_by(refused).y(), 0);
+    // Through the bone, and the probe 30 mm in, at once.
+    soft.press(30e-3);
+    run(0.5, 100e-3);
+    soft.press(2e-3);
+    // Silent, then out.
+    DeviceSample lost = soft.sample();
+    lost.state = PeerState::lost;
+    for (int k = 0; k < 100; ++k) check(soft.at(lost));
+    soft.press(-20e-3);
+    soft.move(-10e-3, 100e-3);
+    const HapticSnapshot out = soft.hold(2);
+    EXPECT_EQ(out.status & TickStatus::kFaults, 0U);
+    EXPECT_EQ(felt_by(out), Vec3::Zero());
+    EXPECT_GT(most, 2);
+    for (const Vec3& u : soft.now().tissue()->node_displacements()) ASSERT_LT(u.norm(), 1e-6);
+  }
 }
 
 }  // namespace

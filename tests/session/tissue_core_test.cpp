@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/session/tissue_core.h"
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <vector>
@@ -51,6 +52,21 @@ TEST(TissueCore, GivesTheHandAForceThatGrowsWithThePressAndNoneWhenLifted) {
   for (const double value : core->packet().probe.wrench) EXPECT_EQ(value, 0);
   core->step(std::nullopt);
   EXPECT_EQ(core->packet().probe.share, 0);
+}
+
+TEST(TissueCore, AFaceThatJumpsFromTheAirIntoTheSkinAndStaysThereIsFelt) {
+  const auto joint = make_soft_block();
+  auto core = TissueCore::make(joint, joint->X_JP_default, 30);
+  auto by_steps = TissueCore::make(joint, joint->X_JP_default, 30);
+  ASSERT_TRUE(core && by_steps);
+  for (int i = 0; i < 5; ++i) core->step(pressed(*joint, -20e-3));
+  for (int i = 0; i < 60; ++i) {
+    core->step(pressed(*joint, 2e-3));
+    by_steps->step(pressed(*joint, std::min(2e-3, 1e-4 * i)));
+  }
+  const double force = -by_steps->packet().probe.wrench[2];
+  EXPECT_GT(force, 0.1);
+  EXPECT_NEAR(-core->packet().probe.wrench[2], force, 0.05 * force);
 }
 
 TEST(TissueCore, PressesTheFaceOfItsProbe) {
@@ -119,6 +135,34 @@ TEST(TissueCore, StillProbeGivesTheSamePictureAgainOnceTheTissueHasComeToRest) {
   EXPECT_EQ(felt.wrench, core->packet().probe.wrench);
   core->step(pressed(*joint, 2.1e-3));
   EXPECT_NE(look().in_phase, after.in_phase) << "it moves again with the probe";
+}
+
+TEST(TissueCore, AnImageSaysFromWhichBodyItWasDrawn) {
+  const auto joint = make_soft_block();
+  SessionParams params = test::make_small_session();
+  params.deform = true;
+  ImageCore core(std::make_shared<const Scene>(joint), params);
+  FrameInput input;
+  input.controls = controls_of(params);
+  input.has_probe = 1;
+  for (input.number = 1; input.number <= 12; ++input.number) {
+    const Pose X_JP = pressed(*joint, 2e-4 * static_cast<double>(input.number));
+    input.X_JP = to_plain(X_JP);
+    if (input.number == 8) {  // from the next shape on the body has liquid, too
+      input.n_sites = 1;
+      input.sites[0].region = kFirstRegion + 2;
+      input.sites[0].volume = 1e-6;
+      input.sites[0].p_J[2] = 20e-3;
+    }
+    const Frame& frame = core.render(input);
+    ASSERT_TRUE(core.drawn_scene()->tissue());
+    if (core.drawn_scene()->shared_joint() != joint) continue;
+    EXPECT_EQ(core.drawn_scene(), core.scene());
+    const Frame again =
+        render_bmode(core.drawn_scene(), X_JP, std::nullopt, params.transducer, params.image);
+    EXPECT_EQ(frame.in_phase, again.in_phase) << input.number;
+  }
+  EXPECT_NE(core.drawn_scene()->shared_joint(), joint) << "the liquid's body was drawn at last";
 }
 
 TEST(TissueCore, RefusesABodyWithoutTetrahedraWithWords) {
