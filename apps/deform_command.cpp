@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <iostream>
 #include <memory>
+#include <optional>
 
 #include "artus/apps/arguments.h"
 #include "artus/apps/command.h"
@@ -23,6 +24,8 @@ struct DeformOptions {
   std::string probe;
   std::string transducer = "linear-6-18";
   PressOptions press;  ///< neither: 3 N
+  std::string needle;
+  int gauge = 22;
   double cell_mm = SoftBodyParams{}.fine_cell / kMillimetre;
   double poisson_ratio = SoftBodyParams{}.poisson_ratio;
   std::filesystem::path out;
@@ -106,11 +109,39 @@ Result<void> write_slices(const std::shared_ptr<const DeformedBody>& tissue,
 
 void print(const nlohmann::json& report) {
   print_press(report);
+  if (report.contains("needle")) {
+    const auto& needle = report["needle"];
+    std::printf("needle going %s: %.2f N, tissue at its tip moved %.2f mm",
+                needle["way"].get<std::string>().c_str(), needle["force_n"].get<double>(),
+                needle["tissue_moved_mm"].get<double>());
+    if (needle.contains("tented"))
+      std::printf(", %s tented", needle["tented"].get<std::string>().c_str());
+    std::printf("\n");
+  }
   std::printf("%-28s %-14s %9s %9s %8s\n", "region", "tissue", "before mm", "after mm", "thinned");
   for (const auto& layer : report["layers"])
     std::printf("%-28s %-14s %9.2f %9.2f %6.1f %%\n", layer["region"].get<std::string>().c_str(),
                 layer["tissue"].get<std::string>().c_str(), layer["before_mm"].get<double>(),
                 layer["after_mm"].get<double>(), layer["thinned_percent"].get<double>());
+}
+
+/// The needle of the flags, by default one that went in; empty: none.
+Result<std::optional<NeedleView>> needle_of(const DeformOptions& options,
+                                            const CompiledJoint& joint) {
+  if (options.needle.empty() && !options.press.needle_way.empty())
+    return fail(ErrorCode::malformed, "needs a needle (--needle)", "--needle-way");
+  if (options.needle.empty()) return std::optional<NeedleView>();
+  NeedleView needle;
+  const auto shape = needle_of_flag(options.gauge);
+  ARTUS_TRY(shape);
+  needle.shape = *shape;
+  needle.X_JN = joint.X_JN_default;
+  if (options.needle != "default") {
+    const auto pose = parse_needle_pose(options.needle, "--needle");
+    ARTUS_TRY(pose);
+    needle.X_JN = *pose;
+  }
+  return std::optional<NeedleView>(needle);
 }
 
 ExitCode run_deform(const DeformOptions& options) {
@@ -130,15 +161,20 @@ ExitCode run_deform(const DeformOptions& options) {
     if (probe.error().where.empty()) probe.error().where = "--transducer";
     return report_error(probe.error(), options.json);
   }
+  const auto needle = needle_of(options, **joint);
+  if (!needle) return report_error(needle.error(), options.json);
   const auto face = pressing_face_at(probe->transducer, "--transducer");
   if (!face) return report_error(face.error(), options.json);
   params.face = *face;
   auto body = SoftBody::make(*joint, X_JP, params);
   if (!body) return report_error(body.error(), options.json);
-  const auto pressed = press(*body, X_JP, options.press);
+  auto pressed = press(*body, X_JP, options.press);
   if (!pressed) return report_error(pressed.error(), options.json);
-  const std::shared_ptr<const DeformedBody>& snapshot = pressed->tissue;
+  const auto dragged = drag(*body, *needle, options.press.needle_way, *pressed);
+  if (!dragged) return report_error(dragged.error(), options.json);
   auto report = to_json(pressed->press, *body);
+  if (*needle) report["needle"] = *dragged;
+  const std::shared_ptr<const DeformedBody>& snapshot = pressed->tissue;
   report["joint"] = (*joint)->name;
   report["layers"] = layers_below(*joint, *snapshot, X_JP);
   report["volume"] = volume_of(*snapshot);
@@ -171,7 +207,9 @@ void add_deform_command(Command& app, ExitCode& code) {
                   "Press a probe on a joint's soft tissue: forces, layer thicknesses, strain field",
                   "Examples:\n"
                   "  artus deform -j meshes/simple-shoulder --press-n 3 -o pressed.vtu\n"
-                  "  artus deform -j shoulder.artus --press-mm 5 --json");
+                  "  artus deform -j shoulder.artus --press-mm 5 --json\n"
+                  "  artus deform -j meshes/shoulder --pose internal_40 --press-n 3 -o turned.vtu\n"
+                  "  artus deform -j meshes/shoulder --press-n 2 --needle default -o tent.vtu");
   add_joint_options(command, options->joint);
   command->add_option(
       "--probe", options->probe,
@@ -181,6 +219,14 @@ void add_deform_command(Command& app, ExitCode& code) {
                    "the probe whose face presses: name of a preset or file (.toml)")
       ->capture_default_str();
   add_press_options(command, options->press);
+  command->add_option("--needle", options->needle,
+                      "entry/tip, each x,y,z in mm, or 'default' for the joint's; the tissue gives "
+                      "way to it, too (default: none)");
+  add_gauge_option(command, options->gauge);
+  command
+      ->add_option("--needle-way", options->press.needle_way,
+                   "in, out: which way the needle was last moved (default: in)")
+      ->one_of({"in", "out"});
   command->add_option("--cell-mm", options->cell_mm, "edge of the cubes under the face (default 3)")
       ->check(number_in(0.75, 6));
   command->add_option("--poisson", options->poisson_ratio, "numerical Poisson ratio (default 0.47)")

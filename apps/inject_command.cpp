@@ -103,9 +103,11 @@ Result<Outcome> write_run(const std::shared_ptr<const Scene>& scene, const Injec
     outcome.report["opening_mm"] = pictures->opening / kMillimetre;
     outcome.report["opening_length_mm"] = pictures->length / kMillimetre;
     outcome.report["opening_width_mm"] = pictures->width / kMillimetre;
+    outcome.report["beam_opening_mm"] = pictures->beam_opening / kMillimetre;
     outcome.report["seen_opening_mm"] = pictures->seen_opening / kMillimetre;
     outcome.report["seen_width_mm"] = pictures->seen_width / kMillimetre;
     outcome.report["label_area_mm2"] = pictures->label_area / (kMillimetre * kMillimetre);
+    outcome.report["label_volume_ml"] = pictures->label_volume / kCubicCentimetre;
     outcome.report["ray_volume_ml"] = pictures->ray_volume / kCubicCentimetre;
   }
   outcome.report["verdict"] = verdict(outcome.claims);

@@ -37,47 +37,6 @@ bool push_on(SoftBody& body, const Pose& X_JP, const PointLoad& term, double pus
   return body.settle(X_JP, 2e-6, 60);
 }
 
-/// Lets the body give way to the needle under the held probe.
-Result<nlohmann::json> drag(SoftBody& body, const LoadedView& view, PressedBody& pressed,
-                            const std::string& way) {
-  const Pose X_CJ = body.cage_pose().inverse();
-  const Vec3 axis = view.needle->X_JN.linear().col(2);
-  const Vec3 tip = view.needle->X_JN.translation();
-  SoftSolver& solver = body.solver();
-  const auto scene = make_scene(pressed.tissue);
-  solver.set_constraints({{{along_needle(pressed, X_CJ, tip, axis)}, 0}});
-  const double compliance = solver.constraint_compliance()(0, 0);
-  solver.set_constraints({});
-  const NeedleDrag needle =
-      find_drag(*scene, *view.needle, way == "in" ? NeedleWay::in : NeedleWay::out, compliance);
-  std::vector<PointLoad> in_cage;
-  double sum = needle.tip_force;
-  for (const PointLoad& load : needle.shaft) {
-    in_cage.push_back(along_needle(pressed, X_CJ, load.p_rest, load.force));
-    sum += load.force.dot(axis);
-  }
-  solver.set_loads(std::move(in_cage));
-  const Pose& X_JP = pressed.press.X_JP;
-  bool settled = body.settle(X_JP, needle.push > 0 ? 5e-5 : 2e-6, 60);
-  if (needle.push > 0)
-    settled = push_on(body, X_JP, along_needle(pressed, X_CJ, tip - needle.push * axis, axis),
-                      needle.push);
-  if (!settled)
-    return fail(ErrorCode::failed, "the tissue does not come to rest under this needle",
-                "--needle-way");
-  const auto before = pressed.tissue;
-  pressed.tissue = body.snapshot();
-  const Vec3 at_tip = before->to_rest(tip - needle.push * axis).p_rest;
-  const Vec3 moved = pressed.tissue->displacement(at_tip) - before->displacement(at_tip);
-  nlohmann::json report{{"way", way},
-                        {"force_n", sum},
-                        {"tip_force_n", needle.tip_force},
-                        {"tissue_moved_mm", moved.dot(axis) / kMillimetre},
-                        {"least_volume_ratio", solver.forces().least_volume}};
-  if (needle.tented != kOutside) report["tented"] = view.joint().regions[needle.tented].name;
-  return report;
-}
-
 }  // namespace
 
 void add_drag_option(Command* command, PressOptions& options) {
@@ -124,6 +83,50 @@ Result<PressedBody> press(SoftBody& body, const Pose& X_JP, const PressOptions& 
   return PressedBody{*pressed, body.snapshot()};
 }
 
+Result<nlohmann::json> drag(SoftBody& body, const std::optional<NeedleView>& needle,
+                            const std::string& way, PressedBody& pressed) {
+  if (!needle) return nlohmann::json();
+  const bool out = way == "out";
+  const Pose X_CJ = body.cage_pose().inverse();
+  const Vec3 axis = needle->X_JN.linear().col(2);
+  const Vec3 tip = needle->X_JN.translation();
+  SoftSolver& solver = body.solver();
+  const auto scene = make_scene(pressed.tissue);
+  solver.set_constraints({{{along_needle(pressed, X_CJ, tip, axis)}, 0}});
+  const double compliance = solver.constraint_compliance()(0, 0);
+  solver.set_constraints({});
+  const NeedleDrag held =
+      find_drag(*scene, *needle, out ? NeedleWay::out : NeedleWay::in, compliance);
+  std::vector<PointLoad> in_cage;
+  double sum = held.tip_force;
+  for (const PointLoad& load : held.shaft) {
+    in_cage.push_back(along_needle(pressed, X_CJ, load.p_rest, load.force));
+    sum += load.force.dot(axis);
+  }
+  solver.set_loads(std::move(in_cage));
+  const Pose& X_JP = pressed.press.X_JP;
+  bool settled = body.settle(X_JP, held.push > 0 ? 5e-5 : 2e-6, 60);
+  if (held.push > 0)
+    settled =
+        push_on(body, X_JP, along_needle(pressed, X_CJ, tip - held.push * axis, axis), held.push);
+  if (!settled)
+    return fail(ErrorCode::failed, "the tissue does not come to rest under this needle",
+                "--needle-way");
+  const auto before = pressed.tissue;
+  pressed.tissue = body.snapshot();
+  pressed.press.contact = body.force_J();
+  pressed.press.normal_force = -pressed.press.contact.force.dot(X_JP.linear().col(2));
+  const Vec3 at_tip = before->to_rest(tip - held.push * axis).p_rest;
+  const Vec3 moved = pressed.tissue->displacement(at_tip) - before->displacement(at_tip);
+  nlohmann::json report{{"way", out ? "out" : "in"},
+                        {"force_n", sum},
+                        {"tip_force_n", held.tip_force},
+                        {"tissue_moved_mm", moved.dot(axis) / kMillimetre},
+                        {"least_volume_ratio", solver.forces().least_volume}};
+  if (held.tented != kOutside) report["tented"] = body.joint()->regions[held.tented].name;
+  return report;
+}
+
 Result<nlohmann::json> press(LoadedView& view, const PressOptions& options) {
   if (!options.needle_way.empty() && !(options.wanted() && view.needle))
     return fail(ErrorCode::malformed, "needs a pressed probe (--press-n) and a needle (--needle)",
@@ -135,7 +138,7 @@ Result<nlohmann::json> press(LoadedView& view, const PressOptions& options) {
   ARTUS_TRY(pressed);
   auto report = to_json(pressed->press);
   if (view.needle && !options.needle_way.empty()) {
-    auto needle = drag(*body, view, *pressed, options.needle_way);
+    auto needle = drag(*body, view.needle, options.needle_way, *pressed);
     ARTUS_TRY(needle);
     report["needle"] = std::move(*needle);
   }

@@ -7,6 +7,8 @@
 #include <optional>
 #include <utility>
 
+#include <sys/resource.h>
+
 #include "artus/apps/interrupts.h"
 #include "artus/apps/live_metrics.h"
 #include "artus/apps/remote_wishes.h"
@@ -110,12 +112,21 @@ std::optional<Setting> wait(const Session& session, const Serving& serving) {
   }
 }
 
+/// MB that the process had in memory at most.
+double peak_memory_mb() {
+  constexpr double kKilobyte = 1024;  // ru_maxrss is in these
+  rusage used{};
+  getrusage(RUSAGE_SELF, &used);
+  return static_cast<double>(used.ru_maxrss) * kKilobyte * 1e-6;
+}
+
 void report(const Session& session, bool json) {
   if (json) {
     std::cout << nlohmann::json{{"ticks", session.ticks()},
                                 {"frames", session.frames()},
                                 {"overruns", session.overruns()},
                                 {"unrecorded", session.unrecorded()},
+                                {"peak_memory_mb", peak_memory_mb()},
                                 {"refused", session.refusals()},
                                 {"notices", session.notices()},
                                 {"times", to_json(session.times())}}
@@ -124,11 +135,11 @@ void report(const Session& session, bool json) {
     return;
   }
   print_times(session.times(), session.params());
-  std::printf("%llu ticks, %llu images, %llu overruns, %llu records dropped\n",
+  std::printf("%llu ticks, %llu images, %llu overruns, %llu records dropped, %.0f MB at most\n",
               static_cast<unsigned long long>(session.ticks()),
               static_cast<unsigned long long>(session.frames()),
               static_cast<unsigned long long>(session.overruns()),
-              static_cast<unsigned long long>(session.unrecorded()));
+              static_cast<unsigned long long>(session.unrecorded()), peak_memory_mb());
 }
 
 /// One session to its end; what follows it, if anything.
@@ -141,6 +152,7 @@ Result<std::optional<Setting>> run_session(const Serving& serving, const Setting
   Session::Options session_options = make_thread_options(options.session);
   session_options.images = !options.no_images;
   session_options.share_images = !options.no_images;
+  session_options.gauge = options.seconds > 0;
   SessionLink* link = serving.link;
   if (link != nullptr)
     session_options.on_image = [link](const ImageSnapshot& image) {
@@ -208,10 +220,14 @@ void add_serve_command(Command& app, ExitCode& code) {
       "Examples:\n"
       "  artus serve -j meshes/simple-shoulder\n"
       "  artus serve -j real.artus --record session.rec --seconds 60 --json\n"
+      "  artus serve -j real.artus --input injection --seconds 30     (what a session costs here)\n"
       "  artus serve -j meshes/simple-shoulder --input injection --seconds 10\n"
       "  artus serve -j real.artus --igtl 18944 --input igtl --calibration tracker.toml");
   add_session_options(command, options->session, "shared-memory");
-  command->add_option("--seconds", options->seconds, "stop after this time; 0: when interrupted")
+  command
+      ->add_option("--seconds", options->seconds,
+                   "stop after this time; 0: when interrupted. Then a fixed work runs beside, too: "
+                   "what its time spreads is the machine's")
       ->check(number_in(0, 86400));
   add_live_metrics_option(command, options->metrics);
   command->add_flag("--no-images", options->no_images, "draw nothing and write no IMAGE");

@@ -226,21 +226,27 @@ void print_times(const SessionTimes& times, const SessionParams& params) {
   print_line("haptic compute", times.haptic_compute);
   print_line("haptic processor", times.haptic_cpu);
   print_line("haptic lateness", times.haptic_lateness);
-  if (times.tissue_step.count() > 0) print_line("tissue step", times.tissue_step);
+  if (times.tissue_step.count() > 0) {
+    print_line("tissue step", times.tissue_step);
+    print_line("tissue interval", times.tissue_interval);
+  }
   print_line("image render", times.image_render);
   print_line("image interval", times.image_interval);
   print_line("thirty images", times.image_thirty);
   print_line("pose to image", times.pose_to_image);
+  if (times.fixed_work.count() > 0) print_line("a fixed work", times.fixed_work);
   std::printf("haptic period %.0f us, image period %.0f us\n", 1e6 / params.haptic_rate,
               1e6 / params.image_rate);
 }
 
 Result<void> write_histograms(const std::filesystem::path& file, const SessionTimes& times) {
   if (file.empty()) return {};
-  const std::array<std::pair<const char*, const LatencyHistogram*>, 6> columns{
+  const std::array<std::pair<const char*, const LatencyHistogram*>, 8> columns{
       {{"haptic_compute", &times.haptic_compute},
        {"haptic_processor", &times.haptic_cpu},
        {"haptic_lateness", &times.haptic_lateness},
+       {"tissue_step", &times.tissue_step},
+       {"tissue_interval", &times.tissue_interval},
        {"image_render", &times.image_render},
        {"image_interval", &times.image_interval},
        {"pose_to_image", &times.pose_to_image}}};
@@ -264,10 +270,12 @@ nlohmann::json to_json(const SessionTimes& times) {
           {"haptic_cpu", to_json(times.haptic_cpu)},
           {"haptic_lateness", to_json(times.haptic_lateness)},
           {"tissue_step", to_json(times.tissue_step)},
+          {"tissue_interval", to_json(times.tissue_interval)},
           {"image_render", to_json(times.image_render)},
           {"image_interval", to_json(times.image_interval)},
           {"image_thirty", to_json(times.image_thirty)},
-          {"pose_to_image", to_json(times.pose_to_image)}};
+          {"pose_to_image", to_json(times.pose_to_image)},
+          {"fixed_work", to_json(times.fixed_work)}};
 }
 
 }  // namespace artus

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
-#include "artus/core/units.h"
 #include "artus/evidence/injection/injection_run.h"
 
 namespace artus {
@@ -18,8 +16,8 @@ bool forbidden(const CompiledJoint& joint, RegionId region) {
          tissue.name == "vein" || tissue.name == "cartilage" || tissue.name == "labrum";
 }
 
-/// Where a line from outside comes to `point` along `direction`: the skin, and whether the way is
-/// free.
+/// Where a line from outside comes to `point` along `direction`: the skin; none where the way is
+/// not free.
 std::optional<Vec3> free_entry(const Scene& scene, const Vec3& point, const Vec3& direction) {
   constexpr double kLongest = 0.075;  // m
   const Vec3 start = point - kLongest * direction;
@@ -87,28 +85,6 @@ Result<std::pair<Vec3, Vec3>> find_line_into(const Scene& scene, RegionId region
                 "no way from the skin into '" + scene.joint().regions[region].name +
                     "' without bone, nerve or vessel; give --entry and --target");
   return line;
-}
-
-std::optional<Pose> find_view_of(const Scene& scene, const Pose& X_JN) {
-  constexpr int kTurns = 24;
-  const Vec3 axis = X_JN.linear().col(2);
-  std::optional<Pose> best;
-  double least = std::numeric_limits<double>::infinity();
-  for (const double tilt : {50.0, 65.0, 35.0, 80.0}) {
-    for (int k = 0; k < kTurns; ++k) {
-      const Vec3 about =
-          Eigen::AngleAxisd(2 * std::numbers::pi * k / kTurns, axis) * Vec3(X_JN.linear().col(0));
-      const Vec3 look = Eigen::AngleAxisd(tilt * kDegree, about) * axis;
-      const auto skin = free_entry(scene, X_JN.translation(), look);
-      if (!skin) continue;
-      const double way = (*skin - X_JN.translation()).norm();
-      if (way >= least) continue;
-      least = way;
-      best = make_pose(*skin, look, about.cross(look));
-    }
-    if (best) break;
-  }
-  return best;
 }
 
 }  // namespace artus

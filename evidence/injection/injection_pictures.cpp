@@ -20,7 +20,7 @@
 #include "artus/echo/labels.h"
 #include "artus/echo/renderer.h"
 #include "artus/evidence/injection/injection_plume.h"
-#include "artus/evidence/medical/three_injections_analysis.h"
+#include "artus/evidence/injection/injection_view.h"
 #include "artus/soft/injected_body.h"
 
 namespace artus {
@@ -32,7 +32,6 @@ constexpr double kReach = 70e-3;     // m around the tip that they cover
 constexpr double kStep = 0.1e-3;     // m along the needle
 constexpr double kBelowTip = 12e-3;  // m that a picture shows below the tip
 constexpr double kDeepest = 90e-3;   // m
-constexpr double kHalfFace = 18e-3;  // m of the face, to whose sides the tip may lie
 constexpr double kAgree = 5;         // %
 constexpr int kFrames = 36;          // of a video
 constexpr double kFrameRate = 9;     // 1/s
@@ -113,28 +112,70 @@ double volume_by_rays(const Scene& scene, const Pose& X_JN, std::span<const std:
   return length * kGrid * kGrid;
 }
 
-/// m^2 of the named regions in the picture's plane, by its labels.
-double area_by_labels(const Scene& scene, const Pose& X_JP, const InjectionPictureOptions& options,
-                      std::span<const std::string> names) {
-  const LabelImage labels = render_labels(scene, X_JP, options.transducer, options.settings);
+double area_of(const LabelImage& labels, const Scene& scene, std::span<const std::string> names) {
   const auto pixels = std::count_if(labels.regions.begin(), labels.regions.end(), [&](RegionId r) {
     return std::find(names.begin(), names.end(), scene.joint().regions[r].name) != names.end();
   });
   return static_cast<double>(pixels) * labels.pixel * labels.pixel;
 }
 
-/// m of them below each point of the probe's face, kApart apart, within what the labels show: by
-/// rays across the picture's plane, another way to the same.
+/// m^3 of the named regions around the needle's tip, by the labels of parallel pictures.
+double volume_by_labels(const Scene& scene, const Pose& X_JP, const Vec3& tip,
+                        std::span<const std::string> names) {
+  constexpr double kBetween = 1e-3;  // m
+  constexpr double kPixel = 0.25e-3;
+  Transducer wide;
+  wide.width = 2 * kReach;
+  ImageSettings settings;
+  settings.depth = 2 * kReach;
+  settings.pixel = kPixel;
+  const LabelRenderer renderer(wide, settings);
+  const auto n = static_cast<int>(kReach / kBetween);
+  double volume = 0;
+  for (int k = -n; k <= n; ++k) {
+    Pose slice = X_JP;
+    slice.translation() = tip + X_JP.linear() * Vec3(0, kBetween * k, -kReach);
+    volume += kBetween * area_of(renderer.render(scene, slice), scene, names);
+  }
+  return volume;
+}
+
+/// m^2 of the named regions in the picture's plane, by its labels.
+double area_by_labels(const Scene& scene, const Pose& X_JP, const InjectionPictureOptions& options,
+                      std::span<const std::string> names) {
+  return area_of(render_labels(scene, X_JP, options.transducer, options.settings), scene, names);
+}
+
+/// m of them along each of parallel lines in the picture's plane, kApart apart, `slant` rad from
+/// the beam, within what the labels show: by rays across the plane, another way to the same.
 std::vector<double> depths_by_rays(const Scene& scene, const Pose& X_JP,
-                                   const InjectionPictureOptions& options,
+                                   const InjectionPictureOptions& options, double slant,
                                    std::span<const std::string> names) {
   const double half = options.transducer.width / 2;
+  const double deep = options.settings.depth;
+  const double reach = std::hypot(half, deep / 2);
+  const Vec3 along(std::sin(slant), 0, std::cos(slant));
+  const Vec3 across(std::cos(slant), 0, -std::sin(slant));
   std::vector<double> depths;
-  for (double x = -half + kApart / 2; x < half; x += kApart) {
+  for (double t = -reach + kApart / 2; t < reach; t += kApart) {
     double& depth = depths.emplace_back();
-    const Vec3 from = X_JP * Vec3(x, 0, 0);
+    // Within the picture from `from` to `to` of the line.
+    const Vec3 middle = Vec3(0, 0, deep / 2) + t * across;
+    double from = -reach;
+    double to = reach;
+    const auto cut = [&](double at, double way, double low, double high) {
+      if (std::abs(way) < 1e-9) {
+        if (at < low || at > high) to = from;
+        return;
+      }
+      from = std::max(from, std::min((low - at) / way, (high - at) / way));
+      to = std::min(to, std::max((low - at) / way, (high - at) / way));
+    };
+    cut(middle.x(), along.x(), -half, half);
+    cut(middle.z(), along.z(), 0, deep);
+    if (!(to > from)) continue;
     for (const TissueInterval& s :
-         tissue_intervals(scene, {from, X_JP * Vec3(x, 0, options.settings.depth)})) {
+         tissue_intervals(scene, {X_JP * (middle + from * along), X_JP * (middle + to * along)})) {
       const std::string& name = scene.joint().regions[s.region].name;
       if (std::find(names.begin(), names.end(), name) != names.end()) depth += s.exit - s.entry;
     }
@@ -142,19 +183,26 @@ std::vector<double> depths_by_rays(const Scene& scene, const Pose& X_JP,
   return depths;
 }
 
-/// What rays find in the picture's plane: area, and how far the liquid is thicker than before.
+/// What rays find in the picture's plane: area, and as callipers would, square to the layer, how
+/// far the liquid is thicker than before where that is most and how wide it is by half of that.
 void measure_seen(const Scene& before, const Scene& after, const Pose& X_JP,
                   const InjectionPictureOptions& options, std::span<const std::string> names,
                   InjectionPictures& out) {
-  const std::vector<double> was = depths_by_rays(before, X_JP, options, names);
-  std::vector<double> more = depths_by_rays(after, X_JP, options, names);
-  out.ray_area = kApart * std::accumulate(more.begin(), more.end(), 0.0);
-  for (std::size_t k = 0; k < more.size(); ++k) more[k] -= was[k];
-  out.seen_opening = *std::max_element(more.begin(), more.end());
-  if (!(out.seen_opening > 0)) return;  // nothing is seen, no width of it either
-  out.seen_width =
-      kApart * static_cast<double>(std::count_if(
-                   more.begin(), more.end(), [&](double m) { return m >= out.seen_opening / 2; }));
+  constexpr double kMostSlant = 75;  // degrees from the beam
+  constexpr double kTurn = 5;
+  for (double slant = -kMostSlant; slant <= kMostSlant; slant += kTurn) {
+    const std::vector<double> was = depths_by_rays(before, X_JP, options, slant * kDegree, names);
+    std::vector<double> more = depths_by_rays(after, X_JP, options, slant * kDegree, names);
+    if (slant == 0) out.ray_area = kApart * std::accumulate(more.begin(), more.end(), 0.0);
+    for (std::size_t k = 0; k < more.size(); ++k) more[k] -= was[k];
+    const double opening = *std::max_element(more.begin(), more.end());
+    if (slant == 0) out.beam_opening = opening;
+    if (!(opening > 0) || (out.seen_opening > 0 && opening >= out.seen_opening)) continue;
+    out.seen_opening = opening;
+    out.seen_width =
+        kApart * static_cast<double>(std::count_if(more.begin(), more.end(),
+                                                   [&](double m) { return m >= opening / 2; }));
+  }
 }
 
 /// The last row whose given volume is at most `share` of the end's.
@@ -188,17 +236,6 @@ cv::Mat draw(const std::shared_ptr<const Scene>& scene, const InjectionRun& run,
   cv::Mat both;
   cv::vconcat(bmode, colours, both);
   return both;
-}
-
-/// Is the tip in front of the probe's face, with no bone before it?
-bool sees(const Scene& scene, const Pose& X_JP, const Vec3& tip) {
-  const Vec3 p = X_JP.inverse() * tip;
-  if (!(p.z() > 0) || std::abs(p.x()) > kHalfFace) return false;
-  const Vec3 above = X_JP * Vec3(p.x(), p.y(), 0);
-  const auto way = tissue_intervals(scene, {above, tip});
-  return std::none_of(way.begin(), way.end(), [&](const TissueInterval& s) {
-    return scene.joint().tissue_of(s.region).haptic.hard;
-  });
 }
 
 /// m^2 of the named region's walls that come apart by at least `least` m.
@@ -247,9 +284,7 @@ void measure_opening(const Scene& scene, const std::vector<Injected>& places,
 /// Where the probe lies, and how deep it looks.
 std::pair<Pose, InjectionPictureOptions> view_of(const Scene& scene, const InjectionRun& run,
                                                  const InjectionPictureOptions& options) {
-  Pose X_JP = probe_in_plane(scene, run.X_JN);
-  const bool over_it = sees(scene, X_JP, run.X_JN.translation());
-  if (const auto view = over_it ? std::nullopt : find_view_of(scene, run.X_JN)) X_JP = *view;
+  const Pose X_JP = find_view_of(scene, run.X_JN, options.transducer.width);
   InjectionPictureOptions deep = options;
   const double tip = (X_JP.inverse() * run.X_JN.translation()).z();
   deep.settings.depth = std::clamp(tip + kBelowTip, options.settings.depth, kDeepest);
@@ -323,6 +358,9 @@ Result<InjectionPictures> write_injection_pictures(const std::shared_ptr<const S
     if (place.cavity) names.push_back(place.region);
   }
   out.ray_volume = volume_by_rays(*body, run.X_JN, names) - volume_by_rays(*scene, run.X_JN, names);
+  const Vec3& tip = run.X_JN.translation();
+  out.label_volume =
+      volume_by_labels(*body, X_JP, tip, names) - volume_by_labels(*scene, X_JP, tip, names);
   out.label_area = area_by_labels(*body, X_JP, deep, names);
   if (options.transducer.radius == 0) measure_seen(*scene, *body, X_JP, deep, names, out);
   measure_opening(*scene, last, out);
@@ -356,6 +394,11 @@ std::vector<Claim> claims_of(const InjectionRun& run, const InjectionPictures& p
     claims.push_back(claim_near({ClaimKind::input, "the shapes are scaled to the volumes"},
                                 "liquid that rays find in the drawn body",
                                 pictures.ray_volume * 1e6, pictures.drawn_volume * 1e6,
+                                kAgree / 100, "ml"));
+  if (pictures.drawn_volume > 0)
+    claims.push_back(claim_near({ClaimKind::input, "the shapes are scaled to the volumes"},
+                                "liquid in the labels of slices 1 mm apart",
+                                pictures.label_volume * 1e6, pictures.drawn_volume * 1e6,
                                 kAgree / 100, "ml"));
   if (pictures.ray_area > 0)
     claims.push_back(claim_near({ClaimKind::input, "labels and rays see the same drawn scene"},

@@ -23,10 +23,13 @@ struct InjectionPictures {
   double width = 0;         ///< m across a disc of the area on which they are so by half
   double ray_volume = 0;    ///< m^3 of liquid that parallel rays half a millimetre apart find more
                             ///< than before
+  double label_volume = 0;  ///< m^3 of it in the labels of slices a millimetre apart, the same
   double label_area = 0;    ///< m^2 of liquid in the labels after, its space's own included
   double ray_area = 0;      ///< m^2 of the same by rays across the picture's plane
-  double seen_opening = 0;  ///< m of liquid, more than before, where that is most in the plane
-  double seen_width = 0;    ///< m of the probe's face below which it is at least half as much
+  double beam_opening = 0;  ///< m of liquid, more than before, where that is most along a beam
+  double seen_opening =
+      0;                  ///< m of the same square to the layer: at the slant at which it is least
+  double seen_width = 0;  ///< m across the plane, at that slant, where it is at least half as much
   double drawn_volume = 0;  ///< m^3 that the shapes were made of
 };
 
@@ -56,7 +59,7 @@ struct InjectionPictureOptions {
                                        std::span<const std::string> names,
                                        const std::filesystem::path& file);
 
-/// That rays find what was given, within 5 %; of a bursa, that it opens by 2 to 6 mm.
+/// That rays and labels find what was given, within 5 %; of a bursa, that it opens by 2 to 6 mm.
 [[nodiscard]] std::vector<Claim> claims_of(const InjectionRun& run,
                                            const InjectionPictures& pictures);
 

@@ -93,11 +93,6 @@ double share_in_target(const InjectionRun& run) {
   return run.given > 0 ? 100 * run.volumes.front() / run.given : 0;
 }
 
-bool is_cavity(const InjectionRun& run) {
-  return run.target_like != "muscle" && run.target_like != "fat" && run.target_like != "tendon" &&
-         run.target_like != "nerve" && run.target_like != "skin" && run.target_like != "capsule";
-}
-
 }  // namespace
 
 std::vector<Claim> claims_of(const InjectionRun& run) {
@@ -107,11 +102,9 @@ std::vector<Claim> claims_of(const InjectionRun& run) {
   claims.push_back(claim_at_most({ClaimKind::input, "the scalars are written to balance"},
                                  "what left the needle is somewhere",
                                  std::abs(run.unbalanced) / kCubicCentimetre, kBalance, "ml"));
-  if (is_cavity(run)) {
-    claims.push_back(claim_at_least(ClaimKind::independent, "volume in '" + run.target + "'",
-                                    share_in_target(run), kInPlace, "%"));
-    claims.push_back(claim_that(ClaimKind::independent, "all was given", run.complete));
-  }
+  claims.push_back(claim_at_least(ClaimKind::independent, "volume in '" + run.target + "'",
+                                  share_in_target(run), kInPlace, "%"));
+  claims.push_back(claim_that(ClaimKind::independent, "all was given", run.complete));
   return claims;
 }
 

@@ -103,8 +103,4 @@ struct LineLayer {
 /// target where the region is thickest. Deterministic. Errors: not_found.
 [[nodiscard]] Result<std::pair<Vec3, Vec3>> find_line_into(const Scene& scene, RegionId region);
 
-/// Where a probe sees the needle's tip through soft tissue alone, the needle in its plane and
-/// slanting to it; the nearest skin of those. None when bone is in every way.
-[[nodiscard]] std::optional<Pose> find_view_of(const Scene& scene, const Pose& X_JN);
-
 }  // namespace artus

@@ -5,6 +5,7 @@
 #include <cctype>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include <opencv2/imgproc.hpp>
@@ -15,16 +16,14 @@
 #include "artus/core/units.h"
 #include "artus/dataset/video_file.h"
 #include "artus/echo/image_io.h"
-#include "artus/echo/pressing_face.h"
 #include "artus/echo/renderer.h"
 #include "artus/session/fluid_core.h"
-#include "artus/session/tissue_core.h"
 
 namespace artus {
 namespace {
 
 constexpr int kCaptionHeight = 28;  // pixels
-constexpr int kHeldImages = 45;     // of tissue that comes to rest under the probe of a moment
+constexpr int kHeldImages = 45;     // in which what was injected until a moment opens the body
 
 std::string file_stem(std::size_t index, const NamedMoment& moment) {
   const std::string prefix = printed("%02zu-injection-%d-", index + 1, moment.pass);
@@ -57,42 +56,55 @@ void remove_old_images(const std::filesystem::path& folder) {
   for (const auto& file : old) std::filesystem::remove(file, ignored);
 }
 
-/// Draws one run into one folder.
+}  // namespace
+
+/// Draws the pictures of one run into one folder.
 class RunPainter {
  public:
-  RunPainter(std::shared_ptr<const Scene> scene, const ThreeInjections& run,
-             std::filesystem::path folder, const RunImagesOptions& options,
-             std::optional<TissueCore> tissue)
+  /// `rate`: images a second.
+  RunPainter(std::shared_ptr<const Scene> scene, std::filesystem::path folder,
+             const RunImagesOptions& options, double rate)
       : scene_(std::move(scene)),
-        tissue_(std::move(tissue)),
-        run_(&run),
         folder_(std::move(folder)),
         shape_(options.needle),
-        rate_(options.frames_per_second),
-        renderer_(scene_, options.transducer, options.settings) {
+        rate_(rate),
+        video_rate_(options.frames_per_second),
+        renderer_(scene_, options.transducer, options.settings) {}
+
+  /// The next image's body, as `tissue` lies in it (a rigid one: the joint's), with what was
+  /// injected until the run's row `row`: what is drawn from now on.
+  void lay(const std::shared_ptr<const Scene>& tissue, const ThreeInjections& run,
+           std::size_t row) {
+    body_ = tissue;
+    std::shared_ptr<const Scene> filled;
+    if (!run.syringe.empty()) {
+      if (!fluid_) fluid_.emplace(scene_->shared_joint(), run.liquid, rate_);
+      const SyringeRow& syringe = run.syringe[row];
+      filled = fluid_->step({syringe.sites.data(), syringe.n_sites}, body_->tissue());
+    }
+    if (filled || filled_)
+      renderer_.set_filled_scene(filled ? filled : body_);
+    else if (body_->tissue() != nullptr)
+      renderer_.set_scene(body_);
+    filled_ = filled != nullptr;
+    if (filled_) body_ = filled;
     shape_.length = run.needle_length;
   }
+  void forget_liquid() { fluid_.reset(); }
+  void set_coverage(std::span<const float> coverage) { renderer_.set_contact(coverage); }
 
-  Result<MomentImage> draw_moment(std::size_t index) {
-    const NamedMoment& moment = run_->moments[index];
+  Result<MomentImage> draw_moment(const ThreeInjections& run, std::size_t index, const Pose& X_JP,
+                                  const Pose& X_JN) {
+    const NamedMoment& moment = run.moments[index];
     const std::string stem = file_stem(index, moment);
-    const NeedleView needle{moment.X_JN, shape_};
+    const NeedleView needle{X_JN, shape_};
     const Transducer& transducer = renderer_.transducer();
     MomentImage image{moment.label,
                       moment.time,
                       moment.pass,
                       folder_ / (stem + ".png"),
                       folder_ / (stem + "-labels.png"),
-                      locate_needle(needle, moment.X_JP, transducer, renderer_.settings())};
-    Pose X_JP = moment.X_JP;
-    const std::size_t row = row_at(moment.time);
-    if (tissue_) {
-      X_JP = run_->probe[row].X_JP;
-      image.needle = locate_needle(needle, X_JP, transducer, renderer_.settings());
-    } else {
-      renderer_.set_contact(moment.coverage);
-    }
-    for (int k = 0; k < kHeldImages; ++k) draw_body(X_JP, row);
+                      locate_needle(needle, X_JP, transducer, renderer_.settings())};
     const Frame& frame = renderer_.render(X_JP, needle);
     ARTUS_TRY(write_image(annotated_image(frame, transducer), image.bmode));
     const auto labels = render_labels(*body_, X_JP, transducer, renderer_.settings(), needle);
@@ -100,84 +112,75 @@ class RunPainter {
     return image;
   }
 
-  /// The whole run in real time. The video's file and frames go into `images`.
-  Result<void> draw_video(double rate, RunImages& images, const Progress& progress) {
-    std::optional<VideoFile> video;
-    ProbeContactModel contact(scene_, run_->options.probe.contact);
-    fluid_.reset();
-    const int n_frames = static_cast<int>(std::floor(run_->rows.back().time * rate)) + 1;
-    std::size_t next = 0;
-    for (int i = 0; i < n_frames; ++i) {
-      const double time = i / rate;
-      while (next + 1 < run_->rows.size() && run_->rows[next].time < time) ++next;
-      const cv::Mat picture = draw_tick(next, contact);
-      if (!video) {
-        auto opened =
-            VideoFile::open(folder_ / "three-injections.mp4", picture.size(), false, rate);
-        ARTUS_TRY(opened);
-        video = std::move(*opened);
-      }
-      video->write(picture);
-      ++images.video_frames;
-      if (progress) progress("video", static_cast<double>(i + 1) / n_frames);
+  /// The run's row as the video's next frame.
+  Result<void> draw_frame(const ThreeInjections& run, std::size_t tick, const Pose& X_JP) {
+    const NeedleRow& row = run.rows[tick];
+    const Frame& frame = renderer_.render(X_JP, NeedleView{row.X_JN, shape_});
+    const cv::Mat picture = with_caption(annotated_image(frame, renderer_.transducer()), row,
+                                         run.probe[tick], run.region_names[row.region]);
+    if (!video_) {
+      auto opened =
+          VideoFile::open(folder_ / "three-injections.mp4", picture.size(), false, video_rate_);
+      ARTUS_TRY(opened);
+      video_ = std::move(*opened);
     }
-    const auto file = video->finish();
-    ARTUS_TRY(file);
-    images.video = *file;
+    video_->write(picture);
+    ++frames_;
     return {};
   }
 
+  /// The video's file and frames into `images`.
+  Result<void> finish(RunImages& images) {
+    if (!video_) return {};
+    const auto file = video_->finish();
+    ARTUS_TRY(file);
+    images.video = *file;
+    images.video_frames = frames_;
+    return {};
+  }
+  [[nodiscard]] int frames() const noexcept { return frames_; }
+
  private:
-  [[nodiscard]] std::size_t row_at(double time) const {
-    const auto row = std::lower_bound(run_->rows.begin(), run_->rows.end() - 1, time,
-                                      [](const NeedleRow& r, double t) { return r.time < t; });
-    return static_cast<std::size_t>(row - run_->rows.begin());
-  }
-
-  /// The body one image later under the probe, with what was injected until then: what the picture
-  /// is drawn of.
-  void draw_body(const Pose& X_JP, std::size_t row) {
-    if (tissue_) tissue_->step(X_JP);
-    body_ = tissue_ ? tissue_->scene() : scene_;
-    std::shared_ptr<const Scene> filled;
-    if (!run_->syringe.empty()) {
-      if (!fluid_) fluid_.emplace(scene_->shared_joint(), run_->liquid, rate_);
-      const SyringeRow& syringe = run_->syringe[row];
-      filled = fluid_->step({syringe.sites.data(), syringe.n_sites}, body_->tissue());
-    }
-    if (filled || filled_)
-      renderer_.set_filled_scene(filled ? filled : body_);
-    else if (tissue_)
-      renderer_.set_scene(body_);
-    filled_ = filled != nullptr;
-    if (filled_) body_ = filled;
-  }
-
-  cv::Mat draw_tick(std::size_t tick, ProbeContactModel& contact) {
-    const NeedleRow& row = run_->rows[tick];
-    const ProbeHandRow& probe = run_->probe[tick];
-    draw_body(probe.X_JP, tick);
-    if (!tissue_) {
-      static_cast<void>(contact.step(probe.X_JP));
-      renderer_.set_contact(contact.coverage());
-    }
-    const Pose X_JP = tissue_ ? probe.X_JP : probe.image_pose();
-    const Frame& frame = renderer_.render(X_JP, NeedleView{row.X_JN, shape_});
-    return with_caption(annotated_image(frame, renderer_.transducer()), row, probe,
-                        run_->region_names[row.region]);
-  }
-
   std::shared_ptr<const Scene> scene_;
-  std::optional<TissueCore> tissue_;  // empty: rigid
-  const ThreeInjections* run_;
   std::filesystem::path folder_;
   NeedleShape shape_;
-  double rate_;                     // images a second
+  double rate_;
+  double video_rate_;
   std::optional<FluidCore> fluid_;  // empty: nothing was drawn of it yet
   bool filled_ = false;
   std::shared_ptr<const Scene> body_;
   Renderer renderer_;
+  std::optional<VideoFile> video_;
+  int frames_ = 0;
 };
+
+namespace {
+
+std::size_t row_at(const ThreeInjections& run, double time) {
+  const auto row = std::lower_bound(run.rows.begin(), run.rows.end() - 1, time,
+                                    [](const NeedleRow& r, double t) { return r.time < t; });
+  return static_cast<std::size_t>(row - run.rows.begin());
+}
+
+/// The whole run of a rigid body in real time.
+Result<void> draw_video(const std::shared_ptr<const Scene>& scene, const ThreeInjections& run,
+                        double rate, RunPainter& painter, const Progress& progress) {
+  ProbeContactModel contact(scene, run.options.probe.contact);
+  painter.forget_liquid();
+  const int n_frames = static_cast<int>(std::floor(run.rows.back().time * rate)) + 1;
+  std::size_t next = 0;
+  for (int i = 0; i < n_frames; ++i) {
+    const double time = i / rate;
+    while (next + 1 < run.rows.size() && run.rows[next].time < time) ++next;
+    const ProbeHandRow& probe = run.probe[next];
+    painter.lay(scene, run, next);
+    static_cast<void>(contact.step(probe.X_JP));
+    painter.set_coverage(contact.coverage());
+    ARTUS_TRY(painter.draw_frame(run, next, probe.image_pose()));
+    if (progress) progress("video", static_cast<double>(i + 1) / n_frames);
+  }
+  return {};
+}
 
 }  // namespace
 
@@ -187,25 +190,58 @@ Result<RunImages> write_run_images(const std::shared_ptr<const Scene>& scene,
   RunImages images;
   if (run.probe.empty() || run.moments.empty()) return images;
   remove_old_images(folder);
-  std::optional<TissueCore> tissue;
-  if (options.deform) {
-    const auto face = pressing_face(options.transducer);
-    ARTUS_TRY(face);
-    auto made = TissueCore::make(scene->shared_joint(), run.moments.front().X_JP_seat,
-                                 options.frames_per_second, *face);
-    ARTUS_TRY(made);
-    tissue.emplace(std::move(*made));
-  }
-  RunPainter painter(scene, run, folder, options, std::move(tissue));
+  RunPainter painter(scene, folder, options, options.frames_per_second);
   for (std::size_t i = 0; i < run.moments.size(); ++i) {
-    auto image = painter.draw_moment(i);
+    const NamedMoment& moment = run.moments[i];
+    const std::size_t row = row_at(run, moment.time);
+    painter.set_coverage(moment.coverage);
+    for (int k = 0; k < kHeldImages; ++k) painter.lay(scene, run, row);
+    auto image = painter.draw_moment(run, i, moment.X_JP, moment.X_JN);
     ARTUS_TRY(image);
     images.moments.push_back(std::move(*image));
     if (progress)
       progress("images", static_cast<double>(i + 1) / static_cast<double>(run.moments.size()));
   }
-  if (options.video) ARTUS_TRY(painter.draw_video(options.frames_per_second, images, progress));
+  if (options.video)
+    ARTUS_TRY(draw_video(scene, run, options.frames_per_second, painter, progress));
+  ARTUS_TRY(painter.finish(images));
   return images;
+}
+
+LiveRunImages::LiveRunImages(std::shared_ptr<const Scene> scene, std::filesystem::path folder,
+                             const RunImagesOptions& options, double image_rate)
+    : options_(options) {
+  remove_old_images(folder);
+  painter_ = std::make_unique<RunPainter>(std::move(scene), std::move(folder), options, image_rate);
+}
+
+LiveRunImages::~LiveRunImages() = default;
+
+void LiveRunImages::see(const ThreeInjections& run, const std::shared_ptr<const Scene>& body) {
+  if (failed_) return;
+  const auto drawn = draw(run, body);
+  if (!drawn) failed_ = drawn.error();
+}
+
+Result<void> LiveRunImages::draw(const ThreeInjections& run,
+                                 const std::shared_ptr<const Scene>& body) {
+  const std::size_t row = run.rows.size() - 1;
+  const Pose& X_JP = run.probe[row].X_JP;
+  painter_->lay(body, run, std::min(row, std::max<std::size_t>(run.syringe.size(), 1) - 1));
+  while (images_.moments.size() < run.moments.size()) {
+    auto image = painter_->draw_moment(run, images_.moments.size(), X_JP, run.rows[row].X_JN);
+    ARTUS_TRY(image);
+    images_.moments.push_back(std::move(*image));
+  }
+  if (options_.video && run.rows[row].time * options_.frames_per_second >= painter_->frames())
+    ARTUS_TRY(painter_->draw_frame(run, row, X_JP));
+  return {};
+}
+
+Result<RunImages> LiveRunImages::finish() {
+  if (failed_) return tl::unexpected<Error>(*failed_);
+  ARTUS_TRY(painter_->finish(images_));
+  return std::move(images_);
 }
 
 nlohmann::json summarize(const RunImages& images) {

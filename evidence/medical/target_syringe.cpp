@@ -72,7 +72,6 @@ SyringeRow TargetSyringe::row() const {
 
 void TargetSyringe::finish(std::span<const RegionId> targets, ThreeInjections& out) const {
   const Plunger& plunger = core_.plunger();
-  out.liquid = plunger.params().liquid;
   double everywhere = 0;
   for (std::uint32_t k = 0; k < plunger.states().size(); ++k) {
     const SpaceState& state = plunger.states()[k];

@@ -21,6 +21,7 @@ class TargetSyringe {
   /// What was meant at this target is in, or does not go in.
   [[nodiscard]] bool given() const noexcept;
   [[nodiscard]] SyringeRow row() const;
+  [[nodiscard]] const Liquid& liquid() const noexcept { return core_.plunger().params().liquid; }
   /// Places and balance into `out`. A place is a target when one of `targets` is in it.
   void finish(std::span<const RegionId> targets, ThreeInjections& out) const;
 

@@ -3,6 +3,8 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -18,6 +20,7 @@
 #include "artus/operators/probe_hand.h"
 #include "artus/operators/simulated_hand.h"
 #include "artus/session/syringe_core.h"
+#include "artus/soft/face_contact.h"
 
 namespace artus {
 
@@ -53,8 +56,10 @@ struct NamedMoment {
   Pose X_JN = Pose::Identity();
   Pose X_JP_seat = Pose::Identity();  ///< where the probe is meant to lie: on the skin, its plane
                                       ///< through the insertion line
-  Pose X_JP = Pose::Identity();       ///< where the picture is taken, see ProbeHandRow
-  std::vector<float> coverage;        ///< of each of the probe's elements with skin or gel, 0..1
+  Pose X_JP = Pose::Identity();       ///< where the picture is taken: see ProbeHandRow in rigid
+                                      ///< tissue, else where the probe is
+  std::vector<float> coverage;  ///< of each of the probe's elements with skin or gel, 0..1, on
+                                ///< a rigid body
 };
 
 /// One touch of bone.
@@ -98,19 +103,29 @@ struct ThreeInjections {
   ThreeInjectionsOptions options;
 };
 
+/// How tissue gives way in a run.
+struct RunTissueOptions {
+  ProbeFace face;          ///< that presses
+  double image_rate = 30;  ///< 1/s of its steps, of which each is an image's instant
+  /// Called with the run so far and the body as it lies at its last row, which is an image's.
+  std::function<void(const ThreeInjections&, const std::shared_ptr<const Scene>&)> on_image;
+};
+
 /// The published medical test [Alamilla2020] section 4.6 with a simulated hand and device: the
 /// first two injections go slowly to the bursa, withdraw, re-aim inside the cone, reach another
 /// part of it and touch bone slowly; the third goes fast and straight to the bone. With a dose the
 /// thumb gives it wherever the needle stops at a target, the bevel's whole opening in it where the
 /// layer is thick enough, and what the thumb pushes moves the needle. The other hand
-/// presses the probe on the skin, its plane in the needle's line. Deterministic for a scene,
+/// presses the probe on the skin, its plane in the needle's line. With `tissue` the body gives way
+/// to both hands as in a session; null: it is rigid, as published. Deterministic for a scene,
 /// options and seed. Works on any joint with a target; a line without bone behind it
 /// skips the touch and says so in a claim. Errors: not_found (no such device), invalid (fewer than
 /// three injections, an entry inside or a target outside the body; a dose that no syringe holds),
-/// those of make_plunger_params.
+/// those of make_plunger_params and TissueCore::make.
 [[nodiscard]] Result<ThreeInjections> run_three_injections(
     const Scene& scene, std::span<const PlannedInjection> injections,
-    const ThreeInjectionsOptions& options = {}, const Progress& progress = {});
+    const ThreeInjectionsOptions& options = {}, const Progress& progress = {},
+    const RunTissueOptions* tissue = nullptr);
 
 /// Plateaus, touches, moments, claims and settings, in the units of the names.
 [[nodiscard]] nlohmann::json summarize(const ThreeInjections& run);

@@ -22,51 +22,14 @@ double ease(double share) {
   return s * s * s * (10 - 15 * s + 6 * s * s);
 }
 
+constexpr double kFar = 0.03;  // m; assumed: less than a footprint's length is slid
+
 /// Whether a seat is too far for the probe to be slid there: it is lifted and set down again.
-bool is_far(const Pose& from, const Pose& to) {
-  constexpr double kFar = 0.03;  // m; assumed: less than a footprint's length is slid
+bool is_far(const Pose& from, const Pose& to, double far) {
   constexpr double kSteep = 30 * kDegree;
   const Eigen::AngleAxisd turn(Eigen::Matrix3d(from.linear().transpose() * to.linear()));
-  return (to.translation() - from.translation()).norm() > kFar || std::abs(turn.angle()) > kSteep;
+  return (to.translation() - from.translation()).norm() > far || std::abs(turn.angle()) > kSteep;
 }
-
-/// Where the hand means to have the probe: at each moment on its seat, sliding in between or, where
-/// it is far, lifted; lifted before the first and after the last.
-class ProbePlan {
- public:
-  explicit ProbePlan(std::span<const NamedMoment> moments) : moments_(moments) {}
-
-  [[nodiscard]] ProbeIntention intention(double t) const {
-    ProbeIntention out;
-    out.lift = 1 - ease((t - kTouchTime) / kLowerTime) +
-               ease((t - moments_.back().time - kSteadyTime) / kLowerTime);
-    const auto after = std::find_if(moments_.begin(), moments_.end(),
-                                    [t](const NamedMoment& moment) { return moment.time > t; });
-    if (after == moments_.begin() || after == moments_.end()) {
-      out.X_JP = (after == moments_.begin() ? moments_.front() : moments_.back()).X_JP_seat;
-      return out;
-    }
-    const NamedMoment& from = *(after - 1);
-    const double duration = std::min(kSlideTime, after->time - from.time);
-    const double done = (t - from.time) / duration;
-    const bool lifts = is_far(from.X_JP_seat, after->X_JP_seat);
-    const double share = lifts ? ease(3 * done - 1) : ease(done);
-    const Pose& a = from.X_JP_seat;
-    const Pose& b = after->X_JP_seat;
-    const Eigen::Quaterniond turn =
-        Eigen::Quaterniond(a.linear()).slerp(share, Eigen::Quaterniond(b.linear()));
-    out.X_JP.linear() = turn.normalized().toRotationMatrix();
-    out.X_JP.translation() = (1 - share) * a.translation() + share * b.translation();
-    if (lifts) {
-      out.lift = std::min(1.0, out.lift + ease(3 * done) - ease(3 * done - 2));
-      out.rise = (b.translation() - a.translation()).norm() / 2;  // clears a body as round as that
-    }
-    return out;
-  }
-
- private:
-  std::span<const NamedMoment> moments_;
-};
 
 /// Whether the probe should be pressed and still at `t`: not being lowered, slid or lifted.
 bool is_held(const ThreeInjections& run, double t) {
@@ -84,15 +47,42 @@ bool is_held(const ThreeInjections& run, double t) {
 
 }  // namespace
 
+ProbeIntention intend_probe(std::span<const NamedMoment> moments, double t, double far) {
+  ProbeIntention out;
+  out.lift = 1 - ease((t - kTouchTime) / kLowerTime) +
+             ease((t - moments.back().time - kSteadyTime) / kLowerTime);
+  const auto after = std::find_if(moments.begin(), moments.end(),
+                                  [t](const NamedMoment& moment) { return moment.time > t; });
+  if (after == moments.begin() || after == moments.end()) {
+    out.X_JP = (after == moments.begin() ? moments.front() : moments.back()).X_JP_seat;
+    return out;
+  }
+  const NamedMoment& from = *(after - 1);
+  const double duration = std::min(kSlideTime, after->time - from.time);
+  const double done = (t - from.time) / duration;
+  const bool lifts = is_far(from.X_JP_seat, after->X_JP_seat, far);
+  const double share = lifts ? ease(3 * done - 1) : ease(done);
+  const Pose& a = from.X_JP_seat;
+  const Pose& b = after->X_JP_seat;
+  const Eigen::Quaterniond turn =
+      Eigen::Quaterniond(a.linear()).slerp(share, Eigen::Quaterniond(b.linear()));
+  out.X_JP.linear() = turn.normalized().toRotationMatrix();
+  out.X_JP.translation() = (1 - share) * a.translation() + share * b.translation();
+  if (lifts) {
+    out.lift = std::min(1.0, out.lift + ease(3 * done) - ease(3 * done - 2));
+    out.rise = (b.translation() - a.translation()).norm() / 2;  // clears a body as round as that
+  }
+  return out;
+}
+
 void run_probe_hand(const std::shared_ptr<const Scene>& scene, ThreeInjections& run) {
-  const ProbePlan plan(run.moments);
   const double rate = run.options.rate_hz;
   ProbeHandParams params = run.options.probe;
   params.hand.seed = mix_bits(run.options.seed);
   ProbeHand hand(scene, params, rate, run.moments.front().X_JP_seat);
   run.probe.reserve(run.rows.size());
   for (std::size_t i = 0; i < run.rows.size(); ++i) {
-    run.probe.push_back(hand.step([&plan](double t) { return plan.intention(t); }));
+    run.probe.push_back(hand.step([&run](double t) { return intend_probe(run.moments, t, kFar); }));
   }
   ProbeContactModel contact(scene, params.contact);
   for (NamedMoment& moment : run.moments) {

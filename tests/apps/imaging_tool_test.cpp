@@ -246,6 +246,25 @@ TEST_F(ImagingTool, NeedleDrawnBackPullsTissueAlong) {
   EXPECT_TRUE(std::filesystem::exists(in("out.png")));
 }
 
+TEST_F(ImagingTool, DeformGivesWayToANeedleAsAPictureDoes) {
+  const auto said = [&](std::vector<std::string> more) {
+    std::vector<std::string> line{"deform", "-j", kSimple, "--press-mm", "1", "--json"};
+    line.insert(line.end(), more.begin(), more.end());
+    const auto r = artus(line);
+    EXPECT_EQ(r.exit_code, 0) << r.err << r.out;
+    return nlohmann::json::parse(r.out);
+  };
+  EXPECT_FALSE(said({}).contains("needle"));
+  EXPECT_EQ(said({"--needle", "default"}).at("needle"), needle_moved("in", in("in.png")));
+  EXPECT_EQ(said({"--needle", "default", "--needle-way", "out"}).at("needle"),
+            needle_moved("out", in("out.png")));
+  const auto told = artus({"deform", "-j", kSimple, "--press-mm", "1", "--needle", "default"});
+  EXPECT_NE(told.out.find("needle going in: "), std::string::npos) << told.out;
+  const auto without = artus({"deform", "-j", kSimple, "--needle-way", "in"});
+  EXPECT_EQ(without.exit_code, 2);
+  EXPECT_NE(without.err.find("--needle-way: needs a needle"), std::string::npos) << without.err;
+}
+
 TEST_F(ImagingTool, NeedleDragsNothingInARigidBody) {
   const auto r = artus(
       {"slice", "-j", kSimple, "--needle", "default", "--needle-way", "in", "-o", in("rigid.png")});

@@ -82,7 +82,7 @@ TEST_F(ImportTool, TheTutorialLeadsFromBareSurfacesToAnInjection) {
   EXPECT_NE(planned.out.find("the body is the one compiled before"), std::string::npos);
   EXPECT_EQ(artus({"image", "-j", in("my.artus"), "-o", in("image.png")}).exit_code, 0);
   const auto run = artus({"run", "three-injections", "-j", in("my.artus"), "--out", in("run"),
-                          "--no-images", "--json"});
+                          "--no-images", "--rigid", "--json"});
   EXPECT_EQ(run.exit_code, 0) << run.out << run.err;
   const std::string text = content(in("report.html"));
   expect_self_contained(text);

@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "artus/session/session_thread.h"
 #include "artus/session/shared_memory.h"
@@ -63,6 +64,22 @@ TEST(Serve, WithoutImagesMakesNoSegmentAndDrawsNothing) {
                                    "--no-images", "--seconds", "0.3", "--json"});
   EXPECT_EQ(served.exit_code, 0) << served.err;
   EXPECT_NE(served.out.find("\"frames\": 0"), std::string::npos);
+}
+
+TEST(Serve, SaysWhatASessionInTissueThatGivesWayCostsHere) {
+  const auto served =
+      test::artus({"serve", "-j", test::kSimple, "--input", "injection", "--prefix",
+                   "artus-cost-" + std::to_string(getpid()) + "-", "--seconds", "20", "--json"});
+  ASSERT_EQ(served.exit_code, 0) << served.err;
+  const auto report = nlohmann::json::parse(served.out);
+  EXPECT_GT(report.at("peak_memory_mb").get<double>(), 50);
+  const auto& times = report.at("times");
+  for (const char* what : {"haptic_compute", "tissue_step", "tissue_interval", "image_render",
+                           "image_interval", "fixed_work"}) {
+    EXPECT_GT(times.at(what).at("count").get<int>(), 1) << what;
+    EXPECT_GT(times.at(what).at("p50_ms").get<double>(), 0) << what;
+    EXPECT_GE(times.at(what).at("p99_ms").get<double>(), times.at(what).at("p50_ms").get<double>());
+  }
 }
 
 TEST(Serve, NumbersThatCannotBeWrittenAreRefusedBeforeTheSession) {

@@ -97,6 +97,9 @@ TEST_F(Tool, RunsTheMainJobWithAllItsFilesAndEveryClaimHolds) {
   ASSERT_EQ(r.exit_code, 0) << r.out << r.err;
   const auto summary = nlohmann::json::parse(r.out);
   EXPECT_TRUE(summary.at("pass").get<bool>());
+  EXPECT_TRUE(summary.at("deforms").get<bool>());
+  EXPECT_TRUE(summary.at("rigid").at("pass").get<bool>());
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "run/rigid/trace.csv"));
   for (const char* file : {"trace.csv", "forces.png", "summary.json"})
     EXPECT_TRUE(std::filesystem::exists(folder_ / "run" / file)) << file;
   ASSERT_GE(summary.at("images").size(), 4U);
@@ -110,14 +113,14 @@ TEST_F(Tool, RunsTheMainJobWithAllItsFilesAndEveryClaimHolds) {
 }
 
 TEST_F(Tool, TheMainJobInjectsUnlessItIsDry) {
-  const auto wet = artus(
-      {"run", "three-injections", "-j", kSimple, "--out", in("wet"), "--no-images", "--json"});
+  const auto wet = artus({"run", "three-injections", "-j", kSimple, "--out", in("wet"),
+                          "--no-images", "--rigid", "--json"});
   ASSERT_EQ(wet.exit_code, 0) << wet.out << wet.err;
   const auto injected = nlohmann::json::parse(wet.out).at("injected");
   EXPECT_NEAR(injected.at("given_ml").get<double>(), injected.at("asked_ml").get<double>(), 0.04);
   EXPECT_GT(injected.at("places").at("bursa").at("ml").get<double>(), 1.9);
   const auto dry = artus({"run", "three-injections", "-j", kSimple, "--out", in("dry"),
-                          "--no-images", "--json", "--dry"});
+                          "--no-images", "--rigid", "--json", "--dry"});
   ASSERT_EQ(dry.exit_code, 0) << dry.out << dry.err;
   EXPECT_FALSE(nlohmann::json::parse(dry.out).contains("injected"));
 }
@@ -126,7 +129,7 @@ TEST_F(Tool, TheMainJobHoldsOnAKneeAndAHip) {
   for (const char* joint : {"knee", "hip"}) {
     const auto r = artus({"run", "three-injections", "-j",
                           artus::test::test_joints().string() + "/" + joint + ".artus", "--out",
-                          in(joint), "--no-images", "--json"});
+                          in(joint), "--no-images", "--rigid", "--json"});
     ASSERT_EQ(r.exit_code, 0) << joint << r.out << r.err;
     EXPECT_TRUE(nlohmann::json::parse(r.out).at("pass").get<bool>()) << joint;
   }
@@ -143,7 +146,7 @@ TEST_F(Tool, AnInjectionOnTheCommandLineTakesTheJointsPlace) {
   entry = entry.substr(0, entry.find(')'));
   entry.erase(std::remove(entry.begin(), entry.end(), ' '), entry.end());
   const auto followed = artus({"run", "three-injections", "-j", kSimple, "--out", in("run"),
-                               "--no-images", "--entry=" + entry, "--target=-34.1,0,3"});
+                               "--no-images", "--rigid", "--entry=" + entry, "--target=-34.1,0,3"});
   EXPECT_EQ(followed.exit_code, 0) << entry << followed.err << followed.out;
 }
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/evidence/injection/injection_pictures.h"
 
+#include <cmath>
+#include <numbers>
+
 #include <opencv2/videoio.hpp>
 
 #include <gtest/gtest.h>
@@ -47,6 +50,40 @@ TEST_F(InjectionVideo, ShowsTheWholeCourseAndNoneOfARunThatGaveNothing) {
 
   std::erase_if(run->rows, [](const InjectionRow& row) { return row.phase == "inject"; });
   EXPECT_FALSE(write_injection_video(scene, *run, options, folder_));
+}
+
+TEST_F(InjectionVideo, PicturesSayHowWideAndThickTheLiquidIsWhateverTheBeamsSlant) {
+  const std::vector<SphereLayer> layers{
+      {"skin", 46e-3}, {"muscle", 44e-3}, {"bursa", 32e-3}, {"tendon", 30e-3}, {"bone", 24e-3}};
+  InjectionSpec spec;
+  spec.entry = Vec3(0, 0, -46e-3);
+  spec.target = Vec3(0, 0, -31e-3);
+  spec.volume = 3e-6;
+  spec.rate = 0.5e-6;
+  spec.aspirate = 0;
+  spec.plunger.liquids = *read_bundled_liquids();
+  spec.plunger.liquid = *find_liquid(spec.plunger.liquids, "saline");
+  InjectionPictureOptions options;
+  options.transducer.n_lines = 48;
+  options.settings.depth = 30e-3;
+  std::vector<InjectionPictures> seen;
+  for (const double degrees : {0.0, 15.0}) {
+    CompiledJoint joint = test::make_nested_spheres(layers, Vec3::Zero(), 5);
+    const double slant = degrees * std::numbers::pi / 180;
+    const Vec3 look(std::sin(slant), 0, std::cos(slant));
+    joint.X_JP_default = make_pose(-46e-3 * look, look, Vec3(std::cos(slant), 0, -std::sin(slant)));
+    const auto scene = std::make_shared<const Scene>(std::make_shared<const CompiledJoint>(joint));
+    const auto run = run_injection(*scene, spec);
+    ASSERT_TRUE(run) << run.error().message;
+    const auto pictures = write_injection_pictures(scene, *run, options, folder_);
+    ASSERT_TRUE(pictures) << pictures.error().message;
+    for (const Claim& claim : claims_of(*run, *pictures)) EXPECT_TRUE(claim.pass) << to_line(claim);
+    EXPECT_GT(pictures->opening, 2e-3);
+    EXPECT_NEAR(pictures->label_volume, run->given, 0.05 * run->given);
+    EXPECT_NEAR(pictures->seen_opening, pictures->opening, 0.1 * pictures->opening) << degrees;
+    seen.push_back(*pictures);
+  }
+  EXPECT_NEAR(seen[0].seen_width, seen[1].seen_width, 0.1 * seen[0].seen_width);
 }
 
 }  // namespace

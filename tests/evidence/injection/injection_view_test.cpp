@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/evidence/injection/injection_view.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/layered_body.h"
+
+namespace artus {
+namespace {
+
+const std::vector<FlatLayer> kLayers{{"skin", 2e-3}, {"muscle", 25e-3}, {"bone", 8e-3}};
+constexpr double kWidth = 38e-3;  // m of the face
+
+TEST(FindView, HasTheNeedleInItsPlaneTheTipBeforeItsFaceAndTheFaceOnTheSkin) {
+  const Scene scene(
+      std::make_shared<const CompiledJoint>(test::make_layered_block(kLayers, 0.12, 0.12)));
+  for (const Vec3& along : {Vec3(0.5, 0, 0.8), Vec3(0.8, 0.3, 0.4), Vec3(-0.2, -0.7, 0.6)})
+    for (const double x : {-25e-3, 0.0, 35e-3}) {
+      const Vec3 axis = along.normalized();
+      const Pose X_JN = make_pose(Vec3(x, 10e-3, 15e-3), axis, Vec3::UnitY().cross(axis));
+      const Pose X_JP = find_view_of(scene, X_JN, kWidth);
+      const Vec3 tip = X_JP.inverse() * X_JN.translation();
+      EXPECT_NEAR(tip.y(), 0, 1e-6);
+      EXPECT_NEAR((X_JP.linear().transpose() * axis).y(), 0, 1e-6);
+      EXPECT_GT(tip.z(), 5e-3);
+      EXPECT_LT(std::abs(tip.x()), kWidth / 2);
+      for (const double at : {-0.8, 0.0, 0.8})
+        EXPECT_LT(std::abs((X_JP * Vec3(at * kWidth / 2, 0, 0)).z()), 3e-3) << along.transpose();
+    }
+}
+
+TEST(FindView, LooksBesideBoneThatLiesBeforeTheTip) {
+  // The joint's own way of looking is through the bone, from below.
+  CompiledJoint joint = test::make_layered_block(kLayers, 0.12, 0.12);
+  joint.X_JP_default = make_pose(Vec3(0, 0, 35e-3), -Vec3::UnitZ(), Vec3::UnitX());
+  const Scene scene(std::make_shared<const CompiledJoint>(std::move(joint)));
+  const Vec3 axis = Vec3(0.6, 0, 0.8);
+  const Pose X_JN = make_pose(Vec3(0, 0, 15e-3), axis, Vec3::UnitY().cross(axis));
+  const Pose X_JP = find_view_of(scene, X_JN, kWidth);
+  EXPECT_LT(X_JP.translation().z(), 1e-3);
+  EXPECT_GT(X_JP.linear().col(2).z(), 0.5);
+}
+
+TEST(FindView, NeverLooksFromWithinTheBody) {
+  // Thicker than the longest way to a tip, and bone before the tip wherever one looks from outside.
+  const std::vector<FlatLayer> layers{
+      {"skin", 2e-3}, {"muscle", 8e-3}, {"bone", 5e-3}, {"muscle", 150e-3}};
+  const Scene scene(
+      std::make_shared<const CompiledJoint>(test::make_layered_block(layers, 0.2, 0.2)));
+  const Vec3 axis = Vec3(0.6, 0, 0.8);
+  const Pose X_JN = make_pose(Vec3(0, 0, 25e-3), axis, Vec3::UnitY().cross(axis));
+  EXPECT_NEAR(find_view_of(scene, X_JN, kWidth).translation().z(), 0, 3e-3);
+}
+
+}  // namespace
+}  // namespace artus

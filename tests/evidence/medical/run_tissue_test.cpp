@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/evidence/medical/run_tissue.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "artus/evidence/medical/run_images.h"
+#include "tests/support/layered_body.h"
+#include "tests/support/meshed_block.h"
+
+namespace artus {
+namespace {
+
+const std::vector<PlannedInjection> kLines{{"first", {-.02, 0, 0}, {-.012, 0, .0235}},
+                                           {"second", {-.02, 0, 0}, {-.015, .002, .0235}},
+                                           {"third", {-.02, .003, 0}, {-.014, .003, .0235}}};
+
+std::shared_ptr<const Scene> soft_layers() {
+  const std::vector<FlatLayer> layers{{"skin", .004},   {"muscle", .018},    {"bursa", .003},
+                                      {"tendon", .006}, {"cartilage", .003}, {"bone", .02}};
+  static const auto kScene = std::make_shared<const Scene>(
+      std::make_shared<const CompiledJoint>(test::make_meshed_block(layers, .12, .08, 4e-3)));
+  return kScene;
+}
+
+/// What was drawn and felt at one image.
+struct Seen {
+  NeedleRow needle;
+  ProbeHandRow probe;
+  double carried = 0;  // m by which the tissue at the tip is moved along the needle, in the picture
+  double skin = 0;     // m, of the skin in the picture from the middle of the face
+};
+
+struct SoftRun {
+  ThreeInjections run;
+  std::vector<Seen> seen;
+};
+
+SoftRun run_soft() {
+  SoftRun out;
+  RunTissueOptions tissue;
+  tissue.face = ProbeFace{};
+  tissue.on_image = [&out](const ThreeInjections& run, const std::shared_ptr<const Scene>& body) {
+    Seen now{run.rows.back(), run.probe.back(), 0, 0};
+    const Vec3 tip = now.needle.X_JN.translation();
+    now.carried = (tip - body->tissue()->to_rest(tip).p_rest).dot(now.needle.axis);
+    now.skin = body->signed_distance_to_skin(now.probe.X_JP.translation(), 10e-3);
+    out.seen.push_back(now);
+  };
+  out.run = run_three_injections(*soft_layers(), kLines, {}, {}, &tissue).value();
+  return out;
+}
+
+const SoftRun& soft_run() {
+  static const SoftRun kRun = run_soft();
+  return kRun;
+}
+
+TEST(RunTissue, ClaimsOfThePublishedTestHoldInTissueThatGivesWay) {
+  for (const Claim& c : soft_run().run.claims)
+    EXPECT_TRUE(c.pass) << c.text << ": " << c.value << ' ' << c.bound;
+}
+
+/// The hand's law says how far the tissue at the tip is pushed in; the cubes, under the same load,
+/// move it in the picture.
+TEST(RunTissue, NeedleTentsTheTissueOfThePictureAsTheHandFeels) {
+  double most = 0;
+  double off = 0;
+  double square = 0;
+  std::size_t n = 0;
+  for (const Seen& s : soft_run().seen) {
+    if (s.needle.state != ContactState::inserting) continue;
+    most = std::max(most, s.needle.pushed);
+    square += std::pow(s.carried - s.needle.pushed, 2);
+    ++n;
+  }
+  ASSERT_GT(n, 50U);
+  off = std::sqrt(square / static_cast<double>(n));
+  EXPECT_GT(most, 2e-3) << "muscle of 2 N and 500 N/m";
+  EXPECT_LT(off, 0.15 * most);
+}
+
+TEST(RunTissue, ProbePressesTheSkinOfThePictureWithWhatItsHandFeels) {
+  double deepest = 0;
+  double off = 0;
+  for (const Seen& s : soft_run().seen) {
+    if (s.probe.normal_force < 2.9) continue;
+    deepest = std::max(deepest, s.probe.X_JP.translation().z());
+    off = std::max(off, std::abs(s.skin));
+  }
+  EXPECT_GT(deepest, 1e-3) << "3 N press the face in";
+  EXPECT_LT(off, 0.5e-3) << "and the skin lies on it";
+}
+
+TEST(RunTissue, SameSeedGivesTheSameBytes) {
+  const SoftRun again = run_soft();
+  const ThreeInjections& a = soft_run().run;
+  const ThreeInjections& b = again.run;
+  ASSERT_EQ(a.rows.size(), b.rows.size());
+  for (std::size_t i = 0; i < a.rows.size(); ++i) {
+    ASSERT_EQ(needle_csv_line(a.rows[i], a.region_names),
+              needle_csv_line(b.rows[i], b.region_names));
+    ASSERT_EQ(a.probe[i].X_JP.matrix(), b.probe[i].X_JP.matrix());
+    ASSERT_EQ(a.probe[i].normal_force, b.probe[i].normal_force);
+  }
+}
+
+TEST(RunTissue, ABodyThatCannotGiveWayIsRefused) {
+  const std::vector<FlatLayer> layers{
+      {"skin", .004}, {"muscle", .018}, {"bursa", .009}, {"bone", .03}};
+  const Scene hollow(
+      std::make_shared<const CompiledJoint>(test::make_layered_block(layers, .2, .2)));
+  const RunTissueOptions tissue;
+  EXPECT_TRUE(run_three_injections(hollow, kLines));
+  EXPECT_FALSE(run_three_injections(hollow, kLines, {}, {}, &tissue)) << "it has no tetrahedra";
+}
+
+}  // namespace
+}  // namespace artus
