@@ -13,7 +13,7 @@ struct Name {
   const char* french;
 };
 
-constexpr std::array<Name, 145> kFrench{
+constexpr std::array<Name, 146> kFrench{
     {{"outside", "hors du corps"},
      {"beyond", "hors du modèle"},
      {"skin", "peau"},
@@ -158,7 +158,8 @@ constexpr std::array<Name, 145> kFrench{
      {"lateral_recess", "récessus latéral"},
      {"middle_recess", "milieu du récessus"},
      {"recess_near_the_head", "récessus, près de la tête"},
-     {"recess_on_the_neck", "récessus, sur le col"}}};
+     {"recess_on_the_neck", "récessus, sur le col"},
+     {"injected", "liquide injecté"}}};
 
 bool is_filling(const CompiledJoint& joint, RegionId region) {
   return region == kFirstRegion && joint.tissue_of(region).acoustic.kind == TissueKind::fat;
@@ -183,6 +184,7 @@ std::string clinical_name(Language language, const std::string& name) {
   }
   if (name == "outside") return "outside the body";
   if (name == "beyond") return "beyond the model";
+  if (name == "injected") return "injected liquid";
   std::string plain = name;
   std::replace(plain.begin(), plain.end(), '_', ' ');
   return plain;

@@ -94,6 +94,12 @@ void GlMesh::set_points(std::span<const Eigen::Vector3f> points) {
   n_points_ = static_cast<int>(points.size());
 }
 
+void GlMesh::move_points(std::size_t first, std::span<const Eigen::Vector3f> points) {
+  glBindBuffer(GL_ARRAY_BUFFER, points_);
+  glBufferSubData(GL_ARRAY_BUFFER, static_cast<GLintptr>(first * sizeof(Eigen::Vector3f)),
+                  static_cast<GLsizeiptr>(points.size_bytes()), points.data());
+}
+
 void GlMesh::set_triangles(std::span<const std::uint32_t> indices) {
   glBindVertexArray(array_);
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_);

@@ -44,6 +44,8 @@ class GlMesh {
   GlMesh& operator=(const GlMesh&) = delete;
 
   void set_points(std::span<const Eigen::Vector3f> points);
+  /// Others in the place of some from `first` on. Requires: they are there.
+  void move_points(std::size_t first, std::span<const Eigen::Vector3f> points);
   void set_triangles(std::span<const std::uint32_t> indices);
   void draw_triangles() const;
   [[nodiscard]] std::size_t n_triangles() const noexcept {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <span>
 #include <unordered_map>
 #include <utility>
 
@@ -24,33 +25,35 @@ std::uint64_t direction_of(const Vec3& normal) noexcept {
   return 2 * static_cast<std::uint64_t>(axis) + (normal[axis] > 0 ? 1 : 0);
 }
 
-/// Of each vertex: points within a sheet by the way that the sheet faces, points of an edge by the
-/// sheets that meet there.
-std::vector<std::uint64_t> find_labels(const TetMesh& mesh) {
+/// Of each vertex from `first` on: points within a sheet by the way that the sheet faces, points of
+/// an edge by the sheets that meet there.
+std::vector<std::uint64_t> find_labels(const TetMesh& mesh, std::span<const Interface* const> faces,
+                                       std::uint32_t first) {
   struct Seen {
     std::uint64_t first = 0;  // pair; 0: none yet
     Vec3 normal = Vec3::Zero();
   };
-  std::vector<Seen> seen(mesh.vertices.size());
-  std::vector<std::vector<std::uint64_t>> others(mesh.vertices.size());
-  for (const Interface& face : mesh.interfaces) {
+  std::vector<Seen> seen(mesh.vertices.size() - first);
+  std::vector<std::vector<std::uint64_t>> others(seen.size());
+  for (const Interface* at : faces) {
+    const Interface& face = *at;
     const std::uint64_t pair = pair_of(face);
     const auto& p = mesh.vertices;
     const auto& v = face.vertices;
     Vec3 normal = (p[v[1]] - p[v[0]]).cross(p[v[2]] - p[v[0]]);
     if (face.front > face.back) normal = -normal;
     for (const std::uint32_t vertex : v) {
-      Seen& s = seen[vertex];
+      Seen& s = seen[vertex - first];
       s.normal += normal;
       if (s.first == 0) {
         s.first = pair;
       } else if (s.first != pair) {
-        auto& known = others[vertex];
+        auto& known = others[vertex - first];
         if (std::find(known.begin(), known.end(), pair) == known.end()) known.push_back(pair);
       }
     }
   }
-  std::vector<std::uint64_t> labels(mesh.vertices.size());
+  std::vector<std::uint64_t> labels(seen.size());
   for (std::size_t i = 0; i < labels.size(); ++i) {
     std::uint64_t sum = mix_bits(seen[i].first);
     for (const std::uint64_t pair : others[i]) sum += mix_bits(pair);  // in any order
@@ -61,13 +64,21 @@ std::vector<std::uint64_t> find_labels(const TetMesh& mesh) {
 
 }  // namespace
 
-std::vector<Sheet> find_sheets(const CompiledJoint& joint) {
+std::vector<Sheet> find_sheets(const CompiledJoint& joint, RegionId least) {
   const TetMesh& mesh = joint.mesh;
-  const std::vector<std::uint64_t> labels = find_labels(mesh);
+  std::vector<const Interface*> faces;
+  auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  for (const Interface& face : mesh.interfaces) {
+    if (std::max(face.front, face.back) < least) continue;
+    faces.push_back(&face);
+    for (const std::uint32_t v : face.vertices) first = std::min(first, v);
+  }
+  const std::vector<std::uint64_t> labels = find_labels(mesh, faces, first);
   std::map<std::pair<RegionId, RegionId>, std::size_t> sheet_of;
   std::vector<Sheet> sheets;
   std::vector<std::unordered_map<std::uint32_t, std::uint32_t>> renumbered;
-  for (const Interface& face : mesh.interfaces) {
+  for (const Interface* of : faces) {
+    const Interface& face = *of;
     const auto [at, fresh] = sheet_of.try_emplace({face.front, face.back}, sheets.size());
     if (fresh) {
       sheets.push_back({face.front, face.back, Vec3::Zero(), {}});
@@ -79,7 +90,8 @@ std::vector<Sheet> find_sheets(const CompiledJoint& joint) {
           renumbered[at->second].try_emplace(v, static_cast<std::uint32_t>(surface.points.size()));
       if (is_new) {
         surface.points.emplace_back(mesh.vertices[v].cast<float>());
-        surface.labels.push_back(labels[v]);
+        surface.labels.push_back(labels[v - first]);
+        surface.sources.push_back(v);
       }
       surface.indices.push_back(own->second);
     }

@@ -13,12 +13,13 @@ struct Sheet {
   RegionId front = kOutside;  ///< where the triangles' normals point
   RegionId back = kOutside;
   Vec3 centre = Vec3::Zero();  ///< m, frame J, mean of its points
-  /// Labelled such that a decimation moves the points that sheets share alike, and does not draw
-  /// two sides of a thin structure together.
+  /// Its sources are the joint's vertices. Labelled such that a decimation moves the points that
+  /// sheets share alike, and does not draw two sides of a thin structure together.
   Surface surface;
 };
 
-/// The joint's sheets, frame J. Cost: linear, some 0.2 s for a million interfaces.
-[[nodiscard]] std::vector<Sheet> find_sheets(const CompiledJoint& joint);
+/// The joint's sheets, frame J, of which a side is region `least` or a later one. Cost: linear,
+/// some 0.2 s for a million interfaces.
+[[nodiscard]] std::vector<Sheet> find_sheets(const CompiledJoint& joint, RegionId least = 0);
 
 }  // namespace artus

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 
@@ -94,27 +95,30 @@ float usual_alpha(TissueKind kind) {
 
 }  // namespace
 
-Result<std::unique_ptr<JointView>> JointView::make(const CompiledJoint& joint, double probe_width,
-                                                   double needle_length) {
+Result<std::unique_ptr<JointView>> JointView::make(std::shared_ptr<const CompiledJoint> joint,
+                                                   double probe_width, double needle_length) {
   auto solid = GlProgram::make(kSolidVertex, kSolidFragment);
   ARTUS_TRY(solid);
   auto picture = GlProgram::make(kPictureVertex, kPictureFragment);
   ARTUS_TRY(picture);
-  return std::unique_ptr<JointView>(
-      new JointView(joint, std::move(*solid), std::move(*picture), probe_width, needle_length));
+  return std::unique_ptr<JointView>(new JointView(std::move(joint), std::move(*solid),
+                                                  std::move(*picture), probe_width, needle_length));
 }
 
-JointView::JointView(const CompiledJoint& joint, GlProgram solid, GlProgram picture,
+JointView::JointView(std::shared_ptr<const CompiledJoint> joint, GlProgram solid, GlProgram picture,
                      double probe_width, double needle_length)
-    : solid_(std::move(solid)),
+    : joint_(std::move(joint)),
+      solid_(std::move(solid)),
       picture_(std::move(picture)),
       probe_width_(probe_width),
       needle_length_(needle_length) {
-  find_parts(joint);
-  for (Sheet& sheet : find_sheets(joint)) sheets_.push_back({std::move(sheet), {}});
-  camera_.centre = joint.X_JP_default * Vec3(0, 0, 15e-3);
-  camera_.up = -joint.X_JP_default.linear().col(2);
-  camera_.side = joint.X_JP_default.linear().col(0);
+  find_parts();
+  find_centres();
+  for (Sheet& sheet : find_sheets(*joint_)) sheets_.push_back({std::move(sheet), false, {}});
+  const Pose& X_JP = joint_->X_JP_default;
+  camera_.centre = X_JP * Vec3(0, 0, 15e-3);
+  camera_.up = -X_JP.linear().col(2);
+  camera_.side = X_JP.linear().col(0);
   camera_.yaw = -1.15;
   camera_.pitch = 0.5;
   set_box(box_);
@@ -124,44 +128,48 @@ JointView::JointView(const CompiledJoint& joint, GlProgram solid, GlProgram pict
 }
 
 // The regions that have a surface, and how their tissues are drawn at first.
-void JointView::find_parts(const CompiledJoint& joint) {
+void JointView::find_parts() {
+  const CompiledJoint& joint = *joint_;
   const std::vector<Rgb> palette = region_colours(joint);
   std::map<std::string, std::size_t> look_of;
-  std::vector<Vec3> sums(joint.regions.size(), Vec3::Zero());
-  std::vector<double> counts(joint.regions.size(), 0);
-  for (const Interface& face : joint.mesh.interfaces) {
-    for (const RegionId region : {face.front, face.back}) {
-      for (const std::uint32_t v : face.vertices) sums[region] += joint.mesh.vertices[v];
-      counts[region] += 3;
-    }
-  }
+  std::vector<bool> seen(joint.regions.size(), false);
+  for (const Interface& face : joint.mesh.interfaces) seen[face.front] = seen[face.back] = true;
   part_of_.assign(joint.regions.size(), kNoPart);
   for (std::size_t r = kFirstRegion; r < joint.regions.size(); ++r) {
-    if (counts[r] == 0) continue;
+    if (!seen[r]) continue;
     const Tissue& tissue = joint.tissue_of(static_cast<RegionId>(r));
     const auto [place, fresh] = look_of.try_emplace(tissue.name, looks_.size());
     if (fresh) {
-      const auto& c = palette[r];
-      looks_.push_back({tissue.name,
-                        Eigen::Vector3f(static_cast<float>(c[0]), static_cast<float>(c[1]),
-                                        static_cast<float>(c[2])) /
-                            255.F,
-                        usual_alpha(tissue.acoustic.kind), true});
+      looks_.push_back(
+          {tissue.name, look_colour(palette[r]), usual_alpha(tissue.acoustic.kind), true});
     }
     part_of_[r] = parts_.size();
-    parts_.push_back({place->second, joint.regions[r].name, sums[r] / counts[r]});
+    parts_.push_back({place->second, joint.regions[r].name});
   }
 }
 
-const GlMesh& JointView::mesh_of(DrawnSheet& sheet) {
-  std::unique_ptr<GlMesh>& mesh = sheet.meshes[detail_.level()];
-  if (!mesh) {
-    const Surface surface = decimated(sheet.sheet.surface, DetailChooser::kCells[detail_.level()]);
-    mesh = std::make_unique<GlMesh>();
-    mesh->set_points(surface.points);
-    mesh->set_triangles(surface.indices);
-  }
-  return *mesh;
+// The mean of each part's corners, and which of them is the nearest to it.
+void JointView::find_centres() {
+  const TetMesh& mesh = joint_->mesh;
+  const auto for_each_corner = [&](const auto& act) {
+    for (const Interface& face : mesh.interfaces)
+      for (const RegionId region : {face.front, face.back})
+        if (part_of_[region] != kNoPart)
+          for (const std::uint32_t v : face.vertices) act(part_of_[region], v);
+  };
+  std::vector<double> counts(parts_.size(), 0);
+  for_each_corner([&](std::size_t part, std::uint32_t v) {
+    parts_[part].centre += mesh.vertices[v];
+    counts[part] += 1;
+  });
+  for (std::size_t i = 0; i < parts_.size(); ++i) parts_[i].centre /= counts[i];
+  std::vector<double> least(parts_.size(), std::numeric_limits<double>::infinity());
+  for_each_corner([&](std::size_t part, std::uint32_t v) {
+    const double distance = (mesh.vertices[v] - parts_[part].centre).squaredNorm();
+    if (distance >= least[part]) return;
+    least[part] = distance;
+    parts_[part].nearest = v;
+  });
 }
 
 void JointView::set_sides(const Side& front, const Side& behind) {
@@ -202,17 +210,19 @@ void JointView::plan_steps() {
   };
   steps_.clear();
   std::vector<Veil> veils;
-  for (DrawnSheet& sheet : sheets_) {
+  const auto plan = [&](DrawnSheet& sheet) {
     if (const auto step = opaque_step(sheet)) {
       steps_.push_back(*step);
-      continue;
+      return;
     }
     const double distance = (sheet.sheet.centre - eye_).squaredNorm();
     for (const RegionId region : {sheet.sheet.front, sheet.sheet.back}) {
       const Side side = side_of(region);
       if (side.colour.w() > 0) veils.push_back({{&sheet, side, side, true}, distance});
     }
-  }
+  };
+  for (DrawnSheet& sheet : sheets_) plan(sheet);
+  for (DrawnSheet& sheet : injected_) plan(sheet);
   std::stable_sort(veils.begin(), veils.end(), [](const Veil& a, const Veil& b) {
     const float dense_a = a.step.front.colour.w();
     const float dense_b = b.step.front.colour.w();
@@ -258,7 +268,7 @@ bool JointView::moved(int width, int height, const JointScene& scene) {
   add(scene.entry ? 1 : 0, 1);
   if (scene.entry)
     for (int i = 0; i < 3; ++i) add(scene.entry->p_J[i], 0.1e-3);
-  const bool same = now == seen_;
+  const bool same = !sight_.changed(scene.body) && now == seen_;
   seen_ = std::move(now);
   return !same;
 }
@@ -318,6 +328,10 @@ void JointView::go_on(Clock::time_point begin) {
   drew_ = true;
   shown_ = 1 - shown_.value_or(1);
   view_ = making_view_;
+  image_shown_ = image_;
+  points_sent_ = sending_;
+  for (Part& part : parts_) part.shown = part.making;
+  body_ = {};
   detail_.note(took_);
 }
 
@@ -325,9 +339,9 @@ std::vector<ScreenLabel> JointView::labels(int width, int height) const {
   std::vector<ScreenLabel> found;
   for (const Part& part : parts_) {
     const TissueLook& look = looks_[part.look];
-    if (!look.visible || look.alpha < 0.3F) continue;
+    if (!look.visible || look.alpha < 0.3F || part.name.empty()) continue;
     Eigen::Vector4f p;
-    p << part.centre.cast<float>(), 1.F;
+    p << part.shown.cast<float>(), 1.F;
     const Eigen::Vector4f q = view_ * p;
     if (q.w() <= 0 || std::abs(q.x()) > q.w() || std::abs(q.y()) > q.w()) continue;
     const ScreenLabel label{part.name, 0.5F * (1 + q.x() / q.w()) * static_cast<float>(width),
@@ -340,6 +354,8 @@ std::vector<ScreenLabel> JointView::labels(int width, int height) const {
 // Tools, the trail and the image plane, which cost little, and the plan of the rest.
 void JointView::begin_picture(int width, int height, const JointScene& scene) {
   now_ = scene.now;
+  image_ = scene.image == nullptr ? 0 : scene.image->input.number;
+  take_body(scene.body);
   const OrbitCamera& c = camera_;
   const Vec3 forward = c.up.cross(c.side).normalized();
   eye_ = c.centre +
@@ -364,6 +380,7 @@ void JointView::begin_picture(int width, int height, const JointScene& scene) {
     plane_ << normal.cast<float>(), static_cast<float>(normal.dot(X_JP.translation()));
   }
   plan_steps();
+  move_to_body();
 }
 
 // How surfaces are drawn, whatever was drawn elsewhere since.

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "artus/core/units.h"
+#include "artus/soft/deformed_body.h"
 #include "artus/viewer/anatomy_names.h"
 
 namespace artus {
@@ -55,7 +56,10 @@ NeedleReading read_needle(const Scene& scene, const HapticSnapshot& now, double 
   }
   reading.hub_on_skin = reading.inside && reading.depth >= needle_length - kHubSlack;
   const Vec3 tip = X_JN.translation() - reading.hand_excess * axis;
-  if (target_J) reading.to_target = (*target_J - tip).norm();
+  if (target_J) {
+    const Vec3 carried = scene.tissue() ? scene.tissue()->displacement(*target_J) : Vec3::Zero();
+    reading.to_target = (*target_J + carried - tip).norm();
+  }
   const Pose X_PJ = to_pose(now.X_JP).inverse();
   reading.plane_offset = (X_PJ * tip).y();
   reading.plane_angle = std::asin(std::clamp(std::abs((X_PJ.linear() * axis).y()), 0.0, 1.0));

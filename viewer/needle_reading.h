@@ -24,7 +24,8 @@ struct NeedleReading {
   double plane_angle = 0;   ///< rad, between needle and image plane
 };
 
-/// `target_J`: where the tip shall be. Cost: one query along the shaft.
+/// In the body of `scene`, as it gives way there. `target_J`: where the tip shall be, in the body
+/// at rest. Cost: one query along the shaft.
 [[nodiscard]] NeedleReading read_needle(const Scene& scene, const HapticSnapshot& now,
                                         double needle_length, const std::optional<Vec3>& target_J,
                                         Language language);

@@ -39,6 +39,7 @@ class MomentPicture {
     image_.grey = frame.image;
     image_.input = input;
     image_.probe_width = params_.transducer.width;
+    image_.body = core_->drawn_scene();
     texture_.set_grey(frame.width, frame.height, frame.image);
   }
 
@@ -94,7 +95,7 @@ class ReviewGui {
   }
 
   [[nodiscard]] Result<bool> run() {
-    auto joint = JointView::make(review_.scene->joint(), review_.params.transducer.width,
+    auto joint = JointView::make(review_.scene->shared_joint(), review_.params.transducer.width,
                                  needle_length_of(review_.params));
     ARTUS_TRY(joint);
     joint_ = std::move(*joint);
@@ -267,7 +268,7 @@ class ReviewGui {
       list->AddCircle(place(*review_.target_J), radius, kThumbColour, 0, 2 * stage_.scale());
     std::vector<NamedPoint> names;
     for (const PictureLabel& label :
-         find_picture_labels(*review_.scene, to_pose(now.picture.X_JP), image.width * image.pixel,
+         find_picture_labels(*image.body, to_pose(now.picture.X_JP), image.width * image.pixel,
                              image.height * image.pixel, options_.language))
       names.push_back({label.name, per_mm * static_cast<float>(label.x_mm),
                        per_mm * static_cast<float>(label.y_mm)});
@@ -297,9 +298,10 @@ class ReviewGui {
     const ImVec2 room = ImGui::GetContentRegionAvail();
     const std::optional<EntryChoice> no_entry;
     const ImVec2 corner = ImGui::GetCursorScreenPos();
-    const unsigned texture = joint_->draw(
-        static_cast<int>(room.x), static_cast<int>(room.y),
-        {now.state, to_pose(now.state.X_JN), &yours_.image(), yours_.texture(), no_entry});
+    const unsigned texture =
+        joint_->draw(static_cast<int>(room.x), static_cast<int>(room.y),
+                     {now.state, to_pose(now.state.X_JN), state_of(*yours_.image().body),
+                      &yours_.image(), yours_.texture(), no_entry});
     if (texture != 0) ImGui::Image(to_imgui(texture), room, ImVec2(0, 1), ImVec2(1, 0));
     ImGui::SetCursorScreenPos(corner);
     ImGui::InvisibleButton("joint", room);

@@ -2,11 +2,34 @@
 #include "artus/viewer/surface_detail.h"
 
 #include <cmath>
+#include <limits>
 #include <unordered_map>
 
 #include "artus/core/noise.h"
 
 namespace artus {
+
+namespace {
+
+/// The source of the point that is nearest to each mean; `moved`: the mean of each point.
+std::vector<std::uint32_t> nearest_sources(const Surface& surface,
+                                           const std::vector<std::uint32_t>& moved,
+                                           const std::vector<Eigen::Vector3f>& means) {
+  constexpr float kNone = std::numeric_limits<float>::infinity();
+  std::vector<std::uint32_t> sources(means.size());
+  std::vector<float> least(means.size(), kNone);
+  for (std::size_t i = 0; i < surface.sources.size(); ++i) {
+    const std::uint32_t m = moved[i];
+    const float distance = (surface.points[i] - means[m]).squaredNorm();
+    if (distance > least[m]) continue;
+    if (distance == least[m] && surface.sources[i] >= sources[m]) continue;  // alike in all sheets
+    least[m] = distance;
+    sources[m] = surface.sources[i];
+  }
+  return sources;
+}
+
+}  // namespace
 
 Surface decimated(const Surface& surface, double cell) {
   if (cell <= 0) return surface;
@@ -31,6 +54,7 @@ Surface decimated(const Surface& surface, double cell) {
     moved.push_back(at->second);
   }
   for (std::size_t i = 0; i < out.points.size(); ++i) out.points[i] /= counts[i];
+  if (!surface.sources.empty()) out.sources = nearest_sources(surface, moved, out.points);
   for (std::size_t i = 0; i + 2 < surface.indices.size(); i += 3) {
     const std::uint32_t a = moved[surface.indices[i]];
     const std::uint32_t b = moved[surface.indices[i + 1]];

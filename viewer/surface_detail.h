@@ -15,11 +15,13 @@ struct Surface {
   std::vector<std::uint32_t> indices;   ///< three a triangle
   /// Of each point, or empty: points of unequal labels stay apart in a decimation.
   std::vector<std::uint64_t> labels;
+  /// Of each point, or empty: the vertex of a joint that it goes with when that moves.
+  std::vector<std::uint32_t> sources;
 };
 
 /// The same surface with all points of one label in a cube of edge `cell` (m) drawn into their
-/// mean, and without the triangles that vanish so; never more than before. Cost: linear. Source
-/// [Rossignac1993]; the labels are ours.
+/// mean, and without the triangles that vanish so; never more than before. A mean goes with the
+/// vertex that is nearest to it. Cost: linear. Source [Rossignac1993]; the labels are ours.
 [[nodiscard]] Surface decimated(const Surface& surface, double cell);
 
 /// Chooses how finely the joint is drawn by the time that it takes: coarser when a picture took

@@ -19,7 +19,7 @@ Result<void> run_window(Session& session, HandDevice* hand, const HandTarget& st
 Result<void> run_window(Screen& screen, Session& session, HandDevice* hand, const HandTarget& start,
                         const WindowOptions& options, WindowReport& report) {
   const GuiContext gui;
-  auto joint = JointView::make(session.scene().joint(), session.params().transducer.width,
+  auto joint = JointView::make(session.scene().shared_joint(), session.params().transducer.width,
                                needle_length_of(session.params()));
   ARTUS_TRY(joint);
   WindowLoop loop(screen.window(), std::move(*joint), session, hand, start, options);

@@ -36,6 +36,10 @@ struct WindowStatus {
   ImagePlace image_place;
   std::size_t caliper_points = 0;
   bool has_image = false;
+  std::uint64_t image = 0;  ///< number of the shown picture
+  /// Of the image whose body the 3D view shows, and points that were sent again for it.
+  std::uint64_t joint_image = 0;
+  std::size_t joint_points_sent = 0;
   bool frozen = false;
   bool recording = false;
   double clip_seconds = 0;  ///< of the running clip

@@ -43,7 +43,9 @@ WindowLoop::WindowLoop(GLFWwindow* window, std::unique_ptr<JointView> joint, Ses
       options_(options),
       control_(start, needle_length_of(session.params())),
       joint_(std::move(joint)),
-      saver_(options.pictures) {
+      saver_(options.pictures),
+      cine_(session.scene().shared_joint()),
+      shown_body_(state_of(session.scene())) {
   state_.language = options.language;
   state_.expert = options.expert;
   state_.welcome = options.welcome;
@@ -180,8 +182,9 @@ void WindowLoop::feel() {
 
 void WindowLoop::read_state() {
   if (input_.now.input.tick == 0) return;
-  input_.needle = read_needle(session_.scene(), input_.now, needle_length_of(session_.params()),
-                              target_J_, state_.language);
+  const Scene& body = body_ ? *body_ : session_.scene();
+  input_.needle = read_needle(body, input_.now, needle_length_of(session_.params()), target_J_,
+                              state_.language);
   if (!spaces_.spaces.empty())
     input_.syringe = read_syringe(session_.scene(), spaces_, input_.now, session_.params());
   const Pose X_JP = to_pose(input_.now.X_JP);
@@ -221,65 +224,6 @@ void WindowLoop::guide() {
     input_.next = state_.keys.said_key(Action::take_probe, state_.language) + ": " +
                   tell(state_, Text::choice_explore);
   input_.goal = options_.lesson ? lesson_.goal : guide_.goal(in);
-}
-
-// The newest image, or while the scanner is frozen the one that the loop was left at.
-void WindowLoop::take_image() {
-  if (!session_.frozen()) {
-    input_.image = session_.newest_image();
-    fresh_image_ = input_.image != nullptr && input_.image->width > 0 &&
-                   input_.image->input.number != shown_image_;
-    if (fresh_image_) cine_.add(*input_.image, glfwGetTime());
-    input_.cine_age = 0;
-  } else if (cine_.size() > 0) {
-    const std::size_t at = std::min(state_.cine.value_or(cine_.size() - 1), cine_.size() - 1);
-    input_.image = &cine_.at(at);
-    input_.cine_age = cine_.age(at);
-    fresh_image_ = false;
-  }
-  input_.cine_size = cine_.size();
-  upload_image();
-  input_.grab = control_.grab();
-  input_.gamepad = WindowEvents::gamepad_name();
-  if (options_.turn_knobs) options_.turn_knobs(state_.controls);
-}
-
-void WindowLoop::show(const ImageSnapshot& image, GlTexture& texture) const {
-  if (state_.look.colour)
-    texture.set_colour(image.width, image.height, displayed_colour(image, state_.look));
-  else
-    texture.set_grey(image.width, image.height, displayed_grey(image, state_.look));
-}
-
-void WindowLoop::upload_image() {
-  if (input_.image == nullptr || input_.image->width == 0) return;
-  const ImageSnapshot& image = *input_.image;
-  const bool same_look = state_.look == shown_look_;
-  session_.set_motion_wanted(state_.look.colour);
-  if (image.input.number != shown_image_ || !same_look || image_texture_.width() == 0) {
-    show(image, image_texture_);
-    shown_image_ = image.input.number;
-    shown_look_ = state_.look;
-  }
-  input_.image_texture = image_texture_.id();
-  if (state_.dual && input_.kept == nullptr) {
-    kept_ = image;
-    show(image, kept_texture_);
-    input_.kept = &kept_;
-    input_.kept_texture = kept_texture_.id();
-  }
-  if (!state_.dual) input_.kept = nullptr;
-  if (state_.labels && !state_.expert)
-    input_.labels =
-        find_picture_labels(session_.scene(), to_pose(image.input.X_JP), image.width * image.pixel,
-                            image.height * image.pixel, state_.language);
-}
-
-void WindowLoop::draw_joint() {
-  input_.joint_texture = joint_->draw(area_.width, area_.height,
-                                      {input_.now, needle_pose(input_.now, input_.needle),
-                                       input_.image, image_texture_, input_.entry});
-  joint_took_ = joint_->drew() ? joint_->took() : 0;
 }
 
 // One look of the panels at what was done; nothing is shown yet.
@@ -352,37 +296,6 @@ void WindowLoop::note_shown(double elapsed, WindowReport& report) {
     report.pose_to_screen.add(monotonic_ns() - input_.image->input.sample_time_ns);
 }
 
-Caption WindowLoop::caption() const {
-  Caption caption;
-  caption.language = state_.language;
-  caption.patient = state_.patient;
-  const std::string& side = session_.scene().joint().side;
-  if (side == "left" || side == "right")
-    caption.side = tell(state_, side == "left" ? Text::side_left : Text::side_right);
-  caption.date = date_of_now();
-  const auto calipers = state_.calipers.find(input_.image->input.number);
-  if (calipers != state_.calipers.end()) caption.calipers = calipers->second;
-  caption.look = state_.look;
-  caption.mark = &mark_;
-  caption.doppler_limit = session_.params().image.doppler_limit;
-  return caption;
-}
-
-void WindowLoop::save_pictures(double elapsed) {
-  if (input_.image == nullptr || input_.image->width == 0) return;
-  const ImageSnapshot& image = *input_.image;
-  if (std::exchange(state_.wants_screenshot, false))
-    say(saver_.save(image, caption(), options_.plain));
-  if (saver_.in_clip()) saver_.add_to_clip(image, state_.look, elapsed);
-  if (std::string said = saver_.take_written(state_.language); !said.empty()) say(std::move(said));
-  if (state_.wants_clip == saver_.in_clip()) return;
-  if (state_.wants_clip)
-    say(saver_.begin_clip(image, state_.language));
-  else
-    saver_.end_clip();
-  state_.wants_clip = saver_.in_clip();  // it may have been refused
-}
-
 // Without a script: one picture of the window as soon as everything is in it.
 void WindowLoop::wish_final_picture() {
   if (!options_.script.empty() || options_.screenshot.empty() || !wants_final_) return;
@@ -411,6 +324,9 @@ WindowStatus WindowLoop::status() const {
   now.grab = control_.grab();
   now.phase = input_.now.phase;
   now.image_place = state_.image_place;
+  now.image = input_.image == nullptr ? 0 : input_.image->input.number;
+  now.joint_image = joint_->image_shown();
+  now.joint_points_sent = joint_->points_sent();
   now.has_image = input_.image != nullptr && input_.image->width > 0;
   for (const auto& [image, points] : state_.calipers) now.caliper_points += points.size();
   now.frozen = session_.frozen();

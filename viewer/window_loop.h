@@ -47,11 +47,12 @@ class WindowLoop {
   [[nodiscard]] HandGround ground() const;
   [[nodiscard]] bool holds(const std::string& what) const;
 
-  // window_loop.cpp: what is shown
+  // window_loop.cpp, window_picture.cpp: what is shown
   void say(std::string message);
   void forget_message();
   void feel();
   void take_image();
+  void add_to_loop(const ImageSnapshot& image);
   void upload_image();
   void show(const ImageSnapshot& image, GlTexture& texture) const;
   void follow_gesture(const HapticSnapshot& now);
@@ -79,6 +80,9 @@ class WindowLoop {
   std::unique_ptr<JointView> joint_;
   PictureSaver saver_;
   CineLoop cine_;
+  std::shared_ptr<const Scene> body_;  // of the newest image
+  BodyState shown_body_;               // of the shown one
+  std::uint64_t shown_body_image_ = 0;
   Guide guide_;
   ViewState state_;
   Lesson lesson_;

@@ -154,11 +154,11 @@ TEST(Curve, AThinnedCurveKeepsItsEndsAndExtremesInOrder) {
 }
 
 TEST(CineLoop, KeepsTheLastTwentySeconds) {
-  CineLoop cine;
+  CineLoop cine(nullptr);
   for (int i = 0; i <= 300; ++i) {
     ImageSnapshot image = grey_image(1);
     image.input.number = static_cast<std::uint64_t>(i);
-    cine.add(image, 0.1 * i);
+    cine.add(image, {}, 0.1 * i);
   }
   EXPECT_NEAR(cine.age(0), CineLoop::kSeconds, 0.11);
   EXPECT_EQ(cine.at(cine.size() - 1).input.number, 300U);
