@@ -10,7 +10,7 @@ BodyState state_of(const Scene& scene) {
   return {scene.shared_joint(), scene.tissue()};
 }
 
-VertexPlaces places_in(const CompiledJoint& joint, const BodyState& body) noexcept {
+VertexPlaces places_in(const CompiledJoint& joint, const BodyState& body) {
   const std::vector<Vec3>& rest = joint.mesh.vertices;
   if (body.tissue) return {rest, body.tissue->vertices()};
   if (body.joint.get() == &joint) return {rest, {}};

@@ -19,10 +19,10 @@ struct BodyState {
 [[nodiscard]] BodyState state_of(const Scene& scene);
 
 /// Where the vertices of a joint's surfaces are in one body, and where they were compiled; frame J,
-/// m. An empty `now`: at rest. Views of what the scene and the joint hold.
+/// m. An empty `now`: at rest.
 struct VertexPlaces {
-  std::span<const Vec3> rest;
-  std::span<const Vec3> now;
+  std::span<const Vec3> rest;  ///< a view of what the joint holds
+  std::vector<Vec3> now;
 
   [[nodiscard]] Vec3 displacement(std::uint32_t vertex) const noexcept {
     return now.empty() ? Vec3::Zero() : Vec3(now[vertex] - rest[vertex]);
@@ -30,8 +30,8 @@ struct VertexPlaces {
 };
 
 /// The vertices of `joint` in a body of it: one that gives way, or one with liquid, whose own
-/// vertices come after the joint's. Requires: a body of that joint.
-[[nodiscard]] VertexPlaces places_in(const CompiledJoint& joint, const BodyState& body) noexcept;
+/// vertices come after the joint's. Requires: a body of that joint. Cost: gathers them.
+[[nodiscard]] VertexPlaces places_in(const CompiledJoint& joint, const BodyState& body);
 
 /// Tells whether a body lies visibly otherwise than the one that was asked of last.
 class BodySight {

@@ -20,8 +20,9 @@ void JointView::take_body(const BodyState& body) {
     injected_.clear();
     if (injected_joint_->regions.size() > joint_->regions.size()) show_injected();
   }
-  const VertexPlaces places = places_in(*joint_, body_);
-  for (Part& part : parts_) part.making = part.centre + places.displacement(part.nearest);
+  places_ = places_in(*joint_, body_);
+  injected_places_ = injected_.empty() ? VertexPlaces{} : places_in(*injected_joint_, body_);
+  for (Part& part : parts_) part.making = part.centre + places_.displacement(part.nearest);
 }
 
 // Liquid in tissue is a region of its own, after those of the joint.
@@ -39,8 +40,8 @@ void JointView::show_injected() {
   part_of_.resize(injected_joint_->regions.size(), part);
 }
 
-VertexPlaces JointView::places_of(const DrawnSheet& sheet) const {
-  return places_in(sheet.injected ? *injected_joint_ : *joint_, body_);
+const VertexPlaces& JointView::places_of(const DrawnSheet& sheet) const noexcept {
+  return sheet.injected ? injected_places_ : places_;
 }
 
 // What the picture is going to show; meshes that are made later are made where they lie.

@@ -119,7 +119,7 @@ class JointView {
   void take_body(const BodyState& body);
   void show_injected();
   void move_to_body();
-  [[nodiscard]] VertexPlaces places_of(const DrawnSheet& sheet) const;
+  [[nodiscard]] const VertexPlaces& places_of(const DrawnSheet& sheet) const noexcept;
   const GlMesh& mesh_of(DrawnSheet& sheet);
   [[nodiscard]] Side side_of(RegionId region) const;
   void set_sides(const Side& front, const Side& behind);
@@ -170,6 +170,8 @@ class JointView {
   std::size_t next_step_ = 0;
   HapticSnapshot now_;
   BodyState body_;
+  VertexPlaces places_;           // in `body_`, of the joint's sheets
+  VertexPlaces injected_places_;  // of what was injected
   std::uint64_t image_ = 0;
   std::size_t sending_ = 0;
   Eigen::Matrix4f making_view_ = Eigen::Matrix4f::Identity();
