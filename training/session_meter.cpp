@@ -127,6 +127,7 @@ Result<AttemptMeasures> assess(const Recording& recording,
   if (!draws) {
     ticks_alone.head = recording.head;
     ticks_alone.ticks = recording.ticks;
+    ticks_alone.packets = recording.packets;
     played = &ticks_alone;
   }
   const auto report = replay(*played, scene, listener);
