@@ -27,7 +27,9 @@ ProbeHand::ProbeHand(std::shared_ptr<const Scene> scene, const ProbeHandParams& 
       loop_({rate_hz, kPhysicsRate}, params.device, params.hand, lifted(seat, params.standoff)),
       contact_(std::move(scene), params.contact),
       guard_(params.guard, params.device, 1 / rate_hz) {
-  if (params.packet_rate > 0) tissue_.emplace(rate_hz, params.packet_rate);
+  const ProbeContactParams& skin = params.contact;
+  if (params.packet_rate > 0)
+    tissue_.emplace(rate_hz, params.packet_rate, skin.gel ? skin.gel_friction : skin.dry_friction);
 }
 
 void ProbeHand::take(const ProbePacket& packet) noexcept {

@@ -46,7 +46,7 @@ HapticCore::HapticCore(std::shared_ptr<const Scene> scene, const SessionParams& 
     : scene_(std::move(scene)),
       needle_(scene_, make_table(scene_, params), renderer_params(params)),
       gesture_(params.gesture, params.X_WJ),
-      probe_(params.haptic_rate, params.image_rate),
+      probe_(params.haptic_rate, params.image_rate, ProbeContactParams{}.gel_friction),
       probe_guard_(params.guard, ProbeHandParams{}.device, 1 / params.haptic_rate),
       syringe_(scene_->joint(), params),
       aid_(scene_->joint(), params.aids, 1 / params.haptic_rate),

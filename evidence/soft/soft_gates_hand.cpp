@@ -161,7 +161,7 @@ PacketError packet_error(double packet_rate, double lost_from, double lost_for) 
   const auto depth = [](double t) {
     return 4e-3 + 2.5e-3 * std::sin(2 * std::numbers::pi * 0.5 * t);
   };
-  ProbeTangent tangent(1 / kHandTick, packet_rate);
+  ProbeTangent tangent(1 / kHandTick, packet_rate, 0);
   PacketError error;
   double sum = 0;
   double own = 0;

@@ -19,9 +19,10 @@ Vec3 limited(const Vec3& v, double most) noexcept {
 
 }  // namespace
 
-ProbeTangent::ProbeTangent(double tick_rate, double packet_rate)
-    : blend_step_(packet_rate / tick_rate) {
+ProbeTangent::ProbeTangent(double tick_rate, double packet_rate, double friction)
+    : blend_step_(packet_rate / tick_rate), friction_(friction) {
   ARTUS_REQUIRE(tick_rate > 0 && packet_rate > 0, "rates above zero");
+  ARTUS_REQUIRE(friction >= 0, "a coefficient of friction");
 }
 
 void ProbeTangent::take(const ProbePacket& packet) noexcept {
@@ -36,30 +37,41 @@ void ProbeTangent::take(const ProbePacket& packet) noexcept {
   now_.wrench = Eigen::Map<const Vec6>(packet.wrench.data());
   now_.stiffness =
       Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(packet.stiffness.data());
-  share_ = packet.share;
+  now_.share = packet.share;
   blend_ = 0;
 }
 
-ProbeTangent::Vec6 ProbeTangent::answer(const Tangent& tangent, const Pose& X_JP) noexcept {
-  Vec6 wrench = Vec6::Zero();
-  if (!tangent.valid) return wrench;
+/// Adds what a packet says of a pose, as far as it is to count.
+void ProbeTangent::add(const Tangent& tangent, const Pose& X_JP, double weight) noexcept {
+  if (!tangent.valid) return;
   const Pose X_FP = tangent.X_JP.inverse() * X_JP;  // F: the packet's frame
   const Eigen::AngleAxisd turn(X_FP.linear());
   Vec6 motion;
   motion << limited(X_FP.translation(), kFarthest), limited(turn.angle() * turn.axis(), kMostTurn);
-  wrench = tangent.wrench - tangent.stiffness * motion;
-  if (!(wrench[2] < 0)) wrench.setZero();  // a face does not pull
-  wrench.head<3>() = tangent.X_JP.linear() * wrench.head<3>();
-  wrench.tail<3>() = tangent.X_JP.linear() * wrench.tail<3>();
-  return wrench;
+  const Vec6 wrench = tangent.wrench - tangent.stiffness * motion;
+  if (!(wrench[2] < 0)) return;  // a face does not pull
+  out_.force += weight * (tangent.X_JP.linear() * wrench.head<3>());
+  out_.torque += weight * (tangent.X_JP.linear() * wrench.tail<3>());
+  share_ += weight * tangent.share;
 }
 
 const Wrench& ProbeTangent::step(const std::optional<Pose>& X_JP) noexcept {
   blend_ = std::min(1.0, blend_ + blend_step_);
-  Vec6 wrench = Vec6::Zero();
-  if (X_JP) wrench = (1 - blend_) * answer(before_, *X_JP) + blend_ * answer(now_, *X_JP);
-  out_.force = wrench.head<3>();
-  out_.torque = wrench.tail<3>();
+  out_ = {};
+  share_ = 0;
+  if (!X_JP) return out_;
+  add(before_, *X_JP, 1 - blend_);
+  add(now_, *X_JP, blend_);
+  const Vec3 beam = X_JP->linear().col(2);
+  const double normal = -out_.force.dot(beam);
+  if (!(normal > 0)) {
+    out_ = {};
+    share_ = 0;
+    return out_;
+  }
+  // A spring that the hand stretches by sliding on between two packets slips as the skin does.
+  const Vec3 along = out_.force + normal * beam;
+  out_.force = limited(along, friction_ * normal) - normal * beam;
   return out_;
 }
 

@@ -21,14 +21,14 @@ struct ProbePacket {
 };
 
 /// The probe's force at the tick's rate between packets that come at the picture's: F0 - K dx,
-/// never a pull, blended from one packet to the next over one of their periods so that it has no
-/// steps. What is felt is a spring that changes slowly, not a late force: a delay of the packets
-/// costs accuracy under fast motion, not stability. One instance per probe; not thread safe;
-/// deterministic.
+/// never a pull, along the face no more than Coulomb's friction, blended from one packet to the
+/// next over one of their periods so that it has no steps. What is felt is a spring that changes
+/// slowly, not a late force: a delay of the packets costs accuracy under fast motion, not
+/// stability. One instance per probe; not thread safe; deterministic.
 class ProbeTangent {
  public:
-  /// Both in Hz. Requires: both > 0.
-  ProbeTangent(double tick_rate, double packet_rate);
+  /// Rates in Hz; `friction`: coefficient on the skin. Requires: rates > 0, friction >= 0.
+  ProbeTangent(double tick_rate, double packet_rate, double friction);
 
   /// From the next tick on. A packet with a number that is not finite is left out.
   ARTUS_REALTIME void take(const ProbePacket& packet) noexcept;
@@ -38,7 +38,8 @@ class ProbeTangent {
   /// and the force held beyond.
   ARTUS_REALTIME const Wrench& step(const std::optional<Pose>& X_JP) noexcept;
 
-  [[nodiscard]] double share() const noexcept { return share_; }  ///< of the face that presses
+  /// Of the face that presses, as last felt; 0 only where no force is.
+  [[nodiscard]] double share() const noexcept { return share_; }
 
  private:
   using Vec6 = Eigen::Matrix<double, 6, 1>;
@@ -47,12 +48,14 @@ class ProbeTangent {
     Pose X_JP = Pose::Identity();
     Vec6 wrench = Vec6::Zero();
     Eigen::Matrix<double, 6, 6> stiffness = Eigen::Matrix<double, 6, 6>::Zero();
+    double share = 0;
   };
-  [[nodiscard]] static Vec6 answer(const Tangent& tangent, const Pose& X_JP) noexcept;
+  void add(const Tangent& tangent, const Pose& X_JP, double weight) noexcept;
 
   Tangent before_;
   Tangent now_;
   double blend_step_;  // of a tick
+  double friction_;
   double blend_ = 1;
   double share_ = 0;
   Wrench out_;

@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kTicks = 1000;  // Hz
 constexpr double kPackets = 40;  // Hz
+constexpr double kFriction = 0.05;
 
 /// A face pressed with `normal` N on a spring of `stiffness` N/m along z and 2 N m/rad about y.
 ProbePacket packet_of(std::uint64_t number, const Pose& X_JP, double normal, double stiffness) {
@@ -41,7 +42,7 @@ double settled(ProbeTangent& tangent, const Pose& X_JP) {
 }
 
 TEST(ProbeTangent, FollowsTheSpringOfItsPacket) {
-  ProbeTangent tangent(kTicks, kPackets);
+  ProbeTangent tangent(kTicks, kPackets, kFriction);
   tangent.take(packet_of(1, raised(0), 3, 500));
   EXPECT_NEAR(settled(tangent, raised(0)), 3, 1e-12);
   EXPECT_NEAR(settled(tangent, raised(-1e-3)), 3.5, 1e-12);
@@ -53,15 +54,48 @@ TEST(ProbeTangent, FollowsTheSpringOfItsPacket) {
 }
 
 TEST(ProbeTangent, NeverPulls) {
-  ProbeTangent tangent(kTicks, kPackets);
+  ProbeTangent tangent(kTicks, kPackets, kFriction);
   tangent.take(packet_of(1, raised(0), 0.5, 500));
   EXPECT_EQ(settled(tangent, raised(1.001e-3)), 0);
   EXPECT_EQ(tangent.step(std::nullopt).force, Vec3::Zero());
   EXPECT_GT(settled(tangent, raised(0.999e-3)), 0);
 }
 
+TEST(ProbeTangent, SlidesByCoulombsLawBetweenPackets) {
+  ProbeTangent tangent(kTicks, kPackets, kFriction);
+  ProbePacket packet = packet_of(1, raised(0), 3, 500);
+  packet.wrench[0] = -0.1;
+  packet.stiffness[0] = 400;
+  tangent.take(packet);
+  static_cast<void>(settled(tangent, raised(0)));
+  const auto along = [&](double way) {
+    Pose X_JP = raised(0);
+    X_JP.translation() += way * X_JP.linear().col(0);
+    return tangent.step(X_JP).force.dot(X_JP.linear().col(0));
+  };
+  EXPECT_NEAR(along(0), -0.1, 1e-12);
+  EXPECT_NEAR(along(1e-4), -0.14, 1e-12) << "it sticks";
+  EXPECT_NEAR(along(1e-3), -0.15, 1e-12) << "0.05 of 3 N";
+  EXPECT_NEAR(along(-2e-3), 0.15, 1e-12);
+}
+
+TEST(ProbeTangent, SaysThatItTouchesAsLongAsItPresses) {
+  ProbeTangent tangent(kTicks, kPackets, kFriction);
+  tangent.take(packet_of(1, raised(0), 3, 500));
+  EXPECT_NEAR(settled(tangent, raised(0)), 3, 1e-12);
+  EXPECT_NEAR(tangent.share(), 0.5, 1e-12);
+  ProbePacket off = packet_of(2, raised(0), 0, 0);
+  off.share = 0;
+  tangent.take(off);
+  for (int i = 0; i < 30; ++i) {
+    const bool presses = tangent.step(raised(0)).force.norm() > 0;
+    EXPECT_EQ(presses, tangent.share() > 0) << i;
+  }
+  EXPECT_EQ(tangent.share(), 0);
+}
+
 TEST(ProbeTangent, GoesFromPacketToPacketWithoutAStep) {
-  ProbeTangent tangent(kTicks, kPackets);
+  ProbeTangent tangent(kTicks, kPackets, kFriction);
   tangent.take(packet_of(1, raised(0), 3, 500));
   double last = settled(tangent, raised(0));
   tangent.take(packet_of(2, raised(0), 4, 700));
@@ -76,7 +110,7 @@ TEST(ProbeTangent, GoesFromPacketToPacketWithoutAStep) {
 }
 
 TEST(ProbeTangent, LeavesOutAPacketThatIsNotFinite) {
-  ProbeTangent tangent(kTicks, kPackets);
+  ProbeTangent tangent(kTicks, kPackets, kFriction);
   tangent.take(packet_of(1, raised(0), 3, 500));
   ProbePacket bad = packet_of(2, raised(0), 3, 500);
   bad.stiffness[7] = std::numeric_limits<double>::quiet_NaN();
@@ -91,7 +125,7 @@ TEST(ProbeTangent, IsNearTheTissueAtEveryRateOfPackets) {
     return 300 * depth + 2e5 * depth * depth;
   };
   for (const double rate : {30.0, 60.0, 120.0}) {
-    ProbeTangent tangent(kTicks, rate);
+    ProbeTangent tangent(kTicks, rate, kFriction);
     double error = 0;
     double power = 0;
     double largest_step = 0;
@@ -121,7 +155,7 @@ TEST(ProbeTangent, IsNearTheTissueAtEveryRateOfPackets) {
 }
 
 TEST(ProbeTangent, AllocatesAndLocksNothing) {
-  ProbeTangent tangent(kTicks, kPackets);
+  ProbeTangent tangent(kTicks, kPackets, kFriction);
   const ProbePacket packet = packet_of(1, raised(0), 3, 500);
   ARTUS_RUNS_REALTIME(ProbeTangent::take, tangent.take(packet));
   ARTUS_RUNS_REALTIME(ProbeTangent::step, test::use(tangent.step(raised(1e-4))));
