@@ -28,9 +28,11 @@ SoftBodyParams params_with(const ProbeFace& face) {
 }  // namespace
 
 Result<TissueCore> TissueCore::make(std::shared_ptr<const CompiledJoint> joint, const Pose& X_JP,
-                                    double image_rate, const ProbeFace& face) {
+                                    double image_rate, const ProbeFace& face,
+                                    const DeformedBody* before) {
   auto body = SoftBody::make(std::move(joint), X_JP, params_with(face));
   ARTUS_TRY(body);
+  if (before != nullptr) body->follow(*before);
   return TissueCore(std::move(*body), image_rate, face);
 }
 
@@ -42,7 +44,6 @@ TissueCore::TissueCore(SoftBody body, double image_rate, const ProbeFace& face)
       cage_images_(static_cast<std::uint64_t>(std::ceil(kCageTime * image_rate))),
       X_JP_factor_(body_.cage_pose()),
       needle_(image_rate) {
-  body_.solver().refresh();
   tissue_ = body_.snapshot();
   scene_ = scenes_.at(tissue_);
 }
@@ -63,7 +64,7 @@ void TissueCore::follow(const std::optional<Pose>& X_JP) {
       needle_.forget();
       if (body_.solver().refreshing()) body_.solver().end_refresh();
       body_ = std::move(*made);
-      body_.solver().refresh();
+      body_.follow(*tissue_);
       X_JP_factor_ = body_.cage_pose();
       tissue_ = nullptr;
       still_ = false;

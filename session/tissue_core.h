@@ -18,15 +18,16 @@ namespace artus {
 /// images later, never "when ready".
 class TissueCore {
  public:
-  /// The cage is made around `X_JP`, for a probe with `face`. Errors: those of SoftBody::make.
-  /// Cost: some seconds.
+  /// The cage is made around `X_JP`, for a probe with `face`; the tissue goes on from where
+  /// `before` has it, or is at rest. Errors: those of SoftBody::make. Cost: some seconds.
   [[nodiscard]] static Result<TissueCore> make(std::shared_ptr<const CompiledJoint> joint,
                                                const Pose& X_JP, double image_rate,
-                                               const ProbeFace& face = {});
+                                               const ProbeFace& face = {},
+                                               const DeformedBody* before = nullptr);
 
   /// The next image's instant, with the probe at `X_JP` or without one, and so the needle. A probe
   /// that stays outside of what the cage reaches gets a cage of its own; until that is there the
-  /// tissue is at rest under it. Cost: see docs/deformation.md.
+  /// tissue does not feel it. Cost: see docs/deformation.md.
   void step(const std::optional<Pose>& X_JP, const std::optional<NeedleGrip>& needle = {});
 
   [[nodiscard]] const std::shared_ptr<const Scene>& scene() const noexcept { return scene_; }

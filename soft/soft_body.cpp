@@ -150,6 +150,14 @@ Result<SoftBody> SoftBody::make(std::shared_ptr<const CompiledJoint> joint, cons
   return body;
 }
 
+void SoftBody::follow(const DeformedBody& before) {
+  const Pose& X_JC = map_->X_JC;
+  std::vector<Vec3> moved;
+  for (const Vec3& node : map_->model->cage().nodes())
+    moved.emplace_back(X_JC.linear().transpose() * before.displacement(X_JC * node));
+  solver_->start_from(moved);
+}
+
 const SoftStep& SoftBody::step(const std::optional<Pose>& X_JP, double dt) {
   if (!X_JP) return solver_->step(std::nullopt, dt);
   return solver_->step(map_->X_JC.inverse() * *X_JP, dt);

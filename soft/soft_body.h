@@ -42,6 +42,10 @@ class SoftBody {
   [[nodiscard]] static Result<SoftBody> make(std::shared_ptr<const CompiledJoint> joint,
                                              const Pose& X_JP, const SoftBodyParams& params = {});
 
+  /// Goes on from where another body of this joint has its tissue, as far as this cage reaches: a
+  /// probe that presses does not feel that the cage is another. Cost: of a refresh.
+  void follow(const DeformedBody& before);
+
   /// One step (SoftSolver::step) with the probe at `X_JP`, or without one.
   const SoftStep& step(const std::optional<Pose>& X_JP, double dt);
   /// SoftSolver::settle.

@@ -43,6 +43,21 @@ void SoftSolver::reset() {
   refresh();
 }
 
+void SoftSolver::start_from(std::span<const Vec3> displacements) {
+  ARTUS_REQUIRE(displacements.size() == u_.size(), "one displacement for each node");
+  if (refreshing()) end_refresh();
+  const auto unknown = model_->unknown_nodes();
+  for (std::size_t i = 0; i < unknown.size(); ++i)
+    x_.segment<3>(static_cast<Index>(3 * i)) = displacements[unknown[i]];
+  if (contact_) contact_->release();
+  touching_ = false;
+  bad_ = 0;
+  last_ = {};
+  evaluate();
+  if (!forces_.on_unknowns.allFinite() || forces_.least_volume < params_.least_volume || !refresh())
+    reset();
+}
+
 void SoftSolver::set_face(SkinPatch skin, const ProbeFace& face) {
   contact_ = std::make_unique<FaceContact>(model_, std::move(skin), face, root_);
   touching_ = false;

@@ -122,6 +122,9 @@ class SoftSolver {
   [[nodiscard]] Vec3 reaction() const;
 
   void reset();  ///< to rest, without probe
+  /// Goes on from displacements of the nodes (n_nodes), m, without probe: those of a body that was
+  /// in another cage. From rest where they cannot be: not finite, or a cube squeezed to nothing.
+  void start_from(std::span<const Vec3> displacements);
 
  private:
   /// K^-1 g of each constraint and g^T K^-1 g of all, by one factor.

@@ -79,8 +79,9 @@ Result<void> RunTissue::follow(const Pose& X_JP) {
     return TissueCore::is_within_reach(at, X_JP);
   });
   if (seat == seats_.end()) return {};  // on its way, in the air
-  auto made =
-      TissueCore::make(core_.scene()->shared_joint(), *seat, options_.image_rate, options_.face);
+  const Scene& before = *core_.scene();
+  auto made = TissueCore::make(before.shared_joint(), *seat, options_.image_rate, options_.face,
+                               before.tissue().get());
   ARTUS_TRY(made);
   core_ = std::move(*made);
   return {};

@@ -92,6 +92,34 @@ TEST_F(SoftBodyTest, PressedJointHoldsTheHandAndItsBonesStay) {
   }
 }
 
+TEST_F(SoftBodyTest, AnotherCageGoesOnFromWhereTheTissueIs) {
+  auto one = SoftBody::make(joint, joint->X_JP_default, quick());
+  ASSERT_TRUE(one);
+  Pose X_JP = joint->X_JP_default;
+  X_JP.translation() += 4e-3 * X_JP.linear().col(2);
+  ASSERT_TRUE(one->settle(X_JP));
+  const double held = one->force_J().force.norm();
+  ASSERT_GT(held, 0.5);
+  Pose X_JC = joint->X_JP_default;  // cubes elsewhere, by no whole number of them
+  X_JC.translation() += 8.3e-3 * X_JC.linear().col(0);
+  auto other = SoftBody::make(joint, X_JC, quick());
+  auto from_rest = SoftBody::make(joint, X_JC, quick());
+  ASSERT_TRUE(other && from_rest);
+  const auto before = one->snapshot();
+  other->follow(*before);
+  const Vec3 below = X_JP * Vec3(0, 0, 6e-3);
+  EXPECT_LT((other->snapshot()->displacement(below) - before->displacement(below)).norm(), 0.2e-3);
+  double least = held;
+  for (int k = 0; k < 6; ++k) {
+    other->step(X_JP, 1 / 60.0);
+    least = std::min(least, other->force_J().force.norm());
+  }
+  EXPECT_GT(least, 0.8 * held);
+  EXPECT_NEAR(other->force_J().force.norm(), held, 0.2 * held);
+  from_rest->step(X_JP, 1 / 60.0);
+  EXPECT_GT(std::abs(from_rest->force_J().force.norm() - held), 0.5 * held) << "what it was";
+}
+
 TEST_F(SoftBodyTest, InverseMapUndoesTheForwardMap) {
   auto body = SoftBody::make(joint, joint->X_JP_default, quick());
   ASSERT_TRUE(body);
