@@ -232,13 +232,15 @@ void Session::run_imaging(const ThreadWishes& wishes) {
   handover_->rest();
 }
 
-/// The tissue's step to image `number`, and its picture to who draws. False: nothing is known yet.
+/// The tissue's step to image `number`, and its picture to who draws. False: nothing is known yet,
+/// or nothing since the image before.
 bool Session::advance(ImageCore& core, std::uint64_t number) {
   HapticSnapshot snapshot;
   ImageControls controls;
   if (ticks_.load(std::memory_order_relaxed) == 0 || !haptic_.load(snapshot, 1000) ||
-      !controls_.load(controls, 1000))
+      !controls_.load(controls, 1000) || snapshot.input.tick == imaged_tick_)
     return false;
+  imaged_tick_ = snapshot.input.tick;
   const std::int64_t begin = monotonic_ns();
   const FrameInput input = frame_input(snapshot, controls, number);
   ImagedBody body = core.advance(input);

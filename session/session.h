@@ -177,7 +177,8 @@ class Session {
   NewestMailbox<ImageSnapshot> images_;
   std::unique_ptr<DroppingRing<TracePoint>> trace_;
   std::unique_ptr<ImageHandover> handover_;
-  std::int64_t answered_ns_ = 0;  // when the tissue last answered the hands
+  std::int64_t answered_ns_ = 0;   // when the tissue last answered the hands
+  std::uint64_t imaged_tick_ = 0;  // of the newest image
   std::atomic<bool> stop_{false};
   std::atomic<bool> paused_{false};
   std::atomic<bool> frozen_{false};
