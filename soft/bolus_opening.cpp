@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kSubdivisions = 3;   // of an icosahedron
 constexpr double kNearBone = 0.8;  // of the way to bone that liquid takes at most
-constexpr double kFilm = 1.03;  // of its volume: tissue that facets of wall and liquid need between
+constexpr double kFilm = 1.1;  // of its volume: tissue that facets of wall and liquid need between
 constexpr double kExactVolume = 1e-16;  // m^3
 constexpr int kSteps = 30;
 constexpr double kMost = 1e4;  // times its volume that is drawn for what bone takes of it
