@@ -183,7 +183,7 @@ TEST_F(ImagingTool, APressedJointHasForcesLayersAndACage) {
 
 TEST_F(ImagingTool, PressesTheFaceOfTheProbeThatDraws) {
   const auto newtons = [&](const std::string& transducer) {
-    const auto r = artus({"slice", "-j", kSimple, "--transducer", transducer, "--press-mm", "5",
+    const auto r = artus({"slice", "-j", kSimple, "--transducer", transducer, "--press-mm", "8",
                           "-o", in("face.png"), "--json"});
     EXPECT_EQ(r.exit_code, 0) << r.err << r.out;
     return nlohmann::json::parse(r.out).at("press").at("normal_force_n").get<double>();
