@@ -12,8 +12,6 @@
 namespace artus {
 namespace {
 
-/// An eighth with less tissue than this counts as so much: cubes at the skin must not be flimsy.
-constexpr double kLeastWeight = 0.15;
 
 struct Sums {
   double n = 0;
@@ -125,6 +123,7 @@ CellMaterial average_cell(const MaterialField& field, const CellMixture& mix, do
   double bulk_compliance = 0;
   double drain = 0;
   double drain_pressure = 0;
+  double firm_pressure = 0;  // at which the first of them hardens
   std::vector<double> log_shear(mix.samples.size(), std::nan(""));
   for (std::size_t i = 0; i < mix.samples.size(); ++i) {
     if (mix.samples[i] < 0) continue;
@@ -134,6 +133,8 @@ CellMaterial average_cell(const MaterialField& field, const CellMixture& mix, do
     drain_pressure += material.drain_pressure;
     log_shear[i] = std::log(m.shear);
     bulk_compliance += 1 / m.bulk;
+    const double firm = material.firm_from * m.bulk;
+    if (firm > 0 && (firm_pressure == 0 || firm < firm_pressure)) firm_pressure = firm;
     for (Sums* s : {&sums[eighth_of(static_cast<int>(i), mix.n)], &all}) {
       s->n += 1;
       s->shear += m.shear;
@@ -144,6 +145,7 @@ CellMaterial average_cell(const MaterialField& field, const CellMixture& mix, do
   CellMaterial out;
   if (all.n == 0) return out;
   out.bulk = all.n / bulk_compliance;
+  out.firm_from = firm_pressure / out.bulk;
   out.drain = drain / all.n;
   if (drain > 0) out.drain_pressure = drain_pressure / drain;
   const Layering layering = layering_of(mix, log_shear);

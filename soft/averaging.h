@@ -25,8 +25,9 @@ struct CellMixture {
 /// not make it a stiff block: shear across layers adds compliances (Reuss), stretch along them adds
 /// stiffnesses (Voigt), which is exact for a pile of incompressible layers. The layers' normal is
 /// where neighbouring samples differ most; where they differ in all directions alike, shear is
-/// averaged half way (geometric mean by the spread). lambda adds compliances; what drains counts by
-/// its share. Bone in a cube counts
+/// averaged half way (geometric mean by the spread). lambda adds compliances, and hardens
+/// under the pressure under which the first of the materials does; what drains counts by its
+/// share. Bone in a cube counts
 /// as the stiffest soft tissue there, at least `hard_shear` (Pa): its nodes are held anyway.
 [[nodiscard]] CellMaterial average_cell(const MaterialField& field, const CellMixture& mixture,
                                         double hard_shear = 0.7e6);

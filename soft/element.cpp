@@ -253,7 +253,7 @@ struct VolumeLaw {
   double slope = 0;
 };
 
-VolumeLaw volume_law(const CellMaterial& m, double excess) noexcept {
+VolumeLaw drained_law(const CellMaterial& m, double excess) noexcept {
   if (!(m.drain > 0) || excess >= 0) return {m.bulk * excess, m.bulk};
   const double soft = std::min(0.5 * m.bulk, m.drain_pressure / m.drain);
   const double rise = (kDrainEnd - kDrainBegin) * m.drain;
@@ -261,6 +261,16 @@ VolumeLaw volume_law(const CellMaterial& m, double excess) noexcept {
   const double beyond = std::max(-excess - kDrainEnd * m.drain, 0.0);
   return {soft * excess - (m.bulk - soft) * (0.5 * ramp * ramp / rise + beyond),
           soft + (m.bulk - soft) * ramp / rise};
+}
+
+VolumeLaw volume_law(const CellMaterial& m, double excess) noexcept {
+  VolumeLaw law = drained_law(m, excess);
+  const double passed = -excess - kDrainEnd * m.drain - m.firm_from;
+  if (!(m.firm_from > 0) || !(passed > 0)) return law;
+  const double hardening = m.bulk / (kFirmRise * m.firm_from);
+  law.pressure -= hardening * passed * passed;
+  law.slope += 2 * hardening * passed;
+  return law;
 }
 
 /// Second derivative of the energy density at one point without the mean dilatation's own part.

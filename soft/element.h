@@ -12,6 +12,10 @@ namespace artus {
 /// what a probe's 3 N ask of a cube, far above where a part turns inside out.
 inline constexpr double kLeastPart = 0.4;
 
+/// An eighth with less tissue than this counts as so much: cubes at the skin must not be flimsy.
+/// What then is nearly all air may turn over: beside a face that is pressed deep the skin folds.
+inline constexpr double kLeastWeight = 0.15;
+
 /// The mechanics of one cube: an average over its eighths, one integration point in each.
 struct CellMaterial {
   std::array<double, 8> weight{};     ///< share of the eighth that is tissue, 0..1
@@ -19,6 +23,7 @@ struct CellMaterial {
   std::array<double, 8> sheet{};      ///< Pa, mu that only stretching in the sheet's plane feels
   std::array<double, 8> hardening{};  ///< b of SoftMaterial
   double bulk = 0;                    ///< Pa, lambda
+  double firm_from = 0;               ///< of SoftMaterial; of the volume that does not drain
   double drain = 0;                   ///< share of the tissue that is fluid and can leave
   double drain_pressure = 0;          ///< Pa under which it does
   double fibre_modulus = 0;           ///< Pa
@@ -33,13 +38,14 @@ using CellMatrix = Eigen::Matrix<double, 24, 24>;
 struct CellResponse {
   CellVector force;         ///< N, on the nodes by the cube: minus the energy's gradient
   double energy = 0;        ///< J
-  double least_volume = 1;  ///< smallest J of its integration points
+  double least_volume = 1;  ///< smallest J of its integration points of more than kLeastWeight
 };
 
 /// Trilinear cube with one mean dilatation (Q1P0), so that nearly incompressible tissue does not
 /// lock: W = sum_g V_g [mu_g/b (exp(b psi_g) - 1) + W_sheet + W_fibre] + V lambda/2 (mean J -
-/// J0)^2 + sum_g V_g lambda/2 <1 - J_g/kLeastPart>^2, the last since a mean alone lets one corner
-/// of a cube vanish while the others swell. The sheet's energy mu_s/2 (tr c + 1/det c - 3) is that
+/// J0)^2 + V lambda/(3 w) <J0 - mean J - v>^3 + sum_g V_g lambda/2 <1 - J_g/kLeastPart>^2, the last
+/// since a mean alone lets one corner of a cube vanish while the others swell; v and w as in
+/// SoftMaterial. The sheet's energy mu_s/2 (tr c + 1/det c - 3) is that
 /// of an incompressible membrane with the stretch c in the plane across `sheet_normal`. Fluid of a
 /// share f that drains makes the pressure of a smaller volume, q = J0 - mean J, less: k q up to
 /// 0.8 f with k = drain_pressure/f, beyond 1.2 f again with the slope lambda, between them the
@@ -52,6 +58,9 @@ struct CellResponse {
 /// Where the slope of a draining cube's pressure begins and ends to rise, in its fluid's share.
 inline constexpr double kDrainBegin = 0.8;
 inline constexpr double kDrainEnd = 1.2;
+
+/// Of firm_from: w of SoftMaterial, by which the slope of the bulk grows by twice itself.
+inline constexpr double kFirmRise = 0.1;
 
 /// Second derivative of the energy, with the parts that could make it indefinite held back: at each
 /// point whose stress is above mu what has negative stiffness, a sheet's compression, a fibre's

@@ -36,6 +36,9 @@ void CellPack::set(std::size_t lane, const CellMaterial& m, double edge_length) 
   drain[lane] = m.drain;
   drain_soft[lane] = m.drain > 0 ? std::min(0.5 * m.bulk, m.drain_pressure / m.drain) : m.bulk;
   has_drain = has_drain || m.drain > 0;
+  firm_from[lane] = kDrainEnd * m.drain + m.firm_from;
+  firm[lane] = m.firm_from > 0 ? m.bulk / (kFirmRise * m.firm_from) : 0;
+  has_firm = has_firm || m.firm_from > 0;
   fibre_modulus[lane] = m.fibre_modulus;
   has_fibre = has_fibre || m.fibre_modulus > 0;
   const Vec3 along = m.sheet_normal.unitOrthogonal();

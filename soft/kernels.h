@@ -19,6 +19,8 @@ struct alignas(32) CellPack {
   Lanes bulk{};
   Lanes drain{};       ///< share of fluid that can leave
   Lanes drain_soft{};  ///< Pa, slope of the pressure while it does
+  Lanes firm_from{};   ///< share lost from which the bulk hardens, with what drains
+  Lanes firm{};        ///< Pa, of the square of what is lost beyond it
   Lanes fibre_modulus{};
   std::array<Lanes, 3> fibre{};
   std::array<Lanes, 6> plane{};  ///< two unit vectors along the sheet, one after the other
@@ -27,6 +29,7 @@ struct alignas(32) CellPack {
   bool has_fibre = false;
   bool has_hardening = false;
   bool has_drain = false;
+  bool has_firm = false;
   /// Puts a cube into a lane; lanes that get none do not count.
   void set(std::size_t lane, const CellMaterial& material, double edge_length) noexcept;
 };

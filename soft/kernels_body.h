@@ -240,6 +240,12 @@ void cells(const CellPack& pack, CellPackState& s) {
     drain(pack, excess, pressure, stored);
     energy += volume * points.weight * stored;
   }
+  if (pack.has_firm) {  // see element.cpp's volume_law
+    const D passed = larger(splat(0.0) - excess - lanes(pack.firm_from), splat(0.0));
+    const D by = lanes(pack.firm) * passed * passed;
+    pressure -= by;
+    energy += volume * points.weight * by * passed * (1.0 / 3.0);
+  }
   D least = splat(1.0);
   D line[3][3][4];
   for (auto& component : line) {
@@ -252,7 +258,7 @@ void cells(const CellPack& pack, CellPackState& s) {
     D F[9];
     D P[9];
     gradient.at(g, F);
-    least = weight > 0.0 ? smaller(least, points.J[g]) : least;
+    least = weight > kLeastWeight ? smaller(least, points.J[g]) : least;
     energy += volume * weight * stress_at(pack, g, F, points, pressure, P);
     const D share = area * weight;
     for (std::size_t k = 0; k < 3; ++k) {

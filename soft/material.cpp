@@ -18,6 +18,9 @@ constexpr double kLeastShear = 100;  // Pa; assumed: far below any solid tissue
 /// All tissues are water: the softest must not be squeezed out of existence by a probe's 10 kPa.
 constexpr double kLeastBulk = 50e3;  // Pa; assumed: a fifth of volume at 10 kPa at most
 
+/// What blood and fluid may leave of a tissue that is pressed; beyond, it is water.
+constexpr double kFirmFrom = 0.1;  // of its volume; assumed: a few per cent, and twice that
+
 // Below 1 Pa nothing holds a cube; above 1 GPa it is hard, and told so by the tissue library.
 constexpr std::array<TomlField<SoftTissue>, 4> kFields{{
     {"shear_pa", &SoftTissue::shear, 1, 1e9, 1, true},
@@ -73,6 +76,7 @@ SoftMaterial make_soft_material(const Tissue& tissue, std::span<const SoftTissue
   }
   m.fibre = fibre;
   m.bulk = std::max(kLeastBulk, lame_lambda(m.shear, poisson_ratio));
+  if (!m.hard) m.firm_from = kFirmFrom;
   return m;
 }
 

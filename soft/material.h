@@ -14,13 +14,16 @@ namespace artus {
 
 /// How one tissue gives way, quasi-statically: a stable neo-Hookean solid that hardens, with fibres
 /// that resist being stretched. Energy per rest volume, J/m^3:
-///   mu/b (exp(b psi) - 1) + lambda/2 (J - 1)^2 + k/2 <e>^2,
-///   psi = (I_C - 3)/2 - (J - 1) + (J - 1)^2/2, e = (|F a|^2 - 1)/2, <e> = max(e, 0).
+///   mu/b (exp(b psi) - 1) + lambda/2 (J - 1)^2 + lambda/(3 w) <1 - J - v>^3 + k/2 <e>^2,
+///   psi = (I_C - 3)/2 - (J - 1) + (J - 1)^2/2, e = (|F a|^2 - 1)/2, <e> = max(e, 0), v = firm_from
+///   and w = v/10: lambda is a numerical value far below water's, so that what has lost the share v
+///   of its volume gives little more.
 /// At small strain it is linear elasticity with Lame's mu and lambda. Source [Smith2018] for the
 /// part without b; b is Fung's exponent.
 struct SoftMaterial {
   double shear = 0;           ///< Pa, mu across the fibres
   double bulk = 0;            ///< Pa, Lame's lambda
+  double firm_from = 0;       ///< share of its volume it loses before its bulk hardens; 0: never does
   double hardening = 0;       ///< b
   double fibre_modulus = 0;   ///< Pa, k
   Vec3 fibre = Vec3::Zero();  ///< unit, a; zero: no fibres

@@ -35,7 +35,7 @@ struct SoftForces {
   Eigen::VectorXd on_unknowns;  ///< N (3 n_unknowns), by the tissue
   std::vector<Vec3> on_nodes;   ///< N (n_nodes), by the tissue, hanging nodes' shares passed on
   double energy = 0;            ///< J stored
-  double least_volume = 1;      ///< smallest J of any integration point
+  double least_volume = 1;      ///< smallest J of any integration point, as CellResponse has it
 };
 
 /// A share of an unknown node in the displacement of a point.

@@ -14,6 +14,8 @@ namespace {
 
 using Index = Eigen::Index;
 
+constexpr int kHalvings = 4;  // of a step that squeezes too much, before it is taken back
+
 Eigen::VectorXd root_of(const Eigen::VectorXd& x, const std::vector<std::uint32_t>& root) {
   Eigen::VectorXd part(static_cast<Index>(3 * root.size()));
   for (std::size_t k = 0; k < root.size(); ++k)
@@ -197,6 +199,14 @@ Pose SoftSolver::advance(const Pose& target, std::uint32_t& status) const {
   return pose;
 }
 
+/// Whether the state is one to go on from.
+bool SoftSolver::stands() const {
+  return std::isfinite(forces_.energy) && forces_.on_unknowns.allFinite() &&
+         forces_.least_volume >= params_.least_volume;
+}
+
+/// Goes the step, but no node farther than `limit`, and half as far as long as it squeezes too
+/// much.
 double SoftSolver::apply(const Eigen::VectorXd& step, double limit, std::uint32_t& status) {
   double largest = 0;
   for (Index i = 0; i < step.size(); i += 3) largest = std::max(largest, step.segment<3>(i).norm());
@@ -206,8 +216,16 @@ double SoftSolver::apply(const Eigen::VectorXd& step, double limit, std::uint32_
     share = limit / largest;
     status |= kSoftLimited;
   }
-  x_ += share * step;
-  evaluate();
+  const Eigen::VectorXd before = x_;
+  for (int k = 0; k <= kHalvings; ++k) {
+    if (k > 0) {
+      share *= 0.5;
+      status |= kSoftLimited;
+    }
+    x_ = before + share * step;
+    evaluate();
+    if (stands()) break;
+  }
   return largest * share;
 }
 
@@ -280,9 +298,7 @@ const SoftStep& SoftSolver::go(const std::optional<Pose>& X_CP, double alpha) {
   factor_->backward(r);
   out.largest_move = apply(alpha * r, params_.step_limit + 2 * advanced, out.status);
   out.least_volume = forces_.least_volume;
-  const bool finite = std::isfinite(out.largest_move) && std::isfinite(forces_.energy) &&
-                      forces_.on_unknowns.allFinite();
-  if (!finite || out.least_volume < params_.least_volume) {
+  if (!std::isfinite(out.largest_move) || !stands()) {
     multipliers_ = multipliers;
     take_back(before, out.status);
   } else {

@@ -33,7 +33,8 @@ struct SoftSolverParams {
   double step_limit = 0.5e-3;   ///< m a node may move in one step beyond what the face moves
   double probe_advance = 1e-3;  ///< m the face may move in one step; a faster hand is followed late
   double probe_turn = 0.05;     ///< rad the same
-  double least_volume = 0.02;   ///< of any point; a step that squeezes more is taken back
+  double least_volume = 0.02;   ///< of any point; a step that squeezes more is halved, at last
+                                ///< taken back
   int bad_steps = 3;            ///< in a row after which the body starts again from rest
 };
 
@@ -140,6 +141,7 @@ class SoftSolver {
   void evaluate();
   bool make_factor(std::span<const Vec3> u, std::span<const double> targets);
   void take_factor();
+  [[nodiscard]] bool stands() const;
   [[nodiscard]] double apply(const Eigen::VectorXd& step, double limit, std::uint32_t& status);
   void take_back(const Eigen::VectorXd& x, std::uint32_t& status);
 

@@ -147,6 +147,62 @@ TEST(Element, FluidThatDrainsLeavesUnderItsPressureAndThenTheRestResists) {
   }
 }
 
+CellMaterial fat_like() {
+  CellMaterial m;
+  for (std::size_t g = 0; g < 8; ++g) {
+    m.weight[g] = 1;
+    m.shear[g] = 800;
+  }
+  m.bulk = 50e3;
+  return m;
+}
+
+/// A cube squeezed to the share `z` of its height and wide enough to be left with `volume`.
+CellVector squeezed(double edge, double z, double volume) {
+  CellVector u = CellVector::Zero();
+  const double wide = std::sqrt(volume / z);
+  for (Eigen::Index n = 0; n < 8; ++n) {
+    u[3 * n] = (n & 1) != 0 ? edge * (wide - 1) : 0;
+    u[3 * n + 1] = (n & 2) != 0 ? edge * (wide - 1) : 0;
+    u[3 * n + 2] = (n & 4) != 0 ? edge * (z - 1) : 0;
+  }
+  return u;
+}
+
+TEST(Element, BulkHardensWhereATenthOfTheVolumeIsLostAndNotBefore) {
+  CellMaterial m = fat_like();
+  CellMaterial plain = m;
+  m.firm_from = 0.1;
+  EXPECT_EQ(cell_pressure(m, 0.91), cell_pressure(plain, 0.91));
+  EXPECT_EQ(cell_pressure(m, 1.5), cell_pressure(plain, 1.5));
+  // lambda (q + (q - v)^2/w) by hand: q = 0.2, v = 0.1, w = 0.01.
+  EXPECT_NEAR(cell_pressure(m, 0.8), 50e3 * (0.2 + 1.0), 1e-6);
+  m.drain = 0.2;  // what drains leaves before that
+  m.drain_pressure = 2e3;
+  EXPECT_NEAR(cell_pressure(m, 0.7) - cell_pressure(m, 0.71), 500, 1);
+  EXPECT_GT(cell_pressure(m, 0.6) - cell_pressure(m, 0.61), 2000);
+  constexpr double kEdge = 3e-3;
+  const CellVector u = squeezed_to(0.6, kEdge);
+  const CellVector force = cell_response(m, kEdge, u).force;
+  for (int i = 0; i < 24; ++i) {
+    CellVector plus = u;
+    CellVector minus = u;
+    plus[i] += 1e-8;
+    minus[i] -= 1e-8;
+    const double slope =
+        (cell_response(m, kEdge, plus).energy - cell_response(m, kEdge, minus).energy) / 2e-8;
+    EXPECT_NEAR(force[i], -slope, 1e-5 * force.norm()) << i;
+  }
+}
+
+TEST(Element, PartOfNearlyNothingButAirIsNoneThatIsCrushed) {
+  CellMaterial m = fat_like();
+  const CellVector u = squeezed(3e-3, 0.5, 0.5);
+  EXPECT_NEAR(cell_response(m, 3e-3, u).least_volume, 0.5, 1e-12);
+  m.weight.fill(kLeastWeight);
+  EXPECT_EQ(cell_response(m, 3e-3, u).least_volume, 1);
+}
+
 TEST(Element, TangentIsTheForcesDerivativeWhereNothingIsHeldBack) {
   CellMaterial m = mixed_material();
   const double edge = 3e-3;
@@ -177,28 +233,6 @@ TEST(Element, TangentIsSymmetricAndAtRestPositiveButForRigidMotions) {
   const Eigen::SelfAdjointEigenSolver<CellMatrix> solver(K);
   EXPECT_LT(std::abs(solver.eigenvalues()[5]), 1e-9 * solver.eigenvalues()[23]);
   EXPECT_GT(solver.eigenvalues()[6], 1e-4 * solver.eigenvalues()[23]);
-}
-
-CellMaterial fat_like() {
-  CellMaterial m;
-  for (std::size_t g = 0; g < 8; ++g) {
-    m.weight[g] = 1;
-    m.shear[g] = 800;
-  }
-  m.bulk = 50e3;
-  return m;
-}
-
-/// A cube squeezed to the share `z` of its height and wide enough to be left with `volume`.
-CellVector squeezed(double edge, double z, double volume) {
-  CellVector u = CellVector::Zero();
-  const double wide = std::sqrt(volume / z);
-  for (Eigen::Index n = 0; n < 8; ++n) {
-    u[3 * n] = (n & 1) != 0 ? edge * (wide - 1) : 0;
-    u[3 * n + 1] = (n & 2) != 0 ? edge * (wide - 1) : 0;
-    u[3 * n + 2] = (n & 4) != 0 ? edge * (z - 1) : 0;
-  }
-  return u;
 }
 
 TEST(Element, TangentUnderAPressureFarAboveShearIsPositiveAndKeepsWhatStiffens) {

@@ -38,6 +38,7 @@ CellPack pack_of(std::uint64_t seed) {
     m.bulk = 50e3;
     m.drain = lane == 3 ? 0 : 0.1 * static_cast<double>(1 + seed % 5);
     m.drain_pressure = 2e3;
+    m.firm_from = lane == 0 ? 0 : 0.05 * static_cast<double>(lane);
     m.fibre_modulus = lane == 1 ? 0 : 1e4;
     m.sheet_normal = Vec3(0.2, 0.1 * static_cast<double>(lane), 1).normalized();
     m.fibre = Vec3(1, 0.3, 0.1).normalized();
