@@ -82,7 +82,7 @@ void Acquisition::run(const EchoBody& body, const EchoView& view, BlockWorkers& 
                       Frame& frame) {
   X_PJ_ = view.X_JP.inverse();
   place_tracks(body, view);
-  drifting_.place(body.drifting, view.X_JP);
+  drifting_.place(body.drifting, view.X_JP, view.probe);
   const SmoothGradient* const tissue = body.tissue ? &*body.tissue : nullptr;
   Pass pass{view, BeamTracer(*body.scene, tissue, body.regions, view.probe, settings_),
             std::nullopt, frame};

@@ -33,7 +33,14 @@ struct BeamRun {
 
 /// Where a piece of tissue on a beam was at rest; between knots the way is straight there, too.
 struct BeamKnot {
-  double path = 0;  ///< m along the beam from the face
+  double path = 0;             ///< m along the beam from the face
+  Vec3 rest_J = Vec3::Zero();  ///< m
+  double moved = 0;            ///< m, how far it is from there
+  std::size_t frame = 0;       ///< of the middle plane's BeamTrace::frames
+};
+
+/// What the tissue around a knot of the middle plane does; the other planes' knots are made of it.
+struct KnotFrame {
   RestKnot rest;
   Eigen::Matrix3d gradient_J = Eigen::Matrix3d::Identity();  ///< of deformation, smooth
 };
@@ -55,6 +62,7 @@ struct BeamTrace {
   static constexpr std::size_t kMaxKnots = 512;
   std::array<BeamRun, kMax> runs;
   std::array<BeamKnot, kMaxKnots> knots;
+  std::array<KnotFrame, kMaxKnots> frames;  ///< of the knots, in the middle plane alone
   std::array<BeamEcho, kMax> echoes;
   std::size_t n_runs = 0;
   std::size_t n_echoes = 0;

@@ -88,8 +88,8 @@ void place_pieces(const BeamRun& run, std::span<const BeamKnot> knots, std::size
             ? n
             : static_cast<std::size_t>(std::clamp(std::ceil(to), 0.0, static_cast<double>(n)));
     if (end > begin && to > from) {
-      const Vec3 step = (knots[k + 1].rest.rest_J - knots[k].rest.rest_J) / (to - from);
-      const Vec3 rest = knots[k].rest.rest_J + (static_cast<double>(begin) - from) * step;
+      const Vec3 step = (knots[k + 1].rest_J - knots[k].rest_J) / (to - from);
+      const Vec3 rest = knots[k].rest_J + (static_cast<double>(begin) - from) * step;
       pieces.push_back({first + begin, first + end, rest, step});
       begin = end;
     }

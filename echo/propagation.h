@@ -49,8 +49,8 @@ class BeamTracer {
   double follow_fibres(Walk& walk, const RegionAcoustics& region, BeamRun& run,
                        const Vec3& half_way) const noexcept;
   bool place_knots(Walk& walk, double path) const noexcept;
-  [[nodiscard]] BeamKnot first_knot(Walk& walk) const noexcept;
-  [[nodiscard]] BeamKnot next_knot(Walk& walk) const noexcept;
+  void begin_knots(Walk& walk) const noexcept;
+  void add_knot(Walk& walk, double path) const noexcept;
   [[nodiscard]] Vec3 find_normal(Walk& walk, const TissueInterval& interval) const noexcept;
   void find_rest(Walk& walk, BeamRun& run) const noexcept;
   void add_repeats(BeamTrace& trace) const noexcept;
