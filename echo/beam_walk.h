@@ -45,13 +45,12 @@ struct BeamTracer::Walk {
   double bend_loss = 0;                // Np, see kBendLobe
   const BeamTrace* central = nullptr;  // of the middle plane, for the others
   std::size_t central_run = 0;         // the one beside this beam's place
-  const BeamTrace* others = nullptr;   // whose frames the knots are made of; null: its own
-  std::size_t central_knot = 0;        // the first behind the last one made
+  std::size_t guide_knot = 0;        // the first behind the last one made
   Vec3 line_start = {};                // of the straight piece, as the next four
   Vec3 line_direction = {};            // unit
   double line_path = 0;                // m, at its start
   double time_scale = 1;               // length of beam over length of line
-  std::optional<RestWay> way = {};     // of the middle plane, once it is needed
+  std::optional<RestWay> way = {};     // for knots of its own, once they are needed
   bool has_knots = false;              // whether this line has any
   std::size_t line_knot = 0;           // its first
   std::array<LeftOut, kMostLeftOut> left_out = {};
@@ -84,7 +83,7 @@ struct BeamTracer::Walk {
   /// How it is turned and stretched.
   [[nodiscard]] Eigen::Matrix3d gradient_at(double at_path) const noexcept {
     const std::size_t k = knot_before(at_path);
-    const auto& frames = (others != nullptr ? *others : trace).frames;
+    const auto& frames = (trace.guide != nullptr ? *trace.guide : trace).frames;
     const Eigen::Matrix3d& before = frames[trace.knots[k].frame].gradient_J;
     const Eigen::Matrix3d& behind = frames[trace.knots[k + 1].frame].gradient_J;
     return before + share_behind(k, at_path) * (behind - before);
@@ -97,26 +96,26 @@ struct BeamTracer::Walk {
   [[nodiscard]] double along(double at_path) const noexcept {
     return (at_path - line_path) / time_scale;
   }
-  /// The first knot of the others behind a place on the beam, of the line that is there; null:
+  /// The first knot of the guide behind a place on the beam, of the line that is there; null:
   /// none. Only ever asked for places farther on.
   [[nodiscard]] const BeamKnot* knot_after(double at_path) noexcept {
+    const BeamTrace& guide = *trace.guide;
     const auto in_force = [&](std::size_t k) {  // not past its line's end
-      return k + 1 == others->n_knots || others->knots[k + 1].path > others->knots[k].path;
+      return k + 1 == guide.n_knots || guide.knots[k + 1].path > guide.knots[k].path;
     };
-    while (central_knot < others->n_knots &&
-           (others->knots[central_knot].path <= at_path || !in_force(central_knot)))
-      ++central_knot;
-    return central_knot < others->n_knots ? &others->knots[central_knot] : nullptr;
+    while (guide_knot < guide.n_knots &&
+           (guide.knots[guide_knot].path <= at_path || !in_force(guide_knot)))
+      ++guide_knot;
+    return guide_knot < guide.n_knots ? &guide.knots[guide_knot] : nullptr;
   }
   /// The last one before or at it.
   [[nodiscard]] const BeamKnot* knot_beside(double at_path) noexcept {
     const BeamKnot* after = knot_after(at_path);
-    if (after != nullptr && central_knot == 0) return after;
-    const BeamKnot& before = others->knots[central_knot - 1];
+    if (after != nullptr && guide_knot == 0) return after;
+    const BeamKnot& before = trace.guide->knots[guide_knot - 1];
     return after == nullptr || before.path <= at_path ? &before : after;
   }
-  /// Adds a knot of the middle plane; instead of the last one, where the way is straight without
-  /// that.
+  /// Adds a knot of its own; instead of the last one, where the way is straight without that.
   void add_knot(const KnotFrame& frame) noexcept {
     const std::size_t last = trace.n_knots - 1;
     if (last > line_knot && n_left_out < kMostLeftOut) {
@@ -131,14 +130,15 @@ struct BeamTracer::Walk {
     n_left_out = 0;
     put_knot(trace.n_knots++, frame);
   }
-  /// Adds a knot at `path` where one of the others says that the tissue was.
+  /// Adds a knot at `path` where one of the guide says that the tissue was.
   void add_knot_beside(const BeamKnot& knot, double path) noexcept {
     const Vec3 p_J = line_start + along(path) * line_direction;
-    const Vec3 rest_J = others->frames[knot.frame].rest.beside(p_J);
+    const Vec3 rest_J = trace.guide->frames[knot.frame].rest.beside(p_J);
     trace.knots[trace.n_knots++] = {path, rest_J, (p_J - rest_J).norm(), knot.frame};
   }
-  /// Adds one where the tissue moved as at the last, behind which the others have none.
+  /// Adds one where the tissue moved as at the last, behind which the guide has none.
   void add_knot_behind(const BeamKnot& last, double path) noexcept {
+    trace.outran = true;
     const Vec3 way = (along(path) - along(last.path)) * line_direction;
     trace.knots[trace.n_knots++] = {path, last.rest_J + way, last.moved, last.frame};
   }
@@ -162,7 +162,7 @@ struct BeamTracer::Walk {
   }
   /// Goes on straight from `from`.
   void begin_line(const Vec3& from, const Vec3& direction, double scale) noexcept {
-    if (has_knots && others == nullptr) displacement = from - rest_at(path);
+    if (has_knots && trace.guide == nullptr) displacement = from - rest_at(path);
     has_knots = false;
     line_start = from;
     line_direction = direction;

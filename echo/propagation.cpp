@@ -45,10 +45,7 @@ Vec3 BeamTracer::find_normal(Walk& walk, const TissueInterval& interval) const n
       !place_knots(walk, walk.path) ||
       !(walk.trace.knots[walk.knot_before(walk.path)].moved > kStill))
     return facet;
-  const TetMesh& mesh = scene_->joint().mesh;
-  const auto& [a, b, c] = mesh.interfaces[interval.entry_interface].vertices;
-  const Vec3 at_rest =
-      (mesh.vertices[b] - mesh.vertices[a]).cross(mesh.vertices[c] - mesh.vertices[a]);
+  const Vec3& at_rest = scene_->normal_at_rest(interval.entry_interface);
   const Vec3 normal = carried_normal(walk.gradient_at(walk.path), at_rest).normalized();
   return normal.dot(facet) < 0 ? Vec3(-normal) : normal;
 }
@@ -140,7 +137,7 @@ void BeamTracer::begin_knots(Walk& walk) const noexcept {
   walk.has_knots = true;
   walk.line_knot = walk.trace.n_knots;
   walk.n_left_out = 0;
-  if (walk.others != nullptr) {
+  if (walk.trace.guide != nullptr) {
     walk.add_knot_beside(*walk.knot_beside(walk.path), walk.path);
     return;
   }
@@ -151,10 +148,10 @@ void BeamTracer::begin_knots(Walk& walk) const noexcept {
   walk.put_knot(walk.trace.n_knots++, frame);
 }
 
-/// Adds the one behind the last, `path` or less from the face where the others' end.
+/// Adds the one behind the last; where the guide has no more, at `path` or beyond.
 void BeamTracer::add_knot(Walk& walk, double path) const noexcept {
   const std::size_t last = walk.trace.n_knots - 1;
-  if (walk.others != nullptr) {
+  if (walk.trace.guide != nullptr) {
     const BeamKnot& before = walk.trace.knots[last];
     const BeamKnot* const beside = walk.knot_after(before.path);
     if (beside != nullptr) {
@@ -291,8 +288,9 @@ bool BeamTracer::pass(Walk& walk, const Vec3& from, const Vec3& direction, doubl
 }
 
 void BeamTracer::trace_bent(const Vec3& origin_J, const Vec3& direction_J, BeamTrace& trace,
-                            BeamPath& path) const noexcept {
+                            BeamPath& path, const BeamTrace* guide) const noexcept {
   trace.clear();
+  if (guide != nullptr && guide->n_knots > 0) trace.guide = guide;
   path.size = 0;
   Walk walk{trace, direction_J, direction_J, refraction_};
   Vec3 point = origin_J;
@@ -322,7 +320,8 @@ void BeamTracer::trace_along(const BeamPath& path, const Vec3& elevation_axis_J,
   const Vec3 straight = without_elevation(path.p_J[1] - path.p_J[0]);
   Walk walk{trace, straight, straight};
   walk.central = &central;
-  if (central.n_knots > 0) walk.others = &central;
+  const BeamTrace& guide = central.guide != nullptr ? *central.guide : central;
+  if (guide.n_knots > 0) trace.guide = &guide;
   bool alive = true;
   for (std::size_t i = 0; alive && i + 1 < path.size; ++i) {
     const Vec3 way = path.p_J[i + 1] - path.p_J[i];
