@@ -45,7 +45,7 @@ struct BeamTracer::Walk {
   double bend_loss = 0;                // Np, see kBendLobe
   const BeamTrace* central = nullptr;  // of the middle plane, for the others
   std::size_t central_run = 0;         // the one beside this beam's place
-  std::size_t guide_knot = 0;        // the first behind the last one made
+  std::size_t guide_knot = 0;          // the first behind the last one made
   Vec3 line_start = {};                // of the straight piece, as the next four
   Vec3 line_direction = {};            // unit
   double line_path = 0;                // m, at its start

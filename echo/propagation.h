@@ -27,8 +27,9 @@ class BeamTracer {
   [[nodiscard]] bool gives_way() const noexcept { return tissue_ != nullptr; }
 
   /// The beam from `origin_J` along `direction_J` (unit), bent at the interfaces when refraction is
-  /// on. Fills `trace`, and `path` with the way it took. Where the tissue was it takes from `guide`,
-  /// a beam less than half a millimetre beside it, or finds it itself. Cost: one query per bend.
+  /// on. Fills `trace`, and `path` with the way it took. Where the tissue was it takes from
+  /// `guide`, a beam less than half a millimetre beside it, or finds it itself. Cost: one query per
+  /// bend.
   void trace_bent(const Vec3& origin_J, const Vec3& direction_J, BeamTrace& trace, BeamPath& path,
                   const BeamTrace* guide = nullptr) const noexcept;
 
