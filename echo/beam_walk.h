@@ -130,17 +130,17 @@ struct BeamTracer::Walk {
     n_left_out = 0;
     put_knot(trace.n_knots++, frame);
   }
-  /// Adds a knot at `path` where one of the guide says that the tissue was.
-  void add_knot_beside(const BeamKnot& knot, double path) noexcept {
-    const Vec3 p_J = line_start + along(path) * line_direction;
+  /// Adds a knot where one of the guide says that the tissue was.
+  void add_knot_beside(const BeamKnot& knot, double at_path) noexcept {
+    const Vec3 p_J = line_start + along(at_path) * line_direction;
     const Vec3 rest_J = trace.guide->frames[knot.frame].rest.beside(p_J);
-    trace.knots[trace.n_knots++] = {path, rest_J, (p_J - rest_J).norm(), knot.frame};
+    trace.knots[trace.n_knots++] = {at_path, rest_J, (p_J - rest_J).norm(), knot.frame};
   }
   /// Adds one where the tissue moved as at the last, behind which the guide has none.
-  void add_knot_behind(const BeamKnot& last, double path) noexcept {
+  void add_knot_behind(const BeamKnot& last, double at_path) noexcept {
     trace.outran = true;
-    const Vec3 way = (along(path) - along(last.path)) * line_direction;
-    trace.knots[trace.n_knots++] = {path, last.rest_J + way, last.moved, last.frame};
+    const Vec3 onward = (along(at_path) - along(last.path)) * line_direction;
+    trace.knots[trace.n_knots++] = {at_path, last.rest_J + onward, last.moved, last.frame};
   }
   void put_knot(std::size_t at, const KnotFrame& frame) noexcept {
     trace.frames[at] = frame;
@@ -156,8 +156,8 @@ struct BeamTracer::Walk {
       const double share = (knot.path - from.path) / length;
       const Vec3 rest = from.rest_J + share * (to.rest.rest_J - from.rest_J);
       if (!((knot.rest_J - rest).squaredNorm() < kOnePiece * kOnePiece)) return false;
-      const Eigen::Matrix3d gradient = gradient_J + share * (to.gradient_J - gradient_J);
-      return (knot.gradient_J - gradient).cwiseAbs().maxCoeff() < kOneGradient;
+      const Eigen::Matrix3d between_J = gradient_J + share * (to.gradient_J - gradient_J);
+      return (knot.gradient_J - between_J).cwiseAbs().maxCoeff() < kOneGradient;
     });
   }
   /// Goes on straight from `from`.
