@@ -82,7 +82,7 @@ void Acquisition::run(const EchoBody& body, const EchoView& view, BlockWorkers& 
                       Frame& frame) {
   X_PJ_ = view.X_JP.inverse();
   place_tracks(body, view);
-  drifting_.place(body.drifting, view.X_JP);
+  drifting_.place(body.drifting, view.X_JP, view.probe);
   const SmoothGradient* const tissue = body.tissue ? &*body.tissue : nullptr;
   Pass pass{view, BeamTracer(*body.scene, tissue, body.regions, view.probe, settings_),
             std::nullopt, frame};
@@ -93,7 +93,9 @@ void Acquisition::run(const EchoBody& body, const EchoView& view, BlockWorkers& 
     std::fill(tips_.begin(), tips_.end(), NeedleEcho::Tip{});
   }
   workers.for_blocks(n_lines_, [&](int block, int first, int last) {
-    for (int l = first; l < last; ++l) listen(pass, l, scratch_[static_cast<std::size_t>(block)]);
+    LineScratch& scratch = scratch_[static_cast<std::size_t>(block)];
+    scratch.guide = LineScratch::kNoLine;
+    for (int l = first; l < last; ++l) listen(pass, l, scratch);
   });
   workers.for_blocks(n_lines_, [&](int, int first, int last) {
     for (int l = first; l < last; ++l) {
@@ -111,16 +113,16 @@ void Acquisition::listen(const Pass& pass, int l, LineScratch& scratch) {
   const EchoSpan echoes = line_of(re_, im_, l);
   synthesis_.synthesise(pass.tracer, placed, scratch, echoes);
   spread_.note(l, scratch.bent);
-  const SoundedLine sounded{placed, scratch.central, scratch.bent};
+  const SoundedLine sounded{placed, scratch.central(), scratch.bent};
   for (const Track& track : tracks_) track.echo.add_track(track.amplitude, sounded, echoes);
   drifting_.add(sounded, echoes);
   if (pass.needle) add_needle(pass, sounded);
   coupling_.apply(l, shape_->sample_depth(), echoes);
-  const bool touches = scratch.central.contact;
+  const bool touches = scratch.central().contact;
   add_lens_ringing(touches ? 1 - coupling_.at_line(l) : 1, shape_->sample_depth(), echoes.re);
   pass.frame.contact[at] = static_cast<float>(touches ? coupling_.at_line(l) : 0);
   pass.frame.shadow_from[at] = static_cast<float>(
-      std::clamp(scratch.central.shadow_from, 0.0, static_cast<double>(n_samples_)));
+      std::clamp(scratch.central().shadow_from, 0.0, static_cast<double>(n_samples_)));
 }
 
 void Acquisition::add_needle(const Pass& pass, const SoundedLine& sounded) {

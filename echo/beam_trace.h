@@ -33,7 +33,14 @@ struct BeamRun {
 
 /// Where a piece of tissue on a beam was at rest; between knots the way is straight there, too.
 struct BeamKnot {
-  double path = 0;  ///< m along the beam from the face
+  double path = 0;             ///< m along the beam from the face
+  Vec3 rest_J = Vec3::Zero();  ///< m
+  double moved = 0;            ///< m, how far it is from there
+  std::size_t frame = 0;       ///< of BeamTrace::frames, its own or its guide's
+};
+
+/// What the tissue around a knot does; knots of beams near by are made of it.
+struct KnotFrame {
   RestKnot rest;
   Eigen::Matrix3d gradient_J = Eigen::Matrix3d::Identity();  ///< of deformation, smooth
 };
@@ -55,6 +62,9 @@ struct BeamTrace {
   static constexpr std::size_t kMaxKnots = 512;
   std::array<BeamRun, kMax> runs;
   std::array<BeamKnot, kMaxKnots> knots;
+  std::array<KnotFrame, kMaxKnots> frames;  ///< of the knots, where there is no guide
+  const BeamTrace* guide = nullptr;         ///< beam near by of whose frames the knots are made
+  bool outran = false;                      ///< its guide ended before
   std::array<BeamEcho, kMax> echoes;
   std::size_t n_runs = 0;
   std::size_t n_echoes = 0;
@@ -71,6 +81,8 @@ struct BeamTrace {
     n_runs = 0;
     n_echoes = 0;
     n_knots = 0;
+    guide = nullptr;
+    outran = false;
     end_amplitude = 0;
     contact = true;
   }

@@ -22,23 +22,66 @@ constexpr double kFaint = 5.6e-3;       // -45 dB, as for tissue that moves
 DriftingEcho::DriftingEcho(const Transducer& transducer, const BeamShape& shape) noexcept
     : shape_(&shape), wavenumber_(4 * std::numbers::pi / transducer.wavelength()) {}
 
-void DriftingEcho::place(std::span<const DriftingPoint> points, const Pose& X_JP) {
+void DriftingEcho::place(std::span<const DriftingPoint> points, const Pose& X_JP,
+                         const Transducer& probe) {
   X_PJ_ = X_JP.inverse();
   points_.clear();
   for (const DriftingPoint& point : points)
     points_.push_back(
         {X_PJ_ * point.p_J, X_PJ_.linear() * point.v_J, point.amplitude, point.tail, point.phase});
+  sort_by_line(probe);
+}
+
+/// Scanlines that pass a point by less than kBent, and one more to each side.
+DriftingEcho::LineRange DriftingEcho::lines_beside(const Vec3& p_P,
+                                                   const Transducer& probe) noexcept {
+  double middle = p_P.x() - p_P.z() * std::tan(probe.steering);  // m along the face
+  double half = kBent / std::cos(probe.steering);
+  if (probe.radius > 0) {
+    const double to_centre = std::hypot(p_P.x(), p_P.z() + probe.radius);
+    middle = probe.radius * std::atan2(p_P.x(), p_P.z() + probe.radius);
+    half = probe.radius * std::asin(std::min(1.0, kBent / to_centre));
+  }
+  const auto line_at = [&](double x, double beyond) {
+    const double line = (x + probe.width / 2) / probe.pitch() + beyond;
+    return static_cast<std::uint32_t>(std::clamp(line, 0.0, static_cast<double>(probe.n_lines)));
+  };
+  return {line_at(middle - half, -1), line_at(middle + half, 2)};
+}
+
+void DriftingEcho::sort_by_line(const Transducer& probe) {
+  ranges_.clear();
+  begin_.assign(static_cast<std::size_t>(probe.n_lines) + 1, 0);
+  for (const Placed& point : points_) {
+    ranges_.push_back(lines_beside(point.p_P, probe));
+    for (std::uint32_t l = ranges_.back().first; l < ranges_.back().end; ++l) ++begin_[l + 1];
+  }
+  for (std::size_t l = 1; l < begin_.size(); ++l) begin_[l] += begin_[l - 1];
+  at_line_.resize(begin_.back());
+  for (std::uint32_t i = 0; i < ranges_.size(); ++i) {
+    for (std::uint32_t l = ranges_[i].first; l < ranges_[i].end; ++l) at_line_[begin_[l]++] = i;
+  }
+  for (std::size_t l = begin_.size() - 1; l > 0; --l) begin_[l] = begin_[l - 1];
+  begin_[0] = 0;
 }
 
 void DriftingEcho::add(const SoundedLine& sounded, EchoSpan echoes) const noexcept {
-  if (!sounded.trace.contact) return;
+  const auto index = static_cast<std::size_t>(sounded.placed.index);
+  if (!sounded.trace.contact || begin_[index] == begin_[index + 1]) return;
   const Scanline& line = sounded.placed.line;
   const double tail_samples = kTailStep / shape_->sample_depth();
-  for (const Placed& point : points_) {
+  double aside = 1e-9;  // m that this beam goes beside its line at the most
+  for (std::size_t i = 0; i < sounded.path.size; ++i) {
+    const Vec3 bent = X_PJ_ * sounded.path.p_J[i] - line.origin;
+    aside = std::max(aside, 1e-9 + std::abs(bent.dot(sounded.placed.across)));
+  }
+  for (std::uint32_t i = begin_[index]; i < begin_[index + 1]; ++i) {
+    const Placed& point = points_[at_line_[i]];
     const Vec3 p = point.p_P - line.origin;
     const double beside = p.dot(sounded.placed.across);
     const double depth = p.dot(line.direction);
-    if (depth <= 0 || std::abs(beside) > kBent) continue;
+    if (depth <= 0 || std::abs(beside) > std::min(kBent, aside + shape_->line_spacing(depth)))
+      continue;
     const Vec3 bent = X_PJ_ * sounded.path.at(depth) - line.origin;
     const double off = std::abs(beside - bent.dot(sounded.placed.across));
     const double share = 1 - off / shape_->line_spacing(depth);

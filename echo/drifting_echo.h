@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -28,10 +30,11 @@ class DriftingEcho {
   /// Requires: `shape` outlives this object.
   DriftingEcho(const Transducer& transducer, const BeamShape& shape) noexcept;
 
-  /// The points as the probe at X_JP sees them. Cost: allocates only for more than ever before.
-  void place(std::span<const DriftingPoint> points, const Pose& X_JP);
+  /// The points as `probe` at X_JP sees them. Cost: some 0.2 us a point; allocates only for more
+  /// than ever before.
+  void place(std::span<const DriftingPoint> points, const Pose& X_JP, const Transducer& probe);
 
-  /// Adds them to one scanline before the beam's shape is applied.
+  /// Adds them to one scanline of that probe before the beam's shape is applied.
   void add(const SoundedLine& sounded, EchoSpan echoes) const noexcept;
 
   /// Colours what moves fast enough for the wall filter, where no bone or gas hides it: half a
@@ -48,10 +51,20 @@ class DriftingEcho {
     double phase;  // rad
   };
 
+  struct LineRange {
+    std::uint32_t first;
+    std::uint32_t end;
+  };
+  [[nodiscard]] static LineRange lines_beside(const Vec3& p_P, const Transducer& probe) noexcept;
+  void sort_by_line(const Transducer& probe);
+
   const BeamShape* shape_;
   double wavenumber_;  // rad/m of depth, both ways
   Pose X_PJ_ = Pose::Identity();
   std::vector<Placed> points_;
+  std::vector<LineRange> ranges_;       // (points) lines that may show them
+  std::vector<std::uint32_t> at_line_;  // points, line by line, ascending
+  std::vector<std::uint32_t> begin_;    // (lines + 1) of each line's in at_line_
 };
 
 }  // namespace artus

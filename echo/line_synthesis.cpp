@@ -20,6 +20,8 @@ constexpr std::size_t kTailSamples = 16;  // samples
 constexpr double kHaze = 0.1;       // assumed: -20 dB at the face, +6 for both orders of the way,
                                     // -6 because its second leg is out of focus
 constexpr float kSheet = 1.6F;      // texture above which a sheet reflects coherently
+constexpr double kGuided = 0.4e-3;  // m from a beam, where the tissue is by its displacement and
+                                    // gradient there
 constexpr double kSheetEcho = 1.5;  // assumed: coherent amplitude over scattered, per unit above
 
 /// gain = weight * the straight lines between nodes kNodeStride samples apart. Reads and writes up
@@ -88,8 +90,8 @@ void place_pieces(const BeamRun& run, std::span<const BeamKnot> knots, std::size
             ? n
             : static_cast<std::size_t>(std::clamp(std::ceil(to), 0.0, static_cast<double>(n)));
     if (end > begin && to > from) {
-      const Vec3 step = (knots[k + 1].rest.rest_J - knots[k].rest.rest_J) / (to - from);
-      const Vec3 rest = knots[k].rest.rest_J + (static_cast<double>(begin) - from) * step;
+      const Vec3 step = (knots[k + 1].rest_J - knots[k].rest_J) / (to - from);
+      const Vec3 rest = knots[k].rest_J + (static_cast<double>(begin) - from) * step;
       pieces.push_back({first + begin, first + end, rest, step});
       begin = end;
     }
@@ -109,6 +111,7 @@ LineSynthesis::LineSynthesis(const BeamShape& shape, const ScatterField& scatter
       has_texture_(settings.texture),
       reverberates_(settings.reverberation),
       n_planes_(settings.n_planes),
+      n_guided_(1 + static_cast<int>(kGuided / shape.line_spacing(settings.depth))),
       pitch_(transducer.pitch()) {}
 
 /// The nodes of a run whose tissue lay in `pieces`; those behind the last sample go on straight.
@@ -250,6 +253,20 @@ void LineSynthesis::add_haze(const BeamTrace& trace, EchoSpan echoes) noexcept {
   scale_add(share, echoes.im.data(), echoes.im.data() + shift, n);
 }
 
+void LineSynthesis::trace_middle(const BeamTracer& tracer, const PlacedLine& placed,
+                                 LineScratch& scratch) const noexcept {
+  if (tracer.gives_way() && scratch.guide != LineScratch::kNoLine &&
+      placed.index < scratch.guide + n_guided_) {
+    scratch.own = 1;
+    tracer.trace_bent(placed.origin_J, placed.direction_J, scratch.central(), scratch.bent,
+                      &scratch.middle.front());
+    if (!scratch.central().outran) return;
+  }
+  scratch.own = 0;
+  scratch.guide = placed.index;
+  tracer.trace_bent(placed.origin_J, placed.direction_J, scratch.central(), scratch.bent);
+}
+
 void LineSynthesis::synthesise(const BeamTracer& tracer, const PlacedLine& placed,
                                LineScratch& scratch, EchoSpan echoes) const {
   scratch.gain.resize(3 * echoes.size() + 8 * kNodeStride);
@@ -257,13 +274,14 @@ void LineSynthesis::synthesise(const BeamTracer& tracer, const PlacedLine& place
   scratch.room.resize(echoes.size());
   std::fill(echoes.re.begin(), echoes.re.end(), 0.0F);
   std::fill(echoes.im.begin(), echoes.im.end(), 0.0F);
-  tracer.trace_bent(placed.origin_J, placed.direction_J, scratch.central, scratch.bent);
+  trace_middle(tracer, placed, scratch);
+  const BeamTrace& central = scratch.central();
   const Vec3& elevation = placed.elevation_J;
   scratch.view = scatter_->make_view(placed.direction_J, elevation);
   Ground ground{tracer.regions(), scratch.view, scratch.gain, scratch.pieces, scratch.room, {}};
   for (int p = 0; p < n_planes_; ++p) {
     if (shape_->plane_offset(p) == 0) {
-      add_plane(p, scratch.central, ground, echoes);
+      add_plane(p, central, ground, echoes);
       continue;
     }
     scratch.plane.size = 0;
@@ -272,10 +290,10 @@ void LineSynthesis::synthesise(const BeamTracer& tracer, const PlacedLine& place
           scratch.bent.at(z) + shape_->plane_elevation(p, z) * elevation;
       scratch.plane.length[scratch.plane.size++] = z;
     }
-    tracer.trace_along(scratch.plane, elevation, scratch.central, scratch.side);
+    tracer.trace_along(scratch.plane, elevation, central, scratch.side);
     add_plane(p, scratch.side, ground, echoes);
   }
-  if (reverberates_) add_haze(scratch.central, echoes);
+  if (reverberates_) add_haze(central, echoes);
 }
 
 }  // namespace artus

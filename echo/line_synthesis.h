@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <array>
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <vector>
@@ -17,7 +19,10 @@ namespace artus {
 
 /// What one worker needs to synthesise a line; reused so that rendering does not allocate.
 struct LineScratch {
-  BeamTrace central;
+  static constexpr int kNoLine = -1;
+  std::array<BeamTrace, 2> middle;  // of this line, and of the one that guides it
+  std::size_t own = 0;              // of the two
+  int guide = kNoLine;              // line whose beam is the first
   BeamTrace side;
   BeamPath bent;
   BeamPath plane;
@@ -25,6 +30,9 @@ struct LineScratch {
   std::vector<float> gain;
   std::vector<ScatterPiece> pieces;
   ScatterRoom room;
+
+  /// The line's beam in the middle plane.
+  [[nodiscard]] BeamTrace& central() noexcept { return middle[own]; }
 };
 
 /// Makes the echoes of one scanline before the beam's shape spreads them: every elevation plane is
@@ -35,7 +43,9 @@ class LineSynthesis {
   LineSynthesis(const BeamShape& shape, const ScatterField& scatter, const TissueTexture& texture,
                 const Transducer& transducer, const ImageSettings& settings) noexcept;
 
-  /// Fills `echoes`, n_samples long, and leaves the central beam in `scratch`.
+  /// Fills `echoes`, n_samples long, and leaves the central beam in `scratch`. In tissue that gives
+  /// way a few lines beside each other are guided by the first of them (LineScratch::guide, to be
+  /// set to none before the first of a row of ascending lines).
   void synthesise(const BeamTracer& tracer, const PlacedLine& placed, LineScratch& scratch,
                   EchoSpan echoes) const;
 
@@ -49,6 +59,8 @@ class LineSynthesis {
     ScatterRoom& room;
     std::span<const BeamKnot> knots;  // of the plane at hand
   };
+  void trace_middle(const BeamTracer& tracer, const PlacedLine& placed,
+                    LineScratch& scratch) const noexcept;
   void add_plane(int plane, const BeamTrace& trace, Ground& ground, EchoSpan echoes) const;
   void sample_moved_texture(const BeamRun& run, const RegionAcoustics& region,
                             std::span<const ScatterPiece> pieces,
@@ -66,6 +78,7 @@ class LineSynthesis {
   bool has_texture_;
   bool reverberates_;
   int n_planes_;
+  int n_guided_;  // lines by one of them
   double pitch_;  // m between scanlines
 };
 

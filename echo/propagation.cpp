@@ -2,11 +2,9 @@
 #include "artus/echo/propagation.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <optional>
 
-#include "artus/core/units.h"
+#include "artus/echo/beam_walk.h"
 
 namespace artus {
 namespace {
@@ -22,100 +20,9 @@ constexpr double kMargin = 1.25;  // tissue as fast as tendon reaches deeper in 
 constexpr double kTiny = 1e-12;
 constexpr double kStill = 1e-9;       // m; tissue that moved less is where it was
 constexpr double kRepeatFrom = 0.02;  // echoes above -34 dB repeat
-// rad, bend at which a beam has lost a neper. assumed: half the acceptance of an F/2 aperture; the
-// rest of the aperture went another way and no longer adds up
-constexpr double kBendLobe = 12 * kDegree;
+constexpr double kOnward = 4e-3;      // m that a knot is good for where the middle plane ends
 
 }  // namespace
-
-/// Where a beam is and what it has lost.
-struct BeamTracer::Walk {
-  BeamTrace& trace;
-  Vec3 wave;           // unit, direction of the wave
-  Vec3 straight;       // unit, direction in which it left the face
-  bool bends = false;  // whether `wave` follows Snell's law
-  RegionId region = kOutside;
-  bool started = false;  // whether `region` is known
-  bool touched = false;  // whether the beam has been inside the body
-  double sample = 0;
-  double path = 0;         // m
-  double attenuation = 0;  // Np, two-way
-  double slope = 0;        // Np/Hz, two-way
-  double log_transmission = 0;
-  double bend_loss = 0;                // Np, see kBendLobe
-  const BeamTrace* central = nullptr;  // of the middle plane, for the others
-  std::size_t central_run = 0;         // the one beside this beam's place
-  std::size_t central_knot = 0;        // the first behind the last one made
-  Vec3 line_start = {};                // of the straight piece, as the next four
-  Vec3 line_direction = {};            // unit
-  double line_path = 0;                // m, at its start
-  double time_scale = 1;               // length of beam over length of line
-  std::optional<RestWay> way = {};     // once it is needed
-  std::size_t line_knot = 0;           // the way's first
-  Vec3 displacement = Vec3::Zero();    // m, of the tissue last met
-  Eigen::Matrix3d gradient = Eigen::Matrix3d::Identity();  // of deformation, in the run's middle
-
-  /// The knot of this line after which a place on the beam comes. Requires: knots to there.
-  [[nodiscard]] const BeamKnot& knot_before(double at_path) const noexcept {
-    std::size_t k = trace.n_knots - 2;
-    while (k > line_knot && trace.knots[k].path > at_path) --k;
-    return trace.knots[k];
-  }
-  /// Where the tissue there was at rest.
-  [[nodiscard]] Vec3 rest_at(double at_path) const noexcept {
-    const RestKnot& knot = knot_before(at_path).rest;
-    return knot.rest_J + (along(at_path) - knot.along) * knot.onward_J;
-  }
-  /// How it is turned and stretched.
-  [[nodiscard]] Eigen::Matrix3d gradient_at(double at_path) const noexcept {
-    const BeamKnot* const before = &knot_before(at_path);
-    const BeamKnot* const behind = before + 1;
-    const double share =
-        std::clamp((at_path - before->path) / (behind->path - before->path + kTiny), 0.0, 1.0);
-    return before->gradient_J + share * (behind->gradient_J - before->gradient_J);
-  }
-  [[nodiscard]] double log_gain(double sigma) const noexcept {
-    const double shift = slope * sigma;
-    return log_transmission - bend_loss - attenuation + 0.5 * shift * shift;
-  }
-  /// m of this line from its start to a place on the beam.
-  [[nodiscard]] double along(double at_path) const noexcept {
-    return (at_path - line_path) / time_scale;
-  }
-  /// The first knot of the middle plane behind a place on the beam, of the line that is there;
-  /// null: none. Only ever asked for places farther on.
-  [[nodiscard]] const BeamKnot* knot_after(double at_path) noexcept {
-    if (central == nullptr) return nullptr;
-    const auto in_force = [&](std::size_t k) {  // not past its line's end
-      return k + 1 == central->n_knots || central->knots[k + 1].path > central->knots[k].path;
-    };
-    while (central_knot < central->n_knots &&
-           (central->knots[central_knot].path <= at_path || !in_force(central_knot)))
-      ++central_knot;
-    return central_knot < central->n_knots ? &central->knots[central_knot] : nullptr;
-  }
-  /// The last one before or at it.
-  [[nodiscard]] const BeamKnot* knot_beside(double at_path) noexcept {
-    const BeamKnot* after = knot_after(at_path);
-    if (after == nullptr || central_knot == 0) return after;
-    const BeamKnot& before = central->knots[central_knot - 1];
-    return before.path <= at_path ? &before : after;
-  }
-  /// Goes on straight from `from`.
-  void begin_line(const Vec3& from, const Vec3& direction, double scale) noexcept {
-    if (way) displacement = from - rest_at(path);
-    way.reset();
-    line_start = from;
-    line_direction = direction;
-    line_path = path;
-    time_scale = scale;
-  }
-  /// Goes on along `direction`.
-  void turn(const Vec3& direction) noexcept {
-    wave = direction;
-    bend_loss = 2 * std::max(0.0, 1 - wave.dot(straight)) / (kBendLobe * kBendLobe);
-  }
-};
 
 BeamTracer::BeamTracer(const Scene& scene, const SmoothGradient* tissue,
                        std::span<const RegionAcoustics> regions, const Transducer& transducer,
@@ -135,12 +42,10 @@ BeamTracer::BeamTracer(const Scene& scene, const SmoothGradient* tissue,
 Vec3 BeamTracer::find_normal(Walk& walk, const TissueInterval& interval) const noexcept {
   const Vec3& facet = interval.entry_normal;
   if (tissue_ == nullptr || interval.entry_interface == kNoInterface ||
-      !place_knots(walk, walk.path) || !(walk.knot_before(walk.path).rest.moved > kStill))
+      !place_knots(walk, walk.path) ||
+      !(walk.trace.knots[walk.knot_before(walk.path)].moved > kStill))
     return facet;
-  const TetMesh& mesh = scene_->joint().mesh;
-  const auto& [a, b, c] = mesh.interfaces[interval.entry_interface].vertices;
-  const Vec3 at_rest =
-      (mesh.vertices[b] - mesh.vertices[a]).cross(mesh.vertices[c] - mesh.vertices[a]);
+  const Vec3& at_rest = scene_->normal_at_rest(interval.entry_interface);
   const Vec3 normal = carried_normal(walk.gradient_at(walk.path), at_rest).normalized();
   return normal.dot(facet) < 0 ? Vec3(-normal) : normal;
 }
@@ -178,10 +83,9 @@ bool BeamTracer::enter(Walk& walk, const TissueInterval& interval,
     echo.rest_J = point;
     echo.step_J = walk.wave * (sample_depth_ * to.speed / kDisplaySpeedOfSound);
     if (tissue_ != nullptr && place_knots(walk, walk.path)) {
-      const RestKnot& knot = walk.knot_before(walk.path).rest;
-      if (knot.moved > kStill) {
+      if (trace.knots[walk.knot_before(walk.path)].moved > kStill) {
         echo.rest_J = walk.rest_at(walk.path);
-        echo.step_J = echo.step_J.norm() * knot.onward_J;
+        echo.step_J = echo.step_J.norm() * walk.onward_at(walk.path);
       }
     }
   }
@@ -228,52 +132,52 @@ MaterialPoint BeamTracer::find_material(Walk& walk, const RegionAcoustics& regio
   return locate_in_material(region, run.rest_middle_J);
 }
 
-/// The knot from which a line's knots begin, here.
-BeamKnot BeamTracer::first_knot(Walk& walk) const noexcept {
-  BeamKnot knot;
-  knot.path = walk.path;
-  const double along = walk.along(walk.path);
-  if (const BeamKnot* beside = walk.knot_beside(walk.path)) {
-    knot.rest = walk.way->beside(beside->rest, along);
-    knot.gradient_J = beside->gradient_J;
-  } else {
-    knot.rest = walk.way->at(along, walk.displacement);
-    knot.gradient_J = tissue_->at(knot.rest.rest_C, knot.rest.cell);
+/// Adds a line's first knot, here.
+void BeamTracer::begin_knots(Walk& walk) const noexcept {
+  walk.has_knots = true;
+  walk.line_knot = walk.trace.n_knots;
+  walk.n_left_out = 0;
+  if (walk.trace.guide != nullptr) {
+    walk.add_knot_beside(*walk.knot_beside(walk.path), walk.path);
+    return;
   }
-  return knot;
+  walk.way.emplace(tissue_->body(), walk.line_start, walk.line_direction);
+  KnotFrame frame;
+  frame.rest = walk.way->at(walk.along(walk.path), walk.displacement);
+  frame.gradient_J = tissue_->at(frame.rest.rest_C, frame.rest.cell);
+  walk.put_knot(walk.trace.n_knots++, frame);
 }
 
-/// The one behind the last.
-BeamKnot BeamTracer::next_knot(Walk& walk) const noexcept {
-  const BeamKnot& last = walk.trace.knots[walk.trace.n_knots - 1];
-  BeamKnot knot;
-  if (const BeamKnot* beside = walk.knot_after(last.path)) {
-    knot.path = beside->path;
-    knot.rest = walk.way->beside(beside->rest, walk.along(beside->path));
-    knot.gradient_J = beside->gradient_J;
-  } else {
-    knot.rest = walk.way->next(last.rest);
-    knot.path = walk.line_path + knot.rest.along * walk.time_scale;
-    knot.gradient_J = tissue_->at(knot.rest.rest_C, knot.rest.cell);
+/// Adds the one behind the last; where the guide has no more, at `path` or beyond.
+void BeamTracer::add_knot(Walk& walk, double path) const noexcept {
+  const std::size_t last = walk.trace.n_knots - 1;
+  if (walk.trace.guide != nullptr) {
+    const BeamKnot& before = walk.trace.knots[last];
+    const BeamKnot* const beside = walk.knot_after(before.path);
+    if (beside != nullptr) {
+      walk.add_knot_beside(*beside, beside->path);
+    } else {
+      walk.add_knot_behind(before, std::max(path, before.path + kOnward));
+    }
+    return;
   }
-  return knot;
+  KnotFrame frame;
+  frame.rest = walk.way->next(walk.trace.frames[last].rest);
+  frame.gradient_J = tissue_->at(frame.rest.rest_C, frame.rest.cell);
+  walk.add_knot(frame);
 }
 
 /// Sees to knots from here, or from where they begin on this line, to `path` or beyond. False
 /// where there is no room for them.
 bool BeamTracer::place_knots(Walk& walk, double path) const noexcept {
   BeamTrace& trace = walk.trace;
-  if (!walk.way) {
+  if (!walk.has_knots) {
     if (trace.n_knots + 2 > BeamTrace::kMaxKnots) return false;
-    walk.way.emplace(tissue_->body(), walk.line_start, walk.line_direction);
-    walk.line_knot = trace.n_knots;
-    trace.knots[trace.n_knots] = first_knot(walk);
-    ++trace.n_knots;
+    begin_knots(walk);
   }
   while (trace.knots[trace.n_knots - 1].path < path || trace.n_knots < walk.line_knot + 2) {
     if (trace.n_knots == BeamTrace::kMaxKnots) break;
-    trace.knots[trace.n_knots] = next_knot(walk);
-    ++trace.n_knots;
+    add_knot(walk, path);
   }
   return true;
 }
@@ -282,10 +186,10 @@ bool BeamTracer::place_knots(Walk& walk, double path) const noexcept {
 void BeamTracer::find_rest(Walk& walk, BeamRun& run) const noexcept {
   if (!place_knots(walk, run.path_end)) return;
   const BeamTrace& trace = walk.trace;
-  run.first_knot = static_cast<std::size_t>(&walk.knot_before(run.path_begin) - trace.knots.data());
+  run.first_knot = walk.knot_before(run.path_begin);
   double moved = 0;
   for (std::size_t k = run.first_knot; k < trace.n_knots; ++k)
-    moved = std::max(moved, trace.knots[k].rest.moved);
+    moved = std::max(moved, trace.knots[k].moved);
   if (!(moved > kStill)) return;
   run.n_knots = trace.n_knots - run.first_knot;
   const double middle = 0.5 * (run.path_begin + run.path_end);
@@ -384,8 +288,9 @@ bool BeamTracer::pass(Walk& walk, const Vec3& from, const Vec3& direction, doubl
 }
 
 void BeamTracer::trace_bent(const Vec3& origin_J, const Vec3& direction_J, BeamTrace& trace,
-                            BeamPath& path) const noexcept {
+                            BeamPath& path, const BeamTrace* guide) const noexcept {
   trace.clear();
+  if (guide != nullptr && guide->n_knots > 0) trace.guide = guide;
   path.size = 0;
   Walk walk{trace, direction_J, direction_J, refraction_};
   Vec3 point = origin_J;
@@ -415,6 +320,8 @@ void BeamTracer::trace_along(const BeamPath& path, const Vec3& elevation_axis_J,
   const Vec3 straight = without_elevation(path.p_J[1] - path.p_J[0]);
   Walk walk{trace, straight, straight};
   walk.central = &central;
+  const BeamTrace& guide = central.guide != nullptr ? *central.guide : central;
+  if (guide.n_knots > 0) trace.guide = &guide;
   bool alive = true;
   for (std::size_t i = 0; alive && i + 1 < path.size; ++i) {
     const Vec3 way = path.p_J[i + 1] - path.p_J[i];

@@ -24,15 +24,19 @@ class BeamTracer {
              const ImageSettings& settings) noexcept;
 
   [[nodiscard]] std::span<const RegionAcoustics> regions() const noexcept { return regions_; }
+  [[nodiscard]] bool gives_way() const noexcept { return tissue_ != nullptr; }
 
   /// The beam from `origin_J` along `direction_J` (unit), bent at the interfaces when refraction is
-  /// on. Fills `trace`, and `path` with the way it took. Cost: one query per bend.
-  void trace_bent(const Vec3& origin_J, const Vec3& direction_J, BeamTrace& trace,
-                  BeamPath& path) const noexcept;
+  /// on. Fills `trace`, and `path` with the way it took. Where the tissue was it takes from
+  /// `guide`, a beam less than half a millimetre beside it, or finds it itself. Cost: one query per
+  /// bend.
+  void trace_bent(const Vec3& origin_J, const Vec3& direction_J, BeamTrace& trace, BeamPath& path,
+                  const BeamTrace* guide = nullptr) const noexcept;
 
   /// The beam of another elevation plane: along the straight pieces of `path`, whose lengths (not
   /// the geometric ones) tell the time. How fibres run it takes from `central`, the beam of the
-  /// middle plane, where that is in the same region. Cost: one query per piece.
+  /// middle plane, where that is in the same region; where the tissue was, from its guide or from
+  /// itself. Cost: one query per piece.
   void trace_along(const BeamPath& path, const Vec3& elevation_axis_J, const BeamTrace& central,
                    BeamTrace& trace) const noexcept;
 
@@ -49,8 +53,8 @@ class BeamTracer {
   double follow_fibres(Walk& walk, const RegionAcoustics& region, BeamRun& run,
                        const Vec3& half_way) const noexcept;
   bool place_knots(Walk& walk, double path) const noexcept;
-  [[nodiscard]] BeamKnot first_knot(Walk& walk) const noexcept;
-  [[nodiscard]] BeamKnot next_knot(Walk& walk) const noexcept;
+  void begin_knots(Walk& walk) const noexcept;
+  void add_knot(Walk& walk, double path) const noexcept;
   [[nodiscard]] Vec3 find_normal(Walk& walk, const TissueInterval& interval) const noexcept;
   void find_rest(Walk& walk, BeamRun& run) const noexcept;
   void add_repeats(BeamTrace& trace) const noexcept;

@@ -104,13 +104,19 @@ void add_scatterers(const Scatterers& scatterers, const LatticeRows& rows, const
 
 constexpr std::uint32_t kWalkLanes = 16;
 
-/// One coordinate of a straight walk, up to a full multiple of kWalkLanes.
+/// A straight walk's coordinates, up to a full multiple of kWalkLanes.
 ARTUS_SIMD
-void walk_row(std::uint32_t start, std::uint32_t step, std::uint32_t* row, std::size_t n) noexcept {
-  for (std::size_t i = 0; i < n; i += kWalkLanes) {
-    const std::uint32_t from = start + static_cast<std::uint32_t>(i) * step;
-    for (std::uint32_t j = 0; j < kWalkLanes; ++j) row[i + j] = from + j * step;
-  }
+void walk_rows(LatticeWalk walk, std::uint32_t* __restrict x, std::uint32_t* __restrict y,
+               std::uint32_t* __restrict z, std::size_t n) noexcept {
+  const auto go = [n](std::uint32_t start, std::uint32_t step, std::uint32_t* row) {
+    for (std::uint32_t i = 0; i < n; i += kWalkLanes) {
+      const std::uint32_t from = start + i * step;
+      for (std::uint32_t j = 0; j < kWalkLanes; ++j) row[i + j] = from + j * step;
+    }
+  };
+  go(walk.start[0], walk.step[0], x);
+  go(walk.start[1], walk.step[1], y);
+  go(walk.start[2], walk.step[2], z);
 }
 
 LatticeWalk make_walk(const ScatterView::Lattice& lattice, const Vec3& p_J,
@@ -214,8 +220,7 @@ void ScatterField::add(const ScatterView& view, std::span<const ScatterPiece> pi
       for (; i < pieces.size() && pieces[i].begin == end; ++i) {
         const LatticeWalk walk = make_walk(lattice, pieces[i].p_J, pieces[i].step_J);
         const std::size_t n = pieces[i].end - end;
-        for (std::size_t a = 0; a < 3; ++a)
-          walk_row(walk.start[a], walk.step[a], room.cells_[a].data() + end, n);
+        walk_rows(walk, x.data() + end, y.data() + end, z.data() + end, n);
         end = pieces[i].end;
       }
       add_scatterers(scatterers, LatticeRows{x.data() + begin, y.data() + begin, z.data() + begin},

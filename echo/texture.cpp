@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "artus/core/noise.h"
+#include "artus/echo/simd.h"
 
 namespace artus {
 namespace {
@@ -175,6 +176,37 @@ std::vector<float> make_tile(const Recipe& recipe, std::uint64_t seed) {
   return tile;
 }
 
+/// A straight walk through the repeated tile, in 16.16 fixed-point cells.
+struct TileWalk {
+  std::array<std::uint32_t, 3> start{};
+  std::array<std::uint32_t, 3> step{};
+  std::array<std::uint32_t, 3> bits{};
+  std::array<std::uint32_t, 2> shift{};  // cells along z of the next tile along x, along y
+};
+
+constexpr std::size_t kBatch = 16;
+
+/// Indices into the tile of kBatch steps from the `first` on.
+ARTUS_SIMD
+void find_in_tile(const TileWalk& walk, std::uint32_t first, std::uint32_t* at) noexcept {
+  const auto [x_bits, y_bits, z_bits] = walk.bits;
+  const auto [x_start, y_start, z_start] = walk.start;
+  const auto [x_step, y_step, z_step] = walk.step;
+  const auto [x_shift, y_shift] = walk.shift;
+  for (std::uint32_t n = 0; n < kBatch; ++n) {
+    const std::uint32_t x = x_start + (first + n) * x_step;
+    const std::uint32_t y = y_start + (first + n) * y_step;
+    const std::uint32_t z = z_start + (first + n) * z_step;
+    // coarse cells begin at staggered places, so that their borders draw no lines
+    const std::uint32_t i = x >> 16U;
+    const std::uint32_t j = (y + (i * 40503U & 0xffffU)) >> 16U;
+    const std::uint32_t k = ((z + ((i * 27146U + j * 49297U) & 0xffffU)) >> 16U) +
+                            (i >> x_bits) * x_shift + (j >> y_bits) * y_shift;
+    at[n] = (((k & ((1U << z_bits) - 1)) << y_bits | (j & ((1U << y_bits) - 1))) << x_bits) |
+            (i & ((1U << x_bits) - 1));
+  }
+}
+
 const Recipe* find_recipe(TissueKind kind) noexcept {
   for (const Recipe& recipe : kRecipes) {
     if (recipe.kind == kind) return &recipe;
@@ -211,28 +243,19 @@ void TissueTexture::sample(TissueKind kind, const Vec3& place, const Vec3& step_
     return {to_fixed_cells(v.x() / recipe->cell[0]), to_fixed_cells(v.y() / recipe->cell[1]),
             to_fixed_cells(v.z() / recipe->cell[2])};
   };
-  const auto step = in_cells(step_by);
-  auto [x, y, z] = in_cells(place);
   const Tile& tile = tiles_[static_cast<std::size_t>(kind)];
-  const std::uint8_t* values = tile.values.data();
-  const std::uint32_t x_mask = (1U << tile.bits[0]) - 1;
-  const std::uint32_t y_mask = (1U << tile.bits[1]) - 1;
-  const std::uint32_t z_mask = (1U << tile.bits[2]) - 1;
-  const auto shift_x = static_cast<std::uint32_t>(recipe->shift_x());
-  const auto shift_y = static_cast<std::uint32_t>(recipe->shift_y());
-  const float unit = tile.unit;
-  for (float& factor : out) {
-    // coarse cells begin at staggered places, so that their borders draw no lines
-    const std::uint32_t i = x >> 16U;
-    const std::uint32_t j = (y + (i * 40503U & 0xffffU)) >> 16U;
-    const std::uint32_t k = ((z + ((i * 27146U + j * 49297U) & 0xffffU)) >> 16U) +
-                            (i >> tile.bits[0]) * shift_x + (j >> tile.bits[1]) * shift_y;
-    const std::uint32_t at =
-        (((k & z_mask) << tile.bits[1] | (j & y_mask)) << tile.bits[0]) | (i & x_mask);
-    factor = unit * static_cast<float>(values[at]);
-    x += step[0];
-    y += step[1];
-    z += step[2];
+  TileWalk walk;
+  walk.start = in_cells(place);
+  walk.step = in_cells(step_by);
+  walk.bits = tile.bits;
+  walk.shift = {static_cast<std::uint32_t>(recipe->shift_x()),
+                static_cast<std::uint32_t>(recipe->shift_y())};
+  std::array<std::uint32_t, kBatch> at;  // NOLINT(cppcoreguidelines-pro-type-member-init): next
+  for (std::size_t first = 0; first < out.size(); first += kBatch) {
+    find_in_tile(walk, static_cast<std::uint32_t>(first), at.data());
+    const std::size_t n = std::min(kBatch, out.size() - first);
+    for (std::size_t i = 0; i < n; ++i)
+      out[first + i] = tile.unit * static_cast<float>(tile.values[at[i]]);
   }
 }
 

@@ -103,7 +103,9 @@ void gather_hit(const RTCFilterFunctionNArguments* args) noexcept {
   // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): Embree's way to pass state.
   auto& query = *reinterpret_cast<GatherQuery*>(args->context);
   const Candidate candidate{interface_of(args), RTCRayN_tfar(args->ray, args->N, 0)};
-  query.index->prefetch_plane(candidate.interface);
+  query.index->prefetch_plane(
+      candidate.interface,
+      query.size > 0 ? query.candidates[query.size - 1].interface : candidate.interface);
   const float u = RTCHitN_u(args->hit, args->N, 0);
   const float v = RTCHitN_v(args->hit, args->N, 0);
   query.doubtful |= std::min({u, v, 1 - u - v}) < kDoubtfulBarycentric;
@@ -349,9 +351,11 @@ FacetPlane EmbreeIndex::make_plane(std::uint32_t i) const noexcept {
   return plane;
 }
 
-void EmbreeIndex::prefetch_plane(std::uint32_t i) const noexcept {
+void EmbreeIndex::prefetch_plane(std::uint32_t i, std::uint32_t before) const noexcept {
   __builtin_prefetch(&facets_[i]);
-  if (moved_) __builtin_prefetch(&triangles_[i]);
+  if (!moved_) return;
+  __builtin_prefetch(&triangles_[i]);
+  for (const std::uint32_t v : triangles_[before]) __builtin_prefetch(&vertices_[v]);
 }
 
 std::array<Vec3, 3> EmbreeIndex::corners(std::uint32_t i) const noexcept {

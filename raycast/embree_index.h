@@ -104,8 +104,13 @@ class EmbreeIndex {
   [[nodiscard]] FacetPlane plane(std::uint32_t i) const noexcept {
     return moved_ ? make_plane(i) : facets_[i].plane;
   }
-  /// Fetches what `plane` will need.
-  void prefetch_plane(std::uint32_t i) const noexcept;
+  /// As it was before anything moved.
+  [[nodiscard]] const FacetPlane& first_plane(std::uint32_t i) const noexcept {
+    return facets_[i].plane;
+  }
+  /// Fetches what `plane` will need: of facet `i` the first of it, of `before`, which was fetched
+  /// before, the rest.
+  void prefetch_plane(std::uint32_t i, std::uint32_t before) const noexcept;
   [[nodiscard]] const FacetSides& sides(std::uint32_t i) const noexcept { return facets_[i].sides; }
 
   /// All facets the line meets, in any order, depths in double.

@@ -177,6 +177,10 @@ const std::shared_ptr<const DeformedBody>& Scene::tissue() const noexcept {
   return impl_->tissue;
 }
 
+const Vec3& Scene::normal_at_rest(std::uint32_t interface) const noexcept {
+  return impl_->index.first_plane(interface).normal;
+}
+
 QueryCount Scene::find_crossings(const Segment& segment, std::span<Crossing> out) const noexcept {
   QueryCount count;
   const Track track = make_track(impl_->index, segment);

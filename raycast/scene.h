@@ -100,6 +100,10 @@ class Scene {
   /// How the body gives way in this scene: from it the scene has its surfaces. Null: it is at rest.
   [[nodiscard]] const std::shared_ptr<const DeformedBody>& tissue() const noexcept;
 
+  /// Unit normal of an interface from back to front as the body lies at rest; zero for a triangle
+  /// without area.
+  [[nodiscard]] ARTUS_REALTIME const Vec3& normal_at_rest(std::uint32_t interface) const noexcept;
+
   /// Every interface the segment passes through, sorted by depth; a crossing through a shared edge
   /// or vertex counts once.
   ARTUS_REALTIME QueryCount find_crossings(const Segment& segment,

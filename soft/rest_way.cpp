@@ -11,6 +11,9 @@ namespace {
 constexpr double kKnotPitch = 3e-4;       // m, knots that a bend asks for do not come closer
 constexpr double kLeastStep = 5e-5;       // m, past a cube's face
 constexpr double kLeastLayerStep = 1e-5;  // m, past a layer's border within a cube
+constexpr double kLayerTry = 2e-4;        // m that are worth a try where borders lie close
+constexpr double kFarthestTry = 6e-4;     // m, the same where it went on straight: a thin layer and
+                                          // the next may bend and bend back
 constexpr double kOutsideStep = 3e-3;     // m, where there is no cube
 constexpr double kFarthestFace = 48e-3;   // m
 constexpr double kOneStep = 3e-5;  // m off the tangent, four times the error half way; one Newton
@@ -78,9 +81,14 @@ bool RestWay::meets_layers(const RestKnot& left, double from, double to) const n
 
 RestKnot RestWay::next(const RestKnot& left) const noexcept {
   RestKnot knot;
+  const bool cut = body_->map().model->layers().cuts(left.cell);
   const double face = to_face(left);
-  double step = face + left.ahead;
-  if (left.ahead > 0 && meets_layers(left, face, step)) step = face;
+  double step = face + (cut ? 0 : left.ahead);
+  if (cut) {
+    step = std::max(step, std::clamp(left.ahead, kLayerTry, kFarthestTry));
+  } else if (left.ahead > 0 && meets_layers(left, face, step)) {
+    step = face;
+  }
   while (true) {
     knot.along = left.along + step;
     const Vec3 guess = left.rest_C + step * left.onward_C;
@@ -90,8 +98,8 @@ RestKnot RestWay::next(const RestKnot& left) const noexcept {
     if (off < (step > face ? kNearTangent : kOneStep)) {
       knot.rest_C = guess + there.motion.gradient.inverse() * error;
       knot.cell = there.cell;
-      if (off < kNearTangent && !body_->map().model->layers().cuts(left.cell))
-        knot.ahead = std::min(kFarthestAhead, std::max(face, 2 * left.ahead));
+      if (off < kNearTangent)
+        knot.ahead = cut ? 2 * step : std::min(kFarthestAhead, std::max(face, 2 * left.ahead));
       finish(there.motion.gradient, knot);
       return knot;
     }
@@ -99,17 +107,6 @@ RestKnot RestWay::next(const RestKnot& left) const noexcept {
       return at(knot.along, body_->map().X_JC.linear() * there.motion.displacement);
     step = step > face ? face : 0.5 * step;
   }
-}
-
-RestKnot RestWay::beside(const RestKnot& other, double along) const noexcept {
-  RestKnot knot;
-  knot.along = along;
-  const Vec3 p_J = origin_J_ + along * direction_J_;
-  knot.rest_J = other.rest_J + other.inverse_J * (p_J - other.rest_J - other.displacement_J);
-  knot.displacement_J = p_J - knot.rest_J;
-  knot.moved = knot.displacement_J.norm();
-  knot.onward_J = other.inverse_J * direction_J_;
-  return knot;
 }
 
 }  // namespace artus

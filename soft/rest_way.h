@@ -18,6 +18,12 @@ struct RestKnot {
   Vec3 onward_C = Vec3::UnitZ();
   std::int32_t cell = -1;  ///< of the cage; -1: outside
   double ahead = 0;        ///< m beyond the cube that are worth a try: it went on straight
+
+  /// Where the tissue at a point near by, some mm away, was at rest, by the displacement and the
+  /// gradient here.
+  [[nodiscard]] Vec3 beside(const Vec3& p_J) const noexcept {
+    return rest_J + inverse_J * (p_J - rest_J - displacement_J);
+  }
 };
 
 /// A straight line through a body that gives way, and the way that its tissue had at rest: knots
@@ -31,11 +37,6 @@ class RestWay {
   [[nodiscard]] RestKnot at(double along, const Vec3& guess_J = Vec3::Zero()) const noexcept;
   /// The one behind `left`. Cost: 0.1 us.
   [[nodiscard]] RestKnot next(const RestKnot& left) const noexcept;
-
-  /// The knot at `along` as a line near by says, whose knot `other` is less than some mm away:
-  /// where the tissue is by its displacement and gradient there. It has no place in the cage: no
-  /// next() follows. Cost: 10 ns.
-  [[nodiscard]] RestKnot beside(const RestKnot& other, double along) const noexcept;
 
  private:
   [[nodiscard]] double to_face(const RestKnot& left) const noexcept;
