@@ -128,9 +128,10 @@ ExitCode run_elastogram(const ElastogramOptions& options) {
     std::cout << report.dump(2) << '\n';
   else
     std::printf(
-        "%s: %.2f N, then %.2f mm more; mean strain %.2f %%, known in %.0f %% of the picture\n",
+        "%s: %.2f N, then %.2f mm more; mean strain %.2f %%, known in %.0f %% of the picture%s\n",
         options.out.c_str(), first->press.normal_force, options.more_mm,
-        report["mean_strain_percent"].get<double>(), report["known_percent"].get<double>());
+        report["mean_strain_percent"].get<double>(), report["known_percent"].get<double>(),
+        first->press.settled && second->press.settled ? "" : "; the tissue is still moving");
   return ExitCode::ok;
 }
 

@@ -89,7 +89,8 @@ std::vector<Sample> sample_region(const CompiledJoint& joint, RegionId region) {
   for (std::size_t k = 0; k < own.size(); k += stride) {
     Sample sample;
     for (const std::uint32_t v : mesh.tetrahedra[own[k]]) sample.p_J += mesh.vertices[v] / 4;
-    sample.weight = static_cast<double>(stride) * tet_volume(mesh, own[k]);
+    // One that what was injected has folded counts for nothing.
+    sample.weight = static_cast<double>(stride) * std::max(0.0, tet_volume(mesh, own[k]));
     samples.push_back(sample);
   }
   return samples;

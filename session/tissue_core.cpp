@@ -108,10 +108,12 @@ void TissueCore::step(const std::optional<Pose>& X_JP, const std::optional<Needl
   const bool pushed = tissue_ && needle_.load(body_, *tissue_, needle);
   if (pushed || !(same && still_)) {
     double moved = 0;
+    std::uint32_t happened = 0;  // in any of the steps; lagging is a matter of the last
     for (int k = 0; k < kSteps; ++k) {
       const SoftStep& step = body_.step(face, dt_ / kSteps);
       moved = std::max(moved, step.largest_move);
-      status_ = step.status;
+      happened |= step.status & ~kSoftLagging;
+      status_ = step.status | happened;
     }
     // A face that lags behind its hand has yet to meet the skin.
     still_ =

@@ -22,10 +22,11 @@ constexpr double kBackSpeed = 1.5e-3;      // m/s while feeling for the space; a
 constexpr double kThrough = 2e-3;          // m that the tip goes through a thin space; assumed
 constexpr double kFarthestThrough = 6e-3;  // m behind the space, of what resists; assumed
 constexpr double kGentle = 3.5;            // N on the plunger meanwhile, 3-5 in practice
-constexpr double kNotice = 0.2;  // s until it is seen that the target does not fill; assumed
-constexpr double kEased = 1e-3;  // m that it goes on without pressing then; assumed
-constexpr double kPull = -6;     // N of aspiration; assumed
-constexpr double kReady = 0.5;   // s while the guard ramps up
+constexpr double kLoosens = 1.25;  // of the break-loose force, what moves a stopper that has rested
+constexpr double kNotice = 0.2;    // s until it is seen that the target does not fill; assumed
+constexpr double kEased = 1e-3;    // m that it goes on without pressing then; assumed
+constexpr double kPull = -6;       // N of aspiration; assumed
+constexpr double kReady = 0.5;     // s while the guard ramps up
 constexpr double kBeforeFloor = 0.3e-3;  // m that the tip stays above a floor; assumed
 constexpr double kSpare = 5e-3;          // m of shaft that stay outside
 
@@ -34,12 +35,17 @@ OperatorPhase named(OperatorPhase phase, const char* label) {
   return phase;
 }
 
+/// N: at least what moves the stopper, or a wide barrel would never tell where it flows.
+double gentle_force(const Syringe& syringe) {
+  return std::max(kGentle, kLoosens * syringe.break_loose);
+}
+
 /// m along the line to go to before one comes back: through the layer, and into what resists the
 /// gentle push when that is near.
 double beyond(const Scene& scene, const InjectionSpec& spec, const LineLayer& layer,
               const Vec3& direction, const JointSpaces& spaces) {
   const Syringe& syringe = spec.plunger.syringe;
-  const double gentle = (kGentle - syringe.glide) / syringe.area();
+  const double gentle = (gentle_force(syringe) - syringe.glide) / syringe.area();
   const Segment way{spec.entry + layer.to * direction,
                     spec.entry + (layer.to + kFarthestThrough) * direction};
   for (const TissueInterval& s : tissue_intervals(scene, way)) {
@@ -62,7 +68,7 @@ std::vector<OperatorPhase> phases_of(const InjectionSpec& spec, const LineLayer&
     phases.push_back(named(push_to(through, kSpeed), "through"));
     phases.push_back(named(stay(0.5), "stay"));
     OperatorPhase back = named(pull_to(std::max(0.0, layer.from - kThrough), kBackSpeed), "back");
-    back.thumb_force = kGentle;
+    back.thumb_force = gentle_force(spec.plunger.syringe);
     back.until_flow = true;
     phases.push_back(back);
     // The whole opening of the bevel into the space, before more is given.
@@ -321,6 +327,8 @@ Result<InjectionRun> run_injection(const Scene& scene, const InjectionSpec& spec
   const std::optional<RegionId> into =
       spec.into ? spec.into : bursa_on(scene, spec.entry, spec.target);
   const RegionId region = into.value_or(scene.region_at(spec.target));
+  if (region < kFirstRegion)
+    return fail(ErrorCode::invalid, "the target lies outside of the meshed body", spec.name);
   const auto layer = find_layer(scene, spec.entry, direction, region);
   if (!layer)
     return fail(ErrorCode::invalid,

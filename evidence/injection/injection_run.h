@@ -82,8 +82,8 @@ struct InjectionRun {
 };
 
 /// Runs it closed loop: hand, device, needle, thumb and plunger. Deterministic for a scene and
-/// spec. Errors: not_found (device), invalid (the line does not meet the structure; volume or rate
-/// not above 0).
+/// spec. Errors: not_found (device), invalid (the line does not meet the structure; the target lies
+/// outside of the meshed body; volume or rate not above 0).
 [[nodiscard]] Result<InjectionRun> run_injection(const Scene& scene, const InjectionSpec& spec);
 
 /// The first row at `time` or later, else the last. Requires: a run with rows.

@@ -18,6 +18,7 @@ constexpr double kTouches = 3e-3;     // m that gel fills between face and skin
 constexpr double kBesideTip = 10e-3;  // m to either side of the tip that should be seen
 constexpr double kHalfSeen = 0.9;     // of half a face, within which the tip lies
 constexpr double kOwnView = 0.25;     // what the joint's own way of looking is worth
+constexpr double kAside = 0.25;       // of the face, by which it is also tried beside the tip
 
 bool ends_sight(const Scene& scene, const TissueInterval& s) {
   return s.region == kBeyond || scene.joint().tissue_of(s.region).haptic.hard;
@@ -66,6 +67,7 @@ std::optional<double> merit_of(const Scene& scene, const Pose& X_JP, const Pose&
   };
   if (!touches(tip.x())) return std::nullopt;
   const auto sees = [&](double x) {
+    if (std::abs(x) > width / 2 || !touches(x)) return false;
     const auto way = tissue_intervals(scene, {X_JP * Vec3(x, 0, 0), X_JP * Vec3(x, 0, tip.z())});
     return std::none_of(way.begin(), way.end(),
                         [&](const TissueInterval& s) { return ends_sight(scene, s); });
@@ -93,12 +95,15 @@ Pose find_view_of(const Scene& scene, const Pose& X_JN, double width) {
       const Vec3 look = Eigen::AngleAxisd(tilt * kDegree, about) * axis;
       const double gap = gap_below(scene, tip, look);
       if (!(gap < 0)) continue;
-      const Pose there =
-          resting(scene, make_pose(tip + gap * look, look, about.cross(look)), width);
-      const auto merit = merit_of(scene, there, X_JN, width);
-      if (!merit || *merit <= most) continue;
-      most = *merit;
-      best = there;
+      const Vec3 lateral = about.cross(look);
+      for (const double aside : {0.0, -kAside, kAside}) {
+        const Vec3 middle = tip + gap * look + aside * width * lateral;
+        const Pose there = resting(scene, make_pose(middle, look, lateral), width);
+        const auto merit = merit_of(scene, there, X_JN, width);
+        if (!merit || *merit <= most) continue;
+        most = *merit;
+        best = there;
+      }
     }
   return best;
 }

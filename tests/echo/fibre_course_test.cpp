@@ -58,6 +58,20 @@ CompiledJoint make_bent_bar(double inner, double outer, double width) {
   return joint;
 }
 
+TEST(FibreCourse, AFoldedTetrahedronDoesNotStraightenIt) {
+  CompiledJoint joint = make_bent_bar(30e-3, 40e-3, 12e-3);
+  const auto whole = fit_fibre_course(joint, kFirstRegion, std::nullopt);
+  for (std::size_t t = 0; t < joint.mesh.tetrahedra.size(); t += 500)
+    std::swap(joint.mesh.tetrahedra[t][0], joint.mesh.tetrahedra[t][1]);
+  const auto folded = fit_fibre_course(joint, kFirstRegion, std::nullopt);
+  ASSERT_TRUE(whole && folded);
+  for (double degrees = 20; degrees <= 70; degrees += 10) {
+    const Vec3 p = 35e-3 * Vec3(std::sin(degrees * kDegree), 0, std::cos(degrees * kDegree));
+    const Vec3 was = whole->evaluate(p).gradient.row(2).normalized();
+    EXPECT_GT(was.dot(Vec3(folded->evaluate(p).gradient.row(2).normalized())), 0.999) << degrees;
+  }
+}
+
 TEST(FibreCourse, FollowsABentMuscle) {
   const CompiledJoint joint = make_bent_bar(30e-3, 40e-3, 12e-3);
   const auto course = fit_fibre_course(joint, kFirstRegion, std::nullopt);

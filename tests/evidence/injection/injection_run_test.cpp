@@ -77,6 +77,29 @@ TEST(InjectionRun, ComingBackUnderGentlePressureFlowsWhenTheBevelIsInTheBursa) {
   EXPECT_GT(flowing->depth, 14e-3);
 }
 
+TEST(InjectionRun, ComingBackWithAWideBarrelMovesItsStopper) {
+  // Of 10 ml the stopper breaks loose at more than the 3.5 N that move one of 5 ml.
+  const auto scene = shoulder_like();
+  InjectionSpec spec = spec_into(*scene, "bursa", 1e-6);
+  spec.technique = Technique::through_and_back;
+  spec.plunger.syringe = syringe_for(8.4e-6);
+  ASSERT_GT(spec.plunger.syringe.break_loose, 3.5);
+  const auto run = run_injection(*scene, spec);
+  ASSERT_TRUE(run);
+  EXPECT_GE(run->volumes.front(), 0.95 * run->given);
+}
+
+TEST(InjectionRun, ATargetInTheAirIsRefused) {
+  const auto scene = shoulder_like();
+  InjectionSpec spec = spec_into(*scene, "bursa", 1e-6);
+  spec.into.reset();
+  spec.entry -= 0.2 * (spec.target - spec.entry).normalized();
+  spec.target = spec.entry + 0.01 * (spec.target - spec.entry).normalized();
+  const auto run = run_injection(*scene, spec);
+  ASSERT_FALSE(run);
+  EXPECT_EQ(run.error().code, ErrorCode::invalid);
+}
+
 TEST(InjectionRun, ASlowRateOnAWideBarrelGivesWhatIsMeantForIt) {
   const auto scene = shoulder_like();
   InjectionSpec spec = spec_into(*scene, "bursa", 15e-6);
