@@ -106,7 +106,7 @@ TEST(WildTissue, StaysFiniteWithinLimitsAndMeteredAndComesBackToRest) {
   double most_given = -INFINITY;  // J to the hand beyond what is metered
   std::uint64_t faults = 0;
   test::Bursts bursts{kSeed};
-  TimedPose before;                         // the last without a fault
+  TimedPose before;                        // the last without a fault
   Pose X_JN_image = wild_needle(X_JP, 0);  // the last that was not refused
   for (std::uint64_t i = 0; i < n; ++i) {
     const test::Fault fault = bursts.at(i);
