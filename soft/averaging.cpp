@@ -12,7 +12,6 @@
 namespace artus {
 namespace {
 
-
 struct Sums {
   double n = 0;
   double shear = 0;       // sum of mu

@@ -243,7 +243,14 @@ double evenness_of(const CellMaterial& m) noexcept {
 
 /// Pa by which a part of a cube that is squeezed below kLeastPart of its volume pushes back.
 double crush_of(double bulk, double J) noexcept {
-  return bulk / kLeastPart * std::max(0.0, 1 - J / kLeastPart);
+  const double x = std::max(0.0, 1 - J / kLeastPart);
+  return bulk / kLeastPart * x * (1 + 2 * kCrushRise * x * x);
+}
+
+/// By how much more for each further share of its volume.
+double crush_slope_of(double bulk, double J) noexcept {
+  const double x = 1 - J / kLeastPart;
+  return x > 0 ? bulk / (kLeastPart * kLeastPart) * (1 + 6 * kCrushRise * x * x) : 0;
 }
 
 /// Pressure (negative) of the mean dilatation and its slope, by `excess` = mean J - J0; as
@@ -280,8 +287,7 @@ Matrix9 point_tangent(const CellMaterial& m, std::size_t g, const Kinematics& k,
   const Hardened hard = harden(m.hardening[g], psi_of(F, k.J[g]));
   const double mu = m.shear[g] * hard.factor;
   const double even = evenness_of(m);
-  const double crushed = k.J[g] < kLeastPart ? m.bulk / (kLeastPart * kLeastPart) : 0;
-  const double volume = mu + even + crushed;
+  const double volume = mu + even + crush_slope_of(m.bulk, k.J[g]);
   const double squeeze =
       mu * (k.J[g] - 2) + pressure + even * (k.J[g] - k.mean_J) - crush_of(m.bulk, k.J[g]);
   const Eigen::Map<const Eigen::Matrix<double, 9, 1>> cof(k.cof[g].data());

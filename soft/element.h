@@ -11,6 +11,9 @@ namespace artus {
 /// Below this share of its volume a part of a cube resists as its bulk does. Assumed: far below
 /// what a probe's 3 N ask of a cube, far above where a part turns inside out.
 inline constexpr double kLeastPart = 0.4;
+/// How steeply that grows: at half of kLeastPart it is eleven times what it would be without.
+/// Assumed: no part below a face's end may turn over under 10 N.
+inline constexpr double kCrushRise = 20;
 
 /// An eighth with less tissue than this counts as so much: cubes at the skin must not be flimsy.
 /// What then is nearly all air may turn over: beside a face that is pressed deep the skin folds.
@@ -43,15 +46,15 @@ struct CellResponse {
 
 /// Trilinear cube with one mean dilatation (Q1P0), so that nearly incompressible tissue does not
 /// lock: W = sum_g V_g [mu_g/b (exp(b psi_g) - 1) + W_sheet + W_fibre] + V lambda/2 (mean J -
-/// J0)^2 + V lambda/(3 w) <J0 - mean J - v>^3 + sum_g V_g lambda/2 <1 - J_g/kLeastPart>^2, the last
-/// since a mean alone lets one corner of a cube vanish while the others swell; v and w as in
-/// SoftMaterial. The sheet's energy mu_s/2 (tr c + 1/det c - 3) is that
-/// of an incompressible membrane with the stretch c in the plane across `sheet_normal`. Fluid of a
-/// share f that drains makes the pressure of a smaller volume, q = J0 - mean J, less: k q up to
-/// 0.8 f with k = drain_pressure/f, beyond 1.2 f again with the slope lambda, between them the
-/// slope goes over evenly; so much of the fluid has left for where nothing presses, and all of it
-/// comes back. `u` m, frame C; `edge` m; `target` J0, 1 at rest. A model computes four cubes at
-/// once (kernels.h).
+/// J0)^2 + V lambda/(3 w) <J0 - mean J - v>^3 + sum_g V_g lambda/2 (x^2 + kCrushRise x^4), x = <1 -
+/// J_g/kLeastPart>, the last since a mean alone lets one corner of a cube vanish while the others
+/// swell; v and w as in SoftMaterial. The sheet's energy mu_s/2 (tr c + 1/det c - 3) is that of an
+/// incompressible membrane with the stretch c in the plane across `sheet_normal`. Fluid of a share
+/// f that drains makes the pressure of a smaller volume, q = J0 - mean J, less: k q up to 0.8 f
+/// with k = drain_pressure/f, beyond 1.2 f again with the slope lambda, between them the slope goes
+/// over evenly; so much of the fluid has left for where nothing presses, and all of it comes back.
+/// `u` m, frame C; `edge` m; `target` J0, 1 at rest. A model computes four cubes at once
+/// (kernels.h).
 [[nodiscard]] CellResponse cell_response(const CellMaterial& material, double edge,
                                          const CellVector& u, double target = 1) noexcept;
 

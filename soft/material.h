@@ -21,10 +21,10 @@ namespace artus {
 /// At small strain it is linear elasticity with Lame's mu and lambda. Source [Smith2018] for the
 /// part without b; b is Fung's exponent.
 struct SoftMaterial {
-  double shear = 0;           ///< Pa, mu across the fibres
-  double bulk = 0;            ///< Pa, Lame's lambda
-  double firm_from = 0;       ///< share of its volume it loses before its bulk hardens; 0: never does
-  double hardening = 0;       ///< b
+  double shear = 0;      ///< Pa, mu across the fibres
+  double bulk = 0;       ///< Pa, Lame's lambda
+  double firm_from = 0;  ///< share of its volume it loses before its bulk hardens; 0: never does
+  double hardening = 0;  ///< b
   double fibre_modulus = 0;   ///< Pa, k
   Vec3 fibre = Vec3::Zero();  ///< unit, a; zero: no fibres
   bool hard = false;          ///< bone and metal: moves as a rigid body

@@ -14,6 +14,7 @@ constexpr double kStep = 1e-3;       // m
 constexpr double kTolerance = 2e-6;  // m a node may still move
 constexpr double kNear = 0.005;      // of the force asked for
 constexpr int kMostTries = 12;
+constexpr int kMostSteps = 100;  // to rest: some fifty where a face presses with 10 N
 
 enum class Until { near, settled };
 
@@ -23,7 +24,7 @@ Press hold(SoftBody& body, const Pose& X_JP, double depth, Until until) {
   press.X_JP = X_JP;
   press.X_JP.translation() += depth * X_JP.linear().col(2);
   if (until == Until::settled) {
-    press.settled = body.settle(press.X_JP, kTolerance, 40);
+    press.settled = body.settle(press.X_JP, kTolerance, kMostSteps);
   } else {
     body.solver().refresh();
     for (int k = 0; k < 2; ++k) body.step(press.X_JP, std::numeric_limits<double>::infinity());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The whole of a session that hands feel, without its threads: the needle's tick, the solver it
-// loads, the probe that presses.
+// loads, the probe that presses, a device that breaks.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -11,6 +11,7 @@
 #include "artus/core/noise.h"
 #include "artus/haptics/needle/needle_renderer.h"
 #include "artus/session/tissue_core.h"
+#include "tests/support/broken_device.h"
 #include "tests/support/meshed_block.h"
 
 namespace artus {
@@ -75,6 +76,7 @@ struct Whole {
     joint = std::make_shared<const CompiledJoint>(std::move(block));
     params.device = find_device("virtuose_6d_desktop").value();
     params.rate_hz = 1 / kTick;
+    params.guard.workspace_half = Vec3::Constant(0.25);
     auto made = TissueCore::make(joint, joint->X_JP_default, 1 / (kTick * kImageTicks));
     core = std::make_unique<TissueCore>(std::move(made.value()));
     const auto scene = std::make_shared<const Scene>(joint);
@@ -102,18 +104,31 @@ TEST(WildTissue, StaysFiniteWithinLimitsAndMeteredAndComesBackToRest) {
   std::uint64_t tented = 0;
   double most_moved = 0;
   double most_given = -INFINITY;  // J to the hand beyond what is metered
+  std::uint64_t faults = 0;
+  test::Bursts bursts{kSeed};
+  TimedPose before;                        // the last without a fault
+  Pose X_JN_image = wild_needle(X_JP, 0);  // the last that was not refused
   for (std::uint64_t i = 0; i < n; ++i) {
-    const Pose X_JN = wild_needle(X_JP, i);
+    const test::Fault fault = bursts.at(i);
+    const TimedPose sane{wild_needle(X_JP, i), kTick * static_cast<double>(i)};
+    if (!bursts.faulty) before = sane;
     if (i % kImageTicks == 0) {
-      whole.step_tissue(wild_probe(X_JP, i / kImageTicks), X_JN);
+      whole.step_tissue(wild_probe(X_JP, i / kImageTicks), X_JN_image);
       const double moved = whole.moved();
       ASSERT_LT(moved, 30e-3) << i;
       most_moved = std::max(most_moved, moved);
       for (const double value : whole.core->packet().probe.wrench)
         ASSERT_TRUE(std::isfinite(value)) << i;
     }
-    const RenderedNeedle& out = whole.needle->step({X_JN, kTick * static_cast<double>(i)});
+    const TimedPose sent = test::broken(fault, kSeed, i, sane, before);
+    const RenderedNeedle& out = whole.needle->step(sent);
     ASSERT_TRUE(out.command.force.allFinite() && out.command.torque.allFinite()) << i;
+    if ((out.status & TickStatus::kFaults) == 0) {
+      X_JN_image = sent.X_JN;
+    } else {
+      ASSERT_EQ(out.command.force.norm() + out.command.torque.norm(), 0) << i;
+      ++faults;
+    }
     ASSERT_LE(out.command.force.norm(), whole.params.device.force * (1 + 1e-9)) << i;
     ASSERT_LE(out.command.torque.norm(), whole.params.device.torque * (1 + 1e-9)) << i;
     ASSERT_TRUE(std::isfinite(whole.coupling().stored() + whole.coupling().dissipated())) << i;
@@ -123,6 +138,7 @@ TEST(WildTissue, StaysFiniteWithinLimitsAndMeteredAndComesBackToRest) {
   }
   EXPECT_GT(felt, n / 10);
   EXPECT_GT(tented, n / 20);
+  EXPECT_GT(faults, n / 200);
   EXPECT_GT(most_moved, 5e-3) << "the probe pressed";
   EXPECT_LE(most_given, 1e-6);
   RecordProperty("most_moved_um", static_cast<int>(1e6 * most_moved));

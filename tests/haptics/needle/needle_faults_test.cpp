@@ -4,93 +4,25 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <limits>
 
 #include <gtest/gtest.h>
 
 #include "artus/core/noise.h"
 #include "artus/haptics/needle/needle_renderer.h"
 #include "tests/haptics/needle/block_stroke.h"
+#include "tests/support/broken_device.h"
 #include "tests/support/trials.h"
 
 namespace artus {
 namespace {
 
+using test::broken;
+using test::Bursts;
+using test::Fault;
+
 constexpr double kTick = 1e-3;
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-enum class Fault { none, nan, infinite, teleport, frozen, reversed, out_of_workspace, not_rigid };
-constexpr std::size_t kFaults = 8;
-
-// The sane pose with a fault in it, at random in size and place.
-TimedPose broken(Fault fault, std::uint64_t seed, std::uint64_t i, TimedPose pose,
-                 const TimedPose& frozen) {
-  const auto axis = static_cast<Eigen::Index>(3 * uniform_noise(seed, 4 * i));
-  const double size = uniform_noise(seed, 4 * i + 1);
-  Vec3 place = Vec3::Zero();
-  for (auto& c : place)
-    c = normal_noise(seed + 1, 3 * i + static_cast<std::uint64_t>(&c - place.data()));
-  switch (fault) {
-    case Fault::none:
-      return pose;
-    case Fault::nan:
-      if (size < 0.3)
-        pose.time = kNaN;
-      else if (size < 0.6)
-        pose.X_JN.linear()(axis, 0) = kNaN;
-      else
-        pose.X_JN.translation()[axis] = kNaN;
-      return pose;
-    case Fault::infinite:
-      if (size < 0.3)
-        pose.time = kInfinity;
-      else
-        pose.X_JN.translation()[axis] = size < 0.6 ? -kInfinity : 1e308;
-      return pose;
-    case Fault::teleport:
-      pose.X_JN.translation() += 0.03 * place.normalized();
-      return pose;
-    case Fault::frozen:
-      return frozen;
-    case Fault::reversed:
-      pose.time -= 1e-3 + size;
-      return pose;
-    case Fault::out_of_workspace:
-      pose.X_JN.translation() = (0.5 + 100 * size) * place.normalized();
-      return pose;
-    case Fault::not_rigid:
-      pose.X_JN.linear() *= 1 + 1e-3 + size;
-      return pose;
-  }
-  return pose;
-}
-
 constexpr std::uint64_t kSeed = 5;
 constexpr std::uint64_t kManyTicks = test::trials(1'000'000);
-
-/// Sane stretches of random length between bursts of one fault or of all at random; asked tick by
-/// tick.
-struct Bursts {
-  std::uint64_t burst = 0;
-  std::uint64_t until = 1500;
-  bool faulty = false;
-  Fault kind = Fault::none;
-
-  Fault at(std::uint64_t i) {
-    if (i == until) {
-      faulty = !faulty;
-      ++burst;
-      const double length = uniform_noise(kSeed + 7, burst);
-      until = i + static_cast<std::uint64_t>(faulty ? 1 + 60 * length : 20 + 1500 * length);
-      kind = static_cast<Fault>(1 + burst / 2 % (kFaults - 1));
-    }
-    const bool mixed = burst % 10 == 5;
-    return !faulty ? Fault::none
-           : mixed ? static_cast<Fault>(kFaults * uniform_noise(kSeed + 8, i))
-                   : kind;
-  }
-};
 
 TEST(NeedleFaults, NeverGetAnUnsafeForceOutOverAMillionTicks) {
   const auto scene = test::block();
@@ -106,7 +38,7 @@ TEST(NeedleFaults, NeverGetAnUnsafeForceOutOverAMillionTicks) {
   double since_fault = 0;
   long felt = 0, recoveries = 0;
   double fullest = 0;
-  Bursts bursts;
+  Bursts bursts{kSeed};
   TimedPose before;
   for (std::uint64_t i = 0; i < kManyTicks; ++i) {
     const double t = kTick * static_cast<double>(i);
@@ -179,7 +111,7 @@ TEST(NeedleFaults, InTissueThatGivesWayLeaveForcesInLimitsAndTheTissueAtRest) {
   long felt = 0;
   long faults = 0;
   double deepest = 0;
-  Bursts bursts;
+  Bursts bursts{kSeed};
   TimedPose before;
   constexpr std::uint64_t kTicks = 100'000;
   for (std::uint64_t i = 0; i < kTicks; ++i) {
