@@ -54,6 +54,19 @@ std::vector<double> answers(const Scene& scene) {
   return out;
 }
 
+TEST(MovingScene, KnowsHowItsInterfacesFacedAtRest) {
+  const test::MovedBlock block = make_block();
+  const auto scene = make_scene(block.moved(dent));
+  const std::vector<TissueInterval> found =
+      tissue_intervals(*scene, {Vec3(7e-3, 1e-3, -0.02), Vec3(7e-3, 1e-3, 0.03)});
+  ASSERT_GE(found.size(), 3U);
+  for (std::size_t k = 1; k < 3; ++k) {
+    const Vec3& at_rest = scene->normal_at_rest(found[k].entry_interface);
+    EXPECT_NEAR(std::abs(at_rest.z()), 1, 1e-12) << k;
+    EXPECT_LT(std::abs(found[k].entry_normal.z()), 0.99) << k;
+  }
+}
+
 TEST(MovingScene, HitsAnInterfaceAtTheDisplacedVertex) {
   const test::MovedBlock block = make_block();
   const auto scene = make_scene(block.moved(dent));

@@ -72,6 +72,7 @@ TEST(RealTimeQueries, EachOfASceneNeitherAllocatesNorLocks) {
   ARTUS_RUNS_REALTIME(Scene::find_nearest, use(scene.find_nearest(kCentre, 1)));
   ARTUS_RUNS_REALTIME(Scene::signed_distance_to_skin,
                       use(scene.signed_distance_to_skin(kCentre, 1)));
+  ARTUS_RUNS_REALTIME(Scene::normal_at_rest, use(scene.normal_at_rest(0).x()));
 }
 
 TEST(RealTimeQueries, EachOfTheIndexNeitherAllocatesNorLocks) {
