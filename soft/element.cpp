@@ -242,15 +242,17 @@ double evenness_of(const CellMaterial& m) noexcept {
 }
 
 /// Pa by which a part of a cube that is squeezed below kLeastPart of its volume pushes back.
-double crush_of(double bulk, double J) noexcept {
+double crush_of(const CellMaterial& m, double J) noexcept {
   const double x = std::max(0.0, 1 - J / kLeastPart);
-  return bulk / kLeastPart * x * (1 + 2 * kCrushRise * x * x);
+  const double rise = m.firm_from > 0 ? kCrushRise : 0;
+  return m.bulk / kLeastPart * x * (1 + 2 * rise * x * x);
 }
 
 /// By how much more for each further share of its volume.
-double crush_slope_of(double bulk, double J) noexcept {
+double crush_slope_of(const CellMaterial& m, double J) noexcept {
   const double x = 1 - J / kLeastPart;
-  return x > 0 ? bulk / (kLeastPart * kLeastPart) * (1 + 6 * kCrushRise * x * x) : 0;
+  const double rise = m.firm_from > 0 ? kCrushRise : 0;
+  return x > 0 ? m.bulk / (kLeastPart * kLeastPart) * (1 + 6 * rise * x * x) : 0;
 }
 
 /// Pressure (negative) of the mean dilatation and its slope, by `excess` = mean J - J0; as
@@ -287,9 +289,9 @@ Matrix9 point_tangent(const CellMaterial& m, std::size_t g, const Kinematics& k,
   const Hardened hard = harden(m.hardening[g], psi_of(F, k.J[g]));
   const double mu = m.shear[g] * hard.factor;
   const double even = evenness_of(m);
-  const double volume = mu + even + crush_slope_of(m.bulk, k.J[g]);
+  const double volume = mu + even + crush_slope_of(m, k.J[g]);
   const double squeeze =
-      mu * (k.J[g] - 2) + pressure + even * (k.J[g] - k.mean_J) - crush_of(m.bulk, k.J[g]);
+      mu * (k.J[g] - 2) + pressure + even * (k.J[g] - k.mean_J) - crush_of(m, k.J[g]);
   const Eigen::Map<const Eigen::Matrix<double, 9, 1>> cof(k.cof[g].data());
   Matrix9 H = Matrix9::Zero();
   if (std::abs(squeeze) <= mu) {

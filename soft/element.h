@@ -11,8 +11,8 @@ namespace artus {
 /// Below this share of its volume a part of a cube resists as its bulk does. Assumed: far below
 /// what a probe's 3 N ask of a cube, far above where a part turns inside out.
 inline constexpr double kLeastPart = 0.4;
-/// How steeply that grows: at half of kLeastPart it is eleven times what it would be without.
-/// Assumed: no part below a face's end may turn over under 10 N.
+/// How steeply that grows where the bulk hardens: at half of kLeastPart it is eleven times what it
+/// would be without. Assumed: no part below a face's end may turn over under 10 N.
 inline constexpr double kCrushRise = 20;
 
 /// An eighth with less tissue than this counts as so much: cubes at the skin must not be flimsy.

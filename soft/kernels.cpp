@@ -38,6 +38,7 @@ void CellPack::set(std::size_t lane, const CellMaterial& m, double edge_length) 
   has_drain = has_drain || m.drain > 0;
   firm_from[lane] = kDrainEnd * m.drain + m.firm_from;
   firm[lane] = m.firm_from > 0 ? m.bulk / (kFirmRise * m.firm_from) : 0;
+  crush_rise[lane] = m.firm_from > 0 ? kCrushRise : 0;
   has_firm = has_firm || m.firm_from > 0;
   fibre_modulus[lane] = m.fibre_modulus;
   has_fibre = has_fibre || m.fibre_modulus > 0;

@@ -21,6 +21,7 @@ struct alignas(32) CellPack {
   Lanes drain_soft{};  ///< Pa, slope of the pressure while it does
   Lanes firm_from{};   ///< share lost from which the bulk hardens, with what drains
   Lanes firm{};        ///< Pa, of the square of what is lost beyond it
+  Lanes crush_rise{};  ///< kCrushRise where the bulk hardens
   Lanes fibre_modulus{};
   std::array<Lanes, 3> fibre{};
   std::array<Lanes, 6> plane{};  ///< two unit vectors along the sheet, one after the other

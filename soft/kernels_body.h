@@ -184,9 +184,9 @@ inline D stress_at(const CellPack& pack, std::size_t g, const D* F, const Points
   const D bulk = lanes(pack.bulk);
   const D square_of_it = crushed * crushed;
   energy += 0.5 * points.evenness * uneven * uneven +
-            0.5 * bulk * square_of_it * (1.0 + kCrushRise * square_of_it);
+            0.5 * bulk * square_of_it * (1.0 + lanes(pack.crush_rise) * square_of_it);
   const D pushed_back =
-      bulk * crushed * (1.0 / kLeastPart) * (1.0 + 2.0 * kCrushRise * square_of_it);
+      bulk * crushed * (1.0 / kLeastPart) * (1.0 + 2.0 * lanes(pack.crush_rise) * square_of_it);
   const D by_volume = mu * (J - 2.0) + pressure + points.evenness * uneven - pushed_back;
   for (std::size_t i = 0; i < 9; ++i) P[i] = mu * F[i] + by_volume * points.cof[g][i];
   if (pack.has_sheet) add_sheet(pack, lanes(pack.sheet[g]), F, P, energy);

@@ -267,8 +267,7 @@ TEST(Element, CrushedPartPushesBackThoughTheMeanVolumeStays) {
   };
   EXPECT_NEAR(energy(0.5), plain(0.5), 1e-9 * plain(0.5));
   const double below = 0.5 * kLeastPart;
-  EXPECT_NEAR(energy(below) - plain(below), volume * 25e3 * (0.25 + kCrushRise * 0.0625),
-              1e-9 * plain(below));
+  EXPECT_NEAR(energy(below) - plain(below), volume * 25e3 * 0.25, 1e-9 * plain(below));
 }
 
 TEST(Element, FeelsNothingOfARotation) {
