@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/session/tissue_core.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -10,6 +11,7 @@ namespace {
 constexpr double kFactorTime = 0.4;    // s that a factor of the tangent may take
 constexpr double kCageTime = 8;        // s that another cage may take
 constexpr double kFactorWay = 0.5e-3;  // m the face moves before its factor is too old
+constexpr double kTissueWay = 1e-3;    // m the tissue does: crushed, it is much stiffer
 constexpr double kFactorTurn = 0.02;   // rad
 constexpr double kStill = 1e-9;        // m; tissue that moves less has come to rest: some 1e-4 mm
 constexpr int kOutsideImages = 20;     // in a row before another cage is begun
@@ -44,6 +46,8 @@ TissueCore::TissueCore(SoftBody body, double image_rate, const ProbeFace& face)
       cage_images_(static_cast<std::uint64_t>(std::ceil(kCageTime * image_rate))),
       X_JP_factor_(body_.cage_pose()),
       needle_(image_rate) {
+  const auto u = body_.solver().displacements();
+  u_factor_.assign(u.begin(), u.end());
   tissue_ = body_.snapshot();
   scene_ = scenes_.at(tissue_);
 }
@@ -66,6 +70,8 @@ void TissueCore::follow(const std::optional<Pose>& X_JP) {
       body_ = std::move(*made);
       body_.follow(*tissue_);
       X_JP_factor_ = body_.cage_pose();
+      const auto u = body_.solver().displacements();
+      u_factor_.assign(u.begin(), u.end());
       tissue_ = nullptr;
       still_ = false;
     }
@@ -78,8 +84,18 @@ void TissueCore::follow(const std::optional<Pose>& X_JP) {
   });
 }
 
-/// A new factor of the tangent once the face has moved on; the state that it is of is the present
-/// one.
+bool TissueCore::has_moved_since_factor(const std::optional<Pose>& X_JP) const {
+  if (X_JP && ((X_JP->translation() - X_JP_factor_.translation()).norm() >= kFactorWay ||
+               turn_between(*X_JP, X_JP_factor_) >= kFactorTurn))
+    return true;
+  const auto u = body_.solver().displacements();
+  return !std::equal(u.begin(), u.end(), u_factor_.begin(), [](const Vec3& now, const Vec3& then) {
+    return (now - then).squaredNorm() < kTissueWay * kTissueWay;
+  });
+}
+
+/// A new factor of the tangent once the face or the tissue has moved on; the state that it is of is
+/// the present one.
 void TissueCore::refresh(const std::optional<Pose>& X_JP) {
   SoftSolver& solver = body_.solver();
   if (solver.refreshing()) {
@@ -89,10 +105,10 @@ void TissueCore::refresh(const std::optional<Pose>& X_JP) {
     needle_.renew();
     return;
   }
-  if (!X_JP || ((X_JP->translation() - X_JP_factor_.translation()).norm() < kFactorWay &&
-                turn_between(*X_JP, X_JP_factor_) < kFactorTurn))
-    return;
-  X_JP_factor_ = *X_JP;
+  if (!has_moved_since_factor(X_JP)) return;
+  if (X_JP) X_JP_factor_ = *X_JP;
+  const auto u = solver.displacements();
+  u_factor_.assign(u.begin(), u.end());
   factor_due_ = images_ + factor_images_;
   solver.begin_refresh();
 }

@@ -4,6 +4,7 @@
 #include <future>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "artus/raycast/moving_scene.h"
 #include "artus/session/needle_tissue.h"
@@ -44,6 +45,7 @@ class TissueCore {
   TissueCore(SoftBody body, double image_rate, const ProbeFace& face);
   void follow(const std::optional<Pose>& X_JP);
   void refresh(const std::optional<Pose>& X_JP);
+  [[nodiscard]] bool has_moved_since_factor(const std::optional<Pose>& X_JP) const;
   void describe(const std::optional<Pose>& X_JP);
 
   SoftBody body_;
@@ -54,8 +56,9 @@ class TissueCore {
   std::uint64_t images_ = 0;
   std::uint64_t factor_due_ = 0;
   std::uint64_t cage_due_ = 0;
-  int outside_ = 0;  // images in a row
-  Pose X_JP_factor_ = Pose::Identity();
+  int outside_ = 0;                      // images in a row
+  Pose X_JP_factor_ = Pose::Identity();  // of the newest factor, or the one that is begun
+  std::vector<Vec3> u_factor_;           // (n_nodes) the same
   std::optional<Pose> X_JP_before_;
   bool still_ = false;  // nothing moved in the last step
   std::future<Result<SoftBody>> cage_;

@@ -322,7 +322,7 @@ TEST(NeedleTissue, HandsThatDoWhatNoHandDoesAreSafeAndTheTissueIsBackAtRest) {
     for (int k = 0; k < 100; ++k) check(soft.at(lost));
     soft.press(-20e-3);
     soft.move(-10e-3, 100e-3);
-    const HapticSnapshot out = soft.hold(2);
+    const HapticSnapshot out = soft.hold(3);  // crushed tissue comes back slowly
     EXPECT_EQ(out.status & TickStatus::kFaults, 0U);
     EXPECT_EQ(felt_by(out), Vec3::Zero());
     EXPECT_GT(most, 2);

@@ -95,7 +95,7 @@ TEST_F(SessionCore, BetweenTheTissuesUpdatesTheProbeFeelsForceAndTorqueByItsWhol
   using Vec6 = Eigen::Matrix<double, 6, 1>;
   const Pose pressed = to_pose(test::sample_at(0, 0, 0).X_WP);
   Vec6 wrench;
-  wrench << 0.2, -0.1, -3, 0.01, 0.02, -0.005;
+  wrench << 0.2, -0.1, -9, 0.01, 0.02, -0.005;  // within Coulomb's cone in all of it
   const Vec6 coupled = (Vec6() << 8, -5, 12, 0.3, -0.4, 0.2).finished();
   Eigen::Matrix<double, 6, 6> K = coupled * coupled.transpose();
   K.diagonal() += (Vec6() << 200, 250, 700, 1.5, 2, 0.7).finished();
