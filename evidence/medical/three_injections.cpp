@@ -173,7 +173,7 @@ Result<ThreeInjections> run_three_injections(const Scene& scene,
   if (progress) progress("injection", 1);
   if (tissue == nullptr && !out.moments.empty()) run_probe_hand(borrow(scene), out);
   analyze(scene.joint(), reached, out);
-  if (!out.probe.empty()) claim_probe(out);
+  if (!out.probe.empty()) claim_probe(out, tissue != nullptr);
   claim_doses(out);
   return out;
 }

@@ -45,6 +45,25 @@ bool is_held(const ThreeInjections& run, double t) {
   return true;
 }
 
+/// J given to the needle's hand, all passes together.
+double needle_energy(const ThreeInjections& run) {
+  double sum = 0;
+  for (std::size_t i = 0; i < run.rows.size(); ++i)
+    if (i + 1 == run.rows.size() || run.rows[i + 1].pass != run.rows[i].pass)
+      sum += run.rows[i].energy_to_hand;
+  return sum;
+}
+
+Claim claim_energy(const ThreeInjections& run, bool gives_way) {
+  const double probe = run.probe.back().energy_to_hand;
+  if (gives_way)
+    return claim_at_most({ClaimKind::input, "the tissue between the hands is built to give none"},
+                         "both hands: energy given over the whole run", probe + needle_energy(run),
+                         0, "J");
+  return claim_at_most({ClaimKind::input, "the contact is built to give none"},
+                       "probe: energy given to the hand over the whole run", probe, 0, "J");
+}
+
 }  // namespace
 
 ProbeIntention intend_probe(std::span<const NamedMoment> moments, double t, double far) {
@@ -94,7 +113,7 @@ void run_probe_hand(const std::shared_ptr<const Scene>& scene, ThreeInjections& 
   }
 }
 
-void claim_probe(ThreeInjections& run) {
+void claim_probe(ThreeInjections& run, bool gives_way) {
   const ProbeContactParams& contact = run.options.probe.contact;
   const double friction = contact.gel ? contact.gel_friction : contact.dry_friction;
   double off_skin = 0;
@@ -123,9 +142,7 @@ void claim_probe(ThreeInjections& run) {
                                   run.options.probe.press_force, 0.02, "N"));
   run.claims.push_back(claim_at_most({ClaimKind::input, "Coulomb's law"},
                                      "probe: friction beyond Coulomb's", over_coulomb, 1e-9, "N"));
-  run.claims.push_back(claim_at_most({ClaimKind::input, "the contact is built to give none"},
-                                     "probe: energy given to the hand over the whole run",
-                                     run.probe.back().energy_to_hand, 0, "J"));
+  run.claims.push_back(claim_energy(run, gives_way));
   run.claims.push_back(claim_at_most({ClaimKind::input, "the guard's limits"},
                                      "probe: ticks in fault (status bits seen)",
                                      static_cast<double>(faults), 0, ""));

@@ -18,7 +18,8 @@ namespace artus {
 /// and moments of a run in rigid tissue.
 void run_probe_hand(const std::shared_ptr<const Scene>& scene, ThreeInjections& run);
 
-/// What must hold of the probe whatever the body.
-void claim_probe(ThreeInjections& run);
+/// What must hold of the probe whatever the body. In one that gives way (`gives_way`) one hand may
+/// lift the other, a needle drawn out the probe, so that energy is claimed of both together.
+void claim_probe(ThreeInjections& run, bool gives_way);
 
 }  // namespace artus
