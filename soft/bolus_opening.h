@@ -13,9 +13,9 @@ namespace artus {
 /// where bone lies at d: the liquid's surface is at s, what is at the middle comes to just outside
 /// of it (f = 1.1: a film of tissue for facets to differ in), bone stays, and what is between is
 /// pressed together evenly. Where there is no bone that is rho^3 + f a^3, which keeps every volume
-/// but the film's. As each ray is mapped upward nothing passes anything. Close to bone the liquid is
-/// flatter (q = 0.8 of the way at most) and goes as much farther elsewhere; a ragged one has an `a`
-/// of each direction's own. assumed: the form.
+/// but the film's. As each ray is mapped upward nothing passes anything. Close to bone the liquid
+/// is flatter (q = 0.8 of the way at most) and goes as much farther elsewhere; a ragged one has an
+/// `a` of each direction's own. assumed: the form.
 class BolusOpening {
  public:
   /// Requires: `body` outlives it; it has the region `number`.
