@@ -46,8 +46,7 @@ TissueCore::TissueCore(SoftBody body, double image_rate, const ProbeFace& face)
       cage_images_(static_cast<std::uint64_t>(std::ceil(kCageTime * image_rate))),
       X_JP_factor_(body_.cage_pose()),
       needle_(image_rate) {
-  const auto u = body_.solver().displacements();
-  u_factor_.assign(u.begin(), u.end());
+  keep_state_of_factor();
   tissue_ = body_.snapshot();
   scene_ = scenes_.at(tissue_);
 }
@@ -70,8 +69,7 @@ void TissueCore::follow(const std::optional<Pose>& X_JP) {
       body_ = std::move(*made);
       body_.follow(*tissue_);
       X_JP_factor_ = body_.cage_pose();
-      const auto u = body_.solver().displacements();
-      u_factor_.assign(u.begin(), u.end());
+      keep_state_of_factor();
       tissue_ = nullptr;
       still_ = false;
     }
@@ -82,6 +80,11 @@ void TissueCore::follow(const std::optional<Pose>& X_JP) {
   cage_ = std::async(std::launch::async, [joint = body_.joint(), pose = *X_JP, face = face_] {
     return SoftBody::make(joint, pose, params_with(face));
   });
+}
+
+void TissueCore::keep_state_of_factor() {
+  const auto u = body_.solver().displacements();
+  u_factor_.assign(u.begin(), u.end());
 }
 
 bool TissueCore::has_moved_since_factor(const std::optional<Pose>& X_JP) const {
@@ -107,8 +110,7 @@ void TissueCore::refresh(const std::optional<Pose>& X_JP) {
   }
   if (!has_moved_since_factor(X_JP)) return;
   if (X_JP) X_JP_factor_ = *X_JP;
-  const auto u = solver.displacements();
-  u_factor_.assign(u.begin(), u.end());
+  keep_state_of_factor();
   factor_due_ = images_ + factor_images_;
   solver.begin_refresh();
 }

@@ -45,6 +45,7 @@ class TissueCore {
   TissueCore(SoftBody body, double image_rate, const ProbeFace& face);
   void follow(const std::optional<Pose>& X_JP);
   void refresh(const std::optional<Pose>& X_JP);
+  void keep_state_of_factor();
   [[nodiscard]] bool has_moved_since_factor(const std::optional<Pose>& X_JP) const;
   void describe(const std::optional<Pose>& X_JP);
 

@@ -133,6 +133,21 @@ TEST(SoftSolver, FaceIsNotPassedAndItsForceIsTheReaction) {
   }
 }
 
+/// A quarter of a block, cubes of 3 mm under the face of a probe that slides freely.
+SoftSolver make_deep_press(const SoftBlock& block) {
+  const Vec3 zone(27e-3, 12e-3, 12e-3);
+  const auto model = make_block_model(block, 6e-3, {{-zone, zone, 3e-3}});
+  const SkinPatch skin = make_flat_skin(block, 3e-3);
+  const Vec3 reach(22e-3, 5e-3, 1);
+  SoftSolver solver(model, contact_unknowns(*model, skin, -reach, reach));
+  ProbeFace face;
+  face.length -= 1.8e-3;
+  face.width -= 1.8e-3;
+  face.friction = 0;
+  solver.set_face(skin, face);
+  return solver;
+}
+
 /// Pressed by more than 10 N cubes of fat lost four tenths of their volume and one of skin at the
 /// face's end turned over, as long as their bulk did not harden.
 TEST(SoftSolver, HardPressedSkinAndFatComeToRestAndKeepTheirVolume) {
@@ -149,25 +164,19 @@ TEST(SoftSolver, HardPressedSkinAndFatComeToRestAndKeepTheirVolume) {
     ASSERT_NE(tissue, tissues.end());
     block.layers.push_back({thickness, make_soft_material(*tissue, values, Vec3::UnitX(), kNu)});
   }
-  const Vec3 zone(27e-3, 12e-3, 12e-3);
-  const auto model = make_block_model(block, 6e-3, {{-zone, zone, 3e-3}});
-  const SkinPatch skin = make_flat_skin(block, 3e-3);
-  const Vec3 reach(22e-3, 5e-3, 1);
-  SoftSolver solver(model, contact_unknowns(*model, skin, -reach, reach));
-  ProbeFace face;
-  face.length -= 1.8e-3;
-  face.width -= 1.8e-3;
-  face.friction = 0;
-  solver.set_face(skin, face);
+  SoftSolver solver = make_deep_press(block);
   for (int mm = 1; mm <= 10; ++mm) ASSERT_TRUE(solver.settle(face_at(1e-3 * mm), 2e-6, 100)) << mm;
   EXPECT_GT(-4 * solver.last().contact.force.z(), 10);
   EXPECT_GT(solver.last().least_volume, 0.25);
-  const auto cells = model->cage().cells();
+  const auto cells = solver.model().cage().cells();
   for (std::size_t c = 0; c < cells.size(); ++c) {
     CellVector u;
     for (std::size_t a = 0; a < 8; ++a)
       u.segment<3>(static_cast<Eigen::Index>(3 * a)) = solver.displacements()[cells[c].nodes[a]];
-    EXPECT_GT(cell_dilatation(model->materials()[c], model->cage().edge(cells[c]), u), 0.8) << c;
+    EXPECT_GT(
+        cell_dilatation(solver.model().materials()[c], solver.model().cage().edge(cells[c]), u),
+        0.8)
+        << c;
   }
 }
 
@@ -180,16 +189,7 @@ TEST(SoftSolver, BareFatComesToRestUnderADeepPress) {
   fat.bulk = 50e3;
   fat.hardening = 2.4;
   block.layers = {{12e-3, fat}, {12e-3, linear_material(7500, kNu)}};
-  const Vec3 zone(27e-3, 12e-3, 12e-3);
-  const auto model = make_block_model(block, 6e-3, {{-zone, zone, 3e-3}});
-  const SkinPatch skin = make_flat_skin(block, 3e-3);
-  const Vec3 reach(22e-3, 5e-3, 1);
-  SoftSolver solver(model, contact_unknowns(*model, skin, -reach, reach));
-  ProbeFace face;
-  face.length -= 1.8e-3;
-  face.width -= 1.8e-3;
-  face.friction = 0;
-  solver.set_face(skin, face);
+  SoftSolver solver = make_deep_press(block);
   double before = 0;
   for (int mm = 1; mm <= 6; ++mm) {
     EXPECT_TRUE(solver.settle(face_at(1e-3 * mm), 2e-6, 60)) << mm;
