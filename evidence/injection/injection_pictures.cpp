@@ -284,7 +284,7 @@ void measure_opening(const Scene& scene, const std::vector<Injected>& places,
 /// Where the probe lies, and how deep it looks.
 std::pair<Pose, InjectionPictureOptions> view_of(const Scene& scene, const InjectionRun& run,
                                                  const InjectionPictureOptions& options) {
-  const Pose X_JP = find_view_of(scene, run.X_JN, options.transducer.width);
+  const Pose X_JP = find_view_of(scene, run.X_JN, options.transducer.width).X_JP;
   InjectionPictureOptions deep = options;
   const double tip = (X_JP.inverse() * run.X_JN.translation()).z();
   deep.settings.depth = std::clamp(tip + kBelowTip, options.settings.depth, kDeepest);

@@ -100,7 +100,8 @@ struct LineLayer {
                                                   const Vec3& direction, RegionId region);
 
 /// A line from the skin into `region`, short and without bone, nerve or vessel on its way, its
-/// target where the region is thickest. Deterministic. Errors: not_found.
+/// target where the region is thick; of those that are nearly as good the one that a probe sees
+/// best (find_view_of). Deterministic. Cost: about a second. Errors: not_found.
 [[nodiscard]] Result<std::pair<Vec3, Vec3>> find_line_into(const Scene& scene, RegionId region);
 
 }  // namespace artus

@@ -2,9 +2,11 @@
 #include "artus/evidence/injection/injection_view.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <span>
 
 #include "artus/core/units.h"
 #include "artus/evidence/medical/three_injections_analysis.h"
@@ -81,28 +83,29 @@ std::optional<double> merit_of(const Scene& scene, const Pose& X_JP, const Pose&
 
 }  // namespace
 
-Pose find_view_of(const Scene& scene, const Pose& X_JN, double width) {
-  constexpr int kTurns = 24;
+FoundView find_view_of(const Scene& scene, const Pose& X_JN, double width, ViewSearch search) {
+  constexpr std::array kTilts{50.0, 65.0, 35.0, 80.0};
+  constexpr std::array kAsides{0.0, -kAside, kAside};
+  const bool fine = search == ViewSearch::fine;
+  const int turns = fine ? 24 : 12;
   const Vec3 axis = X_JN.linear().col(2);
   const Vec3& tip = X_JN.translation();
-  Pose best = probe_in_plane(scene, X_JN);
-  const auto own = merit_of(scene, best, X_JN, width);
-  double most = own ? *own + kOwnView : 0;
-  for (const double tilt : {50.0, 65.0, 35.0, 80.0})
-    for (int k = 0; k < kTurns; ++k) {
+  FoundView best{probe_in_plane(scene, X_JN)};
+  const auto own = merit_of(scene, best.X_JP, X_JN, width);
+  if (own) best.merit = *own + kOwnView;
+  for (const double tilt : std::span(kTilts).first(fine ? kTilts.size() : 1))
+    for (int k = 0; k < turns; ++k) {
       const Vec3 about =
-          Eigen::AngleAxisd(2 * std::numbers::pi * k / kTurns, axis) * Vec3(X_JN.linear().col(0));
+          Eigen::AngleAxisd(2 * std::numbers::pi * k / turns, axis) * Vec3(X_JN.linear().col(0));
       const Vec3 look = Eigen::AngleAxisd(tilt * kDegree, about) * axis;
       const double gap = gap_below(scene, tip, look);
       if (!(gap < 0)) continue;
       const Vec3 lateral = about.cross(look);
-      for (const double aside : {0.0, -kAside, kAside}) {
+      for (const double aside : std::span(kAsides).first(fine ? kAsides.size() : 1)) {
         const Vec3 middle = tip + gap * look + aside * width * lateral;
         const Pose there = resting(scene, make_pose(middle, look, lateral), width);
         const auto merit = merit_of(scene, there, X_JN, width);
-        if (!merit || *merit <= most) continue;
-        most = *merit;
-        best = there;
+        if (merit && *merit > best.merit) best = {there, *merit};
       }
     }
   return best;

@@ -5,11 +5,21 @@
 
 namespace artus {
 
+/// Where a probe lies, and how well it sees the tip.
+struct FoundView {
+  Pose X_JP;
+  double merit = 0;  ///< 0: not at all; about 3: the whole face on the skin, nothing hides the tip
+};
+
+/// How closely it is searched.
+enum class ViewSearch { fine, coarse };
+
 /// Where a probe of `width` m lies on the skin to see the needle's tip, the needle in its plane:
 /// the joint's own way of looking, turned to the needle, or a better one. Better is, in this order
 /// of weight: that the tip is seen at all, more of the face on the skin, fewer beams beside the tip
 /// that end in bone or leave from the air, a shorter way, a needle that runs across the beam.
-/// Deterministic. Cost: some ten thousand rays.
-[[nodiscard]] Pose find_view_of(const Scene& scene, const Pose& X_JN, double width);
+/// Deterministic. Cost: some ten thousand rays; coarse: five hundred.
+[[nodiscard]] FoundView find_view_of(const Scene& scene, const Pose& X_JN, double width,
+                                     ViewSearch search = ViewSearch::fine);
 
 }  // namespace artus

@@ -170,7 +170,7 @@ void NeedleContact::approach(const Pose& X_JN, std::span<const TissueInterval> i
   const double force = prepuncture_force(prepuncture_, skin, depth, tick_.velocity);
   skin_.touch(now);
   const double strength = skin_.wholeness() * skin.tissue.puncture_force;
-  if (strength > 0 && force < strength && depth < thickness) {
+  if (strength > 0 && lasting_force(skin, depth) < strength && depth < thickness) {
     skin_.remember(now);
     state_ = ContactState::touching;
     region_ = intervals[first].region;
@@ -181,6 +181,15 @@ void NeedleContact::approach(const Pose& X_JN, std::span<const TissueInterval> i
   start_line(skin_.between(now, gave_way_at(skin, strength, thickness)));
   tear(std::min(force, strength), depth);
   events_ |= ContactEvent::kSkinPunctured;
+}
+
+// What a membrane is pushed with, N, for as long as it takes to give way. Tissue follows the tip
+// later than a device's steps of place come, so that each is felt as a short peak; which of them
+// the loop's ticks meet must not decide.
+double NeedleContact::lasting_force(const LayerHaptics& membrane, double dimple) noexcept {
+  constexpr double kGiveWay = 5e-3;  // s; assumed: of two or three such steps
+  lasting_ = gives_way_ ? lasting_ + (1 - std::exp(-dt_ / kGiveWay)) * (dimple - lasting_) : dimple;
+  return prepuncture_force(prepuncture_, membrane, lasting_, tick_.velocity);
 }
 
 void NeedleContact::tear(double force, double dimple) noexcept {
@@ -303,7 +312,8 @@ void NeedleContact::find_tip_layers() noexcept {
     if (!held && strength > 0) {
       const double dimple = x - s.entry;
       const double force = prepuncture_force(prepuncture_, layer, dimple, tick_.velocity);
-      if (force < strength && x < s.exit) {
+      const double lasting = i > passed ? lasting_force(layer, dimple) : force;
+      if (lasting < strength && x < s.exit) {
         held = true;
         if (strength == layer.tissue.puncture_force) {
           open_ = std::min(open_, s.entry);  // its surface may move under a needle that sways
@@ -312,6 +322,7 @@ void NeedleContact::find_tip_layers() noexcept {
         tick_.membrane = layer;
       } else if (i > passed) {
         tear(std::min(force, strength), dimple);
+        lasting_ = 0;
         open_ = std::max(open_, s.entry + params_.membrane_margin + params_.membrane_edge);
         events_ |= ContactEvent::kMembranePopped;
       }
@@ -374,6 +385,8 @@ void NeedleContact::update(const Pose& X_JN, std::span<const TissueInterval> int
   moved_ = adopt_ ? 0 : (X_JN.translation() - last_tip).norm();
   tick_.tip = X_JN.translation();
   tick_.pushed = tissue.pushed;
+  gives_way_ = tissue.gives_way;
+  if (tick_.dimple <= 0) lasting_ = 0;
   carried_J_ = tissue.carried_J;
   update_velocity(X_JN);
   if (!inserted_) {

@@ -59,6 +59,7 @@ struct ContactParams {
 
 /// How the tissue at the tip gave way, m.
 struct TipTissue {
+  bool gives_way = false;         ///< false: rigid
   double pushed = 0;              ///< along the needle, by its tip
   Vec3 carried_J = Vec3::Zero();  ///< from its rest, by all else
 };
@@ -107,6 +108,7 @@ class NeedleContact {
   void start_line(const NeedlePlace& place) noexcept;
   [[nodiscard]] double gave_way_at(const LayerHaptics& skin, double strength,
                                    double thickness) const noexcept;
+  [[nodiscard]] double lasting_force(const LayerHaptics& membrane, double dimple) noexcept;
   void tear(double force, double dimple) noexcept;
   void follow_line(const Pose& X_JN) noexcept;
   [[nodiscard]] double clearance() const noexcept;
@@ -147,6 +149,8 @@ class NeedleContact {
   bool adopt_ = true;
   bool on_bone_ = false;
   bool was_outside_ = true;
+  bool gives_way_ = false;           // whether tissue does
+  double lasting_ = 0;               // m, the dimple that decides whether a membrane holds
   double moved_ = 0;                 // m, the tip in this tick
   double bone_ = 0;                  // m, where bone is felt to begin while the tip is on it
   double held_ = 0;                  // m, how far the tip was in bone when its line last was

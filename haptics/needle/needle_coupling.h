@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <algorithm>
 #include <span>
 
 #include "artus/core/check.h"
@@ -50,6 +51,13 @@ class NeedleCoupling {
     return (static_cast<double>(point) + 0.5) * compliance_.spacing;
   }
   [[nodiscard]] double spacing() const noexcept { return compliance_.spacing; }
+  /// m of the shaft between two depths, m, that a point stands for: no border that passes a point
+  /// changes what holds it all at once.
+  [[nodiscard]] ARTUS_REALTIME double held_by(std::size_t point, double from,
+                                              double to) const noexcept {
+    const double begin = static_cast<double>(point) * compliance_.spacing;
+    return std::max(0.0, std::min(to, begin + compliance_.spacing) - std::max(from, begin));
+  }
 
   /// Advances by one period in which the needle moved by `moved` m along its axis in space. `depth`
   /// m: of the tip in the material; `tip_force` N that the tip puts on the tissue, whose layer has

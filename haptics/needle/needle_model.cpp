@@ -89,7 +89,8 @@ double NeedleModel::cutting_force(const NeedleTick& tick) noexcept {
 
 const NeedleForces& NeedleModel::step(const Pose& X_JN,
                                       std::span<const TissueInterval> intervals) noexcept {
-  contact_.update(material(X_JN), intervals, {coupling_.tip_displacement(), carried_});
+  contact_.update(material(X_JN), intervals,
+                  {coupling_.active(), coupling_.tip_displacement(), carried_});
   feel_as_the_hand();
   const NeedleTick& tick = felt_;
   forces_ = NeedleForces{};
@@ -145,26 +146,23 @@ Pose NeedleModel::material(const Pose& X_JN) const noexcept {
   return X;
 }
 
-/// The tip pushes soft tissue, not the bone under it; the shaft drags what friction holds. What it
-/// holds of a needle at rest relaxes as a slower needle's does (LugreParams::relaxation_time).
+/// The tip pushes soft tissue, not the bone under it; the shaft drags what friction holds. How much
+/// that is follows the needle's speed within LugreParams::relaxation_time, up and down: at once
+/// upward it would be the peaks of an estimated speed, more of which are met at a higher rate.
 void NeedleModel::couple(const Pose& X_JN) noexcept {
   const NeedleTick& tick = contact_.tick();
   const double cut = forces_.cutting + forces_.attracted;
   const double held = tick.depth > tick.bone_depth ? tick.layer.tissue.cutting_force : -cut;
   const double tip_force = -forces_.prepuncture + std::min(-cut, held);
   const double level = (1 - tick.stillness) * lugre_level(params_.friction, tick.velocity);
-  grip_ += std::max(0.0, level - grip_) +
-           std::min(0.0, level - grip_) * std::min(1.0, tick.dt / params_.friction.relaxation_time);
+  grip_ += (level - grip_) * (1 - std::exp(-tick.dt / params_.friction.relaxation_time));
   NeedleCompliance::Column limits{};
   for (const ShaftLayer& s : tick.shaft) {
     const Haptic& layer = (*tick.table)[s.region].tissue;
     if (!contact_.inserted() || layer.hard) continue;
-    const double per_point =
-        layer.cutting_force * layer.friction * coupling_.spacing() / params_.friction.length;
-    for (std::size_t i = 0; i < coupling_.points(); ++i) {
-      const double depth = coupling_.depth_of(i);
-      if (depth >= s.entry && depth < s.exit && depth < tick.depth) limits[i] = per_point * grip_;
-    }
+    const double per_length = layer.cutting_force * layer.friction / params_.friction.length;
+    for (std::size_t i = 0; i < coupling_.points(); ++i)
+      limits[i] += grip_ * per_length * coupling_.held_by(i, s.entry, std::min(s.exit, tick.depth));
   }
   const double moved = (X_JN.translation() - carried_ - last_tip_).dot(tick.axis);
   const double moved_in = contact_.inserted() ? moved : 0;

@@ -85,7 +85,7 @@ class NeedleModel {
   Vec3 carried_to_ = Vec3::Zero();  // by the newest packet
   double follow_;                   // share of the way in a tick
   NeedleTick felt_;                 // the contact's tick, with tip and depth as the hand has them
-  double grip_ = 0;                 // friction's level g(v), which falls with its relaxation time
+  double grip_ = 0;                 // friction's level g(v), followed within its relaxation time
   Vec3 last_tip_ = Vec3::Zero();
   NeedleForces forces_;
 };

@@ -137,6 +137,26 @@ TEST(NeedleCoupling, ShaftDragsUntilEachPointSlipsAndThenHoldsTheSumOfTheLimits)
   EXPECT_LT(needle.tip_displacement(), 1e-9);
 }
 
+/// A border that lies on a point would else hold it or not by a rounding.
+TEST(NeedleCoupling, PointsShareTheShaftWithoutAGapWhereverABorderLies) {
+  NeedleCoupling needle(kCouplingTick);
+  NeedleCompliance c = tissue();
+  c.spacing = 2e-3;
+  needle.take(c);
+  for (const double border : {0.0, 0.4e-3, 1e-3, 5e-3, 21e-3, 31.9e-3}) {
+    double before = 0;
+    double behind = 0;
+    for (std::size_t i = 0; i < needle.points(); ++i) {
+      before += needle.held_by(i, 0, border);
+      behind += needle.held_by(i, border, 32e-3);
+      const double less = needle.held_by(i, 0, border - 1e-9);
+      EXPECT_NEAR(needle.held_by(i, 0, border), less, 1.001e-9) << border;
+    }
+    EXPECT_NEAR(before, border, 1e-12);
+    EXPECT_NEAR(behind, 32e-3 - border, 1e-12);
+  }
+}
+
 TEST(NeedleCoupling, FrictionTakesEnergyInEveryTickOfATremblingHand) {
   NeedleCouplingParams exact;
   exact.sweeps = 200;
@@ -302,6 +322,27 @@ TEST(NeedleCoupling, SkinTentsBeforeItGivesWayAndTheTipThenIsDeeperInTheTissue) 
   const double left = soft.model().coupling().tip_displacement();
   EXPECT_LT(left, 0.5 * tent);
   EXPECT_NEAR(soft.model().contact().tick().depth - before, tent - left, 0.1 * tent);
+}
+
+/// Tissue follows the tip later than an encoder's steps come: each is a peak of force, and a tick
+/// may meet it or not.
+TEST(NeedleCoupling, AnEncodersStepsDoNotDecideWhereSkinGivesWay) {
+  constexpr double kStep = 0.055e-3;
+  constexpr double kSpeed = 27e-3;
+  double nearest = 1;
+  double farthest = 0;
+  for (int phase = 0; phase < 20; ++phase) {
+    CoupledInsertion needle(1);
+    double z = -1e-3 - phase * 1.7e-6;
+    while (!needle.model().contact().inserted() && z < 0.02) {
+      z += kSpeed * kCouplingTick;
+      needle.at(kStep * std::round(z / kStep));
+    }
+    nearest = std::min(nearest, z);
+    farthest = std::max(farthest, z);
+  }
+  EXPECT_GT(nearest, 1e-3);
+  EXPECT_LT(farthest - nearest, kStep);
 }
 
 TEST(NeedleCoupling, PlateauOfTheCutStaysTheSameAtTheHand) {
