@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "artus/core/check.h"
+#include "artus/core/csv.h"
+#include "artus/core/units.h"
 
 namespace artus {
 namespace {
@@ -34,6 +37,16 @@ Press hold(SoftBody& body, const Pose& X_JP, double depth, Until until) {
   return press;
 }
 
+/// Why a press as deep as may be does not give the force.
+std::string too_soft(const Press& press, double force) {
+  const std::string depth = to_csv(press.depth / kMillimetre) + " mm of press";
+  if (press.normal_force < kNear * force)
+    return "the face meets no tissue that gives way within " + depth +
+           ": it must lie on the skin, and not within bone or in the air";
+  return "the tissue does not hold " + to_csv(force) +
+         " N: " + to_csv(std::round(press.normal_force / 1e-3) * 1e-3) + " N at " + depth;
+}
+
 }  // namespace
 
 Press press_by(SoftBody& body, const Pose& X_JP, double depth) {
@@ -48,9 +61,7 @@ Result<Press> press_with(SoftBody& body, const Pose& X_JP, double force, double 
     below = hold(body, X_JP, below.depth - kStep, Until::near);
   Press above = below;
   while (above.normal_force < force) {
-    if (above.depth + kStep > most_depth)
-      return fail(ErrorCode::failed, "the tissue does not hold the force asked for: " +
-                                         std::to_string(above.normal_force) + " N at the most");
+    if (above.depth + kStep > most_depth) return fail(ErrorCode::failed, too_soft(above, force));
     below = above;
     above = hold(body, X_JP, above.depth + kStep, Until::near);
   }

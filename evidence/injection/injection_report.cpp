@@ -121,9 +121,14 @@ double mean_flow(const InjectionRun& run) {
 
 std::vector<std::string> notes_of(const InjectionRun& run) {
   constexpr double kKept = 0.8;  // of the rate; slower is another injection than was asked for
+  constexpr double kRises = 1;   // s in which the flow of a syringe rises
   std::vector<std::string> notes;
   const double flow = mean_flow(run);
-  if (run.given > 0 && flow < kKept * run.spec.rate)
+  const bool slow = run.given > 0 && flow < kKept * run.spec.rate;
+  if (slow && run.spec.volume < kRises * run.spec.rate)
+    notes.push_back(printed("%.3g ml are out before the flow comes to %.3g ml/s",
+                            run.spec.volume / kCubicCentimetre, run.spec.rate / kCubicCentimetre));
+  else if (slow)
     notes.push_back(
         printed("the rate was not kept: %.3g of %.3g ml/s, with up to %.0f N on a "
                 "plunger of %.0f mm2; a smaller barrel or a wider needle gives more",

@@ -65,6 +65,21 @@ TEST_F(SoftBodyTest, AFaceThatBeginsInsideTheSkinIsLiftedUntilItHoldsTheForce) {
   EXPECT_NEAR(lifted->depth, -kDeeper, 0.1e-3);
 }
 
+TEST_F(SoftBodyTest, AFaceWithinBoneIsToldSo) {
+  auto body = SoftBody::make(joint, joint->X_JP_default, quick());
+  ASSERT_TRUE(body);
+  Pose X_JP = joint->X_JP_default;
+  for (std::size_t t = 0; t < joint->mesh.tetrahedra.size(); ++t) {
+    if (!joint->tissue_of(joint->mesh.regions[t]).haptic.hard) continue;
+    X_JP.translation() = joint->mesh.vertices[joint->mesh.tetrahedra[t][0]];
+    break;
+  }
+  const auto press = press_with(*body, X_JP, 1.0, 2e-3);
+  ASSERT_FALSE(press);
+  EXPECT_NE(press.error().to_string().find("not within bone"), std::string::npos)
+      << press.error().to_string();
+}
+
 TEST_F(SoftBodyTest, PressedJointHoldsTheHandAndItsBonesStay) {
   auto body = SoftBody::make(joint, joint->X_JP_default, quick());
   ASSERT_TRUE(body);

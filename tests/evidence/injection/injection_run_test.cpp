@@ -173,6 +173,12 @@ TEST(InjectionRun, ARateThatTheThumbCannotKeepIsTold) {
   ASSERT_TRUE(kept);
   EXPECT_NEAR(mean_flow(*kept), 0.1e-6, 0.01e-6);
   EXPECT_TRUE(notes_of(*kept).empty()) << notes_of(*kept).front();
+  spec.volume = 0.02e-6;
+  const auto tiny = run_injection(*scene, spec);
+  ASSERT_TRUE(tiny);
+  ASSERT_EQ(notes_of(*tiny).size(), 1U);
+  EXPECT_EQ(notes_of(*tiny).front(), "0.02 ml are out before the flow comes to 0.1 ml/s");
+  spec.volume = 4e-6;
   spec.plunger.syringe = syringe_for(50e-6);
   spec.plunger.syringe.filled = 5e-6;
   spec.rate = 2e-6;
