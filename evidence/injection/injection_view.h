@@ -7,7 +7,7 @@ namespace artus {
 
 /// Where a probe lies, and how well it sees the tip.
 struct FoundView {
-  Pose X_JP;
+  Pose X_JP = Pose::Identity();
   double merit = 0;  ///< 0: not at all; about 3: the whole face on the skin, nothing hides the tip
 };
 

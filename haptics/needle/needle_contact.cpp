@@ -170,7 +170,7 @@ void NeedleContact::approach(const Pose& X_JN, std::span<const TissueInterval> i
   const double force = prepuncture_force(prepuncture_, skin, depth, tick_.velocity);
   skin_.touch(now);
   const double strength = skin_.wholeness() * skin.tissue.puncture_force;
-  if (strength > 0 && lasting_force(skin, depth) < strength && depth < thickness) {
+  if (strength > 0 && still_holds(skin, depth, force, strength) && depth < thickness) {
     skin_.remember(now);
     state_ = ContactState::touching;
     region_ = intervals[first].region;
@@ -183,13 +183,17 @@ void NeedleContact::approach(const Pose& X_JN, std::span<const TissueInterval> i
   events_ |= ContactEvent::kSkinPunctured;
 }
 
-// What a membrane is pushed with, N, for as long as it takes to give way. Tissue follows the tip
-// later than a device's steps of place come, so that each is felt as a short peak; which of them
-// the loop's ticks meet must not decide.
-double NeedleContact::lasting_force(const LayerHaptics& membrane, double dimple) noexcept {
+// Whether a membrane of so much strength holds `force`, N. Tissue follows the tip later than a
+// device's steps of place come, so that each is felt as a short peak; which of them the loop's
+// ticks meet must not decide: there it gives way to what lasts, or at once to what is far more.
+bool NeedleContact::still_holds(const LayerHaptics& membrane, double dimple, double force,
+                                double strength) noexcept {
   constexpr double kGiveWay = 5e-3;  // s; assumed: of two or three such steps
-  lasting_ = gives_way_ ? lasting_ + (1 - std::exp(-dt_ / kGiveWay)) * (dimple - lasting_) : dimple;
-  return prepuncture_force(prepuncture_, membrane, lasting_, tick_.velocity);
+  constexpr double kFarMore = 1.25;  // assumed: a step of 0.055 mm adds 0.14 N to 1 N or more
+  if (!gives_way_) return force < strength;
+  lasting_ += (1 - std::exp(-dt_ / kGiveWay)) * (dimple - lasting_);
+  return force < kFarMore * strength &&
+         prepuncture_force(prepuncture_, membrane, lasting_, tick_.velocity) < strength;
 }
 
 void NeedleContact::tear(double force, double dimple) noexcept {
@@ -312,8 +316,9 @@ void NeedleContact::find_tip_layers() noexcept {
     if (!held && strength > 0) {
       const double dimple = x - s.entry;
       const double force = prepuncture_force(prepuncture_, layer, dimple, tick_.velocity);
-      const double lasting = i > passed ? lasting_force(layer, dimple) : force;
-      if (lasting < strength && x < s.exit) {
+      const bool holds =
+          i > passed ? still_holds(layer, dimple, force, strength) : force < strength;
+      if (holds && x < s.exit) {
         held = true;
         if (strength == layer.tissue.puncture_force) {
           open_ = std::min(open_, s.entry);  // its surface may move under a needle that sways

@@ -108,7 +108,8 @@ class NeedleContact {
   void start_line(const NeedlePlace& place) noexcept;
   [[nodiscard]] double gave_way_at(const LayerHaptics& skin, double strength,
                                    double thickness) const noexcept;
-  [[nodiscard]] double lasting_force(const LayerHaptics& membrane, double dimple) noexcept;
+  [[nodiscard]] bool still_holds(const LayerHaptics& membrane, double dimple, double force,
+                                 double strength) noexcept;
   void tear(double force, double dimple) noexcept;
   void follow_line(const Pose& X_JN) noexcept;
   [[nodiscard]] double clearance() const noexcept;

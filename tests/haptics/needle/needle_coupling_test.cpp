@@ -345,6 +345,19 @@ TEST(NeedleCoupling, AnEncodersStepsDoNotDecideWhereSkinGivesWay) {
   EXPECT_LT(farthest - nearest, kStep);
 }
 
+/// However fast the hand is, a membrane holds no more than a quarter above its strength.
+TEST(NeedleCoupling, AStabIsHeldByNoMoreThanAMembranesStrength) {
+  for (const double speed : {0.02, 0.1, 0.3, 1.0}) {
+    CoupledInsertion needle(1);
+    double most = 0;
+    while (needle.z() < 0.015) {
+      needle.at(needle.z() + speed * kCouplingTick);
+      most = std::max(most, -needle.model().forces().prepuncture);
+    }
+    EXPECT_LT(most, 1.25 * 1.5) << speed;
+  }
+}
+
 TEST(NeedleCoupling, PlateauOfTheCutStaysTheSameAtTheHand) {
   CoupledInsertion rigid(0);
   CoupledInsertion soft(1);
