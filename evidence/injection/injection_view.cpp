@@ -9,7 +9,7 @@
 #include <span>
 
 #include "artus/core/units.h"
-#include "artus/evidence/medical/three_injections_analysis.h"
+#include "artus/evidence/medical/probe_in_plane.h"
 
 namespace artus {
 namespace {

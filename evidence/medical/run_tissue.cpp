@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "artus/core/noise.h"
-#include "artus/evidence/medical/three_injections_analysis.h"
+#include "artus/evidence/medical/probe_in_plane.h"
 #include "artus/evidence/medical/three_injections_probe.h"
 
 namespace artus {

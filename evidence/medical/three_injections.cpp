@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "artus/core/units.h"
+#include "artus/evidence/medical/probe_in_plane.h"
 #include "artus/evidence/medical/run_tissue.h"
 #include "artus/evidence/medical/target_syringe.h"
 #include "artus/evidence/medical/three_injections_analysis.h"

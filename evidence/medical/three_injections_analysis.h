@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 #include "artus/evidence/medical/three_injections.h"
-#include "artus/raycast/scene.h"
 
 namespace artus {
-
-/// A probe on the skin whose image plane holds the needle, as near to the joint's default pose as
-/// that allows; the default itself when the needle is (nearly) along the beam.
-[[nodiscard]] Pose probe_in_plane(const Scene& scene, const Pose& X_JN);
 
 /// Fills plateaus, touches and claims from the rows. `reached`: every phase met its goal in time.
 void analyze(const CompiledJoint& joint, bool reached, ThreeInjections& run);

@@ -7,6 +7,7 @@
 
 #include "artus/core/units.h"
 #include "artus/evidence/injection/injection_run.h"
+#include "artus/evidence/medical/probe_in_plane.h"
 #include "tests/support/layered_body.h"
 
 namespace artus {
@@ -31,6 +32,18 @@ TEST(FindView, HasTheNeedleInItsPlaneTheTipBeforeItsFaceAndTheFaceOnTheSkin) {
       for (const double at : {-0.8, 0.0, 0.8})
         EXPECT_LT(std::abs((X_JP * Vec3(at * kWidth / 2, 0, 0)).z()), 3e-3) << along.transpose();
     }
+}
+
+TEST(ProbeInPlane, HasTheNeedleInItsPlaneUnlessThatIsAlongTheBeam) {
+  const Scene scene(
+      std::make_shared<const CompiledJoint>(test::make_layered_block(kLayers, 0.12, 0.12)));
+  const Pose& rest = scene.joint().X_JP_default;
+  const Vec3 axis = Vec3(0.5, 0.4, 0.8).normalized();
+  const Pose X_JP = probe_in_plane(scene, make_pose(Vec3(5e-3, 8e-3, 15e-3), axis, Vec3::UnitX()));
+  EXPECT_NEAR((X_JP.linear().transpose() * axis).y(), 0, 1e-9);
+  EXPECT_NEAR((X_JP.inverse() * Vec3(5e-3, 8e-3, 15e-3)).y(), 0, 1e-9);
+  const Pose along = make_pose(Vec3(0, 0, 15e-3), rest.linear().col(2), rest.linear().col(0));
+  EXPECT_TRUE(probe_in_plane(scene, along).isApprox(rest));
 }
 
 TEST(FindView, LooksBesideBoneThatLiesBeforeTheTip) {

@@ -246,6 +246,7 @@ TEST(NeedleCoupling, NeitherAllocatesNorLocks) {
   ARTUS_RUNS_REALTIME(NeedleCoupling::take, needle.take(soft));
   ARTUS_RUNS_REALTIME(NeedleCoupling::step, test::use(needle.step(1e-4, 0.01, 0.5, 0, limits)));
   ARTUS_RUNS_REALTIME(NeedleCoupling::tip_compliance, test::use(needle.tip_compliance(0.01)));
+  ARTUS_RUNS_REALTIME(NeedleCoupling::held_by, test::use(needle.held_by(1, 0, 4e-3)));
   ARTUS_RUNS_REALTIME(NeedleCoupling::cube_load, test::use(needle.cube_load()));
   ARTUS_RUNS_REALTIME(NeedleCoupling::reset, needle.reset());
 }
