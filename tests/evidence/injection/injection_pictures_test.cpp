@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/evidence/injection/injection_pictures.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include <opencv2/videoio.hpp>
 
@@ -84,6 +86,28 @@ TEST_F(InjectionVideo, PicturesSayHowWideAndThickTheLiquidIsWhateverTheBeamsSlan
     seen.push_back(*pictures);
   }
   EXPECT_NEAR(seen[0].seen_width, seen[1].seen_width, 0.1 * seen[0].seen_width);
+}
+
+TEST(InjectionPictures, ABursaThatOpensTooWideOrTooFarFailsWhetherItIsConfinedOrNot) {
+  const auto failed = [](double given, double opening, double width, bool confined) {
+    InjectionRun run;
+    run.target_like = "bursa";
+    run.given = given;
+    InjectionPictures pictures;
+    pictures.opening = opening;
+    pictures.seen_width = width;
+    pictures.confined = confined;
+    const auto claims = claims_of(run, pictures);
+    return std::pair(claims.size(), std::count_if(claims.begin(), claims.end(),
+                                                  [](const Claim& c) { return !c.pass; }));
+  };
+  for (const bool confined : {false, true}) {
+    EXPECT_EQ(failed(5e-6, 5.9e-3, 29e-3, confined), std::pair(std::size_t{2}, std::ptrdiff_t{0}));
+    EXPECT_EQ(failed(5e-6, 5.9e-3, 32e-3, confined).second, 1);
+    EXPECT_EQ(failed(5e-6, 10e-3, 73e-3, confined).second, 2);
+  }
+  EXPECT_EQ(failed(1e-6, 1e-3, 20e-3, false).first, 0U) << "published for 5 ml alone";
+  EXPECT_EQ(failed(5e-6, 4e-3, 0, false).first, 1U) << "no width is seen by a curved probe";
 }
 
 }  // namespace
