@@ -95,7 +95,11 @@ void Acquisition::run(const EchoBody& body, const EchoView& view, BlockWorkers& 
   workers.for_blocks(n_lines_, [&](int block, int first, int last) {
     LineScratch& scratch = scratch_[static_cast<std::size_t>(block)];
     scratch.guide = LineScratch::kNoLine;
-    for (int l = first; l < last; ++l) listen(pass, l, scratch);
+    for (int l = first; l < last; ++l)
+      lines_[static_cast<std::size_t>(l)] = place_line(pass.view.probe, l, pass.view.X_JP);
+    const auto row = std::span(lines_).subspan(static_cast<std::size_t>(first),
+                                               static_cast<std::size_t>(last - first));
+    for (std::size_t l = 0; l < row.size(); ++l) listen(pass, row, l, scratch);
   });
   workers.for_blocks(n_lines_, [&](int, int first, int last) {
     for (int l = first; l < last; ++l) {
@@ -106,12 +110,13 @@ void Acquisition::run(const EchoBody& body, const EchoView& view, BlockWorkers& 
   });
 }
 
-void Acquisition::listen(const Pass& pass, int l, LineScratch& scratch) {
+void Acquisition::listen(const Pass& pass, std::span<const PlacedLine> row, std::size_t of_row,
+                         LineScratch& scratch) {
+  const PlacedLine& placed = row[of_row];
+  const int l = placed.index;
   const auto at = static_cast<std::size_t>(l);
-  PlacedLine& placed = lines_[at];
-  placed = place_line(pass.view.probe, l, pass.view.X_JP);
   const EchoSpan echoes = line_of(re_, im_, l);
-  synthesis_.synthesise(pass.tracer, placed, scratch, echoes);
+  synthesis_.synthesise(pass.tracer, row, of_row, scratch, echoes);
   spread_.note(l, scratch.bent);
   const SoundedLine sounded{placed, scratch.central(), scratch.bent};
   for (const Track& track : tracks_) track.echo.add_track(track.amplitude, sounded, echoes);

@@ -77,7 +77,8 @@ class Acquisition {
     double amplitude;
   };
   void place_tracks(const EchoBody& body, const EchoView& view);
-  void listen(const Pass& pass, int l, LineScratch& scratch);
+  void listen(const Pass& pass, std::span<const PlacedLine> row, std::size_t of_row,
+              LineScratch& scratch);
   void add_needle(const Pass& pass, const SoundedLine& sounded);
   [[nodiscard]] EchoSpan line_of(std::vector<float>& re, std::vector<float>& im, int l) const;
 

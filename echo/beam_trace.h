@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "artus/echo/material_map.h"
+#include "artus/raycast/plane_cache.h"
 #include "artus/raycast/scene.h"
 #include "artus/soft/rest_way.h"
 
@@ -75,6 +76,7 @@ struct BeamTrace {
   bool contact = true;       ///< false: air between face and skin
   /// Room for one query, kept with the trace because clearing it would cost as much as the query.
   std::array<TissueInterval, kMaxIntervals> intervals;
+  PlaneCache planes;  ///< of the beams before
 
   /// Forgets the last beam.
   void clear() noexcept {

@@ -15,13 +15,13 @@ constexpr int kLevels = 64;
 
 /// A triangle of a region's surface: heights of its corners, rising, and its outward area as seen
 /// from above.
-struct Facet {
+struct FacetHeights {
   std::array<double, 3> z{};  // m
   double area = 0;            // m^2
 };
 
 /// Integral over the facet, seen from above, of how far it lies above `level`, m^3.
-double volume_above(const Facet& facet, double level) {
+double volume_above(const FacetHeights& facet, double level) {
   const double low = facet.z[0] - level;
   const double middle = facet.z[1] - level;
   const double high = facet.z[2] - level;
@@ -32,15 +32,16 @@ double volume_above(const Facet& facet, double level) {
   return facet.area * (mean - low * low * low / (3 * (middle - low) * (high - low)));
 }
 
-std::vector<Facet> facets_of(const CompiledJoint& joint, RegionId region, const Vec3& up) {
-  std::vector<Facet> facets;
+std::vector<FacetHeights> facets_of(const CompiledJoint& joint, RegionId region, const Vec3& up) {
+  std::vector<FacetHeights> facets;
   for (const Interface& f : joint.mesh.interfaces) {
     if ((f.front == region) == (f.back == region)) continue;
     const auto at = [&](std::size_t k) -> const Vec3& {
       return joint.mesh.vertices[f.vertices[k]];
     };
     const double area = 0.5 * up.dot((at(1) - at(0)).cross(at(2) - at(0)));
-    Facet facet{{up.dot(at(0)), up.dot(at(1)), up.dot(at(2))}, f.back == region ? area : -area};
+    FacetHeights facet{{up.dot(at(0)), up.dot(at(1)), up.dot(at(2))},
+                       f.back == region ? area : -area};
     std::sort(facet.z.begin(), facet.z.end());
     facets.push_back(facet);
   }
@@ -54,13 +55,13 @@ ClearLevels::ClearLevels(const CompiledJoint& joint, const Vec3& up_J) {
     const auto region = static_cast<RegionId>(r);
     const Tissue& tissue = joint.tissue_of(region);
     if (!is_injected(tissue.name) || !(tissue.acoustic.backscatter > 0)) continue;
-    const std::vector<Facet> facets = facets_of(joint, region, up_J);
+    const std::vector<FacetHeights> facets = facets_of(joint, region, up_J);
     if (facets.empty()) continue;
     Table table;
     table.region = region;
     double bottom = std::numeric_limits<double>::infinity();
     table.top = -bottom;
-    for (const Facet& facet : facets) {
+    for (const FacetHeights& facet : facets) {
       table.roof += std::max(0.0, facet.area);
       table.top = std::max(table.top, facet.z[2]);
       bottom = std::min(bottom, facet.z[0]);
@@ -68,7 +69,8 @@ ClearLevels::ClearLevels(const CompiledJoint& joint, const Vec3& up_J) {
     table.step = (table.top - bottom) / (kLevels - 1);
     for (int k = 0; k < kLevels; ++k) {
       double sum = 0;
-      for (const Facet& facet : facets) sum += volume_above(facet, table.top - k * table.step);
+      for (const FacetHeights& facet : facets)
+        sum += volume_above(facet, table.top - k * table.step);
       table.above.push_back(std::max(sum, k == 0 ? 0 : table.above.back()));
     }
     tables_.push_back(std::move(table));

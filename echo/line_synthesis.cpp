@@ -20,7 +20,7 @@ constexpr std::size_t kTailSamples = 16;  // samples
 constexpr double kHaze = 0.1;       // assumed: -20 dB at the face, +6 for both orders of the way,
                                     // -6 because its second leg is out of focus
 constexpr float kSheet = 1.6F;      // texture above which a sheet reflects coherently
-constexpr double kGuided = 0.4e-3;  // m from a beam, where the tissue is by its displacement and
+constexpr double kGuided = 0.8e-3;  // m from a beam, where the tissue is by its displacement and
                                     // gradient there
 constexpr double kSheetEcho = 1.5;  // assumed: coherent amplitude over scattered, per unit above
 
@@ -111,7 +111,7 @@ LineSynthesis::LineSynthesis(const BeamShape& shape, const ScatterField& scatter
       has_texture_(settings.texture),
       reverberates_(settings.reverberation),
       n_planes_(settings.n_planes),
-      n_guided_(1 + static_cast<int>(kGuided / shape.line_spacing(settings.depth))),
+      n_beside_(static_cast<int>(kGuided / shape.line_spacing(settings.depth))),
       pitch_(transducer.pitch()) {}
 
 /// The nodes of a run whose tissue lay in `pieces`; those behind the last sample go on straight.
@@ -253,28 +253,40 @@ void LineSynthesis::add_haze(const BeamTrace& trace, EchoSpan echoes) noexcept {
   scale_add(share, echoes.im.data(), echoes.im.data() + shift, n);
 }
 
-void LineSynthesis::trace_middle(const BeamTracer& tracer, const PlacedLine& placed,
-                                 LineScratch& scratch) const noexcept {
-  if (tracer.gives_way() && scratch.guide != LineScratch::kNoLine &&
-      placed.index < scratch.guide + n_guided_) {
+void LineSynthesis::trace_middle(const BeamTracer& tracer, std::span<const PlacedLine> row,
+                                 std::size_t l, LineScratch& scratch) const noexcept {
+  const PlacedLine& placed = row[l];
+  scratch.own = 0;
+  if (!tracer.gives_way()) {
+    tracer.trace_bent(placed.origin_J, placed.direction_J, scratch.central(), scratch.bent);
+    return;
+  }
+  const auto guide_by = [&](const PlacedLine& line) {
+    scratch.guide = line.index;
+    tracer.trace_bent(line.origin_J, line.direction_J, scratch.middle.front(), scratch.guide_bent);
+  };
+  if (scratch.guide == LineScratch::kNoLine || placed.index > scratch.guide + n_beside_)
+    guide_by(row[std::min(l + static_cast<std::size_t>(n_beside_), row.size() - 1)]);
+  if (placed.index != scratch.guide) {
     scratch.own = 1;
     tracer.trace_bent(placed.origin_J, placed.direction_J, scratch.central(), scratch.bent,
                       &scratch.middle.front());
     if (!scratch.central().outran) return;
+    scratch.own = 0;
+    guide_by(placed);
   }
-  scratch.own = 0;
-  scratch.guide = placed.index;
-  tracer.trace_bent(placed.origin_J, placed.direction_J, scratch.central(), scratch.bent);
+  scratch.bent = scratch.guide_bent;
 }
 
-void LineSynthesis::synthesise(const BeamTracer& tracer, const PlacedLine& placed,
-                               LineScratch& scratch, EchoSpan echoes) const {
+void LineSynthesis::synthesise(const BeamTracer& tracer, std::span<const PlacedLine> row,
+                               std::size_t l, LineScratch& scratch, EchoSpan echoes) const {
+  const PlacedLine& placed = row[l];
   scratch.gain.resize(3 * echoes.size() + 8 * kNodeStride);
   scratch.pieces.reserve(BeamTrace::kMax + BeamTrace::kMaxKnots);
   scratch.room.resize(echoes.size());
   std::fill(echoes.re.begin(), echoes.re.end(), 0.0F);
   std::fill(echoes.im.begin(), echoes.im.end(), 0.0F);
-  trace_middle(tracer, placed, scratch);
+  trace_middle(tracer, row, l, scratch);
   const BeamTrace& central = scratch.central();
   const Vec3& elevation = placed.elevation_J;
   scratch.view = scatter_->make_view(placed.direction_J, elevation);

@@ -20,9 +20,10 @@ namespace artus {
 /// What one worker needs to synthesise a line; reused so that rendering does not allocate.
 struct LineScratch {
   static constexpr int kNoLine = -1;
-  std::array<BeamTrace, 2> middle;  // of this line, and of the one that guides it
+  std::array<BeamTrace, 2> middle;  // of the line that guides, and of this one
   std::size_t own = 0;              // of the two
   int guide = kNoLine;              // line whose beam is the first
+  BeamPath guide_bent;              // its way
   BeamTrace side;
   BeamPath bent;
   BeamPath plane;
@@ -43,11 +44,12 @@ class LineSynthesis {
   LineSynthesis(const BeamShape& shape, const ScatterField& scatter, const TissueTexture& texture,
                 const Transducer& transducer, const ImageSettings& settings) noexcept;
 
-  /// Fills `echoes`, n_samples long, and leaves the central beam in `scratch`. In tissue that gives
-  /// way a few lines beside each other are guided by the first of them (LineScratch::guide, to be
-  /// set to none before the first of a row of ascending lines).
-  void synthesise(const BeamTracer& tracer, const PlacedLine& placed, LineScratch& scratch,
-                  EchoSpan echoes) const;
+  /// Fills `echoes`, n_samples long, with those of line `l` of a row of neighbours and leaves its
+  /// central beam in `scratch`. In tissue that gives way lines near each other are guided by one of
+  /// them: the lines of a row are asked for in order, with LineScratch::guide set to none before
+  /// the first.
+  void synthesise(const BeamTracer& tracer, std::span<const PlacedLine> row, std::size_t l,
+                  LineScratch& scratch, EchoSpan echoes) const;
 
  private:
   /// What the runs of one scanline have in common.
@@ -59,7 +61,7 @@ class LineSynthesis {
     ScatterRoom& room;
     std::span<const BeamKnot> knots;  // of the plane at hand
   };
-  void trace_middle(const BeamTracer& tracer, const PlacedLine& placed,
+  void trace_middle(const BeamTracer& tracer, std::span<const PlacedLine> row, std::size_t l,
                     LineScratch& scratch) const noexcept;
   void add_plane(int plane, const BeamTrace& trace, Ground& ground, EchoSpan echoes) const;
   void sample_moved_texture(const BeamRun& run, const RegionAcoustics& region,
@@ -78,7 +80,7 @@ class LineSynthesis {
   bool has_texture_;
   bool reverberates_;
   int n_planes_;
-  int n_guided_;  // lines by one of them
+  int n_beside_;  // lines on either side of one that it guides
   double pitch_;  // m between scanlines
 };
 

@@ -269,7 +269,8 @@ bool BeamTracer::pass(Walk& walk, const Vec3& from, const Vec3& direction, doubl
                       double time_scale) const noexcept {
   auto& intervals = walk.trace.intervals;
   walk.begin_line(from, direction, time_scale);
-  const QueryCount count = scene_->find_intervals({from, from + length * direction}, intervals);
+  const QueryCount count =
+      scene_->find_intervals({from, from + length * direction}, intervals, &walk.trace.planes);
   for (std::size_t k = 0; k < count.size; ++k) {
     const TissueInterval& interval = intervals[k];
     const double thickness = interval.exit - interval.entry;

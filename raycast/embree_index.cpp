@@ -2,6 +2,7 @@
 #include "artus/raycast/embree_index.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -36,8 +37,9 @@ struct Passage {
   double depth = 0;
 };
 
-Passage pass(const EmbreeIndex& index, std::uint32_t i, const Line& line) noexcept {
-  const FacetPlane plane = index.plane(i);
+Passage pass(const EmbreeIndex& index, std::uint32_t i, const Line& line,
+             PlaneCache* planes = nullptr) noexcept {
+  const FacetPlane plane = index.plane(i, planes);
   Passage passage;
   passage.cosine = plane.normal.dot(line.direction);
   passage.depth = (plane.offset - plane.normal.dot(line.origin)) / passage.cosine;
@@ -74,6 +76,7 @@ struct Candidate {
 struct GatherQuery {
   EmbreeContext context;
   const EmbreeIndex* index;
+  const PlaneCache* planes;
   std::size_t size;
   bool overflow;
   bool doubtful;
@@ -105,7 +108,8 @@ void gather_hit(const RTCFilterFunctionNArguments* args) noexcept {
   const Candidate candidate{interface_of(args), RTCRayN_tfar(args->ray, args->N, 0)};
   query.index->prefetch_plane(
       candidate.interface,
-      query.size > 0 ? query.candidates[query.size - 1].interface : candidate.interface);
+      query.size > 0 ? query.candidates[query.size - 1].interface : candidate.interface,
+      query.planes);
   const float u = RTCHitN_u(args->hit, args->N, 0);
   const float v = RTCHitN_v(args->hit, args->N, 0);
   query.doubtful |= std::min({u, v, 1 - u - v}) < kDoubtfulBarycentric;
@@ -323,7 +327,8 @@ void EmbreeIndex::move(std::size_t group, std::span<const std::uint32_t> vertice
   }
   radii_[group] = std::sqrt(squared);
   for (const std::uint32_t block : blocks_at_[group]) unfitted_[block] = true;
-  moved_ = true;
+  static std::atomic<std::uint64_t> states{0};
+  state_ = ++states;
 }
 
 void EmbreeIndex::fit() {
@@ -351,9 +356,10 @@ FacetPlane EmbreeIndex::make_plane(std::uint32_t i) const noexcept {
   return plane;
 }
 
-void EmbreeIndex::prefetch_plane(std::uint32_t i, std::uint32_t before) const noexcept {
+void EmbreeIndex::prefetch_plane(std::uint32_t i, std::uint32_t before,
+                                 const PlaneCache* planes) const noexcept {
   __builtin_prefetch(&facets_[i]);
-  if (!moved_) return;
+  if (state_ == 0 || (planes != nullptr && planes->has(i) && planes->has(before))) return;
   __builtin_prefetch(&triangles_[i]);
   for (const std::uint32_t v : triangles_[before]) __builtin_prefetch(&vertices_[v]);
 }
@@ -363,13 +369,14 @@ std::array<Vec3, 3> EmbreeIndex::corners(std::uint32_t i) const noexcept {
   return {vertices_[a], vertices_[b], vertices_[c]};
 }
 
-void EmbreeIndex::gather(const Line& line, HitBuffer& out) const noexcept {
+void EmbreeIndex::gather(const Line& line, HitBuffer& out, PlaneCache* planes) const noexcept {
   out.size = 0;
   out.overflow = false;
   out.doubtful = false;
   if (!(line.far > line.near)) return;
   GatherQuery query;  // NOLINT(cppcoreguidelines-pro-type-member-init): written before read
   query.index = this;
+  query.planes = planes;
   query.size = 0;
   query.overflow = false;
   query.doubtful = false;
@@ -380,7 +387,7 @@ void EmbreeIndex::gather(const Line& line, HitBuffer& out) const noexcept {
   out.doubtful = query.doubtful;
   for (std::size_t k = 0; k < query.size; ++k) {
     const std::uint32_t i = query.candidates[k].interface;
-    const Passage passage = pass(*this, i, line);
+    const Passage passage = pass(*this, i, line, planes);
     if (!(std::abs(passage.cosine) > kCoplanar)) [[unlikely]]
       continue;
     const FacetSides sides = this->sides(i);

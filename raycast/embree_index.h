@@ -10,6 +10,7 @@
 
 #include "artus/core/check.h"
 #include "artus/raycast/facet.h"
+#include "artus/raycast/plane_cache.h"
 
 struct RTCBufferTy;
 struct RTCDeviceTy;
@@ -101,20 +102,26 @@ class EmbreeIndex {
   [[nodiscard]] const Vec3& centre() const noexcept { return centre_; }
   [[nodiscard]] double radius() const noexcept { return radius_; }  ///< m, of a ball around centre
   /// Once anything moved it is made of the corners anew: a picture asks for fewer than there are.
-  [[nodiscard]] FacetPlane plane(std::uint32_t i) const noexcept {
-    return moved_ ? make_plane(i) : facets_[i].plane;
+  [[nodiscard]] FacetPlane plane(std::uint32_t i, PlaneCache* planes = nullptr) const noexcept {
+    if (state_ == 0) return facets_[i].plane;
+    if (planes == nullptr) return make_plane(i);
+    return planes->plane(i, [&] { return make_plane(i); });
   }
+  /// A number that no other state of any index has; 0: nothing ever moved.
+  [[nodiscard]] std::uint64_t state() const noexcept { return state_; }
   /// As it was before anything moved.
   [[nodiscard]] const FacetPlane& first_plane(std::uint32_t i) const noexcept {
     return facets_[i].plane;
   }
-  /// Fetches what `plane` will need: of facet `i` the first of it, of `before`, which was fetched
-  /// before, the rest.
-  void prefetch_plane(std::uint32_t i, std::uint32_t before) const noexcept;
+  /// Fetches what `plane` and `sides` will need: of facet `i` the first of it, of `before`, which
+  /// was fetched before, the rest.
+  void prefetch_plane(std::uint32_t i, std::uint32_t before,
+                      const PlaneCache* planes) const noexcept;
   [[nodiscard]] const FacetSides& sides(std::uint32_t i) const noexcept { return facets_[i].sides; }
 
-  /// All facets the line meets, in any order, depths in double.
-  ARTUS_REALTIME void gather(const Line& line, HitBuffer& out) const noexcept;
+  /// All facets the line meets, in any order, depths in double. `planes`: follows this state.
+  ARTUS_REALTIME void gather(const Line& line, HitBuffer& out,
+                             PlaneCache* planes = nullptr) const noexcept;
 
   /// The nearest facet at t > 0 (decided in double) or none.
   [[nodiscard]] ARTUS_REALTIME std::optional<FirstHit> first_hit(const Line& line) const noexcept;
@@ -153,7 +160,7 @@ class EmbreeIndex {
   std::vector<std::vector<std::uint32_t>> blocks_at_;    // (groups) that have a triangle there
   std::vector<double> radii_;                            // (groups, and what never moves) m
   std::vector<bool> unfitted_;                           // (blocks)
-  bool moved_ = false;                                   // whether any vertex ever did
+  std::uint64_t state_ = 0;
   EmbreeDevice device_;
   EmbreeBuffer coordinates_;  // (n_vertices, 3) float
   EmbreeParts all_;

@@ -97,14 +97,16 @@ struct Scene::Impl {
   }
 
   /// Unit normal of a hit's interface against the line's direction.
-  [[nodiscard]] Vec3 normal_against(const Hit& hit, const Line& line) const noexcept {
+  [[nodiscard]] Vec3 normal_against(const Hit& hit, const Line& line,
+                                    PlaneCache* planes = nullptr) const noexcept {
     if (hit.interface == kNoInterface) return Vec3::Zero();
-    const Vec3 normal = index.plane(hit.interface).normal;
+    const Vec3 normal = index.plane(hit.interface, planes).normal;
     return normal.dot(line.direction) > 0 ? Vec3(-normal) : normal;
   }
 
   /// The crossings of the whole line in order, with the margins at both ends.
-  [[nodiscard]] std::span<const Hit> trace(const Track& track, Trace& scratch) const noexcept;
+  [[nodiscard]] std::span<const Hit> trace(const Track& track, Trace& scratch,
+                                           PlaneCache* planes = nullptr) const noexcept;
 
   std::shared_ptr<const CompiledJoint> joint;
   std::shared_ptr<const DeformedBody> tissue;
@@ -114,9 +116,10 @@ struct Scene::Impl {
   bool has_beyond;
 };
 
-std::span<const Hit> Scene::Impl::trace(const Track& track, Trace& scratch) const noexcept {
+std::span<const Hit> Scene::Impl::trace(const Track& track, Trace& scratch,
+                                        PlaneCache* planes) const noexcept {
   HitBuffer& buffer = scratch.buffer;
-  index.gather(track.line, buffer);
+  index.gather(track.line, buffer, planes);
   const std::span<Hit> hits(buffer.hits.data(), buffer.size);
   if (!buffer.doubtful && is_chain(hits)) [[likely]]
     return hits;
@@ -197,8 +200,8 @@ QueryCount Scene::find_crossings(const Segment& segment, std::span<Crossing> out
   return count;
 }
 
-QueryCount Scene::find_intervals(const Segment& segment,
-                                 std::span<TissueInterval> out) const noexcept {
+QueryCount Scene::find_intervals(const Segment& segment, std::span<TissueInterval> out,
+                                 PlaneCache* planes) const noexcept {
   QueryCount count;
   const Track track = make_track(impl_->index, segment);
   if (!track.valid) return count;
@@ -206,7 +209,8 @@ QueryCount Scene::find_intervals(const Segment& segment,
   Trace scratch;  // NOLINT(cppcoreguidelines-pro-type-member-init): 12 KB, written before read
   scratch.buffer.overflow = false;
   std::span<const Hit> hits;
-  if (track.length > 0) hits = impl_->trace(track, scratch);
+  if (planes != nullptr) planes->follow(impl_->index.state());
+  if (track.length > 0) hits = impl_->trace(track, scratch, planes);
   TissueInterval* current = &out[count.size++];
   *current = {};
   current->region =
@@ -226,7 +230,7 @@ QueryCount Scene::find_intervals(const Segment& segment,
     }
     current->entry = hit.depth;
     current->region = hit.to;
-    current->entry_normal = impl_->normal_against(hit, track.line);
+    current->entry_normal = impl_->normal_against(hit, track.line, planes);
     current->entry_interface = hit.interface;
   }
   ARTUS_ASSERT(current->entry <= track.length);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/raycast/moving_scene.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -8,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "artus/raycast/plane_cache.h"
 #include "artus/raycast/pressed_scene.h"
 #include "tests/raycast/brute_force.h"
 #include "tests/support/moved_block.h"
@@ -31,6 +33,13 @@ Vec3 dent(const Vec3& p) {
 template <class T>
 bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+}
+
+bool same_intervals(const std::vector<TissueInterval>& a, const std::vector<TissueInterval>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) {
+    return x.entry == y.entry && x.exit == y.exit && x.region == y.region &&
+           x.entry_normal == y.entry_normal && x.entry_interface == y.entry_interface;
+  });
 }
 
 /// Every answer of a scene to lines and points from a fixed sequence.
@@ -105,6 +114,27 @@ TEST(MovingScene, AnswersAsASceneBuiltOfTheMovedSurfaces) {
   for (std::size_t i = 0; i < moved.size(); ++i)
     EXPECT_TRUE(moved[i] == built[i] || std::abs(moved[i] - built[i]) < 1e-9)  // infinite, or near
         << i << ": " << moved[i] << ", " << built[i];
+}
+
+TEST(MovingScene, AnswersWithTheSameBytesWithAndWithoutACacheOfPlanes) {
+  const test::MovedBlock block = make_block();
+  MovingScene scenes;
+  PlaneCache planes;
+  std::size_t found = 0;
+  // One cache for states of which each moves what was in it, and for one at rest.
+  for (const double much : {1.0, 0.4, 0.0, 1.0}) {
+    const auto scene = scenes.at(block.moved([&](const Vec3& p) { return Vec3(much * dent(p)); }));
+    for (std::uint64_t i = 0; i < 200; ++i) {
+      const Vec3 a = test::random_point(1, i / 4, Vec3(0, 0, 0.015), 0.06);
+      const Vec3 b = test::random_point(2, i, Vec3(0, 0, 0.015), 0.06);
+      const std::vector<TissueInterval> plain = tissue_intervals(*scene, {a, b});
+      std::vector<TissueInterval> kept(plain.size() + 1);
+      kept.resize(scene->find_intervals({a, b}, kept, &planes).size);
+      ASSERT_TRUE(same_intervals(plain, kept)) << much << ", line " << i;
+      found += kept.size();
+    }
+  }
+  EXPECT_GT(found, 2000U);
 }
 
 TEST(MovingScene, FollowsWhatMovesInOnePlaceAfterAnother) {

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "artus/raycast/facet.h"
+
+namespace artus {
+
+/// Planes of facets that moved, kept from query to query: lines near each other meet the same ones.
+/// Of one thread at a time, for any scene; answers are the same without it.
+class PlaneCache {
+ public:
+  /// Forgets the planes of any other state (EmbreeIndex::state) of a body.
+  void follow(std::uint64_t state) noexcept {
+    if (state == state_) return;
+    owner_.fill(0);
+    state_ = state;
+  }
+  [[nodiscard]] bool has(std::uint32_t facet) const noexcept {
+    return owner_[facet % kSize] == facet + 1;
+  }
+  /// The plane of a facet, made by `make` when it is not there.
+  template <class Make>
+  [[nodiscard]] const FacetPlane& plane(std::uint32_t facet, const Make& make) noexcept {
+    FacetPlane& kept = planes_[facet % kSize];
+    if (!has(facet)) {
+      kept = make();
+      owner_[facet % kSize] = facet + 1;
+    }
+    return kept;
+  }
+
+ private:
+  static constexpr std::size_t kSize = 256;
+
+  std::uint64_t state_ = 0;
+  std::array<std::uint32_t, kSize> owner_{};  // facet + 1; 0: none
+  std::array<FacetPlane, kSize> planes_;
+};
+
+}  // namespace artus
