@@ -94,7 +94,7 @@ void Acquisition::run(const EchoBody& body, const EchoView& view, BlockWorkers& 
   }
   workers.for_blocks(n_lines_, [&](int block, int first, int last) {
     LineScratch& scratch = scratch_[static_cast<std::size_t>(block)];
-    scratch.guide = LineScratch::kNoLine;
+    scratch.begin_row();
     for (int l = first; l < last; ++l)
       lines_[static_cast<std::size_t>(l)] = place_line(pass.view.probe, l, pass.view.X_JP);
     const auto row = std::span(lines_).subspan(static_cast<std::size_t>(first),

@@ -76,7 +76,7 @@ struct BeamTrace {
   bool contact = true;       ///< false: air between face and skin
   /// Room for one query, kept with the trace because clearing it would cost as much as the query.
   std::array<TissueInterval, kMaxIntervals> intervals;
-  PlaneCache planes;  ///< of the beams before
+  PlaneCache planes;  ///< left by the beams before; to be forgotten with their scene
 
   /// Forgets the last beam.
   void clear() noexcept {

@@ -32,6 +32,11 @@ struct LineScratch {
   std::vector<ScatterPiece> pieces;
   ScatterRoom room;
 
+  /// Forgets the lines before: of another scene, or not beside the next ones.
+  void begin_row() noexcept {
+    guide = kNoLine;
+    for (BeamTrace* trace : {&middle.front(), &middle.back(), &side}) trace->planes.forget();
+  }
   /// The line's beam in the middle plane.
   [[nodiscard]] BeamTrace& central() noexcept { return middle[own]; }
 };
@@ -46,8 +51,7 @@ class LineSynthesis {
 
   /// Fills `echoes`, n_samples long, with those of line `l` of a row of neighbours and leaves its
   /// central beam in `scratch`. In tissue that gives way lines near each other are guided by one of
-  /// them: the lines of a row are asked for in order, with LineScratch::guide set to none before
-  /// the first.
+  /// them: the lines of a row are asked for in order, after LineScratch::begin_row.
   void synthesise(const BeamTracer& tracer, std::span<const PlacedLine> row, std::size_t l,
                   LineScratch& scratch, EchoSpan echoes) const;
 

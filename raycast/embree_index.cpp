@@ -2,7 +2,6 @@
 #include "artus/raycast/embree_index.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -327,8 +326,7 @@ void EmbreeIndex::move(std::size_t group, std::span<const std::uint32_t> vertice
   }
   radii_[group] = std::sqrt(squared);
   for (const std::uint32_t block : blocks_at_[group]) unfitted_[block] = true;
-  static std::atomic<std::uint64_t> states{0};
-  state_ = ++states;
+  moved_ = true;
 }
 
 void EmbreeIndex::fit() {
@@ -359,7 +357,7 @@ FacetPlane EmbreeIndex::make_plane(std::uint32_t i) const noexcept {
 void EmbreeIndex::prefetch_plane(std::uint32_t i, std::uint32_t before,
                                  const PlaneCache* planes) const noexcept {
   __builtin_prefetch(&facets_[i]);
-  if (state_ == 0 || (planes != nullptr && planes->has(i) && planes->has(before))) return;
+  if (!moved_ || (planes != nullptr && planes->has(i) && planes->has(before))) return;
   __builtin_prefetch(&triangles_[i]);
   for (const std::uint32_t v : triangles_[before]) __builtin_prefetch(&vertices_[v]);
 }

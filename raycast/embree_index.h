@@ -103,12 +103,10 @@ class EmbreeIndex {
   [[nodiscard]] double radius() const noexcept { return radius_; }  ///< m, of a ball around centre
   /// Once anything moved it is made of the corners anew: a picture asks for fewer than there are.
   [[nodiscard]] FacetPlane plane(std::uint32_t i, PlaneCache* planes = nullptr) const noexcept {
-    if (state_ == 0) return facets_[i].plane;
+    if (!moved_) return facets_[i].plane;
     if (planes == nullptr) return make_plane(i);
     return planes->plane(i, [&] { return make_plane(i); });
   }
-  /// A number that no other state of any index has; 0: nothing ever moved.
-  [[nodiscard]] std::uint64_t state() const noexcept { return state_; }
   /// As it was before anything moved.
   [[nodiscard]] const FacetPlane& first_plane(std::uint32_t i) const noexcept {
     return facets_[i].plane;
@@ -119,7 +117,7 @@ class EmbreeIndex {
                       const PlaneCache* planes) const noexcept;
   [[nodiscard]] const FacetSides& sides(std::uint32_t i) const noexcept { return facets_[i].sides; }
 
-  /// All facets the line meets, in any order, depths in double. `planes`: follows this state.
+  /// All facets the line meets, in any order, depths in double. `planes`: of this state.
   ARTUS_REALTIME void gather(const Line& line, HitBuffer& out,
                              PlaneCache* planes = nullptr) const noexcept;
 
@@ -160,7 +158,7 @@ class EmbreeIndex {
   std::vector<std::vector<std::uint32_t>> blocks_at_;    // (groups) that have a triangle there
   std::vector<double> radii_;                            // (groups, and what never moves) m
   std::vector<bool> unfitted_;                           // (blocks)
-  std::uint64_t state_ = 0;
+  bool moved_ = false;                                   // whether any vertex ever did
   EmbreeDevice device_;
   EmbreeBuffer coordinates_;  // (n_vertices, 3) float
   EmbreeParts all_;

@@ -9,15 +9,11 @@
 namespace artus {
 
 /// Planes of facets that moved, kept from query to query: lines near each other meet the same ones.
-/// Of one thread at a time, for any scene; answers are the same without it.
+/// Of one thread and one scene at a time: forget() before queries of another. Answers are the same
+/// without it.
 class PlaneCache {
  public:
-  /// Forgets the planes of any other state (EmbreeIndex::state) of a body.
-  void follow(std::uint64_t state) noexcept {
-    if (state == state_) return;
-    owner_.fill(0);
-    state_ = state;
-  }
+  void forget() noexcept { owner_.fill(0); }
   [[nodiscard]] bool has(std::uint32_t facet) const noexcept {
     return owner_[facet % kSize] == facet + 1;
   }
@@ -35,7 +31,6 @@ class PlaneCache {
  private:
   static constexpr std::size_t kSize = 256;
 
-  std::uint64_t state_ = 0;
   std::array<std::uint32_t, kSize> owner_{};  // facet + 1; 0: none
   std::array<FacetPlane, kSize> planes_;
 };

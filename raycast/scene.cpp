@@ -209,7 +209,6 @@ QueryCount Scene::find_intervals(const Segment& segment, std::span<TissueInterva
   Trace scratch;  // NOLINT(cppcoreguidelines-pro-type-member-init): 12 KB, written before read
   scratch.buffer.overflow = false;
   std::span<const Hit> hits;
-  if (planes != nullptr) planes->follow(impl_->index.state());
   if (track.length > 0) hits = impl_->trace(track, scratch, planes);
   TissueInterval* current = &out[count.size++];
   *current = {};

@@ -112,8 +112,8 @@ class Scene {
 
   /// The segment cut into stretches of one region each: sorted, contiguous, covering the whole
   /// segment (also its parts outside the body). At least one interval for a segment of any length,
-  /// also zero; no interval of zero length otherwise. `planes`: room of this thread's, which makes
-  /// the next query near by of a body that gives way cheaper.
+  /// also zero; no interval of zero length otherwise. `planes`: what queries of this
+  /// scene by this thread left, which makes one near by cheaper where the body gives way.
   ARTUS_REALTIME QueryCount find_intervals(const Segment& segment, std::span<TissueInterval> out,
                                            PlaneCache* planes = nullptr) const noexcept;
 

@@ -123,6 +123,7 @@ TEST(MovingScene, AnswersWithTheSameBytesWithAndWithoutACacheOfPlanes) {
   std::size_t found = 0;
   // One cache for states of which each moves what was in it, and for one at rest.
   for (const double much : {1.0, 0.4, 0.0, 1.0}) {
+    planes.forget();
     const auto scene = scenes.at(block.moved([&](const Vec3& p) { return Vec3(much * dent(p)); }));
     for (std::uint64_t i = 0; i < 200; ++i) {
       const Vec3 a = test::random_point(1, i / 4, Vec3(0, 0, 0.015), 0.06);
