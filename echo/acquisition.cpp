@@ -117,8 +117,8 @@ void Acquisition::listen(const Pass& pass, std::span<const PlacedLine> row, std:
   const auto at = static_cast<std::size_t>(l);
   const EchoSpan echoes = line_of(re_, im_, l);
   synthesis_.synthesise(pass.tracer, row, of_row, scratch, echoes);
-  spread_.note(l, scratch.bent);
-  const SoundedLine sounded{placed, scratch.central(), scratch.bent};
+  spread_.note(l, scratch.path());
+  const SoundedLine sounded{placed, scratch.central(), scratch.path()};
   for (const Track& track : tracks_) track.echo.add_track(track.amplitude, sounded, echoes);
   drifting_.add(sounded, echoes);
   if (pass.needle) add_needle(pass, sounded);

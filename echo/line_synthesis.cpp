@@ -257,25 +257,21 @@ void LineSynthesis::trace_middle(const BeamTracer& tracer, std::span<const Place
                                  std::size_t l, LineScratch& scratch) const noexcept {
   const PlacedLine& placed = row[l];
   scratch.own = 0;
-  if (!tracer.gives_way()) {
-    tracer.trace_bent(placed.origin_J, placed.direction_J, scratch.central(), scratch.bent);
-    return;
-  }
   const auto guide_by = [&](const PlacedLine& line) {
     scratch.guide = line.index;
-    tracer.trace_bent(line.origin_J, line.direction_J, scratch.middle.front(), scratch.guide_bent);
+    tracer.trace_bent(line.origin_J, line.direction_J, scratch.middle.front(),
+                      scratch.bent.front());
   };
+  if (!tracer.gives_way()) return guide_by(placed);
   if (scratch.guide == LineScratch::kNoLine || placed.index > scratch.guide + n_beside_)
     guide_by(row[std::min(l + static_cast<std::size_t>(n_beside_), row.size() - 1)]);
-  if (placed.index != scratch.guide) {
-    scratch.own = 1;
-    tracer.trace_bent(placed.origin_J, placed.direction_J, scratch.central(), scratch.bent,
-                      &scratch.middle.front());
-    if (!scratch.central().outran) return;
-    scratch.own = 0;
-    guide_by(placed);
-  }
-  scratch.bent = scratch.guide_bent;
+  if (placed.index == scratch.guide) return;
+  scratch.own = 1;
+  tracer.trace_bent(placed.origin_J, placed.direction_J, scratch.central(), scratch.path(),
+                    &scratch.middle.front());
+  if (!scratch.central().outran) return;
+  scratch.own = 0;
+  guide_by(placed);
 }
 
 void LineSynthesis::synthesise(const BeamTracer& tracer, std::span<const PlacedLine> row,
@@ -299,7 +295,7 @@ void LineSynthesis::synthesise(const BeamTracer& tracer, std::span<const PlacedL
     scratch.plane.size = 0;
     for (const double z : shape_->plane_nodes()) {
       scratch.plane.p_J[scratch.plane.size] =
-          scratch.bent.at(z) + shape_->plane_elevation(p, z) * elevation;
+          scratch.path().at(z) + shape_->plane_elevation(p, z) * elevation;
       scratch.plane.length[scratch.plane.size++] = z;
     }
     tracer.trace_along(scratch.plane, elevation, central, scratch.side);

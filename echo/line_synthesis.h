@@ -23,9 +23,8 @@ struct LineScratch {
   std::array<BeamTrace, 2> middle;  // of the line that guides, and of this one
   std::size_t own = 0;              // of the two
   int guide = kNoLine;              // line whose beam is the first
-  BeamPath guide_bent;              // its way
   BeamTrace side;
-  BeamPath bent;
+  std::array<BeamPath, 2> bent;  // ways of `middle`
   BeamPath plane;
   ScatterView view;
   std::vector<float> gain;
@@ -39,6 +38,8 @@ struct LineScratch {
   }
   /// The line's beam in the middle plane.
   [[nodiscard]] BeamTrace& central() noexcept { return middle[own]; }
+  /// Its way.
+  [[nodiscard]] BeamPath& path() noexcept { return bent[own]; }
 };
 
 /// Makes the echoes of one scanline before the beam's shape spreads them: every elevation plane is
