@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "artus/echo/doppler.h"
@@ -31,7 +32,7 @@ ImageCore::ImageCore(std::shared_ptr<const Scene> scene, const SessionParams& pa
       renderer_(scene, params.transducer, params.image),
       rest_(scene),
       drawn_(scene),
-      fluid_(scene->shared_joint(), liquid_of(params), params.image_rate),
+      shapes_(scene->shared_joint(), liquid_of(params), params.image_rate),
       plume_(liquid_of(params)),
       image_time_(1 / params.image_rate),
       images_to_change_(static_cast<std::uint64_t>(std::ceil(kTableTime * params.image_rate))) {
@@ -51,19 +52,30 @@ ImageCore::ImageCore(std::shared_ptr<const Scene> scene, const SessionParams& pa
 }
 
 ImagedBody ImageCore::advance(const FrameInput& input) {
-  if (!tissue_) return {input.number, rest_, {}};
+  const std::span<const InjectedSite> sites(std::begin(input.sites), input.n_sites);
+  const FluidState fluid = shapes_.step(sites);
+  if (!tissue_) {
+    shapes_.follow(sites, nullptr);
+    return {input.number, rest_, {}, fluid};
+  }
   std::optional<Pose> X_JP;
   if (input.has_probe != 0) X_JP = to_pose(input.X_JP);
   std::optional<NeedleGrip> needle;
   if (input.has_needle != 0) needle = NeedleGrip{to_pose(input.X_JN), input.load};
-  tissue_->step(X_JP, needle);
-  return {input.number, tissue_->scene(), tissue_->packet()};
+  SoftBody::RestOf rest_of;
+  if (fluid.shape)
+    rest_of = [&fluid](std::uint32_t vertex) {
+      return fluid.rest_of(vertex);
+    };
+  tissue_->step(X_JP, needle, rest_of);
+  shapes_.follow(sites, tissue_->tissue());
+  return {input.number, tissue_->scene(), tissue_->packet(), fluid};
 }
 
 /// What is drawn: the body with what was injected.
-void ImageCore::lay(const FrameInput& input, const std::shared_ptr<const Scene>& body) {
-  const auto& filled = fluid_.step({std::begin(input.sites), input.n_sites}, body->tissue());
-  drawn_ = filled ? filled : body;
+void ImageCore::lay(const FrameInput& input, const ImagedBody& body) {
+  const auto& filled = fluid_.at(body.fluid, body.scene->tissue());
+  drawn_ = filled ? filled : body.scene;
   if (filled || filled_)
     renderer_.set_filled_scene(drawn_);
   else if (tissue_)
@@ -123,7 +135,7 @@ void ImageCore::start_tables() {
 }
 
 const Frame& ImageCore::render(const FrameInput& input, const ImagedBody& body) {
-  lay(input, body.scene);
+  lay(input, body);
   ++images_;
   if (!(input.controls == controls_)) follow(input.controls);
   if (next_.valid() && images_ == due_) take_tables();

@@ -10,7 +10,8 @@
 #include "artus/echo/echo_pipeline.h"
 #include "artus/echo/liquid_plume.h"
 #include "artus/echo/renderer.h"
-#include "artus/session/fluid_core.h"
+#include "artus/session/fluid_scene.h"
+#include "artus/session/fluid_shapes.h"
 #include "artus/session/session_core.h"
 #include "artus/session/tissue_core.h"
 
@@ -21,6 +22,7 @@ struct ImagedBody {
   std::uint64_t number = 0;            ///< of the image; 0: of none
   std::shared_ptr<const Scene> scene;  ///< without what was injected
   std::optional<TissuePacket> packet;  ///< what it answers the hands with; empty: it is rigid
+  FluidState fluid;                    ///< what was injected
 };
 
 /// The imaging half of a session as a pure function of its inputs: what runs live is what a replay
@@ -28,14 +30,15 @@ struct ImagedBody {
 /// tables: these are made on a thread of their own while the images go on, and are taken over a
 /// fixed number of images later, never "when ready". Knobs that move on meanwhile are followed from
 /// there. What the syringe put into the body opens it in the picture, and what
-/// drifts in it is seen: see FluidCore and LiquidPlume.
+/// drifts in it is seen: see FluidShapes and LiquidPlume.
 class ImageCore {
  public:
   /// Requires: valid params, a scene.
   ImageCore(std::shared_ptr<const Scene> scene, const SessionParams& params);
 
   /// The tissue's step to this image's instant, when it gives way: what the hands feel need not
-  /// wait for the picture. May run beside render() of an image before. Cost: TissueCore::step.
+  /// wait for the picture. Skin that liquid lifts is where the probe meets it. May run beside
+  /// render() of an image before. Cost: TissueCore::step; waits as FluidShapes::step does.
   [[nodiscard]] ImagedBody advance(const FrameInput& input);
 
   /// The picture of `body`, which is this input's. Controls that are not valid keep those before.
@@ -69,7 +72,7 @@ class ImageCore {
   [[nodiscard]] std::uint64_t images_to_change() const noexcept { return images_to_change_; }
 
  private:
-  void lay(const FrameInput& input, const std::shared_ptr<const Scene>& body);
+  void lay(const FrameInput& input, const ImagedBody& body);
   void follow(const ImageControls& controls);
   [[nodiscard]] Vec3 velocity_of_needle(const FrameInput& input) const noexcept;
   void let_drift(const FrameInput& input, const Scene* filled);
@@ -85,7 +88,8 @@ class ImageCore {
   std::string refusal_;
   std::shared_ptr<const Scene> rest_;
   std::shared_ptr<const Scene> drawn_;
-  FluidCore fluid_;
+  FluidShapes shapes_;
+  FluidScene fluid_;
   LiquidPlume plume_;
   bool filled_ = false;  // the last image had liquid in the body
   double image_time_;    // s

@@ -115,9 +115,11 @@ void TissueCore::refresh(const std::optional<Pose>& X_JP) {
   solver.begin_refresh();
 }
 
-void TissueCore::step(const std::optional<Pose>& X_JP, const std::optional<NeedleGrip>& needle) {
+void TissueCore::step(const std::optional<Pose>& X_JP, const std::optional<NeedleGrip>& needle,
+                      const SoftBody::RestOf& rest_of) {
   ++images_;
   follow(X_JP);
+  if (body_.lift_skin(rest_of)) still_ = false;
   std::optional<Pose> face = X_JP;
   if (face && !reaches(*face)) face.reset();
   const bool same = face.has_value() == X_JP_before_.has_value() &&

@@ -28,10 +28,14 @@ class TissueCore {
 
   /// The next image's instant, with the probe at `X_JP` or without one, and so the needle. A probe
   /// that stays outside of what the cage reaches gets a cage of its own; until that is there the
-  /// tissue does not feel it. Cost: see docs/deformation.md.
-  void step(const std::optional<Pose>& X_JP, const std::optional<NeedleGrip>& needle = {});
+  /// tissue does not feel it. `rest_of`: SoftBody::lift_skin. Cost: see docs/deformation.md.
+  void step(const std::optional<Pose>& X_JP, const std::optional<NeedleGrip>& needle = {},
+            const SoftBody::RestOf& rest_of = {});
 
   [[nodiscard]] const std::shared_ptr<const Scene>& scene() const noexcept { return scene_; }
+  [[nodiscard]] const std::shared_ptr<const DeformedBody>& tissue() const noexcept {
+    return tissue_;
+  }
   /// Number 1 after the first step.
   [[nodiscard]] const TissuePacket& packet() const noexcept { return packet_; }
   [[nodiscard]] std::uint32_t status() const noexcept { return status_; }  ///< SoftStatus bits

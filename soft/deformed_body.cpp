@@ -8,6 +8,8 @@
 
 #include <Eigen/SVD>
 
+#include "artus/core/check.h"
+
 namespace artus {
 namespace {
 
@@ -173,6 +175,23 @@ std::vector<Vec3> DeformedBody::vertices() const {
     for (std::size_t k = 0; k < vertices.size(); ++k) all[vertices[k]] = groups_[g]->vertices[k];
   }
   return all;
+}
+
+std::shared_ptr<const DeformedBody> DeformedBody::come_from(const DeformedBody& other,
+                                                            double part) const {
+  ARTUS_REQUIRE(
+      map_->model == other.map_->model && map_->group_of.size() == other.map_->group_of.size(),
+      "shapes of one body in one cage");
+  const std::vector<Vec3> from = other.vertices();
+  auto body = std::make_shared<DeformedBody>(*this);
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    auto moved = std::make_shared<Moved>(*groups_[g]);
+    const auto& numbers = map_->groups[g].vertices;
+    for (std::size_t k = 0; k < numbers.size(); ++k)
+      moved->vertices[k] = (1 - part) * from[numbers[k]] + part * moved->vertices[k];
+    body->groups_[g] = std::move(moved);
+  }
+  return body;
 }
 
 CompiledJoint DeformedBody::moved_joint() const {

@@ -42,6 +42,11 @@ class DeformedBody {
                std::span<const Vec3> node_displacements, const ContactForce& contact_J,
                const DeformedBody* before = nullptr);
 
+  /// This body with its vertices `part` of the way from where those of `other` are, which has as
+  /// many in a cage of the same model: of one shape that becomes another. Cost: some ms.
+  [[nodiscard]] std::shared_ptr<const DeformedBody> come_from(const DeformedBody& other,
+                                                              double part) const;
+
   [[nodiscard]] const CompiledJoint& joint() const noexcept { return *joint_; }
   [[nodiscard]] const std::shared_ptr<const CompiledJoint>& shared_joint() const noexcept {
     return joint_;

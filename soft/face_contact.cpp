@@ -77,6 +77,8 @@ void FaceContact::raster(std::size_t triangle, const std::vector<Vec3>& skin_P,
       nearest[piece].gap = z;
       nearest[piece].p_rest =
           w.x() * skin_.vertices[ia] + w.y() * skin_.vertices[ib] + w.z() * skin_.vertices[ic];
+      if (!lifts_.empty())
+        nearest[piece].lift = w.x() * lifts_[ia] + w.y() * lifts_[ib] + w.z() * lifts_[ic];
     }
   }
 }
@@ -85,8 +87,11 @@ std::vector<ContactPoint> FaceContact::cast(std::span<const Vec3> u) const {
   std::vector<Vec3> skin_P;
   skin_P.reserve(skin_.vertices.size());
   const Pose X_PC = X_CP_.inverse();
-  for (std::size_t v = 0; v < skin_.vertices.size(); ++v)
-    skin_P.push_back(X_PC * (skin_.vertices[v] + model_->displacement_at(skin_places_[v], u)));
+  for (std::size_t v = 0; v < skin_.vertices.size(); ++v) {
+    Vec3 now = skin_.vertices[v] + model_->displacement_at(skin_places_[v], u);
+    if (!lifts_.empty()) now += lifts_[v];
+    skin_P.push_back(X_PC * now);
+  }
   std::vector<ContactPoint> nearest(forces_.size());
   for (std::uint32_t piece = 0; piece < nearest.size(); ++piece) {
     nearest[piece].piece = piece;
@@ -94,6 +99,11 @@ std::vector<ContactPoint> FaceContact::cast(std::span<const Vec3> u) const {
   }
   for (std::size_t t = 0; t < skin_.triangles.size(); ++t) raster(t, skin_P, nearest);
   return nearest;
+}
+
+void FaceContact::set_lifts(std::vector<Vec3> lifts) {
+  ARTUS_REQUIRE(lifts.empty() || lifts.size() == skin_.vertices.size(), "a lift for each vertex");
+  lifts_ = std::move(lifts);
 }
 
 void FaceContact::prepare(std::span<const Vec3> u, const Pose& X_CP, const Pose& X_CP_before) {
@@ -120,7 +130,7 @@ void FaceContact::prepare(std::span<const Vec3> u, const Pose& X_CP, const Pose&
       forces_[point.piece].setZero();
       continue;
     }
-    const Vec3 now = point.p_rest + model_->displacement_at(point.place, u);
+    const Vec3 now = point.p_rest + point.lift + model_->displacement_at(point.place, u);
     point.gap = (X_PC * now).z();
     const Vec3 before = X_PC_before * now;
     point.start = {before.x(), before.y()};
@@ -183,7 +193,7 @@ void FaceContact::solve(const Eigen::VectorXd& step_root, std::span<const Vec3> 
     Vec3 step = Vec3::Zero();
     for (const UnknownShare& s : point.shares)
       step += s.weight * step_root.segment<3>(3 * static_cast<Index>(s.unknown));
-    const Vec3 now = X_PC * (point.p_rest + model_->displacement_at(point.place, u));
+    const Vec3 now = X_PC * (point.p_rest + point.lift + model_->displacement_at(point.place, u));
     free.segment<3>(3 * i) = now + alpha * (R.transpose() * step);
     free[3 * i] -= point.start[0];
     free[3 * i + 1] -= point.start[1];
@@ -219,12 +229,16 @@ void FaceContact::solve(const Eigen::VectorXd& step_root, std::span<const Vec3> 
 ContactForce FaceContact::force() const {
   ContactForce out;
   out.outside = outside_;
+  out.into = X_CP_.linear().col(2);
+  out.piece_area = face_.length * face_.width / static_cast<double>(forces_.size());
   std::size_t pressing = 0;
   for (std::uint32_t piece = 0; piece < forces_.size(); ++piece) {
     const Vec3 on_probe = -(X_CP_.linear() * forces_[piece]);
     out.force += on_probe;
     out.torque += (X_CP_.linear() * piece_P(piece)).cross(on_probe);
-    if (forces_[piece].z() > 0) ++pressing;
+    if (!(forces_[piece].z() > 0)) continue;
+    ++pressing;
+    out.pieces.push_back({X_CP_ * piece_P(piece), forces_[piece].z()});
   }
   out.share = static_cast<double>(pressing) / static_cast<double>(forces_.size());
   return out;

@@ -30,10 +30,17 @@ struct ProbeFace {
 struct ContactPoint {
   std::uint32_t piece = 0;     ///< of the face, x fastest
   Vec3 p_rest = Vec3::Zero();  ///< m, frame C
+  Vec3 lift = Vec3::Zero();    ///< m, frame C, of the skin there by what lies under it
   CagePlace place;
   std::vector<UnknownShare> shares;  ///< of the root's nodes, by their number there
   double gap = 0;                    ///< m along z of P at the displacement it was prepared for
   std::array<double, 2> start{};     ///< m, in P before the probe moved: what friction holds
+};
+
+/// A piece of the face that presses.
+struct PressingPiece {
+  Vec3 p = Vec3::Zero();  ///< m, its middle now, frame as ContactForce
+  double force = 0;       ///< N along the face's z
 };
 
 /// Force between probe and body.
@@ -42,6 +49,9 @@ struct ContactForce {
   Vec3 torque = Vec3::Zero();  ///< N m on the probe, about the face's centre, frame C
   double share = 0;            ///< of the face that presses, 0..1
   bool outside = false;        ///< a piece of the face met skin that the contact does not reach
+  Vec3 into = Vec3::UnitZ();   ///< the face's z, frame C
+  double piece_area = 0;       ///< m^2 of each piece
+  std::vector<PressingPiece> pieces;  ///< that press
 };
 
 /// Unilateral contact with friction of a flat face and the skin, in the compliance that the root of
@@ -52,6 +62,11 @@ class FaceContact {
   /// `root`: unknowns in the root of the factor, ascending. Requires: a face with size and points.
   FaceContact(std::shared_ptr<const SoftModel> model, SkinPatch skin, const ProbeFace& face,
               std::span<const std::uint32_t> root);
+
+  /// How far each vertex of the skin is lifted by what was put under it, m, frame C; empty:
+  /// nowhere.
+  void set_lifts(std::vector<Vec3> lifts);
+  [[nodiscard]] const SkinPatch& skin() const noexcept { return skin_; }
 
   /// Finds the material point before each piece of the face at `X_CP` under displacements `u`;
   /// `X_CP_before`: where the face was, so that friction knows how far it slid.
@@ -89,6 +104,7 @@ class FaceContact {
   std::shared_ptr<const SoftModel> model_;
   SkinPatch skin_;
   std::vector<CagePlace> skin_places_;
+  std::vector<Vec3> lifts_;  // (skin vertices) or empty
   ProbeFace face_;
   std::vector<std::int32_t> root_of_unknown_;
   Pose X_CP_ = Pose::Identity();

@@ -98,6 +98,14 @@ Vec3 InflatedSpace::polar(const Vec3& p) const {
           sign_ * (distance - sphere_)};
 }
 
+/// The point of which polar() is (u, v, height).
+Vec3 InflatedSpace::place_of(double u, double v, double height) const {
+  const double r = std::hypot(u, v);
+  const Vec3 across = r > 0 ? Vec3((u * side_ + v * up_.cross(side_)) / r) : side_;
+  const Vec3 d = std::cos(r / sphere_) * up_ + std::sin(r / sphere_) * across;
+  return centre_ + (sphere_ + sign_ * height) * d;
+}
+
 /// By cell, where a line along the height is inside the space, from below.
 std::vector<std::vector<InflatedSpace::Span>> InflatedSpace::find_spans() const {
   struct Hit {
@@ -285,7 +293,7 @@ void InflatedSpace::find_lifts() {
     const double share = drawn * together * together * between(inside_, u, v);
     const double r = std::hypot(u, v);
     if (!(share > 0) || r >= kWidest || bone_[i]) continue;
-    lifts_.push_back({i, sign_ * (rest_[i] - centre_).normalized(), r, share});
+    lifts_.push_back({i, sign_ * (rest_[i] - centre_).normalized(), r, share, u, v});
   }
 }
 
@@ -313,12 +321,17 @@ double InflatedSpace::radius(double volume) const {
   return high;
 }
 
-std::vector<Vec3> InflatedSpace::lifted(double height, double radius) const {
+std::vector<double> InflatedSpace::heights(double height, double radius) const {
+  std::vector<double> all;
+  all.reserve(lifts_.size());
+  for (const Lift& lift : lifts_) all.push_back(height * lift.share * profile(lift.r / radius));
+  return all;
+}
+
+std::vector<Vec3> InflatedSpace::lifted(const std::vector<double>& heights) const {
   std::vector<Vec3> vertices = rest_;
-  for (const Lift& lift : lifts_) {
-    const double part = lift.share * profile(lift.r / radius);
-    vertices[lift.vertex] += height * part * lift.direction;
-  }
+  for (std::size_t k = 0; k < lifts_.size(); ++k)
+    vertices[lifts_[k].vertex] += heights[k] * lifts_[k].direction;
   return vertices;
 }
 
@@ -329,20 +342,24 @@ double InflatedSpace::volume_of(const std::vector<Vec3>& vertices) const {
   return sum / 6;
 }
 
+double InflatedSpace::opened_by(const std::vector<double>& heights) const {
+  return volume_of(lifted(heights)) - rest_volume_;
+}
+
 double InflatedSpace::height_for(double volume) const {
   if (!(volume > 0)) return 0;
   const double a = radius(volume);
   double low = 0;
   double at_low = -volume;
   double high = volume / (a * a);
-  double at_high = volume_of(lifted(high, a)) - rest_volume_ - volume;
+  double at_high = opened_by(heights(high, a)) - volume;
   for (int k = 0; k < kSteps && std::abs(at_high) > kExactVolume; ++k) {
     if (at_high == at_low) break;
     const double next = high - at_high * (high - low) / (at_high - at_low);
     low = high;
     at_low = at_high;
     high = next;
-    at_high = volume_of(lifted(high, a)) - rest_volume_ - volume;
+    at_high = opened_by(heights(high, a)) - volume;
   }
   return high;
 }
@@ -351,9 +368,43 @@ bool InflatedSpace::confines(double volume) const {
   return radius(std::max(volume, 1e-12)) > 0.99 * kWidest;
 }
 
-std::vector<Vec3> InflatedSpace::vertices(double volume) const {
+/// `rested` by max(0, lambda - press): the volume is convex in lambda, so that secants which begin
+/// where it is too much come down to the one that is kept and never pass it.
+std::vector<double> InflatedSpace::squeezed(double volume, const std::vector<double>& rested,
+                                            const Press& press) const {
+  std::vector<double> map(floor_.size());  // of what presses, by cell
+  for (int v = 0; v < kCells; ++v) {
+    for (int u = 0; u < kCells; ++u) {
+      const std::size_t c = at(u, v);
+      map[c] = std::max(0.0, press(place_of(middle(u), middle(v), (floor_[c] + roof_[c]) / 2)));
+    }
+  }
+  std::vector<double> on;
+  on.reserve(lifts_.size());
+  for (const Lift& lift : lifts_) on.push_back(between(map, lift.u, lift.v));
+  const auto under = [&](double lambda) {
+    std::vector<double> all = rested;
+    for (std::size_t k = 0; k < all.size(); ++k) all[k] *= std::max(0.0, lambda - on[k]);
+    return all;
+  };
+  double high = 2 + *std::max_element(map.begin(), map.end());
+  double at_high = opened_by(under(high)) - volume;
+  double lambda = high - 1;
+  double now = opened_by(under(lambda)) - volume;
+  for (int k = 0; k < kSteps && std::abs(now) > kExactVolume && at_high != now; ++k) {
+    const double next = lambda - now * (high - lambda) / (at_high - now);
+    high = lambda;
+    at_high = now;
+    lambda = next;
+    now = opened_by(under(lambda)) - volume;
+  }
+  return under(lambda);
+}
+
+std::vector<Vec3> InflatedSpace::vertices(double volume, const Press& press) const {
   ARTUS_REQUIRE(volume >= 0, "a volume of at least 0");
-  return lifted(height_for(volume), radius(std::max(volume, 1e-12)));
+  const std::vector<double> rested = heights(height_for(volume), radius(std::max(volume, 1e-12)));
+  return lifted(press && volume > 0 ? squeezed(volume, rested, press) : rested);
 }
 
 double InflatedSpace::largest_opening(double volume) const {

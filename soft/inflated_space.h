@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -32,9 +33,16 @@ class InflatedSpace {
   InflatedSpace(const CompiledJoint& joint, RegionId region, const Vec3& tip,
                 const OpeningParams& params = {});
 
-  /// All vertices of the joint's mesh with `volume` m^3 more in the space, to 1e-15 m^3. Requires:
-  /// volume >= 0. Cost: some passes over the vertices.
-  [[nodiscard]] std::vector<Vec3> vertices(double volume) const;
+  /// What presses on the space from outside at a point (m, frame J) of its middle, as a share of
+  /// the pressure that its liquid has when nothing does.
+  using Press = std::function<double(const Vec3&)>;
+
+  /// All vertices of the joint's mesh with `volume` m^3 more in the space, to 1e-15 m^3. Under
+  /// `press` what opens by h when nothing presses opens by h max(0, lambda - press), lambda such
+  /// that the volume is kept: the walls are springs, side by side, and the liquid has one pressure
+  /// (lambda of what it had), so that it goes aside. Requires: volume >= 0. Cost: some passes over
+  /// the vertices.
+  [[nodiscard]] std::vector<Vec3> vertices(double volume, const Press& press = {}) const;
 
   /// m by which the walls are apart more than at rest where they are most so.
   [[nodiscard]] double largest_opening(double volume) const;
@@ -50,6 +58,8 @@ class InflatedSpace {
     Vec3 direction;  // unit
     double r;        // m along the sphere from the tip's direction, already drawn together
     double share;    // of the lift at the roof
+    double u;        // m, where on the map that is
+    double v;
   };
   [[nodiscard]] std::optional<Vec3> find_centre(const Vec3& tip) const;
   [[nodiscard]] Vec3 find_normal(const Vec3& tip) const;
@@ -68,10 +78,16 @@ class InflatedSpace {
   void find_shut(const CompiledJoint& joint);
   void find_lifts();
   [[nodiscard]] Vec3 polar(const Vec3& p) const;
+  [[nodiscard]] Vec3 place_of(double u, double v, double height) const;
   [[nodiscard]] double between(const std::vector<double>& map, double u, double v) const;
   [[nodiscard]] double radius(double volume) const;
   [[nodiscard]] double open_area(double radius, bool everywhere) const;
-  [[nodiscard]] std::vector<Vec3> lifted(double height, double radius) const;
+  /// By how much each lift goes up.
+  [[nodiscard]] std::vector<double> heights(double height, double radius) const;
+  [[nodiscard]] std::vector<double> squeezed(double volume, const std::vector<double>& rested,
+                                             const Press& press) const;
+  [[nodiscard]] std::vector<Vec3> lifted(const std::vector<double>& heights) const;
+  [[nodiscard]] double opened_by(const std::vector<double>& heights) const;
   [[nodiscard]] double height_for(double volume) const;
   [[nodiscard]] double volume_of(const std::vector<Vec3>& vertices) const;
 

@@ -18,6 +18,7 @@ namespace {
 
 constexpr double kVisible = 1e-9;        // m^3
 constexpr double kLongestSplit = 15e-3;  // m, half of the length; 10 to 30 mm in all, assumed
+constexpr double kLeastPressure = 500;   // Pa of a space's liquid: what lies on it; assumed
 constexpr double kBall = 4 * std::numbers::pi / 3;
 
 Vec3 toward_skin(const CompiledJoint& joint, const Vec3& p) {
@@ -253,15 +254,16 @@ CompiledJoint with_boluses(const CompiledJoint& joint, std::vector<Bolus> boluse
 }
 
 CompiledJoint with_filled_space(const CompiledJoint& joint, RegionId region, const Vec3& tip,
-                                double volume, const Liquid& liquid) {
+                                double volume, const Liquid& liquid,
+                                const InflatedSpace::Press& press) {
   CompiledJoint with = joint;
-  with.mesh.vertices = InflatedSpace(joint, region, tip).vertices(volume);
+  with.mesh.vertices = InflatedSpace(joint, region, tip).vertices(volume, press);
   with.regions[region].tissue = liquid_tissue(with, liquid);
   return with;
 }
 
 CompiledJoint with_injected(const CompiledJoint& joint, const std::vector<Injected>& places,
-                            const Liquid& liquid) {
+                            const Liquid& liquid, const StressAt& stress) {
   // Tissue first: where it is parted is told of the body at rest, and is lifted with what opens.
   std::vector<Injected> ordered = places;
   std::stable_partition(ordered.begin(), ordered.end(),
@@ -273,8 +275,13 @@ CompiledJoint with_injected(const CompiledJoint& joint, const std::vector<Inject
     if (at == joint.regions.end() || !(place.volume >= kVisible)) continue;
     const auto region = static_cast<RegionId>(at - joint.regions.begin());
     if (region < kFirstRegion) continue;
+    InflatedSpace::Press press;
+    if (stress)
+      press = [&stress, whole = std::max(place.pressure, kLeastPressure)](const Vec3& p) {
+        return stress(p) / whole;
+      };
     with = place.cavity
-               ? with_filled_space(with, region, place.tip, place.volume, liquid)
+               ? with_filled_space(with, region, place.tip, place.volume, liquid, press)
                : with_boluses(with, make_boluses(with, region, place.tip, place.volume), liquid);
   }
   return with;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -38,9 +39,11 @@ struct Bolus {
 [[nodiscard]] CompiledJoint with_boluses(const CompiledJoint& joint, std::vector<Bolus> boluses,
                                          const Liquid& liquid);
 
-/// The joint with `volume` m^3 more in `region`, which from then on is of `liquid`.
+/// The joint with `volume` m^3 more in `region`, which from then on is of `liquid`; `press` as in
+/// InflatedSpace::vertices.
 [[nodiscard]] CompiledJoint with_filled_space(const CompiledJoint& joint, RegionId region,
-                                              const Vec3& tip, double volume, const Liquid& liquid);
+                                              const Vec3& tip, double volume, const Liquid& liquid,
+                                              const InflatedSpace::Press& press = {});
 
 /// One place and what was put there.
 struct Injected {
@@ -48,10 +51,15 @@ struct Injected {
   double volume = 0;        ///< m^3
   bool cavity = false;      ///< a space that opens; otherwise tissue that parts
   Vec3 tip = Vec3::Zero();  ///< m, frame J, where it came in; of tissue, inside the region
+  double pressure = 0;      ///< Pa of the liquid there when nothing presses; at least 500 is taken
 };
-/// All of them, one after another. What is less than 1 mm^3 is not drawn, nor what went outside.
+/// Pa that presses on a material point (rest, m, frame J) from outside.
+using StressAt = std::function<double(const Vec3&)>;
+
+/// All of them, one after another; spaces squeezed by `stress`, where one is given. What is less
+/// than 1 mm^3 is not drawn, nor what went outside.
 [[nodiscard]] CompiledJoint with_injected(const CompiledJoint& joint,
-                                          const std::vector<Injected>& places,
-                                          const Liquid& liquid);
+                                          const std::vector<Injected>& places, const Liquid& liquid,
+                                          const StressAt& stress = {});
 
 }  // namespace artus

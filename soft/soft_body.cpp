@@ -82,8 +82,10 @@ CageParams cage_of(const TetMesh& mesh, const Pose& X_CJ, const SoftBodyParams& 
   return cage;
 }
 
-/// Skin triangles within `reach` of the footprint, sideways, turned to the probe.
-SkinPatch skin_of(const TetMesh& mesh, const Pose& X_CJ, const ProbeFace& face, double reach) {
+/// Skin triangles within `reach` of the footprint, sideways, turned to the probe; `numbers`: of its
+/// vertices in the mesh.
+SkinPatch skin_of(const TetMesh& mesh, const Pose& X_CJ, const ProbeFace& face, double reach,
+                  std::vector<std::uint32_t>& numbers) {
   SkinPatch skin;
   std::vector<std::int64_t> number(mesh.vertices.size(), -1);
   for (const Interface& i : mesh.interfaces) {
@@ -102,6 +104,7 @@ SkinPatch skin_of(const TetMesh& mesh, const Pose& X_CJ, const ProbeFace& face, 
       if (n < 0) {
         n = static_cast<std::int64_t>(skin.vertices.size());
         skin.vertices.push_back(X_CJ * mesh.vertices[corners[k]]);
+        numbers.push_back(corners[k]);
       }
       triangle[k] = static_cast<std::uint32_t>(n);
     }
@@ -135,7 +138,7 @@ Result<SoftBody> SoftBody::make(std::shared_ptr<const CompiledJoint> joint, cons
       make_body_map(*joint, X_JP,
                     std::make_shared<const SoftModel>(
                         make_joint_field(*joint, X_JP, params.poisson_ratio, locator), model));
-  const SkinPatch skin = skin_of(joint->mesh, X_CJ, params.face, params.far);
+  const SkinPatch skin = skin_of(joint->mesh, X_CJ, params.face, params.far, body.skin_);
   if (skin.triangles.empty())
     return fail(ErrorCode::invalid, "no skin below the probe: move it over the body", joint->name);
   const Vec3 reach(0.5 * params.face.length + params.reach, 0.5 * params.face.width + params.reach,
@@ -158,6 +161,20 @@ void SoftBody::follow(const DeformedBody& before) {
   solver_->start_from(moved);
 }
 
+bool SoftBody::lift_skin(const RestOf& rest_of) {
+  std::vector<Vec3> lifts;
+  if (rest_of) {
+    const Eigen::Matrix3d R_CJ = map_->X_JC.linear().transpose();
+    lifts.reserve(skin_.size());
+    for (const std::uint32_t v : skin_)
+      lifts.emplace_back(R_CJ * (rest_of(v) - joint_->mesh.vertices[v]));
+  }
+  if (lifts == lifts_) return false;
+  lifts_ = lifts;
+  solver_->set_skin_lifts(std::move(lifts));
+  return true;
+}
+
 const SoftStep& SoftBody::step(const std::optional<Pose>& X_JP, double dt) {
   if (!X_JP) return solver_->step(std::nullopt, dt);
   return solver_->step(map_->X_JC.inverse() * *X_JP, dt);
@@ -172,6 +189,8 @@ ContactForce SoftBody::force_J() const {
   ContactForce contact = solver_->last().contact;
   contact.force = map_->X_JC.linear() * contact.force;
   contact.torque = map_->X_JC.linear() * contact.torque;
+  contact.into = map_->X_JC.linear() * contact.into;
+  for (PressingPiece& piece : contact.pieces) piece.p = map_->X_JC * piece.p;
   return contact;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -46,6 +47,12 @@ class SoftBody {
   /// probe that presses does not feel that the cage is another. Cost: of a refresh.
   void follow(const DeformedBody& before);
 
+  /// Where a vertex of the joint's mesh is at rest, m, frame J, by its number.
+  using RestOf = std::function<Vec3(std::uint32_t)>;
+  /// The skin before the face as what was put under it lifts it; empty: as compiled. The tissue
+  /// below stays what it was. True where that is another skin than before.
+  bool lift_skin(const RestOf& rest_of);
+
   /// One step (SoftSolver::step) with the probe at `X_JP`, or without one.
   const SoftStep& step(const std::optional<Pose>& X_JP, double dt);
   /// SoftSolver::settle.
@@ -83,6 +90,8 @@ class SoftBody {
   std::shared_ptr<const BodyMap> map_;
   std::shared_ptr<const TetLocator> locator_;
   std::unique_ptr<SoftSolver> solver_;
+  std::vector<std::uint32_t> skin_;  // of the face's skin, numbers in the joint's mesh
+  std::vector<Vec3> lifts_;          // m, frame C, of these; empty: none
 };
 
 }  // namespace artus

@@ -65,6 +65,11 @@ void SoftSolver::set_face(SkinPatch skin, const ProbeFace& face) {
   touching_ = false;
 }
 
+void SoftSolver::set_skin_lifts(std::vector<Vec3> lifts) {
+  ARTUS_REQUIRE(contact_ != nullptr, "a face is needed");
+  contact_->set_lifts(std::move(lifts));
+}
+
 void SoftSolver::set_loads(std::vector<PointLoad> loads) {
   loads_ = std::move(loads);
   load_places_.clear();

@@ -68,6 +68,8 @@ class SoftSolver {
              const SoftSolverParams& params = {});
 
   void set_face(SkinPatch skin, const ProbeFace& face);
+  /// FaceContact::set_lifts, from the next step on. Requires: a face.
+  void set_skin_lifts(std::vector<Vec3> lifts);
   /// Forces from outside: of a needle, of a fluid on the walls of its space. They may change from
   /// step to step; those at held nodes go to what holds them.
   void set_loads(std::vector<PointLoad> loads);

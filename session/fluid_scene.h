@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <memory>
+
+#include "artus/raycast/moving_scene.h"
+#include "artus/session/fluid_shapes.h"
+
+namespace artus {
+
+/// Scenes of the body with what was injected: where tissue gives way to the probe, so does what was
+/// opened in it. One thread, which need not be the one that makes the shapes.
+class FluidScene {
+ public:
+  /// Of one image; null: nothing was injected. `tissue`: the body as it gives way in it; null:
+  /// rigid. Cost: one refit of the scene with tissue; a new index with a new shape.
+  [[nodiscard]] const std::shared_ptr<const Scene>& at(
+      const FluidState& state, const std::shared_ptr<const DeformedBody>& tissue);
+
+ private:
+  [[nodiscard]] const std::shared_ptr<const BodyMap>& map_in(
+      const std::shared_ptr<const FluidShape>& shape, const DeformedBody& tissue);
+
+  std::shared_ptr<const FluidShape> mapped_;  // what map_ is of
+  std::shared_ptr<const BodyMap> map_;        // in the present cage
+  MovingScene scenes_;
+  FluidState placed_;  // what scene_ is of
+  std::shared_ptr<const DeformedBody> placed_in_;
+  std::shared_ptr<const Scene> scene_;
+};
+
+}  // namespace artus
