@@ -66,7 +66,6 @@ class FaceContact {
   /// How far each vertex of the skin is lifted by what was put under it, m, frame C; empty:
   /// nowhere.
   void set_lifts(std::vector<Vec3> lifts);
-  [[nodiscard]] const SkinPatch& skin() const noexcept { return skin_; }
 
   /// Finds the material point before each piece of the face at `X_CP` under displacements `u`;
   /// `X_CP_before`: where the face was, so that friction knows how far it slid.
