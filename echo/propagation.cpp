@@ -45,7 +45,7 @@ Vec3 BeamTracer::find_normal(Walk& walk, const TissueInterval& interval) const n
       !place_knots(walk, walk.path) ||
       !(walk.trace.knots[walk.knot_before(walk.path)].moved > kStill))
     return facet;
-  const Vec3& at_rest = scene_->normal_at_rest(interval.entry_interface);
+  const Vec3 at_rest = scene_->normal_at_rest(interval.entry_interface);
   const Vec3 normal = carried_normal(walk.gradient_at(walk.path), at_rest).normalized();
   return normal.dot(facet) < 0 ? Vec3(-normal) : normal;
 }

@@ -9,7 +9,16 @@
 
 namespace artus {
 
-/// Scenes that nobody holds, all of one cage. Those of another are let go of when they come back.
+namespace {
+
+/// The map whose surfaces an index is of.
+const BodyMap* indexed(const std::shared_ptr<const BodyMap>& map) noexcept {
+  return map->first ? map->first.get() : map.get();
+}
+
+}  // namespace
+
+/// Scenes that nobody holds, all of one index. Those of another are let go of when they come back.
 struct MovingScene::Pool {
   std::mutex mutex;
   std::shared_ptr<const BodyMap> map;
@@ -17,10 +26,8 @@ struct MovingScene::Pool {
 
   std::unique_ptr<Scene> take(const std::shared_ptr<const BodyMap>& wanted) {
     const std::lock_guard<std::mutex> lock(mutex);
-    if (map != wanted) {
-      map = wanted;
-      free.clear();
-    }
+    if (!map || indexed(map) != indexed(wanted)) free.clear();
+    map = wanted;
     if (free.empty()) return nullptr;
     std::unique_ptr<Scene> scene = std::move(free.back());
     free.pop_back();
@@ -31,7 +38,7 @@ struct MovingScene::Pool {
     const std::shared_ptr<const DeformedBody> tissue = scene->tissue();
     scene->move(nullptr);
     const std::lock_guard<std::mutex> lock(mutex);
-    if (tissue && tissue->shared_map() == map) free.push_back(std::move(scene));
+    if (tissue && indexed(tissue->shared_map()) == indexed(map)) free.push_back(std::move(scene));
   }
 };
 

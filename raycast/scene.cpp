@@ -146,7 +146,7 @@ Scene::Scene(std::shared_ptr<const CompiledJoint> joint, const SceneOptions& opt
 }
 Scene::Scene(const DeformedBody& tissue, const SceneOptions& options)
     : impl_(std::make_unique<Impl>(
-          tissue.shared_joint(), options,
+          tissue.map().first ? tissue.map().first_joint : tissue.shared_joint(), options,
           VertexGrouping{tissue.map().group_of,
                          static_cast<std::uint32_t>(tissue.map().groups.size())})) {
   impl_->fitted.resize(tissue.groups().size());
@@ -160,6 +160,7 @@ void Scene::move(std::shared_ptr<const DeformedBody> tissue) {
       impl_->index.move(g, tissue->map().groups[g].vertices, impl_->fitted[g]->vertices);
     }
     impl_->index.fit();
+    impl_->joint = tissue->shared_joint();
   }
   impl_->tissue = std::move(tissue);
 }
@@ -180,8 +181,14 @@ const std::shared_ptr<const DeformedBody>& Scene::tissue() const noexcept {
   return impl_->tissue;
 }
 
-const Vec3& Scene::normal_at_rest(std::uint32_t interface) const noexcept {
-  return impl_->index.first_plane(interface).normal;
+Vec3 Scene::normal_at_rest(std::uint32_t interface) const noexcept {
+  if (!impl_->tissue || !impl_->tissue->map().first)
+    return impl_->index.first_plane(interface).normal;
+  const TetMesh& mesh = impl_->joint->mesh;
+  const auto& [a, b, c] = mesh.interfaces[interface].vertices;
+  return (mesh.vertices[b] - mesh.vertices[a])
+      .cross(mesh.vertices[c] - mesh.vertices[a])
+      .normalized();
 }
 
 QueryCount Scene::find_crossings(const Segment& segment, std::span<Crossing> out) const noexcept {

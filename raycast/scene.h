@@ -103,7 +103,7 @@ class Scene {
 
   /// Unit normal of an interface from back to front as the body lies at rest; zero for a triangle
   /// without area.
-  [[nodiscard]] ARTUS_REALTIME const Vec3& normal_at_rest(std::uint32_t interface) const noexcept;
+  [[nodiscard]] ARTUS_REALTIME Vec3 normal_at_rest(std::uint32_t interface) const noexcept;
 
   /// Every interface the segment passes through, sorted by depth; a crossing through a shared edge
   /// or vertex counts once.

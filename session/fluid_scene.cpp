@@ -17,7 +17,7 @@ const std::shared_ptr<const BodyMap>& FluidScene::map_in(
     const std::shared_ptr<const FluidShape>& shape, const DeformedBody& tissue) {
   if (is_in(shape, tissue)) return shape->map;
   if (mapped_ != shape || map_->model != tissue.map().model)
-    map_ = make_body_map(*shape->joint, tissue.map().X_JC, tissue.map().model);
+    map_ = make_body_map(*shape->joint, tissue);
   mapped_ = shape;
   return map_;
 }

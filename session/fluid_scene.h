@@ -12,7 +12,7 @@ namespace artus {
 class FluidScene {
  public:
   /// Of one image; null: nothing was injected. `tissue`: the body as it gives way in it; null:
-  /// rigid. Cost: one refit of the scene with tissue; a new index with a new shape.
+  /// rigid. Cost: one refit of the scene with tissue; a new index with a shape of other surfaces.
   [[nodiscard]] const std::shared_ptr<const Scene>& at(
       const FluidState& state, const std::shared_ptr<const DeformedBody>& tissue);
 

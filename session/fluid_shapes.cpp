@@ -131,7 +131,7 @@ void FluidShapes::follow(std::span<const InjectedSite> sites,
     shape.joint =
         std::make_shared<const CompiledJoint>(with_injected(*joint, places, liquid, stress));
     if (tissue)
-      shape.map = make_body_map(*shape.joint, tissue->map().X_JC, tissue->map().model);
+      shape.map = make_body_map(*shape.joint, *tissue);
     else
       shape.scene = std::make_shared<const Scene>(shape.joint);
     return shape;

@@ -74,6 +74,40 @@ DeformedBody::Motion interpolate(const Vec3& s, const CageCell& cell, double edg
   return motion;
 }
 
+bool has_surfaces_of(const TetMesh& mesh, const TetMesh& other) {
+  return mesh.vertices.size() == other.vertices.size() &&
+         std::equal(mesh.interfaces.begin(), mesh.interfaces.end(), other.interfaces.begin(),
+                    other.interfaces.end(), [](const Interface& a, const Interface& b) {
+                      return a.vertices == b.vertices && a.front == b.front && a.back == b.back;
+                    });
+}
+
+/// The map of a shape in the groups of another's; null where they do not do.
+std::shared_ptr<const BodyMap> map_in_groups(
+    const TetMesh& mesh, const std::shared_ptr<const BodyMap>& first,
+    const std::shared_ptr<const CompiledJoint>& first_joint) {
+  const std::vector<Vec3>& before = first_joint->mesh.vertices;
+  if (!has_surfaces_of(mesh, first_joint->mesh)) return nullptr;
+  for (std::size_t v = 0; v < first->group_of.size(); ++v)
+    if (first->group_of[v] == first->groups.size() && mesh.vertices[v] != before[v]) return nullptr;
+  auto map = std::make_shared<BodyMap>(*first);
+  map->first = first;
+  map->first_joint = first_joint;
+  const Cage& cage = map->model->cage();
+  const Pose X_CJ = map->X_JC.inverse();
+  for (VertexGroup& group : map->groups) {
+    for (std::size_t k = 0; k < group.vertices.size(); ++k) {
+      const std::uint32_t v = group.vertices[k];
+      if (mesh.vertices[v] == before[v]) continue;
+      const CagePlace place = cage.locate(X_CJ * mesh.vertices[v], kReach);
+      if (place.cell < 0) return nullptr;
+      group.places[k] = map->model->layers().place(cage, place);
+    }
+    group.points = points_of(group.places);
+  }
+  return map;
+}
+
 }  // namespace
 
 std::shared_ptr<const BodyMap> make_body_map(const CompiledJoint& joint, const Pose& X_JC,
@@ -117,6 +151,14 @@ std::shared_ptr<const BodyMap> make_body_map(const CompiledJoint& joint, const P
   }
   map->model = std::move(model);
   return map;
+}
+
+std::shared_ptr<const BodyMap> make_body_map(const CompiledJoint& shape,
+                                             const DeformedBody& body) {
+  const auto& first = body.map().first ? body.map().first : body.shared_map();
+  const auto& first_joint = body.map().first ? body.map().first_joint : body.shared_joint();
+  if (auto map = map_in_groups(shape.mesh, first, first_joint)) return map;
+  return make_body_map(shape, first->X_JC, first->model);
 }
 
 void DeformedBody::carry(const DeformedBody* before) {

@@ -17,18 +17,30 @@ struct VertexGroup {
   double tolerance = 0;               ///< m that a point may move before the vertices do
 };
 
+class DeformedBody;
+
 /// What all snapshots of a body share: the model and where its surfaces lie in the cage.
 struct BodyMap {
   Pose X_JC = Pose::Identity();
   std::shared_ptr<const SoftModel> model;
   std::vector<VertexGroup> groups;
   std::vector<std::uint32_t> group_of;  ///< (vertices of the interfaces); groups.size(): none moves
+  /// The map whose groups these are, and its joint: of another shape of the same surfaces, so that
+  /// one index of them does for both. Null: they are this one's own.
+  std::shared_ptr<const BodyMap> first;
+  std::shared_ptr<const CompiledJoint> first_joint;
 };
 
 /// The map of a joint in a cage at X_JC: all vertices of its interfaces found in their cubes.
 [[nodiscard]] std::shared_ptr<const BodyMap> make_body_map(const CompiledJoint& joint,
                                                            const Pose& X_JC,
                                                            std::shared_ptr<const SoftModel> model);
+
+/// The map of another shape of a body, in its cage: in the groups of the body's map where the
+/// surfaces are the same between other vertices, and no vertex outside the cage moved. Cost: finds
+/// the vertices that moved, or all, in their cubes.
+[[nodiscard]] std::shared_ptr<const BodyMap> make_body_map(const CompiledJoint& shape,
+                                                           const DeformedBody& body);
 
 /// One instant of a body that gives way: immutable, all of it from one state, so that picture,
 /// force and score never see two. X is a material point (rest), x = X + u(X) where it is now; frame

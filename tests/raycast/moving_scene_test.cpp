@@ -70,7 +70,7 @@ TEST(MovingScene, KnowsHowItsInterfacesFacedAtRest) {
       tissue_intervals(*scene, {Vec3(7e-3, 1e-3, -0.02), Vec3(7e-3, 1e-3, 0.03)});
   ASSERT_GE(found.size(), 3U);
   for (std::size_t k = 1; k < 3; ++k) {
-    const Vec3& at_rest = scene->normal_at_rest(found[k].entry_interface);
+    const Vec3 at_rest = scene->normal_at_rest(found[k].entry_interface);
     EXPECT_NEAR(std::abs(at_rest.z()), 1, 1e-12) << k;
     EXPECT_LT(std::abs(found[k].entry_normal.z()), 0.99) << k;
   }
@@ -157,6 +157,58 @@ TEST(MovingScene, FollowsWhatMovesInOnePlaceAfterAnother) {
       EXPECT_TRUE(moved[i] == built[i] || std::abs(moved[i] - built[i]) < 1e-9)
           << place << ", " << i << ": " << moved[i] << ", " << built[i];
   }
+}
+
+/// The block with its fat swollen in the middle: the same surfaces between other vertices.
+std::shared_ptr<const CompiledJoint> swollen(const CompiledJoint& block) {
+  auto joint = std::make_shared<CompiledJoint>(block);
+  for (Vec3& p : joint->mesh.vertices)
+    if (std::abs(p.z() - kBorders[1]) < 1e-6) p.z() -= 0.3 * dent(p).z();
+  return joint;
+}
+
+TEST(MovingScene, HasOneIndexForShapesOfTheSameSurfaces) {
+  const test::MovedBlock block = make_block();
+  const auto joint = swollen(*block.joint);
+  const auto body = block.moved(dent);
+  const auto map = make_body_map(*joint, *body);
+  ASSERT_EQ(map->first, block.map);
+  const auto shape = std::make_shared<const DeformedBody>(joint, map, body->node_displacements(),
+                                                          body->contact());
+  const auto alone = make_scene(std::make_shared<const DeformedBody>(
+      joint, make_body_map(*joint, Pose::Identity(), block.map->model), body->node_displacements(),
+      body->contact()));
+  MovingScene scenes;
+  const Scene* first = scenes.at(body).get();
+  const auto scene = scenes.at(shape);
+  EXPECT_EQ(scene.get(), first);
+  EXPECT_EQ(scene->shared_joint(), joint);
+  const auto wanted = answers(*alone);
+  const auto found = answers(*scene);
+  EXPECT_GT(wanted.size(), 4000U);
+  EXPECT_TRUE(same_bytes(found, wanted));
+  EXPECT_FALSE(same_bytes(found, answers(*make_scene(body))));
+  for (std::uint32_t i = 0; i < joint->mesh.interfaces.size(); ++i)
+    ASSERT_LT((scene->normal_at_rest(i) - alone->normal_at_rest(i)).norm(), 1e-12) << i;
+  // A shape of a shape is one of what that was a shape of.
+  EXPECT_EQ(make_body_map(*block.joint, *shape)->first, block.map);
+}
+
+TEST(MovingScene, HasAnotherIndexForOtherSurfaces) {
+  const test::MovedBlock block = make_block();
+  CompiledJoint other = *block.joint;
+  other.mesh.interfaces.pop_back();
+  EXPECT_EQ(make_body_map(other, *block.at_rest())->first, nullptr);
+  // A vertex that no group has moved, as one outside the cage would.
+  BodyMap cut = *block.map;
+  const std::uint32_t lost = cut.groups.back().vertices.back();
+  cut.group_of[lost] = static_cast<std::uint32_t>(cut.groups.size());
+  const DeformedBody without(block.joint, std::make_shared<const BodyMap>(cut),
+                             block.at_rest()->node_displacements(), ContactForce{});
+  CompiledJoint shape = *block.joint;
+  EXPECT_NE(make_body_map(shape, without)->first, nullptr);
+  shape.mesh.vertices[lost].x() += 1e-3;
+  EXPECT_EQ(make_body_map(shape, without)->first, nullptr);
 }
 
 TEST(MovingScene, LeavesASceneAloneWhileItIsHeldAndUsesItAgainAfterwards) {

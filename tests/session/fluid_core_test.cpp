@@ -191,6 +191,36 @@ TEST(FluidCore, IsInABodyThatGivesWayToTheProbeToo) {
   EXPECT_NE(filled.back(), empty.back());
 }
 
+TEST(FluidCore, AProbeThatPressesSqueezesTheBursaAndMeetsTheSkinThatItLifts) {
+  const auto scene = make_soft_scene();
+  SessionParams params = test::make_small_session();
+  params.deform = true;
+  ImageCore core(scene, params);
+  ASSERT_TRUE(core.refusal().empty()) << core.refusal();
+  FrameInput input;
+  input.controls = controls_of(params);
+  input.has_probe = 1;
+  input.sites[0] = site_in(scene->joint(), "bursa", 23e-3, 3e-6);
+  input.n_sites = 1;
+  const auto press = [&](double depth, int images) {
+    Pose X_JP = scene->joint().X_JP_default;
+    X_JP.translation() += depth * X_JP.linear().col(2);
+    input.X_JP = to_plain(X_JP);
+    for (int k = 0; k < images; ++k) {
+      ++input.number;
+      static_cast<void>(core.render(input));
+    }
+    return thickness(*core.drawn_scene(), "bursa");
+  };
+  const double open = press(-5e-3, 20);
+  EXPECT_GT(open, 3e-3);
+  const double touching = press(0, 60);
+  EXPECT_GT(-core.packet()->probe.wrench[2], 0.02) << "the lens lifts the skin to the face";
+  const double pressed = press(4e-3, 90);
+  EXPECT_LT(pressed, 0.9 * touching);
+  EXPECT_NEAR(press(-5e-3, 90), open, 0.02e-3) << "it comes back";
+}
+
 /// Pixels in colour of the last of `flowing` images with 0.1 ml/s and `still` without.
 std::ptrdiff_t coloured_pixels(const std::shared_ptr<const Scene>& scene, std::uint64_t flowing,
                                std::uint64_t still) {

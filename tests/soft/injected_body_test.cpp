@@ -101,6 +101,28 @@ TEST(InflatedSpace, OpensAFlatCleftByItsVolumeAndThePlatesHeight) {
   EXPECT_EQ(space.vertices(0), joint.mesh.vertices);
 }
 
+TEST(InflatedSpace, WhatPressesOnAHalfSendsItsLiquidToTheOther) {
+  const CompiledJoint joint = make_cleft();
+  const InflatedSpace space(joint, kCleft, Vec3(0, 0, 0.5e-3));
+  const auto free = space.vertices(5e-6);
+  // Half of the plate under all of its liquid's pressure: lambda 1.5 by symmetry, so that one half
+  // keeps 0.5 of its height and the other has 1.5.
+  const auto pressed = space.vertices(5e-6, [](const Vec3& p) { return p.x() < 0 ? 1.0 : 0.0; });
+  EXPECT_NEAR(enclosed(joint, pressed) - enclosed(joint, joint.mesh.vertices), 5e-6, 1e-15);
+  int compared = 0;
+  for (std::size_t i = 0; i < free.size(); ++i) {
+    const Vec3& rest = joint.mesh.vertices[i];
+    if (rest.z() != 1e-3 || std::abs(rest.x()) < 3e-3 || free[i].z() - rest.z() < 0.2e-3) continue;
+    const double share = (pressed[i].z() - rest.z()) / (free[i].z() - rest.z());
+    EXPECT_NEAR(share, rest.x() < 0 ? 0.5 : 1.5, 0.02) << rest.transpose();
+    ++compared;
+  }
+  EXPECT_GT(compared, 100);
+  // Of what presses everywhere alike nothing comes but a higher pressure.
+  const auto alike = space.vertices(5e-6, [](const Vec3&) { return 0.7; });
+  for (std::size_t i = 0; i < free.size(); ++i) EXPECT_LT((alike[i] - free[i]).norm(), 1e-12);
+}
+
 TEST(InflatedSpace, OpensTheSheetThatTheTipIsInAndLiftsTheOneAboveItWhole) {
   const CompiledJoint joint = make_cleft(true);
   const auto moved = InflatedSpace(joint, kCleft, Vec3(0, 0, 0.5e-3)).vertices(5e-6);
