@@ -13,7 +13,7 @@ namespace {
 
 /// The map whose surfaces an index is of.
 const BodyMap* indexed(const std::shared_ptr<const BodyMap>& map) noexcept {
-  return map->first ? map->first.get() : map.get();
+  return map->first.map ? map->first.map.get() : map.get();
 }
 
 }  // namespace

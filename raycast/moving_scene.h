@@ -17,7 +17,7 @@ class MovingScene {
   /// The scene of one state. A body at rest answers every query with the bytes of Scene(joint).
   /// Requires: a body (std::invalid_argument). Errors: as Scene. Cost: 0.1 us a triangle that
   /// moved; the first ones for a joint and its cage build an index, which shapes of the same
-  /// surfaces share (make_body_map of a shape and a body).
+  /// surfaces share (BodyMap::first).
   [[nodiscard]] std::shared_ptr<const Scene> at(std::shared_ptr<const DeformedBody> tissue);
 
  private:

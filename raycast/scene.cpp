@@ -146,7 +146,7 @@ Scene::Scene(std::shared_ptr<const CompiledJoint> joint, const SceneOptions& opt
 }
 Scene::Scene(const DeformedBody& tissue, const SceneOptions& options)
     : impl_(std::make_unique<Impl>(
-          tissue.map().first ? tissue.map().first_joint : tissue.shared_joint(), options,
+          tissue.map().first.joint ? tissue.map().first.joint : tissue.shared_joint(), options,
           VertexGrouping{tissue.map().group_of,
                          static_cast<std::uint32_t>(tissue.map().groups.size())})) {
   impl_->fitted.resize(tissue.groups().size());
@@ -182,7 +182,7 @@ const std::shared_ptr<const DeformedBody>& Scene::tissue() const noexcept {
 }
 
 Vec3 Scene::normal_at_rest(std::uint32_t interface) const noexcept {
-  if (!impl_->tissue || !impl_->tissue->map().first)
+  if (!impl_->tissue || !impl_->tissue->map().first.map)
     return impl_->index.first_plane(interface).normal;
   const TetMesh& mesh = impl_->joint->mesh;
   const auto& [a, b, c] = mesh.interfaces[interface].vertices;

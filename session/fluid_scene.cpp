@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/session/fluid_scene.h"
 
+#include <array>
+#include <chrono>
 #include <utility>
 
 namespace artus {
@@ -17,9 +19,21 @@ const std::shared_ptr<const BodyMap>& FluidScene::map_in(
     const std::shared_ptr<const FluidShape>& shape, const DeformedBody& tissue) {
   if (is_in(shape, tissue)) return shape->map;
   if (mapped_ != shape || map_->model != tissue.map().model)
-    map_ = make_body_map(*shape->joint, tissue);
+    map_ = make_body_map(*shape->joint, std::array{tissue.mapped()});
   mapped_ = shape;
   return map_;
+}
+
+/// Two indices, as one scene is read while the next is made: a shape that opens a space has the
+/// body's surfaces, and the picture of its first drop need not wait.
+void FluidScene::prepare(const std::shared_ptr<const DeformedBody>& tissue) {
+  if (!tissue || tissue->shared_map() == prepared_) return;
+  if (preparing_.valid() && preparing_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
+    return;
+  prepared_ = tissue->shared_map();
+  preparing_ = std::async(std::launch::async, [scenes = scenes_, tissue]() mutable {
+    const std::array both{scenes.at(tissue), scenes.at(tissue)};
+  });
 }
 
 const std::shared_ptr<const Scene>& FluidScene::at(
@@ -30,6 +44,7 @@ const std::shared_ptr<const Scene>& FluidScene::at(
   placed_ = state;
   placed_in_ = tissue;
   if (!state.shape) {
+    prepare(tissue);
     scene_ = nullptr;
     return scene_;
   }

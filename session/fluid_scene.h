@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <future>
 #include <memory>
 
 #include "artus/raycast/moving_scene.h"
@@ -8,7 +9,8 @@
 namespace artus {
 
 /// Scenes of the body with what was injected: where tissue gives way to the probe, so does what was
-/// opened in it. One thread, which need not be the one that makes the shapes.
+/// opened in it. One thread, which need not be the one that makes the shapes. What the first shape
+/// will need is made before there is one, on a thread of its own.
 class FluidScene {
  public:
   /// Of one image; null: nothing was injected. `tissue`: the body as it gives way in it; null:
@@ -20,9 +22,13 @@ class FluidScene {
   [[nodiscard]] const std::shared_ptr<const BodyMap>& map_in(
       const std::shared_ptr<const FluidShape>& shape, const DeformedBody& tissue);
 
+  void prepare(const std::shared_ptr<const DeformedBody>& tissue);
+
   std::shared_ptr<const FluidShape> mapped_;  // what map_ is of
   std::shared_ptr<const BodyMap> map_;        // in the present cage
   MovingScene scenes_;
+  std::shared_ptr<const BodyMap> prepared_;  // what scenes_ was made ready for
+  std::future<void> preparing_;
   FluidState placed_;  // what scene_ is of
   std::shared_ptr<const DeformedBody> placed_in_;
   std::shared_ptr<const Scene> scene_;

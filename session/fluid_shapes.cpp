@@ -48,6 +48,15 @@ JointSpaces spaces_of(const CompiledJoint& joint) {
   return std::move(*spaces);
 }
 
+/// With the index of the body or of the shape before, where it has the surfaces of one of them.
+std::shared_ptr<const BodyMap> map_of(const CompiledJoint& shape, const DeformedBody& tissue,
+                                      const FluidShape* before) {
+  std::vector<MappedJoint> others{tissue.mapped()};
+  if (before != nullptr && before->map && before->map->model == tissue.map().model)
+    others.push_back({before->joint, before->map});
+  return make_body_map(shape, others);
+}
+
 }  // namespace
 
 FluidShapes::FluidShapes(std::shared_ptr<const CompiledJoint> joint, Liquid liquid,
@@ -123,7 +132,7 @@ void FluidShapes::follow(std::span<const InjectedSite> sites,
   due_ = images_ + (begun_.empty() ? images_to_change_ : images_to_grow_);
   begun_.assign(sites.begin(), sites.end());
   begun_under_ = press;
-  next_ = std::async(std::launch::async, [joint = joint_, liquid = liquid_, tissue,
+  next_ = std::async(std::launch::async, [joint = joint_, liquid = liquid_, tissue, before = state_.shape,
                                           places = injected_of(*joint_, spaces_, begun_)] {
     FluidShape shape;
     StressAt stress;
@@ -131,7 +140,7 @@ void FluidShapes::follow(std::span<const InjectedSite> sites,
     shape.joint =
         std::make_shared<const CompiledJoint>(with_injected(*joint, places, liquid, stress));
     if (tissue)
-      shape.map = make_body_map(*shape.joint, *tissue);
+      shape.map = map_of(*shape.joint, *tissue, before.get());
     else
       shape.scene = std::make_shared<const Scene>(shape.joint);
     return shape;

@@ -83,16 +83,14 @@ bool has_surfaces_of(const TetMesh& mesh, const TetMesh& other) {
 }
 
 /// The map of a shape in the groups of another's; null where they do not do.
-std::shared_ptr<const BodyMap> map_in_groups(
-    const TetMesh& mesh, const std::shared_ptr<const BodyMap>& first,
-    const std::shared_ptr<const CompiledJoint>& first_joint) {
-  const std::vector<Vec3>& before = first_joint->mesh.vertices;
-  if (!has_surfaces_of(mesh, first_joint->mesh)) return nullptr;
-  for (std::size_t v = 0; v < first->group_of.size(); ++v)
-    if (first->group_of[v] == first->groups.size() && mesh.vertices[v] != before[v]) return nullptr;
-  auto map = std::make_shared<BodyMap>(*first);
+std::shared_ptr<const BodyMap> map_in_groups(const TetMesh& mesh, const MappedJoint& first) {
+  const std::vector<Vec3>& before = first.joint->mesh.vertices;
+  if (!has_surfaces_of(mesh, first.joint->mesh)) return nullptr;
+  const std::vector<std::uint32_t>& group_of = first.map->group_of;
+  for (std::size_t v = 0; v < group_of.size(); ++v)
+    if (group_of[v] == first.map->groups.size() && mesh.vertices[v] != before[v]) return nullptr;
+  auto map = std::make_shared<BodyMap>(*first.map);
   map->first = first;
-  map->first_joint = first_joint;
   const Cage& cage = map->model->cage();
   const Pose X_CJ = map->X_JC.inverse();
   for (VertexGroup& group : map->groups) {
@@ -154,11 +152,12 @@ std::shared_ptr<const BodyMap> make_body_map(const CompiledJoint& joint, const P
 }
 
 std::shared_ptr<const BodyMap> make_body_map(const CompiledJoint& shape,
-                                             const DeformedBody& body) {
-  const auto& first = body.map().first ? body.map().first : body.shared_map();
-  const auto& first_joint = body.map().first ? body.map().first_joint : body.shared_joint();
-  if (auto map = map_in_groups(shape.mesh, first, first_joint)) return map;
-  return make_body_map(shape, first->X_JC, first->model);
+                                             std::span<const MappedJoint> others) {
+  ARTUS_REQUIRE(!others.empty(), "another shape is needed");
+  for (const MappedJoint& other : others)
+    if (auto map = map_in_groups(shape.mesh, other.map->first.map ? other.map->first : other))
+      return map;
+  return make_body_map(shape, others.front().map->X_JC, others.front().map->model);
 }
 
 void DeformedBody::carry(const DeformedBody* before) {

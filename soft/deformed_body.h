@@ -17,7 +17,13 @@ struct VertexGroup {
   double tolerance = 0;               ///< m that a point may move before the vertices do
 };
 
-class DeformedBody;
+struct BodyMap;
+
+/// A joint and where its surfaces lie in a cage.
+struct MappedJoint {
+  std::shared_ptr<const CompiledJoint> joint;
+  std::shared_ptr<const BodyMap> map;
+};
 
 /// What all snapshots of a body share: the model and where its surfaces lie in the cage.
 struct BodyMap {
@@ -25,10 +31,9 @@ struct BodyMap {
   std::shared_ptr<const SoftModel> model;
   std::vector<VertexGroup> groups;
   std::vector<std::uint32_t> group_of;  ///< (vertices of the interfaces); groups.size(): none moves
-  /// The map whose groups these are, and its joint: of another shape of the same surfaces, so that
-  /// one index of them does for both. Null: they are this one's own.
-  std::shared_ptr<const BodyMap> first;
-  std::shared_ptr<const CompiledJoint> first_joint;
+  /// Another shape of the same surfaces, whose groups these are: one index of them does for both.
+  /// Null: they are this map's own.
+  MappedJoint first;
 };
 
 /// The map of a joint in a cage at X_JC: all vertices of its interfaces found in their cubes.
@@ -36,11 +41,12 @@ struct BodyMap {
                                                            const Pose& X_JC,
                                                            std::shared_ptr<const SoftModel> model);
 
-/// The map of another shape of a body, in its cage: in the groups of the body's map where the
-/// surfaces are the same between other vertices, and no vertex outside the cage moved. Cost: finds
-/// the vertices that moved, or all, in their cubes.
+/// The map of another shape of a body in the cage of `others`, which must be one: in the groups of
+/// the first of them that has the same surfaces between other vertices and whose vertices outside
+/// the cage are where this one's are; otherwise in its own. Requires: at least one. Cost: finds the
+/// vertices that moved, or all, in their cubes.
 [[nodiscard]] std::shared_ptr<const BodyMap> make_body_map(const CompiledJoint& shape,
-                                                           const DeformedBody& body);
+                                                           std::span<const MappedJoint> others);
 
 /// One instant of a body that gives way: immutable, all of it from one state, so that picture,
 /// force and score never see two. X is a material point (rest), x = X + u(X) where it is now; frame
@@ -129,6 +135,7 @@ class DeformedBody {
     return std::span(u_).first(map_->model->cage().nodes().size());
   }  ///< frame C
   [[nodiscard]] const BodyMap& map() const noexcept { return *map_; }
+  [[nodiscard]] MappedJoint mapped() const noexcept { return {joint_, map_}; }
 
  private:
   std::shared_ptr<const CompiledJoint> joint_;

@@ -171,8 +171,8 @@ TEST(MovingScene, HasOneIndexForShapesOfTheSameSurfaces) {
   const test::MovedBlock block = make_block();
   const auto joint = swollen(*block.joint);
   const auto body = block.moved(dent);
-  const auto map = make_body_map(*joint, *body);
-  ASSERT_EQ(map->first, block.map);
+  const auto map = make_body_map(*joint, std::array{body->mapped()});
+  ASSERT_EQ(map->first.map, block.map);
   const auto shape = std::make_shared<const DeformedBody>(joint, map, body->node_displacements(),
                                                           body->contact());
   const auto alone = make_scene(std::make_shared<const DeformedBody>(
@@ -191,14 +191,19 @@ TEST(MovingScene, HasOneIndexForShapesOfTheSameSurfaces) {
   for (std::uint32_t i = 0; i < joint->mesh.interfaces.size(); ++i)
     ASSERT_LT((scene->normal_at_rest(i) - alone->normal_at_rest(i)).norm(), 1e-12) << i;
   // A shape of a shape is one of what that was a shape of.
-  EXPECT_EQ(make_body_map(*block.joint, *shape)->first, block.map);
+  EXPECT_EQ(make_body_map(*block.joint, std::array{shape->mapped()})->first.map, block.map);
 }
 
 TEST(MovingScene, HasAnotherIndexForOtherSurfaces) {
   const test::MovedBlock block = make_block();
   CompiledJoint other = *block.joint;
   other.mesh.interfaces.pop_back();
-  EXPECT_EQ(make_body_map(other, *block.at_rest())->first, nullptr);
+  const MappedJoint whole = block.at_rest()->mapped();
+  const auto own = make_body_map(other, std::array{whole});
+  EXPECT_EQ(own->first.map, nullptr);
+  const auto shared_other = std::make_shared<const CompiledJoint>(other);
+  EXPECT_EQ(make_body_map(other, std::array{whole, MappedJoint{shared_other, own}})->first.map, own)
+      << "one of several has them";
   // A vertex that no group has moved, as one outside the cage would.
   BodyMap cut = *block.map;
   const std::uint32_t lost = cut.groups.back().vertices.back();
@@ -206,9 +211,9 @@ TEST(MovingScene, HasAnotherIndexForOtherSurfaces) {
   const DeformedBody without(block.joint, std::make_shared<const BodyMap>(cut),
                              block.at_rest()->node_displacements(), ContactForce{});
   CompiledJoint shape = *block.joint;
-  EXPECT_NE(make_body_map(shape, without)->first, nullptr);
+  EXPECT_NE(make_body_map(shape, std::array{without.mapped()})->first.map, nullptr);
   shape.mesh.vertices[lost].x() += 1e-3;
-  EXPECT_EQ(make_body_map(shape, without)->first, nullptr);
+  EXPECT_EQ(make_body_map(shape, std::array{without.mapped()})->first.map, nullptr);
 }
 
 TEST(MovingScene, LeavesASceneAloneWhileItIsHeldAndUsesItAgainAfterwards) {
