@@ -24,15 +24,16 @@ const std::shared_ptr<const BodyMap>& FluidScene::map_in(
   return map_;
 }
 
-/// Two indices, as one scene is read while the next is made: a shape that opens a space has the
-/// body's surfaces, and the picture of its first drop need not wait.
+/// Indices of the three scenes that go round: a shape that opens a space has the body's surfaces,
+/// and the picture of its first drop need not wait.
 void FluidScene::prepare(const std::shared_ptr<const DeformedBody>& tissue) {
   if (!tissue || tissue->shared_map() == prepared_) return;
-  if (preparing_.valid() && preparing_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
+  if (preparing_.valid() &&
+      preparing_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
     return;
   prepared_ = tissue->shared_map();
   preparing_ = std::async(std::launch::async, [scenes = scenes_, tissue]() mutable {
-    const std::array both{scenes.at(tissue), scenes.at(tissue)};
+    const std::array three{scenes.at(tissue), scenes.at(tissue), scenes.at(tissue)};
   });
 }
 

@@ -173,8 +173,8 @@ TEST(MovingScene, HasOneIndexForShapesOfTheSameSurfaces) {
   const auto body = block.moved(dent);
   const auto map = make_body_map(*joint, std::array{body->mapped()});
   ASSERT_EQ(map->first.map, block.map);
-  const auto shape = std::make_shared<const DeformedBody>(joint, map, body->node_displacements(),
-                                                          body->contact());
+  const auto shape =
+      std::make_shared<const DeformedBody>(joint, map, body->node_displacements(), body->contact());
   const auto alone = make_scene(std::make_shared<const DeformedBody>(
       joint, make_body_map(*joint, Pose::Identity(), block.map->model), body->node_displacements(),
       body->contact()));
