@@ -6,6 +6,12 @@
 namespace artus {
 
 std::vector<NeedleRow> run_body(const BodyExperiment& e) {
+  std::vector<NeedleRow> rows;
+  run_body(e, [&rows](const NeedleRow& row) { rows.push_back(row); });
+  return rows;
+}
+
+void run_body(const BodyExperiment& e, const std::function<void(const NeedleRow&)>& take_row) {
   std::vector<LayerHaptics> by_region(kFirstRegion);
   std::vector<LayerHaptics> layers = e.layers;
   const auto names = e.names.empty() ? numbered_layers(layers.size()) : e.names;
@@ -22,7 +28,6 @@ std::vector<NeedleRow> run_body(const BodyExperiment& e) {
   apply(e.feel, params.passivity);
   NeedleTickStep tick(LayerTable(std::move(by_region)), params);
   tick.take({{}, e.tissue});
-  std::vector<NeedleRow> rows;
   const auto intend = [&e, &person](double at) {
     return e.path ? e.path(at) : person.intention(at);
   };
@@ -33,14 +38,14 @@ std::vector<NeedleRow> run_body(const BodyExperiment& e) {
     const double t = loop.time();
     const Pose measured = loop.measured();
     const RenderedNeedle& rendered = tick.step({measured, t}, e.body);
-    rows.push_back(make_needle_row(t, measured, rendered, tick.model()));
-    rows.back().energy_to_hand = loop.energy_to_hand();
-    rows.back().hand = loop.hand_force();
-    rows.back().needle = loop.motion();
+    NeedleRow row = make_needle_row(t, measured, rendered, tick.model());
+    row.energy_to_hand = loop.energy_to_hand();
+    row.hand = loop.hand_force();
+    row.needle = loop.motion();
+    take_row(row);
     if (!e.path) person.observe(t, measured, view_of(tick.model()));
     loop.advance(rendered.command, intend);
   }
-  return rows;
 }
 
 LayerHaptics plain_layer(double cutting, double stiffness, double attracted) {

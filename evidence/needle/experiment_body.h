@@ -34,6 +34,9 @@ struct BodyExperiment {
 
 /// Runs it closed loop; a row a tick.
 [[nodiscard]] std::vector<NeedleRow> run_body(const BodyExperiment& experiment);
+/// The same, row by row as they come: for what keeps little of many runs.
+void run_body(const BodyExperiment& experiment,
+              const std::function<void(const NeedleRow&)>& take_row);
 
 /// A layer with f_R, f_A in N and K_t in N/m, and nothing else: no membrane, friction or clamping.
 [[nodiscard]] LayerHaptics plain_layer(double cutting, double stiffness, double attracted = 0);

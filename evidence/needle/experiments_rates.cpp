@@ -153,10 +153,13 @@ double axial(const NeedleRow& r) {
 }
 
 // What the motor holds, at 10 kHz: a slower loop's force stays until its next tick.
+void hold_at_10khz(double force, double rate, std::vector<double>& out) {
+  out.insert(out.end(), static_cast<std::size_t>(std::lround(10000 / rate)), force);
+}
+
 std::vector<double> held_at_10khz(const std::vector<NeedleRow>& rows, double rate) {
   std::vector<double> out;
-  const auto times = static_cast<std::size_t>(std::lround(10000 / rate));
-  for (const NeedleRow& row : rows) out.insert(out.end(), times, axial(row));
+  for (const NeedleRow& row : rows) hold_at_10khz(axial(row), rate, out);
   return out;
 }
 
@@ -173,9 +176,8 @@ double rms_difference(const std::vector<double>& a, const std::vector<double>& b
 constexpr std::array<double, 3> kRates{1000, 2000, 10000};
 constexpr std::uint64_t kTremorSeeds = 6;
 
-std::vector<NeedleRow> run_at(double rate, const Insertion& insertion,
-                              const ExperimentOptions& options, const DeviceLimits& device,
-                              const HandParams& hand) {
+BodyExperiment at_rate(double rate, const Insertion& insertion, const ExperimentOptions& options,
+                       const DeviceLimits& device, const HandParams& hand) {
   constexpr double kAfter = 0.35;  // s outside
   BodyExperiment e;
   e.body = AnalyticBody::make_stack(Vec3::Zero(), Vec3::UnitZ(), insertion.begins);
@@ -190,7 +192,7 @@ std::vector<NeedleRow> run_at(double rate, const Insertion& insertion,
     return in_and_out(insertion, t);
   };
   e.path_duration = time_back(insertion) + (insertion.to - kFrom) / insertion.out + kAfter;
-  return run_body(e);
+  return e;
 }
 
 using Shares = std::array<double, 2>;  // at 1 and at 2 kHz
@@ -200,7 +202,10 @@ Shares differences(const Insertion& insertion, const ExperimentOptions& options,
                    const DeviceLimits& device, const HandParams& hand) {
   std::array<std::vector<double>, kRates.size()> forces;
   for (std::size_t i = 0; i < kRates.size(); ++i)
-    forces[i] = held_at_10khz(run_at(kRates[i], insertion, options, device, hand), kRates[i]);
+    run_body(at_rate(kRates[i], insertion, options, device, hand),
+             [rate = kRates[i], &held = forces[i]](const NeedleRow& row) {
+               hold_at_10khz(axial(row), rate, held);
+             });
   return {rms_difference(forces[2], forces[0]), rms_difference(forces[2], forces[1])};
 }
 
@@ -283,7 +288,8 @@ void show_rates(const Insertion& insertion, const ExperimentOptions& options,
   HandParams calm;
   calm.tremor_rms = 0;
   for (const double rate : kRates) {
-    ExperimentTrace trace{to_csv(rate) + "hz", run_at(rate, insertion, options, device, calm),
+    ExperimentTrace trace{to_csv(rate) + "hz",
+                          run_body(at_rate(rate, insertion, options, device, calm)),
                           region_names(table_layer_names())};
     const std::string label = to_csv(rate / 1000) + " kHz";
     plot.panels[0].series.push_back(plot_rows(trace.rows, label, axial));

@@ -98,7 +98,9 @@ std::vector<Vec3> run_sway_at(double rate, double back, bool membranes,
   e.path_duration = way.back().time;
   const auto held = static_cast<std::size_t>(std::lround(kSwayRates.back() / rate));
   std::vector<Vec3> out;
-  for (const NeedleRow& row : run_body(e)) out.insert(out.end(), held, row.forces.total.force);
+  run_body(e, [held, &out](const NeedleRow& row) {
+    out.insert(out.end(), held, row.forces.total.force);
+  });
   return out;
 }
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The commands that draw, as a user meets them: exit codes, messages, files.
+#include <array>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -171,6 +173,7 @@ TEST_F(ImagingTool, APressedJointHasForcesLayersAndACage) {
   ASSERT_EQ(r.exit_code, 0) << r.out << r.err;
   const auto report = nlohmann::json::parse(r.out);
   EXPECT_NEAR(report.at("normal_force_n").get<double>(), 1, 0.01);
+  EXPECT_FALSE(report.contains("needle"));
   std::map<std::string, double> thinned;
   for (const auto& layer : report.at("layers"))
     thinned[layer.at("tissue").get<std::string>()] = layer.at("thinned_percent").get<double>();
@@ -207,8 +210,9 @@ TEST_F(ImagingTool, DeformPressesTheFaceOfTheProbeThatIsNamed) {
     const auto report = nlohmann::json::parse(r.out);
     return (report.contains("press") ? report["press"] : report).at("normal_force_n").get<double>();
   };
-  EXPECT_EQ(newtons("deform", "hockey-7-15"), newtons("slice", "hockey-7-15"));
-  EXPECT_NE(newtons("deform", "hockey-7-15"), newtons("deform", "linear-6-18"));
+  const double hockey = newtons("deform", "hockey-7-15");
+  EXPECT_EQ(hockey, newtons("slice", "hockey-7-15"));
+  EXPECT_NE(hockey, newtons("deform", "linear-6-18"));
   const auto curved = artus({"deform", "-j", kSimple, "--transducer", "curved-2-5"});
   EXPECT_EQ(curved.exit_code, 2);
   EXPECT_NE(curved.err.find("--transducer: only a straight"), std::string::npos) << curved.err;
@@ -222,44 +226,41 @@ TEST_F(ImagingTool, APressedPictureSaysWhatWasPressed) {
   }
 }
 
-/// What the report of a slice says of a needle that was last moved so, in simple-shoulder.
-nlohmann::json needle_moved(const std::string& way, const std::string& file) {
-  const auto r = artus({"slice", "-j", kSimple, "--press-mm", "1", "--needle", "default",
-                        "--needle-way", way, "-o", file, "--json"});
+/// What the report of a command says of a needle in a pressed simple-shoulder, moved last as `way`.
+nlohmann::json needle_moved(std::vector<std::string> line, const std::string& way) {
+  line.insert(line.end(), {"-j", kSimple, "--press-mm", "1", "--needle", "default", "--needle-way",
+                           way, "--json"});
+  const auto r = artus(line);
   EXPECT_EQ(r.exit_code, 0) << r.err << r.out;
-  return nlohmann::json::parse(r.out).at("press").at("needle");
+  return nlohmann::json::parse(r.out);
 }
 
-TEST_F(ImagingTool, NeedleThatGoesInPushesTheTissueOn) {
-  const auto needle = needle_moved("in", in("in.png"));
+/// Some seconds a needle: each of the two ways is asked for by a picture and by `deform` once.
+TEST_F(ImagingTool, NeedleThatGoesInPushesTheTissueOnInPictureAndDeformAlike) {
+  const auto needle = needle_moved({"slice", "-o", in("in.png")}, "in").at("press").at("needle");
   EXPECT_GT(needle.at("tip_force_n").get<double>(), 0);
   EXPECT_GT(needle.at("tissue_moved_mm").get<double>(), 0.1);
   EXPECT_LT(needle.at("tissue_moved_mm").get<double>(), 5);
   EXPECT_TRUE(std::filesystem::exists(in("in.png")));
+  // Going in is what a needle does unless told otherwise.
+  const auto told = artus({"deform", "-j", kSimple, "--press-mm", "1", "--needle", "default"});
+  std::array<char, 96> said{};
+  std::snprintf(said.data(), said.size(),
+                "needle going in: %.2f N, tissue at its tip moved %.2f mm",
+                needle.at("force_n").get<double>(), needle.at("tissue_moved_mm").get<double>());
+  EXPECT_NE(told.out.find(said.data()), std::string::npos) << said.data() << told.out;
 }
 
-TEST_F(ImagingTool, NeedleDrawnBackPullsTissueAlong) {
-  const auto needle = needle_moved("out", in("out.png"));
+TEST_F(ImagingTool, NeedleDrawnBackPullsTissueAlongInPictureAndDeformAlike) {
+  const auto needle = needle_moved({"slice", "-o", in("out.png")}, "out").at("press").at("needle");
   EXPECT_EQ(needle.at("tip_force_n").get<double>(), 0);
   EXPECT_LT(needle.at("force_n").get<double>(), 0);
   EXPECT_LT(needle.at("tissue_moved_mm").get<double>(), -0.02);
   EXPECT_TRUE(std::filesystem::exists(in("out.png")));
+  EXPECT_EQ(needle_moved({"deform"}, "out").at("needle"), needle);
 }
 
-TEST_F(ImagingTool, DeformGivesWayToANeedleAsAPictureDoes) {
-  const auto said = [&](std::vector<std::string> more) {
-    std::vector<std::string> line{"deform", "-j", kSimple, "--press-mm", "1", "--json"};
-    line.insert(line.end(), more.begin(), more.end());
-    const auto r = artus(line);
-    EXPECT_EQ(r.exit_code, 0) << r.err << r.out;
-    return nlohmann::json::parse(r.out);
-  };
-  EXPECT_FALSE(said({}).contains("needle"));
-  EXPECT_EQ(said({"--needle", "default"}).at("needle"), needle_moved("in", in("in.png")));
-  EXPECT_EQ(said({"--needle", "default", "--needle-way", "out"}).at("needle"),
-            needle_moved("out", in("out.png")));
-  const auto told = artus({"deform", "-j", kSimple, "--press-mm", "1", "--needle", "default"});
-  EXPECT_NE(told.out.find("needle going in: "), std::string::npos) << told.out;
+TEST_F(ImagingTool, AWayWithoutANeedleIsRefused) {
   const auto without = artus({"deform", "-j", kSimple, "--needle-way", "in"});
   EXPECT_EQ(without.exit_code, 2);
   EXPECT_NE(without.err.find("--needle-way: needs a needle"), std::string::npos) << without.err;
