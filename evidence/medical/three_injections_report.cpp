@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+#include <algorithm>
 #include <numeric>
 
 #include <nlohmann/json.hpp>
@@ -45,6 +46,10 @@ void add_probe_panels(const ThreeInjections& run, Plot& plot) {
                          "probe: friction, torque",
                          {probe("friction (N)", [](Row r) { return r.friction.norm(); }),
                           probe("torque (N cm)", [](Row r) { return 100 * r.torque.norm(); })}});
+  // The ways are of a rigid body's columns.
+  const bool has_ways = std::any_of(run.probe.begin(), run.probe.end(),
+                                    [](Row r) { return r.indentation != 0 || r.slip != 0; });
+  if (!has_ways) return;
   plot.panels.push_back(
       {time,
        "probe: way (mm)",
