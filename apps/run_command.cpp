@@ -143,8 +143,9 @@ Result<Runs> run_in_tissue(const RunOptions& options, const LoadedHand& loaded,
     pictures =
         std::make_unique<LiveRunImages>(loaded.at.scene, hand.out, picture, tissue.image_rate);
     tissue.on_image = [&pictures](const ThreeInjections& run,
-                                  const std::shared_ptr<const Scene>& body) {
-      pictures->see(run, body);
+                                  const std::shared_ptr<const Scene>& body,
+                                  const FluidState& fluid) {
+      pictures->see(run, body, fluid);
     };
   }
   auto run = run_three_injections(*loaded.at.scene, plan, make_run_options(options, loaded),

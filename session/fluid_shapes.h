@@ -11,6 +11,7 @@
 #include "artus/raycast/scene.h"
 #include "artus/session/syringe_core.h"
 #include "artus/soft/deformed_body.h"
+#include "artus/soft/soft_body.h"
 
 namespace artus {
 
@@ -27,10 +28,14 @@ struct FluidState {
   std::shared_ptr<const FluidShape> before;  ///< with the same vertices; null: it is all `shape`
   double part = 1;                           ///< of the way from `before`
 
-  /// Where a vertex is at rest, m, frame J. Requires: a shape.
-  [[nodiscard]] Vec3 rest_of(std::uint32_t vertex) const {
-    const Vec3& now = shape->joint->mesh.vertices[vertex];
-    return before ? Vec3((1 - part) * before->joint->mesh.vertices[vertex] + part * now) : now;
+  /// Where vertices are at rest, for the skin that a face meets (SoftBody::lift_skin); empty where
+  /// nothing was injected.
+  [[nodiscard]] SoftBody::RestOf rest_of() const {
+    if (!shape) return {};
+    return [*this](std::uint32_t vertex) {
+      const Vec3& now = shape->joint->mesh.vertices[vertex];
+      return before ? Vec3((1 - part) * before->joint->mesh.vertices[vertex] + part * now) : now;
+    };
   }
 };
 

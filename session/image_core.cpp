@@ -62,12 +62,7 @@ ImagedBody ImageCore::advance(const FrameInput& input) {
   if (input.has_probe != 0) X_JP = to_pose(input.X_JP);
   std::optional<NeedleGrip> needle;
   if (input.has_needle != 0) needle = NeedleGrip{to_pose(input.X_JN), input.load};
-  SoftBody::RestOf rest_of;
-  if (fluid.shape)
-    rest_of = [&fluid](std::uint32_t vertex) {
-      return fluid.rest_of(vertex);
-    };
-  tissue_->step(X_JP, needle, rest_of);
+  tissue_->step(X_JP, needle, fluid.rest_of());
   shapes_.follow(sites, tissue_->tissue());
   return {input.number, tissue_->scene(), tissue_->packet(), fluid};
 }

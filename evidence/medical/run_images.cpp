@@ -71,24 +71,21 @@ class RunPainter {
         video_rate_(options.frames_per_second),
         renderer_(scene_, options.transducer, options.settings) {}
 
-  /// The next image's body, as `tissue` lies in it (a rigid one: the joint's), with what was
-  /// injected until the run's row `row`: what is drawn from now on.
-  void lay(const std::shared_ptr<const Scene>& tissue, const ThreeInjections& run,
-           std::size_t row) {
-    body_ = tissue;
+  /// The next image's rigid body with what was injected until the run's row `row`: what is drawn
+  /// from now on.
+  void lay(const ThreeInjections& run, std::size_t row) {
     std::shared_ptr<const Scene> filled;
     if (!run.syringe.empty()) {
       if (!fluid_) fluid_.emplace(scene_->shared_joint(), run.liquid, rate_);
       const SyringeRow& syringe = run.syringe[row];
-      filled = fluid_->step({syringe.sites.data(), syringe.n_sites}, body_->tissue());
+      filled = fluid_->step({syringe.sites.data(), syringe.n_sites}, nullptr);
     }
-    if (filled || filled_)
-      renderer_.set_filled_scene(filled ? filled : body_);
-    else if (body_->tissue() != nullptr)
-      renderer_.set_scene(body_);
-    filled_ = filled != nullptr;
-    if (filled_) body_ = filled;
-    shape_.length = run.needle_length;
+    show(scene_, filled, run);
+  }
+  /// The same of a body that gives way, as it lies in the image.
+  void lay(const std::shared_ptr<const Scene>& tissue, const FluidState& fluid,
+           const ThreeInjections& run) {
+    show(tissue, in_tissue_.at(fluid, tissue->tissue()), run);
   }
   void forget_liquid() { fluid_.reset(); }
   void set_coverage(std::span<const float> coverage) { renderer_.set_contact(coverage); }
@@ -141,12 +138,24 @@ class RunPainter {
   [[nodiscard]] int frames() const noexcept { return frames_; }
 
  private:
+  void show(const std::shared_ptr<const Scene>& body, const std::shared_ptr<const Scene>& filled,
+            const ThreeInjections& run) {
+    if (filled || filled_)
+      renderer_.set_filled_scene(filled ? filled : body);
+    else if (body->tissue() != nullptr)
+      renderer_.set_scene(body);
+    filled_ = filled != nullptr;
+    body_ = filled_ ? filled : body;
+    shape_.length = run.needle_length;
+  }
+
   std::shared_ptr<const Scene> scene_;
   std::filesystem::path folder_;
   NeedleShape shape_;
   double rate_;
   double video_rate_;
-  std::optional<FluidCore> fluid_;  // empty: nothing was drawn of it yet
+  std::optional<FluidCore> fluid_;  // of a rigid body; empty: nothing was drawn of it yet
+  FluidScene in_tissue_;
   bool filled_ = false;
   std::shared_ptr<const Scene> body_;
   Renderer renderer_;
@@ -173,7 +182,7 @@ Result<void> draw_video(const std::shared_ptr<const Scene>& scene, const ThreeIn
     const double time = i / rate;
     while (next + 1 < run.rows.size() && run.rows[next].time < time) ++next;
     const ProbeHandRow& probe = run.probe[next];
-    painter.lay(scene, run, next);
+    painter.lay(run, next);
     static_cast<void>(contact.step(probe.X_JP));
     painter.set_coverage(contact.coverage());
     ARTUS_TRY(painter.draw_frame(run, next, probe.image_pose()));
@@ -195,7 +204,7 @@ Result<RunImages> write_run_images(const std::shared_ptr<const Scene>& scene,
     const NamedMoment& moment = run.moments[i];
     const std::size_t row = row_at(run, moment.time);
     painter.set_coverage(moment.coverage);
-    for (int k = 0; k < kHeldImages; ++k) painter.lay(scene, run, row);
+    for (int k = 0; k < kHeldImages; ++k) painter.lay(run, row);
     auto image = painter.draw_moment(run, i, moment.X_JP, moment.X_JN);
     ARTUS_TRY(image);
     images.moments.push_back(std::move(*image));
@@ -217,17 +226,19 @@ LiveRunImages::LiveRunImages(std::shared_ptr<const Scene> scene, std::filesystem
 
 LiveRunImages::~LiveRunImages() = default;
 
-void LiveRunImages::see(const ThreeInjections& run, const std::shared_ptr<const Scene>& body) {
+void LiveRunImages::see(const ThreeInjections& run, const std::shared_ptr<const Scene>& body,
+                        const FluidState& fluid) {
   if (failed_) return;
-  const auto drawn = draw(run, body);
+  const auto drawn = draw(run, body, fluid);
   if (!drawn) failed_ = drawn.error();
 }
 
 Result<void> LiveRunImages::draw(const ThreeInjections& run,
-                                 const std::shared_ptr<const Scene>& body) {
+                                 const std::shared_ptr<const Scene>& body,
+                                 const FluidState& fluid) {
   const std::size_t row = run.rows.size() - 1;
   const Pose& X_JP = run.probe[row].X_JP;
-  painter_->lay(body, run, std::min(row, std::max<std::size_t>(run.syringe.size(), 1) - 1));
+  painter_->lay(body, fluid, run);
   while (images_.moments.size() < run.moments.size()) {
     auto image = painter_->draw_moment(run, images_.moments.size(), X_JP, run.rows[row].X_JN);
     ARTUS_TRY(image);

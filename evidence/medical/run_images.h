@@ -65,12 +65,14 @@ class LiveRunImages {
   LiveRunImages& operator=(const LiveRunImages&) = delete;
 
   /// For RunTissueOptions::on_image.
-  void see(const ThreeInjections& run, const std::shared_ptr<const Scene>& body);
+  void see(const ThreeInjections& run, const std::shared_ptr<const Scene>& body,
+           const FluidState& fluid);
   /// Once the run is over. Errors: those of write_run_images, of any image.
   [[nodiscard]] Result<RunImages> finish();
 
  private:
-  Result<void> draw(const ThreeInjections& run, const std::shared_ptr<const Scene>& body);
+  Result<void> draw(const ThreeInjections& run, const std::shared_ptr<const Scene>& body,
+                    const FluidState& fluid);
 
   RunImagesOptions options_;
   std::unique_ptr<RunPainter> painter_;

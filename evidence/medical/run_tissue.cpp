@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include "artus/core/noise.h"
@@ -95,9 +96,17 @@ Result<bool> RunTissue::step(const NeedleLoad& load, ThreeInjections& run) {
   ++images_;
   const Pose X_JP = run.probe.back().X_JP;
   ARTUS_TRY(follow(X_JP));
-  core_.step(X_JP, NeedleGrip{run.rows.back().X_JN, load});
+  FluidState fluid;
+  std::span<const InjectedSite> sites;
+  if (!run.syringe.empty()) {
+    if (!fluid_) fluid_.emplace(core_.scene()->shared_joint(), run.liquid, options_.image_rate);
+    sites = std::span(run.syringe.back().sites).first(run.syringe.back().n_sites);
+    fluid = fluid_->step(sites);
+  }
+  core_.step(X_JP, NeedleGrip{run.rows.back().X_JN, load}, fluid.rest_of());
+  if (fluid_) fluid_->follow(sites, core_.tissue());
   hand_.take(core_.packet().probe);
-  if (options_.on_image) options_.on_image(run, core_.scene());
+  if (options_.on_image) options_.on_image(run, core_.scene(), fluid);
   return true;
 }
 

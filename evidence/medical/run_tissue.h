@@ -6,14 +6,16 @@
 
 #include "artus/evidence/medical/three_injections.h"
 #include "artus/evidence/medical/three_injections_plan.h"
+#include "artus/session/fluid_shapes.h"
 #include "artus/session/tissue_core.h"
 
 namespace artus {
 
 /// Tissue that gives way in a run and the hand with the probe on it, tick by tick beside the
-/// needle's: a session's own tissue (TissueCore), one step an image, whose answers both hands feel
-/// from the next tick on. The probe goes where the operator means to have it next: to the plane of
-/// each planned line, lifted where that is beyond what a cage reaches, and then in one of its own.
+/// needle's: a session's own tissue and liquid (TissueCore, FluidShapes), one step an image, whose
+/// answers both hands feel from the next tick on. The probe goes where the operator means to have
+/// it next: to the plane of each planned line, lifted where that is beyond what a cage reaches, and
+/// then in one of its own.
 class RunTissue {
  public:
   /// Errors: those of TissueCore::make.
@@ -45,6 +47,7 @@ class RunTissue {
   double rate_hz_;
   std::size_t images_ = 0;
   TissueCore core_;
+  std::optional<FluidShapes> fluid_;  // empty: nothing was injected yet
   ProbeHand hand_;
 };
 

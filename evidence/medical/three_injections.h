@@ -24,6 +24,8 @@
 
 namespace artus {
 
+struct FluidState;
+
 /// What is given at each target of a run.
 struct TargetDose {
   SyringeChoice syringe;  ///< of the whole run; what is drawn up is made enough for it
@@ -107,8 +109,11 @@ struct ThreeInjections {
 struct RunTissueOptions {
   ProbeFace face;          ///< that presses
   double image_rate = 30;  ///< 1/s of its steps, of which each is an image's instant
-  /// Called with the run so far and the body as it lies at its last row, which is an image's.
-  std::function<void(const ThreeInjections&, const std::shared_ptr<const Scene>&)> on_image;
+  /// Called with the run so far and the body as it lies at its last row, which is an image's, and
+  /// what was injected into it.
+  std::function<void(const ThreeInjections&, const std::shared_ptr<const Scene>&,
+                     const FluidState&)>
+      on_image;
 };
 
 /// The published medical test [Alamilla2020] section 4.6 with a simulated hand and device: the

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "artus/evidence/medical/run_images.h"
+#include "artus/session/fluid_scene.h"
 #include "tests/support/layered_body.h"
 #include "tests/support/meshed_block.h"
 
@@ -47,7 +48,8 @@ SoftRun run_soft(double press = ThreeInjectionsOptions{}.probe.press_force) {
   options.probe.press_force = press;
   RunTissueOptions tissue;
   tissue.face = ProbeFace{};
-  tissue.on_image = [&out](const ThreeInjections& run, const std::shared_ptr<const Scene>& body) {
+  tissue.on_image = [&out](const ThreeInjections& run, const std::shared_ptr<const Scene>& body,
+                           const FluidState& /*fluid*/) {
     Seen now{run.rows.back(), run.probe.back(), 0, 0};
     const Vec3 tip = now.needle.X_JN.translation();
     now.carried = (tip - body->tissue()->to_rest(tip).p_rest).dot(now.needle.axis);
@@ -97,6 +99,37 @@ TEST(RunTissue, ProbePressesTheSkinOfThePictureWithWhatItsHandFeels) {
   }
   EXPECT_GT(deepest, 1e-3) << "3 N press the face in";
   EXPECT_LT(off, 0.5e-3) << "and the skin lies on it";
+}
+
+/// Liquid under the face lifts the skin, which meets the face: it would stand inside it, or the
+/// hand feel none of it.
+TEST(RunTissue, SkinThatLiquidLiftsLiesOnTheFace) {
+  ThreeInjectionsOptions options;
+  options.dose.volume = 1e-6;
+  options.dose.rate = 0.5e-6;
+  options.slow_speed = 0.03;
+  FluidScene scenes;
+  std::shared_ptr<const FluidShape> shape;
+  double off = 0;
+  double opened = 0;
+  int seen = 0;
+  RunTissueOptions tissue;
+  tissue.on_image = [&](const ThreeInjections& run, const std::shared_ptr<const Scene>& body,
+                        const FluidState& fluid) {
+    const auto filled = scenes.at(fluid, body->tissue());
+    if (!filled || fluid.before || run.probe.back().normal_force < 2.9) return;
+    const Vec3 face = run.probe.back().X_JP.translation();
+    off = std::max(off, std::abs(filled->signed_distance_to_skin(face, 10e-3)));
+    ++seen;
+    if (shape == fluid.shape) return;
+    shape = fluid.shape;
+    opened = std::max(opened, soft_layers()->signed_distance_to_skin(face, 20e-3) -
+                                  Scene(shape->joint).signed_distance_to_skin(face, 20e-3));
+  };
+  ASSERT_TRUE(run_three_injections(*soft_layers(), kLines, options, {}, &tissue));
+  EXPECT_GT(seen, 20);
+  EXPECT_GT(opened, 0.5e-3) << "m by which the skin is lifted";
+  EXPECT_LT(off, 0.5e-3);
 }
 
 TEST(RunTissue, SameSeedGivesTheSameBytes) {
