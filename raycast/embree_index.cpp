@@ -133,9 +133,14 @@ void accept_beyond_origin(const RTCFilterFunctionNArguments* args) noexcept {
   if (!(std::abs(passage.cosine) > kCoplanar && passage.depth > 0)) args->valid[0] = 0;
 }
 
+bool touches(const FacetSides& sides, RegionId last) noexcept {
+  return sides.front <= last || sides.back <= last;
+}
+
 struct NearestQuery {
   const EmbreeIndex* index;
   const EmbreeParts* parts;
+  bool skin_alone;
   Vec3 p;
   double max_squared;
   NearestFacet best;
@@ -151,6 +156,7 @@ float search_radius(double distance) noexcept {
 bool consider_facet(RTCPointQueryFunctionArguments* args) noexcept {
   auto& query = *static_cast<NearestQuery*>(args->userPtr);
   const std::uint32_t i = query.parts->interface(args->geomID, args->primID);
+  if (query.skin_alone && !touches(query.index->sides(i), kOutside)) return false;
   const Vec3 q = closest_point_on_triangle(query.p, query.index->corners(i));
   const double squared = (query.p - q).squaredNorm();
   if (squared > query.max_squared) return false;
@@ -207,10 +213,6 @@ Vec3 find_centre(std::span<const Vec3> vertices, std::span<const Interface> inte
   return interfaces.empty() ? Vec3(Vec3::Zero()) : box.center();
 }
 
-bool touches(const FacetSides& sides, RegionId last) noexcept {
-  return sides.front <= last || sides.back <= last;
-}
-
 }  // namespace
 
 EmbreeIndex::EmbreeIndex(std::span<const Vec3> vertices, std::span<const Interface> interfaces,
@@ -221,14 +223,12 @@ EmbreeIndex::EmbreeIndex(std::span<const Vec3> vertices, std::span<const Interfa
   triangles_.reserve(interfaces.size());
   facets_.reserve(interfaces.size());
   std::vector<std::uint32_t> boundary;
-  std::vector<std::uint32_t> skin;
   for (const Interface& interface : interfaces) {
     const auto i = static_cast<std::uint32_t>(triangles_.size());
     triangles_.push_back(interface.vertices);
     facets_.push_back({make_plane(i), {interface.front, interface.back}});
     for (const Vec3& corner : corners(i)) radius_ = std::max(radius_, corner.norm());
     if (touches(facets_.back().sides, kBeyond)) boundary.push_back(i);
-    if (touches(facets_.back().sides, kOutside)) skin.push_back(i);
   }
   if (groups.n > 0) make_blocks(groups);
   std::vector<std::uint32_t> all(interfaces.size());
@@ -239,7 +239,6 @@ EmbreeIndex::EmbreeIndex(std::span<const Vec3> vertices, std::span<const Interfa
   fill_coordinates();
   all_ = make_parts(std::move(all));
   boundary_ = make_parts(std::move(boundary));
-  skin_ = make_parts(std::move(skin));
   throw_on_error(device_.get(), "index the interfaces");
 }
 
@@ -331,7 +330,7 @@ void EmbreeIndex::move(std::size_t group, std::span<const std::uint32_t> vertice
 
 void EmbreeIndex::fit() {
   radius_ = *std::max_element(radii_.begin(), radii_.end());
-  for (EmbreeParts* parts : {&all_, &boundary_, &skin_}) {
+  for (EmbreeParts* parts : {&all_, &boundary_}) {
     bool some = false;
     for (std::size_t k = 0; k < parts->geometries.size(); ++k) {
       RTCGeometry geometry = parts->geometries[k];
@@ -416,10 +415,8 @@ std::optional<FirstHit> EmbreeIndex::first_hit(const Line& line) const noexcept 
 
 std::optional<NearestFacet> EmbreeIndex::nearest(const Vec3& p, double max_distance,
                                                  Subset subset) const noexcept {
-  const EmbreeParts& parts = subset == Subset::boundary ? boundary_
-                             : subset == Subset::skin   ? skin_
-                                                        : all_;
-  NearestQuery query{this, &parts, p, max_distance * max_distance, {}, 0};
+  const EmbreeParts& parts = subset == Subset::all ? all_ : boundary_;
+  NearestQuery query{this, &parts, subset == Subset::skin, p, max_distance * max_distance, {}, 0};
   if (parts.none) return std::nullopt;
   constexpr double kNone = std::numeric_limits<double>::max();
   query.best.squared_distance = kNone;

@@ -162,8 +162,7 @@ class EmbreeIndex {
   EmbreeDevice device_;
   EmbreeBuffer coordinates_;  // (n_vertices, 3) float
   EmbreeParts all_;
-  EmbreeParts boundary_;
-  EmbreeParts skin_;
+  EmbreeParts boundary_;  // with the skin in it
 };
 
 }  // namespace artus
