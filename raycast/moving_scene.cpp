@@ -9,15 +9,6 @@
 
 namespace artus {
 
-namespace {
-
-/// The map whose surfaces an index is of.
-const BodyMap* indexed(const std::shared_ptr<const BodyMap>& map) noexcept {
-  return map->first.map ? map->first.map.get() : map.get();
-}
-
-}  // namespace
-
 /// Scenes that nobody holds, all of one index. Those of another are let go of when they come back.
 struct MovingScene::Pool {
   std::mutex mutex;
@@ -26,8 +17,10 @@ struct MovingScene::Pool {
 
   std::unique_ptr<Scene> take(const std::shared_ptr<const BodyMap>& wanted) {
     const std::lock_guard<std::mutex> lock(mutex);
-    if (!map || indexed(map) != indexed(wanted)) free.clear();
-    map = wanted;
+    if (map != wanted) {
+      map = wanted;
+      free.clear();
+    }
     if (free.empty()) return nullptr;
     std::unique_ptr<Scene> scene = std::move(free.back());
     free.pop_back();
@@ -38,7 +31,7 @@ struct MovingScene::Pool {
     const std::shared_ptr<const DeformedBody> tissue = scene->tissue();
     scene->move(nullptr);
     const std::lock_guard<std::mutex> lock(mutex);
-    if (tissue && indexed(tissue->shared_map()) == indexed(map)) free.push_back(std::move(scene));
+    if (tissue && indexed(tissue->mapped()).map == map) free.push_back(std::move(scene));
   }
 };
 
@@ -47,7 +40,7 @@ MovingScene::MovingScene(SceneOptions options)
 
 std::shared_ptr<const Scene> MovingScene::at(std::shared_ptr<const DeformedBody> tissue) {
   ARTUS_REQUIRE(tissue != nullptr, "a body is needed");
-  std::unique_ptr<Scene> scene = pool_->take(tissue->shared_map());
+  std::unique_ptr<Scene> scene = pool_->take(indexed(tissue->mapped()).map);
   if (!scene) scene.reset(new Scene(*tissue, options_));  // NOLINT(*-owning-memory): private
   scene->move(std::move(tissue));
   return {scene.release(), [pool = pool_](Scene* left) {

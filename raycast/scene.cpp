@@ -146,7 +146,7 @@ Scene::Scene(std::shared_ptr<const CompiledJoint> joint, const SceneOptions& opt
 }
 Scene::Scene(const DeformedBody& tissue, const SceneOptions& options)
     : impl_(std::make_unique<Impl>(
-          tissue.map().first.joint ? tissue.map().first.joint : tissue.shared_joint(), options,
+          indexed(tissue.mapped()).joint, options,
           VertexGrouping{tissue.map().group_of,
                          static_cast<std::uint32_t>(tissue.map().groups.size())})) {
   impl_->fitted.resize(tissue.groups().size());

@@ -24,8 +24,7 @@ const std::shared_ptr<const BodyMap>& FluidScene::map_in(
   return map_;
 }
 
-/// Indices of the three scenes that go round: a shape that opens a space has the body's surfaces,
-/// and the picture of its first drop need not wait.
+/// Indices of the three scenes that go round: a shape that opens a space has the body's surfaces.
 void FluidScene::prepare(const std::shared_ptr<const DeformedBody>& tissue) {
   if (!tissue || tissue->shared_map() == prepared_) return;
   if (preparing_.valid() &&
@@ -45,7 +44,6 @@ const std::shared_ptr<const Scene>& FluidScene::at(
   placed_ = state;
   placed_in_ = tissue;
   if (!state.shape) {
-    prepare(tissue);
     scene_ = nullptr;
     return scene_;
   }

@@ -9,8 +9,7 @@
 namespace artus {
 
 /// Scenes of the body with what was injected: where tissue gives way to the probe, so does what was
-/// opened in it. One thread, which need not be the one that makes the shapes. What the first shape
-/// will need is made before there is one, on a thread of its own.
+/// opened in it. One thread, which need not be the one that makes the shapes.
 class FluidScene {
  public:
   /// Of one image; null: nothing was injected. `tissue`: the body as it gives way in it; null:
@@ -18,11 +17,13 @@ class FluidScene {
   [[nodiscard]] const std::shared_ptr<const Scene>& at(
       const FluidState& state, const std::shared_ptr<const DeformedBody>& tissue);
 
+  /// Makes what the first shape will need before there is one, on a thread of its own, so that a
+  /// live picture of the first drop need not wait. Cost: none where that was done for the cage.
+  void prepare(const std::shared_ptr<const DeformedBody>& tissue);
+
  private:
   [[nodiscard]] const std::shared_ptr<const BodyMap>& map_in(
       const std::shared_ptr<const FluidShape>& shape, const DeformedBody& tissue);
-
-  void prepare(const std::shared_ptr<const DeformedBody>& tissue);
 
   std::shared_ptr<const FluidShape> mapped_;  // what map_ is of
   std::shared_ptr<const BodyMap> map_;        // in the present cage

@@ -151,12 +151,15 @@ std::shared_ptr<const BodyMap> make_body_map(const CompiledJoint& joint, const P
   return map;
 }
 
+MappedJoint indexed(const MappedJoint& mapped) {
+  return mapped.map->first.map ? mapped.map->first : mapped;
+}
+
 std::shared_ptr<const BodyMap> make_body_map(const CompiledJoint& shape,
                                              std::span<const MappedJoint> others) {
   ARTUS_REQUIRE(!others.empty(), "another shape is needed");
   for (const MappedJoint& other : others)
-    if (auto map = map_in_groups(shape.mesh, other.map->first.map ? other.map->first : other))
-      return map;
+    if (auto map = map_in_groups(shape.mesh, indexed(other))) return map;
   return make_body_map(shape, others.front().map->X_JC, others.front().map->model);
 }
 

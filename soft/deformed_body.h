@@ -41,6 +41,9 @@ struct BodyMap {
                                                            const Pose& X_JC,
                                                            std::shared_ptr<const SoftModel> model);
 
+/// What an index of its surfaces is of: itself, or the shape that it shares one with.
+[[nodiscard]] MappedJoint indexed(const MappedJoint& mapped);
+
 /// The map of another shape of a body in the cage of `others`, which must be one: in the groups of
 /// the first of them that has the same surfaces between other vertices and whose vertices outside
 /// the cage are where this one's are; otherwise in its own. Requires: at least one. Cost: finds the
