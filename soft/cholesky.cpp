@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
-
 #include "artus/soft/kernels.h"
 
 namespace artus {
@@ -76,12 +74,14 @@ Cholesky::Cholesky(Dissection plan) : plan_(std::move(plan)) {
   }
 }
 
-/// The front's dense matrix (lower triangle): its nodes' entries and what its children left.
+/// The front's dense matrix (lower triangle): its nodes' entries and what its children left. Below
+/// the root's own stands the identity, so that its elimination leaves minus its inverse.
 Eigen::MatrixXd Cholesky::assemble(std::size_t f, const BlockMatrix& matrix,
-                                   std::vector<Eigen::MatrixXd>& remainders) const {
+                                   std::vector<Eigen::MatrixXd>& eliminated) const {
   const FrontPlan& front = plan_.fronts[f];
   const Index n_own = dofs(front.own);
-  const Index n = n_own + dofs(front.boundary);
+  const bool root = f + 1 == plan_.fronts.size();
+  const Index n = n_own + (root ? n_own : dofs(front.boundary));
   Eigen::MatrixXd F = Eigen::MatrixXd::Zero(n, n);
   std::vector<std::pair<std::uint32_t, Index>> place;  // node, row
   for (Index k = 0; k < static_cast<Index>(front.own.size()); ++k)
@@ -111,7 +111,8 @@ Eigen::MatrixXd Cholesky::assemble(std::size_t f, const BlockMatrix& matrix,
     }
   }
   for (const std::uint32_t child : front.children) {
-    Eigen::MatrixXd& rest = remainders[child];
+    const Index left = dofs(plan_.fronts[child].boundary);
+    const auto rest = eliminated[child].bottomRightCorner(left, left);
     const auto& to = place_in_parent_[child];
     for (std::size_t c = 0; c < to.size(); ++c) {
       for (std::size_t r = c; r < to.size(); ++r) {
@@ -121,35 +122,37 @@ Eigen::MatrixXd Cholesky::assemble(std::size_t f, const BlockMatrix& matrix,
             rest.block<3, 3>(row, column);
       }
     }
-    rest.resize(0, 0);
+    eliminated[child].resize(0, 0);
   }
+  if (root) F.bottomLeftCorner(n_own, n_own).setIdentity();
   return F;
 }
 
 bool Cholesky::factorize(const BlockMatrix& matrix) {
-  std::vector<Eigen::MatrixXd> remainders(plan_.fronts.size());
+  const SoftKernels& kernels = soft_kernels();
+  std::vector<Eigen::MatrixXd> eliminated(plan_.fronts.size());
+  std::vector<double> scratch;
   smallest_pivot_ = std::numeric_limits<double>::infinity();
   for (std::size_t f = 0; f < plan_.fronts.size(); ++f) {
     const Index n_own = dofs(plan_.fronts[f].own);
-    Eigen::MatrixXd F = assemble(f, matrix, remainders);
-    const Index n_rest = F.rows() - n_own;
-    auto own = F.topLeftCorner(n_own, n_own);
+    Eigen::MatrixXd F = assemble(f, matrix, eliminated);
+    const auto n = static_cast<std::size_t>(F.rows());
+    scratch.resize(std::max(scratch.size(), elimination_scratch(n)));
+    if (!kernels.eliminate(F.data(), n, static_cast<std::size_t>(n_own), scratch.data()))
+      return false;
     if (n_own > 0) {
-      Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>, Eigen::Lower> llt(own);
-      if (llt.info() != Eigen::Success) return false;
-      const double least = own.diagonal().minCoeff();
-      if (!(least > 0) || !std::isfinite(own.diagonal().sum())) return false;
-      smallest_pivot_ = std::min(smallest_pivot_, least * least);
+      const auto pivots = F.diagonal().head(n_own);
+      if (!std::isfinite(pivots.sum())) return false;
+      smallest_pivot_ = std::min(smallest_pivot_, std::pow(pivots.minCoeff(), 2));
     }
-    if (n_rest > 0) {
-      auto below = F.bottomLeftCorner(n_rest, n_own);
-      own.triangularView<Eigen::Lower>().transpose().solveInPlace<Eigen::OnTheRight>(below);
-      auto rest = F.bottomRightCorner(n_rest, n_rest);
-      if (n_own > 0) rest.selfadjointView<Eigen::Lower>().rankUpdate(below, -1.0);
-      remainders[f] = rest;
+    if (f + 1 < plan_.fronts.size()) {
+      fronts_[f] = F.leftCols(n_own).cast<float>();
+      eliminated[f] = std::move(F);
+    } else {
+      root_ = F.topLeftCorner(n_own, n_own);
+      root_inverse_ = -F.bottomRightCorner(n_own, n_own);
+      root_inverse_.triangularView<Eigen::StrictlyUpper>() = root_inverse_.transpose();
     }
-    fronts_[f] = F.leftCols(n_own).cast<float>();
-    if (f + 1 == plan_.fronts.size()) root_ = own;
   }
   return true;
 }
@@ -200,17 +203,6 @@ void Cholesky::solve(Eigen::VectorXd& x) const {
   forward(x);
   solve_root(x);
   backward(x);
-}
-
-Eigen::MatrixXd Cholesky::root_inverse() const {
-  const Index n = dofs(plan_.fronts.back().own);
-  Eigen::MatrixXd inverse = Eigen::MatrixXd::Identity(n, n);
-  const auto L = root_.triangularView<Eigen::Lower>();
-  L.solveInPlace(inverse);
-  Eigen::MatrixXd product = Eigen::MatrixXd::Zero(n, n);
-  product.selfadjointView<Eigen::Lower>().rankUpdate(inverse.transpose());
-  product.triangularView<Eigen::StrictlyUpper>() = product.transpose();
-  return product;
 }
 
 std::size_t Cholesky::entries() const noexcept {

@@ -45,20 +45,21 @@ class Cholesky {
   }
   /// Inverse of what elimination leaves of the matrix on the root's nodes: their compliance, m/N,
   /// with all others free. Rows as root_nodes().
-  [[nodiscard]] Eigen::MatrixXd root_inverse() const;
+  [[nodiscard]] const Eigen::MatrixXd& root_inverse() const noexcept { return root_inverse_; }
 
   [[nodiscard]] std::size_t entries() const noexcept;  ///< of the factor
   [[nodiscard]] double smallest_pivot() const noexcept { return smallest_pivot_; }
 
  private:
   [[nodiscard]] Eigen::MatrixXd assemble(std::size_t f, const BlockMatrix& matrix,
-                                         std::vector<Eigen::MatrixXd>& remainders) const;
+                                         std::vector<Eigen::MatrixXd>& eliminated) const;
 
   Dissection plan_;
   std::vector<std::vector<std::uint32_t>> place_in_parent_;  // of each front's boundary nodes
   std::vector<Eigen::MatrixXf>
       fronts_;            // (own + boundary, own) each: lower triangle of L, then L21
   Eigen::MatrixXd root_;  // L of the root
+  Eigen::MatrixXd root_inverse_;
   double smallest_pivot_ = 0;
 };
 

@@ -338,16 +338,20 @@ CellMatrix cell_tangent(const CellMaterial& m, double edge, const CellVector& u,
     const Gradients d = gauss_gradients(g) / edge;
     const double w = volume * m.weight[g];
     const Matrix9 H = w * point_tangent(m, g, k, law.pressure, plane);
-    Eigen::Matrix<double, 9, 24> B = Eigen::Matrix<double, 9, 24>::Zero();
-    for (int a = 0; a < 8; ++a) {
-      for (int J = 0; J < 3; ++J) {
-        for (int i = 0; i < 3; ++i) B(i + 3 * J, 3 * a + i) = d(a, J);
+    // B, which takes the nodes' ways to grad u, is d in each of the three directions by itself.
+    Eigen::Matrix<double, 24, 9> BH = Eigen::Matrix<double, 24, 9>::Zero();
+    for (int r = 0; r < 9; ++r) {
+      for (int a = 0; a < 8; ++a) {
+        for (int J = 0; J < 3; ++J)
+          BH.col(r).segment<3>(3 * a) += d(a, J) * H.col(r).segment<3>(3 * J);
       }
     }
-    const Eigen::Matrix<double, 9, 24> HB = H * B;
-    K.noalias() += B.transpose() * HB;
-    dilatation +=
-        w * B.transpose() * Eigen::Map<const Eigen::Matrix<double, 9, 1>>(k.cof[g].data());
+    for (int a = 0; a < 8; ++a) {
+      for (int J = 0; J < 3; ++J) {
+        for (int i = 0; i < 3; ++i) K.col(3 * a + i) += d(a, J) * BH.col(i + 3 * J);
+        dilatation.segment<3>(3 * a) += w * d(a, J) * k.cof[g].col(J);
+      }
+    }
   }
   if (k.weight > 0)
     K += (law.slope - evenness_of(m)) / (volume * k.weight) * dilatation * dilatation.transpose();

@@ -2,25 +2,36 @@
 #include "artus/soft/kernels.h"
 
 #include <algorithm>
+#include <vector>
 
 namespace artus {
 namespace {
+constexpr std::size_t kRegister = 16;
 #include "artus/soft/kernels_body.h"
 }  // namespace
 
 #ifdef __x86_64__
 [[nodiscard]] const SoftKernels& avx2_soft_kernels() noexcept;
+[[nodiscard]] const SoftKernels& avx512_soft_kernels() noexcept;
 #endif
 
-const SoftKernels& plain_soft_kernels() noexcept {
-  return kKernels;
+std::span<const SoftKernels* const> all_soft_kernels() noexcept {
+  static const std::vector<const SoftKernels*> all = [] {
+    std::vector<const SoftKernels*> these{&kKernels};
+#ifdef __x86_64__
+    if (__builtin_cpu_supports("avx2") != 0) these.push_back(&avx2_soft_kernels());
+    if (__builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512vl") != 0 &&
+        __builtin_cpu_supports("avx512dq") != 0)
+      these.push_back(&avx512_soft_kernels());
+#endif
+    return these;
+  }();
+  return all;
 }
 
 const SoftKernels& soft_kernels() noexcept {
-#ifdef __x86_64__
-  if (__builtin_cpu_supports("avx2") != 0) return avx2_soft_kernels();
-#endif
-  return kKernels;
+  static const SoftKernels& widest = *all_soft_kernels().back();
+  return widest;
 }
 
 void CellPack::set(std::size_t lane, const CellMaterial& m, double edge_length) noexcept {

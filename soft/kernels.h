@@ -2,11 +2,14 @@
 #pragma once
 #include <array>
 #include <cstddef>
+#include <span>
 
 #include "artus/soft/element.h"
 
 namespace artus {
 
+inline constexpr std::size_t kEliminationDepth =
+    128;                                  ///< columns whose products are summed at a time
 inline constexpr std::size_t kLanes = 4;  ///< cubes that are computed side by side
 using Lanes = std::array<double, kLanes>;
 
@@ -57,10 +60,22 @@ struct SoftKernels {
   void (*backward)(const float* L, std::size_t rows, std::size_t columns, float* x);
   /// y (rows) += A x, A (rows, columns), row fastest.
   void (*multiply)(const float* A, std::size_t rows, std::size_t columns, const float* x, float* y);
+  /// Cholesky's elimination of the first `columns` of a symmetric front (n, n), row fastest, of
+  /// which the lower triangle counts: they become columns of L, the rest what is left of the front
+  /// (Schur complement). False where a pivot is not positive; the front is then useless. `scratch`:
+  /// elimination_scratch(n) numbers.
+  bool (*eliminate)(double* front, std::size_t n, std::size_t columns, double* scratch);
 };
 
-/// Those of the widest registers this CPU has; a CPU without AVX2 gets the plain ones.
+/// Numbers that `eliminate` needs beside a front of n rows.
+[[nodiscard]] constexpr std::size_t elimination_scratch(std::size_t n) noexcept {
+  return kEliminationDepth * (n + 16);
+}
+
+/// Those this CPU can run, from the plain ones to those of the widest registers (AVX2, AVX-512).
+[[nodiscard]] std::span<const SoftKernels* const> all_soft_kernels() noexcept;
+
+/// The last of them.
 [[nodiscard]] const SoftKernels& soft_kernels() noexcept;
-[[nodiscard]] const SoftKernels& plain_soft_kernels() noexcept;
 
 }  // namespace artus

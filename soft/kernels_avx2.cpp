@@ -6,6 +6,7 @@
 #pragma GCC target("avx2")
 namespace artus {
 namespace {
+constexpr std::size_t kRegister = 32;
 #include "artus/soft/kernels_body.h"
 }  // namespace
 

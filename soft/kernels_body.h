@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// The kernels' code, included once for each kind of register by kernels_*.cpp within a namespace of
-// its own. Everything here is arithmetic on lanes that do not meet, in a fixed order. It calls no
-// function of a library: what a library inlines here could be taken by others for other CPUs.
+// The kernels' code, included once for each kind of register by kernels*.cpp within a namespace of
+// its own that says how many bytes a register has (kRegister). Everything here is arithmetic on
+// lanes that do not meet, in a fixed order. It calls no function of a library: what a library
+// inlines here could be taken by others for other CPUs.
 
 using D = double __attribute__((vector_size(32), may_alias));
 using S = float __attribute__((vector_size(32)));  // 8 lanes
@@ -383,4 +384,6 @@ void multiply(const float* A, std::size_t rows, std::size_t columns, const float
   }
 }
 
-constexpr SoftKernels kKernels{cells, forward, backward, multiply};
+#include "artus/soft/elimination_body.h"
+
+constexpr SoftKernels kKernels{cells, forward, backward, multiply, eliminate};

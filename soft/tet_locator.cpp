@@ -75,12 +75,16 @@ std::int64_t TetLocator::find(const Vec3& p) const noexcept {
     const Vec3 e1 = v[i1] - v[i0];
     const Vec3 e2 = v[i2] - v[i0];
     const Vec3 e3 = v[i3] - v[i0];
-    const double volume = e1.cross(e2).dot(e3);
+    // One face after the other: most tetrahedra of a box are left at the first.
+    const Vec3 e12 = e1.cross(e2);
+    const double volume = e12.dot(e3);
     const double slack = -1e-9 * volume;
+    const double w3 = -a.dot(e12);
+    if (!(w3 >= slack)) continue;
     const double w1 = -a.dot(e2.cross(e3));
+    if (!(w1 >= slack)) continue;
     const double w2 = -a.dot(e3.cross(e1));
-    const double w3 = -a.dot(e1.cross(e2));
-    if (w1 >= slack && w2 >= slack && w3 >= slack && volume - w1 - w2 - w3 >= slack)
+    if (w2 >= slack && volume - w1 - w2 - w3 >= slack)
       return static_cast<std::int64_t>(members_[k]);
   }
   return -1;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/soft/kernels.h"
 
+#include <cmath>
 #include <cstring>
 #include <vector>
 
+#include <Eigen/Cholesky>
 #include <gtest/gtest.h>
 
 #include "artus/core/noise.h"
@@ -47,21 +49,29 @@ CellPack pack_of(std::uint64_t seed) {
   return pack;
 }
 
-TEST(SoftKernels, WidestRegistersGiveThePlainOnesBytes) {
-  const SoftKernels& wide = soft_kernels();
-  const SoftKernels& plain = plain_soft_kernels();
+class SoftKernelsOf : public testing::TestWithParam<std::size_t> {
+ protected:
+  void SetUp() override {
+    if (GetParam() >= all_soft_kernels().size()) GTEST_SKIP() << "this CPU has no such registers";
+    wide_ = all_soft_kernels()[GetParam()];
+  }
+  const SoftKernels& plain_ = *all_soft_kernels().front();
+  const SoftKernels* wide_ = nullptr;
+};
+
+TEST_P(SoftKernelsOf, WideRegistersGiveThePlainOnesBytes) {
   for (const std::size_t rows : {3U, 12U, 45U, 101U}) {
     const std::size_t columns = rows / 3 + 1;
     const std::vector<float> L = trapezium(rows, columns);
     std::vector<float> a = noise(rows, 5);
     std::vector<float> b = a;
-    wide.forward(L.data(), rows, columns, a.data());
-    plain.forward(L.data(), rows, columns, b.data());
-    wide.backward(L.data(), rows, columns, a.data());
-    plain.backward(L.data(), rows, columns, b.data());
+    wide_->forward(L.data(), rows, columns, a.data());
+    plain_.forward(L.data(), rows, columns, b.data());
+    wide_->backward(L.data(), rows, columns, a.data());
+    plain_.backward(L.data(), rows, columns, b.data());
     const std::vector<float> x = noise(columns, 9);
-    wide.multiply(L.data(), rows, columns, x.data(), a.data());
-    plain.multiply(L.data(), rows, columns, x.data(), b.data());
+    wide_->multiply(L.data(), rows, columns, x.data(), a.data());
+    plain_.multiply(L.data(), rows, columns, x.data(), b.data());
     EXPECT_EQ(std::memcmp(a.data(), b.data(), rows * sizeof(float)), 0) << rows;
   }
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
@@ -72,9 +82,75 @@ TEST(SoftKernels, WidestRegistersGiveThePlainOnesBytes) {
         a.u[i][l] = 2e-3 * (uniform_noise(seed, 100 + 4 * i + l) - 0.5);
     }
     CellPackState b = a;
-    wide.cells(pack, a);
-    plain.cells(pack, b);
+    wide_->cells(pack, a);
+    plain_.cells(pack, b);
     EXPECT_EQ(std::memcmp(&a, &b, sizeof a), 0) << seed;
+  }
+}
+
+/// A positive definite matrix of n rows, far from a multiple of the identity.
+Eigen::MatrixXd positive(Eigen::Index n) {
+  Eigen::MatrixXd R(n, n);
+  for (Eigen::Index i = 0; i < R.size(); ++i)
+    R.data()[i] = uniform_noise(static_cast<std::uint64_t>(n), static_cast<std::uint64_t>(i)) - 0.5;
+  return R * R.transpose() + 0.1 * Eigen::MatrixXd::Identity(n, n);
+}
+
+struct FrontSize {
+  Eigen::Index rows, columns;
+};
+// none, one, all columns; fewer and more than a register, a tile and a depth hold
+constexpr FrontSize kFronts[] = {{1, 1},   {3, 0},   {5, 2},    {8, 8},     {9, 9},     {24, 3},
+                                 {31, 17}, {64, 33}, {150, 57}, {150, 150}, {300, 129}, {301, 260}};
+
+TEST_P(SoftKernelsOf, EliminationGivesThePlainOnesBytes) {
+  for (const auto& [rows, columns] : kFronts) {
+    Eigen::MatrixXd a = positive(rows);
+    Eigen::MatrixXd b = a;
+    const auto n = static_cast<std::size_t>(rows);
+    std::vector<double> scratch(elimination_scratch(n));
+    ASSERT_TRUE(wide_->eliminate(a.data(), n, static_cast<std::size_t>(columns), scratch.data()));
+    ASSERT_TRUE(plain_.eliminate(b.data(), n, static_cast<std::size_t>(columns), scratch.data()));
+    for (Eigen::Index j = 0; j < rows; ++j)
+      EXPECT_EQ(
+          std::memcmp(&a(j, j), &b(j, j), sizeof(double) * static_cast<std::size_t>(rows - j)), 0)
+          << rows << " " << columns << " column " << j;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Registers, SoftKernelsOf, testing::Values(0, 1, 2));
+
+TEST(SoftKernels, EliminationLeavesTheFactorAndTheSchurComplement) {
+  for (const auto& [rows, columns] : kFronts) {
+    const Eigen::MatrixXd A = positive(rows);
+    Eigen::MatrixXd F = A;
+    const auto n = static_cast<std::size_t>(rows);
+    std::vector<double> scratch(elimination_scratch(n));
+    ASSERT_TRUE(
+        soft_kernels().eliminate(F.data(), n, static_cast<std::size_t>(columns), scratch.data()));
+    const Eigen::Index rest = rows - columns;
+    const auto own = A.topLeftCorner(columns, columns);
+    const auto below = A.bottomLeftCorner(rest, columns);
+    const Eigen::MatrixXd L = F.leftCols(columns).triangularView<Eigen::Lower>();
+    EXPECT_LT((L * L.topRows(columns).transpose() - A.leftCols(columns)).norm(), 1e-13 * A.norm())
+        << rows << " " << columns;
+    const Eigen::MatrixXd complement =
+        A.bottomRightCorner(rest, rest) - below * own.ldlt().solve(below.transpose());
+    const Eigen::MatrixXd left =
+        (F.bottomRightCorner(rest, rest) - complement).triangularView<Eigen::Lower>();
+    EXPECT_LT(left.norm(), 1e-11 * A.norm()) << rows << " " << columns;
+  }
+}
+
+TEST(SoftKernels, EliminationRefusesAPivotThatIsNotPositive) {
+  for (const double pivot : {0.0, -1.0, std::nan("")}) {
+    for (const Eigen::Index at : {0, 7, 8, 40}) {
+      Eigen::MatrixXd F = positive(50);
+      F(at, at) = pivot;
+      std::vector<double> scratch(elimination_scratch(50));
+      EXPECT_FALSE(soft_kernels().eliminate(F.data(), 50, 45, scratch.data()))
+          << pivot << " " << at;
+    }
   }
 }
 

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/soft/kernels.h"
+
+#ifdef __x86_64__
+#pragma GCC push_options
+#pragma GCC target("avx512f,avx512vl,avx512dq")
+namespace artus {
+namespace {
+constexpr std::size_t kRegister = 64;
+#include "artus/soft/kernels_body.h"
+}  // namespace
+
+const SoftKernels& avx512_soft_kernels() noexcept {
+  return kKernels;
+}
+
+}  // namespace artus
+#pragma GCC pop_options
+#endif
