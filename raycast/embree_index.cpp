@@ -4,10 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <stdexcept>
-
-#include <Eigen/Geometry>
 
 #include "artus/core/closest_point.h"
 #include "artus/raycast/embree_api.h"
@@ -133,10 +130,6 @@ void accept_beyond_origin(const RTCFilterFunctionNArguments* args) noexcept {
   if (!(std::abs(passage.cosine) > kCoplanar && passage.depth > 0)) args->valid[0] = 0;
 }
 
-bool touches(const FacetSides& sides, RegionId last) noexcept {
-  return sides.front <= last || sides.back <= last;
-}
-
 struct NearestQuery {
   const EmbreeIndex* index;
   const EmbreeParts* parts;
@@ -195,50 +188,23 @@ EmbreeDevice make_device(const std::string& isa) {
   return device;
 }
 
-void check_interface(const Interface& interface, std::span<const Vec3> vertices) {
-  ARTUS_REQUIRE(interface.front != interface.back, "an interface has one region on both sides");
-  for (const std::uint32_t v : interface.vertices) {
-    ARTUS_REQUIRE(v < vertices.size(), "vertex index out of range");
-    ARTUS_REQUIRE(vertices[v].allFinite(), "a vertex is not finite");
-  }
-}
-
-/// The middle of the box around all interfaces, m; refuses what is no interface.
-Vec3 find_centre(std::span<const Vec3> vertices, std::span<const Interface> interfaces) {
-  Eigen::AlignedBox3d box;
-  for (const Interface& interface : interfaces) {
-    check_interface(interface, vertices);
-    for (const std::uint32_t v : interface.vertices) box.extend(vertices[v]);
-  }
-  return interfaces.empty() ? Vec3(Vec3::Zero()) : box.center();
-}
-
 }  // namespace
 
-EmbreeIndex::EmbreeIndex(std::span<const Vec3> vertices, std::span<const Interface> interfaces,
-                         const std::string& isa, const VertexGrouping& groups)
-    : centre_(find_centre(vertices, interfaces)) {
-  vertices_.reserve(vertices.size());
-  for (const Vec3& v : vertices) vertices_.emplace_back(v - centre_);
-  triangles_.reserve(interfaces.size());
-  facets_.reserve(interfaces.size());
-  std::vector<std::uint32_t> boundary;
-  for (const Interface& interface : interfaces) {
-    const auto i = static_cast<std::uint32_t>(triangles_.size());
-    triangles_.push_back(interface.vertices);
-    facets_.push_back({make_plane(i), {interface.front, interface.back}});
-    for (const Vec3& corner : corners(i)) radius_ = std::max(radius_, corner.norm());
-    if (touches(facets_.back().sides, kBeyond)) boundary.push_back(i);
-  }
-  if (groups.n > 0) make_blocks(groups);
-  std::vector<std::uint32_t> all(interfaces.size());
-  std::iota(all.begin(), all.end(), 0U);
-  device_ = make_device(isa);
+EmbreeIndex::EmbreeIndex(std::shared_ptr<const IndexedSurfaces> surfaces, const std::string& isa)
+    : surfaces_(std::move(surfaces)),
+      triangles_(surfaces_->triangles),
+      facets_(surfaces_->facets),
+      centre_(surfaces_->centre),
+      radius_(surfaces_->radius),
+      vertices_(surfaces_->vertices),
+      radii_(surfaces_->radii),
+      unfitted_(surfaces_->n_blocks, false),
+      device_(make_device(isa)) {
   coordinates_.reset(rtcNewBuffer(device_.get(), 3 * sizeof(float) * vertices_.size() + 16));
   throw_on_error(device_.get(), "store the interfaces");
   fill_coordinates();
-  all_ = make_parts(std::move(all));
-  boundary_ = make_parts(std::move(boundary));
+  all_ = make_parts(surfaces_->all);
+  boundary_ = make_parts(surfaces_->boundary);
   throw_on_error(device_.get(), "index the interfaces");
 }
 
@@ -261,33 +227,29 @@ void EmbreeIndex::fill_coordinates() {
   }
 }
 
-/// Members are listed where they are not all interfaces in their order.
-EmbreeParts EmbreeIndex::make_parts(std::vector<std::uint32_t> members) const {
+/// Members count where they are not all interfaces in their order.
+EmbreeParts EmbreeIndex::make_parts(const IndexedSurfaces::Members& members) const {
   EmbreeParts parts;
-  parts.none = members.empty();
-  const bool whole = !can_move() && members.size() == triangles_.size();
-  if (can_move()) {
-    parts.members.resize(unfitted_.size());
-    for (const std::uint32_t i : members) parts.members[block_of_[i]].push_back(i);
-  } else {
-    parts.members.push_back(std::move(members));
-  }
+  const bool whole = !surfaces_->can_move() && members[0].size() == triangles_.size();
+  if (!whole) parts.members = &members;
+  parts.none = std::all_of(members.begin(), members.end(), [](const auto& m) { return m.empty(); });
+  const bool moves = surfaces_->can_move();
   parts.scene.reset(rtcNewScene(device_.get()));
-  rtcSetSceneFlags(parts.scene.get(), can_move() ? RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_DYNAMIC
-                                                 : RTC_SCENE_FLAG_ROBUST);
+  rtcSetSceneFlags(parts.scene.get(),
+                   moves ? RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_DYNAMIC : RTC_SCENE_FLAG_ROBUST);
   rtcSetSceneBuildQuality(parts.scene.get(),
-                          can_move() ? RTC_BUILD_QUALITY_LOW : RTC_BUILD_QUALITY_MEDIUM);
-  parts.geometries.resize(parts.members.size());
-  for (std::size_t k = 0; k < parts.members.size(); ++k) {
-    if (parts.members[k].empty()) continue;
-    RTCGeometry geometry = make_geometry(parts.members[k]);
-    if (!whole) rtcSetGeometryUserData(geometry, parts.members[k].data());
+                          moves ? RTC_BUILD_QUALITY_LOW : RTC_BUILD_QUALITY_MEDIUM);
+  parts.geometries.resize(members.size());
+  for (std::size_t k = 0; k < members.size(); ++k) {
+    if (members[k].empty()) continue;
+    RTCGeometry geometry = make_geometry(members[k]);
+    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast): Embree hands it back, no more.
+    if (!whole) rtcSetGeometryUserData(geometry, const_cast<std::uint32_t*>(members[k].data()));
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(parts.scene.get(), geometry, static_cast<unsigned>(k));
     rtcReleaseGeometry(geometry);
     parts.geometries[k] = geometry;
   }
-  if (whole) parts.members.clear();
   rtcCommitScene(parts.scene.get());
   return parts;
 }
@@ -303,7 +265,7 @@ RTCGeometryTy* EmbreeIndex::make_geometry(std::span<const std::uint32_t> members
     throw_on_error(device_.get(), "store the interfaces");
     for (const std::uint32_t i : members) indices = std::copy_n(triangles_[i].begin(), 3, indices);
   }
-  if (can_move()) rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_REFIT);
+  if (surfaces_->can_move()) rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_REFIT);
   rtcSetGeometryOccludedFilterFunction(geometry, gather_hit);
   rtcSetGeometryIntersectFilterFunction(geometry, accept_beyond_origin);
   return geometry;
@@ -311,7 +273,7 @@ RTCGeometryTy* EmbreeIndex::make_geometry(std::span<const std::uint32_t> members
 
 void EmbreeIndex::move(std::size_t group, std::span<const std::uint32_t> vertices,
                        std::span<const Vec3> places) {
-  ARTUS_REQUIRE(group < blocks_at_.size() && places.size() == vertices.size(),
+  ARTUS_REQUIRE(group < surfaces_->blocks_at.size() && places.size() == vertices.size(),
                 "a group of an index that can move");
   auto* const coordinates = static_cast<float*>(rtcGetBufferData(coordinates_.get()));
   double squared = 0;
@@ -324,7 +286,7 @@ void EmbreeIndex::move(std::size_t group, std::span<const std::uint32_t> vertice
     squared = std::max(squared, place.squaredNorm());
   }
   radii_[group] = std::sqrt(squared);
-  for (const std::uint32_t block : blocks_at_[group]) unfitted_[block] = true;
+  for (const std::uint32_t block : surfaces_->blocks_at[group]) unfitted_[block] = true;
   moved_ = true;
 }
 
@@ -343,14 +305,6 @@ void EmbreeIndex::fit() {
   }
   unfitted_.assign(unfitted_.size(), false);
   throw_on_error(device_.get(), "move the interfaces");
-}
-
-FacetPlane EmbreeIndex::make_plane(std::uint32_t i) const noexcept {
-  const std::array<Vec3, 3> p = corners(i);
-  FacetPlane plane;
-  plane.normal = (p[1] - p[0]).cross(p[2] - p[0]).normalized();
-  plane.offset = plane.normal.dot(p[0]);
-  return plane;
 }
 
 void EmbreeIndex::prefetch_plane(std::uint32_t i, std::uint32_t before,

@@ -10,6 +10,7 @@
 
 #include "artus/core/check.h"
 #include "artus/raycast/facet.h"
+#include "artus/raycast/indexed_surfaces.h"
 #include "artus/raycast/plane_cache.h"
 
 struct RTCBufferTy;
@@ -63,19 +64,13 @@ using EmbreeScene = std::unique_ptr<RTCSceneTy, EmbreeRelease>;
 /// A hierarchy over some of the interfaces, in one geometry or in one for each block.
 struct EmbreeParts {
   EmbreeScene scene;
-  std::vector<std::vector<std::uint32_t>> members;  ///< interface of each triangle; empty: all
-  std::vector<RTCGeometryTy*> geometries;           ///< owned by the scene; null: no triangle
-  bool none = false;                                ///< there is no triangle
+  const IndexedSurfaces::Members* members = nullptr;  ///< null: all interfaces, in their order
+  std::vector<RTCGeometryTy*> geometries;             ///< owned by the scene; null: no triangle
+  bool none = false;                                  ///< there is no triangle
 
   [[nodiscard]] std::uint32_t interface(unsigned block, unsigned triangle) const noexcept {
-    return members.empty() ? triangle : members[block][triangle];
+    return members == nullptr ? triangle : (*members)[block][triangle];
   }
-};
-
-/// Which vertices are moved together.
-struct VertexGrouping {
-  std::span<const std::uint32_t> of;  ///< the first vertices' groups; `n` and more: never moved
-  std::uint32_t n = 0;                ///< groups; 0: nothing moves
 };
 
 /// Triangles in an Embree bounding volume hierarchy (version 3 or 4), with their planes in double
@@ -86,10 +81,9 @@ struct VertexGrouping {
 /// `move` and `fit`.
 class EmbreeIndex {
  public:
-  /// `isa` as in SceneOptions. Requires: indices in range, front and back of each interface differ.
-  /// Errors: std::runtime_error when Embree refuses.
-  EmbreeIndex(std::span<const Vec3> vertices, std::span<const Interface> interfaces,
-              const std::string& isa, const VertexGrouping& groups = {});
+  /// `isa` as in SceneOptions. Indices of the same surfaces share those. Errors:
+  /// std::runtime_error when Embree refuses.
+  EmbreeIndex(std::shared_ptr<const IndexedSurfaces> surfaces, const std::string& isa);
 
   /// Puts the vertices of a group (`vertices`, all of them) to `places`, finite. Then `fit` fits
   /// the hierarchy to them, block by block: the triangles of a group, and those between it and
@@ -99,6 +93,9 @@ class EmbreeIndex {
             std::span<const Vec3> places);
   void fit();
 
+  [[nodiscard]] const std::shared_ptr<const IndexedSurfaces>& surfaces() const noexcept {
+    return surfaces_;
+  }
   [[nodiscard]] const Vec3& centre() const noexcept { return centre_; }
   [[nodiscard]] double radius() const noexcept { return radius_; }  ///< m, of a ball around centre
   /// Once anything moved it is made of the corners anew: a picture asks for fewer than there are.
@@ -142,23 +139,22 @@ class EmbreeIndex {
   [[nodiscard]] std::array<Vec3, 3> corners(std::uint32_t i) const noexcept;
 
  private:
-  [[nodiscard]] FacetPlane make_plane(std::uint32_t i) const noexcept;
-  [[nodiscard]] bool can_move() const noexcept { return !block_of_.empty(); }
+  [[nodiscard]] FacetPlane make_plane(std::uint32_t i) const noexcept {
+    return plane_of(corners(i));
+  }
   void fill_coordinates();
-  [[nodiscard]] EmbreeParts make_parts(std::vector<std::uint32_t> members) const;
+  [[nodiscard]] EmbreeParts make_parts(const IndexedSurfaces::Members& members) const;
   [[nodiscard]] RTCGeometryTy* make_geometry(std::span<const std::uint32_t> members) const;
-  void make_blocks(const VertexGrouping& groups);
 
-  Vec3 centre_ = Vec3::Zero();
-  double radius_ = 0;
-  std::vector<Vec3> vertices_;                           // relative to centre_
-  std::vector<std::array<std::uint32_t, 3>> triangles_;  // (n_interfaces)
-  std::vector<Facet> facets_;                            // (n_interfaces)
-  std::vector<std::uint32_t> block_of_;                  // (n_interfaces), or empty: none moves
-  std::vector<std::vector<std::uint32_t>> blocks_at_;    // (groups) that have a triangle there
-  std::vector<double> radii_;                            // (groups, and what never moves) m
-  std::vector<bool> unfitted_;                           // (blocks)
-  bool moved_ = false;                                   // whether any vertex ever did
+  std::shared_ptr<const IndexedSurfaces> surfaces_;
+  std::span<const std::array<std::uint32_t, 3>> triangles_;  // of the surfaces
+  std::span<const Facet> facets_;                            // of the surfaces
+  Vec3 centre_;
+  double radius_;
+  std::vector<Vec3> vertices_;  // relative to centre_, where they are now
+  std::vector<double> radii_;   // (groups, and what never moves) m
+  std::vector<bool> unfitted_;  // (blocks)
+  bool moved_ = false;          // whether any vertex ever did
   EmbreeDevice device_;
   EmbreeBuffer coordinates_;  // (n_vertices, 3) float
   EmbreeParts all_;

@@ -9,17 +9,27 @@
 
 namespace artus {
 
+namespace {
+
+std::shared_ptr<const BodyMap> map_of(const Scene& scene) {
+  return scene.tissue() ? indexed(scene.tissue()->mapped()).map : nullptr;
+}
+
+}  // namespace
+
 /// Scenes that nobody holds, all of one index. Those of another are let go of when they come back.
 struct MovingScene::Pool {
   std::mutex mutex;
   std::shared_ptr<const BodyMap> map;
   std::vector<std::unique_ptr<Scene>> free;
+  std::shared_ptr<const IndexedSurfaces> surfaces;  // of the map; null until there is one
 
   std::unique_ptr<Scene> take(const std::shared_ptr<const BodyMap>& wanted) {
     const std::lock_guard<std::mutex> lock(mutex);
     if (map != wanted) {
       map = wanted;
       free.clear();
+      surfaces = nullptr;
     }
     if (free.empty()) return nullptr;
     std::unique_ptr<Scene> scene = std::move(free.back());
@@ -27,11 +37,25 @@ struct MovingScene::Pool {
     return scene;
   }
 
+  [[nodiscard]] std::shared_ptr<const IndexedSurfaces> surfaces_of(
+      const std::shared_ptr<const BodyMap>& wanted) {
+    const std::lock_guard<std::mutex> lock(mutex);
+    return map == wanted ? surfaces : nullptr;
+  }
+
+  void keep(const std::shared_ptr<const BodyMap>& of,
+            std::shared_ptr<const IndexedSurfaces> shared) {
+    const std::lock_guard<std::mutex> lock(mutex);
+    if (map != of) free.clear();
+    map = of;
+    surfaces = std::move(shared);
+  }
+
   void give_back(std::unique_ptr<Scene> scene) {
-    const std::shared_ptr<const DeformedBody> tissue = scene->tissue();
+    const std::shared_ptr<const BodyMap> of = map_of(*scene);
     scene->move(nullptr);
     const std::lock_guard<std::mutex> lock(mutex);
-    if (tissue && indexed(tissue->mapped()).map == map) free.push_back(std::move(scene));
+    if (of && of == map) free.push_back(std::move(scene));
   }
 };
 
@@ -40,12 +64,22 @@ MovingScene::MovingScene(SceneOptions options)
 
 std::shared_ptr<const Scene> MovingScene::at(std::shared_ptr<const DeformedBody> tissue) {
   ARTUS_REQUIRE(tissue != nullptr, "a body is needed");
-  std::unique_ptr<Scene> scene = pool_->take(indexed(tissue->mapped()).map);
-  if (!scene) scene.reset(new Scene(*tissue, options_));  // NOLINT(*-owning-memory): private
+  const std::shared_ptr<const BodyMap> map = indexed(tissue->mapped()).map;
+  std::unique_ptr<Scene> scene = pool_->take(map);
+  if (!scene) {
+    // NOLINTNEXTLINE(*-owning-memory): the constructor is private
+    scene.reset(new Scene(*tissue, options_, pool_->surfaces_of(map)));
+    pool_->keep(map, scene->surfaces());
+  }
   scene->move(std::move(tissue));
   return {scene.release(), [pool = pool_](Scene* left) {
             pool->give_back(std::unique_ptr<Scene>(left));
           }};
+}
+
+void MovingScene::share(const Scene& other) {
+  const std::shared_ptr<const BodyMap> map = map_of(other);
+  if (map) pool_->keep(map, other.surfaces());
 }
 
 std::shared_ptr<const Scene> make_scene(std::shared_ptr<const DeformedBody> tissue) {

@@ -61,9 +61,9 @@ struct Trace {
 
 struct Scene::Impl {
   Impl(std::shared_ptr<const CompiledJoint> shared, const SceneOptions& options,
-       const VertexGrouping& groups = {})
+       std::shared_ptr<const IndexedSurfaces> surfaces)
       : joint(std::move(shared)),
-        index(joint->mesh.vertices, joint->mesh.interfaces, options.isa, groups),
+        index(std::move(surfaces), options.isa),
         directions(probe_directions()),
         has_beyond(std::any_of(joint->mesh.interfaces.begin(), joint->mesh.interfaces.end(),
                                [](const Interface& interface) {
@@ -142,14 +142,23 @@ std::span<const Hit> Scene::Impl::trace(const Track& track, Trace& scratch,
 
 Scene::Scene(std::shared_ptr<const CompiledJoint> joint, const SceneOptions& options) {
   ARTUS_REQUIRE(joint != nullptr, "a joint is needed");
-  impl_ = std::make_unique<Impl>(std::move(joint), options);
+  auto surfaces = std::make_shared<const IndexedSurfaces>(joint->mesh.vertices,
+                                                          joint->mesh.interfaces, VertexGrouping{});
+  impl_ = std::make_unique<Impl>(std::move(joint), options, std::move(surfaces));
 }
-Scene::Scene(const DeformedBody& tissue, const SceneOptions& options)
-    : impl_(std::make_unique<Impl>(
-          indexed(tissue.mapped()).joint, options,
-          VertexGrouping{tissue.map().group_of,
-                         static_cast<std::uint32_t>(tissue.map().groups.size())})) {
+Scene::Scene(const DeformedBody& tissue, const SceneOptions& options,
+             std::shared_ptr<const IndexedSurfaces> surfaces) {
+  auto joint = indexed(tissue.mapped()).joint;
+  const auto n = static_cast<std::uint32_t>(tissue.map().groups.size());
+  if (!surfaces)
+    surfaces = std::make_shared<const IndexedSurfaces>(joint->mesh.vertices, joint->mesh.interfaces,
+                                                       VertexGrouping{tissue.map().group_of, n});
+  impl_ = std::make_unique<Impl>(std::move(joint), options, std::move(surfaces));
   impl_->fitted.resize(tissue.groups().size());
+}
+
+const std::shared_ptr<const IndexedSurfaces>& Scene::surfaces() const noexcept {
+  return impl_->index.surfaces();
 }
 
 void Scene::move(std::shared_ptr<const DeformedBody> tissue) {

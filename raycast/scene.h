@@ -16,6 +16,7 @@ namespace artus {
 
 class DeformedBody;
 class PlaneCache;
+struct IndexedSurfaces;
 
 /// Interface index of what no interface marks.
 inline constexpr std::uint32_t kNoInterface = std::numeric_limits<std::uint32_t>::max();
@@ -133,8 +134,11 @@ class Scene {
  private:
   friend class MovingScene;
   struct Impl;
-  /// A scene whose surfaces `move` with states of the tissue that have the same map.
-  Scene(const DeformedBody& tissue, const SceneOptions& options);
+  /// A scene whose surfaces `move` with states of the tissue that have the same map. `surfaces`: of
+  /// another such scene, or null.
+  Scene(const DeformedBody& tissue, const SceneOptions& options,
+        std::shared_ptr<const IndexedSurfaces> surfaces);
+  [[nodiscard]] const std::shared_ptr<const IndexedSurfaces>& surfaces() const noexcept;
   void move(std::shared_ptr<const DeformedBody> tissue);
   std::unique_ptr<Impl> impl_;
 };

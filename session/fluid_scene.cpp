@@ -25,12 +25,14 @@ const std::shared_ptr<const BodyMap>& FluidScene::map_in(
 }
 
 /// Indices of the three scenes that go round: a shape that opens a space has the body's surfaces.
-void FluidScene::prepare(const std::shared_ptr<const DeformedBody>& tissue) {
+void FluidScene::prepare(const Scene& body) {
+  const std::shared_ptr<const DeformedBody>& tissue = body.tissue();
   if (!tissue || tissue->shared_map() == prepared_) return;
   if (preparing_.valid() &&
       preparing_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
     return;
   prepared_ = tissue->shared_map();
+  scenes_.share(body);
   preparing_ = std::async(std::launch::async, [scenes = scenes_, tissue]() mutable {
     const std::array three{scenes.at(tissue), scenes.at(tissue), scenes.at(tissue)};
   });

@@ -18,8 +18,9 @@ class FluidScene {
       const FluidState& state, const std::shared_ptr<const DeformedBody>& tissue);
 
   /// Makes what the first shape will need before there is one, on a thread of its own, so that a
-  /// live picture of the first drop need not wait. Cost: none where that was done for the cage.
-  void prepare(const std::shared_ptr<const DeformedBody>& tissue);
+  /// live picture of the first drop need not wait. `body`: without it. Cost: none where that was
+  /// done for the cage.
+  void prepare(const Scene& body);
 
  private:
   [[nodiscard]] const std::shared_ptr<const BodyMap>& map_in(

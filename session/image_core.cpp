@@ -69,7 +69,7 @@ ImagedBody ImageCore::advance(const FrameInput& input) {
 
 /// What is drawn: the body with what was injected.
 void ImageCore::lay(const FrameInput& input, const ImagedBody& body) {
-  if (!body.fluid.shape) fluid_.prepare(body.scene->tissue());
+  if (!body.fluid.shape) fluid_.prepare(*body.scene);
   const auto& filled = fluid_.at(body.fluid, body.scene->tissue());
   drawn_ = filled ? filled : body.scene;
   if (filled || filled_)

@@ -12,7 +12,7 @@ namespace artus {
 class TetLocator {
  public:
   /// Requires: a mesh with tetrahedra (std::invalid_argument). Cost: about 0.5 s for 1e6.
-  explicit TetLocator(const TetMesh& mesh, double box = 1.5e-3);
+  explicit TetLocator(const TetMesh& mesh, double box = 2e-3);
 
   /// Index of a tetrahedron that holds `p_J`, or -1. Cost: about 0.3 us.
   [[nodiscard]] std::int64_t find(const Vec3& p_J) const noexcept;

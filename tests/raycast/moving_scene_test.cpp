@@ -194,6 +194,35 @@ TEST(MovingScene, HasOneIndexForShapesOfTheSameSurfaces) {
   EXPECT_EQ(make_body_map(*block.joint, std::array{shape->mapped()})->first.map, block.map);
 }
 
+/// What an index keeps of surfaces at rest is that of the first, moved or not, and stays when its
+/// owner is gone.
+TEST(MovingScene, AnswersTheSameWhereItSharesAnothersSurfaces) {
+  const test::MovedBlock block = make_block();
+  const auto dented = block.moved(dent);
+  const std::vector<double> alone = answers(*make_scene(dented));
+  MovingScene sharing;
+  {
+    const auto other = make_scene(dented);
+    sharing.share(*other);
+  }
+  const auto first = sharing.at(dented);
+  const auto second = sharing.at(block.moved([](const Vec3&) { return Vec3(0, 0, 0); }));
+  EXPECT_TRUE(same_bytes(answers(*first), alone));
+  EXPECT_TRUE(same_bytes(answers(*second), answers(Scene(dented->shared_joint()))));
+  EXPECT_EQ(first->normal_at_rest(0), second->normal_at_rest(0));
+}
+
+/// Of another body nothing is shared, though it was offered.
+TEST(MovingScene, SharesNothingWithAnotherBody) {
+  const test::MovedBlock block = make_block();
+  const std::array<test::FlatLayer, 2> layers{{{"skin", 4e-3}, {"fat", 20e-3}}};
+  const test::MovedBlock other = test::make_moved_block(layers);
+  MovingScene scenes;
+  scenes.share(*make_scene(other.moved(dent)));
+  const auto moved = block.moved(dent);
+  EXPECT_TRUE(same_bytes(answers(*scenes.at(moved)), answers(*make_scene(moved))));
+}
+
 TEST(MovingScene, HasAnotherIndexForOtherSurfaces) {
   const test::MovedBlock block = make_block();
   CompiledJoint other = *block.joint;

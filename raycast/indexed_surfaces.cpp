@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/raycast/indexed_surfaces.h"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+#include <Eigen/Geometry>
+
+#include "artus/core/check.h"
+
+namespace artus {
+namespace {
+
+void check_interface(const Interface& interface, std::span<const Vec3> vertices) {
+  ARTUS_REQUIRE(interface.front != interface.back, "an interface has one region on both sides");
+  for (const std::uint32_t v : interface.vertices) {
+    ARTUS_REQUIRE(v < vertices.size(), "vertex index out of range");
+    ARTUS_REQUIRE(vertices[v].allFinite(), "a vertex is not finite");
+  }
+}
+
+/// The middle of the box around all interfaces, m; refuses what is no interface.
+Vec3 find_centre(std::span<const Vec3> vertices, std::span<const Interface> interfaces) {
+  Eigen::AlignedBox3d box;
+  for (const Interface& interface : interfaces) {
+    check_interface(interface, vertices);
+    for (const std::uint32_t v : interface.vertices) box.extend(vertices[v]);
+  }
+  return interfaces.empty() ? Vec3(Vec3::Zero()) : box.center();
+}
+
+}  // namespace
+
+FacetPlane plane_of(const std::array<Vec3, 3>& p) noexcept {
+  FacetPlane plane;
+  plane.normal = (p[1] - p[0]).cross(p[2] - p[0]).normalized();
+  plane.offset = plane.normal.dot(p[0]);
+  return plane;
+}
+
+IndexedSurfaces::IndexedSurfaces(std::span<const Vec3> from, std::span<const Interface> interfaces,
+                                 const VertexGrouping& groups)
+    : centre(find_centre(from, interfaces)) {
+  vertices.reserve(from.size());
+  for (const Vec3& v : from) vertices.emplace_back(v - centre);
+  triangles.reserve(interfaces.size());
+  facets.reserve(interfaces.size());
+  std::vector<std::uint32_t> at_boundary;
+  for (const Interface& interface : interfaces) {
+    const auto& [a, b, c] = interface.vertices;
+    const std::array<Vec3, 3> corners{vertices[a], vertices[b], vertices[c]};
+    facets.push_back({plane_of(corners), {interface.front, interface.back}});
+    for (const Vec3& corner : corners) radius = std::max(radius, corner.norm());
+    if (touches(facets.back().sides, kBeyond))
+      at_boundary.push_back(static_cast<std::uint32_t>(triangles.size()));
+    triangles.push_back(interface.vertices);
+  }
+  if (groups.n > 0) make_blocks(groups);
+  std::vector<std::uint32_t> each(interfaces.size());
+  std::iota(each.begin(), each.end(), 0U);
+  all = members_of(std::move(each));
+  boundary = members_of(std::move(at_boundary));
+}
+
+IndexedSurfaces::Members IndexedSurfaces::members_of(std::vector<std::uint32_t> interfaces) const {
+  if (!can_move()) return {std::move(interfaces)};
+  Members members(n_blocks);
+  for (const std::uint32_t i : interfaces) members[block_of[i]].push_back(i);
+  return members;
+}
+
+/// A block for the triangles of each group, and one for those between it and groups of larger
+/// numbers, so that a group that moves alone leaves most of its neighbours' triangles alone.
+void IndexedSurfaces::make_blocks(const VertexGrouping& groups) {
+  const std::uint32_t still = groups.n;
+  const auto group = [&](std::uint32_t v) {
+    return v < groups.of.size() ? std::min(groups.of[v], still) : still;
+  };
+  std::map<std::array<std::uint32_t, 2>, std::uint32_t> known;  // by group, and whether between
+  blocks_at.resize(still);
+  block_of.reserve(triangles.size());
+  for (const auto& [a, b, c] : triangles) {
+    const auto [least, most] = std::minmax({group(a), group(b), group(c)});
+    const std::array<std::uint32_t, 2> key{least, least == most ? 0U : 1U};
+    const std::uint32_t block =
+        known.try_emplace(key, static_cast<std::uint32_t>(known.size())).first->second;
+    block_of.push_back(block);
+    for (const std::uint32_t v : {a, b, c}) {
+      if (group(v) < still) blocks_at[group(v)].push_back(block);
+    }
+  }
+  for (std::vector<std::uint32_t>& blocks : blocks_at) {
+    std::sort(blocks.begin(), blocks.end());
+    blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
+    blocks.shrink_to_fit();
+  }
+  n_blocks = known.size();
+  radii.assign(still + 1U, 0);
+  for (const auto& corners : triangles) {
+    for (const std::uint32_t v : corners)
+      radii[group(v)] = std::max(radii[group(v)], vertices[v].norm());
+  }
+}
+
+}  // namespace artus
