@@ -2,7 +2,6 @@
 #include "artus/soft/kernels.h"
 
 #include <algorithm>
-#include <vector>
 
 namespace artus {
 namespace {
@@ -11,27 +10,40 @@ constexpr std::size_t kRegister = 16;
 }  // namespace
 
 #ifdef __x86_64__
-[[nodiscard]] const SoftKernels& avx2_soft_kernels() noexcept;
-[[nodiscard]] const SoftKernels& avx512_soft_kernels() noexcept;
+extern const SoftKernels kAvx2SoftKernels;
+extern const SoftKernels kAvx512SoftKernels;
+
+namespace {
+
+constexpr std::array<const SoftKernels*, 3> kAll{&kKernels, &kAvx2SoftKernels, &kAvx512SoftKernels};
+
+std::size_t runnable() noexcept {
+  if (__builtin_cpu_supports("avx2") == 0) return 1;
+  const bool avx512 = __builtin_cpu_supports("avx512f") != 0 &&
+                      __builtin_cpu_supports("avx512vl") != 0 &&
+                      __builtin_cpu_supports("avx512dq") != 0;
+  return avx512 ? 3 : 2;
+}
+
+}  // namespace
+#else
+namespace {
+
+constexpr std::array<const SoftKernels*, 1> kAll{&kKernels};
+
+std::size_t runnable() noexcept {
+  return 1;
+}
+
+}  // namespace
 #endif
 
 std::span<const SoftKernels* const> all_soft_kernels() noexcept {
-  static const std::vector<const SoftKernels*> all = [] {
-    std::vector<const SoftKernels*> these{&kKernels};
-#ifdef __x86_64__
-    if (__builtin_cpu_supports("avx2") != 0) these.push_back(&avx2_soft_kernels());
-    if (__builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512vl") != 0 &&
-        __builtin_cpu_supports("avx512dq") != 0)
-      these.push_back(&avx512_soft_kernels());
-#endif
-    return these;
-  }();
-  return all;
+  return std::span(kAll).first(runnable());
 }
 
 const SoftKernels& soft_kernels() noexcept {
-  static const SoftKernels& widest = *all_soft_kernels().back();
-  return widest;
+  return *all_soft_kernels().back();
 }
 
 void CellPack::set(std::size_t lane, const CellMaterial& m, double edge_length) noexcept {

@@ -10,9 +10,8 @@ constexpr std::size_t kRegister = 32;
 #include "artus/soft/kernels_body.h"
 }  // namespace
 
-const SoftKernels& avx2_soft_kernels() noexcept {
-  return kKernels;
-}
+extern const SoftKernels kAvx2SoftKernels;
+const SoftKernels kAvx2SoftKernels = kKernels;
 
 }  // namespace artus
 #pragma GCC pop_options

@@ -10,9 +10,8 @@ constexpr std::size_t kRegister = 64;
 #include "artus/soft/kernels_body.h"
 }  // namespace
 
-const SoftKernels& avx512_soft_kernels() noexcept {
-  return kKernels;
-}
+extern const SoftKernels kAvx512SoftKernels;
+const SoftKernels kAvx512SoftKernels = kKernels;
 
 }  // namespace artus
 #pragma GCC pop_options

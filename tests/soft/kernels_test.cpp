@@ -52,8 +52,9 @@ CellPack pack_of(std::uint64_t seed) {
 class SoftKernelsOf : public testing::TestWithParam<std::size_t> {
  protected:
   void SetUp() override {
-    if (GetParam() >= all_soft_kernels().size()) GTEST_SKIP() << "this CPU has no such registers";
-    wide_ = all_soft_kernels()[GetParam()];
+    const auto all = all_soft_kernels();
+    if (GetParam() >= all.size()) GTEST_SKIP() << "this CPU has no such registers";
+    wide_ = all[GetParam()];
   }
   const SoftKernels& plain_ = *all_soft_kernels().front();
   const SoftKernels* wide_ = nullptr;
@@ -119,6 +120,10 @@ TEST_P(SoftKernelsOf, EliminationGivesThePlainOnesBytes) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Registers, SoftKernelsOf, testing::Values(0, 1, 2));
+
+TEST(SoftKernels, TheWidestRegistersAreTheOnesThatAreUsed) {
+  EXPECT_EQ(&soft_kernels(), all_soft_kernels().back());
+}
 
 TEST(SoftKernels, EliminationLeavesTheFactorAndTheSchurComplement) {
   for (const auto& [rows, columns] : kFronts) {

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/raycast/indexed_surfaces.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <set>
+#include <stdexcept>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace artus {
+namespace {
+
+/// A strip of triangles along x, the last one of a region that is not meshed.
+struct Strip {
+  std::vector<Vec3> vertices;
+  std::vector<Interface> interfaces;
+
+  explicit Strip(std::uint32_t n = 6) {
+    for (std::uint32_t i = 0; i < n + 2; ++i)
+      vertices.emplace_back(0.01 * i, i % 2 == 0 ? 0.0 : 0.02, 0.1);
+    for (std::uint32_t i = 0; i < n; ++i)
+      interfaces.push_back({{i, i + 1, i + 2}, i + 1 == n ? kBeyond : RegionId{5}, RegionId{4}});
+  }
+};
+
+TEST(IndexedSurfaces, StandAroundTheirMiddleWithTheirPlanes) {
+  const Strip strip;
+  const IndexedSurfaces surfaces(strip.vertices, strip.interfaces, {});
+  EXPECT_LT((surfaces.centre - Vec3(0.035, 0.01, 0.1)).norm(), 1e-15);
+  EXPECT_NEAR(surfaces.radius, std::hypot(0.035, 0.01), 1e-15);
+  ASSERT_EQ(surfaces.facets.size(), strip.interfaces.size());
+  for (std::size_t i = 0; i < surfaces.facets.size(); ++i) {
+    const FacetPlane& plane = surfaces.facets[i].plane;
+    EXPECT_NEAR(plane.normal.z(), i % 2 == 0 ? -1 : 1, 1e-15) << i;
+    for (const std::uint32_t v : surfaces.triangles[i])
+      EXPECT_NEAR(plane.normal.dot(surfaces.vertices[v]), plane.offset, 1e-15) << i;
+  }
+  EXPECT_FALSE(surfaces.can_move());
+  EXPECT_EQ(surfaces.all, (IndexedSurfaces::Members{{0, 1, 2, 3, 4, 5}}));
+  EXPECT_EQ(surfaces.boundary, (IndexedSurfaces::Members{{5}}));
+}
+
+/// Groups 0 and 1, and vertices that are never moved: each triangle is in one block; a group moves
+/// the blocks that have a vertex of it, and none else.
+TEST(IndexedSurfaces, HaveABlockForEachGroupAndForWhatIsBetween) {
+  const Strip strip(9);
+  const std::array<std::uint32_t, 8> of{0, 0, 0, 0, 1, 1, 1, 1};
+  const IndexedSurfaces surfaces(strip.vertices, strip.interfaces, {of, 2});
+  ASSERT_TRUE(surfaces.can_move());
+  std::vector<std::uint32_t> seen;
+  for (std::size_t block = 0; block < surfaces.n_blocks; ++block) {
+    for (const std::uint32_t i : surfaces.all[block]) {
+      EXPECT_EQ(surfaces.block_of[i], block);
+      seen.push_back(i);
+    }
+  }
+  std::sort(seen.begin(), seen.end());
+  EXPECT_EQ(seen, (std::vector<std::uint32_t>{0, 1, 2, 3, 4, 5, 6, 7, 8}));
+  for (std::uint32_t group = 0; group < 2; ++group) {
+    std::set<std::uint32_t> expected;
+    for (std::uint32_t i = 0; i < 9; ++i) {
+      for (const std::uint32_t v : strip.interfaces[i].vertices) {
+        if (v < of.size() && of[v] == group) expected.insert(surfaces.block_of[i]);
+      }
+    }
+    const auto& at = surfaces.blocks_at[group];
+    EXPECT_EQ(std::set<std::uint32_t>(at.begin(), at.end()), expected) << group;
+  }
+  EXPECT_NE(surfaces.block_of[0], surfaces.block_of[2]);  // all of a group; between two of them
+  EXPECT_NE(surfaces.block_of[2], surfaces.block_of[4]);
+  EXPECT_EQ(surfaces.boundary[surfaces.block_of[8]], std::vector<std::uint32_t>{8});
+}
+
+TEST(IndexedSurfaces, RefuseWhatIsNoInterface) {
+  Strip one_region;
+  one_region.interfaces[2].back = one_region.interfaces[2].front;
+  Strip out_of_range;
+  out_of_range.interfaces[1].vertices[0] = 99;
+  Strip not_finite;
+  not_finite.vertices[3].y() = std::numeric_limits<double>::quiet_NaN();
+  for (const Strip& strip : {one_region, out_of_range, not_finite})
+    EXPECT_THROW(IndexedSurfaces(strip.vertices, strip.interfaces, {}), std::invalid_argument);
+}
+
+TEST(IndexedSurfaces, MayBeNone) {
+  const IndexedSurfaces none({}, {}, {});
+  EXPECT_EQ(none.radius, 0);
+  EXPECT_TRUE(none.facets.empty());
+}
+
+}  // namespace
+}  // namespace artus
