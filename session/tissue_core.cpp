@@ -9,7 +9,8 @@ namespace artus {
 namespace {
 
 constexpr double kFactorTime = 0.4;    // s that a factor of the tangent may take
-constexpr double kCageTime = 8;        // s that another cage may take
+constexpr double kCageTime = 7;        // s that another cage may take
+constexpr double kReadyTime = 1;       // s more, for its first factor and index
 constexpr double kFactorWay = 0.5e-3;  // m the face moves before its factor is too old
 constexpr double kTissueWay = 1e-3;    // m the tissue does: crushed, it is much stiffer
 constexpr double kFactorTurn = 0.02;   // rad
@@ -44,6 +45,7 @@ TissueCore::TissueCore(SoftBody body, double image_rate, const ProbeFace& face)
       dt_(1 / image_rate),
       factor_images_(static_cast<std::uint64_t>(std::ceil(kFactorTime * image_rate))),
       cage_images_(static_cast<std::uint64_t>(std::ceil(kCageTime * image_rate))),
+      ready_images_(static_cast<std::uint64_t>(std::ceil(kReadyTime * image_rate))),
       X_JP_factor_(body_.cage_pose()),
       needle_(image_rate) {
   keep_state_of_factor();
@@ -61,25 +63,45 @@ bool TissueCore::is_within_reach(const Pose& X_JC, const Pose& X_JP) {
 /// Another cage where the probe stays out of this one's reach.
 void TissueCore::follow(const std::optional<Pose>& X_JP) {
   outside_ = X_JP && !reaches(*X_JP) ? outside_ + 1 : 0;
-  if (cage_.valid() && images_ == cage_due_) {
-    auto made = cage_.get();
-    if (made) {
-      needle_.forget();
-      if (body_.solver().refreshing()) body_.solver().end_refresh();
-      body_ = std::move(*made);
-      body_.follow(*tissue_);
-      X_JP_factor_ = body_.cage_pose();
-      keep_state_of_factor();
-      tissue_ = nullptr;
-      still_ = false;
-    }
+  if (images_ == cage_due_) {
+    if (cage_.valid())
+      make_ready();
+    else if (next_.valid())
+      take(next_.get());
     outside_ = 0;
   }
-  if (cage_.valid() || outside_ < kOutsideImages) return;
+  if (cage_.valid() || next_.valid() || outside_ < kOutsideImages) return;
   cage_due_ = images_ + cage_images_;
   cage_ = std::async(std::launch::async, [joint = body_.joint(), pose = *X_JP, face = face_] {
     return SoftBody::make(joint, pose, params_with(face));
   });
+}
+
+/// What the first image in the new cage would wait for: a factor of the tissue as it lies, and the
+/// surfaces' index.
+void TissueCore::make_ready() {
+  auto made = cage_.get();
+  if (!made) return;
+  cage_due_ = images_ + ready_images_;
+  next_ = std::async(std::launch::async, [body = std::move(*made), tissue = tissue_]() mutable {
+    body.follow(*tissue);
+    auto laid = body.snapshot();
+    NextCage next{std::move(body), MovingScene(), std::move(laid)};
+    const auto first = next.scenes.at(next.tissue);
+    return next;
+  });
+}
+
+/// Takes the new cage, the tissue from where it is now in the old one.
+void TissueCore::take(NextCage next) {
+  needle_.forget();
+  body_ = std::move(next.body);
+  scenes_ = std::move(next.scenes);
+  keep_state_of_factor();
+  X_JP_factor_ = body_.cage_pose();
+  body_.follow_with_factor(*tissue_);
+  tissue_ = body_.snapshot(next.tissue.get());
+  still_ = false;
 }
 
 void TissueCore::keep_state_of_factor() {
@@ -108,7 +130,8 @@ void TissueCore::refresh(const std::optional<Pose>& X_JP) {
     needle_.renew();
     return;
   }
-  if (!has_moved_since_factor(X_JP)) return;
+  // One that is begun while a cage is made ready would be waited for when that is taken.
+  if (next_.valid() || !has_moved_since_factor(X_JP)) return;
   if (X_JP) X_JP_factor_ = *X_JP;
   keep_state_of_factor();
   factor_due_ = images_ + factor_images_;

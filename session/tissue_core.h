@@ -47,7 +47,15 @@ class TissueCore {
 
  private:
   TissueCore(SoftBody body, double image_rate, const ProbeFace& face);
+  /// Another cage, and the tissue as it lay in it a while before that cage is taken.
+  struct NextCage {
+    SoftBody body;
+    MovingScene scenes;
+    std::shared_ptr<const DeformedBody> tissue;
+  };
   void follow(const std::optional<Pose>& X_JP);
+  void make_ready();
+  void take(NextCage next);
   void refresh(const std::optional<Pose>& X_JP);
   void keep_state_of_factor();
   [[nodiscard]] bool has_moved_since_factor(const std::optional<Pose>& X_JP) const;
@@ -57,7 +65,8 @@ class TissueCore {
   ProbeFace face_;
   double dt_;                    // s between images
   std::uint64_t factor_images_;  // from the start of a factor to its use
-  std::uint64_t cage_images_;
+  std::uint64_t cage_images_;    // from the start of a cage to its being made
+  std::uint64_t ready_images_;   // from then to its use
   std::uint64_t images_ = 0;
   std::uint64_t factor_due_ = 0;
   std::uint64_t cage_due_ = 0;
@@ -67,6 +76,7 @@ class TissueCore {
   std::optional<Pose> X_JP_before_;
   bool still_ = false;  // nothing moved in the last step
   std::future<Result<SoftBody>> cage_;
+  std::future<NextCage> next_;
   NeedleTissue needle_;  // after body_: it ends before what it works on
   MovingScene scenes_;
   std::shared_ptr<const DeformedBody> tissue_;

@@ -153,12 +153,21 @@ Result<SoftBody> SoftBody::make(std::shared_ptr<const CompiledJoint> joint, cons
   return body;
 }
 
-void SoftBody::follow(const DeformedBody& before) {
+/// Displacements of this cage's nodes in another's, frame C.
+std::vector<Vec3> SoftBody::nodes_in(const DeformedBody& other) const {
   const Pose& X_JC = map_->X_JC;
   std::vector<Vec3> moved;
   for (const Vec3& node : map_->model->cage().nodes())
-    moved.emplace_back(X_JC.linear().transpose() * before.displacement(X_JC * node));
-  solver_->start_from(moved);
+    moved.emplace_back(X_JC.linear().transpose() * other.displacement(X_JC * node));
+  return moved;
+}
+
+void SoftBody::follow(const DeformedBody& before) {
+  solver_->start_from(nodes_in(before));
+}
+
+void SoftBody::follow_with_factor(const DeformedBody& before) {
+  solver_->go_on_from(nodes_in(before));
 }
 
 bool SoftBody::lift_skin(const RestOf& rest_of) {

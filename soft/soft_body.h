@@ -44,8 +44,10 @@ class SoftBody {
                                              const Pose& X_JP, const SoftBodyParams& params = {});
 
   /// Goes on from where another body of this joint has its tissue, as far as this cage reaches: a
-  /// probe that presses does not feel that the cage is another. Cost: of a refresh.
+  /// probe that presses does not feel that the cage is another. Cost: of a refresh; some ms with the
+  /// factor that is there, of a state near that one.
   void follow(const DeformedBody& before);
+  void follow_with_factor(const DeformedBody& before);
 
   /// Where a vertex of the joint's mesh is at rest, m, frame J, by its number.
   using RestOf = std::function<Vec3(std::uint32_t)>;
@@ -84,6 +86,7 @@ class SoftBody {
  private:
   SoftBody() = default;
 
+  [[nodiscard]] std::vector<Vec3> nodes_in(const DeformedBody& other) const;
   [[nodiscard]] Result<std::vector<std::uint32_t>> nodes_of(const std::string& bone) const;
 
   std::shared_ptr<const CompiledJoint> joint_;

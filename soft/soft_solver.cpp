@@ -45,7 +45,8 @@ void SoftSolver::reset() {
   refresh();
 }
 
-void SoftSolver::start_from(std::span<const Vec3> displacements) {
+/// Whether the body can be there.
+bool SoftSolver::place(std::span<const Vec3> displacements) {
   ARTUS_REQUIRE(displacements.size() == u_.size(), "one displacement for each node");
   if (refreshing()) end_refresh();
   const auto unknown = model_->unknown_nodes();
@@ -56,8 +57,15 @@ void SoftSolver::start_from(std::span<const Vec3> displacements) {
   bad_ = 0;
   last_ = {};
   evaluate();
-  if (!forces_.on_unknowns.allFinite() || forces_.least_volume < params_.least_volume || !refresh())
-    reset();
+  return forces_.on_unknowns.allFinite() && forces_.least_volume >= params_.least_volume;
+}
+
+void SoftSolver::start_from(std::span<const Vec3> displacements) {
+  if (!place(displacements) || !refresh()) reset();
+}
+
+void SoftSolver::go_on_from(std::span<const Vec3> displacements) {
+  if (!place(displacements)) reset();
 }
 
 void SoftSolver::set_face(SkinPatch skin, const ProbeFace& face) {

@@ -128,6 +128,8 @@ class SoftSolver {
   /// Goes on from displacements of the nodes (n_nodes), m, without probe: those of a body that was
   /// in another cage. From rest where they cannot be: not finite, or a cube squeezed to nothing.
   void start_from(std::span<const Vec3> displacements);
+  /// The same with the factor that is there, of a state near this one. Cost: some ms.
+  void go_on_from(std::span<const Vec3> displacements);
 
  private:
   /// K^-1 g of each constraint and g^T K^-1 g of all, by one factor.
@@ -141,6 +143,7 @@ class SoftSolver {
   void hold_constraints(double alpha, Eigen::VectorXd& r);
   void solve_root(bool pressed, double alpha, Eigen::VectorXd& r);
   void evaluate();
+  [[nodiscard]] bool place(std::span<const Vec3> displacements);
   bool make_factor(std::span<const Vec3> u, std::span<const double> targets);
   void take_factor();
   [[nodiscard]] bool stands() const;

@@ -91,6 +91,70 @@ TEST(TissueCore, PressesTheFaceOfItsProbe) {
   EXPECT_EQ(curved.packet(), nullptr);
 }
 
+/// A probe put down 10 mm aside of its cage, a needle between that pushes the tissue all the while.
+struct SlidAside {
+  static constexpr double kRate = 10;  // Hz
+  std::shared_ptr<const CompiledJoint> joint = make_wide_block();
+  TissueCore core = TissueCore::make(joint, joint->X_JP_default, kRate).value();
+  Pose X_JP = joint->X_JP_default;
+  NeedleGrip needle;
+
+  SlidAside() {
+    X_JP.translate(Vec3(10e-3, 0, 2e-3));
+    needle.X_JN = joint->X_JP_default;
+    needle.X_JN.translate(Vec3(5e-3, 10e-3, 6e-3));
+    needle.load.tip = 0.2;
+    needle.load.tip_depth = 6e-3;
+  }
+  static std::shared_ptr<const CompiledJoint> make_wide_block() {
+    const std::array<FlatLayer, 4> layers{
+        {{"skin", 2e-3}, {"fat", 8e-3}, {"muscle", 20e-3}, {"bone", 10e-3}}};
+    return std::make_shared<const CompiledJoint>(
+        test::make_meshed_block(layers, 0.12, 0.064, 4e-3));
+  }
+  /// N against the hand.
+  double step() {
+    core.step(X_JP, needle);
+    return -core.packet().probe.wrench[2];
+  }
+  /// m that the tissue at the needle's tip gives way.
+  [[nodiscard]] double tent() const {
+    return core.tissue()->displacement(needle.X_JN.translation()).z();
+  }
+};
+
+TEST(TissueCore, AProbeThatStaysOutOfReachGetsACageOfItsOwnByTheImagesNumber) {
+  SlidAside slid;
+  SlidAside again;
+  ASSERT_FALSE(slid.core.reaches(slid.X_JP));
+  int images = 0;  // until the face is felt
+  double tent = 0;
+  while (images < 200 && slid.step() == 0) {
+    tent = slid.tent();
+    ++images;
+    again.step();
+    ASSERT_EQ(digest_of(slid.core.packet()), digest_of(again.core.packet())) << images;
+  }
+  EXPECT_EQ(images, 20 + 80 - 1) << "20 images outside, then 8 s";
+  EXPECT_TRUE(slid.core.reaches(slid.X_JP));
+  EXPECT_GT(tent, 50e-6);
+  EXPECT_NEAR(slid.tent(), tent, 0.2 * tent) << "the needle's tissue is the same in both cages";
+  again.step();
+  for (int i = 0; i < 30; ++i) {
+    const double force = slid.step();
+    again.step();
+    ASSERT_EQ(digest_of(slid.core.packet()), digest_of(again.core.packet())) << i;
+    EXPECT_EQ(slid.core.status() & (kSoftTakenBack | kSoftRestarted | kSoftNoFactor), 0U) << i;
+    EXPECT_GT(force, 0);
+  }
+  // as in a session that began there
+  auto there = TissueCore::make(slid.joint, slid.X_JP, SlidAside::kRate);
+  ASSERT_TRUE(there) << there.error().to_string();
+  for (int i = 0; i < 60; ++i) there->step(slid.X_JP, slid.needle);
+  const double force = -there->packet().probe.wrench[2];
+  EXPECT_NEAR(slid.step(), force, 0.01 * force);
+}
+
 TEST(TissueCore, GivesTheSameBytesAgain) {
   const auto joint = make_soft_block();
   SessionParams params = test::make_small_session();
