@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/raycast/moving_scene.h"
 
+#include <array>
 #include <mutex>
 #include <utility>
 #include <vector>
@@ -75,6 +76,12 @@ std::shared_ptr<const Scene> MovingScene::at(std::shared_ptr<const DeformedBody>
   return {scene.release(), [pool = pool_](Scene* left) {
             pool->give_back(std::unique_ptr<Scene>(left));
           }};
+}
+
+std::shared_ptr<const Scene> MovingScene::make_ready(
+    const std::shared_ptr<const DeformedBody>& tissue) {
+  const std::array three{at(tissue), at(tissue), at(tissue)};
+  return three[0];
 }
 
 void MovingScene::share(const Scene& other) {

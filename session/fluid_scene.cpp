@@ -34,7 +34,7 @@ void FluidScene::prepare(const Scene& body) {
   prepared_ = tissue->shared_map();
   scenes_.share(body);
   preparing_ = std::async(std::launch::async, [scenes = scenes_, tissue]() mutable {
-    const std::array three{scenes.at(tissue), scenes.at(tissue), scenes.at(tissue)};
+    scenes.make_ready(tissue);
   });
 }
 

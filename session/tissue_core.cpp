@@ -50,7 +50,7 @@ TissueCore::TissueCore(SoftBody body, double image_rate, const ProbeFace& face)
       needle_(image_rate) {
   keep_state_of_factor();
   tissue_ = body_.snapshot();
-  scene_ = scenes_.at(tissue_);
+  scene_ = scenes_.make_ready(tissue_);
 }
 
 bool TissueCore::is_within_reach(const Pose& X_JC, const Pose& X_JP) {
@@ -77,8 +77,8 @@ void TissueCore::follow(const std::optional<Pose>& X_JP) {
   });
 }
 
-/// What the first image in the new cage would wait for: a factor of the tissue as it lies, and the
-/// surfaces' index.
+/// What the first images in the new cage would wait for: a factor of the tissue as it lies, and the
+/// indices of the three scenes that go round.
 void TissueCore::make_ready() {
   auto made = cage_.get();
   if (!made) return;
@@ -87,7 +87,7 @@ void TissueCore::make_ready() {
     body.follow(*tissue);
     auto laid = body.snapshot();
     NextCage next{std::move(body), MovingScene(), std::move(laid)};
-    const auto first = next.scenes.at(next.tissue);
+    next.scenes.make_ready(next.tissue);
     return next;
   });
 }

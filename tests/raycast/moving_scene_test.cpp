@@ -262,6 +262,26 @@ TEST(MovingScene, LeavesASceneAloneWhileItIsHeldAndUsesItAgainAfterwards) {
   EXPECT_EQ(held->tissue()->shared_joint(), block.joint);
 }
 
+TEST(MovingScene, MadeReadyItBuildsNoIndexForTheThreeThatGoRound) {
+  const test::MovedBlock block = make_block();
+  const auto indices_of = [](const Scene& scene) { return scene.surfaces().use_count(); };
+  MovingScene scenes;
+  auto drawn = scenes.make_ready(block.at_rest());
+  const auto ready = indices_of(*drawn);
+  EXPECT_GE(ready, 3);
+  auto before = drawn;
+  for (int i = 0; i < 6; ++i) {  // one is made while one is drawn and one was
+    auto made = scenes.at(i % 2 == 0 ? block.moved(dent) : block.at_rest());
+    EXPECT_EQ(indices_of(*made), ready) << i;
+    EXPECT_NE(made, drawn);
+    EXPECT_NE(made, before);
+    before = std::move(drawn);
+    drawn = std::move(made);
+  }
+  const auto fourth = std::array{scenes.at(block.at_rest()), scenes.at(block.at_rest())};
+  EXPECT_EQ(indices_of(*drawn), ready + 1) << "a fourth has its own";
+}
+
 TEST(MovingScene, OutlivesItsMaker) {
   const test::MovedBlock block = make_block();
   std::shared_ptr<const Scene> scene;
