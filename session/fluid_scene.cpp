@@ -33,9 +33,8 @@ void FluidScene::prepare(const Scene& body) {
     return;
   prepared_ = tissue->shared_map();
   scenes_.share(body);
-  preparing_ = std::async(std::launch::async, [scenes = scenes_, tissue]() mutable {
-    scenes.make_ready(tissue);
-  });
+  preparing_ = std::async(std::launch::async,
+                          [scenes = scenes_, tissue]() mutable { scenes.make_ready(tissue); });
 }
 
 const std::shared_ptr<const Scene>& FluidScene::at(

@@ -44,8 +44,8 @@ class SoftBody {
                                              const Pose& X_JP, const SoftBodyParams& params = {});
 
   /// Goes on from where another body of this joint has its tissue, as far as this cage reaches: a
-  /// probe that presses does not feel that the cage is another. Cost: of a refresh; some ms with the
-  /// factor that is there, of a state near that one.
+  /// probe that presses does not feel that the cage is another. Cost: of a refresh; some ms with
+  /// the factor that is there, of a state near that one.
   void follow(const DeformedBody& before);
   void follow_with_factor(const DeformedBody& before);
 
