@@ -228,7 +228,8 @@ void EmbreeIndex::fill_coordinates() {
 }
 
 /// Members count where they are not all interfaces in their order.
-EmbreeParts EmbreeIndex::make_parts(const IndexedSurfaces::Members& members) const {
+EmbreeParts EmbreeIndex::make_parts(const IndexedSurfaces::Part& part) const {
+  const IndexedSurfaces::Members& members = part.members;
   EmbreeParts parts;
   const bool whole = !surfaces_->can_move() && members[0].size() == triangles_.size();
   if (!whole) parts.members = &members;
@@ -242,7 +243,7 @@ EmbreeParts EmbreeIndex::make_parts(const IndexedSurfaces::Members& members) con
   parts.geometries.resize(members.size());
   for (std::size_t k = 0; k < members.size(); ++k) {
     if (members[k].empty()) continue;
-    RTCGeometry geometry = make_geometry(members[k]);
+    RTCGeometry geometry = make_geometry(part.corners[k]);
     // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast): Embree hands it back, no more.
     if (!whole) rtcSetGeometryUserData(geometry, const_cast<std::uint32_t*>(members[k].data()));
     rtcCommitGeometry(geometry);
@@ -254,17 +255,14 @@ EmbreeParts EmbreeIndex::make_parts(const IndexedSurfaces::Members& members) con
   return parts;
 }
 
-RTCGeometryTy* EmbreeIndex::make_geometry(std::span<const std::uint32_t> members) const {
+/// Of triangles that the surfaces keep.
+RTCGeometryTy* EmbreeIndex::make_geometry(
+    std::span<const IndexedSurfaces::Corners> triangles) const {
   RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
-  if (!members.empty()) {
-    rtcSetGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, coordinates_.get(),
-                         0, 3 * sizeof(float), vertices_.size());
-    auto* indices = static_cast<std::uint32_t*>(
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                3 * sizeof(std::uint32_t), members.size()));
-    throw_on_error(device_.get(), "store the interfaces");
-    for (const std::uint32_t i : members) indices = std::copy_n(triangles_[i].begin(), 3, indices);
-  }
+  rtcSetGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, coordinates_.get(),
+                       0, 3 * sizeof(float), vertices_.size());
+  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, triangles.data(),
+                             0, sizeof(IndexedSurfaces::Corners), triangles.size());
   if (surfaces_->can_move()) rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_REFIT);
   rtcSetGeometryOccludedFilterFunction(geometry, gather_hit);
   rtcSetGeometryIntersectFilterFunction(geometry, accept_beyond_origin);

@@ -143,8 +143,9 @@ class EmbreeIndex {
     return plane_of(corners(i));
   }
   void fill_coordinates();
-  [[nodiscard]] EmbreeParts make_parts(const IndexedSurfaces::Members& members) const;
-  [[nodiscard]] RTCGeometryTy* make_geometry(std::span<const std::uint32_t> members) const;
+  [[nodiscard]] EmbreeParts make_parts(const IndexedSurfaces::Part& part) const;
+  [[nodiscard]] RTCGeometryTy* make_geometry(
+      std::span<const IndexedSurfaces::Corners> triangles) const;
 
   std::shared_ptr<const IndexedSurfaces> surfaces_;
   std::span<const std::array<std::uint32_t, 3>> triangles_;  // of the surfaces

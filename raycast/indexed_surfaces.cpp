@@ -42,8 +42,12 @@ FacetPlane plane_of(const std::array<Vec3, 3>& p) noexcept {
 IndexedSurfaces::IndexedSurfaces(std::span<const Vec3> from, std::span<const Interface> interfaces,
                                  const VertexGrouping& groups)
     : centre(find_centre(from, interfaces)) {
-  vertices.reserve(from.size());
-  for (const Vec3& v : from) vertices.emplace_back(v - centre);
+  std::uint32_t end = 0;
+  for (const Interface& interface : interfaces) {
+    for (const std::uint32_t v : interface.vertices) end = std::max(end, v + 1);
+  }
+  vertices.reserve(end);
+  for (const Vec3& v : from.first(end)) vertices.emplace_back(v - centre);
   triangles.reserve(interfaces.size());
   facets.reserve(interfaces.size());
   std::vector<std::uint32_t> at_boundary;
@@ -59,15 +63,25 @@ IndexedSurfaces::IndexedSurfaces(std::span<const Vec3> from, std::span<const Int
   if (groups.n > 0) make_blocks(groups);
   std::vector<std::uint32_t> each(interfaces.size());
   std::iota(each.begin(), each.end(), 0U);
-  all = members_of(std::move(each));
-  boundary = members_of(std::move(at_boundary));
+  all = part_of(std::move(each));
+  boundary = part_of(std::move(at_boundary));
 }
 
-IndexedSurfaces::Members IndexedSurfaces::members_of(std::vector<std::uint32_t> interfaces) const {
-  if (!can_move()) return {std::move(interfaces)};
-  Members members(n_blocks);
-  for (const std::uint32_t i : interfaces) members[block_of[i]].push_back(i);
-  return members;
+IndexedSurfaces::Part IndexedSurfaces::part_of(std::vector<std::uint32_t> interfaces) const {
+  Part part;
+  if (can_move()) {
+    part.members.resize(n_blocks);
+    for (const std::uint32_t i : interfaces) part.members[block_of[i]].push_back(i);
+  } else {
+    part.members.push_back(std::move(interfaces));
+  }
+  for (std::vector<std::uint32_t>& members : part.members) {
+    members.shrink_to_fit();
+    std::vector<Corners>& corners = part.corners.emplace_back();
+    corners.reserve(members.size());
+    for (const std::uint32_t i : members) corners.push_back(triangles[i]);
+  }
+  return part;
 }
 
 /// A block for the triangles of each group, and one for those between it and groups of larger

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/raycast/moving_scene.h"
 
-#include <array>
 #include <mutex>
 #include <utility>
 #include <vector>
@@ -78,10 +77,9 @@ std::shared_ptr<const Scene> MovingScene::at(std::shared_ptr<const DeformedBody>
           }};
 }
 
-std::shared_ptr<const Scene> MovingScene::make_ready(
+std::array<std::shared_ptr<const Scene>, 3> MovingScene::make_ready(
     const std::shared_ptr<const DeformedBody>& tissue) {
-  const std::array three{at(tissue), at(tissue), at(tissue)};
-  return three[0];
+  return {at(tissue), at(tissue), at(tissue)};
 }
 
 void MovingScene::share(const Scene& other) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <array>
 #include <memory>
 
 #include "artus/raycast/scene.h"
@@ -20,9 +21,10 @@ class MovingScene {
   /// surfaces share (BodyMap::first).
   [[nodiscard]] std::shared_ptr<const Scene> at(std::shared_ptr<const DeformedBody> tissue);
 
-  /// The same, with an index for each of the three scenes that go round, so that none of the states
-  /// to come waits for one. Cost: of the indices.
-  std::shared_ptr<const Scene> make_ready(const std::shared_ptr<const DeformedBody>& tissue);
+  /// The same for all three that go round, so that no state to come waits for an index. Cost: of
+  /// the indices.
+  std::array<std::shared_ptr<const Scene>, 3> make_ready(
+      const std::shared_ptr<const DeformedBody>& tissue);
 
   /// Scenes of the same surfaces as `other`, which another MovingScene made, share with it what of
   /// an index does not move: four tenths of its memory.

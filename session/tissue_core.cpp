@@ -50,7 +50,7 @@ TissueCore::TissueCore(SoftBody body, double image_rate, const ProbeFace& face)
       needle_(image_rate) {
   keep_state_of_factor();
   tissue_ = body_.snapshot();
-  scene_ = scenes_.make_ready(tissue_);
+  scene_ = scenes_.make_ready(tissue_)[0];
 }
 
 bool TissueCore::is_within_reach(const Pose& X_JC, const Pose& X_JP) {

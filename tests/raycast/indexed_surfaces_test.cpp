@@ -27,8 +27,10 @@ struct Strip {
 };
 
 TEST(IndexedSurfaces, StandAroundTheirMiddleWithTheirPlanes) {
-  const Strip strip;
+  Strip strip;
+  strip.vertices.emplace_back(9, 9, 9);  // of tetrahedra alone
   const IndexedSurfaces surfaces(strip.vertices, strip.interfaces, {});
+  EXPECT_EQ(surfaces.vertices.size(), 8U);
   EXPECT_LT((surfaces.centre - Vec3(0.035, 0.01, 0.1)).norm(), 1e-15);
   EXPECT_NEAR(surfaces.radius, std::hypot(0.035, 0.01), 1e-15);
   ASSERT_EQ(surfaces.facets.size(), strip.interfaces.size());
@@ -39,8 +41,9 @@ TEST(IndexedSurfaces, StandAroundTheirMiddleWithTheirPlanes) {
       EXPECT_NEAR(plane.normal.dot(surfaces.vertices[v]), plane.offset, 1e-15) << i;
   }
   EXPECT_FALSE(surfaces.can_move());
-  EXPECT_EQ(surfaces.all, (IndexedSurfaces::Members{{0, 1, 2, 3, 4, 5}}));
-  EXPECT_EQ(surfaces.boundary, (IndexedSurfaces::Members{{5}}));
+  EXPECT_EQ(surfaces.all.members, (IndexedSurfaces::Members{{0, 1, 2, 3, 4, 5}}));
+  EXPECT_EQ(surfaces.boundary.members, (IndexedSurfaces::Members{{5}}));
+  EXPECT_EQ(surfaces.boundary.corners[0], (std::vector<IndexedSurfaces::Corners>{{5, 6, 7}}));
 }
 
 /// Groups 0 and 1, and vertices that are never moved: each triangle is in one block; a group moves
@@ -52,7 +55,7 @@ TEST(IndexedSurfaces, HaveABlockForEachGroupAndForWhatIsBetween) {
   ASSERT_TRUE(surfaces.can_move());
   std::vector<std::uint32_t> seen;
   for (std::size_t block = 0; block < surfaces.n_blocks; ++block) {
-    for (const std::uint32_t i : surfaces.all[block]) {
+    for (const std::uint32_t i : surfaces.all.members[block]) {
       EXPECT_EQ(surfaces.block_of[i], block);
       seen.push_back(i);
     }
@@ -71,7 +74,7 @@ TEST(IndexedSurfaces, HaveABlockForEachGroupAndForWhatIsBetween) {
   }
   EXPECT_NE(surfaces.block_of[0], surfaces.block_of[2]);  // all of a group; between two of them
   EXPECT_NE(surfaces.block_of[2], surfaces.block_of[4]);
-  EXPECT_EQ(surfaces.boundary[surfaces.block_of[8]], std::vector<std::uint32_t>{8});
+  EXPECT_EQ(surfaces.boundary.members[surfaces.block_of[8]], std::vector<std::uint32_t>{8});
 }
 
 TEST(IndexedSurfaces, RefuseWhatIsNoInterface) {
