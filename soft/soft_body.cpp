@@ -133,7 +133,6 @@ Result<SoftBody> SoftBody::make(std::shared_ptr<const CompiledJoint> joint, cons
   };
   SoftBody body;
   body.joint_ = joint;
-  body.locator_ = locator;
   auto map =
       make_body_map(*joint, X_JP,
                     std::make_shared<const SoftModel>(
@@ -209,12 +208,13 @@ Eigen::Matrix<double, 6, 6> SoftBody::contact_stiffness() const {
 }
 
 /// Nodes of the cage that a bone holds.
-Result<std::vector<std::uint32_t>> SoftBody::nodes_of(const std::string& bone) const {
+Result<std::vector<std::uint32_t>> SoftBody::nodes_of(const std::string& bone,
+                                                      const TetLocator& locator) const {
   std::vector<std::uint32_t> nodes;
   const SoftModel& model = *map_->model;
   for (std::uint32_t n = 0; n < model.cage().nodes().size(); ++n) {
     if (!model.held(n).all()) continue;
-    const std::int64_t tet = locator_->find(map_->X_JC * model.cage().nodes()[n]);
+    const std::int64_t tet = locator.find(map_->X_JC * model.cage().nodes()[n]);
     if (tet < 0) continue;
     const RegionId region = joint_->mesh.regions[static_cast<std::size_t>(tet)];
     if (joint_->regions[region].name == bone && joint_->tissue_of(region).haptic.hard)
@@ -229,11 +229,12 @@ Result<std::vector<std::uint32_t>> SoftBody::nodes_of(const std::string& bone) c
 Result<void> SoftBody::move_bones(std::span<const BoneMotion> motions, int parts) {
   ARTUS_REQUIRE(parts > 0, "at least one part");
   const auto rest = map_->model->cage().nodes();
+  const TetLocator locator(joint_->mesh);
   std::vector<std::vector<std::uint32_t>> nodes;
   std::vector<Vec3>
       middles;  // of the bones' nodes, frame C: they go straight, the bone turns on them
   for (const BoneMotion& motion : motions) {
-    auto found = nodes_of(motion.structure);
+    auto found = nodes_of(motion.structure, locator);
     ARTUS_TRY(found);
     Vec3 sum = Vec3::Zero();
     for (const std::uint32_t n : *found) sum += rest[n];

@@ -87,11 +87,11 @@ class SoftBody {
   SoftBody() = default;
 
   [[nodiscard]] std::vector<Vec3> nodes_in(const DeformedBody& other) const;
-  [[nodiscard]] Result<std::vector<std::uint32_t>> nodes_of(const std::string& bone) const;
+  [[nodiscard]] Result<std::vector<std::uint32_t>> nodes_of(const std::string& bone,
+                                                            const TetLocator& locator) const;
 
   std::shared_ptr<const CompiledJoint> joint_;
   std::shared_ptr<const BodyMap> map_;
-  std::shared_ptr<const TetLocator> locator_;
   std::unique_ptr<SoftSolver> solver_;
   std::vector<std::uint32_t> skin_;  // of the face's skin, numbers in the joint's mesh
   std::vector<Vec3> lifts_;          // m, frame C, of these; empty: none
