@@ -9,7 +9,7 @@ namespace artus {
 namespace {
 
 constexpr double kFactorTime = 0.4;    // s that a factor of the tangent may take
-constexpr double kCageTime = 7;        // s that another cage may take
+constexpr double kCageTime = 4;        // s that another cage may take
 constexpr double kReadyTime = 1;       // s more, for its first factor and index
 constexpr double kFactorWay = 0.5e-3;  // m the face moves before its factor is too old
 constexpr double kTissueWay = 1e-3;    // m the tissue does: crushed, it is much stiffer
@@ -64,10 +64,12 @@ bool TissueCore::is_within_reach(const Pose& X_JC, const Pose& X_JP) {
 void TissueCore::follow(const std::optional<Pose>& X_JP) {
   outside_ = X_JP && !reaches(*X_JP) ? outside_ + 1 : 0;
   if (images_ == cage_due_) {
-    if (cage_.valid())
-      make_ready();
-    else if (next_.valid())
-      take(next_.get());
+    if (cage_.valid()) {
+      make_ready(X_JP);
+    } else if (next_.valid()) {
+      NextCage next = next_.get();
+      if (is_wanted(next.body.cage_pose(), X_JP)) take(std::move(next));
+    }
     outside_ = 0;
   }
   if (cage_.valid() || next_.valid() || outside_ < kOutsideImages) return;
@@ -77,11 +79,16 @@ void TissueCore::follow(const std::optional<Pose>& X_JP) {
   });
 }
 
+/// Not where the probe is back in this cage: the other would not feel it.
+bool TissueCore::is_wanted(const Pose& X_JC, const std::optional<Pose>& X_JP) const {
+  return !X_JP || !reaches(*X_JP) || is_within_reach(X_JC, *X_JP);
+}
+
 /// What the first images in the new cage would wait for: a factor of the tissue as it lies, and the
 /// indices of the three scenes that go round.
-void TissueCore::make_ready() {
+void TissueCore::make_ready(const std::optional<Pose>& X_JP) {
   auto made = cage_.get();
-  if (!made) return;
+  if (!made || !is_wanted(made->cage_pose(), X_JP)) return;
   cage_due_ = images_ + ready_images_;
   next_ = std::async(std::launch::async, [body = std::move(*made), tissue = tissue_]() mutable {
     body.follow(*tissue);

@@ -27,8 +27,9 @@ class TissueCore {
                                                const DeformedBody* before = nullptr);
 
   /// The next image's instant, with the probe at `X_JP` or without one, and so the needle. A probe
-  /// that stays outside of what the cage reaches gets a cage of its own; until that is there the
-  /// tissue does not feel it. `rest_of`: SoftBody::lift_skin. Cost: see docs/deformation.md.
+  /// that stays outside of what the cage reaches gets a cage of its own, unless it is back by then;
+  /// until that is there the tissue does not feel it. `rest_of`: SoftBody::lift_skin. Cost: see
+  /// docs/deformation.md.
   void step(const std::optional<Pose>& X_JP, const std::optional<NeedleGrip>& needle = {},
             const SoftBody::RestOf& rest_of = {});
 
@@ -54,7 +55,8 @@ class TissueCore {
     std::shared_ptr<const DeformedBody> tissue;
   };
   void follow(const std::optional<Pose>& X_JP);
-  void make_ready();
+  [[nodiscard]] bool is_wanted(const Pose& X_JC, const std::optional<Pose>& X_JP) const;
+  void make_ready(const std::optional<Pose>& X_JP);
   void take(NextCage next);
   void refresh(const std::optional<Pose>& X_JP);
   void keep_state_of_factor();
