@@ -16,7 +16,7 @@ struct VertexGrouping {
 };
 
 /// What all indices of the same surfaces have in common: the surfaces as they are before anything
-/// moves, and the blocks in which they may. Immutable once made; nearly half of an index.
+/// moves, and the blocks in which they may. Immutable once made; four tenths of an index.
 struct IndexedSurfaces {
   /// Requires: indices in range, vertices finite, front and back of each interface differ.
   IndexedSurfaces(std::span<const Vec3> from, std::span<const Interface> interfaces,
