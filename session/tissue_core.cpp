@@ -9,7 +9,7 @@ namespace artus {
 namespace {
 
 constexpr double kFactorTime = 0.4;    // s that a factor of the tangent may take
-constexpr double kCageTime = 5;        // s that another cage may take
+constexpr double kCageTime = 4;        // s that another cage may take
 constexpr double kReadyTime = 1;       // s more, for its first factor and index
 constexpr double kFactorWay = 0.5e-3;  // m the face moves before its factor is too old
 constexpr double kTissueWay = 1e-3;    // m the tissue does: crushed, it is much stiffer

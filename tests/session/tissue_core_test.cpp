@@ -135,7 +135,7 @@ TEST(TissueCore, AProbeThatStaysOutOfReachGetsACageOfItsOwnByTheImagesNumber) {
     again.step();
     ASSERT_EQ(digest_of(slid.core.packet()), digest_of(again.core.packet())) << images;
   }
-  EXPECT_EQ(images, 20 + 60 - 1) << "20 images outside, then 6 s";
+  EXPECT_EQ(images, 20 + 50 - 1) << "20 images outside, then 5 s";
   EXPECT_TRUE(slid.core.reaches(slid.X_JP));
   EXPECT_GT(tent, 50e-6);
   EXPECT_NEAR(slid.tent(), tent, 0.2 * tent) << "the needle's tissue is the same in both cages";
@@ -156,7 +156,7 @@ TEST(TissueCore, AProbeThatStaysOutOfReachGetsACageOfItsOwnByTheImagesNumber) {
 }
 
 TEST(TissueCore, AProbeThatIsBackKeepsItsCage) {
-  for (const int away : {30, 75}) {  // images: back before the other is made, and made ready
+  for (const int away : {30, 65}) {  // images: back before the other is made, and made ready
     SlidAside slid;
     const Pose aside = slid.X_JP;
     Pose home = slid.joint->X_JP_default;
@@ -164,7 +164,7 @@ TEST(TissueCore, AProbeThatIsBackKeepsItsCage) {
     for (int i = 0; i < away; ++i) EXPECT_EQ(slid.step(), 0) << i;
     slid.X_JP = home;
     slid.step();  // the face meets the skin
-    for (int i = away + 1; i < 120; ++i)
+    for (int i = away + 1; i < 110; ++i)
       EXPECT_GT(slid.step(), 0) << "back after " << away << ", " << i;
     EXPECT_FALSE(slid.core.reaches(aside));
   }
