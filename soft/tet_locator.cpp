@@ -12,6 +12,7 @@ namespace {
 /// m by which an extent is widened, so that a point on a face is never left by rounding.
 constexpr double kMargin = 1e-9;
 
+/// Least and greatest coordinates, m.
 std::array<Vec3, 2> extent_of(const TetMesh& mesh, std::size_t tet) noexcept {
   const auto& [a, b, c, d] = mesh.tetrahedra[tet];
   const auto& v = mesh.vertices;
@@ -38,16 +39,16 @@ TetLocator::TetLocator(const TetMesh& mesh, double box) : mesh_(mesh), per_metre
   const std::size_t n = index({size_[0] - 1, size_[1] - 1, size_[2] - 1}) + 1;
   start_.assign(n + 1, 0);
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
-    visit_boxes(t, [&](const std::array<int, 3>& at) { ++start_[index(at) + 1]; });
+    visit_boxes(extent_of(mesh, t), [&](const std::array<int, 3>& at) { ++start_[index(at) + 1]; });
   for (std::size_t b = 0; b < n; ++b) start_[b + 1] += start_[b];
   members_.resize(start_.back());
   extents_.resize(start_.back());
   std::vector<std::uint32_t> next(start_.begin(), start_.end() - 1);
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
-    const auto [least, most] = extent_of(mesh, t);
-    const Vec3 from = least - Vec3::Constant(kMargin);
-    const Vec3 to = most + Vec3::Constant(kMargin);
-    visit_boxes(t, [&](const std::array<int, 3>& at) {
+    const std::array<Vec3, 2> extent = extent_of(mesh, t);
+    const Vec3 from = extent[0] - Vec3::Constant(kMargin);
+    const Vec3 to = extent[1] + Vec3::Constant(kMargin);
+    visit_boxes(extent, [&](const std::array<int, 3>& at) {
       const std::uint32_t k = next[index(at)]++;
       members_[k] = static_cast<std::uint32_t>(t);
       extents_[k] = {steps_in(at, from), steps_in(at, to)};
@@ -85,10 +86,9 @@ std::size_t TetLocator::index(const std::array<int, 3>& box) const noexcept {
 }
 
 template <class Visit>
-void TetLocator::visit_boxes(std::size_t tet, Visit visit) const {
-  const auto [least, most] = extent_of(mesh_, tet);
-  const auto low = box_of(least);
-  const auto high = box_of(most);
+void TetLocator::visit_boxes(const std::array<Vec3, 2>& extent, Visit visit) const {
+  const auto low = box_of(extent[0]);
+  const auto high = box_of(extent[1]);
   for (int z = low[2]; z <= high[2]; ++z) {
     for (int y = low[1]; y <= high[1]; ++y) {
       for (int x = low[0]; x <= high[0]; ++x) visit({x, y, z});

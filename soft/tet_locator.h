@@ -30,7 +30,7 @@ class TetLocator {
   [[nodiscard]] bool holds(std::uint32_t tet, const Vec3& p) const noexcept;
   [[nodiscard]] std::size_t index(const std::array<int, 3>& box) const noexcept;
   template <class Visit>
-  void visit_boxes(std::size_t tet, Visit visit) const;
+  void visit_boxes(const std::array<Vec3, 2>& extent, Visit visit) const;
 
   const TetMesh& mesh_;
   double per_metre_;  // boxes
