@@ -269,18 +269,18 @@ RTCGeometryTy* EmbreeIndex::make_geometry(
   return geometry;
 }
 
-void EmbreeIndex::move(std::size_t group, std::span<const std::uint32_t> vertices,
-                       std::span<const Vec3> places) {
-  ARTUS_REQUIRE(group < surfaces_->blocks_at.size() && places.size() == vertices.size(),
+void EmbreeIndex::move(std::size_t group, std::span<const Vec3> places) {
+  const std::vector<std::uint32_t>& begins = surfaces_->begins;
+  ARTUS_REQUIRE(group + 1 < begins.size() && places.size() == begins[group + 1] - begins[group],
                 "a group of an index that can move");
-  auto* const coordinates = static_cast<float*>(rtcGetBufferData(coordinates_.get()));
+  Vec3* at = &vertices_[begins[group]];
+  auto* coordinates =
+      static_cast<float*>(rtcGetBufferData(coordinates_.get())) + 3 * std::size_t{begins[group]};
   double squared = 0;
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
-    const Vec3 place = places[i] - centre_;
-    vertices_[vertices[i]] = place;
-    for (int k = 0; k < 3; ++k)
-      coordinates[3 * std::size_t{vertices[i]} + static_cast<std::size_t>(k)] =
-          static_cast<float>(place[k]);
+  for (const Vec3& p : places) {
+    const Vec3 place = p - centre_;
+    *at++ = place;
+    for (int k = 0; k < 3; ++k) *coordinates++ = static_cast<float>(place[k]);
     squared = std::max(squared, place.squaredNorm());
   }
   radii_[group] = std::sqrt(squared);

@@ -85,12 +85,11 @@ class EmbreeIndex {
   /// std::runtime_error when Embree refuses.
   EmbreeIndex(std::shared_ptr<const IndexedSurfaces> surfaces, const std::string& isa);
 
-  /// Puts the vertices of a group (`vertices`, all of them) to `places`, finite. Then `fit` fits
+  /// Puts the vertices of a group to `places`, all of them, in its order, finite. Then `fit` fits
   /// the hierarchy to them, block by block: the triangles of a group, and those between it and
   /// others. What did not move costs nothing. No query runs meanwhile. Cost: 0.05 us a triangle of
   /// the blocks that moved.
-  void move(std::size_t group, std::span<const std::uint32_t> vertices,
-            std::span<const Vec3> places);
+  void move(std::size_t group, std::span<const Vec3> places);
   void fit();
 
   [[nodiscard]] const std::shared_ptr<const IndexedSurfaces>& surfaces() const noexcept {

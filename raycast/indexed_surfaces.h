@@ -9,18 +9,17 @@
 
 namespace artus {
 
-/// Which vertices are moved together.
-struct VertexGrouping {
-  std::span<const std::uint32_t> of;  ///< the first vertices' groups; `n` and more: never moved
-  std::uint32_t n = 0;                ///< groups; 0: nothing moves
-};
-
 /// What all indices of the same surfaces have in common: the surfaces as they are before anything
 /// moves, and the blocks in which they may. Immutable once made; four tenths of an index.
 struct IndexedSurfaces {
-  /// Requires: indices in range, vertices finite, front and back of each interface differ.
+  /// Vertices that are moved together, in the order in which they are.
+  using Group = std::span<const std::uint32_t>;
+
+  /// `groups`: what may move; none: nothing does. Requires: indices in range, vertices finite,
+  /// front and back of each interface differ; groups have vertices of interfaces alone, each at
+  /// most once.
   IndexedSurfaces(std::span<const Vec3> from, std::span<const Interface> interfaces,
-                  const VertexGrouping& groups);
+                  std::span<const Group> groups = {});
 
   using Corners = std::array<std::uint32_t, 3>;
   /// Interface of each triangle of each geometry.
@@ -31,12 +30,15 @@ struct IndexedSurfaces {
     std::vector<std::vector<Corners>> corners;  ///< of the members
   };
 
-  Vec3 centre = Vec3::Zero();      ///< m, of the box around all interfaces
-  double radius = 0;               ///< m, of a ball around it
-  std::vector<Vec3> vertices;      ///< relative to the centre; those up to the interfaces' last
-  std::vector<Corners> triangles;  ///< (n_interfaces)
-  std::vector<Facet> facets;       ///< (n_interfaces)
-  std::vector<std::uint32_t> block_of;                ///< (n_interfaces), or empty: none moves
+  Vec3 centre = Vec3::Zero();  ///< m, of the box around all interfaces
+  double radius = 0;           ///< m, of a ball around it
+  /// Relative to the centre: those up to the interfaces' last, group after group, so that a group
+  /// moves in one piece; then those that never move.
+  std::vector<Vec3> vertices;
+  std::vector<std::uint32_t> begins;    ///< (groups + 1) of each group's, and of what never moves
+  std::vector<Corners> triangles;       ///< (n_interfaces) of `vertices`
+  std::vector<Facet> facets;            ///< (n_interfaces)
+  std::vector<std::uint32_t> block_of;  ///< (n_interfaces), or empty: none moves
   std::vector<std::vector<std::uint32_t>> blocks_at;  ///< (groups) that have a triangle there
   std::vector<double> radii;                          ///< (groups, and what never moves) m
   std::size_t n_blocks = 0;
@@ -46,7 +48,9 @@ struct IndexedSurfaces {
   [[nodiscard]] bool can_move() const noexcept { return !block_of.empty(); }
 
  private:
-  void make_blocks(const VertexGrouping& groups);
+  [[nodiscard]] std::vector<std::uint32_t> place_vertices(std::span<const Vec3> from,
+                                                          std::span<const Group> groups);
+  void make_blocks();
   [[nodiscard]] Part part_of(std::vector<std::uint32_t> interfaces) const;
 };
 

@@ -142,17 +142,19 @@ std::span<const Hit> Scene::Impl::trace(const Track& track, Trace& scratch,
 
 Scene::Scene(std::shared_ptr<const CompiledJoint> joint, const SceneOptions& options) {
   ARTUS_REQUIRE(joint != nullptr, "a joint is needed");
-  auto surfaces = std::make_shared<const IndexedSurfaces>(joint->mesh.vertices,
-                                                          joint->mesh.interfaces, VertexGrouping{});
+  auto surfaces =
+      std::make_shared<const IndexedSurfaces>(joint->mesh.vertices, joint->mesh.interfaces);
   impl_ = std::make_unique<Impl>(std::move(joint), options, std::move(surfaces));
 }
 Scene::Scene(const DeformedBody& tissue, const SceneOptions& options,
              std::shared_ptr<const IndexedSurfaces> surfaces) {
   auto joint = indexed(tissue.mapped()).joint;
-  const auto n = static_cast<std::uint32_t>(tissue.map().groups.size());
-  if (!surfaces)
+  if (!surfaces) {
+    std::vector<IndexedSurfaces::Group> groups;
+    for (const VertexGroup& group : tissue.map().groups) groups.emplace_back(group.vertices);
     surfaces = std::make_shared<const IndexedSurfaces>(joint->mesh.vertices, joint->mesh.interfaces,
-                                                       VertexGrouping{tissue.map().group_of, n});
+                                                       groups);
+  }
   impl_ = std::make_unique<Impl>(std::move(joint), options, std::move(surfaces));
   impl_->fitted.resize(tissue.groups().size());
 }
@@ -166,7 +168,7 @@ void Scene::move(std::shared_ptr<const DeformedBody> tissue) {
     for (std::size_t g = 0; g < impl_->fitted.size(); ++g) {
       if (impl_->fitted[g] == tissue->groups()[g]) continue;
       impl_->fitted[g] = tissue->groups()[g];
-      impl_->index.move(g, tissue->map().groups[g].vertices, impl_->fitted[g]->vertices);
+      impl_->index.move(g, impl_->fitted[g]->vertices);
     }
     impl_->index.fit();
     impl_->joint = tissue->shared_joint();

@@ -5,6 +5,8 @@
 #include <array>
 #include <limits>
 #include <map>
+#include <tuple>
+#include <utility>
 
 #include <Eigen/SVD>
 
@@ -21,10 +23,9 @@ constexpr double kExact = 1e-7;      // m
 constexpr double kSure = 3e-5;       // m, an error of which one Newton step leaves next to nothing
 constexpr double kStill = 1e-9;      // m; what moves less has not moved: its bytes stay
 constexpr double kFar = 20e-6;       // m, tolerance in the coarsest cubes
-constexpr double kAside = 40e-6;     // m, the same beside what pictures show; see docs
+constexpr double kAside = 80e-6;     // m, the same beside what pictures show; see docs
 constexpr double kLookedAt = 9e-3;   // m from the plane of the picture
 constexpr std::int32_t kGroup = 2;   // coarsest cubes along a group's edge
-constexpr std::size_t kAhead = 16;   // vertices that are asked for before they are needed
 constexpr int kReach = 2;            // lattice steps, of points beside the cage: the skin's rim
 
 std::size_t interface_vertices(const TetMesh& mesh) {
@@ -100,11 +101,24 @@ std::shared_ptr<const BodyMap> map_in_groups(const TetMesh& mesh, const MappedJo
       if (mesh.vertices[v] == before[v]) continue;
       const CagePlace place = cage.locate(X_CJ * mesh.vertices[v], kReach);
       if (place.cell < 0) return nullptr;
+      group.rest[k] = mesh.vertices[v];
       group.places[k] = map->model->layers().place(cage, place);
     }
     group.points = points_of(group.places);
   }
   return map;
+}
+
+/// Puts the vertices that hang on the same points beside each other.
+void sort_by_points(VertexGroup& group) {
+  std::vector<std::pair<MapPlace, std::uint32_t>> all;
+  for (std::size_t k = 0; k < group.vertices.size(); ++k)
+    all.emplace_back(group.places[k], group.vertices[k]);
+  std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
+    return std::tie(a.first.points, a.second) < std::tie(b.first.points, b.second);
+  });
+  for (std::size_t k = 0; k < all.size(); ++k)
+    std::tie(group.places[k], group.vertices[k]) = all[k];
 }
 
 }  // namespace
@@ -144,8 +158,11 @@ std::shared_ptr<const BodyMap> make_body_map(const CompiledJoint& joint, const P
   map->group_of.assign(used.size(), static_cast<std::uint32_t>(groups.size()));
   for (auto& [key, group] : groups) {
     group.points = points_of(group.places);
-    for (const std::uint32_t v : group.vertices)
+    sort_by_points(group);
+    for (const std::uint32_t v : group.vertices) {
       map->group_of[v] = static_cast<std::uint32_t>(map->groups.size());
+      group.rest.push_back(joint.mesh.vertices[v]);
+    }
     map->groups.push_back(std::move(group));
   }
   map->model = std::move(model);
@@ -188,15 +205,11 @@ void DeformedBody::carry(const DeformedBody* before) {
     for (const std::uint32_t p : group.points) now->points.push_back(u_[p]);
     now->vertices.reserve(group.vertices.size());
     for (std::size_t k = 0; k < group.vertices.size(); ++k) {
-      // A group's vertices lie far apart in the mesh: two thirds of the time were spent waiting for
-      // them.
-      if (k + kAhead < group.vertices.size())
-        __builtin_prefetch(&joint_->mesh.vertices[group.vertices[k + kAhead]]);
       const MapPlace& place = group.places[k];
       Vec3 way = Vec3::Zero();
       for (std::size_t a = 0; a < 8; ++a)
         way += static_cast<double>(place.weights[a]) * moved[place.points[a]];
-      const Vec3& rest = joint_->mesh.vertices[group.vertices[k]];
+      const Vec3& rest = group.rest[k];
       now->vertices.push_back(way.squaredNorm() > kStill * kStill ? Vec3(rest + way) : rest);
     }
     groups_.push_back(std::move(now));

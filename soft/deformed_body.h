@@ -9,9 +9,10 @@
 namespace artus {
 
 /// Vertices of the interfaces that are carried together: neighbours, equally near to what is looked
-/// at.
+/// at. Those that hang on the same points stand beside each other.
 struct VertexGroup {
   std::vector<std::uint32_t> vertices;
+  std::vector<Vec3> rest;             ///< (vertices) m, frame J, of the map's own shape
   std::vector<MapPlace> places;       ///< (vertices)
   std::vector<std::uint32_t> points;  ///< of the map, that move them, ascending
   double tolerance = 0;               ///< m that a point may move before the vertices do

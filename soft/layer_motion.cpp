@@ -9,7 +9,6 @@ namespace artus {
 namespace {
 
 constexpr double kLeastColumn = 0.05;  // a column pressed flatter is stretched all alike
-constexpr double kStill = 1e-4;        // of a stretch: below a micrometre in a cube
 constexpr std::size_t kMostLayers = 32;
 
 /// What a unit area across z becomes, at each node, as a vector: the mean of its cubes'.
@@ -31,11 +30,13 @@ std::vector<Vec3> node_areas(const Cage& cage, const LayerMap& map, std::span<co
   return areas;
 }
 
+// Without initialisers: clearing the room for a column's layers would cost more than its motion.
+// NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): `share` writes all of those it is given
 struct Layer {
-  double thickness = 0;  // of the cube's edge
-  double stretch = 1;
-  double give = 0;   // how much more it is stretched by a tension
-  double least = 0;  // that stretch can be
+  double thickness;  // of the cube's edge
+  double stretch;
+  double give;   // how much more it is stretched by a tension
+  double least;  // that stretch can be
 };
 
 /// Stretches the layers so that together they are `length` long.
@@ -69,11 +70,6 @@ struct Ends {
   double area_low = 1;  // of an area across it, over that at rest
   double area_high = 1;
   double length = 1;  // of the column across the layers, over that at rest
-
-  [[nodiscard]] bool still() const noexcept {
-    return std::abs(area_low - 1) < kStill && std::abs(area_high - 1) < kStill &&
-           std::abs(length - 1) < kStill;
-  }
 };
 
 /// Displacements of a column's inner points.
@@ -87,7 +83,7 @@ class ColumnMotion {
   }
 
   void move(const Ends& ends, double edge, std::span<Vec3> points) const noexcept {
-    std::array<Layer, kMostLayers> layers{};
+    std::array<Layer, kMostLayers> layers;
     const std::size_t n = last_ - first_;
     const double begin = level(first_);
     const double run = level(last_) - begin;
@@ -120,7 +116,7 @@ class ColumnMotion {
       const auto point = first_ + static_cast<std::uint32_t>(k);
       const LayerMap::Kind& kind = map_.kind_above(point);
       Layer& layer = layers[k];
-      layer.thickness = level(point + 1) - level(point);
+      layer = {level(point + 1) - level(point), 1, 0, 0};
       if (!(kind.compliance > 0)) continue;
       const double middle = 0.5 * (level(point) + level(point + 1));
       layer.stretch = 1 / std::lerp(ends.area_low, ends.area_high, middle);

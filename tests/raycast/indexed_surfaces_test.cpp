@@ -29,7 +29,7 @@ struct Strip {
 TEST(IndexedSurfaces, StandAroundTheirMiddleWithTheirPlanes) {
   Strip strip;
   strip.vertices.emplace_back(9, 9, 9);  // of tetrahedra alone
-  const IndexedSurfaces surfaces(strip.vertices, strip.interfaces, {});
+  const IndexedSurfaces surfaces(strip.vertices, strip.interfaces);
   EXPECT_EQ(surfaces.vertices.size(), 8U);
   EXPECT_LT((surfaces.centre - Vec3(0.035, 0.01, 0.1)).norm(), 1e-15);
   EXPECT_NEAR(surfaces.radius, std::hypot(0.035, 0.01), 1e-15);
@@ -50,9 +50,21 @@ TEST(IndexedSurfaces, StandAroundTheirMiddleWithTheirPlanes) {
 /// the blocks that have a vertex of it, and none else.
 TEST(IndexedSurfaces, HaveABlockForEachGroupAndForWhatIsBetween) {
   const Strip strip(9);
+  constexpr std::array<std::uint32_t, 4> kFirst{3, 1, 0, 2};
+  constexpr std::array<std::uint32_t, 4> kSecond{4, 5, 6, 7};
+  const std::array<IndexedSurfaces::Group, 2> groups{kFirst, kSecond};
   const std::array<std::uint32_t, 8> of{0, 0, 0, 0, 1, 1, 1, 1};
-  const IndexedSurfaces surfaces(strip.vertices, strip.interfaces, {of, 2});
+  const IndexedSurfaces surfaces(strip.vertices, strip.interfaces, groups);
   ASSERT_TRUE(surfaces.can_move());
+  EXPECT_EQ(surfaces.begins, (std::vector<std::uint32_t>{0, 4, 8}));
+  for (std::size_t k = 0; k < 4; ++k)
+    EXPECT_EQ(surfaces.vertices[k], Vec3(strip.vertices[kFirst[k]] - surfaces.centre)) << k;
+  for (std::size_t i = 0; i < 9; ++i) {
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_EQ(surfaces.vertices[surfaces.triangles[i][k]],
+                Vec3(strip.vertices[strip.interfaces[i].vertices[k]] - surfaces.centre))
+          << i;
+  }
   std::vector<std::uint32_t> seen;
   for (std::size_t block = 0; block < surfaces.n_blocks; ++block) {
     for (const std::uint32_t i : surfaces.all.members[block]) {
@@ -85,11 +97,21 @@ TEST(IndexedSurfaces, RefuseWhatIsNoInterface) {
   Strip not_finite;
   not_finite.vertices[3].y() = std::numeric_limits<double>::quiet_NaN();
   for (const Strip& strip : {one_region, out_of_range, not_finite})
-    EXPECT_THROW(IndexedSurfaces(strip.vertices, strip.interfaces, {}), std::invalid_argument);
+    EXPECT_THROW(IndexedSurfaces(strip.vertices, strip.interfaces), std::invalid_argument);
+}
+
+TEST(IndexedSurfaces, RefuseAVertexOfTwoGroupsOrOfNoInterface) {
+  const Strip strip;
+  constexpr std::array<std::uint32_t, 2> kOne{1, 2};
+  for (const std::array<std::uint32_t, 2>& other :
+       {std::array<std::uint32_t, 2>{2, 3}, {4, 4}, {7, 8}}) {
+    const std::array<IndexedSurfaces::Group, 2> groups{kOne, other};
+    EXPECT_THROW(IndexedSurfaces(strip.vertices, strip.interfaces, groups), std::invalid_argument);
+  }
 }
 
 TEST(IndexedSurfaces, MayBeNone) {
-  const IndexedSurfaces none({}, {}, {});
+  const IndexedSurfaces none({}, {});
   EXPECT_EQ(none.radius, 0);
   EXPECT_TRUE(none.facets.empty());
 }

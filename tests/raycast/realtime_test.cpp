@@ -77,9 +77,8 @@ TEST(RealTimeQueries, EachOfASceneNeitherAllocatesNorLocks) {
 
 TEST(RealTimeQueries, EachOfTheIndexNeitherAllocatesNorLocks) {
   const CompiledJoint joint = test::make_cell_body(4, 0.02, kCentre, 4, 0.2, 21).joint;
-  const EmbreeIndex index(std::make_shared<const IndexedSurfaces>(
-                              joint.mesh.vertices, joint.mesh.interfaces, VertexGrouping{}),
-                          "");
+  const EmbreeIndex index(
+      std::make_shared<const IndexedSurfaces>(joint.mesh.vertices, joint.mesh.interfaces), "");
   const Line line{-0.1 * Vec3::UnitX(), Vec3::UnitX(), 0, 0.2};
   auto buffer = std::make_unique<HitBuffer>();
   ARTUS_RUNS_REALTIME(EmbreeIndex::gather, index.gather(line, *buffer));

@@ -41,12 +41,12 @@ TEST(DeformedBody, GroupsFollowTheirOwnPointsInStepsOfTheirTolerance) {
   const GradedBlock block;
   std::set<double> tolerances;
   for (const VertexGroup& group : block.map->groups) tolerances.insert(group.tolerance);
-  EXPECT_EQ(tolerances, (std::set<double>{0, 20e-6, 40e-6}));
+  EXPECT_EQ(tolerances, (std::set<double>{0, 20e-6, 80e-6}));
   std::shared_ptr<const DeformedBody> body = block.moved(0, 0);
   std::size_t kept = 0;
   for (int i = 1; i <= 20; ++i) {
     const double near = 6e-6 * i;
-    const double far = 50e-6 * i;
+    const double far = 100e-6 * i;
     body = block.moved(near, far, body.get());
     const auto vertices = body->vertices();
     for (const VertexGroup& group : block.map->groups) {
