@@ -14,7 +14,9 @@ namespace {
 
 using Index = Eigen::Index;
 
-constexpr int kHalvings = 4;  // of a step that squeezes too much, before it is taken back
+constexpr int kHalvings = 4;  // of a step that is too long, before it is taken back
+constexpr double kOvershoot =
+    0.5;  // of the pull that a step takes up, that may point back after it
 
 Eigen::VectorXd root_of(const Eigen::VectorXd& x, const std::vector<std::uint32_t>& root) {
   Eigen::VectorXd part(static_cast<Index>(3 * root.size()));
@@ -218,9 +220,13 @@ bool SoftSolver::stands() const {
          forces_.least_volume >= params_.least_volume;
 }
 
-/// Goes the step, but no node farther than `limit`, and half as far as long as it squeezes too
-/// much.
-double SoftSolver::apply(const Eigen::VectorXd& step, double limit, std::uint32_t& status) {
+/// Goes the share `alpha` of `way`, but no node farther than `limit`, and half as far as long as it
+/// squeezes too much or goes beyond where nothing pulls along it any more: stretched fibres and
+/// crushed tissue are stiffer than the tangent knows, and whole steps would go to and fro. `pull`:
+/// the forces that `way` balances by the tangent, N.
+double SoftSolver::apply(const Eigen::VectorXd& way, double alpha, const Eigen::VectorXd& pull,
+                         double limit, std::uint32_t& status) {
+  const Eigen::VectorXd step = alpha * way;
   double largest = 0;
   for (Index i = 0; i < step.size(); i += 3) largest = std::max(largest, step.segment<3>(i).norm());
   if (!std::isfinite(largest)) return largest;
@@ -230,6 +236,8 @@ double SoftSolver::apply(const Eigen::VectorXd& step, double limit, std::uint32_
     status |= kSoftLimited;
   }
   const Eigen::VectorXd before = x_;
+  const Eigen::VectorXd outer = pull - forces_.on_unknowns;
+  const double least = -kOvershoot * alpha * step.dot(pull);
   for (int k = 0; k <= kHalvings; ++k) {
     if (k > 0) {
       share *= 0.5;
@@ -237,7 +245,7 @@ double SoftSolver::apply(const Eigen::VectorXd& step, double limit, std::uint32_
     }
     x_ = before + share * step;
     evaluate();
-    if (stands()) break;
+    if (stands() && step.dot(outer + forces_.on_unknowns) >= least) break;
   }
   return largest * share;
 }
@@ -251,8 +259,9 @@ void SoftSolver::take_back(const Eigen::VectorXd& x, std::uint32_t& status) {
   status |= kSoftRestarted;
 }
 
-/// The root's nodes between forward and backward substitution, with what contact changes.
-void SoftSolver::solve_root(bool pressed, double alpha, Eigen::VectorXd& r) {
+/// The root's nodes between forward and backward substitution, with what contact changes, which it
+/// adds to `pull`.
+void SoftSolver::solve_root(bool pressed, double alpha, Eigen::VectorXd& r, Eigen::VectorXd& pull) {
   const auto n = static_cast<std::size_t>(root_inverse_.rows());
   if (n == 0) return;
   const SoftKernels& kernels = soft_kernels();
@@ -262,6 +271,9 @@ void SoftSolver::solve_root(bool pressed, double alpha, Eigen::VectorXd& r) {
   if (pressed) {
     Eigen::VectorXd change = Eigen::VectorXd::Zero(load.size());
     contact_->solve(moved.cast<double>(), u_, alpha, change);
+    for (std::size_t k = 0; k < root_.size(); ++k)
+      pull.segment<3>(3 * static_cast<Index>(root_[k])) +=
+          change.segment<3>(static_cast<Index>(3 * k));
     const Eigen::VectorXf by = change.cast<float>();
     for (std::size_t k = 0; k < n; k += 3) {  // most of the root's nodes are not touched
       if (by.segment<3>(static_cast<Index>(k)).squaredNorm() > 0)
@@ -302,14 +314,15 @@ const SoftStep& SoftSolver::go(const std::optional<Pose>& X_CP, double alpha) {
   }
   hold_constraints(alpha, r);
   out.residual = r.norm();
+  Eigen::VectorXd pull = r;
   factor_->forward(r);
-  solve_root(pressed, alpha, r);
+  solve_root(pressed, alpha, r, pull);
   if (pressed) {
     out.contact = contact_->force();
     if (out.contact.outside) out.status |= kSoftOutside;
   }
   factor_->backward(r);
-  out.largest_move = apply(alpha * r, params_.step_limit + 2 * advanced, out.status);
+  out.largest_move = apply(r, alpha, pull, params_.step_limit + 2 * advanced, out.status);
   out.least_volume = forces_.least_volume;
   if (!std::isfinite(out.largest_move) || !stands()) {
     multipliers_ = multipliers;

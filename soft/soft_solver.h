@@ -141,13 +141,14 @@ class SoftSolver {
   [[nodiscard]] Pose advance(const Pose& target, std::uint32_t& status) const;
   [[nodiscard]] Columns columns_of(const Cholesky& factor) const;
   void hold_constraints(double alpha, Eigen::VectorXd& r);
-  void solve_root(bool pressed, double alpha, Eigen::VectorXd& r);
+  void solve_root(bool pressed, double alpha, Eigen::VectorXd& r, Eigen::VectorXd& pull);
   void evaluate();
   [[nodiscard]] bool place(std::span<const Vec3> displacements);
   bool make_factor(std::span<const Vec3> u, std::span<const double> targets);
   void take_factor();
   [[nodiscard]] bool stands() const;
-  [[nodiscard]] double apply(const Eigen::VectorXd& step, double limit, std::uint32_t& status);
+  [[nodiscard]] double apply(const Eigen::VectorXd& way, double alpha, const Eigen::VectorXd& pull,
+                             double limit, std::uint32_t& status);
   void take_back(const Eigen::VectorXd& x, std::uint32_t& status);
 
   std::shared_ptr<const SoftModel> model_;
