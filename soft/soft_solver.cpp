@@ -14,9 +14,8 @@ namespace {
 
 using Index = Eigen::Index;
 
-constexpr int kHalvings = 4;  // of a step that is too long, before it is taken back
-constexpr double kOvershoot =
-    0.5;  // of the pull that a step takes up, that may point back after it
+constexpr int kHalvings = 4;        // of a step that is too long, before it is taken back
+constexpr double kOvershoot = 0.5;  // of the pull that a step takes up may point back at its end
 
 Eigen::VectorXd root_of(const Eigen::VectorXd& x, const std::vector<std::uint32_t>& root) {
   Eigen::VectorXd part(static_cast<Index>(3 * root.size()));
