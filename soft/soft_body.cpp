@@ -82,8 +82,10 @@ CageParams cage_of(const TetMesh& mesh, const Pose& X_CJ, const SoftBodyParams& 
   return cage;
 }
 
-/// Skin triangles within `reach` of the footprint, sideways, turned to the probe; `numbers`: of its
-/// vertices in the mesh.
+constexpr double kTurnedAway = 0.3;  // sine of the slope beyond which no tilted face meets skin
+
+/// Skin triangles within `reach` of the footprint, sideways, that face the probe, those of a thin
+/// limb's other side not; `numbers`: of its vertices in the mesh.
 SkinPatch skin_of(const TetMesh& mesh, const Pose& X_CJ, const ProbeFace& face, double reach,
                   std::vector<std::uint32_t>& numbers) {
   SkinPatch skin;
@@ -98,6 +100,10 @@ SkinPatch skin_of(const TetMesh& mesh, const Pose& X_CJ, const ProbeFace& face, 
     if (std::abs(middle.x()) > 0.5 * face.length + reach ||
         std::abs(middle.y()) > 0.5 * face.width + reach || std::abs(middle.z()) > 0.04)
       continue;
+    const Vec3& a = mesh.vertices[corners[0]];
+    const Vec3 normal =
+        X_CJ.linear() * (mesh.vertices[corners[1]] - a).cross(mesh.vertices[corners[2]] - a);
+    if (normal.z() > kTurnedAway * normal.norm()) continue;
     std::array<std::uint32_t, 3> triangle{};
     for (std::size_t k = 0; k < 3; ++k) {
       auto& n = number[corners[k]];

@@ -11,6 +11,7 @@
 #include "artus/soft/press.h"
 #include "artus/soft/tet_locator.h"
 #include "tests/support/layered_body.h"
+#include "tests/support/meshed_block.h"
 #include "tests/support/paths.h"
 
 namespace artus {
@@ -228,6 +229,20 @@ TEST_F(SoftBodyTest, PoseBesideTheBodyIsRefused) {
   Pose away = joint->X_JP_default;
   away.translation() -= 0.3 * away.linear().col(2);
   EXPECT_FALSE(SoftBody::make(joint, away, quick()));
+}
+
+// A finger is as thick as the face is wide: with the skin of its palm among what may be pressed,
+// two thirds of all nodes were solved as one dense matrix.
+TEST(SoftBody, TheOtherSideOfAThinLimbIsNotPressed) {
+  const std::array<FlatLayer, 3> layers{{{"skin", 2e-3}, {"muscle", 14e-3}, {"skin", 2e-3}}};
+  const auto limb =
+      std::make_shared<const CompiledJoint>(test::make_meshed_block(layers, 60e-3, 24e-3, 2e-3));
+  const auto body = SoftBody::make(limb, Pose::Identity(), quick());
+  ASSERT_TRUE(body) << body.error().to_string();
+  const auto places = body->solver().model().unknown_places();
+  const auto root = body->solver().factor().root_nodes();
+  ASSERT_FALSE(root.empty());
+  for (const std::uint32_t n : root) EXPECT_LE(places[n].z(), 6e-3 + 1e-9);
 }
 
 TEST(SoftBody, BodyWithoutTetrahedraIsRefused) {
