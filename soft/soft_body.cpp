@@ -82,7 +82,8 @@ CageParams cage_of(const TetMesh& mesh, const Pose& X_CJ, const SoftBodyParams& 
   return cage;
 }
 
-constexpr double kTurnedAway = 0.3;  // sine of the slope beyond which no tilted face meets skin
+constexpr double kTurnedAway =
+    0.48;  // sine: a face that turns by half a radian meets no skin beyond
 
 /// Skin triangles within `reach` of the footprint, sideways, that face the probe, those of a thin
 /// limb's other side not; `numbers`: of its vertices in the mesh.
