@@ -14,10 +14,8 @@
 namespace artus {
 namespace {
 
-constexpr int kCells = 121;     // of the map of walls, along each side
-constexpr double kCell = 1e-3;  // m
-constexpr double kWidest = kCells * kCell / 2;
-constexpr double kNextCell = 1.5 * kCell;  // to beyond any cell beside one
+constexpr double kNextCell = 1.5;  // cells, to beyond any one beside
+constexpr double kStart = 5e-3;    // m around the tip, where the space may be met first
 constexpr int kSteps = 60;
 constexpr int kHalvings = 20;
 constexpr double kExactVolume = 1e-16;  // m^3
@@ -27,20 +25,6 @@ constexpr double kRound = 0.9 * std::numbers::pi;  // of the sphere that the map
 constexpr double kThinnest = 0.1e-3;               // m between a floor and a roof
 // The part of the way from floor to roof that is drawn out; walls rougher than the rest follow.
 constexpr double kFixed = 0.25;
-
-/// Of cell i, the place of its middle on the map.
-double middle(int i) {
-  return kCell * (i - kCells / 2 + 0.5);
-}
-
-int cell_of(double x) {
-  return static_cast<int>(std::floor(x / kCell)) + kCells / 2;
-}
-
-std::size_t at(int u, int v) {
-  return static_cast<std::size_t>(std::clamp(v, 0, kCells - 1) * kCells +
-                                  std::clamp(u, 0, kCells - 1));
-}
 
 /// Of a plate held at its rim, of radius 1.
 double profile(double q) {
@@ -86,6 +70,20 @@ InflatedSpace::InflatedSpace(const CompiledJoint& joint, RegionId region, const 
   find_lifts();
 }
 
+/// Of cell i, the place of its middle on the map.
+double InflatedSpace::middle(int i) const {
+  return cell_ * (i - cells_ / 2 + 0.5);
+}
+
+int InflatedSpace::cell_of(double x) const {
+  return static_cast<int>(std::floor(x / cell_)) + cells_ / 2;
+}
+
+std::size_t InflatedSpace::at(int u, int v) const {
+  return static_cast<std::size_t>(std::clamp(v, 0, cells_ - 1) * cells_ +
+                                  std::clamp(u, 0, cells_ - 1));
+}
+
 /// (u, v, height): m along the sphere from the tip's direction, and above it toward the roof.
 Vec3 InflatedSpace::polar(const Vec3& p) const {
   const Vec3 x = p - centre_;
@@ -120,8 +118,8 @@ std::vector<std::vector<InflatedSpace::Span>> InflatedSpace::find_spans() const 
     const Vec3 low = a.cwiseMin(b).cwiseMin(c);
     const Vec3 high = a.cwiseMax(b).cwiseMax(c);
     if ((high - low).head<2>().norm() > sphere_) continue;  // round the far side
-    for (int v = std::max(cell_of(low.y()) - 1, 0); v <= cell_of(high.y()) + 1 && v < kCells; ++v) {
-      for (int u = std::max(cell_of(low.x()) - 1, 0); u <= cell_of(high.x()) + 1 && u < kCells;
+    for (int v = std::max(cell_of(low.y()) - 1, 0); v <= cell_of(high.y()) + 1 && v < cells_; ++v) {
+      for (int u = std::max(cell_of(low.x()) - 1, 0); u <= cell_of(high.x()) + 1 && u < cells_;
            ++u) {
         const double r = std::hypot(middle(u), middle(v));
         if (r > kRound * sphere_) continue;
@@ -146,7 +144,7 @@ std::vector<std::vector<InflatedSpace::Span>> InflatedSpace::find_spans() const 
 
 /// From the tip outward, of each cell the part of the space that goes on from its neighbour's.
 void InflatedSpace::map_walls() {
-  const auto n = static_cast<std::size_t>(kCells * kCells);
+  const auto n = static_cast<std::size_t>(cells_ * cells_);
   open_.assign(n, false);
   floor_.assign(n, 0);
   roof_.assign(n, 0);
@@ -167,17 +165,17 @@ void InflatedSpace::map_walls() {
     roof_[c] = best[1];
     reached.emplace_back(u, v);
   };
-  constexpr int kStart = 5;  // cells around the tip, where the space may be met first
-  for (int k = 0; k <= kStart && reached.empty(); ++k)
+  const int start = static_cast<int>(std::lround(kStart / cell_));
+  for (int k = 0; k <= start && reached.empty(); ++k)
     for (int dv = -k; dv <= k && reached.empty(); ++dv)
       for (int du = -k; du <= k && reached.empty(); ++du)
-        take(kCells / 2 + du, kCells / 2 + dv, {0, 0}, kWidest);
+        take(cells_ / 2 + du, cells_ / 2 + dv, {0, 0}, widest());
   for (std::size_t k = 0; k < reached.size(); ++k) {
     const auto [u, v] = reached[k];
     const Span here{floor_[at(u, v)], roof_[at(u, v)]};
     for (const auto& [du, dv] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}})
-      if (u + du >= 0 && u + du < kCells && v + dv >= 0 && v + dv < kCells)
-        take(u + du, v + dv, here, kCell);
+      if (u + du >= 0 && u + du < cells_ && v + dv >= 0 && v + dv < cells_)
+        take(u + du, v + dv, here, cell_);
   }
   smooth_walls();
 }
@@ -186,11 +184,12 @@ void InflatedSpace::map_walls() {
 void InflatedSpace::smooth_walls() {
   std::vector<bool> known = open_;
   const auto pass = [&](bool all) {
+    bool more = false;
     const std::vector<double> floor = floor_;
     const std::vector<double> roof = roof_;
     const std::vector<bool> before = known;
-    for (int v = 0; v < kCells; ++v) {
-      for (int u = 0; u < kCells; ++u) {
+    for (int v = 0; v < cells_; ++v) {
+      for (int u = 0; u < cells_; ++u) {
         if (!all && before[at(u, v)]) continue;
         double n = 0;
         double low = 0;
@@ -205,13 +204,16 @@ void InflatedSpace::smooth_walls() {
           }
         }
         if (n == 0) continue;
+        more = more || !before[at(u, v)];
         known[at(u, v)] = true;
         floor_[at(u, v)] = low / n;
         roof_[at(u, v)] = high / n;
       }
     }
+    return more;
   };
-  for (int k = 0; k < kCells; ++k) pass(false);
+  while (pass(false)) {
+  }
   pass(true);
   for (std::size_t c = 0; c < roof_.size(); ++c)
     roof_[c] = std::max(roof_[c], floor_[c] + kThinnest);
@@ -223,7 +225,8 @@ std::vector<bool> InflatedSpace::find_bone(const CompiledJoint& joint) const {
   const auto mark = [&](const Vec3& point) {
     const Vec3 p = polar(point);
     const double roof = between(roof_, p.x(), p.y());
-    if (p.z() < (between(floor_, p.x(), p.y()) + roof) / 2) return;
+    const double thick = roof - between(floor_, p.x(), p.y());
+    if (p.z() < roof - std::min(thick / 2, cell_)) return;
     const double together = 1 / (1 + std::max(0.0, p.z() - roof) / params_.spread);
     bone[at(cell_of(together * p.x()), cell_of(together * p.y()))] = true;
   };
@@ -233,42 +236,47 @@ std::vector<bool> InflatedSpace::find_bone(const CompiledJoint& joint) const {
     const Vec3 ab = rest_[f.vertices[1]] - a;
     const Vec3 ac = rest_[f.vertices[2]] - a;
     const double longest = std::max({ab.norm(), ac.norm(), (ac - ab).norm()});
-    const int n = std::clamp(static_cast<int>(std::ceil(longest / kCell)), 1, kCells);
+    const int n = std::clamp(static_cast<int>(std::ceil(longest / cell_)), 1, cells_);
     for (int i = 0; i <= n; ++i)
       for (int j = 0; i + j <= n; ++j) mark(a + (ab * i + ac * j) / n);
   }
   return bone;
 }
 
-/// Where the space may open: away from its own rim and from bone that lies on it.
-void InflatedSpace::find_shut(const CompiledJoint& joint) {
+/// Where the space may open: away from its own rim and from bone that lies on it. False where no
+/// place is as far from them as its opening's rim is wide.
+bool InflatedSpace::find_shut(const CompiledJoint& joint) {
   std::vector<bool> shut = find_bone(joint);
   for (std::size_t c = 0; c < shut.size(); ++c) shut[c] = shut[c] || !open_[c];
   inside_.assign(shut.size(), 0);
-  const double farthest = params_.rim + kNextCell;
-  const int reach = static_cast<int>(std::ceil(farthest / kCell));
-  for (int v = 0; v < kCells; ++v) {
-    for (int u = 0; u < kCells; ++u) {
+  const double next = kNextCell * cell_;
+  const double farthest = rim_ + next;
+  const int reach = static_cast<int>(std::ceil(farthest / cell_));
+  bool wide = false;
+  for (int v = 0; v < cells_; ++v) {
+    for (int u = 0; u < cells_; ++u) {
       double nearest = farthest;
       for (int dv = -reach; dv <= reach; ++dv) {
         for (int du = -reach; du <= reach; ++du) {
           const int x = u + du;
           const int y = v + dv;
-          const bool off = x < 0 || y < 0 || x >= kCells || y >= kCells;
-          if (off || shut[static_cast<std::size_t>(y * kCells + x)])
-            nearest = std::min(nearest, kCell * std::hypot(du, dv));
+          const bool off = x < 0 || y < 0 || x >= cells_ || y >= cells_;
+          if (off || shut[static_cast<std::size_t>(y * cells_ + x)])
+            nearest = std::min(nearest, cell_ * std::hypot(du, dv));
         }
       }
-      const double part = std::max(0.0, nearest - kNextCell) / params_.rim;
-      inside_[static_cast<std::size_t>(v * kCells + u)] = part * part * (3 - 2 * part);
+      wide = wide || nearest >= farthest;
+      const double part = std::max(0.0, nearest - next) / rim_;
+      inside_[static_cast<std::size_t>(v * cells_ + u)] = part * part * (3 - 2 * part);
     }
   }
+  return wide;
 }
 
 /// Of a map by cells, between their middles, so that nothing has steps.
 double InflatedSpace::between(const std::vector<double>& map, double u, double v) const {
-  const double x = u / kCell + kCells / 2 - 0.5;
-  const double y = v / kCell + kCells / 2 - 0.5;
+  const double x = u / cell_ + cells_ / 2 - 0.5;
+  const double y = v / cell_ + cells_ / 2 - 0.5;
   const double fx = x - std::floor(x);
   const double fy = y - std::floor(y);
   const int i = static_cast<int>(std::floor(x));
@@ -292,7 +300,7 @@ void InflatedSpace::find_lifts() {
     const double v = together * p.y();
     const double share = drawn * together * together * between(inside_, u, v);
     const double r = std::hypot(u, v);
-    if (!(share > 0) || r >= kWidest || bone_[i]) continue;
+    if (!(share > 0) || r >= widest() || bone_[i]) continue;
     lifts_.push_back({i, sign_ * (rest_[i] - centre_).normalized(), r, share, u, v});
   }
 }
@@ -300,20 +308,20 @@ void InflatedSpace::find_lifts() {
 /// m^2 of the plate over the map, of all of it or where the space may open.
 double InflatedSpace::open_area(double radius, bool everywhere) const {
   double sum = 0;
-  for (int v = 0; v < kCells; ++v) {
-    for (int u = 0; u < kCells; ++u) {
+  for (int v = 0; v < cells_; ++v) {
+    for (int u = 0; u < cells_; ++u) {
       const double q = std::hypot(middle(u), middle(v)) / radius;
-      sum += profile(q) * (everywhere ? 1 : inside_[static_cast<std::size_t>(v * kCells + u)]);
+      sum += profile(q) * (everywhere ? 1 : inside_[static_cast<std::size_t>(v * cells_ + u)]);
     }
   }
-  return sum * kCell * kCell;
+  return sum * cell_ * cell_;
 }
 
 double InflatedSpace::radius(double volume) const {
   double low = params_.widest * std::cbrt(std::min(1.0, volume / params_.fill));
   const double wanted = open_area(low, true);
   if (open_area(low, false) >= wanted) return low;
-  double high = kWidest;
+  double high = widest();
   for (int k = 0; k < kHalvings; ++k) {
     const double middle = (low + high) / 2;
     (open_area(middle, false) < wanted ? low : high) = middle;
@@ -365,7 +373,7 @@ double InflatedSpace::height_for(double volume) const {
 }
 
 bool InflatedSpace::confines(double volume) const {
-  return radius(std::max(volume, 1e-12)) > 0.99 * kWidest;
+  return radius(std::max(volume, 1e-12)) > 0.99 * widest();
 }
 
 /// `rested` by max(0, lambda - press): the volume is convex in lambda, so that secants which begin
@@ -373,8 +381,8 @@ bool InflatedSpace::confines(double volume) const {
 std::vector<double> InflatedSpace::squeezed(double volume, const std::vector<double>& rested,
                                             const Press& press) const {
   std::vector<double> map(floor_.size());  // of what presses, by cell
-  for (int v = 0; v < kCells; ++v) {
-    for (int u = 0; u < kCells; ++u) {
+  for (int v = 0; v < cells_; ++v) {
+    for (int u = 0; u < cells_; ++u) {
       const std::size_t c = at(u, v);
       map[c] = std::max(0.0, press(place_of(middle(u), middle(v), (floor_[c] + roof_[c]) / 2)));
     }

@@ -16,7 +16,8 @@ namespace artus {
 struct OpeningParams {
   double fill = 3e-6;       ///< m^3 at which the fluid has come to its widest
   double widest = 29.5e-3;  ///< m, radius of the patch there; fitted: 5 ml open by less than 6 mm
-  double rim = 4e-3;        ///< m from the cleft's own rim over which it stays shut
+  double rim = 4e-3;        ///< m from the cleft's own rim over which it stays shut; of a space
+                            ///< too small for that a half, or a quarter
   double spread = 20e-3;    ///< m above the roof at which the lift is twice as wide
 };
 
@@ -69,13 +70,18 @@ class InflatedSpace {
     Vec3 toward;
   };
   void set_frame(const CompiledJoint& joint, const Vec3& tip, const Frame& frame);
+  [[nodiscard]] double extent(const Vec3& tip) const;
   void choose_frame(const CompiledJoint& joint, const Vec3& tip);
+  [[nodiscard]] double middle(int i) const;
+  [[nodiscard]] int cell_of(double x) const;
+  [[nodiscard]] std::size_t at(int u, int v) const;
+  [[nodiscard]] double widest() const { return cells_ * cell_ / 2; }  // m, half of the map
   using Span = std::array<double, 2>;  // m, heights of a floor and a roof
   [[nodiscard]] std::vector<std::vector<Span>> find_spans() const;
   void map_walls();
   void smooth_walls();
   [[nodiscard]] std::vector<bool> find_bone(const CompiledJoint& joint) const;
-  void find_shut(const CompiledJoint& joint);
+  [[nodiscard]] bool find_shut(const CompiledJoint& joint);
   void find_lifts();
   [[nodiscard]] Vec3 polar(const Vec3& p) const;
   [[nodiscard]] Vec3 place_of(double u, double v, double height) const;
@@ -100,6 +106,9 @@ class InflatedSpace {
   double sphere_ = 1;  // m
   double sign_ = 1;    // 1: the roof is farther from the centre than the floor
   double rest_volume_ = 0;
+  int cells_ = 0;               // of the map of walls, along each side
+  double cell_ = 0;             // m
+  double rim_ = 0;              // m, over which it stays shut
   std::vector<bool> bone_;      // by vertex
   std::vector<bool> open_;      // by cell: the sheet around the tip is there
   std::vector<double> floor_;   // m, its height, also beside the sheet

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The sphere or plane along which the walls of a space are mapped.
+#include <algorithm>
+#include <cmath>
 #include <limits>
+#include <numbers>
 
 #include <Eigen/Dense>
 
@@ -9,8 +12,12 @@
 namespace artus {
 namespace {
 
-constexpr double kFitRadius = 25e-3;  // m around the tip, of the walls that the sphere follows
-constexpr double kFlat = 0.5;         // m, radius beyond which walls are flat
+constexpr double kFitRadius = 25e-3;   // m around the tip, of the walls that the sphere follows
+constexpr double kHalfMap = 60e-3;     // m of the map of walls, to each side of the tip
+constexpr double kWideCell = 1e-3;     // m, of that map
+constexpr double kFinestCell = 25e-5;  // m
+constexpr double kMapMargin = 2e-3;    // m of a fine map beside the space
+constexpr double kFlat = 0.5;          // m, radius beyond which walls are flat
 
 /// The nearest point of the body's skin, as far as vertices tell.
 Vec3 nearest_skin(const CompiledJoint& joint, const Vec3& p) {
@@ -70,14 +77,34 @@ Vec3 InflatedSpace::find_normal(const Vec3& tip) const {
   return solver.eigenvectors().col(0);
 }
 
+/// m from the tip to the farthest of the walls.
+double InflatedSpace::extent(const Vec3& tip) const {
+  double squared = 0;
+  for (const auto& triangle : triangles_)
+    for (const std::uint32_t v : triangle)
+      squared = std::max(squared, (rest_[v] - tip).squaredNorm());
+  return std::sqrt(squared);
+}
+
+/// Maps the walls, more finely where the space has no place as wide as its opening's rim.
 void InflatedSpace::set_frame(const CompiledJoint& joint, const Vec3& tip, const Frame& frame) {
   centre_ = tip + frame.to_centre;
   sphere_ = frame.to_centre.norm();
   sign_ = frame.to_centre.dot(frame.toward) < 0 ? 1 : -1;
   up_ = -frame.to_centre.normalized();
   side_ = up_.unitOrthogonal();
+  double half = kHalfMap;
+  cell_ = kWideCell;
+  rim_ = params_.rim;
+  cells_ = 2 * static_cast<int>(half / cell_ + 0.5) + 1;
   map_walls();
-  find_shut(joint);
+  while (!find_shut(joint) && cell_ > kFinestCell) {
+    half = std::min(kHalfMap, extent(tip) + kMapMargin);
+    cell_ /= 2;
+    rim_ /= 2;
+    cells_ = 2 * static_cast<int>(half / cell_ + 0.5) + 1;
+    map_walls();
+  }
 }
 
 /// The sphere of the walls, where half of a patch finds room along it; otherwise, of that, their
@@ -93,7 +120,7 @@ void InflatedSpace::choose_frame(const CompiledJoint& joint, const Vec3& tip) {
   frames.push_back({-kFlat * out, out});
   if (normal.norm() > 0) frames.push_back({kFlat * normal, -out});
   frames.push_back({kFlat * out, -out});
-  const double enough = open_area(params_.widest, true) / 2;
+  const double enough = std::numbers::pi * params_.widest * params_.widest / 6;
   double most = 0;
   const Frame* best = nullptr;
   for (const Frame& frame : frames) {

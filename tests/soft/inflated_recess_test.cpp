@@ -121,6 +121,20 @@ TEST(InflatedRecess, OpensTowardTheSkinByItsVolumeWhateverItsShapeAndWhereverThe
   }
 }
 
+// A finger's: with a rim as wide as in a shoulder its middle opened five times as far as all of it
+// would.
+TEST(InflatedRecess, ASmallOneOpensOverMostOfItself) {
+  for (const Vec3& axes : {Vec3(6, 5, 3), Vec3(5, 4, 2), Vec3(12, 3, 2)}) {
+    const CompiledJoint joint = make_recess(1e-3 * axes, Eigen::Quaterniond::Identity());
+    const InflatedSpace space(joint, kRecess, Vec3(0, 0, 0.3e-3 * axes.z()));
+    const double volume = 0.2 * space.rest_volume();
+    const Opened opened = open(joint, space, volume);
+    EXPECT_NEAR(opened.given, volume, 1e-12);
+    const double over_all = volume / (1e-6 * std::numbers::pi * axes.x() * axes.y());  // m
+    EXPECT_LT(opened.largest, 3.5 * over_all) << axes.transpose();
+  }
+}
+
 TEST(InflatedRecess, OpensInwardWhereBoneLiesOnAllOfIt) {
   const CompiledJoint joint =
       make_recess(Vec3(14e-3, 10e-3, 2e-3), Eigen::Quaterniond::Identity(), 3e-3);
