@@ -14,8 +14,9 @@
 namespace artus {
 namespace {
 
-constexpr double kNextCell = 1.5;  // cells, to beyond any one beside
-constexpr double kStart = 5e-3;    // m around the tip, where the space may be met first
+constexpr double kNextCell = 1.5;        // cells, to beyond any one beside
+constexpr double kStart = 5e-3;          // m around the tip, where the space may be met first
+constexpr double kAllOpen = 121e-3 / 2;  // m, radius of a patch that is all of a space
 constexpr int kSteps = 60;
 constexpr int kHalvings = 20;
 constexpr double kExactVolume = 1e-16;  // m^3
@@ -321,7 +322,7 @@ double InflatedSpace::radius(double volume) const {
   double low = params_.widest * std::cbrt(std::min(1.0, volume / params_.fill));
   const double wanted = open_area(low, true);
   if (open_area(low, false) >= wanted) return low;
-  double high = widest();
+  double high = kAllOpen;
   for (int k = 0; k < kHalvings; ++k) {
     const double middle = (low + high) / 2;
     (open_area(middle, false) < wanted ? low : high) = middle;
@@ -373,7 +374,7 @@ double InflatedSpace::height_for(double volume) const {
 }
 
 bool InflatedSpace::confines(double volume) const {
-  return radius(std::max(volume, 1e-12)) > 0.99 * widest();
+  return radius(std::max(volume, 1e-12)) > 0.99 * kAllOpen;
 }
 
 /// `rested` by max(0, lambda - press): the volume is convex in lambda, so that secants which begin
