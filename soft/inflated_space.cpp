@@ -262,13 +262,12 @@ bool InflatedSpace::find_shut(const CompiledJoint& joint) {
           const int x = u + du;
           const int y = v + dv;
           const bool off = x < 0 || y < 0 || x >= cells_ || y >= cells_;
-          if (off || shut[static_cast<std::size_t>(y * cells_ + x)])
-            nearest = std::min(nearest, cell_ * std::hypot(du, dv));
+          if (off || shut[at(x, y)]) nearest = std::min(nearest, cell_ * std::hypot(du, dv));
         }
       }
       wide = wide || nearest >= farthest;
       const double part = std::max(0.0, nearest - next) / rim_;
-      inside_[static_cast<std::size_t>(v * cells_ + u)] = part * part * (3 - 2 * part);
+      inside_[at(u, v)] = part * part * (3 - 2 * part);
     }
   }
   return wide;
@@ -312,7 +311,7 @@ double InflatedSpace::open_area(double radius, bool everywhere) const {
   for (int v = 0; v < cells_; ++v) {
     for (int u = 0; u < cells_; ++u) {
       const double q = std::hypot(middle(u), middle(v)) / radius;
-      sum += profile(q) * (everywhere ? 1 : inside_[static_cast<std::size_t>(v * cells_ + u)]);
+      sum += profile(q) * (everywhere ? 1 : inside_[at(u, v)]);
     }
   }
   return sum * cell_ * cell_;
