@@ -184,6 +184,24 @@ TEST_F(ImagingTool, APressedJointHasForcesLayersAndACage) {
   EXPECT_EQ(artus({"deform", "-j", kSimple, "--press-n", "1", "--press-mm", "1"}).exit_code, 2);
 }
 
+/// H2: a default shoulder gives way by 2 to 8 mm under 3 N, fat thins most and tendon least.
+TEST_F(ImagingTool, ThreeNewtonsPressAShoulderByWhatFatAndMuscleGiveWay) {
+  const auto r = artus({"deform", "-j", (test::test_joints() / "shoulder.artus").string(),
+                        "--press-n", "3", "--json"});
+  ASSERT_EQ(r.exit_code, 0) << r.out << r.err;
+  const auto report = nlohmann::json::parse(r.out);
+  EXPECT_TRUE(report.at("settled").get<bool>());
+  EXPECT_GE(report.at("depth_mm").get<double>(), 2);
+  EXPECT_LE(report.at("depth_mm").get<double>(), 8);
+  std::map<std::string, double> thinned;  // the uppermost of each tissue
+  for (const auto& layer : report.at("layers"))
+    thinned.try_emplace(layer.at("tissue").get<std::string>(),
+                        layer.at("thinned_percent").get<double>());
+  EXPECT_GT(thinned.at("fat"), thinned.at("muscle"));
+  EXPECT_GT(thinned.at("muscle"), thinned.at("tendon"));
+  EXPECT_GT(thinned.at("fat"), thinned.at("skin"));
+}
+
 TEST_F(ImagingTool, PressesTheFaceOfTheProbeThatDraws) {
   const auto newtons = [&](const std::string& transducer) {
     const auto r = artus({"slice", "-j", kSimple, "--transducer", transducer, "--press-mm", "8",
