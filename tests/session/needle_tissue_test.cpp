@@ -256,8 +256,8 @@ TEST(NeedleTissue, NewAnswersOfTheTissueAreNoStepsInTheHands) {
     if (fresh && !happened && k > 500) {
       ++answers;
       for (Eigen::Index i = 0; i < 2; ++i)
-        worst[i] = std::max(worst[i],
-                            std::abs(now[i] - before[i] - change[i]) / std::max(now[i], kWeak));
+        worst[i] =
+            std::max(worst[i], std::abs(now[i] - before[i] - change[i]) / std::max(now[i], kWeak));
     }
     change = now - before;
     before = now;
