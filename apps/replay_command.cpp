@@ -39,7 +39,16 @@ void write_plunger(std::FILE* out, const PlungerFeedback& p) {
   std::fprintf(out, ",%u", p.status);
 }
 
-/// A tick as a line: what was sent, its components before the guard, contact and layer, plunger.
+/// The probe's columns: force and torque on its hand, the share of the face that presses, status.
+void write_probe(std::FILE* out, const DeviceFeedback& f) {
+  write_numbers(out, f.probe_force);
+  write_numbers(out, f.probe_torque);
+  write_numbers(out, std::array{f.probe_share});
+  std::fprintf(out, ",%u", f.probe_status);
+}
+
+/// A tick as a line: what was sent, its components before the guard, contact and layer, plunger,
+/// probe.
 void write_tick(std::FILE* out, const HapticSnapshot& s, double period, const std::string& layer) {
   std::fprintf(out, "%.6f,%llu,%.6f,%s,%s,%u,%u", static_cast<double>(s.input.tick) * period,
                static_cast<unsigned long long>(s.input.tick), s.feedback.depth / kMillimetre,
@@ -52,6 +61,7 @@ void write_tick(std::FILE* out, const HapticSnapshot& s, double period, const st
   write_numbers(out, s.surface_J);
   write_numbers(out, s.workspace_J);
   write_plunger(out, s.feedback.plunger);
+  write_probe(out, s.feedback);
   std::fputc('\n', out);
 }
 
@@ -60,7 +70,8 @@ constexpr const char* kTraceHead =
     "torque_y_nm,torque_z_nm,prepuncture_n,cutting_n,attracted_n,friction_n,hard_n,clamping_x_n,"
     "clamping_y_n,clamping_z_n,surface_x_n,surface_y_n,surface_z_n,workspace_x_n,workspace_y_n,"
     "workspace_z_n,plunger_mm,thumb_n,pressure_kpa,tip_pressure_kpa,flow_ml_s,given_ml,drawn_ml,"
-    "plunger_status\n";
+    "plunger_status,probe_force_x_n,probe_force_y_n,probe_force_z_n,probe_torque_x_nm,"
+    "probe_torque_y_nm,probe_torque_z_nm,probe_share,probe_status\n";
 
 ReplayListener make_listener(const ReplayOptions& options, const CompiledJoint& joint,
                              std::FILE* trace, double period) {

@@ -48,10 +48,18 @@ nlohmann::json newest_force(const std::string& prefix) {
   if (!channel || !channel->read(f)) return nullptr;
   const auto age = monotonic_ns() - static_cast<std::int64_t>(f.time_ns);
   f.layer_name[sizeof f.layer_name - 1] = '\0';
-  return {{"tick", f.tick},        {"force_n", f.force},
-          {"torque_nm", f.torque}, {"status", f.status},
-          {"contact", f.contact},  {"layer", std::string(f.layer_name)},
-          {"depth_m", f.depth},    {"age_ms", 1e-6 * static_cast<double>(age)}};
+  return {{"tick", f.tick},
+          {"force_n", f.force},
+          {"torque_nm", f.torque},
+          {"status", f.status},
+          {"contact", f.contact},
+          {"layer", std::string(f.layer_name)},
+          {"depth_m", f.depth},
+          {"probe_force_n", f.probe_force},
+          {"probe_torque_nm", f.probe_torque},
+          {"probe_share", f.probe_share},
+          {"probe_status", f.probe_status},
+          {"age_ms", 1e-6 * static_cast<double>(age)}};
 }
 
 nlohmann::json newest_pos(const std::string& prefix) {

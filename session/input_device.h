@@ -80,6 +80,7 @@ struct DeviceFeedback {
   std::uint32_t status = 0;
   std::uint32_t contact = 0;
   std::uint32_t region = 0;
+  std::uint32_t probe_status = 0;  ///< TickStatus bits of the probe's force; kStale: it has no pose
   double probe_force[3] = {0, 0, 0};   ///< N, at the face's centre  NOLINT(*-avoid-c-arrays)
   double probe_torque[3] = {0, 0, 0};  ///< N m  NOLINT(*-avoid-c-arrays)
   double probe_share = 0;              ///< of the face that presses, 0..1

@@ -91,6 +91,7 @@ void HapticCore::step_probe(bool felt, const std::optional<Pose>& X_WP) noexcept
   const Eigen::Matrix3d R_WJ = gesture_.X_WJ().linear();
   copy(R_WJ * wrench.force, out_.feedback.probe_force);
   copy(R_WJ * wrench.torque, out_.feedback.probe_torque);
+  out_.feedback.probe_status = status;
   out_.feedback.probe_share = X_JP ? probe_.share() : 0;
 }
 

@@ -138,6 +138,7 @@ void SharedMemoryDevice::write(const DeviceFeedback& feedback) noexcept {
   std::copy(std::begin(feedback.probe_torque), std::end(feedback.probe_torque),
             std::begin(out.probe_torque));
   out.probe_share = feedback.probe_share;
+  out.probe_status = feedback.probe_status;
   const PlungerFeedback& plunger = feedback.plunger;
   out.thumb_force = plunger.thumb_force;
   out.pressure = plunger.pressure;

@@ -62,21 +62,21 @@ enum {
 
 /* FORCE: what the hand should feel, written by artus. Frame W, at the needle's tip. */
 typedef struct artus_shm_force {
-  uint64_t tick;        /*   0 artus' haptic tick */
-  uint64_t time_ns;     /*   8 CLOCK_MONOTONIC when the force was computed */
-  uint64_t pos_sample;  /*  16 artus_shm_pos.sample that it answers */
-  uint64_t pos_time_ns; /*  24 artus_shm_pos.time_ns of that sample */
-  double force[3];      /*  32 N */
-  double torque[3];     /*  56 N m */
-  double stiffness;     /*  80 N/m, of the layer at the tip */
-  double cutting_force; /*  88 N, that the layer resists with */
-  double depth;         /*  96 m along the needle's line from the skin */
-  uint32_t status;      /* 104 bits, 0: all well */
-  uint32_t contact;     /* 108 0 away 1 touching 2 punctured 3 inserting 4 stopped 5 withdrawing
-                               6 reinserting 7 bone */
-  uint32_t layer;       /* 112 index of the region at the tip, 0: outside */
-  uint32_t reserved;    /* 116 zero */
-  char layer_name[40];  /* 120 its name, zero-terminated */
+  uint64_t tick;         /*   0 artus' haptic tick */
+  uint64_t time_ns;      /*   8 CLOCK_MONOTONIC when the force was computed */
+  uint64_t pos_sample;   /*  16 artus_shm_pos.sample that it answers */
+  uint64_t pos_time_ns;  /*  24 artus_shm_pos.time_ns of that sample */
+  double force[3];       /*  32 N */
+  double torque[3];      /*  56 N m */
+  double stiffness;      /*  80 N/m, of the layer at the tip */
+  double cutting_force;  /*  88 N, that the layer resists with */
+  double depth;          /*  96 m along the needle's line from the skin */
+  uint32_t status;       /* 104 bits, 0: all well */
+  uint32_t contact;      /* 108 0 away 1 touching 2 punctured 3 inserting 4 stopped 5 withdrawing
+                                6 reinserting 7 bone */
+  uint32_t layer;        /* 112 index of the region at the tip, 0: outside */
+  uint32_t probe_status; /* 116 the same bits of the probe's force; 4: the probe has no pose */
+  char layer_name[40];   /* 120 its name, zero-terminated */
   double
       probe_force[3]; /* 160 N on the probe's hand, at the face's centre; 0 where tissue is rigid */
   double probe_torque[3];  /* 184 N m */

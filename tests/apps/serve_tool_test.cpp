@@ -141,9 +141,11 @@ TEST_P(ServeFlag, RecordsWhatReplaysToTheSameBytes) {
   std::ifstream lines(trace);
   std::getline(lines, head);
   for (const char* column :
-       {"cutting_n", "friction_n", "hard_n", "clamping_x_n", "surface_z_n", "workspace_y_n",
-        "contact", "region", "plunger_mm", "thumb_n", "pressure_kpa", "tip_pressure_kpa",
-        "flow_ml_s", "given_ml", "drawn_ml", "plunger_status"})
+       {"cutting_n",       "friction_n",        "hard_n",       "clamping_x_n",
+        "surface_z_n",     "workspace_y_n",     "contact",      "region",
+        "plunger_mm",      "thumb_n",           "pressure_kpa", "tip_pressure_kpa",
+        "flow_ml_s",       "given_ml",          "drawn_ml",     "plunger_status",
+        "probe_force_z_n", "probe_torque_x_nm", "probe_share",  "probe_status"})
     EXPECT_NE(head.find(column), std::string::npos) << column;
   std::string line;
   while (std::getline(lines, line))

@@ -130,6 +130,35 @@ TEST_F(SessionCore, BetweenTheTissuesUpdatesTheProbeFeelsForceAndTorqueByItsWhol
   }
 }
 
+TEST_F(SessionCore, TheProbesForceSaysWhenItIsHeldBack) {
+  const Pose pressed = to_pose(test::sample_at(0, 0, 0).X_WP);
+  ProbePacket packet;
+  packet.number = 1;
+  packet.wrench[2] = -9;  // N
+  for (Eigen::Index i = 0; i < 12; ++i)
+    packet.X_JP[static_cast<std::size_t>(i)] = pressed.matrix()(i / 4, i % 4);
+  core_.take({packet, {}});
+  const auto felt = [this](PeerState state = PeerState::alive) {
+    const DeviceFeedback& out = step(-10e-3, state).feedback;
+    return std::pair(Vec3(out.probe_force[0], out.probe_force[1], out.probe_force[2]).norm(),
+                     out.probe_status);
+  };
+  for (int i = 0; i < 400; ++i) step(-10e-3);
+  const std::pair whole(9.0, TickStatus::kOk);
+  EXPECT_NEAR(felt().first, whole.first, 1e-9);
+  EXPECT_EQ(felt().second, whole.second);
+  EXPECT_EQ(felt(PeerState::lost), std::pair(0.0, TickStatus::kStale));
+  const auto back = felt();
+  EXPECT_LT(back.first, 1);
+  EXPECT_EQ(back.second, TickStatus::kRamping);
+  packet.number = 2;
+  packet.wrench[2] = -60;  // more than a probe's hand is ever given
+  core_.take({packet, {}});
+  for (int i = 0; i < 400; ++i) step(-10e-3);
+  EXPECT_NEAR(felt().first, 40, 1e-9);
+  EXPECT_EQ(felt().second, TickStatus::kSaturated);
+}
+
 TEST_F(SessionCore, NoInputOfAPeerGivesAForceThatIsNotFiniteOrOverTheLimit) {
   const double limit = params_.device.force;
   artus_shm_pos pos{};
