@@ -90,6 +90,15 @@ TEST_F(SessionCore, AResetForgetsTheInsertion) {
   EXPECT_EQ(step(-10e-3).inserted, 0U);
 }
 
+/// The tissue's first answer, around this pose; without force.
+ProbePacket packet_at(const Pose& X_JP) {
+  ProbePacket packet;
+  packet.number = 1;
+  for (Eigen::Index i = 0; i < 12; ++i)
+    packet.X_JP[static_cast<std::size_t>(i)] = X_JP.matrix()(i / 4, i % 4);
+  return packet;
+}
+
 /// One packet of the tissue, and a hand that moves on and turns in every tick after it.
 TEST_F(SessionCore, BetweenTheTissuesUpdatesTheProbeFeelsForceAndTorqueByItsWholeStiffness) {
   using Vec6 = Eigen::Matrix<double, 6, 1>;
@@ -99,11 +108,8 @@ TEST_F(SessionCore, BetweenTheTissuesUpdatesTheProbeFeelsForceAndTorqueByItsWhol
   const Vec6 coupled = (Vec6() << 8, -5, 12, 0.3, -0.4, 0.2).finished();
   Eigen::Matrix<double, 6, 6> K = coupled * coupled.transpose();
   K.diagonal() += (Vec6() << 200, 250, 700, 1.5, 2, 0.7).finished();
-  ProbePacket packet;
-  packet.number = 1;
+  ProbePacket packet = packet_at(pressed);
   packet.share = 0.5;
-  for (Eigen::Index i = 0; i < 12; ++i)
-    packet.X_JP[static_cast<std::size_t>(i)] = pressed.matrix()(i / 4, i % 4);
   Eigen::Map<Vec6>(packet.wrench.data()) = wrench;
   Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(packet.stiffness.data()) = K;
   core_.take({packet, {}});
@@ -132,11 +138,8 @@ TEST_F(SessionCore, BetweenTheTissuesUpdatesTheProbeFeelsForceAndTorqueByItsWhol
 
 TEST_F(SessionCore, TheProbesForceSaysWhenItIsHeldBack) {
   const Pose pressed = to_pose(test::sample_at(0, 0, 0).X_WP);
-  ProbePacket packet;
-  packet.number = 1;
+  ProbePacket packet = packet_at(pressed);
   packet.wrench[2] = -9;  // N
-  for (Eigen::Index i = 0; i < 12; ++i)
-    packet.X_JP[static_cast<std::size_t>(i)] = pressed.matrix()(i / 4, i % 4);
   core_.take({packet, {}});
   const auto felt = [this](PeerState state = PeerState::alive) {
     const DeviceFeedback& out = step(-10e-3, state).feedback;
@@ -144,9 +147,8 @@ TEST_F(SessionCore, TheProbesForceSaysWhenItIsHeldBack) {
                      out.probe_status);
   };
   for (int i = 0; i < 400; ++i) step(-10e-3);
-  const std::pair whole(9.0, TickStatus::kOk);
-  EXPECT_NEAR(felt().first, whole.first, 1e-9);
-  EXPECT_EQ(felt().second, whole.second);
+  EXPECT_NEAR(felt().first, 9, 1e-9);
+  EXPECT_EQ(felt().second, TickStatus::kOk);
   EXPECT_EQ(felt(PeerState::lost), std::pair(0.0, TickStatus::kStale));
   const auto back = felt();
   EXPECT_LT(back.first, 1);
