@@ -12,6 +12,7 @@
 #include "artus/echo/image_io.h"
 #include "artus/echo/labels.h"
 #include "artus/echo/transducer_file.h"
+#include "artus/raycast/layers_below.h"
 #include "artus/raycast/moving_scene.h"
 #include "artus/soft/cage_vtu.h"
 #include "artus/soft/press.h"
@@ -33,30 +34,15 @@ struct DeformOptions {
   bool json = false;
 };
 
-/// The layers below the face's centre along the probe's axis, before and after, down to bone.
-nlohmann::json layers_below(const std::shared_ptr<const CompiledJoint>& joint,
-                            const DeformedBody& body, const Pose& X_JP) {
-  const Vec3 z = X_JP.linear().col(2);
-  const Scene scene(joint);
-  const Segment segment{X_JP.translation() - 20e-3 * z, X_JP.translation() + 60e-3 * z};
-  auto layers = nlohmann::json::array();
-  const auto now = [&](double depth) {
-    const Vec3 p = segment.start + depth * z;
-    return depth + body.displacement(p).dot(z);
-  };
-  for (const TissueInterval& i : tissue_intervals(scene, segment)) {
-    if (i.region < kFirstRegion) continue;
-    const Tissue& tissue = joint->tissue_of(i.region);
-    if (tissue.haptic.hard) break;
-    const double before = i.exit - i.entry;
-    const double after = now(i.exit) - now(i.entry);
-    layers.push_back({{"region", joint->regions[i.region].name},
-                      {"tissue", tissue.name},
-                      {"before_mm", before / kMillimetre},
-                      {"after_mm", after / kMillimetre},
-                      {"thinned_percent", 100 * (1 - after / before)}});
-  }
-  return layers;
+nlohmann::json to_json(const std::vector<LayerBelow>& layers, const CompiledJoint& joint) {
+  auto report = nlohmann::json::array();
+  for (const LayerBelow& layer : layers)
+    report.push_back({{"region", joint.regions[layer.region].name},
+                      {"tissue", joint.tissue_of(layer.region).name},
+                      {"before_mm", layer.rest / kMillimetre},
+                      {"after_mm", layer.now / kMillimetre},
+                      {"thinned_percent", 100 * layer.thinned()}});
+  return report;
 }
 
 nlohmann::json volume_of(const DeformedBody& body) {
@@ -176,7 +162,7 @@ ExitCode run_deform(const DeformOptions& options) {
   if (*needle) report["needle"] = *dragged;
   const std::shared_ptr<const DeformedBody>& snapshot = pressed->tissue;
   report["joint"] = (*joint)->name;
-  report["layers"] = layers_below(*joint, *snapshot, X_JP);
+  report["layers"] = to_json(layers_below(*snapshot, X_JP), **joint);
   report["volume"] = volume_of(*snapshot);
   if (!options.out.empty()) {
     if (const auto written = write_vtu(*snapshot, options.out); !written)

@@ -16,6 +16,7 @@ namespace {
 
 struct GateSetOptions {
   std::vector<std::string> only;
+  std::filesystem::path joint;
   std::filesystem::path out;
   bool json = false;
 };
@@ -24,13 +25,23 @@ ExitCode run_gate_set(const GateSet& set, const GateSetOptions& options) {
   std::vector<std::string> names = options.only;
   if (names.empty()) {
     for (const std::string_view name : item_names(set.gates)) names.emplace_back(name);
+    if (!options.joint.empty())
+      for (const std::string_view name : item_names(set.joint_gates)) names.emplace_back(name);
   }
   const Progress progress = make_progress_printer(options.json);
+  std::shared_ptr<const CompiledJoint> joint;
+  if (!options.joint.empty()) {
+    JointOptions joint_options;
+    joint_options.joint = options.joint;
+    auto loaded = load(joint_options, progress);
+    if (!loaded) return report_error(loaded.error(), options.json);
+    joint = std::move(*loaded);
+  }
   std::vector<Gate> gates;
   for (const std::string& name : names) {
     if (progress)
       progress(name, static_cast<double>(gates.size()) / static_cast<double>(names.size()));
-    auto gate = run_gate(set, name);
+    auto gate = run_gate(set, name, joint);
     if (!gate) {
       Error error = gate.error();
       error.where = "--only";
@@ -56,14 +67,20 @@ void add_gate_set_command(Command& app, ExitCode& code, const GateSet& set,
                           const std::string& description, const std::string& two) {
   auto options = std::make_shared<GateSetOptions>();
   const std::string name(set.name);
+  const std::string of_joint =
+      set.joint_gates.empty() ? "" : "\n  artus " + name + " -j meshes/shoulder --out out/gates";
   Command* command = add_command(app, name, description,
-                                 "Gates: " + listed(item_names(set.gates)) +
+                                 "Gates: " + listed(gate_names(set)) +
                                      "\nExit code 1 when a value is out of its bound.\n"
                                      "Examples:\n"
                                      "  artus " +
                                      name + " --out out/gates\n  artus " + name + " " + two +
-                                     " --out out/gates --json");
+                                     " --out out/gates --json" + of_joint);
   command->add_option("--only", options->only, "a gate, may be given several times (default: all)");
+  if (!set.joint_gates.empty())
+    command->add_option("--joint,-j", options->joint,
+                        "joint folder or compiled .artus file: measures " +
+                            listed(item_names(set.joint_gates)) + ", too (default: no joint)");
   command->add_option("-o,--out", options->out, "folder for the report")->required();
   command->add_flag("--json", options->json, "print the verdicts as JSON");
   on_run(command, code, [options, &set] { return run_gate_set(set, *options); });

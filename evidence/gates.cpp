@@ -5,10 +5,22 @@
 
 namespace artus {
 
-Result<Gate> run_gate(const GateSet& set, std::string_view name) {
-  const auto at = find_name(item_names(set.gates), name, "gate");
+std::vector<std::string_view> gate_names(const GateSet& set) {
+  std::vector<std::string_view> names = item_names(set.gates);
+  for (const NamedJointGate& gate : set.joint_gates) names.push_back(gate.name);
+  return names;
+}
+
+Result<Gate> run_gate(const GateSet& set, std::string_view name,
+                      const std::shared_ptr<const CompiledJoint>& joint) {
+  const auto at = find_name(gate_names(set), name, "gate");
   ARTUS_TRY(at);
-  Gate gate = set.gates[*at].measure();
+  const bool of_joint = *at >= set.gates.size();
+  if (of_joint && !joint)
+    return fail(ErrorCode::malformed,
+                "gate \"" + std::string(name) + "\" measures a joint: needs -j");
+  Gate gate =
+      of_joint ? set.joint_gates[*at - set.gates.size()].measure(joint) : set.gates[*at].measure();
   gate.name = name;
   return gate;
 }

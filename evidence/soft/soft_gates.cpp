@@ -8,7 +8,7 @@
 namespace artus {
 namespace {
 
-constexpr std::array<NamedGate, 26> kGates{{{"patch", gate_patch},
+constexpr std::array<NamedGate, 27> kGates{{{"patch", gate_patch},
                                             {"uniaxial", gate_uniaxial},
                                             {"point-force", gate_point_force},
                                             {"cantilever", gate_cantilever},
@@ -33,11 +33,15 @@ constexpr std::array<NamedGate, 26> kGates{{{"patch", gate_patch},
                                             {"needle-rates", gate_needle_rates},
                                             {"tent", gate_tent},
                                             {"drag", gate_drag},
-                                            {"packets", gate_packets}}};
+                                            {"packets", gate_packets},
+                                            {"still", gate_still}}};
+
+constexpr std::array<NamedJointGate, 2> kJointGates{
+    {{"joint-pressed", gate_joint_pressed}, {"joint-still", gate_joint_still}}};
 
 constexpr GateSet kSet{"soft-gates",
                        "Tissue that gives way, on blocks with known answers: mechanics and picture",
-                       "closed forms of elasticity; each gate names its own", kGates};
+                       "closed forms of elasticity; each gate names its own", kGates, kJointGates};
 
 }  // namespace
 

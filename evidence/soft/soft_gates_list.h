@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <memory>
 #include <string>
 
 #include "artus/evidence/soft/soft_gates.h"
@@ -45,5 +46,11 @@ struct Settled {
 [[nodiscard]] Gate gate_drag();             ///< a needle's load, in and out
 [[nodiscard]] Gate gate_packets();          ///< the probe's force between updates
 [[nodiscard]] Gate gate_wild_hand();        ///< random presses and jumps
+[[nodiscard]] Gate gate_still();            ///< the same bytes below a still probe
+
+// Of a compiled joint.
+[[nodiscard]] Gate gate_joint_still(const std::shared_ptr<const CompiledJoint>& joint);
+[[nodiscard]] Gate gate_joint_pressed(
+    const std::shared_ptr<const CompiledJoint>& joint);  ///< by 3 N
 
 }  // namespace artus

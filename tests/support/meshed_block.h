@@ -2,14 +2,14 @@
 #pragma once
 #include <span>
 
-#include "artus/anatomy/body/layered_body.h"
+#include "artus/anatomy/body/meshed_block.h"
+#include "tests/support/layered_body.h"
 
 namespace artus::test {
 
-/// make_layered_block with tetrahedra and with surfaces of about `cell` m: a body that can give
-/// way, in no time and without a mesher. Six tetrahedra a cell (Kuhn's division), so that faces
-/// conform.
-[[nodiscard]] CompiledJoint make_meshed_block(std::span<const FlatLayer> layers, double width_x,
-                                              double depth_y, double cell);
+[[nodiscard]] inline CompiledJoint make_meshed_block(std::span<const FlatLayer> layers,
+                                                     double width_x, double depth_y, double cell) {
+  return artus::make_meshed_block(make_test_tissues(), layers, width_x, depth_y, cell);
+}
 
 }  // namespace artus::test

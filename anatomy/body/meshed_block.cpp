@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "tests/support/meshed_block.h"
+#include "artus/anatomy/body/meshed_block.h"
 
 #include <algorithm>
 #include <array>
@@ -7,9 +7,7 @@
 #include <map>
 #include <vector>
 
-#include "tests/support/layered_body.h"
-
-namespace artus::test {
+namespace artus {
 namespace {
 
 using Corners = std::array<std::uint32_t, 3>;
@@ -56,9 +54,10 @@ std::vector<double> heights_of(std::span<const FlatLayer> layers, double cell,
 
 }  // namespace
 
-CompiledJoint make_meshed_block(std::span<const FlatLayer> layers, double width_x, double depth_y,
+CompiledJoint make_meshed_block(const std::vector<Tissue>& tissues,
+                                std::span<const FlatLayer> layers, double width_x, double depth_y,
                                 double cell) {
-  CompiledJoint joint = make_layered_block(layers, width_x, depth_y);
+  CompiledJoint joint = make_layered_block(tissues, layers, width_x, depth_y);
   TetMesh mesh;
   std::vector<RegionId> region_at;
   const std::vector<double> z = heights_of(layers, cell, region_at);
@@ -99,4 +98,4 @@ CompiledJoint make_meshed_block(std::span<const FlatLayer> layers, double width_
   return joint;
 }
 
-}  // namespace artus::test
+}  // namespace artus

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <span>
+#include <vector>
+
+#include "artus/anatomy/body/layered_body.h"
+
+namespace artus {
+
+/// make_layered_block with tetrahedra and with surfaces of about `cell` m: a body that can give
+/// way, in no time and without a mesher. Six tetrahedra a cell (Kuhn's division), so that faces
+/// conform.
+[[nodiscard]] CompiledJoint make_meshed_block(const std::vector<Tissue>& tissues,
+                                              std::span<const FlatLayer> layers, double width_x,
+                                              double depth_y, double cell);
+
+}  // namespace artus
