@@ -41,7 +41,9 @@ std::vector<Claim> claims_of_still_probe(const std::shared_ptr<const CompiledJoi
         "I7: a body that gives way: " + (pressed ? core.error() : pressed.error()).to_string(),
         false)};
   const Pose& X_JP = pressed->press.X_JP;
-  const auto look = [&] { return render_bmode(core->scene(), X_JP, std::nullopt, {}, {}); };
+  const auto look = [&] {
+    return render_bmode(core->scene(), X_JP, std::nullopt, {}, {});
+  };
   const auto is_same = [](const Frame& a, const Frame& b) {
     return a.in_phase == b.in_phase && a.quadrature == b.quadrature && a.image == b.image;
   };
@@ -102,15 +104,15 @@ Gate gate_joint_still(const std::shared_ptr<const CompiledJoint>& joint) {
 
 Gate gate_joint_pressed(const std::shared_ptr<const CompiledJoint>& joint) {
   Gate gate;
-  gate.title = joint->name +
-               " under 3 N at its default probe (H2)";
+  gate.title = joint->name + " under 3 N at its default probe (H2)";
   const auto pressed = press_with_3_newtons(joint);
   if (!pressed) {
     gate.claims = {claim_that(ClaimKind::independent, "H2: " + pressed.error().to_string(), false)};
     return gate;
   }
   gate.claims.push_back(claim_at_rest("H2: the pressed joint", pressed->press.settled));
-  const ClaimBasis fitted{ClaimKind::fitted, "skin's values were chosen with it in view; the band is assumed"};
+  const ClaimBasis fitted{ClaimKind::fitted,
+                          "skin's values were chosen with it in view; the band is assumed"};
   gate.claims.push_back(claim_within(fitted, "H2: 3 N press it by, a shoulder's band",
                                      pressed->press.depth / kMillimetre,
                                      kMiddleOfBand / kMillimetre, kHalfOfBand / kMillimetre, "mm"));
