@@ -71,7 +71,19 @@ std::vector<Claim> claims_of_still_probe(const std::shared_ptr<const CompiledJoi
           claim_at_most(kept, "I7: the hand's forces that differ then", forces, 0, "")};
 }
 
-/// Share by which the uppermost layer of a tissue thins; nothing: none on the axis.
+constexpr double kFaceArea = 40e-3 * 6e-3;  // m^2, of the probe's face
+
+/// Shares by which the uppermost fat, muscle and tendon on the face's axis are thinned; nothing:
+/// there is none.
+struct Thinned {
+  bool at_rest = false;
+  double force = 0;  // N
+  double depth = 0;  // m
+  std::optional<double> fat;
+  std::optional<double> muscle;
+  std::optional<double> tendon;
+};
+
 std::optional<double> thinned(const std::vector<LayerBelow>& layers, const CompiledJoint& joint,
                               std::string_view tissue) {
   const auto at = std::find_if(layers.begin(), layers.end(), [&](const LayerBelow& layer) {
@@ -79,6 +91,37 @@ std::optional<double> thinned(const std::vector<LayerBelow>& layers, const Compi
   });
   if (at == layers.end()) return std::nullopt;
   return at->thinned();
+}
+
+Result<Thinned> press_and_measure(SoftBody& body, double force) {
+  const CompiledJoint& joint = *body.joint();
+  const auto press = press_with(body, joint.X_JP_default, force);
+  ARTUS_TRY(press);
+  const auto layers = layers_below(*body.snapshot(), joint.X_JP_default);
+  return Thinned{press->settled,
+                 press->normal_force,
+                 press->depth,
+                 thinned(layers, joint, "fat"),
+                 thinned(layers, joint, "muscle"),
+                 thinned(layers, joint, "tendon")};
+}
+
+/// kPa: slope of the face's stress over a layer's strain, as the source's moduli are.
+double slope(const Thinned& a, const Thinned& b, std::optional<double> Thinned::*layer) {
+  return 1e-3 * (b.force - a.force) / kFaceArea / (*(b.*layer) - *(a.*layer));
+}
+
+void add_order(Gate& gate, const ClaimBasis& fitted, const Thinned& under) {
+  if (under.fat && under.muscle)
+    gate.claims.push_back(
+        claim_that(fitted, "H2: fat thins more than muscle", *under.fat > *under.muscle));
+  if (under.fat && under.tendon)
+    gate.claims.push_back(claim_that({ClaimKind::input, "fat is given the lowest stiffness"},
+                                     "H2: fat thins more than tendon", *under.fat > *under.tendon));
+  if (under.muscle && under.tendon)
+    gate.claims.push_back(claim_that({ClaimKind::input, "tendon is given the higher stiffness"},
+                                     "H2: muscle thins more than tendon",
+                                     *under.muscle > *under.tendon));
 }
 
 }  // namespace
@@ -104,30 +147,43 @@ Gate gate_joint_still(const std::shared_ptr<const CompiledJoint>& joint) {
 
 Gate gate_joint_pressed(const std::shared_ptr<const CompiledJoint>& joint) {
   Gate gate;
-  gate.title = joint->name + " under 3 N at its default probe (H2)";
-  const auto pressed = press_with_3_newtons(joint);
-  if (!pressed) {
-    gate.claims = {claim_that(ClaimKind::independent, "H2: " + pressed.error().to_string(), false)};
+  gate.title = joint->name +
+               " pressed at its default probe by 3 N (H2), and slopes of stress over compression "
+               "around 1 and 5 N against [Isogai2022] (H1)";
+  auto body = SoftBody::make(joint, joint->X_JP_default);
+  if (!body) {
+    gate.claims = {claim_that(ClaimKind::independent, "H2: " + body.error().to_string(), false)};
     return gate;
   }
-  gate.claims.push_back(claim_at_rest("H2: the pressed joint", pressed->press.settled));
+  std::array<Thinned, 5> under;
+  constexpr std::array<double, 5> kForces{0.5, 1.5, kPressedWith, 4, 6};  // N
+  bool at_rest = true;
+  for (std::size_t i = 0; i < kForces.size(); ++i) {
+    const auto pressed = press_and_measure(*body, kForces[i]);
+    if (!pressed) {
+      gate.claims.push_back(
+          claim_that(ClaimKind::independent, "H2: " + pressed.error().to_string(), false));
+      return gate;
+    }
+    under[i] = *pressed;
+    at_rest = at_rest && pressed->at_rest;
+  }
+  gate.claims.push_back(claim_at_rest("H2: the pressed joint", at_rest));
   const ClaimBasis fitted{ClaimKind::fitted,
                           "skin's values were chosen with it in view; the band is assumed"};
   gate.claims.push_back(claim_within(fitted, "H2: 3 N press it by, a shoulder's band",
-                                     pressed->press.depth / kMillimetre,
-                                     kMiddleOfBand / kMillimetre, kHalfOfBand / kMillimetre, "mm"));
-  const auto layers = layers_below(*pressed->scene->tissue(), joint->X_JP_default);
-  const auto fat = thinned(layers, *joint, "fat");
-  const auto muscle = thinned(layers, *joint, "muscle");
-  const auto tendon = thinned(layers, *joint, "tendon");
-  if (fat && muscle)
-    gate.claims.push_back(claim_that(fitted, "H2: fat thins more than muscle", *fat > *muscle));
-  if (fat && tendon)
-    gate.claims.push_back(claim_that({ClaimKind::input, "fat is given the lowest stiffness"},
-                                     "H2: fat thins more than tendon", *fat > *tendon));
-  if (muscle && tendon)
-    gate.claims.push_back(claim_that({ClaimKind::input, "tendon is given the higher stiffness"},
-                                     "H2: muscle thins more than tendon", *muscle > *tendon));
+                                     under[2].depth / kMillimetre, kMiddleOfBand / kMillimetre,
+                                     kHalfOfBand / kMillimetre, "mm"));
+  add_order(gate, fitted, under[2]);
+  const ClaimBasis band{ClaimKind::independent, "the indenter's area is assumed to be the face's"};
+  if (under[0].fat)
+    gate.claims.push_back(claim_within(band, "H1: fat around 1 N, mean and 2 deviations of 21 men",
+                                       slope(under[0], under[1], &Thinned::fat), 26.1, 38.0,
+                                       "kPa"));
+  if (under[0].muscle)
+    gate.claims.push_back(
+        claim_within(band, "H1: muscle around 5 N, mean and 2 deviations of 21 men",
+                     slope(under[3], under[4], &Thinned::muscle), 62.2, 20.6, "kPa"));
   return gate;
 }
 
