@@ -70,6 +70,7 @@ Result<bool> work(const TrainRoom& room, const TrainTask& task, const SessionPar
   options.share_images = room.session->input == "shared-memory";
   options.image_segment_prefix = room.session->prefix;
   options.witness = &meter;
+  options.onlookers = 1;
   if (room.link != nullptr)
     options.on_image = [&room](const ImageSnapshot& image) {
       room.link->take_image(image);

@@ -109,6 +109,7 @@ ExitCode run_view(const ViewerOptions& options, bool& training) {
   if (!link) return report_error(link.error(), false);
   Session::Options session_options = make_thread_options(options.session);
   session_options.share_images = options.session.input == "shared-memory";
+  session_options.onlookers = 1;
   if (*link)
     session_options.on_image = [&link](const ImageSnapshot& image) {
       (*link)->take_image(image);

@@ -77,9 +77,11 @@ std::shared_ptr<const Scene> MovingScene::at(std::shared_ptr<const DeformedBody>
           }};
 }
 
-std::array<std::shared_ptr<const Scene>, 3> MovingScene::make_ready(
-    const std::shared_ptr<const DeformedBody>& tissue) {
-  return {at(tissue), at(tissue), at(tissue)};
+std::vector<std::shared_ptr<const Scene>> MovingScene::make_ready(
+    const std::shared_ptr<const DeformedBody>& tissue, std::size_t count) {
+  std::vector<std::shared_ptr<const Scene>> ready;
+  while (ready.size() < count) ready.push_back(at(tissue));
+  return ready;
 }
 
 void MovingScene::share(const Scene& other) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
-#include <array>
+#include <cstddef>
 #include <memory>
+#include <vector>
 
 #include "artus/raycast/scene.h"
 
@@ -9,10 +10,13 @@ namespace artus {
 
 /// Scenes of a body that gives way, one for each of its states, by fitting a hierarchy that is
 /// there to where the surfaces are now. A scene that nobody holds any more is used again, so that
-/// in a steady run three go round: one that is read, one that was, one that is being made. One
-/// thread at a time asks; the scenes may be read and let go of on any.
+/// in a steady run three go round: one that is read, one that was, one that is being made; who
+/// keeps one to itself needs one more. One thread at a time asks; the scenes may be read and let go
+/// of on any.
 class MovingScene {
  public:
+  static constexpr std::size_t kGoingRound = 3;
+
   explicit MovingScene(SceneOptions options = {});
 
   /// The scene of one state. A body at rest answers every query with the bytes of Scene(joint).
@@ -21,10 +25,10 @@ class MovingScene {
   /// surfaces share (BodyMap::first).
   [[nodiscard]] std::shared_ptr<const Scene> at(std::shared_ptr<const DeformedBody> tissue);
 
-  /// The same for all three that go round, so that no state to come waits for an index. Cost: of
+  /// The same for all `count` that go round, so that no state to come waits for an index. Cost: of
   /// the indices.
-  std::array<std::shared_ptr<const Scene>, 3> make_ready(
-      const std::shared_ptr<const DeformedBody>& tissue);
+  std::vector<std::shared_ptr<const Scene>> make_ready(
+      const std::shared_ptr<const DeformedBody>& tissue, std::size_t count = kGoingRound);
 
   /// Scenes of the same surfaces as `other`, which another MovingScene made, share with it what of
   /// an index does not move: four tenths of its memory.

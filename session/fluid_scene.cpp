@@ -24,7 +24,7 @@ const std::shared_ptr<const BodyMap>& FluidScene::map_in(
   return map_;
 }
 
-/// Indices of the three scenes that go round: a shape that opens a space has the body's surfaces.
+/// Indices of the scenes that go round: a shape that opens a space has the body's surfaces.
 void FluidScene::prepare(const Scene& body) {
   const std::shared_ptr<const DeformedBody>& tissue = body.tissue();
   if (!tissue || tissue->shared_map() == prepared_) return;
@@ -33,8 +33,9 @@ void FluidScene::prepare(const Scene& body) {
     return;
   prepared_ = tissue->shared_map();
   scenes_.share(body);
-  preparing_ = std::async(std::launch::async,
-                          [scenes = scenes_, tissue]() mutable { scenes.make_ready(tissue); });
+  preparing_ = std::async(std::launch::async, [scenes = scenes_, tissue, n = n_scenes_]() mutable {
+    scenes.make_ready(tissue, n);
+  });
 }
 
 const std::shared_ptr<const Scene>& FluidScene::at(

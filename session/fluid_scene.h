@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <cstddef>
 #include <future>
 #include <memory>
 
@@ -12,6 +13,9 @@ namespace artus {
 /// opened in it. One thread, which need not be the one that makes the shapes.
 class FluidScene {
  public:
+  /// `scenes`: that go round, see MovingScene.
+  explicit FluidScene(std::size_t scenes = MovingScene::kGoingRound) : n_scenes_(scenes) {}
+
   /// Of one image; null: nothing was injected. `tissue`: the body as it gives way in it; null:
   /// rigid. Cost: one refit of the scene with tissue; a new index with a shape of other surfaces.
   [[nodiscard]] const std::shared_ptr<const Scene>& at(
@@ -29,6 +33,7 @@ class FluidScene {
   std::shared_ptr<const FluidShape> mapped_;  // what map_ is of
   std::shared_ptr<const BodyMap> map_;        // in the present cage
   MovingScene scenes_;
+  std::size_t n_scenes_;
   std::shared_ptr<const BodyMap> prepared_;  // what scenes_ was made ready for
   std::future<void> preparing_;
   FluidState placed_;  // what scene_ is of

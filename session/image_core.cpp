@@ -24,7 +24,8 @@ Liquid liquid_of(const SessionParams& params) {
 
 }  // namespace
 
-ImageCore::ImageCore(std::shared_ptr<const Scene> scene, const SessionParams& params)
+ImageCore::ImageCore(std::shared_ptr<const Scene> scene, const SessionParams& params,
+                     std::size_t onlookers)
     : probe_(params.transducer),
       image_(params.image),
       needle_shape_(params.needle_shape),
@@ -33,6 +34,7 @@ ImageCore::ImageCore(std::shared_ptr<const Scene> scene, const SessionParams& pa
       rest_(scene),
       drawn_(scene),
       shapes_(scene->shared_joint(), liquid_of(params), params.image_rate),
+      fluid_(MovingScene::kGoingRound + onlookers),
       plume_(liquid_of(params)),
       image_time_(1 / params.image_rate),
       images_to_change_(static_cast<std::uint64_t>(std::ceil(kTableTime * params.image_rate))) {
@@ -42,7 +44,7 @@ ImageCore::ImageCore(std::shared_ptr<const Scene> scene, const SessionParams& pa
     const auto face = pressing_face(params.transducer);
     ARTUS_TRY(face);
     return TissueCore::make(scene->shared_joint(), scene->joint().X_JP_default, params.image_rate,
-                            *face);
+                            *face, nullptr, onlookers);
   };
   auto tissue = make_tissue();
   if (tissue)

@@ -33,8 +33,9 @@ struct ImagedBody {
 /// drifts in it is seen: see FluidShapes and LiquidPlume.
 class ImageCore {
  public:
-  /// Requires: valid params, a scene.
-  ImageCore(std::shared_ptr<const Scene> scene, const SessionParams& params);
+  /// `onlookers` keep a drawn scene each while the next are made. Requires: valid params, a scene.
+  ImageCore(std::shared_ptr<const Scene> scene, const SessionParams& params,
+            std::size_t onlookers = 0);
 
   /// The tissue's step to this image's instant, when it gives way: what the hands feel need not
   /// wait for the picture. Skin that liquid lifts is where the probe meets it. May run beside

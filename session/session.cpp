@@ -29,6 +29,7 @@ TracePoint trace_point_of(const HapticSnapshot& out, double time) noexcept {
   point.region = static_cast<std::uint16_t>(out.feedback.region);
   point.contact = static_cast<std::uint16_t>(out.feedback.contact);
   point.felt = (out.status & TickStatus::kLate) == 0;
+  point.probe = static_cast<float>(press_of_probe(out));
   return point;
 }
 
@@ -44,6 +45,12 @@ std::string reason_of(const std::exception_ptr& failure) {
 }
 
 }  // namespace
+
+double press_of_probe(const HapticSnapshot& tick) noexcept {
+  if (tick.input.device.has_probe == 0) return 0;
+  const double* force = tick.feedback.probe_force;
+  return -Vec3(force[0], force[1], force[2]).dot(to_pose(tick.input.device.X_WP).linear().col(2));
+}
 
 Session::Session(std::shared_ptr<const Scene> scene, const SessionParams& params,
                  std::unique_ptr<InputDevice> device)
@@ -87,7 +94,9 @@ Result<std::unique_ptr<Session>> Session::start(std::shared_ptr<const Scene> sce
   session->haptic_thread_ = std::thread([running, haptics] { running->run_haptics(haptics); });
   if (options.images) {
     session->drawing_thread_ = std::thread([running, imaging] { running->run_drawing(imaging); });
-    session->imaging_thread_ = std::thread([running, imaging] { running->run_imaging(imaging); });
+    session->imaging_thread_ = std::thread([running, imaging, onlookers = options.onlookers] {
+      running->run_imaging(imaging, onlookers);
+    });
   }
   session->care_thread_ = std::thread([running] { running->run_care(); });
   return session;
@@ -199,7 +208,7 @@ void Session::gauge() {
   if (x != 0) times_->fixed_work.add(monotonic_ns() - begin);  // never zero: it is not left out
 }
 
-void Session::run_imaging(const ThreadWishes& wishes) {
+void Session::run_imaging(const ThreadWishes& wishes, std::size_t onlookers) {
   ask("imaging", wishes);
   std::unique_ptr<ImageCore> core;
   PeriodicSchedule schedule(params_.image_rate);
@@ -209,7 +218,7 @@ void Session::run_imaging(const ThreadWishes& wishes) {
     std::string failure = handover_->take_failure();
     try {
       if (failure.empty() && !core) {
-        core = std::make_unique<ImageCore>(scene_, params_);
+        core = std::make_unique<ImageCore>(scene_, params_, onlookers);
         if (!core->refusal().empty()) tell("the tissue stays rigid: " + core->refusal());
       }
       if (failure.empty() && frozen_.load(std::memory_order_relaxed)) {

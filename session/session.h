@@ -50,7 +50,11 @@ struct TracePoint {
   std::uint16_t region = 0;
   std::uint16_t contact = 0;
   bool felt = true;  ///< false: the tick was too late, and the force rests
+  float probe = 0;   ///< N on the probe's hand, see press_of_probe
 };
+
+/// N with which the tissue holds against the probe along its face's axis; 0 without a probe.
+[[nodiscard]] double press_of_probe(const HapticSnapshot& tick) noexcept;
 
 /// Where the time goes; each is written by one thread and may be read by any.
 struct SessionTimes {
@@ -93,6 +97,9 @@ class Session {
     bool images = true;                ///< false: nothing is drawn
     bool share_images = false;         ///< write IMAGE
     bool gauge = false;                ///< time a fixed work beside (SessionTimes::fixed_work)
+    /// Who keep the body of a picture (ImageSnapshot::body) while the next are drawn, as a window
+    /// does: for each a scene more is made at the start instead of while it runs.
+    std::size_t onlookers = 0;
     /// Called with each new image in the imaging thread; what it throws is told like any failure.
     std::function<void(const ImageSnapshot&)> on_image;
     SessionWitness* witness = nullptr;  ///< not owned
@@ -141,7 +148,7 @@ class Session {
   Session(std::shared_ptr<const Scene> scene, const SessionParams& params,
           std::unique_ptr<InputDevice> device);
   void run_haptics(const ThreadWishes& wishes);
-  void run_imaging(const ThreadWishes& wishes);
+  void run_imaging(const ThreadWishes& wishes, std::size_t onlookers);
   void run_drawing(const ThreadWishes& wishes);
   void run_care();
   void gauge();

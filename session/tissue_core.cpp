@@ -32,16 +32,17 @@ SoftBodyParams params_with(const ProbeFace& face) {
 
 Result<TissueCore> TissueCore::make(std::shared_ptr<const CompiledJoint> joint, const Pose& X_JP,
                                     double image_rate, const ProbeFace& face,
-                                    const DeformedBody* before) {
+                                    const DeformedBody* before, std::size_t onlookers) {
   auto body = SoftBody::make(std::move(joint), X_JP, params_with(face));
   ARTUS_TRY(body);
   if (before != nullptr) body->follow(*before);
-  return TissueCore(std::move(*body), image_rate, face);
+  return TissueCore(std::move(*body), image_rate, face, MovingScene::kGoingRound + onlookers);
 }
 
-TissueCore::TissueCore(SoftBody body, double image_rate, const ProbeFace& face)
+TissueCore::TissueCore(SoftBody body, double image_rate, const ProbeFace& face, std::size_t scenes)
     : body_(std::move(body)),
       face_(face),
+      n_scenes_(scenes),
       dt_(1 / image_rate),
       factor_images_(static_cast<std::uint64_t>(std::ceil(kFactorTime * image_rate))),
       cage_images_(static_cast<std::uint64_t>(std::ceil(kCageTime * image_rate))),
@@ -50,7 +51,7 @@ TissueCore::TissueCore(SoftBody body, double image_rate, const ProbeFace& face)
       needle_(image_rate) {
   keep_state_of_factor();
   tissue_ = body_.snapshot();
-  scene_ = scenes_.make_ready(tissue_)[0];
+  scene_ = scenes_.make_ready(tissue_, n_scenes_)[0];
 }
 
 bool TissueCore::is_within_reach(const Pose& X_JC, const Pose& X_JP) {
@@ -85,18 +86,19 @@ bool TissueCore::is_wanted(const Pose& X_JC, const std::optional<Pose>& X_JP) co
 }
 
 /// What the first images in the new cage would wait for: a factor of the tissue as it lies, and the
-/// indices of the three scenes that go round.
+/// indices of the scenes that go round.
 void TissueCore::make_ready(const std::optional<Pose>& X_JP) {
   auto made = cage_.get();
   if (!made || !is_wanted(made->cage_pose(), X_JP)) return;
   cage_due_ = images_ + ready_images_;
-  next_ = std::async(std::launch::async, [body = std::move(*made), tissue = tissue_]() mutable {
-    body.follow(*tissue);
-    auto laid = body.snapshot();
-    NextCage next{std::move(body), MovingScene(), std::move(laid)};
-    next.scenes.make_ready(next.tissue);
-    return next;
-  });
+  next_ = std::async(std::launch::async,
+                     [body = std::move(*made), tissue = tissue_, n = n_scenes_]() mutable {
+                       body.follow(*tissue);
+                       auto laid = body.snapshot();
+                       NextCage next{std::move(body), MovingScene(), std::move(laid)};
+                       next.scenes.make_ready(next.tissue, n);
+                       return next;
+                     });
 }
 
 /// Takes the new cage, the tissue from where it is now in the old one.

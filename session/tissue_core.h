@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <future>
 #include <memory>
@@ -20,11 +21,13 @@ namespace artus {
 class TissueCore {
  public:
   /// The cage is made around `X_JP`, for a probe with `face`; the tissue goes on from where
-  /// `before` has it, or is at rest. Errors: those of SoftBody::make. Cost: some seconds.
+  /// `before` has it, or is at rest. `onlookers` keep a scene each while the next are made. Errors:
+  /// those of SoftBody::make. Cost: some seconds.
   [[nodiscard]] static Result<TissueCore> make(std::shared_ptr<const CompiledJoint> joint,
                                                const Pose& X_JP, double image_rate,
                                                const ProbeFace& face = {},
-                                               const DeformedBody* before = nullptr);
+                                               const DeformedBody* before = nullptr,
+                                               std::size_t onlookers = 0);
 
   /// The next image's instant, with the probe at `X_JP` or without one, and so the needle. A probe
   /// that stays outside of what the cage reaches gets a cage of its own, unless it is back by then;
@@ -47,7 +50,7 @@ class TissueCore {
   }
 
  private:
-  TissueCore(SoftBody body, double image_rate, const ProbeFace& face);
+  TissueCore(SoftBody body, double image_rate, const ProbeFace& face, std::size_t scenes);
   /// Another cage, and the tissue as it lay in it a while before that cage is taken.
   struct NextCage {
     SoftBody body;
@@ -65,6 +68,7 @@ class TissueCore {
 
   SoftBody body_;
   ProbeFace face_;
+  std::size_t n_scenes_;         // that go round
   double dt_;                    // s between images
   std::uint64_t factor_images_;  // from the start of a factor to its use
   std::uint64_t cage_images_;    // from the start of a cage to its being made

@@ -19,6 +19,7 @@ constexpr ImU32 kGrid = IM_COL32(55, 60, 68, 255);
 constexpr ImU32 kText = IM_COL32(205, 205, 205, 255);
 constexpr ImU32 kForce = IM_COL32(255, 120, 90, 255);
 constexpr ImU32 kLateral = IM_COL32(110, 170, 255, 255);
+constexpr ImU32 kProbe = IM_COL32(130, 220, 130, 255);
 constexpr ImU32 kLimit = IM_COL32(255, 215, 80, 255);
 
 /// A rectangle of the screen with the values at its edges.
@@ -56,6 +57,12 @@ void draw_frame(ImDrawList* list, const Plot& plot, double y_step, Language lang
 double highest_force(const std::deque<TracePoint>& trace) {
   double most = 3;
   for (const TracePoint& p : trace) most = std::max<double>({most, p.force * 1.1, p.lateral * 1.1});
+  return most;
+}
+
+double highest_press(const std::deque<TracePoint>& trace) {
+  double most = 0;
+  for (const TracePoint& p : trace) most = std::max<double>(most, p.probe * 1.1);
   return most;
 }
 
@@ -150,13 +157,19 @@ void draw_force_over_time(const PanelInput& in, const ViewState& state, Plot plo
   };
   if (tells_layers(state)) draw_layers(list, plot, in, state.language, bands_of(state.trace, x));
   draw_frame(list, plot, step_for(plot.y_high - plot.y_low), state.language);
+  if (in.probe.felt) draw_curve(list, plot, state.trace, x, &TracePoint::probe, kProbe);
   draw_curve(list, plot, state.trace, x, &TracePoint::lateral, kLateral);
   draw_curve(list, plot, state.trace, x, &TracePoint::force, kForce);
   const float font = ImGui::GetFontSize();
   list->AddText(ImVec2(plot.from.x, plot.to.y + 2), kText, tell(state, Text::plot_force_time));
-  const ImVec2 legend(plot.from.x + 4, plot.to.y - 1.2F * font);
-  list->AddText(legend, kForce, tell(state, Text::plot_along));
-  list->AddText(ImVec2(legend.x + 4 * font, legend.y), kLateral, tell(state, Text::plot_sideways));
+  ImVec2 legend(plot.from.x + 4, plot.to.y - 1.2F * font);
+  const auto name_curve = [&](Text name, ImU32 colour) {
+    list->AddText(legend, colour, tell(state, name));
+    legend.x += ImGui::CalcTextSize(tell(state, name)).x + font;
+  };
+  name_curve(Text::plot_along, kForce);
+  name_curve(Text::plot_sideways, kLateral);
+  if (in.probe.felt) name_curve(Text::plot_probe, kProbe);
 }
 
 void draw_force_over_depth(const PanelInput& in, const ViewState& state, Plot plot) {
@@ -239,7 +252,8 @@ void draw_force_panel(const PanelInput& in, ViewState& state) {
   Plot time = plot_in(at, ImVec2(split, room.y), left);
   Plot depth = plot_in(ImVec2(at.x + split, at.y), ImVec2(room.x - split, room.y), left);
   time.y_low = depth.y_low = lowest_force(state.trace);
-  time.y_high = depth.y_high = highest_force(state.trace);
+  depth.y_high = highest_force(state.trace);
+  time.y_high = std::max(depth.y_high, highest_press(state.trace));
   draw_force_over_time(in, state, time);
   draw_force_over_depth(in, state, depth);
   ImGui::Dummy(room);

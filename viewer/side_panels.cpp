@@ -77,6 +77,8 @@ void draw_session_panel(const PanelInput& in, ViewState& state) {
   const bool well = (in.status & (TickStatus::kFaults | 0xffff0000U)) == 0;
   if (alive) wrapped(describe_status(state.language, in.status), well ? kPlain : kIll);
   draw_needle_state(in, state);
+  const std::string probe = describe_probe(state.language, in.probe);
+  if (!probe.empty()) wrapped(probe, in.probe.status == 0 ? kPlain : kIll);
   draw_syringe(in, state);
   draw_patient_words(in, state);
   const SessionParams& params = in.session->params();

@@ -65,6 +65,7 @@ constexpr std::array<Row, kTexts> kTable{{
   {"needle in plane", "aiguille dans le plan"}, {"needle out of plane: {} mm, {} deg", "aiguille hors du plan : {} mm, {}°"},
   {"needle {} G, {} mm", "aiguille {} G, {} mm"}, {"the hand is {} mm further: {} N", "la main est {} mm plus loin : {} N"},
   {"hub on the skin", "embase sur la peau"}, {"depth {} mm   {} N   {} mN m", "profondeur {} mm   {} N   {} mN m"},
+  {"probe {} N, {} % of its face", "sonde {} N, {} % de sa face"},
   {"turn within {} deg", "tourner de {}° au plus"}, {"images {} Hz, window {} Hz", "images {} Hz, fenêtre {} Hz"}, {"last state, {} s ago; now: {}", "dernier état, il y a {} s ; à présent : {}"},
   {"pause", "pause"}, {"reset", "recommencer"}, {"expert", "expert"}, {"aids", "aides"}, {"names", "noms"}, {"left-handed", "gaucher"},
   {"exploring", "exploration"}, {"inserting", "insertion"}, {"cut away at the image plane", "coupe au plan de l'image"},
@@ -72,7 +73,7 @@ constexpr std::array<Row, kTexts> kTable{{
   {"absent", "absent"}, {"alive", "en marche"}, {"lost", "perdu"}, {"invalid", "invalide"},
 
   {"against insertion, N, over 10 s", "contre l'insertion, N, sur 10 s"}, {"insertion, {} mm", "insertion, {} mm"},
-  {"along", "axiale"}, {"sideways", "latérale"},
+  {"along", "axiale"}, {"sideways", "latérale"}, {"probe", "sonde"},
   {"haptics: compute, lateness; 1 us .. 1 s", "haptique : calcul, retard ; 1 µs .. 1 s"}, {"images: render, interval; 1 us .. 1 s", "images : calcul, intervalle ; 1 µs .. 1 s"},
   {"haptics {} Hz, compute p99.9 {} us   late p99 {} us", "haptique {} Hz, calcul p99,9 {} µs   retard p99 {} µs"},
   {"images {} Hz, pose to image p95 {} ms   window {} Hz", "images {} Hz, pose à image p95 {} ms   fenêtre {} Hz"},

@@ -16,6 +16,7 @@
 #include "artus/viewer/lesson.h"
 #include "artus/viewer/needle_reading.h"
 #include "artus/viewer/panel_layout.h"
+#include "artus/viewer/probe_reading.h"
 #include "artus/viewer/strings.h"
 #include "artus/viewer/syringe_reading.h"
 
@@ -76,6 +77,7 @@ struct PanelInput {
   double lost_for = 0;                   ///< s since the last state
   NeedleReading needle;                  ///< in `now`
   SyringeReading syringe;                ///< likewise
+  ProbeReading probe;                    ///< likewise
   const ImageSnapshot* image = nullptr;  ///< shown: live or of the cine loop
   const ImageSnapshot* kept = nullptr;   ///< of a dual picture
   unsigned image_texture = 0;

@@ -185,6 +185,7 @@ void WindowLoop::read_state() {
   const Scene& body = body_ ? *body_ : session_.scene();
   input_.needle = read_needle(body, input_.now, needle_length_of(session_.params()), target_J_,
                               state_.language);
+  input_.probe = read_probe(input_.now, session_.params());
   if (!spaces_.spaces.empty())
     input_.syringe = read_syringe(session_.scene(), spaces_, input_.now, session_.params());
   const Pose X_JP = to_pose(input_.now.X_JP);

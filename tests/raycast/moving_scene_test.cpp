@@ -286,6 +286,22 @@ TEST(MovingScene, MadeReadyItHasAllThreeThatGoRound) {
   EXPECT_FALSE(ready.contains(scenes.at(block.at_rest()).get())) << "a fourth is another";
 }
 
+TEST(MovingScene, WhoKeepsOneWaitsForNoneWhenThatWasSaid) {
+  const test::MovedBlock block = make_block();
+  MovingScene scenes;
+  std::set<const Scene*> ready;
+  for (const auto& scene : scenes.make_ready(block.at_rest(), MovingScene::kGoingRound + 1))
+    ready.insert(scene.get());
+  EXPECT_EQ(ready.size(), 4U);
+  const auto kept = scenes.at(block.at_rest());
+  std::vector<std::shared_ptr<const Scene>> round;
+  for (int i = 0; i < 6; ++i) {
+    round.push_back(scenes.at(block.moved(dent)));
+    EXPECT_TRUE(ready.contains(round.back().get())) << i;
+    if (round.size() == 3) round.erase(round.begin());
+  }
+}
+
 TEST(MovingScene, OutlivesItsMaker) {
   const test::MovedBlock block = make_block();
   std::shared_ptr<const Scene> scene;
