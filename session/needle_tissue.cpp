@@ -16,6 +16,7 @@ constexpr double kTrackLength = 40e-3;  // m of material that it is of
 constexpr double kBehind = 0.1;         // m from the tip back to the skin, at most
 constexpr double kTrackWay = 1e-3;      // m that the entry moves before it is too old
 constexpr double kTrackTurn = 0.04;     // rad
+constexpr double kUnlike = 0.2e-3;      // m, assumed: others carry the tissue outward by no more
 
 bool same_loads(const std::vector<PointLoad>& a, const std::vector<PointLoad>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) {
@@ -77,6 +78,7 @@ void NeedleTissue::step(const SoftBody& body, const Scene& scene,
   ++images_;
   if (next_.valid() && images_ >= due_) packet_.compliance = next_.get();
   packet_.carried = {};
+  packet_.give = 1;
   if (!needle) {
     pushed_ = 0;
     return;
@@ -84,8 +86,14 @@ void NeedleTissue::step(const SoftBody& body, const Scene& scene,
   const double share = 1 - std::exp(-dt_ / SoftSolverParams{}.relaxation);
   pushed_ += share * (cube_displacement(packet_.compliance, needle->load) - pushed_);
   const Vec3 tip = needle->X_JN.translation();
-  const Vec3 carried =
-      tip - scene.tissue()->to_rest(tip).p_rest - pushed_ * needle->X_JN.linear().col(2);
+  const Vec3 axis = needle->X_JN.linear().col(2);
+  const Vec3 moved = tip - scene.tissue()->to_rest(tip).p_rest;
+  // Tissue that the tip presses far is stiffer than its compliance says. What it went less is no
+  // motion by others, which would stay when the needle lets go.
+  double by_needle = pushed_;
+  if (pushed_ > 0) by_needle = std::clamp(moved.dot(axis) + kUnlike, 0.0, pushed_);
+  packet_.give = pushed_ > 0 ? by_needle / pushed_ : 1;
+  const Vec3 carried = moved - by_needle * axis;
   std::copy(carried.begin(), carried.end(), packet_.carried.begin());
   if (next_.valid()) return;
   const auto track = find_track(body, scene, needle->X_JN);

@@ -20,7 +20,7 @@ constexpr double kFar = 50;       // m from the joint's origin, of any pose that
 constexpr double kSoftest = 1e3;  // m/N, of any tissue
 
 static_assert(sizeof(TickRecord) == 352 && sizeof(FrameRecord) == 520 &&
-                  sizeof(PacketRecord) == 2672,
+                  sizeof(PacketRecord) == 2680,
               "as documented");
 
 template <class T>
@@ -185,7 +185,8 @@ const char* find_fault(const PacketRecord& record, std::uint64_t last) noexcept 
     return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
   };
   if (!finite(p.X_JP) || !finite(p.wrench) || !finite(p.stiffness) ||
-      !(p.share >= 0 && p.share <= 1) || !finite(n.carried) || !is_compliance(n.compliance))
+      !(p.share >= 0 && p.share <= 1) || !finite(n.carried) || !is_compliance(n.compliance) ||
+      !(n.give >= 0 && n.give <= 1))
     return "a packet that is none";
   return nullptr;
 }

@@ -15,7 +15,7 @@
 namespace artus {
 namespace {
 
-constexpr int kVersion = 11;
+constexpr int kVersion = 12;
 constexpr const char* kName = "artus_recording";
 constexpr const char* kDigest = "digest";
 

@@ -231,6 +231,7 @@ std::uint64_t digest_of(const TissuePacket& packet) noexcept {
   add(needle.compliance.spacing);
   for (const auto& column : needle.compliance.by_load) add_all(column);
   add_all(needle.compliance.near_field);
+  add(needle.give);
   return digest;
 }
 

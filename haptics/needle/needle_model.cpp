@@ -38,6 +38,7 @@ NeedleModel::NeedleModel(const NeedleParams& params, const LayerTable& table, do
 void NeedleModel::take(const NeedlePacket& packet) noexcept {
   const Vec3 carried(packet.carried[0], packet.carried[1], packet.carried[2]);
   if (carried.allFinite()) carried_to_ = carried;
+  if (packet.give >= 0 && packet.give <= 1) give_to_ = packet.give;
   if (coupling_.active() || !contact_.inserted()) coupling_.take(packet.compliance);
 }
 
@@ -89,8 +90,7 @@ double NeedleModel::cutting_force(const NeedleTick& tick) noexcept {
 
 const NeedleForces& NeedleModel::step(const Pose& X_JN,
                                       std::span<const TissueInterval> intervals) noexcept {
-  contact_.update(material(X_JN), intervals,
-                  {coupling_.active(), coupling_.tip_displacement(), carried_});
+  contact_.update(material(X_JN), intervals, {coupling_.active(), pushed(), carried_});
   feel_as_the_hand();
   const NeedleTick& tick = felt_;
   forces_ = NeedleForces{};
@@ -121,6 +121,7 @@ const NeedleForces& NeedleModel::step(const Pose& X_JN,
   sum_up(tick);
   last_tip_ = X_JN.translation() - carried_;
   carried_ += follow_ * (carried_to_ - carried_);
+  give_ += follow_ * (give_to_ - give_);
   return forces_;
 }
 
@@ -142,7 +143,7 @@ Pose NeedleModel::material(const Pose& X_JN) const noexcept {
   X.translation() -= carried_;
   if (!coupling_.active()) return X;
   const Vec3 axis = contact_.inserted() ? contact_.tick().axis : Vec3(X_JN.linear().col(2));
-  X.translation() -= coupling_.tip_displacement() * axis;
+  X.translation() -= pushed() * axis;
   return X;
 }
 

@@ -59,6 +59,8 @@ class NeedleModel {
 
  private:
   [[nodiscard]] Pose material(const Pose& X_JN) const noexcept;
+  /// m along the axis, of the tissue at the tip by the needle.
+  [[nodiscard]] double pushed() const noexcept { return give_ * coupling_.tip_displacement(); }
   void feel_as_the_hand() noexcept;
   void couple(const Pose& X_JN) noexcept;
   void sum_up(const NeedleTick& tick) noexcept;
@@ -83,9 +85,11 @@ class NeedleModel {
   NeedleCoupling coupling_;
   Vec3 carried_ = Vec3::Zero();     // m, frame J, of the tissue at the tip
   Vec3 carried_to_ = Vec3::Zero();  // by the newest packet
-  double follow_;                   // share of the way in a tick
-  NeedleTick felt_;                 // the contact's tick, with tip and depth as the hand has them
-  double grip_ = 0;                 // friction's level g(v), followed within its relaxation time
+  double give_ = 1;                 // NeedlePacket::give, followed as carried_ is
+  double give_to_ = 1;
+  double follow_;    // share of the way in a tick
+  NeedleTick felt_;  // the contact's tick, with tip and depth as the hand has them
+  double grip_ = 0;  // friction's level g(v), followed within its relaxation time
   Vec3 last_tip_ = Vec3::Zero();
   NeedleForces forces_;
 };

@@ -276,6 +276,41 @@ TEST(NeedleTissue, NewAnswersOfTheTissueAreNoStepsInTheHands) {
 /// through bone, fall silent. Forces stay finite and within limits, faults are told in the tick in
 /// which they are met, nobody who does nothing wrong is left without force, and the tissue comes to
 /// rest again.
+/// What tissue does that is pressed far, less than its compliance says, is no motion by others: it
+/// does not stay when a wall gives way.
+TEST(NeedleTissue, GoingInTheTipIsNeverDeeperInTheMaterialThanInSpace) {
+  const std::array<FlatLayer, 6> layers{{{"skin", 2e-3},
+                                         {"fat", 4e-3},
+                                         {"muscle", 12e-3},
+                                         {"bursa", 2e-3},
+                                         {"tendon", 8e-3},
+                                         {"bone", 8e-3}}};
+  CompiledJoint joint = test::make_meshed_block(layers, 0.096, 0.064, 4e-3);
+  for (Tissue& tissue : joint.tissues) {
+    if (tissue.haptic.hard) continue;
+    tissue.haptic.wall_stiffness = 350;
+    tissue.haptic.puncture_force = tissue.name == "skin" ? kSkinPuncture : 0;
+    if (tissue.name == "bursa") tissue.haptic.puncture_force = 3;
+  }
+  const auto scene =
+      std::make_shared<const Scene>(std::make_shared<const CompiledJoint>(std::move(joint)));
+  SoftSession session(scene, make_soft_session(true));
+  session.hold(1);
+  session.at(-5e-3);
+  double deeper = -1;                                         // m than in space
+  double tented = 0;                                          // m less deep, at most
+  RegionId deepest = 0;                                       // region
+  for (double depth = -5e-3; depth < 27e-3; depth += 1e-5) {  // 10 mm/s
+    const HapticSnapshot& out = session.at(depth);
+    deeper = std::max(deeper, out.feedback.depth - std::max(depth, 0.0));
+    tented = std::max(tented, depth - out.feedback.depth);
+    deepest = std::max(deepest, static_cast<RegionId>(out.feedback.region));
+  }
+  EXPECT_GT(tented, 1e-3);
+  EXPECT_LT(deeper, 0.3e-3);
+  EXPECT_EQ(deepest, region_named(scene->joint(), "tendon"));
+}
+
 TEST(NeedleTissue, HandsThatDoWhatNoHandDoesAreSafeAndTheTissueIsBackAtRest) {
   for (const double rate : {1000.0, 5000.0}) {
     SessionParams params = make_soft_session(true);
