@@ -136,12 +136,10 @@ void add_order(Gate& gate, const ClaimBasis& fitted, const Thinned& under) {
 Gate gate_still() {
   Gate gate;
   gate.title = "a probe held still on skin, fat and muscle over bone (I7)";
-  const auto tissues = read_bundled_tissues();
-  if (!tissues) return gate;
   const std::array<FlatLayer, 4> layers{
       {{"skin", 2e-3}, {"fat", 8e-3}, {"muscle", 20e-3}, {"bone", 10e-3}}};
   gate.claims = claims_of_still_probe(std::make_shared<const CompiledJoint>(
-      make_meshed_block(*tissues, layers, 64e-3, 48e-3, 4e-3)));
+      make_meshed_block(read_bundled_tissues().value(), layers, 64e-3, 48e-3, 4e-3)));
   return gate;
 }
 

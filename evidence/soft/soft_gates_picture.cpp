@@ -382,10 +382,9 @@ Gate gate_thinning() {
   const auto model =
       make_block_model(block, 6e-3, {{Vec3(-27e-3, -12e-3, 0), Vec3(27e-3, 12e-3, 24e-3), 3e-3}});
   const std::array<FlatLayer, 3> layers{{{"fat", 9e-3}, {"muscle", 12e-3}, {"tendon", 27e-3}}};
-  const auto tissues = read_bundled_tissues();
-  if (!tissues) return gate;
+  const auto tissues = read_bundled_tissues().value();
   const auto joint = std::make_shared<const CompiledJoint>(
-      subdivided(make_layered_block(*tissues, layers, 2 * kHalf, 2 * kHalf), 5));
+      subdivided(make_layered_block(tissues, layers, 2 * kHalf, 2 * kHalf), 5));
   const auto map = make_body_map(*joint, Pose::Identity(), model);
   SoftSolver solver(model, {});
   std::vector<PointLoad> loads;

@@ -299,7 +299,7 @@ TEST(NeedleTissue, GoingInTheTipIsNeverDeeperInTheMaterialThanInSpace) {
   session.at(-5e-3);
   double deeper = -1;                                         // m than in space
   double tented = 0;                                          // m less deep, at most
-  RegionId deepest = 0;                                       // region
+  RegionId deepest = 0;                                       // layer of the tip
   for (double depth = -5e-3; depth < 27e-3; depth += 1e-5) {  // 10 mm/s
     const HapticSnapshot& out = session.at(depth);
     deeper = std::max(deeper, out.feedback.depth - std::max(depth, 0.0));
