@@ -4,18 +4,18 @@
 #include <memory>
 #include <utility>
 
-#include "artus/anatomy/surfaces/repair.h"
-#include "artus/anatomy/surfaces/surface_io.h"
-#include "artus/apps/arguments.h"
-#include "artus/apps/pose_files.h"
-#include "artus/apps/scenario_options.h"
-#include "artus/apps/training_commands.h"
-#include "artus/apps/view_options.h"
-#include "artus/core/text_file.h"
-#include "artus/core/units.h"
-#include "artus/training/assessment.h"
-#include "artus/training/patient_plans.h"
-#include "artus/training/player.h"
+#include "artus/detail/anatomy/surfaces/repair.h"
+#include "artus/detail/anatomy/surfaces/surface_io.h"
+#include "artus/detail/apps/options/arguments.h"
+#include "artus/detail/apps/options/pose_files.h"
+#include "artus/detail/apps/options/scenario_options.h"
+#include "artus/detail/apps/training_commands.h"
+#include "artus/detail/apps/options/view_options.h"
+#include "artus/detail/core/text_file.h"
+#include "artus/detail/core/units.h"
+#include "artus/detail/training/assessment.h"
+#include "artus/detail/training/patient_plans.h"
+#include "artus/detail/training/player.h"
 
 namespace artus {
 namespace {

@@ -7,22 +7,22 @@
 #include <optional>
 #include <set>
 
-#include "artus/anatomy/body/joint_variant.h"
-#include "artus/anatomy/compile/compile_surfaces.h"
-#include "artus/anatomy/compile/joint_check.h"
-#include "artus/anatomy/surfaces/enclosed_volume.h"
-#include "artus/anatomy/surfaces/surface_io.h"
-#include "artus/apps/command.h"
-#include "artus/apps/joint_report.h"
-#include "artus/core/text_file.h"
-#include "artus/core/units.h"
+#include "artus/detail/anatomy/body/joint_variant.h"
+#include "artus/detail/anatomy/compile/labels/compile_surfaces.h"
+#include "artus/detail/anatomy/compile/check/joint_check.h"
+#include "artus/detail/anatomy/surfaces/enclosed_volume.h"
+#include "artus/detail/anatomy/surfaces/surface_io.h"
+#include "artus/detail/apps/options/command.h"
+#include "artus/detail/reports/joint_report.h"
+#include "artus/detail/core/text_file.h"
+#include "artus/detail/core/units.h"
 
 namespace artus {
 namespace {
 
 // A screen has 24 lines.
-constexpr std::size_t kMostToLookAt = 14;
-constexpr std::size_t kMostCrossings = 4;
+constexpr std::size_t kMaxToLookAt = 14;
+constexpr std::size_t kMaxCrossings = 4;
 
 struct CheckOptions {
   std::filesystem::path path;
@@ -173,12 +173,12 @@ std::size_t count_mended(const JointCheck& check) {
 void print_joint(const JointFile& joint, const JointCheck& check, bool all) {
   const std::size_t everything = check.findings.size() + check.crossings.size();
   print(check, Verdict::refused, everything);
-  print(check, Verdict::look, all ? everything : kMostToLookAt);
+  print(check, Verdict::look, all ? everything : kMaxToLookAt);
   if (all) {
     print(check, Verdict::mended, everything);
     print(check, Verdict::note, everything);
   }
-  print_crossings(check, all ? everything : kMostCrossings);
+  print_crossings(check, all ? everything : kMaxCrossings);
   std::printf("%zu surfaces are mended, %zu need nothing done%s\n", count_mended(check),
               check.surfaces.size() - std::min(check.surfaces.size(), count_mended(check)),
               all ? "" : "; --all lists what was found and done");

@@ -4,12 +4,12 @@
 #include <iostream>
 #include <memory>
 
-#include "artus/anatomy/compile/compile.h"
-#include "artus/anatomy/compile/isolated.h"
-#include "artus/apps/command.h"
-#include "artus/apps/joint_report.h"
-#include "artus/core/text_file.h"
-#include "artus/core/units.h"
+#include "artus/anatomy/compile.h"
+#include "artus/detail/anatomy/compile/mesh/isolated.h"
+#include "artus/detail/apps/options/command.h"
+#include "artus/detail/reports/joint_report.h"
+#include "artus/detail/core/text_file.h"
+#include "artus/detail/core/units.h"
 
 namespace artus {
 namespace {
@@ -93,9 +93,9 @@ ExitCode run_compile(const CompileCommandOptions& options) {
     std::printf(
         "the body is the one compiled before, since nothing that shapes it has changed; poses, "
         "injections and tissues are new\n");
-  if (outcome->report.parts_kept > 0)
+  if (outcome->report.parts_cached > 0)
     std::printf("%zu repaired surfaces and distances are those of earlier compilations\n",
-                outcome->report.parts_kept);
+                outcome->report.parts_cached);
   print_histogram(outcome->report.quality);
   std::printf(
       "%s: %zu tetrahedra, %zu interface triangles, %zu vertices; %.3f %% without a dihedral "

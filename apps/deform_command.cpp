@@ -5,17 +5,17 @@
 #include <memory>
 #include <optional>
 
-#include "artus/apps/arguments.h"
-#include "artus/apps/command.h"
-#include "artus/apps/press_options.h"
-#include "artus/core/units.h"
+#include "artus/detail/apps/options/arguments.h"
+#include "artus/detail/apps/options/command.h"
+#include "artus/detail/apps/options/press_options.h"
+#include "artus/detail/core/units.h"
 #include "artus/echo/image_io.h"
 #include "artus/echo/labels.h"
 #include "artus/echo/transducer_file.h"
-#include "artus/raycast/layers_below.h"
-#include "artus/raycast/moving_scene.h"
-#include "artus/soft/cage_vtu.h"
-#include "artus/soft/press.h"
+#include "artus/detail/raycast/layers_below.h"
+#include "artus/detail/raycast/moving_scene.h"
+#include "artus/detail/soft/solver/cage_vtu.h"
+#include "artus/detail/soft/solver/press.h"
 
 namespace artus {
 namespace {
@@ -69,7 +69,7 @@ nlohmann::json to_json(const Press& press, const SoftBody& body) {
   const Vec3 reaction = body.cage_pose().linear() * body.solver().reaction();
   nlohmann::json report = to_json(press);
   report["reaction_n"] = {reaction.x(), reaction.y(), reaction.z()};
-  report["least_volume_ratio"] = body.solver().forces().least_volume;
+  report["least_volume_ratio"] = body.solver().forces().min_volume;
   report["stored_mj"] = body.solver().forces().energy * 1e3;
   report["cells"] = model.cage().cells().size();
   report["unknowns"] = 3 * model.n_unknowns();
@@ -114,7 +114,7 @@ void print(const nlohmann::json& report) {
 /// The needle of the flags, by default one that went in; empty: none.
 Result<std::optional<NeedleView>> needle_of(const DeformOptions& options,
                                             const CompiledJoint& joint) {
-  if (options.needle.empty() && !options.press.needle_way.empty())
+  if (options.needle.empty() && !options.press.needle_direction.empty())
     return fail(ErrorCode::malformed, "needs a needle (--needle)", "--needle-way");
   if (options.needle.empty()) return std::optional<NeedleView>();
   NeedleView needle;
@@ -156,7 +156,7 @@ ExitCode run_deform(const DeformOptions& options) {
   if (!body) return report_error(body.error(), options.json);
   auto pressed = press(*body, X_JP, options.press);
   if (!pressed) return report_error(pressed.error(), options.json);
-  const auto dragged = drag(*body, *needle, options.press.needle_way, *pressed);
+  const auto dragged = drag(*body, *needle, options.press.needle_direction, *pressed);
   if (!dragged) return report_error(dragged.error(), options.json);
   auto report = to_json(pressed->press, *body);
   if (*needle) report["needle"] = *dragged;
@@ -210,7 +210,7 @@ void add_deform_command(Command& app, ExitCode& code) {
                       "way to it, too (default: none)");
   add_gauge_option(command, options->gauge);
   command
-      ->add_option("--needle-way", options->press.needle_way,
+      ->add_option("--needle-way", options->press.needle_direction,
                    "in, out: which way the needle was last moved (default: in)")
       ->one_of({"in", "out"});
   command->add_option("--cell-mm", options->cell_mm, "edge of the cubes under the face (default 3)")

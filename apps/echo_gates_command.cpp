@@ -5,10 +5,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "artus/apps/command.h"
-#include "artus/core/known_names.h"
-#include "artus/evidence/echo/echo_gates.h"
-#include "artus/evidence/echo/echo_patch.h"
+#include "artus/detail/apps/options/command.h"
+#include "artus/detail/core/known_names.h"
+#include "artus/detail/evidence/validation/echo/echo_gates.h"
+#include "artus/detail/evidence/validation/echo/echo_patch.h"
 
 namespace artus {
 namespace {

@@ -7,13 +7,13 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "artus/apps/press_options.h"
-#include "artus/apps/sight.h"
-#include "artus/core/units.h"
+#include "artus/detail/apps/options/press_options.h"
+#include "artus/detail/apps/options/sight.h"
+#include "artus/detail/core/units.h"
 #include "artus/echo/image_io.h"
-#include "artus/echo/scan_converter.h"
-#include "artus/echo/strain_image.h"
-#include "artus/raycast/moving_scene.h"
+#include "artus/detail/echo/display/scan_converter.h"
+#include "artus/detail/echo/display/strain_image.h"
+#include "artus/detail/raycast/moving_scene.h"
 
 namespace artus {
 namespace {

@@ -4,12 +4,12 @@
 #include <memory>
 #include <vector>
 
-#include "artus/apps/experiment_catalogue.h"
-#include "artus/apps/hand_options.h"
-#include "artus/core/known_names.h"
-#include "artus/core/text_file.h"
-#include "artus/evidence/needle/experiment.h"
-#include "artus/evidence/soft/needled_block.h"
+#include "artus/detail/apps/options/experiment_catalogue.h"
+#include "artus/detail/apps/options/hand_options.h"
+#include "artus/detail/core/known_names.h"
+#include "artus/detail/core/text_file.h"
+#include "artus/detail/evidence/validation/needle/experiment.h"
+#include "artus/detail/evidence/validation/soft/needled_block.h"
 
 namespace artus {
 namespace {

@@ -4,13 +4,13 @@
 #include <memory>
 #include <sstream>
 
-#include "artus/apps/hand_options.h"
-#include "artus/apps/pose_files.h"
-#include "artus/core/csv.h"
-#include "artus/core/text_file.h"
-#include "artus/core/units.h"
+#include "artus/detail/apps/options/hand_options.h"
+#include "artus/detail/apps/options/pose_files.h"
+#include "artus/detail/core/csv.h"
+#include "artus/detail/core/text_file.h"
+#include "artus/detail/core/units.h"
 #include "artus/dataset/pose_list.h"
-#include "artus/operators/trajectory_forces.h"
+#include "artus/detail/operators/trajectory_forces.h"
 #include "artus/raycast/scene.h"
 
 namespace artus {

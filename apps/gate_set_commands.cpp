@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "artus/apps/command.h"
-#include "artus/core/known_names.h"
-#include "artus/evidence/injection/injection_gates.h"
-#include "artus/evidence/soft/soft_gates.h"
+#include "artus/detail/apps/options/command.h"
+#include "artus/detail/core/known_names.h"
+#include "artus/detail/evidence/validation/injection/injection_gates.h"
+#include "artus/detail/evidence/validation/soft/soft_gates.h"
 
 namespace artus {
 namespace {

@@ -5,10 +5,10 @@
 #include <memory>
 #include <utility>
 
-#include "artus/anatomy/compile/compile.h"
+#include "artus/anatomy/compile.h"
 #include "artus/echo/image_io.h"
 #include "artus/echo/renderer.h"
-#include "artus/haptics/needle/needle_renderer.h"
+#include "artus/haptics/needle_renderer.h"
 #include "artus/raycast/scene.h"
 
 namespace {
@@ -40,16 +40,16 @@ int main(int argc, char** argv) {
   // step is one tick of the haptic loop and gives what a Touch device is to be sent.
   auto needle = artus::make_needle_renderer(scene, "touch", 1000);
   if (!needle) return report(needle.error());
-  const artus::Vec3 way = (plan.target - plan.entry).normalized();
+  const artus::Vec3 path = (plan.target - plan.entry).normalized();
   const double length = (plan.target - plan.entry).norm();
   artus::TimedPose pose;
   for (int tick = 0; 0.01 * pose.time < length; ++tick) {
     pose.time = tick * 1e-3;
-    pose.X_JN = artus::make_pose(plan.entry + 0.01 * pose.time * way, way, way.unitOrthogonal());
+    pose.X_JN = artus::make_pose(plan.entry + 0.01 * pose.time * path, path, path.unitOrthogonal());
     const artus::RenderedNeedle& felt = (*needle)->step(pose);
     if (tick % 250 == 0)
       std::printf("  %6.2f mm  pushes back with %5.2f N\n", 10 * pose.time,
-                  -felt.command.force.dot(way));
+                  -felt.command.force.dot(path));
   }
 
   // The picture of the joint's default probe, with the needle where it is now.

@@ -4,15 +4,15 @@
 #include <memory>
 #include <optional>
 
-#include "artus/apps/press_options.h"
-#include "artus/apps/sight.h"
-#include "artus/apps/view_options.h"
-#include "artus/core/units.h"
-#include "artus/dataset/echo_truth.h"
+#include "artus/detail/apps/options/press_options.h"
+#include "artus/detail/apps/options/sight.h"
+#include "artus/detail/apps/options/view_options.h"
+#include "artus/detail/core/units.h"
+#include "artus/detail/dataset/echo_truth.h"
 #include "artus/echo/image_io.h"
 #include "artus/echo/labels.h"
 #include "artus/echo/renderer.h"
-#include "artus/echo/scan_converter.h"
+#include "artus/detail/echo/display/scan_converter.h"
 
 namespace artus {
 namespace {

@@ -3,13 +3,13 @@
 #include <iostream>
 #include <memory>
 
-#include "artus/apps/arguments.h"
-#include "artus/apps/hand_options.h"
-#include "artus/core/text_file.h"
-#include "artus/core/units.h"
-#include "artus/evidence/injection/injection_pictures.h"
-#include "artus/evidence/injection/injection_report.h"
-#include "artus/evidence/injection/injection_request.h"
+#include "artus/detail/apps/options/arguments.h"
+#include "artus/detail/apps/options/hand_options.h"
+#include "artus/detail/core/text_file.h"
+#include "artus/detail/core/units.h"
+#include "artus/detail/evidence/runs/injection_pictures.h"
+#include "artus/detail/evidence/runs/injection_report.h"
+#include "artus/detail/evidence/runs/injection_request.h"
 
 namespace artus {
 namespace {

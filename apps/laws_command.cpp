@@ -4,10 +4,10 @@
 #include <memory>
 #include <string>
 
-#include "artus/apps/command.h"
-#include "artus/core/known_names.h"
-#include "artus/haptics/needle/law_catalogue.h"
-#include "artus/haptics/needle/layer_haptics.h"
+#include "artus/detail/apps/options/command.h"
+#include "artus/detail/core/known_names.h"
+#include "artus/detail/haptics/needle/law_catalogue.h"
+#include "artus/detail/haptics/needle/laws/layer_haptics.h"
 
 namespace artus {
 namespace {

@@ -4,11 +4,11 @@
 #include <iostream>
 #include <memory>
 
-#include "artus/apps/attempt_page.h"
-#include "artus/apps/training_commands.h"
-#include "artus/core/text_file.h"
-#include "artus/training/norms.h"
-#include "artus/training/record_export.h"
+#include "artus/detail/reports/attempt_page.h"
+#include "artus/detail/apps/training_commands.h"
+#include "artus/detail/core/text_file.h"
+#include "artus/detail/training/norms.h"
+#include "artus/detail/training/record_export.h"
 
 namespace artus {
 namespace {

@@ -6,12 +6,12 @@
 #include <thread>
 #include <vector>
 
-#include "artus/anatomy/body/layered_body.h"
-#include "artus/apps/hand_options.h"
-#include "artus/apps/interrupts.h"
-#include "artus/apps/session_options.h"
-#include "artus/session/injecting_device.h"
-#include "artus/session/servo_loop.h"
+#include "artus/detail/anatomy/body/layered_body.h"
+#include "artus/detail/apps/options/hand_options.h"
+#include "artus/detail/apps/options/interrupts.h"
+#include "artus/detail/apps/options/session_options.h"
+#include "artus/detail/session/injecting_device.h"
+#include "artus/detail/session/servo_loop.h"
 
 namespace artus {
 namespace {
@@ -109,7 +109,7 @@ void print_report(const ServoReport& r, const ServoOptions& options) {
       "needle in the body %.0f %%, on bone %.0f %% of the ticks, %llu refused, up to %.2f N\n",
       100.0 * static_cast<double>(r.inserted) / static_cast<double>(r.ticks),
       100.0 * static_cast<double>(r.on_bone) / static_cast<double>(r.ticks),
-      static_cast<unsigned long long>(r.faults), r.most_force);
+      static_cast<unsigned long long>(r.faults), r.max_force);
   for (const std::string& refused : r.refused)
     std::printf("the system refused: %s\n", refused.c_str());
 }
@@ -124,7 +124,7 @@ nlohmann::json to_json(const ServoReport& r, const ServoOptions& options,
           {"faults", r.faults},
           {"inserted", r.inserted},
           {"on_bone", r.on_bone},
-          {"most_force_n", r.most_force},
+          {"most_force_n", r.max_force},
           {"refused", r.refused},
           {"compute", to_json_us(r.compute)},
           {"cpu", to_json_us(r.cpu)},
@@ -191,11 +191,11 @@ void add_loop_command(Command& app, ExitCode& code) {
   command->add_option("--speed-mm-s", options->speed_mm_s, "of the simulated hand")
       ->check(number_in(0.1, 200))
       ->capture_default_str();
-  command->add_option("--cpu", options->servo.wishes.cpu, "processor to run on; -1: any")
+  command->add_option("--cpu", options->servo.thread.cpu, "processor to run on; -1: any")
       ->check(whole_number_in(-1, 1023))
       ->capture_default_str();
   command
-      ->add_option("--priority", options->servo.wishes.fifo_priority,
+      ->add_option("--priority", options->servo.thread.fifo_priority,
                    "SCHED_FIFO priority to ask for; 0: none")
       ->check(whole_number_in(0, 99))
       ->capture_default_str();

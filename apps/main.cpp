@@ -4,9 +4,9 @@
 #include <exception>
 #include <string>
 
-#include "artus/apps/command.h"
-#include "artus/apps/shard_commands.h"
-#include "artus/apps/training_commands.h"
+#include "artus/detail/apps/options/command.h"
+#include "artus/detail/apps/shard_commands.h"
+#include "artus/detail/apps/training_commands.h"
 
 namespace {
 

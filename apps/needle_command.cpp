@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
-#include "artus/apps/arguments.h"
-#include "artus/apps/command.h"
-#include "artus/core/units.h"
+#include "artus/detail/apps/options/arguments.h"
+#include "artus/detail/apps/options/command.h"
+#include "artus/detail/core/units.h"
 #include "artus/raycast/scene.h"
 
 namespace artus {

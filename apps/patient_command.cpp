@@ -5,9 +5,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "artus/anatomy/body/joint_file.h"
-#include "artus/anatomy/body/patient.h"
-#include "artus/apps/training_commands.h"
+#include "artus/anatomy/joint_file.h"
+#include "artus/detail/anatomy/body/patient.h"
+#include "artus/detail/apps/training_commands.h"
 
 namespace artus {
 namespace {

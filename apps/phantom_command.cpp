@@ -3,14 +3,14 @@
 #include <iostream>
 #include <memory>
 
-#include "artus/apps/view_options.h"
-#include "artus/core/text_file.h"
-#include "artus/core/units.h"
-#include "artus/dataset/echo_truth.h"
+#include "artus/detail/apps/options/view_options.h"
+#include "artus/detail/core/text_file.h"
+#include "artus/detail/core/units.h"
+#include "artus/detail/dataset/echo_truth.h"
 #include "artus/echo/image_io.h"
 #include "artus/echo/labels.h"
 #include "artus/echo/renderer.h"
-#include "artus/evidence/echo/echo_phantom.h"
+#include "artus/detail/evidence/validation/echo/echo_phantom.h"
 
 namespace artus {
 namespace {

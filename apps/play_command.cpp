@@ -4,14 +4,14 @@
 #include <memory>
 #include <utility>
 
-#include "artus/apps/attempt_files.h"
-#include "artus/apps/attempt_page.h"
-#include "artus/apps/scenario_options.h"
-#include "artus/apps/training_commands.h"
-#include "artus/training/norms.h"
-#include "artus/training/past_attempts.h"
-#include "artus/training/patient_plans.h"
-#include "artus/training/player.h"
+#include "artus/detail/reports/attempt_files.h"
+#include "artus/detail/reports/attempt_page.h"
+#include "artus/detail/apps/options/scenario_options.h"
+#include "artus/detail/apps/training_commands.h"
+#include "artus/detail/training/norms.h"
+#include "artus/detail/training/past_attempts.h"
+#include "artus/detail/training/patient_plans.h"
+#include "artus/detail/training/player.h"
 
 namespace artus {
 namespace {

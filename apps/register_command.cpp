@@ -3,11 +3,11 @@
 #include <iostream>
 #include <memory>
 
-#include "artus/apps/command.h"
-#include "artus/core/text_file.h"
-#include "artus/core/units.h"
-#include "artus/exchange/landmark_registration.h"
-#include "artus/exchange/tracker_calibration.h"
+#include "artus/detail/apps/options/command.h"
+#include "artus/detail/core/text_file.h"
+#include "artus/detail/core/units.h"
+#include "artus/detail/exchange/landmark_registration.h"
+#include "artus/detail/exchange/tracker_calibration.h"
 
 namespace artus {
 namespace {

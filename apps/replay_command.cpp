@@ -5,8 +5,8 @@
 #include <memory>
 #include <span>
 
-#include "artus/apps/pose_files.h"
-#include "artus/apps/session_options.h"
+#include "artus/detail/apps/options/pose_files.h"
+#include "artus/detail/apps/options/session_options.h"
 #include "artus/echo/image_io.h"
 #include "artus/session/replay.h"
 

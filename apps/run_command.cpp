@@ -7,13 +7,13 @@
 #include <utility>
 #include <vector>
 
-#include "artus/apps/hand_options.h"
-#include "artus/apps/plan_options.h"
-#include "artus/apps/press_options.h"
-#include "artus/core/text_file.h"
-#include "artus/core/units.h"
-#include "artus/evidence/medical/run_images.h"
-#include "artus/evidence/medical/three_injections.h"
+#include "artus/detail/apps/options/hand_options.h"
+#include "artus/detail/apps/options/plan_options.h"
+#include "artus/detail/apps/options/press_options.h"
+#include "artus/detail/core/text_file.h"
+#include "artus/detail/core/units.h"
+#include "artus/detail/evidence/runs/run_images.h"
+#include "artus/detail/evidence/runs/three_injections.h"
 
 namespace artus {
 namespace {

@@ -4,11 +4,11 @@
 #include <memory>
 #include <utility>
 
-#include "artus/anatomy/body/joint_variant.h"
-#include "artus/apps/scenario_options.h"
-#include "artus/apps/training_commands.h"
-#include "artus/training/patient_plans.h"
-#include "artus/training/scenario_check.h"
+#include "artus/detail/anatomy/body/joint_variant.h"
+#include "artus/detail/apps/options/scenario_options.h"
+#include "artus/detail/apps/training_commands.h"
+#include "artus/detail/training/patient_plans.h"
+#include "artus/detail/training/scenario_check.h"
 
 namespace artus {
 namespace {

@@ -9,12 +9,12 @@
 
 #include <sys/resource.h>
 
-#include "artus/apps/interrupts.h"
-#include "artus/apps/live_metrics.h"
-#include "artus/apps/remote_wishes.h"
-#include "artus/apps/scenario_options.h"
-#include "artus/apps/session_options.h"
-#include "artus/training/player.h"
+#include "artus/detail/apps/options/interrupts.h"
+#include "artus/detail/apps/options/live_metrics.h"
+#include "artus/detail/trainer/remote_controls.h"
+#include "artus/detail/apps/options/scenario_options.h"
+#include "artus/detail/apps/options/session_options.h"
+#include "artus/detail/training/player.h"
 
 namespace artus {
 namespace {
@@ -160,7 +160,7 @@ Result<std::optional<Setting>> run_session(const Serving& serving, const Setting
     };
   const auto meter = make_live_meter(options.metrics, setting.scene, setting.params);
   ARTUS_TRY(meter);
-  session_options.witness = meter->get();
+  session_options.observer = meter->get();
   auto session = Session::start(setting.scene, setting.params, std::move(*device), session_options);
   ARTUS_TRY(session);
   if (link != nullptr) link->attach(session->get());

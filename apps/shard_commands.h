@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
-#include "artus/apps/command.h"
+#include "artus/detail/apps/options/command.h"
 
 namespace artus {
 

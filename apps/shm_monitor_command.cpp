@@ -4,9 +4,9 @@
 #include <memory>
 #include <thread>
 
-#include "artus/apps/session_options.h"
-#include "artus/session/session_thread.h"
-#include "artus/session/shared_memory.h"
+#include "artus/detail/apps/options/session_options.h"
+#include "artus/detail/session/session_thread.h"
+#include "artus/detail/session/shm/shared_memory.h"
 
 namespace artus {
 namespace {

@@ -3,10 +3,10 @@
 #include <iostream>
 #include <memory>
 
-#include "artus/apps/press_options.h"
-#include "artus/apps/view_options.h"
-#include "artus/core/units.h"
-#include "artus/dataset/echo_truth.h"
+#include "artus/detail/apps/options/press_options.h"
+#include "artus/detail/apps/options/view_options.h"
+#include "artus/detail/core/units.h"
+#include "artus/detail/dataset/echo_truth.h"
 #include "artus/echo/image_io.h"
 #include "artus/echo/labels.h"
 

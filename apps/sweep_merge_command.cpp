@@ -3,8 +3,8 @@
 #include <iostream>
 #include <memory>
 
-#include "artus/apps/command.h"
-#include "artus/dataset/shard_merge.h"
+#include "artus/detail/apps/options/command.h"
+#include "artus/detail/dataset/shard_merge.h"
 
 namespace artus {
 namespace {

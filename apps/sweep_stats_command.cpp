@@ -3,8 +3,8 @@
 #include <iostream>
 #include <memory>
 
-#include "artus/apps/shard_commands.h"
-#include "artus/dataset/shard_stats.h"
+#include "artus/detail/apps/shard_commands.h"
+#include "artus/detail/dataset/shard_stats.h"
 #include "artus/echo/image_io.h"
 
 namespace artus {

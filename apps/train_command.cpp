@@ -3,14 +3,14 @@
 #include <memory>
 #include <utility>
 
-#include "artus/apps/hand_options.h"
-#include "artus/apps/interrupts.h"
-#include "artus/apps/train_flow.h"
-#include "artus/apps/training_commands.h"
-#include "artus/apps/window_options.h"
-#include "artus/core/text_file.h"
-#include "artus/training/patient_plans.h"
-#include "artus/viewer/window_events.h"
+#include "artus/detail/apps/options/hand_options.h"
+#include "artus/detail/apps/options/interrupts.h"
+#include "artus/detail/trainer/train_flow.h"
+#include "artus/detail/apps/training_commands.h"
+#include "artus/detail/apps/options/window_options.h"
+#include "artus/detail/core/text_file.h"
+#include "artus/detail/training/patient_plans.h"
+#include "artus/detail/viewer/input/window_events.h"
 
 namespace artus {
 namespace {
@@ -22,7 +22,7 @@ struct TrainCommandOptions {
   std::filesystem::path script;
   std::filesystem::path records;
   std::filesystem::path attempts;
-  TrainWishes wishes;
+  TrainOptions train;
 };
 
 /// The keys that a file or the user's own says. Requires: an open screen. Errors: those of
@@ -43,8 +43,8 @@ Result<std::vector<Scenario>> scenarios_of(const TrainCommandOptions& options) {
     ARTUS_TRY(scenario);
     all.push_back(std::move(*scenario));
   }
-  if (!options.wishes.scenario.empty()) {
-    auto asked = find_scenario(options.wishes.scenario);
+  if (!options.train.scenario.empty()) {
+    auto asked = find_scenario(options.train.scenario);
     ARTUS_TRY(asked);
     const bool known = std::any_of(all.begin(), all.end(), [&](const Scenario& s) {
       return s.name == asked->name && s.text == asked->text;
@@ -52,8 +52,8 @@ Result<std::vector<Scenario>> scenarios_of(const TrainCommandOptions& options) {
     if (!known) all.push_back(std::move(*asked));
   }
   for (Scenario& scenario : all) {
-    if (options.wishes.patient.empty() || scenario.joint.empty()) continue;
-    auto other = of_patient(scenario, options.wishes.patient);
+    if (options.train.patient.empty() || scenario.joint.empty()) continue;
+    auto other = of_patient(scenario, options.train.patient);
     ARTUS_TRY(other);
     scenario = std::move(*other);
   }
@@ -109,11 +109,11 @@ Result<void> train(TrainCommandOptions options) {
       [&turns](double ImageControls::*knob, double value) { turns.add(knob, value); },
       [&remote](const std::string& name) { return remote.ask(name); });
   ARTUS_TRY(link);
-  const TrainRoom room{screen->get(), &*desk,    &options.session, &options.window,
+  const TrainContext room{screen->get(), &*desk,    &options.session, &options.window,
                        &script,       &*tracker, link->get(),      &turns};
   PageOptions pages{options.window.language, std::move(*keys), options.window.font_scale, &script,
                     options.window.asked_to_close};
-  return run_training(options.wishes, room, std::move(pages), std::move(*scenarios), remote);
+  return run_training(options.train, room, std::move(pages), std::move(*scenarios), remote);
 }
 
 /// What holds where no flag says otherwise.
@@ -148,16 +148,16 @@ void add_train_command(Command& app, ExitCode& code) {
       "  artus train --records school.db --cohort 2026 --input shared-memory --device touch\n"
       "  artus train gel-find --person grey-heron-42\n"
       "  artus train mine.toml --igtl 18944 --input igtl");
-  command->add_option("scenario", options->wishes.scenario,
+  command->add_option("scenario", options->train.scenario,
                       "a file, or the name of a bundled one; else the window asks");
-  command->add_option("--person", options->wishes.person, "who trains; else the window asks");
-  command->add_option("--cohort", options->wishes.cohort, "of someone new");
+  command->add_option("--person", options->train.person, "who trains; else the window asks");
+  command->add_option("--cohort", options->train.cohort, "of someone new");
   command->add_option("--records", options->records,
                       "file of the records (default: records.db in ~/.local/share/artus)");
   command->add_option("--attempts", options->attempts,
                       "folder of the attempts (default: attempts, beside the records)");
-  command->add_option("--joint,-j", options->wishes.joint, "in place of the scenarios' own");
-  add_patient_option(command, options->wishes.patient);
+  command->add_option("--joint,-j", options->train.joint, "in place of the scenarios' own");
+  add_patient_option(command, options->train.patient);
   SessionOptions& session = options->session;
   command
       ->add_option("--input", session.input,

@@ -2,8 +2,8 @@
 #pragma once
 #include <string>
 
-#include "artus/apps/command.h"
-#include "artus/apps/window_options.h"
+#include "artus/detail/apps/options/command.h"
+#include "artus/detail/apps/options/window_options.h"
 
 namespace artus {
 

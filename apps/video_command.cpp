@@ -3,8 +3,8 @@
 #include <iostream>
 #include <memory>
 
-#include "artus/apps/pose_files.h"
-#include "artus/dataset/sweep_video.h"
+#include "artus/detail/apps/options/pose_files.h"
+#include "artus/detail/dataset/sweep_video.h"
 
 namespace artus {
 namespace {

@@ -5,14 +5,14 @@
 #include <string>
 #include <utility>
 
-#include "artus/apps/interrupts.h"
-#include "artus/apps/live_metrics.h"
-#include "artus/apps/remote_wishes.h"
-#include "artus/apps/session_options.h"
-#include "artus/apps/training_commands.h"
-#include "artus/apps/window_options.h"
-#include "artus/viewer/surface_detail.h"
-#include "artus/viewer/window.h"
+#include "artus/detail/apps/options/interrupts.h"
+#include "artus/detail/apps/options/live_metrics.h"
+#include "artus/detail/trainer/remote_controls.h"
+#include "artus/detail/apps/options/session_options.h"
+#include "artus/detail/apps/training_commands.h"
+#include "artus/detail/apps/options/window_options.h"
+#include "artus/detail/viewer/joint3d/surface_detail.h"
+#include "artus/detail/viewer/window.h"
 
 namespace artus {
 namespace {
@@ -109,7 +109,7 @@ ExitCode run_view(const ViewerOptions& options, bool& training) {
   if (!link) return report_error(link.error(), false);
   Session::Options session_options = make_thread_options(options.session);
   session_options.share_images = options.session.input == "shared-memory";
-  session_options.onlookers = 1;
+  session_options.extra_scene_holders = 1;
   if (*link)
     session_options.on_image = [&link](const ImageSnapshot& image) {
       (*link)->take_image(image);
@@ -117,7 +117,7 @@ ExitCode run_view(const ViewerOptions& options, bool& training) {
   const auto scene = std::make_shared<const Scene>(*joint);
   const auto meter = make_live_meter(options.metrics, scene, *params);
   if (!meter) return report_error(meter.error(), false);
-  session_options.witness = meter->get();
+  session_options.observer = meter->get();
   auto session = Session::start(scene, *params, std::move(*device), session_options);
   if (!session) return report_error(session.error(), false);
   if (*link) (*link)->attach(session->get());

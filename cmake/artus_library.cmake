@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
 # artus_library(NAME [COLD] HEADERS ... SOURCES ... DEPENDS ... PRIVATE_DEPENDS ... PACKAGES ... OPTIONS ...)
 # One folder (or one room of anatomy/) = one static library artus_NAME (artus::NAME) and one component of
-# the installed package. HEADERS are the installable ones. PACKAGES are the outside libraries that whoever
+# the installed package. HEADERS are all; those are installed that public ones need (public_headers.cmake). PACKAGES are the outside libraries that whoever
 # asks for the component needs beyond those of its rooms, by the names of cmake/packages.cmake. OPTIONS
 # are the room's own compile options. COLD: no tick and no line of an image runs in it, so it is compiled for
 # a quick build. Small sources are compiled together (precompiled.cmake).
@@ -11,8 +11,16 @@ function(artus_library name)
   add_library(artus::${name} ALIAS artus_${name})
   set_target_properties(artus_${name} PROPERTIES EXPORT_NAME ${name})
   file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
-  list(TRANSFORM A_HEADERS PREPEND ${ARTUS_INCLUDE_DIR}/artus/${folder}/)
-  target_sources(artus_${name} PUBLIC FILE_SET HEADERS BASE_DIRS ${ARTUS_INCLUDE_DIR} FILES ${A_HEADERS})
+  set(installed)
+  foreach(header IN LISTS A_HEADERS)
+    artus_include_path(${folder}/${header} path)
+    set_property(GLOBAL APPEND PROPERTY ARTUS_HEADERS_OF_${name} ${path})
+    if(path IN_LIST ARTUS_INSTALLED_HEADERS)
+      list(APPEND installed ${ARTUS_INCLUDE_DIR}/${path})
+    endif()
+  endforeach()
+  target_sources(artus_${name} PUBLIC FILE_SET HEADERS BASE_DIRS ${ARTUS_INCLUDE_DIR} FILES ${installed})
+  target_include_directories(artus_${name} PUBLIC $<BUILD_INTERFACE:${ARTUS_INCLUDE_DIR}>)
   target_compile_features(artus_${name} PUBLIC cxx_std_20)
   artus_warnings(artus_${name})
   target_compile_options(artus_${name} PRIVATE ${A_OPTIONS})
@@ -35,21 +43,10 @@ function(artus_library name)
   set_property(GLOBAL PROPERTY ARTUS_PACKAGES_OF_${name} ${A_PACKAGES})
 endfunction()
 
-# Headers are included as "artus/echo/renderer.h", in the tree as outside of it: links to the folders
-# under one include directory stand for the installed ones.
-set(ARTUS_INCLUDE_DIR ${PROJECT_BINARY_DIR}/include)
-foreach(folder core anatomy raycast soft haptics echo operators dataset session training evidence exchange
-    meshes viewer python apps)
-  if(EXISTS ${PROJECT_SOURCE_DIR}/${folder})
-    file(MAKE_DIRECTORY ${ARTUS_INCLUDE_DIR}/artus)
-    file(CREATE_LINK ${PROJECT_SOURCE_DIR}/${folder} ${ARTUS_INCLUDE_DIR}/artus/${folder} SYMBOLIC)
-  endif()
-endforeach()
-
 # A text file of the repository as a header of the calling library, so that an installed artus needs no
 # search path: TEMPLATE (a .h.in beside the CMakeLists) with TEXT put in.
 function(artus_bundle library template header)
-  configure_file(${template} ${CMAKE_CURRENT_BINARY_DIR}/generated/artus/${header} @ONLY)
+  configure_file(${template} ${CMAKE_CURRENT_BINARY_DIR}/generated/artus/detail/${header} @ONLY)
   target_include_directories(artus_${library} PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/generated)
 endfunction()
 

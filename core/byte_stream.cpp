@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/core/byte_stream.h"
+#include "artus/detail/core/byte_stream.h"
 
-#include "artus/core/noise.h"
+#include "artus/detail/core/noise.h"
 
 namespace artus {
 

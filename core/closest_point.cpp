@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/core/closest_point.h"
+#include "artus/detail/core/closest_point.h"
 
 #include <algorithm>
 

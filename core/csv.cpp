@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/core/csv.h"
+#include "artus/detail/core/csv.h"
 
 #include <array>
 #include <charconv>

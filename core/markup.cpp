@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/core/markup.h"
+#include "artus/detail/core/markup.h"
 
 namespace artus {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/core/text_cursor.h"
+#include "artus/detail/core/text_cursor.h"
 
 #include <array>
 #include <charconv>

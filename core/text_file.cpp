@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/core/text_file.h"
+#include "artus/detail/core/text_file.h"
 
 #include <fstream>
 #include <system_error>

@@ -4,8 +4,8 @@
 #include <string>
 #include <type_traits>
 
-#include "artus/core/known_names.h"
-#include "artus/core/toml_table.h"
+#include "artus/detail/core/known_names.h"
+#include "artus/detail/core/toml_table.h"
 
 namespace artus {
 

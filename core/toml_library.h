@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "artus/core/toml_table.h"
+#include "artus/detail/core/toml_table.h"
 
 namespace artus {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/core/toml_table.h"
+#include "artus/detail/core/toml_table.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "artus/core/known_names.h"
-#include "artus/core/text_cursor.h"
+#include "artus/detail/core/known_names.h"
+#include "artus/detail/core/text_cursor.h"
 
 namespace artus {
 namespace {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/dataset/draw_ranges.h"
+#include "artus/detail/dataset/draw_ranges.h"
 
 #include <cmath>
 #include <limits>
 
-#include "artus/core/byte_stream.h"
-#include "artus/core/text_cursor.h"
-#include "artus/core/text_file.h"
-#include "artus/core/toml_table.h"
+#include "artus/detail/core/byte_stream.h"
+#include "artus/detail/core/text_cursor.h"
+#include "artus/detail/core/text_file.h"
+#include "artus/detail/core/toml_table.h"
 #include "artus/echo/needle_view.h"
 
 namespace artus {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "artus/core/result.h"
-#include "artus/core/units.h"
+#include "artus/detail/core/units.h"
 
 namespace artus {
 

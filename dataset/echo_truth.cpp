@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/dataset/echo_truth.h"
+#include "artus/detail/dataset/echo_truth.h"
 
 #include <algorithm>
 #include <array>
@@ -9,9 +9,9 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "artus/core/check.h"
-#include "artus/core/units.h"
-#include "artus/echo/doppler.h"
+#include "artus/detail/core/check.h"
+#include "artus/detail/core/units.h"
+#include "artus/detail/echo/display/motion_picture.h"
 #include "artus/echo/image_io.h"
 
 namespace artus {

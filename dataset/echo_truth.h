@@ -6,11 +6,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include "artus/anatomy/body/compiled_joint.h"
+#include "artus/anatomy/compiled_joint.h"
 #include "artus/echo/frame.h"
 #include "artus/echo/image_settings.h"
 #include "artus/echo/labels.h"
-#include "artus/echo/scan_converter.h"
+#include "artus/detail/echo/display/scan_converter.h"
 #include "artus/echo/transducer.h"
 
 /// The ground truth of a frame as files and JSON hold it.

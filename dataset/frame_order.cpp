@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/dataset/frame_order.h"
+#include "artus/detail/dataset/frame_order.h"
 
 #include <bit>
 #include <cstdint>
 #include <memory>
 #include <utility>
 
-#include "artus/core/noise.h"
-#include "artus/core/printed.h"
+#include "artus/detail/core/noise.h"
+#include "artus/detail/core/printed.h"
 
 namespace artus {
 namespace {

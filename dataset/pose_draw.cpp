@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/dataset/pose_draw.h"
+#include "artus/detail/dataset/pose_draw.h"
 
 #include <array>
 #include <cmath>
 
-#include "artus/core/noise.h"
-#include "artus/core/printed.h"
+#include "artus/detail/core/noise.h"
+#include "artus/detail/core/printed.h"
 
 namespace artus {
 namespace {

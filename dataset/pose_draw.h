@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include "artus/dataset/draw_ranges.h"
-#include "artus/dataset/frame_order.h"
+#include "artus/detail/dataset/draw_ranges.h"
+#include "artus/detail/dataset/frame_order.h"
 #include "artus/echo/needle_view.h"
 #include "artus/raycast/scene.h"
 

@@ -8,10 +8,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "artus/core/csv.h"
-#include "artus/core/text_file.h"
-#include "artus/core/text_lines.h"
-#include "artus/core/units.h"
+#include "artus/detail/core/csv.h"
+#include "artus/detail/core/text_file.h"
+#include "artus/detail/core/text_lines.h"
+#include "artus/detail/core/units.h"
 
 namespace artus {
 namespace {

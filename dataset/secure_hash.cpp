@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/dataset/secure_hash.h"
+#include "artus/detail/dataset/secure_hash.h"
 
 #include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
 
-#include "artus/core/printed.h"
+#include "artus/detail/core/printed.h"
 
 namespace artus {
 namespace {

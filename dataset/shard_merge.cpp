@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/dataset/shard_merge.h"
+#include "artus/detail/dataset/shard_merge.h"
 
 #include <algorithm>
 #include <optional>
@@ -7,9 +7,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "artus/core/text_file.h"
-#include "artus/dataset/secure_hash.h"
-#include "artus/dataset/tar_file.h"
+#include "artus/detail/core/text_file.h"
+#include "artus/detail/dataset/secure_hash.h"
+#include "artus/detail/dataset/tar_file.h"
 
 namespace artus {
 namespace {

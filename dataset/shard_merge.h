@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "artus/core/progress.h"
+#include "artus/detail/core/progress.h"
 #include "artus/core/result.h"
 
 namespace artus {

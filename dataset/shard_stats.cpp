@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/dataset/shard_stats.h"
+#include "artus/detail/dataset/shard_stats.h"
 
 #include <algorithm>
 #include <array>
@@ -7,9 +7,9 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "artus/core/printed.h"
-#include "artus/core/text_file.h"
-#include "artus/dataset/tar_file.h"
+#include "artus/detail/core/printed.h"
+#include "artus/detail/core/text_file.h"
+#include "artus/detail/dataset/tar_file.h"
 
 namespace artus {
 namespace {

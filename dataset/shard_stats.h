@@ -10,7 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "artus/core/progress.h"
+#include "artus/detail/core/progress.h"
 #include "artus/core/result.h"
 
 namespace artus {

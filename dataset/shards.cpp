@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/dataset/shards.h"
+#include "artus/detail/dataset/shards.h"
 
 #include <algorithm>
 #include <array>
@@ -10,11 +10,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include "artus/core/printed.h"
-#include "artus/core/text_file.h"
-#include "artus/dataset/secure_hash.h"
-#include "artus/dataset/sweep_frame.h"
-#include "artus/dataset/tar_file.h"
+#include "artus/detail/core/printed.h"
+#include "artus/detail/core/text_file.h"
+#include "artus/detail/dataset/secure_hash.h"
+#include "artus/detail/dataset/sweep_frame.h"
+#include "artus/detail/dataset/tar_file.h"
 
 namespace artus {
 namespace {
@@ -157,11 +157,11 @@ Result<ShardResult> write_shards(const std::shared_ptr<const Scene>& scene,
                                  const FrameSource& frames, const ShardJob& job,
                                  const fs::path& folder, const ShardOptions& options,
                                  const Progress& progress) {
-  constexpr std::size_t kMostRegions = 256;  // of an 8-bit picture
+  constexpr std::size_t kMaxRegions = 256;  // of an 8-bit picture
   if (options.sweep.settings.persistence != 0)
     return fail(ErrorCode::invalid, "a sweep is drawn without persistence", folder.string());
   const auto many = [](const auto& body) {
-    return body->joint().regions.size() > kMostRegions;
+    return body->joint().regions.size() > kMaxRegions;
   };
   if (many(scene) ||
       std::any_of(options.sweep.patients.begin(), options.sweep.patients.end(), many))

@@ -6,9 +6,9 @@
 #include <memory>
 #include <string>
 
-#include "artus/core/progress.h"
+#include "artus/detail/core/progress.h"
 #include "artus/core/result.h"
-#include "artus/dataset/frame_order.h"
+#include "artus/detail/dataset/frame_order.h"
 #include "artus/dataset/sweep.h"
 
 namespace artus {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/dataset/stored_sweep.h"
+#include "artus/detail/dataset/stored_sweep.h"
 
 #include <algorithm>
 #include <map>
@@ -10,10 +10,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "artus/core/text_file.h"
-#include "artus/core/units.h"
-#include "artus/dataset/echo_truth.h"
-#include "artus/dataset/tar_file.h"
+#include "artus/detail/core/text_file.h"
+#include "artus/detail/core/units.h"
+#include "artus/detail/dataset/echo_truth.h"
+#include "artus/detail/dataset/tar_file.h"
 
 namespace artus {
 namespace {

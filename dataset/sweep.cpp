@@ -12,9 +12,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "artus/core/printed.h"
-#include "artus/core/text_file.h"
-#include "artus/dataset/sweep_frame.h"
+#include "artus/detail/core/printed.h"
+#include "artus/detail/core/text_file.h"
+#include "artus/detail/dataset/sweep_frame.h"
 #include "artus/echo/image_io.h"
 
 namespace artus {

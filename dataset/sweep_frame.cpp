@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/dataset/sweep_frame.h"
+#include "artus/detail/dataset/sweep_frame.h"
 
 #include <optional>
 
-#include "artus/core/units.h"
-#include "artus/dataset/echo_truth.h"
+#include "artus/detail/core/units.h"
+#include "artus/detail/dataset/echo_truth.h"
 #include "artus/echo/image_io.h"
 #include "artus/echo/labels.h"
-#include "artus/echo/pressing_face.h"
+#include "artus/detail/echo/probe/pressing_face.h"
 #include "artus/echo/renderer.h"
-#include "artus/raycast/pressed_scene.h"
+#include "artus/detail/raycast/pressed_scene.h"
 
 namespace artus {
 namespace {

@@ -11,7 +11,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "artus/dataset/frame_order.h"
+#include "artus/detail/dataset/frame_order.h"
 #include "artus/dataset/sweep.h"
 
 namespace artus {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/dataset/sweep_video.h"
+#include "artus/detail/dataset/sweep_video.h"
 
 #include <optional>
 
 #include <opencv2/imgproc.hpp>
 
-#include "artus/dataset/video_file.h"
+#include "artus/detail/dataset/video_file.h"
 #include "artus/echo/image_io.h"
 #include "artus/echo/labels.h"
 #include "artus/echo/renderer.h"

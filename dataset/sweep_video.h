@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "artus/core/progress.h"
+#include "artus/detail/core/progress.h"
 #include "artus/core/result.h"
 #include "artus/dataset/pose_list.h"
 #include "artus/echo/image_settings.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/dataset/video_file.h"
+#include "artus/detail/dataset/video_file.h"
 
 #include <array>
 #include <utility>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/evidence/claim.h"
+#include "artus/detail/evidence/claim.h"
 
 #include <algorithm>
 #include <array>
@@ -8,8 +8,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "artus/core/csv.h"
-#include "artus/core/printed.h"
+#include "artus/detail/core/csv.h"
+#include "artus/detail/core/printed.h"
 
 namespace artus {
 namespace {

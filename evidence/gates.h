@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "artus/core/result.h"
-#include "artus/evidence/report.h"
+#include "artus/detail/evidence/report.h"
 
 namespace artus {
 

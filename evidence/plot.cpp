@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/evidence/plot.h"
+#include "artus/detail/evidence/plot.h"
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "artus/core/csv.h"
+#include "artus/detail/core/csv.h"
 
 namespace artus {
 namespace {

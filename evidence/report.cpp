@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/evidence/report.h"
+#include "artus/detail/evidence/report.h"
 
 #include <nlohmann/json.hpp>
 
-#include "artus/core/text_file.h"
+#include "artus/detail/core/text_file.h"
 
 namespace artus {
 

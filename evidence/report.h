@@ -8,9 +8,9 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "artus/core/result.h"
-#include "artus/evidence/claim.h"
-#include "artus/evidence/plot.h"
-#include "artus/evidence/table.h"
+#include "artus/detail/evidence/claim.h"
+#include "artus/detail/evidence/plot.h"
+#include "artus/detail/evidence/table.h"
 
 namespace artus {
 

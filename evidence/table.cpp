@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/evidence/table.h"
+#include "artus/detail/evidence/table.h"
 
-#include "artus/core/printed.h"
+#include "artus/detail/core/printed.h"
 
 namespace artus {
 namespace {

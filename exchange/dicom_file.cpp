@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/exchange/dicom_file.h"
+#include "artus/detail/exchange/dicom_file.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,9 +9,9 @@
 #include <dcmtk/config/osconfig.h>
 #include <dcmtk/dcmdata/dctk.h>
 
-#include "artus/core/byte_stream.h"
-#include "artus/core/check.h"
-#include "artus/core/printed.h"
+#include "artus/detail/core/byte_stream.h"
+#include "artus/detail/core/check.h"
+#include "artus/detail/core/printed.h"
 
 namespace artus {
 namespace {

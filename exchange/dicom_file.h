@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "artus/core/result.h"
-#include "artus/exchange/sequence_file.h"
+#include "artus/detail/exchange/sequence_file.h"
 
 namespace artus {
 

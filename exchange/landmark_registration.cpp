@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/exchange/landmark_registration.h"
+#include "artus/detail/exchange/landmark_registration.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,11 +8,11 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "artus/core/known_names.h"
-#include "artus/core/printed.h"
-#include "artus/core/text_cursor.h"
-#include "artus/core/text_file.h"
-#include "artus/core/units.h"
+#include "artus/detail/core/known_names.h"
+#include "artus/detail/core/printed.h"
+#include "artus/detail/core/text_cursor.h"
+#include "artus/detail/core/text_file.h"
+#include "artus/detail/core/units.h"
 
 namespace artus {
 namespace {

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "artus/anatomy/body/compiled_joint.h"
+#include "artus/anatomy/compiled_joint.h"
 #include "artus/core/geometry.h"
 #include "artus/core/result.h"
 

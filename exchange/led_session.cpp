@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/exchange/led_session.h"
+#include "artus/detail/exchange/led_session.h"
 
 #include <cmath>
 #include <optional>
 
-#include "artus/session/image_core.h"
+#include "artus/detail/simulation/image_core.h"
 
 namespace artus {
 namespace {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/exchange/reference_frame.h"
+#include "artus/detail/exchange/reference_frame.h"
 
-#include "artus/core/units.h"
+#include "artus/detail/core/units.h"
 #include "artus/echo/image_settings.h"
-#include "artus/echo/scan_converter.h"
-#include "artus/session/plain_pose.h"
+#include "artus/detail/echo/display/scan_converter.h"
+#include "artus/detail/simulation/plain_pose.h"
 
 namespace artus {
 namespace {

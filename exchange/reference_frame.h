@@ -3,7 +3,7 @@
 #include "artus/core/geometry.h"
 #include "artus/core/result.h"
 #include "artus/echo/transducer.h"
-#include "artus/exchange/igtl/contents.h"
+#include "artus/detail/exchange/igtl/contents.h"
 
 namespace artus {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/exchange/remote_command.h"
+#include "artus/detail/exchange/remote_command.h"
 
 #include <algorithm>
 #include <array>
 #include <optional>
 
-#include "artus/core/markup.h"
-#include "artus/core/text_lines.h"
+#include "artus/detail/core/markup.h"
+#include "artus/detail/core/text_lines.h"
 
 namespace artus {
 namespace {

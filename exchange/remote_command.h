@@ -5,8 +5,8 @@
 #include <string_view>
 #include <utility>
 
-#include "artus/exchange/igtl/contents.h"
-#include "artus/exchange/igtl/message.h"
+#include "artus/detail/exchange/igtl/contents.h"
+#include "artus/detail/exchange/igtl/message.h"
 
 namespace artus {
 

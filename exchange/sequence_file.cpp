@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/exchange/sequence_file.h"
+#include "artus/detail/exchange/sequence_file.h"
 
 #include <algorithm>
 #include <map>
 #include <utility>
 
-#include "artus/core/check.h"
-#include "artus/core/printed.h"
-#include "artus/core/text_cursor.h"
-#include "artus/core/text_file.h"
-#include "artus/core/text_lines.h"
-#include "artus/exchange/reference_frame.h"
+#include "artus/detail/core/check.h"
+#include "artus/detail/core/printed.h"
+#include "artus/detail/core/text_cursor.h"
+#include "artus/detail/core/text_file.h"
+#include "artus/detail/core/text_lines.h"
+#include "artus/detail/exchange/reference_frame.h"
 
 namespace artus {
 namespace {
 
 constexpr int kLargestSide = 16384;           // pixels
-constexpr std::size_t kMostFrames = 1000000;  // that a file is believed to have
+constexpr std::size_t kMaxFrames = 1000000;  // that a file is believed to have
 
 using Fields = std::map<std::string, std::string, std::less<>>;
 
@@ -102,7 +102,7 @@ Result<std::vector<std::size_t>> size_of(const Fields& fields, const std::string
   const std::vector<double> numbers = numbers_of(fields, "DimSize");
   std::vector<std::size_t> size;
   for (const double n : numbers)
-    if (n >= 1 && n <= static_cast<double>(kMostFrames))
+    if (n >= 1 && n <= static_cast<double>(kMaxFrames))
       size.push_back(static_cast<std::size_t>(n));
   if (size.size() != numbers.size() || (size.size() != 3 && size.size() != 4) ||
       size[0] > kLargestSide || size[1] > kLargestSide || (size.size() == 4 && size[2] != 1))

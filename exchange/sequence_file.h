@@ -9,7 +9,7 @@
 
 #include "artus/core/result.h"
 #include "artus/dataset/pose_list.h"
-#include "artus/exchange/igtl/contents.h"
+#include "artus/detail/exchange/igtl/contents.h"
 
 namespace artus {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/exchange/sequence_maker.h"
+#include "artus/detail/exchange/sequence_maker.h"
 
 #include <utility>
 
-#include "artus/dataset/stored_sweep.h"
+#include "artus/detail/dataset/stored_sweep.h"
 
 namespace artus {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/exchange/session_link.h"
+#include "artus/detail/exchange/session_link.h"
 
 #include <cmath>
 #include <utility>
 
-#include "artus/core/printed.h"
-#include "artus/core/text_cursor.h"
-#include "artus/core/units.h"
-#include "artus/session/session_thread.h"
+#include "artus/detail/core/printed.h"
+#include "artus/detail/core/text_cursor.h"
+#include "artus/detail/core/units.h"
+#include "artus/detail/session/session_thread.h"
 
 namespace artus {
 namespace {

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "artus/exchange/igtl/server.h"
-#include "artus/exchange/reference_frame.h"
-#include "artus/exchange/remote_command.h"
-#include "artus/exchange/tracker_device.h"
+#include "artus/detail/exchange/igtl/server.h"
+#include "artus/detail/exchange/reference_frame.h"
+#include "artus/detail/exchange/remote_command.h"
+#include "artus/detail/exchange/tracker_device.h"
 #include "artus/session/session.h"
 
 namespace artus {

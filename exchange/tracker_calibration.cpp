@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/exchange/tracker_calibration.h"
+#include "artus/detail/exchange/tracker_calibration.h"
 
 #include <optional>
 
-#include "artus/core/text_cursor.h"
-#include "artus/core/text_file.h"
-#include "artus/core/toml_table.h"
-#include "artus/exchange/reference_frame.h"
+#include "artus/detail/core/text_cursor.h"
+#include "artus/detail/core/text_file.h"
+#include "artus/detail/core/toml_table.h"
+#include "artus/detail/exchange/reference_frame.h"
 
 namespace artus {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/exchange/tracker_device.h"
+#include "artus/detail/exchange/tracker_device.h"
 
 #include <algorithm>
 
-#include "artus/exchange/igtl/contents.h"
+#include "artus/detail/exchange/igtl/contents.h"
 
 namespace artus {
 

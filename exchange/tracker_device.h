@@ -5,11 +5,11 @@
 #include <string>
 
 #include "artus/core/result.h"
-#include "artus/exchange/igtl/message.h"
-#include "artus/exchange/reference_frame.h"
-#include "artus/exchange/tracker_calibration.h"
-#include "artus/session/input_device.h"
-#include "artus/session/seqlock.h"
+#include "artus/detail/exchange/igtl/message.h"
+#include "artus/detail/exchange/reference_frame.h"
+#include "artus/detail/exchange/tracker_calibration.h"
+#include "artus/simulation/input_device.h"
+#include "artus/detail/session/shm/seqlock.h"
 
 namespace artus {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <string>
 
-#include "artus/core/known_names.h"
+#include "artus/detail/core/known_names.h"
 
 namespace artus {
 namespace {

@@ -3,9 +3,9 @@
 #include <array>
 #include <string_view>
 
-#include "artus/core/check.h"
+#include "artus/detail/core/check.h"
 #include "artus/core/result.h"
-#include "artus/haptics/wrench.h"
+#include "artus/detail/haptics/wrench.h"
 
 namespace artus {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/haptics/guard.h"
+#include "artus/detail/haptics/guard.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "artus/core/rigid.h"
+#include "artus/detail/core/rigid.h"
 
 namespace artus {
 namespace {

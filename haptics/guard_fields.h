@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
-#include "artus/core/fields.h"
-#include "artus/haptics/guard.h"
-#include "artus/haptics/passivity.h"
+#include "artus/detail/core/fields.h"
+#include "artus/detail/haptics/guard.h"
+#include "artus/detail/haptics/passivity.h"
 
 namespace artus {
 

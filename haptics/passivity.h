@@ -2,8 +2,8 @@
 #pragma once
 #include <algorithm>
 
-#include "artus/core/check.h"
-#include "artus/haptics/wrench.h"
+#include "artus/detail/core/check.h"
+#include "artus/detail/haptics/wrench.h"
 
 namespace artus {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "artus/core/check.h"
-#include "artus/operators/simulated_device.h"
-#include "artus/operators/simulated_hand.h"
+#include "artus/detail/core/check.h"
+#include "artus/detail/operators/simulated_device.h"
+#include "artus/detail/operators/simulated_hand.h"
 
 namespace artus {
 

@@ -3,9 +3,9 @@
 #include <cstddef>
 #include <vector>
 
-#include "artus/haptics/needle/needle_model.h"
-#include "artus/operators/operator_phase.h"
-#include "artus/operators/simulated_hand.h"
+#include "artus/detail/haptics/needle/needle_model.h"
+#include "artus/detail/operators/operator_phase.h"
+#include "artus/detail/operators/simulated_hand.h"
 
 namespace artus {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/operators/looking_operator.h"
+#include "artus/detail/operators/looking_operator.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "artus/core/noise.h"
+#include "artus/detail/core/noise.h"
 
 namespace artus {
 namespace {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "artus/operators/scanning_operator.h"
+#include "artus/detail/operators/scanning_operator.h"
 
 namespace artus {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/operators/operator_phase.h"
+#include "artus/detail/operators/operator_phase.h"
 
 namespace artus {
 namespace {

@@ -2,7 +2,7 @@
 #pragma once
 #include <string>
 
-#include "artus/anatomy/body/tet_mesh.h"
+#include "artus/detail/anatomy/body/tet_mesh.h"
 #include "artus/core/geometry.h"
 
 namespace artus {

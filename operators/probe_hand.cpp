@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/operators/probe_hand.h"
+#include "artus/detail/operators/probe_hand.h"
 
 #include <algorithm>
 #include <utility>

@@ -3,10 +3,10 @@
 #include <memory>
 #include <optional>
 
-#include "artus/haptics/guard.h"
-#include "artus/haptics/probe/probe_contact.h"
-#include "artus/haptics/probe/probe_tangent.h"
-#include "artus/operators/hand_loop.h"
+#include "artus/detail/haptics/guard.h"
+#include "artus/detail/haptics/probe/probe_contact.h"
+#include "artus/detail/haptics/probe/probe_tangent.h"
+#include "artus/detail/operators/hand_loop.h"
 
 namespace artus {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/operators/scanning_operator.h"
+#include "artus/detail/operators/scanning_operator.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "artus/core/noise.h"
-#include "artus/core/units.h"
+#include "artus/detail/core/noise.h"
+#include "artus/detail/core/units.h"
 
 namespace artus {
 namespace {
@@ -21,7 +21,7 @@ constexpr double kBold = 5e-3;         // m
 constexpr double kTooFar = 8e-3;       // m past the target where anyone stops
 constexpr double kAppear = 2e-3;       // m beyond where the tip should have come into the picture
 constexpr double kNudge = 0.7e-3;      // m at a time when liquid runs elsewhere; assumed
-constexpr int kMostNudges = 4;         // assumed
+constexpr int kMaxNudges = 4;         // assumed
 constexpr double kLearning = 0.069;    // a trial
 
 }  // namespace
@@ -70,13 +70,13 @@ OperatorSkill novice_skill(int trials) {
 ScanningOperator::ScanningOperator(const OperatorSkill& skill, const ScanPlan& plan,
                                    std::uint64_t seed)
     : skill_(skill), plan_(plan), seed_(seed) {
-  const Vec3 way = (plan.target - plan.entry).normalized();
+  const Vec3 direction = (plan.target - plan.entry).normalized();
   const Vec3 aside = plan.X_JP.linear().col(1);
   const Vec3 across =
-      way.cross(aside).norm() > 1e-6 ? Vec3(way.cross(aside).normalized()) : way.unitOrthogonal();
+      direction.cross(aside).norm() > 1e-6 ? Vec3(direction.cross(aside).normalized()) : direction.unitOrthogonal();
   x_hint_ = aside;
   entry_ =
-      plan.entry + skill.entry_sd * (gauss() * aside + gauss() * way.cross(across).normalized());
+      plan.entry + skill.entry_sd * (gauss() * aside + gauss() * direction.cross(across).normalized());
   const Vec3 aim = (plan.target - entry_).normalized();
   direction_ = (Eigen::AngleAxisd(skill.aim_sd * kDegree * gauss(), across) *
                 Eigen::AngleAxisd(skill.aim_sd * kDegree * gauss(), aside) * aim)
@@ -86,7 +86,7 @@ ScanningOperator::ScanningOperator(const OperatorSkill& skill, const ScanPlan& p
   plane_turn_ = skill.view_turn_sd * kDegree * gauss();
   drift_ = skill.drift * (draw() < 0.5 ? -1 : 1);
   begin(Phase::approach, 0);
-  phase_way_ = -kApproach;
+  phase_distance_ = -kApproach;
 }
 
 double ScanningOperator::draw() noexcept {
@@ -97,12 +97,12 @@ double ScanningOperator::gauss() noexcept {
   return normal_noise(mix_bits(seed_), draws_++);
 }
 
-double ScanningOperator::way(double t) const noexcept {
-  return phase_way_ + speed_ * (t - phase_time_);
+double ScanningOperator::direction(double t) const noexcept {
+  return phase_distance_ + speed_ * (t - phase_time_);
 }
 
 void ScanningOperator::begin(Phase phase, double time) noexcept {
-  phase_way_ = way(time);
+  phase_distance_ = direction(time);
   phase_time_ = time;
   phase_ = phase;
   speed_ = 0;
@@ -144,7 +144,7 @@ void ScanningOperator::advance(double time, const Pose& X_JN, const ScanGlance& 
     begin(Phase::hold, time);
     return;
   }
-  phase_way_ = way(time);
+  phase_distance_ = direction(time);
   phase_time_ = time;
   speed_ = left < 6e-3 ? 0.5 * skill_.speed : skill_.speed;
   const bool not_yet = seen_depth_ <= 0 && glance.depth < plan_.appears + kAppear;
@@ -162,11 +162,11 @@ void ScanningOperator::hold(double time, const Pose& X_JN, const ScanGlance& gla
   if (time - phase_time_ < kHold) return;
   if (glance.given) {
     begin(Phase::withdraw, time);
-  } else if (glance.astray && nudges_ < kMostNudges) {
+  } else if (glance.astray && nudges_ < kMaxNudges) {
     ++nudges_;
     if (draw() >= skill_.look) return;
     const double left = (plan_.target - X_JN.translation()).dot(direction_);
-    phase_way_ += std::copysign(kNudge, left);
+    phase_distance_ += std::copysign(kNudge, left);
     phase_time_ = time;
   }
 }
@@ -208,7 +208,7 @@ void ScanningOperator::look(double time, const Pose& X_JN, const ScanGlance& gla
       hold(time, X_JN, glance);
       break;
     case Phase::withdraw:
-      if (way(time) <= -kApproach) begin(Phase::done, time);
+      if (direction(time) <= -kApproach) begin(Phase::done, time);
       break;
     case Phase::done:
       break;
@@ -217,7 +217,7 @@ void ScanningOperator::look(double time, const Pose& X_JN, const ScanGlance& gla
 
 Intention ScanningOperator::intention(double t) const noexcept {
   Intention want;
-  want.X_JN = make_pose(entry_ + way(t) * direction_, direction_, x_hint_);
+  want.X_JN = make_pose(entry_ + direction(t) * direction_, direction_, x_hint_);
   want.velocity = speed_ * direction_;
   want.hold = phase_ == Phase::hold || phase_ == Phase::search;
   return want;

@@ -2,7 +2,7 @@
 #pragma once
 #include <cstdint>
 
-#include "artus/operators/simulated_hand.h"
+#include "artus/detail/operators/simulated_hand.h"
 
 namespace artus {
 
@@ -80,7 +80,7 @@ class ScanningOperator {
   void hold(double time, const Pose& X_JN, const ScanGlance& glance);
   [[nodiscard]] double draw() noexcept;
   [[nodiscard]] double gauss() noexcept;
-  [[nodiscard]] double way(double t) const noexcept;
+  [[nodiscard]] double travelled(double t) const noexcept;
 
   OperatorSkill skill_;
   ScanPlan plan_;
@@ -88,7 +88,7 @@ class ScanningOperator {
   std::uint64_t draws_ = 0;
   Phase phase_ = Phase::approach;
   double phase_time_ = 0;  // s
-  double phase_way_ = 0;   // m along the line when the phase began
+  double phase_distance_ = 0;   // m along the line when the phase began
   double speed_ = 0;       // m/s of it now
   Vec3 entry_ = Vec3::Zero();
   Vec3 direction_ = Vec3::UnitZ();

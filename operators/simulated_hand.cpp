@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/operators/simulated_hand.h"
+#include "artus/detail/operators/simulated_hand.h"
 
 #include <cmath>
 
-#include "artus/core/noise.h"
-#include "artus/core/units.h"
-#include "artus/haptics/needle/orientation_torque.h"
+#include "artus/detail/core/noise.h"
+#include "artus/detail/core/units.h"
+#include "artus/detail/haptics/needle/laws/orientation_torque.h"
 
 namespace artus {
 namespace {}

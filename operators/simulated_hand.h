@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "artus/core/geometry.h"
-#include "artus/haptics/wrench.h"
+#include "artus/detail/haptics/wrench.h"
 
 namespace artus {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/operators/thumb.h"
+#include "artus/detail/operators/thumb.h"
 
 #include <algorithm>
 
@@ -15,16 +15,16 @@ PlungerInput Thumb::step(const OperatorPhase* phase, const PlungerState& plunger
     pressing_ = false;
     if (phase == nullptr) return input;
     // What the barrel pushes back with: between the two the stopper's friction keeps it.
-    const double back = std::clamp(area * plunger.pressure, 0.0, params_.most_force);
+    const double back = std::clamp(area * plunger.pressure, 0.0, params_.max_force);
     input.force = phase->thumb_holds ? back : phase->thumb_force;
     return input;
   }
   if (!pressing_) position_ = plunger.travel;
   pressing_ = true;
   position_ += phase->thumb_rate / area * dt;
-  const double most_ahead = params_.most_force / params_.stiffness;
-  position_ = std::min(position_, plunger.travel + most_ahead);
-  strains_ = position_ - plunger.travel >= kAllOfIt * most_ahead;
+  const double max_ahead = params_.max_force / params_.stiffness;
+  position_ = std::min(position_, plunger.travel + max_ahead);
+  strains_ = position_ - plunger.travel >= kAllOfIt * max_ahead;
   input.position = position_;
   input.stiffness = params_.stiffness;
   return input;

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
-#include "artus/haptics/plunger/plunger.h"
-#include "artus/operators/operator_phase.h"
+#include "artus/detail/haptics/plunger/plunger.h"
+#include "artus/detail/operators/operator_phase.h"
 
 namespace artus {
 
 /// A thumb on a plunger. Stiffness and the strongest comfortable push are assumed.
 struct ThumbParams {
   double stiffness = 2000;  ///< N/m
-  double most_force = 40;   ///< N beyond which it does not press to keep a rate
+  double max_force = 40;   ///< N beyond which it does not press to keep a rate
 };
 
 /// Moves a plunger as an operator's phase says: at a rate, by a position that runs ahead of the

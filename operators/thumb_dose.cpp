@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/operators/thumb_dose.h"
+#include "artus/detail/operators/thumb_dose.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,11 +18,11 @@ double run_out_time(const PlungerParams& params) {
 /// logarithm of the pressure that is p/Q, summed up from the lowest. What is below it is gone.
 HeldBarrel::HeldBarrel(const PlungerParams& params, double seconds)
     : softness_(params.syringe.softness()),
-      points_per_octave_((kPoints - 1) / std::log2(kMost / kLeast)) {
+      points_per_octave_((kPoints - 1) / std::log2(kMax / kMin)) {
   const NeedleFlow bore(params.needle, params.liquid.viscosity, params.liquid.density,
                         params.entry_loss);
   const auto pressure_at = [this](double point) {
-    return kLeast * std::exp2(point / points_per_octave_);
+    return kMin * std::exp2(point / points_per_octave_);
   };
   constexpr int kSubsteps = 8;
   std::array<double, kPoints> since{};  // s from the lowest
@@ -48,7 +48,7 @@ HeldBarrel::HeldBarrel(const PlungerParams& params, double seconds)
 double HeldBarrel::gives(double over) const noexcept {
   if (!(over > 0)) return 0;
   const double last = static_cast<double>(kPoints - 1);
-  const double at = std::clamp(std::log2(over / kLeast) * points_per_octave_, 0.0, last);
+  const double at = std::clamp(std::log2(over / kMin) * points_per_octave_, 0.0, last);
   const auto low = static_cast<std::size_t>(std::min(at, last - 1));
   const double part = at - static_cast<double>(low);
   return softness_ * over * (share_[low] + part * (share_[low + 1] - share_[low]));

@@ -3,8 +3,8 @@
 #include <array>
 #include <cstddef>
 
-#include "artus/haptics/plunger/plunger.h"
-#include "artus/operators/operator_phase.h"
+#include "artus/detail/haptics/plunger/plunger.h"
+#include "artus/detail/operators/operator_phase.h"
 
 namespace artus {
 
@@ -21,8 +21,8 @@ class HeldBarrel {
 
  private:
   static constexpr std::size_t kPoints = 128;
-  static constexpr double kLeast = 1;   // Pa, the first
-  static constexpr double kMost = 1e7;  // Pa, the last
+  static constexpr double kMin = 1;   // Pa, the first
+  static constexpr double kMax = 1e7;  // Pa, the last
   double softness_;                     // m^3/Pa
   double points_per_octave_;
   std::array<double, kPoints> share_{};  // that runs out, by the logarithm of the pressure

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/operators/trajectory_forces.h"
+#include "artus/detail/operators/trajectory_forces.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "artus/core/check.h"
-#include "artus/haptics/needle/needle_renderer.h"
+#include "artus/detail/core/check.h"
+#include "artus/haptics/needle_renderer.h"
 
 namespace artus {
 
@@ -45,8 +45,8 @@ std::vector<Pose> straight_insertion(const Vec3& entry, const Vec3& target, doub
   poses.reserve(2 * there + 1);
   for (std::size_t i = 0; i <= 2 * there; ++i) {
     const std::size_t k = i <= there ? i : 2 * there - i;
-    const double way = std::min(deepest, static_cast<double>(k) * speed / rate - above);
-    poses.push_back(make_pose(entry + way * axis, axis, Vec3::Zero()));
+    const double distance = std::min(deepest, static_cast<double>(k) * speed / rate - above);
+    poses.push_back(make_pose(entry + distance * axis, axis, Vec3::Zero()));
   }
   return poses;
 }

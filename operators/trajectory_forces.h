@@ -8,7 +8,7 @@
 
 #include "artus/core/geometry.h"
 #include "artus/core/result.h"
-#include "artus/haptics/needle/needle_feel.h"
+#include "artus/haptics/needle_feel.h"
 #include "artus/raycast/scene.h"
 
 namespace artus {

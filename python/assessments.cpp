@@ -10,8 +10,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "artus/python/borders.h"
-#include "artus/training/assessment.h"
+#include "artus/detail/python/borders.h"
+#include "artus/detail/training/assessment.h"
 
 namespace artus::python {
 namespace {

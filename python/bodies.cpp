@@ -5,9 +5,9 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
-#include "artus/anatomy/compile/compile.h"
-#include "artus/core/rigid.h"
-#include "artus/python/borders.h"
+#include "artus/anatomy/compile.h"
+#include "artus/detail/core/rigid.h"
+#include "artus/detail/python/borders.h"
 
 namespace artus::python {
 namespace {

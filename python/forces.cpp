@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <pybind11/stl.h>
 
-#include "artus/operators/trajectory_forces.h"
-#include "artus/python/borders.h"
+#include "artus/detail/operators/trajectory_forces.h"
+#include "artus/detail/python/borders.h"
 
 namespace artus::python {
 namespace {

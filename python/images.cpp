@@ -8,11 +8,11 @@
 
 #include <pybind11/stl.h>
 
-#include "artus/echo/image_fields.h"
+#include "artus/detail/echo/display/image_fields.h"
 #include "artus/echo/labels.h"
 #include "artus/echo/renderer.h"
 #include "artus/echo/transducer_file.h"
-#include "artus/python/borders.h"
+#include "artus/detail/python/borders.h"
 
 namespace artus::python {
 namespace {

@@ -7,9 +7,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "artus/evidence/injection/injection_report.h"
-#include "artus/evidence/injection/injection_request.h"
-#include "artus/python/borders.h"
+#include "artus/detail/evidence/runs/injection_report.h"
+#include "artus/detail/evidence/runs/injection_request.h"
+#include "artus/detail/python/borders.h"
 
 namespace artus::python {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/python/borders.h"
+#include "artus/detail/python/borders.h"
 
 PYBIND11_MODULE(_artus, module) {
   module.doc() = "The engine of the package artus.";

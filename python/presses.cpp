@@ -5,10 +5,10 @@
 
 #include <pybind11/stl.h>
 
-#include "artus/echo/pressing_face.h"
+#include "artus/detail/echo/probe/pressing_face.h"
 #include "artus/echo/transducer_file.h"
-#include "artus/python/borders.h"
-#include "artus/raycast/pressed_scene.h"
+#include "artus/detail/python/borders.h"
+#include "artus/detail/raycast/pressed_scene.h"
 
 namespace artus::python {
 namespace {

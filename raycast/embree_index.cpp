@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/raycast/embree_index.h"
+#include "artus/detail/raycast/embree_index.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 
-#include "artus/core/closest_point.h"
-#include "artus/raycast/embree_api.h"
+#include "artus/detail/core/closest_point.h"
+#include "artus/detail/raycast/embree_api.h"
 
 namespace artus {
 namespace {

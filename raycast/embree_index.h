@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "artus/core/check.h"
-#include "artus/raycast/facet.h"
-#include "artus/raycast/indexed_surfaces.h"
-#include "artus/raycast/plane_cache.h"
+#include "artus/detail/core/check.h"
+#include "artus/detail/raycast/facet.h"
+#include "artus/detail/raycast/indexed_surfaces.h"
+#include "artus/detail/raycast/plane_cache.h"
 
 struct RTCBufferTy;
 struct RTCDeviceTy;

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "artus/anatomy/body/tet_mesh.h"
+#include "artus/detail/anatomy/body/tet_mesh.h"
 #include "artus/core/geometry.h"
 
 namespace artus {

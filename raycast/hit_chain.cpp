@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/raycast/hit_chain.h"
+#include "artus/detail/raycast/hit_chain.h"
 
 #include <algorithm>
 #include <optional>

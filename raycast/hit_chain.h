@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <span>
 
-#include "artus/core/check.h"
-#include "artus/raycast/facet.h"
+#include "artus/detail/core/check.h"
+#include "artus/detail/raycast/facet.h"
 #include "artus/raycast/scene.h"
 
 namespace artus {

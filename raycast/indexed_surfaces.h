@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "artus/raycast/facet.h"
+#include "artus/detail/raycast/facet.h"
 
 namespace artus {
 

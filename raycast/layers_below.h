@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-#include "artus/soft/deformed_body.h"
+#include "artus/detail/soft/solver/deformed_body.h"
 
 namespace artus {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/raycast/moving_scene.h"
+#include "artus/detail/raycast/moving_scene.h"
 
 #include <mutex>
 #include <utility>
 #include <vector>
 
-#include "artus/soft/deformed_body.h"
+#include "artus/detail/soft/solver/deformed_body.h"
 
 namespace artus {
 

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "artus/raycast/facet.h"
+#include "artus/detail/raycast/facet.h"
 
 namespace artus {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/raycast/pressed_scene.h"
+#include "artus/detail/raycast/pressed_scene.h"
 
 #include <utility>
 
-#include "artus/raycast/moving_scene.h"
+#include "artus/detail/raycast/moving_scene.h"
 
 namespace artus {
 

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "artus/raycast/scene.h"
-#include "artus/soft/press.h"
+#include "artus/detail/soft/solver/press.h"
 
 namespace artus {
 

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <utility>
 
-#include "artus/raycast/embree_index.h"
-#include "artus/raycast/hit_chain.h"
-#include "artus/soft/deformed_body.h"
+#include "artus/detail/raycast/embree_index.h"
+#include "artus/detail/raycast/hit_chain.h"
+#include "artus/detail/soft/solver/deformed_body.h"
 
 namespace artus {
 namespace {

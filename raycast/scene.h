@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "artus/anatomy/body/compiled_joint.h"
-#include "artus/core/check.h"
+#include "artus/anatomy/compiled_joint.h"
+#include "artus/detail/core/check.h"
 #include "artus/core/geometry.h"
 #include "artus/core/result.h"
 

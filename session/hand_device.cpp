@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/session/hand_device.h"
+#include "artus/detail/session/hand_device.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,10 +12,10 @@ PlainPose approach(const PlainPose& from, const PlainPose& to, const HandDevice:
   for (std::size_t i = 0; i < 3; ++i)
     distance = std::hypot(distance, to.position[i] - from.position[i]);
   const double angle = rotation_of(from).angularDistance(rotation_of(to));
-  const double by_way = distance > 0 ? std::min(ease, limits.speed * dt / distance) : ease;
+  const double by_distance = distance > 0 ? std::min(ease, limits.speed * dt / distance) : ease;
   const double by_turn = angle > 0 ? std::min(ease, limits.turn * dt / angle) : ease;
   PlainPose next = blend(from, to, by_turn);
-  const PlainPose moved = blend(from, to, by_way);
+  const PlainPose moved = blend(from, to, by_distance);
   std::copy(std::begin(moved.position), std::end(moved.position), std::begin(next.position));
   return next;
 }

@@ -3,8 +3,8 @@
 #include <atomic>
 #include <cstdint>
 
-#include "artus/session/input_device.h"
-#include "artus/session/seqlock.h"
+#include "artus/simulation/input_device.h"
+#include "artus/detail/session/shm/seqlock.h"
 
 namespace artus {
 

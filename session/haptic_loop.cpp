@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/session/haptic_loop.h"
+#include "artus/detail/session/haptic_loop.h"
 
 namespace artus {
 

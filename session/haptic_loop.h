@@ -2,10 +2,10 @@
 #pragma once
 #include <cstdint>
 
-#include "artus/session/seqlock.h"
-#include "artus/session/session_core.h"
-#include "artus/session/session_histogram.h"
-#include "artus/session/session_thread.h"
+#include "artus/detail/session/shm/seqlock.h"
+#include "artus/detail/simulation/session_core.h"
+#include "artus/detail/session/session_histogram.h"
+#include "artus/detail/session/session_thread.h"
 
 namespace artus {
 

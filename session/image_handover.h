@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "artus/session/image_core.h"
+#include "artus/detail/simulation/image_core.h"
 
 namespace artus {
 

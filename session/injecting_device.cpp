@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/session/injecting_device.h"
+#include "artus/detail/session/injecting_device.h"
 
 #include <cmath>
 
-#include "artus/haptics/needle/needle_contact.h"
-#include "artus/session/syringe_core.h"
+#include "artus/detail/haptics/needle/needle_contact.h"
+#include "artus/detail/simulation/syringe_core.h"
 
 namespace artus {
 namespace {
@@ -45,7 +45,7 @@ InjectingDevice::InjectingDevice(const InjectionPlan& plan, const DeviceLimits& 
       period_(1 / rate_hz),
       person_(plan.entry_W, plan.direction_W, kBeforeSkin, phases_of(plan)),
       loop_({rate_hz, physics_rate(rate_hz)}, device, hand, person_.start()),
-      thumb_({SyringeCore::kCoupling, SyringeCore::kMostForce}),
+      thumb_({SyringeCore::kCoupling, SyringeCore::kMaxForce}),
       dose_(plan.plunger, plan.volume) {
   ARTUS_REQUIRE(std::abs(plan.direction_W.norm() - 1) < 1e-9, "the direction must be a unit");
   ARTUS_REQUIRE(plan.speed > 0 && plan.target <= plan.deepest, "an injection goes somewhere");
@@ -71,11 +71,11 @@ void InjectingDevice::press_plunger() noexcept {
   PlungerState plunger;
   plunger.travel = felt_.travel;
   plunger.pressure = felt_.pressure;
-  const PlungerInput wish = thumb_.step(meant ? dose_.present(person_.present()) : nullptr, plunger,
+  const PlungerInput request = thumb_.step(meant ? dose_.present(person_.present()) : nullptr, plunger,
                                         plan_.plunger.syringe.area(), period_);
-  sample_.plunger = wish.stiffness > 0 ? PlungerSign::travel : PlungerSign::force;
-  sample_.plunger_travel = wish.position;
-  sample_.plunger_force = wish.force;
+  sample_.plunger = request.stiffness > 0 ? PlungerSign::travel : PlungerSign::force;
+  sample_.plunger_travel = request.position;
+  sample_.plunger_force = request.force;
   const bool pushes = meant && (felt_.flow > ThumbDose::kFlows || thumb_.strains());
   dose_.step(pushes, felt_.given, felt_.pressure, felt_.tip_pressure, felt_.flow, period_);
 }

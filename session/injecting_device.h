@@ -2,11 +2,11 @@
 #pragma once
 #include <cstdint>
 
-#include "artus/operators/hand_loop.h"
-#include "artus/operators/injection_operator.h"
-#include "artus/operators/thumb.h"
-#include "artus/operators/thumb_dose.h"
-#include "artus/session/input_device.h"
+#include "artus/detail/operators/hand_loop.h"
+#include "artus/detail/operators/injection_operator.h"
+#include "artus/detail/operators/thumb.h"
+#include "artus/detail/operators/thumb_dose.h"
+#include "artus/simulation/input_device.h"
 
 namespace artus {
 

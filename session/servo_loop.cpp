@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/session/servo_loop.h"
+#include "artus/detail/session/servo_loop.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "artus/core/noise.h"
-#include "artus/session/haptic_loop.h"
+#include "artus/detail/core/noise.h"
+#include "artus/detail/session/haptic_loop.h"
 
 namespace artus {
 namespace {
@@ -32,9 +32,9 @@ void count(const HapticSnapshot& out, ServoReport& report) noexcept {
   if (out.feedback.contact == static_cast<std::uint32_t>(ContactState::bone)) ++report.on_bone;
   const double square = out.force_J[0] * out.force_J[0] + out.force_J[1] * out.force_J[1] +
                         out.force_J[2] * out.force_J[2];
-  report.most_thumb = std::max(report.most_thumb, std::abs(out.feedback.plunger.thumb_force));
+  report.max_thumb = std::max(report.max_thumb, std::abs(out.feedback.plunger.thumb_force));
   report.given = out.feedback.plunger.given;
-  report.most_force = std::max(report.most_force, std::sqrt(square));
+  report.max_force = std::max(report.max_force, std::sqrt(square));
 }
 
 }  // namespace
@@ -42,7 +42,7 @@ void count(const HapticSnapshot& out, ServoReport& report) noexcept {
 void run_servo_loop(HapticCore& core, InputDevice& device, const ServoOptions& options,
                     const std::atomic<bool>& stop, Seqlock<HapticSnapshot>& newest,
                     ServoReport& report) {
-  report.refused = request_from_system(options.wishes);
+  report.refused = request_from_system(options.thread);
   measure_floor(options, stop, report.floor);
   const std::int64_t end = monotonic_ns() + static_cast<std::int64_t>(1e9 * options.seconds);
   HapticLoop loop(core, device, options.rate_hz, newest,

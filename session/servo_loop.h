@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "artus/session/seqlock.h"
-#include "artus/session/session_core.h"
-#include "artus/session/session_histogram.h"
-#include "artus/session/session_thread.h"
+#include "artus/detail/session/shm/seqlock.h"
+#include "artus/detail/simulation/session_core.h"
+#include "artus/detail/session/session_histogram.h"
+#include "artus/detail/session/session_thread.h"
 
 namespace artus {
 
@@ -16,7 +16,7 @@ struct ServoOptions {
   double rate_hz = 1000;
   double seconds = 10;
   double floor_seconds = 1;  ///< of ticks that do nothing, before: what the machine itself is late
-  ThreadWishes wishes{80, 0, true, -1};
+  ThreadOptions thread{80, 0, true, -1};
 };
 
 /// Where a run's time went, and what it met.
@@ -33,8 +33,8 @@ struct ServoReport {
   std::uint64_t faults = 0;    ///< ticks whose input was refused
   std::uint64_t inserted = 0;  ///< ticks with the needle in the body
   std::uint64_t on_bone = 0;
-  double most_force = 0;             ///< N sent
-  double most_thumb = 0;             ///< N sent to the plunger
+  double max_force = 0;             ///< N sent
+  double max_thumb = 0;             ///< N sent to the plunger
   double given = 0;                  ///< m^3 out of the needle's tip
   std::vector<std::string> refused;  ///< what the system did not grant, in words
 };

@@ -5,17 +5,17 @@
 #include <exception>
 #include <utility>
 
-#include "artus/core/noise.h"
-#include "artus/session/dropping_ring.h"
-#include "artus/session/haptic_loop.h"
-#include "artus/session/image_handover.h"
+#include "artus/detail/core/noise.h"
+#include "artus/detail/session/record/dropping_ring.h"
+#include "artus/detail/session/haptic_loop.h"
+#include "artus/detail/session/image_handover.h"
 
 namespace artus {
 namespace {
 
-constexpr std::int64_t kCarePeriod = 20'000'000;     // ns between two looks at what may be spoiled
+constexpr std::int64_t kHousekeepingPeriod = 20'000'000;     // ns between two looks at what may be spoiled
 constexpr std::int64_t kAfterFailure = 500'000'000;  // ns before imaging is tried again
-constexpr std::size_t kMostNotices = 100;
+constexpr std::size_t kMaxNotices = 100;
 
 TracePoint trace_point_of(const HapticSnapshot& out, double time) noexcept {
   const Vec3 axis = to_pose(out.X_JN).linear().col(2);
@@ -79,32 +79,32 @@ Result<std::unique_ptr<Session>> Session::start(std::shared_ptr<const Scene> sce
     session->recorder_ = std::move(*recorder);
   }
   session->on_image_ = options.on_image;
-  session->witness_ = options.witness;
+  session->observer_ = options.observer;
   session->gauges_ = options.gauge;
   if (options.images && options.share_images) {
-    auto channel = RenewedChannel<artus_shm_image>::open(options.image_segment_prefix, kImageLayout,
+    auto channel = ReopeningChannel<artus_shm_image>::open(options.image_segment_prefix, kImageLayout,
                                                          SegmentAccess::owner_writes);
     ARTUS_TRY(channel);
     session->shared_image_ = std::move(*channel);
     session->image_bytes_ = std::make_unique<artus_shm_image>();
   }
   Session* running = session.get();
-  const ThreadWishes haptics = options.haptic_wishes;
-  const ThreadWishes imaging = options.imaging_wishes;
+  const ThreadOptions haptics = options.haptic_options;
+  const ThreadOptions imaging = options.imaging_options;
   session->haptic_thread_ = std::thread([running, haptics] { running->run_haptics(haptics); });
   if (options.images) {
     session->drawing_thread_ = std::thread([running, imaging] { running->run_drawing(imaging); });
-    session->imaging_thread_ = std::thread([running, imaging, onlookers = options.onlookers] {
-      running->run_imaging(imaging, onlookers);
+    session->imaging_thread_ = std::thread([running, imaging, extra_scene_holders = options.extra_scene_holders] {
+      running->run_imaging(imaging, extra_scene_holders);
     });
   }
-  session->care_thread_ = std::thread([running] { running->run_care(); });
+  session->housekeeping_thread_ = std::thread([running] { running->run_housekeeping(); });
   return session;
 }
 
 Session::~Session() {
   stop_ = true;
-  for (std::thread* thread : {&haptic_thread_, &imaging_thread_, &care_thread_})
+  for (std::thread* thread : {&haptic_thread_, &imaging_thread_, &housekeeping_thread_})
     if (thread->joinable()) thread->join();
   handover_->end();
   if (drawing_thread_.joinable()) drawing_thread_.join();
@@ -129,8 +129,8 @@ std::vector<std::string> Session::notices() const {
   return notices_;
 }
 
-void Session::ask(const char* who, const ThreadWishes& wishes) {
-  for (const std::string& refused : request_from_system(wishes)) {
+void Session::request_priority(const char* who, const ThreadOptions& options) {
+  for (const std::string& refused : request_from_system(options)) {
     const std::lock_guard<std::mutex> lock(told_mutex_);
     refusals_.push_back(std::string(who) + ": " + refused);
   }
@@ -139,7 +139,7 @@ void Session::ask(const char* who, const ThreadWishes& wishes) {
 void Session::tell(const std::string& notice) {
   const std::lock_guard<std::mutex> lock(told_mutex_);
   if (!notices_.empty() && notices_.back() == notice) return;
-  if (notices_.size() == kMostNotices) notices_.erase(notices_.begin());
+  if (notices_.size() == kMaxNotices) notices_.erase(notices_.begin());
   notices_.push_back(notice);
 }
 
@@ -150,8 +150,8 @@ void Session::rest(std::int64_t ns) const noexcept {
     std::this_thread::sleep_for(std::chrono::nanoseconds(std::min(ns, kStep)));
 }
 
-void Session::run_haptics(const ThreadWishes& wishes) {
-  ask("haptics", wishes);
+void Session::run_haptics(const ThreadOptions& options) {
+  request_priority("haptics", options);
   HapticLoop loop(core_, *device_, params_.haptic_rate, haptic_,
                   {times_->haptic_compute, times_->haptic_cpu, times_->haptic_lateness});
   while (!stop_.load(std::memory_order_relaxed)) {
@@ -180,22 +180,22 @@ std::uint32_t Session::take_command() noexcept {
 
 void Session::publish(const HapticSnapshot& out) noexcept {
   if (recorder_) recorder_->add(to_record(out));
-  if (witness_ != nullptr) witness_->on_tick(out);
+  if (observer_ != nullptr) observer_->on_tick(out);
   trace_->push(trace_point_of(out, 1e-9 * static_cast<double>(monotonic_ns() - start_ns_)));
   ticks_.store(out.input.tick, std::memory_order_relaxed);
 }
 
-void Session::run_care() {
+void Session::run_housekeeping() {
   while (!stop_.load(std::memory_order_relaxed)) {
     try {
-      for (const std::string& said : device_->look_after()) tell(said);
-      const auto said = shared_image_ ? shared_image_->look_after() : std::nullopt;
+      for (const std::string& said : device_->repair_connection()) tell(said);
+      const auto said = shared_image_ ? shared_image_->repair_connection() : std::nullopt;
       if (said) tell(*said);
     } catch (...) {
       tell(reason_of(std::current_exception()));
     }
     if (gauges_) gauge();
-    rest(kCarePeriod);
+    rest(kHousekeepingPeriod);
   }
 }
 
@@ -208,8 +208,8 @@ void Session::gauge() {
   if (x != 0) times_->fixed_work.add(monotonic_ns() - begin);  // never zero: it is not left out
 }
 
-void Session::run_imaging(const ThreadWishes& wishes, std::size_t onlookers) {
-  ask("imaging", wishes);
+void Session::run_imaging(const ThreadOptions& options, std::size_t extra_scene_holders) {
+  request_priority("imaging", options);
   std::unique_ptr<ImageCore> core;
   PeriodicSchedule schedule(params_.image_rate);
   std::uint64_t number = 0;
@@ -218,7 +218,7 @@ void Session::run_imaging(const ThreadWishes& wishes, std::size_t onlookers) {
     std::string failure = handover_->take_failure();
     try {
       if (failure.empty() && !core) {
-        core = std::make_unique<ImageCore>(scene_, params_, onlookers);
+        core = std::make_unique<ImageCore>(scene_, params_, extra_scene_holders);
         if (!core->refusal().empty()) tell("the tissue stays rigid: " + core->refusal());
       }
       if (failure.empty() && frozen_.load(std::memory_order_relaxed)) {
@@ -264,8 +264,8 @@ bool Session::advance(ImageCore& core, std::uint64_t number) {
   return true;
 }
 
-void Session::run_drawing(const ThreadWishes& wishes) {
-  ask("imaging", wishes);  // before the renderer's workers start, which inherit it
+void Session::run_drawing(const ThreadOptions& options) {
+  request_priority("imaging", options);  // before the renderer's workers start, which inherit it
   while (const ImageJob* job = handover_->take()) {
     std::string failure;
     try {
@@ -300,7 +300,7 @@ void Session::draw(const ImageJob& job) {
     if (job.body.packet) record.packet = digest_of(*job.body.packet);
     recorder_->add(record);
   }
-  if (witness_ != nullptr) witness_->on_frame(job.input, frame);
+  if (observer_ != nullptr) observer_->on_frame(job.input, frame);
   times_->image_render.add(out.ready_ns - begin);
   note_image(out.ready_ns);
   if (job.alive) times_->pose_to_image.add(out.ready_ns - job.input.sample_time_ns);

@@ -10,13 +10,13 @@
 #include <thread>
 #include <vector>
 
-#include "artus/session/recorder.h"
-#include "artus/session/renewed_channel.h"
-#include "artus/session/seqlock.h"
-#include "artus/session/session_core.h"
-#include "artus/session/session_exchange.h"
-#include "artus/session/session_histogram.h"
-#include "artus/session/session_thread.h"
+#include "artus/detail/session/record/recorder.h"
+#include "artus/detail/session/shm/reopening_channel.h"
+#include "artus/detail/session/shm/seqlock.h"
+#include "artus/detail/simulation/session_core.h"
+#include "artus/detail/session/session_exchange.h"
+#include "artus/detail/session/session_histogram.h"
+#include "artus/detail/session/session_thread.h"
 
 namespace artus {
 
@@ -73,9 +73,9 @@ struct SessionTimes {
 
 /// Who looks on while a session runs, from within its threads, and must outlive it. Each call is
 /// made by one thread alone, in order; the two may run at the same time.
-class SessionWitness {
+class SessionObserver {
  public:
-  virtual ~SessionWitness() = default;
+  virtual ~SessionObserver() = default;
   /// Every tick, in the haptic thread.
   ARTUS_REALTIME virtual void on_tick(const HapticSnapshot& tick) noexcept = 0;
   /// Every drawn picture, in the imaging thread; what it throws is told like any failure.
@@ -90,8 +90,8 @@ class SessionWitness {
 class Session {
  public:
   struct Options {
-    ThreadWishes haptic_wishes{80, 0, true, -1};
-    ThreadWishes imaging_wishes{0, -10, false, -1};
+    ThreadOptions haptic_options{80, 0, true, -1};
+    ThreadOptions imaging_options{0, -10, false, -1};
     std::filesystem::path recording;   ///< empty: nothing is recorded
     std::string image_segment_prefix;  ///< of IMAGE
     bool images = true;                ///< false: nothing is drawn
@@ -99,10 +99,10 @@ class Session {
     bool gauge = false;                ///< time a fixed work beside (SessionTimes::fixed_work)
     /// Who keep the body of a picture (ImageSnapshot::body) while the next are drawn, as a window
     /// does: for each a scene more is made at the start instead of while it runs.
-    std::size_t onlookers = 0;
+    std::size_t extra_scene_holders = 0;
     /// Called with each new image in the imaging thread; what it throws is told like any failure.
     std::function<void(const ImageSnapshot&)> on_image;
-    SessionWitness* witness = nullptr;  ///< not owned
+    SessionObserver* observer = nullptr;  ///< not owned
   };
 
   /// Requires: valid params, a scene, a device. Errors: those of the recording and of IMAGE.
@@ -147,12 +147,12 @@ class Session {
  private:
   Session(std::shared_ptr<const Scene> scene, const SessionParams& params,
           std::unique_ptr<InputDevice> device);
-  void run_haptics(const ThreadWishes& wishes);
-  void run_imaging(const ThreadWishes& wishes, std::size_t onlookers);
-  void run_drawing(const ThreadWishes& wishes);
-  void run_care();
+  void run_haptics(const ThreadOptions& options);
+  void run_imaging(const ThreadOptions& options, std::size_t extra_scene_holders);
+  void run_drawing(const ThreadOptions& options);
+  void run_housekeeping();
   void gauge();
-  void ask(const char* who, const ThreadWishes& wishes);
+  void request_priority(const char* who, const ThreadOptions& options);
   void tell(const std::string& notice);
   void note_image(std::int64_t ready_ns);
   [[nodiscard]] std::uint32_t take_command() noexcept;
@@ -170,11 +170,11 @@ class Session {
   HapticCore core_;
   std::unique_ptr<SessionTimes> times_;
   std::unique_ptr<Recorder> recorder_;
-  std::unique_ptr<RenewedChannel<artus_shm_image>> shared_image_;
+  std::unique_ptr<ReopeningChannel<artus_shm_image>> shared_image_;
   std::unique_ptr<artus_shm_image> image_bytes_;  // as last shared
   std::size_t n_image_bytes_ = 0;
   std::function<void(const ImageSnapshot&)> on_image_;
-  SessionWitness* witness_ = nullptr;
+  SessionObserver* observer_ = nullptr;
   bool gauges_ = false;
 
   Seqlock<HapticSnapshot> haptic_;
@@ -202,7 +202,7 @@ class Session {
   std::thread haptic_thread_;
   std::thread imaging_thread_;
   std::thread drawing_thread_;
-  std::thread care_thread_;
+  std::thread housekeeping_thread_;
   std::atomic<bool> motion_wanted_{false};
 };
 

@@ -3,7 +3,7 @@
 #include <array>
 #include <atomic>
 
-#include "artus/core/check.h"
+#include "artus/detail/core/check.h"
 
 namespace artus {
 

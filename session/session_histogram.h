@@ -6,7 +6,7 @@
 #include <bit>
 #include <cstdint>
 
-#include "artus/core/check.h"
+#include "artus/detail/core/check.h"
 
 namespace artus {
 

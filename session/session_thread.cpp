@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/session/session_thread.h"
+#include "artus/detail/session/session_thread.h"
 
 #include <cerrno>
 #include <cmath>
@@ -49,25 +49,25 @@ std::int64_t PeriodicSchedule::wait() noexcept {
   return late;
 }
 
-std::vector<std::string> request_from_system(const ThreadWishes& wishes) {
+std::vector<std::string> request_from_system(const ThreadOptions& options) {
   std::vector<std::string> refused;
-  if (wishes.fifo_priority > 0) {
+  if (options.fifo_priority > 0) {
     sched_param param{};
-    param.sched_priority = wishes.fifo_priority;
+    param.sched_priority = options.fifo_priority;
     const int error = pthread_setschedparam(pthread_self(), SCHED_FIFO, &param);
     if (error != 0) refused.push_back("SCHED_FIFO priority: " + reason(error));
   }
-  if (wishes.nice != 0 &&
-      setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), wishes.nice) != 0) {
-    refused.push_back("nice value " + std::to_string(wishes.nice) + ": " + reason(errno));
+  if (options.nice != 0 &&
+      setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), options.nice) != 0) {
+    refused.push_back("nice value " + std::to_string(options.nice) + ": " + reason(errno));
   }
-  if (wishes.lock_memory && mlockall(MCL_CURRENT) != 0) {
+  if (options.lock_memory && mlockall(MCL_CURRENT) != 0) {
     refused.push_back("locking memory: " + reason(errno));
   }
-  if (wishes.cpu >= 0) {
+  if (options.cpu >= 0) {
     cpu_set_t set;
     CPU_ZERO(&set);
-    CPU_SET(static_cast<unsigned>(wishes.cpu), &set);
+    CPU_SET(static_cast<unsigned>(options.cpu), &set);
     const int error = pthread_setaffinity_np(pthread_self(), sizeof set, &set);
     if (error != 0) refused.push_back("one processor: " + reason(error));
   }

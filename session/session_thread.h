@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "artus/core/check.h"
+#include "artus/detail/core/check.h"
 
 namespace artus {
 
@@ -51,7 +51,7 @@ class LateWatch {
 };
 
 /// What the system was asked for on behalf of the calling thread.
-struct ThreadWishes {
+struct ThreadOptions {
   int fifo_priority = 0;  ///< SCHED_FIFO priority; 0: ordinary scheduling
   int nice = 0;           ///< -20 urgent .. 19 patient, for ordinary scheduling; 0: as it is
   bool lock_memory = false;
@@ -59,6 +59,6 @@ struct ThreadWishes {
 };
 
 /// Asks and returns what was refused, in words; a refusal is no failure.
-[[nodiscard]] std::vector<std::string> request_from_system(const ThreadWishes& wishes);
+[[nodiscard]] std::vector<std::string> request_from_system(const ThreadOptions& options);
 
 }  // namespace artus

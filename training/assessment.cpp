@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/training/assessment.h"
+#include "artus/detail/training/assessment.h"
 
 #include <nlohmann/json.hpp>
 
-#include "artus/anatomy/body/find_region.h"
-#include "artus/training/session_meter.h"
+#include "artus/detail/anatomy/body/find_region.h"
+#include "artus/detail/training/session_meter.h"
 
 namespace artus {
 

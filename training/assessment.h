@@ -9,9 +9,9 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "artus/session/recording.h"
-#include "artus/training/metrics/attempt_meter.h"
-#include "artus/training/session_meter.h"
-#include "artus/training/tracked_list.h"
+#include "artus/detail/training/metrics/attempt_meter.h"
+#include "artus/detail/training/session_meter.h"
+#include "artus/detail/training/tracked_list.h"
 
 namespace artus {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/training/feedback.h"
+#include "artus/detail/training/feedback.h"
 
 #include <algorithm>
 #include <array>
@@ -7,8 +7,8 @@
 #include <optional>
 #include <utility>
 
-#include "artus/core/printed.h"
-#include "artus/core/units.h"
+#include "artus/detail/core/printed.h"
+#include "artus/detail/core/units.h"
 
 namespace artus {
 namespace {
@@ -331,7 +331,7 @@ PastAttempt past_attempt(double weeks, std::span<const Metric> metrics) {
 
 Feedback make_feedback(const AttemptMeasures& measures, const Judgement& judgement,
                        const FeedbackContext& context) {
-  constexpr std::size_t kMost = 3;
+  constexpr std::size_t kMax = 3;
   Feedback out;
   out.verdict = judgement.passed ? "Passed." : "Not passed";
   if (!judgement.passed) {
@@ -360,7 +360,7 @@ Feedback make_feedback(const AttemptMeasures& measures, const Judgement& judgeme
   const SkillTask next = next_task(judgement, weakest_skill(now, context));
   out.next = next.what;
   out.next_scenario = next.scenario;
-  if (out.faults.size() > kMost) out.faults.resize(kMost);
+  if (out.faults.size() > kMax) out.faults.resize(kMax);
   out.good = praise(measures);
   return out;
 }

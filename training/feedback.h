@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "artus/training/judgement.h"
-#include "artus/training/metrics/attempt_meter.h"
+#include "artus/detail/training/judgement.h"
+#include "artus/detail/training/metrics/attempt_meter.h"
 
 namespace artus {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "artus/core/result.h"
-#include "artus/training/metrics/metric.h"
+#include "artus/detail/training/metrics/metric.h"
 
 namespace artus {
 

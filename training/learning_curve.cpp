@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/training/learning_curve.h"
+#include "artus/detail/training/learning_curve.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 #include <boost/math/special_functions/beta.hpp>
 
-#include "artus/core/check.h"
+#include "artus/detail/core/check.h"
 
 namespace artus {
 namespace {

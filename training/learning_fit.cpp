@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/training/learning_fit.h"
+#include "artus/detail/training/learning_fit.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include <Eigen/Cholesky>
 
-#include "artus/core/check.h"
+#include "artus/detail/core/check.h"
 
 namespace artus {
 namespace {
@@ -77,7 +77,7 @@ class Likelihood {
   double barrier_ = 0;
 };
 
-double most_at(double rate, std::span<const TrialCount> trials) {
+double max_at(double rate, std::span<const TrialCount> trials) {
   const Likelihood likelihood(trials, rate);
   return likelihood.at(likelihood.best());
 }
@@ -98,9 +98,9 @@ LearningFit fit_learning(std::span<const TrialCount> trials) {
       std::any_of(trials.begin(), trials.end(), [](const TrialCount& t) { return t.learners > 0; }),
       "nobody came to any trial");
   double k = 0;
-  double most = most_at(rate_of(k), trials);
+  double most = max_at(rate_of(k), trials);
   for (int i = 1; i < kRates; ++i) {
-    const double value = most_at(rate_of(i), trials);
+    const double value = max_at(rate_of(i), trials);
     if (value <= most) continue;
     most = value;
     k = i;
@@ -109,7 +109,7 @@ LearningFit fit_learning(std::span<const TrialCount> trials) {
   for (int i = 0; i < kCloser; ++i, reach *= 0.7)
     for (const double other : {k - reach, k + reach}) {
       if (other < 0 || other >= kRates) continue;
-      const double value = most_at(rate_of(other), trials);
+      const double value = max_at(rate_of(other), trials);
       if (value <= most) continue;
       most = value;
       k = other;

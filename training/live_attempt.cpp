@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/training/live_attempt.h"
+#include "artus/detail/training/live_attempt.h"
 
 #include <cmath>
 #include <utility>
 
-#include "artus/echo/tip_contrast.h"
-#include "artus/training/session_meter.h"
+#include "artus/detail/echo/display/tip_contrast.h"
+#include "artus/detail/training/session_meter.h"
 
 namespace artus {
 

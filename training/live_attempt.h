@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "artus/session/session.h"
-#include "artus/training/metrics/attempt_meter.h"
+#include "artus/detail/training/metrics/attempt_meter.h"
 
 namespace artus {
 
@@ -15,7 +15,7 @@ namespace artus {
 /// digit, as long as the recording lost nothing and the attempt is within the options' `longest`.
 /// A picture counts at the first tick of the sample that it shows, as in `assess`. Memory: 16 bytes
 /// a tick of `longest`, beside the meter's.
-class LiveAttempt final : public SessionWitness {
+class LiveAttempt final : public SessionObserver {
  public:
   /// `rate`: Hz, of the ticks. Requires: a scene, valid options.
   LiveAttempt(std::shared_ptr<const Scene> scene, MeterOptions options, double rate);

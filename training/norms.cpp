@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/training/norms.h"
+#include "artus/detail/training/norms.h"
 
 #include <cmath>
 #include <map>
 #include <set>
 #include <utility>
 
-#include "artus/training/metrics/sight_course.h"
+#include "artus/detail/training/metrics/sight_course.h"
 
 namespace artus {
 

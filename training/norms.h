@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "artus/training/records.h"
+#include "artus/detail/training/records.h"
 
 namespace artus {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/training/past_attempts.h"
+#include "artus/detail/training/past_attempts.h"
 
 #include <algorithm>
 #include <ctime>

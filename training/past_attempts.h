@@ -2,8 +2,8 @@
 #pragma once
 #include <vector>
 
-#include "artus/training/feedback.h"
-#include "artus/training/records.h"
+#include "artus/detail/training/feedback.h"
+#include "artus/detail/training/records.h"
 
 namespace artus {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/training/patient_plans.h"
+#include "artus/detail/training/patient_plans.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
-#include "artus/anatomy/body/skin_line.h"
+#include "artus/detail/anatomy/body/skin_line.h"
 
 namespace artus {
 namespace {
@@ -18,17 +18,17 @@ bool is_region(const Scene& scene, RegionId region, const std::string& name) {
 
 /// The middle of the target's stretch of the way that is nearest to the point aimed at.
 std::optional<Vec3> middle_of_target(const Scenario& s, const Scene& scene) {
-  const Vec3 way = (s.target.point - s.entry.centre).normalized();
+  const Vec3 path = (s.target.point - s.entry.centre).normalized();
   const double aimed = (s.target.point - s.entry.centre).norm();
   std::optional<double> nearest;
   for (const TissueInterval& layer :
-       tissue_intervals(scene, {s.entry.centre, s.entry.centre + (aimed + kBeyondTarget) * way})) {
+       tissue_intervals(scene, {s.entry.centre, s.entry.centre + (aimed + kBeyondTarget) * path})) {
     if (!is_region(scene, layer.region, s.target.structure)) continue;
     const double middle = (layer.entry + layer.exit) / 2;
     if (!nearest || std::abs(middle - aimed) < std::abs(*nearest - aimed)) nearest = middle;
   }
   if (!nearest) return std::nullopt;
-  return s.entry.centre + *nearest * way;
+  return s.entry.centre + *nearest * path;
 }
 
 }  // namespace
@@ -54,8 +54,8 @@ void follow_patient(Scenario& scenario, const Scene& scene) {
   Pose& X_JP = scenario.X_JP;
   X_JP.translation() = moved_onto_skin(joint, X_JP.translation(), X_JP.linear().col(2));
   ScenarioEntry& entry = scenario.entry;
-  const Vec3 way = (scenario.target.point - entry.centre).normalized();
-  entry.centre = moved_onto_skin(joint, entry.centre, way);
+  const Vec3 path = (scenario.target.point - entry.centre).normalized();
+  entry.centre = moved_onto_skin(joint, entry.centre, path);
   const std::string& structure = scenario.target.structure;
   if (structure.empty() || is_region(scene, scene.region_at(scenario.target.point), structure))
     return;

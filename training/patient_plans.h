@@ -3,7 +3,7 @@
 #include <string>
 
 #include "artus/raycast/scene.h"
-#include "artus/training/scenario.h"
+#include "artus/detail/training/scenario.h"
 
 namespace artus {
 

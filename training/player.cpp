@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/training/player.h"
+#include "artus/detail/training/player.h"
 
 #include <algorithm>
 #include <utility>
 
-#include "artus/anatomy/body/tissue.h"
-#include "artus/core/text_file.h"
+#include "artus/detail/anatomy/body/tissue.h"
+#include "artus/detail/core/text_file.h"
 #include "artus/echo/transducer_file.h"
-#include "artus/training/session_meter.h"
-#include "artus/training/stage.h"
+#include "artus/detail/training/session_meter.h"
+#include "artus/detail/training/stage.h"
 
 namespace artus {
 namespace {

@@ -3,10 +3,10 @@
 #include <functional>
 #include <memory>
 
-#include "artus/operators/scanning_operator.h"
+#include "artus/detail/operators/scanning_operator.h"
 #include "artus/session/recording.h"
-#include "artus/training/metrics/attempt_meter.h"
-#include "artus/training/scenario.h"
+#include "artus/detail/training/metrics/attempt_meter.h"
+#include "artus/detail/training/scenario.h"
 
 namespace artus {
 

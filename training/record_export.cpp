@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/training/record_export.h"
+#include "artus/detail/training/record_export.h"
 
 #include <map>
 
-#include "artus/core/csv.h"
+#include "artus/detail/core/csv.h"
 
 namespace artus {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "artus/training/records.h"
+#include "artus/detail/training/records.h"
 
 namespace artus {
 

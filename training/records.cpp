@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/training/records.h"
+#include "artus/detail/training/records.h"
 
 #include <algorithm>
 #include <array>
@@ -7,9 +7,9 @@
 #include <random>
 #include <utility>
 
-#include "artus/core/byte_stream.h"
-#include "artus/core/printed.h"
-#include "artus/training/bundled_schemas.h"
+#include "artus/detail/core/byte_stream.h"
+#include "artus/detail/core/printed.h"
+#include "artus/detail/training/bundled_schemas.h"
 
 namespace artus {
 namespace {

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "artus/training/metrics/attempt_meter.h"
-#include "artus/training/scenario.h"
-#include "artus/training/sqlite_file.h"
+#include "artus/detail/training/metrics/attempt_meter.h"
+#include "artus/detail/training/scenario.h"
+#include "artus/detail/training/sqlite_file.h"
 
 namespace artus {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/training/scenario.h"
+#include "artus/detail/training/scenario.h"
 
 #include <algorithm>
 #include <array>
@@ -8,13 +8,13 @@
 #include <sstream>
 #include <utility>
 
-#include "artus/anatomy/body/joint_variant.h"
-#include "artus/core/known_names.h"
-#include "artus/core/text_file.h"
-#include "artus/core/toml_table.h"
-#include "artus/core/units.h"
-#include "artus/training/bundled_scenarios.h"
-#include "artus/training/metrics/attempt_metrics.h"
+#include "artus/detail/anatomy/body/joint_variant.h"
+#include "artus/detail/core/known_names.h"
+#include "artus/detail/core/text_file.h"
+#include "artus/detail/core/toml_table.h"
+#include "artus/detail/core/units.h"
+#include "artus/detail/training/bundled_scenarios.h"
+#include "artus/detail/training/metrics/attempt_metrics.h"
 
 namespace artus {
 namespace {
@@ -111,9 +111,9 @@ void read_syringe(TomlTable& toml, Scenario& s, Problems& problems) {
 /// A task of looking has no needle, and nothing that one needs.
 void read_find(TomlTable& toml, Scenario& s) {
   if (!toml.has("find")) return;
-  constexpr std::size_t kMost = 12;
+  constexpr std::size_t kMax = 12;
   s.find = toml.required_texts("find");
-  if (s.find.empty() || s.find.size() > kMost)
+  if (s.find.empty() || s.find.size() > kMax)
     toml.problem_at("find", "it must name 1 to 12 structures");
   for (const char* key : {"needle", "target", "entry", "avoid", "syringe"})
     if (toml.has(key))
@@ -146,9 +146,9 @@ void read_goals(TomlTable& toml, Scenario& s, Problems& problems) {
     s.entry.plane = entry.text("plane").value_or(s.entry.plane);
     if (s.entry.plane != "in" && s.entry.plane != "out" && s.entry.plane != "free")
       entry.problem_at("plane", "it must be in, out or free");
-    s.entry.least_angle = entry.number("angle_from", 0, 90, kDegree).value_or(0);
-    s.entry.most_angle = entry.number("angle_to", 0, 90, kDegree).value_or(90 * kDegree);
-    if (s.entry.least_angle > s.entry.most_angle)
+    s.entry.min_angle = entry.number("angle_from", 0, 90, kDegree).value_or(0);
+    s.entry.max_angle = entry.number("angle_to", 0, 90, kDegree).value_or(90 * kDegree);
+    if (s.entry.min_angle > s.entry.max_angle)
       entry.problem_at("angle_from", "it must not be above angle_to");
     entry.finish();
   } else {
@@ -186,10 +186,10 @@ void add_entry_marks(Scenario& s) {
     if (const auto mark = parse_mark(metric, text.str())) s.pass.push_back(*mark);
   };
   if (!own("entry_offset_mm")) add("entry_offset_mm", "<=", s.entry.radius / kMillimetre);
-  if (judge_angle && s.entry.least_angle > 0)
-    add("entry_angle_deg", ">=", s.entry.least_angle / kDegree);
-  if (judge_angle && s.entry.most_angle < 90 * kDegree)
-    add("entry_angle_deg", "<=", s.entry.most_angle / kDegree);
+  if (judge_angle && s.entry.min_angle > 0)
+    add("entry_angle_deg", ">=", s.entry.min_angle / kDegree);
+  if (judge_angle && s.entry.max_angle < 90 * kDegree)
+    add("entry_angle_deg", "<=", s.entry.max_angle / kDegree);
 }
 
 void read_marks(TomlTable& toml, Scenario& s, Problems& problems) {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/training/scenario_check.h"
+#include "artus/detail/training/scenario_check.h"
 
 #include <array>
 #include <cmath>
 
 #include <tbb/parallel_for.h>
 
-#include "artus/core/printed.h"
-#include "artus/core/units.h"
+#include "artus/detail/core/printed.h"
+#include "artus/detail/core/units.h"
 
 namespace artus {
 namespace {
@@ -21,11 +21,11 @@ std::string off_skin(const std::string& what, double distance) {
 }
 
 /// Collects what the way from entry to target meets.
-void check_way(const Scenario& s, const Scene& scene, std::vector<std::string>& out) {
-  const Vec3 way = s.target.point - s.entry.centre;
-  if (way.norm() > s.needle_length)
+void check_path(const Scenario& s, const Scene& scene, std::vector<std::string>& out) {
+  const Vec3 direction = s.target.point - s.entry.centre;
+  if (direction.norm() > s.needle_length)
     out.push_back(printed("the target is %.1f mm from the entry, the needle %.1f mm long",
-                          way.norm() / kMillimetre, s.needle_length / kMillimetre));
+                          direction.norm() / kMillimetre, s.needle_length / kMillimetre));
   std::array<TissueInterval, 128> layers;
   const QueryCount count = scene.find_intervals({s.entry.centre, s.target.point}, layers);
   for (std::size_t i = 0; i < count.size; ++i) {
@@ -35,9 +35,9 @@ void check_way(const Scenario& s, const Scene& scene, std::vector<std::string>& 
                   printed(" at %.1f mm", layer.entry / kMillimetre));
     break;
   }
-  const Vec3 axis = s.X_JP.linear().transpose() * way.normalized();
+  const Vec3 axis = s.X_JP.linear().transpose() * direction.normalized();
   const double face = std::asin(std::min(1.0, std::abs(axis.z())));
-  if (face < s.entry.least_angle || face > s.entry.most_angle)
+  if (face < s.entry.min_angle || face > s.entry.max_angle)
     out.push_back(
         printed("the way stands at %.1f degrees to the probe's face, out of angle_from and "
                 "angle_to",
@@ -77,7 +77,7 @@ std::vector<std::string> find_problems(const Scenario& s,
   if (!(std::abs(skin) <= kOnSkin)) out.push_back(off_skin("the entry lies", skin));
   const double face = scene->signed_distance_to_skin(s.X_JP.translation(), 0.2);
   if (!(std::abs(face) <= kOnSkin)) out.push_back(off_skin("the probe stands", face));
-  check_way(s, *scene, out);
+  check_path(s, *scene, out);
   return out;
 }
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "artus/core/progress.h"
-#include "artus/training/player.h"
+#include "artus/detail/core/progress.h"
+#include "artus/detail/training/player.h"
 
 namespace artus {
 

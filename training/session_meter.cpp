@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/training/session_meter.h"
+#include "artus/detail/training/session_meter.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <utility>
 
-#include "artus/echo/tip_contrast.h"
+#include "artus/detail/echo/display/tip_contrast.h"
 #include "artus/session/replay.h"
 
 namespace artus {

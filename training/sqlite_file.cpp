@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/training/sqlite_file.h"
+#include "artus/detail/training/sqlite_file.h"
 
 #include <utility>
 

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/training/stage.h"
+#include "artus/detail/training/stage.h"
 
 #include <algorithm>
 #include <array>
 #include <optional>
 #include <utility>
 
-#include "artus/operators/hand_loop.h"
-#include "artus/operators/looking_operator.h"
-#include "artus/operators/thumb.h"
-#include "artus/operators/thumb_dose.h"
-#include "artus/session/image_core.h"
-#include "artus/training/session_meter.h"
+#include "artus/detail/operators/hand_loop.h"
+#include "artus/detail/operators/looking_operator.h"
+#include "artus/detail/operators/thumb.h"
+#include "artus/detail/operators/thumb_dose.h"
+#include "artus/detail/simulation/image_core.h"
+#include "artus/detail/training/session_meter.h"
 
 namespace artus {
 namespace {
@@ -31,10 +31,10 @@ HandParams hand_of(const OperatorSkill& skill, std::uint64_t seed) {
 /// m from the entry where the tip comes into the picture on the intended way; 0: nowhere.
 double appears_at(const Scenario& scenario, const Scene& scene, const TipSightFinder& finder) {
   constexpr double kStep = 0.5e-3;  // m
-  const Vec3 way = scenario.target.point - scenario.entry.centre;
-  for (double along = kStep; along < way.norm(); along += kStep) {
-    const Vec3 tip = scenario.entry.centre + along * way.normalized();
-    if (finder.look(scene, scenario.X_JP, make_pose(tip, way, Vec3::Zero())).seen()) return along;
+  const Vec3 direction = scenario.target.point - scenario.entry.centre;
+  for (double along = kStep; along < direction.norm(); along += kStep) {
+    const Vec3 tip = scenario.entry.centre + along * direction.normalized();
+    if (finder.look(scene, scenario.X_JP, make_pose(tip, direction, Vec3::Zero())).seen()) return along;
   }
   return 0;
 }
@@ -66,7 +66,7 @@ class SyringeHand {
   [[nodiscard]] bool done() const noexcept { return !wanted_ || dose_.done(); }
 
  private:
-  static constexpr double kMostForce = 40;  // N; assumed: a strong push
+  static constexpr double kMaxForce = 40;  // N; assumed: a strong push
   static constexpr double kPull = 8;        // N; assumed
   double area_;                             // m^2
   ThumbDose dose_;
@@ -74,7 +74,7 @@ class SyringeHand {
   OperatorPhase push_;
   OperatorPhase pull_;
   double draws_ = 0;  // s that it still draws back
-  Thumb thumb_{{SyringeCore::kCoupling, kMostForce}};
+  Thumb thumb_{{SyringeCore::kCoupling, kMaxForce}};
 };
 
 /// The session of an attempt while it is played: what came in and out is measured and recorded.

@@ -2,7 +2,7 @@
 #pragma once
 #include <memory>
 
-#include "artus/training/player.h"
+#include "artus/detail/training/player.h"
 
 namespace artus {
 

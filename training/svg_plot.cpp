@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/training/svg_plot.h"
+#include "artus/detail/training/svg_plot.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "artus/core/markup.h"
-#include "artus/core/printed.h"
+#include "artus/detail/core/markup.h"
+#include "artus/detail/core/printed.h"
 
 namespace artus {
 namespace {
@@ -116,7 +116,7 @@ std::string axes(const SvgPlot& plot, const Canvas& canvas) {
 
 std::string draw(const SvgCurve& curve, const Canvas& canvas) {
   std::string out;
-  std::string way;
+  std::string displacement;
   const std::size_t n = std::min(curve.x.size(), curve.y.size());
   for (std::size_t i = 0; i < n; ++i) {
     if (!std::isfinite(curve.x[i]) || !std::isfinite(curve.y[i])) continue;
@@ -125,10 +125,10 @@ std::string draw(const SvgCurve& curve, const Canvas& canvas) {
     if (curve.points)
       out += "<circle cx=\"" + x + "\" cy=\"" + y + "\" r=\"4\" fill=\"" + curve.colour + "\"/>\n";
     else
-      way += (way.empty() ? "M" : "L") + x + " " + y;
+      displacement += (displacement.empty() ? "M" : "L") + x + " " + y;
   }
-  if (!way.empty())
-    out += "<path d=\"" + way + "\" fill=\"none\" stroke=\"" + curve.colour +
+  if (!displacement.empty())
+    out += "<path d=\"" + displacement + "\" fill=\"none\" stroke=\"" + curve.colour +
            "\" stroke-width=\"1.8\"/>\n";
   return out;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/training/tracked_list.h"
+#include "artus/detail/training/tracked_list.h"
 
 #include <algorithm>
 #include <array>
@@ -10,10 +10,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "artus/core/printed.h"
-#include "artus/core/text_file.h"
-#include "artus/core/text_lines.h"
-#include "artus/core/units.h"
+#include "artus/detail/core/printed.h"
+#include "artus/detail/core/text_file.h"
+#include "artus/detail/core/text_lines.h"
+#include "artus/detail/core/units.h"
 
 namespace artus {
 namespace {

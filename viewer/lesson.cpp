@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/viewer/lesson.h"
+#include "artus/detail/viewer/panels/lesson.h"
 
-#include "artus/core/units.h"
-#include "artus/viewer/panels.h"
-#include "artus/viewer/shade.h"
-#include "artus/viewer/window_loop.h"
+#include "artus/detail/core/units.h"
+#include "artus/detail/viewer/panels/panels.h"
+#include "artus/detail/viewer/panels/shade.h"
+#include "artus/detail/viewer/window_loop.h"
 
 namespace artus {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/viewer/window.h"
+#include "artus/detail/viewer/window.h"
 
 #include <utility>
 
-#include "artus/viewer/gui_context.h"
-#include "artus/viewer/screen.h"
-#include "artus/viewer/window_loop.h"
+#include "artus/detail/viewer/input/gui_context.h"
+#include "artus/detail/viewer/input/screen.h"
+#include "artus/detail/viewer/window_loop.h"
 
 namespace artus {
 

@@ -8,11 +8,11 @@
 
 #include "artus/core/result.h"
 #include "artus/session/session.h"
-#include "artus/viewer/key_map.h"
-#include "artus/viewer/lesson.h"
-#include "artus/viewer/orbit_camera.h"
-#include "artus/viewer/script.h"
-#include "artus/viewer/view_state.h"
+#include "artus/detail/viewer/input/key_map.h"
+#include "artus/detail/viewer/panels/lesson.h"
+#include "artus/detail/viewer/joint3d/orbit_camera.h"
+#include "artus/detail/viewer/input/script.h"
+#include "artus/detail/viewer/panels/view_state.h"
 
 namespace artus {
 

@@ -7,12 +7,12 @@
 
 #include <GLFW/glfw3.h>
 
-#include "artus/core/units.h"
-#include "artus/echo/setting_ranges.h"
-#include "artus/viewer/anatomy_names.h"
-#include "artus/viewer/panels.h"
-#include "artus/viewer/system_words.h"
-#include "artus/viewer/window_loop.h"
+#include "artus/detail/core/units.h"
+#include "artus/detail/echo/probe/setting_ranges.h"
+#include "artus/detail/viewer/words/anatomy_names.h"
+#include "artus/detail/viewer/panels/panels.h"
+#include "artus/detail/viewer/words/system_words.h"
+#include "artus/detail/viewer/window_loop.h"
 
 namespace artus {
 
@@ -39,8 +39,8 @@ void WindowLoop::handle(const UserEvent& event) {
     act({state_.keys.find(key->key, key->shift), key->shift});
     return;
   }
-  if (const auto* wish = std::get_if<ActionEvent>(&event)) {
-    act(*wish);
+  if (const auto* request = std::get_if<ActionEvent>(&event)) {
+    act(*request);
     return;
   }
   const bool held = control_.grab() != Grab::nothing;
@@ -60,12 +60,12 @@ void WindowLoop::handle(const UserEvent& event) {
   }
 }
 
-void WindowLoop::act(const ActionEvent& wish) {
+void WindowLoop::act(const ActionEvent& request) {
   constexpr std::array<Action, 12> kOfHands{
       Action::take_probe, Action::take_needle,  Action::push,         Action::pull,
       Action::home,       Action::undo,         Action::turn_left,    Action::turn_right,
       Action::explore,    Action::choose_entry, Action::take_plunger, Action::none};
-  const Action action = wish.action;
+  const Action action = request.action;
   if (action == Action::none) return;
   if (action == Action::let_go) {
     navigating_ = false;
@@ -79,7 +79,7 @@ void WindowLoop::act(const ActionEvent& wish) {
     return;
   }
   if (of_hands) state_.welcome = false;
-  if (!state_.cross && hand_ != nullptr && control_.handle(action, wish.fine, ground())) {
+  if (!state_.cross && hand_ != nullptr && control_.handle(action, request.fine, ground())) {
     if (action == Action::undo) say(tell(state_, Text::undone));
     if (control_.refusal() == Text::cannot_choose_again)
       say(fill(tell(state_, Text::cannot_choose_again),
@@ -89,7 +89,7 @@ void WindowLoop::act(const ActionEvent& wish) {
     return;
   }
   if (act_on_window(action) || act_on_picture(action)) return;
-  act_on_arrow(action, wish.fine);
+  act_on_arrow(action, request.fine);
 }
 
 /// In a task that is judged without aids nothing shows the truth, and nothing begins again.
@@ -267,8 +267,8 @@ void WindowLoop::start_task(std::size_t task) {
 }
 
 // What buttons of the panels asked for.
-void WindowLoop::do_wishes() {
-  for (const ActionEvent& wish : std::exchange(state_.wishes, {})) act(wish);
+void WindowLoop::apply_requests() {
+  for (const ActionEvent& request : std::exchange(state_.requests, {})) act(request);
   if (!state_.planned) return;
   const std::size_t task = std::min(*state_.planned, options_.tasks.size());
   state_.planned.reset();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/viewer/window_loop.h"
+#include "artus/detail/viewer/window_loop.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,12 +10,12 @@
 
 #include <GLFW/glfw3.h>
 
-#include "artus/core/text_file.h"
-#include "artus/viewer/anatomy_names.h"
-#include "artus/viewer/caption.h"
-#include "artus/viewer/gui_context.h"
-#include "artus/viewer/panels.h"
-#include "artus/viewer/screen.h"
+#include "artus/detail/core/text_file.h"
+#include "artus/detail/viewer/words/anatomy_names.h"
+#include "artus/detail/viewer/panels/caption.h"
+#include "artus/detail/viewer/input/gui_context.h"
+#include "artus/detail/viewer/panels/panels.h"
+#include "artus/detail/viewer/input/screen.h"
 
 namespace artus {
 namespace {
@@ -101,7 +101,7 @@ Result<void> WindowLoop::run(WindowReport& report) {
     if (hand_ != nullptr) hand_->set_target(control_.target());
     events_.hold_cursor(control_.grab() != Grab::nothing);
     draw(elapsed);
-    wish_final_picture();
+    request_final_picture();
     ARTUS_TRY(save_window());
     wanted_pictures_.clear();
     glfwSwapBuffers(window_);
@@ -252,7 +252,7 @@ void WindowLoop::pass(double elapsed) {
   ImGui::EndFrame();
   for (float& held : io.NavInputs) held = 0;
   io.MouseWheel = 0;
-  do_wishes();
+  apply_requests();
 }
 
 // Letters and panels follow the window's size and the screen's resolution.
@@ -298,7 +298,7 @@ void WindowLoop::note_shown(double elapsed, WindowReport& report) {
 }
 
 // Without a script: one picture of the window as soon as everything is in it.
-void WindowLoop::wish_final_picture() {
+void WindowLoop::request_final_picture() {
   if (!options_.script.empty() || options_.screenshot.empty() || !wants_final_) return;
   constexpr std::uint64_t kSettled = 5;  // pictures, until all panels have their sizes
   const bool image = input_.image != nullptr && input_.image->width > 0;

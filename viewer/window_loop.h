@@ -6,16 +6,16 @@
 #include <optional>
 #include <vector>
 
-#include "artus/viewer/body_mark.h"
-#include "artus/viewer/cine_loop.h"
-#include "artus/viewer/guide.h"
-#include "artus/viewer/hand_control.h"
-#include "artus/viewer/joint_view.h"
-#include "artus/viewer/lesson.h"
-#include "artus/viewer/picture_saver.h"
-#include "artus/viewer/view_state.h"
-#include "artus/viewer/window.h"
-#include "artus/viewer/window_events.h"
+#include "artus/detail/viewer/joint3d/body_mark.h"
+#include "artus/detail/viewer/panels/cine_loop.h"
+#include "artus/detail/viewer/panels/guide.h"
+#include "artus/detail/viewer/input/hand_control.h"
+#include "artus/detail/viewer/joint3d/joint_view.h"
+#include "artus/detail/viewer/panels/lesson.h"
+#include "artus/detail/viewer/panels/picture_saver.h"
+#include "artus/detail/viewer/panels/view_state.h"
+#include "artus/detail/viewer/window.h"
+#include "artus/detail/viewer/input/window_events.h"
 
 namespace artus {
 
@@ -33,7 +33,7 @@ class WindowLoop {
   // window_input.cpp: what people do
   void handle_group(const std::vector<TimedEvent>& group);
   void handle(const UserEvent& event);
-  void act(const ActionEvent& wish);
+  void act(const ActionEvent& request);
   bool act_on_window(Action action);
   bool act_on_picture(Action action);
   bool refuse_aid(Action action);
@@ -41,7 +41,7 @@ class WindowLoop {
   void set_frozen(bool frozen);
   void step_cine(int step);
   void start_task(std::size_t task);
-  void do_wishes();
+  void apply_requests();
   void run_script(double elapsed);
   bool run_step(const ScriptStep& step, double elapsed);
   [[nodiscard]] HandGround ground() const;
@@ -66,7 +66,7 @@ class WindowLoop {
   void draw(double elapsed);
   void note_shown(double elapsed, WindowReport& report);
   void save_pictures(double elapsed);
-  void wish_final_picture();
+  void request_final_picture();
   [[nodiscard]] Result<void> save_window() const;
   [[nodiscard]] Caption caption() const;
   [[nodiscard]] WindowStatus status() const;

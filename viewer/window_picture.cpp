@@ -4,9 +4,9 @@
 
 #include <GLFW/glfw3.h>
 
-#include "artus/viewer/caption.h"
-#include "artus/viewer/gamepad.h"
-#include "artus/viewer/window_loop.h"
+#include "artus/detail/viewer/panels/caption.h"
+#include "artus/detail/viewer/input/gamepad.h"
+#include "artus/detail/viewer/window_loop.h"
 
 namespace artus {
 

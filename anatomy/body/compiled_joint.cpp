@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/anatomy/body/compiled_joint.h"
+#include "artus/anatomy/compiled_joint.h"
 
 #include <algorithm>
 #include <array>
@@ -8,12 +8,12 @@
 
 #include <unistd.h>
 
-#include "artus/anatomy/body/joint_digest.h"
-#include "artus/anatomy/body/joint_pose_bytes.h"
-#include "artus/anatomy/body/space_bytes.h"
-#include "artus/anatomy/body/tissue_bytes.h"
-#include "artus/core/byte_stream.h"
-#include "artus/core/printed.h"
+#include "artus/detail/anatomy/body/joint_digest.h"
+#include "artus/detail/anatomy/body/joint_pose_bytes.h"
+#include "artus/detail/anatomy/body/space_bytes.h"
+#include "artus/detail/anatomy/body/tissue_bytes.h"
+#include "artus/detail/core/byte_stream.h"
+#include "artus/detail/core/printed.h"
 
 namespace artus {
 namespace {

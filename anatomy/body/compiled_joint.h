@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "artus/anatomy/body/joint_file.h"
-#include "artus/anatomy/body/tet_mesh.h"
-#include "artus/anatomy/body/tissue.h"
+#include "artus/anatomy/joint_file.h"
+#include "artus/detail/anatomy/body/tet_mesh.h"
+#include "artus/detail/anatomy/body/tissue.h"
 #include "artus/core/result.h"
 
 namespace artus {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/anatomy/body/find_region.h"
+#include "artus/detail/anatomy/body/find_region.h"
 
-#include "artus/core/known_names.h"
+#include "artus/detail/core/known_names.h"
 
 namespace artus {
 

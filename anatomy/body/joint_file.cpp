@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/anatomy/body/joint_file.h"
+#include "artus/anatomy/joint_file.h"
 
 #include <algorithm>
 #include <array>
@@ -7,14 +7,14 @@
 #include <cstdlib>
 #include <set>
 
-#include "artus/anatomy/body/joint_parameter_toml.h"
-#include "artus/anatomy/body/joint_pose_toml.h"
-#include "artus/anatomy/body/joint_structure.h"
-#include "artus/anatomy/body/joint_variant_toml.h"
-#include "artus/anatomy/body/space_toml.h"
-#include "artus/anatomy/body/tissue_toml.h"
-#include "artus/core/text_file.h"
-#include "artus/core/units.h"
+#include "artus/detail/anatomy/body/joint_parameter_toml.h"
+#include "artus/detail/anatomy/body/joint_pose_toml.h"
+#include "artus/detail/anatomy/body/joint_structure.h"
+#include "artus/detail/anatomy/body/joint_variant_toml.h"
+#include "artus/detail/anatomy/body/space_toml.h"
+#include "artus/detail/anatomy/body/tissue_toml.h"
+#include "artus/detail/core/text_file.h"
+#include "artus/detail/core/units.h"
 
 namespace artus {
 namespace {
@@ -151,8 +151,8 @@ void read_needles(TomlTable& toml, double unit, JointFile& joint) {
     pass.line = line_of(*table);
     read_pass(needle, unit, pass.entry, pass.target);
     needle.finish();
-    const Vec3 way = pass.target - pass.entry;
-    if (way.norm() > 0) joint.X_JN_default = make_pose(pass.target, way, Vec3::Zero());
+    const Vec3 displacement = pass.target - pass.entry;
+    if (displacement.norm() > 0) joint.X_JN_default = make_pose(pass.target, displacement, Vec3::Zero());
     joint.needle = std::move(pass);
   }
   for (const auto* table : toml.tables("injection")) {

@@ -8,11 +8,11 @@
 #include <variant>
 #include <vector>
 
-#include "artus/anatomy/body/joint_parameter.h"
-#include "artus/anatomy/body/joint_pose.h"
-#include "artus/anatomy/body/joint_variant.h"
-#include "artus/anatomy/body/space.h"
-#include "artus/anatomy/body/tissue.h"
+#include "artus/detail/anatomy/body/joint_parameter.h"
+#include "artus/detail/anatomy/body/joint_pose.h"
+#include "artus/detail/anatomy/body/joint_variant.h"
+#include "artus/detail/anatomy/body/space.h"
+#include "artus/detail/anatomy/body/tissue.h"
 #include "artus/core/geometry.h"
 #include "artus/core/result.h"
 

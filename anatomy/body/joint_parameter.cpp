@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/anatomy/body/joint_parameter.h"
+#include "artus/detail/anatomy/body/joint_parameter.h"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 
-#include "artus/anatomy/body/joint_parameter_toml.h"
-#include "artus/anatomy/body/patient.h"
-#include "artus/core/known_names.h"
-#include "artus/core/printed.h"
+#include "artus/detail/anatomy/body/joint_parameter_toml.h"
+#include "artus/detail/anatomy/body/patient.h"
+#include "artus/detail/core/known_names.h"
+#include "artus/detail/core/printed.h"
 
 namespace artus {
 namespace {

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "artus/anatomy/body/joint_parameter.h"
-#include "artus/core/toml_table.h"
+#include "artus/detail/anatomy/body/joint_parameter.h"
+#include "artus/detail/core/toml_table.h"
 
 namespace artus {
 

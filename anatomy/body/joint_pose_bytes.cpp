@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/anatomy/body/joint_pose_bytes.h"
+#include "artus/detail/anatomy/body/joint_pose_bytes.h"
 
 #include <cstdint>
 
-#include "artus/core/rigid.h"
+#include "artus/detail/core/rigid.h"
 
 namespace artus {
 

@@ -2,8 +2,8 @@
 #pragma once
 #include <vector>
 
-#include "artus/anatomy/body/joint_pose.h"
-#include "artus/core/byte_stream.h"
+#include "artus/detail/anatomy/body/joint_pose.h"
+#include "artus/detail/core/byte_stream.h"
 
 namespace artus {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/anatomy/body/joint_pose_toml.h"
+#include "artus/detail/anatomy/body/joint_pose_toml.h"
 
 #include <algorithm>
 #include <set>
 
-#include "artus/core/known_names.h"
-#include "artus/core/units.h"
+#include "artus/detail/core/known_names.h"
+#include "artus/detail/core/units.h"
 
 namespace artus {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
-#include "artus/anatomy/body/joint_file.h"
-#include "artus/core/toml_table.h"
+#include "artus/anatomy/joint_file.h"
+#include "artus/detail/core/toml_table.h"
 
 namespace artus {
 

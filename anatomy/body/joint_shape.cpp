@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/anatomy/body/joint_shape.h"
+#include "artus/detail/anatomy/body/joint_shape.h"
 
 #include <array>
 #include <sstream>
 #include <string_view>
 
-#include "artus/anatomy/body/joint_parameter_toml.h"
-#include "artus/anatomy/body/joint_variant_toml.h"
-#include "artus/core/text_file.h"
-#include "artus/core/toml_table.h"
+#include "artus/detail/anatomy/body/joint_parameter_toml.h"
+#include "artus/detail/anatomy/body/joint_variant_toml.h"
+#include "artus/detail/core/text_file.h"
+#include "artus/detail/core/toml_table.h"
 
 namespace artus {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "artus/anatomy/body/joint_parameter.h"
+#include "artus/detail/anatomy/body/joint_parameter.h"
 #include "artus/core/result.h"
 
 namespace artus {

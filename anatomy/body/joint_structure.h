@@ -2,8 +2,8 @@
 #pragma once
 #include <vector>
 
-#include "artus/anatomy/body/joint_file.h"
-#include "artus/core/toml_table.h"
+#include "artus/anatomy/joint_file.h"
+#include "artus/detail/core/toml_table.h"
 
 namespace artus {
 

@@ -4,8 +4,8 @@
 #include <optional>
 #include <string_view>
 
-#include "artus/anatomy/body/joint_variant_toml.h"
-#include "artus/core/known_names.h"
+#include "artus/detail/anatomy/body/joint_variant_toml.h"
+#include "artus/detail/core/known_names.h"
 
 namespace artus {
 namespace {

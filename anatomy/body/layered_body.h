@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "artus/anatomy/body/compiled_joint.h"
+#include "artus/anatomy/compiled_joint.h"
 
 /// Small layered bodies whose answers are known in closed form: the phantoms of echography and of
 /// tests. They carry interfaces, regions and tissues, but no tetrahedra: whoever needs volumes

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/anatomy/body/liquid.h"
+#include "artus/detail/anatomy/body/liquid.h"
 
 #include <cmath>
 
-#include "artus/anatomy/body/bundled_fluids.h"
-#include "artus/core/known_names.h"
-#include "artus/core/text_file.h"
-#include "artus/core/toml_library.h"
+#include "artus/detail/anatomy/body/bundled_fluids.h"
+#include "artus/detail/core/known_names.h"
+#include "artus/detail/core/text_file.h"
+#include "artus/detail/core/toml_library.h"
 
 namespace artus {
 namespace {

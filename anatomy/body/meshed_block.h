@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "artus/anatomy/body/layered_body.h"
+#include "artus/detail/anatomy/body/layered_body.h"
 
 namespace artus {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/anatomy/body/patient.h"
+#include "artus/detail/anatomy/body/patient.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "artus/anatomy/body/bundled_patients.h"
-#include "artus/core/known_names.h"
-#include "artus/core/noise.h"
-#include "artus/core/toml_table.h"
+#include "artus/detail/anatomy/body/bundled_patients.h"
+#include "artus/detail/core/known_names.h"
+#include "artus/detail/core/noise.h"
+#include "artus/detail/core/toml_table.h"
 
 namespace artus {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/anatomy/body/skin_line.h"
+#include "artus/detail/anatomy/body/skin_line.h"
 
 #include <cmath>
 

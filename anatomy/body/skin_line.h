@@ -2,7 +2,7 @@
 #pragma once
 #include <optional>
 
-#include "artus/anatomy/body/compiled_joint.h"
+#include "artus/anatomy/compiled_joint.h"
 
 namespace artus {
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/anatomy/body/space.h"
+#include "artus/detail/anatomy/body/space.h"
 
 #include <algorithm>
 
-#include "artus/anatomy/body/bundled_fluids.h"
-#include "artus/anatomy/body/compiled_joint.h"
-#include "artus/anatomy/body/liquid.h"
-#include "artus/anatomy/body/space_toml.h"
-#include "artus/core/toml_fields.h"
-#include "artus/core/toml_library.h"
-#include "artus/core/units.h"
+#include "artus/detail/anatomy/body/bundled_fluids.h"
+#include "artus/anatomy/compiled_joint.h"
+#include "artus/detail/anatomy/body/liquid.h"
+#include "artus/detail/anatomy/body/space_toml.h"
+#include "artus/detail/core/toml_fields.h"
+#include "artus/detail/core/toml_library.h"
+#include "artus/detail/core/units.h"
 
 namespace artus {
 namespace {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "artus/anatomy/body/tissue.h"
+#include "artus/detail/anatomy/body/tissue.h"
 #include "artus/core/result.h"
 
 namespace artus {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/anatomy/body/space_bytes.h"
+#include "artus/detail/anatomy/body/space_bytes.h"
 
 namespace artus {
 namespace {

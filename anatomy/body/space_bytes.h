@@ -2,8 +2,8 @@
 #pragma once
 #include <vector>
 
-#include "artus/anatomy/body/space.h"
-#include "artus/core/byte_stream.h"
+#include "artus/detail/anatomy/body/space.h"
+#include "artus/detail/core/byte_stream.h"
 
 namespace artus {
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "artus/anatomy/body/space.h"
-#include "artus/core/toml_table.h"
+#include "artus/detail/anatomy/body/space.h"
+#include "artus/detail/core/toml_table.h"
 
 namespace artus {
 

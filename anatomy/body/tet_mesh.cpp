@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/anatomy/body/tet_mesh.h"
+#include "artus/detail/anatomy/body/tet_mesh.h"
 
 namespace artus {
 

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/anatomy/body/tissue.h"
+#include "artus/detail/anatomy/body/tissue.h"
 
 #include <algorithm>
 #include <limits>
 #include <string_view>
 
-#include "artus/anatomy/body/bundled_tissues.h"
-#include "artus/anatomy/body/tissue_toml.h"
-#include "artus/core/text_file.h"
-#include "artus/core/toml_fields.h"
-#include "artus/core/toml_library.h"
-#include "artus/core/units.h"
+#include "artus/detail/anatomy/body/bundled_tissues.h"
+#include "artus/detail/anatomy/body/tissue_toml.h"
+#include "artus/detail/core/text_file.h"
+#include "artus/detail/core/toml_fields.h"
+#include "artus/detail/core/toml_library.h"
+#include "artus/detail/core/units.h"
 
 namespace artus {
 namespace {

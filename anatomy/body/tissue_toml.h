@@ -4,8 +4,8 @@
 #include <string_view>
 #include <vector>
 
-#include "artus/anatomy/body/tissue.h"
-#include "artus/core/toml_table.h"
+#include "artus/detail/anatomy/body/tissue.h"
+#include "artus/detail/core/toml_table.h"
 
 namespace artus {
 

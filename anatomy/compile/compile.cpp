@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/anatomy/compile/compile.h"
+#include "artus/anatomy/compile.h"
 
 #include <algorithm>
 #include <chrono>
@@ -7,27 +7,27 @@
 
 #include <tbb/task_group.h>
 
-#include "artus/anatomy/compile/compile_labels.h"
-#include "artus/anatomy/compile/compile_measure.h"
-#include "artus/anatomy/compile/compile_surfaces.h"
-#include "artus/anatomy/compile/compile_warnings.h"
-#include "artus/anatomy/compile/cut_faces.h"
-#include "artus/anatomy/compile/dress_body.h"
-#include "artus/anatomy/compile/fit_interfaces.h"
-#include "artus/anatomy/compile/isolated.h"
-#include "artus/anatomy/compile/kept_parts.h"
-#include "artus/anatomy/compile/misplaced.h"
-#include "artus/anatomy/compile/plan_check.h"
-#include "artus/anatomy/compile/resolve.h"
-#include "artus/anatomy/compile/tet_topology.h"
-#include "artus/anatomy/compile/tetrahedralize.h"
+#include "artus/detail/anatomy/compile/labels/compile_labels.h"
+#include "artus/detail/anatomy/compile/mesh/compile_measure.h"
+#include "artus/detail/anatomy/compile/labels/compile_surfaces.h"
+#include "artus/detail/anatomy/compile/check/compile_warnings.h"
+#include "artus/detail/anatomy/compile/labels/cut_faces.h"
+#include "artus/detail/anatomy/compile/attach_metadata.h"
+#include "artus/detail/anatomy/compile/labels/fit_interfaces.h"
+#include "artus/detail/anatomy/compile/mesh/isolated.h"
+#include "artus/detail/anatomy/compile/labels/part_cache.h"
+#include "artus/detail/anatomy/compile/check/misplaced.h"
+#include "artus/detail/anatomy/compile/check/plan_check.h"
+#include "artus/detail/anatomy/compile/labels/resolve.h"
+#include "artus/detail/anatomy/compile/mesh/tet_topology.h"
+#include "artus/detail/anatomy/compile/mesh/tetrahedralize.h"
 
 namespace artus {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::uintmax_t kMostPartBytes = 1'000'000'000;
+constexpr std::uintmax_t kMaxPartBytes = 1'000'000'000;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -143,7 +143,7 @@ Result<Complex> make_interfaces(const LabelledSpace& space, Stages& stages, Comp
   auto neighbours = find_tet_neighbours(*mesh);
   ARTUS_TRY(neighbours);
   Complex complex{std::move(*mesh), std::move(*neighbours)};
-  report.crumbs = absorb_crumbs(complex.mesh, complex.neighbours,
+  report.fragments = merge_fragments(complex.mesh, complex.neighbours,
                                 [&](RegionId r) { return smallest_part(space.resolve.sizing, r); });
   finish_topology(complex, space.labels);
   stages.run("fitting interfaces", 0.6, [&] {
@@ -184,7 +184,7 @@ Result<CompileOutcome> compile_joint(const JointFile& file, const CompileOptions
   auto digest = compute_source_digest(file);
   ARTUS_TRY(digest);
   std::vector<StructureReport> reports = start_reports(file);
-  const KeptParts parts(options.parts);
+  const PartCache parts(options.parts);
   auto surfaces = stages.run("reading and repairing surfaces", 0,
                              [&] { return prepare_surfaces(file, reports, parts); });
   ARTUS_TRY(surfaces);
@@ -198,8 +198,8 @@ Result<CompileOutcome> compile_joint(const JointFile& file, const CompileOptions
   auto space = stages.run("measuring distances", 0.1,
                           [&] { return make_labelled_space(file, *surfaces, progress, parts); });
   ARTUS_TRY(space);
-  parts.forget_old(kMostPartBytes);
-  report.parts_kept = parts.found();
+  parts.forget_old(kMaxPartBytes);
+  report.parts_cached = parts.found();
   Result<Complex> complex = make_interfaces(*space, stages, report);
   ARTUS_TRY(complex);
   stages.run("measuring interfaces", 0.65, [&] {
@@ -218,7 +218,7 @@ Result<CompileOutcome> compile_joint(const JointFile& file, const CompileOptions
     report.notes.push_back("body: " + warning);
   append_warnings(file, space->labels, *surfaces, report);
   append_gap_cuts(file, *space, report);
-  outcome.joint = dress_body(file, std::move(complex->mesh), std::move(*digest), report.notes);
+  outcome.joint = attach_metadata(file, std::move(complex->mesh), std::move(*digest), report.notes);
   report.seconds = seconds_since(start);
   report.peak_memory = peak_memory();
   if (progress) progress("done", 1);

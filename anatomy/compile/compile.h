@@ -2,10 +2,10 @@
 #pragma once
 #include <filesystem>
 
-#include "artus/anatomy/body/compiled_joint.h"
-#include "artus/anatomy/body/joint_file.h"
-#include "artus/anatomy/compile/compile_report.h"
-#include "artus/core/progress.h"
+#include "artus/anatomy/compiled_joint.h"
+#include "artus/anatomy/joint_file.h"
+#include "artus/detail/anatomy/compile/labels/compile_report.h"
+#include "artus/detail/core/progress.h"
 
 namespace artus {
 

@@ -5,15 +5,15 @@
 #include <optional>
 #include <vector>
 
-#include "artus/anatomy/body/joint_shape.h"
-#include "artus/anatomy/body/joint_variant.h"
-#include "artus/anatomy/body/skin_line.h"
-#include "artus/anatomy/compile/compile.h"
-#include "artus/anatomy/compile/compiler_version.h"
-#include "artus/anatomy/compile/dress_body.h"
-#include "artus/anatomy/compile/kept_parts.h"
-#include "artus/anatomy/compile/plan_check.h"
-#include "artus/core/text_file.h"
+#include "artus/detail/anatomy/body/joint_shape.h"
+#include "artus/detail/anatomy/body/joint_variant.h"
+#include "artus/detail/anatomy/body/skin_line.h"
+#include "artus/anatomy/compile.h"
+#include "artus/detail/anatomy/compile/labels/compiler_version.h"
+#include "artus/detail/anatomy/compile/attach_metadata.h"
+#include "artus/detail/anatomy/compile/labels/part_cache.h"
+#include "artus/detail/anatomy/compile/check/plan_check.h"
+#include "artus/detail/core/text_file.h"
 
 namespace artus {
 namespace {
@@ -71,7 +71,7 @@ std::optional<CompileOutcome> find_kept(const JointFile& file, const std::string
   outcome.report.body_kept = true;
   outcome.report.notes.clear();
   outcome.report.stages.clear();
-  outcome.joint = dress_body(file, std::move(body->mesh), digest, outcome.report.notes);
+  outcome.joint = attach_metadata(file, std::move(body->mesh), digest, outcome.report.notes);
   return outcome;
 }
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/anatomy/surfaces/defects.h"
+#include "artus/detail/anatomy/surfaces/defects.h"
 
 #include <algorithm>
 #include <map>
 #include <numeric>
 
-#include "artus/anatomy/surfaces/defects_cracks.h"
-#include "artus/anatomy/surfaces/surface_topology.h"
-#include "artus/core/printed.h"
-#include "artus/core/units.h"
+#include "artus/detail/anatomy/surfaces/defects_cracks.h"
+#include "artus/detail/anatomy/surfaces/surface_topology.h"
+#include "artus/detail/core/printed.h"
+#include "artus/detail/core/units.h"
 
 namespace artus {
 namespace {

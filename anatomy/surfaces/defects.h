@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "artus/anatomy/surfaces/surface_mesh.h"
+#include "artus/detail/anatomy/surfaces/surface_mesh.h"
 
 namespace artus {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/anatomy/surfaces/defects_cracks.h"
+#include "artus/detail/anatomy/surfaces/defects_cracks.h"
 
 #include <algorithm>
 #include <limits>

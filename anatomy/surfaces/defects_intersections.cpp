@@ -5,8 +5,8 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/box_intersection_d.h>
 
-#include "artus/anatomy/surfaces/defects.h"
-#include "artus/anatomy/surfaces/surface_topology.h"
+#include "artus/detail/anatomy/surfaces/defects.h"
+#include "artus/detail/anatomy/surfaces/surface_topology.h"
 
 namespace artus {
 namespace {

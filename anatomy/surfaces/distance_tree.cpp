@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/anatomy/surfaces/distance_tree.h"
+#include "artus/detail/anatomy/surfaces/distance_tree.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "artus/anatomy/surfaces/surface_mesh.h"
+#include "artus/detail/anatomy/surfaces/surface_mesh.h"
 
 namespace artus {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/anatomy/surfaces/enclosed_volume.h"
+#include "artus/detail/anatomy/surfaces/enclosed_volume.h"
 
 #include <algorithm>
 #include <cmath>

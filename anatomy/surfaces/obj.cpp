@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <limits>
 
-#include "artus/anatomy/surfaces/surface_io_formats.h"
-#include "artus/core/text_cursor.h"
+#include "artus/detail/anatomy/surfaces/surface_io_formats.h"
+#include "artus/detail/core/text_cursor.h"
 
 namespace artus {
 namespace {

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "artus/anatomy/surfaces/defects.h"
-#include "artus/core/printed.h"
-#include "artus/core/units.h"
+#include "artus/detail/anatomy/surfaces/defects.h"
+#include "artus/detail/core/printed.h"
+#include "artus/detail/core/units.h"
 
 namespace artus {
 namespace {

@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "artus/anatomy/surfaces/surface_io_formats.h"
-#include "artus/core/text_cursor.h"
+#include "artus/detail/anatomy/surfaces/surface_io_formats.h"
+#include "artus/detail/core/text_cursor.h"
 
 namespace artus {
 namespace {

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/anatomy/surfaces/repair.h"
+#include "artus/detail/anatomy/surfaces/repair.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
 
-#include "artus/anatomy/surfaces/defects.h"
-#include "artus/anatomy/surfaces/defects_cracks.h"
-#include "artus/anatomy/surfaces/repair_steps.h"
-#include "artus/anatomy/surfaces/surface_distance.h"
-#include "artus/anatomy/surfaces/surface_topology.h"
-#include "artus/core/printed.h"
-#include "artus/core/units.h"
+#include "artus/detail/anatomy/surfaces/defects.h"
+#include "artus/detail/anatomy/surfaces/defects_cracks.h"
+#include "artus/detail/anatomy/surfaces/repair_steps.h"
+#include "artus/detail/anatomy/surfaces/surface_distance.h"
+#include "artus/detail/anatomy/surfaces/surface_topology.h"
+#include "artus/detail/core/printed.h"
+#include "artus/detail/core/units.h"
 
 namespace artus {
 namespace {
@@ -21,8 +21,8 @@ constexpr double kSquareCentimetre = 1e-4;  // m^2
 /// CGAL's untangling takes time that grows fast with these; above them only cutting out is tried.
 constexpr std::size_t kFewTangledPairs = 30;
 /// Above these the intersections stay: so many are no accident of a file but how it was modelled.
-constexpr std::size_t kMostTangledPairs = 500;
-constexpr std::size_t kMostUntangledFaces = 60'000;
+constexpr std::size_t kMaxTangledPairs = 500;
+constexpr std::size_t kMaxUntangledFaces = 60'000;
 
 std::string plural(std::size_t n, const char* one, const char* many) {
   return std::to_string(n) + " " + (n == 1 ? one : many);
@@ -67,10 +67,10 @@ class Repair {
   }
 
   Result<RepairOutcome> run() {
-    if (mesh().triangles.size() > options_.most_triangles)
+    if (mesh().triangles.size() > options_.max_triangles)
       return fail(ErrorCode::defective, std::to_string(mesh().triangles.size()) +
                                             " triangles are more than artus repairs (" +
-                                            std::to_string(options_.most_triangles) +
+                                            std::to_string(options_.max_triangles) +
                                             "); decimate the surface first");
     drop();
     if (mesh().triangles.empty())
@@ -222,9 +222,9 @@ class Repair {
 
   /// Closes all openings in rounds: a split may open what a fill had closed.
   Filling fill_all(bool flat_first) {
-    constexpr int kMostRounds = 4;
+    constexpr int kMaxRounds = 4;
     Filling holes;
-    for (int round = 0; round < kMostRounds; ++round) {
+    for (int round = 0; round < kMaxRounds; ++round) {
       const Filling more = fill_holes(mesh(), flat_first);
       holes.n += more.n;
       holes.area += more.area;
@@ -271,9 +271,9 @@ class Repair {
 
   /// Whether the closed surface holds what the open one did.
   [[nodiscard]] bool keeps_volume(const Sums& before) {
-    constexpr double kMostChange = 0.1;
+    constexpr double kMaxChange = 0.1;
     const double change = Sums(mesh()).sized_volume - before.sized_volume;
-    return std::abs(change) <= kMostChange * before.sized_volume;
+    return std::abs(change) <= kMaxChange * before.sized_volume;
   }
 
   /// " from 84 to 101 cm3"
@@ -296,14 +296,14 @@ class Repair {
   }
 
   Result<void> wrap() {
-    constexpr double kMostChange = 0.2;  // of the volume; more is another body
+    constexpr double kMaxChange = 0.2;  // of the volume; more is another body
     Eigen::AlignedBox3d box;
     for (const Vec3& p : mesh().vertices) box.extend(p);
     const double before = Sums(mesh()).sized_volume;
     auto wrapped = find_wrap(box.diagonal().norm(), before);
     if (!wrapped) return fail(ErrorCode::defective, wrapped.error().message);
     const double after = signed_volume(*wrapped);
-    if (!(std::abs(after - before) <= kMostChange * before))
+    if (!(std::abs(after - before) <= kMaxChange * before))
       return fail(ErrorCode::defective,
                   printed("a wrap of it holds %.4g cm3", after / kCubicCentimetre) +
                       printed(" where it holds %.4g cm3; ", before / kCubicCentimetre) +
@@ -337,8 +337,8 @@ class Repair {
   void untangle_faces() {
     outcome_.self_intersections = find_self_intersections(mesh()).size();
     if (outcome_.self_intersections == 0 || !options_.remove_self_intersections ||
-        outcome_.self_intersections > kMostTangledPairs ||
-        mesh().triangles.size() > kMostUntangledFaces)
+        outcome_.self_intersections > kMaxTangledPairs ||
+        mesh().triangles.size() > kMaxUntangledFaces)
       return;
     const bool few = outcome_.self_intersections <= kFewTangledPairs;
     if (!(few && untangle(mesh())) && !cut_out_tangles(mesh())) return;

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "artus/anatomy/surfaces/surface_mesh.h"
+#include "artus/detail/anatomy/surfaces/surface_mesh.h"
 #include "artus/core/result.h"
 
 namespace artus {
@@ -19,7 +19,7 @@ struct RepairOptions {
   double largest_fill_share = 0.35;  ///< of the surface's area, for all fillings together
   WrapPolicy wrap = WrapPolicy::if_needed;
   bool remove_self_intersections = true;   ///< where that can be done locally
-  std::size_t most_triangles = 2'000'000;  ///< larger surfaces are refused
+  std::size_t max_triangles = 2'000'000;  ///< larger surfaces are refused
 };
 
 enum class RepairKind {

@@ -7,10 +7,10 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
 
-#include "artus/anatomy/surfaces/defects.h"
-#include "artus/anatomy/surfaces/defects_cracks.h"
-#include "artus/anatomy/surfaces/repair_rims.h"
-#include "artus/anatomy/surfaces/repair_steps.h"
+#include "artus/detail/anatomy/surfaces/defects.h"
+#include "artus/detail/anatomy/surfaces/defects_cracks.h"
+#include "artus/detail/anatomy/surfaces/repair_rims.h"
+#include "artus/detail/anatomy/surfaces/repair_steps.h"
 
 namespace artus {
 namespace {

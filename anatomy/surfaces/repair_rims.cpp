@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/anatomy/surfaces/repair_rims.h"
+#include "artus/detail/anatomy/surfaces/repair_rims.h"
 
 #include <algorithm>
 #include <cmath>
@@ -196,11 +196,11 @@ bool is_hole_in(const SurfaceMesh& mesh, const Rim& inner, const RimShape& inner
 std::vector<Triangle> triangulate_flat(SurfaceMesh& mesh, const std::vector<EdgeUse>& uses,
                                        const std::vector<Rim>& rims, const Vec3& normal,
                                        Rim inner) {
-  constexpr int kMostRounds = 8;
+  constexpr int kMaxRounds = 8;
   const View view(normal);
   const auto sides = rim_sides(rims);
   const std::size_t n_vertices = mesh.vertices.size();
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (int round = 0; round < kMaxRounds; ++round) {
     Flat flat;
     if (!insert(mesh, rims, inner, view, flat)) break;
     auto patch = take_patch(flat);

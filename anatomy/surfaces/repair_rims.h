@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "artus/anatomy/surfaces/surface_mesh.h"
-#include "artus/anatomy/surfaces/surface_topology.h"
+#include "artus/detail/anatomy/surfaces/surface_mesh.h"
+#include "artus/detail/anatomy/surfaces/surface_topology.h"
 
 namespace artus {
 

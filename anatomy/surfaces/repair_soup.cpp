@@ -4,8 +4,8 @@
 
 #include <boost/pending/disjoint_sets.hpp>
 
-#include "artus/anatomy/surfaces/repair_steps.h"
-#include "artus/anatomy/surfaces/surface_topology.h"
+#include "artus/detail/anatomy/surfaces/repair_steps.h"
+#include "artus/detail/anatomy/surfaces/surface_topology.h"
 
 namespace artus {
 namespace {

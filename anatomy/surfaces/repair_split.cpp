@@ -7,8 +7,8 @@
 
 #include <Eigen/Geometry>
 
-#include "artus/anatomy/surfaces/repair_steps.h"
-#include "artus/anatomy/surfaces/surface_topology.h"
+#include "artus/detail/anatomy/surfaces/repair_steps.h"
+#include "artus/detail/anatomy/surfaces/surface_topology.h"
 
 namespace artus {
 namespace {

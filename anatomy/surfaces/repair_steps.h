@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "artus/anatomy/surfaces/surface_mesh.h"
+#include "artus/detail/anatomy/surfaces/surface_mesh.h"
 #include "artus/core/result.h"
 
 namespace artus {

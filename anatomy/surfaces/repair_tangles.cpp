@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <cmath>
 
-#include "artus/anatomy/surfaces/defects.h"
-#include "artus/anatomy/surfaces/repair_steps.h"
-#include "artus/anatomy/surfaces/surface_topology.h"
+#include "artus/detail/anatomy/surfaces/defects.h"
+#include "artus/detail/anatomy/surfaces/repair_steps.h"
+#include "artus/detail/anatomy/surfaces/surface_topology.h"
 
 namespace artus {
 namespace {
@@ -28,9 +28,9 @@ SurfaceMesh without(const SurfaceMesh& mesh, const FacePairs& pairs, int rings) 
 }
 
 bool close(SurfaceMesh& mesh) {
-  constexpr int kMostRounds = 4;
+  constexpr int kMaxRounds = 4;
   drop_fragments(mesh);
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (int round = 0; round < kMaxRounds; ++round) {
     const std::size_t split = split_pinches(mesh);
     if (fill_holes(mesh).n == 0 && split == 0) break;
   }
@@ -43,13 +43,13 @@ bool close(SurfaceMesh& mesh) {
 
 bool cut_out_tangles(SurfaceMesh& mesh) {
   constexpr double kVolumeChange = 0.01;
-  constexpr int kMostRounds = 24;
+  constexpr int kMaxRounds = 24;
   constexpr int kWidestRing = 5;
   const double volume = signed_volume(mesh);
   SurfaceMesh best = mesh;
   FacePairs pairs = find_self_intersections(best);
   int rings = 0;
-  for (int round = 0; round < kMostRounds && !pairs.empty() && rings <= kWidestRing; ++round) {
+  for (int round = 0; round < kMaxRounds && !pairs.empty() && rings <= kWidestRing; ++round) {
     SurfaceMesh trial = without(best, pairs, rings);
     FacePairs left;
     const bool better =

@@ -5,9 +5,9 @@
 
 #include <boost/pending/disjoint_sets.hpp>
 
-#include "artus/anatomy/surfaces/defects_cracks.h"
-#include "artus/anatomy/surfaces/repair_steps.h"
-#include "artus/anatomy/surfaces/surface_topology.h"
+#include "artus/detail/anatomy/surfaces/defects_cracks.h"
+#include "artus/detail/anatomy/surfaces/repair_steps.h"
+#include "artus/detail/anatomy/surfaces/surface_topology.h"
 
 namespace artus {
 namespace {
@@ -79,11 +79,11 @@ void move_to_means(SurfaceMesh& mesh, const Welds& welds) {
 }  // namespace
 
 std::size_t weld_cracks(SurfaceMesh& mesh, double width) {
-  constexpr int kMostRounds = 20;
+  constexpr int kMaxRounds = 20;
   const auto pairs = find_crack_pairs(mesh, make_edge_uses(mesh), width);
   if (pairs.empty()) return 0;
   std::vector<bool> is_barred(mesh.vertices.size(), false);
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (int round = 0; round < kMaxRounds; ++round) {
     const Welds welds = choose_welds(pairs, is_barred, mesh.vertices.size());
     SurfaceMesh after{mesh.vertices, mesh.triangles};
     for (auto& t : after.triangles) t = welded(t, welds);

@@ -13,9 +13,9 @@
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/alpha_wrap_3.h>
 
-#include "artus/anatomy/surfaces/defects.h"
-#include "artus/anatomy/surfaces/repair_steps.h"
-#include "artus/anatomy/surfaces/surface_topology.h"
+#include "artus/detail/anatomy/surfaces/defects.h"
+#include "artus/detail/anatomy/surfaces/repair_steps.h"
+#include "artus/detail/anatomy/surfaces/surface_topology.h"
 
 namespace artus {
 namespace {
@@ -113,23 +113,23 @@ std::vector<std::size_t> find_spoilt(const SurfaceMesh& start, const SurfaceMesh
 /// half as far, and back to where they were in the last round.
 void lay_onto(SurfaceMesh& wrap, const SurfaceMesh& surface) {
   constexpr double kFull = 0.95;  // of the way: two walls of a thin part must stay apart
-  constexpr int kMostRounds = 8;
+  constexpr int kMaxRounds = 8;
   const NearestPoint nearest(surface);
   const SurfaceMesh start = wrap;
   std::vector<double> share(wrap.vertices.size(), kFull);
-  std::vector<Vec3> way(wrap.vertices.size());
-  for (std::size_t v = 0; v < way.size(); ++v)
-    way[v] = nearest(start.vertices[v]) - start.vertices[v];
-  for (int round = 0; round <= kMostRounds; ++round) {
-    for (std::size_t v = 0; v < way.size(); ++v)
-      wrap.vertices[v] = start.vertices[v] + share[v] * way[v];
+  std::vector<Vec3> path(wrap.vertices.size());
+  for (std::size_t v = 0; v < path.size(); ++v)
+    path[v] = nearest(start.vertices[v]) - start.vertices[v];
+  for (int round = 0; round <= kMaxRounds; ++round) {
+    for (std::size_t v = 0; v < path.size(); ++v)
+      wrap.vertices[v] = start.vertices[v] + share[v] * path[v];
     const auto spoilt = find_spoilt(start, wrap);
     if (spoilt.empty()) return;
-    std::vector<bool> is_spoilt(way.size(), false);
+    std::vector<bool> is_spoilt(path.size(), false);
     for (const std::size_t f : spoilt)
       for (const auto v : wrap.triangles[f]) is_spoilt[v] = true;
-    for (std::size_t v = 0; v < way.size(); ++v)
-      if (is_spoilt[v]) share[v] = round < kMostRounds - 1 ? share[v] / 2 : 0;
+    for (std::size_t v = 0; v < path.size(); ++v)
+      if (is_spoilt[v]) share[v] = round < kMaxRounds - 1 ? share[v] / 2 : 0;
   }
   wrap = start;
 }

@@ -5,9 +5,9 @@
 #include <cstring>
 #include <unordered_map>
 
-#include "artus/anatomy/surfaces/surface_io_formats.h"
-#include "artus/core/noise.h"
-#include "artus/core/text_cursor.h"
+#include "artus/detail/anatomy/surfaces/surface_io_formats.h"
+#include "artus/detail/core/noise.h"
+#include "artus/detail/core/text_cursor.h"
 
 namespace artus {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/anatomy/surfaces/surface_distance.h"
+#include "artus/detail/anatomy/surfaces/surface_distance.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +9,8 @@ namespace {
 
 constexpr double kFar = 10;  // m, no distance of a body is larger
 constexpr double kSamplesPerBox = 300;
-constexpr double kMostSamples = 1e5;
-constexpr double kMostParts = 200;  // along a side: one long triangle must not take all day
+constexpr double kMaxSamples = 1e5;
+constexpr double kMaxParts = 200;  // along a side: one long triangle must not take all day
 
 using Corners = std::array<Vec3, 3>;
 
@@ -66,7 +66,7 @@ void append_samples(const std::array<Vec3, 3>& corners, double spacing,
   const Vec3 u = corners[1] - corners[0];
   const Vec3 v = corners[2] - corners[0];
   const double longest = std::max({u.norm(), v.norm(), (u - v).norm()});
-  const int n = static_cast<int>(std::clamp(std::ceil(longest / spacing), 1.0, kMostParts));
+  const int n = static_cast<int>(std::clamp(std::ceil(longest / spacing), 1.0, kMaxParts));
   const double area = u.cross(v).norm() / 2 / (n * n);
   for (const Vec3& corner : corners) samples.push_back({corner, 0});
   const auto add = [&](double i, double j) {
@@ -113,7 +113,7 @@ DistanceStatistics measure_distance(const SurfaceMesh& a, const SurfaceMesh& b) 
     for (const auto v : t) box.extend(a.vertices[v]);
   const double area = std::max(surface_area(a), surface_area(b));
   const double spacing =
-      std::max(box.diagonal().norm() / kSamplesPerBox, std::sqrt(2 * area / kMostSamples));
+      std::max(box.diagonal().norm() / kSamplesPerBox, std::sqrt(2 * area / kMaxSamples));
   return worse_of(one_way(a, b, spacing), one_way(b, a, spacing));
 }
 

@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-#include "artus/anatomy/surfaces/distance_tree.h"
+#include "artus/detail/anatomy/surfaces/distance_tree.h"
 
 namespace artus {
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/anatomy/surfaces/surface_io.h"
+#include "artus/detail/anatomy/surfaces/surface_io.h"
 
 #include <algorithm>
 #include <cctype>
 #include <fstream>
 #include <optional>
 
-#include "artus/anatomy/surfaces/surface_io_formats.h"
-#include "artus/core/check.h"
-#include "artus/core/text_cursor.h"
-#include "artus/core/text_file.h"
+#include "artus/detail/anatomy/surfaces/surface_io_formats.h"
+#include "artus/detail/core/check.h"
+#include "artus/detail/core/text_cursor.h"
+#include "artus/detail/core/text_file.h"
 
 namespace artus {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "artus/anatomy/surfaces/surface_mesh.h"
+#include "artus/detail/anatomy/surfaces/surface_mesh.h"
 #include "artus/core/result.h"
 
 namespace artus {

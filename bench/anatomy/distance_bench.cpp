@@ -13,9 +13,9 @@
 
 #include <benchmark/benchmark.h>
 
-#include "artus/anatomy/surfaces/distance_tree.h"
-#include "artus/core/noise.h"
-#include "artus/core/units.h"
+#include "artus/detail/anatomy/surfaces/distance_tree.h"
+#include "artus/detail/core/noise.h"
+#include "artus/detail/core/units.h"
 
 namespace artus {
 namespace {

@@ -24,9 +24,9 @@
 
 #include <benchmark/benchmark.h>
 
-#include "artus/echo/liquid_plume.h"
+#include "artus/detail/echo/acquire/liquid_plume.h"
 #include "artus/echo/renderer.h"
-#include "artus/soft/injected_body.h"
+#include "artus/detail/soft/liquid/injected_body.h"
 #include "tests/support/layered_body.h"
 
 namespace artus {
@@ -194,9 +194,9 @@ void add_filled_joint(const View& view) {
   std::vector<Injected> places;
   for (const TissueInterval& s : tissue_intervals(*view.scene, {plan.entry, plan.target})) {
     if (joint.tissue_of(s.region).acoustic.kind != TissueKind::muscle) continue;
-    const Vec3 way = (plan.target - plan.entry).normalized();
+    const Vec3 path = (plan.target - plan.entry).normalized();
     places.push_back(
-        {joint.regions[s.region].name, 1e-6, false, plan.entry + (s.entry + s.exit) / 2 * way});
+        {joint.regions[s.region].name, 1e-6, false, plan.entry + (s.entry + s.exit) / 2 * path});
     add_filled("muscle", view, places);
     break;
   }

@@ -10,9 +10,9 @@
 
 #include <benchmark/benchmark.h>
 
-#include "artus/exchange/igtl/contents.h"
-#include "artus/exchange/igtl/server.h"
-#include "artus/session/session_thread.h"
+#include "artus/detail/exchange/igtl/contents.h"
+#include "artus/detail/exchange/igtl/server.h"
+#include "artus/detail/session/session_thread.h"
 #include "tests/exchange/igtl_client.h"
 
 namespace artus {

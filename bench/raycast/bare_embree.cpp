@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "artus/raycast/embree_api.h"
+#include "artus/detail/raycast/embree_api.h"
 
 namespace artus::bench {
 namespace {

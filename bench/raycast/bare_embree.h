@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "artus/anatomy/body/compiled_joint.h"
+#include "artus/anatomy/compiled_joint.h"
 #include "artus/core/geometry.h"
 
 struct RTCDeviceTy;

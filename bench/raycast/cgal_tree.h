@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <memory>
 
-#include "artus/anatomy/body/compiled_joint.h"
+#include "artus/anatomy/compiled_joint.h"
 #include "artus/core/geometry.h"
 
 namespace artus::bench {

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "artus/core/noise.h"
+#include "artus/detail/core/noise.h"
 #include "tests/support/layered_body.h"
 
 namespace artus::bench {

@@ -26,17 +26,17 @@
 #include <numbers>
 #include <vector>
 
-#include "artus/core/units.h"
+#include "artus/detail/core/units.h"
 #include "artus/echo/renderer.h"
-#include "artus/evidence/plot.h"
-#include "artus/raycast/moving_scene.h"
-#include "artus/soft/soft_body.h"
+#include "artus/detail/evidence/plot.h"
+#include "artus/detail/raycast/moving_scene.h"
+#include "artus/detail/soft/solver/soft_body.h"
 
 namespace {
 
 constexpr double kRate = 30;   // images a second
 constexpr int kRefresh = 12;   // images
-constexpr double kWay = 4e-3;  // m
+constexpr double kDistance = 4e-3;  // m
 
 double cpu_ms() {
   timespec t{};
@@ -73,7 +73,7 @@ void fixed_work() {
 
 artus::Pose pressed_pose(const artus::Pose& X_JP, int image) {
   artus::Pose pose = X_JP;
-  const double depth = kWay / 2 * (1 - std::cos(2 * std::numbers::pi * 0.5 * image / kRate));
+  const double depth = kDistance / 2 * (1 - std::cos(2 * std::numbers::pi * 0.5 * image / kRate));
   pose.translation() += depth * pose.linear().col(2);
   return pose;
 }

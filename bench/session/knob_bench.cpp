@@ -17,7 +17,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "artus/session/image_core.h"
+#include "artus/detail/simulation/image_core.h"
 #include "tests/support/layered_body.h"
 
 namespace artus {

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "artus/soft/soft_body.h"
+#include "artus/detail/soft/solver/soft_body.h"
 #include "tests/support/paths.h"
 
 namespace {

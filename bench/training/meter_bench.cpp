@@ -14,7 +14,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "artus/training/session_meter.h"
+#include "artus/detail/training/session_meter.h"
 #include "tests/support/layered_body.h"
 
 namespace artus {

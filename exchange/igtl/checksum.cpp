@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/exchange/igtl/checksum.h"
+#include "artus/detail/exchange/igtl/checksum.h"
 
 #include <array>
 #include <bit>

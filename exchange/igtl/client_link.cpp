@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/exchange/igtl/client_link.h"
+#include "artus/detail/exchange/igtl/client_link.h"
 
 #include <algorithm>
 #include <array>

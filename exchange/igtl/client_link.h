@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "artus/core/result.h"
-#include "artus/exchange/igtl/message.h"
-#include "artus/exchange/igtl/stream_reader.h"
+#include "artus/detail/exchange/igtl/message.h"
+#include "artus/detail/exchange/igtl/stream_reader.h"
 
 namespace artus::igtl {
 
@@ -52,8 +52,8 @@ class ClientLink {
   /// Goes before what is offered. More answers than may wait: send() says so.
   void answer(Message message);
   /// Types that this client wants although not everybody gets them.
-  [[nodiscard]] std::set<std::string>& wishes() noexcept { return wishes_; }
-  [[nodiscard]] const std::set<std::string>& wishes() const noexcept { return wishes_; }
+  [[nodiscard]] std::set<std::string>& subscriptions() noexcept { return subscriptions_; }
+  [[nodiscard]] const std::set<std::string>& subscriptions() const noexcept { return subscriptions_; }
 
   [[nodiscard]] bool has_to_send() const noexcept {
     return sending_ || !answers_.empty() || !newest_.empty();
@@ -74,7 +74,7 @@ class ClientLink {
   std::deque<std::string> answers_;
   std::shared_ptr<const std::string> sending_;
   std::size_t sent_ = 0;  // bytes of it
-  std::set<std::string> wishes_;
+  std::set<std::string> subscriptions_;
   std::int64_t progress_ns_ = 0;  // when the last byte went, or nothing waited
   std::uint64_t dropped_ = 0;
   bool asks_too_fast_ = false;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/exchange/igtl/contents.h"
+#include "artus/detail/exchange/igtl/contents.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
 
-#include "artus/core/check.h"
-#include "artus/exchange/igtl/big_endian.h"
+#include "artus/detail/core/check.h"
+#include "artus/detail/exchange/igtl/big_endian.h"
 
 namespace artus::igtl {
 namespace {
@@ -108,8 +108,8 @@ Result<Image> parse_image(std::string_view content) {
 }
 
 std::string pack_string(std::string_view text) {
-  constexpr std::size_t kMost = 0xFFFF;  // bytes that the length can say
-  text = text.substr(0, kMost);
+  constexpr std::size_t kMax = 0xFFFF;  // bytes that the length can say
+  text = text.substr(0, kMax);
   BigEndianWriter out;
   out.put(std::uint16_t{3});  // US-ASCII
   out.put(static_cast<std::uint16_t>(text.size()));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/exchange/igtl/listen_address.h"
+#include "artus/detail/exchange/igtl/listen_address.h"
 
 #include <cerrno>
 #include <charconv>

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/exchange/igtl/message.h"
+#include "artus/detail/exchange/igtl/message.h"
 
 #include <algorithm>
 #include <chrono>
 #include <utility>
 
-#include "artus/core/check.h"
-#include "artus/exchange/igtl/big_endian.h"
-#include "artus/exchange/igtl/checksum.h"
+#include "artus/detail/core/check.h"
+#include "artus/detail/exchange/igtl/big_endian.h"
+#include "artus/detail/exchange/igtl/checksum.h"
 
 namespace artus::igtl {
 namespace {
@@ -21,13 +21,13 @@ bool is_text(std::string_view text) noexcept {
 
 /// Header and data of the metadata.
 std::pair<std::string, std::string> pack_meta(const std::vector<MetaEntry>& meta) {
-  constexpr std::size_t kMost = 0xFFFF;  // of entries, and bytes of a key
+  constexpr std::size_t kMax = 0xFFFF;  // of entries, and bytes of a key
   BigEndianWriter index;
   std::string data;
-  const std::size_t n = std::min((kMost - 2) / kMetaEntrySize, meta.size());
+  const std::size_t n = std::min((kMax - 2) / kMetaEntrySize, meta.size());
   index.put(static_cast<std::uint16_t>(n));
   for (std::size_t i = 0; i < n; ++i) {
-    const std::string_view key = std::string_view(meta[i].key).substr(0, kMost);
+    const std::string_view key = std::string_view(meta[i].key).substr(0, kMax);
     index.put(static_cast<std::uint16_t>(key.size()));
     index.put(meta[i].encoding);
     index.put(static_cast<std::uint32_t>(meta[i].value.size()));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/exchange/igtl/server.h"
+#include "artus/detail/exchange/igtl/server.h"
 
 #include <algorithm>
 #include <array>
@@ -18,13 +18,13 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include "artus/exchange/igtl/contents.h"
+#include "artus/detail/exchange/igtl/contents.h"
 
 namespace artus::igtl {
 namespace {
 
 constexpr int kPollMs = 500;  // between two looks at clients that stall
-constexpr std::size_t kMostNotices = 200;
+constexpr std::size_t kMaxNotices = 200;
 
 std::int64_t now_ns() noexcept {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(
@@ -125,14 +125,14 @@ void Server::tell(const std::string& notice) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (notice == last_notice_) return;
   last_notice_ = notice;
-  if (notices_.size() == kMostNotices) notices_.erase(notices_.begin());
+  if (notices_.size() == kMaxNotices) notices_.erase(notices_.begin());
   notices_.push_back("OpenIGTLink: " + notice);
 }
 
 bool Server::goes_to(const ClientLink& client, const std::string& type) const {
   const auto& asked = options_.on_request;
   if (std::find(asked.begin(), asked.end(), type) == asked.end()) return true;
-  return client.wishes().count(type) != 0;
+  return client.subscriptions().count(type) != 0;
 }
 
 void Server::hand_out() {
@@ -160,7 +160,7 @@ void Server::accept_clients() {
         accept4(listener_, reinterpret_cast<sockaddr*>(&peer), &size, SOCK_NONBLOCK | SOCK_CLOEXEC);
     if (socket < 0) return;
     const std::string name = name_of(peer, size);
-    if (links_.size() >= options_.most_clients) {
+    if (links_.size() >= options_.max_clients) {
       close(socket);
       tell(name + " was turned away: there are " + std::to_string(links_.size()) + " already");
       continue;
@@ -181,8 +181,8 @@ void Server::answer(ClientLink& client, const Message& message) {
   if (prefix == "STT_" || prefix == "STP_") {
     const auto& known = options_.on_request;
     const bool can = std::find(known.begin(), known.end(), of) != known.end();
-    if (can && prefix == "STT_") client.wishes().insert(of);
-    if (prefix == "STP_") client.wishes().erase(of);
+    if (can && prefix == "STT_") client.subscriptions().insert(of);
+    if (prefix == "STP_") client.subscriptions().erase(of);
     client.answer(started(of, message.device, can));
     return;
   }

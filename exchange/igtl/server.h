@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "artus/core/result.h"
-#include "artus/exchange/igtl/client_link.h"
-#include "artus/exchange/igtl/listen_address.h"
-#include "artus/exchange/igtl/message.h"
+#include "artus/detail/exchange/igtl/client_link.h"
+#include "artus/detail/exchange/igtl/listen_address.h"
+#include "artus/detail/exchange/igtl/message.h"
 
 namespace artus::igtl {
 
@@ -24,7 +24,7 @@ class Server {
   struct Options {
     ListenAddress where;
     ClientLink::Limits limits;
-    std::size_t most_clients = 64;
+    std::size_t max_clients = 64;
     /// Types that only those get who asked with STT_ (and until STP_).
     std::vector<std::string> on_request{"STRING", "SENSOR"};
   };

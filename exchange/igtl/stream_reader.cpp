@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/exchange/igtl/stream_reader.h"
+#include "artus/detail/exchange/igtl/stream_reader.h"
 
 #include <algorithm>
 #include <utility>

@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "artus/core/result.h"
-#include "artus/exchange/igtl/message.h"
+#include "artus/detail/exchange/igtl/message.h"
 
 namespace artus::igtl {
 

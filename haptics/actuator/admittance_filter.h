@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "artus/haptics/actuator/control_law.h"
+#include "artus/detail/haptics/actuator/control_law.h"
 
 namespace artus {
 

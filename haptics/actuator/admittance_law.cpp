@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/haptics/actuator/admittance_law.h"
+#include "artus/detail/haptics/actuator/admittance_law.h"
 
 #include <algorithm>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/haptics/actuator/backstepping_law.h"
+#include "artus/detail/haptics/actuator/backstepping_law.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "artus/haptics/actuator/servovalve.h"
+#include "artus/detail/haptics/actuator/servovalve.h"
 
 namespace artus {
 namespace {
@@ -13,8 +13,8 @@ namespace {
 constexpr double kDampingMargin = 1.05;
 /// Chamber pressures the wanted K_pneu may ask for, as shares of exhaust and supply; assumed:
 /// leaves the valves a pressure drop to work with.
-constexpr double kLeastPressure = 1.2;
-constexpr double kMostPressure = 0.9;
+constexpr double kMinPressure = 1.2;
+constexpr double kMaxPressure = 0.9;
 /// Wanted speeds below this count as rest for the dry friction, m/s; assumed.
 constexpr double kRestSpeed = 1e-4;
 
@@ -53,7 +53,7 @@ void BacksteppingLaw::reset(const ControlInput& input) noexcept {
 
 bool BacksteppingLaw::take_gains(const ProbeTarget& target) noexcept {
   if (!gains_.from_target) return true;
-  if (target.stiffness < kLeastFeltStiffness) return false;
+  if (target.stiffness < kMinFeltStiffness) return false;
   const double mass = cylinder_.moving_mass;
   const double damping = target.damping > 0
                              ? target.damping
@@ -96,8 +96,8 @@ double BacksteppingLaw::active_flow(const CylinderState& s, const ProbeTarget& t
 double BacksteppingLaw::feasible_stiffness(const CylinderState& s, double wanted) const noexcept {
   const CylinderParams& c = cylinder_;
   const double force = pneumatic_force(c, s);
-  const double least = kLeastPressure * valve_.exhaust;
-  const double most = kMostPressure * valve_.supply;
+  const double least = kMinPressure * valve_.exhaust;
+  const double most = kMaxPressure * valve_.supply;
   // At a given force one chamber pressure sets the other, and K_pneu rises with both.
   const auto stiffness = [&](double p_N) {
     const double push_N = p_N * c.area_N;

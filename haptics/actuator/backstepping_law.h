@@ -2,8 +2,8 @@
 #pragma once
 #include <optional>
 
-#include "artus/haptics/actuator/control_law.h"
-#include "artus/haptics/actuator/pneumatic_cylinder.h"
+#include "artus/detail/haptics/actuator/control_law.h"
+#include "artus/detail/haptics/actuator/pneumatic_cylinder.h"
 
 namespace artus {
 
@@ -15,7 +15,7 @@ struct StiffnessGains {
 
 /// The law refuses targets below this, N/m: at 50 N/m a slow push measures 11 % more, since the
 /// whole stroke then gives less force than dry friction; from here on within 5 %.
-inline constexpr double kLeastFeltStiffness = 100;
+inline constexpr double kMinFeltStiffness = 100;
 
 /// The smallest closed-loop damping for a stiffness, N s/m; 0 when K_cl <= M.
 /// Source [Alamilla2020] (3.41).

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/haptics/actuator/control_law.h"
+#include "artus/detail/haptics/actuator/control_law.h"
 
 #include <array>
 #include <string>
 
-#include "artus/core/known_names.h"
-#include "artus/haptics/actuator/backstepping_law.h"
-#include "artus/haptics/actuator/ipc_law.h"
-#include "artus/haptics/actuator/pid_law.h"
+#include "artus/detail/core/known_names.h"
+#include "artus/detail/haptics/actuator/backstepping_law.h"
+#include "artus/detail/haptics/actuator/ipc_law.h"
+#include "artus/detail/haptics/actuator/pid_law.h"
 
 namespace artus {
 namespace {

@@ -4,10 +4,10 @@
 #include <memory>
 #include <string_view>
 
-#include "artus/core/check.h"
+#include "artus/detail/core/check.h"
 #include "artus/core/result.h"
-#include "artus/haptics/actuator/pneumatic_sensors.h"
-#include "artus/haptics/actuator/valve_map.h"
+#include "artus/detail/haptics/actuator/pneumatic_sensors.h"
+#include "artus/detail/haptics/actuator/valve_map.h"
 
 namespace artus {
 

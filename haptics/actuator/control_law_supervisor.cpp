@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/haptics/actuator/control_law_supervisor.h"
+#include "artus/detail/haptics/actuator/control_law_supervisor.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "artus/haptics/actuator/pneumatic_cylinder.h"
+#include "artus/detail/haptics/actuator/pneumatic_cylinder.h"
 
 namespace artus {
 namespace {

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <memory>
 
-#include "artus/haptics/actuator/admittance_filter.h"
-#include "artus/haptics/actuator/control_law.h"
+#include "artus/detail/haptics/actuator/admittance_filter.h"
+#include "artus/detail/haptics/actuator/control_law.h"
 
 namespace artus {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
-#include "artus/haptics/actuator/admittance_law.h"
+#include "artus/detail/haptics/actuator/admittance_law.h"
 
 namespace artus {
 

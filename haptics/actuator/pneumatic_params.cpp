@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/haptics/actuator/pneumatic_params.h"
+#include "artus/detail/haptics/actuator/pneumatic_params.h"
 
 #include <array>
 
-#include "artus/core/text_file.h"
-#include "artus/core/toml_fields.h"
-#include "artus/haptics/actuator/pneumatic_bundled.h"
+#include "artus/detail/core/text_file.h"
+#include "artus/detail/core/toml_fields.h"
+#include "artus/detail/haptics/actuator/pneumatic_bundled.h"
 
 namespace artus {
 namespace {

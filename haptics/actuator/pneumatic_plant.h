@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
-#include "artus/core/check.h"
-#include "artus/haptics/actuator/pneumatic_cylinder.h"
-#include "artus/haptics/actuator/servovalve.h"
+#include "artus/detail/core/check.h"
+#include "artus/detail/haptics/actuator/pneumatic_cylinder.h"
+#include "artus/detail/haptics/actuator/servovalve.h"
 
 namespace artus {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/haptics/actuator/pneumatic_sensors.h"
+#include "artus/detail/haptics/actuator/pneumatic_sensors.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "artus/core/noise.h"
+#include "artus/detail/core/noise.h"
 
 namespace artus {
 

@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdint>
 
-#include "artus/haptics/actuator/pneumatic_plant.h"
+#include "artus/detail/haptics/actuator/pneumatic_plant.h"
 
 namespace artus {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/haptics/actuator/servovalve.h"
+#include "artus/detail/haptics/actuator/servovalve.h"
 
 #include <algorithm>
 #include <cmath>

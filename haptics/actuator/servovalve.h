@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
-#include "artus/core/check.h"
-#include "artus/haptics/actuator/pneumatic_params.h"
+#include "artus/detail/core/check.h"
+#include "artus/detail/haptics/actuator/pneumatic_params.h"
 
 namespace artus {
 

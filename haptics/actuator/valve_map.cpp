@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/haptics/actuator/valve_map.h"
+#include "artus/detail/haptics/actuator/valve_map.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "artus/haptics/actuator/servovalve.h"
+#include "artus/detail/haptics/actuator/servovalve.h"
 
 namespace artus {
 namespace {

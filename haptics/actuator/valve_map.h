@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "artus/core/check.h"
-#include "artus/haptics/actuator/pneumatic_params.h"
+#include "artus/detail/core/check.h"
+#include "artus/detail/haptics/actuator/pneumatic_params.h"
 
 namespace artus {
 

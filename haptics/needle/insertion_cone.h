@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "artus/core/check.h"
+#include "artus/detail/core/check.h"
 
 namespace artus {
 

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/haptics/needle/insertion_line.h"
+#include "artus/detail/haptics/needle/insertion_line.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "artus/haptics/needle/insertion_cone.h"
+#include "artus/detail/haptics/needle/insertion_cone.h"
 
 namespace artus {
 namespace {
 constexpr double kGrazing = 0.1;      // cosine below which a line runs along the skin
 constexpr double kFinestStep = 4e-6;  // m, of a hand's 40 mm/s in a tick at 10 kHz
-constexpr int kMostParts = 16;
+constexpr int kMaxParts = 16;
 constexpr double kQuarterTurn = 1.5707963267948966;  // rad
 
 double angle_between(const Vec3& a, const Vec3& b) noexcept {
@@ -49,7 +49,7 @@ LineChange InsertionLine::follow(const Vec3& tip, const Vec3& own_axis) noexcept
   const Vec3 from = last_tip_;
   const Vec3 from_axis = last_own_axis_;
   const double parts = std::clamp(std::ceil((tip - from).norm() / kFinestStep), 1.0,
-                                  static_cast<double>(kMostParts));
+                                  static_cast<double>(kMaxParts));
   for (double part = 1; part < parts; ++part) {
     const double share = part / parts;
     step(from + share * (tip - from), (from_axis + share * (own_axis - from_axis)).normalized(),

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
-#include "artus/core/check.h"
+#include "artus/detail/core/check.h"
 #include "artus/core/geometry.h"
-#include "artus/core/units.h"
+#include "artus/detail/core/units.h"
 
 namespace artus {
 

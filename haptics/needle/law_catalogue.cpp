@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/haptics/needle/law_catalogue.h"
+#include "artus/detail/haptics/needle/law_catalogue.h"
 
-#include "artus/haptics/needle/needle_model.h"
-#include "artus/haptics/passivity.h"
+#include "artus/detail/haptics/needle/needle_model.h"
+#include "artus/detail/haptics/passivity.h"
 
 namespace artus {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/haptics/needle/needle_contact.h"
+#include "artus/detail/haptics/needle/needle_contact.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
-#include "artus/haptics/needle/insertion_cone.h"
+#include "artus/detail/haptics/needle/insertion_cone.h"
 
 namespace artus {
 namespace {

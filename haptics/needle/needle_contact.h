@@ -4,12 +4,12 @@
 #include <cstdint>
 #include <span>
 
-#include "artus/core/units.h"
-#include "artus/haptics/needle/force_model.h"
-#include "artus/haptics/needle/insertion_line.h"
-#include "artus/haptics/needle/motion.h"
-#include "artus/haptics/needle/prepuncture.h"
-#include "artus/haptics/needle/skin_puncture.h"
+#include "artus/detail/core/units.h"
+#include "artus/detail/haptics/needle/laws/force_model.h"
+#include "artus/detail/haptics/needle/insertion_line.h"
+#include "artus/detail/haptics/needle/laws/motion.h"
+#include "artus/detail/haptics/needle/laws/prepuncture.h"
+#include "artus/detail/haptics/needle/laws/skin_puncture.h"
 #include "artus/raycast/scene.h"
 
 namespace artus {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/haptics/needle/needle_coupling.h"
+#include "artus/detail/haptics/needle/needle_coupling.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@ NeedleCoupling::NeedleCoupling(double dt, const NeedleCouplingParams& params) no
 void NeedleCoupling::take(const NeedleCompliance& compliance) noexcept {
   const double before = stored();
   compliance_ = compliance;
-  compliance_.points = std::min(compliance_.points, NeedleCompliance::kMost);
+  compliance_.points = std::min(compliance_.points, NeedleCompliance::kMax);
   if (!active()) {
     load_ = {};
     tip_displacement_ = 0;
@@ -57,7 +57,7 @@ double NeedleCoupling::tip_compliance(double depth, double wall_stiffness) const
   if (!active()) return 0;
   const double tissue = cube_compliance(compliance_, depth);
   if (!(wall_stiffness > 0)) return tissue;
-  return std::min(tissue, most_tissue_compliance(wall_stiffness));
+  return std::min(tissue, max_tissue_compliance(wall_stiffness));
 }
 
 void NeedleCoupling::follow_tip(double depth, double tip_force, double wall_stiffness) noexcept {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <span>
 
-#include "artus/core/check.h"
-#include "artus/soft/needle_compliance.h"
+#include "artus/detail/core/check.h"
+#include "artus/detail/soft/solver/needle_compliance.h"
 
 namespace artus {
 
@@ -16,7 +16,7 @@ struct NeedleCouplingParams {
 
 /// m/N that tissue has at most which was measured with a layer's K_t (`wall_stiffness`, N/m > 0):
 /// the rest of the hand's way is in the tip's own neighbourhood, where it cuts.
-[[nodiscard]] inline double most_tissue_compliance(double wall_stiffness) noexcept {
+[[nodiscard]] inline double max_tissue_compliance(double wall_stiffness) noexcept {
   constexpr double kShare = 7.0 / 8;  // of 1/K_t; assumed
   return kShare / wall_stiffness;
 }
@@ -43,7 +43,7 @@ class NeedleCoupling {
   [[nodiscard]] double tip_displacement() const noexcept { return tip_displacement_; }
   /// m/N of the tissue around the tip, at `depth` (m) in the material: the cubes' own field,
   /// without the needle's neighbourhood. A layer's K_t (`wall_stiffness`, N/m; 0: none is known)
-  /// was measured with the tissue in it, so the tissue has most_tissue_compliance() at most.
+  /// was measured with the tissue in it, so the tissue has max_tissue_compliance() at most.
   [[nodiscard]] ARTUS_REALTIME double tip_compliance(double depth,
                                                      double wall_stiffness = 0) const noexcept;
   [[nodiscard]] std::size_t points() const noexcept { return compliance_.points; }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/haptics/needle/needle_feel.h"
+#include "artus/haptics/needle_feel.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
 
-#include "artus/core/known_names.h"
+#include "artus/detail/core/known_names.h"
 
 namespace artus {
 namespace {
@@ -56,11 +56,11 @@ Result<void> refuse(std::uint32_t kind, const std::string& what) {
 }
 
 bool is_valid(const LugreParams& p) noexcept {
-  constexpr double kMost = 1e9;
-  return p.sigma0 > 0 && p.sigma0 <= kMost && in(p.sigma1, 0, kMost) && in(p.sigma2, 0, kMost) &&
-         p.mu_c > 0 && p.mu_c <= kMost && p.mu_s > 0 && p.mu_s <= kMost && in(p.alpha, 0, kMost) &&
-         p.length > 0 && p.length <= kMost && p.stiffness_limit > 0 && p.stiffness_limit <= kMost &&
-         in(p.damping_limit, 0, kMost) && p.relaxation_time > 0 && p.relaxation_time <= kMost;
+  constexpr double kMax = 1e9;
+  return p.sigma0 > 0 && p.sigma0 <= kMax && in(p.sigma1, 0, kMax) && in(p.sigma2, 0, kMax) &&
+         p.mu_c > 0 && p.mu_c <= kMax && p.mu_s > 0 && p.mu_s <= kMax && in(p.alpha, 0, kMax) &&
+         p.length > 0 && p.length <= kMax && p.stiffness_limit > 0 && p.stiffness_limit <= kMax &&
+         in(p.damping_limit, 0, kMax) && p.relaxation_time > 0 && p.relaxation_time <= kMax;
 }
 
 }  // namespace

@@ -8,10 +8,10 @@
 #include <string_view>
 #include <vector>
 
-#include "artus/anatomy/body/compiled_joint.h"
-#include "artus/core/fields.h"
-#include "artus/haptics/needle/needle_params.h"
-#include "artus/haptics/passivity.h"
+#include "artus/anatomy/compiled_joint.h"
+#include "artus/detail/core/fields.h"
+#include "artus/detail/haptics/needle/needle_params.h"
+#include "artus/detail/haptics/passivity.h"
 
 namespace artus {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/haptics/needle/needle_model.h"
+#include "artus/detail/haptics/needle/needle_model.h"
 
 #include <algorithm>
 #include <cmath>
@@ -38,7 +38,7 @@ NeedleModel::NeedleModel(const NeedleParams& params, const LayerTable& table, do
 void NeedleModel::take(const NeedlePacket& packet) noexcept {
   const Vec3 carried(packet.carried[0], packet.carried[1], packet.carried[2]);
   if (carried.allFinite()) carried_to_ = carried;
-  if (packet.give >= 0 && packet.give <= 1) give_to_ = packet.give;
+  if (packet.compliance_scale >= 0 && packet.compliance_scale <= 1) compliance_scale_to_ = packet.compliance_scale;
   if (coupling_.active() || !contact_.inserted()) coupling_.take(packet.compliance);
 }
 
@@ -91,7 +91,7 @@ double NeedleModel::cutting_force(const NeedleTick& tick) noexcept {
 const NeedleForces& NeedleModel::step(const Pose& X_JN,
                                       std::span<const TissueInterval> intervals) noexcept {
   contact_.update(material(X_JN), intervals, {coupling_.active(), pushed(), carried_});
-  feel_as_the_hand();
+  to_hand_depth();
   const NeedleTick& tick = felt_;
   forces_ = NeedleForces{};
   if (params_.use_workspace) forces_.workspace = workspace_.step(tick).force;
@@ -121,13 +121,13 @@ const NeedleForces& NeedleModel::step(const Pose& X_JN,
   sum_up(tick);
   last_tip_ = X_JN.translation() - carried_;
   carried_ += follow_ * (carried_to_ - carried_);
-  give_ += follow_ * (give_to_ - give_);
+  compliance_scale_ += follow_ * (compliance_scale_to_ - compliance_scale_);
   return forces_;
 }
 
 /// The laws' constants were measured at a hand, with all that gives way before the tip in them:
 /// they see the hand's depth. Where layers and membranes are met is a matter of the material.
-void NeedleModel::feel_as_the_hand() noexcept {
+void NeedleModel::to_hand_depth() noexcept {
   felt_ = contact_.tick();
   if (!contact_.inserted()) return;
   felt_.tip += felt_.pushed * felt_.axis;

@@ -3,10 +3,10 @@
 #include <cstdint>
 #include <span>
 
-#include "artus/haptics/needle/clamping.h"
-#include "artus/haptics/needle/needle_coupling.h"
-#include "artus/haptics/needle/needle_packet.h"
-#include "artus/haptics/needle/needle_params.h"
+#include "artus/detail/haptics/needle/laws/clamping.h"
+#include "artus/detail/haptics/needle/needle_coupling.h"
+#include "artus/detail/haptics/needle/needle_packet.h"
+#include "artus/detail/haptics/needle/needle_params.h"
 
 namespace artus {
 
@@ -60,8 +60,8 @@ class NeedleModel {
  private:
   [[nodiscard]] Pose material(const Pose& X_JN) const noexcept;
   /// m along the axis, of the tissue at the tip by the needle.
-  [[nodiscard]] double pushed() const noexcept { return give_ * coupling_.tip_displacement(); }
-  void feel_as_the_hand() noexcept;
+  [[nodiscard]] double pushed() const noexcept { return compliance_scale_ * coupling_.tip_displacement(); }
+  void to_hand_depth() noexcept;
   void couple(const Pose& X_JN) noexcept;
   void sum_up(const NeedleTick& tick) noexcept;
   void start_laws() noexcept;
@@ -85,8 +85,8 @@ class NeedleModel {
   NeedleCoupling coupling_;
   Vec3 carried_ = Vec3::Zero();     // m, frame J, of the tissue at the tip
   Vec3 carried_to_ = Vec3::Zero();  // by the newest packet
-  double give_ = 1;                 // NeedlePacket::give, followed as carried_ is
-  double give_to_ = 1;
+  double compliance_scale_ = 1;                 // NeedlePacket::give, followed as carried_ is
+  double compliance_scale_to_ = 1;
   double follow_;    // share of the way in a tick
   NeedleTick felt_;  // the contact's tick, with tip and depth as the hand has them
   double grip_ = 0;  // friction's level g(v), followed within its relaxation time

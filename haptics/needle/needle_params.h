@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
-#include "artus/haptics/needle/classic_cutting.h"
-#include "artus/haptics/needle/hard_contact.h"
-#include "artus/haptics/needle/hemisphere_workspace.h"
-#include "artus/haptics/needle/lugre_friction.h"
-#include "artus/haptics/needle/needle_contact.h"
-#include "artus/haptics/needle/orientation_torque.h"
-#include "artus/haptics/needle/plasticity_fixture.h"
-#include "artus/haptics/needle/prepuncture.h"
-#include "artus/haptics/needle/tracking_wall.h"
+#include "artus/detail/haptics/needle/laws/classic_cutting.h"
+#include "artus/detail/haptics/needle/laws/hard_contact.h"
+#include "artus/detail/haptics/needle/laws/hemisphere_workspace.h"
+#include "artus/detail/haptics/needle/laws/lugre_friction.h"
+#include "artus/detail/haptics/needle/needle_contact.h"
+#include "artus/detail/haptics/needle/laws/orientation_torque.h"
+#include "artus/detail/haptics/needle/laws/plasticity_fixture.h"
+#include "artus/detail/haptics/needle/laws/prepuncture.h"
+#include "artus/detail/haptics/needle/laws/tracking_wall.h"
 
 namespace artus {
 

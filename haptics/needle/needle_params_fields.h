@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
-#include "artus/core/fields.h"
-#include "artus/haptics/needle/needle_params.h"
+#include "artus/detail/core/fields.h"
+#include "artus/detail/haptics/needle/needle_params.h"
 
 namespace artus {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/haptics/needle/needle_renderer.h"
+#include "artus/haptics/needle_renderer.h"
 
 #include <utility>
 

@@ -3,8 +3,8 @@
 #include <memory>
 #include <string_view>
 
-#include "artus/haptics/needle/needle_feel.h"
-#include "artus/haptics/needle/needle_tick_step.h"
+#include "artus/haptics/needle_feel.h"
+#include "artus/detail/haptics/needle/needle_tick_step.h"
 
 namespace artus {
 

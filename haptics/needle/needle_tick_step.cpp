@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/haptics/needle/needle_tick_step.h"
+#include "artus/detail/haptics/needle/needle_tick_step.h"
 
 #include <algorithm>
 #include <utility>

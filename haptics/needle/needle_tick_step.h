@@ -3,9 +3,9 @@
 #include <array>
 #include <concepts>
 
-#include "artus/haptics/guard.h"
-#include "artus/haptics/needle/needle_model.h"
-#include "artus/haptics/passivity.h"
+#include "artus/detail/haptics/guard.h"
+#include "artus/detail/haptics/needle/needle_model.h"
+#include "artus/detail/haptics/passivity.h"
 
 namespace artus {
 

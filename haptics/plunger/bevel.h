@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <span>
 
-#include "artus/haptics/needle/needle_contact.h"
-#include "artus/haptics/plunger/plunger.h"
+#include "artus/detail/haptics/needle/needle_contact.h"
+#include "artus/detail/haptics/plunger/plunger.h"
 
 namespace artus {
 

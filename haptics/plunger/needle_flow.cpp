@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/haptics/plunger/needle_flow.h"
+#include "artus/detail/haptics/plunger/needle_flow.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <optional>
 
-#include "artus/anatomy/body/liquid.h"
-#include "artus/core/check.h"
+#include "artus/detail/anatomy/body/liquid.h"
+#include "artus/detail/core/check.h"
 
 namespace artus {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "artus/haptics/plunger/plunger.h"
+#include "artus/detail/haptics/plunger/plunger.h"
 
 namespace artus {
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/haptics/plunger/plunger.h"
+#include "artus/detail/haptics/plunger/plunger.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
-#include "artus/core/noise.h"
-#include "artus/haptics/plunger/bevel.h"
-#include "artus/haptics/plunger/space_pressure.h"
+#include "artus/detail/core/noise.h"
+#include "artus/detail/haptics/plunger/bevel.h"
+#include "artus/detail/haptics/plunger/space_pressure.h"
 
 namespace artus {
 namespace {
@@ -18,7 +18,7 @@ constexpr double kAround = 1e3;  // Pa that parts what lies around a torn place;
 constexpr double kClogFactor = 100;         // on the needle's resistance; assumed
 constexpr double kClogTime = 0.2;           // s in which it clogs; assumed
 constexpr double kWidestClogged = 0.22e-3;  // m of bore; 27 G and thinner
-constexpr double kMostFall =
+constexpr double kMaxFall =
     0.25;                          // of the bevel's resistance, by which a place may fall in a tick
 constexpr double kFilmRate = 1e3;  // 1/s at which a thinning liquid runs in a film; assumed
 
@@ -84,7 +84,7 @@ void Plunger::reset() noexcept {
   state_ = {};
   flows_ = {};
   state_.content = params_.syringe.filled;
-  way_ = 0;
+  direction_ = 0;
   started_ = false;
   clear_needle();
 }
@@ -172,22 +172,22 @@ Plunger::Branch Plunger::branch(const PlungerInput& input, std::size_t which, do
                       film_resistance(law, volume + step / 2 * flows_[which],
                                       params_.liquid.viscosity.at(kFilmRate));
   // Never so much that the bore would seem to help.
-  const double least = -kMostFall * bevel_share_ * own_.resistance();
+  const double least = -kMaxFall * bevel_share_ * own_.resistance();
   return {true, pressure(tip.space),
           near / tip.share + std::max(least, step * rise(tip.space) / 2)};
 }
 
 /// The bore ends in both branches; one against whose pressure nothing flows takes no part.
-Plunger::Parting Plunger::part(const PlungerInput& input, const Drive& drive,
+Plunger::BevelFlow Plunger::part(const PlungerInput& input, const Drive& drive,
                                bool out) const noexcept {
-  const double way = out ? 1 : -1;
+  const double direction = out ? 1 : -1;
   std::array<Branch, 2> branches{branch(input, 0, drive.step, out),
                                  branch(input, 1, drive.step, out)};
-  for (Branch& b : branches) b.open = b.open && way * (drive.pressure - b.pressure) > 0;
+  for (Branch& b : branches) b.open = b.open && direction * (drive.pressure - b.pressure) > 0;
   const std::size_t first = branches[0].open ? 0 : 1;
-  Parting parting;
-  parting.pressure = drive.pressure;
-  if (!branches[first].open) return parting;
+  BevelFlow bevel_flow;
+  bevel_flow.pressure = drive.pressure;
+  if (!branches[first].open) return bevel_flow;
   const NeedleFlow& bore = out ? own_ : *flow_in(input.tip[first]);
   const double in_bevel = bevel_share_ * own_.resistance();
   const double clogged = clogging_ * (kClogFactor - 1) * own_.resistance();
@@ -201,25 +201,25 @@ Plunger::Parting Plunger::part(const PlungerInput& input, const Drive& drive,
     }
     const double behind = drawn / conductance;
     const double extra =
-        std::max(-kMostFall * in_bevel, 1 / conductance - in_bevel) + clogged + drive.lag;
+        std::max(-kMaxFall * in_bevel, 1 / conductance - in_bevel) + clogged + drive.lag;
     const double q = bore.flow(drive.pressure - behind, extra);
-    parting.pressure = behind + q / conductance;
+    bevel_flow.pressure = behind + q / conductance;
     bool all = true;
     for (std::size_t k = 0; k < 2; ++k) {
       const Branch& b = branches[k];
-      parting.flows[k] = b.open ? (parting.pressure - b.pressure) / b.resistance : 0;
-      all = all && way * parting.flows[k] >= 0;
+      bevel_flow.flows[k] = b.open ? (bevel_flow.pressure - b.pressure) / b.resistance : 0;
+      all = all && direction * bevel_flow.flows[k] >= 0;
     }
-    if (all) return parting;
+    if (all) return bevel_flow;
     for (std::size_t k = 0; k < 2; ++k)
-      if (way * parting.flows[k] < 0) branches[k].open = false;
+      if (direction * bevel_flow.flows[k] < 0) branches[k].open = false;
   }
 }
 
-Plunger::Parting Plunger::flow_out(const PlungerInput& input, const Drive& drive) const noexcept {
-  Parting parting = part(input, drive, true);
-  if (parting.flows[0] == 0 && parting.flows[1] == 0) parting = part(input, drive, false);
-  return parting;
+Plunger::BevelFlow Plunger::flow_out(const PlungerInput& input, const Drive& drive) const noexcept {
+  BevelFlow bevel_flow = part(input, drive, true);
+  if (bevel_flow.flows[0] == 0 && bevel_flow.flows[1] == 0) bevel_flow = part(input, drive, false);
+  return bevel_flow;
 }
 
 void Plunger::change_volume(std::size_t space, double by) noexcept {

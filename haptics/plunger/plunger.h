@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "artus/anatomy/body/space.h"
-#include "artus/haptics/plunger/needle_flow.h"
-#include "artus/haptics/plunger/syringe.h"
+#include "artus/detail/anatomy/body/space.h"
+#include "artus/detail/haptics/plunger/needle_flow.h"
+#include "artus/detail/haptics/plunger/syringe.h"
 
 namespace artus {
 
@@ -76,7 +76,7 @@ struct PlungerParams {
   double entry_loss = NeedleFlow::kEntryLoss;  ///< see NeedleFlow
   double unbalanced = 0.05;  ///< of the thumb's force goes into the needle; assumed: 0.05 for the
                              ///< skilled to 0.2, 0 with an extension line
-  double most_force = 100;   ///< N; assumed: the limit of one hand
+  double max_force = 100;   ///< N; assumed: the limit of one hand
   double reopen_distance = 0.5e-3;   ///< m the tip may move before its place is closed to it again
   double reopen_time = 30;           ///< s without flow before it is
   double lost_resistance = 1e9;      ///< Pa s/m^3 from a torn place to its surroundings; assumed
@@ -143,7 +143,7 @@ class Plunger {
     }
   };
   /// The stopper's mean speed in the way it goes, in its last step.
-  struct Gait {
+  struct StopperMotion {
     double speed = 0;  // m/s
     double step = 0;   // s
   };
@@ -151,8 +151,8 @@ class Plunger {
     PlungerState state;
     std::array<SpaceState, 2> spaces;
     std::array<double, 2> flows;
-    int way;
-    Gait gait;
+    int direction;
+    StopperMotion motion;
   };
   /// A place that is not open to the tip, and by how much the pressure is over its opening, Pa.
   struct Shut {
@@ -169,16 +169,16 @@ class Plunger {
     double resistance = 1;  // Pa s/m^3
   };
   /// Both, fed by one bore: flows, m^3/s, and the pressure where they part.
-  struct Parting {
+  struct BevelFlow {
     std::array<double, 2> flows{};
     double pressure = 0;
   };
   [[nodiscard]] Branch branch(const PlungerInput& input, std::size_t which, double step,
                               bool out) const noexcept;
   [[nodiscard]] const NeedleFlow* flow_in(const TipShare& tip) const noexcept;
-  [[nodiscard]] Parting part(const PlungerInput& input, const Drive& drive,
+  [[nodiscard]] BevelFlow part(const PlungerInput& input, const Drive& drive,
                              bool out) const noexcept;
-  [[nodiscard]] Parting flow_out(const PlungerInput& input, const Drive& drive) const noexcept;
+  [[nodiscard]] BevelFlow flow_out(const PlungerInput& input, const Drive& drive) const noexcept;
   [[nodiscard]] double instant(double slope, double step) const noexcept;
   [[nodiscard]] double gliding(double thumb, double stiffness) const noexcept;
   double glide(const PlungerInput& input, const Push& push) noexcept;
@@ -186,11 +186,11 @@ class Plunger {
   void move(const PlungerInput& input, const Push& push) noexcept;
   void meet(const PlungerInput& input) noexcept;
   [[nodiscard]] int breaks_loose(double net) const noexcept;
-  void break_loose(int way, double thumb, double stiffness) noexcept;
+  void break_loose(int direction, double thumb, double stiffness) noexcept;
   double move_to_event(const PlungerInput& input, const Push& push) noexcept;
   [[nodiscard]] double felt(const Push& push, double travel) const noexcept;
   double run(const PlungerInput& input, Push push) noexcept;
-  void take_flows(const PlungerInput& input, const Parting& parting, double step) noexcept;
+  void take_flows(const PlungerInput& input, const BevelFlow& bevel_flow, double step) noexcept;
   void take_out(std::size_t space, double volume) noexcept;
   void change_volume(std::size_t space, double by) noexcept;
   bool leak(const PlungerInput& input, double step) noexcept;
@@ -214,8 +214,8 @@ class Plunger {
   PlungerState state_;
   std::array<double, 2> flows_{};  // m^3/s into the tip's places, now
   std::uint32_t outside_ = 0;
-  int way_ = 0;  // of the stopper: 1 in, -1 out, 0 at rest
-  Gait gait_;
+  int direction_ = 0;  // of the stopper: 1 in, -1 out, 0 at rest
+  StopperMotion motion_;
   double hold_ = 0;       // N, to break loose now
   bool started_ = false;  // the thumb's force has been told
   double rest_time_ = 0;  // s

@@ -6,15 +6,15 @@
 #include <cmath>
 #include <limits>
 
-#include "artus/haptics/plunger/plunger.h"
-#include "artus/haptics/plunger/space_pressure.h"
+#include "artus/detail/haptics/plunger/plunger.h"
+#include "artus/detail/haptics/plunger/space_pressure.h"
 
 namespace artus {
 namespace {
 
 constexpr double kVacuum = -90e3;  // Pa, below which a liquid is not drawn
 constexpr double kStill = 1e-12;   // m^3/s
-constexpr int kMostEvents = 6;     // in a tick that are met at their instant
+constexpr int kMaxEvents = 6;     // in a tick that are met at their instant
 
 /// Of a step in which a number rises from `from` to `to`, where it is 0; 1 when nowhere.
 double crossing(double from, double to) noexcept {
@@ -23,8 +23,8 @@ double crossing(double from, double to) noexcept {
 
 /// Of a step that would have the mean speed `now`, where the speed has come to 0: it falls from the
 /// middle of the last step to the middle of this one.
-template <class Gait>
-double stopping(const Gait& last, const Gait& now) noexcept {
+template <class StopperMotion>
+double stopping(const StopperMotion& last, const StopperMotion& now) noexcept {
   if (!(last.speed > now.speed)) return 0;
   const double between = (last.step + now.step) / 2;
   const double at = between * last.speed / (last.speed - now.speed) - last.step / 2;
@@ -42,7 +42,7 @@ double Plunger::instant(double slope, double step) const noexcept {
 /// Pa in the barrel of a gliding stopper but for what flows: the thumb's spring beside the
 /// barrel's. Without a spring the pressure is what the thumb's force leaves.
 double Plunger::gliding(double thumb, double stiffness) const noexcept {
-  const double net = thumb - way_ * params_.syringe.glide;
+  const double net = thumb - direction_ * params_.syringe.glide;
   const double soft = stiffness * softness_ / area_;  // m^2
   return (net + soft * state_.pressure) / (area_ + soft);
 }
@@ -55,41 +55,41 @@ double Plunger::glide(const PlungerInput& input, const Push& push) noexcept {
   const double at = slope > 0 ? instant(slope, push.step) : 0.5;
   const Drive drive{gliding(push.from + at * (push.to - push.from), push.stiffness),
                     at * slope * push.step, push.step};
-  const Parting parting = flow_out(input, drive);
-  const double out = (parting.flows[0] + parting.flows[1]) * push.step;
+  const BevelFlow bevel_flow = flow_out(input, drive);
+  const double out = (bevel_flow.flows[0] + bevel_flow.flows[1]) * push.step;
   double next = gliding(push.to, push.stiffness) - slope * out;
   double dx = (softness_ * (next - state_.pressure) + out) / area_;
-  const double speed = dx * way_ / push.step;
+  const double speed = dx * direction_ / push.step;
   if (!(speed > 0)) return speed;
   const double x = std::clamp(state_.travel + dx, out_end_, in_end_);
   if (x != state_.travel + dx) {
     dx = x - state_.travel;
     next = state_.pressure + (area_ * dx - out) / softness_;
-    way_ = 0;
+    direction_ = 0;
   }
   state_.travel = x;
   state_.pressure = next;
-  take_flows(input, parting, push.step);
+  take_flows(input, bevel_flow, push.step);
   return speed;
 }
 
 void Plunger::rest(const PlungerInput& input, double step) noexcept {
-  way_ = 0;
+  direction_ = 0;
   const double lag = instant(1 / softness_, step) * step / softness_;
-  const Parting parting = flow_out(input, {state_.pressure, lag, step});
-  state_.pressure -= (parting.flows[0] + parting.flows[1]) * step / softness_;
-  take_flows(input, parting, step);
+  const BevelFlow bevel_flow = flow_out(input, {state_.pressure, lag, step});
+  state_.pressure -= (bevel_flow.flows[0] + bevel_flow.flows[1]) * step / softness_;
+  take_flows(input, bevel_flow, step);
 }
 
 void Plunger::move(const PlungerInput& input, const Push& push) noexcept {
-  gait_ = {way_ == 0 ? 0 : glide(input, push), push.step};
-  if (!(gait_.speed > 0)) rest(input, push.step);
+  motion_ = {direction_ == 0 ? 0 : glide(input, push), push.step};
+  if (!(motion_.speed > 0)) rest(input, push.step);
   meet(input);
 }
 
 /// What flows now.
 void Plunger::meet(const PlungerInput& input) noexcept {
-  const Parting now = flow_out(input, {state_.pressure, 0, 0});
+  const BevelFlow now = flow_out(input, {state_.pressure, 0, 0});
   flows_ = now.flows;
   state_.flow = now.flows[0] + now.flows[1];
   state_.bevel_pressure = state_.flow == 0 ? state_.pressure : now.pressure;
@@ -102,34 +102,34 @@ int Plunger::breaks_loose(double net) const noexcept {
 }
 
 /// The stopper has no mass: it jumps to where the barrel carries what the friction no longer does.
-void Plunger::break_loose(int way, double thumb, double stiffness) noexcept {
-  way_ = way;
+void Plunger::break_loose(int direction, double thumb, double stiffness) noexcept {
+  direction_ = direction;
   const double pressure = gliding(thumb, stiffness);
   const double dx = softness_ * (pressure - state_.pressure) / area_;
   const double x = std::clamp(state_.travel + dx, out_end_, in_end_);
   state_.pressure += area_ * (x - state_.travel) / softness_;
   state_.travel = x;
-  gait_ = {};
+  motion_ = {};
   if (state_.flow == 0) state_.bevel_pressure = state_.pressure;
 }
 
 /// One step up to the first thing that happens in it; gives the share of it that is done.
 double Plunger::move_to_event(const PlungerInput& input, const Push& push) noexcept {
   const double net = push.from - area_ * state_.pressure;
-  if (const int way = way_ == 0 ? breaks_loose(net) : 0; way != 0) {
-    break_loose(way, push.from, push.stiffness);
+  if (const int direction = direction_ == 0 ? breaks_loose(net) : 0; direction != 0) {
+    break_loose(direction, push.from, push.stiffness);
     return 0;
   }
   const Before before{
-      state_, {states_[input.tip[0].space], states_[input.tip[1].space]}, flows_, way_, gait_};
+      state_, {states_[input.tip[0].space], states_[input.tip[1].space]}, flows_, direction_, motion_};
   const double shut = easiest(input, state_.bevel_pressure).over;
   move(input, push);
   const double pulls = felt(push, before.state.travel) - area_ * state_.pressure;
-  const int loose = before.way == 0 ? breaks_loose(pulls) : 0;
-  const bool stops = before.way != 0 && !(gait_.speed > 0);
+  const int loose = before.direction == 0 ? breaks_loose(pulls) : 0;
+  const bool stops = before.direction != 0 && !(motion_.speed > 0);
   const Shut opens = easiest(input, state_.bevel_pressure);
   const double opening = opens.tip != nullptr ? crossing(shut, opens.over) : 1;
-  double first = stops ? stopping(before.gait, gait_) : 1;
+  double first = stops ? stopping(before.motion, motion_) : 1;
   if (loose != 0) first = crossing(loose * net - hold_, loose * pulls - hold_);
   if (!stops && loose == 0 && opening >= 1) return 1;
   const bool parts = opening < first;
@@ -137,8 +137,8 @@ double Plunger::move_to_event(const PlungerInput& input, const Push& push) noexc
   state_ = before.state;
   for (std::size_t k = 0; k < 2; ++k) states_[input.tip[k].space] = before.spaces[k];
   flows_ = before.flows;
-  way_ = before.way;
-  gait_ = before.gait;
+  direction_ = before.direction;
+  motion_ = before.motion;
   const Push some = push.part(first);
   if (first > 0) move(input, some);
   if (parts) {
@@ -146,7 +146,7 @@ double Plunger::move_to_event(const PlungerInput& input, const Push& push) noexc
   } else if (loose != 0) {
     break_loose(loose, felt(some, before.state.travel), push.stiffness);
   } else {
-    way_ = 0;
+    direction_ = 0;
   }
   return first;
 }
@@ -156,8 +156,8 @@ double Plunger::felt(const Push& push, double travel) const noexcept {
   return push.to - push.stiffness * (state_.travel - travel);
 }
 
-void Plunger::take_flows(const PlungerInput& input, const Parting& parting, double step) noexcept {
-  const std::array<double, 2>& flows = parting.flows;
+void Plunger::take_flows(const PlungerInput& input, const BevelFlow& bevel_flow, double step) noexcept {
+  const std::array<double, 2>& flows = bevel_flow.flows;
   for (std::size_t k = 0; k < 2; ++k) {
     const double volume = flows[k] * step;
     const std::size_t space = input.tip[k].space;
@@ -178,7 +178,7 @@ double Plunger::run(const PlungerInput& input, Push push) noexcept {
       open(*shut.tip, input.depth);
     const double travel = state_.travel;
     double share = 1;
-    if (k < kMostEvents)
+    if (k < kMaxEvents)
       share = move_to_event(input, push);
     else
       move(input, push);
@@ -192,7 +192,7 @@ double Plunger::run(const PlungerInput& input, Push push) noexcept {
 
 void Plunger::describe(const PlungerInput& input, double thumb) noexcept {
   std::uint32_t& status = state_.status;
-  if (way_ != 0) status |= PlungerStatus::kMoving;
+  if (direction_ != 0) status |= PlungerStatus::kMoving;
   if (std::abs(state_.flow) > kStill) status |= PlungerStatus::kFlowing;
   if (state_.travel >= in_end_) status |= PlungerStatus::kEmpty;
   if (state_.travel <= out_end_ && params_.syringe.volume > params_.syringe.filled)
@@ -229,10 +229,10 @@ const PlungerState& Plunger::step(const PlungerInput& input) noexcept {
     state_.status |= PlungerStatus::kNotFinite;
     started_ = false;
   }
-  const double least = std::max(area_ * kVacuum - params_.syringe.glide, -params_.most_force);
-  const double wish = in.force + in.stiffness * (in.position - state_.travel);
-  const double now = std::clamp(wish, least, params_.most_force);
-  const bool limited = now != wish;
+  const double least = std::max(area_ * kVacuum - params_.syringe.glide, -params_.max_force);
+  const double request = in.force + in.stiffness * (in.position - state_.travel);
+  const double now = std::clamp(request, least, params_.max_force);
+  const bool limited = now != request;
   if (limited) state_.status |= PlungerStatus::kLimited;
   const double age = std::log10(std::max(1.0, rest_time_));
   hold_ = params_.syringe.break_loose * (1 + params_.syringe.ageing * age);
@@ -244,7 +244,7 @@ const PlungerState& Plunger::step(const PlungerInput& input) noexcept {
   started_ = true;
   if (leak(in, dt_ / 2)) meet(in);
   for (std::size_t k = 0; k < states_.size(); ++k) states_[k].relaxing *= fading_[k];
-  rest_time_ = way_ == 0 ? rest_time_ + dt_ : 0;
+  rest_time_ = direction_ == 0 ? rest_time_ + dt_ : 0;
   clog();
   describe(in, thumb);
   return state_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/haptics/plunger/space_pressure.h"
+#include "artus/detail/haptics/plunger/space_pressure.h"
 
 #include <algorithm>
 #include <cmath>

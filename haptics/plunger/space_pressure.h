@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
-#include "artus/anatomy/body/space.h"
-#include "artus/core/check.h"
+#include "artus/detail/anatomy/body/space.h"
+#include "artus/detail/core/check.h"
 
 namespace artus {
 

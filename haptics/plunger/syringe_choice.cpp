@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/haptics/plunger/syringe_choice.h"
+#include "artus/detail/haptics/plunger/syringe_choice.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,14 +9,14 @@ namespace {
 
 constexpr double kBeyondMark = 1.2;  // of a barrel's volume; assumed
 constexpr double kLargest = 100e-6;  // m^3
-constexpr double kMostAir = 10e-6;   // m^3
+constexpr double kMaxAir = 10e-6;   // m^3
 
 }  // namespace
 
 Result<PlungerParams> make_plunger_params(const SyringeChoice& choice, double needle_length) {
   if (!(choice.filled > 0 && choice.filled <= kLargest) || !(choice.barrel >= 0))
     return fail(ErrorCode::invalid, "the volume must be above 0 and at most 100 ml", "syringe");
-  if (!(choice.air >= 0 && choice.air <= kMostAir) ||
+  if (!(choice.air >= 0 && choice.air <= kMaxAir) ||
       !(choice.unbalanced >= 0 && choice.unbalanced <= 1))
     return fail(ErrorCode::invalid, "air must be 0 to 10 ml, the unbalanced share 0 to 1",
                 "syringe");

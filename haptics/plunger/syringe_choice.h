@@ -4,7 +4,7 @@
 #include <string>
 
 #include "artus/core/result.h"
-#include "artus/haptics/plunger/plunger.h"
+#include "artus/detail/haptics/plunger/plunger.h"
 
 namespace artus {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/haptics/probe/probe_contact.h"
+#include "artus/detail/haptics/probe/probe_contact.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
-#include "artus/core/rigid.h"
+#include "artus/detail/core/rigid.h"
 
 namespace artus {
 namespace {

@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "artus/haptics/guard.h"
-#include "artus/haptics/probe/probe_contact_column.h"
-#include "artus/haptics/wrench.h"
+#include "artus/detail/haptics/guard.h"
+#include "artus/detail/haptics/probe/probe_contact_column.h"
+#include "artus/detail/haptics/wrench.h"
 #include "artus/raycast/scene.h"
 
 namespace artus {

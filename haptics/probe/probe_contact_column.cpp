@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/haptics/probe/probe_contact_column.h"
+#include "artus/detail/haptics/probe/probe_contact_column.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,7 +28,7 @@ Compression compress(const ColumnParams& params, std::span<const ColumnLayer> la
                      double pressure) noexcept {
   Compression sum{pressure / params.stop_stiffness, 1 / params.stop_stiffness};
   for (const ColumnLayer& layer : layers) {
-    const double modulus = std::max(layer.modulus, params.least_modulus);
+    const double modulus = std::max(layer.modulus, params.min_modulus);
     const double stiffened = modulus + pressure / params.strain_limit;
     sum.depth += layer.thickness * pressure / stiffened;
     sum.slope += layer.thickness * modulus / (stiffened * stiffened);
@@ -40,7 +40,7 @@ Compression compress(const ColumnParams& params, std::span<const ColumnLayer> la
 
 double complementary_energy(const ColumnParams& params, const ColumnLayer& layer,
                             double pressure) noexcept {
-  const double scale = std::max(layer.modulus, params.least_modulus) * params.strain_limit;
+  const double scale = std::max(layer.modulus, params.min_modulus) * params.strain_limit;
   return params.strain_limit * (pressure - scale * std::log1p(pressure / scale));
 }
 

@@ -2,7 +2,7 @@
 #pragma once
 #include <span>
 
-#include "artus/core/check.h"
+#include "artus/detail/core/check.h"
 
 namespace artus {
 
@@ -17,7 +17,7 @@ struct ColumnParams {
   double strain_limit = 0.6;  ///< strain that no load exceeds; assumed: soft tissue under a probe
   double stop_stiffness =
       1e10;  ///< Pa/m of what the column stands on (bone); assumed: finite, far above any tissue
-  double least_modulus = 100;  ///< Pa, for tissues without a value; assumed
+  double min_modulus = 100;  ///< Pa, for tissues without a value; assumed
 };
 
 /// The answer of a column.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
-#include "artus/core/fields.h"
-#include "artus/haptics/probe/probe_contact.h"
+#include "artus/detail/core/fields.h"
+#include "artus/detail/haptics/probe/probe_contact.h"
 
 namespace artus {
 
@@ -20,10 +20,10 @@ void fields_of(P& params, F&& visit) {
 
 template <Like<ColumnParams> P, class F>
 void fields_of(P& params, F&& visit) {
-  auto& [strain_limit, stop_stiffness, least_modulus] = params;
+  auto& [strain_limit, stop_stiffness, min_modulus] = params;
   visit("strain_limit", strain_limit);
   visit("stop_stiffness", stop_stiffness);
-  visit("least_modulus", least_modulus);
+  visit("least_modulus", min_modulus);
 }
 
 template <Like<ProbeContactParams> P, class F>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/haptics/probe/probe_tangent.h"
+#include "artus/detail/haptics/probe/probe_tangent.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@ namespace artus {
 namespace {
 
 constexpr double kFarthest = 3e-3;  // m from the packet's pose
-constexpr double kMostTurn = 0.1;   // rad
+constexpr double kMaxTurn = 0.1;   // rad
 
 Vec3 limited(const Vec3& v, double most) noexcept {
   const double size = v.norm();
@@ -47,7 +47,7 @@ void ProbeTangent::add(const Tangent& tangent, const Pose& X_JP, double weight) 
   const Pose X_FP = tangent.X_JP.inverse() * X_JP;  // F: the packet's frame
   const Eigen::AngleAxisd turn(X_FP.linear());
   Vec6 motion;
-  motion << limited(X_FP.translation(), kFarthest), limited(turn.angle() * turn.axis(), kMostTurn);
+  motion << limited(X_FP.translation(), kFarthest), limited(turn.angle() * turn.axis(), kMaxTurn);
   const Vec6 wrench = tangent.wrench - tangent.stiffness * motion;
   if (!(wrench[2] < 0)) return;  // a face does not pull
   out_.force += weight * (tangent.X_JP.linear() * wrench.head<3>());

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "artus/core/check.h"
-#include "artus/haptics/wrench.h"
+#include "artus/detail/core/check.h"
+#include "artus/detail/haptics/wrench.h"
 
 namespace artus {
 

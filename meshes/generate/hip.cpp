@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/meshes/generate/hip.h"
+#include "artus/detail/meshes/generate/hip.h"
 
 #include <array>
 #include <cmath>
 #include <iterator>
 #include <numbers>
 
-#include "artus/core/check.h"
-#include "artus/meshes/generate/millimetres.h"
-#include "artus/meshes/generate/sweep.h"
+#include "artus/detail/core/check.h"
+#include "artus/detail/meshes/generate/millimetres.h"
+#include "artus/detail/meshes/generate/sweep.h"
 
 namespace artus {
 namespace {

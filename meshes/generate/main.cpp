@@ -8,12 +8,12 @@
 
 #include <CLI/CLI.hpp>
 
-#include "artus/anatomy/surfaces/surface_io.h"
-#include "artus/core/units.h"
-#include "artus/meshes/generate/hip.h"
-#include "artus/meshes/generate/knee.h"
-#include "artus/meshes/generate/shoulder.h"
-#include "artus/meshes/generate/simple_shoulder.h"
+#include "artus/detail/anatomy/surfaces/surface_io.h"
+#include "artus/detail/core/units.h"
+#include "artus/detail/meshes/generate/hip.h"
+#include "artus/detail/meshes/generate/knee.h"
+#include "artus/detail/meshes/generate/shoulder.h"
+#include "artus/detail/meshes/generate/simple_shoulder.h"
 
 namespace {
 

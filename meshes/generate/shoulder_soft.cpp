@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/core/check.h"
-#include "artus/meshes/generate/millimetres.h"
-#include "artus/meshes/generate/shoulder.h"
-#include "artus/meshes/generate/sweep.h"
+#include "artus/detail/core/check.h"
+#include "artus/detail/meshes/generate/millimetres.h"
+#include "artus/detail/meshes/generate/shoulder.h"
+#include "artus/detail/meshes/generate/sweep.h"
 
 namespace artus {
 namespace {

@@ -2,9 +2,9 @@
 #include <string>
 #include <utility>
 
-#include "artus/meshes/generate/millimetres.h"
-#include "artus/meshes/generate/shoulder.h"
-#include "artus/meshes/generate/sweep.h"
+#include "artus/detail/meshes/generate/millimetres.h"
+#include "artus/detail/meshes/generate/shoulder.h"
+#include "artus/detail/meshes/generate/sweep.h"
 
 namespace artus {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/meshes/generate/simple_shoulder.h"
+#include "artus/detail/meshes/generate/simple_shoulder.h"
 
 #include <algorithm>
 #include <array>
 #include <string>
 
-#include "artus/core/check.h"
-#include "artus/meshes/generate/sweep.h"
+#include "artus/detail/core/check.h"
+#include "artus/detail/meshes/generate/sweep.h"
 
 namespace artus {
 namespace {

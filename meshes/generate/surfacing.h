@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "artus/anatomy/surfaces/surface_mesh.h"
+#include "artus/detail/anatomy/surfaces/surface_mesh.h"
 #include "artus/core/result.h"
-#include "artus/meshes/generate/field.h"
+#include "artus/detail/meshes/generate/field.h"
 
 namespace artus {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/meshes/generate/sweep.h"
+#include "artus/detail/meshes/generate/sweep.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-#include "artus/core/check.h"
+#include "artus/detail/core/check.h"
 
 namespace artus {
 namespace {

@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "artus/meshes/generate/field.h"
+#include "artus/detail/meshes/generate/field.h"
 
 namespace artus {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/apps/arguments.h"
+#include "artus/detail/apps/options/arguments.h"
 
 #include <gtest/gtest.h>
 

@@ -14,13 +14,13 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/anatomy/body/compiled_joint.h"
-#include "artus/core/text_file.h"
-#include "artus/exchange/igtl/contents.h"
-#include "artus/exchange/igtl/listen_address.h"
-#include "artus/exchange/reference_frame.h"
-#include "artus/exchange/sequence_file.h"
-#include "artus/exchange/tracker_calibration.h"
+#include "artus/anatomy/compiled_joint.h"
+#include "artus/detail/core/text_file.h"
+#include "artus/detail/exchange/igtl/contents.h"
+#include "artus/detail/exchange/igtl/listen_address.h"
+#include "artus/detail/exchange/reference_frame.h"
+#include "artus/detail/exchange/sequence_file.h"
+#include "artus/detail/exchange/tracker_calibration.h"
 #include "tests/apps/run_tool.h"
 #include "tests/exchange/igtl_client.h"
 #include "tests/support/temporary_folder.h"

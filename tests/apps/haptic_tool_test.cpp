@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "artus/apps/command.h"
+#include "artus/detail/apps/options/command.h"
 #include "tests/apps/run_tool.h"
 
 namespace artus {

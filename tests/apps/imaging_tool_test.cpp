@@ -245,9 +245,9 @@ TEST_F(ImagingTool, APressedPictureSaysWhatWasPressed) {
 }
 
 /// What the report of a command says of a needle in a pressed simple-shoulder, moved last as `way`.
-nlohmann::json needle_moved(std::vector<std::string> line, const std::string& way) {
+nlohmann::json needle_moved(std::vector<std::string> line, const std::string& displacement) {
   line.insert(line.end(), {"-j", kSimple, "--press-mm", "1", "--needle", "default", "--needle-way",
-                           way, "--json"});
+                           displacement, "--json"});
   const auto r = artus(line);
   EXPECT_EQ(r.exit_code, 0) << r.err << r.out;
   return nlohmann::json::parse(r.out);

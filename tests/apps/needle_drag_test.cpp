@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/apps/needle_drag.h"
+#include "artus/detail/simulation/needle_drag.h"
 
 #include <gtest/gtest.h>
 
@@ -24,10 +24,10 @@ TEST(NeedleDrag, ATipThatGoesInPushesWhateverSoftLayerItIsIn) {
       needle.X_JN.translation() = skin + depth * needle.X_JN.linear().col(2);
       const RegionId region = scene.region_at(needle.X_JN.translation());
       if (region < kFirstRegion || joint->tissue_of(region).haptic.hard) continue;
-      const NeedleDrag drag = find_drag(scene, needle, NeedleWay::in, 1e-3);
+      const NeedleDrag drag = find_drag(scene, needle, NeedleDirection::in, 1e-3);
       EXPECT_GT(drag.tip_force, 0) << tilt << ", " << depth;
       EXPECT_GT(drag.push, 0) << tilt << ", " << depth;
-      EXPECT_EQ(find_drag(scene, needle, NeedleWay::out, 1e-3).tip_force, 0);
+      EXPECT_EQ(find_drag(scene, needle, NeedleDirection::out, 1e-3).tip_force, 0);
       ++n;
     }
   }

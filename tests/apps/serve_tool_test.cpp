@@ -13,8 +13,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "artus/session/session_thread.h"
-#include "artus/session/shared_memory.h"
+#include "artus/detail/session/session_thread.h"
+#include "artus/detail/session/shm/shared_memory.h"
 #include "tests/apps/run_tool.h"
 
 namespace artus {

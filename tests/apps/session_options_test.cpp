@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/apps/session_options.h"
+#include "artus/detail/apps/options/session_options.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "artus/haptics/plunger/needle_flow.h"
+#include "artus/detail/haptics/plunger/needle_flow.h"
 #include "tests/apps/run_tool.h"
 
 namespace artus {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/core/closest_point.h"
+#include "artus/detail/core/closest_point.h"
 
 #include <gtest/gtest.h>
 
-#include "artus/core/noise.h"
+#include "artus/detail/core/noise.h"
 
 namespace artus {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/core/fields.h"
+#include "artus/detail/core/fields.h"
 
 #include <vector>
 

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/core/rigid.h"
+#include "artus/detail/core/rigid.h"
 
 namespace artus {
 namespace {

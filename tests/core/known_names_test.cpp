@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/core/known_names.h"
+#include "artus/detail/core/known_names.h"
 
 #include <array>
 

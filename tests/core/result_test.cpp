@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/core/check.h"
+#include "artus/detail/core/check.h"
 
 namespace artus {
 namespace {

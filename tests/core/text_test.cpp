@@ -6,16 +6,16 @@
 
 #include <gmock/gmock.h>
 
-#include "artus/core/byte_stream.h"
-#include "artus/core/csv.h"
-#include "artus/core/markup.h"
-#include "artus/core/printed.h"
-#include "artus/core/progress.h"
-#include "artus/core/text_cursor.h"
-#include "artus/core/text_file.h"
-#include "artus/core/text_lines.h"
-#include "artus/core/toml_table.h"
-#include "artus/core/units.h"
+#include "artus/detail/core/byte_stream.h"
+#include "artus/detail/core/csv.h"
+#include "artus/detail/core/markup.h"
+#include "artus/detail/core/printed.h"
+#include "artus/detail/core/progress.h"
+#include "artus/detail/core/text_cursor.h"
+#include "artus/detail/core/text_file.h"
+#include "artus/detail/core/text_lines.h"
+#include "artus/detail/core/toml_table.h"
+#include "artus/detail/core/units.h"
 #include "tests/support/temporary_folder.h"
 
 namespace artus {

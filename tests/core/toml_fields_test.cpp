@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/core/toml_fields.h"
+#include "artus/detail/core/toml_fields.h"
 
 #include <array>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/core/toml_library.h"
+#include "artus/detail/core/toml_library.h"
 
 #include <gmock/gmock.h>
 

@@ -13,10 +13,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "artus/core/rigid.h"
-#include "artus/dataset/draw_ranges.h"
-#include "artus/dataset/frame_order.h"
-#include "artus/dataset/sweep_frame.h"
+#include "artus/detail/core/rigid.h"
+#include "artus/detail/dataset/draw_ranges.h"
+#include "artus/detail/dataset/frame_order.h"
+#include "artus/detail/dataset/sweep_frame.h"
 #include "tests/dataset/shards_fixture.h"
 
 namespace artus {

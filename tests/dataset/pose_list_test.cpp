@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/core/units.h"
+#include "artus/detail/core/units.h"
 
 namespace artus {
 namespace {

@@ -9,11 +9,11 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/core/text_file.h"
-#include "artus/dataset/pose_draw.h"
-#include "artus/dataset/shard_merge.h"
-#include "artus/dataset/shards.h"
-#include "artus/evidence/echo/echo_phantom.h"
+#include "artus/detail/core/text_file.h"
+#include "artus/detail/dataset/pose_draw.h"
+#include "artus/detail/dataset/shard_merge.h"
+#include "artus/detail/dataset/shards.h"
+#include "artus/detail/evidence/validation/echo/echo_phantom.h"
 #include "tests/support/temporary_folder.h"
 
 namespace artus::test {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/dataset/shards.h"
+#include "artus/detail/dataset/shards.h"
 
 #include <algorithm>
 #include <array>
@@ -16,13 +16,13 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "artus/core/text_file.h"
-#include "artus/dataset/secure_hash.h"
-#include "artus/dataset/shard_merge.h"
-#include "artus/dataset/shard_stats.h"
-#include "artus/dataset/stored_sweep.h"
-#include "artus/dataset/sweep_frame.h"
-#include "artus/dataset/tar_file.h"
+#include "artus/detail/core/text_file.h"
+#include "artus/detail/dataset/secure_hash.h"
+#include "artus/detail/dataset/shard_merge.h"
+#include "artus/detail/dataset/shard_stats.h"
+#include "artus/detail/dataset/stored_sweep.h"
+#include "artus/detail/dataset/sweep_frame.h"
+#include "artus/detail/dataset/tar_file.h"
 #include "tests/dataset/shards_fixture.h"
 #include "tests/support/process.h"
 

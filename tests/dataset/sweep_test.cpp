@@ -14,10 +14,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "artus/core/units.h"
-#include "artus/dataset/echo_truth.h"
-#include "artus/dataset/sweep_video.h"
-#include "artus/evidence/echo/echo_phantom.h"
+#include "artus/detail/core/units.h"
+#include "artus/detail/dataset/echo_truth.h"
+#include "artus/detail/dataset/sweep_video.h"
+#include "artus/detail/evidence/validation/echo/echo_phantom.h"
 #include "tests/support/temporary_folder.h"
 
 namespace artus {

@@ -8,11 +8,11 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/core/units.h"
-#include "artus/echo/beam_profile.h"
-#include "artus/echo/beam_spread.h"
-#include "artus/echo/frame_measure.h"
-#include "artus/echo/region_acoustics.h"
+#include "artus/detail/core/units.h"
+#include "artus/detail/echo/probe/beam_profile.h"
+#include "artus/detail/echo/acquire/beam_spread.h"
+#include "artus/detail/echo/display/frame_measure.h"
+#include "artus/detail/echo/medium/region_acoustics.h"
 #include "artus/echo/renderer.h"
 #include "artus/echo/transducer_file.h"
 #include "tests/echo/echo_fixture.h"

@@ -10,8 +10,8 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/core/units.h"
-#include "artus/echo/image_fields.h"
+#include "artus/detail/core/units.h"
+#include "artus/detail/echo/display/image_fields.h"
 #include "artus/echo/renderer.h"
 #include "tests/echo/echo_fixture.h"
 #include "tests/support/no_alloc.h"

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/echo/aperture_coupling.h"
+#include "artus/detail/echo/acquire/aperture_coupling.h"
 #include "artus/echo/renderer.h"
 #include "tests/echo/echo_fixture.h"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "artus/echo/frame.h"
-#include "artus/echo/frame_measure.h"
+#include "artus/detail/echo/display/frame_measure.h"
 #include "artus/echo/image_settings.h"
 #include "artus/echo/needle_view.h"
 #include "artus/raycast/scene.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/echo/fibre_course.h"
+#include "artus/detail/echo/medium/fibre_course.h"
 
 #include <array>
 #include <cmath>
@@ -10,8 +10,8 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/core/units.h"
-#include "artus/echo/region_acoustics.h"
+#include "artus/detail/core/units.h"
+#include "artus/detail/echo/medium/region_acoustics.h"
 #include "tests/echo/echo_fixture.h"
 
 namespace artus {

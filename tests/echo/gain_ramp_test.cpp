@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/echo/gain_ramp.h"
+#include "artus/detail/echo/probe/gain_ramp.h"
 
 #include <cstddef>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "artus/echo/setting_ranges.h"
+#include "artus/detail/echo/probe/setting_ranges.h"
 
 namespace artus {
 namespace {

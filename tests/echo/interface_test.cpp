@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/core/units.h"
-#include "artus/echo/region_acoustics.h"
+#include "artus/detail/core/units.h"
+#include "artus/detail/echo/medium/region_acoustics.h"
 #include "artus/echo/renderer.h"
 #include "tests/echo/echo_fixture.h"
 

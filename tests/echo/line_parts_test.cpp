@@ -8,14 +8,14 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/core/units.h"
-#include "artus/echo/block_workers.h"
-#include "artus/echo/compound.h"
-#include "artus/echo/gaussian.h"
-#include "artus/echo/line_shaping.h"
-#include "artus/echo/placed_line.h"
-#include "artus/echo/scan_converter.h"
-#include "artus/echo/scatter_field.h"
+#include "artus/detail/core/units.h"
+#include "artus/detail/echo/acquire/block_workers.h"
+#include "artus/detail/echo/display/compound.h"
+#include "artus/detail/echo/probe/gaussian.h"
+#include "artus/detail/echo/acquire/line_shaping.h"
+#include "artus/detail/echo/probe/placed_line.h"
+#include "artus/detail/echo/display/scan_converter.h"
+#include "artus/detail/echo/medium/scatter_field.h"
 
 namespace artus {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/echo/liquid_plume.h"
+#include "artus/detail/echo/acquire/liquid_plume.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,11 +5,11 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/core/units.h"
+#include "artus/detail/core/units.h"
 #include "artus/echo/labels.h"
-#include "artus/echo/propagation.h"
+#include "artus/detail/echo/acquire/propagation.h"
 #include "artus/echo/renderer.h"
-#include "artus/raycast/moving_scene.h"
+#include "artus/detail/raycast/moving_scene.h"
 #include "tests/echo/echo_fixture.h"
 #include "tests/support/moved_block.h"
 

@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/core/units.h"
-#include "artus/echo/beam_profile.h"
+#include "artus/detail/core/units.h"
+#include "artus/detail/echo/probe/beam_profile.h"
 #include "artus/echo/renderer.h"
 #include "tests/echo/echo_fixture.h"
 

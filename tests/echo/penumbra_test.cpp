@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/echo/penumbra.h"
+#include "artus/detail/echo/acquire/penumbra.h"
 
 #include <cstddef>
 #include <vector>

@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/echo/display.h"
+#include "artus/detail/echo/display/display.h"
 #include "artus/echo/labels.h"
 #include "tests/echo/echo_fixture.h"
 

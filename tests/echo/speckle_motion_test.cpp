@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/core/units.h"
+#include "artus/detail/core/units.h"
 #include "artus/echo/renderer.h"
 #include "tests/echo/echo_fixture.h"
 

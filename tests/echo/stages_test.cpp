@@ -9,8 +9,8 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/echo/echo_pipeline.h"
-#include "artus/echo/image_fields.h"
+#include "artus/detail/echo/display/echo_pipeline.h"
+#include "artus/detail/echo/display/image_fields.h"
 #include "artus/echo/renderer.h"
 #include "tests/echo/echo_fixture.h"
 #include "tests/support/no_alloc.h"

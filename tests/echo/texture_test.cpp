@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/echo/texture.h"
+#include "artus/detail/echo/medium/texture.h"
 
 #include <array>
 #include <cmath>

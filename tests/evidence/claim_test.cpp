@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/evidence/claim.h"
+#include "artus/detail/evidence/claim.h"
 
 #include <limits>
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/evidence/report.h"
+#include "artus/detail/evidence/report.h"
 
 #include <filesystem>
 #include <fstream>

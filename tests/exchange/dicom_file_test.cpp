@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/exchange/dicom_file.h"
+#include "artus/detail/exchange/dicom_file.h"
 
 #include <cstring>
 #include <string>
@@ -12,7 +12,7 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/core/text_file.h"
+#include "artus/detail/core/text_file.h"
 #include "tests/support/process.h"
 #include "tests/support/temporary_folder.h"
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "artus/exchange/igtl/message.h"
-#include "artus/exchange/igtl/stream_reader.h"
+#include "artus/detail/exchange/igtl/message.h"
+#include "artus/detail/exchange/igtl/stream_reader.h"
 
 namespace artus::test {
 

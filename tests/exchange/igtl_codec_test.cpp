@@ -6,11 +6,11 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/exchange/igtl/big_endian.h"
-#include "artus/exchange/igtl/checksum.h"
-#include "artus/exchange/igtl/contents.h"
-#include "artus/exchange/igtl/message.h"
-#include "artus/exchange/igtl/stream_reader.h"
+#include "artus/detail/exchange/igtl/big_endian.h"
+#include "artus/detail/exchange/igtl/checksum.h"
+#include "artus/detail/exchange/igtl/contents.h"
+#include "artus/detail/exchange/igtl/message.h"
+#include "artus/detail/exchange/igtl/stream_reader.h"
 
 namespace artus::igtl {
 namespace {

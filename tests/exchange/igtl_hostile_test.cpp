@@ -4,17 +4,17 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/core/noise.h"
-#include "artus/exchange/igtl/big_endian.h"
-#include "artus/exchange/igtl/checksum.h"
-#include "artus/exchange/igtl/contents.h"
-#include "artus/exchange/igtl/message.h"
-#include "artus/exchange/igtl/stream_reader.h"
+#include "artus/detail/core/noise.h"
+#include "artus/detail/exchange/igtl/big_endian.h"
+#include "artus/detail/exchange/igtl/checksum.h"
+#include "artus/detail/exchange/igtl/contents.h"
+#include "artus/detail/exchange/igtl/message.h"
+#include "artus/detail/exchange/igtl/stream_reader.h"
 
 namespace artus::igtl {
 namespace {
 
-constexpr std::size_t kMost = 4096;  // bytes of a wanted body
+constexpr std::size_t kMax = 4096;  // bytes of a wanted body
 
 /// Reads whatever a message says it is; returns whether it made sense.
 bool read_content(const Message& message) {
@@ -75,16 +75,16 @@ struct Tally {
   std::size_t refused = 0;
   std::size_t senseless = 0;
   std::size_t sound = 0;
-  std::size_t most_kept = 0;
+  std::size_t max_kept = 0;
 };
 
 void read_into(Tally& tally, std::string_view bytes, std::size_t piece) {
-  StreamReader reader([](std::string_view) { return kMost; });
+  StreamReader reader([](std::string_view) { return kMax; });
   for (std::size_t at = 0; at < bytes.size(); at += piece) {
     const auto taken = reader.take(bytes.substr(at, piece), [&](const Message& message) {
       ++(read_content(message) ? tally.sound : tally.senseless);
     });
-    tally.most_kept = std::max(tally.most_kept, reader.kept());
+    tally.max_kept = std::max(tally.max_kept, reader.kept());
     if (!taken) {
       EXPECT_FALSE(taken.error().message.empty());
       ++tally.refused;
@@ -123,7 +123,7 @@ TEST(IgtlHostile, AHundredThousandMutatedMessagesDoNoHarm) {
   EXPECT_GT(tally.refused, 10'000U);
   EXPECT_GT(tally.senseless, 1'000U);  // past the check value, and refused by its contents
   EXPECT_GT(tally.sound, 10'000U);
-  EXPECT_LE(tally.most_kept, 2 * kMost);
+  EXPECT_LE(tally.max_kept, 2 * kMax);
 }
 
 TEST(IgtlHostile, TenThousandAbsurdMessagesWithRightCheckValuesDoNoHarm) {
@@ -144,7 +144,7 @@ TEST(IgtlHostile, TenThousandAbsurdMessagesWithRightCheckValuesDoNoHarm) {
     read_into(tally, bytes, 64);
   }
   EXPECT_GT(tally.senseless, 3'000U);
-  EXPECT_LE(tally.most_kept, 2 * kMost);
+  EXPECT_LE(tally.max_kept, 2 * kMax);
 }
 
 TEST(IgtlHostile, AHeaderThatPromisesMuchTakesNoMemory) {

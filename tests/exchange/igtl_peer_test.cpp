@@ -14,9 +14,9 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/exchange/igtl/contents.h"
-#include "artus/exchange/igtl/message.h"
-#include "artus/exchange/igtl/stream_reader.h"
+#include "artus/detail/exchange/igtl/contents.h"
+#include "artus/detail/exchange/igtl/message.h"
+#include "artus/detail/exchange/igtl/stream_reader.h"
 
 namespace {
 

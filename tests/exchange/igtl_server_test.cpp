@@ -9,11 +9,11 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/exchange/igtl/big_endian.h"
-#include "artus/exchange/igtl/client_link.h"
-#include "artus/exchange/igtl/contents.h"
-#include "artus/exchange/igtl/listen_address.h"
-#include "artus/exchange/igtl/server.h"
+#include "artus/detail/exchange/igtl/big_endian.h"
+#include "artus/detail/exchange/igtl/client_link.h"
+#include "artus/detail/exchange/igtl/contents.h"
+#include "artus/detail/exchange/igtl/listen_address.h"
+#include "artus/detail/exchange/igtl/server.h"
 #include "tests/exchange/igtl_client.h"
 
 namespace artus {
@@ -220,7 +220,7 @@ TEST_F(IgtlServer, PassesOverPicturesThatAreSentToIt) {
 
 TEST_F(IgtlServer, MoreClientsThanThereIsRoomForAreTurnedAway) {
   igtl::Server::Options options;
-  options.most_clients = 2;
+  options.max_clients = 2;
   start(options);
   IgtlClient a(server_->port());
   IgtlClient b(server_->port());

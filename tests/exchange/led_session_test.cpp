@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/exchange/led_session.h"
+#include "artus/detail/exchange/led_session.h"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "artus/session/replay.h"
-#include "artus/training/assessment.h"
+#include "artus/detail/training/assessment.h"
 #include "tests/session/session_support.h"
 #include "tests/support/meshed_block.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/exchange/sequence_file.h"
+#include "artus/detail/exchange/sequence_file.h"
 
 #include <string>
 
@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/exchange/reference_frame.h"
-#include "artus/exchange/sequence_maker.h"
+#include "artus/detail/exchange/reference_frame.h"
+#include "artus/detail/exchange/sequence_maker.h"
 
 namespace artus {
 namespace {

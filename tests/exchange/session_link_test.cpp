@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // A running session seen by another program: its picture, poses and forces, a tracker, commands.
-#include "artus/exchange/session_link.h"
+#include "artus/detail/exchange/session_link.h"
 
 #include <algorithm>
 #include <array>
@@ -15,9 +15,9 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/core/text_cursor.h"
-#include "artus/haptics/plunger/syringe_choice.h"
-#include "artus/session/session_thread.h"
+#include "artus/detail/core/text_cursor.h"
+#include "artus/detail/haptics/plunger/syringe_choice.h"
+#include "artus/detail/session/session_thread.h"
 #include "tests/exchange/igtl_client.h"
 #include "tests/session/session_support.h"
 
@@ -239,7 +239,7 @@ TEST_F(SessionLinkTest, AThumbThatCannotBeGivesNothingAndTheNextOneIsServed) {
     const PlungerFeedback& felt = haptic.feedback.plunger;
     for (const double v : {felt.thumb_force, felt.pressure, felt.flow, felt.given, felt.drawn})
       EXPECT_TRUE(std::isfinite(v));
-    EXPECT_LE(std::abs(felt.thumb_force), SyringeCore::kMostForce);
+    EXPECT_LE(std::abs(felt.thumb_force), SyringeCore::kMaxForce);
     return felt;
   };
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();

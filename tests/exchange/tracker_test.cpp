@@ -8,12 +8,12 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/echo/scan_converter.h"
-#include "artus/exchange/landmark_registration.h"
-#include "artus/exchange/reference_frame.h"
-#include "artus/exchange/remote_command.h"
-#include "artus/exchange/tracker_calibration.h"
-#include "artus/exchange/tracker_device.h"
+#include "artus/detail/echo/display/scan_converter.h"
+#include "artus/detail/exchange/landmark_registration.h"
+#include "artus/detail/exchange/reference_frame.h"
+#include "artus/detail/exchange/remote_command.h"
+#include "artus/detail/exchange/tracker_calibration.h"
+#include "artus/detail/exchange/tracker_device.h"
 #include "tests/support/real_time.h"
 
 namespace artus {

@@ -3,7 +3,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "artus/anatomy/body/compiled_joint.h"
+#include "artus/anatomy/compiled_joint.h"
 #include "tests/fuzz/fuzz_surface.h"
 
 namespace {

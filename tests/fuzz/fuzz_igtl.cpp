@@ -3,11 +3,11 @@
 #include <cstdlib>
 #include <string>
 
-#include "artus/exchange/igtl/big_endian.h"
-#include "artus/exchange/igtl/checksum.h"
-#include "artus/exchange/igtl/contents.h"
-#include "artus/exchange/igtl/message.h"
-#include "artus/exchange/igtl/stream_reader.h"
+#include "artus/detail/exchange/igtl/big_endian.h"
+#include "artus/detail/exchange/igtl/checksum.h"
+#include "artus/detail/exchange/igtl/contents.h"
+#include "artus/detail/exchange/igtl/message.h"
+#include "artus/detail/exchange/igtl/stream_reader.h"
 
 namespace {
 
@@ -28,14 +28,14 @@ void read_content(const Message& message) {
 }
 
 void read_stream(std::string_view bytes, std::size_t piece) {
-  constexpr std::size_t kMost = 1U << 16U;  // bytes of a wanted body
-  StreamReader reader([](std::string_view type) { return type[0] == 'P' ? 0 : kMost; });
+  constexpr std::size_t kMax = 1U << 16U;  // bytes of a wanted body
+  StreamReader reader([](std::string_view type) { return type[0] == 'P' ? 0 : kMax; });
   for (std::size_t at = 0; at < bytes.size(); at += piece)
     if (const auto taken = reader.take(bytes.substr(at, piece), read_content); !taken) {
       if (taken.error().message.empty()) std::abort();
       return;
     }
-  if (reader.kept() > 2 * kMost) std::abort();
+  if (reader.kept() > 2 * kMax) std::abort();
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/anatomy/surfaces/surface_io.h"
+#include "artus/detail/anatomy/surfaces/surface_io.h"
 #include "tests/fuzz/fuzz_surface.h"
 
 /// Both forms of STL, and the choice of the format by content.

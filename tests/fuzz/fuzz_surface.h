@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "artus/anatomy/surfaces/surface_io_formats.h"
+#include "artus/detail/anatomy/surfaces/surface_io_formats.h"
 
 namespace artus {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/anatomy/body/joint_file.h"
+#include "artus/anatomy/joint_file.h"
 #include "tests/fuzz/fuzz_surface.h"
 
 /// The joint file and the tissue library: a valid object or a refusal with a message.

@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/core/text_file.h"
+#include "artus/detail/core/text_file.h"
 #include "tests/golden/force_scenarios.h"
 #include "tests/support/paths.h"
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "artus/core/units.h"
-#include "artus/evidence/needle/experiment_body.h"
-#include "artus/haptics/needle/needle_tick_step.h"
+#include "artus/detail/core/units.h"
+#include "artus/detail/evidence/validation/needle/experiment_body.h"
+#include "artus/detail/haptics/needle/needle_tick_step.h"
 
 namespace artus::test {
 namespace {
@@ -62,7 +62,7 @@ struct Key {
   double tilt = 0;  // rad
 };
 
-struct Way {
+struct Path {
   std::vector<Key> keys;  // straight in between; mm until make_way has made them m
   Vec3 direction = Vec3::UnitZ();
   double rate_hz = 1000;
@@ -70,31 +70,31 @@ struct Way {
   double frozen_to = 1e9;
 };
 
-Key at(const Way& way, double t) {
+Key at(const Path& displacement, double t) {
   std::size_t i = 1;
-  while (i + 1 < way.keys.size() && way.keys[i].time <= t) ++i;
-  const Key& a = way.keys[i - 1];
-  const Key& b = way.keys[i];
+  while (i + 1 < displacement.keys.size() && displacement.keys[i].time <= t) ++i;
+  const Key& a = displacement.keys[i - 1];
+  const Key& b = displacement.keys[i];
   const double share = std::clamp((t - a.time) / (b.time - a.time), 0.0, 1.0);
   return {t, kMm * (a.depth + share * (b.depth - a.depth)),
           kMm * (a.side + share * (b.side - a.side)), a.tilt + share * (b.tilt - a.tilt)};
 }
 
-std::vector<NeedleRow> follow(const AnalyticBody& body, const Way& way, const ForceSetup& setup) {
+std::vector<NeedleRow> follow(const AnalyticBody& body, const Path& displacement, const ForceSetup& setup) {
   std::vector<LayerHaptics> by_region(kFirstRegion);
   for (const LayerHaptics& layer : layers_of(setup)) by_region.push_back(layer);
   NeedleTickStep tick(LayerTable(std::move(by_region)),
-                      {setup.needle, setup.guard, setup.passivity, setup.device, way.rate_hz});
-  const Vec3 direction = way.direction.normalized();
+                      {setup.needle, setup.guard, setup.passivity, setup.device, displacement.rate_hz});
+  const Vec3 direction = displacement.direction.normalized();
   const Vec3 side = make_pose(Vec3::Zero(), direction, Vec3::UnitX()).linear().col(0);
   std::vector<NeedleRow> rows;
-  const auto n = static_cast<long>(way.keys.back().time * way.rate_hz);
+  const auto n = static_cast<long>(displacement.keys.back().time * displacement.rate_hz);
   for (long i = 0; i < n; ++i) {
-    const double t = static_cast<double>(i) / way.rate_hz;
-    const Key k = at(way, t);
+    const double t = static_cast<double>(i) / displacement.rate_hz;
+    const Key k = at(displacement, t);
     const Vec3 axis = std::cos(k.tilt) * direction + std::sin(k.tilt) * side;
     const Pose X_JN = make_pose(k.depth * direction + k.side * side, axis, side.cross(axis));
-    const double time = t >= way.frozen_from && t < way.frozen_to ? way.frozen_from : t;
+    const double time = t >= displacement.frozen_from && t < displacement.frozen_to ? displacement.frozen_from : t;
     const RenderedNeedle& rendered = tick.step({X_JN, time}, body);
     rows.push_back(make_needle_row(t, X_JN, rendered, tick.model()));
     rows.back().energy_to_hand = rendered.energy_to_hand;
@@ -102,15 +102,15 @@ std::vector<NeedleRow> follow(const AnalyticBody& body, const Way& way, const Fo
   return rows;
 }
 
-ForceScenario prescribed(const std::string& name, const ForceSetup& setup, const Way& way,
+ForceScenario prescribed(const std::string& name, const ForceSetup& setup, const Path& displacement,
                          const AnalyticBody& body = flat_layers()) {
-  return {name, setup, [body, way](const ForceSetup& s) {
-            return follow(body, way, s);
+  return {name, setup, [body, displacement](const ForceSetup& s) {
+            return follow(body, displacement, s);
           }};
 }
 
 /// In through skin, muscle and bursa, with stops, on bone, and out.
-Way insertion() {
+Path insertion() {
   return {{{0, -3, 0, 0},
            {0.1, -1, 0, 0},
            {0.4, 1, 0, 0},
@@ -176,14 +176,14 @@ ForceScenario voigt_plasticity() {
   setup.needle.plasticity.yield_force = 0.1;
   setup.needle.use_workspace = true;
   setup.needle.workspace.centre = Vec3(0.02, 0.01, 0.158);
-  Way way{{{0, -1, 0, 0},
+  Path displacement{{{0, -1, 0, 0},
            {0.2, 2, 0, 0},
            {0.4, 10, 1, 0},
            {0.6, 17, -1, 0},
            {0.7, 20, 0, 0},
            {0.9, -1, 0, 0}},
           Vec3::UnitZ()};
-  return prescribed("voigt-plasticity", setup, way);
+  return prescribed("voigt-plasticity", setup, displacement);
 }
 
 ForceScenario barbe_impulse() {
@@ -192,9 +192,9 @@ ForceScenario barbe_impulse() {
   setup.skin.puncture_force = 0.05;
   setup.bursa.prepuncture_law = PrepunctureLaw::god_object;
   setup.needle.hard.law = HardLaw::impulse;
-  Way way{{{0, -1, 0, 0}, {0.2, 2, 0, 0}, {0.5, 24.5, 0, 0}, {0.6, 24.5, 0, 0}}, Vec3::UnitZ()};
-  way.rate_hz = 5000;
-  return prescribed("barbe-impulse", setup, way);
+  Path displacement{{{0, -1, 0, 0}, {0.2, 2, 0, 0}, {0.5, 24.5, 0, 0}, {0.6, 24.5, 0, 0}}, Vec3::UnitZ()};
+  displacement.rate_hz = 5000;
+  return prescribed("barbe-impulse", setup, displacement);
 }
 
 /// A proxy on the skin under an oblique needle; the direct law throws the needle out, and the
@@ -271,7 +271,7 @@ ForceScenario faults() {
   ForceSetup setup = plain_setup();
   setup.guard.workspace_centre = Vec3(0.01, 0.01, 0.005);
   setup.guard.workspace_half = Vec3(0.1, 0.1, 0.03);
-  Way way{{{0, -10, 0, 0},
+  Path displacement{{{0, -10, 0, 0},
            {0.1, -10, 0, 0},
            {0.105, -10, 10.25, 0},  // 2.05 m/s
            {0.2, -10, 10.25, 0},
@@ -282,9 +282,9 @@ ForceScenario faults() {
            {1.1, 8, 0, 0},
            {1.3, 9, 0, 0}},
           Vec3::UnitZ()};
-  way.frozen_from = 0.8;
-  way.frozen_to = 0.83;
-  return prescribed("faults", setup, way);
+  displacement.frozen_from = 0.8;
+  displacement.frozen_to = 0.83;
+  return prescribed("faults", setup, displacement);
 }
 
 /// A weak device.

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "artus/anatomy/body/tissue.h"
-#include "artus/evidence/needle/needle_trace.h"
-#include "artus/haptics/guard_fields.h"
-#include "artus/haptics/needle/needle_params_fields.h"
+#include "artus/detail/anatomy/body/tissue.h"
+#include "artus/detail/evidence/runs/needle_trace.h"
+#include "artus/detail/haptics/guard_fields.h"
+#include "artus/detail/haptics/needle/needle_params_fields.h"
 
 namespace artus {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "artus/core/text_cursor.h"
+#include "artus/detail/core/text_cursor.h"
 #include "tests/golden/force_scenarios.h"
 
 namespace artus::test {

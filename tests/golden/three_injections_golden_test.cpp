@@ -17,10 +17,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "artus/anatomy/body/compiled_joint.h"
+#include "artus/anatomy/compiled_joint.h"
 #include "artus/echo/image_io.h"
 #include "artus/echo/renderer.h"
-#include "artus/evidence/medical/three_injections.h"
+#include "artus/detail/evidence/runs/three_injections.h"
 #include "tests/support/paths.h"
 
 namespace artus {

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/haptics/guard_fields.h"
-#include "artus/haptics/wrench.h"
+#include "artus/detail/haptics/guard_fields.h"
+#include "artus/detail/haptics/wrench.h"
 
 namespace artus {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/haptics/guard.h"
+#include "artus/detail/haptics/guard.h"
 
 #include <limits>
 

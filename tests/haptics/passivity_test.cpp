@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/haptics/passivity.h"
+#include "artus/detail/haptics/passivity.h"
 
 #include <cmath>
 
@@ -14,11 +14,11 @@ constexpr double kStep = 1e-3;
 double run_source(const PassivityParams& params, int ticks) {
   PassivityObserver observer(params, kStep);
   double x = 0;
-  double way = 1;
+  double distance = 1;
   for (int i = 0; i < ticks; ++i) {
-    if (i % 200 == 199) way = -way;
-    x += way * 1e-5;
-    observer.observe(observer.step(Vec3(x, 0, 0), Vec3(0.1 * way, 0, 0)));
+    if (i % 200 == 199) distance = -distance;
+    x += distance * 1e-5;
+    observer.observe(observer.step(Vec3(x, 0, 0), Vec3(0.1 * distance, 0, 0)));
   }
   return observer.energy_to_hand();
 }

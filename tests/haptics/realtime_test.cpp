@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "artus/haptics/device.h"
-#include "artus/haptics/guard.h"
-#include "artus/haptics/passivity.h"
+#include "artus/detail/haptics/guard.h"
+#include "artus/detail/haptics/passivity.h"
 #include "tests/support/real_time.h"
 
 namespace artus {

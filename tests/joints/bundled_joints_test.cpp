@@ -10,8 +10,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "artus/anatomy/body/compiled_joint.h"
-#include "artus/core/noise.h"
+#include "artus/anatomy/compiled_joint.h"
+#include "artus/detail/core/noise.h"
 #include "artus/raycast/scene.h"
 #include "tests/support/paths.h"
 

@@ -6,11 +6,11 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/anatomy/body/joint_file.h"
-#include "artus/meshes/generate/hip.h"
-#include "artus/meshes/generate/knee.h"
-#include "artus/meshes/generate/shoulder.h"
-#include "artus/meshes/generate/simple_shoulder.h"
+#include "artus/anatomy/joint_file.h"
+#include "artus/detail/meshes/generate/hip.h"
+#include "artus/detail/meshes/generate/knee.h"
+#include "artus/detail/meshes/generate/shoulder.h"
+#include "artus/detail/meshes/generate/simple_shoulder.h"
 #include "tests/support/paths.h"
 
 namespace artus {

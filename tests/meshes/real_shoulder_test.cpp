@@ -5,10 +5,10 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/anatomy/body/joint_file.h"
-#include "artus/anatomy/surfaces/distance_tree.h"
-#include "artus/anatomy/surfaces/surface_io.h"
-#include "artus/core/units.h"
+#include "artus/anatomy/joint_file.h"
+#include "artus/detail/anatomy/surfaces/distance_tree.h"
+#include "artus/detail/anatomy/surfaces/surface_io.h"
+#include "artus/detail/core/units.h"
 #include "tests/support/paths.h"
 
 namespace artus {

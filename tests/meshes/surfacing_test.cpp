@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/meshes/generate/surfacing.h"
+#include "artus/detail/meshes/generate/surfacing.h"
 
 #include <numbers>
 
 #include <gtest/gtest.h>
 
-#include "artus/meshes/generate/shoulder.h"
-#include "artus/meshes/generate/simple_shoulder.h"
-#include "artus/meshes/generate/sweep.h"
+#include "artus/detail/meshes/generate/shoulder.h"
+#include "artus/detail/meshes/generate/simple_shoulder.h"
+#include "artus/detail/meshes/generate/sweep.h"
 #include "tests/meshes/topology.h"
 
 namespace artus {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
-#include "artus/anatomy/surfaces/surface_mesh.h"
+#include "artus/detail/anatomy/surfaces/surface_mesh.h"
 
 namespace artus {
 

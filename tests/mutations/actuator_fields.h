@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
-#include "artus/core/fields.h"
-#include "artus/haptics/actuator/control_law_supervisor.h"
-#include "artus/haptics/actuator/pneumatic_plant.h"
+#include "artus/detail/core/fields.h"
+#include "artus/detail/haptics/actuator/control_law_supervisor.h"
+#include "artus/detail/haptics/actuator/pneumatic_plant.h"
 
 namespace artus {
 

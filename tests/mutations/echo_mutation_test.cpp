@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/core/units.h"
-#include "artus/echo/image_fields.h"
+#include "artus/detail/core/units.h"
+#include "artus/detail/echo/display/image_fields.h"
 #include "artus/echo/renderer.h"
 #include "tests/mutations/mutations.h"
 #include "tests/support/layered_body.h"

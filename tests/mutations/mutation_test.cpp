@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/core/csv.h"
-#include "artus/haptics/actuator/control_law_supervisor.h"
-#include "artus/haptics/probe/probe_contact_fields.h"
+#include "artus/detail/core/csv.h"
+#include "artus/detail/haptics/actuator/control_law_supervisor.h"
+#include "artus/detail/haptics/probe/probe_contact_fields.h"
 #include "tests/mutations/actuator_fields.h"
 #include "tests/mutations/mutations.h"
 #include "tests/support/layered_body.h"

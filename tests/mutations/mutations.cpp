@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "artus/core/text_file.h"
+#include "artus/detail/core/text_file.h"
 
 namespace artus::test {
 

@@ -6,10 +6,10 @@
 #include <type_traits>
 #include <vector>
 
-#include "artus/anatomy/body/tissue.h"
-#include "artus/core/fields.h"
+#include "artus/detail/anatomy/body/tissue.h"
+#include "artus/detail/core/fields.h"
 #include "artus/core/geometry.h"
-#include "artus/haptics/needle/needle_params.h"
+#include "artus/detail/haptics/needle/needle_params.h"
 #include "tests/golden/force_scenarios.h"
 
 namespace artus::test {

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/core/csv.h"
-#include "artus/core/units.h"
+#include "artus/detail/core/csv.h"
+#include "artus/detail/core/units.h"
 #include "tests/haptics/plunger/plunger_fixture.h"
 #include "tests/mutations/mutations.h"
 
@@ -55,14 +55,14 @@ void fields_of(P& params, F&& visit) {
 
 template <Like<PlungerParams> P, class F>
 void fields_of(P& params, F&& visit) {
-  auto& [syringe, needle, liquid, liquids, entry_loss, unbalanced, most_force, distance, time, lost,
+  auto& [syringe, needle, liquid, liquids, entry_loss, unbalanced, max_force, distance, time, lost,
          grip, track, clog_time, seed] = params;
   visit("syringe", syringe);
   visit("needle", needle);
   visit("liquid", liquid);
   visit("entry_loss", entry_loss);
   visit("unbalanced", unbalanced);
-  visit("most_force", most_force);
+  visit("most_force", max_force);
   visit("reopen_distance", distance);
   visit("reopen_time", time);
   visit("lost_resistance", lost);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/operators/injection_operator.h"
+#include "artus/detail/operators/injection_operator.h"
 
 #include <optional>
 #include <utility>

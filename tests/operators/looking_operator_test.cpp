@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/operators/looking_operator.h"
+#include "artus/detail/operators/looking_operator.h"
 
 #include <array>
 #include <cmath>

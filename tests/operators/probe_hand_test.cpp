@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/operators/probe_hand.h"
+#include "artus/detail/operators/probe_hand.h"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/core/units.h"
+#include "artus/detail/core/units.h"
 #include "artus/echo/renderer.h"
 #include "tests/support/layered_body.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/operators/scanning_operator.h"
+#include "artus/detail/operators/scanning_operator.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/operators/simulated_hand.h"
+#include "artus/detail/operators/simulated_hand.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "artus/operators/hand_loop.h"
-#include "artus/operators/simulated_device.h"
+#include "artus/detail/operators/hand_loop.h"
+#include "artus/detail/operators/simulated_device.h"
 
 namespace artus {
 namespace {

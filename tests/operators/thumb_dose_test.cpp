@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/operators/thumb_dose.h"
+#include "artus/detail/operators/thumb_dose.h"
 
 #include <gtest/gtest.h>
 

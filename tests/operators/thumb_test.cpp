@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/operators/thumb.h"
+#include "artus/detail/operators/thumb.h"
 
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ TEST(Thumb, HoldsAPlungerAgainstWhatPushesItBack) {
   tense.pressure = 25e3;
   EXPECT_DOUBLE_EQ(thumb.step(&hold, tense, kArea, kDt).force, 25e3 * kArea);
   tense.pressure = 25e6;
-  EXPECT_EQ(thumb.step(&hold, tense, kArea, kDt).force, ThumbParams{}.most_force);
+  EXPECT_EQ(thumb.step(&hold, tense, kArea, kDt).force, ThumbParams{}.max_force);
   tense.pressure = -25e3;
   EXPECT_EQ(thumb.step(&hold, tense, kArea, kDt).force, 0);
 }
@@ -45,7 +45,7 @@ TEST(Thumb, RunsAheadAtItsRateUpToItsStrongestPush) {
   for (int k = 0; k < 1000; ++k) input = thumb.step(&push, held, kArea, kDt);
   EXPECT_NEAR(input.position - held.travel, 1e-7 / kArea, 1e-9);
   for (int k = 0; k < 60000; ++k) input = thumb.step(&push, held, kArea, kDt);
-  EXPECT_NEAR(input.stiffness * (input.position - held.travel), ThumbParams{}.most_force, 1e-9);
+  EXPECT_NEAR(input.stiffness * (input.position - held.travel), ThumbParams{}.max_force, 1e-9);
   ARTUS_RUNS_REALTIME(Thumb::step, test::use(thumb.step(&push, held, kArea, kDt)));
 }
 

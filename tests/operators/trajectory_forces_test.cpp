@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/operators/trajectory_forces.h"
+#include "artus/detail/operators/trajectory_forces.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/haptics/needle/needle_renderer.h"
+#include "artus/haptics/needle_renderer.h"
 #include "tests/support/layered_body.h"
 
 namespace artus {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "artus/core/noise.h"
+#include "artus/detail/core/noise.h"
 
 namespace artus::test {
 namespace {

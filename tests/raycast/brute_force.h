@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "artus/anatomy/body/compiled_joint.h"
+#include "artus/anatomy/compiled_joint.h"
 #include "artus/raycast/scene.h"
 
 /// Slow, plain answers to compare the fast ones with; nothing here shares code with raycast.

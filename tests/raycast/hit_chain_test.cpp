@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/raycast/hit_chain.h"
+#include "artus/detail/raycast/hit_chain.h"
 
 #include <memory>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "artus/raycast/facet.h"
+#include "artus/detail/raycast/facet.h"
 
 namespace artus {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/raycast/indexed_surfaces.h"
+#include "artus/detail/raycast/indexed_surfaces.h"
 
 #include <algorithm>
 #include <array>

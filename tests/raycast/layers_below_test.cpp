@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/raycast/layers_below.h"
+#include "artus/detail/raycast/layers_below.h"
 
 #include <array>
 #include <cmath>

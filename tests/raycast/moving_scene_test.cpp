@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/raycast/moving_scene.h"
+#include "artus/detail/raycast/moving_scene.h"
 
 #include <array>
 #include <cmath>
@@ -9,8 +9,8 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/raycast/plane_cache.h"
-#include "artus/raycast/pressed_scene.h"
+#include "artus/detail/raycast/plane_cache.h"
+#include "artus/detail/raycast/pressed_scene.h"
 #include "tests/raycast/brute_force.h"
 #include "tests/support/moved_block.h"
 

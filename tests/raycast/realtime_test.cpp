@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/raycast/embree_index.h"
-#include "artus/raycast/hit_chain.h"
+#include "artus/detail/raycast/embree_index.h"
+#include "artus/detail/raycast/hit_chain.h"
 #include "artus/raycast/scene.h"
 #include "tests/raycast/brute_force.h"
 #include "tests/support/real_time.h"

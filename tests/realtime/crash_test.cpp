@@ -12,7 +12,7 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/core/noise.h"
+#include "artus/detail/core/noise.h"
 #include "artus/session/session.h"
 #include "artus/session/shared_memory_device.h"
 #include "tests/session/session_support.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Real processes that die in the middle of a force: the last thing in FORCE is zero.
-#include "artus/session/farewell.h"
+#include "artus/detail/session/shm/zero_force_on_crash.h"
 
 #include <csignal>
 #include <cstdlib>
@@ -14,7 +14,7 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/session/session_thread.h"
+#include "artus/detail/session/session_thread.h"
 #include "artus/session/shared_memory_device.h"
 
 namespace artus {
@@ -25,7 +25,7 @@ namespace {
 void write_forces_until(int told, const std::string& prefix, void (*death)()) {
   const rlimit none{0, 0};
   setrlimit(RLIMIT_CORE, &none);
-  say_farewell_when_dying();
+  install_zero_force_on_crash();
   auto device = SharedMemoryDevice::open(prefix, {});
   if (!device) _exit(3);
   std::thread writer([&device] {
@@ -92,7 +92,7 @@ TEST_P(Dying, LeavesZeroForceBehind) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Ways, Dying,
+INSTANTIATE_TEST_SUITE_P(Paths, Dying,
                          ::testing::Values(Death{"Terminate",
                                                  [] {
                                                    std::terminate();
@@ -108,7 +108,7 @@ INSTANTIATE_TEST_SUITE_P(Ways, Dying,
                                                    raise(SIGQUIT);
                                                  }},
                                            Death{"Exit", leave_by_exit}),
-                         [](const auto& way) { return std::string(way.param.name); });
+                         [](const auto& path) { return std::string(path.param.name); });
 
 }  // namespace
 }  // namespace artus

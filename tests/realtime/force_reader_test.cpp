@@ -12,8 +12,8 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/session/session_thread.h"
-#include "artus/session/shared_memory.h"
+#include "artus/detail/session/session_thread.h"
+#include "artus/detail/session/shm/shared_memory.h"
 
 namespace artus {
 namespace {

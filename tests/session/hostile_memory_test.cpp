@@ -28,8 +28,8 @@ class HostileMemory : public ::testing::Test {
     auto device = SharedMemoryDevice::open(prefix_, {});
     ASSERT_TRUE(device) << device.error().to_string();
     Session::Options options;
-    options.haptic_wishes = {};
-    options.imaging_wishes = {};
+    options.haptic_options = {};
+    options.imaging_options = {};
     options.share_images = true;
     options.image_segment_prefix = prefix_;
     auto session = Session::start(test::make_layered_scene(), test::make_small_session(),
@@ -114,7 +114,7 @@ TEST_F(HostileMemory, APlungerThatCannotBeIsRefusedAndTheNextOneServed) {
     for (const double v : {force_.force[0], force_.force[1], force_.force[2], force_.thumb_force,
                            force_.pressure, force_.flow, force_.given, force_.drawn, force_.travel})
       ASSERT_TRUE(std::isfinite(v));
-    ASSERT_LE(std::abs(force_.thumb_force), SyringeCore::kMostForce);
+    ASSERT_LE(std::abs(force_.thumb_force), SyringeCore::kMaxForce);
   };
   for (const Wrong& wrong : all) {
     for (int i = 0; i < 30; ++i) say(wrong);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/session/injecting_device.h"
+#include "artus/detail/session/injecting_device.h"
 
 #include <algorithm>
 #include <set>

@@ -6,15 +6,15 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/session/dropping_ring.h"
-#include "artus/session/hand_aids.h"
-#include "artus/session/hand_device.h"
-#include "artus/session/haptic_loop.h"
-#include "artus/session/injecting_device.h"
-#include "artus/session/recorded_device.h"
-#include "artus/session/recorder.h"
+#include "artus/detail/session/record/dropping_ring.h"
+#include "artus/detail/simulation/hand_aids.h"
+#include "artus/detail/session/hand_device.h"
+#include "artus/detail/session/haptic_loop.h"
+#include "artus/detail/session/injecting_device.h"
+#include "artus/detail/session/record/recorded_device.h"
+#include "artus/detail/session/record/recorder.h"
 #include "artus/session/recording.h"
-#include "artus/session/session_exchange.h"
+#include "artus/detail/session/session_exchange.h"
 #include "artus/session/shared_memory_device.h"
 #include "tests/session/session_support.h"
 #include "tests/support/real_time.h"
@@ -194,11 +194,11 @@ class RealTimeSharedMemory : public testing::Test {
 };
 
 TEST_F(RealTimeSharedMemory, ChannelsNeitherAllocateNorLock) {
-  using Renewed = RenewedChannel<artus_shm_force>;
-  auto renewed = Renewed::open(prefix_, kForceLayout, SegmentAccess::owner_writes);
-  ASSERT_TRUE(renewed) << renewed.error().to_string();
+  using Reopened = ReopeningChannel<artus_shm_force>;
+  auto reopened = Reopened::open(prefix_, kForceLayout, SegmentAccess::owner_writes);
+  ASSERT_TRUE(reopened) << reopened.error().to_string();
   SharedChannel<artus_shm_force>* channel = nullptr;
-  ARTUS_RUNS_REALTIME(RenewedChannel::use, channel = &(*renewed)->use());
+  ARTUS_RUNS_REALTIME(ReopeningChannel::use, channel = &(*reopened)->use());
   artus_shm_force force{};
   ARTUS_RUNS_REALTIME(SharedChannel::write, channel->write(force));
   ARTUS_RUNS_REALTIME(SharedChannel::write_prefix, channel->write_prefix(force, 64));

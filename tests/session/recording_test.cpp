@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/core/noise.h"
+#include "artus/detail/core/noise.h"
 #include "tests/session/session_support.h"
 
 namespace artus {
@@ -58,7 +58,7 @@ TEST(RecordedPacket, IsRefusedWhenNoTissueCanBeLikeIt) {
     return find_fault(wrong, 0) != nullptr;
   };
   EXPECT_TRUE(refuses([](NeedlePacket& n) { n.carried[1] = kNan; }));
-  EXPECT_TRUE(refuses([](NeedlePacket& n) { n.compliance.points = NeedleCompliance::kMost + 1; }));
+  EXPECT_TRUE(refuses([](NeedlePacket& n) { n.compliance.points = NeedleCompliance::kMax + 1; }));
   EXPECT_TRUE(refuses([](NeedlePacket& n) { n.compliance.spacing = 0; }));
   EXPECT_TRUE(refuses([](NeedlePacket& n) { n.compliance.by_load[2][2] = 0; }));
   EXPECT_TRUE(refuses([](NeedlePacket& n) { n.compliance.by_load[2][5] = 1e9; }));
@@ -94,7 +94,7 @@ const Wrong kWrongs[] = {
      }},
     {"SitesTooMany",
      [](TickRecord&, FrameRecord& frame) {
-       frame.input.n_sites = kMostSites + 1;
+       frame.input.n_sites = kMaxSites + 1;
      }},
     {"SiteNotFinite",
      [](TickRecord&, FrameRecord& frame) {

@@ -12,8 +12,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "artus/session/image_core.h"
-#include "artus/session/session_fields.h"
+#include "artus/detail/simulation/image_core.h"
+#include "artus/detail/simulation/session_fields.h"
 #include "tests/session/session_support.h"
 
 namespace artus {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/session/seqlock.h"
+#include "artus/detail/session/shm/seqlock.h"
 
 #include <memory>
 #include <thread>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/session/servo_loop.h"
+#include "artus/detail/session/servo_loop.h"
 
 #include <memory>
 
@@ -64,7 +64,7 @@ TEST(ServoLoop, TicksAtItsRateCountsThemAndLeavesWithZeroForce) {
   ServoOptions options;
   options.seconds = 0.4;
   options.floor_seconds = 0.05;
-  options.wishes.lock_memory = false;
+  options.thread.lock_memory = false;
   const std::atomic<bool> stop{false};
   Seqlock<HapticSnapshot> newest;
   const auto report = std::make_unique<ServoReport>();
@@ -89,7 +89,7 @@ TEST(ServoLoop, StopsWhenAsked) {
   Seqlock<HapticSnapshot> newest;
   const auto report = std::make_unique<ServoReport>();
   ServoOptions options;
-  options.wishes.lock_memory = false;
+  options.thread.lock_memory = false;
   run_servo_loop(core, device, options, stop, newest, *report);
   EXPECT_EQ(report->ticks, 0U);
 }

@@ -14,7 +14,7 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/core/noise.h"
+#include "artus/detail/core/noise.h"
 #include "artus/session/session.h"
 #include "artus/session/shared_memory_device.h"
 #include "tests/session/session_support.h"
@@ -27,8 +27,8 @@ constexpr std::int64_t kMillisecond = 1'000'000;  // ns
 
 Session::Options plain_options() {
   Session::Options options;
-  options.haptic_wishes = {};
-  options.imaging_wishes = {};
+  options.haptic_options = {};
+  options.imaging_options = {};
   return options;
 }
 

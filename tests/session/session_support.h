@@ -8,9 +8,9 @@
 #include <sstream>
 #include <string>
 
-#include "artus/session/injecting_device.h"
+#include "artus/detail/session/injecting_device.h"
 #include "artus/session/recording.h"
-#include "artus/session/session_core.h"
+#include "artus/detail/simulation/session_core.h"
 #include "tests/support/layered_body.h"
 
 namespace artus::test {
@@ -69,7 +69,7 @@ inline DeviceSample sample_at(double z, std::int64_t time_ns, std::uint64_t numb
 /// Tissue that gives way alike at all depths, less far from where it is pushed.
 inline NeedleCompliance make_even_compliance(double by = 2e-3) {
   NeedleCompliance c;
-  c.points = NeedleCompliance::kMost;
+  c.points = NeedleCompliance::kMax;
   for (std::size_t i = 0; i < c.points; ++i) {
     for (std::size_t j = 0; j < c.points; ++j)
       c.by_load[i][j] = by * std::exp(-std::abs(static_cast<double>(i) - static_cast<double>(j)));

@@ -13,8 +13,8 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/session/dropping_ring.h"
-#include "artus/session/hand_device.h"
+#include "artus/detail/session/record/dropping_ring.h"
+#include "artus/detail/session/hand_device.h"
 #include "artus/session/replay.h"
 #include "tests/session/session_support.h"
 
@@ -23,8 +23,8 @@ namespace {
 
 Session::Options quiet_options() {
   Session::Options options;
-  options.haptic_wishes = {};
-  options.imaging_wishes = {};
+  options.haptic_options = {};
+  options.imaging_options = {};
   return options;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/session/shared_memory.h"
+#include "artus/detail/session/shm/shared_memory.h"
 
 #include <cstddef>
 #include <fstream>

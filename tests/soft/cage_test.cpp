@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/soft/cage.h"
+#include "artus/detail/soft/cage/cage.h"
 
 #include <algorithm>
 
 #include <gtest/gtest.h>
 
-#include "artus/core/noise.h"
+#include "artus/detail/core/noise.h"
 
 namespace artus {
 namespace {

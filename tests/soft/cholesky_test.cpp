@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/soft/cholesky.h"
+#include "artus/detail/soft/solver/cholesky.h"
 
 #include <gtest/gtest.h>
 
-#include "artus/core/noise.h"
-#include "artus/soft/soft_block.h"
+#include "artus/detail/core/noise.h"
+#include "artus/detail/soft/solver/soft_block.h"
 
 namespace artus {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/soft/deformed_body.h"
+#include "artus/detail/soft/solver/deformed_body.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/soft/element.h"
+#include "artus/detail/soft/cage/element.h"
 
 #include <algorithm>
 
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
-#include "artus/anatomy/body/tissue.h"
-#include "artus/core/noise.h"
-#include "artus/soft/material.h"
+#include "artus/detail/anatomy/body/tissue.h"
+#include "artus/detail/core/noise.h"
+#include "artus/detail/soft/cage/material.h"
 
 namespace artus {
 namespace {
@@ -194,9 +194,9 @@ TEST(Element, BulkHardensWhereATenthOfTheVolumeIsLostAndNotBefore) {
 TEST(Element, PartOfNearlyNothingButAirIsNoneThatIsCrushed) {
   CellMaterial m = fat_like();
   const CellVector u = squeezed(3e-3, 0.5, 0.5);
-  EXPECT_NEAR(cell_response(m, 3e-3, u).least_volume, 0.5, 1e-12);
-  m.weight.fill(kLeastWeight);
-  EXPECT_EQ(cell_response(m, 3e-3, u).least_volume, 1);
+  EXPECT_NEAR(cell_response(m, 3e-3, u).min_volume, 0.5, 1e-12);
+  m.weight.fill(kMinWeight);
+  EXPECT_EQ(cell_response(m, 3e-3, u).min_volume, 1);
 }
 
 TEST(Element, TangentIsTheForcesDerivativeWhereNothingIsHeldBack) {
@@ -241,11 +241,11 @@ TEST(Element, TangentUnderAPressureFarAboveShearIsPositiveAndKeepsWhatStiffens) 
   EXPECT_GT(solver.eigenvalues()[0], -1e-9 * solver.eigenvalues()[23]);
   // By the forces, no way is stiffer than the tangent says: a whole step does not pass its end.
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    const CellVector way = random_displacement(1, seed);
-    const CellVector change = cell_response(m, kEdge, u + kStep * way).force -
-                              cell_response(m, kEdge, u - kStep * way).force;
-    const double exact = -change.dot(way) / (2 * kStep);
-    EXPECT_LE(exact, way.dot(K * way) * (1 + 1e-5)) << seed;
+    const CellVector path = random_displacement(1, seed);
+    const CellVector change = cell_response(m, kEdge, u + kStep * path).force -
+                              cell_response(m, kEdge, u - kStep * path).force;
+    const double exact = -change.dot(path) / (2 * kStep);
+    EXPECT_LE(exact, path.dot(K * path) * (1 + 1e-5)) << seed;
   }
 }
 
@@ -255,14 +255,14 @@ TEST(Element, CrushedPartPushesBackThoughTheMeanVolumeStays) {
   const auto energy = [&](double z) {
     return cell_response(m, kEdge, squeezed(kEdge, z, z)).energy;
   };
-  // lambda/2 (1 - J)^2 and the shear's share are the whole above kLeastPart, less than it below.
+  // lambda/2 (1 - J)^2 and the shear's share are the whole above kMinPart, less than it below.
   const double volume = kEdge * kEdge * kEdge;
   const auto plain = [&](double z) {
     const double psi = 0.5 * (z * z - 1) - (z - 1) + 0.5 * (z - 1) * (z - 1);
     return volume * (800 * psi + 25e3 * (z - 1) * (z - 1));
   };
   EXPECT_NEAR(energy(0.5), plain(0.5), 1e-9 * plain(0.5));
-  const double below = 0.5 * kLeastPart;
+  const double below = 0.5 * kMinPart;
   EXPECT_NEAR(energy(below) - plain(below), volume * 25e3 * 0.25, 1e-9 * plain(below));
 }
 
@@ -276,7 +276,7 @@ TEST(Element, FeelsNothingOfARotation) {
   }
   const CellResponse r = cell_response(mixed_material(), edge, u);
   EXPECT_LT(r.force.norm(), 1e-9);
-  EXPECT_NEAR(r.least_volume, 1, 1e-12);
+  EXPECT_NEAR(r.min_volume, 1, 1e-12);
 }
 
 TEST(Element, StaysFiniteWhenTurnedInsideOut) {
@@ -287,7 +287,7 @@ TEST(Element, StaysFiniteWhenTurnedInsideOut) {
   }
   const CellResponse r = cell_response(mixed_material(), 3e-3, u);
   EXPECT_TRUE(r.force.allFinite());
-  EXPECT_LT(r.least_volume, 0);
+  EXPECT_LT(r.min_volume, 0);
   EXPECT_TRUE(cell_tangent(mixed_material(), 3e-3, u).allFinite());
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/soft/face_stress.h"
+#include "artus/detail/soft/solver/face_stress.h"
 
 #include <cmath>
 #include <numbers>

@@ -9,7 +9,7 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include "artus/soft/inflated_space.h"
+#include "artus/detail/soft/liquid/inflated_space.h"
 
 namespace artus {
 namespace {

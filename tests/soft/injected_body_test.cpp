@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/soft/injected_body.h"
+#include "artus/detail/soft/liquid/injected_body.h"
 
 #include <cmath>
 #include <numbers>
 
 #include <gtest/gtest.h>
 
-#include "artus/soft/inflated_space.h"
+#include "artus/detail/soft/liquid/inflated_space.h"
 
 namespace artus {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/soft/kernels.h"
+#include "artus/detail/soft/cage/kernels.h"
 
 #include <cmath>
 #include <cstring>
@@ -8,7 +8,7 @@
 #include <Eigen/Cholesky>
 #include <gtest/gtest.h>
 
-#include "artus/core/noise.h"
+#include "artus/detail/core/noise.h"
 
 namespace artus {
 namespace {

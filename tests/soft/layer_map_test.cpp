@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/soft/layer_map.h"
+#include "artus/detail/soft/cage/layer_map.h"
 
 #include <array>
 #include <cmath>
@@ -7,10 +7,10 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/core/noise.h"
-#include "artus/soft/deformed_body.h"
-#include "artus/soft/rest_way.h"
-#include "artus/soft/soft_block.h"
+#include "artus/detail/core/noise.h"
+#include "artus/detail/soft/solver/deformed_body.h"
+#include "artus/detail/soft/solver/rest_path.h"
+#include "artus/detail/soft/solver/soft_block.h"
 #include "tests/support/layered_body.h"
 
 namespace artus {
@@ -64,9 +64,9 @@ Layered block_with(const SoftMaterial& thin, double cell = 6e-3, std::vector<Cag
 }
 
 /// Squeezes what lies between 12 and 18 mm by `way`, m.
-std::function<Vec3(const Vec3&)> squeezed(double way) {
-  return [way](const Vec3& p) {
-    return Vec3(0, 0, way * std::clamp((18e-3 - p.z()) / 6e-3, 0.0, 1.0));
+std::function<Vec3(const Vec3&)> squeezed(double distance) {
+  return [distance](const Vec3& p) {
+    return Vec3(0, 0, distance * std::clamp((18e-3 - p.z()) / 6e-3, 0.0, 1.0));
   };
 }
 
@@ -82,12 +82,12 @@ TEST(LayerMap, FluidThatDrainsTakesTheStrainByItsCompliance) {
   const double solid =
       1 / (linear_material(10e3, 0.47).bulk + 2 * linear_material(10e3, 0.47).shear);
   const double fluid = 1 / film().drain_pressure;
-  for (const double way : {0.1e-3, 1.2e-3}) {
-    const auto body = block.moved(squeezed(way));
+  for (const double distance : {0.1e-3, 1.2e-3}) {
+    const auto body = block.moved(squeezed(distance));
     const double share = 1.5 * fluid / (1.5 * fluid + 4.5 * solid);
-    EXPECT_NEAR(thickness(*body, 13.5e-3, 15e-3), 1.5e-3 - share * way, 2e-6);
-    EXPECT_NEAR(thickness(*body, 12e-3, 18e-3), 6e-3 - way, 1e-9);  // the cube's faces stay
-    EXPECT_NEAR(thickness(*body, 12e-3, 13.5e-3), 1.5e-3 - (1 - share) * way / 3, 2e-6);
+    EXPECT_NEAR(thickness(*body, 13.5e-3, 15e-3), 1.5e-3 - share * distance, 2e-6);
+    EXPECT_NEAR(thickness(*body, 12e-3, 18e-3), 6e-3 - distance, 1e-9);  // the cube's faces stay
+    EXPECT_NEAR(thickness(*body, 12e-3, 13.5e-3), 1.5e-3 - (1 - share) * distance / 3, 2e-6);
   }
 }
 
@@ -190,11 +190,11 @@ TEST(LayerMap, LineIsStraightBetweenItsKnotsToTenMicrometres) {
   for (const double x : {-8e-3, 0.3e-3, 5e-3}) {
     const Vec3 origin(x, 0.7e-3, 4e-3);
     const Vec3 direction = Vec3(0.05, 0.02, 1).normalized();
-    const RestWay way(*body, origin, direction);
-    RestKnot left = way.at(0);
+    const RestPath distance(*body, origin, direction);
+    RestKnot left = distance.at(0);
     int n = 0;
     for (; left.along < 20e-3; ++n) {
-      const RestKnot right = way.next(left);
+      const RestKnot right = distance.next(left);
       for (const double share : {0.25, 0.5, 0.75, 1.0}) {
         const double along = left.along + share * (right.along - left.along);
         const Vec3 straight = left.rest_J + share * (right.rest_J - left.rest_J);

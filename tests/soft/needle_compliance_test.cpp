@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/soft/needle_compliance.h"
+#include "artus/detail/soft/solver/needle_compliance.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <Eigen/Cholesky>
 #include <gtest/gtest.h>
 
-#include "artus/soft/soft_block.h"
+#include "artus/detail/soft/solver/soft_block.h"
 
 namespace artus {
 namespace {

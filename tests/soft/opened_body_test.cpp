@@ -7,9 +7,9 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/anatomy/body/space.h"
-#include "artus/soft/bone_shadow.h"
-#include "artus/soft/injected_body.h"
+#include "artus/detail/anatomy/body/space.h"
+#include "artus/detail/soft/liquid/bone_shadow.h"
+#include "artus/detail/soft/liquid/injected_body.h"
 #include "tests/support/paths.h"
 
 namespace artus {
@@ -34,7 +34,7 @@ bool find_place(const CompiledJoint& joint, RegionId region, Vec3& place) {
   return most > 0;
 }
 
-double most_moved_bone(const CompiledJoint& before, const CompiledJoint& after) {
+double max_moved_bone(const CompiledJoint& before, const CompiledJoint& after) {
   double most = 0;
   for (const Interface& f : before.mesh.interfaces)
     if (before.tissue_of(f.front).haptic.hard || before.tissue_of(f.back).haptic.hard)
@@ -139,7 +139,7 @@ TEST_P(OpenedBody, NoPlaceMovesBoneOrLosesVolumeOrPassesAWall) {
     const double volume = 1e-6;
     const CompiledJoint with =
         with_injected(*joint, {{joint->regions[region].name, volume, cavity, tip}}, Liquid{});
-    EXPECT_EQ(most_moved_bone(*joint, with), 0) << what;
+    EXPECT_EQ(max_moved_bone(*joint, with), 0) << what;
     const RegionId liquid = cavity ? region : static_cast<RegionId>(with.regions.size() - 1);
     const double before = cavity ? volume_of(*joint, region, tip) : 0;
     EXPECT_NEAR(volume_of(with, liquid, tip) - before, volume, 1e-15) << what;
@@ -169,15 +169,15 @@ TEST(BoneShadow, SaysHowFarBoneIsAndNeverFarther) {
   shadow.add({at(-9, -9), at(9, 9), at(-9, 9)});
   shadow.add({Vec3(3, -0.2, 0.3), Vec3(3, 0.2, 0.3), Vec3(3, 0, 0.7)});
   shadow.spread();
-  const auto distance = [&](const Vec3& way) {
-    return 1 / std::cbrt(shadow.nearness(way));
+  const auto distance = [&](const Vec3& displacement) {
+    return 1 / std::cbrt(shadow.nearness(displacement));
   };
   for (const double degrees : {0.0, 20.0, 40.0, 60.0, 70.0})
     for (const double turn : {0.0, 0.7, 1.6, 2.9, 4.4, 5.8}) {
       const double a = degrees * M_PI / 180;
-      const Vec3 way(std::sin(a) * std::cos(turn), std::sin(a) * std::sin(turn), -std::cos(a));
-      EXPECT_LE(distance(way), 2 / std::cos(a)) << degrees << ' ' << turn;
-      EXPECT_GE(distance(way), (degrees < 50 ? 0.8 : 0.5) * 2 / std::cos(a)) << degrees;
+      const Vec3 displacement(std::sin(a) * std::cos(turn), std::sin(a) * std::sin(turn), -std::cos(a));
+      EXPECT_LE(distance(displacement), 2 / std::cos(a)) << degrees << ' ' << turn;
+      EXPECT_GE(distance(displacement), (degrees < 50 ? 0.8 : 0.5) * 2 / std::cos(a)) << degrees;
     }
   EXPECT_LE(distance(Vec3(3, 0, 0.4)), 3.03);
   EXPECT_GE(distance(Vec3(3, 0, 0.4)), 2.9);
@@ -187,10 +187,10 @@ TEST(BoneShadow, SaysHowFarBoneIsAndNeverFarther) {
   for (int k = 0; k < 4000; ++k) {
     const double z = 1 - (2 * k + 1) / 4000.0;
     const double turn = 2.39996 * k;
-    const Vec3 way(std::sqrt(1 - z * z) * std::cos(turn), std::sqrt(1 - z * z) * std::sin(turn), z);
-    const double here = shadow.nearness(way);
+    const Vec3 displacement(std::sqrt(1 - z * z) * std::cos(turn), std::sqrt(1 - z * z) * std::sin(turn), z);
+    const double here = shadow.nearness(displacement);
     for (const Vec3& aside : {Vec3(1e-4, 0, 0), Vec3(0, 1e-4, 0), Vec3(0, 0, 1e-4)})
-      steepest = std::max(steepest, std::abs(shadow.nearness(way + aside) - here));
+      steepest = std::max(steepest, std::abs(shadow.nearness(displacement + aside) - here));
   }
   EXPECT_LT(steepest, 1e-3);  // of 0.125 at most, over 1e-4 rad
 }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/soft/pose_joint.h"
+#include "artus/detail/soft/solver/pose_joint.h"
 
 #include <cmath>
 
 #include <gmock/gmock.h>
 
-#include "artus/anatomy/body/joint_digest.h"
-#include "artus/core/units.h"
+#include "artus/detail/anatomy/body/joint_digest.h"
+#include "artus/detail/core/units.h"
 #include "tests/support/meshed_block.h"
 
 namespace artus {
@@ -40,8 +40,8 @@ TEST(PoseJoint, TissueBetweenTwoBonesIsWrungEvenly) {
     const Vec3 there = Eigen::AngleAxisd(share * 40 * kDegree, Vec3::UnitZ()) * p;
     EXPECT_LT((posed->joint.mesh.vertices[v] - there).norm(), 1e-6);
   }
-  EXPECT_NEAR(posed->least_volume, 1, 0.02);
-  EXPECT_NEAR(posed->most_volume, 1, 0.02);
+  EXPECT_NEAR(posed->min_volume, 1, 0.02);
+  EXPECT_NEAR(posed->max_volume, 1, 0.02);
   EXPECT_EQ(posed->turned_inside, 0);
   EXPECT_NE(compute_joint_digest(posed->joint), compute_joint_digest(rest));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/soft/rest_way.h"
+#include "artus/detail/soft/solver/rest_path.h"
 
 #include <array>
 #include <cmath>
@@ -20,16 +20,16 @@ std::shared_ptr<const DeformedBody> pressed_block() {
   });
 }
 
-TEST(RestWay, IsStraightBetweenItsKnotsToEightMicrometres) {
+TEST(RestPath, IsStraightBetweenItsKnotsToEightMicrometres) {
   const auto body = pressed_block();
   for (const double x : {-0.02, -0.003, 0.011}) {
     const Vec3 origin(x, 0.4e-3, 4e-3);
     const Vec3 direction = Vec3(0.1, 0.02, 1).normalized();
-    const RestWay way(*body, origin, direction);
-    RestKnot left = way.at(0);
+    const RestPath path(*body, origin, direction);
+    RestKnot left = path.at(0);
     int n = 0;
     for (; left.along < 0.035; ++n) {
-      const RestKnot right = way.next(left);
+      const RestKnot right = path.next(left);
       ASSERT_GT(right.along, left.along);
       for (const double share : {0.25, 0.5, 0.75, 1.0}) {
         const double along = left.along + share * (right.along - left.along);
@@ -46,24 +46,24 @@ TEST(RestWay, IsStraightBetweenItsKnotsToEightMicrometres) {
   }
 }
 
-TEST(RestWay, FindsTheTissueBesideAKnotToTheFirstOrder) {
+TEST(RestPath, FindsTheTissueBesideAKnotToTheFirstOrder) {
   const auto body = pressed_block();
   const Vec3 direction = Vec3::UnitZ();
-  const RestWay middle(*body, Vec3(4e-3, 0.5e-3, 5e-3), direction);
-  const RestWay side(*body, Vec3(4e-3, 1.0e-3, 5e-3), direction);
+  const RestPath middle(*body, Vec3(4e-3, 0.5e-3, 5e-3), direction);
+  const RestPath side(*body, Vec3(4e-3, 1.0e-3, 5e-3), direction);
   const RestKnot knot = side.at(4e-3);
   EXPECT_LT((middle.at(4e-3).beside(knot.rest_J + knot.displacement_J) - knot.rest_J).norm(), 2e-5);
 }
 
-TEST(RestWay, OfABodyAtRestIsTheLineItself) {
+TEST(RestPath, OfABodyAtRestIsTheLineItself) {
   const std::array<FlatLayer, 1> layers{{{"muscle", 48e-3}}};
   const auto body = test::make_moved_block(layers).at_rest();
-  const RestWay way(*body, Vec3(1e-3, 2e-3, 3e-3), Vec3::UnitZ());
-  RestKnot knot = way.at(0);
+  const RestPath path(*body, Vec3(1e-3, 2e-3, 3e-3), Vec3::UnitZ());
+  RestKnot knot = path.at(0);
   for (int k = 0; k < 5; ++k) {
     EXPECT_EQ(knot.moved, 0);
     EXPECT_EQ(knot.rest_J, Vec3(1e-3, 2e-3, 3e-3 + knot.along));
-    knot = way.next(knot);
+    knot = path.next(knot);
   }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/soft/smooth_gradient.h"
+#include "artus/detail/soft/solver/smooth_gradient.h"
 
 #include <array>
 

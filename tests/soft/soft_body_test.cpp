@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/soft/soft_body.h"
+#include "artus/detail/soft/solver/soft_body.h"
 
 #include <cstring>
 #include <memory>
 
 #include <gtest/gtest.h>
 
-#include "artus/anatomy/body/layered_body.h"
-#include "artus/soft/cage_vtu.h"
-#include "artus/soft/press.h"
-#include "artus/soft/tet_locator.h"
+#include "artus/detail/anatomy/body/layered_body.h"
+#include "artus/detail/soft/solver/cage_vtu.h"
+#include "artus/detail/soft/solver/press.h"
+#include "artus/detail/soft/cage/tet_locator.h"
 #include "tests/support/layered_body.h"
 #include "tests/support/meshed_block.h"
 #include "tests/support/paths.h"

@@ -6,10 +6,10 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/anatomy/body/tissue.h"
-#include "artus/core/noise.h"
-#include "artus/soft/soft_block.h"
-#include "artus/soft/soft_solver.h"
+#include "artus/detail/anatomy/body/tissue.h"
+#include "artus/detail/core/noise.h"
+#include "artus/detail/soft/solver/soft_block.h"
+#include "artus/detail/soft/solver/soft_solver.h"
 
 namespace artus {
 namespace {
@@ -167,7 +167,7 @@ TEST(SoftSolver, HardPressedSkinAndFatComeToRestAndKeepTheirVolume) {
   SoftSolver solver = make_deep_press(block);
   for (int mm = 1; mm <= 10; ++mm) ASSERT_TRUE(solver.settle(face_at(1e-3 * mm), 2e-6, 100)) << mm;
   EXPECT_GT(-4 * solver.last().contact.force.z(), 10);
-  EXPECT_GT(solver.last().least_volume, 0.25);
+  EXPECT_GT(solver.last().min_volume, 0.25);
   const auto cells = solver.model().cage().cells();
   for (std::size_t c = 0; c < cells.size(); ++c) {
     CellVector u;
@@ -269,9 +269,9 @@ TEST(SoftSolver, TissueBeforeACreepingNeedleDoesNotGoToAndFro) {
       const SoftStep& step = solver.step(std::nullopt, 1 / 80.0);
       EXPECT_EQ(step.status & (kSoftTakenBack | kSoftRestarted), 0U) << i;
       const Eigen::VectorXd now = flat(solver.displacements());
-      const Eigen::VectorXd way = now - before;
-      back += way.dot(last) < -0.2 * way.norm() * last.norm() && step.largest_move > 50e-6 ? 1 : 0;
-      last = way;
+      const Eigen::VectorXd path = now - before;
+      back += path.dot(last) < -0.2 * path.norm() * last.norm() && step.largest_move > 50e-6 ? 1 : 0;
+      last = path;
       before = now;
     }
   }
@@ -300,12 +300,12 @@ TEST(SoftSolver, ComplianceIsSymmetric) {
 TEST(SoftSolver, PointThatMustMoveMovesByAForceThatIsItsComplianceAndTheReaction) {
   Pressed pressed;
   SoftSolver& solver = *pressed.solver;
-  constexpr double kWay = 1e-5;
-  solver.set_constraints({{{{Vec3(1e-3, 0, 5e-3), Vec3::UnitZ()}}, kWay}});
+  constexpr double kDistance = 1e-5;
+  solver.set_constraints({{{{Vec3(1e-3, 0, 5e-3), Vec3::UnitZ()}}, kDistance}});
   ASSERT_TRUE(solver.settle(std::nullopt, 1e-11));
-  EXPECT_NEAR(solver.constraint_sum(0), kWay, 1e-6 * kWay);
+  EXPECT_NEAR(solver.constraint_sum(0), kDistance, 1e-6 * kDistance);
   const double force = solver.multiplier(0);
-  EXPECT_NEAR(force * solver.constraint_compliance()(0, 0), kWay, 0.01 * kWay);
+  EXPECT_NEAR(force * solver.constraint_compliance()(0, 0), kDistance, 0.01 * kDistance);
   EXPECT_NEAR(solver.reaction().z(), -force, 1e-3 * force);
   // The force alone, as a load, does the same.
   solver.set_constraints({});
@@ -313,7 +313,7 @@ TEST(SoftSolver, PointThatMustMoveMovesByAForceThatIsItsComplianceAndTheReaction
   solver.reset();
   ASSERT_TRUE(solver.settle(std::nullopt, 1e-11));
   const CagePlace place = pressed.model->cage().locate(Vec3(1e-3, 0, 5e-3), 2);
-  EXPECT_NEAR(pressed.model->displacement_at(place, solver.displacements()).z(), kWay, 1e-5 * kWay);
+  EXPECT_NEAR(pressed.model->displacement_at(place, solver.displacements()).z(), kDistance, 1e-5 * kDistance);
 }
 
 TEST(SoftSolver, ConstraintAndFaceHoldTogether) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/soft/tet_locator.h"
+#include "artus/detail/soft/cage/tet_locator.h"
 
 #include <array>
 #include <cstdint>
@@ -9,7 +9,7 @@
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
-#include "artus/core/noise.h"
+#include "artus/detail/core/noise.h"
 #include "tests/support/meshed_block.h"
 
 namespace artus {

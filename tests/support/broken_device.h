@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <limits>
 
-#include "artus/core/noise.h"
-#include "artus/haptics/needle/needle_renderer.h"
+#include "artus/detail/core/noise.h"
+#include "artus/haptics/needle_renderer.h"
 
 /// What a broken device can send.
 namespace artus::test {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tests/support/layered_body.h"
 
-#include "artus/core/units.h"
+#include "artus/detail/core/units.h"
 
 namespace artus::test {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "artus/anatomy/body/layered_body.h"
+#include "artus/detail/anatomy/body/layered_body.h"
 
 /// The layered bodies of anatomy/layered_body.h made of test tissues.
 namespace artus::test {

@@ -2,7 +2,7 @@
 #pragma once
 #include <span>
 
-#include "artus/anatomy/body/meshed_block.h"
+#include "artus/detail/anatomy/body/meshed_block.h"
 #include "tests/support/layered_body.h"
 
 namespace artus::test {

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "artus/soft/deformed_body.h"
-#include "artus/soft/soft_block.h"
+#include "artus/detail/soft/solver/deformed_body.h"
+#include "artus/detail/soft/solver/soft_block.h"
 #include "tests/support/layered_body.h"
 
 namespace artus::test {

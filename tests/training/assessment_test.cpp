@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/training/assessment.h"
+#include "artus/detail/training/assessment.h"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Attempts whose faults and causes are known, and what their learner is told.
-#include "artus/training/feedback.h"
+#include "artus/detail/training/feedback.h"
 
 #include <algorithm>
 #include <memory>
@@ -10,9 +10,9 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/anatomy/body/find_region.h"
-#include "artus/training/assessment.h"
-#include "artus/training/past_attempts.h"
+#include "artus/detail/anatomy/body/find_region.h"
+#include "artus/detail/training/assessment.h"
+#include "artus/detail/training/past_attempts.h"
 #include "tests/session/session_support.h"
 #include "tests/support/temporary_folder.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/training/judgement.h"
+#include "artus/detail/training/judgement.h"
 
 #include <gtest/gtest.h>
 

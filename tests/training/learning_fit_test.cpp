@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/training/learning_fit.h"
+#include "artus/detail/training/learning_fit.h"
 
 #include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "artus/core/noise.h"
+#include "artus/detail/core/noise.h"
 
 namespace artus {
 namespace {

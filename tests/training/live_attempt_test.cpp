@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // A running session measures itself: with its threads, its device and its pictures as they come.
-#include "artus/training/live_attempt.h"
+#include "artus/detail/training/live_attempt.h"
 
 #include <chrono>
 #include <thread>
 
 #include <gtest/gtest.h>
 
-#include "artus/training/session_meter.h"
+#include "artus/detail/training/session_meter.h"
 #include "tests/session/session_support.h"
 #include "tests/support/real_time.h"
 #include "tests/support/temporary_folder.h"
@@ -29,10 +29,10 @@ TEST_F(LiveAttemptTest, ARunningSessionSaysWhatItsRecordingSays) {
   const RecordingHead head = make_head(scene->joint(), params);
   LiveAttempt live(scene, short_options(head), params.haptic_rate);
   Session::Options options;
-  options.haptic_wishes = {};
-  options.imaging_wishes = {};
+  options.haptic_options = {};
+  options.imaging_options = {};
   options.recording = in("session.rec");
-  options.witness = &live;
+  options.observer = &live;
   auto session = Session::start(scene, params, test::make_injecting_hand(), options);
   ASSERT_TRUE(session) << session.error().to_string();
   for (int i = 0; i < 2000 && ((*session)->ticks() < 2500 || (*session)->frames() < 10); ++i)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/training/norms.h"
+#include "artus/detail/training/norms.h"
 
 #include <cmath>
 #include <memory>

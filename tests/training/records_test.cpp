@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/training/records.h"
+#include "artus/detail/training/records.h"
 
 #include <csignal>
 #include <fstream>
@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/training/record_export.h"
+#include "artus/detail/training/record_export.h"
 #include "tests/support/temporary_folder.h"
 
 namespace artus {

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/training/scenario.h"
+#include "artus/detail/training/scenario.h"
 
 #include <string>
 
 #include <gtest/gtest.h>
 
-#include "artus/training/feedback.h"
-#include "artus/training/patient_plans.h"
-#include "artus/training/player.h"
-#include "artus/training/scenario_check.h"
-#include "artus/training/session_meter.h"
-#include "artus/training/stage.h"
+#include "artus/detail/training/feedback.h"
+#include "artus/detail/training/patient_plans.h"
+#include "artus/detail/training/player.h"
+#include "artus/detail/training/scenario_check.h"
+#include "artus/detail/training/session_meter.h"
+#include "artus/detail/training/stage.h"
 #include "tests/support/temporary_folder.h"
 
 namespace artus {
@@ -65,8 +65,8 @@ TEST(Scenario, PlansFollowThePatientsSkin) {
   Scenario scenario = align();
   const auto scene = *make_gel_scene(*scenario.gel);
   const Vec3 entry = scenario.entry.centre;
-  const Vec3 way = (scenario.target.point - entry).normalized();
-  scenario.entry.centre -= 5e-3 * way;
+  const Vec3 direction = (scenario.target.point - entry).normalized();
+  scenario.entry.centre -= 5e-3 * direction;
   const double probe_z = scenario.X_JP.translation().z();
   scenario.X_JP.translation() -= 7e-3 * scenario.X_JP.linear().col(2);
   const Scenario off = scenario;

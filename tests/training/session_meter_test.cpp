@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // What a session measures while it runs is what its recording says afterwards, to the last digit.
-#include "artus/training/session_meter.h"
+#include "artus/detail/training/session_meter.h"
 
 #include <sstream>
 
 #include <gtest/gtest.h>
 
-#include "artus/session/image_core.h"
+#include "artus/detail/simulation/image_core.h"
 #include "tests/session/session_support.h"
 #include "tests/support/real_time.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/training/tracked_list.h"
+#include "artus/detail/training/tracked_list.h"
 
 #include <gtest/gtest.h>
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/viewer/hand_control.h"
+#include "artus/detail/viewer/input/hand_control.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "artus/viewer/body_contact.h"
-#include "artus/viewer/gamepad.h"
-#include "artus/viewer/script.h"
+#include "artus/detail/viewer/input/body_contact.h"
+#include "artus/detail/viewer/input/gamepad.h"
+#include "artus/detail/viewer/input/script.h"
 #include "tests/session/session_support.h"
 
 namespace artus {
@@ -21,7 +21,7 @@ HandGround inside_at(const Vec3& entry_W) {
   return ground;
 }
 
-ActionEvent wish(Action action) {
+ActionEvent request(Action action) {
   return {action, false};
 }
 
@@ -35,7 +35,7 @@ HandTarget start_target() {
 TEST(HandControl, TheWheelPushesTheGrabbedNeedleAlongItsAxis) {
   HandControl control(start_target());
   EXPECT_FALSE(control.handle(ScrollEvent{4, false}, kNotInside));
-  EXPECT_TRUE(control.handle(wish(Action::take_needle), kNotInside));
+  EXPECT_TRUE(control.handle(request(Action::take_needle), kNotInside));
   EXPECT_TRUE(control.handle(ScrollEvent{4, false}, kNotInside));
   EXPECT_NEAR(control.target().X_WN.position[2], -8e-3, 1e-12);
   EXPECT_TRUE(control.handle(ScrollEvent{1, true}, kNotInside));
@@ -44,7 +44,7 @@ TEST(HandControl, TheWheelPushesTheGrabbedNeedleAlongItsAxis) {
 
 TEST(HandControl, AnInsertedNeedleTurnsAboutItsEntry) {
   HandControl control(start_target());
-  control.handle(wish(Action::take_needle), kNotInside);
+  control.handle(request(Action::take_needle), kNotInside);
   control.handle(ScrollEvent{50, false}, kNotInside);  // tip 15 mm beyond the skin at z = 0
   const Pose before = to_pose(control.target().X_WN);
   control.handle(MoveEvent{100, 100}, inside_at(Vec3::Zero()));
@@ -60,12 +60,12 @@ TEST(HandControl, AnInsertedNeedleTurnsAboutItsEntry) {
 TEST(HandControl, TheWheelPressesThePlungerUnderTheThumbAndNothingElse) {
   HandControl control(start_target());
   EXPECT_EQ(control.target().has_plunger, 0U);
-  control.handle(wish(Action::take_plunger), kNotInside);
+  control.handle(request(Action::take_plunger), kNotInside);
   EXPECT_EQ(control.grab(), Grab::plunger);
   EXPECT_EQ(control.target().has_plunger, 1U);
   EXPECT_EQ(control.target().thumb_force, 0);
   control.handle(ScrollEvent{4, false}, kNotInside);
-  control.handle(wish(Action::push), kNotInside);
+  control.handle(request(Action::push), kNotInside);
   EXPECT_NEAR(control.target().thumb_force, 5 * HandControl::kThumb, 1e-12);
   control.handle(ScrollEvent{-1, true}, kNotInside);
   EXPECT_NEAR(control.target().thumb_force, 4.9 * HandControl::kThumb, 1e-12);
@@ -74,10 +74,10 @@ TEST(HandControl, TheWheelPressesThePlungerUnderTheThumbAndNothingElse) {
   EXPECT_TRUE(to_pose(control.target().X_WN).isApprox(to_pose(start_target().X_WN)));
   EXPECT_TRUE(to_pose(control.target().X_WP).isApprox(to_pose(start_target().X_WP)));
   control.handle(ScrollEvent{1000, false}, kNotInside);
-  EXPECT_EQ(control.target().thumb_force, HandControl::kMostThumb);
+  EXPECT_EQ(control.target().thumb_force, HandControl::kMaxThumb);
   control.handle(ScrollEvent{-1000, false}, kNotInside);
-  EXPECT_EQ(control.target().thumb_force, -HandControl::kMostDraw);
-  control.handle(wish(Action::take_plunger), kNotInside);
+  EXPECT_EQ(control.target().thumb_force, -HandControl::kMaxDraw);
+  control.handle(request(Action::take_plunger), kNotInside);
   EXPECT_EQ(control.grab(), Grab::nothing);
   EXPECT_EQ(control.target().has_plunger, 0U);
   EXPECT_EQ(control.target().thumb_force, 0) << "a thumb that is off presses nothing";
@@ -85,12 +85,12 @@ TEST(HandControl, TheWheelPressesThePlungerUnderTheThumbAndNothingElse) {
 
 TEST(HandControl, AGamepadsTriggersPressThePlungerAsFarAsTheyAreHeld) {
   HandControl control(start_target());
-  control.handle(wish(Action::take_plunger), kNotInside);
+  control.handle(request(Action::take_plunger), kNotInside);
   PadEvent pad;
   pad.push = 0.5;
   pad.seconds = 0.02;
   control.handle(pad, kNotInside);
-  EXPECT_NEAR(control.target().thumb_force, 0.5 * HandControl::kMostThumb, 1e-12);
+  EXPECT_NEAR(control.target().thumb_force, 0.5 * HandControl::kMaxThumb, 1e-12);
   PadState free;
   PadState held = free;
   held.right_trigger = 1;
@@ -103,7 +103,7 @@ TEST(HandControl, AGamepadsTriggersPressThePlungerAsFarAsTheyAreHeld) {
 
 TEST(HandControl, ShiftMovesWhatIsInHandATenthAsFar) {
   HandControl control(start_target());
-  control.handle(wish(Action::take_probe), kNotInside);
+  control.handle(request(Action::take_probe), kNotInside);
   control.handle(MoveEvent{0, 0}, kNotInside);
   control.handle(MoveEvent{10, 0, true}, kNotInside);
   EXPECT_NEAR(control.target().X_WP.position[0], 0.0201, 1e-12);
@@ -111,7 +111,7 @@ TEST(HandControl, ShiftMovesWhatIsInHandATenthAsFar) {
 
 TEST(HandControl, TheMouseSlidesTheGrabbedProbeOnTheBody) {
   HandControl control(start_target());
-  control.handle(wish(Action::take_probe), kNotInside);
+  control.handle(request(Action::take_probe), kNotInside);
   control.handle(MoveEvent{0, 0}, kNotInside);
   control.handle(MoveEvent{10, -20}, kNotInside);
   EXPECT_NEAR(control.target().X_WP.position[0], 0.021, 1e-12);
@@ -121,12 +121,12 @@ TEST(HandControl, TheMouseSlidesTheGrabbedProbeOnTheBody) {
 
 TEST(HandControl, EscapeLetsGoAndHomeGoesBack) {
   HandControl control(start_target());
-  control.handle(wish(Action::take_needle), kNotInside);
-  control.handle(wish(Action::push), kNotInside);
-  control.handle(wish(Action::let_go), kNotInside);
+  control.handle(request(Action::take_needle), kNotInside);
+  control.handle(request(Action::push), kNotInside);
+  control.handle(request(Action::let_go), kNotInside);
   EXPECT_EQ(control.grab(), Grab::nothing);
   EXPECT_FALSE(control.handle(MoveEvent{5, 5}, kNotInside));
-  control.handle(wish(Action::home), kNotInside);
+  control.handle(request(Action::home), kNotInside);
   EXPECT_NEAR(control.target().X_WN.position[2], -10e-3, 1e-15);
 }
 
@@ -143,7 +143,7 @@ class OverLayers : public ::testing::Test {
 
 TEST_F(OverLayers, TheNeedleGoesNoDeeperThanItsHubHoweverFarItIsPushed) {
   HandControl control(start_target(), 20e-3);
-  control.handle(wish(Action::take_needle), ground_);
+  control.handle(request(Action::take_needle), ground_);
   control.handle(ScrollEvent{200, false}, ground_);
   EXPECT_NEAR(tip(control), 20e-3, 1e-9);
   EXPECT_EQ(control.refusal(), Text::hub_on_skin);
@@ -154,7 +154,7 @@ TEST_F(OverLayers, TheNeedleGoesNoDeeperThanItsHubHoweverFarItIsPushed) {
 
 TEST_F(OverLayers, OnBoneAHandPressesAFewMillimetresAndNoMore) {
   HandControl control(start_target(), 50e-3);
-  control.handle(wish(Action::take_needle), ground_);
+  control.handle(request(Action::take_needle), ground_);
   control.handle(ScrollEvent{200, false}, ground_);
   EXPECT_NEAR(tip(control), 29e-3 + HandControl::kBeyondBone, 1e-6);
   EXPECT_EQ(control.refusal(), Text::bone_felt);
@@ -163,22 +163,22 @@ TEST_F(OverLayers, OnBoneAHandPressesAFewMillimetresAndNoMore) {
 TEST_F(OverLayers, AWithdrawalIsUndoneAsOne) {
   HandControl control(start_target(), 50e-3);
   control.handle(ScrollEvent{1, false}, ground_);
-  control.handle(wish(Action::take_needle), ground_);
+  control.handle(request(Action::take_needle), ground_);
   control.handle(ScrollEvent{40, false}, ground_);
   ground_.entry_W = Vec3::Zero();
   const double deep = tip(control);
   control.handle(ScrollEvent{-6, false}, ground_);
   control.handle(ScrollEvent{-4, false}, ground_);
   EXPECT_NEAR(tip(control), deep - 5e-3, 1e-9);
-  control.handle(wish(Action::undo), ground_);
+  control.handle(request(Action::undo), ground_);
   EXPECT_NEAR(tip(control), deep, 1e-9);
-  control.handle(wish(Action::undo), ground_);
+  control.handle(request(Action::undo), ground_);
   EXPECT_EQ(control.refusal(), Text::nothing_to_undo);
 }
 
 TEST_F(OverLayers, ATiltedProbeSlidesOnTheSkin) {
   HandControl control(start_target());
-  control.handle(wish(Action::take_probe), ground_);
+  control.handle(request(Action::take_probe), ground_);
   control.handle(MoveEvent{0, 0}, ground_);
   control.handle(MoveEvent{100, 0, false, true}, ground_);  // rocks by 10 degrees
   const Vec3 axis = to_pose(control.target().X_WP).linear().col(2);
@@ -193,14 +193,14 @@ TEST_F(OverLayers, ATiltedProbeSlidesOnTheSkin) {
 TEST_F(OverLayers, WhatCannotBeIsRefusedWithItsReason) {
   HandControl control(start_target());
   ground_.has_entry_choice = false;
-  control.handle(wish(Action::choose_entry), ground_);
+  control.handle(request(Action::choose_entry), ground_);
   EXPECT_EQ(control.refusal(), Text::cannot_choose_air);
   ground_.has_entry_choice = true;
   ground_.entry_W = Vec3::Zero();
-  control.handle(wish(Action::choose_entry), ground_);
+  control.handle(request(Action::choose_entry), ground_);
   EXPECT_EQ(control.refusal(), Text::cannot_choose_inside);
   EXPECT_EQ(control.target().buttons, 0U);
-  control.handle(wish(Action::explore), ground_);
+  control.handle(request(Action::explore), ground_);
   EXPECT_EQ(control.refusal(), Text::cannot_explore);
 }
 
@@ -215,7 +215,7 @@ TEST(BodyContact, GapAndSlopeAreThoseOfTheSkin) {
 
 TEST(HandControl, AButtonIsAShortPress) {
   HandControl control(start_target());
-  control.handle(wish(Action::choose_entry), kNotInside);
+  control.handle(request(Action::choose_entry), kNotInside);
   EXPECT_EQ(control.target().buttons, Button::kCalibrate);
   control.release();
   EXPECT_EQ(control.target().buttons, 0U);
@@ -223,7 +223,7 @@ TEST(HandControl, AButtonIsAShortPress) {
 
 TEST(HandControl, TheProbeStaysOnTheBodyWhenTheJointIsMoved) {
   HandControl control(start_target());
-  control.handle(wish(Action::take_needle), kNotInside);
+  control.handle(request(Action::take_needle), kNotInside);
   control.handle(ScrollEvent{3, false}, kNotInside);
   const Pose X_WP = to_pose(control.target().X_WP);
   Pose moved = Pose::Identity();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The 3D view of a body that gives way: where its surfaces are drawn, and of which picture.
-#include "artus/viewer/joint_view.h"
+#include "artus/detail/viewer/joint3d/joint_view.h"
 
 #include <algorithm>
 #include <array>
@@ -8,12 +8,12 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/raycast/moving_scene.h"
-#include "artus/raycast/pressed_scene.h"
-#include "artus/soft/injected_body.h"
-#include "artus/viewer/cine_loop.h"
-#include "artus/viewer/screen.h"
-#include "artus/viewer/window.h"
+#include "artus/detail/raycast/moving_scene.h"
+#include "artus/detail/raycast/pressed_scene.h"
+#include "artus/detail/soft/liquid/injected_body.h"
+#include "artus/detail/viewer/panels/cine_loop.h"
+#include "artus/detail/viewer/input/screen.h"
+#include "artus/detail/viewer/window.h"
 #include "tests/session/session_support.h"
 #include "tests/support/meshed_block.h"
 
@@ -237,8 +237,8 @@ TEST_F(WindowJoint, TheWindowsViewIsOfThePictureThatItShows) {
   SessionParams params = test::make_small_session();
   params.deform = true;
   Session::Options session_options;
-  session_options.haptic_wishes = {};
-  session_options.imaging_wishes = {};
+  session_options.haptic_options = {};
+  session_options.imaging_options = {};
   auto device = std::make_unique<HandDevice>(hands, 1 / params.haptic_rate);
   HandDevice* hand = device.get();
   auto session = Session::start(std::make_shared<const Scene>(joint_), params, std::move(device),

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Pages and reviews without a screen: what an action does, whose steps a script's are, where one
 // stands in a film, and what sets a probe right.
-#include "artus/viewer/page.h"
+#include "artus/detail/viewer/pages/page.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "artus/core/units.h"
-#include "artus/viewer/lesson.h"
-#include "artus/viewer/review.h"
+#include "artus/detail/core/units.h"
+#include "artus/detail/viewer/panels/lesson.h"
+#include "artus/detail/viewer/pages/review.h"
 #include "tests/session/session_support.h"
 
 namespace artus {

@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/viewer/window.h"
+#include "artus/detail/viewer/window.h"
 #include "tests/support/x_actor.h"
 
 namespace artus::test {
@@ -48,8 +48,8 @@ class Person {
   /// shows few pictures.
   bool push_until(const char* what, const std::function<bool(const WindowStatus&)>& is_so) {
     constexpr double kNear = 10e-3;  // m
-    constexpr int kMost = 100;
-    for (int i = 0; i < kMost && !is_so(seen()); ++i) {
+    constexpr int kMax = 100;
+    for (int i = 0; i < kMax && !is_so(seen()); ++i) {
       x_.wheel(seen().needle.to_target > kNear ? 4 : 1);
       rest(0.15);  // the hand is slower than the wheel
       wait_pictures(1);

@@ -7,20 +7,20 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/viewer/anatomy_names.h"
-#include "artus/viewer/body_mark.h"
-#include "artus/viewer/caption.h"
-#include "artus/viewer/cine_loop.h"
-#include "artus/viewer/curve.h"
-#include "artus/viewer/display_look.h"
-#include "artus/viewer/guide.h"
-#include "artus/viewer/image_place.h"
-#include "artus/viewer/insertion_trace.h"
-#include "artus/viewer/joint_sheets.h"
-#include "artus/viewer/label_places.h"
-#include "artus/viewer/needle_reading.h"
-#include "artus/viewer/presets.h"
-#include "artus/viewer/surface_detail.h"
+#include "artus/detail/viewer/words/anatomy_names.h"
+#include "artus/detail/viewer/joint3d/body_mark.h"
+#include "artus/detail/viewer/panels/caption.h"
+#include "artus/detail/viewer/panels/cine_loop.h"
+#include "artus/detail/viewer/panels/curve.h"
+#include "artus/detail/viewer/panels/display_look.h"
+#include "artus/detail/viewer/panels/guide.h"
+#include "artus/detail/viewer/panels/image_place.h"
+#include "artus/detail/viewer/panels/insertion_trace.h"
+#include "artus/detail/viewer/joint3d/joint_sheets.h"
+#include "artus/detail/viewer/panels/label_places.h"
+#include "artus/detail/viewer/panels/needle_reading.h"
+#include "artus/detail/viewer/panels/presets.h"
+#include "artus/detail/viewer/joint3d/surface_detail.h"
 #include "tests/session/session_support.h"
 
 namespace artus {
@@ -100,11 +100,11 @@ TEST(BodyMark, TheProbeStandsOnItsMapAndGoesWhereItGoes) {
 }
 
 TEST(LabelPlaces, NamesMeetNoneAndStayWithinThePicture) {
-  std::vector<LabelBox> wished;
+  std::vector<LabelBox> requested;
   for (int i = 0; i < 40; ++i)
-    wished.push_back(
+    requested.push_back(
         {static_cast<float>(i * 37 % 300) - 20, static_cast<float>(i * 53 % 200) - 5, 60, 13});
-  const auto placed = place_labels(wished, 280, 190);
+  const auto placed = place_labels(requested, 280, 190);
   int shown = 0;
   for (std::size_t i = 0; i < placed.size(); ++i) {
     if (!placed[i]) continue;
@@ -303,8 +303,8 @@ TEST(AnatomyNames, FillingFatIsNamedByWhereItLies) {
   joint.regions = {{"outside", 0},           {"beyond", 0}, {"subcutaneous_fat", 0}, {"skin", 1},
                    {"subacromial_bursa", 2}, {"deltoid", 3}};
   std::vector<TissueInterval> line(7);
-  const RegionId way[] = {3, 2, 5, 2, 4, 2, 5};  // NOLINT(*-avoid-c-arrays)
-  for (std::size_t i = 0; i < line.size(); ++i) line[i].region = way[i];
+  const RegionId path[] = {3, 2, 5, 2, 4, 2, 5};  // NOLINT(*-avoid-c-arrays)
+  for (std::size_t i = 0; i < line.size(); ++i) line[i].region = path[i];
   EXPECT_EQ(layer_name(Language::english, joint, line, 1), "fat under the skin");
   EXPECT_EQ(layer_name(Language::english, joint, line, 3), "fat around the bursa");
   EXPECT_EQ(layer_name(Language::english, joint, line, 4), "subacromial bursa");

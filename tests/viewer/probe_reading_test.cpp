@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/viewer/probe_reading.h"
+#include "artus/detail/viewer/panels/probe_reading.h"
 
 #include <algorithm>
 #include <iterator>

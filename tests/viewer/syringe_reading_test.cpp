@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/viewer/syringe_reading.h"
+#include "artus/detail/viewer/panels/syringe_reading.h"
 
 #include <gtest/gtest.h>
 

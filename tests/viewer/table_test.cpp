@@ -12,15 +12,15 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/viewer/anatomy_names.h"
-#include "artus/viewer/colours.h"
-#include "artus/viewer/event_queue.h"
-#include "artus/viewer/help_rows.h"
-#include "artus/viewer/image_place.h"
-#include "artus/viewer/key_map.h"
-#include "artus/viewer/panel_layout.h"
-#include "artus/viewer/strings.h"
-#include "artus/viewer/system_words.h"
+#include "artus/detail/viewer/words/anatomy_names.h"
+#include "artus/detail/viewer/joint3d/colours.h"
+#include "artus/detail/viewer/input/event_queue.h"
+#include "artus/detail/viewer/panels/help_rows.h"
+#include "artus/detail/viewer/panels/image_place.h"
+#include "artus/detail/viewer/input/key_map.h"
+#include "artus/detail/viewer/panels/panel_layout.h"
+#include "artus/detail/viewer/words/strings.h"
+#include "artus/detail/viewer/words/system_words.h"
 #include "tests/support/paths.h"
 
 namespace artus {
@@ -166,7 +166,7 @@ TEST(PictureView, AZoomKeepsItsMiddleAndNeverLeavesThePicture) {
   EXPECT_EQ(view.u, 0);
   EXPECT_NEAR(view.v, 0.5, 1e-12) << "down to the lower edge";
   view.zoom_by(100);
-  EXPECT_EQ(view.zoom, PictureView::kMost);
+  EXPECT_EQ(view.zoom, PictureView::kMax);
   EXPECT_NEAR(view.v + 0.5 / view.zoom, 0.75, 1e-12);
   view.zoom_by(1e-3);
   EXPECT_EQ(view.zoom, 1);

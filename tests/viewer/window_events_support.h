@@ -39,8 +39,8 @@ class WindowEventsTest : public TemporaryFolder {
     auto device = std::make_unique<HandDevice>(over_the_skin(), 1 / params_.haptic_rate);
     hand_ = device.get();
     Session::Options options;
-    options.haptic_wishes = {};
-    options.imaging_wishes = {};
+    options.haptic_options = {};
+    options.imaging_options = {};
     auto session = Session::start(scene_, params_, std::move(device), options);
     EXPECT_TRUE(session) << session.error().to_string();
     session_ = session->get();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/viewer/window_events.h"
+#include "artus/detail/viewer/input/window_events.h"
 
 #include <array>
 #include <cmath>
@@ -12,7 +12,7 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/core/units.h"
+#include "artus/detail/core/units.h"
 #include "tests/viewer/window_events_support.h"
 
 namespace artus {

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/core/units.h"
+#include "artus/detail/core/units.h"
 #include "tests/support/paths.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/viewer/person.h"
@@ -122,7 +122,7 @@ TEST_P(WindowInjection, APersonBringsTheTipIntoTheBursaByMouseAndKeyboard) {
   auto device = std::make_unique<HandDevice>(options.tasks[0].start, 1 / params.haptic_rate);
   HandDevice* hand = device.get();
   Session::Options session_options;
-  session_options.haptic_wishes = {};
+  session_options.haptic_options = {};
   auto session = Session::start(scene, params, std::move(device), session_options);
   ASSERT_TRUE(session) << session.error().to_string();
   Person person(*x);

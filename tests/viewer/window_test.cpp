@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/viewer/window.h"
+#include "artus/detail/viewer/window.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/core/units.h"
+#include "artus/detail/core/units.h"
 #include "artus/session/replay.h"
 #include "tests/session/session_support.h"
 #include "tests/support/temporary_folder.h"
@@ -45,8 +45,8 @@ class Window : public test::TemporaryFolder {
     auto device = std::make_unique<HandDevice>(above_the_skin(), 1 / params_.haptic_rate);
     HandDevice* hand = device.get();
     Session::Options options;
-    options.haptic_wishes = {};
-    options.imaging_wishes = {};
+    options.haptic_options = {};
+    options.imaging_options = {};
     options.recording = folder_ / "session.rec";
     {
       auto session = Session::start(scene_, params_, std::move(device), options);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/training/metrics/attempt_events.h"
+#include "artus/detail/training/metrics/attempt_events.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "artus/core/printed.h"
-#include "artus/core/units.h"
+#include "artus/detail/core/printed.h"
+#include "artus/detail/core/units.h"
 
 namespace artus {
 namespace {

@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-#include "artus/training/metrics/attempt_metrics.h"
+#include "artus/detail/training/metrics/attempt_metrics.h"
 
 namespace artus {
 

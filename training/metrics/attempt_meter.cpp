@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/training/metrics/attempt_meter.h"
+#include "artus/detail/training/metrics/attempt_meter.h"
 
 #include <utility>
 
-#include "artus/training/metrics/attempt_events.h"
-#include "artus/training/metrics/attempt_metrics.h"
+#include "artus/detail/training/metrics/attempt_events.h"
+#include "artus/detail/training/metrics/attempt_metrics.h"
 
 namespace artus {
 namespace {

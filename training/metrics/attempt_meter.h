@@ -3,16 +3,16 @@
 #include <memory>
 #include <vector>
 
-#include "artus/training/metrics/force_layers.h"
-#include "artus/training/metrics/goals.h"
-#include "artus/training/metrics/image_sight.h"
-#include "artus/training/metrics/metric.h"
-#include "artus/training/metrics/needle_course.h"
-#include "artus/training/metrics/raw_motion.h"
-#include "artus/training/metrics/sight_course.h"
-#include "artus/training/metrics/structure_search.h"
-#include "artus/training/metrics/syringe_course.h"
-#include "artus/training/metrics/tip_sight.h"
+#include "artus/detail/training/metrics/force_layers.h"
+#include "artus/detail/training/metrics/goals.h"
+#include "artus/detail/training/metrics/image_sight.h"
+#include "artus/detail/training/metrics/metric.h"
+#include "artus/detail/training/metrics/needle_course.h"
+#include "artus/detail/training/metrics/raw_motion.h"
+#include "artus/detail/training/metrics/sight_course.h"
+#include "artus/detail/training/metrics/structure_search.h"
+#include "artus/detail/training/metrics/syringe_course.h"
+#include "artus/detail/training/metrics/tip_sight.h"
 
 namespace artus {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/training/metrics/attempt_metrics.h"
+#include "artus/detail/training/metrics/attempt_metrics.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
-#include "artus/core/units.h"
-#include "artus/training/metrics/smoothness.h"
+#include "artus/detail/core/units.h"
+#include "artus/detail/training/metrics/smoothness.h"
 
 namespace artus {
 namespace {

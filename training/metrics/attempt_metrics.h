@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "artus/training/metrics/attempt_meter.h"
+#include "artus/detail/training/metrics/attempt_meter.h"
 
 namespace artus {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/training/metrics/closed_body.h"
+#include "artus/detail/training/metrics/closed_body.h"
 
 #include <unordered_map>
 #include <utility>
@@ -50,8 +50,8 @@ std::shared_ptr<const Scene> make_region_body(const CompiledJoint& joint, Region
 }
 
 std::optional<Vec3> find_entry(const Scene& scene, const Vec3& tip, const Vec3& axis) noexcept {
-  constexpr std::size_t kMost = 64;
-  std::array<Crossing, kMost> crossings;
+  constexpr std::size_t kMax = 64;
+  std::array<Crossing, kMax> crossings;
   const Segment back{tip, tip - kEntryReach * axis};
   const QueryCount count = scene.find_crossings(back, crossings);
   for (std::size_t i = 0; i < count.size; ++i)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/training/metrics/force_layers.h"
+#include "artus/detail/training/metrics/force_layers.h"
 
 #include <algorithm>
 
@@ -8,8 +8,8 @@ namespace {
 constexpr double kDeadTime = 0.3;  // s
 }
 
-ForceLayers::ForceLayers(std::size_t n_regions, std::size_t most_touches) : layers_(n_regions) {
-  touches_.reserve(most_touches);
+ForceLayers::ForceLayers(std::size_t n_regions, std::size_t max_touches) : layers_(n_regions) {
+  touches_.reserve(max_touches);
 }
 
 void ForceLayers::add(const FeltTick& tick) noexcept {

@@ -2,8 +2,8 @@
 #pragma once
 #include <vector>
 
-#include "artus/anatomy/body/tet_mesh.h"
-#include "artus/core/check.h"
+#include "artus/detail/anatomy/body/tet_mesh.h"
+#include "artus/detail/core/check.h"
 #include "artus/core/geometry.h"
 
 namespace artus {
@@ -38,7 +38,7 @@ struct FeltTouch {
 class ForceLayers {
  public:
   /// Memory for all regions and for so many touches is taken here; later ones are counted alone.
-  explicit ForceLayers(std::size_t n_regions, std::size_t most_touches = 1000);
+  explicit ForceLayers(std::size_t n_regions, std::size_t max_touches = 1000);
 
   /// Cost: constant.
   ARTUS_REALTIME void add(const FeltTick& tick) noexcept;

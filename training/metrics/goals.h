@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "artus/raycast/scene.h"
-#include "artus/training/metrics/needle_course.h"
+#include "artus/detail/training/metrics/needle_course.h"
 
 namespace artus {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/training/metrics/metric.h"
+#include "artus/detail/training/metrics/metric.h"
 
-#include "artus/core/csv.h"
+#include "artus/detail/core/csv.h"
 
 namespace artus {
 const Metric* find_metric(std::span<const Metric> metrics, const std::string& name,

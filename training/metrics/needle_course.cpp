@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/training/metrics/needle_course.h"
+#include "artus/detail/training/metrics/needle_course.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "artus/core/units.h"
-#include "artus/training/metrics/closed_body.h"
-#include "artus/training/metrics/swept_area.h"
+#include "artus/detail/core/units.h"
+#include "artus/detail/training/metrics/closed_body.h"
+#include "artus/detail/training/metrics/swept_area.h"
 
 namespace artus {
 namespace {
@@ -106,7 +106,7 @@ std::vector<Run> find_idle(std::span<const CoursePoint> course, double speed, do
   return runs;
 }
 
-std::vector<double> find_passes(std::span<const CoursePoint> course, double way) {
+std::vector<double> find_passes(std::span<const CoursePoint> course, double distance) {
   std::vector<double> starts;
   bool inward = true;
   double extreme = 0;       // m, deepest of this pass or shallowest since it
@@ -120,7 +120,7 @@ std::vector<double> find_passes(std::span<const CoursePoint> course, double way)
     if (inward ? now.depth > extreme : now.depth < extreme + kShallow) {
       extreme = inward ? now.depth : std::min(extreme, now.depth);
       extreme_time = now.time;
-    } else if (std::abs(now.depth - extreme) >= way) {
+    } else if (std::abs(now.depth - extreme) >= distance) {
       inward = !inward;
       if (inward) starts.push_back(extreme_time);
       extreme = now.depth;
@@ -131,7 +131,7 @@ std::vector<double> find_passes(std::span<const CoursePoint> course, double way)
 }
 
 std::vector<double> find_redirections(std::span<const CoursePoint> course, double angle,
-                                      double way) {
+                                      double distance) {
   std::vector<double> times;
   std::optional<Vec3> rest_axis;  // goes along with a turn that is counted until it is over
   HeldDirection held;
@@ -148,7 +148,7 @@ std::vector<double> find_redirections(std::span<const CoursePoint> course, doubl
     }
     if (held.add(now.time, now.axis)) turning = false;
     deepest = std::max(deepest, now.depth);
-    if (deepest - now.depth >= way) {  // a pass begins anew
+    if (deepest - now.depth >= distance) {  // a pass begins anew
       rest_axis.reset();
       deepest = now.depth;
     }

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "artus/raycast/scene.h"
-#include "artus/training/metrics/pose_track.h"
+#include "artus/detail/training/metrics/pose_track.h"
 
 namespace artus {
 
@@ -59,14 +59,14 @@ struct Run {
 /// `way` m that follows a withdrawal of at least `way`, dated when the needle was last within
 /// 0.2 mm of its shallowest before it.
 [[nodiscard]] std::vector<double> find_passes(std::span<const CoursePoint> course,
-                                              double way = 5e-3);
+                                              double distance = 5e-3);
 
 /// When the shaft had turned inside the body by more than `angle` rad between two rests (slower
 /// than 2 mm/s), without a withdrawal of `way` m between them. One turn counts once: the next can
 /// begin when the shaft has held its direction within 1 degree for half a second.
 [[nodiscard]] std::vector<double> find_redirections(std::span<const CoursePoint> course,
                                                     double angle = 0.08726646259971647,
-                                                    double way = 5e-3);
+                                                    double distance = 5e-3);
 
 /// Runs faster than `threshold` that last `hold` s, closed after `hold` s below. `speeds`: even
 /// steps of 1 / kTrackRate. Source [Weinstein2023] for 50 mm/s, 50 deg/s and 0.2 s.

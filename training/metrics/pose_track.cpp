@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/training/metrics/pose_track.h"
+#include "artus/detail/training/metrics/pose_track.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "artus/training/metrics/zero_phase.h"
+#include "artus/detail/training/metrics/zero_phase.h"
 
 namespace artus {
 namespace {

@@ -3,9 +3,9 @@
 #include <cstddef>
 #include <vector>
 
-#include "artus/core/check.h"
+#include "artus/detail/core/check.h"
 #include "artus/core/geometry.h"
-#include "artus/training/metrics/metric.h"
+#include "artus/detail/training/metrics/metric.h"
 
 namespace artus {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/training/metrics/raw_motion.h"
+#include "artus/detail/training/metrics/raw_motion.h"
 
 #include <cmath>
 #include <utility>
 
-#include "artus/core/units.h"
+#include "artus/detail/core/units.h"
 
 namespace artus {
 namespace {

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "artus/training/metrics/closed_body.h"
-#include "artus/training/metrics/metric.h"
-#include "artus/training/metrics/swept_area.h"
+#include "artus/detail/training/metrics/closed_body.h"
+#include "artus/detail/training/metrics/metric.h"
+#include "artus/detail/training/metrics/swept_area.h"
 
 namespace artus {
 

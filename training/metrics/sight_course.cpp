@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/training/metrics/sight_course.h"
+#include "artus/detail/training/metrics/sight_course.h"
 
 #include <algorithm>
 #include <cmath>
@@ -26,7 +26,7 @@ SightTotals sum_sight(std::span<const CoursePoint> course,
   double coming = 0;  // m inside, and never yet between the picture's edges
   bool came = false;
   const auto close = [&] {
-    if (run.amount >= kUnseenWay) sum.unseen.push_back(run);
+    if (run.amount >= kUnseenDistance) sum.unseen.push_back(run);
     run = {};
   };
   for (std::size_t i = 1; i < course.size(); ++i) {
@@ -37,15 +37,15 @@ SightTotals sum_sight(std::span<const CoursePoint> course,
     }
     const TipSight& sight = *sights[i];
     const double dt = now.time - course[i - 1].time;
-    const double way = std::max(0.0, now.advance);
+    const double distance = std::max(0.0, now.advance);
     sum.time += dt;
-    sum.advanced += way;
+    sum.advanced += distance;
     if (std::abs(sight.offset) <= sight.half_width && std::abs(sight.plane_angle) <= kInPlane)
-      sum.advanced_in_plane += way;
+      sum.advanced_in_plane += distance;
     sum.offsets.push_back(std::abs(sight.offset));
     sum.angles.push_back(std::abs(sight.plane_angle));
     if (sight.loss == SightLoss::off_sector && !came) {
-      coming += way;
+      coming += distance;
     } else if (!came) {
       came = true;
       sum.outside_picture = coming;
@@ -57,7 +57,7 @@ SightTotals sum_sight(std::span<const CoursePoint> course,
     }
     if (run.amount == 0) run.from = course[i - 1].time;
     run.to = now.time;
-    run.amount += way;
+    run.amount += distance;
   }
   close();
   return sum;

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "artus/training/metrics/needle_course.h"
-#include "artus/training/metrics/tip_sight.h"
+#include "artus/detail/training/metrics/needle_course.h"
+#include "artus/detail/training/metrics/tip_sight.h"
 
 namespace artus {
 
@@ -24,11 +24,11 @@ struct SightTotals {
   double time_seen = 0;          ///< s of it with the tip seen
   std::vector<double> offsets;   ///< m, |tip - plane| inside
   std::vector<double> angles;    ///< rad, |shaft to plane| inside
-  std::vector<Run> unseen;       ///< runs of at least kUnseenWay advanced unseen; amount in m
+  std::vector<Run> unseen;       ///< runs of at least kUnseenDistance advanced unseen; amount in m
   double outside_picture = 0;    ///< m of the first run before the tip came between its edges
 };
 inline constexpr double kInPlane = 0.08726646259971647;  ///< rad: 5 degrees
-inline constexpr double kUnseenWay = 1e-3;               ///< m
+inline constexpr double kUnseenDistance = 1e-3;               ///< m
 
 /// Requires: spans of one length.
 [[nodiscard]] SightTotals sum_sight(std::span<const CoursePoint> course,

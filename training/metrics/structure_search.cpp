@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/training/metrics/structure_search.h"
+#include "artus/detail/training/metrics/structure_search.h"
 
 #include <array>
 #include <cmath>

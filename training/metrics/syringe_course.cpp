@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/training/metrics/syringe_course.h"
+#include "artus/detail/training/metrics/syringe_course.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,8 +16,8 @@ constexpr double kPressed = 0.2;   // N below which nobody presses
 
 }  // namespace
 
-SyringeCourse::SyringeCourse(std::size_t most_doses) {
-  doses_.reserve(most_doses);
+SyringeCourse::SyringeCourse(std::size_t max_doses) {
+  doses_.reserve(max_doses);
 }
 
 void SyringeCourse::give(const SyringeTick& tick, double volume) noexcept {

@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "artus/anatomy/body/tet_mesh.h"
-#include "artus/core/check.h"
+#include "artus/detail/anatomy/body/tet_mesh.h"
+#include "artus/detail/core/check.h"
 #include "artus/core/geometry.h"
 
 namespace artus {
@@ -50,7 +50,7 @@ struct SyringeTotals {
 class SyringeCourse {
  public:
   /// Memory for so many doses of 0.01 ml is taken here; what comes later adds to the last.
-  explicit SyringeCourse(std::size_t most_doses = 10000);
+  explicit SyringeCourse(std::size_t max_doses = 10000);
 
   /// Cost: constant.
   ARTUS_REALTIME void add(const SyringeTick& tick) noexcept;

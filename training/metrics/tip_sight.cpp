@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/training/metrics/tip_sight.h"
+#include "artus/detail/training/metrics/tip_sight.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "artus/core/units.h"
+#include "artus/detail/core/units.h"
 
 namespace artus {
 namespace {
 
-constexpr double kMostAir = 5e-3;     // m, as ImageSettings::gel_limit
-constexpr double kLeastContrast = 6;  // dB
+constexpr double kMaxAir = 5e-3;     // m, as ImageSettings::gel_limit
+constexpr double kMinContrast = 6;  // dB
 constexpr double kSpeed = kDisplaySpeedOfSound;
 
 double decibels(double amplitude) {
@@ -92,10 +92,10 @@ TipSight TipSightFinder::look(const Scene& scene, const Pose& X_JP, const Pose& 
   }
   const double heard = beam_.elevation_amplitude(sight.offset, std::clamp(tip.z(), 0.0, depth_));
   const double aside_db = decibels(heard);
-  const bool faint = sight.contrast_db + aside_db < kLeastContrast;
-  if (air > kMostAir)
+  const bool faint = sight.contrast_db + aside_db < kMinContrast;
+  if (air > kMaxAir)
     sight.loss = SightLoss::no_contact;
-  else if (faint && aside_db < -kLeastContrast)
+  else if (faint && aside_db < -kMinContrast)
     sight.loss = SightLoss::off_plane;
   else if (!in_sector(tip))
     sight.loss = SightLoss::off_sector;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
-#include "artus/echo/beam_profile.h"
+#include "artus/detail/echo/probe/beam_profile.h"
 #include "artus/echo/needle_view.h"
 #include "artus/echo/transducer.h"
 #include "artus/raycast/scene.h"

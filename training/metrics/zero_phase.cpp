@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/training/metrics/zero_phase.h"
+#include "artus/detail/training/metrics/zero_phase.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <vector>
 
-#include "artus/core/check.h"
+#include "artus/detail/core/check.h"
 
 namespace artus {
 namespace {

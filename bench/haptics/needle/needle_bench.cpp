@@ -29,11 +29,11 @@
 
 #include <benchmark/benchmark.h>
 
-#include "artus/anatomy/compile/compile.h"
-#include "artus/core/noise.h"
-#include "artus/haptics/needle/god_object.h"
-#include "artus/haptics/needle/needle_renderer.h"
-#include "artus/haptics/needle/velocity_estimator.h"
+#include "artus/anatomy/compile.h"
+#include "artus/detail/core/noise.h"
+#include "artus/detail/haptics/needle/laws/god_object.h"
+#include "artus/haptics/needle_renderer.h"
+#include "artus/detail/haptics/needle/laws/velocity_estimator.h"
 #include "tests/support/paths.h"
 
 namespace artus::bench {
@@ -67,9 +67,9 @@ std::vector<TimedPose> make_strokes(const CompiledJoint& joint, std::size_t coun
     const double deepest = length + 0.01 * random(7);
     const auto ticks = static_cast<std::uint64_t>(2 * (deepest + kBefore) / speed * kRate);
     for (std::uint64_t i = 0; i < ticks && poses.size() < count; ++i) {
-      const double way = static_cast<double>(i) * speed / kRate;
+      const double distance = static_cast<double>(i) * speed / kRate;
       const double depth =
-          -kBefore + (way < deepest + kBefore ? way : 2 * (deepest + kBefore) - way);
+          -kBefore + (distance < deepest + kBefore ? distance : 2 * (deepest + kBefore) - distance);
       const double t = static_cast<double>(poses.size()) / kRate;
       const Vec3 tremor(std::sin(57 * t), std::sin(63 * t + 1), std::sin(70 * t + 2));
       poses.push_back({make_pose(entry + depth * axis + 30e-6 * tremor,
@@ -181,7 +181,7 @@ NeedleParams all_laws(const Body& body) {
 /// All points of a track in tissue of some kPa; the values cost the same whatever they are.
 NeedleCompliance giving_way() {
   NeedleCompliance c;
-  c.points = NeedleCompliance::kMost;
+  c.points = NeedleCompliance::kMax;
   for (std::size_t i = 0; i < c.points; ++i) {
     for (std::size_t j = 0; j < c.points; ++j) {
       const double apart = std::abs(static_cast<double>(i) - static_cast<double>(j));

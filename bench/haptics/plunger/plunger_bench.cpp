@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "artus/core/noise.h"
-#include "artus/haptics/plunger/syringe_choice.h"
+#include "artus/detail/core/noise.h"
+#include "artus/detail/haptics/plunger/syringe_choice.h"
 
 namespace {
 

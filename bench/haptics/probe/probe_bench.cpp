@@ -18,9 +18,9 @@
 #include <string>
 #include <vector>
 
-#include "artus/haptics/actuator/control_law_supervisor.h"
-#include "artus/haptics/actuator/pneumatic_plant.h"
-#include "artus/haptics/probe/probe_contact.h"
+#include "artus/detail/haptics/actuator/control_law_supervisor.h"
+#include "artus/detail/haptics/actuator/pneumatic_plant.h"
+#include "artus/detail/haptics/probe/probe_contact.h"
 #include "tests/support/layered_body.h"
 
 namespace {
@@ -93,7 +93,7 @@ void bench_contact(const std::string& name,
   constexpr std::size_t kTicks = 50000;
   const auto scene = std::make_shared<const artus::Scene>(joint);
   artus::ProbeContactModel model(scene, {});
-  std::vector<artus::Pose> way;
+  std::vector<artus::Pose> path;
   for (std::size_t i = 0; i < kTicks; ++i) {
     const double t = 1e-3 * static_cast<double>(i);
     artus::Pose X_JP = rest;
@@ -101,13 +101,13 @@ void bench_contact(const std::string& name,
                                    std::sin(1.3 * t) * rest.linear().col(1));
     X_JP = seat(*scene, X_JP);
     X_JP.translation() += 0.003 * (1 - std::cos(5 * t)) * rest.linear().col(2);
-    way.push_back(X_JP);
+    path.push_back(X_JP);
   }
   std::vector<double> us;
   us.reserve(kTicks);
   double share = 0;
   double stiffest = 0;
-  for (const artus::Pose& X_JP : way) {
+  for (const artus::Pose& X_JP : path) {
     const auto start = Clock::now();
     const artus::ProbeContact& contact = model.step(X_JP);
     us.push_back(microseconds_since(start));

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/anatomy/body/joint_file.h"
+#include "artus/anatomy/joint_file.h"
 
 #include <fstream>
 
 #include <gmock/gmock.h>
 
-#include "artus/core/units.h"
+#include "artus/detail/core/units.h"
 #include "tests/anatomy/surfaces/surface_samples.h"
 #include "tests/support/paths.h"
 

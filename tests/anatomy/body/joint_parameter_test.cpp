@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/anatomy/body/joint_parameter.h"
+#include "artus/detail/anatomy/body/joint_parameter.h"
 
 #include <fstream>
 
 #include <gtest/gtest.h>
 
-#include "artus/anatomy/body/joint_file.h"
-#include "artus/anatomy/body/joint_parameter_toml.h"
-#include "artus/anatomy/body/joint_shape.h"
-#include "artus/anatomy/body/joint_variant.h"
-#include "artus/anatomy/body/joint_variant_toml.h"
-#include "artus/anatomy/body/skin_line.h"
+#include "artus/anatomy/joint_file.h"
+#include "artus/detail/anatomy/body/joint_parameter_toml.h"
+#include "artus/detail/anatomy/body/joint_shape.h"
+#include "artus/detail/anatomy/body/joint_variant.h"
+#include "artus/detail/anatomy/body/joint_variant_toml.h"
+#include "artus/detail/anatomy/body/skin_line.h"
 #include "tests/support/temporary_folder.h"
 
 namespace artus {

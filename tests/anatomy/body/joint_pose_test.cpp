@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/anatomy/body/joint_pose.h"
+#include "artus/detail/anatomy/body/joint_pose.h"
 
 #include <array>
 #include <string>
 
 #include <gmock/gmock.h>
 
-#include "artus/anatomy/body/compiled_joint.h"
-#include "artus/anatomy/body/joint_file.h"
-#include "artus/anatomy/body/joint_pose_bytes.h"
-#include "artus/anatomy/body/joint_pose_toml.h"
+#include "artus/anatomy/compiled_joint.h"
+#include "artus/anatomy/joint_file.h"
+#include "artus/detail/anatomy/body/joint_pose_bytes.h"
+#include "artus/detail/anatomy/body/joint_pose_toml.h"
 #include "tests/support/layered_body.h"
 #include "tests/support/temporary_folder.h"
 

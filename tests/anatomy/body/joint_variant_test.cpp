@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/anatomy/body/joint_variant.h"
+#include "artus/detail/anatomy/body/joint_variant.h"
 
 #include <fstream>
 #include <sstream>
 
 #include <gmock/gmock.h>
 
-#include "artus/anatomy/body/joint_file.h"
-#include "artus/anatomy/body/joint_shape.h"
-#include "artus/anatomy/body/joint_variant_toml.h"
+#include "artus/anatomy/joint_file.h"
+#include "artus/detail/anatomy/body/joint_shape.h"
+#include "artus/detail/anatomy/body/joint_variant_toml.h"
 #include "tests/support/paths.h"
 #include "tests/support/temporary_folder.h"
 

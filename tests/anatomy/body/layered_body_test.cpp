@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The small bodies that echography and the tests measure themselves against.
-#include "artus/anatomy/body/layered_body.h"
+#include "artus/detail/anatomy/body/layered_body.h"
 
 #include <array>
 #include <map>
@@ -9,8 +9,8 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/anatomy/body/find_region.h"
-#include "artus/anatomy/body/joint_digest.h"
+#include "artus/detail/anatomy/body/find_region.h"
+#include "artus/detail/anatomy/body/joint_digest.h"
 #include "tests/support/layered_body.h"
 
 namespace artus {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/anatomy/body/meshed_block.h"
+#include "artus/detail/anatomy/body/meshed_block.h"
 
 #include <array>
 #include <map>

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/anatomy/body/space.h"
+#include "artus/detail/anatomy/body/space.h"
 
 #include <algorithm>
 
 #include <gmock/gmock.h>
 
-#include "artus/anatomy/body/compiled_joint.h"
-#include "artus/anatomy/body/joint_file.h"
-#include "artus/anatomy/body/layered_body.h"
-#include "artus/anatomy/body/liquid.h"
-#include "artus/anatomy/body/space_bytes.h"
-#include "artus/anatomy/body/space_toml.h"
-#include "artus/core/byte_stream.h"
+#include "artus/anatomy/compiled_joint.h"
+#include "artus/anatomy/joint_file.h"
+#include "artus/detail/anatomy/body/layered_body.h"
+#include "artus/detail/anatomy/body/liquid.h"
+#include "artus/detail/anatomy/body/space_bytes.h"
+#include "artus/detail/anatomy/body/space_toml.h"
+#include "artus/detail/core/byte_stream.h"
 #include "tests/support/layered_body.h"
 #include "tests/support/temporary_folder.h"
 

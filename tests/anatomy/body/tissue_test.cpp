@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Tissues as bytes and as tables; the structures of a joint file one by one.
-#include "artus/anatomy/body/tissue.h"
+#include "artus/detail/anatomy/body/tissue.h"
 
 #include <gmock/gmock.h>
 
-#include "artus/anatomy/body/compiled_joint.h"
-#include "artus/anatomy/body/joint_structure.h"
-#include "artus/anatomy/body/tet_mesh.h"
-#include "artus/anatomy/body/tissue_bytes.h"
-#include "artus/anatomy/body/tissue_toml.h"
-#include "artus/core/text_file.h"
+#include "artus/anatomy/compiled_joint.h"
+#include "artus/detail/anatomy/body/joint_structure.h"
+#include "artus/detail/anatomy/body/tet_mesh.h"
+#include "artus/detail/anatomy/body/tissue_bytes.h"
+#include "artus/detail/anatomy/body/tissue_toml.h"
+#include "artus/detail/core/text_file.h"
 #include "tests/support/layered_body.h"
 #include "tests/support/temporary_folder.h"
 

@@ -3,9 +3,9 @@
 #include <numbers>
 #include <string>
 
-#include "artus/anatomy/body/joint_file.h"
-#include "artus/anatomy/compile/compile_surfaces.h"
-#include "artus/core/units.h"
+#include "artus/anatomy/joint_file.h"
+#include "artus/detail/anatomy/compile/labels/compile_surfaces.h"
+#include "artus/detail/core/units.h"
 #include "tests/anatomy/surfaces/surface_samples.h"
 
 namespace artus::test {

@@ -7,9 +7,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "artus/anatomy/compile/compile.h"
-#include "artus/anatomy/compile/dress_body.h"
-#include "artus/anatomy/compile/kept_parts.h"
+#include "artus/anatomy/compile.h"
+#include "artus/detail/anatomy/compile/attach_metadata.h"
+#include "artus/detail/anatomy/compile/labels/part_cache.h"
 #include "tests/anatomy/compile/joint_folder.h"
 #include "tests/support/temporary_folder.h"
 
@@ -101,17 +101,17 @@ TEST_F(KeptBodies, IsMadeAnewWhenAnythingThatShapesItChanges) {
 }
 
 TEST_F(KeptBodies, UnchangedStructuresAreNotRepairedAndMeasuredAgainAndTheBytesAreTheSame) {
-  EXPECT_EQ(compile().report.parts_kept, 0U);
+  EXPECT_EQ(compile().report.parts_cached, 0U);
   folder_.add_sphere("other", Vec3(0, 0, -8), 5);
   std::ofstream(folder_.path() / "joint.toml", std::ios::app)
       << "[[structure]]\nname = \"other\"\ntissue = \"muscle\"\nfile = \"other.ply\"\n";
   const CompileOutcome added = compile();
   EXPECT_FALSE(added.report.body_kept);
-  EXPECT_EQ(added.report.parts_kept, 4U) << "surface and distances of body and head";
+  EXPECT_EQ(added.report.parts_cached, 4U) << "surface and distances of body and head";
   EXPECT_EQ(written(added), written(compile(false)));
   folder_.add_sphere("head", Vec3(0, 0, 5), 7);
   const CompileOutcome edited = compile();
-  EXPECT_EQ(edited.report.parts_kept, 4U) << "surface and distances of body and other";
+  EXPECT_EQ(edited.report.parts_cached, 4U) << "surface and distances of body and other";
   EXPECT_EQ(written(edited), written(compile(false)));
 }
 
@@ -126,14 +126,14 @@ TEST_F(KeptBodies, DamagedPartsAreMadeAnew) {
   for (const auto& entry : fs::directory_iterator(options_.cache))
     if (entry.is_regular_file()) fs::remove(entry.path());
   const CompileOutcome again = compile();
-  EXPECT_EQ(again.report.parts_kept, 0U);
+  EXPECT_EQ(again.report.parts_cached, 0U);
   EXPECT_EQ(written(again), first);
 }
 
-using KeptPartsFolder = test::TemporaryFolder;
+using PartCacheFolder = test::TemporaryFolder;
 
-TEST_F(KeptPartsFolder, ForgetsWhatWasUsedLongestAgo) {
-  const KeptParts parts(folder_);
+TEST_F(PartCacheFolder, ForgetsWhatWasUsedLongestAgo) {
+  const PartCache parts(folder_);
   const auto digest_of = [](int i) {
     ContentDigest digest(1);
     digest.add_value(i);
@@ -151,7 +151,7 @@ TEST_F(KeptPartsFolder, ForgetsWhatWasUsedLongestAgo) {
   EXPECT_FALSE(parts.find(digest_of(1)));
   EXPECT_FALSE(parts.find(digest_of(2)));
   EXPECT_TRUE(parts.find(digest_of(3)));
-  EXPECT_FALSE(KeptParts().find(digest_of(0))) << "one without a folder keeps nothing";
+  EXPECT_FALSE(PartCache().find(digest_of(0))) << "one without a folder keeps nothing";
 }
 
 TEST_F(KeptBodies, BringsTheReportOfItsMaking) {
@@ -210,7 +210,7 @@ TEST_F(KeptBodies, AreDressedInWhatTheFileSays) {
   file->structures[0].fibre_axis = Vec3(0, 2, 0);
   file->structures[0].fibre_course = FibreCourse::layer;
   std::vector<std::string> notes;
-  const CompiledJoint dressed = dress_body(*file, made.joint.mesh, "digest", notes);
+  const CompiledJoint dressed = attach_metadata(*file, made.joint.mesh, "digest", notes);
   EXPECT_EQ(dressed.side, "left");
   EXPECT_EQ(dressed.source_digest, "digest");
   EXPECT_EQ(dressed.regions.back().fibre_axis, Vec3(0, 1, 0));

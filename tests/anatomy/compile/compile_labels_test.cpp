@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // From a joint file and its surfaces to labels: order of priority, constructs, sizes.
-#include "artus/anatomy/compile/compile_labels.h"
+#include "artus/detail/anatomy/compile/labels/compile_labels.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Surfaces as they come from files: repaired as declared, or refused by name.
-#include "artus/anatomy/compile/compile_surfaces.h"
+#include "artus/detail/anatomy/compile/labels/compile_surfaces.h"
 
 #include <gtest/gtest.h>
 
-#include "artus/anatomy/compile/joint_defects.h"
-#include "artus/anatomy/surfaces/surface_io.h"
+#include "artus/detail/anatomy/compile/check/joint_defects.h"
+#include "artus/detail/anatomy/surfaces/surface_io.h"
 #include "tests/anatomy/compile/balls_joint.h"
 #include "tests/support/temporary_folder.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/anatomy/compile/compile.h"
+#include "artus/anatomy/compile.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,8 +12,8 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/anatomy/surfaces/surface_io.h"
-#include "artus/core/noise.h"
+#include "artus/detail/anatomy/surfaces/surface_io.h"
+#include "artus/detail/core/noise.h"
 #include "tests/anatomy/compile/joint_folder.h"
 #include "tests/anatomy/surfaces/surface_samples.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Constructs against closed forms: bodies made of balls and planes, whose distances are known.
-#include "artus/anatomy/compile/construct.h"
+#include "artus/detail/anatomy/compile/labels/construct.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Where a body was cut and closed there is no skin: for plans, shells and the compiled hull.
-#include "artus/anatomy/compile/cut_faces.h"
+#include "artus/detail/anatomy/compile/labels/cut_faces.h"
 
 #include <gmock/gmock.h>
 
 #include <gtest/gtest.h>
 
-#include "artus/anatomy/compile/compile.h"
-#include "artus/anatomy/compile/joint_check.h"
-#include "artus/anatomy/compile/plan_check.h"
-#include "artus/anatomy/compile/plan_ground.h"
-#include "artus/anatomy/surfaces/repair.h"
-#include "artus/anatomy/surfaces/surface_topology.h"
+#include "artus/anatomy/compile.h"
+#include "artus/detail/anatomy/compile/check/joint_check.h"
+#include "artus/detail/anatomy/compile/check/plan_check.h"
+#include "artus/detail/anatomy/compile/check/plan_ground.h"
+#include "artus/detail/anatomy/surfaces/repair.h"
+#include "artus/detail/anatomy/surfaces/surface_topology.h"
 #include "tests/anatomy/compile/joint_folder.h"
 
 namespace artus {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Where the probe and the needle stand when the joint file does not say.
-#include "artus/anatomy/compile/default_poses.h"
+#include "artus/detail/anatomy/compile/check/default_poses.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "artus/core/units.h"
+#include "artus/detail/core/units.h"
 #include "tests/support/layered_body.h"
 
 namespace artus {

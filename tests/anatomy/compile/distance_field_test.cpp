@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The sampled signed distance of a ball and of a cube against their closed forms.
-#include "artus/anatomy/compile/distance_field.h"
+#include "artus/detail/anatomy/compile/labels/distance_field.h"
 
 #include <cmath>
 #include <numbers>
@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/core/noise.h"
+#include "artus/detail/core/noise.h"
 #include "tests/anatomy/surfaces/surface_samples.h"
 
 namespace artus {

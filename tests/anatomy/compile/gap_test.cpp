@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Clefts on shapes whose distances are known: fluid lies between roof and floor and nowhere else.
-#include "artus/anatomy/compile/gap.h"
+#include "artus/detail/anatomy/compile/labels/gap.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Work that crashes, throws or hangs does so in its own process.
-#include "artus/anatomy/compile/isolated.h"
+#include "artus/detail/anatomy/compile/mesh/isolated.h"
 
 #include <chrono>
 #include <cstdlib>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // check and compile say the same of the same joint.
-#include "artus/anatomy/compile/joint_check.h"
+#include "artus/detail/anatomy/compile/check/joint_check.h"
 
 #include <algorithm>
 
@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/anatomy/compile/compile.h"
+#include "artus/anatomy/compile.h"
 #include "tests/anatomy/compile/joint_folder.h"
 
 namespace artus {

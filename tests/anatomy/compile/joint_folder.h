@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/anatomy/surfaces/surface_io.h"
+#include "artus/detail/anatomy/surfaces/surface_io.h"
 #include "tests/anatomy/surfaces/surface_samples.h"
 
 namespace artus::test {

@@ -8,11 +8,11 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/anatomy/compile/fit_interfaces.h"
-#include "artus/anatomy/compile/quality.h"
-#include "artus/anatomy/compile/resolve.h"
-#include "artus/anatomy/compile/tet_topology.h"
-#include "artus/anatomy/compile/tetrahedralize.h"
+#include "artus/detail/anatomy/compile/labels/fit_interfaces.h"
+#include "artus/detail/anatomy/compile/labels/quality.h"
+#include "artus/detail/anatomy/compile/labels/resolve.h"
+#include "artus/detail/anatomy/compile/mesh/tet_topology.h"
+#include "artus/detail/anatomy/compile/mesh/tetrahedralize.h"
 #include "tests/anatomy/compile/balls_joint.h"
 #include "tests/anatomy/compile/tet_samples.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Structures that are not where they should be, with the numbers.
-#include "artus/anatomy/compile/misplaced.h"
+#include "artus/detail/anatomy/compile/check/misplaced.h"
 
 #include <gmock/gmock.h>
 

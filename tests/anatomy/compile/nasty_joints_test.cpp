@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/anatomy/compile/compile.h"
-#include "artus/anatomy/compile/joint_check.h"
+#include "artus/anatomy/compile.h"
+#include "artus/detail/anatomy/compile/check/joint_check.h"
 #include "tests/anatomy/compile/joint_folder.h"
 
 namespace artus {

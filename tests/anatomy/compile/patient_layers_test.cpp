@@ -6,10 +6,10 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/anatomy/body/find_region.h"
-#include "artus/anatomy/body/skin_line.h"
-#include "artus/anatomy/compile/compile.h"
-#include "artus/anatomy/compile/grown_field.h"
+#include "artus/detail/anatomy/body/find_region.h"
+#include "artus/detail/anatomy/body/skin_line.h"
+#include "artus/anatomy/compile.h"
+#include "artus/detail/anatomy/compile/labels/grown_field.h"
 #include "tests/anatomy/compile/joint_folder.h"
 #include "tests/support/temporary_folder.h"
 

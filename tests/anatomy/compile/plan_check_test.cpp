@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Poses and injections that cannot be used are found, and what the refusal offers mends them.
-#include "artus/anatomy/compile/plan_check.h"
+#include "artus/detail/anatomy/compile/check/plan_check.h"
 
 #include <algorithm>
 
@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/anatomy/compile/plan_ground.h"
+#include "artus/detail/anatomy/compile/check/plan_ground.h"
 #include "tests/anatomy/compile/balls_joint.h"
 #include "tests/support/layered_body.h"
 

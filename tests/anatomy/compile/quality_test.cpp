@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Dihedral angles of tetrahedra that everybody knows.
-#include "artus/anatomy/compile/quality.h"
+#include "artus/detail/anatomy/compile/labels/quality.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "artus/core/units.h"
+#include "artus/detail/core/units.h"
 #include "tests/anatomy/compile/tet_samples.h"
 
 namespace artus {

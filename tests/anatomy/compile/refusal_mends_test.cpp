@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/anatomy/compile/compile.h"
-#include "artus/anatomy/surfaces/surface_topology.h"
+#include "artus/anatomy/compile.h"
+#include "artus/detail/anatomy/surfaces/surface_topology.h"
 #include "tests/anatomy/compile/joint_folder.h"
 
 namespace artus {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Who owns a point where balls overlap, against the closed form.
-#include "artus/anatomy/compile/region_labels.h"
+#include "artus/detail/anatomy/compile/labels/region_labels.h"
 
 #include <gtest/gtest.h>
 
-#include "artus/core/noise.h"
+#include "artus/detail/core/noise.h"
 
 namespace artus {
 namespace {

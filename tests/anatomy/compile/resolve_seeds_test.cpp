@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Seeds on the boundaries of a labelling that is known in closed form.
-#include "artus/anatomy/compile/resolve_seeds.h"
+#include "artus/detail/anatomy/compile/labels/resolve_seeds.h"
 
 #include <oneapi/tbb/global_control.h>
 

@@ -4,8 +4,8 @@
 #include <array>
 #include <functional>
 
-#include "artus/anatomy/body/tet_mesh.h"
-#include "artus/anatomy/compile/tet_topology.h"
+#include "artus/detail/anatomy/body/tet_mesh.h"
+#include "artus/detail/anatomy/compile/mesh/tet_topology.h"
 
 namespace artus::test {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Neighbours, parts and interfaces on a cube of tetrahedra, where all of them can be counted.
-#include "artus/anatomy/compile/tet_topology.h"
+#include "artus/detail/anatomy/compile/mesh/tet_topology.h"
 
 #include <map>
 #include <set>
@@ -88,9 +88,9 @@ TEST(AbsorbCrumbs, GivesASmallPartToTheNeighbourItSharesMostWithButNeverALargest
   });
   const auto neighbours = find_tet_neighbours(mesh);
   TetMesh untouched = mesh;
-  EXPECT_EQ(absorb_crumbs(untouched, *neighbours, [](RegionId) { return 0.0; }), 0U);
+  EXPECT_EQ(merge_fragments(untouched, *neighbours, [](RegionId) { return 0.0; }), 0U);
   EXPECT_EQ(untouched.regions, mesh.regions);
-  EXPECT_EQ(absorb_crumbs(mesh, *neighbours, [](RegionId) { return 1.0; }), 1U)
+  EXPECT_EQ(merge_fragments(mesh, *neighbours, [](RegionId) { return 1.0; }), 1U)
       << "the parts that are the largest of their region stay, however small";
   const auto volumes = region_volumes(mesh, kFirstRegion + 3);
   const double whole = kSide * kSide * kSide;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/anatomy/surfaces/defects.h"
+#include "artus/detail/anatomy/surfaces/defects.h"
 
 #include <cmath>
 #include <limits>
@@ -7,8 +7,8 @@
 
 #include <gmock/gmock.h>
 
-#include "artus/anatomy/compile/joint_defects.h"
-#include "artus/anatomy/surfaces/surface_io.h"
+#include "artus/detail/anatomy/compile/check/joint_defects.h"
+#include "artus/detail/anatomy/surfaces/surface_io.h"
 #include "tests/anatomy/surfaces/surface_samples.h"
 #include "tests/support/paths.h"
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Distance and winding number against closed forms and against every triangle one by one.
-#include "artus/anatomy/surfaces/distance_tree.h"
+#include "artus/detail/anatomy/surfaces/distance_tree.h"
 
 #include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
 
-#include "artus/core/noise.h"
+#include "artus/detail/core/noise.h"
 #include "tests/anatomy/surfaces/surface_samples.h"
 
 namespace artus {

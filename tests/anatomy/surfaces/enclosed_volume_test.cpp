@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Each place that a surface encloses counts once.
-#include "artus/anatomy/surfaces/enclosed_volume.h"
+#include "artus/detail/anatomy/surfaces/enclosed_volume.h"
 
 #include <algorithm>
 
 #include <gtest/gtest.h>
 
-#include "artus/core/units.h"
+#include "artus/detail/core/units.h"
 #include "tests/anatomy/surfaces/surface_samples.h"
 
 namespace artus {

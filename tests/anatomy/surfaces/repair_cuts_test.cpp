@@ -5,11 +5,11 @@
 
 #include <gmock/gmock.h>
 
-#include "artus/anatomy/surfaces/defects.h"
-#include "artus/anatomy/surfaces/repair.h"
-#include "artus/anatomy/surfaces/repair_steps.h"
-#include "artus/anatomy/surfaces/surface_distance.h"
-#include "artus/anatomy/surfaces/surface_topology.h"
+#include "artus/detail/anatomy/surfaces/defects.h"
+#include "artus/detail/anatomy/surfaces/repair.h"
+#include "artus/detail/anatomy/surfaces/repair_steps.h"
+#include "artus/detail/anatomy/surfaces/surface_distance.h"
+#include "artus/detail/anatomy/surfaces/surface_topology.h"
 #include "tests/anatomy/surfaces/surface_samples.h"
 
 namespace artus {

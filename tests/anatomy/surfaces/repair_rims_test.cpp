@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Openings of known shape: what is measured of them, and flat caps with and without a hole.
-#include "artus/anatomy/surfaces/repair_rims.h"
+#include "artus/detail/anatomy/surfaces/repair_rims.h"
 
 #include <cmath>
 #include <numbers>

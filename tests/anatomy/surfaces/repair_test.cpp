@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/anatomy/surfaces/repair.h"
+#include "artus/detail/anatomy/surfaces/repair.h"
 
 #include <cmath>
 #include <numbers>
 
 #include <gmock/gmock.h>
 
-#include "artus/anatomy/surfaces/defects.h"
-#include "artus/anatomy/surfaces/repair_steps.h"
-#include "artus/anatomy/surfaces/surface_distance.h"
-#include "artus/anatomy/surfaces/surface_io.h"
-#include "artus/anatomy/surfaces/surface_topology.h"
+#include "artus/detail/anatomy/surfaces/defects.h"
+#include "artus/detail/anatomy/surfaces/repair_steps.h"
+#include "artus/detail/anatomy/surfaces/surface_distance.h"
+#include "artus/detail/anatomy/surfaces/surface_io.h"
+#include "artus/detail/anatomy/surfaces/surface_topology.h"
 #include "tests/anatomy/surfaces/surface_samples.h"
 #include "tests/support/paths.h"
 
@@ -137,7 +137,7 @@ TEST(Repair, MoebiusStripIsRefusedWithItsReason) {
 
 TEST(Repair, NothingAndTooMuchAreRefused) {
   EXPECT_FALSE(repair_surface({}));
-  EXPECT_FALSE(repair_surface(make_cube(Vec3::Zero(), 1), {.most_triangles = 11}));
+  EXPECT_FALSE(repair_surface(make_cube(Vec3::Zero(), 1), {.max_triangles = 11}));
   auto half = make_cube(Vec3::Zero(), 0.01);
   half.triangles.resize(2);
   EXPECT_FALSE(repair_surface(half));

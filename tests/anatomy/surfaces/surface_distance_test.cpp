@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Distances between surfaces against closed forms.
-#include "artus/anatomy/surfaces/surface_distance.h"
+#include "artus/detail/anatomy/surfaces/surface_distance.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/anatomy/surfaces/surface_io.h"
+#include "artus/detail/anatomy/surfaces/surface_io.h"
 
 #include <clocale>
 #include <cmath>
@@ -8,8 +8,8 @@
 
 #include <gmock/gmock.h>
 
-#include "artus/anatomy/surfaces/surface_io_formats.h"
-#include "artus/core/text_file.h"
+#include "artus/detail/anatomy/surfaces/surface_io_formats.h"
+#include "artus/detail/core/text_file.h"
 #include "tests/anatomy/surfaces/surface_samples.h"
 
 namespace artus {

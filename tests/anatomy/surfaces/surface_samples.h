@@ -6,7 +6,7 @@
 #include <numbers>
 #include <string>
 
-#include "artus/anatomy/surfaces/surface_mesh.h"
+#include "artus/detail/anatomy/surfaces/surface_mesh.h"
 #include "tests/support/paths.h"
 
 namespace artus {

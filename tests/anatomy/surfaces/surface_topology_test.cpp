@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Edges, pieces, rims, cracks and pinches of surfaces small enough to count by hand.
-#include "artus/anatomy/surfaces/surface_topology.h"
+#include "artus/detail/anatomy/surfaces/surface_topology.h"
 
 #include <algorithm>
 
 #include <gtest/gtest.h>
 
-#include "artus/anatomy/surfaces/defects_cracks.h"
+#include "artus/detail/anatomy/surfaces/defects_cracks.h"
 #include "tests/anatomy/surfaces/surface_samples.h"
 
 namespace artus {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/haptics/actuator/backstepping_law.h"
+#include "artus/detail/haptics/actuator/backstepping_law.h"
 
 #include <algorithm>
 #include <cmath>
@@ -260,7 +260,7 @@ TEST(BacksteppingLaw, RefusedTargetKeepsTheLastGains) {
     EXPECT_TRUE(law.step(input).target_refused);
     EXPECT_EQ(law.gains().c_1, c_1);
   }
-  input.target.stiffness = kLeastFeltStiffness;
+  input.target.stiffness = kMinFeltStiffness;
   EXPECT_FALSE(law.step(input).target_refused);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/haptics/actuator/control_law_supervisor.h"
+#include "artus/detail/haptics/actuator/control_law_supervisor.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/haptics/actuator/pneumatic_plant.h"
+#include "artus/detail/haptics/actuator/pneumatic_plant.h"
 #include "tests/support/no_alloc.h"
 
 namespace artus {

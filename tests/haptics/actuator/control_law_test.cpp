@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/haptics/actuator/control_law.h"
+#include "artus/detail/haptics/actuator/control_law.h"
 
 #include <cmath>
 #include <set>
@@ -9,9 +9,9 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/haptics/actuator/ipc_law.h"
-#include "artus/haptics/actuator/pid_law.h"
-#include "artus/haptics/actuator/pneumatic_cylinder.h"
+#include "artus/detail/haptics/actuator/ipc_law.h"
+#include "artus/detail/haptics/actuator/pid_law.h"
+#include "artus/detail/haptics/actuator/pneumatic_cylinder.h"
 
 namespace artus {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/haptics/actuator/pneumatic_params.h"
+#include "artus/detail/haptics/actuator/pneumatic_params.h"
 
 #include <gmock/gmock.h>
 

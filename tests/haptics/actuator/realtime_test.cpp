@@ -4,14 +4,14 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/haptics/actuator/admittance_filter.h"
-#include "artus/haptics/actuator/admittance_law.h"
-#include "artus/haptics/actuator/backstepping_law.h"
-#include "artus/haptics/actuator/control_law_supervisor.h"
-#include "artus/haptics/actuator/ipc_law.h"
-#include "artus/haptics/actuator/pid_law.h"
-#include "artus/haptics/actuator/pneumatic_plant.h"
-#include "artus/haptics/actuator/pneumatic_sensors.h"
+#include "artus/detail/haptics/actuator/admittance_filter.h"
+#include "artus/detail/haptics/actuator/admittance_law.h"
+#include "artus/detail/haptics/actuator/backstepping_law.h"
+#include "artus/detail/haptics/actuator/control_law_supervisor.h"
+#include "artus/detail/haptics/actuator/ipc_law.h"
+#include "artus/detail/haptics/actuator/pid_law.h"
+#include "artus/detail/haptics/actuator/pneumatic_plant.h"
+#include "artus/detail/haptics/actuator/pneumatic_sensors.h"
 #include "tests/support/real_time.h"
 
 namespace artus {

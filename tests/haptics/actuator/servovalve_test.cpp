@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/haptics/actuator/servovalve.h"
+#include "artus/detail/haptics/actuator/servovalve.h"
 
 #include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
 
-#include "artus/haptics/actuator/valve_map.h"
+#include "artus/detail/haptics/actuator/valve_map.h"
 
 namespace artus {
 namespace {

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "artus/haptics/needle/needle_renderer.h"
+#include "artus/haptics/needle_renderer.h"
 #include "tests/support/layered_body.h"
 
 namespace artus::test {

@@ -90,11 +90,11 @@ class DocumentLine {
     if ((p - p0 - before * u).norm() <= band) return;
     Vec3 to = within((p - p0) / r, u, std::asin(band / r));
     to = within(u0, to, std::max(std::atan2(0.035 - r, 0.035 + r), angle(u, u0)));
-    const double way = r * angle(u, to);
-    if (way <= 0) return;
+    const double distance = r * angle(u, to);
+    if (distance <= 0) return;
     u = to;
     const double withdrawn = deepest - before;
-    const double left = std::exp(-way / 0.5e-3);
+    const double left = std::exp(-distance / 0.5e-3);
     deepest = x(p) + std::min(withdrawn, 6e-3) + std::max(0.0, withdrawn - 6e-3) * left;
     q *= left;
   }

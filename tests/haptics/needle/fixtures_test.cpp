@@ -5,9 +5,9 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/haptics/needle/god_object.h"
-#include "artus/haptics/needle/hemisphere_workspace.h"
-#include "artus/haptics/needle/plasticity_fixture.h"
+#include "artus/detail/haptics/needle/laws/god_object.h"
+#include "artus/detail/haptics/needle/laws/hemisphere_workspace.h"
+#include "artus/detail/haptics/needle/laws/plasticity_fixture.h"
 #include "tests/haptics/needle/tick_builder.h"
 
 namespace artus {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/haptics/needle/insertion_line.h"
+#include "artus/detail/haptics/needle/insertion_line.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "artus/haptics/needle/insertion_cone.h"
+#include "artus/detail/haptics/needle/insertion_cone.h"
 
 namespace artus {
 namespace {

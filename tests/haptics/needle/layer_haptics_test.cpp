@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/haptics/needle/layer_haptics.h"
+#include "artus/detail/haptics/needle/laws/layer_haptics.h"
 
 #include <set>
 
 #include <gtest/gtest.h>
 
-#include "artus/haptics/needle/law_catalogue.h"
-#include "artus/haptics/needle/needle_params.h"
+#include "artus/detail/haptics/needle/law_catalogue.h"
+#include "artus/detail/haptics/needle/needle_params.h"
 #include "tests/haptics/needle/tick_builder.h"
 
 namespace artus {

@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/core/noise.h"
-#include "artus/core/units.h"
-#include "artus/haptics/needle/lugre_friction.h"
+#include "artus/detail/core/noise.h"
+#include "artus/detail/core/units.h"
+#include "artus/detail/haptics/needle/laws/lugre_friction.h"
 #include "tests/haptics/needle/tick_builder.h"
 
 namespace artus {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/haptics/needle/motion.h"
+#include "artus/detail/haptics/needle/laws/motion.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/core/noise.h"
-#include "artus/core/units.h"
+#include "artus/detail/core/noise.h"
+#include "artus/detail/core/units.h"
 
 namespace artus {
 namespace {
@@ -105,17 +105,17 @@ TEST(MotionDetector, DirectionTurnsOnlyBeyondTheBand) {
 
 TEST(MotionDetector, ARestingNeedleMovesWhenItLeavesItsPlace) {
   const MotionParams params;
-  for (const double way : {1.0, -1.0}) {
+  for (const double distance : {1.0, -1.0}) {
     MotionDetector detector;
     detector.reset(0.02, Motion::still);
     const auto at = [&](double off) {
-      detector.step(0.02 + way * off, 1e-3);
+      detector.step(0.02 + distance * off, 1e-3);
       return detector.stillness();
     };
     EXPECT_EQ(at(0.9 * params.band), 1);
     EXPECT_NEAR(at(0.5 * (params.band + params.moving_band)), 0.5, 1e-9);
     EXPECT_EQ(at(1.1 * params.moving_band), 0);
-    EXPECT_EQ(detector.motion(), way > 0 ? Motion::inward : Motion::outward);
+    EXPECT_EQ(detector.motion(), distance > 0 ? Motion::inward : Motion::outward);
   }
 }
 

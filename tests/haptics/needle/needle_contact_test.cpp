@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/haptics/needle/needle_contact.h"
+#include "artus/detail/haptics/needle/needle_contact.h"
 
 #include <array>
 #include <cmath>
@@ -7,9 +7,9 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/core/noise.h"
-#include "artus/haptics/needle/insertion_cone.h"
-#include "artus/haptics/needle/needle_model.h"
+#include "artus/detail/core/noise.h"
+#include "artus/detail/haptics/needle/insertion_cone.h"
+#include "artus/detail/haptics/needle/needle_model.h"
 #include "tests/haptics/needle/tick_builder.h"
 
 namespace artus {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/haptics/needle/needle_coupling.h"
+#include "artus/detail/haptics/needle/needle_coupling.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,9 +8,9 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/core/noise.h"
-#include "artus/haptics/needle/needle_packet.h"
-#include "artus/haptics/needle/needle_tick_step.h"
+#include "artus/detail/core/noise.h"
+#include "artus/detail/haptics/needle/needle_packet.h"
+#include "artus/detail/haptics/needle/needle_tick_step.h"
 #include "tests/support/real_time.h"
 
 namespace artus {
@@ -269,10 +269,10 @@ class CoupledInsertion {
     if (compliance > 0) tick_.take({{}, tissue(compliance)});
   }
   /// Moves the tip by `way` at `speed`; the last tick's result.
-  const RenderedNeedle& move(double way, double speed) {
-    const int n = static_cast<int>(std::lround(std::abs(way) / speed / kCouplingTick));
+  const RenderedNeedle& move(double distance, double speed) {
+    const int n = static_cast<int>(std::lround(std::abs(distance) / speed / kCouplingTick));
     const RenderedNeedle* out = nullptr;
-    for (int k = 0; k < n; ++k) out = &at(z_ + way / n);
+    for (int k = 0; k < n; ++k) out = &at(z_ + distance / n);
     return *out;
   }
   const RenderedNeedle& at(double z) {

@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/core/noise.h"
-#include "artus/haptics/needle/needle_renderer.h"
+#include "artus/detail/core/noise.h"
+#include "artus/haptics/needle_renderer.h"
 #include "tests/haptics/needle/block_stroke.h"
 #include "tests/support/broken_device.h"
 #include "tests/support/trials.h"
@@ -88,7 +88,7 @@ TEST(NeedleFaults, NeverGetAnUnsafeForceOutOverAMillionTicks) {
 /// Points along the track that each give way and take their neighbours along.
 NeedleCompliance giving_way(double scale) {
   NeedleCompliance c;
-  c.points = NeedleCompliance::kMost;
+  c.points = NeedleCompliance::kMax;
   for (std::size_t i = 0; i < c.points; ++i) {
     for (std::size_t j = 0; j < c.points; ++j) {
       const double apart = std::abs(static_cast<double>(i) - static_cast<double>(j));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/haptics/needle/needle_params_fields.h"
+#include "artus/detail/haptics/needle/needle_params_fields.h"
 
 #include <cstddef>
 #include <set>
@@ -7,9 +7,9 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/haptics/guard_fields.h"
-#include "artus/haptics/needle/needle_feel.h"
-#include "artus/haptics/probe/probe_contact_fields.h"
+#include "artus/detail/haptics/guard_fields.h"
+#include "artus/haptics/needle_feel.h"
+#include "artus/detail/haptics/probe/probe_contact_fields.h"
 
 namespace artus {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/haptics/needle/needle_tick_step.h"
+#include "artus/detail/haptics/needle/needle_tick_step.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/haptics/needle/needle_renderer.h"
+#include "artus/haptics/needle_renderer.h"
 #include "tests/support/layered_body.h"
 #include "tests/support/real_time.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/haptics/needle/skin_puncture.h"
+#include "artus/detail/haptics/needle/laws/skin_puncture.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-#include "artus/haptics/needle/force_model.h"
+#include "artus/detail/haptics/needle/laws/force_model.h"
 
 namespace artus::test {
 

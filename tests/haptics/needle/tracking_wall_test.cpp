@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/haptics/needle/tracking_wall.h"
+#include "artus/detail/haptics/needle/laws/tracking_wall.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "artus/core/noise.h"
-#include "artus/haptics/needle/motion.h"
+#include "artus/detail/core/noise.h"
+#include "artus/detail/haptics/needle/laws/motion.h"
 #include "tests/haptics/needle/tick_builder.h"
 
 namespace artus {

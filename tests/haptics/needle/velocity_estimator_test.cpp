@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/haptics/needle/velocity_estimator.h"
+#include "artus/detail/haptics/needle/laws/velocity_estimator.h"
 
 #include <cmath>
 #include <memory>
@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/core/units.h"
+#include "artus/detail/core/units.h"
 
 namespace artus {
 namespace {

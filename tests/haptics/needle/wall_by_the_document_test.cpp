@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/core/noise.h"
-#include "artus/haptics/needle/tracking_wall.h"
+#include "artus/detail/core/noise.h"
+#include "artus/detail/haptics/needle/laws/tracking_wall.h"
 #include "tests/haptics/needle/document_wall.h"
 #include "tests/haptics/needle/tick_builder.h"
 

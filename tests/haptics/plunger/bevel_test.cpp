@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/haptics/plunger/bevel.h"
+#include "artus/detail/haptics/plunger/bevel.h"
 
 #include <array>
 #include <numeric>
 
 #include <gtest/gtest.h>
 
-#include "artus/haptics/needle/needle_feel.h"
-#include "artus/haptics/needle/needle_tick_step.h"
+#include "artus/haptics/needle_feel.h"
+#include "artus/detail/haptics/needle/needle_tick_step.h"
 #include "tests/support/layered_body.h"
 
 namespace artus {

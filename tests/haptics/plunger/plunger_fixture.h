@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "artus/core/units.h"
-#include "artus/haptics/plunger/plunger.h"
+#include "artus/detail/core/units.h"
+#include "artus/detail/haptics/plunger/plunger.h"
 
 /// A plunger with one place at the tip whose answers are known.
 namespace artus::test {

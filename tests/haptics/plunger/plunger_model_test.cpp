@@ -11,7 +11,7 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/haptics/plunger/plunger.h"
+#include "artus/detail/haptics/plunger/plunger.h"
 #include "tests/haptics/plunger/plunger_fixture.h"
 #include "tests/support/paths.h"
 

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/haptics/plunger/plunger.h"
+#include "artus/detail/haptics/plunger/plunger.h"
 #include "tests/haptics/plunger/plunger_fixture.h"
 
 namespace artus {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/haptics/plunger/plunger.h"
+#include "artus/detail/haptics/plunger/plunger.h"
 
 #include <cmath>
 #include <limits>
@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/core/noise.h"
+#include "artus/detail/core/noise.h"
 #include "tests/haptics/plunger/plunger_fixture.h"
 
 namespace artus {
@@ -243,7 +243,7 @@ TEST(Plunger, WrongUseIsToldAndLosesNothing) {
   EXPECT_EQ(plunger.state().force, 0);
   plunger.step(thumb(1e30));
   EXPECT_NE(plunger.state().status & PlungerStatus::kLimited, 0U);
-  EXPECT_LE(plunger.state().force, params.most_force);
+  EXPECT_LE(plunger.state().force, params.max_force);
   for (int k = 0; k < 30000; ++k) plunger.step(thumb(20));
   EXPECT_NE(plunger.state().status & PlungerStatus::kEmpty, 0U);
   EXPECT_NE(plunger.state().status & PlungerStatus::kOutside, 0U);

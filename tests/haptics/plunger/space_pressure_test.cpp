@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/haptics/plunger/space_pressure.h"
+#include "artus/detail/haptics/plunger/space_pressure.h"
 
 #include <array>
 #include <cmath>
@@ -7,9 +7,9 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/core/units.h"
-#include "artus/haptics/plunger/patient.h"
-#include "artus/haptics/plunger/syringe.h"
+#include "artus/detail/core/units.h"
+#include "artus/detail/haptics/plunger/patient.h"
+#include "artus/detail/haptics/plunger/syringe.h"
 
 namespace artus {
 namespace {

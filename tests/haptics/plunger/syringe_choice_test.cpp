@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/haptics/plunger/syringe_choice.h"
+#include "artus/detail/haptics/plunger/syringe_choice.h"
 
 #include <limits>
 

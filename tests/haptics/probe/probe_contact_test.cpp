@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/haptics/probe/probe_contact.h"
+#include "artus/detail/haptics/probe/probe_contact.h"
 
 #include <array>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/core/units.h"
+#include "artus/detail/core/units.h"
 #include "tests/support/layered_body.h"
 #include "tests/support/no_alloc.h"
 
@@ -154,7 +154,7 @@ TEST(ProbeContact, WithoutFrictionTheForceOnASlopeStandsOnTheSkin) {
 }
 
 /// A closed way of the face: place (m) and tilt about y (rad) at a phase.
-struct Way {
+struct Path {
   Vec3 (*place)(double phase);
   double (*tilt)(double phase);
 };
@@ -166,7 +166,7 @@ struct LoopEnergy {
   double pressure_alone = 0;
 };
 
-LoopEnergy ride_over_bone(const ProbeContactParams& params, const Way& way, double turn) {
+LoopEnergy ride_over_bone(const ProbeContactParams& params, const Path& path, double turn) {
   ProbeContactModel model(
       std::make_shared<const Scene>(std::make_shared<const CompiledJoint>(
           test::make_block_with_sphere({"muscle", Vec3(0.16, 0.1, 0.1), Vec3::Zero(), "bone",
@@ -181,8 +181,8 @@ LoopEnergy ride_over_bone(const ProbeContactParams& params, const Way& way, doub
   constexpr int kSteps = 4000;
   for (int i = 0; i <= kSteps; ++i) {
     const double phase = turn * 2 * std::numbers::pi * i / kSteps;
-    Pose pose = make_pose(way.place(phase), Vec3::UnitZ(), Vec3::UnitX());
-    pose.rotate(Eigen::AngleAxisd(way.tilt(phase), Vec3::UnitY()));
+    Pose pose = make_pose(path.place(phase), Vec3::UnitZ(), Vec3::UnitX());
+    pose.rotate(Eigen::AngleAxisd(path.tilt(phase), Vec3::UnitY()));
     const ProbeContact& contact = model.step(pose);
     Wrench pressure;
     pressure.force = -contact.normal_force * pose.linear().col(2);
@@ -190,28 +190,28 @@ LoopEnergy ride_over_bone(const ProbeContactParams& params, const Way& way, doub
     if (i > 0) {
       const auto work = [&](const Wrench& before, const Wrench& now) {
         return 0.5 * (before.force + now.force).dot(pose.translation() - position) +
-               0.5 * (before.torque.y() + now.torque.y()) * (way.tilt(phase) - tilt);
+               0.5 * (before.torque.y() + now.torque.y()) * (path.tilt(phase) - tilt);
       };
       energy.all += work(felt, contact.wrench);
       energy.pressure_alone += work(pressed, pressure);
       to_and_fro += std::abs(work(felt, contact.wrench));
     }
     position = pose.translation();
-    tilt = way.tilt(phase);
+    tilt = path.tilt(phase);
     felt = contact.wrench;
     pressed = pressure;
   }
   return {energy.all / to_and_fro, energy.pressure_alone / to_and_fro};
 }
 
-constexpr Way kSliding{[](double phase) {
+constexpr Path kSliding{[](double phase) {
                          return Vec3(0.012 * std::sin(phase), 0.004 * std::sin(phase),
                                      3e-3 + 3.5e-3 * std::cos(phase));
                        },
                        [](double) {
                          return 0.0;
                        }};
-constexpr Way kTilting{[](double phase) { return Vec3(-0.008, 0, 5e-3 + 3e-3 * std::cos(phase)); },
+constexpr Path kTilting{[](double phase) { return Vec3(-0.008, 0, 5e-3 + 3e-3 * std::cos(phase)); },
                        [](double phase) {
                          return 0.2 + 0.2 * std::sin(phase);
                        }};
@@ -219,14 +219,14 @@ constexpr Way kTilting{[](double phase) { return Vec3(-0.008, 0, 5e-3 + 3e-3 * s
 TEST(ProbeContact, ClosedWaysOverUnevenTissueGiveTheHandNoEnergy) {
   ProbeContactParams params;
   params.gel_friction = 0;
-  for (const Way& way : {kSliding, kTilting}) {
+  for (const Path& path : {kSliding, kTilting}) {
     for (const double turn : {1.0, -1.0}) {
       params.footprint.columns_y = 3;
-      const LoopEnergy coarse = ride_over_bone(params, way, turn);
+      const LoopEnergy coarse = ride_over_bone(params, path, turn);
       EXPECT_LT(std::abs(coarse.all), 0.025) << turn;
       EXPECT_GT(std::abs(coarse.pressure_alone), 0.1) << "the way must tell the two apart";
       params.footprint.columns_y = 12;
-      EXPECT_LT(std::abs(ride_over_bone(params, way, turn).all), 0.005) << turn;
+      EXPECT_LT(std::abs(ride_over_bone(params, path, turn).all), 0.005) << turn;
     }
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/haptics/probe/probe_tangent.h"
+#include "artus/detail/haptics/probe/probe_tangent.h"
 
 #include <cmath>
 #include <limits>
@@ -68,9 +68,9 @@ TEST(ProbeTangent, SlidesByCoulombsLawBetweenPackets) {
   packet.stiffness[0] = 400;
   tangent.take(packet);
   static_cast<void>(settled(tangent, raised(0)));
-  const auto along = [&](double way) {
+  const auto along = [&](double distance) {
     Pose X_JP = raised(0);
-    X_JP.translation() += way * X_JP.linear().col(0);
+    X_JP.translation() += distance * X_JP.linear().col(0);
     return tangent.step(X_JP).force.dot(X_JP.linear().col(0));
   };
   EXPECT_NEAR(along(0), -0.1, 1e-12);

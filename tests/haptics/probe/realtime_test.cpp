@@ -5,9 +5,9 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/haptics/probe/probe_contact.h"
-#include "artus/haptics/probe/probe_contact_column.h"
-#include "artus/haptics/probe/probe_contact_fields.h"
+#include "artus/detail/haptics/probe/probe_contact.h"
+#include "artus/detail/haptics/probe/probe_contact_column.h"
+#include "artus/detail/haptics/probe/probe_contact_fields.h"
 #include "tests/support/layered_body.h"
 #include "tests/support/real_time.h"
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/training/metrics/attempt_meter.h"
+#include "artus/detail/training/metrics/attempt_meter.h"
 
 #include <cmath>
 #include <set>
 
 #include <gtest/gtest.h>
 
-#include "artus/training/metrics/attempt_metrics.h"
+#include "artus/detail/training/metrics/attempt_metrics.h"
 #include "tests/session/session_support.h"
 #include "tests/support/real_time.h"
 
@@ -32,8 +32,8 @@ AttemptMeasures insert(double depth, double off) {
   const Vec3 axis = Vec3(0.8, 0, 0.6);
   const Vec3 entry(-20e-3, 0, 0);
   const Eigen::Quaterniond needle(make_pose(Vec3::Zero(), axis, Vec3::UnitY()).linear());
-  const auto place = [&](double t, double way) {
-    meter.add_needle(t, entry + way * axis, needle);
+  const auto place = [&](double t, double distance) {
+    meter.add_needle(t, entry + distance * axis, needle);
     meter.add_probe(t, Vec3(0, off, 0), Eigen::Quaterniond(1, 0, 0, 0));
   };
   const double end = depth / 10e-3 + 0.5;

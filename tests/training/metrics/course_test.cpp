@@ -3,12 +3,12 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/core/units.h"
-#include "artus/training/metrics/closed_body.h"
-#include "artus/training/metrics/force_layers.h"
-#include "artus/training/metrics/goals.h"
-#include "artus/training/metrics/needle_course.h"
-#include "artus/training/metrics/sight_course.h"
+#include "artus/detail/core/units.h"
+#include "artus/detail/training/metrics/closed_body.h"
+#include "artus/detail/training/metrics/force_layers.h"
+#include "artus/detail/training/metrics/goals.h"
+#include "artus/detail/training/metrics/needle_course.h"
+#include "artus/detail/training/metrics/sight_course.h"
 #include "tests/session/session_support.h"
 #include "tests/support/real_time.h"
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/training/metrics/pose_track.h"
+#include "artus/detail/training/metrics/pose_track.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "artus/core/noise.h"
-#include "artus/training/metrics/zero_phase.h"
+#include "artus/detail/core/noise.h"
+#include "artus/detail/training/metrics/zero_phase.h"
 #include "tests/support/real_time.h"
 
 namespace artus {

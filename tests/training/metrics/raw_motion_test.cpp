@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Closed forms of a needle in a block whose top is the plane z = 0.
-#include "artus/training/metrics/raw_motion.h"
+#include "artus/detail/training/metrics/raw_motion.h"
 
 #include <array>
 #include <cmath>

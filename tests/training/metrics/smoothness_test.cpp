@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/training/metrics/smoothness.h"
+#include "artus/detail/training/metrics/smoothness.h"
 
 #include <cmath>
 #include <vector>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/training/metrics/structure_search.h"
+#include "artus/detail/training/metrics/structure_search.h"
 
 #include <array>
 
 #include <gtest/gtest.h>
 
-#include "artus/training/player.h"
+#include "artus/detail/training/player.h"
 
 namespace artus {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/training/metrics/syringe_course.h"
+#include "artus/detail/training/metrics/syringe_course.h"
 
 #include <algorithm>
 
 #include <gtest/gtest.h>
 
-#include "artus/training/metrics/attempt_meter.h"
+#include "artus/detail/training/metrics/attempt_meter.h"
 #include "tests/session/session_support.h"
 #include "tests/support/real_time.h"
 

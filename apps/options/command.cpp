@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/detail/apps/options/command.h"
+
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+#include <locale>
+#include <sstream>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include <unistd.h>
+
+#include "artus/detail/anatomy/body/joint_variant.h"
+#include "artus/anatomy/compile.h"
+#include "artus/detail/soft/solver/pose_joint.h"
+
+namespace artus {
+
+Command* add_command(Command& app, const std::string& name, const std::string& description,
+                     const std::string& footer) {
+  Command* command = app.add_subcommand(name, description);
+  command->footer(footer);
+  return command;
+}
+
+void on_run(Command* command, ExitCode& code, std::function<ExitCode()> body) {
+  command->callback([&code, body = std::move(body)] { code = body(); });
+}
+
+ExitCode report_error(const Error& error, bool json) {
+  if (json) {
+    std::cout << nlohmann::json{{"error",
+                                 {{"code", to_string(error.code)},
+                                  {"message", error.message},
+                                  {"where", error.where}}}}
+                     .dump(2)
+              << '\n';
+  }
+  std::cerr << "artus: " << error.to_string() << '\n';
+  const bool flag = error.where.rfind("--", 0) == 0;
+  if (flag) return ExitCode::usage;
+  return error.code == ErrorCode::defective ? ExitCode::defects : ExitCode::failed;
+}
+
+Progress make_progress_printer(bool quiet) {
+  if (quiet) return {};
+  const bool terminal = isatty(STDERR_FILENO) != 0;
+  return [terminal, last = std::string(), percent = -1](std::string_view stage,
+                                                        double fraction) mutable {
+    const int now = static_cast<int>(std::lround(100 * fraction));
+    if (terminal) {
+      if (stage == last && now == percent) return;
+      std::fprintf(stderr, "\r\033[K%.*s %d %%%s", static_cast<int>(stage.size()), stage.data(),
+                   now, now >= 100 ? "\n" : "");
+    } else if (stage != last) {
+      std::fprintf(stderr, "%.*s ...\n", static_cast<int>(stage.size()), stage.data());
+    }
+    last = stage;
+    percent = now;
+  };
+}
+
+FlagCheck number_in(double low, double high) {
+  std::ostringstream range;
+  range << "a number from " << low << " to " << high;
+  return FlagCheck{[low, high, wanted = range.str()](const std::string& text) {
+                     std::istringstream in(text);
+                     in.imbue(std::locale::classic());
+                     double value = 0;
+                     const bool is_number = (in >> value) && (in >> std::ws).eof();
+                     const bool good = is_number && value >= low && value <= high;
+                     return good ? std::string() : "'" + text + "' is not " + wanted;
+                   },
+                   range.str()};
+}
+
+FlagCheck whole_number_in(std::int64_t low, std::int64_t high) {
+  const std::string wanted =
+      "a whole number from " + std::to_string(low) + " to " + std::to_string(high);
+  return FlagCheck{[low, high, wanted](const std::string& text) {
+                     std::int64_t value = 0;
+                     const char* end = text.data() + text.size();
+                     const auto read = std::from_chars(text.data(), end, value);
+                     const bool good =
+                         read.ec == std::errc{} && read.ptr == end && value >= low && value <= high;
+                     return good ? std::string() : "'" + text + "' is not " + wanted;
+                   },
+                   wanted};
+}
+
+void add_patient_option(Command* command, std::string& patient) {
+  command->add_option(
+      "--patient", patient,
+      "whose joint it is: a name of `artus patient list`, seed=7 (drawn), fat=12, or "
+      "several with commas between; also JOINT@PATIENT");
+}
+
+void add_joint_options(Command* command, JointOptions& options) {
+  command
+      ->add_option("--joint,-j", options.joint,
+                   "joint folder (with joint.toml) or compiled .artus file")
+      ->required();
+  command->add_option("--surfaces", options.surfaces,
+                      "folder of the surface files, when not the joint's own");
+  command->add_option("--cache", options.cache, "folder for compiled joints (default: user cache)");
+  command->add_flag("--skip-refused", options.skip_refused,
+                    "leave out structures that cannot be repaired instead of stopping");
+  command->add_option("--pose", options.pose,
+                      "how the joint is held: a [pose.NAME] of its file; else as it was compiled");
+}
+
+Result<std::shared_ptr<const CompiledJoint>> load(const JointOptions& options,
+                                                  const Progress& progress) {
+  LoadOptions load_options;
+  load_options.surfaces = options.surfaces;
+  load_options.cache = options.cache;
+  load_options.compile.skip_refused = options.skip_refused;
+  auto joint = load_joint(
+      options.patient.empty() ? options.joint : with_patient(options.joint, options.patient),
+      load_options, progress);
+  ARTUS_TRY(joint);
+  if (!options.pose.empty()) {
+    const auto pose = find_pose(*joint, options.pose);
+    ARTUS_TRY(pose);
+    auto posed = pose_joint(*joint, *pose);
+    ARTUS_TRY(posed);
+    return std::make_shared<const CompiledJoint>(std::move(posed->joint));
+  }
+  return std::make_shared<const CompiledJoint>(std::move(*joint));
+}
+
+nlohmann::json to_json_mm(const Vec3& p) {
+  return {p.x() * 1e3, p.y() * 1e3, p.z() * 1e3};
+}
+
+}  // namespace artus

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include "artus/detail/apps/options/view_options.h"
+#include "artus/echo/renderer.h"
+
+namespace artus {
+
+/// Whether a frame shows anything at all. Errors: invalid when no element of the probe touches
+/// skin; the message says where the nearest skin is and the --probe that stands there.
+[[nodiscard]] Result<void> check_sight(const Frame& frame, const LoadedView& view);
+
+}  // namespace artus

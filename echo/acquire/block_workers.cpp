@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/detail/echo/acquire/block_workers.h"
+
+#include <algorithm>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+namespace artus {
+
+struct BlockWorkers::Arena {
+  tbb::task_arena tasks;
+};
+
+BlockWorkers::BlockWorkers(int n_threads)
+    : arena_(new Arena{tbb::task_arena(n_threads == 0 ? tbb::task_arena::automatic : n_threads)}) {}
+BlockWorkers::~BlockWorkers() = default;
+
+void BlockWorkers::run(int n, const void* body, void (*call)(const void*, int, int, int)) {
+  arena_->tasks.execute([&] {
+    tbb::parallel_for(
+        tbb::blocked_range<int>(0, blocks_of(n), 1),
+        [&](const tbb::blocked_range<int>& range) {
+          for (int b = range.begin(); b < range.end(); ++b) {
+            call(body, b, b * kBlock, std::min(n, (b + 1) * kBlock));
+          }
+        },
+        tbb::simple_partitioner{});
+  });
+}
+
+void BlockWorkers::enter(const void* task, void (*call)(const void*)) {
+  arena_->tasks.execute([&] { call(task); });
+}
+
+}  // namespace artus

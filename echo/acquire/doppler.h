@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <span>
+
+namespace artus {
+
+/// Colour Doppler of one scanline: what moves at `toward` (m/s, toward the probe) shows where its
+/// echo (re, im) is strong enough after `time_gain`, unless it is too slow for the wall filter.
+/// Velocities beyond `limit` wrap round, as the phase between two pulses does. Fills `velocity`
+/// (m/s; NaN: nothing moves). Spans have one length.
+void detect_motion(std::span<const float> re, std::span<const float> im,
+                   std::span<const float> time_gain, double toward, double limit,
+                   std::span<float> velocity) noexcept;
+
+/// m/s as shown: velocities beyond `limit` wrap round.
+[[nodiscard]] double wrap_velocity(double toward, double limit) noexcept;
+
+/// Whether what moves at `speed` (m/s) may show in any direction, or is too slow for the wall
+/// filter.
+[[nodiscard]] bool may_show_motion(double speed, double limit) noexcept;
+
+}  // namespace artus

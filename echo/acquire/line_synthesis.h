@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "artus/detail/echo/acquire/beam_shape.h"
+#include "artus/echo/image_settings.h"
+#include "artus/detail/echo/probe/placed_line.h"
+#include "artus/detail/echo/acquire/propagation.h"
+#include "artus/detail/echo/medium/region_acoustics.h"
+#include "artus/detail/echo/medium/scatter_field.h"
+#include "artus/detail/echo/medium/texture.h"
+#include "artus/echo/transducer.h"
+
+namespace artus {
+
+/// What one worker needs to synthesise a line; reused so that rendering does not allocate.
+struct LineScratch {
+  static constexpr int kNoLine = -1;
+  std::array<BeamTrace, 2> middle;  // of the line that guides, and of this one
+  std::size_t own = 0;              // of the two
+  int guide = kNoLine;              // line whose beam is the first
+  BeamTrace side;
+  std::array<BeamPath, 2> bent;  // ways of `middle`
+  BeamPath plane;
+  ScatterView view;
+  std::vector<float> gain;
+  std::vector<ScatterPiece> pieces;
+  ScatterRoom room;
+
+  /// Forgets the lines before: of another scene, or not beside the next ones.
+  void begin_row() noexcept {
+    guide = kNoLine;
+    for (BeamTrace* trace : {&middle.front(), &middle.back(), &side}) trace->planes.forget();
+  }
+  /// The line's beam in the middle plane.
+  [[nodiscard]] BeamTrace& central() noexcept { return middle[own]; }
+  /// Its way.
+  [[nodiscard]] BeamPath& path() noexcept { return bent[own]; }
+};
+
+/// Makes the echoes of one scanline before the beam's shape spreads them: every elevation plane is
+/// traced and its scatterers and interfaces are added with the plane's weight.
+class LineSynthesis {
+ public:
+  /// Requires: the references outlive this object.
+  LineSynthesis(const BeamShape& shape, const ScatterField& scatter, const TissueTexture& texture,
+                const Transducer& transducer, const ImageSettings& settings) noexcept;
+
+  /// Fills `echoes`, n_samples long, with those of line `l` of a row of neighbours and leaves its
+  /// central beam in `scratch`. In tissue that gives way lines near each other are guided by one of
+  /// them: the lines of a row are asked for in order, after LineScratch::begin_row.
+  void synthesise(const BeamTracer& tracer, std::span<const PlacedLine> row, std::size_t l,
+                  LineScratch& scratch, EchoSpan echoes) const;
+
+ private:
+  /// What the runs of one scanline have in common.
+  struct Ground {
+    std::span<const RegionAcoustics> regions;
+    const ScatterView& view;
+    std::span<float> gain;              // a plane's gains, and room for nodes and sheets
+    std::vector<ScatterPiece>& pieces;  // of the plane at hand, ascending
+    ScatterRoom& room;
+    std::span<const BeamKnot> knots;  // of the plane at hand
+  };
+  void trace_middle(const BeamTracer& tracer, std::span<const PlacedLine> row, std::size_t l,
+                    LineScratch& scratch) const noexcept;
+  void add_plane(int plane, const BeamTrace& trace, Ground& ground, EchoSpan echoes) const;
+  void sample_moved_texture(const BeamRun& run, const RegionAcoustics& region,
+                            std::span<const ScatterPiece> pieces,
+                            std::span<float> nodes) const noexcept;
+  void add_run(const BeamRun& run, const Ground& ground, std::span<const float> weight,
+               EchoSpan echoes) const;
+  void add_echo(const BeamEcho& echo, const ScatterView& view, std::span<const float> share,
+                EchoSpan echoes) const;
+  static void add_haze(const BeamTrace& trace, EchoSpan echoes) noexcept;
+
+  const BeamShape* shape_;
+  const ScatterField* scatter_;
+  const TissueTexture* texture_;
+  double speckle_;  // rms of muscle, mirror = 1
+  bool has_texture_;
+  bool reverberates_;
+  int n_planes_;
+  int n_beside_;  // lines on either side of one that it guides
+  double pitch_;  // m between scanlines
+};
+
+}  // namespace artus

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <span>
+
+#include "artus/detail/echo/acquire/beam_trace.h"
+#include "artus/echo/image_settings.h"
+#include "artus/detail/echo/medium/region_acoustics.h"
+#include "artus/echo/transducer.h"
+#include "artus/raycast/scene.h"
+#include "artus/detail/soft/solver/smooth_gradient.h"
+
+namespace artus {
+
+/// Follows beams through the tissue intervals of a scene: time of flight, two-way loss, echoes.
+/// Where the scene's tissue gives way, lengths, angles and interfaces are the present ones;
+/// scatterers, texture and fibres belong to the material and are found where it was at rest. How
+/// surfaces and fibres lie is what the smooth gradient makes of them at rest: the moved facets'
+/// own normals jump from cube to cube, and so would echoes, refraction and brightness.
+class BeamTracer {
+ public:
+  /// `tissue`: how the scene's gives way; null: it is at rest.
+  BeamTracer(const Scene& scene, const SmoothGradient* tissue,
+             std::span<const RegionAcoustics> regions, const Transducer& transducer,
+             const ImageSettings& settings) noexcept;
+
+  [[nodiscard]] std::span<const RegionAcoustics> regions() const noexcept { return regions_; }
+  [[nodiscard]] bool gives_way() const noexcept { return tissue_ != nullptr; }
+
+  /// The beam from `origin_J` along `direction_J` (unit), bent at the interfaces when refraction is
+  /// on. Fills `trace`, and `path` with the way it took. Where the tissue was it takes from
+  /// `guide`, a beam less than half a millimetre beside it, or finds it itself. Cost: one query per
+  /// bend.
+  void trace_bent(const Vec3& origin_J, const Vec3& direction_J, BeamTrace& trace, BeamPath& path,
+                  const BeamTrace* guide = nullptr) const noexcept;
+
+  /// The beam of another elevation plane: along the straight pieces of `path`, whose lengths (not
+  /// the geometric ones) tell the time. How fibres run it takes from `central`, the beam of the
+  /// middle plane, where that is in the same region; where the tissue was, from its guide or from
+  /// itself. Cost: one query per piece.
+  void trace_along(const BeamPath& path, const Vec3& elevation_axis_J, const BeamTrace& central,
+                   BeamTrace& trace) const noexcept;
+
+ private:
+  struct Walk;
+  bool start(Walk& walk, RegionId region, double length) const noexcept;
+  bool cross(Walk& walk, const Vec3& point, const Vec3& direction, double length,
+             double time_scale) const noexcept;
+  bool enter(Walk& walk, const TissueInterval& interval, const Vec3& point) const noexcept;
+  bool pass(Walk& walk, const Vec3& from, const Vec3& direction, double length,
+            double time_scale) const noexcept;
+  static MaterialPoint find_material(Walk& walk, const RegionAcoustics& region,
+                                     const BeamRun& run) noexcept;
+  double follow_fibres(Walk& walk, const RegionAcoustics& region, BeamRun& run,
+                       const Vec3& half_displacement) const noexcept;
+  bool place_knots(Walk& walk, double path) const noexcept;
+  void begin_knots(Walk& walk) const noexcept;
+  void add_knot(Walk& walk, double path) const noexcept;
+  [[nodiscard]] Vec3 find_normal(Walk& walk, const TissueInterval& interval) const noexcept;
+  void find_rest(Walk& walk, BeamRun& run) const noexcept;
+  void add_repeats(BeamTrace& trace) const noexcept;
+
+  const Scene* scene_;
+  const SmoothGradient* tissue_;  // null: at rest
+  std::span<const RegionAcoustics> regions_;
+  double sample_depth_;  // m of displayed depth
+  double n_samples_;
+  double spectrum_sigma_;  // Hz
+  double gel_limit_;       // m
+  double max_path_;        // m, longest way a beam can go within the displayed time
+  bool refraction_;
+  bool reverberation_;
+};
+
+}  // namespace artus

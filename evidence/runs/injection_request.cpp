@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/detail/evidence/runs/injection_request.h"
+
+#include <tuple>
+
+#include "artus/detail/anatomy/body/find_region.h"
+#include "artus/detail/core/known_names.h"
+#include "artus/detail/haptics/plunger/syringe_choice.h"
+
+namespace artus {
+namespace {
+
+constexpr double kOverfill = 0.4e-6;  // m^3 that is drawn up beyond what is meant to be given
+
+/// As much is drawn up as is meant to be given, and what stays in the barrel.
+Result<PlungerParams> plunger_of(const InjectionRequest& request) {
+  SyringeChoice choice;
+  choice.gauge = request.gauge;
+  choice.filled = request.volume + kOverfill;
+  choice.barrel = request.syringe;
+  choice.air = request.air;
+  choice.liquid = request.liquid;
+  choice.seed = request.seed;
+  return make_plunger_params(choice, request.needle_length);
+}
+
+/// Name, entry and target: the request's own line, or a planned one.
+Result<PlannedInjection> line_of(const InjectionRequest& request, const CompiledJoint& joint) {
+  PlannedInjection line;
+  if (request.line) {
+    line.name = "line";
+    std::tie(line.entry, line.target) = *request.line;
+    return line;
+  }
+  if (joint.injections.empty())
+    return fail(ErrorCode::not_found, "the joint plans none; give entry and target", "injection");
+  if (request.injection.empty()) return joint.injections.front();
+  const auto at = find_name(item_names(joint.injections), request.injection, "planned injection");
+  ARTUS_TRY(at);
+  return joint.injections[*at];
+}
+
+}  // namespace
+
+Result<InjectionRun> run_injection(const Scene& scene, const InjectionRequest& request) {
+  InjectionSpec spec;
+  const auto plunger = plunger_of(request);
+  ARTUS_TRY(plunger);
+  spec.plunger = *plunger;
+  spec.volume = request.volume;
+  spec.rate = request.rate;
+  spec.aspirate = request.aspirate;
+  spec.rate_hz = request.rate_hz;
+  spec.device = request.device;
+  spec.hand.seed = request.seed;
+  spec.technique = request.technique;
+  spec.feel = request.feel;
+  const auto line = line_of(request, scene.joint());
+  ARTUS_TRY(line);
+  spec.name = line->name;
+  spec.entry = line->entry;
+  spec.target = line->target;
+  if (request.into.empty()) return run_injection(scene, spec);
+  const auto into = find_region(scene.joint(), request.into);
+  ARTUS_TRY(into);
+  spec.into = *into;
+  if (!find_layer(scene, spec.entry, (spec.target - spec.entry).normalized(), *spec.into)) {
+    const auto found = find_line_into(scene, *spec.into);
+    ARTUS_TRY(found);
+    spec.name = "line into " + request.into;
+    std::tie(spec.entry, spec.target) = *found;
+  }
+  return run_injection(scene, spec);
+}
+
+}  // namespace artus

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "artus/haptics/needle_feel.h"
+#include "artus/detail/haptics/plunger/plunger.h"
+#include "artus/detail/operators/simulated_hand.h"
+#include "artus/detail/operators/thumb.h"
+#include "artus/raycast/scene.h"
+
+namespace artus {
+
+inline constexpr double kStartOutside = 0.010;  ///< m before the skin, where a way begins
+inline constexpr double kSearch = 0.15;         ///< m along a line; none is longer
+
+/// How the hand finds the place.
+enum class Technique : std::uint8_t {
+  direct,           ///< to the target, by the picture
+  through_and_back  ///< beyond it, then back under gentle pressure until it flows
+};
+
+/// One injection by a simulated hand; every value has a default.
+struct InjectionSpec {
+  std::string name = "injection";
+  Vec3 entry = Vec3::Zero();   ///< m, frame J, on the skin
+  Vec3 target = Vec3::Zero();  ///< m, frame J
+  std::optional<RegionId>
+      into;  ///< the structure on that line to inject; none: a bursa on it, or the target's
+  double volume = 5e-6;  ///< m^3
+  double rate = 1e-7;    ///< m^3/s
+  double aspirate = 3;   ///< s of pulling before; 0: none
+  Technique technique = Technique::direct;
+  PlungerParams plunger;  ///< its syringe holds at least the volume
+  ThumbParams thumb;
+  double rate_hz = 1000;
+  std::string device = "virtuose_6d_desktop";  ///< a name of device_table()
+  NeedleFeel feel;
+  HandParams hand;
+};
+
+/// One tick as it is recorded. SI.
+struct InjectionRow {
+  double time = 0;
+  double depth = 0;  ///< m of the tip along the line, 0 at the skin
+  RegionId region = kOutside;
+  double axial = 0;  ///< N of the device on the hand along the needle
+  PlungerState plunger;
+  double thumb = 0;             ///< N
+  std::string_view phase;       ///< what the operator is doing
+  std::vector<double> volumes;  ///< m^3, by InjectionRun::places
+};
+
+/// A moment and what the patient said.
+struct PatientLine {
+  double time = 0;  ///< s
+  std::string text;
+};
+
+struct InjectionRun {
+  InjectionSpec spec;
+  std::vector<InjectionRow> rows;
+  std::vector<std::string> places;   ///< names of the spaces that got anything, the target first
+  std::vector<double> volumes;       ///< m^3 in them at the end
+  std::vector<std::string> regions;  ///< names of the joint's regions, by number
+  std::string target;                ///< name of the space that was meant
+  std::string target_like;           ///< its profile
+  Pose X_JN = Pose::Identity();      ///< where the needle was while it flowed most
+  double depth = 0;                  ///< m of its tip along the line then, as in the rows
+  double given = 0;                  ///< m^3 that left the needle
+  double drawn = 0;                  ///< m^3 of the patient's own
+  double highest_pressure = 0;       ///< Pa at the tip while it flowed
+  double highest_force = 0;          ///< N on the plunger
+  double tip_walk = 0;               ///< m, range of the tip's depth while it flowed
+  double unbalanced = 0;             ///< m^3, given less what is somewhere
+  std::vector<PatientLine> patient;
+  bool reached = false;      ///< the tip came where it was meant to
+  bool complete = false;     ///< all that was meant was given
+  std::uint32_t status = 0;  ///< PlungerStatus bits of all ticks
+};
+
+/// Runs it closed loop: hand, device, needle, thumb and plunger. Deterministic for a scene and
+/// spec. Errors: not_found (device), invalid (the line does not meet the structure; the target lies
+/// outside of the meshed body; volume or rate not above 0).
+[[nodiscard]] Result<InjectionRun> run_injection(const Scene& scene, const InjectionSpec& spec);
+
+/// The first row at `time` or later, else the last. Requires: a run with rows.
+[[nodiscard]] const InjectionRow& row_of(const InjectionRun& run, double time);
+
+/// A stretch of a line in one structure, m from its entry.
+struct LineLayer {
+  double from = 0;
+  double to = 0;
+};
+/// The first stretch of the line from `entry` along `direction` in `region` with room for a tip, or
+/// the widest; none when it does not meet it.
+[[nodiscard]] std::optional<LineLayer> find_layer(const Scene& scene, const Vec3& entry,
+                                                  const Vec3& direction, RegionId region);
+
+/// A line from the skin into `region`, short and without bone, nerve or vessel on its way, its
+/// target where the region is thick; of those that are nearly as good the one that a probe sees
+/// best (find_view_of). Deterministic. Cost: about a second. Errors: not_found.
+[[nodiscard]] Result<std::pair<Vec3, Vec3>> find_line_into(const Scene& scene, RegionId region);
+
+}  // namespace artus

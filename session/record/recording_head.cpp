@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/detail/session/record/recording_head.h"
+
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "artus/detail/anatomy/body/joint_digest.h"
+#include "artus/detail/core/byte_stream.h"
+#include "artus/detail/core/printed.h"
+#include "artus/detail/session/record/fields_json.h"
+#include "artus/detail/session/record/needle_feel_json.h"
+#include "artus/detail/simulation/session_fields.h"
+
+namespace artus {
+namespace {
+
+constexpr int kVersion = 12;
+constexpr const char* kName = "artus_recording";
+constexpr const char* kDigest = "digest";
+
+std::string digest_of(const nlohmann::json& json) {
+  return in_hexadecimal(hash_bytes(json.dump()));
+}
+
+/// The first three rows of the pose's matrix: the same bits again when they are read.
+nlohmann::json to_json(const Pose& pose) {
+  auto json = nlohmann::json::array();
+  for (Eigen::Index i = 0; i < 12; ++i) json.push_back(pose.matrix()(i / 4, i % 4));
+  return json;
+}
+
+Pose to_pose(const nlohmann::json& json) {
+  Pose pose = Pose::Identity();
+  for (Eigen::Index i = 0; i < 12; ++i)
+    pose.matrix()(i / 4, i % 4) = json.at(static_cast<std::size_t>(i)).get<double>();
+  return pose;
+}
+
+Result<RecordingHead> to_head(const nlohmann::json& json) {
+  RecordingHead head;
+  json.at("joint").get_to(head.joint);
+  json.at("joint_digest").get_to(head.joint_digest);
+  const auto device = find_device(json.at("device").get<std::string>());
+  ARTUS_TRY(device);
+  head.params.device = *device;  // its name; the numbers are those of the recording
+  read_fields(json.at("params"), head.params);
+  head.params.X_WJ = to_pose(json.at("X_WJ"));
+  const auto feel = to_needle_feel(json.at("feel"));
+  ARTUS_TRY(feel);
+  head.params.feel = *feel;
+  ARTUS_TRY(validate(head.params));
+  return head;
+}
+
+}  // namespace
+
+RecordingHead make_head(const CompiledJoint& joint, const SessionParams& params) {
+  return {joint.name, compute_joint_digest(joint), params};
+}
+
+std::string to_line(const RecordingHead& head) {
+  nlohmann::json json{{kName, kVersion},
+                      {"joint", head.joint},
+                      {"joint_digest", head.joint_digest},
+                      {"device", std::string(head.params.device.name)},
+                      {"X_WJ", to_json(head.params.X_WJ)},
+                      {"feel", to_json(head.params.feel)},
+                      {"params", fields_to_json(head.params)}};
+  json[kDigest] = digest_of(json);
+  return json.dump();
+}
+
+Result<RecordingHead> parse_head(const std::string& line) {
+  auto json = nlohmann::json::parse(line, nullptr, false);
+  if (json.is_discarded() || !json.is_object() || !json.contains(kName))
+    return fail(ErrorCode::malformed, "this is not a recording of artus", {});
+  if (json[kName] != kVersion)
+    return fail(ErrorCode::unsupported, "a recording of another version", {});
+  const nlohmann::json digest = json.value(kDigest, nlohmann::json());
+  json.erase(kDigest);
+  if (digest != digest_of(json))
+    return fail(ErrorCode::corrupt, "its first line was changed after it was written", {});
+  try {
+    return to_head(json);
+  } catch (const nlohmann::json::exception& e) {
+    return fail(ErrorCode::malformed, std::string("its first line is damaged: ") + e.what(), {});
+  }
+}
+
+}  // namespace artus

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/session/replay.h"
+
+#include <cstring>
+
+#include "artus/detail/anatomy/body/joint_digest.h"
+#include "artus/detail/simulation/image_core.h"
+
+namespace artus {
+namespace {
+
+bool same(const TickRecord& a, const TickRecord& b) noexcept {
+  // NOLINTBEGIN(bugprone-suspicious-memory-comparison): a replay gives the same bytes
+  return std::memcmp(a.force, b.force, sizeof a.force) == 0 &&
+         std::memcmp(a.torque, b.torque, sizeof a.torque) == 0 &&
+         std::memcmp(a.probe_force, b.probe_force, sizeof a.probe_force) == 0 &&
+         std::memcmp(a.probe_torque, b.probe_torque, sizeof a.probe_torque) == 0 &&
+         std::memcmp(&a.plunger, &b.plunger, sizeof a.plunger) == 0 && a.status == b.status &&
+         a.region == b.region;
+  // NOLINTEND(bugprone-suspicious-memory-comparison)
+}
+
+}  // namespace
+
+Result<ReplayReport> replay(const Recording& recording, const std::shared_ptr<const Scene>& scene,
+                            const ReplayListener& listener, int n_threads) {
+  if (compute_joint_digest(scene->joint()) != recording.head.joint_digest)
+    return fail(ErrorCode::invalid,
+                "the session was recorded with another joint, or another state of it: " +
+                    recording.head.joint,
+                scene->joint().name);
+  SessionParams params = recording.head.params;
+  params.image.n_threads = n_threads;
+  ReplayReport report;
+  report.dropped = recording.dropped;
+  report.complete = recording.complete;
+  HapticCore haptics(scene, params);
+  auto packet = recording.packets.begin();
+  for (const TickRecord& recorded : recording.ticks) {
+    for (; packet != recording.packets.end() && packet->tick <= recorded.input.tick; ++packet)
+      haptics.take(packet->packet);
+    const HapticSnapshot& out = haptics.step(recorded.input);
+    ++report.ticks;
+    if (!same(recorded, to_record(out))) {
+      if (!report.first_different_tick) report.first_different_tick = recorded.input.tick;
+      ++report.different_ticks;
+    }
+    if (listener.on_tick) listener.on_tick(out);
+  }
+  if (recording.frames.empty()) return report;
+  ImageCore images(scene, params);
+  for (const FrameRecord& recorded : recording.frames) {
+    const Frame& frame = images.render(recorded.input);
+    ++report.frames;
+    const TissuePacket* felt = images.packet();
+    const bool same_packet = felt == nullptr || digest_of(*felt) == recorded.packet;
+    const FrameRecord now = to_record(recorded.input, frame, images.transducer());
+    const bool same_sight = std::bit_cast<std::uint64_t>(now.tip_contrast) ==
+                            std::bit_cast<std::uint64_t>(recorded.tip_contrast);
+    if (now.digest != recorded.digest || !same_packet || !same_sight) {
+      if (!report.first_different_frame) report.first_different_frame = recorded.input.number;
+      ++report.different_frames;
+    }
+    if (listener.on_frame) listener.on_frame(recorded, frame);
+  }
+  return report;
+}
+
+}  // namespace artus

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "artus/simulation/input_device.h"
+#include "artus/detail/session/shm/reopening_channel.h"
+
+namespace artus {
+
+/// The newest believable sample of POS: values are checked, silence and age are judged by this
+/// side's own clock, so nothing a peer writes (garbage, a frozen or future time) keeps it alive.
+/// Samples are counted upwards: a smaller number is refused, unless another writer opened POS or
+/// none wrote for as long as makes a peer lost.
+class PosReader {
+ public:
+  /// `writer`: any number that changes when another writer opens POS; read after `pos`.
+  [[nodiscard]] ARTUS_REALTIME DeviceSample accept(bool whole, const artus_shm_pos& pos,
+                                                   std::int64_t now_ns,
+                                                   std::uint64_t writer = 0) noexcept;
+
+ private:
+  void take(const artus_shm_pos& pos, std::int64_t now_ns) noexcept;
+
+  DeviceSample last_;
+  std::int64_t heard_ns_ = 0;    // when a new sample was last taken
+  std::int64_t changed_ns_ = 0;  // when POS last changed
+  std::uint64_t writer_ = 0;
+  std::uint64_t seen_ = 0;    // number that POS last had
+  std::uint64_t number_ = 0;  // of the last sample that was sound
+  bool started_ = false;
+};
+
+/// A device program in another process, through POS and FORCE. When somebody removes or truncates
+/// them repair_connection() makes them anew.
+class SharedMemoryDevice final : public InputDevice {
+ public:
+  /// `layer_names` by region. Errors: as SharedSegment::open.
+  [[nodiscard]] static Result<std::unique_ptr<SharedMemoryDevice>> open(
+      const std::string& prefix, std::vector<std::string> layer_names);
+  /// Says "stopped" with zero force and removes the names.
+  ~SharedMemoryDevice() override;
+  SharedMemoryDevice(const SharedMemoryDevice&) = delete;
+  SharedMemoryDevice& operator=(const SharedMemoryDevice&) = delete;
+
+  [[nodiscard]] ARTUS_REALTIME DeviceSample read(std::int64_t now_ns) noexcept override;
+  ARTUS_REALTIME void write(const DeviceFeedback& feedback) noexcept override;
+  [[nodiscard]] std::vector<std::string> repair_connection() override;
+  [[nodiscard]] std::string_view name() const noexcept override { return "shared memory"; }
+
+ private:
+  using PosChannel = ReopeningChannel<artus_shm_pos>;
+  using ForceChannel = ReopeningChannel<artus_shm_force>;
+  SharedMemoryDevice(std::unique_ptr<PosChannel> pos, std::unique_ptr<ForceChannel> force,
+                     std::vector<std::string> layer_names);
+
+  std::unique_ptr<PosChannel> pos_;
+  std::unique_ptr<ForceChannel> force_;
+  std::vector<std::string> layer_names_;
+  PosReader reader_;
+};
+
+}  // namespace artus

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/detail/simulation/fluid_shapes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "artus/detail/core/check.h"
+#include "artus/detail/haptics/plunger/space_pressure.h"
+#include "artus/detail/soft/solver/face_stress.h"
+#include "artus/detail/soft/liquid/injected_body.h"
+
+namespace artus {
+namespace {
+
+constexpr double kShapeTime = 0.06;    // s that the first shape may take: a flow is seen at once
+constexpr double kGrowthTime = 0.3;    // s that a later one may: images need not wait for it
+constexpr double kVisible = 1e-9;      // m^3, of a shape's first liquid and least growth
+constexpr double kGrowth = 0.01;       // of what is there
+constexpr double kPressForce = 0.05;   // N by which a press is another
+constexpr double kPressGrowth = 0.05;  // of the force
+constexpr double kPressDistance = 0.5e-3;   // m of its middle
+constexpr double kPressTurn = 0.02;    // rad
+
+/// Whether the region is anywhere in the body; a recording may name one that a gap left empty.
+bool is_there(const CompiledJoint& joint, std::uint32_t region) {
+  const auto& all = joint.mesh.interfaces;
+  return region < joint.regions.size() &&
+         std::any_of(all.begin(), all.end(),
+                     [&](const Interface& f) { return f.front == region || f.back == region; });
+}
+
+std::vector<Injected> injected_of(const CompiledJoint& joint, const JointSpaces& spaces,
+                                  const std::vector<InjectedSite>& sites) {
+  std::vector<Injected> injected;
+  for (const InjectedSite& site : sites)
+    if (is_there(joint, site.region))
+      injected.push_back(
+          {joint.regions[site.region].name, site.volume, site.cavity != 0,
+           Vec3(site.p_J[0], site.p_J[1], site.p_J[2]),
+           pressure_of(spaces.spaces[spaces.of_region[site.region]].law, site.volume)});
+  return injected;
+}
+
+JointSpaces spaces_of(const CompiledJoint& joint) {
+  auto spaces = make_joint_spaces(joint);
+  ARTUS_REQUIRE(spaces.has_value(), "a joint's spaces are checked when it is compiled");
+  return std::move(*spaces);
+}
+
+/// With the index of the body or of the shape before, where it has the surfaces of one of them.
+std::shared_ptr<const BodyMap> map_of(const CompiledJoint& shape, const DeformedBody& tissue,
+                                      const FluidShape* before) {
+  std::vector<MappedJoint> others{tissue.mapped()};
+  if (before != nullptr && before->map && before->map->model == tissue.map().model)
+    others.push_back({before->joint, before->map});
+  return make_body_map(shape, others);
+}
+
+}  // namespace
+
+FluidShapes::FluidShapes(std::shared_ptr<const CompiledJoint> joint, Liquid liquid,
+                         double image_rate)
+    : joint_(std::move(joint)), liquid_(std::move(liquid)) {
+  ARTUS_REQUIRE(joint_ != nullptr && image_rate > 0, "a joint and an image rate are needed");
+  spaces_ = spaces_of(*joint_);
+  images_to_change_ = static_cast<std::uint64_t>(std::ceil(kShapeTime * image_rate));
+  images_to_grow_ =
+      static_cast<std::uint64_t>(kGrowthTime / kShapeTime * static_cast<double>(images_to_change_));
+}
+
+FluidShapes::Press FluidShapes::press_of(const DeformedBody* tissue) {
+  Press press;
+  if (tissue == nullptr) return press;
+  press.into = tissue->contact().into;
+  Vec3 moment = Vec3::Zero();
+  for (const PressingPiece& piece : tissue->contact().pieces) {
+    press.force += piece.force;
+    moment += piece.force * piece.p;
+  }
+  if (press.force > 0) press.middle = moment / press.force;
+  return press;
+}
+
+bool FluidShapes::has_changed(std::span<const InjectedSite> sites, const Press& press) const {
+  bool cavity = false;
+  for (std::size_t k = 0; k < sites.size(); ++k) {
+    const double before = k < begun_.size() ? begun_[k].volume : 0;
+    if (std::abs(sites[k].volume - before) >= std::max(kVisible, kGrowth * before)) return true;
+    cavity = cavity || (sites[k].cavity != 0 && sites[k].volume >= kVisible);
+  }
+  if (!cavity) return false;
+  const double most = std::max(press.force, begun_under_.force);
+  if (most < kPressForce) return false;
+  return std::abs(press.force - begun_under_.force) > std::max(kPressForce, kPressGrowth * most) ||
+         (press.middle - begun_under_.middle).norm() > kPressDistance ||
+         (press.into - begun_under_.into).norm() > kPressTurn;
+}
+
+/// Another shape of the same vertices is gone over into; what has others is there at once.
+void FluidShapes::take() {
+  std::shared_ptr<const FluidShape> before = std::move(state_.shape);
+  state_ = {std::make_shared<const FluidShape>(next_.get()), nullptr, 1};
+  taken_ = images_;
+  const bool alike =
+      before && before->map && state_.shape->map &&
+      before->joint->mesh.vertices.size() == state_.shape->joint->mesh.vertices.size() &&
+      before->joint->regions.size() == state_.shape->joint->regions.size();
+  if (alike) state_.before = std::move(before);
+}
+
+const FluidState& FluidShapes::step(std::span<const InjectedSite> sites) {
+  ++images_;
+  if (sites.empty()) {  // a new syringe, and a body that nothing was put into
+    if (next_.valid()) next_.get();
+    begun_.clear();
+    state_ = {};
+    return state_;
+  }
+  if (next_.valid() && images_ >= due_) take();
+  if (state_.before) {
+    state_.part = static_cast<double>(images_ - taken_ + 1) / static_cast<double>(images_to_grow_);
+    if (state_.part >= 1) state_ = {state_.shape, nullptr, 1};
+  }
+  return state_;
+}
+
+void FluidShapes::follow(std::span<const InjectedSite> sites,
+                         const std::shared_ptr<const DeformedBody>& tissue) {
+  const Press press = press_of(tissue.get());
+  if (sites.empty() || next_.valid() || !has_changed(sites, press)) return;
+  due_ = images_ + (begun_.empty() ? images_to_change_ : images_to_grow_);
+  begun_.assign(sites.begin(), sites.end());
+  begun_under_ = press;
+  next_ = std::async(
+      std::launch::async, [joint = joint_, liquid = liquid_, tissue, before = state_.shape,
+                           places = injected_of(*joint_, spaces_, begun_)] {
+        FluidShape shape;
+        StressAt stress;
+        if (tissue && !tissue->contact().pieces.empty()) stress = FaceStress(tissue);
+        shape.joint =
+            std::make_shared<const CompiledJoint>(with_injected(*joint, places, liquid, stress));
+        if (tissue)
+          shape.map = map_of(*shape.joint, *tissue, before.get());
+        else
+          shape.scene = std::make_shared<const Scene>(shape.joint);
+        return shape;
+      });
+}
+
+}  // namespace artus

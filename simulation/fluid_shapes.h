@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <cstdint>
+#include <future>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "artus/detail/anatomy/body/liquid.h"
+#include "artus/detail/anatomy/body/space.h"
+#include "artus/raycast/scene.h"
+#include "artus/detail/simulation/syringe_core.h"
+#include "artus/detail/soft/solver/deformed_body.h"
+#include "artus/detail/soft/solver/soft_body.h"
+
+namespace artus {
+
+/// A body with what was injected, at rest.
+struct FluidShape {
+  std::shared_ptr<const CompiledJoint> joint;
+  std::shared_ptr<const Scene> scene;  ///< rigid; null: it gives way
+  std::shared_ptr<const BodyMap> map;  ///< null: rigid
+};
+
+/// What there is of it in one image: one shape, or one on its way to the next.
+struct FluidState {
+  std::shared_ptr<const FluidShape> shape;   ///< null: nothing was injected
+  std::shared_ptr<const FluidShape> before;  ///< with the same vertices; null: it is all `shape`
+  double part = 1;                           ///< of the way from `before`
+
+  /// Where vertices are at rest, for the skin that a face meets (SoftBody::lift_skin); empty where
+  /// nothing was injected.
+  [[nodiscard]] SoftBody::RestOf rest_of() const {
+    if (!shape) return {};
+    return [*this](std::uint32_t vertex) {
+      const Vec3& now = shape->joint->mesh.vertices[vertex];
+      return before ? Vec3((1 - part) * before->joint->mesh.vertices[vertex] + part * now) : now;
+    };
+  }
+};
+
+/// The shapes that liquid gives the body, image by image: spaces that open, squeezed by what the
+/// probe puts on them, and tissue that parts, as with_injected says. Each shape is made on a thread
+/// of its own and taken a fixed number of images later, never "when ready": a pure function of what
+/// it was given. Where tissue gives way a space goes over into its next shape as long as that is
+/// made. One thread.
+class FluidShapes {
+ public:
+  /// Requires: a joint whose spaces are valid, an image rate above 0.
+  FluidShapes(std::shared_ptr<const CompiledJoint> joint, Liquid liquid, double image_rate);
+
+  /// Of the next image, before its tissue's step. Waits where a shape is due and not ready.
+  [[nodiscard]] const FluidState& step(std::span<const InjectedSite> sites);
+  /// After that step: begins a shape where there is more liquid, or the probe presses otherwise.
+  /// `tissue`: the body as it gives way in this image; null: rigid.
+  void follow(std::span<const InjectedSite> sites,
+              const std::shared_ptr<const DeformedBody>& tissue);
+
+  /// Images from the first with liquid to the first that shows it; what is added takes 0.3 s.
+  [[nodiscard]] std::uint64_t images_to_change() const noexcept { return images_to_change_; }
+
+ private:
+  /// How the probe presses, as far as a shape depends on it.
+  struct Press {
+    double force = 0;            // N
+    Vec3 middle = Vec3::Zero();  // m, of the force
+    Vec3 into = Vec3::UnitZ();
+  };
+  [[nodiscard]] static Press press_of(const DeformedBody* tissue);
+  [[nodiscard]] bool has_changed(std::span<const InjectedSite> sites, const Press& press) const;
+  void take();
+
+  std::shared_ptr<const CompiledJoint> joint_;
+  JointSpaces spaces_;
+  Liquid liquid_;
+  std::uint64_t images_to_change_;
+  std::uint64_t images_to_grow_;
+  std::uint64_t images_ = 0;
+  std::uint64_t due_ = 0;
+  std::uint64_t taken_ = 0;          // image of the present shape's first
+  std::vector<InjectedSite> begun_;  // of the newest shape, made or being made
+  Press begun_under_;                // the same
+  std::future<FluidShape> next_;
+  FluidState state_;
+};
+
+}  // namespace artus

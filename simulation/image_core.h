@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <cstdint>
+#include <future>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "artus/detail/echo/display/echo_pipeline.h"
+#include "artus/detail/echo/acquire/liquid_plume.h"
+#include "artus/echo/renderer.h"
+#include "artus/detail/simulation/fluid_scene.h"
+#include "artus/detail/simulation/fluid_shapes.h"
+#include "artus/detail/simulation/session_core.h"
+#include "artus/detail/simulation/tissue_core.h"
+
+namespace artus {
+
+/// The body at an image's instant, before its picture.
+struct ImagedBody {
+  std::uint64_t number = 0;            ///< of the image; 0: of none
+  std::shared_ptr<const Scene> scene;  ///< without what was injected
+  std::optional<TissuePacket> packet;  ///< what it answers the hands with; empty: it is rigid
+  FluidState fluid;                    ///< what was injected
+};
+
+/// The imaging half of a session as a pure function of its inputs: what runs live is what a replay
+/// runs. Gain, range and time gain show in the next image. Depth, frequency and focus need new
+/// tables: these are made on a thread of their own while the images go on, and are taken over a
+/// fixed number of images later, never "when ready". Knobs that move on meanwhile are followed from
+/// there. What the syringe put into the body opens it in the picture, and what
+/// drifts in it is seen: see FluidShapes and LiquidPlume.
+class ImageCore {
+ public:
+  /// `onlookers` keep a drawn scene each while the next are made. Requires: valid params, a scene.
+  ImageCore(std::shared_ptr<const Scene> scene, const SessionParams& params,
+            std::size_t extra_scene_holders = 0);
+
+  /// The tissue's step to this image's instant, when it gives way: what the hands feel need not
+  /// wait for the picture. Skin that liquid lifts is where the probe meets it. May run beside
+  /// render() of an image before. Cost: TissueCore::step; waits as FluidShapes::step does.
+  [[nodiscard]] ImagedBody advance(const FrameInput& input);
+
+  /// The picture of `body`, which is this input's. Controls that are not valid keep those before.
+  /// The frame stays valid until the next call. Cost: an image; waits where new tables are due and
+  /// not ready.
+  const Frame& render(const FrameInput& input, const ImagedBody& body);
+  /// Both.
+  const Frame& render(const FrameInput& input) { return render(input, advance(input)); }
+
+  /// Whether later images are looked at for what moves. Their greys do not depend on it.
+  void set_motion_wanted(bool wanted) noexcept { motion_wanted_ = wanted; }
+  /// Of the last image: what moves, see motion_picture. The needle moves as it did since the image
+  /// before. Empty unless wanted, and settings have Doppler.
+  [[nodiscard]] std::vector<std::uint8_t> motion() const;
+
+  /// Of the last step: what the tissue answers the hands with; null: the body is rigid.
+  [[nodiscard]] const TissuePacket* packet() const noexcept {
+    return tissue_ ? &tissue_->packet() : nullptr;
+  }
+  /// The body of the last step, without what was injected.
+  [[nodiscard]] const std::shared_ptr<const Scene>& scene() const noexcept {
+    return tissue_ ? tissue_->scene() : rest_;
+  }
+  /// The body that the last image was drawn from, with what was injected.
+  [[nodiscard]] const std::shared_ptr<const Scene>& drawn_scene() const noexcept { return drawn_; }
+  /// Why the body is rigid though it should give way; empty: it does, or should not.
+  [[nodiscard]] const std::string& refusal() const noexcept { return refusal_; }
+
+  [[nodiscard]] const Transducer& transducer() const noexcept { return renderer_.transducer(); }
+  /// Images from the first with a knob in a new place to the first that new tables made.
+  [[nodiscard]] std::uint64_t images_to_change() const noexcept { return images_to_change_; }
+
+ private:
+  void update_scene(const FrameInput& input, const ImagedBody& body);
+  void follow(const ImageControls& controls);
+  [[nodiscard]] Vec3 velocity_of_needle(const FrameInput& input) const noexcept;
+  void update_particles(const FrameInput& input, const Scene* filled);
+  void take_tables();
+  void start_tables();
+
+  Transducer probe_;  // by the newest valid controls, as the next
+  ImageSettings image_;
+  NeedleShape needle_shape_;
+  ImageControls controls_;
+  Renderer renderer_;
+  std::optional<TissueCore> tissue_;  // empty: rigid
+  std::string refusal_;
+  std::shared_ptr<const Scene> rest_;
+  std::shared_ptr<const Scene> drawn_;
+  FluidShapes shapes_;
+  FluidScene fluid_;
+  LiquidPlume plume_;
+  bool filled_ = false;  // the last image had liquid in the body
+  double image_time_;    // s
+  std::uint64_t images_to_change_;
+  std::uint64_t images_ = 0;                         // rendered so far
+  std::uint64_t due_ = 0;                            // image that takes next_ over
+  std::future<std::unique_ptr<EchoPipeline>> next_;  // being made, or empty
+  FrameInput before_;                                // of the last image
+  bool motion_wanted_ = false;
+  const Frame* frame_ = nullptr;  // the last
+};
+
+}  // namespace artus

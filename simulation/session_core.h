@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "artus/echo/renderer.h"
+#include "artus/haptics/needle_renderer.h"
+#include "artus/detail/simulation/hand_aids.h"
+#include "artus/simulation/input_device.h"
+#include "artus/simulation/session_params.h"
+#include "artus/detail/simulation/syringe_core.h"
+#include "artus/detail/simulation/tissue_packet.h"
+#include "artus/detail/simulation/two_phase_gesture.h"
+
+namespace artus {
+
+/// Status bits of a session's tick, above those of TickStatus; also in FORCE.
+struct SessionStatus {
+  static constexpr std::uint32_t kPeerLost = 1U << 16U;
+  static constexpr std::uint32_t kPeerInvalid = 1U << 17U;
+  static constexpr std::uint32_t kPaused = 1U << 18U;
+  static constexpr std::uint32_t kStopped = 1U << 19U;
+  static constexpr std::uint32_t kNoNeedle = 1U << 21U;
+};
+
+/// What the people at the session want in a tick; bits.
+struct SessionCommand {
+  static constexpr std::uint32_t kPause = 1U << 0U;
+  static constexpr std::uint32_t kReset = 1U << 1U;  ///< in one tick: forget the insertion
+  static constexpr std::uint32_t kLate = 1U << 2U;   ///< the loop is late for too long: no force
+  static constexpr std::uint32_t kAll = kPause | kReset | kLate;
+};
+
+/// Everything that goes into a haptic tick. Plain bytes: a recording is a row of these.
+struct TickInput {
+  DeviceSample device;
+  std::uint64_t tick = 0;
+  std::uint32_t command = 0;
+  std::uint32_t reserved = 0;
+};
+
+/// Everything that comes out of one and others may want to see. Frame J unless named; plain bytes.
+struct HapticSnapshot {
+  TickInput input;  ///< as taken: poses that cannot be are replaced by those before and invalid
+  PlainPose X_WJ;
+  PlainPose X_JN;
+  PlainPose X_JP;
+  DeviceFeedback feedback;  ///< as sent to the device, frame W
+  double axial[5] = {};     ///< N along the needle: prepuncture, cutting, attracted, friction, hard
+                            ///< NOLINT(*-avoid-c-arrays)
+  double clamping = 0;      ///< N, norm
+  double clamping_J[3] = {};   ///< N  NOLINT(*-avoid-c-arrays)
+  double surface_J[3] = {};    ///< N, of the god-object  NOLINT(*-avoid-c-arrays)
+  double workspace_J[3] = {};  ///< N, of the hemisphere  NOLINT(*-avoid-c-arrays)
+  double force_J[3] = {};      ///< N, as sent, frame J  NOLINT(*-avoid-c-arrays)
+  double torque_J[3] = {};     ///< N m  NOLINT(*-avoid-c-arrays)
+  double entry_J[3] = {};      ///< m, where the needle went in  NOLINT(*-avoid-c-arrays)
+  double cone = 0;             ///< rad, within which the needle may turn
+  NeedleLoad load;             ///< of the needle on the tissue, N; zero where it is rigid
+  std::uint32_t status = 0;
+  std::uint32_t events = 0;  ///< ContactEvent bits
+  GesturePhase phase = GesturePhase::exploring;
+  std::uint32_t inserted = 0;
+  InjectedSite sites[kMaxSites] = {};  ///< NOLINT(*-avoid-c-arrays)
+  std::uint32_t n_sites = 0;
+  std::uint32_t reserved = 0;
+};
+static_assert(std::is_trivially_copyable_v<TickInput>);
+static_assert(std::is_trivially_copyable_v<HapticSnapshot>);
+
+/// The haptic half of a session as a pure function of its inputs: no clock, no thread. What runs
+/// live is what a replay runs.
+class HapticCore {
+ public:
+  /// Requires: valid params, a scene.
+  HapticCore(std::shared_ptr<const Scene> scene, const SessionParams& params);
+
+  /// What the tissue answers the hands with from the next tick on.
+  ARTUS_REALTIME void take(const TissuePacket& packet) noexcept {
+    probe_.take(packet.probe);
+    needle_.take(packet.needle);
+  }
+
+  /// One period. Errors: none; the status says what was wrong, and then the force is zero.
+  ARTUS_REALTIME const HapticSnapshot& step(const TickInput& input) noexcept;
+
+  /// For who replays: volumes and places, between two ticks.
+  [[nodiscard]] const SyringeCore& syringe() const noexcept { return syringe_; }
+
+ private:
+  void take(const TickInput& input) noexcept;
+  void step_needle(const DeviceSample& device, std::uint32_t command) noexcept;
+  void step_probe(bool felt, const std::optional<Pose>& X_WP) noexcept;
+  void step_syringe(bool runs) noexcept;
+  [[nodiscard]] bool is_sound(bool runs) const noexcept;
+  void add_force(const Vec3& more_J, bool runs) noexcept;
+  void describe() noexcept;
+
+  std::shared_ptr<const Scene> scene_;
+  NeedleRenderer needle_;
+  TwoPhaseGesture gesture_;
+  ProbeTangent probe_;
+  OutputGuard probe_guard_;
+  SyringeCore syringe_;
+  HandAid aid_;
+  DeviceLimits device_;
+  HapticSnapshot out_;
+};
+
+/// What the person at the scanner turns while the session runs. Plain bytes.
+struct ImageControls {
+  double depth = 40e-3;  ///< m
+  double gain_db = 0;
+  double tgc_db_cm_mhz = 0.7;
+  double dynamic_range_db = 60;
+  double frequency = 12e6;         ///< Hz
+  double elevation_focus = 20e-3;  ///< m
+  friend bool operator==(const ImageControls&, const ImageControls&) = default;
+};
+[[nodiscard]] ImageControls controls_of(const SessionParams& params) noexcept;
+
+/// Everything that goes into an image. Plain bytes.
+struct FrameInput {
+  PlainPose X_JP;
+  PlainPose X_JN;
+  ImageControls controls;
+  std::int64_t sample_time_ns = 0;  ///< DeviceSample::time_ns of the poses
+  std::uint64_t number = 0;
+  std::uint32_t has_needle = 0;
+  std::uint32_t has_probe = 0;
+  InjectedSite sites[kMaxSites] = {};  ///< what liquid went to  NOLINT(*-avoid-c-arrays)
+  std::uint32_t n_sites = 0;
+  std::uint32_t reserved = 0;
+  NeedleLoad load;  ///< as HapticSnapshot::load
+};
+static_assert(std::is_trivially_copyable_v<FrameInput>);
+
+/// The poses of a tick as an image's input.
+[[nodiscard]] FrameInput frame_input(const HapticSnapshot& snapshot, const ImageControls& controls,
+                                     std::uint64_t number) noexcept;
+
+/// A number that two images share only when their bytes are the same, as far as 64 bits can tell.
+[[nodiscard]] std::uint64_t digest_of(const Frame& frame) noexcept;
+/// The same of a packet.
+[[nodiscard]] std::uint64_t digest_of(const TissuePacket& packet) noexcept;
+
+}  // namespace artus

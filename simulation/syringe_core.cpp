@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/detail/simulation/syringe_core.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace artus {
+namespace {
+
+JointSpaces spaces_of(const CompiledJoint& joint) {
+  auto spaces = make_joint_spaces(joint);
+  ARTUS_REQUIRE(spaces.has_value(), "a joint's spaces are checked when it is compiled");
+  return std::move(*spaces);
+}
+
+PlungerParams plunger_params(const SessionParams& params) {
+  auto made = make_plunger_params(params.syringe, needle_length_of(params));
+  ARTUS_REQUIRE(made.has_value(), "the parameters must be valid");
+  return std::move(*made);
+}
+
+}  // namespace
+
+SyringeCore::SyringeCore(const CompiledJoint& joint, const SessionParams& params)
+    : SyringeCore(spaces_of(joint), params) {}
+
+SyringeCore::SyringeCore(JointSpaces spaces, const SessionParams& params)
+    : bevel_(0),
+      of_region_(std::move(spaces.of_region)),
+      plunger_(plunger_params(params), std::move(spaces.spaces), 1 / params.haptic_rate),
+      guard_(params.guard, {"thumb", kMaxForce, 0, Vec3::Zero(), 0, 0, 0},
+             1 / params.haptic_rate) {
+  bevel_ = bevel_length(plunger_.params().needle.outer_diameter);
+}
+
+void SyringeCore::reset() noexcept {
+  plunger_.reset();
+  engaged_ = false;
+  n_sites_ = 0;
+}
+
+void SyringeCore::rest() noexcept {
+  engaged_ = false;
+  describe(0, TickStatus::kStale);
+  out_.flow = 0;
+}
+
+void SyringeCore::step(const DeviceSample& device, const NeedleContact& contact) noexcept {
+  PlungerInput input;
+  input.tip = bevel_shares(contact, bevel_, of_region_);
+  input.depth = contact.tick().depth;
+  const bool held = device.plunger != PlungerSign::none;
+  if (device.plunger == PlungerSign::travel) {
+    // Wherever the device's plunger is when it comes, it begins without a force.
+    if (!engaged_) zero_ = device.plunger_travel - plunger_.state().travel;
+    input.position = device.plunger_travel - zero_;
+    input.stiffness = kCoupling;
+  } else if (device.plunger == PlungerSign::force) {
+    input.force = device.plunger_force;
+  }
+  engaged_ = device.plunger == PlungerSign::travel;
+  const PlungerState& state = plunger_.step(input);
+  note_sites(input, contact);
+  describe(held ? state.force : 0, held ? TickStatus::kOk : TickStatus::kStale);
+}
+
+void SyringeCore::note_sites(const PlungerInput& input, const NeedleContact& contact) noexcept {
+  const auto states = plunger_.states();
+  for (std::size_t k = 0; k < n_sites_; ++k) sites_[k].volume = states[space_of_site_[k]].volume;
+  for (const TipShare& share : input.tip) {
+    const SpaceKind kind = plunger_.spaces()[share.space].law.kind;
+    const bool shown = kind == SpaceKind::cavity || kind == SpaceKind::split;
+    if (!(share.share > 0) || !shown || !(states[share.space].volume > 0)) continue;
+    const auto known = space_of_site_.begin() + static_cast<std::ptrdiff_t>(n_sites_);
+    if (n_sites_ == kMaxSites || std::find(space_of_site_.begin(), known, share.space) != known)
+      continue;
+    const auto region = std::find(of_region_.begin(), of_region_.end(), share.space);
+    const auto first = static_cast<std::uint32_t>(region - of_region_.begin());
+    InjectedSite& site = sites_[n_sites_];
+    const NeedleTick& tick = contact.tick();
+    const Vec3 p = tick.tip - bevel_ / 2 * tick.axis;
+    for (Eigen::Index i = 0; i < 3; ++i) site.p_J[i] = p[i];
+    site.volume = states[share.space].volume;
+    site.region = of_region_[contact.region()] == share.space ? contact.region() : first;
+    site.cavity = kind == SpaceKind::cavity ? 1 : 0;
+    space_of_site_[n_sites_++] = share.space;
+  }
+}
+
+void SyringeCore::describe(double thumb, std::uint32_t faults) noexcept {
+  const PlungerState& state = plunger_.state();
+  std::uint32_t ignored = 0;
+  const Wrench felt = guard_.apply({Vec3(0, 0, thumb), Vec3::Zero()}, faults, ignored);
+  out_.thumb_force = felt.force.z();
+  on_needle_ = plunger_.params().unbalanced * out_.thumb_force;
+  out_.pressure = state.pressure;
+  out_.tip_pressure = state.tip_pressure;
+  out_.flow = state.flow;
+  out_.travel = state.travel;
+  out_.drawn = state.drawn;
+  out_.given = plunger_.params().syringe.filled + state.drawn - state.content;
+  out_.status = state.status;
+}
+
+}  // namespace artus

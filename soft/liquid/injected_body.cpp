@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/detail/soft/liquid/injected_body.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <span>
+#include <utility>
+
+#include "artus/detail/core/check.h"
+#include "artus/detail/core/noise.h"
+#include "artus/detail/soft/liquid/bolus_opening.h"
+
+namespace artus {
+namespace {
+
+constexpr double kVisible = 1e-9;        // m^3
+constexpr double kLongestSplit = 15e-3;  // m, half of the length; 10 to 30 mm in all, assumed
+constexpr double kMinPressure = 500;   // Pa of a space's liquid: what lies on it; assumed
+constexpr double kBall = 4 * std::numbers::pi / 3;
+
+Vec3 toward_skin(const CompiledJoint& joint, const Vec3& p) {
+  double least = std::numeric_limits<double>::infinity();
+  Vec3 direction = Vec3::UnitZ();
+  for (const Interface& f : joint.mesh.interfaces) {
+    if (f.front != kOutside && f.back != kOutside) continue;
+    const Vec3 to = joint.mesh.vertices[f.vertices[0]] - p;
+    if (to.squaredNorm() < least && to.norm() > 0) {
+      least = to.squaredNorm();
+      direction = to.normalized();
+    }
+  }
+  return direction;
+}
+
+/// The liquid as a tissue of the joint: what sound meets in it, with its grains. The tissue of that
+/// name, or water-like where the joint has none.
+TissueId liquid_tissue(CompiledJoint& joint, const Liquid& liquid) {
+  const std::string name = injected_tissue_name(liquid);
+  const auto find = [&](const std::string& wanted) {
+    return std::find_if(joint.tissues.begin(), joint.tissues.end(),
+                        [&](const Tissue& t) { return t.name == wanted; });
+  };
+  if (const auto at = find(name); at != joint.tissues.end())
+    return static_cast<TissueId>(at - joint.tissues.begin());
+  Tissue tissue;
+  if (const auto at = find(liquid.tissue); at != joint.tissues.end()) tissue = *at;
+  tissue.name = name;
+  tissue.acoustic.backscatter = std::max(tissue.acoustic.backscatter, liquid.backscatter);
+  tissue.acoustic.kind = TissueKind::fluid;
+  joint.tissues.push_back(std::move(tissue));
+  return static_cast<TissueId>(joint.tissues.size() - 1);
+}
+
+/// How a tissue is parted.
+struct BevelFlow {
+  Vec3 full = Vec3::Ones();  // m, semi-axes of one that is full: along fibres, beside, toward skin
+  double longest = 1;        // m, half of a length
+  double apart = 0;          // m between the planes of two; 0: one opens alone
+  int rows = 0;              // of them behind each other along the fibres, to either side
+  double ragged = 0;         // of an outline
+  double uneven = 0;         // by which lengths and widths differ from a full one's, of it
+};
+
+BevelFlow bevel_flow_of(const CompiledJoint& joint, RegionId region, bool fibrous) {
+  const TissueKind kind = joint.tissue_of(region).acoustic.kind;
+  if (kind == TissueKind::muscle) return {Vec3(10e-3, 5e-3, 0.7e-3), 1, 2e-3, 1, 0.2, 0.3};
+  if (kind == TissueKind::nerve) return {Vec3(8e-3, 3e-3, 0.5e-3), kLongestSplit, 0, 0};
+  if (fibrous) return {Vec3(12e-3, 8e-3, 0.6e-3), kLongestSplit, 1.5e-3, 0, 0.1, 0.2};
+  return {Vec3(4e-3, 4e-3, 1e-3)};
+}
+
+/// Unit, in columns: along the fibres, beside them, toward the skin. A region has one axis for all
+/// of its fibres; near the skin they run along it.
+Eigen::Matrix3d axes_at(const CompiledJoint& joint, RegionId region, const Vec3& p, bool& fibrous) {
+  const Vec3 skin = toward_skin(joint, p);
+  Vec3 along = joint.regions[region].fibre_axis;
+  along -= along.dot(skin) * skin;
+  fibrous = along.norm() > 0.1;
+  along = fibrous ? along.normalized() : skin.unitOrthogonal();
+  Vec3 up = skin - skin.dot(along) * along;
+  up = up.norm() > 1e-3 ? up.normalized() : along.unitOrthogonal();
+  Eigen::Matrix3d axes;
+  axes << along, up.cross(along), up;
+  return axes;
+}
+
+/// The surface of one region.
+class Walls {
+ public:
+  static constexpr double kFarAway = 1;  // m, where there is none
+
+  Walls(const CompiledJoint& joint, RegionId region) {
+    for (const Interface& f : joint.mesh.interfaces) {
+      if ((f.front == region) == (f.back == region)) continue;
+      const Vec3& a = joint.mesh.vertices[f.vertices[0]];
+      const Vec3 ab = joint.mesh.vertices[f.vertices[1]] - a;
+      const Vec3 ac = joint.mesh.vertices[f.vertices[2]] - a;
+      walls_.push_back({a, ab, ac, f.back == region ? 1.0 : -1.0});
+    }
+  }
+  /// m from p along d (unit) to the first wall; 0 where that leads into the region.
+  [[nodiscard]] double reach(const Vec3& p, const Vec3& d) const {
+    double nearest = kFarAway;
+    bool out = true;
+    for (const Wall& wall : walls_) {
+      const Vec3 normal = wall.ab.cross(wall.ac);
+      const double facing = d.dot(normal);
+      const double t = (wall.a - p).dot(normal) / facing;
+      if (!(t > 0 && t < nearest)) continue;
+      const Vec3 q = p + t * d - wall.a;
+      const double whole = normal.squaredNorm();
+      const double u = q.cross(wall.ac).dot(normal) / whole;
+      const double v = wall.ab.cross(q).dot(normal) / whole;
+      if (u < 0 || v < 0 || u + v > 1) continue;
+      nearest = t;
+      out = facing * wall.outward > 0;
+    }
+    return out ? nearest : 0;
+  }
+  /// The shorter of the two ways.
+  [[nodiscard]] double reach_both(const Vec3& p, const Vec3& d) const {
+    return std::min(reach(p, d), reach(p, -d));
+  }
+
+ private:
+  struct Wall {
+    Vec3 a;
+    Vec3 ab;
+    Vec3 ac;
+    double outward;  // 1: its normal leads out of the region
+  };
+  std::vector<Wall> walls_;
+};
+
+/// Where liquid opens a tissue beside the tip, in the order of how far away, m along the tip's own
+/// axes.
+std::vector<Vec3> places_of(const BevelFlow& bevel_flow) {
+  constexpr int kPlanes = 3;        // to either side of the tip's
+  constexpr double kRow = 1.7;      // half lengths from one to the next along the fibres
+  constexpr double kSide = 1.4;     // half widths beside them
+  constexpr double kStagger = 0.4;  // half lengths by which planes are shifted, there and back
+  std::vector<Vec3> places;
+  if (!(bevel_flow.apart > 0)) return places;
+  for (int m = -kPlanes; m <= kPlanes; ++m)
+    for (int j = -1; j <= 1; ++j)
+      for (int i = -bevel_flow.rows; i <= bevel_flow.rows; ++i) {
+        if (m == 0 && j == 0 && i == 0) continue;
+        const double shift = m % 2 == 0 ? 0 : (m > 0 ? kStagger : -kStagger);
+        places.emplace_back((kRow * i + shift) * bevel_flow.full.x(),
+                            (kSide * j + 0.5 * shift) * bevel_flow.full.y(), bevel_flow.apart * m);
+      }
+  // A plane away is as easy as half of a half length, or of a half width, away.
+  const Vec3 easy(bevel_flow.full.x() / 2, bevel_flow.full.y() / 2, bevel_flow.apart);
+  std::stable_sort(places.begin(), places.end(), [&](const Vec3& a, const Vec3& b) {
+    return a.cwiseQuotient(easy).squaredNorm() < b.cwiseQuotient(easy).squaredNorm();
+  });
+  return places;
+}
+
+/// Keeps it within the walls along and beside the fibres, shifted by at most `slide` of a half
+/// length or width. False where its middle is outside, or there is too little room.
+bool fit_between(const Walls& walls, double slide, Bolus& bolus) {
+  constexpr double kFilm = 0.3e-3;  // m of tissue above and below
+  constexpr double kShare = 0.9;    // of the way to a wall, which is pushed on
+  constexpr double kMin = 0.35;   // of a full one's length and width
+  const Vec3 up = bolus.axes.col(2);
+  for (const Vec3& direction : {up, Vec3(-up)}) {
+    const double room = walls.reach(bolus.centre, direction);
+    if (room < kFilm || room == Walls::kFarAway) return false;
+  }
+  for (const int k : {0, 1}) {
+    const Vec3 direction = bolus.axes.col(k);
+    const double ahead = kShare * walls.reach(bolus.centre, direction);
+    const double behind = kShare * walls.reach(bolus.centre, -direction);
+    double& half = bolus.proportion[k];
+    const double least = kMin * half;
+    half = std::min(half, (ahead + behind) / 2);
+    const double most = slide * std::max(half, least);
+    const double shift = std::clamp(std::clamp(0.0, half - behind, ahead - half), -most, most);
+    half = std::max(least, std::min({half, ahead - shift, behind + shift}));
+    if (std::min(ahead - shift, behind + shift) < least) return false;
+    bolus.centre += shift * direction;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::vector<Bolus> make_boluses(const CompiledJoint& joint, RegionId region, const Vec3& tip,
+                                double volume) {
+  constexpr double kTipSlide = 0.6;  // so that the tip stays in its own
+  constexpr double kSlide = 0.5;
+  constexpr double kThickest = 0.5;  // half thickness against how far apart: what is between stays
+  ARTUS_REQUIRE(volume > 0, "a volume above 0");
+  bool fibrous = false;
+  const Eigen::Matrix3d axes = axes_at(joint, region, tip, fibrous);
+  const BevelFlow bevel_flow = bevel_flow_of(joint, region, fibrous);
+  std::vector<Bolus> boluses{{region, tip, axes, bevel_flow.full, volume, bevel_flow.ragged, 0}};
+  if (!(bevel_flow.apart > 0)) {
+    // No longer than fibres part; what does not fit goes aside.
+    Vec3& full = boluses[0].proportion;
+    const double side = std::sqrt(volume / (kBall * full.y() * full.z() * bevel_flow.longest));
+    full.x() = std::min(full.x(), bevel_flow.longest / side);
+    return boluses;
+  }
+  const Walls walls(joint, region);
+  static_cast<void>(fit_between(walls, kTipSlide, boluses[0]));
+  double held = boluses[0].volume = kBall * boluses[0].proportion.prod();
+  std::uint64_t number = 0;
+  for (const Vec3& place : places_of(bevel_flow)) {
+    if (held >= volume) break;
+    Bolus bolus{region, tip + axes * place, axes, bevel_flow.full, 0, bevel_flow.ragged, ++number};
+    for (const int k : {0, 1})
+      bolus.proportion[k] *= 1 + bevel_flow.uneven * (2 * uniform_noise(number, 1000 + k) - 1);
+    bolus.axes = axes_at(joint, region, bolus.centre, fibrous);
+    if (!fit_between(walls, kSlide, bolus)) continue;
+    bolus.volume = kBall * bolus.proportion.prod();
+    held += bolus.volume;
+    boluses.push_back(bolus);
+  }
+  if (held > volume) {
+    boluses.back().volume -= held - volume;
+  } else {  // no room for more: all become thicker, then wider and longer, as walls give way
+    const double growth = volume / held;
+    const double thicker = std::min(growth, kThickest * bevel_flow.apart / bevel_flow.full.z());
+    const double wider = std::sqrt(growth / thicker);
+    for (Bolus& bolus : boluses) {
+      bolus.volume *= growth;
+      bolus.proportion = bolus.proportion.cwiseProduct(Vec3(wider, wider, thicker));
+    }
+  }
+  std::reverse(boluses.begin(), boluses.end());
+  return boluses;
+}
+
+CompiledJoint with_boluses(const CompiledJoint& joint, std::vector<Bolus> boluses,
+                           const Liquid& liquid) {
+  CompiledJoint with = joint;
+  const auto number = static_cast<RegionId>(with.regions.size());
+  with.regions.push_back({"injected", liquid_tissue(with, liquid), Vec3::Zero()});
+  ARTUS_REQUIRE(!boluses.empty(), "something to open");
+  BolusOpening opening(with, number);
+  const Vec3 tip = boluses.back().centre;
+  for (std::size_t k = 0; k < boluses.size(); ++k) {
+    ARTUS_REQUIRE(boluses[k].volume > 0, "a volume above 0");
+    // The tip does not go along with what is pushed; where liquid has come to it, that will do.
+    if (k + 1 == boluses.size() && !opening.is_liquid(tip)) boluses[k].centre = tip;
+    opening.open(boluses[k], std::span(boluses).subspan(k + 1));
+  }
+  return with;
+}
+
+CompiledJoint with_filled_space(const CompiledJoint& joint, RegionId region, const Vec3& tip,
+                                double volume, const Liquid& liquid,
+                                const InflatedSpace::Press& press) {
+  CompiledJoint with = joint;
+  with.mesh.vertices = InflatedSpace(joint, region, tip).vertices(volume, press);
+  with.regions[region].tissue = liquid_tissue(with, liquid);
+  return with;
+}
+
+CompiledJoint with_injected(const CompiledJoint& joint, const std::vector<Injected>& places,
+                            const Liquid& liquid, const StressAt& stress) {
+  // Tissue first: where it is parted is told of the body at rest, and is lifted with what opens.
+  std::vector<Injected> ordered = places;
+  std::stable_partition(ordered.begin(), ordered.end(),
+                        [](const Injected& place) { return !place.cavity; });
+  CompiledJoint with = joint;
+  for (const Injected& place : ordered) {
+    const auto at = std::find_if(joint.regions.begin(), joint.regions.end(),
+                                 [&](const Region& r) { return r.name == place.region; });
+    if (at == joint.regions.end() || !(place.volume >= kVisible)) continue;
+    const auto region = static_cast<RegionId>(at - joint.regions.begin());
+    if (region < kFirstRegion) continue;
+    InflatedSpace::Press press;
+    if (stress)
+      press = [&stress, whole = std::max(place.pressure, kMinPressure)](const Vec3& p) {
+        return stress(p) / whole;
+      };
+    with = place.cavity
+               ? with_filled_space(with, region, place.tip, place.volume, liquid, press)
+               : with_boluses(with, make_boluses(with, region, place.tip, place.volume), liquid);
+  }
+  return with;
+}
+
+}  // namespace artus

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/detail/viewer/panels/panels.h"
+
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "artus/detail/viewer/panels/label_places.h"
+
+namespace artus {
+
+PanelScope::PanelScope(Panel panel, Text title, ViewState& state, int flags) {
+  const PanelPlace place = state.layout.place(panel);
+  if (place.width <= 0) return;
+  const ImVec2 screen = ImGui::GetIO().DisplaySize;
+  const std::string name = std::string(tell(state, title)) + "###" + std::string(name_of(panel));
+  ImGuiStorage* seen = ImGui::GetStateStorage();  // of the implicit window: versions by panel
+  const ImGuiID id = ImGui::GetID(name_of(panel).data());
+  const bool fresh = seen->GetInt(id) != state.layout.version();
+  if (fresh) {
+    seen->SetInt(id, state.layout.version());
+    ImGui::SetNextWindowPos(ImVec2(place.x * screen.x, place.y * screen.y));
+    ImGui::SetNextWindowSize(ImVec2(place.width * screen.x, place.height * screen.y));
+    ImGui::SetNextWindowCollapsed(false);
+  }
+  if (panel == Panel::guide || state.layout.narrow())
+    flags |= ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize;
+  shown_ = ImGui::Begin(name.c_str(), nullptr, flags | ImGuiWindowFlags_NoSavedSettings);
+  begun_ = true;
+  if (fresh || screen.x <= 0 || ImGui::IsWindowCollapsed()) return;
+  const ImVec2 at = ImGui::GetWindowPos();
+  const ImVec2 size = ImGui::GetWindowSize();
+  const PanelPlace now{at.x / screen.x, at.y / screen.y, size.x / screen.x, size.y / screen.y};
+  const float off =
+      std::max({std::abs(now.x - place.x) * screen.x, std::abs(now.y - place.y) * screen.y,
+                std::abs(now.width - place.width) * screen.x,
+                std::abs(now.height - place.height) * screen.y});
+  if (off > 2 && ImGui::IsMouseDown(0) && panel != Panel::guide) state.layout.move(panel, now);
+}
+
+PanelScope::~PanelScope() {
+  if (begun_) ImGui::End();
+}
+
+ImU32 to_imgui(const Rgb& c, int alpha) noexcept {
+  return IM_COL32(c[0], c[1], c[2], alpha);
+}
+
+ImTextureID to_imgui(unsigned texture) noexcept {
+  // NOLINTNEXTLINE(performance-no-int-to-ptr): OpenGL's numbers are what Dear ImGui takes here.
+  return reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture));
+}
+
+void outlined_text(ImDrawList* list, const ImVec2& at, const std::string& text) {
+  const float d = std::max(1.F, ImGui::GetFontSize() / 13);
+  for (const ImVec2& off : {ImVec2(-d, 0), ImVec2(d, 0), ImVec2(0, -d), ImVec2(0, d),
+                            ImVec2(-d, -d), ImVec2(d, d), ImVec2(-d, d), ImVec2(d, -d)})
+    list->AddText(ImVec2(at.x + off.x, at.y + off.y), to_imgui(kOutline), text.c_str());
+  list->AddText(at, to_imgui(kOverlay), text.c_str());
+}
+
+void outlined_line(ImDrawList* list, const ImVec2& a, const ImVec2& b) {
+  const float d = std::max(1.F, ImGui::GetFontSize() / 13);
+  list->AddLine(a, b, to_imgui(kOutline), 3 * d);
+  list->AddLine(a, b, to_imgui(kOverlay), d);
+}
+
+void draw_names(ImDrawList* list, const ImVec2& corner, const ImVec2& size,
+                const std::vector<NamedPoint>& names) {
+  std::vector<LabelBox> requested;
+  for (const NamedPoint& n : names) {
+    const ImVec2 text = ImGui::CalcTextSize(n.name.c_str());
+    requested.push_back({n.x - text.x / 2, n.y - text.y / 2, text.x, text.y});
+  }
+  const auto placed = place_labels(requested, size.x, size.y);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (placed[i])
+      outlined_text(list, ImVec2(corner.x + placed[i]->x, corner.y + placed[i]->y), names[i].name);
+  }
+}
+
+std::string with_key(const ViewState& state, Text which, Action action) {
+  const std::string key = state.keys.said_key(action, state.language);
+  std::string shown = tell(state, which);
+  if (!key.empty()) shown += " (" + key + ")";
+  return shown + "###" + std::string(name_of(action));
+}
+
+void action_button(ViewState& state, Text which, Action action, bool on) {
+  if (on) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
+  if (ImGui::Button(with_key(state, which, action).c_str()))
+    state.requests.push_back({action, false});
+  if (on) ImGui::PopStyleColor();
+}
+
+std::string describe_status(Language language, std::uint32_t status) {
+  struct Bit {
+    std::uint32_t bit;
+    Text text;
+  };
+  constexpr std::array<Bit, 14> kBits{{{SessionStatus::kPeerLost, Text::device_lost},
+                                       {SessionStatus::kPeerInvalid, Text::device_invalid},
+                                       {SessionStatus::kPaused, Text::is_paused},
+                                       {SessionStatus::kNoNeedle, Text::no_needle},
+                                       {TickStatus::kNotFinite, Text::not_finite},
+                                       {TickStatus::kNotRigid, Text::not_rigid},
+                                       {TickStatus::kTeleport, Text::jumped},
+                                       {TickStatus::kTimeReversed, Text::time_reversed},
+                                       {TickStatus::kStale, Text::stale},
+                                       {TickStatus::kOutOfWorkspace, Text::out_of_workspace},
+                                       {TickStatus::kLawNotFinite, Text::law_not_finite},
+                                       {TickStatus::kRamping, Text::ramping},
+                                       {TickStatus::kSlewLimited, Text::slew},
+                                       {TickStatus::kSaturated, Text::saturated}}};
+  std::string said;
+  for (const Bit& bit : kBits) {
+    if ((status & bit.bit) == 0) continue;
+    if (!said.empty()) said += ", ";
+    said += text(language, bit.text);
+  }
+  return said.empty() ? text(language, Text::all_well) : said;
+}
+
+}  // namespace artus

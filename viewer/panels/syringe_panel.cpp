@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <array>
+
+#include "artus/detail/core/units.h"
+#include "artus/detail/viewer/panels/panels.h"
+#include "artus/detail/viewer/panels/shade.h"
+
+namespace artus {
+namespace {
+
+constexpr Shade kRead{0.85F, 0.85F, 0.85F};
+constexpr Shade kComplains{1, 0.55F, 0.4F};
+
+}  // namespace
+
+void draw_syringe(const PanelInput& in, const ViewState& state) {
+  const SyringeReading& syringe = in.syringe;
+  if (!syringe.used) return;
+  const Language language = state.language;
+  wrapped_text(
+      fill(tell(state, Text::syringe_line), {number(language, syringe.left / kCubicCentimetre, 2),
+                                             number(language, syringe.given / kCubicCentimetre, 2),
+                                             number(language, syringe.flow / kCubicCentimetre, 2)}),
+      kRead);
+  wrapped_text(fill(tell(state, Text::thumb_line), {number(language, syringe.thumb, 1),
+                                                    number(language, 1e-3 * syringe.pressure, 0)}),
+               kRead);
+}
+
+void draw_patient_words(const PanelInput& in, const ViewState& state) {
+  constexpr std::array<Text, 6> kWords{Text::patient_shoots, Text::patient_gave_way,
+                                       Text::patient_racing, Text::patient_hurts,
+                                       Text::patient_burns,  Text::patient_pressed};
+  if (in.syringe.patient == PatientFeeling::nothing) return;
+  wrapped_text(tell(state, kWords.at(static_cast<std::size_t>(in.syringe.patient) - 1)),
+               kComplains);
+}
+
+}  // namespace artus
