@@ -9,8 +9,8 @@
 #include "artus/detail/apps/options/arguments.h"
 #include "artus/detail/apps/options/pose_files.h"
 #include "artus/detail/apps/options/scenario_options.h"
-#include "artus/detail/apps/training_commands.h"
 #include "artus/detail/apps/options/view_options.h"
+#include "artus/detail/apps/training_commands.h"
 #include "artus/detail/core/text_file.h"
 #include "artus/detail/core/units.h"
 #include "artus/detail/training/assessment.h"
@@ -146,8 +146,9 @@ Result<Assessment> assess_file(const AssessOptions& options) {
   if (!options.scenario.empty()) return assess_attempt(options);
   const auto scene = load_body(options);
   ARTUS_TRY(scene);
-  const auto recording = read_any_recording(
-      options.recording, *scene, options.no_pictures ? LedPictures::none : LedPictures::listed);
+  const auto recording =
+      read_any_recording(options.recording, *scene,
+                         options.no_pictures ? RecordedPictures::none : RecordedPictures::listed);
   ARTUS_TRY(recording);
   tell_pictures(options, *recording);
   auto goals = goals_of(options, (*scene)->joint());

@@ -8,14 +8,14 @@
 #include <set>
 
 #include "artus/detail/anatomy/body/joint_variant.h"
-#include "artus/detail/anatomy/compile/labels/compile_surfaces.h"
 #include "artus/detail/anatomy/compile/check/joint_check.h"
+#include "artus/detail/anatomy/compile/labels/compile_surfaces.h"
 #include "artus/detail/anatomy/surfaces/enclosed_volume.h"
 #include "artus/detail/anatomy/surfaces/surface_io.h"
 #include "artus/detail/apps/options/command.h"
-#include "artus/detail/reports/joint_report.h"
 #include "artus/detail/core/text_file.h"
 #include "artus/detail/core/units.h"
+#include "artus/detail/reports/joint_report.h"
 
 namespace artus {
 namespace {

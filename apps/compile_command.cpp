@@ -7,9 +7,9 @@
 #include "artus/anatomy/compile.h"
 #include "artus/detail/anatomy/compile/mesh/isolated.h"
 #include "artus/detail/apps/options/command.h"
-#include "artus/detail/reports/joint_report.h"
 #include "artus/detail/core/text_file.h"
 #include "artus/detail/core/units.h"
+#include "artus/detail/reports/joint_report.h"
 
 namespace artus {
 namespace {

@@ -9,13 +9,13 @@
 #include "artus/detail/apps/options/command.h"
 #include "artus/detail/apps/options/press_options.h"
 #include "artus/detail/core/units.h"
-#include "artus/echo/image_io.h"
-#include "artus/echo/labels.h"
-#include "artus/echo/transducer_file.h"
 #include "artus/detail/raycast/layers_below.h"
 #include "artus/detail/raycast/moving_scene.h"
 #include "artus/detail/soft/solver/cage_vtu.h"
 #include "artus/detail/soft/solver/press.h"
+#include "artus/echo/image_io.h"
+#include "artus/echo/labels.h"
+#include "artus/echo/transducer_file.h"
 
 namespace artus {
 namespace {

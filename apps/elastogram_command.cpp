@@ -10,10 +10,10 @@
 #include "artus/detail/apps/options/press_options.h"
 #include "artus/detail/apps/options/sight.h"
 #include "artus/detail/core/units.h"
-#include "artus/echo/image_io.h"
 #include "artus/detail/echo/display/scan_converter.h"
 #include "artus/detail/echo/display/strain_image.h"
 #include "artus/detail/raycast/moving_scene.h"
+#include "artus/echo/image_io.h"
 
 namespace artus {
 namespace {

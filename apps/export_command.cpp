@@ -8,11 +8,11 @@
 #include <opencv2/imgproc.hpp>
 
 #include "artus/detail/apps/options/pose_files.h"
-#include "artus/detail/reports/recording_page.h"
 #include "artus/detail/core/units.h"
+#include "artus/detail/exchange/sequence_maker.h"
+#include "artus/detail/reports/recording_page.h"
 #include "artus/echo/image_io.h"
 #include "artus/echo/renderer.h"
-#include "artus/detail/exchange/sequence_maker.h"
 #include "artus/session/replay.h"
 #ifdef ARTUS_HAS_DICOM
 #include "artus/detail/exchange/dicom_file.h"

@@ -4,12 +4,12 @@
 #include <memory>
 #include <sstream>
 
+#include "artus/dataset/pose_list.h"
 #include "artus/detail/apps/options/hand_options.h"
 #include "artus/detail/apps/options/pose_files.h"
 #include "artus/detail/core/csv.h"
 #include "artus/detail/core/text_file.h"
 #include "artus/detail/core/units.h"
-#include "artus/dataset/pose_list.h"
 #include "artus/detail/operators/trajectory_forces.h"
 #include "artus/raycast/scene.h"
 

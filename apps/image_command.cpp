@@ -9,10 +9,10 @@
 #include "artus/detail/apps/options/view_options.h"
 #include "artus/detail/core/units.h"
 #include "artus/detail/dataset/echo_truth.h"
+#include "artus/detail/echo/display/scan_converter.h"
 #include "artus/echo/image_io.h"
 #include "artus/echo/labels.h"
 #include "artus/echo/renderer.h"
-#include "artus/detail/echo/display/scan_converter.h"
 
 namespace artus {
 namespace {

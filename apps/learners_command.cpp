@@ -4,9 +4,9 @@
 #include <iostream>
 #include <memory>
 
-#include "artus/detail/reports/attempt_page.h"
 #include "artus/detail/apps/training_commands.h"
 #include "artus/detail/core/text_file.h"
+#include "artus/detail/reports/attempt_page.h"
 #include "artus/detail/training/norms.h"
 #include "artus/detail/training/record_export.h"
 

@@ -147,7 +147,7 @@ ExitCode run_loop(const LoopOptions& options) {
   if (!feel) return report_error(feel.error(), options.json);
   params.feel = *feel;
   if (const auto valid = validate(params); !valid) return report_error(valid.error(), options.json);
-  HapticCore core(std::make_shared<const Scene>(*joint), params);
+  Simulation simulation(std::make_shared<const Scene>(*joint), params);
   InjectingDevice hand(make_plan(**joint, options.speed_mm_s), *device, options.servo.rate_hz);
   Interrupts interrupts;
   std::atomic<bool> stop{false};
@@ -157,7 +157,7 @@ ExitCode run_loop(const LoopOptions& options) {
   });
   Seqlock<HapticSnapshot> newest;
   const auto report = std::make_unique<ServoReport>();
-  run_servo_loop(core, hand, options.servo, stop, newest, *report);
+  run_servo_loop(simulation, hand, options.servo, stop, newest, *report);
   over = true;
   waiting.join();
   if (options.json)

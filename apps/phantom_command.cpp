@@ -7,10 +7,10 @@
 #include "artus/detail/core/text_file.h"
 #include "artus/detail/core/units.h"
 #include "artus/detail/dataset/echo_truth.h"
+#include "artus/detail/evidence/validation/echo/echo_phantom.h"
 #include "artus/echo/image_io.h"
 #include "artus/echo/labels.h"
 #include "artus/echo/renderer.h"
-#include "artus/detail/evidence/validation/echo/echo_phantom.h"
 
 namespace artus {
 namespace {

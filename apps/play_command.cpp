@@ -4,10 +4,11 @@
 #include <memory>
 #include <utility>
 
+#include "artus/detail/apps/options/scenario_options.h"
+#include "artus/detail/apps/options/session_options.h"
+#include "artus/detail/apps/training_commands.h"
 #include "artus/detail/reports/attempt_files.h"
 #include "artus/detail/reports/attempt_page.h"
-#include "artus/detail/apps/options/scenario_options.h"
-#include "artus/detail/apps/training_commands.h"
 #include "artus/detail/training/norms.h"
 #include "artus/detail/training/past_attempts.h"
 #include "artus/detail/training/patient_plans.h"
@@ -27,6 +28,7 @@ struct PlayCommandOptions {
   std::filesystem::path records;
   std::string person;
   double picture_rate = 0;
+  bool rigid = false;
   bool json = false;
 };
 
@@ -123,6 +125,7 @@ ExitCode run_play(const PlayCommandOptions& options) {
   follow_patient(*scenario, **scene);
   PlayOptions play_options;
   play_options.seed = static_cast<std::uint64_t>(options.seed);
+  play_options.rigid = options.rigid;
   play_options.picture_rate = options.picture_rate;
   const auto attempt = play(*scenario, *scene, *skill, play_options);
   if (!attempt) return report_error(attempt.error(), options.json);
@@ -178,6 +181,7 @@ void add_play_command(Command& app, ExitCode& code) {
   command->add_option("--pictures", options->picture_rate, "pictures a second in the recording")
       ->check(number_in(0, 60))
       ->capture_default_str();
+  add_rigid_option(command, options->rigid);
   command->add_flag("--json", options->json, "machine-readable output");
   on_run(command, code, [options] { return run_play(*options); });
 }

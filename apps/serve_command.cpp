@@ -11,9 +11,9 @@
 
 #include "artus/detail/apps/options/interrupts.h"
 #include "artus/detail/apps/options/live_metrics.h"
-#include "artus/detail/trainer/remote_controls.h"
 #include "artus/detail/apps/options/scenario_options.h"
 #include "artus/detail/apps/options/session_options.h"
+#include "artus/detail/trainer/remote_controls.h"
 #include "artus/detail/training/player.h"
 
 namespace artus {

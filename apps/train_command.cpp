@@ -5,10 +5,10 @@
 
 #include "artus/detail/apps/options/hand_options.h"
 #include "artus/detail/apps/options/interrupts.h"
-#include "artus/detail/trainer/train_flow.h"
-#include "artus/detail/apps/training_commands.h"
 #include "artus/detail/apps/options/window_options.h"
+#include "artus/detail/apps/training_commands.h"
 #include "artus/detail/core/text_file.h"
+#include "artus/detail/trainer/train_flow.h"
 #include "artus/detail/training/patient_plans.h"
 #include "artus/detail/viewer/input/window_events.h"
 
@@ -110,7 +110,7 @@ Result<void> train(TrainCommandOptions options) {
       [&remote](const std::string& name) { return remote.ask(name); });
   ARTUS_TRY(link);
   const TrainContext room{screen->get(), &*desk,    &options.session, &options.window,
-                       &script,       &*tracker, link->get(),      &turns};
+                          &script,       &*tracker, link->get(),      &turns};
   PageOptions pages{options.window.language, std::move(*keys), options.window.font_scale, &script,
                     options.window.asked_to_close};
   return run_training(options.train, room, std::move(pages), std::move(*scenarios), remote);
@@ -170,6 +170,7 @@ void add_train_command(Command& app, ExitCode& code) {
       ->check(whole_number_in(-1, 1023))
       ->capture_default_str();
   add_threads_option(command, session.threads);
+  add_rigid_option(command, session.rigid);
   add_igtl_options(command, session.igtl);
   add_window_options(command, options->window, options->language);
   command->add_option("--script", options->script, "do what this file says, then end");

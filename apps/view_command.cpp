@@ -7,10 +7,10 @@
 
 #include "artus/detail/apps/options/interrupts.h"
 #include "artus/detail/apps/options/live_metrics.h"
-#include "artus/detail/trainer/remote_controls.h"
 #include "artus/detail/apps/options/session_options.h"
-#include "artus/detail/apps/training_commands.h"
 #include "artus/detail/apps/options/window_options.h"
+#include "artus/detail/apps/training_commands.h"
+#include "artus/detail/trainer/remote_controls.h"
 #include "artus/detail/viewer/joint3d/surface_detail.h"
 #include "artus/detail/viewer/window.h"
 

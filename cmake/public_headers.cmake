@@ -21,6 +21,7 @@ set(ARTUS_PUBLIC_HEADERS
   echo/needle_view.h echo/medium/needle_view.h
   dataset/pose_list.h dataset/pose_list.h
   dataset/sweep.h dataset/sweep.h
+  simulation/simulation.h simulation/simulation.h
   simulation/session_params.h simulation/session_params.h
   session/session.h session/session.h
   session/shared_memory_device.h session/shm/shared_memory_device.h

@@ -7,10 +7,10 @@
 #include <nlohmann/json.hpp>
 
 #include "artus/anatomy/compiled_joint.h"
+#include "artus/detail/echo/display/scan_converter.h"
 #include "artus/echo/frame.h"
 #include "artus/echo/image_settings.h"
 #include "artus/echo/labels.h"
-#include "artus/detail/echo/display/scan_converter.h"
 #include "artus/echo/transducer.h"
 
 /// The ground truth of a frame as files and JSON hold it.

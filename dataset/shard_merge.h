@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "artus/detail/core/progress.h"
 #include "artus/core/result.h"
+#include "artus/detail/core/progress.h"
 
 namespace artus {
 

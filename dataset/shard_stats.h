@@ -10,8 +10,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "artus/detail/core/progress.h"
 #include "artus/core/result.h"
+#include "artus/detail/core/progress.h"
 
 namespace artus {
 

@@ -6,10 +6,10 @@
 #include <memory>
 #include <string>
 
-#include "artus/detail/core/progress.h"
 #include "artus/core/result.h"
-#include "artus/detail/dataset/frame_order.h"
 #include "artus/dataset/sweep.h"
+#include "artus/detail/core/progress.h"
+#include "artus/detail/dataset/frame_order.h"
 
 namespace artus {
 

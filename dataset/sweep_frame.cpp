@@ -5,11 +5,11 @@
 
 #include "artus/detail/core/units.h"
 #include "artus/detail/dataset/echo_truth.h"
+#include "artus/detail/echo/probe/pressing_face.h"
+#include "artus/detail/raycast/pressed_scene.h"
 #include "artus/echo/image_io.h"
 #include "artus/echo/labels.h"
-#include "artus/detail/echo/probe/pressing_face.h"
 #include "artus/echo/renderer.h"
-#include "artus/detail/raycast/pressed_scene.h"
 
 namespace artus {
 namespace {

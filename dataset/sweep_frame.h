@@ -11,8 +11,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "artus/detail/dataset/frame_order.h"
 #include "artus/dataset/sweep.h"
+#include "artus/detail/dataset/frame_order.h"
 
 namespace artus {
 

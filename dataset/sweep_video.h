@@ -4,9 +4,9 @@
 #include <memory>
 #include <vector>
 
-#include "artus/detail/core/progress.h"
 #include "artus/core/result.h"
 #include "artus/dataset/pose_list.h"
+#include "artus/detail/core/progress.h"
 #include "artus/echo/image_settings.h"
 #include "artus/echo/needle_view.h"
 #include "artus/echo/transducer.h"

@@ -2,9 +2,8 @@
 #include "artus/detail/exchange/led_session.h"
 
 #include <cmath>
-#include <optional>
 
-#include "artus/detail/simulation/image_core.h"
+#include "artus/detail/session/record/simulation_recorder.h"
 
 namespace artus {
 namespace {
@@ -28,36 +27,13 @@ TickInput input_of(const ListedPose& pose, const SessionParams& params, std::uin
 
 Result<Recording> record_led_session(const std::vector<ListedPose>& poses,
                                      const std::shared_ptr<const Scene>& scene,
-                                     const SessionParams& params, LedPictures pictures) {
+                                     const SessionParams& params, RecordedPictures pictures) {
   const auto path = sample_path(poses, params.haptic_rate);
   ARTUS_TRY(path);
   Recording recording;
-  recording.head = make_head(scene->joint(), params);
-  recording.complete = true;
-  HapticCore haptics(scene, params);
-  std::optional<ImageCore> images;
-  if (params.deform || pictures == LedPictures::drawn) images.emplace(scene, params);
-  const ImageControls controls = controls_of(params);
-  std::uint64_t n_images = 0;
-  for (std::size_t i = 0; i < path->size(); ++i) {
-    const HapticSnapshot& felt = haptics.step(input_of((*path)[i], params, i + 1));
-    recording.ticks.push_back(to_record(felt));
-    if (static_cast<double>(i) * params.image_rate <
-        static_cast<double>(n_images) * params.haptic_rate)
-      continue;
-    FrameRecord frame;
-    frame.input = frame_input(felt, controls, ++n_images);
-    ImagedBody body;
-    if (images) body = images->advance(frame.input);
-    if (pictures == LedPictures::drawn)
-      frame = to_record(frame.input, images->render(frame.input, body), params.transducer);
-    if (body.packet) {
-      frame.packet = digest_of(*body.packet);
-      recording.packets.push_back({felt.input.tick + 1, *body.packet});
-      haptics.take(*body.packet);
-    }
-    if (pictures != LedPictures::none) recording.frames.push_back(frame);
-  }
+  Simulation simulation(scene, params);
+  SimulationRecorder recorder(simulation, recording, pictures);
+  for (std::size_t i = 0; i < path->size(); ++i) recorder.step(input_of((*path)[i], params, i + 1));
   return recording;
 }
 

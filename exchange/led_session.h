@@ -5,17 +5,11 @@
 
 #include "artus/core/result.h"
 #include "artus/dataset/pose_list.h"
+#include "artus/detail/session/record/simulation_recorder.h"
 #include "artus/raycast/scene.h"
 #include "artus/session/recording.h"
 
 namespace artus {
-
-/// What a led session's recording holds of its pictures.
-enum class LedPictures {
-  drawn,   ///< inputs and digests
-  listed,  ///< inputs alone: for who draws them again and does not compare
-  none
-};
 
 /// The recording of a session in which probe and needle are led through listed poses (of a list, or
 /// of a tracker's sequence): whoever reads recordings can read such lists, too. With times they are
@@ -23,9 +17,8 @@ enum class LedPictures {
 /// Tissue gives way to both hands as in any session, whether pictures are drawn or not. Requires:
 /// valid params. Errors: those of sample_path. Cost: of the session's ticks, of the tissue's steps
 /// when it gives way, and of the images when they are drawn.
-[[nodiscard]] Result<Recording> record_led_session(const std::vector<ListedPose>& poses,
-                                                   const std::shared_ptr<const Scene>& scene,
-                                                   const SessionParams& params,
-                                                   LedPictures pictures = LedPictures::drawn);
+[[nodiscard]] Result<Recording> record_led_session(
+    const std::vector<ListedPose>& poses, const std::shared_ptr<const Scene>& scene,
+    const SessionParams& params, RecordedPictures pictures = RecordedPictures::drawn);
 
 }  // namespace artus

@@ -2,9 +2,9 @@
 #include "artus/detail/exchange/reference_frame.h"
 
 #include "artus/detail/core/units.h"
-#include "artus/echo/image_settings.h"
 #include "artus/detail/echo/display/scan_converter.h"
 #include "artus/detail/simulation/plain_pose.h"
+#include "artus/echo/image_settings.h"
 
 namespace artus {
 namespace {

@@ -2,8 +2,8 @@
 #pragma once
 #include "artus/core/geometry.h"
 #include "artus/core/result.h"
-#include "artus/echo/transducer.h"
 #include "artus/detail/exchange/igtl/contents.h"
+#include "artus/echo/transducer.h"
 
 namespace artus {
 

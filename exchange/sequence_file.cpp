@@ -15,7 +15,7 @@
 namespace artus {
 namespace {
 
-constexpr int kLargestSide = 16384;           // pixels
+constexpr int kLargestSide = 16384;          // pixels
 constexpr std::size_t kMaxFrames = 1000000;  // that a file is believed to have
 
 using Fields = std::map<std::string, std::string, std::less<>>;
@@ -102,8 +102,7 @@ Result<std::vector<std::size_t>> size_of(const Fields& fields, const std::string
   const std::vector<double> numbers = numbers_of(fields, "DimSize");
   std::vector<std::size_t> size;
   for (const double n : numbers)
-    if (n >= 1 && n <= static_cast<double>(kMaxFrames))
-      size.push_back(static_cast<std::size_t>(n));
+    if (n >= 1 && n <= static_cast<double>(kMaxFrames)) size.push_back(static_cast<std::size_t>(n));
   if (size.size() != numbers.size() || (size.size() != 3 && size.size() != 4) ||
       size[0] > kLargestSide || size[1] > kLargestSide || (size.size() == 4 && size[2] != 1))
     return fail(ErrorCode::malformed, "DimSize must be width, height and number of frames", name);

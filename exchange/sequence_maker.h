@@ -7,9 +7,9 @@
 
 #include "artus/core/geometry.h"
 #include "artus/core/result.h"
-#include "artus/echo/transducer.h"
 #include "artus/detail/exchange/reference_frame.h"
 #include "artus/detail/exchange/sequence_file.h"
+#include "artus/echo/transducer.h"
 
 namespace artus {
 

@@ -8,8 +8,8 @@
 #include "artus/detail/exchange/igtl/message.h"
 #include "artus/detail/exchange/reference_frame.h"
 #include "artus/detail/exchange/tracker_calibration.h"
-#include "artus/simulation/input_device.h"
 #include "artus/detail/session/shm/seqlock.h"
+#include "artus/simulation/input_device.h"
 
 namespace artus {
 

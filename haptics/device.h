@@ -3,8 +3,8 @@
 #include <array>
 #include <string_view>
 
-#include "artus/detail/core/check.h"
 #include "artus/core/result.h"
+#include "artus/detail/core/check.h"
 #include "artus/detail/haptics/wrench.h"
 
 namespace artus {

@@ -20,8 +20,11 @@ Vec3 limit_step(const Vec3& from, const Vec3& to, double step, bool& limited) no
 }  // namespace
 
 std::uint32_t InputGuard::check(const TimedPose& pose) noexcept {
-  if (!pose.X_JN.matrix().allFinite() || !std::isfinite(pose.time)) return TickStatus::kNotFinite;
-  if (!is_rigid(pose.X_JN)) return TickStatus::kNotRigid;
+  if (pose.check == TimedPose::Check::absent) return TickStatus::kNotFinite;
+  if (pose.check == TimedPose::Check::none) {
+    if (!pose.X_JN.matrix().allFinite() || !std::isfinite(pose.time)) return TickStatus::kNotFinite;
+    if (!is_rigid(pose.X_JN)) return TickStatus::kNotRigid;
+  }
   std::uint32_t faults = 0;
   const Vec3 off = (pose.X_JN.translation() - params_.workspace_centre).cwiseAbs();
   if ((off.array() > params_.workspace_half.array()).any()) faults |= TickStatus::kOutOfWorkspace;

@@ -39,8 +39,15 @@ struct GuardParams {
 
 /// A pose as an input device gives it: tip pose and the time it was sampled.
 struct TimedPose {
+  /// What is known of a pose before the tick looks at it.
+  enum class Check {
+    none,   ///< nothing: it is looked at here
+    done,   ///< it is finite and rigid, as a border has made sure
+    absent  ///< there is none in this tick
+  };
   Pose X_JN = Pose::Identity();
   double time = 0;  ///< s, never decreasing
+  Check check = Check::none;
 };
 
 /// The first stage of the tick: refuses poses that no hand can make.

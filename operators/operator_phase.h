@@ -2,8 +2,8 @@
 #pragma once
 #include <string>
 
-#include "artus/detail/anatomy/body/tet_mesh.h"
 #include "artus/core/geometry.h"
+#include "artus/detail/anatomy/body/tet_mesh.h"
 
 namespace artus {
 

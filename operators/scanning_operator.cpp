@@ -21,7 +21,7 @@ constexpr double kBold = 5e-3;         // m
 constexpr double kTooFar = 8e-3;       // m past the target where anyone stops
 constexpr double kAppear = 2e-3;       // m beyond where the tip should have come into the picture
 constexpr double kNudge = 0.7e-3;      // m at a time when liquid runs elsewhere; assumed
-constexpr int kMaxNudges = 4;         // assumed
+constexpr int kMaxNudges = 4;          // assumed
 constexpr double kLearning = 0.069;    // a trial
 
 }  // namespace
@@ -72,11 +72,12 @@ ScanningOperator::ScanningOperator(const OperatorSkill& skill, const ScanPlan& p
     : skill_(skill), plan_(plan), seed_(seed) {
   const Vec3 direction = (plan.target - plan.entry).normalized();
   const Vec3 aside = plan.X_JP.linear().col(1);
-  const Vec3 across =
-      direction.cross(aside).norm() > 1e-6 ? Vec3(direction.cross(aside).normalized()) : direction.unitOrthogonal();
+  const Vec3 across = direction.cross(aside).norm() > 1e-6
+                          ? Vec3(direction.cross(aside).normalized())
+                          : direction.unitOrthogonal();
   x_hint_ = aside;
-  entry_ =
-      plan.entry + skill.entry_sd * (gauss() * aside + gauss() * direction.cross(across).normalized());
+  entry_ = plan.entry +
+           skill.entry_sd * (gauss() * aside + gauss() * direction.cross(across).normalized());
   const Vec3 aim = (plan.target - entry_).normalized();
   direction_ = (Eigen::AngleAxisd(skill.aim_sd * kDegree * gauss(), across) *
                 Eigen::AngleAxisd(skill.aim_sd * kDegree * gauss(), aside) * aim)
@@ -97,12 +98,12 @@ double ScanningOperator::gauss() noexcept {
   return normal_noise(mix_bits(seed_), draws_++);
 }
 
-double ScanningOperator::direction(double t) const noexcept {
+double ScanningOperator::depth_meant(double t) const noexcept {
   return phase_distance_ + speed_ * (t - phase_time_);
 }
 
 void ScanningOperator::begin(Phase phase, double time) noexcept {
-  phase_distance_ = direction(time);
+  phase_distance_ = depth_meant(time);
   phase_time_ = time;
   phase_ = phase;
   speed_ = 0;
@@ -144,7 +145,7 @@ void ScanningOperator::advance(double time, const Pose& X_JN, const ScanGlance& 
     begin(Phase::hold, time);
     return;
   }
-  phase_distance_ = direction(time);
+  phase_distance_ = depth_meant(time);
   phase_time_ = time;
   speed_ = left < 6e-3 ? 0.5 * skill_.speed : skill_.speed;
   const bool not_yet = seen_depth_ <= 0 && glance.depth < plan_.appears + kAppear;
@@ -208,7 +209,7 @@ void ScanningOperator::look(double time, const Pose& X_JN, const ScanGlance& gla
       hold(time, X_JN, glance);
       break;
     case Phase::withdraw:
-      if (direction(time) <= -kApproach) begin(Phase::done, time);
+      if (depth_meant(time) <= -kApproach) begin(Phase::done, time);
       break;
     case Phase::done:
       break;
@@ -217,7 +218,7 @@ void ScanningOperator::look(double time, const Pose& X_JN, const ScanGlance& gla
 
 Intention ScanningOperator::intention(double t) const noexcept {
   Intention want;
-  want.X_JN = make_pose(entry_ + direction(t) * direction_, direction_, x_hint_);
+  want.X_JN = make_pose(entry_ + depth_meant(t) * direction_, direction_, x_hint_);
   want.velocity = speed_ * direction_;
   want.hold = phase_ == Phase::hold || phase_ == Phase::search;
   return want;

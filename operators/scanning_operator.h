@@ -80,16 +80,16 @@ class ScanningOperator {
   void hold(double time, const Pose& X_JN, const ScanGlance& glance);
   [[nodiscard]] double draw() noexcept;
   [[nodiscard]] double gauss() noexcept;
-  [[nodiscard]] double travelled(double t) const noexcept;
+  [[nodiscard]] double depth_meant(double t) const noexcept;
 
   OperatorSkill skill_;
   ScanPlan plan_;
   std::uint64_t seed_;
   std::uint64_t draws_ = 0;
   Phase phase_ = Phase::approach;
-  double phase_time_ = 0;  // s
-  double phase_distance_ = 0;   // m along the line when the phase began
-  double speed_ = 0;       // m/s of it now
+  double phase_time_ = 0;      // s
+  double phase_distance_ = 0;  // m along the line when the phase began
+  double speed_ = 0;           // m/s of it now
   Vec3 entry_ = Vec3::Zero();
   Vec3 direction_ = Vec3::UnitZ();
   Vec3 x_hint_ = Vec3::UnitX();

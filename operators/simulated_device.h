@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
-#include "artus/haptics/device.h"
 #include "artus/detail/operators/simulated_hand.h"
+#include "artus/haptics/device.h"
 
 namespace artus {
 

@@ -8,7 +8,7 @@ namespace artus {
 /// A thumb on a plunger. Stiffness and the strongest comfortable push are assumed.
 struct ThumbParams {
   double stiffness = 2000;  ///< N/m
-  double max_force = 40;   ///< N beyond which it does not press to keep a rate
+  double max_force = 40;    ///< N beyond which it does not press to keep a rate
 };
 
 /// Moves a plunger as an operator's phase says: at a rate, by a position that runs ahead of the

@@ -9,10 +9,10 @@
 #include <pybind11/stl.h>
 
 #include "artus/detail/echo/display/image_fields.h"
+#include "artus/detail/python/borders.h"
 #include "artus/echo/labels.h"
 #include "artus/echo/renderer.h"
 #include "artus/echo/transducer_file.h"
-#include "artus/detail/python/borders.h"
 
 namespace artus::python {
 namespace {

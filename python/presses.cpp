@@ -6,9 +6,9 @@
 #include <pybind11/stl.h>
 
 #include "artus/detail/echo/probe/pressing_face.h"
-#include "artus/echo/transducer_file.h"
 #include "artus/detail/python/borders.h"
 #include "artus/detail/raycast/pressed_scene.h"
+#include "artus/echo/transducer_file.h"
 
 namespace artus::python {
 namespace {

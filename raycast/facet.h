@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "artus/detail/anatomy/body/tet_mesh.h"
 #include "artus/core/geometry.h"
+#include "artus/detail/anatomy/body/tet_mesh.h"
 
 namespace artus {
 

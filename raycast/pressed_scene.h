@@ -3,8 +3,8 @@
 #include <memory>
 #include <optional>
 
-#include "artus/raycast/scene.h"
 #include "artus/detail/soft/solver/press.h"
+#include "artus/raycast/scene.h"
 
 namespace artus {
 

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "artus/anatomy/compiled_joint.h"
-#include "artus/detail/core/check.h"
 #include "artus/core/geometry.h"
 #include "artus/core/result.h"
+#include "artus/detail/core/check.h"
 
 namespace artus {
 

@@ -8,14 +8,14 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "artus/detail/reports/html_page.h"
-#include "artus/detail/reports/moment_view.h"
 #include "artus/detail/core/text_cursor.h"
 #include "artus/detail/core/text_file.h"
 #include "artus/detail/core/units.h"
+#include "artus/detail/reports/html_page.h"
+#include "artus/detail/reports/moment_view.h"
+#include "artus/detail/training/svg_plot.h"
 #include "artus/echo/image_io.h"
 #include "artus/echo/renderer.h"
-#include "artus/detail/training/svg_plot.h"
 
 namespace artus {
 namespace {

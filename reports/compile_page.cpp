@@ -8,13 +8,13 @@
 
 #include "artus/detail/anatomy/surfaces/distance_tree.h"
 #include "artus/detail/anatomy/surfaces/surface_io.h"
+#include "artus/detail/core/text_cursor.h"
+#include "artus/detail/core/text_file.h"
+#include "artus/detail/core/units.h"
 #include "artus/detail/reports/html_page.h"
 #include "artus/detail/reports/joint_report.h"
 #include "artus/detail/reports/mesh_picture.h"
 #include "artus/detail/reports/report_colours.h"
-#include "artus/detail/core/text_cursor.h"
-#include "artus/detail/core/text_file.h"
-#include "artus/detail/core/units.h"
 #include "artus/raycast/scene.h"
 
 namespace artus {

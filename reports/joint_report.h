@@ -3,8 +3,8 @@
 #include <filesystem>
 
 #include "artus/anatomy/compile.h"
-#include "artus/detail/anatomy/compile/check/joint_check.h"
 #include "artus/core/result.h"
+#include "artus/detail/anatomy/compile/check/joint_check.h"
 
 namespace artus {
 

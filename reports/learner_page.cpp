@@ -6,10 +6,10 @@
 #include <memory>
 #include <numeric>
 
-#include "artus/detail/reports/attempt_page.h"
-#include "artus/detail/reports/html_page.h"
 #include "artus/detail/core/text_cursor.h"
 #include "artus/detail/core/text_file.h"
+#include "artus/detail/reports/attempt_page.h"
+#include "artus/detail/reports/html_page.h"
 #include "artus/detail/training/judgement.h"
 #include "artus/detail/training/learning_curve.h"
 #include "artus/detail/training/learning_fit.h"

@@ -6,8 +6,8 @@
 #include <numbers>
 #include <utility>
 
-#include "artus/detail/reports/report_colours.h"
 #include "artus/detail/core/units.h"
+#include "artus/detail/reports/report_colours.h"
 
 namespace artus {
 namespace {

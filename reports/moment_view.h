@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "artus/detail/reports/mesh_picture.h"
+#include "artus/detail/training/scenario.h"
 #include "artus/raycast/scene.h"
 #include "artus/simulation/session_params.h"
-#include "artus/detail/training/scenario.h"
 
 namespace artus {
 

@@ -7,7 +7,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "artus/detail/simulation/session_core.h"
+#include "artus/detail/simulation/records.h"
 
 namespace artus {
 

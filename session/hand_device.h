@@ -3,8 +3,8 @@
 #include <atomic>
 #include <cstdint>
 
-#include "artus/simulation/input_device.h"
 #include "artus/detail/session/shm/seqlock.h"
+#include "artus/simulation/input_device.h"
 
 namespace artus {
 

@@ -3,9 +3,9 @@
 
 namespace artus {
 
-HapticLoop::HapticLoop(HapticCore& core, InputDevice& device, double rate_hz,
+HapticLoop::HapticLoop(Simulation& simulation, InputDevice& device, double rate_hz,
                        Seqlock<HapticSnapshot>& newest, const HapticTimes& times) noexcept
-    : core_(core),
+    : simulation_(simulation),
       device_(device),
       newest_(newest),
       times_(times),
@@ -32,7 +32,7 @@ const HapticSnapshot& HapticLoop::step(std::uint32_t command) noexcept {
   input.command = too_late_ ? command | SessionCommand::kLate : command;
   const std::int64_t begin = monotonic_ns();
   const std::int64_t cpu_begin = thread_cpu_ns();
-  const HapticSnapshot& out = core_.step(input);
+  const HapticSnapshot& out = simulation_.tick(input);
   DeviceFeedback feedback = out.feedback;
   feedback.time_ns = monotonic_ns();
   device_.write(feedback);

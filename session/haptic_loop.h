@@ -2,10 +2,10 @@
 #pragma once
 #include <cstdint>
 
-#include "artus/detail/session/shm/seqlock.h"
-#include "artus/detail/simulation/session_core.h"
 #include "artus/detail/session/session_histogram.h"
 #include "artus/detail/session/session_thread.h"
+#include "artus/detail/session/shm/seqlock.h"
+#include "artus/simulation/simulation.h"
 
 namespace artus {
 
@@ -22,8 +22,8 @@ struct HapticTimes {
 class HapticLoop {
  public:
   /// All arguments outlive the loop. Requires: rate_hz > 0.
-  HapticLoop(HapticCore& core, InputDevice& device, double rate_hz, Seqlock<HapticSnapshot>& newest,
-             const HapticTimes& times) noexcept;
+  HapticLoop(Simulation& simulation, InputDevice& device, double rate_hz,
+             Seqlock<HapticSnapshot>& newest, const HapticTimes& times) noexcept;
   ~HapticLoop();
   HapticLoop(const HapticLoop&) = delete;
   HapticLoop& operator=(const HapticLoop&) = delete;
@@ -37,7 +37,7 @@ class HapticLoop {
   [[nodiscard]] std::uint64_t overruns() const noexcept { return schedule_.overruns(); }
 
  private:
-  HapticCore& core_;
+  Simulation& simulation_;
   InputDevice& device_;
   Seqlock<HapticSnapshot>& newest_;
   HapticTimes times_;

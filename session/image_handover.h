@@ -6,13 +6,13 @@
 #include <string>
 #include <utility>
 
-#include "artus/detail/simulation/image_core.h"
+#include "artus/detail/simulation/imaged_body.h"
+#include "artus/detail/simulation/records.h"
 
 namespace artus {
 
 /// A picture to be drawn.
 struct ImageJob {
-  ImageCore* core = nullptr;
   FrameInput input;
   ImagedBody body;
   bool alive = false;  ///< the device was, when it told the poses

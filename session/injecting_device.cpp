@@ -71,8 +71,8 @@ void InjectingDevice::press_plunger() noexcept {
   PlungerState plunger;
   plunger.travel = felt_.travel;
   plunger.pressure = felt_.pressure;
-  const PlungerInput request = thumb_.step(meant ? dose_.present(person_.present()) : nullptr, plunger,
-                                        plan_.plunger.syringe.area(), period_);
+  const PlungerInput request = thumb_.step(meant ? dose_.present(person_.present()) : nullptr,
+                                           plunger, plan_.plunger.syringe.area(), period_);
   sample_.plunger = request.stiffness > 0 ? PlungerSign::travel : PlungerSign::force;
   sample_.plunger_travel = request.position;
   sample_.plunger_force = request.force;

@@ -39,13 +39,13 @@ void count(const HapticSnapshot& out, ServoReport& report) noexcept {
 
 }  // namespace
 
-void run_servo_loop(HapticCore& core, InputDevice& device, const ServoOptions& options,
+void run_servo_loop(Simulation& simulation, InputDevice& device, const ServoOptions& options,
                     const std::atomic<bool>& stop, Seqlock<HapticSnapshot>& newest,
                     ServoReport& report) {
   report.refused = request_from_system(options.thread);
   measure_floor(options, stop, report.floor);
   const std::int64_t end = monotonic_ns() + static_cast<std::int64_t>(1e9 * options.seconds);
-  HapticLoop loop(core, device, options.rate_hz, newest,
+  HapticLoop loop(simulation, device, options.rate_hz, newest,
                   {report.compute, report.cpu, report.lateness});
   std::uint64_t x = 1;
   while (!stop.load(std::memory_order_relaxed) && monotonic_ns() < end) {

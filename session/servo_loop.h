@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "artus/detail/session/shm/seqlock.h"
-#include "artus/detail/simulation/session_core.h"
 #include "artus/detail/session/session_histogram.h"
 #include "artus/detail/session/session_thread.h"
+#include "artus/detail/session/shm/seqlock.h"
+#include "artus/simulation/simulation.h"
 
 namespace artus {
 
@@ -33,8 +33,8 @@ struct ServoReport {
   std::uint64_t faults = 0;    ///< ticks whose input was refused
   std::uint64_t inserted = 0;  ///< ticks with the needle in the body
   std::uint64_t on_bone = 0;
-  double max_force = 0;             ///< N sent
-  double max_thumb = 0;             ///< N sent to the plunger
+  double max_force = 0;              ///< N sent
+  double max_thumb = 0;              ///< N sent to the plunger
   double given = 0;                  ///< m^3 out of the needle's tip
   std::vector<std::string> refused;  ///< what the system did not grant, in words
 };
@@ -43,7 +43,7 @@ struct ServoReport {
 /// `stop`: device in, tick, device out, snapshot published; then, as a gauge of the machine, a
 /// fixed work of some microseconds (ServoReport::fixed). The last thing sent is zero force. Asks
 /// the system for `wishes` first; a refusal is reported, not fatal.
-void run_servo_loop(HapticCore& core, InputDevice& device, const ServoOptions& options,
+void run_servo_loop(Simulation& simulation, InputDevice& device, const ServoOptions& options,
                     const std::atomic<bool>& stop, Seqlock<HapticSnapshot>& newest,
                     ServoReport& report);
 

@@ -6,14 +6,15 @@
 #include <utility>
 
 #include "artus/detail/core/noise.h"
-#include "artus/detail/session/record/dropping_ring.h"
 #include "artus/detail/session/haptic_loop.h"
 #include "artus/detail/session/image_handover.h"
+#include "artus/detail/session/record/dropping_ring.h"
 
 namespace artus {
 namespace {
 
-constexpr std::int64_t kHousekeepingPeriod = 20'000'000;     // ns between two looks at what may be spoiled
+constexpr std::int64_t kHousekeepingPeriod =
+    20'000'000;                                      // ns between two looks at what may be spoiled
 constexpr std::int64_t kAfterFailure = 500'000'000;  // ns before imaging is tried again
 constexpr std::size_t kMaxNotices = 100;
 
@@ -53,11 +54,12 @@ double press_of_probe(const HapticSnapshot& tick) noexcept {
 }
 
 Session::Session(std::shared_ptr<const Scene> scene, const SessionParams& params,
-                 std::unique_ptr<InputDevice> device)
+                 std::unique_ptr<InputDevice> device, const Options& options)
     : scene_(std::move(scene)),
       params_(params),
       device_(std::move(device)),
-      core_(scene_, params_),
+      simulation_(scene_, params_, options.extra_scene_holders),
+      draws_(options.images),
       times_(std::make_unique<SessionTimes>()),
       trace_(std::make_unique<DroppingRing<TracePoint>>(8192)),
       handover_(std::make_unique<ImageHandover>()),
@@ -71,7 +73,8 @@ Result<std::unique_ptr<Session>> Session::start(std::shared_ptr<const Scene> sce
                                                 const Options& options) {
   ARTUS_REQUIRE(scene != nullptr && device != nullptr, "a session needs a scene and a device");
   ARTUS_TRY(validate(params));
-  std::unique_ptr<Session> session(new Session(std::move(scene), params, std::move(device)));
+  std::unique_ptr<Session> session(
+      new Session(std::move(scene), params, std::move(device), options));
   if (!options.recording.empty()) {
     auto recorder =
         Recorder::start(options.recording, make_head(session->scene_->joint(), session->params_));
@@ -82,8 +85,8 @@ Result<std::unique_ptr<Session>> Session::start(std::shared_ptr<const Scene> sce
   session->observer_ = options.observer;
   session->gauges_ = options.gauge;
   if (options.images && options.share_images) {
-    auto channel = ReopeningChannel<artus_shm_image>::open(options.image_segment_prefix, kImageLayout,
-                                                         SegmentAccess::owner_writes);
+    auto channel = ReopeningChannel<artus_shm_image>::open(
+        options.image_segment_prefix, kImageLayout, SegmentAccess::owner_writes);
     ARTUS_TRY(channel);
     session->shared_image_ = std::move(*channel);
     session->image_bytes_ = std::make_unique<artus_shm_image>();
@@ -92,12 +95,10 @@ Result<std::unique_ptr<Session>> Session::start(std::shared_ptr<const Scene> sce
   const ThreadOptions haptics = options.haptic_options;
   const ThreadOptions imaging = options.imaging_options;
   session->haptic_thread_ = std::thread([running, haptics] { running->run_haptics(haptics); });
-  if (options.images) {
+  if (options.images)
     session->drawing_thread_ = std::thread([running, imaging] { running->run_drawing(imaging); });
-    session->imaging_thread_ = std::thread([running, imaging, extra_scene_holders = options.extra_scene_holders] {
-      running->run_imaging(imaging, extra_scene_holders);
-    });
-  }
+  if (options.images || params.deform)
+    session->imaging_thread_ = std::thread([running, imaging] { running->run_imaging(imaging); });
   session->housekeeping_thread_ = std::thread([running] { running->run_housekeeping(); });
   return session;
 }
@@ -152,7 +153,7 @@ void Session::rest(std::int64_t ns) const noexcept {
 
 void Session::run_haptics(const ThreadOptions& options) {
   request_priority("haptics", options);
-  HapticLoop loop(core_, *device_, params_.haptic_rate, haptic_,
+  HapticLoop loop(simulation_, *device_, params_.haptic_rate, haptic_,
                   {times_->haptic_compute, times_->haptic_cpu, times_->haptic_lateness});
   while (!stop_.load(std::memory_order_relaxed)) {
     loop.wait();
@@ -167,7 +168,7 @@ void Session::take_packet(std::uint64_t tick) noexcept {
   TissuePacket packet;
   if (!packets_.try_load(packet) || packet.probe.number == packet_felt_) return;
   packet_felt_ = packet.probe.number;
-  core_.take(packet);
+  simulation_.take(packet);
   if (recorder_) recorder_->add(PacketRecord{tick, packet});
 }
 
@@ -208,25 +209,27 @@ void Session::gauge() {
   if (x != 0) times_->fixed_work.add(monotonic_ns() - begin);  // never zero: it is not left out
 }
 
-void Session::run_imaging(const ThreadOptions& options, std::size_t extra_scene_holders) {
+void Session::run_imaging(const ThreadOptions& options) {
   request_priority("imaging", options);
-  std::unique_ptr<ImageCore> core;
+  bool prepared = false;
   PeriodicSchedule schedule(params_.image_rate);
   std::uint64_t number = 0;
   while (!stop_.load(std::memory_order_relaxed)) {
     schedule.wait();
     std::string failure = handover_->take_failure();
     try {
-      if (failure.empty() && !core) {
-        core = std::make_unique<ImageCore>(scene_, params_, extra_scene_holders);
-        if (!core->refusal().empty()) tell("the tissue stays rigid: " + core->refusal());
+      if (failure.empty() && !prepared) {
+        simulation_.prepare_imaging();
+        prepared = true;
+        const std::string& refusal = simulation_.refusal();
+        if (!refusal.empty()) tell("the tissue stays rigid: " + refusal);
       }
       if (failure.empty() && frozen_.load(std::memory_order_relaxed)) {
         handover_->rest();
         n_images_ = 0;  // a pause is no gap
         answered_ns_ = 0;
         share_again();
-      } else if (failure.empty() && advance(*core, number + 1)) {
+      } else if (failure.empty() && advance(number + 1)) {
         ++number;
       }
     } catch (...) {
@@ -235,7 +238,8 @@ void Session::run_imaging(const ThreadOptions& options, std::size_t extra_scene_
     if (failure.empty()) continue;
     tell("imaging failed: " + failure + "; it is tried again");
     handover_->rest();
-    core.reset();
+    simulation_.restart_imaging();
+    prepared = false;
     rest(kAfterFailure);
   }
   handover_->rest();
@@ -243,7 +247,7 @@ void Session::run_imaging(const ThreadOptions& options, std::size_t extra_scene_
 
 /// The tissue's step to image `number`, and its picture to who draws. False: nothing is known yet,
 /// or nothing since the image before.
-bool Session::advance(ImageCore& core, std::uint64_t number) {
+bool Session::advance(std::uint64_t number) {
   HapticSnapshot snapshot;
   ImageControls controls;
   if (ticks_.load(std::memory_order_relaxed) == 0 || !haptic_.load(snapshot, 1000) ||
@@ -252,7 +256,7 @@ bool Session::advance(ImageCore& core, std::uint64_t number) {
   imaged_tick_ = snapshot.input.tick;
   const std::int64_t begin = monotonic_ns();
   const FrameInput input = frame_input(snapshot, controls, number);
-  ImagedBody body = core.advance(input);
+  ImagedBody body = simulation_.advance(input);
   if (body.packet) {
     packets_.store(*body.packet);
     const std::int64_t now = monotonic_ns();
@@ -260,7 +264,14 @@ bool Session::advance(ImageCore& core, std::uint64_t number) {
     if (answered_ns_ > 0) times_->tissue_interval.add(now - answered_ns_);
     answered_ns_ = now;
   }
-  handover_->put({&core, input, std::move(body), snapshot.input.device.state == PeerState::alive});
+  if (draws_) {
+    handover_->put({input, std::move(body), snapshot.input.device.state == PeerState::alive});
+  } else if (recorder_ && body.packet) {
+    FrameRecord record;
+    record.input = input;
+    record.packet = digest_of(*body.packet);
+    recorder_->add(record);
+  }
   return true;
 }
 
@@ -278,25 +289,24 @@ void Session::run_drawing(const ThreadOptions& options) {
 }
 
 void Session::draw(const ImageJob& job) {
-  ImageCore& core = *job.core;
   const std::int64_t begin = monotonic_ns();
-  core.set_motion_wanted(motion_wanted_);
+  simulation_.set_motion_wanted(motion_wanted_);
   ImageSnapshot& out = images_.slot();
   out.body = nullptr;  // of an image long gone: its scene is used again
-  const Frame& frame = core.render(job.input, job.body);
+  const Frame& frame = simulation_.render(job.input, job.body);
   out.grey.assign(frame.image.begin(), frame.image.end());
-  out.motion = core.motion();
+  out.motion = simulation_.motion();
   out.width = frame.width;
   out.height = frame.height;
   out.pixel = frame.pixel;
-  out.probe_width = core.transducer().width;
+  out.probe_width = simulation_.transducer().width;
   out.input = job.input;
-  out.body = core.drawn_scene();
+  out.body = simulation_.drawn_scene();
   out.ready_ns = monotonic_ns();
   if (shared_image_) share(out);
   if (on_image_) on_image_(out);
   if (recorder_) {
-    FrameRecord record = to_record(job.input, frame, core.transducer());
+    FrameRecord record = to_record(job.input, frame, simulation_.transducer());
     if (job.body.packet) record.packet = digest_of(*job.body.packet);
     recorder_->add(record);
   }

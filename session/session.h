@@ -11,18 +11,17 @@
 #include <vector>
 
 #include "artus/detail/session/record/recorder.h"
-#include "artus/detail/session/shm/reopening_channel.h"
-#include "artus/detail/session/shm/seqlock.h"
-#include "artus/detail/simulation/session_core.h"
 #include "artus/detail/session/session_exchange.h"
 #include "artus/detail/session/session_histogram.h"
 #include "artus/detail/session/session_thread.h"
+#include "artus/detail/session/shm/reopening_channel.h"
+#include "artus/detail/session/shm/seqlock.h"
+#include "artus/simulation/simulation.h"
 
 namespace artus {
 
 template <class T>
 class DroppingRing;
-class ImageCore;
 class ImageHandover;
 struct ImageJob;
 
@@ -94,7 +93,7 @@ class Session {
     ThreadOptions imaging_options{0, -10, false, -1};
     std::filesystem::path recording;   ///< empty: nothing is recorded
     std::string image_segment_prefix;  ///< of IMAGE
-    bool images = true;                ///< false: nothing is drawn
+    bool images = true;                ///< false: tissue gives way all the same, nothing is drawn
     bool share_images = false;         ///< write IMAGE
     bool gauge = false;                ///< time a fixed work beside (SessionTimes::fixed_work)
     /// Who keep the body of a picture (ImageSnapshot::body) while the next are drawn, as a window
@@ -146,9 +145,9 @@ class Session {
 
  private:
   Session(std::shared_ptr<const Scene> scene, const SessionParams& params,
-          std::unique_ptr<InputDevice> device);
+          std::unique_ptr<InputDevice> device, const Options& options);
   void run_haptics(const ThreadOptions& options);
-  void run_imaging(const ThreadOptions& options, std::size_t extra_scene_holders);
+  void run_imaging(const ThreadOptions& options);
   void run_drawing(const ThreadOptions& options);
   void run_housekeeping();
   void gauge();
@@ -158,7 +157,7 @@ class Session {
   [[nodiscard]] std::uint32_t take_command() noexcept;
   void take_packet(std::uint64_t tick) noexcept;
   void publish(const HapticSnapshot& out) noexcept;
-  [[nodiscard]] bool advance(ImageCore& core, std::uint64_t number);
+  [[nodiscard]] bool advance(std::uint64_t number);
   void draw(const ImageJob& job);
   void share(const ImageSnapshot& image);
   void share_again() noexcept;
@@ -167,7 +166,8 @@ class Session {
   std::shared_ptr<const Scene> scene_;
   SessionParams params_;
   std::unique_ptr<InputDevice> device_;
-  HapticCore core_;
+  Simulation simulation_;
+  bool draws_;
   std::unique_ptr<SessionTimes> times_;
   std::unique_ptr<Recorder> recorder_;
   std::unique_ptr<ReopeningChannel<artus_shm_image>> shared_image_;

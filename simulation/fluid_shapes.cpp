@@ -7,8 +7,8 @@
 
 #include "artus/detail/core/check.h"
 #include "artus/detail/haptics/plunger/space_pressure.h"
-#include "artus/detail/soft/solver/face_stress.h"
 #include "artus/detail/soft/liquid/injected_body.h"
+#include "artus/detail/soft/solver/face_stress.h"
 
 namespace artus {
 namespace {
@@ -19,8 +19,8 @@ constexpr double kVisible = 1e-9;      // m^3, of a shape's first liquid and lea
 constexpr double kGrowth = 0.01;       // of what is there
 constexpr double kPressForce = 0.05;   // N by which a press is another
 constexpr double kPressGrowth = 0.05;  // of the force
-constexpr double kPressDistance = 0.5e-3;   // m of its middle
-constexpr double kPressTurn = 0.02;    // rad
+constexpr double kPressDistance = 0.5e-3;  // m of its middle
+constexpr double kPressTurn = 0.02;        // rad
 
 /// Whether the region is anywhere in the body; a recording may name one that a gap left empty.
 bool is_there(const CompiledJoint& joint, std::uint32_t region) {

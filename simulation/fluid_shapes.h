@@ -8,10 +8,10 @@
 
 #include "artus/detail/anatomy/body/liquid.h"
 #include "artus/detail/anatomy/body/space.h"
-#include "artus/raycast/scene.h"
 #include "artus/detail/simulation/syringe_core.h"
 #include "artus/detail/soft/solver/deformed_body.h"
 #include "artus/detail/soft/solver/soft_body.h"
+#include "artus/raycast/scene.h"
 
 namespace artus {
 

@@ -30,7 +30,6 @@ ImageCore::ImageCore(std::shared_ptr<const Scene> scene, const SessionParams& pa
       image_(params.image),
       needle_shape_(params.needle_shape),
       controls_(controls_of(params)),
-      renderer_(scene, params.transducer, params.image),
       rest_(scene),
       drawn_(scene),
       shapes_(scene->shared_joint(), liquid_of(params), params.image_rate),
@@ -75,9 +74,9 @@ void ImageCore::update_scene(const FrameInput& input, const ImagedBody& body) {
   const auto& filled = fluid_.at(body.fluid, body.scene->tissue());
   drawn_ = filled ? filled : body.scene;
   if (filled || filled_)
-    renderer_.set_filled_scene(drawn_);
+    renderer_->set_filled_scene(drawn_);
   else if (tissue_)
-    renderer_.set_scene(drawn_);
+    renderer_->set_scene(drawn_);
   update_particles(input, filled.get());
   filled_ = filled != nullptr;
 }
@@ -86,8 +85,8 @@ void ImageCore::update_particles(const FrameInput& input, const Scene* filled) {
   constexpr double kLongest = 0.5;  // s; images further apart are not of one course
   if (filled == nullptr) {
     if (filled_) plume_.clear();
-    if (filled_) renderer_.set_drifting_points({});
-    if (filled_) renderer_.set_settling({});
+    if (filled_) renderer_->set_drifting_points({});
+    if (filled_) renderer_->set_settling({});
     return;
   }
   const double since = 1e-9 * static_cast<double>(input.sample_time_ns - before_.sample_time_ns);
@@ -100,8 +99,8 @@ void ImageCore::update_particles(const FrameInput& input, const Scene* filled) {
     for (std::uint32_t k = 0; k < input.n_sites; ++k) source->given += input.sites[k].volume;
   }
   plume_.step(*filled, source, Vec3::UnitZ(), since > 0 && since < kLongest ? since : image_time_);
-  renderer_.set_drifting_points(plume_.points());
-  renderer_.set_settling({Vec3::UnitZ(), plume_.fallen()});
+  renderer_->set_drifting_points(plume_.points());
+  renderer_->set_settling({Vec3::UnitZ(), plume_.fallen()});
 }
 
 void ImageCore::follow(const ImageControls& controls) {
@@ -117,12 +116,12 @@ void ImageCore::follow(const ImageControls& controls) {
   if (!validate(probe) || !validate(image)) return;
   probe_ = probe;
   image_ = image;
-  renderer_.set_live(image_);
+  renderer_->set_live(image_);
 }
 
 void ImageCore::take_tables() {
-  renderer_.set_pipeline(next_.get());
-  renderer_.set_live(image_);
+  renderer_->set_pipeline(next_.get());
+  renderer_->set_live(image_);
 }
 
 void ImageCore::start_tables() {
@@ -133,18 +132,19 @@ void ImageCore::start_tables() {
 }
 
 const Frame& ImageCore::render(const FrameInput& input, const ImagedBody& body) {
+  if (!renderer_) renderer_.emplace(rest_, probe_, image_);
   update_scene(input, body);
   ++images_;
   if (!(input.controls == controls_)) follow(input.controls);
   if (next_.valid() && images_ == due_) take_tables();
   const TableSettings& tables = image_;
-  const bool shown = tables == renderer_.settings() && probe_ == transducer();
+  const bool shown = tables == renderer_->settings() && probe_ == renderer_->transducer();
   if (!shown && !next_.valid()) start_tables();
   std::optional<NeedleView> needle;
   if (input.has_needle != 0)
     needle = NeedleView{to_pose(input.X_JN), needle_shape_, velocity_of_needle(input)};
   before_ = input;
-  frame_ = &renderer_.render(to_pose(input.X_JP), needle);
+  frame_ = &renderer_->render(to_pose(input.X_JP), needle);
   return *frame_;
 }
 
@@ -158,7 +158,7 @@ Vec3 ImageCore::velocity_of_needle(const FrameInput& input) const noexcept {
 
 std::vector<std::uint8_t> ImageCore::motion() const {
   if (!motion_wanted_ || frame_ == nullptr || frame_->velocity.empty()) return {};
-  return motion_picture(*frame_, renderer_.converter(), renderer_.settings());
+  return motion_picture(*frame_, renderer_->converter(), renderer_->settings());
 }
 
 }  // namespace artus

@@ -7,23 +7,15 @@
 #include <string>
 #include <vector>
 
-#include "artus/detail/echo/display/echo_pipeline.h"
 #include "artus/detail/echo/acquire/liquid_plume.h"
-#include "artus/echo/renderer.h"
+#include "artus/detail/echo/display/echo_pipeline.h"
 #include "artus/detail/simulation/fluid_scene.h"
-#include "artus/detail/simulation/fluid_shapes.h"
-#include "artus/detail/simulation/session_core.h"
+#include "artus/detail/simulation/imaged_body.h"
+#include "artus/detail/simulation/records.h"
 #include "artus/detail/simulation/tissue_core.h"
+#include "artus/echo/renderer.h"
 
 namespace artus {
-
-/// The body at an image's instant, before its picture.
-struct ImagedBody {
-  std::uint64_t number = 0;            ///< of the image; 0: of none
-  std::shared_ptr<const Scene> scene;  ///< without what was injected
-  std::optional<TissuePacket> packet;  ///< what it answers the hands with; empty: it is rigid
-  FluidState fluid;                    ///< what was injected
-};
 
 /// The imaging half of a session as a pure function of its inputs: what runs live is what a replay
 /// runs. Gain, range and time gain show in the next image. Depth, frequency and focus need new
@@ -68,7 +60,10 @@ class ImageCore {
   /// Why the body is rigid though it should give way; empty: it does, or should not.
   [[nodiscard]] const std::string& refusal() const noexcept { return refusal_; }
 
-  [[nodiscard]] const Transducer& transducer() const noexcept { return renderer_.transducer(); }
+  /// Of the last picture, or the first that will be.
+  [[nodiscard]] const Transducer& transducer() const noexcept {
+    return renderer_ ? renderer_->transducer() : probe_;
+  }
   /// Images from the first with a knob in a new place to the first that new tables made.
   [[nodiscard]] std::uint64_t images_to_change() const noexcept { return images_to_change_; }
 
@@ -84,7 +79,7 @@ class ImageCore {
   ImageSettings image_;
   NeedleShape needle_shape_;
   ImageControls controls_;
-  Renderer renderer_;
+  std::optional<Renderer> renderer_;  // empty: nothing was drawn yet
   std::optional<TissueCore> tissue_;  // empty: rigid
   std::string refusal_;
   std::shared_ptr<const Scene> rest_;

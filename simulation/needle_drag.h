@@ -2,9 +2,9 @@
 #pragma once
 #include <vector>
 
+#include "artus/detail/soft/solver/soft_solver.h"
 #include "artus/echo/needle_view.h"
 #include "artus/raycast/scene.h"
-#include "artus/detail/soft/solver/soft_solver.h"
 
 namespace artus {
 
@@ -24,7 +24,7 @@ struct NeedleDrag {
 /// membrane that it has passed by less than its puncture force pushes it still holds: it is pushed
 /// on to the tip. `scene`: the body as it lies without the needle; `tissue_compliance` (m/N) of the
 /// point at the tip, which has no more than K_t of a layer leaves it (max_tissue_compliance).
-[[nodiscard]] NeedleDrag find_drag(const Scene& scene, const NeedleView& needle, NeedleDirection path,
-                                   double tissue_compliance);
+[[nodiscard]] NeedleDrag find_drag(const Scene& scene, const NeedleView& needle,
+                                   NeedleDirection path, double tissue_compliance);
 
 }  // namespace artus

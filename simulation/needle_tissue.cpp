@@ -10,13 +10,13 @@
 namespace artus {
 namespace {
 
-constexpr double kTakeTime = 0.25;      // s that a compliance may take to compute
-constexpr double kAhead = 15e-3;        // m from the tip to the skin at which it is begun
-constexpr double kTrackLength = 40e-3;  // m of material that it is of
-constexpr double kBehind = 0.1;         // m from the tip back to the skin, at most
-constexpr double kTrackDistance = 1e-3;      // m that the entry moves before it is too old
-constexpr double kTrackTurn = 0.04;     // rad
-constexpr double kUnlike = 0.2e-3;      // m, assumed: others carry the tissue outward by no more
+constexpr double kTakeTime = 0.25;       // s that a compliance may take to compute
+constexpr double kAhead = 15e-3;         // m from the tip to the skin at which it is begun
+constexpr double kTrackLength = 40e-3;   // m of material that it is of
+constexpr double kBehind = 0.1;          // m from the tip back to the skin, at most
+constexpr double kTrackDistance = 1e-3;  // m that the entry moves before it is too old
+constexpr double kTrackTurn = 0.04;      // rad
+constexpr double kUnlike = 0.2e-3;       // m, assumed: others carry the tissue outward by no more
 
 bool same_loads(const std::vector<PointLoad>& a, const std::vector<PointLoad>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) {

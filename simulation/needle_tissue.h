@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "artus/detail/haptics/needle/needle_packet.h"
-#include "artus/raycast/scene.h"
 #include "artus/detail/soft/solver/soft_body.h"
+#include "artus/raycast/scene.h"
 
 namespace artus {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
-#include "artus/detail/core/check.h"
 #include "artus/core/geometry.h"
+#include "artus/detail/core/check.h"
 
 namespace artus {
 

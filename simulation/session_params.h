@@ -2,15 +2,15 @@
 #pragma once
 #include "artus/core/geometry.h"
 #include "artus/core/result.h"
+#include "artus/detail/haptics/guard.h"
+#include "artus/detail/haptics/passivity.h"
+#include "artus/detail/haptics/plunger/syringe_choice.h"
+#include "artus/detail/simulation/two_phase_gesture.h"
 #include "artus/echo/image_settings.h"
 #include "artus/echo/needle_view.h"
 #include "artus/echo/transducer.h"
 #include "artus/haptics/device.h"
-#include "artus/detail/haptics/guard.h"
 #include "artus/haptics/needle_feel.h"
-#include "artus/detail/haptics/passivity.h"
-#include "artus/detail/haptics/plunger/syringe_choice.h"
-#include "artus/detail/simulation/two_phase_gesture.h"
 
 namespace artus {
 

@@ -28,8 +28,7 @@ SyringeCore::SyringeCore(JointSpaces spaces, const SessionParams& params)
     : bevel_(0),
       of_region_(std::move(spaces.of_region)),
       plunger_(plunger_params(params), std::move(spaces.spaces), 1 / params.haptic_rate),
-      guard_(params.guard, {"thumb", kMaxForce, 0, Vec3::Zero(), 0, 0, 0},
-             1 / params.haptic_rate) {
+      guard_(params.guard, {"thumb", kMaxForce, 0, Vec3::Zero(), 0, 0, 0}, 1 / params.haptic_rate) {
   bevel_ = bevel_length(plunger_.params().needle.outer_diameter);
 }
 

@@ -8,15 +8,15 @@
 namespace artus {
 namespace {
 
-constexpr double kFactorTime = 0.4;    // s that a factor of the tangent may take
-constexpr double kCageTime = 4;        // s that another cage may take
-constexpr double kReadyTime = 1;       // s more, for its first factor and index
+constexpr double kFactorTime = 0.4;         // s that a factor of the tangent may take
+constexpr double kCageTime = 4;             // s that another cage may take
+constexpr double kReadyTime = 1;            // s more, for its first factor and index
 constexpr double kFactorDistance = 0.5e-3;  // m the face moves before its factor is too old
 constexpr double kTissueDistance = 1e-3;    // m the tissue does: crushed, it is much stiffer
-constexpr double kFactorTurn = 0.02;   // rad
-constexpr double kStill = 1e-9;        // m; tissue that moves less has come to rest: some 1e-4 mm
-constexpr int kOutsideImages = 20;     // in a row before another cage is begun
-constexpr int kSteps = 2;              // Newton steps of an image
+constexpr double kFactorTurn = 0.02;        // rad
+constexpr double kStill = 1e-9;     // m; tissue that moves less has come to rest: some 1e-4 mm
+constexpr int kOutsideImages = 20;  // in a row before another cage is begun
+constexpr int kSteps = 2;           // Newton steps of an image
 
 double turn_between(const Pose& a, const Pose& b) {
   return Eigen::AngleAxisd(a.linear().transpose() * b.linear()).angle();
@@ -36,7 +36,8 @@ Result<TissueCore> TissueCore::make(std::shared_ptr<const CompiledJoint> joint, 
   auto body = SoftBody::make(std::move(joint), X_JP, params_with(face));
   ARTUS_TRY(body);
   if (before != nullptr) body->follow(*before);
-  return TissueCore(std::move(*body), image_rate, face, MovingScene::kGoingRound + extra_scene_holders);
+  return TissueCore(std::move(*body), image_rate, face,
+                    MovingScene::kGoingRound + extra_scene_holders);
 }
 
 TissueCore::TissueCore(SoftBody body, double image_rate, const ProbeFace& face, std::size_t scenes)

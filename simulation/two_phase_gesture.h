@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "artus/detail/core/check.h"
 #include "artus/core/geometry.h"
+#include "artus/detail/core/check.h"
 #include "artus/detail/core/units.h"
 #include "artus/raycast/scene.h"
 

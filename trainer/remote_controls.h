@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
-#include "artus/echo/renderer.h"
 #include "artus/detail/exchange/remote_command.h"
-#include "artus/session/session.h"
 #include "artus/detail/training/scenario.h"
+#include "artus/echo/renderer.h"
+#include "artus/session/session.h"
 
 namespace artus {
 

@@ -4,10 +4,10 @@
 #include <cstdio>
 #include <utility>
 
+#include "artus/detail/core/text_file.h"
 #include "artus/detail/reports/attempt_files.h"
 #include "artus/detail/reports/attempt_page.h"
 #include "artus/detail/trainer/train_lesson.h"
-#include "artus/detail/core/text_file.h"
 #include "artus/detail/training/live_attempt.h"
 #include "artus/detail/training/session_meter.h"
 
@@ -23,6 +23,7 @@ Result<SessionParams> params_of(const TrainContext& room, const TrainTask& task)
   ARTUS_TRY(device);
   params->device = *device;
   params->image.n_threads = options.threads;
+  params->deform = !options.rigid && gives_way(task.scene->joint());
   if (options.input == "igtl") {      // a pose that is held is not stale
     constexpr double kMargin = 5e-3;  // s
     params->guard.stale_after =

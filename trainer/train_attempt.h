@@ -4,8 +4,8 @@
 #include <set>
 #include <string>
 
-#include "artus/detail/trainer/remote_controls.h"
 #include "artus/detail/apps/options/session_options.h"
+#include "artus/detail/trainer/remote_controls.h"
 #include "artus/detail/trainer/train_desk.h"
 #include "artus/detail/training/feedback.h"
 #include "artus/detail/training/player.h"

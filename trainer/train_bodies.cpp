@@ -4,9 +4,9 @@
 #include <chrono>
 #include <utility>
 
-#include "artus/echo/renderer.h"
 #include "artus/detail/training/patient_plans.h"
 #include "artus/detail/training/player.h"
+#include "artus/echo/renderer.h"
 
 namespace artus {
 namespace {

@@ -186,8 +186,8 @@ HandTarget first_hands(const Scenario& scenario) {
   constexpr double kAbove = 15e-3;  // m of the tip from the entry
   constexpr int kAimed = 1;         // the highest level that begins in the plane
   const Vec3 direction = scenario.find.empty()
-                       ? (scenario.target.point - scenario.entry.centre).normalized()
-                       : Vec3(scenario.X_JP.linear().col(2));
+                             ? (scenario.target.point - scenario.entry.centre).normalized()
+                             : Vec3(scenario.X_JP.linear().col(2));
   Vec3 tip = scenario.entry.centre - kAbove * direction;
   if (scenario.level > kAimed) {
     constexpr double kBeside = 6e-3;  // m

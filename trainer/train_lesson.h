@@ -4,12 +4,12 @@
 #include <set>
 #include <string>
 
-#include "artus/detail/trainer/train_texts.h"
-#include "artus/raycast/scene.h"
 #include "artus/detail/session/hand_device.h"
+#include "artus/detail/trainer/train_texts.h"
 #include "artus/detail/training/player.h"
 #include "artus/detail/viewer/panels/lesson.h"
 #include "artus/detail/viewer/words/strings.h"
+#include "artus/raycast/scene.h"
 
 namespace artus {
 

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <utility>
 
+#include "artus/detail/core/units.h"
 #include "artus/detail/reports/feedback_words.h"
 #include "artus/detail/trainer/train_lesson.h"
-#include "artus/detail/core/units.h"
 #include "artus/detail/viewer/words/anatomy_names.h"
 
 namespace artus {

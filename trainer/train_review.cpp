@@ -4,11 +4,11 @@
 #include <cmath>
 #include <utility>
 
+#include "artus/detail/core/units.h"
 #include "artus/detail/reports/feedback_words.h"
 #include "artus/detail/trainer/train_texts.h"
-#include "artus/detail/core/units.h"
-#include "artus/session/replay.h"
 #include "artus/detail/viewer/words/anatomy_names.h"
+#include "artus/session/replay.h"
 
 namespace artus {
 namespace {

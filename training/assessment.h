@@ -8,10 +8,10 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "artus/session/recording.h"
 #include "artus/detail/training/metrics/attempt_meter.h"
 #include "artus/detail/training/session_meter.h"
 #include "artus/detail/training/tracked_list.h"
+#include "artus/session/recording.h"
 
 namespace artus {
 

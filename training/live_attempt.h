@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "artus/session/session.h"
 #include "artus/detail/training/metrics/attempt_meter.h"
+#include "artus/session/session.h"
 
 namespace artus {
 

@@ -2,8 +2,8 @@
 #pragma once
 #include <string>
 
-#include "artus/raycast/scene.h"
 #include "artus/detail/training/scenario.h"
+#include "artus/raycast/scene.h"
 
 namespace artus {
 

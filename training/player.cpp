@@ -4,29 +4,24 @@
 #include <algorithm>
 #include <utility>
 
+#include "artus/detail/anatomy/body/meshed_block.h"
 #include "artus/detail/anatomy/body/tissue.h"
 #include "artus/detail/core/text_file.h"
-#include "artus/echo/transducer_file.h"
 #include "artus/detail/training/session_meter.h"
-#include "artus/detail/training/stage.h"
+#include "artus/detail/training/simulated_attempt.h"
+#include "artus/echo/transducer_file.h"
 
 namespace artus {
 namespace {
 
-constexpr double kGuide = 300;  // N/m of a whole haptic_guide; assumed
-constexpr double kWall = 1000;  // N/m of a whole haptic_wall; assumed
+constexpr double kGuide = 300;      // N/m of a whole haptic_guide; assumed
+constexpr double kWall = 1000;      // N/m of a whole haptic_wall; assumed
+constexpr double kGlanceRate = 20;  // Hz of the tissue's steps: as often as the hands look
 
 Result<RegionId> find_region(const CompiledJoint& joint, const std::string& name) {
   for (std::size_t i = kFirstRegion; i < joint.regions.size(); ++i)
     if (joint.regions[i].name == name) return static_cast<RegionId>(i);
   return fail(ErrorCode::not_found, "the joint has no structure '" + name + "'", joint.name);
-}
-
-template <class T>
-void put(std::string& out, std::uint32_t kind, const T& record) {
-  const RecordStart start{kind, sizeof(T)};
-  out.append(reinterpret_cast<const char*>(&start), sizeof start);
-  out.append(reinterpret_cast<const char*>(&record), sizeof record);
 }
 
 }  // namespace
@@ -42,10 +37,15 @@ Result<std::shared_ptr<const Scene>> make_gel_scene(const GelBlock& gel) {
                                    [&](const Tissue& t) { return t.name == name; });
     if (!known) return fail(ErrorCode::not_found, "there is no tissue '" + name + "'", "gel");
   }
-  CompiledJoint block = make_layered_block(*tissues, gel.layers, gel.width, gel.width);
+  constexpr double kCell = 2.5e-3;  // m, of the block's tetrahedra; the cage's cubes are 3 mm
+  CompiledJoint block = make_meshed_block(*tissues, gel.layers, gel.width, gel.width, kCell);
   for (const Ball& ball : gel.balls)
-    add_ball(block, ball, static_cast<RegionId>(kFirstRegion + layer_of(gel, ball)));
+    add_meshed_ball(block, ball, static_cast<RegionId>(kFirstRegion + layer_of(gel, ball)));
   return std::make_shared<const Scene>(std::make_shared<const CompiledJoint>(std::move(block)));
+}
+
+bool gives_way(const CompiledJoint& joint) {
+  return !joint.mesh.tetrahedra.empty();
 }
 
 HandAids aids_of(const Scenario& scenario) {
@@ -114,36 +114,24 @@ Result<PlayedAttempt> play(const Scenario& with_aids, const std::shared_ptr<cons
                            const OperatorSkill& skill, const PlayOptions& options) {
   Scenario scenario = with_aids;
   scenario.aids.clear();
-  const auto params = make_session_params(scenario);
+  auto params = make_session_params(scenario);
   ARTUS_TRY(params);
+  params->deform = !options.rigid && gives_way(scene->joint());
+  params->image_rate = std::max(kGlanceRate, options.picture_rate);
   auto meter_options = make_meter_options(scenario, scene->joint(), *params);
   ARTUS_TRY(meter_options);
   PlayedAttempt attempt;
-  attempt.recording.head = make_head(scene->joint(), *params);
-  attempt.recording.complete = true;
   AttemptMeter meter(scene, std::move(*meter_options));
   const double longest = scenario.time_limit + 30;
-  const auto stage = make_stage(scenario, scene, *params, skill, options);
-  while (stage->time() < longest && stage->step(attempt, meter)) {
+  const auto hands =
+      make_simulated_attempt(scenario, scene, *params, skill, options, attempt.recording);
+  while (hands->time() < longest && hands->step(meter)) {
   }
-  attempt.duration = stage->time();
+  attempt.duration = hands->time();
   attempt.measures = meter.measure();
   attempt.judgement =
       judge(attempt.measures.metrics, scenario.pass, scenario.score, scenario.aided());
   return attempt;
-}
-
-Result<void> write_recording(const Recording& recording, const std::filesystem::path& file) {
-  std::string out = to_line(recording.head) + "\n";
-  std::size_t k = 0;
-  for (const TickRecord& tick : recording.ticks) {
-    put(out, RecordStart::kTick, tick);
-    while (k < recording.frames.size() &&
-           recording.frames[k].input.sample_time_ns <= tick.input.device.time_ns)
-      put(out, RecordStart::kFrame, recording.frames[k++]);
-  }
-  put(out, RecordStart::kEnd, recording.dropped);
-  return write_text(file, out);
 }
 
 }  // namespace artus

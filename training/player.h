@@ -4,14 +4,17 @@
 #include <memory>
 
 #include "artus/detail/operators/scanning_operator.h"
-#include "artus/session/recording.h"
 #include "artus/detail/training/metrics/attempt_meter.h"
 #include "artus/detail/training/scenario.h"
+#include "artus/session/recording.h"
 
 namespace artus {
 
 /// The body of a scenario that brings its own. Errors: not_found (a tissue).
 [[nodiscard]] Result<std::shared_ptr<const Scene>> make_gel_scene(const GelBlock& gel);
+
+/// Whether tissue of this joint can give way: it has tetrahedra.
+[[nodiscard]] bool gives_way(const CompiledJoint& joint);
 
 /// What its aids do to the needle hand: `haptic_guide` 1 is 300 N/m across to the planned line,
 /// `haptic_wall` 1 is 1000 N/m within what is to be avoided.
@@ -35,19 +38,17 @@ struct PlayedAttempt {
 
 struct PlayOptions {
   std::uint64_t seed = 1;
-  bool record = true;       ///< keep ticks
+  bool record = true;       ///< keep ticks, images and what the tissue answered
+  bool rigid = false;       ///< tissue does not give way, though the joint could
   double picture_rate = 0;  ///< Hz, pictures kept in the recording; 0: none
 };
 
 /// Plays a scenario with simulated hands, without its aids and without a clock: hands, device and
-/// forces in a closed loop at 1 kHz. The same bytes for the same skill and seed. Errors: those of
-/// make_session_params and make_meter_options. Cost: some 10 us a tick; pictures some 10 ms each.
+/// forces in a closed loop at 1 kHz, in tissue that gives way where the joint can. The same bytes
+/// for the same skill and seed. Errors: those of make_session_params and make_meter_options. Cost:
+/// some 10 us a tick; where tissue gives way its 20 steps a second; pictures some 10 ms each.
 [[nodiscard]] Result<PlayedAttempt> play(const Scenario& scenario,
                                          const std::shared_ptr<const Scene>& scene,
                                          const OperatorSkill& skill, const PlayOptions& options);
-
-/// Writes a recording as a session would. Errors: unreadable.
-[[nodiscard]] Result<void> write_recording(const Recording& recording,
-                                           const std::filesystem::path& file);
 
 }  // namespace artus

@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "artus/detail/anatomy/body/layered_body.h"
 #include "artus/core/geometry.h"
 #include "artus/core/result.h"
+#include "artus/detail/anatomy/body/layered_body.h"
 #include "artus/detail/haptics/plunger/syringe_choice.h"
 #include "artus/detail/training/judgement.h"
 
@@ -41,8 +41,8 @@ struct ScenarioEntry {
   Vec3 centre = Vec3::Zero();  ///< m, on the skin
   double radius = 10e-3;       ///< m
   std::string plane = "in";    ///< in, out or free
-  double min_angle = 0;      ///< rad, of the shaft to the probe's face
-  double max_angle = 1.5708;  ///< rad
+  double min_angle = 0;        ///< rad, of the shaft to the probe's face
+  double max_angle = 1.5708;   ///< rad
 };
 
 /// What is to be injected once the tip is in place; without volume nothing is.

@@ -84,17 +84,11 @@ class TickClock {
   std::size_t at_ = 0;
 };
 
-/// Pictures that a list of poses asked for are not drawn before somebody wants to see them.
-bool were_drawn(const Recording& recording) {
-  return std::any_of(recording.frames.begin(), recording.frames.end(),
-                     [](const FrameRecord& frame) { return frame.digest != 0; });
-}
-
 void add_recorded_sights(AttemptMeter& meter, const Recording& recording) {
   TickClock clock(recording);
   for (const FrameRecord& frame : recording.frames) {
     const double time = clock.time_of(frame.input);
-    if (frame.input.has_needle == 0) continue;
+    if (frame.input.has_needle == 0 || frame.digest == 0) continue;
     const double contrast = frame.tip_contrast;
     ImageSight sight = sight_of(std::isnan(contrast) ? std::nullopt : std::optional(contrast));
     sight.time = time;
@@ -112,7 +106,7 @@ Result<AttemptMeasures> assess(const Recording& recording,
     options.longest = 1 + period * static_cast<double>(recording.ticks.back().input.tick -
                                                        recording.ticks.front().input.tick);
   AttemptMeter meter(scene, std::move(options));
-  const bool recorded = sights == SightSource::recorded && were_drawn(recording);
+  const bool recorded = sights == SightSource::recorded && !none_was_drawn(recording);
   const bool draws = sights != SightSource::none && !recorded;
   ReplayListener listener;
   listener.on_tick = [&](const HapticSnapshot& s) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
-#include "artus/session/recording.h"
 #include "artus/detail/training/metrics/attempt_meter.h"
+#include "artus/session/recording.h"
 
 namespace artus {
 

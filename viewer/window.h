@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "artus/core/result.h"
-#include "artus/session/session.h"
 #include "artus/detail/viewer/input/key_map.h"
-#include "artus/detail/viewer/panels/lesson.h"
-#include "artus/detail/viewer/joint3d/orbit_camera.h"
 #include "artus/detail/viewer/input/script.h"
+#include "artus/detail/viewer/joint3d/orbit_camera.h"
+#include "artus/detail/viewer/panels/lesson.h"
 #include "artus/detail/viewer/panels/view_state.h"
+#include "artus/session/session.h"
 
 namespace artus {
 

@@ -9,10 +9,10 @@
 
 #include "artus/detail/core/units.h"
 #include "artus/detail/echo/probe/setting_ranges.h"
-#include "artus/detail/viewer/words/anatomy_names.h"
 #include "artus/detail/viewer/panels/panels.h"
-#include "artus/detail/viewer/words/system_words.h"
 #include "artus/detail/viewer/window_loop.h"
+#include "artus/detail/viewer/words/anatomy_names.h"
+#include "artus/detail/viewer/words/system_words.h"
 
 namespace artus {
 

@@ -11,11 +11,11 @@
 #include <GLFW/glfw3.h>
 
 #include "artus/detail/core/text_file.h"
-#include "artus/detail/viewer/words/anatomy_names.h"
-#include "artus/detail/viewer/panels/caption.h"
 #include "artus/detail/viewer/input/gui_context.h"
-#include "artus/detail/viewer/panels/panels.h"
 #include "artus/detail/viewer/input/screen.h"
+#include "artus/detail/viewer/panels/caption.h"
+#include "artus/detail/viewer/panels/panels.h"
+#include "artus/detail/viewer/words/anatomy_names.h"
 
 namespace artus {
 namespace {

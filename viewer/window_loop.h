@@ -6,16 +6,16 @@
 #include <optional>
 #include <vector>
 
+#include "artus/detail/viewer/input/hand_control.h"
+#include "artus/detail/viewer/input/window_events.h"
 #include "artus/detail/viewer/joint3d/body_mark.h"
+#include "artus/detail/viewer/joint3d/joint_view.h"
 #include "artus/detail/viewer/panels/cine_loop.h"
 #include "artus/detail/viewer/panels/guide.h"
-#include "artus/detail/viewer/input/hand_control.h"
-#include "artus/detail/viewer/joint3d/joint_view.h"
 #include "artus/detail/viewer/panels/lesson.h"
 #include "artus/detail/viewer/panels/picture_saver.h"
 #include "artus/detail/viewer/panels/view_state.h"
 #include "artus/detail/viewer/window.h"
-#include "artus/detail/viewer/input/window_events.h"
 
 namespace artus {
 

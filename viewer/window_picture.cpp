@@ -4,8 +4,8 @@
 
 #include <GLFW/glfw3.h>
 
-#include "artus/detail/viewer/panels/caption.h"
 #include "artus/detail/viewer/input/gamepad.h"
+#include "artus/detail/viewer/panels/caption.h"
 #include "artus/detail/viewer/window_loop.h"
 
 namespace artus {

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "artus/anatomy/joint_file.h"
+#include "artus/core/result.h"
 #include "artus/detail/anatomy/body/tet_mesh.h"
 #include "artus/detail/anatomy/body/tissue.h"
-#include "artus/core/result.h"
 
 namespace artus {
 

@@ -152,7 +152,8 @@ void read_needles(TomlTable& toml, double unit, JointFile& joint) {
     read_pass(needle, unit, pass.entry, pass.target);
     needle.finish();
     const Vec3 displacement = pass.target - pass.entry;
-    if (displacement.norm() > 0) joint.X_JN_default = make_pose(pass.target, displacement, Vec3::Zero());
+    if (displacement.norm() > 0)
+      joint.X_JN_default = make_pose(pass.target, displacement, Vec3::Zero());
     joint.needle = std::move(pass);
   }
   for (const auto* table : toml.tables("injection")) {

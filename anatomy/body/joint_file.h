@@ -8,13 +8,13 @@
 #include <variant>
 #include <vector>
 
+#include "artus/core/geometry.h"
+#include "artus/core/result.h"
 #include "artus/detail/anatomy/body/joint_parameter.h"
 #include "artus/detail/anatomy/body/joint_pose.h"
 #include "artus/detail/anatomy/body/joint_variant.h"
 #include "artus/detail/anatomy/body/space.h"
 #include "artus/detail/anatomy/body/tissue.h"
-#include "artus/core/geometry.h"
-#include "artus/core/result.h"
 
 namespace artus {
 

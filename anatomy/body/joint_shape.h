@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "artus/detail/anatomy/body/joint_parameter.h"
 #include "artus/core/result.h"
+#include "artus/detail/anatomy/body/joint_parameter.h"
 
 namespace artus {
 

@@ -98,4 +98,16 @@ CompiledJoint make_meshed_block(const std::vector<Tissue>& tissues,
   return joint;
 }
 
+void add_meshed_ball(CompiledJoint& block, const Ball& ball, RegionId within, int subdivisions) {
+  add_ball(block, ball, within, subdivisions);
+  const auto inside = static_cast<RegionId>(block.regions.size() - 1);
+  TetMesh& mesh = block.mesh;
+  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
+    Vec3 middle = Vec3::Zero();
+    for (const std::uint32_t corner : mesh.tetrahedra[t]) middle += mesh.vertices[corner] / 4;
+    if (mesh.regions[t] == within && (middle - ball.centre).norm() < ball.radius)
+      mesh.regions[t] = inside;
+  }
+}
+
 }  // namespace artus

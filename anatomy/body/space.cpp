@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "artus/detail/anatomy/body/bundled_fluids.h"
 #include "artus/anatomy/compiled_joint.h"
+#include "artus/detail/anatomy/body/bundled_fluids.h"
 #include "artus/detail/anatomy/body/liquid.h"
 #include "artus/detail/anatomy/body/space_toml.h"
 #include "artus/detail/core/toml_fields.h"

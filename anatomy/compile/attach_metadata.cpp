@@ -7,8 +7,8 @@
 #include <Eigen/Eigenvalues>
 
 #include "artus/detail/anatomy/body/skin_line.h"
-#include "artus/detail/anatomy/compile/labels/compile_labels.h"
 #include "artus/detail/anatomy/compile/check/default_poses.h"
+#include "artus/detail/anatomy/compile/labels/compile_labels.h"
 
 namespace artus {
 namespace {
@@ -87,7 +87,7 @@ void follow_skin(CompiledJoint& joint) {
 }  // namespace
 
 CompiledJoint attach_metadata(const JointFile& file, TetMesh mesh, std::string digest,
-                         std::vector<std::string>& notes) {
+                              std::vector<std::string>& notes) {
   CompiledJoint joint;
   joint.name = file.name;
   joint.side = file.side;

@@ -14,6 +14,6 @@ namespace artus {
 /// read_joint_shape). Cost: one pass over the tetrahedra, and the search of a probe pose where the
 /// file gives none.
 [[nodiscard]] CompiledJoint attach_metadata(const JointFile& file, TetMesh mesh, std::string digest,
-                                       std::vector<std::string>& notes);
+                                            std::vector<std::string>& notes);
 
 }  // namespace artus

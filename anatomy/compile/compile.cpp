@@ -7,18 +7,18 @@
 
 #include <tbb/task_group.h>
 
-#include "artus/detail/anatomy/compile/labels/compile_labels.h"
-#include "artus/detail/anatomy/compile/mesh/compile_measure.h"
-#include "artus/detail/anatomy/compile/labels/compile_surfaces.h"
-#include "artus/detail/anatomy/compile/check/compile_warnings.h"
-#include "artus/detail/anatomy/compile/labels/cut_faces.h"
 #include "artus/detail/anatomy/compile/attach_metadata.h"
-#include "artus/detail/anatomy/compile/labels/fit_interfaces.h"
-#include "artus/detail/anatomy/compile/mesh/isolated.h"
-#include "artus/detail/anatomy/compile/labels/part_cache.h"
+#include "artus/detail/anatomy/compile/check/compile_warnings.h"
 #include "artus/detail/anatomy/compile/check/misplaced.h"
 #include "artus/detail/anatomy/compile/check/plan_check.h"
+#include "artus/detail/anatomy/compile/labels/compile_labels.h"
+#include "artus/detail/anatomy/compile/labels/compile_surfaces.h"
+#include "artus/detail/anatomy/compile/labels/cut_faces.h"
+#include "artus/detail/anatomy/compile/labels/fit_interfaces.h"
+#include "artus/detail/anatomy/compile/labels/part_cache.h"
 #include "artus/detail/anatomy/compile/labels/resolve.h"
+#include "artus/detail/anatomy/compile/mesh/compile_measure.h"
+#include "artus/detail/anatomy/compile/mesh/isolated.h"
 #include "artus/detail/anatomy/compile/mesh/tet_topology.h"
 #include "artus/detail/anatomy/compile/mesh/tetrahedralize.h"
 
@@ -143,8 +143,9 @@ Result<Complex> make_interfaces(const LabelledSpace& space, Stages& stages, Comp
   auto neighbours = find_tet_neighbours(*mesh);
   ARTUS_TRY(neighbours);
   Complex complex{std::move(*mesh), std::move(*neighbours)};
-  report.fragments = merge_fragments(complex.mesh, complex.neighbours,
-                                [&](RegionId r) { return smallest_part(space.resolve.sizing, r); });
+  report.fragments = merge_fragments(complex.mesh, complex.neighbours, [&](RegionId r) {
+    return smallest_part(space.resolve.sizing, r);
+  });
   finish_topology(complex, space.labels);
   stages.run("fitting interfaces", 0.6, [&] {
     fit_interfaces(complex.mesh, space.labels);

@@ -5,14 +5,14 @@
 #include <optional>
 #include <vector>
 
+#include "artus/anatomy/compile.h"
 #include "artus/detail/anatomy/body/joint_shape.h"
 #include "artus/detail/anatomy/body/joint_variant.h"
 #include "artus/detail/anatomy/body/skin_line.h"
-#include "artus/anatomy/compile.h"
-#include "artus/detail/anatomy/compile/labels/compiler_version.h"
 #include "artus/detail/anatomy/compile/attach_metadata.h"
-#include "artus/detail/anatomy/compile/labels/part_cache.h"
 #include "artus/detail/anatomy/compile/check/plan_check.h"
+#include "artus/detail/anatomy/compile/labels/compiler_version.h"
+#include "artus/detail/anatomy/compile/labels/part_cache.h"
 #include "artus/detail/core/text_file.h"
 
 namespace artus {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "artus/detail/anatomy/surfaces/surface_mesh.h"
 #include "artus/core/result.h"
+#include "artus/detail/anatomy/surfaces/surface_mesh.h"
 
 namespace artus {
 
@@ -18,7 +18,7 @@ struct RepairOptions {
   double thicken = 0;                ///< m; sheets become plates of this thickness; 0: refused
   double largest_fill_share = 0.35;  ///< of the surface's area, for all fillings together
   WrapPolicy wrap = WrapPolicy::if_needed;
-  bool remove_self_intersections = true;   ///< where that can be done locally
+  bool remove_self_intersections = true;  ///< where that can be done locally
   std::size_t max_triangles = 2'000'000;  ///< larger surfaces are refused
 };
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "artus/detail/anatomy/surfaces/surface_mesh.h"
 #include "artus/core/result.h"
+#include "artus/detail/anatomy/surfaces/surface_mesh.h"
 
 namespace artus {
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <string_view>
 
-#include "artus/detail/anatomy/surfaces/surface_mesh.h"
 #include "artus/core/result.h"
+#include "artus/detail/anatomy/surfaces/surface_mesh.h"
 
 namespace artus {
 

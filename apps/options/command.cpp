@@ -13,8 +13,8 @@
 
 #include <unistd.h>
 
-#include "artus/detail/anatomy/body/joint_variant.h"
 #include "artus/anatomy/compile.h"
+#include "artus/detail/anatomy/body/joint_variant.h"
 #include "artus/detail/soft/solver/pose_joint.h"
 
 namespace artus {

@@ -9,9 +9,9 @@
 #include <nlohmann/json.hpp>
 
 #include "artus/anatomy/compiled_joint.h"
+#include "artus/core/result.h"
 #include "artus/detail/apps/options/command_line.h"
 #include "artus/detail/core/progress.h"
-#include "artus/core/result.h"
 
 namespace artus {
 

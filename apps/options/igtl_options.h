@@ -4,8 +4,8 @@
 #include <memory>
 #include <string>
 
-#include "artus/detail/apps/options/command_line.h"
 #include "artus/core/result.h"
+#include "artus/detail/apps/options/command_line.h"
 #include "artus/detail/exchange/session_link.h"
 
 namespace artus {

@@ -24,7 +24,7 @@ Result<std::vector<ListedPose>> read_any_poses(const std::filesystem::path& file
 
 Result<Recording> read_any_recording(const std::filesystem::path& file,
                                      const std::shared_ptr<const Scene>& scene,
-                                     LedPictures pictures) {
+                                     RecordedPictures pictures) {
   const auto extension = file.extension();
   if (extension != ".mha" && extension != ".jsonl" && extension != ".csv")
     return read_recording(file);

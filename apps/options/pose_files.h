@@ -4,9 +4,9 @@
 #include <memory>
 #include <vector>
 
-#include "artus/detail/apps/options/view_options.h"
 #include "artus/core/result.h"
 #include "artus/dataset/pose_list.h"
+#include "artus/detail/apps/options/view_options.h"
 #include "artus/detail/exchange/led_session.h"
 #include "artus/session/recording.h"
 
@@ -28,8 +28,8 @@ void add_pose_list_options(Command* command, PoseListOptions& options);
 /// A recording, or what a session records in which such poses lead probe and needle (with serve's
 /// settings; `pictures`: of a led one). Errors: those of read_recording, read_any_poses and
 /// record_led_session.
-[[nodiscard]] Result<Recording> read_any_recording(const std::filesystem::path& file,
-                                                   const std::shared_ptr<const Scene>& scene,
-                                                   LedPictures pictures = LedPictures::drawn);
+[[nodiscard]] Result<Recording> read_any_recording(
+    const std::filesystem::path& file, const std::shared_ptr<const Scene>& scene,
+    RecordedPictures pictures = RecordedPictures::drawn);
 
 }  // namespace artus

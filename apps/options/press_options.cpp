@@ -6,10 +6,10 @@
 #include <cstdio>
 
 #include "artus/detail/apps/options/command.h"
-#include "artus/detail/simulation/needle_drag.h"
 #include "artus/detail/core/units.h"
 #include "artus/detail/echo/probe/pressing_face.h"
 #include "artus/detail/raycast/moving_scene.h"
+#include "artus/detail/simulation/needle_drag.h"
 
 namespace artus {
 namespace {

@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "artus/detail/apps/options/command.h"
-#include "artus/raycast/scene.h"
 #include "artus/detail/training/scenario.h"
+#include "artus/raycast/scene.h"
 
 namespace artus {
 

@@ -112,11 +112,15 @@ void add_session_options(Command* command, SessionOptions& options,
   command->add_option("--histograms", options.histograms,
                       "write where the time went as CSV, bin by bin");
   add_threads_option(command, options.threads);
+  add_rigid_option(command, options.rigid);
+  add_igtl_options(command, options.igtl);
+}
+
+void add_rigid_option(Command* command, bool& rigid) {
   command->add_flag(
-      "--rigid", options.rigid,
+      "--rigid", rigid,
       "tissue does not give way to probe and needle; by default it does, in the picture and "
       "in both hands, and the first image comes some seconds later");
-  add_igtl_options(command, options.igtl);
 }
 
 Result<SessionParams> make_session_params(const SessionOptions& options,

@@ -43,6 +43,9 @@ void add_session_options(Command* command, SessionOptions& options,
                          const std::string& default_input);
 
 /// The params that the flags mean for a joint. Errors: not_found (device), invalid (rates).
+/// --rigid of every command that runs hands in a body.
+void add_rigid_option(Command* command, bool& rigid);
+
 [[nodiscard]] Result<SessionParams> make_session_params(const SessionOptions& options,
                                                         const CompiledJoint& joint);
 

@@ -25,8 +25,8 @@
 #include <benchmark/benchmark.h>
 
 #include "artus/detail/echo/acquire/liquid_plume.h"
-#include "artus/echo/renderer.h"
 #include "artus/detail/soft/liquid/injected_body.h"
+#include "artus/echo/renderer.h"
 #include "tests/support/layered_body.h"
 
 namespace artus {

@@ -27,15 +27,15 @@
 #include <vector>
 
 #include "artus/detail/core/units.h"
-#include "artus/echo/renderer.h"
 #include "artus/detail/evidence/plot.h"
 #include "artus/detail/raycast/moving_scene.h"
 #include "artus/detail/soft/solver/soft_body.h"
+#include "artus/echo/renderer.h"
 
 namespace {
 
-constexpr double kRate = 30;   // images a second
-constexpr int kRefresh = 12;   // images
+constexpr double kRate = 30;        // images a second
+constexpr int kRefresh = 12;        // images
 constexpr double kDistance = 4e-3;  // m
 
 double cpu_ms() {

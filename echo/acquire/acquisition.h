@@ -10,13 +10,13 @@
 #include "artus/detail/echo/acquire/beam_spread.h"
 #include "artus/detail/echo/acquire/block_workers.h"
 #include "artus/detail/echo/acquire/drifting_echo.h"
-#include "artus/echo/frame.h"
 #include "artus/detail/echo/acquire/line_synthesis.h"
 #include "artus/detail/echo/acquire/needle_echo.h"
-#include "artus/detail/echo/probe/placed_line.h"
 #include "artus/detail/echo/medium/region_acoustics.h"
 #include "artus/detail/echo/medium/scatter_field.h"
 #include "artus/detail/echo/medium/texture.h"
+#include "artus/detail/echo/probe/placed_line.h"
+#include "artus/echo/frame.h"
 #include "artus/raycast/scene.h"
 
 namespace artus {

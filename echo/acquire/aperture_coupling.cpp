@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "artus/detail/echo/probe/gain_ramp.h"
 #include "artus/detail/echo/acquire/point_echo.h"
+#include "artus/detail/echo/probe/gain_ramp.h"
 
 namespace artus {
 namespace {

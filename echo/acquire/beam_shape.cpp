@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "artus/detail/echo/probe/gaussian.h"
 #include "artus/detail/echo/medium/scatter_field.h"
 #include "artus/detail/echo/medium/simd.h"
+#include "artus/detail/echo/probe/gaussian.h"
 
 namespace artus {
 namespace {

@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
+#include "artus/detail/echo/medium/scatter_field.h"
 #include "artus/detail/echo/probe/beam_profile.h"
 #include "artus/echo/image_settings.h"
-#include "artus/detail/echo/medium/scatter_field.h"
 #include "artus/echo/transducer.h"
 
 namespace artus {

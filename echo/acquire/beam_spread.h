@@ -2,8 +2,8 @@
 #pragma once
 #include <vector>
 
-#include "artus/detail/echo/probe/placed_line.h"
 #include "artus/detail/echo/acquire/propagation.h"
+#include "artus/detail/echo/probe/placed_line.h"
 #include "artus/echo/transducer.h"
 
 namespace artus {

@@ -5,8 +5,8 @@
 
 #include "artus/detail/echo/medium/material_map.h"
 #include "artus/detail/raycast/plane_cache.h"
-#include "artus/raycast/scene.h"
 #include "artus/detail/soft/solver/rest_path.h"
+#include "artus/raycast/scene.h"
 
 namespace artus {
 

@@ -50,7 +50,7 @@ struct BeamTracer::Walk {
   Vec3 line_direction = {};            // unit
   double line_path = 0;                // m, at its start
   double time_scale = 1;               // length of beam over length of line
-  std::optional<RestPath> way = {};     // for knots of its own, once they are needed
+  std::optional<RestPath> way = {};    // for knots of its own, once they are needed
   bool has_knots = false;              // whether this line has any
   std::size_t line_knot = 0;           // its first
   std::array<LeftOut, kMaxLeftOut> left_out = {};

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "artus/detail/echo/acquire/beam_shape.h"
-#include "artus/echo/frame.h"
 #include "artus/detail/echo/acquire/needle_echo.h"
 #include "artus/detail/echo/probe/placed_line.h"
+#include "artus/echo/frame.h"
 #include "artus/echo/transducer.h"
 
 namespace artus {

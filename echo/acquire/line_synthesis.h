@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "artus/detail/echo/acquire/beam_shape.h"
-#include "artus/echo/image_settings.h"
-#include "artus/detail/echo/probe/placed_line.h"
 #include "artus/detail/echo/acquire/propagation.h"
 #include "artus/detail/echo/medium/region_acoustics.h"
 #include "artus/detail/echo/medium/scatter_field.h"
 #include "artus/detail/echo/medium/texture.h"
+#include "artus/detail/echo/probe/placed_line.h"
+#include "artus/echo/image_settings.h"
 #include "artus/echo/transducer.h"
 
 namespace artus {

@@ -7,9 +7,9 @@
 
 #include "artus/detail/core/noise.h"
 #include "artus/detail/core/units.h"
+#include "artus/detail/echo/acquire/point_echo.h"
 #include "artus/detail/echo/probe/gain_ramp.h"
 #include "artus/detail/echo/probe/gaussian.h"
-#include "artus/detail/echo/acquire/point_echo.h"
 #include "artus/echo/transducer.h"
 
 namespace artus {

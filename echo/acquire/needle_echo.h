@@ -3,9 +3,9 @@
 #include <span>
 
 #include "artus/detail/echo/acquire/beam_shape.h"
-#include "artus/echo/needle_view.h"
-#include "artus/detail/echo/probe/placed_line.h"
 #include "artus/detail/echo/acquire/propagation.h"
+#include "artus/detail/echo/probe/placed_line.h"
+#include "artus/echo/needle_view.h"
 #include "artus/echo/transducer.h"
 
 namespace artus {

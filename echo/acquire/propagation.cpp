@@ -9,10 +9,10 @@
 namespace artus {
 namespace {
 
-constexpr double kThinnest = 2e-6;  // m, an interval shorter than this is rounding
-constexpr double kStraight = 2e-3;  // sine of a bend that is not worth another query
-constexpr double kAside = 25e-6;    // m that a bend may lead aside within a thin layer
-constexpr double kPiece = 4e-3;     // m, longest run: the downshift curves the loss slowly
+constexpr double kThinnest = 2e-6;    // m, an interval shorter than this is rounding
+constexpr double kStraight = 2e-3;    // sine of a bend that is not worth another query
+constexpr double kSidewards = 25e-6;  // m that a bend may lead aside within a thin layer
+constexpr double kPiece = 4e-3;       // m, longest run: the downshift curves the loss slowly
 constexpr double kAlongSurface =
     0.17;                         // cosine of 80 degrees: along a faceted surface, go straight
 constexpr double kSilence = -20;  // ln: 174 dB down, below any receiver
@@ -197,8 +197,8 @@ void BeamTracer::find_rest(Walk& walk, BeamRun& run) const noexcept {
   walk.gradient = walk.gradient_at(middle);
 }
 
-/// Notes how the run lies to the fibres at its middle, `half_displacement` (m) from its begin. Returns the
-/// factor on its attenuation.
+/// Notes how the run lies to the fibres at its middle, `half_displacement` (m) from its begin.
+/// Returns the factor on its attenuation.
 double BeamTracer::follow_fibres(Walk& walk, const RegionAcoustics& region, BeamRun& run,
                                  const Vec3& half_displacement) const noexcept {
   run.along = 0;
@@ -281,7 +281,7 @@ bool BeamTracer::pass(Walk& walk, const Vec3& from, const Vec3& direction, doubl
     } else if (interval.region != walk.region) {
       if (!enter(walk, interval, point)) return false;
       const double bend = walk.bends ? walk.wave.cross(direction).norm() : 0;
-      if (bend > kStraight && bend * thickness > kAside) return true;
+      if (bend > kStraight && bend * thickness > kSidewards) return true;
     }
     if (!cross(walk, point, direction, thickness * time_scale, time_scale)) return false;
   }

@@ -3,11 +3,11 @@
 #include <span>
 
 #include "artus/detail/echo/acquire/beam_trace.h"
-#include "artus/echo/image_settings.h"
 #include "artus/detail/echo/medium/region_acoustics.h"
+#include "artus/detail/soft/solver/smooth_gradient.h"
+#include "artus/echo/image_settings.h"
 #include "artus/echo/transducer.h"
 #include "artus/raycast/scene.h"
-#include "artus/detail/soft/solver/smooth_gradient.h"
 
 namespace artus {
 

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "artus/detail/echo/acquire/block_workers.h"
+#include "artus/detail/echo/display/scan_converter.h"
 #include "artus/echo/frame.h"
 #include "artus/echo/image_settings.h"
-#include "artus/detail/echo/display/scan_converter.h"
 #include "artus/echo/transducer.h"
 
 namespace artus {

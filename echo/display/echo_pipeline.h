@@ -7,10 +7,10 @@
 #include "artus/detail/echo/acquire/acquisition.h"
 #include "artus/detail/echo/acquire/beam_shape.h"
 #include "artus/detail/echo/acquire/block_workers.h"
+#include "artus/detail/echo/acquire/line_shaping.h"
 #include "artus/detail/echo/display/compound.h"
 #include "artus/detail/echo/display/display.h"
 #include "artus/echo/frame.h"
-#include "artus/detail/echo/acquire/line_shaping.h"
 
 namespace artus {
 

@@ -6,8 +6,8 @@
 
 #include "artus/detail/core/check.h"
 #include "artus/detail/core/units.h"
-#include "artus/detail/echo/probe/range_check.h"
 #include "artus/detail/echo/medium/region_acoustics.h"
+#include "artus/detail/echo/probe/range_check.h"
 
 namespace artus {
 namespace {

@@ -5,11 +5,11 @@
 #include <optional>
 #include <vector>
 
+#include "artus/detail/echo/display/scan_converter.h"
 #include "artus/detail/echo/probe/beam_profile.h"
 #include "artus/echo/frame.h"
 #include "artus/echo/image_settings.h"
 #include "artus/echo/needle_view.h"
-#include "artus/detail/echo/display/scan_converter.h"
 #include "artus/echo/transducer.h"
 #include "artus/raycast/scene.h"
 

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "artus/detail/echo/display/clear_level.h"
 #include "artus/detail/echo/acquire/drifting_echo.h"
+#include "artus/detail/echo/display/clear_level.h"
 #include "artus/echo/frame.h"
 #include "artus/echo/image_settings.h"
 #include "artus/echo/needle_view.h"

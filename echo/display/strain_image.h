@@ -9,11 +9,11 @@
 namespace artus {
 
 struct StrainParams {
-  double window = 1.5e-3;          ///< m, length of a matched piece of line
-  double step = 0.25e-3;           ///< m between such pieces
-  int lines = 3;                   ///< scanlines beside each other that are matched as one, odd
-  double search = 0.2e-3;          ///< m, beyond what the piece above moved
-  double fit = 2e-3;               ///< m, length over which displacement is made into strain
+  double window = 1.5e-3;        ///< m, length of a matched piece of line
+  double step = 0.25e-3;         ///< m between such pieces
+  int lines = 3;                 ///< scanlines beside each other that are matched as one, odd
+  double search = 0.2e-3;        ///< m, beyond what the piece above moved
+  double fit = 2e-3;             ///< m, length over which displacement is made into strain
   double min_correlation = 0.8;  ///< below it there is no strain
 };
 

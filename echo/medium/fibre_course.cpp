@@ -12,7 +12,7 @@ namespace artus {
 namespace {
 
 constexpr std::size_t kSamples = 1000;  // at most, of tetrahedra or triangles
-constexpr double kMinContact = 5e-6;  // m2 that muscle and tendon share when they are one
+constexpr double kMinContact = 5e-6;    // m2 that muscle and tendon share when they are one
 constexpr double kEndShare = 0.125;     // of a muscle's volume is an end
 constexpr double kFollow = 30;   // how much more it matters that fibres are followed than how far
                                  // sheets lie apart

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 #include "artus/core/result.h"
-#include "artus/echo/transducer.h"
 #include "artus/detail/soft/solver/face_contact.h"
+#include "artus/echo/transducer.h"
 
 namespace artus {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <utility>
 
-#include "artus/detail/core/check.h"
 #include "artus/core/result.h"
+#include "artus/detail/core/check.h"
 #include "artus/detail/echo/probe/setting_ranges.h"
 
 namespace artus {

@@ -16,12 +16,12 @@
 #include "artus/detail/core/printed.h"
 #include "artus/detail/core/units.h"
 #include "artus/detail/dataset/video_file.h"
-#include "artus/echo/image_io.h"
-#include "artus/echo/labels.h"
-#include "artus/echo/renderer.h"
 #include "artus/detail/evidence/runs/injection_plume.h"
 #include "artus/detail/evidence/runs/injection_view.h"
 #include "artus/detail/soft/liquid/injected_body.h"
+#include "artus/echo/image_io.h"
+#include "artus/echo/labels.h"
+#include "artus/echo/renderer.h"
 
 namespace artus {
 namespace {

@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "artus/detail/evidence/claim.h"
+#include "artus/detail/evidence/runs/injection_run.h"
 #include "artus/echo/image_settings.h"
 #include "artus/echo/needle_view.h"
 #include "artus/echo/transducer.h"
-#include "artus/detail/evidence/claim.h"
-#include "artus/detail/evidence/runs/injection_run.h"
 
 namespace artus {
 

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "artus/detail/echo/acquire/liquid_plume.h"
-#include "artus/echo/renderer.h"
 #include "artus/detail/evidence/runs/injection_run.h"
+#include "artus/echo/renderer.h"
 
 namespace artus {
 

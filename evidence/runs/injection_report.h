@@ -7,8 +7,8 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "artus/detail/evidence/claim.h"
-#include "artus/detail/evidence/runs/injection_run.h"
 #include "artus/detail/evidence/plot.h"
+#include "artus/detail/evidence/runs/injection_run.h"
 
 namespace artus {
 

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <numeric>
 
-#include "artus/haptics/needle_renderer.h"
 #include "artus/detail/haptics/plunger/bevel.h"
 #include "artus/detail/haptics/plunger/patient.h"
 #include "artus/detail/operators/hand_loop.h"
 #include "artus/detail/operators/injection_operator.h"
 #include "artus/detail/operators/thumb_dose.h"
+#include "artus/haptics/needle_renderer.h"
 
 namespace artus {
 namespace {
@@ -47,7 +47,7 @@ double beyond(const Scene& scene, const InjectionSpec& spec, const LineLayer& la
   const Syringe& syringe = spec.plunger.syringe;
   const double gentle = (gentle_force(syringe) - syringe.glide) / syringe.area();
   const Segment path{spec.entry + layer.to * direction,
-                    spec.entry + (layer.to + kFarthestThrough) * direction};
+                     spec.entry + (layer.to + kFarthestThrough) * direction};
   for (const TissueInterval& s : tissue_intervals(scene, path)) {
     const SpaceLaw& law = spaces.spaces[spaces.of_region[s.region]].law;
     if (law.kind == SpaceKind::solid) break;

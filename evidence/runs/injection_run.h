@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "artus/haptics/needle_feel.h"
 #include "artus/detail/haptics/plunger/plunger.h"
 #include "artus/detail/operators/simulated_hand.h"
 #include "artus/detail/operators/thumb.h"
+#include "artus/haptics/needle_feel.h"
 #include "artus/raycast/scene.h"
 
 namespace artus {

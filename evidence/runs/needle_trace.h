@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "artus/core/result.h"
-#include "artus/haptics/needle_renderer.h"
 #include "artus/detail/operators/simulated_hand.h"
+#include "artus/haptics/needle_renderer.h"
 
 namespace artus {
 

@@ -15,9 +15,9 @@
 #include "artus/detail/core/printed.h"
 #include "artus/detail/core/units.h"
 #include "artus/detail/dataset/video_file.h"
+#include "artus/detail/simulation/fluid_core.h"
 #include "artus/echo/image_io.h"
 #include "artus/echo/renderer.h"
-#include "artus/detail/simulation/fluid_core.h"
 
 namespace artus {
 namespace {

@@ -8,13 +8,13 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "artus/detail/core/progress.h"
 #include "artus/core/result.h"
+#include "artus/detail/core/progress.h"
+#include "artus/detail/evidence/runs/three_injections.h"
 #include "artus/echo/image_settings.h"
 #include "artus/echo/labels.h"
 #include "artus/echo/needle_view.h"
 #include "artus/echo/transducer.h"
-#include "artus/detail/evidence/runs/three_injections.h"
 
 namespace artus {
 

@@ -45,7 +45,7 @@ double TargetSyringe::step(const OperatorPhase* phase, const NeedleContact& cont
   pushing_ = meant;
   const Plunger& plunger = core_.plunger();
   const PlungerInput request = thumb_.step(meant ? dose_.present(phase) : nullptr, plunger.state(),
-                                        plunger.params().syringe.area(), dt_);
+                                           plunger.params().syringe.area(), dt_);
   DeviceSample sample;
   sample.plunger = request.stiffness > 0 ? PlungerSign::travel : PlungerSign::force;
   sample.plunger_travel = request.position;

@@ -16,11 +16,11 @@
 #include "artus/detail/evidence/claim.h"
 #include "artus/detail/evidence/runs/needle_trace.h"
 #include "artus/detail/evidence/runs/plateau.h"
-#include "artus/haptics/needle_feel.h"
 #include "artus/detail/operators/probe_hand.h"
 #include "artus/detail/operators/simulated_hand.h"
 #include "artus/detail/simulation/syringe_core.h"
 #include "artus/detail/soft/solver/face_contact.h"
+#include "artus/haptics/needle_feel.h"
 
 namespace artus {
 

@@ -4,12 +4,12 @@
 
 #include <nlohmann/json.hpp>
 
+#include "artus/dataset/pose_list.h"
 #include "artus/detail/core/csv.h"
 #include "artus/detail/core/text_file.h"
 #include "artus/detail/core/units.h"
-#include "artus/dataset/pose_list.h"
-#include "artus/detail/evidence/runs/three_injections.h"
 #include "artus/detail/evidence/plot.h"
+#include "artus/detail/evidence/runs/three_injections.h"
 
 namespace artus {
 namespace {
@@ -48,7 +48,7 @@ void add_probe_panels(const ThreeInjections& run, Plot& plot) {
                           probe("torque (N cm)", [](Row r) { return 100 * r.torque.norm(); })}});
   // The ways are of a rigid body's columns.
   const bool has_paths = std::any_of(run.probe.begin(), run.probe.end(),
-                                    [](Row r) { return r.indentation != 0 || r.slip != 0; });
+                                     [](Row r) { return r.indentation != 0 || r.slip != 0; });
   if (!has_paths) return;
   plot.panels.push_back(
       {time,

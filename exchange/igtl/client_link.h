@@ -53,7 +53,9 @@ class ClientLink {
   void answer(Message message);
   /// Types that this client wants although not everybody gets them.
   [[nodiscard]] std::set<std::string>& subscriptions() noexcept { return subscriptions_; }
-  [[nodiscard]] const std::set<std::string>& subscriptions() const noexcept { return subscriptions_; }
+  [[nodiscard]] const std::set<std::string>& subscriptions() const noexcept {
+    return subscriptions_;
+  }
 
   [[nodiscard]] bool has_to_send() const noexcept {
     return sending_ || !answers_.empty() || !newest_.empty();

@@ -4,8 +4,8 @@
 #include <memory>
 #include <string_view>
 
-#include "artus/detail/core/check.h"
 #include "artus/core/result.h"
+#include "artus/detail/core/check.h"
 #include "artus/detail/haptics/actuator/pneumatic_sensors.h"
 #include "artus/detail/haptics/actuator/valve_map.h"
 

@@ -48,8 +48,8 @@ LineChange InsertionLine::follow(const Vec3& tip, const Vec3& own_axis) noexcept
   LineChange change;
   const Vec3 from = last_tip_;
   const Vec3 from_axis = last_own_axis_;
-  const double parts = std::clamp(std::ceil((tip - from).norm() / kFinestStep), 1.0,
-                                  static_cast<double>(kMaxParts));
+  const double parts =
+      std::clamp(std::ceil((tip - from).norm() / kFinestStep), 1.0, static_cast<double>(kMaxParts));
   for (double part = 1; part < parts; ++part) {
     const double share = part / parts;
     step(from + share * (tip - from), (from_axis + share * (own_axis - from_axis)).normalized(),

@@ -5,8 +5,8 @@
 #include <span>
 
 #include "artus/detail/core/units.h"
-#include "artus/detail/haptics/needle/laws/force_model.h"
 #include "artus/detail/haptics/needle/insertion_line.h"
+#include "artus/detail/haptics/needle/laws/force_model.h"
 #include "artus/detail/haptics/needle/laws/motion.h"
 #include "artus/detail/haptics/needle/laws/prepuncture.h"
 #include "artus/detail/haptics/needle/laws/skin_puncture.h"

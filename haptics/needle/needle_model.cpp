@@ -38,7 +38,8 @@ NeedleModel::NeedleModel(const NeedleParams& params, const LayerTable& table, do
 void NeedleModel::take(const NeedlePacket& packet) noexcept {
   const Vec3 carried(packet.carried[0], packet.carried[1], packet.carried[2]);
   if (carried.allFinite()) carried_to_ = carried;
-  if (packet.compliance_scale >= 0 && packet.compliance_scale <= 1) compliance_scale_to_ = packet.compliance_scale;
+  if (packet.compliance_scale >= 0 && packet.compliance_scale <= 1)
+    compliance_scale_to_ = packet.compliance_scale;
   if (coupling_.active() || !contact_.inserted()) coupling_.take(packet.compliance);
 }
 
@@ -90,7 +91,7 @@ double NeedleModel::cutting_force(const NeedleTick& tick) noexcept {
 
 const NeedleForces& NeedleModel::step(const Pose& X_JN,
                                       std::span<const TissueInterval> intervals) noexcept {
-  contact_.update(material(X_JN), intervals, {coupling_.active(), pushed(), carried_});
+  contact_.update(in_material_, intervals, {coupling_.active(), pushed(), carried_});
   to_hand_depth();
   const NeedleTick& tick = felt_;
   forces_ = NeedleForces{};

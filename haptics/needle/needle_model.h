@@ -35,8 +35,10 @@ class NeedleModel {
   NeedleModel(const NeedleParams& params, const LayerTable& table, double dt) noexcept;
 
   ARTUS_REALTIME void reset() noexcept;
-  [[nodiscard]] ARTUS_REALTIME Segment query_segment(const Pose& X_JN) const noexcept {
-    return contact_.query_segment(material(X_JN));
+  /// The line to look for layers on: where the needle is in the material.
+  [[nodiscard]] ARTUS_REALTIME Segment query_segment(const Pose& X_JN) noexcept {
+    in_material_ = material(X_JN);
+    return contact_.query_segment(in_material_);
   }
   /// Tissue that gives way to the needle from now on: layers are then met where the tip is in the
   /// material, the laws go on by the hand's depth, at which their constants were measured, and the
@@ -60,7 +62,9 @@ class NeedleModel {
  private:
   [[nodiscard]] Pose material(const Pose& X_JN) const noexcept;
   /// m along the axis, of the tissue at the tip by the needle.
-  [[nodiscard]] double pushed() const noexcept { return compliance_scale_ * coupling_.tip_displacement(); }
+  [[nodiscard]] double pushed() const noexcept {
+    return compliance_scale_ * coupling_.tip_displacement();
+  }
   void to_hand_depth() noexcept;
   void couple(const Pose& X_JN) noexcept;
   void sum_up(const NeedleTick& tick) noexcept;
@@ -85,12 +89,13 @@ class NeedleModel {
   NeedleCoupling coupling_;
   Vec3 carried_ = Vec3::Zero();     // m, frame J, of the tissue at the tip
   Vec3 carried_to_ = Vec3::Zero();  // by the newest packet
-  double compliance_scale_ = 1;                 // NeedlePacket::give, followed as carried_ is
+  double compliance_scale_ = 1;     // NeedlePacket::give, followed as carried_ is
   double compliance_scale_to_ = 1;
   double follow_;    // share of the way in a tick
   NeedleTick felt_;  // the contact's tick, with tip and depth as the hand has them
   double grip_ = 0;  // friction's level g(v), followed within its relaxation time
   Vec3 last_tip_ = Vec3::Zero();
+  Pose in_material_ = Pose::Identity();  // of this tick's needle
   NeedleForces forces_;
 };
 

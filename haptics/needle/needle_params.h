@@ -4,11 +4,11 @@
 #include "artus/detail/haptics/needle/laws/hard_contact.h"
 #include "artus/detail/haptics/needle/laws/hemisphere_workspace.h"
 #include "artus/detail/haptics/needle/laws/lugre_friction.h"
-#include "artus/detail/haptics/needle/needle_contact.h"
 #include "artus/detail/haptics/needle/laws/orientation_torque.h"
 #include "artus/detail/haptics/needle/laws/plasticity_fixture.h"
 #include "artus/detail/haptics/needle/laws/prepuncture.h"
 #include "artus/detail/haptics/needle/laws/tracking_wall.h"
+#include "artus/detail/haptics/needle/needle_contact.h"
 
 namespace artus {
 

@@ -3,8 +3,8 @@
 #include <memory>
 #include <string_view>
 
-#include "artus/haptics/needle_feel.h"
 #include "artus/detail/haptics/needle/needle_tick_step.h"
+#include "artus/haptics/needle_feel.h"
 
 namespace artus {
 
@@ -20,11 +20,19 @@ class NeedleRenderer {
     return tick_.step(pose, *scene_);
   }
 
+  /// NeedleTickStep::feel and command.
+  ARTUS_REALTIME bool feel(const TimedPose& pose) noexcept { return tick_.feel(pose, *scene_); }
+  ARTUS_REALTIME const RenderedNeedle& command(const Vec3& more = Vec3::Zero()) noexcept {
+    return tick_.command(more);
+  }
+
   /// NeedleModel::take.
   ARTUS_REALTIME void take(const NeedlePacket& packet) noexcept { tick_.take(packet); }
 
   [[nodiscard]] const NeedleModel& model() const noexcept { return tick_.model(); }
   [[nodiscard]] const LayerTable& table() const noexcept { return tick_.table(); }
+  /// J given since the start, by the passivity observer.
+  [[nodiscard]] double energy_to_hand() const noexcept { return tick_.energy_to_hand(); }
   [[nodiscard]] double period() const noexcept { return tick_.period(); }  ///< s
 
  private:

@@ -27,29 +27,33 @@ NeedleTickStep::NeedleTickStep(LayerTable table, const NeedleRendererParams& par
                 "the rate must be 100 to 20000 Hz");
 }
 
-const RenderedNeedle& NeedleTickStep::finish(const Pose& X_JN, std::uint32_t faults,
-                                             const QueryCount& count) noexcept {
-  rendered_.status = count.truncated ? TickStatus::kTruncated : TickStatus::kOk;
-  if (faults != 0) {
+void NeedleTickStep::run_laws(const Pose& X_JN) noexcept {
+  rendered_.status = count_.truncated ? TickStatus::kTruncated : TickStatus::kOk;
+  tip_ = X_JN.translation();
+  if (faults_ != 0) {
     model_.reset();
     rendered_.forces = NeedleForces{};
     passivity_.pause();
-  } else if (count.truncated) {
+  } else if (count_.truncated) {
     model_.hold();
   } else {
-    const std::span<const TissueInterval> intervals(intervals_.data(), count.size);
+    const std::span<const TissueInterval> intervals(intervals_.data(), count_.size);
     ARTUS_ASSERT(is_contiguous(intervals));
     rendered_.forces = model_.step(X_JN, intervals);
   }
+}
+
+const RenderedNeedle& NeedleTickStep::command(const Vec3& more) noexcept {
   Wrench wanted = rendered_.forces.total;
-  if (faults == 0) wanted.force = passivity_.step(X_JN.translation(), wanted.force);
-  rendered_.command = output_guard_.apply(wanted, faults, rendered_.status);
+  if (!more.isZero(0)) wanted.force += more;
+  if (faults_ == 0) wanted.force = passivity_.step(tip_, wanted.force);
+  rendered_.command = output_guard_.apply(wanted, faults_, rendered_.status);
   passivity_.observe(rendered_.command.force);
   rendered_.energy_to_hand = passivity_.energy_to_hand();
-  const bool law_failed = faults == 0 && (rendered_.status & TickStatus::kFaults) != 0;
-  if (law_failed || (count.truncated && !output_guard_.engaged())) {
+  const bool law_failed = faults_ == 0 && (rendered_.status & TickStatus::kFaults) != 0;
+  if (law_failed || (count_.truncated && !output_guard_.engaged())) {
     model_.reset();
-    if (count.truncated) rendered_.forces = NeedleForces{};
+    if (count_.truncated) rendered_.forces = NeedleForces{};
   }
   return rendered_;
 }

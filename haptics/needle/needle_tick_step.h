@@ -50,24 +50,38 @@ class NeedleTickStep {
   /// Errors: none; any input gives a wrench within limits and says in the status what was wrong.
   template <IntervalSource Body>
   ARTUS_REALTIME const RenderedNeedle& step(const TimedPose& pose, const Body& body) noexcept {
-    const std::uint32_t faults = input_guard_.check(pose);
-    QueryCount count;
-    if (faults == 0) count = body.find_intervals(model_.query_segment(pose.X_JN), intervals_);
-    return finish(pose.X_JN, faults, count);
+    feel(pose, body);
+    return command();
   }
+
+  /// The first half of a tick, for who adds forces that hang on it: contact and laws. True: nothing
+  /// is wrong with the pose.
+  template <IntervalSource Body>
+  ARTUS_REALTIME bool feel(const TimedPose& pose, const Body& body) noexcept {
+    faults_ = input_guard_.check(pose);
+    count_ = {};
+    if (faults_ == 0) count_ = body.find_intervals(model_.query_segment(pose.X_JN), intervals_);
+    run_laws(pose.X_JN);
+    return faults_ == 0;
+  }
+  /// The second: what the laws ask for and `more` (N, frame J; a syringe's, an aid's) through
+  /// passivity and output guard, which nothing passes by.
+  ARTUS_REALTIME const RenderedNeedle& command(const Vec3& more = Vec3::Zero()) noexcept;
 
   /// NeedleModel::take.
   ARTUS_REALTIME void take(const NeedlePacket& packet) noexcept { model_.take(packet); }
 
   [[nodiscard]] const NeedleModel& model() const noexcept { return model_; }
   [[nodiscard]] const LayerTable& table() const noexcept { return table_; }
+  [[nodiscard]] double energy_to_hand() const noexcept {
+    return passivity_.energy_to_hand();
+  }                                                             ///< J
   [[nodiscard]] double period() const noexcept { return dt_; }  ///< s
 
  private:
   static constexpr std::size_t kMaxIntervals = 64;
 
-  const RenderedNeedle& finish(const Pose& X_JN, std::uint32_t faults,
-                               const QueryCount& count) noexcept;
+  void run_laws(const Pose& X_JN) noexcept;
 
   LayerTable table_;
   double dt_;
@@ -76,6 +90,9 @@ class NeedleTickStep {
   OutputGuard output_guard_;
   PassivityObserver passivity_;
   std::array<TissueInterval, kMaxIntervals> intervals_{};
+  std::uint32_t faults_ = 0;  // of this tick's pose
+  QueryCount count_;          // of this tick's line
+  Vec3 tip_ = Vec3::Zero();   // m, frame J
   RenderedNeedle rendered_;
 };
 

@@ -18,8 +18,7 @@ constexpr double kAround = 1e3;  // Pa that parts what lies around a torn place;
 constexpr double kClogFactor = 100;         // on the needle's resistance; assumed
 constexpr double kClogTime = 0.2;           // s in which it clogs; assumed
 constexpr double kWidestClogged = 0.22e-3;  // m of bore; 27 G and thinner
-constexpr double kMaxFall =
-    0.25;                          // of the bevel's resistance, by which a place may fall in a tick
+constexpr double kMaxFall = 0.25;  // of the bevel's resistance, by which a place may fall in a tick
 constexpr double kFilmRate = 1e3;  // 1/s at which a thinning liquid runs in a film; assumed
 
 double fade(const SpaceLaw& law, double dt) noexcept {
@@ -179,7 +178,7 @@ Plunger::Branch Plunger::branch(const PlungerInput& input, std::size_t which, do
 
 /// The bore ends in both branches; one against whose pressure nothing flows takes no part.
 Plunger::BevelFlow Plunger::part(const PlungerInput& input, const Drive& drive,
-                               bool out) const noexcept {
+                                 bool out) const noexcept {
   const double direction = out ? 1 : -1;
   std::array<Branch, 2> branches{branch(input, 0, drive.step, out),
                                  branch(input, 1, drive.step, out)};

@@ -76,7 +76,7 @@ struct PlungerParams {
   double entry_loss = NeedleFlow::kEntryLoss;  ///< see NeedleFlow
   double unbalanced = 0.05;  ///< of the thumb's force goes into the needle; assumed: 0.05 for the
                              ///< skilled to 0.2, 0 with an extension line
-  double max_force = 100;   ///< N; assumed: the limit of one hand
+  double max_force = 100;    ///< N; assumed: the limit of one hand
   double reopen_distance = 0.5e-3;   ///< m the tip may move before its place is closed to it again
   double reopen_time = 30;           ///< s without flow before it is
   double lost_resistance = 1e9;      ///< Pa s/m^3 from a torn place to its surroundings; assumed
@@ -177,7 +177,7 @@ class Plunger {
                               bool out) const noexcept;
   [[nodiscard]] const NeedleFlow* flow_in(const TipShare& tip) const noexcept;
   [[nodiscard]] BevelFlow part(const PlungerInput& input, const Drive& drive,
-                             bool out) const noexcept;
+                               bool out) const noexcept;
   [[nodiscard]] BevelFlow flow_out(const PlungerInput& input, const Drive& drive) const noexcept;
   [[nodiscard]] double instant(double slope, double step) const noexcept;
   [[nodiscard]] double gliding(double thumb, double stiffness) const noexcept;

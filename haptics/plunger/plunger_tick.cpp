@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kVacuum = -90e3;  // Pa, below which a liquid is not drawn
 constexpr double kStill = 1e-12;   // m^3/s
-constexpr int kMaxEvents = 6;     // in a tick that are met at their instant
+constexpr int kMaxEvents = 6;      // in a tick that are met at their instant
 
 /// Of a step in which a number rises from `from` to `to`, where it is 0; 1 when nowhere.
 double crossing(double from, double to) noexcept {
@@ -120,8 +120,11 @@ double Plunger::move_to_event(const PlungerInput& input, const Push& push) noexc
     break_loose(direction, push.from, push.stiffness);
     return 0;
   }
-  const Before before{
-      state_, {states_[input.tip[0].space], states_[input.tip[1].space]}, flows_, direction_, motion_};
+  const Before before{state_,
+                      {states_[input.tip[0].space], states_[input.tip[1].space]},
+                      flows_,
+                      direction_,
+                      motion_};
   const double shut = easiest(input, state_.bevel_pressure).over;
   move(input, push);
   const double pulls = felt(push, before.state.travel) - area_ * state_.pressure;
@@ -156,7 +159,8 @@ double Plunger::felt(const Push& push, double travel) const noexcept {
   return push.to - push.stiffness * (state_.travel - travel);
 }
 
-void Plunger::take_flows(const PlungerInput& input, const BevelFlow& bevel_flow, double step) noexcept {
+void Plunger::take_flows(const PlungerInput& input, const BevelFlow& bevel_flow,
+                         double step) noexcept {
   const std::array<double, 2>& flows = bevel_flow.flows;
   for (std::size_t k = 0; k < 2; ++k) {
     const double volume = flows[k] * step;

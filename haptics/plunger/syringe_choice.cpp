@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kBeyondMark = 1.2;  // of a barrel's volume; assumed
 constexpr double kLargest = 100e-6;  // m^3
-constexpr double kMaxAir = 10e-6;   // m^3
+constexpr double kMaxAir = 10e-6;    // m^3
 
 }  // namespace
 

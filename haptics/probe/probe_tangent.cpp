@@ -10,7 +10,7 @@ namespace artus {
 namespace {
 
 constexpr double kFarthest = 3e-3;  // m from the packet's pose
-constexpr double kMaxTurn = 0.1;   // rad
+constexpr double kMaxTurn = 0.1;    // rad
 
 Vec3 limited(const Vec3& v, double most) noexcept {
   const double size = v.norm();

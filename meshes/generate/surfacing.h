@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "artus/detail/anatomy/surfaces/surface_mesh.h"
 #include "artus/core/result.h"
+#include "artus/detail/anatomy/surfaces/surface_mesh.h"
 #include "artus/detail/meshes/generate/field.h"
 
 namespace artus {

@@ -7,8 +7,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "artus/detail/core/fields.h"
 #include "artus/core/geometry.h"
+#include "artus/detail/core/fields.h"
 
 namespace artus {
 

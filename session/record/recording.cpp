@@ -10,6 +10,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "artus/detail/core/text_file.h"
 #include "artus/detail/echo/display/tip_contrast.h"
 
 namespace artus {
@@ -218,6 +219,35 @@ Result<Recording> read_recording(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in) return fail(ErrorCode::not_found, "cannot open the recording", file);
   return read_recording(in, file.string());
+}
+
+namespace {
+
+template <class T>
+void put(std::string& out, std::uint32_t kind, const T& record) {
+  const RecordStart start{kind, sizeof(T)};
+  out.append(reinterpret_cast<const char*>(&start), sizeof start);
+  out.append(reinterpret_cast<const char*>(&record), sizeof record);
+}
+
+}  // namespace
+
+Result<void> write_recording(const Recording& recording, const std::filesystem::path& file) {
+  std::string out = to_line(recording.head) + "\n";
+  auto frame = recording.frames.begin();
+  auto packet = recording.packets.begin();
+  for (const TickRecord& tick : recording.ticks) {
+    for (; packet != recording.packets.end() && packet->tick <= tick.input.tick; ++packet)
+      put(out, RecordStart::kPacket, *packet);
+    put(out, RecordStart::kTick, tick);
+    for (; frame != recording.frames.end() &&
+           frame->input.sample_time_ns <= tick.input.device.time_ns;
+         ++frame)
+      put(out, RecordStart::kFrame, *frame);
+  }
+  for (; packet != recording.packets.end(); ++packet) put(out, RecordStart::kPacket, *packet);
+  put(out, RecordStart::kEnd, recording.dropped);
+  return write_text(file, out);
 }
 
 }  // namespace artus

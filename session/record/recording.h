@@ -8,7 +8,7 @@
 
 #include "artus/core/result.h"
 #include "artus/detail/session/record/recording_head.h"
-#include "artus/detail/simulation/session_core.h"
+#include "artus/detail/simulation/records.h"
 
 namespace artus {
 
@@ -69,6 +69,10 @@ struct Recording {
 [[nodiscard]] const char* find_fault(const TickRecord& record, std::uint64_t last) noexcept;
 [[nodiscard]] const char* find_fault(const FrameRecord& record, std::uint64_t last) noexcept;
 [[nodiscard]] const char* find_fault(const PacketRecord& record, std::uint64_t last) noexcept;
+
+/// Writes a recording as a session would. Errors: unreadable.
+[[nodiscard]] Result<void> write_recording(const Recording& recording,
+                                           const std::filesystem::path& file);
 
 /// Reads a recording; what a crash cut off is left out. Errors: not_found, those of parse_head,
 /// corrupt (a record that cannot be, with its number).

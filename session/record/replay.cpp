@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/session/replay.h"
 
+#include <algorithm>
+#include <bit>
 #include <cstring>
 
 #include "artus/detail/anatomy/body/joint_digest.h"
-#include "artus/detail/simulation/image_core.h"
+#include "artus/simulation/simulation.h"
 
 namespace artus {
 namespace {
@@ -20,7 +22,18 @@ bool same(const TickRecord& a, const TickRecord& b) noexcept {
   // NOLINTEND(bugprone-suspicious-memory-comparison)
 }
 
+void note(const FrameRecord& recorded, bool same, ReplayReport& report) {
+  if (same) return;
+  if (!report.first_different_frame) report.first_different_frame = recorded.input.number;
+  ++report.different_frames;
+}
+
 }  // namespace
+
+bool none_was_drawn(const Recording& recording) {
+  return std::none_of(recording.frames.begin(), recording.frames.end(),
+                      [](const FrameRecord& frame) { return frame.digest != 0; });
+}
 
 Result<ReplayReport> replay(const Recording& recording, const std::shared_ptr<const Scene>& scene,
                             const ReplayListener& listener, int n_threads) {
@@ -34,12 +47,12 @@ Result<ReplayReport> replay(const Recording& recording, const std::shared_ptr<co
   ReplayReport report;
   report.dropped = recording.dropped;
   report.complete = recording.complete;
-  HapticCore haptics(scene, params);
+  Simulation simulation(scene, params);
   auto packet = recording.packets.begin();
   for (const TickRecord& recorded : recording.ticks) {
     for (; packet != recording.packets.end() && packet->tick <= recorded.input.tick; ++packet)
-      haptics.take(packet->packet);
-    const HapticSnapshot& out = haptics.step(recorded.input);
+      simulation.take(packet->packet);
+    const HapticSnapshot& out = simulation.tick(recorded.input);
     ++report.ticks;
     if (!same(recorded, to_record(out))) {
       if (!report.first_different_tick) report.first_different_tick = recorded.input.tick;
@@ -47,20 +60,21 @@ Result<ReplayReport> replay(const Recording& recording, const std::shared_ptr<co
     }
     if (listener.on_tick) listener.on_tick(out);
   }
-  if (recording.frames.empty()) return report;
-  ImageCore images(scene, params);
+  const bool listed = none_was_drawn(recording) && listener.on_frame;
   for (const FrameRecord& recorded : recording.frames) {
-    const Frame& frame = images.render(recorded.input);
+    const ImagedBody body = simulation.advance(recorded.input);
     ++report.frames;
-    const TissuePacket* felt = images.packet();
-    const bool same_packet = felt == nullptr || digest_of(*felt) == recorded.packet;
-    const FrameRecord now = to_record(recorded.input, frame, images.transducer());
+    const bool same_packet = !body.packet || digest_of(*body.packet) == recorded.packet;
+    if (recorded.digest == 0 && !listed) {
+      note(recorded, same_packet, report);
+      continue;
+    }
+    const Frame& frame = simulation.render(recorded.input, body);
+    const FrameRecord now = to_record(recorded.input, frame, simulation.transducer());
     const bool same_sight = std::bit_cast<std::uint64_t>(now.tip_contrast) ==
                             std::bit_cast<std::uint64_t>(recorded.tip_contrast);
-    if (now.digest != recorded.digest || !same_packet || !same_sight) {
-      if (!report.first_different_frame) report.first_different_frame = recorded.input.number;
-      ++report.different_frames;
-    }
+    const bool same_picture = recorded.digest == 0 || (now.digest == recorded.digest && same_sight);
+    note(recorded, same_picture && same_packet, report);
     if (listener.on_frame) listener.on_frame(recorded, frame);
   }
   return report;

@@ -30,10 +30,14 @@ struct ReplayListener {
   std::function<void(const FrameRecord&, const Frame&)> on_frame;
 };
 
-/// Feeds a recording's inputs through the same cores as the session that made it, with the params
-/// in its head, and compares each force bit for bit and each image by digest. Ticks that the
-/// recording lacks make later ones differ. `n_threads`: of the imaging, which the images do not
-/// depend on; 0: all processors. Errors: invalid when `scene` is another joint than the one
+/// Whether its pictures are inputs alone, as of a list of poses or a session without pictures.
+[[nodiscard]] bool none_was_drawn(const Recording& recording);
+
+/// Feeds a recording's inputs through the same Simulation as the session that made it, with the
+/// params in its head, and compares each force bit for bit and each image by digest. Images that
+/// were not drawn are tissue's steps alone, unless none was and `listener` wants to see them. Ticks
+/// that the recording lacks make later ones differ. `n_threads`: of the imaging, which the images
+/// do not depend on; 0: all processors. Errors: invalid when `scene` is another joint than the one
 /// recorded.
 [[nodiscard]] Result<ReplayReport> replay(const Recording& recording,
                                           const std::shared_ptr<const Scene>& scene,

@@ -19,8 +19,8 @@ class ReopeningChannel {
 
   /// Errors: as SharedSegment::open.
   [[nodiscard]] static Result<std::unique_ptr<ReopeningChannel>> open(const std::string& prefix,
-                                                                    const SegmentLayout& layout,
-                                                                    SegmentAccess access) {
+                                                                      const SegmentLayout& layout,
+                                                                      SegmentAccess access) {
     Result<Channel> channel = Channel::open(prefix, layout, access);
     ARTUS_TRY(channel);
     return std::unique_ptr<ReopeningChannel>(

@@ -5,10 +5,10 @@
 #include <memory>
 #include <string>
 
-#include "artus/detail/core/check.h"
 #include "artus/core/result.h"
-#include "artus/session/client/artus_shm.h"
+#include "artus/detail/core/check.h"
 #include "artus/detail/session/shm/seqlock.h"
+#include "artus/session/client/artus_shm.h"
 
 namespace artus {
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "artus/simulation/input_device.h"
 #include "artus/detail/session/shm/reopening_channel.h"
+#include "artus/simulation/input_device.h"
 
 namespace artus {
 

@@ -39,8 +39,8 @@ using CellMatrix = Eigen::Matrix<double, 24, 24>;
 
 /// What a deformed cube answers.
 struct CellResponse {
-  CellVector force;         ///< N, on the nodes by the cube: minus the energy's gradient
-  double energy = 0;        ///< J
+  CellVector force;       ///< N, on the nodes by the cube: minus the energy's gradient
+  double energy = 0;      ///< J
   double min_volume = 1;  ///< smallest J of its integration points of more than kMinWeight
 };
 

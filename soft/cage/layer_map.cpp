@@ -13,8 +13,8 @@ constexpr double kAcross = 1.5e-3;    // m between columns
 constexpr double kAlong = 0.1875e-3;  // m between samples: no thinner layer is sure to be found
 constexpr int kBorderHalvings = 8;    // that find a border between two samples
 constexpr double kBeside = 1e-5;      // m, to look across a cube's side
-constexpr double kMinFluid = 0.1;   // of its length, what is left of fluid that drains; assumed
-constexpr double kMinSolid = 0.3;   // of its length at its own volume, of any other; assumed
+constexpr double kMinFluid = 0.1;     // of its length, what is left of fluid that drains; assumed
+constexpr double kMinSolid = 0.3;     // of its length at its own volume, of any other; assumed
 
 bool has_several(const CellMixture& mix) {
   return std::any_of(mix.samples.begin(), mix.samples.end(),

@@ -35,8 +35,8 @@ std::vector<Vec3> node_areas(const Cage& cage, const LayerMap& map, std::span<co
 struct Layer {
   double thickness;  // of the cube's edge
   double stretch;
-  double compliance;   // how much more it is stretched by a tension
-  double least;  // that stretch can be
+  double compliance;  // how much more it is stretched by a tension
+  double least;       // that stretch can be
 };
 
 /// Stretches the layers so that together they are `length` long.

@@ -6,9 +6,9 @@
 #include <string_view>
 #include <vector>
 
-#include "artus/detail/anatomy/body/tissue.h"
 #include "artus/core/geometry.h"
 #include "artus/core/result.h"
+#include "artus/detail/anatomy/body/tissue.h"
 
 namespace artus {
 

@@ -182,7 +182,8 @@ class Outline {
   [[nodiscard]] double reach(const Vec3& displacement) const {
     if (!(ragged_ > 0)) return 1;
     double sum = 0;
-    for (std::size_t k = 0; k < kWaves; ++k) sum += std::sin(waves_[k].dot(displacement) + phases_[k]);
+    for (std::size_t k = 0; k < kWaves; ++k)
+      sum += std::sin(waves_[k].dot(displacement) + phases_[k]);
     return std::exp(ragged_ * sum);
   }
 
@@ -221,8 +222,9 @@ class Push {
 
   /// The liquid's surface; `way`: unit.
   [[nodiscard]] Vec3 surface(const Vec3& displacement) const {
-    return centre_ +
-           out_ * (std::cbrt(cube_toward(shadow_.nearness(displacement), outline_.reach(displacement))) * displacement);
+    return centre_ + out_ * (std::cbrt(cube_toward(shadow_.nearness(displacement),
+                                                   outline_.reach(displacement))) *
+                             displacement);
   }
 
   [[nodiscard]] Vec3 moved(const Vec3& p) const {

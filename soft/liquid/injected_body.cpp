@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kVisible = 1e-9;        // m^3
 constexpr double kLongestSplit = 15e-3;  // m, half of the length; 10 to 30 mm in all, assumed
-constexpr double kMinPressure = 500;   // Pa of a space's liquid: what lies on it; assumed
+constexpr double kMinPressure = 500;     // Pa of a space's liquid: what lies on it; assumed
 constexpr double kBall = 4 * std::numbers::pi / 3;
 
 Vec3 toward_skin(const CompiledJoint& joint, const Vec3& p) {
@@ -165,7 +165,7 @@ std::vector<Vec3> places_of(const BevelFlow& bevel_flow) {
 bool fit_between(const Walls& walls, double slide, Bolus& bolus) {
   constexpr double kFilm = 0.3e-3;  // m of tissue above and below
   constexpr double kShare = 0.9;    // of the way to a wall, which is pushed on
-  constexpr double kMin = 0.35;   // of a full one's length and width
+  constexpr double kMin = 0.35;     // of a full one's length and width
   const Vec3 up = bolus.axes.col(2);
   for (const Vec3& direction : {up, Vec3(-up)}) {
     const double room = walls.reach(bolus.centre, direction);

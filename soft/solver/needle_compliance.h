@@ -16,11 +16,11 @@ struct NeedleCompliance {
   static constexpr std::size_t kMax = 16;
   using Column = std::array<double, kMax>;
 
-  std::size_t points = 0;               ///< 0: the tissue is rigid
-  double spacing = 2.5e-3;              ///< m
+  std::size_t points = 0;              ///< 0: the tissue is rigid
+  double spacing = 2.5e-3;             ///< m
   std::array<Column, kMax> by_load{};  ///< m/N, symmetric, positive definite
-  Column near_field{};                  ///< m/N, what of by_load's diagonal the needle's own
-                                        ///< neighbourhood adds to the field of the cubes
+  Column near_field{};                 ///< m/N, what of by_load's diagonal the needle's own
+                                       ///< neighbourhood adds to the field of the cubes
 };
 
 /// The forces of a needle on the tissue along its track, N, positive into the body.

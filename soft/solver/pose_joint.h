@@ -26,8 +26,8 @@ struct BoneShares {
 /// What posing a joint did to it.
 struct PosedJoint {
   CompiledJoint joint;       ///< a body like any other, at rest in this pose
-  double min_volume = 1;   ///< of a tissue's volume over what it was at rest, the smallest
-  double max_volume = 1;    ///< the largest
+  double min_volume = 1;     ///< of a tissue's volume over what it was at rest, the smallest
+  double max_volume = 1;     ///< the largest
   double turned_inside = 0;  ///< share of the soft volume whose tetrahedra are folded
 };
 

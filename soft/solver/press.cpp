@@ -74,7 +74,8 @@ Result<Press> press_with(SoftBody& body, const Pose& X_JP, double force, double 
     const double distance = std::clamp((force - best.normal_force) / slope, -kStep, kStep);
     if (!std::isfinite(distance)) break;
     last = best;
-    best = hold(body, X_JP, std::clamp(best.depth + distance, -max_depth, max_depth), Until::settled);
+    best =
+        hold(body, X_JP, std::clamp(best.depth + distance, -max_depth, max_depth), Until::settled);
   }
   if (std::abs(best.normal_force / force - 1) > kNear)
     return fail(ErrorCode::failed, "the tissue does not come to rest under the force asked for: " +

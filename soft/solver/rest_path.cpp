@@ -8,14 +8,14 @@
 namespace artus {
 namespace {
 
-constexpr double kKnotPitch = 3e-4;       // m, knots that a bend asks for do not come closer
-constexpr double kMinStep = 5e-5;       // m, past a cube's face
-constexpr double kMinLayerStep = 1e-5;  // m, past a layer's border within a cube
-constexpr double kLayerTry = 2e-4;        // m that are worth a try where borders lie close
-constexpr double kFarthestTry = 6e-4;     // m, the same where it went on straight: a thin layer and
-                                          // the next may bend and bend back
-constexpr double kOutsideStep = 3e-3;     // m, where there is no cube
-constexpr double kFarthestFace = 48e-3;   // m
+constexpr double kKnotPitch = 3e-4;      // m, knots that a bend asks for do not come closer
+constexpr double kMinStep = 5e-5;        // m, past a cube's face
+constexpr double kMinLayerStep = 1e-5;   // m, past a layer's border within a cube
+constexpr double kLayerTry = 2e-4;       // m that are worth a try where borders lie close
+constexpr double kFarthestTry = 6e-4;    // m, the same where it went on straight: a thin layer and
+                                         // the next may bend and bend back
+constexpr double kOutsideStep = 3e-3;    // m, where there is no cube
+constexpr double kFarthestFace = 48e-3;  // m
 constexpr double kOneStep = 3e-5;  // m off the tangent, four times the error half way; one Newton
                                    // step leaves next to nothing of it
 

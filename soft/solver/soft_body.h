@@ -9,9 +9,9 @@
 
 #include "artus/anatomy/compiled_joint.h"
 #include "artus/core/result.h"
+#include "artus/detail/soft/cage/tet_locator.h"
 #include "artus/detail/soft/solver/deformed_body.h"
 #include "artus/detail/soft/solver/soft_solver.h"
-#include "artus/detail/soft/cage/tet_locator.h"
 
 namespace artus {
 

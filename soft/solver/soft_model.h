@@ -8,10 +8,10 @@
 
 #include "artus/detail/soft/cage/averaging.h"
 #include "artus/detail/soft/cage/cage.h"
-#include "artus/detail/soft/solver/cholesky.h"
 #include "artus/detail/soft/cage/kernels.h"
 #include "artus/detail/soft/cage/layer_map.h"
 #include "artus/detail/soft/cage/material.h"
+#include "artus/detail/soft/solver/cholesky.h"
 
 namespace artus {
 
@@ -24,7 +24,7 @@ struct HeldNode {
 
 struct SoftModelParams {
   CageParams cage;
-  int samples = 4;            ///< of the field along a cube's edge, even
+  int samples = 4;          ///< of the field along a cube's edge, even
   double min_share = 0.06;  ///< of a cube that must be tissue; assumed: less is flimsy
   /// Nodes that are held beside those in bone and beyond the meshed part; may be empty.
   std::function<HeldNode(const Vec3& p_C)> held;
@@ -35,7 +35,7 @@ struct SoftForces {
   Eigen::VectorXd on_unknowns;  ///< N (3 n_unknowns), by the tissue
   std::vector<Vec3> on_nodes;   ///< N (n_nodes), by the tissue, hanging nodes' shares passed on
   double energy = 0;            ///< J stored
-  double min_volume = 1;      ///< smallest J of any integration point, as CellResponse has it
+  double min_volume = 1;        ///< smallest J of any integration point, as CellResponse has it
 };
 
 /// A share of an unknown node in the displacement of a point.

@@ -33,7 +33,7 @@ struct SoftSolverParams {
   double step_limit = 0.5e-3;   ///< m a node may move in one step beyond what the face moves
   double probe_advance = 1e-3;  ///< m the face may move in one step; a faster hand is followed late
   double probe_turn = 0.05;     ///< rad the same
-  double min_volume = 0.02;   ///< of any point; a step that squeezes more is halved, at last
+  double min_volume = 0.02;     ///< of any point; a step that squeezes more is halved, at last
                                 ///< taken back
   int bad_steps = 3;            ///< in a row after which the body starts again from rest
 };

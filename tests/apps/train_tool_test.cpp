@@ -9,15 +9,15 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "artus/detail/core/markup.h"
+#include "artus/detail/core/text_file.h"
+#include "artus/detail/core/units.h"
 #include "artus/detail/reports/feedback_words.h"
 #include "artus/detail/trainer/train_desk.h"
 #include "artus/detail/trainer/train_lesson.h"
 #include "artus/detail/trainer/train_pages.h"
 #include "artus/detail/trainer/train_review.h"
 #include "artus/detail/trainer/train_texts.h"
-#include "artus/detail/core/markup.h"
-#include "artus/detail/core/text_file.h"
-#include "artus/detail/core/units.h"
 #include "artus/detail/training/records.h"
 #include "tests/apps/run_tool.h"
 #include "tests/support/temporary_folder.h"

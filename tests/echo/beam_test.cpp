@@ -9,10 +9,10 @@
 #include <gtest/gtest.h>
 
 #include "artus/detail/core/units.h"
-#include "artus/detail/echo/probe/beam_profile.h"
 #include "artus/detail/echo/acquire/beam_spread.h"
 #include "artus/detail/echo/display/frame_measure.h"
 #include "artus/detail/echo/medium/region_acoustics.h"
+#include "artus/detail/echo/probe/beam_profile.h"
 #include "artus/echo/renderer.h"
 #include "artus/echo/transducer_file.h"
 #include "tests/echo/echo_fixture.h"

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "artus/echo/frame.h"
 #include "artus/detail/echo/display/frame_measure.h"
+#include "artus/echo/frame.h"
 #include "artus/echo/image_settings.h"
 #include "artus/echo/needle_view.h"
 #include "artus/raycast/scene.h"

@@ -10,12 +10,12 @@
 
 #include "artus/detail/core/units.h"
 #include "artus/detail/echo/acquire/block_workers.h"
-#include "artus/detail/echo/display/compound.h"
-#include "artus/detail/echo/probe/gaussian.h"
 #include "artus/detail/echo/acquire/line_shaping.h"
-#include "artus/detail/echo/probe/placed_line.h"
+#include "artus/detail/echo/display/compound.h"
 #include "artus/detail/echo/display/scan_converter.h"
 #include "artus/detail/echo/medium/scatter_field.h"
+#include "artus/detail/echo/probe/gaussian.h"
+#include "artus/detail/echo/probe/placed_line.h"
 
 namespace artus {
 namespace {

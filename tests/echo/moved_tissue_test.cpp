@@ -6,10 +6,10 @@
 #include <gtest/gtest.h>
 
 #include "artus/detail/core/units.h"
-#include "artus/echo/labels.h"
 #include "artus/detail/echo/acquire/propagation.h"
-#include "artus/echo/renderer.h"
 #include "artus/detail/raycast/moving_scene.h"
+#include "artus/echo/labels.h"
+#include "artus/echo/renderer.h"
 #include "tests/echo/echo_fixture.h"
 #include "tests/support/moved_block.h"
 

@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "artus/session/replay.h"
 #include "artus/detail/training/assessment.h"
+#include "artus/session/replay.h"
 #include "tests/session/session_support.h"
 #include "tests/support/meshed_block.h"
 
@@ -81,7 +81,7 @@ TEST(LedSession, ANeedleThatIsNotListedIsNotThere) {
 }
 
 /// All numbers of a led session in a body that gives way, as JSON.
-std::string numbers(LedPictures pictures, SightSource sights) {
+std::string numbers(RecordedPictures pictures, SightSource sights) {
   const std::array<FlatLayer, 4> layers{
       {{"skin", 2e-3}, {"fat", 8e-3}, {"muscle", 20e-3}, {"bone", 10e-3}}};
   const auto joint =
@@ -102,7 +102,7 @@ std::string numbers(LedPictures pictures, SightSource sights) {
       std::any_of(recording->packets.begin(), recording->packets.end(),
                   [](const PacketRecord& p) { return p.packet.needle.compliance.points > 0; }))
       << "the needle feels the tissue, too";
-  EXPECT_EQ(recording->frames.empty(), pictures == LedPictures::none);
+  EXPECT_EQ(recording->frames.empty(), pictures == RecordedPictures::none);
   const auto assessed = assess_recording(*recording, scene, {}, sights);
   EXPECT_TRUE(assessed);
   const Metric* visible = find_metric(assessed->metrics, "tip_visible");
@@ -113,11 +113,11 @@ std::string numbers(LedPictures pictures, SightSource sights) {
 }
 
 TEST(LedSession, IsAssessedToTheSameDigitsWhetherItsPicturesWereDrawnBeforeOrNot) {
-  const std::string drawn = numbers(LedPictures::drawn, SightSource::recorded);
-  EXPECT_EQ(drawn, numbers(LedPictures::listed, SightSource::recorded));
-  EXPECT_EQ(drawn, numbers(LedPictures::drawn, SightSource::drawn));
-  EXPECT_EQ(numbers(LedPictures::none, SightSource::none),
-            numbers(LedPictures::drawn, SightSource::none));
+  const std::string drawn = numbers(RecordedPictures::drawn, SightSource::recorded);
+  EXPECT_EQ(drawn, numbers(RecordedPictures::listed, SightSource::recorded));
+  EXPECT_EQ(drawn, numbers(RecordedPictures::drawn, SightSource::drawn));
+  EXPECT_EQ(numbers(RecordedPictures::none, SightSource::none),
+            numbers(RecordedPictures::drawn, SightSource::none));
 }
 
 }  // namespace

@@ -80,11 +80,12 @@ Key at(const Path& displacement, double t) {
           kMm * (a.side + share * (b.side - a.side)), a.tilt + share * (b.tilt - a.tilt)};
 }
 
-std::vector<NeedleRow> follow(const AnalyticBody& body, const Path& displacement, const ForceSetup& setup) {
+std::vector<NeedleRow> follow(const AnalyticBody& body, const Path& displacement,
+                              const ForceSetup& setup) {
   std::vector<LayerHaptics> by_region(kFirstRegion);
   for (const LayerHaptics& layer : layers_of(setup)) by_region.push_back(layer);
-  NeedleTickStep tick(LayerTable(std::move(by_region)),
-                      {setup.needle, setup.guard, setup.passivity, setup.device, displacement.rate_hz});
+  NeedleTickStep tick(LayerTable(std::move(by_region)), {setup.needle, setup.guard, setup.passivity,
+                                                         setup.device, displacement.rate_hz});
   const Vec3 direction = displacement.direction.normalized();
   const Vec3 side = make_pose(Vec3::Zero(), direction, Vec3::UnitX()).linear().col(0);
   std::vector<NeedleRow> rows;
@@ -94,7 +95,8 @@ std::vector<NeedleRow> follow(const AnalyticBody& body, const Path& displacement
     const Key k = at(displacement, t);
     const Vec3 axis = std::cos(k.tilt) * direction + std::sin(k.tilt) * side;
     const Pose X_JN = make_pose(k.depth * direction + k.side * side, axis, side.cross(axis));
-    const double time = t >= displacement.frozen_from && t < displacement.frozen_to ? displacement.frozen_from : t;
+    const double time =
+        t >= displacement.frozen_from && t < displacement.frozen_to ? displacement.frozen_from : t;
     const RenderedNeedle& rendered = tick.step({X_JN, time}, body);
     rows.push_back(make_needle_row(t, X_JN, rendered, tick.model()));
     rows.back().energy_to_hand = rendered.energy_to_hand;
@@ -177,12 +179,12 @@ ForceScenario voigt_plasticity() {
   setup.needle.use_workspace = true;
   setup.needle.workspace.centre = Vec3(0.02, 0.01, 0.158);
   Path displacement{{{0, -1, 0, 0},
-           {0.2, 2, 0, 0},
-           {0.4, 10, 1, 0},
-           {0.6, 17, -1, 0},
-           {0.7, 20, 0, 0},
-           {0.9, -1, 0, 0}},
-          Vec3::UnitZ()};
+                     {0.2, 2, 0, 0},
+                     {0.4, 10, 1, 0},
+                     {0.6, 17, -1, 0},
+                     {0.7, 20, 0, 0},
+                     {0.9, -1, 0, 0}},
+                    Vec3::UnitZ()};
   return prescribed("voigt-plasticity", setup, displacement);
 }
 
@@ -192,7 +194,8 @@ ForceScenario barbe_impulse() {
   setup.skin.puncture_force = 0.05;
   setup.bursa.prepuncture_law = PrepunctureLaw::god_object;
   setup.needle.hard.law = HardLaw::impulse;
-  Path displacement{{{0, -1, 0, 0}, {0.2, 2, 0, 0}, {0.5, 24.5, 0, 0}, {0.6, 24.5, 0, 0}}, Vec3::UnitZ()};
+  Path displacement{{{0, -1, 0, 0}, {0.2, 2, 0, 0}, {0.5, 24.5, 0, 0}, {0.6, 24.5, 0, 0}},
+                    Vec3::UnitZ()};
   displacement.rate_hz = 5000;
   return prescribed("barbe-impulse", setup, displacement);
 }
@@ -272,16 +275,16 @@ ForceScenario faults() {
   setup.guard.workspace_centre = Vec3(0.01, 0.01, 0.005);
   setup.guard.workspace_half = Vec3(0.1, 0.1, 0.03);
   Path displacement{{{0, -10, 0, 0},
-           {0.1, -10, 0, 0},
-           {0.105, -10, 10.25, 0},  // 2.05 m/s
-           {0.2, -10, 10.25, 0},
-           {0.205, -10, 10.25, 0.205},  // 41 rad/s
-           {0.3, -10, 0, 0},
-           {0.4, -28, 0, 0},
-           {0.6, 8, 0, 0},
-           {1.1, 8, 0, 0},
-           {1.3, 9, 0, 0}},
-          Vec3::UnitZ()};
+                     {0.1, -10, 0, 0},
+                     {0.105, -10, 10.25, 0},  // 2.05 m/s
+                     {0.2, -10, 10.25, 0},
+                     {0.205, -10, 10.25, 0.205},  // 41 rad/s
+                     {0.3, -10, 0, 0},
+                     {0.4, -28, 0, 0},
+                     {0.6, 8, 0, 0},
+                     {1.1, 8, 0, 0},
+                     {1.3, 9, 0, 0}},
+                    Vec3::UnitZ()};
   displacement.frozen_from = 0.8;
   displacement.frozen_to = 0.83;
   return prescribed("faults", setup, displacement);

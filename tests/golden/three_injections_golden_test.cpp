@@ -18,9 +18,9 @@
 #include <nlohmann/json.hpp>
 
 #include "artus/anatomy/compiled_joint.h"
+#include "artus/detail/evidence/runs/three_injections.h"
 #include "artus/echo/image_io.h"
 #include "artus/echo/renderer.h"
-#include "artus/detail/evidence/runs/three_injections.h"
 #include "tests/support/paths.h"
 
 namespace artus {

@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/haptics/device.h"
 #include "artus/detail/haptics/guard.h"
 #include "artus/detail/haptics/passivity.h"
+#include "artus/haptics/device.h"
 #include "tests/support/real_time.h"
 
 namespace artus {

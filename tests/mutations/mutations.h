@@ -6,9 +6,9 @@
 #include <type_traits>
 #include <vector>
 
+#include "artus/core/geometry.h"
 #include "artus/detail/anatomy/body/tissue.h"
 #include "artus/detail/core/fields.h"
-#include "artus/core/geometry.h"
 #include "artus/detail/haptics/needle/needle_params.h"
 #include "tests/golden/force_scenarios.h"
 

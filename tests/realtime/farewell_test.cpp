@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Real processes that die in the middle of a force: the last thing in FORCE is zero.
-#include "artus/detail/session/shm/zero_force_on_crash.h"
-
 #include <csignal>
 #include <cstdlib>
 #include <exception>
@@ -15,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "artus/detail/session/session_thread.h"
+#include "artus/detail/session/shm/zero_force_on_crash.h"
 #include "artus/session/shared_memory_device.h"
 
 namespace artus {

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "artus/simulation/simulation.h"
 #include "tests/session/session_support.h"
 #include "tests/support/no_alloc.h"
 
@@ -35,7 +36,7 @@ class Loop {
     TickInput input;
     input.tick = ++tick_;
     input.device = device_.read(static_cast<std::int64_t>(tick_) * 1'000'000);
-    const HapticSnapshot& out = core_.step(input);
+    const HapticSnapshot& out = core_.tick(input);
     DeviceFeedback feedback = out.feedback;
     if (!feel_) std::fill(std::begin(feedback.force), std::end(feedback.force), 0.0);
     device_.write(feedback);
@@ -57,7 +58,7 @@ class Loop {
   bool feel_;
   SessionParams params_;
   std::shared_ptr<const Scene> scene_ = test::make_layered_scene();
-  HapticCore core_{scene_, params_};
+  Simulation core_{scene_, params_};
   InjectingDevice device_;
   std::uint64_t tick_ = 0;
 };

@@ -6,16 +6,17 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/detail/session/record/dropping_ring.h"
-#include "artus/detail/simulation/hand_aids.h"
 #include "artus/detail/session/hand_device.h"
 #include "artus/detail/session/haptic_loop.h"
 #include "artus/detail/session/injecting_device.h"
+#include "artus/detail/session/record/dropping_ring.h"
 #include "artus/detail/session/record/recorded_device.h"
 #include "artus/detail/session/record/recorder.h"
-#include "artus/session/recording.h"
 #include "artus/detail/session/session_exchange.h"
+#include "artus/detail/simulation/hand_aids.h"
+#include "artus/session/recording.h"
 #include "artus/session/shared_memory_device.h"
+#include "artus/simulation/simulation.h"
 #include "tests/session/session_support.h"
 #include "tests/support/real_time.h"
 #include "tests/support/temporary_folder.h"
@@ -96,20 +97,20 @@ TEST(RealTimeSession, AidsOfTheHandNeitherAllocateNorLock) {
 
 TEST(RealTimeSession, CoreAndLoopNeitherAllocateNorLockOnTheWayToBone) {
   const auto scene = test::make_layered_scene();
-  HapticCore core(scene, test::make_small_session());
+  Simulation core(scene, test::make_small_session());
   bool inserted = false;
   for (int i = 0; i < 2000; ++i) {
     TickInput input;
     input.tick = static_cast<std::uint64_t>(i) + 1;
     input.device = test::sample_at(-5e-3 + 2e-5 * i, i * test::kTickTime, input.tick);
     if (i == 1500) input.device.X_WN.position[0] = std::nan("");
-    ARTUS_RUNS_REALTIME(HapticCore::step, inserted = core.step(input).inserted != 0 || inserted);
-    ARTUS_RUNS_REALTIME(to_record, use(to_record(core.step(input))));
+    ARTUS_RUNS_REALTIME(Simulation::tick, inserted = core.tick(input).inserted != 0 || inserted);
+    ARTUS_RUNS_REALTIME(to_record, use(to_record(core.tick(input))));
     TissuePacket packet;
     packet.probe.number = input.tick;
     packet.needle.carried = {0, 1e-4, 1e-5 * i};
     packet.needle.compliance = test::make_even_compliance();
-    ARTUS_RUNS_REALTIME(HapticCore::take, core.take(packet));
+    ARTUS_RUNS_REALTIME(Simulation::take, core.take(packet));
   }
   EXPECT_TRUE(inserted);
   HandDevice device(hand_at(-5e-3), 1e-3);

@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "artus/detail/simulation/image_core.h"
+#include "artus/simulation/simulation.h"
 #include "artus/detail/simulation/session_fields.h"
 #include "tests/session/session_support.h"
 
@@ -40,8 +40,7 @@ SessionParams small_session() {
 std::string record(const std::shared_ptr<const Scene>& scene, const SessionParams& params) {
   std::ostringstream out;
   out << to_line(make_head(scene->joint(), params)) << '\n';
-  HapticCore haptics(scene, params);
-  ImageCore images(scene, params);
+  Simulation simulation(scene, params);
   std::uint64_t n = 0;
   std::uint64_t frames = 0;
   const double period = 1e9 / params.haptic_rate;  // ns
@@ -56,12 +55,13 @@ std::string record(const std::shared_ptr<const Scene>& scene, const SessionParam
     input.device.buttons = buttons;
     input.device.plunger = PlungerSign::travel;
     input.device.plunger_travel = 4e-6 * static_cast<double>(n);
-    const HapticSnapshot& snapshot = haptics.step(input);
+    const HapticSnapshot& snapshot = simulation.tick(input);
     write_record(out, RecordStart::kTick, to_record(snapshot));
     if (n % 600 != 0) return;
     const FrameInput frame = frame_input(snapshot, controls_of(params), ++frames);
     write_record(out, RecordStart::kFrame,
-                 to_record(frame, images.render(frame), images.transducer()));
+                 to_record(frame, simulation.render(frame, simulation.advance(frame)),
+                           simulation.transducer()));
   };
   for (int i = 0; i < 520; ++i) tick(0, -8e-3 + 75e-6 * i, 0);
   for (int i = 0; i < 300; ++i) tick(0, 31e-3 - 130e-6 * i, 0);

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "artus/simulation/simulation.h"
 #include "tests/support/layered_body.h"
 
 namespace artus {
@@ -59,7 +60,7 @@ TEST(LateWatch, OneLateTickIsNoReasonARowOfThemIs) {
 }
 
 TEST(ServoLoop, TicksAtItsRateCountsThemAndLeavesWithZeroForce) {
-  HapticCore core(block(), params_at(1000));
+  Simulation core(block(), params_at(1000));
   SteadyDevice device;
   ServoOptions options;
   options.seconds = 0.4;
@@ -83,7 +84,7 @@ TEST(ServoLoop, TicksAtItsRateCountsThemAndLeavesWithZeroForce) {
 }
 
 TEST(ServoLoop, StopsWhenAsked) {
-  HapticCore core(block(), params_at(1000));
+  Simulation core(block(), params_at(1000));
   SteadyDevice device;
   const std::atomic<bool> stop{true};
   Seqlock<HapticSnapshot> newest;
@@ -94,14 +95,14 @@ TEST(ServoLoop, StopsWhenAsked) {
   EXPECT_EQ(report->ticks, 0U);
 }
 
-TEST(HapticCore, ALoopThatIsLateForTooLongGivesNoForceAndComesBackByTheRamp) {
-  HapticCore core(block(), params_at(1000));
+TEST(Simulation, ALoopThatIsLateForTooLongGivesNoForceAndComesBackByTheRamp) {
+  Simulation core(block(), params_at(1000));
   SteadyDevice device;
   const auto tick = [&](std::int64_t ms, std::uint32_t command) {
     TickInput input;
     input.device = device.read(1'000'000'000 + ms * 1'000'000);
     input.command = command;
-    const HapticSnapshot& out = core.step(input);
+    const HapticSnapshot& out = core.tick(input);
     return std::pair(std::abs(out.feedback.force[2]), out.status);
   };
   double before = 0;

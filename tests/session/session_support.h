@@ -9,8 +9,8 @@
 #include <string>
 
 #include "artus/detail/session/injecting_device.h"
+#include "artus/detail/simulation/records.h"
 #include "artus/session/recording.h"
-#include "artus/detail/simulation/session_core.h"
 #include "tests/support/layered_body.h"
 
 namespace artus::test {

@@ -13,8 +13,8 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/detail/session/record/dropping_ring.h"
 #include "artus/detail/session/hand_device.h"
+#include "artus/detail/session/record/dropping_ring.h"
 #include "artus/session/replay.h"
 #include "tests/session/session_support.h"
 

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/detail/simulation/session_core.h"
+#include "artus/detail/simulation/haptic_core.h"
 #include "tests/session/session_support.h"
 
 namespace artus {

@@ -12,12 +12,12 @@
 #include <gtest/gtest.h>
 
 #include "artus/detail/core/units.h"
+#include "artus/detail/echo/acquire/liquid_plume.h"
 #include "artus/detail/echo/display/clear_level.h"
 #include "artus/detail/echo/display/frame_measure.h"
-#include "artus/echo/labels.h"
-#include "artus/detail/echo/acquire/liquid_plume.h"
-#include "artus/echo/renderer.h"
 #include "artus/detail/soft/liquid/injected_body.h"
+#include "artus/echo/labels.h"
+#include "artus/echo/renderer.h"
 #include "tests/support/layered_body.h"
 #include "tests/support/meshed_block.h"
 

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "artus/detail/simulation/image_core.h"
+#include "artus/detail/simulation/haptic_core.h"
 #include "artus/session/replay.h"
 #include "tests/session/session_support.h"
 #include "tests/support/meshed_block.h"

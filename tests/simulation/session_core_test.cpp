@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/detail/simulation/session_core.h"
-
 #include <cmath>
 #include <limits>
 
@@ -8,6 +6,7 @@
 
 #include "artus/detail/core/noise.h"
 #include "artus/detail/core/units.h"
+#include "artus/detail/simulation/haptic_core.h"
 #include "artus/session/shared_memory_device.h"
 #include "tests/session/session_support.h"
 #include "tests/support/no_alloc.h"

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "artus/detail/core/noise.h"
+#include "artus/detail/simulation/haptic_core.h"
 #include "tests/session/session_support.h"
 #include "tests/support/no_alloc.h"
 

@@ -8,8 +8,8 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/echo/renderer.h"
 #include "artus/detail/simulation/image_core.h"
+#include "artus/echo/renderer.h"
 #include "tests/session/session_support.h"
 #include "tests/support/meshed_block.h"
 #include "tests/support/trials.h"

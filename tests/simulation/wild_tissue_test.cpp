@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 
 #include "artus/detail/core/noise.h"
-#include "artus/haptics/needle_renderer.h"
 #include "artus/detail/simulation/tissue_core.h"
+#include "artus/haptics/needle_renderer.h"
 #include "tests/support/broken_device.h"
 #include "tests/support/meshed_block.h"
 

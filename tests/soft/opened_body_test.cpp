@@ -175,7 +175,8 @@ TEST(BoneShadow, SaysHowFarBoneIsAndNeverFarther) {
   for (const double degrees : {0.0, 20.0, 40.0, 60.0, 70.0})
     for (const double turn : {0.0, 0.7, 1.6, 2.9, 4.4, 5.8}) {
       const double a = degrees * M_PI / 180;
-      const Vec3 displacement(std::sin(a) * std::cos(turn), std::sin(a) * std::sin(turn), -std::cos(a));
+      const Vec3 displacement(std::sin(a) * std::cos(turn), std::sin(a) * std::sin(turn),
+                              -std::cos(a));
       EXPECT_LE(distance(displacement), 2 / std::cos(a)) << degrees << ' ' << turn;
       EXPECT_GE(distance(displacement), (degrees < 50 ? 0.8 : 0.5) * 2 / std::cos(a)) << degrees;
     }
@@ -187,7 +188,8 @@ TEST(BoneShadow, SaysHowFarBoneIsAndNeverFarther) {
   for (int k = 0; k < 4000; ++k) {
     const double z = 1 - (2 * k + 1) / 4000.0;
     const double turn = 2.39996 * k;
-    const Vec3 displacement(std::sqrt(1 - z * z) * std::cos(turn), std::sqrt(1 - z * z) * std::sin(turn), z);
+    const Vec3 displacement(std::sqrt(1 - z * z) * std::cos(turn),
+                            std::sqrt(1 - z * z) * std::sin(turn), z);
     const double here = shadow.nearness(displacement);
     for (const Vec3& aside : {Vec3(1e-4, 0, 0), Vec3(0, 1e-4, 0), Vec3(0, 0, 1e-4)})
       steepest = std::max(steepest, std::abs(shadow.nearness(displacement + aside) - here));

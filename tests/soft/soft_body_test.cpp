@@ -7,9 +7,9 @@
 #include <gtest/gtest.h>
 
 #include "artus/detail/anatomy/body/layered_body.h"
+#include "artus/detail/soft/cage/tet_locator.h"
 #include "artus/detail/soft/solver/cage_vtu.h"
 #include "artus/detail/soft/solver/press.h"
-#include "artus/detail/soft/cage/tet_locator.h"
 #include "tests/support/layered_body.h"
 #include "tests/support/meshed_block.h"
 #include "tests/support/paths.h"

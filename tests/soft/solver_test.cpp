@@ -270,7 +270,8 @@ TEST(SoftSolver, TissueBeforeACreepingNeedleDoesNotGoToAndFro) {
       EXPECT_EQ(step.status & (kSoftTakenBack | kSoftRestarted), 0U) << i;
       const Eigen::VectorXd now = flat(solver.displacements());
       const Eigen::VectorXd path = now - before;
-      back += path.dot(last) < -0.2 * path.norm() * last.norm() && step.largest_move > 50e-6 ? 1 : 0;
+      back +=
+          path.dot(last) < -0.2 * path.norm() * last.norm() && step.largest_move > 50e-6 ? 1 : 0;
       last = path;
       before = now;
     }
@@ -313,7 +314,8 @@ TEST(SoftSolver, PointThatMustMoveMovesByAForceThatIsItsComplianceAndTheReaction
   solver.reset();
   ASSERT_TRUE(solver.settle(std::nullopt, 1e-11));
   const CagePlace place = pressed.model->cage().locate(Vec3(1e-3, 0, 5e-3), 2);
-  EXPECT_NEAR(pressed.model->displacement_at(place, solver.displacements()).z(), kDistance, 1e-5 * kDistance);
+  EXPECT_NEAR(pressed.model->displacement_at(place, solver.displacements()).z(), kDistance,
+              1e-5 * kDistance);
 }
 
 TEST(SoftSolver, ConstraintAndFaceHoldTogether) {

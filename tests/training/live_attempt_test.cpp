@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "artus/detail/training/session_meter.h"
+#include "artus/simulation/simulation.h"
 #include "tests/session/session_support.h"
 #include "tests/support/real_time.h"
 #include "tests/support/temporary_folder.h"
@@ -57,12 +58,12 @@ TEST_F(LiveAttemptTest, TakesATickWithoutMemoryEvenWhenItIsFull) {
   MeterOptions options = options_for(make_head(scene->joint(), params));
   options.longest = 1;
   LiveAttempt live(scene, options, params.haptic_rate);
-  HapticCore haptics(scene, params);
+  Simulation haptics(scene, params);
   TickInput input;
   for (std::uint64_t n = 1; n <= 1500; ++n) {
     input.tick = n;
     input.device = test::sample_at(1e-3, static_cast<std::int64_t>(n) * 1000000, n);
-    const HapticSnapshot& out = haptics.step(input);
+    const HapticSnapshot& out = haptics.tick(input);
     ARTUS_RUNS_REALTIME(LiveAttempt::on_tick, live.on_tick(out));
     EXPECT_EQ(live.full(), n > 1001) << n;
   }

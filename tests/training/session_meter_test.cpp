@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/detail/simulation/image_core.h"
+#include "artus/simulation/simulation.h"
 #include "tests/session/session_support.h"
 #include "tests/support/real_time.h"
 
@@ -28,8 +28,7 @@ TEST(SessionMeter, LiveAndRecordedAreTheSameToTheLastDigit) {
   AttemptMeter live(scene, options_for(head));
   std::stringstream file;
   file << to_line(head) << '\n';
-  HapticCore haptics(scene, params);
-  ImageCore images(scene, params);
+  Simulation simulation(scene, params);
   std::uint64_t frames = 0;
   double given = 0;
   for (std::uint64_t n = 1; n <= 3000; ++n) {
@@ -41,13 +40,13 @@ TEST(SessionMeter, LiveAndRecordedAreTheSameToTheLastDigit) {
       input.device.plunger = PlungerSign::force;
       input.device.plunger_force = 10;
     }
-    const HapticSnapshot& out = haptics.step(input);
+    const HapticSnapshot& out = simulation.tick(input);
     given = out.feedback.plunger.given;
     add_tick(live, out, period);
     put(file, RecordStart::kTick, to_record(out));
     if (n % 500 != 0) continue;
     const FrameInput frame = frame_input(out, controls_of(params), ++frames);
-    const Frame& drawn = images.render(frame);
+    const Frame& drawn = simulation.render(frame, simulation.advance(frame));
     add_frame(live, frame, drawn, static_cast<double>(n) * period);
     put(file, RecordStart::kFrame, to_record(frame, drawn, params.transducer));
   }
@@ -80,11 +79,11 @@ TEST(SessionMeter, TakesATickWithoutMemory) {
   const auto scene = test::make_layered_scene();
   const SessionParams params = test::make_small_session();
   AttemptMeter meter(scene, options_for(make_head(scene->joint(), params)));
-  HapticCore haptics(scene, params);
+  Simulation simulation(scene, params);
   TickInput input;
   input.tick = 1;
   input.device = test::sample_at(1e-3, 1000000, 1);
-  const HapticSnapshot& out = haptics.step(input);
+  const HapticSnapshot& out = simulation.tick(input);
   ARTUS_RUNS_REALTIME(add_tick, add_tick(meter, out, 1e-3));
 }
 

@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "artus/detail/core/units.h"
-#include "artus/detail/viewer/panels/lesson.h"
 #include "artus/detail/viewer/pages/review.h"
+#include "artus/detail/viewer/panels/lesson.h"
 #include "tests/session/session_support.h"
 
 namespace artus {

@@ -7,8 +7,9 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/detail/viewer/words/anatomy_names.h"
 #include "artus/detail/viewer/joint3d/body_mark.h"
+#include "artus/detail/viewer/joint3d/joint_sheets.h"
+#include "artus/detail/viewer/joint3d/surface_detail.h"
 #include "artus/detail/viewer/panels/caption.h"
 #include "artus/detail/viewer/panels/cine_loop.h"
 #include "artus/detail/viewer/panels/curve.h"
@@ -16,11 +17,10 @@
 #include "artus/detail/viewer/panels/guide.h"
 #include "artus/detail/viewer/panels/image_place.h"
 #include "artus/detail/viewer/panels/insertion_trace.h"
-#include "artus/detail/viewer/joint3d/joint_sheets.h"
 #include "artus/detail/viewer/panels/label_places.h"
 #include "artus/detail/viewer/panels/needle_reading.h"
 #include "artus/detail/viewer/panels/presets.h"
-#include "artus/detail/viewer/joint3d/surface_detail.h"
+#include "artus/detail/viewer/words/anatomy_names.h"
 #include "tests/session/session_support.h"
 
 namespace artus {

@@ -12,13 +12,13 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/detail/viewer/words/anatomy_names.h"
-#include "artus/detail/viewer/joint3d/colours.h"
 #include "artus/detail/viewer/input/event_queue.h"
+#include "artus/detail/viewer/input/key_map.h"
+#include "artus/detail/viewer/joint3d/colours.h"
 #include "artus/detail/viewer/panels/help_rows.h"
 #include "artus/detail/viewer/panels/image_place.h"
-#include "artus/detail/viewer/input/key_map.h"
 #include "artus/detail/viewer/panels/panel_layout.h"
+#include "artus/detail/viewer/words/anatomy_names.h"
 #include "artus/detail/viewer/words/strings.h"
 #include "artus/detail/viewer/words/system_words.h"
 #include "tests/support/paths.h"

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "artus/raycast/scene.h"
 #include "artus/detail/training/metrics/needle_course.h"
+#include "artus/raycast/scene.h"
 
 namespace artus {
 

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "artus/raycast/scene.h"
 #include "artus/detail/training/metrics/pose_track.h"
+#include "artus/raycast/scene.h"
 
 namespace artus {
 

@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "artus/detail/core/check.h"
 #include "artus/core/geometry.h"
+#include "artus/detail/core/check.h"
 #include "artus/detail/training/metrics/metric.h"
 
 namespace artus {

@@ -28,7 +28,7 @@ struct SightTotals {
   double outside_picture = 0;    ///< m of the first run before the tip came between its edges
 };
 inline constexpr double kInPlane = 0.08726646259971647;  ///< rad: 5 degrees
-inline constexpr double kUnseenDistance = 1e-3;               ///< m
+inline constexpr double kUnseenDistance = 1e-3;          ///< m
 
 /// Requires: spans of one length.
 [[nodiscard]] SightTotals sum_sight(std::span<const CoursePoint> course,

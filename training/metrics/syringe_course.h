@@ -3,9 +3,9 @@
 #include <cstddef>
 #include <vector>
 
+#include "artus/core/geometry.h"
 #include "artus/detail/anatomy/body/tet_mesh.h"
 #include "artus/detail/core/check.h"
-#include "artus/core/geometry.h"
 
 namespace artus {
 

@@ -10,7 +10,7 @@
 namespace artus {
 namespace {
 
-constexpr double kMaxAir = 5e-3;     // m, as ImageSettings::gel_limit
+constexpr double kMaxAir = 5e-3;    // m, as ImageSettings::gel_limit
 constexpr double kMinContrast = 6;  // dB
 constexpr double kSpeed = kDisplaySpeedOfSound;
 

@@ -6,8 +6,8 @@
 #include "artus/detail/session/hand_device.h"
 #include "artus/detail/simulation/two_phase_gesture.h"
 #include "artus/detail/viewer/input/body_contact.h"
-#include "artus/detail/viewer/words/strings.h"
 #include "artus/detail/viewer/input/user_event.h"
+#include "artus/detail/viewer/words/strings.h"
 
 namespace artus {
 
@@ -34,8 +34,8 @@ class HandControl {
   static constexpr double kPush = 0.5e-3;                      ///< m a notch
   static constexpr double kPress = 0.25e-3;                    ///< m a notch, of the probe
   static constexpr double kThumb = 0.5;                        ///< N a notch, of the thumb
-  static constexpr double kMaxThumb = 30;                     ///< N. assumed: a strong push
-  static constexpr double kMaxDraw = 12;                      ///< N of drawing back. assumed
+  static constexpr double kMaxThumb = 30;                      ///< N. assumed: a strong push
+  static constexpr double kMaxDraw = 12;                       ///< N of drawing back. assumed
   static constexpr double kSlide = 0.1e-3;                     ///< m a pixel
   static constexpr double kTurn = 0.1 * 0.017453292519943295;  ///< rad a pixel
   static constexpr double kArrow = 10;                         ///< pixels a press of an arrow

@@ -4,10 +4,10 @@
 #include <span>
 #include <vector>
 
-#include "artus/raycast/scene.h"
 #include "artus/detail/soft/solver/deformed_body.h"
 #include "artus/detail/viewer/joint3d/gl_objects.h"
 #include "artus/detail/viewer/joint3d/surface_detail.h"
+#include "artus/raycast/scene.h"
 
 namespace artus {
 

@@ -8,13 +8,13 @@
 #include <string>
 #include <vector>
 
-#include "artus/session/session.h"
 #include "artus/detail/viewer/joint3d/body_shape.h"
 #include "artus/detail/viewer/joint3d/colours.h"
 #include "artus/detail/viewer/joint3d/gl_objects.h"
 #include "artus/detail/viewer/joint3d/joint_sheets.h"
 #include "artus/detail/viewer/joint3d/orbit_camera.h"
 #include "artus/detail/viewer/joint3d/surface_detail.h"
+#include "artus/session/session.h"
 
 namespace artus {
 
@@ -59,8 +59,8 @@ class JointView {
       std::shared_ptr<const CompiledJoint> joint, double probe_width, double needle_length);
 
   /// Draws into a picture of its own, when anything in it moved since the last one, and returns the
-  /// texture of the newest whole one; 0 before there is any. What takes longer than kRequestedTime is
-  /// gone on with by the next calls, so that a slow picture holds nobody up; how finely the
+  /// texture of the newest whole one; 0 before there is any. What takes longer than kRequestedTime
+  /// is gone on with by the next calls, so that a slow picture holds nobody up; how finely the
   /// surfaces are drawn follows from the time that it takes.
   unsigned draw(int width, int height, const JointScene& scene);
   /// Whether the last call ended a picture, the seconds that this took in all its calls, and at

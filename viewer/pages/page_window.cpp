@@ -6,9 +6,9 @@
 
 #include "artus/detail/viewer/joint3d/gl_objects.h"
 #include "artus/detail/viewer/pages/page.h"
+#include "artus/detail/viewer/pages/stage_gui.h"
 #include "artus/detail/viewer/panels/panels.h"
 #include "artus/detail/viewer/panels/shade.h"
-#include "artus/detail/viewer/pages/stage_gui.h"
 
 namespace artus {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "artus/detail/simulation/session_core.h"
+#include "artus/detail/simulation/records.h"
 #include "artus/detail/viewer/pages/page.h"
 
 namespace artus {

@@ -6,13 +6,13 @@
 #include <imgui.h>
 
 #include "artus/detail/core/units.h"
-#include "artus/detail/simulation/image_core.h"
 #include "artus/detail/viewer/joint3d/joint_view.h"
+#include "artus/detail/viewer/pages/review.h"
+#include "artus/detail/viewer/pages/stage_gui.h"
 #include "artus/detail/viewer/panels/lesson.h"
 #include "artus/detail/viewer/panels/panels.h"
-#include "artus/detail/viewer/pages/review.h"
 #include "artus/detail/viewer/panels/shade.h"
-#include "artus/detail/viewer/pages/stage_gui.h"
+#include "artus/simulation/simulation.h"
 
 namespace artus {
 namespace {
@@ -23,6 +23,8 @@ constexpr ImU32 kThumbColour = IM_COL32(140, 230, 140, 255);
 constexpr ImU32 kFaultColour = IM_COL32(255, 190, 60, 255);
 constexpr Shade kFaultText{1, 0.75F, 0.25F};
 
+constexpr int kStepsToRest = 12;  // of the tissue at 40 Hz: some of its relaxation times
+
 /// Draws the picture of any moment. Knobs that stood otherwise need other tables.
 class MomentPicture {
  public:
@@ -30,16 +32,20 @@ class MomentPicture {
       : scene_(std::move(scene)), params_(params) {}
 
   void draw(FrameInput input) {
-    if (!core_ || !(controls_ == input.controls)) make(input.controls);
+    if (!simulation_ || !(controls_ == input.controls)) make(input.controls);
     input.number = ++number_;
-    const Frame& frame = core_->render(input);
+    // Any moment may follow any other: what gives way comes to rest in it first.
+    ImagedBody body;
+    for (int k = 0; k < (params_.deform ? kStepsToRest : 1); ++k)
+      body = simulation_->advance(input);
+    const Frame& frame = simulation_->render(input, body);
     image_.width = frame.width;
     image_.height = frame.height;
     image_.pixel = frame.pixel;
     image_.grey = frame.image;
     image_.input = input;
     image_.probe_width = params_.transducer.width;
-    image_.body = core_->drawn_scene();
+    image_.body = simulation_->drawn_scene();
     texture_.set_grey(frame.width, frame.height, frame.image);
   }
 
@@ -55,13 +61,13 @@ class MomentPicture {
     params.image.dynamic_range_db = controls.dynamic_range_db;
     params.transducer.frequency = controls.frequency;
     params.transducer.elevation_focus = controls.elevation_focus;
-    core_ = std::make_unique<ImageCore>(scene_, params);
+    simulation_ = std::make_unique<Simulation>(scene_, params);
     controls_ = controls;
   }
 
   std::shared_ptr<const Scene> scene_;
   SessionParams params_;
-  std::unique_ptr<ImageCore> core_;
+  std::unique_ptr<Simulation> simulation_;
   ImageControls controls_;
   ImageSnapshot image_;
   GlTexture texture_;

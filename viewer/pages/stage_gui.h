@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "artus/detail/viewer/input/gui_context.h"
-#include "artus/detail/viewer/pages/page.h"
 #include "artus/detail/viewer/input/window_events.h"
+#include "artus/detail/viewer/pages/page.h"
 
 namespace artus {
 

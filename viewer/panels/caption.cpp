@@ -15,7 +15,7 @@
 namespace artus {
 namespace {
 
-constexpr int kBottom = 24;      // pixels below the image
+constexpr int kBottom = 24;    // pixels below the image
 constexpr int kMinWide = 420;  // pixels, so that the lines of text fit
 constexpr double kLetters = 0.4;
 

@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "artus/session/session.h"
 #include "artus/detail/viewer/joint3d/body_shape.h"
 #include "artus/detail/viewer/panels/needle_reading.h"
+#include "artus/session/session.h"
 
 namespace artus {
 
@@ -16,7 +16,7 @@ namespace artus {
 /// structures' names and how the tissue gave way.
 class CineLoop {
  public:
-  static constexpr double kSeconds = 20;                  ///< s that are kept
+  static constexpr double kSeconds = 20;                 ///< s that are kept
   static constexpr std::size_t kMaxBytes = 256U << 20U;  ///< larger pictures are kept for less
 
   /// Of pictures of `joint`, as it was compiled.

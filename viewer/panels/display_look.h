@@ -24,9 +24,9 @@ struct ColourBox {
 /// deep, and a flip. They show at once and in every saved picture, and change no recording.
 struct DisplayLook {
   static constexpr double kMaxDb = 20;  ///< either way of a slider's middle
-  std::array<double, 8> tgc_db{};        ///< dB, linear between the middles of eight equal strips
-  bool flipped = false;                  ///< left to right
-  bool colour = false;                   ///< Doppler, in its box
+  std::array<double, 8> tgc_db{};       ///< dB, linear between the middles of eight equal strips
+  bool flipped = false;                 ///< left to right
+  bool colour = false;                  ///< Doppler, in its box
   ColourBox box;
   friend bool operator==(const DisplayLook&, const DisplayLook&) = default;
 };

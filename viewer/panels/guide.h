@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "artus/detail/simulation/session_core.h"
+#include "artus/detail/simulation/records.h"
 #include "artus/detail/viewer/input/hand_control.h"
 #include "artus/detail/viewer/input/key_map.h"
 #include "artus/detail/viewer/panels/needle_reading.h"

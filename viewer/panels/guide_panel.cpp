@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <array>
 
-#include "artus/detail/viewer/words/anatomy_names.h"
 #include "artus/detail/viewer/panels/help_rows.h"
 #include "artus/detail/viewer/panels/panels.h"
 #include "artus/detail/viewer/panels/shade.h"
+#include "artus/detail/viewer/words/anatomy_names.h"
 
 namespace artus {
 namespace {

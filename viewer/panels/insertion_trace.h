@@ -10,7 +10,7 @@ namespace artus {
 /// millimetre of way. The next one begins where the needle goes in again.
 class InsertionTrace {
  public:
-  static constexpr double kStep = 0.1e-3;             ///< m of way between two points
+  static constexpr double kStep = 0.1e-3;            ///< m of way between two points
   static constexpr std::size_t kMaxPoints = 20'000;  ///< 2 m of way to and fro
 
   void add(const TracePoint& point);

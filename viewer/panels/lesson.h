@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "artus/core/geometry.h"
-#include "artus/session/session.h"
 #include "artus/detail/viewer/panels/image_place.h"
 #include "artus/detail/viewer/panels/needle_reading.h"
+#include "artus/session/session.h"
 
 namespace artus {
 

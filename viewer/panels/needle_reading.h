@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "artus/detail/simulation/session_core.h"
+#include "artus/detail/simulation/records.h"
 #include "artus/detail/viewer/words/strings.h"
 
 namespace artus {

@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "artus/detail/core/units.h"
-#include "artus/detail/viewer/words/anatomy_names.h"
 #include "artus/detail/viewer/panels/caption.h"
 #include "artus/detail/viewer/panels/panels.h"
+#include "artus/detail/viewer/words/anatomy_names.h"
 
 namespace artus {
 namespace {
@@ -122,7 +122,8 @@ void take_clicks(const Sheet& sheet, const PanelInput& in, ViewState& state) {
     state.drags_box = state.look.colour && state.look.box.contains(from.x_mm / sheet.width_mm,
                                                                    from.y_mm / sheet.depth_mm);
   if (ImGui::IsItemActive() && distance > kStill * sheet.unit) take_drag(sheet, state);
-  if (!ImGui::IsItemHovered() || !ImGui::IsMouseReleased(0) || distance > kStill * sheet.unit) return;
+  if (!ImGui::IsItemHovered() || !ImGui::IsMouseReleased(0) || distance > kStill * sheet.unit)
+    return;
   if (!in.session->frozen()) state.requests.push_back({Action::freeze, false});
   state.calipers[in.image->input.number].push_back(from);
 }

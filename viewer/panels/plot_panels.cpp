@@ -6,10 +6,10 @@
 #include <string>
 
 #include "artus/detail/core/units.h"
-#include "artus/detail/viewer/words/anatomy_names.h"
 #include "artus/detail/viewer/panels/curve.h"
 #include "artus/detail/viewer/panels/label_places.h"
 #include "artus/detail/viewer/panels/panels.h"
+#include "artus/detail/viewer/words/anatomy_names.h"
 
 namespace artus {
 namespace {

@@ -2,7 +2,7 @@
 #pragma once
 #include <array>
 
-#include "artus/detail/simulation/session_core.h"
+#include "artus/detail/simulation/records.h"
 #include "artus/detail/viewer/words/strings.h"
 
 namespace artus {

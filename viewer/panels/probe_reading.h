@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <string>
 
-#include "artus/session/session.h"
 #include "artus/detail/viewer/words/strings.h"
+#include "artus/session/session.h"
 
 namespace artus {
 

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "artus/detail/core/units.h"
-#include "artus/detail/viewer/words/anatomy_names.h"
 #include "artus/detail/viewer/panels/panels.h"
 #include "artus/detail/viewer/panels/shade.h"
+#include "artus/detail/viewer/words/anatomy_names.h"
 #include "artus/detail/viewer/words/system_words.h"
 
 namespace artus {

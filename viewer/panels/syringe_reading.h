@@ -2,8 +2,8 @@
 #pragma once
 #include "artus/detail/anatomy/body/space.h"
 #include "artus/detail/haptics/plunger/patient.h"
+#include "artus/detail/simulation/records.h"
 #include "artus/raycast/scene.h"
-#include "artus/detail/simulation/session_core.h"
 
 namespace artus {
 

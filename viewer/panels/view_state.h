@@ -6,19 +6,19 @@
 #include <string>
 #include <vector>
 
-#include "artus/session/session.h"
+#include "artus/detail/viewer/input/hand_control.h"
+#include "artus/detail/viewer/input/key_map.h"
 #include "artus/detail/viewer/joint3d/body_mark.h"
 #include "artus/detail/viewer/panels/display_look.h"
-#include "artus/detail/viewer/input/hand_control.h"
 #include "artus/detail/viewer/panels/image_place.h"
 #include "artus/detail/viewer/panels/insertion_trace.h"
-#include "artus/detail/viewer/input/key_map.h"
 #include "artus/detail/viewer/panels/lesson.h"
 #include "artus/detail/viewer/panels/needle_reading.h"
 #include "artus/detail/viewer/panels/panel_layout.h"
 #include "artus/detail/viewer/panels/probe_reading.h"
-#include "artus/detail/viewer/words/strings.h"
 #include "artus/detail/viewer/panels/syringe_reading.h"
+#include "artus/detail/viewer/words/strings.h"
+#include "artus/session/session.h"
 
 namespace artus {
 
@@ -56,7 +56,7 @@ struct ViewState {
   bool wants_screenshot = false;       ///< of the B-mode image
   bool wants_clip = false;             ///< from then on, until it is false again
   std::string message;                 ///< last thing that was saved or refused
-  std::vector<ActionEvent> requests;     ///< of buttons, done after the panels
+  std::vector<ActionEvent> requests;   ///< of buttons, done after the panels
   std::optional<std::size_t> planned;  ///< an injection that was just chosen
 };
 

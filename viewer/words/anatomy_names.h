@@ -4,8 +4,8 @@
 #include <string>
 
 #include "artus/anatomy/compiled_joint.h"
-#include "artus/raycast/scene.h"
 #include "artus/detail/viewer/words/strings.h"
+#include "artus/raycast/scene.h"
 
 namespace artus {
 

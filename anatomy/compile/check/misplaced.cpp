@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kSamples = 400;           // of each surface
 constexpr double kClearly = 0.5 * kMillimetre;  // beyond what surfaces that touch differ by
-constexpr double kMuchOutside = 0.02;           // of the samples, as compile warns of
+constexpr double kOutsideShare = 0.02;          // of the samples, as compile warns of
 constexpr double kAll = 0.99;                   // of the samples
 constexpr double kSlip = 1 * kMillimetre;       // what metres written as millimetres come to
 
@@ -161,7 +161,7 @@ class Finder {
   void tell_outside(std::size_t i, Lie lie) {
     if (!(lie.outside > 0)) return;
     lie = area_outside(i);  // samples only say where to look
-    if (lie.outside <= kMuchOutside) return;
+    if (lie.outside <= kOutsideShare) return;
     const char* rest = lie.outside > kAll ? "nothing of it will be in the joint; see to its frame "
                                             "and units, or take it out"
                                           : "that part is cut off";

@@ -18,7 +18,7 @@ constexpr double kShortest = 2 * kMillimetre;     // way of a needle: less is a 
 constexpr double kUsualDepth = 10 * kMillimetre;  // under the skin, where a target is offered
 constexpr double kThinnest = 0.6 * kMillimetre;   // layer in which a tip can stop
 constexpr double kRoom = 5 * kMillimetre;         // that a mended region has to spare
-constexpr std::size_t kMaxTried = 4000;          // places on the skin
+constexpr std::size_t kMaxTried = 4000;           // places on the skin
 
 std::string place(const Vec3& p) {
   return printed("(%.1f, %.1f, %.1f) mm", p.x() / kMillimetre, p.y() / kMillimetre,
@@ -168,8 +168,8 @@ class Checker {
                     off > 0 ? "off" : "under", on_cut(pass.entry)));
     const Vec3 displacement = (pass.target - pass.entry).normalized();
     const auto along = ground_.skin_along(pass.entry, displacement, 2 * kLongestNeedle);
-    const std::optional<Vec3> skin =
-        along ? std::optional<Vec3>(pass.entry + *along * displacement) : ground_.nearest_skin(pass.entry);
+    const std::optional<Vec3> skin = along ? std::optional<Vec3>(pass.entry + *along * displacement)
+                                           : ground_.nearest_skin(pass.entry);
     if (!skin) return false;
     problem.message += std::string("; ") + (along ? "on its line" : "nearest to it") +
                        " the skin is at " + place(*skin) + ": take that as entry";
@@ -186,10 +186,9 @@ class Checker {
   void check_path(const std::string& plan, const PlannedInjection& pass) {
     const double length = (pass.target - pass.entry).norm();
     if (const HardPart* bone = ground_.bone_between(pass.entry, pass.target)) {
-      offer_entry(
-          add(plan, pass.line,
-              "bone '" + bone->name + "' is in the way" + where_in_path(pass, bone->name)),
-          pass);
+      offer_entry(add(plan, pass.line,
+                      "bone '" + bone->name + "' is in the way" + where_in_path(pass, bone->name)),
+                  pass);
       return;
     }
     if (length > kLongestNeedle - kStays) {

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "artus/anatomy/joint_file.h"
-#include "artus/detail/anatomy/compile/check/plan_ground.h"
 #include "artus/core/result.h"
+#include "artus/detail/anatomy/compile/check/plan_ground.h"
 
 namespace artus {
 

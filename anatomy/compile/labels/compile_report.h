@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
+#include "artus/core/result.h"
 #include "artus/detail/anatomy/compile/labels/quality.h"
 #include "artus/detail/anatomy/surfaces/surface_distance.h"
-#include "artus/core/result.h"
 
 namespace artus {
 
@@ -45,11 +45,11 @@ struct CompileReport {
   std::size_t vertices = 0;
   std::size_t tetrahedra = 0;
   std::size_t interfaces = 0;
-  std::size_t fragments = 0;          ///< tiny parts given to their neighbours
+  std::size_t fragments = 0;       ///< tiny parts given to their neighbours
   std::string fill_method;         ///< "quality", "plain", "kept": see FillMethod
   std::vector<std::string> notes;  ///< what was chosen where the joint file says nothing
   bool body_kept = false;          ///< the tetrahedra are those of an earlier compilation
-  std::size_t parts_cached = 0;      ///< repaired surfaces and distance fields of earlier ones
+  std::size_t parts_cached = 0;    ///< repaired surfaces and distance fields of earlier ones
   std::vector<StageTime> stages;
   double seconds = 0;
   double peak_memory = 0;  ///< bytes, of the process or of one that it started

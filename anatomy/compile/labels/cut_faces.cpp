@@ -13,7 +13,7 @@ namespace artus {
 namespace {
 
 constexpr double kAway = 2 * kMillimetre;  // from the surface as read
-constexpr double kMinArea = 1e-4;        // m^2
+constexpr double kMinArea = 1e-4;          // m^2
 constexpr double kFlat = 0.985;            // cosine of 10 degrees
 constexpr double kMostlyFlat = 0.8;        // of a cut's area
 

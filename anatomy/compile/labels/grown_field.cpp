@@ -20,7 +20,8 @@ DistanceField swept_field(const DistanceField& field, const DistanceField& skin,
       [&field, &skin, grow, side, steps](const Vec3& p) {
         const Vec3 displacement = grow / steps * skin.normal(p);
         double value = side * field.value(p);
-        for (int k = 1; k <= steps; ++k) value = std::min(value, side * field.value(p - k * displacement));
+        for (int k = 1; k <= steps; ++k)
+          value = std::min(value, side * field.value(p - k * displacement));
         return side * value;
       },
       sampling);

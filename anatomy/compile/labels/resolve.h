@@ -2,10 +2,10 @@
 #pragma once
 #include <vector>
 
+#include "artus/core/result.h"
 #include "artus/detail/anatomy/body/tet_mesh.h"
 #include "artus/detail/anatomy/compile/labels/region_labels.h"
 #include "artus/detail/core/progress.h"
-#include "artus/core/result.h"
 
 namespace artus {
 

@@ -120,7 +120,7 @@ TetParts find_tet_parts(const TetMesh& mesh, const TetNeighbours& neighbours) {
 }
 
 std::size_t merge_fragments(TetMesh& mesh, const TetNeighbours& neighbours,
-                          const std::function<double(RegionId)>& smallest) {
+                            const std::function<double(RegionId)>& smallest) {
   const TetParts parts = find_tet_parts(mesh, neighbours);
   std::map<RegionId, double> largest;
   for (std::size_t i = 0; i < parts.volume.size(); ++i) {

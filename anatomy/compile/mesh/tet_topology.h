@@ -3,8 +3,8 @@
 #include <functional>
 #include <limits>
 
-#include "artus/detail/anatomy/body/tet_mesh.h"
 #include "artus/core/result.h"
+#include "artus/detail/anatomy/body/tet_mesh.h"
 
 namespace artus {
 
@@ -33,7 +33,7 @@ struct TetParts {
 /// unless a part is the largest of its region. Such crumbs appear where two surfaces nearly
 /// coincide. Returns how many changed hands.
 std::size_t merge_fragments(TetMesh& mesh, const TetNeighbours& neighbours,
-                          const std::function<double(RegionId)>& smallest);
+                            const std::function<double(RegionId)>& smallest);
 
 /// Replaces mesh.interfaces by the faces between different regions and the hull's faces, whose
 /// front is what `front_of_hull` says at their centroid.

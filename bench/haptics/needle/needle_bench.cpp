@@ -32,8 +32,8 @@
 #include "artus/anatomy/compile.h"
 #include "artus/detail/core/noise.h"
 #include "artus/detail/haptics/needle/laws/god_object.h"
-#include "artus/haptics/needle_renderer.h"
 #include "artus/detail/haptics/needle/laws/velocity_estimator.h"
+#include "artus/haptics/needle_renderer.h"
 #include "tests/support/paths.h"
 
 namespace artus::bench {

@@ -9,8 +9,8 @@
 
 #include "artus/detail/core/known_names.h"
 #include "artus/detail/core/text_file.h"
-#include "artus/echo/image_io.h"
 #include "artus/detail/evidence/validation/echo/echo_gates_list.h"
+#include "artus/echo/image_io.h"
 
 namespace artus {
 namespace {

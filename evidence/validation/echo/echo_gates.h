@@ -10,8 +10,8 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "artus/detail/core/progress.h"
 #include "artus/core/result.h"
+#include "artus/detail/core/progress.h"
 #include "artus/detail/evidence/gates.h"
 #include "artus/detail/evidence/plot.h"
 

@@ -7,10 +7,10 @@
 #include "artus/detail/core/printed.h"
 #include "artus/detail/core/units.h"
 #include "artus/detail/echo/display/frame_measure.h"
-#include "artus/echo/image_io.h"
-#include "artus/echo/renderer.h"
 #include "artus/detail/evidence/validation/echo/echo_gates_list.h"
 #include "artus/detail/evidence/validation/echo/echo_phantom.h"
+#include "artus/echo/image_io.h"
+#include "artus/echo/renderer.h"
 
 namespace artus {
 namespace {

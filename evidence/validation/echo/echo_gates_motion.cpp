@@ -5,9 +5,9 @@
 
 #include "artus/detail/core/units.h"
 #include "artus/detail/echo/display/frame_measure.h"
-#include "artus/echo/renderer.h"
 #include "artus/detail/evidence/validation/echo/echo_gates_list.h"
 #include "artus/detail/evidence/validation/echo/echo_phantom.h"
+#include "artus/echo/renderer.h"
 
 namespace artus {
 namespace {

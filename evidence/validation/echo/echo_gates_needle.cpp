@@ -8,10 +8,10 @@
 #include "artus/detail/core/units.h"
 #include "artus/detail/echo/display/frame_measure.h"
 #include "artus/detail/echo/probe/gaussian.h"
-#include "artus/echo/image_io.h"
-#include "artus/echo/renderer.h"
 #include "artus/detail/evidence/validation/echo/echo_gates_list.h"
 #include "artus/detail/evidence/validation/echo/echo_phantom.h"
+#include "artus/echo/image_io.h"
+#include "artus/echo/renderer.h"
 
 namespace artus {
 namespace {

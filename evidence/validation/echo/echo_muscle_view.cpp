@@ -16,7 +16,7 @@ constexpr double kSlide = 10e-3;            // m
 constexpr int kSlides = 4;
 constexpr double kAbove = 60e-3;    // m, from where the skin is looked for, and how far below
 constexpr double kPress = 0.5e-3;   // m, face outside the skin
-constexpr double kMaxTilt = 0.5;   // cosine between the skin's normal and the old axis
+constexpr double kMaxTilt = 0.5;    // cosine between the skin's normal and the old axis
 constexpr std::size_t kRoom = 256;  // intervals
 
 }  // namespace

@@ -5,9 +5,9 @@
 
 #include <opencv2/core.hpp>
 
+#include "artus/detail/echo/medium/region_acoustics.h"
 #include "artus/echo/image_settings.h"
 #include "artus/echo/labels.h"
-#include "artus/detail/echo/medium/region_acoustics.h"
 #include "artus/echo/transducer.h"
 #include "artus/raycast/scene.h"
 

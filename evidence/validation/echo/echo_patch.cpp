@@ -13,11 +13,11 @@
 #include "artus/detail/core/text_file.h"
 #include "artus/detail/core/units.h"
 #include "artus/detail/echo/display/frame_measure.h"
+#include "artus/detail/evidence/validation/echo/echo_muscle_view.h"
+#include "artus/detail/evidence/validation/echo/echo_phantom.h"
 #include "artus/echo/image_io.h"
 #include "artus/echo/renderer.h"
 #include "artus/echo/transducer_file.h"
-#include "artus/detail/evidence/validation/echo/echo_muscle_view.h"
-#include "artus/detail/evidence/validation/echo/echo_phantom.h"
 
 namespace artus {
 namespace {

@@ -9,10 +9,10 @@
 #include <opencv2/core.hpp>
 
 #include "artus/core/result.h"
+#include "artus/detail/evidence/validation/echo/echo_gates.h"
 #include "artus/echo/image_settings.h"
 #include "artus/echo/labels.h"
 #include "artus/echo/transducer.h"
-#include "artus/detail/evidence/validation/echo/echo_gates.h"
 #include "artus/raycast/scene.h"
 
 namespace artus {

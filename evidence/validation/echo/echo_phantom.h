@@ -10,8 +10,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "artus/detail/anatomy/body/layered_body.h"
 #include "artus/core/result.h"
+#include "artus/detail/anatomy/body/layered_body.h"
 #include "artus/echo/image_settings.h"
 #include "artus/echo/needle_view.h"
 #include "artus/raycast/scene.h"

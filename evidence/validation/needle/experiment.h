@@ -6,10 +6,10 @@
 #include <string_view>
 #include <vector>
 
-#include "artus/detail/evidence/runs/needle_trace.h"
 #include "artus/detail/evidence/report.h"
-#include "artus/haptics/needle_feel.h"
+#include "artus/detail/evidence/runs/needle_trace.h"
 #include "artus/detail/haptics/needle/needle_packet.h"
+#include "artus/haptics/needle_feel.h"
 
 namespace artus {
 

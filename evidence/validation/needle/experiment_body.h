@@ -3,11 +3,11 @@
 #include <functional>
 #include <vector>
 
-#include "artus/detail/evidence/validation/needle/analytic_body.h"
 #include "artus/detail/evidence/runs/needle_trace.h"
-#include "artus/haptics/needle_feel.h"
+#include "artus/detail/evidence/validation/needle/analytic_body.h"
 #include "artus/detail/operators/hand_loop.h"
 #include "artus/detail/operators/injection_operator.h"
+#include "artus/haptics/needle_feel.h"
 
 namespace artus {
 

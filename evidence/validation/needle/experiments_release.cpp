@@ -108,10 +108,10 @@ PlotSeries plot_released(const std::vector<NeedleRow>& rows, const char* label, 
 // The worst of the hands.
 struct Worst {
   std::vector<double> paths;  // mm, sorted
-  double beyond = 0;         // mm
-  double work = 0;           // J
-  double ripple = 0;         // N
-  double calm = 0;           // mm, of a hand without tremor
+  double beyond = 0;          // mm
+  double work = 0;            // J
+  double ripple = 0;          // N
+  double calm = 0;            // mm, of a hand without tremor
 };
 
 void add_release_claims(const DeviceLimits& device, Around tissue, double release,
@@ -183,9 +183,9 @@ Experiment run_wall_release(const ExperimentOptions& options, const DeviceLimits
         std::vector<NeedleRow> rows;
         const Worst worst = run_hands(tissue, release, each, options, rows);
         table.rows.push_back({std::string(each.name), name_of(tissue), to_csv(1e3 * release),
-                              to_csv(worst.paths[worst.paths.size() / 2]), to_csv(worst.paths.back()),
-                              to_csv(worst.beyond), to_csv(worst.calm), to_csv(1e6 * worst.work),
-                              to_csv(worst.ripple)});
+                              to_csv(worst.paths[worst.paths.size() / 2]),
+                              to_csv(worst.paths.back()), to_csv(worst.beyond), to_csv(worst.calm),
+                              to_csv(1e6 * worst.work), to_csv(worst.ripple)});
         add_release_claims(each, tissue, release, worst, out.claims);
         if (each.name != device.name || release != kAtOnce) continue;
         position.series.push_back(plot_released(rows, name_of(tissue), [](const NeedleRow& row) {

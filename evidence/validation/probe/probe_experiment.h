@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "artus/core/result.h"
-#include "artus/detail/evidence/validation/probe/probe_experiment_bench.h"
 #include "artus/detail/evidence/report.h"
+#include "artus/detail/evidence/validation/probe/probe_experiment_bench.h"
 
 namespace artus {
 

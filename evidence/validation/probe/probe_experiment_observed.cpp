@@ -139,7 +139,7 @@ void observe_isp_motion(const std::vector<ProbeTrace>& traces, std::vector<Probe
     const auto& rows = traces[i].rows;
     settling[i] = settling_time(rows, laws[i].load_time, kPeak);
     min_return = std::min(min_return, position_at(rows, kObservedEnd - 1) -
-                                              position_at(rows, laws[i].load_time + kSettle));
+                                          position_at(rows, laws[i].load_time + kSettle));
   }
   ProbeObservation faster;
   faster.what = "backstepping takes longer than PID and IPC to come within 1 mm of x_c";

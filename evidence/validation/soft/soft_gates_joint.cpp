@@ -7,18 +7,18 @@
 
 #include "artus/detail/anatomy/body/meshed_block.h"
 #include "artus/detail/core/units.h"
-#include "artus/echo/renderer.h"
 #include "artus/detail/evidence/validation/soft/soft_gates_list.h"
 #include "artus/detail/raycast/layers_below.h"
 #include "artus/detail/raycast/pressed_scene.h"
 #include "artus/detail/simulation/tissue_core.h"
+#include "artus/echo/renderer.h"
 
 namespace artus {
 namespace {
 
 constexpr double kStillRate = 30;       // images a second
 constexpr int kStillPressing = 30;      // images, 1 s
-constexpr int kStillMax = 150;         // images, 5 s in which the tissue may come to rest
+constexpr int kStillMax = 150;          // images, 5 s in which the tissue may come to rest
 constexpr int kStillCompared = 30;      // images, 1 s
 constexpr double kPressedWith = 3;      // N
 constexpr double kMiddleOfBand = 5e-3;  // m

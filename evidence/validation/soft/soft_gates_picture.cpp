@@ -7,8 +7,6 @@
 
 #include "artus/detail/core/units.h"
 #include "artus/detail/echo/display/frame_measure.h"
-#include "artus/echo/labels.h"
-#include "artus/echo/renderer.h"
 #include "artus/detail/echo/display/strain_image.h"
 #include "artus/detail/evidence/validation/echo/echo_phantom.h"
 #include "artus/detail/evidence/validation/soft/soft_gates_list.h"
@@ -16,6 +14,8 @@
 #include "artus/detail/soft/solver/deformed_body.h"
 #include "artus/detail/soft/solver/soft_block.h"
 #include "artus/detail/soft/solver/soft_solver.h"
+#include "artus/echo/labels.h"
+#include "artus/echo/renderer.h"
 
 namespace artus {
 namespace {

@@ -4,8 +4,8 @@
 #include <limits>
 #include <span>
 
-#include "artus/detail/core/check.h"
 #include "artus/core/geometry.h"
+#include "artus/detail/core/check.h"
 #include "artus/detail/haptics/needle/laws/layer_haptics.h"
 #include "artus/detail/haptics/wrench.h"
 

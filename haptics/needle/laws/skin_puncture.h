@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "artus/detail/core/check.h"
 #include "artus/core/geometry.h"
+#include "artus/detail/core/check.h"
 
 namespace artus {
 

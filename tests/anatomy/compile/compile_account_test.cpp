@@ -5,10 +5,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "artus/detail/anatomy/compile/labels/compile_labels.h"
-#include "artus/detail/anatomy/compile/mesh/compile_measure.h"
-#include "artus/detail/anatomy/compile/labels/compile_report.h"
 #include "artus/detail/anatomy/compile/check/compile_warnings.h"
+#include "artus/detail/anatomy/compile/labels/compile_labels.h"
+#include "artus/detail/anatomy/compile/labels/compile_report.h"
+#include "artus/detail/anatomy/compile/mesh/compile_measure.h"
 #include "artus/detail/anatomy/compile/mesh/tet_topology.h"
 #include "tests/anatomy/compile/balls_joint.h"
 #include "tests/anatomy/compile/tet_samples.h"

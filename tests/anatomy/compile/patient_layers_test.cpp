@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include "artus/anatomy/compile.h"
 #include "artus/detail/anatomy/body/find_region.h"
 #include "artus/detail/anatomy/body/skin_line.h"
-#include "artus/anatomy/compile.h"
 #include "artus/detail/anatomy/compile/labels/grown_field.h"
 #include "tests/anatomy/compile/joint_folder.h"
 #include "tests/support/temporary_folder.h"

@@ -4,13 +4,13 @@
 #include <gtest/gtest.h>
 
 #include "artus/detail/core/units.h"
-#include "artus/haptics/device.h"
+#include "artus/detail/haptics/needle/insertion_cone.h"
 #include "artus/detail/haptics/needle/laws/clamping.h"
 #include "artus/detail/haptics/needle/laws/classic_cutting.h"
 #include "artus/detail/haptics/needle/laws/hard_contact.h"
-#include "artus/detail/haptics/needle/insertion_cone.h"
 #include "artus/detail/haptics/needle/laws/orientation_torque.h"
 #include "artus/detail/haptics/needle/laws/prepuncture.h"
+#include "artus/haptics/device.h"
 #include "tests/haptics/needle/tick_builder.h"
 
 namespace artus {

@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "artus/detail/haptics/guard_fields.h"
-#include "artus/haptics/needle_feel.h"
 #include "artus/detail/haptics/probe/probe_contact_fields.h"
+#include "artus/haptics/needle_feel.h"
 
 namespace artus {
 namespace {

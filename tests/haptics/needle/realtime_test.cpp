@@ -7,14 +7,14 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/detail/haptics/needle/laws/clamping.h"
-#include "artus/detail/haptics/needle/laws/classic_cutting.h"
 #include "artus/detail/haptics/needle/insertion_cone.h"
 #include "artus/detail/haptics/needle/insertion_line.h"
-#include "artus/detail/haptics/needle/needle_model.h"
-#include "artus/detail/haptics/needle/needle_tick_step.h"
+#include "artus/detail/haptics/needle/laws/clamping.h"
+#include "artus/detail/haptics/needle/laws/classic_cutting.h"
 #include "artus/detail/haptics/needle/laws/skin_puncture.h"
 #include "artus/detail/haptics/needle/laws/velocity_estimator.h"
+#include "artus/detail/haptics/needle/needle_model.h"
+#include "artus/detail/haptics/needle/needle_tick_step.h"
 #include "tests/haptics/needle/tick_builder.h"
 #include "tests/support/real_time.h"
 

@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/haptics/needle_feel.h"
 #include "artus/detail/haptics/needle/needle_tick_step.h"
+#include "artus/haptics/needle_feel.h"
 #include "tests/support/layered_body.h"
 
 namespace artus {

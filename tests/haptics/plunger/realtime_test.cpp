@@ -2,10 +2,10 @@
 // The plunger's tick under the allocation and lock counters.
 #include <gtest/gtest.h>
 
-#include "artus/haptics/needle_feel.h"
 #include "artus/detail/haptics/plunger/bevel.h"
 #include "artus/detail/haptics/plunger/plunger.h"
 #include "artus/detail/haptics/plunger/space_pressure.h"
+#include "artus/haptics/needle_feel.h"
 #include "tests/haptics/plunger/plunger_fixture.h"
 #include "tests/support/real_time.h"
 

@@ -205,16 +205,16 @@ LoopEnergy ride_over_bone(const ProbeContactParams& params, const Path& path, do
 }
 
 constexpr Path kSliding{[](double phase) {
-                         return Vec3(0.012 * std::sin(phase), 0.004 * std::sin(phase),
-                                     3e-3 + 3.5e-3 * std::cos(phase));
-                       },
-                       [](double) {
-                         return 0.0;
-                       }};
+                          return Vec3(0.012 * std::sin(phase), 0.004 * std::sin(phase),
+                                      3e-3 + 3.5e-3 * std::cos(phase));
+                        },
+                        [](double) {
+                          return 0.0;
+                        }};
 constexpr Path kTilting{[](double phase) { return Vec3(-0.008, 0, 5e-3 + 3e-3 * std::cos(phase)); },
-                       [](double phase) {
-                         return 0.2 + 0.2 * std::sin(phase);
-                       }};
+                        [](double phase) {
+                          return 0.2 + 0.2 * std::sin(phase);
+                        }};
 
 TEST(ProbeContact, ClosedWaysOverUnevenTissueGiveTheHandNoEnergy) {
   ProbeContactParams params;

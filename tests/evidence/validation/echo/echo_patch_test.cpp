@@ -19,9 +19,9 @@
 
 #include "artus/detail/core/units.h"
 #include "artus/detail/echo/display/frame_measure.h"
-#include "artus/echo/transducer_file.h"
 #include "artus/detail/evidence/validation/echo/echo_muscle_view.h"
 #include "artus/detail/evidence/validation/echo/echo_phantom.h"
+#include "artus/echo/transducer_file.h"
 #include "tests/support/paths.h"
 
 namespace artus {

@@ -65,12 +65,12 @@ double max_given(const Swing& path, double phase, int rate, double* exchanged) {
 
 TEST(SwayEnergy, TheMovingLineHasGivenTheHandNothingAtAnyInstant) {
   const Swing paths[] = {{0.015, 0.001, 1e-3, 4, false},    // held: a spring
-                        {0.015, 0.001, 1e-3, 4, true},     //
-                        {0.012, 0.008, 1.5e-3, 1, false},  // dragged
-                        {0.012, 0.008, 1.5e-3, 1, true},   //
-                        {0.004, 0.0045, 1e-3, 1, false},   // out of the skin and in again
-                        {0.004, 0.0030, 1e-3, 1, true}};   // let go and held again
-  constexpr double kNothing = 0.2e-6;                      // J
+                         {0.015, 0.001, 1e-3, 4, true},     //
+                         {0.012, 0.008, 1.5e-3, 1, false},  // dragged
+                         {0.012, 0.008, 1.5e-3, 1, true},   //
+                         {0.004, 0.0045, 1e-3, 1, false},   // out of the skin and in again
+                         {0.004, 0.0030, 1e-3, 1, true}};   // let go and held again
+  constexpr double kNothing = 0.2e-6;                       // J
   for (std::size_t w = 0; w < std::size(paths); ++w) {
     double worst = 0;
     double exchanged = 0;

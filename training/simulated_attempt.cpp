@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/detail/training/stage.h"
+#include "artus/detail/training/simulated_attempt.h"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 #include "artus/detail/operators/looking_operator.h"
 #include "artus/detail/operators/thumb.h"
 #include "artus/detail/operators/thumb_dose.h"
-#include "artus/detail/simulation/image_core.h"
+#include "artus/detail/session/record/simulation_recorder.h"
 #include "artus/detail/training/session_meter.h"
 
 namespace artus {
@@ -34,7 +34,8 @@ double appears_at(const Scenario& scenario, const Scene& scene, const TipSightFi
   const Vec3 direction = scenario.target.point - scenario.entry.centre;
   for (double along = kStep; along < direction.norm(); along += kStep) {
     const Vec3 tip = scenario.entry.centre + along * direction.normalized();
-    if (finder.look(scene, scenario.X_JP, make_pose(tip, direction, Vec3::Zero())).seen()) return along;
+    if (finder.look(scene, scenario.X_JP, make_pose(tip, direction, Vec3::Zero())).seen())
+      return along;
   }
   return 0;
 }
@@ -67,8 +68,8 @@ class SyringeHand {
 
  private:
   static constexpr double kMaxForce = 40;  // N; assumed: a strong push
-  static constexpr double kPull = 8;        // N; assumed
-  double area_;                             // m^2
+  static constexpr double kPull = 8;       // N; assumed
+  double area_;                            // m^2
   ThumbDose dose_;
   bool wanted_;
   OperatorPhase push_;
@@ -77,50 +78,46 @@ class SyringeHand {
   Thumb thumb_{{SyringeCore::kCoupling, kMaxForce}};
 };
 
-/// The session of an attempt while it is played: what came in and out is measured and recorded.
-class PlayedSession {
+/// The simulation of an attempt while it is played: what came in and out is measured and recorded.
+class PlayedSimulation {
  public:
-  PlayedSession(std::shared_ptr<const Scene> scene, const SessionParams& params,
-                const PlayOptions& options)
-      : params_(params), options_(options), core_(scene, params) {
-    if (options.picture_rate > 0) images_ = std::make_unique<ImageCore>(std::move(scene), params);
+  PlayedSimulation(std::shared_ptr<const Scene> scene, const SessionParams& params,
+                   const PlayOptions& options, Recording& recording)
+      : options_(options),
+        simulation_(std::move(scene), params),
+        recorder_(simulation_, recording,
+                  options.picture_rate > 0 ? RecordedPictures::drawn : RecordedPictures::none) {
+    recorder_.set_keeping(options.record);
   }
 
-  [[nodiscard]] const HapticCore& core() const noexcept { return core_; }
-  [[nodiscard]] std::uint64_t tick() const noexcept { return tick_; }
-  [[nodiscard]] bool glances() const noexcept { return tick_ % kGlances == 1; }
+  [[nodiscard]] const Simulation& simulation() const noexcept { return simulation_; }
+  [[nodiscard]] std::uint64_t tick() const noexcept { return simulation_.ticks(); }
+  [[nodiscard]] bool glances() const noexcept { return tick() % kGlances == 1; }
 
   /// One tick with what the device says.
-  const HapticSnapshot& step(DeviceSample device, PlayedAttempt& attempt, AttemptMeter& meter) {
+  const HapticSnapshot& step(DeviceSample device, AttemptMeter& meter) {
     TickInput input;
-    input.tick = ++tick_;
-    device.time_ns = static_cast<std::int64_t>(tick_) * 1'000'000;
-    device.number = tick_;
+    input.tick = tick() + 1;
+    device.time_ns = static_cast<std::int64_t>(input.tick) * 1'000'000;
+    device.number = input.tick;
     device.state = PeerState::alive;
     input.device = device;
-    const HapticSnapshot& out = core_.step(input);
+    const double due = static_cast<double>(input.tick) / kRate * options_.picture_rate;
+    recorder_.set_drawing(due >= static_cast<double>(pictures_ + 1));
+    const HapticSnapshot& out = recorder_.step(input);
     add_tick(meter, out, 1 / kRate);
-    if (options_.record) attempt.recording.ticks.push_back(to_record(out));
-    if (images_ && static_cast<double>(tick_) * options_.picture_rate >=
-                       kRate * static_cast<double>(frames_ + 1))
-      draw(out, attempt, meter);
+    if (const Frame* frame = recorder_.drawn()) {
+      ++pictures_;
+      add_frame(meter, recorder_.shown(), *frame, static_cast<double>(input.tick) / kRate);
+    }
     return out;
   }
 
  private:
-  void draw(const HapticSnapshot& out, PlayedAttempt& attempt, AttemptMeter& meter) {
-    const FrameInput input = frame_input(out, controls_of(params_), ++frames_);
-    const Frame& frame = images_->render(input);
-    add_frame(meter, input, frame, static_cast<double>(tick_) / kRate);
-    attempt.recording.frames.push_back(to_record(input, frame, params_.transducer));
-  }
-
-  SessionParams params_;
   PlayOptions options_;
-  HapticCore core_;
-  std::unique_ptr<ImageCore> images_;
-  std::uint64_t tick_ = 0;
-  std::uint64_t frames_ = 0;
+  Simulation simulation_;
+  SimulationRecorder recorder_;
+  std::uint64_t pictures_ = 0;
 };
 
 std::uint64_t mix_seed(std::uint64_t a, std::uint64_t b) {
@@ -128,18 +125,19 @@ std::uint64_t mix_seed(std::uint64_t a, std::uint64_t b) {
 }
 
 /// An attempt with a needle while it is played.
-class NeedleStage final : public Stage {
+class NeedleAttempt final : public SimulatedAttempt {
  public:
-  NeedleStage(const Scenario& scenario, std::shared_ptr<const Scene> scene,
-              const SessionParams& params, const OperatorSkill& skill, const PlayOptions& options)
+  NeedleAttempt(const Scenario& scenario, std::shared_ptr<const Scene> scene,
+                const SessionParams& params, const OperatorSkill& skill, const PlayOptions& options,
+                Recording& recording)
       : scene_(std::move(scene)),
         finder_(params.transducer, params.image.depth, params.needle_shape),
-        session_(scene_, params, options),
+        session_(scene_, params, options, recording),
         hands_(skill,
                {scenario.entry.centre, scenario.target.point, scenario.X_JP, scenario.time_limit,
                 appears_at(scenario, *scene_, finder_)},
                mix_seed(scenario.seed, options.seed)),
-        thumb_(session_.core().syringe().plunger().params(), scenario.syringe, skill),
+        thumb_(session_.simulation().syringe().plunger().params(), scenario.syringe, skill),
         loop_({kRate, kPhysics}, params.device, hand_of(skill, options.seed),
               hands_.intention(0).X_JN) {
     const auto& regions = scene_->joint().regions;
@@ -148,14 +146,15 @@ class NeedleStage final : public Stage {
   }
 
   /// One tick. False when the attempt is over.
-  bool step(PlayedAttempt& attempt, AttemptMeter& meter) override {
+  bool step(AttemptMeter& meter) override {
     const double t = loop_.time();
     DeviceSample device;
     device.X_WN = to_plain(loop_.measured());
     device.X_WP = to_plain(hands_.probe(t));
     device.has_needle = device.has_probe = 1;
-    thumb_.step(hands_.holds(), session_.core().syringe().plunger(), given_, 1 / kRate, device);
-    const HapticSnapshot& out = session_.step(device, attempt, meter);
+    thumb_.step(hands_.holds(), session_.simulation().syringe().plunger(), given_, 1 / kRate,
+                device);
+    const HapticSnapshot& out = session_.step(device, meter);
     given_ = out.feedback.plunger.given;
     if (session_.glances()) glance(t, out);
     const auto& f = out.feedback;
@@ -170,7 +169,7 @@ class NeedleStage final : public Stage {
  private:
   void glance(double t, const HapticSnapshot& out) {
     const Pose X_JN = to_pose(out.X_JN);
-    const TipSight sight = finder_.look(*scene_, to_pose(out.X_JP), X_JN);
+    const TipSight sight = finder_.look(*session_.simulation().scene(), to_pose(out.X_JP), X_JN);
     ScanGlance seen;
     seen.visible = sight.seen() && out.feedback.region != kOutside;
     seen.offset = sight.offset;
@@ -183,7 +182,7 @@ class NeedleStage final : public Stage {
 
   std::shared_ptr<const Scene> scene_;
   TipSightFinder finder_;
-  PlayedSession session_;
+  PlayedSimulation session_;
   ScanningOperator hands_;
   SyringeHand thumb_;
   HandLoop loop_;
@@ -192,25 +191,26 @@ class NeedleStage final : public Stage {
 };
 
 /// An attempt with the probe alone while it is played: the hand slides over the skin.
-class LookStage final : public Stage {
+class LookAttempt final : public SimulatedAttempt {
  public:
-  LookStage(const Scenario& scenario, std::shared_ptr<const Scene> scene,
-            const SessionParams& params, const OperatorSkill& skill, const PlayOptions& options)
+  LookAttempt(const Scenario& scenario, std::shared_ptr<const Scene> scene,
+              const SessionParams& params, const OperatorSkill& skill, const PlayOptions& options,
+              Recording& recording)
       : scene_(std::move(scene)),
         X_JP_(scenario.X_JP),
         transducer_(params.transducer),
         depth_(params.image.depth),
         search_(scene_->joint(), scenario.find, params.transducer, params.image.depth,
                 StructureSearch::kTold),
-        session_(scene_, params, options),
+        session_(scene_, params, options, recording),
         hand_(skill, plan_of(scenario), mix_seed(scenario.seed, options.seed)) {}
 
-  bool step(PlayedAttempt& attempt, AttemptMeter& meter) override {
+  bool step(AttemptMeter& meter) override {
     DeviceSample device;
     const Pose X_JP = pose_at(hand_.x(), hand_.y());
     device.X_WP = to_plain(X_JP);
     device.has_probe = 1;
-    session_.step(device, attempt, meter);
+    session_.step(device, meter);
     if (session_.glances()) glance(X_JP);
     return !hand_.done();
   }
@@ -248,10 +248,11 @@ class LookStage final : public Stage {
 
   void glance(const Pose& X_JP) {
     LookGlance seen;
-    search_.look(*scene_, time(), X_JP);
+    const Scene& scene = *session_.simulation().scene();
+    search_.look(scene, time(), X_JP);
     seen.asked = search_.found();
     for (const Sought& one : search_.sought()) {
-      const StructureSight sight = see_structure(*scene_, transducer_, depth_, X_JP, one.region);
+      const StructureSight sight = see_structure(scene, transducer_, depth_, X_JP, one.region);
       seen.x.push_back(sight.in_picture ? std::optional(sight.x) : std::nullopt);
     }
     hand_.look(time(), seen);
@@ -262,18 +263,20 @@ class LookStage final : public Stage {
   Transducer transducer_;
   double depth_;
   StructureSearch search_;
-  PlayedSession session_;
+  PlayedSimulation session_;
   LookingOperator hand_;
 };
 
 }  // namespace
 
-std::unique_ptr<Stage> make_stage(const Scenario& scenario, std::shared_ptr<const Scene> scene,
-                                  const SessionParams& params, const OperatorSkill& skill,
-                                  const PlayOptions& options) {
+std::unique_ptr<SimulatedAttempt> make_simulated_attempt(
+    const Scenario& scenario, std::shared_ptr<const Scene> scene, const SessionParams& params,
+    const OperatorSkill& skill, const PlayOptions& options, Recording& recording) {
   if (scenario.find.empty())
-    return std::make_unique<NeedleStage>(scenario, std::move(scene), params, skill, options);
-  return std::make_unique<LookStage>(scenario, std::move(scene), params, skill, options);
+    return std::make_unique<NeedleAttempt>(scenario, std::move(scene), params, skill, options,
+                                           recording);
+  return std::make_unique<LookAttempt>(scenario, std::move(scene), params, skill, options,
+                                       recording);
 }
 
 }  // namespace artus

@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 #include <cstdint>
-#include <memory>
-#include <optional>
-#include <string>
+#include <limits>
+#include <type_traits>
 
-#include "artus/echo/renderer.h"
-#include "artus/haptics/needle_renderer.h"
-#include "artus/detail/simulation/hand_aids.h"
-#include "artus/simulation/input_device.h"
-#include "artus/simulation/session_params.h"
+#include "artus/detail/haptics/needle/needle_coupling.h"
 #include "artus/detail/simulation/syringe_core.h"
 #include "artus/detail/simulation/tissue_packet.h"
 #include "artus/detail/simulation/two_phase_gesture.h"
+#include "artus/echo/frame.h"
+#include "artus/simulation/input_device.h"
+#include "artus/simulation/session_params.h"
 
 namespace artus {
 
@@ -69,45 +67,6 @@ struct HapticSnapshot {
 };
 static_assert(std::is_trivially_copyable_v<TickInput>);
 static_assert(std::is_trivially_copyable_v<HapticSnapshot>);
-
-/// The haptic half of a session as a pure function of its inputs: no clock, no thread. What runs
-/// live is what a replay runs.
-class HapticCore {
- public:
-  /// Requires: valid params, a scene.
-  HapticCore(std::shared_ptr<const Scene> scene, const SessionParams& params);
-
-  /// What the tissue answers the hands with from the next tick on.
-  ARTUS_REALTIME void take(const TissuePacket& packet) noexcept {
-    probe_.take(packet.probe);
-    needle_.take(packet.needle);
-  }
-
-  /// One period. Errors: none; the status says what was wrong, and then the force is zero.
-  ARTUS_REALTIME const HapticSnapshot& step(const TickInput& input) noexcept;
-
-  /// For who replays: volumes and places, between two ticks.
-  [[nodiscard]] const SyringeCore& syringe() const noexcept { return syringe_; }
-
- private:
-  void take(const TickInput& input) noexcept;
-  void step_needle(const DeviceSample& device, std::uint32_t command) noexcept;
-  void step_probe(bool felt, const std::optional<Pose>& X_WP) noexcept;
-  void step_syringe(bool runs) noexcept;
-  [[nodiscard]] bool is_sound(bool runs) const noexcept;
-  void add_force(const Vec3& more_J, bool runs) noexcept;
-  void describe() noexcept;
-
-  std::shared_ptr<const Scene> scene_;
-  NeedleRenderer needle_;
-  TwoPhaseGesture gesture_;
-  ProbeTangent probe_;
-  OutputGuard probe_guard_;
-  SyringeCore syringe_;
-  HandAid aid_;
-  DeviceLimits device_;
-  HapticSnapshot out_;
-};
 
 /// What the person at the scanner turns while the session runs. Plain bytes.
 struct ImageControls {

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/detail/simulation/records.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <iterator>
+
+#include "artus/detail/core/noise.h"
+
+namespace artus {
+
+ImageControls controls_of(const SessionParams& params) noexcept {
+  return {params.image.depth,          params.image.gain_db,
+          params.image.tgc_db_cm_mhz,  params.image.dynamic_range_db,
+          params.transducer.frequency, params.transducer.elevation_focus};
+}
+
+FrameInput frame_input(const HapticSnapshot& snapshot, const ImageControls& controls,
+                       std::uint64_t number) noexcept {
+  FrameInput input;
+  input.X_JP = snapshot.X_JP;
+  input.X_JN = snapshot.X_JN;
+  input.controls = controls;
+  input.sample_time_ns = snapshot.input.device.time_ns;
+  input.number = number;
+  input.has_needle = snapshot.input.device.has_needle;
+  input.has_probe = snapshot.input.device.has_probe;
+  input.load = snapshot.load;
+  input.n_sites = snapshot.n_sites;
+  std::copy_n(std::begin(snapshot.sites), snapshot.n_sites, std::begin(input.sites));
+  return input;
+}
+
+std::uint64_t digest_of(const TissuePacket& packet) noexcept {
+  const ProbePacket& probe = packet.probe;
+  std::uint64_t digest = mix_bits(probe.number);
+  const auto add = [&digest](double value) {
+    digest = mix_bits(digest ^ std::bit_cast<std::uint64_t>(value));
+  };
+  const auto add_all = [&add](const auto& values) {
+    std::for_each(values.begin(), values.end(), add);
+  };
+  add_all(probe.X_JP);
+  add_all(probe.wrench);
+  add_all(probe.stiffness);
+  add(probe.share);
+  const NeedlePacket& needle = packet.needle;
+  add_all(needle.carried);
+  add(static_cast<double>(needle.compliance.points));
+  add(needle.compliance.spacing);
+  for (const auto& column : needle.compliance.by_load) add_all(column);
+  add_all(needle.compliance.near_field);
+  add(needle.compliance_scale);
+  return digest;
+}
+
+std::uint64_t digest_of(const Frame& frame) noexcept {
+  std::uint64_t digest = mix_bits(static_cast<std::uint64_t>(frame.width) << 32U |
+                                  static_cast<std::uint64_t>(frame.height));
+  for (std::size_t i = 0; i < frame.image.size(); i += 8) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, frame.image.data() + i, std::min<std::size_t>(8, frame.image.size() - i));
+    digest = mix_bits(digest ^ word);
+  }
+  return digest;
+}
+
+}  // namespace artus
