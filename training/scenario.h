@@ -104,8 +104,9 @@ struct Scenario {
 /// The names of aids that a scenario may use.
 [[nodiscard]] std::vector<std::string> aid_names();
 
-/// Reads a scenario (docs/training.md). Errors: not_found, malformed (TOML), invalid: every unknown
-/// key, value out of range and unknown metric of a mark, all in one message with their lines.
+/// Reads a scenario (docs/scenarios.md). Errors: not_found, malformed (TOML), invalid: every
+/// unknown key, value out of range and unknown metric of a mark, all in one message with their
+/// lines.
 [[nodiscard]] Result<Scenario> read_scenario(const std::filesystem::path& file);
 [[nodiscard]] Result<Scenario> parse_scenario(std::string_view text, const std::string& name);
 

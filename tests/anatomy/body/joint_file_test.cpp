@@ -21,11 +21,10 @@ const std::string kHead =
 const std::string kBone =
     "[[structure]]\nname = \"ulna\"\ntissue = \"bone\"\nfile = \"ulna.stl\"\n";
 
-/// The example of docs/joint-format.md: what the documentation shows must be read as it stands.
-std::string documented_example(std::size_t number) {
-  std::ifstream in(artus::test::source_dir() / "docs/joint-format.md");
+/// The first example of a page of docs/: what the documentation shows must be read as it stands.
+std::string documented_example(const char* page) {
+  std::ifstream in(artus::test::source_dir() / "docs" / page);
   std::string text((std::istreambuf_iterator<char>(in)), {});
-  for (; number > 0; --number) text.erase(0, text.find("```", text.find("```toml") + 3) + 3);
   text.erase(0, text.find("```toml") + 8);
   return text.substr(0, text.find("```"));
 }
@@ -50,7 +49,7 @@ TEST(JointFile, TheSmallestJointHasDefaults) {
 }
 
 TEST(JointFile, TheDocumentedExampleParsesButForTheStructuresItLeavesOut) {
-  std::string text = documented_example(0);
+  std::string text = documented_example("joint-format.md");
   text.erase(text.find("tissue_library"), text.find("surfaces =") - text.find("tissue_library"));
   for (const char* name : {"scapula", "supraspinatus", "deltoid_acromial"})
     text += std::string("\n[[structure]]\nname = \"") + name +
@@ -232,13 +231,13 @@ TEST(TissueLibrary, EveryGroupNamesItsSourceOrSaysAssumed) {
 }
 
 TEST(TissueLibrary, AttenuationBecomesNeperPerMetre) {
-  const auto tissues = parse_tissues(documented_example(2), "t");
+  const auto tissues = parse_tissues(documented_example("tissues.md"), "t");
   ASSERT_TRUE(tissues) << tissues.error().to_string();
   EXPECT_NEAR((*tissues)[0].acoustic.attenuation * kDecibelPerNeper, 75, 1e-9);  // 0.75 dB/cm
 }
 
 TEST(TissueLibrary, ValuesOutOfTheirRangeAreRefusedWithTheirPlace) {
-  std::string text = documented_example(2);
+  std::string text = documented_example("tissues.md");
   text.replace(text.find("0.49"), 4, "0.51");
   const auto tissues = parse_tissues(text, "t.toml");
   ASSERT_FALSE(tissues);

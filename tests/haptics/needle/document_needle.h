@@ -10,8 +10,8 @@
 
 namespace artus::test {
 
-// The needle as a reader would program it from docs/haptics.md, "The needle, step by step", for
-// flat layers below z = 0, without a look at the engine's. Friction and bone are left out.
+// The needle as a reader would program it from docs/needle-steps.md, "The needle, step by step",
+// for flat layers below z = 0, without a look at the engine's. Friction and bone are left out.
 
 struct DocumentTissue {
   double begins, f_r, f_a, k_t, puncture, clamping;

@@ -5,8 +5,8 @@
 
 namespace artus::test {
 
-// The wall as a reader would program it from docs/haptics.md, "The wall, step by step", without a
-// look at the engine's: the numbers of the steps are the document's.
+// The wall as a reader would program it from docs/needle-steps.md, "The wall, step by step",
+// without a look at the engine's: the numbers of the steps are the document's.
 
 struct DocumentLayer {
   double f_r, f_a, k_t;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// A reader's needle, programmed from docs/haptics.md alone, beside the engine's on ways that sway.
+// A reader's needle, programmed from docs/needle-steps.md alone, beside the engine's on paths that
+// sway.
 #include <algorithm>
 #include <cmath>
 #include <string>
