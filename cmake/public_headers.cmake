@@ -5,7 +5,7 @@ set(ARTUS_PUBLIC_HEADERS
   core/result.h core/result.h
   core/geometry.h core/geometry.h
   anatomy/compiled_joint.h anatomy/body/compiled_joint.h
-  anatomy/joint_file.h anatomy/body/joint_file.h
+  anatomy/joint_file.h anatomy/source/joint_file.h
   anatomy/compile.h anatomy/compile/compile.h
   raycast/scene.h raycast/scene.h
   haptics/device.h haptics/device.h

@@ -109,7 +109,7 @@ TEST(AppendWarnings, NamesWhatLosesMuchAndWhatIsLostWholly) {
                                      {"half", "muscle", Vec3(9 * kMm, 0, 0), 10 * kMm},
                                      {"gone", "muscle", Vec3::Zero(), 8 * kMm}}));
   EXPECT_TRUE(warns(report.structures[2], "goes to structures before it"));
-  EXPECT_TRUE(warns(report.structures[3], "nothing of it is in the joint"));
+  EXPECT_TRUE(warns(report.structures[3], "none of it is in the joint"));
   EXPECT_FALSE(warns(report.structures[1], "goes to structures before it"));
 }
 
