@@ -14,7 +14,7 @@ namespace {
 constexpr double kOnSkin = 2 * kMillimetre;       // what an entry may lie off the skin
 constexpr double kProbeOnSkin = 3 * kMillimetre;  // likewise the middle of a probe's face
 constexpr double kStays = 3 * kMillimetre;        // of the shaft that stays outside
-constexpr double kShortest = 2 * kMillimetre;     // way of a needle: less is a slip of the pen
+constexpr double kShortest = 2 * kMillimetre;     // path of a needle: less is a slip
 constexpr double kUsualDepth = 10 * kMillimetre;  // under the skin, where a target is offered
 constexpr double kThinnest = 0.6 * kMillimetre;   // layer in which a tip can stop
 constexpr double kRoom = 5 * kMillimetre;         // that a mended region has to spare
@@ -36,7 +36,7 @@ std::vector<Vec3> skin_around(const PlanGround& ground, const Vec3& near) {
   return places;
 }
 
-/// Whether the way from just under the skin to the target stays inside the body.
+/// Whether the path from just under the skin to the target stays inside the body.
 bool stays_inside(const PlanGround& ground, const Vec3& entry, const Vec3& target) {
   constexpr int kSteps = 20;
   for (int i = 1; i <= kSteps; ++i)
