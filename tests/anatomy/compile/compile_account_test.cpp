@@ -117,7 +117,7 @@ TEST(AppendWarnings, AConstructOfNothingSaysWhatItIsMadeFrom) {
   BallsJoint joint(30 * kMm, {{"a", "muscle", Vec3::Zero(), 12 * kMm},
                               {"gone", "muscle", Vec3::Zero(), 8 * kMm}});
   joint.add_construct("lining", ShellConstruct{"gone", 1 * kMm});
-  EXPECT_TRUE(warns(measured(joint).structures[3], "there is nothing of 'gone'"));
+  EXPECT_TRUE(warns(measured(joint).structures[3], "made from 'gone', of which there is none"));
 }
 
 TEST(CompileReport, ErrorOfAVolumeIsRelativeToWhatIsLeftOfIt) {

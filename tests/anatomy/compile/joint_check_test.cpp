@@ -61,7 +61,7 @@ TEST_F(CheckedJoint, ASizeThatNoPartOfABodyHasIsRefusedByBothAndTheUnitMendsIt) 
   EXPECT_FALSE(found.usable());
   EXPECT_EQ(found.findings.front().verdict, Verdict::refused);
   EXPECT_THAT(found.findings.front().message, HasSubstr("units = \"m\""));
-  EXPECT_THAT(refusal(kHead), HasSubstr("no part of a body"));
+  EXPECT_THAT(refusal(kHead), HasSubstr("not the size of a part of a body"));
   const std::string mended = std::string(kHead) + "units = \"m\"\n";
   EXPECT_TRUE(check(mended).usable());
   EXPECT_EQ(refusal(mended), "");
@@ -72,7 +72,7 @@ TEST_F(CheckedJoint, ABodyOfMetresReadAsMillimetresIsRefusedByBoth) {
   folder_.add_sphere("head", Vec3(0, 0, 0.2), 0.4);
   const std::string toml = kHead;
   EXPECT_FALSE(check(toml).usable());
-  EXPECT_THAT(refusal(toml), HasSubstr("is no body; give the unit of its file"));
+  EXPECT_THAT(refusal(toml), HasSubstr("is not the size of a body; give the unit of its file"));
 }
 
 TEST_F(CheckedJoint, CoordinatesThatNoFrameHasAreRefusedByBothAndTheFrameMendsIt) {

@@ -153,7 +153,7 @@ TEST_F(Plans, WithAProbeThatDoesNotStandAreMended) {
   expect_mended("away from the body");
   joint_.file.X_JP_default = make_pose(top, -Vec3::UnitZ(), Vec3::UnitX());
   joint_.file.region_of_interest = RegionOfInterest{Vec3(0, -0.025, 0.025), 0.037, {}};
-  expect_mended("with its whole length");
+  expect_mended("over its whole length");
 }
 
 TEST(CompiledPlans, AreJudgedAsThoseOfTheSurfaces) {
