@@ -10,7 +10,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "artus/anatomy/joint_file.h"
+#include "artus/anatomy/compiled_joint.h"
 #include "artus/detail/anatomy/body/liquid.h"
 #include "artus/detail/core/progress.h"
 #include "artus/detail/evidence/claim.h"
