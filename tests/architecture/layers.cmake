@@ -45,7 +45,7 @@ set(rooms core anatomy/surfaces anatomy/body anatomy/compile raycast soft haptic
 set(outside "embree:raycast" "CGAL/:anatomy/surfaces,anatomy/compile,meshes/generate" "tetgen:anatomy/compile"
   "toml:core,anatomy/body,echo,haptics/actuator,training" "opencv2/:echo,dataset,evidence/echo,evidence/medical,evidence/injection,apps,viewer"
   "CLI/:apps,meshes/generate" "boost/interprocess:session" "GLFW/:viewer" "imgui:viewer" "epoxy/:viewer" "gtest/:tests" "pybind11/:python" "dcmtk/:exchange"
-  "sqlite3:training"
+  "sqlite3:training" "SQLiteCpp/:training"
   "nlohmann/:anatomy/compile,python,session,training,training/metrics,dataset,exchange,evidence,evidence/needle,evidence/probe,evidence/echo,evidence/medical,evidence/injection,apps,meshes/generate")
 
 set(bad "")
