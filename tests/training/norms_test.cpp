@@ -94,7 +94,7 @@ TEST_F(NormRecords, TooFewAreRefusedWithTheirNumber) {
 TEST_F(NormRecords, RecordsOfTheFirstFormGetTheirTable) {
   note("a1", 1);
   {
-    SQLite::Database file(in("records.db").string(), SQLite::OPEN_READWRITE);
+    SQLite::Database file(in("records.db"), SQLite::OPEN_READWRITE);
     file.exec("DROP TABLE norm; PRAGMA user_version = 1");
   }
   auto again = Records::open(in("records.db"));

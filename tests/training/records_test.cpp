@@ -96,7 +96,7 @@ TEST_F(RecordsTest, WhatIsNoDatabaseOrOfALaterFormIsRefused) {
   ASSERT_FALSE(text);
   EXPECT_EQ(text.error().code, ErrorCode::corrupt);
   {
-    SQLite::Database later(in("later.db").string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+    SQLite::Database later(in("later.db"), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
     later.exec("PRAGMA user_version = 99");
   }
   const auto later = Records::open(in("later.db"));
@@ -107,11 +107,11 @@ TEST_F(RecordsTest, WhatIsNoDatabaseOrOfALaterFormIsRefused) {
 
 TEST_F(RecordsTest, ARefusalSaysWhatWhereAndWhatToDo) {
   Records records = open();
-  SQLite::Database other(in("records.db").string(), SQLite::OPEN_READWRITE);
+  SQLite::Database other(in("records.db"), SQLite::OPEN_READWRITE);
   other.exec("DROP TABLE person");
   const auto persons = records.persons();
   ASSERT_FALSE(persons);
-  EXPECT_EQ(persons.error().where, in("records.db").string());
+  EXPECT_EQ(persons.error().where, in("records.db"));
   EXPECT_NE(persons.error().message.find("no such table: person"), std::string::npos);
   const auto added = records.add_person({"p1", "learner", ""});
   ASSERT_FALSE(added);
@@ -169,7 +169,7 @@ TEST_F(RecordsTest, AKilledProgramLosesNothingThatWasFinished) {
   ASSERT_TRUE(attempts);
   for (const AttemptRecord& a : *attempts) finished += a.ended.empty() ? 0 : 1;
   EXPECT_GE(finished, promised);
-  SQLite::Database file(in("records.db").string());
+  SQLite::Database file(in("records.db"));
   EXPECT_EQ(file.execAndGet("PRAGMA integrity_check").getString(), "ok");
 }
 
