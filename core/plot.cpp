@@ -13,15 +13,15 @@
 namespace artus {
 namespace {
 
-constexpr double kLeft = 58;     // pixels, as all lengths here
-constexpr double kRight = 14;    //
-constexpr double kTop = 26;      // with one row of legend
-constexpr double kBottom = 44;   //
-constexpr double kRow = 16;      // of legend
-constexpr double kLetter = 7;    // mean width
-constexpr double kTitle = 26;    //
-constexpr double kXTick = 110;   // about, from one to the next
-constexpr double kYTick = 48;    //
+constexpr double kLeft = 58;    // pixels, as all lengths here
+constexpr double kRight = 14;   //
+constexpr double kTop = 26;     // with one row of legend
+constexpr double kBottom = 44;  //
+constexpr double kRow = 16;     // of legend
+constexpr double kLetter = 7;   // mean width
+constexpr double kTitle = 26;   //
+constexpr double kXTick = 110;  // about, from one to the next
+constexpr double kYTick = 48;   //
 constexpr std::array<std::string_view, 8> kColours{"#1f5fa8", "#a8461f", "#2a7d3a", "#7a3f9a",
                                                    "#b58900", "#0b7a8a", "#c23b80", "#666666"};
 
@@ -249,9 +249,8 @@ std::string draw_series(const PlotSeries& series, std::string_view colour, const
                        ? "stroke-width=\"1.8\" stroke-dasharray=\"6 4\""
                        : "stroke-width=\"1.8\"") +
          draw_path(points, colour,
-                   series.style == PlotStyle::dots
-                       ? "stroke-width=\"2\" stroke-linecap=\"round\""
-                       : "stroke-width=\"8\" stroke-linecap=\"round\"");
+                   series.style == PlotStyle::dots ? "stroke-width=\"2\" stroke-linecap=\"round\""
+                                                   : "stroke-width=\"8\" stroke-linecap=\"round\"");
 }
 
 std::string draw_panel(const PlotPanel& panel, double width, double height) {
