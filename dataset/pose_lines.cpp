@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "artus/detail/core/csv.h"
 #include "artus/detail/core/text_cursor.h"
 #include "artus/detail/core/text_lines.h"
 #include "artus/detail/core/units.h"
@@ -108,16 +109,6 @@ Result<PoseLine> parse_json(std::string_view text, const std::string& where) {
   return line;
 }
 
-std::vector<std::string> cells_of(std::string_view line) {
-  std::vector<std::string> cells;
-  for (;;) {
-    const std::size_t comma = line.find(',');
-    cells.emplace_back(trimmed(line.substr(0, comma)));
-    if (comma == std::string_view::npos) return cells;
-    line.remove_prefix(comma + 1);
-  }
-}
-
 struct Header {
   std::vector<std::string> names;
   std::vector<Place> places;  // of columns that are numbers of a hand
@@ -125,7 +116,7 @@ struct Header {
 
 Result<Header> parse_header(std::string_view text, const std::string& where) {
   Header header;
-  header.names = cells_of(text);
+  header.names = csv_cells(text);
   for (const std::string& name : header.names) {
     if (std::count(header.names.begin(), header.names.end(), name) > 1)
       return fail(ErrorCode::invalid, "column '" + name + "' is given twice", where);
@@ -141,7 +132,7 @@ Result<Header> parse_header(std::string_view text, const std::string& where) {
 }
 
 Result<PoseLine> parse_row(const Header& header, std::string_view text, const std::string& where) {
-  const auto cells = cells_of(text);
+  const auto cells = csv_cells(text);
   if (cells.size() != header.names.size())
     return fail(ErrorCode::malformed,
                 std::to_string(cells.size()) + " cells, but the header has " +

@@ -8,7 +8,7 @@
 
 namespace artus {
 
-/// Which way a needle that is drawn was last moved.
+/// In which direction a needle that is drawn was last moved.
 enum class NeedleDirection { in, out };
 
 /// What a needle that slides does to the tissue around it, frame J.
