@@ -17,48 +17,49 @@ namespace {
 
 using nlohmann::json;
 
-struct Key {
+struct PoseKey {
   const char* name;  // as in JSON, without its unit
   std::size_t size;
   bool length;         // takes _mm or _m
   const char* column;  // as in CSV, before the axis
 };
-constexpr std::array<Key, 8> kKeys{{{"probe.position", 3, true, "probe"},
-                                    {"probe.direction", 3, false, "direction"},
-                                    {"probe.lateral", 3, false, "lateral"},
-                                    {"probe.quaternion_wxyz", 4, false, "probe_q"},
-                                    {"needle.entry", 3, true, "entry"},
-                                    {"needle.tip", 3, true, "tip"},
-                                    {"needle.position", 3, true, "needle"},
-                                    {"needle.quaternion_wxyz", 4, false, "needle_q"}}};
+constexpr std::array<PoseKey, 8> kPoseKeys{{{"probe.position", 3, true, "probe"},
+                                            {"probe.direction", 3, false, "direction"},
+                                            {"probe.lateral", 3, false, "lateral"},
+                                            {"probe.quaternion_wxyz", 4, false, "probe_q"},
+                                            {"needle.entry", 3, true, "entry"},
+                                            {"needle.tip", 3, true, "tip"},
+                                            {"needle.position", 3, true, "needle"},
+                                            {"needle.quaternion_wxyz", 4, false, "needle_q"}}};
 
 /// Where a JSON key or a CSV column belongs.
-struct Place {
-  const Key* key = nullptr;
+struct KeyPlace {
+  const PoseKey* key = nullptr;
   std::size_t axis = 0;
   double scale = 1;
 };
 
 /// Whether `text` is `stem` in the key's unit, and then its factor to SI.
-std::optional<double> scale_of(const Key& key, const std::string& stem, const std::string& text) {
+std::optional<double> scale_of(const PoseKey& key, const std::string& stem,
+                               const std::string& text) {
   if (!key.length) return text == stem ? std::optional(1.0) : std::nullopt;
   if (text == stem + "_mm") return kMillimetre;
   return text == stem + "_m" ? std::optional(1.0) : std::nullopt;
 }
 
-Result<Place> json_place(const std::string& name, const std::string& where) {
-  for (const Key& key : kKeys)
-    if (const auto scale = scale_of(key, key.name, name)) return Place{&key, 0, *scale};
+Result<KeyPlace> json_place(const std::string& name, const std::string& where) {
+  for (const PoseKey& key : kPoseKeys)
+    if (const auto scale = scale_of(key, key.name, name)) return KeyPlace{&key, 0, *scale};
   return fail(ErrorCode::invalid, "unknown key '" + name + "'", where);
 }
 
-Result<Place> csv_place(const std::string& column, const std::string& where) {
-  for (const Key& key : kKeys) {
+Result<KeyPlace> csv_place(const std::string& column, const std::string& where) {
+  for (const PoseKey& key : kPoseKeys) {
     const bool quaternion = key.size == 4;
     const std::string axes = quaternion ? "wxyz" : "xyz";
     for (std::size_t i = 0; i < axes.size(); ++i) {
       const std::string stem = std::string(key.column) + (quaternion ? "" : "_") + axes[i];
-      if (const auto scale = scale_of(key, stem, column)) return Place{&key, i, *scale};
+      if (const auto scale = scale_of(key, stem, column)) return KeyPlace{&key, i, *scale};
     }
   }
   return fail(ErrorCode::invalid, "unknown column '" + column + "'", where);
@@ -109,18 +110,18 @@ Result<PoseLine> parse_json(std::string_view text, const std::string& where) {
   return line;
 }
 
-struct Header {
+struct PoseHeader {
   std::vector<std::string> names;
-  std::vector<Place> places;  // of columns that are numbers of a hand
+  std::vector<KeyPlace> places;  // of columns that are numbers of a hand
 };
 
-Result<Header> parse_header(std::string_view text, const std::string& where) {
-  Header header;
+Result<PoseHeader> parse_header(std::string_view text, const std::string& where) {
+  PoseHeader header;
   header.names = csv_cells(text);
   for (const std::string& name : header.names) {
     if (std::count(header.names.begin(), header.names.end(), name) > 1)
       return fail(ErrorCode::invalid, "column '" + name + "' is given twice", where);
-    Place place;
+    KeyPlace place;
     if (name != "name" && name != "time_s") {
       const auto found = csv_place(name, where);
       ARTUS_TRY(found);
@@ -131,7 +132,8 @@ Result<Header> parse_header(std::string_view text, const std::string& where) {
   return header;
 }
 
-Result<PoseLine> parse_row(const Header& header, std::string_view text, const std::string& where) {
+Result<PoseLine> parse_row(const PoseHeader& header, std::string_view text,
+                           const std::string& where) {
   const auto cells = csv_cells(text);
   if (cells.size() != header.names.size())
     return fail(ErrorCode::malformed,
@@ -148,7 +150,7 @@ Result<PoseLine> parse_row(const Header& header, std::string_view text, const st
       return fail(ErrorCode::invalid,
                   "'" + cells[i] + "' in column " + header.names[i] + " is not a finite number",
                   where);
-    const Place& place = header.places[i];
+    const KeyPlace& place = header.places[i];
     if (place.key == nullptr) {
       line.time = *value;
       continue;
@@ -205,7 +207,7 @@ Result<PoseFormat> pose_format_of(const std::filesystem::path& file) {
 Result<void> for_pose_lines(
     std::string_view text, const std::string& name, PoseFormat format,
     const std::function<Result<void>(const PoseLine& line, const std::string& where)>& each) {
-  std::optional<Header> header;
+  std::optional<PoseHeader> header;
   return for_lines(
       text, name, [&](std::string_view content, const std::string& where) -> Result<void> {
         if (format == PoseFormat::csv && !header) {
