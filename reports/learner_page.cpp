@@ -6,6 +6,7 @@
 #include <memory>
 #include <numeric>
 
+#include "artus/detail/core/plot.h"
 #include "artus/detail/core/text_cursor.h"
 #include "artus/detail/core/text_file.h"
 #include "artus/detail/reports/attempt_page.h"
@@ -14,7 +15,6 @@
 #include "artus/detail/training/learning_curve.h"
 #include "artus/detail/training/learning_fit.h"
 #include "artus/detail/training/metrics/sight_course.h"
-#include "artus/detail/training/svg_plot.h"
 
 namespace artus {
 namespace {
@@ -33,6 +33,7 @@ std::unique_ptr<bool[]> outcomes(const std::vector<AttemptRecord>& attempts, std
 
 constexpr double kMemory = 0.95;  // weight of an attempt for each one since
 constexpr const char* kPale = "#9db8d6";
+constexpr const char* kDark = "#1f5fa8";
 
 std::vector<double> numbered(std::size_t n) {
   std::vector<double> x(n);
@@ -41,30 +42,32 @@ std::vector<double> numbered(std::size_t n) {
 }
 
 /// What was believed of the rate of failure after each attempt, with its band.
-SvgPlot plot_belief(std::span<const bool> failed) {
-  SvgCurve mean{"rate of failure", numbered(failed.size()), {}};
-  SvgCurve low{"90 % band", mean.x, {}, kPale};
-  SvgCurve high{"", mean.x, {}, kPale};
+PlotPanel plot_belief(std::span<const bool> failed) {
+  PlotSeries mean{"rate of failure", numbered(failed.size()), {}, PlotStyle::line, kDark};
+  PlotSeries low{"90 % band", mean.x, {}, PlotStyle::line, kPale};
+  PlotSeries high{"", mean.x, {}, PlotStyle::line, kPale};
   for (std::size_t i = 1; i <= failed.size(); ++i) {
     const FailureBelief belief = believe(failed.first(i), kMemory);
     mean.y.push_back(100 * belief.mean);
     low.y.push_back(100 * belief.low);
     high.y.push_back(100 * belief.high);
   }
-  return {"attempt without aids",
-          "%",
-          {low, high, mean},
-          {},
-          {{100 * kRates.acceptable, "adequate"}, {0, ""}}};
+  return {.x_label = "attempt without aids",
+          .y_label = "%",
+          .series = {low, high, mean},
+          .levels = {{100 * kRates.acceptable, "adequate"}, {0, ""}}};
 }
 
 /// Scores of the finished attempts without aids.
-SvgPlot plot_scores(const std::vector<AttemptRecord>& attempts) {
-  SvgCurve scores{"", {}, {}, "#1f5fa8", true};
+PlotPanel plot_scores(const std::vector<AttemptRecord>& attempts) {
+  PlotSeries scores{"", {}, {}, PlotStyle::points};
   for (const AttemptRecord& a : attempts)
     if (!a.ended.empty() && !a.aided) scores.y.push_back(a.score);
   scores.x = numbered(scores.y.size());
-  return {"attempt without aids", "score", {scores}, {}, {{100, ""}, {0, ""}}};
+  return {.x_label = "attempt without aids",
+          .y_label = "score",
+          .series = {scores},
+          .levels = {{100, ""}, {0, ""}}};
 }
 
 /// "2026-01-31 12:00" of "2026-01-31T12:00:00Z".
@@ -93,14 +96,13 @@ void add_scenario(HtmlPage& page, const std::string& name,
                  "learners who stay at 20 % failure, " +
                  fixed_number(100 * wrong, 0) + " % would be signalled within " +
                  std::to_string(n) + " attempts by chance.");
-  SvgCurve curve{"", {}, chart.values};
+  PlotSeries curve{"", {}, chart.values};
   for (std::size_t i = 0; i < n; ++i) curve.x.push_back(static_cast<double>(i + 1));
   if (n > 0)
-    page.drawing(to_svg({"attempt without aids",
-                         "LC-CUSUM",
-                         {curve},
-                         {},
-                         {{kLimit, "adequate from here"}, {0, ""}}}),
+    page.drawing(to_svg(PlotPanel{.x_label = "attempt without aids",
+                                  .y_label = "LC-CUSUM",
+                                  .series = {curve},
+                                  .levels = {{kLimit, "adequate from here"}, {0, ""}}}),
                  "rises with each pass, falls with each failure (10 against 20 %)");
   if (n > 1) {
     page.drawing(to_svg(plot_belief(x)), "share that fails, as the attempts so far tell it");
@@ -141,10 +143,10 @@ void add_curve(HtmlPage& page, const std::string& scenario, const std::vector<Tr
   constexpr std::size_t kFewest = 5;  // trials under which three numbers say nothing
   if (trials.size() < kFewest) return;
   const LearningFit fit = fit_learning(trials);
-  SvgCurve shares{"failed", numbered(trials.size()), {}, "#1f5fa8", true};
-  SvgCurve curve{"learning curve", shares.x, {}, "#a3361f"};
-  SvgCurve low{"90 % band of a share", shares.x, {}, kPale};
-  SvgCurve high{"", shares.x, {}, kPale};
+  PlotSeries shares{"failed", numbered(trials.size()), {}, PlotStyle::points, kDark};
+  PlotSeries curve{"learning curve", shares.x, {}, PlotStyle::line, "#a3361f"};
+  PlotSeries low{"90 % band of a share", shares.x, {}, PlotStyle::line, kPale};
+  PlotSeries high{"", shares.x, {}, PlotStyle::line, kPale};
   for (std::size_t i = 0; i < trials.size(); ++i) {
     const auto failures = static_cast<double>(trials[i].failures);
     const auto learners = static_cast<double>(trials[i].learners);
@@ -162,7 +164,10 @@ void add_curve(HtmlPage& page, const std::string& scenario, const std::vector<Tr
                  fixed_number(100 * fit.rate, 1) +
                  " % of what is left. Under no other such curve is what these learners did more "
                  "likely; few learners or short rows leave it vague.");
-  page.drawing(to_svg({"attempt without aids", "%", {low, high, shares, curve}, {}, {{0, ""}}}),
+  page.drawing(to_svg(PlotPanel{.x_label = "attempt without aids",
+                                .y_label = "%",
+                                .series = {low, high, shares, curve},
+                                .levels = {{0, ""}}}),
                "share of the learners who failed at their n-th attempt");
 }
 

@@ -37,7 +37,7 @@ set(may_session/record ${may_simulation} simulation)
 set(may_session ${may_simulation} simulation session/client session/shm session/record)
 set(session session session/client session/shm session/record)
 set(may_training/metrics ${may_raycast} raycast ${echo})
-set(may_training ${may_simulation} simulation ${session} anatomy/source training/metrics)
+set(may_training ${may_simulation} simulation dataset ${session} anatomy/source training/metrics)
 set(training training training/metrics)
 set(may_evidence ${may_simulation} simulation dataset ${session} ${training})
 set(may_evidence/runs ${may_evidence} evidence)
@@ -70,7 +70,7 @@ set(rooms core anatomy/surfaces anatomy/body anatomy/source anatomy/compile/labe
 set(outside "embree:raycast" "CGAL/:anatomy/surfaces,anatomy/compile,meshes/generate" "tetgen:anatomy/compile"
   "toml:core,anatomy/body,anatomy/source,echo/probe,soft/cage,haptics/actuator,training" "opencv2/:echo,dataset,evidence,reports,apps,trainer,viewer"
   "CLI/:apps,meshes/generate" "boost/interprocess:session/shm" "GLFW/:viewer" "imgui:viewer" "epoxy/:viewer" "gtest/:tests" "pybind11/:python" "dcmtk/:exchange"
-  "sqlite3:training"
+  "sqlite3:training" "SQLiteCpp/:training"
   "nlohmann/:anatomy/compile,python,simulation,session,training,dataset,exchange,evidence,reports,trainer,apps,meshes/generate")
 
 # The rooms of public headers, which are included by their short names.
