@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "artus/detail/core/noise.h"
-#include "artus/detail/evidence/validation/injection/injection_gates_list.h"
+#include "artus/detail/evidence/validation/injection/injection_gates.h"
 
 namespace artus {
 namespace {

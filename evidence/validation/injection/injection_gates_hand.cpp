@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "artus/detail/evidence/validation/injection/injection_gates_list.h"
+#include "artus/detail/evidence/validation/injection/injection_gates.h"
 #include "artus/detail/haptics/plunger/space_pressure.h"
 
 namespace artus {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "artus/detail/evidence/validation/injection/injection_gates_list.h"
+#include "artus/detail/evidence/validation/injection/injection_gates.h"
 #include "artus/detail/evidence/validation/injection/plunger_integral.h"
 
 namespace artus {
