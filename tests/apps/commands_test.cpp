@@ -94,8 +94,9 @@ TEST_F(Commands, FlagsOfACommandAreNotAskedOfItsOwnCommands) {
 TEST_F(Commands, AnOldNameWorksAndSaysItsNewOne) {
   const auto old = artus({"phantom", "cyst", "--out", in("old"), "--lines", "16", "--json"});
   EXPECT_EQ(old.exit_code, 0) << old.err;
-  EXPECT_EQ(old.err, "artus: 'artus phantom' is 'artus image phantom' now; the old name goes with "
-                     "the next version\n");
+  EXPECT_EQ(old.err,
+            "artus: 'artus phantom' is 'artus image phantom' now; the old name goes with "
+            "the next version\n");
   const auto now =
       artus({"image", "phantom", "cyst", "--out", in("now"), "--lines", "16", "--json"});
   EXPECT_EQ(now.err, "");

@@ -55,8 +55,8 @@ TEST(HapticTool, HandsAloneReportTheirHistogramsWithoutAJoint) {
 }
 
 TEST(HapticTool, ALoopOfBeforeIsTheHandsAlone) {
-  const auto run = artus({"loop", "--seconds", "0.2", "--rate", "2000", "--cpu", "0", "--priority",
-                          "0", "--json"});
+  const auto run = artus(
+      {"loop", "--seconds", "0.2", "--rate", "2000", "--cpu", "0", "--priority", "0", "--json"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_NE(run.err.find("'artus serve --no-images'"), std::string::npos) << run.err;
   EXPECT_EQ(nlohmann::json::parse(run.out).at("rate_hz"), 2000);
@@ -69,10 +69,10 @@ TEST(HapticTool, AServedSessionOfADeviceNeedsAJoint) {
 }
 
 TEST(HapticTool, HandsTakeLawsForAllTissuesAndForOne) {
-  const auto run = artus(hands(
-      "0.1", {"--cutting", "voigt", "--cutting", "skin=spring", "--prepuncture", "barbe",
-              "--bone-tap", "impulse", "--clamping", "plasticity", "--friction-set", "1",
-              "--patient", "friction=1.5"}));
+  const auto run =
+      artus(hands("0.1", {"--cutting", "voigt", "--cutting", "skin=spring", "--prepuncture",
+                          "barbe", "--bone-tap", "impulse", "--clamping", "plasticity",
+                          "--friction-set", "1", "--patient", "friction=1.5"}));
   EXPECT_EQ(run.exit_code, 0) << run.err;
 }
 

@@ -58,8 +58,8 @@ TEST_F(ImagingTool, DrawsAnImageAnEnvelopeAndTheLabelsBesideIt) {
                             "--plain", "--envelope", in("e.tiff"), "--json"});
   ASSERT_EQ(image.exit_code, 0) << image.err;
   EXPECT_TRUE(nlohmann::json::parse(image.out).contains("needle"));
-  const auto slice =
-      artus({"image", "labels", "-j", kSimple, "-o", in("l.png"), "--ids", in("ids.png"), "--json"});
+  const auto slice = artus(
+      {"image", "labels", "-j", kSimple, "-o", in("l.png"), "--ids", in("ids.png"), "--json"});
   ASSERT_EQ(slice.exit_code, 0) << slice.err;
   const auto regions = nlohmann::json::parse(slice.out).at("regions");
   EXPECT_GE(regions.size(), 4U);
@@ -133,7 +133,8 @@ TEST_F(ImagingTool, DopplerColoursAMovingNeedle) {
 }
 
 TEST_F(ImagingTool, APhantomComesWithItsTruth) {
-  const auto r = artus({"image", "phantom", "needle", "--needle-angle", "30", "--out", in("n"), "--json"});
+  const auto r =
+      artus({"image", "phantom", "needle", "--needle-angle", "30", "--out", in("n"), "--json"});
   ASSERT_EQ(r.exit_code, 0) << r.err;
   EXPECT_NEAR(nlohmann::json::parse(r.out).at("needle").at("face_angle_deg").get<double>(), 30,
               1e-6);
@@ -141,7 +142,8 @@ TEST_F(ImagingTool, APhantomComesWithItsTruth) {
        {"bmode.png", "grey.png", "envelope.tiff", "labels.png", "ids.png", "truth.json"})
     EXPECT_TRUE(std::filesystem::exists(folder_ / "n" / file)) << file;
   EXPECT_EQ(artus({"image", "phantom", "brick", "--out", in("x")}).exit_code, 2);
-  EXPECT_EQ(artus({"image", "phantom", "needle", "--needle-angle", "89", "--out", in("x")}).exit_code, 2);
+  EXPECT_EQ(
+      artus({"image", "phantom", "needle", "--needle-angle", "89", "--out", in("x")}).exit_code, 2);
 }
 
 TEST_F(ImagingTool, APressedJointHasForcesLayersAndACage) {
@@ -181,8 +183,8 @@ TEST_F(ImagingTool, ThreeNewtonsPressAShoulderByWhatFatAndMuscleGiveWay) {
 
 TEST_F(ImagingTool, PressesTheFaceOfTheProbeThatDraws) {
   const auto newtons = [&](const std::string& transducer) {
-    const auto r = artus({"image", "labels", "-j", kSimple, "--transducer", transducer, "--press-mm", "8",
-                          "-o", in("face.png"), "--json"});
+    const auto r = artus({"image", "labels", "-j", kSimple, "--transducer", transducer,
+                          "--press-mm", "8", "-o", in("face.png"), "--json"});
     EXPECT_EQ(r.exit_code, 0) << r.err << r.out;
     return nlohmann::json::parse(r.out).at("press").at("normal_force_n").get<double>();
   };
@@ -232,7 +234,8 @@ nlohmann::json needle_moved(std::vector<std::string> line, const std::string& di
 
 /// Some seconds a needle: each of the two ways is asked for by a picture and by `deform` once.
 TEST_F(ImagingTool, NeedleThatGoesInPushesTheTissueOnInPictureAndDeformAlike) {
-  const auto needle = needle_moved({"image", "labels", "-o", in("in.png")}, "in").at("press").at("needle");
+  const auto needle =
+      needle_moved({"image", "labels", "-o", in("in.png")}, "in").at("press").at("needle");
   EXPECT_GT(needle.at("tip_force_n").get<double>(), 0);
   EXPECT_GT(needle.at("tissue_moved_mm").get<double>(), 0.1);
   EXPECT_LT(needle.at("tissue_moved_mm").get<double>(), 5);
@@ -247,7 +250,8 @@ TEST_F(ImagingTool, NeedleThatGoesInPushesTheTissueOnInPictureAndDeformAlike) {
 }
 
 TEST_F(ImagingTool, NeedleDrawnBackPullsTissueAlongInPictureAndDeformAlike) {
-  const auto needle = needle_moved({"image", "labels", "-o", in("out.png")}, "out").at("press").at("needle");
+  const auto needle =
+      needle_moved({"image", "labels", "-o", in("out.png")}, "out").at("press").at("needle");
   EXPECT_EQ(needle.at("tip_force_n").get<double>(), 0);
   EXPECT_LT(needle.at("force_n").get<double>(), 0);
   EXPECT_LT(needle.at("tissue_moved_mm").get<double>(), -0.02);
@@ -263,8 +267,8 @@ TEST_F(ImagingTool, ADirectionWithoutANeedleIsRefused) {
 }
 
 TEST_F(ImagingTool, NeedleDragsNothingInARigidBody) {
-  const auto r = artus(
-      {"image", "labels", "-j", kSimple, "--needle", "default", "--needle-way", "in", "-o", in("rigid.png")});
+  const auto r = artus({"image", "labels", "-j", kSimple, "--needle", "default", "--needle-way",
+                        "in", "-o", in("rigid.png")});
   EXPECT_EQ(r.exit_code, 2);
   EXPECT_NE(r.err.find("--press-n"), std::string::npos) << r.err;
 }
@@ -284,8 +288,8 @@ TEST_F(ImagingTool, ASweepContinuesAndAVideoFollowsThePath) {
   EXPECT_NE(other.err.find("--restart"), std::string::npos);
 
   poses();
-  const auto video =
-      artus({"image", "video", "-j", kSimple, "--path", list, "--fps", "5", "-o", in("p.avi"), "--json"});
+  const auto video = artus(
+      {"image", "video", "-j", kSimple, "--path", list, "--fps", "5", "-o", in("p.avi"), "--json"});
   ASSERT_EQ(video.exit_code, 0) << video.out << video.err;
   EXPECT_EQ(nlohmann::json::parse(video.out).at("frames"), 11);
   EXPECT_GT(std::filesystem::file_size(folder_ / "p.avi"), 10000U);

@@ -30,8 +30,8 @@ std::string text_of(const std::filesystem::path& file) {
 TEST_F(Validate, ListsSetsAndGatesWithoutMeasuringAny) {
   const auto r = artus({"validate", "--list"});
   ASSERT_EQ(r.exit_code, 0) << r.err;
-  for (const char* part : {"needle: ", "wall-move", "echo: ", "tendon", "soft: ",
-                           "joint-pressed", "(with -j)", "injection: ", "probe: ", "probe-isp"})
+  for (const char* part : {"needle: ", "wall-move", "echo: ", "tendon", "soft: ", "joint-pressed",
+                           "(with -j)", "injection: ", "probe: ", "probe-isp"})
     EXPECT_THAT(r.out, HasSubstr(part));
 }
 
@@ -47,8 +47,10 @@ TEST_F(Validate, AReportHasValueBoundAndVerdict) {
                            "pictures/needle-30-image.png", "pictures/cyst-image.png"})
     EXPECT_TRUE(std::filesystem::exists(folder_ / "g" / file)) << file;
   const std::string page = text_of(folder_ / "r/echo.md");
-  for (const char* part : {"| commit | ", "`artus validate echo --only needle-angle", "| claim | "
-                           "kind | measured | bound | holds |", "## enhancement"})
+  for (const char* part : {"| commit | ", "`artus validate echo --only needle-angle",
+                           "| claim | "
+                           "kind | measured | bound | holds |",
+                           "## enhancement"})
     EXPECT_THAT(page, HasSubstr(part));
 }
 
@@ -75,8 +77,8 @@ TEST_F(Validate, AnExperimentTakesTheLawsItDoesNotFix) {
   EXPECT_EQ(taken.exit_code, 1) << taken.err;  // the published claims are the wall's
   EXPECT_FALSE(nlohmann::json::parse(taken.out).at("gates").at("wall-move").at("pass").get<bool>());
   EXPECT_TRUE(std::filesystem::exists(folder_ / "e/wall-move.csv"));
-  const auto fixed = artus({"validate", "needle", "--only", "wall-vs-classic", "--cutting",
-                            "spring", "--out", in("e")});
+  const auto fixed = artus(
+      {"validate", "needle", "--only", "wall-vs-classic", "--cutting", "spring", "--out", in("e")});
   EXPECT_EQ(fixed.exit_code, 2);
   EXPECT_THAT(fixed.err, HasSubstr("--cutting"));
   const auto echo = artus({"validate", "echo", "--cutting", "spring", "--out", in("e")});
