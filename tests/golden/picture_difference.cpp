@@ -12,13 +12,13 @@
 namespace artus::test {
 namespace {
 
-constexpr double kBlock = 4;        // mm
-constexpr double kBoneWindow = 3;   // mm
-constexpr double kNeedleWindow = 2; // mm
-constexpr int kLineBand = 8;        // px about a landmark in which its line is looked for
-constexpr double kSeen = 40;        // greys from which a line's place is a place
-constexpr double kShadowFrom = 1;   // mm below the bone's line
-constexpr double kShadowTo = 6;     // mm
+constexpr double kBlock = 4;         // mm
+constexpr double kBoneWindow = 3;    // mm
+constexpr double kNeedleWindow = 2;  // mm
+constexpr int kLineBand = 8;         // px about a landmark in which its line is looked for
+constexpr double kSeen = 40;         // greys from which a line's place is a place
+constexpr double kShadowFrom = 1;    // mm below the bone's line
+constexpr double kShadowTo = 6;      // mm
 
 /// Brightest pixel of a column about a row: its grey and its row.
 struct LinePoint {
@@ -118,8 +118,8 @@ void compare_needle(const cv::Mat& a, const cv::Mat& b, const Landmarks& marks,
   for (int x = from; x <= to; ++x) {
     const double along = static_cast<double>(x - marks.needle_in.x) /
                          std::max(1, std::abs(marks.needle_to.x - marks.needle_in.x));
-    rows[static_cast<std::size_t>(x)] = static_cast<int>(std::lround(
-        marks.needle_in.y + std::abs(along) * (marks.needle_to.y - marks.needle_in.y)));
+    rows[static_cast<std::size_t>(x)] = static_cast<int>(
+        std::lround(marks.needle_in.y + std::abs(along) * (marks.needle_to.y - marks.needle_in.y)));
   }
   const int width = static_cast<int>(std::lround(kNeedleWindow / marks.pixel_mm));
   for_windows(rows, width, [&](int first) {
@@ -166,10 +166,11 @@ std::string number(double value) {
 }  // namespace
 
 nlohmann::json to_json(const Landmarks& marks) {
-  return {{"pixel_mm", marks.pixel_mm},
-          {"needle_px", {marks.needle_in.x, marks.needle_in.y, marks.needle_to.x, marks.needle_to.y}},
-          {"bone_step_px", marks.bone_step},
-          {"bone_rows_px", marks.bone}};
+  return {
+      {"pixel_mm", marks.pixel_mm},
+      {"needle_px", {marks.needle_in.x, marks.needle_in.y, marks.needle_to.x, marks.needle_to.y}},
+      {"bone_step_px", marks.bone_step},
+      {"bone_rows_px", marks.bone}};
 }
 
 Landmarks landmarks_from(const nlohmann::json& json) {
@@ -208,8 +209,8 @@ std::vector<std::string> find_visible(const PictureDifference& difference,
 std::string to_text(const PictureDifference& difference) {
   std::string text;
   for (const Measure& m : kMeasures)
-    text += (text.empty() ? "" : ", ") + std::string(m.name) + " " +
-            number(difference.*m.value) + " " + m.unit;
+    text += (text.empty() ? "" : ", ") + std::string(m.name) + " " + number(difference.*m.value) +
+            " " + m.unit;
   return text;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// The B-mode goldens notice what a sonographer sees: each change below, made on a copy of the golden, is
-// told by the measure that is meant for it, and the golden itself by none.
+// The B-mode goldens notice what a sonographer sees: each change below, made on a copy of the
+// golden, is told by the measure that is meant for it, and the golden itself by none.
 #include "tests/golden/picture_difference.h"
 
 #include <filesystem>
@@ -10,10 +10,9 @@
 #include <string>
 #include <tuple>
 
+#include <gmock/gmock.h>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-
-#include <gmock/gmock.h>
 
 #include <gtest/gtest.h>
 
@@ -131,21 +130,19 @@ TEST_P(VisibleChange, IsTold) {
 
 INSTANTIATE_TEST_SUITE_P(
     Goldens, VisibleChange,
-    testing::Combine(testing::Values("bmode-bursa-reached", "bmode-bone-touched"),
-                     testing::Values(Change{"BoneOneDecibelWeakerOver5mm", weaken_bone, "bone line"},
-                                     Change{"NeedleMissing", remove_needle, "needle line"},
-                                     Change{"SpeckleATenthRougher", roughen_speckle,
-                                            "spread of a block"},
-                                     Change{"HalfAMillimetreAside", move_right, "shift"},
-                                     Change{"HalfAMillimetreDeeper", move_down, "depth of bone"},
-                                     Change{"TendonTwoDecibelBrighter", brighten_tendon,
-                                            "mean of a block"},
-                                     Change{"GreyInTheShadow", light_up_shadow,
-                                            "shadow of bone"})),
+    testing::Combine(
+        testing::Values("bmode-bursa-reached", "bmode-bone-touched"),
+        testing::Values(Change{"BoneOneDecibelWeakerOver5mm", weaken_bone, "bone line"},
+                        Change{"NeedleMissing", remove_needle, "needle line"},
+                        Change{"SpeckleATenthRougher", roughen_speckle, "spread of a block"},
+                        Change{"HalfAMillimetreAside", move_right, "shift"},
+                        Change{"HalfAMillimetreDeeper", move_down, "depth of bone"},
+                        Change{"TendonTwoDecibelBrighter", brighten_tendon, "mean of a block"},
+                        Change{"GreyInTheShadow", light_up_shadow, "shadow of bone"})),
     [](const auto& parameter) {
       return std::string(std::get<1>(parameter.param).name) +
              (std::string(std::get<0>(parameter.param)) == "bmode-bursa-reached" ? "InBursaReached"
-                                                                            : "InBoneTouched");
+                                                                                 : "InBoneTouched");
     });
 
 TEST(PictureDifference, OfAGoldenToItselfIsNothing) {

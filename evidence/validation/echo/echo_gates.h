@@ -5,7 +5,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "artus/detail/evidence/validation/gates.h"
+#include "artus/detail/evidence/gate.h"
 #include "artus/echo/image_io.h"
 
 /// Gates of the image's physics, one function each, measured on rendered frames with the default

@@ -2,7 +2,7 @@
 #pragma once
 #include <string>
 
-#include "artus/detail/evidence/validation/gates.h"
+#include "artus/detail/evidence/gate.h"
 #include "artus/detail/haptics/plunger/plunger.h"
 
 /// Gates of the syringe and the places that liquid goes to, one function each; gates.h runs them by

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "artus/detail/evidence/gate.h"
 #include "artus/detail/evidence/runs/needle_trace.h"
-#include "artus/detail/evidence/validation/gates.h"
 #include "artus/detail/haptics/needle/needle_packet.h"
 #include "artus/haptics/needle_feel.h"
 

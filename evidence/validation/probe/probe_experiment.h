@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "artus/core/result.h"
-#include "artus/detail/evidence/validation/gates.h"
+#include "artus/detail/evidence/gate.h"
 #include "artus/detail/evidence/validation/probe/probe_experiment_bench.h"
 
 namespace artus {

@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "artus/detail/evidence/validation/gates.h"
+#include "artus/detail/evidence/gate.h"
 
 /// Gates of the mechanics of tissue that gives way, on blocks, one function each; gates.h runs them
 /// by name. Cost: 0.1 to 60 s each.

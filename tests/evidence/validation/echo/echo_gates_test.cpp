@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "artus/detail/evidence/validation/gates.h"
+
 namespace artus {
 namespace {
 

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "artus/detail/evidence/validation/gates.h"
+
 namespace artus {
 namespace {
 

@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include "artus/detail/evidence/validation/gates.h"
 #include "artus/detail/evidence/validation/needle/experiments.h"
 #include "artus/detail/evidence/validation/soft/needled_block.h"
 #include "artus/detail/haptics/needle/needle_contact.h"

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "artus/detail/evidence/validation/gates.h"
 #include "artus/detail/evidence/validation/probe/probe_experiment_observed.h"
 #include "artus/detail/evidence/validation/probe/probe_experiments.h"
 

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "artus/detail/evidence/validation/gates.h"
 #include "tests/support/meshed_block.h"
 
 namespace artus {
