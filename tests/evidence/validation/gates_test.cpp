@@ -101,7 +101,7 @@ TEST(GateReport, GatesThatAreKeptApartHaveAFolderEach) {
     std::filesystem::remove_all(folder);
     const auto written = write_report(small_set(set), folder);
     ASSERT_TRUE(written) << written.error().to_string();
-    for (const std::string file :
+    for (const std::string& file :
          {std::string("report.md"), std::string("verdict.json"), std::string(set) + "-table.csv",
           std::string(report), std::string(trace)})
       EXPECT_TRUE(std::filesystem::exists(folder / file)) << set << ' ' << file;
