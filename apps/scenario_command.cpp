@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "artus/detail/anatomy/source/joint_variant.h"
+#include "artus/detail/apps/commands.h"
 #include "artus/detail/apps/options/scenario_options.h"
-#include "artus/detail/apps/training_commands.h"
 #include "artus/detail/training/patient_plans.h"
 #include "artus/detail/training/scenario_check.h"
 

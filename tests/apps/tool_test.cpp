@@ -27,16 +27,6 @@ TEST_F(Tool, WithoutACommandSaysSoAndReturnsTwo) {
   EXPECT_NE((r.out + r.err).find("subcommand"), std::string::npos);
 }
 
-TEST_F(Tool, EveryCommandHasHelpWithExamples) {
-  for (const char* command :
-       {"check", "compile", "needle", "image", "slice", "run", "experiment"}) {
-    const auto r = artus({command, "--help"});
-    EXPECT_EQ(r.exit_code, 0) << command;
-    EXPECT_NE(r.out.find("Examples:"), std::string::npos) << command;
-    EXPECT_NE(r.out.find(std::string("artus ") + command), std::string::npos) << command;
-  }
-}
-
 TEST_F(Tool, AnUnknownFlagReturnsTwo) {
   EXPECT_EQ(artus({"check", "--no-such-flag"}).exit_code, 2);
 }

@@ -4,7 +4,8 @@
 #include "artus/detail/evidence/validation/needle/experiment_body.h"
 #include "artus/haptics/device.h"
 
-/// The experiments themselves, one function each; experiment.h runs them by name.
+/// The needle experiments themselves, one function each; gates.h runs them by name, as
+/// measure_experiment does.
 namespace artus {
 
 /// Fig 2-4: direct, spring, Voigt and tracking wall on one tissue; stop, then the hand lets go.

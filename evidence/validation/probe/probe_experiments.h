@@ -2,7 +2,7 @@
 #pragma once
 #include "artus/detail/evidence/validation/probe/probe_experiment.h"
 
-/// The probe experiments themselves; probe_experiment.h runs them by name.
+/// The probe experiments themselves; gates.h runs them by name.
 namespace artus {
 
 /// Increasing stiffness under 1 kg. Source [Alamilla2020] section 3.3.2, figs. 3-16 to 3-19.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/detail/evidence/validation/echo/echo_phantom.h"
+#include "artus/detail/evidence/runs/echo_phantom.h"
 
 #include <algorithm>
 #include <array>

@@ -4,7 +4,7 @@
 
 namespace artus {
 
-/// What is in a set of shards.
-void add_sweep_stats_command(Command& app, ExitCode& code);
+/// The flags of `artus validate`, and what they do.
+void add_validation(Command& app, ExitCode& code);
 
 }  // namespace artus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/detail/session/servo_loop.h"
+#include "artus/detail/session/haptic_loop.h"
 
 #include <memory>
 
@@ -59,40 +59,35 @@ TEST(LateWatch, OneLateTickIsNoReasonARowOfThemIs) {
   EXPECT_FALSE(watch.step(kPeriod));
 }
 
-TEST(ServoLoop, TicksAtItsRateCountsThemAndLeavesWithZeroForce) {
+TEST(HapticLoop, TicksAtItsRateCountsThemAndLeavesWithZeroForce) {
   Simulation core(block(), params_at(1000));
   SteadyDevice device;
-  ServoOptions options;
-  options.seconds = 0.4;
-  options.floor_seconds = 0.05;
-  options.thread.lock_memory = false;
-  const std::atomic<bool> stop{false};
   Seqlock<HapticSnapshot> newest;
-  const auto report = std::make_unique<ServoReport>();
-  run_servo_loop(core, device, options, stop, newest, *report);
-  EXPECT_EQ(report->ticks, device.number);
-  EXPECT_LE(report->ticks, 400U);
-  EXPECT_GT(report->ticks + report->overruns, 20U) << "even on a machine that is busy";
-  EXPECT_EQ(report->compute.count(), report->ticks);
-  EXPECT_GE(report->lateness.count(), report->ticks);
-  EXPECT_GT(report->floor.count(), 0U);
+  const auto compute = std::make_unique<LatencyHistogram>();
+  const auto cpu = std::make_unique<LatencyHistogram>();
+  const auto lateness = std::make_unique<LatencyHistogram>();
+  std::uint64_t overruns = 0;
+  const std::int64_t begin = monotonic_ns();
+  constexpr std::uint64_t kTicks = 200;
+  {
+    HapticLoop loop(core, device, 1000, newest, {*compute, *cpu, *lateness});
+    while (loop.ticks() < kTicks) {
+      loop.wait();
+      loop.step(0);
+    }
+    overruns = loop.overruns();
+  }
+  EXPECT_GE(monotonic_ns() - begin, 190'000'000) << "never faster than its rate";
+  EXPECT_EQ(device.number, kTicks);
+  EXPECT_LE(overruns, kTicks);
+  EXPECT_EQ(compute->count(), kTicks);
+  EXPECT_EQ(cpu->count(), kTicks);
+  EXPECT_GE(lateness->count(), kTicks);
   HapticSnapshot snapshot;
   ASSERT_TRUE(newest.load(snapshot));
-  EXPECT_EQ(snapshot.input.tick, report->ticks);
+  EXPECT_EQ(snapshot.input.tick, kTicks);
   EXPECT_EQ(device.last.status, SessionStatus::kStopped);
   for (const double f : device.last.force) EXPECT_EQ(f, 0);
-}
-
-TEST(ServoLoop, StopsWhenAsked) {
-  Simulation core(block(), params_at(1000));
-  SteadyDevice device;
-  const std::atomic<bool> stop{true};
-  Seqlock<HapticSnapshot> newest;
-  const auto report = std::make_unique<ServoReport>();
-  ServoOptions options;
-  options.thread.lock_memory = false;
-  run_servo_loop(core, device, options, stop, newest, *report);
-  EXPECT_EQ(report->ticks, 0U);
 }
 
 TEST(Simulation, ALoopThatIsLateForTooLongGivesNoForceAndComesBackByTheRamp) {
