@@ -49,6 +49,7 @@ class WindowLoop {
 
   // window_loop.cpp, window_picture.cpp: what is shown
   void say(std::string message);
+  void say_refusal();
   void forget_message();
   void feel();
   void take_image();

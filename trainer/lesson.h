@@ -5,10 +5,10 @@
 #include <string>
 
 #include "artus/detail/session/hand_device.h"
-#include "artus/detail/trainer/train_texts.h"
+#include "artus/detail/trainer/texts.h"
 #include "artus/detail/training/player.h"
 #include "artus/detail/viewer/panels/lesson.h"
-#include "artus/detail/viewer/words/strings.h"
+#include "artus/detail/viewer/words/translation.h"
 #include "artus/raycast/scene.h"
 
 namespace artus {
@@ -30,7 +30,7 @@ class TrainLesson {
   void follow(const LessonView& view);
   void lead_search(double time, Lesson& lesson) const;
   void listen(const LessonView& view, double time);
-  void say(Said what, double time, bool hurts);
+  void say(const char* what, double time, bool hurts);
   void say_calmly();
 
   Scenario scenario_;
