@@ -126,8 +126,9 @@ Result<TrainOutcome> run_attempt(const TrainContext& room, const TrainTask& task
   ARTUS_TRY(write_attempt_files(task.scenario, out.played, folder));
   const auto norms = room.desk->norms(out.record);
   ARTUS_TRY(norms);
-  ARTUS_TRY(
-      write_attempt_page(task.scenario, task.scene, out.played, out.feedback, *norms, out.report));
+  ARTUS_TRY(write_attempt_page(
+      {task.scenario, task.scene, out.played, out.feedback, *norms, room.window->language},
+      out.report));
   ARTUS_TRY(room.desk->finish(out.record, out.played));
   return out;
 }

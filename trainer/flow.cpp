@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "artus/detail/reports/mark_words.h"
 #include "artus/detail/trainer/pages.h"
 #include "artus/detail/trainer/review.h"
 #include "artus/detail/training/patient_plans.h"

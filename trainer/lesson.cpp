@@ -2,14 +2,31 @@
 #include "artus/detail/trainer/lesson.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
 #include "artus/detail/core/units.h"
+#include "artus/detail/reports/mark_words.h"
 #include "artus/detail/viewer/words/anatomy_names.h"
 
 namespace artus {
 namespace {
+
+struct StepName {
+  const char* step;
+  const char* words;
+};
+constexpr std::array<StepName, 8> kSteps{{
+    {"ask:side", msgid("asked which side")},
+    {"ask:allergy", msgid("asked about allergies")},
+    {"ask:consent", msgid("asked for consent")},
+    {"auto:entry", msgid("needle in")},
+    {"auto:tip_seen", msgid("tip seen")},
+    {"auto:placed", msgid("tip in place")},
+    {"auto:injected", msgid("liquid injected")},
+    {"auto:withdrawn", msgid("needle out again")},
+}};
 
 constexpr double kAlmostAll = 0.9;  // of what is to be given
 constexpr int kToldAtOnce = 3;      // the highest level whose truth is told while it is done
@@ -89,7 +106,7 @@ void TrainLesson::listen(const LessonView& view, double time) {
   const bool in_zone = zone != scenario_.avoid.end();
   const bool late = time > scenario_.time_limit;
   if (time - said_at_ > kHeard) say_calmly();
-  if (late && !was_late_) say(msgid("Is it done soon?"), time, false);
+  if (late && !was_late_) say(msgid("Will it be over soon?"), time, false);
   if (inside && !was_inside_) say(msgid("I feel the prick."), time, false);
   if (in_zone && !was_in_zone_)
     say(zone->structure.find("nerve") != std::string::npos ? msgid("It shoots down my arm!")
@@ -136,12 +153,12 @@ void TrainLesson::lead_search(double time, Lesson& lesson) const {
   for (const Sought& one : search_.sought())
     lesson.steps.push_back({clinical_name(language_, one.name), one.found >= 0, true});
   if (search_.done()) {
-    lesson.goal = translate(language_, "All were shown");
+    lesson.goal = translate(language_, "All structures were shown");
     lesson.over = lesson.over || time > search_.sought().back().found + kRead;
     return;
   }
   const Sought& now = search_.sought()[search_.found()];
-  lesson.goal = fill(translate(language_, "Show this, in the picture's middle: {}"),
+  lesson.goal = fill(translate(language_, "Show this in the middle of the picture: {}"),
                      {clinical_name(language_, now.name)});
 }
 
@@ -167,8 +184,8 @@ std::string goal_words(const Scenario& scenario, Language language) {
     for (const std::string& name : scenario.find)
       names += (names.empty() ? "" : ", ") + clinical_name(language, name);
     return fill(translate(language,
-                          "Show, one after another: {}. Bring each to the picture's middle and "
-                          "rest there for 2 s"),
+                          "Show, one after another: {}. Bring each to the middle of the picture "
+                          "and hold it there for 2 s"),
                 {names});
   }
   const Vec3 target_P = scenario.X_JP.inverse() * scenario.target.point;
@@ -187,6 +204,12 @@ std::string goal_words(const Scenario& scenario, Language language) {
   }
   return fill(translate(language, "Bring the tip into the {}"),
               {clinical_name(language, scenario.target.structure)});
+}
+
+std::string step_words(Language language, const std::string& step) {
+  for (const StepName& known : kSteps)
+    if (step == known.step) return translate(language, known.words);
+  return step;
 }
 
 HandTarget first_hands(const Scenario& scenario) {

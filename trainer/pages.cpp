@@ -8,6 +8,7 @@
 
 #include "artus/detail/core/units.h"
 #include "artus/detail/reports/feedback_words.h"
+#include "artus/detail/reports/mark_words.h"
 #include "artus/detail/trainer/lesson.h"
 #include "artus/detail/viewer/words/anatomy_names.h"
 
@@ -38,7 +39,7 @@ std::string instrument_words(const Scenario& scenario, Language language) {
 void add_syringe(const Scenario& scenario, Language language, std::vector<PageLine>& lines) {
   const ScenarioSyringe& syringe = scenario.syringe;
   if (syringe.volume <= 0) return;
-  lines.push_back({fill(translate(language, "Draw back first, then give {} ml of {} at {} ml/s"),
+  lines.push_back({fill(translate(language, "Aspirate first, then inject {} ml of {} at {} ml/s"),
                         {number(language, syringe.volume / kCubicCentimetre, 1),
                          clinical_name(language, syringe.liquid),
                          number(language, syringe.rate / kCubicCentimetre, 2)})});
@@ -98,8 +99,9 @@ void add_hands(const Scenario& scenario, const KeyMap& keys, Language language,
         {fill(translate(language, "{} puts the thumb on the plunger: the wheel then presses it"),
               {key(Action::take_plunger)})});
   lines.push_back(
-      {fill(translate(language, needle ? msgid("{} when the needle is out again: then it is judged")
-                                       : msgid("It ends by itself when all are shown, or with {}")),
+      {fill(translate(language,
+                      needle ? msgid("{} when the needle is out again: the attempt is then judged")
+                             : msgid("The attempt ends when all are shown, or with {}")),
             {key(Action::finish)})});
 }
 
@@ -116,7 +118,7 @@ void add_verdict(const TrainOutcome& outcome, Language language, std::vector<Pag
     lines.push_back({fill(translate(language, "{}: {}"),
                           {metric_words(language, mark.mark.metric),
                            value + " (" + bound_words(language, mark.mark) + "), " +
-                               translate(language, mark.held ? msgid("held") : msgid("missed"))}),
+                               translate(language, mark.held ? msgid("met") : msgid("missed"))}),
                      mark.held ? Tone::good : Tone::bad});
   }
 }
@@ -126,8 +128,8 @@ void add_verdict(const TrainOutcome& outcome, Language language, std::vector<Pag
 Page make_who_page(const std::vector<KnownLearner>& learners, Language language) {
   Page page;
   page.name = "who";
-  page.title = translate(language, "Who trains?");
-  page.lines = {{translate(language, "Records know people by a pseudonym only."), Tone::dim}};
+  page.title = translate(language, "Who is training?");
+  page.lines = {{translate(language, "Records keep nothing but a pseudonym."), Tone::dim}};
   for (const KnownLearner& learner : learners) {
     const TrainTally& tally = learner.tally;
     page.choices.push_back(
@@ -150,8 +152,8 @@ Page make_welcome_page(const std::string& person, Language language) {
   page.title = fill(translate(language, "Your pseudonym is {}"), {person});
   page.lines = {{translate(
       language,
-      "Note it: it is how you find your attempts again. Nothing else about you is kept.")}};
-  page.choices = {{translate(language, "Go on"), "", Tone::good, {}, nullptr}};
+      "Write it down: you need it to find your attempts again. Nothing else about you is kept.")}};
+  page.choices = {{translate(language, "Continue"), "", Tone::good, {}, nullptr}};
   return page;
 }
 
@@ -177,7 +179,7 @@ Page make_what_page(const std::vector<OfferedTask>& tasks, const std::string& pe
   if (std::any_of(tasks.begin(), tasks.end(),
                   [](const OfferedTask& task) { return task.tally.attempts > 0; }))
     page.choices.push_back(
-        {translate(language, "Look at an earlier attempt"), "", Tone::heading, {}, nullptr});
+        {translate(language, "Review an earlier attempt"), "", Tone::heading, {}, nullptr});
   page.refresh = [&tasks, &bodies](Page& shown) {
     if (shown.at >= tasks.size()) return;
     bodies.want(tasks[shown.at].scenario);
@@ -189,7 +191,7 @@ Page make_what_page(const std::vector<OfferedTask>& tasks, const std::string& pe
 Page make_earlier_page(const std::vector<EarlierAttempt>& attempts, Language language) {
   Page page;
   page.name = "earlier";
-  page.title = translate(language, "Look at an earlier attempt");
+  page.title = translate(language, "Review an earlier attempt");
   page.may_back = true;
   for (const auto& [record, title] : attempts) {
     const char* const how = record.passed  ? msgid("Passed")
@@ -239,12 +241,12 @@ Page make_briefing_page(const Scenario& scenario, const std::set<std::string>& a
   add_hands(scenario, keys, language, page.lines);
   if (scenario.aided())
     page.lines.push_back(
-        {translate(language, "Nothing passes while aids are on; each success makes them fainter."),
+        {translate(language, "With aids on you cannot pass; each success makes them fainter."),
          Tone::dim});
   std::vector<PageLine> about;
   if (scenario.find.empty())
     about.push_back(
-        {translate(language, "The picture: as it will look when the needle is there"), Tone::dim});
+        {translate(language, "The picture: how it looks with the needle in place"), Tone::dim});
   add_marks(scenario, language, about);
   for (const BriefingChoice& choice : briefing_choices(scenario)) {
     std::string name =
@@ -295,8 +297,9 @@ Page make_end_page(const TrainOutcome& outcome, const std::string& next, Languag
     about.push_back(
         {fill(translate(language, "Well done: {}"), {in_words(feedback.good)}), Tone::good});
   about.push_back({in_words(feedback.next)});
-  for (const char* const choice : {msgid("Look at it again"), msgid("Once more"), msgid("Next: {}"),
-                                   msgid("Another task"), msgid("Someone else"), msgid("Leave")})
+  for (const char* const choice :
+       {msgid("Review the attempt"), msgid("Try again"), msgid("Next: {}"), msgid("Another task"),
+        msgid("Someone else"), msgid("Leave")})
     page.choices.push_back(
         {fill(translate(language, choice), {next}), "", Tone::plain, about, nullptr});
   return page;

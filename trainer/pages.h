@@ -6,7 +6,6 @@
 
 #include "artus/detail/trainer/attempt.h"
 #include "artus/detail/trainer/bodies.h"
-#include "artus/detail/trainer/texts.h"
 #include "artus/detail/viewer/pages/page.h"
 
 namespace artus {

@@ -6,7 +6,7 @@
 
 #include "artus/detail/core/units.h"
 #include "artus/detail/reports/feedback_words.h"
-#include "artus/detail/trainer/texts.h"
+#include "artus/detail/reports/mark_words.h"
 #include "artus/detail/viewer/words/anatomy_names.h"
 #include "artus/session/replay.h"
 
@@ -47,8 +47,8 @@ std::string why_of(const TipSightFinder& finder, const Scene& scene, const Hapti
   }
   return where + ". " +
          fill(translate(language,
-                        "It cannot be seen: at {} degrees to the face the echo goes elsewhere ({} "
-                        "dB over muscle)."),
+                        "It cannot be seen: at {} degrees to the probe's face the echo is "
+                        "reflected away ({} dB above muscle)."),
               {number(language, sight.face_angle / kDegree, 0),
                number(language, sight.contrast_db, 0)});
 }

@@ -74,7 +74,7 @@ void WindowLoop::act(const ActionEvent& request) {
   }
   const bool of_hands = std::find(kOfHands.begin(), kOfHands.end(), action) != kOfHands.end();
   if (hand_ == nullptr && of_hands) {
-    say(fill(translate(state_, "This key moves a hand; the session is driven by: {}"),
+    say(fill(translate(state_, "This key moves a hand, but this session is driven by: {}"),
              {said_by_system(state_.language, std::string(session_.device_name()))}));
     return;
   }

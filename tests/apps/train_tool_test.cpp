@@ -13,11 +13,11 @@
 #include "artus/detail/core/text_file.h"
 #include "artus/detail/core/units.h"
 #include "artus/detail/reports/feedback_words.h"
+#include "artus/detail/reports/mark_words.h"
 #include "artus/detail/trainer/desk.h"
 #include "artus/detail/trainer/lesson.h"
 #include "artus/detail/trainer/pages.h"
 #include "artus/detail/trainer/review.h"
-#include "artus/detail/trainer/texts.h"
 #include "artus/detail/training/records.h"
 #include "tests/apps/run_tool.h"
 #include "tests/support/temporary_folder.h"
@@ -324,16 +324,17 @@ TEST(TrainTask, WhatFeedbackSaysIsSaidInFrenchWithItsNumbersAndStructures) {
   const auto french = [](const char* english) {
     return feedback_words(Language::french, english);
   };
-  EXPECT_EQ(french("advanced without seeing the tip: 2.5 mm; asked for: below 1.0, and onto bone"),
-            "avancé sans voir la pointe : 2,5 mm ; demandé : moins de 1,0, et jusqu'à l'os");
-  EXPECT_EQ(french("touches of bone: 2.0 ; asked for: below 1.0"),
-            "contacts osseux : 2,0  ; demandé : moins de 1,0");
+  EXPECT_EQ(french("advanced without seeing the tip: 2.5 mm; should be below 1.0, and onto bone"),
+            "avancé sans voir la pointe : 2,5 mm ; devrait être sous 1,0, et jusqu'à l'os");
+  EXPECT_EQ(french("bone contacts: 2.0 ; should be below 1.0"),
+            "contacts osseux : 2,0  ; devrait être sous 1,0");
   EXPECT_EQ(french("the tip was in the shadow of humerus"),
             "la pointe était dans l'ombre de cette structure : humérus");
-  EXPECT_EQ(french("1.5 ml with the tip in bursa, and no pause to look after the first of it"),
-            "1,5 ml, pointe dans : bourse, sans pause pour regarder après les premières gouttes");
-  EXPECT_EQ(french("the needle's angle to the probe's face: 62.1 degrees; asked for: below 50.0"),
-            "angle de l'aiguille à la face de la sonde : 62,1 degrés ; demandé : moins de 50,0");
+  EXPECT_EQ(
+      french("1.5 ml with the tip in bursa, without a pause to check where the first drops went"),
+      "1,5 ml, pointe dans : bourse, sans pause pour vérifier où vont les premières gouttes");
+  EXPECT_EQ(french("the needle's angle to the probe's face: 62.1 degrees; should be below 50.0"),
+            "angle de l'aiguille à la face de la sonde : 62,1 degrés ; devrait être sous 50,0");
   EXPECT_EQ(french("a sentence that nobody said"), "a sentence that nobody said");
   EXPECT_EQ(feedback_words(Language::english, "passes"), "passes");
 }

@@ -160,7 +160,8 @@ TEST_F(WindowEventsTest, AFrozenPictureKeepsItsDepthAndItsCalipersGoWithIt) {
     const cv::Mat second = cv::imread((folder_ / "bmode-2.png").string());
     EXPECT_EQ(first.size(), second.size()) << "the picture is still 40 mm deep";
     person.x().key("f");
-    person.wait_until("no calipers", [](const WindowStatus& s) { return s.caliper_points == 0; });
+    person.wait_until("clear calipers",
+                      [](const WindowStatus& s) { return s.caliper_points == 0; });
   });
 }
 

@@ -20,7 +20,8 @@
 namespace artus {
 namespace {
 
-// That every sentence of the sources has a French text with the same places: scripts/update-po --check.
+// That every sentence of the sources has a French text with the same places: scripts/update-po
+// --check.
 TEST(Translation, ASentenceIsFoundInTheCatalogueOrStaysAsItIs) {
   EXPECT_STREQ(translate(Language::english, "freeze the picture"), "freeze the picture");
   EXPECT_STREQ(translate(Language::french, "freeze the picture"), "figer l'image");
@@ -82,7 +83,8 @@ TEST(Translation, NoPanelSaysWordsThatAreNotTranslated) {
       "wrapped|coloured|say|SetTooltip|Selectable|MenuItem|fill)\\(\\s*\"([^\"]*)\"");
   const std::set<std::string> no_words{"-", "+", "?", "%s"};
   std::size_t files = 0;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(test::source_dir() / "viewer")) {
+  for (const auto& entry :
+       std::filesystem::recursive_directory_iterator(test::source_dir() / "viewer")) {
     if (entry.path().extension() != ".cpp") continue;
     ++files;
     const std::string code = content_of(entry.path());

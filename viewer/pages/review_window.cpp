@@ -294,7 +294,7 @@ class ReviewGui {
       return;
     }
     draw_image(beside_,
-               fill(translate(language, "The probe set right: turned {} degrees, moved {} mm"),
+               fill(translate(language, "The probe corrected: turned {} degrees, moved {} mm"),
                     {number(language, std::abs(mended_->turned) / kDegree, 0),
                      number(language, std::abs(mended_->moved) / kMillimetre, 1)}));
   }

@@ -76,13 +76,15 @@ std::string Guide::next(const GuideInput& in) {
   };
   if (in.peer == PeerState::absent) return say(in, msgid("Next: {}"), {in.connect});
   if (in.peer != PeerState::alive)
-    return say(in,
-               msgid("The device is silent: no force. Put its cable back; the last state is kept"),
-               {});
+    return say(
+        in,
+        msgid("The device does not answer: no force. Reconnect its cable; the last state is kept"),
+        {});
   if (in.paused) return say(in, msgid("Paused: {} goes on"), {key(Action::pause)});
-  if (!in.has_hand) return say(in, msgid("A simulated or other hand is at work: watch"), {});
+  if (!in.has_hand)
+    return say(in, msgid("A simulated hand or another device is at work: watch"), {});
   if (in.needle.inside) return with_needle(in);
-  if (reached_) return say(in, msgid("Done. {} begins again"), {key(Action::reset)});
+  if (reached_) return say(in, msgid("Done. {} starts again"), {key(Action::reset)});
   if (in.grab == Grab::needle)
     return say(in, msgid("Next: wheel or {} pushes the needle in; {} pulls"),
                {key(Action::push), key(Action::pull)});

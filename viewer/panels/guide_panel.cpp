@@ -112,8 +112,8 @@ void draw_help(const PanelInput& in, ViewState& state) {
   rows.push_back(
       {translate(state, "ctrl"),
        translate(state, "ctrl with the probe in hand: mouse rocks and fans, wheel presses")});
-  rows.push_back(
-      {translate(state, "shift"), translate(state, "with mouse, wheel or arrows: a tenth as far")});
+  rows.push_back({translate(state, "shift"),
+                  translate(state, "with mouse, wheel or arrows: ten times finer")});
   float keys = 0;
   for (const HelpRow& row : rows) keys = std::max(keys, ImGui::CalcTextSize(row.keys.c_str()).x);
   const ImVec2 size = ImGui::GetIO().DisplaySize;
@@ -128,7 +128,7 @@ void draw_help(const PanelInput& in, ViewState& state) {
     ImGui::SameLine(keys + 2 * ImGui::GetFontSize());
     ImGui::TextUnformatted(row.what);
   }
-  ImGui::TextUnformatted(translate(state, "drag turns the joint, wheel comes nearer"));
+  ImGui::TextUnformatted(translate(state, "drag turns the joint, wheel zooms"));
   ImGui::TextUnformatted(
       translate(state,
                 "left stick probe, right stick needle, triggers push and pull; right bumper: the "

@@ -112,7 +112,7 @@ std::string describe_status(Language language, std::uint32_t status) {
        {TickStatus::kOutOfWorkspace, msgid("out of the workspace")},
        {TickStatus::kLawNotFinite, msgid("force not finite")},
        {TickStatus::kRamping, msgid("force ramps up")},
-       {TickStatus::kSlewLimited, msgid("change limited")},
+       {TickStatus::kSlewLimited, msgid("force change limited")},
        {TickStatus::kSaturated, msgid("at the device's limit")}}};
   std::string said;
   for (const Bit& bit : kBits) {

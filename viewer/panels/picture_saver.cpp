@@ -105,7 +105,7 @@ std::string PictureSaver::begin_clip(const ImageSnapshot& image, Language langua
   clip_ = std::make_unique<Clip>();
   clip_->file = next("clip-", ".avi");
   clip_->size = cv::Size(image.width, image.height);
-  if (clip_->open()) return fill(translate(language, "clip begun: {}"), {clip_->file.string()});
+  if (clip_->open()) return fill(translate(language, "clip started: {}"), {clip_->file.string()});
   std::string refusal = fill(translate(language, "cannot write {}"), {clip_->file.string()});
   clip_.reset();
   return refusal;

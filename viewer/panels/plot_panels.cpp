@@ -162,7 +162,7 @@ void draw_force_over_time(const PanelInput& in, const ViewState& state, Plot plo
   draw_curve(list, plot, state.trace, x, &TracePoint::force, kForce);
   const float font = ImGui::GetFontSize();
   list->AddText(ImVec2(plot.from.x, plot.to.y + 2), kText,
-                translate(state, "against insertion, N, over 10 s"));
+                translate(state, "resistance to insertion, N, last 10 s"));
   ImVec2 legend(plot.from.x + 4, plot.to.y - 1.2F * font);
   const auto name_curve = [&](const char* name, ImU32 colour) {
     list->AddText(legend, colour, translate(state, name));

@@ -92,7 +92,7 @@ void draw_scanner_panel(const PanelInput& in, ViewState& state) {
   draw_knobs(state);
   draw_time_gain(state);
   const bool frozen = in.session->frozen();
-  action_button(state, frozen ? msgid("go on") : msgid("freeze"), Action::freeze, frozen);
+  action_button(state, frozen ? msgid("continue") : msgid("freeze"), Action::freeze, frozen);
   row_button(state, msgid("save"), Action::save);
   row_button(state, state.wants_clip ? msgid("end clip") : msgid("clip"), Action::clip,
              state.wants_clip);
@@ -102,7 +102,7 @@ void draw_scanner_panel(const PanelInput& in, ViewState& state) {
     if (i > 0) next_in_row(ImGui::CalcTextSize(name).x + 2 * ImGui::GetStyle().FramePadding.x);
     if (ImGui::Button(name)) state.controls = with_preset(state.controls, kPresets[i]);
   }
-  if (ImGui::Button(translate(state, "usual settings"))) {
+  if (ImGui::Button(translate(state, "default settings"))) {
     state.controls = controls_of(in.session->params());
     state.look = {};
     state.view = {};
@@ -111,7 +111,7 @@ void draw_scanner_panel(const PanelInput& in, ViewState& state) {
   row_button(state, msgid("dual"), Action::dual, state.dual);
   row_button(state, msgid("colour"), Action::doppler, state.look.colour);
   row_button(state, msgid("true scale"), Action::true_scale, state.true_scale);
-  row_button(state, msgid("no calipers"), Action::clear_calipers);
+  row_button(state, msgid("clear calipers"), Action::clear_calipers);
   const std::string zoom = std::string(translate(state, "zoom")) + " " +
                            number(state.language, state.view.zoom, 1) + "###zoom";
   ImGui::TextUnformatted(zoom.substr(0, zoom.find("###")).c_str());

@@ -44,7 +44,7 @@ void draw_needle_state(const PanelInput& in, const ViewState& state) {
                {number(language, in.needle.depth / kMillimetre, 1),
                 number(language, force.norm(), 2), number(language, 1e3 * torque.norm(), 0)}));
   if (in.needle.on_bone && in.needle.hand_excess > 0)
-    wrapped(fill(translate(state, "the hand is {} mm further: {} N"),
+    wrapped(fill(translate(state, "the hand is {} mm ahead of the needle: {} N"),
                  {number(language, in.needle.hand_excess / kMillimetre, 1),
                   number(language, force.norm(), 2)}),
             kIll);
@@ -58,7 +58,7 @@ void draw_needle_state(const PanelInput& in, const ViewState& state) {
 
 /// Whose hand it is, and whether it is there.
 std::string device_line(const PanelInput& in, const ViewState& state) {
-  constexpr std::array<const char*, 4> kPeers{msgid("absent"), msgid("alive"), msgid("lost"),
+  constexpr std::array<const char*, 4> kPeers{msgid("absent"), msgid("connected"), msgid("lost"),
                                               msgid("invalid")};
   static_assert(static_cast<int>(PeerState::absent) == 0 &&
                 static_cast<int>(PeerState::invalid) == 3);
@@ -85,7 +85,7 @@ void draw_session_panel(const PanelInput& in, ViewState& state) {
   wrapped(fill(translate(state, "needle {} G, {} mm"),
                {gauge_of(params.needle_shape),
                 number(state.language, needle_length_of(params) / kMillimetre, 0)}));
-  action_button(state, in.session->paused() ? msgid("go on") : msgid("pause"), Action::pause);
+  action_button(state, in.session->paused() ? msgid("continue") : msgid("pause"), Action::pause);
   ImGui::SameLine();
   action_button(state, msgid("reset"), Action::reset);
   ImGui::Checkbox(translate(state, "expert"), &state.expert);

@@ -17,7 +17,7 @@ void draw_syringe(const PanelInput& in, const ViewState& state) {
   const SyringeReading& syringe = in.syringe;
   if (!syringe.used) return;
   const Language language = state.language;
-  wrapped_text(fill(translate(state, "syringe: {} ml left, {} given, {} ml/s"),
+  wrapped_text(fill(translate(state, "syringe: {} ml left, {} injected, {} ml/s"),
                     {number(language, syringe.left / kCubicCentimetre, 2),
                      number(language, syringe.given / kCubicCentimetre, 2),
                      number(language, syringe.flow / kCubicCentimetre, 2)}),

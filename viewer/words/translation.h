@@ -23,8 +23,7 @@ enum class Language { english, french };
 /// `english` and the program. Cost: one binary search, no allocation.
 [[nodiscard]] const char* translate(Language language, const char* english) noexcept;
 /// The same for a word that means several things: `context` ("anatomy") tells which.
-[[nodiscard]] const char* translate_in(Language language, const char* context,
-                                       const char* english);
+[[nodiscard]] const char* translate_in(Language language, const char* context, const char* english);
 /// The sentence for so many of something, by the language's plural rule.
 [[nodiscard]] const char* translate_count(Language language, const char* one, const char* many,
                                           long count) noexcept;

@@ -8,7 +8,7 @@
 
 namespace artus {
 
-/// A metric in words, with its unit; its name where the table has none.
+/// A metric in words, with its unit; its name where there are none.
 [[nodiscard]] std::string metric_words(Language language, const std::string& metric);
 /// What a mark asks for: "at most 2".
 [[nodiscard]] std::string bound_words(Language language, const Mark& mark);
@@ -16,7 +16,5 @@ namespace artus {
 [[nodiscard]] std::string mark_words(Language language, const Mark& mark);
 /// A scenario's title; the English one where it has none in the language.
 [[nodiscard]] const std::string& title_words(Language language, const Scenario& scenario);
-/// A step of a scenario in words.
-[[nodiscard]] std::string step_words(Language language, const std::string& step);
 
 }  // namespace artus

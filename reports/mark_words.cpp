@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/detail/trainer/texts.h"
+#include "artus/detail/reports/mark_words.h"
 
 #include <array>
 #include <cmath>
@@ -18,40 +18,29 @@ constexpr std::array<Named, 27> kMetrics{{
     {"find_s", msgid("time until all were shown, s")},
     {"distance_mm", msgid("tip from the target, mm")},
     {"plane_offset_p90_mm", msgid("tip beside the picture's plane, mm")},
-    {"unseen_advances", msgid("times advanced without seeing the tip")},
+    {"unseen_advances", msgid("advances without seeing the tip")},
     {"unseen_mm", msgid("advanced without seeing the tip, mm")},
     {"passes", msgid("passes of the needle")},
-    {"redirections", msgid("turns of the needle inside")},
+    {"redirections", msgid("redirections of the needle")},
     {"time_s", msgid("time with the needle in, s")},
-    {"bone_contacts", msgid("touches of bone")},
+    {"bone_contacts", msgid("bone contacts")},
     {"bone_peak_n", msgid("force on bone, N")},
-    {"avoid_fatal", msgid("times in what must never be entered")},
-    {"avoid_entries", msgid("times in what must be spared")},
-    {"avoid_depth_mm", msgid("deep in what must be spared, mm")},
-    {"avoid_time_s", msgid("time in what must be spared, s")},
-    {"entry_offset_mm", msgid("entry beside its place, mm")},
-    {"entry_angle_deg", msgid("needle to the probe's face at the entry, degrees")},
-    {"in_plane_fraction", msgid("share of the way in the picture's plane")},
+    {"avoid_fatal", msgid("entries into forbidden structures")},
+    {"avoid_entries", msgid("entries into structures to avoid")},
+    {"avoid_depth_mm", msgid("depth in structures to avoid, mm")},
+    {"avoid_time_s", msgid("time in structures to avoid, s")},
+    {"entry_offset_mm", msgid("distance from the planned entry, mm")},
+    {"entry_angle_deg", msgid("angle between needle and probe face at the entry, degrees")},
+    {"in_plane_fraction", msgid("share of the path in the picture's plane")},
     {"tip_seen", msgid("share of the time with the tip in sight")},
     {"tip_visible", msgid("share of the pictures that show the tip")},
     {"drift_mm_s", msgid("probe's motion while needling, mm/s")},
-    {"given_ml", msgid("volume given, ml")},
+    {"given_ml", msgid("volume injected, ml")},
     {"in_target", msgid("share of the volume in the target")},
     {"flow_peak_ml_s", msgid("fastest flow, ml/s")},
     {"pressure_peak_kpa", msgid("largest pressure, kPa")},
     {"plunger_peak_n", msgid("largest force of the thumb, N")},
-    {"aspirated_first", msgid("aspirated before giving")},
-}};
-
-constexpr std::array<Named, 8> kSteps{{
-    {"ask:side", msgid("asked which side")},
-    {"ask:allergy", msgid("asked about allergies")},
-    {"ask:consent", msgid("asked for consent")},
-    {"auto:entry", msgid("needle in")},
-    {"auto:tip_seen", msgid("tip seen")},
-    {"auto:placed", msgid("tip in place")},
-    {"auto:injected", msgid("liquid given")},
-    {"auto:withdrawn", msgid("needle out again")},
+    {"aspirated_first", msgid("aspirated before injecting")},
 }};
 
 }  // namespace
@@ -88,12 +77,6 @@ std::string mark_words(Language language, const Mark& mark) {
 const std::string& title_words(Language language, const Scenario& scenario) {
   const bool french = language == Language::french && !scenario.title_fr.empty();
   return french ? scenario.title_fr : scenario.title;
-}
-
-std::string step_words(Language language, const std::string& step) {
-  for (const Named& known : kSteps)
-    if (step == known.name) return translate(language, known.words);
-  return step;
 }
 
 }  // namespace artus
