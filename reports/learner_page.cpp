@@ -6,7 +6,6 @@
 #include <memory>
 #include <numeric>
 
-#include "artus/detail/core/text_cursor.h"
 #include "artus/detail/core/text_file.h"
 #include "artus/detail/reports/attempt_page.h"
 #include "artus/detail/reports/html_page.h"
