@@ -240,7 +240,7 @@ TEST_F(WindowEventsTest, ADeviceThatDiesLeavesItsLastStateMarked) {
     person.wait_until("deep", [](const WindowStatus& s) { return s.needle.depth > 19e-3; });
     hand_->set_connected(false);
     person.wait_until("it is told", [](const WindowStatus& s) {
-      return s.next.find("silent") != std::string::npos;
+      return s.next.find("does not answer") != std::string::npos;
     });
     EXPECT_GT(person.seen().needle.depth, 19e-3);
     EXPECT_TRUE(person.seen().needle.inside);
