@@ -162,6 +162,15 @@ void WindowLoop::step_cine(int step) {
   state_.cine = static_cast<std::size_t>(std::clamp(now + step, 0, last));
 }
 
+void WindowLoop::begin_measuring() {
+  if (!session_.frozen()) set_frozen(true);
+  if (input_.image != nullptr)
+    state_.cross = ImagePoint{500 * input_.image->width * input_.image->pixel,
+                              500 * input_.image->height * input_.image->pixel};
+  say(fill(translate(state_, "Caliper: arrows move the cross, {} sets a point"),
+           {state_.keys.said_key(Action::accept, state_.language)}));
+}
+
 bool WindowLoop::act_on_picture(Action action) {
   ImageControls& c = state_.controls;
   const auto turn = [](double& knob, double step, const Range& range) {
@@ -184,12 +193,7 @@ bool WindowLoop::act_on_picture(Action action) {
       state_.calipers.clear();
       return true;
     case Action::measure:
-      if (!session_.frozen()) set_frozen(true);
-      if (input_.image != nullptr)
-        state_.cross = ImagePoint{500 * input_.image->width * input_.image->pixel,
-                                  500 * input_.image->height * input_.image->pixel};
-      say(fill(translate(state_, "Caliper: arrows move the cross, {} sets a point"),
-               {state_.keys.said_key(Action::accept, state_.language)}));
+      begin_measuring();
       return true;
     case Action::depth_more:
     case Action::depth_less:
