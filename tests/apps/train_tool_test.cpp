@@ -349,6 +349,7 @@ TEST(TrainTask, WhatNovicesAreToldIsThereInFrench) {
     for (std::uint64_t seed = 1; seed <= 4; ++seed) {
       PlayOptions options;
       options.seed = seed;
+      options.rigid = true;  // words, not tissue
       const auto played = play(*scenario, *scene, novice_skill(), options);
       ASSERT_TRUE(played);
       const Feedback told = make_feedback(played->measures, played->judgement);
