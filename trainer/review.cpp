@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/detail/trainer/train_review.h"
+#include "artus/detail/trainer/review.h"
 
 #include <cmath>
 #include <utility>
 
 #include "artus/detail/core/units.h"
 #include "artus/detail/reports/feedback_words.h"
-#include "artus/detail/trainer/train_texts.h"
+#include "artus/detail/reports/mark_words.h"
 #include "artus/detail/viewer/words/anatomy_names.h"
 #include "artus/session/replay.h"
 
@@ -16,34 +16,41 @@ namespace {
 /// What the truth says of the tip: where it is, and why it is seen or not.
 std::string why_of(const TipSightFinder& finder, const Scene& scene, const HapticSnapshot& state,
                    Language language) {
-  if (state.inserted == 0) return text(language, Text::review_outside);
+  if (state.inserted == 0) return translate(language, "The needle is not in the body here");
   const TipSight sight = finder.look(scene, to_pose(state.X_JP), to_pose(state.X_JN));
   const auto mm = [&](double length) {
     return number(language, length / kMillimetre, 1);
   };
   const auto& region = scene.joint().regions[state.feedback.region];
   std::string where = fill(
-      said(language, Said::sight_where),
+      translate(language,
+                "The tip is in: {}. It lies {} mm beside the picture's plane, whose slice is {} mm "
+                "thick to either side there"),
       {clinical_name(language, region.name), mm(std::abs(sight.offset)), mm(sight.half_width)});
   switch (sight.loss) {
     case SightLoss::none:
-      return where + ". " + said(language, Said::sight_seen);
+      return where + ". " + translate(language, "It can be seen.");
     case SightLoss::no_contact:
-      return where + ". " + said(language, Said::sight_no_contact);
+      return where + ". " +
+             translate(language, "It cannot be seen: the probe does not touch there.");
     case SightLoss::off_plane:
-      return where + ". " + said(language, Said::sight_off_plane);
+      return where + ". " + translate(language, "It cannot be seen: the beam passes beside it.");
     case SightLoss::off_sector:
-      return where + ". " + said(language, Said::sight_off_sector);
+      return where + ". " +
+             translate(language, "It cannot be seen: it is beside or below the picture.");
     case SightLoss::shadow:
       return where + ". " +
-             fill(said(language, Said::sight_shadow),
+             fill(translate(language, "It cannot be seen: it lies in the shadow of the {}."),
                   {clinical_name(language, scene.joint().regions[sight.shadow].name)});
     case SightLoss::angle:
       break;
   }
   return where + ". " +
-         fill(said(language, Said::sight_angle), {number(language, sight.face_angle / kDegree, 0),
-                                                  number(language, sight.contrast_db, 0)});
+         fill(translate(language,
+                        "It cannot be seen: at {} degrees to the probe's face the echo is "
+                        "reflected away ({} dB above muscle)."),
+              {number(language, sight.face_angle / kDegree, 0),
+               number(language, sight.contrast_db, 0)});
 }
 
 /// Where the picture's clock stands against the moments': the last that was there.

@@ -4,9 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "artus/detail/trainer/train_attempt.h"
-#include "artus/detail/trainer/train_bodies.h"
-#include "artus/detail/trainer/train_texts.h"
+#include "artus/detail/trainer/attempt.h"
+#include "artus/detail/trainer/bodies.h"
 #include "artus/detail/viewer/pages/page.h"
 
 namespace artus {
@@ -59,6 +58,6 @@ enum class AfterAttempt { review, again, next, other, who, leave };
                                  Language language);
 
 /// "Wait": until `done`.
-[[nodiscard]] Page make_busy_page(Said what, std::function<bool()> done, Language language);
+[[nodiscard]] Page make_busy_page(const char* what, std::function<bool()> done, Language language);
 
 }  // namespace artus

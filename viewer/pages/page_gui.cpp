@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/detail/viewer/pages/stage_gui.h"
+#include "artus/detail/viewer/pages/page_gui.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,22 +12,22 @@
 
 namespace artus {
 
-StageGui::StageGui(Screen& screen, const PageOptions& options)
+PageGui::PageGui(Screen& screen, const PageOptions& options)
     : screen_(screen), options_(options), events_(screen.window()) {}
 
-Result<void> StageGui::begin(const std::string& stage) {
+Result<void> PageGui::begin(const std::string& page) {
   steps_.erase(steps_.begin(), steps_.begin() + static_cast<std::ptrdiff_t>(next_step_));
   next_step_ = 0;
   waited_ = 0;
-  if (options_.script == nullptr || stage.empty()) return {};
-  auto steps = options_.script->take(stage);
+  if (options_.script == nullptr || page.empty()) return {};
+  auto steps = options_.script->take(page);
   ARTUS_TRY(steps);
   steps_ = std::move(*steps);
   return {};
 }
 
 // Letters follow the window's size and the screen's resolution.
-void StageGui::fit() {
+void PageGui::fit() {
   int width = 0;
   int height = 0;
   glfwGetFramebufferSize(screen_.window(), &width, &height);
@@ -40,7 +40,7 @@ void StageGui::fit() {
   ImGui_ImplOpenGL3_NewFrame();
 }
 
-void StageGui::feed(const UserEvent& event, const std::function<void(const UserEvent&)>& act) {
+void PageGui::feed(const UserEvent& event, const std::function<void(const UserEvent&)>& act) {
   ImGuiIO& io = ImGui::GetIO();
   if (const auto* move = std::get_if<MoveEvent>(&event)) {
     io.MousePos = ImVec2(static_cast<float>(move->x), static_cast<float>(move->y));
@@ -55,7 +55,7 @@ void StageGui::feed(const UserEvent& event, const std::function<void(const UserE
   }
 }
 
-void StageGui::pass(double elapsed, const std::function<void()>& look) {
+void PageGui::pass(double elapsed, const std::function<void()>& look) {
   ImGuiIO& io = ImGui::GetIO();
   io.DeltaTime = static_cast<float>(std::clamp(elapsed, 1e-4, 1.0));
   ImGui::NewFrame();
@@ -65,7 +65,7 @@ void StageGui::pass(double elapsed, const std::function<void()>& look) {
 }
 
 /// True while the next step is one that takes time, and its time is not over.
-bool StageGui::script_waits(double elapsed) {
+bool PageGui::script_waits(double elapsed) {
   const auto* wait = std::get_if<WaitStep>(&steps_[next_step_]);
   if (wait == nullptr) return false;
   waited_ += elapsed;
@@ -74,8 +74,8 @@ bool StageGui::script_waits(double elapsed) {
   return false;
 }
 
-void StageGui::run_script(double elapsed, const std::function<void(const UserEvent&)>& act,
-                          const std::function<void()>& look, const std::function<bool()>& over) {
+void PageGui::run_script(double elapsed, const std::function<void(const UserEvent&)>& act,
+                         const std::function<void()>& look, const std::function<bool()>& over) {
   while (next_step_ < steps_.size() && !over()) {
     if (script_waits(elapsed)) return;
     elapsed = 0;
@@ -91,7 +91,7 @@ void StageGui::run_script(double elapsed, const std::function<void(const UserEve
   }
 }
 
-Result<void> StageGui::show() {
+Result<void> PageGui::show() {
   ImGui::Render();
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   glViewport(0, 0, static_cast<int>(size.x), static_cast<int>(size.y));
@@ -104,8 +104,8 @@ Result<void> StageGui::show() {
   return {};
 }
 
-Result<bool> StageGui::run(const std::function<void(const UserEvent&)>& act,
-                           const std::function<void()>& look, const std::function<bool()>& over) {
+Result<bool> PageGui::run(const std::function<void(const UserEvent&)>& act,
+                          const std::function<void()>& look, const std::function<bool()>& over) {
   constexpr double kPeriod = 1.0 / 30;  // s
   const bool scripted = options_.script != nullptr && options_.script->given();
   const bool had_steps = !steps_.empty();

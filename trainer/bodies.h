@@ -2,22 +2,30 @@
 #pragma once
 #include <deque>
 #include <filesystem>
+#include <functional>
 #include <future>
 #include <map>
 #include <memory>
 #include <string>
 
-#include "artus/detail/apps/options/scenario_options.h"
+#include "artus/detail/training/scenario.h"
 #include "artus/detail/viewer/pages/page.h"
+#include "artus/raycast/scene.h"
 
 namespace artus {
+
+/// Reads the body that a scenario is played in: `joint` in place of its own when one is named.
+/// Called by a thread of its own.
+using SceneLoader = std::function<Result<std::shared_ptr<const Scene>>(
+    const Scenario& scenario, const std::filesystem::path& joint)>;
 
 /// The bodies and pictures of scenarios, made on a thread of their own one after the other while
 /// pages are shown. Pictures are kept, and the last few bodies.
 class TrainBodies {
  public:
   /// `joint`: in place of the scenarios' own; empty: theirs.
-  explicit TrainBodies(std::filesystem::path joint) : joint_(std::move(joint)) {}
+  TrainBodies(std::filesystem::path joint, SceneLoader load)
+      : joint_(std::move(joint)), load_(std::move(load)) {}
 
   /// Begins to make a scenario's picture when nothing else is being made; for every look.
   void want(const Scenario& scenario);
@@ -27,7 +35,7 @@ class TrainBodies {
   [[nodiscard]] bool ready(const Scenario& scenario);
   /// Null: not yet, or there is none.
   [[nodiscard]] std::shared_ptr<const PagePicture> picture(const Scenario& scenario);
-  /// Requires: ready. Errors: those of load_scene.
+  /// Requires: ready. Errors: those of the loader.
   [[nodiscard]] Result<std::shared_ptr<const Scene>> scene(const Scenario& scenario);
 
  private:
@@ -43,6 +51,7 @@ class TrainBodies {
   void collect();
 
   std::filesystem::path joint_;
+  SceneLoader load_;
   std::map<std::string, Body> bodies_;                                  // by what makes them
   std::deque<std::string> kept_;                                        // their keys, oldest first
   std::map<std::string, std::shared_ptr<const PagePicture>> pictures_;  // by scenario

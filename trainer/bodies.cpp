@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/detail/trainer/train_bodies.h"
+#include "artus/detail/trainer/bodies.h"
 
 #include <chrono>
 #include <utility>
@@ -69,9 +69,8 @@ void TrainBodies::begin(const Scenario& scenario) {
   const auto known = bodies_.find(key);
   const std::optional<Body> body =
       known != bodies_.end() ? std::optional(known->second) : std::nullopt;
-  making_ = std::async(std::launch::async, [scenario, key, body, joint = joint_] {
-    Made made{key, body ? *body : load_scene(scenario, joint, make_progress_printer(true)),
-              scenario.name, nullptr};
+  making_ = std::async(std::launch::async, [scenario, key, body, joint = joint_, load = load_] {
+    Made made{key, body ? *body : load(scenario, joint), scenario.name, nullptr};
     if (made.scene) made.picture = draw(scenario, *made.scene);
     return made;
   });

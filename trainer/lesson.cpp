@@ -1,15 +1,32 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/detail/trainer/train_lesson.h"
+#include "artus/detail/trainer/lesson.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
 #include "artus/detail/core/units.h"
+#include "artus/detail/reports/mark_words.h"
 #include "artus/detail/viewer/words/anatomy_names.h"
 
 namespace artus {
 namespace {
+
+struct StepName {
+  const char* step;
+  const char* words;
+};
+constexpr std::array<StepName, 8> kSteps{{
+    {"ask:side", msgid("asked which side")},
+    {"ask:allergy", msgid("asked about allergies")},
+    {"ask:consent", msgid("asked for consent")},
+    {"auto:entry", msgid("needle in")},
+    {"auto:tip_seen", msgid("tip seen")},
+    {"auto:placed", msgid("tip in place")},
+    {"auto:injected", msgid("liquid injected")},
+    {"auto:withdrawn", msgid("needle out again")},
+}};
 
 constexpr double kAlmostAll = 0.9;  // of what is to be given
 constexpr int kToldAtOnce = 3;      // the highest level whose truth is told while it is done
@@ -47,12 +64,13 @@ TrainLesson::TrainLesson(Scenario scenario, std::shared_ptr<const Scene> scene,
 
 void TrainLesson::say_calmly() {
   hurts_ = false;
-  patient_ = said(language_, scenario_.gel ? Said::patient_gel : Said::patient_calm);
+  patient_ = translate(language_, scenario_.gel ? msgid("A gel block: it says nothing.")
+                                                : msgid("The patient lies still."));
 }
 
-void TrainLesson::say(Said what, double time, bool hurts) {
+void TrainLesson::say(const char* what, double time, bool hurts) {
   if (scenario_.gel) return;
-  patient_ = said(language_, what);
+  patient_ = translate(language_, what);
   hurts_ = hurts;
   said_at_ = time;
 }
@@ -88,13 +106,13 @@ void TrainLesson::listen(const LessonView& view, double time) {
   const bool in_zone = zone != scenario_.avoid.end();
   const bool late = time > scenario_.time_limit;
   if (time - said_at_ > kHeard) say_calmly();
-  if (late && !was_late_) say(Said::patient_long, time, false);
-  if (inside && !was_inside_) say(Said::patient_prick, time, false);
+  if (late && !was_late_) say(msgid("Will it be over soon?"), time, false);
+  if (inside && !was_inside_) say(msgid("I feel the prick."), time, false);
   if (in_zone && !was_in_zone_)
-    say(zone->structure.find("nerve") != std::string::npos ? Said::patient_nerve
-                                                           : Said::patient_pain,
+    say(zone->structure.find("nerve") != std::string::npos ? msgid("It shoots down my arm!")
+                                                           : msgid("That hurts!"),
         time, true);
-  if (view.needle.on_bone && !was_on_bone_) say(Said::patient_bone, time, true);
+  if (view.needle.on_bone && !was_on_bone_) say(msgid("Ow! That is the bone."), time, true);
   was_inside_ = inside;
   was_on_bone_ = view.needle.on_bone;
   was_in_zone_ = in_zone;
@@ -113,7 +131,7 @@ Lesson TrainLesson::lead(const LessonView& view) {
   lesson.title = title_words(language_, scenario_);
   lesson.goal = goal_words(scenario_, language_);
   lesson.late = time > scenario_.time_limit;
-  lesson.clock = fill(said(language_, Said::clock),
+  lesson.clock = fill(translate(language_, "{} s of {}"),
                       {number(language_, time, 0), number(language_, scenario_.time_limit, 0)});
   lesson.patient = patient_;
   lesson.patient_hurts = hurts_;
@@ -135,12 +153,13 @@ void TrainLesson::lead_search(double time, Lesson& lesson) const {
   for (const Sought& one : search_.sought())
     lesson.steps.push_back({clinical_name(language_, one.name), one.found >= 0, true});
   if (search_.done()) {
-    lesson.goal = said(language_, Said::find_done);
+    lesson.goal = translate(language_, "All structures were shown");
     lesson.over = lesson.over || time > search_.sought().back().found + kRead;
     return;
   }
   const Sought& now = search_.sought()[search_.found()];
-  lesson.goal = fill(said(language_, Said::find_now), {clinical_name(language_, now.name)});
+  lesson.goal = fill(translate(language_, "Show this in the middle of the picture: {}"),
+                     {clinical_name(language_, now.name)});
 }
 
 LessonOptions TrainLesson::options() {
@@ -164,7 +183,10 @@ std::string goal_words(const Scenario& scenario, Language language) {
     std::string names;
     for (const std::string& name : scenario.find)
       names += (names.empty() ? "" : ", ") + clinical_name(language, name);
-    return fill(said(language, Said::brief_find), {names});
+    return fill(translate(language,
+                          "Show, one after another: {}. Bring each to the middle of the picture "
+                          "and hold it there for 2 s"),
+                {names});
   }
   const Vec3 target_P = scenario.X_JP.inverse() * scenario.target.point;
   if (scenario.target.structure.empty()) {
@@ -172,14 +194,22 @@ std::string goal_words(const Scenario& scenario, Language language) {
     const double beside = target_P.x();
     const std::string where =
         std::abs(beside) < kMiddle
-            ? said(language, Said::brief_middle)
-            : fill(said(language, beside < 0 ? Said::brief_left : Said::brief_right),
+            ? translate(language, " in the picture's middle")
+            : fill(translate(language, beside < 0
+                                           ? msgid(", {} mm to the left of the picture's middle")
+                                           : msgid(", {} mm to the right of the picture's middle")),
                    {number(language, std::abs(beside) / kMillimetre, 0)});
-    return fill(said(language, Said::brief_target_point),
+    return fill(translate(language, "Bring the tip to the point {} mm deep{}"),
                 {number(language, target_P.z() / kMillimetre, 0), where});
   }
-  return fill(said(language, Said::brief_target_in),
+  return fill(translate(language, "Bring the tip into the {}"),
               {clinical_name(language, scenario.target.structure)});
+}
+
+std::string step_words(Language language, const std::string& step) {
+  for (const StepName& known : kSteps)
+    if (step == known.step) return translate(language, known.words);
+  return step;
 }
 
 HandTarget first_hands(const Scenario& scenario) {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/detail/trainer/train_attempt.h"
+#include "artus/detail/trainer/attempt.h"
 
-#include <cstdio>
+#include <algorithm>
 #include <utility>
 
 #include "artus/detail/core/text_file.h"
 #include "artus/detail/reports/attempt_files.h"
 #include "artus/detail/reports/attempt_page.h"
-#include "artus/detail/trainer/train_lesson.h"
+#include "artus/detail/trainer/lesson.h"
 #include "artus/detail/training/live_attempt.h"
 #include "artus/detail/training/session_meter.h"
 
@@ -18,16 +18,13 @@ namespace {
 Result<SessionParams> params_of(const TrainContext& room, const TrainTask& task) {
   auto params = make_session_params(task.scenario);
   ARTUS_TRY(params);
-  const SessionOptions& options = *room.session;
-  const auto device = find_device(options.device);
-  ARTUS_TRY(device);
-  params->device = *device;
-  params->image.n_threads = options.threads;
-  params->deform = !options.rigid && gives_way(task.scene->joint());
-  if (options.input == "igtl") {      // a pose that is held is not stale
+  const AttemptSetup& setup = *room.setup;
+  params->device = setup.device;
+  params->image.n_threads = setup.image_threads;
+  params->deform = !setup.rigid && gives_way(task.scene->joint());
+  if (setup.pose_hold > 0) {
     constexpr double kMargin = 5e-3;  // s
-    params->guard.stale_after =
-        std::max(params->guard.stale_after, 1e-3 * options.igtl.needle_hold_ms + kMargin);
+    params->guard.stale_after = std::max(params->guard.stale_after, setup.pose_hold + kMargin);
   }
   ARTUS_TRY(validate(*params));
   return params;
@@ -56,20 +53,20 @@ Result<bool> work(const TrainContext& room, const TrainTask& task, const Session
                   LiveAttempt& meter, const std::filesystem::path& recording) {
   HandDevice* hand = nullptr;
   std::unique_ptr<InputDevice> device;
-  if (room.session->input == "hand") {
+  if (room.setup->make_device) {
+    auto other = room.setup->make_device(params, task.scene->joint());
+    ARTUS_TRY(other);
+    device = std::move(*other);
+  } else {
     auto own = std::make_unique<HandDevice>(first_hands(task.scenario), 1 / params.haptic_rate);
     hand = own.get();
     device = std::move(own);
-  } else {
-    auto other = make_device(*room.session, params, task.scene->joint(), *room.tracker, &hand);
-    ARTUS_TRY(other);
-    device = std::move(*other);
   }
   Session::Options options;
-  options.haptic_options.cpu = room.session->haptic_cpu;
+  options.haptic_options.cpu = room.setup->haptic_cpu;
   options.recording = recording;
-  options.share_images = room.session->input == "shared-memory";
-  options.image_segment_prefix = room.session->prefix;
+  options.share_images = room.setup->share_images;
+  options.image_segment_prefix = room.setup->prefix;
   options.observer = &meter;
   options.extra_scene_holders = 1;
   if (room.link != nullptr)
@@ -111,7 +108,7 @@ Result<TrainOutcome> run_attempt(const TrainContext& room, const TrainTask& task
   ARTUS_TRY(options);
   LiveAttempt meter(task.scene, std::move(*options), params->haptic_rate);
   TrainOutcome out;
-  auto record = room.desk->begin(task.person, task.scenario, room.session->input);
+  auto record = room.desk->begin(task.person, task.scenario, room.setup->input);
   ARTUS_TRY(record);
   out.record = *record;
   const std::filesystem::path folder = out.record.folder;
@@ -129,8 +126,9 @@ Result<TrainOutcome> run_attempt(const TrainContext& room, const TrainTask& task
   ARTUS_TRY(write_attempt_files(task.scenario, out.played, folder));
   const auto norms = room.desk->norms(out.record);
   ARTUS_TRY(norms);
-  ARTUS_TRY(
-      write_attempt_page(task.scenario, task.scene, out.played, out.feedback, *norms, out.report));
+  ARTUS_TRY(write_attempt_page(
+      {task.scenario, task.scene, out.played, out.feedback, *norms, room.window->language},
+      out.report));
   ARTUS_TRY(room.desk->finish(out.record, out.played));
   return out;
 }

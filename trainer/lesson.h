@@ -5,10 +5,9 @@
 #include <string>
 
 #include "artus/detail/session/hand_device.h"
-#include "artus/detail/trainer/train_texts.h"
 #include "artus/detail/training/player.h"
 #include "artus/detail/viewer/panels/lesson.h"
-#include "artus/detail/viewer/words/strings.h"
+#include "artus/detail/viewer/words/translation.h"
 #include "artus/raycast/scene.h"
 
 namespace artus {
@@ -30,7 +29,7 @@ class TrainLesson {
   void follow(const LessonView& view);
   void lead_search(double time, Lesson& lesson) const;
   void listen(const LessonView& view, double time);
-  void say(Said what, double time, bool hurts);
+  void say(const char* what, double time, bool hurts);
   void say_calmly();
 
   Scenario scenario_;
@@ -54,6 +53,9 @@ class TrainLesson {
 
 /// What a task's window says it is for: the target in words.
 [[nodiscard]] std::string goal_words(const Scenario& scenario, Language language);
+
+/// A step of a scenario in words.
+[[nodiscard]] std::string step_words(Language language, const std::string& step);
 
 /// Where both hands stand at first: the probe at the scenario's view; the needle over its entry and
 /// along the planned way, from level 2 on 6 mm beside the plane and 4 mm back, so that who does not

@@ -13,13 +13,13 @@ namespace artus {
 
 /// What pages and reviews have in common: the events of a person or a script, the letters' size,
 /// and how a look becomes a picture on the screen.
-class StageGui {
+class PageGui {
  public:
-  StageGui(Screen& screen, const PageOptions& options);
+  PageGui(Screen& screen, const PageOptions& options);
 
-  /// Takes the script's steps for a stage; without a name, those that the last one left. Errors: as
-  /// StagedScript::take.
-  [[nodiscard]] Result<void> begin(const std::string& stage);
+  /// Takes the script's steps for a page; without a name, those that the last one left. Errors: as
+  /// PageScript::take.
+  [[nodiscard]] Result<void> begin(const std::string& page);
   /// Shows looks until `step` says that it is over. `look` draws one; `act` is called with what was
   /// done, before the look that shows it. True: the window was closed, or the script is at its end.
   /// Errors: unreadable (a script's picture), failed (a script that ends nothing).

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/detail/trainer/train_flow.h"
+#include "artus/detail/trainer/flow.h"
 
 #include <algorithm>
 #include <chrono>
@@ -8,8 +8,9 @@
 #include <optional>
 #include <utility>
 
-#include "artus/detail/trainer/train_pages.h"
-#include "artus/detail/trainer/train_review.h"
+#include "artus/detail/reports/mark_words.h"
+#include "artus/detail/trainer/pages.h"
+#include "artus/detail/trainer/review.h"
 #include "artus/detail/training/patient_plans.h"
 
 namespace artus {
@@ -26,12 +27,12 @@ class TrainFlow {
         page_options_(std::move(pages)),
         language_(page_options_.language),
         scenarios_(std::move(scenarios)),
-        bodies_(options.joint) {}
+        bodies_(options.joint, room.load_scene) {}
 
   /// Until someone leaves or the window is closed.
   [[nodiscard]] Result<void> run() {
-    Stage next = Stage::who;
-    while (next != Stage::leave) {
+    Next next = Next::who;
+    while (next != Next::leave) {
       auto after = step(next);
       ARTUS_TRY(after);
       next = *after;
@@ -40,26 +41,26 @@ class TrainFlow {
   }
 
  private:
-  enum class Stage { who, what, earlier, briefing, attempt, end, leave };
+  enum class Next { who, what, earlier, briefing, attempt, end, leave };
 
-  Result<Stage> step(Stage now) {
+  Result<Next> step(Next now) {
     switch (now) {
-      case Stage::who:
+      case Next::who:
         return who();
-      case Stage::what:
+      case Next::what:
         return what();
-      case Stage::earlier:
+      case Next::earlier:
         return earlier();
-      case Stage::briefing:
+      case Next::briefing:
         return brief();
-      case Stage::attempt:
+      case Next::attempt:
         return attempt();
-      case Stage::end:
+      case Next::end:
         return end();
-      case Stage::leave:
+      case Next::leave:
         break;
     }
-    return Stage::leave;
+    return Next::leave;
   }
 
   Result<PageAnswer> show(Page page) {
@@ -79,12 +80,12 @@ class TrainFlow {
   }
 
   /// What another program asked for is briefed next.
-  Stage take_remote() {
+  Next take_remote() {
     if (const auto scenario = remote_->take()) choose(*scenario);
-    return Stage::briefing;
+    return Next::briefing;
   }
 
-  Result<Stage> who() {
+  Result<Next> who() {
     auto names = room_.desk->learners();
     ARTUS_TRY(names);
     if (!options_.person.empty() && person_.empty()) {
@@ -106,7 +107,7 @@ class TrainFlow {
                      [](const auto& a, const auto& b) { return a.tally.last > b.tally.last; });
     const auto answer = show(make_who_page(learners, language_));
     ARTUS_TRY(answer);
-    if (answer->kind != PageAnswer::Kind::chosen) return Stage::leave;
+    if (answer->kind != PageAnswer::Kind::chosen) return Next::leave;
     if (answer->choice < learners.size()) {
       person_ = learners[answer->choice].name;
       return what_next();
@@ -116,18 +117,18 @@ class TrainFlow {
     person_ = *fresh;
     const auto seen = show(make_welcome_page(person_, language_));
     ARTUS_TRY(seen);
-    return seen->kind == PageAnswer::Kind::chosen ? what_next() : Result<Stage>(Stage::leave);
+    return seen->kind == PageAnswer::Kind::chosen ? what_next() : Result<Next>(Next::leave);
   }
 
   /// The scenario of the command line goes first, once.
-  Result<Stage> what_next() {
-    if (options_.scenario.empty() || asked_for_) return Stage::what;
+  Result<Next> what_next() {
+    if (options_.scenario.empty() || asked_for_) return Next::what;
     asked_for_ = true;
     auto asked = find_scenario(options_.scenario);
     ARTUS_TRY(asked);
     choose(*asked);
     if (!options_.patient.empty()) scenario_ = scenarios_[at_];  // that of the patient
-    return Stage::briefing;
+    return Next::briefing;
   }
 
   void choose(const Scenario& scenario) {
@@ -137,7 +138,7 @@ class TrainFlow {
       if (scenarios_[i].name == scenario.name) at_ = i;
   }
 
-  Result<Stage> what() {
+  Result<Next> what() {
     std::vector<OfferedTask> tasks;
     for (const Scenario& scenario : scenarios_) {
       auto tally = room_.desk->tally(person_, scenario.name);
@@ -147,11 +148,11 @@ class TrainFlow {
     const auto answer = offer(make_what_page(tasks, person_, bodies_, at_, language_));
     ARTUS_TRY(answer);
     if (answer->kind == PageAnswer::Kind::done) return take_remote();
-    if (answer->kind == PageAnswer::Kind::back) return Stage::who;
-    if (answer->kind != PageAnswer::Kind::chosen) return Stage::leave;
-    if (answer->choice == tasks.size()) return Stage::earlier;
+    if (answer->kind == PageAnswer::Kind::back) return Next::who;
+    if (answer->kind != PageAnswer::Kind::chosen) return Next::leave;
+    if (answer->choice == tasks.size()) return Next::earlier;
     choose(tasks[answer->choice].scenario);
-    return Stage::briefing;
+    return Next::briefing;
   }
 
   /// Title of a scenario by its name; the name of one that is not offered.
@@ -162,7 +163,7 @@ class TrainFlow {
   }
 
   /// An attempt of before: its verdict and all that follows from there.
-  Result<Stage> earlier() {
+  Result<Next> earlier() {
     auto records = room_.desk->finished(person_);
     ARTUS_TRY(records);
     std::vector<EarlierAttempt> attempts;
@@ -170,27 +171,27 @@ class TrainFlow {
       attempts.push_back({record, title_of(record.scenario)});
     const auto answer = show(make_earlier_page(attempts, language_));
     ARTUS_TRY(answer);
-    if (answer->kind == PageAnswer::Kind::back) return Stage::what;
-    if (answer->kind != PageAnswer::Kind::chosen) return Stage::leave;
+    if (answer->kind == PageAnswer::Kind::back) return Next::what;
+    if (answer->kind != PageAnswer::Kind::chosen) return Next::leave;
     const AttemptRecord& record = attempts[answer->choice].record;
     auto scenario = read_scenario(std::filesystem::path(record.folder) / "scenario.toml");
     ARTUS_TRY(scenario);
     choose(*scenario);
     const auto there = prepare();
     ARTUS_TRY(there);
-    if (!*there) return Stage::leave;
+    if (!*there) return Next::leave;
     task_ = {person_, scenario_, scene_, {}};
-    auto outcome =
-        meanwhile(Said::busy_earlier, [&] { return read_attempt(*room_.desk, task_, record); });
+    auto outcome = meanwhile(msgid("The attempt is being read ..."),
+                             [&] { return read_attempt(*room_.desk, task_, record); });
     ARTUS_TRY(outcome);
-    if (!*outcome) return Stage::leave;
+    if (!*outcome) return Next::leave;
     outcome_ = std::move(**outcome);
-    return Stage::end;
+    return Next::end;
   }
 
   /// What a thread of its own makes while a page asks to wait; empty: the window was closed.
   template <class Make>
-  auto meanwhile(Said what, Make make)
+  auto meanwhile(const char* what, Make make)
       -> Result<std::optional<typename decltype(make())::value_type>> {
     auto making = std::async(std::launch::async, make);
     const auto ready = [&making] {
@@ -213,7 +214,8 @@ class TrainFlow {
       return bodies_.ready(scenario_);
     };
     if (!done()) {
-      const auto waited = show(make_busy_page(Said::busy_body, done, language_));
+      const auto waited =
+          show(make_busy_page(msgid("The body is being prepared ..."), done, language_));
       ARTUS_TRY(waited);
       if (waited->kind != PageAnswer::Kind::done) return false;
     }
@@ -224,10 +226,10 @@ class TrainFlow {
     return true;
   }
 
-  Result<Stage> brief() {
+  Result<Next> brief() {
     const auto there = prepare();
     ARTUS_TRY(there);
-    if (!*there) return Stage::leave;
+    if (!*there) return Next::leave;
     auto tally = room_.desk->tally(person_, scenario_.name);
     ARTUS_TRY(tally);
     const Scenario offered = with_faded_aids(scenario_, *tally, true);
@@ -241,31 +243,31 @@ class TrainFlow {
         bodies_.want(scenario_);
         for (PageChoice& choice : shown.choices) choice.picture = bodies_.picture(scenario_);
       };
-      if (at > 0) page.stage.clear();  // the same page: the script's steps go on
+      if (at > 0) page.name.clear();  // the same page: the script's steps go on
       const auto answer = offer(std::move(page));
       ARTUS_TRY(answer);
       if (answer->kind == PageAnswer::Kind::done) return take_remote();
-      if (answer->kind == PageAnswer::Kind::back) return Stage::what;
-      if (answer->kind != PageAnswer::Kind::chosen) return Stage::leave;
+      if (answer->kind == PageAnswer::Kind::back) return Next::what;
+      if (answer->kind != PageAnswer::Kind::chosen) return Next::leave;
       const BriefingChoice& choice = choices[answer->choice];
       if (choice.kind != BriefingChoice::Kind::ask) {
         task_ = {
             person_,
             with_faded_aids(scenario_, *tally, choice.kind == BriefingChoice::Kind::begin_aided),
             scene_, asked_};
-        return Stage::attempt;
+        return Next::attempt;
       }
       asked_.insert(choice.step);
       at = std::min(answer->choice + 1, choices.size() - 1);
     }
   }
 
-  Result<Stage> attempt() {
+  Result<Next> attempt() {
     pages_.reset();  // the session's window takes the screen
     auto outcome = run_attempt(room_, task_);
     ARTUS_TRY(outcome);
     outcome_ = std::move(*outcome);
-    return outcome_.finished ? Stage::end : Stage::leave;
+    return outcome_.finished ? Next::end : Next::leave;
   }
 
   /// The one that the feedback names; else the first above this one that was not passed, when this
@@ -282,42 +284,42 @@ class TrainFlow {
     return at_;
   }
 
-  Result<Stage> review() {
-    const auto made =
-        meanwhile(Said::busy_review, [this] { return make_review(task_, outcome_, language_); });
+  Result<Next> review() {
+    const auto made = meanwhile(msgid("The review is being prepared ..."),
+                                [this] { return make_review(task_, outcome_, language_); });
     ARTUS_TRY(made);
-    if (!*made) return Stage::leave;
+    if (!*made) return Next::leave;
     pages_.reset();
     const auto back = run_review(*room_.screen, page_options_, **made);
     ARTUS_TRY(back);
-    return *back ? Stage::end : Stage::leave;
+    return *back ? Next::end : Next::leave;
   }
 
-  Result<Stage> end() {
+  Result<Next> end() {
     const auto next = next_task();
     ARTUS_TRY(next);
     const auto answer =
         offer(make_end_page(outcome_, title_words(language_, scenarios_[*next]), language_));
     ARTUS_TRY(answer);
     if (answer->kind == PageAnswer::Kind::done) return take_remote();
-    if (answer->kind != PageAnswer::Kind::chosen) return Stage::leave;
+    if (answer->kind != PageAnswer::Kind::chosen) return Next::leave;
     switch (static_cast<AfterAttempt>(answer->choice)) {
       case AfterAttempt::review:
         return review();
       case AfterAttempt::again:
         asked_.clear();
-        return Stage::briefing;
+        return Next::briefing;
       case AfterAttempt::next:
         choose(scenarios_[*next]);
-        return Stage::briefing;
+        return Next::briefing;
       case AfterAttempt::other:
-        return Stage::what;
+        return Next::what;
       case AfterAttempt::who:
-        return Stage::who;
+        return Next::who;
       case AfterAttempt::leave:
         break;
     }
-    return Stage::leave;
+    return Next::leave;
   }
 
   const TrainOptions& options_;

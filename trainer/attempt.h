@@ -1,27 +1,46 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <filesystem>
+#include <functional>
 #include <memory>
 #include <set>
 #include <string>
 
-#include "artus/detail/apps/options/session_options.h"
+#include "artus/detail/exchange/session_link.h"
+#include "artus/detail/trainer/bodies.h"
+#include "artus/detail/trainer/desk.h"
 #include "artus/detail/trainer/remote_controls.h"
-#include "artus/detail/trainer/train_desk.h"
 #include "artus/detail/training/feedback.h"
 #include "artus/detail/training/player.h"
 #include "artus/detail/viewer/input/screen.h"
 #include "artus/detail/viewer/window.h"
+#include "artus/haptics/device.h"
 
 namespace artus {
+
+/// By which hands and on what an attempt runs.
+struct AttemptSetup {
+  DeviceLimits device;
+  std::string input = "hand";  ///< as records name it
+  /// Makes the device of the hands; empty: mouse, keyboard and gamepad.
+  std::function<Result<std::unique_ptr<InputDevice>>(const SessionParams&, const CompiledJoint&)>
+      make_device;
+  double pose_hold = 0;  ///< s that a device may hold a pose before it is stale; 0: the guard's own
+  bool rigid = false;
+  int image_threads = 0;      ///< 0: all
+  int haptic_cpu = -1;        ///< -1: any
+  bool share_images = false;  ///< as shared memory
+  std::string prefix;         ///< of its names
+};
 
 /// What attempts one after the other share; the pointers outlive them.
 struct TrainContext {
   Screen* screen = nullptr;
   TrainDesk* desk = nullptr;
-  const SessionOptions* session = nullptr;  ///< input, device and link
-  const WindowOptions* window = nullptr;    ///< how it looks; its script is of no use here
-  StagedScript* script = nullptr;
-  const TrackerInput* tracker = nullptr;
+  const AttemptSetup* setup = nullptr;
+  SceneLoader load_scene;
+  const WindowOptions* window = nullptr;  ///< how it looks; its script is of no use here
+  PageScript* script = nullptr;
   SessionLink* link = nullptr;  ///< to other programs; null: none may listen
   RemoteTurns* turns = nullptr;
 };

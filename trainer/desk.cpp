@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/detail/trainer/train_desk.h"
+#include "artus/detail/trainer/desk.h"
 
 #include <algorithm>
 #include <array>

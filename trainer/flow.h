@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "artus/detail/trainer/attempt.h"
 #include "artus/detail/trainer/remote_controls.h"
-#include "artus/detail/trainer/train_attempt.h"
 #include "artus/detail/viewer/pages/page.h"
 
 namespace artus {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
-#include "artus/detail/trainer/train_attempt.h"
+#include "artus/detail/trainer/attempt.h"
 #include "artus/detail/viewer/pages/review.h"
 
 namespace artus {
