@@ -33,8 +33,11 @@ function(artus_library name)
     artus_precompiled(artus_${name} REUSE artus_core)
   endif()
   target_link_libraries(artus_${name} PUBLIC ${A_DEPENDS} PRIVATE ${A_PRIVATE_DEPENDS})
-  install(TARGETS artus_${name} EXPORT artus-${name} FILE_SET HEADERS DESTINATION include)
-  install(EXPORT artus-${name} NAMESPACE artus:: DESTINATION lib/cmake/artus FILE artus-${name}-targets.cmake)
+  install(TARGETS artus_${name} EXPORT artus-${name}
+    ARCHIVE DESTINATION lib COMPONENT development OPTIONAL
+    FILE_SET HEADERS DESTINATION include COMPONENT development)
+  install(EXPORT artus-${name} NAMESPACE artus:: DESTINATION lib/cmake/artus FILE artus-${name}-targets.cmake
+    COMPONENT development)
   set(rooms ${A_DEPENDS} ${A_PRIVATE_DEPENDS})
   list(FILTER rooms INCLUDE REGEX "^artus::")
   list(TRANSFORM rooms REPLACE "^artus::" "")
