@@ -46,7 +46,7 @@ class Recorder {
 
   /// Whether each phase met its goal in time.
   Result<bool> run(const InjectionPass& pass, int number, double start_time) {
-    InjectionOperator person(pass.entry, pass.direction, -kStartOutside, pass.phases);
+    InjectionOperator person(pass.entry, pass.direction, -kOutsideAtFirst, pass.phases);
     HandParams hand = options_->hand;
     hand.seed = options_->seed + static_cast<std::uint64_t>(number);
     HandLoop loop({options_->rate_hz, 20000}, *device_, hand, person.start());
