@@ -53,8 +53,7 @@ struct CompiledJoint {
                                                          const std::string& where);
 
 /// Reads what write_compiled_joint wrote, or the bundled file of that name (find_joint). Errors:
-/// not_found, unsupported (other version), corrupt (truncated, checksum, index out of range, not
-/// finite).
+/// not_found, unsupported (other version), corrupt (truncated, checksum, index, not finite).
 [[nodiscard]] Result<CompiledJoint> read_compiled_joint(const std::filesystem::path& file);
 
 }  // namespace artus

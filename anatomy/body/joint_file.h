@@ -132,10 +132,9 @@ struct JointFile {
   std::vector<PatientValue> patient;         ///< whose joint it is; empty: as modelled
 };
 
-/// Reads joint.toml in the folder that `joint` names (find_joint), with the variants that it asks
-/// for and of the patient it names (split_variants). `surface_folder` replaces the file's own when
-/// not empty; otherwise the environment's ARTUS_SURFACES_<NAME> does (joint name in capitals, '-'
-/// as
+/// Reads joint.toml in the folder of `joint` (find_joint), with the variants that it asks for
+/// and of the patient it names (split_variants). `surface_folder` replaces the file's own when not
+/// empty; otherwise the environment's ARTUS_SURFACES_<NAME> does (joint name in capitals, '-' as
 /// '_') when set. Errors: not_found (file, surface folder, tissue library), malformed (with line
 /// and column), invalid (unknown key or tissue, duplicate name, missing value, construct of an
 /// unknown structure); every problem of the file is named in one message.
