@@ -33,11 +33,12 @@ void fields_of(P& aids, F&& visit) {
   visit("keep_out", keep_out);
 }
 
-/// All but the feel, whose choices may be unset, and the joint's place.
+/// All but the feel, whose choices may be unset, the joint's place, and what a recording of before
+/// does not have (recording_head.cpp).
 template <Like<SessionParams> P, class F>
 void fields_of(P& params, F&& visit) {
   auto& [haptic_rate, image_rate, device, needle, passivity, guard, feel, gesture, X_WJ, transducer,
-         image, needle_shape, syringe, aids, deform] = params;
+         image, needle_shape, syringe, aids, deform, wait_for_cage] = params;
   visit("haptic_rate", haptic_rate);
   visit("image_rate", image_rate);
   visit("device", device);

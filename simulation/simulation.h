@@ -79,6 +79,8 @@ class Simulation {
   const Felt& step(const Hands& hands);
   /// The same with a device's sample as it is recorded.
   const HapticSnapshot& step(const TickInput& input);
+  /// The next tick with what a device says, at that tick's time.
+  [[nodiscard]] TickInput next_input(const DeviceSample& device) const noexcept;
   /// The image that is due since the last step: its input; null: none is.
   [[nodiscard]] const FrameInput* due() const noexcept { return due_ ? &*due_ : nullptr; }
   /// The tissue's step to the due image's instant, which the next tick feels. Requires: one is due.
@@ -136,7 +138,7 @@ class Simulation {
   }
 
  private:
-  [[nodiscard]] ImageCore& imaging();
+  [[nodiscard]] ImageCore& imaging(const FrameInput* first = nullptr);
 
   std::shared_ptr<const Scene> scene_;
   SessionParams params_;

@@ -12,8 +12,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "artus/simulation/simulation.h"
 #include "artus/detail/simulation/session_fields.h"
+#include "artus/simulation/simulation.h"
 #include "tests/session/session_support.h"
 
 namespace artus {

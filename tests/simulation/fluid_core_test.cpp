@@ -8,8 +8,8 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/detail/simulation/image_core.h"
 #include "artus/detail/simulation/haptic_core.h"
+#include "artus/detail/simulation/image_core.h"
 #include "tests/session/session_support.h"
 #include "tests/support/layered_body.h"
 #include "tests/support/meshed_block.h"

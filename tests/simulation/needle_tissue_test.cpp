@@ -9,8 +9,8 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/detail/simulation/image_core.h"
 #include "artus/detail/simulation/haptic_core.h"
+#include "artus/detail/simulation/image_core.h"
 #include "artus/session/replay.h"
 #include "tests/session/session_support.h"
 #include "tests/support/meshed_block.h"
