@@ -98,7 +98,7 @@ void print(const nlohmann::json& report) {
   if (report.contains("needle")) {
     const auto& needle = report["needle"];
     std::printf("needle going %s: %.2f N, tissue at its tip moved %.2f mm",
-                needle["way"].get<std::string>().c_str(), needle["force_n"].get<double>(),
+                needle["direction"].get<std::string>().c_str(), needle["force_n"].get<double>(),
                 needle["tissue_moved_mm"].get<double>());
     if (needle.contains("tented"))
       std::printf(", %s tented", needle["tented"].get<std::string>().c_str());
@@ -115,7 +115,7 @@ void print(const nlohmann::json& report) {
 Result<std::optional<NeedleView>> needle_of(const DeformOptions& options,
                                             const CompiledJoint& joint) {
   if (options.needle.empty() && !options.press.needle_direction.empty())
-    return fail(ErrorCode::malformed, "needs a needle (--needle)", "--needle-way");
+    return fail(ErrorCode::malformed, "needs a needle (--needle)", "--needle-direction");
   if (options.needle.empty()) return std::optional<NeedleView>();
   NeedleView needle;
   const auto shape = needle_of_flag(options.gauge);
@@ -152,14 +152,22 @@ ExitCode run_deform(const DeformOptions& options) {
   const auto face = pressing_face_at(probe->transducer, "--transducer");
   if (!face) return report_error(face.error(), options.json);
   params.face = *face;
+  if (*needle && (options.cell_mm != 3 || options.poisson_ratio != SoftBodyParams{}.poisson_ratio))
+    return report_error(
+        {ErrorCode::malformed, "cubes and Poisson's ratio are a session's where there is a needle",
+         "--needle"},
+        options.json);
   auto body = SoftBody::make(*joint, X_JP, params);
   if (!body) return report_error(body.error(), options.json);
   auto pressed = press(*body, X_JP, options.press);
   if (!pressed) return report_error(pressed.error(), options.json);
-  const auto dragged = drag(*body, *needle, options.press.needle_direction, *pressed);
-  if (!dragged) return report_error(dragged.error(), options.json);
   auto report = to_json(pressed->press, *body);
-  if (*needle) report["needle"] = *dragged;
+  if (*needle) {
+    auto dragged =
+        drag(*joint, probe->transducer, **needle, options.press.needle_direction, *pressed);
+    if (!dragged) return report_error(dragged.error(), options.json);
+    report["needle"] = std::move(*dragged);
+  }
   const std::shared_ptr<const DeformedBody>& snapshot = pressed->tissue;
   report["joint"] = (*joint)->name;
   report["layers"] = to_json(layers_below(*snapshot, X_JP), **joint);
@@ -210,7 +218,7 @@ void add_deform_command(Command& app, ExitCode& code) {
                       "way to it, too (default: none)");
   add_gauge_option(command, options->gauge);
   command
-      ->add_option("--needle-way", options->press.needle_direction,
+      ->add_option("--needle-direction,--needle-way", options->press.needle_direction,
                    "in, out: which way the needle was last moved (default: in)")
       ->one_of({"in", "out"});
   command->add_option("--cell-mm", options->cell_mm, "edge of the cubes under the face (default 3)")

@@ -7,10 +7,11 @@
 #include "artus/dataset/pose_list.h"
 #include "artus/detail/apps/options/hand_options.h"
 #include "artus/detail/apps/options/pose_files.h"
+#include "artus/detail/apps/options/session_options.h"
 #include "artus/detail/core/csv.h"
 #include "artus/detail/core/text_file.h"
 #include "artus/detail/core/units.h"
-#include "artus/detail/operators/trajectory_forces.h"
+#include "artus/detail/simulation/trajectory_forces.h"
 #include "artus/raycast/scene.h"
 
 namespace artus {
@@ -23,24 +24,25 @@ struct ForceOptions {
   std::filesystem::path out;
   std::string device = "ideal";
   double rate = 1000;
+  bool rigid = false;
   bool json = false;
 };
 
 /// The needle at every tick. Errors: those of read_any_poses and sample_path; invalid, a pose
 /// without needle or time.
-Result<std::vector<Pose>> needle_path(const ForceOptions& options) {
+Result<std::vector<TrajectoryPose>> needle_path(const ForceOptions& options) {
   const auto listed = read_any_poses(options.poses);
   ARTUS_TRY(listed);
   const auto ticks = sample_path(*listed, options.rate);
   ARTUS_TRY(ticks);
-  std::vector<Pose> path;
+  std::vector<TrajectoryPose> path;
   path.reserve(ticks->size());
   for (const ListedPose& pose : *ticks) {
     if (!pose.X_JN)
       return fail(ErrorCode::invalid,
                   "every pose needs a needle: pose " + std::to_string(path.size()) + " has none",
                   options.poses.string());
-    path.push_back(*pose.X_JN);
+    path.push_back({*pose.X_JN, pose.X_JP});
   }
   return path;
 }
@@ -68,7 +70,10 @@ ExitCode run_force(const ForceOptions& options) {
   const auto feel = make_feel(options.feel, **joint);
   if (!feel) return report_error(feel.error(), options.json);
   const auto scene = std::make_shared<const Scene>(*joint);
-  const auto forces = compute_trajectory_forces(scene, *path, options.rate, options.device, *feel);
+  auto params = trajectory_params(*scene, options.device, options.rate, options.rigid);
+  if (!params) return report_error(params.error(), options.json);
+  params->feel = *feel;
+  const auto forces = compute_trajectory_forces(scene, *path, *params);
   if (!forces) return report_error(forces.error(), options.json);
   const auto written = write_text(options.out, to_table(*forces, options.rate, **joint));
   if (!written) return report_error(written.error(), options.json);
@@ -98,6 +103,7 @@ void add_force_command(Command& app, ExitCode& code) {
   add_haptic_rate_option(command, options->rate, "--rate,--haptic-rate");
   add_device_option(command, options->device);
   command->add_option("-o,--out", options->out, "CSV")->required();
+  add_rigid_option(command, options->rigid);
   command->add_flag("--json", options->json, "machine-readable output");
   on_run(command, code, [options] { return run_force(*options); });
 }

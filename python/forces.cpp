@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+#include <optional>
+#include <string>
+#include <vector>
+
 #include <pybind11/stl.h>
 
-#include "artus/detail/operators/trajectory_forces.h"
 #include "artus/detail/python/borders.h"
+#include "artus/detail/simulation/trajectory_forces.h"
 
 namespace artus::python {
 namespace {
@@ -39,39 +43,60 @@ py::dict to_arrays(const std::vector<TrajectoryForce>& ticks) {
   return out;
 }
 
-py::dict run(const Joint& joint, const std::vector<Pose>& poses, double rate,
-             const std::string& device) {
-  Result<std::vector<TrajectoryForce>> ticks = [&] {
+/// How a trajectory is felt.
+struct Feeling {
+  double rate = 1000;  ///< Hz
+  std::string device;
+  bool rigid = false;
+};
+
+py::dict run(const Joint& joint, const std::vector<TrajectoryPose>& poses, const Feeling& how) {
+  Result<std::vector<TrajectoryForce>> ticks = [&]() -> Result<std::vector<TrajectoryForce>> {
     const py::gil_scoped_release others_may_run;
-    return compute_trajectory_forces(joint.scene, poses, rate, device);
+    const auto params = trajectory_params(*joint.scene, how.device, how.rate, how.rigid);
+    ARTUS_TRY(params);
+    return compute_trajectory_forces(joint.scene, poses, *params);
   }();
   return to_arrays(value_by_name(std::move(ticks)));
 }
 
-py::dict forces(const Joint& joint, const Numbers& poses, double rate, const std::string& device) {
-  return run(joint, poses_of(poses, "poses"), rate, device);
+py::dict forces(const Joint& joint, const Numbers& needles, const std::optional<Numbers>& probes,
+                double rate, const std::string& device, bool rigid) {
+  std::vector<TrajectoryPose> poses;
+  for (const Pose& X_JN : poses_of(needles, "poses")) poses.push_back({X_JN, {}});
+  if (probes) {
+    const std::vector<Pose> at = poses_of(*probes, "probe");
+    if (at.size() != poses.size() && at.size() != 1)
+      throw py::value_error("probe needs one pose, or as many as the needle");
+    for (std::size_t i = 0; i < poses.size(); ++i) poses[i].X_JP = at[at.size() == 1 ? 0 : i];
+  }
+  return run(joint, poses, {rate, device, rigid});
 }
 
 py::dict insert(const Joint& joint, const Numbers& entry, const Numbers& target, double speed,
-                double rate, const std::string& device) {
+                double rate, const std::string& device, bool rigid) {
   const Vec3 from = point_of(entry, "entry");
   const Vec3 to = point_of(target, "target");
   if (!(speed > 0 && speed < 10))
     throw py::value_error("speed must be positive and below 10 m/s; it is in m/s");
   if (!(rate >= 100 && rate <= 20000)) throw py::value_error("rate must be 100 to 20000 Hz");
   if ((to - from).norm() < 1e-6) throw py::value_error("entry and target are the same point");
-  return run(joint, straight_insertion(from, to, speed, rate), rate, device);
+  std::vector<TrajectoryPose> poses;
+  for (const Pose& X_JN : straight_insertion(from, to, speed, rate)) poses.push_back({X_JN, {}});
+  return run(joint, poses, {rate, device, rigid});
 }
 
 }  // namespace
 
 void add_forces(py::module_& module) {
-  module.def("forces", &forces, py::arg("joint"), py::arg("poses"), py::kw_only(),
-             py::arg("rate") = 1000.0, py::arg("device") = "ideal",
-             "Lead the needle through poses (n, 4, 4), one a tick of `rate` Hz: a dict of arrays.");
+  module.def("forces", &forces, py::arg("joint"), py::arg("poses"), py::arg("probe") = py::none(),
+             py::kw_only(), py::arg("rate") = 1000.0, py::arg("device") = "ideal",
+             py::arg("rigid") = false,
+             "Lead the needle through poses (n, 4, 4), one a tick of `rate` Hz, and a probe, one "
+             "pose or as many: a dict of arrays. Tissue gives way unless `rigid`.");
   module.def("insert", &insert, py::arg("joint"), py::arg("entry"), py::arg("target"),
              py::kw_only(), py::arg("speed") = 0.01, py::arg("rate") = 1000.0,
-             py::arg("device") = "ideal",
+             py::arg("device") = "ideal", py::arg("rigid") = false,
              "A straight insertion from 5 mm above entry to target and back: as forces().");
 }
 

@@ -18,6 +18,7 @@ namespace artus {
 
 class HapticCore;
 class ImageCore;
+class NeedleModel;
 
 /// What both hands do in one tick, world frame W.
 struct Hands {

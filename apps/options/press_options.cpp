@@ -9,39 +9,18 @@
 #include "artus/detail/core/units.h"
 #include "artus/detail/echo/probe/pressing_face.h"
 #include "artus/detail/raycast/moving_scene.h"
-#include "artus/detail/simulation/needle_drag.h"
+#include "artus/detail/simulation/still.h"
 
 namespace artus {
 namespace {
 
 constexpr double kDefaultPress = 3;  // N
 
-constexpr double kPart = 1e-3;  // m by which tissue is pushed on at a time
-
-/// The material point that is now at `p`, as a term of length one along the needle, frame C.
-PointLoad along_needle(const PressedBody& pressed, const Pose& X_CJ, const Vec3& p,
-                       const Vec3& axis) {
-  return {X_CJ * pressed.tissue->to_rest(p).p_rest, X_CJ.linear() * axis};
-}
-
-/// Pushes the tissue before the tip on until what is to lie there does, part by part.
-bool push_on(SoftBody& body, const Pose& X_JP, const PointLoad& term, double push) {
-  SoftSolver& solver = body.solver();
-  solver.set_constraints({{{term}, 0}});
-  const double from = solver.constraint_sum(0);
-  for (double distance = kPart; distance < push; distance += kPart) {
-    solver.set_constraint_value(0, from + distance);
-    body.settle(X_JP, 5e-5, 4);
-  }
-  solver.set_constraint_value(0, from + push);
-  return body.settle(X_JP, 2e-6, 60);
-}
-
 }  // namespace
 
 void add_drag_option(Command* command, PressOptions& options) {
   command
-      ->add_option("--needle-way", options.needle_direction,
+      ->add_option("--needle-direction,--needle-way", options.needle_direction,
                    "the needle was last moved in or out, and drags what it slides through; needs "
                    "--press-n or --press-mm")
       ->one_of({"in", "out"});
@@ -83,54 +62,32 @@ Result<PressedBody> press(SoftBody& body, const Pose& X_JP, const PressOptions& 
   return PressedBody{*pressed, body.snapshot()};
 }
 
-Result<nlohmann::json> drag(SoftBody& body, const std::optional<NeedleView>& needle,
-                            const std::string& distance, PressedBody& pressed) {
-  if (!needle) return nlohmann::json();
-  const bool out = distance == "out";
-  const Pose X_CJ = body.cage_pose().inverse();
-  const Vec3 axis = needle->X_JN.linear().col(2);
-  const Vec3 tip = needle->X_JN.translation();
-  SoftSolver& solver = body.solver();
-  const auto scene = make_scene(pressed.tissue);
-  solver.set_constraints({{{along_needle(pressed, X_CJ, tip, axis)}, 0}});
-  const double compliance = solver.constraint_compliance()(0, 0);
-  solver.set_constraints({});
-  const NeedleDrag held =
-      find_drag(*scene, *needle, out ? NeedleDirection::out : NeedleDirection::in, compliance);
-  std::vector<PointLoad> in_cage;
-  double sum = held.tip_force;
-  for (const PointLoad& load : held.shaft) {
-    in_cage.push_back(along_needle(pressed, X_CJ, load.p_rest, load.force));
-    sum += load.force.dot(axis);
-  }
-  solver.set_loads(std::move(in_cage));
-  const Pose& X_JP = pressed.press.X_JP;
-  bool settled = body.settle(X_JP, held.push > 0 ? 5e-5 : 2e-6, 60);
-  if (held.push > 0)
-    settled =
-        push_on(body, X_JP, along_needle(pressed, X_CJ, tip - held.push * axis, axis), held.push);
-  if (!settled)
-    return fail(ErrorCode::failed, "the tissue does not come to rest under this needle",
-                "--needle-way");
-  const auto before = pressed.tissue;
-  pressed.tissue = body.snapshot();
-  pressed.press.contact = body.force_J();
-  pressed.press.normal_force = -pressed.press.contact.force.dot(X_JP.linear().col(2));
-  const Vec3 at_tip = before->to_rest(tip - held.push * axis).p_rest;
-  const Vec3 moved = pressed.tissue->displacement(at_tip) - before->displacement(at_tip);
-  nlohmann::json report{{"way", out ? "out" : "in"},
-                        {"force_n", sum},
-                        {"tip_force_n", held.tip_force},
-                        {"tissue_moved_mm", moved.dot(axis) / kMillimetre},
-                        {"least_volume_ratio", solver.forces().min_volume}};
-  if (held.tented != kOutside) report["tented"] = body.joint()->regions[held.tented].name;
+Result<nlohmann::json> drag(const std::shared_ptr<const CompiledJoint>& joint,
+                            const Transducer& transducer, const NeedleView& needle,
+                            const std::string& direction, PressedBody& pressed) {
+  const bool out = direction == "out";
+  const auto still = lead_to(joint, pressed.press, transducer, needle,
+                             out ? NeedleDirection::out : NeedleDirection::in);
+  ARTUS_TRY(still);
+  pressed.tissue = still->scene->tissue();
+  pressed.press.normal_force = still->probe_force;
+  pressed.press.contact.share = still->share;
+  const auto name = [&joint](RegionId region) {
+    return joint->regions[region].name;
+  };
+  nlohmann::json report{{"direction", out ? "out" : "in"},
+                        {"force_n", still->needle.force},
+                        {"tip_force_n", still->needle.tip_force},
+                        {"tissue_moved_mm", still->needle.tissue_moved / kMillimetre},
+                        {"region", name(still->needle.region)}};
+  if (still->needle.tented != kOutside) report["tented"] = name(still->needle.tented);
   return report;
 }
 
 Result<nlohmann::json> press(LoadedView& view, const PressOptions& options) {
   if (!options.needle_direction.empty() && !(options.wanted() && view.needle))
     return fail(ErrorCode::malformed, "needs a pressed probe (--press-n) and a needle (--needle)",
-                "--needle-way");
+                "--needle-direction");
   if (!options.wanted()) return nlohmann::json();
   auto body = make_soft_body(view.scene->shared_joint(), view.X_JP, view.view.transducer);
   ARTUS_TRY(body);
@@ -138,7 +95,8 @@ Result<nlohmann::json> press(LoadedView& view, const PressOptions& options) {
   ARTUS_TRY(pressed);
   auto report = to_json(pressed->press);
   if (view.needle && !options.needle_direction.empty()) {
-    auto needle = drag(*body, view.needle, options.needle_direction, *pressed);
+    auto needle = drag(view.scene->shared_joint(), view.view.transducer, *view.needle,
+                       options.needle_direction, *pressed);
     ARTUS_TRY(needle);
     report["needle"] = std::move(*needle);
   }

@@ -41,11 +41,12 @@ struct PressedBody {
 [[nodiscard]] Result<SoftBody> make_soft_body(std::shared_ptr<const CompiledJoint> joint,
                                               const Pose& X_JP, const Transducer& transducer);
 
-/// Lets the body give way to a needle that was last moved `way` ("out", or in) under the held
-/// probe; `pressed` is of it from then on. Returns what the needle does, as JSON; null without one.
-/// Errors: failed (the tissue does not come to rest).
-[[nodiscard]] Result<nlohmann::json> drag(SoftBody& body, const std::optional<NeedleView>& needle,
-                                          const std::string& path, PressedBody& pressed);
+/// The pressed body with a needle in it that was last moved in `direction` ("out", or in), as
+/// lead_to has it; `pressed` is of it from then on. Returns what the needle does, as JSON. Errors:
+/// those of lead_to.
+[[nodiscard]] Result<nlohmann::json> drag(const std::shared_ptr<const CompiledJoint>& joint,
+                                          const Transducer& transducer, const NeedleView& needle,
+                                          const std::string& direction, PressedBody& pressed);
 
 /// The flag for commands that draw a needle in the pressed body.
 void add_drag_option(Command* command, PressOptions& options);

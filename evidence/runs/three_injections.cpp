@@ -77,7 +77,7 @@ class Recorder {
 
   // Whether each phase met its goal in time.
   Result<bool> run(const InjectionPass& pass, int number, double start_time) {
-    InjectionOperator person(pass.entry, pass.direction, -kStartOutside, pass.phases);
+    InjectionOperator person(pass.entry, pass.direction, -kOutsideAtFirst, pass.phases);
     HandParams hand = out_->options.hand;
     hand.seed = out_->options.seed + static_cast<std::uint64_t>(number);
     const SessionParams& params = simulation_->params();

@@ -41,7 +41,7 @@ bool is_tissue(const CompiledJoint& joint, RegionId region, const std::string& n
 std::optional<LinePlan> plan_line(const Scene& scene, const Vec3& entry, const Vec3& direction,
                                   const std::string& target_tissue, RegionId target_region) {
   const CompiledJoint& joint = scene.joint();
-  const double before = kStartOutside;
+  const double before = kOutsideAtFirst;
   std::optional<LinePlan> plan;
   bool entered = false;
   for (const TissueInterval& s :
@@ -69,14 +69,14 @@ std::optional<LinePlan> plan_before_bone(const Scene& scene, const Vec3& entry,
                                          const Vec3& direction) {
   const CompiledJoint& joint = scene.joint();
   std::optional<LinePlan> last;
-  for (const TissueInterval& s :
-       tissue_intervals(scene, {entry - kStartOutside * direction, entry + kSearch * direction})) {
+  for (const TissueInterval& s : tissue_intervals(
+           scene, {entry - kOutsideAtFirst * direction, entry + kSearch * direction})) {
     if (s.region < kFirstRegion) continue;
     if (joint.tissue_of(s.region).haptic.hard) {
-      if (last) last->bone = s.entry - kStartOutside;
+      if (last) last->bone = s.entry - kOutsideAtFirst;
       return last;
     }
-    if (s.exit - s.entry > kIntoTarget) last = LinePlan{s.entry - kStartOutside, {}, s.region};
+    if (s.exit - s.entry > kIntoTarget) last = LinePlan{s.entry - kOutsideAtFirst, {}, s.region};
   }
   return std::nullopt;
 }
@@ -136,7 +136,7 @@ OperatorPhase withdraw_to(double depth, double speed, double from, std::string l
 OperatorPhase reach_target(const ThreeInjectionsOptions& options, const LinePlan& plan,
                            std::string label) {
   OperatorPhase phase =
-      advance_to(Goal::region, options.slow_speed, plan.target + kStartOutside, std::move(label));
+      advance_to(Goal::region, options.slow_speed, plan.target + kOutsideAtFirst, std::move(label));
   phase.region = plan.region;
   phase.depth = kIntoTarget;
   const auto bore = bore_of_gauge(options.dose.syringe.gauge, kSearch);
@@ -166,7 +166,7 @@ void add_bone_and_exit(InjectionPass& pass, const ThreeInjectionsOptions& option
     pass.deepest = std::max(pass.deepest, *bone);
   }
   pass.phases.push_back(wait(Kind::hold, 0.2));
-  pass.phases.push_back(withdraw_to(-kStartOutside, std::max(speed, options.slow_speed * 2),
+  pass.phases.push_back(withdraw_to(-kOutsideAtFirst, std::max(speed, options.slow_speed * 2),
                                     pass.deepest, "needle out"));
   pass.phases.push_back(wait(Kind::wait, kPause));
 }

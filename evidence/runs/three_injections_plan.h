@@ -10,7 +10,7 @@
 
 namespace artus {
 
-constexpr double kStartOutside = 0.012;  ///< m before the skin, where each injection begins
+constexpr double kOutsideAtFirst = 0.012;  ///< m before the skin, where each injection begins
 
 /// One injection as planned: the line and what the operator does.
 struct InjectionPass {

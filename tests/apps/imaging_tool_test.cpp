@@ -245,9 +245,9 @@ TEST_F(ImagingTool, APressedPictureSaysWhatWasPressed) {
 }
 
 /// What the report of a command says of a needle in a pressed simple-shoulder, moved last as `way`.
-nlohmann::json needle_moved(std::vector<std::string> line, const std::string& displacement) {
+nlohmann::json needle_moved(std::vector<std::string> line, const std::string& direction) {
   line.insert(line.end(), {"-j", kSimple, "--press-mm", "1", "--needle", "default", "--needle-way",
-                           displacement, "--json"});
+                           direction, "--json"});
   const auto r = artus(line);
   EXPECT_EQ(r.exit_code, 0) << r.err << r.out;
   return nlohmann::json::parse(r.out);
@@ -278,10 +278,11 @@ TEST_F(ImagingTool, NeedleDrawnBackPullsTissueAlongInPictureAndDeformAlike) {
   EXPECT_EQ(needle_moved({"deform"}, "out").at("needle"), needle);
 }
 
-TEST_F(ImagingTool, AWayWithoutANeedleIsRefused) {
+TEST_F(ImagingTool, ADirectionWithoutANeedleIsRefused) {
   const auto without = artus({"deform", "-j", kSimple, "--needle-way", "in"});
   EXPECT_EQ(without.exit_code, 2);
-  EXPECT_NE(without.err.find("--needle-way: needs a needle"), std::string::npos) << without.err;
+  EXPECT_NE(without.err.find("--needle-direction: needs a needle"), std::string::npos)
+      << without.err;
 }
 
 TEST_F(ImagingTool, NeedleDragsNothingInARigidBody) {

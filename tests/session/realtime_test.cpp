@@ -14,6 +14,7 @@
 #include "artus/detail/session/record/recorder.h"
 #include "artus/detail/session/session_exchange.h"
 #include "artus/detail/simulation/hand_aids.h"
+#include "artus/haptics/needle_renderer.h"
 #include "artus/session/recording.h"
 #include "artus/session/shared_memory_device.h"
 #include "artus/simulation/simulation.h"

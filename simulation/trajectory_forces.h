@@ -2,14 +2,15 @@
 #pragma once
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "artus/core/geometry.h"
 #include "artus/core/result.h"
-#include "artus/haptics/needle_feel.h"
 #include "artus/raycast/scene.h"
+#include "artus/simulation/session_params.h"
 
 namespace artus {
 
@@ -24,13 +25,23 @@ struct TrajectoryForce {
   std::uint32_t status = 0;    ///< TickStatus bits
 };
 
-/// The needle led through the poses `X_JN`, one a tick of `rate` Hz, under the laws of `feel`: the
-/// same tick that a session runs. `device`: a name of device_table().
-/// Errors: those of make_needle_renderer; a pose that is no pose shows in the tick's status.
-/// Cost: some us a tick.
+/// The poses of one tick, frame J.
+struct TrajectoryPose {
+  Pose X_JN = Pose::Identity();
+  std::optional<Pose> X_JP;  ///< none: the probe is lifted off
+};
+
+/// The needle led through poses, one a tick of the params' haptic rate: what a session says of the
+/// same poses. Tissue gives way when `params.deform`. A pose that is none shows in the tick's
+/// status. Errors: those of validate. Cost: some us a tick, and the tissue's steps.
 [[nodiscard]] Result<std::vector<TrajectoryForce>> compute_trajectory_forces(
-    const std::shared_ptr<const Scene>& scene, std::span<const Pose> X_JN, double rate,
-    const std::string& device = "ideal", const NeedleFeel& feel = {});
+    const std::shared_ptr<const Scene>& scene, std::span<const TrajectoryPose> poses,
+    const SessionParams& params);
+
+/// Params of a trajectory: a device by name (device_table()), a rate in Hz, tissue that gives way
+/// where the scene's joint can. Errors: not_found (device), invalid (rate).
+[[nodiscard]] Result<SessionParams> trajectory_params(const Scene& scene, const std::string& device,
+                                                      double rate, bool rigid);
 
 /// Poses of a straight insertion, one a tick: from `above` m in front of `entry` to `target` and
 /// back, at `speed` m/s. Requires: entry and target apart, speed and rate positive.
