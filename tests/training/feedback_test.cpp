@@ -24,9 +24,9 @@ using testing::Not;
 
 /// Both hands over six flat layers, told at 100 Hz; the needle in the picture's plane at 35 degrees
 /// to the probe's face unless said otherwise.
-class Hands {
+class ScriptedHands {
  public:
-  explicit Hands(double face_angle = 35) {
+  explicit ScriptedHands(double face_angle = 35) {
     axis_ = Vec3(std::cos(face_angle * kDegree), 0, std::sin(face_angle * kDegree));
     MeterOptions options;
     options.longest = 120;
@@ -95,7 +95,7 @@ const Fault* fault_of(const Feedback& feedback, const std::string& kind) {
 }
 
 TEST(Feedback, AGoodInjectionHasNoFault) {
-  Hands hands;
+  ScriptedHands hands;
   hands.go(4, 23);
   hands.inject(3, -0.01, -10);
   hands.inject(5, 0.2, 40);
@@ -107,7 +107,7 @@ TEST(Feedback, AGoodInjectionHasNoFault) {
 }
 
 TEST(Feedback, LiquidInTheWrongLayerIsToldWithLayerMomentAndHaste) {
-  Hands hands;
+  ScriptedHands hands;
   hands.go(4, 18);
   const double began = hands.time();
   hands.inject(5, 0.2, 40);
@@ -126,7 +126,7 @@ TEST(Feedback, LiquidInTheWrongLayerIsToldWithLayerMomentAndHaste) {
 }
 
 TEST(Feedback, PressureAndHasteAreToldAtTheirPeaks) {
-  Hands hands;
+  ScriptedHands hands;
   hands.go(4, 23);
   hands.inject(3, -0.01, -10);
   hands.inject(2, 0.2, 40);
@@ -148,7 +148,7 @@ TEST(Feedback, PressureAndHasteAreToldAtTheirPeaks) {
 }
 
 TEST(Feedback, DriftIsShownWhereTheProbeWasFastest) {
-  Hands hands;
+  ScriptedHands hands;
   hands.go(2, 8);
   const double slid = hands.time();
   hands.go(1, 12, 6);
@@ -162,7 +162,7 @@ TEST(Feedback, DriftIsShownWhereTheProbeWasFastest) {
 }
 
 TEST(Feedback, ATipBesideThePlaneAndASteepNeedleAreToldApart) {
-  Hands aside;
+  ScriptedHands aside;
   aside.aside = -2.1;
   aside.go(4, 20);
   const Feedback beside = make_feedback(aside.measure(), {});
@@ -170,7 +170,7 @@ TEST(Feedback, ATipBesideThePlaneAndASteepNeedleAreToldApart) {
   ASSERT_NE(unseen, nullptr);
   EXPECT_THAT(unseen->cause, HasSubstr("2.1 mm behind the plane"));
   EXPECT_THAT(unseen->mend, HasSubstr("move the probe"));
-  Hands steep(80);
+  ScriptedHands steep(80);
   steep.go(4, 20);
   const Feedback upright = make_feedback(steep.measure(), {});
   unseen = fault_of(upright, "unseen");
@@ -182,7 +182,7 @@ TEST(Feedback, ATipBesideThePlaneAndASteepNeedleAreToldApart) {
 }
 
 TEST(Feedback, TheWayToThePicturesEdgeIsNobodysFault) {
-  Hands flat(15);  // comes in 30 mm beside the probe's middle, whose picture is 20 mm wide there
+  ScriptedHands flat(15);  // comes in 30 mm beside the probe's middle, whose picture is 20 mm wide there
   flat.go(4, 15);
   const AttemptMeasures m = flat.measure();
   const Metric* unseen = find_metric(m.metrics, "unseen_mm");
@@ -192,7 +192,7 @@ TEST(Feedback, TheWayToThePicturesEdgeIsNobodysFault) {
   EXPECT_NEAR(*unseen->value, *entry->value, 1);
   EXPECT_EQ(fault_of(make_feedback(m, {}), "unseen"), nullptr);
   EXPECT_THAT(past_attempt(0, m.metrics).kinds, Not(testing::Contains("unseen")));
-  Hands beside(15);
+  ScriptedHands beside(15);
   beside.go(1, 3);  // never in the picture
   const AttemptMeasures never = beside.measure();
   EXPECT_EQ(find_metric(never.metrics, "unseen_entry_mm")->value, 0);
@@ -200,7 +200,7 @@ TEST(Feedback, TheWayToThePicturesEdgeIsNobodysFault) {
 }
 
 TEST(Feedback, AFaultOfTheAttemptBeforeWeighsHalfAsMuchAgain) {
-  Hands hands;
+  ScriptedHands hands;
   hands.go(2, 8);
   hands.go(1, 12, 6);
   hands.go(2, 20);
@@ -213,7 +213,7 @@ TEST(Feedback, AFaultOfTheAttemptBeforeWeighsHalfAsMuchAgain) {
 }
 
 TEST(Feedback, IdleTimesAreToldFromLevelFiveOn) {
-  Hands hands;
+  ScriptedHands hands;
   hands.go(3, 15);
   hands.go(15, 15);
   hands.go(1, 23);
@@ -225,7 +225,7 @@ TEST(Feedback, IdleTimesAreToldFromLevelFiveOn) {
 }
 
 TEST(Feedback, ANeedleThatRestsWhileSomethingIsGivenIsNotIdle) {
-  Hands hands;
+  ScriptedHands hands;
   hands.go(3, 15);
   hands.inject(15, 0.1, 20);
   hands.go(1, 23);
@@ -233,7 +233,7 @@ TEST(Feedback, ANeedleThatRestsWhileSomethingIsGivenIsNotIdle) {
 }
 
 TEST(Feedback, TheNextTaskIsOfTheWeakestSkillAndOldPracticeFades) {
-  Hands hands;
+  ScriptedHands hands;
   hands.go(4, 23);
   const AttemptMeasures clean = hands.measure();
   const Judgement passed{true, false, 100, {}};
@@ -270,7 +270,7 @@ TEST(Feedback, WhoDidNotFindWhatWasAskedForIsToldWhyAndLooksAgain) {
   EXPECT_TRUE(past.looked);
   EXPECT_THAT(past.kinds, testing::Contains("not_found"));
   // What was looked for says nothing of the needle, nor the other way round.
-  Hands hands;
+  ScriptedHands hands;
   hands.go(4, 23);
   const Judgement passed{true, false, 100, {}};
   EXPECT_EQ(make_feedback(hands.measure(), passed, {0, {past, past, past}}).next_scenario,
@@ -284,7 +284,7 @@ TEST(Feedback, WhoDidNotFindWhatWasAskedForIsToldWhyAndLooksAgain) {
 }
 
 TEST(Feedback, PastAttemptsAreReadFromTheirNumbers) {
-  Hands hands;
+  ScriptedHands hands;
   hands.go(4, 18, 8);
   hands.inject(2, 0.6, 180);
   const AttemptMeasures m = hands.measure();
