@@ -94,7 +94,7 @@ const HapticSnapshot& Simulation::step(const TickInput& input) {
 const ImagedBody& Simulation::advance() {
   ARTUS_REQUIRE(due_.has_value(), "no image is due");
   shown_ = *std::exchange(due_, std::nullopt);
-  if (params_.deform || images_ || shown_.n_sites > 0)
+  if (params_.deform || images_)
     body_ = imaging(&shown_).advance(shown_);
   else
     body_ = {shown_.number, scene_, {}, {}};

@@ -55,7 +55,8 @@ struct SimulationOptions {
 ///
 /// A loop calls step() and, where it wants the picture of an image that is due, render(). The
 /// tissue goes on at the image rate whether somebody looks or not, and what it answers is felt from
-/// the tick after its image on.
+/// the tick after its image on. In a rigid body, where nobody feels it, what was injected has a
+/// shape from the first picture on.
 ///
 /// Who has threads calls the halves: tick() and take() in one, advance(input) in another,
 /// render(input, body) in a third; they may run at the same time. What the tissue answers crosses

@@ -182,7 +182,8 @@ TEST(Feedback, ATipBesideThePlaneAndASteepNeedleAreToldApart) {
 }
 
 TEST(Feedback, TheWayToThePicturesEdgeIsNobodysFault) {
-  ScriptedHands flat(15);  // comes in 30 mm beside the probe's middle, whose picture is 20 mm wide there
+  ScriptedHands flat(
+      15);  // comes in 30 mm beside the probe's middle, whose picture is 20 mm wide there
   flat.go(4, 15);
   const AttemptMeasures m = flat.measure();
   const Metric* unseen = find_metric(m.metrics, "unseen_mm");
