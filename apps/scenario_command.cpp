@@ -4,7 +4,7 @@
 #include <memory>
 #include <utility>
 
-#include "artus/detail/anatomy/body/joint_variant.h"
+#include "artus/detail/anatomy/source/joint_variant.h"
 #include "artus/detail/apps/options/scenario_options.h"
 #include "artus/detail/apps/training_commands.h"
 #include "artus/detail/training/patient_plans.h"

@@ -8,8 +8,8 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "artus/core/result.h"
+#include "artus/detail/core/plot.h"
 #include "artus/detail/evidence/claim.h"
-#include "artus/detail/evidence/plot.h"
 #include "artus/detail/evidence/table.h"
 
 namespace artus {
@@ -48,8 +48,7 @@ struct EvidenceReport {
 [[nodiscard]] nlohmann::json verdict(const EvidenceReport& report);
 
 /// Writes <name>-table.csv (the first table), report.md, verdict.json and the plots into `folder`,
-/// which is made when missing. Errors: unreadable, not_found (gnuplot; all other files are then
-/// written all the same).
+/// which is made when missing. Errors: unreadable.
 [[nodiscard]] Result<void> write_report(const EvidenceReport& report,
                                         const std::filesystem::path& folder);
 

@@ -8,6 +8,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "artus/detail/core/plot.h"
 #include "artus/detail/core/text_cursor.h"
 #include "artus/detail/core/text_file.h"
 #include "artus/detail/core/units.h"
@@ -15,7 +16,6 @@
 #include "artus/detail/reports/html_page.h"
 #include "artus/detail/reports/mark_words.h"
 #include "artus/detail/reports/moment_view.h"
-#include "artus/detail/training/svg_plot.h"
 #include "artus/detail/viewer/words/anatomy_names.h"
 #include "artus/echo/image_io.h"
 #include "artus/echo/renderer.h"
@@ -98,25 +98,23 @@ void add_faults(HtmlPage& page, const AttemptReport& report) {
   }
 }
 
-std::vector<SvgBand> unseen_bands(const AttemptMeasures& m) {
-  std::vector<SvgBand> bands;
-  for (const Run& run : sum_sight(m.course, m.sights).unseen)
-    bands.push_back({run.from, run.to, "#f6d5d0", ""});
+std::vector<PlotBand> unseen_bands(const AttemptMeasures& m) {
+  std::vector<PlotBand> bands;
+  for (const Run& run : sum_sight(m.course, m.sights).unseen) bands.push_back({run.from, run.to});
   return bands;
 }
 
 /// Where the probe went on the skin, and where it showed what was asked for.
 void add_search(HtmlPage& page, const Scenario& scenario, const AttemptMeasures& m) {
   page.heading(translate(page, "What was shown"));
-  SvgCurve displacement{translate(page, "probe"), {}, {}};
-  const auto put = [&scenario](SvgCurve& curve, const Vec3& p_J) {
+  PlotSeries path{translate(page, "probe"), {}, {}};
+  const auto put = [&scenario](PlotSeries& curve, const Vec3& p_J) {
     const Vec3 p = scenario.X_JP.inverse() * p_J;
     curve.x.push_back(p.x() / kMillimetre);
     curve.y.push_back(p.y() / kMillimetre);
   };
-  for (const TrackPoint& point : m.probe) put(displacement, point.p);
-  std::vector<SvgCurve> curves{displacement};
-  constexpr std::array kColours{"#2a7d3a", "#a8461f", "#7a3f9a", "#b58900", "#0b7a8a", "#777"};
+  for (const TrackPoint& point : m.probe) put(path, point.p);
+  std::vector<PlotSeries> curves{path};
   std::vector<std::vector<std::string>> rows;
   for (const Sought& one : m.sought) {
     const std::string name = clinical_name(page.language(), one.name);
@@ -125,17 +123,15 @@ void add_search(HtmlPage& page, const Scenario& scenario, const AttemptMeasures&
          one.found >= 0 ? number(page.language(), one.found, 1) : translate(page, "not shown"),
          number(page.language(), one.seen, 1)});
     if (one.found < 0) continue;
-    SvgCurve place{name, {}, {}, kColours.at((curves.size() - 1) % kColours.size()), true};
+    PlotSeries place{name, {}, {}, PlotStyle::points};
     put(place, pose_at(m.probe, one.found).translation());
     curves.push_back(std::move(place));
   }
   page.drawing(
-      to_svg({translate(page, "along the probe's face at the start, mm"),
-              translate(page, "across it, mm"),
-              curves,
-              {},
-              {},
-              true}),
+      to_svg(PlotPanel{.x_label = translate(page, "along the probe's face at the start, mm"),
+                       .y_label = translate(page, "across it, mm"),
+                       .series = curves,
+                       .equal = true}),
       translate(page, "the probe's path on the skin, and where it stood when each was found"));
   page.table({{translate(page, "asked for, in this order"), ""},
               {translate(page, "found"), translate(page, "at s")},
@@ -144,11 +140,11 @@ void add_search(HtmlPage& page, const Scenario& scenario, const AttemptMeasures&
 }
 
 void add_plots(HtmlPage& page, const Scenario& scenario, const AttemptMeasures& m) {
-  page.heading(translate(page, "The path"));
-  SvgCurve depth{translate(page, "depth"), {}, {}};
-  SvgCurve offset{translate(page, "tip off the plane"), {}, {}, "#a8461f"};
-  SvgCurve width{translate(page, "half the slice"), {}, {}, "#777"};
-  SvgCurve path{translate(page, "tip"), {}, {}};
+  page.heading(translate(page, "The path of the tip"));
+  PlotSeries depth{translate(page, "depth"), {}, {}};
+  PlotSeries offset{translate(page, "tip off the plane"), {}, {}};
+  PlotSeries width{translate(page, "half the slice"), {}, {}, PlotStyle::line, "#777"};
+  PlotSeries path{translate(page, "tip"), {}, {}};
   for (std::size_t i = 0; i < m.course.size(); ++i) {
     depth.x.push_back(m.course[i].time);
     depth.y.push_back(m.course[i].depth / kMillimetre);
@@ -163,32 +159,34 @@ void add_plots(HtmlPage& page, const Scenario& scenario, const AttemptMeasures& 
     width.y.push_back(m.sights[i]->half_width / kMillimetre);
   }
   const Vec3 target = scenario.X_JP.inverse() * scenario.target.point;
-  const SvgCurve goal{translate(page, "target"),
-                      {target.x() / kMillimetre},
-                      {target.z() / kMillimetre},
-                      "#2a7d3a",
-                      true};
-  page.drawing(
-      to_svg(
-          {translate(page, "time, s"), translate(page, "depth, mm"), {depth}, unseen_bands(m), {}}),
-      translate(page, "depth of the tip; red: advanced without seeing it"));
-  page.drawing(to_svg({translate(page, "time, s"), "mm", {offset, width}, unseen_bands(m), {}}),
+  const PlotSeries goal{translate(page, "target"),
+                        {target.x() / kMillimetre},
+                        {target.z() / kMillimetre},
+                        PlotStyle::points,
+                        "#2a7d3a"};
+  page.drawing(to_svg(PlotPanel{.x_label = translate(page, "time, s"),
+                                .y_label = translate(page, "depth, mm"),
+                                .series = {depth},
+                                .bands = unseen_bands(m)}),
+               translate(page, "depth of the tip; red: advanced without seeing it"));
+  page.drawing(to_svg(PlotPanel{.x_label = translate(page, "time, s"),
+                                .y_label = "mm",
+                                .series = {offset, width},
+                                .bands = unseen_bands(m)}),
                translate(page, "how far the tip was beside the picture's plane"));
-  page.drawing(to_svg({translate(page, "along the probe's face, mm"),
-                       translate(page, "depth, mm"),
-                       {path, goal},
-                       {},
-                       {},
-                       true,
-                       true}),
+  page.drawing(to_svg(PlotPanel{.x_label = translate(page, "along the probe's face, mm"),
+                                .y_label = translate(page, "depth, mm"),
+                                .series = {path, goal},
+                                .equal = true,
+                                .y_down = true}),
                translate(page, "the tip's path as the intended picture would show it"));
 }
 
 /// The largest value of each 20th of a second.
 template <class Value>
-SvgCurve peaks(const Recording& recording, const char* name, const char* colour, Value value) {
+PlotSeries peaks(const Recording& recording, const char* name, Value value) {
   constexpr double kBin = 0.05;  // s
-  SvgCurve curve{name, {}, {}, colour};
+  PlotSeries curve{name, {}, {}};
   for (const TickRecord& tick : recording.ticks) {
     const double bin = std::floor(
         static_cast<double>(tick.input.tick) / recording.head.params.haptic_rate / kBin + 1e-9);
@@ -214,27 +212,28 @@ void add_felt(HtmlPage& page, const Recording& recording) {
   };
   if (std::none_of(recording.ticks.begin(), recording.ticks.end(), felt)) return;
   page.heading(translate(page, "What the hands felt"));
-  const SvgCurve needle = peaks(recording, translate(page, "needle"), "#1f5fa8",
-                                [](const TickRecord& t) { return length_of(t.force); });
-  const SvgCurve probe = peaks(recording, translate(page, "probe"), "#a8461f",
-                               [](const TickRecord& t) { return length_of(t.probe_force); });
+  const PlotSeries needle = peaks(recording, translate(page, "needle"),
+                                  [](const TickRecord& t) { return length_of(t.force); });
+  const PlotSeries probe = peaks(recording, translate(page, "probe"),
+                                 [](const TickRecord& t) { return length_of(t.probe_force); });
   page.drawing(
-      to_svg({translate(page, "time, s"), translate(page, "force, N"), {needle, probe}, {}, {}}),
+      to_svg(PlotPanel{translate(page, "time, s"), translate(page, "force, N"), {needle, probe}}),
       translate(page, "force on the needle's and on the probe's hand, the largest of each 50 ms"));
   const bool injects = std::any_of(
       recording.ticks.begin(), recording.ticks.end(),
       [](const TickRecord& t) { return t.plunger.thumb_force != 0 || t.plunger.given > 0; });
   if (!injects) return;
-  const SvgCurve thumb = peaks(recording, translate(page, "thumb, N"), "#1f5fa8",
-                               [](const TickRecord& t) { return std::abs(t.plunger.thumb_force); });
-  const SvgCurve pressure =
-      peaks(recording, translate(page, "at the tip, 10 kPa"), "#a8461f",
+  const PlotSeries thumb = peaks(recording, translate(page, "thumb, N"), [](const TickRecord& t) {
+    return std::abs(t.plunger.thumb_force);
+  });
+  const PlotSeries pressure =
+      peaks(recording, translate(page, "at the tip, 10 kPa"),
             [](const TickRecord& t) { return 1e-4 * t.plunger.tip_pressure; });
-  const SvgCurve given =
-      peaks(recording, translate(page, "injected, ml"), "#2a7d3a",
+  const PlotSeries given =
+      peaks(recording, translate(page, "injected, ml"),
             [](const TickRecord& t) { return t.plunger.given / kCubicCentimetre; });
   page.drawing(
-      to_svg({translate(page, "time, s"), "N, 10 kPa, ml", {thumb, pressure, given}, {}, {}}),
+      to_svg(PlotPanel{translate(page, "time, s"), "N, 10 kPa, ml", {thumb, pressure, given}}),
       translate(page, "the syringe: force on the thumb, pressure at the tip, injected volume"));
 }
 

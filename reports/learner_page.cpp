@@ -6,6 +6,7 @@
 #include <memory>
 #include <numeric>
 
+#include "artus/detail/core/plot.h"
 #include "artus/detail/core/text_file.h"
 #include "artus/detail/reports/attempt_page.h"
 #include "artus/detail/reports/html_page.h"
@@ -13,7 +14,6 @@
 #include "artus/detail/training/learning_curve.h"
 #include "artus/detail/training/learning_fit.h"
 #include "artus/detail/training/metrics/sight_course.h"
-#include "artus/detail/training/svg_plot.h"
 
 namespace artus {
 namespace {
@@ -32,6 +32,7 @@ std::unique_ptr<bool[]> outcomes(const std::vector<AttemptRecord>& attempts, std
 
 constexpr double kMemory = 0.95;  // weight of an attempt for each one since
 constexpr const char* kPale = "#9db8d6";
+constexpr const char* kDark = "#1f5fa8";
 
 std::vector<double> numbered(std::size_t n) {
   std::vector<double> x(n);
@@ -40,34 +41,33 @@ std::vector<double> numbered(std::size_t n) {
 }
 
 /// What was believed of the rate of failure after each attempt, with its band.
-SvgPlot plot_belief(std::span<const bool> failed, Language language) {
-  SvgCurve mean{translate(language, "rate of failure"), numbered(failed.size()), {}};
-  SvgCurve low{translate(language, "90 % band"), mean.x, {}, kPale};
-  SvgCurve high{"", mean.x, {}, kPale};
+PlotPanel plot_belief(std::span<const bool> failed, Language language) {
+  PlotSeries mean{
+      translate(language, "rate of failure"), numbered(failed.size()), {}, PlotStyle::line, kDark};
+  PlotSeries low{translate(language, "90 % band"), mean.x, {}, PlotStyle::line, kPale};
+  PlotSeries high{"", mean.x, {}, PlotStyle::line, kPale};
   for (std::size_t i = 1; i <= failed.size(); ++i) {
     const FailureBelief belief = believe(failed.first(i), kMemory);
     mean.y.push_back(100 * belief.mean);
     low.y.push_back(100 * belief.low);
     high.y.push_back(100 * belief.high);
   }
-  return {translate(language, "attempt without aids"),
-          "%",
-          {low, high, mean},
-          {},
-          {{100 * kRates.acceptable, translate(language, "adequate")}, {0, ""}}};
+  return {.x_label = translate(language, "attempt without aids"),
+          .y_label = "%",
+          .series = {low, high, mean},
+          .levels = {{100 * kRates.acceptable, translate(language, "adequate")}, {0, ""}}};
 }
 
 /// Scores of the finished attempts without aids.
-SvgPlot plot_scores(const std::vector<AttemptRecord>& attempts, Language language) {
-  SvgCurve scores{"", {}, {}, "#1f5fa8", true};
+PlotPanel plot_scores(const std::vector<AttemptRecord>& attempts, Language language) {
+  PlotSeries scores{"", {}, {}, PlotStyle::points};
   for (const AttemptRecord& a : attempts)
     if (!a.ended.empty() && !a.aided) scores.y.push_back(a.score);
   scores.x = numbered(scores.y.size());
-  return {translate(language, "attempt without aids"),
-          translate(language, "score"),
-          {scores},
-          {},
-          {{100, ""}, {0, ""}}};
+  return {.x_label = translate(language, "attempt without aids"),
+          .y_label = translate(language, "score"),
+          .series = {scores},
+          .levels = {{100, ""}, {0, ""}}};
 }
 
 /// "2026-01-31 12:00" of "2026-01-31T12:00:00Z".
@@ -107,15 +107,14 @@ void add_scenario(HtmlPage& page, const std::string& name,
                            "{} attempts by chance.",
                            static_cast<long>(n)),
            {percent(wrong), std::to_string(n)}));
-  SvgCurve curve{"", {}, chart.values};
+  PlotSeries curve{"", {}, chart.values};
   for (std::size_t i = 0; i < n; ++i) curve.x.push_back(static_cast<double>(i + 1));
   if (n > 0)
     page.drawing(
-        to_svg({translate(page, "attempt without aids"),
-                "LC-CUSUM",
-                {curve},
-                {},
-                {{kLimit, translate(page, "adequate from here")}, {0, ""}}}),
+        to_svg(PlotPanel{.x_label = translate(page, "attempt without aids"),
+                         .y_label = "LC-CUSUM",
+                         .series = {curve},
+                         .levels = {{kLimit, translate(page, "adequate from here")}, {0, ""}}}),
         translate(page, "rises with each pass, falls with each failure (10 against 20 %)"));
   if (n > 1) {
     page.drawing(to_svg(plot_belief(x, language)),
@@ -160,10 +159,11 @@ void add_curve(HtmlPage& page, const std::string& scenario, const std::vector<Tr
   if (trials.size() < kFewest) return;
   const LearningFit fit = fit_learning(trials);
   const Language language = page.language();
-  SvgCurve shares{translate(page, "failed"), numbered(trials.size()), {}, "#1f5fa8", true};
-  SvgCurve curve{translate(page, "learning curve"), shares.x, {}, "#a3361f"};
-  SvgCurve low{translate(page, "90 % band of a share"), shares.x, {}, kPale};
-  SvgCurve high{"", shares.x, {}, kPale};
+  PlotSeries shares{
+      translate(page, "failed"), numbered(trials.size()), {}, PlotStyle::points, kDark};
+  PlotSeries curve{translate(page, "learning curve"), shares.x, {}, PlotStyle::line, "#a3361f"};
+  PlotSeries low{translate(page, "90 % band of a share"), shares.x, {}, PlotStyle::line, kPale};
+  PlotSeries high{"", shares.x, {}, PlotStyle::line, kPale};
   for (std::size_t i = 0; i < trials.size(); ++i) {
     const auto failures = static_cast<double>(trials[i].failures);
     const auto learners = static_cast<double>(trials[i].learners);
@@ -182,11 +182,10 @@ void add_curve(HtmlPage& page, const std::string& scenario, const std::vector<Tr
                                 "few attempts)."),
                       {number(language, 100 * fit.first, 0), number(language, 100 * fit.last, 0),
                        number(language, 100 * fit.rate, 1)}));
-  page.drawing(to_svg({translate(page, "attempt without aids"),
-                       "%",
-                       {low, high, shares, curve},
-                       {},
-                       {{0, ""}}}),
+  page.drawing(to_svg(PlotPanel{.x_label = translate(page, "attempt without aids"),
+                                .y_label = "%",
+                                .series = {low, high, shares, curve},
+                                .levels = {{0, ""}}}),
                translate(page, "share of the learners who failed at their n-th attempt"));
 }
 

@@ -119,7 +119,8 @@ std::string find_mesh_fault(const TetMesh& mesh, std::size_t n_regions) {
   if (!std::all_of(mesh.vertices.begin(), mesh.vertices.end(), finite)) {
     return "a vertex is not finite";
   }
-  if (mesh.regions.size() != mesh.tetrahedra.size()) return "regions and tetrahedra differ";
+  if (mesh.regions.size() != mesh.tetrahedra.size())
+    return "regions and tetrahedra differ in number";
   const auto known = [n = mesh.vertices.size()](std::uint32_t v) {
     return v < n;
   };

@@ -100,7 +100,7 @@ TEST_F(Tool, RunsTheMainJobWithAllItsFilesAndEveryClaimHolds) {
   EXPECT_TRUE(summary.at("deforms").get<bool>());
   EXPECT_TRUE(summary.at("rigid").at("pass").get<bool>());
   EXPECT_TRUE(std::filesystem::exists(folder_ / "run/rigid/trace.csv"));
-  for (const char* file : {"trace.csv", "forces.png", "summary.json"})
+  for (const char* file : {"trace.csv", "forces.svg", "summary.json"})
     EXPECT_TRUE(std::filesystem::exists(folder_ / "run" / file)) << file;
   ASSERT_GE(summary.at("images").size(), 4U);
   for (const auto& image : summary.at("images"))

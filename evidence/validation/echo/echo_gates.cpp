@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
 
 #include <nlohmann/json.hpp>
 
@@ -40,7 +39,7 @@ std::string section_of(const EchoGate& gate) {
   std::string text = "\n## " + gate.name + (passes(gate) ? "" : " - does not hold") + "\n\n";
   text += gate.title + ".\n\n" + to_markdown(gate.claims);
   if (!gate.assumed.empty()) text += "\nAssumed: " + gate.assumed + ".\n";
-  if (!gate.plot.panels.empty()) text += "\n![plot](pictures/" + gate.name + ".png)\n";
+  if (!gate.plot.panels.empty()) text += "\n![plot](pictures/" + gate.name + ".svg)\n";
   for (const GatePicture& picture : gate.pictures)
     text += "\n![" + picture.name + "](pictures/" + picture.name + "-image.png)\n";
   return text;
@@ -83,7 +82,6 @@ Result<void> write_gate_report(std::span<const EchoGate> gates,
       "# Gates of the image's physics\n\n| gate | claims | hold | rests on an assumed value "
       "|\n|---|---|---|---|\n";
   std::string sections;
-  std::optional<Error> no_plot;
   for (const EchoGate& gate : gates) {
     const auto held = std::count_if(gate.claims.begin(), gate.claims.end(),
                                     [](const Claim& claim) { return claim.pass; });
@@ -94,14 +92,11 @@ Result<void> write_gate_report(std::span<const EchoGate> gates,
     for (const GatePicture& picture : gate.pictures)
       ARTUS_TRY(write_image(picture.image, pictures / (picture.name + "-image.png")));
     if (gate.plot.panels.empty()) continue;
-    if (const auto ok = write_plot(pictures / (gate.name + ".png"), gate.plot); !ok)
-      no_plot = ok.error();
+    ARTUS_TRY(write_plot(pictures / (gate.name + ".svg"), gate.plot));
   }
   ARTUS_TRY(write_text(folder / "report.md",
                        report + "\n" + count_claims(claims_of(gates)) + ".\n" + sections));
-  ARTUS_TRY(write_text(folder / "gates.json", to_json(gates).dump(2) + "\n"));
-  if (no_plot) return tl::unexpected<Error>(*no_plot);
-  return {};
+  return write_text(folder / "gates.json", to_json(gates).dump(2) + "\n");
 }
 
 }  // namespace artus

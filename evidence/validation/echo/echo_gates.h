@@ -11,9 +11,9 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "artus/core/result.h"
+#include "artus/detail/core/plot.h"
 #include "artus/detail/core/progress.h"
 #include "artus/detail/evidence/gates.h"
-#include "artus/detail/evidence/plot.h"
 
 namespace artus {
 
@@ -37,7 +37,7 @@ struct EchoGate : Gate {
 [[nodiscard]] Result<EchoGate> run_echo_gate(std::string_view name);
 
 /// Writes report.md, gates.json and, in pictures/, the plots and pictures of `gates` into `folder`.
-/// Errors: unreadable, not_found (gnuplot; all other files are then written all the same).
+/// Errors: unreadable.
 [[nodiscard]] Result<void> write_gate_report(std::span<const EchoGate> gates,
                                              const std::filesystem::path& folder);
 

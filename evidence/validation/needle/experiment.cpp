@@ -79,7 +79,7 @@ Result<Experiment> run_needle_experiment(std::string_view name, const Experiment
   Experiment experiment = entry.run(options, *device);
   experiment.name = name;
   for (NamedPlot& plot : experiment.plots)
-    if (plot.file.empty()) plot.file = experiment.name + ".png";
+    if (plot.file.empty()) plot.file = experiment.name + ".svg";
   return experiment;
 }
 

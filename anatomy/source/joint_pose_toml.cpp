@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/detail/anatomy/body/joint_pose_toml.h"
+#include "artus/detail/anatomy/source/joint_pose_toml.h"
 
 #include <algorithm>
 #include <set>
@@ -64,7 +64,7 @@ JointPose read_pose(const std::string& name, const toml::table& table, double un
   TomlTable toml(table, what, problems);
   JointPose pose;
   pose.name = name;
-  if (!is_plain_name(name, '_')) toml.problem("its name may have only a-z, 0-9 and _");
+  if (!is_plain_name(name, '_')) toml.problem("its name may contain only a-z, 0-9 and _");
   pose.title = toml.text("title").value_or(name);
   const auto bones = bones_of(joint);
   std::set<std::string, std::less<>> moved;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/detail/anatomy/body/joint_parameter.h"
+#include "artus/detail/anatomy/source/joint_parameter.h"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 
-#include "artus/detail/anatomy/body/joint_parameter_toml.h"
-#include "artus/detail/anatomy/body/patient.h"
+#include "artus/detail/anatomy/source/joint_parameter_toml.h"
+#include "artus/detail/anatomy/source/patient.h"
 #include "artus/detail/core/known_names.h"
 #include "artus/detail/core/printed.h"
 
@@ -116,7 +116,7 @@ void apply_action(toml::table& joint, const ParameterAction& action, double away
                           ? std::vector<toml::table*>{}
                           : find_tables(joint, std::string_view(action.key).substr(0, dot));
   if (tables.empty()) {
-    problems.add(joint, "parameter '" + name + "': nothing is named " + action.key);
+    problems.add(joint, "parameter '" + name + "': there is nothing named " + action.key);
     return;
   }
   for (toml::table* table : tables) {
@@ -161,10 +161,11 @@ Result<void> check_value(const std::string& name, double value, const Population
   const Quantity* quantity = population.find(name);
   if (const JointParameter* p = find_parameter(parameters, name)) {
     if (value >= p->least && value <= p->most) return {};
-    return fail(ErrorCode::invalid, "patient: " + name + printed("=%.6g", value) +
-                                        printed(" is beyond what the joint can take, %.6g to %.6g ",
-                                                p->least, p->most) +
-                                        p->unit);
+    return fail(
+        ErrorCode::invalid,
+        "patient: " + name + printed("=%.6g", value) +
+            printed(" is outside of what the joint can take, %.6g to %.6g ", p->least, p->most) +
+            p->unit);
   }
   if (quantity != nullptr && quantity->person) return {};
   std::vector<std::string_view> known = item_names(parameters);

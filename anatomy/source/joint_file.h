@@ -10,11 +10,13 @@
 
 #include "artus/core/geometry.h"
 #include "artus/core/result.h"
-#include "artus/detail/anatomy/body/joint_parameter.h"
+#include "artus/detail/anatomy/body/joint_places.h"
 #include "artus/detail/anatomy/body/joint_pose.h"
-#include "artus/detail/anatomy/body/joint_variant.h"
+#include "artus/detail/anatomy/body/region.h"
 #include "artus/detail/anatomy/body/space.h"
 #include "artus/detail/anatomy/body/tissue.h"
+#include "artus/detail/anatomy/source/joint_parameter.h"
+#include "artus/detail/anatomy/source/joint_variant.h"
 
 namespace artus {
 
@@ -65,11 +67,6 @@ struct SurfaceFile {
   double grow = 0;
 };
 
-/// How fibres run where the structure is bent: from the end that lies farthest against the fibre
-/// axis to the one that lies farthest along it, or everywhere along the axis, turned only as much
-/// as it takes to run beside the skin (a layer that is wound around a bone has no two ends).
-enum class FibreCourse : std::uint8_t { ends, layer };
-
 /// One thing of the body: where it comes from, what it is made of. Earlier in the list wins where
 /// two overlap.
 struct Structure {
@@ -81,19 +78,6 @@ struct Structure {
   std::optional<Vec3> fibre_axis;  ///< along the fibres, if one axis is a fair description
   FibreCourse fibre_course = FibreCourse::ends;  ///< how they follow that axis
   int line = 0;                                  ///< of joint.toml; 0: of no file
-};
-
-struct Landmark {
-  std::string name;
-  Vec3 position = Vec3::Zero();
-};
-
-/// One of the planned needle passes of a scenario: skin entry and target.
-struct PlannedInjection {
-  std::string name;
-  Vec3 entry = Vec3::Zero();
-  Vec3 target = Vec3::Zero();
-  int line = 0;  ///< of joint.toml; 0: of no file
 };
 
 /// The region that is meshed: a ball, or a box when `half_extent` is set.
@@ -130,6 +114,8 @@ struct JointFile {
   std::vector<JointVariant> variants;        ///< all that the file declares, which are chosen
   std::vector<JointParameter> parameters;    ///< all that the file declares
   std::vector<PatientValue> patient;         ///< whose joint it is; empty: as modelled
+  std::filesystem::path tissue_library;      ///< the file it names; empty: the bundled one
+  std::string shape;                         ///< what of it shapes the body (to_joint_shape)
 };
 
 /// Reads joint.toml in the folder that `joint` names, with the variants that it asks for

@@ -7,12 +7,13 @@
 #include <cstdlib>
 #include <set>
 
-#include "artus/detail/anatomy/body/joint_parameter_toml.h"
-#include "artus/detail/anatomy/body/joint_pose_toml.h"
-#include "artus/detail/anatomy/body/joint_structure.h"
-#include "artus/detail/anatomy/body/joint_variant_toml.h"
-#include "artus/detail/anatomy/body/space_toml.h"
 #include "artus/detail/anatomy/body/tissue_toml.h"
+#include "artus/detail/anatomy/source/joint_parameter_toml.h"
+#include "artus/detail/anatomy/source/joint_pose_toml.h"
+#include "artus/detail/anatomy/source/joint_shape.h"
+#include "artus/detail/anatomy/source/joint_space_toml.h"
+#include "artus/detail/anatomy/source/joint_structure.h"
+#include "artus/detail/anatomy/source/joint_variant_toml.h"
 #include "artus/detail/core/text_file.h"
 #include "artus/detail/core/units.h"
 
@@ -65,7 +66,7 @@ void read_identity(TomlTable& toml, JointFile& joint) {
     toml.problem_at("format", "is of another version of artus; this one reads 1");
   joint.name = toml.required_text("name");
   if (!joint.name.empty() && !is_plain_name(joint.name, '-'))
-    toml.problem_at("name", "may have only a-z, 0-9 and -");
+    toml.problem_at("name", "may contain only a-z, 0-9 and -");
   joint.title = toml.text("title").value_or(joint.name);
   joint.side = toml.text("side").value_or("none");
   if (joint.side != "left" && joint.side != "right" && joint.side != "none")
@@ -123,7 +124,7 @@ void read_landmarks(TomlTable& toml, double unit, JointFile& joint) {
     landmark.finish();
     const bool is_taken = std::any_of(joint.landmarks.begin(), joint.landmarks.end(),
                                       [&](const Landmark& l) { return l.name == out.name; });
-    if (is_taken && !out.name.empty()) landmark.problem_at("name", "is taken already");
+    if (is_taken && !out.name.empty()) landmark.problem_at("name", "is already used");
     joint.landmarks.push_back(std::move(out));
   }
 }
@@ -165,7 +166,7 @@ void read_needles(TomlTable& toml, double unit, JointFile& joint) {
     const bool is_taken =
         std::any_of(joint.injections.begin(), joint.injections.end(),
                     [&](const PlannedInjection& other) { return other.name == pass.name; });
-    if (is_taken && !pass.name.empty()) toml_pass.problem_at("name", "is taken already");
+    if (is_taken && !pass.name.empty()) toml_pass.problem_at("name", "is already used");
     toml_pass.finish();
     joint.injections.push_back(std::move(pass));
   }
@@ -189,7 +190,8 @@ void read_structures(TomlTable& toml, double unit, JointFile& joint) {
 /// The library's tissues with the joint's own on top; a missing library is an error at once.
 Result<void> read_joint_tissues(TomlTable& toml, JointFile& joint) {
   const auto library = toml.text("tissue_library");
-  auto tissues = library ? read_tissues(joint.folder / *library) : read_bundled_tissues();
+  if (library) joint.tissue_library = joint.folder / *library;
+  auto tissues = library ? read_tissues(joint.tissue_library) : read_bundled_tissues();
   ARTUS_TRY(tissues);
   joint.tissues = std::move(*tissues);
   if (const auto* table = toml.table("tissue"))
@@ -261,6 +263,7 @@ Result<JointFile> parse_joint(std::string_view text, const std::filesystem::path
   const std::vector<std::string> variants =
       apply_patient(*document, joint.patient, choice.variants, problems);
   joint.variants = choose_variants(*document, variants, problems);
+  joint.shape = to_joint_shape(*document);
   TomlTable toml(*document, "joint", problems);
   read_identity(toml, joint);
   for (const std::string& variant : choice.variants) joint.name += "+" + variant;

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/detail/anatomy/body/joint_variant.h"
+#include "artus/detail/anatomy/source/joint_variant.h"
 
-#include <fstream>
 #include <sstream>
 
 #include <gmock/gmock.h>
 
 #include "artus/anatomy/joint_file.h"
-#include "artus/detail/anatomy/body/joint_shape.h"
-#include "artus/detail/anatomy/body/joint_variant_toml.h"
+#include "artus/detail/anatomy/source/joint_variant_toml.h"
 #include "tests/support/paths.h"
 #include "tests/support/temporary_folder.h"
 
@@ -148,20 +146,14 @@ TEST(JointVariant, MistakesAreToldWhetherItIsChosenOrNot) {
 }
 
 TEST_F(VariantFolder, AVariantShapesTheBodyOnlyWhereItIsChosen) {
-  const auto write = [this](const std::string& text) {
-    std::ofstream(in("joint.toml")) << text;
-  };
-  write(kElbow);
-  const std::string plain = *read_joint_shape(folder_);
-  const std::string wet = *read_joint_shape(folder_, {"effusion"});
+  const std::string plain = parse_joint(kElbow, in("elbow")).value().shape;
+  const std::string wet = parse_joint(kElbow, in("elbow+effusion")).value().shape;
   EXPECT_NE(plain, wet);
   std::string without = kElbow;
   const auto at = without.find("[[structure]]\nname = \"body_in_joint\"");
   without.erase(at, without.find("[[injection]]\nname = \"front\"") - at);
-  write(without);
-  EXPECT_EQ(*read_joint_shape(folder_), plain);
-  EXPECT_EQ(*read_joint_shape(folder_, {"effusion"}), wet);
-  EXPECT_FALSE(read_joint_shape(folder_, {"no_such"}));
+  EXPECT_EQ(parse_joint(without, in("elbow")).value().shape, plain);
+  EXPECT_EQ(parse_joint(without, in("elbow+effusion")).value().shape, wet);
 }
 
 TEST(JointVariant, EveryOneOfTheShoulderIsReadAloneAndNamesItsSurfaces) {

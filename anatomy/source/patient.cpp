@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/detail/anatomy/body/patient.h"
+#include "artus/detail/anatomy/source/patient.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "artus/detail/anatomy/body/bundled_patients.h"
+#include "artus/detail/anatomy/source/bundled_patients.h"
 #include "artus/detail/core/known_names.h"
 #include "artus/detail/core/noise.h"
 #include "artus/detail/core/toml_table.h"
@@ -77,8 +77,8 @@ Quantity read_quantity(const toml::table& table, const Population& known, Proble
   TomlTable toml(table, "quantity", problems);
   Quantity out;
   out.name = toml.required_text("name");
-  if (!is_plain_name(out.name, '_')) toml.problem_at("name", "may have only a-z, 0-9 and _");
-  if (known.find(out.name) != nullptr) toml.problem_at("name", "is taken already");
+  if (!is_plain_name(out.name, '_')) toml.problem_at("name", "may contain only a-z, 0-9 and _");
+  if (known.find(out.name) != nullptr) toml.problem_at("name", "is already used");
   out.title = toml.required_text("title");
   out.unit = toml.text("unit").value_or("");
   out.person = toml.boolean("person").value_or(false);
@@ -104,7 +104,7 @@ KnownPatient read_profile(const toml::table& table, const Population& known, Pro
   TomlTable toml(table, "profile", problems);
   KnownPatient out;
   out.name = toml.required_text("name");
-  if (!is_plain_name(out.name, '_')) toml.problem_at("name", "may have only a-z, 0-9 and _");
+  if (!is_plain_name(out.name, '_')) toml.problem_at("name", "may contain only a-z, 0-9 and _");
   out.title = toml.required_text("title");
   out.source = toml.required_text("source");
   if (const toml::table* values = toml.table("values")) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/detail/anatomy/body/joint_structure.h"
+#include "artus/detail/anatomy/source/joint_structure.h"
 
 #include <algorithm>
 #include <array>
@@ -191,7 +191,7 @@ Structure read_structure(const toml::table& table, std::size_t number, double un
   structure.line = static_cast<int>(table.source().begin.line);
   structure.name = toml.required_text("name");
   if (named && !named->empty() && !is_plain_name(*named, '_'))
-    toml.problem_at("name", "may have only a-z, 0-9 and _");
+    toml.problem_at("name", "may contain only a-z, 0-9 and _");
   structure.tissue = toml.required_text("tissue");
   read_shape(toml, unit, structure);
   read_facets(toml, unit, structure);
@@ -224,7 +224,7 @@ Structure read_body(const toml::table& table, double unit, std::string& filler_n
   read_facets(toml, unit, body);
   filler_name = toml.text("filler").value_or(body.tissue);
   if (!filler_name.empty() && !is_plain_name(filler_name, '_'))
-    toml.problem_at("filler", "may have only a-z, 0-9 and _");
+    toml.problem_at("filler", "may contain only a-z, 0-9 and _");
   toml.finish();
   return body;
 }
@@ -245,7 +245,7 @@ void check_structures(const JointFile& joint, const std::vector<toml::source_reg
       problems.add(places[i], "structure '" + s.name + "': " + message);
     };
     if (!s.name.empty() && !taken.insert(s.name).second)
-      add("the name is taken already; give each structure, the filler and the body its own");
+      add("the name is already used; give each structure, the filler and the body its own");
     if (!s.tissue.empty() && !tissues.contains(s.tissue))
       add("unknown tissue '" + s.tissue + "'" + did_you_mean(s.tissue, tissues) +
           "; add it to the tissue library or under [tissue." + s.tissue + "] in this file");
@@ -254,7 +254,8 @@ void check_structures(const JointFile& joint, const std::vector<toml::source_reg
       if (name == s.name)
         add("a construct cannot name itself");
       else if (!names.contains(name))
-        add("names '" + name + "', which is no structure of this file" + did_you_mean(name, names));
+        add("names '" + name + "', which is not a structure of this file" +
+            did_you_mean(name, names));
       all_known = all_known && names.contains(name);
     }
     if (lacks_insertion(joint, s))

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string_view>
 
-#include "artus/detail/anatomy/body/joint_variant_toml.h"
+#include "artus/detail/anatomy/source/joint_variant_toml.h"
 #include "artus/detail/core/known_names.h"
 
 namespace artus {

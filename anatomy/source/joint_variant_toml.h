@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "artus/detail/anatomy/body/joint_variant.h"
+#include "artus/detail/anatomy/source/joint_variant.h"
 #include "artus/detail/core/toml_table.h"
 
 namespace artus {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Draws against closed forms: of a standard normal x clipped at 2, E x = 0 and
 // E x^2 = (2 P(2) - 1) - 4 p(2) + 8 (1 - P(2)) = 0.92052, with the normal's density p and share P.
-#include "artus/detail/anatomy/body/patient.h"
+#include "artus/detail/anatomy/source/patient.h"
 
 #include <cmath>
 #include <map>

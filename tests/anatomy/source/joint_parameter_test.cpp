@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/detail/anatomy/body/joint_parameter.h"
-
-#include <fstream>
+#include "artus/detail/anatomy/source/joint_parameter.h"
 
 #include <gtest/gtest.h>
 
 #include "artus/anatomy/joint_file.h"
-#include "artus/detail/anatomy/body/joint_parameter_toml.h"
-#include "artus/detail/anatomy/body/joint_shape.h"
-#include "artus/detail/anatomy/body/joint_variant.h"
-#include "artus/detail/anatomy/body/joint_variant_toml.h"
-#include "artus/detail/anatomy/body/skin_line.h"
+#include "artus/detail/anatomy/source/joint_parameter_toml.h"
+#include "artus/detail/anatomy/source/joint_variant.h"
+#include "artus/detail/anatomy/source/joint_variant_toml.h"
 #include "tests/support/temporary_folder.h"
 
 namespace artus {
@@ -84,13 +80,10 @@ TEST_F(Parameters, AValueMovesEachNumberByItsSlopeFromWhatWasModelled) {
 }
 
 TEST_F(Parameters, TheModelledValueChangesNothingOfTheShape) {
-  std::ofstream(folder_ / "arm/joint.toml") << kJoint;
-  const auto shape = [this](double fat) {
-    return read_joint_shape(folder_ / "arm", {}, {{"fat", fat}}).value();
-  };
-  EXPECT_NE(shape(15), shape(5));
-  EXPECT_EQ(shape(15), shape(15));
-  EXPECT_EQ(read_joint_shape(folder_ / "arm").value().find("parameter"), std::string::npos);
+  const std::string modelled = read("").value().shape;
+  EXPECT_EQ(modelled.find("parameter"), std::string::npos);
+  EXPECT_NE(read("fat=15").value().shape, modelled);
+  EXPECT_EQ(read("fat=15").value().shape, read("fat=15").value().shape);
 }
 
 TEST_F(Parameters, AYesSwitchesItsVariantOn) {
@@ -147,25 +140,6 @@ TEST_F(Parameters, OfNobodyTheTableOnlyForgetsItsParameters) {
   EXPECT_FALSE(joint.contains("tissue"));
   const auto variants = choose_variants(joint, {"tear"}, problems);
   EXPECT_EQ(chosen_names(variants), std::vector<std::string>{"tear"});
-}
-
-TEST(SkinLine, IsMetWhereTheNearestOuterFaceIs) {
-  CompiledJoint joint;
-  joint.mesh.vertices = {Vec3(-1, -1, 0), Vec3(3, -1, 0), Vec3(-1, 3, 0),
-                         Vec3(-1, -1, 2), Vec3(3, -1, 2), Vec3(-1, 3, 2)};
-  Interface skin;
-  skin.vertices = {0, 1, 2};
-  skin.front = kOutside;
-  skin.back = kFirstRegion;
-  Interface other = skin;
-  other.vertices = {3, 4, 5};
-  joint.mesh.interfaces = {skin, other};
-  EXPECT_NEAR(*find_skin_along(joint, Vec3(0, 0, 0.5), Vec3(0, 0, 1)), -0.5, 1e-12);
-  EXPECT_NEAR(*find_skin_along(joint, Vec3(0, 0, 1.5), Vec3(0, 0, 1)), 0.5, 1e-12);
-  EXPECT_FALSE(find_skin_along(joint, Vec3(2, 2, 0.5), Vec3(0, 0, 1)));
-  EXPECT_EQ(moved_onto_skin(joint, Vec3(2, 2, 0.5), Vec3(0, 0, 1)), Vec3(2, 2, 0.5));
-  joint.mesh.interfaces[1].front = kBeyond;
-  EXPECT_NEAR(*find_skin_along(joint, Vec3(0, 0, 1.5), Vec3(0, 0, 1)), -1.5, 1e-12);
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "artus/detail/anatomy/body/joint_parameter.h"
+#include "artus/detail/anatomy/source/joint_parameter.h"
 
 namespace artus {
 

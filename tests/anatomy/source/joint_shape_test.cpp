@@ -1,22 +1,14 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/detail/anatomy/body/joint_shape.h"
-
-#include <fstream>
+#include "artus/detail/anatomy/source/joint_shape.h"
 
 #include <gtest/gtest.h>
-
-#include "tests/support/temporary_folder.h"
 
 namespace artus {
 namespace {
 
-class JointShape : public test::TemporaryFolder {
- protected:
-  std::string shape(const std::string& toml) const {
-    std::ofstream(folder_ / "joint.toml") << toml;
-    return read_joint_shape(folder_).value();
-  }
-};
+std::string shape(const std::string& toml) {
+  return to_joint_shape(parse_toml(toml, "t").value());
+}
 
 constexpr const char* kShape = R"(name = "knee"
 [mesh]
@@ -27,7 +19,7 @@ tissue = "bone"
 file = "femur.ply"
 )";
 
-TEST_F(JointShape, LeavesOutCommentsOrderAndWhatShapesNothing) {
+TEST(JointShape, LeavesOutCommentsOrderAndWhatShapesNothing) {
   EXPECT_EQ(shape(kShape), shape(R"(# A knee.
 name = "knee"
 title = "A knee"
@@ -48,16 +40,10 @@ name = "one"
 )"));
 }
 
-TEST_F(JointShape, HoldsEverythingElseAlsoWhatItDoesNotKnow) {
+TEST(JointShape, HoldsEverythingElseAlsoWhatItDoesNotKnow) {
   const std::string base = shape(kShape);
   EXPECT_NE(shape(std::string(kShape) + "facet_size = 1.0\n"), base);
   EXPECT_NE(shape(std::string(kShape) + "some_later_key = 1\n"), base);
-}
-
-TEST_F(JointShape, OfABrokenFileIsAnError) {
-  std::ofstream(folder_ / "joint.toml") << "name = \n";
-  EXPECT_FALSE(read_joint_shape(folder_));
-  EXPECT_FALSE(read_joint_shape(folder_ / "absent"));
 }
 
 }  // namespace

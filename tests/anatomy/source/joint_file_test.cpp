@@ -88,14 +88,14 @@ TEST(JointFile, AllProblemsAreInOneMessageWithTheirPlaces) {
       "cap = { on = \"ulma\", near = [], within = 5, thickness = 1 }\n"
       "[[structure]]\nname = \"nothing\"\ntissue = \"bone\"\n");
   for (const char* part :
-       {"j/joint.toml: ", "2:8: joint: 'name' may have only a-z, 0-9 and -",
+       {"j/joint.toml: ", "2:8: joint: 'name' may contain only a-z, 0-9 and -",
         "3:9: joint: 'units' must be \"mm\", \"cm\" or \"m\"", "4:8: joint: 'axes' must be",
         "5:1: joint: unknown key 'sid' (did you mean 'side'?)",
         "body: unknown tissue 'fatt' (did you mean 'fat'?)",
         "9:1: structure 'ulna': unknown tissue 'bonne' (did you mean 'bone'?)",
-        "13:11: structure 'ulna': 'thicken' must be a number from 0 to",
-        "the name is taken already", "'thickness' must be greater than 0",
-        "names 'ulma', which is no structure of this file (did you mean 'ulna'?)",
+        "13:11: structure 'ulna': 'thicken' must be a number from 0 to", "the name is already used",
+        "'thickness' must be greater than 0",
+        "names 'ulma', which is not a structure of this file (did you mean 'ulna'?)",
         "'near' must be a list of texts", "needs exactly one of 'file', 'shell'"})
     EXPECT_THAT(message, HasSubstr(part));
 }
@@ -126,7 +126,7 @@ TEST(JointFile, InjectionsHaveNamesOfTheirOwn) {
   std::string other = one;
   other.replace(other.find("\"a\""), 3, "\"b\"");
   EXPECT_EQ(messages_of(kHead + kBone + one + other), "");
-  EXPECT_THAT(messages_of(kHead + kBone + one + one), HasSubstr("'name' is taken already"));
+  EXPECT_THAT(messages_of(kHead + kBone + one + one), HasSubstr("'name' is already used"));
 }
 
 TEST(JointFile, ATissueOfItsOwnMustBeComplete) {
