@@ -4,7 +4,7 @@
 #include <iostream>
 #include <memory>
 
-#include "artus/detail/apps/training_commands.h"
+#include "artus/detail/apps/commands.h"
 #include "artus/detail/core/text_file.h"
 #include "artus/detail/reports/attempt_page.h"
 #include "artus/detail/training/norms.h"
@@ -260,17 +260,18 @@ void add_learners_command(Command& app, ExitCode& code) {
   on_run(command, code, [options] { return run_learners(*options); });
 }
 
-void add_rate_command(Command& app, ExitCode& code) {
+void add_rate_command(Command& learners, ExitCode& code) {
   auto options = std::make_shared<RateOptions>();
   options->rating.value = std::nan("");
   Command* command = add_command(
-      app, "rate", "Store a rater's judgement of an attempt",
+      learners, "rate", "Store a rater's judgement of an attempt",
       "Ratings stand beside the machine's numbers and never change them. --next tells which "
       "attempt\n"
       "the rater has not rated yet, in an order of the rater's own, and not whose it is.\n"
       "Examples:\n"
-      "  artus rate --next --records school.db --rater r1 --instrument OSAUS\n"
-      "  artus rate 0123456789abcdef --records school.db --rater r1 --instrument OSAUS \\\n"
+      "  artus learners rate --next --records school.db --rater r1 --instrument OSAUS\n"
+      "  artus learners rate 0123456789abcdef --records school.db --rater r1 --instrument OSAUS "
+      "\\\n"
       "    --item overall --value 4 --comment \"looked away\" --time 12.5");
   command->add_option("attempt", options->rating.attempt, "of --next, or of learners show");
   command->add_option("--records", options->records, "file of the records")->required();

@@ -7,7 +7,7 @@
 
 #include "artus/anatomy/joint_file.h"
 #include "artus/detail/anatomy/source/patient.h"
-#include "artus/detail/apps/training_commands.h"
+#include "artus/detail/apps/commands.h"
 
 namespace artus {
 namespace {

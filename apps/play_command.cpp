@@ -4,10 +4,10 @@
 #include <memory>
 #include <utility>
 
+#include "artus/detail/apps/commands.h"
 #include "artus/detail/apps/options/scenario_options.h"
 #include "artus/detail/apps/options/session_options.h"
 #include "artus/detail/apps/options/window_options.h"
-#include "artus/detail/apps/training_commands.h"
 #include "artus/detail/reports/attempt_files.h"
 #include "artus/detail/reports/attempt_page.h"
 #include "artus/detail/training/norms.h"

@@ -116,7 +116,7 @@ const OperatorPhase* InjectionOperator::observe(double time, const Pose& X_JN,
     started_ = true;
   }
   const OperatorPhase& phase = phases_[index_];
-  const bool met = goal_met(phase, time, depth, view);
+  const bool met = goal_met(phase, time, view.depth.value_or(depth), view);
   const bool late = (phase.kind == Kind::advance || phase.kind == Kind::withdraw) &&
                     time - phase_time_ > phase.duration;
   if (!met && !late) return nullptr;

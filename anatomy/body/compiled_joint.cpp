@@ -10,6 +10,7 @@
 
 #include "artus/detail/anatomy/body/joint_digest.h"
 #include "artus/detail/anatomy/body/joint_pose_bytes.h"
+#include "artus/detail/anatomy/body/joint_variant.h"
 #include "artus/detail/anatomy/body/space_bytes.h"
 #include "artus/detail/anatomy/body/tissue_bytes.h"
 #include "artus/detail/core/byte_stream.h"
@@ -245,7 +246,8 @@ Result<void> write_compiled_joint(const CompiledJoint& joint, const std::filesys
   return {};
 }
 
-Result<CompiledJoint> read_compiled_joint(const std::filesystem::path& file) {
+Result<CompiledJoint> read_compiled_joint(const std::filesystem::path& name) {
+  const std::filesystem::path file = find_joint(name);
   const Result<std::string> payload = read_payload(file);
   ARTUS_TRY(payload);
   return parse_compiled_joint(*payload, file.string());

@@ -46,8 +46,8 @@ struct CompiledJoint {
 [[nodiscard]] Result<CompiledJoint> parse_compiled_joint(const std::string& payload,
                                                          const std::string& where);
 
-/// Reads what write_compiled_joint wrote. Errors: not_found, unsupported (other version), corrupt
-/// (truncated, checksum, index out of range, not finite).
+/// Reads what write_compiled_joint wrote, or the bundled file of that name (find_joint). Errors:
+/// not_found, unsupported (other version), corrupt (truncated, checksum, index, not finite).
 [[nodiscard]] Result<CompiledJoint> read_compiled_joint(const std::filesystem::path& file);
 
 }  // namespace artus

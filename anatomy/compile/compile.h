@@ -51,8 +51,8 @@ struct LoadOptions {
                                                       const LoadOptions& options = {},
                                                       const Progress& progress = {});
 
-/// Loads a joint by any of its names: a compiled file, or a joint folder, whose body is compiled on
-/// first use and kept in the cache until what shapes it changes.
+/// Loads a joint by any of its names (find_joint): a compiled file, or a folder, whose body is
+/// compiled on first use and kept in the cache until what shapes it changes.
 /// Errors: those of read_compiled_joint, read_joint and compile_joint.
 [[nodiscard]] Result<CompiledJoint> load_joint(const std::filesystem::path& path,
                                                const LoadOptions& options = {},

@@ -288,8 +288,9 @@ Result<JointFile> parse_joint(std::string_view text, const std::filesystem::path
   return joint;
 }
 
-Result<JointFile> read_joint(const std::filesystem::path& path,
+Result<JointFile> read_joint(const std::filesystem::path& joint_name,
                              const std::filesystem::path& surface_folder) {
+  const std::filesystem::path path = find_joint(joint_name);
   const auto file = split_variants(path).folder / "joint.toml";
   const auto bytes = read_bytes(file);
   ARTUS_TRY(bytes);

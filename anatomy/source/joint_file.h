@@ -118,7 +118,7 @@ struct JointFile {
   std::string shape;                         ///< what of it shapes the body (to_joint_shape)
 };
 
-/// Reads joint.toml in the folder that `joint` names, with the variants that it asks for
+/// Reads joint.toml in the folder of `joint` (find_joint), with the variants that it asks for
 /// and of the patient it names (split_variants). `surface_folder` replaces the file's own when not
 /// empty; otherwise the environment's ARTUS_SURFACES_<NAME> does (joint name in capitals, '-' as
 /// '_') when set. Errors: not_found (file, surface folder, tissue library), malformed (with line

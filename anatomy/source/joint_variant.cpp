@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "artus/detail/anatomy/source/joint_variant_toml.h"
+#include "artus/detail/core/bundled.h"
 #include "artus/detail/core/known_names.h"
 
 namespace artus {
@@ -183,9 +184,19 @@ std::filesystem::path with_patient(const std::filesystem::path& joint, const std
   return patient.empty() ? out : out += "@" + patient;
 }
 
+std::filesystem::path find_joint(const std::filesystem::path& joint) {
+  if (!joint.empty() && !joint.has_filename()) return find_joint(joint.parent_path());  // "knee/"
+  const std::filesystem::path folder = split_variants(joint).folder;
+  const bool bundled_name = joint.parent_path().empty() || joint.parent_path() == "meshes";
+  std::error_code ignored;
+  if (joint.empty() || !bundled_name || std::filesystem::exists(folder, ignored)) return joint;
+  const std::filesystem::path found = find_bundled("meshes" / folder.filename());
+  return found.empty() ? joint : found.parent_path() / joint.filename();
+}
+
 bool is_joint_folder(const std::filesystem::path& joint) {
   std::error_code ignored;
-  return std::filesystem::is_directory(split_variants(joint).folder, ignored);
+  return std::filesystem::is_directory(split_variants(find_joint(joint)).folder, ignored);
 }
 
 std::vector<JointVariant> choose_variants(toml::table& joint,

@@ -34,7 +34,12 @@ struct JointChoice {
 [[nodiscard]] std::filesystem::path with_patient(const std::filesystem::path& joint,
                                                  const std::string& patient);
 
-/// Whether `joint` is a folder, with or without variants, and no compiled file.
+/// Where `joint` is, with its variants and patient. As it is named, when there is such a folder or
+/// file; else the one of that name that comes with artus, wherever the program was started:
+/// "shoulder", "meshes/shoulder+effusion", "simple-shoulder.artus" (find_bundled); else as named.
+[[nodiscard]] std::filesystem::path find_joint(const std::filesystem::path& joint);
+
+/// Whether `joint`, where find_joint finds it, is a folder and no compiled file.
 [[nodiscard]] bool is_joint_folder(const std::filesystem::path& joint);
 
 }  // namespace artus

@@ -44,7 +44,10 @@ set(may_evidence/runs ${may_evidence} evidence)
 foreach(room needle probe echo injection soft)
   set(may_evidence/validation/${room} ${may_evidence} evidence evidence/runs)
 endforeach()
-list(APPEND may_evidence/validation/soft evidence/validation/echo)
+list(APPEND may_evidence/validation/needle evidence/validation/soft)
+set(validation evidence/validation/needle evidence/validation/probe evidence/validation/echo evidence/validation/injection
+  evidence/validation/soft)
+set(may_evidence/validation ${may_evidence} evidence evidence/runs ${validation})
 set(may_exchange/igtl core)
 set(may_exchange ${may_simulation} simulation dataset ${session} exchange/igtl)
 set(may_reports ${may_evidence} evidence evidence/runs viewer/words anatomy/surfaces anatomy/source anatomy/compile anatomy/compile/labels anatomy/compile/check)
@@ -61,10 +64,10 @@ set(may_python ${may_reports} anatomy/compile/mesh)
 set(may_meshes/generate core anatomy/surfaces)
 set(may_apps/options ${may_trainer} ${may_reports} trainer)
 set(may_apps ${may_apps/options} apps/options)
+set(may_apps/validate ${may_apps} ${validation} evidence/validation)
 set(rooms core anatomy/surfaces anatomy/body anatomy/source anatomy/compile/labels anatomy/compile/mesh anatomy/compile/check anatomy/compile ${soft} raycast
-  ${haptics} ${echo} operators dataset simulation ${session} ${training} evidence evidence/runs evidence/validation/needle
-  evidence/validation/probe evidence/validation/echo evidence/validation/injection evidence/validation/soft exchange/igtl exchange
-  reports ${viewer} trainer python meshes/generate apps/options apps)
+  ${haptics} ${echo} operators dataset simulation ${session} ${training} evidence evidence/runs ${validation}
+  evidence/validation exchange/igtl exchange reports ${viewer} trainer python meshes/generate apps/options apps apps/validate)
 
 # folder lists that may include headers starting with the pattern
 set(outside "embree:raycast" "CGAL/:anatomy/surfaces,anatomy/compile,meshes/generate" "tetgen:anatomy/compile"

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "artus/detail/core/noise.h"
-#include "artus/detail/evidence/validation/needle/experiment_list.h"
+#include "artus/detail/evidence/validation/needle/experiments.h"
 
 namespace artus {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "artus/detail/core/csv.h"
 #include "artus/detail/core/units.h"
-#include "artus/detail/evidence/validation/needle/experiment_list.h"
+#include "artus/detail/evidence/validation/needle/experiments.h"
 
 namespace artus {
 namespace {

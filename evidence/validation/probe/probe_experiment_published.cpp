@@ -3,8 +3,8 @@
 #include <cmath>
 #include <utility>
 
-#include "artus/detail/evidence/validation/probe/probe_experiment_list.h"
 #include "artus/detail/evidence/validation/probe/probe_experiment_observed.h"
+#include "artus/detail/evidence/validation/probe/probe_experiments.h"
 
 namespace artus {
 namespace {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "artus/detail/core/check.h"
-#include "artus/detail/evidence/validation/probe/probe_experiment_list.h"
+#include "artus/detail/evidence/validation/probe/probe_experiments.h"
 #include "artus/detail/haptics/probe/probe_contact.h"
 
 namespace artus {

@@ -87,6 +87,26 @@ TEST_F(VariantFolder, AFolderWhoseNameHasAPlusIsThatFolder) {
   EXPECT_FALSE(is_joint_folder(in("hip+effusion")));
 }
 
+TEST_F(VariantFolder, ABundledJointIsFoundByItsNameWhereThereIsNoneOfOnesOwn) {
+  const std::filesystem::path meshes = test::source_dir() / "meshes";
+  for (const char* name :
+       {"shoulder", "shoulder/", "meshes/shoulder", "shoulder+effusion@fat=12"}) {
+    const JointChoice choice = split_variants(find_joint(name));
+    EXPECT_TRUE(std::filesystem::equivalent(choice.folder, meshes / "shoulder")) << name;
+    EXPECT_TRUE(is_joint_folder(name)) << name;
+  }
+  const JointChoice wet = split_variants(find_joint("shoulder+effusion@fat=12"));
+  EXPECT_THAT(wet.variants, ElementsAre("effusion"));
+  EXPECT_EQ(wet.patient, "fat=12");
+  EXPECT_EQ(find_joint("elbow"), "elbow");
+  EXPECT_EQ(find_joint("mine/shoulder"), "mine/shoulder") << "a path is no name";
+  std::filesystem::create_directory(in("shoulder"));
+  EXPECT_EQ(find_joint(in("shoulder")), in("shoulder"));
+  const auto knee = read_joint("knee");
+  ASSERT_TRUE(knee) << knee.error().to_string();
+  EXPECT_EQ(knee->name, "knee");
+}
+
 TEST(JointVariant, WhatBelongsToAVariantIsThereOnlyWithIt) {
   const auto plain = parse_joint(kElbow, "elbow");
   ASSERT_TRUE(plain) << plain.error().to_string();
