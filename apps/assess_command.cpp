@@ -6,11 +6,11 @@
 
 #include "artus/detail/anatomy/surfaces/repair.h"
 #include "artus/detail/anatomy/surfaces/surface_io.h"
+#include "artus/detail/apps/commands.h"
 #include "artus/detail/apps/options/arguments.h"
 #include "artus/detail/apps/options/pose_files.h"
 #include "artus/detail/apps/options/scenario_options.h"
 #include "artus/detail/apps/options/view_options.h"
-#include "artus/detail/apps/training_commands.h"
 #include "artus/detail/core/text_file.h"
 #include "artus/detail/core/units.h"
 #include "artus/detail/training/assessment.h"

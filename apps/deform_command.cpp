@@ -117,6 +117,10 @@ Result<std::optional<NeedleView>> needle_of(const DeformOptions& options,
   if (options.needle.empty() && !options.press.needle_direction.empty())
     return fail(ErrorCode::malformed, "needs a needle (--needle)", "--needle-direction");
   if (options.needle.empty()) return std::optional<NeedleView>();
+  const SoftBodyParams own;
+  if (options.cell_mm != own.fine_cell / kMillimetre || options.poisson_ratio != own.poisson_ratio)
+    return fail(ErrorCode::malformed,
+                "cubes and Poisson's ratio are a session's where there is a needle", "--needle");
   NeedleView needle;
   const auto shape = needle_of_flag(options.gauge);
   ARTUS_TRY(shape);
@@ -152,11 +156,6 @@ ExitCode run_deform(const DeformOptions& options) {
   const auto face = pressing_face_at(probe->transducer, "--transducer");
   if (!face) return report_error(face.error(), options.json);
   params.face = *face;
-  if (*needle && (options.cell_mm != 3 || options.poisson_ratio != SoftBodyParams{}.poisson_ratio))
-    return report_error(
-        {ErrorCode::malformed, "cubes and Poisson's ratio are a session's where there is a needle",
-         "--needle"},
-        options.json);
   auto body = SoftBody::make(*joint, X_JP, params);
   if (!body) return report_error(body.error(), options.json);
   auto pressed = press(*body, X_JP, options.press);

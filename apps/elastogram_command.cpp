@@ -137,17 +137,17 @@ ExitCode run_elastogram(const ElastogramOptions& options) {
 
 }  // namespace
 
-void add_elastogram_command(Command& app, ExitCode& code) {
+void add_elastogram_command(Command& image, ExitCode& code) {
   auto options = std::make_shared<ElastogramOptions>();
   Command* command = add_command(
-      app, "elastogram",
+      image, "strain",
       "Strain image: how much each piece of tissue gives when pressed a little more",
       "Draws the probe pressed (3 N when nothing is said), presses it a little more, draws again, "
       "and\n"
       "finds the motion from the two pictures' echoes alone. Red gives much, blue gives little.\n"
       "Examples:\n"
-      "  artus elastogram -j meshes/shoulder -o strain.png --csv strain.csv\n"
-      "  artus elastogram -j meshes/shoulder --press-n 1 --more-mm 0.1 -o strain.png --json");
+      "  artus image strain -j meshes/shoulder -o strain.png --csv strain.csv\n"
+      "  artus image strain -j meshes/shoulder --press-n 1 --more-mm 0.1 -o strain.png --json");
   add_joint_options(command, options->joint);
   add_view_options(command, options->view);
   add_press_options(command, options->press);

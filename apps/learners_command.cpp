@@ -4,7 +4,7 @@
 #include <iostream>
 #include <memory>
 
-#include "artus/detail/apps/training_commands.h"
+#include "artus/detail/apps/commands.h"
 #include "artus/detail/core/text_file.h"
 #include "artus/detail/reports/attempt_page.h"
 #include "artus/detail/training/norms.h"
@@ -23,6 +23,7 @@ struct LearnersOptions {
   std::string format = "csv";
   std::string home = "https://example.org";
   std::filesystem::path out;
+  std::string language;  // of the report
   bool json = false;
 };
 
@@ -111,8 +112,10 @@ Result<void> export_all(Records& records, const LearnersOptions& options) {
 
 Result<void> report(Records& records, const LearnersOptions& options) {
   if (options.out.empty()) return fail(ErrorCode::malformed, "name the page to write", "--out");
-  return options.person.empty() ? write_cohort_page(records, options.cohort, options.out)
-                                : write_learner_page(records, options.person, options.out);
+  const Language language = language_of(options.language);
+  return options.person.empty()
+             ? write_cohort_page(records, options.cohort, language, options.out)
+             : write_learner_page(records, options.person, language, options.out);
 }
 
 nlohmann::json to_json(const Norm& n) {
@@ -252,21 +255,23 @@ void add_learners_command(Command& app, ExitCode& code) {
   command->add_option("--home", options->home, "IRI of who gave the pseudonyms, for xapi")
       ->capture_default_str();
   command->add_option("--out,-o", options->out, "file to write");
+  add_language_option(command, options->language);
   command->add_flag("--json", options->json, "machine-readable output");
   on_run(command, code, [options] { return run_learners(*options); });
 }
 
-void add_rate_command(Command& app, ExitCode& code) {
+void add_rate_command(Command& learners, ExitCode& code) {
   auto options = std::make_shared<RateOptions>();
   options->rating.value = std::nan("");
   Command* command = add_command(
-      app, "rate", "Store a rater's judgement of an attempt",
+      learners, "rate", "Store a rater's judgement of an attempt",
       "Ratings stand beside the machine's numbers and never change them. --next tells which "
       "attempt\n"
       "the rater has not rated yet, in an order of the rater's own, and not whose it is.\n"
       "Examples:\n"
-      "  artus rate --next --records school.db --rater r1 --instrument OSAUS\n"
-      "  artus rate 0123456789abcdef --records school.db --rater r1 --instrument OSAUS \\\n"
+      "  artus learners rate --next --records school.db --rater r1 --instrument OSAUS\n"
+      "  artus learners rate 0123456789abcdef --records school.db --rater r1 --instrument OSAUS "
+      "\\\n"
       "    --item overall --value 4 --comment \"looked away\" --time 12.5");
   command->add_option("attempt", options->rating.attempt, "of --next, or of learners show");
   command->add_option("--records", options->records, "file of the records")->required();

@@ -1,17 +1,31 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+#include <algorithm>
 #include <clocale>
 #include <cstdio>
 #include <exception>
 #include <string>
+#include <utility>
+#include <vector>
 
-#include "artus/detail/apps/options/command.h"
-#include "artus/detail/apps/shard_commands.h"
-#include "artus/detail/apps/training_commands.h"
+#include "artus/detail/apps/commands.h"
+#include "artus/detail/apps/options/old_names.h"
+#include "artus/detail/apps/validate_command.h"
 
 namespace {
 
-int run(int argc, char** argv) {
+/// The line that the program takes: without the program's name, old names renamed.
+std::vector<std::string> arguments_of(int argc, char** argv) {
+  std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
+  auto renamed = artus::rename_command(arguments);
+  if (!renamed) return arguments;
+  std::fprintf(stderr, "artus: %s\n", renamed->note.c_str());
+  return std::move(renamed->arguments);
+}
+
+int run(const std::vector<std::string>& arguments) {
   using artus::ExitCode;
+  if (!arguments.empty() && arguments.front() == "validate")
+    return static_cast<int>(artus::run_validation({arguments.begin() + 1, arguments.end()}));
   artus::Command app(
       "artus - anatomy, B-mode echography and needle haptics from one layered model of a joint.\n"
       "Not a medical device.");
@@ -26,42 +40,12 @@ int run(int argc, char** argv) {
       "Exit codes: 0 done, 1 something in the world is wrong (file, surface, claim),\n"
       "            2 the command line is wrong, 3 a surface, pose or injection must be mended.");
   ExitCode code = ExitCode::ok;
-  artus::add_check_command(app, code);
-  artus::add_compile_command(app, code);
-  artus::add_needle_command(app, code);
-  artus::add_image_command(app, code);
-  artus::add_slice_command(app, code);
-  artus::add_sweep_command(app, code);
-  artus::add_sweep_merge_command(app, code);
-  artus::add_sweep_stats_command(app, code);
-  artus::add_export_command(app, code);
-  artus::add_force_command(app, code);
-  artus::add_video_command(app, code);
-  artus::add_phantom_command(app, code);
-  artus::add_echo_gates_command(app, code);
-  artus::add_deform_command(app, code);
-  artus::add_elastogram_command(app, code);
-  artus::add_soft_gates_command(app, code);
-  artus::add_injection_gates_command(app, code);
-  artus::add_run_command(app, code);
-  artus::add_experiment_command(app, code);
-  artus::add_inject_command(app, code);
-  artus::add_laws_command(app, code);
-  artus::add_loop_command(app, code);
-  artus::add_serve_command(app, code);
-  artus::add_view_command(app, code);
-  artus::add_replay_command(app, code);
-  artus::add_assess_command(app, code);
-  artus::add_learners_command(app, code);
-  artus::add_patient_command(app, code);
-  artus::add_play_command(app, code);
-  artus::add_rate_command(app, code);
-  artus::add_scenario_command(app, code);
-  artus::add_train_command(app, code);
-  artus::add_register_command(app, code);
-  artus::add_shm_monitor_command(app, code);
+  artus::add_commands(app, code);
+  std::vector<const char*> line{"artus"};
+  for (const std::string& argument : arguments) line.push_back(argument.c_str());
   int mistake = 0;  // CLI11's own many codes become one
-  if (!app.parse(argc, argv, mistake)) return mistake == 0 ? 0 : static_cast<int>(ExitCode::usage);
+  if (!app.parse(static_cast<int>(line.size()), line.data(), mistake))
+    return mistake == 0 ? 0 : static_cast<int>(ExitCode::usage);
   return static_cast<int>(code);
 }
 
@@ -70,7 +54,7 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   std::setlocale(LC_ALL, "C");
   try {
-    return run(argc, argv);
+    return run(arguments_of(argc, argv));
   } catch (const std::exception& e) {
     std::fprintf(stderr, "artus: %s\n", e.what());
   } catch (...) {

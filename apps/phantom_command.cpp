@@ -7,7 +7,7 @@
 #include "artus/detail/core/text_file.h"
 #include "artus/detail/core/units.h"
 #include "artus/detail/dataset/echo_truth.h"
-#include "artus/detail/evidence/validation/echo/echo_phantom.h"
+#include "artus/detail/evidence/runs/echo_phantom.h"
 #include "artus/echo/image_io.h"
 #include "artus/echo/labels.h"
 #include "artus/echo/renderer.h"
@@ -84,17 +84,17 @@ std::vector<std::string> names() {
 
 }  // namespace
 
-void add_phantom_command(Command& app, ExitCode& code) {
+void add_phantom_command(Command& image, ExitCode& code) {
   auto options = std::make_shared<PhantomCommandOptions>();
   Command* command = add_command(
-      app, "phantom", "A standard test object through the same engine, with what it must show",
+      image, "phantom", "A standard test object through the same engine, with what it must show",
       "homogeneous: speckle statistics, attenuation   points: resolution, slice thickness\n"
       "cyst: lumen, enhancement, edge shadows         layers: interface levels, displayed depths\n"
       "needle: brightness by angle, rings, shadow\n"
       "Examples:\n"
-      "  artus phantom points --out out/points\n"
-      "  artus phantom needle --needle-angle 30 --gauge 20 --out out/needle\n"
-      "  artus phantom cyst --transducer curved-2-5 --depth 80 --out out/cyst --json");
+      "  artus image phantom points --out out/points\n"
+      "  artus image phantom needle --needle-angle 30 --gauge 20 --out out/needle\n"
+      "  artus image phantom cyst --transducer curved-2-5 --depth 80 --out out/cyst --json");
   command->add_option("name", options->name, "homogeneous, points, cyst, layers or needle")
       ->required()
       ->one_of(names());

@@ -11,8 +11,10 @@
 
 #include "artus/detail/apps/options/interrupts.h"
 #include "artus/detail/apps/options/live_metrics.h"
+#include "artus/detail/apps/options/nested_ball.h"
 #include "artus/detail/apps/options/scenario_options.h"
 #include "artus/detail/apps/options/session_options.h"
+#include "artus/detail/apps/options/tick_tally.h"
 #include "artus/detail/trainer/remote_controls.h"
 #include "artus/detail/training/player.h"
 
@@ -61,6 +63,19 @@ struct Serving {
   RemoteScenario* asked;
   std::int64_t end_ns;  ///< 0: when interrupted
 };
+
+/// How long ticks do nothing first, so that it is known how late the machine is by itself: where
+/// only the hands run, for a time.
+double floor_seconds_of(const ServeOptions& options) {
+  return options.no_images && options.seconds > 0 ? 1 : 0;
+}
+
+/// The joint; for the simulated hand one may be left out.
+Result<std::shared_ptr<const CompiledJoint>> load_body(const SessionOptions& options, bool json) {
+  if (!options.joint.joint.empty()) return load(options.joint, make_progress_printer(json));
+  if (options.input == "injection") return make_nested_ball();
+  return fail(ErrorCode::invalid, "name a joint; --input injection alone goes without", "--joint");
+}
 
 void print_status(const Session& session) {
   HapticSnapshot now;
@@ -120,18 +135,20 @@ double peak_memory_mb() {
   return static_cast<double>(used.ru_maxrss) * kKilobyte * 1e-6;
 }
 
-void report(const Session& session, bool json) {
+void report(const Session& session, const TickTally& tally, bool json) {
   if (json) {
-    std::cout << nlohmann::json{{"ticks", session.ticks()},
-                                {"frames", session.frames()},
-                                {"overruns", session.overruns()},
-                                {"unrecorded", session.unrecorded()},
-                                {"peak_memory_mb", peak_memory_mb()},
-                                {"refused", session.refusals()},
-                                {"notices", session.notices()},
-                                {"times", to_json(session.times())}}
-                     .dump(2)
-              << '\n';
+    nlohmann::json all{{"joint", session.scene().joint().name},
+                       {"rate_hz", session.params().haptic_rate},
+                       {"ticks", session.ticks()},
+                       {"frames", session.frames()},
+                       {"overruns", session.overruns()},
+                       {"unrecorded", session.unrecorded()},
+                       {"peak_memory_mb", peak_memory_mb()},
+                       {"refused", session.refusals()},
+                       {"notices", session.notices()},
+                       {"times", to_json(session.times())}};
+    all.update(tally.to_json());
+    std::cout << all.dump(2) << '\n';
     return;
   }
   print_times(session.times(), session.params());
@@ -140,6 +157,7 @@ void report(const Session& session, bool json) {
               static_cast<unsigned long long>(session.frames()),
               static_cast<unsigned long long>(session.overruns()),
               static_cast<unsigned long long>(session.unrecorded()), peak_memory_mb());
+  tally.print();
 }
 
 /// One session to its end; what follows it, if anything.
@@ -153,6 +171,7 @@ Result<std::optional<Setting>> run_session(const Serving& serving, const Setting
   session_options.images = !options.no_images;
   session_options.share_images = !options.no_images;
   session_options.gauge = options.seconds > 0;
+  session_options.floor_seconds = floor_seconds_of(options);
   SessionLink* link = serving.link;
   if (link != nullptr)
     session_options.on_image = [link](const ImageSnapshot& image) {
@@ -160,7 +179,8 @@ Result<std::optional<Setting>> run_session(const Serving& serving, const Setting
     };
   const auto meter = make_live_meter(options.metrics, setting.scene, setting.params);
   ARTUS_TRY(meter);
-  session_options.observer = meter->get();
+  TickTally tally(meter->get());
+  session_options.observer = &tally;
   auto session = Session::start(setting.scene, setting.params, std::move(*device), session_options);
   ARTUS_TRY(session);
   if (link != nullptr) link->attach(session->get());
@@ -168,16 +188,17 @@ Result<std::optional<Setting>> run_session(const Serving& serving, const Setting
   if (link != nullptr) link->attach(nullptr);
   for (const std::string& refused : (*session)->refusals())
     std::fprintf(stderr, "the system refused %s\n", refused.c_str());
-  report(**session, options.json);
   const auto histograms = write_histograms(options.session.histograms, (*session)->times());
-  session->reset();  // ends it, and what was measured rests
+  (*session)->stop();  // and what was measured rests
+  report(**session, tally, options.json);
+  session->reset();
   ARTUS_TRY(histograms);
   ARTUS_TRY(write_live_metrics(options.metrics, meter->get()));
   return next;
 }
 
 ExitCode run_serve(const ServeOptions& options) {
-  const auto joint = load(options.session.joint, make_progress_printer(options.json));
+  const auto joint = load_body(options.session, options.json);
   if (!joint) return report_error(joint.error(), options.json);
   const auto params = make_session_params(options.session, **joint);
   if (!params) return report_error(params.error(), options.json);
@@ -192,8 +213,9 @@ ExitCode run_serve(const ServeOptions& options) {
       open_session_link(options.session.igtl, *tracker, {},
                         [&asked](const std::string& name) { return asked.ask(name); });
   if (!link) return report_error(link.error(), options.json);
+  const double seconds = options.seconds + floor_seconds_of(options);
   const std::int64_t end =
-      options.seconds > 0 ? monotonic_ns() + static_cast<std::int64_t>(options.seconds * 1e9) : 0;
+      options.seconds > 0 ? monotonic_ns() + static_cast<std::int64_t>(seconds * 1e9) : 0;
   const Serving serving{&options, &interrupts, &*tracker, link->get(), &asked, end};
   Setting setting{std::make_shared<const Scene>(*joint), *params};
   std::optional<Setting> before;  // to go back to, when a scenario does not start
@@ -221,16 +243,21 @@ void add_serve_command(Command& app, ExitCode& code) {
       "  artus serve -j meshes/simple-shoulder\n"
       "  artus serve -j real.artus --record session.rec --seconds 60 --json\n"
       "  artus serve -j real.artus --input injection --seconds 30     (what a session costs here)\n"
-      "  artus serve -j meshes/simple-shoulder --input injection --seconds 10\n"
+      "  artus serve --no-images --input injection --seconds 60 --haptic-rate 10000\n"
+      "                                     (the hands alone: histograms, the machine's own "
+      "delay)\n"
       "  artus serve -j real.artus --igtl 18944 --input igtl --calibration tracker.toml");
   add_session_options(command, options->session, "shared-memory");
+  command->get_option("--joint")->required(false)->description(
+      "joint folder or compiled file; with --input injection none: six tissues as nested spheres");
   command
       ->add_option("--seconds", options->seconds,
                    "stop after this time; 0: when interrupted. Then a fixed work runs beside, too: "
                    "what its time spreads is the machine's")
       ->check(number_in(0, 86400));
   add_live_metrics_option(command, options->metrics);
-  command->add_flag("--no-images", options->no_images, "draw nothing and write no IMAGE");
+  command->add_flag("--no-images", options->no_images,
+                    "draw nothing and write no IMAGE; tissue gives way all the same");
   command->add_flag("--json", options->json, "machine-readable report at the end");
   on_run(command, code, [options] { return run_serve(*options); });
 }

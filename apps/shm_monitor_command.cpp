@@ -128,14 +128,14 @@ ExitCode run_monitor(const MonitorOptions& options) {
 
 }  // namespace
 
-void add_shm_monitor_command(Command& app, ExitCode& code) {
+void add_shm_monitor_command(Command& serve, ExitCode& code) {
   auto options = std::make_shared<MonitorOptions>();
   Command* command = add_command(
-      app, "shm-monitor", "Look at the shared memory POS, FORCE and IMAGE without touching it",
+      serve, "monitor", "Look at the shared memory POS, FORCE and IMAGE without touching it",
       "Examples:\n"
-      "  artus shm-monitor                      once\n"
-      "  artus shm-monitor --seconds 60 --json  a line every half second\n"
-      "  artus shm-monitor --clean              remove what a crash left behind");
+      "  artus serve monitor                      once\n"
+      "  artus serve monitor --seconds 60 --json  a line every half second\n"
+      "  artus serve monitor --clean              remove what a crash left behind");
   add_prefix_option(command, options->prefix);
   command->add_option("--seconds", options->seconds, "go on for this time")
       ->check(number_in(0, 86400));

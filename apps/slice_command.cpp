@@ -66,14 +66,16 @@ ExitCode run_slice(const SliceOptions& options) {
 
 }  // namespace
 
-void add_slice_command(Command& app, ExitCode& code) {
+void add_slice_command(Command& image, ExitCode& code) {
   auto options = std::make_shared<SliceOptions>();
-  Command* command = add_command(
-      app, "slice", "The regions that truly lie in the probe's plane, at the B-mode image's scale",
-      "Examples:\n"
-      "  artus slice -j meshes/simple-shoulder -o labels.png\n"
-      "  artus slice -j meshes/shoulder --press-mm 5 -o pressed.png\n"
-      "  artus slice -j meshes/shoulder --needle default -o labels.png --ids ids.png --json");
+  Command* command =
+      add_command(image, "labels",
+                  "The regions that truly lie in the probe's plane, at the B-mode image's scale",
+                  "Examples:\n"
+                  "  artus image labels -j meshes/simple-shoulder -o labels.png\n"
+                  "  artus image labels -j meshes/shoulder --press-mm 5 -o pressed.png\n"
+                  "  artus image labels -j meshes/shoulder --needle default -o labels.png --ids "
+                  "ids.png --json");
   add_joint_options(command, options->joint);
   add_patient_option(command, options->joint.patient);
   add_view_options(command, options->view);

@@ -39,14 +39,14 @@ ExitCode run_sweep_merge(const SweepMergeOptions& options) {
 
 }  // namespace
 
-void add_sweep_merge_command(Command& app, ExitCode& code) {
+void add_sweep_merge_command(Command& sweep, ExitCode& code) {
   auto options = std::make_shared<SweepMergeOptions>();
   Command* command =
-      add_command(app, "sweep-merge", "Is every frame of a sharded sweep there, exactly once?",
+      add_command(sweep, "merge", "Is every frame of a sharded sweep there, exactly once?",
                   "Finds missing, doubled, foreign and damaged shards, or lists the whole set.\n"
                   "Examples:\n"
-                  "  artus sweep-merge out/set\n"
-                  "  artus sweep-merge node1/set node2/set -o set.json");
+                  "  artus sweep merge out/set\n"
+                  "  artus sweep merge node1/set node2/set -o set.json");
   command->add_option("folders", options->folders, "folders with shards")->required();
   command->add_option("-o,--out", options->out, "list of the set (default: set.json in the first)");
   command->add_flag("--json", options->json, "machine-readable output");

@@ -3,7 +3,7 @@
 #include <iostream>
 #include <memory>
 
-#include "artus/detail/apps/shard_commands.h"
+#include "artus/detail/apps/options/command.h"
 #include "artus/detail/dataset/shard_stats.h"
 #include "artus/echo/image_io.h"
 
@@ -33,13 +33,13 @@ ExitCode run_sweep_stats(const SweepStatsOptions& options) {
 
 }  // namespace
 
-void add_sweep_stats_command(Command& app, ExitCode& code) {
+void add_sweep_stats_command(Command& sweep, ExitCode& code) {
   auto options = std::make_shared<SweepStatsOptions>();
   Command* command =
-      add_command(app, "sweep-stats", "What is in a set of shards: numbers and histograms",
+      add_command(sweep, "stats", "What is in a set of shards: numbers and histograms",
                   "Examples:\n"
-                  "  artus sweep-stats out/set -o stats.png\n"
-                  "  artus sweep-stats node1/set node2/set --json");
+                  "  artus sweep stats out/set -o stats.png\n"
+                  "  artus sweep stats node1/set node2/set --json");
   command->add_option("folders", options->folders, "folders with shards")->required();
   command->add_option("-o,--out", options->out, "page of histograms (.png)");
   command->add_flag("--json", options->json, "machine-readable output");

@@ -46,15 +46,15 @@ ExitCode run_video(const VideoOptions& options) {
 
 }  // namespace
 
-void add_video_command(Command& app, ExitCode& code) {
+void add_video_command(Command& image, ExitCode& code) {
   auto options = std::make_shared<VideoOptions>();
   Command* command = add_command(
-      app, "video", "A path of probe (and needle) as MP4 or AVI",
+      image, "video", "A path of probe (and needle) as MP4 or AVI",
       "The path is a list of poses as for `artus sweep`. With \"time_s\" in every pose, probe and\n"
       "needle move from pose to pose in that time; without, each pose is one frame.\n"
       "Examples:\n"
-      "  artus video -j shoulder.artus --path path.jsonl -o out/path.mp4\n"
-      "  artus video -j shoulder.artus --path path.csv --labels --fps 15 -o out/path.avi");
+      "  artus image video -j shoulder.artus --path path.jsonl -o out/path.mp4\n"
+      "  artus image video -j shoulder.artus --path path.csv --labels --fps 15 -o out/path.avi");
   add_joint_options(command, options->joint);
   add_patient_option(command, options->joint.patient);
   command->add_option("--path", options->path, "list of poses (.jsonl, .csv, .mha)")->required();

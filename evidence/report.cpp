@@ -1,11 +1,23 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/detail/evidence/report.h"
 
+#include <system_error>
+
 #include <nlohmann/json.hpp>
 
 #include "artus/detail/core/text_file.h"
 
 namespace artus {
+namespace {
+
+Result<void> make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) return fail(ErrorCode::unreadable, error.message(), folder.string());
+  return {};
+}
+
+}  // namespace
 
 std::string to_markdown(const EvidenceReport& report, const std::string& folder) {
   std::string text = report.title + "\n";
@@ -16,9 +28,13 @@ std::string to_markdown(const EvidenceReport& report, const std::string& folder)
       published.rows.push_back({p.what, p.published, p.artus});
     text += "\n" + to_markdown(published);
   }
-  if (!report.plots.empty()) text += "\n";
-  for (const NamedPlot& plot : report.plots)
-    text += "![" + report.name + "](" + folder + "/" + plot.file + ")\n";
+  std::vector<std::string> pictures;
+  for (const NamedPlot& plot : report.plots) pictures.push_back(plot.file);
+  for (const NamedFile& file : report.files)
+    if (std::filesystem::path(file.file).extension() == ".png") pictures.push_back(file.file);
+  if (!pictures.empty()) text += "\n";
+  for (const std::string& picture : pictures)
+    text += "![" + report.name + "](" + folder + "/" + picture + ")\n";
   text += "\n" + to_markdown(report.claims);
   for (const auto& [title, table] : report.tables)
     text += (title.empty() ? "\n" : "\n" + title + "\n\n") + to_markdown(table);
@@ -40,17 +56,27 @@ nlohmann::json verdict(const EvidenceReport& report) {
   return json;
 }
 
+Result<void> write_files(const EvidenceReport& report, const std::filesystem::path& folder) {
+  ARTUS_TRY(make_folder(folder));
+  for (const NamedFile& file : report.files) {
+    ARTUS_TRY(make_folder((folder / file.file).parent_path()));
+    ARTUS_TRY(file.write(folder / file.file));
+  }
+  for (const NamedPlot& plot : report.plots) {
+    ARTUS_TRY(make_folder((folder / plot.file).parent_path()));
+    ARTUS_TRY(write_plot(folder / plot.file, plot.plot));
+  }
+  return {};
+}
+
 Result<void> write_report(const EvidenceReport& report, const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) return fail(ErrorCode::unreadable, error.message(), folder.string());
+  ARTUS_TRY(make_folder(folder));
   if (!report.tables.empty())
     ARTUS_TRY(write_text(folder / (report.name + "-table.csv"),
                          to_csv_text(report.tables.front().second)));
   ARTUS_TRY(write_text(folder / "report.md", "# " + report.name + "\n\n" + to_markdown(report)));
   ARTUS_TRY(write_text(folder / "verdict.json", verdict(report).dump(2) + "\n"));
-  for (const NamedPlot& plot : report.plots) ARTUS_TRY(write_plot(folder / plot.file, plot.plot));
-  return {};
+  return write_files(report, folder);
 }
 
 }  // namespace artus

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <pybind11/stl.h>
@@ -73,8 +74,10 @@ py::dict forces(const Joint& joint, const Numbers& needles, const std::optional<
   return run(joint, poses, {rate, device, rigid});
 }
 
-py::dict insert(const Joint& joint, const Numbers& entry, const Numbers& target, double speed,
-                double rate, const std::string& device, bool rigid) {
+py::dict insert(const Joint& joint, const std::pair<Numbers, Numbers>& line, double speed,
+                const Feeling& how) {
+  const auto& [entry, target] = line;
+  const double rate = how.rate;
   const Vec3 from = point_of(entry, "entry");
   const Vec3 to = point_of(target, "target");
   if (!(speed > 0 && speed < 10))
@@ -83,7 +86,7 @@ py::dict insert(const Joint& joint, const Numbers& entry, const Numbers& target,
   if ((to - from).norm() < 1e-6) throw py::value_error("entry and target are the same point");
   std::vector<TrajectoryPose> poses;
   for (const Pose& X_JN : straight_insertion(from, to, speed, rate)) poses.push_back({X_JN, {}});
-  return run(joint, poses, {rate, device, rigid});
+  return run(joint, poses, how);
 }
 
 }  // namespace
@@ -94,10 +97,15 @@ void add_forces(py::module_& module) {
              py::arg("rigid") = false,
              "Lead the needle through poses (n, 4, 4), one a tick of `rate` Hz, and a probe, one "
              "pose or as many: a dict of arrays. Tissue gives way unless `rigid`.");
-  module.def("insert", &insert, py::arg("joint"), py::arg("entry"), py::arg("target"),
-             py::kw_only(), py::arg("speed") = 0.01, py::arg("rate") = 1000.0,
-             py::arg("device") = "ideal", py::arg("rigid") = false,
-             "A straight insertion from 5 mm above entry to target and back: as forces().");
+  module.def(
+      "insert",
+      [](const Joint& joint, const Numbers& entry, const Numbers& target, double speed, double rate,
+         const std::string& device, bool rigid) {
+        return insert(joint, {entry, target}, speed, {rate, device, rigid});
+      },
+      py::arg("joint"), py::arg("entry"), py::arg("target"), py::kw_only(), py::arg("speed") = 0.01,
+      py::arg("rate") = 1000.0, py::arg("device") = "ideal", py::arg("rigid") = false,
+      "A straight insertion from 5 mm above entry to target and back: as forces().");
 }
 
 }  // namespace artus::python

@@ -41,9 +41,10 @@ std::vector<OperatorPhase> phases_of(const InjectionPlan& plan) {
 InjectingDevice::InjectingDevice(const InjectionPlan& plan, const DeviceLimits& device,
                                  double rate_hz, const HandParams& hand)
     : plan_(plan), person_(plan.entry_W, plan.direction_W, kBeforeSkin, phases_of(plan)) {
-  ARTUS_REQUIRE(std::abs(plan.direction_W.norm() - 1) < 1e-9, "the direction must be a unit");
-  ARTUS_REQUIRE(plan.speed > 0 && plan.target <= plan.deepest, "an injection goes somewhere");
-  ARTUS_REQUIRE(plan.rate > 0, "a dose takes some time");
+  ARTUS_REQUIRE(std::abs(plan.direction_W.norm() - 1) < 1e-9, "the direction must have length 1");
+  ARTUS_REQUIRE(plan.speed > 0 && plan.target <= plan.deepest,
+                "speed must be above 0 and the target no deeper than the deepest point");
+  ARTUS_REQUIRE(plan.rate > 0, "the dose's rate must be above 0");
   hands_.take_up(HandLoop({rate_hz, physics_rate(rate_hz)}, device, hand, person_.start()));
   if (plan.volume > 0) hands_.set_thumb(DosingThumb(plan.plunger, plan.volume, rate_hz));
   hands_.hold_probe(plan.X_WP);

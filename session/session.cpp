@@ -45,6 +45,17 @@ std::string reason_of(const std::exception_ptr& failure) {
   }
 }
 
+constexpr int kOperationsOfATick = 1000;       // some us
+constexpr int kOperationsOfAnImage = 100'000;  // some tenths of a ms
+
+/// Clock time of a chain of dependent operations without memory.
+void time_fixed_work(int operations, LatencyHistogram& into) noexcept {
+  const std::int64_t begin = monotonic_ns();
+  std::uint64_t x = 1;
+  for (int i = 0; i < operations; ++i) x = mix_bits(x);
+  if (x != 0) into.add(monotonic_ns() - begin);  // never zero: it is not left out
+}
+
 }  // namespace
 
 double press_of_probe(const HapticSnapshot& tick) noexcept {
@@ -94,7 +105,8 @@ Result<std::unique_ptr<Session>> Session::start(std::shared_ptr<const Scene> sce
   Session* running = session.get();
   const ThreadOptions haptics = options.haptic_options;
   const ThreadOptions imaging = options.imaging_options;
-  session->haptic_thread_ = std::thread([running, haptics] { running->run_haptics(haptics); });
+  session->haptic_thread_ = std::thread(
+      [running, haptics, floor = options.floor_seconds] { running->run_haptics(haptics, floor); });
   if (options.images)
     session->drawing_thread_ = std::thread([running, imaging] { running->run_drawing(imaging); });
   if (options.images || params.deform)
@@ -103,12 +115,16 @@ Result<std::unique_ptr<Session>> Session::start(std::shared_ptr<const Scene> sce
   return session;
 }
 
-Session::~Session() {
+void Session::stop() {
   stop_ = true;
   for (std::thread* thread : {&haptic_thread_, &imaging_thread_, &housekeeping_thread_})
     if (thread->joinable()) thread->join();
   handover_->end();
   if (drawing_thread_.joinable()) drawing_thread_.join();
+}
+
+Session::~Session() {
+  stop();
   if (shared_image_) shared_image_->remove_own();
 }
 
@@ -151,8 +167,16 @@ void Session::rest(std::int64_t ns) const noexcept {
     std::this_thread::sleep_for(std::chrono::nanoseconds(std::min(ns, kStep)));
 }
 
-void Session::run_haptics(const ThreadOptions& options) {
+void Session::measure_floor(double seconds) noexcept {
+  PeriodicSchedule schedule(params_.haptic_rate);
+  const std::int64_t end = monotonic_ns() + static_cast<std::int64_t>(1e9 * seconds);
+  while (monotonic_ns() < end && !stop_.load(std::memory_order_relaxed))
+    times_->haptic_floor.add_with_missed(schedule.wait(), schedule.period_ns());
+}
+
+void Session::run_haptics(const ThreadOptions& options, double floor_seconds) {
   request_priority("haptics", options);
+  measure_floor(floor_seconds);
   HapticLoop loop(simulation_, *device_, params_.haptic_rate, haptic_,
                   {times_->haptic_compute, times_->haptic_cpu, times_->haptic_lateness});
   while (!stop_.load(std::memory_order_relaxed)) {
@@ -160,6 +184,7 @@ void Session::run_haptics(const ThreadOptions& options) {
     overruns_.store(loop.overruns(), std::memory_order_relaxed);
     take_packet(loop.ticks() + 1);
     publish(loop.step(take_command()));
+    if (gauges_) time_fixed_work(kOperationsOfATick, times_->haptic_fixed);
   }
 }
 
@@ -195,18 +220,9 @@ void Session::run_housekeeping() {
     } catch (...) {
       tell(reason_of(std::current_exception()));
     }
-    if (gauges_) gauge();
+    if (gauges_) time_fixed_work(kOperationsOfAnImage, times_->fixed_work);
     rest(kHousekeepingPeriod);
   }
-}
-
-/// A chain of dependent operations without memory, some tenths of a millisecond.
-void Session::gauge() {
-  constexpr int kOperations = 100'000;
-  const std::int64_t begin = monotonic_ns();
-  std::uint64_t x = 1;
-  for (int i = 0; i < kOperations; ++i) x = mix_bits(x);
-  if (x != 0) times_->fixed_work.add(monotonic_ns() - begin);  // never zero: it is not left out
 }
 
 void Session::run_imaging(const ThreadOptions& options) {

@@ -60,6 +60,8 @@ struct SessionTimes {
   LatencyHistogram haptic_compute;   ///< one tick from the pose to the published force
   LatencyHistogram haptic_cpu;       ///< the same in processor time: without what was taken from it
   LatencyHistogram haptic_lateness;  ///< wake-up after its schedule
+  LatencyHistogram haptic_floor;     ///< the same of ticks that do nothing, before the first
+  LatencyHistogram haptic_fixed;     ///< clock time of a fixed work after each tick, see fixed_work
   LatencyHistogram tissue_step;      ///< of the tissue that gives way, with its scene
   LatencyHistogram tissue_interval;  ///< from one of its answers to the hands to the next
   LatencyHistogram image_render;     ///< of a picture, once its body is laid
@@ -95,7 +97,11 @@ class Session {
     std::string image_segment_prefix;  ///< of IMAGE
     bool images = true;                ///< false: tissue gives way all the same, nothing is drawn
     bool share_images = false;         ///< write IMAGE
-    bool gauge = false;                ///< time a fixed work beside (SessionTimes::fixed_work)
+    /// Time a fixed work beside, in the haptic thread and another one (SessionTimes::haptic_fixed,
+    /// fixed_work).
+    bool gauge = false;
+    double floor_seconds = 0;  ///< of ticks that do nothing, before the first: how late the machine
+                               ///< is by itself (SessionTimes::haptic_floor)
     /// Who keep the body of a picture (ImageSnapshot::body) while the next are drawn, as a window
     /// does: for each a scene more is made at the start instead of while it runs.
     std::size_t extra_scene_holders = 0;
@@ -109,10 +115,14 @@ class Session {
                                                               const SessionParams& params,
                                                               std::unique_ptr<InputDevice> device,
                                                               const Options& options);
-  /// Stops all threads, closes the recording, removes IMAGE.
+  /// stop(), closes the recording, removes IMAGE.
   ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
+
+  /// Stops all threads; the device's last force is zero. What an observer gathered is then at rest,
+  /// and what the session tells of itself stays. For the thread that owns it.
+  void stop();
 
   // For any thread.
   void set_paused(bool paused) noexcept { paused_ = paused; }
@@ -146,11 +156,11 @@ class Session {
  private:
   Session(std::shared_ptr<const Scene> scene, const SessionParams& params,
           std::unique_ptr<InputDevice> device, const Options& options);
-  void run_haptics(const ThreadOptions& options);
+  void run_haptics(const ThreadOptions& options, double floor_seconds);
   void run_imaging(const ThreadOptions& options);
   void run_drawing(const ThreadOptions& options);
   void run_housekeeping();
-  void gauge();
+  void measure_floor(double seconds) noexcept;
   void request_priority(const char* who, const ThreadOptions& options);
   void tell(const std::string& notice);
   void note_image(std::int64_t ready_ns);

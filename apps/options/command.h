@@ -64,32 +64,4 @@ void add_joint_options(Command* command, JointOptions& options);
 [[nodiscard]] FlagCheck number_in(double low, double high);
 [[nodiscard]] FlagCheck whole_number_in(std::int64_t low, std::int64_t high);
 
-// The subcommands, one file each.
-void add_check_command(Command& app, ExitCode& code);
-void add_compile_command(Command& app, ExitCode& code);
-void add_needle_command(Command& app, ExitCode& code);
-void add_image_command(Command& app, ExitCode& code);
-void add_slice_command(Command& app, ExitCode& code);
-void add_sweep_command(Command& app, ExitCode& code);
-void add_sweep_merge_command(Command& app, ExitCode& code);
-void add_export_command(Command& app, ExitCode& code);
-void add_force_command(Command& app, ExitCode& code);
-void add_video_command(Command& app, ExitCode& code);
-void add_phantom_command(Command& app, ExitCode& code);
-void add_echo_gates_command(Command& app, ExitCode& code);
-void add_deform_command(Command& app, ExitCode& code);
-void add_elastogram_command(Command& app, ExitCode& code);
-void add_soft_gates_command(Command& app, ExitCode& code);
-void add_injection_gates_command(Command& app, ExitCode& code);
-void add_run_command(Command& app, ExitCode& code);
-void add_experiment_command(Command& app, ExitCode& code);
-void add_inject_command(Command& app, ExitCode& code);
-void add_laws_command(Command& app, ExitCode& code);
-void add_loop_command(Command& app, ExitCode& code);
-void add_serve_command(Command& app, ExitCode& code);
-void add_view_command(Command& app, ExitCode& code);
-void add_replay_command(Command& app, ExitCode& code);
-void add_register_command(Command& app, ExitCode& code);
-void add_shm_monitor_command(Command& app, ExitCode& code);
-
 }  // namespace artus

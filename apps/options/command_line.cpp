@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/detail/apps/options/command_line.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <utility>
 
 #include <CLI/CLI.hpp>
+
+#include "artus/detail/core/check.h"
 
 namespace artus {
 
@@ -58,8 +61,21 @@ Command::Command(CLI::App* app) : app_(app) {}
 Command::~Command() = default;
 
 Command* Command::add_subcommand(const std::string& name, const std::string& description) {
-  return commands_.emplace_back(std::make_unique<Command>(app_->add_subcommand(name, description)))
-      .get();
+  CLI::App* added = app_->add_subcommand(name, description);
+  if (!group_.empty()) added->group(group_);
+  if (!program_)
+    added->preparse_callback([above = app_](std::size_t /*left*/) {
+      for (CLI::Option* option : above->get_options()) option->required(false);
+    });
+  return commands_.emplace_back(std::make_unique<Command>(added)).get();
+}
+
+Command& Command::subcommand(const std::string& name) {
+  const auto found = std::find_if(commands_.begin(), commands_.end(), [&](const auto& command) {
+    return command->app_->get_name() == name;
+  });
+  ARTUS_REQUIRE(found != commands_.end(), "there is no such subcommand");
+  return **found;
 }
 
 template <typename Value>
@@ -103,10 +119,14 @@ void Command::require_subcommand(int count) {
 }
 
 void Command::callback(std::function<void()> body) {
-  app_->callback(std::move(body));
+  app_->callback([app = app_, body = std::move(body)] {
+    if (app->get_subcommands().empty()) body();
+  });
 }
 
 bool Command::parse(int argc, const char* const* argv, int& exit_code) {
+  line_.clear();
+  for (int i = 1; i < argc; ++i) line_.append(i > 1 ? " " : "").append(argv[i]);
   try {
     app_->parse(argc, argv);
     return true;

@@ -51,7 +51,13 @@ class Command {
   Command(const Command&) = delete;
   Command& operator=(const Command&) = delete;
 
+  /// A command of the program, or one of this command: `artus sweep merge`. Flags that this command
+  /// requires are not required of its own commands, and its callback does not run with theirs.
   Command* add_subcommand(const std::string& name, const std::string& description);
+  /// The heading under which --help lists the subcommands that are added from here on.
+  void group(const std::string& heading) { group_ = heading; }
+  /// One that was added. Requires: that it was.
+  [[nodiscard]] Command& subcommand(const std::string& name);
   /// A flag with a value ("--depth,-d"), or an argument (a name without dashes). Value: a path, a
   /// string, a number, an optional of those, or a vector of strings or numbers.
   template <typename Value>
@@ -67,10 +73,14 @@ class Command {
   /// Reads the command line and runs what it chose. False when it was wrong, or asked for help or
   /// the version: that was printed, and `exit_code` is 0 for the latter.
   [[nodiscard]] bool parse(int argc, const char* const* argv, int& exit_code);
+  /// What parse() was given, without the program's name and with blanks between.
+  [[nodiscard]] const std::string& line() const noexcept { return line_; }
 
  private:
   std::unique_ptr<CLI::App> program_;  // the program's; a command's belongs to it
   CLI::App* app_;
+  std::string group_;
+  std::string line_;
   std::deque<Option> options_;
   std::vector<std::unique_ptr<Command>> commands_;
 };

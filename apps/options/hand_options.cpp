@@ -5,19 +5,6 @@
 
 namespace artus {
 
-void add_haptic_rate_option(Command* command, double& rate_hz, const std::string& names) {
-  command->add_option(names, rate_hz, "ticks a second, Hz")
-      ->check(number_in(100, 20000))
-      ->capture_default_str();
-}
-
-void add_device_option(Command* command, std::string& device) {
-  command
-      ->add_option("--device", device,
-                   "whose force limits hold: touch, virtuose_6d_desktop, delta, ideal")
-      ->capture_default_str();
-}
-
 void add_hand_options(Command* command, HandOptions& options) {
   add_joint_options(command, options.joint);
   add_imaging_options(command, options.view);

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <string>
 
+#include "artus/detail/apps/options/device_options.h"
 #include "artus/detail/apps/options/feel_options.h"
 #include "artus/detail/apps/options/view_options.h"
 
@@ -25,12 +26,6 @@ struct HandOptions {
 
 /// Adds them all but the ticks' rate, which commands name differently.
 void add_hand_options(Command* command, HandOptions& options);
-
-/// --haptic-rate, or the names that a command has for it: messages tell the first.
-void add_haptic_rate_option(Command* command, double& rate_hz,
-                            const std::string& names = "--haptic-rate");
-/// --device, by its name in the catalogue of devices.
-void add_device_option(Command* command, std::string& device);
 
 /// A joint that is loaded, how it is looked at, and how its needle feels.
 struct LoadedHand {

@@ -79,7 +79,7 @@ void add_session_options(Command* command, SessionOptions& options,
   add_feel_options(command, options.feel);
   add_needle_length_option(command, options.feel.needle_length_mm);
   add_device_option(command, options.device);
-  add_haptic_rate_option(command, options.haptic_rate);
+  add_haptic_rate_option(command, options.haptic_rate, "--haptic-rate,--rate");
   command->add_option("--image-rate", options.image_rate, "images a second, Hz")
       ->check(number_in(1, 120))
       ->capture_default_str();
@@ -106,8 +106,15 @@ void add_session_options(Command* command, SessionOptions& options,
   add_gauge_option(command, options.gauge);
   command->add_option("--liquid", options.liquid, "in the syringe, of meshes/liquids.toml")
       ->capture_default_str();
-  command->add_option("--haptic-cpu", options.haptic_cpu, "processor of the haptic thread; -1: any")
+  command
+      ->add_option("--haptic-cpu,--cpu", options.haptic_cpu,
+                   "processor of the haptic thread; -1: any")
       ->check(whole_number_in(-1, 1023))
+      ->capture_default_str();
+  command
+      ->add_option("--haptic-priority,--priority", options.haptic_priority,
+                   "SCHED_FIFO priority to ask for the haptic thread; 0: none")
+      ->check(whole_number_in(0, 99))
       ->capture_default_str();
   command->add_option("--histograms", options.histograms,
                       "write where the time went as CSV, bin by bin");
@@ -174,6 +181,7 @@ Result<std::optional<PlannedInjection>> chosen_injection(const SessionOptions& o
 Session::Options make_thread_options(const SessionOptions& options) {
   Session::Options made;
   made.haptic_options.cpu = options.haptic_cpu;
+  made.haptic_options.fifo_priority = options.haptic_priority;
   made.recording = options.recording;
   made.image_segment_prefix = options.prefix;
   return made;
@@ -230,14 +238,18 @@ void print_times(const SessionTimes& times, const SessionParams& params) {
   print_line("haptic compute", times.haptic_compute);
   print_line("haptic processor", times.haptic_cpu);
   print_line("haptic lateness", times.haptic_lateness);
+  if (times.haptic_floor.count() > 0) print_line("late without work", times.haptic_floor);
+  if (times.haptic_fixed.count() > 0) print_line("fixed work, haptic", times.haptic_fixed);
   if (times.tissue_step.count() > 0) {
     print_line("tissue step", times.tissue_step);
     print_line("tissue interval", times.tissue_interval);
   }
-  print_line("image render", times.image_render);
-  print_line("image interval", times.image_interval);
-  print_line("thirty images", times.image_thirty);
-  print_line("pose to image", times.pose_to_image);
+  if (times.image_render.count() > 0) {
+    print_line("image render", times.image_render);
+    print_line("image interval", times.image_interval);
+    print_line("thirty images", times.image_thirty);
+    print_line("pose to image", times.pose_to_image);
+  }
   if (times.fixed_work.count() > 0) print_line("a fixed work", times.fixed_work);
   std::printf("haptic period %.0f us, image period %.0f us\n", 1e6 / params.haptic_rate,
               1e6 / params.image_rate);
@@ -245,15 +257,18 @@ void print_times(const SessionTimes& times, const SessionParams& params) {
 
 Result<void> write_histograms(const std::filesystem::path& file, const SessionTimes& times) {
   if (file.empty()) return {};
-  const std::array<std::pair<const char*, const LatencyHistogram*>, 8> columns{
+  const std::array<std::pair<const char*, const LatencyHistogram*>, 11> columns{
       {{"haptic_compute", &times.haptic_compute},
        {"haptic_processor", &times.haptic_cpu},
        {"haptic_lateness", &times.haptic_lateness},
+       {"haptic_floor", &times.haptic_floor},
+       {"haptic_fixed_work", &times.haptic_fixed},
        {"tissue_step", &times.tissue_step},
        {"tissue_interval", &times.tissue_interval},
        {"image_render", &times.image_render},
        {"image_interval", &times.image_interval},
-       {"pose_to_image", &times.pose_to_image}}};
+       {"pose_to_image", &times.pose_to_image},
+       {"fixed_work", &times.fixed_work}}};
   std::ostringstream out;
   out << "upper_edge_us";
   for (const auto& [name, histogram] : columns) out << ',' << name;
@@ -273,6 +288,8 @@ nlohmann::json to_json(const SessionTimes& times) {
   return {{"haptic_compute", to_json(times.haptic_compute)},
           {"haptic_cpu", to_json(times.haptic_cpu)},
           {"haptic_lateness", to_json(times.haptic_lateness)},
+          {"haptic_floor", to_json(times.haptic_floor)},
+          {"haptic_fixed_work", to_json(times.haptic_fixed)},
           {"tissue_step", to_json(times.tissue_step)},
           {"tissue_interval", to_json(times.tissue_interval)},
           {"image_render", to_json(times.image_render)},

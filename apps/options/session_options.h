@@ -32,6 +32,7 @@ struct SessionOptions {
   int gauge = 22;
   std::string liquid = "saline";
   int haptic_cpu = -1;
+  int haptic_priority = Session::Options().haptic_options.fifo_priority;
   int threads = 0;
   bool rigid = false;
   std::filesystem::path histograms;

@@ -44,11 +44,6 @@ Result<Transducer> make_transducer(const ViewOptions& options) {
 
 }  // namespace
 
-void add_needle_length_option(Command* command, std::optional<double>& length_mm) {
-  command->add_option("--needle-length-mm", length_mm, "hub to tip (default: 35)")
-      ->check(number_in(10, 300));
-}
-
 void add_gauge_option(Command* command, int& gauge) {
   command
       ->add_option("--gauge", gauge,

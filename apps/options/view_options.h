@@ -5,6 +5,7 @@
 #include <string>
 
 #include "artus/detail/apps/options/command.h"
+#include "artus/detail/apps/options/device_options.h"
 #include "artus/echo/image_settings.h"
 #include "artus/echo/needle_view.h"
 #include "artus/echo/transducer.h"
@@ -35,9 +36,6 @@ struct ViewOptions {
   int threads = 0;
   std::uint64_t seed = 1;
 };
-
-/// --needle-length-mm, hub to tip, for the forces and for the picture.
-void add_needle_length_option(Command* command, std::optional<double>& length_mm);
 
 /// --gauge, checked by needle_of_flag; --threads.
 void add_gauge_option(Command* command, int& gauge);

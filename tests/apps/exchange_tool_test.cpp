@@ -287,11 +287,11 @@ TEST_F(ExchangeTool, AJobThatIsKilledAndStartedAgainGivesTheBytesOfTheUndividedS
     EXPECT_EQ(again.exit_code, 0) << again.err;
   }
   EXPECT_EQ(content("jobs"), content("whole"));
-  const auto merged = test::artus({"sweep-merge", in("jobs")});
+  const auto merged = test::artus({"sweep", "merge", in("jobs")});
   EXPECT_EQ(merged.exit_code, 0) << merged.err;
   EXPECT_THAT(merged.out, HasSubstr("60 frames in 10 shards"));
   fs::remove(folder_ / "jobs/shard-000004.json");
-  const auto missing = test::artus({"sweep-merge", in("jobs")});
+  const auto missing = test::artus({"sweep", "merge", in("jobs")});
   EXPECT_EQ(missing.exit_code, 1);
   EXPECT_THAT(missing.err, HasSubstr("missing: frames 24:30"));
 }

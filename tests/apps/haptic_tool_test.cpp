@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "artus/detail/apps/options/command.h"
+#include "artus/detail/apps/commands.h"
 #include "tests/apps/run_tool.h"
 
 namespace artus {
@@ -20,8 +20,7 @@ using test::kSimple;
 std::string refusal(const std::vector<const char*>& line) {
   ExitCode code = ExitCode::ok;
   Command app("artus");
-  add_loop_command(app, code);
-  add_experiment_command(app, code);
+  add_serve_command(app, code);
   int mistake = 0;
   ::testing::internal::CaptureStderr();
   const bool taken = app.parse(static_cast<int>(line.size()), line.data(), mistake);
@@ -29,58 +28,78 @@ std::string refusal(const std::vector<const char*>& line) {
   return taken || mistake == 0 ? "" : said;
 }
 
-TEST(HapticTool, LoopReportsItsHistogramsWithoutAJoint) {
-  const auto run = artus({"loop", "--seconds", "0.5", "--rate", "2000", "--json"});
+/// The hands alone in the ball of tissues, for `seconds`.
+std::vector<std::string> hands(const char* seconds, const std::vector<std::string>& more = {}) {
+  std::vector<std::string> line{"serve",     "--no-images", "--input", "injection",
+                                "--seconds", seconds,       "--json"};
+  line.insert(line.end(), more.begin(), more.end());
+  return line;
+}
+
+TEST(HapticTool, HandsAloneReportTheirHistogramsWithoutAJoint) {
+  const auto run = artus(hands("0.5", {"--haptic-rate", "2000"}));
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const auto report = nlohmann::json::parse(run.out);
   const auto ticks = report.at("ticks").get<long>();
   EXPECT_GT(ticks, 0);
-  EXPECT_LE(ticks, 1000);
-  EXPECT_EQ(report.at("compute").at("count").get<long>(), ticks);
-  EXPECT_GE(report.at("lateness").at("count").get<long>(), ticks);
-  EXPECT_GT(report.at("lateness_floor").at("count").get<long>(), 0);
-  EXPECT_GT(report.at("fixed_work").at("p50_us").get<double>(), 0.1);
+  EXPECT_LE(ticks, 1100);
+  EXPECT_EQ(report.at("rate_hz"), 2000);
+  const auto& times = report.at("times");
+  EXPECT_EQ(times.at("haptic_compute").at("count").get<long>(), ticks);
+  EXPECT_GE(times.at("haptic_lateness").at("count").get<long>(), ticks);
+  EXPECT_GT(times.at("haptic_floor").at("count").get<long>(), 0);
+  EXPECT_GT(times.at("haptic_fixed_work").at("p50_ms").get<double>(), 1e-4);
   EXPECT_TRUE(report.at("refused").is_array());
+  for (const char* count : {"faults", "rested", "inserted", "on_bone"})
+    EXPECT_GE(report.at(count).get<long>(), 0) << count;
 }
 
-TEST(HapticTool, LoopTakesLawsForAllTissuesAndForOne) {
+TEST(HapticTool, ALoopOfBeforeIsTheHandsAlone) {
+  const auto run = artus(
+      {"loop", "--seconds", "0.2", "--rate", "2000", "--cpu", "0", "--priority", "0", "--json"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NE(run.err.find("'artus serve --no-images'"), std::string::npos) << run.err;
+  EXPECT_EQ(nlohmann::json::parse(run.out).at("rate_hz"), 2000);
+}
+
+TEST(HapticTool, AServedSessionOfADeviceNeedsAJoint) {
+  const auto run = artus({"serve", "--seconds", "0.1"});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_NE(run.err.find("--joint"), std::string::npos) << run.err;
+}
+
+TEST(HapticTool, HandsTakeLawsForAllTissuesAndForOne) {
   const auto run =
-      artus({"loop", "--seconds", "0.1", "--cutting", "voigt", "--cutting", "skin=spring",
-             "--prepuncture", "barbe", "--bone-tap", "impulse", "--clamping", "plasticity",
-             "--friction-set", "1", "--patient", "friction=1.5", "--json"});
+      artus(hands("0.1", {"--cutting", "voigt", "--cutting", "skin=spring", "--prepuncture",
+                          "barbe", "--bone-tap", "impulse", "--clamping", "plasticity",
+                          "--friction-set", "1", "--patient", "friction=1.5"}));
   EXPECT_EQ(run.exit_code, 0) << run.err;
 }
 
-TEST(HapticTool, LoopTakesAWorkspaceAndThePassivityController) {
-  const auto run = artus({"loop", "--seconds", "0.1", "--workspace-mm", "0", "0", "60", "100",
-                          "--workspace-push-n", "2", "--passivity-control", "--json"});
+TEST(HapticTool, HandsTakeAWorkspaceAndThePassivityController) {
+  const auto run = artus(hands("0.1", {"--workspace-mm", "0", "0", "60", "100",
+                                       "--workspace-push-n", "2", "--passivity-control"}));
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_GT(nlohmann::json::parse(run.out).at("most_force_n").get<double>(), 0);
   for (const char* radius : {"0", "-5", "nan", "inf"}) {
-    const auto refused =
-        artus({"loop", "--seconds", "0.1", "--workspace-mm", "0", "0", "60", radius});
+    const auto refused = artus(hands("0.1", {"--workspace-mm", "0", "0", "60", radius}));
     EXPECT_EQ(refused.exit_code, 2) << radius;
     EXPECT_NE(refused.err.find("--workspace-mm"), std::string::npos) << refused.err;
   }
 }
 
 TEST(HapticTool, NumbersThatMakeNoSenseAreRefusedAtTheFlag) {
-  for (const char* flag : {"--rate", "--seconds", "--speed-mm-s", "--cpu", "--priority",
-                           "--friction-set", "--workspace-push-n"}) {
+  for (const char* flag : {"--haptic-rate", "--seconds", "--speed-mm-s", "--haptic-cpu",
+                           "--haptic-priority", "--friction-set", "--workspace-push-n"}) {
     for (const char* value :
          {"nan", "inf", "-inf", "-5", "1e300", "99999999999999999999", "abc", ""}) {
-      const std::string said = refusal({"artus", "loop", flag, value});
+      const std::string said = refusal({"artus", "serve", flag, value});
       EXPECT_NE(said.find(flag), std::string::npos) << flag << " '" << value << "' " << said;
     }
   }
-  for (const char* value : {"nan", "-1", "1.5", "99999999999999999999", ""}) {
-    const std::string said =
-        refusal({"artus", "experiment", "wall-move", "--out", "out", "--seed", value});
-    EXPECT_NE(said.find("--seed"), std::string::npos) << value << ' ' << said;
-  }
-  const auto run = artus({"loop", "--rate", "nan"});
+  const auto run = artus({"serve", "--no-images", "--haptic-rate", "nan"});
   EXPECT_EQ(run.exit_code, 2);
-  EXPECT_NE(run.err.find("--rate"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("--haptic-rate"), std::string::npos) << run.err;
 }
 
 TEST(HapticTool, ANeedlesLengthIsOneNumberForFlowForceAndPicture) {
@@ -116,19 +135,6 @@ TEST(HapticTool, TheTestOfThreeInjectionsTakesNoPoseThatItDoesNotUse) {
   }
 }
 
-TEST(HapticTool, ExperimentTakesTheLawsItDoesNotFix) {
-  const std::string out = ::testing::TempDir() + "artus-experiment-laws";
-  const auto taken =
-      artus({"experiment", "wall-move", "--cutting", "layer 1=spring", "--out", out, "--json"});
-  EXPECT_EQ(taken.exit_code, 1) << taken.err;  // the published claims are the wall's
-  EXPECT_FALSE(nlohmann::json::parse(taken.out).at("wall-move").at("pass").get<bool>());
-  const auto fixed = artus({"experiment", "wall-vs-classic", "--cutting", "spring", "--out", out});
-  EXPECT_EQ(fixed.exit_code, 2);
-  EXPECT_NE(fixed.err.find("--cutting"), std::string::npos) << fixed.err;
-  const auto all = artus({"experiment", "--all", "--friction-set", "2", "--out", out});
-  EXPECT_EQ(all.exit_code, 2);
-}
-
 TEST(HapticTool, LawsListsEveryParameterWithUnitAndSource) {
   const auto run = artus({"laws", "--json"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
@@ -150,16 +156,16 @@ TEST(HapticTool, LawsListsEveryParameterWithUnitAndSource) {
 }
 
 TEST(HapticTool, AnUnknownLawTissueOrFactorIsRefusedWithWhatThereIs) {
-  const auto law = artus({"loop", "--seconds", "0.1", "--cutting", "butter"});
+  const auto law = artus(hands("0.1", {"--cutting", "butter"}));
   EXPECT_EQ(law.exit_code, 2);
   EXPECT_NE(law.err.find("tracking_wall, direct, spring, voigt"), std::string::npos) << law.err;
-  const auto tissue = artus({"loop", "--seconds", "0.1", "--cutting", "butter=voigt"});
+  const auto tissue = artus(hands("0.1", {"--cutting", "butter=voigt"}));
   EXPECT_EQ(tissue.exit_code, 2);
   EXPECT_NE(tissue.err.find("muscle"), std::string::npos) << tissue.err;
-  const auto factor = artus({"loop", "--seconds", "0.1", "--patient", "friction=-1"});
+  const auto factor = artus(hands("0.1", {"--patient", "friction=-1"}));
   EXPECT_EQ(factor.exit_code, 2);
   EXPECT_NE(factor.err.find("friction=-1"), std::string::npos) << factor.err;
-  const auto rate = artus({"loop", "--rate", "1e9"});
+  const auto rate = artus(hands("0.1", {"--haptic-rate", "1e9"}));
   EXPECT_EQ(rate.exit_code, 2);
 }
 

@@ -40,15 +40,6 @@ class ImagingTool : public test::TemporaryFolder {
   }
 };
 
-TEST_F(ImagingTool, EveryCommandHasHelpWithExamples) {
-  for (const char* command : {"image", "slice", "phantom", "echo-gates", "sweep", "video", "deform",
-                              "soft-gates", "injection-gates"}) {
-    const auto r = artus({command, "--help"});
-    EXPECT_EQ(r.exit_code, 0) << command;
-    EXPECT_NE(r.out.find(std::string("  artus ") + command), std::string::npos) << command;
-  }
-}
-
 TEST_F(ImagingTool, AnImageOfNothingIsRefusedWithAProbeThatStands) {
   const auto nothing =
       artus({"image", "-j", kSimple, "--probe=-90,0,0/1,0,0", "-o", in("nothing.png")});
@@ -67,8 +58,8 @@ TEST_F(ImagingTool, DrawsAnImageAnEnvelopeAndTheLabelsBesideIt) {
                             "--plain", "--envelope", in("e.tiff"), "--json"});
   ASSERT_EQ(image.exit_code, 0) << image.err;
   EXPECT_TRUE(nlohmann::json::parse(image.out).contains("needle"));
-  const auto slice =
-      artus({"slice", "-j", kSimple, "-o", in("l.png"), "--ids", in("ids.png"), "--json"});
+  const auto slice = artus(
+      {"image", "labels", "-j", kSimple, "-o", in("l.png"), "--ids", in("ids.png"), "--json"});
   ASSERT_EQ(slice.exit_code, 0) << slice.err;
   const auto regions = nlohmann::json::parse(slice.out).at("regions");
   EXPECT_GE(regions.size(), 4U);
@@ -142,29 +133,17 @@ TEST_F(ImagingTool, DopplerColoursAMovingNeedle) {
 }
 
 TEST_F(ImagingTool, APhantomComesWithItsTruth) {
-  const auto r = artus({"phantom", "needle", "--needle-angle", "30", "--out", in("n"), "--json"});
+  const auto r =
+      artus({"image", "phantom", "needle", "--needle-angle", "30", "--out", in("n"), "--json"});
   ASSERT_EQ(r.exit_code, 0) << r.err;
   EXPECT_NEAR(nlohmann::json::parse(r.out).at("needle").at("face_angle_deg").get<double>(), 30,
               1e-6);
   for (const char* file :
        {"bmode.png", "grey.png", "envelope.tiff", "labels.png", "ids.png", "truth.json"})
     EXPECT_TRUE(std::filesystem::exists(folder_ / "n" / file)) << file;
-  EXPECT_EQ(artus({"phantom", "brick", "--out", in("x")}).exit_code, 2);
-  EXPECT_EQ(artus({"phantom", "needle", "--needle-angle", "89", "--out", in("x")}).exit_code, 2);
-}
-
-TEST_F(ImagingTool, TheGateReportHasValueBoundAndVerdict) {
-  const auto r = artus({"echo-gates", "--only", "needle-angle", "--only", "enhancement", "--out",
-                        in("g"), "--json"});
-  ASSERT_EQ(r.exit_code, 0) << r.out << r.err;
-  const auto report = nlohmann::json::parse(r.out);
-  EXPECT_TRUE(report.at("pass").get<bool>());
-  for (const auto& claim : report.at("gates").at("needle-angle").at("claims"))
-    for (const char* key : {"claim", "value", "bound", "pass"}) EXPECT_TRUE(claim.contains(key));
-  for (const char* file : {"report.md", "gates.json", "pictures/needle-angle.png",
-                           "pictures/needle-30-image.png", "pictures/cyst-image.png"})
-    EXPECT_TRUE(std::filesystem::exists(folder_ / "g" / file)) << file;
-  EXPECT_EQ(artus({"echo-gates", "--only", "no-such", "--out", in("g")}).exit_code, 2);
+  EXPECT_EQ(artus({"image", "phantom", "brick", "--out", in("x")}).exit_code, 2);
+  EXPECT_EQ(
+      artus({"image", "phantom", "needle", "--needle-angle", "89", "--out", in("x")}).exit_code, 2);
 }
 
 TEST_F(ImagingTool, APressedJointHasForcesLayersAndACage) {
@@ -204,8 +183,8 @@ TEST_F(ImagingTool, ThreeNewtonsPressAShoulderByWhatFatAndMuscleGiveWay) {
 
 TEST_F(ImagingTool, PressesTheFaceOfTheProbeThatDraws) {
   const auto newtons = [&](const std::string& transducer) {
-    const auto r = artus({"slice", "-j", kSimple, "--transducer", transducer, "--press-mm", "8",
-                          "-o", in("face.png"), "--json"});
+    const auto r = artus({"image", "labels", "-j", kSimple, "--transducer", transducer,
+                          "--press-mm", "8", "-o", in("face.png"), "--json"});
     EXPECT_EQ(r.exit_code, 0) << r.err << r.out;
     return nlohmann::json::parse(r.out).at("press").at("normal_force_n").get<double>();
   };
@@ -219,26 +198,26 @@ TEST_F(ImagingTool, PressesTheFaceOfTheProbeThatDraws) {
 }
 
 TEST_F(ImagingTool, DeformPressesTheFaceOfTheProbeThatIsNamed) {
-  const auto newtons = [&](const char* command, const std::string& transducer) {
-    std::vector<std::string> line{command,    "-j",         kSimple, "--transducer",
-                                  transducer, "--press-mm", "2",     "--json"};
-    if (std::string(command) == "slice") line.insert(line.end(), {"-o", in("face.png")});
+  const auto newtons = [&](std::vector<std::string> line, const std::string& transducer) {
+    line.insert(line.end(),
+                {"-j", kSimple, "--transducer", transducer, "--press-mm", "2", "--json"});
     const auto r = artus(line);
     EXPECT_EQ(r.exit_code, 0) << r.err << r.out;
     const auto report = nlohmann::json::parse(r.out);
     return (report.contains("press") ? report["press"] : report).at("normal_force_n").get<double>();
   };
-  const double hockey = newtons("deform", "hockey-7-15");
-  EXPECT_EQ(hockey, newtons("slice", "hockey-7-15"));
-  EXPECT_NE(hockey, newtons("deform", "linear-6-18"));
+  const double hockey = newtons({"deform"}, "hockey-7-15");
+  EXPECT_EQ(hockey, newtons({"image", "labels", "-o", in("face.png")}, "hockey-7-15"));
+  EXPECT_NE(hockey, newtons({"deform"}, "linear-6-18"));
   const auto curved = artus({"deform", "-j", kSimple, "--transducer", "curved-2-5"});
   EXPECT_EQ(curved.exit_code, 2);
   EXPECT_NE(curved.err.find("--transducer: only a straight"), std::string::npos) << curved.err;
 }
 
 TEST_F(ImagingTool, APressedPictureSaysWhatWasPressed) {
-  for (const char* command : {"image", "slice"}) {
-    const auto r = artus({command, "-j", kSimple, "--press-mm", "1", "-o", in("pressed.png")});
+  for (std::vector<std::string> line : {std::vector<std::string>{"image"}, {"image", "labels"}}) {
+    line.insert(line.end(), {"-j", kSimple, "--press-mm", "1", "-o", in("pressed.png")});
+    const auto r = artus(line);
     ASSERT_EQ(r.exit_code, 0) << r.err;
     EXPECT_NE(r.out.find("pressed 1.00 mm"), std::string::npos) << r.out;
   }
@@ -255,7 +234,8 @@ nlohmann::json needle_moved(std::vector<std::string> line, const std::string& di
 
 /// Some seconds a needle: each of the two ways is asked for by a picture and by `deform` once.
 TEST_F(ImagingTool, NeedleThatGoesInPushesTheTissueOnInPictureAndDeformAlike) {
-  const auto needle = needle_moved({"slice", "-o", in("in.png")}, "in").at("press").at("needle");
+  const auto needle =
+      needle_moved({"image", "labels", "-o", in("in.png")}, "in").at("press").at("needle");
   EXPECT_GT(needle.at("tip_force_n").get<double>(), 0);
   EXPECT_GT(needle.at("tissue_moved_mm").get<double>(), 0.1);
   EXPECT_LT(needle.at("tissue_moved_mm").get<double>(), 5);
@@ -270,7 +250,8 @@ TEST_F(ImagingTool, NeedleThatGoesInPushesTheTissueOnInPictureAndDeformAlike) {
 }
 
 TEST_F(ImagingTool, NeedleDrawnBackPullsTissueAlongInPictureAndDeformAlike) {
-  const auto needle = needle_moved({"slice", "-o", in("out.png")}, "out").at("press").at("needle");
+  const auto needle =
+      needle_moved({"image", "labels", "-o", in("out.png")}, "out").at("press").at("needle");
   EXPECT_EQ(needle.at("tip_force_n").get<double>(), 0);
   EXPECT_LT(needle.at("force_n").get<double>(), 0);
   EXPECT_LT(needle.at("tissue_moved_mm").get<double>(), -0.02);
@@ -286,8 +267,8 @@ TEST_F(ImagingTool, ADirectionWithoutANeedleIsRefused) {
 }
 
 TEST_F(ImagingTool, NeedleDragsNothingInARigidBody) {
-  const auto r = artus(
-      {"slice", "-j", kSimple, "--needle", "default", "--needle-way", "in", "-o", in("rigid.png")});
+  const auto r = artus({"image", "labels", "-j", kSimple, "--needle", "default", "--needle-way",
+                        "in", "-o", in("rigid.png")});
   EXPECT_EQ(r.exit_code, 2);
   EXPECT_NE(r.err.find("--press-n"), std::string::npos) << r.err;
 }
@@ -307,8 +288,8 @@ TEST_F(ImagingTool, ASweepContinuesAndAVideoFollowsThePath) {
   EXPECT_NE(other.err.find("--restart"), std::string::npos);
 
   poses();
-  const auto video =
-      artus({"video", "-j", kSimple, "--path", list, "--fps", "5", "-o", in("p.avi"), "--json"});
+  const auto video = artus(
+      {"image", "video", "-j", kSimple, "--path", list, "--fps", "5", "-o", in("p.avi"), "--json"});
   ASSERT_EQ(video.exit_code, 0) << video.out << video.err;
   EXPECT_EQ(nlohmann::json::parse(video.out).at("frames"), 11);
   EXPECT_GT(std::filesystem::file_size(folder_ / "p.avi"), 10000U);

@@ -2,7 +2,7 @@
 # Every function marked ARTUS_REALTIME is run under the allocation and lock counters (tests/support/real_time.h).
 cmake_minimum_required(VERSION 3.25)
 set(files "")
-foreach(folder core anatomy raycast haptics echo operators dataset session training evidence exchange tests)
+foreach(folder core anatomy raycast haptics echo operators dataset simulation session training evidence exchange tests)
   file(GLOB_RECURSE found ${ROOT}/${folder}/*.h)
   if(folder STREQUAL "tests")
     file(GLOB_RECURSE found ${ROOT}/tests/*_test.cpp)

@@ -2,7 +2,7 @@
 # The licence stands in the first two lines of every source file.
 cmake_minimum_required(VERSION 3.25)
 set(bad "")
-foreach(folder core anatomy raycast haptics echo operators dataset session evidence exchange python apps viewer meshes tests bench scripts cmake)
+foreach(folder core anatomy raycast haptics echo operators dataset simulation session evidence exchange reports python apps viewer trainer meshes tests bench scripts cmake)
   file(GLOB_RECURSE files ${ROOT}/${folder}/*.h ${ROOT}/${folder}/*.cpp ${ROOT}/${folder}/*.c ${ROOT}/${folder}/*.cmake ${ROOT}/${folder}/CMakeLists.txt
     ${ROOT}/scripts/*)
   foreach(f ${files})

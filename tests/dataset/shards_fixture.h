@@ -13,7 +13,7 @@
 #include "artus/detail/dataset/pose_draw.h"
 #include "artus/detail/dataset/shard_merge.h"
 #include "artus/detail/dataset/shards.h"
-#include "artus/detail/evidence/validation/echo/echo_phantom.h"
+#include "artus/detail/evidence/runs/echo_phantom.h"
 #include "tests/support/temporary_folder.h"
 
 namespace artus::test {

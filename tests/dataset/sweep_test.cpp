@@ -17,7 +17,7 @@
 #include "artus/detail/core/units.h"
 #include "artus/detail/dataset/echo_truth.h"
 #include "artus/detail/dataset/sweep_video.h"
-#include "artus/detail/evidence/validation/echo/echo_phantom.h"
+#include "artus/detail/evidence/runs/echo_phantom.h"
 #include "tests/support/temporary_folder.h"
 
 namespace artus {

@@ -14,6 +14,7 @@
 #include "artus/detail/session/record/recorder.h"
 #include "artus/detail/session/session_exchange.h"
 #include "artus/detail/simulation/hand_aids.h"
+#include "artus/detail/simulation/haptic_core.h"
 #include "artus/haptics/needle_renderer.h"
 #include "artus/session/recording.h"
 #include "artus/session/shared_memory_device.h"
@@ -99,12 +100,22 @@ TEST(RealTimeSession, AidsOfTheHandNeitherAllocateNorLock) {
 TEST(RealTimeSession, CoreAndLoopNeitherAllocateNorLockOnTheWayToBone) {
   const auto scene = test::make_layered_scene();
   Simulation core(scene, test::make_small_session());
+  HapticCore half(scene, test::make_small_session());
+  const auto renderer = make_needle_renderer(scene, "virtuose_6d_desktop", 1000);
+  ASSERT_TRUE(renderer);
   bool inserted = false;
   for (int i = 0; i < 2000; ++i) {
     TickInput input;
     input.tick = static_cast<std::uint64_t>(i) + 1;
     input.device = test::sample_at(-5e-3 + 2e-5 * i, i * test::kTickTime, input.tick);
     if (i == 1500) input.device.X_WN.position[0] = std::nan("");
+    if (i % 2 == 0) {
+      ARTUS_RUNS_REALTIME(HapticCore::step, use(half.step(input)));
+    } else {
+      TimedPose pose{to_pose(input.device.X_WN), 1e-3 * i};
+      ARTUS_RUNS_REALTIME(NeedleRenderer::feel, use((*renderer)->feel(pose)));
+      ARTUS_RUNS_REALTIME(NeedleRenderer::command, use((*renderer)->command(Vec3(0, 0, 1))));
+    }
     ARTUS_RUNS_REALTIME(Simulation::tick, inserted = core.tick(input).inserted != 0 || inserted);
     ARTUS_RUNS_REALTIME(to_record, use(to_record(core.tick(input))));
     TissuePacket packet;
@@ -112,6 +123,7 @@ TEST(RealTimeSession, CoreAndLoopNeitherAllocateNorLockOnTheWayToBone) {
     packet.needle.carried = {0, 1e-4, 1e-5 * i};
     packet.needle.compliance = test::make_even_compliance();
     ARTUS_RUNS_REALTIME(Simulation::take, core.take(packet));
+    ARTUS_RUNS_REALTIME(HapticCore::take, half.take(packet));
   }
   EXPECT_TRUE(inserted);
   HandDevice device(hand_at(-5e-3), 1e-3);

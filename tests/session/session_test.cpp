@@ -48,6 +48,21 @@ TEST(Session, StartsTicksMakesImagesAndStops) {
   EXPECT_GT((*session)->times().haptic_compute.count(), 200U);
 }
 
+TEST(Session, WhatTheMachineItselfCostsIsMeasuredBeside) {
+  Session::Options options = quiet_options();
+  options.images = false;
+  options.gauge = true;
+  options.floor_seconds = 0.1;
+  auto session = Session::start(test::make_layered_scene(), test::make_small_session(),
+                                test::make_injecting_hand(), options);
+  ASSERT_TRUE(session) << session.error().to_string();
+  ASSERT_TRUE(wait_until([&] { return (*session)->ticks() > 50; }));
+  const SessionTimes& times = (*session)->times();
+  EXPECT_GT(times.haptic_floor.count(), 10U);
+  EXPECT_GE(times.haptic_fixed.count(), 49U);
+  EXPECT_GT(times.haptic_fixed.percentile_us(0.5), 0.1);
+}
+
 TEST(Session, AFrozenImageStaysWhileTheHandGoesOn) {
   auto session = Session::start(test::make_layered_scene(), test::make_small_session(),
                                 test::make_injecting_hand(), quiet_options());

@@ -7,8 +7,8 @@
 #include "artus/detail/core/printed.h"
 #include "artus/detail/core/units.h"
 #include "artus/detail/echo/display/frame_measure.h"
-#include "artus/detail/evidence/validation/echo/echo_gates_list.h"
-#include "artus/detail/evidence/validation/echo/echo_phantom.h"
+#include "artus/detail/evidence/runs/echo_phantom.h"
+#include "artus/detail/evidence/validation/echo/echo_gates.h"
 #include "artus/echo/image_io.h"
 #include "artus/echo/renderer.h"
 
@@ -80,7 +80,7 @@ std::vector<double> slice_widths(const std::shared_ptr<const Scene>& scene, doub
 }
 
 PlotSeries over_depth(std::string label, const std::vector<double>& widths,
-                      const char* style = "linespoints") {
+                      PlotStyle style = PlotStyle::line_points) {
   PlotSeries series;
   series.label = std::move(label);
   series.style = style;
@@ -100,8 +100,8 @@ cv::Mat picture_of(const std::string& phantom_name) {
 
 }  // namespace
 
-EchoGate gate_lateral_width() {
-  EchoGate gate;
+Gate gate_lateral_width() {
+  Gate gate;
   gate.title =
       "Lateral width of point targets under dynamic aperture at F/2 (wave model: 0.25 mm at "
       "12 MHz, 0.39 mm at 7.6 MHz)";
@@ -116,16 +116,16 @@ EchoGate gate_lateral_width() {
           label + ", " + in_mm(kDepths[i]) + " deep", widths[i] / kMillimetre,
           expected / kMillimetre, 0.15, "mm"));
     panel.series.push_back(over_depth(label, widths));
-    panel.series.push_back(over_depth(label + ", wave model",
-                                      std::vector<double>(kDepths.size(), expected), "points"));
+    panel.series.push_back(over_depth(
+        label + ", wave model", std::vector<double>(kDepths.size(), expected), PlotStyle::points));
   }
-  gate.plot = {"lateral width of point targets", {panel}};
-  gate.pictures.push_back({"points", picture_of("points")});
+  gate.plots.push_back({"", {"lateral width of point targets", {panel}}});
+  add_picture(gate, "points", picture_of("points"));
   return gate;
 }
 
-EchoGate gate_slice_width() {
-  EchoGate gate;
+Gate gate_slice_width() {
+  Gate gate;
   gate.title = "Slice thickness at point targets, 12 MHz, lens at 20 mm (wave model)";
   struct Row {
     double height;
@@ -145,9 +145,9 @@ EchoGate gate_slice_width() {
                      widths[i] / kMillimetre, row.widths[i] / kMillimetre, 0.15, "mm"));
     panel.series.push_back(over_depth(in_mm(row.height) + " high", widths));
     panel.series.push_back(
-        over_depth("wave model", {row.widths.begin(), row.widths.end()}, "points"));
+        over_depth("wave model", {row.widths.begin(), row.widths.end()}, PlotStyle::points));
   }
-  gate.plot = {"slice thickness", {panel}};
+  gate.plots.push_back({"", {"slice thickness", {panel}}});
   return gate;
 }
 

@@ -5,8 +5,8 @@
 
 #include "artus/detail/core/units.h"
 #include "artus/detail/echo/display/frame_measure.h"
-#include "artus/detail/evidence/validation/echo/echo_gates_list.h"
-#include "artus/detail/evidence/validation/echo/echo_phantom.h"
+#include "artus/detail/evidence/runs/echo_phantom.h"
+#include "artus/detail/evidence/validation/echo/echo_gates.h"
 #include "artus/echo/renderer.h"
 
 namespace artus {
@@ -53,8 +53,8 @@ double shifted_correlation() {
 
 }  // namespace
 
-EchoGate gate_motion() {
-  EchoGate gate;
+Gate gate_motion() {
+  Gate gate;
   gate.title = "Rigid motion of body and probe together, sideways motion by one line, threads";
   const auto scene = layered_block();
   const Pose X_JP = make_pose(Vec3(1e-3, 2e-3, 0), Vec3(0.1, 0.05, 1), Vec3(1, 0.2, 0));

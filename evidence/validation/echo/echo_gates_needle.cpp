@@ -8,8 +8,8 @@
 #include "artus/detail/core/units.h"
 #include "artus/detail/echo/display/frame_measure.h"
 #include "artus/detail/echo/probe/gaussian.h"
-#include "artus/detail/evidence/validation/echo/echo_gates_list.h"
-#include "artus/detail/evidence/validation/echo/echo_phantom.h"
+#include "artus/detail/evidence/runs/echo_phantom.h"
+#include "artus/detail/evidence/validation/echo/echo_gates.h"
 #include "artus/echo/image_io.h"
 #include "artus/echo/renderer.h"
 
@@ -53,20 +53,20 @@ double expected_half_offset(double fwhm, double diameter) {
 
 }  // namespace
 
-EchoGate gate_needle_rings() {
-  EchoGate gate;
+Gate gate_needle_rings() {
+  Gate gate;
   gate.title = "22 G needle parallel to the face, 20 mm deep: lines below it every 0.51 mm";
-  gate.assumed =
+  gate.assumed = {
       "outer diameter and bore of the gauge (nominal catalogue values), 5800 m/s in steel, water "
       "in "
-      "the bore; how fast the lines decay";
+      "the bore; how fast the lines decay"};
   Renderer renderer(make_clear_block(), Transducer{}, bare_settings());
   const Frame& frame = renderer.render(Pose::Identity(),
                                        needle_in_plane(Pose::Identity(), Vec3(12e-3, 0, 20e-3), 0));
   const auto line = envelope_line(frame, 128);
   std::vector<double> peaks;
   std::vector<double> heights;
-  PlotSeries curve{"envelope below the needle", {}, {}, "lines"};
+  PlotSeries curve{"envelope below the needle", {}, {}};
   const auto first = static_cast<std::size_t>(18.5e-3 / frame.sample_depth);
   const auto last = static_cast<std::size_t>(25e-3 / frame.sample_depth);
   for (std::size_t i = first; i < last; ++i) {
@@ -88,22 +88,23 @@ EchoGate gate_needle_rings() {
   }
   gate.claims.push_back(
       claim_that(of_the_formula, "each line weaker than the one above", decaying));
-  gate.plot = {"lines below a needle", {{"depth, mm", "dB below a mirror", {curve}}}};
-  gate.pictures.push_back({"needle-0", needle_picture(0)});
+  gate.plots.push_back(
+      {"", {"lines below a needle", {{"depth, mm", "dB below a mirror", {curve}}}}});
+  add_picture(gate, "needle-0", needle_picture(0));
   return gate;
 }
 
-EchoGate gate_needle_angle() {
-  EchoGate gate;
+Gate gate_needle_angle() {
+  Gate gate;
   gate.title =
       "Grey of a needle by its angle to the face ([SchafhalterZoppoth2004], [Nichols2003])";
-  gate.assumed =
+  gate.assumed = {
       "the mean slope of a shaft's surface, fitted to the published value at 75 degrees of plain "
       "and "
-      "of echogenic needles: those two claims hold the chain, not the physics";
+      "of echogenic needles: those two claims hold the chain, not the physics"};
   Renderer renderer(make_clear_block(), Transducer{}, bare_settings());
-  PlotSeries plain{"plain", {}, {}, "linespoints"};
-  PlotSeries dimpled{"echogenic", {}, {}, "linespoints"};
+  PlotSeries plain{"plain", {}, {}, PlotStyle::line_points};
+  PlotSeries dimpled{"echogenic", {}, {}, PlotStyle::line_points};
   for (int degrees = 0; degrees <= 75; degrees += 5) {
     for (PlotSeries* series : {&plain, &dimpled}) {
       series->x.push_back(degrees);
@@ -126,20 +127,21 @@ EchoGate gate_needle_angle() {
                                      100 * plain.y.back() / plain.y.front(), 10, 3, "%"));
   gate.claims.push_back(claim_within(of_the_slope, "echogenic at 75 degrees over 0 degrees",
                                      100 * dimpled.y.back() / dimpled.y.front(), 60, 5, "%"));
-  gate.plot = {"needle by angle",
-               {{"angle to the face, degrees", "grey of 60 dB", {plain, dimpled}}}};
+  gate.plots.push_back(
+      {"",
+       {"needle by angle", {{"angle to the face, degrees", "grey of 60 dB", {plain, dimpled}}}}});
   for (const int degrees : {10, 30, 50})
-    gate.pictures.push_back({"needle-" + std::to_string(degrees), needle_picture(degrees)});
+    add_picture(gate, "needle-" + std::to_string(degrees), needle_picture(degrees));
   return gate;
 }
 
-EchoGate gate_needle_offset() {
-  EchoGate gate;
+Gate gate_needle_offset() {
+  Gate gate;
   gate.title =
       "Offset from the plane at which a 22 G needle is half as bright: the slice of the wave "
       "model, "
       "convolved with the shaft";
-  gate.assumed = "outer diameter of the gauge (nominal catalogue value)";
+  gate.assumed = {"outer diameter of the gauge (nominal catalogue value)"};
   Renderer renderer(make_clear_block(), Transducer{}, bare_settings());
   const NeedleShape shape;
   constexpr double kStep = 0.05e-3;  // m
@@ -172,7 +174,7 @@ EchoGate gate_needle_offset() {
   }
   gate.claims.push_back(claim_at_most(
       ClaimKind::independent, "steepest fall in 0.05 mm: never a step", 100 * steepest, 30, "%"));
-  gate.plot = {"needle beside the plane", {panel}};
+  gate.plots.push_back({"", {"needle beside the plane", {panel}}});
   return gate;
 }
 

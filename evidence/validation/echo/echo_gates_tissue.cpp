@@ -6,8 +6,8 @@
 
 #include "artus/detail/core/units.h"
 #include "artus/detail/echo/display/frame_measure.h"
-#include "artus/detail/evidence/validation/echo/echo_gates_list.h"
-#include "artus/detail/evidence/validation/echo/echo_phantom.h"
+#include "artus/detail/evidence/runs/echo_phantom.h"
+#include "artus/detail/evidence/validation/echo/echo_gates.h"
 #include "artus/echo/image_io.h"
 #include "artus/echo/renderer.h"
 
@@ -50,8 +50,8 @@ Plot envelope_histogram(const std::vector<double>& cells, double rms) {
     const auto bin = static_cast<std::size_t>(a / rms / kBin);
     if (bin < counts.size()) counts[bin] += 1;
   }
-  PlotSeries measured{"rendered", {}, {}, "points"};
-  PlotSeries rayleigh{"Rayleigh", {}, {}, "lines"};
+  PlotSeries measured{"rendered", {}, {}, PlotStyle::points};
+  PlotSeries rayleigh{"Rayleigh", {}, {}};
   for (int i = 0; i < kBins; ++i) {
     const double x = (i + 0.5) * kBin;
     measured.x.push_back(x);
@@ -96,8 +96,8 @@ double mean_level(const std::string& tissue, double tilt) {
 
 }  // namespace
 
-EchoGate gate_speckle() {
-  EchoGate gate;
+Gate gate_speckle() {
+  Gate gate;
   gate.title = "Fully developed speckle in a homogeneous block (Rayleigh: mean/sd 1.913, 5.57 dB)";
   const std::vector<double> cells = independent_envelopes();
   const Moments envelope = moments_of(cells);
@@ -116,20 +116,20 @@ EchoGate gate_speckle() {
   gate.claims.push_back(claim_at_most(ClaimKind::independent,
                                       "Kolmogorov-Smirnov distance to Rayleigh (1 % level)",
                                       rayleigh_distance(cells), 1.63 / std::sqrt(n), ""));
-  gate.plot = envelope_histogram(cells, std::sqrt(squares / n));
+  gate.plots.push_back({"", envelope_histogram(cells, std::sqrt(squares / n))});
   const auto phantom = make_echo_phantom("homogeneous");
-  gate.pictures.push_back(
-      {"homogeneous", annotated_image(render_bmode(phantom->scene, phantom->X_JP), Transducer{})});
+  add_picture(gate, "homogeneous",
+              annotated_image(render_bmode(phantom->scene, phantom->X_JP), Transducer{}));
   return gate;
 }
 
-EchoGate gate_attenuation() {
-  EchoGate gate;
+Gate gate_attenuation() {
+  Gate gate;
   const double attenuation = 0.75;  // dB/cm/MHz, muscle of the library
   gate.title = "Fall of muscle's speckle with depth, twice 0.75 dB/cm/MHz at 12 MHz, no downshift";
   Renderer renderer(muscle_block(), Transducer{}, bare_settings());
   const Frame& frame = renderer.render(Pose::Identity());
-  PlotSeries measured{"rendered", {}, {}, "points"};
+  PlotSeries measured{"rendered", {}, {}, PlotStyle::points};
   std::vector<double> depths;
   for (int k = 0; k < 32; ++k) {
     const double z = 3e-3 + 1e-3 * k;
@@ -141,17 +141,18 @@ EchoGate gate_attenuation() {
   const LineFit fit = fit_line(depths, measured.y);
   gate.claims.push_back(claim_near(ClaimKind::input, "slope, two-way", -fit.slope,
                                    2 * attenuation * 12, 0.02, "dB/cm"));
-  PlotSeries line{"fit", {}, {}, "lines"};
+  PlotSeries line{"fit", {}, {}};
   for (const double cm : depths) {
     line.x.push_back(cm * 10);
     line.y.push_back(fit.intercept + fit.slope * cm);
   }
-  gate.plot = {"speckle level of muscle", {{"depth, mm", "dB below a mirror", {measured, line}}}};
+  gate.plots.push_back(
+      {"", {"speckle level of muscle", {{"depth, mm", "dB below a mirror", {measured, line}}}}});
   return gate;
 }
 
-EchoGate gate_matched_impedance() {
-  EchoGate gate;
+Gate gate_matched_impedance() {
+  Gate gate;
   gate.title = "Skin and muscle of one impedance 10 mm deep: nothing above the speckle";
   const std::array<FlatLayer, 2> layers{{{"muscle", 10e-3}, {"skin", 30e-3}}};
   const auto scene = make_block_scene(layers, [](CompiledJoint& joint) {
@@ -173,10 +174,10 @@ EchoGate gate_matched_impedance() {
   return gate;
 }
 
-EchoGate gate_interfaces() {
-  EchoGate gate;
+Gate gate_interfaces() {
+  Gate gate;
   gate.title = "Perpendicular echo levels of tissue pairs, 10 mm deep, no loss";
-  gate.assumed = "density of stainless steel, 7900 kg/m3; speed and density of cortical bone";
+  gate.assumed = {"density of stainless steel, 7900 kg/m3; speed and density of cortical bone"};
   struct Pair {
     const char* above;
     const char* below;
@@ -195,13 +196,13 @@ EchoGate gate_interfaces() {
                      interface_level(above, below), step_level(above, below), 1, "dB"));
   }
   const auto phantom = make_echo_phantom("layers");
-  gate.pictures.push_back(
-      {"layers", annotated_image(render_bmode(phantom->scene, phantom->X_JP), Transducer{})});
+  add_picture(gate, "layers",
+              annotated_image(render_bmode(phantom->scene, phantom->X_JP), Transducer{}));
   return gate;
 }
 
-EchoGate gate_fat_shift() {
-  EchoGate gate;
+Gate gate_fat_shift() {
+  Gate gate;
   gate.title = "10 mm of fat (1462 m/s) over bone: shown 0.53 mm too deep";
   const std::array<FlatLayer, 2> layers{{{"fat", 10e-3}, {"bone", 30e-3}}};
   Renderer renderer(make_block_scene(layers, silence), Transducer{}, bare_settings());
@@ -213,14 +214,14 @@ EchoGate gate_fat_shift() {
   return gate;
 }
 
-EchoGate gate_enhancement() {
-  EchoGate gate;
+Gate gate_enhancement() {
+  Gate gate;
   gate.title =
       "5 mm of bursal or injected fluid in tissue of 0.7 dB/cm/MHz at 12 MHz: + 2 alpha f t behind "
       "it";
-  gate.assumed =
+  gate.assumed = {
       "speed of fluids, 1500-1540 m/s, and attenuation of bursal fluid, 0.05 dB/cm/MHz (injected "
-      "fluid: that of water, [Pinkerton1949])";
+      "fluid: that of water, [Pinkerton1949])"};
   const auto level = [](const char* middle) {
     const std::array<FlatLayer, 3> layers{{{"muscle", 5e-3}, {middle, 5e-3}, {"muscle", 40e-3}}};
     const auto scene = make_block_scene(layers, [](CompiledJoint& joint) {
@@ -238,20 +239,20 @@ EchoGate gate_enhancement() {
                                        decibel_of_intensity(level(fluid) / level("muscle")), 8.4, 1,
                                        "dB"));
   const auto phantom = make_echo_phantom("cyst");
-  gate.pictures.push_back(
-      {"cyst", annotated_image(render_bmode(phantom->scene, phantom->X_JP), Transducer{})});
+  add_picture(gate, "cyst",
+              annotated_image(render_bmode(phantom->scene, phantom->X_JP), Transducer{}));
   return gate;
 }
 
-EchoGate gate_tendon() {
-  EchoGate gate;
+Gate gate_tendon() {
+  Gate gate;
   gate.title = "Tendon against muscle by the beam's tilt from perpendicular ([Crass1988])";
-  gate.assumed =
+  gate.assumed = {
       "backscatter of tendon, 5.1 dB above muscle, chosen with the published range in view, and "
       "its "
-      "floor 25 dB down; the lobe itself follows from the aperture";
-  PlotSeries tendon{"tendon", {}, {}, "linespoints"};
-  PlotSeries muscle{"muscle", {}, {}, "linespoints"};
+      "floor 25 dB down; the lobe itself follows from the aperture"};
+  PlotSeries tendon{"tendon", {}, {}, PlotStyle::line_points};
+  PlotSeries muscle{"muscle", {}, {}, PlotStyle::line_points};
   std::vector<double> above;
   for (int degrees = 0; degrees <= 30; ++degrees) {
     for (PlotSeries* series : {&tendon, &muscle}) {
@@ -268,7 +269,8 @@ EchoGate gate_tendon() {
   gate.claims.push_back(claim_at_least({ClaimKind::fitted, "the floor, 25 dB down, is assumed"},
                                        "tendon's loss within 20 degrees of tilt",
                                        tendon.y.front() - tendon.y[20], 10, "dB"));
-  gate.plot = {"tendon and muscle", {{"tilt, degrees", "speckle, dB", {tendon, muscle}}}};
+  gate.plots.push_back(
+      {"", {"tendon and muscle", {{"tilt, degrees", "speckle, dB", {tendon, muscle}}}}});
   return gate;
 }
 

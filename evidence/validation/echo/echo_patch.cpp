@@ -13,8 +13,8 @@
 #include "artus/detail/core/text_file.h"
 #include "artus/detail/core/units.h"
 #include "artus/detail/echo/display/frame_measure.h"
+#include "artus/detail/evidence/runs/echo_phantom.h"
 #include "artus/detail/evidence/validation/echo/echo_muscle_view.h"
-#include "artus/detail/evidence/validation/echo/echo_phantom.h"
 #include "artus/echo/image_io.h"
 #include "artus/echo/renderer.h"
 #include "artus/echo/transducer_file.h"
@@ -106,7 +106,7 @@ ReferenceView reference_view() {
 }
 
 /// Adds what one view shows to the gate.
-void compare_view(EchoGate& gate, const MuscleView& view, const MuscleFinder& finder,
+void compare_view(Gate& gate, const MuscleView& view, const MuscleFinder& finder,
                   const PatchRange& range) {
   const ReferenceView as = reference_view();
   Renderer renderer(view.scene, as.transducer, as.settings);
@@ -122,7 +122,7 @@ void compare_view(EchoGate& gate, const MuscleView& view, const MuscleFinder& fi
     mean.lateral_width += s.lateral_width * share;
   }
   for (const cv::Rect& patch : patches) cv::rectangle(image, patch, cv::Scalar(255));
-  gate.pictures.push_back({"muscle-" + view.picture, image});
+  add_picture(gate, "muscle-" + view.picture, image);
   gate.claims.push_back(claim_at_least({ClaimKind::fitted, view.why},
                                        view.name + ": patches of muscle",
                                        static_cast<double>(patches.size()), 1, ""));
@@ -216,14 +216,14 @@ Result<PatchRange> read_patch_range(const std::filesystem::path& file,
   return range;
 }
 
-EchoGate measure_muscle(const std::shared_ptr<const Scene>& scene, const PatchRange& range) {
-  EchoGate gate;
+Gate measure_muscle(const std::shared_ptr<const Scene>& scene, const PatchRange& range) {
+  Gate gate;
   gate.name = "muscle-patch";
   gate.title = "Grey of muscle in joint " + scene->joint().name + " against " +
                std::to_string(range.images) + " real images (4-9 MHz, 0.0854 mm a pixel)";
-  gate.assumed =
+  gate.assumed = {
       "level of muscle's speckle, chosen for the grey of such images; sizes of perimysium, chosen "
-      "beside real images; pulse, aperture and focus of their probe";
+      "beside real images; pulse, aperture and focus of their probe"};
   const ReferenceView as = reference_view();
   const std::string chosen = "level and grain of muscle were chosen beside such images";
   const Pose& X_JDefault = scene->joint().X_JP_default;

@@ -55,7 +55,7 @@ struct PatchRange {
 /// degrees, and a block of muscle in its long axis, and compares their muscle with the range. The
 /// probe and pixels are those of the reference images: 4-9 MHz, 0.0854 mm. Every claim is fitted,
 /// by muscle's speckle and, where the probe was slid, by the view.
-[[nodiscard]] EchoGate measure_muscle(const std::shared_ptr<const Scene>& scene,
-                                      const PatchRange& range);
+[[nodiscard]] Gate measure_muscle(const std::shared_ptr<const Scene>& scene,
+                                  const PatchRange& range);
 
 }  // namespace artus

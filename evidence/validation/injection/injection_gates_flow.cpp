@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "artus/detail/core/noise.h"
-#include "artus/detail/evidence/validation/injection/injection_gates_list.h"
+#include "artus/detail/evidence/validation/injection/injection_gates.h"
 
 namespace artus {
 namespace {
@@ -47,7 +47,8 @@ double power_law_drop(double q, double d, double length, double k, double n) {
 }  // namespace
 
 Gate gate_needle() {
-  Gate gate{"", "pressure drop of water by gauge and rate, a power law's closed form", {}};
+  Gate gate;
+  gate.title = "pressure drop of water by gauge and rate, a power law's closed form";
   struct Row {
     int gauge;
     double length;
@@ -77,7 +78,8 @@ Gate gate_needle() {
 }
 
 Gate gate_compliance() {
-  Gate gate{"", "constant pressure into a bursa: V = C dP (1 - exp(-t/RC))", {}};
+  Gate gate;
+  gate.title = "constant pressure into a bursa: V = C dP (1 - exp(-t/RC))";
   for (const double rate : {1e3, 10e3}) {
     PlungerParams params = water_syringe(0);
     params.syringe.break_loose = params.syringe.glide;
@@ -100,7 +102,8 @@ Gate gate_compliance() {
 }
 
 Gate gate_air() {
-  Gate gate{"", "after-flow of a stopped plunger with 0.2 ml of air", {}};
+  Gate gate;
+  gate.title = "after-flow of a stopped plunger with 0.2 ml of air";
   PlungerParams params = water_syringe(0);
   params.syringe.compliance = 0;
   params.syringe.air = 0.2 * kMl;
@@ -128,7 +131,8 @@ Gate gate_air() {
 }
 
 Gate gate_leak() {
-  Gate gate{"", "steady leak over a yield pressure: Q = (ps - py)/(R + Rl)", {}};
+  Gate gate;
+  gate.title = "steady leak over a yield pressure: Q = (ps - py)/(R + Rl)";
   PlungerParams params = water_syringe(0);
   params.syringe.break_loose = params.syringe.glide;
   Space full = cavity("full", 100 * kMercury, 1 / 2e-12);
@@ -145,7 +149,8 @@ Gate gate_leak() {
 }
 
 Gate gate_energy() {
-  Gate gate{"", "work of the thumb: friction, needle, target, barrel's spring", {}};
+  Gate gate;
+  gate.title = "work of the thumb: friction, needle, target, barrel's spring";
   PlungerParams params = water_syringe(0);
   constexpr double kDt = 1e-4;
   Plunger plunger(params, {cavity("bursa", kRest, 1 / kCompliance)}, kDt);
@@ -168,7 +173,8 @@ Gate gate_energy() {
 }
 
 Gate gate_mass() {
-  Gate gate{"", "volumes under wild thumbs, two places, a leak and a rupture", {}};
+  Gate gate;
+  gate.title = "volumes under wild thumbs, two places, a leak and a rupture";
   double worst = 0;
   for (std::uint64_t seed = 100; seed < 110; ++seed)
     worst = std::max(worst, missing_volume(1e3, seed));

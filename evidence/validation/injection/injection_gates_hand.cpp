@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "artus/detail/evidence/validation/injection/injection_gates_list.h"
+#include "artus/detail/evidence/validation/injection/injection_gates.h"
 #include "artus/detail/haptics/plunger/space_pressure.h"
 
 namespace artus {
@@ -56,7 +56,8 @@ SpaceLaw shoulder(double stiffness, double slack, double toe) {
 }  // namespace
 
 Gate gate_hand() {
-  Gate gate{"", "the hand's table: 7 places, 4 needles, 2 rates, a barrel of 5 ml", {}};
+  Gate gate;
+  gate.title = "the hand's table: 7 places, 4 needles, 2 rates, a barrel of 5 ml";
   struct Target {
     const char* name;
     double pressure;
@@ -93,7 +94,8 @@ Gate gate_hand() {
 }
 
 Gate gate_loss() {
-  Gate gate{"", "loss of resistance: dF = A (p1 - p2) at a rate, dQ = (p1 - p2)/R at a force", {}};
+  Gate gate;
+  gate.title = "loss of resistance: dF = A (p1 - p2) at a rate, dQ = (p1 - p2)/R at a force";
   const NeedleBore needle = *bore_of_gauge(22, 0.05);
   const double area = water_syringe(0).syringe.area();
   const double bursa = 20 * kMercury;
@@ -130,7 +132,8 @@ Gate gate_loss() {
 }
 
 Gate gate_aspiration() {
-  Gate gate{"", "time to a flash of blood at -40 kPa, 0.07 ml of hub", {}};
+  Gate gate;
+  gate.title = "time to a flash of blood at -40 kPa, 0.07 ml of hub";
   struct Row {
     int gauge;
     double length;
@@ -151,7 +154,8 @@ Gate gate_aspiration() {
 }
 
 Gate gate_capsule() {
-  Gate gate{"", "pressure by volume of shoulders: toe, straight part", {}};
+  Gate gate;
+  gate.title = "pressure by volume of shoulders: toe, straight part";
   struct Row {
     const char* name = nullptr;
     SpaceLaw law;
@@ -178,7 +182,8 @@ Gate gate_capsule() {
 /// A bursa gives way at a tenth of muscle's pressure: whatever share of the bevel is in it, it gets
 /// what a gentle rate gives; a hard push parts the muscle, too.
 Gate gate_bevel() {
-  Gate gate{"", "a bevel in two layers: share of what goes into the bursa", {}};
+  Gate gate;
+  gate.title = "a bevel in two layers: share of what goes into the bursa";
   Space muscle = level("muscle", 0);
   muscle.law.kind = SpaceKind::split;
   muscle.law.opening = 8e3;

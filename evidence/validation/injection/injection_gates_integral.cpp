@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "artus/detail/evidence/validation/injection/injection_gates_list.h"
+#include "artus/detail/evidence/validation/injection/injection_gates.h"
 #include "artus/detail/evidence/validation/injection/plunger_integral.h"
 
 namespace artus {
@@ -98,8 +98,8 @@ double worst_of_place(const Space& place, int gauge) {
 }  // namespace
 
 Gate gate_rates() {
-  Gate gate{
-      "", "1, 2 and 10 kHz against an integral, 4 lengths and 3 tremors of the thumb, 2 % RMS", {}};
+  Gate gate;
+  gate.title = "1, 2 and 10 kHz against an integral, 4 lengths and 3 tremors of the thumb, 2 % RMS";
   for (const int gauge : {18, 19, 20, 21, 22, 23, 25, 27}) {
     double worst = 0;
     for (const double length : {0.016, 0.038, 0.07, 0.12})
@@ -112,7 +112,8 @@ Gate gate_rates() {
 }
 
 Gate gate_places() {
-  Gate gate{"", "force, pressure, flow and volume at 1 kHz against an integral, by place", {}};
+  Gate gate;
+  gate.title = "force, pressure, flow and volume at 1 kHz against an integral, by place";
   const auto profiles = read_bundled_space_profiles();
   ARTUS_REQUIRE(profiles.has_value(), "the bundled places are tested");
   for (const char* name : {"bursa", "joint", "capsulitis_man", "sheath", "fat", "muscle", "vein"}) {

@@ -1,24 +1,23 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
-#include <filesystem>
-#include <span>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "artus/detail/evidence/report.h"
+#include "artus/detail/evidence/gate.h"
 #include "artus/detail/evidence/runs/needle_trace.h"
 #include "artus/detail/haptics/needle/needle_packet.h"
 #include "artus/haptics/needle_feel.h"
 
 namespace artus {
 
+struct DeviceLimits;
+
 struct ExperimentOptions {
   std::uint64_t seed = 1;
-  std::string device = "virtuose_6d_desktop";  ///< a name of device_table()
-  NeedleFeel feel;                             ///< what is not set is as published
-  NeedleCompliance tissue;     ///< around the needle's track; no points: rigid, as published
-  std::filesystem::path mock;  ///< TOML file of the pneumatic probe mock; empty: the bundled one
+  NeedleFeel feel;          ///< what is not set is as published
+  NeedleCompliance tissue;  ///< around the needle's track; no points: rigid, as published
 };
 
 /// A trace of an experiment that has one or several.
@@ -33,16 +32,24 @@ struct Experiment : EvidenceReport {
   std::vector<ExperimentTrace> traces;
 };
 
-/// The names of all needle experiments, in the order of the report.
-[[nodiscard]] std::span<const std::string_view> needle_experiments() noexcept;
+/// The laws that a run of an experiment may change.
+struct ExperimentLaws {
+  std::uint32_t takes = 0;   ///< FeelKind bits
+  std::string_view why_not;  ///< why not the others: "has a tissue that only cuts"
+  std::size_t layers = 0;    ///< numbered ones; 0: those of table 4.2
+};
 
-/// Runs a needle experiment, deterministic for its options. Errors: not_found (no such experiment
-/// or device).
-[[nodiscard]] Result<Experiment> run_needle_experiment(std::string_view name,
-                                                       const ExperimentOptions& options = {});
+using RunExperiment = Experiment (*)(const ExperimentOptions&, const DeviceLimits&);
 
-/// Writes <name>[-label].csv and what write_report() does, with its errors, into `folder`.
-[[nodiscard]] Result<void> write_experiment(const Experiment& experiment,
-                                            const std::filesystem::path& folder);
+/// Title of the table of an experiment's claims rigid and in tissue.
+inline constexpr std::string_view kBesideTable =
+    "The claims rigid, as published, and with tissue that gives way";
+
+/// An experiment as a gate: rigid, as published, its traces as files beside it; with
+/// options.tissue, also in tissue that gives way, which is told in kBesideTable and lies in the
+/// folder tissue/. Errors: not_found (the device); those of check(NeedleFeel).
+[[nodiscard]] Result<Gate> measure_experiment(std::string_view name, RunExperiment run,
+                                              const ExperimentLaws& laws,
+                                              const GateOptions& options);
 
 }  // namespace artus

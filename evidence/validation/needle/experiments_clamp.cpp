@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "artus/detail/core/units.h"
-#include "artus/detail/evidence/validation/needle/experiment_list.h"
+#include "artus/detail/evidence/validation/needle/experiments.h"
 
 namespace artus {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "artus/detail/core/csv.h"
 #include "artus/detail/core/units.h"
-#include "artus/detail/evidence/validation/needle/experiment_list.h"
+#include "artus/detail/evidence/validation/needle/experiments.h"
 #include "artus/detail/evidence/validation/needle/high_pass.h"
 #include "artus/detail/evidence/validation/needle/release.h"
 

@@ -11,7 +11,7 @@
 #include "artus/detail/core/csv.h"
 #include "artus/detail/core/noise.h"
 #include "artus/detail/core/units.h"
-#include "artus/detail/evidence/validation/needle/experiment_list.h"
+#include "artus/detail/evidence/validation/needle/experiments.h"
 #include "artus/detail/evidence/validation/needle/rates_under_sway.h"
 
 namespace artus {

@@ -6,7 +6,7 @@
 
 #include "artus/detail/core/csv.h"
 #include "artus/detail/core/units.h"
-#include "artus/detail/evidence/validation/needle/experiment_list.h"
+#include "artus/detail/evidence/validation/needle/experiments.h"
 #include "artus/detail/evidence/validation/needle/release.h"
 
 namespace artus {

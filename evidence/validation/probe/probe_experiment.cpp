@@ -1,40 +1,29 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/detail/evidence/validation/probe/probe_experiment.h"
 
-#include <array>
+#include <memory>
+#include <utility>
 
-#include "artus/detail/core/known_names.h"
 #include "artus/detail/core/text_file.h"
-#include "artus/detail/evidence/validation/probe/probe_experiment_list.h"
 
 namespace artus {
-namespace {
 
-using Run = ProbeExperiment (*)(const ProbeExperimentOptions&);
-
-constexpr std::array<std::string_view, 3> kNames{"probe-isp", "probe-ssp", "probe-study"};
-constexpr std::array<Run, kNames.size()> kRuns{run_probe_isp, run_probe_ssp, run_probe_study};
-
-}  // namespace
-
-std::span<const std::string_view> probe_experiments() noexcept {
-  return kNames;
-}
-
-Result<ProbeExperiment> run_probe_experiment(std::string_view name,
-                                             const ProbeExperimentOptions& options) {
-  const auto at = find_name(kNames, name, "probe experiment");
-  ARTUS_TRY(at);
-  return kRuns.at(*at)(options);
-}
-
-Result<void> write_probe_experiment(const ProbeExperiment& e, const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) return fail(ErrorCode::unreadable, error.message(), folder.string());
-  for (const ProbeTrace& trace : e.traces)
-    ARTUS_TRY(write_text(folder / (e.name + "-" + trace.label + ".csv"), probe_csv(trace.rows)));
-  return write_report(e, folder);
+Result<Gate> measure_probe_experiment(std::string_view name,
+                                      ProbeExperiment (*run)(const ProbeExperimentOptions&),
+                                      const GateOptions& options) {
+  const auto mock =
+      options.mock.empty() ? read_bundled_pneumatic_params() : read_pneumatic_params(options.mock);
+  ARTUS_TRY(mock);
+  ProbeExperiment experiment = run({options.seed, *mock});
+  for (ProbeTrace& trace : experiment.traces) {
+    const std::string file = std::string(name) + "-" + trace.label + ".csv";
+    const auto kept = std::make_shared<const ProbeTrace>(std::move(trace));
+    experiment.files.push_back({file, [kept](const std::filesystem::path& path) {
+                                  return write_text(path, probe_csv(kept->rows));
+                                }});
+  }
+  Gate gate = std::move(experiment);
+  return gate;
 }
 
 }  // namespace artus

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 #include <cstdint>
-#include <filesystem>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "artus/core/result.h"
-#include "artus/detail/evidence/report.h"
+#include "artus/detail/evidence/gate.h"
 #include "artus/detail/evidence/validation/probe/probe_experiment_bench.h"
 
 namespace artus {
@@ -44,16 +42,10 @@ struct ProbeExperiment : EvidenceReport {
   std::vector<ProbeObservation> observations;  ///< published against artus; none in the study
 };
 
-/// probe-isp, probe-ssp, probe-study.
-[[nodiscard]] std::span<const std::string_view> probe_experiments() noexcept;
-
-/// Runs one; deterministic for its options. Errors: not_found.
-[[nodiscard]] Result<ProbeExperiment> run_probe_experiment(
-    std::string_view name, const ProbeExperimentOptions& options = {});
-
-/// Writes <name>-<label>.csv and what write_report() does, with its errors, into `folder`; the
-/// first table is that of the observations.
-[[nodiscard]] Result<void> write_probe_experiment(const ProbeExperiment& experiment,
-                                                  const std::filesystem::path& folder);
+/// An experiment as a gate, its traces as files beside it; on options.mock. The first table is that
+/// of the observations. Errors: those of read_pneumatic_params.
+[[nodiscard]] Result<Gate> measure_probe_experiment(
+    std::string_view name, ProbeExperiment (*run)(const ProbeExperimentOptions&),
+    const GateOptions& options);
 
 }  // namespace artus

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "artus/detail/evidence/validation/probe/probe_experiment_list.h"
+#include "artus/detail/evidence/validation/probe/probe_experiments.h"
 
 namespace artus {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "artus/detail/evidence/validation/soft/soft_gates_list.h"
+#include "artus/detail/evidence/validation/soft/soft_gates.h"
 #include "artus/detail/soft/solver/soft_block.h"
 #include "artus/detail/soft/solver/soft_solver.h"
 

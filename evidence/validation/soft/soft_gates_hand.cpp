@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "artus/detail/evidence/validation/soft/needled_block.h"
-#include "artus/detail/evidence/validation/soft/soft_gates_list.h"
+#include "artus/detail/evidence/validation/soft/soft_gates.h"
 #include "artus/detail/haptics/needle/needle_tick_step.h"
 #include "artus/detail/haptics/probe/probe_tangent.h"
 #include "artus/detail/soft/solver/soft_block.h"

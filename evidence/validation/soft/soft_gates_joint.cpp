@@ -7,7 +7,7 @@
 
 #include "artus/detail/anatomy/body/meshed_block.h"
 #include "artus/detail/core/units.h"
-#include "artus/detail/evidence/validation/soft/soft_gates_list.h"
+#include "artus/detail/evidence/validation/soft/soft_gates.h"
 #include "artus/detail/raycast/layers_below.h"
 #include "artus/detail/raycast/pressed_scene.h"
 #include "artus/detail/simulation/tissue_core.h"

@@ -8,7 +8,7 @@
 
 #include "artus/detail/anatomy/body/tissue.h"
 #include "artus/detail/core/noise.h"
-#include "artus/detail/evidence/validation/soft/soft_gates_list.h"
+#include "artus/detail/evidence/validation/soft/soft_gates.h"
 #include "artus/detail/soft/solver/soft_block.h"
 #include "artus/detail/soft/solver/soft_solver.h"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "artus/detail/core/noise.h"
-#include "artus/detail/evidence/validation/soft/soft_gates_list.h"
+#include "artus/detail/evidence/validation/soft/soft_gates.h"
 #include "artus/detail/soft/solver/soft_block.h"
 #include "artus/detail/soft/solver/soft_solver.h"
 

@@ -278,7 +278,12 @@ TEST(RealTimeNeedle, TheWholeTickNeitherAllocatesNorLocksAlsoWhenAQueryIsTruncat
   for (int i = 0; i < 1100; ++i) {
     const TimedPose pose{LayeredInsertion::pose(i), 1e-3 * i};
     const Layers layers{insertion, i > 900};
-    ARTUS_RUNS_REALTIME(NeedleTickStep::step, use(tick.step(pose, layers)));
+    if (i % 2 == 0) {
+      ARTUS_RUNS_REALTIME(NeedleTickStep::step, use(tick.step(pose, layers)));
+    } else {
+      ARTUS_RUNS_REALTIME(NeedleTickStep::feel, use(tick.feel(pose, layers)));
+      ARTUS_RUNS_REALTIME(NeedleTickStep::command, use(tick.command(Vec3(0, 0, 1))));
+    }
     hardest = std::max(hardest, tick.model().forces().total.force.norm());
   }
   EXPECT_GT(hardest, 3);

@@ -19,8 +19,8 @@
 
 #include "artus/detail/core/units.h"
 #include "artus/detail/echo/display/frame_measure.h"
+#include "artus/detail/evidence/runs/echo_phantom.h"
 #include "artus/detail/evidence/validation/echo/echo_muscle_view.h"
-#include "artus/detail/evidence/validation/echo/echo_phantom.h"
 #include "artus/echo/transducer_file.h"
 #include "tests/support/paths.h"
 
@@ -114,7 +114,7 @@ TEST(EchoPatch, AgreesWithThePublishedTableOfRealImages) {
 TEST(EchoPatch, MeasuresPatchesOfMuscleAloneAndSaysWhenThereAreNone) {
   const PatchRange range{{0, 0, 0, 0}, {255, 255, 96, 96}, 1};
   const std::array<FlatLayer, 2> layers{{{"fat", 8e-3}, {"muscle", 60e-3}}};
-  const EchoGate gate = measure_muscle(make_block_scene(layers), range);
+  const Gate gate = measure_muscle(make_block_scene(layers), range);
   ASSERT_EQ(gate.claims.size(), 15U);
   for (const Claim& claim : gate.claims) {
     EXPECT_TRUE(claim.pass) << claim.text;
@@ -122,7 +122,7 @@ TEST(EchoPatch, MeasuresPatchesOfMuscleAloneAndSaysWhenThereAreNone) {
     EXPECT_FALSE(claim.basis.why.empty()) << claim.text;
   }
   const std::array<FlatLayer, 1> fat{{{"fat", 60e-3}}};
-  const EchoGate none = measure_muscle(make_block_scene(fat), range);
+  const Gate none = measure_muscle(make_block_scene(fat), range);
   ASSERT_EQ(none.claims.size(), 7U);
   EXPECT_FALSE(none.claims[0].pass);
 

@@ -10,11 +10,17 @@
 
 #include <gtest/gtest.h>
 
+#include "artus/detail/evidence/validation/gates.h"
+#include "artus/detail/evidence/validation/needle/experiments.h"
 #include "artus/detail/evidence/validation/soft/needled_block.h"
 #include "artus/detail/haptics/needle/needle_contact.h"
 
 namespace artus {
 namespace {
+
+DeviceLimits desktop() {
+  return find_device("virtuose_6d_desktop").value();
+}
 
 class NeedleExperiment : public ::testing::TestWithParam<std::string_view> {};
 
@@ -50,7 +56,7 @@ constexpr std::array<Refuted, 7> kRefuted{{
 }};
 
 TEST_P(NeedleExperiment, ClaimsHoldButForTheRefutedOnes) {
-  const auto run = run_needle_experiment(GetParam());
+  const auto run = run_gate("needle", GetParam());
   ASSERT_TRUE(run) << run.error().to_string();
   EXPECT_FALSE(run->claims.empty());
   std::ptrdiff_t refuted = 0;
@@ -75,9 +81,7 @@ TEST_P(NeedleExperiment, ClaimsHoldButForTheRefutedOnes) {
       EXPECT_EQ(row.size(), table.header.size()) << "a cell under another's header";
 }
 
-INSTANTIATE_TEST_SUITE_P(All, NeedleExperiment,
-                         ::testing::ValuesIn(needle_experiments().begin(),
-                                             needle_experiments().end()),
+INSTANTIATE_TEST_SUITE_P(All, NeedleExperiment, ::testing::ValuesIn(gate_names("needle")),
                          [](const auto& param) {
                            std::string name(param.param);
                            for (char& c : name) {
@@ -92,10 +96,9 @@ INSTANTIATE_TEST_SUITE_P(All, NeedleExperiment,
 TEST(NeedleExperiments, Table42HoldsAtTheHandInTissueThatGivesWay) {
   ExperimentOptions options;
   options.tissue = NeedledBlock().compliance(0.4e-3);
-  const auto run = run_needle_experiment("layer-changes", options);
-  ASSERT_TRUE(run) << run.error().to_string();
+  const Experiment run = run_layer_changes(options, desktop());
   std::vector<std::string> failed;
-  for (const Claim& claim : run->claims)
+  for (const Claim& claim : run.claims)
     if (!claim.pass) failed.push_back(claim.text);
   EXPECT_EQ(failed, std::vector<std::string>{});
 }
@@ -106,10 +109,9 @@ TEST(NeedleExperiments, Table42HoldsAtTheHandInTissueThatGivesWay) {
 TEST(NeedleExperiments, RatesAgreeInTissueThatGivesWay) {
   ExperimentOptions options;
   options.tissue = NeedledBlock().compliance(0.4e-3);
-  const auto run = run_needle_experiment("rates", options);
-  ASSERT_TRUE(run) << run.error().to_string();
+  const Experiment run = run_rates(options, desktop());
   std::ptrdiff_t failed = 0;
-  for (const Claim& claim : run->claims) {
+  for (const Claim& claim : run.claims) {
     if (claim.text.find("sways") != std::string::npos) continue;
     EXPECT_LT(claim.value, 0.03) << claim.text;
     if (!claim.pass) ++failed;
@@ -120,9 +122,8 @@ TEST(NeedleExperiments, RatesAgreeInTissueThatGivesWay) {
 TEST(NeedleExperiments, WallDoesNotChatterInTissueThatGivesWay) {
   ExperimentOptions options;
   options.tissue = NeedledBlock().compliance(0.4e-3);
-  const auto run = run_needle_experiment("wall-move", options);
-  ASSERT_TRUE(run) << run.error().to_string();
-  const auto& rows = run->traces.front().rows;
+  const Experiment run = run_wall_move(options, desktop());
+  const auto& rows = run.traces.front().rows;
   double most = 0;  // N, from tick to tick once the needle is in
   for (std::size_t i = 1; i < rows.size(); ++i)
     if (rows[i - 1].depth > 1e-4)
@@ -131,24 +132,17 @@ TEST(NeedleExperiments, WallDoesNotChatterInTissueThatGivesWay) {
   EXPECT_NEAR(rows.back().forces.cutting, -1, 0.01);
 }
 
-TEST(NeedleExperiments, UnknownNameIsRefusedWithTheNamesThereAre) {
-  const auto refused = run_needle_experiment("wall-of-china");
-  ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().code, ErrorCode::not_found);
-  EXPECT_NE(refused.error().message.find("wall-seven"), std::string::npos);
-}
-
 TEST(NeedleExperiments, LawThatTheExperimentFixesIsRefusedByName) {
-  ExperimentOptions options;
+  GateOptions options;
   options.feel.cutting.all = CuttingLaw::voigt;
-  const auto refused = run_needle_experiment("wall-vs-classic", options);
+  const auto refused = run_gate("needle", "wall-vs-classic", options);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, ErrorCode::invalid);
   EXPECT_EQ(refused.error().where, "cutting");
   EXPECT_NE(refused.error().message.find("compares four fixed"), std::string::npos);
-  ExperimentOptions layer;
+  GateOptions layer;
   layer.feel.cutting.of_tissue["layer 2"] = CuttingLaw::voigt;
-  const auto unknown = run_needle_experiment("wall-move", layer);
+  const auto unknown = run_gate("needle", "wall-move", layer);
   ASSERT_FALSE(unknown);
   EXPECT_EQ(unknown.error().code, ErrorCode::not_found);
   EXPECT_NE(unknown.error().message.find("layer 1"), std::string::npos);
@@ -158,10 +152,8 @@ TEST(NeedleExperiments, LawThatTheExperimentFixesIsRefusedByName) {
 TEST(NeedleExperiments, LawOfOneLayerChangesThatLayerAlone) {
   ExperimentOptions options;
   options.feel.cutting.of_tissue["layer 6"] = CuttingLaw::direct;
-  const auto wall = run_needle_experiment("wall-nine");
-  const auto mixed = run_needle_experiment("wall-nine", options);
-  ASSERT_TRUE(wall);
-  ASSERT_TRUE(mixed);
+  const Experiment wall = run_wall_nine({}, desktop());
+  const Experiment mixed = run_wall_nine(options, desktop());
   const auto first_in_layer = [](const Experiment& e, RegionId region) {
     const double edge = ContactParams{}.layer_edge;
     double entered = -1;
@@ -173,16 +165,16 @@ TEST(NeedleExperiments, LawOfOneLayerChangesThatLayerAlone) {
     return 0.0;
   };
   const RegionId sixth = kFirstRegion + 5;
-  EXPECT_LT(first_in_layer(*wall, sixth), 3.15);  // rises by K_t from 3 N
-  EXPECT_NEAR(first_in_layer(*mixed, sixth), 3.5, 1e-9);
-  EXPECT_EQ(first_in_layer(*mixed, sixth - 1), first_in_layer(*wall, sixth - 1));
+  EXPECT_LT(first_in_layer(wall, sixth), 3.15);  // rises by K_t from 3 N
+  EXPECT_NEAR(first_in_layer(mixed, sixth), 3.5, 1e-9);
+  EXPECT_EQ(first_in_layer(mixed, sixth - 1), first_in_layer(wall, sixth - 1));
 }
 
 // The spring pushes a needle that stopped: the published claims say so.
 TEST(NeedleExperiments, ClaimsOfTheWallFailWithASpring) {
-  ExperimentOptions options;
+  GateOptions options;
   options.feel.cutting.all = CuttingLaw::spring;
-  const auto run = run_needle_experiment("wall-stop", options);
+  const auto run = run_gate("needle", "wall-stop", options);
   ASSERT_TRUE(run);
   bool rest_holds = true;
   for (const Claim& c : run->claims)

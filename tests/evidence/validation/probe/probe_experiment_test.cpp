@@ -11,7 +11,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "artus/detail/evidence/validation/gates.h"
 #include "artus/detail/evidence/validation/probe/probe_experiment_observed.h"
+#include "artus/detail/evidence/validation/probe/probe_experiments.h"
 
 namespace artus {
 namespace {
@@ -55,14 +57,14 @@ TEST(ProbeExperimentWindow, MeasuresOnlyItsRows) {
 }
 
 const ProbeExperiment& isp() {
-  static const ProbeExperiment experiment = run_probe_experiment("probe-isp").value();
+  static const ProbeExperiment experiment = run_probe_isp({});
   return experiment;
 }
 
 const ProbeExperiment& ssp() {
   ProbeExperimentOptions options;
   options.assumptions = false;
-  static const ProbeExperiment experiment = run_probe_experiment("probe-ssp", options).value();
+  static const ProbeExperiment experiment = run_probe_ssp(options);
   return experiment;
 }
 
@@ -148,9 +150,8 @@ TEST(ProbeExperiment, MockFromAFileIsTheOneThatRuns) {
   options.assumptions = false;
   options.mock =
       parse_pneumatic_params("format = 1\n[cylinder]\ndry_friction_n = 0\n", "t").value();
-  const auto experiment = run_probe_experiment("probe-isp", options);
-  ASSERT_TRUE(experiment);
-  EXPECT_LT(measure_window(experiment->traces[2].rows, 33, 35).mean_error, 0.05e-3);
+  const ProbeExperiment experiment = run_probe_isp(options);
+  EXPECT_LT(measure_window(experiment.traces[2].rows, 33, 35).mean_error, 0.05e-3);
 }
 
 TEST(ProbeExperiment, DryFrictionIsWhatHoldsBackstepping) {
@@ -173,7 +174,7 @@ TEST(ProbeExperiment, SameSeedGivesTheSameTraceAndAnotherSeedAnother) {
 }
 
 TEST(ProbeExperiment, StudyHoldsWhatMustHoldAndHasARowPerLawAndCylinder) {
-  const auto study = run_probe_experiment("probe-study");
+  const auto study = run_gate("probe", "probe-study");
   ASSERT_TRUE(study);
   ASSERT_EQ(study->tables.size(), 3U);
   EXPECT_EQ(study->tables[0].second.rows.size(), 8U);
@@ -181,20 +182,15 @@ TEST(ProbeExperiment, StudyHoldsWhatMustHoldAndHasARowPerLawAndCylinder) {
   for (const Claim& c : study->claims) EXPECT_TRUE(c.pass) << c.text << ": " << c.value;
 }
 
-TEST(ProbeExperiment, UnknownNameIsRefusedWithTheNamesThereAre) {
-  const auto refused = run_probe_experiment("probe-xyz");
-  ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().code, ErrorCode::not_found);
-  EXPECT_THAT(refused.error().message, testing::HasSubstr("probe-ssp"));
-}
-
 TEST(ProbeExperiment, WrittenVerdictCanBeReadBack) {
   const auto folder = std::filesystem::temp_directory_path() / "artus-probe-experiment-test";
   std::filesystem::remove_all(folder);
-  ProbeExperiment small = isp();
-  for (ProbeTrace& t : small.traces) t.rows.resize(10);
+  const auto measured = measure_probe_experiment(
+      "probe-isp", [](const ProbeExperimentOptions&) { return isp(); }, {});
+  ASSERT_TRUE(measured);
+  Gate small = *measured;
   small.plots.clear();
-  const auto written = write_probe_experiment(small, folder);
+  const auto written = write_report(small, folder);
   ASSERT_TRUE(written) << written.error().to_string();
   std::ifstream in(folder / "verdict.json");
   const nlohmann::json json = nlohmann::json::parse(in);

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "artus/detail/evidence/validation/gates.h"
 #include "tests/support/meshed_block.h"
 
 namespace artus {
@@ -15,7 +16,7 @@ namespace {
 class SoftGates : public testing::TestWithParam<const char*> {};
 
 TEST_P(SoftGates, Hold) {
-  const auto gate = run_gate(soft_gates(), GetParam());
+  const auto gate = run_gate("soft", GetParam());
   ASSERT_TRUE(gate);
   EXPECT_FALSE(gate->claims.empty());
   for (const Claim& claim : gate->claims) EXPECT_TRUE(claim.pass) << to_line(claim);
@@ -27,52 +28,36 @@ INSTANTIATE_TEST_SUITE_P(All, SoftGates,
                          testing::Values("patch", "uniaxial", "cantilever", "punch", "layers",
                                          "volume", "turned", "still"));
 
-TEST(SoftGateList, UnknownNameIsRefusedWithTheNamesThereAre) {
-  const auto gate = run_gate(soft_gates(), "no-such");
-  ASSERT_FALSE(gate);
-  EXPECT_EQ(gate.error().code, ErrorCode::not_found);
-  EXPECT_NE(gate.error().message.find("punch"), std::string::npos);
-}
-
 std::shared_ptr<const CompiledJoint> make_limb() {
   const std::array<FlatLayer, 4> layers{
       {{"skin", 2e-3}, {"fat", 8e-3}, {"muscle", 20e-3}, {"bone", 10e-3}}};
   return std::make_shared<const CompiledJoint>(test::make_meshed_block(layers, 64e-3, 48e-3, 4e-3));
 }
 
+GateOptions of_joint(std::shared_ptr<const CompiledJoint> joint) {
+  GateOptions options;
+  options.joint = std::move(joint);
+  return options;
+}
+
 /// H1 of muscle is out of its bound (docs/deformation.md).
-TEST(SoftGateList, ALimbIsPressedAsAJoint) {
-  const auto gate = run_gate(soft_gates(), "joint-pressed", make_limb());
+TEST(SoftGatesOfAJoint, ALimbIsPressedAsAJoint) {
+  const auto gate = run_gate("soft", "joint-pressed", of_joint(make_limb()));
   ASSERT_TRUE(gate) << gate.error().to_string();
   EXPECT_EQ(gate->claims.size(), 5U);
   for (const Claim& claim : gate->claims)
     EXPECT_TRUE(claim.pass || claim.text.rfind("H1: muscle", 0) == 0) << to_line(claim);
 }
 
-TEST(SoftGateList, AGateOfAJointNeedsOne) {
-  const auto gate = run_gate(soft_gates(), "joint-pressed");
-  ASSERT_FALSE(gate);
-  EXPECT_NE(gate.error().message.find("needs -j"), std::string::npos);
-}
-
-TEST(SoftGateList, AJointThatCannotGiveWayFailsItsGates) {
+TEST(SoftGatesOfAJoint, AJointThatCannotGiveWayFailsItsGates) {
   CompiledJoint rigid = *make_limb();
   rigid.mesh = {};
   const auto joint = std::make_shared<const CompiledJoint>(std::move(rigid));
   for (const char* name : {"joint-pressed", "joint-still"}) {
-    const auto gate = run_gate(soft_gates(), name, joint);
+    const auto gate = run_gate("soft", name, of_joint(joint));
     ASSERT_TRUE(gate);
     EXPECT_FALSE(all_hold(gate->claims)) << name;
   }
-}
-
-TEST(SoftGateList, ReportNamesTheGateOfEachClaim) {
-  const auto gate = run_gate(soft_gates(), "patch");
-  ASSERT_TRUE(gate);
-  const EvidenceReport report = report_of(soft_gates(), std::vector{*gate});
-  ASSERT_EQ(report.claims.size(), gate->claims.size());
-  EXPECT_EQ(report.name, "soft-gates");
-  EXPECT_EQ(report.claims[0].text.rfind("patch: ", 0), 0U);
 }
 
 }  // namespace
