@@ -7,9 +7,9 @@
 #include <optional>
 #include <set>
 
-#include "artus/detail/anatomy/body/joint_variant.h"
 #include "artus/detail/anatomy/compile/check/joint_check.h"
 #include "artus/detail/anatomy/compile/labels/compile_surfaces.h"
+#include "artus/detail/anatomy/source/joint_variant.h"
 #include "artus/detail/anatomy/surfaces/enclosed_volume.h"
 #include "artus/detail/anatomy/surfaces/surface_io.h"
 #include "artus/detail/apps/options/command.h"
@@ -211,19 +211,21 @@ nlohmann::json to_json(const JointFile& joint, const JointCheck& check) {
 }
 
 ExitCode check_folder(const CheckOptions& options) {
-  const auto joint = read_joint(options.path, options.surfaces);
-  if (!joint) return report_error(joint.error(), options.json);
-  const JointCheck check = check_joint(*joint, make_progress_printer(options.json));
+  auto read = read_joint(options.path, options.surfaces);
+  if (!read) return report_error(read.error(), options.json);
+  const JointSources sources(std::move(*read));
+  const JointFile& joint = sources.joint();
+  const JointCheck check = check_joint(sources, make_progress_printer(options.json));
   if (!options.report.empty()) {
     const auto written = is_page(options.report)
-                             ? write_check_page(*joint, check, options.report)
-                             : write_text(options.report, to_json(*joint, check).dump(2) + "\n");
+                             ? write_check_page(sources, check, options.report)
+                             : write_text(options.report, to_json(joint, check).dump(2) + "\n");
     if (!written) return report_error(written.error(), options.json);
   }
   if (options.json)
-    std::cout << to_json(*joint, check).dump(2) << '\n';
+    std::cout << to_json(joint, check).dump(2) << '\n';
   else
-    print_joint(*joint, check, options.all);
+    print_joint(joint, check, options.all);
   return check.usable() ? ExitCode::ok : ExitCode::defects;
 }
 

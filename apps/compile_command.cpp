@@ -56,30 +56,43 @@ void print_histogram(const TetQuality& quality) {
   }
 }
 
-Result<CompileOutcome> compile(const JointFile& file, const CompileCommandOptions& options,
+Result<CompileOutcome> compile(const JointSources& sources, const CompileCommandOptions& options,
                                const Progress& progress) {
   LoadOptions load;
   load.cache = options.cache;
   load.compile.skip_refused = options.skip_refused;
   load.compile.check_plans = true;
-  return options.fresh ? compile_joint(file, load.compile, progress)
-                       : compile_or_reuse(file, load, progress);
+  return options.fresh ? compile_joint(sources, load.compile, progress)
+                       : compile_or_reuse(sources, load, progress);
+}
+
+/// Refuses to write where the joint itself is.
+Result<void> check_target(const JointSources& sources, const std::filesystem::path& file) {
+  if (!sources.contains(file)) return {};
+  return fail(ErrorCode::invalid,
+              "the joint is made from this file, and writing to it would destroy it; name another",
+              file.string());
 }
 
 ExitCode run_compile(const CompileCommandOptions& options) {
   const Progress progress = make_progress_printer(options.json);
-  const auto file = read_joint(options.joint, options.surfaces);
+  auto file = read_joint(options.joint, options.surfaces);
   if (!file) return report_error(file.error(), options.json);
-  auto outcome = compile(*file, options, progress);
+  const JointSources sources(std::move(*file));
+  const auto out =
+      options.out.empty() ? std::filesystem::path(sources.joint().name + ".artus") : options.out;
+  for (const auto& target : {out, options.report})
+    if (const auto free = check_target(sources, target); !free)
+      return report_error(free.error(), options.json);
+  auto outcome = compile(sources, options, progress);
   if (!outcome) return report_error(outcome.error(), options.json);
-  const auto out = options.out.empty() ? std::filesystem::path(file->name + ".artus") : options.out;
   if (const auto written = write_compiled_joint(outcome->joint, out); !written)
     return report_error(written.error(), options.json);
   outcome->report.peak_memory = peak_memory();  // writing takes memory, too
   const std::string report = to_json(outcome->report);
   if (!options.report.empty()) {
     const auto written = is_page(options.report)
-                             ? write_compile_page(*file, *outcome, options.report)
+                             ? write_compile_page(sources, *outcome, options.report)
                              : write_text(options.report, report + "\n");
     if (!written) return report_error(written.error(), options.json);
   }

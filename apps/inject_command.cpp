@@ -80,7 +80,7 @@ struct Outcome {
   std::vector<Claim> claims;
 };
 
-/// One run's files. Errors: those of files and gnuplot.
+/// One run's files. Errors: those of files.
 Result<Outcome> write_run(const std::shared_ptr<const Scene>& scene, const InjectionRun& run,
                           const View& view, const InjectOptions& options,
                           const std::filesystem::path& folder) {
@@ -126,7 +126,7 @@ Result<void> write_comparison(std::span<const InjectionRun> runs, const InjectOp
     names.push_back(run.target);
   }
   if (!pictures.empty()) ARTUS_TRY(write_plate(pictures, names, options.hand.out / "pictures.png"));
-  return write_plot(options.hand.out / "compared.png", plot_of(runs));
+  return write_plot(options.hand.out / "compared.svg", plot_of(runs));
 }
 
 Result<ExitCode> inject(const InjectOptions& options) {
@@ -166,8 +166,8 @@ void add_inject_command(Command& app, ExitCode& code) {
   Command* command = add_command(
       app, "inject",
       "Inject with a simulated hand and thumb: where the liquid goes, how it feels and looks",
-      "Writes trace.csv, injection.png, summary.json, the pictures before, during and after, and\n"
-      "injection.mp4; with several --into also compared.png and pictures.png. Exit code 1 when a "
+      "Writes trace.csv, injection.svg, summary.json, the pictures before, during and after, and\n"
+      "injection.mp4; with several --into also compared.svg and pictures.png. Exit code 1 when a "
       "claim does not\n"
       "hold.\n"
       "Examples:\n"

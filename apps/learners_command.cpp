@@ -23,6 +23,7 @@ struct LearnersOptions {
   std::string format = "csv";
   std::string home = "https://example.org";
   std::filesystem::path out;
+  std::string language;  // of the report
   bool json = false;
 };
 
@@ -111,8 +112,10 @@ Result<void> export_all(Records& records, const LearnersOptions& options) {
 
 Result<void> report(Records& records, const LearnersOptions& options) {
   if (options.out.empty()) return fail(ErrorCode::malformed, "name the page to write", "--out");
-  return options.person.empty() ? write_cohort_page(records, options.cohort, options.out)
-                                : write_learner_page(records, options.person, options.out);
+  const Language language = language_of(options.language);
+  return options.person.empty()
+             ? write_cohort_page(records, options.cohort, language, options.out)
+             : write_learner_page(records, options.person, language, options.out);
 }
 
 nlohmann::json to_json(const Norm& n) {
@@ -252,6 +255,7 @@ void add_learners_command(Command& app, ExitCode& code) {
   command->add_option("--home", options->home, "IRI of who gave the pseudonyms, for xapi")
       ->capture_default_str();
   command->add_option("--out,-o", options->out, "file to write");
+  add_language_option(command, options->language);
   command->add_flag("--json", options->json, "machine-readable output");
   on_run(command, code, [options] { return run_learners(*options); });
 }

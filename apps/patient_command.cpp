@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "artus/anatomy/joint_file.h"
-#include "artus/detail/anatomy/body/patient.h"
+#include "artus/detail/anatomy/source/patient.h"
 #include "artus/detail/apps/commands.h"
 
 namespace artus {

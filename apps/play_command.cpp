@@ -7,6 +7,7 @@
 #include "artus/detail/apps/commands.h"
 #include "artus/detail/apps/options/scenario_options.h"
 #include "artus/detail/apps/options/session_options.h"
+#include "artus/detail/apps/options/window_options.h"
 #include "artus/detail/reports/attempt_files.h"
 #include "artus/detail/reports/attempt_page.h"
 #include "artus/detail/training/norms.h"
@@ -27,6 +28,7 @@ struct PlayCommandOptions {
   std::filesystem::path report;
   std::filesystem::path records;
   std::string person;
+  std::string language;  // of the report
   double picture_rate = 0;
   bool rigid = false;
   bool json = false;
@@ -138,7 +140,9 @@ ExitCode run_play(const PlayCommandOptions& options) {
         make_feedback(attempt->measures, attempt->judgement, {scenario->level, std::move(*before)});
     const auto norms = note->norms();
     if (!norms) return report_error(norms.error(), options.json);
-    kept = write_attempt_page(*scenario, *scene, *attempt, feedback, *norms, options.report);
+    kept = write_attempt_page(
+        {*scenario, *scene, *attempt, feedback, *norms, language_of(options.language)},
+        options.report);
   }
   if (kept) kept = note->finish(*attempt);
   if (!kept) return report_error(kept.error(), options.json);
@@ -173,6 +177,7 @@ void add_play_command(Command& app, ExitCode& code) {
   add_patient_option(command, options->patient);
   command->add_option("--record", options->record, "folder for recording, scenario and numbers");
   command->add_option("--report", options->report, "page with verdict, faults and plots (.html)");
+  add_language_option(command, options->language);
   Option* records = command->add_option("--records", options->records,
                                         "file of records that the attempt goes into");
   Option* person = command->add_option("--person", options->person, "who, of those records");

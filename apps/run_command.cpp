@@ -196,7 +196,7 @@ void add_run_command(Command& app, ExitCode& code) {
       "to\n"
       "both hands, in forces and pictures alike; what a rigid body claims is reported beside, its\n"
       "trace in the folder rigid/. --dry --rigid is the published test. Writes trace.csv,\n"
-      "forces.png, summary.json, a B-mode and a label image for each named moment, and a video.\n"
+      "forces.svg, summary.json, a B-mode and a label image for each named moment, and a video.\n"
       "Exit code 1 when a claim does not hold.\n"
       "Examples:\n"
       "  artus run three-injections -j meshes/simple-shoulder --out out/run\n"

@@ -4,7 +4,6 @@
 #include <memory>
 #include <utility>
 
-#include "artus/detail/anatomy/body/joint_variant.h"
 #include "artus/detail/apps/commands.h"
 #include "artus/detail/apps/options/scenario_options.h"
 #include "artus/detail/training/patient_plans.h"
@@ -135,10 +134,6 @@ Result<std::shared_ptr<const Scene>> load_scene(const Scenario& scenario,
   if (scenario.gel) return make_gel_scene(*scenario.gel);
   JointOptions options;
   options.joint = joint.empty() ? scenario.body() : joint;
-  std::error_code unknown;
-  if (!is_joint_folder(options.joint) && !std::filesystem::exists(options.joint, unknown))
-    if (const auto bundled = "meshes" / options.joint; is_joint_folder(bundled))
-      options.joint = bundled;
   const auto loaded = load(options, progress);
   ARTUS_TRY(loaded);
   return std::make_shared<const Scene>(*loaded);

@@ -5,10 +5,12 @@
 
 #include "artus/detail/apps/options/hand_options.h"
 #include "artus/detail/apps/options/interrupts.h"
+#include "artus/detail/apps/options/scenario_options.h"
+#include "artus/detail/apps/options/session_options.h"
 #include "artus/detail/apps/options/window_options.h"
 #include "artus/detail/apps/training_commands.h"
 #include "artus/detail/core/text_file.h"
-#include "artus/detail/trainer/train_flow.h"
+#include "artus/detail/trainer/flow.h"
 #include "artus/detail/training/patient_plans.h"
 #include "artus/detail/viewer/input/window_events.h"
 
@@ -76,15 +78,37 @@ Result<void> take_places(TrainCommandOptions& options) {
   return {};
 }
 
+/// What the session's flags mean for attempts. `options` and `tracker` outlive it.
+Result<AttemptSetup> setup_of(const SessionOptions& options, const TrackerInput& tracker) {
+  const auto device = find_device(options.device);
+  ARTUS_TRY(device);
+  AttemptSetup setup;
+  setup.device = *device;
+  setup.input = options.input;
+  if (options.input != "hand")
+    setup.make_device = [&options, &tracker](const SessionParams& params,
+                                             const CompiledJoint& joint) {
+      HandDevice* hand = nullptr;
+      return make_device(options, params, joint, tracker, &hand);
+    };
+  if (options.input == "igtl") setup.pose_hold = 1e-3 * options.igtl.needle_hold_ms;
+  setup.rigid = options.rigid;
+  setup.image_threads = options.threads;
+  setup.haptic_cpu = options.haptic_cpu;
+  setup.share_images = options.input == "shared-memory";
+  setup.prefix = options.prefix;
+  return setup;
+}
+
 Result<void> train(TrainCommandOptions options) {
   ARTUS_TRY(take_places(options));
-  StagedScript script;
+  PageScript script;
   if (options.script.empty()) {
     take_own_keys(options.window);
   } else {
     auto steps = read_script(options.script);
     ARTUS_TRY(steps);
-    script = StagedScript(std::move(*steps));
+    script = PageScript(std::move(*steps));
   }
   auto scenarios = scenarios_of(options);
   ARTUS_TRY(scenarios);
@@ -109,8 +133,13 @@ Result<void> train(TrainCommandOptions options) {
       [&turns](double ImageControls::*knob, double value) { turns.add(knob, value); },
       [&remote](const std::string& name) { return remote.ask(name); });
   ARTUS_TRY(link);
-  const TrainContext room{screen->get(), &*desk,    &options.session, &options.window,
-                          &script,       &*tracker, link->get(),      &turns};
+  const auto setup = setup_of(options.session, *tracker);
+  ARTUS_TRY(setup);
+  const SceneLoader load = [](const Scenario& scenario, const std::filesystem::path& joint) {
+    return load_scene(scenario, joint, make_progress_printer(true));
+  };
+  const TrainContext room{screen->get(),   &*desk,  &*setup,     load,
+                          &options.window, &script, link->get(), &turns};
   PageOptions pages{options.window.language, std::move(*keys), options.window.font_scale, &script,
                     options.window.asked_to_close};
   return run_training(options.train, room, std::move(pages), std::move(*scenarios), remote);

@@ -47,8 +47,15 @@ Result<void> take_script(const ViewerOptions& options, WindowOptions& window) {
 /// How the device of this input is brought to life, when it was never there.
 std::string connect_hint(const SessionOptions& session, Language language) {
   if (session.input == "shared-memory")
-    return fill(text(language, Text::connect_shared), {"/dev/shm/" + session.prefix + "POS"});
-  return text(language, session.input == "igtl" ? Text::connect_igtl : Text::connect_hand);
+    return fill(translate(language,
+                          "no device yet: start a program that writes {} (docs/protocol.md), or: "
+                          "artus view --input hand"),
+                {"/dev/shm/" + session.prefix + "POS"});
+  if (session.input == "igtl")
+    return translate(language,
+                     "no tracker yet: let it send transforms to this machine by OpenIGTLink "
+                     "(docs/openigtlink.md)");
+  return translate(language, "no device yet: artus view --input hand needs none");
 }
 
 /// Goals, starts, language and keys of the window.

@@ -14,13 +14,21 @@ configure_package_config_file(cmake/artus-config.cmake.in ${PROJECT_BINARY_DIR}/
   INSTALL_DESTINATION lib/cmake/artus)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/artus-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/artus-config.cmake ${PROJECT_BINARY_DIR}/artus-config-version.cmake
-  cmake/packages.cmake DESTINATION lib/cmake/artus)
-install(DIRECTORY meshes/ DESTINATION share/artus/meshes
-  FILES_MATCHING PATTERN "*.toml" PATTERN "*.ply" PATTERN "README.md" PATTERN "generate" EXCLUDE)
-install(DIRECTORY devices/ DESTINATION share/artus/devices FILES_MATCHING PATTERN "*.toml")
-# What an installation needs, without tests and benches.
+  cmake/packages.cmake DESTINATION lib/cmake/artus COMPONENT development)
+# Component `program`: what a user of the tool needs. What was not built is left out of an installation.
+install(DIRECTORY meshes/ DESTINATION share/artus/meshes COMPONENT program
+  FILES_MATCHING PATTERN "*.toml" PATTERN "*.ply" PATTERN "*.artus" PATTERN "README.md" PATTERN "generate" EXCLUDE)
+install(DIRECTORY devices/ DESTINATION share/artus/devices COMPONENT program FILES_MATCHING PATTERN "*.toml")
+install(DIRECTORY training/scenarios/ DESTINATION share/artus/scenarios COMPONENT program
+  FILES_MATCHING PATTERN "*.toml")
+install(FILES LICENSE DESTINATION share/doc/artus RENAME copyright COMPONENT program)
+install(FILES README.md CHANGELOG.md DESTINATION share/doc/artus COMPONENT program)
+# `programs`: what component `program` brings. `installed`: the libraries as well; no tests and benches.
+add_custom_target(programs)
+foreach(target artus artus_validate artus_python)
+  if(TARGET ${target})
+    add_dependencies(programs ${target})
+  endif()
+endforeach()
 list(TRANSFORM ARTUS_COMPONENTS PREPEND artus_ OUTPUT_VARIABLE libraries)
-add_custom_target(installed DEPENDS artus ${libraries})
-if(TARGET artus_python)
-  add_dependencies(installed artus_python)
-endif()
+add_custom_target(installed DEPENDS programs ${libraries})

@@ -4,6 +4,8 @@
 #include <array>
 #include <charconv>
 
+#include "artus/detail/core/text_lines.h"
+
 namespace artus {
 namespace {
 
@@ -22,6 +24,16 @@ std::string to_csv(double value) {
 
 std::string to_exact_csv(double value) {
   return with_digits(value, 17);
+}
+
+std::vector<std::string> csv_cells(std::string_view line) {
+  std::vector<std::string> cells;
+  for (;;) {
+    const std::size_t comma = line.find(',');
+    cells.emplace_back(trimmed(line.substr(0, comma)));
+    if (comma == std::string_view::npos) return cells;
+    line.remove_prefix(comma + 1);
+  }
 }
 
 std::string quoted_csv(std::string_view text) {

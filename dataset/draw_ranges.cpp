@@ -82,7 +82,7 @@ void read_press(TomlTable& table, DrawRanges& ranges) {
   constexpr double kDeepest = 20e-3;  // m
   read_share(table, "share", ranges.press_share);
   read_range(table, "depth_mm", kMillimetre, ranges.press_depth, 0);
-  if (ranges.press_depth.high > kDeepest) table.problem_at("depth_mm", "is at most 20 mm");
+  if (ranges.press_depth.high > kDeepest) table.problem_at("depth_mm", "must be at most 20 mm");
 }
 
 }  // namespace

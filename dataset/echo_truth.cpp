@@ -152,7 +152,7 @@ nlohmann::json to_json(const Transducer& transducer) {
 
 Result<Transducer> transducer_of(const nlohmann::json& values) {
   Transducer out;
-  if (!values.is_object()) return fail(ErrorCode::malformed, "a transducer is an object");
+  if (!values.is_object()) return fail(ErrorCode::malformed, "'transducer' must be an object");
   const auto lines = values.find("lines");
   if (lines == values.end() || !lines->is_number_integer())
     return fail(ErrorCode::malformed, "'lines' must be a whole number", "transducer");

@@ -36,7 +36,7 @@ Result<std::vector<fs::path>> find_sidecars(const std::vector<fs::path>& folders
     if (error) return fail(ErrorCode::not_found, error.message(), folder.string());
   }
   if (found.empty())
-    return fail(ErrorCode::not_found, "there is no finished shard", folders.front().string());
+    return fail(ErrorCode::not_found, "the folder has no finished shard", folders.front().string());
   std::sort(found.begin(), found.end());
   return found;
 }
@@ -49,7 +49,7 @@ std::optional<Shard> read_shard(const fs::path& file, std::vector<std::string>& 
   };
   if (!sidecar.is_object() || !whole("first") || !whole("last") || !whole("bytes") ||
       !sidecar.contains("sha256") || !sidecar.contains("sweep")) {
-    problems.push_back(file.string() + ": is no shard's sidecar");
+    problems.push_back(file.string() + ": not the JSON of a shard");
     return std::nullopt;
   }
   fs::path tar = file;
@@ -62,15 +62,19 @@ std::optional<Shard> read_shard(const fs::path& file, std::vector<std::string>& 
 std::string damage_of(const Shard& shard) {
   const auto archive = read_bytes(shard.tar);
   if (!archive) return "damaged: " + archive.error().message;
-  if (json(archive->size()) != shard.sidecar["bytes"]) return "damaged: another size";
-  if (json(sha256_hex(*archive)) != shard.sidecar["sha256"]) return "damaged: another sha256";
+  if (json(archive->size()) != shard.sidecar["bytes"])
+    return "damaged: its size differs from its JSON";
+  if (json(sha256_hex(*archive)) != shard.sidecar["sha256"])
+    return "damaged: its sha256 differs from its JSON";
   const auto members = list_members(*archive);
   if (!members) return "damaged: " + members.error().message;
   const auto samples = static_cast<std::size_t>(
       std::count_if(members->begin(), members->end(), [](const TarMember& member) {
         return member.name.size() > 5 && member.name.substr(member.name.size() - 5) == ".json";
       }));
-  return samples == shard.last - shard.first ? "" : "damaged: not as many frames as it says";
+  return samples == shard.last - shard.first
+             ? ""
+             : "damaged: its number of frames differs from its JSON";
 }
 
 std::string frames_text(std::size_t first, std::size_t last) {

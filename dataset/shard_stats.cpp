@@ -136,7 +136,7 @@ Result<SetStatistics> read_statistics(const std::vector<fs::path>& folders,
         files.push_back(entry.path());
     if (error) return fail(ErrorCode::not_found, error.message(), folder.string());
   }
-  if (files.empty()) return fail(ErrorCode::not_found, "there is no shard");
+  if (files.empty()) return fail(ErrorCode::not_found, "no shard was found");
   std::sort(files.begin(), files.end());
   SetStatistics statistics;
   for (std::size_t i = 0; i < files.size(); ++i) {

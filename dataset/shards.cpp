@@ -126,7 +126,7 @@ Result<std::pair<std::size_t, std::size_t>> parse_two(const std::string& text, c
     if (second.ec == std::errc{} && second.ptr == end) return std::pair{a, b};
   }
   return fail(ErrorCode::malformed,
-              "'" + text + "' is not two whole numbers with '" + separator + "' between", flag);
+              "'" + text + "' must be two whole numbers with '" + separator + "' between", flag);
 }
 
 }  // namespace
@@ -135,7 +135,7 @@ Result<ShardJob> parse_turn(const std::string& text, const std::string& flag) {
   const auto two = parse_two(text, '/', flag);
   ARTUS_TRY(two);
   if (two->first >= two->second)
-    return fail(ErrorCode::malformed, "k/N counts k from 0: it is below N", flag);
+    return fail(ErrorCode::malformed, "in k/N, k counts from 0 and must be below N", flag);
   ShardJob job;
   job.turn = two->first;
   job.of = two->second;
@@ -146,7 +146,7 @@ Result<ShardJob> parse_frames(const std::string& text, const std::string& flag) 
   const auto two = parse_two(text, ':', flag);
   ARTUS_TRY(two);
   if (two->first >= two->second)
-    return fail(ErrorCode::malformed, "a:b draws frames a to b - 1: a is below b", flag);
+    return fail(ErrorCode::malformed, "a:b means frames a to b - 1; a must be below b", flag);
   ShardJob job;
   job.first = two->first;
   job.last = two->second;
@@ -159,13 +159,14 @@ Result<ShardResult> write_shards(const std::shared_ptr<const Scene>& scene,
                                  const Progress& progress) {
   constexpr std::size_t kMaxRegions = 256;  // of an 8-bit picture
   if (options.sweep.settings.persistence != 0)
-    return fail(ErrorCode::invalid, "a sweep is drawn without persistence", folder.string());
+    return fail(ErrorCode::invalid, "a sweep needs persistence = 0", folder.string());
   const auto many = [](const auto& body) {
     return body->joint().regions.size() > kMaxRegions;
   };
   if (many(scene) ||
       std::any_of(options.sweep.patients.begin(), options.sweep.patients.end(), many))
-    return fail(ErrorCode::invalid, "a joint has more regions than 8-bit labels can name");
+    return fail(ErrorCode::invalid,
+                "the joint has more than the 256 regions that 8-bit labels can hold");
   const auto shards = shards_of(job, frames, options.frames);
   ARTUS_TRY(shards);
   std::error_code error;

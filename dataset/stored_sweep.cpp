@@ -53,7 +53,7 @@ Result<ListedPose> pose_of(const json& truth, const std::string& where) {
 Result<StoredFrame> frame_of(std::string_view line, std::string_view png, const Probes& probes,
                              const std::string& where) {
   const json truth = json::parse(line, nullptr, false);
-  if (!truth.is_object()) return fail(ErrorCode::malformed, "a line of truth is no JSON", where);
+  if (!truth.is_object()) return fail(ErrorCode::malformed, "the line is not JSON", where);
   StoredFrame frame;
   auto pose = pose_of(truth, where);
   ARTUS_TRY(pose);
@@ -62,13 +62,13 @@ Result<StoredFrame> frame_of(std::string_view line, std::string_view png, const 
   const auto probe = probes.find(name.is_string() ? name.get<std::string>() : "?");
   const json pixel = truth.value("pixel_mm", json());
   if (probe == probes.end() || !pixel.is_number() || !(pixel.get<double>() > 0))
-    return fail(ErrorCode::malformed, "'transducer' or 'pixel_mm' cannot be", where);
+    return fail(ErrorCode::malformed, "'transducer' or 'pixel_mm' is invalid", where);
   frame.transducer = probe->second;
   frame.pixel = pixel.get<double>() * kMillimetre;
   const std::vector<char> bytes(png.begin(), png.end());
   const cv::Mat picture = bytes.empty() ? cv::Mat() : cv::imdecode(bytes, cv::IMREAD_UNCHANGED);
   if (picture.empty() || picture.type() != CV_8UC1)
-    return fail(ErrorCode::corrupt, "its picture is no PNG of 8-bit greys", where);
+    return fail(ErrorCode::corrupt, "its image is not a PNG of 8-bit greys", where);
   frame.width = picture.cols;
   frame.height = picture.rows;
   frame.grey.assign(picture.datastart, picture.dataend);
@@ -79,7 +79,7 @@ Result<json> read_object(const fs::path& file) {
   const auto text = read_bytes(file);
   ARTUS_TRY(text);
   json object = json::parse(*text, nullptr, false);
-  if (!object.is_object()) return fail(ErrorCode::malformed, "it is no JSON", file.string());
+  if (!object.is_object()) return fail(ErrorCode::malformed, "it is not JSON", file.string());
   return object;
 }
 
@@ -98,7 +98,7 @@ Result<void> read_folder(const fs::path& folder, const Take& take) {
     const std::string where = file.string() + ":" + std::to_string(number + 1);
     const json truth = json::parse(line, nullptr, false);
     const json name = truth.is_object() ? truth.value("image", json()) : json();
-    if (!name.is_string()) return fail(ErrorCode::malformed, "it names no image", where);
+    if (!name.is_string()) return fail(ErrorCode::malformed, "the line has no 'image'", where);
     const auto png = read_bytes(folder / name.get<std::string>());
     ARTUS_TRY(png);
     const auto frame = frame_of(line, *png, *probes, where);

@@ -118,7 +118,8 @@ Result<void> claim_folder(const fs::path& folder, const json& description, bool 
   if (error) return fail(ErrorCode::unreadable, error.message(), folder.string());
   if (!fs::exists(file)) {
     if (fs::exists(folder / "truth.jsonl"))
-      return fail(ErrorCode::invalid, "the folder holds frames of something else; choose another",
+      return fail(ErrorCode::invalid,
+                  "the folder holds frames that are not of a sweep; choose another folder",
                   folder.string());
     return write_whole(
         file, [&](const fs::path& part) { return write_text(part, description.dump(2) + "\n"); });
@@ -158,7 +159,7 @@ Result<SweepResult> run_sweep(const std::shared_ptr<const Scene>& scene,
                               const std::vector<ListedPose>& poses, const fs::path& folder,
                               const SweepOptions& options, const Progress& progress) {
   if (options.settings.persistence != 0)
-    return fail(ErrorCode::invalid, "a sweep is drawn without persistence", folder.string());
+    return fail(ErrorCode::invalid, "a sweep needs persistence = 0", folder.string());
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) return fail(ErrorCode::unreadable, error.message(), folder.string());

@@ -63,7 +63,8 @@ Result<void> write_and_sync(int file, std::string_view bytes, const std::string&
 }  // namespace
 
 void append_member(std::string& archive, std::string_view name, std::string_view bytes) {
-  ARTUS_REQUIRE(!name.empty() && name.size() <= kNameSize, "a member's name has 1 to 100 bytes");
+  ARTUS_REQUIRE(!name.empty() && name.size() <= kNameSize,
+                "a member's name must have 1 to 100 bytes");
   Block header{};
   put(header, 0, name);
   put(header, 100, "0000644");
@@ -90,8 +91,7 @@ void finish_archive(std::string& archive) {
 Result<std::vector<TarMember>> list_members(std::string_view archive) {
   std::vector<TarMember> members;
   while (true) {
-    if (archive.size() < kTarBlock)
-      return fail(ErrorCode::corrupt, "the archive ends in the middle");
+    if (archive.size() < kTarBlock) return fail(ErrorCode::corrupt, "the archive is cut off");
     const std::string_view header = archive.substr(0, kTarBlock);
     if (header.find_first_not_of('\0') == std::string_view::npos) return members;
     const long long size = octal_at(header.data() + kSizeField, 12);
@@ -101,7 +101,7 @@ Result<std::vector<TarMember>> list_members(std::string_view archive) {
     archive.remove_prefix(kTarBlock);
     const auto n = static_cast<std::size_t>(size);
     if (n > archive.size() || padded(n) > archive.size())
-      return fail(ErrorCode::corrupt, "the archive ends in the middle");
+      return fail(ErrorCode::corrupt, "the archive is cut off");
     const std::string_view name = header.substr(0, kNameSize);
     members.push_back({name.substr(0, name.find('\0')), archive.substr(0, n)});
     archive.remove_prefix(padded(n));

@@ -21,7 +21,8 @@ Result<VideoFile> VideoFile::open(const fs::path& file, const cv::Size& size, bo
                                   double rate) {
   if (file.extension() != ".mp4" && file.extension() != ".avi")
     return fail(ErrorCode::unsupported, "videos are written as .mp4 or .avi", file.string());
-  if (size.empty()) return fail(ErrorCode::invalid, "a video needs pictures", file.string());
+  if (size.empty())
+    return fail(ErrorCode::invalid, "a video needs at least one picture", file.string());
   VideoFile video;
   const std::array<std::pair<const char*, int>, 2> forms{
       {{".mp4", cv::VideoWriter::fourcc('m', 'p', '4', 'v')},

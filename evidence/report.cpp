@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/detail/evidence/report.h"
 
-#include <optional>
 #include <system_error>
 
 #include <nlohmann/json.hpp>
@@ -63,13 +62,10 @@ Result<void> write_files(const EvidenceReport& report, const std::filesystem::pa
     ARTUS_TRY(make_folder((folder / file.file).parent_path()));
     ARTUS_TRY(file.write(folder / file.file));
   }
-  std::optional<Error> not_plotted;
   for (const NamedPlot& plot : report.plots) {
     ARTUS_TRY(make_folder((folder / plot.file).parent_path()));
-    if (const auto drawn = write_plot(folder / plot.file, plot.plot); !drawn)
-      not_plotted = drawn.error();
+    ARTUS_TRY(write_plot(folder / plot.file, plot.plot));
   }
-  if (not_plotted) return tl::unexpected<Error>(*not_plotted);
   return {};
 }
 

@@ -9,8 +9,8 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "artus/core/result.h"
+#include "artus/detail/core/plot.h"
 #include "artus/detail/evidence/claim.h"
-#include "artus/detail/evidence/plot.h"
 #include "artus/detail/evidence/table.h"
 
 namespace artus {
@@ -55,8 +55,7 @@ struct EvidenceReport {
 /// verdict(claims), and name, title, source, published values and assumptions.
 [[nodiscard]] nlohmann::json verdict(const EvidenceReport& report);
 
-/// Writes the files and plots into `folder`, which is made when missing. Errors: those of the
-/// files; unreadable; not_found (gnuplot; all else is then written all the same).
+/// Writes the files and plots into `folder`. Errors: those of the files; unreadable.
 [[nodiscard]] Result<void> write_files(const EvidenceReport& report,
                                        const std::filesystem::path& folder);
 

@@ -178,8 +178,9 @@ Result<void> save(DcmFileFormat& out, const OFCondition& filled,
 
 Result<void> write_dicom(const std::filesystem::path& file, const ImageSequence& sequence,
                          const DicomSeries& series) {
-  ARTUS_REQUIRE(!sequence.frames.empty(), "a sequence has frames");
-  ARTUS_REQUIRE(series.pixel > 0 && series.frame_time > 0, "pixels and frames have a size");
+  ARTUS_REQUIRE(!sequence.frames.empty(), "the sequence must have frames");
+  ARTUS_REQUIRE(series.pixel > 0 && series.frame_time > 0,
+                "pixel size and frame time must be above 0");
   DcmFileFormat out;
   DcmDataset& dataset = *out.getDataset();
   ElementWriter writer(dataset);
@@ -195,7 +196,7 @@ Result<void> write_dicom(const std::filesystem::path& file, const ImageSequence&
 Result<void> write_dicom_report(const std::filesystem::path& file, const ReportPage& page,
                                 const ImageSequence& sequence, const DicomSeries& series) {
   ARTUS_REQUIRE(page.colours.size() == static_cast<std::size_t>(3 * page.width * page.height),
-                "a page has three bytes a pixel");
+                "the page must have three bytes for each pixel");
   DcmFileFormat out;
   DcmDataset& dataset = *out.getDataset();
   ElementWriter writer(dataset);

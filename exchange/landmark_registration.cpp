@@ -8,10 +8,12 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "artus/detail/core/csv.h"
 #include "artus/detail/core/known_names.h"
 #include "artus/detail/core/printed.h"
 #include "artus/detail/core/text_cursor.h"
 #include "artus/detail/core/text_file.h"
+#include "artus/detail/core/text_lines.h"
 #include "artus/detail/core/units.h"
 
 namespace artus {
@@ -55,30 +57,17 @@ std::string list_residuals(const std::vector<LandmarkPair>& pairs, const Registr
   return list;
 }
 
-std::vector<std::string> fields_of(std::string_view line) {
-  std::vector<std::string> fields;
-  while (true) {
-    const std::size_t comma = std::min(line.find(','), line.size());
-    std::string_view field = line.substr(0, comma);
-    while (!field.empty() && field.front() == ' ') field.remove_prefix(1);
-    while (!field.empty() && (field.back() == ' ' || field.back() == '\r')) field.remove_suffix(1);
-    fields.emplace_back(field);
-    if (comma == line.size()) return fields;
-    line.remove_prefix(comma + 1);
-  }
-}
-
 Result<LandmarkPair> parse_pair(const std::vector<std::string>& fields, const CompiledJoint& joint,
                                 const std::string& where) {
   if (fields.size() != 4)
-    return fail(ErrorCode::malformed, "a line is landmark,x_mm,y_mm,z_mm", where);
+    return fail(ErrorCode::malformed, "every line must be landmark,x_mm,y_mm,z_mm", where);
   const auto at = find_name(item_names(joint.landmarks), fields[0], "landmark", where);
   ARTUS_TRY(at);
   LandmarkPair pair{fields[0], joint.landmarks[*at].position, Vec3::Zero()};
   for (Eigen::Index i = 0; i < 3; ++i) {
     const auto number = parse_number(fields[static_cast<std::size_t>(i) + 1]);
     if (!number || !std::isfinite(*number))
-      return fail(ErrorCode::malformed, "a coordinate is no number", where);
+      return fail(ErrorCode::malformed, "a coordinate is not a finite number", where);
     pair.p_R[i] = *number * kMillimetre;
   }
   return pair;
@@ -90,7 +79,7 @@ Result<Registration> register_landmarks(const std::vector<LandmarkPair>& pairs, 
   constexpr std::size_t kFewest = 3;
   constexpr double kFlattest = 2e-3;  // m
   if (pairs.size() < kFewest)
-    return fail(ErrorCode::invalid, "a registration needs three landmarks or more");
+    return fail(ErrorCode::invalid, "a registration needs at least three landmarks");
   const auto n = static_cast<Eigen::Index>(pairs.size());
   Eigen::Matrix3Xd touched(3, n);
   Eigen::Matrix3Xd known(3, n);
@@ -104,13 +93,13 @@ Result<Registration> register_landmarks(const std::vector<LandmarkPair>& pairs, 
     return fail(
         ErrorCode::invalid,
         printed("the touched points spread over %.3g mm, the landmarks over %.3g mm: these look "
-                "like %s, and x_mm, y_mm and z_mm are millimetres",
+                "like %s, but x_mm, y_mm and z_mm must be millimetres",
                 spread_touched / kMillimetre, spread_known / kMillimetre, unit));
   }
   if (spread_across_line(touched) < kFlattest || spread_across_line(known) < kFlattest)
     return fail(ErrorCode::invalid,
-                "the landmarks lie on a line: touch one that lies off it, or nothing holds the "
-                "turn around that line");
+                "the landmarks lie on one line: touch another one away from it, or the rotation "
+                "around that line remains unknown");
   Registration fit;
   fit.X_JR.matrix() = Eigen::umeyama(touched, known, false);
   double sum = 0;
@@ -121,7 +110,7 @@ Result<Registration> register_landmarks(const std::vector<LandmarkPair>& pairs, 
   fit.rms = std::sqrt(sum / static_cast<double>(pairs.size()));
   if (!(fit.rms <= limit)) {
     const std::string text =
-        printed("the landmarks fit to %.2f mm only, above %.2f mm: ", fit.rms / kMillimetre,
+        printed("the landmarks fit to only %.2f mm; the limit is %.2f mm: ", fit.rms / kMillimetre,
                 limit / kMillimetre);
     return fail(ErrorCode::invalid, text + list_residuals(pairs, fit));
   }
@@ -132,20 +121,18 @@ Result<std::vector<LandmarkPair>> parse_landmark_pairs(std::string_view text,
                                                        const std::string& name,
                                                        const CompiledJoint& joint) {
   std::vector<LandmarkPair> pairs;
-  for (std::size_t line = 1; !text.empty(); ++line) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    const std::vector<std::string> fields = fields_of(text.substr(0, end));
-    text.remove_prefix(std::min(end + 1, text.size()));
-    const std::string where = name + ":" + std::to_string(line);
-    if (line == 1 && fields.front() == "landmark") continue;
-    if (fields.size() == 1 && fields.front().empty()) continue;
-    auto pair = parse_pair(fields, joint, where);
+  const auto read = [&](std::string_view line, const std::string& where) -> Result<void> {
+    const std::vector<std::string> cells = csv_cells(line);
+    if (pairs.empty() && cells.front() == "landmark") return {};  // the header
+    auto pair = parse_pair(cells, joint, where);
     ARTUS_TRY(pair);
     if (std::any_of(pairs.begin(), pairs.end(),
                     [&](const LandmarkPair& other) { return other.name == pair->name; }))
-      return fail(ErrorCode::invalid, "'" + pair->name + "' stands there twice", where);
+      return fail(ErrorCode::invalid, "landmark '" + pair->name + "' is given twice", where);
     pairs.push_back(std::move(*pair));
-  }
+    return {};
+  };
+  ARTUS_TRY(for_lines(text, name, read));
   return pairs;
 }
 

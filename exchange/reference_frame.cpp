@@ -42,9 +42,10 @@ Result<Pose> rigid_from(const igtl::Matrix& matrix) {
   const Eigen::Matrix3d r = matrix.leftCols<3>();
   if (!matrix.allFinite() || r.determinant() <= 0 ||
       !((r.transpose() * r - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < kTolerance))
-    return fail(ErrorCode::invalid, "a pose whose axes are scaled, sheared or mirrored");
+    return fail(ErrorCode::invalid, "invalid pose: its axes are scaled, sheared or mirrored");
   if (!(matrix.col(3).cwiseAbs().maxCoeff() * kMillimetre < kDeviceReach))
-    return fail(ErrorCode::invalid, "a pose more than ten metres away; lengths are millimetres");
+    return fail(ErrorCode::invalid,
+                "invalid pose: more than 10 m from the origin; lengths must be millimetres");
   Pose pose = Pose::Identity();
   pose.linear() = Eigen::Quaterniond(r).normalized().toRotationMatrix();
   pose.translation() = matrix.col(3) * kMillimetre;

@@ -50,7 +50,7 @@ Result<Fields> take_fields(std::string_view& bytes, const std::string& name) {
     const std::string_view text = bytes.substr(0, end);
     const std::size_t equals = text.find('=');
     if (end == std::string_view::npos || equals == std::string_view::npos)
-      return fail(ErrorCode::malformed, "a line of the header is no 'key = value'",
+      return fail(ErrorCode::malformed, "a header line must be 'key = value'",
                   name + ":" + std::to_string(line));
     bytes.remove_prefix(end + 1);
     const std::string key(trimmed(text.substr(0, equals)));
@@ -80,7 +80,7 @@ Result<std::optional<igtl::Matrix>> matrix_of(const Fields& fields, std::size_t 
   const std::string_view status = text_of(fields, key + "Status");
   if (fields.count(key) == 0 || (!status.empty() && status != "OK")) return std::nullopt;
   const std::vector<double> numbers = numbers_of(fields, key);
-  if (numbers.size() != 16) return fail(ErrorCode::malformed, "a matrix has 16 numbers", key);
+  if (numbers.size() != 16) return fail(ErrorCode::malformed, "a matrix must have 16 numbers", key);
   igtl::Matrix matrix;
   for (Eigen::Index row = 0; row < 3; ++row)
     for (Eigen::Index column = 0; column < 4; ++column)
@@ -93,12 +93,14 @@ Result<std::vector<std::size_t>> size_of(const Fields& fields, const std::string
   const auto refuse = [&](const char* why) {
     return fail(ErrorCode::unsupported, why, name);
   };
-  if (text_of(fields, "ElementType") != "MET_UCHAR") return refuse("only 8-bit greys are read");
-  if (text_of(fields, "CompressedData") == "True") return refuse("compressed data are not read");
+  if (text_of(fields, "ElementType") != "MET_UCHAR")
+    return refuse("only 8-bit grey images can be read");
+  if (text_of(fields, "CompressedData") == "True") return refuse("compressed data cannot be read");
   if (text_of(fields, "ElementDataFile") != "LOCAL")
-    return refuse("only sequences with their data in the same file are read");
+    return refuse("only sequences with their data in the same file can be read");
   const std::string_view channels = text_of(fields, "ElementNumberOfChannels");
-  if (!channels.empty() && channels != "1") return refuse("only greys are read, not colours");
+  if (!channels.empty() && channels != "1")
+    return refuse("only grey images can be read, not colour");
   const std::vector<double> numbers = numbers_of(fields, "DimSize");
   std::vector<std::size_t> size;
   for (const double n : numbers)
@@ -128,7 +130,7 @@ Result<SequenceFrame> frame_of(const Fields& fields, std::size_t i) {
 }  // namespace
 
 std::string to_mha(const ImageSequence& sequence) {
-  ARTUS_REQUIRE(!sequence.frames.empty(), "a sequence has frames");
+  ARTUS_REQUIRE(!sequence.frames.empty(), "the sequence must have frames");
   std::string out =
       "ObjectType = Image\nNDims = 3\nAnatomicalOrientation = RAI\nBinaryData = True\n"
       "BinaryDataByteOrderMSB = False\nCenterOfRotation = 0 0 0\nCompressedData = False\n";
@@ -144,7 +146,7 @@ std::string to_mha(const ImageSequence& sequence) {
       static_cast<std::size_t>(sequence.width) * static_cast<std::size_t>(sequence.height);
   for (std::size_t i = 0; i < sequence.frames.size(); ++i) {
     const SequenceFrame& frame = sequence.frames[i];
-    ARTUS_REQUIRE(frame.grey.size() == pixels, "all frames have the sequence's size");
+    ARTUS_REQUIRE(frame.grey.size() == pixels, "every frame must have the size of the sequence");
     std::string time;
     append_number(time, frame.time);
     put(out, frame_key(i, "FrameNumber"), std::to_string(i));
@@ -204,7 +206,7 @@ Result<std::vector<ListedPose>> poses_of(const ImageSequence& sequence) {
     pose.X_JP = *probe;
     pose.time = frame.time;
     if (poses.size() > 0 && *poses.back().time >= frame.time)
-      return fail(ErrorCode::invalid, "time does not rise from frame to frame", where);
+      return fail(ErrorCode::invalid, "the time must rise from frame to frame", where);
     if (frame.needle_to_reference) {
       const auto needle = reference.from_reference(*frame.needle_to_reference);
       if (!needle) return fail(ErrorCode::invalid, needle.error().message, where);

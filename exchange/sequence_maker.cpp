@@ -13,10 +13,11 @@ Result<void> SequenceMaker::add(const PlacedPicture& picture, const Transducer& 
     sequence_.height = picture.height;
   }
   if (picture.width != sequence_.width || picture.height != sequence_.height)
-    return fail(ErrorCode::invalid,
-                "frame " + std::to_string(sequence_.frames.size()) +
-                    " is of another size (depth or transducer changed): a sequence has images of "
-                    "one size");
+    return fail(
+        ErrorCode::invalid,
+        "frame " + std::to_string(sequence_.frames.size()) +
+            " has another size (depth or transducer changed): all images of a sequence must have "
+            "one size");
   SequenceFrame frame;
   frame.time = picture.time;
   frame.probe_to_reference = reference_.to_reference(picture.X_JP);

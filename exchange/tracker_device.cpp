@@ -54,7 +54,7 @@ Result<void> TrackerInbox::take_plunger(const igtl::Message& message, std::int64
   poses_.store(newest_);
   if (!sound)
     return fail(ErrorCode::invalid,
-                message.device + ": a plunger is one number, at most 1000 N or 1 m");
+                message.device + ": the plunger must be one number, at most 1000 N or 1 m");
   return {};
 }
 

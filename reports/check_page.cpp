@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "artus/detail/anatomy/surfaces/surface_io.h"
 #include "artus/detail/core/text_cursor.h"
 #include "artus/detail/core/text_file.h"
 #include "artus/detail/core/units.h"
@@ -72,21 +71,23 @@ void add_repaired_overview(HtmlPage& page, const JointFile& file, const JointChe
     page.picture(draw_meshes(meshes, view, kLargePicture), view.name);
 }
 
-void add_surface(HtmlPage& page, const JointFile& file, const JointCheck& check, const Structure& s,
-                 const CheckedSurface& checked) {
+void add_surface(HtmlPage& page, const JointSources& sources, const JointCheck& check,
+                 const Structure& s, const CheckedSurface& checked) {
+  const JointFile& file = sources.joint();
   const auto& surface = std::get<SurfaceFile>(s.shape);
   page.open_card(s.name + " (" + s.tissue + ", " + surface.file.string() + ", line " +
                  std::to_string(s.line) + ")");
   for (const Finding& f : check.findings)
     if (f.what == s.name) page.point(to_string(f.verdict), f.message);
   const MeshView view = picture_views(file.axes, file.side).front();
-  if (const auto mesh = read_surface(file.surface_folder / surface.file, surface.unit)) {
-    const auto defects = find_defects(*mesh);
+  if (const auto read = sources.mesh(surface)) {
+    const SurfaceMesh& mesh = **read;
+    const auto defects = find_defects(mesh);
     std::vector<Vec3> marks;
     for (const Defect& d : defects)
       if (d.kind != DefectKind::several_components && d.position.allFinite())
         marks.push_back(d.position);
-    page.picture(draw_meshes(std::vector{with_defects(*mesh, defects)}, view, kSmallPicture, marks),
+    page.picture(draw_meshes(std::vector{with_defects(mesh, defects)}, view, kSmallPicture, marks),
                  defects.empty() ? "as it was read: no defect"
                                  : "as it was read; defects red, a ring at the first of each kind");
   }
@@ -134,8 +135,9 @@ bool is_page(const std::filesystem::path& report) {
   return report.extension() == ".html";
 }
 
-Result<void> write_check_page(const JointFile& file, const JointCheck& check,
+Result<void> write_check_page(const JointSources& sources, const JointCheck& check,
                               const std::filesystem::path& path) {
+  const JointFile& file = sources.joint();
   HtmlPage page(file.title + ": what artus check found");
   page.paragraph(std::to_string(file.structures.size()) + " structures, " +
                  std::to_string(check.count(Verdict::refused)) + " refusals, " +
@@ -151,9 +153,9 @@ Result<void> write_check_page(const JointFile& file, const JointCheck& check,
   add_surface_table(page, file, check);
   page.heading("Each surface");
   for (const CheckedSurface& checked : check.surfaces) {
-    if (checked.name == file.body.name) add_surface(page, file, check, file.body, checked);
+    if (checked.name == file.body.name) add_surface(page, sources, check, file.body, checked);
     for (const Structure& s : file.structures)
-      if (s.name == checked.name) add_surface(page, file, check, s, checked);
+      if (s.name == checked.name) add_surface(page, sources, check, s, checked);
   }
   add_crossings(page, check);
   return write_text(path, page.text());

@@ -7,7 +7,6 @@
 #include <opencv2/imgproc.hpp>
 
 #include "artus/detail/anatomy/surfaces/distance_tree.h"
-#include "artus/detail/anatomy/surfaces/surface_io.h"
 #include "artus/detail/core/text_cursor.h"
 #include "artus/detail/core/text_file.h"
 #include "artus/detail/core/units.h"
@@ -113,7 +112,8 @@ ColouredMesh by_distance(const CompiledJoint& joint, RegionId region, const Dist
   return out;
 }
 
-void add_structures(HtmlPage& page, const JointFile& file, const CompileOutcome& outcome) {
+void add_structures(HtmlPage& page, const JointSources& sources, const CompileOutcome& outcome) {
+  const JointFile& file = sources.joint();
   page.heading("Each structure: green lies on its surface, red 0.5 mm or more from it");
   page.paragraph(
       "Red where another structure cut something off, where the region of interest ends, or where "
@@ -130,9 +130,9 @@ void add_structures(HtmlPage& page, const JointFile& file, const CompileOutcome&
     const auto region = static_cast<RegionId>(kFirstRegion + 1 + i);
     const auto* surface = std::get_if<SurfaceFile>(&s.shape);
     if (report.tetrahedra > 0 && surface != nullptr) {
-      if (const auto mesh = read_surface(file.surface_folder / surface->file, surface->unit))
+      if (const auto mesh = sources.mesh(*surface))
         page.picture(draw_meshes(std::vector{by_distance(outcome.joint, region,
-                                                         DistanceTree(coloured(*mesh, {}).mesh))},
+                                                         DistanceTree(coloured(**mesh, {}).mesh))},
                                  view, kSmallPicture),
                      "distance to " + surface->file.string());
     } else if (report.tetrahedra > 0) {
@@ -178,8 +178,9 @@ void add_table(HtmlPage& page, const CompileReport& report) {
 
 }  // namespace
 
-Result<void> write_compile_page(const JointFile& file, const CompileOutcome& outcome,
+Result<void> write_compile_page(const JointSources& sources, const CompileOutcome& outcome,
                                 const std::filesystem::path& path) {
+  const JointFile& file = sources.joint();
   HtmlPage page(file.title + ": what artus compile made");
   page.heading("What to do next");
   for (const StructureReport& s : outcome.report.structures) {
@@ -193,7 +194,7 @@ Result<void> write_compile_page(const JointFile& file, const CompileOutcome& out
   add_slices(page, file, outcome.joint);
   add_overview(page, file, outcome.joint);
   add_table(page, outcome.report);
-  add_structures(page, file, outcome);
+  add_structures(page, sources, outcome);
   return write_text(path, page.text());
 }
 

@@ -63,7 +63,8 @@ std::string img(const cv::Mat& image, const std::string& alt, const std::string&
 
 }  // namespace
 
-HtmlPage::HtmlPage(const std::string& title) : title_(escape_markup(title)) {}
+HtmlPage::HtmlPage(const std::string& title, Language language)
+    : title_(escape_markup(title)), language_(language) {}
 
 void HtmlPage::heading(const std::string& text) {
   body_ += "<h2>" + escape_markup(text) + "</h2>\n";
@@ -75,7 +76,8 @@ void HtmlPage::paragraph(const std::string& text) {
 
 void HtmlPage::point(const std::string& kind, const std::string& text) {
   body_ += "<p class=\"point\"><span class=\"tag " + escape_markup(kind) + "\">" +
-           escape_markup(kind) + "</span>" + escape_markup(text) + "</p>\n";
+           escape_markup(translate(language_, kind.c_str())) + "</span>" + escape_markup(text) +
+           "</p>\n";
 }
 
 void HtmlPage::picture(const cv::Mat& image, const std::string& caption) {
@@ -129,7 +131,9 @@ void HtmlPage::table(const std::vector<Column>& columns,
 }
 
 std::string HtmlPage::text() const {
-  return "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n<meta "
+  const std::string lang = language_ == Language::french ? "fr" : "en";
+  return "<!DOCTYPE html>\n<html lang=\"" + lang +
+         "\"><head><meta charset=\"utf-8\">\n<meta "
          "name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n<title>" +
          title_ + "</title>\n<style>" + kStyle + "</style></head>\n<body>\n<h1>" + title_ +
          "</h1>\n" + body_ + "</body></html>\n";

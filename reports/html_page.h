@@ -7,16 +7,21 @@
 
 #include <opencv2/core.hpp>
 
+#include "artus/detail/viewer/words/translation.h"
+
 namespace artus {
 
 /// A page that needs nothing but itself: no server, no script, pictures inside.
 class HtmlPage {
  public:
-  explicit HtmlPage(const std::string& title);
+  explicit HtmlPage(const std::string& title, Language language = Language::english);
+
+  [[nodiscard]] Language language() const noexcept { return language_; }
 
   void heading(const std::string& text);
   void paragraph(const std::string& text);
-  /// One line a point; `kind` colours it ("refused", "look", "mended", "note").
+  /// One line a point; `kind` colours it and stands before it in the page's language: refused,
+  /// look, mended, note, passed, failed, do.
   void point(const std::string& kind, const std::string& text);
   void picture(const cv::Mat& image, const std::string& caption);
   /// Pictures of one size one after the other, half a second each, again and again; in print, and
@@ -42,6 +47,12 @@ class HtmlPage {
  private:
   std::string body_;
   std::string title_;
+  Language language_;
 };
+
+/// A sentence in the page's language.
+[[nodiscard]] inline const char* translate(const HtmlPage& page, const char* english) noexcept {
+  return translate(page.language(), english);
+}
 
 }  // namespace artus

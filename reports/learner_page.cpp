@@ -6,7 +6,7 @@
 #include <memory>
 #include <numeric>
 
-#include "artus/detail/core/text_cursor.h"
+#include "artus/detail/core/plot.h"
 #include "artus/detail/core/text_file.h"
 #include "artus/detail/reports/attempt_page.h"
 #include "artus/detail/reports/html_page.h"
@@ -14,7 +14,6 @@
 #include "artus/detail/training/learning_curve.h"
 #include "artus/detail/training/learning_fit.h"
 #include "artus/detail/training/metrics/sight_course.h"
-#include "artus/detail/training/svg_plot.h"
 
 namespace artus {
 namespace {
@@ -33,6 +32,7 @@ std::unique_ptr<bool[]> outcomes(const std::vector<AttemptRecord>& attempts, std
 
 constexpr double kMemory = 0.95;  // weight of an attempt for each one since
 constexpr const char* kPale = "#9db8d6";
+constexpr const char* kDark = "#1f5fa8";
 
 std::vector<double> numbered(std::size_t n) {
   std::vector<double> x(n);
@@ -41,30 +41,32 @@ std::vector<double> numbered(std::size_t n) {
 }
 
 /// What was believed of the rate of failure after each attempt, with its band.
-SvgPlot plot_belief(std::span<const bool> failed) {
-  SvgCurve mean{"rate of failure", numbered(failed.size()), {}};
-  SvgCurve low{"90 % band", mean.x, {}, kPale};
-  SvgCurve high{"", mean.x, {}, kPale};
+PlotPanel plot_belief(std::span<const bool> failed, Language language) {
+  PlotSeries mean{translate(language, "rate of failure"), numbered(failed.size()), {}, PlotStyle::line, kDark};
+  PlotSeries low{translate(language, "90 % band"), mean.x, {}, PlotStyle::line, kPale};
+  PlotSeries high{"", mean.x, {}, PlotStyle::line, kPale};
   for (std::size_t i = 1; i <= failed.size(); ++i) {
     const FailureBelief belief = believe(failed.first(i), kMemory);
     mean.y.push_back(100 * belief.mean);
     low.y.push_back(100 * belief.low);
     high.y.push_back(100 * belief.high);
   }
-  return {"attempt without aids",
-          "%",
-          {low, high, mean},
-          {},
-          {{100 * kRates.acceptable, "adequate"}, {0, ""}}};
+  return {.x_label = translate(language, "attempt without aids"),
+          .y_label = "%",
+          .series = {low, high, mean},
+          .levels = {{100 * kRates.acceptable, translate(language, "adequate")}, {0, ""}}};
 }
 
 /// Scores of the finished attempts without aids.
-SvgPlot plot_scores(const std::vector<AttemptRecord>& attempts) {
-  SvgCurve scores{"", {}, {}, "#1f5fa8", true};
+PlotPanel plot_scores(const std::vector<AttemptRecord>& attempts, Language language) {
+  PlotSeries scores{"", {}, {}, PlotStyle::points};
   for (const AttemptRecord& a : attempts)
     if (!a.ended.empty() && !a.aided) scores.y.push_back(a.score);
   scores.x = numbered(scores.y.size());
-  return {"attempt without aids", "score", {scores}, {}, {{100, ""}, {0, ""}}};
+  return {.x_label = translate(language, "attempt without aids"),
+          .y_label = translate(language, "score"),
+          .series = {scores},
+          .levels = {{100, ""}, {0, ""}}};
 }
 
 /// "2026-01-31 12:00" of "2026-01-31T12:00:00Z".
@@ -76,6 +78,10 @@ std::string to_the_minute(const std::string& utc) {
 
 void add_scenario(HtmlPage& page, const std::string& name,
                   const std::vector<AttemptRecord>& attempts) {
+  const Language language = page.language();
+  const auto percent = [language](double share) {
+    return number(language, 100 * share, 0);
+  };
   page.heading(name);
   std::size_t n = 0;
   const auto failed = outcomes(attempts, n);
@@ -84,39 +90,49 @@ void add_scenario(HtmlPage& page, const std::string& name,
   const FailureBelief belief = believe(x, kMemory);
   const double wrong =
       lc_cusum_pass_rate(kRates, kLimit, kRates.unacceptable, std::max<std::size_t>(n, 1));
-  page.point(chart.signal ? "mended" : "note",
-             chart.signal ? "Adequate since attempt " + std::to_string(*chart.signal) + "."
-                          : "Not yet shown to be adequate.");
-  page.paragraph("Rate of failure between " + fixed_number(100 * belief.low, 0) + " and " +
-                 fixed_number(100 * belief.high, 0) +
-                 " % (90 % band, older attempts weigh less). Of "
-                 "learners who stay at 20 % failure, " +
-                 fixed_number(100 * wrong, 0) + " % would be signalled within " +
-                 std::to_string(n) + " attempts by chance.");
-  SvgCurve curve{"", {}, chart.values};
+  page.point(chart.signal ? msgid("passed") : msgid("note"),
+             chart.signal ? fill(translate(page, "Adequate since attempt {}."),
+                                 {std::to_string(*chart.signal)})
+                          : translate(page, "Not yet shown to be adequate."));
+  page.paragraph(
+      fill(translate(page,
+                     "Rate of failure between {} and {} % (90 % band, older attempts weigh less)."),
+           {percent(belief.low), percent(belief.high)}) +
+      " " +
+      fill(translate_count(language,
+                           "Of learners who stay at 20 % failure, {} % would be signalled within "
+                           "{} attempt by chance.",
+                           "Of learners who stay at 20 % failure, {} % would be signalled within "
+                           "{} attempts by chance.",
+                           static_cast<long>(n)),
+           {percent(wrong), std::to_string(n)}));
+  PlotSeries curve{"", {}, chart.values};
   for (std::size_t i = 0; i < n; ++i) curve.x.push_back(static_cast<double>(i + 1));
   if (n > 0)
-    page.drawing(to_svg({"attempt without aids",
-                         "LC-CUSUM",
-                         {curve},
-                         {},
-                         {{kLimit, "adequate from here"}, {0, ""}}}),
-                 "rises with each pass, falls with each failure (10 against 20 %)");
+    page.drawing(
+        to_svg(PlotPanel{.x_label = translate(page, "attempt without aids"),
+                         .y_label = "LC-CUSUM",
+                         .series = {curve},
+                         .levels = {{kLimit, translate(page, "adequate from here")}, {0, ""}}}),
+        translate(page, "rises with each pass, falls with each failure (10 against 20 %)"));
   if (n > 1) {
-    page.drawing(to_svg(plot_belief(x)), "share that fails, as the attempts so far tell it");
-    page.drawing(to_svg(plot_scores(attempts)), "score, of 100");
+    page.drawing(to_svg(plot_belief(x, language)),
+                 translate(page, "share that fails, as the attempts so far tell it"));
+    page.drawing(to_svg(plot_scores(attempts, language)), translate(page, "score, of 100"));
   }
   std::vector<std::vector<std::string>> rows;
   for (const AttemptRecord& a : attempts)
     rows.push_back({to_the_minute(a.started),
-                    a.ended.empty() ? "unfinished" : (a.passed ? "passed" : "failed"),
+                    a.ended.empty() ? translate(page, "unfinished")
+                    : a.passed      ? translate(page, "passed")
+                                    : translate(page, "failed"),
                     a.ended.empty() ? "-" : std::to_string(whole_points(a.score)),
-                    a.aided ? "yes" : "no", a.id});
-  page.table({{"when", "UTC"},
+                    a.aided ? translate(page, "yes") : translate(page, "no"), a.id});
+  page.table({{translate(page, "when"), "UTC"},
               {"", ""},
-              {"score", "of 100"},
-              {"aids", "nothing passes with aids on"},
-              {"attempt", "for artus rate"}},
+              {translate(page, "score"), translate(page, "of 100")},
+              {translate(page, "aids"), translate(page, "nobody passes with aids on")},
+              {translate(page, "attempt"), translate(page, "for artus rate")}},
              rows);
 }
 
@@ -141,10 +157,11 @@ void add_curve(HtmlPage& page, const std::string& scenario, const std::vector<Tr
   constexpr std::size_t kFewest = 5;  // trials under which three numbers say nothing
   if (trials.size() < kFewest) return;
   const LearningFit fit = fit_learning(trials);
-  SvgCurve shares{"failed", numbered(trials.size()), {}, "#1f5fa8", true};
-  SvgCurve curve{"learning curve", shares.x, {}, "#a3361f"};
-  SvgCurve low{"90 % band of a share", shares.x, {}, kPale};
-  SvgCurve high{"", shares.x, {}, kPale};
+  const Language language = page.language();
+  PlotSeries shares{translate(page, "failed"), numbered(trials.size()), {}, PlotStyle::points, kDark};
+  PlotSeries curve{translate(page, "learning curve"), shares.x, {}, PlotStyle::line, "#a3361f"};
+  PlotSeries low{translate(page, "90 % band of a share"), shares.x, {}, PlotStyle::line, kPale};
+  PlotSeries high{"", shares.x, {}, PlotStyle::line, kPale};
   for (std::size_t i = 0; i < trials.size(); ++i) {
     const auto failures = static_cast<double>(trials[i].failures);
     const auto learners = static_cast<double>(trials[i].learners);
@@ -156,38 +173,44 @@ void add_curve(HtmlPage& page, const std::string& scenario, const std::vector<Tr
     low.y.push_back(100 * belief.low);
     high.y.push_back(100 * belief.high);
   }
-  page.heading("Learning: " + scenario);
-  page.paragraph("Failure comes down from " + fixed_number(100 * fit.first, 0) + " % to " +
-                 fixed_number(100 * fit.last, 0) + " %; each attempt takes " +
-                 fixed_number(100 * fit.rate, 1) +
-                 " % of what is left. Under no other such curve is what these learners did more "
-                 "likely; few learners or short rows leave it vague.");
-  page.drawing(to_svg({"attempt without aids", "%", {low, high, shares, curve}, {}, {{0, ""}}}),
-               "share of the learners who failed at their n-th attempt");
+  page.heading(fill(translate(page, "Learning: {}"), {scenario}));
+  page.paragraph(fill(translate(page,
+                                "Failure comes down from {} % to {} %; each attempt takes {} % of "
+                                "what is left (the most likely curve; vague for few learners or "
+                                "few attempts)."),
+                      {number(language, 100 * fit.first, 0), number(language, 100 * fit.last, 0),
+                       number(language, 100 * fit.rate, 1)}));
+  page.drawing(to_svg(PlotPanel{.x_label = translate(page, "attempt without aids"),
+                                .y_label = "%",
+                                .series = {low, high, shares, curve},
+                                .levels = {{0, ""}}}),
+               translate(page, "share of the learners who failed at their n-th attempt"));
 }
 
 }  // namespace
 
-Result<void> write_learner_page(Records& records, const std::string& person,
+Result<void> write_learner_page(Records& records, const std::string& person, Language language,
                                 const std::filesystem::path& file) {
   const auto attempts = records.attempts({person, "", ""});
   ARTUS_TRY(attempts);
   if (attempts->empty())
     return fail(ErrorCode::not_found, "there is no attempt of this person", person);
-  HtmlPage page("Learner " + person);
+  HtmlPage page(fill(translate(language, "Learner {}"), {person}), language);
   std::map<std::string, std::vector<AttemptRecord>> by_scenario;
   for (const AttemptRecord& a : *attempts) by_scenario[a.scenario].push_back(a);
   for (const auto& [name, own] : by_scenario) add_scenario(page, name, own);
   return write_text(file, page.text());
 }
 
-Result<void> write_cohort_page(Records& records, const std::string& cohort,
+Result<void> write_cohort_page(Records& records, const std::string& cohort, Language language,
                                const std::filesystem::path& file) {
   const auto attempts = records.attempts({"", cohort, ""});
   ARTUS_TRY(attempts);
   const auto metrics = records.metrics({"", cohort, ""});
   ARTUS_TRY(metrics);
-  HtmlPage page(cohort.empty() ? "All learners" : "Cohort " + cohort);
+  HtmlPage page(cohort.empty() ? translate(language, "All learners")
+                               : fill(translate(language, "Cohort {}"), {cohort}),
+                language);
   std::map<std::pair<std::string, std::string>, std::vector<AttemptRecord>> groups;
   for (const AttemptRecord& a : *attempts) groups[{a.scenario, a.person}].push_back(a);
   std::map<std::string, std::map<std::string, std::vector<AttemptRecord>>> scenarios;
@@ -202,29 +225,35 @@ Result<void> write_cohort_page(Records& records, const std::string& cohort,
     const std::span<const bool> x(failed.get(), n);
     const auto failures = std::count(x.begin(), x.end(), true);
     const Chart chart = lc_cusum(x, kRates, kLimit);
-    rows.push_back({key.second.empty() ? "(forgotten)" : key.second, key.first,
+    rows.push_back({key.second.empty() ? translate(page, "(forgotten)") : key.second, key.first,
                     std::to_string(own.size()),
                     std::to_string(n - static_cast<std::size_t>(failures)),
                     chart.signal ? std::to_string(*chart.signal) : "-"});
   }
-  page.heading("Learners");
-  page.table({{"learner", ""},
-              {"scenario", ""},
-              {"attempts", "unfinished and aided ones, too"},
-              {"passed", "without aids"},
-              {"adequate at", "attempt at which the LC-CUSUM signals"}},
-             rows);
+  page.heading(translate(page, "Learners"));
+  page.table(
+      {{translate(page, "learner"), ""},
+       {translate(page, "scenario"), ""},
+       {translate(page, "attempts"), translate(page, "unfinished and aided ones, too")},
+       {translate(page, "passed"), translate(page, "without aids")},
+       {translate(page, "adequate at"), translate(page, "attempt at which the LC-CUSUM signals")}},
+      rows);
   std::map<std::string, std::vector<double>> spread;
   for (const MetricValue& m : *metrics)
     if (m.value) spread[m.name + " (" + m.role + ", " + m.unit + ")"].push_back(*m.value);
   rows.clear();
   for (const auto& [name, values] : spread)
     rows.push_back({name, std::to_string(values.size()),
-                    fixed_number(percentile(values, 0.1).value_or(0), 2),
-                    fixed_number(percentile(values, 0.5).value_or(0), 2),
-                    fixed_number(percentile(values, 0.9).value_or(0), 2)});
-  page.heading("Numbers of all attempts");
-  page.table({{"metric", ""}, {"n", ""}, {"p10", ""}, {"median", ""}, {"p90", ""}}, rows);
+                    number(language, percentile(values, 0.1).value_or(0), 2),
+                    number(language, percentile(values, 0.5).value_or(0), 2),
+                    number(language, percentile(values, 0.9).value_or(0), 2)});
+  page.heading(translate(page, "Numbers of all attempts"));
+  page.table({{translate(page, "metric"), ""},
+              {"n", ""},
+              {"p10", ""},
+              {translate(page, "median"), ""},
+              {"p90", ""}},
+             rows);
   return write_text(file, page.text());
 }
 

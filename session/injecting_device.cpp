@@ -47,9 +47,10 @@ InjectingDevice::InjectingDevice(const InjectionPlan& plan, const DeviceLimits& 
       loop_({rate_hz, physics_rate(rate_hz)}, device, hand, person_.start()),
       thumb_({SyringeCore::kCoupling, SyringeCore::kMaxForce}),
       dose_(plan.plunger, plan.volume) {
-  ARTUS_REQUIRE(std::abs(plan.direction_W.norm() - 1) < 1e-9, "the direction must be a unit");
-  ARTUS_REQUIRE(plan.speed > 0 && plan.target <= plan.deepest, "an injection goes somewhere");
-  ARTUS_REQUIRE(plan.rate > 0, "a dose takes some time");
+  ARTUS_REQUIRE(std::abs(plan.direction_W.norm() - 1) < 1e-9, "the direction must have length 1");
+  ARTUS_REQUIRE(plan.speed > 0 && plan.target <= plan.deepest,
+                "speed must be above 0 and the target no deeper than the deepest point");
+  ARTUS_REQUIRE(plan.rate > 0, "the dose's rate must be above 0");
   sample_.X_WP = to_plain(plan.X_WP);
   sample_.state = PeerState::alive;
   sample_.has_needle = 1;

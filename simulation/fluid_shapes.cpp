@@ -44,7 +44,7 @@ std::vector<Injected> injected_of(const CompiledJoint& joint, const JointSpaces&
 
 JointSpaces spaces_of(const CompiledJoint& joint) {
   auto spaces = make_joint_spaces(joint);
-  ARTUS_REQUIRE(spaces.has_value(), "a joint's spaces are checked when it is compiled");
+  ARTUS_REQUIRE(spaces.has_value(), "the joint's spaces must be valid");
   return std::move(*spaces);
 }
 
@@ -62,7 +62,7 @@ std::shared_ptr<const BodyMap> map_of(const CompiledJoint& shape, const Deformed
 FluidShapes::FluidShapes(std::shared_ptr<const CompiledJoint> joint, Liquid liquid,
                          double image_rate)
     : joint_(std::move(joint)), liquid_(std::move(liquid)) {
-  ARTUS_REQUIRE(joint_ != nullptr && image_rate > 0, "a joint and an image rate are needed");
+  ARTUS_REQUIRE(joint_ != nullptr && image_rate > 0, "needs a joint and an image rate above 0");
   spaces_ = spaces_of(*joint_);
   images_to_change_ = static_cast<std::uint64_t>(std::ceil(kShapeTime * image_rate));
   images_to_grow_ =

@@ -6,13 +6,6 @@
 namespace artus {
 
 /// The named members, for visit_fields (core/fields.h).
-template <Like<GestureParams> P, class F>
-void fields_of(P& params, F&& visit) {
-  auto& [p_W, axis_W, beside_probe, steepness] = params;
-  visit("p_W", p_W);
-  visit("axis_W", axis_W);
-  visit("beside_probe", beside_probe);
-  visit("steepness", steepness);
-}
+ARTUS_FIELDS(GestureParams, p_W, axis_W, beside_probe, steepness);
 
 }  // namespace artus

@@ -52,7 +52,11 @@ Result<void> validate(const GestureParams& gesture) {
 Result<void> validate(const NeedleShape& shape) {
   const bool tube = shape.bore > 0 && shape.outer_diameter > shape.bore &&
                     shape.outer_diameter < 0.01 && shape.length > 0 && shape.length < 1;
-  if (!tube) return fail(ErrorCode::invalid, "is not that of a needle", "needle_shape");
+  if (!tube)
+    return fail(
+        ErrorCode::invalid,
+        "needs outer_diameter below 10 mm, a narrower bore above 0 and a length of 0 to 1 m",
+        "needle_shape");
   return {};
 }
 
@@ -83,8 +87,9 @@ Result<void> validate(const SessionParams& params) {
   if (!(params.image_rate >= 1 && params.image_rate <= 120))
     return fail(ErrorCode::invalid, "the image rate must be 1 to 120 Hz", "image_rate");
   if (const std::string name = find_nonsense(params); !name.empty())
-    return fail(ErrorCode::invalid, "holds no number or an unknown choice", name);
-  if (!is_rigid(params.X_WJ)) return fail(ErrorCode::invalid, "is no rigid pose", "X_WJ");
+    return fail(ErrorCode::invalid, "is not finite or not a known choice", name);
+  if (!is_rigid(params.X_WJ))
+    return fail(ErrorCode::invalid, "is not a rigid pose within 10 m", "X_WJ");
   ARTUS_TRY(validate(params.gesture));
   ARTUS_TRY(validate(params.needle_shape));
   ARTUS_TRY(validate(params.aids));

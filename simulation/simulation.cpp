@@ -13,12 +13,13 @@ namespace {
 SessionParams params_of(const CompiledJoint& joint, const SimulationOptions& options) {
   SessionParams params;
   const auto device = find_device(options.device);
-  ARTUS_REQUIRE(device.has_value(), "there is no device of that name");
+  ARTUS_REQUIRE(device.has_value(), "unknown device name");
   params.device = *device;
   params.haptic_rate = options.haptic_rate;
   params.image_rate = options.image_rate;
   params.deform = !options.rigid && !joint.mesh.tetrahedra.empty();
-  ARTUS_REQUIRE(validate(params).has_value(), "rates of 100 to 20000 and 10 to 120 Hz");
+  ARTUS_REQUIRE(validate(params).has_value(),
+                "the haptic rate must be 100 to 20000 Hz, the image rate 1 to 120 Hz");
   return params;
 }
 

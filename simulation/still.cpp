@@ -130,6 +130,8 @@ Result<Still> lead_to(const std::shared_ptr<const CompiledJoint>& joint, const P
   const double turn = direction == NeedleDirection::out ? kOvershoot : 0;
   led.move(start, turn, kSpeed, needle_at);
   if (turn > 0) led.move(turn, 0, kSpeed, needle_at);
+  // What a membrane holds stays, and others' motion is followed; what slides is of its passing.
+  if (simulation.needle().contact().tick().dimple > 0) led.hold(kRest);
 
   const HapticSnapshot tick = simulation.last();
   const NeedleTick& contact = simulation.needle().contact().tick();

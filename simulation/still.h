@@ -33,11 +33,12 @@ struct Still {
 
 /// A still in a body that gives way is the last image of a session whose hands were led there: the
 /// probe comes down to `press`, then the needle comes along its own line at 10 mm/s, to its tip's
-/// place or (out) 5 mm beyond and back. Numbers are those of the tick in which it arrives; the body
-/// is at rest under what hands and needle then load it with. So a still and a session that was led
-/// by the same poses say the same. Requires: a press of this joint that has settled. Errors:
-/// unsupported (a curved face), those of validate; failed (tissue cannot give way here). Cost: the
-/// tissue's steps of some seconds.
+/// place or (out) 5 mm beyond and back. Numbers are those of the tick in which it arrives, or where
+/// a membrane still holds of a hand that has stopped there; the body is at rest under what hands
+/// and needle then load it with. So a still and a session that was led by the same poses say the
+/// same. Requires: a press of this joint that has settled. Errors: unsupported (a curved face),
+/// those of validate; failed (tissue cannot give way here). Cost: the tissue's steps of some
+/// seconds.
 [[nodiscard]] Result<Still> lead_to(const std::shared_ptr<const CompiledJoint>& joint,
                                     const Press& press, const Transducer& transducer,
                                     const NeedleView& needle, NeedleDirection direction);

@@ -9,7 +9,7 @@ namespace {
 
 JointSpaces spaces_of(const CompiledJoint& joint) {
   auto spaces = make_joint_spaces(joint);
-  ARTUS_REQUIRE(spaces.has_value(), "a joint's spaces are checked when it is compiled");
+  ARTUS_REQUIRE(spaces.has_value(), "the joint's spaces must be valid");
   return std::move(*spaces);
 }
 

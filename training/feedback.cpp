@@ -86,7 +86,7 @@ double weight_of(const Kind& kind, double value) {
 }
 
 std::string beside(const char* what, double value, const char* unit, double band) {
-  return printed("%s: %.1f %s; asked for: below %.1f", what, value, unit, band);
+  return printed("%s: %.1f %s; should be below %.1f", what, value, unit, band);
 }
 
 const AttemptEvent* worst_event(const AttemptMeasures& m, const std::string& kind) {
@@ -99,7 +99,7 @@ const AttemptEvent* worst_event(const AttemptMeasures& m, const std::string& kin
 std::string mend_of_unseen(const std::string& cause) {
   if (cause.find("degrees") != std::string::npos)
     return "Enter further from the probe, so that the needle lies flatter.";
-  if (cause.find("shadow") != std::string::npos) return "Choose a way that bone does not cover.";
+  if (cause.find("shadow") != std::string::npos) return "Choose a path that bone does not shadow.";
   if (cause.find("touch") != std::string::npos) return "Keep the whole face on the skin.";
   return "Stop when you lose the tip. Find the needle with the beam: move the probe, then advance.";
 }
@@ -107,7 +107,7 @@ std::string mend_of_unseen(const std::string& cause) {
 void add_needle_faults(const AttemptMeasures& m, std::vector<Fault>& out) {
   if (const AttemptEvent* e = worst_event(m, "avoid:"))
     out.push_back({e->kind, e->time, weight_of(kAvoid, std::max(e->value, kAvoid.band)),
-                   beside("into what must be spared", e->value, "mm", 0), e->text,
+                   beside("entered a structure to avoid", e->value, "mm", 0), e->text,
                    "Stop when you lose the tip. Tilt the probe until it is back, then advance."});
   const AttemptEvent* bone = worst_event(m, "bone");
   const double unseen = unseen_mm(m.metrics);
@@ -127,12 +127,12 @@ void add_needle_faults(const AttemptMeasures& m, std::vector<Fault>& out) {
   }
   if (bone != nullptr)
     out.push_back({"bone", bone->time, weight_of(kBone, value_of(m, kBone.metric)),
-                   beside("touches of bone", value_of(m, kBone.metric), "", kBone.band), bone->text,
-                   "Slow below 5 mm/s in the last centimetre."});
+                   beside("bone contacts", value_of(m, kBone.metric), "", kBone.band), bone->text,
+                   "Slow down to less than 5 mm/s in the last centimetre."});
   const double off = value_of(m, kOffTarget.metric);
   if (const AttemptEvent* e = worst_event(m, "placed"); e != nullptr && off > kOffTarget.band)
     out.push_back({"off_target", e->time, weight_of(kOffTarget, off),
-                   beside("away from the target", off, "mm", kOffTarget.band), e->text,
+                   beside("distance from the target", off, "mm", kOffTarget.band), e->text,
                    "Before you stop, look where the tip is, not where it should be."});
 }
 
@@ -144,7 +144,8 @@ void add_look_faults(const AttemptMeasures& m, std::vector<Fault>& out) {
                          static_cast<double>(m.sought.size())) +
                      e->region,
                  e->text,
-                 "Sweep all of it slowly. Stop when it shows, bring it to the middle, and rest."});
+                 "Sweep the whole area slowly. Stop when you see it, bring it to the middle and "
+                 "hold still."});
 }
 
 /// The moment at which the probe was fastest while the tip moved inside, and its speed there.
@@ -166,26 +167,26 @@ void add_syringe_faults(const AttemptMeasures& m, std::vector<Fault>& out) {
     // Liquid goes where the tip is: one cause, one fault.
     std::erase_if(out, [](const Fault& fault) { return fault.kind == "off_target"; });
     out.push_back({"misplaced", e->time, weight_of(kMisplaced, astray),
-                   beside("given beside the target", astray, "ml", kMisplaced.band), e->text,
-                   "Give half a ml and look: the line must split."});
+                   beside("injected outside the target", astray, "ml", kMisplaced.band), e->text,
+                   "Inject half a ml and look: the line must open."});
   }
   if (const AttemptEvent* e = worst_event(m, "flow"); e != nullptr && unaspirated(m.metrics))
     out.push_back({"unaspirated", e->time, weight_of(kUnaspirated, 1),
-                   printed("%.1f ml given without an aspiration before", e->value),
-                   "the barrel was not drawn back for 2 s; the tip was in " + e->region,
-                   "Pull back for 3 s before you give."});
+                   printed("%.1f ml injected without aspirating first", e->value),
+                   "the plunger was not drawn back for 2 s; the tip was in " + e->region,
+                   "Aspirate for 3 s before you inject."});
   const double pressure = value_of(m, kPressure.metric);
   if (const AttemptEvent* e = worst_event(m, "pressure"); e != nullptr && pressure > kPressure.band)
     out.push_back({"pressure", e->time, weight_of(kPressure, pressure),
-                   beside("pressure in the barrel", pressure, "kPa", kPressure.band),
+                   beside("pressure in the syringe", pressure, "kPa", kPressure.band),
                    "the tip was in " + e->region,
-                   "Do not push on: pull back a millimetre until it flows."});
+                   "Do not force it: withdraw the needle by a millimetre until it flows."});
   const double flow = value_of(m, kFast.metric);
   if (const AttemptEvent* e = worst_event(m, "fastest"); e != nullptr && flow > kFast.band)
     out.push_back(
         {"fast", e->time, weight_of(kFast, flow), beside("fastest flow", flow, "ml/s", kFast.band),
          "the thumb pushed with " + printed("%.0f N", value_of(m, "plunger_peak_n")) + " at most",
-         "Below 0.3 ml/s you feel the tissue."});
+         "Inject more slowly than 0.3 ml/s, so that you feel the tissue."});
 }
 
 void add_idle(const AttemptMeasures& m, std::vector<Fault>& out) {
@@ -194,8 +195,8 @@ void add_idle(const AttemptMeasures& m, std::vector<Fault>& out) {
   const AttemptEvent* e = worst_event(m, "idle");
   if (e == nullptr || idle <= kIdle.band) return;
   out.push_back({"idle", e->time, weight_of(kIdle, idle),
-                 beside("needle at rest inside", idle, "s", kIdle.band), e->text,
-                 "Look and decide before the skin, then go."});
+                 beside("needle at rest in the tissue", idle, "s", kIdle.band), e->text,
+                 "Look and decide before you enter the skin, then go."});
 }
 
 void add_hand_faults(const AttemptMeasures& m, std::vector<Fault>& out) {
@@ -213,14 +214,15 @@ void add_hand_faults(const AttemptMeasures& m, std::vector<Fault>& out) {
   const auto e = std::find_if(m.events.begin(), m.events.end(),
                               [](const AttemptEvent& event) { return event.kind == "pass"; });
   if (e != m.events.end() && passes > kPasses.band)
-    out.push_back({"passes", e->time, weight_of(kPasses, passes),
-                   beside("passes", passes, "", kPasses.band),
-                   "the way was not chosen before the skin", "Choose the line before the skin."});
+    out.push_back(
+        {"passes", e->time, weight_of(kPasses, passes), beside("passes", passes, "", kPasses.band),
+         "the path was not chosen before the skin", "Choose the path before you enter the skin."});
   const double angle = value_of(m, kAngle.metric);
   if (angle > kAngle.band)
     out.push_back({"angle", entry, weight_of(kAngle, angle),
                    beside("the needle's angle to the probe's face", angle, "degrees", kAngle.band),
-                   "a steep needle sends its echo away", "Flatter: enter further from the probe."});
+                   "a steep needle sends its echo away",
+                   "Hold the needle flatter: enter further from the probe."});
 }
 
 std::string praise(const AttemptMeasures& m) {
@@ -234,9 +236,9 @@ std::string praise(const AttemptMeasures& m) {
   if (plane != nullptr && plane->value && *plane->value >= 0.9)
     return "You kept the needle in the plane while you advanced.";
   if (worst_event(m, "contact") != nullptr && value_of(m, "passes") == 1)
-    return "You came there in a single pass.";
+    return "You reached the target in a single pass.";
   if (value_of(m, "drift_mm_s") < kDrift.band && !m.probe.empty())
-    return "Your probe hand was quiet.";
+    return "Your probe hand was steady.";
   return "";
 }
 
@@ -286,14 +288,14 @@ SkillTask task_of(Skill skill) {
     case Skill::inject:
       break;
   }
-  return {"The same task once more: draw back, give half a ml, look, then the rest.", ""};
+  return {"Repeat this task: aspirate, inject half a ml, look, then inject the rest.", ""};
 }
 
 SkillTask next_task(const Judgement& judgement, const std::optional<Skill>& weakest) {
-  if (judgement.with_aids) return {"The same once more with the aids off: only that counts.", ""};
+  if (judgement.with_aids) return {"Do the same task again without aids: only that counts.", ""};
   if (weakest) return task_of(*weakest);
-  if (judgement.passed) return {"Once more to make sure, then the next level.", ""};
-  return {"The same task once more.", ""};
+  if (judgement.passed) return {"Repeat it once to make sure, then go to the next level.", ""};
+  return {"Repeat this task.", ""};
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ Result<Mark> parse_mark(const std::string& metric, const std::string& text) {
     return Mark{metric, relation, bound, text};
   }
   return fail(ErrorCode::malformed,
-              "'" + text + "' is no mark: write <=, <, ==, > or >= and a number", metric);
+              "'" + text + "' is not a mark: write <=, <, ==, > or >= and then a number", metric);
 }
 
 bool holds(const Mark& mark, double value) noexcept {

@@ -43,7 +43,8 @@ Chart cusum(std::span<const bool> failures, const FailureRates& rates, double li
 
 SprtLimits sprt_limits(const FailureRates& rates, double alpha, double beta) {
   require(rates);
-  ARTUS_REQUIRE(alpha > 0 && beta > 0 && alpha + beta < 1, "error rates must be small");
+  ARTUS_REQUIRE(alpha > 0 && beta > 0 && alpha + beta < 1,
+                "alpha and beta must be above 0, their sum below 1");
   const double p = std::log(rates.unacceptable / rates.acceptable);
   const double q = std::log((1 - rates.acceptable) / (1 - rates.unacceptable));
   return {q / (p + q), std::log((1 - alpha) / beta) / (p + q),

@@ -96,7 +96,7 @@ double LearningFit::at(std::size_t trial) const {
 LearningFit fit_learning(std::span<const TrialCount> trials) {
   ARTUS_REQUIRE(
       std::any_of(trials.begin(), trials.end(), [](const TrialCount& t) { return t.learners > 0; }),
-      "nobody came to any trial");
+      "at least one trial must have learners");
   double k = 0;
   double most = max_at(rate_of(k), trials);
   for (int i = 1; i < kRates; ++i) {

@@ -48,10 +48,10 @@ Result<std::vector<Norm>> renew_norms(Records& records, const std::string& scena
   for (const AttemptRecord& a : *attempts)
     if (!a.ended.empty() && !a.aided && a.scenario_hash == hash) counted.insert(a.id);
   if (counted.size() < static_cast<std::size_t>(kFewestForNorm))
-    return fail(ErrorCode::invalid, "a norm takes " + std::to_string(kFewestForNorm) +
+    return fail(ErrorCode::invalid, "norms need at least " + std::to_string(kFewestForNorm) +
                                         " finished attempts without aids; the group '" + group +
                                         "' has " + std::to_string(counted.size()) +
-                                        " of the newest '" + scenario + "'");
+                                        " of the newest version of '" + scenario + "'");
   auto values = records.metrics(filter);
   ARTUS_TRY(values);
   std::erase_if(*values, [&](const MetricValue& v) { return counted.count(v.attempt) == 0; });

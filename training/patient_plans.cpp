@@ -16,7 +16,7 @@ bool is_region(const Scene& scene, RegionId region, const std::string& name) {
   return scene.joint().regions[region].name == name;
 }
 
-/// The middle of the target's stretch of the way that is nearest to the point aimed at.
+/// The middle of the target's stretch of the needle's path that is nearest to the point aimed at.
 std::optional<Vec3> middle_of_target(const Scenario& s, const Scene& scene) {
   const Vec3 path = (s.target.point - s.entry.centre).normalized();
   const double aimed = (s.target.point - s.entry.centre).norm();
@@ -35,7 +35,8 @@ std::optional<Vec3> middle_of_target(const Scenario& s, const Scene& scene) {
 
 Result<Scenario> of_patient(const Scenario& scenario, const std::string& patient) {
   if (scenario.joint.empty())
-    return fail(ErrorCode::invalid, "has no joint that could be a patient's", scenario.name);
+    return fail(ErrorCode::invalid, "the scenario has no joint, so no patient can be chosen",
+                scenario.name);
   std::string text;
   bool in_head = true;
   for (std::size_t begin = 0; begin < scenario.text.size();) {

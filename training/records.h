@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -8,7 +9,10 @@
 
 #include "artus/detail/training/metrics/attempt_meter.h"
 #include "artus/detail/training/scenario.h"
-#include "artus/detail/training/sqlite_file.h"
+
+namespace SQLite {
+class Database;
+}
 
 namespace artus {
 
@@ -86,10 +90,16 @@ struct AttemptFilter {
 };
 
 /// Persons, attempts, metrics, events, ratings and comments in one file. Every call is one
-/// transaction: a killed program loses nothing that was finished. Two programs may use one file.
-/// Errors of every call: those of SqliteFile; invalid where a name is not known.
+/// transaction: a killed program loses nothing that was finished. Two programs may use one file;
+/// one waits up to 10 s for the other. Errors of every call: unreadable (no permission, a read-only
+/// folder, no space, in use), corrupt (no database), invalid where a name is not known; `where` is
+/// the file.
 class Records {
  public:
+  ~Records();
+  Records(Records&& other) noexcept;
+  Records& operator=(Records&& other) noexcept;
+
   /// Opens or makes the file and brings an older one to the present form. Errors: unsupported (made
   /// by a newer artus).
   [[nodiscard]] static Result<Records> open(const std::filesystem::path& file);
@@ -128,8 +138,8 @@ class Records {
                                      double time, const std::string& text);
 
  private:
-  explicit Records(SqliteFile file) : file_(std::move(file)) {}
-  SqliteFile file_;
+  explicit Records(std::unique_ptr<SQLite::Database> db);
+  std::unique_ptr<SQLite::Database> db_;
 };
 
 /// 16 random hex digits, for pseudonyms and attempts.

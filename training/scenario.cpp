@@ -8,7 +8,7 @@
 #include <sstream>
 #include <utility>
 
-#include "artus/detail/anatomy/body/joint_variant.h"
+#include "artus/detail/anatomy/source/joint_variant.h"
 #include "artus/detail/core/known_names.h"
 #include "artus/detail/core/text_file.h"
 #include "artus/detail/core/toml_table.h"
@@ -51,7 +51,7 @@ void read_gel(TomlTable& toml, Scenario& scenario, Problems& problems) {
     one.finish();
     gel.layers.push_back(flat);
   }
-  if (gel.layers.empty()) block.problem("a block needs a [[gel.layer]]");
+  if (gel.layers.empty()) block.problem("[gel] needs at least one [[gel.layer]]");
   for (const toml::table* ball : block.tables("ball")) {
     TomlTable one(*ball, "gel ball", problems);
     Ball round;
@@ -81,7 +81,7 @@ void read_instruments(TomlTable& toml, Scenario& s, Problems& problems) {
       s.X_JP = make_pose(p, z, x);
     probe.finish();
   } else {
-    toml.problem("there must be a [probe]");
+    toml.problem("[probe] is missing");
   }
   if (const toml::table* table = toml.table("needle")) {
     TomlTable needle(*table, "needle", problems);
@@ -117,7 +117,7 @@ void read_find(TomlTable& toml, Scenario& s) {
     toml.problem_at("find", "it must name 1 to 12 structures");
   for (const char* key : {"needle", "target", "entry", "avoid", "syringe"})
     if (toml.has(key))
-      toml.problem_at(key, "does not go with find, which is a task for the probe alone");
+      toml.problem_at(key, "cannot be combined with find, a task for the probe alone");
 }
 
 void read_goals(TomlTable& toml, Scenario& s, Problems& problems) {
@@ -128,7 +128,7 @@ void read_goals(TomlTable& toml, Scenario& s, Problems& problems) {
     s.target.point = target.required_vector("point", kMillimetre);
     target.finish();
   } else {
-    toml.problem("there must be a [target]");
+    toml.problem("[target] is missing");
   }
   for (const toml::table* table : toml.tables("avoid")) {
     TomlTable zone(*table, "avoid", problems);
@@ -152,7 +152,7 @@ void read_goals(TomlTable& toml, Scenario& s, Problems& problems) {
       entry.problem_at("angle_from", "it must not be above angle_to");
     entry.finish();
   } else {
-    toml.problem("there must be an [entry]");
+    toml.problem("[entry] is missing");
   }
 }
 
@@ -199,7 +199,7 @@ void read_marks(TomlTable& toml, Scenario& s, Problems& problems) {
       const std::string name(key.str());
       const auto text = node.value<std::string>();
       if (!is_metric(name, known))
-        problems.add(node, "pass: '" + name + "' is no metric" + did_you_mean(name, known));
+        problems.add(node, "pass: '" + name + "' is not a metric" + did_you_mean(name, known));
       const auto mark = parse_mark(name, text.value_or(""));
       if (!mark)
         problems.add(node, "pass: " + mark.error().to_string());
@@ -207,7 +207,7 @@ void read_marks(TomlTable& toml, Scenario& s, Problems& problems) {
         s.pass.push_back(*mark);
     }
   }
-  if (s.pass.empty()) toml.problem("a scenario needs marks in [pass]");
+  if (s.pass.empty()) toml.problem("[pass] must hold at least one mark");
   if (s.find.empty()) add_entry_marks(s);
   if (const toml::table* table = toml.table("score")) {
     for (const auto& [key, node] : *table) {
@@ -233,10 +233,10 @@ void read_head(TomlTable& toml, Scenario& s) {
   s.joint = toml.text("joint").value_or("");
   if (toml.has("variants")) s.variants = toml.required_texts("variants");
   if (s.joint.empty() && !s.variants.empty())
-    toml.problem_at("variants", "they are of a joint, and there is none");
+    toml.problem_at("variants", "variants need a joint, and the scenario has none");
   s.patient = toml.text("patient").value_or("");
   if (s.joint.empty() && !s.patient.empty())
-    toml.problem_at("patient", "is of a joint, and there is none");
+    toml.problem_at("patient", "a patient needs a joint, and the scenario has none");
   s.procedure = toml.text("procedure").value_or("");
   s.level = static_cast<int>(toml.required_number("level", 0, 8));
   s.seed = static_cast<std::uint64_t>(toml.number("seed", 0, 1e15).value_or(1));
@@ -245,7 +245,7 @@ void read_head(TomlTable& toml, Scenario& s) {
   const auto known = step_names();
   for (const std::string& step : s.steps)
     if (std::find(known.begin(), known.end(), step) == known.end())
-      toml.problem_at("steps", "'" + step + "' is no step" + did_you_mean(step, known));
+      toml.problem_at("steps", "'" + step + "' is not a step" + did_you_mean(step, known));
 }
 
 }  // namespace
@@ -304,7 +304,7 @@ Result<Scenario> parse_scenario(std::string_view text, const std::string& name) 
   read_head(toml, scenario);
   read_gel(toml, scenario, problems);
   if (scenario.joint.empty() != scenario.gel.has_value())
-    toml.problem("there must be a joint or a [gel], not both");
+    toml.problem("give either a joint or a [gel]");
   read_find(toml, scenario);
   read_instruments(toml, scenario, problems);
   read_syringe(toml, scenario, problems);
@@ -337,7 +337,7 @@ Result<Scenario> find_scenario(const std::string& name_or_file) {
   }
   std::error_code unknown;
   if (std::filesystem::exists(name_or_file, unknown)) return read_scenario(name_or_file);
-  return fail(ErrorCode::not_found, "neither a file nor a scenario of artus: " + names,
+  return fail(ErrorCode::not_found, "neither a file nor a bundled scenario; bundled are: " + names,
               name_or_file);
 }
 

@@ -73,7 +73,7 @@ struct Scenario {
   std::uint64_t seed = 1;
   std::string transducer = "linear-6-18";
   double depth = 40e-3;          ///< m, of the picture
-  Pose X_JP = Pose::Identity();  ///< the view that shows target and way
+  Pose X_JP = Pose::Identity();  ///< the view that shows target and path
   int gauge = 22;
   double needle_length = 50e-3;  ///< m
   ScenarioSyringe syringe;

@@ -20,7 +20,7 @@ std::string off_skin(const std::string& what, double distance) {
   return what + printed(" %.1f mm off the skin", std::abs(distance) / kMillimetre);
 }
 
-/// Collects what the way from entry to target meets.
+/// Collects what the line from entry to target meets.
 void check_path(const Scenario& s, const Scene& scene, std::vector<std::string>& out) {
   const Vec3 direction = s.target.point - s.entry.centre;
   if (direction.norm() > s.needle_length)
@@ -31,20 +31,23 @@ void check_path(const Scenario& s, const Scene& scene, std::vector<std::string>&
   for (std::size_t i = 0; i < count.size; ++i) {
     const TissueInterval& layer = layers[i];
     if (layer.region < kFirstRegion || !scene.joint().tissue_of(layer.region).haptic.hard) continue;
-    out.push_back("bone is on the way: " + scene.joint().regions[layer.region].name +
-                  printed(" at %.1f mm", layer.entry / kMillimetre));
+    out.push_back(
+        "bone lies between entry and target: " + scene.joint().regions[layer.region].name +
+        printed(" at %.1f mm", layer.entry / kMillimetre));
     break;
   }
   const Vec3 axis = s.X_JP.linear().transpose() * direction.normalized();
   const double face = std::asin(std::min(1.0, std::abs(axis.z())));
   if (face < s.entry.min_angle || face > s.entry.max_angle)
     out.push_back(
-        printed("the way stands at %.1f degrees to the probe's face, out of angle_from and "
+        printed("the line from entry to target is at %.1f degrees to the probe's face, outside "
+                "angle_from to "
                 "angle_to",
                 face / kDegree));
   if (s.entry.plane == "in" && std::abs(std::asin(std::clamp(axis.y(), -1.0, 1.0))) > kOffPlane)
-    out.push_back(printed("the way leaves the picture's plane by %.1f degrees",
-                          std::asin(axis.y()) / kDegree));
+    out.push_back(
+        printed("the line from entry to target leaves the picture's plane by %.1f degrees",
+                std::asin(axis.y()) / kDegree));
   const Vec3 target_P = s.X_JP.inverse() * s.target.point;
   if (s.entry.plane == "in" && std::abs(target_P.y()) > 1e-3)
     out.push_back(printed("the target lies %.1f mm beside the picture's plane",
@@ -62,7 +65,7 @@ std::vector<std::string> find_problems(const Scenario& s,
   if (!options) return {options.error().to_string()};
   if (!s.find.empty()) {
     const double face = scene->signed_distance_to_skin(s.X_JP.translation(), 0.2);
-    if (!(std::abs(face) <= kOnSkin)) out.push_back(off_skin("the probe stands", face));
+    if (!(std::abs(face) <= kOnSkin)) out.push_back(off_skin("the probe's face is", face));
     return out;
   }
   const Goals& goals = options->goals;
@@ -72,11 +75,11 @@ std::vector<std::string> find_problems(const Scenario& s,
         printed("the target's point lies %.1f mm outside its structure", off / kMillimetre));
   for (const AvoidZone& zone : goals.avoid)
     if (zone.body->signed_distance_to_skin(s.target.point, 0.2) < zone.margin)
-      out.push_back("the zone around " + zone.name + " swallows the target");
+      out.push_back("the zone around " + zone.name + " contains the target");
   const double skin = scene->signed_distance_to_skin(s.entry.centre, 0.2);
-  if (!(std::abs(skin) <= kOnSkin)) out.push_back(off_skin("the entry lies", skin));
+  if (!(std::abs(skin) <= kOnSkin)) out.push_back(off_skin("the entry is", skin));
   const double face = scene->signed_distance_to_skin(s.X_JP.translation(), 0.2);
-  if (!(std::abs(face) <= kOnSkin)) out.push_back(off_skin("the probe stands", face));
+  if (!(std::abs(face) <= kOnSkin)) out.push_back(off_skin("the probe's face is", face));
   check_path(s, *scene, out);
   return out;
 }

@@ -10,8 +10,8 @@
 namespace artus {
 
 /// What in a scenario cannot be done in its body, a line each: names that are missing, an entry off
-/// the skin, a needle too short, bone on the way, an angle out of its range, a way out of plane, a
-/// target in a zone to avoid or outside its structure, a probe off the skin. Empty: none.
+/// the skin, a needle too short, bone on the path, an angle out of its range, a path out of plane,
+/// a target in a zone to avoid or outside its structure, a probe off the skin. Empty: none.
 [[nodiscard]] std::vector<std::string> find_problems(const Scenario& scenario,
                                                      const std::shared_ptr<const Scene>& scene);
 

@@ -28,7 +28,7 @@ HandParams hand_of(const OperatorSkill& skill, std::uint64_t seed) {
   return hand;
 }
 
-/// m from the entry where the tip comes into the picture on the intended way; 0: nowhere.
+/// m from the entry where the tip comes into the picture on the intended path; 0: nowhere.
 double appears_at(const Scenario& scenario, const Scene& scene, const TipSightFinder& finder) {
   constexpr double kStep = 0.5e-3;  // m
   const Vec3 direction = scenario.target.point - scenario.entry.centre;

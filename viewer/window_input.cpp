@@ -45,7 +45,7 @@ void WindowLoop::handle(const UserEvent& event) {
   }
   const bool held = control_.grab() != Grab::nothing;
   const bool taken = hand_ != nullptr && control_.handle(event, ground());
-  if (control_.refusal()) say(tell(state_, *control_.refusal()));
+  say_refusal();
   if (const auto* move = std::get_if<MoveEvent>(&event)) {
     const ImVec2 away(-FLT_MAX, -FLT_MAX);
     io.MousePos = held || move->hidden
@@ -74,18 +74,14 @@ void WindowLoop::act(const ActionEvent& request) {
   }
   const bool of_hands = std::find(kOfHands.begin(), kOfHands.end(), action) != kOfHands.end();
   if (hand_ == nullptr && of_hands) {
-    say(fill(tell(state_, Text::no_hand),
+    say(fill(translate(state_, "This key moves a hand, but this session is driven by: {}"),
              {said_by_system(state_.language, std::string(session_.device_name()))}));
     return;
   }
   if (of_hands) state_.welcome = false;
   if (!state_.cross && hand_ != nullptr && control_.handle(action, request.fine, ground())) {
-    if (action == Action::undo) say(tell(state_, Text::undone));
-    if (control_.refusal() == Text::cannot_choose_again)
-      say(fill(tell(state_, Text::cannot_choose_again),
-               {state_.keys.said_key(Action::explore, state_.language)}));
-    else if (control_.refusal())
-      say(tell(state_, *control_.refusal()));
+    if (action == Action::undo) say(translate(state_, "The needle is back where it was"));
+    say_refusal();
     return;
   }
   if (act_on_window(action) || act_on_picture(action)) return;
@@ -98,7 +94,7 @@ bool WindowLoop::refuse_aid(Action action) {
                    action == Action::reset;
   if (!options_.lesson || !aid) return false;
   if (options_.lesson->aids.any() && action != Action::reset) return false;
-  say(tell(state_, Text::lesson_no_aids));
+  say(translate(state_, "Not in this task: it is judged without aids"));
   return true;
 }
 
@@ -131,7 +127,7 @@ bool WindowLoop::act_on_window(Action action) {
       return true;
     case Action::layout:
       state_.layout.put_back();
-      say(tell(state_, Text::layout_back));
+      say(translate(state_, "The panels are back in their places"));
       return true;
     case Action::next_panel: {
       if (state_.layout.narrow() && !state_.welcome) state_.layout.choose_next();
@@ -166,6 +162,15 @@ void WindowLoop::step_cine(int step) {
   state_.cine = static_cast<std::size_t>(std::clamp(now + step, 0, last));
 }
 
+void WindowLoop::begin_measuring() {
+  if (!session_.frozen()) set_frozen(true);
+  if (input_.image != nullptr)
+    state_.cross = ImagePoint{500 * input_.image->width * input_.image->pixel,
+                              500 * input_.image->height * input_.image->pixel};
+  say(fill(translate(state_, "Caliper: arrows move the cross, {} sets a point"),
+           {state_.keys.said_key(Action::accept, state_.language)}));
+}
+
 bool WindowLoop::act_on_picture(Action action) {
   ImageControls& c = state_.controls;
   const auto turn = [](double& knob, double step, const Range& range) {
@@ -188,12 +193,7 @@ bool WindowLoop::act_on_picture(Action action) {
       state_.calipers.clear();
       return true;
     case Action::measure:
-      if (!session_.frozen()) set_frozen(true);
-      if (input_.image != nullptr)
-        state_.cross = ImagePoint{500 * input_.image->width * input_.image->pixel,
-                                  500 * input_.image->height * input_.image->pixel};
-      say(fill(tell(state_, Text::caliper_here),
-               {state_.keys.said_key(Action::accept, state_.language)}));
+      begin_measuring();
       return true;
     case Action::depth_more:
     case Action::depth_less:
@@ -215,7 +215,10 @@ bool WindowLoop::act_on_picture(Action action) {
       return true;
     case Action::doppler:
       state_.look.colour = !state_.look.colour;
-      if (state_.look.colour) say(tell(state_, Text::colour_on));
+      if (state_.look.colour)
+        say(translate(state_,
+                      "Colour Doppler of the needle: drag the box, or move it with the arrows. "
+                      "Blood is not simulated"));
       return true;
     case Action::cine_back:
     case Action::cine_forward:

@@ -128,6 +128,13 @@ void WindowLoop::say(std::string message) {
   said_at_ = glfwGetTime();
 }
 
+/// Why the hand did not do what was asked for.
+void WindowLoop::say_refusal() {
+  if (control_.refusal() == nullptr) return;
+  say(fill(translate(state_, control_.refusal()),
+           {state_.keys.said_key(Action::explore, state_.language)}));
+}
+
 void WindowLoop::forget_message() {
   if (glfwGetTime() - said_at_ > options_.message_seconds) state_.message.clear();
 }
@@ -140,9 +147,9 @@ void WindowLoop::follow_gesture(const HapticSnapshot& now) {
     joint_->clear_trail();
     state_.insertion.clear();
     say(now.phase == GesturePhase::inserting
-            ? fill(tell(state_, Text::entry_chosen),
+            ? fill(translate(state_, "The entry point is at the needle; {} takes it"),
                    {state_.keys.said_key(Action::take_needle, state_.language)})
-            : tell(state_, Text::back_to_exploring));
+            : translate(state_, "Back to exploring"));
   }
   if (input_.now.input.tick != 0 && !before.isApprox(after, 1e-12))
     control_.follow_joint(before, after);
@@ -192,7 +199,8 @@ void WindowLoop::read_state() {
   const auto gap = BodyContact{&session_.scene(), Pose::Identity()}.find_gap(X_JP);
   const bool lifted = input_.now.input.device.has_probe != 0 && (!gap || *gap > kLifted);
   if (lifted != input_.probe_lifted && control_.grab() == Grab::probe)
-    say(tell(state_, lifted ? Text::probe_lifts : Text::probe_rests));
+    say(translate(state_, lifted ? msgid("The probe lifts off the skin")
+                                 : msgid("The probe lies on the skin")));
   input_.probe_lifted = lifted;
 }
 
@@ -223,7 +231,7 @@ void WindowLoop::guide() {
     input_.next.clear();
   else
     input_.next = state_.keys.said_key(Action::take_probe, state_.language) + ": " +
-                  tell(state_, Text::choice_explore);
+                  translate(state_, "Explore with the probe");
   input_.goal = options_.lesson ? lesson_.goal : guide_.goal(in);
 }
 

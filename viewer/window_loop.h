@@ -35,6 +35,7 @@ class WindowLoop {
   void handle(const UserEvent& event);
   void act(const ActionEvent& request);
   bool act_on_window(Action action);
+  void begin_measuring();
   bool act_on_picture(Action action);
   bool refuse_aid(Action action);
   void act_on_arrow(Action action, bool fine);
@@ -49,6 +50,7 @@ class WindowLoop {
 
   // window_loop.cpp, window_picture.cpp: what is shown
   void say(std::string message);
+  void say_refusal();
   void forget_message();
   void feel();
   void take_image();

@@ -97,7 +97,7 @@ Caption WindowLoop::caption() const {
   caption.patient = state_.patient;
   const std::string& side = session_.scene().joint().side;
   if (side == "left" || side == "right")
-    caption.side = tell(state_, side == "left" ? Text::side_left : Text::side_right);
+    caption.side = translate(state_, side == "left" ? msgid("left") : msgid("right"));
   caption.date = date_of_now();
   const auto calipers = state_.calipers.find(input_.image->input.number);
   if (calipers != state_.calipers.end()) caption.calipers = calipers->second;

@@ -10,6 +10,7 @@
 
 #include "artus/detail/anatomy/body/joint_digest.h"
 #include "artus/detail/anatomy/body/joint_pose_bytes.h"
+#include "artus/detail/anatomy/body/joint_variant.h"
 #include "artus/detail/anatomy/body/space_bytes.h"
 #include "artus/detail/anatomy/body/tissue_bytes.h"
 #include "artus/detail/core/byte_stream.h"
@@ -119,7 +120,8 @@ std::string find_mesh_fault(const TetMesh& mesh, std::size_t n_regions) {
   if (!std::all_of(mesh.vertices.begin(), mesh.vertices.end(), finite)) {
     return "a vertex is not finite";
   }
-  if (mesh.regions.size() != mesh.tetrahedra.size()) return "regions and tetrahedra differ";
+  if (mesh.regions.size() != mesh.tetrahedra.size())
+    return "regions and tetrahedra differ in number";
   const auto known = [n = mesh.vertices.size()](std::uint32_t v) {
     return v < n;
   };
@@ -244,7 +246,8 @@ Result<void> write_compiled_joint(const CompiledJoint& joint, const std::filesys
   return {};
 }
 
-Result<CompiledJoint> read_compiled_joint(const std::filesystem::path& file) {
+Result<CompiledJoint> read_compiled_joint(const std::filesystem::path& name) {
+  const std::filesystem::path file = find_joint(name);
   const Result<std::string> payload = read_payload(file);
   ARTUS_TRY(payload);
   return parse_compiled_joint(*payload, file.string());

@@ -4,22 +4,16 @@
 #include <string>
 #include <vector>
 
-#include "artus/anatomy/joint_file.h"
+#include "artus/core/geometry.h"
 #include "artus/core/result.h"
+#include "artus/detail/anatomy/body/joint_places.h"
+#include "artus/detail/anatomy/body/joint_pose.h"
+#include "artus/detail/anatomy/body/region.h"
+#include "artus/detail/anatomy/body/space.h"
 #include "artus/detail/anatomy/body/tet_mesh.h"
 #include "artus/detail/anatomy/body/tissue.h"
 
 namespace artus {
-
-using TissueId = std::uint16_t;
-
-/// One structure's share of the body after overlaps are resolved.
-struct Region {
-  std::string name;     ///< the structure's name; "outside", "beyond", or the filler's name
-  TissueId tissue = 0;  ///< index into CompiledJoint::tissues (for outside: air's place holder gel)
-  Vec3 fibre_axis = Vec3::Zero();  ///< unit, or zero when unknown
-  FibreCourse fibre_course = FibreCourse::ends;
-};
 
 /// A joint ready for use: everything the engine needs, nothing of the source meshes.
 struct CompiledJoint {
@@ -52,8 +46,8 @@ struct CompiledJoint {
 [[nodiscard]] Result<CompiledJoint> parse_compiled_joint(const std::string& payload,
                                                          const std::string& where);
 
-/// Reads what write_compiled_joint wrote. Errors: not_found, unsupported (other version), corrupt
-/// (truncated, checksum, index out of range, not finite).
+/// Reads what write_compiled_joint wrote, or the bundled file of that name (find_joint). Errors:
+/// not_found, unsupported (other version), corrupt (truncated, checksum, index, not finite).
 [[nodiscard]] Result<CompiledJoint> read_compiled_joint(const std::filesystem::path& file);
 
 }  // namespace artus

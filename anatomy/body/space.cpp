@@ -5,7 +5,6 @@
 
 #include "artus/anatomy/compiled_joint.h"
 #include "artus/detail/anatomy/body/bundled_fluids.h"
-#include "artus/detail/anatomy/body/liquid.h"
 #include "artus/detail/anatomy/body/space_toml.h"
 #include "artus/detail/core/toml_fields.h"
 #include "artus/detail/core/toml_library.h"
@@ -51,79 +50,17 @@ void check_law(TomlTable& toml, const SpaceLaw& law) {
     toml.problem("'relaxing' needs 'relaxation_s' above 0");
 }
 
-void read_law(TomlTable& toml, bool is_new, SpaceLaw& law) {
-  if (is_new && !toml.has("law"))
-    toml.problem("'law' is missing (" + listed(kSpaceKindNames) + ")");
-  read_name(toml, "law", kSpaceKindNames, law.kind);
-  read_fields(toml, kFields, law);
-  check_law(toml, law);
-}
-
 SpaceProfile read_profile(const std::string& name, const toml::table& table, Problems& problems) {
   TomlTable toml(table, "space '" + name + "'", problems);
   SpaceProfile profile;
   profile.space.name = name;
   profile.space.like = name;
-  read_law(toml, true, profile.space.law);
+  read_space_law(toml, true, profile.space.law);
   profile.space.liquid = toml.text("contents").value_or("");
   if (toml.has("tissues")) profile.tissues = toml.required_texts("tissues");
   profile.source = toml.required_text("source");
   toml.finish();
   return profile;
-}
-
-const SpaceProfile* find_profile(const std::vector<SpaceProfile>& profiles, std::string_view name) {
-  const auto at = std::find_if(profiles.begin(), profiles.end(),
-                               [&](const SpaceProfile& p) { return p.space.name == name; });
-  return at == profiles.end() ? nullptr : &*at;
-}
-
-/// What a [[space]] may speak of; `taken` and `spaces` grow with each one read.
-struct SpaceNames {
-  const std::set<std::string, std::less<>>& regions;
-  std::set<std::string, std::less<>> liquids;
-  std::set<std::string, std::less<>> spaces;
-  std::set<std::string, std::less<>> taken;
-};
-
-void read_likeness(TomlTable& toml, const std::vector<SpaceProfile>& profiles, Space& space) {
-  const auto like = toml.text("like");
-  if (!like) return;
-  if (const auto* profile = find_profile(profiles, *like)) {
-    space = profile->space;
-    return;
-  }
-  std::set<std::string, std::less<>> names;
-  for (const SpaceProfile& p : profiles) names.insert(p.space.name);
-  toml.problem_at("like", "there is no kind of space '" + *like + "'" + did_you_mean(*like, names));
-}
-
-Space read_space(TomlTable& toml, const std::vector<SpaceProfile>& profiles, SpaceNames& names) {
-  Space space;
-  read_likeness(toml, profiles, space);
-  space.name = toml.required_text("name");
-  if (!space.name.empty() && !names.spaces.insert(space.name).second)
-    toml.problem_at("name", "is taken already");
-  space.regions = toml.required_texts("regions");
-  for (const std::string& region : space.regions) {
-    if (names.regions.count(region) == 0)
-      toml.problem_at("regions", "there is no structure '" + region + "'" +
-                                     did_you_mean(region, names.regions));
-    else if (!names.taken.insert(region).second)
-      toml.problem_at("regions", "'" + region + "' is in a space already");
-  }
-  read_law(toml, !toml.has("like"), space.law);
-  if (const auto liquid = toml.text("contents")) space.liquid = *liquid;
-  if (!space.liquid.empty() && names.liquids.count(space.liquid) == 0)
-    toml.problem_at("contents", "there is no liquid '" + space.liquid + "'" +
-                                    did_you_mean(space.liquid, names.liquids));
-  space.leaks_to = toml.text("leaks_to").value_or("");
-  space.leak_resistance = toml.number("leak_resistance_pa_s_m3", 1, 1e18).value_or(1e9);
-  space.leak_opening = toml.number("leak_opening_kpa", 0, 1e4, kKilo).value_or(0);
-  if (!space.leaks_to.empty() && space.leaks_to == space.name)
-    toml.problem_at("leaks_to", "must be another space");
-  toml.finish();
-  return space;
 }
 
 /// Own spaces into the table of regions. Errors: invalid.
@@ -145,24 +82,18 @@ Result<void> take_regions(const CompiledJoint& joint, const Space& space, std::u
 
 }  // namespace
 
-Result<std::vector<Space>> read_spaces(TomlTable& toml,
-                                       const std::set<std::string, std::less<>>& regions) {
-  const auto profiles = read_bundled_space_profiles();
-  ARTUS_TRY(profiles);
-  const auto liquids = read_bundled_liquids();
-  ARTUS_TRY(liquids);
-  SpaceNames names{regions, {}, {}, {}};
-  for (const Liquid& liquid : *liquids) names.liquids.insert(liquid.name);
-  std::vector<Space> spaces;
-  for (const auto* table : toml.tables("space")) {
-    TomlTable space(*table, "space", toml.problems());
-    spaces.push_back(read_space(space, *profiles, names));
-  }
-  for (const Space& s : spaces)
-    if (!s.leaks_to.empty() && names.spaces.count(s.leaks_to) + regions.count(s.leaks_to) == 0)
-      toml.problem("space '" + s.name + "' leaks to '" + s.leaks_to + "', which is no space" +
-                   did_you_mean(s.leaks_to, names.spaces));
-  return spaces;
+void read_space_law(TomlTable& toml, bool is_new, SpaceLaw& law) {
+  if (is_new && !toml.has("law"))
+    toml.problem("'law' is missing (" + listed(kSpaceKindNames) + ")");
+  read_name(toml, "law", kSpaceKindNames, law.kind);
+  read_fields(toml, kFields, law);
+  check_law(toml, law);
+}
+
+const SpaceProfile* find_profile(const std::vector<SpaceProfile>& profiles, std::string_view name) {
+  const auto at = std::find_if(profiles.begin(), profiles.end(),
+                               [&](const SpaceProfile& p) { return p.space.name == name; });
+  return at == profiles.end() ? nullptr : &*at;
 }
 
 Result<std::vector<SpaceProfile>> parse_space_profiles(std::string_view text,
@@ -214,7 +145,7 @@ Result<JointSpaces> make_joint_spaces(const CompiledJoint& joint) {
       return other.name == space.leaks_to;
     };
     if (!space.leaks_to.empty() && std::none_of(all.spaces.begin(), all.spaces.end(), known))
-      return fail(ErrorCode::invalid, "leaks to '" + space.leaks_to + "', which is no space",
+      return fail(ErrorCode::invalid, "leaks to '" + space.leaks_to + "', which is not a space",
                   "space '" + space.name + "'");
   }
   return all;

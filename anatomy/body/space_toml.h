@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
-#include <set>
-#include <string>
+#include <string_view>
 #include <vector>
 
 #include "artus/detail/anatomy/body/space.h"
@@ -9,10 +8,12 @@
 
 namespace artus {
 
-/// The [[space]] tables of a joint file, each on top of the profile that it is `like`. `regions`:
-/// the structures there are. A structure in two spaces, a leak to nowhere and so on are problems.
-/// Errors: those of the bundled profiles and liquids.
-[[nodiscard]] Result<std::vector<Space>> read_spaces(
-    TomlTable& toml, const std::set<std::string, std::less<>>& regions);
+/// Takes the keys of a space's law over into `law`. What is wrong goes to the problems of `toml`; a
+/// law that `is_new` must name its kind.
+void read_space_law(TomlTable& toml, bool is_new, SpaceLaw& law);
+
+/// The profile of that name; null: there is none.
+[[nodiscard]] const SpaceProfile* find_profile(const std::vector<SpaceProfile>& profiles,
+                                               std::string_view name);
 
 }  // namespace artus

@@ -10,9 +10,8 @@ namespace artus {
 
 /// The compiled joint of a body's tetrahedra: what does not shape them (tissues, fibre axes,
 /// landmarks, poses, injections, spaces) is `file`'s. `notes` are told what was chosen where the
-/// file says nothing. Requires: `mesh` was made of a joint file of the same shape (see
-/// read_joint_shape). Cost: one pass over the tetrahedra, and the search of a probe pose where the
-/// file gives none.
+/// file says nothing. Requires: `mesh` was made of a joint file of the same JointFile::shape.
+/// Cost: one pass over the tetrahedra, and the search of a probe pose where the file gives none.
 [[nodiscard]] CompiledJoint attach_metadata(const JointFile& file, TetMesh mesh, std::string digest,
                                             std::vector<std::string>& notes);
 

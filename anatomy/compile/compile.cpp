@@ -176,18 +176,19 @@ Result<void> fill(Complex& complex, const LabelledSpace& space, Stages& stages,
 
 }  // namespace
 
-Result<CompileOutcome> compile_joint(const JointFile& file, const CompileOptions& options,
+Result<CompileOutcome> compile_joint(const JointSources& sources, const CompileOptions& options,
                                      const Progress& progress) {
+  const JointFile& file = sources.joint();
   const auto start = Clock::now();
   CompileOutcome outcome;
   CompileReport& report = outcome.report;
   Stages stages(progress, report);
-  auto digest = compute_source_digest(file);
+  auto digest = compute_source_digest(sources);
   ARTUS_TRY(digest);
   std::vector<StructureReport> reports = start_reports(file);
   const PartCache parts(options.parts);
   auto surfaces = stages.run("reading and repairing surfaces", 0,
-                             [&] { return prepare_surfaces(file, reports, parts); });
+                             [&] { return prepare_surfaces(sources, reports, parts); });
   ARTUS_TRY(surfaces);
   ARTUS_TRY(check_refusals(file, reports, *surfaces, options));
   StructureReport filler;

@@ -5,6 +5,7 @@
 #include "artus/anatomy/compiled_joint.h"
 #include "artus/anatomy/joint_file.h"
 #include "artus/detail/anatomy/compile/labels/compile_report.h"
+#include "artus/detail/anatomy/compile/labels/joint_sources.h"
 #include "artus/detail/core/progress.h"
 
 namespace artus {
@@ -23,19 +24,16 @@ struct CompileOutcome {
 };
 
 /// From repaired surfaces to one conforming complex of tetrahedra: reads and repairs the joint's
-/// surfaces, resolves overlaps by priority, makes the constructs, meshes, fills, measures.
+/// surfaces, resolves overlaps by priority, makes the constructs, meshes, fills, measures. A
+/// JointFile will do for `sources`; who reports on the surfaces afterwards keeps them.
 /// The joint is the same bytes for the same input at any number of threads.
 /// Errors: what reading a surface gives; defective (a surface that cannot be repaired: all of them
 /// are named, with reasons, unless `skip_refused`; with `check_plans` also a body in another frame,
 /// poses and injections, all at once); failed (nothing inside the region of interest).
 /// Cost: a minute on two cores and 1.2 GB for sixty structures in a ball of 14 cm.
-[[nodiscard]] Result<CompileOutcome> compile_joint(const JointFile& file,
+[[nodiscard]] Result<CompileOutcome> compile_joint(const JointSources& sources,
                                                    const CompileOptions& options = {},
                                                    const Progress& progress = {});
-
-/// Hex digest of all that shapes the body: surfaces, version of the compiler, and the joint file
-/// without what can be changed afterwards (see read_joint_shape). Errors: not_found, unreadable.
-[[nodiscard]] Result<std::string> compute_source_digest(const JointFile& file);
 
 struct LoadOptions {
   std::filesystem::path surfaces;  ///< replaces the joint file's surface folder when not empty
@@ -48,13 +46,13 @@ struct LoadOptions {
 /// file is rebuilt; a cache that cannot be written is no error. Of one joint the last few bodies
 /// are kept; of a body that is made anew, the unchanged structures are not repaired and measured
 /// again (`parts`, if not given, lies in the cache). Errors: those of compile_joint. Cost: of a
-/// kept body, reading it and the surfaces' bytes.
-[[nodiscard]] Result<CompileOutcome> compile_or_reuse(const JointFile& file,
+/// kept body, reading it and digesting the surfaces' bytes.
+[[nodiscard]] Result<CompileOutcome> compile_or_reuse(const JointSources& sources,
                                                       const LoadOptions& options = {},
                                                       const Progress& progress = {});
 
-/// Loads a joint by any of its names: a compiled file, or a joint folder, whose body is compiled on
-/// first use and kept in the cache until what shapes it changes.
+/// Loads a joint by any of its names (find_joint): a compiled file, or a folder, whose body is
+/// compiled on first use and kept in the cache until what shapes it changes.
 /// Errors: those of read_compiled_joint, read_joint and compile_joint.
 [[nodiscard]] Result<CompiledJoint> load_joint(const std::filesystem::path& path,
                                                const LoadOptions& options = {},

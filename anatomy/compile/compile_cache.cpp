@@ -6,13 +6,10 @@
 #include <vector>
 
 #include "artus/anatomy/compile.h"
-#include "artus/detail/anatomy/body/joint_shape.h"
-#include "artus/detail/anatomy/body/joint_variant.h"
 #include "artus/detail/anatomy/body/skin_line.h"
 #include "artus/detail/anatomy/compile/attach_metadata.h"
 #include "artus/detail/anatomy/compile/check/plan_check.h"
-#include "artus/detail/anatomy/compile/labels/compiler_version.h"
-#include "artus/detail/anatomy/compile/labels/part_cache.h"
+#include "artus/detail/anatomy/source/joint_variant.h"
 #include "artus/detail/core/text_file.h"
 
 namespace artus {
@@ -126,32 +123,11 @@ JointFile with_plans_of(JointFile file, const CompiledJoint& joint) {
 
 }  // namespace
 
-Result<std::string> compute_source_digest(const JointFile& file) {
-  ContentDigest digest(kCompilerVersion);
-  const auto add_file = [&](const std::filesystem::path& path) -> Result<void> {
-    const Result<std::string> bytes = read_bytes(path);
-    ARTUS_TRY(bytes);
-    digest.add(*bytes);
-    return {};
-  };
-  const Result<std::string> shape =
-      read_joint_shape(file.folder, chosen_names(file.variants), file.patient);
-  ARTUS_TRY(shape);
-  digest.add(*shape);
-  std::vector<const Structure*> all{&file.body};
-  for (const Structure& s : file.structures) all.push_back(&s);
-  for (const Structure* s : all) {
-    const auto* surface = std::get_if<SurfaceFile>(&s->shape);
-    if (surface == nullptr) continue;
-    ARTUS_TRY(add_file(file.surface_folder / surface->file));
-  }
-  return digest.hex();
-}
-
-Result<CompileOutcome> compile_or_reuse(const JointFile& file, const LoadOptions& options,
+Result<CompileOutcome> compile_or_reuse(const JointSources& sources, const LoadOptions& options,
                                         const Progress& progress) {
+  const JointFile& file = sources.joint();
   const auto start = std::chrono::steady_clock::now();
-  const Result<std::string> digest = compute_source_digest(file);
+  const Result<std::string> digest = compute_source_digest(sources);
   ARTUS_TRY(digest);
   const KeptBody place = place_of(file, *digest, options);
   Result<CompileOutcome> outcome = CompileOutcome{};
@@ -160,7 +136,7 @@ Result<CompileOutcome> compile_or_reuse(const JointFile& file, const LoadOptions
   } else {
     CompileOptions compile = options.compile;
     if (compile.parts.empty()) compile.parts = cache_of(options) / "parts";
-    outcome = compile_joint(file, compile, progress);
+    outcome = compile_joint(sources, compile, progress);
     ARTUS_TRY(outcome);
     keep(file, *outcome, place);
   }
@@ -180,9 +156,9 @@ Result<CompileOutcome> compile_or_reuse(const JointFile& file, const LoadOptions
 Result<CompiledJoint> load_joint(const std::filesystem::path& path, const LoadOptions& options,
                                  const Progress& progress) {
   if (!is_joint_folder(path)) return read_compiled_joint(path);
-  const Result<JointFile> file = read_joint(path, options.surfaces);
+  Result<JointFile> file = read_joint(path, options.surfaces);
   ARTUS_TRY(file);
-  Result<CompileOutcome> outcome = compile_or_reuse(*file, options, progress);
+  Result<CompileOutcome> outcome = compile_or_reuse(std::move(*file), options, progress);
   ARTUS_TRY(outcome);
   return std::move(outcome->joint);
 }

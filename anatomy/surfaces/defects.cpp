@@ -132,8 +132,8 @@ class Finder {
         twice.push_back(original_[i]);
       }
     }
-    add_faces(DefectKind::duplicate_face, twice, "triangle is there twice",
-              "triangles are there twice");
+    add_faces(DefectKind::duplicate_face, twice, "triangle is a duplicate",
+              "triangles are duplicates");
     std::size_t n = 0;
     for (std::size_t i = 0; i < keep.size(); ++i) {
       if (!keep[i]) continue;
@@ -187,8 +187,8 @@ class Finder {
     add_faces(DefectKind::non_manifold_edge, crowded, "edge has more than two faces",
               "edges have more than two faces");
     add_faces(DefectKind::inconsistent_orientation, against,
-              "edge has faces that run against each other",
-              "edges have faces that run against each other");
+              "edge joins faces of opposite orientation",
+              "edges join faces of opposite orientation");
     const auto pinched = find_pinches(sound_, uses_);
     if (!pinched.empty())
       add(DefectKind::non_manifold_vertex, {pinched.begin(), pinched.end()},
@@ -258,8 +258,8 @@ class Finder {
       else if (m.is_consistent && (m.signed_volume < 0) != is_cavity)
         inward.push_back(original_[i]);
     }
-    add_faces(DefectKind::inward_winding, inward, "piece is wound inward",
-              "pieces are wound inward");
+    add_faces(DefectKind::inward_winding, inward, "piece is oriented inward",
+              "pieces are oriented inward");
     add_faces(DefectKind::zero_thickness_sheet, sheets, "piece is a sheet without thickness",
               "pieces are sheets without thickness");
   }
@@ -290,16 +290,16 @@ class Finder {
     const double far = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff();
     if (far > options_.farthest) {
       add(DefectKind::implausible_size, {}, box.center(),
-          printed("coordinates up to %.4g mm: no frame of a body lies so far "
-                  "from its origin; is it of another unit or frame?",
+          printed("coordinates up to %.4g mm are too far from the origin "
+                  "for any frame of a body; is it in another unit or frame?",
                   far / kMillimetre),
           1);
       return;
     }
     if (size >= options_.smallest && size <= options_.largest) return;
     add(DefectKind::implausible_size, {}, box.center(),
-        printed("%.4g mm from corner to corner is no part of a body; is the "
-                "unit of the file wrong (mm, cm, m)?",
+        printed("%.4g mm from corner to corner is not the size of a part of "
+                "a body; is the unit of the file wrong (mm, cm, m)?",
                 size / kMillimetre),
         1);
   }

@@ -28,9 +28,8 @@ double median(std::vector<double> values) {
 
 std::string describe_size(double size, double usual) {
   return printed(
-      "is %.4g mm from corner to corner, its like about %.4g mm: %.4g times %s; if its unit is "
-      "wrong, "
-      "give this file its own 'units'; if it is right, do so, too, to say so",
+      "is %.4g mm from corner to corner, similar structures about %.4g mm: %.4g times %s; if its "
+      "unit is wrong, give this file its own 'units'; if it is right, give them too, to confirm it",
       size / kMillimetre, usual / kMillimetre, size > usual ? size / usual : usual / size,
       size > usual ? "too large" : "too small");
 }
@@ -99,7 +98,7 @@ std::vector<Defect> find_outliers(const std::vector<NamedSurface>& surfaces) {
     if (away > 2 * around.reach) {
       const std::string text = printed(
           "lies %.4g mm from the middle of the others, which reach "
-          "%.4g mm; is it of another unit or frame?",
+          "%.4g mm; is it in another unit or frame?",
           away / kMillimetre, around.reach / kMillimetre);
       defects.push_back(
           {DefectKind::place_outlier, surfaces[i].name, 1, {}, boxes[i].center(), text});

@@ -56,7 +56,7 @@ constexpr const char* kMendSolid =
     "close the surface where it was made, wrap it (repair = \"wrap\" in the joint file), or leave "
     "it out (--skip-refused)";
 constexpr const char* kMendElsewhere =
-    "mend it where it was made, or leave it out (--skip-refused)";
+    "correct it where it was made, or leave it out (--skip-refused)";
 
 /// Does the repair step by step and writes down what it did.
 class Repair {
@@ -82,7 +82,8 @@ class Repair {
     ARTUS_TRY(close());
     if (options_.wrap == WrapPolicy::always) ARTUS_TRY(wrap());
     note(RepairKind::turned_pieces, turn_pieces(mesh()), 0,
-         {"was wound inward and is turned", "were wound inward and are turned", "piece", "pieces"});
+         {"was oriented inward and is flipped", "were oriented inward and are flipped", "piece",
+          "pieces"});
     untangle_faces();
     ARTUS_TRY(treat_crossings());
     return finish();
@@ -111,8 +112,8 @@ class Repair {
         RepairKind::dropped_pillows, drop_safe_pillows(), 0,
         {"enclosed nothing and is dropped", "enclosed nothing and are dropped", "piece", "pieces"});
     note(RepairKind::dropped_faces, drop_bad_faces(mesh()), 0,
-         {"was without area, twice there or broken and is dropped",
-          "were without area, twice there or broken and are dropped", "face", "faces"});
+         {"was without area, duplicate or broken and is dropped",
+          "were without area, duplicate or broken and are dropped", "face", "faces"});
   }
 
   /// Pillows go before duplicates (a pillow is a face and its duplicate), broken faces before both.
@@ -133,15 +134,15 @@ class Repair {
                   "it has only one side (as a Moebius strip has): inside and outside are not "
                   "defined; model it again as a closed solid");
     note(RepairKind::turned_faces, *turned, 0,
-         {"ran against its neighbours and is turned", "ran against their neighbours and are turned",
-          "face", "faces"});
+         {"was oriented against its neighbours and is flipped",
+          "were oriented against their neighbours and are flipped", "face", "faces"});
     note_split();
     weld_exactly();
     cap();
     sew();
     const std::size_t n_flaps = drop_flaps(mesh());
     note(RepairKind::dropped_fragments, n_flaps + drop_fragments(mesh()), 0,
-         {"is dropped", "are dropped", "loose shred", "loose shreds"});
+         {"is dropped", "are dropped", "loose fragment", "loose fragments"});
     ARTUS_TRY(treat_sheets());
     return fill();
   }
@@ -164,8 +165,8 @@ class Repair {
   void reorient() {
     if (const auto turned = turn_faces(mesh()))
       note(RepairKind::turned_faces, *turned, 0,
-           {"ran against its neighbours and is turned",
-            "ran against their neighbours and are turned", "face", "faces"});
+           {"was oriented against its neighbours and is flipped",
+            "were oriented against their neighbours and are flipped", "face", "faces"});
     split_pinches(mesh());
   }
 
@@ -358,7 +359,7 @@ class Repair {
     outcome_.volume = signed_volume(mesh());
     if (!(outcome_.volume > 0))
       return fail(ErrorCode::defective,
-                  "it encloses no volume; mend it where it was made, or leave it out "
+                  "it encloses no volume; correct it where it was made, or leave it out "
                   "(--skip-refused)");
     if (outcome_.actions.empty()) outcome_.mesh = original_;
     return std::move(outcome_);

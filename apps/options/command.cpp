@@ -14,7 +14,7 @@
 #include <unistd.h>
 
 #include "artus/anatomy/compile.h"
-#include "artus/detail/anatomy/body/joint_variant.h"
+#include "artus/detail/anatomy/source/joint_variant.h"
 #include "artus/detail/soft/solver/pose_joint.h"
 
 namespace artus {
@@ -100,8 +100,9 @@ void add_patient_option(Command* command, std::string& patient) {
 
 void add_joint_options(Command* command, JointOptions& options) {
   command
-      ->add_option("--joint,-j", options.joint,
-                   "joint folder (with joint.toml) or compiled .artus file")
+      ->add_option(
+          "--joint,-j", options.joint,
+          "joint folder (with joint.toml), compiled .artus file, or the name of a bundled joint")
       ->required();
   command->add_option("--surfaces", options.surfaces,
                       "folder of the surface files, when not the joint's own");

@@ -41,12 +41,16 @@ void add_window_options(Command* command, WindowOptions& window, std::string& la
                    "of the letters, besides what screen and window ask for")
       ->check(number_in(0.5, 4))
       ->capture_default_str();
-  command->add_option("--language", language, "en or fr (default: as the system's)")
-      ->one_of({"en", "fr"});
+  add_language_option(command, language);
   command->add_option("--keys", window.keys,
                       "TOML file of other keys: push = \"8\" (default: keys.toml in "
                       "~/.config/artus)");
   command->add_flag("--left-handed", window.left_handed, "the mouse's buttons change places");
+}
+
+void add_language_option(Command* command, std::string& language) {
+  command->add_option("--language", language, "en or fr (default: as the system's)")
+      ->one_of({"en", "fr"});
 }
 
 Language language_of(const std::string& flag) {

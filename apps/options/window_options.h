@@ -12,6 +12,8 @@ namespace artus {
 /// looks and listens.
 void add_window_options(Command* command, WindowOptions& window, std::string& language);
 
+/// --language: en or fr.
+void add_language_option(Command* command, std::string& language);
 /// The flag, or what the system says, or English.
 [[nodiscard]] Language language_of(const std::string& flag);
 

@@ -26,8 +26,8 @@
 #include <numbers>
 #include <vector>
 
+#include "artus/detail/core/plot.h"
 #include "artus/detail/core/units.h"
-#include "artus/detail/evidence/plot.h"
 #include "artus/detail/raycast/moving_scene.h"
 #include "artus/detail/soft/solver/soft_body.h"
 #include "artus/echo/renderer.h"
@@ -161,7 +161,7 @@ artus::Result<void> plot(const std::shared_ptr<const artus::CompiledJoint>& join
                          const char* png) {
   std::vector<artus::PlotSeries> parts;
   for (const char* label : {"update", "two steps", "snapshot", "scene"})
-    parts.push_back({label, {}, {}, "linespoints"});
+    parts.push_back({label, {}, {}, artus::PlotStyle::line_points});
   for (const double cell_mm : {5.0, 4.0, 3.0, 2.5, 2.0}) {
     auto bench = make_bench(joint, cell_mm);
     ARTUS_TRY(bench);

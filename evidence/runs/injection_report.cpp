@@ -212,7 +212,7 @@ Result<void> write_injection(const InjectionRun& run, const std::filesystem::pat
   std::error_code ignored;
   std::filesystem::create_directories(folder, ignored);
   ARTUS_TRY(write_trace(run, folder / "trace.csv"));
-  return write_plot(folder / "injection.png", plot_of(run));
+  return write_plot(folder / "injection.svg", plot_of(run));
 }
 
 }  // namespace artus

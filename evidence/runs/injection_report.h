@@ -6,8 +6,8 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "artus/detail/core/plot.h"
 #include "artus/detail/evidence/claim.h"
-#include "artus/detail/evidence/plot.h"
 #include "artus/detail/evidence/runs/injection_run.h"
 
 namespace artus {
@@ -31,8 +31,7 @@ namespace artus {
 /// Several runs beside each other from the moment at which each pushes: force, pressure, volume.
 [[nodiscard]] Plot plot_of(std::span<const InjectionRun> runs);
 
-/// Writes trace.csv and injection.png into `folder` (made when missing). Errors: unreadable,
-/// not_found (gnuplot; the trace is then written all the same).
+/// Writes trace.csv and injection.svg into `folder` (made when missing). Errors: unreadable.
 [[nodiscard]] Result<void> write_injection(const InjectionRun& run,
                                            const std::filesystem::path& folder);
 

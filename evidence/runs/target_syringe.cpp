@@ -20,7 +20,7 @@ TargetSyringe::TargetSyringe(const CompiledJoint& joint, const SessionParams& pa
       thumb_({SyringeCore::kCoupling, SyringeCore::kMaxForce}),
       dose_(core_.plunger().params(), volume) {
   const auto spaces = make_joint_spaces(joint);
-  ARTUS_REQUIRE(spaces.has_value(), "a joint's spaces are checked when it is compiled");
+  ARTUS_REQUIRE(spaces.has_value(), "the joint's spaces must be valid");
   space_of_region_ = spaces->of_region;
 }
 

@@ -10,7 +10,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "artus/anatomy/joint_file.h"
+#include "artus/anatomy/compiled_joint.h"
 #include "artus/detail/anatomy/body/liquid.h"
 #include "artus/detail/core/progress.h"
 #include "artus/detail/evidence/claim.h"
@@ -135,8 +135,7 @@ struct RunTissueOptions {
 /// Plateaus, touches, moments, claims and settings, in the units of the names.
 [[nodiscard]] nlohmann::json summarize(const ThreeInjections& run);
 
-/// Writes trace.csv and forces.png into `folder` (made when missing). Errors: unreadable, not_found
-/// (gnuplot; the trace is then written all the same).
+/// Writes trace.csv and forces.svg into `folder` (made when missing). Errors: unreadable.
 [[nodiscard]] Result<void> write_three_injections(const ThreeInjections& run,
                                                   const std::filesystem::path& folder);
 

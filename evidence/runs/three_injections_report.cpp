@@ -6,9 +6,9 @@
 
 #include "artus/dataset/pose_list.h"
 #include "artus/detail/core/csv.h"
+#include "artus/detail/core/plot.h"
 #include "artus/detail/core/text_file.h"
 #include "artus/detail/core/units.h"
-#include "artus/detail/evidence/plot.h"
 #include "artus/detail/evidence/runs/three_injections.h"
 
 namespace artus {
@@ -46,13 +46,13 @@ void add_probe_panels(const ThreeInjections& run, Plot& plot) {
                          "probe: friction, torque",
                          {probe("friction (N)", [](Row r) { return r.friction.norm(); }),
                           probe("torque (N cm)", [](Row r) { return 100 * r.torque.norm(); })}});
-  // The ways are of a rigid body's columns.
+  // The distances are of a rigid body's columns.
   const bool has_paths = std::any_of(run.probe.begin(), run.probe.end(),
                                      [](Row r) { return r.indentation != 0 || r.slip != 0; });
   if (!has_paths) return;
   plot.panels.push_back(
       {time,
-       "probe: way (mm)",
+       "probe: distance (mm)",
        {probe("pressed in", [](Row r) { return r.indentation / kMillimetre; }),
         probe("slid since touching", [](Row r) { return r.slip / kMillimetre; })}});
 }
@@ -252,7 +252,7 @@ Result<void> write_three_injections(const ThreeInjections& run,
   if (!run.probe.empty()) {
     ARTUS_TRY(write_text(folder / "poses.csv", poses_csv(poses_of(run))));
   }
-  return write_plot(folder / "forces.png", force_plot(run));
+  return write_plot(folder / "forces.svg", force_plot(run));
 }
 
 }  // namespace artus

@@ -55,7 +55,7 @@ Result<Gate> run_gate(std::string_view set, std::string_view name, const GateOpt
   gate->name = name;
   const bool apart = (*find_gate_set(set))->apart;
   for (NamedPlot& plot : gate->plots)
-    if (plot.file.empty()) plot.file = (apart ? "" : "pictures/") + gate->name + ".png";
+    if (plot.file.empty()) plot.file = (apart ? "" : "pictures/") + gate->name + ".svg";
   return gate;
 }
 

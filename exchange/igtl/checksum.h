@@ -5,7 +5,7 @@
 
 namespace artus::igtl {
 
-/// The check value that a message's header carries for its body: CRC-64 with the polynomial of
+/// The checksum that a message's header carries for its body: CRC-64 with the polynomial of
 /// ECMA-182, most significant bit first, starting from 0 and not inverted. `before`: that of the
 /// bytes in front of these. Errors: none. Cost: about 0.6 ms a megabyte.
 /// Source [OpenIGTLink] header specification.

@@ -17,8 +17,8 @@ bool would_block(int error) noexcept {
 }
 
 tl::unexpected<Error> gone(int error) {
-  return fail(ErrorCode::not_found,
-              error == 0 ? "it closed the connection" : std::generic_category().message(error));
+  return fail(ErrorCode::not_found, error == 0 ? "the client closed the connection"
+                                               : std::generic_category().message(error));
 }
 
 }  // namespace
@@ -72,7 +72,8 @@ bool ClientLink::take_next() {
 }
 
 Result<void> ClientLink::send(std::int64_t now_ns) {
-  if (asks_too_fast_) return fail(ErrorCode::failed, "it asks faster than it reads the answers");
+  if (asks_too_fast_)
+    return fail(ErrorCode::failed, "the client sends requests faster than it reads the answers");
   if (!has_to_send()) progress_ns_ = now_ns;
   while (sending_ || take_next()) {
     const ssize_t n =
@@ -84,7 +85,7 @@ Result<void> ClientLink::send(std::int64_t now_ns) {
     if (sent_ == sending_->size()) sending_.reset();
   }
   if (has_to_send() && now_ns - progress_ns_ > limits_.stall_ns)
-    return fail(ErrorCode::failed, "it takes nothing of what is sent to it");
+    return fail(ErrorCode::failed, "the client does not read what is sent to it");
   return {};
 }
 

@@ -17,7 +17,7 @@ constexpr std::size_t kErrorNameSize = 20;                        // bytes
 constexpr std::size_t kTypeNameSize = 12;                         // bytes of a type in a CAPABILITY
 
 tl::unexpected<Error> wrong_length(const char* type) {
-  return fail(ErrorCode::malformed, std::string("a ") + type + " of another length than it says");
+  return fail(ErrorCode::malformed, std::string(type) + ": its length does not match its content");
 }
 
 /// Twelve single-precision numbers, column by column.
@@ -50,18 +50,17 @@ Result<Matrix> parse_transform(std::string_view content) {
   BigEndianReader in(content);
   const Matrix matrix = get_matrix(in);
   if (!in.ok() || !in.at_end()) return wrong_length("TRANSFORM");
-  if (!matrix.allFinite())
-    return fail(ErrorCode::invalid, "a TRANSFORM with numbers that are not finite");
+  if (!matrix.allFinite()) return fail(ErrorCode::invalid, "TRANSFORM: a number is not finite");
   return matrix;
 }
 
 std::string pack_image(const Image& image) {
   ARTUS_REQUIRE(
       image.width > 0 && image.width <= 0xFFFF && image.height > 0 && image.height <= 0xFFFF,
-      "an image has 1 to 65535 pixels a side");
+      "an image must have 1 to 65535 pixels on each side");
   const auto pixels =
       static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
-  ARTUS_REQUIRE(image.grey.size() == pixels, "there must be a byte a pixel");
+  ARTUS_REQUIRE(image.grey.size() == pixels, "the image must have one byte for each pixel");
   BigEndianWriter out;
   out.bytes().reserve(72 + pixels);
   out.put(std::uint16_t{1});           // version
@@ -95,9 +94,9 @@ Result<Image> parse_image(std::string_view content) {
   image.height = size[1];
   if (components != 1 || (scalar != 2 && scalar != 3) || size[2] != 1 ||
       part != std::array<int, 6>{0, 0, 0, size[0], size[1], 1})
-    return fail(ErrorCode::unsupported, "an IMAGE that is not one whole slice of 8-bit greys");
+    return fail(ErrorCode::unsupported, "IMAGE: only one whole slice of 8-bit greys can be read");
   if (image.width == 0 || image.height == 0 || !image.image_to_reference.allFinite())
-    return fail(ErrorCode::invalid, "an IMAGE without pixels or without a place");
+    return fail(ErrorCode::invalid, "IMAGE: it has no pixels or no position");
   image.grey = in.rest();
   if (image.grey.size() !=
       static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height))
@@ -127,7 +126,7 @@ Result<std::string> parse_string(std::string_view content) {
 }
 
 std::string pack_sensor(const Sensor& sensor) {
-  ARTUS_REQUIRE(sensor.values.size() <= 255, "a SENSOR has at most 255 values");
+  ARTUS_REQUIRE(sensor.values.size() <= 255, "a SENSOR can hold at most 255 values");
   BigEndianWriter out;
   out.put(static_cast<std::uint8_t>(sensor.values.size()));
   out.put(std::uint8_t{0});  // status, reserved

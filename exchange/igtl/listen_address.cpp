@@ -23,9 +23,10 @@ std::string text_of(const ListenAddress& where) {
 
 Result<ListenAddress> parse_address(std::string_view text, const std::string& flag) {
   const auto refuse = [&] {
-    return fail(ErrorCode::malformed,
-                "'" + std::string(text) + "' is not [address:]port, as 18944 or 0.0.0.0:18944",
-                flag);
+    return fail(
+        ErrorCode::malformed,
+        "'" + std::string(text) + "' is not [address:]port, for example 18944 or 0.0.0.0:18944",
+        flag);
   };
   ListenAddress where;
   const std::size_t colon = text.rfind(':');

@@ -67,7 +67,7 @@ std::string_view Message::meta_value(std::string_view key) const noexcept {
 }
 
 Result<Header> parse_header(std::string_view bytes) {
-  ARTUS_REQUIRE(bytes.size() == kHeaderSize, "a header has 58 bytes");
+  ARTUS_REQUIRE(bytes.size() == kHeaderSize, "a header must have 58 bytes");
   BigEndianReader in(bytes);
   Header header;
   header.version = in.get<std::uint16_t>();
@@ -78,9 +78,9 @@ Result<Header> parse_header(std::string_view bytes) {
   header.checksum = in.get<std::uint64_t>();
   if (header.version != 1 && header.version != 2)
     return fail(ErrorCode::unsupported,
-                "header version " + std::to_string(header.version) + "; 1 and 2 are known");
+                "header version " + std::to_string(header.version) + "; only 1 and 2 can be read");
   if (header.type.empty() || !is_text(header.type) || !is_text(header.device))
-    return fail(ErrorCode::malformed, "a message's type or device name is no text");
+    return fail(ErrorCode::malformed, "the message's type or device name is not text");
   if (header.body_size > kLargestBody)
     return fail(ErrorCode::invalid,
                 "a body of " + std::to_string(header.body_size) + " bytes; at most 64 MiB");
@@ -91,8 +91,8 @@ Result<Message> unpack(const Header& header, std::string body) {
   if (body.size() != header.body_size)
     return fail(ErrorCode::corrupt, "the body is not as long as its header says");
   if (checksum(body) != header.checksum)
-    return fail(ErrorCode::corrupt, "the check value does not belong to the body of " +
-                                        header.type + " '" + header.device + "'");
+    return fail(ErrorCode::corrupt, "the checksum does not match the body of " + header.type +
+                                        " '" + header.device + "'");
   Message message;
   message.version = header.version;
   message.type = header.type;

@@ -54,7 +54,7 @@ struct Message {
 /// (a type or name that is no text), invalid (a body above kLargestBody).
 [[nodiscard]] Result<Header> parse_header(std::string_view bytes);
 
-/// A whole message from its header and body. Errors: corrupt (length or check value), malformed
+/// A whole message from its header and body. Errors: corrupt (length or checksum), malformed
 /// (extension or metadata that do not fit into the body).
 [[nodiscard]] Result<Message> unpack(const Header& header, std::string body);
 

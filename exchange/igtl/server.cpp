@@ -162,7 +162,8 @@ void Server::accept_clients() {
     const std::string name = name_of(peer, size);
     if (links_.size() >= options_.max_clients) {
       close(socket);
-      tell(name + " was turned away: there are " + std::to_string(links_.size()) + " already");
+      tell(name + " was refused: " + std::to_string(links_.size()) +
+           " clients are connected already");
       continue;
     }
     const int on = 1;

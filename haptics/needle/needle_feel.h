@@ -31,15 +31,7 @@ struct PatientProfile {
   double clamping = 1;
   double puncture = 1;
 };
-template <Like<PatientProfile> P, class F>
-void fields_of(P& params, F&& visit) {
-  auto& [cutting, friction, attracted, clamping, puncture] = params;
-  visit("cutting", cutting);
-  visit("friction", friction);
-  visit("attracted", attracted);
-  visit("clamping", clamping);
-  visit("puncture", puncture);
-}
+ARTUS_FIELDS(PatientProfile, cutting, friction, attracted, clamping, puncture);
 
 /// What a run changes of how the needle feels; what is not set is as published. The one form in
 /// which a choice of force laws travels: from flags or a recording to a session, an experiment or

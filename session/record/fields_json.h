@@ -44,7 +44,7 @@ template <HasFields P>
   return json;
 }
 
-/// The other way. Throws nlohmann::json::exception where a field is missing or of another type;
+/// Back from that. Throws nlohmann::json::exception where a field is missing or of another type;
 /// whether the values make sense is for the caller to say.
 template <HasFields P>
 void read_fields(const nlohmann::json& json, P& params) {

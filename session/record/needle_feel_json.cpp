@@ -51,7 +51,8 @@ Result<void> read_choice(const nlohmann::json& json, const char* name, const cha
   if (!json.contains(name)) return {};
   const auto text = json.at(name).get<std::string>();
   if (text != zero && text != one)
-    return fail(ErrorCode::not_found, "no \"" + text + "\"; there are " + zero + ", " + one, name);
+    return fail(ErrorCode::not_found,
+                "unknown choice \"" + text + "\"; it must be " + zero + " or " + one, name);
   choice = text == one ? static_cast<Choice>(1) : static_cast<Choice>(0);
   return {};
 }

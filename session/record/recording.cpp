@@ -70,10 +70,10 @@ Result<bool> read_record(std::istream& in, Recording& recording, Newest& newest,
   if (start.kind == RecordStart::kEnd && start.size == sizeof recording.dropped) {
     recording.complete = read(in, recording.dropped);
     if (recording.complete && in.peek() != std::istream::traits_type::eof())
-      return fail(ErrorCode::corrupt, "something follows its end", where);
+      return fail(ErrorCode::corrupt, "there is data after the end of the recording", where);
     return false;
   }
-  return fail(ErrorCode::corrupt, "a record of an unknown kind or size", where);
+  return fail(ErrorCode::corrupt, "unknown kind or size of record", where);
 }
 
 bool is_flag(std::uint32_t value) noexcept {
@@ -117,21 +117,22 @@ TickRecord to_record(const HapticSnapshot& snapshot) noexcept {
 
 const char* find_fault(const TickRecord& record, std::uint64_t last) noexcept {
   const DeviceSample& device = record.input.device;
-  if (record.input.tick <= last) return "a tick that is not after the one before";
-  if (!is_pose(device.X_WN) || !is_pose(device.X_WP)) return "a tick's pose that is none";
-  if (device.state > PeerState::invalid) return "a device in a state that there is not";
-  if (!is_flag(device.has_needle) || !is_flag(device.has_probe)) return "a flag that is none";
+  if (record.input.tick <= last) return "tick number that does not rise";
+  if (!is_pose(device.X_WN) || !is_pose(device.X_WP)) return "invalid pose in tick";
+  if (device.state > PeerState::invalid) return "unknown device state";
+  if (!is_flag(device.has_needle) || !is_flag(device.has_probe))
+    return "flag that is neither 0 nor 1";
   if ((record.input.command & ~SessionCommand::kAll) != 0 || record.input.reserved != 0)
-    return "a command that there is not";
-  if (!is_plunger(device) || device.reserved != 0) return "a plunger that is none";
+    return "unknown command";
+  if (!is_plunger(device) || device.reserved != 0) return "invalid plunger input";
   const PlungerFeedback& p = record.plunger;
   const double plunger[] = {p.thumb_force, p.pressure, p.tip_pressure, p.flow,
                             p.travel,      p.given,    p.drawn};
-  if (!all_finite(plunger) || p.reserved != 0) return "a plunger's answer that is none";
+  if (!all_finite(plunger) || p.reserved != 0) return "invalid plunger feedback";
   if (!all_finite(record.force) || !all_finite(record.torque) || !all_finite(record.probe_force) ||
       !all_finite(record.probe_torque))
-    return "a force that is not finite";
-  return record.region > std::numeric_limits<RegionId>::max() ? "a region that no joint has"
+    return "force that is not finite";
+  return record.region > std::numeric_limits<RegionId>::max() ? "region number out of range"
                                                               : nullptr;
 }
 
@@ -161,25 +162,25 @@ bool is_compliance(const NeedleCompliance& c) noexcept {
 
 const char* find_fault(const FrameRecord& record, std::uint64_t last) noexcept {
   const FrameInput& input = record.input;
-  if (input.number <= last) return "an image that is not after the one before";
-  if (!is_pose(input.X_JP, kFar) || !is_pose(input.X_JN, kFar))
-    return "an image's pose that is none";
-  if (!is_flag(input.has_needle) || !is_flag(input.has_probe)) return "a flag that is none";
-  if (input.n_sites > kMaxSites || input.reserved != 0) return "more liquid than there can be";
+  if (input.number <= last) return "image number that does not rise";
+  if (!is_pose(input.X_JP, kFar) || !is_pose(input.X_JN, kFar)) return "invalid pose in image";
+  if (!is_flag(input.has_needle) || !is_flag(input.has_probe))
+    return "flag that is neither 0 nor 1";
+  if (input.n_sites > kMaxSites || input.reserved != 0) return "too many injected sites";
   for (const InjectedSite& site : input.sites)
     if (!is_place(site.p_J) || !(site.volume >= 0 && site.volume < 1) || !is_flag(site.cavity) ||
         site.region > std::numeric_limits<RegionId>::max())
-      return "liquid in a place that is none";
-  if (!is_load(input.load)) return "a needle's load that is none";
+      return "invalid injected site";
+  if (!is_load(input.load)) return "invalid needle load";
   const ImageControls& c = input.controls;
   const double knobs[] = {c.depth,     c.gain_db,        c.tgc_db_cm_mhz, c.dynamic_range_db,
                           c.frequency, c.elevation_focus};
-  if (!all_finite(knobs)) return "a knob's place that is no number";
-  return std::isinf(record.tip_contrast) ? "a contrast that is endless" : nullptr;
+  if (!all_finite(knobs)) return "image control that is not finite";
+  return std::isinf(record.tip_contrast) ? "infinite tip contrast" : nullptr;
 }
 
 const char* find_fault(const PacketRecord& record, std::uint64_t last) noexcept {
-  if (record.tick <= last) return "a packet that is not after the one before";
+  if (record.tick <= last) return "packet number that does not rise";
   const ProbePacket& p = record.packet.probe;
   const NeedlePacket& n = record.packet.needle;
   const auto finite = [](const auto& values) {
@@ -188,7 +189,7 @@ const char* find_fault(const PacketRecord& record, std::uint64_t last) noexcept 
   if (!finite(p.X_JP) || !finite(p.wrench) || !finite(p.stiffness) ||
       !(p.share >= 0 && p.share <= 1) || !finite(n.carried) || !is_compliance(n.compliance) ||
       !(n.compliance_scale >= 0 && n.compliance_scale <= 1))
-    return "a packet that is none";
+    return "invalid packet";
   return nullptr;
 }
 

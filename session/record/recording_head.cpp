@@ -76,15 +76,19 @@ Result<RecordingHead> parse_head(const std::string& line) {
   if (json.is_discarded() || !json.is_object() || !json.contains(kName))
     return fail(ErrorCode::malformed, "this is not a recording of artus", {});
   if (json[kName] != kVersion)
-    return fail(ErrorCode::unsupported, "a recording of another version", {});
+    return fail(ErrorCode::unsupported,
+                "the recording is of another format version; this artus reads version " +
+                    std::to_string(kVersion),
+                {});
   const nlohmann::json digest = json.value(kDigest, nlohmann::json());
   json.erase(kDigest);
   if (digest != digest_of(json))
-    return fail(ErrorCode::corrupt, "its first line was changed after it was written", {});
+    return fail(ErrorCode::corrupt, "its header (first line) was changed after it was written", {});
   try {
     return to_head(json);
   } catch (const nlohmann::json::exception& e) {
-    return fail(ErrorCode::malformed, std::string("its first line is damaged: ") + e.what(), {});
+    return fail(ErrorCode::malformed,
+                std::string("its header (first line) is damaged: ") + e.what(), {});
   }
 }
 

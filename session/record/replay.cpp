@@ -39,7 +39,7 @@ Result<ReplayReport> replay(const Recording& recording, const std::shared_ptr<co
                             const ReplayListener& listener, int n_threads) {
   if (compute_joint_digest(scene->joint()) != recording.head.joint_digest)
     return fail(ErrorCode::invalid,
-                "the session was recorded with another joint, or another state of it: " +
+                "the session was recorded with another joint, or another version of it: " +
                     recording.head.joint,
                 scene->joint().name);
   SessionParams params = recording.head.params;

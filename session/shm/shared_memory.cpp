@@ -172,7 +172,7 @@ Result<SharedSegment> SharedSegment::open(const std::string& prefix, const Segme
       if (access == SegmentAccess::owner_writes) {
         if (!take_writer_lock(impl->file()))
           return fail(ErrorCode::invalid,
-                      "another program writes this shared memory; stop it first", name);
+                      "another program is writing to this shared memory; stop it first", name);
         impl->writes = true;
         if (impl->range != nullptr && layout.magic == ARTUS_SHM_MAGIC_FORCE) impl->range->force = 1;
         __atomic_store_n(&impl->header()->opened_ns, artus_shm_now_ns(), __ATOMIC_RELEASE);

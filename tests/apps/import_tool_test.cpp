@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/apps/run_tool.h"
+#include "tests/support/open_counter.h"
 #include "tests/support/paths.h"
 #include "tests/support/temporary_folder.h"
 
@@ -50,6 +51,12 @@ class ImportTool : public test::TemporaryFolder {
     std::ofstream(folder / "joint.toml") << toml;
     return folder;
   }
+  /// Each of the files at a joint's folder was opened once.
+  static void expect_each_read_once(test::OpenCounter& counter) {
+    const auto opened = counter.take();
+    EXPECT_GT(opened.size(), 5U);
+    for (const auto& [file, times] : opened) EXPECT_EQ(times, 1) << file;
+  }
   /// No script, no address, every picture inside.
   static void expect_self_contained(const std::string& page) {
     EXPECT_EQ(page.find("<script"), std::string::npos);
@@ -74,8 +81,10 @@ TEST_F(ImportTool, TheTutorialLeadsFromBareSurfacesToAnInjection) {
     return artus({"compile", folder.string(), "-o", in("my.artus"), "--cache", in("cache"),
                   "--report", in("report.html")});
   };
+  test::OpenCounter counter(folder);
   const auto compiled = compile();
   ASSERT_EQ(compiled.exit_code, 0) << compiled.out << compiled.err;
+  expect_each_read_once(counter);
   std::ofstream(folder / "joint.toml", std::ios::app) << tutorial("injections");
   const auto planned = compile();
   ASSERT_EQ(planned.exit_code, 0) << planned.out << planned.err;
@@ -94,12 +103,30 @@ TEST_F(ImportTool, TheTutorialLeadsFromBareSurfacesToAnInjection) {
   EXPECT_GE(std::count(seen.begin(), seen.end(), '<'), 200) << "the browser shows the page";
 }
 
+TEST_F(ImportTool, WhatTheJointIsMadeFromIsNoPlaceToWriteTo) {
+  const std::string toml = tutorial("joint.toml");
+  const auto folder = write_joint(toml);
+  for (const auto& [flag, file] :
+       {std::pair{"-o", "joint.toml"}, {"--out", "bone.ply"}, {"--report", "joint.toml"}}) {
+    const std::string target = (folder / file).string();
+    const std::string before = content(target);
+    const auto refused = artus({"compile", folder.string(), flag, target, "--cache", in("cache")});
+    EXPECT_NE(refused.exit_code, 0) << flag;
+    EXPECT_NE(refused.err.find(target), std::string::npos) << refused.err;
+    EXPECT_NE(refused.err.find("name another"), std::string::npos) << refused.err;
+    EXPECT_EQ(content(target), before) << flag;
+  }
+  EXPECT_FALSE(std::filesystem::exists(in("cache"))) << "refused before anything is made";
+}
+
 TEST_F(ImportTool, RefusalsComeFirstWithOneExitCodeAndTheirMendWorks) {
   std::string toml = tutorial("joint.toml") +
                      "[[injection]]\nname = \"astray\"\nentry = [-60.0, 0.0, -13.9]\n"
                      "target = [-34.1, 0.0, 3.0]\n";
   auto folder = write_joint(toml);
+  test::OpenCounter counter(folder);
   const auto check = artus({"check", folder.string(), "--report", in("check.html")});
+  expect_each_read_once(counter);
   EXPECT_EQ(check.exit_code, 3);
   EXPECT_EQ(check.out.rfind("refused injection 'astray' (line ", 0), 0U) << check.out;
   const auto compile = artus({"compile", folder.string(), "-o", in("a.artus"), "--cache", in("c")});

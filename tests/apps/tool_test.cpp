@@ -90,7 +90,7 @@ TEST_F(Tool, RunsTheMainJobWithAllItsFilesAndEveryClaimHolds) {
   EXPECT_TRUE(summary.at("deforms").get<bool>());
   EXPECT_TRUE(summary.at("rigid").at("pass").get<bool>());
   EXPECT_TRUE(std::filesystem::exists(folder_ / "run/rigid/trace.csv"));
-  for (const char* file : {"trace.csv", "forces.png", "summary.json"})
+  for (const char* file : {"trace.csv", "forces.svg", "summary.json"})
     EXPECT_TRUE(std::filesystem::exists(folder_ / "run" / file)) << file;
   ASSERT_GE(summary.at("images").size(), 4U);
   for (const auto& image : summary.at("images"))
@@ -162,10 +162,38 @@ TEST_F(Tool, CheckFitsOnAScreenAndListsTheRestOnRequest) {
   EXPECT_GT(count(artus({"check", folder, "--all"}).out), 50);
 }
 
-TEST_F(Tool, HelloPrintsAForceAndWritesAPicture) {
-  const auto r = test::run_process({ARTUS_HELLO, kSimple, in("hello.png")});
+TEST_F(Tool, FindsBundledJointsAndScenariosFromAnyFolder) {
+  const auto from_root = [](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"env", "-C", "/", ARTUS_TOOL});
+    return test::run_process(arguments);
+  };
+  const auto check = from_root({"check", "knee", "--json"});
+  EXPECT_EQ(check.exit_code, 0) << check.err;
+  const auto needle = from_root({"needle", "-j", "simple-shoulder", "--cache", in("cache")});
+  EXPECT_EQ(needle.exit_code, 0) << needle.err;
+  const auto scenario = from_root({"scenario", "check", "sasd-lateral-1", "--no-play"});
+  EXPECT_EQ(scenario.exit_code, 0) << scenario.err;
+  const auto unknown = from_root({"needle", "-j", "elbow"});
+  EXPECT_EQ(unknown.exit_code, 1);
+}
+
+TEST_F(Tool, FindsBundledJointsBesideAnInstalledProgram) {
+  namespace fs = std::filesystem;
+  fs::create_directories(in("prefix/bin"));
+  fs::create_directories(in("prefix/share/artus/meshes"));
+  fs::copy_file(ARTUS_TOOL, in("prefix/bin/artus"));
+  fs::copy(test::source_dir() / "meshes/knee", in("prefix/share/artus/meshes/elbow"),
+           fs::copy_options::recursive);
+  const auto check =
+      test::run_process({"env", "-C", "/", in("prefix/bin/artus"), "check", "elbow", "--json"});
+  EXPECT_EQ(check.exit_code, 0) << check.err;
+}
+
+TEST_F(Tool, HelloPrintsForcesOfTheCommittedJointAndWritesAPicture) {
+  const auto r = test::run_process({"env", "-C", folder_.string(), ARTUS_HELLO});
   EXPECT_EQ(r.exit_code, 0) << r.err;
-  EXPECT_NE(r.out.find("pushes back with"), std::string::npos);
+  EXPECT_GE(std::count(r.out.begin(), r.out.end(), '\n'), 10);
+  EXPECT_NE(r.out.find(" N"), std::string::npos) << r.out;
   EXPECT_GT(std::filesystem::file_size(in("hello.png")), 1000U);
 }
 

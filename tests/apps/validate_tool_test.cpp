@@ -43,7 +43,7 @@ TEST_F(Validate, AReportHasValueBoundAndVerdict) {
   EXPECT_TRUE(report.at("pass").get<bool>());
   for (const auto& claim : report.at("gates").at("needle-angle").at("claims"))
     for (const char* key : {"claim", "value", "bound", "pass"}) EXPECT_TRUE(claim.contains(key));
-  for (const char* file : {"report.md", "gates.json", "pictures/needle-angle.png",
+  for (const char* file : {"report.md", "gates.json", "pictures/needle-angle.svg",
                            "pictures/needle-30-image.png", "pictures/cyst-image.png"})
     EXPECT_TRUE(std::filesystem::exists(folder_ / "g" / file)) << file;
   const std::string page = text_of(folder_ / "r/echo.md");

@@ -6,7 +6,8 @@ cmake_minimum_required(VERSION 3.25)
 set(may_core "")
 set(may_anatomy/surfaces core)
 set(may_anatomy/body core)
-set(may_anatomy/compile/labels core anatomy/surfaces anatomy/body)
+set(may_anatomy/source core anatomy/body)
+set(may_anatomy/compile/labels core anatomy/surfaces anatomy/body anatomy/source)
 set(may_anatomy/compile/mesh ${may_anatomy/compile/labels} anatomy/compile/labels)
 set(may_anatomy/compile/check ${may_anatomy/compile/mesh} anatomy/compile/mesh)
 set(may_anatomy/compile ${may_anatomy/compile/check} anatomy/compile/check)
@@ -36,7 +37,7 @@ set(may_session/record ${may_simulation} simulation)
 set(may_session ${may_simulation} simulation session/client session/shm session/record)
 set(session session session/client session/shm session/record)
 set(may_training/metrics ${may_raycast} raycast ${echo})
-set(may_training ${may_simulation} simulation ${session} training/metrics)
+set(may_training ${may_simulation} simulation dataset ${session} anatomy/source training/metrics)
 set(training training training/metrics)
 set(may_evidence ${may_simulation} simulation dataset ${session} ${training})
 set(may_evidence/runs ${may_evidence} evidence)
@@ -49,9 +50,9 @@ set(validation evidence/validation/needle evidence/validation/probe evidence/val
 set(may_evidence/validation ${may_evidence} evidence evidence/runs ${validation})
 set(may_exchange/igtl core)
 set(may_exchange ${may_simulation} simulation dataset ${session} exchange/igtl)
-set(may_reports ${may_evidence} evidence evidence/runs anatomy/surfaces anatomy/compile anatomy/compile/labels anatomy/compile/check)
+set(may_reports ${may_evidence} evidence evidence/runs viewer/words anatomy/surfaces anatomy/source anatomy/compile anatomy/compile/labels anatomy/compile/check)
 set(window ${may_simulation} simulation dataset ${session})
-set(may_viewer/words core)
+set(may_viewer/words ${may_raycast} raycast)
 set(may_viewer/input ${window} viewer/words)
 set(may_viewer/joint3d ${may_viewer/input} viewer/input)
 set(may_viewer/panels ${may_viewer/joint3d} viewer/joint3d)
@@ -64,15 +65,15 @@ set(may_meshes/generate core anatomy/surfaces)
 set(may_apps/options ${may_trainer} ${may_reports} trainer)
 set(may_apps ${may_apps/options} apps/options)
 set(may_apps/validate ${may_apps} ${validation} evidence/validation)
-set(rooms core anatomy/surfaces anatomy/body anatomy/compile/labels anatomy/compile/mesh anatomy/compile/check anatomy/compile ${soft} raycast
+set(rooms core anatomy/surfaces anatomy/body anatomy/source anatomy/compile/labels anatomy/compile/mesh anatomy/compile/check anatomy/compile ${soft} raycast
   ${haptics} ${echo} operators dataset simulation ${session} ${training} evidence evidence/runs ${validation}
   evidence/validation exchange/igtl exchange reports ${viewer} trainer python meshes/generate apps/options apps apps/validate)
 
 # folder lists that may include headers starting with the pattern
 set(outside "embree:raycast" "CGAL/:anatomy/surfaces,anatomy/compile,meshes/generate" "tetgen:anatomy/compile"
-  "toml:core,anatomy,echo/probe,soft/cage,haptics/actuator,training" "opencv2/:echo,dataset,evidence,reports,apps,trainer,viewer"
+  "toml:core,anatomy/body,anatomy/source,echo/probe,soft/cage,haptics/actuator,training" "opencv2/:echo,dataset,evidence,reports,apps,trainer,viewer"
   "CLI/:apps,meshes/generate" "boost/interprocess:session/shm" "GLFW/:viewer" "imgui:viewer" "epoxy/:viewer" "gtest/:tests" "pybind11/:python" "dcmtk/:exchange"
-  "sqlite3:training"
+  "sqlite3:training" "SQLiteCpp/:training"
   "nlohmann/:anatomy/compile,python,simulation,session,training,dataset,exchange,evidence,reports,trainer,apps,meshes/generate")
 
 # The rooms of public headers, which are included by their short names.

@@ -12,23 +12,13 @@ struct Inner {
   double a = 1;
   int b = 2;
 };
-template <Like<Inner> P, class F>
-void fields_of(P& params, F&& visit) {
-  auto& [a, b] = params;
-  visit("a", a);
-  visit("b", b);
-}
+ARTUS_FIELDS(Inner, a, b);
 
 struct Outer {
   bool flag = false;
   Inner inner;
 };
-template <Like<Outer> P, class F>
-void fields_of(P& params, F&& visit) {
-  auto& [flag, inner] = params;
-  visit("flag", flag);
-  visit("inner", inner);
-}
+ARTUS_FIELDS(Outer, flag, inner);
 
 TEST(VisitFields, GoesThroughTheMembersOfMembersInOrderWithDottedNames) {
   const Outer outer;

@@ -44,11 +44,11 @@ EvidenceReport small_report() {
 
 TEST(EvidenceReport, TextHasSourcePublishedValuesClaimsAndAssumptions) {
   EvidenceReport report = small_report();
-  report.plots = {{"small.png", {}}};
+  report.plots = {{"small.svg", {}}};
   const std::string text = to_markdown(report, "small");
   for (const char* part :
        {"What it shows", "Beside [Somebody1999] fig. 1.", "| force | 1 N | 0.99 N |",
-        "(small/small.png)", "| off by | 3 | <= 2 N | independent | **no** |",
+        "(small/small.svg)", "| off by | 3 | <= 2 N | independent | **no** |",
         "0 independent hold, 1 fail", "Assumed, without a source:\n\n- the speed, 10 mm/s"})
     EXPECT_THAT(text, HasSubstr(part));
 }

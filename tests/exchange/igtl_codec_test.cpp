@@ -143,8 +143,8 @@ TEST(IgtlMessage, AHeaderThatCannotBeIsRefusedWithTheReason) {
     return got ? std::string("taken") : got.error().message;
   };
   EXPECT_THAT(refusal(0, std::string_view("\0\3", 2)), HasSubstr("header version 3"));
-  EXPECT_THAT(refusal(2, std::string_view("\0", 1)), HasSubstr("no text"));
-  EXPECT_THAT(refusal(3, "\x01"), HasSubstr("no text"));
+  EXPECT_THAT(refusal(2, std::string_view("\0", 1)), HasSubstr("not text"));
+  EXPECT_THAT(refusal(3, "\x01"), HasSubstr("not text"));
   EXPECT_THAT(refusal(42, "\xFF\xFF\xFF\xFF"), HasSubstr("at most 64 MiB"));
   EXPECT_THAT(refusal(46, std::string_view("\0\0\7\xFF", 4)), HasSubstr("at most 1000"));
 }

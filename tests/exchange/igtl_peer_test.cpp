@@ -35,7 +35,7 @@ typename Theirs::Pointer receive(const std::string& bytes) {
   EXPECT_EQ(static_cast<std::size_t>(message->GetPackBodySize()), bytes.size() - ours::kHeaderSize);
   std::memcpy(message->GetPackBodyPointer(), bytes.data() + ours::kHeaderSize,
               bytes.size() - ours::kHeaderSize);
-  EXPECT_NE(message->Unpack(1) & igtl::MessageHeader::UNPACK_BODY, 0) << "check value";
+  EXPECT_NE(message->Unpack(1) & igtl::MessageHeader::UNPACK_BODY, 0) << "checksum";
   return message;
 }
 

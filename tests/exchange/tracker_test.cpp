@@ -133,7 +133,7 @@ TEST(Registration, RefusesTwoPointsAndALine) {
   line.landmarks = {{"a", Vec3(0, 0, 0)}, {"b", Vec3(0.05, 0, 0)}, {"c", Vec3(0.09, 0.001, 0)}};
   const auto fit = register_landmarks(touched(line, some_pose()), 1);
   ASSERT_FALSE(fit);
-  EXPECT_THAT(fit.error().message, HasSubstr("on a line"));
+  EXPECT_THAT(fit.error().message, HasSubstr("on one line"));
 }
 
 TEST(Registration, SaysThatPointsAreInAnotherUnit) {
@@ -164,7 +164,7 @@ TEST(Registration, ReadsPairsByTheJointsNames) {
   EXPECT_THAT(refusal("patella,1,2,3\n"), HasSubstr("pairs.csv:1"));
   EXPECT_THAT(refusal("patella,1,2,3\n"), HasSubstr("acromion, coracoid"));
   EXPECT_THAT(refusal("\nacromion,1,2\n"), HasSubstr("pairs.csv:2"));
-  EXPECT_THAT(refusal("acromion,1,2,nan\n"), HasSubstr("no number"));
+  EXPECT_THAT(refusal("acromion,1,2,nan\n"), HasSubstr("not a finite number"));
   EXPECT_THAT(refusal("acromion,1,2,3\nacromion,1,2,3\n"), HasSubstr("twice"));
 }
 

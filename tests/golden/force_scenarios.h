@@ -12,19 +12,8 @@
 namespace artus {
 
 /// The numbers, flags and choices of a tissue's haptic values, for visit_fields (core/fields.h).
-template <Like<Haptic> P, class F>
-void fields_of(P& tissue, F&& visit) {
-  auto& [cutting, stiffness, attracted, friction, clamping, puncture, hard, law, membrane] = tissue;
-  visit("cutting_force", cutting);
-  visit("wall_stiffness", stiffness);
-  visit("attracted_force", attracted);
-  visit("friction", friction);
-  visit("clamping_stiffness", clamping);
-  visit("puncture_force", puncture);
-  visit("hard", hard);
-  visit("cutting_law", law);
-  visit("prepuncture_law", membrane);
-}
+ARTUS_FIELDS(Haptic, cutting_force, wall_stiffness, attracted_force, friction, clamping_stiffness,
+             puncture_force, hard, cutting_law, prepuncture_law);
 
 namespace test {
 
@@ -36,19 +25,7 @@ struct ForceSetup {
   DeviceLimits device;
   Haptic skin, muscle, bursa, fat, bone;
 };
-template <Like<ForceSetup> P, class F>
-void fields_of(P& setup, F&& visit) {
-  auto& [needle, guard, passivity, device, skin, muscle, bursa, fat, bone] = setup;
-  visit("needle", needle);
-  visit("guard", guard);
-  visit("passivity", passivity);
-  visit("device", device);
-  visit("skin", skin);
-  visit("muscle", muscle);
-  visit("bursa", bursa);
-  visit("fat", fat);
-  visit("bone", bone);
-}
+ARTUS_FIELDS(ForceSetup, needle, guard, passivity, device, skin, muscle, bursa, fat, bone);
 
 /// A needle's way through a body that is known in closed form: flat layers or balls.
 struct ForceScenario {

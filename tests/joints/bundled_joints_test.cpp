@@ -79,6 +79,31 @@ TEST_P(BundledJoint, InjectionsStartOutsideAndEndInside) {
   }
 }
 
+// meshes/README.md says how it is made again.
+TEST(CommittedJoint, IsReadableByThisVersionAndWhatIsCompiledToday) {
+  const auto committed = read_compiled_joint(test::source_dir() / "meshes/simple-shoulder.artus");
+  ASSERT_TRUE(committed) << committed.error().to_string();
+  const auto fresh = read_compiled_joint(test::test_joints() / "simple-shoulder.artus");
+  ASSERT_TRUE(fresh) << fresh.error().to_string();
+  ASSERT_EQ(committed->regions.size(), fresh->regions.size());
+  for (std::size_t i = 0; i < fresh->regions.size(); ++i) {
+    EXPECT_EQ(committed->regions[i].name, fresh->regions[i].name);
+    EXPECT_EQ(committed->tissue_of(static_cast<RegionId>(i)).name,
+              fresh->tissue_of(static_cast<RegionId>(i)).name);
+  }
+  ASSERT_EQ(committed->injections.size(), fresh->injections.size());
+  for (std::size_t i = 0; i < fresh->injections.size(); ++i)
+    EXPECT_LT((committed->injections[i].target - fresh->injections[i].target).norm(), 1e-4);
+  EXPECT_TRUE(committed->X_JP_default.isApprox(fresh->X_JP_default, 1e-3));
+  const auto n = static_cast<double>(fresh->mesh.tetrahedra.size());
+  EXPECT_NEAR(static_cast<double>(committed->mesh.tetrahedra.size()), n, 0.02 * n);
+}
+
+TEST(CommittedJoint, IsSmall) {
+  EXPECT_LT(std::filesystem::file_size(test::source_dir() / "meshes/simple-shoulder.artus"),
+            3'500'000U);
+}
+
 INSTANTIATE_TEST_SUITE_P(Joints, BundledJoint,
                          testing::Values("simple-shoulder", "shoulder", "knee", "hip"),
                          [](const auto& parameter) {

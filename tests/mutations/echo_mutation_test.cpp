@@ -19,13 +19,7 @@ struct EchoSetup {
   ImageSettings image;
   NeedleShape needle;
 };
-template <Like<EchoSetup> P, class F>
-void fields_of(P& setup, F&& visit) {
-  auto& [transducer, image, needle] = setup;
-  visit("transducer", transducer);
-  visit("image", image);
-  visit("needle", needle);
-}
+ARTUS_FIELDS(EchoSetup, transducer, image, needle);
 
 namespace {
 

@@ -11,92 +11,31 @@
 
 namespace artus {
 
-template <Like<Syringe> P, class F>
-void fields_of(P& params, F&& visit) {
-  auto& [volume, diameter, break_loose, glide, ageing, compliance, air, dead_space, filled] =
-      params;
-  visit("volume", volume);
-  visit("diameter", diameter);
-  visit("break_loose", break_loose);
-  visit("glide", glide);
-  visit("ageing", ageing);
-  visit("compliance", compliance);
-  visit("air", air);
-  visit("dead_space", dead_space);
-  visit("filled", filled);
-}
+ARTUS_FIELDS(Syringe, volume, diameter, break_loose, glide, ageing, compliance, air, dead_space,
+             filled);
 
-template <Like<NeedleBore> P, class F>
-void fields_of(P& params, F&& visit) {
-  auto& [diameter, outer, length] = params;
-  visit("diameter", diameter);
-  visit("outer_diameter", outer);
-  visit("length", length);
-}
+ARTUS_FIELDS(NeedleBore, diameter, outer_diameter, length);
 
-template <Like<Viscosity> P, class F>
-void fields_of(P& params, F&& visit) {
-  auto& [zero, infinite, relaxation, power] = params;
-  visit("zero", zero);
-  visit("infinite", infinite);
-  visit("relaxation", relaxation);
-  visit("power", power);
-}
+ARTUS_FIELDS(Viscosity, zero, infinite, relaxation, power);
 
 template <Like<Liquid> P, class F>
 void fields_of(P& params, F&& visit) {
-  auto& [name, viscosity, density, tissue, backscatter, solids, radius, source] = params;
-  visit("viscosity", viscosity);
-  visit("density", density);
-  visit("backscatter", backscatter);
-  visit("solids", solids);
-  visit("grain_radius", radius);
+  auto& [name, viscosity, density, tissue, backscatter, solids, grain_radius, source] = params;
+  ARTUS_VISIT_FIELDS(visit, viscosity, density, backscatter, solids, grain_radius);
 }
 
 template <Like<PlungerParams> P, class F>
 void fields_of(P& params, F&& visit) {
-  auto& [syringe, needle, liquid, liquids, entry_loss, unbalanced, max_force, distance, time, lost,
-         grip, track, clog_time, seed] = params;
-  visit("syringe", syringe);
-  visit("needle", needle);
-  visit("liquid", liquid);
-  visit("entry_loss", entry_loss);
-  visit("unbalanced", unbalanced);
-  visit("most_force", max_force);
-  visit("reopen_distance", distance);
-  visit("reopen_time", time);
-  visit("lost_resistance", lost);
-  visit("grip", grip);
-  visit("track_resistance", track);
-  visit("clog_time", clog_time);
-  visit("seed", seed);
+  auto& [syringe, needle, liquid, liquids, entry_loss, unbalanced, most_force, reopen_distance,
+         reopen_time, lost_resistance, grip, track_resistance, clog_time, seed] = params;
+  ARTUS_VISIT_FIELDS(visit, syringe, needle, liquid, entry_loss, unbalanced, most_force,
+                     reopen_distance, reopen_time, lost_resistance, grip, track_resistance,
+                     clog_time, seed);
 }
 
-template <Like<SpaceLaw> P, class F>
-void fields_of(P& law, F&& visit) {
-  auto& [kind, opening, resistance, rest, stiffness, slack, toe, yield, rupture, suction,
-         suction_volume, relaxing, relaxation, film_gap, film_area, peak, peak_volume, stop,
-         contents] = law;
-  visit("kind", kind);
-  visit("opening", opening);
-  visit("resistance", resistance);
-  visit("rest", rest);
-  visit("stiffness", stiffness);
-  visit("slack", slack);
-  visit("toe", toe);
-  visit("yield", yield);
-  visit("rupture", rupture);
-  visit("suction", suction);
-  visit("suction_volume", suction_volume);
-  visit("relaxing", relaxing);
-  visit("relaxation", relaxation);
-  visit("film_gap", film_gap);
-  visit("film_area", film_area);
-  visit("peak", peak);
-  visit("peak_volume", peak_volume);
-  visit("stop", stop);
-  visit("contents", contents);
-}
+ARTUS_FIELDS(SpaceLaw, kind, opening, resistance, rest, stiffness, slack, toe, yield, rupture,
+             suction, suction_volume, relaxing, relaxation, film_gap, film_area, peak, peak_volume,
+             stop, contents);
 
 namespace test {
 namespace {
@@ -108,14 +47,7 @@ struct InjectionSetup {
   double leak_resistance = 2e10;  // Pa s/m^3
   double leak_opening = 2e3;      // Pa
 };
-template <Like<InjectionSetup> P, class F>
-void fields_of(P& setup, F&& visit) {
-  auto& [plunger, space, resistance, opening] = setup;
-  visit("plunger", plunger);
-  visit("space", space);
-  visit("leak_resistance", resistance);
-  visit("leak_opening", opening);
-}
+ARTUS_FIELDS(InjectionSetup, plunger, space, leak_resistance, leak_opening);
 
 /// What the thumb does for some time.
 struct Thumb {

@@ -189,9 +189,9 @@ def test_a_scenario_of_artus_begins_by_command(tool, simple):
 def test_the_trainer_takes_a_scenario_between_attempts_and_knobs_in_one(tool, tmp_path):
     number = free_port()
     script = tmp_path / "steps.script"
-    script.write_text("stage who\nwait 2\nkey ENTER\nstage pseudonym\nkey ENTER\nstage what\nwait 60\n"
-                      "stage briefing\nkey ENTER\nstage attempt\nawait picture 20\nwait 3\nkey F10\n"
-                      "stage end\nkey ESCAPE\n")
+    script.write_text("page who\nwait 2\nkey ENTER\npage pseudonym\nkey ENTER\npage what\nwait 60\n"
+                      "page briefing\nkey ENTER\npage attempt\nawait picture 20\nwait 3\nkey F10\n"
+                      "page end\nkey ESCAPE\n")
     trainer = subprocess.Popen(
         ["xvfb-run", "-a", tool, "train", "--records", str(tmp_path / "records.db"), "--script", str(script),
          "--language", "en", "--igtl", str(number), "--width", "640", "--height", "480"],

@@ -94,6 +94,8 @@ TEST_F(HandAidTest, ComesAndGoesWithoutAJumpAndIsZeroWhileTheSessionDoesNotRun) 
   run(300, 0, SessionCommand::kPause);
   EXPECT_EQ(last, 0);
   run(100, 0, 0);
+  EXPECT_NEAR(last, 1, 1e-6) << "the guard's ramp takes 0.2 s";
+  run(100, 0, 0);
   EXPECT_NEAR(last, 2, 1e-6);
   run(400, -100e-6, 0);
   EXPECT_EQ(last, 0) << "out again";

@@ -118,7 +118,7 @@ TEST(Feedback, LiquidInTheWrongLayerIsToldWithLayerMomentAndHaste) {
   EXPECT_NEAR(told.faults.front().time, began + 2.5, 0.2);  // half a millilitre
   EXPECT_THAT(told.faults.front().what, HasSubstr("1.0 ml"));
   EXPECT_THAT(told.faults.front().cause, HasSubstr("muscle"));
-  EXPECT_THAT(told.faults.front().cause, HasSubstr("no pause"));
+  EXPECT_THAT(told.faults.front().cause, HasSubstr("without a pause"));
   const Fault* unaspirated = fault_of(told, "unaspirated");
   ASSERT_NE(unaspirated, nullptr);
   EXPECT_NEAR(unaspirated->time, began, 0.2);

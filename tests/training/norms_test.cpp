@@ -4,6 +4,8 @@
 #include <cmath>
 #include <memory>
 
+#include <SQLiteCpp/SQLiteCpp.h>
+
 #include <gtest/gtest.h>
 
 #include "tests/support/temporary_folder.h"
@@ -92,8 +94,8 @@ TEST_F(NormRecords, TooFewAreRefusedWithTheirNumber) {
 TEST_F(NormRecords, RecordsOfTheFirstFormGetTheirTable) {
   note("a1", 1);
   {
-    auto file = SqliteFile::open(in("records.db"));
-    ASSERT_TRUE(file && file->run("DROP TABLE norm") && file->run("PRAGMA user_version = 1"));
+    SQLite::Database file(in("records.db"), SQLite::OPEN_READWRITE);
+    file.exec("DROP TABLE norm; PRAGMA user_version = 1");
   }
   auto again = Records::open(in("records.db"));
   ASSERT_TRUE(again) << again.error().to_string();

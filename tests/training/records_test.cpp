@@ -5,6 +5,7 @@
 #include <fstream>
 #include <thread>
 
+#include <SQLiteCpp/SQLiteCpp.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -95,14 +96,30 @@ TEST_F(RecordsTest, WhatIsNoDatabaseOrOfALaterFormIsRefused) {
   ASSERT_FALSE(text);
   EXPECT_EQ(text.error().code, ErrorCode::corrupt);
   {
-    auto later = SqliteFile::open(in("later.db"));
-    ASSERT_TRUE(later);
-    ASSERT_TRUE(later->run("PRAGMA user_version = 99"));
+    SQLite::Database later(in("later.db"), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+    later.exec("PRAGMA user_version = 99");
   }
   const auto later = Records::open(in("later.db"));
   ASSERT_FALSE(later);
   EXPECT_EQ(later.error().code, ErrorCode::unsupported);
   EXPECT_FALSE(Records::open("/proc/records.db"));
+}
+
+TEST_F(RecordsTest, ARefusalSaysWhatWhereAndWhatToDo) {
+  Records records = open();
+  SQLite::Database other(in("records.db"), SQLite::OPEN_READWRITE);
+  other.exec("DROP TABLE person");
+  const auto persons = records.persons();
+  ASSERT_FALSE(persons);
+  EXPECT_EQ(persons.error().where, in("records.db"));
+  EXPECT_NE(persons.error().message.find("no such table: person"), std::string::npos);
+  const auto added = records.add_person({"p1", "learner", ""});
+  ASSERT_FALSE(added);
+  EXPECT_EQ(added.error().code, ErrorCode::unreadable);
+  const auto nowhere = Records::open("/proc/records.db");
+  ASSERT_FALSE(nowhere);
+  EXPECT_EQ(nowhere.error().where, "/proc/records.db");
+  EXPECT_NE(nowhere.error().message.find("may be written"), std::string::npos);
 }
 
 TEST_F(RecordsTest, TwoProgramsWriteOneFile) {
@@ -152,10 +169,8 @@ TEST_F(RecordsTest, AKilledProgramLosesNothingThatWasFinished) {
   ASSERT_TRUE(attempts);
   for (const AttemptRecord& a : *attempts) finished += a.ended.empty() ? 0 : 1;
   EXPECT_GE(finished, promised);
-  auto file = SqliteFile::open(in("records.db"));
-  SqliteStatement ask(*file, "PRAGMA integrity_check");
-  ASSERT_TRUE(*ask.step());
-  EXPECT_EQ(ask.text(0), "ok");
+  SQLite::Database file(in("records.db"));
+  EXPECT_EQ(file.execAndGet("PRAGMA integrity_check").getString(), "ok");
 }
 
 TEST_F(RecordsTest, WhatRatersSaidIsExportedBesideTheNumbers) {

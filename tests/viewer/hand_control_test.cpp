@@ -146,10 +146,10 @@ TEST_F(OverLayers, TheNeedleGoesNoDeeperThanItsHubHoweverFarItIsPushed) {
   control.handle(request(Action::take_needle), ground_);
   control.handle(ScrollEvent{200, false}, ground_);
   EXPECT_NEAR(tip(control), 20e-3, 1e-9);
-  EXPECT_EQ(control.refusal(), Text::hub_on_skin);
+  EXPECT_STREQ(control.refusal(), "hub on the skin");
   control.handle(ScrollEvent{-2, false}, ground_);
   EXPECT_NEAR(tip(control), 19e-3, 1e-9);
-  EXPECT_FALSE(control.refusal());
+  EXPECT_EQ(control.refusal(), nullptr);
 }
 
 TEST_F(OverLayers, OnBoneAHandPressesAFewMillimetresAndNoMore) {
@@ -157,7 +157,7 @@ TEST_F(OverLayers, OnBoneAHandPressesAFewMillimetresAndNoMore) {
   control.handle(request(Action::take_needle), ground_);
   control.handle(ScrollEvent{200, false}, ground_);
   EXPECT_NEAR(tip(control), 29e-3 + HandControl::kBeyondBone, 1e-6);
-  EXPECT_EQ(control.refusal(), Text::bone_felt);
+  EXPECT_STREQ(control.refusal(), "on bone");
 }
 
 TEST_F(OverLayers, AWithdrawalIsUndoneAsOne) {
@@ -173,7 +173,7 @@ TEST_F(OverLayers, AWithdrawalIsUndoneAsOne) {
   control.handle(request(Action::undo), ground_);
   EXPECT_NEAR(tip(control), deep, 1e-9);
   control.handle(request(Action::undo), ground_);
-  EXPECT_EQ(control.refusal(), Text::nothing_to_undo);
+  EXPECT_STREQ(control.refusal(), "No withdrawal to undo");
 }
 
 TEST_F(OverLayers, ATiltedProbeSlidesOnTheSkin) {
@@ -194,14 +194,15 @@ TEST_F(OverLayers, WhatCannotBeIsRefusedWithItsReason) {
   HandControl control(start_target());
   ground_.has_entry_choice = false;
   control.handle(request(Action::choose_entry), ground_);
-  EXPECT_EQ(control.refusal(), Text::cannot_choose_air);
+  EXPECT_STREQ(control.refusal(),
+               "No skin beside the probe here: bring the probe back onto the body");
   ground_.has_entry_choice = true;
   ground_.entry_W = Vec3::Zero();
   control.handle(request(Action::choose_entry), ground_);
-  EXPECT_EQ(control.refusal(), Text::cannot_choose_inside);
+  EXPECT_STREQ(control.refusal(), "The needle is in: pull it out before another entry is chosen");
   EXPECT_EQ(control.target().buttons, 0U);
   control.handle(request(Action::explore), ground_);
-  EXPECT_EQ(control.refusal(), Text::cannot_explore);
+  EXPECT_STREQ(control.refusal(), "The needle is in: pull it out before going back to exploring");
 }
 
 TEST(BodyContact, GapAndSlopeAreThoseOfTheSkin) {

@@ -30,11 +30,11 @@ TEST(Page, AGamepadsButtonsChooseAndGoBack) {
   EXPECT_TRUE(move_on_page(Action::explore, 1, 3).back);
 }
 
-TEST(StagedScript, EachStageTakesItsOwnStepsInOrder) {
+TEST(PageScript, EachPageTakesItsOwnStepsInOrder) {
   const auto steps = parse_script(
-      "stage who\nkey ENTER\nkey DOWN\nstage attempt\nawait inside 5\nstage who\n", "test");
+      "page who\nkey ENTER\nkey DOWN\npage attempt\nawait inside 5\npage who\n", "test");
   ASSERT_TRUE(steps) << steps.error().to_string();
-  StagedScript script(*steps);
+  PageScript script(*steps);
   EXPECT_TRUE(script.given());
   EXPECT_EQ(script.take("who")->size(), 2U);
   const auto other = script.take("review");
@@ -47,16 +47,16 @@ TEST(StagedScript, EachStageTakesItsOwnStepsInOrder) {
   EXPECT_TRUE(script.over());
 }
 
-TEST(StagedScript, WithoutAScriptNobodyHasStepsAndWrongOnesAreRefused) {
-  StagedScript none;
+TEST(PageScript, WithoutAScriptNobodyHasStepsAndWrongOnesAreRefused) {
+  PageScript none;
   EXPECT_FALSE(none.given());
   EXPECT_TRUE(none.take("who")->empty());
   EXPECT_FALSE(parse_script("await nothing 3\n", "test"));
   EXPECT_FALSE(parse_script("await inside 0\n", "test"));
-  EXPECT_FALSE(parse_script("stage\n", "test"));
-  auto steps = parse_script("key ENTER\nstage who\n", "test");
+  EXPECT_FALSE(parse_script("page\n", "test"));
+  auto steps = parse_script("key ENTER\npage who\n", "test");
   ASSERT_TRUE(steps);
-  EXPECT_FALSE(StagedScript(*steps).take("who")) << "steps before the first stage are nobody's";
+  EXPECT_FALSE(PageScript(*steps).take("who")) << "steps before the first page are nobody's";
 }
 
 TEST(ReviewCursor, GoesFromFaultToFaultInOrderOfTimeAndStaysInTheFilm) {

@@ -366,9 +366,9 @@ TEST(Guide, SaysTheNextStepOfAnInjection) {
   in.needle.region = 3;
   says("S pulls the needle out");
   in.needle.inside = false;
-  says("R begins again");
+  says("R starts again");
   in.peer = PeerState::lost;
-  says("silent");
+  says("does not answer");
   in.peer = PeerState::absent;
   in.connect = "plug it in";
   says("plug it in");

@@ -29,15 +29,15 @@ TEST(ProbeReading, TellsThePressAlongTheProbeAndHowMuchOfItsFaceTouches) {
   const ProbeReading probe = read_probe(felt(Vec3(-3.24, 1, 0.5), 0.54), giving_way());
   EXPECT_TRUE(probe.felt);
   EXPECT_NEAR(probe.force, 3.24, 1e-12);
-  EXPECT_EQ(describe_probe(Language::english, probe), "probe 3.2 N, 54 % of its face");
-  EXPECT_EQ(describe_probe(Language::french, probe), "sonde 3,2 N, 54 % de sa face");
+  EXPECT_EQ(describe_probe(Language::english, probe), "probe 3.2 N, 54 % of its face in contact");
+  EXPECT_EQ(describe_probe(Language::french, probe), "sonde 3,2 N, 54 % de sa face en contact");
 }
 
 TEST(ProbeReading, SaysWhyItsForceIsHeldBack) {
   HapticSnapshot now = felt(Vec3(-1, 0, 0), 0.5);
   now.feedback.probe_status = TickStatus::kRamping;
   EXPECT_EQ(describe_probe(Language::english, read_probe(now, giving_way())),
-            "probe 1.0 N, 50 % of its face: force ramps up");
+            "probe 1.0 N, 50 % of its face in contact: force ramps up");
 }
 
 TEST(ProbeReading, IsSilentWithoutAProbeAndWhereTheBodyIsRigid) {

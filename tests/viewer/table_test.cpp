@@ -2,11 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <regex>
 #include <set>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -18,124 +14,13 @@
 #include "artus/detail/viewer/panels/help_rows.h"
 #include "artus/detail/viewer/panels/image_place.h"
 #include "artus/detail/viewer/panels/panel_layout.h"
-#include "artus/detail/viewer/words/anatomy_names.h"
-#include "artus/detail/viewer/words/strings.h"
-#include "artus/detail/viewer/words/system_words.h"
-#include "tests/support/paths.h"
+#include "artus/detail/viewer/words/translation.h"
 
 namespace artus {
 namespace {
 
 constexpr std::array<Vision, 4> kEyes{Vision::all_cones, Vision::protanopia, Vision::deuteranopia,
                                       Vision::tritanopia};
-
-std::size_t places_in(std::string_view text) {
-  std::size_t n = 0;
-  for (std::size_t at = text.find("{}"); at != std::string_view::npos; at = text.find("{}", at + 2))
-    ++n;
-  return n;
-}
-
-TEST(Strings, EveryTextIsThereInBothLanguagesWithTheSamePlaces) {
-  for (int i = 0; i < static_cast<int>(Text::n_texts); ++i) {
-    const auto which = static_cast<Text>(i);
-    ASSERT_NE(text(Language::english, which), nullptr) << i;
-    ASSERT_NE(text(Language::french, which), nullptr) << i;
-    EXPECT_GT(std::string(text(Language::english, which)).size(), 0U) << i;
-    EXPECT_GT(std::string(text(Language::french, which)).size(), 0U) << i;
-    EXPECT_EQ(places_in(text(Language::english, which)), places_in(text(Language::french, which)))
-        << text(Language::english, which);
-  }
-  EXPECT_STREQ(text(Language::english, Text::help_joint),
-               "drag turns the joint, wheel comes nearer");
-}
-
-TEST(Strings, PlacesAreFilledInOrderAndNumbersAreTheLanguages) {
-  EXPECT_EQ(fill("{} of {}", {"two", "three"}), "two of three");
-  EXPECT_EQ(fill("none", {"two"}), "none");
-  EXPECT_EQ(number(Language::french, 2.54, 1), "2,5");
-  EXPECT_EQ(number(Language::english, -0.04, 1), "0.0");
-  EXPECT_EQ(find_language("fr_FR.UTF-8"), Language::french);
-  EXPECT_FALSE(find_language("de"));
-}
-
-std::string content_of(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  std::stringstream all;
-  all << in.rdbuf();
-  return all.str();
-}
-
-TEST(Strings, NoPanelSaysWordsThatAreNotInTheTable) {
-  // What a function that shows text is given first; names behind ## are of no language.
-  const std::regex shown(
-      "(Button|SmallButton|Checkbox|TextUnformatted|TextWrapped|Text|SliderInt|outlined_text|"
-      "wrapped|coloured|say|SetTooltip|Selectable|MenuItem|fill)\\(\\s*\"([^\"]*)\"");
-  const std::set<std::string> no_words{"-", "+", "?", "%s"};
-  std::size_t files = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(test::source_dir() / "viewer")) {
-    if (entry.path().extension() != ".cpp") continue;
-    ++files;
-    const std::string code = content_of(entry.path());
-    for (std::sregex_iterator i(code.begin(), code.end(), shown), end; i != end; ++i) {
-      const std::string said = (*i)[2];
-      const bool name = said.rfind("##", 0) == 0 || (*i)[1] == "InvisibleButton" ||
-                        said == "picture" || said == "joint";
-      EXPECT_TRUE(name || no_words.count(said) == 1) << entry.path() << ": " << i->str();
-    }
-  }
-  EXPECT_GT(files, 20U);
-}
-
-TEST(SystemWords, WhatTheSystemSaysIsSaidInFrench) {
-  const auto french = [](const std::string& english) {
-    return said_by_system(Language::french, english);
-  };
-  EXPECT_EQ(french("haptics: SCHED_FIFO priority: Operation not permitted"),
-            "haptique : priorité SCHED_FIFO : opération non autorisée");
-  EXPECT_EQ(french("imaging: nice value -10: Permission denied"),
-            "imagerie : priorité (nice) -10 : permission refusée");
-  EXPECT_EQ(french("shared memory /artusPOS was removed; made anew"),
-            "mémoire partagée /artusPOS supprimée ; recréée");
-  EXPECT_EQ(french("an image of 700 x 900 pixels is too large for IMAGE"),
-            "une image de 700 x 900 pixels est trop grande pour IMAGE");
-  EXPECT_EQ(french("imaging failed: std::bad_alloc; it is tried again"),
-            "l'imagerie a échoué : mémoire insuffisante ; elle est tentée de nouveau");
-  EXPECT_EQ(french("what nobody knows"), "what nobody knows");
-  EXPECT_EQ(said_by_system(Language::english, "mouse and keyboard"), "mouse and keyboard");
-}
-
-/// What a file's code says by one of these calls, or names with them.
-std::vector<std::string> said_in(const char* file, const std::string& call) {
-  const std::string code = content_of(test::source_dir() / "session" / file);
-  const std::regex said(call + "\"([^\"]+)\"");
-  std::vector<std::string> all;
-  for (std::sregex_iterator i(code.begin(), code.end(), said), end; i != end; ++i)
-    all.push_back((*i)[1]);
-  return all;
-}
-
-TEST(SystemWords, EverythingThatTheSessionTellsIsInTheTable) {
-  const std::string table = content_of(test::source_dir() / "viewer" / "system_words.cpp");
-  std::size_t n = 0;
-  for (const auto& [file, call] :
-       {std::pair{"session.cpp", "tell\\("},
-        {"session.cpp", "ask\\("},
-        {"session_thread.cpp", "refused\\.push_back\\("},
-        {"shared_memory.cpp", "return "},
-        {"hand_device.h", "name\\(\\) const noexcept override \\{ return "},
-        {"injecting_device.h", "name\\(\\) const noexcept override \\{ return "},
-        {"recorded_device.h", "name\\(\\) const noexcept override \\{ return "},
-        {"shared_memory_device.h", "name\\(\\) const noexcept override \\{ return "}}) {
-    const auto all = said_in(file, call);
-    EXPECT_FALSE(all.empty()) << file << ' ' << call;
-    n += all.size();
-    for (const std::string& said : all) {
-      EXPECT_NE(table.find(said), std::string::npos) << file << ": " << said;
-    }
-  }
-  EXPECT_GE(n, 15U);
-}
 
 TEST(HelpRows, EveryActionIsToldWithItsKeyInBothLanguages) {
   for (const Language language : {Language::english, Language::french}) {
@@ -192,35 +77,6 @@ TEST(KeyMap, KeysAreSaidInTheLanguage) {
   EXPECT_EQ(map.said_key(Action::let_go, Language::french), "Échap");
   EXPECT_EQ(map.said_key(Action::depth_less, Language::french), "maj+D");
   EXPECT_EQ(map.said_key(Action::freeze, Language::french), "F");
-}
-
-/// The names of the structures and injections of a joint file.
-std::vector<std::string> names_in(const std::filesystem::path& joint) {
-  std::vector<std::string> names;
-  std::ifstream in(joint);
-  bool wanted = false;
-  for (std::string line; std::getline(in, line);) {
-    if (line.rfind("[[", 0) == 0) wanted = line == "[[structure]]" || line == "[[injection]]";
-    if (!wanted || line.rfind("name = \"", 0) != 0) continue;
-    names.push_back(line.substr(8, line.rfind('"') - 8));
-    wanted = false;
-  }
-  return names;
-}
-
-TEST(AnatomyNames, EveryStructureAndInjectionOfOurJointsHasAFrenchName) {
-  const std::set<std::string> alike{"fibula",    "tibia",     "patella", "scapula",
-                                    "sartorius", "cartilage", "tendon",  "muscle"};
-  for (const char* joint : {"simple-shoulder", "shoulder", "real-shoulder", "knee", "hip"}) {
-    const auto names = names_in(test::source_dir() / "meshes" / joint / "joint.toml");
-    EXPECT_GT(names.size(), 5U) << joint;
-    for (const std::string& name : names) {
-      if (alike.count(name) == 0) {
-        EXPECT_NE(clinical_name(Language::french, name), clinical_name(Language::english, name))
-            << joint;
-      }
-    }
-  }
 }
 
 TEST(KeyMap, PushLiesAbovePullOnAzerty) {

@@ -160,7 +160,8 @@ TEST_F(WindowEventsTest, AFrozenPictureKeepsItsDepthAndItsCalipersGoWithIt) {
     const cv::Mat second = cv::imread((folder_ / "bmode-2.png").string());
     EXPECT_EQ(first.size(), second.size()) << "the picture is still 40 mm deep";
     person.x().key("f");
-    person.wait_until("no calipers", [](const WindowStatus& s) { return s.caliper_points == 0; });
+    person.wait_until("clear calipers",
+                      [](const WindowStatus& s) { return s.caliper_points == 0; });
   });
 }
 
@@ -239,7 +240,7 @@ TEST_F(WindowEventsTest, ADeviceThatDiesLeavesItsLastStateMarked) {
     person.wait_until("deep", [](const WindowStatus& s) { return s.needle.depth > 19e-3; });
     hand_->set_connected(false);
     person.wait_until("it is told", [](const WindowStatus& s) {
-      return s.next.find("silent") != std::string::npos;
+      return s.next.find("does not answer") != std::string::npos;
     });
     EXPECT_GT(person.seen().needle.depth, 19e-3);
     EXPECT_TRUE(person.seen().needle.inside);

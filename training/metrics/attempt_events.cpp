@@ -86,7 +86,7 @@ void add_syringe_events(const AttemptView& view, const Put& put) {
   put(noticed, "misplaced", all / kCubicCentimetre,
       printed("%.1f ml with the tip in ", *most / kCubicCentimetre) +
           regions[static_cast<std::size_t>(most - astray.begin())].name +
-          (sum.pauses > 0 ? "" : ", and no pause to look after the first of it"));
+          (sum.pauses > 0 ? "" : ", without a pause to check where the first drops went"));
 }
 
 /// What was shown with the probe, and why the first that was not shown was not.

@@ -112,7 +112,7 @@ void put_course(Sheet& sheet, const AttemptView& view) {
             sum.swept_area * view.options.needle.outer_diameter / (kSquare * kMillimetre),
             "swept area times the needle's outer diameter");
   sheet.put("needle", "deepest_mm", "mm", sum.deepest / kMillimetre,
-            "largest way from the skin to the tip along the needle");
+            "largest distance from the skin to the tip along the needle");
   const auto idle = find_idle(course);
   double still = 0;
   for (const Run& run : idle) still += run.amount;
@@ -133,10 +133,11 @@ void put_sight(Sheet& sheet, const AttemptView& view) {
   const auto scaled = [](Value value, double unit) {
     return value ? Value(*value / unit) : value;
   };
-  sheet.put("both", "in_plane_fraction", "-",
-            sum.advanced > 0 ? Value(sum.advanced_in_plane / sum.advanced) : Value(),
-            "share of the way advanced in tissue with the tip within half the slice's thickness at "
-            "its depth and the shaft within 5 degrees of the plane");
+  sheet.put(
+      "both", "in_plane_fraction", "-",
+      sum.advanced > 0 ? Value(sum.advanced_in_plane / sum.advanced) : Value(),
+      "share of the distance advanced in tissue with the tip within half the slice's thickness at "
+      "its depth and the shaft within 5 degrees of the plane");
   sheet.put("both", "plane_offset_median_mm", "mm",
             scaled(percentile(sum.offsets, 0.5), kMillimetre), "tip to image plane, inside");
   sheet.put("both", "plane_offset_p90_mm", "mm", scaled(percentile(sum.offsets, 0.9), kMillimetre),
@@ -155,11 +156,11 @@ void put_sight(Sheet& sheet, const AttemptView& view) {
             there ? Value(static_cast<double>(sum.unseen.size())) : Value(),
             "runs of 1 mm or more advanced in tissue while the tip is not seen");
   sheet.put("both", "unseen_mm", "mm", there ? Value(unseen / kMillimetre) : Value(),
-            "way advanced in those runs");
-  sheet.put("both", "unseen_entry_mm", "mm",
-            there ? Value(sum.outside_picture / kMillimetre) : Value(),
-            "way advanced in tissue before the tip first came between the picture's edges; 0 when "
-            "it never did");
+            "distance advanced in those runs");
+  sheet.put(
+      "both", "unseen_entry_mm", "mm", there ? Value(sum.outside_picture / kMillimetre) : Value(),
+      "distance advanced in tissue before the tip first came between the picture's edges; 0 when "
+      "it never did");
   std::vector<double> face;
   double drift = 0;
   double needling = 0;
@@ -271,7 +272,7 @@ void put_forces(Sheet& sheet, const AttemptView& view) {
   sheet.put("needle", "bone_speed_mm_s", "mm/s", when(speed / kMillimetre),
             "fastest touch of bone");
   sheet.put("needle", "bone_scratch_mm", "mm", when(scratch / kMillimetre),
-            "way of the tip while it stood on bone");
+            "path length of the tip while it stood on bone");
   const auto& regions = view.scene.joint().regions;
   for (std::size_t i = kFirstRegion; i < m.layers.size(); ++i) {
     const LayerForce& layer = m.layers[i];
@@ -333,7 +334,7 @@ void put_syringe(Sheet& sheet, const AttemptView& view) {
   sheet.put("syringe", "pressure_peak_kpa", "kPa", when(sum.peak_pressure / 1e3),
             "largest pressure in the barrel");
   sheet.put("syringe", "tip_drift_mm", "mm", when(sum.tip_drift / kMillimetre),
-            "farthest way of the tip from where a flow began, while it lasted");
+            "farthest distance of the tip from where a flow began, while it lasted");
   sheet.put("syringe", "test_dose_ml", "ml",
             sum.pauses > 0 ? Value(sum.test_dose / kCubicCentimetre) : Value(),
             "given before the first pause of 2 s or more; none when nothing came after one");

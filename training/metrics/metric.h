@@ -34,7 +34,7 @@ struct Metric {
 
 /// An array of objects with every member; numbers read back to the same bits, null for none.
 [[nodiscard]] nlohmann::json to_json(std::span<const Metric> metrics);
-/// The other way. Throws nlohmann::json::exception for what to_json did not write.
+/// Back from that. Throws nlohmann::json::exception for what to_json did not write.
 [[nodiscard]] std::vector<Metric> metrics_from_json(const nlohmann::json& json);
 
 /// Header MetricName, MetricRoles, MetricUnit, MetricValue and a line a metric, separated by tabs,

@@ -56,14 +56,14 @@ struct Run {
                                          double speed = kRestSpeed, double longest = 3);
 
 /// When each pass of the needle began: the first advance inside, and every advance of at least
-/// `way` m that follows a withdrawal of at least `way`, dated when the needle was last within
-/// 0.2 mm of its shallowest before it.
+/// `distance` m that follows a withdrawal of at least `distance`, dated when the needle was last
+/// within 0.2 mm of its shallowest before it.
 [[nodiscard]] std::vector<double> find_passes(std::span<const CoursePoint> course,
                                               double distance = 5e-3);
 
 /// When the shaft had turned inside the body by more than `angle` rad between two rests (slower
-/// than 2 mm/s), without a withdrawal of `way` m between them. One turn counts once: the next can
-/// begin when the shaft has held its direction within 1 degree for half a second.
+/// than 2 mm/s), without a withdrawal of `distance` m between them. One turn counts once: the next
+/// can begin when the shaft has held its direction within 1 degree for half a second.
 [[nodiscard]] std::vector<double> find_redirections(std::span<const CoursePoint> course,
                                                     double angle = 0.08726646259971647,
                                                     double distance = 5e-3);

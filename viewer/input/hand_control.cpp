@@ -35,12 +35,12 @@ void HandControl::push(double length, const HandGround& ground) {
   if (length > 0 && skin) {
     const Vec3 entry = hub + *skin * axis;
     double most = *skin;  // m until the hub meets the skin
-    Text reason = Text::hub_on_skin;
+    const char* reason = msgid("hub on the skin");
     const auto bone = ground.body.find_bone(entry, axis, needle_length_);
     const double to_bone = bone ? *skin + *bone + kBeyondBone - needle_length_ : most;
     if (to_bone < most) {
       most = to_bone;
-      reason = Text::bone_felt;
+      reason = msgid("on bone");
     }
     if (length > most) {
       length = std::max(most, 0.0);
@@ -129,11 +129,11 @@ void HandControl::press_thumb(double force) {
 
 bool HandControl::choose_entry(const HandGround& ground) {
   if (ground.entry_W)
-    refusal_ = Text::cannot_choose_inside;
+    refusal_ = msgid("The needle is in: pull it out before another entry is chosen");
   else if (ground.phase == GesturePhase::inserting)
-    refusal_ = Text::cannot_choose_again;
+    refusal_ = msgid("An entry is chosen already: {} goes back to exploring");
   else if (!ground.has_entry_choice)
-    refusal_ = Text::cannot_choose_air;
+    refusal_ = msgid("No skin beside the probe here: bring the probe back onto the body");
   else
     target_.buttons = Button::kCalibrate;
   return true;
@@ -141,7 +141,7 @@ bool HandControl::choose_entry(const HandGround& ground) {
 
 bool HandControl::explore(const HandGround& ground) {
   if (ground.entry_W)
-    refusal_ = Text::cannot_explore;
+    refusal_ = msgid("The needle is in: pull it out before going back to exploring");
   else
     target_.buttons = Button::kExplore;
   return true;
@@ -157,7 +157,7 @@ void HandControl::go_home() {
 
 bool HandControl::undo(const HandGround& ground) {
   if (!before_pull_ || !ground.entry_W) {
-    refusal_ = Text::nothing_to_undo;
+    refusal_ = msgid("No withdrawal to undo");
     return true;
   }
   target_.X_WN = *before_pull_;
@@ -177,7 +177,7 @@ bool HandControl::move_with_arrow(Action action, bool fine, const HandGround& gr
 }
 
 bool HandControl::handle(Action action, bool fine, const HandGround& ground) {
-  refusal_.reset();
+  refusal_ = nullptr;
   const double step = fine ? 0.1 : 1;
   const double sign = action == Action::pull ? -1 : 1;
   switch (action) {
@@ -269,7 +269,7 @@ bool HandControl::handle_pad(const PadEvent& pad, const HandGround& ground) {
 bool HandControl::handle(const UserEvent& event, const HandGround& ground) {
   if (const auto* request = std::get_if<ActionEvent>(&event))
     return handle(request->action, request->fine, ground);
-  refusal_.reset();
+  refusal_ = nullptr;
   if (const auto* move = std::get_if<MoveEvent>(&event)) return handle_move(*move, ground);
   if (const auto* scroll = std::get_if<ScrollEvent>(&event)) return handle_scroll(*scroll, ground);
   if (const auto* pad = std::get_if<PadEvent>(&event)) return handle_pad(*pad, ground);

@@ -7,7 +7,7 @@
 #include "artus/detail/simulation/two_phase_gesture.h"
 #include "artus/detail/viewer/input/body_contact.h"
 #include "artus/detail/viewer/input/user_event.h"
-#include "artus/detail/viewer/words/strings.h"
+#include "artus/detail/viewer/words/translation.h"
 
 namespace artus {
 
@@ -62,8 +62,9 @@ class HandControl {
   [[nodiscard]] Grab grab() const noexcept { return grab_; }
   [[nodiscard]] const HandTarget& target() const noexcept { return target_; }
   void set_target(const HandTarget& target) noexcept { target_ = target; }
-  /// Why the last event did less than it asked for; empty when it did all.
-  [[nodiscard]] std::optional<Text> refusal() const noexcept { return refusal_; }
+  /// Why the last event did less than it asked for, in English, {} for the key that goes back to
+  /// exploring; null when it did all.
+  [[nodiscard]] const char* refusal() const noexcept { return refusal_; }
 
  private:
   bool take(Grab what);
@@ -88,7 +89,7 @@ class HandControl {
   HandTarget target_;
   double needle_length_;  // m
   Grab grab_ = Grab::nothing;
-  std::optional<Text> refusal_;
+  const char* refusal_ = nullptr;
   std::optional<PlainPose> before_pull_;  // needle before the pulls that are not yet pushed again
   bool pulling_ = false;
   bool have_cursor_ = false;

@@ -64,21 +64,21 @@ constexpr std::array<KeyRow, kCount> kRows{{{"none", ""},
 
 struct NamedKey {
   std::string_view key;
-  Text said;
+  const char* said;
 };
 
-constexpr std::array<NamedKey, 12> kNamedKeys{{{"ESCAPE", Text::key_escape},
-                                               {"SPACE", Text::key_space},
-                                               {"HOME", Text::key_home},
-                                               {"TAB", Text::key_tab},
-                                               {"ENTER", Text::key_enter},
-                                               {"BACKSPACE", Text::key_backspace},
-                                               {"LEFT", Text::key_left},
-                                               {"RIGHT", Text::key_right},
-                                               {"UP", Text::key_up},
-                                               {"DOWN", Text::key_down},
-                                               {"PAGE_UP", Text::key_page_up},
-                                               {"PAGE_DOWN", Text::key_page_down}}};
+constexpr std::array<NamedKey, 12> kNamedKeys{{{"ESCAPE", msgid("Esc")},
+                                               {"SPACE", msgid("Space")},
+                                               {"HOME", msgid("Home")},
+                                               {"TAB", msgid("Tab")},
+                                               {"ENTER", msgid("Enter")},
+                                               {"BACKSPACE", msgid("Backspace")},
+                                               {"LEFT", msgid("Left")},
+                                               {"RIGHT", msgid("Right")},
+                                               {"UP", msgid("Up")},
+                                               {"DOWN", msgid("Down")},
+                                               {"PAGE_UP", msgid("Page up")},
+                                               {"PAGE_DOWN", msgid("Page down")}}};
 constexpr std::string_view kShift = "shift+";
 
 bool is_function_key(std::string_view key) {
@@ -198,10 +198,10 @@ std::string KeyMap::said_key(Action action, Language language) const {
   std::string said;
   if (key.compare(0, kShift.size(), kShift) == 0) {
     key.erase(0, kShift.size());
-    said = std::string(text(language, Text::key_shift)) + "+";
+    said = std::string(translate(language, "shift")) + "+";
   }
   for (const NamedKey& named : kNamedKeys) {
-    if (named.key == key) return said + text(language, named.said);
+    if (named.key == key) return said + translate(language, named.said);
   }
   return said + key;
 }

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "artus/core/result.h"
-#include "artus/detail/viewer/words/strings.h"
+#include "artus/detail/viewer/words/translation.h"
 
 namespace artus {
 

@@ -65,9 +65,9 @@ std::optional<ScriptStep> parse_other(const std::string& word, std::istringstrea
     if (read(in, file)) return ScreenshotStep{file};
   } else if (word == "connect" || word == "disconnect") {
     return ConnectStep{word == "connect"};
-  } else if (word == "stage") {
-    StageStep stage;
-    if (read(in, stage.stage)) return stage;
+  } else if (word == "page") {
+    PageStep page;
+    if (read(in, page.name)) return page;
   } else if (word == "await") {
     AwaitStep await;
     if (read(in, await.what, await.seconds) && await.seconds > 0 &&
@@ -114,16 +114,16 @@ Result<std::vector<ScriptStep>> parse_script(std::string_view text, const std::s
   return steps;
 }
 
-Result<std::vector<ScriptStep>> StagedScript::take(const std::string& stage) {
+Result<std::vector<ScriptStep>> PageScript::take(const std::string& page) {
   std::vector<ScriptStep> own;
   if (!given() || over()) return own;
-  const auto* head = std::get_if<StageStep>(&steps_[next_]);
-  if (head == nullptr || head->stage != stage)
+  const auto* head = std::get_if<PageStep>(&steps_[next_]);
+  if (head == nullptr || head->name != page)
     return fail(ErrorCode::failed,
-                "this is '" + stage + "', and the script goes on with " +
-                    (head == nullptr ? "no stage" : "'" + head->stage + "'"),
+                "this is '" + page + "', and the script goes on with " +
+                    (head == nullptr ? "no page" : "'" + head->name + "'"),
                 "script");
-  for (++next_; !over() && !std::holds_alternative<StageStep>(steps_[next_]); ++next_)
+  for (++next_; !over() && !std::holds_alternative<PageStep>(steps_[next_]); ++next_)
     own.push_back(steps_[next_]);
   return own;
 }

@@ -42,9 +42,9 @@ struct MeasureStep {
   double to_x_mm = 0;
   double to_y_mm = 0;
 };
-/// What follows belongs to the page or window of that name: see StagedScript.
-struct StageStep {
-  std::string stage;
+/// What follows belongs to the page or window of that name: see PageScript.
+struct PageStep {
+  std::string name;
 };
 /// Lets time pass until something is so, and no longer than some seconds.
 struct AwaitStep {
@@ -52,28 +52,28 @@ struct AwaitStep {
   double seconds = 0;
 };
 using ScriptStep = std::variant<UserEvent, WaitStep, TissueStep, ScreenshotStep, ConnectStep,
-                                CameraStep, MeasureStep, StageStep, AwaitStep>;
+                                CameraStep, MeasureStep, PageStep, AwaitStep>;
 
 /// The steps of a script, one a line; `#` begins a comment:
 ///   wait SECONDS | key [shift+]NAME | move X Y | button N down|up | scroll NOTCHES [fine]
 ///   pad LEFT_X LEFT_Y RIGHT_X RIGHT_Y PUSH SECONDS | tissue NAME ALPHA | screenshot FILE
 ///   connect | disconnect | camera YAW_DEG PITCH_DEG DISTANCE_MM | measure X Y X Y
-///   stage NAME | await picture|inside|outside SECONDS
+///   page NAME | await picture|inside|outside SECONDS
 /// Errors: malformed, with file and line.
 [[nodiscard]] Result<std::vector<ScriptStep>> parse_script(std::string_view text,
                                                            const std::string& name);
 
 /// A script over several pages and windows, one after the other: each takes its own steps.
-class StagedScript {
+class PageScript {
  public:
-  StagedScript() = default;
-  explicit StagedScript(std::vector<ScriptStep> steps) : steps_(std::move(steps)) {}
+  PageScript() = default;
+  explicit PageScript(std::vector<ScriptStep> steps) : steps_(std::move(steps)) {}
 
   [[nodiscard]] bool given() const noexcept { return !steps_.empty(); }
   [[nodiscard]] bool over() const noexcept { return next_ >= steps_.size(); }
-  /// The steps between the next "stage NAME" and the one after it, when that is `stage`'s. Errors:
-  /// failed, when another stage's steps are next, naming both; never without a script.
-  [[nodiscard]] Result<std::vector<ScriptStep>> take(const std::string& stage);
+  /// The steps between the next "page NAME" and the one after it, when that is `page`'s. Errors:
+  /// failed, when another page's steps are next, naming both; never without a script.
+  [[nodiscard]] Result<std::vector<ScriptStep>> take(const std::string& page);
 
  private:
   std::vector<ScriptStep> steps_;

@@ -39,7 +39,7 @@ struct PageChoice {
 
 /// A page of a window: lines, and choices of which one is taken by mouse, keyboard or gamepad.
 struct Page {
-  std::string stage;  ///< its name in scripts
+  std::string name;  ///< its name in scripts
   std::string title;
   std::vector<PageLine> lines;
   std::vector<PageChoice> choices;
@@ -70,11 +70,9 @@ struct PageOptions {
   Language language = Language::english;
   KeyMap keys;
   double font_scale = 1;
-  StagedScript* script = nullptr;  ///< whose steps the pages take; null: a person is there
+  PageScript* script = nullptr;  ///< whose steps the pages take; null: a person is there
   std::function<bool()> asked_to_close;
 };
-
-class PageGui;
 
 /// Shows pages on a screen, one after the other, until it is destroyed.
 class PageWindow {
@@ -85,12 +83,13 @@ class PageWindow {
   PageWindow& operator=(const PageWindow&) = delete;
 
   /// Until something is chosen, the page is done or the window is closed. A script that has no
-  /// steps left closes the window. Errors: those of StagedScript::take, unreadable (a picture
+  /// steps left closes the window. Errors: those of PageScript::take, unreadable (a picture
   /// cannot be written), failed (a script's steps choose nothing).
   [[nodiscard]] Result<PageAnswer> show(Page page);
 
  private:
-  std::unique_ptr<PageGui> gui_;
+  class Shown;
+  std::unique_ptr<Shown> shown_;
 };
 
 }  // namespace artus

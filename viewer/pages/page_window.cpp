@@ -6,7 +6,7 @@
 
 #include "artus/detail/viewer/joint3d/gl_objects.h"
 #include "artus/detail/viewer/pages/page.h"
-#include "artus/detail/viewer/pages/stage_gui.h"
+#include "artus/detail/viewer/pages/page_gui.h"
 #include "artus/detail/viewer/panels/panels.h"
 #include "artus/detail/viewer/panels/shade.h"
 
@@ -36,18 +36,18 @@ void draw_lines(const std::vector<PageLine>& lines) {
 }  // namespace
 
 /// The page that is shown and what was done with it.
-class PageGui {
+class PageWindow::Shown {
  public:
-  PageGui(Screen& screen, PageOptions options)
-      : options_(std::move(options)), stage_(screen, options_) {}
+  Shown(Screen& screen, PageOptions options)
+      : options_(std::move(options)), gui_(screen, options_) {}
 
   [[nodiscard]] Result<PageAnswer> show(Page page) {
     page_ = std::move(page);
     answer_.reset();
     scroll_ = true;
-    ARTUS_TRY(stage_.begin(page_.stage));
-    const auto closed = stage_.run([this](const UserEvent& event) { act(event); },
-                                   [this] { look(); }, [this] { return over(); });
+    ARTUS_TRY(gui_.begin(page_.name));
+    const auto closed = gui_.run([this](const UserEvent& event) { act(event); }, [this] { look(); },
+                                 [this] { return over(); });
     ARTUS_TRY(closed);
     if (*closed) return PageAnswer{PageAnswer::Kind::closed, 0};
     return answer_.value_or(PageAnswer{PageAnswer::Kind::done, 0});
@@ -81,7 +81,7 @@ class PageGui {
   void look() {
     if (page_.refresh) page_.refresh(page_);
     const ImVec2 size = ImGui::GetIO().DisplaySize;
-    const float edge = 18 * stage_.scale();
+    const float edge = 18 * gui_.scale();
     ImGui::SetNextWindowPos(ImVec2(0, 0));
     ImGui::SetNextWindowSize(size);
     ImGui::Begin("###page", nullptr,
@@ -112,9 +112,9 @@ class PageGui {
     ImGui::SetWindowFontScale(1.5F);
     draw_lines({{page_.title, Tone::heading}});
     ImGui::SetWindowFontScale(1);
-    ImGui::Dummy(ImVec2(0, 4 * stage_.scale()));
+    ImGui::Dummy(ImVec2(0, 4 * gui_.scale()));
     draw_lines(page_.lines);
-    ImGui::Dummy(ImVec2(0, 4 * stage_.scale()));
+    ImGui::Dummy(ImVec2(0, 4 * gui_.scale()));
     const float right = ImGui::GetWindowContentRegionMax().x;
     for (std::size_t i = 0; i < page_.choices.size(); ++i) {
       const PageChoice& choice = page_.choices[i];
@@ -146,7 +146,7 @@ class PageGui {
                                    0.62F * room.y / static_cast<float>(picture.height));
       ImGui::Image(to_imgui(texture_.id()), ImVec2(scale * static_cast<float>(picture.width),
                                                    scale * static_cast<float>(picture.height)));
-      ImGui::Dummy(ImVec2(0, 4 * stage_.scale()));
+      ImGui::Dummy(ImVec2(0, 4 * gui_.scale()));
     }
     draw_lines(choice.about);
   }
@@ -159,15 +159,15 @@ class PageGui {
     };
     const std::string said =
         page_.may_back
-            ? fill(text(language, Text::page_keys_back),
+            ? fill(translate(language, "{} and {} choose, {} goes on, {} goes back"),
                    {key(Action::up), key(Action::down), key(Action::accept), key(Action::let_go)})
-            : fill(text(language, Text::page_keys),
+            : fill(translate(language, "{} and {} choose, {} goes on"),
                    {key(Action::up), key(Action::down), key(Action::accept)});
     draw_lines({{said, Tone::dim}});
   }
 
   PageOptions options_;
-  StageGui stage_;
+  PageGui gui_;
   GlTexture texture_;
   std::shared_ptr<const PagePicture> shown_;
   Page page_;
@@ -177,11 +177,11 @@ class PageGui {
 };
 
 PageWindow::PageWindow(Screen& screen, PageOptions options)
-    : gui_(std::make_unique<PageGui>(screen, std::move(options))) {}
+    : shown_(std::make_unique<Shown>(screen, std::move(options))) {}
 PageWindow::~PageWindow() = default;
 
 Result<PageAnswer> PageWindow::show(Page page) {
-  return gui_->show(std::move(page));
+  return shown_->show(std::move(page));
 }
 
 }  // namespace artus

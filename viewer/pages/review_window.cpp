@@ -7,8 +7,8 @@
 
 #include "artus/detail/core/units.h"
 #include "artus/detail/viewer/joint3d/joint_view.h"
+#include "artus/detail/viewer/pages/page_gui.h"
 #include "artus/detail/viewer/pages/review.h"
-#include "artus/detail/viewer/pages/stage_gui.h"
 #include "artus/detail/viewer/panels/lesson.h"
 #include "artus/detail/viewer/panels/panels.h"
 #include "artus/detail/viewer/panels/shade.h"
@@ -93,7 +93,7 @@ class ReviewGui {
   ReviewGui(Screen& screen, const PageOptions& options, const Review& review)
       : options_(options),
         review_(review),
-        stage_(screen, options_),
+        gui_(screen, options_),
         cursor_(review.film.length(), times_of(review.faults)),
         yours_(review.scene, review.params),
         beside_(review.scene, review.params) {
@@ -105,9 +105,9 @@ class ReviewGui {
                                  needle_length_of(review_.params));
     ARTUS_TRY(joint);
     joint_ = std::move(*joint);
-    ARTUS_TRY(stage_.begin("review"));
-    const auto closed = stage_.run([this](const UserEvent& event) { act(event); },
-                                   [this] { look(); }, [this] { return over_; });
+    ARTUS_TRY(gui_.begin("review"));
+    const auto closed = gui_.run([this](const UserEvent& event) { act(event); }, [this] { look(); },
+                                 [this] { return over_; });
     ARTUS_TRY(closed);
     return !*closed;
   }
@@ -210,24 +210,23 @@ class ReviewGui {
     ImGui::End();
   }
 
-  void button(Text which, Action action, bool on = false) {
+  void button(const char* which, Action action, bool on = false) {
     if (on) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
     const std::string key = options_.keys.said_key(action, options_.language);
-    const std::string name = std::string(text(options_.language, which)) + " (" + key + ")###" +
-                             std::string(name_of(action));
+    const std::string name = std::string(translate(options_.language, which)) + " (" + key +
+                             ")###" + std::string(name_of(action));
     if (ImGui::Button(name.c_str())) act(ActionEvent{action, false});
     if (on) ImGui::PopStyleColor();
     ImGui::SameLine();
   }
 
   void draw_buttons() {
-    button(cursor_.playing() ? Text::review_stop : Text::review_play, Action::pause,
-           cursor_.playing());
-    button(Text::review_truth, Action::labels, truth_);
-    button(Text::review_other, Action::dual);
-    button(Text::review_earlier, Action::cine_back);
-    button(Text::review_later, Action::cine_forward);
-    button(Text::review_back, Action::let_go);
+    button(cursor_.playing() ? msgid("stop") : msgid("play"), Action::pause, cursor_.playing());
+    button(msgid("truth"), Action::labels, truth_);
+    button(msgid("other picture"), Action::dual);
+    button(msgid("earlier fault"), Action::cine_back);
+    button(msgid("later fault"), Action::cine_forward);
+    button(msgid("Back"), Action::let_go);
     ImGui::TextUnformatted(review_.title.c_str());
   }
 
@@ -244,8 +243,8 @@ class ReviewGui {
   }
 
   void draw_yours(const ReviewMoment& now) {
-    const std::string title =
-        fill(text(options_.language, Text::review_you), {number(options_.language, now.time, 1)});
+    const std::string title = fill(translate(options_.language, "You, at {} s"),
+                                   {number(options_.language, now.time, 1)});
     const auto [corner, scale] = draw_image(yours_, title);
     if (truth_) draw_truth(now, corner, scale);
   }
@@ -263,15 +262,15 @@ class ReviewGui {
                       scale * static_cast<float>(image.height));
     ImDrawList* list = ImGui::GetWindowDrawList();
     list->PushClipRect(corner, ImVec2(corner.x + size.x, corner.y + size.y), true);
-    const float radius = 6 * stage_.scale();
+    const float radius = 6 * gui_.scale();
     if (now.picture.has_needle != 0) {
       const Pose X_JN = to_pose(now.picture.X_JN);
       const ImVec2 tip = place(X_JN.translation());
       outlined_line(list, tip, place(X_JN * Vec3(0, 0, -needle_length_of(review_.params))));
-      list->AddCircle(tip, radius, kForceColour, 0, 2 * stage_.scale());
+      list->AddCircle(tip, radius, kForceColour, 0, 2 * gui_.scale());
     }
     if (review_.target_J)
-      list->AddCircle(place(*review_.target_J), radius, kThumbColour, 0, 2 * stage_.scale());
+      list->AddCircle(place(*review_.target_J), radius, kThumbColour, 0, 2 * gui_.scale());
     std::vector<NamedPoint> names;
     for (const PictureLabel& label :
          find_picture_labels(*image.body, to_pose(now.picture.X_JP), image.width * image.pixel,
@@ -286,21 +285,22 @@ class ReviewGui {
     const Language language = options_.language;
     if (page_ == Beside::inside) return draw_inside(now);
     if (page_ == Beside::expert) {
-      draw_image(beside_, fill(text(language, Text::review_expert),
+      draw_image(beside_, fill(translate(language, "The expert, at {} s"),
                                {number(language, expert_now().time, 1)}));
       return;
     }
     if (!mended_) {
-      ImGui::TextWrapped("%s", text(language, Text::review_outside));
+      ImGui::TextWrapped("%s", translate(language, "The needle is not in the body here"));
       return;
     }
-    draw_image(beside_, fill(text(language, Text::review_mended),
-                             {number(language, std::abs(mended_->turned) / kDegree, 0),
-                              number(language, std::abs(mended_->moved) / kMillimetre, 1)}));
+    draw_image(beside_,
+               fill(translate(language, "The probe corrected: turned {} degrees, moved {} mm"),
+                    {number(language, std::abs(mended_->turned) / kDegree, 0),
+                     number(language, std::abs(mended_->moved) / kMillimetre, 1)}));
   }
 
   void draw_inside(const ReviewMoment& now) {
-    ImGui::TextUnformatted(text(options_.language, Text::review_inside));
+    ImGui::TextUnformatted(translate(options_.language, "Inside the joint"));
     const ImVec2 room = ImGui::GetContentRegionAvail();
     const std::optional<EntryChoice> no_entry;
     const ImVec2 corner = ImGui::GetCursorScreenPos();
@@ -318,7 +318,7 @@ class ReviewGui {
   }
 
   /// One curve in its share of the line's height.
-  void draw_curve(const ImVec2& from, const ImVec2& size, ImU32 colour, Text name,
+  void draw_curve(const ImVec2& from, const ImVec2& size, ImU32 colour, const char* name,
                   const std::function<double(const HapticSnapshot&)>& value) {
     const auto& moments = review_.film.moments;
     double most = 1e-9;
@@ -332,9 +332,9 @@ class ReviewGui {
           from.y + size.y * static_cast<float>(1 - 0.95 * value(moments[i].state) / most));
     ImDrawList* list = ImGui::GetWindowDrawList();
     list->AddPolyline(points.data(), static_cast<int>(points.size()), colour, false,
-                      1.3F * stage_.scale());
+                      1.3F * gui_.scale());
     const std::string said =
-        std::string(text(options_.language, name)) + " " + number(options_.language, most, 1);
+        std::string(translate(options_.language, name)) + " " + number(options_.language, most, 1);
     list->AddText(ImVec2(from.x + 4, from.y), colour, said.c_str());
   }
 
@@ -354,27 +354,27 @@ class ReviewGui {
         std::any_of(review_.film.moments.begin(), review_.film.moments.end(),
                     [](const ReviewMoment& m) { return m.state.feedback.plunger.thumb_force > 0; });
     const ImVec2 row(size.x, size.y / (thumb ? 3 : 2));
-    draw_curve(from, row, kDepthColour, Text::review_depth, [](const HapticSnapshot& s) {
+    draw_curve(from, row, kDepthColour, msgid("depth, mm"), [](const HapticSnapshot& s) {
       return s.inserted != 0 ? s.feedback.depth / kMillimetre : 0;
     });
-    draw_curve(ImVec2(from.x, from.y + row.y), row, kForceColour, Text::review_force, axial_force);
+    draw_curve(ImVec2(from.x, from.y + row.y), row, kForceColour, msgid("force, N"), axial_force);
     if (thumb)
       draw_curve(
-          ImVec2(from.x, from.y + 2 * row.y), row, kThumbColour, Text::review_thumb,
+          ImVec2(from.x, from.y + 2 * row.y), row, kThumbColour, msgid("thumb, N"),
           [](const HapticSnapshot& s) { return std::max(0.0, s.feedback.plunger.thumb_force); });
     const auto x_of = [&](double time) {
       return from.x + size.x * static_cast<float>(time / length);
     };
-    const float wing = 6 * stage_.scale();
+    const float wing = 6 * gui_.scale();
     for (const ReviewFault& fault : review_.faults) {
       const float x = x_of(fault.time);
-      list->AddLine(ImVec2(x, from.y), ImVec2(x, end.y), kFaultColour, stage_.scale());
+      list->AddLine(ImVec2(x, from.y), ImVec2(x, end.y), kFaultColour, gui_.scale());
       list->AddTriangleFilled(ImVec2(x - wing, from.y), ImVec2(x + wing, from.y),
                               ImVec2(x, from.y + 1.5F * wing), kFaultColour);
     }
     const float x = x_of(cursor_.time());
     list->AddLine(ImVec2(x, from.y), ImVec2(x, end.y), IM_COL32(255, 255, 255, 255),
-                  1.5F * stage_.scale());
+                  1.5F * gui_.scale());
   }
 
   void draw_texts(const ReviewMoment& now) {
@@ -382,20 +382,20 @@ class ReviewGui {
       ImGui::TextWrapped("%s", said.c_str());
     };
     if (truth_ && review_.why) wrapped(review_.why(now.state));
-    if (review_.faults.empty()) return wrapped(text(options_.language, Text::review_no_fault));
+    if (review_.faults.empty()) return wrapped(translate(options_.language, "No fault stood out"));
     const auto near = cursor_.near();
     if (!near) return;
     const ReviewFault& fault = review_.faults[*near];
-    wrapped_text(number(options_.language, fault.time, 1) +
-                     (options_.language == Language::french ? " s : " : " s: ") + fault.what,
+    wrapped_text(fill(translate(options_.language, "{}: {}"),
+                      {number(options_.language, fault.time, 1) + " s", fault.what}),
                  kFaultText);
-    wrapped(fill(text(options_.language, Text::review_cause), {fault.cause}));
-    wrapped(fill(text(options_.language, Text::review_do), {fault.mend}));
+    wrapped(fill(translate(options_.language, "Why: {}"), {fault.cause}));
+    wrapped(fill(translate(options_.language, "Do: {}"), {fault.mend}));
   }
 
   const PageOptions& options_;
   const Review& review_;
-  StageGui stage_;
+  PageGui gui_;
   ReviewCursor cursor_;
   MomentPicture yours_;
   MomentPicture beside_;

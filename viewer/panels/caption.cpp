@@ -142,9 +142,9 @@ std::string settings_line(Language language, const ImageSnapshot& image) {
     return number(language, value, 0);
   };
   return whole(image.height * image.pixel / kMillimetre) + " mm  " + whole(c.frequency * 1e-6) +
-         " MHz  " + text(language, Text::gain) + " " + (c.gain_db > 0 ? "+" : "") +
-         whole(c.gain_db) + " dB  " + text(language, Text::range) + " " +
-         whole(c.dynamic_range_db) + " dB  " + text(language, Text::focus) + " " +
+         " MHz  " + translate(language, "gain") + " " + (c.gain_db > 0 ? "+" : "") +
+         whole(c.gain_db) + " dB  " + translate(language, "range") + " " +
+         whole(c.dynamic_range_db) + " dB  " + translate(language, "focus") + " " +
          whole(c.elevation_focus / kMillimetre) + " mm";
 }
 
@@ -180,7 +180,7 @@ cv::Mat captioned_picture(const ImageSnapshot& image, const Caption& caption) {
   const std::string who = caption.patient + (caption.patient.empty() ? "" : "   ") + caption.side;
   write(picture, who, {kCaptionLeft, 15}, kWhite);
   write(picture, caption.date, {width - 150, 15}, kWhite);
-  write(picture, text(caption.language, Text::simulated), {width - 150, 32}, kOverlay);
+  write(picture, translate(caption.language, "SIMULATED"), {width - 150, 32}, kOverlay);
   write(picture, settings_line(caption.language, image), {kCaptionLeft, picture.rows - 8}, kWhite);
   const int mark = caption.look.flipped ? kCaptionLeft + image.width - 6 : kCaptionLeft + 6;
   cv::circle(picture, {mark, kCaptionTop - 6}, 4, bgr(kOverlay), cv::FILLED, cv::LINE_AA);

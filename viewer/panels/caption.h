@@ -8,7 +8,7 @@
 #include "artus/detail/viewer/joint3d/body_mark.h"
 #include "artus/detail/viewer/panels/display_look.h"
 #include "artus/detail/viewer/panels/image_place.h"
-#include "artus/detail/viewer/words/strings.h"
+#include "artus/detail/viewer/words/translation.h"
 
 namespace artus {
 

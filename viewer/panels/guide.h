@@ -7,7 +7,7 @@
 #include "artus/detail/viewer/input/hand_control.h"
 #include "artus/detail/viewer/input/key_map.h"
 #include "artus/detail/viewer/panels/needle_reading.h"
-#include "artus/detail/viewer/words/strings.h"
+#include "artus/detail/viewer/words/translation.h"
 
 namespace artus {
 

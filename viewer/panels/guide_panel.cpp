@@ -16,22 +16,23 @@ constexpr Shade kGoal{1, 0.88F, 0.4F};
 
 /// In a narrow window one panel stands beside the picture; here it is chosen.
 void draw_choice_of_panels(ViewState& state) {
-  constexpr std::array<std::pair<Panel, Text>, 6> kChoices{{{Panel::joint, Text::panel_joint},
-                                                            {Panel::scanner, Text::panel_scanner},
-                                                            {Panel::session, Text::panel_session},
-                                                            {Panel::tissues, Text::panel_tissues},
-                                                            {Panel::force, Text::panel_force},
-                                                            {Panel::rates, Text::panel_rates}}};
+  constexpr std::array<std::pair<Panel, const char*>, 6> kChoices{
+      {{Panel::joint, msgid("Joint")},
+       {Panel::scanner, msgid("Scanner")},
+       {Panel::session, msgid("Session")},
+       {Panel::tissues, msgid("Tissues")},
+       {Panel::force, msgid("Force")},
+       {Panel::rates, msgid("Rates")}}};
   const float right = ImGui::GetWindowContentRegionMax().x;
   for (const auto& [panel, name] : kChoices) {
     if (state.expert && (panel == Panel::joint || panel == Panel::tissues)) continue;
     const float width =
-        ImGui::CalcTextSize(tell(state, name)).x + 2 * ImGui::GetStyle().FramePadding.x;
+        ImGui::CalcTextSize(translate(state, name)).x + 2 * ImGui::GetStyle().FramePadding.x;
     if (ImGui::GetCursorPosX() + width > right && ImGui::GetCursorPosX() > width) ImGui::NewLine();
     const bool chosen = state.layout.chosen() == panel;
     if (chosen)
       ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
-    if (ImGui::SmallButton(tell(state, name))) state.layout.choose(panel);
+    if (ImGui::SmallButton(translate(state, name))) state.layout.choose(panel);
     if (chosen) ImGui::PopStyleColor();
     ImGui::SameLine();
   }
@@ -50,7 +51,7 @@ void draw_task(const PanelInput& in, const ViewState& state) {
 void draw_message(const PanelInput& in, const ViewState& state) {
   ImGui::PushTextWrapPos(0);
   if (state.wants_clip)
-    ImGui::TextColored(ImVec4(1, 0.3F, 0.3F, 1), "\xe2\x97\x8f %s %s s", tell(state, Text::rec),
+    ImGui::TextColored(ImVec4(1, 0.3F, 0.3F, 1), "\xe2\x97\x8f %s %s s", translate(state, "REC"),
                        number(state.language, in.clip_seconds, 1).c_str());
   if (!state.message.empty()) wrapped_text(state.message, kGood);
   ImGui::PopTextWrapPos();
@@ -59,7 +60,7 @@ void draw_message(const PanelInput& in, const ViewState& state) {
 }  // namespace
 
 void draw_guide_panel(const PanelInput& in, ViewState& state) {
-  const PanelScope scope(Panel::guide, Text::panel_guide, state,
+  const PanelScope scope(Panel::guide, msgid("Guide"), state,
                          ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoCollapse);
   if (!scope) return;
   const bool narrow = state.layout.narrow();
@@ -87,19 +88,20 @@ void draw_welcome(const PanelInput& in, ViewState& state) {
   ImGui::Begin("###welcome", nullptr,
                ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoTitleBar |
                    ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
-  ImGui::TextUnformatted(tell(state, Text::choice_title));
-  action_button(state, Text::choice_explore, Action::take_probe);
+  ImGui::TextUnformatted(translate(state, "What would you like to do?"));
+  action_button(state, msgid("Explore with the probe"), Action::take_probe);
   const auto& injections = in.session->scene().joint().injections;
   for (std::size_t i = 0; in.has_hand && i < injections.size(); ++i) {
     const std::string name =
-        fill(tell(state, Text::choice_inject),
+        fill(translate(state, "Inject {}: {}"),
              {std::to_string(i + 1), clinical_name(state.language, injections[i].name)});
     if (ImGui::Button(name.c_str())) state.planned = i;
     if (i % 2 == 0 && i + 1 < injections.size() && !state.layout.narrow()) ImGui::SameLine();
   }
-  if (state.offers_training && ImGui::Button(tell(state, Text::choice_train)))
+  if (state.offers_training &&
+      ImGui::Button(translate(state, "Train: tasks with a verdict, a review and a record")))
     state.quit = state.training = true;
-  action_button(state, Text::choice_help, Action::help);
+  action_button(state, msgid("Help: all keys"), Action::help);
   ImGui::End();
   ImGui::PopStyleColor();
 }
@@ -107,14 +109,17 @@ void draw_welcome(const PanelInput& in, ViewState& state) {
 void draw_help(const PanelInput& in, ViewState& state) {
   if (!state.help) return;
   std::vector<HelpRow> rows = help_rows(state.keys, state.language);
-  rows.push_back({tell(state, Text::key_ctrl), tell(state, Text::help_tilt)});
-  rows.push_back({tell(state, Text::key_shift), tell(state, Text::help_shift)});
+  rows.push_back(
+      {translate(state, "ctrl"),
+       translate(state, "ctrl with the probe in hand: mouse rocks and fans, wheel presses")});
+  rows.push_back({translate(state, "shift"),
+                  translate(state, "with mouse, wheel or arrows: ten times finer")});
   float keys = 0;
   for (const HelpRow& row : rows) keys = std::max(keys, ImGui::CalcTextSize(row.keys.c_str()).x);
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos(ImVec2(size.x / 2, size.y / 2), ImGuiCond_Appearing, ImVec2(0.5F, 0.5F));
   ImGui::SetNextWindowSizeConstraints(ImVec2(0, 0), ImVec2(0.96F * size.x, 0.92F * size.y));
-  const std::string title = std::string(tell(state, Text::panel_keys)) + "###keys";
+  const std::string title = std::string(translate(state, "Keys")) + "###keys";
   ImGui::Begin(title.c_str(), &state.help,
                ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings);
   ImGui::PushTextWrapPos(0.9F * size.x);
@@ -123,10 +128,13 @@ void draw_help(const PanelInput& in, ViewState& state) {
     ImGui::SameLine(keys + 2 * ImGui::GetFontSize());
     ImGui::TextUnformatted(row.what);
   }
-  ImGui::TextUnformatted(tell(state, Text::help_joint));
-  ImGui::TextUnformatted(tell(state, Text::help_pad));
+  ImGui::TextUnformatted(translate(state, "drag turns the joint, wheel zooms"));
+  ImGui::TextUnformatted(
+      translate(state,
+                "left stick probe, right stick needle, triggers push and pull; right bumper: the "
+                "triggers press the plunger; A entry, B back, X freeze, Y reset"));
   if (in.gamepad != nullptr)
-    ImGui::TextUnformatted(fill(tell(state, Text::gamepad), {in.gamepad}).c_str());
+    ImGui::TextUnformatted(fill(translate(state, "gamepad: {}"), {in.gamepad}).c_str());
   ImGui::PopTextWrapPos();
   ImGui::End();
 }

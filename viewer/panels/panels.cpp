@@ -9,11 +9,12 @@
 
 namespace artus {
 
-PanelScope::PanelScope(Panel panel, Text title, ViewState& state, int flags) {
+PanelScope::PanelScope(Panel panel, const char* title, ViewState& state, int flags) {
   const PanelPlace place = state.layout.place(panel);
   if (place.width <= 0) return;
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
-  const std::string name = std::string(tell(state, title)) + "###" + std::string(name_of(panel));
+  const std::string name =
+      std::string(translate(state, title)) + "###" + std::string(name_of(panel));
   ImGuiStorage* seen = ImGui::GetStateStorage();  // of the implicit window: versions by panel
   const ImGuiID id = ImGui::GetID(name_of(panel).data());
   const bool fresh = seen->GetInt(id) != state.layout.version();
@@ -79,14 +80,14 @@ void draw_names(ImDrawList* list, const ImVec2& corner, const ImVec2& size,
   }
 }
 
-std::string with_key(const ViewState& state, Text which, Action action) {
+std::string with_key(const ViewState& state, const char* which, Action action) {
   const std::string key = state.keys.said_key(action, state.language);
-  std::string shown = tell(state, which);
+  std::string shown = translate(state, which);
   if (!key.empty()) shown += " (" + key + ")";
   return shown + "###" + std::string(name_of(action));
 }
 
-void action_button(ViewState& state, Text which, Action action, bool on) {
+void action_button(ViewState& state, const char* which, Action action, bool on) {
   if (on) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
   if (ImGui::Button(with_key(state, which, action).c_str()))
     state.requests.push_back({action, false});
@@ -96,29 +97,30 @@ void action_button(ViewState& state, Text which, Action action, bool on) {
 std::string describe_status(Language language, std::uint32_t status) {
   struct Bit {
     std::uint32_t bit;
-    Text text;
+    const char* text;
   };
-  constexpr std::array<Bit, 14> kBits{{{SessionStatus::kPeerLost, Text::device_lost},
-                                       {SessionStatus::kPeerInvalid, Text::device_invalid},
-                                       {SessionStatus::kPaused, Text::is_paused},
-                                       {SessionStatus::kNoNeedle, Text::no_needle},
-                                       {TickStatus::kNotFinite, Text::not_finite},
-                                       {TickStatus::kNotRigid, Text::not_rigid},
-                                       {TickStatus::kTeleport, Text::jumped},
-                                       {TickStatus::kTimeReversed, Text::time_reversed},
-                                       {TickStatus::kStale, Text::stale},
-                                       {TickStatus::kOutOfWorkspace, Text::out_of_workspace},
-                                       {TickStatus::kLawNotFinite, Text::law_not_finite},
-                                       {TickStatus::kRamping, Text::ramping},
-                                       {TickStatus::kSlewLimited, Text::slew},
-                                       {TickStatus::kSaturated, Text::saturated}}};
+  constexpr std::array<Bit, 14> kBits{
+      {{SessionStatus::kPeerLost, msgid("device lost: no force")},
+       {SessionStatus::kPeerInvalid, msgid("device sends no valid pose")},
+       {SessionStatus::kPaused, msgid("paused")},
+       {SessionStatus::kNoNeedle, msgid("no needle")},
+       {TickStatus::kNotFinite, msgid("pose not finite")},
+       {TickStatus::kNotRigid, msgid("pose not rigid")},
+       {TickStatus::kTeleport, msgid("needle jumped")},
+       {TickStatus::kTimeReversed, msgid("time ran backwards")},
+       {TickStatus::kStale, msgid("pose is stale")},
+       {TickStatus::kOutOfWorkspace, msgid("out of the workspace")},
+       {TickStatus::kLawNotFinite, msgid("force not finite")},
+       {TickStatus::kRamping, msgid("force ramps up")},
+       {TickStatus::kSlewLimited, msgid("force change limited")},
+       {TickStatus::kSaturated, msgid("at the device's limit")}}};
   std::string said;
   for (const Bit& bit : kBits) {
     if ((status & bit.bit) == 0) continue;
     if (!said.empty()) said += ", ";
-    said += text(language, bit.text);
+    said += translate(language, bit.text);
   }
-  return said.empty() ? text(language, Text::all_well) : said;
+  return said.empty() ? translate(language, "all well") : said;
 }
 
 }  // namespace artus

@@ -15,7 +15,7 @@ namespace artus {
 /// person moved it. Nothing is drawn in a panel that is not shown.
 class PanelScope {
  public:
-  PanelScope(Panel panel, Text title, ViewState& state, int flags = 0);
+  PanelScope(Panel panel, const char* title, ViewState& state, int flags = 0);
   ~PanelScope();
   PanelScope(const PanelScope&) = delete;
   PanelScope& operator=(const PanelScope&) = delete;
@@ -58,14 +58,14 @@ void draw_names(ImDrawList* list, const ImVec2& corner, const ImVec2& size,
 void outlined_line(ImDrawList* list, const ImVec2& a, const ImVec2& b);
 [[nodiscard]] ImU32 to_imgui(const Rgb& colour, int alpha = 255) noexcept;
 [[nodiscard]] ImTextureID to_imgui(unsigned texture) noexcept;
-/// The table's text in the window's language.
-[[nodiscard]] inline const char* tell(const ViewState& state, Text which) noexcept {
-  return text(state.language, which);
+/// A sentence in the window's language.
+[[nodiscard]] inline const char* translate(const ViewState& state, const char* english) noexcept {
+  return translate(state.language, english);
 }
 /// "freeze (F)": a button's text with its key. After ### stands a name of no language.
-[[nodiscard]] std::string with_key(const ViewState& state, Text which, Action action);
+[[nodiscard]] std::string with_key(const ViewState& state, const char* which, Action action);
 /// A button that asks for an action; bright while what it asks for is `on`.
-void action_button(ViewState& state, Text which, Action action, bool on = false);
+void action_button(ViewState& state, const char* which, Action action, bool on = false);
 
 /// What the bits of a tick's status say, for people; "all well" for none.
 [[nodiscard]] std::string describe_status(Language language, std::uint32_t status);

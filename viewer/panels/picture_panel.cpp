@@ -184,7 +184,7 @@ void draw_marks(const Sheet& sheet, const PanelInput& in, const ViewState& state
   const std::string& side = in.session->scene().joint().side;
   if (side == "left" || side == "right")
     who += (who.empty() ? "" : "  ") +
-           std::string(tell(state, side == "left" ? Text::side_left : Text::side_right));
+           std::string(translate(state, side == "left" ? msgid("left") : msgid("right")));
   outlined_text(sheet.list, ImVec2(at.x + 16 * sheet.unit, at.y + 2), who);
 }
 
@@ -197,8 +197,8 @@ void draw_aids(const Sheet& sheet, const PanelInput& in, const ViewState& state)
   const bool live = in.peer == PeerState::alive && !in.session->frozen();
   if (state.aids && live && in.needle.inside) {
     const std::string said =
-        in.needle.in_plane ? std::string(tell(state, Text::in_plane))
-                           : fill(tell(state, Text::out_of_plane),
+        in.needle.in_plane ? std::string(translate(state, "needle in plane"))
+                           : fill(translate(state, "needle out of plane: {} mm, {} deg"),
                                   {number(state.language, in.needle.plane_offset / kMillimetre, 1),
                                    number(state.language, in.needle.plane_angle / kDegree, 0)});
     outlined_text(sheet.list, ImVec2(at.x + 4, at.y + sheet.size.y - line), said);
@@ -230,7 +230,7 @@ void draw_lesson_marks(const Sheet& sheet, const PanelInput& in) {
 
 std::string live_or_frozen(const PanelInput& in, const ViewState& state) {
   if (!in.session->frozen()) return {};
-  std::string said = tell(state, Text::frozen);
+  std::string said = translate(state, "frozen");
   if (in.cine_age > 0) said += "  -" + number(state.language, in.cine_age, 1) + " s";
   return said;
 }
@@ -292,7 +292,7 @@ void draw_sheet(const Sheet& sheet, const PanelInput& in, const ViewState& state
 void draw_kept(const PanelInput& in, const ViewState& state, const Columns& columns) {
   const Sheet sheet = make_sheet(*in.kept, columns.corner(1), columns.scale, state);
   draw_grey(sheet, in.kept_texture, state);
-  draw_sheet(sheet, in, state, tell(state, Text::kept));
+  draw_sheet(sheet, in, state, translate(state, "kept"));
   draw_body_mark(sheet, in, columns.left(2) - 4 * sheet.unit);
   draw_settings(sheet, columns, 1, state.language);
 }
@@ -321,11 +321,11 @@ void draw_picture(const PanelInput& in, ViewState& state) {
 }  // namespace
 
 void draw_image_panel(const PanelInput& in, ViewState& state) {
-  const PanelScope scope(Panel::picture, Text::panel_picture, state,
+  const PanelScope scope(Panel::picture, msgid("B-mode"), state,
                          ImGuiWindowFlags_NoScrollWithMouse);
   if (!scope) return;
   if (in.image == nullptr || in.image->width == 0)
-    ImGui::TextUnformatted(tell(state, Text::no_image));
+    ImGui::TextUnformatted(translate(state, "no image yet"));
   else
     draw_picture(in, state);
 }

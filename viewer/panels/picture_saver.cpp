@@ -94,8 +94,8 @@ std::string PictureSaver::save(const ImageSnapshot& image, const Caption& captio
   const cv::Mat picture =
       plain ? plain_picture(image, caption.look) : captioned_picture(image, caption);
   const bool written = cv::haveImageWriter(file.string()) && cv::imwrite(file.string(), picture);
-  const Text said = written ? Text::saved : Text::not_saved;
-  return fill(text(caption.language, said), {std::filesystem::absolute(file, error).string()});
+  const char* const said = written ? msgid("saved {}") : msgid("cannot write {}");
+  return fill(translate(caption.language, said), {std::filesystem::absolute(file, error).string()});
 }
 
 std::string PictureSaver::begin_clip(const ImageSnapshot& image, Language language) {
@@ -105,8 +105,8 @@ std::string PictureSaver::begin_clip(const ImageSnapshot& image, Language langua
   clip_ = std::make_unique<Clip>();
   clip_->file = next("clip-", ".avi");
   clip_->size = cv::Size(image.width, image.height);
-  if (clip_->open()) return fill(text(language, Text::clip_begun), {clip_->file.string()});
-  std::string refusal = fill(text(language, Text::not_saved), {clip_->file.string()});
+  if (clip_->open()) return fill(translate(language, "clip started: {}"), {clip_->file.string()});
+  std::string refusal = fill(translate(language, "cannot write {}"), {clip_->file.string()});
   clip_.reset();
   return refusal;
 }
@@ -133,9 +133,11 @@ void PictureSaver::end_clip() {
 std::string PictureSaver::take_written(Language language) {
   if (!closing_ || !closing_->written) return {};
   std::error_code error;
-  std::string said = fill(text(language, Text::clip_saved),
-                          {std::to_string(closing_->frames),
-                           std::filesystem::absolute(closing_->file, error).string()});
+  std::string said =
+      fill(translate_count(language, "saved clip of {} picture: {}",
+                           "saved clip of {} pictures: {}", static_cast<long>(closing_->frames)),
+           {std::to_string(closing_->frames),
+            std::filesystem::absolute(closing_->file, error).string()});
   closing_.reset();
   return said;
 }

@@ -161,15 +161,16 @@ void draw_force_over_time(const PanelInput& in, const ViewState& state, Plot plo
   draw_curve(list, plot, state.trace, x, &TracePoint::lateral, kLateral);
   draw_curve(list, plot, state.trace, x, &TracePoint::force, kForce);
   const float font = ImGui::GetFontSize();
-  list->AddText(ImVec2(plot.from.x, plot.to.y + 2), kText, tell(state, Text::plot_force_time));
+  list->AddText(ImVec2(plot.from.x, plot.to.y + 2), kText,
+                translate(state, "resistance to insertion, N, last 10 s"));
   ImVec2 legend(plot.from.x + 4, plot.to.y - 1.2F * font);
-  const auto name_curve = [&](Text name, ImU32 colour) {
-    list->AddText(legend, colour, tell(state, name));
-    legend.x += ImGui::CalcTextSize(tell(state, name)).x + font;
+  const auto name_curve = [&](const char* name, ImU32 colour) {
+    list->AddText(legend, colour, translate(state, name));
+    legend.x += ImGui::CalcTextSize(translate(state, name)).x + font;
   };
-  name_curve(Text::plot_along, kForce);
-  name_curve(Text::plot_sideways, kLateral);
-  if (in.probe.felt) name_curve(Text::plot_probe, kProbe);
+  name_curve(msgid("along"), kForce);
+  name_curve(msgid("sideways"), kLateral);
+  if (in.probe.felt) name_curve(msgid("probe"), kProbe);
 }
 
 void draw_force_over_depth(const PanelInput& in, const ViewState& state, Plot plot) {
@@ -191,7 +192,7 @@ void draw_force_over_depth(const PanelInput& in, const ViewState& state, Plot pl
   draw_frame(list, plot, step_for(plot.y_high - plot.y_low), state.language);
   draw_curve(list, plot, trace, x, &TracePoint::force, kForce);
   const std::string title =
-      fill(tell(state, Text::plot_force_depth), {number(state.language, plot.x_high, 0)});
+      fill(translate(state, "insertion, {} mm"), {number(state.language, plot.x_high, 0)});
   list->AddText(ImVec2(plot.from.x, plot.to.y + 2), kText, title.c_str());
 }
 
@@ -243,7 +244,7 @@ Plot plot_in(const ImVec2& at, const ImVec2& size, float left) {
 }  // namespace
 
 void draw_force_panel(const PanelInput& in, ViewState& state) {
-  const PanelScope scope(Panel::force, Text::panel_force, state);
+  const PanelScope scope(Panel::force, msgid("Force"), state);
   if (!scope) return;
   const ImVec2 room = ImGui::GetContentRegionAvail();
   const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -260,7 +261,7 @@ void draw_force_panel(const PanelInput& in, ViewState& state) {
 }
 
 void draw_rates_panel(const PanelInput& in, ViewState& state) {
-  const PanelScope scope(Panel::rates, Text::panel_rates, state);
+  const PanelScope scope(Panel::rates, msgid("Rates"), state);
   if (!scope) return;
   const SessionTimes& t = in.session->times();
   const auto rate = [](const LatencyHistogram& h) {
@@ -270,11 +271,11 @@ void draw_rates_panel(const PanelInput& in, ViewState& state) {
     return number(state.language, value, 0);
   };
   const std::string haptic_line =
-      fill(tell(state, Text::rates_haptics),
+      fill(translate(state, "haptics {} Hz, compute p99.9 {} us   late p99 {} us"),
            {whole(in.session->params().haptic_rate), whole(t.haptic_compute.percentile_us(0.999)),
             whole(t.haptic_lateness.percentile_us(0.99))});
   const std::string image_line =
-      fill(tell(state, Text::rates_images),
+      fill(translate(state, "images {} Hz, pose to image p95 {} ms   window {} Hz"),
            {whole(rate(t.image_interval)), whole(1e-3 * t.pose_to_image.percentile_us(0.95)),
             whole(in.window_rate)});
   for (const std::string& line : {haptic_line, image_line}) ImGui::TextWrapped("%s", line.c_str());
@@ -282,10 +283,10 @@ void draw_rates_panel(const PanelInput& in, ViewState& state) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const Plot haptics = plot_in(at, ImVec2(room.x, room.y / 2), 2);
   const Plot images = plot_in(ImVec2(at.x, at.y + room.y / 2), ImVec2(room.x, room.y / 2), 2);
-  draw_times(tell(state, Text::plot_haptics), t.haptic_compute, t.haptic_lateness, haptics, 1e3,
-             "1000 Hz");
-  draw_times(tell(state, Text::plot_images), t.image_render, t.image_interval, images, 1e6 / 30,
-             "30 Hz");
+  draw_times(translate(state, "haptics: compute, lateness; 1 us .. 1 s"), t.haptic_compute,
+             t.haptic_lateness, haptics, 1e3, "1000 Hz");
+  draw_times(translate(state, "images: render, interval; 1 us .. 1 s"), t.image_render,
+             t.image_interval, images, 1e6 / 30, "30 Hz");
   ImGui::Dummy(room);
 }
 

@@ -3,21 +3,22 @@
 #include <array>
 
 #include "artus/detail/simulation/records.h"
-#include "artus/detail/viewer/words/strings.h"
+#include "artus/detail/viewer/words/translation.h"
 
 namespace artus {
 
 /// Knobs for a kind of examination.
 struct ScannerPreset {
-  Text name;
+  const char* name;
   double depth;            ///< m
   double frequency;        ///< Hz
   double elevation_focus;  ///< m
 };
 /// assumed: what musculoskeletal guides recommend for the depth of each region.
-inline constexpr std::array<ScannerPreset, 3> kPresets{{{Text::preset_shoulder, 40e-3, 12e6, 20e-3},
-                                                        {Text::preset_hip, 70e-3, 7e6, 40e-3},
-                                                        {Text::preset_hand, 25e-3, 16e6, 10e-3}}};
+inline constexpr std::array<ScannerPreset, 3> kPresets{
+    {{msgid("shoulder"), 40e-3, 12e6, 20e-3},
+     {msgid("deep (hip)"), 70e-3, 7e6, 40e-3},
+     {msgid("shallow (hand)"), 25e-3, 16e6, 10e-3}}};
 
 /// The knobs with those of a preset.
 [[nodiscard]] inline ImageControls with_preset(ImageControls controls,

@@ -18,7 +18,7 @@ ProbeReading read_probe(const HapticSnapshot& now, const SessionParams& params) 
 std::string describe_probe(Language language, const ProbeReading& probe) {
   if (!probe.felt) return {};
   std::string said =
-      fill(text(language, Text::probe_line),
+      fill(translate(language, "probe {} N, {} % of its face in contact"),
            {number(language, probe.force, 1), number(language, 100 * probe.share, 0)});
   if (probe.status != 0) said += ": " + describe_status(language, probe.status);
   return said;

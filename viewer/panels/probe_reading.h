@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include "artus/detail/viewer/words/strings.h"
+#include "artus/detail/viewer/words/translation.h"
 #include "artus/session/session.h"
 
 namespace artus {

@@ -34,43 +34,43 @@ std::string gauge_of(const NeedleShape& shape) {
 void draw_needle_state(const PanelInput& in, const ViewState& state) {
   const Language language = state.language;
   if (in.peer != PeerState::alive && in.now.input.tick != 0)
-    wrapped(fill(tell(state, Text::last_state),
+    wrapped(fill(translate(state, "last state, {} s ago; now: {}"),
                  {number(language, in.lost_for, 0), describe_status(language, in.status)}),
             kIll);
   if (in.now.input.tick == 0) return;
   const Vec3 force(in.now.force_J[0], in.now.force_J[1], in.now.force_J[2]);
   const Vec3 torque(in.now.torque_J[0], in.now.torque_J[1], in.now.torque_J[2]);
-  wrapped(fill(tell(state, Text::depth_force),
+  wrapped(fill(translate(state, "depth {} mm   {} N   {} mN m"),
                {number(language, in.needle.depth / kMillimetre, 1),
                 number(language, force.norm(), 2), number(language, 1e3 * torque.norm(), 0)}));
   if (in.needle.on_bone && in.needle.hand_excess > 0)
-    wrapped(fill(tell(state, Text::hand_excess),
+    wrapped(fill(translate(state, "the hand is {} mm ahead of the needle: {} N"),
                  {number(language, in.needle.hand_excess / kMillimetre, 1),
                   number(language, force.norm(), 2)}),
             kIll);
-  if (in.needle.hub_on_skin) wrapped(tell(state, Text::hub_on_skin), kIll);
+  if (in.needle.hub_on_skin) wrapped(translate(state, "hub on the skin"), kIll);
   if (!state.aids || state.expert) return;
-  wrapped(fill(tell(state, Text::tip_in), {in.needle.layer}));
+  wrapped(fill(translate(state, "tip in: {}"), {in.needle.layer}));
   if (!in.goal.empty() && in.needle.to_target > 0)
-    wrapped(fill(tell(state, Text::target_away),
+    wrapped(fill(translate(state, "tip to target {} mm"),
                  {number(language, in.needle.to_target / kMillimetre, 1)}));
 }
 
 /// Whose hand it is, and whether it is there.
 std::string device_line(const PanelInput& in, const ViewState& state) {
-  constexpr std::array<Text, 4> kPeers{Text::peer_absent, Text::peer_alive, Text::peer_lost,
-                                       Text::peer_invalid};
+  constexpr std::array<const char*, 4> kPeers{msgid("absent"), msgid("connected"), msgid("lost"),
+                                              msgid("invalid")};
   static_assert(static_cast<int>(PeerState::absent) == 0 &&
                 static_cast<int>(PeerState::invalid) == 3);
   const std::string name = said_by_system(state.language, std::string(in.session->device_name()));
-  return fill(tell(state, Text::device_line),
-              {name, tell(state, kPeers.at(static_cast<std::size_t>(in.peer)))});
+  return fill(translate(state, "{}: {}"),
+              {name, translate(state, kPeers.at(static_cast<std::size_t>(in.peer)))});
 }
 
 }  // namespace
 
 void draw_session_panel(const PanelInput& in, ViewState& state) {
-  const PanelScope scope(Panel::session, Text::panel_session, state);
+  const PanelScope scope(Panel::session, msgid("Session"), state);
   if (!scope) return;
   const bool alive = in.peer == PeerState::alive;
   wrapped(device_line(in, state), alive ? kWell : kIll);
@@ -82,26 +82,26 @@ void draw_session_panel(const PanelInput& in, ViewState& state) {
   draw_syringe(in, state);
   draw_patient_words(in, state);
   const SessionParams& params = in.session->params();
-  wrapped(fill(tell(state, Text::needle_size),
+  wrapped(fill(translate(state, "needle {} G, {} mm"),
                {gauge_of(params.needle_shape),
                 number(state.language, needle_length_of(params) / kMillimetre, 0)}));
-  action_button(state, in.session->paused() ? Text::go_on : Text::pause, Action::pause);
+  action_button(state, in.session->paused() ? msgid("continue") : msgid("pause"), Action::pause);
   ImGui::SameLine();
-  action_button(state, Text::reset, Action::reset);
-  ImGui::Checkbox(tell(state, Text::expert), &state.expert);
+  action_button(state, msgid("reset"), Action::reset);
+  ImGui::Checkbox(translate(state, "expert"), &state.expert);
   ImGui::SameLine();
-  ImGui::Checkbox(tell(state, Text::aids), &state.aids);
+  ImGui::Checkbox(translate(state, "aids"), &state.aids);
   ImGui::SameLine();
-  ImGui::Checkbox(tell(state, Text::labels), &state.labels);
-  ImGui::Checkbox(tell(state, Text::left_handed), &state.left_handed);
+  ImGui::Checkbox(translate(state, "names"), &state.labels);
+  ImGui::Checkbox(translate(state, "left-handed"), &state.left_handed);
   ImGui::SameLine();
   if (ImGui::SmallButton("?")) state.help = !state.help;
   const LatencyHistogram& images = in.session->times().image_interval;
   const double rate = images.count() > 0 ? 1e6 / std::max(images.percentile_us(0.5), 1.0) : 0;
-  wrapped(fill(tell(state, Text::rates_line),
+  wrapped(fill(translate(state, "images {} Hz, window {} Hz"),
                {number(state.language, rate, 0), number(state.language, in.window_rate, 0)}));
   for (const std::string& refused : in.session->refusals())
-    wrapped(fill(tell(state, Text::refused), {said_by_system(state.language, refused)}));
+    wrapped(fill(translate(state, "refused: {}"), {said_by_system(state.language, refused)}));
   const std::vector<std::string> notices = in.session->notices();
   constexpr std::size_t kShown = 3;
   for (std::size_t i = notices.size() - std::min(kShown, notices.size()); i < notices.size(); ++i)
@@ -109,9 +109,9 @@ void draw_session_panel(const PanelInput& in, ViewState& state) {
 }
 
 void draw_tissue_panel(const PanelInput& in, ViewState& state, JointView& view) {
-  const PanelScope scope(Panel::tissues, Text::panel_tissues, state);
+  const PanelScope scope(Panel::tissues, msgid("Tissues"), state);
   if (!scope) return;
-  ImGui::Checkbox(tell(state, Text::cut_away), &view.cut_away);
+  ImGui::Checkbox(translate(state, "cut away at the image plane"), &view.cut_away);
   for (TissueLook& look : view.looks()) {
     ImGui::PushID(look.name.c_str());
     ImGui::Checkbox("##visible", &look.visible);
@@ -134,17 +134,22 @@ std::string what_is_in_hand(const PanelInput& in, const ViewState& state) {
     return state.keys.said_key(action, state.language);
   };
   if (in.grab == Grab::nothing) return {};
-  const Text held = in.grab == Grab::needle    ? Text::hold_needle
-                    : in.grab == Grab::plunger ? Text::hold_plunger
-                                               : Text::hold_probe;
-  return fill(tell(state, held), {key(Action::push), key(Action::pull), key(Action::let_go)});
+  const char* const held =
+      in.grab == Grab::needle
+          ? msgid("needle in hand: wheel or {} {} push and pull, mouse turns, {} lets go")
+      : in.grab == Grab::plunger
+          ? msgid("thumb on the plunger: wheel or {} {} press and draw back, {} lets go")
+          : msgid(
+                "probe in hand: mouse slides, ctrl tilts, wheel turns, {} {} press and lift, {} "
+                "lets go");
+  return fill(translate(state, held), {key(Action::push), key(Action::pull), key(Action::let_go)});
 }
 
 }  // namespace
 
 void draw_joint_panel(const PanelInput& in, ViewState& state, JointView& view, JointArea& area) {
   if (state.expert) return;
-  const PanelScope scope(Panel::joint, Text::panel_joint, state,
+  const PanelScope scope(Panel::joint, msgid("Joint"), state,
                          ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
   if (!scope) return;
   const ImVec2 room = ImGui::GetContentRegionAvail();

@@ -17,22 +17,24 @@ void draw_syringe(const PanelInput& in, const ViewState& state) {
   const SyringeReading& syringe = in.syringe;
   if (!syringe.used) return;
   const Language language = state.language;
-  wrapped_text(
-      fill(tell(state, Text::syringe_line), {number(language, syringe.left / kCubicCentimetre, 2),
-                                             number(language, syringe.given / kCubicCentimetre, 2),
-                                             number(language, syringe.flow / kCubicCentimetre, 2)}),
-      kRead);
-  wrapped_text(fill(tell(state, Text::thumb_line), {number(language, syringe.thumb, 1),
-                                                    number(language, 1e-3 * syringe.pressure, 0)}),
+  wrapped_text(fill(translate(state, "syringe: {} ml left, {} injected, {} ml/s"),
+                    {number(language, syringe.left / kCubicCentimetre, 2),
+                     number(language, syringe.given / kCubicCentimetre, 2),
+                     number(language, syringe.flow / kCubicCentimetre, 2)}),
                kRead);
+  wrapped_text(
+      fill(translate(state, "thumb {} N, {} kPa at the tip"),
+           {number(language, syringe.thumb, 1), number(language, 1e-3 * syringe.pressure, 0)}),
+      kRead);
 }
 
 void draw_patient_words(const PanelInput& in, const ViewState& state) {
-  constexpr std::array<Text, 6> kWords{Text::patient_shoots, Text::patient_gave_way,
-                                       Text::patient_racing, Text::patient_hurts,
-                                       Text::patient_burns,  Text::patient_pressed};
+  constexpr std::array<const char*, 6> kWords{
+      msgid("Ow! It shoots down my arm."),  msgid("Something gave way."),
+      msgid("My heart is racing."),         msgid("That hurts."),
+      msgid("That is too fast, it burns."), msgid("I feel pressure.")};
   if (in.syringe.patient == PatientFeeling::nothing) return;
-  wrapped_text(tell(state, kWords.at(static_cast<std::size_t>(in.syringe.patient) - 1)),
+  wrapped_text(translate(state, kWords.at(static_cast<std::size_t>(in.syringe.patient) - 1)),
                kComplains);
 }
 

@@ -17,7 +17,7 @@
 #include "artus/detail/viewer/panels/panel_layout.h"
 #include "artus/detail/viewer/panels/probe_reading.h"
 #include "artus/detail/viewer/panels/syringe_reading.h"
-#include "artus/detail/viewer/words/strings.h"
+#include "artus/detail/viewer/words/translation.h"
 #include "artus/session/session.h"
 
 namespace artus {

@@ -2,7 +2,7 @@
 #pragma once
 #include <string>
 
-#include "artus/detail/viewer/words/strings.h"
+#include "artus/detail/viewer/words/translation.h"
 
 namespace artus {
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "artus/detail/anatomy/body/joint_structure.h"
 #include "artus/detail/anatomy/compile/mesh/compile_measure.h"
+#include "artus/detail/anatomy/source/joint_structure.h"
 #include "artus/detail/anatomy/surfaces/defects.h"
 #include "artus/detail/core/printed.h"
 #include "artus/detail/core/units.h"
@@ -68,17 +68,19 @@ std::string explain_nothing(const Structure& s, const CompileReport& report) {
   for (const std::string& name : names_of(s))
     for (const StructureReport& r : report.structures)
       if (r.name == name && (!r.refused.empty() || !(r.resolved_volume > 0)))
-        return "nothing of it is in the joint, for there is nothing of '" + name +
-               "', from which it is made";
+        return "none of it is in the joint, because it is made from '" + name +
+               "', of which there is none";
   if (std::holds_alternative<SurfaceFile>(s.shape))
-    return "nothing of it is in the joint: it lies outside the body or the region of interest, or "
-           "others before it in the file take all of it; see to its units, frame and place";
+    return "none of it is in the joint: it lies outside the body or the region of interest, or "
+           "structures before it in the file take all of it; check its units, frame and position";
   if (std::holds_alternative<GapConstruct>(s.shape))
-    return "nothing of it is in the joint: no place between its roof and its floor is as near to "
-           "both as 'within' asks; see in pictures whether the two face each other, with nothing "
-           "but air or filler between them, and enlarge 'within' only if they do";
-  return "nothing of it is in the joint: no place is as near to what it names as its lengths ask; "
-         "see whether what it names lies where it should, and enlarge them only if it does";
+    return "none of it is in the joint: nowhere are its roof and its floor both nearer than "
+           "'within'; "
+           "see in pictures whether the two face each other, with nothing but air or filler "
+           "between them, and enlarge 'within' only if they do";
+  return "none of it is in the joint: no place is near enough to the structures that it names; "
+         "check "
+         "that they lie where they should, and enlarge its lengths only if they do";
 }
 
 void warn_of_volumes(const Structure& s, const CompileReport& report, StructureReport& mine) {
@@ -92,8 +94,8 @@ void warn_of_volumes(const Structure& s, const CompileReport& report, StructureR
                             mine.lost_to + "' around " + at(mine.lost_at) +
                             "; if that is not meant, put it before them");
   if (mine.kind == "gap" && mine.parts > 1)
-    mine.warnings.push_back("it lies in " + std::to_string(mine.parts) +
-                            " places that are not joined, since others before it in the file lie "
+    mine.warnings.push_back("it is in " + std::to_string(mine.parts) +
+                            " separate pieces, since structures before it in the file lie "
                             "between them: liquid in one does not reach the other");
   if (mine.kind == "surface" && std::abs(mine.volume_error()) > kLargestError)
     mine.warnings.push_back("its tetrahedra hold " + percent(std::abs(mine.volume_error())) +
@@ -116,14 +118,14 @@ void append_gap_cuts(const JointFile& file, const LabelledSpace& space, CompileR
         mine.warnings.push_back(
             cubic_centimetres(cut.part.volume) + " between its roof and its floor is '" + cut.by +
             "', around " + at(cut.part.centre) +
-            ", and stays that; where fluid is meant there, name '" + cut.by + "' as roof or floor");
+            ", and remains so; if fluid is meant there, name '" + cut.by + "' as roof or floor");
       }
     }
     if (apart.volume > kMuchCut * mine.region_volume)
       mine.warnings.push_back(cubic_centimetres(apart.volume) +
                               " of it is not joined to the rest and is left out, the most around " +
                               at(apart.centre) +
-                              "; where it is meant, make 'within' or 'edge' larger, or write a "
+                              "; if it is meant, make 'within' or 'edge' larger, or add a "
                               "second gap there");
   }
 }

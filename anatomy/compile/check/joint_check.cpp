@@ -22,7 +22,8 @@ struct Repaired {
   bool unreadable = false;  // already among the defects
 };
 
-std::vector<Repaired> repair_all(const JointFile& joint, const Progress& progress) {
+std::vector<Repaired> repair_all(const JointSources& sources, const Progress& progress) {
+  const JointFile& joint = sources.joint();
   std::vector<Repaired> all(joint.structures.size() + 1);
   all[0].structure = &joint.body;
   for (std::size_t i = 0; i < joint.structures.size(); ++i)
@@ -34,7 +35,7 @@ std::vector<Repaired> repair_all(const JointFile& joint, const Progress& progres
     const auto* surface = std::get_if<SurfaceFile>(&one.structure->shape);
     if (surface == nullptr) return;
     auto prepared =
-        i == 0 ? prepare_body(joint, one.report) : prepare_surface(joint, *surface, one.report);
+        i == 0 ? prepare_body(sources, one.report) : prepare_surface(sources, *surface, one.report);
     if (prepared) {
       one.surface = std::move(*prepared);
     } else {
@@ -48,8 +49,11 @@ std::vector<Repaired> repair_all(const JointFile& joint, const Progress& progres
 
 class Collector {
  public:
-  Collector(const JointFile& joint, const Progress& progress)
-      : joint_(joint), progress_(progress), repaired_(repair_all(joint, progress)) {
+  Collector(const JointSources& sources, const Progress& progress)
+      : sources_(sources),
+        joint_(sources.joint()),
+        progress_(progress),
+        repaired_(repair_all(sources, progress)) {
     for (const Repaired& one : repaired_) by_name_[one.structure->name] = &one;
   }
 
@@ -85,7 +89,7 @@ class Collector {
   }
 
   void add_defects() {
-    for (Defect& defect : find_joint_defects(joint_, {}, progress_)) {
+    for (Defect& defect : find_joint_defects(sources_, {}, progress_)) {
       if (defect.kind == DefectKind::crossing_layers) {
         check_.crossings.push_back(std::move(defect));
         continue;
@@ -114,6 +118,7 @@ class Collector {
       check_.findings.push_back({Verdict::refused, "plan", p.plan, p.line, p.message});
   }
 
+  const JointSources& sources_;
   const JointFile& joint_;
   const Progress& progress_;
   std::vector<Repaired> repaired_;
@@ -159,8 +164,8 @@ std::size_t JointCheck::count(Verdict verdict) const noexcept {
                     [verdict](const Finding& f) { return f.verdict == verdict; }));
 }
 
-JointCheck check_joint(const JointFile& joint, const Progress& progress) {
-  return Collector(joint, progress).run();
+JointCheck check_joint(const JointSources& sources, const Progress& progress) {
+  return Collector(sources, progress).run();
 }
 
 }  // namespace artus

@@ -55,6 +55,6 @@ struct JointCheck {
 /// repair makes of them, places, sides, region, poses and injections. A refusal here is a refusal
 /// of compile, and the other way round. Errors: none; a file that cannot be read is a finding.
 /// Cost: as reading and repairing all surfaces.
-[[nodiscard]] JointCheck check_joint(const JointFile& joint, const Progress& progress = {});
+[[nodiscard]] JointCheck check_joint(const JointSources& sources, const Progress& progress = {});
 
 }  // namespace artus

@@ -144,12 +144,13 @@ std::vector<Finding> find_mirrored(const JointFile& file, const PreparedSurfaces
     if (votes.wrong.size() <= votes.right) continue;
     std::string message = votes.wrong.front();
     for (std::size_t i = 1; i < votes.wrong.size() && i < 3; ++i) message += ", " + votes.wrong[i];
-    message += " by the file's axes = \"" + file.axes + "\"" +
-               (axis == lateral ? " and side = \"" + file.side + "\"" : "") + " (" +
-               std::to_string(votes.wrong.size()) + " such pairs, " + std::to_string(votes.right) +
-               " the right way): " +
-               (axis == lateral ? "the joint is of the other side or mirrored: set 'side' or 'axes'"
-                                : "set 'axes' as the surfaces have them");
+    message +=
+        " by the file's axes = \"" + file.axes + "\"" +
+        (axis == lateral ? " and side = \"" + file.side + "\"" : "") + " (" +
+        std::to_string(votes.wrong.size()) + " such pairs, " + std::to_string(votes.right) +
+        " that fit): " +
+        (axis == lateral ? "the joint is mirrored or of the other side: correct 'side' or 'axes'"
+                         : "set 'axes' to those of the surfaces");
     findings.push_back({Verdict::look, "mirrored", "joint", 0, std::move(message)});
   }
   return findings;

@@ -123,7 +123,7 @@ class Finder {
                   n_metres));
     } else if (n_far > 0) {
       add(Verdict::look, all,
-          printed("%zu of %zu lie more than 20 mm outside of the skin, up to %.0f mm; see to their "
+          printed("%zu of %zu lie more than 20 mm outside of the skin, up to %.0f mm; check their "
                   "unit and frame",
                   n_far, file_.landmarks.size(), most / kMillimetre));
     }
@@ -138,7 +138,7 @@ class Finder {
     add(Verdict::refused, file_.body,
         printed(
             "%zu of %zu structures lie outside of it: their middle is (%.0f, %.0f, %.0f) mm from "
-            "its own, and it measures %.0f x %.0f x %.0f mm; it is of another frame or unit: "
+            "its own, and it measures %.0f x %.0f x %.0f mm; it is in another frame or unit: "
             "export it with the structures or set its 'units'",
             n_outside, n, away.x() / kMillimetre, away.y() / kMillimetre, away.z() / kMillimetre,
             size.x() / kMillimetre, size.y() / kMillimetre, size.z() / kMillimetre));
@@ -153,8 +153,8 @@ class Finder {
     const double distance = tree.distance(roi->centre, 1);
     if (distance <= reach || tree.winding_number(roi->centre) > 0.5) return;
     add(Verdict::look, file_.structures[i],
-        printed("all of it lies outside of the region of interest, by %.1f mm or more; nothing of "
-                "it will be in the joint; see to its frame and units, or take it out",
+        printed("all of it lies outside of the region of interest, by %.1f mm or more; none of "
+                "it will be in the joint; check its frame and units, or remove it",
                 (distance - reach) / kMillimetre));
   }
 
@@ -162,8 +162,8 @@ class Finder {
     if (!(lie.outside > 0)) return;
     lie = area_outside(i);  // samples only say where to look
     if (lie.outside <= kOutsideShare) return;
-    const char* rest = lie.outside > kAll ? "nothing of it will be in the joint; see to its frame "
-                                            "and units, or take it out"
+    const char* rest = lie.outside > kAll ? "none of it will be in the joint; check its frame "
+                                            "and units, or remove it"
                                           : "that part is cut off";
     add(Verdict::look, file_.structures[i],
         printed("%.0f %% of its surface lies outside of the skin, up to %.1f mm; %s",
@@ -223,8 +223,8 @@ class Finder {
                   name, lie.least / kMillimetre,
                   k < i
                       ? "the bone stands before it in the file and takes all of it: put it before "
-                        "the bone if it is meant, else see to its frame"
-                      : "see to its frame if that is not meant"));
+                        "the bone if it is meant, otherwise check its frame"
+                      : "check its frame if that is not meant"));
       return;
     }
     tell_shared_out(i);
@@ -258,7 +258,7 @@ class Finder {
     add(Verdict::look, file_.structures[i],
         printed(
             "%.0f %% of it lies inside %s, which stand before it in the file and take that: put "
-            "it before them if it is meant, else see to its frame",
+            "it before them if it is meant, otherwise check its frame",
             100 * share, names.substr(0, 100).c_str()));
   }
 
@@ -283,7 +283,7 @@ class Finder {
       if (!surfaces_.structures[k] || samples_[k].empty() || !is_twin(i, k)) continue;
       add(Verdict::look, file_.structures[i],
           printed("it is the same surface as '%s' (%.2f and %.2f cm3), which stands before it and "
-                  "takes all of it; take one of them out",
+                  "takes all of it; remove one of them",
                   file_.structures[k].name.c_str(),
                   signed_volume(surfaces_.structures[i]->mesh) / kCubicCentimetre,
                   signed_volume(surfaces_.structures[k]->mesh) / kCubicCentimetre));

@@ -14,7 +14,7 @@ namespace {
 constexpr double kOnSkin = 2 * kMillimetre;       // what an entry may lie off the skin
 constexpr double kProbeOnSkin = 3 * kMillimetre;  // likewise the middle of a probe's face
 constexpr double kStays = 3 * kMillimetre;        // of the shaft that stays outside
-constexpr double kShortest = 2 * kMillimetre;     // way of a needle: less is a slip of the pen
+constexpr double kShortest = 2 * kMillimetre;     // path of a needle: less is a slip
 constexpr double kUsualDepth = 10 * kMillimetre;  // under the skin, where a target is offered
 constexpr double kThinnest = 0.6 * kMillimetre;   // layer in which a tip can stop
 constexpr double kRoom = 5 * kMillimetre;         // that a mended region has to spare
@@ -36,7 +36,7 @@ std::vector<Vec3> skin_around(const PlanGround& ground, const Vec3& near) {
   return places;
 }
 
-/// Whether the way from just under the skin to the target stays inside the body.
+/// Whether the path from just under the skin to the target stays inside the body.
 bool stays_inside(const PlanGround& ground, const Vec3& entry, const Vec3& target) {
   constexpr int kSteps = 20;
   for (int i = 1; i <= kSteps; ++i)
@@ -116,18 +116,18 @@ class Checker {
     if (entry_holds) check_path(plan, pass);
   }
 
-  /// A way too short to be meant: metres for millimetres, or the entry written twice.
+  /// A path too short to be meant: metres for millimetres, or the entry written twice.
   void check_short(const std::string& plan, const PlannedInjection& pass, double length) {
     PlanProblem& problem =
         add(plan, pass.line,
-            printed("its way from entry to target is %.2g mm, too short for a needle; see whether "
+            printed("entry and target are only %.2g mm apart, too short for a needle; check that "
                     "both are in the unit of the file",
                     length / kMillimetre));
     const Vec3 inward = inward_at(pass.entry);
     if (inward.norm() == 0) return;
     const Vec3 inside = pass.entry + kUsualDepth * inward;
     if (ground_.skin_distance(inside) > 0) return;
-    problem.message += "; 10 mm under its entry is " + place(inside) + ": take that as target";
+    problem.message += "; 10 mm under its entry is " + place(inside) + ": use that as target";
     problem.mends.push_back({"target", inside});
   }
 
@@ -172,7 +172,7 @@ class Checker {
                                            : ground_.nearest_skin(pass.entry);
     if (!skin) return false;
     problem.message += std::string("; ") + (along ? "on its line" : "nearest to it") +
-                       " the skin is at " + place(*skin) + ": take that as entry";
+                       " the skin is at " + place(*skin) + ": use that as entry";
     problem.mends.push_back({"entry", *skin});
     return false;
   }
@@ -187,16 +187,16 @@ class Checker {
     const double length = (pass.target - pass.entry).norm();
     if (const HardPart* bone = ground_.bone_between(pass.entry, pass.target)) {
       offer_entry(add(plan, pass.line,
-                      "bone '" + bone->name + "' is in the way" + where_in_path(pass, bone->name)),
+                      "bone '" + bone->name + "' is in the needle's path" +
+                          where_in_path(pass, bone->name)),
                   pass);
       return;
     }
     if (length > kLongestNeedle - kStays) {
-      offer_entry(
-          add(plan, pass.line,
-              printed("its way of %.0f mm is more than the longest needle of %.0f mm can go",
-                      length / kMillimetre, kLongestNeedle / kMillimetre)),
-          pass);
+      offer_entry(add(plan, pass.line,
+                      printed("its path of %.0f mm is too long for the longest needle, %.0f mm",
+                              length / kMillimetre, kLongestNeedle / kMillimetre)),
+                  pass);
       return;
     }
     if (ground_.is_compiled) check_layer(plan, pass, length);
@@ -214,14 +214,14 @@ class Checker {
   void offer_entry(PlanProblem& problem, const PlannedInjection& pass) const {
     if (const auto entry = find_entry(ground_, pass.target, pass.entry)) {
       problem.message +=
-          "; from the skin at " + place(*entry) + " the way is free: take that as entry";
+          "; from the skin at " + place(*entry) + " the path is free: use that as entry";
       problem.mends.push_back({"entry", *entry});
     } else {
-      problem.message += "; no place of the skin near it has a free way there: move the target";
+      problem.message += "; no skin near it has a free path to the target: move the target";
     }
   }
 
-  /// A bursa on the way or a layer thick enough to stop in at the target.
+  /// A bursa on the path or a layer thick enough to stop in at the target.
   void check_layer(const std::string& plan, const PlannedInjection& pass, double length) {
     const Vec3 displacement = (pass.target - pass.entry) / length;
     const auto layers = ground_.layers({pass.entry, pass.target + 5 * kMillimetre * displacement});
@@ -237,7 +237,7 @@ class Checker {
         if (other.hard || other.name == "outside" || other.exit - other.entry < 2 * kMillimetre)
           continue;
         const Vec3 p = pass.entry + (other.entry + other.exit) / 2 * displacement;
-        problem.message += "; '" + other.name + "' is on its line at " + place(p) + ": take that";
+        problem.message += "; '" + other.name + "' is on its line at " + place(p) + ": use that";
         problem.mends = {{"target", p}};
       }
     }
@@ -252,10 +252,10 @@ class Checker {
       message = printed("its position lies %.1f mm %s the skin%s", std::abs(off) / kMillimetre,
                         off > 0 ? "off" : "under", on_cut(p));
     } else if (!(ground_.skin_distance(p + 5 * kMillimetre * beam) < off - kMillimetre)) {
-      message = "it looks along the skin or away from the body";
+      message = "it points along the skin or away from the body";
     } else if (!stands_on_skin(ground_, X_JP)) {
       message = printed(
-          "its face of %.0f mm does not stand on skin of the region of interest with its whole "
+          "its face of %.0f mm does not rest on skin of the region of interest over its whole "
           "length",
           kPlannedFace / kMillimetre);
     } else {
@@ -270,7 +270,7 @@ class Checker {
       if (beam.norm() == 0) continue;
       const Pose X = make_pose(stand, beam, X_JP.linear().col(0));
       if (!stands_on_skin(ground_, X)) continue;
-      problem.message += "; it stands at position = " + place(stand) +
+      problem.message += "; it rests on skin at position = " + place(stand) +
                          printed(" with direction = (%.3f, %.3f, %.3f), or leave [probe] out",
                                  beam.x(), beam.y(), beam.z());
       problem.mends = {{"position", stand}, {"direction", beam}};

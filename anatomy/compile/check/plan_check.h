@@ -11,7 +11,7 @@ namespace artus {
 
 /// The face of the probe that a pose is checked for: the default transducer's length. m
 inline constexpr double kPlannedFace = 40e-3;
-/// The longest needle: what a planned way through the body may not exceed. m
+/// The longest needle: what a planned path through the body may not exceed. m
 inline constexpr double kLongestNeedle = 90e-3;
 
 /// What would mend a plan: `key` of its table set to `value`, both as the joint file has them but
@@ -37,10 +37,10 @@ struct PlanProblem {
 
 /// All that is wrong with the region, [probe], [needle] and [[injection]]: the region holds no
 /// skin; an entry off the skin (2 mm) or out of the region; a target out of the body or region; a
-/// bone in the way (a target in bone is fine: that bone is not in the way); a way longer than the
-/// longest needle; a target in a layer too thin to stop in; a face that does not stand on skin of
-/// the region with its whole length, or looks away from the body. Each message ends with what would
-/// do. Cost: some ms a plan, up to a second where an entry is searched.
+/// bone in the path (a target in bone is fine: that bone does not count); a path longer than the
+/// longest needle; a target in a layer too thin to stop in; a face that does not rest on skin of
+/// the region over its whole length, or points away from the body. Each message ends with what
+/// would do. Cost: some ms a plan, up to a second where an entry is searched.
 [[nodiscard]] std::vector<PlanProblem> find_plan_problems(const JointFile& file,
                                                           const PlanGround& ground);
 

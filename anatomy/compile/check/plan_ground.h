@@ -20,7 +20,7 @@ struct LineLayer {
   double exit = 0;
 };
 
-/// A bone as something that can be in the way.
+/// A bone as something that can be in a needle's path.
 struct HardPart {
   std::string name;
   DistanceTree tree{SurfaceMesh{}};
@@ -48,7 +48,7 @@ struct PlanGround {
   /// Cost: linear in triangles of skin.
   [[nodiscard]] std::optional<double> skin_along(const Vec3& p, const Vec3& direction,
                                                  double reach) const;
-  /// The first bone on the way from `from` to `to`, but for one that holds `to` itself.
+  /// The first bone on the path from `from` to `to`, but for one that holds `to` itself.
   [[nodiscard]] const HardPart* bone_between(const Vec3& from, const Vec3& to) const;
   [[nodiscard]] bool in_region(const Vec3& p) const;
 };

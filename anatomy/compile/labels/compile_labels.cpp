@@ -9,11 +9,11 @@
 
 #include <tbb/parallel_for.h>
 
-#include "artus/detail/anatomy/body/joint_structure.h"
 #include "artus/detail/anatomy/compile/labels/compiler_version.h"
 #include "artus/detail/anatomy/compile/labels/construct.h"
 #include "artus/detail/anatomy/compile/labels/cut_faces.h"
 #include "artus/detail/anatomy/compile/labels/grown_field.h"
+#include "artus/detail/anatomy/source/joint_structure.h"
 #include "artus/detail/core/printed.h"
 #include "artus/detail/core/units.h"
 
@@ -375,8 +375,8 @@ Result<void> check_sizes(const JointFile& file, const PreparedSurfaces& surfaces
   const double extent = (surfaces.body.tree.upper() - surfaces.body.tree.lower()).maxCoeff();
   if (file.facet_size > extent / 2) {
     const std::string text = printed(
-        "facet_size of [mesh] is %.4g mm, and the whole body measures %.4g mm; give it in the "
-        "unit of the file: some millimetres",
+        "facet_size of [mesh] is %.4g mm, but the whole body measures %.4g mm; give it in the "
+        "unit of the file: a few millimetres",
         file.facet_size / kMillimetre, extent / kMillimetre);
     return fail(ErrorCode::invalid, text, file.name);
   }
@@ -397,7 +397,7 @@ Result<void> check_sizes(const JointFile& file, const PreparedSurfaces& surfaces
       add(file.structures[i], *surface, surface->thickness);
   const auto refuse = [&](double count, const char* of_what, const char* key) {
     const std::string text = printed(
-        "the sizes of [mesh] ask for about %.1e %s, more than can be compiled; enlarge %s, or set "
+        "the sizes in [mesh] need about %.1e %s, more than can be compiled; enlarge %s, or set "
         "a smaller [region_of_interest]",
         count, of_what, key);
     return fail(ErrorCode::invalid, text, file.name);

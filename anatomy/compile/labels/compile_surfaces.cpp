@@ -12,11 +12,9 @@
 #include "artus/detail/anatomy/compile/labels/cut_faces.h"
 #include "artus/detail/anatomy/surfaces/defects.h"
 #include "artus/detail/anatomy/surfaces/enclosed_volume.h"
-#include "artus/detail/anatomy/surfaces/surface_io.h"
 #include "artus/detail/anatomy/surfaces/surface_topology.h"
 #include "artus/detail/core/byte_stream.h"
 #include "artus/detail/core/printed.h"
-#include "artus/detail/core/text_file.h"
 #include "artus/detail/core/units.h"
 
 namespace artus {
@@ -40,10 +38,10 @@ Result<void> check_size(const SurfaceMesh& mesh, double smallest, const char* wh
   const Eigen::AlignedBox3d box = box_of(mesh);
   const double size = box.isEmpty() ? smallest : box.diagonal().norm();
   if (size >= smallest && size <= options.largest) return {};
-  return fail(ErrorCode::defective,
-              printed("%.4g mm from corner to corner is no %s; give the unit of its file (units = "
-                      "\"m\", \"cm\" or \"mm\")",
-                      size / kMillimetre, what));
+  return fail(ErrorCode::defective, printed("%.4g mm from corner to corner is not the size of a "
+                                            "%s; give the unit of its file (units = "
+                                            "\"m\", \"cm\" or \"mm\")",
+                                            size / kMillimetre, what));
 }
 
 /// Refuses what lies so far away that single precision leaves nothing of its shape.
@@ -55,8 +53,8 @@ Result<void> check_place(const SurfaceMesh& mesh) {
   const Vec3 middle = box.center() / kMillimetre;
   return fail(
       ErrorCode::defective,
-      printed("its coordinates go up to %.4g mm, and no frame of a body lies so far from its "
-              "origin: export it in the frame of the others (its middle is at %.6g, %.6g, "
+      printed("its coordinates go up to %.4g mm, too far from the origin for any frame of a "
+              "body: export it in the frame of the others (its middle is at %.6g, %.6g, "
               "%.6g mm), or give the unit of its file (units = \"m\", \"cm\" or \"mm\")",
               far / kMillimetre, middle.x(), middle.y(), middle.z()));
 }
@@ -66,11 +64,12 @@ Error told_with_lost_vertices(Error error, const SurfaceMesh& mesh) {
   const auto n = std::count_if(mesh.vertices.begin(), mesh.vertices.end(),
                                [](const Vec3& p) { return !p.allFinite(); });
   if (n > 0)
-    error.message = printed(
-                        "the coordinates of %td of %zu vertices are no numbers; export it again. "
-                        "Of what is left: ",
-                        n, mesh.vertices.size()) +
-                    error.message;
+    error.message =
+        printed(
+            "%td of %zu vertices have coordinates that are not numbers; export it again. "
+            "The rest: ",
+            n, mesh.vertices.size()) +
+        error.message;
   return error;
 }
 
@@ -107,10 +106,10 @@ struct RepairedSurface {
 };
 
 /// Over the file and all that its entry asks for; what cannot be read is told where it is read.
-ContentDigest digest_of(const JointFile& file, const SurfaceFile& surface, bool is_body) {
+ContentDigest digest_of(const JointSources& sources, const SurfaceFile& surface, bool is_body) {
   ContentDigest digest(kCompilerVersion);
   digest.add_value(is_body);
-  if (const auto bytes = read_bytes(file.surface_folder / surface.file)) digest.add(*bytes);
+  if (const auto of_file = sources.digest(surface)) digest.add(*of_file);
   digest.add(std::filesystem::path(surface.file).extension().string());
   digest.add_value(surface.unit);
   digest.add_value(surface.has_own_unit);
@@ -142,27 +141,29 @@ std::optional<RepairedSurface> read_repaired(const std::optional<std::string>& b
   return repaired;
 }
 
-Result<RepairedSurface> read_and_repair(const JointFile& file, const SurfaceFile& surface,
+Result<RepairedSurface> read_and_repair(const JointSources& sources, const SurfaceFile& surface,
                                         bool is_body) {
-  Result<SurfaceMesh> mesh = read_surface(file.surface_folder / surface.file, surface.unit);
-  ARTUS_TRY(mesh);
-  if (is_body && !surface.has_own_unit) ARTUS_TRY(check_size(*mesh, kSmallestBody, "body"));
-  Result<RepairOutcome> outcome = repair_as_declared(*mesh, surface);
+  const auto read = sources.mesh(surface);
+  ARTUS_TRY(read);
+  const SurfaceMesh& mesh = **read;
+  if (is_body && !surface.has_own_unit) ARTUS_TRY(check_size(mesh, kSmallestBody, "body"));
+  Result<RepairOutcome> outcome = repair_as_declared(mesh, surface);
   ARTUS_TRY(outcome);
   RepairedSurface repaired;
   repaired.mesh = std::move(outcome->mesh);
   for (const RepairAction& action : outcome->actions) repaired.repairs.push_back(action.message);
-  if (is_body && !repaired.repairs.empty()) repaired.is_cut = find_cut_faces(*mesh, repaired.mesh);
+  if (is_body && !repaired.repairs.empty()) repaired.is_cut = find_cut_faces(mesh, repaired.mesh);
   return repaired;
 }
 
 /// As prepare_surface; a body's cuts are found, too.
-Result<PreparedSurface> prepare(const JointFile& file, const SurfaceFile& surface, bool is_body,
-                                StructureReport& report, const PartCache& parts) {
-  const ContentDigest digest = parts.keeps() ? digest_of(file, surface, is_body) : ContentDigest(0);
+Result<PreparedSurface> prepare(const JointSources& sources, const SurfaceFile& surface,
+                                bool is_body, StructureReport& report, const PartCache& parts) {
+  const ContentDigest digest =
+      parts.keeps() ? digest_of(sources, surface, is_body) : ContentDigest(0);
   std::optional<RepairedSurface> repaired = read_repaired(parts.find(digest));
   if (!repaired) {
-    Result<RepairedSurface> made = read_and_repair(file, surface, is_body);
+    Result<RepairedSurface> made = read_and_repair(sources, surface, is_body);
     ARTUS_TRY(made);
     repaired = std::move(*made);
     if (parts.keeps()) parts.keep(digest, to_bytes(*repaired));
@@ -175,7 +176,7 @@ Result<PreparedSurface> prepare(const JointFile& file, const SurfaceFile& surfac
   const double area = surface_area(prepared.mesh);
   if (!(volume > 0 && area > 0)) {
     return fail(ErrorCode::defective,
-                "it encloses no volume; mend it where it was made, or leave it out "
+                "it encloses no volume; correct it where it was made, or leave it out "
                 "(--skip-refused)",
                 report.name);
   }
@@ -198,20 +199,21 @@ std::string describe_overlap(const SurfaceMesh& mesh) {
   const double together = enclosed_volume(mesh);
   if (each - together <= kMuchTwice * each) return {};
   return printed(
-      "its %u pieces lie in each other: %.3g cm3 counted each, %.3g cm3 together, which "
-      "is what counts; where a surface is there twice, take one copy out of the file",
+      "its %u pieces lie inside each other: %.3g cm3 added up, %.3g cm3 together, which "
+      "is what counts; where a surface is there twice, remove one copy from the file",
       pieces.n, each / kCubicCentimetre, together / kCubicCentimetre);
 }
 
-Result<PreparedSurface> prepare_surface(const JointFile& file, const SurfaceFile& surface,
+Result<PreparedSurface> prepare_surface(const JointSources& sources, const SurfaceFile& surface,
                                         StructureReport& report, const PartCache& parts) {
-  return prepare(file, surface, false, report, parts);
+  return prepare(sources, surface, false, report, parts);
 }
 
-Result<PreparedSurface> prepare_body(const JointFile& file, StructureReport& report,
+Result<PreparedSurface> prepare_body(const JointSources& sources, StructureReport& report,
                                      const PartCache& parts) {
+  const JointFile& file = sources.joint();
   Result<PreparedSurface> body =
-      prepare(file, std::get<SurfaceFile>(file.body.shape), true, report, parts);
+      prepare(sources, std::get<SurfaceFile>(file.body.shape), true, report, parts);
   if (!body) {
     if (body.error().code != ErrorCode::defective) return body;
     return tl::unexpected(told_of_body(body.error(), file));
@@ -220,10 +222,10 @@ Result<PreparedSurface> prepare_body(const JointFile& file, StructureReport& rep
     double area = 0;
     for (std::size_t i = 0; i < body->is_cut.size(); ++i)
       if (body->is_cut[i] != 0) area += triangle_area(body->mesh, body->mesh.triangles[i]);
-    body->warnings.push_back(
-        printed("%.3g cm2 of it close a flat cut and are no skin: no probe or needle is set there, "
-                "and a shell ends there",
-                area / (1e-4)));
+    body->warnings.push_back(printed(
+        "%.3g cm2 of it close a flat cut and are not skin: no probe or needle is placed there, "
+        "and a shell ends there",
+        area / (1e-4)));
   }
   return body;
 }
@@ -246,9 +248,10 @@ Result<RepairOutcome> repair_as_declared(const SurfaceMesh& mesh, const SurfaceF
   return outcome;
 }
 
-Result<PreparedSurfaces> prepare_surfaces(const JointFile& file,
+Result<PreparedSurfaces> prepare_surfaces(const JointSources& sources,
                                           std::vector<StructureReport>& reports,
                                           const PartCache& parts) {
+  const JointFile& file = sources.joint();
   PreparedSurfaces prepared;
   prepared.structures.resize(file.structures.size());
   std::optional<Result<PreparedSurface>> body;
@@ -256,14 +259,14 @@ Result<PreparedSurfaces> prepare_surfaces(const JointFile& file,
   beside.run([&] {
     StructureReport report;
     report.name = "body";
-    body = prepare_body(file, report, parts);
+    body = prepare_body(sources, report, parts);
   });
   std::vector<std::optional<Error>> errors(file.structures.size());
   const std::vector<std::size_t> order = largest_first(file);
   const auto prepare_one = [&](std::size_t i) {
     const auto* surface = std::get_if<SurfaceFile>(&file.structures[i].shape);
     if (surface == nullptr) return;
-    Result<PreparedSurface> result = prepare_surface(file, *surface, reports[i], parts);
+    Result<PreparedSurface> result = prepare_surface(sources, *surface, reports[i], parts);
     if (result) {
       reports[i].warnings = result->warnings;
       prepared.structures[i] = std::move(*result);

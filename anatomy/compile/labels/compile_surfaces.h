@@ -6,6 +6,7 @@
 
 #include "artus/anatomy/joint_file.h"
 #include "artus/detail/anatomy/compile/labels/compile_report.h"
+#include "artus/detail/anatomy/compile/labels/joint_sources.h"
 #include "artus/detail/anatomy/compile/labels/part_cache.h"
 #include "artus/detail/anatomy/surfaces/distance_tree.h"
 #include "artus/detail/anatomy/surfaces/repair.h"
@@ -36,14 +37,15 @@ struct PreparedSurfaces {
 
 /// Reads and repairs one surface, noting repairs and its volume in `report`. Errors: those of
 /// reading and of repair_as_declared.
-[[nodiscard]] Result<PreparedSurface> prepare_surface(const JointFile& file,
+[[nodiscard]] Result<PreparedSurface> prepare_surface(const JointSources& sources,
                                                       const SurfaceFile& surface,
                                                       StructureReport& report,
                                                       const PartCache& parts = {});
 
 /// The same of the body: finds its cuts besides. Errors: also defective for a body of less than 10
 /// mm, unless its unit is given.
-[[nodiscard]] Result<PreparedSurface> prepare_body(const JointFile& file, StructureReport& report,
+[[nodiscard]] Result<PreparedSurface> prepare_body(const JointSources& sources,
+                                                   StructureReport& report,
                                                    const PartCache& parts = {});
 
 /// What there is to say of closed pieces that lie in each other, counted twice by signed_volume;
@@ -53,7 +55,7 @@ struct PreparedSurfaces {
 /// Reads and repairs all surfaces; notes repairs and refusals in `reports` (n_structures). What is
 /// in `parts` is not repaired again.
 /// Errors: those of reading; defective when the body is refused.
-[[nodiscard]] Result<PreparedSurfaces> prepare_surfaces(const JointFile& file,
+[[nodiscard]] Result<PreparedSurfaces> prepare_surfaces(const JointSources& sources,
                                                         std::vector<StructureReport>& reports,
                                                         const PartCache& parts = {});
 

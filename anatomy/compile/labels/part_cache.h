@@ -16,6 +16,10 @@ class ContentDigest {
   /// Starts with `version`.
   explicit ContentDigest(std::uint64_t version) : low_(version), high_(~version) {}
   void add(std::string_view bytes) noexcept;
+  void add(const ContentDigest& other) noexcept {
+    add_value(other.low_);
+    add_value(other.high_);
+  }
   template <class T>
   void add_value(const T& value) noexcept {
     static_assert(std::is_arithmetic_v<T>);

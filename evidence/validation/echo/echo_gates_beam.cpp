@@ -80,7 +80,7 @@ std::vector<double> slice_widths(const std::shared_ptr<const Scene>& scene, doub
 }
 
 PlotSeries over_depth(std::string label, const std::vector<double>& widths,
-                      const char* style = "linespoints") {
+                      PlotStyle style = PlotStyle::line_points) {
   PlotSeries series;
   series.label = std::move(label);
   series.style = style;
@@ -116,8 +116,8 @@ Gate gate_lateral_width() {
           label + ", " + in_mm(kDepths[i]) + " deep", widths[i] / kMillimetre,
           expected / kMillimetre, 0.15, "mm"));
     panel.series.push_back(over_depth(label, widths));
-    panel.series.push_back(over_depth(label + ", wave model",
-                                      std::vector<double>(kDepths.size(), expected), "points"));
+    panel.series.push_back(over_depth(
+        label + ", wave model", std::vector<double>(kDepths.size(), expected), PlotStyle::points));
   }
   gate.plots.push_back({"", {"lateral width of point targets", {panel}}});
   add_picture(gate, "points", picture_of("points"));
@@ -145,7 +145,7 @@ Gate gate_slice_width() {
                      widths[i] / kMillimetre, row.widths[i] / kMillimetre, 0.15, "mm"));
     panel.series.push_back(over_depth(in_mm(row.height) + " high", widths));
     panel.series.push_back(
-        over_depth("wave model", {row.widths.begin(), row.widths.end()}, "points"));
+        over_depth("wave model", {row.widths.begin(), row.widths.end()}, PlotStyle::points));
   }
   gate.plots.push_back({"", {"slice thickness", {panel}}});
   return gate;

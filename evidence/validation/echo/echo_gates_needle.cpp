@@ -66,7 +66,7 @@ Gate gate_needle_rings() {
   const auto line = envelope_line(frame, 128);
   std::vector<double> peaks;
   std::vector<double> heights;
-  PlotSeries curve{"envelope below the needle", {}, {}, "lines"};
+  PlotSeries curve{"envelope below the needle", {}, {}};
   const auto first = static_cast<std::size_t>(18.5e-3 / frame.sample_depth);
   const auto last = static_cast<std::size_t>(25e-3 / frame.sample_depth);
   for (std::size_t i = first; i < last; ++i) {
@@ -103,8 +103,8 @@ Gate gate_needle_angle() {
       "and "
       "of echogenic needles: those two claims hold the chain, not the physics"};
   Renderer renderer(make_clear_block(), Transducer{}, bare_settings());
-  PlotSeries plain{"plain", {}, {}, "linespoints"};
-  PlotSeries dimpled{"echogenic", {}, {}, "linespoints"};
+  PlotSeries plain{"plain", {}, {}, PlotStyle::line_points};
+  PlotSeries dimpled{"echogenic", {}, {}, PlotStyle::line_points};
   for (int degrees = 0; degrees <= 75; degrees += 5) {
     for (PlotSeries* series : {&plain, &dimpled}) {
       series->x.push_back(degrees);

@@ -50,8 +50,8 @@ Plot envelope_histogram(const std::vector<double>& cells, double rms) {
     const auto bin = static_cast<std::size_t>(a / rms / kBin);
     if (bin < counts.size()) counts[bin] += 1;
   }
-  PlotSeries measured{"rendered", {}, {}, "points"};
-  PlotSeries rayleigh{"Rayleigh", {}, {}, "lines"};
+  PlotSeries measured{"rendered", {}, {}, PlotStyle::points};
+  PlotSeries rayleigh{"Rayleigh", {}, {}};
   for (int i = 0; i < kBins; ++i) {
     const double x = (i + 0.5) * kBin;
     measured.x.push_back(x);
@@ -129,7 +129,7 @@ Gate gate_attenuation() {
   gate.title = "Fall of muscle's speckle with depth, twice 0.75 dB/cm/MHz at 12 MHz, no downshift";
   Renderer renderer(muscle_block(), Transducer{}, bare_settings());
   const Frame& frame = renderer.render(Pose::Identity());
-  PlotSeries measured{"rendered", {}, {}, "points"};
+  PlotSeries measured{"rendered", {}, {}, PlotStyle::points};
   std::vector<double> depths;
   for (int k = 0; k < 32; ++k) {
     const double z = 3e-3 + 1e-3 * k;
@@ -141,7 +141,7 @@ Gate gate_attenuation() {
   const LineFit fit = fit_line(depths, measured.y);
   gate.claims.push_back(claim_near(ClaimKind::input, "slope, two-way", -fit.slope,
                                    2 * attenuation * 12, 0.02, "dB/cm"));
-  PlotSeries line{"fit", {}, {}, "lines"};
+  PlotSeries line{"fit", {}, {}};
   for (const double cm : depths) {
     line.x.push_back(cm * 10);
     line.y.push_back(fit.intercept + fit.slope * cm);
@@ -251,8 +251,8 @@ Gate gate_tendon() {
       "backscatter of tendon, 5.1 dB above muscle, chosen with the published range in view, and "
       "its "
       "floor 25 dB down; the lobe itself follows from the aperture"};
-  PlotSeries tendon{"tendon", {}, {}, "linespoints"};
-  PlotSeries muscle{"muscle", {}, {}, "linespoints"};
+  PlotSeries tendon{"tendon", {}, {}, PlotStyle::line_points};
+  PlotSeries muscle{"muscle", {}, {}, PlotStyle::line_points};
   std::vector<double> above;
   for (int degrees = 0; degrees <= 30; ++degrees) {
     for (PlotSeries* series : {&tendon, &muscle}) {

@@ -35,7 +35,7 @@ TextTable beside(const std::vector<Claim>& rigid, const std::vector<Claim>& tiss
 Gate to_gate(std::string_view name, Experiment experiment) {
   experiment.name = name;
   for (NamedPlot& plot : experiment.plots)
-    if (plot.file.empty()) plot.file = experiment.name + ".png";
+    if (plot.file.empty()) plot.file = experiment.name + ".svg";
   for (ExperimentTrace& trace : experiment.traces) {
     const std::string file =
         experiment.name + (trace.label.empty() ? "" : "-" + trace.label) + ".csv";

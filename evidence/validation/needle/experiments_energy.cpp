@@ -71,7 +71,7 @@ Experiment run_wall_energy(const ExperimentOptions& options, const DeviceLimits&
   for (const bool all_laws : {true, false}) {
     const LayerTable table = random_layers(all_laws, options.feel);
     const std::string what = all_laws ? "wall, friction, membranes" : "wall alone";
-    PlotSeries given{what, {}, {}, "points pt 7 ps 0.2"};
+    PlotSeries given{what, {}, {}, PlotStyle::dots};
     for (std::uint64_t h = 0; h < kHistories; ++h) {
       given.x.push_back(static_cast<double>(h));
       given.y.push_back(

@@ -80,8 +80,7 @@ Experiment run_velocity_estimators(const ExperimentOptions& /*options*/,
       const auto all = make_estimators(1 / rate);
       for (std::size_t k = 0; k < all.size(); ++k) {
         const std::string& label = all[k].first;
-        if (clouds.size() <= k)
-          clouds.push_back({label, {}, {}, "points ps 1.5 pt " + std::to_string(k + 4)});
+        if (clouds.size() <= k) clouds.push_back({label, {}, {}, PlotStyle::points});
         const EstimatorResult r = rate_estimator(*all[k].second, rate, encoder);
         table.rows.push_back({label, to_csv(rate), to_csv(encoder * 1e6),
                               to_csv(r.noise / kMillimetre), to_csv(r.lag * 1e3)});

@@ -162,8 +162,7 @@ struct Changes {
 Changes measure_changes(const ExperimentOptions& options, const DeviceLimits& device) {
   Changes all;
   for (std::size_t k = 0; k < kTable.size(); ++k)
-    all.by_layer.push_back(
-        {"to " + std::string(kTable[k].name), {}, {}, "points ps 1.5 pt " + std::to_string(k + 4)});
+    all.by_layer.push_back({"to " + std::string(kTable[k].name), {}, {}, PlotStyle::points});
   for (const TableLayer& from : kTable) {
     if (std::string_view(from.name) == "bone") continue;  // nothing lies beyond it
     for (std::size_t k = 0; k < kTable.size(); ++k) {

@@ -255,14 +255,13 @@ void add_axes(const std::vector<NeedleRow>& rows, const Vec3& entry, const Vec3&
     PlotSeries wall = plot_rows(rows, "w_" + axis, [k, &entry, &direction](const NeedleRow& r) {
       return (entry + r.wall * direction)[k] / kMillimetre;
     });
-    wall.style = "lines dt 2";
+    wall.style = PlotStyle::dashed;
     position.series.push_back(std::move(wall));
     force.series.push_back(plot_rows(
         rows, "f_" + axis, [k](const NeedleRow& r) { return -resistance(r) * r.axis[k]; }));
   }
   PlotSeries size =
       plot_rows(rows, "magnitude", [](const NeedleRow& r) { return std::abs(resistance(r)); });
-  size.style = "lines lw 2";
   force.series.push_back(std::move(size));
   plot.panels.push_back(std::move(position));
   plot.panels.push_back(std::move(force));

@@ -44,10 +44,10 @@ PlotPanel make_panel(std::string y_label, std::vector<PlotSeries> series) {
 std::vector<NamedPlot> make_plots(const std::string& name, const std::vector<ProbeTrace>& traces,
                                   const std::array<const char*, 4>& figures) {
   std::vector<NamedPlot> plots(4);
-  plots[0] = {name + "-position.png", {name + ": position (" + figures[0] + ")", {}}};
-  plots[1] = {name + "-error.png", {name + ": position error (" + figures[1] + ")", {}}};
-  plots[2] = {name + "-voltage.png", {name + ": control voltage (" + figures[2] + ")", {}}};
-  plots[3] = {name + "-k-pneu.png",
+  plots[0] = {name + "-position.svg", {name + ": position (" + figures[0] + ")", {}}};
+  plots[1] = {name + "-error.svg", {name + ": position error (" + figures[1] + ")", {}}};
+  plots[2] = {name + "-voltage.svg", {name + ": control voltage (" + figures[2] + ")", {}}};
+  plots[3] = {name + "-k-pneu.svg",
               {name + ": stiffness wanted and K_pneu (" + figures[3] + ")", {}}};
   for (const ProbeTrace& t : traces) {
     const auto& rows = t.rows;

@@ -340,7 +340,7 @@ TextTable make_answer_table(const std::vector<LawResult>& results) {
 
 /// Both backstepping laws move the rod alike; drawn dashed, the second lets the first be seen.
 void add_curve(PlotPanel& panel, ControlLawKind law, PlotSeries series) {
-  if (law == ControlLawKind::backstepping_two_valves) series.style = "lines dashtype 2";
+  if (law == ControlLawKind::backstepping_two_valves) series.style = PlotStyle::dashed;
   panel.series.push_back(std::move(series));
 }
 
@@ -430,9 +430,9 @@ ProbeExperiment run_probe_study(const ProbeExperimentOptions& options) {
       {"Disturbances at 1000 N/m:", std::move(study.disturbances)},
       {"Error of the felt force under a pressing hand, rms over rms:", std::move(study.rendering)},
       {"The answer:", make_answer_table(study.results)}};
-  e.plots = {{"probe-study-push.png", std::move(study.push)},
-             {"probe-study-release.png", std::move(study.release)},
-             {"probe-study-steps.png", std::move(study.steps)}};
+  e.plots = {{"probe-study-push.svg", std::move(study.push)},
+             {"probe-study-release.svg", std::move(study.release)},
+             {"probe-study-steps.svg", std::move(study.steps)}};
   e.assumed = {"a low-friction seal of 0.5 N",
                "the pressing hand, 500 N/m and 5 N s/m, 20 mm at 0.5 Hz",
                "the layers under the probe; their moduli are those of the tissue library",

@@ -6,7 +6,6 @@
 #include <gmock/gmock.h>
 
 #include "artus/anatomy/compiled_joint.h"
-#include "artus/anatomy/joint_file.h"
 #include "artus/detail/anatomy/body/layered_body.h"
 #include "artus/detail/anatomy/body/liquid.h"
 #include "artus/detail/anatomy/body/space_bytes.h"
@@ -19,17 +18,6 @@ namespace artus {
 namespace {
 
 using testing::HasSubstr;
-
-const std::string kSpacesElbow =
-    "format = 1\nname = \"elbow\"\nunits = \"mm\"\naxes = \"LPS\"\n"
-    "[body]\nfile = \"body.stl\"\ntissue = \"fat\"\n"
-    "[[structure]]\nname = \"ulna\"\ntissue = \"bone\"\nfile = \"ulna.stl\"\n"
-    "[[structure]]\nname = \"recess\"\ntissue = \"synovial_fluid\"\nfile = \"recess.stl\"\n";
-
-std::string refusal(const std::string& text) {
-  const auto joint = parse_joint(kSpacesElbow + text, "j");
-  return joint ? "" : joint.error().to_string();
-}
 
 TEST(Liquids, TheBundledOnesHaveASourceAndThinWithShear) {
   const auto liquids = read_bundled_liquids();
@@ -74,30 +62,25 @@ TEST(Spaces, EveryTissueOfTheLibraryHasOne) {
   for (const SpaceProfile& p : *profiles) EXPECT_FALSE(p.source.empty()) << p.space.name;
 }
 
-TEST(Spaces, AJointsOwnStandOnAProfileAndOverrideIt) {
-  const auto joint = parse_joint(kSpacesElbow +
-                                     "[[space]]\nname = \"cavity\"\nregions = [\"recess\"]\n"
-                                     "like = \"capsulitis_man\"\nrupture_ml = 30\n",
-                                 "j");
-  ASSERT_TRUE(joint) << joint.error().to_string();
-  ASSERT_EQ(joint->spaces.size(), 1U);
-  EXPECT_NEAR(joint->spaces[0].law.rupture, 30e-6, 1e-15);
-  EXPECT_NEAR(joint->spaces[0].law.stiffness, 2.66644e9, 1);
-}
-
-TEST(Spaces, AreRefusedWithWhatIsWrongAndWhatThereIs) {
-  const std::string head = "[[space]]\nname = \"s\"\nlike = \"joint\"\n";
-  EXPECT_THAT(refusal(head + "regions = [\"reces\"]\n"), HasSubstr("did you mean 'recess'"));
-  EXPECT_THAT(refusal("[[space]]\nname = \"s\"\nlike = \"joynt\"\nregions = [\"recess\"]\n"),
-              HasSubstr("did you mean 'joint'"));
-  EXPECT_THAT(refusal(head + "regions = [\"recess\"]\nleaks_to = \"nowhere\"\n"),
-              HasSubstr("which is no space"));
-  EXPECT_THAT(refusal(head + "regions = [\"recess\"]\nyield_ml = 50\n"), HasSubstr("rupture_ml"));
-  EXPECT_THAT(refusal(head + "regions = [\"recess\"]\n" + head + "regions = [\"recess\"]\n"),
-              HasSubstr("in a space already"));
-  EXPECT_THAT(refusal("[[space]]\nname = \"s\"\nregions = [\"recess\"]\n"), HasSubstr("law"));
-  EXPECT_THAT(refusal(head + "regions = [\"recess\"]\nstiffness_kpa_ml = nan\n"),
-              HasSubstr("stiffness_kpa_ml"));
+TEST(Spaces, ALawThatIsNewNamesItsKindAndAnotherKeepsWhatIsNotSaid) {
+  const auto profiles = read_bundled_space_profiles().value();
+  ASSERT_NE(find_profile(profiles, "joint"), nullptr);
+  EXPECT_EQ(find_profile(profiles, "joynt"), nullptr);
+  const SpaceLaw joint = find_profile(profiles, "joint")->space.law;
+  const auto table = parse_toml("stop_kpa = 44", "t").value();
+  Problems none;
+  SpaceLaw law = joint;
+  TomlTable on_top(table, "space", none);
+  read_space_law(on_top, false, law);
+  EXPECT_TRUE(none.empty());
+  EXPECT_DOUBLE_EQ(law.stop, 44e3);
+  EXPECT_EQ(law.kind, joint.kind);
+  EXPECT_EQ(law.stiffness, joint.stiffness);
+  Problems problems;
+  TomlTable as_new(table, "space", problems);
+  read_space_law(as_new, true, law);
+  EXPECT_THAT(problems.refusal(ErrorCode::invalid, "t").value().message,
+              HasSubstr("'law' is missing"));
 }
 
 class CompiledSpaces : public test::TemporaryFolder {};
@@ -138,10 +121,6 @@ TEST(Spaces, BytesThatAreNoneAreRefused) {
   ByteReader in(bytes);
   static_cast<void>(get_spaces(in));
   EXPECT_FALSE(in.ok());
-  Problems problems;
-  const auto table = parse_toml("", "empty");
-  TomlTable none(*table, "joint", problems);
-  EXPECT_TRUE(read_spaces(none, {})->empty());
 }
 
 }  // namespace

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// Tissues as bytes and as tables; the structures of a joint file one by one.
+// Tissues as bytes and as tables; compiled files.
 #include "artus/detail/anatomy/body/tissue.h"
 
 #include <gmock/gmock.h>
 
 #include "artus/anatomy/compiled_joint.h"
-#include "artus/detail/anatomy/body/joint_structure.h"
+#include "artus/detail/anatomy/body/joint_places.h"
+#include "artus/detail/anatomy/body/region.h"
 #include "artus/detail/anatomy/body/tet_mesh.h"
 #include "artus/detail/anatomy/body/tissue_bytes.h"
 #include "artus/detail/anatomy/body/tissue_toml.h"
@@ -84,61 +85,15 @@ TEST(MergeTissues, OverridesValueByValueAndAppendsOnlyWhatIsComplete) {
               HasSubstr("[tissue.ivory.acoustic] is missing"));
 }
 
-TEST(ReadStructure, TakesOneShapeInMetresAndNamesWhatItLeansOn) {
-  Problems problems;
-  const auto read = [&problems](const char* text) {
-    return read_structure(*parse_toml(text, "t"), 1, 1e-3, problems);
-  };
-  const Structure cap = read(
-      "name = 'c'\ntissue = 'cartilage'\ncap = {on = 'bone', near = ['a', 'b'], within = 6, "
-      "thickness = 2}\nfibre_axis = [0, 0, 2]\n");
-  EXPECT_TRUE(problems.empty());
-  EXPECT_DOUBLE_EQ(std::get<CapConstruct>(cap.shape).within, 6e-3);
-  EXPECT_EQ(names_of(cap), (std::vector<std::string>{"a", "b", "bone"}));
-  EXPECT_EQ(cap.fibre_axis, Vec3::UnitZ());
-  static_cast<void>(read("name = 'c'\ntissue = 't'\nfile = 'a.stl'\nshell = {thickness = 1}\n"));
-  EXPECT_THAT(problems.refusal(ErrorCode::invalid, "t").value().message,
-              HasSubstr("exactly one of"));
-}
-
-TEST(ReadStructure, TellsHowFibresFollowTheirAxis) {
-  const auto read = [](const std::string& text, Problems& problems) {
-    return read_structure(
-        *parse_toml("name = 'm'\ntissue = 'muscle'\nfile = 'm.ply'\n" + text, "t"), 1, 1e-3,
-        problems);
-  };
-  Problems none;
-  EXPECT_EQ(read("", none).fibre_course, FibreCourse::ends);
-  EXPECT_EQ(read("fibre_axis = [0, 0, 1]\nfibre_course = 'layer'\n", none).fibre_course,
-            FibreCourse::layer);
-  EXPECT_TRUE(none.empty());
-  Problems wrong;
-  static_cast<void>(read("fibre_course = 'layer'\n", wrong));
-  static_cast<void>(read("fibre_axis = [0, 0, 1]\nfibre_course = 'straight'\n", wrong));
-  const std::string said = wrong.refusal(ErrorCode::invalid, "t").value().message;
-  EXPECT_THAT(said, HasSubstr("needs fibre_axis = [x, y, z]"));
-  EXPECT_THAT(said, HasSubstr("must be \"ends\" or \"layer\", not \"straight\""));
-}
-
-TEST(LengthUnit, KnowsThreeAndReportsOthers) {
-  Problems problems;
-  const toml::table table = *parse_toml("a = 'mm'\nb = 'cm'\nc = 'm'\nd = 'inch'\n", "t");
-  TomlTable toml(table, "t", problems);
-  EXPECT_EQ(length_unit(toml, "a", 5), 1e-3);
-  EXPECT_EQ(length_unit(toml, "b", 5), 1e-2);
-  EXPECT_EQ(length_unit(toml, "c", 5), 1);
-  EXPECT_EQ(length_unit(toml, "absent", 5), 5);
-  EXPECT_TRUE(problems.empty());
-  EXPECT_EQ(length_unit(toml, "d", 5), 5);
-  EXPECT_FALSE(problems.empty());
-}
-
 class CompiledFiles : public test::TemporaryFolder {};
 
 TEST_F(CompiledFiles, ComeBackWholeAndEveryFlippedByteIsRefused) {
   const std::array<test::FlatLayer, 2> layers{{{"skin", 2e-3}, {"bone", 5e-3}}};
   CompiledJoint joint = test::make_layered_block(layers, 0.1, 0.05);
   joint.landmarks.push_back({"here", Vec3(1, 2, 3)});
+  joint.injections.push_back({"first", Vec3(0, 0, 1), Vec3(0, 0, 2), 17});
+  joint.regions.back().fibre_axis = Vec3::UnitY();
+  joint.regions.back().fibre_course = FibreCourse::layer;
   const std::string file = in("joint.artus");
   ASSERT_TRUE(write_compiled_joint(joint, file));
   const auto back = read_compiled_joint(file);
@@ -146,6 +101,11 @@ TEST_F(CompiledFiles, ComeBackWholeAndEveryFlippedByteIsRefused) {
   EXPECT_EQ(back->mesh.vertices, joint.mesh.vertices);
   EXPECT_EQ(back->regions.back().name, "bone");
   EXPECT_EQ(back->landmarks[0].position, Vec3(1, 2, 3));
+  ASSERT_EQ(back->injections.size(), joint.injections.size());
+  EXPECT_EQ(back->injections.back().target, Vec3(0, 0, 2));
+  EXPECT_EQ(back->injections.back().line, 0) << "a line of a file that is not there";
+  EXPECT_EQ(back->regions.back().fibre_axis, Vec3::UnitY());
+  EXPECT_EQ(back->regions.back().fibre_course, FibreCourse::layer);
   EXPECT_EQ(back->tissue_of(kFirstRegion).name, "skin");
   std::string bytes = *read_bytes(file);
   for (std::size_t i = 0; i < bytes.size(); i += bytes.size() / 97) {

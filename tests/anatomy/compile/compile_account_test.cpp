@@ -109,7 +109,7 @@ TEST(AppendWarnings, NamesWhatLosesMuchAndWhatIsLostWholly) {
                                      {"half", "muscle", Vec3(9 * kMm, 0, 0), 10 * kMm},
                                      {"gone", "muscle", Vec3::Zero(), 8 * kMm}}));
   EXPECT_TRUE(warns(report.structures[2], "goes to structures before it"));
-  EXPECT_TRUE(warns(report.structures[3], "nothing of it is in the joint"));
+  EXPECT_TRUE(warns(report.structures[3], "none of it is in the joint"));
   EXPECT_FALSE(warns(report.structures[1], "goes to structures before it"));
 }
 
@@ -117,7 +117,7 @@ TEST(AppendWarnings, AConstructOfNothingSaysWhatItIsMadeFrom) {
   BallsJoint joint(30 * kMm, {{"a", "muscle", Vec3::Zero(), 12 * kMm},
                               {"gone", "muscle", Vec3::Zero(), 8 * kMm}});
   joint.add_construct("lining", ShellConstruct{"gone", 1 * kMm});
-  EXPECT_TRUE(warns(measured(joint).structures[3], "there is nothing of 'gone'"));
+  EXPECT_TRUE(warns(measured(joint).structures[3], "made from 'gone', of which there is none"));
 }
 
 TEST(CompileReport, ErrorOfAVolumeIsRelativeToWhatIsLeftOfIt) {

@@ -101,7 +101,7 @@ target = [20.0, 0.0, 0.0]
   EXPECT_THAT(check.findings.at(1).message, HasSubstr("the body was cut and closed"));
   EXPECT_TRUE(std::any_of(check.findings.begin(), check.findings.end(), [](const Finding& f) {
     return f.what == "body" && f.verdict == Verdict::look &&
-           f.message.find("are no skin") != std::string::npos;
+           f.message.find("are not skin") != std::string::npos;
   }));
   for (int round = 0; round < 3; ++round)
     for (const PlanProblem& problem : find_plan_problems(file, make_ground(file, check.prepared)))
@@ -145,7 +145,7 @@ TEST_F(CutBody, IsCompiledWithSkinWhereItHasSkin) {
       2.0 / 3 * std::numbers::pi * (std::pow(kRadius, 3) - std::pow(kRadius - 3 * kMm, 3));
   EXPECT_NEAR(outcome->report.structures[2].resolved_volume, shell, 0.07 * shell);
   EXPECT_GT(joint.X_JP_default.translation().norm(), 0.9 * kRadius) << "a probe stands on skin";
-  EXPECT_THAT(outcome->report.notes, testing::Contains(HasSubstr("are no skin")));
+  EXPECT_THAT(outcome->report.notes, testing::Contains(HasSubstr("are not skin")));
 }
 
 }  // namespace

@@ -61,7 +61,7 @@ TEST_F(CheckedJoint, ASizeThatNoPartOfABodyHasIsRefusedByBothAndTheUnitMendsIt) 
   EXPECT_FALSE(found.usable());
   EXPECT_EQ(found.findings.front().verdict, Verdict::refused);
   EXPECT_THAT(found.findings.front().message, HasSubstr("units = \"m\""));
-  EXPECT_THAT(refusal(kHead), HasSubstr("no part of a body"));
+  EXPECT_THAT(refusal(kHead), HasSubstr("not the size of a part of a body"));
   const std::string mended = std::string(kHead) + "units = \"m\"\n";
   EXPECT_TRUE(check(mended).usable());
   EXPECT_EQ(refusal(mended), "");
@@ -72,13 +72,13 @@ TEST_F(CheckedJoint, ABodyOfMetresReadAsMillimetresIsRefusedByBoth) {
   folder_.add_sphere("head", Vec3(0, 0, 0.2), 0.4);
   const std::string toml = kHead;
   EXPECT_FALSE(check(toml).usable());
-  EXPECT_THAT(refusal(toml), HasSubstr("is no body; give the unit of its file"));
+  EXPECT_THAT(refusal(toml), HasSubstr("is not the size of a body; give the unit of its file"));
 }
 
 TEST_F(CheckedJoint, CoordinatesThatNoFrameHasAreRefusedByBothAndTheFrameMendsIt) {
   folder_.add_sphere("head", Vec3(1e7, 0, 5), 8);
   EXPECT_FALSE(check(kHead).usable());
-  EXPECT_THAT(refusal(kHead), HasSubstr("no frame of a body lies so far from its origin"));
+  EXPECT_THAT(refusal(kHead), HasSubstr("too far from the origin for any frame of a body"));
   folder_.add_sphere("head", Vec3(0, 0, 5), 8);
   EXPECT_TRUE(check(kHead).usable());
 }
@@ -90,8 +90,7 @@ TEST_F(CheckedJoint, ASurfaceThatIsThereTwiceCountsOnceAndIsTold) {
   const JointCheck found = check(kHead);
   EXPECT_TRUE(found.usable());
   ASSERT_EQ(found.count(Verdict::look), 1U);
-  EXPECT_THAT(found.findings.front().message,
-              HasSubstr("4.28 cm3 counted each, 2.16 cm3 together"));
+  EXPECT_THAT(found.findings.front().message, HasSubstr("4.28 cm3 added up, 2.16 cm3 together"));
   EXPECT_NEAR(found.surfaces[1].volume, 2.16e-6, 0.03e-6);
 }
 

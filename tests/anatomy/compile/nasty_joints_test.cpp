@@ -93,7 +93,7 @@ std::vector<Nasty> nasty_joints() {
        part, "thicken = 1.0", part + "thicken = 1.0\n"},
       {"all_vertices_lost", [] { return ball(1); }, part, "export it again", part},
       {"half_of_the_vertices_lost", [] { return ball(2, "inf"); }, part,
-       "vertices are no numbers; export it again", part},
+       "vertices have coordinates that are not numbers; export it again", part},
       {"text", [] { return std::string("a surface, sir"); }, part, "export as PLY", part},
       {"duplicated_name", good, part + part, "give each structure, the filler and the body its own",
        part},

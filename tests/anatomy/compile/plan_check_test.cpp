@@ -79,7 +79,8 @@ TEST_F(Plans, SayTheirLineAndAllThatIsWrongAtOnce) {
   const auto found = problems();
   ASSERT_EQ(found.size(), 3U);
   EXPECT_THAT(to_line(found[0]), HasSubstr("[probe] (line 7): its position lies 30.0 mm off"));
-  EXPECT_THAT(to_line(found[1]), HasSubstr("[needle] (line 9): bone 'core' is in the way"));
+  EXPECT_THAT(to_line(found[1]),
+              HasSubstr("[needle] (line 9): bone 'core' is in the needle's path"));
   EXPECT_THAT(to_line(found[2]), HasSubstr("injection 'first' (line 12): its entry lies"));
 }
 
@@ -96,7 +97,7 @@ TEST_F(Plans, WithBoneInTheWayAreMended) {
   const auto found = problems();
   ASSERT_EQ(found.size(), 1U);
   EXPECT_THAT(found[0].message, HasSubstr("35.0 mm after the entry and 45.0 mm before the target"));
-  expect_mended("bone 'core' is in the way");
+  expect_mended("bone 'core' is in the needle's path");
 }
 
 TEST_F(Plans, OutsideTheBodyOrTheRegionAreMended) {
@@ -138,7 +139,7 @@ TEST_F(Plans, WithAWayTooShortToBeMeantAreMended) {
   pass().target = pass().entry + Vec3(0, 0, -0.1e-3);
   const auto found = problems();
   ASSERT_EQ(found.size(), 1U);
-  EXPECT_THAT(found[0].message, HasSubstr("is 0.1 mm, too short for a needle"));
+  EXPECT_THAT(found[0].message, HasSubstr("only 0.1 mm apart, too short for a needle"));
   expect_mended("too short");
 }
 
@@ -152,7 +153,7 @@ TEST_F(Plans, WithAProbeThatDoesNotStandAreMended) {
   expect_mended("away from the body");
   joint_.file.X_JP_default = make_pose(top, -Vec3::UnitZ(), Vec3::UnitX());
   joint_.file.region_of_interest = RegionOfInterest{Vec3(0, -0.025, 0.025), 0.037, {}};
-  expect_mended("with its whole length");
+  expect_mended("over its whole length");
 }
 
 TEST(CompiledPlans, AreJudgedAsThoseOfTheSurfaces) {
@@ -172,7 +173,7 @@ TEST(CompiledPlans, AreJudgedAsThoseOfTheSurfaces) {
                      {"free", Vec3(0, -0.02, 0.0458), Vec3(0, -0.02, 0.01)}};
   const auto problems = find_plan_problems(file, ground);
   ASSERT_EQ(problems.size(), 1U);
-  EXPECT_THAT(problems[0].message, HasSubstr("is in the way"));
+  EXPECT_THAT(problems[0].message, HasSubstr("is in the needle's path"));
   ASSERT_EQ(problems[0].mends.size(), 1U);
   file.injections[0].entry = problems[0].mends[0].value;
   EXPECT_TRUE(find_plan_problems(file, ground).empty());

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string_view>
+
+#include "artus/detail/anatomy/source/joint_variant_toml.h"
+#include "artus/detail/core/bundled.h"
+#include "artus/detail/core/known_names.h"
+
+namespace artus {
+namespace {
+
+constexpr std::array<std::string_view, 4> kReplaced{"region_of_interest", "probe", "needle",
+                                                    "injection"};
+
+bool is_there(const std::vector<std::string>& names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+std::vector<std::string> declared_names(const std::vector<JointVariant>& variants) {
+  std::vector<std::string> names;
+  for (const JointVariant& v : variants) names.push_back(v.name);
+  return names;
+}
+
+std::string refusal_of(const std::string& name, const std::vector<JointVariant>& variants) {
+  if (variants.empty()) return "the joint has no variants, so no '" + name + "'";
+  const std::vector<std::string_view> known = item_names(variants);
+  return "the joint has no variant '" + name + "'" + did_you_mean(name, known) + "; it has " +
+         listed(known);
+}
+
+/// The declared variants, in the order of the table, which is alphabetical.
+std::vector<JointVariant> read_declared(const toml::table& joint,
+                                        const std::vector<std::string>& chosen,
+                                        Problems& problems) {
+  std::vector<JointVariant> declared;
+  const toml::node* node = joint.get("variant");
+  if (node == nullptr) return declared;
+  const toml::table* all = node->as_table();
+  if (all == nullptr) {
+    problems.add(*node, "joint: 'variant' must be tables: [variant.NAME]");
+    return declared;
+  }
+  for (const auto& [key, value] : *all) {
+    const std::string name(key.str());
+    const toml::table* table = value.as_table();
+    if (table == nullptr || !is_plain_name(name, '_')) {
+      problems.add(value, "variant '" + name + "' must be a table [variant.NAME], NAME of a-z, " +
+                              "0-9 and _");
+      continue;
+    }
+    TomlTable one(*table, "variant '" + name + "'", problems);
+    const std::string title = one.required_text("title");
+    for (const std::string_view part : kReplaced)
+      if (part == "injection")
+        static_cast<void>(one.tables(part));
+      else
+        static_cast<void>(one.table(part));
+    one.finish();
+    declared.push_back({name, title, is_there(chosen, name)});
+  }
+  return declared;
+}
+
+/// What a part of the joint says under `variant`: one name or several; empty: it says nothing.
+std::optional<std::vector<std::string>> read_condition(const toml::table& part,
+                                                       const std::vector<std::string>& known,
+                                                       Problems& problems) {
+  const toml::node* node = part.get("variant");
+  if (node == nullptr) return std::nullopt;
+  std::vector<std::string> names;
+  const auto take = [&](const toml::node& one) {
+    const auto name = one.value<std::string>();
+    if (!name)
+      problems.add(one, "'variant' must be a name or a list of names");
+    else if (!is_there(known, *name))
+      problems.add(one, "there is no [variant." + *name + "]" + did_you_mean(*name, known));
+    names.push_back(name.value_or(""));
+  };
+  if (const toml::array* list = node->as_array())
+    for (const toml::node& one : *list) take(one);
+  else
+    take(*node);
+  return names;
+}
+
+class Filter {
+ public:
+  Filter(const std::vector<std::string>& known, const std::vector<std::string>& chosen,
+         Problems& problems)
+      : known_(known), chosen_(chosen), problems_(problems) {}
+
+  /// Whether a part stays; it forgets its condition.
+  bool keeps(toml::node& node) {
+    toml::table* part = node.as_table();
+    if (part == nullptr) return true;
+    const auto condition = read_condition(*part, known_, problems_);
+    if (!condition) return true;
+    part->erase("variant");
+    return std::any_of(condition->begin(), condition->end(),
+                       [this](const std::string& name) { return is_there(chosen_, name); });
+  }
+
+  void apply(toml::array& parts) {
+    for (auto at = parts.begin(); at != parts.end();) at = keeps(*at) ? at + 1 : parts.erase(at);
+  }
+  void apply(toml::table& parts) {
+    for (auto at = parts.begin(); at != parts.end();)
+      at = keeps(at->second) ? std::next(at) : parts.erase(at);
+  }
+
+ private:
+  const std::vector<std::string>& known_;
+  const std::vector<std::string>& chosen_;
+  Problems& problems_;
+};
+
+void replace_parts(toml::table& joint, const std::vector<JointVariant>& variants) {
+  for (const JointVariant& variant : variants) {
+    if (!variant.chosen) continue;
+    const toml::table& says = *joint.get("variant")->as_table()->get(variant.name)->as_table();
+    for (const std::string_view part : kReplaced)
+      if (const toml::table* own = says[part].as_table())
+        joint.insert_or_assign(part, toml::table(*own));
+      else if (const toml::array* list = says[part].as_array())
+        joint.insert_or_assign(part, toml::array(*list));
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> chosen_names(const std::vector<JointVariant>& variants) {
+  std::vector<std::string> names;
+  for (const JointVariant& v : variants)
+    if (v.chosen) names.push_back(v.name);
+  return names;
+}
+
+JointChoice split_variants(const std::filesystem::path& joint) {
+  JointChoice choice{joint, {}, {}};
+  std::error_code ignored;
+  if (std::filesystem::exists(joint, ignored)) return choice;
+  std::string name = joint.filename().string();
+  if (const std::size_t at = name.find('@'); at != std::string::npos && at > 0) {
+    choice.patient = name.substr(at + 1);
+    name.resize(at);
+    choice.folder = joint.parent_path() / name;
+    if (std::filesystem::exists(choice.folder, ignored)) return choice;
+  }
+  std::size_t plus = name.find('+');
+  if (plus == std::string::npos || plus == 0) return choice;
+  for (std::size_t at = name.rfind('+'); at > plus; at = name.rfind('+', at - 1)) {
+    if (!std::filesystem::is_directory(joint.parent_path() / name.substr(0, at), ignored)) continue;
+    plus = at;
+    break;
+  }
+  choice.folder = joint.parent_path() / name.substr(0, plus);
+  while (plus != std::string::npos) {
+    const std::size_t next = name.find('+', plus + 1);
+    choice.variants.push_back(name.substr(plus + 1, next - plus - 1));
+    plus = next;
+  }
+  std::sort(choice.variants.begin(), choice.variants.end());
+  choice.variants.erase(std::unique(choice.variants.begin(), choice.variants.end()),
+                        choice.variants.end());
+  return choice;
+}
+
+std::filesystem::path with_variant(std::filesystem::path joint, const std::string& variant) {
+  if (!joint.has_filename()) joint = joint.parent_path();  // "shoulder/"
+  const std::string patient = split_variants(joint).patient;
+  return with_patient(with_patient(joint, {}) += "+" + variant, patient);
+}
+
+std::filesystem::path with_patient(const std::filesystem::path& joint, const std::string& patient) {
+  std::filesystem::path out = joint.has_filename() ? joint : joint.parent_path();
+  if (const std::string old = split_variants(out).patient; !old.empty()) {
+    std::string name = out.filename().string();
+    name.resize(name.find('@'));
+    out.replace_filename(name);
+  }
+  return patient.empty() ? out : out += "@" + patient;
+}
+
+std::filesystem::path find_joint(const std::filesystem::path& joint) {
+  if (!joint.empty() && !joint.has_filename()) return find_joint(joint.parent_path());  // "knee/"
+  const std::filesystem::path folder = split_variants(joint).folder;
+  const bool bundled_name = joint.parent_path().empty() || joint.parent_path() == "meshes";
+  std::error_code ignored;
+  if (joint.empty() || !bundled_name || std::filesystem::exists(folder, ignored)) return joint;
+  const std::filesystem::path found = find_bundled("meshes" / folder.filename());
+  return found.empty() ? joint : found.parent_path() / joint.filename();
+}
+
+bool is_joint_folder(const std::filesystem::path& joint) {
+  std::error_code ignored;
+  return std::filesystem::is_directory(split_variants(find_joint(joint)).folder, ignored);
+}
+
+std::vector<JointVariant> choose_variants(toml::table& joint,
+                                          const std::vector<std::string>& chosen,
+                                          Problems& problems) {
+  std::vector<JointVariant> variants = read_declared(joint, chosen, problems);
+  const std::vector<std::string> known = declared_names(variants);
+  for (const std::string& name : chosen)
+    if (!is_there(known, name)) problems.add(joint, refusal_of(name, variants));
+  replace_parts(joint, variants);
+  joint.erase("variant");
+  Filter filter(known, chosen, problems);
+  for (auto&& [key, node] : joint) {
+    if (toml::array* parts = node.as_array()) filter.apply(*parts);
+    if (toml::table* parts = node.as_table()) filter.apply(*parts);
+  }
+  return variants;
+}
+
+}  // namespace artus

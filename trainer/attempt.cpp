@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/detail/trainer/attempt.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "artus/detail/core/text_file.h"
+#include "artus/detail/reports/attempt_files.h"
+#include "artus/detail/reports/attempt_page.h"
+#include "artus/detail/trainer/lesson.h"
+#include "artus/detail/training/live_attempt.h"
+#include "artus/detail/training/session_meter.h"
+
+namespace artus {
+namespace {
+
+/// The scenario's session with the hand's device and link.
+Result<SessionParams> params_of(const TrainContext& room, const TrainTask& task) {
+  auto params = make_session_params(task.scenario);
+  ARTUS_TRY(params);
+  const AttemptSetup& setup = *room.setup;
+  params->device = setup.device;
+  params->image.n_threads = setup.image_threads;
+  params->deform = !setup.rigid && gives_way(task.scene->joint());
+  if (setup.pose_hold > 0) {
+    constexpr double kMargin = 5e-3;  // s
+    params->guard.stale_after = std::max(params->guard.stale_after, setup.pose_hold + kMargin);
+  }
+  ARTUS_TRY(validate(*params));
+  return params;
+}
+
+/// The window while someone works; true: they said that they are done.
+Result<bool> show(const TrainContext& room, const TrainTask& task, TrainLesson& lesson,
+                  Session& session, HandDevice* hand) {
+  WindowOptions window = *room.window;
+  auto steps = room.script->take("attempt");
+  ARTUS_TRY(steps);
+  window.script = std::move(*steps);
+  window.quit_after_script = room.script->given();
+  window.lesson = lesson.options();
+  window.patient = "";
+  window.turn_knobs = [&room](ImageControls& controls) {
+    room.turns->take(controls);
+  };
+  WindowReport report;
+  ARTUS_TRY(run_window(*room.screen, session, hand, first_hands(task.scenario), window, report));
+  return report.finished;
+}
+
+/// The session from its start to its end; what was measured rests then.
+Result<bool> work(const TrainContext& room, const TrainTask& task, const SessionParams& params,
+                  LiveAttempt& meter, const std::filesystem::path& recording) {
+  HandDevice* hand = nullptr;
+  std::unique_ptr<InputDevice> device;
+  if (room.setup->make_device) {
+    auto other = room.setup->make_device(params, task.scene->joint());
+    ARTUS_TRY(other);
+    device = std::move(*other);
+  } else {
+    auto own = std::make_unique<HandDevice>(first_hands(task.scenario), 1 / params.haptic_rate);
+    hand = own.get();
+    device = std::move(own);
+  }
+  Session::Options options;
+  options.haptic_options.cpu = room.setup->haptic_cpu;
+  options.recording = recording;
+  options.share_images = room.setup->share_images;
+  options.image_segment_prefix = room.setup->prefix;
+  options.observer = &meter;
+  options.extra_scene_holders = 1;
+  if (room.link != nullptr)
+    options.on_image = [&room](const ImageSnapshot& image) {
+      room.link->take_image(image);
+    };
+  TrainLesson lesson(task.scenario, task.scene, params, task.asked, room.window->language);
+  auto session = Session::start(task.scene, params, std::move(device), options);
+  ARTUS_TRY(session);
+  if (room.link != nullptr) room.link->attach(session->get());
+  auto finished = show(room, task, lesson, **session, hand);
+  if (room.link != nullptr) room.link->attach(nullptr);
+  return finished;
+}
+
+/// Judges what was measured and says what the person is told of it.
+Result<void> judge_outcome(TrainDesk& desk, const Scenario& scenario, TrainOutcome& out) {
+  PlayedAttempt& played = out.played;
+  played.judgement =
+      judge(played.measures.metrics, scenario.pass, scenario.score, out.record.aided);
+  const auto& ticks = played.recording.ticks;
+  if (!ticks.empty())
+    played.duration = static_cast<double>(ticks.back().input.tick - ticks.front().input.tick) /
+                      played.recording.head.params.haptic_rate;
+  auto before = desk.before(out.record);
+  ARTUS_TRY(before);
+  out.feedback =
+      make_feedback(played.measures, played.judgement, {scenario.level, std::move(*before)});
+  out.report = std::filesystem::path(out.record.folder) / "report.html";
+  return {};
+}
+
+}  // namespace
+
+Result<TrainOutcome> run_attempt(const TrainContext& room, const TrainTask& task) {
+  const auto params = params_of(room, task);
+  ARTUS_TRY(params);
+  auto options = make_meter_options(task.scenario, task.scene->joint(), *params);
+  ARTUS_TRY(options);
+  LiveAttempt meter(task.scene, std::move(*options), params->haptic_rate);
+  TrainOutcome out;
+  auto record = room.desk->begin(task.person, task.scenario, room.setup->input);
+  ARTUS_TRY(record);
+  out.record = *record;
+  const std::filesystem::path folder = out.record.folder;
+  const auto finished = work(room, task, *params, meter, folder / "session.rec");
+  ARTUS_TRY(finished);
+  out.finished = *finished;
+  if (!out.finished) return out;
+  auto recording = read_recording(folder / "session.rec");
+  ARTUS_TRY(recording);
+  out.played.recording = std::move(*recording);
+  out.played.measures = meter.measure();
+  for (const std::string& step : task.asked)
+    out.played.measures.events.push_back({0, step, "", 0, "answered before the attempt"});
+  ARTUS_TRY(judge_outcome(*room.desk, task.scenario, out));
+  ARTUS_TRY(write_attempt_files(task.scenario, out.played, folder));
+  const auto norms = room.desk->norms(out.record);
+  ARTUS_TRY(norms);
+  ARTUS_TRY(write_attempt_page(
+      {task.scenario, task.scene, out.played, out.feedback, *norms, room.window->language},
+      out.report));
+  ARTUS_TRY(room.desk->finish(out.record, out.played));
+  return out;
+}
+
+Result<TrainOutcome> read_attempt(TrainDesk& desk, const TrainTask& task,
+                                  const AttemptRecord& record) {
+  const std::filesystem::path folder = record.folder;
+  TrainOutcome out;
+  out.finished = true;
+  out.record = record;
+  auto recording = read_recording(folder / "session.rec");
+  ARTUS_TRY(recording);
+  out.played.recording = std::move(*recording);
+  auto options =
+      make_meter_options(task.scenario, task.scene->joint(), out.played.recording.head.params);
+  ARTUS_TRY(options);
+  auto measures =
+      assess(out.played.recording, task.scene, std::move(*options), SightSource::recorded);
+  ARTUS_TRY(measures);
+  out.played.measures = std::move(*measures);
+  ARTUS_TRY(judge_outcome(desk, task.scenario, out));
+  return out;
+}
+
+}  // namespace artus

@@ -1,0 +1,350 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/detail/trainer/flow.h"
+
+#include <algorithm>
+#include <chrono>
+#include <future>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "artus/detail/reports/mark_words.h"
+#include "artus/detail/trainer/pages.h"
+#include "artus/detail/trainer/review.h"
+#include "artus/detail/training/patient_plans.h"
+
+namespace artus {
+namespace {
+
+/// One after the other: who, what, briefing, attempt, verdict; and again.
+class TrainFlow {
+ public:
+  TrainFlow(const TrainOptions& options, TrainContext room, PageOptions pages,
+            std::vector<Scenario> scenarios, RemoteScenario& remote)
+      : options_(options),
+        room_(room),
+        remote_(&remote),
+        page_options_(std::move(pages)),
+        language_(page_options_.language),
+        scenarios_(std::move(scenarios)),
+        bodies_(options.joint, room.load_scene) {}
+
+  /// Until someone leaves or the window is closed.
+  [[nodiscard]] Result<void> run() {
+    Next next = Next::who;
+    while (next != Next::leave) {
+      auto after = step(next);
+      ARTUS_TRY(after);
+      next = *after;
+    }
+    return {};
+  }
+
+ private:
+  enum class Next { who, what, earlier, briefing, attempt, end, leave };
+
+  Result<Next> step(Next now) {
+    switch (now) {
+      case Next::who:
+        return who();
+      case Next::what:
+        return what();
+      case Next::earlier:
+        return earlier();
+      case Next::briefing:
+        return brief();
+      case Next::attempt:
+        return attempt();
+      case Next::end:
+        return end();
+      case Next::leave:
+        break;
+    }
+    return Next::leave;
+  }
+
+  Result<PageAnswer> show(Page page) {
+    if (!pages_) pages_ = std::make_unique<PageWindow>(*room_.screen, page_options_);
+    return pages_->show(std::move(page));
+  }
+
+  /// A page on which another program may choose the task, too: then it is done.
+  Result<PageAnswer> offer(Page page) {
+    remote_->refuse("");
+    page.done = [this] {
+      return remote_->asked();
+    };
+    auto answer = show(std::move(page));
+    remote_->refuse("nobody is free for it now");
+    return answer;
+  }
+
+  /// What another program asked for is briefed next.
+  Next take_remote() {
+    if (const auto scenario = remote_->take()) choose(*scenario);
+    return Next::briefing;
+  }
+
+  Result<Next> who() {
+    auto names = room_.desk->learners();
+    ARTUS_TRY(names);
+    if (!options_.person.empty() && person_.empty()) {
+      if (std::find(names->begin(), names->end(), options_.person) == names->end())
+        return fail(ErrorCode::not_found,
+                    "the records have no learner '" + options_.person +
+                        "': without --person the window makes one, or: artus learners add",
+                    "--person");
+      person_ = options_.person;
+      return what_next();
+    }
+    std::vector<KnownLearner> learners;
+    for (const std::string& name : *names) {
+      auto tally = room_.desk->tally(name, "");
+      ARTUS_TRY(tally);
+      learners.push_back({name, *tally});
+    }
+    std::stable_sort(learners.begin(), learners.end(),
+                     [](const auto& a, const auto& b) { return a.tally.last > b.tally.last; });
+    const auto answer = show(make_who_page(learners, language_));
+    ARTUS_TRY(answer);
+    if (answer->kind != PageAnswer::Kind::chosen) return Next::leave;
+    if (answer->choice < learners.size()) {
+      person_ = learners[answer->choice].name;
+      return what_next();
+    }
+    auto fresh = room_.desk->add_learner(options_.cohort);
+    ARTUS_TRY(fresh);
+    person_ = *fresh;
+    const auto seen = show(make_welcome_page(person_, language_));
+    ARTUS_TRY(seen);
+    return seen->kind == PageAnswer::Kind::chosen ? what_next() : Result<Next>(Next::leave);
+  }
+
+  /// The scenario of the command line goes first, once.
+  Result<Next> what_next() {
+    if (options_.scenario.empty() || asked_for_) return Next::what;
+    asked_for_ = true;
+    auto asked = find_scenario(options_.scenario);
+    ARTUS_TRY(asked);
+    choose(*asked);
+    if (!options_.patient.empty()) scenario_ = scenarios_[at_];  // that of the patient
+    return Next::briefing;
+  }
+
+  void choose(const Scenario& scenario) {
+    scenario_ = scenario;
+    asked_.clear();
+    for (std::size_t i = 0; i < scenarios_.size(); ++i)
+      if (scenarios_[i].name == scenario.name) at_ = i;
+  }
+
+  Result<Next> what() {
+    std::vector<OfferedTask> tasks;
+    for (const Scenario& scenario : scenarios_) {
+      auto tally = room_.desk->tally(person_, scenario.name);
+      ARTUS_TRY(tally);
+      tasks.push_back({scenario, *tally});
+    }
+    const auto answer = offer(make_what_page(tasks, person_, bodies_, at_, language_));
+    ARTUS_TRY(answer);
+    if (answer->kind == PageAnswer::Kind::done) return take_remote();
+    if (answer->kind == PageAnswer::Kind::back) return Next::who;
+    if (answer->kind != PageAnswer::Kind::chosen) return Next::leave;
+    if (answer->choice == tasks.size()) return Next::earlier;
+    choose(tasks[answer->choice].scenario);
+    return Next::briefing;
+  }
+
+  /// Title of a scenario by its name; the name of one that is not offered.
+  [[nodiscard]] std::string title_of(const std::string& name) const {
+    for (const Scenario& scenario : scenarios_)
+      if (scenario.name == name) return title_words(language_, scenario);
+    return name;
+  }
+
+  /// An attempt of before: its verdict and all that follows from there.
+  Result<Next> earlier() {
+    auto records = room_.desk->finished(person_);
+    ARTUS_TRY(records);
+    std::vector<EarlierAttempt> attempts;
+    for (const AttemptRecord& record : *records)
+      attempts.push_back({record, title_of(record.scenario)});
+    const auto answer = show(make_earlier_page(attempts, language_));
+    ARTUS_TRY(answer);
+    if (answer->kind == PageAnswer::Kind::back) return Next::what;
+    if (answer->kind != PageAnswer::Kind::chosen) return Next::leave;
+    const AttemptRecord& record = attempts[answer->choice].record;
+    auto scenario = read_scenario(std::filesystem::path(record.folder) / "scenario.toml");
+    ARTUS_TRY(scenario);
+    choose(*scenario);
+    const auto there = prepare();
+    ARTUS_TRY(there);
+    if (!*there) return Next::leave;
+    task_ = {person_, scenario_, scene_, {}};
+    auto outcome = meanwhile(msgid("The attempt is being read ..."),
+                             [&] { return read_attempt(*room_.desk, task_, record); });
+    ARTUS_TRY(outcome);
+    if (!*outcome) return Next::leave;
+    outcome_ = std::move(**outcome);
+    return Next::end;
+  }
+
+  /// What a thread of its own makes while a page asks to wait; empty: the window was closed.
+  template <class Make>
+  auto meanwhile(const char* what, Make make)
+      -> Result<std::optional<typename decltype(make())::value_type>> {
+    auto making = std::async(std::launch::async, make);
+    const auto ready = [&making] {
+      return making.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+    };
+    const auto waited = show(make_busy_page(what, ready, language_));
+    ARTUS_TRY(waited);
+    auto made = making.get();
+    ARTUS_TRY(made);
+    if (waited->kind != PageAnswer::Kind::done) return std::nullopt;
+    return std::optional(std::move(*made));
+  }
+
+  /// The scenario's body, with a page that asks to wait while it is made. False: the window was
+  /// closed meanwhile.
+  Result<bool> prepare() {
+    bodies_.prepare(scenario_);
+    const auto done = [this] {
+      bodies_.prepare(scenario_);
+      return bodies_.ready(scenario_);
+    };
+    if (!done()) {
+      const auto waited =
+          show(make_busy_page(msgid("The body is being prepared ..."), done, language_));
+      ARTUS_TRY(waited);
+      if (waited->kind != PageAnswer::Kind::done) return false;
+    }
+    auto scene = bodies_.scene(scenario_);
+    ARTUS_TRY(scene);
+    scene_ = *scene;
+    follow_patient(scenario_, *scene_);
+    return true;
+  }
+
+  Result<Next> brief() {
+    const auto there = prepare();
+    ARTUS_TRY(there);
+    if (!*there) return Next::leave;
+    auto tally = room_.desk->tally(person_, scenario_.name);
+    ARTUS_TRY(tally);
+    const Scenario offered = with_faded_aids(scenario_, *tally, true);
+    const std::vector<BriefingChoice> choices = briefing_choices(offered);
+    std::size_t at = 0;
+    for (;;) {
+      Page page = make_briefing_page(offered, asked_, scene_->joint().side,
+                                     bodies_.picture(scenario_), page_options_.keys, language_);
+      page.at = at;
+      page.refresh = [this](Page& shown) {
+        bodies_.want(scenario_);
+        for (PageChoice& choice : shown.choices) choice.picture = bodies_.picture(scenario_);
+      };
+      if (at > 0) page.name.clear();  // the same page: the script's steps go on
+      const auto answer = offer(std::move(page));
+      ARTUS_TRY(answer);
+      if (answer->kind == PageAnswer::Kind::done) return take_remote();
+      if (answer->kind == PageAnswer::Kind::back) return Next::what;
+      if (answer->kind != PageAnswer::Kind::chosen) return Next::leave;
+      const BriefingChoice& choice = choices[answer->choice];
+      if (choice.kind != BriefingChoice::Kind::ask) {
+        task_ = {
+            person_,
+            with_faded_aids(scenario_, *tally, choice.kind == BriefingChoice::Kind::begin_aided),
+            scene_, asked_};
+        return Next::attempt;
+      }
+      asked_.insert(choice.step);
+      at = std::min(answer->choice + 1, choices.size() - 1);
+    }
+  }
+
+  Result<Next> attempt() {
+    pages_.reset();  // the session's window takes the screen
+    auto outcome = run_attempt(room_, task_);
+    ARTUS_TRY(outcome);
+    outcome_ = std::move(*outcome);
+    return outcome_.finished ? Next::end : Next::leave;
+  }
+
+  /// The one that the feedback names; else the first above this one that was not passed, when this
+  /// one was; else the same again.
+  Result<std::size_t> next_task() {
+    for (std::size_t i = 0; i < scenarios_.size(); ++i)
+      if (scenarios_[i].name == outcome_.feedback.next_scenario) return i;
+    if (!outcome_.played.judgement.passed) return at_;
+    for (std::size_t i = at_ + 1; i < scenarios_.size(); ++i) {
+      auto tally = room_.desk->tally(person_, scenarios_[i].name);
+      ARTUS_TRY(tally);
+      if (tally->passes == 0) return i;
+    }
+    return at_;
+  }
+
+  Result<Next> review() {
+    const auto made = meanwhile(msgid("The review is being prepared ..."),
+                                [this] { return make_review(task_, outcome_, language_); });
+    ARTUS_TRY(made);
+    if (!*made) return Next::leave;
+    pages_.reset();
+    const auto back = run_review(*room_.screen, page_options_, **made);
+    ARTUS_TRY(back);
+    return *back ? Next::end : Next::leave;
+  }
+
+  Result<Next> end() {
+    const auto next = next_task();
+    ARTUS_TRY(next);
+    const auto answer =
+        offer(make_end_page(outcome_, title_words(language_, scenarios_[*next]), language_));
+    ARTUS_TRY(answer);
+    if (answer->kind == PageAnswer::Kind::done) return take_remote();
+    if (answer->kind != PageAnswer::Kind::chosen) return Next::leave;
+    switch (static_cast<AfterAttempt>(answer->choice)) {
+      case AfterAttempt::review:
+        return review();
+      case AfterAttempt::again:
+        asked_.clear();
+        return Next::briefing;
+      case AfterAttempt::next:
+        choose(scenarios_[*next]);
+        return Next::briefing;
+      case AfterAttempt::other:
+        return Next::what;
+      case AfterAttempt::who:
+        return Next::who;
+      case AfterAttempt::leave:
+        break;
+    }
+    return Next::leave;
+  }
+
+  const TrainOptions& options_;
+  TrainContext room_;
+  RemoteScenario* remote_;
+  PageOptions page_options_;
+  Language language_;
+  std::vector<Scenario> scenarios_;
+  TrainBodies bodies_;
+  std::unique_ptr<PageWindow> pages_;
+  std::string person_;
+  Scenario scenario_;
+  std::size_t at_ = 0;  // of scenarios_, the one that was chosen last
+  std::set<std::string> asked_;
+  bool asked_for_ = false;
+  std::shared_ptr<const Scene> scene_;
+  TrainTask task_;
+  TrainOutcome outcome_;
+};
+
+}  // namespace
+
+Result<void> run_training(const TrainOptions& options, const TrainContext& room, PageOptions pages,
+                          std::vector<Scenario> scenarios, RemoteScenario& remote) {
+  return TrainFlow(options, room, std::move(pages), std::move(scenarios), remote).run();
+}
+
+}  // namespace artus

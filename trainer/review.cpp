@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/detail/trainer/review.h"
+
+#include <cmath>
+#include <utility>
+
+#include "artus/detail/core/units.h"
+#include "artus/detail/reports/feedback_words.h"
+#include "artus/detail/reports/mark_words.h"
+#include "artus/detail/viewer/words/anatomy_names.h"
+#include "artus/session/replay.h"
+
+namespace artus {
+namespace {
+
+/// What the truth says of the tip: where it is, and why it is seen or not.
+std::string why_of(const TipSightFinder& finder, const Scene& scene, const HapticSnapshot& state,
+                   Language language) {
+  if (state.inserted == 0) return translate(language, "The needle is not in the body here");
+  const TipSight sight = finder.look(scene, to_pose(state.X_JP), to_pose(state.X_JN));
+  const auto mm = [&](double length) {
+    return number(language, length / kMillimetre, 1);
+  };
+  const auto& region = scene.joint().regions[state.feedback.region];
+  std::string where = fill(
+      translate(language,
+                "The tip is in: {}. It lies {} mm beside the picture's plane, whose slice is {} mm "
+                "thick to either side there"),
+      {clinical_name(language, region.name), mm(std::abs(sight.offset)), mm(sight.half_width)});
+  switch (sight.loss) {
+    case SightLoss::none:
+      return where + ". " + translate(language, "It can be seen.");
+    case SightLoss::no_contact:
+      return where + ". " +
+             translate(language, "It cannot be seen: the probe does not touch there.");
+    case SightLoss::off_plane:
+      return where + ". " + translate(language, "It cannot be seen: the beam passes beside it.");
+    case SightLoss::off_sector:
+      return where + ". " +
+             translate(language, "It cannot be seen: it is beside or below the picture.");
+    case SightLoss::shadow:
+      return where + ". " +
+             fill(translate(language, "It cannot be seen: it lies in the shadow of the {}."),
+                  {clinical_name(language, scene.joint().regions[sight.shadow].name)});
+    case SightLoss::angle:
+      break;
+  }
+  return where + ". " +
+         fill(translate(language,
+                        "It cannot be seen: at {} degrees to the probe's face the echo is "
+                        "reflected away ({} dB above muscle)."),
+              {number(language, sight.face_angle / kDegree, 0),
+               number(language, sight.contrast_db, 0)});
+}
+
+/// Where the picture's clock stands against the moments': the last that was there.
+class Frames {
+ public:
+  explicit Frames(const Recording& recording) : recording_(recording) {}
+
+  [[nodiscard]] FrameInput at(const HapticSnapshot& state) {
+    const auto& frames = recording_.frames;
+    while (next_ < frames.size() &&
+           frames[next_].input.sample_time_ns <= state.input.device.time_ns)
+      ++next_;
+    if (next_ > 0) return frames[next_ - 1].input;
+    return frame_input(state, controls_of(recording_.head.params), 1);
+  }
+
+ private:
+  const Recording& recording_;
+  std::size_t next_ = 0;
+};
+
+}  // namespace
+
+Result<ReviewFilm> make_film(const Recording& recording,
+                             const std::shared_ptr<const Scene>& scene) {
+  constexpr double kRate = 50;  // Hz
+  const double rate = recording.head.params.haptic_rate;
+  const auto every = static_cast<std::uint64_t>(std::max(1.0, std::round(rate / kRate)));
+  Recording ticks;
+  ticks.head = recording.head;
+  ticks.ticks = recording.ticks;
+  ticks.packets = recording.packets;
+  Frames frames(recording);
+  ReviewFilm film;
+  std::uint64_t n = 0;
+  ReplayListener listener;
+  listener.on_tick = [&](const HapticSnapshot& state) {
+    if (n++ % every != 0) return;
+    const double time =
+        static_cast<double>(state.input.tick - recording.ticks.front().input.tick) / rate;
+    film.moments.push_back({time, state, frames.at(state)});
+  };
+  const auto replayed = replay(ticks, scene, listener);
+  ARTUS_TRY(replayed);
+  return film;
+}
+
+Result<Review> make_review(const TrainTask& task, const TrainOutcome& outcome, Language language) {
+  const PlayedAttempt& played = outcome.played;
+  Review review;
+  review.title = title_words(language, task.scenario);
+  review.scene = task.scene;
+  review.params = played.recording.head.params;
+  review.target_J = task.scenario.target.point;
+  review.in_plane = task.scenario.entry.plane == "in";
+  auto film = make_film(played.recording, task.scene);
+  ARTUS_TRY(film);
+  review.film = std::move(*film);
+  const auto expert = play(task.scenario, task.scene, expert_skill(), {});
+  ARTUS_TRY(expert);
+  auto beside = make_film(expert->recording, task.scene);
+  ARTUS_TRY(beside);
+  review.expert = std::move(*beside);
+  const auto& ticks = played.recording.ticks;
+  const double begin =
+      ticks.empty() ? 0 : static_cast<double>(ticks.front().input.tick) / review.params.haptic_rate;
+  constexpr double kSeen =
+      0.5;  // s into a fault, when there is something to see of it: the report's
+  for (const Fault& fault : outcome.feedback.faults)
+    review.faults.push_back({fault.time - begin + kSeen, feedback_words(language, fault.what),
+                             feedback_words(language, fault.cause),
+                             feedback_words(language, fault.mend)});
+  const TipSightFinder finder(review.params.transducer, review.params.image.depth,
+                              review.params.needle_shape);
+  review.why = [finder, scene = task.scene, language](const HapticSnapshot& state) {
+    return why_of(finder, *scene, state, language);
+  };
+  return review;
+}
+
+}  // namespace artus
