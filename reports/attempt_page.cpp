@@ -127,11 +127,12 @@ void add_search(HtmlPage& page, const Scenario& scenario, const AttemptMeasures&
     put(place, pose_at(m.probe, one.found).translation());
     curves.push_back(std::move(place));
   }
-  page.drawing(to_svg(PlotPanel{.x_label = translate(page, "along the probe's face at the start, mm"),
-                                .y_label = translate(page, "across it, mm"),
-                                .series = curves,
-                                .equal = true}),
-               translate(page, "the probe's path on the skin, and where it stood when each was found"));
+  page.drawing(
+      to_svg(PlotPanel{.x_label = translate(page, "along the probe's face at the start, mm"),
+                       .y_label = translate(page, "across it, mm"),
+                       .series = curves,
+                       .equal = true}),
+      translate(page, "the probe's path on the skin, and where it stood when each was found"));
   page.table({{translate(page, "asked for, in this order"), ""},
               {translate(page, "found"), translate(page, "at s")},
               {translate(page, "in the picture"), translate(page, "s, while it was asked for")}},
@@ -211,26 +212,29 @@ void add_felt(HtmlPage& page, const Recording& recording) {
   };
   if (std::none_of(recording.ticks.begin(), recording.ticks.end(), felt)) return;
   page.heading(translate(page, "What the hands felt"));
-  const PlotSeries needle =
-      peaks(recording, translate(page, "needle"), [](const TickRecord& t) { return length_of(t.force); });
-  const PlotSeries probe =
-      peaks(recording, translate(page, "probe"), [](const TickRecord& t) { return length_of(t.probe_force); });
-  page.drawing(to_svg(PlotPanel{translate(page, "time, s"), translate(page, "force, N"), {needle, probe}}),
-               translate(page, "force on the needle's and on the probe's hand, the largest of each 50 ms"));
+  const PlotSeries needle = peaks(recording, translate(page, "needle"),
+                                  [](const TickRecord& t) { return length_of(t.force); });
+  const PlotSeries probe = peaks(recording, translate(page, "probe"),
+                                 [](const TickRecord& t) { return length_of(t.probe_force); });
+  page.drawing(
+      to_svg(PlotPanel{translate(page, "time, s"), translate(page, "force, N"), {needle, probe}}),
+      translate(page, "force on the needle's and on the probe's hand, the largest of each 50 ms"));
   const bool injects = std::any_of(
       recording.ticks.begin(), recording.ticks.end(),
       [](const TickRecord& t) { return t.plunger.thumb_force != 0 || t.plunger.given > 0; });
   if (!injects) return;
-  const PlotSeries thumb = peaks(
-      recording, translate(page, "thumb, N"), [](const TickRecord& t) { return std::abs(t.plunger.thumb_force); });
-  const PlotSeries pressure = peaks(recording, translate(page, "at the tip, 10 kPa"), [](const TickRecord& t) {
-    return 1e-4 * t.plunger.tip_pressure;
+  const PlotSeries thumb = peaks(recording, translate(page, "thumb, N"), [](const TickRecord& t) {
+    return std::abs(t.plunger.thumb_force);
   });
-  const PlotSeries given = peaks(recording, translate(page, "injected, ml"), [](const TickRecord& t) {
-    return t.plunger.given / kCubicCentimetre;
-  });
-  page.drawing(to_svg(PlotPanel{translate(page, "time, s"), "N, 10 kPa, ml", {thumb, pressure, given}}),
-               translate(page, "the syringe: force on the thumb, pressure at the tip, injected volume"));
+  const PlotSeries pressure =
+      peaks(recording, translate(page, "at the tip, 10 kPa"),
+            [](const TickRecord& t) { return 1e-4 * t.plunger.tip_pressure; });
+  const PlotSeries given =
+      peaks(recording, translate(page, "injected, ml"),
+            [](const TickRecord& t) { return t.plunger.given / kCubicCentimetre; });
+  page.drawing(
+      to_svg(PlotPanel{translate(page, "time, s"), "N, 10 kPa, ml", {thumb, pressure, given}}),
+      translate(page, "the syringe: force on the thumb, pressure at the tip, injected volume"));
 }
 
 void add_marks(HtmlPage& page, const Judgement& judgement) {

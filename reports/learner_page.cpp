@@ -42,7 +42,8 @@ std::vector<double> numbered(std::size_t n) {
 
 /// What was believed of the rate of failure after each attempt, with its band.
 PlotPanel plot_belief(std::span<const bool> failed, Language language) {
-  PlotSeries mean{translate(language, "rate of failure"), numbered(failed.size()), {}, PlotStyle::line, kDark};
+  PlotSeries mean{
+      translate(language, "rate of failure"), numbered(failed.size()), {}, PlotStyle::line, kDark};
   PlotSeries low{translate(language, "90 % band"), mean.x, {}, PlotStyle::line, kPale};
   PlotSeries high{"", mean.x, {}, PlotStyle::line, kPale};
   for (std::size_t i = 1; i <= failed.size(); ++i) {
@@ -132,7 +133,7 @@ void add_scenario(HtmlPage& page, const std::string& name,
               {"", ""},
               {translate(page, "score"), translate(page, "of 100")},
               {translate(page, "aids"), translate(page, "nobody passes with aids on")},
-              {translate(page, "attempt"), translate(page, "for artus rate")}},
+              {translate(page, "attempt"), translate(page, "for artus learners rate")}},
              rows);
 }
 
@@ -158,7 +159,8 @@ void add_curve(HtmlPage& page, const std::string& scenario, const std::vector<Tr
   if (trials.size() < kFewest) return;
   const LearningFit fit = fit_learning(trials);
   const Language language = page.language();
-  PlotSeries shares{translate(page, "failed"), numbered(trials.size()), {}, PlotStyle::points, kDark};
+  PlotSeries shares{
+      translate(page, "failed"), numbered(trials.size()), {}, PlotStyle::points, kDark};
   PlotSeries curve{translate(page, "learning curve"), shares.x, {}, PlotStyle::line, "#a3361f"};
   PlotSeries low{translate(page, "90 % band of a share"), shares.x, {}, PlotStyle::line, kPale};
   PlotSeries high{"", shares.x, {}, PlotStyle::line, kPale};
