@@ -62,6 +62,7 @@ void add_bodies(py::module_& module);
 void add_images(py::module_& module);
 void add_forces(py::module_& module);
 void add_presses(py::module_& module);
+void add_simulations(py::module_& module);
 void add_injections(py::module_& module);
 void add_assessments(py::module_& module);
 

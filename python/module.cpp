@@ -8,6 +8,7 @@ PYBIND11_MODULE(_artus, module) {
   artus::python::add_images(module);
   artus::python::add_forces(module);
   artus::python::add_presses(module);
+  artus::python::add_simulations(module);
   artus::python::add_injections(module);
   artus::python::add_assessments(module);
 }

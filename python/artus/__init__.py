@@ -19,6 +19,7 @@ from ._artus import (
     Joint,
     Labels,
     Renderer,
+    Simulation,
     __version__,
     _assess,
     _inject,
@@ -31,7 +32,7 @@ from ._artus import (
 )
 
 __all__ = [
-    "Frame", "Joint", "Labels", "Renderer", "__version__", "assess", "compile", "forces", "inject",
+    "Frame", "Joint", "Labels", "Renderer", "Simulation", "__version__", "assess", "compile", "forces", "inject",
     "insert", "load", "metrics", "needle_intervals", "pose", "press", "sweep",
 ]
 

@@ -128,8 +128,39 @@ def compile(
 def needle_intervals(
     joint: Joint, entry: ArrayLike, tip: ArrayLike
 ) -> list[tuple[str, float, float]]: ...
+class Simulation:
+    def __init__(
+        self,
+        joint: Joint,
+        *,
+        device: str = "virtuose_6d_desktop",
+        transducer: str = "linear-6-18",
+        haptic_rate: float = 1000.0,
+        image_rate: float = 30.0,
+        rigid: bool = False,
+    ) -> None: ...
+    def step(
+        self,
+        *,
+        needle: ArrayLike | None = None,
+        probe: ArrayLike | None = None,
+        thumb: float = 0.0,
+        plunger: float | None = None,
+    ) -> dict[str, Any]: ...
+    def render(self) -> NDArray[np.uint8]: ...
+    @property
+    def time(self) -> float: ...
+    @property
+    def refusal(self) -> str: ...
+
 def forces(
-    joint: Joint, poses: ArrayLike, *, rate: float = 1000.0, device: str = "ideal"
+    joint: Joint,
+    poses: ArrayLike,
+    probe: ArrayLike | None = None,
+    *,
+    rate: float = 1000.0,
+    device: str = "ideal",
+    rigid: bool = False,
 ) -> dict[str, NDArray[Any]]: ...
 def insert(
     joint: Joint,
@@ -139,6 +170,7 @@ def insert(
     speed: float = 0.01,
     rate: float = 1000.0,
     device: str = "ideal",
+    rigid: bool = False,
 ) -> dict[str, NDArray[Any]]: ...
 def press(
     joint: Joint,
