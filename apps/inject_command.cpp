@@ -5,6 +5,8 @@
 
 #include "artus/detail/apps/options/arguments.h"
 #include "artus/detail/apps/options/hand_options.h"
+#include "artus/detail/apps/options/press_options.h"
+#include "artus/detail/apps/options/session_options.h"
 #include "artus/detail/core/text_file.h"
 #include "artus/detail/core/units.h"
 #include "artus/detail/evidence/runs/injection_pictures.h"
@@ -28,6 +30,7 @@ struct InjectOptions {
   double air_ml = 0;
   double aspirate_s = 3;
   std::string technique = "direct";
+  bool rigid = false;
 };
 
 /// What the flags ask for; the structure is left open.
@@ -51,6 +54,7 @@ Result<InjectionRequest> request_of(const InjectOptions& options, const NeedleFe
   request.air = options.air_ml * kCubicCentimetre;
   request.aspirate = options.aspirate_s;
   if (options.technique == "through-and-back") request.technique = Technique::through_and_back;
+  request.rigid = options.rigid;
   request.rate_hz = hand.rate_hz;
   request.device = hand.device;
   request.seed = hand.view.seed;
@@ -90,7 +94,7 @@ Result<Outcome> write_run(const std::shared_ptr<const Scene>& scene, const Injec
   outcome.claims = claims_of(run);
   if (!options.hand.no_images && run.given > 0) {
     InjectionPictureOptions looks{view.transducer, view.settings, view.needle_shape};
-    looks.needle.length = run.spec.plunger.needle.length;
+    looks.needle.length = run.plunger.needle.length;
     const auto pictures = write_injection_pictures(scene, run, looks, folder);
     ARTUS_TRY(pictures);
     if (!options.hand.no_video) {
@@ -135,6 +139,10 @@ Result<ExitCode> inject(const InjectOptions& options) {
   const auto& scene = loaded->at.scene;
   auto request = request_of(options, loaded->feel);
   ARTUS_TRY(request);
+  request->transducer = loaded->at.view.transducer;
+  if (!options.rigid)
+    ARTUS_TRY(pressing_face_at(request->transducer,
+                               "--transducer without --rigid, which keeps the tissue at rest"));
   std::vector<std::string> into = options.into;
   if (into.empty()) into.emplace_back();
   std::vector<InjectionRun> runs;
@@ -167,9 +175,12 @@ void add_inject_command(Command& app, ExitCode& code) {
       app, "inject",
       "Inject with a simulated hand and thumb: where the liquid goes, how it feels and looks",
       "Writes trace.csv, injection.svg, summary.json, the pictures before, during and after, and\n"
-      "injection.mp4; with several --into also compared.svg and pictures.png. Exit code 1 when a "
-      "claim does not\n"
-      "hold.\n"
+      "injection.mp4; with several --into also compared.svg and pictures.png. The other hand "
+      "presses "
+      "the probe on\n"
+      "the skin, and tissue gives way to both; the pictures show it at rest, with what was "
+      "injected.\n"
+      "Exit code 1 when a claim does not hold.\n"
       "Examples:\n"
       "  artus inject -j meshes/shoulder --volume-ml 5 --rate 0.1 --gauge 22 -o out/bursa\n"
       "  artus inject -j shoulder.artus --technique through-and-back --volume-ml 5 -o out/back\n"
@@ -206,6 +217,7 @@ void add_inject_command(Command& app, ExitCode& code) {
   command->add_option("--technique", options->technique, "direct or through-and-back")
       ->one_of({"direct", "through-and-back"})
       ->capture_default_str();
+  add_rigid_option(command, options->rigid);
   on_run(command, code, [options] {
     const auto done = inject(*options);
     return done ? *done : report_error(done.error(), options->hand.json);

@@ -128,14 +128,13 @@ Result<Runs> run_rigid(const RunOptions& options, const LoadedHand& loaded,
 
 /// The run in tissue that gives way, drawn while it goes on.
 Result<Runs> run_in_tissue(const RunOptions& options, const LoadedHand& loaded,
-                           const std::vector<PlannedInjection>& plan, const ProbeFace& face,
-                           const Progress& progress) {
+                           const std::vector<PlannedInjection>& plan, const Progress& progress) {
   const HandOptions& hand = options.hand;
   const View& view = loaded.at.view;
   auto rigid = run_rigid(options, loaded, plan, {});
   ARTUS_TRY(rigid);
   RunTissueOptions tissue;
-  tissue.face = face;
+  tissue.transducer = view.transducer;
   std::unique_ptr<LiveRunImages> pictures;
   if (!hand.no_images) {
     const RunImagesOptions picture{view.transducer, view.settings, view.needle_shape,
@@ -172,7 +171,7 @@ ExitCode run_scenario(const RunOptions& options) {
   if (!plan) return report_error(plan.error(), hand.json);
   const Progress progress = make_progress_printer(hand.json);
   const auto runs = options.rigid ? run_rigid(options, *loaded, *plan, progress)
-                                  : run_in_tissue(options, *loaded, *plan, *face, progress);
+                                  : run_in_tissue(options, *loaded, *plan, progress);
   if (!runs) return report_error(runs.error(), hand.json);
   const auto summary = write_summary(*runs, joint.name, hand.out);
   if (!summary) return report_error(summary.error(), hand.json);

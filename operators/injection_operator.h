@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "artus/detail/haptics/needle/needle_model.h"
@@ -11,12 +12,14 @@ namespace artus {
 
 /// What the operator sees of the tip on the echo image and feels of bone.
 struct OperatorView {
-  RegionId region = kOutside;  ///< of the tip; outside while the needle is
-  double into_layer = -1;      ///< m, the tip beyond the beginning of its layer; < 0: not known
-  double thickness = 0;        ///< m, of that layer along the line
-  bool bone = false;           ///< pushes back with all it has
-  bool flows = false;          ///< liquid out of the tip, as the plunger tells
-  bool given = false;          ///< all that was meant
+  RegionId region = kOutside;   ///< of the tip; outside while the needle is
+  double into_layer = -1;       ///< m, the tip beyond the beginning of its layer; < 0: not known
+  double thickness = 0;         ///< m, of that layer along the line
+  std::optional<double> depth;  ///< m of the tip along the line in the material, as the picture
+                                ///< shows it; none: the hand goes by itself
+  bool bone = false;            ///< pushes back with all it has
+  bool flows = false;           ///< liquid out of the tip, as the plunger tells
+  bool given = false;           ///< all that was meant
 };
 /// The view of someone to whom every component of the force is known.
 [[nodiscard]] OperatorView view_of(const NeedleModel& model) noexcept;
@@ -53,6 +56,7 @@ class InjectionOperator {
                               const OperatorView& view) noexcept;
   [[nodiscard]] bool bone_felt(double time, bool now) noexcept;
   void begin_phase(double time, double depth) noexcept;
+  void keep_depth(double too_deep, double since) noexcept;
 
   Vec3 entry_;
   Vec3 first_direction_;
@@ -62,6 +66,7 @@ class InjectionOperator {
   Vec3 x_hint_;
   double reference_;  // m along the line at phase_time_
   double phase_time_ = 0;
+  double last_time_ = 0;   // s, of the newest observe()
   double bone_time_ = -1;  // s, since when the bone's full force is felt
   std::vector<OperatorPhase> phases_;
   std::size_t index_ = 0;

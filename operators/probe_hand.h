@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 #include <memory>
-#include <optional>
 
 #include "artus/detail/haptics/guard.h"
 #include "artus/detail/haptics/probe/probe_contact.h"
-#include "artus/detail/haptics/probe/probe_tangent.h"
 #include "artus/detail/operators/hand_loop.h"
 
 namespace artus {
@@ -24,9 +22,7 @@ struct ProbeHandParams {
   DeviceLimits device{"probe", 40, 2, Vec3::Constant(1), 0.37, 2, 1e-6};  ///< moving mass of the
                                                                           ///< mock; rest assumed
   ProbeContactParams contact;  ///< of the rigid body's columns
-  GuardParams guard;
-  double packet_rate = 0;  ///< 1/s of the tissue's answers (ProbeHand::take), which are then felt
-                           ///< instead of columns; 0: the body is rigid
+  GuardParams guard;           ///< of the rigid body's
 };
 
 /// What the hand means to do at an instant.
@@ -55,35 +51,50 @@ struct ProbeHandRow {
   [[nodiscard]] Pose image_pose() const;
 };
 
-/// The hand, the probe's moving mass and the contact's force in a closed loop. Deterministic.
+/// The hand and the probe's moving mass in a closed loop with whatever presses back. Deterministic.
 class ProbeHand {
  public:
-  /// Starts at rest, `standoff` above `seat`. Requires: a scene, a rate that divides 20 kHz.
-  ProbeHand(std::shared_ptr<const Scene> scene, const ProbeHandParams& params, double rate_hz,
-            const Pose& seat);
+  /// Starts at rest, `standoff` above `seat`. Requires: a rate that divides 20 kHz.
+  ProbeHand(const ProbeHandParams& params, double rate_hz, const Pose& seat);
 
-  /// What the tissue answers from the next tick on, of a hand with a packet_rate.
-  void take(const ProbePacket& packet) noexcept;
+  [[nodiscard]] double time() const noexcept { return loop_.time(); }  ///< s
+  [[nodiscard]] Pose measured() const noexcept { return loop_.measured(); }
+  [[nodiscard]] double energy_to_hand() const noexcept { return loop_.energy_to_hand(); }  ///< J
+
+  /// One haptic period in which the hand is given `felt`. `intend(t)`: a ProbeIntention.
+  template <class Intend>
+  void advance(const Wrench& felt, Intend intend) {
+    loop_.advance(felt, [&](double t) { return lean(intend(t)); });
+  }
+
+ private:
+  [[nodiscard]] Intention lean(const ProbeIntention& wanted) const;
+
+  ProbeHandParams params_;
+  HandLoop loop_;
+};
+
+/// The same on a body that does not give way: columns under the face answer, and a guard passes it
+/// on.
+class RigidProbeHand {
+ public:
+  /// As ProbeHand. Requires: a scene.
+  RigidProbeHand(std::shared_ptr<const Scene> scene, const ProbeHandParams& params, double rate_hz,
+                 const Pose& seat);
 
   /// One haptic period; the row is what was felt in it. `intend(t)`: a ProbeIntention.
   template <class Intend>
   ProbeHandRow step(Intend intend) {
     ProbeHandRow row = feel();
-    loop_.advance(command_, [&](double t) { return lean(intend(t)); });
+    hand_.advance(command_, intend);
     return row;
   }
 
  private:
   [[nodiscard]] ProbeHandRow feel();
-  void feel_columns(ProbeHandRow& row);
-  void feel_tissue(ProbeHandRow& row);
-  [[nodiscard]] Intention lean(const ProbeIntention& wanted) const;
 
-  ProbeHandParams params_;
-  HandLoop loop_;
+  ProbeHand hand_;
   ProbeContactModel contact_;
-  std::optional<ProbeTangent> tissue_;  // empty: the body is rigid
-  double tissue_stiffness_ = 0;         // N/m along the beam, of the newest packet
   OutputGuard guard_;
   Wrench command_;
 };

@@ -82,6 +82,7 @@ InjectionRequest request_of(const py::kwargs& given) {
   take("syringe", request.syringe);
   take("air", request.air);
   take("aspirate", request.aspirate);
+  take("rigid", request.rigid);
   take("haptic_rate", request.rate_hz);
   take("device", request.device);
   take("seed", request.seed);

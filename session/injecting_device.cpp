@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "artus/detail/haptics/needle/needle_contact.h"
-#include "artus/detail/simulation/syringe_core.h"
 
 namespace artus {
 namespace {
@@ -41,62 +40,40 @@ std::vector<OperatorPhase> phases_of(const InjectionPlan& plan) {
 
 InjectingDevice::InjectingDevice(const InjectionPlan& plan, const DeviceLimits& device,
                                  double rate_hz, const HandParams& hand)
-    : plan_(plan),
-      period_(1 / rate_hz),
-      person_(plan.entry_W, plan.direction_W, kBeforeSkin, phases_of(plan)),
-      loop_({rate_hz, physics_rate(rate_hz)}, device, hand, person_.start()),
-      thumb_({SyringeCore::kCoupling, SyringeCore::kMaxForce}),
-      dose_(plan.plunger, plan.volume) {
+    : plan_(plan), person_(plan.entry_W, plan.direction_W, kBeforeSkin, phases_of(plan)) {
   ARTUS_REQUIRE(std::abs(plan.direction_W.norm() - 1) < 1e-9, "the direction must have length 1");
   ARTUS_REQUIRE(plan.speed > 0 && plan.target <= plan.deepest,
                 "speed must be above 0 and the target no deeper than the deepest point");
   ARTUS_REQUIRE(plan.rate > 0, "the dose's rate must be above 0");
-  sample_.X_WP = to_plain(plan.X_WP);
-  sample_.state = PeerState::alive;
-  sample_.has_needle = 1;
-  sample_.has_probe = 1;
+  hands_.take_up(HandLoop({rate_hz, physics_rate(rate_hz)}, device, hand, person_.start()));
+  if (plan.volume > 0) hands_.set_thumb(DosingThumb(plan.plunger, plan.volume, rate_hz));
+  hands_.hold_probe(plan.X_WP);
 }
 
-OperatorView InjectingDevice::view() const noexcept {
-  const Vec3 meant = person_.intention(loop_.time()).X_JN.translation();
-  const double lag = (meant - loop_.motion().X_JN.translation()).dot(plan_.direction_W);
+OperatorView InjectingDevice::view(const DeviceFeedback& feedback) const noexcept {
+  const HandLoop& needle = hands_.needle();
+  const Vec3 meant = person_.intention(needle.time()).X_JN.translation();
+  const double lag = (meant - needle.motion().X_JN.translation()).dot(plan_.direction_W);
   OperatorView view;
-  view.given = dose_.done();
-  view.bone = static_cast<ContactState>(contact_) == ContactState::bone && lag > kBoneFelt;
+  view.given = hands_.has_thumb() && hands_.thumb().done();
+  view.bone = static_cast<ContactState>(feedback.contact) == ContactState::bone && lag > kBoneFelt;
   return view;
 }
 
-void InjectingDevice::press_plunger() noexcept {
-  const bool meant = phase() == Phase::rest;
-  if (!meant) dose_.begin(felt_.given);
-  PlungerState plunger;
-  plunger.travel = felt_.travel;
-  plunger.pressure = felt_.pressure;
-  const PlungerInput request = thumb_.step(meant ? dose_.present(person_.present()) : nullptr,
-                                           plunger, plan_.plunger.syringe.area(), period_);
-  sample_.plunger = request.stiffness > 0 ? PlungerSign::travel : PlungerSign::force;
-  sample_.plunger_travel = request.position;
-  sample_.plunger_force = request.force;
-  const bool pushes = meant && (felt_.flow > ThumbDose::kFlows || thumb_.strains());
-  dose_.step(pushes, felt_.given, felt_.pressure, felt_.tip_pressure, felt_.flow, period_);
-}
-
 DeviceSample InjectingDevice::read(std::int64_t now_ns) noexcept {
-  person_.observe(loop_.time(), loop_.motion().X_JN, view());
-  if (person_.done()) person_.begin_again(loop_.time());
-  if (plan_.volume > 0) press_plunger();
-  loop_.advance(motor_, [this](double time) { return person_.intention(time); });
-  sample_.X_WN = to_plain(loop_.measured());
-  sample_.time_ns = now_ns;
-  ++sample_.number;
-  return sample_;
+  DeviceSample sample = hands_.read(person_.present());
+  sample.time_ns = now_ns;
+  return sample;
 }
 
 void InjectingDevice::write(const DeviceFeedback& feedback) noexcept {
-  motor_.force = Vec3(feedback.force[0], feedback.force[1], feedback.force[2]);
-  motor_.torque = Vec3(feedback.torque[0], feedback.torque[1], feedback.torque[2]);
-  contact_ = feedback.contact;
-  felt_ = feedback.plunger;
+  hands_.feel(feedback);
+  const HandLoop& needle = hands_.needle();
+  const bool ended =
+      person_.observe(needle.time(), needle.motion().X_JN, view(feedback)) != nullptr;
+  if (ended && hands_.has_thumb()) hands_.thumb().begin();
+  if (person_.done()) person_.begin_again(needle.time());
+  hands_.move(person_);
 }
 
 }  // namespace artus

@@ -2,11 +2,8 @@
 #pragma once
 #include <cstdint>
 
-#include "artus/detail/operators/hand_loop.h"
 #include "artus/detail/operators/injection_operator.h"
-#include "artus/detail/operators/thumb.h"
-#include "artus/detail/operators/thumb_dose.h"
-#include "artus/simulation/input_device.h"
+#include "artus/detail/simulation/simulated_hands.h"
 
 namespace artus {
 
@@ -44,19 +41,11 @@ class InjectingDevice final : public InputDevice {
   [[nodiscard]] Phase phase() const noexcept { return static_cast<Phase>(person_.phase()); }
 
  private:
-  [[nodiscard]] OperatorView view() const noexcept;
-  void press_plunger() noexcept;
+  [[nodiscard]] OperatorView view(const DeviceFeedback& feedback) const noexcept;
 
   InjectionPlan plan_;
-  double period_;  // s
   InjectionOperator person_;
-  HandLoop loop_;
-  Wrench motor_;
-  DeviceSample sample_;
-  std::uint32_t contact_ = 0;
-  PlungerFeedback felt_;
-  Thumb thumb_;
-  ThumbDose dose_;
+  SimulatedHands hands_;
 };
 
 }  // namespace artus

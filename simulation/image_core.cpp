@@ -25,7 +25,7 @@ Liquid liquid_of(const SessionParams& params) {
 }  // namespace
 
 ImageCore::ImageCore(std::shared_ptr<const Scene> scene, const SessionParams& params,
-                     std::size_t extra_scene_holders)
+                     std::size_t extra_scene_holders, const std::optional<Pose>& X_JP)
     : probe_(params.transducer),
       image_(params.image),
       needle_shape_(params.needle_shape),
@@ -42,8 +42,8 @@ ImageCore::ImageCore(std::shared_ptr<const Scene> scene, const SessionParams& pa
   const auto make_tissue = [&]() -> Result<TissueCore> {
     const auto face = pressing_face(params.transducer);
     ARTUS_TRY(face);
-    return TissueCore::make(scene->shared_joint(), scene->joint().X_JP_default, params.image_rate,
-                            *face, nullptr, extra_scene_holders);
+    return TissueCore::make(scene->shared_joint(), X_JP.value_or(scene->joint().X_JP_default),
+                            params.image_rate, *face, params.wait_for_cage, extra_scene_holders);
   };
   auto tissue = make_tissue();
   if (tissue)

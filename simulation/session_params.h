@@ -40,7 +40,9 @@ struct SessionParams {
   NeedleShape needle_shape;  ///< of its length: see needle_length_of
   SyringeChoice syringe;
   HandAids aids;
-  bool deform = false;  ///< tissue gives way to probe and needle, in picture and hands
+  bool deform = false;         ///< tissue gives way to probe and needle, in picture and hands
+  bool wait_for_cage = false;  ///< where the probe comes beyond its reach the tissue's next cage is
+                               ///< made and used in that image: for a loop without a clock
 };
 
 /// m, hub to tip: the one length that the contact and the picture take.

@@ -52,8 +52,13 @@ Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 
-ImageCore& Simulation::imaging() {
-  if (!images_) images_ = std::make_unique<ImageCore>(scene_, params_, extra_scene_holders_);
+/// Who waits for cages has the first one where the probe is in the first image.
+ImageCore& Simulation::imaging(const FrameInput* first) {
+  if (images_) return *images_;
+  std::optional<Pose> X_JP;
+  if (params_.wait_for_cage && first != nullptr && first->has_probe != 0)
+    X_JP = to_pose(first->X_JP);
+  images_ = std::make_unique<ImageCore>(scene_, params_, extra_scene_holders_, X_JP);
   return *images_;
 }
 
@@ -66,7 +71,7 @@ void Simulation::take(const TissuePacket& packet) noexcept {
 }
 
 ImagedBody Simulation::advance(const FrameInput& input) {
-  return imaging().advance(input);
+  return imaging(&input).advance(input);
 }
 
 const Frame& Simulation::render(const FrameInput& input, const ImagedBody& body) {
@@ -90,8 +95,8 @@ const HapticSnapshot& Simulation::step(const TickInput& input) {
 const ImagedBody& Simulation::advance() {
   ARTUS_REQUIRE(due_.has_value(), "no image is due");
   shown_ = *std::exchange(due_, std::nullopt);
-  if (params_.deform || images_ || shown_.n_sites > 0)
-    body_ = imaging().advance(shown_);
+  if (params_.deform || images_)
+    body_ = imaging(&shown_).advance(shown_);
   else
     body_ = {shown_.number, scene_, {}, {}};
   if (body_.packet) haptics_->take(*body_.packet);
@@ -104,14 +109,18 @@ const Frame& Simulation::render() {
   return imaging().render(shown_, body_);
 }
 
-const Felt& Simulation::step(const Hands& hands) {
+TickInput Simulation::next_input(const DeviceSample& device) const noexcept {
   TickInput input;
   input.tick = ticks_ + 1;
-  input.command = hands.command;
-  DeviceSample& device = input.device;
+  input.device = device;
+  input.device.time_ns = std::llround(1e9 * static_cast<double>(input.tick) / params_.haptic_rate);
+  return input;
+}
+
+const Felt& Simulation::step(const Hands& hands) {
+  DeviceSample device;
+  device.number = ticks_ + 1;
   device.state = PeerState::alive;
-  device.number = input.tick;
-  device.time_ns = std::llround(1e9 * static_cast<double>(input.tick) / params_.haptic_rate);
   device.has_needle = hands.X_WN ? 1 : 0;
   device.has_probe = hands.X_WP ? 1 : 0;
   if (hands.X_WN) device.X_WN = to_plain(*hands.X_WN);
@@ -121,6 +130,8 @@ const Felt& Simulation::step(const Hands& hands) {
                                       : PlungerSign::none;
   device.plunger_travel = hands.plunger.value_or(0);
   device.plunger_force = hands.thumb;
+  TickInput input = next_input(device);
+  input.command = hands.command;
   const HapticSnapshot& out = step(input);
   const DeviceFeedback& feedback = out.feedback;
   felt_ = {vector_of(feedback.force),

@@ -55,7 +55,8 @@ struct SimulationOptions {
 ///
 /// A loop calls step() and, where it wants the picture of an image that is due, render(). The
 /// tissue goes on at the image rate whether somebody looks or not, and what it answers is felt from
-/// the tick after its image on.
+/// the tick after its image on. In a rigid body, where nobody feels it, what was injected has a
+/// shape from the first picture on.
 ///
 /// Who has threads calls the halves: tick() and take() in one, advance(input) in another,
 /// render(input, body) in a third; they may run at the same time. What the tissue answers crosses
@@ -80,6 +81,8 @@ class Simulation {
   const Felt& step(const Hands& hands);
   /// The same with a device's sample as it is recorded.
   const HapticSnapshot& step(const TickInput& input);
+  /// The next tick with what a device says, at that tick's time.
+  [[nodiscard]] TickInput next_input(const DeviceSample& device) const noexcept;
   /// The image that is due since the last step: its input; null: none is.
   [[nodiscard]] const FrameInput* due() const noexcept { return due_ ? &*due_ : nullptr; }
   /// The tissue's step to the due image's instant, which the next tick feels. Requires: one is due.
@@ -137,7 +140,7 @@ class Simulation {
   }
 
  private:
-  [[nodiscard]] ImageCore& imaging();
+  [[nodiscard]] ImageCore& imaging(const FrameInput* first = nullptr);
 
   std::shared_ptr<const Scene> scene_;
   SessionParams params_;

@@ -31,13 +31,14 @@ SoftBodyParams params_with(const ProbeFace& face) {
 }  // namespace
 
 Result<TissueCore> TissueCore::make(std::shared_ptr<const CompiledJoint> joint, const Pose& X_JP,
-                                    double image_rate, const ProbeFace& face,
-                                    const DeformedBody* before, std::size_t extra_scene_holders) {
+                                    double image_rate, const ProbeFace& face, bool waits,
+                                    std::size_t extra_scene_holders) {
   auto body = SoftBody::make(std::move(joint), X_JP, params_with(face));
   ARTUS_TRY(body);
-  if (before != nullptr) body->follow(*before);
-  return TissueCore(std::move(*body), image_rate, face,
-                    MovingScene::kGoingRound + extra_scene_holders);
+  TissueCore core(std::move(*body), image_rate, face,
+                  MovingScene::kGoingRound + extra_scene_holders);
+  core.waits_ = waits;
+  return core;
 }
 
 TissueCore::TissueCore(SoftBody body, double image_rate, const ProbeFace& face, std::size_t scenes)
@@ -64,6 +65,10 @@ bool TissueCore::is_within_reach(const Pose& X_JC, const Pose& X_JP) {
 
 /// Another cage where the probe stays out of this one's reach.
 void TissueCore::follow(const std::optional<Pose>& X_JP) {
+  if (waits_) {
+    if (X_JP && !reaches(*X_JP)) change_cage(*X_JP);
+    return;
+  }
   outside_ = X_JP && !reaches(*X_JP) ? outside_ + 1 : 0;
   if (images_ == cage_due_) {
     if (cage_.valid()) {
@@ -94,12 +99,23 @@ void TissueCore::make_ready(const std::optional<Pose>& X_JP) {
   cage_due_ = images_ + ready_images_;
   next_ = std::async(std::launch::async,
                      [body = std::move(*made), tissue = tissue_, n = n_scenes_]() mutable {
-                       body.follow(*tissue);
-                       auto laid = body.snapshot();
-                       NextCage next{std::move(body), MovingScene(), std::move(laid)};
-                       next.scenes.make_ready(next.tissue, n);
-                       return next;
+                       return NextCage::make(std::move(body), *tissue, n);
                      });
+}
+
+TissueCore::NextCage TissueCore::NextCage::make(SoftBody body, const DeformedBody& before,
+                                                std::size_t n) {
+  body.follow(before);
+  auto laid = body.snapshot();
+  NextCage next{std::move(body), MovingScene(), std::move(laid)};
+  next.scenes.make_ready(next.tissue, n);
+  return next;
+}
+
+/// The same while everybody waits.
+void TissueCore::change_cage(const Pose& X_JP) {
+  auto made = SoftBody::make(body_.joint(), X_JP, params_with(face_));
+  if (made) take(NextCage::make(std::move(*made), *tissue_, n_scenes_));
 }
 
 /// Takes the new cage, the tissue from where it is now in the old one.

@@ -17,16 +17,15 @@ namespace artus {
 /// The body of a session as it gives way to probe and needle, image by image: one step of the
 /// tissue, one scene of that instant, and what the hands feel of it. A pure function of the poses
 /// it was given: factors and cages are made on threads of their own and taken a fixed number of
-/// images later, never "when ready".
+/// images later, never "when ready", or cages at once where nobody has a clock.
 class TissueCore {
  public:
-  /// The cage is made around `X_JP`, for a probe with `face`; the tissue goes on from where
-  /// `before` has it, or is at rest. `onlookers` keep a scene each while the next are made. Errors:
-  /// those of SoftBody::make. Cost: some seconds.
+  /// The cage is made around `X_JP`, for a probe with `face`. `waits`: another cage is made and
+  /// used in the image that needs it, which takes its seconds. `extra_scene_holders` keep a scene
+  /// each while the next are made. Errors: those of SoftBody::make. Cost: some seconds.
   [[nodiscard]] static Result<TissueCore> make(std::shared_ptr<const CompiledJoint> joint,
                                                const Pose& X_JP, double image_rate,
-                                               const ProbeFace& face = {},
-                                               const DeformedBody* before = nullptr,
+                                               const ProbeFace& face = {}, bool waits = false,
                                                std::size_t extra_scene_holders = 0);
 
   /// The next image's instant, with the probe at `X_JP` or without one, and so the needle. A probe
@@ -56,10 +55,12 @@ class TissueCore {
     SoftBody body;
     MovingScene scenes;
     std::shared_ptr<const DeformedBody> tissue;
+    [[nodiscard]] static NextCage make(SoftBody body, const DeformedBody& before, std::size_t n);
   };
   void follow(const std::optional<Pose>& X_JP);
   [[nodiscard]] bool is_wanted(const Pose& X_JC, const std::optional<Pose>& X_JP) const;
   void make_ready(const std::optional<Pose>& X_JP);
+  void change_cage(const Pose& X_JP);
   void take(NextCage next);
   void refresh(const std::optional<Pose>& X_JP);
   void keep_state_of_factor();
@@ -69,6 +70,7 @@ class TissueCore {
   SoftBody body_;
   ProbeFace face_;
   std::size_t n_scenes_;         // that go round
+  bool waits_ = false;           // for its cages
   double dt_;                    // s between images
   std::uint64_t factor_images_;  // from the start of a factor to its use
   std::uint64_t cage_images_;    // from the start of a cage to its being made

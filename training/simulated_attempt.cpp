@@ -6,11 +6,9 @@
 #include <optional>
 #include <utility>
 
-#include "artus/detail/operators/hand_loop.h"
 #include "artus/detail/operators/looking_operator.h"
-#include "artus/detail/operators/thumb.h"
-#include "artus/detail/operators/thumb_dose.h"
 #include "artus/detail/session/record/simulation_recorder.h"
+#include "artus/detail/simulation/simulated_hands.h"
 #include "artus/detail/training/session_meter.h"
 
 namespace artus {
@@ -40,42 +38,28 @@ double appears_at(const Scenario& scenario, const Scene& scene, const TipSightFi
   return 0;
 }
 
-/// The thumb of a simulated hand.
-class SyringeHand {
+/// What the thumb of a simulated hand means: to draw back for a while, then to give.
+class ThumbPlan {
  public:
-  SyringeHand(const PlungerParams& params, const ScenarioSyringe& meant, const OperatorSkill& skill)
-      : area_(params.syringe.area()), dose_(params, meant.volume), wanted_(meant.volume > 0) {
+  ThumbPlan(const ScenarioSyringe& meant, const OperatorSkill& skill) : draws_(skill.aspirate) {
     push_.thumb_rate = skill.haste * meant.rate;
+    push_.until_given = true;
     pull_.thumb_force = -kPull;
-    draws_ = skill.aspirate;
   }
 
-  /// What the device says of it in the next tick. `gives`: the needle is where it is meant to be.
-  void step(bool gives, const Plunger& plunger, double given, double dt, DeviceSample& sample) {
-    sample.plunger = wanted_ ? PlungerSign::force : PlungerSign::none;
-    const bool pulls = wanted_ && gives && draws_ > 0;
-    if (pulls) draws_ -= dt;
-    const bool pushes = wanted_ && gives && !pulls;
-    const PlungerState& state = plunger.state();
-    const OperatorPhase* pressing = pushes ? dose_.present(&push_) : nullptr;
-    const PlungerInput thumb = thumb_.step(pulls ? &pull_ : pressing, state, area_, dt);
-    sample.plunger_force = thumb.force + thumb.stiffness * (thumb.position - state.travel);
-    dose_.step(pushes, given, state.pressure, state.tip_pressure, state.flow, dt);
+  /// In the next tick of `dt` s; null: nothing. `gives`: the needle is where it is meant to be.
+  const OperatorPhase* step(bool gives, double dt) noexcept {
+    if (!gives) return nullptr;
+    if (!(draws_ > 0)) return &push_;
+    draws_ -= dt;
+    return &pull_;
   }
-
-  /// Nothing is left to give, or nothing goes in.
-  [[nodiscard]] bool done() const noexcept { return !wanted_ || dose_.done(); }
 
  private:
-  static constexpr double kMaxForce = 40;  // N; assumed: a strong push
-  static constexpr double kPull = 8;       // N; assumed
-  double area_;                            // m^2
-  ThumbDose dose_;
-  bool wanted_;
+  static constexpr double kPull = 8;  // N; assumed
   OperatorPhase push_;
   OperatorPhase pull_;
-  double draws_ = 0;  // s that it still draws back
-  Thumb thumb_{{SyringeCore::kCoupling, kMaxForce}};
+  double draws_;  // s that it still draws back
 };
 
 /// The simulation of an attempt while it is played: what came in and out is measured and recorded.
@@ -96,12 +80,9 @@ class PlayedSimulation {
 
   /// One tick with what the device says.
   const HapticSnapshot& step(DeviceSample device, AttemptMeter& meter) {
-    TickInput input;
-    input.tick = tick() + 1;
-    device.time_ns = static_cast<std::int64_t>(input.tick) * 1'000'000;
-    device.number = input.tick;
     device.state = PeerState::alive;
-    input.device = device;
+    device.number = tick() + 1;
+    const TickInput input = simulation_.next_input(device);
     const double due = static_cast<double>(input.tick) / kRate * options_.picture_rate;
     recorder_.set_drawing(due >= static_cast<double>(pictures_ + 1));
     const HapticSnapshot& out = recorder_.step(input);
@@ -133,13 +114,16 @@ class NeedleAttempt final : public SimulatedAttempt {
       : scene_(std::move(scene)),
         finder_(params.transducer, params.image.depth, params.needle_shape),
         session_(scene_, params, options, recording),
-        hands_(skill,
-               {scenario.entry.centre, scenario.target.point, scenario.X_JP, scenario.time_limit,
-                appears_at(scenario, *scene_, finder_)},
-               mix_seed(scenario.seed, options.seed)),
-        thumb_(session_.simulation().syringe().plunger().params(), scenario.syringe, skill),
-        loop_({kRate, kPhysics}, params.device, hand_of(skill, options.seed),
-              hands_.intention(0).X_JN) {
+        person_(skill,
+                {scenario.entry.centre, scenario.target.point, scenario.X_JP, scenario.time_limit,
+                 appears_at(scenario, *scene_, finder_)},
+                mix_seed(scenario.seed, options.seed)),
+        thumb_(scenario.syringe, skill) {
+    hands_.take_up(HandLoop({kRate, kPhysics}, params.device, hand_of(skill, options.seed),
+                            person_.intention(0).X_JN));
+    const double volume = scenario.syringe.volume;
+    const PlungerParams& plunger = session_.simulation().syringe().plunger().params();
+    if (volume > 0) hands_.set_thumb(DosingThumb(plunger, volume, kRate));
     const auto& regions = scene_->joint().regions;
     for (std::size_t i = kFirstRegion; i < regions.size(); ++i)
       if (regions[i].name == scenario.target.structure) target_ = static_cast<RegionId>(i);
@@ -147,24 +131,17 @@ class NeedleAttempt final : public SimulatedAttempt {
 
   /// One tick. False when the attempt is over.
   bool step(AttemptMeter& meter) override {
-    const double t = loop_.time();
-    DeviceSample device;
-    device.X_WN = to_plain(loop_.measured());
-    device.X_WP = to_plain(hands_.probe(t));
-    device.has_needle = device.has_probe = 1;
-    thumb_.step(hands_.holds(), session_.simulation().syringe().plunger(), given_, 1 / kRate,
-                device);
-    const HapticSnapshot& out = session_.step(device, meter);
-    given_ = out.feedback.plunger.given;
+    const double t = hands_.needle().time();
+    hands_.hold_probe(person_.probe(t));
+    const OperatorPhase* pressing = thumb_.step(person_.holds(), 1 / kRate);
+    const HapticSnapshot& out = session_.step(hands_.read(pressing), meter);
+    hands_.feel(out.feedback);
     if (session_.glances()) glance(t, out);
-    const auto& f = out.feedback;
-    const Wrench motor{Vec3(f.force[0], f.force[1], f.force[2]),
-                       Vec3(f.torque[0], f.torque[1], f.torque[2])};
-    loop_.advance(motor, [this](double at) { return hands_.intention(at); });
-    return !hands_.done();
+    hands_.move(person_);
+    return !person_.done();
   }
 
-  [[nodiscard]] double time() const noexcept override { return loop_.time(); }
+  [[nodiscard]] double time() const noexcept override { return hands_.needle().time(); }
 
  private:
   void glance(double t, const HapticSnapshot& out) {
@@ -175,18 +152,17 @@ class NeedleAttempt final : public SimulatedAttempt {
     seen.offset = sight.offset;
     seen.depth = out.inserted != 0 ? out.feedback.depth : 0;
     seen.stuck = out.feedback.contact == static_cast<std::uint32_t>(ContactState::bone);
-    seen.given = thumb_.done();
-    seen.astray = given_ > kSeenVolume && out.feedback.region != target_;
-    hands_.look(t, X_JN, seen);
+    seen.given = !hands_.has_thumb() || hands_.thumb().done();
+    seen.astray = out.feedback.plunger.given > kSeenVolume && out.feedback.region != target_;
+    person_.look(t, X_JN, seen);
   }
 
   std::shared_ptr<const Scene> scene_;
   TipSightFinder finder_;
   PlayedSimulation session_;
-  ScanningOperator hands_;
-  SyringeHand thumb_;
-  HandLoop loop_;
-  double given_ = 0;  // m^3
+  ScanningOperator person_;
+  ThumbPlan thumb_;
+  SimulatedHands hands_;
   std::uint32_t target_ = kOutside;
 };
 

@@ -86,7 +86,7 @@ std::vector<Injected> places_at(const Scene& scene, const InjectionRun& run,
 std::shared_ptr<const Scene> scene_of(const Scene& scene, const InjectionRun& run,
                                       const std::vector<Injected>& places) {
   return std::make_shared<const Scene>(std::make_shared<const CompiledJoint>(
-      with_injected(scene.joint(), places, run.spec.plunger.liquid)));
+      with_injected(scene.joint(), places, run.plunger.liquid)));
 }
 
 /// m^3 of the named regions around the tip, by parallel rays.
@@ -318,7 +318,7 @@ Result<std::string> write_injection_video(const std::shared_ptr<const Scene>& sc
     cv::Mat picture = annotated_image(frame, deep.transducer);
     cv::putText(picture,
                 printed("%.1f s  %.2f ml  %.1f N  %.0f kPa", row.time - first->time,
-                        (run.spec.plunger.syringe.filled - row.plunger.content) / kCubicCentimetre,
+                        (run.plunger.syringe.filled - row.plunger.content) / kCubicCentimetre,
                         row.thumb, 1e-3 * row.plunger.pressure),
                 {40, picture.rows - 8}, cv::FONT_HERSHEY_SIMPLEX, 0.45, cv::Scalar(255), 1,
                 cv::LINE_AA);

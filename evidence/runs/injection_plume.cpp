@@ -15,7 +15,7 @@ constexpr double kFollowed = 6;            // s
 }  // namespace
 
 InjectionPlume::InjectionPlume(const Scene& scene, const InjectionRun& run, double bore)
-    : run_(&run), bore_(bore), plume_(run.spec.plunger.liquid) {
+    : run_(&run), bore_(bore), plume_(run.plunger.liquid) {
   const auto spaces = make_joint_spaces(scene.joint());
   for (const std::string& place : run.places)
     holds_.push_back(spaces && std::any_of(spaces->spaces.begin(), spaces->spaces.end(),
@@ -27,7 +27,7 @@ InjectionPlume::InjectionPlume(const Scene& scene, const InjectionRun& run, doub
 
 PlumeSource InjectionPlume::source_at(double time) const {
   const InjectionRow& row = row_of(*run_, time);
-  const double opening = bevel_middle(run_->spec.plunger.needle.outer_diameter);
+  const double opening = bevel_middle(run_->plunger.needle.outer_diameter);
   const Vec3 axis = run_->X_JN.linear().col(2);
   PlumeSource source;
   source.p_J = run_->X_JN.translation() + (row.depth - run_->depth - opening) * axis;

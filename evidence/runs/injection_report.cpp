@@ -133,7 +133,7 @@ std::vector<std::string> notes_of(const InjectionRun& run) {
         printed("the rate was not kept: %.3g of %.3g ml/s, with up to %.0f N on a "
                 "plunger of %.0f mm2; a smaller barrel or a wider needle gives more",
                 flow / kCubicCentimetre, run.spec.rate / kCubicCentimetre, run.highest_force,
-                run.spec.plunger.syringe.area() / (kMillimetre * kMillimetre)));
+                run.plunger.syringe.area() / (kMillimetre * kMillimetre)));
   if (run.given > 0 && !run.complete)
     notes.push_back(printed("not all was given: %.3g of %.3g ml", run.given / kCubicCentimetre,
                             run.spec.volume / kCubicCentimetre));
@@ -150,14 +150,15 @@ nlohmann::json summarize(const InjectionRun& run) {
   const double misplaced = run.given - run.volumes.front();
   const auto claims = claims_of(run);
   return {{"injection", run.spec.name},
+          {"deforms", run.gave_way},
           {"target", run.target},
           {"target_kind", run.target_like},
-          {"liquid", run.spec.plunger.liquid.name},
+          {"liquid", run.plunger.liquid.name},
           {"meant_ml", run.spec.volume / kCubicCentimetre},
           {"rate_ml_s", run.spec.rate / kCubicCentimetre},
           {"flow_ml_s", mean_flow(run) / kCubicCentimetre},
           {"notes", notes_of(run)},
-          {"needle_mm", run.spec.plunger.needle.length / kMillimetre},
+          {"needle_mm", run.plunger.needle.length / kMillimetre},
           {"given_ml", run.given / kCubicCentimetre},
           {"drawn_ml", run.drawn / kCubicCentimetre},
           {"in_target_percent", share_in_target(run)},
@@ -176,7 +177,7 @@ nlohmann::json summarize(const InjectionRun& run) {
 Plot plot_of(const InjectionRun& run) {
   const auto rows = thinned(run);
   Plot plot;
-  plot.title = run.spec.name + ": " + run.spec.plunger.liquid.name + " into " + run.target;
+  plot.title = run.spec.name + ": " + run.plunger.liquid.name + " into " + run.target;
   plot.panels.push_back({"", "thumb, N", {curve(rows, "thumb", 0, thumb_of)}});
   plot.panels.push_back(
       {"", "pressure, kPa", {curve(rows, "barrel", 0, barrel_of), curve(rows, "tip", 0, tip_of)}});

@@ -5,7 +5,6 @@
 
 #include "artus/detail/anatomy/body/find_region.h"
 #include "artus/detail/core/known_names.h"
-#include "artus/detail/haptics/plunger/syringe_choice.h"
 
 namespace artus {
 namespace {
@@ -13,7 +12,7 @@ namespace {
 constexpr double kOverfill = 0.4e-6;  // m^3 that is drawn up beyond what is meant to be given
 
 /// As much is drawn up as is meant to be given, and what stays in the barrel.
-Result<PlungerParams> plunger_of(const InjectionRequest& request) {
+SyringeChoice syringe_of(const InjectionRequest& request) {
   SyringeChoice choice;
   choice.gauge = request.gauge;
   choice.filled = request.volume + kOverfill;
@@ -21,7 +20,7 @@ Result<PlungerParams> plunger_of(const InjectionRequest& request) {
   choice.air = request.air;
   choice.liquid = request.liquid;
   choice.seed = request.seed;
-  return make_plunger_params(choice, request.needle_length);
+  return choice;
 }
 
 /// Name, entry and target: the request's own line, or a planned one.
@@ -44,9 +43,10 @@ Result<PlannedInjection> line_of(const InjectionRequest& request, const Compiled
 
 Result<InjectionRun> run_injection(const Scene& scene, const InjectionRequest& request) {
   InjectionSpec spec;
-  const auto plunger = plunger_of(request);
-  ARTUS_TRY(plunger);
-  spec.plunger = *plunger;
+  spec.syringe = syringe_of(request);
+  spec.needle_length = request.needle_length;
+  spec.transducer = request.transducer;
+  spec.rigid = request.rigid;
   spec.volume = request.volume;
   spec.rate = request.rate;
   spec.aspirate = request.aspirate;

@@ -23,6 +23,8 @@ struct InjectionRequest {
   double air = 0;               ///< m^3 trapped behind the liquid
   double aspirate = 3;          ///< s of pulling before; 0: none
   Technique technique = Technique::direct;
+  Transducer transducer;  ///< of the probe that presses
+  bool rigid = false;     ///< tissue does not give way
   double rate_hz = 1000;
   std::string device = "virtuose_6d_desktop";
   std::uint64_t seed = 1;  ///< of hand and plunger

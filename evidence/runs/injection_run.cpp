@@ -5,12 +5,14 @@
 #include <cmath>
 #include <numeric>
 
+#include "artus/detail/core/noise.h"
+#include "artus/detail/evidence/runs/injection_view.h"
+#include "artus/detail/evidence/runs/seated_probe.h"
 #include "artus/detail/haptics/plunger/bevel.h"
 #include "artus/detail/haptics/plunger/patient.h"
-#include "artus/detail/operators/hand_loop.h"
 #include "artus/detail/operators/injection_operator.h"
-#include "artus/detail/operators/thumb_dose.h"
-#include "artus/haptics/needle_renderer.h"
+#include "artus/detail/session/record/simulation_recorder.h"
+#include "artus/detail/simulation/simulated_hands.h"
 
 namespace artus {
 namespace {
@@ -27,6 +29,8 @@ constexpr double kNotice = 0.2;    // s until it is seen that the target does no
 constexpr double kEased = 1e-3;    // m that it goes on without pressing then; assumed
 constexpr double kPull = -6;       // N of aspiration; assumed
 constexpr double kReady = 0.5;     // s while the guard ramps up
+constexpr double kSeated = 1;      // s until the probe is on the skin and presses
+constexpr double kImageRate = 20;  // 1/s of the tissue's steps
 constexpr double kBeforeFloor = 0.3e-3;  // m that the tip stays above a floor; assumed
 constexpr double kSpare = 5e-3;          // m of shaft that stay outside
 
@@ -42,9 +46,10 @@ double gentle_force(const Syringe& syringe) {
 
 /// m along the line to go to before one comes back: through the layer, and into what resists the
 /// gentle push when that is near.
-double beyond(const Scene& scene, const InjectionSpec& spec, const LineLayer& layer,
+double beyond(const Scene& scene, const InjectionRun& run, const LineLayer& layer,
               const Vec3& direction, const JointSpaces& spaces) {
-  const Syringe& syringe = spec.plunger.syringe;
+  const InjectionSpec& spec = run.spec;
+  const Syringe& syringe = run.plunger.syringe;
   const double gentle = (gentle_force(syringe) - syringe.glide) / syringe.area();
   const Segment path{spec.entry + layer.to * direction,
                      spec.entry + (layer.to + kFarthestThrough) * direction};
@@ -57,9 +62,23 @@ double beyond(const Scene& scene, const InjectionSpec& spec, const LineLayer& la
   return layer.to + kThrough;
 }
 
-std::vector<OperatorPhase> phases_of(const InjectionSpec& spec, const LineLayer& layer,
-                                     double target, double through) {
-  std::vector<OperatorPhase> phases{named(stay(kReady), "ready")};
+/// Where tissue gives way it comes onto a needle that rests: the tip is kept at `target` by the
+/// picture once it is there.
+void keep_at(double target, std::vector<OperatorPhase>& phases) {
+  bool there = false;
+  for (OperatorPhase& phase : phases) {
+    const bool holds = phase.kind == Kind::hold;
+    there = there || (!holds && phase.depth == target);
+    if (!holds || !there) continue;
+    phase.keeps_depth = true;
+    phase.depth = target;
+  }
+}
+
+std::vector<OperatorPhase> phases_of(const InjectionRun& run, const LineLayer& layer, double target,
+                                     double through) {
+  const InjectionSpec& spec = run.spec;
+  std::vector<OperatorPhase> phases{named(stay(run.gave_way ? kSeated : kReady), "ready")};
   const double time = spec.volume / spec.rate;
   OperatorPhase inject = named(stay(2 * time + 20), "inject");
   inject.thumb_rate = spec.rate;
@@ -68,7 +87,7 @@ std::vector<OperatorPhase> phases_of(const InjectionSpec& spec, const LineLayer&
     phases.push_back(named(push_to(through, kSpeed), "through"));
     phases.push_back(named(stay(0.5), "stay"));
     OperatorPhase back = named(pull_to(std::max(0.0, layer.from - kThrough), kBackSpeed), "back");
-    back.thumb_force = gentle_force(spec.plunger.syringe);
+    back.thumb_force = gentle_force(run.plunger.syringe);
     back.until_flow = true;
     phases.push_back(back);
     // The whole opening of the bevel into the space, before more is given.
@@ -84,10 +103,11 @@ std::vector<OperatorPhase> phases_of(const InjectionSpec& spec, const LineLayer&
   }
   phases.push_back(inject);
   // A tense space would push the plunger back, and with it what was given.
-  phases.push_back(named(stay(run_out_time(spec.plunger)), "wait"));
+  phases.push_back(named(stay(run_out_time(run.plunger)), "wait"));
   phases.back().thumb_holds = true;
   // Let go before it comes out: what a tendon's pressure holds in the barrel would go elsewhere.
   phases.push_back(named(pull_to(-kStartOutside, 2 * kSpeed), "withdraw"));
+  if (run.gave_way) keep_at(target, phases);
   for (OperatorPhase& phase : phases)
     if (phase.duration == 0) phase.duration = 3 * kSearch / kSpeed;
   return phases;
@@ -96,49 +116,47 @@ std::vector<OperatorPhase> phases_of(const InjectionSpec& spec, const LineLayer&
 /// Everything that one injection runs on.
 class Trial {
  public:
-  Trial(const Scene& scene, const InjectionSpec& spec, const DeviceLimits& device,
-        JointSpaces spaces, InjectionRun& out)
-      : spec_(spec),
+  /// `out`: with spec and plunger. `recording`: or null.
+  Trial(const Scene& scene, const SessionParams& params, std::vector<std::uint32_t> of_region,
+        InjectionRun& out, Recording* recording)
+      : spec_(out.spec),
         out_(out),
-        of_region_(std::move(spaces.of_region)),
-        plunger_(spec.plunger, std::move(spaces.spaces), 1 / spec.rate_hz),
-        thumb_(spec.thumb),
-        dose_(spec.plunger, spec.volume) {
-    params_.device = device;
-    params_.rate_hz = spec.rate_hz;
-    apply(spec.feel, params_.needle);
-    apply(spec.feel, params_.passivity);
-    params_.needle.contact.needle_length = spec.plunger.needle.length;
-    borrowed_ = {std::shared_ptr<const void>(), &scene};
+        of_region_(std::move(of_region)),
+        simulation_({std::shared_ptr<const void>(), &scene}, params),
+        bevel_(bevel_length(out.plunger.needle.outer_diameter)) {
+    hands_.set_thumb(DosingThumb(out.plunger, spec_.volume, spec_.rate_hz));
+    if (recording != nullptr) recorder_.emplace(simulation_, *recording, RecordedPictures::listed);
+    if (!params.deform) return;
+    ProbeHandParams probe;
+    probe.hand.seed = mix_bits(spec_.hand.seed);
+    probe_.emplace(probe, spec_.rate_hz, std::vector<Pose>{out.X_JP});
   }
 
-  void run(InjectionOperator& person, const DeviceLimits& device) {
-    HandLoop loop({spec_.rate_hz, 20000}, device, spec_.hand, person.start());
-    NeedleRenderer renderer(borrowed_, make_layer_table(borrowed_->joint(), spec_.feel), params_);
+  Result<void> run(InjectionOperator& person) {
+    hands_.take_up(
+        HandLoop({spec_.rate_hz, 20000}, simulation_.params().device, spec_.hand, person.start()));
     while (!person.done()) {
-      const double t = loop.time();
-      const Pose measured = loop.measured();
-      const RenderedNeedle& rendered = renderer.step({measured, t});
-      const NeedleContact& contact = renderer.model().contact();
-      push(person, contact);
-      record(t, measured, rendered, contact, person);
-      OperatorView view = view_of(renderer.model());
-      view.flows = flows_into_target();
-      view.given = dose_.enough();
-      person.observe(t, measured, view);
-      Wrench motor = rendered.command;
-      motor.force += plunger_.state().on_needle * contact.tick().axis;
-      loop.advance(motor, [&person](double at) { return person.intention(at); });
+      const double t = hands_.needle().time();
+      const Pose measured = hands_.needle().measured();
+      const HapticSnapshot& tick = step(person);
+      hands_.feel(tick.feedback);
+      if (probe_) static_cast<void>(probe_->feel(tick.feedback));
+      if (!simulation_.refusal().empty())
+        return fail(ErrorCode::invalid, simulation_.refusal(), simulation_.joint().name);
+      record(t, measured, tick, person);
+      person.observe(t, measured, view());
+      hands_.move(person);
     }
+    return {};
   }
 
   void finish() {
-    const auto states = plunger_.states();
+    const auto states = plunger().states();
     double everywhere = 0;
     for (const SpaceState& s : states) everywhere += s.volume - s.drawn;
     out_.given = given();
-    out_.drawn = plunger_.state().drawn;
-    out_.unbalanced = spec_.plunger.syringe.filled - plunger_.state().content - everywhere;
+    out_.drawn = plunger().state().drawn;
+    out_.unbalanced = out_.plunger.syringe.filled - plunger().state().content - everywhere;
     std::vector<std::size_t> order(states.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
@@ -148,7 +166,7 @@ class Trial {
     std::rotate(order.begin(), target, target + 1);
     for (const std::size_t k : order) {
       if (k != target_ && !(states[k].volume > 0)) continue;
-      out_.places.push_back(plunger_.spaces()[k].name);
+      out_.places.push_back(plunger().spaces()[k].name);
       out_.volumes.push_back(states[k].volume);
       shown_.push_back(k);
     }
@@ -160,8 +178,8 @@ class Trial {
 
   void aim_at(RegionId region) {
     target_ = of_region_[region];
-    out_.target = plunger_.spaces()[target_].name;
-    out_.target_like = plunger_.spaces()[target_].like;
+    out_.target = plunger().spaces()[target_].name;
+    out_.target_like = plunger().spaces()[target_].like;
   }
 
  private:
@@ -170,23 +188,47 @@ class Trial {
 
   [[nodiscard]] double given() const {
     double sum = 0;
-    for (const SpaceState& s : plunger_.states()) sum += s.volume;
+    for (const SpaceState& s : plunger().states()) sum += s.volume;
     return sum;
   }
 
   /// As the picture tells: the two walls of the target come apart.
   [[nodiscard]] bool flows_into_target() {
-    const double now = plunger_.states()[target_].volume;
+    const double now = plunger().states()[target_].volume;
     const double flow = (now - target_volume_) * spec_.rate_hz;
     target_volume_ = now;
     fills_ = flow > kFlows;
     return fills_;
   }
 
+  [[nodiscard]] const Plunger& plunger() const { return simulation_.syringe().plunger(); }
+  [[nodiscard]] const NeedleContact& contact() const { return simulation_.needle().contact(); }
+  [[nodiscard]] std::array<TipShare, 2> shares() const {
+    return bevel_shares(contact(), bevel_, of_region_);
+  }
+
+  /// A tick, and the tissue's step where it is an image's.
+  const HapticSnapshot& step(const InjectionOperator& person) {
+    const OperatorPhase* phase = person.present();
+    if (phase != nullptr && phase->until_flow && eases(contact().tick().depth)) phase = nullptr;
+    if (probe_) hands_.hold_probe(probe_->held());
+    const TickInput input = simulation_.next_input(hands_.read(phase));
+    return recorder_ ? recorder_->step(input) : simulation_.step(input);
+  }
+
+  /// What the hand goes by: the picture, what flows, and the thumb.
+  [[nodiscard]] OperatorView view() {
+    OperatorView view = view_of(simulation_.needle());
+    if (contact().inserted()) view.depth = contact().tick().depth;
+    view.flows = flows_into_target();
+    view.given = hands_.thumb().enough();
+    return view;
+  }
+
   /// What goes in while the target does not open goes elsewhere: the hand lets go, draws back some
   /// more and tries again.
-  void ease(PlungerInput& input, double depth) {
-    if (plunger_.state().flow <= kFlows || fills_) {
+  [[nodiscard]] bool eases(double depth) {
+    if (plunger().state().flow <= kFlows || fills_) {
       strayed_ = 0;
     } else {
       strayed_ += 1 / spec_.rate_hz;
@@ -195,36 +237,23 @@ class Trial {
       eased_at_ = depth;
       strayed_ = 0;
     }
-    if (std::abs(depth - eased_at_) < kEased) input.force = 0;
+    return std::abs(depth - eased_at_) < kEased;
   }
 
-  void push(const InjectionOperator& person, const NeedleContact& contact) {
-    const OperatorPhase* phase = person.present();
-    const double dt = 1 / spec_.rate_hz;
-    PlungerInput input = thumb_.step(phase, plunger_.state(), spec_.plunger.syringe.area(), dt);
-    if (phase != nullptr && phase->until_flow) ease(input, contact.tick().depth);
-    input.tip =
-        bevel_shares(contact, bevel_length(spec_.plunger.needle.outer_diameter), of_region_);
-    input.depth = contact.tick().depth;
-    const PlungerState& now = plunger_.step(input);
-    const bool pushes = phase != nullptr && phase->until_given &&
-                        (now.flow > ThumbDose::kFlows || thumb_.strains());
-    dose_.step(pushes, given(), now.pressure, now.tip_pressure, now.flow, dt);
-  }
-
-  void record(double t, const Pose& measured, const RenderedNeedle& rendered,
-              const NeedleContact& contact, const InjectionOperator& person) {
+  void record(double t, const Pose& measured, const HapticSnapshot& tick,
+              const InjectionOperator& person) {
+    const NeedleTick& needle = contact().tick();
     InjectionRow& row = out_.rows.emplace_back();
     row.time = t;
-    row.depth = contact.inserted() ? contact.tick().depth : 0;
-    row.region = contact.inserted() ? contact.region() : kOutside;
-    row.axial = rendered.command.force.dot(contact.tick().axis);
-    row.plunger = plunger_.state();
-    row.thumb = plunger_.state().force;
+    row.depth = contact().inserted() ? needle.depth : 0;
+    row.region = contact().inserted() ? contact().region() : kOutside;
+    row.axial = Vec3(tick.force_J[0], tick.force_J[1], tick.force_J[2]).dot(needle.axis);
+    row.plunger = plunger().state();
+    row.thumb = plunger().state().force;
     if (const OperatorPhase* phase = person.present()) row.phase = label_of(phase->label);
     std::vector<double>& now = history_.emplace_back();
-    for (const SpaceState& s : plunger_.states()) now.push_back(s.volume);
-    watch(row, measured, contact);
+    for (const SpaceState& s : plunger().states()) now.push_back(s.volume);
+    watch(row, measured);
   }
 
   /// A label that outlives the operator.
@@ -235,7 +264,7 @@ class Trial {
     return {};
   }
 
-  void watch(const InjectionRow& row, const Pose& measured, const NeedleContact& contact) {
+  void watch(const InjectionRow& row, const Pose& measured) {
     out_.status |= row.plunger.status;
     out_.highest_force = std::max(out_.highest_force, row.thumb);
     if (row.plunger.flow > kFlows && row.phase == "inject") {
@@ -244,12 +273,12 @@ class Trial {
       max_ = std::max(max_, row.depth);
       out_.tip_walk = max_ - min_;
       out_.X_JN = measured;
+      out_.X_JN.translation() = contact().tick().tip;
       out_.depth = row.depth;
     }
-    const auto shares =
-        bevel_shares(contact, bevel_length(spec_.plunger.needle.outer_diameter), of_region_);
-    const std::size_t tip = shares[0].share >= shares[1].share ? shares[0].space : shares[1].space;
-    std::string says = patient_says(plunger_, tip);
+    const auto in = shares();
+    const std::size_t tip = in[0].share >= in[1].share ? in[0].space : in[1].space;
+    std::string says = patient_says(plunger(), tip);
     if (!says.empty() && (out_.patient.empty() || out_.patient.back().text != says))
       out_.patient.push_back({row.time, std::move(says)});
   }
@@ -257,11 +286,11 @@ class Trial {
   const InjectionSpec& spec_;
   InjectionRun& out_;
   std::vector<std::uint32_t> of_region_;
-  Plunger plunger_;
-  Thumb thumb_;
-  ThumbDose dose_;
-  NeedleRendererParams params_;
-  std::shared_ptr<const Scene> borrowed_;
+  Simulation simulation_;
+  std::optional<SimulationRecorder> recorder_;  // empty: nobody wants it
+  SimulatedHands hands_;
+  std::optional<SeatedProbe> probe_;  // empty: the body is rigid
+  double bevel_;                      // m
   std::size_t target_ = 0;
   std::vector<std::size_t> shown_;
   std::vector<std::vector<double>> history_;
@@ -307,6 +336,65 @@ std::optional<RegionId> bursa_on(const Scene& scene, const Vec3& entry, const Ve
   return std::nullopt;
 }
 
+/// What lies on the line.
+struct LinePlan {
+  Vec3 direction = Vec3::UnitZ();
+  RegionId region = kOutside;  // to inject
+  bool by_name = false;        // or the target's own
+  LineLayer layer;
+};
+
+Result<LinePlan> plan_line(const Scene& scene, const InjectionSpec& spec) {
+  LinePlan plan;
+  if (!(spec.volume > 0) || !(spec.rate > 0))
+    return fail(ErrorCode::invalid, "volume and rate must be above 0", spec.name);
+  const Vec3 path = spec.target - spec.entry;
+  if (!(path.norm() > 1e-6))
+    return fail(ErrorCode::invalid, "entry and target are the same point", spec.name);
+  plan.direction = path.normalized();
+  const std::optional<RegionId> into =
+      spec.into ? spec.into : bursa_on(scene, spec.entry, spec.target);
+  plan.by_name = into.has_value();
+  plan.region = into.value_or(scene.region_at(spec.target));
+  if (plan.region < kFirstRegion)
+    return fail(ErrorCode::invalid, "the target lies outside of the meshed body", spec.name);
+  const auto layer = find_layer(scene, spec.entry, plan.direction, plan.region);
+  if (!layer)
+    return fail(ErrorCode::invalid,
+                "the line does not meet '" + scene.joint().regions[plan.region].name + "'",
+                spec.name);
+  plan.layer = *layer;
+  return plan;
+}
+
+/// m along the line where the tip stops.
+double stop_on(const LinePlan& plan, const InjectionSpec& spec, const JointSpaces& spaces,
+               double opening) {
+  const double wanted = (spec.target - spec.entry).norm();
+  if (plan.by_name) return tip_in_middle(plan.layer, opening);
+  const bool solid = spaces.spaces[spaces.of_region[plan.region]].law.kind == SpaceKind::solid;
+  return solid ? wanted : tip_near(plan.layer, opening, wanted);
+}
+
+/// The session that an injection is, its needle `needle_length` m long.
+Result<SessionParams> params_of(const InjectionSpec& spec, const CompiledJoint& joint,
+                                double needle_length) {
+  SessionParams params;
+  const auto device = find_device(spec.device);
+  ARTUS_TRY(device);
+  params.device = *device;
+  params.haptic_rate = spec.rate_hz;
+  params.image_rate = kImageRate;
+  params.feel = spec.feel;
+  params.feel.needle_length = needle_length;
+  params.syringe = spec.syringe;
+  params.transducer = spec.transducer;
+  params.needle_shape = needle_of_gauge(spec.syringe.gauge).value_or(NeedleShape{});
+  params.deform = params.wait_for_cage = !spec.rigid && !joint.mesh.tetrahedra.empty();
+  ARTUS_TRY(validate(params));
+  return params;
+}
+
 }  // namespace
 
 const InjectionRow& row_of(const InjectionRun& run, double time) {
@@ -315,45 +403,36 @@ const InjectionRow& row_of(const InjectionRun& run, double time) {
   return row == run.rows.end() ? run.rows.back() : *row;
 }
 
-Result<InjectionRun> run_injection(const Scene& scene, const InjectionSpec& spec) {
-  const auto device = find_device(spec.device);
-  ARTUS_TRY(device);
-  if (!(spec.volume > 0) || !(spec.rate > 0))
-    return fail(ErrorCode::invalid, "volume and rate must be above 0", spec.name);
-  const Vec3 path = spec.target - spec.entry;
-  if (!(path.norm() > 1e-6))
-    return fail(ErrorCode::invalid, "entry and target are the same point", spec.name);
-  const Vec3 direction = path.normalized();
-  const std::optional<RegionId> into =
-      spec.into ? spec.into : bursa_on(scene, spec.entry, spec.target);
-  const RegionId region = into.value_or(scene.region_at(spec.target));
-  if (region < kFirstRegion)
-    return fail(ErrorCode::invalid, "the target lies outside of the meshed body", spec.name);
-  const auto layer = find_layer(scene, spec.entry, direction, region);
-  if (!layer)
-    return fail(ErrorCode::invalid,
-                "the line does not meet '" + scene.joint().regions[region].name + "'", spec.name);
+Result<InjectionRun> run_injection(const Scene& scene, const InjectionSpec& spec,
+                                   Recording* recording) {
+  const auto plan = plan_line(scene, spec);
+  ARTUS_TRY(plan);
   auto spaces = make_joint_spaces(scene.joint());
   ARTUS_TRY(spaces);
+  const double length = std::max(spec.needle_length, plan->layer.to + kFarthestThrough + kSpare);
+  const auto params = params_of(spec, scene.joint(), length);
+  ARTUS_TRY(params);
+  auto plunger = make_plunger_params(params->syringe, length);
+  ARTUS_TRY(plunger);
   InjectionRun out;
   out.spec = spec;
+  out.plunger = std::move(*plunger);
+  out.gave_way = params->deform;
   for (const Region& r : scene.joint().regions) out.regions.push_back(r.name);
-  const bool solid = spaces->spaces[spaces->of_region[region]].law.kind == SpaceKind::solid;
-  const double opening = bevel_length(spec.plunger.needle.outer_diameter);
-  const double target = into    ? tip_in_middle(*layer, opening)
-                        : solid ? path.norm()
-                                : tip_near(*layer, opening, path.norm());
-  out.spec.plunger.needle.length =
-      std::max(spec.plunger.needle.length, layer->to + kFarthestThrough + kSpare);
-  const double through = beyond(scene, out.spec, *layer, direction, *spaces);
-  Trial trial(scene, out.spec, *device, std::move(*spaces), out);
-  trial.aim_at(region);
+  const double opening = bevel_length(out.plunger.needle.outer_diameter);
+  const double target = stop_on(*plan, spec, *spaces, opening);
+  const Vec3& direction = plan->direction;
+  const Pose X_JN = make_pose(spec.entry + target * direction, direction, Vec3::Zero());
+  out.X_JP = find_view_of(scene, X_JN, spec.transducer.width).X_JP;
+  const double through = beyond(scene, out, plan->layer, direction, *spaces);
   InjectionOperator person(spec.entry, direction, -kStartOutside,
-                           phases_of(spec, *layer, target, through));
-  trial.run(person, *device);
+                           phases_of(out, plan->layer, target, through));
+  Trial trial(scene, *params, std::move(spaces->of_region), out, recording);
+  trial.aim_at(plan->region);
+  ARTUS_TRY(trial.run(person));
   trial.finish();
   out.reached = std::any_of(out.rows.begin(), out.rows.end(),
-                            [&](const InjectionRow& row) { return row.region == region; });
+                            [&](const InjectionRow& row) { return row.region == plan->region; });
   return out;
 }
 

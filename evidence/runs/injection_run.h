@@ -5,13 +5,15 @@
 #include <string>
 #include <vector>
 
-#include "artus/detail/haptics/plunger/plunger.h"
+#include "artus/detail/haptics/plunger/syringe_choice.h"
 #include "artus/detail/operators/simulated_hand.h"
-#include "artus/detail/operators/thumb.h"
+#include "artus/echo/transducer.h"
 #include "artus/haptics/needle_feel.h"
 #include "artus/raycast/scene.h"
 
 namespace artus {
+
+struct Recording;
 
 inline constexpr double kStartOutside = 0.010;  ///< m before the skin, where a way begins
 inline constexpr double kSearch = 0.15;         ///< m along a line; none is longer
@@ -33,8 +35,10 @@ struct InjectionSpec {
   double rate = 1e-7;    ///< m^3/s
   double aspirate = 3;   ///< s of pulling before; 0: none
   Technique technique = Technique::direct;
-  PlungerParams plunger;  ///< its syringe holds at least the volume
-  ThumbParams thumb;
+  SyringeChoice syringe;         ///< that holds at least the volume
+  double needle_length = 50e-3;  ///< m, hub to tip; longer where the target is deep
+  Transducer transducer;         ///< of the probe, which presses on the skin
+  bool rigid = false;            ///< tissue does not give way, though the joint could
   double rate_hz = 1000;
   std::string device = "virtuose_6d_desktop";  ///< a name of device_table()
   NeedleFeel feel;
@@ -44,9 +48,9 @@ struct InjectionSpec {
 /// One tick as it is recorded. SI.
 struct InjectionRow {
   double time = 0;
-  double depth = 0;  ///< m of the tip along the line, 0 at the skin
+  double depth = 0;  ///< m of the tip along the line in the material, 0 at the skin
   RegionId region = kOutside;
-  double axial = 0;  ///< N of the device on the hand along the needle
+  double axial = 0;  ///< N of the device on the hand along the needle, the thumb's push in it
   PlungerState plunger;
   double thumb = 0;             ///< N
   std::string_view phase;       ///< what the operator is doing
@@ -61,13 +65,16 @@ struct PatientLine {
 
 struct InjectionRun {
   InjectionSpec spec;
+  PlungerParams plunger;         ///< syringe, needle and liquid as they were
+  bool gave_way = false;         ///< the tissue did
+  Pose X_JP = Pose::Identity();  ///< where the probe's face lies on the skin at rest
   std::vector<InjectionRow> rows;
   std::vector<std::string> places;   ///< names of the spaces that got anything, the target first
   std::vector<double> volumes;       ///< m^3 in them at the end
   std::vector<std::string> regions;  ///< names of the joint's regions, by number
   std::string target;                ///< name of the space that was meant
   std::string target_like;           ///< its profile
-  Pose X_JN = Pose::Identity();      ///< where the needle was while it flowed most
+  Pose X_JN = Pose::Identity();      ///< where the needle was while it flowed most, in the material
   double depth = 0;                  ///< m of its tip along the line then, as in the rows
   double given = 0;                  ///< m^3 that left the needle
   double drawn = 0;                  ///< m^3 of the patient's own
@@ -81,10 +88,16 @@ struct InjectionRun {
   std::uint32_t status = 0;  ///< PlungerStatus bits of all ticks
 };
 
-/// Runs it closed loop: hand, device, needle, thumb and plunger. Deterministic for a scene and
-/// spec. Errors: not_found (device), invalid (the line does not meet the structure; the target lies
-/// outside of the meshed body; volume or rate not above 0).
-[[nodiscard]] Result<InjectionRun> run_injection(const Scene& scene, const InjectionSpec& spec);
+/// Runs it closed loop over a Simulation: hands, needle, thumb and plunger. Where the joint has
+/// tetrahedra tissue gives way, and the other hand presses the probe on the skin as in
+/// run_three_injections, where find_view_of sees the tip; the needle's hand goes by the picture,
+/// which tells how deep the tip is in the material. `recording`: takes what went in and came out,
+/// as a session's does; null: nobody wants it. Deterministic for a scene and spec. Errors:
+/// not_found (device, gauge, liquid), invalid (the line does not meet the structure; the target
+/// lies outside of the meshed body; volume or rate not above 0; what `validate` refuses; tissue
+/// that cannot give way).
+[[nodiscard]] Result<InjectionRun> run_injection(const Scene& scene, const InjectionSpec& spec,
+                                                 Recording* recording = nullptr);
 
 /// The first row at `time` or later, else the last. Requires: a run with rows.
 [[nodiscard]] const InjectionRow& row_of(const InjectionRun& run, double time);

@@ -19,7 +19,7 @@
 #include "artus/detail/operators/probe_hand.h"
 #include "artus/detail/operators/simulated_hand.h"
 #include "artus/detail/simulation/syringe_core.h"
-#include "artus/detail/soft/solver/face_contact.h"
+#include "artus/echo/transducer.h"
 #include "artus/haptics/needle_feel.h"
 
 namespace artus {
@@ -107,7 +107,7 @@ struct ThreeInjections {
 
 /// How tissue gives way in a run.
 struct RunTissueOptions {
-  ProbeFace face;          ///< that presses
+  Transducer transducer;   ///< whose face presses
   double image_rate = 30;  ///< 1/s of its steps, of which each is an image's instant
   /// Called with the run so far and the body as it lies at its last row, which is an image's, and
   /// what was injected into it.

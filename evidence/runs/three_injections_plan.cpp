@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "artus/detail/core/units.h"
+#include "artus/detail/evidence/runs/probe_in_plane.h"
 #include "artus/detail/haptics/plunger/bevel.h"
 
 namespace artus {
@@ -254,6 +255,20 @@ double choose_needle(const std::array<InjectionPass, 3>& passes) {
     if (length > deepest + kSpare) return length;
   }
   return 0.090;
+}
+
+std::vector<Pose> plan_seats(const Scene& scene, const std::array<InjectionPass, 3>& passes) {
+  std::vector<Pose> seats;
+  for (const InjectionPass& pass : passes) {
+    Vec3 direction = pass.direction;
+    for (const OperatorPhase& phase : pass.phases) {
+      if (phase.kind == OperatorPhase::Kind::turn) direction = phase.direction;
+      if (phase.label.empty()) continue;
+      const Vec3 across = direction.unitOrthogonal();
+      seats.push_back(probe_in_plane(scene, make_pose(pass.entry, direction, across)));
+    }
+  }
+  return seats;
 }
 
 std::size_t count_doses(const std::array<InjectionPass, 3>& passes) {

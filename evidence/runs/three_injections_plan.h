@@ -30,6 +30,11 @@ struct InjectionPass {
 /// m, the shortest needle there is that reaches what is planned.
 [[nodiscard]] double choose_needle(const std::array<InjectionPass, 3>& passes);
 
+/// Where the probe belongs at each of what is planned and named, in their order: on the skin, in
+/// the plane of its line.
+[[nodiscard]] std::vector<Pose> plan_seats(const Scene& scene,
+                                           const std::array<InjectionPass, 3>& passes);
+
 /// How many doses are given in all.
 [[nodiscard]] std::size_t count_doses(const std::array<InjectionPass, 3>& passes);
 

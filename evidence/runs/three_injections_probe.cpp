@@ -98,7 +98,7 @@ void run_probe_hand(const std::shared_ptr<const Scene>& scene, ThreeInjections& 
   const double rate = run.options.rate_hz;
   ProbeHandParams params = run.options.probe;
   params.hand.seed = mix_bits(run.options.seed);
-  ProbeHand hand(scene, params, rate, run.moments.front().X_JP_seat);
+  RigidProbeHand hand(scene, params, rate, run.moments.front().X_JP_seat);
   run.probe.reserve(run.rows.size());
   for (std::size_t i = 0; i < run.rows.size(); ++i) {
     run.probe.push_back(hand.step([&run](double t) { return intend_probe(run.moments, t, kFar); }));

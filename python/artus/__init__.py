@@ -119,20 +119,21 @@ def sweep(joint, poses, *, start=0, stop=None, step=1, **settings):
 
 def inject(joint, entry=None, target=None, *, injection="", into="", volume=5e-6, rate=1e-7,
            liquid="lidocaine", gauge=22, needle_length=0.05, syringe=0.0, air=0.0, aspirate=3.0,
-           technique="direct", haptic_rate=1000.0, device="virtuose_6d_desktop", seed=1):
+           technique="direct", rigid=False, haptic_rate=1000.0, device="virtuose_6d_desktop",
+           seed=1):
     """Inject with a simulated hand and thumb, as `artus inject` does: a dict of arrays.
 
     Along entry and target (3,) m, or a planned injection of the joint (its first without a name),
     or into a structure `into`. `volume`, `syringe`, `air`: m^3 (1e-6 is a millilitre); `rate`: m^3/s;
-    `technique`: direct or through-and-back. Of each tick (n,): time s, depth m, region id, axial N,
-    thumb N, barrel_pressure and tip_pressure Pa, flow m^3/s, travel m, content m^3, status, phase
+    `technique`: direct or through-and-back; `rigid`: tissue does not give way. Of each tick (n,): time s, depth m
+    in the material, region id, axial N, thumb N, barrel_pressure and tip_pressure Pa, flow m^3/s, travel m, content m^3, status, phase
     (a list of words); volumes {place: (n,) m^3}; needle (4, 4) m where it flowed most; summary: what
     the tool writes into summary.json, in the units of its names.
     """
     arrays, summary = _inject(
         joint, entry, target, injection=injection, into=into, volume=volume, rate=rate, liquid=liquid,
         gauge=gauge, needle_length=needle_length, syringe=syringe, air=air, aspirate=aspirate,
-        technique=technique, haptic_rate=haptic_rate, device=device, seed=seed)
+        technique=technique, rigid=rigid, haptic_rate=haptic_rate, device=device, seed=seed)
     return {**arrays, "summary": json.loads(summary)}
 
 

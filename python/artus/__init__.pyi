@@ -176,6 +176,7 @@ def inject(
     air: float = 0.0,
     aspirate: float = 3.0,
     technique: str = "direct",
+    rigid: bool = False,
     haptic_rate: float = 1000.0,
     device: str = "virtuose_6d_desktop",
     seed: int = 1,

@@ -46,6 +46,7 @@ Result<RecordingHead> to_head(const nlohmann::json& json) {
   head.params.device = *device;  // its name; the numbers are those of the recording
   read_fields(json.at("params"), head.params);
   head.params.X_WJ = to_pose(json.at("X_WJ"));
+  head.params.wait_for_cage = json.value("wait_for_cage", false);
   const auto feel = to_needle_feel(json.at("feel"));
   ARTUS_TRY(feel);
   head.params.feel = *feel;
@@ -67,6 +68,7 @@ std::string to_line(const RecordingHead& head) {
                       {"X_WJ", to_json(head.params.X_WJ)},
                       {"feel", to_json(head.params.feel)},
                       {"params", fields_to_json(head.params)}};
+  if (head.params.wait_for_cage) json["wait_for_cage"] = true;
   json[kDigest] = digest_of(json);
   return json.dump();
 }

@@ -3,10 +3,8 @@
 # has a step of its own, and a feature then reaches only the copy where it was made.
 cmake_minimum_required(VERSION 3.25)
 set(halves "(^|[^A-Za-z_])(HapticCore|ImageCore|NeedleRenderer|NeedleTickStep|FluidShapes|NeedleTissue|SyringeCore)[^A-Za-z_]")
-# Which of them a folder may name all the same: the laws themselves; bodies that are formulas, which no image shows.
-set(may "^simulation/" "^haptics/needle/" "^operators/trajectory_forces" "^evidence/validation/needle/" "^apps/hello"
-  "^evidence/runs/needle_trace" "^evidence/validation/soft/needled_block" "^evidence/validation/injection/" "^python/forces"
-  "^evidence/validation/soft/soft_gates")
+# Who may name them all the same: needles in bodies that are formulas, which no image shows.
+set(may "^simulation/" "^evidence/validation/needle/experiment_body" "^evidence/validation/soft/soft_gates_hand")
 set(bad "")
 foreach(folder operators dataset simulation session training evidence exchange reports viewer trainer python apps)
   file(GLOB_RECURSE files RELATIVE ${ROOT} ${ROOT}/${folder}/*.h ${ROOT}/${folder}/*.cpp)

@@ -29,7 +29,7 @@ Pose on_top(double x = 0, double tilt = 0, double depth = 0) {
 }
 
 /// Leans for a second, slides 10 mm along x in the next, holds for one more.
-ProbeHandRow press_and_slide(ProbeHand& hand, std::vector<ProbeHandRow>* rows = nullptr) {
+ProbeHandRow press_and_slide(RigidProbeHand& hand, std::vector<ProbeHandRow>* rows = nullptr) {
   ProbeHandRow row;
   for (int i = 0; i < 3000; ++i) {
     row = hand.step([](double t) {
@@ -47,7 +47,7 @@ TEST(ProbeHand, LeansWithTheWantedForceWhateverIsBelow) {
   for (const double force : {1.0, 3.0, 8.0}) {
     ProbeHandParams params;
     params.press_force = force;
-    ProbeHand hand(block(), params, 1000, on_top());
+    RigidProbeHand hand(block(), params, 1000, on_top());
     const ProbeHandRow row = press_and_slide(hand);
     EXPECT_NEAR(row.normal_force, force, 0.02 * force);
     EXPECT_EQ(row.status, 0U);
@@ -56,7 +56,7 @@ TEST(ProbeHand, LeansWithTheWantedForceWhateverIsBelow) {
 }
 
 TEST(ProbeHand, SlidingDragsAgainstTheMotionAndCountsTheWay) {
-  ProbeHand hand(block(), {}, 1000, on_top());
+  RigidProbeHand hand(block(), {}, 1000, on_top());
   std::vector<ProbeHandRow> rows;
   const ProbeHandRow last = press_and_slide(hand, &rows);
   const ProbeHandRow& sliding = rows[1500];
@@ -70,8 +70,8 @@ TEST(ProbeHand, SlidingDragsAgainstTheMotionAndCountsTheWay) {
 }
 
 TEST(ProbeHand, SameSeedGivesTheSameRows) {
-  ProbeHand a(block(), {}, 1000, on_top());
-  ProbeHand b(block(), {}, 1000, on_top());
+  RigidProbeHand a(block(), {}, 1000, on_top());
+  RigidProbeHand b(block(), {}, 1000, on_top());
   const ProbeHandRow last_a = press_and_slide(a);
   const ProbeHandRow last_b = press_and_slide(b);
   EXPECT_EQ(last_a.X_JP.matrix(), last_b.X_JP.matrix());

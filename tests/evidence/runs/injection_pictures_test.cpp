@@ -33,8 +33,6 @@ TEST_F(InjectionVideo, ShowsTheWholeCourseAndNoneOfARunThatGaveNothing) {
   spec.target = Vec3(0, 0, 8e-3);
   spec.volume = 0.3e-6;
   spec.rate = 0.2e-6;
-  spec.plunger.liquids = *read_bundled_liquids();
-  spec.plunger.liquid = *find_liquid(spec.plunger.liquids, "saline");
   auto run = run_injection(*scene, spec);
   ASSERT_TRUE(run) << run.error().message;
   InjectionPictureOptions options;
@@ -63,8 +61,6 @@ TEST_F(InjectionVideo, PicturesSayHowWideAndThickTheLiquidIsWhateverTheBeamsSlan
   spec.volume = 3e-6;
   spec.rate = 0.5e-6;
   spec.aspirate = 0;
-  spec.plunger.liquids = *read_bundled_liquids();
-  spec.plunger.liquid = *find_liquid(spec.plunger.liquids, "saline");
   InjectionPictureOptions options;
   options.transducer.n_lines = 48;
   options.settings.depth = 30e-3;

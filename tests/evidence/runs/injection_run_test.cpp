@@ -9,7 +9,10 @@
 #include <nlohmann/json.hpp>
 
 #include "artus/detail/evidence/runs/injection_report.h"
+#include "artus/session/recording.h"
+#include "artus/session/replay.h"
 #include "tests/support/layered_body.h"
+#include "tests/support/meshed_block.h"
 
 namespace artus {
 namespace {
@@ -29,8 +32,6 @@ InjectionSpec spec_into(const Scene& scene, const char* region, double volume) {
   spec.into = test::region_named(scene.joint(), region);
   spec.volume = volume;
   spec.rate = 0.2e-6;
-  spec.plunger.liquids = *read_bundled_liquids();
-  spec.plunger.liquid = *find_liquid(spec.plunger.liquids, "saline");
   return spec;
 }
 
@@ -44,7 +45,7 @@ TEST(InjectionRun, ATendonTakesAHandsForceAndABursaDoesNot) {
   EXPECT_LT(bursa->highest_force, tendon->highest_force);
   // What the tendon's pressure holds in the barrel springs back before the needle is drawn out, but
   // for what the stopper's friction keeps.
-  const Syringe& syringe = tendon->spec.plunger.syringe;
+  const Syringe& syringe = tendon->plunger.syringe;
   EXPECT_GT(tendon->given, 0.98 * 0.5e-6);
   EXPECT_LT(tendon->given, 0.5e-6 + syringe.softness() * syringe.break_loose / syringe.area());
 }
@@ -82,10 +83,10 @@ TEST(InjectionRun, ComingBackWithAWideBarrelMovesItsStopper) {
   const auto scene = shoulder_like();
   InjectionSpec spec = spec_into(*scene, "bursa", 1e-6);
   spec.technique = Technique::through_and_back;
-  spec.plunger.syringe = syringe_for(8.4e-6);
-  ASSERT_GT(spec.plunger.syringe.break_loose, 3.5);
+  spec.syringe.barrel = 8.4e-6;
   const auto run = run_injection(*scene, spec);
   ASSERT_TRUE(run);
+  ASSERT_GT(run->plunger.syringe.break_loose, 3.5);
   EXPECT_GE(run->volumes.front(), 0.95 * run->given);
 }
 
@@ -103,8 +104,7 @@ TEST(InjectionRun, ATargetInTheAirIsRefused) {
 TEST(InjectionRun, ASlowRateOnAWideBarrelGivesWhatIsMeantForIt) {
   const auto scene = shoulder_like();
   InjectionSpec spec = spec_into(*scene, "bursa", 15e-6);
-  spec.plunger.syringe = syringe_for(15.5e-6);
-  spec.plunger.syringe.filled = 15.5e-6;
+  spec.syringe.filled = 15.5e-6;
   spec.rate = 0.1e-6;
   const auto run = run_injection(*scene, spec);
   ASSERT_TRUE(run);
@@ -116,11 +116,11 @@ TEST(InjectionRun, ATenseBursaDoesNotPushBackWhatWasGiven) {
   // 18.8 kPa on a barrel of 20 ml are more than the stopper's friction.
   const auto scene = shoulder_like();
   InjectionSpec spec = spec_into(*scene, "bursa", 12e-6);
-  spec.plunger.syringe = syringe_for(20e-6);
+  spec.syringe.barrel = spec.syringe.filled = 20e-6;
   spec.rate = 0.5e-6;
   const auto run = run_injection(*scene, spec);
   ASSERT_TRUE(run);
-  EXPECT_GT(run->highest_pressure * spec.plunger.syringe.area(), spec.plunger.syringe.break_loose);
+  EXPECT_GT(run->highest_pressure * run->plunger.syringe.area(), run->plunger.syringe.break_loose);
   EXPECT_NEAR(run->given / spec.volume, 1, 0.003);
 }
 
@@ -128,7 +128,7 @@ TEST(InjectionRun, AThinNeedleIsWaitedForUntilTheBarrelHasGivenWhatItHolds) {
   // Some 200 kPa, 0.2 ml in the barrel, out within a second's time constant.
   const auto scene = shoulder_like();
   InjectionSpec spec = spec_into(*scene, "bursa", 1e-6);
-  spec.plunger.needle = *bore_of_gauge(27, 0.05);
+  spec.syringe.gauge = 27;
   const auto run = run_injection(*scene, spec);
   ASSERT_TRUE(run);
   EXPECT_NEAR(run->given / spec.volume, 1, 0.01);
@@ -141,9 +141,9 @@ TEST(InjectionRun, AThickLiquidIsGivenInFullThoughABarrelKeepsSomeOfIt) {
     for (const int gauge : {18, 22, 25}) {
       InjectionSpec spec = spec_into(*scene, "bursa", 1e-6);
       spec.rate = 0.1e-6;
-      spec.plunger.syringe = syringe_for(2e-6);
-      spec.plunger.liquid = *find_liquid(spec.plunger.liquids, liquid);
-      spec.plunger.needle = *bore_of_gauge(gauge, 0.05);
+      spec.syringe.filled = 2e-6;
+      spec.syringe.liquid = liquid;
+      spec.syringe.gauge = gauge;
       const auto run = run_injection(*scene, spec);
       ASSERT_TRUE(run);
       EXPECT_NEAR(run->given / spec.volume, 1, 0.01) << liquid << ' ' << gauge;
@@ -158,7 +158,7 @@ TEST(InjectionRun, AWideNeedlesWholeOpeningGoesIntoTheSpaceThatThePlanIsIn) {
   InjectionSpec spec = spec_into(scene, "bursa", 1e-6);
   spec.into.reset();
   spec.target = Vec3(0, 0, 11e-3);  // 1 mm of 3.2 mm of opening
-  spec.plunger.needle = *bore_of_gauge(18, 0.05);
+  spec.syringe.gauge = 18;
   const auto run = run_injection(scene, spec);
   ASSERT_TRUE(run);
   EXPECT_EQ(run->target, "bursa");
@@ -179,8 +179,7 @@ TEST(InjectionRun, ARateThatTheThumbCannotKeepIsTold) {
   ASSERT_EQ(notes_of(*tiny).size(), 1U);
   EXPECT_EQ(notes_of(*tiny).front(), "0.02 ml are out before the flow comes to 0.1 ml/s");
   spec.volume = 4e-6;
-  spec.plunger.syringe = syringe_for(50e-6);
-  spec.plunger.syringe.filled = 5e-6;
+  spec.syringe.barrel = 50e-6;
   spec.rate = 2e-6;
   const auto slow = run_injection(*scene, spec);
   ASSERT_TRUE(slow);
@@ -214,12 +213,12 @@ TEST(InjectionRun, RefusesALineThatMissesAndAVolumeThatIsNone) {
 TEST(InjectionRun, MoreThanABursaHoldsTearsItAndIsFoundAroundIt) {
   const auto scene = shoulder_like();
   InjectionSpec spec = spec_into(*scene, "bursa", 45e-6);
-  spec.plunger.syringe = syringe_for(46e-6);
+  spec.syringe.filled = 46e-6;
   spec.rate = 1e-6;
   const auto run = run_injection(*scene, spec);
   ASSERT_TRUE(run);
   EXPECT_NE(run->status & PlungerStatus::kRuptured, 0U) << run->given << " m^3 given";
-  EXPECT_LE(run->highest_force, spec.plunger.max_force);
+  EXPECT_LE(run->highest_force, run->plunger.max_force);
   EXPECT_LT(std::abs(run->unbalanced), 1e-15);
   EXPECT_LT(run->volumes.front(), 0.95 * run->given);
   EXPECT_FALSE(all_hold(claims_of(*run)));
@@ -228,16 +227,67 @@ TEST(InjectionRun, MoreThanABursaHoldsTearsItAndIsFoundAroundIt) {
 TEST(InjectionRun, GrainsThatSettleInAThinNeedleStopTheHand) {
   const auto scene = shoulder_like();
   InjectionSpec spec = spec_into(*scene, "bursa", 1e-6);
-  spec.plunger.liquid = *find_liquid(spec.plunger.liquids, "steroid");
-  spec.plunger.needle = *bore_of_gauge(27, 0.05);
-  spec.plunger.clog_time = 0.5;  // s; in the mean 20, here soon
+  spec.syringe.liquid = "steroid";
+  spec.syringe.gauge = 27;
+  spec.aspirate = 60;  // s; grains clog after 20 in the mean
   const auto run = run_injection(*scene, spec);
   ASSERT_TRUE(run);
   EXPECT_NE(run->status & PlungerStatus::kClogged, 0U);
   EXPECT_FALSE(run->complete);
   EXPECT_FALSE(all_hold(claims_of(*run)));
-  EXPECT_LE(run->highest_force, spec.plunger.max_force);
+  EXPECT_LE(run->highest_force, run->plunger.max_force);
   EXPECT_LT(std::abs(run->unbalanced), 1e-15);
+}
+
+/// Skin, muscle, a bursa from 14 mm on, tendon, bone, as tetrahedra.
+std::shared_ptr<const Scene> soft_shoulder() {
+  const std::vector<FlatLayer> layers{
+      {"skin", 2e-3}, {"muscle", 12e-3}, {"bursa", 3e-3}, {"tendon", 6e-3}, {"bone", 12e-3}};
+  static const auto kScene = std::make_shared<const Scene>(
+      std::make_shared<const CompiledJoint>(test::make_meshed_block(layers, .12, .08, 4e-3)));
+  return kScene;
+}
+
+InjectionSpec spec_in_tissue() {
+  InjectionSpec spec = spec_into(*soft_shoulder(), "bursa", 0.5e-6);
+  spec.entry = Vec3(-26e-3, 0, 0);
+  spec.target = Vec3(-12e-3, 0, 16e-3);
+  return spec;
+}
+
+TEST(InjectionRun, InTissueThatGivesWayTheBursaIsMetByThePictureAndTakesWhatIsMeant) {
+  const auto soft = run_injection(*soft_shoulder(), spec_in_tissue());
+  ASSERT_TRUE(soft) << soft.error().message;
+  EXPECT_TRUE(soft->gave_way);
+  for (const Claim& claim : claims_of(*soft)) EXPECT_TRUE(claim.pass) << to_line(claim);
+  InjectionSpec spec = spec_in_tissue();
+  spec.rigid = true;
+  const auto rigid = run_injection(*soft_shoulder(), spec);
+  ASSERT_TRUE(rigid) << rigid.error().message;
+  EXPECT_FALSE(rigid->gave_way);
+  for (const Claim& claim : claims_of(*rigid)) EXPECT_TRUE(claim.pass) << to_line(claim);
+  // Where the tip comes into muscle, at 2.7 mm, the tissue still tents before it.
+  const auto deep_at = [](const InjectionRun& run, double since_skin) {
+    const auto skin = std::find_if(run.rows.begin(), run.rows.end(),
+                                   [](const InjectionRow& row) { return row.region != kOutside; });
+    return row_of(run, skin->time + since_skin).depth;
+  };
+  EXPECT_LT(deep_at(*soft, 0.3), deep_at(*rigid, 0.3));
+}
+
+TEST(InjectionRun, IsASessionThatReplaysToTheSameBytes) {
+  Recording recording;
+  const auto run = run_injection(*soft_shoulder(), spec_in_tissue(), &recording);
+  ASSERT_TRUE(run) << run.error().message;
+  EXPECT_EQ(recording.ticks.size(), run->rows.size());
+  EXPECT_GT(recording.packets.size(), 50U);
+  const auto replayed = replay(recording, soft_shoulder());
+  ASSERT_TRUE(replayed) << replayed.error().message;
+  EXPECT_TRUE(replayed->identical())
+      << replayed->different_ticks << ' ' << replayed->different_frames;
+  EXPECT_EQ(replayed->frames, recording.frames.size());
+  const TickRecord& last = recording.ticks.back();
+  EXPECT_NEAR(last.plunger.given, run->given, 1e-12);
 }
 
 }  // namespace

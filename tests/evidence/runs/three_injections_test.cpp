@@ -11,7 +11,7 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/detail/evidence/runs/target_syringe.h"
+#include "artus/detail/evidence/runs/run_doses.h"
 #include "tests/support/layered_body.h"
 
 namespace artus {

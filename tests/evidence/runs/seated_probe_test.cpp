@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/detail/evidence/runs/run_tissue.h"
+#include "artus/detail/evidence/runs/seated_probe.h"
 
 #include <algorithm>
 #include <cmath>
@@ -47,7 +47,6 @@ SoftRun run_soft(double press = ThreeInjectionsOptions{}.probe.press_force) {
   ThreeInjectionsOptions options;
   options.probe.press_force = press;
   RunTissueOptions tissue;
-  tissue.face = ProbeFace{};
   tissue.on_image = [&out](const ThreeInjections& run, const std::shared_ptr<const Scene>& body,
                            const FluidState& /*fluid*/) {
     Seen now{run.rows.back(), run.probe.back(), 0, 0};
@@ -65,14 +64,14 @@ const SoftRun& soft_run() {
   return kRun;
 }
 
-TEST(RunTissue, ClaimsOfThePublishedTestHoldInTissueThatGivesWay) {
+TEST(SeatedProbe, ClaimsOfThePublishedTestHoldInTissueThatGivesWay) {
   for (const Claim& c : soft_run().run.claims)
     EXPECT_TRUE(c.pass) << c.text << ": " << c.value << ' ' << c.bound;
 }
 
 /// The hand's law says how far the tissue at the tip is pushed in; the cubes, under the same load,
 /// move it in the picture. The probe hardly presses, or it would move it as well.
-TEST(RunTissue, NeedleTentsTheTissueOfThePictureAsTheHandFeels) {
+TEST(SeatedProbe, NeedleTentsTheTissueOfThePictureAsTheHandFeels) {
   double most = 0;
   double off = 0;
   double square = 0;
@@ -89,7 +88,7 @@ TEST(RunTissue, NeedleTentsTheTissueOfThePictureAsTheHandFeels) {
   EXPECT_LT(off, 0.2 * most);
 }
 
-TEST(RunTissue, ProbePressesTheSkinOfThePictureWithWhatItsHandFeels) {
+TEST(SeatedProbe, ProbePressesTheSkinOfThePictureWithWhatItsHandFeels) {
   double deepest = 0;
   double off = 0;
   for (const Seen& s : soft_run().seen) {
@@ -103,7 +102,7 @@ TEST(RunTissue, ProbePressesTheSkinOfThePictureWithWhatItsHandFeels) {
 
 /// Liquid under the face lifts the skin, which meets the face: it would stand inside it, or the
 /// hand feel none of it.
-TEST(RunTissue, SkinThatLiquidLiftsLiesOnTheFace) {
+TEST(SeatedProbe, SkinThatLiquidLiftsLiesOnTheFace) {
   ThreeInjectionsOptions options;
   options.dose.volume = 1e-6;
   options.dose.rate = 0.5e-6;
@@ -132,7 +131,7 @@ TEST(RunTissue, SkinThatLiquidLiftsLiesOnTheFace) {
   EXPECT_LT(off, 0.5e-3);
 }
 
-TEST(RunTissue, SameSeedGivesTheSameBytes) {
+TEST(SeatedProbe, SameSeedGivesTheSameBytes) {
   const SoftRun again = run_soft();
   const ThreeInjections& a = soft_run().run;
   const ThreeInjections& b = again.run;
@@ -145,7 +144,7 @@ TEST(RunTissue, SameSeedGivesTheSameBytes) {
   }
 }
 
-TEST(RunTissue, ABodyThatCannotGiveWayIsRefused) {
+TEST(SeatedProbe, ABodyThatCannotGiveWayIsRefused) {
   const std::vector<FlatLayer> layers{
       {"skin", .004}, {"muscle", .018}, {"bursa", .009}, {"bone", .03}};
   const Scene hollow(
