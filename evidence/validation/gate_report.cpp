@@ -124,7 +124,9 @@ std::string results_page(const MeasuredSet& measured, const Provenance& from) {
                      count_claims(claims_of(measured)) +
                      ".\nWritten by the command above; how to read it: [results](README.md).\n";
   for (const Gate& gate : measured.gates) {
-    page += "\n## " + gate.name + "\n" + gate.title + ".\n\n" + to_markdown(claims_table(gate));
+    page += "\n## " + gate.name + "\n" + gate.title +
+            (!gate.title.empty() && gate.title.back() == '.' ? "" : ".") + "\n\n" +
+            to_markdown(claims_table(gate));
     if (const TextTable* beside = find_beside(gate))
       page += "\n" + std::string(kBesideTable) + ":\n\n" + to_markdown(*beside);
   }
