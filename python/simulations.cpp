@@ -73,8 +73,7 @@ py::array render(Simulation& simulation) {
     const py::gil_scoped_release others_may_run;
     frame = &simulation.render();
   }
-  py::array_t<std::uint8_t> image(
-      std::vector<py::ssize_t>{frame->height, frame->width});
+  py::array_t<std::uint8_t> image(std::vector<py::ssize_t>{frame->height, frame->width});
   std::copy(frame->image.begin(), frame->image.end(), image.mutable_data());
   return image;
 }
@@ -95,10 +94,11 @@ void add_simulations(py::module_& module) {
            py::arg("joint"), py::kw_only(), py::arg("device") = "virtuose_6d_desktop",
            py::arg("transducer") = "linear-6-18", py::arg("haptic_rate") = 1000.0,
            py::arg("image_rate") = 30.0, py::arg("rigid") = false)
-      .def("step", &step, py::kw_only(), py::arg("needle") = py::none(),
-           py::arg("probe") = py::none(), py::arg("thumb") = 0.0, py::arg("plunger") = py::none(),
-           "One tick: what both hands do; a dict of what they feel. `thumb` pushes the plunger (N), "
-           "or `plunger` says where it stands (m).")
+      .def(
+          "step", &step, py::kw_only(), py::arg("needle") = py::none(),
+          py::arg("probe") = py::none(), py::arg("thumb") = 0.0, py::arg("plunger") = py::none(),
+          "One tick: what both hands do; a dict of what they feel. `thumb` pushes the plunger (N), "
+          "or `plunger` says where it stands (m).")
       .def("render", &render, "The picture of the newest image that was due, (height, width).")
       .def_property_readonly("time", &Simulation::time, "s, of the last tick")
       .def_property_readonly("refusal", &Simulation::refusal,
