@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
-# The public headers (cmake/public_headers.cmake) number at most 30, each is a file of the tree and has one name; and
+# The public headers (cmake/public_header_list.cmake) number at most 30, each is a file of the tree and has one name; and
 # nobody, tests and benches and documents among them, includes one by the path in which it stands.
 cmake_minimum_required(VERSION 3.25)
-file(READ ${ROOT}/cmake/public_headers.cmake text)
-string(REGEX MATCH "set\\(ARTUS_PUBLIC_HEADERS\n([^)]*)\\)" _ "${text}")
-string(REGEX MATCHALL "[a-z0-9_/.]+" names "${CMAKE_MATCH_1}")
+include(${ROOT}/cmake/public_header_list.cmake)
+set(names ${ARTUS_PUBLIC_HEADERS})
 set(bad "")
 set(count 0)
 set(public_names "")
