@@ -7,9 +7,9 @@
 #include <optional>
 #include <set>
 
+#include "artus/detail/anatomy/body/joint_path.h"
 #include "artus/detail/anatomy/compile/check/joint_check.h"
 #include "artus/detail/anatomy/compile/labels/compile_surfaces.h"
-#include "artus/detail/anatomy/source/joint_variant.h"
 #include "artus/detail/anatomy/surfaces/enclosed_volume.h"
 #include "artus/detail/anatomy/surfaces/surface_io.h"
 #include "artus/detail/apps/options/command.h"

@@ -82,8 +82,8 @@ ExitCode run_compile(const CompileCommandOptions& options) {
   const auto out =
       options.out.empty() ? std::filesystem::path(sources.joint().name + ".artus") : options.out;
   for (const auto& target : {out, options.report})
-    if (const auto free = check_target(sources, target); !free)
-      return report_error(free.error(), options.json);
+    if (const auto usable = check_target(sources, target); !usable)
+      return report_error(usable.error(), options.json);
   auto outcome = compile(sources, options, progress);
   if (!outcome) return report_error(outcome.error(), options.json);
   if (const auto written = write_compiled_joint(outcome->joint, out); !written)

@@ -11,6 +11,8 @@ using Kind = OperatorPhase::Kind;
 using Goal = OperatorPhase::Goal;
 
 constexpr double kBoneFeelTime = 0.03;  // s of full force until the operator is sure; assumed
+constexpr double kWatchTime = 0.15;     // s in which a tip off its depth is brought back; assumed
+constexpr double kWatchSpeed = 2e-3;    // m/s at most meanwhile; assumed
 constexpr double kBoneShare = 0.99;     // of the bone's force counts as full
 
 // Fraction 0 to 1 with zero speed at both ends.
@@ -107,6 +109,11 @@ bool InjectionOperator::goal_met(const OperatorPhase& phase, double time, double
   return bone_felt(time, view.bone) || (phase.depth > 0 && depth >= phase.depth);
 }
 
+/// Tissue comes onto a needle that rests, and the eyes on the picture tell the hand.
+void InjectionOperator::keep_depth(double too_deep, double since) noexcept {
+  reference_ -= since * std::clamp(too_deep / kWatchTime, -kWatchSpeed, kWatchSpeed);
+}
+
 const OperatorPhase* InjectionOperator::observe(double time, const Pose& X_JN,
                                                 const OperatorView& view) noexcept {
   if (done()) return nullptr;
@@ -115,7 +122,10 @@ const OperatorPhase* InjectionOperator::observe(double time, const Pose& X_JN,
     begin_phase(time, depth);
     started_ = true;
   }
+  const double since = time - std::exchange(last_time_, time);
   const OperatorPhase& phase = phases_[index_];
+  if (phase.kind == Kind::hold && phase.keeps_depth && view.depth)
+    keep_depth(*view.depth - phase.depth, since);
   const bool met = goal_met(phase, time, view.depth.value_or(depth), view);
   const bool late = (phase.kind == Kind::advance || phase.kind == Kind::withdraw) &&
                     time - phase_time_ > phase.duration;

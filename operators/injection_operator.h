@@ -56,6 +56,7 @@ class InjectionOperator {
                               const OperatorView& view) noexcept;
   [[nodiscard]] bool bone_felt(double time, bool now) noexcept;
   void begin_phase(double time, double depth) noexcept;
+  void keep_depth(double too_deep, double since) noexcept;
 
   Vec3 entry_;
   Vec3 first_direction_;
@@ -65,6 +66,7 @@ class InjectionOperator {
   Vec3 x_hint_;
   double reference_;  // m along the line at phase_time_
   double phase_time_ = 0;
+  double last_time_ = 0;   // s, of the newest observe()
   double bone_time_ = -1;  // s, since when the bone's full force is felt
   std::vector<OperatorPhase> phases_;
   std::size_t index_ = 0;

@@ -14,14 +14,16 @@ struct OperatorPhase {
   enum class Goal { depth, region, bone };
   Kind kind = Kind::hold;
   Goal goal = Goal::depth;
-  double speed = 0;               ///< m/s, advance and withdraw
-  double depth = 0;               ///< m along the line; for Goal::region how deep into it at least;
-                                  ///< for Goal::bone where to give up, 0: nowhere
-  double before_floor = 0;        ///< m above the end of a layer that Goal::region stops at the
-                                  ///< latest, however deep it meant to go; 0: half way through
-  bool stop_at_bone = false;      ///< advance: bone ends it, too
-  RegionId region = kOutside;     ///< Goal::region
-  double duration = 0;            ///< s; hold, turn, wait: exactly; others: at most
+  double speed = 0;            ///< m/s, advance and withdraw
+  double depth = 0;            ///< m along the line; for Goal::region how deep into it at least;
+                               ///< for Goal::bone where to give up, 0: nowhere
+  double before_floor = 0;     ///< m above the end of a layer that Goal::region stops at the
+                               ///< latest, however deep it meant to go; 0: half way through
+  bool keeps_depth = false;    ///< hold: where the tip is watched (OperatorView::depth) it is kept
+                               ///< at `depth`
+  bool stop_at_bone = false;   ///< advance: bone ends it, too
+  RegionId region = kOutside;  ///< Goal::region
+  double duration = 0;         ///< s; hold, turn, wait: exactly; others: at most
   Vec3 direction = Vec3::Zero();  ///< turn: the new line through the entry
   double thumb_force = 0;         ///< N that the thumb gives the plunger meanwhile; negative pulls
   double thumb_rate = 0;          ///< m^3/s that it means to give; 0: by force

@@ -123,7 +123,7 @@ void add_search(HtmlPage& page, const Scenario& scenario, const AttemptMeasures&
          one.found >= 0 ? number(page.language(), one.found, 1) : translate(page, "not shown"),
          number(page.language(), one.seen, 1)});
     if (one.found < 0) continue;
-    PlotSeries place{one.name, {}, {}, PlotStyle::points};
+    PlotSeries place{name, {}, {}, PlotStyle::points};
     put(place, pose_at(m.probe, one.found).translation());
     curves.push_back(std::move(place));
   }
@@ -140,7 +140,7 @@ void add_search(HtmlPage& page, const Scenario& scenario, const AttemptMeasures&
 }
 
 void add_plots(HtmlPage& page, const Scenario& scenario, const AttemptMeasures& m) {
-  page.heading(translate(page, "The path"));
+  page.heading(translate(page, "The path of the tip"));
   PlotSeries depth{translate(page, "depth"), {}, {}};
   PlotSeries offset{translate(page, "tip off the plane"), {}, {}};
   PlotSeries width{translate(page, "half the slice"), {}, {}, PlotStyle::line, "#777"};

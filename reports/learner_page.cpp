@@ -133,7 +133,7 @@ void add_scenario(HtmlPage& page, const std::string& name,
               {"", ""},
               {translate(page, "score"), translate(page, "of 100")},
               {translate(page, "aids"), translate(page, "nobody passes with aids on")},
-              {translate(page, "attempt"), translate(page, "for artus rate")}},
+              {translate(page, "attempt"), translate(page, "for artus learners rate")}},
              rows);
 }
 

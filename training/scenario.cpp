@@ -8,7 +8,7 @@
 #include <sstream>
 #include <utility>
 
-#include "artus/detail/anatomy/source/joint_variant.h"
+#include "artus/detail/anatomy/body/joint_path.h"
 #include "artus/detail/core/known_names.h"
 #include "artus/detail/core/text_file.h"
 #include "artus/detail/core/toml_table.h"

@@ -9,8 +9,8 @@
 #include <unistd.h>
 
 #include "artus/detail/anatomy/body/joint_digest.h"
+#include "artus/detail/anatomy/body/joint_path.h"
 #include "artus/detail/anatomy/body/joint_pose_bytes.h"
-#include "artus/detail/anatomy/body/joint_variant.h"
 #include "artus/detail/anatomy/body/space_bytes.h"
 #include "artus/detail/anatomy/body/tissue_bytes.h"
 #include "artus/detail/core/byte_stream.h"

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "artus/anatomy/compile.h"
+#include "artus/detail/anatomy/body/joint_path.h"
 #include "artus/detail/anatomy/body/skin_line.h"
 #include "artus/detail/anatomy/compile/attach_metadata.h"
 #include "artus/detail/anatomy/compile/check/plan_check.h"
-#include "artus/detail/anatomy/source/joint_variant.h"
 #include "artus/detail/core/text_file.h"
 
 namespace artus {

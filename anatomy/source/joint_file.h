@@ -10,6 +10,7 @@
 
 #include "artus/core/geometry.h"
 #include "artus/core/result.h"
+#include "artus/detail/anatomy/body/joint_path.h"
 #include "artus/detail/anatomy/body/joint_places.h"
 #include "artus/detail/anatomy/body/joint_pose.h"
 #include "artus/detail/anatomy/body/region.h"

@@ -14,7 +14,7 @@
 #include <unistd.h>
 
 #include "artus/anatomy/compile.h"
-#include "artus/detail/anatomy/source/joint_variant.h"
+#include "artus/detail/anatomy/body/joint_path.h"
 #include "artus/detail/soft/solver/pose_joint.h"
 
 namespace artus {

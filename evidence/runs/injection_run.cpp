@@ -62,6 +62,19 @@ double beyond(const Scene& scene, const InjectionRun& run, const LineLayer& laye
   return layer.to + kThrough;
 }
 
+/// Where tissue gives way it comes onto a needle that rests: the tip is kept at `target` by the
+/// picture once it is there.
+void keep_at(double target, std::vector<OperatorPhase>& phases) {
+  bool there = false;
+  for (OperatorPhase& phase : phases) {
+    const bool holds = phase.kind == Kind::hold;
+    there = there || (!holds && phase.depth == target);
+    if (!holds || !there) continue;
+    phase.keeps_depth = true;
+    phase.depth = target;
+  }
+}
+
 std::vector<OperatorPhase> phases_of(const InjectionRun& run, const LineLayer& layer, double target,
                                      double through) {
   const InjectionSpec& spec = run.spec;
@@ -94,6 +107,7 @@ std::vector<OperatorPhase> phases_of(const InjectionRun& run, const LineLayer& l
   phases.back().thumb_holds = true;
   // Let go before it comes out: what a tendon's pressure holds in the barrel would go elsewhere.
   phases.push_back(named(pull_to(-kStartOutside, 2 * kSpeed), "withdraw"));
+  if (run.gave_way) keep_at(target, phases);
   for (OperatorPhase& phase : phases)
     if (phase.duration == 0) phase.duration = 3 * kSearch / kSpeed;
   return phases;

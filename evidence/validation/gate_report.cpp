@@ -2,7 +2,6 @@
 #include "artus/detail/evidence/validation/gate_report.h"
 
 #include <algorithm>
-#include <optional>
 
 #include <nlohmann/json.hpp>
 
@@ -102,20 +101,14 @@ Result<void> write_report(const MeasuredSet& measured, const std::filesystem::pa
   std::string report = "# " + std::string(set.title) + "\n\nBeside " + std::string(set.source) +
                        ".\n\n" + to_markdown(table) + "\n" + count_claims(claims_of(measured)) +
                        ".\n";
-  std::optional<Error> not_plotted;
   for (const Gate& gate : measured.gates) {
     report += "\n## " + gate.name + (all_hold(gate.claims) ? "" : " - does not hold") + "\n\n" +
               to_markdown(gate, set.apart ? gate.name : ".");
-    const auto written =
-        set.apart ? write_report(gate, folder / gate.name) : write_files(gate, folder);
-    if (!written && written.error().code != ErrorCode::not_found) return written;
-    if (!written) not_plotted = written.error();
+    ARTUS_TRY(set.apart ? write_report(gate, folder / gate.name) : write_files(gate, folder));
   }
   ARTUS_TRY(write_text(folder / (std::string(set.name) + "-table.csv"), to_csv_text(table)));
   ARTUS_TRY(write_text(folder / "report.md", report));
-  ARTUS_TRY(write_text(folder / set.verdict_file, verdict(measured).dump(2) + "\n"));
-  if (not_plotted) return tl::unexpected<Error>(*not_plotted);
-  return {};
+  return write_text(folder / set.verdict_file, verdict(measured).dump(2) + "\n");
 }
 
 std::string results_page(const MeasuredSet& measured, const Provenance& from) {

@@ -6,6 +6,8 @@
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -106,8 +108,9 @@ TEST_F(ImportTool, TheTutorialLeadsFromBareSurfacesToAnInjection) {
 TEST_F(ImportTool, WhatTheJointIsMadeFromIsNoPlaceToWriteTo) {
   const std::string toml = tutorial("joint.toml");
   const auto folder = write_joint(toml);
-  for (const auto& [flag, file] :
-       {std::pair{"-o", "joint.toml"}, {"--out", "bone.ply"}, {"--report", "joint.toml"}}) {
+  const std::vector<std::pair<std::string, std::string>> targets{
+      {"-o", "joint.toml"}, {"--out", "bone.ply"}, {"--report", "joint.toml"}};
+  for (const auto& [flag, file] : targets) {
     const std::string target = (folder / file).string();
     const std::string before = content(target);
     const auto refused = artus({"compile", folder.string(), flag, target, "--cache", in("cache")});

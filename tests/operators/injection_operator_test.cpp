@@ -142,5 +142,30 @@ TEST(InjectionOperator, BeginsAgainAtItsStart) {
   EXPECT_NEAR(person.until_next(), 1.5, 5e-3);
 }
 
+TEST(InjectionOperator, GoesByTheDepthInTheMaterialWhereThePictureTellsIt) {
+  Person person({push_to(10e-3, 0.01), stay(0.1)});
+  person.view.depth = 8e-3;  // however far the hand goes, the tissue goes along
+  EXPECT_GE(person.until_next(3), 3);
+  person.view.depth = 10e-3;
+  EXPECT_LT(person.until_next(), 2e-3);
+  EXPECT_GT(person.meant(), 20e-3);
+}
+
+TEST(InjectionOperator, KeepsATipWhereItIsMeantWhenTissueComesOntoIt) {
+  OperatorPhase watched = stay(1);
+  watched.keeps_depth = true;
+  watched.depth = 10e-3;
+  Person person({push_to(10e-3, 0.01), watched, stay(1)});
+  person.until_next();
+  const double before = person.meant();
+  person.view.depth = 13e-3;  // 3 mm too deep all along
+  person.until_next();
+  EXPECT_LT(person.meant(), before - 1e-3) << "drawn back";
+  EXPECT_GT(person.meant(), before - 3e-3) << "slowly";
+  const double after = person.meant();
+  person.until_next(0.5);
+  EXPECT_NEAR(person.meant(), after, 1e-4) << "one that does not watch stays";
+}
+
 }  // namespace
 }  // namespace artus

@@ -15,6 +15,7 @@
 #include "artus/detail/session/session_exchange.h"
 #include "artus/detail/simulation/hand_aids.h"
 #include "artus/detail/simulation/haptic_core.h"
+#include "artus/detail/simulation/simulated_hands.h"
 #include "artus/haptics/needle_renderer.h"
 #include "artus/session/recording.h"
 #include "artus/session/shared_memory_device.h"
@@ -64,6 +65,28 @@ TEST(RealTimeSession, TheInjectingHandNeitherAllocatesNorLocks) {
   ARTUS_RUNS_REALTIME(InjectingDevice::read, sample = device.read(0), run_device(device, 3000));
   EXPECT_EQ(sample.has_needle, 1U);
   ARTUS_RUNS_REALTIME(InjectingDevice::write, device.write({}));
+}
+
+TEST(RealTimeSession, SimulatedHandsNeitherAllocateNorLock) {
+  OperatorPhase gives = stay(1);
+  gives.thumb_rate = 1e-7;
+  gives.until_given = true;
+  const InjectionOperator person(Vec3::Zero(), Vec3::UnitZ(), -5e-3, {gives});
+  SimulatedHands hands;
+  hands.take_up(HandLoop({1000, 4000}, *find_device("touch"), {}, person.start()));
+  hands.set_thumb(DosingThumb(PlungerParams{}, 1e-6, 1000));
+  DeviceSample sample;
+  ARTUS_RUNS_REALTIME(SimulatedHands::hold_probe, hands.hold_probe(person.start()));
+  ARTUS_RUNS_REALTIME(SimulatedHands::read, sample = hands.read(&gives));
+  ARTUS_RUNS_REALTIME(SimulatedHands::feel, hands.feel({}));
+  ARTUS_RUNS_REALTIME(SimulatedHands::move, hands.move(person));
+  EXPECT_EQ(sample.has_needle, 1U);
+  EXPECT_EQ(sample.has_probe, 1U);
+  DosingThumb& thumb = hands.thumb();
+  ARTUS_RUNS_REALTIME(DosingThumb::begin, thumb.begin());
+  ARTUS_RUNS_REALTIME(DosingThumb::press, thumb.press(&gives, sample));
+  EXPECT_EQ(sample.plunger, PlungerSign::travel);
+  ARTUS_RUNS_REALTIME(DosingThumb::feel, thumb.feel({}));
 }
 
 TEST(RealTimeSession, TheSyringeNeitherAllocatesNorLocks) {

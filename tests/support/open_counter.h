@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 #include <array>
+#include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <map>

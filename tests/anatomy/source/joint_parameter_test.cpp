@@ -107,16 +107,6 @@ TEST_F(Parameters, APlaceThatIsNotThereIsToldWithItsParameter) {
   EXPECT_FALSE(read("bone=6"));
 }
 
-TEST_F(Parameters, VariantsAndPatientsAreTakenFromThePath) {
-  const JointChoice choice = split_variants("meshes/arm+tear+pus@old_f_tear,fat=3.5");
-  EXPECT_EQ(choice.folder, "meshes/arm");
-  EXPECT_EQ(choice.variants, (std::vector<std::string>{"pus", "tear"}));
-  EXPECT_EQ(choice.patient, "old_f_tear,fat=3.5");
-  EXPECT_EQ(with_variant("meshes/arm@fat=3", "tear"), "meshes/arm+tear@fat=3");
-  EXPECT_EQ(with_patient("meshes/arm+tear@fat=3", "seed=1"), "meshes/arm+tear@seed=1");
-  EXPECT_EQ(with_patient("meshes/arm@fat=3", ""), "meshes/arm");
-}
-
 TEST_F(Parameters, AParameterThatDoesNothingOrStandsOutOfItsRangeIsAProblem) {
   const auto joint = toml::parse(R"([parameter.fat]
 title = "fat"

@@ -66,46 +66,7 @@ std::vector<std::string> names(const std::vector<Structure>& structures) {
   return out;
 }
 
-TEST(JointVariant, APathNamesFolderAndVariants) {
-  const JointChoice plain = split_variants("meshes/shoulder");
-  EXPECT_EQ(plain.folder, "meshes/shoulder");
-  EXPECT_TRUE(plain.variants.empty());
-  const JointChoice two = split_variants("meshes/shoulder+tear+effusion+tear");
-  EXPECT_EQ(two.folder, "meshes/shoulder");
-  EXPECT_THAT(two.variants, ElementsAre("effusion", "tear"));
-  EXPECT_EQ(with_variant("meshes/shoulder", "tear"), "meshes/shoulder+tear");
-  EXPECT_EQ(with_variant("meshes/shoulder/", "tear"), "meshes/shoulder+tear");
-}
-
 class VariantFolder : public test::TemporaryFolder {};
-
-TEST_F(VariantFolder, AFolderWhoseNameHasAPlusIsThatFolder) {
-  std::filesystem::create_directory(in("knee+old"));
-  EXPECT_TRUE(split_variants(in("knee+old")).variants.empty());
-  EXPECT_TRUE(is_joint_folder(in("knee+old")));
-  EXPECT_TRUE(is_joint_folder(in("knee+old+effusion")));
-  EXPECT_FALSE(is_joint_folder(in("hip+effusion")));
-}
-
-TEST_F(VariantFolder, ABundledJointIsFoundByItsNameWhereThereIsNoneOfOnesOwn) {
-  const std::filesystem::path meshes = test::source_dir() / "meshes";
-  for (const char* name :
-       {"shoulder", "shoulder/", "meshes/shoulder", "shoulder+effusion@fat=12"}) {
-    const JointChoice choice = split_variants(find_joint(name));
-    EXPECT_TRUE(std::filesystem::equivalent(choice.folder, meshes / "shoulder")) << name;
-    EXPECT_TRUE(is_joint_folder(name)) << name;
-  }
-  const JointChoice wet = split_variants(find_joint("shoulder+effusion@fat=12"));
-  EXPECT_THAT(wet.variants, ElementsAre("effusion"));
-  EXPECT_EQ(wet.patient, "fat=12");
-  EXPECT_EQ(find_joint("elbow"), "elbow");
-  EXPECT_EQ(find_joint("mine/shoulder"), "mine/shoulder") << "a path is no name";
-  std::filesystem::create_directory(in("shoulder"));
-  EXPECT_EQ(find_joint(in("shoulder")), in("shoulder"));
-  const auto knee = read_joint("knee");
-  ASSERT_TRUE(knee) << knee.error().to_string();
-  EXPECT_EQ(knee->name, "knee");
-}
 
 TEST(JointVariant, WhatBelongsToAVariantIsThereOnlyWithIt) {
   const auto plain = parse_joint(kElbow, "elbow");
@@ -174,6 +135,12 @@ TEST_F(VariantFolder, AVariantShapesTheBodyOnlyWhereItIsChosen) {
   without.erase(at, without.find("[[injection]]\nname = \"front\"") - at);
   EXPECT_EQ(parse_joint(without, in("elbow")).value().shape, plain);
   EXPECT_EQ(parse_joint(without, in("elbow+effusion")).value().shape, wet);
+}
+
+TEST(JointVariant, ABundledJointIsReadByItsName) {
+  const auto knee = read_joint("knee");
+  ASSERT_TRUE(knee) << knee.error().to_string();
+  EXPECT_EQ(knee->name, "knee");
 }
 
 TEST(JointVariant, EveryOneOfTheShoulderIsReadAloneAndNamesItsSurfaces) {
