@@ -39,6 +39,7 @@ Result<std::shared_ptr<const Scene>> make_gel_scene(const GelBlock& gel) {
   }
   constexpr double kCell = 2.5e-3;  // m, of the block's tetrahedra; the cage's cubes are 3 mm
   CompiledJoint block = make_meshed_block(*tissues, gel.layers, gel.width, gel.width, kCell);
+  stand_on_table(block);
   for (const Ball& ball : gel.balls)
     add_meshed_ball(block, ball, static_cast<RegionId>(kFirstRegion + layer_of(gel, ball)));
   return std::make_shared<const Scene>(std::make_shared<const CompiledJoint>(std::move(block)));

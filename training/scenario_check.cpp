@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/detail/training/scenario_check.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include <tbb/parallel_for.h>
 
@@ -84,27 +86,60 @@ std::vector<std::string> find_problems(const Scenario& s,
   return out;
 }
 
-Result<Difficulty> measure_difficulty(const Scenario& scenario,
-                                      const std::shared_ptr<const Scene>& scene, int tries,
-                                      const Progress& progress) {
-  std::vector<Result<PlayedAttempt>> played(static_cast<std::size_t>(2 * tries),
-                                            fail(ErrorCode::failed, "not played"));
+namespace {
+
+/// Judgements of expert and novice by turns, seed by seed.
+Result<std::vector<Judgement>> play_all(const Scenario& scenario,
+                                        const std::shared_ptr<const Scene>& scene, int tries,
+                                        bool rigid) {
+  std::vector<Result<Judgement>> played(static_cast<std::size_t>(2 * tries),
+                                        fail(ErrorCode::failed, "not played"));
   tbb::parallel_for(std::size_t{0}, played.size(), [&](std::size_t i) {
     PlayOptions options;
     options.seed = 1 + i / 2;
     options.record = false;
-    played[i] = play(scenario, scene, i % 2 == 0 ? expert_skill() : novice_skill(), options);
+    options.rigid = rigid;
+    const auto attempt =
+        play(scenario, scene, i % 2 == 0 ? expert_skill() : novice_skill(), options);
+    if (attempt)
+      played[i] = attempt->judgement;
+    else
+      played[i] = tl::unexpected<Error>(attempt.error());
   });
-  Difficulty difficulty;
-  difficulty.tries = tries;
-  for (std::size_t i = 0; i < played.size(); ++i) {
-    ARTUS_TRY(played[i]);
-    const Judgement& judged = played[i]->judgement;
-    (i % 2 == 0 ? difficulty.expert_passes : difficulty.novice_passes) += judged.passed ? 1 : 0;
-    (i % 2 == 0 ? difficulty.expert_score : difficulty.novice_score) += judged.score / tries;
+  std::vector<Judgement> out;
+  for (auto& one : played) {
+    ARTUS_TRY(one);
+    out.push_back(std::move(*one));
   }
+  return out;
+}
+
+Difficulty difficulty_of(const std::vector<Judgement>& judgements) {
+  Difficulty out;
+  out.tries = static_cast<int>(judgements.size() / 2);
+  for (std::size_t i = 0; i < judgements.size(); ++i) {
+    const Judgement& judged = judgements[i];
+    (i % 2 == 0 ? out.expert_passes : out.novice_passes) += judged.passed ? 1 : 0;
+    (i % 2 == 0 ? out.expert_score : out.novice_score) += judged.score / out.tries;
+  }
+  return out;
+}
+
+}  // namespace
+
+Result<DifficultyInTissue> measure_difficulty(const Scenario& scenario,
+                                              const std::shared_ptr<const Scene>& scene,
+                                              const Tries& tries, const Progress& progress) {
+  const auto rigid = play_all(scenario, scene, tries.rigid, true);
+  ARTUS_TRY(rigid);
+  if (progress) progress("playing " + scenario.name, 0.5);
+  const auto soft = play_all(scenario, scene, gives_way(scene->joint()) ? tries.soft : 0, false);
+  ARTUS_TRY(soft);
+  DifficultyInTissue out{difficulty_of(*rigid), difficulty_of(*soft), 0};
+  for (std::size_t i = 0; i < std::min(soft->size(), rigid->size()); ++i)
+    out.alike += (*soft)[i].passed == (*rigid)[i].passed ? 1 : 0;
   if (progress) progress("playing " + scenario.name, 1);
-  return difficulty;
+  return out;
 }
 
 }  // namespace artus

@@ -7,6 +7,8 @@
 #include <map>
 #include <vector>
 
+#include "artus/detail/core/check.h"
+
 namespace artus {
 namespace {
 
@@ -96,6 +98,21 @@ CompiledJoint make_meshed_block(const std::vector<Tissue>& tissues,
   mesh.interfaces = interfaces_of(mesh);
   joint.mesh = std::move(mesh);
   return joint;
+}
+
+void stand_on_table(CompiledJoint& block) {
+  TetMesh& mesh = block.mesh;
+  ARTUS_REQUIRE(!mesh.tetrahedra.empty(), "the block must be meshed");
+  double bottom = 0;
+  for (const Vec3& v : mesh.vertices) bottom = std::max(bottom, v.z());
+  for (Interface& face : mesh.interfaces) {
+    const bool low = std::all_of(face.vertices.begin(), face.vertices.end(), [&](std::uint32_t v) {
+      return mesh.vertices[v].z() > bottom - 1e-9;
+    });
+    if (!low) continue;
+    if (face.front == kOutside) face.front = kBeyond;
+    if (face.back == kOutside) face.back = kBeyond;
+  }
 }
 
 void add_meshed_ball(CompiledJoint& block, const Ball& ball, RegionId within, int subdivisions) {

@@ -14,6 +14,10 @@ namespace artus {
                                               std::span<const FlatLayer> layers, double width_x,
                                               double depth_y, double cell);
 
+/// The block stands on something hard: its lower face is an end of what is meshed, and held.
+/// Requires: a meshed block.
+void stand_on_table(CompiledJoint& block);
+
 /// add_ball in a meshed block: the surface is the ball's, and the tetrahedra whose middle lies in
 /// it are of its tissue, so that it gives way as it is. Requires: as add_ball.
 void add_meshed_ball(CompiledJoint& block, const Ball& ball, RegionId within, int subdivisions = 3);

@@ -120,6 +120,15 @@ SkinPatch skin_of(const TetMesh& mesh, const Pose& X_CJ, const ProbeFace& face, 
   return skin;
 }
 
+/// Whether enough nodes are held that the body cannot go as a whole.
+bool is_held(const SoftModel& model) {
+  constexpr int kFewest = 3;
+  int held = 0;
+  for (std::uint32_t n = 0; n < model.cage().nodes().size() && held < kFewest; ++n)
+    held += model.held(n).all() ? 1 : 0;
+  return held == kFewest;
+}
+
 }  // namespace
 
 Result<SoftBody> SoftBody::make(std::shared_ptr<const CompiledJoint> joint, const Pose& X_JP,
@@ -144,6 +153,11 @@ Result<SoftBody> SoftBody::make(std::shared_ptr<const CompiledJoint> joint, cons
       make_body_map(*joint, X_JP,
                     std::make_shared<const SoftModel>(
                         make_joint_field(*joint, X_JP, params.poisson_ratio, locator), model));
+  if (!is_held(*map->model))
+    return fail(ErrorCode::invalid,
+                "nothing holds the tissue: give the body bone, or a [region_of_interest] whose cut "
+                "faces are held",
+                joint->name);
   const SkinPatch skin = skin_of(joint->mesh, X_CJ, params.face, params.far, body.skin_);
   if (skin.triangles.empty())
     return fail(ErrorCode::invalid, "no skin below the probe: move it over the body", joint->name);

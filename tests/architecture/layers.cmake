@@ -63,7 +63,7 @@ set(may_trainer ${may_evidence} exchange exchange/igtl reports ${viewer})
 set(may_python ${may_reports} anatomy/compile/mesh)
 set(may_meshes/generate core anatomy/surfaces)
 set(may_apps/options ${may_trainer} ${may_reports} trainer)
-set(may_apps ${may_apps/options} apps/options)
+set(may_apps ${may_apps/options} anatomy/compile/mesh apps/options)
 set(may_apps/validate ${may_apps} ${validation} evidence/validation)
 set(rooms core anatomy/surfaces anatomy/body anatomy/source anatomy/compile/labels anatomy/compile/mesh anatomy/compile/check anatomy/compile ${soft} raycast
   ${haptics} ${echo} operators dataset simulation ${session} ${training} evidence evidence/runs ${validation}

@@ -43,7 +43,7 @@ FNR == 1 { finish_file(); file = FILENAME; open = 0; head = ""; comment = 0 }
   head = head == "" ? text : head " " text
   if (text !~ /[;{}]$/) next
   is_function = head ~ /\(/ && head !~ /^ *{/ && (head ~ /operator/ || head !~ /^[^(]*=/) &&
-    !begins_with(head, "using|return|static_assert|ARTUS_TRY|ARTUS_REQUIRE|ARTUS_ASSERT")
+    !begins_with(head, "using|return|static_assert|ARTUS_TRY|ARTUS_REQUIRE|ARTUS_ASSERT|ARTUS_FIELDS")
   if (is_function) {
     n = count_parameters(head)
     if (n > 6) print file ":" start ": a function of " n " parameters, more than 6"

@@ -254,5 +254,20 @@ TEST(SoftBody, BodyWithoutTetrahedraIsRefused) {
   EXPECT_EQ(body.error().code, ErrorCode::invalid);
 }
 
+TEST(SoftBody, ABodyThatNothingHoldsIsRefusedAndOneOnATableIsNot) {
+  const std::array<FlatLayer, 2> layers{{{"skin", 2e-3}, {"muscle", 30e-3}}};
+  CompiledJoint loose = test::make_meshed_block(layers, 0.06, 0.06, 4e-3);
+  const auto refused =
+      SoftBody::make(std::make_shared<const CompiledJoint>(loose), loose.X_JP_default);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("nothing holds the tissue"), std::string::npos);
+  stand_on_table(loose);
+  auto body = SoftBody::make(std::make_shared<const CompiledJoint>(loose), loose.X_JP_default);
+  ASSERT_TRUE(body) << body.error().to_string();
+  const auto pressed = press_by(*body, loose.X_JP_default, 1e-3);
+  EXPECT_TRUE(pressed.settled);
+  EXPECT_GT(pressed.normal_force, 0.05);
+}
+
 }  // namespace
 }  // namespace artus
