@@ -252,7 +252,7 @@ void Session::run_imaging(const ThreadOptions& options) {
       failure = reason_of(std::current_exception());
     }
     if (failure.empty()) continue;
-    tell("imaging failed: " + failure + "; it is tried again");
+    tell("imaging failed: " + failure + "; trying again");
     handover_->rest();
     simulation_.restart_imaging();
     prepared = false;

@@ -43,7 +43,7 @@ class ReopeningChannel {
     if (trouble == nullptr) return std::nullopt;
     Result<Channel> fresh = channel_->open_again();
     std::string said = "shared memory " + name_ + " " + trouble +
-                       (fresh ? "; made anew" : "; " + fresh.error().message);
+                       (fresh ? "; recreated" : "; " + fresh.error().message);
     if (fresh) {
       former_ = std::exchange(channel_, std::make_unique<Channel>(std::move(*fresh)));
       newest_.store(channel_.get(), std::memory_order_release);

@@ -182,14 +182,15 @@ Result<SharedSegment> SharedSegment::open(const std::string& prefix, const Segme
       return SharedSegment(std::move(impl));
     } catch (const ipc::interprocess_exception& e) {
       if (e.get_error_code() == ipc::not_found_error)
-        return fail(ErrorCode::not_found, "there is no such shared memory; start `artus serve`",
-                    name);
+        return fail(ErrorCode::not_found,
+                    "this shared memory does not exist; start `artus serve` first", name);
       if (e.get_error_code() == ipc::security_error)
         return fail(ErrorCode::invalid, "the shared memory belongs to another user", name);
       if (attempt == 2) return fail(ErrorCode::unreadable, e.what(), name);
     }
   }
-  return fail(ErrorCode::unreadable, "a damaged left-over could not be replaced", name);
+  return fail(ErrorCode::unreadable,
+              "damaged shared memory of an earlier run could not be replaced", name);
 }
 
 Result<SharedSegment> SharedSegment::open_again() const {
@@ -231,7 +232,7 @@ void* SharedSegment::seqlock() const noexcept {
 const char* SharedSegment::find_trouble() const noexcept {
   struct stat ours {};
   if (artus_shm_is_lost(impl_->range) != 0) return "was cut off";
-  if (fstat(impl_->file(), &ours) != 0) return "cannot be looked at";
+  if (fstat(impl_->file(), &ours) != 0) return "cannot be read";
   const auto named = find_file(impl_->name);
   if (!named) return "was removed";
   if (!is_same_file(*named, ours)) return "was replaced";

@@ -172,7 +172,7 @@ TEST_P(SpoiledSegment, IsToldMadeAnewAndFoundByTheClient) {
     EXPECT_EQ(errno, EBUSY);
   }
   EXPECT_GT(session_->ticks(), before);
-  EXPECT_TRUE(was_told("made anew"));
+  EXPECT_TRUE(was_told("recreated"));
 }
 
 TEST_P(SpoiledSegment, ImageIsFoundAgainToo) {

@@ -106,11 +106,11 @@ TEST(SystemWords, WhatTheSystemSaysIsSaidInFrench) {
             "haptique : priorité SCHED_FIFO : opération non autorisée");
   EXPECT_EQ(french("imaging: nice value -10: Permission denied"),
             "imagerie : priorité (nice) -10 : permission refusée");
-  EXPECT_EQ(french("shared memory /artusPOS was removed; made anew"),
+  EXPECT_EQ(french("shared memory /artusPOS was removed; recreated"),
             "mémoire partagée /artusPOS supprimée ; recréée");
   EXPECT_EQ(french("an image of 700 x 900 pixels is too large for IMAGE"),
             "une image de 700 x 900 pixels est trop grande pour IMAGE");
-  EXPECT_EQ(french("imaging failed: std::bad_alloc; it is tried again"),
+  EXPECT_EQ(french("imaging failed: std::bad_alloc; trying again"),
             "l'imagerie a échoué : mémoire insuffisante ; elle est tentée de nouveau");
   EXPECT_EQ(french("what nobody knows"), "what nobody knows");
   EXPECT_EQ(said_by_system(Language::english, "mouse and keyboard"), "mouse and keyboard");
