@@ -62,7 +62,7 @@ Result<InjectionRequest> request_of(const InjectOptions& options, const NeedleFe
   return request;
 }
 
-void print(const nlohmann::json& report) {
+void print_report(const nlohmann::json& report) {
   std::printf("%s: %.3f of %.3f ml of %s given, %.1f %% in %s\n",
               report["injection"].get<std::string>().c_str(), report["given_ml"].get<double>(),
               report["meant_ml"].get<double>(), report["liquid"].get<std::string>().c_str(),
@@ -155,7 +155,7 @@ Result<ExitCode> inject(const InjectOptions& options) {
     const auto folder = into.size() > 1 ? options.hand.out / run->target : options.hand.out;
     const auto outcome = write_run(scene, *run, loaded->at.view, options, folder);
     ARTUS_TRY(outcome);
-    if (!options.hand.json) print(outcome->report);
+    if (!options.hand.json) print_report(outcome->report);
     for (const Claim& claim : outcome->claims)
       if (!options.hand.json) std::printf("%s\n", to_line(claim).c_str());
     holds = holds && all_hold(outcome->claims);

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "artus/detail/apps/commands.h"
+#include "artus/detail/apps/options/window_options.h"
 #include "artus/detail/core/text_file.h"
 #include "artus/detail/reports/attempt_page.h"
 #include "artus/detail/training/norms.h"
