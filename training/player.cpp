@@ -16,7 +16,6 @@ namespace {
 
 constexpr double kGuide = 300;      // N/m of a whole haptic_guide; assumed
 constexpr double kWall = 1000;      // N/m of a whole haptic_wall; assumed
-constexpr double kGlanceRate = 20;  // Hz of the tissue's steps: as often as the hands look
 
 Result<RegionId> find_region(const CompiledJoint& joint, const std::string& name) {
   for (std::size_t i = kFirstRegion; i < joint.regions.size(); ++i)
@@ -118,7 +117,7 @@ Result<PlayedAttempt> play(const Scenario& with_aids, const std::shared_ptr<cons
   auto params = make_session_params(scenario);
   ARTUS_TRY(params);
   params->deform = !options.rigid && gives_way(scene->joint());
-  params->image_rate = std::max(kGlanceRate, options.picture_rate);
+  params->image_rate = std::max(options.tissue_rate, options.picture_rate);
   auto meter_options = make_meter_options(scenario, scene->joint(), *params);
   ARTUS_TRY(meter_options);
   PlayedAttempt attempt;

@@ -41,12 +41,13 @@ struct PlayOptions {
   bool record = true;       ///< keep ticks, images and what the tissue answered
   bool rigid = false;       ///< tissue does not give way, though the joint could
   double picture_rate = 0;  ///< Hz, pictures kept in the recording; 0: none
+  double tissue_rate = 20;  ///< Hz of the tissue's steps, 10 or more; pictures may ask for more
 };
 
 /// Plays a scenario with simulated hands, without its aids and without a clock: hands, device and
 /// forces in a closed loop at 1 kHz, in tissue that gives way where the joint can. The same bytes
 /// for the same skill and seed. Errors: those of make_session_params and make_meter_options. Cost:
-/// some 10 us a tick; where tissue gives way its 20 steps a second; pictures some 10 ms each.
+/// some 10 us a tick; where tissue gives way its steps; pictures some 10 ms each.
 [[nodiscard]] Result<PlayedAttempt> play(const Scenario& scenario,
                                          const std::shared_ptr<const Scene>& scene,
                                          const OperatorSkill& skill, const PlayOptions& options);

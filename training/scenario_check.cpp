@@ -88,6 +88,8 @@ std::vector<std::string> find_problems(const Scenario& s,
 
 namespace {
 
+constexpr double kTissueRate = 10;  // Hz, enough for hands that only glance
+
 /// Judgements of expert and novice by turns, seed by seed.
 Result<std::vector<Judgement>> play_all(const Scenario& scenario,
                                         const std::shared_ptr<const Scene>& scene, int tries,
@@ -99,6 +101,7 @@ Result<std::vector<Judgement>> play_all(const Scenario& scenario,
     options.seed = 1 + i / 2;
     options.record = false;
     options.rigid = rigid;
+    options.tissue_rate = kTissueRate;
     const auto attempt =
         play(scenario, scene, i % 2 == 0 ? expert_skill() : novice_skill(), options);
     if (attempt)

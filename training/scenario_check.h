@@ -43,7 +43,7 @@ struct DifficultyInTissue {
 /// How many seeds each simulated operator plays.
 struct Tries {
   int rigid = 20;
-  int soft = 2;  ///< in tissue that gives way, which costs some hundred times as much
+  int soft = 1;  ///< in tissue that gives way, which costs some ten times as much
 };
 
 /// Plays with seeds from 1 on. The same at any number of threads. Errors: those of play.
