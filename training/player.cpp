@@ -14,8 +14,8 @@
 namespace artus {
 namespace {
 
-constexpr double kGuide = 300;      // N/m of a whole haptic_guide; assumed
-constexpr double kWall = 1000;      // N/m of a whole haptic_wall; assumed
+constexpr double kGuide = 300;  // N/m of a whole haptic_guide; assumed
+constexpr double kWall = 1000;  // N/m of a whole haptic_wall; assumed
 
 Result<RegionId> find_region(const CompiledJoint& joint, const std::string& name) {
   for (std::size_t i = kFirstRegion; i < joint.regions.size(); ++i)

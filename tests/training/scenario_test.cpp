@@ -166,15 +166,17 @@ TEST(Scenario, VariantsAreOfAJoint) {
 TEST(Player, HandsDrawBackAndGiveWhatIsAskedAtItsRate) {
   const Scenario scenario = aligned_with("[syringe]\nvolume_ml = 1\nrate_ml_s = 0.2\n");
   const auto scene = *make_gel_scene(*scenario.gel);
+  PlayOptions rigid;
+  rigid.rigid = true;
   const auto expert = play(scenario, scene, expert_skill(), {});
-  const auto novice = play(scenario, scene, novice_skill(), {});
+  const auto novice = play(scenario, scene, novice_skill(), rigid);
   ASSERT_TRUE(expert && novice);
   EXPECT_NEAR(number_of(*expert, "given_ml"), 1, 0.05);
   EXPECT_NEAR(number_of(*expert, "flow_mean_ml_s"), 0.2, 0.04);
   EXPECT_EQ(number_of(*expert, "aspirated_first"), 1);
   EXPECT_EQ(number_of(*novice, "aspirated_first"), 0);
   EXPECT_GT(number_of(*novice, "flow_peak_ml_s"), number_of(*expert, "flow_peak_ml_s"));
-  const auto dry = play(align(), scene, expert_skill(), {});
+  const auto dry = play(align(), scene, expert_skill(), rigid);
   ASSERT_TRUE(dry);
   const Metric* given = find_metric(dry->measures.metrics, "given_ml");
   EXPECT_TRUE(given == nullptr || !given->value);
@@ -237,7 +239,9 @@ TEST(Player, ALookingTaskIsPlayedAndJudgedWithoutNeedleAndAids) {
   const auto scene = *make_gel_scene(*look.gel);
   const auto params = make_session_params(look);
   ASSERT_TRUE(params);
-  const auto played = play(look, scene, expert_skill(), {});
+  PlayOptions rigid;
+  rigid.rigid = true;
+  const auto played = play(look, scene, expert_skill(), rigid);
   ASSERT_TRUE(played);
   EXPECT_TRUE(played->judgement.passed);
   EXPECT_FALSE(played->judgement.with_aids);
@@ -250,9 +254,7 @@ TEST(Player, ALookingTaskIsPlayedAndJudgedWithoutNeedleAndAids) {
   EXPECT_FALSE(play(impossible, scene, expert_skill(), {}));
 
   Recording recording;
-  auto soft = *params;
-  soft.deform = gives_way(scene->joint());
-  const auto again = make_simulated_attempt(look, scene, soft, expert_skill(), {}, recording);
+  const auto again = make_simulated_attempt(look, scene, *params, expert_skill(), rigid, recording);
   AttemptMeter meter(scene, *make_meter_options(look, scene->joint(), *params));
   while (again->step(meter)) {
   }
@@ -268,7 +270,7 @@ TEST(Scenario, AFindTaskHasNoNeedleAndBallsLieApartInOneLayer) {
   };
   EXPECT_EQ(told("level = 0", "level = 1"), "");
   EXPECT_NE(told("[aids]", "[target]\npoint = [0, 0, 1]\n[needle]\ngauge = 22\n[aids]")
-                .find("'target' does not go with find"),
+                .find("cannot be combined with find"),
             std::string::npos);
   EXPECT_NE(told("find = [\"artery\", \"bone\", \"tendon\", \"fat\", \"nerve\"]", "find = []")
                 .find("1 to 12"),
@@ -314,6 +316,7 @@ TEST(Player, AnExpertPassesAndANoviceRarely) {
 TEST(Feedback, NamesThreeFaultsAtMostWorstFirstWithCauseAndMend) {
   const auto scene = *make_gel_scene(*align().gel);
   PlayOptions options;
+  options.rigid = true;  // of words, not of tissue
   bool faulty = false;
   for (options.seed = 1; options.seed <= 4; ++options.seed) {
     const auto played = play(align(), scene, novice_skill(), options);
