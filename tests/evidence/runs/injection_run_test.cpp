@@ -242,7 +242,7 @@ TEST(InjectionRun, GrainsThatSettleInAThinNeedleStopTheHand) {
 /// Skin, muscle, a bursa from 14 mm on, tendon, bone, as tetrahedra.
 std::shared_ptr<const Scene> soft_shoulder() {
   const std::vector<FlatLayer> layers{
-      {"skin", 2e-3}, {"muscle", 12e-3}, {"bursa", 3e-3}, {"tendon", 6e-3}, {"bone", 12e-3}};
+      {"skin", 2e-3}, {"muscle", 12e-3}, {"bursa", 5e-3}, {"tendon", 6e-3}, {"bone", 12e-3}};
   static const auto kScene = std::make_shared<const Scene>(
       std::make_shared<const CompiledJoint>(test::make_meshed_block(layers, .12, .08, 4e-3)));
   return kScene;
