@@ -154,6 +154,11 @@ Result<void> forget(Records& records, const LearnersOptions& options) {
 }
 
 ExitCode run_learners(const LearnersOptions& options) {
+  if (options.what.empty())
+    return report_error(
+        {ErrorCode::malformed, "say what: list, show, add, export, report, norms, forget or rate",
+         "what"},
+        options.json);
   auto records = Records::open(options.records);
   if (!records) return report_error(records.error(), options.json);
   Result<void> done;
@@ -241,7 +246,6 @@ void add_learners_command(Command& app, ExitCode& code) {
       "  artus learners norms --records school.db --scenario gel-align --cohort experts\n"
       "  artus learners forget --records school.db --person a1");
   command->add_option("what", options->what, "list, show, add, export, report, norms or forget")
-      ->required()
       ->one_of({"list", "show", "add", "export", "report", "norms", "forget"});
   command->add_option("--records", options->records, "file of the records")->required();
   command->add_option("--person", options->person, "pseudonym; add makes one when none is given");

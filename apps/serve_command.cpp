@@ -61,7 +61,7 @@ struct Serving {
   const TrackerInput* tracker;
   SessionLink* link;  ///< may be null
   RemoteScenario* asked;
-  std::int64_t end_ns;  ///< 0: when interrupted
+  std::int64_t end_ns = 0;  ///< set when the first session has started; 0: when interrupted
 };
 
 /// How long ticks do nothing first, so that it is known how late the machine is by itself: where
@@ -161,7 +161,7 @@ void report(const Session& session, const TickTally& tally, bool json) {
 }
 
 /// One session to its end; what follows it, if anything.
-Result<std::optional<Setting>> run_session(const Serving& serving, const Setting& setting) {
+Result<std::optional<Setting>> run_session(Serving& serving, const Setting& setting) {
   const ServeOptions& options = *serving.options;
   HandDevice* hand = nullptr;
   auto device =
@@ -184,6 +184,9 @@ Result<std::optional<Setting>> run_session(const Serving& serving, const Setting
   auto session = Session::start(setting.scene, setting.params, std::move(*device), session_options);
   ARTUS_TRY(session);
   if (link != nullptr) link->attach(session->get());
+  if (serving.end_ns == 0 && options.seconds > 0)
+    serving.end_ns = monotonic_ns() +
+                     static_cast<std::int64_t>(1e9 * (options.seconds + floor_seconds_of(options)));
   auto next = wait(**session, serving);
   if (link != nullptr) link->attach(nullptr);
   for (const std::string& refused : (*session)->refusals())
@@ -213,10 +216,7 @@ ExitCode run_serve(const ServeOptions& options) {
       open_session_link(options.session.igtl, *tracker, {},
                         [&asked](const std::string& name) { return asked.ask(name); });
   if (!link) return report_error(link.error(), options.json);
-  const double seconds = options.seconds + floor_seconds_of(options);
-  const std::int64_t end =
-      options.seconds > 0 ? monotonic_ns() + static_cast<std::int64_t>(seconds * 1e9) : 0;
-  const Serving serving{&options, &interrupts, &*tracker, link->get(), &asked, end};
+  Serving serving{&options, &interrupts, &*tracker, link->get(), &asked};
   Setting setting{std::make_shared<const Scene>(*joint), *params};
   std::optional<Setting> before;  // to go back to, when a scenario does not start
   for (;;) {

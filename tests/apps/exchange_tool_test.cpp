@@ -255,7 +255,7 @@ TEST_F(ExchangeTool, ForcesOfATrajectoryAreATable) {
          << "], \"tip_mm\": [" << tip.x() << ',' << tip.y() << ',' << tip.z() << "]}}\n";
   }
   const auto done = test::artus({"force", "-j", kSimple, "--poses", write("p.jsonl", path.str()),
-                                 "-o", in("force.csv"), "--json"});
+                                 "-o", in("force.csv"), "--rigid", "--json"});
   ASSERT_EQ(done.exit_code, 0) << done.err;
   EXPECT_THAT(done.out, HasSubstr("\"ticks\": 2001"));
   const std::string table = *read_bytes(in("force.csv"));

@@ -252,7 +252,7 @@ TEST_F(ImagingTool, NeedleThatGoesInPushesTheTissueOnInPictureAndDeformAlike) {
 TEST_F(ImagingTool, NeedleDrawnBackPullsTissueAlongInPictureAndDeformAlike) {
   const auto needle =
       needle_moved({"image", "labels", "-o", in("out.png")}, "out").at("press").at("needle");
-  EXPECT_EQ(needle.at("tip_force_n").get<double>(), 0);
+  EXPECT_LE(needle.at("tip_force_n").get<double>(), 0) << "it is drawn out, and pulls";
   EXPECT_LT(needle.at("force_n").get<double>(), 0);
   EXPECT_LT(needle.at("tissue_moved_mm").get<double>(), -0.02);
   EXPECT_TRUE(std::filesystem::exists(in("out.png")));

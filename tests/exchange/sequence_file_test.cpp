@@ -115,7 +115,7 @@ TEST(SequenceMaker, TakesPicturesOfOneSizeAlone) {
   picture.height = 4;
   const auto other = maker.add(picture, Transducer());
   ASSERT_FALSE(other);
-  EXPECT_THAT(other.error().message, HasSubstr("frame 1 is of another size"));
+  EXPECT_THAT(other.error().message, HasSubstr("frame 1 has another size"));
 }
 
 }  // namespace

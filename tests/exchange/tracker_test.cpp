@@ -112,7 +112,7 @@ TEST(Registration, PrintsTheResidualsWhenTwoLandmarksWereSwapped) {
   std::swap(pairs[0].p_R, pairs[1].p_R);
   const auto fit = register_landmarks(pairs, 5e-3);
   ASSERT_FALSE(fit);
-  EXPECT_THAT(fit.error().message, HasSubstr("above 5.00 mm"));
+  EXPECT_THAT(fit.error().message, HasSubstr("the limit is 5.00 mm"));
   EXPECT_THAT(fit.error().message, HasSubstr("groove "));
 }
 
