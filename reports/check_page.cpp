@@ -13,8 +13,12 @@
 namespace artus {
 namespace {
 
-const cv::Vec3b kSurface(205, 195, 180);
-const cv::Vec3b kDefect(40, 40, 220);
+cv::Vec3b surface_colour() {
+  return {205, 195, 180};
+}
+cv::Vec3b defect_colour() {
+  return {40, 40, 220};
+}
 
 std::string line_of(const Finding& finding) {
   return finding.what +
@@ -38,13 +42,13 @@ ColouredMesh with_defects(const SurfaceMesh& mesh, const std::vector<Defect>& de
     for (const std::size_t e : d.elements)
       if (e < marks.size()) marks[e] = true;
   }
-  ColouredMesh out = coloured(mesh, kSurface);
+  ColouredMesh out = coloured(mesh, surface_colour());
   std::size_t i = 0;
   for (std::size_t f = 0; f < mesh.triangles.size() && i < out.mesh.triangles.size(); ++f) {
     const Triangle& t = mesh.triangles[f];
     if (t != out.mesh.triangles[i]) continue;
     if (bad_face[f] || std::any_of(t.begin(), t.end(), [&](auto v) { return bad_vertex[v]; }))
-      out.colours[i] = kDefect;
+      out.colours[i] = defect_colour();
     ++i;
   }
   return out;
@@ -87,14 +91,16 @@ void add_surface(HtmlPage& page, const JointSources& sources, const JointCheck& 
     for (const Defect& d : defects)
       if (d.kind != DefectKind::several_components && d.position.allFinite())
         marks.push_back(d.position);
-    page.picture(draw_meshes(std::vector{with_defects(mesh, defects)}, view, kSmallPicture, marks),
-                 defects.empty() ? "as it was read: no defect"
-                                 : "as it was read; defects red, a ring at the first of each kind");
+    page.picture(
+        draw_meshes(std::vector{with_defects(mesh, defects)}, view, small_picture(), marks),
+        defects.empty() ? "as it was read: no defect"
+                        : "as it was read; defects red, a ring at the first of each kind");
   }
   const PreparedSurface* prepared = prepared_of(file, check, s.name);
   if (prepared != nullptr && !checked.repairs.empty() && !prepared->mesh.triangles.empty())
-    page.picture(draw_meshes(std::vector{coloured(prepared->mesh, kSurface)}, view, kSmallPicture),
-                 "after repair, " + fixed_number(checked.volume / kCubicCentimetre, 2) + " cm3");
+    page.picture(
+        draw_meshes(std::vector{coloured(prepared->mesh, surface_colour())}, view, small_picture()),
+        "after repair, " + fixed_number(checked.volume / kCubicCentimetre, 2) + " cm3");
   page.close_card();
 }
 

@@ -133,12 +133,12 @@ void add_structures(HtmlPage& page, const JointSources& sources, const CompileOu
       if (const auto mesh = sources.mesh(*surface))
         page.picture(draw_meshes(std::vector{by_distance(outcome.joint, region,
                                                          DistanceTree(coloured(**mesh, {}).mesh))},
-                                 view, kSmallPicture),
+                                 view, small_picture()),
                      "distance to " + surface->file.string());
     } else if (report.tetrahedra > 0) {
       page.picture(draw_meshes(std::vector{coloured(region_surface(outcome.joint, region),
                                                     colour_of(outcome.joint, region))},
-                               view, kSmallPicture),
+                               view, small_picture()),
                    "made by artus");
     }
     page.close_card();

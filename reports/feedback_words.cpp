@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/detail/reports/feedback_words.h"
 
-#include <array>
-
 #include "artus/detail/viewer/words/retell.h"
 
 namespace artus {
 namespace {
 
-constexpr std::array kSentences{
+constexpr const char* kSentences[] = {
+    // NOLINT(*-avoid-c-arrays)
     // what, before its value
     msgid("entered a structure to avoid"),
     msgid("advanced without seeing the tip"),

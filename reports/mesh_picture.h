@@ -26,7 +26,9 @@ struct MeshView {
 
 /// Of a page: what is looked at, and what is beside others.
 inline const cv::Size kLargePicture(520, 460);
-inline const cv::Size kSmallPicture(300, 240);
+[[nodiscard]] inline cv::Size small_picture() {
+  return {300, 240};
+}
 
 /// The two views of a joint file's frame: from the front, and from its outer side (the right one
 /// where it has no side). Letters of `axes` as in the joint file.

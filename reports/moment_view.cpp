@@ -12,12 +12,24 @@
 namespace artus {
 namespace {
 
-const cv::Vec3b kTargetColour(70, 160, 60);
-const cv::Vec3b kSpareColour(50, 50, 210);
-const cv::Vec3b kNeedleColour(150, 60, 20);
-const cv::Vec3b kTipColour(20, 110, 240);
-const cv::Vec3b kPictureColour(120, 120, 120);
-const cv::Vec3b kFaceColour(90, 90, 90);
+cv::Vec3b target_colour() {
+  return {70, 160, 60};
+}
+cv::Vec3b spare_colour() {
+  return {50, 50, 210};
+}
+cv::Vec3b needle_colour() {
+  return {150, 60, 20};
+}
+cv::Vec3b tip_colour() {
+  return {20, 110, 240};
+}
+cv::Vec3b picture_colour() {
+  return {120, 120, 120};
+}
+cv::Vec3b face_colour() {
+  return {90, 90, 90};
+}
 constexpr double kBeside = 10e-3;   // m around the picture that are drawn
 constexpr double kBehind = 25e-3;   // m behind its plane
 constexpr double kThin = 0.25e-3;   // m, radius of lines
@@ -89,7 +101,7 @@ ColouredMesh corners_of(const Eigen::AlignedBox3d& box) {
     const auto v = static_cast<std::uint32_t>(i);
     mesh.triangles.push_back({v, v, v});
   }
-  return coloured(mesh, kPictureColour);
+  return coloured(mesh, picture_colour());
 }
 
 }  // namespace
@@ -109,13 +121,13 @@ MomentView::MomentView(const Scenario& scenario, const Scene& scene, const Sessi
                                                     name) != scenario.find.end());
     const Tissue& tissue = joint.tissue_of(r);
     if (!spared && !sought && !tissue.haptic.hard) continue;
-    const cv::Vec3b colour = spared   ? kSpareColour
-                             : sought ? kTargetColour
+    const cv::Vec3b colour = spared   ? spare_colour()
+                             : sought ? target_colour()
                                       : tissue_colour(tissue.name, r);
     body_.push_back(coloured(region_surface(joint, r), colour));
   }
   if (scenario.target.structure.empty() && scenario.find.empty())
-    body_.push_back(ball(scenario.target.point, kSphere, kTargetColour));
+    body_.push_back(ball(scenario.target.point, kSphere, target_colour()));
 }
 
 /// The picture's edge and the probe's face, in the probe's frame.
@@ -129,14 +141,14 @@ std::vector<ColouredMesh> MomentView::outline() const {
   }
   const double half = 0.5 * transducer_.elevation_height;
   for (std::size_t i = 1; i < lines.size(); ++i) {
-    out.push_back(tube(lines[i - 1].second, lines[i].second, kThin, kPictureColour));
+    out.push_back(tube(lines[i - 1].second, lines[i].second, kThin, picture_colour()));
     for (const double y : {-half, half})
       out.push_back(tube(lines[i - 1].first + Vec3(0, y, 0), lines[i].first + Vec3(0, y, 0),
-                         2 * kThin, kFaceColour));
+                         2 * kThin, face_colour()));
   }
   for (const auto& [top, bottom] : {lines.front(), lines.back()}) {
-    out.push_back(tube(top, bottom, kThin, kPictureColour));
-    out.push_back(tube(top - Vec3(0, half, 0), top + Vec3(0, half, 0), 2 * kThin, kFaceColour));
+    out.push_back(tube(top, bottom, kThin, picture_colour()));
+    out.push_back(tube(top - Vec3(0, half, 0), top + Vec3(0, half, 0), 2 * kThin, face_colour()));
   }
   return out;
 }
@@ -150,10 +162,10 @@ void MomentView::add_needle(const Pose& X_PN, const Eigen::AlignedBox3d& around,
   double length = 0;
   while (length + kStep <= length_ && around.contains(X_PN * Vec3(0, 0, -(length + kStep))))
     length += kStep;
-  if (length > 0) meshes.push_back(tube(X_PN * Vec3(0, 0, -length), tip, kShaft, kNeedleColour));
-  meshes.push_back(ball(tip, kSphere, kTipColour));
+  if (length > 0) meshes.push_back(tube(X_PN * Vec3(0, 0, -length), tip, kShaft, needle_colour()));
+  meshes.push_back(ball(tip, kSphere, tip_colour()));
   const Vec3 shown(tip.x(), 0, tip.z());
-  if (std::abs(tip.y()) > kSphere) meshes.push_back(tube(tip, shown, kThin, kTipColour));
+  if (std::abs(tip.y()) > kSphere) meshes.push_back(tube(tip, shown, kThin, tip_colour()));
 }
 
 cv::Mat MomentView::draw(const Pose& X_JP, const std::optional<Pose>& X_JN, cv::Size size) const {

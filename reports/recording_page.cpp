@@ -16,12 +16,18 @@ namespace {
 constexpr int kWidth = 1000;   // pixels
 constexpr int kHeight = 1414;  // pixels
 constexpr int kMargin = 80;    // pixels
-const cv::Scalar kInk(40, 40, 40);
-const cv::Scalar kCurve(160, 90, 20);
-const cv::Scalar kGrid(215, 215, 215);
+cv::Scalar ink_colour() {
+  return {40, 40, 40};
+}
+cv::Scalar curve_colour() {
+  return {160, 90, 20};
+}
+cv::Scalar grid_colour() {
+  return {215, 215, 215};
+}
 
 void write_at(cv::Mat& page, const std::string& text, const cv::Point& where, double size) {
-  cv::putText(page, text, where, cv::FONT_HERSHEY_SIMPLEX, size, kInk, 1, cv::LINE_AA);
+  cv::putText(page, text, where, cv::FONT_HERSHEY_SIMPLEX, size, ink_colour(), 1, cv::LINE_AA);
 }
 
 /// A round step of at most `most` to a span.
@@ -49,19 +55,19 @@ void draw_curve(cv::Mat& page, const cv::Rect& place, const std::string& title,
   };
   const double rung = round_step(high - low, 6);
   for (double v = std::ceil(low / rung) * rung; v <= high; v += rung) {
-    cv::line(page, at(0, v), at(seconds, v), kGrid);
+    cv::line(page, at(0, v), at(seconds, v), grid_colour());
     write_at(page, printed("%g", v), at(0, v) + cv::Point(-52, 5), 0.45);
   }
   const double step = round_step(seconds, 10);
   for (double t = 0; t <= seconds; t += step) {
-    cv::line(page, at(t, low), at(t, high), kGrid);
+    cv::line(page, at(t, low), at(t, high), grid_colour());
     write_at(page, printed("%g", t), at(t, low) + cv::Point(-8, 22), 0.45);
   }
   std::vector<cv::Point> line;
   for (std::size_t i = 0; i < values.size(); ++i)
     line.push_back(at(static_cast<double>(i) / rate, values[i]));
-  cv::polylines(page, line, false, kCurve, 1, cv::LINE_AA);
-  cv::rectangle(page, place, kInk);
+  cv::polylines(page, line, false, curve_colour(), 1, cv::LINE_AA);
+  cv::rectangle(page, place, ink_colour());
 }
 
 void put_picture(cv::Mat& page, const cv::Mat& picture, const cv::Rect& place) {

@@ -171,6 +171,28 @@ test::Landmarks find_landmarks(const LabelImage& labels, const CompiledJoint& jo
   return marks;
 }
 
+/// Sound is faster in tendon and muscle than the scanner assumes: bone's echo stands above its
+/// place, where the picture is brightest.
+void follow_echo(test::Landmarks& marks, const cv::Mat& picture) {
+  constexpr int kAbove = 25;  // px
+  constexpr int kBelow = 8;   // px
+  for (std::size_t i = 0; i < marks.bone.size(); ++i) {
+    const int x = static_cast<int>(i) * marks.bone_step;
+    if (marks.bone[i] < 0) continue;
+    const int from = std::max(0, marks.bone[i] - kAbove);
+    const int to = std::min(picture.rows, marks.bone[i] + kBelow);
+    const int left = std::max(0, x - 1);
+    const int right = std::min(picture.cols, x + 2);
+    double brightest = -1;
+    for (int row = from; row < to; ++row) {
+      const double here = cv::mean(picture(cv::Range(row, row + 1), cv::Range(left, right)))[0];
+      if (here <= brightest) continue;
+      brightest = here;
+      marks.bone[i] = row;
+    }
+  }
+}
+
 TEST_P(ImageGolden, ShowsNothingThatASonographerWouldSee) {
   const std::string label = GetParam();
   const auto& run = the_run();
@@ -193,8 +215,9 @@ TEST_P(ImageGolden, ShowsNothingThatASonographerWouldSee) {
   const cv::Mat old = cv::imread(file.string(), cv::IMREAD_GRAYSCALE);
   const bool same_size = old.size() == actual.size();
   if (updating()) {
-    const test::Landmarks marks =
+    test::Landmarks marks =
         find_landmarks(render_labels(*scene, moment->X_JP, {}, {}, needle), scene->joint());
+    follow_echo(marks, actual);
     if (same_size)
       std::cout << "golden " << name << ": " << to_text(test::compare_pictures(old, actual, marks))
                 << '\n';

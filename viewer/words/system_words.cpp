@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/detail/viewer/words/system_words.h"
 
-#include <array>
-
 #include "artus/detail/viewer/words/retell.h"
 
 namespace artus {
 namespace {
 
-constexpr std::array kSayings{
+constexpr const char* kSayings[] = {
+    // NOLINT(*-avoid-c-arrays)
     msgid("haptics: {}"),
     msgid("imaging: {}"),
     msgid("SCHED_FIFO priority: {}"),
