@@ -160,6 +160,14 @@ void report(const Session& session, const TickTally& tally, bool json) {
   tally.print();
 }
 
+/// The seconds that were asked for begin with the first tick: before it the system is asked for
+/// priority and memory, and the floor is measured.
+void await_first_tick(const Session& session, Interrupts& interrupts) {
+  constexpr int kLongest = 3000;  // of 10 ms
+  for (int i = 0; i < kLongest && session.ticks() == 0; ++i)
+    if (interrupts.wait(0.01)) return;
+}
+
 /// One session to its end; what follows it, if anything.
 Result<std::optional<Setting>> run_session(Serving& serving, const Setting& setting) {
   const ServeOptions& options = *serving.options;
@@ -184,9 +192,10 @@ Result<std::optional<Setting>> run_session(Serving& serving, const Setting& sett
   auto session = Session::start(setting.scene, setting.params, std::move(*device), session_options);
   ARTUS_TRY(session);
   if (link != nullptr) link->attach(session->get());
-  if (serving.end_ns == 0 && options.seconds > 0)
-    serving.end_ns = monotonic_ns() +
-                     static_cast<std::int64_t>(1e9 * (options.seconds + floor_seconds_of(options)));
+  if (serving.end_ns == 0 && options.seconds > 0) {
+    await_first_tick(**session, *serving.interrupts);
+    serving.end_ns = monotonic_ns() + static_cast<std::int64_t>(1e9 * options.seconds);
+  }
   auto next = wait(**session, serving);
   if (link != nullptr) link->attach(nullptr);
   for (const std::string& refused : (*session)->refusals())

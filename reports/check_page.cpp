@@ -72,7 +72,7 @@ void add_repaired_overview(HtmlPage& page, const JointFile& file, const JointChe
       meshes.push_back(coloured(check.prepared.structures[i]->mesh,
                                 tissue_colour(file.structures[i].tissue, i)));
   for (const MeshView& view : picture_views(file.axes, file.side))
-    page.picture(draw_meshes(meshes, view, kLargePicture), view.name);
+    page.picture(draw_meshes(meshes, view, large_picture()), view.name);
 }
 
 void add_surface(HtmlPage& page, const JointSources& sources, const JointCheck& check,

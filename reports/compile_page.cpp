@@ -35,7 +35,7 @@ void add_overview(HtmlPage& page, const JointFile& file, const CompiledJoint& jo
     if (joint.tissue_of(r).name != "skin")
       meshes.push_back(coloured(region_surface(joint, r), colour_of(joint, r)));
   for (const MeshView& view : picture_views(file.axes, file.side))
-    page.picture(draw_meshes(meshes, view, kLargePicture), view.name);
+    page.picture(draw_meshes(meshes, view, large_picture()), view.name);
 }
 
 /// The plane through a point, and how its pixels lie.

@@ -25,7 +25,9 @@ struct MeshView {
 };
 
 /// Of a page: what is looked at, and what is beside others.
-inline const cv::Size kLargePicture(520, 460);
+[[nodiscard]] inline cv::Size large_picture() {
+  return {520, 460};
+}
 [[nodiscard]] inline cv::Size small_picture() {
   return {300, 240};
 }

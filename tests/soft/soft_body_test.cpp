@@ -235,7 +235,7 @@ TEST_F(SoftBodyTest, PoseBesideTheBodyIsRefused) {
 // two thirds of all nodes were solved as one dense matrix.
 TEST(SoftBody, TheOtherSideOfAThinLimbIsNotPressed) {
   const std::array<FlatLayer, 5> layers{
-      {{"skin", 2e-3}, {"muscle", 5e-3}, {"bone", 4e-3}, {"muscle", 5e-3}, {"skin", 2e-3}}};
+      {{"skin", 2e-3}, {"muscle", 3.5e-3}, {"bone", 7e-3}, {"muscle", 3.5e-3}, {"skin", 2e-3}}};
   const auto limb =
       std::make_shared<const CompiledJoint>(test::make_meshed_block(layers, 60e-3, 24e-3, 2e-3));
   const auto body = SoftBody::make(limb, Pose::Identity(), quick());

@@ -89,7 +89,7 @@ void inject(Person& person, const std::function<void(const char*)>& photograph) 
   x.wheel(-80);
   person.wait_until("out", [](const WindowStatus& s) { return !s.needle.inside; });
   person.wait_until("done", [](const WindowStatus& s) {
-    return s.next.find("begins again") != std::string::npos;
+    return s.next.find("starts again") != std::string::npos;
   });
   photograph("end");
 }

@@ -104,8 +104,8 @@ TEST(SeatedProbe, ProbePressesTheSkinOfThePictureWithWhatItsHandFeels) {
 /// hand feel none of it.
 TEST(SeatedProbe, SkinThatLiquidLiftsLiesOnTheFace) {
   ThreeInjectionsOptions options;
-  options.dose.volume = 1e-6;
-  options.dose.rate = 0.5e-6;
+  options.dose.volume = 2e-6;
+  options.dose.rate = 1e-6;
   options.slow_speed = 0.03;
   FluidScene scenes;
   std::shared_ptr<const FluidShape> shape;
