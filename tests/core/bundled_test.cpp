@@ -7,25 +7,28 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/paths.h"
+#include "tests/support/temporary_folder.h"
 
 namespace artus {
 namespace {
 
 namespace fs = std::filesystem;
 
-class Bundled : public testing::Test {
+class Bundled : public test::TemporaryFolder {
  protected:
   void SetUp() override {
+    test::TemporaryFolder::SetUp();
+    data_ = folder_;
     fs::create_directories(data_ / "meshes" / "elbow");
     unsetenv("ARTUS_DATA");  // NOLINT(concurrency-mt-unsafe): one thread
   }
   void TearDown() override {
     fs::current_path(before_);
     unsetenv("ARTUS_DATA");  // NOLINT(concurrency-mt-unsafe)
-    fs::remove_all(data_);
+    test::TemporaryFolder::TearDown();
   }
   const fs::path before_ = fs::current_path();
-  const fs::path data_ = fs::path(testing::TempDir()) / "artus-bundled";
+  fs::path data_;
 };
 
 TEST_F(Bundled, IsFoundInTheTreeThatTheProgramWasBuiltInFromAnyFolder) {
