@@ -14,6 +14,9 @@
 namespace artus {
 namespace {
 
+constexpr double kProbeDamping =
+    12;  // N s/m at most, of the account of the probe's energy; assumed
+
 void copy(const Vec3& from, double (&to)[3]) noexcept {
   to[0] = from.x();
   to[1] = from.y();
@@ -39,7 +42,9 @@ HapticCore::HapticCore(std::shared_ptr<const Scene> scene, const SessionParams& 
     : scene_(std::move(scene)),
       needle_(scene_, make_table(scene_, params), renderer_params(params)),
       gesture_(params.gesture, params.X_WJ),
-      probe_(params.haptic_rate, params.image_rate, ProbeContactParams{}.gel_friction),
+      probe_(SkinContactParams{.tick_rate = params.haptic_rate,
+                               .friction = ProbeContactParams{}.gel_friction}),
+      probe_account_({true, kProbeDamping}, 1 / params.haptic_rate),
       probe_guard_(params.guard, ProbeHandParams{}.device, 1 / params.haptic_rate),
       syringe_(scene_->joint(), params),
       aid_(scene_->joint(), params.aids, 1 / params.haptic_rate) {}
@@ -88,8 +93,15 @@ void HapticCore::step_probe(bool felt, const std::optional<Pose>& X_WP) noexcept
   std::optional<Pose> X_JP;
   if (felt && X_WP) X_JP = gesture_.X_WJ().inverse() * *X_WP;
   std::uint32_t status = 0;
+  Wrench wanted = probe_.step(X_JP, out_.input.tick);
+  if (X_JP)
+    wanted.force = probe_account_.step(X_JP->translation(), wanted.force);
+  else
+    probe_account_.pause();
+  if (probe_.share() == 0) wanted = {};  // no damping off the skin
   const Wrench wrench =
-      probe_guard_.apply(probe_.step(X_JP), X_JP ? TickStatus::kOk : TickStatus::kStale, status);
+      probe_guard_.apply(wanted, X_JP ? TickStatus::kOk : TickStatus::kStale, status);
+  probe_account_.observe(wrench.force);
   const Eigen::Matrix3d R_WJ = gesture_.X_WJ().linear();
   copy(R_WJ * wrench.force, out_.feedback.probe_force);
   copy(R_WJ * wrench.torque, out_.feedback.probe_torque);
@@ -121,6 +133,8 @@ void HapticCore::describe() noexcept {
   feedback.depth = tick.depth;
   feedback.region = contact.region();
   feedback.contact = static_cast<std::uint32_t>(contact.state());
+  feedback.tissue_age = probe_.age();
+  if (probe_.late()) out_.status |= SessionStatus::kTissueLate;
   feedback.status = out_.status;
   feedback.tick = out_.input.tick;
   feedback.answers = out_.input.device.number;

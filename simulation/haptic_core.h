@@ -3,7 +3,7 @@
 #include <memory>
 #include <optional>
 
-#include "artus/detail/haptics/probe/probe_tangent.h"
+#include "artus/detail/haptics/probe/skin_contact.h"
 #include "artus/detail/simulation/hand_aids.h"
 #include "artus/detail/simulation/records.h"
 #include "artus/haptics/needle_renderer.h"
@@ -45,7 +45,8 @@ class HapticCore {
   std::shared_ptr<const Scene> scene_;
   NeedleRenderer needle_;
   TwoPhaseGesture gesture_;
-  ProbeTangent probe_;
+  SkinContact probe_;
+  PassivityObserver probe_account_;
   OutputGuard probe_guard_;
   SyringeCore syringe_;
   HandAid aid_;

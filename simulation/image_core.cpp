@@ -65,7 +65,9 @@ ImagedBody ImageCore::advance(const FrameInput& input) {
   if (input.has_needle != 0) needle = NeedleGrip{to_pose(input.X_JN), input.load};
   tissue_->step(X_JP, needle, fluid.rest_of());
   shapes_.follow(sites, tissue_->tissue());
-  return {input.number, tissue_->scene(), tissue_->packet(), fluid};
+  TissuePacket packet = tissue_->packet();
+  packet.probe.tick = input.tick;
+  return {input.number, tissue_->scene(), packet, fluid};
 }
 
 /// What is drawn: the body with what was injected.

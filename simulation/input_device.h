@@ -84,6 +84,7 @@ struct DeviceFeedback {
   double probe_force[3] = {0, 0, 0};   ///< N, at the face's centre  NOLINT(*-avoid-c-arrays)
   double probe_torque[3] = {0, 0, 0};  ///< N m  NOLINT(*-avoid-c-arrays)
   double probe_share = 0;              ///< of the face that presses, 0..1
+  double tissue_age = 0;               ///< s, of the tissue that is felt; 0: none gives way
   PlungerFeedback plunger;
 };
 

@@ -24,6 +24,7 @@ FrameInput frame_input(const HapticSnapshot& snapshot, const ImageControls& cont
   input.controls = controls;
   input.sample_time_ns = snapshot.input.device.time_ns;
   input.number = number;
+  input.tick = snapshot.input.tick;
   input.has_needle = snapshot.input.device.has_needle;
   input.has_probe = snapshot.input.device.has_probe;
   input.load = snapshot.load;
@@ -41,10 +42,13 @@ std::uint64_t digest_of(const TissuePacket& packet) noexcept {
   const auto add_all = [&add](const auto& values) {
     std::for_each(values.begin(), values.end(), add);
   };
-  add_all(probe.X_JP);
-  add_all(probe.wrench);
-  add_all(probe.stiffness);
-  add(probe.share);
+  digest = mix_bits(digest ^ probe.tick);
+  add_all(probe.X_JF);
+  add_all(probe.z);
+  const double numbers[] = {probe.spacing_x,     probe.spacing_y,       probe.length,
+                            probe.width,         probe.curve.stiffness, probe.curve.hardening,
+                            probe.curve.slope_x, probe.curve.slope_y};
+  std::for_each(std::begin(numbers), std::end(numbers), add);
   const NeedlePacket& needle = packet.needle;
   add_all(needle.carried);
   add(static_cast<double>(needle.compliance.points));

@@ -21,6 +21,8 @@ struct SessionStatus {
   static constexpr std::uint32_t kPaused = 1U << 18U;
   static constexpr std::uint32_t kStopped = 1U << 19U;
   static constexpr std::uint32_t kNoNeedle = 1U << 21U;
+  /// What the hands feel is tissue older than 0.1 s: skin and stiffness are held as last known.
+  static constexpr std::uint32_t kTissueLate = 1U << 22U;
 };
 
 /// What the people at the session want in a tick; bits.
@@ -87,6 +89,7 @@ struct FrameInput {
   ImageControls controls;
   std::int64_t sample_time_ns = 0;  ///< DeviceSample::time_ns of the poses
   std::uint64_t number = 0;
+  std::uint64_t tick = 0;  ///< that the poses are of
   std::uint32_t has_needle = 0;
   std::uint32_t has_probe = 0;
   InjectedSite sites[kMaxSites] = {};  ///< what liquid went to  NOLINT(*-avoid-c-arrays)

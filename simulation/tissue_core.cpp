@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "artus/detail/haptics/probe/curve_fit.h"
+
 namespace artus {
 namespace {
 
@@ -14,9 +16,13 @@ constexpr double kReadyTime = 1;            // s more, for its first factor and 
 constexpr double kFactorDistance = 0.5e-3;  // m the face moves before its factor is too old
 constexpr double kTissueDistance = 1e-3;    // m the tissue does: crushed, it is much stiffer
 constexpr double kFactorTurn = 0.02;        // rad
-constexpr double kStill = 1e-9;     // m; tissue that moves less has come to rest: some 1e-4 mm
-constexpr int kOutsideImages = 20;  // in a row before another cage is begun
-constexpr int kSteps = 2;           // Newton steps of an image
+constexpr double kStill = 1e-9;          // m; tissue that moves less has come to rest: some 1e-4 mm
+constexpr int kOutsideImages = 20;       // in a row before another cage is begun
+constexpr int kSteps = 2;                // Newton steps of an image
+constexpr double kTryWithin = 25e-3;     // m off the skin from which a press is tried
+constexpr double kTriedDepth = 1.5e-3;   // m that it is tried to
+constexpr double kTriedDistance = 4e-3;  // m beside it that it tells of
+constexpr double kTriedTurn = 0.15;      // rad
 
 double turn_between(const Pose& a, const Pose& b) {
   return Eigen::AngleAxisd(a.linear().transpose() * b.linear()).angle();
@@ -50,6 +56,7 @@ TissueCore::TissueCore(SoftBody body, double image_rate, const ProbeFace& face, 
       cage_images_(static_cast<std::uint64_t>(std::ceil(kCageTime * image_rate))),
       ready_images_(static_cast<std::uint64_t>(std::ceil(kReadyTime * image_rate))),
       X_JP_factor_(body_.cage_pose()),
+      skin_(*body_.joint()),
       needle_(image_rate) {
   keep_state_of_factor();
   tissue_ = body_.snapshot();
@@ -192,30 +199,52 @@ void TissueCore::step(const std::optional<Pose>& X_JP, const std::optional<Needl
   }
   X_JP_before_ = face;
   needle_.step(body_, *scene_, needle);
-  describe(face);
+  describe(X_JP, rest_of);
 }
 
-void TissueCore::describe(const std::optional<Pose>& X_JP) {
+/// The tissue's curve under a probe at `X_JP`: by how it presses, or before it does by how it
+/// would, tried anew where it comes to.
+TissueCurve TissueCore::learn(const Pose& X_JP, const ProbePacket& skin) {
+  const auto fit = [&](const Pose& X, const FacePress& press) {
+    const Eigen::Matrix3d R_PJ = X.linear().transpose();
+    return fit_curve(skin,
+                     {X, R_PJ * press.contact.force, R_PJ * press.contact.torque, press.stiffness},
+                     curve_);
+  };
+  if (!reaches(X_JP)) return curve_;
+  FacePress press = body_.press_at_rest_J();
+  if (press.contact.share > 0) {
+    X_JP_tried_.reset();
+    return fit(body_.face_pose_J(), press);
+  }
+  FaceDepths face;
+  face.set_face(skin.length, skin.width);
+  face.look(skin, X_JP);
+  const double gap = -face.depth().maxCoeff();
+  const bool tried =
+      X_JP_tried_ &&
+      (X_JP_tried_->translation() - X_JP.translation()).norm() < gap + kTriedDistance &&
+      turn_between(*X_JP_tried_, X_JP) < kTriedTurn;
+  if (tried || gap > kTryWithin) return curve_;
+  X_JP_tried_ = X_JP;
+  Pose pressed = X_JP;
+  pressed.translation() += (gap + kTriedDepth) * X_JP.linear().col(2);
+  curve_.hardening = TissueCurve{}.hardening;
+  press = body_.try_press_J(pressed);
+  press.stiffness = 0;  // one tangent does not tell how tissue hardens
+  return fit(pressed, press);
+}
+
+void TissueCore::describe(const std::optional<Pose>& X_JP, const SoftBody::RestOf& rest_of) {
   ProbePacket& felt = packet_.probe;
   const std::uint64_t number = felt.number + 1;
   felt = {};
   felt.number = number;
   packet_.needle = needle_.packet();
   const Pose pose = X_JP.value_or(body_.cage_pose());
-  for (Eigen::Index i = 0; i < 12; ++i)
-    felt.X_JP[static_cast<std::size_t>(i)] = pose.matrix()(i / 4, i % 4);
-  if (!X_JP) return;
-  const ContactForce contact = body_.force_J();
-  const Vec3 force = pose.linear().transpose() * contact.force;
-  const Vec3 torque = pose.linear().transpose() * contact.torque;
-  const Eigen::Matrix<double, 6, 6> stiffness = body_.contact_stiffness();
-  for (Eigen::Index i = 0; i < 3; ++i) {
-    felt.wrench[static_cast<std::size_t>(i)] = force[i];
-    felt.wrench[static_cast<std::size_t>(i) + 3] = torque[i];
-  }
-  for (Eigen::Index i = 0; i < 36; ++i)
-    felt.stiffness[static_cast<std::size_t>(i)] = stiffness(i / 6, i % 6);
-  felt.share = contact.share;
+  skin_.describe(pose, face_.length, face_.width, rest_of, felt);
+  if (X_JP && felt.spacing_x > 0) curve_ = learn(*X_JP, felt);
+  felt.curve = curve_;
 }
 
 }  // namespace artus

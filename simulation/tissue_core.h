@@ -9,6 +9,7 @@
 
 #include "artus/detail/raycast/moving_scene.h"
 #include "artus/detail/simulation/needle_tissue.h"
+#include "artus/detail/simulation/skin_surface.h"
 #include "artus/detail/simulation/tissue_packet.h"
 #include "artus/detail/soft/solver/soft_body.h"
 
@@ -30,7 +31,8 @@ class TissueCore {
 
   /// The next image's instant, with the probe at `X_JP` or without one, and so the needle. A probe
   /// that stays outside of what the cage reaches gets a cage of its own, unless it is back by then;
-  /// until that is there the tissue does not feel it. `rest_of`: SoftBody::lift_skin. Cost: see
+  /// until that is there the tissue does not feel it, and the hand feels the skin by what was
+  /// learned before. `rest_of`: SoftBody::lift_skin. Cost: see
   /// docs/deformation.md.
   void step(const std::optional<Pose>& X_JP, const std::optional<NeedleGrip>& needle = {},
             const SoftBody::RestOf& rest_of = {});
@@ -65,7 +67,8 @@ class TissueCore {
   void refresh(const std::optional<Pose>& X_JP);
   void keep_state_of_factor();
   [[nodiscard]] bool has_moved_since_factor(const std::optional<Pose>& X_JP) const;
-  void describe(const std::optional<Pose>& X_JP);
+  void describe(const std::optional<Pose>& X_JP, const SoftBody::RestOf& rest_of);
+  [[nodiscard]] TissueCurve learn(const Pose& X_JP, const ProbePacket& skin);
 
   SoftBody body_;
   ProbeFace face_;
@@ -85,7 +88,10 @@ class TissueCore {
   bool still_ = false;  // nothing moved in the last step
   std::future<Result<SoftBody>> cage_;
   std::future<NextCage> next_;
-  NeedleTissue needle_;  // after body_: it ends before what it works on
+  SkinSurface skin_;
+  TissueCurve curve_;               // of the newest press, or of one that was tried
+  std::optional<Pose> X_JP_tried_;  // where
+  NeedleTissue needle_;             // after body_: it ends before what it works on
   MovingScene scenes_;
   std::shared_ptr<const DeformedBody> tissue_;
   std::shared_ptr<const Scene> scene_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 #include "artus/detail/haptics/needle/needle_packet.h"
-#include "artus/detail/haptics/probe/probe_tangent.h"
+#include "artus/detail/haptics/probe/probe_packet.h"
 
 namespace artus {
 

@@ -186,8 +186,7 @@ const char* find_fault(const PacketRecord& record, std::uint64_t last) noexcept 
   const auto finite = [](const auto& values) {
     return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
   };
-  if (!finite(p.X_JP) || !finite(p.wrench) || !finite(p.stiffness) ||
-      !(p.share >= 0 && p.share <= 1) || !finite(n.carried) || !is_compliance(n.compliance) ||
+  if (!is_packet(p) || !finite(n.carried) || !is_compliance(n.compliance) ||
       !(n.compliance_scale >= 0 && n.compliance_scale <= 1))
     return "invalid packet";
   return nullptr;

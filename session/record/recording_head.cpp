@@ -15,7 +15,7 @@
 namespace artus {
 namespace {
 
-constexpr int kVersion = 12;
+constexpr int kVersion = 13;
 constexpr const char* kName = "artus_recording";
 constexpr const char* kDigest = "digest";
 

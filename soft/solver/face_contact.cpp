@@ -34,6 +34,7 @@ FaceContact::FaceContact(std::shared_ptr<const SoftModel> model, SkinPatch skin,
   for (const Vec3& v : skin_.vertices) skin_places_.push_back(model_->cage().locate(v, 2));
   const auto n = static_cast<std::size_t>(face.points_x * face.points_y);
   forces_.assign(n, Vec3::Zero());
+  at_rest_.assign(n, Vec3::Zero());
   gaps_.assign(n, kInfinity);
 }
 
@@ -180,14 +181,21 @@ void FaceContact::add_forces(Eigen::VectorXd& on_unknowns) const {
     model_->add_force(point.place, X_CP_.linear() * forces_[point.piece], on_unknowns);
 }
 
-void FaceContact::solve(const Eigen::VectorXd& step_root, std::span<const Vec3> u, double alpha,
-                        Eigen::VectorXd& load_root) {
+Eigen::VectorXd FaceContact::forces_of(const std::vector<Vec3>& by_piece) const {
+  Eigen::VectorXd out(3 * static_cast<Index>(points_.size()));
+  for (std::size_t i = 0; i < points_.size(); ++i)
+    out.segment<3>(3 * static_cast<Index>(i)) = by_piece[points_[i].piece];
+  return out;
+}
+
+/// Changes `force` (3 n_points, where the search starts) to what holds the points before the face
+/// when they go the share `alpha` of their way.
+void FaceContact::balance(const Eigen::VectorXd& step_root, std::span<const Vec3> u, double alpha,
+                          Eigen::VectorXd& force) const {
   const auto n = static_cast<Index>(points_.size());
-  if (n == 0) return;
   const Eigen::Matrix3d R = X_CP_.linear();
   const Pose X_PC = X_CP_.inverse();
   Eigen::VectorXd free(3 * n);  // gap and slip without a change of force
-  Eigen::VectorXd old(3 * n);
   for (Index i = 0; i < n; ++i) {
     const ContactPoint& point = points_[static_cast<std::size_t>(i)];
     Vec3 step = Vec3::Zero();
@@ -197,10 +205,8 @@ void FaceContact::solve(const Eigen::VectorXd& step_root, std::span<const Vec3> 
     free.segment<3>(3 * i) = now + alpha * (R.transpose() * step);
     free[3 * i] -= point.start[0];
     free[3 * i + 1] -= point.start[1];
-    old.segment<3>(3 * i) = forces_[point.piece];
   }
-  Eigen::VectorXd force = old;
-  Eigen::VectorXd moved = Eigen::VectorXd::Zero(3 * n);  // C (force - old)
+  Eigen::VectorXd moved = compliance_ * (force - forces_of(forces_));
   for (int sweep = 0; sweep < kMaxSweeps; ++sweep) {
     double change = 0;
     for (Index k = 3 * n; k-- > 0;) {
@@ -217,57 +223,69 @@ void FaceContact::solve(const Eigen::VectorXd& step_root, std::span<const Vec3> 
     }
     if (change < kSettled) break;
   }
-  for (Index i = 0; i < n; ++i) {
-    const ContactPoint& point = points_[static_cast<std::size_t>(i)];
-    const Vec3 by = R * (force - old).segment<3>(3 * i);
+}
+
+void FaceContact::solve(const Eigen::VectorXd& step_root, std::span<const Vec3> u, double alpha,
+                        Eigen::VectorXd& load_root) {
+  if (points_.empty()) return;
+  const Eigen::Matrix3d R = X_CP_.linear();
+  const Eigen::VectorXd old = forces_of(forces_);
+  Eigen::VectorXd force = old;
+  balance(step_root, u, alpha, force);
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const ContactPoint& point = points_[i];
+    const auto k = 3 * static_cast<Index>(i);
+    const Vec3 by = R * (force - old).segment<3>(k);
     for (const UnknownShare& s : point.shares)
       load_root.segment<3>(3 * static_cast<Index>(s.unknown)) += s.weight * by;
-    forces_[point.piece] = force.segment<3>(3 * i);
+    forces_[point.piece] = force.segment<3>(k);
   }
+}
+
+void FaceContact::settle(const Eigen::VectorXd& step_root, std::span<const Vec3> u) {
+  std::vector<Vec3> found(forces_.size(), Vec3::Zero());
+  if (!points_.empty()) {
+    Eigen::VectorXd force = forces_of(at_rest_);
+    balance(step_root, u, 1, force);
+    for (std::size_t i = 0; i < points_.size(); ++i)
+      found[points_[i].piece] = force.segment<3>(3 * static_cast<Index>(i));
+  }
+  at_rest_ = std::move(found);
 }
 
 ContactForce FaceContact::force() const {
+  return sum(forces_);
+}
+
+ContactForce FaceContact::sum(std::span<const Vec3> forces) const {
   ContactForce out;
   out.outside = outside_;
   out.into = X_CP_.linear().col(2);
-  out.piece_area = face_.length * face_.width / static_cast<double>(forces_.size());
+  out.piece_area = face_.length * face_.width / static_cast<double>(forces.size());
   std::size_t pressing = 0;
-  for (std::uint32_t piece = 0; piece < forces_.size(); ++piece) {
-    const Vec3 on_probe = -(X_CP_.linear() * forces_[piece]);
+  for (std::uint32_t piece = 0; piece < forces.size(); ++piece) {
+    const Vec3 on_probe = -(X_CP_.linear() * forces[piece]);
     out.force += on_probe;
     out.torque += (X_CP_.linear() * piece_P(piece)).cross(on_probe);
-    if (!(forces_[piece].z() > 0)) continue;
+    if (!(forces[piece].z() > 0)) continue;
     ++pressing;
-    out.pieces.push_back({X_CP_ * piece_P(piece), forces_[piece].z()});
+    out.pieces.push_back({X_CP_ * piece_P(piece), forces[piece].z()});
   }
-  out.share = static_cast<double>(pressing) / static_cast<double>(forces_.size());
+  out.share = static_cast<double>(pressing) / static_cast<double>(forces.size());
   return out;
 }
 
-Eigen::Matrix<double, 6, 6> FaceContact::stiffness() const {
+double FaceContact::stiffness_at_rest() const {
   constexpr double kShare =
       1e-3;  // there are more pieces than nodes below: their matrix is near singular
   std::vector<Index> pressing;
   for (std::size_t i = 0; i < points_.size(); ++i)
-    if (forces_[points_[i].piece].z() > 0) pressing.push_back(static_cast<Index>(i));
-  const auto n = static_cast<Index>(pressing.size());
-  Eigen::Matrix<double, 6, 6> stiffness = Eigen::Matrix<double, 6, 6>::Zero();
-  if (n == 0 || compliance_.rows() != 3 * static_cast<Index>(points_.size())) return stiffness;
-  Eigen::MatrixXd normal(n, n);
-  Eigen::MatrixXd motion = Eigen::MatrixXd::Zero(n, 6);  // of each piece along z by the face's
-  for (Index i = 0; i < n; ++i) {
-    const Index a = pressing[static_cast<std::size_t>(i)];
-    for (Index j = 0; j < n; ++j)
-      normal(i, j) = compliance_(3 * a + 2, 3 * pressing[static_cast<std::size_t>(j)] + 2);
-    const Vec3 p = piece_P(points_[static_cast<std::size_t>(a)].piece);
-    motion(i, 2) = 1;
-    motion(i, 3) = p.y();
-    motion(i, 4) = -p.x();
-  }
-  normal.diagonal().array() += kShare * normal.trace() / static_cast<double>(n);
-  const Eigen::MatrixXd half = normal.llt().matrixL().solve(motion);
-  stiffness = half.transpose() * half;
-  return stiffness;
+    if (at_rest_[points_[i].piece].z() > 0) pressing.push_back(3 * static_cast<Index>(i) + 2);
+  if (pressing.empty() || compliance_.rows() != 3 * static_cast<Index>(points_.size())) return 0;
+  Eigen::MatrixXd normal = compliance_(pressing, pressing);
+  normal.diagonal().array() += kShare * normal.trace() / static_cast<double>(pressing.size());
+  const Eigen::VectorXd along = Eigen::VectorXd::Ones(normal.rows());
+  return along.dot(normal.llt().solve(along));
 }
 
 double FaceContact::pressure_at(std::uint32_t piece) const noexcept {
@@ -276,6 +294,7 @@ double FaceContact::pressure_at(std::uint32_t piece) const noexcept {
 
 void FaceContact::release() noexcept {
   std::fill(forces_.begin(), forces_.end(), Vec3::Zero());
+  std::fill(at_rest_.begin(), at_rest_.end(), Vec3::Zero());
 }
 
 }  // namespace artus

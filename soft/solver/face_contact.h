@@ -54,6 +54,12 @@ struct ContactForce {
   std::vector<PressingPiece> pieces;  ///< that press
 };
 
+/// A face that presses, once the tissue has come to rest.
+struct FacePress {
+  ContactForce contact;
+  double stiffness = 0;  ///< N/m along the face's z
+};
+
 /// Unilateral contact with friction of a flat face and the skin, in the compliance that the root of
 /// the factor has: g = C lambda + g_free >= 0, lambda >= 0, tangential force at most friction times
 /// lambda. Holds the forces per piece of the face from one step to the next; deterministic.
@@ -85,16 +91,25 @@ class FaceContact {
 
   [[nodiscard]] ContactForce force() const;
 
-  /// How much less force (N) and torque (N m) on the probe, axes of P about the face's centre, for
-  /// its translation (m) and turn (rad): through the pieces that press, along the face's normal;
-  /// what gel lets slide adds nothing. Symmetric, no negative eigenvalue.
-  [[nodiscard]] Eigen::Matrix<double, 6, 6> stiffness() const;
+  /// Finds the forces with which the face would press at rest, where the points moved by
+  /// `step_root` go the whole way: what relaxes is not in them. Changes neither forces nor points.
+  void settle(const Eigen::VectorXd& step_root, std::span<const Vec3> u);
+  /// The same as force(), of those at rest.
+  [[nodiscard]] ContactForce force_at_rest() const { return sum(at_rest_); }
+
+  /// How much less force for a motion along the face's z, N/m: through the pieces that press at
+  /// rest. Not negative.
+  [[nodiscard]] double stiffness_at_rest() const;
   [[nodiscard]] std::span<const ContactPoint> points() const noexcept { return points_; }
   [[nodiscard]] double pressure_at(std::uint32_t piece) const noexcept;          ///< Pa
   [[nodiscard]] std::span<const double> gaps() const noexcept { return gaps_; }  ///< m by piece
   void release() noexcept;  ///< forgets all forces
 
  private:
+  [[nodiscard]] ContactForce sum(std::span<const Vec3> forces) const;
+  [[nodiscard]] Eigen::VectorXd forces_of(const std::vector<Vec3>& by_piece) const;
+  void balance(const Eigen::VectorXd& step_root, std::span<const Vec3> u, double alpha,
+               Eigen::VectorXd& force) const;
   [[nodiscard]] std::vector<ContactPoint> cast(std::span<const Vec3> u) const;
   void raster(std::size_t triangle, const std::vector<Vec3>& skin_P,
               std::vector<ContactPoint>& nearest) const;
@@ -109,6 +124,7 @@ class FaceContact {
   Pose X_CP_ = Pose::Identity();
   std::vector<ContactPoint> points_;
   std::vector<Vec3> forces_;    // N on the tissue by piece: tangential x, y, normal z of P
+  std::vector<Vec3> at_rest_;   // the same as they would be at rest
   std::vector<double> gaps_;    // m by piece; infinite where there is no skin
   Eigen::MatrixXd compliance_;  // (3 n_points, 3 n_points), axes of P
   bool outside_ = false;

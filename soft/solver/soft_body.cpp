@@ -214,8 +214,7 @@ bool SoftBody::settle(const std::optional<Pose>& X_JP, double tolerance, int max
   return solver_->settle(Pose(map_->X_JC.inverse() * *X_JP), tolerance, max_steps);
 }
 
-ContactForce SoftBody::force_J() const {
-  ContactForce contact = solver_->last().contact;
+ContactForce SoftBody::to_J(ContactForce contact) const {
   contact.force = map_->X_JC.linear() * contact.force;
   contact.torque = map_->X_JC.linear() * contact.torque;
   contact.into = map_->X_JC.linear() * contact.into;
@@ -223,9 +222,20 @@ ContactForce SoftBody::force_J() const {
   return contact;
 }
 
-Eigen::Matrix<double, 6, 6> SoftBody::contact_stiffness() const {
-  const FaceContact* contact = solver_->contact();
-  return contact != nullptr ? contact->stiffness() : Eigen::Matrix<double, 6, 6>::Zero().eval();
+ContactForce SoftBody::force_J() const {
+  return to_J(solver_->last().contact);
+}
+
+FacePress SoftBody::press_at_rest_J() const {
+  FacePress press = solver_->press_at_rest();
+  press.contact = to_J(std::move(press.contact));
+  return press;
+}
+
+FacePress SoftBody::try_press_J(const Pose& X_JP) const {
+  FacePress press = solver_->try_press(map_->X_JC.inverse() * X_JP);
+  press.contact = to_J(std::move(press.contact));
+  return press;
 }
 
 /// Nodes of the cage that a bone holds.

@@ -73,8 +73,11 @@ class SoftBody {
   /// Force and torque on the probe about its face's centre, frame J.
   [[nodiscard]] ContactForce force_J() const;
 
-  /// FaceContact::stiffness; zero without contact.
-  [[nodiscard]] Eigen::Matrix<double, 6, 6> contact_stiffness() const;
+  /// SoftSolver::press_at_rest and try_press, frame J.
+  [[nodiscard]] FacePress press_at_rest_J() const;
+  [[nodiscard]] FacePress try_press_J(const Pose& X_JP) const;
+  /// Where the face is, which follows a fast hand late; requires a step with a probe.
+  [[nodiscard]] Pose face_pose_J() const { return map_->X_JC * solver_->face_pose(); }
 
   [[nodiscard]] SoftSolver& solver() noexcept { return *solver_; }
   [[nodiscard]] const SoftSolver& solver() const noexcept { return *solver_; }
@@ -86,6 +89,7 @@ class SoftBody {
  private:
   SoftBody() = default;
 
+  [[nodiscard]] ContactForce to_J(ContactForce contact) const;
   [[nodiscard]] std::vector<Vec3> nodes_in(const DeformedBody& other) const;
   [[nodiscard]] Result<std::vector<std::uint32_t>> nodes_of(const std::string& bone,
                                                             const TetLocator& locator) const;

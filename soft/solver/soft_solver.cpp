@@ -269,7 +269,9 @@ void SoftSolver::solve_root(bool pressed, double alpha, Eigen::VectorXd& r, Eige
   kernels.multiply(root_inverse_.data(), n, n, load.data(), moved.data());
   if (pressed) {
     Eigen::VectorXd change = Eigen::VectorXd::Zero(load.size());
-    contact_->solve(moved.cast<double>(), u_, alpha, change);
+    const Eigen::VectorXd free = moved.cast<double>();
+    contact_->settle(free, u_);
+    contact_->solve(free, u_, alpha, change);
     for (std::size_t k = 0; k < root_.size(); ++k)
       pull.segment<3>(3 * static_cast<Index>(root_[k])) +=
           change.segment<3>(static_cast<Index>(3 * k));
@@ -356,6 +358,21 @@ bool SoftSolver::settle(const std::optional<Pose>& X_CP, double tolerance, int m
     last_step = offset;
   }
   return false;
+}
+
+FacePress SoftSolver::press_at_rest() const {
+  if (!contact_ || !touching_) return {};
+  return {contact_->force_at_rest(), contact_->stiffness_at_rest()};
+}
+
+FacePress SoftSolver::try_press(const Pose& X_CP) const {
+  ARTUS_REQUIRE(contact_ != nullptr, "a face is needed");
+  FaceContact face = *contact_;
+  face.release();
+  face.prepare(u_, X_CP, X_CP);
+  face.condense(root_inverse_);
+  face.settle(Eigen::VectorXd::Zero(root_inverse_.rows()), u_);
+  return {face.force_at_rest(), face.stiffness_at_rest()};
 }
 
 Vec3 SoftSolver::reaction() const {

@@ -118,6 +118,11 @@ class SoftSolver {
   [[nodiscard]] const SoftForces& forces() const noexcept { return forces_; }
   [[nodiscard]] const SoftModel& model() const noexcept { return *model_; }
   [[nodiscard]] const Cholesky& factor() const noexcept { return *factor_; }
+  /// What the face would press with if the tissue came to rest under it as it is now, by the last
+  /// step's tangent. Zero without one.
+  [[nodiscard]] FacePress press_at_rest() const;
+  /// The same of a face at `X_CP` that is not there. Requires: a face. Cost: some ms.
+  [[nodiscard]] FacePress try_press(const Pose& X_CP) const;
   [[nodiscard]] const FaceContact* contact() const noexcept { return contact_.get(); }
   [[nodiscard]] const Pose& face_pose() const noexcept { return X_CP_; }
 

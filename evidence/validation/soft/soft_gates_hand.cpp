@@ -8,7 +8,8 @@
 #include "artus/detail/evidence/validation/soft/needled_block.h"
 #include "artus/detail/evidence/validation/soft/soft_gates.h"
 #include "artus/detail/haptics/needle/needle_tick_step.h"
-#include "artus/detail/haptics/probe/probe_tangent.h"
+#include "artus/detail/haptics/probe/curve_fit.h"
+#include "artus/detail/haptics/probe/skin_contact.h"
 #include "artus/detail/soft/solver/soft_block.h"
 #include "artus/detail/soft/solver/soft_solver.h"
 
@@ -148,24 +149,62 @@ double energy_given(const NeedleCompliance& tissue, double frequency, double rat
   return -work - needle.model().coupling().given();
 }
 
-/// The probe's force by packets of a contact that hardens, against the contact itself.
+/// The probe's force by packets of a contact that hardens, against that contact with the same
+/// arms, integrated by itself.
 struct PacketError {
   double rms = 0;   // of the force's own RMS
   double step = 0;  // of the force, largest from tick to tick beyond the contact's own
 };
 
+/// A contact with two arms that forget, pressed along a known course.
+class LaggingContact {
+ public:
+  static double law(double d) { return d > 0 ? 6e3 * std::pow(d, 1.5) : 0; }
+  static double stiffness(double d) { return 9e3 * std::sqrt(std::max(0.0, d)); }
+  double step(double d, double dt) {
+    const SkinContactParams arms;
+    const double force =
+        (1 + arms.slow + arms.fast) * law(d) - arms.slow * slow_ - arms.fast * fast_;
+    slow_ += -std::expm1(-dt / arms.slow_time) * (law(d) - slow_);
+    fast_ += -std::expm1(-dt / arms.fast_time) * (law(d) - fast_);
+    return force;
+  }
+
+ private:
+  double slow_ = 0;
+  double fast_ = 0;
+};
+
+/// What the contact's tissue would say of a face at `d`, by its tangent there.
+ProbePacket packet_at(double d, std::uint64_t number, std::uint64_t tick) {
+  ProbePacket packet;
+  packet.number = number;
+  packet.tick = tick;
+  packet.X_JF = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+  packet.spacing_x = packet.spacing_y = 5e-3;
+  packet.length = 40e-3;
+  packet.width = 6e-3;
+  PressAtRest press;
+  press.X_JP.translation().z() = d;
+  press.force.z() = -LaggingContact::law(d);
+  press.stiffness = LaggingContact::stiffness(d);
+  packet.curve = fit_curve(packet, press, {});
+  return packet;
+}
+
 PacketError packet_error(double packet_rate, double lost_from, double lost_for) {
-  const auto law = [](double d) {
-    return d > 0 ? 6e3 * std::pow(d, 1.5) : 0;
-  };
   const auto depth = [](double t) {
     return 4e-3 + 2.5e-3 * std::sin(2 * std::numbers::pi * 0.5 * t);
   };
-  ProbeTangent tangent(1 / kHandTick, packet_rate, 0);
+  SkinContactParams params;
+  params.friction = 0;
+  SkinContact felt(params);
+  LaggingContact truth;
   PacketError error;
   double sum = 0;
   double own = 0;
   double last = 0;
+  double last_truth = 0;
   int due = 0;
   for (int k = 0; k < 6000; ++k) {
     const double t = k * kHandTick;
@@ -173,26 +212,21 @@ PacketError packet_error(double packet_rate, double lost_from, double lost_for) 
     const bool lost = t > lost_from && t < lost_from + lost_for;
     if (t * packet_rate >= due) {
       ++due;
-      if (!lost) {
-        ProbePacket packet;
-        packet.number = static_cast<std::uint64_t>(due);
-        packet.X_JP = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, d};
-        packet.wrench[2] = -law(d);
-        packet.stiffness[14] = 9e3 * std::sqrt(std::max(0.0, d));
-        packet.share = 1;
-        tangent.take(packet);
-      }
+      if (!lost)
+        felt.take(packet_at(d, static_cast<std::uint64_t>(due), static_cast<std::uint64_t>(k)));
     }
     Pose X_JP = Pose::Identity();
     X_JP.translation().z() = d;
-    const double force = -tangent.step(X_JP).force.z();
+    const double force = -felt.step(X_JP, static_cast<std::uint64_t>(k)).force.z();
+    const double wanted = truth.step(d, kHandTick);
     if (k > 500) {
-      sum += std::pow(force - law(d), 2);
-      own += std::pow(law(d), 2);
-      const double change = std::abs(force - last) - std::abs(law(d) - law(depth(t - kHandTick)));
-      error.step = std::max(error.step, change / law(d));
+      sum += std::pow(force - wanted, 2);
+      own += std::pow(wanted, 2);
+      const double change = std::abs(force - last) - std::abs(wanted - last_truth);
+      error.step = std::max(error.step, change / wanted);
     }
     last = force;
+    last_truth = wanted;
   }
   error.rms = std::sqrt(sum / own);
   return error;
