@@ -14,9 +14,6 @@
 namespace artus {
 namespace {
 
-constexpr double kProbeDamping =
-    12;  // N s/m at most, of the account of the probe's energy; assumed
-
 void copy(const Vec3& from, double (&to)[3]) noexcept {
   to[0] = from.x();
   to[1] = from.y();
@@ -44,7 +41,7 @@ HapticCore::HapticCore(std::shared_ptr<const Scene> scene, const SessionParams& 
       gesture_(params.gesture, params.X_WJ),
       probe_(SkinContactParams{.tick_rate = params.haptic_rate,
                                .friction = ProbeContactParams{}.gel_friction}),
-      probe_account_({true, kProbeDamping}, 1 / params.haptic_rate),
+      probe_account_(kProbePassivity, 1 / params.haptic_rate, kProbeDampingForce),
       probe_guard_(params.guard, ProbeHandParams{}.device, 1 / params.haptic_rate),
       syringe_(scene_->joint(), params),
       aid_(scene_->joint(), params.aids, 1 / params.haptic_rate) {}

@@ -89,13 +89,13 @@ struct FrameInput {
   ImageControls controls;
   std::int64_t sample_time_ns = 0;  ///< DeviceSample::time_ns of the poses
   std::uint64_t number = 0;
-  std::uint64_t tick = 0;  ///< that the poses are of
   std::uint32_t has_needle = 0;
   std::uint32_t has_probe = 0;
   InjectedSite sites[kMaxSites] = {};  ///< what liquid went to  NOLINT(*-avoid-c-arrays)
   std::uint32_t n_sites = 0;
   std::uint32_t reserved = 0;
-  NeedleLoad load;  ///< as HapticSnapshot::load
+  NeedleLoad load;         ///< as HapticSnapshot::load
+  std::uint64_t tick = 0;  ///< that the poses are of
 };
 static_assert(std::is_trivially_copyable_v<FrameInput>);
 

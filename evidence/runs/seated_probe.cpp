@@ -65,8 +65,7 @@ ProbeHandRow SeatedProbe::feel(const DeviceFeedback& feedback) {
 }
 
 void SeatedProbe::take(const TissuePacket& packet) noexcept {
-  constexpr std::size_t kAlongBeam = 14;  // of the 6 by 6
-  stiffness_ = packet.probe.stiffness[kAlongBeam];
+  stiffness_ = force_at_rest(packet.probe, hand_.measured()).stiffness;
 }
 
 }  // namespace artus

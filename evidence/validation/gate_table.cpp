@@ -149,6 +149,7 @@ constexpr auto kEntries = std::to_array<GateEntry>({
     {"soft", "tent", "skin before and after a needle", plain<gate_tent>},
     {"soft", "drag", "a needle's load, in and out", plain<gate_drag>},
     {"soft", "packets", "the probe's force between updates", plain<gate_packets>},
+    {"soft", "hands", "hands with a probe on tissue that answers late", plain<gate_probe_hands>},
     {"soft", "still", "the same bytes below a still probe", plain<gate_still>},
     {"soft", "joint-pressed", "a joint pressed by 3 N", of_joint<gate_joint_pressed>,
      GateNeeds::joint},

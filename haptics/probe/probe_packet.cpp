@@ -89,4 +89,14 @@ UnitCurve unit_curve(const FaceDepths::Row& depth, double hardening) noexcept {
   return curve;
 }
 
+ForceAtRest force_at_rest(const ProbePacket& packet, const Pose& X_JP) noexcept {
+  if (!(packet.spacing_x > 0)) return {};
+  FaceDepths face;
+  face.set_face(packet.length, packet.width);
+  face.look(packet, X_JP);
+  const UnitCurve unit = unit_curve(face.depth(), packet.curve.hardening);
+  const FaceDepths::Row k = packet.curve.stiffness * face.shares(packet.curve);
+  return {(k * unit.force).sum(), (face.depth() > 0).select(k * unit.stiffness, 0).sum()};
+}
+
 }  // namespace artus

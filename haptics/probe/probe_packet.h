@@ -84,4 +84,12 @@ struct UnitCurve {
 [[nodiscard]] ARTUS_REALTIME UnitCurve unit_curve(const FaceDepths::Row& depth,
                                                   double hardening) noexcept;
 
+/// What a face at `X_JP` feels of a packet once all has come to rest, along the face's axis.
+struct ForceAtRest {
+  double force = 0;      ///< N out of the body
+  double stiffness = 0;  ///< N/m
+};
+[[nodiscard]] ARTUS_REALTIME ForceAtRest force_at_rest(const ProbePacket& packet,
+                                                       const Pose& X_JP) noexcept;
+
 }  // namespace artus

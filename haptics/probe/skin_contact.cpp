@@ -50,20 +50,20 @@ Row SkinContact::felt_depth(const Row& offset) const noexcept {
 
 void SkinContact::take(const ProbePacket& packet) noexcept {
   if (packet.number == 0 || !is_packet(packet) || !(packet.spacing_x > 0)) return;
-  const bool known = packet_.number > 0;
   const Row before = felt_depth(offset_);
   packet_ = packet;
   R_JF_ = frame_of(packet).linear();
   face_.set_face(packet.length, packet.width);
   if (!X_JP_) return;
   face_.look(packet_, *X_JP_);
-  if (known) offset_ = before - face_.depth();
+  offset_ = before - face_.depth();
 }
 
-/// A face that comes from nowhere feels what the newest packet says.
+/// A face that comes from nowhere, or to skin that nothing was known of, feels no more than it
+/// would had it just touched: what is below it comes as packets do, slowly and paid for.
 void SkinContact::start(const Pose& X_JP) noexcept {
   face_.look(packet_, X_JP);
-  offset_.setZero();
+  offset_ = -face_.depth().max(0);
   slow_.setZero();
   fast_.setZero();
   grip_.reset();

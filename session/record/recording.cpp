@@ -20,8 +20,8 @@ constexpr std::size_t kLongestHead = std::size_t{64} * 1024;  // bytes
 constexpr double kFar = 50;       // m from the joint's origin, of any pose that a device can make
 constexpr double kSoftest = 1e3;  // m/N, of any tissue
 
-static_assert(sizeof(TickRecord) == 352 && sizeof(FrameRecord) == 520 &&
-                  sizeof(PacketRecord) == 2680,
+static_assert(sizeof(TickRecord) == 352 && sizeof(FrameRecord) == 528 &&
+                  sizeof(PacketRecord) == 3136,
               "as documented");
 
 template <class T>

@@ -6,10 +6,12 @@
 
 #include "artus/detail/core/noise.h"
 #include "artus/detail/core/units.h"
+#include "artus/detail/haptics/probe/probe_contact.h"
 #include "artus/detail/simulation/haptic_core.h"
 #include "artus/session/shared_memory_device.h"
 #include "tests/session/session_support.h"
 #include "tests/support/no_alloc.h"
+#include "tests/support/probe_press.h"
 
 namespace artus {
 namespace {
@@ -89,73 +91,52 @@ TEST_F(SessionCore, AResetForgetsTheInsertion) {
   EXPECT_EQ(step(-10e-3).inserted, 0U);
 }
 
-/// The tissue's first answer, around this pose; without force.
-ProbePacket packet_at(const Pose& X_JP) {
-  ProbePacket packet;
-  packet.number = 1;
-  for (Eigen::Index i = 0; i < 12; ++i)
-    packet.X_JP[static_cast<std::size_t>(i)] = X_JP.matrix()(i / 4, i % 4);
-  return packet;
-}
-
-/// One packet of the tissue, and a hand that moves on and turns in every tick after it.
-TEST_F(SessionCore, BetweenTheTissuesUpdatesTheProbeFeelsForceAndTorqueByItsWholeStiffness) {
-  using Vec6 = Eigen::Matrix<double, 6, 1>;
+/// The probe's hand in the world's frame feels what the contact says in the joint's.
+TEST_F(SessionCore, BetweenTheTissuesUpdatesTheProbeFeelsTheContactOfItsTick) {
   const Pose pressed = to_pose(test::sample_at(0, 0, 0).X_WP);
-  Vec6 wrench;
-  wrench << 0.2, -0.1, -9, 0.01, 0.02, -0.005;  // within Coulomb's cone in all of it
-  const Vec6 coupled = (Vec6() << 8, -5, 12, 0.3, -0.4, 0.2).finished();
-  Eigen::Matrix<double, 6, 6> K = coupled * coupled.transpose();
-  K.diagonal() += (Vec6() << 200, 250, 700, 1.5, 2, 0.7).finished();
-  ProbePacket packet = packet_at(pressed);
-  packet.share = 0.5;
-  Eigen::Map<Vec6>(packet.wrench.data()) = wrench;
-  Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(packet.stiffness.data()) = K;
+  const ProbePacket packet = test::pressing_packet(pressed, 9);
   core_.take({packet, {}});
-  for (int i = 0; i < 400; ++i) step(-10e-3);  // the ramp after the start is over
+  SkinContact alone(SkinContactParams{.friction = ProbeContactParams{}.gel_friction});
+  alone.take(packet);
   const Vec3 axis = Vec3(1, -2, 0.5).normalized();
-  for (int i = 0; i <= 30; ++i) {
-    Vec6 motion;
-    motion << 2e-5 * i, -1e-5 * i, 3e-5 * i, 1e-3 * i * axis;
-    const Pose now =
-        pressed * Eigen::Translation3d(motion.head<3>()) * Eigen::AngleAxisd(1e-3 * i, axis);
+  for (int i = 0; i <= 500; ++i) {
+    const Vec3 course(1e-6 * i, -2e-6 * i, 1e-6 * i);
+    const Pose now = pressed * Eigen::Translation3d(course) * Eigen::AngleAxisd(5e-5 * i, axis);
     TickInput input;
     input.tick = ++tick_;
     input.device =
         test::sample_at(-10e-3, static_cast<std::int64_t>(tick_) * test::kTickTime, tick_);
     input.device.X_WP = to_plain(now);
     const DeviceFeedback& felt = core_.step(input).feedback;
-    const Vec6 expected = wrench - K * motion;
-    const Vec3 force = pressed.linear() * expected.head<3>();
-    const Vec3 torque = pressed.linear() * expected.tail<3>();
+    const Wrench expected = alone.step(now, tick_);
+    if (i < 300) continue;  // the ramp after the start
     for (std::size_t k = 0; k < 3; ++k) {
-      ASSERT_NEAR(felt.probe_force[k], force[static_cast<Eigen::Index>(k)], 1e-9) << i;
-      ASSERT_NEAR(felt.probe_torque[k], torque[static_cast<Eigen::Index>(k)], 1e-9) << i;
+      ASSERT_NEAR(felt.probe_force[k], expected.force[static_cast<Eigen::Index>(k)], 1e-9) << i;
+      ASSERT_NEAR(felt.probe_torque[k], expected.torque[static_cast<Eigen::Index>(k)], 1e-9) << i;
     }
+    EXPECT_NEAR(felt.tissue_age, 1e-3 * static_cast<double>(tick_), 1e-9);
+    EXPECT_TRUE((felt.status & SessionStatus::kTissueLate) != 0) << "older than 0.1 s";
   }
 }
 
 TEST_F(SessionCore, TheProbesForceSaysWhenItIsHeldBack) {
   const Pose pressed = to_pose(test::sample_at(0, 0, 0).X_WP);
-  ProbePacket packet = packet_at(pressed);
-  packet.wrench[2] = -9;  // N
-  core_.take({packet, {}});
+  core_.take({test::pressing_packet(pressed, 9), {}});
   const auto felt = [this](PeerState state = PeerState::alive) {
     const DeviceFeedback& out = step(-10e-3, state).feedback;
     return std::pair(Vec3(out.probe_force[0], out.probe_force[1], out.probe_force[2]).norm(),
                      out.probe_status);
   };
-  for (int i = 0; i < 400; ++i) step(-10e-3);
-  EXPECT_NEAR(felt().first, 9, 1e-9);
+  for (int i = 0; i < 1000; ++i) step(-10e-3);
+  EXPECT_NEAR(felt().first, 9, 1e-6);
   EXPECT_EQ(felt().second, TickStatus::kOk);
   EXPECT_EQ(felt(PeerState::lost), std::pair(0.0, TickStatus::kStale));
   const auto back = felt();
   EXPECT_LT(back.first, 1);
   EXPECT_EQ(back.second, TickStatus::kRamping);
-  packet.number = 2;
-  packet.wrench[2] = -60;  // more than a probe's hand is ever given
-  core_.take({packet, {}});
-  for (int i = 0; i < 400; ++i) step(-10e-3);
+  EXPECT_EQ(felt(PeerState::lost).first, 0);
+  core_.take({test::pressing_packet(pressed, 60, 3e-3, 2), {}});  // more than a hand is given
+  for (int i = 0; i < 1000; ++i) step(-10e-3);
   EXPECT_NEAR(felt().first, 40, 1e-9);
   EXPECT_EQ(felt().second, TickStatus::kSaturated);
 }

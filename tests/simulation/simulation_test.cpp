@@ -86,16 +86,18 @@ TEST(Simulation, ALoopGivesTheBytesOfItsHalvesWhetherSomebodyLooksOrNot) {
 TEST(Simulation, WhatTheTissueAnswersIsFeltFromTheTickAfterItsImageOn) {
   const auto scene = block();
   Simulation simulation(scene, soft_params());
+  std::uint64_t answered = 0;  // tick of the pose that the newest answer is of
   bool pressed = false;
   for (std::uint64_t tick = 1; tick <= 300; ++tick) {
-    const HapticSnapshot& out = simulation.step(input_of(*scene, tick));
-    const bool felt = out.feedback.probe_share > 0;
-    if (simulation.due() == nullptr) {
-      EXPECT_EQ(felt, pressed) << tick;
-      continue;
-    }
-    EXPECT_EQ(felt, pressed) << tick;  // of the image before
-    pressed = simulation.advance().packet->probe.share > 0;
+    const DeviceFeedback& felt = simulation.step(input_of(*scene, tick)).feedback;
+    const double age = answered > 0 ? 1e-3 * static_cast<double>(tick - answered) : 0;
+    EXPECT_NEAR(felt.tissue_age, age, 1e-12) << tick;
+    pressed = pressed || felt.probe_share > 0;
+    EXPECT_FALSE(pressed && answered == 0) << "nothing is felt of a body that said nothing";
+    if (simulation.due() == nullptr) continue;
+    answered = simulation.due()->tick;
+    EXPECT_EQ(answered, tick);
+    EXPECT_EQ(simulation.advance().packet->probe.tick, tick);
   }
   EXPECT_TRUE(pressed);
 }

@@ -46,6 +46,7 @@ struct Settled {
 [[nodiscard]] Gate gate_tent();             ///< skin before and after a needle
 [[nodiscard]] Gate gate_drag();             ///< a needle's load, in and out
 [[nodiscard]] Gate gate_packets();          ///< the probe's force between updates
+[[nodiscard]] Gate gate_probe_hands();      ///< hands with a probe on tissue that answers late
 [[nodiscard]] Gate gate_wild_hand();        ///< random presses and jumps
 [[nodiscard]] Gate gate_still();            ///< the same bytes below a still probe
 

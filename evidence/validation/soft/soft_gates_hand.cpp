@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "artus/detail/evidence/validation/soft/needled_block.h"
+#include "artus/detail/evidence/validation/soft/probe_hands.h"
 #include "artus/detail/evidence/validation/soft/soft_gates.h"
 #include "artus/detail/haptics/needle/needle_tick_step.h"
 #include "artus/detail/haptics/probe/curve_fit.h"
@@ -392,6 +393,40 @@ Gate gate_packets() {
   gate.claims.push_back(claim_at_most({ClaimKind::independent, "half of a JND of 7 %, assumed"},
                                       "H8: packets lost for 0.2 s, largest step", lost.step, 0.035,
                                       "of the force"));
+  return gate;
+}
+
+Gate gate_probe_hands() {
+  constexpr std::size_t kEvery = 23;  // cases of 9,600: some seconds
+  const std::vector<ProbeHandCase> cases = probe_hand_cases(kEvery);
+  Gate gate;
+  gate.title =
+      std::to_string(cases.size()) +
+      " hands of 0.05 to 1 kg, springs of 0 to 2000 N/m, that press, tap, slide, lift and twist a "
+      "probe on tissue that answers 5 to 60 times a second, up to 0.18 s late, or not for 0.5 s";
+  ProbeHandResult worst;
+  for (const ProbeHandCase& c : cases) {
+    const ProbeHandResult r = play_probe_hand(c);
+    worst.given = std::max(worst.given, r.given);
+    worst.off_skin = std::max(worst.off_skin, r.off_skin);
+    worst.swing = std::max(worst.swing, r.swing);
+    worst.first_touch = std::max(worst.first_touch, r.first_touch);
+    worst.first_depth = std::max(worst.first_depth, r.first_depth);
+    worst.step = std::max(worst.step, r.step);
+    if (c.hand.damping >= 3) worst.settled = std::max(worst.settled, r.settled);
+  }
+  const auto claim = [&gate](const std::string& what, double value, double bound,
+                             const std::string& unit) {
+    gate.claims.push_back(claim_at_most(ClaimKind::independent, "C1: " + what, value, bound, unit));
+  };
+  claim("energy to the hand at any time", worst.given * 1e3, 1e-3, "mJ");
+  claim("force more than 0.2 mm off the skin", worst.off_skin, 0, "N");
+  claim("swing of a pressed probe that does not fade", worst.swing * 1e3, 0.5, "mm");
+  claim("time from the skin to the first force, landing at 0.1 m/s or more",
+        worst.first_touch * 1e3, 5, "ms");
+  claim("depth of the face at the first force", worst.first_depth * 1e3, 1, "mm");
+  claim("change of the force from tick to tick beyond motion's", worst.step, 0.3, "N");
+  claim("force at rest against the tissue's", worst.settled, 0.05, "of the force");
   return gate;
 }
 
