@@ -3,14 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace artus {
 namespace {
 
 using Row = FaceDepths::Row;
 
-constexpr double kSlack = 0.9;   // of what a correction may take: at its bound it would stick
-constexpr double kShear = 500;   // N/m of skin sheared before it slips; assumed
+constexpr double kSlack = 0.9;  // of what a correction may take: at its bound it would stick
+constexpr double kShear = 500;  // N/m of skin sheared before it slips; assumed
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNear = 10e-6;  // m of depth: a face that came from nowhere has arrived
 constexpr double kNone = 1e-12;  // N/m: what is divided by is more
 constexpr double kFaded = 1e-6;  // N, what an arm holds less of is over
 
@@ -64,6 +67,7 @@ void SkinContact::take(const ProbePacket& packet) noexcept {
 void SkinContact::start(const Pose& X_JP) noexcept {
   face_.look(packet_, X_JP);
   offset_ = -face_.depth().max(0);
+  entering_ = true;
   slow_.setZero();
   fast_.setZero();
   grip_.reset();
@@ -85,11 +89,12 @@ void SkinContact::learn(double share) noexcept {
   const double force = std::abs(next.force - old.force);
   const double allowed = params_.correction_slew * dt_;
   if (force > kSlack * allowed) share *= kSlack * allowed / force;
+  const double account = entering_ ? kInfinity : tank_;
   double cost = gain * (next.energy - old.energy);
-  if (cost > kSlack * tank_) share *= kSlack * tank_ / cost;
+  if (cost > kSlack * account) share *= kSlack * account / cost;
   cost = share > 0 ? gain * (go(share).energy - old.energy) : 0;
-  if (cost > tank_) return;
-  tank_ -= std::max(0.0, cost);
+  if (cost > account) return;
+  if (!entering_) tank_ -= std::max(0.0, cost);
   const TissueCurve curve = between(curve_, packet_.curve, share);
   const Row scale =
       (old_k > kNone).select(curve.stiffness * face_.shares(curve) / old_k.max(kNone), Row::Ones());
@@ -97,6 +102,7 @@ void SkinContact::learn(double share) noexcept {
   fast_ *= scale;
   curve_ = curve;
   offset_ *= 1 - share;
+  entering_ = entering_ && (offset_ < -kNear).any();
 }
 
 /// Force of each point as it is now, and what of it fades in this tick.
@@ -168,7 +174,8 @@ const Wrench& SkinContact::step(const std::optional<Pose>& X_JP, std::uint64_t t
   if (!pressed) {
     curve_ = packet_.curve;
     offset_.setZero();
-  } else if (!late()) {
+    entering_ = false;
+  } else if (!late() || entering_) {
     learn(dt_ / params_.correction_time);
   }
   press(*X_JP);

@@ -69,7 +69,8 @@ class SkinContact {
   std::optional<Pose> X_JP_;  // of the last tick
   std::optional<Vec3> grip_;  // m, frame J: where the skin holds the face's centre
   Eigen::Matrix3d R_JF_ = Eigen::Matrix3d::Identity();
-  double tank_ = 0;  // J
+  bool entering_ = false;  // the face came from nowhere and is not felt in full yet
+  double tank_ = 0;        // J
   double age_ = 0;
   double share_ = 0;
   Wrench out_;

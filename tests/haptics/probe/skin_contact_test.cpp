@@ -79,9 +79,11 @@ class Touch {
     }
     return normal(at(X_JP));
   }
+  /// What rest() hears from the tissue; the first time from the air.
   void keep(const ProbePacket& packet) {
     last_ = packet;
     take(packet);
+    if (tick_ == 0) at(pressed(-1e-3));
   }
   SkinContact& contact() { return contact_; }
   std::uint64_t tick() const { return tick_; }
@@ -103,11 +105,28 @@ TEST(SkinContact, ComesToRestOnTheCurveOfItsPacket) {
 TEST(SkinContact, IsStifferByItsArmsAtOnceAndForgetsThemInTheirTime) {
   Touch touch;
   touch.keep(flat());
-  touch.at(pressed(-1e-3));
   EXPECT_NEAR(normal(touch.at(pressed(1e-3))), kGain * force_at(1e-3), 1e-9);
   for (int i = 1; i < 50; ++i) touch.at(pressed(1e-3));
   const double fast = 0.6 * std::exp(-50 / 6.0);
   EXPECT_NEAR(normal(touch.at(pressed(1e-3))), (1 + std::exp(-1.0) + fast) * force_at(1e-3), 1e-9);
+}
+
+TEST(SkinContact, AFaceThatComesFromNowhereIntoTheTissueIsFeltByARamp) {
+  Touch touch;
+  touch.take(flat());
+  double last = normal(touch.at(pressed(6e-3)));
+  EXPECT_LT(last, 0.06);
+  double largest = 0;
+  for (int i = 0; i < 1500; ++i) {
+    if (i % 50 == 0) touch.take(flat());
+    const double now = normal(touch.at(pressed(6e-3)));
+    largest = std::max(largest, now - last);
+    last = now;
+  }
+  EXPECT_LT(largest, 20e-3 * kGain) << "N a tick";
+  EXPECT_NEAR(last, force_at(6e-3), 0.01 * last);
+  touch.contact().step(std::nullopt, touch.tick());
+  EXPECT_LT(normal(touch.at(pressed(6e-3))), 0.06) << "after a pause the same";
 }
 
 TEST(SkinContact, TouchesNothingOffTheSkinHoweverFastItIsLeft) {
