@@ -217,12 +217,21 @@ void Session::run_housekeeping() {
       for (const std::string& said : device_->repair_connection()) tell(said);
       const auto said = shared_image_ ? shared_image_->repair_connection() : std::nullopt;
       if (said) tell(*said);
+      tell_of_plunger();
     } catch (...) {
       tell(reason_of(std::current_exception()));
     }
     if (gauges_) time_fixed_work(kOperationsOfAnImage, times_->fixed_work);
     rest(kHousekeepingPeriod);
   }
+}
+
+void Session::tell_of_plunger() {
+  HapticSnapshot now;
+  if (haptic_.load(now, 1000) && (now.feedback.plunger.status & PlungerStatus::kJumped) != 0)
+    tell(
+        "the device's plunger went faster than a thumb can push it: refused, it begins anew where "
+        "it is, without a force");
 }
 
 void Session::run_imaging(const ThreadOptions& options) {

@@ -160,6 +160,7 @@ class Session {
   void run_imaging(const ThreadOptions& options);
   void run_drawing(const ThreadOptions& options);
   void run_housekeeping();
+  void tell_of_plunger();
   void measure_floor(double seconds) noexcept;
   void request_priority(const char* who, const ThreadOptions& options);
   void tell(const std::string& notice);
