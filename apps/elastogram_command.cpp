@@ -9,6 +9,7 @@
 
 #include "artus/detail/apps/options/press_options.h"
 #include "artus/detail/apps/options/sight.h"
+#include "artus/detail/core/printed.h"
 #include "artus/detail/core/units.h"
 #include "artus/detail/echo/display/scan_converter.h"
 #include "artus/detail/echo/display/strain_image.h"
@@ -70,6 +71,16 @@ cv::Mat coloured(const Frame& frame, const StrainImage& strain, const View& view
   return grey;
 }
 
+/// Why the picture has no colour, and what to do; empty when it has some.
+std::string explain_no_strain(const nlohmann::json& summary) {
+  constexpr double kLeast = 1;  // percent of the picture
+  if (summary["known_percent"].get<double>() >= kLeast) return {};
+  return printed(
+      "no strain can be told from these two pictures: their echoes agree by %.2f of 1 in the mean; "
+      "press more steadily on skin (--press-n), change --more-mm, or look where there are echoes",
+      summary["mean_correlation"].get<double>());
+}
+
 /// Mean of the strain that is known, its share, and the mean correlation.
 nlohmann::json summary_of(const StrainImage& strain) {
   double sum = 0;
@@ -120,6 +131,8 @@ ExitCode run_elastogram(const ElastogramOptions& options) {
     if (const auto written = write_strain(strain, options.csv); !written)
       return report_error(written.error(), options.json);
   auto report = summary_of(strain);
+  if (const std::string why = explain_no_strain(report); !why.empty())
+    return report_error({ErrorCode::failed, why, options.out.string()}, options.json);
   report["joint"] = loaded->joint().name;
   report["image"] = options.out.string();
   report["before"] = to_json(first->press);

@@ -7,6 +7,7 @@
 #include <sstream>
 #include <utility>
 
+#include "artus/detail/anatomy/body/holders.h"
 #include "artus/detail/apps/options/hand_options.h"
 #include "artus/detail/core/text_file.h"
 #include "artus/detail/core/units.h"
@@ -152,6 +153,8 @@ Result<SessionParams> make_session_params(const SessionOptions& options,
         std::max(params.guard.stale_after, 1e-3 * options.igtl.needle_hold_ms + kMargin);
   }
   params.deform = !options.rigid;
+  if (params.deform && !joint.mesh.tetrahedra.empty() && !find_holders(joint).any())
+    return fail(ErrorCode::invalid, explain_unheld() + "; or run it with --rigid", joint.name);
   const auto feel = make_feel(options.feel, joint);
   ARTUS_TRY(feel);
   params.feel = *feel;

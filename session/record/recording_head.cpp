@@ -7,6 +7,7 @@
 
 #include "artus/detail/anatomy/body/joint_digest.h"
 #include "artus/detail/core/byte_stream.h"
+#include "artus/detail/core/plain_reason.h"
 #include "artus/detail/core/printed.h"
 #include "artus/detail/session/record/fields_json.h"
 #include "artus/detail/session/record/needle_feel_json.h"
@@ -90,7 +91,7 @@ Result<RecordingHead> parse_head(const std::string& line) {
     return to_head(json);
   } catch (const nlohmann::json::exception& e) {
     return fail(ErrorCode::malformed,
-                std::string("its header (first line) is damaged: ") + e.what(), {});
+                "its header (first line) is damaged: " + plain_reason(e.what()), {});
   }
 }
 

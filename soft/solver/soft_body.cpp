@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "artus/detail/anatomy/body/holders.h"
 #include "artus/detail/core/check.h"
 
 namespace artus {
@@ -135,6 +137,7 @@ Result<SoftBody> SoftBody::make(std::shared_ptr<const CompiledJoint> joint, cons
                                 const SoftBodyParams& params) {
   if (joint->mesh.tetrahedra.empty())
     return fail(ErrorCode::invalid, "a body without tetrahedra cannot give way", joint->name);
+  if (!find_holders(*joint).any()) return fail(ErrorCode::invalid, explain_unheld(), joint->name);
   const Pose X_CJ = X_JP.inverse();
   const auto locator = std::make_shared<const TetLocator>(joint->mesh);
   const BeyondTest beyond(*joint);
@@ -153,11 +156,7 @@ Result<SoftBody> SoftBody::make(std::shared_ptr<const CompiledJoint> joint, cons
       make_body_map(*joint, X_JP,
                     std::make_shared<const SoftModel>(
                         make_joint_field(*joint, X_JP, params.poisson_ratio, locator), model));
-  if (!is_held(*map->model))
-    return fail(ErrorCode::invalid,
-                "nothing holds the tissue: give the body bone, or a [region_of_interest] whose cut "
-                "faces are held",
-                joint->name);
+  if (!is_held(*map->model)) return fail(ErrorCode::invalid, explain_unheld(), joint->name);
   const SkinPatch skin = skin_of(joint->mesh, X_CJ, params.face, params.far, body.skin_);
   if (skin.triangles.empty())
     return fail(ErrorCode::invalid, "no skin below the probe: move it over the body", joint->name);
@@ -221,6 +220,14 @@ ContactForce SoftBody::force_J() const {
   contact.into = map_->X_JC.linear() * contact.into;
   for (PressingPiece& piece : contact.pieces) piece.p = map_->X_JC * piece.p;
   return contact;
+}
+
+double SoftBody::distance_to_held() const {
+  const SoftModel& model = *map_->model;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::uint32_t n = 0; n < model.cage().nodes().size(); ++n)
+    if (model.held(n).all()) nearest = std::min(nearest, model.cage().nodes()[n].norm());
+  return nearest;
 }
 
 Eigen::Matrix<double, 6, 6> SoftBody::contact_stiffness() const {

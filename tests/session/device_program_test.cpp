@@ -15,7 +15,7 @@
 namespace artus {
 namespace {
 
-constexpr std::int64_t kMillisecond = 1'000'000;  // ns
+constexpr std::int64_t kTickNs = 1'000'000;  // ns
 
 artus_shm_pos pos_at(std::uint64_t sample, std::int64_t now_ns) {
   artus_shm_pos pos = artus_shm_pos_init();
@@ -28,10 +28,10 @@ artus_shm_pos pos_at(std::uint64_t sample, std::int64_t now_ns) {
 /// A reader that was told `n` samples at 1 kHz, the first of them number `first`.
 struct Told {
   PosReader reader;
-  std::int64_t now = 1000 * kMillisecond;
+  std::int64_t now = 1000 * kTickNs;
 
   DeviceSample say(artus_shm_pos pos) {
-    now += kMillisecond;
+    now += kTickNs;
     pos.time_ns = static_cast<std::uint64_t>(now);
     return reader.accept(true, pos, now);
   }
@@ -65,11 +65,11 @@ TEST(PosReader, OldSamplesThatDoNotRiseAreNeverServed) {
 TEST(PosReader, ASlowDeviceIsHeldForAsLongAsItAsksUpToATenthOfASecond) {
   for (const std::uint32_t hold : {0U, 70U}) {
     PosReader reader;
-    std::int64_t now = 1000 * kMillisecond;
+    std::int64_t now = 1000 * kTickNs;
     int alive = 0;
-    for (int tick = 0; tick < 330; ++tick, now += kMillisecond) {
+    for (int tick = 0; tick < 330; ++tick, now += kTickNs) {
       artus_shm_pos pos =
-          pos_at(1 + static_cast<std::uint64_t>(tick / 33), now - tick % 33 * kMillisecond);
+          pos_at(1 + static_cast<std::uint64_t>(tick / 33), now - tick % 33 * kTickNs);
       pos.hold_ms = hold;
       alive += reader.accept(true, pos, now).state == PeerState::alive ? 1 : 0;
     }
@@ -85,7 +85,7 @@ TEST(PosReader, ASlowDeviceIsHeldForAsLongAsItAsksUpToATenthOfASecond) {
 
 TEST(PosReader, TheProbesProgramSaysNothingOfTheNeedle) {
   PosReader reader(ARTUS_SHM_PROBE);
-  std::int64_t now = 1000 * kMillisecond;
+  std::int64_t now = 1000 * kTickNs;
   artus_shm_pos pos = pos_at(1, now);
   static_cast<void>(reader.accept(true, pos, now));
   pos.sample = 2;
@@ -222,7 +222,7 @@ TEST_F(DeviceTicks, ADeviceAtThirtyHertzFeelsForceWhileItsPoseIsHeld) {
   double force = 0;
   for (int i = 0; i < 2000; ++i) {
     if (i % 33 == 0) device.X_WN.position[2] += i < 1300 ? 0.66e-3 : 0;
-    const HapticSnapshot out = step(core, device, 33 * kMillisecond);
+    const HapticSnapshot out = step(core, device, 33 * kTickNs);
     if (i > 40) faults |= out.status & TickStatus::kFaults;
     force = std::max(force, -out.feedback.force[2]);
   }
