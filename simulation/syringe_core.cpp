@@ -50,7 +50,9 @@ void SyringeCore::rest() noexcept {
 /// Whether the device's plunger went farther since its last sample than a thumb can push it.
 bool SyringeCore::jumps(const DeviceSample& device) noexcept {
   constexpr double kLongest = 0.1;  // s without a sample
-  const double elapsed = 1e-9 * static_cast<double>(device.time_ns - last_time_);
+  // Of a slow device the plunger may be older than its newest pose.
+  const std::int64_t least = device.hold_ms > 0 ? hold_of(device) : 0;
+  const double elapsed = 1e-9 * static_cast<double>(std::max(least, device.time_ns - last_time_));
   const double way = std::abs(device.plunger_travel - last_travel_);
   const bool jumped = engaged_ && way > kMaxSpeed * std::clamp(elapsed, dt_, kLongest);
   last_time_ = device.time_ns;

@@ -262,6 +262,17 @@ TEST_F(DeviceTicks, APlungerThatJumpsIsRefusedAndToldAndMovesNothing) {
   EXPECT_EQ(out.feedback.plunger.status & PlungerStatus::kJumped, 0U) << "it is told for a while";
 }
 
+TEST_F(DeviceTicks, APlungerOfASlowDeviceMayMoveInItsOwnSteps) {
+  HapticCore core(scene_, params_);
+  DeviceSample device = test::sample_at(-10e-3, 0, 1);
+  device.plunger = PlungerSign::travel;
+  device.hold_ms = 70;
+  for (int i = 0; i < 500; ++i) {
+    if (i % 33 == 0) device.plunger_travel += 1.5e-3;  // 45 mm/s at 30 Hz, between the needle's
+    EXPECT_EQ(step(core, device).feedback.plunger.status & PlungerStatus::kJumped, 0U) << i;
+  }
+}
+
 TEST_F(DeviceTicks, WhatWasGivenNeverFallsWhileTheThumbDrawsBack) {
   HapticCore core(scene_, params_);
   DeviceSample device = test::sample_at(-10e-3, 0, 1);  // in the air
