@@ -154,20 +154,6 @@ typedef struct artus_shm_screen {
   uint64_t looked_ns;
 } artus_shm_screen;
 
-static inline uint64_t artus_shm_now_ns(void) {
-  struct timespec now;
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return (uint64_t)now.tv_sec * 1000000000ull + (uint64_t)now.tv_nsec;
-}
-
-/* Whether `prefix` may stand before POS, FORCE and IMAGE: at most 63 letters, digits, '-', '_' and
- * '.'. Both sides ask this function. */
-static inline int artus_shm_is_prefix(const char* prefix) {
-  const size_t length = strlen(prefix);
-  const char* allowed = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_.";
-  return length <= ARTUS_SHM_MAX_PREFIX && strspn(prefix, allowed) == length;
-}
-
 /* Seqlock write: the sequence is odd while the words change; release order keeps them after it. */
 static inline void artus_shm_store(artus_shm_header* header, const void* value, size_t size) {
   uint64_t* words = (uint64_t*)(header + 1);
@@ -360,16 +346,6 @@ static inline void artus_shm_close(artus_shm_link* link) {
   artus_shm_unmap(&link->force);
 }
 
-/* Nothing is held, rotations are the identity, the time is now. */
-static inline artus_shm_pos artus_shm_pos_init(void) {
-  artus_shm_pos pos;
-  memset(&pos, 0, sizeof pos);
-  pos.time_ns = artus_shm_now_ns();
-  pos.needle_rotation[0] = 1;
-  pos.probe_rotation[0] = 1;
-  return pos;
-}
-
 static inline void artus_shm_write_pos(artus_shm_link* link, const artus_shm_pos* pos) {
   artus_shm_store(link->pos.header, pos, sizeof *pos);
 }
@@ -380,26 +356,6 @@ static inline void artus_shm_look(artus_shm_link* link, uint64_t now) {
   link->looked_ns = now;
   artus_shm_follow_pos(link);
   artus_shm_follow_force(link);
-}
-
-/* 1: each of `n` numbers is finite and together they are no longer than `most`. */
-static inline int artus_shm_is_within(const double* v, int n, double most) {
-  double squares = 0;
-  int i;
-  for (i = 0; i < n; ++i) {
-    if (!(v[i] >= -most && v[i] <= most)) return 0; /* also when it is none */
-    squares += v[i] * v[i];
-  }
-  return squares <= most * most;
-}
-
-/* Whether a force is one that artus can have written: what scribbled over FORCE is not felt. */
-static inline int artus_shm_is_force(const artus_shm_force* f) {
-  return artus_shm_is_within(f->force, 3, ARTUS_SHM_MAX_FORCE) &&
-         artus_shm_is_within(f->torque, 3, ARTUS_SHM_MAX_TORQUE) &&
-         artus_shm_is_within(f->probe_force, 3, ARTUS_SHM_MAX_FORCE) &&
-         artus_shm_is_within(f->probe_torque, 3, ARTUS_SHM_MAX_TORQUE) &&
-         artus_shm_is_within(&f->thumb_force, 1, ARTUS_SHM_MAX_FORCE);
 }
 
 /* Whether artus hears what this program writes. */

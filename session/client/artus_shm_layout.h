@@ -1,10 +1,15 @@
 /* SPDX-License-Identifier: AGPL-3.0-or-later
  *
- * Every byte of artus' shared memory POS, POS-PROBE, FORCE and IMAGE (docs/protocol.md), for C11
- * and C++. */
+ * Every byte of artus' shared memory POS, POS-PROBE, FORCE and IMAGE (docs/protocol.md), and what
+ * may stand in them, for C11 and C++. */
 #ifndef ARTUS_SHM_LAYOUT_H
 #define ARTUS_SHM_LAYOUT_H
+#ifndef _GNU_SOURCE
+#define _GNU_SOURCE 1 /* of clock_gettime */
+#endif
 #include <stdint.h>
+#include <string.h>
+#include <time.h>
 
 #define ARTUS_SHM_VERSION 4u
 #define ARTUS_SHM_MAGIC_POS 0x31534f5053545241ull   /* "ARTSPOS1" */
@@ -118,4 +123,48 @@ typedef struct artus_shm_image {
   uint64_t reserved[3];                   /* 40 zero */
   uint8_t grey[ARTUS_SHM_IMAGE_CAPACITY]; /* 64 (height, width), x fastest */
 } artus_shm_image;
+
+static inline uint64_t artus_shm_now_ns(void) {
+  struct timespec now;
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return (uint64_t)now.tv_sec * 1000000000ull + (uint64_t)now.tv_nsec;
+}
+
+/* Whether `prefix` may stand before POS, FORCE and IMAGE: at most 63 letters, digits, '-', '_' and
+ * '.'. Both sides ask this function. */
+static inline int artus_shm_is_prefix(const char* prefix) {
+  const size_t length = strlen(prefix);
+  const char* allowed = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_.";
+  return length <= ARTUS_SHM_MAX_PREFIX && strspn(prefix, allowed) == length;
+}
+
+/* Nothing is held, rotations are the identity, the time is now. */
+static inline artus_shm_pos artus_shm_pos_init(void) {
+  artus_shm_pos pos;
+  memset(&pos, 0, sizeof pos);
+  pos.time_ns = artus_shm_now_ns();
+  pos.needle_rotation[0] = 1;
+  pos.probe_rotation[0] = 1;
+  return pos;
+}
+
+/* 1: each of `n` numbers is finite and together they are no longer than `most`. */
+static inline int artus_shm_is_within(const double* v, int n, double most) {
+  double squares = 0;
+  int i;
+  for (i = 0; i < n; ++i) {
+    if (!(v[i] >= -most && v[i] <= most)) return 0; /* also when it is none */
+    squares += v[i] * v[i];
+  }
+  return squares <= most * most;
+}
+
+/* Whether a force is one that artus can have written: what scribbled over FORCE is not felt. */
+static inline int artus_shm_is_force(const artus_shm_force* f) {
+  return artus_shm_is_within(f->force, 3, ARTUS_SHM_MAX_FORCE) &&
+         artus_shm_is_within(f->torque, 3, ARTUS_SHM_MAX_TORQUE) &&
+         artus_shm_is_within(f->probe_force, 3, ARTUS_SHM_MAX_FORCE) &&
+         artus_shm_is_within(f->probe_torque, 3, ARTUS_SHM_MAX_TORQUE) &&
+         artus_shm_is_within(&f->thumb_force, 1, ARTUS_SHM_MAX_FORCE);
+}
 #endif /* ARTUS_SHM_LAYOUT_H */

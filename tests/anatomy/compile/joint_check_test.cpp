@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "artus/anatomy/compile.h"
+#include "artus/detail/anatomy/compile/check/held.h"
 #include "tests/anatomy/compile/joint_folder.h"
 
 namespace artus {
