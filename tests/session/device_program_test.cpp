@@ -244,6 +244,29 @@ TEST_F(DeviceTicks, AHandOutsideItsDevicesBoxFeelsNothing) {
   EXPECT_NE(out.status & TickStatus::kOutOfWorkspace, 0U);
 }
 
+TEST_F(DeviceTicks, TheProbesHandIsKeptWithinItsOwnDevicesLimits) {
+  for (const char* name : {"touch", "delta"}) {
+    params_.device = with_probe_device(*find_device("virtuose_6d_desktop"), *find_device(name));
+    HapticCore core(scene_, params_);
+    const DeviceSample device = test::sample_at(-10e-3, 0, 1);
+    const Pose X_JP = to_pose(device.X_WP);
+    TissuePacket packet;
+    packet.probe.number = 1;
+    packet.probe.share = 1;
+    packet.probe.wrench[2] = -30;  // N out of the body
+    for (Eigen::Index i = 0; i < 12; ++i)
+      packet.probe.X_JP[static_cast<std::size_t>(i)] = X_JP.matrix()(i / 4, i % 4);
+    core.take(packet);
+    double most = 0;
+    for (int i = 0; i < 400; ++i) {
+      const double* f = step(core, device).feedback.probe_force;
+      most = std::max(most, Vec3(f[0], f[1], f[2]).norm());
+    }
+    EXPECT_GT(most, 2.9) << name;
+    EXPECT_LE(most, params_.device.probe_force * (1 + 1e-9)) << name;
+  }
+}
+
 TEST_F(DeviceTicks, APlungerThatJumpsIsRefusedAndToldAndMovesNothing) {
   HapticCore core(scene_, params_);
   DeviceSample device = test::sample_at(-10e-3, 0, 1);
