@@ -156,7 +156,14 @@ Result<SoftBody> SoftBody::make(std::shared_ptr<const CompiledJoint> joint, cons
       make_body_map(*joint, X_JP,
                     std::make_shared<const SoftModel>(
                         make_joint_field(*joint, X_JP, params.poisson_ratio, locator), model));
-  if (!is_held(*map->model)) return fail(ErrorCode::invalid, explain_unheld(), joint->name);
+  if (!is_held(*map->model))
+    return fail(
+        ErrorCode::invalid,
+        "what holds the tissue is too small: the cubes that carry the tissue have fewer than "
+        "three corners in it; give the body more bone, or a [region_of_interest] that cuts "
+        "it (" +
+            describe(find_holders(*joint)) + ")",
+        joint->name);
   const SkinPatch skin = skin_of(joint->mesh, X_CJ, params.face, params.far, body.skin_);
   if (skin.triangles.empty())
     return fail(ErrorCode::invalid, "no skin below the probe: move it over the body", joint->name);
