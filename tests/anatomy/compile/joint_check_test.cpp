@@ -122,6 +122,7 @@ target = [0.0, 0.0, 5.0]
 TEST_F(CheckedJoint, ABodyInAnotherFrameIsRefusedByBoth) {
   folder_.add_sphere("head", Vec3(500, 0, 0), 8);
   folder_.add_sphere("belly", Vec3(510, 0, 0), 8);
+  folder_.add_sphere("femur", Vec3(505, 0, 0), 5);
   const std::string toml = std::string(kHead) +
                            "[[structure]]\nname = \"belly\"\ntissue = \"muscle\"\nfile = "
                            "\"belly.ply\"\n";
