@@ -182,6 +182,7 @@ void print_joint(const JointFile& joint, const JointCheck& check, bool all) {
   std::printf("%zu surfaces are mended, %zu need nothing done%s\n", count_mended(check),
               check.surfaces.size() - std::min(check.surfaces.size(), count_mended(check)),
               all ? "" : "; --all lists what was found and done");
+  if (!check.held_by.empty() && check.usable()) std::printf("%s\n", check.held_by.c_str());
   for (const JointVariant& variant : joint.variants)
     if (!variant.chosen)
       std::printf("can have +%s: %s\n", variant.name.c_str(), variant.title.c_str());
@@ -205,9 +206,10 @@ nlohmann::json to_json(const JointFile& joint, const JointCheck& check) {
   for (const JointVariant& variant : joint.variants)
     variants.push_back(
         {{"name", variant.name}, {"title", variant.title}, {"chosen", variant.chosen}});
-  return {{"joint", joint.name},    {"structures", joint.structures.size()},
-          {"variants", variants},   {"findings", findings},
-          {"crossings", crossings}, {"usable", check.usable()}};
+  return {{"joint", joint.name},     {"structures", joint.structures.size()},
+          {"variants", variants},    {"findings", findings},
+          {"crossings", crossings},  {"usable", check.usable()},
+          {"held_by", check.held_by}};
 }
 
 ExitCode check_folder(const CheckOptions& options) {

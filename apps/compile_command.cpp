@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "artus/anatomy/compile.h"
+#include "artus/detail/anatomy/body/holders.h"
 #include "artus/detail/anatomy/compile/mesh/isolated.h"
 #include "artus/detail/apps/options/command.h"
 #include "artus/detail/core/text_file.h"
@@ -109,6 +110,7 @@ ExitCode run_compile(const CompileCommandOptions& options) {
   if (outcome->report.parts_cached > 0)
     std::printf("%zu repaired surfaces and distances are those of earlier compilations\n",
                 outcome->report.parts_cached);
+  std::printf("%s\n", describe(find_holders(outcome->joint)).c_str());
   print_histogram(outcome->report.quality);
   std::printf(
       "%s: %zu tetrahedra, %zu interface triangles, %zu vertices; %.3f %% without a dihedral "

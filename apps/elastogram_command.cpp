@@ -9,6 +9,7 @@
 
 #include "artus/detail/apps/options/press_options.h"
 #include "artus/detail/apps/options/sight.h"
+#include "artus/detail/core/printed.h"
 #include "artus/detail/core/units.h"
 #include "artus/detail/echo/display/scan_converter.h"
 #include "artus/detail/echo/display/strain_image.h"
@@ -44,7 +45,9 @@ constexpr int kLinesMatched = 9;       // 1.4 mm of the face, as wide as a match
 constexpr std::uint8_t kDarkest = 16;  // of 255; below it there is no echo to follow, only shadow
 
 /// Soft red, stiff blue over the grey picture, grey alone where nothing is known: as scanners do.
-cv::Mat coloured(const Frame& frame, const StrainImage& strain, const View& view, double full) {
+/// `report` gets the share of the picture that has a colour.
+cv::Mat coloured(const Frame& frame, const StrainImage& strain, const View& view, double full,
+                 nlohmann::json& report) {
   const ScanConverter converter(view.transducer, view.settings);
   const cv::Mat picture = grey_image(frame);
   cv::Mat lit;
@@ -60,6 +63,7 @@ cv::Mat coloured(const Frame& frame, const StrainImage& strain, const View& view
       known.at<std::uint8_t>(y, x) = 255;
     }
   }
+  report["coloured_percent"] = 100.0 * cv::countNonZero(known) / static_cast<double>(known.total());
   cv::Mat colour;
   cv::applyColorMap(shade, colour, cv::COLORMAP_JET);
   cv::Mat grey;
@@ -68,6 +72,16 @@ cv::Mat coloured(const Frame& frame, const StrainImage& strain, const View& view
   cv::addWeighted(grey, 0.55, colour, 0.45, 0, mixed);
   mixed.copyTo(grey, known);
   return grey;
+}
+
+/// Why the picture has no colour, and what to do; empty when it has some.
+std::string explain_no_strain(const nlohmann::json& summary) {
+  constexpr double kLeast = 1;  // percent of the picture
+  if (summary["coloured_percent"].get<double>() >= kLeast) return {};
+  return printed(
+      "no strain can be told from these two pictures: their echoes agree by %.2f of 1 in the mean; "
+      "press more steadily on skin (--press-n), change --more-mm, or look where there are echoes",
+      summary["mean_correlation"].get<double>());
 }
 
 /// Mean of the strain that is known, its share, and the mean correlation.
@@ -111,7 +125,10 @@ ExitCode run_elastogram(const ElastogramOptions& options) {
   matched.lines = kLinesMatched;
   const StrainImage strain = compute_strain(before, after, matched);
 
-  const cv::Mat picture = coloured(before, strain, view, options.full_percent / 100);
+  auto report = summary_of(strain);
+  const cv::Mat picture = coloured(before, strain, view, options.full_percent / 100, report);
+  if (const std::string why = explain_no_strain(report); !why.empty())
+    return report_error({ErrorCode::failed, why, options.out.string()}, options.json);
   if (const auto written =
           write_image(annotated_image(picture, before, view.transducer), options.out);
       !written)
@@ -119,7 +136,6 @@ ExitCode run_elastogram(const ElastogramOptions& options) {
   if (!options.csv.empty())
     if (const auto written = write_strain(strain, options.csv); !written)
       return report_error(written.error(), options.json);
-  auto report = summary_of(strain);
   report["joint"] = loaded->joint().name;
   report["image"] = options.out.string();
   report["before"] = to_json(first->press);

@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <sstream>
 
 #include "artus/dataset/pose_list.h"
@@ -31,10 +32,10 @@ struct ForceOptions {
 /// The needle at every tick. Errors: those of read_any_poses and sample_path; invalid, a pose
 /// without needle or time.
 Result<std::vector<TrajectoryPose>> needle_path(const ForceOptions& options) {
-  const auto listed = read_any_poses(options.poses);
+  const auto listed = read_any_poses(options.poses, PoseHand::needle);
   ARTUS_TRY(listed);
   const auto ticks = sample_path(*listed, options.rate);
-  ARTUS_TRY(ticks);
+  if (!ticks) return fail(ticks.error().code, ticks.error().message, options.poses.string());
   std::vector<TrajectoryPose> path;
   path.reserve(ticks->size());
   for (const ListedPose& pose : *ticks) {
@@ -42,7 +43,7 @@ Result<std::vector<TrajectoryPose>> needle_path(const ForceOptions& options) {
       return fail(ErrorCode::invalid,
                   "every pose needs a needle: pose " + std::to_string(path.size()) + " has none",
                   options.poses.string());
-    path.push_back({*pose.X_JN, pose.X_JP});
+    path.push_back({*pose.X_JN, pose.has_probe ? std::optional(pose.X_JP) : std::nullopt});
   }
   return path;
 }
@@ -93,7 +94,10 @@ void add_force_command(Command& app, ExitCode& code) {
   Command* command = add_command(
       app, "force", "What the hand feels along any trajectory of the needle, as CSV",
       "Poses as for sweep (docs/echography.md), each with a needle; with time_s they are sampled\n"
-      "at the rate, without each is one tick. Only the needle counts.\n"
+      "at the rate, without each is one tick. Only the needle is needed; where the tissue gives\n"
+      "way, a probe that the poses have presses on it, too. axial_n is the force along the "
+      "needle,\n"
+      "positive against insertion, as in the trace of inject.\n"
       "Examples:\n"
       "  artus force -j shoulder.artus --poses path.csv -o force.csv\n"
       "  artus force -j shoulder.artus --poses path.jsonl --rate 4000 --device touch -o force.csv");

@@ -3,6 +3,8 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "artus/detail/apps/options/press_options.h"
 #include "artus/detail/apps/options/sight.h"
@@ -61,6 +63,7 @@ ExitCode run_image(const ImageOptions& options) {
     if (const auto written = write_envelope(frame, options.envelope); !written)
       return report_error(written.error(), options.json);
 
+  const std::vector<std::string> notes = notes_of_stand(*loaded);
   if (options.json) {
     nlohmann::json report{{"joint", loaded->joint().name},
                           {"image", options.out.string()},
@@ -69,6 +72,7 @@ ExitCode run_image(const ImageOptions& options) {
                           {"pixel_mm", frame.pixel / kMillimetre},
                           {"probe", probe_json(loaded->X_JP)},
                           {"contact", contact_json(frame)},
+                          {"notes", notes},
                           {"transducer", to_json(view.transducer)},
                           {"settings", to_json(view.settings)}};
     if (loaded->needle)
@@ -82,6 +86,7 @@ ExitCode run_image(const ImageOptions& options) {
     std::printf("%s: %d x %d pixels of %.3f mm\n", options.out.c_str(), image.cols, image.rows,
                 frame.pixel / kMillimetre);
     print_press(*pressed);
+    for (const std::string& note : notes) std::printf("! %s\n", note.c_str());
   }
   return ExitCode::ok;
 }

@@ -70,9 +70,9 @@ void print_report(const nlohmann::json& report) {
               report["target"].get<std::string>().c_str());
   for (const auto& [place, volume] : report["volumes_ml"].items())
     std::printf("  %-28s %9.4f ml\n", place.c_str(), volume.get<double>());
-  std::printf("thumb at most %.1f N, tip at most %.1f kPa, tip walked %.2f mm\n",
-              report["highest_thumb_n"].get<double>(), report["highest_tip_kpa"].get<double>(),
-              report["tip_walk_mm"].get<double>());
+  std::printf("needle of %.1f mm, thumb at most %.1f N, tip at most %.1f kPa, tip walked %.2f mm\n",
+              report["needle_mm"].get<double>(), report["highest_thumb_n"].get<double>(),
+              report["highest_tip_kpa"].get<double>(), report["tip_walk_mm"].get<double>());
   for (const auto& note : report["notes"]) std::printf("! %s\n", note.get<std::string>().c_str());
   for (const auto& line : report["patient"])
     std::printf("%6.1f s  \"%s\"\n", line["time_s"].get<double>(),
@@ -189,7 +189,9 @@ void add_inject_command(Command& app, ExitCode& code) {
   add_hand_options(command, options->hand);
   add_haptic_rate_option(command, options->hand.rate_hz);
   command->get_option("--needle-length-mm")
-      ->description("hub to tip (default: 50); longer where the target is deep");
+      ->description(
+          "hub to tip; refused where the line needs a longer one (default: 50, longer "
+          "where the target is deep)");
   command
       ->add_option("--length-mm", options->hand.view.needle_length_mm,
                    "older name of --needle-length-mm")

@@ -10,6 +10,7 @@
 #include "artus/detail/apps/commands.h"
 #include "artus/detail/apps/options/old_names.h"
 #include "artus/detail/apps/validate_command.h"
+#include "artus/detail/core/plain_reason.h"
 
 namespace {
 
@@ -56,7 +57,7 @@ int main(int argc, char** argv) {
   try {
     return run(arguments_of(argc, argv));
   } catch (const std::exception& e) {
-    std::fprintf(stderr, "artus: %s\n", e.what());
+    std::fprintf(stderr, "artus: %s\n", artus::plain_reason(e.what()).c_str());
   } catch (...) {
     std::fprintf(stderr, "artus: an unknown failure stopped the program\n");
   }

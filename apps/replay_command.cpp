@@ -104,14 +104,17 @@ void print(const ReplayReport& r) {
   if (r.dropped > 0)
     std::printf("%llu records are missing in the recording\n",
                 static_cast<unsigned long long>(r.dropped));
+  if (r.empty())
+    std::printf(
+        "nothing was there to replay: the recording is a header alone, and proves nothing\n");
   if (!r.complete) std::printf("the recording was cut off\n");
 }
 
 nlohmann::json to_json(const ReplayReport& r) {
-  return {{"ticks", r.ticks},          {"different_ticks", r.different_ticks},
-          {"frames", r.frames},        {"different_frames", r.different_frames},
-          {"dropped", r.dropped},      {"complete", r.complete},
-          {"identical", r.identical()}};
+  return {{"ticks", r.ticks},     {"different_ticks", r.different_ticks},
+          {"frames", r.frames},   {"different_frames", r.different_frames},
+          {"dropped", r.dropped}, {"complete", r.complete},
+          {"empty", r.empty()},   {"identical", r.identical()}};
 }
 
 ExitCode run_replay(const ReplayOptions& options) {
@@ -145,7 +148,8 @@ void add_replay_command(Command& app, ExitCode& code) {
   auto options = std::make_shared<ReplayOptions>();
   Command* command = add_command(
       app, "replay", "Run a recorded session again and compare every force and image",
-      "Exit code 1 when a force or an image is not the same bytes. A list of poses, or a "
+      "Exit code 1 when a force or an image is not the same bytes, or there is none. A list of "
+      "poses, or a "
       "tracker's\n"
       "sequence, is run as a session first.\n"
       "Examples:\n"

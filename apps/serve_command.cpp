@@ -203,7 +203,9 @@ Result<std::optional<Setting>> run_session(Serving& serving, const Setting& sett
   const auto histograms = write_histograms(options.session.histograms, (*session)->times());
   (*session)->stop();  // and what was measured rests
   report(**session, tally, options.json);
+  const Result<void> recorded = (*session)->recorded();
   session->reset();
+  ARTUS_TRY(recorded);
   ARTUS_TRY(histograms);
   ARTUS_TRY(write_live_metrics(options.metrics, meter->get()));
   return next;

@@ -59,12 +59,13 @@ nlohmann::json newest_force(const std::string& prefix) {
           {"probe_torque_nm", f.probe_torque},
           {"probe_share", f.probe_share},
           {"probe_status", f.probe_status},
+          {"pos_sample", f.pos_sample},
+          {"probe_sample", f.probe_sample},
           {"age_ms", 1e-6 * static_cast<double>(age)}};
 }
 
-nlohmann::json newest_pos(const std::string& prefix) {
-  const auto channel =
-      SharedChannel<artus_shm_pos>::open(prefix, kPosLayout, SegmentAccess::observer);
+nlohmann::json newest_pos(const std::string& prefix, const SegmentLayout& layout) {
+  const auto channel = SharedChannel<artus_shm_pos>::open(prefix, layout, SegmentAccess::observer);
   artus_shm_pos p{};
   if (!channel || !channel->read(p)) return nullptr;
   const auto age = monotonic_ns() - static_cast<std::int64_t>(p.time_ns);
@@ -75,12 +76,13 @@ nlohmann::json newest_pos(const std::string& prefix) {
           {"probe_rotation", p.probe_rotation},
           {"buttons", p.buttons},
           {"present", p.present},
+          {"hold_ms", p.hold_ms},
           {"age_ms", 1e-6 * static_cast<double>(age)}};
 }
 
 nlohmann::json observe(const std::string& prefix) {
   auto segments = nlohmann::json::array();
-  for (const SegmentLayout& layout : {kPosLayout, kForceLayout, kImageLayout}) {
+  for (const SegmentLayout& layout : kAllLayouts) {
     const Observed seen = look_at(prefix, layout);
     segments.push_back({{"name", seen.name},
                         {"found", seen.found},
@@ -88,7 +90,10 @@ nlohmann::json observe(const std::string& prefix) {
                         {"heartbeat", seen.heartbeat},
                         {"writer_pid", seen.writer}});
   }
-  return {{"segments", segments}, {"pos", newest_pos(prefix)}, {"force", newest_force(prefix)}};
+  return {{"segments", segments},
+          {"pos", newest_pos(prefix, kPosLayout)},
+          {"pos_probe", newest_pos(prefix, kProbePosLayout)},
+          {"force", newest_force(prefix)}};
 }
 
 void print(const nlohmann::json& seen) {
@@ -101,7 +106,7 @@ void print(const nlohmann::json& seen) {
       std::printf("%-12s %s\n", s["name"].get<std::string>().c_str(),
                   s["trouble"].get<std::string>().c_str());
   }
-  for (const char* part : {"pos", "force"}) {
+  for (const char* part : {"pos", "pos_probe", "force"}) {
     if (!seen[part].is_null()) std::printf("%-12s %s\n", part, seen[part].dump().c_str());
   }
   std::printf("\n");
@@ -109,8 +114,7 @@ void print(const nlohmann::json& seen) {
 
 ExitCode run_monitor(const MonitorOptions& options) {
   if (options.clean) {
-    for (const SegmentLayout& layout : {kPosLayout, kForceLayout, kImageLayout})
-      SharedSegment::remove(options.prefix, layout);
+    for (const SegmentLayout& layout : kAllLayouts) SharedSegment::remove(options.prefix, layout);
     return ExitCode::ok;
   }
   const std::int64_t end = monotonic_ns() + static_cast<std::int64_t>(options.seconds * 1e9);
@@ -130,12 +134,13 @@ ExitCode run_monitor(const MonitorOptions& options) {
 
 void add_shm_monitor_command(Command& serve, ExitCode& code) {
   auto options = std::make_shared<MonitorOptions>();
-  Command* command = add_command(
-      serve, "monitor", "Look at the shared memory POS, FORCE and IMAGE without touching it",
-      "Examples:\n"
-      "  artus serve monitor                      once\n"
-      "  artus serve monitor --seconds 60 --json  a line every half second\n"
-      "  artus serve monitor --clean              remove what a crash left behind");
+  Command* command =
+      add_command(serve, "monitor",
+                  "Look at the shared memory POS, POS-PROBE, FORCE and IMAGE without touching it",
+                  "Examples:\n"
+                  "  artus serve monitor                      once\n"
+                  "  artus serve monitor --seconds 60 --json  a line every half second\n"
+                  "  artus serve monitor --clean              remove what a crash left behind");
   add_prefix_option(command, options->prefix);
   command->add_option("--seconds", options->seconds, "go on for this time")
       ->check(number_in(0, 86400));

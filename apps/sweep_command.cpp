@@ -153,12 +153,22 @@ ExitCode run_sweep_command(const SweepCommandOptions& options) {
                                 {"folder", options.out.string()},
                                 {"poses", result->poses},
                                 {"found", result->found},
-                                {"drawn", result->drawn}}
+                                {"drawn", result->drawn},
+                                {"off_skin", result->off_skin},
+                                {"partly_off_skin", result->partly_off}}
                      .dump(2)
               << '\n';
   } else {
     std::printf("%zu poses: %zu were there, %zu drawn; truth.jsonl and frames/ in %s\n",
                 result->poses, result->found, result->drawn, options.out.c_str());
+    if (result->off_skin > 0)
+      std::printf("! in %zu of them no part of the probe touches skin: they are black\n",
+                  result->off_skin);
+    if (result->partly_off > 0)
+      std::printf(
+          "! in %zu of them some of the face is off the skin: those columns are black "
+          "(contact.lifted_lines in truth.jsonl)\n",
+          result->partly_off);
   }
   return ExitCode::ok;
 }

@@ -80,7 +80,7 @@ Result<void> take_places(TrainCommandOptions& options) {
 
 /// What the session's flags mean for attempts. `options` and `tracker` outlive it.
 Result<AttemptSetup> setup_of(const SessionOptions& options, const TrackerInput& tracker) {
-  const auto device = find_device(options.device);
+  const auto device = chosen_device(options.device, options.own_device);
   ARTUS_TRY(device);
   AttemptSetup setup;
   setup.device = *device;

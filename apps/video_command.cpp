@@ -29,7 +29,11 @@ ExitCode run_video(const VideoOptions& options) {
                         {loaded->view.transducer, loaded->view.settings, loaded->view.needle_shape,
                          options.frames_per_second, options.labels},
                         make_progress_printer(options.json));
-  if (!video) return report_error(video.error(), options.json);
+  if (!video) {
+    Error error = video.error();
+    if (error.where.empty()) error.where = options.path.string();
+    return report_error(error, options.json);
+  }
   if (options.json) {
     std::cout << nlohmann::json{{"joint", loaded->joint().name},
                                 {"video", video->file.string()},

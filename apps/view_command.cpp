@@ -137,7 +137,9 @@ ExitCode run_view(const ViewerOptions& options, bool& training) {
   if (options.report) print_report(**session, report);
   if (!shown) return report_error(shown.error(), false);
   auto written = write_histograms(options.session.histograms, (*session)->times());
-  session->reset();  // ends it, and what was measured rests
+  (*session)->stop();  // and what was measured rests
+  if (written) written = (*session)->recorded();
+  session->reset();
   if (written) written = write_live_metrics(options.metrics, meter->get());
   return written ? ExitCode::ok : report_error(written.error(), false);
 }

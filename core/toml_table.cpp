@@ -174,8 +174,11 @@ Result<toml::table> parse_toml(std::string_view text, const std::string& name) {
     return toml::parse(text, name);
   } catch (const toml::parse_error& error) {
     const auto& at = error.source().begin;
+    constexpr std::string_view kJoint = "joint.toml";  // that has a guide
+    const bool is_joint = name.size() >= kJoint.size() &&
+                          name.compare(name.size() - kJoint.size(), kJoint.size(), kJoint) == 0;
     return fail(ErrorCode::malformed,
-                std::string(error.description()) + "; see docs/joint-format.md",
+                std::string(error.description()) + (is_joint ? "; see docs/joint-format.md" : ""),
                 name + ":" + std::to_string(at.line) + ":" + std::to_string(at.column));
   }
 }

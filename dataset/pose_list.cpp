@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "artus/detail/core/csv.h"
+#include "artus/detail/core/printed.h"
 #include "artus/detail/core/text_file.h"
 #include "artus/detail/core/units.h"
 #include "artus/detail/dataset/pose_lines.h"
@@ -11,25 +12,42 @@
 namespace artus {
 namespace {
 
-Result<void> append(std::vector<ListedPose>& poses, const PoseLine& line,
+/// Refuses a place that no joint has: most often it is in another unit.
+Result<void> check_place(const std::optional<Pose>& pose, const char* hand,
+                         const std::string& where) {
+  constexpr double kFarthest = 10;  // m
+  if (!pose || pose->translation().norm() <= kFarthest) return {};
+  return fail(ErrorCode::invalid,
+              printed("the %s lies %.0f m from the joint's origin; is its place in another unit "
+                      "(_mm, _m)?",
+                      hand, pose->translation().norm()),
+              where);
+}
+
+Result<void> append(std::vector<ListedPose>& poses, const PoseLine& line, PoseHand needed,
                     const std::string& where) {
   const auto probe = probe_of(line, where);
   ARTUS_TRY(probe);
-  if (!*probe)
+  if (!*probe && needed == PoseHand::probe)
     return fail(ErrorCode::invalid, "a pose needs the probe's position_mm and direction", where);
   const auto needle = needle_of(line, where);
   ARTUS_TRY(needle);
+  if (!*needle && needed == PoseHand::needle)
+    return fail(ErrorCode::invalid, "a pose needs the needle's entry_mm and tip_mm", where);
+  ARTUS_TRY(check_place(*probe, "probe", where));
+  ARTUS_TRY(check_place(*needle, "needle", where));
   if (line.time && !poses.empty() && poses.back().time && *line.time <= *poses.back().time)
     return fail(ErrorCode::invalid, "time_s must rise from pose to pose", where);
-  poses.push_back({line.name, line.time, **probe, *needle});
+  poses.push_back(
+      {line.name, line.time, probe->value_or(Pose::Identity()), *needle, probe->has_value()});
   return {};
 }
 
 Result<std::vector<ListedPose>> parse(std::string_view text, const std::string& name,
-                                      PoseFormat format) {
+                                      PoseFormat format, PoseHand needed) {
   std::vector<ListedPose> poses;
   ARTUS_TRY(for_pose_lines(text, name, format, [&](const PoseLine& line, const std::string& where) {
-    return append(poses, line, where);
+    return append(poses, line, needed, where);
   }));
   if (poses.empty()) return fail(ErrorCode::invalid, "the file has no pose", name);
   return poses;
@@ -47,39 +65,49 @@ Pose between(const Pose& a, const Pose& b, double t) {
 
 }  // namespace
 
-Result<std::vector<ListedPose>> parse_poses_jsonl(std::string_view text, const std::string& name) {
-  return parse(text, name, PoseFormat::json_lines);
+Result<std::vector<ListedPose>> parse_poses_jsonl(std::string_view text, const std::string& name,
+                                                  PoseHand needed) {
+  return parse(text, name, PoseFormat::json_lines, needed);
 }
 
-Result<std::vector<ListedPose>> parse_poses_csv(std::string_view text, const std::string& name) {
-  return parse(text, name, PoseFormat::csv);
+Result<std::vector<ListedPose>> parse_poses_csv(std::string_view text, const std::string& name,
+                                                PoseHand needed) {
+  return parse(text, name, PoseFormat::csv, needed);
 }
 
-Result<std::vector<ListedPose>> read_poses(const std::filesystem::path& file) {
+Result<std::vector<ListedPose>> read_poses(const std::filesystem::path& file, PoseHand needed) {
   const auto format = pose_format_of(file);
   ARTUS_TRY(format);
   const auto bytes = read_bytes(file);
   ARTUS_TRY(bytes);
-  return parse(*bytes, file.string(), *format);
+  return parse(*bytes, file.string(), *format, needed);
 }
 
-Result<std::vector<ListedPose>> sample_path(const std::vector<ListedPose>& poses, double rate) {
+Result<std::vector<ListedPose>> sample_path(const std::vector<ListedPose>& poses, double rate,
+                                            std::size_t most) {
   const auto timed = std::count_if(poses.begin(), poses.end(),
                                    [](const ListedPose& p) { return p.time.has_value(); });
   if (timed == 0 || poses.size() < 2) return poses;
   if (timed != static_cast<std::ptrdiff_t>(poses.size()))
     return fail(ErrorCode::invalid, "either all poses have a time_s or none");
-  std::vector<ListedPose> out;
   const double start = *poses.front().time;
+  const double seconds = *poses.back().time - start;
+  if (!(seconds * rate < static_cast<double>(most)))
+    return fail(ErrorCode::invalid,
+                printed("time_s runs over %.4g s, which at %.4g a second are more than %zu poses; "
+                        "is it in seconds? Give less of it, or a lower rate",
+                        seconds, rate, most));
+  std::vector<ListedPose> out;
   std::size_t next = 1;
-  for (int i = 0;; ++i) {
-    const double time = start + i / rate;
+  for (std::size_t i = 0;; ++i) {
+    const double time = start + static_cast<double>(i) / rate;
     if (time > *poses.back().time + 1e-9) break;
     while (next + 1 < poses.size() && *poses[next].time < time) ++next;
     const ListedPose& a = poses[next - 1];
     const ListedPose& b = poses[next];
     const double t = std::clamp((time - *a.time) / (*b.time - *a.time), 0.0, 1.0);
-    ListedPose pose{t < 1 ? a.name : b.name, time, between(a.X_JP, b.X_JP, t), std::nullopt};
+    ListedPose pose{t < 1 ? a.name : b.name, time, between(a.X_JP, b.X_JP, t), std::nullopt,
+                    a.has_probe && b.has_probe};
     if (a.X_JN && b.X_JN) pose.X_JN = between(*a.X_JN, *b.X_JN, t);
     out.push_back(std::move(pose));
   }

@@ -18,25 +18,37 @@ struct ListedPose {
   std::optional<double> time;  ///< s
   Pose X_JP = Pose::Identity();
   std::optional<Pose> X_JN;  ///< origin at the tip, z from hub to tip
+  bool has_probe = true;     ///< false: X_JP is nowhere, in a list that is read for its needle
 };
+
+/// Which hand every pose of a list must have.
+enum class PoseHand { probe, needle };
+
+/// The most poses that sample_path makes: some 30 min at 1 kHz.
+inline constexpr std::size_t kMostSamples = 2'000'000;
 
 /// Reads a list of poses, JSON lines (.jsonl) or CSV (.csv), as docs/echography.md describes them.
 /// Errors: not_found, unreadable, unsupported (extension), malformed or invalid with file:line
 /// (unknown key, missing or not finite number, zero or parallel directions, times that do not rise,
-/// no pose at all).
-[[nodiscard]] Result<std::vector<ListedPose>> read_poses(const std::filesystem::path& file);
+/// no pose at all, a place beyond 10 m from the origin, a pose without the hand that is needed).
+[[nodiscard]] Result<std::vector<ListedPose>> read_poses(const std::filesystem::path& file,
+                                                         PoseHand needed = PoseHand::probe);
 
 /// The same from memory; `name` stands in messages.
 [[nodiscard]] Result<std::vector<ListedPose>> parse_poses_jsonl(std::string_view text,
-                                                                const std::string& name);
+                                                                const std::string& name,
+                                                                PoseHand needed = PoseHand::probe);
 [[nodiscard]] Result<std::vector<ListedPose>> parse_poses_csv(std::string_view text,
-                                                              const std::string& name);
+                                                              const std::string& name,
+                                                              PoseHand needed = PoseHand::probe);
 
 /// The poses at `rate` per second: between two listed ones the probe and the needle move straight
 /// and turn evenly, and a needle is there when both have one. Without times each listed pose is
-/// one. Errors: invalid (some poses have a time and others have none).
+/// one. Errors: invalid (some poses have a time and others have none; the times make more than
+/// `most` poses at the rate).
 [[nodiscard]] Result<std::vector<ListedPose>> sample_path(const std::vector<ListedPose>& poses,
-                                                          double rate);
+                                                          double rate,
+                                                          std::size_t most = kMostSamples);
 
 /// The same as CSV, as read_poses takes it: each number with seventeen digits, the needle by its
 /// tip and a point 100 mm before it. Requires: names without commas and line ends.

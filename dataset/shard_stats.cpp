@@ -7,6 +7,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "artus/detail/core/plain_reason.h"
 #include "artus/detail/core/printed.h"
 #include "artus/detail/core/text_file.h"
 #include "artus/detail/dataset/tar_file.h"
@@ -58,7 +59,8 @@ Result<void> take_shard(const fs::path& file, SetStatistics& out) {
     try {
       take_frame(json::parse(member.bytes), out);
     } catch (const json::exception& e) {
-      return fail(ErrorCode::malformed, e.what(), file.string() + ":" + std::string(member.name));
+      return fail(ErrorCode::malformed, plain_reason(e.what()),
+                  file.string() + ":" + std::string(member.name));
     }
   }
   return {};

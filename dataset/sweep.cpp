@@ -153,6 +153,14 @@ Result<json> write_frame(SweepFrame frame, std::size_t index, const fs::path& fo
   return std::move(frame.truth);
 }
 
+void count_contact(const json& truth, SweepResult& result) {
+  const json& contact = truth.at("contact");
+  if (!(contact.at("share").get<double>() > 0))
+    ++result.off_skin;
+  else if (!contact.at("lifted_lines").empty())
+    ++result.partly_off;
+}
+
 }  // namespace
 
 Result<SweepResult> run_sweep(const std::shared_ptr<const Scene>& scene,
@@ -169,7 +177,9 @@ Result<SweepResult> run_sweep(const std::shared_ptr<const Scene>& scene,
   const fs::path file = folder / "truth.jsonl";
   const auto found = find_finished(file, folder);
   ARTUS_TRY(found);
-  SweepResult result{poses.size(), *found, 0};
+  SweepResult result;
+  result.poses = poses.size();
+  result.found = *found;
   if (result.complete()) return result;
 
   SweepDrawer drawer(scene, options);
@@ -178,6 +188,7 @@ Result<SweepResult> run_sweep(const std::shared_ptr<const Scene>& scene,
     if (options.stop && options.stop()) break;
     const auto truth = write_frame(drawer.draw(i, FrameOrder(poses[i])), i, folder);
     ARTUS_TRY(truth);
+    count_contact(*truth, result);
     // A name may hold bytes that are no text.
     lines << truth->dump(-1, ' ', false, json::error_handler_t::replace) + "\n" << std::flush;
     if (!lines) return fail(ErrorCode::unreadable, "cannot be written", file.string());

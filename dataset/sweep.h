@@ -28,9 +28,11 @@ struct SweepOptions {
 };
 
 struct SweepResult {
-  std::size_t poses = 0;  ///< in the list
-  std::size_t found = 0;  ///< finished by earlier runs
-  std::size_t drawn = 0;  ///< by this one
+  std::size_t poses = 0;       ///< in the list
+  std::size_t found = 0;       ///< finished by earlier runs
+  std::size_t drawn = 0;       ///< by this one
+  std::size_t off_skin = 0;    ///< of those drawn: no part of the probe's face touches skin
+  std::size_t partly_off = 0;  ///< of those drawn: some of it does not, and is black
   [[nodiscard]] bool complete() const noexcept { return found + drawn == poses; }
 };
 

@@ -33,7 +33,9 @@ Result<SweepVideo> write_sweep_video(const std::shared_ptr<const Scene>& scene,
                                      const std::vector<ListedPose>& poses,
                                      const std::filesystem::path& file,
                                      const SweepVideoOptions& options, const Progress& progress) {
-  const auto path = sample_path(poses, options.frames_per_second);
+  constexpr double kLongest = 3600;  // s
+  const auto path = sample_path(poses, options.frames_per_second,
+                                static_cast<std::size_t>(kLongest * options.frames_per_second) + 1);
   ARTUS_TRY(path);
   Renderer renderer(scene, options.transducer, options.settings);
   std::optional<LabelRenderer> truth;

@@ -7,6 +7,10 @@
 
 namespace artus {
 
+namespace {
+constexpr std::int64_t kNanosecondsOfAMillisecond = 1'000'000;
+}  // namespace
+
 TrackerInbox::TrackerInbox(const TrackerCalibration& calibration, const Names& names)
     : calibration_(calibration), reference_(calibration.X_JR), names_(names) {}
 
@@ -75,6 +79,8 @@ DeviceSample TrackerDevice::read(std::int64_t now_ns) noexcept {
     if (seen_.sign == PlungerSign::travel) sample.plunger_travel = seen_.plunger;
     if (seen_.sign == PlungerSign::force) sample.plunger_force = seen_.plunger;
   }
+  sample.hold_ms = static_cast<std::uint32_t>(std::min<std::int64_t>(
+      kLongestHold, std::max(kPeerTimeout, holds_.needle_ns) / kNanosecondsOfAMillisecond));
   sample.time_ns = sample.has_needle != 0 ? seen_.needle_ns : seen_.probe_ns;
   const std::int64_t heard = std::max(seen_.needle_ns, seen_.probe_ns);
   if (sample.has_needle != 0 || sample.has_probe != 0)

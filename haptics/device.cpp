@@ -18,10 +18,10 @@ Vec3 limit_norm(const Vec3& v, double limit) noexcept {
 
 std::array<DeviceLimits, 4> device_table() {
   return {{
-      {"touch", 3.0, 0.0, Vec3(0.16, 0.12, 0.07), 0.045, 0.3, 55e-6},
-      {"virtuose_6d_desktop", 10.0, 0.8, Vec3(0.52, 0.37, 0.40), 0.30, 2.0, 10e-6},
-      {"delta", 12.0, 0.0, Vec3(0.16, 0.16, 0.11), 0.20, 1.0, 30e-6},
-      {"ideal", 50.0, 5.0, Vec3(2, 2, 2), 0.10, 2.0, 1e-6},
+      {"touch", 3.0, 0.0, Vec3(0.16, 0.12, 0.07), 0.045, 0.3, 55e-6, 3.0, 0.0},
+      {"virtuose_6d_desktop", 10.0, 0.8, Vec3(0.52, 0.37, 0.40), 0.30, 2.0, 10e-6, 10.0, 0.8},
+      {"delta", 12.0, 0.0, Vec3(0.16, 0.16, 0.11), 0.20, 1.0, 30e-6, 12.0, 0.0},
+      {"ideal", 50.0, 5.0, Vec3(2, 2, 2), 0.10, 2.0, 1e-6, 40.0, 2.0},
   }};
 }
 
@@ -30,6 +30,12 @@ Result<DeviceLimits> find_device(std::string_view name) {
   const auto at = find_name(item_names(devices), name, "device");
   ARTUS_TRY(at);
   return devices.at(*at);
+}
+
+DeviceLimits with_probe_device(DeviceLimits device, const DeviceLimits& probe) {
+  device.probe_force = probe.force;
+  device.probe_torque = probe.torque;
+  return device;
 }
 
 Wrench saturate(const DeviceLimits& device, const Wrench& wrench) noexcept {

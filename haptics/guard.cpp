@@ -28,6 +28,7 @@ std::uint32_t InputGuard::check(const TimedPose& pose) noexcept {
   std::uint32_t faults = 0;
   const Vec3 off = (pose.X_JN.translation() - params_.workspace_centre).cwiseAbs();
   if ((off.array() > params_.workspace_half.array()).any()) faults |= TickStatus::kOutOfWorkspace;
+  const double stale_after = std::max(params_.stale_after, pose.hold);
   if (have_last_) {
     const double elapsed = pose.time - last_.time;
     if (elapsed < 0) {
@@ -36,8 +37,8 @@ std::uint32_t InputGuard::check(const TimedPose& pose) noexcept {
       return faults | TickStatus::kTimeReversed;
     }
     unchanged_ = elapsed > 0 ? 0 : unchanged_ + dt_;
-    if (unchanged_ > params_.stale_after) faults |= TickStatus::kStale;
-    const double since = std::clamp(elapsed, dt_, params_.stale_after);
+    if (unchanged_ > stale_after) faults |= TickStatus::kStale;
+    const double since = std::clamp(elapsed, dt_, stale_after);
     const double moved = (pose.X_JN.translation() - last_.X_JN.translation()).norm();
     const double cosine =
         0.5 * ((last_.X_JN.linear().transpose() * pose.X_JN.linear()).trace() - 1);

@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <limits>
+#include <utility>
 
 #include "artus/haptics/device.h"
 
@@ -47,6 +48,7 @@ struct TimedPose {
   };
   Pose X_JN = Pose::Identity();
   double time = 0;  ///< s, never decreasing
+  double hold = 0;  ///< s that its device may let pass between two poses; below stale_after: that
   Check check = Check::none;
 };
 
@@ -72,8 +74,8 @@ class InputGuard {
 /// Source: the chain of libfranka [Franka].
 class OutputGuard {
  public:
-  OutputGuard(const GuardParams& params, const DeviceLimits& device, double dt) noexcept
-      : params_(params), device_(device), dt_(dt) {}
+  OutputGuard(const GuardParams& params, DeviceLimits device, double dt)
+      : params_(params), device_(std::move(device)), dt_(dt) {}
 
   /// `faults`: TickStatus bits of this tick's earlier stages. Adds what this stage did to `status`.
   [[nodiscard]] ARTUS_REALTIME Wrench apply(const Wrench& wanted, std::uint32_t faults,

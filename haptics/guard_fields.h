@@ -16,8 +16,10 @@ ARTUS_FIELDS(PassivityParams, control, max_damping);
 /// All but the name.
 template <Like<DeviceLimits> P, class F>
 void fields_of(P& params, F&& visit) {
-  auto& [name, force, torque, workspace, mass, damping, encoder_step] = params;
-  ARTUS_VISIT_FIELDS(visit, force, torque, workspace, mass, damping, encoder_step);
+  auto& [name, force, torque, workspace, mass, damping, encoder_step, probe_force, probe_torque,
+         needle_centre, needle_half, probe_centre, probe_half] = params;
+  ARTUS_VISIT_FIELDS(visit, force, torque, workspace, mass, damping, encoder_step, probe_force,
+                     probe_torque, needle_centre, needle_half, probe_centre, probe_half);
 }
 
 }  // namespace artus

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "artus/detail/core/noise.h"
+#include "artus/detail/core/plain_reason.h"
 #include "artus/detail/session/haptic_loop.h"
 #include "artus/detail/session/image_handover.h"
 #include "artus/detail/session/record/dropping_ring.h"
@@ -39,7 +40,7 @@ std::string reason_of(const std::exception_ptr& failure) {
   try {
     std::rethrow_exception(failure);
   } catch (const std::exception& e) {
-    return e.what();
+    return plain_reason(e.what());
   } catch (...) {
     return "an unknown failure";
   }
@@ -121,6 +122,7 @@ void Session::stop() {
     if (thread->joinable()) thread->join();
   handover_->end();
   if (drawing_thread_.joinable()) drawing_thread_.join();
+  if (recorder_) recorded_ = recorder_->finish();
 }
 
 Session::~Session() {
@@ -217,12 +219,23 @@ void Session::run_housekeeping() {
       for (const std::string& said : device_->repair_connection()) tell(said);
       const auto said = shared_image_ ? shared_image_->repair_connection() : std::nullopt;
       if (said) tell(*said);
+      tell_of_plunger();
+      if (const std::string trouble = recorder_ ? recorder_->trouble() : ""; !trouble.empty())
+        tell("the recording cannot be written: " + trouble);
     } catch (...) {
       tell(reason_of(std::current_exception()));
     }
     if (gauges_) time_fixed_work(kOperationsOfAnImage, times_->fixed_work);
     rest(kHousekeepingPeriod);
   }
+}
+
+void Session::tell_of_plunger() {
+  HapticSnapshot now;
+  if (haptic_.load(now, 1000) && (now.feedback.plunger.status & PlungerStatus::kJumped) != 0)
+    tell(
+        "the device's plunger went faster than a thumb can push it: refused, it begins anew where "
+        "it is, without a force");
 }
 
 void Session::run_imaging(const ThreadOptions& options) {

@@ -120,6 +120,10 @@ class Session {
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
+  /// Whether all of the recording was written, once stopped; good without one. Errors: unreadable
+  /// (a full disk).
+  [[nodiscard]] const Result<void>& recorded() const noexcept { return recorded_; }
+
   /// Stops all threads; the device's last force is zero. What an observer gathered is then at rest,
   /// and what the session tells of itself stays. For the thread that owns it.
   void stop();
@@ -160,6 +164,7 @@ class Session {
   void run_imaging(const ThreadOptions& options);
   void run_drawing(const ThreadOptions& options);
   void run_housekeeping();
+  void tell_of_plunger();
   void measure_floor(double seconds) noexcept;
   void request_priority(const char* who, const ThreadOptions& options);
   void tell(const std::string& notice);
@@ -180,6 +185,7 @@ class Session {
   bool draws_;
   std::unique_ptr<SessionTimes> times_;
   std::unique_ptr<Recorder> recorder_;
+  Result<void> recorded_;
   std::unique_ptr<ReopeningChannel<artus_shm_image>> shared_image_;
   std::unique_ptr<artus_shm_image> image_bytes_;  // as last shared
   std::size_t n_image_bytes_ = 0;

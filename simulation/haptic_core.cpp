@@ -25,6 +25,25 @@ LayerTable make_table(const std::shared_ptr<const Scene>& scene, const SessionPa
   return make_layer_table(scene->joint(), params.feel);
 }
 
+bool is_in_box(const PlainPose& X_W, const Vec3& centre, const Vec3& half) noexcept {
+  const Vec3 off = (to_pose(X_W).translation() - centre).cwiseAbs();
+  return (off.array() <= half.array()).all();
+}
+
+/// s after which a pose that does not change is stale: its device's hold and a tick's way.
+double held_for(const DeviceSample& device) noexcept {
+  constexpr double kMargin = 5e-3;  // s
+  return device.hold_ms == 0 ? 0 : 1e-9 * static_cast<double>(hold_of(device)) + kMargin;
+}
+
+/// The probe's hand: moving mass and damping as assumed, the limits of the device that holds it.
+DeviceLimits probe_limits(const DeviceLimits& device) {
+  DeviceLimits probe = ProbeHandParams{}.device;
+  probe.force = device.probe_force;
+  probe.torque = device.probe_torque;
+  return probe;
+}
+
 NeedleRendererParams renderer_params(const SessionParams& params) {
   NeedleRendererParams out{params.needle, params.guard, params.passivity, params.device,
                            params.haptic_rate};
@@ -42,9 +61,10 @@ HapticCore::HapticCore(std::shared_ptr<const Scene> scene, const SessionParams& 
       probe_(SkinContactParams{.tick_rate = params.haptic_rate,
                                .friction = ProbeContactParams{}.gel_friction}),
       probe_account_(kProbePassivity, 1 / params.haptic_rate, kProbeDampingForce),
-      probe_guard_(params.guard, ProbeHandParams{}.device, 1 / params.haptic_rate),
+      probe_guard_(params.guard, probe_limits(params.device), 1 / params.haptic_rate),
       syringe_(scene_->joint(), params),
-      aid_(scene_->joint(), params.aids, 1 / params.haptic_rate) {}
+      aid_(scene_->joint(), params.aids, 1 / params.haptic_rate),
+      limits_(params.device) {}
 
 /// Contact and laws of this tick's needle. False: it feels nothing.
 bool HapticCore::feel_needle(const DeviceSample& device, std::uint32_t command) noexcept {
@@ -55,9 +75,12 @@ bool HapticCore::feel_needle(const DeviceSample& device, std::uint32_t command) 
   if ((command & SessionCommand::kPause) != 0) why |= SessionStatus::kPaused;
   if ((command & SessionCommand::kLate) != 0) why |= TickStatus::kLate;
   if (why == 0 && device.has_needle == 0) why |= SessionStatus::kNoNeedle;
+  if (why == 0 && !is_in_box(device.X_WN, limits_.needle_centre, limits_.needle_half))
+    why |= TickStatus::kOutOfWorkspace;
   const bool rest = why != 0 || (command & SessionCommand::kReset) != 0;
   TimedPose pose;
   pose.time = 1e-9 * static_cast<double>(device.time_ns);
+  pose.hold = held_for(device);
   pose.check = rest ? TimedPose::Check::absent : TimedPose::Check::done;
   if (!rest) pose.X_JN = gesture_.X_WJ().inverse() * to_pose(device.X_WN);
   rests_ = why;
@@ -88,7 +111,14 @@ void HapticCore::command_needle(const Vec3& more_J) noexcept {
 /// The probe's hand feels the tissue while its pose is known and nobody paused.
 void HapticCore::step_probe(bool felt, const std::optional<Pose>& X_WP) noexcept {
   std::optional<Pose> X_JP;
-  if (felt && X_WP) X_JP = gesture_.X_WJ().inverse() * *X_WP;
+  std::uint32_t faults = TickStatus::kStale;
+  if (felt && X_WP) {
+    const PlainPose& plain = out_.input.device.X_WP;
+    faults = is_in_box(plain, limits_.probe_centre, limits_.probe_half)
+                 ? TickStatus::kOk
+                 : TickStatus::kOutOfWorkspace;
+    if (faults == TickStatus::kOk) X_JP = gesture_.X_WJ().inverse() * *X_WP;
+  }
   std::uint32_t status = 0;
   Wrench wanted = probe_.step(X_JP, out_.input.tick);
   if (X_JP)
@@ -96,8 +126,7 @@ void HapticCore::step_probe(bool felt, const std::optional<Pose>& X_WP) noexcept
   else
     probe_account_.pause();
   if (probe_.share() == 0) wanted = {};  // no damping off the skin
-  const Wrench wrench =
-      probe_guard_.apply(wanted, X_JP ? TickStatus::kOk : TickStatus::kStale, status);
+  const Wrench wrench = probe_guard_.apply(wanted, faults, status);
   probe_account_.observe(wrench.force);
   const Eigen::Matrix3d R_WJ = gesture_.X_WJ().linear();
   copy(R_WJ * wrench.force, out_.feedback.probe_force);
@@ -154,11 +183,11 @@ void HapticCore::take(const TickInput& input) noexcept {
   if (wrong && device.state == PeerState::alive) device.state = PeerState::invalid;
   if (!needle) device.X_WN = before.X_WN;
   if (!probe) device.X_WP = before.X_WP;
-  if (is_plunger(device) && device.reserved == 0) return;
+  if (is_plunger(device) && is_hold(device.hold_ms)) return;
   if (device.state == PeerState::alive) device.state = PeerState::invalid;
   device.plunger = PlungerSign::none;
   device.plunger_travel = device.plunger_force = 0;
-  device.reserved = 0;
+  device.hold_ms = 0;
 }
 
 const HapticSnapshot& HapticCore::step(const TickInput& input) noexcept {

@@ -50,6 +50,7 @@ class HapticCore {
   OutputGuard probe_guard_;
   SyringeCore syringe_;
   HandAid aid_;
+  DeviceLimits limits_;
   std::uint32_t rests_ = 0;  // why the needle feels nothing in this tick
   HapticSnapshot out_;
 };

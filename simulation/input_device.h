@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -23,6 +24,9 @@ enum class PeerState : std::uint32_t {
 /// Silence after which a device counts as lost, ns. Below the 20 ms that the protocol promises, so
 /// that a tick and the way to the device fit in between.
 inline constexpr std::int64_t kPeerTimeout = 15'000'000;  // ns
+
+/// The longest that a device may have its pose held: three samples of one at 30 Hz, ms.
+inline constexpr std::uint32_t kLongestHold = 100;
 
 struct Button {
   static constexpr std::uint32_t kCalibrate = 1U << 0U;  ///< choose the entry point
@@ -49,7 +53,7 @@ struct DeviceSample {
   double plunger_travel = 0;     ///< m, positive in
   double plunger_force = 0;      ///< N of the thumb, positive in
   PlungerSign plunger = PlungerSign::none;
-  std::uint32_t reserved = 0;
+  std::uint32_t hold_ms = 0;  ///< ms that it may let pass between two samples; 0: kPeerTimeout
 };
 static_assert(std::is_trivially_copyable_v<DeviceSample>);
 
@@ -90,6 +94,16 @@ struct DeviceFeedback {
 
 /// Whether what it says of its plunger can be: finite, within a metre and a kilonewton.
 [[nodiscard]] bool is_plunger(const DeviceSample& sample) noexcept;
+
+/// Whether its pose may be held for as long as it asks.
+[[nodiscard]] inline bool is_hold(std::uint32_t hold_ms) noexcept {
+  return hold_ms <= kLongestHold;
+}
+/// How long its pose is held, ns: kPeerTimeout unless it asks for longer.
+[[nodiscard]] inline std::int64_t hold_of(const DeviceSample& sample) noexcept {
+  constexpr std::int64_t kMillisecond = 1'000'000;  // ns
+  return std::max(kPeerTimeout, kMillisecond * static_cast<std::int64_t>(sample.hold_ms));
+}
 
 /// One source of poses and one sink of forces: a shared-memory peer, a simulated hand, a recorded
 /// file, mouse and keyboard. The haptic thread alone calls read and write.

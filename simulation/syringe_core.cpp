@@ -2,6 +2,7 @@
 #include "artus/detail/simulation/syringe_core.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace artus {
@@ -28,7 +29,8 @@ SyringeCore::SyringeCore(JointSpaces spaces, const SessionParams& params)
     : bevel_(0),
       of_region_(std::move(spaces.of_region)),
       plunger_(plunger_params(params), std::move(spaces.spaces), 1 / params.haptic_rate),
-      guard_(params.guard, {"thumb", kMaxForce, 0, Vec3::Zero(), 0, 0, 0}, 1 / params.haptic_rate) {
+      guard_(params.guard, {"thumb", kMaxForce, 0, Vec3::Zero(), 0, 0, 0}, 1 / params.haptic_rate),
+      dt_(1 / params.haptic_rate) {
   bevel_ = bevel_length(plunger_.params().needle.outer_diameter);
 }
 
@@ -36,6 +38,7 @@ void SyringeCore::reset() noexcept {
   plunger_.reset();
   engaged_ = false;
   n_sites_ = 0;
+  told_ = given_ = 0;
 }
 
 void SyringeCore::rest() noexcept {
@@ -44,23 +47,50 @@ void SyringeCore::rest() noexcept {
   out_.flow = 0;
 }
 
+/// Whether the device's plunger went farther since its last sample than a thumb can push it.
+bool SyringeCore::jumps(const DeviceSample& device) noexcept {
+  constexpr double kLongest = 0.1;  // s without a sample
+  // Of a slow device the plunger may be older than its newest pose.
+  const std::int64_t least = device.hold_ms > 0 ? hold_of(device) : 0;
+  const double elapsed = 1e-9 * static_cast<double>(std::max(least, device.time_ns - last_time_));
+  const double way = std::abs(device.plunger_travel - last_travel_);
+  const bool jumped = engaged_ && way > kMaxSpeed * std::clamp(elapsed, dt_, kLongest);
+  last_time_ = device.time_ns;
+  last_travel_ = device.plunger_travel;
+  return jumped;
+}
+
+/// Wherever the device's plunger is when it comes, and after a jump, it begins without a force.
+/// False: it jumped.
+bool SyringeCore::follow_travel(const DeviceSample& device, PlungerInput& input) noexcept {
+  const bool jumped = jumps(device);
+  if (jumped) {
+    engaged_ = false;
+    told_ = kToldFor;
+  }
+  if (!engaged_) zero_ = device.plunger_travel - plunger_.state().travel;
+  input.position = device.plunger_travel - zero_;
+  input.stiffness = kCoupling;
+  return !jumped;
+}
+
 void SyringeCore::step(const DeviceSample& device, const NeedleContact& contact) noexcept {
   PlungerInput input;
   input.tip = bevel_shares(contact, bevel_, of_region_);
   input.depth = contact.tick().depth;
-  const bool held = device.plunger != PlungerSign::none;
+  const double before = plunger_.state().content;
+  told_ = std::max(0.0, told_ - dt_);
+  bool felt = device.plunger != PlungerSign::none;
   if (device.plunger == PlungerSign::travel) {
-    // Wherever the device's plunger is when it comes, it begins without a force.
-    if (!engaged_) zero_ = device.plunger_travel - plunger_.state().travel;
-    input.position = device.plunger_travel - zero_;
-    input.stiffness = kCoupling;
+    felt = follow_travel(device, input);
   } else if (device.plunger == PlungerSign::force) {
     input.force = device.plunger_force;
   }
   engaged_ = device.plunger == PlungerSign::travel;
   const PlungerState& state = plunger_.step(input);
+  given_ += std::max(0.0, before - state.content);
   note_sites(input, contact);
-  describe(held ? state.force : 0, held ? TickStatus::kOk : TickStatus::kStale);
+  describe(felt ? state.force : 0, felt ? TickStatus::kOk : TickStatus::kStale);
 }
 
 void SyringeCore::note_sites(const PlungerInput& input, const NeedleContact& contact) noexcept {
@@ -97,8 +127,8 @@ void SyringeCore::describe(double thumb, std::uint32_t faults) noexcept {
   out_.flow = state.flow;
   out_.travel = state.travel;
   out_.drawn = state.drawn;
-  out_.given = plunger_.params().syringe.filled + state.drawn - state.content;
-  out_.status = state.status;
+  out_.given = given_;
+  out_.status = state.status | (told_ > 0 ? PlungerStatus::kJumped : 0U);
 }
 
 }  // namespace artus

@@ -32,6 +32,10 @@ class SyringeCore {
   static constexpr double kCoupling = 1300;
   /// N that a thumb is ever pushed with; assumed: a strong push.
   static constexpr double kMaxForce = 40;
+  /// m/s of a device's plunger; what is faster is no thumb's motion. Assumed: a thumb < 0.5 m/s.
+  static constexpr double kMaxSpeed = 1;
+  /// s for which a jump of the plunger is told after it.
+  static constexpr double kToldFor = 0.5;
 
   /// Requires: valid params.
   SyringeCore(const CompiledJoint& joint, const SessionParams& params);
@@ -55,6 +59,8 @@ class SyringeCore {
  private:
   SyringeCore(JointSpaces spaces, const SessionParams& params);
   void describe(double thumb, std::uint32_t faults) noexcept;
+  [[nodiscard]] bool jumps(const DeviceSample& device) noexcept;
+  [[nodiscard]] bool follow_travel(const DeviceSample& device, PlungerInput& input) noexcept;
   void note_sites(const PlungerInput& input, const NeedleContact& contact) noexcept;
 
   double bevel_;  // m
@@ -63,6 +69,11 @@ class SyringeCore {
   OutputGuard guard_;
   double zero_ = 0;  // m of the device's travel where the plunger's is 0
   bool engaged_ = false;
+  double dt_;                   // s
+  double last_travel_ = 0;      // m of the device's, when it last said
+  std::int64_t last_time_ = 0;  // ns of the sample that said it
+  double told_ = 0;             // s for which a jump is still told
+  double given_ = 0;            // m^3 that left the needle forward
   double on_needle_ = 0;
   std::array<InjectedSite, kMaxSites> sites_;
   std::array<std::uint32_t, kMaxSites> space_of_site_{};

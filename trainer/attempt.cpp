@@ -79,6 +79,8 @@ Result<bool> work(const TrainContext& room, const TrainTask& task, const Session
   if (room.link != nullptr) room.link->attach(session->get());
   auto finished = show(room, task, lesson, **session, hand);
   if (room.link != nullptr) room.link->attach(nullptr);
+  (*session)->stop();
+  ARTUS_TRY((*session)->recorded());
   return finished;
 }
 

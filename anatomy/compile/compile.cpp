@@ -9,6 +9,7 @@
 
 #include "artus/detail/anatomy/compile/attach_metadata.h"
 #include "artus/detail/anatomy/compile/check/compile_warnings.h"
+#include "artus/detail/anatomy/compile/check/held.h"
 #include "artus/detail/anatomy/compile/check/misplaced.h"
 #include "artus/detail/anatomy/compile/check/plan_check.h"
 #include "artus/detail/anatomy/compile/labels/compile_labels.h"
@@ -82,7 +83,10 @@ Result<void> check_refusals(const JointFile& file, const std::vector<StructureRe
       if (!r.refused.empty()) refusals.push_back(r.name + ": " + r.refused);
   if (options.check_plans) {
     for (const Finding& f : find_misplaced(file, surfaces))
-      if (f.verdict == Verdict::refused) refusals.push_back(f.what + ": " + f.message);
+      if (f.verdict == Verdict::refused && !(options.skip_refused && f.kind == "lost"))
+        refusals.push_back(f.what + ": " + f.message);
+    for (const Finding& f : find_unheld(file, surfaces))
+      refusals.push_back(f.what + ": " + f.message);
     for (const PlanProblem& p : find_plan_problems(file, make_ground(file, surfaces)))
       refusals.push_back(to_line(p));
   }

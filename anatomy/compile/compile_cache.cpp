@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "artus/anatomy/compile.h"
+#include "artus/detail/anatomy/body/holders.h"
 #include "artus/detail/anatomy/body/joint_path.h"
 #include "artus/detail/anatomy/body/skin_line.h"
 #include "artus/detail/anatomy/compile/attach_metadata.h"
@@ -145,6 +146,7 @@ Result<CompileOutcome> compile_or_reuse(const JointSources& sources, const LoadO
     const PlanGround ground = make_ground(outcome->joint, file.region_of_interest);
     for (const PlanProblem& p : find_plan_problems(with_plans_of(file, outcome->joint), ground))
       problems.push_back(to_line(p));
+    if (!find_holders(outcome->joint).any()) problems.push_back(explain_unheld());
     ARTUS_TRY(refuse_all(problems, file));
   }
   if (outcome->report.body_kept)

@@ -40,8 +40,15 @@ Result<Vec3> parse_triple(std::string_view text, const std::string& flag) {
 }  // namespace
 
 Result<Vec3> parse_point_mm(std::string_view text, const std::string& flag) {
+  constexpr double kFarthest = 10e3;  // mm
   auto v = parse_triple(text, flag);
-  if (v) *v *= kMillimetre;
+  ARTUS_TRY(v);
+  if (!(v->norm() <= kFarthest))
+    return fail(ErrorCode::malformed,
+                "'" + std::string(text) +
+                    "' lies beyond 10000 mm from the joint's origin; points are in mm",
+                flag);
+  *v *= kMillimetre;
   return v;
 }
 

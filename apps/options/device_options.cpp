@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/detail/apps/options/device_options.h"
 
+#include <utility>
+
 namespace artus {
 
 void add_haptic_rate_option(Command* command, double& rate_hz, const std::string& names) {
@@ -19,6 +21,24 @@ void add_device_option(Command* command, std::string& device) {
       ->add_option("--device", device,
                    "whose force limits hold: touch, virtuose_6d_desktop, delta, ideal")
       ->capture_default_str();
+}
+
+void add_own_device_options(Command* command, OwnDeviceOptions& options) {
+  command->add_option("--device-file", options.file,
+                      "limits of your own device, needle's and probe's, in place of --device "
+                      "(docs/haptics.md)");
+  command->add_option("--probe-device", options.probe_device,
+                      "whose force limits hold for the probe's hand, by name (default: as the "
+                      "needle's)");
+}
+
+Result<DeviceLimits> chosen_device(const std::string& device, const OwnDeviceOptions& own) {
+  auto limits = own.file.empty() ? find_device(device) : read_device_file(own.file);
+  ARTUS_TRY(limits);
+  if (own.probe_device.empty()) return limits;
+  const auto probe = find_device(own.probe_device);
+  ARTUS_TRY(probe);
+  return with_probe_device(std::move(*limits), *probe);
 }
 
 }  // namespace artus

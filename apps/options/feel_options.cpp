@@ -66,8 +66,13 @@ Result<void> read_workspace(const FeelOptions& options, std::optional<Hemisphere
   if (mm.empty()) return {};
   const bool finite =
       std::all_of(mm.begin(), mm.end(), [](double value) { return std::isfinite(value); });
-  if (mm.size() != 4 || !finite || !(mm[3] > 0))
-    return fail(ErrorCode::invalid, "needs centre x, y, z and a radius above 0, mm",
+  constexpr double kFarthest = 10e3;  // mm
+  const auto is_near = [](double value) {
+    return std::abs(value) < kFarthest;
+  };
+  if (mm.size() != 4 || !finite || !(mm[3] > 0) || !std::all_of(mm.begin(), mm.end(), is_near))
+    return fail(ErrorCode::invalid,
+                "needs centre x, y, z and a radius above 0, mm, each below 10000",
                 "--workspace-mm");
   sphere.emplace();
   sphere->centre = Vec3(mm[0], mm[1], mm[2]) * kMillimetre;

@@ -13,8 +13,8 @@ void add_pose_list_options(Command* command, PoseListOptions& options) {
   command->add_flag("--json", options.json, "machine-readable output");
 }
 
-Result<std::vector<ListedPose>> read_any_poses(const std::filesystem::path& file) {
-  if (file.extension() != ".mha") return read_poses(file);
+Result<std::vector<ListedPose>> read_any_poses(const std::filesystem::path& file, PoseHand needed) {
+  if (file.extension() != ".mha") return read_poses(file, needed);
   const auto sequence = read_mha(file);
   ARTUS_TRY(sequence);
   auto poses = poses_of(*sequence);

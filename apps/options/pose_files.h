@@ -23,7 +23,8 @@ void add_pose_list_options(Command* command, PoseListOptions& options);
 
 /// Poses from any file that holds some: a list (.jsonl, .csv), or a sequence of 3D Slicer or PLUS
 /// (.mha). Errors: those of read_poses, read_mha and poses_of.
-[[nodiscard]] Result<std::vector<ListedPose>> read_any_poses(const std::filesystem::path& file);
+[[nodiscard]] Result<std::vector<ListedPose>> read_any_poses(const std::filesystem::path& file,
+                                                             PoseHand needed = PoseHand::probe);
 
 /// A recording, or what a session records in which such poses lead probe and needle (with serve's
 /// settings; `pictures`: of a led one). Errors: those of read_recording, read_any_poses and

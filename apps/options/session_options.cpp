@@ -7,6 +7,7 @@
 #include <sstream>
 #include <utility>
 
+#include "artus/detail/anatomy/body/holders.h"
 #include "artus/detail/apps/options/hand_options.h"
 #include "artus/detail/core/text_file.h"
 #include "artus/detail/core/units.h"
@@ -63,7 +64,7 @@ nlohmann::json to_json(const LatencyHistogram& h) {
 }  // namespace
 
 void add_prefix_option(Command* command, std::string& prefix) {
-  command->add_option("--prefix", prefix, "stands before the names POS, FORCE and IMAGE")
+  command->add_option("--prefix", prefix, "stands before the names POS, POS-PROBE, FORCE and IMAGE")
       ->check(FlagCheck{[](const std::string& text) {
                           const bool good = artus_shm_is_prefix(text.c_str()) != 0;
                           return good ? std::string()
@@ -79,6 +80,7 @@ void add_session_options(Command* command, SessionOptions& options,
   add_feel_options(command, options.feel);
   add_needle_length_option(command, options.feel.needle_length_mm);
   add_device_option(command, options.device);
+  add_own_device_options(command, options.own_device);
   add_haptic_rate_option(command, options.haptic_rate, "--haptic-rate,--rate");
   command->add_option("--image-rate", options.image_rate, "images a second, Hz")
       ->check(number_in(1, 120))
@@ -139,7 +141,7 @@ Result<SessionParams> make_session_params(const SessionOptions& options,
   params.syringe.gauge = options.gauge;
   params.syringe.filled = options.syringe_ml * kCubicCentimetre;
   params.syringe.liquid = options.liquid;
-  const auto device = find_device(options.device);
+  const auto device = chosen_device(options.device, options.own_device);
   ARTUS_TRY(device);
   params.device = *device;
   params.haptic_rate = options.haptic_rate;
@@ -151,6 +153,8 @@ Result<SessionParams> make_session_params(const SessionOptions& options,
         std::max(params.guard.stale_after, 1e-3 * options.igtl.needle_hold_ms + kMargin);
   }
   params.deform = !options.rigid;
+  if (params.deform && !joint.mesh.tetrahedra.empty() && !find_holders(joint).any())
+    return fail(ErrorCode::invalid, explain_unheld() + "; or run it with --rigid", joint.name);
   const auto feel = make_feel(options.feel, joint);
   ARTUS_TRY(feel);
   params.feel = *feel;

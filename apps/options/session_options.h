@@ -6,6 +6,7 @@
 #include <string>
 
 #include "artus/detail/apps/options/command.h"
+#include "artus/detail/apps/options/device_options.h"
 #include "artus/detail/apps/options/feel_options.h"
 #include "artus/detail/apps/options/igtl_options.h"
 #include "artus/detail/apps/options/plan_options.h"
@@ -20,6 +21,7 @@ struct SessionOptions {
   FeelOptions feel;
   PlanOptions plan;
   std::string device = "touch";
+  OwnDeviceOptions own_device;
   double haptic_rate = 1000;
   double image_rate = 40;
   std::string input = "shared-memory";

@@ -6,6 +6,8 @@
 #include <numeric>
 
 #include "artus/detail/core/noise.h"
+#include "artus/detail/core/printed.h"
+#include "artus/detail/core/units.h"
 #include "artus/detail/evidence/runs/injection_view.h"
 #include "artus/detail/evidence/runs/seated_probe.h"
 #include "artus/detail/haptics/plunger/bevel.h"
@@ -247,7 +249,7 @@ class Trial {
     row.time = t;
     row.depth = contact().inserted() ? needle.depth : 0;
     row.region = contact().inserted() ? contact().region() : kOutside;
-    row.axial = Vec3(tick.force_J[0], tick.force_J[1], tick.force_J[2]).dot(needle.axis);
+    row.axial = -Vec3(tick.force_J[0], tick.force_J[1], tick.force_J[2]).dot(needle.axis);
     row.plunger = plunger().state();
     row.thumb = plunger().state().force;
     if (const OperatorPhase* phase = person.present()) row.phase = label_of(phase->label);
@@ -409,7 +411,14 @@ Result<InjectionRun> run_injection(const Scene& scene, const InjectionSpec& spec
   ARTUS_TRY(plan);
   auto spaces = make_joint_spaces(scene.joint());
   ARTUS_TRY(spaces);
-  const double length = std::max(spec.needle_length, plan->layer.to + kFarthestThrough + kSpare);
+  const double needed = plan->layer.to + kFarthestThrough + kSpare;
+  if (spec.feel.needle_length && *spec.feel.needle_length < needed)
+    return fail(ErrorCode::invalid,
+                printed("a needle of %.1f mm is too short for this line: it needs %.1f mm or more, "
+                        "to go through the target and be held",
+                        *spec.feel.needle_length / kMillimetre, needed / kMillimetre),
+                "--needle-length-mm");
+  const double length = std::max(spec.needle_length, needed);
   const auto params = params_of(spec, scene.joint(), length);
   ARTUS_TRY(params);
   auto plunger = make_plunger_params(params->syringe, length);

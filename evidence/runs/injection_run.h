@@ -50,7 +50,8 @@ struct InjectionRow {
   double time = 0;
   double depth = 0;  ///< m of the tip along the line in the material, 0 at the skin
   RegionId region = kOutside;
-  double axial = 0;  ///< N of the device on the hand along the needle, the thumb's push in it
+  double axial = 0;  ///< N of the device on the hand along the needle, positive against insertion,
+                     ///< as TrajectoryForce has it; the thumb's push is in it
   PlungerState plunger;
   double thumb = 0;             ///< N
   std::string_view phase;       ///< what the operator is doing

@@ -25,6 +25,8 @@ struct PlungerStatus {
   static constexpr std::uint32_t kNotFinite = 1U << 9U;  ///< the thumb's numbers: none was taken
   static constexpr std::uint32_t kLimited = 1U << 10U;   ///< the thumb's force was cut
   static constexpr std::uint32_t kTense = 1U << 11U;     ///< above the place's stop pressure
+  static constexpr std::uint32_t kJumped = 1U << 12U;  ///< the device's plunger went faster than a
+                                                       ///< thumb: refused, it begins anew
 };
 
 /// How much of the bevel's opening is in a place; the shares of a tip add up to 1.

@@ -2,8 +2,9 @@
  *
  * The C client of artus' shared memory: headers, no library, C11 and C++ (GCC or Clang, Linux).
  * A device program writes its pose into POS and reads what the hand should feel from FORCE; the
- * newest B-mode image is in IMAGE. artus_shm_layout.h has every byte, docs/protocol.md the rules.
- * With glibc older than 2.34 link with -lrt.
+ * newest B-mode image is in IMAGE. Where needle and probe are two devices with a program each, the
+ * probe's opens with artus_shm_open_role(&link, "", ARTUS_SHM_ROLE_PROBE). artus_shm_layout.h has
+ * every byte, docs/protocol.md the rules. With glibc older than 2.34 link with -lrt.
  *
  *   artus_shm_link link;
  *   if (artus_shm_open(&link, "") != 0) perror(link.refusal);
@@ -141,6 +142,7 @@ typedef struct artus_shm_link {
   artus_shm_segment force;
   artus_shm_force last; /* the newest that was read whole */
   char prefix[ARTUS_SHM_MAX_PREFIX + 1];
+  int role; /* ARTUS_SHM_ROLE_... */
   uint64_t looked_ns;
   const char* refusal; /* what could not be opened, for a message; errno says why */
 } artus_shm_link;
@@ -151,20 +153,6 @@ typedef struct artus_shm_screen {
   char prefix[ARTUS_SHM_MAX_PREFIX + 1];
   uint64_t looked_ns;
 } artus_shm_screen;
-
-static inline uint64_t artus_shm_now_ns(void) {
-  struct timespec now;
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return (uint64_t)now.tv_sec * 1000000000ull + (uint64_t)now.tv_nsec;
-}
-
-/* Whether `prefix` may stand before POS, FORCE and IMAGE: at most 63 letters, digits, '-', '_' and
- * '.'. Both sides ask this function. */
-static inline int artus_shm_is_prefix(const char* prefix) {
-  const size_t length = strlen(prefix);
-  const char* allowed = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_.";
-  return length <= ARTUS_SHM_MAX_PREFIX && strspn(prefix, allowed) == length;
-}
 
 /* Seqlock write: the sequence is odd while the words change; release order keeps them after it. */
 static inline void artus_shm_store(artus_shm_header* header, const void* value, size_t size) {
@@ -301,7 +289,8 @@ static inline int artus_shm_follow(artus_shm_segment* segment, const char* prefi
 }
 
 static inline int artus_shm_follow_pos(artus_shm_link* link) {
-  const artus_shm_kind kind = {"POS", ARTUS_SHM_MAGIC_POS, sizeof(artus_shm_pos)};
+  const artus_shm_kind kind = {link->role == ARTUS_SHM_ROLE_PROBE ? "POS-PROBE" : "POS",
+                               ARTUS_SHM_MAGIC_POS, sizeof(artus_shm_pos)};
   return artus_shm_follow(&link->pos, link->prefix, &kind, 1, 1);
 }
 static inline int artus_shm_follow_force(artus_shm_link* link) {
@@ -313,19 +302,26 @@ static inline int artus_shm_follow_image(artus_shm_screen* screen) {
   return artus_shm_follow(&screen->image, screen->prefix, &kind, 0, 0);
 }
 
-/* Opens POS for writing and FORCE for reading; either side may start first. `prefix` stands before
- * the names POS and FORCE, "" for the usual ones. 0, or -1 with errno and link->refusal: EINVAL
- * (the prefix, see artus_shm_is_prefix), EPROTO (a segment is not one of this version), EPERM
- * (others may touch it), EBUSY (POS has a writer). */
-static inline int artus_shm_open(artus_shm_link* link, const char* prefix) {
+/* Opens a hand's segment for writing, POS or POS-PROBE by its role, and FORCE for reading; either
+ * side may start first. `prefix` stands before the names, "" for the usual ones. 0, or -1 with
+ * errno and link->refusal: EINVAL (the prefix, see artus_shm_is_prefix, or the role), EPROTO (a
+ * segment is not one of this version), EPERM (others may touch it), EBUSY (that role has a writer).
+ */
+static inline int artus_shm_open_role(artus_shm_link* link, const char* prefix, int role) {
+  const int probe = role == ARTUS_SHM_ROLE_PROBE;
   memset(link, 0, sizeof *link);
   link->pos.file = link->force.file = -1;
   link->refusal = prefix;
   if (!artus_shm_is_prefix(prefix)) return errno = EINVAL, -1;
+  link->refusal = "role";
+  if (!probe && role != ARTUS_SHM_ROLE_ALL) return errno = EINVAL, -1;
   memcpy(link->prefix, prefix, strlen(prefix) + 1);
-  link->refusal = "POS";
+  link->role = role;
+  link->refusal = probe ? "POS-PROBE" : "POS";
   if (artus_shm_follow_pos(link) != 0) {
-    if (errno == EPROTO) link->refusal = "POS is of another version of artus' shared memory";
+    if (errno == EPROTO)
+      link->refusal = probe ? "POS-PROBE is of another version of artus' shared memory"
+                            : "POS is of another version of artus' shared memory";
     return -1;
   }
   link->refusal = "FORCE";
@@ -339,20 +335,15 @@ static inline int artus_shm_open(artus_shm_link* link, const char* prefix) {
   return 0;
 }
 
+/* The same for a program that holds the needle, or both hands. */
+static inline int artus_shm_open(artus_shm_link* link, const char* prefix) {
+  return artus_shm_open_role(link, prefix, ARTUS_SHM_ROLE_ALL);
+}
+
 static inline void artus_shm_close(artus_shm_link* link) {
   if (link->pos.header) __atomic_store_n(&link->pos.header->writer_pid, 0, __ATOMIC_RELEASE);
   artus_shm_unmap(&link->pos);
   artus_shm_unmap(&link->force);
-}
-
-/* Nothing is held, rotations are the identity, the time is now. */
-static inline artus_shm_pos artus_shm_pos_init(void) {
-  artus_shm_pos pos;
-  memset(&pos, 0, sizeof pos);
-  pos.time_ns = artus_shm_now_ns();
-  pos.needle_rotation[0] = 1;
-  pos.probe_rotation[0] = 1;
-  return pos;
 }
 
 static inline void artus_shm_write_pos(artus_shm_link* link, const artus_shm_pos* pos) {
@@ -367,13 +358,22 @@ static inline void artus_shm_look(artus_shm_link* link, uint64_t now) {
   artus_shm_follow_force(link);
 }
 
+/* Whether artus hears what this program writes. */
+static inline int artus_shm_is_heard(const artus_shm_link* link, const artus_shm_force* force) {
+  const uint32_t no_pose = 1u << 4;
+  return link->role == ARTUS_SHM_ROLE_PROBE
+             ? !(force->probe_status & (ARTUS_SHM_PEER_LOST | no_pose))
+             : !(force->status & ARTUS_SHM_PEER_LOST);
+}
+
 /* The newest force; zero with ARTUS_SHM_SILENT when FORCE did not change, or was computed, 20 ms
- * ago. While artus is silent or does not hear POS it looks whether the names lead to new segments.
- * 1: fresh, 0: silent. */
+ * ago, and with ARTUS_SHM_FORCE_INVALID beside when what is there cannot be a force. While artus is
+ * silent or does not hear POS it looks whether the names lead to new segments. 1: fresh, 0: silent.
+ */
 static inline int artus_shm_read_force(artus_shm_link* link, artus_shm_force* force) {
   artus_shm_segment* s = &link->force;
   uint64_t now = 0;
-  int attempt;
+  int attempt, scribbled = 0;
   for (attempt = 0; attempt < 4; ++attempt) { /* again when this thread itself was held up */
     const uint64_t beat = __atomic_load_n(&s->header->heartbeat, __ATOMIC_ACQUIRE);
     const int whole = artus_shm_load(s->header, force, sizeof *force);
@@ -385,18 +385,23 @@ static inline int artus_shm_read_force(artus_shm_link* link, artus_shm_force* fo
       s->seen_ns = now;
     }
     if (s->seen_ns == 0) continue; /* what is there may be a left-over */
-    if (whole) link->last = *force;
+    scribbled = whole && !artus_shm_is_force(force);
+    if (scribbled) break;
+    if (whole) {
+      force->layer_name[sizeof force->layer_name - 1] = 0;
+      link->last = *force;
+    }
     age = (int64_t)(now - link->last.time_ns);
     if (age > -1000000 && age < (int64_t)ARTUS_SHM_STALE_NS &&
         now - s->seen_ns < ARTUS_SHM_STALE_NS && !link->pos.gone) {
       *force = link->last;
-      if ((force->status & ARTUS_SHM_PEER_LOST) || artus_shm_is_lost(link->pos.range))
+      if (!artus_shm_is_heard(link, force) || artus_shm_is_lost(link->pos.range))
         artus_shm_look(link, now);
       return 1;
     }
   }
   memset(force, 0, sizeof *force);
-  force->status = ARTUS_SHM_SILENT;
+  force->status = ARTUS_SHM_SILENT | (scribbled ? (uint32_t)ARTUS_SHM_FORCE_INVALID : 0u);
   if (now - s->seen_ns > ARTUS_SHM_LOOK_NS || artus_shm_is_lost(s->range) || link->pos.gone)
     artus_shm_look(link, now);
   return 0;

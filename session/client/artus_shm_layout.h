@@ -1,17 +1,26 @@
 /* SPDX-License-Identifier: AGPL-3.0-or-later
  *
- * Every byte of artus' shared memory POS, FORCE and IMAGE (docs/protocol.md), for C11 and C++. */
+ * Every byte of artus' shared memory POS, POS-PROBE, FORCE and IMAGE (docs/protocol.md), and what
+ * may stand in them, for C11 and C++. */
 #ifndef ARTUS_SHM_LAYOUT_H
 #define ARTUS_SHM_LAYOUT_H
+#ifndef _GNU_SOURCE
+#define _GNU_SOURCE 1 /* of clock_gettime */
+#endif
 #include <stdint.h>
+#include <string.h>
+#include <time.h>
 
-#define ARTUS_SHM_VERSION 3u
+#define ARTUS_SHM_VERSION 4u
 #define ARTUS_SHM_MAGIC_POS 0x31534f5053545241ull   /* "ARTSPOS1" */
 #define ARTUS_SHM_MAGIC_FORCE 0x3143524653545241ull /* "ARTSFRC1" */
 #define ARTUS_SHM_MAGIC_IMAGE 0x31474d4953545241ull /* "ARTSIMG1" */
 #define ARTUS_SHM_IMAGE_CAPACITY (1024u * 1024u)    /* pixels */
 #define ARTUS_SHM_STALE_NS 20000000ull              /* silence after which a peer counts as lost */
 #define ARTUS_SHM_MAX_PREFIX 63                     /* characters */
+#define ARTUS_SHM_MAX_HOLD_MS 100u                  /* the longest that a pose is held */
+#define ARTUS_SHM_MAX_FORCE 100.0                   /* N; no force of artus' is above it */
+#define ARTUS_SHM_MAX_TORQUE 10.0                   /* N m */
 
 /* The first 64 bytes of every segment. All numbers are little-endian. */
 typedef struct artus_shm_header {
@@ -35,9 +44,15 @@ enum {
   ARTUS_SHM_PLUNGER_FORCE = 8u
 };
 
-/* POS: where needle and probe are, written by the device program. World frame W, metres.
- * Needle: origin at the tip, z from hub to tip. Probe: origin at the footprint's centre, x along
- * the scanlines' row, z into the body. Quaternions w, x, y, z. */
+/* Which hand a device program holds: its segment, and what it may say is present there. */
+enum {
+  ARTUS_SHM_ROLE_ALL = 0,  /* POS: needle and plunger, and the probe while nobody has POS-PROBE */
+  ARTUS_SHM_ROLE_PROBE = 1 /* POS-PROBE: the probe alone */
+};
+
+/* POS and POS-PROBE: where needle and probe are, written by a device program. World frame W,
+ * metres. Needle: origin at the tip, z from hub to tip. Probe: origin at the footprint's centre, x
+ * along the scanlines' row, z into the body. Quaternions w, x, y, z. */
 typedef struct artus_shm_pos {
   uint64_t sample;           /*   0 grows with every sample of a writer */
   uint64_t time_ns;          /*   8 CLOCK_MONOTONIC when the pose was measured */
@@ -49,15 +64,18 @@ typedef struct artus_shm_pos {
   uint32_t present;      /* 132 ARTUS_SHM_NEEDLE | ARTUS_SHM_PROBE | one of ARTUS_SHM_PLUNGER_... */
   double plunger_travel; /* 136 m, positive in, from where the plunger was when it was new */
   double plunger_force;  /* 144 N of the thumb, positive pushes in */
-} artus_shm_pos;         /* 152 */
+  uint32_t hold_ms;      /* 152 a slow device: how long its pose is held, 15 to 100 ms; 0: 15 ms */
+  uint32_t reserved;     /* 156 zero */
+} artus_shm_pos;         /* 160 */
 
 /* artus_shm_force.status: bits 0-10 are those of artus' needle tick (docs/protocol.md). */
 enum {
   ARTUS_SHM_PEER_LOST = 1u << 16,   /* POS is silent or was never written */
   ARTUS_SHM_POS_INVALID = 1u << 17, /* POS holds values that are not a pose */
   ARTUS_SHM_PAUSED = 1u << 18,
-  ARTUS_SHM_STOPPED = 1u << 19, /* artus left in good order */
-  ARTUS_SHM_SILENT = 1u << 20   /* set by artus_shm_read_force: FORCE itself is stale */
+  ARTUS_SHM_STOPPED = 1u << 19,      /* artus left in good order */
+  ARTUS_SHM_SILENT = 1u << 20,       /* set by artus_shm_read_force: FORCE itself is stale */
+  ARTUS_SHM_FORCE_INVALID = 1u << 22 /* set by it: FORCE holds what cannot be a force */
 };
 
 /* FORCE: what the hand should feel, written by artus. Frame W, at the needle's tip. */
@@ -86,11 +104,13 @@ typedef struct artus_shm_force {
   double tip_pressure;     /* 232 Pa of what lies around the bevel */
   double flow;             /* 240 m3/s out of the tip; negative: drawn in */
   double travel;           /* 248 m of the plunger, positive in */
-  double given;            /* 256 m3 out of the tip since the syringe was new */
+  double given;            /* 256 m3 that left the tip since the syringe was new; never falls */
   double drawn;            /* 264 m3 of the patient's own in the syringe */
   uint32_t plunger_status; /* 272 bits, see docs/protocol.md */
   uint32_t reserved2;      /* 276 zero */
-} artus_shm_force;         /* 280 */
+  uint64_t probe_sample;   /* 280 sample that the probe's force answers: of POS-PROBE, or of POS */
+  uint64_t probe_time_ns;  /* 288 artus_shm_pos.time_ns of that sample */
+} artus_shm_force;         /* 296 */
 
 /* IMAGE: the newest B-mode frame, written by artus. */
 typedef struct artus_shm_image {
@@ -103,4 +123,48 @@ typedef struct artus_shm_image {
   uint64_t reserved[3];                   /* 40 zero */
   uint8_t grey[ARTUS_SHM_IMAGE_CAPACITY]; /* 64 (height, width), x fastest */
 } artus_shm_image;
+
+static inline uint64_t artus_shm_now_ns(void) {
+  struct timespec now;
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return (uint64_t)now.tv_sec * 1000000000ull + (uint64_t)now.tv_nsec;
+}
+
+/* Whether `prefix` may stand before POS, FORCE and IMAGE: at most 63 letters, digits, '-', '_' and
+ * '.'. Both sides ask this function. */
+static inline int artus_shm_is_prefix(const char* prefix) {
+  const size_t length = strlen(prefix);
+  const char* allowed = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_.";
+  return length <= ARTUS_SHM_MAX_PREFIX && strspn(prefix, allowed) == length;
+}
+
+/* Nothing is held, rotations are the identity, the time is now. */
+static inline artus_shm_pos artus_shm_pos_init(void) {
+  artus_shm_pos pos;
+  memset(&pos, 0, sizeof pos);
+  pos.time_ns = artus_shm_now_ns();
+  pos.needle_rotation[0] = 1;
+  pos.probe_rotation[0] = 1;
+  return pos;
+}
+
+/* 1: each of `n` numbers is finite and together they are no longer than `most`. */
+static inline int artus_shm_is_within(const double* v, int n, double most) {
+  double squares = 0;
+  int i;
+  for (i = 0; i < n; ++i) {
+    if (!(v[i] >= -most && v[i] <= most)) return 0; /* also when it is none */
+    squares += v[i] * v[i];
+  }
+  return squares <= most * most;
+}
+
+/* Whether a force is one that artus can have written: what scribbled over FORCE is not felt. */
+static inline int artus_shm_is_force(const artus_shm_force* f) {
+  return artus_shm_is_within(f->force, 3, ARTUS_SHM_MAX_FORCE) &&
+         artus_shm_is_within(f->torque, 3, ARTUS_SHM_MAX_TORQUE) &&
+         artus_shm_is_within(f->probe_force, 3, ARTUS_SHM_MAX_FORCE) &&
+         artus_shm_is_within(f->probe_torque, 3, ARTUS_SHM_MAX_TORQUE) &&
+         artus_shm_is_within(&f->thumb_force, 1, ARTUS_SHM_MAX_FORCE);
+}
 #endif /* ARTUS_SHM_LAYOUT_H */

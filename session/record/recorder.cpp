@@ -2,9 +2,11 @@
 #include "artus/detail/session/record/recorder.h"
 
 #include <atomic>
+#include <cerrno>
 #include <chrono>
 #include <cstdio>
 #include <string>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -21,6 +23,8 @@ struct Recorder::Impl {
   DroppingRing<FrameRecord> frames{1024};
   DroppingRing<PacketRecord> packets{1024};
   std::atomic<std::uint64_t> unwritten{0};  // that the file did not take
+  std::atomic<int> error{0};                // errno of the first that it did not
+  std::filesystem::path path;
   std::atomic<bool> stop{false};
   std::thread thread;
 
@@ -29,7 +33,12 @@ struct Recorder::Impl {
     const RecordStart start{kind, sizeof(T)};
     const bool good = std::fwrite(&start, sizeof start, 1, file.get()) == 1 &&
                       std::fwrite(&record, sizeof record, 1, file.get()) == 1;
-    if (!good) ++unwritten;
+    if (!good) note_failure();
+  }
+  void note_failure() {
+    int none = 0;
+    error.compare_exchange_strong(none, errno != 0 ? errno : EIO);
+    ++unwritten;
   }
   void drain() {
     TickRecord tick;
@@ -42,6 +51,7 @@ struct Recorder::Impl {
   void run() {
     while (!stop) {
       drain();
+      if (std::fflush(file.get()) != 0) note_failure();  // so that a full disk is told in time
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
   }
@@ -54,6 +64,7 @@ Recorder::Recorder(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {
 Result<std::unique_ptr<Recorder>> Recorder::start(const std::filesystem::path& file,
                                                   const RecordingHead& head) {
   auto impl = std::make_unique<Impl>();
+  impl->path = file;
   impl->file.reset(std::fopen(file.c_str(), "wb"));
   const std::string line = to_line(head) + "\n";
   if (!impl->file || std::fwrite(line.data(), 1, line.size(), impl->file.get()) != line.size())
@@ -62,10 +73,23 @@ Result<std::unique_ptr<Recorder>> Recorder::start(const std::filesystem::path& f
 }
 
 Recorder::~Recorder() {
-  impl_->stop = true;
-  impl_->thread.join();
-  impl_->drain();
-  impl_->write(RecordStart::kEnd, dropped());
+  static_cast<void>(finish());
+}
+
+Result<void> Recorder::finish() {
+  if (impl_->file) {
+    impl_->stop = true;
+    impl_->thread.join();
+    impl_->drain();
+    impl_->write(RecordStart::kEnd, dropped());
+    if (std::fclose(impl_->file.release()) != 0) impl_->note_failure();
+  }
+  if (impl_->error == 0) return {};
+  return fail(ErrorCode::unreadable, "the recording is not whole: " + trouble(), impl_->path);
+}
+
+std::string Recorder::trouble() const {
+  return impl_->error == 0 ? std::string() : std::generic_category().message(impl_->error);
 }
 
 void Recorder::add(const TickRecord& record) noexcept {

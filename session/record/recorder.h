@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <string>
 
 #include "artus/session/recording.h"
 
@@ -15,7 +16,7 @@ class Recorder {
   /// Errors: unreadable when the file cannot be made.
   [[nodiscard]] static Result<std::unique_ptr<Recorder>> start(const std::filesystem::path& file,
                                                                const RecordingHead& head);
-  /// Writes what is left and closes.
+  /// finish(), whose answer nobody waits for.
   ~Recorder();
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
@@ -25,6 +26,11 @@ class Recorder {
   ARTUS_REALTIME void add(const FrameRecord& record) noexcept;
   ARTUS_REALTIME void add(const PacketRecord& record) noexcept;
   [[nodiscard]] std::uint64_t dropped() const noexcept;
+  /// Why the file does not take what it should, in the system's words; empty: it does.
+  [[nodiscard]] std::string trouble() const;
+  /// Writes what is left and closes; nothing may be added any more. Errors: unreadable, a file that
+  /// did not take all of it (a full disk): what is there is no whole recording. Again: the same.
+  [[nodiscard]] Result<void> finish();
 
  private:
   struct Impl;

@@ -124,7 +124,8 @@ const char* find_fault(const TickRecord& record, std::uint64_t last) noexcept {
     return "flag that is neither 0 nor 1";
   if ((record.input.command & ~SessionCommand::kAll) != 0 || record.input.reserved != 0)
     return "unknown command";
-  if (!is_plunger(device) || device.reserved != 0) return "invalid plunger input";
+  if (!is_plunger(device)) return "invalid plunger input";
+  if (!is_hold(device.hold_ms)) return "a pose that is held for too long";
   const PlungerFeedback& p = record.plunger;
   const double plunger[] = {p.thumb_force, p.pressure, p.tip_pressure, p.flow,
                             p.travel,      p.given,    p.drawn};

@@ -7,6 +7,7 @@
 
 #include "artus/detail/anatomy/body/joint_digest.h"
 #include "artus/detail/core/byte_stream.h"
+#include "artus/detail/core/plain_reason.h"
 #include "artus/detail/core/printed.h"
 #include "artus/detail/session/record/fields_json.h"
 #include "artus/detail/session/record/needle_feel_json.h"
@@ -15,6 +16,9 @@
 namespace artus {
 namespace {
 
+// 13: the probe's contact is the tick's: packets of skin and curve in place of a tangent; the
+// device's own limits of the probe's hand and its boxes, how long a device's pose is held,
+// and `given` counts what left the needle forward, so that a replay of before would differ.
 constexpr int kVersion = 13;
 constexpr const char* kName = "artus_recording";
 constexpr const char* kDigest = "digest";
@@ -41,9 +45,7 @@ Result<RecordingHead> to_head(const nlohmann::json& json) {
   RecordingHead head;
   json.at("joint").get_to(head.joint);
   json.at("joint_digest").get_to(head.joint_digest);
-  const auto device = find_device(json.at("device").get<std::string>());
-  ARTUS_TRY(device);
-  head.params.device = *device;  // its name; the numbers are those of the recording
+  json.at("device").get_to(head.params.device.name);  // one of the table, or somebody's own
   read_fields(json.at("params"), head.params);
   head.params.X_WJ = to_pose(json.at("X_WJ"));
   head.params.wait_for_cage = json.value("wait_for_cage", false);
@@ -64,7 +66,7 @@ std::string to_line(const RecordingHead& head) {
   nlohmann::json json{{kName, kVersion},
                       {"joint", head.joint},
                       {"joint_digest", head.joint_digest},
-                      {"device", std::string(head.params.device.name)},
+                      {"device", head.params.device.name},
                       {"X_WJ", to_json(head.params.X_WJ)},
                       {"feel", to_json(head.params.feel)},
                       {"params", fields_to_json(head.params)}};
@@ -90,7 +92,7 @@ Result<RecordingHead> parse_head(const std::string& line) {
     return to_head(json);
   } catch (const nlohmann::json::exception& e) {
     return fail(ErrorCode::malformed,
-                std::string("its header (first line) is damaged: ") + e.what(), {});
+                "its header (first line) is damaged: " + plain_reason(e.what()), {});
   }
 }
 

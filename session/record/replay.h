@@ -19,8 +19,10 @@ struct ReplayReport {
   std::optional<std::uint64_t> first_different_frame;
   std::uint64_t dropped = 0;  ///< that the recording lacks
   bool complete = false;
+  /// There was nothing to compare: the recording is a head alone.
+  [[nodiscard]] bool empty() const noexcept { return ticks == 0 && frames == 0; }
   [[nodiscard]] bool identical() const noexcept {
-    return different_ticks == 0 && different_frames == 0;
+    return !empty() && different_ticks == 0 && different_frames == 0;
   }
 };
 

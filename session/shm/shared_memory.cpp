@@ -19,7 +19,7 @@ namespace ipc = boost::interprocess;
 
 static_assert(sizeof(artus_shm_header) == 64);
 static_assert(offsetof(artus_shm_header, sequence) == 56, "the seqlock's words follow it");
-static_assert(sizeof(artus_shm_pos) == 152 && sizeof(artus_shm_force) == 280);
+static_assert(sizeof(artus_shm_pos) == 160 && sizeof(artus_shm_force) == 296);
 
 struct SharedSegment::Impl {
   std::string prefix;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <memory>
@@ -14,7 +15,7 @@ namespace artus {
 
 /// What a segment must look like before anything in it is believed.
 struct SegmentLayout {
-  const char* name = "";  ///< POS, FORCE or IMAGE
+  const char* name = "";  ///< POS, POS-PROBE, FORCE or IMAGE
   std::uint64_t magic = 0;
   std::uint32_t payload_size = 0;  ///< bytes after the header
   [[nodiscard]] std::uint32_t size() const noexcept {
@@ -23,10 +24,17 @@ struct SegmentLayout {
 };
 
 inline constexpr SegmentLayout kPosLayout{"POS", ARTUS_SHM_MAGIC_POS, sizeof(artus_shm_pos)};
+/// Of a program that holds the probe alone.
+inline constexpr SegmentLayout kProbePosLayout{"POS-PROBE", ARTUS_SHM_MAGIC_POS,
+                                               sizeof(artus_shm_pos)};
 inline constexpr SegmentLayout kForceLayout{"FORCE", ARTUS_SHM_MAGIC_FORCE,
                                             sizeof(artus_shm_force)};
 inline constexpr SegmentLayout kImageLayout{"IMAGE", ARTUS_SHM_MAGIC_IMAGE,
                                             sizeof(artus_shm_image)};
+
+/// All that artus and its device programs share.
+inline constexpr std::array<SegmentLayout, 4> kAllLayouts{kPosLayout, kProbePosLayout, kForceLayout,
+                                                          kImageLayout};
 
 /// What one process may do with a segment.
 enum class SegmentAccess {

@@ -23,9 +23,11 @@ PlungerSign plunger_sign(std::uint32_t present) noexcept {
   return (present & ARTUS_SHM_PLUNGER_FORCE) != 0 ? PlungerSign::force : PlungerSign::none;
 }
 
-bool is_believable(const artus_shm_pos& pos, const DeviceSample& sample) noexcept {
-  return (pos.present & ~kKnownPresence) == 0 && (pos.present & kPlunger) != kPlunger &&
-         is_plunger(sample) && (sample.has_needle == 0 || is_pose(sample.X_WN)) &&
+bool is_believable(const artus_shm_pos& pos, std::uint32_t allowed,
+                   const DeviceSample& sample) noexcept {
+  return (pos.present & ~(kKnownPresence & allowed)) == 0 && pos.reserved == 0 &&
+         is_hold(pos.hold_ms) && (pos.present & kPlunger) != kPlunger && is_plunger(sample) &&
+         (sample.has_needle == 0 || is_pose(sample.X_WN)) &&
          (sample.has_probe == 0 || is_pose(sample.X_WP));
 }
 
@@ -45,10 +47,11 @@ void PosReader::take(const artus_shm_pos& pos, std::int64_t now_ns) noexcept {
   if (sample.plunger == PlungerSign::travel) sample.plunger_travel = pos.plunger_travel;
   if (sample.plunger == PlungerSign::force) sample.plunger_force = pos.plunger_force;
   constexpr std::int64_t kClockSlack = 1'000'000;  // ns between reading the clock here and there
-  const bool sound = age > -kClockSlack && is_believable(pos, sample);
-  sample.state = !sound               ? PeerState::invalid
-                 : age < kPeerTimeout ? PeerState::alive
-                                      : PeerState::lost;
+  const bool sound = age > -kClockSlack && is_believable(pos, allowed_, sample);
+  if (sound) sample.hold_ms = pos.hold_ms;
+  sample.state = !sound                  ? PeerState::invalid
+                 : age < hold_of(sample) ? PeerState::alive
+                                         : PeerState::lost;
   if (sound) number_ = pos.sample;
   if (!sound || sample.has_needle == 0) sample.X_WN = last_.X_WN;
   if (!sound || sample.has_probe == 0) sample.X_WP = last_.X_WP;
@@ -70,7 +73,9 @@ DeviceSample PosReader::accept(bool whole, const artus_shm_pos& pos, std::int64_
     changed_ns_ = now_ns;
   }
   if (whole && pos.sample != seen_) {
-    const bool begins_again = now_ns - changed_ns_ >= kPeerTimeout;
+    const bool silent = now_ns - changed_ns_ >= kPeerTimeout;
+    const bool counts_anew = pos.sample > seen_ && now_ns - heard_ns_ >= kPeerTimeout;
+    const bool begins_again = silent || counts_anew;
     seen_ = pos.sample;
     changed_ns_ = now_ns;
     if (pos.sample > number_ || begins_again) {
@@ -79,16 +84,40 @@ DeviceSample PosReader::accept(bool whole, const artus_shm_pos& pos, std::int64_
       last_.state = PeerState::invalid;
     }
   }
-  if (last_.state != PeerState::absent && now_ns - heard_ns_ >= kPeerTimeout) {
+  if (last_.state != PeerState::absent && now_ns - heard_ns_ >= hold_of(last_)) {
     last_.state = PeerState::lost;
   }
   return last_;
 }
 
+DeviceSample join_hands(const DeviceSample& needle, const DeviceSample& probe) noexcept {
+  if (probe.state == PeerState::absent) return needle;
+  const bool holds_needle = needle.state == PeerState::alive;
+  const bool holds_probe = probe.state == PeerState::alive && probe.has_probe != 0;
+  if (!holds_needle && probe.state != PeerState::alive)
+    return needle.state == PeerState::absent ? probe : needle;
+  DeviceSample both = holds_needle ? needle : probe;
+  if (holds_probe) {
+    both.X_WP = probe.X_WP;
+    both.has_probe = 1;
+  }
+  if (holds_needle) {
+    both.buttons |= probe.state == PeerState::alive ? probe.buttons : 0U;
+  } else {  // what POS last said of the needle is where it was last seen
+    both.X_WN = needle.X_WN;
+  }
+  return both;
+}
+
 SharedMemoryDevice::SharedMemoryDevice(std::unique_ptr<PosChannel> pos,
+                                       std::unique_ptr<PosChannel> probe_pos,
                                        std::unique_ptr<ForceChannel> force,
                                        std::vector<std::string> layer_names)
-    : pos_(std::move(pos)), force_(std::move(force)), layer_names_(std::move(layer_names)) {
+    : pos_(std::move(pos)),
+      probe_pos_(std::move(probe_pos)),
+      force_(std::move(force)),
+      layer_names_(std::move(layer_names)),
+      probe_reader_(ARTUS_SHM_PROBE) {
   write(DeviceFeedback{});  // what an earlier run left behind is no force of ours
 }
 
@@ -98,8 +127,10 @@ Result<std::unique_ptr<SharedMemoryDevice>> SharedMemoryDevice::open(
   ARTUS_TRY(force);
   auto pos = PosChannel::open(prefix, kPosLayout, SegmentAccess::owner_reads);
   ARTUS_TRY(pos);
-  return std::unique_ptr<SharedMemoryDevice>(
-      new SharedMemoryDevice(std::move(*pos), std::move(*force), std::move(layer_names)));
+  auto probe_pos = PosChannel::open(prefix, kProbePosLayout, SegmentAccess::owner_reads);
+  ARTUS_TRY(probe_pos);
+  return std::unique_ptr<SharedMemoryDevice>(new SharedMemoryDevice(
+      std::move(*pos), std::move(*probe_pos), std::move(*force), std::move(layer_names)));
 }
 
 SharedMemoryDevice::~SharedMemoryDevice() {
@@ -108,21 +139,44 @@ SharedMemoryDevice::~SharedMemoryDevice() {
   write(last);
   force_->remove_own();
   pos_->remove_own();
+  probe_pos_->remove_own();
 }
 
 std::vector<std::string> SharedMemoryDevice::repair_connection() {
   std::vector<std::string> said;
   if (auto line = pos_->repair_connection()) said.push_back(std::move(*line));
+  if (auto line = probe_pos_->repair_connection()) said.push_back(std::move(*line));
   if (auto line = force_->repair_connection()) said.push_back(std::move(*line));
   return said;
 }
 
 DeviceSample SharedMemoryDevice::read(std::int64_t now_ns) noexcept {
-  artus_shm_pos pos{};
-  const auto& channel = pos_->use();
-  const bool whole = channel.read(pos, 8);
-  const SharedSegment& segment = channel.segment();
-  return reader_.accept(whole, pos, now_ns, segment.opened_ns() ^ segment.writer_pid() << 44U);
+  const auto newest = [now_ns](PosChannel& from, PosReader& reader) {
+    artus_shm_pos pos{};
+    const auto& channel = from.use();
+    const bool whole = channel.read(pos, 8);
+    const SharedSegment& segment = channel.segment();
+    return reader.accept(whole, pos, now_ns, segment.opened_ns() ^ segment.writer_pid() << 44U);
+  };
+  needle_ = newest(*pos_, reader_);
+  probe_ = newest(*probe_pos_, probe_reader_);
+  return join_hands(needle_, probe_);
+}
+
+/// What FORCE says of each program apart: the sample that it answers, and whether it was lost.
+void SharedMemoryDevice::answer_each(artus_shm_force& out) const noexcept {
+  const bool two = probe_.state != PeerState::absent;
+  const DeviceSample& probe = two && probe_.has_probe != 0 ? probe_ : needle_;
+  out.probe_sample = probe.number;
+  out.probe_time_ns = static_cast<std::uint64_t>(probe.time_ns);
+  if (!two) return;
+  if (probe_.state != PeerState::alive && needle_.has_probe == 0)
+    out.probe_status |=
+        probe_.state == PeerState::invalid ? ARTUS_SHM_POS_INVALID : ARTUS_SHM_PEER_LOST;
+  if (needle_.state == PeerState::alive || (out.status & ARTUS_SHM_STOPPED) != 0) return;
+  out.status |= needle_.state == PeerState::invalid ? ARTUS_SHM_POS_INVALID : ARTUS_SHM_PEER_LOST;
+  out.pos_sample = needle_.number;
+  out.pos_time_ns = static_cast<std::uint64_t>(needle_.time_ns);
 }
 
 void SharedMemoryDevice::write(const DeviceFeedback& feedback) noexcept {
@@ -158,6 +212,7 @@ void SharedMemoryDevice::write(const DeviceFeedback& feedback) noexcept {
     const std::string& name = layer_names_[feedback.region];
     std::memcpy(out.layer_name, name.data(), std::min(name.size(), sizeof(out.layer_name) - 1));
   }
+  answer_each(out);
   force_->use().write(out);
 }
 

@@ -38,7 +38,14 @@ Press hold(SoftBody& body, const Pose& X_JP, double depth, Until until) {
 }
 
 /// Why a press as deep as may be does not give the force.
-std::string too_soft(const Press& press, double force) {
+std::string too_soft(const SoftBody& body, const Press& press, double force) {
+  constexpr double kFar = 40e-3;  // m: nothing holds what lies under the face
+  const double held = body.distance_to_held();
+  if (held > kFar)
+    return "the body gives way as a whole: what holds it begins " +
+           to_csv(std::round(held / kMillimetre)) +
+           " mm from the face; give it bone nearer to the probe, or a [region_of_interest] that "
+           "cuts it there";
   const std::string depth = to_csv(press.depth / kMillimetre) + " mm of press";
   if (press.normal_force < kNear * force)
     return "the face meets no tissue that gives way within " + depth +
@@ -61,7 +68,8 @@ Result<Press> press_with(SoftBody& body, const Pose& X_JP, double force, double 
     below = hold(body, X_JP, below.depth - kStep, Until::near);
   Press above = below;
   while (above.normal_force < force) {
-    if (above.depth + kStep > max_depth) return fail(ErrorCode::failed, too_soft(above, force));
+    if (above.depth + kStep > max_depth)
+      return fail(ErrorCode::failed, too_soft(body, above, force));
     below = above;
     above = hold(body, X_JP, above.depth + kStep, Until::near);
   }

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "artus/detail/anatomy/body/holders.h"
 #include "artus/detail/core/check.h"
 
 namespace artus {
@@ -135,6 +137,7 @@ Result<SoftBody> SoftBody::make(std::shared_ptr<const CompiledJoint> joint, cons
                                 const SoftBodyParams& params) {
   if (joint->mesh.tetrahedra.empty())
     return fail(ErrorCode::invalid, "a body without tetrahedra cannot give way", joint->name);
+  if (!find_holders(*joint).any()) return fail(ErrorCode::invalid, explain_unheld(), joint->name);
   const Pose X_CJ = X_JP.inverse();
   const auto locator = std::make_shared<const TetLocator>(joint->mesh);
   const BeyondTest beyond(*joint);
@@ -154,10 +157,13 @@ Result<SoftBody> SoftBody::make(std::shared_ptr<const CompiledJoint> joint, cons
                     std::make_shared<const SoftModel>(
                         make_joint_field(*joint, X_JP, params.poisson_ratio, locator), model));
   if (!is_held(*map->model))
-    return fail(ErrorCode::invalid,
-                "nothing holds the tissue: give the body bone, or a [region_of_interest] whose cut "
-                "faces are held",
-                joint->name);
+    return fail(
+        ErrorCode::invalid,
+        "what holds the tissue is too small: the cubes that carry the tissue have fewer than "
+        "three corners in it; give the body more bone, or a [region_of_interest] that cuts "
+        "it (" +
+            describe(find_holders(*joint)) + ")",
+        joint->name);
   const SkinPatch skin = skin_of(joint->mesh, X_CJ, params.face, params.far, body.skin_);
   if (skin.triangles.empty())
     return fail(ErrorCode::invalid, "no skin below the probe: move it over the body", joint->name);
@@ -236,6 +242,14 @@ FacePress SoftBody::try_press_J(const Pose& X_JP) const {
   FacePress press = solver_->try_press(map_->X_JC.inverse() * X_JP);
   press.contact = to_J(std::move(press.contact));
   return press;
+}
+
+double SoftBody::distance_to_held() const {
+  const SoftModel& model = *map_->model;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::uint32_t n = 0; n < model.cage().nodes().size(); ++n)
+    if (model.held(n).all()) nearest = std::min(nearest, model.cage().nodes()[n].norm());
+  return nearest;
 }
 
 /// Nodes of the cage that a bone holds.

@@ -39,7 +39,8 @@ struct SoftBodyParams {
 class SoftBody {
  public:
   /// `X_JP`: the pose around which the cage is fine. Errors: invalid (no tetrahedra, as in
-  /// phantoms; no skin below the pose). Cost: some s for a joint of 1e6 tetrahedra.
+  /// phantoms; nothing holds the tissue; no skin below the pose). Cost: some s for a joint of 1e6
+  /// tetrahedra.
   [[nodiscard]] static Result<SoftBody> make(std::shared_ptr<const CompiledJoint> joint,
                                              const Pose& X_JP, const SoftBodyParams& params = {});
 
@@ -69,6 +70,9 @@ class SoftBody {
   /// The present state; `before` as in DeformedBody. Cost: some ms.
   [[nodiscard]] std::shared_ptr<const DeformedBody> snapshot(
       const DeformedBody* before = nullptr) const;
+
+  /// m from the face's centre at its first pose to the nearest place that is held.
+  [[nodiscard]] double distance_to_held() const;
 
   /// Force and torque on the probe about its face's centre, frame J.
   [[nodiscard]] ContactForce force_J() const;

@@ -21,6 +21,14 @@ TEST(Arguments, AnythingButThreeFiniteNumbersIsRefusedWithTheFlag) {
   }
 }
 
+TEST(Arguments, APlaceThatNoJointHasIsRefusedInTheFlagsUnit) {
+  const auto p = parse_point_mm("1e9,0,0", "--entry");
+  ASSERT_FALSE(p.has_value());
+  EXPECT_EQ(p.error().code, ErrorCode::malformed);
+  EXPECT_NE(p.error().message.find("points are in mm"), std::string::npos);
+  EXPECT_TRUE(parse_point_mm("-235,-60,1330", "--entry").has_value()) << "as atlases have them";
+}
+
 TEST(Arguments, AProbeLooksAlongItsDirectionWithItsLateralAxis) {
   const auto pose = parse_probe_pose("10,0,0/-1,0,0/0,0,1", "--probe");
   ASSERT_TRUE(pose.has_value());

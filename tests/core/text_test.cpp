@@ -9,6 +9,7 @@
 #include "artus/detail/core/byte_stream.h"
 #include "artus/detail/core/csv.h"
 #include "artus/detail/core/markup.h"
+#include "artus/detail/core/plain_reason.h"
 #include "artus/detail/core/printed.h"
 #include "artus/detail/core/progress.h"
 #include "artus/detail/core/text_cursor.h"
@@ -233,6 +234,13 @@ TEST(Trimmed, LosesWhatIsBlankAroundIt) {
   EXPECT_EQ(trimmed("\t a b \r\n"), "a b");
   EXPECT_EQ(trimmed(std::string_view("x\0\0", 3)), "x");
   EXPECT_EQ(trimmed("  \n"), "");
+}
+
+TEST(PlainReason, LosesALibrarysMarkAndNothingElse) {
+  EXPECT_EQ(plain_reason("[json.exception.type_error.302] type must be number"),
+            "type must be number");
+  EXPECT_EQ(plain_reason("no [space] left"), "no [space] left");
+  EXPECT_EQ(plain_reason("[]"), "[]");
 }
 
 TEST(Units, AreTheirDefinitions) {

@@ -54,6 +54,11 @@ TEST(TomlFields, ARangeIsToldInTheUnitOfTheFile) {
   EXPECT_EQ(box.width, 7);
 }
 
+TEST(TomlFields, WhatIsNoTomlNamesTheGuideOfJointsForAJointAlone) {
+  EXPECT_THAT(parse_toml("x", "a/joint.toml").error().message, HasSubstr("docs/joint-format.md"));
+  EXPECT_EQ(parse_toml("x", "lab.toml").error().message.find("joint"), std::string::npos);
+}
+
 TEST(TomlFields, ANameIsOneOfItsRow) {
   const auto table = parse_toml("colour = 'green'\nother = 'gren'\n", "file");
   Problems problems;

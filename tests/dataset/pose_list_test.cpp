@@ -111,5 +111,35 @@ TEST(PoseList, APathMovesStraightAndTurnsEvenly) {
   EXPECT_FALSE(sample_path(untimed, 10).has_value());
 }
 
+TEST(PoseList, APathOfMorePosesThanMemoryHoldsIsRefusedBeforeAnyIsMade) {
+  auto poses = parse_poses_jsonl(kTwo, "two.jsonl").value();
+  for (const double end : {1e6, 1e9, 1e300}) {
+    poses.back().time = end;
+    const auto path = sample_path(poses, 1000);
+    ASSERT_FALSE(path.has_value()) << end;
+    EXPECT_NE(path.error().message.find("at 1000 a second"), std::string::npos);
+  }
+  poses.back().time = 2;
+  EXPECT_FALSE(sample_path(poses, 10, 20).has_value());
+  EXPECT_TRUE(sample_path(poses, 10, 21).has_value());
+}
+
+TEST(PoseList, ANeedleAloneIsAPoseWhereTheNeedleIsWhatCounts) {
+  const std::string text =
+      "entry_x_mm,entry_y_mm,entry_z_mm,tip_x_mm,tip_y_mm,tip_z_mm\n0,0,0,0,0,9\n";
+  EXPECT_FALSE(parse_poses_csv(text, "needle.csv").has_value());
+  const auto poses = parse_poses_csv(text, "needle.csv", PoseHand::needle);
+  ASSERT_TRUE(poses.has_value()) << poses.error().to_string();
+  EXPECT_FALSE(poses->front().has_probe);
+  EXPECT_TRUE(parse_poses_jsonl(kTwo, "two.jsonl", PoseHand::needle)->front().has_probe);
+}
+
+TEST(PoseList, APlaceThatNoJointHasIsRefusedWithItsDistance) {
+  const auto far = parse_poses_jsonl(
+      R"({"probe": {"position_mm": [766000, 0, 0], "direction": [0, 0, 1]}})", "far.jsonl");
+  ASSERT_FALSE(far.has_value());
+  EXPECT_NE(far.error().message.find("766 m from the joint's origin"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace artus

@@ -22,8 +22,10 @@ TEST(GuardFields, AreNamedAsTheirMembers) {
       (std::set<std::string>{"force_slew", "max_speed", "max_turn_rate", "ramp_time", "stale_after",
                              "torque_slew", "workspace_centre", "workspace_half"}));
   EXPECT_EQ(names_of(PassivityParams{}), (std::set<std::string>{"control", "max_damping"}));
-  EXPECT_EQ(names_of(DeviceLimits{}), (std::set<std::string>{"damping", "encoder_step", "force",
-                                                             "mass", "torque", "workspace"}));
+  EXPECT_EQ(names_of(DeviceLimits{}),
+            (std::set<std::string>{"damping", "encoder_step", "force", "mass", "needle_centre",
+                                   "needle_half", "probe_centre", "probe_force", "probe_half",
+                                   "probe_torque", "torque", "workspace"}));
 }
 
 TEST(Wrench, AddsForcesAndTorquesApart) {

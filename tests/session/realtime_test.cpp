@@ -253,6 +253,7 @@ TEST_F(RealTimeSharedMemory, TheDeviceBehindItNeitherAllocatesNorLocks) {
   PosReader reader;
   artus_shm_pos pos = artus_shm_pos_init();
   pos.sample = 1;
+  ARTUS_RUNS_REALTIME(join_hands, use(join_hands(test::sample_at(0, 0, 1), {})));
   ARTUS_RUNS_REALTIME(PosReader::accept, use(reader.accept(true, pos, test::kTickTime)));
   auto device = SharedMemoryDevice::open(prefix_, {"outside", "beyond", "skin"});
   ASSERT_TRUE(device) << device.error().to_string();

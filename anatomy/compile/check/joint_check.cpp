@@ -7,6 +7,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include "artus/detail/anatomy/compile/check/held.h"
 #include "artus/detail/anatomy/compile/check/joint_defects.h"
 #include "artus/detail/anatomy/compile/check/misplaced.h"
 #include "artus/detail/anatomy/compile/check/plan_check.h"
@@ -114,6 +115,8 @@ class Collector {
     };
     add(find_misplaced(joint_, check_.prepared));
     add(find_mirrored(joint_, check_.prepared));
+    add(find_unheld(joint_, check_.prepared));
+    check_.held_by = describe(find_holders(joint_, check_.prepared));
     for (const PlanProblem& p : find_plan_problems(joint_, make_ground(joint_, check_.prepared)))
       check_.findings.push_back({Verdict::refused, "plan", p.plan, p.line, p.message});
   }

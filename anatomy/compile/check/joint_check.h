@@ -26,7 +26,7 @@ enum class Verdict {
 struct Finding {
   Verdict verdict = Verdict::note;
   std::string kind;  ///< of a defect or a repair, "refused_surface", "surface", "plan",
-                     ///< "misplaced", "mirrored"
+                     ///< "misplaced", "lost", "mirrored", "unheld"
   std::string what;  ///< the structure or plan
   int line = 0;      ///< of joint.toml; 0: of no line
   std::string message;
@@ -45,6 +45,7 @@ struct JointCheck {
   std::vector<Defect> crossings;         ///< layers that cut through each other, most faces first
   std::vector<CheckedSurface> surfaces;  ///< body first, then structures with a file
   PreparedSurfaces prepared;             ///< the repaired ones
+  std::string held_by;                   ///< what will hold the tissue; empty: the body is refused
 
   [[nodiscard]] std::size_t count(Verdict verdict) const noexcept;
   /// Whether the joint can be compiled as it is.

@@ -97,6 +97,12 @@ class Finder {
     found_.push_back({verdict, "misplaced", s.name, s.line, std::move(message)});
   }
 
+  // A structure of which nothing will be in the joint is no joint that its author meant.
+  void add_lost(std::size_t i, std::string message) {
+    const Structure& s = file_.structures[i];
+    found_.push_back({Verdict::refused, "lost", s.name, s.line, std::move(message)});
+  }
+
   // Landmarks far from the body: of another unit, or of another frame.
   void tell_landmarks() {
     constexpr double kFar = 20 * kMillimetre;
@@ -152,22 +158,27 @@ class Finder {
     const double reach = roi->half_extent ? roi->half_extent->norm() : roi->radius;
     const double distance = tree.distance(roi->centre, 1);
     if (distance <= reach || tree.winding_number(roi->centre) > 0.5) return;
-    add(Verdict::look, file_.structures[i],
-        printed("all of it lies outside of the region of interest, by %.1f mm or more; none of "
-                "it will be in the joint; check its frame and units, or remove it",
-                (distance - reach) / kMillimetre));
+    add_lost(i,
+             printed("all of it lies outside of the region of interest, by %.1f mm or more; none "
+                     "of it will be in the joint; check its frame and units, or remove it",
+                     (distance - reach) / kMillimetre));
   }
 
   void tell_outside(std::size_t i, Lie lie) {
     if (!(lie.outside > 0)) return;
     lie = area_outside(i);  // samples only say where to look
     if (lie.outside <= kOutsideShare) return;
-    const char* rest = lie.outside > kAll ? "none of it will be in the joint; check its frame "
-                                            "and units, or remove it"
-                                          : "that part is cut off";
-    add(Verdict::look, file_.structures[i],
+    const bool is_lost = lie.outside > kAll;
+    const char* rest = is_lost ? "none of it will be in the joint; check its frame and units, or "
+                                 "remove it"
+                               : "that part is cut off";
+    const std::string text =
         printed("%.0f %% of its surface lies outside of the skin, up to %.1f mm; %s",
-                100 * lie.outside, lie.farthest / kMillimetre, rest));
+                100 * lie.outside, lie.farthest / kMillimetre, rest);
+    if (is_lost)
+      add_lost(i, text);
+    else
+      add(Verdict::look, file_.structures[i], text);
   }
 
   /// The share of its area in the region that lies clearly outside of the body, and how far, by

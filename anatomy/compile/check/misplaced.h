@@ -7,9 +7,9 @@
 namespace artus {
 
 /// Structures that are not where they should be: all of them outside of the body (it is of another
-/// frame: refused), one outside or partly outside of it, one all in a bone, two that are the same;
-/// landmarks in metres or far from the body.
-/// Structures that lie outside the region of interest are not asked. Requires: `surfaces` of
+/// frame: refused), one wholly outside of it or of the region of interest ("lost": refused), one
+/// partly outside, one all in a bone, two that are the same; landmarks in metres or far from the
+/// body. Requires: `surfaces` of
 /// `file`. Cost: some hundred points of each structure in each tree, all faces
 /// of one that sticks out.
 [[nodiscard]] std::vector<Finding> find_misplaced(const JointFile& file,

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "artus/detail/core/plain_reason.h"
 #include "artus/detail/core/units.h"
 
 namespace artus {
@@ -136,7 +137,7 @@ Result<CompileReport> parse_compile_report(const std::string& text, const std::s
   try {
     return read_report(Json::parse(text));
   } catch (const Json::exception& e) {
-    return fail(ErrorCode::malformed, e.what(), where);
+    return fail(ErrorCode::malformed, plain_reason(e.what()), where);
   }
 }
 

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "artus/anatomy/compile.h"
+#include "artus/detail/anatomy/compile/check/held.h"
 #include "tests/anatomy/compile/joint_folder.h"
 
 namespace artus {
@@ -28,6 +29,7 @@ class CheckedJoint : public testing::Test {
   CheckedJoint() : folder_("checked") {
     folder_.add_sphere("body", Vec3(0, 0, 0), 30);
     folder_.add_sphere("head", Vec3(0, 0, 5), 8);
+    folder_.add_bone();
   }
   JointCheck check(const std::string& toml) {
     folder_.write_toml(toml);
@@ -120,11 +122,50 @@ target = [0.0, 0.0, 5.0]
 TEST_F(CheckedJoint, ABodyInAnotherFrameIsRefusedByBoth) {
   folder_.add_sphere("head", Vec3(500, 0, 0), 8);
   folder_.add_sphere("belly", Vec3(510, 0, 0), 8);
+  folder_.add_sphere("femur", Vec3(505, 0, 0), 5);
   const std::string toml = std::string(kHead) +
                            "[[structure]]\nname = \"belly\"\ntissue = \"muscle\"\nfile = "
                            "\"belly.ply\"\n";
   EXPECT_FALSE(check(toml).usable());
   EXPECT_THAT(refusal(toml), HasSubstr("another frame"));
+}
+
+TEST(UnheldJoint, IsRefusedByBothAndAnyThatHoldsIsTold) {
+  JointFolder folder("unheld");
+  folder.add_sphere("body", Vec3(0, 0, 0), 30);
+  folder.add_sphere("head", Vec3(0, 0, 5), 8);
+  folder.write_toml(kHead);
+  const JointSources sources(read_joint(folder.path()).value());
+  const JointCheck found = check_joint(sources);
+  EXPECT_FALSE(found.usable());
+  ASSERT_EQ(found.count(Verdict::refused), 1U);
+  EXPECT_EQ(found.findings.front().kind, "unheld");
+  EXPECT_THAT(found.findings.front().message, HasSubstr("nothing holds the tissue"));
+  CompileOptions options;
+  options.check_plans = true;
+  const auto compiled = compile_joint(sources, options);
+  ASSERT_FALSE(compiled);
+  EXPECT_EQ(compiled.error().code, ErrorCode::defective);
+  EXPECT_THAT(compiled.error().message, HasSubstr("[region_of_interest]"));
+  folder.add_bone();
+  folder.write_toml(kHead);
+  EXPECT_THAT(check_joint(read_joint(folder.path()).value()).held_by, HasSubstr("bone (femur)"));
+  folder.add_sphere("femur", Vec3(400, 0, 0), 5);  // of another scan
+  const JointCheck lost = check_joint(read_joint(folder.path()).value());
+  EXPECT_EQ(lost.count(Verdict::refused), 2U) << "the bone is lost, and nothing else holds";
+}
+
+TEST(UnheldJoint, ARegionOfInterestThatCutsTheBodyHoldsItAndIsTold) {
+  JointFolder folder("cut-held");
+  folder.add_sphere("body", Vec3(0, 0, 0), 30);
+  folder.add_sphere("head", Vec3(0, 0, 5), 8);
+  const std::string region =
+      std::string(kHead) + "[region_of_interest]\ncentre = [0.0, 0.0, 0.0]\n";
+  folder.write_toml(region + "radius = 25.0\n");
+  EXPECT_THAT(check_joint(read_joint(folder.path()).value()).held_by,
+              HasSubstr("the faces where the body is cut"));
+  folder.write_toml(region + "radius = 60.0\n");
+  EXPECT_FALSE(check_joint(read_joint(folder.path()).value()).usable()) << "it cuts nothing";
 }
 
 }  // namespace

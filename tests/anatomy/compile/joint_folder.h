@@ -59,12 +59,18 @@ lateral = [1.0, 0.0, 0.0]
 [needle]
 entry = [0.0, 0.0, 30.0]
 target = [0.0, 0.0, 0.0]
-)" << structures;
+)" << structures << bone_;
+  }
+  /// A small bone that holds the tissue, behind the structures of every write_toml from now on.
+  void add_bone() {
+    add_sphere("femur", Vec3(0, 0, -20), 5);
+    bone_ = "[[structure]]\nname = \"femur\"\ntissue = \"bone\"\nfile = \"femur.ply\"\n";
   }
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
  private:
   std::filesystem::path path_;
+  std::string bone_;
 };
 
 /// The content of a file.

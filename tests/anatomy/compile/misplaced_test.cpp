@@ -52,8 +52,9 @@ TEST(Misplaced, WhatSticksOutOfTheSkinIsToldWithShareAndDistance) {
   // Of a sphere about the skin's edge: where cos > (50.5^2 - 50^2 - 12^2) / (2 * 50 * 12).
   EXPECT_THAT(found[0].message, testing::ContainsRegex("5[45] % of its surface lies outside"));
   out.centre = Vec3(0, 0.09, 0);
-  EXPECT_THAT(misplaced({kBone, kMuscle, out}).at(0).message,
-              HasSubstr("100 % of its surface lies outside"));
+  const auto lost = misplaced({kBone, kMuscle, out});
+  EXPECT_THAT(lost.at(0).message, HasSubstr("100 % of its surface lies outside"));
+  EXPECT_EQ(lost.at(0).verdict, Verdict::refused) << "none of it is in the joint";
 }
 
 TEST(Misplaced, WhatLiesAllInABoneIsToldWithItsDepth) {
@@ -82,7 +83,7 @@ TEST(Misplaced, WhatSeveralTakeTogetherIsToldWithTheirNames) {
   EXPECT_THAT(found[0].message, HasSubstr("'vastus', 'rectus'"));
 }
 
-TEST(Misplaced, WhatLiesFarFromTheRegionOfInterestIsTold) {
+TEST(Misplaced, WhatLiesFarFromTheRegionOfInterestIsRefused) {
   BallsJoint joint(0.08, {kBone, {"far", "muscle", Vec3(0, 0.06, 0), 0.01}});
   joint.file.tissues = read_bundled_tissues().value();
   joint.file.region_of_interest.emplace();
@@ -90,6 +91,7 @@ TEST(Misplaced, WhatLiesFarFromTheRegionOfInterestIsTold) {
   const auto found = find_misplaced(joint.file, joint.surfaces);
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].what, "far");
+  EXPECT_EQ(found[0].verdict, Verdict::refused) << "none of it is in the joint";
   EXPECT_THAT(found[0].message, HasSubstr("outside of the region of interest, by 25.0 mm"));
   joint.file.region_of_interest->radius = 0.055;
   EXPECT_TRUE(find_misplaced(joint.file, joint.surfaces).empty());

@@ -59,6 +59,7 @@ class NastyJoint : public testing::TestWithParam<Nasty> {
  protected:
   NastyJoint() : folder_(std::string("nasty-") + GetParam().name) {
     folder_.add_sphere("body", Vec3(0, 0, 0), 30);
+    folder_.add_bone();
   }
   Result<CompileOutcome> compile(const std::string& part, const std::string& toml) {
     std::ofstream(folder_.path() / "part.off") << part;
