@@ -90,6 +90,8 @@ Result<void> validate(const SessionParams& params) {
     return fail(ErrorCode::invalid, "is not finite or not a known choice", name);
   if (!is_rigid(params.X_WJ))
     return fail(ErrorCode::invalid, "is not a rigid pose within 10 m", "X_WJ");
+  if (params.X_JC && !is_rigid(*params.X_JC))
+    return fail(ErrorCode::invalid, "is not a rigid pose within 10 m", "X_JC");
   ARTUS_TRY(validate(params.gesture));
   ARTUS_TRY(validate(params.needle_shape));
   ARTUS_TRY(validate(params.aids));
