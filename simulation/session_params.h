@@ -16,6 +16,11 @@
 
 namespace artus {
 
+struct CompiledJoint;
+
+/// Whether tissue of this joint can give way: it has tetrahedra.
+[[nodiscard]] bool gives_way(const CompiledJoint& joint) noexcept;
+
 /// Help for the needle hand in training (HandAid); none unless something asks for it.
 struct HandAids {
   Vec3 entry = Vec3::Zero();   ///< m, frame J: the planned line goes through it

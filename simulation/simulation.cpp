@@ -17,7 +17,7 @@ SessionParams params_of(const CompiledJoint& joint, const SimulationOptions& opt
   params.device = *device;
   params.haptic_rate = options.haptic_rate;
   params.image_rate = options.image_rate;
-  params.deform = !options.rigid && !joint.mesh.tetrahedra.empty();
+  params.deform = !options.rigid && gives_way(joint);
   ARTUS_REQUIRE(validate(params).has_value(),
                 "the haptic rate must be 100 to 20000 Hz, the image rate 1 to 120 Hz");
   return params;

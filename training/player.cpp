@@ -45,10 +45,6 @@ Result<std::shared_ptr<const Scene>> make_gel_scene(const GelBlock& gel) {
   return std::make_shared<const Scene>(std::make_shared<const CompiledJoint>(std::move(block)));
 }
 
-bool gives_way(const CompiledJoint& joint) {
-  return !joint.mesh.tetrahedra.empty();
-}
-
 HandAids aids_of(const Scenario& scenario) {
   HandAids aids;
   aids.entry = scenario.entry.centre;

@@ -14,9 +14,6 @@ namespace artus {
 /// The body of a scenario that brings its own. Errors: not_found (a tissue).
 [[nodiscard]] Result<std::shared_ptr<const Scene>> make_gel_scene(const GelBlock& gel);
 
-/// Whether tissue of this joint can give way: it has tetrahedra.
-[[nodiscard]] bool gives_way(const CompiledJoint& joint);
-
 /// What its aids do to the needle hand: `haptic_guide` 1 is 300 N/m across to the planned line,
 /// `haptic_wall` 1 is 1000 N/m within what is to be avoided.
 [[nodiscard]] HandAids aids_of(const Scenario& scenario);

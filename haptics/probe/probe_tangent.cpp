@@ -12,9 +12,9 @@ namespace {
 constexpr double kFarthest = 3e-3;  // m from the packet's pose
 constexpr double kMaxTurn = 0.1;    // rad
 
-Vec3 limited(const Vec3& v, double most) noexcept {
+Vec3 limited(const Vec3& v, double max) noexcept {
   const double size = v.norm();
-  return size > most ? Vec3(v * (most / size)) : v;
+  return size > max ? Vec3(v * (max / size)) : v;
 }
 
 }  // namespace
