@@ -56,10 +56,12 @@ Result<Checked> check(Scenario scenario, const ScenarioCheckOptions& options) {
 
 nlohmann::json to_json(const Difficulty& d) {
   return {{"tries", d.tries},
-          {"expert_passes", d.expert_passes},
-          {"novice_passes", d.novice_passes},
-          {"expert_score", d.expert_score},
-          {"novice_score", d.novice_score}};
+          {"expert_played", d.expert.played},
+          {"expert_passes", d.expert.passes},
+          {"expert_score", d.expert.score},
+          {"novice_played", d.novice.played},
+          {"novice_passes", d.novice.passes},
+          {"novice_score", d.novice.score}};
 }
 
 nlohmann::json to_json(const Checked& c) {
@@ -71,6 +73,7 @@ nlohmann::json to_json(const Checked& c) {
     json["difficulty"] = to_json(c.difficulty->rigid);
     if (c.difficulty->soft.tries > 0) {
       json["difficulty_in_tissue"] = to_json(c.difficulty->soft);
+      json["difficulty_in_tissue"]["verdicts_compared"] = c.difficulty->compared;
       json["difficulty_in_tissue"]["verdicts_as_in_rigid_tissue"] = c.difficulty->alike;
     }
   }
@@ -78,8 +81,8 @@ nlohmann::json to_json(const Checked& c) {
 }
 
 void print(const Difficulty& d) {
-  std::printf("expert %d of %d (score %.0f), novice %d of %d (score %.0f)  ", d.expert_passes,
-              d.tries, d.expert_score, d.novice_passes, d.tries, d.novice_score);
+  std::printf("expert %d of %d (score %.0f), novice %d of %d (score %.0f)  ", d.expert.passes,
+              d.expert.played, d.expert.score, d.novice.passes, d.novice.played, d.novice.score);
 }
 
 void print(const Checked& c) {
@@ -90,7 +93,7 @@ void print(const Checked& c) {
       std::printf("in tissue: ");
       print(c.difficulty->soft);
       std::printf("%d of %d verdicts as in rigid tissue  ", c.difficulty->alike,
-                  2 * c.difficulty->soft.tries);
+                  c.difficulty->compared);
     }
   }
   std::printf("%s\n", c.good() ? "good" : "NOT GOOD");
@@ -164,7 +167,7 @@ void add_scenario_command(Command& app, ExitCode& code) {
       app, "scenario", "List, show and check scenarios",
       "check: can it be done at all, and do simulated hands find it right: an expert passes 19 of\n"
       "20 seeds or more, a novice 8 or fewer, in rigid tissue and, of fewer seeds, in tissue that\n"
-      "gives way. Exit code 1 when not.\n"
+      "gives way; there novices stop when enough have failed. Exit code 1 when not.\n"
       "Examples:\n"
       "  artus scenario list\n"
       "  artus scenario show gel-align > mine.toml\n"

@@ -5,8 +5,8 @@
 
 namespace artus {
 
-/// Told how far long work has come: a stage in words and the fraction done of it, 0 to 1.
+/// Told how far long work has come: a step in words and the fraction done of it, 0 to 1.
 /// An empty function means nobody listens. Called from the thread that does the work.
-using Progress = std::function<void(std::string_view stage, double fraction)>;
+using Progress = std::function<void(std::string_view step, double fraction)>;
 
 }  // namespace artus

@@ -30,7 +30,7 @@ SessionParams params_of(const Joint& joint, const Choices& choices) {
   params.transducer = value_by_name(find_transducer(choices.transducer)).transducer;
   params.haptic_rate = choices.haptic_rate;
   params.image_rate = choices.image_rate;
-  params.deform = !choices.rigid && !joint.data().mesh.tetrahedra.empty();
+  params.deform = !choices.rigid && gives_way(joint.data());
   if (const auto valid = validate(params); !valid) raise(valid.error());
   return params;
 }

@@ -25,7 +25,8 @@ Liquid liquid_of(const SessionParams& params) {
 }  // namespace
 
 ImageCore::ImageCore(std::shared_ptr<const Scene> scene, const SessionParams& params,
-                     std::size_t extra_scene_holders, const std::optional<Pose>& X_JP)
+                     std::size_t extra_scene_holders, const std::optional<Pose>& X_JP,
+                     const SoftBody* beside)
     : probe_(params.transducer),
       image_(params.image),
       needle_shape_(params.needle_shape),
@@ -42,8 +43,12 @@ ImageCore::ImageCore(std::shared_ptr<const Scene> scene, const SessionParams& pa
   const auto make_tissue = [&]() -> Result<TissueCore> {
     const auto face = pressing_face(params.transducer);
     ARTUS_TRY(face);
-    return TissueCore::make(scene->shared_joint(), X_JP.value_or(scene->joint().X_JP_default),
-                            params.image_rate, *face, params.wait_for_cage, extra_scene_holders);
+    const Pose X_JC = X_JP.value_or(scene->joint().X_JP_default);
+    if (beside != nullptr && beside->cage_pose().matrix() == X_JC.matrix())
+      return TissueCore::make_beside(*beside, params.image_rate, *face, params.wait_for_cage,
+                                     extra_scene_holders);
+    return TissueCore::make(scene->shared_joint(), X_JC, params.image_rate, *face,
+                            params.wait_for_cage, extra_scene_holders);
   };
   auto tissue = make_tissue();
   if (tissue)

@@ -22,7 +22,7 @@ struct SessionStatus {
   static constexpr std::uint32_t kStopped = 1U << 19U;
   static constexpr std::uint32_t kNoNeedle = 1U << 21U;
   /// What the hands feel is tissue older than 0.1 s: skin and stiffness are held as last known.
-  static constexpr std::uint32_t kTissueLate = 1U << 22U;
+  static constexpr std::uint32_t kTissueLate = 1U << 23U;
 };
 
 /// What the people at the session want in a tick; bits.

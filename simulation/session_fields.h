@@ -15,12 +15,12 @@ ARTUS_FIELDS(SyringeChoice, gauge, filled, barrel, air, unbalanced, liquid, seed
 
 ARTUS_FIELDS(HandAids, entry, target, guide, wall, keep_out);
 
-/// All but the feel, whose choices may be unset, the joint's place, and what a recording of before
-/// does not have (recording_head.cpp).
+/// All but the feel, whose choices may be unset, the joint's place, the cage's, and what a
+/// recording of before does not have (recording_head.cpp).
 template <Like<SessionParams> P, class F>
 void fields_of(P& params, F&& visit) {
   auto& [haptic_rate, image_rate, device, needle, passivity, guard, feel, gesture, X_WJ, transducer,
-         image, needle_shape, syringe, aids, deform, wait_for_cage] = params;
+         image, needle_shape, syringe, aids, deform, wait_for_cage, X_JC] = params;
   ARTUS_VISIT_FIELDS(visit, haptic_rate, image_rate, device, needle, passivity, guard, gesture,
                      transducer, image, needle_shape, syringe, aids, deform);
 }

@@ -81,6 +81,10 @@ double needle_length_of(const SessionParams& params) noexcept {
   return params.feel.needle_length.value_or(params.needle.contact.needle_length);
 }
 
+bool gives_way(const CompiledJoint& joint) noexcept {
+  return !joint.mesh.tetrahedra.empty();
+}
+
 Result<void> validate(const SessionParams& params) {
   if (!(params.haptic_rate >= 100 && params.haptic_rate <= 20000))
     return fail(ErrorCode::invalid, "the haptic rate must be 100 to 20000 Hz", "haptic_rate");
@@ -90,6 +94,8 @@ Result<void> validate(const SessionParams& params) {
     return fail(ErrorCode::invalid, "is not finite or not a known choice", name);
   if (!is_rigid(params.X_WJ))
     return fail(ErrorCode::invalid, "is not a rigid pose within 10 m", "X_WJ");
+  if (params.X_JC && !is_rigid(*params.X_JC))
+    return fail(ErrorCode::invalid, "is not a rigid pose within 10 m", "X_JC");
   ARTUS_TRY(validate(params.gesture));
   ARTUS_TRY(validate(params.needle_shape));
   ARTUS_TRY(validate(params.aids));

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <optional>
+
 #include "artus/core/geometry.h"
 #include "artus/core/result.h"
 #include "artus/detail/haptics/guard.h"
@@ -13,6 +15,11 @@
 #include "artus/haptics/needle_feel.h"
 
 namespace artus {
+
+struct CompiledJoint;
+
+/// Whether tissue of this joint can give way: it has tetrahedra.
+[[nodiscard]] bool gives_way(const CompiledJoint& joint) noexcept;
 
 /// Help for the needle hand in training (HandAid); none unless something asks for it.
 struct HandAids {
@@ -42,7 +49,11 @@ struct SessionParams {
   HandAids aids;
   bool deform = false;         ///< tissue gives way to probe and needle, in picture and hands
   bool wait_for_cage = false;  ///< where the probe comes beyond its reach the tissue's next cage is
-                               ///< made and used in that image: for a loop without a clock
+                               ///< made and used in that image, and a factor of its tangent in the
+                               ///< image that needs one: for a loop without a clock
+  std::optional<Pose> X_JC;    ///< of the probe around which the tissue's first cage is made; none:
+                               ///< where the first image has it, when that is waited for, or the
+                               ///< joint's default
 };
 
 /// m, hub to tip: the one length that the contact and the picture take.

@@ -17,7 +17,7 @@ SessionParams params_of(const CompiledJoint& joint, const SimulationOptions& opt
   params.device = *device;
   params.haptic_rate = options.haptic_rate;
   params.image_rate = options.image_rate;
-  params.deform = !options.rigid && !joint.mesh.tetrahedra.empty();
+  params.deform = !options.rigid && gives_way(joint);
   ARTUS_REQUIRE(validate(params).has_value(),
                 "the haptic rate must be 100 to 20000 Hz, the image rate 1 to 120 Hz");
   return params;
@@ -41,10 +41,11 @@ Simulation::Simulation(CompiledJoint joint, const SimulationOptions& options)
       controls_(controls_of(params_)) {}
 
 Simulation::Simulation(std::shared_ptr<const Scene> scene, const SessionParams& params,
-                       std::size_t extra_scene_holders)
+                       std::size_t extra_scene_holders, std::shared_ptr<const SoftBody> beside)
     : scene_(std::move(scene)),
       params_(params),
       extra_scene_holders_(extra_scene_holders),
+      beside_(std::move(beside)),
       haptics_(std::make_unique<HapticCore>(scene_, params_)),
       controls_(controls_of(params_)) {}
 
@@ -52,13 +53,13 @@ Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 
-/// Who waits for cages has the first one where the probe is in the first image.
+/// Who waits for cages has the first one where the probe is in the first image, unless told where.
 ImageCore& Simulation::imaging(const FrameInput* first) {
   if (images_) return *images_;
-  std::optional<Pose> X_JP;
-  if (params_.wait_for_cage && first != nullptr && first->has_probe != 0)
+  std::optional<Pose> X_JP = params_.X_JC;
+  if (!X_JP && params_.wait_for_cage && first != nullptr && first->has_probe != 0)
     X_JP = to_pose(first->X_JP);
-  images_ = std::make_unique<ImageCore>(scene_, params_, extra_scene_holders_, X_JP);
+  images_ = std::make_unique<ImageCore>(scene_, params_, extra_scene_holders_, X_JP, beside_.get());
   return *images_;
 }
 

@@ -16,6 +16,7 @@ constexpr double kReadyTime = 1;            // s more, for its first factor and 
 constexpr double kFactorDistance = 0.5e-3;  // m the face moves before its factor is too old
 constexpr double kTissueDistance = 1e-3;    // m the tissue does: crushed, it is much stiffer
 constexpr double kFactorTurn = 0.02;        // rad
+constexpr double kWaitedFor = 4;            // times as far, where the factor is there at once
 constexpr double kStill = 1e-9;          // m; tissue that moves less has come to rest: some 1e-4 mm
 constexpr int kOutsideImages = 20;       // in a row before another cage is begun
 constexpr int kSteps = 2;                // Newton steps of an image
@@ -41,16 +42,22 @@ Result<TissueCore> TissueCore::make(std::shared_ptr<const CompiledJoint> joint, 
                                     std::size_t extra_scene_holders) {
   auto body = SoftBody::make(std::move(joint), X_JP, params_with(face));
   ARTUS_TRY(body);
-  TissueCore core(std::move(*body), image_rate, face,
-                  MovingScene::kGoingRound + extra_scene_holders);
-  core.waits_ = waits;
-  return core;
+  return TissueCore(std::move(*body), image_rate, face, waits,
+                    MovingScene::kGoingRound + extra_scene_holders);
 }
 
-TissueCore::TissueCore(SoftBody body, double image_rate, const ProbeFace& face, std::size_t scenes)
+TissueCore TissueCore::make_beside(const SoftBody& other, double image_rate, const ProbeFace& face,
+                                   bool waits, std::size_t extra_scene_holders) {
+  return {other.another_at_rest(), image_rate, face, waits,
+          MovingScene::kGoingRound + extra_scene_holders};
+}
+
+TissueCore::TissueCore(SoftBody body, double image_rate, const ProbeFace& face, bool waits,
+                       std::size_t scenes)
     : body_(std::move(body)),
       face_(face),
       n_scenes_(scenes),
+      waits_(waits),
       dt_(1 / image_rate),
       factor_images_(static_cast<std::uint64_t>(std::ceil(kFactorTime * image_rate))),
       cage_images_(static_cast<std::uint64_t>(std::ceil(kCageTime * image_rate))),
@@ -143,13 +150,16 @@ void TissueCore::keep_state_of_factor() {
 }
 
 bool TissueCore::has_moved_since_factor(const std::optional<Pose>& X_JP) const {
-  if (X_JP && ((X_JP->translation() - X_JP_factor_.translation()).norm() >= kFactorDistance ||
-               turn_between(*X_JP, X_JP_factor_) >= kFactorTurn))
+  const double times = waits_ ? kWaitedFor : 1;
+  if (X_JP &&
+      ((X_JP->translation() - X_JP_factor_.translation()).norm() >= times * kFactorDistance ||
+       turn_between(*X_JP, X_JP_factor_) >= times * kFactorTurn))
     return true;
   const auto u = body_.solver().displacements();
-  return !std::equal(u.begin(), u.end(), u_factor_.begin(), [](const Vec3& now, const Vec3& then) {
-    return (now - then).squaredNorm() < kTissueDistance * kTissueDistance;
-  });
+  const double far = times * kTissueDistance;
+  return !std::equal(
+      u.begin(), u.end(), u_factor_.begin(),
+      [far](const Vec3& now, const Vec3& then) { return (now - then).squaredNorm() < far * far; });
 }
 
 /// A new factor of the tangent once the face or the tissue has moved on; the state that it is of is
@@ -167,6 +177,12 @@ void TissueCore::refresh(const std::optional<Pose>& X_JP) {
   if (next_.valid() || !has_moved_since_factor(X_JP)) return;
   if (X_JP) X_JP_factor_ = *X_JP;
   keep_state_of_factor();
+  if (waits_) {
+    needle_.let_go();
+    solver.refresh();
+    needle_.renew();
+    return;
+  }
   factor_due_ = images_ + factor_images_;
   solver.begin_refresh();
 }

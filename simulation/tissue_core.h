@@ -18,16 +18,22 @@ namespace artus {
 /// The body of a session as it gives way to probe and needle, image by image: one step of the
 /// tissue, one scene of that instant, and what the hands feel of it. A pure function of the poses
 /// it was given: factors and cages are made on threads of their own and taken a fixed number of
-/// images later, never "when ready", or cages at once where nobody has a clock.
+/// images later, never "when ready", or at once where nobody has a clock.
 class TissueCore {
  public:
-  /// The cage is made around `X_JP`, for a probe with `face`. `waits`: another cage is made and
-  /// used in the image that needs it, which takes its seconds. `extra_scene_holders` keep a scene
-  /// each while the next are made. Errors: those of SoftBody::make. Cost: some seconds.
+  /// The cage is made around `X_JP`, for a probe with `face`. `waits`: another cage or
+  /// factor is made and used in the image that needs it, which takes its seconds.
+  /// `extra_scene_holders` keep a scene each while the next are made. Errors: those of
+  /// SoftBody::make. Cost: some seconds.
   [[nodiscard]] static Result<TissueCore> make(std::shared_ptr<const CompiledJoint> joint,
                                                const Pose& X_JP, double image_rate,
                                                const ProbeFace& face = {}, bool waits = false,
                                                std::size_t extra_scene_holders = 0);
+  /// The same in the cage of a body that was made for such a face, at rest. Cost: of a factor and
+  /// of the scenes' indices.
+  [[nodiscard]] static TissueCore make_beside(const SoftBody& other, double image_rate,
+                                              const ProbeFace& face, bool waits,
+                                              std::size_t extra_scene_holders);
 
   /// The next image's instant, with the probe at `X_JP` or without one, and so the needle. A probe
   /// that stays outside of what the cage reaches gets a cage of its own, unless it is back by then;
@@ -51,7 +57,8 @@ class TissueCore {
   }
 
  private:
-  TissueCore(SoftBody body, double image_rate, const ProbeFace& face, std::size_t scenes);
+  TissueCore(SoftBody body, double image_rate, const ProbeFace& face, bool waits,
+             std::size_t scenes);
   /// Another cage, and the tissue as it lay in it a while before that cage is taken.
   struct NextCage {
     SoftBody body;
@@ -73,7 +80,7 @@ class TissueCore {
   SoftBody body_;
   ProbeFace face_;
   std::size_t n_scenes_;         // that go round
-  bool waits_ = false;           // for its cages
+  bool waits_ = false;           // for its cages and factors
   double dt_;                    // s between images
   std::uint64_t factor_images_;  // from the start of a factor to its use
   std::uint64_t cage_images_;    // from the start of a cage to its being made

@@ -46,7 +46,7 @@ Result<SessionParams> trajectory_params(const Scene& scene, const std::string& d
   ARTUS_TRY(limits);
   params.device = *limits;
   params.haptic_rate = rate;
-  params.deform = !rigid && !scene.joint().mesh.tetrahedra.empty();
+  params.deform = !rigid && gives_way(scene.joint());
   ARTUS_TRY(validate(params));
   return params;
 }

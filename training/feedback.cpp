@@ -64,13 +64,13 @@ double unseen_mm(std::span<const Metric> metrics) {
 /// is none of it.
 const AttemptEvent* worst_unseen(const AttemptMeasures& m) {
   const AttemptEvent* worst = nullptr;
-  double most = 0;
+  double max = 0;
   double entry = value_of(m.metrics, "unseen_entry_mm");
   for (const AttemptEvent& e : m.events) {
     if (e.kind != "unseen") continue;
-    if (e.value - entry > most) {
+    if (e.value - entry > max) {
       worst = &e;
-      most = e.value - entry;
+      max = e.value - entry;
     }
     entry = 0;
   }
@@ -261,10 +261,10 @@ std::optional<Skill> weakest_skill(const PastAttempt& now, const FeedbackContext
   std::for_each(context.before.begin(), context.before.end(), add);
   add(now);
   std::optional<Skill> weakest;
-  double least = kWeak;
+  double min = kWeak;
   for (std::size_t k = 0; k < clean.size(); ++k) {
-    if (count[k] == 0 || clean[k] / count[k] >= least) continue;
-    least = clean[k] / count[k];
+    if (count[k] == 0 || clean[k] / count[k] >= min) continue;
+    min = clean[k] / count[k];
     weakest = static_cast<Skill>(k);
   }
   return weakest;

@@ -98,11 +98,11 @@ LearningFit fit_learning(std::span<const TrialCount> trials) {
       std::any_of(trials.begin(), trials.end(), [](const TrialCount& t) { return t.learners > 0; }),
       "at least one trial must have learners");
   double k = 0;
-  double most = max_at(rate_of(k), trials);
+  double max = max_at(rate_of(k), trials);
   for (int i = 1; i < kRates; ++i) {
     const double value = max_at(rate_of(i), trials);
-    if (value <= most) continue;
-    most = value;
+    if (value <= max) continue;
+    max = value;
     k = i;
   }
   double reach = 1;
@@ -110,8 +110,8 @@ LearningFit fit_learning(std::span<const TrialCount> trials) {
     for (const double other : {k - reach, k + reach}) {
       if (other < 0 || other >= kRates) continue;
       const double value = max_at(rate_of(other), trials);
-      if (value <= most) continue;
-      most = value;
+      if (value <= max) continue;
+      max = value;
       k = other;
     }
   const Shares shares = Likelihood(trials, rate_of(k)).best();

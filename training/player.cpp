@@ -7,6 +7,7 @@
 #include "artus/detail/anatomy/body/meshed_block.h"
 #include "artus/detail/anatomy/body/tissue.h"
 #include "artus/detail/core/text_file.h"
+#include "artus/detail/echo/probe/pressing_face.h"
 #include "artus/detail/training/session_meter.h"
 #include "artus/detail/training/simulated_attempt.h"
 #include "artus/echo/transducer_file.h"
@@ -42,10 +43,6 @@ Result<std::shared_ptr<const Scene>> make_gel_scene(const GelBlock& gel) {
   for (const Ball& ball : gel.balls)
     add_meshed_ball(block, ball, static_cast<RegionId>(kFirstRegion + layer_of(gel, ball)));
   return std::make_shared<const Scene>(std::make_shared<const CompiledJoint>(std::move(block)));
-}
-
-bool gives_way(const CompiledJoint& joint) {
-  return !joint.mesh.tetrahedra.empty();
 }
 
 HandAids aids_of(const Scenario& scenario) {
@@ -110,6 +107,17 @@ Result<MeterOptions> make_meter_options(const Scenario& scenario, const Compiled
   return options;
 }
 
+std::shared_ptr<const SoftBody> make_played_body(const Scenario& scenario, const Scene& scene) {
+  const auto transducer = find_transducer(scenario.transducer);
+  if (!transducer || !gives_way(scene.joint())) return nullptr;
+  const auto face = pressing_face(transducer->transducer);
+  if (!face) return nullptr;
+  SoftBodyParams params;
+  params.face = *face;
+  auto body = SoftBody::make(scene.shared_joint(), scenario.X_JP, params);
+  return body ? std::make_shared<const SoftBody>(std::move(*body)) : nullptr;
+}
+
 Result<PlayedAttempt> play(const Scenario& with_aids, const std::shared_ptr<const Scene>& scene,
                            const OperatorSkill& skill, const PlayOptions& options) {
   Scenario scenario = with_aids;
@@ -117,6 +125,9 @@ Result<PlayedAttempt> play(const Scenario& with_aids, const std::shared_ptr<cons
   auto params = make_session_params(scenario);
   ARTUS_TRY(params);
   params->deform = !options.rigid && gives_way(scene->joint());
+  params->X_JC = scenario.X_JP;
+  // A probe that looks for something crosses one cage after the other, and would wait for each.
+  params->wait_for_cage = scenario.find.empty();
   params->image_rate = std::max(options.tissue_rate, options.picture_rate);
   auto meter_options = make_meter_options(scenario, scene->joint(), *params);
   ARTUS_TRY(meter_options);

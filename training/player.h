@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "artus/detail/operators/scanning_operator.h"
+#include "artus/detail/soft/solver/soft_body.h"
 #include "artus/detail/training/metrics/attempt_meter.h"
 #include "artus/detail/training/scenario.h"
 #include "artus/session/recording.h"
@@ -12,9 +13,6 @@ namespace artus {
 
 /// The body of a scenario that brings its own. Errors: not_found (a tissue).
 [[nodiscard]] Result<std::shared_ptr<const Scene>> make_gel_scene(const GelBlock& gel);
-
-/// Whether tissue of this joint can give way: it has tetrahedra.
-[[nodiscard]] bool gives_way(const CompiledJoint& joint);
 
 /// What its aids do to the needle hand: `haptic_guide` 1 is 300 N/m across to the planned line,
 /// `haptic_wall` 1 is 1000 N/m within what is to be avoided.
@@ -42,7 +40,13 @@ struct PlayOptions {
   bool rigid = false;       ///< tissue does not give way, though the joint could
   double picture_rate = 0;  ///< Hz, pictures kept in the recording; 0: none
   double tissue_rate = 20;  ///< Hz of the tissue's steps, 10 or more; pictures may ask for more
+  std::shared_ptr<const SoftBody> beside;  ///< make_played_body of the scenario: saves its seconds
 };
+
+/// The body that all attempts at a scenario begin with, around the probe as it is meant to lie.
+/// Null: tissue cannot give way there. Cost: of SoftBody::make.
+[[nodiscard]] std::shared_ptr<const SoftBody> make_played_body(const Scenario& scenario,
+                                                               const Scene& scene);
 
 /// Plays a scenario with simulated hands, without its aids and without a clock: hands, device and
 /// forces in a closed loop at 1 kHz, in tissue that gives way where the joint can. The same bytes

@@ -90,42 +90,74 @@ namespace {
 
 constexpr double kTissueRate = 10;  // Hz, enough for hands that only glance
 
-/// Judgements of expert and novice by turns, seed by seed.
-Result<std::vector<Judgement>> play_all(const Scenario& scenario,
-                                        const std::shared_ptr<const Scene>& scene, int tries,
-                                        bool rigid) {
-  std::vector<Result<Judgement>> played(static_cast<std::size_t>(2 * tries),
-                                        fail(ErrorCode::failed, "not played"));
-  tbb::parallel_for(std::size_t{0}, played.size(), [&](std::size_t i) {
-    PlayOptions options;
-    options.seed = 1 + i / 2;
-    options.record = false;
-    options.rigid = rigid;
-    options.tissue_rate = kTissueRate;
-    const auto attempt =
-        play(scenario, scene, i % 2 == 0 ? expert_skill() : novice_skill(), options);
-    if (attempt)
-      played[i] = attempt->judgement;
-    else
-      played[i] = tl::unexpected<Error>(attempt.error());
-  });
-  std::vector<Judgement> out;
-  for (auto& one : played) {
-    ARTUS_TRY(one);
-    out.push_back(std::move(*one));
+using Verdicts = std::vector<Judgement>;
+
+/// Plays a scenario again and again, in rigid tissue or in tissue that gives way.
+class Players {
+ public:
+  Players(const Scenario& scenario, std::shared_ptr<const Scene> scene, bool rigid)
+      : scenario_(scenario), scene_(std::move(scene)) {
+    options_.record = false;
+    options_.rigid = rigid;
+    options_.tissue_rate = kTissueRate;
+    if (!rigid) options_.beside = make_played_body(scenario, *scene_);
+  }
+
+  /// The next `count` seeds of one operator, after those that are in `out`.
+  Result<void> play_on(const OperatorSkill& skill, std::size_t count, Verdicts& out) const {
+    std::vector<Result<Judgement>> played(count, fail(ErrorCode::failed, "not played"));
+    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+      PlayOptions options = options_;
+      options.seed = 1 + out.size() + i;
+      auto attempt = play(scenario_, scene_, skill, options);
+      if (attempt)
+        played[i] = std::move(attempt->judgement);
+      else
+        played[i] = tl::unexpected<Error>(attempt.error());
+    });
+    for (auto& one : played) {
+      ARTUS_TRY(one);
+      out.push_back(std::move(*one));
+    }
+    return {};
+  }
+
+ private:
+  const Scenario& scenario_;
+  std::shared_ptr<const Scene> scene_;
+  PlayOptions options_;
+};
+
+std::size_t passes_of(const Verdicts& verdicts) {
+  return static_cast<std::size_t>(
+      std::count_if(verdicts.begin(), verdicts.end(), [](const auto& v) { return v.passed; }));
+}
+
+/// Novices until so many have failed that the others cannot pass too often.
+Result<Verdicts> play_novices(const Players& players, std::size_t tries) {
+  const std::size_t enough = tries - 8 * tries / 20;
+  Verdicts out;
+  while (out.size() < tries) {
+    const std::size_t failed = out.size() - passes_of(out);
+    if (failed >= enough) break;
+    ARTUS_TRY(players.play_on(novice_skill(), std::min(enough - failed, tries - out.size()), out));
   }
   return out;
 }
 
-Difficulty difficulty_of(const std::vector<Judgement>& judgements) {
-  Difficulty out;
-  out.tries = static_cast<int>(judgements.size() / 2);
-  for (std::size_t i = 0; i < judgements.size(); ++i) {
-    const Judgement& judged = judgements[i];
-    (i % 2 == 0 ? out.expert_passes : out.novice_passes) += judged.passed ? 1 : 0;
-    (i % 2 == 0 ? out.expert_score : out.novice_score) += judged.score / out.tries;
-  }
+Fared fared(const Verdicts& verdicts) {
+  Fared out;
+  out.played = static_cast<int>(verdicts.size());
+  out.passes = static_cast<int>(passes_of(verdicts));
+  for (const Judgement& v : verdicts) out.score += v.score / out.played;
   return out;
+}
+
+void compare(const Verdicts& soft, const Verdicts& rigid, DifficultyInTissue& out) {
+  for (std::size_t i = 0; i < std::min(soft.size(), rigid.size()); ++i) {
+    ++out.compared;
+    out.alike += soft[i].passed == rigid[i].passed ? 1 : 0;
+  }
 }
 
 }  // namespace
@@ -133,14 +165,28 @@ Difficulty difficulty_of(const std::vector<Judgement>& judgements) {
 Result<DifficultyInTissue> measure_difficulty(const Scenario& scenario,
                                               const std::shared_ptr<const Scene>& scene,
                                               const Tries& tries, const Progress& progress) {
-  const auto rigid = play_all(scenario, scene, tries.rigid, true);
-  ARTUS_TRY(rigid);
+  const auto n_rigid = static_cast<std::size_t>(tries.rigid);
+  const Players rigid(scenario, scene, true);
+  Verdicts experts;
+  Verdicts novices;
+  ARTUS_TRY(rigid.play_on(expert_skill(), n_rigid, experts));
+  ARTUS_TRY(rigid.play_on(novice_skill(), n_rigid, novices));
+  DifficultyInTissue out;
+  out.rigid = {tries.rigid, fared(experts), fared(novices)};
+  out.soft.tries = gives_way(scene->joint()) ? tries.soft : 0;
   if (progress) progress("playing " + scenario.name, 0.5);
-  const auto soft = play_all(scenario, scene, gives_way(scene->joint()) ? tries.soft : 0, false);
-  ARTUS_TRY(soft);
-  DifficultyInTissue out{difficulty_of(*rigid), difficulty_of(*soft), 0};
-  for (std::size_t i = 0; i < std::min(soft->size(), rigid->size()); ++i)
-    out.alike += (*soft)[i].passed == (*rigid)[i].passed ? 1 : 0;
+  if (out.soft.tries > 0) {
+    const auto n = static_cast<std::size_t>(out.soft.tries);
+    const Players soft(scenario, scene, false);
+    Verdicts soft_experts;
+    ARTUS_TRY(soft.play_on(expert_skill(), n, soft_experts));
+    const auto soft_novices = play_novices(soft, n);
+    ARTUS_TRY(soft_novices);
+    out.soft.expert = fared(soft_experts);
+    out.soft.novice = fared(*soft_novices);
+    compare(soft_experts, experts, out);
+    compare(*soft_novices, novices, out);
+  }
   if (progress) progress("playing " + scenario.name, 1);
   return out;
 }

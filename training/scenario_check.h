@@ -15,35 +15,44 @@ namespace artus {
 [[nodiscard]] std::vector<std::string> find_problems(const Scenario& scenario,
                                                      const std::shared_ptr<const Scene>& scene);
 
+/// How one simulated operator fares.
+struct Fared {
+  int played = 0;  ///< seeds, from 1 on
+  int passes = 0;
+  double score = 0;  ///< mean
+};
+
 /// How simulated hands fare: the scenario's difficulty.
 struct Difficulty {
-  int tries = 20;
-  int expert_passes = 0;
-  int novice_passes = 0;
-  double expert_score = 0;  ///< mean
-  double novice_score = 0;
-  /// An expert passes 19 of 20 or more, a novice 8 of 20 or fewer.
+  int tries = 20;  ///< seeds meant; fewer are played where the answer is known before
+  Fared expert;
+  Fared novice;
+  /// Of 20, an expert passes all but one, and a novice 8 or fewer.
+  [[nodiscard]] bool is_for_experts() const noexcept {
+    return 20 * (expert.played - expert.passes) <= tries;
+  }
   [[nodiscard]] bool sound() const noexcept {
-    return 20 * expert_passes >= 19 * tries && 20 * novice_passes <= 8 * tries;
+    return is_for_experts() && 20 * novice.passes <= 8 * tries;
   }
 };
 
 /// The same in tissue that gives way, of fewer seeds, beside all seeds in rigid tissue.
 struct DifficultyInTissue {
   Difficulty rigid;
-  Difficulty soft;  ///< tries 0: the body cannot give way, or nobody asked
-  int alike = 0;    ///< of the soft attempts, those whose verdict is that of the rigid one
+  Difficulty soft;   ///< tries 0: the body cannot give way, or nobody asked
+  int compared = 0;  ///< soft attempts whose seed was played in rigid tissue, too
+  int alike = 0;     ///< of these, with the same verdict
   /// Few seeds in tissue say of a novice nothing that all seeds do not.
   [[nodiscard]] bool sound() const noexcept {
-    const bool experts = 20 * soft.expert_passes >= 19 * soft.tries;
-    return rigid.sound() && experts && (soft.tries < 20 || soft.sound());
+    return rigid.sound() && soft.is_for_experts() && (soft.tries < 20 || soft.sound());
   }
 };
 
 /// How many seeds each simulated operator plays.
 struct Tries {
   int rigid = 20;
-  int soft = 1;  ///< in tissue that gives way, which costs some ten times as much
+  int soft = 1;  ///< in tissue that gives way, which costs some ten times as much; no more than it
+                 ///< takes to know that a novice does not pass too often
 };
 
 /// Plays with seeds from 1 on. The same at any number of threads. Errors: those of play.

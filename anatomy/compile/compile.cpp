@@ -34,16 +34,16 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// Tells the listener and times each stage.
-class Stages {
+// Tells the listener and times each step.
+class Steps {
  public:
-  Stages(const Progress& progress, CompileReport& report) : progress_(progress), report_(report) {}
+  Steps(const Progress& progress, CompileReport& report) : progress_(progress), report_(report) {}
   template <class Work>
-  auto run(const char* stage, double fraction, Work&& work) {
-    if (progress_) progress_(stage, fraction);
+  auto run(const char* step, double fraction, Work&& work) {
+    if (progress_) progress_(step, fraction);
     const auto start = Clock::now();
     auto result = work();
-    report_.stages.push_back({stage, seconds_since(start)});
+    report_.steps.push_back({step, seconds_since(start)});
     return result;
   }
 
@@ -135,8 +135,8 @@ void finish_topology(Complex& complex, const RegionLabels& labels) {
 }
 
 // The complex whose interfaces stay.
-Result<Complex> make_interfaces(const LabelledSpace& space, Stages& stages, CompileReport& report) {
-  Result<TetMesh> mesh = stages.run("resolving overlaps", 0.2, [&] {
+Result<Complex> make_interfaces(const LabelledSpace& space, Steps& steps, CompileReport& report) {
+  Result<TetMesh> mesh = steps.run("resolving overlaps", 0.2, [&] {
     tbb::task_group beside;  // the mesher has one thread, and volumes need nothing of it
     beside.run([&] { measure_labels(space.labels, report); });
     Result<TetMesh> resolved = resolve_regions(space.labels, space.resolve);
@@ -151,7 +151,7 @@ Result<Complex> make_interfaces(const LabelledSpace& space, Stages& stages, Comp
     return smallest_part(space.resolve.sizing, r);
   });
   finish_topology(complex, space.labels);
-  stages.run("fitting interfaces", 0.6, [&] {
+  steps.run("fitting interfaces", 0.6, [&] {
     fit_interfaces(complex.mesh, space.labels);
     return true;
   });
@@ -159,10 +159,10 @@ Result<Complex> make_interfaces(const LabelledSpace& space, Stages& stages, Comp
 }
 
 // Fills between the interfaces.
-Result<void> fill(Complex& complex, const LabelledSpace& space, Stages& stages,
+Result<void> fill(Complex& complex, const LabelledSpace& space, Steps& steps,
                   CompileReport& report) {
   const std::size_t n_interfaces = complex.mesh.interfaces.size();
-  report.fill_method = name_of(stages.run("filling with tetrahedra", 0.7, [&] {
+  report.fill_method = name_of(steps.run("filling with tetrahedra", 0.7, [&] {
     return fill_with_tetgen(complex.mesh, complex.neighbours, space.resolve.sizing);
   }));
   auto neighbours = find_tet_neighbours(complex.mesh);
@@ -171,7 +171,7 @@ Result<void> fill(Complex& complex, const LabelledSpace& space, Stages& stages,
   finish_topology(complex, space.labels);
   if (complex.mesh.interfaces.size() != n_interfaces)
     return fail(ErrorCode::failed, "the tetrahedra do not meet at the interfaces");
-  stages.run("measuring tetrahedra", 0.9, [&] {
+  steps.run("measuring tetrahedra", 0.9, [&] {
     measure_mesh(complex.mesh, complex.neighbours, report);
     return true;
   });
@@ -186,13 +186,13 @@ Result<CompileOutcome> compile_joint(const JointSources& sources, const CompileO
   const auto start = Clock::now();
   CompileOutcome outcome;
   CompileReport& report = outcome.report;
-  Stages stages(progress, report);
+  Steps steps(progress, report);
   auto digest = compute_source_digest(sources);
   ARTUS_TRY(digest);
   std::vector<StructureReport> reports = start_reports(file);
   const PartCache parts(options.parts);
-  auto surfaces = stages.run("reading and repairing surfaces", 0,
-                             [&] { return prepare_surfaces(sources, reports, parts); });
+  auto surfaces = steps.run("reading and repairing surfaces", 0,
+                            [&] { return prepare_surfaces(sources, reports, parts); });
   ARTUS_TRY(surfaces);
   ARTUS_TRY(check_refusals(file, reports, *surfaces, options));
   StructureReport filler;
@@ -201,14 +201,14 @@ Result<CompileOutcome> compile_joint(const JointSources& sources, const CompileO
   filler.kind = "filler";
   report.structures.push_back(std::move(filler));
   report.structures.insert(report.structures.end(), reports.begin(), reports.end());
-  auto space = stages.run("measuring distances", 0.1,
-                          [&] { return make_labelled_space(file, *surfaces, progress, parts); });
+  auto space = steps.run("measuring distances", 0.1,
+                         [&] { return make_labelled_space(file, *surfaces, progress, parts); });
   ARTUS_TRY(space);
   parts.forget_old(kMaxPartBytes);
   report.parts_cached = parts.found();
-  Result<Complex> complex = make_interfaces(*space, stages, report);
+  Result<Complex> complex = make_interfaces(*space, steps, report);
   ARTUS_TRY(complex);
-  stages.run("measuring interfaces", 0.65, [&] {
+  steps.run("measuring interfaces", 0.65, [&] {
     measure_distances(complex->mesh, space->labels, *surfaces, report);
     return true;
   });
@@ -218,7 +218,7 @@ Result<CompileOutcome> compile_joint(const JointSources& sources, const CompileO
   space->labels.layers.clear();
   space->labels.layers.shrink_to_fit();
   space->labels.index = {};
-  ARTUS_TRY(fill(*complex, *space, stages, report));
+  ARTUS_TRY(fill(*complex, *space, steps, report));
   mark_cuts(complex->mesh, surfaces->body, std::get<SurfaceFile>(file.body.shape).grow);
   for (const std::string& warning : surfaces->body.warnings)
     report.notes.push_back("body: " + warning);

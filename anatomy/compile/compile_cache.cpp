@@ -68,7 +68,7 @@ std::optional<CompileOutcome> find_kept(const JointFile& file, const std::string
   outcome.report = std::move(*report);
   outcome.report.body_kept = true;
   outcome.report.notes.clear();
-  outcome.report.stages.clear();
+  outcome.report.steps.clear();
   outcome.joint = attach_metadata(file, std::move(body->mesh), digest, outcome.report.notes);
   return outcome;
 }

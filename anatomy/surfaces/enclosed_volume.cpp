@@ -57,10 +57,10 @@ class Lines {
     if (area == 0) return;
     std::array<std::array<int, 2>, 2> range{};  // (side, first and last line)
     for (Eigen::Index a = 0; a < 2; ++a) {
-      const auto [least, most] = std::minmax({p[0][a], p[1][a], p[2][a]});
+      const auto [min, max] = std::minmax({p[0][a], p[1][a], p[2][a]});
       range[static_cast<std::size_t>(a)] = {
-          std::max(0, static_cast<int>(std::ceil((least - lower_[a]) / step_[a] - 0.5))),
-          std::min(kLines - 1, static_cast<int>(std::floor((most - lower_[a]) / step_[a] - 0.5)))};
+          std::max(0, static_cast<int>(std::ceil((min - lower_[a]) / step_[a] - 0.5))),
+          std::min(kLines - 1, static_cast<int>(std::floor((max - lower_[a]) / step_[a] - 0.5)))};
     }
     for (int j = range[1][0]; j <= range[1][1]; ++j)
       for (int i = range[0][0]; i <= range[0][1]; ++i) {

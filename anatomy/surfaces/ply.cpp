@@ -290,8 +290,8 @@ class MeshReader {
   Result<void> read_list(const Property& property, bool is_face) {
     const auto count = body_.next(*property.list_count);
     ARTUS_TRY(count);
-    const double least = static_cast<double>(body_.remaining());
-    if (!(*count >= 0) || *count > least || *count != std::floor(*count))
+    const double min = static_cast<double>(body_.remaining());
+    if (!(*count >= 0) || *count > min || *count != std::floor(*count))
       return fail(ErrorCode::corrupt, "a list of impossible length; the file is damaged",
                   body_.where());
     std::uint32_t first = 0;

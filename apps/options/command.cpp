@@ -48,17 +48,17 @@ ExitCode report_error(const Error& error, bool json) {
 Progress make_progress_printer(bool quiet) {
   if (quiet) return {};
   const bool terminal = isatty(STDERR_FILENO) != 0;
-  return [terminal, last = std::string(), percent = -1](std::string_view stage,
+  return [terminal, last = std::string(), percent = -1](std::string_view step,
                                                         double fraction) mutable {
     const int now = static_cast<int>(std::lround(100 * fraction));
     if (terminal) {
-      if (stage == last && now == percent) return;
-      std::fprintf(stderr, "\r\033[K%.*s %d %%%s", static_cast<int>(stage.size()), stage.data(),
-                   now, now >= 100 ? "\n" : "");
-    } else if (stage != last) {
-      std::fprintf(stderr, "%.*s ...\n", static_cast<int>(stage.size()), stage.data());
+      if (step == last && now == percent) return;
+      std::fprintf(stderr, "\r\033[K%.*s %d %%%s", static_cast<int>(step.size()), step.data(), now,
+                   now >= 100 ? "\n" : "");
+    } else if (step != last) {
+      std::fprintf(stderr, "%.*s ...\n", static_cast<int>(step.size()), step.data());
     }
-    last = stage;
+    last = step;
     percent = now;
   };
 }

@@ -35,8 +35,8 @@ void on_run(Command* command, ExitCode& code, std::function<ExitCode()> body);
 /// ExitCode::failed (usage for a malformed flag, defects for what must be mended).
 ExitCode report_error(const Error& error, bool json);
 
-/// A listener that prints stages and percentages on stderr: one line that is rewritten on a
-/// terminal, one line a stage otherwise. `quiet` gives one that prints nothing.
+/// A listener that prints steps and percentages on stderr: one line that is rewritten on a
+/// terminal, one line a step otherwise. `quiet` gives one that prints nothing.
 [[nodiscard]] Progress make_progress_printer(bool quiet);
 
 /// --joint, --surfaces, --cache, --skip-refused, --pose: where a joint comes from, how it is held.

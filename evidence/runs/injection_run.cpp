@@ -392,7 +392,7 @@ Result<SessionParams> params_of(const InjectionSpec& spec, const CompiledJoint& 
   params.syringe = spec.syringe;
   params.transducer = spec.transducer;
   params.needle_shape = needle_of_gauge(spec.syringe.gauge).value_or(NeedleShape{});
-  params.deform = params.wait_for_cage = !spec.rigid && !joint.mesh.tetrahedra.empty();
+  params.deform = params.wait_for_cage = !spec.rigid && gives_way(joint);
   ARTUS_TRY(validate(params));
   return params;
 }

@@ -96,15 +96,15 @@ double BacksteppingLaw::active_flow(const CylinderState& s, const ProbeTarget& t
 double BacksteppingLaw::feasible_stiffness(const CylinderState& s, double wanted) const noexcept {
   const CylinderParams& c = cylinder_;
   const double force = pneumatic_force(c, s);
-  const double least = kMinPressure * valve_.exhaust;
-  const double most = kMaxPressure * valve_.supply;
+  const double min = kMinPressure * valve_.exhaust;
+  const double max = kMaxPressure * valve_.supply;
   // At a given force one chamber pressure sets the other, and K_pneu rises with both.
   const auto stiffness = [&](double p_N) {
     const double push_N = p_N * c.area_N;
     return c.polytropic * ((force + push_N) / c.length_p(s.y) + push_N / c.length_n(s.y));
   };
-  const double low = stiffness(std::max(least, (least * c.area_P - force) / c.area_N));
-  const double high = stiffness(std::min(most, (most * c.area_P - force) / c.area_N));
+  const double low = stiffness(std::max(min, (min * c.area_P - force) / c.area_N));
+  const double high = stiffness(std::min(max, (max * c.area_P - force) / c.area_N));
   return std::max(low, std::min(high, wanted));
 }
 

@@ -104,13 +104,13 @@ void InsertionLine::slide(const Vec3& tip, const Vec3& own_axis, LineChange& cha
   const Vec3 foot = entry_ + before * axis_;
   const double off = (foot - tip).norm();
   const double angle = angle_between(own_axis, axis_);
-  const double most = in / params_.near_skin * kQuarterTurn;
-  if (off <= in && angle <= most) return;
+  const double max = in / params_.near_skin * kQuarterTurn;
+  if (off <= in && angle <= max) return;
   change.moved = true;
   const double slid = std::max(0.0, off - in);
-  const double turned = std::max(0.0, angle - most) * in;
+  const double turned = std::max(0.0, angle - max) * in;
   const Vec3 on_line = slid > 0 ? Vec3(tip + in / off * (foot - tip)) : foot;
-  approach(on_line, own_axis, angle > most ? most / angle : 1.0);
+  approach(on_line, own_axis, angle > max ? max / angle : 1.0);
   deepest_ += depth(tip) - before;
   change.kept *= std::exp(-(slid + turned) / params_.way);
 }
@@ -127,19 +127,19 @@ double InsertionLine::band(double depth) const noexcept {
 // `axis`, or the nearest to it that is no farther from the first one than the cone allows, or than
 // the line is already.
 Vec3 InsertionLine::inside_cone(const Vec3& axis, double depth) const noexcept {
-  const double most =
+  const double max =
       std::max(insertion_cone(depth, needle_length_), angle_between(axis_, first_axis_));
-  return angle_between(axis, first_axis_) <= most ? axis : turned(first_axis_, axis, most);
+  return angle_between(axis, first_axis_) <= max ? axis : turned(first_axis_, axis, max);
 }
 
 void InsertionLine::turn(const Vec3& tip, LineChange& change) noexcept {
   const double before = depth(tip);
   const Vec3 to_tip = tip - entry_;
   const double distance = to_tip.norm();
-  const double most = band(before);
-  if (!((to_tip - before * axis_).norm() > most)) return;
+  const double max = band(before);
+  if (!((to_tip - before * axis_).norm() > max)) return;
   const Vec3 direction = to_tip / distance;
-  const Vec3 axis = inside_cone(turned(direction, axis_, std::asin(most / distance)), distance);
+  const Vec3 axis = inside_cone(turned(direction, axis_, std::asin(max / distance)), distance);
   const double turned = distance * angle_between(axis_, axis);
   if (!(turned > 0)) return;
   change.moved = true;

@@ -171,9 +171,8 @@ Plunger::Branch Plunger::branch(const PlungerInput& input, std::size_t which, do
                       film_resistance(law, volume + step / 2 * flows_[which],
                                       params_.liquid.viscosity.at(kFilmRate));
   // Never so much that the bore would seem to help.
-  const double least = -kMaxFall * bevel_share_ * own_.resistance();
-  return {true, pressure(tip.space),
-          near / tip.share + std::max(least, step * rise(tip.space) / 2)};
+  const double min = -kMaxFall * bevel_share_ * own_.resistance();
+  return {true, pressure(tip.space), near / tip.share + std::max(min, step * rise(tip.space) / 2)};
 }
 
 /// The bore ends in both branches; one against whose pressure nothing flows takes no part.

@@ -233,9 +233,9 @@ const PlungerState& Plunger::step(const PlungerInput& input) noexcept {
     state_.status |= PlungerStatus::kNotFinite;
     started_ = false;
   }
-  const double least = std::max(area_ * kVacuum - params_.syringe.glide, -params_.max_force);
+  const double min = std::max(area_ * kVacuum - params_.syringe.glide, -params_.max_force);
   const double request = in.force + in.stiffness * (in.position - state_.travel);
-  const double now = std::clamp(request, least, params_.max_force);
+  const double now = std::clamp(request, min, params_.max_force);
   const bool limited = now != request;
   if (limited) state_.status |= PlungerStatus::kLimited;
   const double age = std::log10(std::max(1.0, rest_time_));

@@ -186,11 +186,11 @@ void ProbeContactModel::add_friction(const Pose& X_JP) noexcept {
   last_position_ = position;
   shear_ -= axis * axis.dot(shear_);
   const double coefficient = params_.gel ? params_.gel_friction : params_.dry_friction;
-  const double most = coefficient * contact_.normal_force / params_.shear_stiffness;
+  const double max = coefficient * contact_.normal_force / params_.shear_stiffness;
   const double dragged = shear_.norm();
-  if (dragged > most) {
-    shear_ *= most / dragged;
-    slip_ += dragged - most;
+  if (dragged > max) {
+    shear_ *= max / dragged;
+    slip_ += dragged - max;
   }
   contact_.slip = slip_;
   contact_.friction = -params_.shear_stiffness * shear_;

@@ -73,9 +73,11 @@ enum {
   ARTUS_SHM_PEER_LOST = 1u << 16,   /* POS is silent or was never written */
   ARTUS_SHM_POS_INVALID = 1u << 17, /* POS holds values that are not a pose */
   ARTUS_SHM_PAUSED = 1u << 18,
-  ARTUS_SHM_STOPPED = 1u << 19,      /* artus left in good order */
-  ARTUS_SHM_SILENT = 1u << 20,       /* set by artus_shm_read_force: FORCE itself is stale */
-  ARTUS_SHM_FORCE_INVALID = 1u << 22 /* set by it: FORCE holds what cannot be a force */
+  ARTUS_SHM_STOPPED = 1u << 19,       /* artus left in good order */
+  ARTUS_SHM_SILENT = 1u << 20,        /* set by artus_shm_read_force: FORCE itself is stale */
+  ARTUS_SHM_FORCE_INVALID = 1u << 22, /* set by it: FORCE holds what cannot be a force */
+  ARTUS_SHM_TISSUE_LATE = 1u << 23    /* the tissue that is felt is older than 0.1 s: skin and
+                                         stiffness are held as last known */
 };
 
 /* FORCE: what the hand should feel, written by artus. Frame W, at the needle's tip. */
@@ -107,7 +109,7 @@ typedef struct artus_shm_force {
   double given;            /* 256 m3 that left the tip since the syringe was new; never falls */
   double drawn;            /* 264 m3 of the patient's own in the syringe */
   uint32_t plunger_status; /* 272 bits, see docs/protocol.md */
-  uint32_t reserved2;      /* 276 zero */
+  uint32_t tissue_age_us;  /* 276 how old the tissue is that is felt; 0: none gives way */
   uint64_t probe_sample;   /* 280 sample that the probe's force answers: of POS-PROBE, or of POS */
   uint64_t probe_time_ns;  /* 288 artus_shm_pos.time_ns of that sample */
 } artus_shm_force;         /* 296 */

@@ -49,6 +49,7 @@ Result<RecordingHead> to_head(const nlohmann::json& json) {
   read_fields(json.at("params"), head.params);
   head.params.X_WJ = to_pose(json.at("X_WJ"));
   head.params.wait_for_cage = json.value("wait_for_cage", false);
+  if (json.contains("X_JC")) head.params.X_JC = to_pose(json.at("X_JC"));
   const auto feel = to_needle_feel(json.at("feel"));
   ARTUS_TRY(feel);
   head.params.feel = *feel;
@@ -71,6 +72,7 @@ std::string to_line(const RecordingHead& head) {
                       {"feel", to_json(head.params.feel)},
                       {"params", fields_to_json(head.params)}};
   if (head.params.wait_for_cage) json["wait_for_cage"] = true;
+  if (head.params.X_JC) json["X_JC"] = to_json(*head.params.X_JC);
   json[kDigest] = digest_of(json);
   return json.dump();
 }

@@ -23,12 +23,11 @@ PlungerSign plunger_sign(std::uint32_t present) noexcept {
   return (present & ARTUS_SHM_PLUNGER_FORCE) != 0 ? PlungerSign::force : PlungerSign::none;
 }
 
-bool is_believable(const artus_shm_pos& pos, std::uint32_t allowed,
-                   const DeviceSample& sample) noexcept {
+/// Whether the message says what there is and may come from this writer. What cannot be a pose or a
+/// plunger the simulation refuses of any device.
+bool is_known(const artus_shm_pos& pos, std::uint32_t allowed) noexcept {
   return (pos.present & ~(kKnownPresence & allowed)) == 0 && pos.reserved == 0 &&
-         is_hold(pos.hold_ms) && (pos.present & kPlunger) != kPlunger && is_plunger(sample) &&
-         (sample.has_needle == 0 || is_pose(sample.X_WN)) &&
-         (sample.has_probe == 0 || is_pose(sample.X_WP));
+         is_hold(pos.hold_ms) && (pos.present & kPlunger) != kPlunger;
 }
 
 }  // namespace
@@ -47,7 +46,7 @@ void PosReader::take(const artus_shm_pos& pos, std::int64_t now_ns) noexcept {
   if (sample.plunger == PlungerSign::travel) sample.plunger_travel = pos.plunger_travel;
   if (sample.plunger == PlungerSign::force) sample.plunger_force = pos.plunger_force;
   constexpr std::int64_t kClockSlack = 1'000'000;  // ns between reading the clock here and there
-  const bool sound = age > -kClockSlack && is_believable(pos, allowed_, sample);
+  const bool sound = age > -kClockSlack && is_known(pos, allowed_);
   if (sound) sample.hold_ms = pos.hold_ms;
   sample.state = !sound                  ? PeerState::invalid
                  : age < hold_of(sample) ? PeerState::alive

@@ -133,6 +133,31 @@ bool is_held(const SoftModel& model) {
 
 }  // namespace
 
+/// What all bodies in one cage begin with.
+struct SoftBody::Start {
+  std::shared_ptr<const CompiledJoint> joint;
+  std::shared_ptr<const BodyMap> map;
+  SkinPatch skin;                       // before the face
+  std::vector<std::uint32_t> vertices;  // of that skin, numbers in the joint's mesh
+  std::vector<std::uint32_t> contact;   // unknowns that the face may press
+  ProbeFace face;
+  SoftSolverParams solver;
+};
+
+SoftBody SoftBody::begin(std::shared_ptr<const Start> start) {
+  SoftBody body;
+  body.joint_ = start->joint;
+  body.map_ = start->map;
+  body.solver_ = std::make_unique<SoftSolver>(start->map->model, start->contact, start->solver);
+  body.solver_->set_face(start->skin, start->face);
+  body.start_ = std::move(start);
+  return body;
+}
+
+SoftBody SoftBody::another_at_rest() const {
+  return begin(start_);
+}
+
 Result<SoftBody> SoftBody::make(std::shared_ptr<const CompiledJoint> joint, const Pose& X_JP,
                                 const SoftBodyParams& params) {
   if (joint->mesh.tetrahedra.empty())
@@ -150,13 +175,13 @@ Result<SoftBody> SoftBody::make(std::shared_ptr<const CompiledJoint> joint, cons
     node.held = {held, held, held};
     return node;
   };
-  SoftBody body;
-  body.joint_ = joint;
-  auto map =
+  Start start;
+  start.joint = joint;
+  start.map =
       make_body_map(*joint, X_JP,
                     std::make_shared<const SoftModel>(
                         make_joint_field(*joint, X_JP, params.poisson_ratio, locator), model));
-  if (!is_held(*map->model))
+  if (!is_held(*start.map->model))
     return fail(
         ErrorCode::invalid,
         "what holds the tissue is too small: the cubes that carry the tissue have fewer than "
@@ -164,19 +189,17 @@ Result<SoftBody> SoftBody::make(std::shared_ptr<const CompiledJoint> joint, cons
         "it (" +
             describe(find_holders(*joint)) + ")",
         joint->name);
-  const SkinPatch skin = skin_of(joint->mesh, X_CJ, params.face, params.far, body.skin_);
-  if (skin.triangles.empty())
+  start.skin = skin_of(joint->mesh, X_CJ, params.face, params.far, start.vertices);
+  if (start.skin.triangles.empty())
     return fail(ErrorCode::invalid, "no skin below the probe: move it over the body", joint->name);
   const Vec3 reach(0.5 * params.face.length + params.reach, 0.5 * params.face.width + params.reach,
                    0.04);
-  body.solver_ = std::make_unique<SoftSolver>(
-      map->model, contact_unknowns(*map->model, skin, -reach, reach), params.solver);
-  ProbeFace face = params.face;
-  face.length -= 2 * params.inset * params.fine_cell;
-  face.width -= 2 * params.inset * params.fine_cell;
-  body.solver_->set_face(skin, face);
-  body.map_ = std::move(map);
-  return body;
+  start.contact = contact_unknowns(*start.map->model, start.skin, -reach, reach);
+  start.face = params.face;
+  start.face.length -= 2 * params.inset * params.fine_cell;
+  start.face.width -= 2 * params.inset * params.fine_cell;
+  start.solver = params.solver;
+  return begin(std::make_shared<const Start>(std::move(start)));
 }
 
 /// Displacements of this cage's nodes in another's, frame C.
@@ -200,8 +223,8 @@ bool SoftBody::lift_skin(const RestOf& rest_of) {
   std::vector<Vec3> lifts;
   if (rest_of) {
     const Eigen::Matrix3d R_CJ = map_->X_JC.linear().transpose();
-    lifts.reserve(skin_.size());
-    for (const std::uint32_t v : skin_)
+    lifts.reserve(start_->vertices.size());
+    for (const std::uint32_t v : start_->vertices)
       lifts.emplace_back(R_CJ * (rest_of(v) - joint_->mesh.vertices[v]));
   }
   if (lifts == lifts_) return false;

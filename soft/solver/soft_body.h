@@ -44,6 +44,11 @@ class SoftBody {
   [[nodiscard]] static Result<SoftBody> make(std::shared_ptr<const CompiledJoint> joint,
                                              const Pose& X_JP, const SoftBodyParams& params = {});
 
+  /// Another body in this one's cage, at rest, for who runs several beside each other or one after
+  /// the other. As `make` gives it at `cage_pose()`. May be called on several threads. Cost: of a
+  /// refresh.
+  [[nodiscard]] SoftBody another_at_rest() const;
+
   /// Goes on from where another body of this joint has its tissue, as far as this cage reaches: a
   /// probe that presses does not feel that the cage is another. Cost: of a refresh; some ms with
   /// the factor that is there, of a state near that one.
@@ -92,17 +97,19 @@ class SoftBody {
 
  private:
   SoftBody() = default;
+  struct Start;
+  [[nodiscard]] static SoftBody begin(std::shared_ptr<const Start> start);
 
   [[nodiscard]] ContactForce to_J(ContactForce contact) const;
   [[nodiscard]] std::vector<Vec3> nodes_in(const DeformedBody& other) const;
   [[nodiscard]] Result<std::vector<std::uint32_t>> nodes_of(const std::string& bone,
                                                             const TetLocator& locator) const;
 
+  std::shared_ptr<const Start> start_;
   std::shared_ptr<const CompiledJoint> joint_;
   std::shared_ptr<const BodyMap> map_;
   std::unique_ptr<SoftSolver> solver_;
-  std::vector<std::uint32_t> skin_;  // of the face's skin, numbers in the joint's mesh
-  std::vector<Vec3> lifts_;          // m, frame C, of these; empty: none
+  std::vector<Vec3> lifts_;  // m, frame C, of these; empty: none
 };
 
 }  // namespace artus

@@ -13,6 +13,14 @@
 
 namespace artus::test {
 
+namespace {
+constexpr const char* kTable = "ARTUS_MUTATION_TABLE";
+}  // namespace
+
+bool wants_table() {
+  return std::getenv(kTable) != nullptr;
+}
+
 void expect_noticed(const std::string& what, const std::vector<Mutation>& mutations,
                     const Exempt& exempt) {
   nlohmann::ordered_json table;
@@ -29,7 +37,7 @@ void expect_noticed(const std::string& what, const std::vector<Mutation>& mutati
       EXPECT_TRUE(m.noticed_by.empty()) << m.parameter << " is noticed: it needs no excuse";
     }
   }
-  const char* file = std::getenv("ARTUS_MUTATION_TABLE");
+  const char* file = std::getenv(kTable);
   if (file == nullptr) return;
   nlohmann::ordered_json all;
   if (std::ifstream in(file); in.peek() != std::ifstream::traits_type::eof())

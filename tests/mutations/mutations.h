@@ -51,9 +51,14 @@ void change(T& value) {
   }
 }
 
-/// Changes each parameter alone in every subject. Cost: parameters times subjects.
+/// Whether somebody wants to know of all subjects that notice a parameter, not of the first alone.
+[[nodiscard]] bool wants_table();
+
+/// Changes each parameter alone in one subject after the other, until one notices. Cost: parameters
+/// times subjects for the whole table.
 template <class Setup>
 std::vector<Mutation> try_mutations(const std::vector<Subject<Setup>>& subjects) {
+  const bool all = wants_table();
   std::vector<Mutation> mutations;
   visit_fields(subjects.front().setup, [&](const std::string& name, const auto& /*member*/) {
     mutations.push_back({name, {}, {}});
@@ -61,6 +66,7 @@ std::vector<Mutation> try_mutations(const std::vector<Subject<Setup>>& subjects)
   for (const Subject<Setup>& subject : subjects) {
     const auto expected = subject.trace(subject.setup);
     for (Mutation& mutation : mutations) {
+      if (!all && !mutation.noticed_by.empty()) continue;
       Setup setup = subject.setup;
       visit_fields(setup, [&](const std::string& name, auto& member) {
         if (name == mutation.parameter) change(member);

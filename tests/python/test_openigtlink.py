@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
 """A client of OpenIGTLink made of struct and sockets alone, as other people write them, against the tool."""
 
+import contextlib
 import os
 import shutil
 import socket
@@ -28,18 +29,38 @@ def wait_until_it_listens(number, server):
             time.sleep(0.1)
 
 
-@pytest.fixture
-def port(tool, simple):
+@contextlib.contextmanager
+def serving(tool, simple):
     number = free_port()
     server = subprocess.Popen(
         [tool, "serve", "-j", str(simple), "--rigid", "--input", "injection", "--igtl", str(number),
-         "--prefix", f"artus-py-{os.getpid()}-", "--json"],
+         "--prefix", f"artus-py-{number}-", "--json"],
         stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     wait_until_it_listens(number, server)
-    yield number
+    yield number, server
     assert server.poll() is None, "a client ended the session"
     server.terminate()
     assert server.wait(30) == 0
+
+
+@pytest.fixture(scope="module")
+def session(tool, simple):
+    """One session for all clients that leave it as it was: what one of them does is no other's matter."""
+    with serving(tool, simple) as running:
+        yield running
+
+
+@pytest.fixture
+def port(session):
+    number, server = session
+    yield number
+    assert server.poll() is None, "a client ended the session"
+
+
+@pytest.fixture
+def own_port(tool, simple):
+    with serving(tool, simple) as (number, _):
+        yield number
 
 
 # What a connector of 3D Slicer says at once, STATUS with header 2 and metadata, and a COMMAND of it: byte
@@ -132,11 +153,11 @@ def test_many_clients_are_served_while_some_read_nothing(port):
     clients[0].wait_for("IMAGE")
 
 
-def test_more_clients_than_it_takes_are_turned_away(port):
-    clients = [Client(port) for _ in range(64)]
+def test_more_clients_than_it_takes_are_turned_away(own_port):
+    clients = [Client(own_port) for _ in range(64)]
     clients[63].socket.sendall(COMMAND)
     assert clients[63].wait_for("RTS_COMMAND")
-    assert Client(port).is_closed_within(20)
+    assert Client(own_port).is_closed_within(20)
     clients[0].socket.sendall(COMMAND)
     assert clients[0].wait_for("RTS_COMMAND")
 

@@ -9,8 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "artus/detail/simulation/haptic_core.h"
-#include "artus/detail/simulation/image_core.h"
+#include "artus/detail/session/record/simulation_recorder.h"
 #include "artus/session/replay.h"
 #include "tests/session/session_support.h"
 #include "tests/support/meshed_block.h"
@@ -42,13 +41,14 @@ SessionParams make_soft_session(bool deform) {
   return params;
 }
 
-/// A session without threads: hand and image by turns, as they run live.
+/// A session without threads, recorded as it would be.
 class SoftSession {
  public:
   SoftSession(std::shared_ptr<const Scene> scene, const SessionParams& params)
-      : params_(params), haptics_(scene, params), images_(scene, params) {
-    recording_.head = make_head(scene->joint(), params);
-    X_JP_ = scene->joint().X_JP_default;
+      : X_JP_(scene->joint().X_JP_default),
+        simulation_(std::move(scene), params),
+        recorder_(simulation_, recording_) {
+    simulation_.prepare_imaging();
   }
 
   /// One tick with the tip `depth` (m) below the resting skin, beside the probe's middle.
@@ -58,9 +58,9 @@ class SoftSession {
   }
   /// What a device says that has both hands where they are.
   [[nodiscard]] DeviceSample sample() const {
-    const std::uint64_t tick = recording_.ticks.size() + 1;
-    DeviceSample device = test::sample_at(
-        0, std::llround(1e9 * static_cast<double>(tick) / params_.haptic_rate), tick);
+    const std::uint64_t tick = simulation_.ticks() + 1;
+    DeviceSample device =
+        test::sample_at(0, std::llround(1e9 * static_cast<double>(tick) / rate()), tick);
     Pose X_JN = X_JP_;
     X_JN.translation() = entry() + depth_ * axis();
     device.X_WN = to_plain(X_JN);
@@ -71,52 +71,36 @@ class SoftSession {
   }
   const HapticSnapshot& at(const DeviceSample& device) {
     TickInput input;
-    input.tick = recording_.ticks.size() + 1;
+    input.tick = simulation_.ticks() + 1;
     input.device = device;
-    const HapticSnapshot& out = haptics_.step(input);
-    recording_.ticks.push_back(to_record(out));
-    const double images = static_cast<double>(recording_.frames.size());
-    if (static_cast<double>(input.tick) * params_.image_rate >= images * params_.haptic_rate)
-      draw(out);
-    return out;
+    return recorder_.step(input);
   }
   /// From where the tip is, m/s.
   const HapticSnapshot& move(double depth, double speed) {
     const double from = depth_;
-    const int n =
-        std::max(1, static_cast<int>(std::abs(depth - from) / speed * params_.haptic_rate));
+    const int n = std::max(1, static_cast<int>(std::abs(depth - from) / speed * rate()));
     for (int k = 1; k < n; ++k) at(from + (depth - from) * k / n);
     return at(depth);
   }
   const HapticSnapshot& hold(double seconds) {
-    for (int k = 1; k < seconds * params_.haptic_rate; ++k) at(depth_);
+    for (int k = 1; k < seconds * rate(); ++k) at(depth_);
     return at(depth_);
   }
   void press(double by) { press_ = by; }
   [[nodiscard]] double depth() const { return depth_; }
   [[nodiscard]] Vec3 entry() const { return X_JP_ * Vec3(4e-3, 11e-3, 0); }
   [[nodiscard]] Vec3 axis() const { return X_JP_.linear().col(2); }
-  [[nodiscard]] const Scene& now() const { return *images_.scene(); }
-  [[nodiscard]] const ImageCore& images() const { return images_; }
+  [[nodiscard]] const Scene& now() const { return *simulation_.scene(); }
+  [[nodiscard]] const Simulation& simulation() const { return simulation_; }
   [[nodiscard]] const Recording& recording() const { return recording_; }
 
  private:
-  void draw(const HapticSnapshot& out) {
-    const FrameInput input = frame_input(out, controls_of(params_), recording_.frames.size() + 1);
-    FrameRecord frame = to_record(input, images_.render(input), images_.transducer());
-    if (const TissuePacket* packet = images_.packet()) {
-      frame.packet = digest_of(*packet);
-      recording_.packets.push_back({out.input.tick + 1, *packet});
-      haptics_.take(*packet);
-    }
-    recording_.frames.push_back(frame);
-  }
+  [[nodiscard]] double rate() const { return simulation_.params().haptic_rate; }
 
-  SessionParams params_;
-  HapticCore haptics_;
-  ImageCore images_;
-  Recording recording_;
   Pose X_JP_;
+  Simulation simulation_;
+  Recording recording_;
+  SimulationRecorder recorder_;
   double depth_ = -10e-3;
   double press_ = -20e-3;
 };
@@ -145,7 +129,7 @@ TEST(NeedleTissue, TentsAndDragsInTheHandAsInThePictureAndRestsAsRigidTissueDoes
   const auto scene = make_needled_block();
   SoftSession rigid(scene, make_soft_session(false));
   SoftSession soft(scene, make_soft_session(true));
-  ASSERT_TRUE(soft.images().refusal().empty()) << soft.images().refusal();
+  ASSERT_TRUE(soft.simulation().refusal().empty()) << soft.simulation().refusal();
   for (SoftSession* session : {&rigid, &soft}) {
     session->move(-1e-3, 20e-3);
     session->hold(0.6);

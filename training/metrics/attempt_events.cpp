@@ -31,9 +31,9 @@ std::string cause_of(const AttemptView& view, const Run& run) {
     if (worst == nullptr || std::abs(m.sights[i]->offset) > std::abs(worst->offset))
       worst = &*m.sights[i];
   }
-  const auto most =
+  const auto max =
       static_cast<std::size_t>(std::max_element(votes.begin(), votes.end()) - votes.begin());
-  const TipSight* sight = example[most];
+  const TipSight* sight = example[max];
   if (sight == nullptr) return "the tip was not seen";
   switch (sight->loss) {
     case SightLoss::off_plane:
@@ -82,10 +82,10 @@ void add_syringe_events(const AttemptView& view, const Put& put) {
     astray[dose.region] += dose.volume;
   }
   if (all < kNoticed) return;
-  const auto most = std::max_element(astray.begin(), astray.end());
+  const auto max = std::max_element(astray.begin(), astray.end());
   put(noticed, "misplaced", all / kCubicCentimetre,
-      printed("%.1f ml with the tip in ", *most / kCubicCentimetre) +
-          regions[static_cast<std::size_t>(most - astray.begin())].name +
+      printed("%.1f ml with the tip in ", *max / kCubicCentimetre) +
+          regions[static_cast<std::size_t>(max - astray.begin())].name +
           (sum.pauses > 0 ? "" : ", without a pause to check where the first drops went"));
 }
 

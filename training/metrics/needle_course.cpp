@@ -164,22 +164,22 @@ std::vector<double> find_redirections(std::span<const CoursePoint> course, doubl
 }
 
 int count_movements(std::span<const double> speeds, double threshold, double hold) {
-  const auto least = static_cast<std::ptrdiff_t>(std::ceil(hold * kTrackRate - 1e-9));
+  const auto min = static_cast<std::ptrdiff_t>(std::ceil(hold * kTrackRate - 1e-9));
   int count = 0;
   std::ptrdiff_t fast = 0;
-  std::ptrdiff_t slow = least;
+  std::ptrdiff_t slow = min;
   bool moving = false;
   for (const double speed : speeds) {
     if (speed > threshold) {
       ++fast;
       slow = 0;
-      if (!moving && fast >= least) {
+      if (!moving && fast >= min) {
         moving = true;
         ++count;
       }
     } else {
       fast = 0;
-      if (++slow >= least) moving = false;
+      if (++slow >= min) moving = false;
     }
   }
   return count;

@@ -31,8 +31,8 @@ bool meets(const Scene& scene, const Segment& line, RegionId region) {
 StructureSight see_structure(const Scene& scene, const Transducer& transducer, double depth,
                              const Pose& X_JP, RegionId region) {
   StructureSight sight;
-  double least = 0;
-  double most = 0;
+  double first = 0;
+  double last = 0;
   for (int k = 0; k < kLines; ++k) {
     const int line = static_cast<int>(std::lround((transducer.n_lines - 1.0) * k / (kLines - 1)));
     const Scanline beam = scanline(transducer, line);
@@ -40,11 +40,11 @@ StructureSight see_structure(const Scene& scene, const Transducer& transducer, d
     const Vec3 to = X_JP * Vec3(beam.origin + depth * beam.direction);
     if (!meets(scene, {from, to}, region)) continue;
     const double x = beam.origin.x();
-    if (!sight.in_picture) least = x;
-    most = x;
+    if (!sight.in_picture) first = x;
+    last = x;
     sight.in_picture = true;
   }
-  sight.x = 0.5 * (least + most);
+  sight.x = 0.5 * (first + last);
   return sight;
 }
 

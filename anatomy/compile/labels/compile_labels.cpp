@@ -162,7 +162,7 @@ class FieldMaker {
     return std::move(field);
   }
 
-  // Each structure takes its share of this stage.
+  // Each structure takes its share of this step.
   void tell(const std::string& name) {
     const std::scoped_lock lock(telling_);
     if (progress_)

@@ -98,8 +98,8 @@ CompileReport read_report(const Json& value) {
   value.at("notes").get_to(report.notes);
   value.at("body_kept").get_to(report.body_kept);
   value.at("parts_kept").get_to(report.parts_cached);
-  for (const auto& [stage, seconds] : value.at("stages_s").items())
-    report.stages.push_back({stage, seconds.get<double>()});
+  for (const auto& [step, seconds] : value.at("stages_s").items())
+    report.steps.push_back({step, seconds.get<double>()});
   value.at("seconds").get_to(report.seconds);
   report.peak_memory = value.at("peak_memory_mb").get<double>() * kMegabyte;
   return report;
@@ -127,7 +127,7 @@ std::string to_json(const CompileReport& report) {
   value["body_kept"] = report.body_kept;
   value["parts_kept"] = report.parts_cached;
   value["stages_s"] = Json::object();
-  for (const StageTime& s : report.stages) value["stages_s"][s.stage] = s.seconds;
+  for (const StepTime& s : report.steps) value["stages_s"][s.step] = s.seconds;
   value["seconds"] = report.seconds;
   value["peak_memory_mb"] = report.peak_memory / kMegabyte;
   return value.dump(2);

@@ -32,8 +32,8 @@ struct StructureReport {
   [[nodiscard]] double volume_error() const noexcept;
 };
 
-struct StageTime {
-  std::string stage;
+struct StepTime {
+  std::string step;
   double seconds = 0;
 };
 
@@ -50,7 +50,7 @@ struct CompileReport {
   std::vector<std::string> notes;  ///< what was chosen where the joint file says nothing
   bool body_kept = false;          ///< the tetrahedra are those of an earlier compilation
   std::size_t parts_cached = 0;    ///< repaired surfaces and distance fields of earlier ones
-  std::vector<StageTime> stages;
+  std::vector<StepTime> steps;
   double seconds = 0;
   double peak_memory = 0;  ///< bytes, of the process or of one that it started
 };

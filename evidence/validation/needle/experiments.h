@@ -26,7 +26,9 @@ namespace artus {
 [[nodiscard]] Experiment run_clamp_redirect(const ExperimentOptions&, const DeviceLimits&);
 /// 10 000 random insertion histories over six layers: energy given over each closed cycle.
 [[nodiscard]] Experiment run_wall_energy(const ExperimentOptions&, const DeviceLimits&);
-/// The same insertion at 1, 2 and 10 kHz.
+/// The same insertions at 1, 2 and 10 kHz.
+[[nodiscard]] Experiment run_insertions_at_rates(const ExperimentOptions&, const DeviceLimits&);
+/// The same, and a hand that sways.
 [[nodiscard]] Experiment run_rates(const ExperimentOptions&, const DeviceLimits&);
 /// Noise and lag of every velocity estimator.
 [[nodiscard]] Experiment run_velocity_estimators(const ExperimentOptions&, const DeviceLimits&);

@@ -26,9 +26,9 @@ Wrench PlasticityFixture::step(const NeedleTick& tick) noexcept {
   const double share = params_.damping / (params_.stiffness * tick.dt + params_.damping);
   const Vec3 input = p + share * (place_ - last);
   Vec3 stretch = place_ - input;
-  const double most = params_.yield_force / k;
+  const double max = params_.yield_force / k;
   const double norm = stretch.norm();
-  if (norm > most) stretch *= most / norm;
+  if (norm > max) stretch *= max / norm;
   place_ = input + stretch;
   last_tip_ = tick.tip;
   begun_ = true;

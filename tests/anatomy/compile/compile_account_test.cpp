@@ -136,7 +136,7 @@ TEST(CompileReport, JsonHasTheUnitsItsKeysSay) {
   report.structures[0].surface_volume = 2e-6;  // m^3
   report.structures[0].distance.max = 1e-3;    // m
   report.structures[1].refused = "a reason";
-  report.stages.push_back({"meshing", 1.5});
+  report.steps.push_back({"meshing", 1.5});
   report.peak_memory = 3e6;
   const auto json = nlohmann::json::parse(to_json(report));
   EXPECT_DOUBLE_EQ(json["structures"][0]["surface_volume_cm3"].get<double>(), 2);

@@ -67,8 +67,8 @@ TEST(LabelledSpace, TellsItsProgress) {
   const BallsJoint joint(20 * kMm, {{"a", "muscle", Vec3::Zero(), 8 * kMm}});
   double last = 0;
   int told = 0;
-  const Progress progress = [&](std::string_view stage, double fraction) {
-    EXPECT_FALSE(stage.empty());
+  const Progress progress = [&](std::string_view step, double fraction) {
+    EXPECT_FALSE(step.empty());
     EXPECT_GE(fraction, last);
     last = fraction;
     ++told;
