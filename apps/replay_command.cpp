@@ -39,12 +39,13 @@ void write_plunger(std::FILE* out, const PlungerFeedback& p) {
   std::fprintf(out, ",%u", p.status);
 }
 
-/// The probe's columns: force and torque on its hand, the share of the face that presses, status.
+/// The probe's columns: force and torque on its hand, the share of the face that presses, status,
+/// and the age of the tissue.
 void write_probe(std::FILE* out, const DeviceFeedback& f) {
   write_numbers(out, f.probe_force);
   write_numbers(out, f.probe_torque);
   write_numbers(out, std::array{f.probe_share});
-  std::fprintf(out, ",%u", f.probe_status);
+  std::fprintf(out, ",%u,%.9g", f.probe_status, 1e3 * f.tissue_age);
 }
 
 /// A tick as a line: what was sent, its components before the guard, contact and layer, plunger,
@@ -71,7 +72,7 @@ constexpr const char* kTraceHead =
     "clamping_y_n,clamping_z_n,surface_x_n,surface_y_n,surface_z_n,workspace_x_n,workspace_y_n,"
     "workspace_z_n,plunger_mm,thumb_n,pressure_kpa,tip_pressure_kpa,flow_ml_s,given_ml,drawn_ml,"
     "plunger_status,probe_force_x_n,probe_force_y_n,probe_force_z_n,probe_torque_x_nm,"
-    "probe_torque_y_nm,probe_torque_z_nm,probe_share,probe_status\n";
+    "probe_torque_y_nm,probe_torque_z_nm,probe_share,probe_status,tissue_age_ms\n";
 
 ReplayListener make_listener(const ReplayOptions& options, const CompiledJoint& joint,
                              std::FILE* trace, double period) {

@@ -59,6 +59,7 @@ nlohmann::json newest_force(const std::string& prefix) {
           {"probe_torque_nm", f.probe_torque},
           {"probe_share", f.probe_share},
           {"probe_status", f.probe_status},
+          {"tissue_age_ms", 1e-3 * f.tissue_age_us},
           {"pos_sample", f.pos_sample},
           {"probe_sample", f.probe_sample},
           {"age_ms", 1e-6 * static_cast<double>(age)}};

@@ -208,6 +208,8 @@ std::uint32_t Session::take_command() noexcept {
 
 void Session::publish(const HapticSnapshot& out) noexcept {
   if (recorder_) recorder_->add(to_record(out));
+  if (out.feedback.tissue_age > 0)
+    times_->tissue_age.add(std::llround(1e9 * out.feedback.tissue_age));
   if (observer_ != nullptr) observer_->on_tick(out);
   trace_->push(trace_point_of(out, 1e-9 * static_cast<double>(monotonic_ns() - start_ns_)));
   ticks_.store(out.input.tick, std::memory_order_relaxed);

@@ -59,6 +59,7 @@ struct TracePoint {
 struct SessionTimes {
   LatencyHistogram haptic_compute;   ///< one tick from the pose to the published force
   LatencyHistogram haptic_cpu;       ///< the same in processor time: without what was taken from it
+  LatencyHistogram tissue_age;       ///< of the tissue that a tick feels
   LatencyHistogram haptic_lateness;  ///< wake-up after its schedule
   LatencyHistogram haptic_floor;     ///< the same of ticks that do nothing, before the first
   LatencyHistogram haptic_fixed;     ///< clock time of a fixed work after each tick, see fixed_work

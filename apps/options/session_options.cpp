@@ -242,6 +242,7 @@ void print_times(const SessionTimes& times, const SessionParams& params) {
   print_line("haptic compute", times.haptic_compute);
   print_line("haptic processor", times.haptic_cpu);
   print_line("haptic lateness", times.haptic_lateness);
+  if (times.tissue_age.count() > 0) print_line("age of the tissue felt", times.tissue_age);
   if (times.haptic_floor.count() > 0) print_line("late without work", times.haptic_floor);
   if (times.haptic_fixed.count() > 0) print_line("fixed work, haptic", times.haptic_fixed);
   if (times.tissue_step.count() > 0) {
@@ -292,6 +293,7 @@ nlohmann::json to_json(const SessionTimes& times) {
   return {{"haptic_compute", to_json(times.haptic_compute)},
           {"haptic_cpu", to_json(times.haptic_cpu)},
           {"haptic_lateness", to_json(times.haptic_lateness)},
+          {"tissue_age", to_json(times.tissue_age)},
           {"haptic_floor", to_json(times.haptic_floor)},
           {"haptic_fixed_work", to_json(times.haptic_fixed)},
           {"tissue_step", to_json(times.tissue_step)},

@@ -192,6 +192,9 @@ void SharedMemoryDevice::write(const DeviceFeedback& feedback) noexcept {
             std::begin(out.probe_torque));
   out.probe_share = feedback.probe_share;
   out.probe_status = feedback.probe_status;
+  constexpr double kOldest = 4e3;  // s
+  out.tissue_age_us =
+      static_cast<std::uint32_t>(1e6 * std::clamp(feedback.tissue_age, 0.0, kOldest));
   const PlungerFeedback& plunger = feedback.plunger;
   out.thumb_force = plunger.thumb_force;
   out.pressure = plunger.pressure;

@@ -29,7 +29,8 @@ TEST(ProbeReading, TellsThePressAlongTheProbeAndHowMuchOfItsFaceTouches) {
   const ProbeReading probe = read_probe(felt(Vec3(-3.24, 1, 0.5), 0.54), giving_way());
   EXPECT_TRUE(probe.felt);
   EXPECT_NEAR(probe.force, 3.24, 1e-12);
-  EXPECT_EQ(describe_probe(Language::english, probe), "probe 3.2 N, 54 % of its face in contact");
+  EXPECT_EQ(describe_probe(Language::english, probe),
+            "probe 3.2 N, 54 % of its face in contact, tissue 0 ms old");
   EXPECT_EQ(describe_probe(Language::french, probe), "sonde 3,2 N, 54 % de sa face en contact");
 }
 
@@ -37,7 +38,7 @@ TEST(ProbeReading, SaysWhyItsForceIsHeldBack) {
   HapticSnapshot now = felt(Vec3(-1, 0, 0), 0.5);
   now.feedback.probe_status = TickStatus::kRamping;
   EXPECT_EQ(describe_probe(Language::english, read_probe(now, giving_way())),
-            "probe 1.0 N, 50 % of its face in contact: force ramps up");
+            "probe 1.0 N, 50 % of its face in contact, tissue 0 ms old: force ramps up");
 }
 
 TEST(ProbeReading, IsSilentWithoutAProbeAndWhereTheBodyIsRigid) {

@@ -99,11 +99,12 @@ std::string describe_status(Language language, std::uint32_t status) {
     std::uint32_t bit;
     const char* text;
   };
-  constexpr std::array<Bit, 14> kBits{
+  constexpr std::array<Bit, 15> kBits{
       {{SessionStatus::kPeerLost, msgid("device lost: no force")},
        {SessionStatus::kPeerInvalid, msgid("device sends no valid pose")},
        {SessionStatus::kPaused, msgid("paused")},
        {SessionStatus::kNoNeedle, msgid("no needle")},
+       {SessionStatus::kTissueLate, msgid("the tissue answers late")},
        {TickStatus::kNotFinite, msgid("pose not finite")},
        {TickStatus::kNotRigid, msgid("pose not rigid")},
        {TickStatus::kTeleport, msgid("needle jumped")},

@@ -11,6 +11,7 @@ ProbeReading read_probe(const HapticSnapshot& now, const SessionParams& params) 
   if (!probe.felt) return probe;
   probe.force = press_of_probe(now);
   probe.share = now.feedback.probe_share;
+  probe.tissue_age = now.feedback.tissue_age;
   probe.status = now.feedback.probe_status;
   return probe;
 }
@@ -18,8 +19,9 @@ ProbeReading read_probe(const HapticSnapshot& now, const SessionParams& params) 
 std::string describe_probe(Language language, const ProbeReading& probe) {
   if (!probe.felt) return {};
   std::string said =
-      fill(translate(language, "probe {} N, {} % of its face in contact"),
-           {number(language, probe.force, 1), number(language, 100 * probe.share, 0)});
+      fill(translate(language, "probe {} N, {} % of its face in contact, tissue {} ms old"),
+           {number(language, probe.force, 1), number(language, 100 * probe.share, 0),
+            number(language, 1e3 * probe.tissue_age, 0)});
   if (probe.status != 0) said += ": " + describe_status(language, probe.status);
   return said;
 }
