@@ -31,7 +31,8 @@ TEST(ProbeReading, TellsThePressAlongTheProbeAndHowMuchOfItsFaceTouches) {
   EXPECT_NEAR(probe.force, 3.24, 1e-12);
   EXPECT_EQ(describe_probe(Language::english, probe),
             "probe 3.2 N, 54 % of its face in contact, tissue 0 ms old");
-  EXPECT_EQ(describe_probe(Language::french, probe), "sonde 3,2 N, 54 % de sa face en contact");
+  EXPECT_EQ(describe_probe(Language::french, probe),
+            "sonde 3,2 N, 54 % de sa face en contact, tissus vieux de 0 ms");
 }
 
 TEST(ProbeReading, SaysWhyItsForceIsHeldBack) {
