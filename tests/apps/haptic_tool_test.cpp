@@ -114,6 +114,7 @@ TEST(HapticTool, ANeedlesLengthIsOneNumberForFlowForceAndPicture) {
                                  "--aspirate",
                                  "0",
                                  "--no-images",
+                                 "--rigid",
                                  "--json",
                                  "--out",
                                  ::testing::TempDir() + "artus-inject-length"};

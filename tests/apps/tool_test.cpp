@@ -163,13 +163,18 @@ TEST_F(Tool, CheckFitsOnAScreenAndListsTheRestOnRequest) {
 }
 
 TEST_F(Tool, FindsBundledJointsAndScenariosFromAnyFolder) {
-  const auto from_root = [](std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), {"env", "-C", "/", ARTUS_TOOL});
+  // The bodies that the other tests have are a user's cache.
+  std::filesystem::create_directories(in("home"));
+  std::filesystem::create_directory_symlink(artus::test::test_joints() / "cache",
+                                            folder_ / "home/artus");
+  const auto from_root = [this](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(),
+                     {"env", "-C", "/", "XDG_CACHE_HOME=" + in("home"), ARTUS_TOOL});
     return test::run_process(arguments);
   };
   const auto check = from_root({"check", "knee", "--json"});
   EXPECT_EQ(check.exit_code, 0) << check.err;
-  const auto needle = from_root({"needle", "-j", "simple-shoulder", "--cache", in("cache")});
+  const auto needle = from_root({"needle", "-j", "simple-shoulder"});
   EXPECT_EQ(needle.exit_code, 0) << needle.err;
   const auto scenario = from_root({"scenario", "check", "sasd-lateral-1", "--no-play"});
   EXPECT_EQ(scenario.exit_code, 0) << scenario.err;
