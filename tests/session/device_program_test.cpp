@@ -259,7 +259,8 @@ TEST_F(DeviceTicks, TheProbesHandIsKeptWithinItsOwnDevicesLimits) {
     core.take(packet);
     double most = 0;
     for (int i = 0; i < 400; ++i) {
-      const double* f = step(core, device).feedback.probe_force;
+      const HapticSnapshot out = step(core, device);
+      const auto& f = out.feedback.probe_force;
       most = std::max(most, Vec3(f[0], f[1], f[2]).norm());
     }
     EXPECT_GT(most, 2.9) << name;
