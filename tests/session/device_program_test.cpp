@@ -11,6 +11,7 @@
 #include "artus/detail/simulation/haptic_core.h"
 #include "artus/session/shared_memory_device.h"
 #include "tests/session/session_support.h"
+#include "tests/support/probe_press.h"
 
 namespace artus {
 namespace {
@@ -250,15 +251,10 @@ TEST_F(DeviceTicks, TheProbesHandIsKeptWithinItsOwnDevicesLimits) {
     HapticCore core(scene_, params_);
     const DeviceSample device = test::sample_at(-10e-3, 0, 1);
     const Pose X_JP = to_pose(device.X_WP);
-    TissuePacket packet;
-    packet.probe.number = 1;
-    packet.probe.share = 1;
-    packet.probe.wrench[2] = -30;  // N out of the body
-    for (Eigen::Index i = 0; i < 12; ++i)
-      packet.probe.X_JP[static_cast<std::size_t>(i)] = X_JP.matrix()(i / 4, i % 4);
+    const TissuePacket packet{test::pressing_packet(X_JP, 30), {}};
     core.take(packet);
     double most = 0;
-    for (int i = 0; i < 400; ++i) {
+    for (int i = 0; i < 2000; ++i) {
       const HapticSnapshot out = step(core, device);
       const auto& f = out.feedback.probe_force;
       most = std::max(most, Vec3(f[0], f[1], f[2]).norm());

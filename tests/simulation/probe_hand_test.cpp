@@ -151,7 +151,9 @@ TEST(ProbeHand, IsStableOnTissueThatGivesWayHoweverLateItAnswers) {
     EXPECT_LT(course.first_depth, 1e-3);
     if (hand.tap > 0 || hand.slide > 0) continue;
     EXPECT_LT(course.end_swing, 0.5e-3);
-    if (hand.push > 0) EXPECT_NEAR(course.end_force, hand.push, 0.05 * hand.push);
+    if (hand.push > 0) {
+      EXPECT_NEAR(course.end_force, hand.push, 0.05 * hand.push);
+    }
   }
 }
 
