@@ -108,8 +108,9 @@ TEST(OpenedSpace, WhatPressesOnAHalfSendsItsLiquidToTheOther) {
   const OpenedSpace space(joint, {kCleft});
   const Vec3 tip(0, 0, 0.5e-3);
   const auto free = space.vertices(joint.mesh, {tip, 5e-6, {}});
-  const auto pressed = space.vertices(
-      joint.mesh, {tip, 5e-6, [](const Vec3& p) { return p.x() < 0 ? 1.0 : 0.0; }});
+  const auto pressed = space.vertices(joint.mesh, {tip, 5e-6, [](const Vec3& p) {
+                                                     return p.x() < 0 ? 1.0 : 0.0;
+                                                   }});
   EXPECT_NEAR(enclosed(joint, pressed) - enclosed(joint, joint.mesh.vertices), 5e-6, 1e-14);
   int compared = 0;
   for (std::size_t i = 0; i < free.size(); ++i) {
@@ -121,7 +122,9 @@ TEST(OpenedSpace, WhatPressesOnAHalfSendsItsLiquidToTheOther) {
   }
   EXPECT_GT(compared, 100);
   // Of what presses everywhere alike nothing comes but a higher pressure.
-  const auto alike = space.vertices(joint.mesh, {tip, 5e-6, [](const Vec3&) { return 0.7; }});
+  const auto alike = space.vertices(joint.mesh, {tip, 5e-6, [](const Vec3&) {
+                                                   return 0.7;
+                                                 }});
   for (std::size_t i = 0; i < free.size(); ++i) EXPECT_LT((alike[i] - free[i]).norm(), 2e-6);
 }
 

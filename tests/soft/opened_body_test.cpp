@@ -200,9 +200,8 @@ TEST_P(OpenedBody, NoPlaceMovesBoneOrLosesVolumeOrPassesAWall) {
     const std::string what = std::string(GetParam()) + ": " + joint->regions[region].name;
     const bool cavity = kind == SpaceKind::cavity;
     const double volume = 1e-6;
-    const CompiledJoint with =
-        with_injected(*joint, {{joint->regions[region].name, volume, cavity, tip}}, Liquid{}, {},
-                      opened_spaces);
+    const CompiledJoint with = with_injected(
+        *joint, {{joint->regions[region].name, volume, cavity, tip}}, Liquid{}, {}, opened_spaces);
     EXPECT_EQ(max_moved_bone(*joint, with), 0) << what;
     const RegionId liquid = cavity ? region : static_cast<RegionId>(with.regions.size() - 1);
     const double before = cavity ? volume_of(*joint, region, tip) : 0;

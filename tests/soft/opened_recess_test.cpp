@@ -86,19 +86,19 @@ double held(const CompiledJoint& joint, const std::vector<Vec3>& p) {
 
 /// Points on rays out of the recess, from its wall on: the least share of a volume that is left
 /// anywhere, and the farthest that the way back misses.
-struct CarriedRecess {
+struct Followed {
   double least = 1;
   double missed = 0;  // m
 };
 
-CarriedRecess carry_recess(const OpenedSpace& space, const OpenedSpace::Filling& filling,
-                           const Vec3& axes, const Eigen::Quaterniond& turn) {
+Followed follow(const OpenedSpace& space, const OpenedSpace::Filling& filling, const Vec3& axes,
+                const Eigen::Quaterniond& turn) {
   constexpr double kSmall = 2e-6;  // m
   const OpenedSpace::Flow flow = space.flow(filling);
   const auto to = [&](const Vec3& p) {
     return flow.forth(flow.place_of(p, Vec3::Zero())).p;
   };
-  CarriedRecess out;
+  Followed out;
   for (int i = 0; i < 150; ++i) {
     const double z = 1 - (2 * i + 1) / 150.0;
     const double round = 2.39996 * i;
@@ -133,9 +133,9 @@ TEST(OpenedRecess, OpensByItsVolumeAndFoldsNothingWhateverItsShape) {
           ::testing::PrintToString(axes.transpose()) + ", " + std::to_string(share);
       EXPECT_NEAR(held(joint, moved) - held(joint, joint.mesh.vertices), volume, 1e-9 * volume)
           << what;
-      const CarriedRecess carried = carry_recess(space, filling, 1e-3 * axes, turn);
-      EXPECT_GT(carried.least, 0.5) << what;
-      EXPECT_LT(carried.missed, 1e-9) << what;
+      const Followed followed = follow(space, filling, 1e-3 * axes, turn);
+      EXPECT_GT(followed.least, 0.5) << what;
+      EXPECT_LT(followed.missed, 1e-9) << what;
     }
   }
 }
