@@ -59,7 +59,9 @@ nlohmann::json to_json(const Difficulty& d) {
           {"expert_passes", d.expert_passes},
           {"novice_passes", d.novice_passes},
           {"expert_score", d.expert_score},
-          {"novice_score", d.novice_score}};
+          {"novice_score", d.novice_score},
+          {"broken_bodies", d.broken},
+          {"breakage", d.breakage}};
 }
 
 nlohmann::json to_json(const Checked& c) {
@@ -95,6 +97,10 @@ void print(const Checked& c) {
   }
   std::printf("%s\n", c.good() ? "good" : "NOT GOOD");
   for (const std::string& problem : c.problems) std::printf("  %s\n", problem.c_str());
+  if (c.difficulty && c.difficulty->soft.broken > 0)
+    std::printf("  liquid leaves the body broken in %d of %d attempts; the first:\n%s",
+                c.difficulty->soft.broken, 2 * c.difficulty->soft.tries,
+                c.difficulty->soft.breakage.c_str());
 }
 
 ExitCode run_list(bool json) {
@@ -164,7 +170,7 @@ void add_scenario_command(Command& app, ExitCode& code) {
       app, "scenario", "List, show and check scenarios",
       "check: can it be done at all, and do simulated hands find it right: an expert passes 19 of\n"
       "20 seeds or more, a novice 8 or fewer, in rigid tissue and, of fewer seeds, in tissue that\n"
-      "gives way. Exit code 1 when not.\n"
+      "gives way, where liquid may not leave the body broken. Exit code 1 when not.\n"
       "Examples:\n"
       "  artus scenario list\n"
       "  artus scenario show gel-align > mine.toml\n"

@@ -90,12 +90,18 @@ namespace {
 
 constexpr double kTissueRate = 10;  // Hz, enough for hands that only glance
 
-/// Judgements of expert and novice by turns, seed by seed.
-Result<std::vector<Judgement>> play_all(const Scenario& scenario,
-                                        const std::shared_ptr<const Scene>& scene, int tries,
-                                        bool rigid) {
-  std::vector<Result<Judgement>> played(static_cast<std::size_t>(2 * tries),
-                                        fail(ErrorCode::failed, "not played"));
+/// What counts of an attempt.
+struct Played {
+  Judgement judgement;
+  std::string breakage;  // of the body; empty: it is whole
+};
+
+/// Expert and novice by turns, seed by seed.
+Result<std::vector<Played>> play_all(const Scenario& scenario,
+                                     const std::shared_ptr<const Scene>& scene, int tries,
+                                     bool rigid) {
+  std::vector<Result<Played>> played(static_cast<std::size_t>(2 * tries),
+                                     fail(ErrorCode::failed, "not played"));
   tbb::parallel_for(std::size_t{0}, played.size(), [&](std::size_t i) {
     PlayOptions options;
     options.seed = 1 + i / 2;
@@ -104,12 +110,14 @@ Result<std::vector<Judgement>> play_all(const Scenario& scenario,
     options.tissue_rate = kTissueRate;
     const auto attempt =
         play(scenario, scene, i % 2 == 0 ? expert_skill() : novice_skill(), options);
-    if (attempt)
-      played[i] = attempt->judgement;
-    else
+    if (!attempt) {
       played[i] = tl::unexpected<Error>(attempt.error());
+      return;
+    }
+    const bool broken = attempt->health && !attempt->health->sound();
+    played[i] = Played{attempt->judgement, broken ? to_text(*attempt->health) : std::string()};
   });
-  std::vector<Judgement> out;
+  std::vector<Played> out;
   for (auto& one : played) {
     ARTUS_TRY(one);
     out.push_back(std::move(*one));
@@ -117,11 +125,12 @@ Result<std::vector<Judgement>> play_all(const Scenario& scenario,
   return out;
 }
 
-Difficulty difficulty_of(const std::vector<Judgement>& judgements) {
+Difficulty difficulty_of(const std::vector<Played>& played) {
   Difficulty out;
-  out.tries = static_cast<int>(judgements.size() / 2);
-  for (std::size_t i = 0; i < judgements.size(); ++i) {
-    const Judgement& judged = judgements[i];
+  out.tries = static_cast<int>(played.size() / 2);
+  for (std::size_t i = 0; i < played.size(); ++i) {
+    const Judgement& judged = played[i].judgement;
+    if (!played[i].breakage.empty() && out.broken++ == 0) out.breakage = played[i].breakage;
     (i % 2 == 0 ? out.expert_passes : out.novice_passes) += judged.passed ? 1 : 0;
     (i % 2 == 0 ? out.expert_score : out.novice_score) += judged.score / out.tries;
   }
@@ -140,7 +149,7 @@ Result<DifficultyInTissue> measure_difficulty(const Scenario& scenario,
   ARTUS_TRY(soft);
   DifficultyInTissue out{difficulty_of(*rigid), difficulty_of(*soft), 0};
   for (std::size_t i = 0; i < std::min(soft->size(), rigid->size()); ++i)
-    out.alike += (*soft)[i].passed == (*rigid)[i].passed ? 1 : 0;
+    out.alike += (*soft)[i].judgement.passed == (*rigid)[i].judgement.passed ? 1 : 0;
   if (progress) progress("playing " + scenario.name, 1);
   return out;
 }

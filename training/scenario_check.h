@@ -22,9 +22,11 @@ struct Difficulty {
   int novice_passes = 0;
   double expert_score = 0;  ///< mean
   double novice_score = 0;
-  /// An expert passes 19 of 20 or more, a novice 8 of 20 or fewer.
+  int broken = 0;        ///< attempts of either after which the body is not whole
+  std::string breakage;  ///< what the first of them shows
+  /// An expert passes 19 of 20 or more, a novice 8 of 20 or fewer, and liquid breaks no body.
   [[nodiscard]] bool sound() const noexcept {
-    return 20 * expert_passes >= 19 * tries && 20 * novice_passes <= 8 * tries;
+    return 20 * expert_passes >= 19 * tries && 20 * novice_passes <= 8 * tries && broken == 0;
   }
 };
 
@@ -36,7 +38,7 @@ struct DifficultyInTissue {
   /// Few seeds in tissue say of a novice nothing that all seeds do not.
   [[nodiscard]] bool sound() const noexcept {
     const bool experts = 20 * soft.expert_passes >= 19 * soft.tries;
-    return rigid.sound() && experts && (soft.tries < 20 || soft.sound());
+    return rigid.sound() && experts && soft.broken == 0 && (soft.tries < 20 || soft.sound());
   }
 };
 

@@ -281,6 +281,27 @@ void measure_opening(const Scene& scene, const std::vector<Injected>& places,
   }
 }
 
+/// What was put where, without the two bodies.
+HealthQuestion question_of(const Scene& scene, const std::vector<Injected>& places,
+                           const InjectionPictureOptions& options) {
+  HealthQuestion question;
+  question.transducer = options.transducer;
+  question.settings = options.settings;
+  const auto spaces = make_joint_spaces(scene.joint());
+  for (const Injected& place : places) {
+    if (question.liquid.volume == 0) question.liquid.p_J = place.tip;
+    question.liquid.volume += place.volume;
+    if (!place.cavity) question.liquid.parted.push_back(place.region);
+    question.liquid.regions.push_back(place.cavity ? place.region : "injected");
+    if (!place.cavity || !spaces) continue;
+    for (const Space& space : spaces->spaces)
+      if (std::count(space.regions.begin(), space.regions.end(), place.region) > 0)
+        question.liquid.regions.insert(question.liquid.regions.end(), space.regions.begin(),
+                                       space.regions.end());
+  }
+  return question;
+}
+
 /// Where the probe lies, and how deep it looks.
 std::pair<Pose, InjectionPictureOptions> view_of(const Scene& scene, const InjectionRun& run,
                                                  const InjectionPictureOptions& options) {
@@ -364,6 +385,10 @@ Result<InjectionPictures> write_injection_pictures(const std::shared_ptr<const S
   out.label_area = area_by_labels(*body, X_JP, deep, names);
   if (options.transducer.radius == 0) measure_seen(*scene, *body, X_JP, deep, names, out);
   measure_opening(*scene, last, out);
+  out.at_rest = question_of(*scene, last, deep);
+  out.at_rest.before = scene;
+  out.at_rest.after = body;
+  out.at_rest.X_JP = X_JP;
   return out;
 }
 
