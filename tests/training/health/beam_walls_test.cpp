@@ -11,7 +11,7 @@ namespace artus {
 namespace {
 
 /// 200 beams through a lens 1 + `opening` m thick at its middle, walls 20 mm deep.
-BeamWalls lens(double opening) {
+BeamWalls lens_walls(double opening) {
   BeamWalls walls(200);
   for (std::size_t i = 50; i < 150; ++i) {
     const double r = (static_cast<double>(i) - 100) / 50;
@@ -22,13 +22,13 @@ BeamWalls lens(double opening) {
 }
 
 TEST(BeamWalls, ALensHasNoJump) {
-  EXPECT_LT(find_wall_jump(lens(0), lens(6e-3)).jump, 0.3e-3);
+  EXPECT_LT(find_wall_jump(lens_walls(0), lens_walls(6e-3)).jump, 0.3e-3);
 }
 
 TEST(BeamWalls, ALedgeIsAJumpWhereItIs) {
-  BeamWalls cut = lens(6e-3);
+  BeamWalls cut = lens_walls(6e-3);
   for (std::size_t i = 120; i < 150; ++i) cut[i] = {{19.9e-3, 20.05e-3}};
-  const WallJump jump = find_wall_jump(lens(0), cut);
+  const WallJump jump = find_wall_jump(lens_walls(0), cut);
   EXPECT_GT(jump.jump, 3e-3);
   EXPECT_EQ(jump.beam, 119U);
 }
@@ -36,13 +36,13 @@ TEST(BeamWalls, ALedgeIsAJumpWhereItIs) {
 TEST(BeamWalls, ABlockThatEndsSquareIsAJumpOfHalfItsHeight) {
   BeamWalls block(200);
   for (std::size_t i = 60; i < 140; ++i) block[i] = {{10e-3, 20e-3}};
-  EXPECT_NEAR(find_wall_jump(lens(0), block).jump, 5e-3, 0.1e-3);
+  EXPECT_NEAR(find_wall_jump(lens_walls(0), block).jump, 5e-3, 0.1e-3);
 }
 
 TEST(BeamWalls, AnIslandOfTissueInLiquidIsAJump) {
-  BeamWalls island = lens(6e-3);
+  BeamWalls island = lens_walls(6e-3);
   island[100] = {{14e-3, 15e-3}, {17e-3, 20.05e-3}};
-  EXPECT_GT(find_wall_jump(lens(0), island).jump, 1e-3);
+  EXPECT_GT(find_wall_jump(lens_walls(0), island).jump, 1e-3);
 }
 
 TEST(BeamWalls, AStepOfTheBodyAtRestIsNoJump) {

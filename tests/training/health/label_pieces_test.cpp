@@ -14,7 +14,7 @@ constexpr int kWide = 100;  // pixels of 0.2 mm
 constexpr int kHigh = 60;
 
 /// Fat, muscle, bursa and bone as layers.
-LabelImage layers() {
+LabelImage flat_labels() {
   LabelImage labels;
   labels.width = kWide;
   labels.height = kHigh;
@@ -41,7 +41,7 @@ CompiledJoint names() {
 const std::vector<bool> kLiquid{false, false, false, false, true, false, true};
 
 LayoutChange change_to(LabelImage after, const std::vector<bool>& parted = {}) {
-  LabelImage before = layers();
+  LabelImage before = flat_labels();
   join_liquid(before, kLiquid);
   join_liquid(after, kLiquid);
   const LabelWindow window{0, kWide, 0, kHigh};
@@ -50,7 +50,7 @@ LayoutChange change_to(LabelImage after, const std::vector<bool>& parted = {}) {
 }
 
 TEST(LabelPieces, AWiderBursaIsNoChange) {
-  LabelImage wider = layers();
+  LabelImage wider = flat_labels();
   fill(wider, {30, 70, 30, 45}, kBursa);
   const LayoutChange change = change_to(wider);
   EXPECT_EQ(change.fragments, 0);
@@ -58,7 +58,7 @@ TEST(LabelPieces, AWiderBursaIsNoChange) {
 }
 
 TEST(LabelPieces, AMuscleCutInTwoIsAFragmentAndItsLiquidANewNeighbour) {
-  LabelImage cut = layers();
+  LabelImage cut = flat_labels();
   fill(cut, {40, 60, 15, 45}, kBursa);  // a column up to the fat
   const LayoutChange change = change_to(cut);
   EXPECT_EQ(change.fragments, 1);
@@ -68,7 +68,7 @@ TEST(LabelPieces, AMuscleCutInTwoIsAFragmentAndItsLiquidANewNeighbour) {
 }
 
 TEST(LabelPieces, CrumbsAndShortContactsDoNotCount) {
-  LabelImage crumbs = layers();
+  LabelImage crumbs = flat_labels();
   fill(crumbs, {20, 23, 5, 8}, kMuscle);
   const LayoutChange change = change_to(crumbs);
   EXPECT_EQ(change.fragments, 0);
@@ -76,7 +76,7 @@ TEST(LabelPieces, CrumbsAndShortContactsDoNotCount) {
 }
 
 TEST(LabelPieces, ASlabOfMuscleInFatAndBoneInMuscleAreWhereTheyWereNot) {
-  LabelImage slabs = layers();
+  LabelImage slabs = flat_labels();
   fill(slabs, {20, 40, 4, 10}, kMuscle);
   fill(slabs, {60, 90, 20, 30}, kBone);
   const LayoutChange change = change_to(slabs);
@@ -85,7 +85,7 @@ TEST(LabelPieces, ASlabOfMuscleInFatAndBoneInMuscleAreWhereTheyWereNot) {
 }
 
 TEST(LabelPieces, LiquidThatPartsAMuscleMayTouchItAlone) {
-  LabelImage parted = layers();
+  LabelImage parted = flat_labels();
   fill(parted, {30, 60, 20, 30}, 6);
   EXPECT_EQ(change_to(parted, {false, false, false, true}).neighbours, 0);
   LabelImage through = parted;
@@ -94,7 +94,7 @@ TEST(LabelPieces, LiquidThatPartsAMuscleMayTouchItAlone) {
 }
 
 TEST(LabelPieces, WhatHangsTogetherBesideTheWindowIsOnePiece) {
-  LabelImage cut = layers();
+  LabelImage cut = flat_labels();
   fill(cut, {10, 60, 15, 45}, kBursa);
   LabelImage joined = cut;
   fill(joined, {10, 60, 15, 17}, kMuscle);  // a bridge in the margin above the window
