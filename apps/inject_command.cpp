@@ -9,6 +9,8 @@
 #include "artus/detail/apps/options/session_options.h"
 #include "artus/detail/core/text_file.h"
 #include "artus/detail/core/units.h"
+#include "artus/detail/evidence/runs/body_pictures.h"
+#include "artus/detail/evidence/runs/health_claims.h"
 #include "artus/detail/evidence/runs/injection_pictures.h"
 #include "artus/detail/evidence/runs/injection_report.h"
 #include "artus/detail/evidence/runs/injection_request.h"
@@ -29,6 +31,7 @@ struct InjectOptions {
   double syringe_ml = 0;
   double air_ml = 0;
   double aspirate_s = 3;
+  double press_n = 3;
   std::string technique = "direct";
   bool rigid = false;
 };
@@ -55,6 +58,7 @@ Result<InjectionRequest> request_of(const InjectOptions& options, const NeedleFe
   request.aspirate = options.aspirate_s;
   if (options.technique == "through-and-back") request.technique = Technique::through_and_back;
   request.rigid = options.rigid;
+  request.press = options.press_n;
   request.rate_hz = hand.rate_hz;
   request.device = hand.device;
   request.seed = hand.view.seed;
@@ -83,6 +87,26 @@ struct Outcome {
   nlohmann::json report;
   std::vector<Claim> claims;
 };
+
+/// Whether a body is whole: into report and claims, as `state`.
+void examine(const HealthQuestion& question, const std::string& state, Outcome& outcome) {
+  const BodyHealth health = measure_body_health(question);
+  outcome.report["body"][state] = to_json(health);
+  for (Claim& claim : claims_of(health, state)) outcome.claims.push_back(std::move(claim));
+}
+
+/// The body as it is pressed in the end. Errors: those of files.
+Result<void> examine_pressed(const InjectionRun& run, const View& view, bool pictures,
+                             const std::filesystem::path& folder, Outcome& outcome) {
+  if (!run.pressed) return {};
+  HealthQuestion question = *run.pressed;
+  question.transducer = view.transducer;
+  question.settings = view.settings;
+  question.pictures = pictures;
+  examine(question, "pressed", outcome);
+  if (!pictures) return {};
+  return write_body_pictures(question, folder, "pressed");
+}
 
 /// One run's files. Errors: those of files.
 Result<Outcome> write_run(const std::shared_ptr<const Scene>& scene, const InjectionRun& run,
@@ -113,7 +137,9 @@ Result<Outcome> write_run(const std::shared_ptr<const Scene>& scene, const Injec
     outcome.report["label_area_mm2"] = pictures->label_area / (kMillimetre * kMillimetre);
     outcome.report["label_volume_ml"] = pictures->label_volume / kCubicCentimetre;
     outcome.report["ray_volume_ml"] = pictures->ray_volume / kCubicCentimetre;
+    examine(pictures->at_rest, "at rest", outcome);
   }
+  ARTUS_TRY(examine_pressed(run, view, !options.hand.no_images, folder, outcome));
   outcome.report["verdict"] = verdict(outcome.claims);
   ARTUS_TRY(write_text(folder / "summary.json", outcome.report.dump(2) + "\n"));
   return outcome;
@@ -179,7 +205,8 @@ void add_inject_command(Command& app, ExitCode& code) {
       "presses "
       "the probe on\n"
       "the skin, and tissue gives way to both; the pictures show it at rest, with what was "
-      "injected.\n"
+      "injected,\n"
+      "pressed-before.png and pressed-after.png as it is pressed in the end.\n"
       "Exit code 1 when a claim does not hold.\n"
       "Examples:\n"
       "  artus inject -j meshes/shoulder --volume-ml 5 --rate 0.1 --gauge 22 -o out/bursa\n"
@@ -218,6 +245,9 @@ void add_inject_command(Command& app, ExitCode& code) {
       ->capture_default_str();
   command->add_option("--technique", options->technique, "direct or through-and-back")
       ->one_of({"direct", "through-and-back"})
+      ->capture_default_str();
+  command->add_option("--press-n", options->press_n, "N of the probe on the skin")
+      ->check(number_in(0, 20))
       ->capture_default_str();
   add_rigid_option(command, options->rigid);
   on_run(command, code, [options] {

@@ -8,6 +8,7 @@
 #include "artus/detail/apps/options/scenario_options.h"
 #include "artus/detail/apps/options/session_options.h"
 #include "artus/detail/apps/options/window_options.h"
+#include "artus/detail/evidence/runs/body_pictures.h"
 #include "artus/detail/reports/attempt_files.h"
 #include "artus/detail/reports/attempt_page.h"
 #include "artus/detail/training/norms.h"
@@ -54,12 +55,14 @@ void print(const PlayedAttempt& attempt) {
                 m.value.value_or(0), m.held ? "held" : (m.value ? "missed" : "not known"));
   for (const AttemptEvent& e : attempt.measures.events)
     std::printf("%9.2f s  %-10s %s\n", e.time, e.kind.c_str(), e.text.c_str());
+  if (attempt.health) std::printf("the body in the end:\n%s", to_text(*attempt.health).c_str());
 }
 
 /// The attempt in a folder.
 Result<void> write_folder(const Scenario& scenario, const PlayedAttempt& attempt,
                           const std::filesystem::path& folder) {
   ARTUS_TRY(write_recording(attempt.recording, folder / "session.rec"));
+  if (attempt.body) ARTUS_TRY(write_body_pictures(*attempt.body, folder, "body"));
   return write_attempt_files(scenario, attempt, folder);
 }
 
@@ -150,7 +153,7 @@ ExitCode run_play(const PlayCommandOptions& options) {
     std::cout << to_json(*scenario, *attempt).dump(2) << '\n';
   else
     print(*attempt);
-  return ExitCode::ok;
+  return attempt->health && !attempt->health->sound() ? ExitCode::failed : ExitCode::ok;
 }
 
 }  // namespace
@@ -159,7 +162,8 @@ void add_play_command(Command& app, ExitCode& code) {
   auto options = std::make_shared<PlayCommandOptions>();
   Command* command = add_command(
       app, "play", "Let simulated hands do a scenario, without a window",
-      "The same scenario, operator and seed give the same bytes.\n"
+      "The same scenario, operator and seed give the same bytes. Exit code 1 when liquid left the\n"
+      "body broken, not when the attempt is not passed.\n"
       "Examples:\n"
       "  artus play gel-align --operator expert --seed 3 --record out/attempt\n"
       "  artus play gel-align --operator novice:20 --json\n"

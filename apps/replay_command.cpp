@@ -7,6 +7,9 @@
 
 #include "artus/detail/apps/options/pose_files.h"
 #include "artus/detail/apps/options/session_options.h"
+#include "artus/detail/evidence/runs/body_pictures.h"
+#include "artus/detail/simulation/plain_pose.h"
+#include "artus/detail/training/health/simulated_health.h"
 #include "artus/echo/image_io.h"
 #include "artus/session/replay.h"
 
@@ -18,6 +21,7 @@ struct ReplayOptions {
   std::filesystem::path recording;
   std::filesystem::path trace;
   std::filesystem::path frames;
+  std::filesystem::path body;
   bool json = false;
 };
 
@@ -74,9 +78,26 @@ constexpr const char* kTraceHead =
     "plunger_status,probe_force_x_n,probe_force_y_n,probe_force_z_n,probe_torque_x_nm,"
     "probe_torque_y_nm,probe_torque_z_nm,probe_share,probe_status,tissue_age_ms\n";
 
+/// Measures the body that the last picture shows, and draws it with liquid and without.
+void examine(const Simulation& simulation, const FrameInput& shown,
+             const std::filesystem::path& folder, std::optional<BodyHealth>& health) {
+  const auto question =
+      find_health_question(simulation, {shown.sites, shown.n_sites}, to_pose(shown.X_JP));
+  if (!question) return;
+  health = measure_body_health(*question);
+  if (const auto written = write_body_pictures(*question, folder, "body"); !written)
+    std::fprintf(stderr, "%s\n", written.error().to_string().c_str());
+}
+
+/// `health`: takes what is found of the body; outlives the listener.
 ReplayListener make_listener(const ReplayOptions& options, const CompiledJoint& joint,
-                             std::FILE* trace, double period) {
+                             std::FILE* trace, double period, std::optional<BodyHealth>& health) {
   ReplayListener listener;
+  if (!options.body.empty())
+    listener.on_end = [&health, folder = options.body](const Simulation& simulation,
+                                                       const FrameInput& shown) {
+      examine(simulation, shown, folder, health);
+    };
   if (trace != nullptr) {
     std::fputs(kTraceHead, trace);
     listener.on_tick = [trace, period, &joint](const HapticSnapshot& s) {
@@ -133,14 +154,20 @@ ExitCode run_replay(const ReplayOptions& options) {
   }
   if (!options.frames.empty()) std::filesystem::create_directories(options.frames);
   const double period = 1 / recording->head.params.haptic_rate;
+  std::optional<BodyHealth> health;
   const auto report =
-      replay(*recording, scene, make_listener(options, **joint, trace.get(), period));
+      replay(*recording, scene, make_listener(options, **joint, trace.get(), period, health));
   if (!report) return report_error(report.error(), options.json);
-  if (options.json)
-    std::cout << to_json(*report).dump(2) << '\n';
-  else
+  if (options.json) {
+    nlohmann::json all = to_json(*report);
+    if (!options.body.empty()) all["body"] = health ? to_json(*health) : nlohmann::json();
+    std::cout << all.dump(2) << '\n';
+  } else {
     print(*report);
-  return report->identical() ? ExitCode::ok : ExitCode::failed;
+    if (health) std::printf("the body in the end:\n%s", to_text(*health).c_str());
+  }
+  const bool whole = !health || health->sound();
+  return report->identical() && whole ? ExitCode::ok : ExitCode::failed;
 }
 
 }  // namespace
@@ -149,8 +176,9 @@ void add_replay_command(Command& app, ExitCode& code) {
   auto options = std::make_shared<ReplayOptions>();
   Command* command = add_command(
       app, "replay", "Run a recorded session again and compare every force and image",
-      "Exit code 1 when a force or an image is not the same bytes, or there is none. A list of "
-      "poses, or a "
+      "Exit code 1 when a force or an image is not the same bytes, or there is none, or when "
+      "--body\n"
+      "finds the body broken. A list of poses, or a "
       "tracker's\n"
       "sequence, is run as a session first.\n"
       "Examples:\n"
@@ -165,6 +193,9 @@ void add_replay_command(Command& app, ExitCode& code) {
   command->add_option("--trace", options->trace,
                       "write forces, their components, contact, layer and plunger as CSV");
   command->add_option("--frames", options->frames, "write the images as PNG into this folder");
+  command->add_option("--body", options->body,
+                      "folder for pictures of the body in the end, with liquid and without, which "
+                      "are compared");
   command->add_flag("--json", options->json, "machine-readable output");
   on_run(command, code, [options] { return run_replay(*options); });
 }

@@ -61,7 +61,9 @@ nlohmann::json to_json(const Difficulty& d) {
           {"expert_score", d.expert.score},
           {"novice_played", d.novice.played},
           {"novice_passes", d.novice.passes},
-          {"novice_score", d.novice.score}};
+          {"novice_score", d.novice.score},
+          {"broken_bodies", d.broken()},
+          {"breakage", d.breakage()}};
 }
 
 nlohmann::json to_json(const Checked& c) {
@@ -98,6 +100,11 @@ void print(const Checked& c) {
   }
   std::printf("%s\n", c.good() ? "good" : "NOT GOOD");
   for (const std::string& problem : c.problems) std::printf("  %s\n", problem.c_str());
+  if (c.difficulty && c.difficulty->soft.broken() > 0)
+    std::printf("  liquid leaves the body broken in %d of %d attempts; the first:\n%s",
+                c.difficulty->soft.broken(),
+                c.difficulty->soft.expert.played + c.difficulty->soft.novice.played,
+                c.difficulty->soft.breakage().c_str());
 }
 
 ExitCode run_list(bool json) {
@@ -167,7 +174,8 @@ void add_scenario_command(Command& app, ExitCode& code) {
       app, "scenario", "List, show and check scenarios",
       "check: can it be done at all, and do simulated hands find it right: an expert passes 19 of\n"
       "20 seeds or more, a novice 8 or fewer, in rigid tissue and, of fewer seeds, in tissue that\n"
-      "gives way; there novices stop when enough have failed. Exit code 1 when not.\n"
+      "gives way, where liquid may not leave the body broken; there novices stop when enough have\n"
+      "failed. Exit code 1 when not.\n"
       "Examples:\n"
       "  artus scenario list\n"
       "  artus scenario show gel-align > mine.toml\n"

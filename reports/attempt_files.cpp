@@ -14,10 +14,15 @@ nlohmann::json to_json(const Scenario& scenario, const PlayedAttempt& attempt) {
                      {"held", m.held},
                      {"part", m.part},
                      {"weight", m.weight}});
-  return {{"scenario", scenario.name},          {"joint", attempt.recording.head.joint},
-          {"passed", attempt.judgement.passed}, {"score", attempt.judgement.score},
-          {"duration_s", attempt.duration},     {"marks", marks},
-          {"metrics_version", kMetricsVersion}, {"metrics", to_json(attempt.measures.metrics)}};
+  return {{"scenario", scenario.name},
+          {"joint", attempt.recording.head.joint},
+          {"passed", attempt.judgement.passed},
+          {"score", attempt.judgement.score},
+          {"duration_s", attempt.duration},
+          {"marks", marks},
+          {"metrics_version", kMetricsVersion},
+          {"metrics", to_json(attempt.measures.metrics)},
+          {"body", attempt.health ? to_json(*attempt.health) : nlohmann::json()}};
 }
 
 Result<void> write_attempt_files(const Scenario& scenario, const PlayedAttempt& attempt,

@@ -139,6 +139,8 @@ Result<PlayedAttempt> play(const Scenario& with_aids, const std::shared_ptr<cons
   while (hands->time() < longest && hands->step(meter)) {
   }
   attempt.duration = hands->time();
+  attempt.body = hands->find_body();
+  if (attempt.body) attempt.health = measure_body_health(*attempt.body);
   attempt.measures = meter.measure();
   attempt.judgement =
       judge(attempt.measures.metrics, scenario.pass, scenario.score, scenario.aided());

@@ -5,6 +5,7 @@
 
 #include "artus/detail/operators/scanning_operator.h"
 #include "artus/detail/soft/solver/soft_body.h"
+#include "artus/detail/training/health/body_health.h"
 #include "artus/detail/training/metrics/attempt_meter.h"
 #include "artus/detail/training/scenario.h"
 #include "artus/session/recording.h"
@@ -32,6 +33,10 @@ struct PlayedAttempt {
   AttemptMeasures measures;
   Judgement judgement;
   double duration = 0;  ///< s
+  /// What liquid made of the body in the end, and whether it is whole; empty where nothing was
+  /// given, or the tissue does not give way.
+  std::optional<HealthQuestion> body;
+  std::optional<BodyHealth> health;
 };
 
 struct PlayOptions {

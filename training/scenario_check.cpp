@@ -90,7 +90,17 @@ namespace {
 
 constexpr double kTissueRate = 10;  // Hz, enough for hands that only glance
 
-using Verdicts = std::vector<Judgement>;
+/// What counts of an attempt.
+struct Played {
+  Judgement judgement;
+  std::string breakage;  // of the body; empty: it is whole
+};
+using Verdicts = std::vector<Played>;
+
+Played what_counts(PlayedAttempt attempt) {
+  const bool broken = attempt.health && !attempt.health->sound();
+  return {std::move(attempt.judgement), broken ? to_text(*attempt.health) : std::string()};
+}
 
 /// Plays a scenario again and again, in rigid tissue or in tissue that gives way.
 class Players {
@@ -105,13 +115,13 @@ class Players {
 
   /// The next `count` seeds of one operator, after those that are in `out`.
   Result<void> play_on(const OperatorSkill& skill, std::size_t count, Verdicts& out) const {
-    std::vector<Result<Judgement>> played(count, fail(ErrorCode::failed, "not played"));
+    std::vector<Result<Played>> played(count, fail(ErrorCode::failed, "not played"));
     tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
       PlayOptions options = options_;
       options.seed = 1 + out.size() + i;
       auto attempt = play(scenario_, scene_, skill, options);
       if (attempt)
-        played[i] = std::move(attempt->judgement);
+        played[i] = what_counts(std::move(*attempt));
       else
         played[i] = tl::unexpected<Error>(attempt.error());
     });
@@ -129,8 +139,8 @@ class Players {
 };
 
 std::size_t passes_of(const Verdicts& verdicts) {
-  return static_cast<std::size_t>(
-      std::count_if(verdicts.begin(), verdicts.end(), [](const auto& v) { return v.passed; }));
+  return static_cast<std::size_t>(std::count_if(verdicts.begin(), verdicts.end(),
+                                                [](const auto& v) { return v.judgement.passed; }));
 }
 
 /// Novices until so many have failed that the others cannot pass too often.
@@ -149,14 +159,17 @@ Fared fared(const Verdicts& verdicts) {
   Fared out;
   out.played = static_cast<int>(verdicts.size());
   out.passes = static_cast<int>(passes_of(verdicts));
-  for (const Judgement& v : verdicts) out.score += v.score / out.played;
+  for (const Played& one : verdicts) {
+    out.score += one.judgement.score / out.played;
+    if (!one.breakage.empty() && out.broken++ == 0) out.breakage = one.breakage;
+  }
   return out;
 }
 
 void compare(const Verdicts& soft, const Verdicts& rigid, DifficultyInTissue& out) {
   for (std::size_t i = 0; i < std::min(soft.size(), rigid.size()); ++i) {
     ++out.compared;
-    out.alike += soft[i].passed == rigid[i].passed ? 1 : 0;
+    out.alike += soft[i].judgement.passed == rigid[i].judgement.passed ? 1 : 0;
   }
 }
 

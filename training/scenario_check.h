@@ -19,7 +19,9 @@ namespace artus {
 struct Fared {
   int played = 0;  ///< seeds, from 1 on
   int passes = 0;
-  double score = 0;  ///< mean
+  double score = 0;      ///< mean
+  int broken = 0;        ///< attempts after which the body is not whole
+  std::string breakage;  ///< what the first of them shows
 };
 
 /// How simulated hands fare: the scenario's difficulty.
@@ -27,12 +29,16 @@ struct Difficulty {
   int tries = 20;  ///< seeds meant; fewer are played where the answer is known before
   Fared expert;
   Fared novice;
-  /// Of 20, an expert passes all but one, and a novice 8 or fewer.
+  /// Of 20, an expert passes all but one, and a novice 8 or fewer; liquid breaks no body.
   [[nodiscard]] bool is_for_experts() const noexcept {
     return 20 * (expert.played - expert.passes) <= tries;
   }
+  [[nodiscard]] int broken() const noexcept { return expert.broken + novice.broken; }
+  [[nodiscard]] const std::string& breakage() const noexcept {
+    return expert.broken > 0 ? expert.breakage : novice.breakage;
+  }
   [[nodiscard]] bool sound() const noexcept {
-    return is_for_experts() && 20 * novice.passes <= 8 * tries;
+    return is_for_experts() && 20 * novice.passes <= 8 * tries && broken() == 0;
   }
 };
 
@@ -44,7 +50,8 @@ struct DifficultyInTissue {
   int alike = 0;     ///< of these, with the same verdict
   /// Few seeds in tissue say of a novice nothing that all seeds do not.
   [[nodiscard]] bool sound() const noexcept {
-    return rigid.sound() && soft.is_for_experts() && (soft.tries < 20 || soft.sound());
+    return rigid.sound() && soft.is_for_experts() && soft.broken() == 0 &&
+           (soft.tries < 20 || soft.sound());
   }
 };
 

@@ -9,6 +9,7 @@
 #include "artus/detail/operators/looking_operator.h"
 #include "artus/detail/session/record/simulation_recorder.h"
 #include "artus/detail/simulation/simulated_hands.h"
+#include "artus/detail/training/health/simulated_health.h"
 #include "artus/detail/training/session_meter.h"
 
 namespace artus {
@@ -75,6 +76,9 @@ class PlayedSimulation {
   }
 
   [[nodiscard]] const Simulation& simulation() const noexcept { return simulation_; }
+  [[nodiscard]] std::optional<HealthQuestion> find_body() {
+    return draw_health_question(simulation_);
+  }
   [[nodiscard]] std::uint64_t tick() const noexcept { return simulation_.ticks(); }
   [[nodiscard]] bool glances() const noexcept { return tick() % kGlances == 1; }
 
@@ -142,6 +146,7 @@ class NeedleAttempt final : public SimulatedAttempt {
   }
 
   [[nodiscard]] double time() const noexcept override { return hands_.needle().time(); }
+  [[nodiscard]] std::optional<HealthQuestion> find_body() override { return session_.find_body(); }
 
  private:
   void glance(double t, const HapticSnapshot& out) {

@@ -13,6 +13,9 @@ class SimulatedAttempt {
   /// One tick of 1 ms, measured and recorded. False when the hands are done.
   virtual bool step(AttemptMeter& meter) = 0;
   [[nodiscard]] virtual double time() const noexcept = 0;  ///< s
+  /// The body as it is now, with liquid and without; see draw_health_question. The hands are done:
+  /// no step may follow. Cost: an image.
+  [[nodiscard]] virtual std::optional<HealthQuestion> find_body() { return std::nullopt; }
 
  protected:
   SimulatedAttempt() = default;

@@ -266,8 +266,7 @@ void measure_opening(const OpenedSpaces& spaces, const std::vector<Injected>& pl
     if (opening <= out.opening) continue;
     out.opening = opening;
     out.confined = space.confines(place.tip, place.volume);
-    const std::vector<Vec3> moved =
-        space.vertices(joint.mesh, {place.tip, place.volume, {}});
+    const std::vector<Vec3> moved = space.vertices(joint.mesh, {place.tip, place.volume, {}});
     double widest = 0;
     for (const Interface& f : joint.mesh.interfaces) {
       if (joint.regions[f.front].name != place.region && joint.regions[f.back].name != place.region)
@@ -280,6 +279,27 @@ void measure_opening(const OpenedSpaces& spaces, const std::vector<Injected>& pl
     const double area = area_apart(joint, moved, place.region, opening / 2);
     out.width = std::sqrt(4 * area / std::numbers::pi);
   }
+}
+
+/// What was put where, without the two bodies.
+HealthQuestion question_of(const Scene& scene, const std::vector<Injected>& places,
+                           const InjectionPictureOptions& options) {
+  HealthQuestion question;
+  question.transducer = options.transducer;
+  question.settings = options.settings;
+  const auto spaces = make_joint_spaces(scene.joint());
+  for (const Injected& place : places) {
+    if (question.liquid.volume == 0) question.liquid.p_J = place.tip;
+    question.liquid.volume += place.volume;
+    if (!place.cavity) question.liquid.parted.push_back(place.region);
+    question.liquid.regions.push_back(place.cavity ? place.region : "injected");
+    if (!place.cavity || !spaces) continue;
+    for (const Space& space : spaces->spaces)
+      if (std::count(space.regions.begin(), space.regions.end(), place.region) > 0)
+        question.liquid.regions.insert(question.liquid.regions.end(), space.regions.begin(),
+                                       space.regions.end());
+  }
+  return question;
 }
 
 /// Where the probe lies, and how deep it looks.
@@ -369,6 +389,10 @@ Result<InjectionPictures> write_injection_pictures(const std::shared_ptr<const S
   out.label_area = area_by_labels(*body, X_JP, deep, names);
   if (options.transducer.radius == 0) measure_seen(*scene, *body, X_JP, deep, names, out);
   measure_opening(spaces, last, out);
+  out.at_rest = question_of(*scene, last, deep);
+  out.at_rest.before = scene;
+  out.at_rest.after = body;
+  out.at_rest.X_JP = X_JP;
   return out;
 }
 

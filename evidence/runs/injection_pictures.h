@@ -31,6 +31,7 @@ struct InjectionPictures {
       0;                  ///< m of the same square to the layer: at the slant at which it is least
   double seen_width = 0;  ///< m across the plane, at that slant, where it is at least half as much
   double drawn_volume = 0;  ///< m^3 that the shapes were made of
+  HealthQuestion at_rest;   ///< the body after beside that before
 };
 
 struct InjectionPictureOptions {

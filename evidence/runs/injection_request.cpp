@@ -47,6 +47,7 @@ Result<InjectionRun> run_injection(const Scene& scene, const InjectionRequest& r
   spec.needle_length = request.needle_length;
   spec.transducer = request.transducer;
   spec.rigid = request.rigid;
+  spec.press = request.press;
   spec.volume = request.volume;
   spec.rate = request.rate;
   spec.aspirate = request.aspirate;

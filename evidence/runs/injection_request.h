@@ -25,6 +25,7 @@ struct InjectionRequest {
   Technique technique = Technique::direct;
   Transducer transducer;  ///< of the probe that presses
   bool rigid = false;     ///< tissue does not give way
+  double press = 3;       ///< N of the probe
   double rate_hz = 1000;
   std::string device = "virtuose_6d_desktop";
   std::uint64_t seed = 1;  ///< of hand and plunger

@@ -15,6 +15,7 @@
 #include "artus/detail/operators/injection_operator.h"
 #include "artus/detail/session/record/simulation_recorder.h"
 #include "artus/detail/simulation/simulated_hands.h"
+#include "artus/detail/training/health/simulated_health.h"
 
 namespace artus {
 namespace {
@@ -130,6 +131,7 @@ class Trial {
     if (recording != nullptr) recorder_.emplace(simulation_, *recording, RecordedPictures::listed);
     if (!params.deform) return;
     ProbeHandParams probe;
+    probe.press_force = spec_.press;
     probe.hand.seed = mix_bits(spec_.hand.seed);
     probe_.emplace(probe, spec_.rate_hz, std::vector<Pose>{out.X_JP});
   }
@@ -176,6 +178,7 @@ class Trial {
       for (const std::size_t k : shown_) out_.rows[i].volumes.push_back(history_[i][k]);
     }
     out_.complete = out_.given >= kNearlyAll * spec_.volume;
+    out_.pressed = draw_health_question(simulation_);
   }
 
   void aim_at(RegionId region) {
@@ -350,6 +353,7 @@ Result<LinePlan> plan_line(const Scene& scene, const InjectionSpec& spec) {
   LinePlan plan;
   if (!(spec.volume > 0) || !(spec.rate > 0))
     return fail(ErrorCode::invalid, "volume and rate must be above 0", spec.name);
+  if (!(spec.press >= 0)) return fail(ErrorCode::invalid, "the press must be 0 or more", spec.name);
   const Vec3 path = spec.target - spec.entry;
   if (!(path.norm() > 1e-6))
     return fail(ErrorCode::invalid, "entry and target are the same point", spec.name);

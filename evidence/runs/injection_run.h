@@ -7,6 +7,7 @@
 
 #include "artus/detail/haptics/plunger/syringe_choice.h"
 #include "artus/detail/operators/simulated_hand.h"
+#include "artus/detail/training/health/body_health.h"
 #include "artus/echo/transducer.h"
 #include "artus/haptics/needle_feel.h"
 #include "artus/raycast/scene.h"
@@ -39,6 +40,7 @@ struct InjectionSpec {
   double needle_length = 50e-3;  ///< m, hub to tip; longer where the target is deep
   Transducer transducer;         ///< of the probe, which presses on the skin
   bool rigid = false;            ///< tissue does not give way, though the joint could
+  double press = 3;              ///< N of the probe on tissue that gives way
   double rate_hz = 1000;
   std::string device = "virtuose_6d_desktop";  ///< a name of device_table()
   NeedleFeel feel;
@@ -87,6 +89,8 @@ struct InjectionRun {
   bool reached = false;      ///< the tip came where it was meant to
   bool complete = false;     ///< all that was meant was given
   std::uint32_t status = 0;  ///< PlungerStatus bits of all ticks
+  /// The body in the end, still pressed, beside the same without liquid; empty where it is rigid.
+  std::optional<HealthQuestion> pressed;
 };
 
 /// Runs it closed loop over a Simulation: hands, needle, thumb and plunger. Where the joint has

@@ -92,6 +92,7 @@ def test_an_injection_has_the_digits_of_the_tool(joint, tool, simple, tmp_path):
         theirs = 1e-6 * np.array([float(row[f"{place}_ml"]) for row in rows])
         assert np.allclose(theirs, volume, rtol=6e-9, atol=1e-15), place
     told = json.loads((tmp_path / "summary.json").read_text())
+    assert told.pop("body")["pressed"]["measures"]  # which the tool alone measures
     assert {k: v for k, v in told.items() if k != "verdict"} == {
         k: v for k, v in ours["summary"].items() if k != "verdict"}
     assert told["given_ml"] > 0.1

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/detail/training/health/label_pieces.h"
+
+#include <gtest/gtest.h>
+
+namespace artus {
+namespace {
+
+constexpr RegionId kFat = 2;
+constexpr RegionId kMuscle = 3;
+constexpr RegionId kBursa = 4;
+constexpr RegionId kBone = 5;
+constexpr int kWide = 100;  // pixels of 0.2 mm
+constexpr int kHigh = 60;
+
+/// Fat, muscle, bursa and bone as layers.
+LabelImage flat_labels() {
+  LabelImage labels;
+  labels.width = kWide;
+  labels.height = kHigh;
+  labels.pixel = 0.2e-3;
+  for (int y = 0; y < kHigh; ++y)
+    for (int x = 0; x < kWide; ++x)
+      labels.regions.push_back(y < 15 ? kFat : y < 40 ? kMuscle : y < 45 ? kBursa : kBone);
+  return labels;
+}
+
+void fill(LabelImage& labels, const LabelWindow& box, RegionId region) {
+  for (int y = box.top; y < box.bottom; ++y)
+    for (int x = box.left; x < box.right; ++x)
+      labels.regions[static_cast<std::size_t>(y * kWide + x)] = region;
+}
+
+CompiledJoint names() {
+  CompiledJoint joint;
+  for (const char* name : {"outside", "beyond", "fat", "muscle", "bursa", "bone", "injected"})
+    joint.regions.push_back({name, 0, Vec3::Zero(), {}});
+  return joint;
+}
+
+const std::vector<bool> kLiquid{false, false, false, false, true, false, true};
+
+LayoutChange change_to(LabelImage after, const std::vector<bool>& parted = {}) {
+  LabelImage before = flat_labels();
+  join_liquid(before, kLiquid);
+  join_liquid(after, kLiquid);
+  const LabelWindow window{0, kWide, 0, kHigh};
+  return compare_layouts(find_layout(before, window, 1e-6), find_layout(after, window, 1e-6),
+                         names(), parted);
+}
+
+TEST(LabelPieces, AWiderBursaIsNoChange) {
+  LabelImage wider = flat_labels();
+  fill(wider, {30, 70, 30, 45}, kBursa);
+  const LayoutChange change = change_to(wider);
+  EXPECT_EQ(change.fragments, 0);
+  EXPECT_EQ(change.neighbours, 0);
+}
+
+TEST(LabelPieces, AMuscleCutInTwoIsAFragmentAndItsLiquidANewNeighbour) {
+  LabelImage cut = flat_labels();
+  fill(cut, {40, 60, 15, 45}, kBursa);  // a column up to the fat
+  const LayoutChange change = change_to(cut);
+  EXPECT_EQ(change.fragments, 1);
+  EXPECT_EQ(change.which_fragments, "muscle 1 -> 2");
+  EXPECT_EQ(change.neighbours, 1);
+  EXPECT_EQ(change.which_neighbours, "fat at liquid");
+}
+
+TEST(LabelPieces, CrumbsAndShortContactsDoNotCount) {
+  LabelImage crumbs = flat_labels();
+  fill(crumbs, {20, 23, 5, 8}, kMuscle);
+  const LayoutChange change = change_to(crumbs);
+  EXPECT_EQ(change.fragments, 0);
+  EXPECT_EQ(change.neighbours, 0);
+}
+
+TEST(LabelPieces, ASlabOfMuscleInFatAndBoneInMuscleAreWhereTheyWereNot) {
+  LabelImage slabs = flat_labels();
+  fill(slabs, {20, 40, 4, 10}, kMuscle);
+  fill(slabs, {60, 90, 20, 30}, kBone);
+  const LayoutChange change = change_to(slabs);
+  EXPECT_EQ(change.fragments, 2);
+  EXPECT_EQ(change.which_neighbours, "muscle at bone");
+}
+
+TEST(LabelPieces, LiquidThatPartsAMuscleMayTouchItAlone) {
+  LabelImage parted = flat_labels();
+  fill(parted, {30, 60, 20, 30}, 6);
+  EXPECT_EQ(change_to(parted, {false, false, false, true}).neighbours, 0);
+  LabelImage through = parted;
+  fill(through, {30, 60, 10, 20}, 6);
+  EXPECT_EQ(change_to(through, {false, false, false, true}).neighbours, 1);
+}
+
+TEST(LabelPieces, WhatHangsTogetherBesideTheWindowIsOnePiece) {
+  LabelImage cut = flat_labels();
+  fill(cut, {10, 60, 15, 45}, kBursa);
+  LabelImage joined = cut;
+  fill(joined, {10, 60, 15, 17}, kMuscle);  // a bridge in the margin above the window
+  const LabelWindow below{0, kWide, 20, kHigh};
+  EXPECT_EQ(find_layout(cut, below, 1e-6).pieces.at(kMuscle), 2);
+  EXPECT_EQ(find_layout(joined, below, 1e-6).pieces.at(kMuscle), 1);
+}
+
+}  // namespace
+}  // namespace artus

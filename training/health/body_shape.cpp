@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/detail/training/health/body_shape.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "artus/detail/soft/solver/deformed_body.h"
+
+namespace artus {
+namespace {
+
+constexpr double kSliver = 5e-3;  // of its longest edge's cube, what a sliver's volume is below
+
+/// m^3; 0 for a sliver.
+double volume_of_whole(const TetMesh& mesh, std::size_t i) {
+  const auto& tet = mesh.tetrahedra[i];
+  double longest = 0;
+  for (std::size_t a = 0; a < 4; ++a)
+    for (std::size_t b = 0; b < a; ++b)
+      longest = std::max(longest, (mesh.vertices[tet[a]] - mesh.vertices[tet[b]]).norm());
+  const double volume = tet_volume(mesh, i);
+  return volume > kSliver * longest * longest * longest ? volume : 0;
+}
+
+template <class F>
+void for_each_ray(const RayGrid& grid, F visit) {
+  const auto nx = static_cast<int>(grid.half_x / grid.spacing);
+  const auto ny = static_cast<int>(grid.half_y / grid.spacing);
+  for (int i = -nx; i <= nx; ++i)
+    for (int j = -ny; j <= ny; ++j) {
+      const Vec3 at(grid.spacing * i, grid.spacing * j, 0);
+      visit(Segment{grid.X_JG * at, grid.X_JG * Vec3(at + grid.length * Vec3::UnitZ())});
+    }
+}
+
+/// m along the ray to the body; the ray's length where it meets none.
+double first_in_body(const Scene& scene, const Segment& ray) {
+  std::array<TissueInterval, 16> intervals;
+  const QueryCount count = scene.find_intervals(ray, intervals);
+  for (std::size_t k = 0; k < count.size; ++k)
+    if (intervals[k].region != kOutside) return intervals[k].entry;
+  return (ray.end - ray.start).norm();
+}
+
+}  // namespace
+
+LeastRatio find_least_ratio(const TetMesh& rest, const TetMesh& now) {
+  LeastRatio least;
+  const bool same =
+      rest.vertices.size() == now.vertices.size() && rest.tetrahedra == now.tetrahedra;
+  if (!same) return least;
+  for (std::size_t i = 0; i < rest.tetrahedra.size(); ++i) {
+    const double volume = volume_of_whole(rest, i);
+    if (!(volume > 0)) continue;
+    ++least.compared;
+    const double ratio = tet_volume(now, i) / volume;
+    if (!(ratio > 0)) ++least.inverted;
+    if (ratio >= least.ratio) continue;
+    least.ratio = ratio;
+    least.region = rest.regions[i];
+    least.p_J = Vec3::Zero();
+    for (const std::uint32_t v : rest.tetrahedra[i]) least.p_J += rest.vertices[v] / 4;
+  }
+  return least;
+}
+
+std::size_t count_not_finite(std::span<const Vec3> points) {
+  return static_cast<std::size_t>(
+      std::count_if(points.begin(), points.end(), [](const Vec3& p) { return !p.allFinite(); }));
+}
+
+CompiledJoint body_in(const Scene& scene) {
+  return scene.tissue() ? scene.tissue()->moved_joint() : scene.joint();
+}
+
+std::vector<bool> regions_named(const CompiledJoint& joint, std::span<const std::string> names) {
+  std::vector<bool> named;
+  for (const Region& r : joint.regions)
+    named.push_back(std::find(names.begin(), names.end(), r.name) != names.end());
+  return named;
+}
+
+RayGrid grid_around(std::span<const Vec3> points, const Eigen::Matrix3d& axes, std::size_t rays) {
+  constexpr double kMargin = 2e-3;    // m
+  constexpr double kFinest = 0.2e-3;  // m
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity());
+  Vec3 high = -low;
+  for (const Vec3& p : points) {
+    const Vec3 q = axes.transpose() * p;
+    low = low.cwiseMin(q);
+    high = high.cwiseMax(q);
+  }
+  low.array() -= kMargin;
+  high.array() += kMargin;
+  const Vec3 size = high - low;
+  RayGrid grid;
+  grid.X_JG.linear() = axes;
+  grid.X_JG.translation() =
+      axes * Vec3((low.x() + high.x()) / 2, (low.y() + high.y()) / 2, low.z());
+  grid.half_x = size.x() / 2;
+  grid.half_y = size.y() / 2;
+  grid.length = size.z();
+  grid.spacing = std::max(kFinest, std::sqrt(size.x() * size.y() / static_cast<double>(rays)));
+  return grid;
+}
+
+std::vector<Vec3> points_of(const CompiledJoint& joint, const std::vector<bool>& regions) {
+  std::vector<Vec3> points;
+  for (const Interface& f : joint.mesh.interfaces)
+    if (regions[f.front] || regions[f.back])
+      for (const std::uint32_t v : f.vertices) points.push_back(joint.mesh.vertices[v]);
+  return points;
+}
+
+double volume_along(const Scene& scene, const RayGrid& grid, const std::vector<bool>& regions) {
+  std::array<TissueInterval, 128> intervals;
+  double length = 0;
+  for_each_ray(grid, [&](const Segment& ray) {
+    const QueryCount count = scene.find_intervals(ray, intervals);
+    for (std::size_t k = 0; k < count.size; ++k)
+      if (regions[intervals[k].region]) length += intervals[k].exit - intervals[k].entry;
+  });
+  return length * grid.spacing * grid.spacing;
+}
+
+SkinLift find_skin_lift(const Scene& before, const Scene& after, const RayGrid& grid) {
+  SkinLift out;
+  for_each_ray(grid, [&](const Segment& ray) {
+    const double was = first_in_body(before, ray);
+    const double lift = was - first_in_body(after, ray);
+    out.net += lift;
+    out.lifted += std::max(0.0, lift);
+    if (lift <= out.highest) return;
+    out.highest = lift;
+    out.p_J = ray.start + was * (ray.end - ray.start).normalized();
+  });
+  out.net *= grid.spacing * grid.spacing;
+  out.lifted *= grid.spacing * grid.spacing;
+  return out;
+}
+
+}  // namespace artus

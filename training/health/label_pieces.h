@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "artus/anatomy/compiled_joint.h"
+#include "artus/echo/labels.h"
+
+namespace artus {
+
+/// What all regions that hold liquid are named in a label picture when they are looked at as one.
+inline constexpr RegionId kLiquidRegion = 0xffff;
+
+/// Gives the regions that hold liquid (by RegionId) one name: kLiquidRegion.
+void join_liquid(LabelImage& labels, const std::vector<bool>& liquid);
+
+/// The pixels of a label picture that count, columns and rows; the rest is a margin, in which what
+/// looks like pieces may hang together.
+struct LabelWindow {
+  int left = 0;
+  int right = 0;  ///< one past the last
+  int top = 0;
+  int bottom = 0;  ///< one past the last
+};
+
+/// How the regions of a label picture lie.
+struct RegionLayout {
+  std::map<RegionId, int> pieces;  ///< that hang together, by edges of pixels
+  std::map<std::pair<RegionId, RegionId>, double> contacts;  ///< m along which two touch; smaller
+                                                             ///< id first
+};
+
+/// Pieces that have at least `least_area` m^2 in the window, and who touches whom in it. Cost:
+/// linear in pixels.
+[[nodiscard]] RegionLayout find_layout(const LabelImage& labels, const LabelWindow& window,
+                                       double least_area);
+
+/// What is otherwise than before, in words: "deltoid 1 -> 3".
+struct LayoutChange {
+  int fragments = 0;   ///< pieces of tissue more than before, of all regions
+  int neighbours = 0;  ///< pairs that touch along 3 mm or more and did not before (0.3 mm)
+  std::string which_fragments;
+  std::string which_neighbours;
+};
+
+/// `names`: of the regions after. `parted`: regions that liquid parts, which may touch it.
+/// kOutside, kBeyond and what is liquid has no fragments.
+[[nodiscard]] LayoutChange compare_layouts(const RegionLayout& before, const RegionLayout& after,
+                                           const CompiledJoint& names,
+                                           const std::vector<bool>& parted);
+
+}  // namespace artus

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/detail/training/health/simulated_health.h"
+
+#include <algorithm>
+
+#include "artus/detail/anatomy/body/space.h"
+#include "artus/detail/simulation/plain_pose.h"
+
+namespace artus {
+namespace {
+
+constexpr double kDrawn = 1e-9;  // m^3, of which a shape is made
+
+void add_site(const CompiledJoint& joint, const JointSpaces& spaces, const InjectedSite& site,
+              GivenLiquid& liquid) {
+  if (site.volume < kDrawn || site.region >= joint.regions.size()) return;
+  if (liquid.volume == 0) liquid.p_J = Vec3(site.p_J[0], site.p_J[1], site.p_J[2]);
+  liquid.volume += site.volume;
+  if (site.cavity == 0) {
+    liquid.regions.emplace_back("injected");
+    liquid.parted.push_back(joint.regions[site.region].name);
+    return;
+  }
+  const Space& space = spaces.spaces[spaces.of_region[site.region]];
+  liquid.regions.insert(liquid.regions.end(), space.regions.begin(), space.regions.end());
+  liquid.regions.push_back(joint.regions[site.region].name);
+}
+
+}  // namespace
+
+std::optional<HealthQuestion> find_health_question(const Simulation& simulation,
+                                                   std::span<const InjectedSite> sites,
+                                                   const Pose& X_JP) {
+  if (simulation.drawn_scene() == simulation.scene()) return std::nullopt;
+  const auto spaces = make_joint_spaces(simulation.joint());
+  if (!spaces) return std::nullopt;
+  HealthQuestion question;
+  for (const InjectedSite& site : sites)
+    add_site(simulation.joint(), *spaces, site, question.liquid);
+  if (!(question.liquid.volume > 0)) return std::nullopt;
+  question.before = simulation.scene();
+  question.after = simulation.drawn_scene();
+  question.X_JP = X_JP;
+  question.transducer = simulation.params().transducer;
+  question.settings = simulation.params().image;
+  return question;
+}
+
+std::optional<HealthQuestion> draw_health_question(Simulation& simulation) {
+  const auto sites = simulation.syringe().sites();
+  const bool any = std::any_of(sites.begin(), sites.end(),
+                               [](const InjectedSite& site) { return site.volume >= kDrawn; });
+  if (!any || !simulation.params().deform) return std::nullopt;
+  static_cast<void>(simulation.render());
+  return find_health_question(simulation, sites, to_pose(simulation.last().X_JP));
+}
+
+}  // namespace artus

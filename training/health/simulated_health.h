@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include <optional>
+#include <span>
+
+#include "artus/detail/simulation/syringe_core.h"
+#include "artus/detail/training/health/body_health.h"
+#include "artus/simulation/simulation.h"
+
+namespace artus {
+
+/// The body of a simulation's last picture beside the same without liquid, under the same press.
+/// `sites`: what that picture has of liquid; `X_JP`: its probe. Holds the two scenes, which the
+/// simulation goes on to move: measure before its next image. Empty: nothing is drawn of liquid, or
+/// the body is rigid and no picture was made. Cost: none.
+[[nodiscard]] std::optional<HealthQuestion> find_health_question(
+    const Simulation& simulation, std::span<const InjectedSite> sites, const Pose& X_JP);
+
+/// The same at the end of a loop: draws the picture of its newest image first. Cost: an image.
+[[nodiscard]] std::optional<HealthQuestion> draw_health_question(Simulation& simulation);
+
+}  // namespace artus
