@@ -60,13 +60,13 @@ std::vector<Claim> claims_of_still_probe(const std::shared_ptr<const CompiledJoi
     if (core->tissue() == last) break;
   }
   const Frame at_rest = look();
-  const auto felt = core->packet().probe.wrench;
+  const double felt = force_at_rest(core->packet().probe, X_JP).force;
   int pictures = 0;
   int forces = 0;
   for (int i = 0; i < kStillCompared; ++i) {
     core->step(X_JP);
     pictures += is_same(at_rest, look()) ? 0 : 1;
-    forces += core->packet().probe.wrench == felt ? 0 : 1;
+    forces += force_at_rest(core->packet().probe, X_JP).force == felt ? 0 : 1;
   }
   const ClaimBasis kept{ClaimKind::input, "a state in which nothing moves is kept"};
   return {claim_that({ClaimKind::input, "so much was pressed"},
