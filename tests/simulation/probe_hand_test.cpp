@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kStart = 6e-3;  // m above the skin
 constexpr double kHover = 0.3;   // s before the hand comes down
-constexpr double kSeconds = 1.6;
+constexpr double kSeconds = 2;
 
 struct Hand {
   const char* name;
