@@ -266,8 +266,7 @@ void measure_opening(const OpenedSpaces& spaces, const std::vector<Injected>& pl
     if (opening <= out.opening) continue;
     out.opening = opening;
     out.confined = space.confines(place.tip, place.volume);
-    const std::vector<Vec3> moved =
-        space.vertices(joint.mesh, {place.tip, place.volume, {}});
+    const std::vector<Vec3> moved = space.vertices(joint.mesh, {place.tip, place.volume, {}});
     double widest = 0;
     for (const Interface& f : joint.mesh.interfaces) {
       if (joint.regions[f.front].name != place.region && joint.regions[f.back].name != place.region)
