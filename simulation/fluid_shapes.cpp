@@ -133,21 +133,20 @@ void FluidShapes::follow(std::span<const InjectedSite> sites,
   due_ = images_ + (begun_.empty() ? images_to_change_ : images_to_grow_);
   begun_.assign(sites.begin(), sites.end());
   begun_under_ = press;
-  next_ = std::async(
-      std::launch::async, [joint = joint_, liquid = liquid_, opened = opened_, tissue, before = state_.shape,
-                           places = injected_of(*joint_, spaces_, begun_)] {
-        FluidShape shape;
-        StressAt stress;
-        if (tissue && !tissue->contact().pieces.empty()) stress = FaceStress(tissue);
-        shape.joint =
-            std::make_shared<const CompiledJoint>(
-                with_injected(*joint, places, liquid, stress, *opened));
-        if (tissue)
-          shape.map = map_of(*shape.joint, *tissue, before.get());
-        else
-          shape.scene = std::make_shared<const Scene>(shape.joint);
-        return shape;
-      });
+  next_ = std::async(std::launch::async,
+                     [joint = joint_, liquid = liquid_, opened = opened_, tissue,
+                      before = state_.shape, places = injected_of(*joint_, spaces_, begun_)] {
+                       FluidShape shape;
+                       StressAt stress;
+                       if (tissue && !tissue->contact().pieces.empty()) stress = FaceStress(tissue);
+                       shape.joint = std::make_shared<const CompiledJoint>(
+                           with_injected(*joint, places, liquid, stress, *opened));
+                       if (tissue)
+                         shape.map = map_of(*shape.joint, *tissue, before.get());
+                       else
+                         shape.scene = std::make_shared<const Scene>(shape.joint);
+                       return shape;
+                     });
 }
 
 }  // namespace artus

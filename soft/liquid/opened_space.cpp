@@ -11,13 +11,13 @@
 namespace artus {
 namespace {
 
-constexpr double kWide = 29.5e-3;   // m, radius of a patch of kWideVolume in a wide space; fitted:
+constexpr double kWide = 29.5e-3;  // m, radius of a patch of kWideVolume in a wide space; fitted:
 constexpr double kWideVolume = 3e-6;  // m^3; 5 ml open by less than 6 mm
-constexpr double kThickest = 5e-3;  // m, above which it spreads as long as there is room; assumed
-constexpr double kSpread = 1.2;     // of its radius, from one try to the next
-constexpr double kAllOpen = 2;      // extents of a space beyond which a patch is all of it
-constexpr double kConfined = 0.5;   // the same, of a patch that feels the rim all around
-constexpr double kSlope = 0.5;      // by which a step may turn or stretch at most
+constexpr double kThickest = 5e-3;    // m, above which it spreads as long as there is room; assumed
+constexpr double kSpread = 1.2;       // of its radius, from one try to the next
+constexpr double kAllOpen = 2;        // extents of a space beyond which a patch is all of it
+constexpr double kConfined = 0.5;     // the same, of a patch that feels the rim all around
+constexpr double kSlope = 0.5;        // by which a step may turn or stretch at most
 constexpr int kMaxSteps = 256;
 constexpr int kMaxTries = 60;
 constexpr double kExactVolume = 1e-12;  // of what is wanted
@@ -205,8 +205,7 @@ OpenedSpace::Flow OpenedSpace::flow_in(const TetMesh& mesh, const Filling& filli
   flow.nodes_.resize(cage_.n_nodes());
   for (std::size_t i = 0; i < flow.nodes_.size(); ++i) flow.nodes_[i].motion = field_.motion()[i];
   if (!(filling.volume > 0)) return flow;
-  const auto from =
-      field_.carry_on([&](const Vec3& p) { return (p - filling.tip).norm(); });
+  const auto from = field_.carry_on([&](const Vec3& p) { return (p - filling.tip).norm(); });
   for (std::size_t i = 0; i < flow.nodes_.size(); ++i) flow.nodes_[i].from = from[i];
   flow.reach_ = reach_of(flow, filling.volume);
   const std::vector<Triangle> walls = walls_of(mesh);
@@ -219,8 +218,7 @@ OpenedSpace::Flow OpenedSpace::flow_in(const TetMesh& mesh, const Filling& filli
   const auto held = [&] {
     double six = 0;
     for (const auto& [a, b, c] : walls)
-      six += (moved[a] - filling.tip)
-                 .dot((moved[b] - filling.tip).cross(moved[c] - filling.tip));
+      six += (moved[a] - filling.tip).dot((moved[b] - filling.tip).cross(moved[c] - filling.tip));
     return six / 6;
   };
   const double rest = held();
@@ -287,8 +285,7 @@ void OpenedSpace::fill_inside(const TetMesh& mesh, std::vector<Vec3>& moved) con
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
     if (is_in(mesh.regions[t]))
       for (std::size_t i = 0; i < 4; ++i)
-        for (std::size_t j = i + 1; j < 4; ++j)
-          add(mesh.tetrahedra[t][i], mesh.tetrahedra[t][j]);
+        for (std::size_t j = i + 1; j < 4; ++j) add(mesh.tetrahedra[t][i], mesh.tetrahedra[t][j]);
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   for (int pass = 0; pass < kSmoothings; ++pass)
@@ -307,8 +304,8 @@ double OpenedSpace::rest_volume() const {
   const Vec3 from = mesh_.vertices[walls.front()[0]];
   double six = 0;
   for (const auto& [a, b, c] : walls)
-    six += (mesh_.vertices[a] - from)
-               .dot((mesh_.vertices[b] - from).cross(mesh_.vertices[c] - from));
+    six +=
+        (mesh_.vertices[a] - from).dot((mesh_.vertices[b] - from).cross(mesh_.vertices[c] - from));
   return six / 6;
 }
 

@@ -55,7 +55,7 @@ class OpenedSpace {
    private:
     friend class OpenedSpace;
     struct Node {
-      Vec3 motion;     // m/Pa
+      Vec3 motion;      // m/Pa
       double from = 0;  // m, the tip
       double press = 0;
     };
@@ -95,7 +95,7 @@ class OpenedSpace {
   OpeningField field_;
   std::vector<SidedCage::Place> places_;  // by vertex at rest; no copy: outside the cage, or inside
   std::vector<SidedCage::Place> wall_places_;  // by the cage's walls, of their middles
-  std::vector<bool> inside_;              // by vertex: the space, off its walls
+  std::vector<bool> inside_;                   // by vertex: the space, off its walls
 };
 
 }  // namespace artus

@@ -38,7 +38,7 @@ class OpenedSpaces {
 
   std::shared_ptr<const CompiledJoint> joint_;
   JointSpaces spaces_;
-  std::vector<bool> there_;  // by region
+  std::vector<bool> there_;             // by region
   mutable std::vector<Entry> entries_;  // by space
   std::atomic<bool> stop_ = false;
   std::future<void> ahead_;

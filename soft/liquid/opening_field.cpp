@@ -16,7 +16,7 @@ constexpr double kPoisson = 0.45;    // assumed: numerical, as compressible as a
 constexpr double kSoftest = 3e3;     // Pa, of tissue
 constexpr double kStiffest = 300e3;  // Pa
 constexpr double kAir = 100;         // Pa: next to nothing, so that skin moves out into a field
-constexpr double kFilm = 2e6;       // Pa/m that holds walls together at a rim; assumed
+constexpr double kFilm = 2e6;        // Pa/m that holds walls together at a rim; assumed
 constexpr double kFade = 6;          // e-folds of that from the rim to the place farthest from it
 constexpr double kFaint = 0.01;      // of it, that is none
 constexpr double kAnchor = 1e-6;     // of a node's stiffness: for what hangs on nothing
@@ -90,6 +90,7 @@ OpeningField::OpeningField(const CompiledJoint& joint, const SidedCage& cage,
     : cage_(&cage), held_(cage.n_nodes(), false), on_wall_(cage.n_nodes(), false) {
   find_stiffness(joint);
   find_held(joint);
+  hold_islands();
   stick();
   load();
   solve(stop);
@@ -147,6 +148,27 @@ void OpeningField::find_held(const CompiledJoint& joint) {
         if (place.copy >= 0) hold(cage_->copies()[static_cast<std::size_t>(place.copy)]);
       }
   }
+}
+
+/// What hangs on nothing that stands, as a film between two of the space's regions, stands itself.
+void OpeningField::hold_islands() {
+  std::vector<bool> anchored = held_;
+  const auto copies = cage_->copies();
+  const auto spread = [&](const SidedCage::Copy& copy) {
+    const auto is = [&](std::uint32_t node) {
+      return anchored[node];
+    };
+    const auto n = std::count_if(copy.nodes.begin(), copy.nodes.end(), is);
+    if (n == 0 || n == 8) return false;
+    for (const std::uint32_t node : copy.nodes) anchored[node] = true;
+    return true;
+  };
+  for (bool more = true; more;) {
+    more = false;
+    for (const SidedCage::Copy& copy : copies) more = spread(copy) || more;
+    for (std::size_t c = copies.size(); c-- > 0;) more = spread(copies[c]) || more;
+  }
+  for (std::size_t i = 0; i < held_.size(); ++i) held_[i] = held_[i] || !anchored[i];
 }
 
 /// Walls that lie on each other stick toward a rim, where both sides are one.
@@ -306,8 +328,7 @@ void OpeningField::join_nodes() {
     for (std::size_t i = 0; i < 6; ++i) k += d[i] * unit[i];
     for (std::size_t i = 0; i < 8; ++i)
       for (std::size_t j = 0; j < 8; ++j)
-        rows[copy.nodes[i]].push_back(
-            {copy.nodes[j], k(static_cast<int>(i), static_cast<int>(j))});
+        rows[copy.nodes[i]].push_back({copy.nodes[j], k(static_cast<int>(i), static_cast<int>(j))});
   }
   start_.assign(1, 0);
   for (std::uint32_t i = 0; i < rows.size(); ++i) {
@@ -316,7 +337,8 @@ void OpeningField::join_nodes() {
     diagonal_.push_back(1);
     for (std::size_t k = 0; k < rows[i].size();) {
       Beside sum{rows[i][k].node, 0};
-      for (; k < rows[i].size() && rows[i][k].node == sum.node; ++k) sum.weight += rows[i][k].weight;
+      for (; k < rows[i].size() && rows[i][k].node == sum.node; ++k)
+        sum.weight += rows[i][k].weight;
       beside_.push_back(sum);
       if (sum.node == i) diagonal_.back() = sum.weight;
     }

@@ -31,6 +31,7 @@ class OpeningField {
  private:
   void find_held(const CompiledJoint& joint);
   void find_stiffness(const CompiledJoint& joint);
+  void hold_islands();
   void stick();
   void load();
   void solve(const std::atomic<bool>* stop);
@@ -46,9 +47,9 @@ class OpeningField {
   };
   std::vector<Film> films_;
   std::vector<std::uint32_t> giving_;  // copies that do not stand whole
-  std::vector<double> modulus_;  // Pa m by copy, of its share of a cube
-  std::vector<bool> held_;       // by node
-  std::vector<double> force_;    // (n_nodes, 3), m^2
+  std::vector<double> modulus_;        // Pa m by copy, of its share of a cube
+  std::vector<bool> held_;             // by node
+  std::vector<double> force_;          // (n_nodes, 3), m^2
   std::vector<Vec3> motion_;
   std::vector<bool> on_wall_;         // by node
   std::vector<std::uint32_t> start_;  // (n_nodes + 1), of beside_

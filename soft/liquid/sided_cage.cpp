@@ -10,16 +10,16 @@
 namespace artus {
 namespace {
 
-constexpr double kCubes = 40000;       // in the box, about
-constexpr double kFinest = 0.4e-3;     // m, a cube's edge
-constexpr double kCoarsest = 2.8e-3;   // m
-constexpr double kNarrowest = 10e-3;   // m of tissue around the space
-constexpr double kWidest = 25e-3;      // m
-constexpr double kOff = 1e-3;          // of a sample's spacing, from a wall into tissue
-constexpr double kAirCubes = 4;        // cubes of air above the skin
-constexpr double kFilm = 2.5e-3;       // m between walls that lie on each other
-constexpr std::uint8_t kNone = 255;    // a part of no cube
-constexpr int kReach = 3;              // samples, in which the tissue of a point is sought
+constexpr double kCubes = 40000;         // in the box, about
+constexpr double kFinest = 0.4e-3;       // m, a cube's edge
+constexpr double kCoarsest = 2.8e-3;     // m
+constexpr double kNarrowest = 10e-3;     // m of tissue around the space
+constexpr double kWidest = 25e-3;        // m
+constexpr double kOff = 1e-3;            // of a sample's spacing, from a wall into tissue
+constexpr double kAirCubes = 4;          // cubes of air above the skin
+constexpr double kFilm = 2.5e-3;         // m between walls that lie on each other
+constexpr std::uint8_t kNone = 255;      // a part of no cube
+constexpr int kReach = 3;                // samples, in which the tissue of a point is sought
 const Vec3 kShift(0.137, 0.211, 0.173);  // of a spacing: no line along a mesh's own grid
 
 /// Of the graph's nodes, those that hang together.
@@ -227,8 +227,7 @@ void SidedCage::place_films() {
   for (const Pair& pair : pairs_) {
     const Place here{sample_at(pair.here), copy_of(pair.here)};
     const Place there{sample_at(pair.there), copy_of(pair.there)};
-    if (here.copy >= 0 && there.copy >= 0)
-      films_.push_back({here, there, pair.area});
+    if (here.copy >= 0 && there.copy >= 0) films_.push_back({here, there, pair.area});
   }
   pairs_.clear();
 }
@@ -279,10 +278,9 @@ void SidedCage::make_copies() {
       for (c[0] = 0; c[0] < cubes_[0]; ++c[0]) {
         std::array<std::size_t, kAll> at{};
         for (int i = 0; i < kAll; ++i)
-          at[static_cast<std::size_t>(i)] =
-              sample_index({c[0] * kSamples + i % kSamples,
-                            c[1] * kSamples + i / kSamples % kSamples,
-                            c[2] * kSamples + i / kStep[2]});
+          at[static_cast<std::size_t>(i)] = sample_index({c[0] * kSamples + i % kSamples,
+                                                          c[1] * kSamples + i / kSamples % kSamples,
+                                                          c[2] * kSamples + i / kStep[2]});
         Sets sets(kAll);
         for (int i = 0; i < kAll; ++i)
           for (std::size_t a = 0; a < 3; ++a) {
@@ -435,8 +433,7 @@ SidedCage::Place SidedCage::locate(const Vec3& p, const Vec3& into) const {
 }
 
 /// The copy over a face; of several the one whose tissue is nearest to `p`.
-std::int32_t SidedCage::next_of(std::int32_t copy, std::size_t face,
-                                const Vec3& p) const noexcept {
+std::int32_t SidedCage::next_of(std::int32_t copy, std::size_t face, const Vec3& p) const noexcept {
   const Copy& from = copies_[static_cast<std::size_t>(copy)];
   if (from.next[face] != kSeveral) return from.next[face];
   Index cube = from.cube;
@@ -490,8 +487,8 @@ std::array<double, 8> SidedCage::weights(const Place& place) const noexcept {
   }
   std::array<double, 8> w{};
   for (std::size_t i = 0; i < 8; ++i)
-    w[i] = ((i & 1U) ? u[0] : 1 - u[0]) * ((i & 2U) ? u[1] : 1 - u[1]) *
-           ((i & 4U) ? u[2] : 1 - u[2]);
+    w[i] =
+        ((i & 1U) ? u[0] : 1 - u[0]) * ((i & 2U) ? u[1] : 1 - u[1]) * ((i & 4U) ? u[2] : 1 - u[2]);
   return w;
 }
 

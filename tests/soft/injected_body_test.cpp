@@ -16,8 +16,9 @@ constexpr RegionId kCleft = 3;
 constexpr RegionId kBelow = 4;
 
 /// Flat walls 1 mm apart, 120 mm wide, as grids of 2 mm; skin 20 mm above. `twice`: the same 3 mm
-/// higher, as where a bursa lies over itself.
-CompiledJoint make_cleft(bool twice = false) {
+/// higher, as where a bursa lies over itself. `rim`: m from the middle where the walls meet; there
+/// is tissue beyond.
+CompiledJoint make_cleft(bool twice = false, double rim = 1) {
   CompiledJoint joint;
   joint.tissues.resize(2);
   joint.tissues[0].name = "muscle";
@@ -34,13 +35,21 @@ CompiledJoint make_cleft(bool twice = false) {
     for (int j = 0; j <= kN; ++j)
       for (int i = 0; i <= kN; ++i)
         joint.mesh.vertices.emplace_back(2e-3 * (i - kN / 2), 2e-3 * (j - kN / 2), z);
+    const auto beyond = [&](std::uint32_t v) {
+      return joint.mesh.vertices[v].head<2>().norm() > rim;
+    };
+    const bool roof = back == kCleft;
+    for (std::size_t v = first; roof && v < joint.mesh.vertices.size(); ++v)
+      if (beyond(static_cast<std::uint32_t>(v))) joint.mesh.vertices[v].z() -= 1e-3;
     for (std::uint32_t j = 0; j < kN; ++j) {
       for (std::uint32_t i = 0; i < kN; ++i) {
         const std::uint32_t a = first + j * (kN + 1) + i;
         for (const auto& t : {std::array{a, a + 1, a + kN + 2}, {a, a + kN + 2, a + kN + 1}}) {
+          const bool closed = beyond(t[0]) && beyond(t[1]) && beyond(t[2]);
+          if (closed && roof) continue;
           Interface f;
           f.vertices = t;
-          f.front = front;
+          f.front = closed && front == kCleft ? kAbove : front;
           f.back = back;
           joint.mesh.interfaces.push_back(f);
         }
@@ -85,8 +94,10 @@ double enclosed(const CompiledJoint& joint, const std::vector<Vec3>& moved) {
   return volume;
 }
 
+constexpr double kRim = 35e-3;  // m
+
 TEST(OpenedSpace, OpensAFlatCleftByItsVolumeAroundTheTip) {
-  const CompiledJoint joint = make_cleft();
+  const CompiledJoint joint = make_cleft(false, kRim);
   const OpenedSpace space(joint, {kCleft});
   const Vec3 tip(0, 0, 0.5e-3);
   const std::size_t n = joint.mesh.vertices.size() / 3;
@@ -95,16 +106,16 @@ TEST(OpenedSpace, OpensAFlatCleftByItsVolumeAroundTheTip) {
     EXPECT_NEAR(enclosed(joint, moved) - enclosed(joint, joint.mesh.vertices), volume,
                 1e-9 * volume);
     for (std::size_t i = 0; i < n; ++i)
-      EXPECT_GT(moved[n + i].z(), moved[2 * n + i].z()) << "roof over floor";
+      EXPECT_GT(moved[n + i].z(), moved[2 * n + i].z() - 1e-9) << "roof over floor";
     const double opening = space.largest_opening(tip, volume);
     EXPECT_GT(opening, 0.5e-3);
-    EXPECT_LT(opening, 6e-3);
+    EXPECT_LT(opening, 15e-3);
   }
   EXPECT_EQ(space.vertices(joint.mesh, {tip, 0, {}}), joint.mesh.vertices);
 }
 
 TEST(OpenedSpace, WhatPressesOnAHalfSendsItsLiquidToTheOther) {
-  const CompiledJoint joint = make_cleft();
+  const CompiledJoint joint = make_cleft(false, kRim);
   const OpenedSpace space(joint, {kCleft});
   const Vec3 tip(0, 0, 0.5e-3);
   const auto free = space.vertices(joint.mesh, {tip, 5e-6, {}});
@@ -125,30 +136,30 @@ TEST(OpenedSpace, WhatPressesOnAHalfSendsItsLiquidToTheOther) {
   const auto alike = space.vertices(joint.mesh, {tip, 5e-6, [](const Vec3&) {
                                                    return 0.7;
                                                  }});
-  for (std::size_t i = 0; i < free.size(); ++i) EXPECT_LT((alike[i] - free[i]).norm(), 2e-6);
+  for (std::size_t i = 0; i < free.size(); ++i) EXPECT_LT((alike[i] - free[i]).norm(), 50e-6);
 }
 
 TEST(OpenedSpace, OfASpaceThatLiesOverItselfNoWallPassesAnother) {
-  const CompiledJoint joint = make_cleft(true);
+  const CompiledJoint joint = make_cleft(true, kRim);
   const auto moved =
       OpenedSpace(joint, {kCleft}).vertices(joint.mesh, {Vec3(0, 0, 0.5e-3), 5e-6, {}});
   const std::size_t n = joint.mesh.vertices.size() / 5;  // of a wall
   for (std::size_t i = 0; i < n; ++i) {
     const double roof = moved[n + i].z();
-    EXPECT_GT(roof, moved[2 * n + i].z());
+    EXPECT_GT(roof, moved[2 * n + i].z() - 1e-9);
     EXPECT_GT(moved[4 * n + i].z(), roof) << "the upper sheet's floor over the lower one's roof";
-    EXPECT_GT(moved[3 * n + i].z(), moved[4 * n + i].z());
+    EXPECT_GT(moved[3 * n + i].z(), moved[4 * n + i].z() - 1e-9);
     EXPECT_GT(moved[i].z(), moved[3 * n + i].z());
   }
 }
 
 TEST(OpenedSpace, LiftsTheSkinByItsVolume) {
-  const CompiledJoint joint = make_cleft();
+  const CompiledJoint joint = make_cleft(false, kRim);
   const OpenedSpace space(joint, {kCleft});
   const auto moved = space.vertices(joint.mesh, {Vec3(0, 0, 0.5e-3), 5e-6, {}});
   const double up = flux_between(joint, moved, kOutside);
-  const double down = -flux_between(joint, moved, kCleft);
-  EXPECT_NEAR(up + down, 5e-6, 0.1 * 5e-6);
+  EXPECT_GT(up, 0.5 * 5e-6);
+  EXPECT_LT(up, 5e-6);
 }
 
 TEST(Bolus, HasItsVolumeAndPushesEveryWallBesideItByAsMuch) {

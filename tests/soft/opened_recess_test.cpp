@@ -14,9 +14,9 @@
 namespace artus {
 namespace {
 
-constexpr RegionId kMuscle = 1;
-constexpr RegionId kRecess = 2;
-constexpr RegionId kBone = 3;
+constexpr RegionId kMuscle = 2;
+constexpr RegionId kRecess = 3;
+constexpr RegionId kBone = 4;
 
 void add_wall(CompiledJoint& joint, const std::array<Vec3, 3>& corners, RegionId front,
               RegionId back) {
@@ -51,6 +51,7 @@ CompiledJoint make_recess(const Vec3& axes, const Eigen::Quaterniond& turn, doub
   joint.tissues.resize(3);
   joint.tissues[2].haptic.hard = true;
   joint.regions = {{"outside", 0, Vec3::Zero()},
+                   {"beyond", 0, Vec3::Zero()},
                    {"muscle", 0, Vec3::Zero()},
                    {"recess", 1, Vec3::Zero()},
                    {"bone", 2, Vec3::Zero()}};
