@@ -23,14 +23,11 @@ constexpr double kWallJump = 0.5;         // mm
 constexpr double kLiftShare = 1.1;        // of the liquid, what the skin may be lifted by
 constexpr double kLiftRest = 0.1e-6;      // m^3 beside that: steps of rays, the press
 constexpr double kVolume = 2;             // %
-constexpr double kStrips = 4;             // % of scanlines
+constexpr double kStrips = 2;             // %
 constexpr std::size_t kRays = 20000;      // through the liquid
 constexpr double kLeastPiece = 1e-6;      // m^2
 constexpr double kLabelPixel = 0.2e-3;    // m
 constexpr double kMargin = 10e-3;         // m of label picture around what is shown
-constexpr double kSkinReach = 50e-3;      // m around the liquid
-constexpr double kSkinSpacing = 1e-3;     // m
-constexpr double kAbove = 40e-3;          // m before the liquid, where rays to the skin begin
 constexpr double kLeastLiquid = 0.05e-6;  // m^3, of less no share is told
 
 std::string place(const Vec3& p_J) {
@@ -43,6 +40,7 @@ class Examination {
  public:
   explicit Examination(const HealthQuestion& question)
       : q_(question),
+        was_(body_in(*q_.before)),
         now_(body_in(*q_.after)),
         liquid_before_(regions_named(q_.before->joint(), q_.liquid.regions)),
         liquid_after_(regions_named(now_, q_.liquid.regions)) {}
@@ -86,13 +84,7 @@ class Examination {
     HealthMeasure m{"skin_lift_ml", "the skin is lifted by", "ml", {}, 0, ""};
     m.limit = (kLiftShare * q_.liquid.volume + kLiftRest) / kCubicCentimetre;
     if (!has_liquid()) return m;
-    RayGrid grid;
-    grid.X_JG = q_.X_JP;
-    grid.X_JG.translation() = q_.liquid.p_J - kAbove * q_.X_JP.linear().col(2);
-    grid.half_x = grid.half_y = kSkinReach;
-    grid.length = 2 * kAbove;
-    grid.spacing = kSkinSpacing;
-    const SkinLift lift = find_skin_lift(*q_.before, *q_.after, grid);
+    const SkinLift lift = find_skin_lift(was_.mesh, now_.mesh, q_.liquid.p_J);
     m.value = lift.lifted / kCubicCentimetre;
     m.where = printed("at most by %.1f mm at ", lift.highest / kMillimetre) + place(lift.p_J);
     return m;
@@ -108,8 +100,7 @@ class Examination {
     if (!has_liquid() || q_.liquid.volume < kLeastLiquid) return m;
     std::vector<Vec3> points = points_of(now_, liquid_after_);
     if (points.empty()) return m;
-    const CompiledJoint was = body_in(*q_.before);
-    const std::vector<Vec3> rest = points_of(was, liquid_before_);
+    const std::vector<Vec3> rest = points_of(was_, liquid_before_);
     points.insert(points.end(), rest.begin(), rest.end());
     const RayGrid grid = grid_around(points, q_.X_JP.linear(), kRays);
     const double found = volume_along(*q_.after, grid, liquid_after_) -
@@ -142,14 +133,21 @@ class Examination {
   }
 
   [[nodiscard]] HealthMeasure strips() const {
-    HealthMeasure m{
-        "strips_percent", "scanlines unlike the next, more than before", "%", {}, kStrips, ""};
+    HealthMeasure m{"strips_percent",
+                    "share of the picture in vertical strips, more than before",
+                    "%",
+                    {},
+                    kStrips,
+                    ""};
     if (!q_.pictures) return m;
     const auto share = [&](const std::shared_ptr<const Scene>& scene) {
       Renderer renderer(scene, q_.transducer, q_.settings);
-      return share_of_strips(neighbour_likeness(renderer.render(q_.X_JP)));
+      return 100 * share_of_strips(renderer.render(q_.X_JP), q_.transducer.pitch());
     };
-    m.value = 100 * std::max(0.0, share(q_.after) - share(q_.before));
+    const double was = share(q_.before);
+    const double is = share(q_.after);
+    m.value = std::max(0.0, is - was);
+    m.where = printed("%.2f %% before, %.2f %% after", was, is);
     return m;
   }
 
@@ -157,6 +155,7 @@ class Examination {
   [[nodiscard]] bool has_liquid() const { return q_.liquid.volume > 0; }
 
   const HealthQuestion& q_;
+  CompiledJoint was_;  // under the same press
   CompiledJoint now_;
   std::vector<bool> liquid_before_;
   std::vector<bool> liquid_after_;

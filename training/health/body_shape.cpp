@@ -35,13 +35,33 @@ void for_each_ray(const RayGrid& grid, F visit) {
     }
 }
 
-/// m along the ray to the body; the ray's length where it meets none.
-double first_in_body(const Scene& scene, const Segment& ray) {
-  std::array<TissueInterval, 16> intervals;
-  const QueryCount count = scene.find_intervals(ray, intervals);
-  for (std::size_t k = 0; k < count.size; ++k)
-    if (intervals[k].region != kOutside) return intervals[k].entry;
-  return (ray.end - ray.start).norm();
+bool is_skin(const Interface& f) {
+  return (f.front == kOutside) != (f.back == kOutside);
+}
+
+/// m^2, out of the body.
+Vec3 outward_area(const TetMesh& mesh, const Interface& f) {
+  const auto& [a, b, c] = f.vertices;
+  const auto& p = mesh.vertices;
+  const Vec3 area = (p[b] - p[a]).cross(p[c] - p[a]) / 2;
+  return f.front == kOutside ? area : Vec3(-area);
+}
+
+/// m^3 between the skin and `centre`.
+double volume_below_skin(const TetMesh& mesh, const Vec3& centre) {
+  double volume = 0;
+  for (const Interface& f : mesh.interfaces)
+    if (is_skin(f))
+      volume += (mesh.vertices[f.vertices[0]] - centre).dot(outward_area(mesh, f)) / 3;
+  return volume;
+}
+
+bool has_same_skin(const TetMesh& a, const TetMesh& b) {
+  return a.interfaces.size() == b.interfaces.size() &&
+         std::equal(a.interfaces.begin(), a.interfaces.end(), b.interfaces.begin(),
+                    [](const Interface& f, const Interface& g) {
+                      return is_skin(f) == is_skin(g) && f.vertices == g.vertices;
+                    });
 }
 
 }  // namespace
@@ -125,19 +145,24 @@ double volume_along(const Scene& scene, const RayGrid& grid, const std::vector<b
   return length * grid.spacing * grid.spacing;
 }
 
-SkinLift find_skin_lift(const Scene& before, const Scene& after, const RayGrid& grid) {
+SkinLift find_skin_lift(const TetMesh& before, const TetMesh& after, const Vec3& centre) {
   SkinLift out;
-  for_each_ray(grid, [&](const Segment& ray) {
-    const double was = first_in_body(before, ray);
-    const double lift = was - first_in_body(after, ray);
-    out.net += lift;
-    out.lifted += std::max(0.0, lift);
-    if (lift <= out.highest) return;
-    out.highest = lift;
-    out.p_J = ray.start + was * (ray.end - ray.start).normalized();
-  });
-  out.net *= grid.spacing * grid.spacing;
-  out.lifted *= grid.spacing * grid.spacing;
+  out.net = volume_below_skin(after, centre) - volume_below_skin(before, centre);
+  out.lifted = out.net;
+  if (!has_same_skin(before, after)) return out;
+  out.lifted = 0;
+  for (const Interface& f : before.interfaces) {
+    if (!is_skin(f)) continue;
+    const Vec3 area = (outward_area(before, f) + outward_area(after, f)) / 2;
+    for (const std::uint32_t v : f.vertices) {
+      const Vec3 moved = after.vertices[v] - before.vertices[v];
+      out.lifted += std::max(0.0, moved.dot(area)) / 3;
+      const double height = area.norm() > 0 ? moved.dot(area.normalized()) : 0;
+      if (height <= out.highest) continue;
+      out.highest = height;
+      out.p_J = before.vertices[v];
+    }
+  }
   return out;
 }
 

@@ -60,10 +60,13 @@ struct SkinLift {
   double lifted = 0;        ///< m^3 between the skin as it was and where it is higher
   double net = 0;           ///< m^3, less where it is lower
   double highest = 0;       ///< m
-  Vec3 p_J = Vec3::Zero();  ///< m, where that is
+  Vec3 p_J = Vec3::Zero();  ///< m, where that is, before
 };
 
-/// Where rays from outside meet the two bodies first. Cost: two queries a ray.
-[[nodiscard]] SkinLift find_skin_lift(const Scene& before, const Scene& after, const RayGrid& grid);
+/// Compares a joint's skin with itself before. Of bodies whose skin has other triangles `lifted` is
+/// `net`, of the body's volume about `centre` (m), and nothing is told of where. Cost: linear in
+/// interfaces.
+[[nodiscard]] SkinLift find_skin_lift(const TetMesh& before, const TetMesh& after,
+                                      const Vec3& centre);
 
 }  // namespace artus

@@ -4,85 +4,64 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
-#include <span>
+#include <vector>
 
 namespace artus {
 namespace {
 
-constexpr double kDarkest = -60;      // dB, what a picture shows as black
-constexpr double kSmoothed = 0.5e-3;  // m along a scanline
-constexpr double kFlat = 1;           // dB, standard deviation of a line that shows nothing
-constexpr double kFarMore = 4;        // times the median's unlikeness
-constexpr double kLeast = 0.2;        // of unlikeness
+constexpr double kDarkest = -60;    // dB, what a picture shows as black
+constexpr double kNearest = 1e-3;   // m of depth
+constexpr double kWindow = 5e-3;    // m of depth
+constexpr double kBeside = 0.3e-3;  // m
+constexpr double kDiffers = 3.5;    // dB
 
-/// One line as it is shown, each sample the mean of those around it.
-std::vector<double> smoothed_line(const Frame& frame, int line, std::size_t first) {
-  const auto n = static_cast<std::size_t>(frame.n_samples);
-  const std::span<const float> all(frame.decibel);
-  const auto samples = all.subspan(static_cast<std::size_t>(line) * n, n);
-  const auto half = static_cast<std::size_t>(kSmoothed / frame.sample_depth / 2);
-  std::vector<double> sums(n + 1, 0);
-  for (std::size_t i = 0; i < n; ++i)
-    sums[i + 1] = sums[i] + std::clamp(static_cast<double>(samples[i]), kDarkest, 0.0);
-  std::vector<double> out;
-  for (std::size_t i = first; i < n; ++i) {
-    const std::size_t low = i > half ? i - half : 0;
-    const std::size_t high = std::min(n, i + half + 1);
-    out.push_back((sums[high] - sums[low]) / static_cast<double>(high - low));
-  }
-  return out;
+/// dB, of a line's samples from `first` on, as they are shown.
+double mean_of(const Frame& frame, std::size_t line, std::size_t first, std::size_t n) {
+  const std::size_t start = line * static_cast<std::size_t>(frame.n_samples) + first;
+  double sum = 0;
+  for (std::size_t i = start; i < start + n; ++i)
+    sum += std::clamp(static_cast<double>(frame.decibel[i]), kDarkest, 0.0);
+  return sum / static_cast<double>(n);
 }
 
-/// Less its mean, over its norm; empty when it shows nothing.
-std::vector<double> normed(std::vector<double> line) {
-  const auto n = static_cast<double>(line.size());
-  double mean = 0;
-  for (const double v : line) mean += v / n;
-  double square = 0;
-  for (double& v : line) {
-    v -= mean;
-    square += v * v;
+bool touches(const Frame& frame, std::size_t line) {
+  return frame.contact.empty() || frame.contact[line] > 0.5F;
+}
+
+struct Cells {
+  std::size_t all = 0;
+  std::size_t strips = 0;
+};
+
+/// Adds the lines of one window.
+void count(const Frame& frame, std::size_t first, std::size_t n, std::size_t beside, Cells& cells) {
+  std::vector<double> means;
+  for (std::size_t line = 0; line < static_cast<std::size_t>(frame.n_lines); ++line)
+    means.push_back(mean_of(frame, line, first, n));
+  for (std::size_t i = beside; i + beside < means.size(); ++i) {
+    const double left = means[i - beside];
+    const double right = means[i + beside];
+    const bool shown =
+        touches(frame, i - beside) && touches(frame, i) && touches(frame, i + beside);
+    if (!shown || std::max({left, means[i], right}) <= kDarkest) continue;
+    ++cells.all;
+    if (std::abs(means[i] - (left + right) / 2) > kDiffers) ++cells.strips;
   }
-  if (!(square > kFlat * kFlat * n)) return {};
-  for (double& v : line) v /= std::sqrt(square);
-  return line;
 }
 
 }  // namespace
 
-std::vector<double> neighbour_likeness(const Frame& frame, double from) {
-  const auto first = static_cast<std::size_t>(from / frame.sample_depth);
-  std::vector<double> likeness;
-  std::vector<double> before;
-  for (int line = 0; line < frame.n_lines; ++line) {
-    const bool touches =
-        frame.contact.empty() || frame.contact[static_cast<std::size_t>(line)] > 0.5F;
-    std::vector<double> now;
-    if (touches) now = normed(smoothed_line(frame, line, first));
-    if (line > 0) {
-      double sum = 0;
-      for (std::size_t i = 0; i < std::min(now.size(), before.size()); ++i)
-        sum += now[i] * before[i];
-      const bool shown = !now.empty() && !before.empty();
-      likeness.push_back(shown ? sum : std::numeric_limits<double>::quiet_NaN());
-    }
-    before = std::move(now);
-  }
-  return likeness;
-}
-
-double share_of_strips(const std::vector<double>& likeness) {
-  std::vector<double> unlike;
-  for (const double c : likeness)
-    if (std::isfinite(c)) unlike.push_back(1 - c);
-  if (unlike.empty()) return 0;
-  const auto middle = unlike.begin() + static_cast<std::ptrdiff_t>(unlike.size() / 2);
-  std::nth_element(unlike.begin(), middle, unlike.end());
-  const double limit = std::max(kLeast, kFarMore * *middle);
-  const auto strips =
-      std::count_if(unlike.begin(), unlike.end(), [limit](double u) { return u > limit; });
-  return static_cast<double>(strips) / static_cast<double>(unlike.size());
+double share_of_strips(const Frame& frame, double pitch) {
+  const auto samples = [&frame](double depth) {
+    return static_cast<std::size_t>(depth / frame.sample_depth);
+  };
+  const auto beside = static_cast<std::size_t>(std::max(1.0, std::round(kBeside / pitch)));
+  const std::size_t n = std::max<std::size_t>(2, samples(kWindow));
+  Cells cells;
+  for (std::size_t first = samples(kNearest);
+       first + n <= static_cast<std::size_t>(frame.n_samples); first += n / 2)
+    count(frame, first, n, beside, cells);
+  return cells.all == 0 ? 0 : static_cast<double>(cells.strips) / static_cast<double>(cells.all);
 }
 
 }  // namespace artus

@@ -63,25 +63,31 @@ TEST(BodyShape, RaysFindABallsVolume) {
   EXPECT_NEAR(volume_along(scene, grid, regions), ball, 0.01 * ball);
 }
 
+/// Layers whose skin is raised by `lift` m in a square of 20 mm.
+CompiledJoint raised(double lift, int times = 4) {
+  CompiledJoint joint = subdivided(test::make_layered_block(kLayers, 40e-3, 40e-3), times);
+  for (Vec3& p : joint.mesh.vertices)
+    if (std::abs(p.z()) < 1e-9 && std::max(std::abs(p.x()), std::abs(p.y())) < 10.1e-3)
+      p.z() -= lift;
+  return joint;
+}
+
 TEST(BodyShape, ALiftedSkinIsToldByVolumeAndHeight) {
-  const auto body = [](double lift) {
-    CompiledJoint joint = test::make_layered_block(kLayers, 40e-3, 40e-3);
-    for (Vec3& p : joint.mesh.vertices)
-      if (std::abs(p.z()) < 1e-9) p.z() -= lift;
-    return Scene(std::make_shared<const CompiledJoint>(std::move(joint)));
-  };
-  RayGrid grid;
-  grid.X_JG.translation() = Vec3(0, 0, -20e-3);
-  grid.half_x = grid.half_y = 15.5e-3;
-  grid.length = 40e-3;
-  grid.spacing = 1e-3;
-  const SkinLift up = find_skin_lift(body(0), body(2e-3), grid);
-  EXPECT_NEAR(up.lifted, 31 * 31 * 2e-9, 1e-12);
-  EXPECT_NEAR(up.net, up.lifted, 1e-15);
+  const TetMesh flat = raised(0).mesh;
+  const SkinLift up = find_skin_lift(flat, raised(2e-3).mesh, Vec3(0, 0, 5e-3));
+  EXPECT_NEAR(up.lifted, 22.5e-3 * 22.5e-3 * 2e-3, 0.03e-6);
+  EXPECT_NEAR(up.net, up.lifted, 0.001e-6);
   EXPECT_NEAR(up.highest, 2e-3, 1e-9);
-  const SkinLift down = find_skin_lift(body(2e-3), body(0), grid);
+  EXPECT_LT(up.p_J.head<2>().cwiseAbs().maxCoeff(), 10.1e-3);
+  const SkinLift down = find_skin_lift(raised(2e-3).mesh, flat, Vec3(0, 0, 5e-3));
   EXPECT_EQ(down.lifted, 0);
   EXPECT_NEAR(down.net, -up.net, 1e-15);
+}
+
+TEST(BodyShape, ASkinOfOtherTrianglesIsToldByVolumeAlone) {
+  const SkinLift up = find_skin_lift(raised(0, 3).mesh, raised(2e-3).mesh, Vec3(0, 0, 5e-3));
+  EXPECT_NEAR(up.lifted, 22.5e-3 * 22.5e-3 * 2e-3, 0.03e-6);
+  EXPECT_EQ(up.highest, 0);
 }
 
 }  // namespace
