@@ -7,9 +7,9 @@
 #include <optional>
 #include <vector>
 
+#include "artus/detail/haptics/probe/skin_surface.h"
 #include "artus/detail/raycast/moving_scene.h"
 #include "artus/detail/simulation/needle_tissue.h"
-#include "artus/detail/simulation/skin_surface.h"
 #include "artus/detail/simulation/tissue_packet.h"
 #include "artus/detail/soft/solver/soft_body.h"
 

@@ -55,7 +55,8 @@ ProbeHandRow SeatedProbe::feel(const DeviceFeedback& feedback) {
   row.energy_to_hand = hand_.energy_to_hand();
   const Vec3 beam = row.X_JP.linear().col(2);
   row.normal_force = std::max(0.0, -felt.force.dot(beam));
-  row.friction = felt.force - felt.force.dot(beam) * beam;
+  // On a slope the tissue pushes along the face, too; what of it is friction is not told.
+  row.edge_force = felt.force - felt.force.dot(beam) * beam;
   row.torque = felt.torque;
   row.stiffness = stiffness_;
   row.contact_share = feedback.probe_share;

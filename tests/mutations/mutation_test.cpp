@@ -18,6 +18,8 @@ namespace {
 
 TEST(Mutations, EveryParameterOfTheNeedlesForcesIsNoticed) {
   const std::string kHard = "a hard layer is neither pierced nor cut, nor does it hold the shaft";
+  const std::string kProbe = "the probe's hand: SessionCore.TheProbesForceSaysWhenItIsHeldBack";
+  const std::string kBox = "a session's border: tests of device files";
   std::vector<Subject<ForceSetup>> subjects;
   for (const ForceScenario& scenario : make_force_scenarios())
     subjects.push_back({scenario.name, scenario.setup, [scenario](const ForceSetup& setup) {
@@ -25,6 +27,12 @@ TEST(Mutations, EveryParameterOfTheNeedlesForcesIsNoticed) {
                         }});
   expect_noticed("needle", try_mutations(subjects),
                  {{"device.workspace", "shown to people; no force depends on it"},
+                  {"device.probe_force", kProbe},
+                  {"device.probe_torque", kProbe},
+                  {"device.needle_centre", kBox},
+                  {"device.needle_half", kBox},
+                  {"device.probe_centre", kBox},
+                  {"device.probe_half", kBox},
                   {"needle.contact.behind_skin",
                    "room for rounding: the query begins before the skin, where nothing is felt"},
                   {"bone.attracted_force", kHard},

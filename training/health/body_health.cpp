@@ -21,6 +21,7 @@ namespace {
 
 constexpr double kWallJump = 0.5;         // mm
 constexpr double kLiftShare = 1.1;        // of the liquid, what the skin may be lifted by
+constexpr double kRayVolume = 0.01e-6;    // m^3 that rays so far from each other may miss
 constexpr double kLiftRest = 0.1e-6;      // m^3 beside that: steps of rays, the press
 constexpr double kVolume = 2;             // %
 constexpr double kStrips = 2;             // %
@@ -105,7 +106,8 @@ class Examination {
     const RayGrid grid = grid_around(points, q_.X_JP.linear(), kRays);
     const double found = volume_along(*q_.after, grid, liquid_after_) -
                          volume_along(*q_.before, grid, liquid_before_);
-    m.value = 100 * std::abs(found / q_.liquid.volume - 1);
+    const double off = std::max(0.0, std::abs(found - q_.liquid.volume) - kRayVolume);
+    m.value = 100 * off / q_.liquid.volume;
     m.where =
         printed("%.3f of %.3f ml", found / kCubicCentimetre, q_.liquid.volume / kCubicCentimetre);
     return m;

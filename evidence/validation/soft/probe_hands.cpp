@@ -92,83 +92,142 @@ Pose wanted_pose(ProbeGesture gesture, double t) {
   return pose;
 }
 
-ProbeHandResult play_probe_hand(const ProbeHandCase& c) {
-  const double dt = 1 / c.tick_rate;
-  const ExponentialTissue tissue(c.hardness);
-  SkinContactParams law;
-  law.tick_rate = c.tick_rate;
-  SkinContact contact(law);
-  PassivityObserver account(kProbePassivity, dt, kProbeDampingForce);
-  Pose start = Pose::Identity();
-  start.translation().z() = -kStart;
-  PushedProbeParams params = c.hand;
-  PushedProbe probe(params, dt, start);
-  ProbeHandResult out;
+namespace {
+
+/// The tissue's answers on their way to the tick.
+class LateAnswers {
+ public:
+  LateAnswers(const ProbeHandCase& c, const ExponentialTissue& tissue)
+      : case_(c), tissue_(tissue), ticks_(static_cast<std::uint64_t>(c.delay * c.tick_rate)) {}
+
+  void pass(double t, std::uint64_t tick, const Pose& X_JP, SkinContact& contact) {
+    if (t * case_.image_rate >= static_cast<double>(images_)) {
+      ++images_;
+      const bool lost = case_.lost && t > kHover + 0.2 && t < kHover + 0.7;
+      if (!lost)
+        answers_.push_back({tick + ticks_, tissue_.packet(X_JP, case_.prior, images_, tick)});
+    }
+    for (; !answers_.empty() && answers_.front().due <= tick; answers_.pop_front())
+      contact.take(answers_.front().packet);
+  }
+
+ private:
   struct Answer {
     std::uint64_t due = 0;
     ProbePacket packet;
   };
-  std::deque<Answer> answers;
+  const ProbeHandCase& case_;
+  const ExponentialTissue& tissue_;
+  std::uint64_t ticks_;
+  std::uint64_t images_ = 0;
+  std::deque<Answer> answers_;
+};
+
+/// Contact, account and the guard's slew: what a session's tick does with a probe.
+class ProbeTick {
+ public:
+  explicit ProbeTick(double rate)
+      : contact(params_of(rate)),
+        account_(kProbePassivity, 1 / rate, kProbeDampingForce),
+        dt_(1 / rate) {}
+
+  const Wrench& step(const Pose& X_JP, std::uint64_t tick) {
+    Wrench wanted = contact.step(X_JP, tick);
+    wanted.force = account_.step(X_JP.translation(), wanted.force);
+    if (contact.share() == 0) wanted = {};
+    const double change = (wanted.force - sent_.force).norm();
+    if (change > kForceSlew * dt_)
+      wanted.force = sent_.force + kForceSlew * dt_ / change * (wanted.force - sent_.force);
+    account_.observe(wanted.force);
+    sent_ = wanted;
+    return sent_;
+  }
+  SkinContact contact;
+
+ private:
+  static SkinContactParams params_of(double rate) {
+    SkinContactParams params;
+    params.tick_rate = rate;
+    return params;
+  }
+  PassivityObserver account_;
+  double dt_;
+  Wrench sent_;
+};
+
+/// What is seen of a hand's course, tick by tick.
+class ProbeWatch {
+ public:
+  explicit ProbeWatch(const ProbeHandCase& c) : case_(c) {}
+
+  /// `z`: m of the face's deepest point below the skin; `force`: N, commanded.
+  void see(double t, double z, double force, const Vec3& velocity) {
+    if (z < -0.2e-3) out.off_skin = std::max(out.off_skin, force);
+    if (z > 0 && !met_) met_ = t;
+    if (met_ && !touched_ && force > 1e-3) {
+      touched_ = true;
+      out.first_depth = z;
+      if (velocity.z() > 0.1) out.first_touch = t - *met_;
+    }
+    if (touched_ && case_.gesture == ProbeGesture::press) out.highest = std::max(out.highest, -z);
+    see_step(z, force, velocity);
+    if (t > kSeconds - 0.6) (t > kSeconds - 0.3 ? late_ : early_).add(z);
+  }
+  void end(double truth) {
+    if (case_.gesture != ProbeGesture::press) return;
+    out.swing = late_.size() < 0.98 * early_.size() ? 0 : late_.size();
+    if (truth > 0.1) out.settled = std::abs(force_ - truth) / truth;
+  }
+  ProbeHandResult out;
+
+ private:
+  /// Motion's own share: the steepest the tissue is here, with both arms.
+  void see_step(double z, double force, const Vec3& velocity) {
+    const SkinContactParams law;
+    const double moved =
+        std::max(std::abs(z - z_), (velocity.norm() + kFastestTurn) / case_.tick_rate);
+    const double steepest = (1 + law.slow + law.fast) * 1.5 * (150 * case_.hardness + 200 * force);
+    out.step = std::max(out.step, std::abs(force - force_) - steepest * moved);
+    force_ = force;
+    z_ = z;
+  }
+
+  const ProbeHandCase& case_;
+  std::optional<double> met_;
+  bool touched_ = false;
+  Range early_;
+  Range late_;
+  double force_ = 0;
+  double z_ = -kStart;
+};
+
+}  // namespace
+
+ProbeHandResult play_probe_hand(const ProbeHandCase& c) {
+  const double dt = 1 / c.tick_rate;
+  const ExponentialTissue tissue(c.hardness);
+  LateAnswers answers(c, tissue);
+  ProbeTick loop(c.tick_rate);
+  ProbeWatch watch(c);
+  Pose start = Pose::Identity();
+  start.translation().z() = -kStart;
+  PushedProbe probe(c.hand, dt, start);
   Wrench commanded;
-  Wrench applied;  // a tick later
-  std::optional<double> met;
-  bool touched = false;
-  Range early;
-  Range late;
-  std::uint64_t images = 0;
-  double force_before = 0;
-  double z_before = start.translation().z();
   const auto n = static_cast<std::uint64_t>(kSeconds * c.tick_rate);
   for (std::uint64_t tick = 1; tick <= n; ++tick) {
     const double t = static_cast<double>(tick) * dt;
     const Pose X_JP = probe.measured();
-    // Of the face's deepest point.
-    const double z = X_JP.translation().z() + 0.5 * 40e-3 * std::abs(X_JP.linear()(2, 0));
-    if (t * c.image_rate >= static_cast<double>(images)) {
-      ++images;
-      const bool lost = c.lost && t > kHover + 0.2 && t < kHover + 0.7;
-      const auto ticks = static_cast<std::uint64_t>(c.delay * c.tick_rate);
-      if (!lost) answers.push_back({tick + ticks, tissue.packet(X_JP, c.prior, images, tick)});
-    }
-    for (; !answers.empty() && answers.front().due <= tick; answers.pop_front())
-      contact.take(answers.front().packet);
-    Wrench wanted = contact.step(X_JP, tick);
-    wanted.force = account.step(X_JP.translation(), wanted.force);
-    if (contact.share() == 0) wanted = {};
-    const double change = (wanted.force - commanded.force).norm();
-    if (change > kForceSlew * dt)
-      wanted.force = commanded.force + kForceSlew * dt / change * (wanted.force - commanded.force);
-    account.observe(wanted.force);
-    const double force = wanted.force.norm();
-    if (z < -0.2e-3) out.off_skin = std::max(out.off_skin, force);
-    if (z > 0 && !met) met = t;
-    if (met && !touched && force > 1e-3) {
-      touched = true;
-      out.first_depth = z;
-      if (probe.velocity().z() > 0.1) out.first_touch = t - *met;
-    }
-    if (touched && c.gesture == ProbeGesture::press) out.highest = std::max(out.highest, -z);
-    // Motion's own share: the steepest the tissue is here, with both arms.
-    const double steepest = (1 + law.slow + law.fast) * 1.5 * (150 * c.hardness + 200 * force);
-    const double beyond =
-        std::abs(force - force_before) -
-        steepest * std::max(std::abs(z - z_before), dt * (probe.velocity().norm() + kFastestTurn));
-    out.step = std::max(out.step, beyond);
-    force_before = force;
-    z_before = z;
-    if (t > kSeconds - 0.6) (t > kSeconds - 0.3 ? late : early).add(z);
-    applied = commanded;
-    commanded = wanted;
-    if (params.stiffness == 0) probe.push(t < kHover ? 0 : 3);
+    answers.pass(t, tick, X_JP, loop.contact);
+    const Wrench applied = commanded;  // a tick later
+    commanded = loop.step(X_JP, tick);
+    const double deepest = X_JP.translation().z() + 0.5 * 40e-3 * std::abs(X_JP.linear()(2, 0));
+    watch.see(t, deepest, commanded.force.norm(), probe.velocity());
+    if (c.hand.stiffness == 0) probe.push(t < kHover ? 0 : 3);
     probe.advance(applied, wanted_pose(c.gesture, t));
-    out.given = std::max(out.given, probe.given());
+    watch.out.given = std::max(watch.out.given, probe.given());
   }
-  if (c.gesture == ProbeGesture::press) {
-    out.swing = late.size() < 0.98 * early.size() ? 0 : late.size();
-    const double truth = tissue.force(probe.pose().translation().z());
-    if (truth > 0.1) out.settled = std::abs(force_before - truth) / truth;
-  }
-  return out;
+  watch.end(tissue.force(probe.pose().translation().z()));
+  return watch.out;
 }
 
 std::vector<ProbeHandCase> probe_hand_cases(std::size_t every) {

@@ -8,6 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "artus/detail/haptics/probe/curve_fit.h"
+#include "artus/detail/haptics/probe/probe_packet.h"
+#include "artus/detail/haptics/probe/skin_surface.h"
 #include "tests/support/real_time.h"
 
 namespace artus {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/detail/simulation/skin_surface.h"
+#include "artus/detail/haptics/probe/skin_surface.h"
 
 #include <algorithm>
 #include <cmath>
