@@ -104,20 +104,13 @@ TEST(HapticTool, NumbersThatMakeNoSenseAreRefusedAtTheFlag) {
 
 TEST(HapticTool, ANeedlesLengthIsOneNumberForFlowForceAndPicture) {
   const auto length = [](const std::vector<std::string>& flags) {
-    std::vector<std::string> all{"inject",
-                                 "-j",
-                                 kSimple,
-                                 "--volume-ml",
-                                 "0.1",
-                                 "--rate",
-                                 "0.5",
-                                 "--aspirate",
-                                 "0",
-                                 "--no-images",
-                                 "--rigid",
-                                 "--json",
-                                 "--out",
-                                 ::testing::TempDir() + "artus-inject-length"};
+    std::vector<std::string> all{"inject",  "-j",
+                                 kSimple,   "--volume-ml",
+                                 "0.1",     "--rate",
+                                 "0.5",     "--aspirate",
+                                 "0",       "--no-images",
+                                 "--rigid", "--json",
+                                 "--out",   ::testing::TempDir() + "artus-inject-length"};
     all.insert(all.end(), flags.begin(), flags.end());
     const auto run = artus(all);
     EXPECT_FALSE(run.out.empty()) << run.err;
