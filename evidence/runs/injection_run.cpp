@@ -19,9 +19,7 @@
 
 namespace artus {
 namespace {
-
 using Kind = OperatorPhase::Kind;
-
 constexpr double kSpeed = 0.012;           // m/s of the needle
 constexpr double kBackSpeed = 1.5e-3;      // m/s while feeling for the space; assumed
 constexpr double kThrough = 2e-3;          // m that the tip goes through a thin space; assumed

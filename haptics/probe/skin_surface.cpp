@@ -9,10 +9,10 @@
 namespace artus {
 namespace {
 
-constexpr double kMargin = 10e-3;  // m beyond the face's rim
+constexpr double kBeside = 10e-3;  // m beyond the face's rim
 constexpr double kReach = 60e-3;   // m before and behind the face
 constexpr double kMaxSlope = 1;
-constexpr double kNone = std::numeric_limits<double>::infinity();
+constexpr double kNoSkin = std::numeric_limits<double>::infinity();
 
 constexpr auto kColumns = static_cast<int>(ProbePacket::kColumns);
 constexpr auto kRows = static_cast<int>(ProbePacket::kRows);
@@ -111,11 +111,11 @@ void SkinSurface::describe(const Pose& X_JP, double length, double width,
     packet.X_JF[static_cast<std::size_t>(i)] = X_JP.matrix()(i / 4, i % 4);
   packet.length = length;
   packet.width = width;
-  packet.spacing_x = (length + 2 * kMargin) / (kColumns - 1);
-  packet.spacing_y = (width + 2 * kMargin) / (kRows - 1);
-  packet.z.fill(kNone);
+  packet.spacing_x = (length + 2 * kBeside) / (kColumns - 1);
+  packet.spacing_y = (width + 2 * kBeside) / (kRows - 1);
+  packet.z.fill(kNoSkin);
   const Pose X_PJ = X_JP.inverse();
-  const double far = 0.5 * std::hypot(length, width) + kMargin + kReach;
+  const double far = 0.5 * std::hypot(length, width) + kBeside + kReach;
   const auto& vertices = joint_->mesh.vertices;
   for (const auto& triangle : triangles_) {
     if ((vertices[triangle[0]] - X_JP.translation()).squaredNorm() > far * far) continue;

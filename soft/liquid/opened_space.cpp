@@ -197,6 +197,16 @@ int OpenedSpace::steps_for(const Flow& flow) const {
   return static_cast<int>(std::clamp(n, 2.0, static_cast<double>(kMaxSteps)));
 }
 
+/// Each corner once.
+static std::vector<std::uint32_t> corners_of(
+    const std::vector<std::array<std::uint32_t, 3>>& walls) {
+  std::vector<std::uint32_t> corners;
+  for (const auto& wall : walls) corners.insert(corners.end(), wall.begin(), wall.end());
+  std::sort(corners.begin(), corners.end());
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  return corners;
+}
+
 OpenedSpace::Flow OpenedSpace::flow_in(const TetMesh& mesh, const Filling& filling) const {
   ARTUS_REQUIRE(filling.volume >= 0, "a volume of at least 0");
   Flow flow;
@@ -210,10 +220,7 @@ OpenedSpace::Flow OpenedSpace::flow_in(const TetMesh& mesh, const Filling& filli
   flow.reach_ = reach_of(flow, filling.volume);
   const std::vector<Triangle> walls = walls_of(mesh);
   const std::vector<SidedCage::Place> places = places_in(mesh);
-  std::vector<std::uint32_t> moving;
-  for (const Triangle& wall : walls) moving.insert(moving.end(), wall.begin(), wall.end());
-  std::sort(moving.begin(), moving.end());
-  moving.erase(std::unique(moving.begin(), moving.end()), moving.end());
+  const std::vector<std::uint32_t> moving = corners_of(walls);
   std::vector<Vec3> moved = mesh.vertices;
   const auto held = [&] {
     double six = 0;

@@ -235,7 +235,7 @@ void OpeningField::load() {
 }
 
 std::vector<double> OpeningField::times(const std::vector<double>& x) const {
-  static const Element kUnit = unit_cube().cast<float>();
+  const Element unit = unit_cube().cast<float>();
   std::vector<double> y(x.size(), 0);
   const auto copies = cage_->copies();
   for (const std::uint32_t c : giving_) {
@@ -245,7 +245,7 @@ std::vector<double> OpeningField::times(const std::vector<double>& x) const {
       for (std::size_t a = 0; a < 3; ++a)
         in[3 * i + static_cast<int>(a)] =
             static_cast<float>(x[3 * nodes[static_cast<std::size_t>(i)] + a]);
-    const Corner out = kUnit * in;
+    const Corner out = unit * in;
     for (int i = 0; i < 8; ++i)
       for (std::size_t a = 0; a < 3; ++a)
         y[3 * nodes[static_cast<std::size_t>(i)] + a] +=

@@ -67,6 +67,8 @@ class SidedCage {
   static constexpr int kSamples = 4;  ///< along each edge of a cube
 
  private:
+  static constexpr std::uint8_t kNone = 255;  // a part of no cube
+  static constexpr int kReach = 3;            // samples, in which the tissue of a point is sought
   using Index = std::array<std::int32_t, 3>;
   struct Hit {
     double at;

@@ -303,6 +303,14 @@ TEST(SkinContact, AllocatesAndLocksNothing) {
   const ProbePacket packet = flat();
   ARTUS_RUNS_REALTIME(SkinContact::take, contact.take(packet));
   ARTUS_RUNS_REALTIME(SkinContact::step, test::use(contact.step(pressed(1e-3), 1)));
+  FaceDepths face;
+  ARTUS_RUNS_REALTIME(FaceDepths::set_face, face.set_face(0.04, 0.006));
+  ARTUS_RUNS_REALTIME(FaceDepths::look, face.look(packet, pressed(1e-3)));
+  ARTUS_RUNS_REALTIME(FaceDepths::shares, test::use(face.shares(packet.curve)));
+  ARTUS_RUNS_REALTIME(frame_of, test::use(frame_of(packet)));
+  ARTUS_RUNS_REALTIME(unit_curve, test::use(unit_curve(face.depth(), 200)));
+  ARTUS_RUNS_REALTIME(is_packet, test::use(is_packet(packet)));
+  ARTUS_RUNS_REALTIME(force_at_rest, test::use(force_at_rest(packet, pressed(1e-3))));
 }
 
 TEST(FitCurve, FindsTheCurveThatMadeAPress) {
