@@ -12,7 +12,7 @@ namespace {
 constexpr double kBeside = 10e-3;  // m beyond the face's rim
 constexpr double kReach = 60e-3;   // m before and behind the face
 constexpr double kMaxSlope = 1;
-constexpr double kNoSkin = std::numeric_limits<double>::infinity();
+constexpr double kNoHeight = std::numeric_limits<double>::infinity();
 
 constexpr auto kColumns = static_cast<int>(ProbePacket::kColumns);
 constexpr auto kRows = static_cast<int>(ProbePacket::kRows);
@@ -113,7 +113,7 @@ void SkinSurface::describe(const Pose& X_JP, double length, double width,
   packet.width = width;
   packet.spacing_x = (length + 2 * kBeside) / (kColumns - 1);
   packet.spacing_y = (width + 2 * kBeside) / (kRows - 1);
-  packet.z.fill(kNoSkin);
+  packet.z.fill(kNoHeight);
   const Pose X_PJ = X_JP.inverse();
   const double far = 0.5 * std::hypot(length, width) + kBeside + kReach;
   const auto& vertices = joint_->mesh.vertices;
