@@ -27,6 +27,10 @@ constexpr const char* kSayings[] = {
     msgid("shared memory {} was replaced; {}"),
     msgid("shared memory {} was overwritten; {}"),
     msgid("recreated"),
+    msgid("the recording cannot be written: {}"),
+    msgid(
+        "the device's plunger went faster than a thumb can push it: refused, it begins anew where "
+        "it is, without a force"),
     msgid("this shared memory does not exist; start `artus serve` first"),
     msgid("the shared memory belongs to another user"),
     msgid("damaged shared memory of an earlier run could not be replaced"),
