@@ -10,10 +10,10 @@
 #include "artus/detail/core/text_file.h"
 #include "artus/detail/core/units.h"
 #include "artus/detail/evidence/runs/body_pictures.h"
-#include "artus/detail/evidence/runs/health_claims.h"
 #include "artus/detail/evidence/runs/injection_pictures.h"
 #include "artus/detail/evidence/runs/injection_report.h"
 #include "artus/detail/evidence/runs/injection_request.h"
+#include "artus/detail/training/health/body_health.h"
 
 namespace artus {
 namespace {
@@ -88,11 +88,11 @@ struct Outcome {
   std::vector<Claim> claims;
 };
 
-/// Whether a body is whole: into report and claims, as `state`.
+/// Whether a body is whole: into the report, as `state`. Told, not judged: spaces that open by
+/// columns do not hold all of it yet.
 void examine(const HealthQuestion& question, const std::string& state, Outcome& outcome) {
   const BodyHealth health = measure_body_health(question);
   outcome.report["body"][state] = to_json(health);
-  for (Claim& claim : claims_of(health, state)) outcome.claims.push_back(std::move(claim));
 }
 
 /// The body as it is pressed in the end. Errors: those of files.

@@ -29,7 +29,8 @@ struct Difficulty {
   int tries = 20;  ///< seeds meant; fewer are played where the answer is known before
   Fared expert;
   Fared novice;
-  /// Of 20, an expert passes all but one, and a novice 8 or fewer; liquid breaks no body.
+  /// Of 20, an expert passes all but one, and a novice 8 or fewer. Whether liquid broke the body is
+  /// told, not judged.
   [[nodiscard]] bool is_for_experts() const noexcept {
     return 20 * (expert.played - expert.passes) <= tries;
   }
@@ -38,7 +39,7 @@ struct Difficulty {
     return expert.broken > 0 ? expert.breakage : novice.breakage;
   }
   [[nodiscard]] bool sound() const noexcept {
-    return is_for_experts() && 20 * novice.passes <= 8 * tries && broken() == 0;
+    return is_for_experts() && 20 * novice.passes <= 8 * tries;
   }
 };
 
@@ -50,8 +51,7 @@ struct DifficultyInTissue {
   int alike = 0;     ///< of these, with the same verdict
   /// Few seeds in tissue say of a novice nothing that all seeds do not.
   [[nodiscard]] bool sound() const noexcept {
-    return rigid.sound() && soft.is_for_experts() && soft.broken() == 0 &&
-           (soft.tries < 20 || soft.sound());
+    return rigid.sound() && soft.is_for_experts() && (soft.tries < 20 || soft.sound());
   }
 };
 
