@@ -162,8 +162,8 @@ void add_play_command(Command& app, ExitCode& code) {
   auto options = std::make_shared<PlayCommandOptions>();
   Command* command = add_command(
       app, "play", "Let simulated hands do a scenario, without a window",
-      "The same scenario, operator and seed give the same bytes. Exit code 1 when liquid left the\n"
-      "body broken, not when the attempt is not passed.\n"
+      "The same scenario, operator and seed give the same bytes. It tells whether liquid left the\n"
+      "body whole. Exit code 0 whether the attempt is passed or not.\n"
       "Examples:\n"
       "  artus play gel-align --operator expert --seed 3 --record out/attempt\n"
       "  artus play gel-align --operator novice:20 --json\n"

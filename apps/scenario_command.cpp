@@ -174,8 +174,9 @@ void add_scenario_command(Command& app, ExitCode& code) {
       app, "scenario", "List, show and check scenarios",
       "check: can it be done at all, and do simulated hands find it right: an expert passes 19 of\n"
       "20 seeds or more, a novice 8 or fewer, in rigid tissue and, of fewer seeds, in tissue that\n"
-      "gives way, where liquid may not leave the body broken; there novices stop when enough have\n"
-      "failed. Exit code 1 when not.\n"
+      "gives way; there novices stop when enough have failed, and broken bodies are told. Exit "
+      "code\n"
+      "1 when not.\n"
       "Examples:\n"
       "  artus scenario list\n"
       "  artus scenario show gel-align > mine.toml\n"
