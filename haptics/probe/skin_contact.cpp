@@ -62,8 +62,8 @@ void SkinContact::take(const ProbePacket& packet) noexcept {
   offset_ = before - face_.depth();
 }
 
-/// A face that comes from nowhere, or to skin that nothing was known of, feels no more than it
-/// would had it just touched: what is below it comes as packets do, slowly and paid for.
+/// A face that comes from nowhere into the tissue, after a pause or where nothing was known, feels
+/// no more than had it just touched; the rest comes at the corrections' slew, which is its ramp.
 void SkinContact::start(const Pose& X_JP) noexcept {
   face_.look(packet_, X_JP);
   offset_ = -face_.depth().max(0);
