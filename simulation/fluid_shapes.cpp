@@ -64,6 +64,7 @@ FluidShapes::FluidShapes(std::shared_ptr<const CompiledJoint> joint, Liquid liqu
     : joint_(std::move(joint)), liquid_(std::move(liquid)) {
   ARTUS_REQUIRE(joint_ != nullptr && image_rate > 0, "needs a joint and an image rate above 0");
   spaces_ = spaces_of(*joint_);
+  opened_ = std::make_shared<const OpenedSpaces>(joint_, true);
   images_to_change_ = static_cast<std::uint64_t>(std::ceil(kShapeTime * image_rate));
   images_to_grow_ =
       static_cast<std::uint64_t>(kGrowthTime / kShapeTime * static_cast<double>(images_to_change_));
@@ -132,20 +133,20 @@ void FluidShapes::follow(std::span<const InjectedSite> sites,
   due_ = images_ + (begun_.empty() ? images_to_change_ : images_to_grow_);
   begun_.assign(sites.begin(), sites.end());
   begun_under_ = press;
-  next_ = std::async(
-      std::launch::async, [joint = joint_, liquid = liquid_, tissue, before = state_.shape,
-                           places = injected_of(*joint_, spaces_, begun_)] {
-        FluidShape shape;
-        StressAt stress;
-        if (tissue && !tissue->contact().pieces.empty()) stress = FaceStress(tissue);
-        shape.joint =
-            std::make_shared<const CompiledJoint>(with_injected(*joint, places, liquid, stress));
-        if (tissue)
-          shape.map = map_of(*shape.joint, *tissue, before.get());
-        else
-          shape.scene = std::make_shared<const Scene>(shape.joint);
-        return shape;
-      });
+  next_ = std::async(std::launch::async,
+                     [joint = joint_, liquid = liquid_, opened = opened_, tissue,
+                      before = state_.shape, places = injected_of(*joint_, spaces_, begun_)] {
+                       FluidShape shape;
+                       StressAt stress;
+                       if (tissue && !tissue->contact().pieces.empty()) stress = FaceStress(tissue);
+                       shape.joint = std::make_shared<const CompiledJoint>(
+                           with_injected(*joint, places, liquid, stress, *opened));
+                       if (tissue)
+                         shape.map = map_of(*shape.joint, *tissue, before.get());
+                       else
+                         shape.scene = std::make_shared<const Scene>(shape.joint);
+                       return shape;
+                     });
 }
 
 }  // namespace artus

@@ -9,6 +9,7 @@
 #include "artus/detail/anatomy/body/liquid.h"
 #include "artus/detail/anatomy/body/space.h"
 #include "artus/detail/simulation/syringe_core.h"
+#include "artus/detail/soft/liquid/opened_spaces.h"
 #include "artus/detail/soft/solver/deformed_body.h"
 #include "artus/detail/soft/solver/soft_body.h"
 #include "artus/raycast/scene.h"
@@ -72,6 +73,7 @@ class FluidShapes {
 
   std::shared_ptr<const CompiledJoint> joint_;
   JointSpaces spaces_;
+  std::shared_ptr<const OpenedSpaces> opened_;  // begun with the session: it takes seconds
   Liquid liquid_;
   std::uint64_t images_to_change_;
   std::uint64_t images_to_grow_;

@@ -83,10 +83,10 @@ std::vector<Injected> places_at(const Scene& scene, const InjectionRun& run,
   return places;
 }
 
-std::shared_ptr<const Scene> scene_of(const Scene& scene, const InjectionRun& run,
+std::shared_ptr<const Scene> scene_of(const OpenedSpaces& spaces, const InjectionRun& run,
                                       const std::vector<Injected>& places) {
   return std::make_shared<const Scene>(std::make_shared<const CompiledJoint>(
-      with_injected(scene.joint(), places, run.plunger.liquid)));
+      with_injected(spaces.joint(), places, run.plunger.liquid, {}, spaces)));
 }
 
 /// m^3 of the named regions around the tip, by parallel rays.
@@ -254,19 +254,19 @@ double area_apart(const CompiledJoint& joint, const std::vector<Vec3>& moved,
 }
 
 /// How far the roof is lifted, and by half of that over which length and over a disc of which size.
-void measure_opening(const Scene& scene, const std::vector<Injected>& places,
+void measure_opening(const OpenedSpaces& spaces, const std::vector<Injected>& places,
                      InjectionPictures& out) {
   for (const Injected& place : places) {
     if (!place.cavity || !(place.volume > 0)) continue;
-    const CompiledJoint& joint = scene.joint();
+    const CompiledJoint& joint = spaces.joint();
     const auto at = std::find_if(joint.regions.begin(), joint.regions.end(),
                                  [&](const Region& r) { return r.name == place.region; });
-    const InflatedSpace space(joint, static_cast<RegionId>(at - joint.regions.begin()), place.tip);
-    const double opening = space.largest_opening(place.volume);
+    const OpenedSpace& space = spaces.of(static_cast<RegionId>(at - joint.regions.begin()));
+    const double opening = space.largest_opening(place.tip, place.volume);
     if (opening <= out.opening) continue;
     out.opening = opening;
-    out.confined = space.confines(place.volume);
-    const std::vector<Vec3> moved = space.vertices(place.volume);
+    out.confined = space.confines(place.tip, place.volume);
+    const std::vector<Vec3> moved = space.vertices(joint.mesh, {place.tip, place.volume, {}});
     double widest = 0;
     for (const Interface& f : joint.mesh.interfaces) {
       if (joint.regions[f.front].name != place.region && joint.regions[f.back].name != place.region)
@@ -327,10 +327,11 @@ Result<std::string> write_injection_video(const std::shared_ptr<const Scene>& sc
   const auto [X_JP, deep] = view_of(*scene, run, options);
   InjectionPlume plume(*scene, run, deep.needle.bore);
   std::optional<VideoFile> video;
+  const OpenedSpaces spaces(scene->shared_joint());
   for (int k = 0; k < kFrames; ++k) {
     const double from = first->time - kAround;
     const InjectionRow& row = row_of(run, from + k * (last->time + kAround - from) / (kFrames - 1));
-    const auto body = scene_of(*scene, run, places_at(*scene, run, row));
+    const auto body = scene_of(spaces, run, places_at(*scene, run, row));
     Pose X_JN = run.X_JN;
     X_JN.translation() += (row.depth - run.depth) * X_JN.linear().col(2);
     Renderer renderer(body, deep.transducer, deep.settings);
@@ -365,18 +366,21 @@ Result<InjectionPictures> write_injection_pictures(const std::shared_ptr<const S
   InjectionPlume plume(*scene, run, deep.needle.bore);
   std::vector<Injected> last;
   std::shared_ptr<const Scene> body = scene;
+  const OpenedSpaces spaces(scene->shared_joint());
   for (const auto& [file, share] :
        {std::pair{"before.png", 0.0}, {"during.png", 0.5}, {"after.png", 1.0}}) {
     const InjectionRow* row = row_at(run, share);
     if (row == nullptr) continue;
     last = places_at(*scene, run, *row);
-    body = scene_of(*scene, run, last);
+    body = scene_of(spaces, run, last);
     ARTUS_TRY(write_image(draw(body, run, X_JP, deep, plume, row->time), folder / file));
     out.files.emplace_back(file);
   }
   for (const Injected& place : last) {
     out.drawn_volume += place.volume;
-    if (place.cavity) names.push_back(place.region);
+    if (place.cavity)
+      for (const RegionId region : spaces.of(scene->region_at(place.tip)).regions())
+        names.push_back(scene->joint().regions[region].name);
   }
   out.ray_volume = volume_by_rays(*body, run.X_JN, names) - volume_by_rays(*scene, run.X_JN, names);
   const Vec3& tip = run.X_JN.translation();
@@ -384,7 +388,7 @@ Result<InjectionPictures> write_injection_pictures(const std::shared_ptr<const S
       volume_by_labels(*body, X_JP, tip, names) - volume_by_labels(*scene, X_JP, tip, names);
   out.label_area = area_by_labels(*body, X_JP, deep, names);
   if (options.transducer.radius == 0) measure_seen(*scene, *body, X_JP, deep, names, out);
-  measure_opening(*scene, last, out);
+  measure_opening(spaces, last, out);
   out.at_rest = question_of(*scene, last, deep);
   out.at_rest.before = scene;
   out.at_rest.after = body;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
 #include <span>
 #include <utility>
@@ -253,38 +254,99 @@ CompiledJoint with_boluses(const CompiledJoint& joint, std::vector<Bolus> boluse
   return with;
 }
 
-CompiledJoint with_filled_space(const CompiledJoint& joint, RegionId region, const Vec3& tip,
-                                double volume, const Liquid& liquid,
-                                const InflatedSpace::Press& press) {
+namespace {
+
+/// A space and what is put into it, of all places that it has.
+struct Filled {
+  const OpenedSpace* space;
+  OpenedSpace::Filling filling;
+};
+
+/// m^3 within the walls of a space.
+double held_in(const TetMesh& mesh, const OpenedSpace& space) {
+  const auto is_in = [&](RegionId r) {
+    return std::find(space.regions().begin(), space.regions().end(), r) != space.regions().end();
+  };
+  const Vec3& from = mesh.vertices.front();
+  double six = 0;
+  for (const Interface& f : mesh.interfaces) {
+    if (is_in(f.front) == is_in(f.back)) continue;
+    const auto p = [&](std::size_t k) {
+      return Vec3(mesh.vertices[f.vertices[k]] - from);
+    };
+    six += (is_in(f.back) ? 1 : -1) * p(0).dot(p(1).cross(p(2)));
+  }
+  return six / 6;
+}
+
+/// One after another. What opens later gives to those before it, or takes from them, next to
+/// nothing of their volume; that is made up for.
+void open_spaces(std::vector<Filled>& filled, TetMesh& mesh) {
+  constexpr int kRounds = 6;
+  constexpr double kExact = 1e-9;  // of a volume
+  const TetMesh rest = mesh;
+  const std::vector<Filled> wanted = filled;
+  for (int round = 0; round < kRounds; ++round) {
+    mesh.vertices = rest.vertices;
+    for (const Filled& f : filled) mesh.vertices = f.space->vertices(mesh, f.filling);
+    bool exact = true;
+    for (std::size_t k = 0; k + 1 < filled.size(); ++k) {
+      const double volume = wanted[k].filling.volume;
+      const double off = held_in(mesh, *filled[k].space) - held_in(rest, *filled[k].space) - volume;
+      if (std::abs(off) <= kExact * volume) continue;
+      exact = false;
+      filled[k].filling.volume = std::max(0.0, filled[k].filling.volume - off);
+    }
+    if (exact) return;
+  }
+}
+
+}  // namespace
+
+CompiledJoint with_injected(const CompiledJoint& joint, const std::vector<Injected>& places,
+                            const Liquid& liquid, const StressAt& stress,
+                            const OpenedSpaces& spaces) {
   CompiledJoint with = joint;
-  with.mesh.vertices = InflatedSpace(joint, region, tip).vertices(volume, press);
-  with.regions[region].tissue = liquid_tissue(with, liquid);
+  std::vector<Filled> filled;
+  // Tissue first: where it is parted is told of the body at rest, and is lifted with what opens.
+  for (const bool cavity : {false, true})
+    for (const Injected& place : places) {
+      const auto at = std::find_if(joint.regions.begin(), joint.regions.end(),
+                                   [&](const Region& r) { return r.name == place.region; });
+      if (at == joint.regions.end() || !(place.volume >= kVisible) || place.cavity != cavity)
+        continue;
+      const auto region = static_cast<RegionId>(at - joint.regions.begin());
+      if (region < kFirstRegion) continue;
+      if (!cavity) {
+        with = with_boluses(with, make_boluses(with, region, place.tip, place.volume), liquid);
+        continue;
+      }
+      const OpenedSpace* space = &spaces.of(region);
+      const auto known = std::find_if(filled.begin(), filled.end(),
+                                      [&](const Filled& f) { return f.space == space; });
+      if (known != filled.end()) {
+        known->filling.volume += place.volume;
+        continue;
+      }
+      OpenedSpace::Press press;
+      if (stress)
+        press = [&stress, whole = std::max(place.pressure, kMinPressure)](const Vec3& p) {
+          return stress(p) / whole;
+        };
+      filled.push_back({space, {place.tip, place.volume, press}});
+    }
+  open_spaces(filled, with.mesh);
+  if (filled.empty()) return with;
+  const TissueId tissue = liquid_tissue(with, liquid);
+  for (const Filled& f : filled)
+    for (const RegionId region : f.space->regions()) with.regions[region].tissue = tissue;
   return with;
 }
 
 CompiledJoint with_injected(const CompiledJoint& joint, const std::vector<Injected>& places,
                             const Liquid& liquid, const StressAt& stress) {
-  // Tissue first: where it is parted is told of the body at rest, and is lifted with what opens.
-  std::vector<Injected> ordered = places;
-  std::stable_partition(ordered.begin(), ordered.end(),
-                        [](const Injected& place) { return !place.cavity; });
-  CompiledJoint with = joint;
-  for (const Injected& place : ordered) {
-    const auto at = std::find_if(joint.regions.begin(), joint.regions.end(),
-                                 [&](const Region& r) { return r.name == place.region; });
-    if (at == joint.regions.end() || !(place.volume >= kVisible)) continue;
-    const auto region = static_cast<RegionId>(at - joint.regions.begin());
-    if (region < kFirstRegion) continue;
-    InflatedSpace::Press press;
-    if (stress)
-      press = [&stress, whole = std::max(place.pressure, kMinPressure)](const Vec3& p) {
-        return stress(p) / whole;
-      };
-    with = place.cavity
-               ? with_filled_space(with, region, place.tip, place.volume, liquid, press)
-               : with_boluses(with, make_boluses(with, region, place.tip, place.volume), liquid);
-  }
-  return with;
+  const OpenedSpaces spaces(std::make_shared<const CompiledJoint>(joint));
+  return with_injected(joint, places, liquid, stress, spaces);
 }
 
 }  // namespace artus

@@ -2,6 +2,8 @@
 // Every place of every bundled joint that takes liquid, opened: what must hold wherever it is.
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -119,6 +121,66 @@ int allowed_disorder(const std::string& what, int lines) {
   return what == "shoulder: biceps_sheath" ? lines / 100 : lines / 2000;
 }
 
+/// What the flow of a filling does to tissue: the least share of a volume that is left, beside bone
+/// and elsewhere, and the farthest that the way back misses, m.
+struct Carried {
+  double beside_bone = 1;
+  double elsewhere = 1;
+  double missed = 0;
+};
+
+Carried carry(const CompiledJoint& joint, const OpenedSpace& space,
+              const OpenedSpace::Filling& filling) {
+  constexpr double kSmall = 2e-6;    // m
+  constexpr std::size_t kEach = 61;  // tetrahedra
+  constexpr double kBeside = 5e-3;   // m, two cubes of the field
+  const OpenedSpace::Flow flow = space.flow(filling);
+  std::vector<Vec3> bone;
+  for (const Interface& f : joint.mesh.interfaces)
+    if (joint.tissue_of(f.front).haptic.hard || joint.tissue_of(f.back).haptic.hard)
+      bone.push_back(joint.mesh.vertices[f.vertices[0]]);
+  const auto to = [&](const Vec3& p) {
+    return flow.forth(flow.place_of(p, Vec3::Zero())).p;
+  };
+  Carried out;
+  for (std::size_t t = 0; t < joint.mesh.tetrahedra.size(); t += kEach) {
+    const RegionId region = joint.mesh.regions[t];
+    const auto in = space.regions();
+    if (std::find(in.begin(), in.end(), region) != in.end()) continue;
+    if (joint.tissue_of(region).haptic.hard) continue;
+    Vec3 p = Vec3::Zero();
+    for (const std::uint32_t v : joint.mesh.tetrahedra[t]) p += joint.mesh.vertices[v] / 4;
+    const SidedCage::Place moved = flow.forth(flow.place_of(p, Vec3::Zero()));
+    if ((moved.p - p).norm() < 0.02e-3) continue;
+    Eigen::Matrix3d slope;
+    for (int a = 0; a < 3; ++a)
+      slope.col(a) =
+          (to(p + kSmall * Vec3::Unit(a)) - to(p - kSmall * Vec3::Unit(a))) / (2 * kSmall);
+    const bool beside = std::any_of(bone.begin(), bone.end(), [&](const Vec3& b) {
+      return (b - p).squaredNorm() < kBeside * kBeside;
+    });
+    double& least = beside ? out.beside_bone : out.elsewhere;
+    least = std::min(least, slope.determinant());
+    out.missed = std::max(out.missed, (flow.back(moved).p - p).norm());
+  }
+  return out;
+}
+
+/// The most by which a tissue's whole volume changes, of it.
+double changed_most(const CompiledJoint& before, const CompiledJoint& after,
+                    std::span<const RegionId> space) {
+  std::vector<std::array<double, 2>> volumes(before.regions.size());
+  for (std::size_t t = 0; t < before.mesh.tetrahedra.size(); ++t) {
+    volumes[before.mesh.regions[t]][0] += tet_volume(before.mesh, t);
+    volumes[before.mesh.regions[t]][1] += tet_volume(after.mesh, t);
+  }
+  double most = 0;
+  for (RegionId r = kFirstRegion; r < volumes.size(); ++r)
+    if (volumes[r][0] > 0 && std::find(space.begin(), space.end(), r) == space.end())
+      most = std::max(most, std::abs(volumes[r][1] / volumes[r][0] - 1));
+  return most;
+}
+
 class OpenedBody : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(OpenedBody, NoPlaceMovesBoneOrLosesVolumeOrPassesAWall) {
@@ -127,6 +189,7 @@ TEST_P(OpenedBody, NoPlaceMovesBoneOrLosesVolumeOrPassesAWall) {
   ASSERT_TRUE(joint);
   const auto spaces = make_joint_spaces(*joint);
   ASSERT_TRUE(spaces);
+  const OpenedSpaces opened_spaces(std::make_shared<const CompiledJoint>(*joint));
   int opened = 0;
   for (RegionId region = kFirstRegion; region < joint->regions.size(); ++region) {
     const SpaceKind kind = spaces->spaces[spaces->of_region[region]].law.kind;
@@ -137,8 +200,8 @@ TEST_P(OpenedBody, NoPlaceMovesBoneOrLosesVolumeOrPassesAWall) {
     const std::string what = std::string(GetParam()) + ": " + joint->regions[region].name;
     const bool cavity = kind == SpaceKind::cavity;
     const double volume = 1e-6;
-    const CompiledJoint with =
-        with_injected(*joint, {{joint->regions[region].name, volume, cavity, tip}}, Liquid{});
+    const CompiledJoint with = with_injected(
+        *joint, {{joint->regions[region].name, volume, cavity, tip}}, Liquid{}, {}, opened_spaces);
     EXPECT_EQ(max_moved_bone(*joint, with), 0) << what;
     const RegionId liquid = cavity ? region : static_cast<RegionId>(with.regions.size() - 1);
     const double before = cavity ? volume_of(*joint, region, tip) : 0;
@@ -150,6 +213,52 @@ TEST_P(OpenedBody, NoPlaceMovesBoneOrLosesVolumeOrPassesAWall) {
   }
   EXPECT_GT(opened, 3);
 }
+
+/// What the fullest of the bundled spaces are opened by, ml.
+struct Full {
+  const char* joint;
+  const char* region;
+  std::vector<double> volumes;
+};
+
+class FullSpace : public ::testing::TestWithParam<Full> {};
+
+TEST_P(FullSpace, FoldsNothingAndLosesNoVolume) {
+  const auto joint =
+      read_compiled_joint(test::test_joints() / (std::string(GetParam().joint) + ".artus"));
+  ASSERT_TRUE(joint);
+  const auto at = std::find_if(joint->regions.begin(), joint->regions.end(),
+                               [&](const Region& r) { return r.name == GetParam().region; });
+  ASSERT_NE(at, joint->regions.end());
+  const auto region = static_cast<RegionId>(at - joint->regions.begin());
+  Vec3 tip;
+  ASSERT_TRUE(find_place(*joint, region, tip));
+  const OpenedSpace space(*joint, {region});
+  const Beams rest = look_along(*joint, tip, region);
+  for (const double ml : GetParam().volumes) {
+    SCOPED_TRACE(ml);
+    const double volume = 1e-6 * ml;
+    CompiledJoint with = *joint;
+    with.mesh.vertices = space.vertices(joint->mesh, {tip, volume, {}});
+    EXPECT_EQ(max_moved_bone(*joint, with), 0);
+    EXPECT_NEAR(volume_of(with, region, tip) - volume_of(*joint, region, tip), volume,
+                1e-6 * volume);
+    const Carried carried = carry(*joint, space, {tip, volume, {}});
+    EXPECT_GT(carried.beside_bone, 0.3);
+    EXPECT_GT(carried.elsewhere, 0.75);
+    EXPECT_LT(carried.missed, 1e-6);
+    EXPECT_LT(changed_most(*joint, with, space.regions()), 0.02);
+    const Beams beams = look_along(with, tip, region);
+    EXPECT_LE(beams.disordered - rest.disordered, beams.lines / 2000);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Bundled, FullSpace,
+                         ::testing::Values(Full{"simple-shoulder", "bursa", {0.1, 20}},
+                                           Full{"shoulder", "subacromial_bursa", {0.1, 5, 10}},
+                                           Full{"knee", "suprapatellar_recess", {0.1, 2, 5}},
+                                           Full{"hip", "anterior_recess", {0.1, 1, 2}}),
+                         [](const auto& full) { return std::string(full.param.region); });
 
 INSTANTIATE_TEST_SUITE_P(Bundled, OpenedBody,
                          ::testing::Values("simple-shoulder", "shoulder", "knee", "hip"),

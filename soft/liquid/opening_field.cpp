@@ -1,0 +1,401 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/detail/soft/liquid/opening_field.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Dense>
+
+#include "artus/detail/core/check.h"
+#include "artus/detail/soft/cage/material.h"
+
+namespace artus {
+namespace {
+
+constexpr double kPoisson = 0.45;    // assumed: numerical, as compressible as a cube can be
+constexpr double kSoftest = 3e3;     // Pa, of tissue
+constexpr double kStiffest = 300e3;  // Pa
+constexpr double kAir = 100;         // Pa: next to nothing, so that skin moves out into a field
+constexpr double kFilm = 2e6;        // Pa/m that holds walls together at a rim; assumed
+constexpr double kFade = 6;          // e-folds of that from the rim to the place farthest from it
+constexpr double kFaint = 0.01;      // of it, that is none
+constexpr double kAnchor = 1e-6;     // of a node's stiffness: for what hangs on nothing
+constexpr double kExact = 3e-5;      // of the load
+constexpr int kMaxPasses = 3000;
+constexpr int kPassesToAsk = 16;
+constexpr double kExactScalar = 1e-4;
+constexpr double kAlong = 10;  // by which a number on the walls spreads more easily along motion
+
+using Element = Eigen::Matrix<float, 24, 24>;  // as exact as the passes need
+using Corner = Eigen::Matrix<float, 24, 1>;
+
+using Slopes = Eigen::Matrix<double, 8, 3>;
+
+/// Of the corners' shares at one of a cube's eight Gauss points, edge 1 m.
+Slopes slopes_at(int point) {
+  const auto at = [&](int a) {
+    return 0.5 + (((point >> a) & 1) != 0 ? 0.5 : -0.5) / std::sqrt(3.0);
+  };
+  Slopes slope;
+  for (int i = 0; i < 8; ++i)
+    for (int a = 0; a < 3; ++a) {
+      double s = ((i >> a) & 1) != 0 ? 1 : -1;
+      for (int b = 0; b < 3; ++b)
+        if (b != a) s *= ((i >> b) & 1) != 0 ? at(b) : 1 - at(b);
+      slope(i, a) = s;
+    }
+  return slope;
+}
+
+/// Stiffness of a cube of edge 1 m and Young's modulus 1 Pa.
+Eigen::Matrix<double, 24, 24> unit_cube() {
+  const double lambda = kPoisson / ((1 + kPoisson) * (1 - 2 * kPoisson));
+  const double mu = 0.5 / (1 + kPoisson);
+  Eigen::Matrix<double, 24, 24> k = Eigen::Matrix<double, 24, 24>::Zero();
+  for (int g = 0; g < 8; ++g) {
+    const Slopes slope = slopes_at(g);
+    for (int i = 0; i < 8; ++i)
+      for (int j = 0; j < 8; ++j) {
+        const Eigen::Matrix3d outer = slope.row(i).transpose() * slope.row(j);
+        k.block<3, 3>(3 * i, 3 * j) += (lambda * outer + mu * outer.transpose() +
+                                        mu * outer.trace() * Eigen::Matrix3d::Identity()) /
+                                       8;
+      }
+  }
+  return k;
+}
+
+using Conduction = Eigen::Matrix<double, 8, 8>;
+
+/// The parts of a cube of edge 1 m, by the conduction's xx, yy, zz, xy, xz, yz.
+std::array<Conduction, 6> unit_conduction() {
+  constexpr std::array<std::array<int, 2>, 6> kPairs{
+      {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}}};
+  std::array<Conduction, 6> parts;
+  for (std::size_t k = 0; k < 6; ++k) {
+    parts[k].setZero();
+    for (int g = 0; g < 8; ++g) {
+      const Slopes slope = slopes_at(g);
+      const Conduction part = slope.col(kPairs[k][0]) * slope.col(kPairs[k][1]).transpose() / 8;
+      parts[k] += kPairs[k][0] == kPairs[k][1] ? part : Conduction(part + part.transpose());
+    }
+  }
+  return parts;
+}
+
+}  // namespace
+
+OpeningField::OpeningField(const CompiledJoint& joint, const SidedCage& cage,
+                           const std::atomic<bool>* stop)
+    : cage_(&cage), held_(cage.n_nodes(), false), on_wall_(cage.n_nodes(), false) {
+  find_stiffness(joint);
+  find_held(joint);
+  hold_islands();
+  stick();
+  load();
+  solve(stop);
+  join_nodes();
+}
+
+/// A copy is as stiff as a whole cube of its tissue: slivers at the walls do not run ahead.
+void OpeningField::find_stiffness(const CompiledJoint& joint) {
+  const auto values = read_bundled_soft_tissues();
+  ARTUS_REQUIRE(values.has_value(), "the bundled soft tissues must be valid");
+  std::vector<double> young;
+  for (RegionId r = 0; r < joint.regions.size(); ++r) {
+    const SoftMaterial material =
+        make_soft_material(joint.tissue_of(r), *values, Vec3::Zero(), kPoisson);
+    young.push_back(r == kOutside
+                        ? kAir
+                        : std::clamp(2 * (1 + kPoisson) * material.shear, kSoftest, kStiffest));
+  }
+  for (const SidedCage::Copy& copy : cage_->copies()) {
+    double sum = 0;
+    for (const RegionId r : copy.samples) sum += young[r];
+    modulus_.push_back(sum / static_cast<double>(copy.samples.size()) * cage_->edge());
+  }
+}
+
+/// Every node of a cube that holds bone stands, on bone's side; so does what lies beyond the body's
+/// cut, and the box's border.
+void OpeningField::find_held(const CompiledJoint& joint) {
+  const auto hold = [&](const SidedCage::Copy& copy) {
+    for (const std::uint32_t node : copy.nodes) held_[node] = true;
+  };
+  for (const SidedCage::Copy& copy : cage_->copies()) {
+    bool air = true;
+    for (const RegionId r : copy.samples) {
+      if (r == kBeyond || joint.tissue_of(r).haptic.hard) hold(copy);
+      air = air && r == kOutside;
+    }
+    for (std::size_t i = 0; i < 8 && !air; ++i)
+      if (cage_->on_border(copy, i)) held_[copy.nodes[i]] = true;
+  }
+  for (const Interface& f : joint.mesh.interfaces) {
+    const auto hard = [&](RegionId r) {
+      return r == kBeyond || joint.tissue_of(r).haptic.hard;
+    };
+    if (!hard(f.front) && !hard(f.back)) continue;
+    const Vec3& a = joint.mesh.vertices[f.vertices[0]];
+    const Vec3 ab = joint.mesh.vertices[f.vertices[1]] - a;
+    const Vec3 ac = joint.mesh.vertices[f.vertices[2]] - a;
+    const Vec3 into = (hard(f.front) ? 1 : -1) * ab.cross(ac);
+    const double longest = std::max({ab.norm(), ac.norm(), (ac - ab).norm()});
+    const int n = std::max(1, static_cast<int>(std::ceil(longest / cage_->spacing())));
+    for (int i = 0; i <= n; ++i)
+      for (int j = 0; i + j <= n; ++j) {
+        const SidedCage::Place place = cage_->locate(a + (ab * i + ac * j) / n, into);
+        if (place.copy >= 0) hold(cage_->copies()[static_cast<std::size_t>(place.copy)]);
+      }
+  }
+}
+
+/// What hangs on nothing that stands, as a film between two of the space's regions, stands itself.
+void OpeningField::hold_islands() {
+  std::vector<bool> anchored = held_;
+  const auto copies = cage_->copies();
+  const auto spread = [&](const SidedCage::Copy& copy) {
+    const auto is = [&](std::uint32_t node) {
+      return anchored[node];
+    };
+    const auto n = std::count_if(copy.nodes.begin(), copy.nodes.end(), is);
+    if (n == 0 || n == 8) return false;
+    for (const std::uint32_t node : copy.nodes) anchored[node] = true;
+    return true;
+  };
+  for (bool more = true; more;) {
+    more = false;
+    for (const SidedCage::Copy& copy : copies) more = spread(copy) || more;
+    for (std::size_t c = copies.size(); c-- > 0;) more = spread(copies[c]) || more;
+  }
+  for (std::size_t i = 0; i < held_.size(); ++i) held_[i] = held_[i] || !anchored[i];
+}
+
+/// Walls that lie on each other stick toward a rim, where both sides are one.
+void OpeningField::stick() {
+  const auto copies = cage_->copies();
+  std::vector<Vec3> rim;
+  for (const SidedCage::Film& film : cage_->films()) {
+    const auto& here = copies[static_cast<std::size_t>(film.here.copy)].nodes;
+    const auto& there = copies[static_cast<std::size_t>(film.there.copy)].nodes;
+    if (std::find_first_of(here.begin(), here.end(), there.begin(), there.end()) != here.end())
+      rim.push_back((film.here.p + film.there.p) / 2);
+  }
+  std::vector<double> far;
+  double most = 0;
+  for (const SidedCage::Film& film : cage_->films()) {
+    double least = cage_->extent();
+    for (const Vec3& p : rim) least = std::min(least, (p - film.here.p).norm());
+    far.push_back(least);
+    most = std::max(most, least);
+  }
+  for (std::size_t k = 0; k < far.size(); ++k) {
+    const SidedCage::Film& film = cage_->films()[k];
+    const double fade = std::exp(-kFade * far[k] / most);
+    if (fade < kFaint || film.here.copy == film.there.copy) continue;
+    Film out;
+    out.stiffness = kFilm * fade * film.area;
+    const auto here = cage_->weights(film.here);
+    const auto there = cage_->weights(film.there);
+    for (std::size_t i = 0; i < 8; ++i) {
+      out.nodes[i] = copies[static_cast<std::size_t>(film.here.copy)].nodes[i];
+      out.nodes[i + 8] = copies[static_cast<std::size_t>(film.there.copy)].nodes[i];
+      out.share[i] = here[i];
+      out.share[i + 8] = -there[i];
+    }
+    films_.push_back(out);
+  }
+}
+
+/// A pressure of 1 Pa on all walls.
+void OpeningField::load() {
+  force_.assign(3 * cage_->n_nodes(), 0);
+  for (const SidedCage::Wall& wall : cage_->walls()) {
+    const Vec3 ab = wall.p[1] - wall.p[0];
+    const Vec3 ac = wall.p[2] - wall.p[0];
+    const double longest = std::max({ab.norm(), ac.norm(), (ac - ab).norm()});
+    const int n = std::max(1, static_cast<int>(std::ceil(longest / (2 * cage_->spacing()))));
+    const Vec3 part = ab.cross(ac).norm() / (2 * n * n) * wall.into;  // m^2
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; i + j < n; ++j)
+        for (const double third : {1.0 / 3, 2.0 / 3}) {
+          if (third > 0.5 && i + j + 1 >= n) continue;
+          const SidedCage::Place place =
+              cage_->locate(wall.p[0] + (ab * (i + third) + ac * (j + third)) / n, wall.into);
+          if (place.copy < 0) continue;
+          const auto weights = cage_->weights(place);
+          const auto& nodes = cage_->copies()[static_cast<std::size_t>(place.copy)].nodes;
+          for (std::size_t k = 0; k < 8; ++k) {
+            on_wall_[nodes[k]] = true;
+            for (std::size_t a = 0; a < 3; ++a)
+              force_[3 * nodes[k] + a] += weights[k] * part[static_cast<int>(a)];
+          }
+        }
+  }
+}
+
+std::vector<double> OpeningField::times(const std::vector<double>& x) const {
+  const Element unit = unit_cube().cast<float>();
+  std::vector<double> y(x.size(), 0);
+  const auto copies = cage_->copies();
+  for (const std::uint32_t c : giving_) {
+    const auto& nodes = copies[c].nodes;
+    Corner in;
+    for (int i = 0; i < 8; ++i)
+      for (std::size_t a = 0; a < 3; ++a)
+        in[3 * i + static_cast<int>(a)] =
+            static_cast<float>(x[3 * nodes[static_cast<std::size_t>(i)] + a]);
+    const Corner out = unit * in;
+    for (int i = 0; i < 8; ++i)
+      for (std::size_t a = 0; a < 3; ++a)
+        y[3 * nodes[static_cast<std::size_t>(i)] + a] +=
+            modulus_[c] * static_cast<double>(out[3 * i + static_cast<int>(a)]);
+  }
+  for (const Film& film : films_)
+    for (std::size_t a = 0; a < 3; ++a) {
+      double apart = 0;
+      for (std::size_t k = 0; k < 16; ++k) apart += film.share[k] * x[3 * film.nodes[k] + a];
+      for (std::size_t k = 0; k < 16; ++k)
+        y[3 * film.nodes[k] + a] += film.stiffness * apart * film.share[k];
+    }
+  return y;
+}
+
+/// Conjugate gradients with the diagonal.
+void OpeningField::solve(const std::atomic<bool>* stop) {
+  const std::size_t n = force_.size();
+  motion_.assign(n / 3, Vec3::Zero());
+  const double own = unit_cube()(0, 0);
+  std::vector<double> diagonal(n, 0);
+  const auto copies = cage_->copies();
+  for (std::size_t c = 0; c < copies.size(); ++c)
+    for (const std::uint32_t node : copies[c].nodes)
+      for (std::size_t a = 0; a < 3; ++a) diagonal[3 * node + a] += own * modulus_[c];
+  for (const Film& film : films_)
+    for (std::size_t k = 0; k < 16; ++k)
+      for (std::size_t a = 0; a < 3; ++a)
+        diagonal[3 * film.nodes[k] + a] += film.stiffness * film.share[k] * film.share[k];
+  giving_.clear();
+  for (std::uint32_t c = 0; c < copies.size(); ++c)
+    if (std::any_of(copies[c].nodes.begin(), copies[c].nodes.end(),
+                    [&](std::uint32_t node) { return !held_[node]; }))
+      giving_.push_back(c);
+  using Vector = Eigen::Map<const Eigen::VectorXd>;
+  const auto size = static_cast<Eigen::Index>(n);
+  Eigen::VectorXd free(size);
+  for (std::size_t i = 0; i < n; ++i) free[static_cast<Eigen::Index>(i)] = held_[i / 3] ? 0 : 1;
+  const Eigen::VectorXd weight = free.cwiseQuotient(Vector(diagonal.data(), size));
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(size);
+  Eigen::VectorXd r = free.cwiseProduct(Vector(force_.data(), size));
+  Eigen::VectorXd z = weight.cwiseProduct(r);
+  std::vector<double> p(z.data(), z.data() + n);
+  double rz = r.dot(z);
+  const double enough = kExact * kExact * rz;
+  for (int pass = 0; pass < kMaxPasses && rz > enough; ++pass) {
+    if (stop != nullptr && pass % kPassesToAsk == 0 && *stop) return;
+    const std::vector<double> kp = times(p);
+    Eigen::Map<Eigen::VectorXd> d(p.data(), size);
+    const Eigen::VectorXd q = free.cwiseProduct(
+        Vector(kp.data(), size) + kAnchor * d.cwiseProduct(Vector(diagonal.data(), size)));
+    const double alpha = rz / d.dot(q);
+    x += alpha * d;
+    r -= alpha * q;
+    z = weight.cwiseProduct(r);
+    const double before = rz;
+    rz = r.dot(z);
+    d = z + rz / before * d;
+  }
+  for (std::size_t i = 0; i < motion_.size(); ++i)
+    motion_[i] = x.segment<3>(static_cast<Eigen::Index>(3 * i));
+}
+
+/// xx, yy, zz, xy, xz, yz of how easily something spreads in a cube.
+std::array<double, 6> OpeningField::conduction_of(const SidedCage::Copy& copy) const {
+  Vec3 way = Vec3::Zero();
+  for (const std::uint32_t node : copy.nodes) way += motion_[node];
+  const double size = way.norm();
+  if (size > 0) way *= std::sqrt(kAlong) / size;
+  return {1 + way.x() * way.x(), 1 + way.y() * way.y(), 1 + way.z() * way.z(),
+          way.x() * way.y(),     way.x() * way.z(),     way.y() * way.z()};
+}
+
+void OpeningField::join_nodes() {
+  const std::array<Conduction, 6> unit = unit_conduction();
+  std::vector<std::vector<Beside>> rows(cage_->n_nodes());
+  for (const SidedCage::Copy& copy : cage_->copies()) {
+    const std::array<double, 6> d = conduction_of(copy);
+    Conduction k = Conduction::Zero();
+    for (std::size_t i = 0; i < 6; ++i) k += d[i] * unit[i];
+    for (std::size_t i = 0; i < 8; ++i)
+      for (std::size_t j = 0; j < 8; ++j)
+        rows[copy.nodes[i]].push_back({copy.nodes[j], k(static_cast<int>(i), static_cast<int>(j))});
+  }
+  start_.assign(1, 0);
+  for (std::uint32_t i = 0; i < rows.size(); ++i) {
+    std::sort(rows[i].begin(), rows[i].end(),
+              [](const Beside& x, const Beside& y) { return x.node < y.node; });
+    diagonal_.push_back(1);
+    for (std::size_t k = 0; k < rows[i].size();) {
+      Beside sum{rows[i][k].node, 0};
+      for (; k < rows[i].size() && rows[i][k].node == sum.node; ++k)
+        sum.weight += rows[i][k].weight;
+      beside_.push_back(sum);
+      if (sum.node == i) diagonal_.back() = sum.weight;
+    }
+    start_.push_back(static_cast<std::uint32_t>(beside_.size()));
+  }
+}
+
+std::vector<double> OpeningField::carry_on(
+    const std::function<double(const Vec3& p_J)>& on_walls) const {
+  const std::size_t n = cage_->n_nodes();
+  std::vector<double> x(n, 0);
+  double mean = 0;
+  double known = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!on_wall_[i]) continue;
+    mean += x[i] = on_walls(cage_->node(i));
+    known += 1;
+  }
+  mean /= std::max(known, 1.0);
+  for (std::size_t i = 0; i < n; ++i)
+    if (!on_wall_[i]) x[i] = mean;
+  const auto residual = [&](const std::vector<double>& v, std::vector<double>& out) {
+    for (std::size_t i = 0; i < n; ++i) {
+      out[i] = 0;
+      if (on_wall_[i]) continue;
+      for (std::uint32_t k = start_[i]; k < start_[i + 1]; ++k)
+        out[i] += beside_[k].weight * v[beside_[k].node];
+    }
+  };
+  const auto dot = [&](const std::vector<double>& a, const std::vector<double>& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < n; ++i) sum += a[i] * b[i];
+    return sum;
+  };
+  std::vector<double> r(n);
+  residual(x, r);
+  for (double& value : r) value = -value;
+  std::vector<double> z(n);
+  const auto precondition = [&] {
+    for (std::size_t i = 0; i < n; ++i) z[i] = r[i] / diagonal_[i];
+  };
+  precondition();
+  std::vector<double> p = z;
+  std::vector<double> q(n);
+  double rz = dot(r, z);
+  const double enough = kExactScalar * kExactScalar * rz;
+  for (int pass = 0; pass < kMaxPasses && rz > enough; ++pass) {
+    residual(p, q);
+    const double alpha = rz / dot(p, q);
+    for (std::size_t i = 0; i < n; ++i) x[i] += alpha * p[i];
+    for (std::size_t i = 0; i < n; ++i) r[i] -= alpha * q[i];
+    precondition();
+    const double before = rz;
+    rz = dot(r, z);
+    for (std::size_t i = 0; i < n; ++i) p[i] = z[i] + rz / before * p[i];
+  }
+  return x;
+}
+
+}  // namespace artus
