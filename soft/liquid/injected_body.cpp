@@ -335,6 +335,7 @@ CompiledJoint with_injected(const CompiledJoint& joint, const std::vector<Inject
         };
       filled.push_back({space, {place.tip, place.volume, press}});
     }
+  for (Filled& f : filled) f.filling.volume = std::min(f.filling.volume, f.space->max_volume());
   open_spaces(filled, with.mesh);
   if (filled.empty()) return with;
   const TissueId tissue = liquid_tissue(with, liquid);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 #include <boost/math/tools/roots.hpp>
@@ -17,9 +18,12 @@ constexpr double kWide = 29.5e-3;  // m, radius of a patch of kWideVolume in a w
 constexpr double kWideVolume = 3e-6;  // m^3; 5 ml open by less than 6 mm
 constexpr double kThickest = 5e-3;    // m, above which it spreads as long as there is room; assumed
 constexpr double kSpread = 1.2;       // of its radius, from one try to the next
-constexpr double kAllOpen = 2;        // extents of a space beyond which a patch is all of it
-constexpr double kConfined = 0.5;     // the same, of a patch that feels the rim all around
-constexpr double kSlope = 0.5;        // by which a step may turn or stretch at most
+constexpr int kHalvings = 20;
+constexpr double kMylar = 1.2185;  // of a disc's radius cubed
+constexpr double kStretched = 2;
+constexpr double kAllOpen = 2;     // extents of a space beyond which a patch is all of it
+constexpr double kConfined = 0.5;  // the same, of a patch that feels the rim all around
+constexpr double kSlope = 0.5;     // by which a step may turn or stretch at most
 constexpr int kMaxSteps = 256;
 constexpr int kMaxTries = 60;
 constexpr int kBackPasses = 40;
@@ -162,23 +166,38 @@ SidedCage::Place OpenedSpace::Flow::back(SidedCage::Place place) const {
   return place;
 }
 
+/// m by which the walls go apart where they do so most, to first order.
+double OpenedSpace::thickness(const Flow& flow, double volume) const {
+  double rate = 0;
+  double most = 0;
+  for (std::size_t k = 0; k < wall_places_.size(); ++k) {
+    const SidedCage::Wall& wall = cage_.walls()[k];
+    const Vec3 v = flow.velocity(wall_places_[k]);
+    rate += v.dot((wall.p[1] - wall.p[0]).cross(wall.p[2] - wall.p[0]).norm() / 2 * wall.into);
+    most = std::max(most, v.norm());
+  }
+  return rate > 0 ? volume / rate * most : std::numeric_limits<double>::infinity();
+}
+
 /// Wide enough that nowhere it is thicker than kThickest, as far as there is room.
 double OpenedSpace::reach_of(const Flow& flow, double volume) const {
-  double reach = kWide * std::cbrt(volume / kWideVolume);
   Flow tried = flow;
-  for (; reach < kAllOpen * cage_.extent(); reach *= kSpread) {
+  const auto thick = [&](double reach) {
     tried.reach_ = reach;
-    double rate = 0;
-    double most = 0;
-    for (std::size_t k = 0; k < wall_places_.size(); ++k) {
-      const SidedCage::Wall& wall = cage_.walls()[k];
-      const Vec3 v = tried.velocity(wall_places_[k]);
-      rate += v.dot((wall.p[1] - wall.p[0]).cross(wall.p[2] - wall.p[0]).norm() / 2 * wall.into);
-      most = std::max(most, v.norm());
-    }
-    if (rate > 0 && volume / rate * most < kThickest) break;
+    return thickness(tried, volume);
+  };
+  const double narrow = kWide * std::cbrt(volume / kWideVolume);
+  const double wide = kAllOpen * cage_.extent();
+  if (narrow >= wide || thick(narrow) <= kThickest) return narrow;
+  double low = narrow;
+  double high = std::min(kSpread * low, wide);
+  for (; high < wide && thick(high) > kThickest; high = std::min(kSpread * high, wide)) low = high;
+  if (thick(high) > kThickest) return high;
+  for (int k = 0; k < kHalvings; ++k) {
+    const double middle = (low + high) / 2;
+    (thick(middle) > kThickest ? low : high) = middle;
   }
-  return reach;
+  return high;
 }
 
 int OpenedSpace::steps_for(const Flow& flow) const {
@@ -314,6 +333,13 @@ double OpenedSpace::rest_volume() const {
     six +=
         (mesh_.vertices[a] - from).dot((mesh_.vertices[b] - from).cross(mesh_.vertices[c] - from));
   return six / 6;
+}
+
+double OpenedSpace::max_volume() const {
+  double area = 0;
+  for (const SidedCage::Wall& wall : cage_.walls())
+    area += (wall.p[1] - wall.p[0]).cross(wall.p[2] - wall.p[0]).norm() / 2;
+  return kStretched * kMylar * std::pow(area / 2 / std::numbers::pi, 1.5);
 }
 
 /// Of the piece of wall that moves most, against the one that it faces.

@@ -76,6 +76,11 @@ class OpenedSpace {
   [[nodiscard]] bool confines(const Vec3& tip, double volume) const;
   /// m^3 of the space at rest.
   [[nodiscard]] double rest_volume() const;
+  /// m^3 more than at rest that its shape can take. Two walls of an area A that do not stretch, as
+  /// a flat sac blown round, hold 1.2185 (A / pi)^(3/2) ([Paulsen1994], a mylar balloon); twice
+  /// that is let in, of walls a quarter longer. Fitted: beyond it tissue beside bone keeps less
+  /// than 0.3 of its volume. A joint is more than the recess that a body has of it.
+  [[nodiscard]] double max_volume() const;
   [[nodiscard]] std::span<const RegionId> regions() const noexcept { return regions_; }
 
  private:
@@ -84,6 +89,7 @@ class OpenedSpace {
   [[nodiscard]] std::vector<Triangle> walls_of(const TetMesh& mesh) const;
   [[nodiscard]] std::vector<SidedCage::Place> places_in(const TetMesh& mesh) const;
   void find_places();
+  [[nodiscard]] double thickness(const Flow& flow, double volume) const;
   [[nodiscard]] double reach_of(const Flow& flow, double volume) const;
   [[nodiscard]] int steps_for(const Flow& flow) const;
   [[nodiscard]] Flow flow_in(const TetMesh& mesh, const Filling& filling) const;

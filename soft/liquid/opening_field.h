@@ -31,7 +31,9 @@ class OpeningField {
  private:
   void find_held(const CompiledJoint& joint);
   void find_stiffness(const CompiledJoint& joint);
+  void spread(std::vector<bool>& nodes) const;
   void hold_islands();
+  [[nodiscard]] Eigen::VectorXd anchors() const;
   void stick();
   void load();
   void solve(const std::atomic<bool>* stop);

@@ -155,8 +155,7 @@ void SidedCage::scan(const CompiledJoint& joint, int axis) {
         lines[static_cast<std::size_t>(j) * static_cast<std::size_t>(na) +
               static_cast<std::size_t>(i)]
             .push_back({p[0].z() + u * ab.z() + v * ac.z(), det > 0 ? f.back : f.front,
-                        det > 0 ? f.front : f.back, wall,
-                        std::abs(det) / ab.cross(ac).norm()});
+                        det > 0 ? f.front : f.back, wall, std::abs(det) / ab.cross(ac).norm()});
       }
   }
   for (int j = 0; j < nb; ++j)

@@ -254,10 +254,11 @@ TEST_P(FullSpace, FoldsNothingAndLosesNoVolume) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Bundled, FullSpace,
-                         ::testing::Values(Full{"simple-shoulder", "bursa", {0.1, 20}},
-                                           Full{"shoulder", "subacromial_bursa", {0.1, 5, 10}},
-                                           Full{"knee", "suprapatellar_recess", {0.1, 2, 5}},
-                                           Full{"hip", "anterior_recess", {0.1, 1, 2}}),
+                         ::testing::Values(Full{"simple-shoulder", "bursa", {0.1, 5, 20}},
+                                           Full{"shoulder", "subacromial_bursa", {0.1, 5, 20}},
+                                           Full{"shoulder", "joint_fluid", {0.1, 3}},
+                                           Full{"knee", "suprapatellar_recess", {0.1, 5, 20}},
+                                           Full{"hip", "anterior_recess", {0.1, 2, 8}}),
                          [](const auto& full) { return std::string(full.param.region); });
 
 INSTANTIATE_TEST_SUITE_P(Bundled, OpenedBody,
