@@ -64,7 +64,7 @@ class InflatedSpace {
   };
   [[nodiscard]] std::optional<Vec3> find_centre(const Vec3& tip) const;
   [[nodiscard]] Vec3 find_normal(const Vec3& tip) const;
-  /// Where the walls' centre lies from the tip, m, and the way in which they open.
+  /// Where the walls' centre lies from the tip, m, and the direction in which they open.
   struct Frame {
     Vec3 to_centre;
     Vec3 toward;

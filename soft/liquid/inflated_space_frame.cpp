@@ -108,8 +108,8 @@ void InflatedSpace::set_frame(const CompiledJoint& joint, const Vec3& tip, const
 }
 
 /// The sphere of the walls, where half of a patch finds room along it; otherwise, of that, their
-/// plane and the plane square to the way out, the one along which there is the most; the way in,
-/// where none gives way outward.
+/// plane and the plane square to the direction out, the one along which there is the most; the
+/// direction in, where none gives way outward.
 void InflatedSpace::choose_frame(const CompiledJoint& joint, const Vec3& tip) {
   const Vec3 out = (nearest_skin(joint, tip) - tip).normalized();
   Vec3 normal = find_normal(tip);
