@@ -46,7 +46,8 @@ void add_plane(CompiledJoint& joint, double z, RegionId front, RegionId back) {
 
 /// An ellipsoid around the origin in muscle whose skin lies 30 mm above; `roof`: bone from so many
 /// m above the origin on, 0: none.
-CompiledJoint make_recess(const Vec3& axes, const Eigen::Quaterniond& turn, double roof = 0) {
+CompiledJoint make_recess(const Vec3& axes, const Eigen::Quaterniond& turn, double roof = 0,
+                          int rings = 24) {
   CompiledJoint joint;
   joint.tissues.resize(3);
   joint.tissues[2].haptic.hard = true;
@@ -54,18 +55,17 @@ CompiledJoint make_recess(const Vec3& axes, const Eigen::Quaterniond& turn, doub
                    {"muscle", 0, Vec3::Zero()},
                    {"recess", 1, Vec3::Zero()},
                    {"bone", 2, Vec3::Zero()}};
-  constexpr int kRings = 24;
-  constexpr int kSides = 48;
+  const int sides = 2 * rings;
   const auto p = [&](int ring, int side) {
-    const double polar = std::numbers::pi * ring / kRings;
-    const double round = 2 * std::numbers::pi * side / kSides;
+    const double polar = std::numbers::pi * ring / rings;
+    const double round = 2 * std::numbers::pi * side / sides;
     return Vec3(turn * axes.cwiseProduct(Vec3(std::sin(polar) * std::cos(round),
                                               std::sin(polar) * std::sin(round), std::cos(polar))));
   };
-  for (int r = 0; r < kRings; ++r) {
-    for (int s = 0; s < kSides; ++s) {
+  for (int r = 0; r < rings; ++r) {
+    for (int s = 0; s < sides; ++s) {
       if (r > 0) add_wall(joint, {p(r, s), p(r + 1, s), p(r, s + 1)}, kMuscle, kRecess);
-      if (r + 1 < kRings)
+      if (r + 1 < rings)
         add_wall(joint, {p(r, s + 1), p(r + 1, s), p(r + 1, s + 1)}, kMuscle, kRecess);
     }
   }
@@ -102,7 +102,7 @@ TEST(InflatedRecess, OpensTowardTheSkinByItsVolumeWhateverItsShapeAndWhereverThe
     for (const double degrees : {0.0, 45.0, 90.0}) {
       const Eigen::Quaterniond turn(
           Eigen::AngleAxisd(degrees * std::numbers::pi / 180, Vec3(1, 0.3, 0).normalized()));
-      const CompiledJoint joint = make_recess(1e-3 * axes, turn);
+      const CompiledJoint joint = make_recess(1e-3 * axes, turn, 0, 16);
       for (const Vec3& tip : {Vec3(0, 0, 0), Vec3(-0.5, -0.6, -0.3)}) {
         const InflatedSpace space(joint, kRecess, turn * (1e-3 * axes.cwiseProduct(tip)));
         for (const double volume : {0.1e-6, 1e-6, 5e-6}) {
