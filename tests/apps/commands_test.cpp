@@ -105,6 +105,8 @@ TEST_F(Commands, WhatThereIsNotIsToldByName) {
   EXPECT_THAT(told({"needle", "-j", "elbow"}), HasSubstr("elbow: there is no such joint"));
   EXPECT_THAT(told({"serve", "-j", test::kSimple, "--rigid", "--input", "banana"}),
               HasSubstr("'banana' is neither shared-memory"));
+  EXPECT_THAT(told({"replay", in("none.rec")}), HasSubstr("name the joint, or the scenario"));
+  EXPECT_THAT(told({"replay", in("none.rec"), "--scenario", "gel-fnd"}), HasSubstr("gel-find"));
   EXPECT_THAT(told({"learners", "show", "--records", in("none.db")}), HasSubstr("none.db"));
   EXPECT_FALSE(std::filesystem::exists(in("none.db"))) << "looking makes nothing";
 }
