@@ -184,7 +184,7 @@ void add_scenario_command(Command& app, ExitCode& code) {
       "check: can it be done at all, and is it neither too hard nor too easy: a simulated expert\n"
       "passes 19 of 20 seeds or more, a simulated novice 8 or fewer. All --tries are played in\n"
       "rigid tissue, the first --tissue-tries also in tissue that gives way, which takes seconds\n"
-      "each, a minute where millilitres are given. Fewer than 20 are a sample: its experts must\n"
+      "each, minutes where millilitres are given. Fewer than 20 are a sample: its experts must\n"
       "pass, and it is told how many verdicts are those of rigid tissue. With 20 the bar holds\n"
       "there, too; novices stop when enough have failed. Broken bodies are told. Exit code 1 when\n"
       "it is not so.\n"
