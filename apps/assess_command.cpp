@@ -240,7 +240,7 @@ void add_assess_command(Command& app, ExitCode& code) {
       ->check(number_in(10, 300))
       ->capture_default_str();
   command->add_option("--out,-o", options->out, "folder for the files");
-  command->add_flag("--sort", options->sort, "put poses by their times first");
+  command->add_flag("--sort", options->sort, "sort poses by their times first");
   command->add_flag("--no-pictures", options->no_pictures,
                     "leave pictures out (tip_visible has no value)");
   command->add_flag("--draw", options->draw,

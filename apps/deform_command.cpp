@@ -69,7 +69,7 @@ nlohmann::json to_json(const Press& press, const SoftBody& body) {
   const Vec3 reaction = body.cage_pose().linear() * body.solver().reaction();
   nlohmann::json report = to_json(press);
   report["reaction_n"] = {reaction.x(), reaction.y(), reaction.z()};
-  report["least_volume_ratio"] = body.solver().forces().min_volume;
+  report["min_volume_ratio"] = body.solver().forces().min_volume;
   report["stored_mj"] = body.solver().forces().energy * 1e3;
   report["cells"] = model.cage().cells().size();
   report["unknowns"] = 3 * model.n_unknowns();
@@ -218,7 +218,7 @@ void add_deform_command(Command& app, ExitCode& code) {
   add_gauge_option(command, options->gauge);
   command
       ->add_option("--needle-direction,--needle-way", options->press.needle_direction,
-                   "in, out: which way the needle was last moved (default: in)")
+                   "direction in which the needle was last moved (default: in)")
       ->one_of({"in", "out"});
   command->add_option("--cell-mm", options->cell_mm, "edge of the cubes under the face (default 3)")
       ->check(number_in(0.75, 6));

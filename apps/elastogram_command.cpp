@@ -76,8 +76,8 @@ cv::Mat coloured(const Frame& frame, const StrainImage& strain, const View& view
 
 /// Why the picture has no colour, and what to do; empty when it has some.
 std::string explain_no_strain(const nlohmann::json& summary) {
-  constexpr double kLeast = 1;  // percent of the picture
-  if (summary["coloured_percent"].get<double>() >= kLeast) return {};
+  constexpr double kMinColoured = 1;  // percent of the picture
+  if (summary["coloured_percent"].get<double>() >= kMinColoured) return {};
   return printed(
       "no strain can be told from these two pictures: their echoes agree by %.2f of 1 in the mean; "
       "press more steadily on skin (--press-n), change --more-mm, or look where there are echoes",

@@ -103,7 +103,8 @@ void add_image_command(Command& app, ExitCode& code) {
       "  artus image -j meshes/shoulder --probe=-39.6,-44.2,-5/0.66,0.75,0/0.75,-0.66,0 -o "
       "groove.png\n"
       "  artus image -j meshes/shoulder --press-n 3 -o pressed.png\n"
-      "  artus image -j meshes/shoulder --press-n 2 --needle default --needle-way in -o tent.png\n"
+      "  artus image -j meshes/shoulder --press-n 2 --needle default --needle-direction in -o "
+      "tent.png\n"
       "  artus image -j meshes/shoulder --transducer curved-2-5 --depth 80 -o curved.png");
   add_joint_options(command, options->joint);
   add_patient_option(command, options->joint.patient);

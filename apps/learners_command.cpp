@@ -159,6 +159,12 @@ ExitCode run_learners(const LearnersOptions& options) {
         {ErrorCode::malformed, "say what: list, show, add, export, report, norms, forget or rate",
          "what"},
         options.json);
+  std::error_code ignored;
+  if (options.what != "add" && !std::filesystem::exists(options.records, ignored))
+    return report_error(
+        {ErrorCode::not_found, "there is no such file of records; artus learners add begins one",
+         options.records.string()},
+        options.json);
   auto records = Records::open(options.records);
   if (!records) return report_error(records.error(), options.json);
   Result<void> done;

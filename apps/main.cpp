@@ -10,6 +10,7 @@
 #include "artus/detail/apps/commands.h"
 #include "artus/detail/apps/options/old_names.h"
 #include "artus/detail/apps/validate_command.h"
+#include "artus/detail/core/known_names.h"
 #include "artus/detail/core/plain_reason.h"
 
 namespace {
@@ -38,10 +39,17 @@ int run(const std::vector<std::string>& arguments) {
       "  artus compile meshes/simple-shoulder -o simple.artus     surfaces -> compiled joint\n"
       "  artus run three-injections --joint simple.artus --out out/run\n"
       "  artus <command> --help                                   options and examples\n\n"
-      "Exit codes: 0 done, 1 something in the world is wrong (file, surface, claim),\n"
+      "Exit codes: 0 done, 1 it failed (a file, a surface, a claim that does not hold),\n"
       "            2 the command line is wrong, 3 a surface, pose or injection must be mended.");
   ExitCode code = ExitCode::ok;
   artus::add_commands(app, code);
+  const std::vector<std::string> names = app.subcommands();
+  if (!arguments.empty() && arguments.front().rfind('-', 0) != 0 &&
+      std::find(names.begin(), names.end(), arguments.front()) == names.end()) {
+    std::fprintf(stderr, "artus: there is no command '%s'%s; artus --help lists them\n",
+                 arguments.front().c_str(), artus::did_you_mean(arguments.front(), names).c_str());
+    return static_cast<int>(ExitCode::usage);
+  }
   std::vector<const char*> line{"artus"};
   for (const std::string& argument : arguments) line.push_back(argument.c_str());
   int mistake = 0;  // CLI11's own many codes become one

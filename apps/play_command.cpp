@@ -42,7 +42,7 @@ Result<OperatorSkill> skill_of(const std::string& text) {
     const std::string trials = text.substr(7);
     if (whole_number_in(0, 100000).problem(trials).empty()) return novice_skill(std::stoi(trials));
   }
-  return fail(ErrorCode::malformed, "'" + text + "' is none of expert, novice and novice:TRIALS",
+  return fail(ErrorCode::malformed, "'" + text + "' is none of expert, novice and novice:N",
               "--operator");
 }
 
@@ -172,9 +172,9 @@ void add_play_command(Command& app, ExitCode& code) {
       "  artus play mine.toml --joint shoulder.artus --pictures 10 --record out/attempt");
   command->add_option("scenario", options->scenario, "a file, or the name of a bundled one")
       ->required();
-  command->add_option("--operator", options->hands, "expert, novice, or novice:TRIALS done")
+  command->add_option("--operator", options->hands, "expert, novice, or novice:N after N trials")
       ->capture_default_str();
-  command->add_option("--seed", options->seed, "of hands and errors")
+  command->add_option("--seed", options->seed, "seed of the hands' tremor and errors")
       ->check(whole_number_in(0, 1000000000))
       ->capture_default_str();
   command->add_option("--joint,-j", options->joint, "in place of the scenario's");

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "artus/detail/apps/options/pose_files.h"
+#include "artus/detail/apps/options/scenario_options.h"
 #include "artus/detail/apps/options/session_options.h"
 #include "artus/detail/evidence/runs/body_pictures.h"
 #include "artus/detail/simulation/plain_pose.h"
@@ -18,6 +19,7 @@ namespace {
 
 struct ReplayOptions {
   JointOptions joint;
+  std::string scenario;
   std::filesystem::path recording;
   std::filesystem::path trace;
   std::filesystem::path frames;
@@ -139,10 +141,25 @@ nlohmann::json to_json(const ReplayReport& r) {
           {"empty", r.empty()},   {"identical", r.identical()}};
 }
 
+/// The body of the scenario, or of the joint that is named.
+Result<std::shared_ptr<const Scene>> find_body(const ReplayOptions& options) {
+  const Progress progress = make_progress_printer(options.json);
+  if (!options.scenario.empty()) {
+    const auto scenario = find_scenario(options.scenario);
+    ARTUS_TRY(scenario);
+    return load_scene(*scenario, options.joint.joint, progress);
+  }
+  if (options.joint.joint.empty())
+    return fail(ErrorCode::malformed, "name the joint, or the scenario that was tried", "--joint");
+  const auto joint = load(options.joint, progress);
+  ARTUS_TRY(joint);
+  return std::make_shared<const Scene>(*joint);
+}
+
 ExitCode run_replay(const ReplayOptions& options) {
-  const auto joint = load(options.joint, make_progress_printer(options.json));
-  if (!joint) return report_error(joint.error(), options.json);
-  const auto scene = std::make_shared<const Scene>(*joint);
+  const auto body = find_body(options);
+  if (!body) return report_error(body.error(), options.json);
+  const std::shared_ptr<const Scene>& scene = *body;
   const auto recording = read_any_recording(options.recording, scene);
   if (!recording) return report_error(recording.error(), options.json);
   Trace trace;
@@ -155,8 +172,8 @@ ExitCode run_replay(const ReplayOptions& options) {
   if (!options.frames.empty()) std::filesystem::create_directories(options.frames);
   const double period = 1 / recording->head.params.haptic_rate;
   std::optional<BodyHealth> health;
-  const auto report =
-      replay(*recording, scene, make_listener(options, **joint, trace.get(), period, health));
+  const auto report = replay(*recording, scene,
+                             make_listener(options, scene->joint(), trace.get(), period, health));
   if (!report) return report_error(report.error(), options.json);
   if (options.json) {
     nlohmann::json all = to_json(*report);
@@ -176,13 +193,13 @@ void add_replay_command(Command& app, ExitCode& code) {
   auto options = std::make_shared<ReplayOptions>();
   Command* command = add_command(
       app, "replay", "Run a recorded session again and compare every force and image",
-      "Exit code 1 when a force or an image is not the same bytes, or there is none, or when "
-      "--body\n"
-      "finds the body broken. A list of poses, or a "
-      "tracker's\n"
-      "sequence, is run as a session first.\n"
+      "Exit code 1 when a force or an image is not the same bytes, or there is none, or when\n"
+      "--body finds the body broken. A list of poses, or a tracker's sequence, is run as a "
+      "session\n"
+      "first.\n"
       "Examples:\n"
       "  artus replay session.rec -j meshes/simple-shoulder\n"
+      "  artus replay attempts/ID/session.rec --scenario gel-find\n"
       "  artus replay session.rec -j real.artus --trace forces.csv --frames out/frames\n"
       "  artus replay tracked.igs.mha -j real.artus --trace forces.csv");
   command
@@ -190,6 +207,9 @@ void add_replay_command(Command& app, ExitCode& code) {
                    "file of --record, or poses (.jsonl, .csv, .mha) that lead a session")
       ->required();
   add_joint_options(command, options->joint);
+  command->get_option("--joint")->required(false);
+  command->add_option("--scenario", options->scenario,
+                      "of which the recording is an attempt: its body, in place of a joint");
   command->add_option("--trace", options->trace,
                       "write forces, their components, contact, layer and plunger as CSV");
   command->add_option("--frames", options->frames, "write the images as PNG into this folder");

@@ -180,7 +180,7 @@ void add_train_command(Command& app, ExitCode& code) {
   command->add_option("scenario", options->train.scenario,
                       "a file, or the name of a bundled one; else the window asks");
   command->add_option("--person", options->train.person, "who trains; else the window asks");
-  command->add_option("--cohort", options->train.cohort, "of someone new");
+  command->add_option("--cohort", options->train.cohort, "group that someone new belongs to");
   command->add_option("--records", options->records,
                       "file of the records (default: records.db in ~/.local/share/artus)");
   command->add_option("--attempts", options->attempts,

@@ -84,7 +84,7 @@ Result<std::vector<ListedPose>> read_poses(const std::filesystem::path& file, Po
 }
 
 Result<std::vector<ListedPose>> sample_path(const std::vector<ListedPose>& poses, double rate,
-                                            std::size_t most) {
+                                            std::size_t max_samples) {
   const auto timed = std::count_if(poses.begin(), poses.end(),
                                    [](const ListedPose& p) { return p.time.has_value(); });
   if (timed == 0 || poses.size() < 2) return poses;
@@ -92,11 +92,11 @@ Result<std::vector<ListedPose>> sample_path(const std::vector<ListedPose>& poses
     return fail(ErrorCode::invalid, "either all poses have a time_s or none");
   const double start = *poses.front().time;
   const double seconds = *poses.back().time - start;
-  if (!(seconds * rate < static_cast<double>(most)))
+  if (!(seconds * rate < static_cast<double>(max_samples)))
     return fail(ErrorCode::invalid,
                 printed("time_s runs over %.4g s, which at %.4g a second are more than %zu poses; "
                         "is it in seconds? Give less of it, or a lower rate",
-                        seconds, rate, most));
+                        seconds, rate, max_samples));
   std::vector<ListedPose> out;
   std::size_t next = 1;
   for (std::size_t i = 0;; ++i) {

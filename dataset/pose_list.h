@@ -25,7 +25,7 @@ struct ListedPose {
 enum class PoseHand { probe, needle };
 
 /// The most poses that sample_path makes: some 30 min at 1 kHz.
-inline constexpr std::size_t kMostSamples = 2'000'000;
+inline constexpr std::size_t kMaxSamples = 2'000'000;
 
 /// Reads a list of poses, JSON lines (.jsonl) or CSV (.csv), as docs/echography.md describes them.
 /// Errors: not_found, unreadable, unsupported (extension), malformed or invalid with file:line
@@ -45,10 +45,10 @@ inline constexpr std::size_t kMostSamples = 2'000'000;
 /// The poses at `rate` per second: between two listed ones the probe and the needle move straight
 /// and turn evenly, and a needle is there when both have one. Without times each listed pose is
 /// one. Errors: invalid (some poses have a time and others have none; the times make more than
-/// `most` poses at the rate).
+/// `max_samples` poses at the rate).
 [[nodiscard]] Result<std::vector<ListedPose>> sample_path(const std::vector<ListedPose>& poses,
                                                           double rate,
-                                                          std::size_t most = kMostSamples);
+                                                          std::size_t max_samples = kMaxSamples);
 
 /// The same as CSV, as read_poses takes it: each number with seventeen digits, the needle by its
 /// tip and a point 100 mm before it. Requires: names without commas and line ends.

@@ -154,7 +154,7 @@ json to_json(const SetStatistics& statistics) {
   for (const auto& [name, list] : statistics.values) values[name] = five_numbers(list);
   return {{"frames", statistics.frames},     {"with_needle", statistics.with_needle},
           {"in_plane", statistics.in_plane}, {"tip_shown", statistics.tip_shown},
-          {"regions", statistics.regions},   {"least_quartiles_most", values}};
+          {"regions", statistics.regions},   {"min_quartiles_max", values}};
 }
 
 cv::Mat histogram_page(const SetStatistics& statistics) {

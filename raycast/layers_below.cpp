@@ -6,7 +6,7 @@
 namespace artus {
 namespace {
 
-constexpr double kAbove = 20e-3;  // m from the face to where the way begins
+constexpr double kAbove = 20e-3;  // m from the face to where the path begins
 constexpr double kBelow = 60e-3;  // m from the face to where it ends
 
 }  // namespace

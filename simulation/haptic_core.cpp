@@ -30,7 +30,7 @@ bool is_in_box(const PlainPose& X_W, const Vec3& centre, const Vec3& half) noexc
   return (off.array() <= half.array()).all();
 }
 
-/// s after which a pose that does not change is stale: its device's hold and a tick's way.
+/// s after which a pose that does not change is stale: its device's hold and a tick's delay.
 double held_for(const DeviceSample& device) noexcept {
   constexpr double kMargin = 5e-3;  // s
   return device.hold_ms == 0 ? 0 : 1e-9 * static_cast<double>(hold_of(device)) + kMargin;

@@ -22,7 +22,7 @@ enum class PeerState : std::uint32_t {
 [[nodiscard]] const char* to_string(PeerState state) noexcept;
 
 /// Silence after which a device counts as lost, ns. Below the 20 ms that the protocol promises, so
-/// that a tick and the way to the device fit in between.
+/// that a tick and the delay to the device fit in between.
 inline constexpr std::int64_t kPeerTimeout = 15'000'000;  // ns
 
 /// The longest that a device may have its pose held: three samples of one at 30 Hz, ms.

@@ -21,7 +21,7 @@ inline constexpr double kDeviceReach = 10;
 [[nodiscard]] ARTUS_REALTIME bool is_pose(const PlainPose& plain,
                                           double reach = kDeviceReach) noexcept;
 
-/// The pose a share of the way from `a` to `b`: straight, and by the smallest turn.
+/// The pose a share of the motion from `a` to `b`: straight, and by the smallest turn.
 [[nodiscard]] ARTUS_REALTIME PlainPose blend(const PlainPose& a, const PlainPose& b,
                                              double share) noexcept;
 /// The rotation, normalised.

@@ -53,8 +53,8 @@ bool SyringeCore::jumps(const DeviceSample& device) noexcept {
   // Of a slow device the plunger may be older than its newest pose.
   const std::int64_t least = device.hold_ms > 0 ? hold_of(device) : 0;
   const double elapsed = 1e-9 * static_cast<double>(std::max(least, device.time_ns - last_time_));
-  const double way = std::abs(device.plunger_travel - last_travel_);
-  const bool jumped = engaged_ && way > kMaxSpeed * std::clamp(elapsed, dt_, kLongest);
+  const double travelled = std::abs(device.plunger_travel - last_travel_);
+  const bool jumped = engaged_ && travelled > kMaxSpeed * std::clamp(elapsed, dt_, kLongest);
   last_time_ = device.time_ns;
   last_travel_ = device.plunger_travel;
   return jumped;

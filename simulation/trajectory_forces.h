@@ -32,7 +32,7 @@ struct TrajectoryPose {
 };
 
 /// The needle led through poses, one a tick of the params' haptic rate: what a session says of the
-/// same poses. Tissue gives way when `params.deform`. A pose that is none shows in the tick's
+/// same poses. Tissue gives way when `params.deform`. An invalid pose shows in the tick's
 /// status. Errors: those of validate. Cost: some us a tick, and the tissue's steps.
 [[nodiscard]] Result<std::vector<TrajectoryForce>> compute_trajectory_forces(
     const std::shared_ptr<const Scene>& scene, std::span<const TrajectoryPose> poses,

@@ -145,7 +145,7 @@ std::size_t passes_of(const Verdicts& verdicts) {
 
 /// Novices until so many have failed that the others cannot pass too often.
 Result<Verdicts> play_novices(const Players& players, std::size_t tries) {
-  const std::size_t enough = tries - 8 * tries / 20;
+  const auto enough = static_cast<std::size_t>(deciding_failures(static_cast<int>(tries)));
   Verdicts out;
   while (out.size() < tries) {
     const std::size_t failed = out.size() - passes_of(out);
@@ -193,7 +193,7 @@ Result<DifficultyInTissue> measure_difficulty(const Scenario& scenario,
     const Players soft(scenario, scene, false);
     Verdicts soft_experts;
     ARTUS_TRY(soft.play_on(expert_skill(), n, soft_experts));
-    const auto soft_novices = play_novices(soft, n);
+    const auto soft_novices = play_novices(soft, tries.soft_novices ? n : 0);
     ARTUS_TRY(soft_novices);
     out.soft.expert = fared(soft_experts);
     out.soft.novice = fared(*soft_novices);

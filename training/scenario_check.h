@@ -60,7 +60,14 @@ struct Tries {
   int rigid = 20;
   int soft = 1;  ///< in tissue that gives way, which costs some ten times as much; no more than it
                  ///< takes to know that a novice does not pass too often
+  bool soft_novices = true;  ///< false: experts alone play in tissue that gives way
 };
+
+/// Novices that fail, of `tries`, from which on the others cannot pass too often: none more is
+/// played in tissue.
+[[nodiscard]] constexpr int deciding_failures(int tries) noexcept {
+  return tries - 8 * tries / 20;
+}
 
 /// Plays with seeds from 1 on. The same at any number of threads. Errors: those of play.
 [[nodiscard]] Result<DifficultyInTissue> measure_difficulty(

@@ -157,7 +157,14 @@ Result<CompileOutcome> compile_or_reuse(const JointSources& sources, const LoadO
 
 Result<CompiledJoint> load_joint(const std::filesystem::path& path, const LoadOptions& options,
                                  const Progress& progress) {
-  if (!is_joint_folder(path)) return read_compiled_joint(path);
+  if (!is_joint_folder(path)) {
+    std::error_code ignored;
+    if (std::filesystem::exists(path, ignored)) return read_compiled_joint(path);
+    return fail(ErrorCode::not_found,
+                "there is no such joint: neither a folder with a joint.toml, nor a compiled file, "
+                "nor the name of a bundled one",
+                path.string());
+  }
   Result<JointFile> file = read_joint(path, options.surfaces);
   ARTUS_TRY(file);
   Result<CompileOutcome> outcome = compile_or_reuse(std::move(*file), options, progress);

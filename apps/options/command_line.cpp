@@ -62,12 +62,18 @@ Command::~Command() = default;
 
 Command* Command::add_subcommand(const std::string& name, const std::string& description) {
   CLI::App* added = app_->add_subcommand(name, description);
-  if (!group_.empty()) added->group(group_);
+  added->group(group_.empty() ? "Subcommands" : group_);  // else it takes that of the command above
   if (!program_)
     added->preparse_callback([above = app_](std::size_t /*left*/) {
       for (CLI::Option* option : above->get_options()) option->required(false);
     });
   return commands_.emplace_back(std::make_unique<Command>(added)).get();
+}
+
+std::vector<std::string> Command::subcommands() const {
+  std::vector<std::string> names;
+  for (const auto& command : commands_) names.push_back(command->app_->get_name());
+  return names;
 }
 
 Command& Command::subcommand(const std::string& name) {

@@ -56,6 +56,8 @@ class Command {
   Command* add_subcommand(const std::string& name, const std::string& description);
   /// The heading under which --help lists the subcommands that are added from here on.
   void group(const std::string& heading) { group_ = heading; }
+  /// Names of those that were added, in their order.
+  [[nodiscard]] std::vector<std::string> subcommands() const;
   /// One that was added. Requires: that it was.
   [[nodiscard]] Command& subcommand(const std::string& name);
   /// A flag with a value ("--depth,-d"), or an argument (a name without dashes). Value: a path, a

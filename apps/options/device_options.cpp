@@ -19,7 +19,7 @@ void add_needle_length_option(Command* command, std::optional<double>& length_mm
 void add_device_option(Command* command, std::string& device) {
   command
       ->add_option("--device", device,
-                   "whose force limits hold: touch, virtuose_6d_desktop, delta, ideal")
+                   "haptic device, for its force limits: touch, virtuose_6d_desktop, delta, ideal")
       ->capture_default_str();
 }
 

@@ -21,7 +21,7 @@ constexpr double kDefaultPress = 3;  // N
 void add_drag_option(Command* command, PressOptions& options) {
   command
       ->add_option("--needle-direction,--needle-way", options.needle_direction,
-                   "the needle was last moved in or out, and drags what it slides through; needs "
+                   "direction in which the needle was last moved: it drags the tissue along; needs "
                    "--press-n or --press-mm")
       ->one_of({"in", "out"});
 }
@@ -29,11 +29,11 @@ void add_drag_option(Command* command, PressOptions& options) {
 void add_press_options(Command* command, PressOptions& options) {
   command
       ->add_option("--press-n", options.newtons,
-                   "the tissue gives way to a probe on which the hand holds so much, N")
+                   "force with which the hand presses the probe, N; the tissue gives way to it")
       ->check(number_in(0.01, 30));
   command
       ->add_option("--press-mm", options.millimetres,
-                   "the same for a probe that goes in so far from its pose, mm")
+                   "in place of a force: how far the probe goes in from its pose, mm")
       ->check(number_in(0, 25));
 }
 

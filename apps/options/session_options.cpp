@@ -64,13 +64,15 @@ nlohmann::json to_json(const LatencyHistogram& h) {
 }  // namespace
 
 void add_prefix_option(Command* command, std::string& prefix) {
-  command->add_option("--prefix", prefix, "stands before the names POS, POS-PROBE, FORCE and IMAGE")
+  command
+      ->add_option("--prefix", prefix,
+                   "prefix of the names POS, POS-PROBE, FORCE and IMAGE in shared memory")
       ->check(FlagCheck{[](const std::string& text) {
                           const bool good = artus_shm_is_prefix(text.c_str()) != 0;
                           return good ? std::string()
                                       : "at most 63 letters, digits, '-', '_' and '.'";
                         },
-                        "TEXT"});
+                        "a name"});
 }
 
 void add_session_options(Command* command, SessionOptions& options,
@@ -99,10 +101,12 @@ void add_session_options(Command* command, SessionOptions& options,
   command->add_option("--speed-mm-s", options.speed_mm_s, "of the simulated hand")
       ->check(number_in(0.1, 200))
       ->capture_default_str();
-  command->add_option("--give-ml", options.give_ml, "that the simulated hand injects each time")
+  command->add_option("--give-ml", options.give_ml, "ml that the simulated hand injects each time")
       ->check(number_in(0, 50))
       ->capture_default_str();
-  command->add_option("--syringe-ml", options.syringe_ml, "drawn up; a plunger pushes it out")
+  command
+      ->add_option("--syringe-ml", options.syringe_ml,
+                   "ml in the syringe, for a plunger to push out")
       ->check(number_in(0.1, 50))
       ->capture_default_str();
   add_gauge_option(command, options.gauge);
@@ -225,6 +229,12 @@ Result<std::unique_ptr<InputDevice>> make_device(const SessionOptions& options,
     return std::unique_ptr<InputDevice>(std::move(device));
   }
   if (options.input == "injection") return make_injection_device(options, params, joint);
+  std::error_code ignored;
+  if (!std::filesystem::exists(options.input, ignored))
+    return fail(ErrorCode::not_found,
+                "'" + options.input +
+                    "' is neither shared-memory, hand, injection or igtl nor a recording's file",
+                "--input");
   const auto recording = read_recording(options.input);
   ARTUS_TRY(recording);
   return std::unique_ptr<InputDevice>(std::make_unique<RecordedDevice>(samples_of(*recording)));

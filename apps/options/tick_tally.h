@@ -34,7 +34,7 @@ class TickTally final : public SessionObserver {
   /// Ticks of each kind, and the largest force that was sent.
   [[nodiscard]] nlohmann::json to_json() const {
     return {{"faults", faults_},     {"rested", rested_},   {"late_tissue", late_tissue_},
-            {"inserted", inserted_}, {"on_bone", on_bone_}, {"most_force_n", max_force_}};
+            {"inserted", inserted_}, {"on_bone", on_bone_}, {"max_force_n", max_force_}};
   }
   /// The same as a line for people.
   void print() const {

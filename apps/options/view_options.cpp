@@ -53,7 +53,9 @@ void add_gauge_option(Command* command, int& gauge) {
 
 void add_threads_option(Command* command, int& threads) {
   command
-      ->add_option("--threads", threads, "of the imaging; 0: all. The image does not depend on it")
+      ->add_option(
+          "--threads", threads,
+          "threads of the imaging; 0: as many as processors. The image does not depend on it")
       ->check(whole_within(ImageRanges::n_threads))
       ->capture_default_str();
 }

@@ -18,7 +18,7 @@ class BeamSpread {
   /// `depth` (m) of `n_samples`. Requires: a valid transducer.
   BeamSpread(const Transducer& transducer, double depth, int n_samples);
 
-  /// Notes the way of scanline `line`. Different lines may be noted by different threads.
+  /// Notes the path of scanline `line`. Different lines may be noted by different threads.
   void note(int line, const BeamPath& path) noexcept;
 
   /// Weakens the samples of scanline `line`. Requires: every line has been noted.

@@ -32,7 +32,7 @@ struct BeamRun {
   std::size_t n_knots = 0;            ///< to the first behind it; 0: the tissue is at rest
 };
 
-/// Where a piece of tissue on a beam was at rest; between knots the way is straight there, too.
+/// Where a piece of tissue on a beam was at rest; between knots the path is straight there, too.
 struct BeamKnot {
   double path = 0;             ///< m along the beam from the face
   Vec3 rest_J = Vec3::Zero();  ///< m
@@ -56,7 +56,7 @@ struct BeamEcho {
   Vec3 step_J = Vec3::Zero();  ///< m per sample, onward, at rest
 };
 
-/// Everything one beam meets on its way.
+/// Everything one beam meets on its path.
 struct BeamTrace {
   static constexpr std::size_t kMax = 192;
   static constexpr std::size_t kMaxIntervals = 128;
@@ -93,7 +93,7 @@ struct BeamTrace {
   [[nodiscard]] bool find_sample(double path, double& sample, double& log_gain) const noexcept;
 };
 
-/// A way through the body: points at increasing path length, straight in between.
+/// A path through the body: points at increasing path length, straight in between.
 struct BeamPath {
   static constexpr std::size_t kMax = 48;
   std::array<Vec3, kMax> p_J;

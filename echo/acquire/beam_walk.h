@@ -12,13 +12,13 @@
 namespace artus {
 
 inline constexpr double kNoLength = 1e-12;  // m
-// Knots between which the way at rest is straight to so much, m, and the gradient to so much, are
+// Knots between which the path at rest is straight to so much, m, and the gradient to so much, are
 // one piece: each costs every plane.
 inline constexpr double kOnePiece = 8e-6;
 inline constexpr double kOneGradient = 0.02;
 inline constexpr std::size_t kMaxLeftOut = 12;
 // rad, bend at which a beam has lost a neper. assumed: half the acceptance of an F/2 aperture; the
-// rest of the aperture went another way and no longer adds up
+// rest of the aperture took another path and no longer adds up
 inline constexpr double kBendLobe = 12 * kDegree;
 
 /// Where a beam is and what it has lost.
@@ -42,17 +42,17 @@ struct BeamTracer::Walk {
   double attenuation = 0;  // Np, two-way
   double slope = 0;        // Np/Hz, two-way
   double log_transmission = 0;
-  double bend_loss = 0;                // Np, see kBendLobe
-  const BeamTrace* central = nullptr;  // of the middle plane, for the others
-  std::size_t central_run = 0;         // the one beside this beam's place
-  std::size_t guide_knot = 0;          // the first behind the last one made
-  Vec3 line_start = {};                // of the straight piece, as the next four
-  Vec3 line_direction = {};            // unit
-  double line_path = 0;                // m, at its start
-  double time_scale = 1;               // length of beam over length of line
-  std::optional<RestPath> way = {};    // for knots of its own, once they are needed
-  bool has_knots = false;              // whether this line has any
-  std::size_t line_knot = 0;           // its first
+  double bend_loss = 0;                    // Np, see kBendLobe
+  const BeamTrace* central = nullptr;      // of the middle plane, for the others
+  std::size_t central_run = 0;             // the one beside this beam's place
+  std::size_t guide_knot = 0;              // the first behind the last one made
+  Vec3 line_start = {};                    // of the straight piece, as the next four
+  Vec3 line_direction = {};                // unit
+  double line_path = 0;                    // m, at its start
+  double time_scale = 1;                   // length of beam over length of line
+  std::optional<RestPath> rest_path = {};  // for knots of its own, once they are needed
+  bool has_knots = false;                  // whether this line has any
+  std::size_t line_knot = 0;               // its first
   std::array<LeftOut, kMaxLeftOut> left_out = {};
   std::size_t n_left_out = 0;
   Vec3 displacement = Vec3::Zero();                        // m, of the tissue last met
@@ -75,7 +75,7 @@ struct BeamTracer::Walk {
     const Vec3& from = trace.knots[k].rest_J;
     return from + share_behind(k, at_path) * (trace.knots[k + 1].rest_J - from);
   }
-  /// How the way at rest goes on there, m per metre of beam.
+  /// How the path at rest goes on there, m per metre of beam.
   [[nodiscard]] Vec3 onward_at(double at_path) const noexcept {
     const BeamKnot* const knot = &trace.knots[knot_before(at_path)];
     return (knot[1].rest_J - knot[0].rest_J) / (knot[1].path - knot[0].path + kNoLength);
@@ -115,7 +115,7 @@ struct BeamTracer::Walk {
     const BeamKnot& before = trace.guide->knots[guide_knot - 1];
     return after == nullptr || before.path <= at_path ? &before : after;
   }
-  /// Adds a knot of its own; instead of the last one, where the way is straight without that.
+  /// Adds a knot of its own; instead of the last one, where the path is straight without that.
   void add_knot(const KnotFrame& frame) noexcept {
     const std::size_t last = trace.n_knots - 1;
     if (last > line_knot && n_left_out < kMaxLeftOut) {

@@ -17,7 +17,7 @@ constexpr double kTailShare = 0.35;       // assumed: scattering just behind a r
 constexpr float kTailDecay = 0.8F;        // per sample
 constexpr std::size_t kTailGap = 3;       // samples behind the surface
 constexpr std::size_t kTailSamples = 16;  // samples
-constexpr double kHaze = 0.1;       // assumed: -20 dB at the face, +6 for both orders of the way,
+constexpr double kHaze = 0.1;       // assumed: -20 dB at the face, +6 for both orders of the path,
                                     // -6 because its second leg is out of focus
 constexpr float kSheet = 1.6F;      // texture above which a sheet reflects coherently
 constexpr double kGuided = 0.8e-3;  // m from a beam, where the tissue is by its displacement and

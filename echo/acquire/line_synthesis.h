@@ -24,7 +24,7 @@ struct LineScratch {
   std::size_t own = 0;              // of the two
   int guide = kNoLine;              // line whose beam is the first
   BeamTrace side;
-  std::array<BeamPath, 2> bent;  // ways of `middle`
+  std::array<BeamPath, 2> bent;  // paths of `middle`
   BeamPath plane;
   ScatterView view;
   std::vector<float> gain;
@@ -38,7 +38,7 @@ struct LineScratch {
   }
   /// The line's beam in the middle plane.
   [[nodiscard]] BeamTrace& central() noexcept { return middle[own]; }
-  /// Its way.
+  /// Its path.
   [[nodiscard]] BeamPath& path() noexcept { return bent[own]; }
 };
 

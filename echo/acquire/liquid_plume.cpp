@@ -80,7 +80,7 @@ bool LiquidPlume::is_liquid(const Scene& scene, const Vec3& p_J) const noexcept 
   return region < wet_.size() && wet_[region];
 }
 
-/// Where a way leads that ends before the first wall.
+/// Where a path leads that ends before the first wall.
 Vec3 LiquidPlume::drift(const Scene& scene, const Vec3& from, const Vec3& displacement,
                         bool& hit) const noexcept {
   const double length = displacement.norm();
@@ -120,7 +120,7 @@ void LiquidPlume::leave(const Scene& scene, const Jet& jet, double time, Driftin
   point.phase = 2 * std::numbers::pi * uniform_noise(seed_, id + kPhase);
   point.p_J = drift(scene, jet.p_J, x * direction, hit);
   point.v_J = std::min(jet.speed, jet.fall / std::max(x, 1e-6)) * direction;
-  if (hit) {  // what hits a wall goes on along it, all ways
+  if (hit) {  // what hits a wall goes on along it in all directions
     const Vec3 away = kSwirl * (std::cos(turn) * jet.aside + std::sin(turn) * jet.across);
     const double rest = std::max(0.0, x - (point.p_J - jet.p_J).norm());
     point.v_J = point.v_J.norm() * away;

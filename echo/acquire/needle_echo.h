@@ -10,7 +10,7 @@
 
 namespace artus {
 
-/// A scanline with the sound that went along it: the trace and the way of its central beam.
+/// A scanline with the sound that went along it: the trace and the path of its central beam.
 struct SoundedLine {
   const PlacedLine& placed;
   const BeamTrace& trace;

@@ -141,9 +141,9 @@ void BeamTracer::begin_knots(Walk& walk) const noexcept {
     walk.add_knot_beside(*walk.knot_beside(walk.path), walk.path);
     return;
   }
-  walk.way.emplace(tissue_->body(), walk.line_start, walk.line_direction);
+  walk.rest_path.emplace(tissue_->body(), walk.line_start, walk.line_direction);
   KnotFrame frame;
-  frame.rest = walk.way->at(walk.along(walk.path), walk.displacement);
+  frame.rest = walk.rest_path->at(walk.along(walk.path), walk.displacement);
   frame.gradient_J = tissue_->at(frame.rest.rest_C, frame.rest.cell);
   walk.put_knot(walk.trace.n_knots++, frame);
 }
@@ -162,7 +162,7 @@ void BeamTracer::add_knot(Walk& walk, double path) const noexcept {
     return;
   }
   KnotFrame frame;
-  frame.rest = walk.way->next(walk.trace.frames[last].rest);
+  frame.rest = walk.rest_path->next(walk.trace.frames[last].rest);
   frame.gradient_J = tissue_->at(frame.rest.rest_C, frame.rest.cell);
   walk.add_knot(frame);
 }
@@ -315,8 +315,8 @@ void BeamTracer::trace_bent(const Vec3& origin_J, const Vec3& direction_J, BeamT
 void BeamTracer::trace_along(const BeamPath& path, const Vec3& elevation_axis_J,
                              const BeamTrace& central, BeamTrace& trace) const noexcept {
   trace.clear();
-  const auto without_elevation = [&](const Vec3& way) {
-    return Vec3((way - elevation_axis_J * elevation_axis_J.dot(way)).normalized());
+  const auto without_elevation = [&](const Vec3& direction) {
+    return Vec3((direction - elevation_axis_J * elevation_axis_J.dot(direction)).normalized());
   };
   const Vec3 straight = without_elevation(path.p_J[1] - path.p_J[0]);
   Walk walk{trace, straight, straight};
@@ -325,12 +325,12 @@ void BeamTracer::trace_along(const BeamPath& path, const Vec3& elevation_axis_J,
   if (guide.n_knots > 0) trace.guide = &guide;
   bool alive = true;
   for (std::size_t i = 0; alive && i + 1 < path.size; ++i) {
-    const Vec3 way = path.p_J[i + 1] - path.p_J[i];
-    const double geometric = way.norm();
+    const Vec3 step = path.p_J[i + 1] - path.p_J[i];
+    const double geometric = step.norm();
     const double beam = path.length[i + 1] - path.length[i];
     if (geometric <= 0 || beam <= 0) continue;
-    walk.turn(without_elevation(way));
-    alive = pass(walk, path.p_J[i], way / geometric, geometric, beam / geometric);
+    walk.turn(without_elevation(step));
+    alive = pass(walk, path.p_J[i], step / geometric, geometric, beam / geometric);
   }
   trace.shadow_from = walk.sample;
   add_repeats(trace);

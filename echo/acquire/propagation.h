@@ -27,7 +27,7 @@ class BeamTracer {
   [[nodiscard]] bool gives_way() const noexcept { return tissue_ != nullptr; }
 
   /// The beam from `origin_J` along `direction_J` (unit), bent at the interfaces when refraction is
-  /// on. Fills `trace`, and `path` with the way it took. Where the tissue was it takes from
+  /// on. Fills `trace`, and `path` with the course it took. Where the tissue was it takes from
   /// `guide`, a beam less than half a millimetre beside it, or finds it itself. Cost: one query per
   /// bend.
   void trace_bent(const Vec3& origin_J, const Vec3& direction_J, BeamTrace& trace, BeamPath& path,
@@ -66,7 +66,7 @@ class BeamTracer {
   double n_samples_;
   double spectrum_sigma_;  // Hz
   double gel_limit_;       // m
-  double max_path_;        // m, longest way a beam can go within the displayed time
+  double max_path_;        // m, longest path a beam can go within the displayed time
   bool refraction_;
   bool reverberation_;
 };

@@ -41,7 +41,7 @@ struct ScatterView {
   std::size_t size = 0;
 };
 
-/// A straight part of the way that a line's samples take through the tissue as it was at rest.
+/// A straight part of the path that a line's samples take through the tissue as it was at rest.
 struct ScatterPiece {
   std::size_t begin = 0;       ///< sample
   std::size_t end = 0;         ///< the first behind it

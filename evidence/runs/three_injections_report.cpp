@@ -209,8 +209,8 @@ nlohmann::json summarize(const ThreeInjections& run) {
     out["plateaus"].push_back({{"tissue", p.tissue},
                                {"expected_n", p.expected},
                                {"mean_n", p.mean},
-                               {"least_n", p.least},
-                               {"most_n", p.most},
+                               {"min_n", p.least},
+                               {"max_n", p.most},
                                {"rise_m", p.rise},
                                {"rows", p.rows}});
   }

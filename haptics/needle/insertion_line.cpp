@@ -112,7 +112,7 @@ void InsertionLine::slide(const Vec3& tip, const Vec3& own_axis, LineChange& cha
   const Vec3 on_line = slid > 0 ? Vec3(tip + in / off * (foot - tip)) : foot;
   approach(on_line, own_axis, angle > max ? max / angle : 1.0);
   deepest_ += depth(tip) - before;
-  change.kept *= std::exp(-(slid + turned) / params_.way);
+  change.kept *= std::exp(-(slid + turned) / params_.drag);
 }
 
 // How far the tip may be off a line, m.
@@ -144,7 +144,7 @@ void InsertionLine::turn(const Vec3& tip, LineChange& change) noexcept {
   if (!(turned > 0)) return;
   change.moved = true;
   change.turned += turned;
-  const double kept = std::exp(-turned / params_.way);
+  const double kept = std::exp(-turned / params_.drag);
   axis_ = axis;
   const double now = depth(tip);
   const double enough = params_.withdrawal + params_.advance;

@@ -13,7 +13,7 @@ struct LineParams {
   double angle = 1 * kDegree;  ///< rad off the line that it always bears; assumed
   double advance = 1e-3;  ///< m on a new line until it begins to hold; assumed: above what a hand
                           ///< that turns advances without meaning to
-  double way = 0.5e-3;    ///< m by which the tip drags the line until all but 1/e of the old
+  double drag = 0.5e-3;   ///< m by which the tip drags the line until all but 1/e of the old
                           ///< track is lost; assumed: a needle's width
   double near_skin =
       3e-3;            ///< m, nearer the skin a line does not turn, as the direction from entry
@@ -27,14 +27,14 @@ struct LineChange {
   bool moved = false;
   double turned = 0;  ///< m, by which the tip dragged it, at the tip
   double gain = 0;    ///< m, by which it made the depth greater
-  double kept = 1;    ///< share of the cut track in front of the tip that is still the tip's way
+  double kept = 1;    ///< share of the cut track in front of the tip that is still the tip's path
 };
 
 /// The line that tissue holds the shaft on: from the entry P0 along u. The tip may be off it by a
 /// band without end while nothing is withdrawn, by max(deviation, angle * x) after `withdrawal`,
 /// and by (withdrawal / withdrawn)^4 of that in between; a tip that goes beyond drags the line
 /// after it, about the entry and inside the cone alpha(depth). A line that is dragged loses the old
-/// track, and with it how far the needle was withdrawn, by exp(-way dragged / way). So a line is
+/// track, and with it how far the needle was withdrawn, by exp(-path dragged / drag). So a line is
 /// not taken or kept: it moves continuously with the path, as a loop of any rate finds it. On the
 /// way out of the skin the line is let go in the same manner: by the share of the last millimetres
 /// that is left it stays, and else it is the needle's own axis, as before a puncture. The tip is
@@ -50,7 +50,7 @@ class InsertionLine {
   ARTUS_REALTIME void start(const Vec3& tip, const Vec3& axis, double depth,
                             const Vec3& skin_normal) noexcept;
 
-  /// The tip moves straight to `tip`, the needle's own axis becomes `own_axis` (unit). The way is
+  /// The tip moves straight to `tip`, the needle's own axis becomes `own_axis` (unit). The path is
   /// gone in parts of some micrometres, so that a slow loop's line goes as a fast one's.
   ARTUS_REALTIME LineChange follow(const Vec3& tip, const Vec3& own_axis) noexcept;
 

@@ -129,7 +129,7 @@ std::vector<LawDescription> bone_laws() {
           {"bone edge",
            "slide",
            "",
-           "a tip that slides off bone leaves it over min(way pressed in, f_cutting / K, bevel)",
+           "a tip that slides off bone leaves it over min(depth pressed in, f_cutting / K, bevel)",
            kAssumed,
            {{"bevel", ContactParams{}.bevel, "m", kAssumed}}}};
 }
@@ -170,7 +170,7 @@ std::vector<LawDescription> line_laws() {
             {"deviation", contact.line.deviation, "m", kAssumed},
             {"angle", contact.line.angle, "rad", kAssumed},
             {"advance", contact.line.advance, "m", kAssumed},
-            {"way", contact.line.way, "m", kAssumed},
+            {"drag", contact.line.drag, "m", kAssumed},
             {"near_skin", contact.line.near_skin, "m", kAssumed},
             {"play", contact.line.play, "m", kAssumed},
             {"layer_edge", contact.layer_edge, "m", kAssumed}}}};

@@ -247,7 +247,7 @@ double NeedleContact::wholeness(double depth) const noexcept {
 
 // A line that comes to graze bone meets it millimetres behind the tip all at once, and loses it as
 // suddenly. The tip cannot be farther in than it has moved; and a bevel that was pressed into bone
-// leaves it over the way that it was in, not where its line does.
+// leaves it over the depth that it was in, not where its line does.
 double NeedleContact::felt_bone(double line_depth) noexcept {
   const double x = tick_.depth;
   const double before = on_bone_ ? bone_ + tick_.line_gain : x;
@@ -264,9 +264,9 @@ double NeedleContact::felt_bone(double line_depth) noexcept {
   return bone_;
 }
 
-// The tip is in this stretch. What its law feels goes over to it on the first way in it, so that a
-// tip at rest on a border is not in one layer or the other by chance. Two laws mean different
-// things by one stiffness: from one to the other there is no way over.
+// The tip is in this stretch. What its law feels goes over to it on the first stretch in it, so
+// that a tip at rest on a border is not in one layer or the other by chance. Two laws mean
+// different things by one stiffness: from one to the other there is no passage.
 void NeedleContact::feel(const ShaftLayer& stretch, bool skin) noexcept {
   const LayerHaptics before = tick_.layer;
   tick_.layer = (*table_)[stretch.region];

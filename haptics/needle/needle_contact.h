@@ -49,10 +49,10 @@ struct ContactParams {
                                     ///< needle moves over a slope in a tick
   double membrane_edge = 0.5e-3;    ///< m farther, over which its strength is lost; assumed: a
                                     ///< needle's width
-  double layer_edge = 0.2e-3;       ///< m, way on which the tip goes over from what one soft layer
+  double layer_edge = 0.2e-3;       ///< m, path on which the tip goes over from what one soft layer
                                     ///< feels like to the next; assumed: a part of a bevel
-  double bevel = 1e-3;  ///< m, way on which a tip that was pressed into bone slides off it at most;
-                        ///< assumed: the size of a needle's bevel
+  double bevel = 1e-3;  ///< m, path on which a tip that was pressed into bone slides off it at
+                        ///< most; assumed: the size of a needle's bevel
   MotionParams motion;
   double velocity_window = 0.01;  ///< s; lag half of it; only for laws that need a velocity
 };
@@ -85,7 +85,7 @@ class NeedleContact {
 
   /// Advances by one period. `intervals` are those of query_segment(X_JN), which is where the
   /// needle is in the material, the tissue at its tip lying as `tissue` says. Layers are met by the
-  /// depth in the material; speed and way are those of the hand against what carries the tissue,
+  /// depth in the material; speed and path are those of the hand against what carries the tissue,
   /// and it rests when it does so in space.
   ARTUS_REALTIME void update(const Pose& X_JN, std::span<const TissueInterval> intervals,
                              const TipTissue& tissue = {}) noexcept;

@@ -15,14 +15,14 @@ struct NeedleCouplingParams {
 };
 
 /// m/N that tissue has at most which was measured with a layer's K_t (`wall_stiffness`, N/m > 0):
-/// the rest of the hand's way is in the tip's own neighbourhood, where it cuts.
+/// the rest of the hand's path is in the tip's own neighbourhood, where it cuts.
 [[nodiscard]] inline double max_tissue_compliance(double wall_stiffness) noexcept {
   constexpr double kShare = 7.0 / 8;  // of 1/K_t; assumed
   return kShare / wall_stiffness;
 }
 
 /// Tissue that gives way to a needle, in the fast loop. The tip's force pushes the tissue before
-/// it, so that the tip is less deep in the material than in space. That way is part of the one
+/// it, so that the tip is less deep in the material than in space. That path is part of the one
 /// which the laws' stiffness was measured with: it says where layers are met and what the picture
 /// shows, not how stiff the hand finds them. The shaft holds the tissue along the track and drags
 /// it until friction gives way, point by point (stick and slip). The forces on the tissue minimise
@@ -79,7 +79,7 @@ class NeedleCoupling {
   [[nodiscard]] double dragged(std::size_t point) const noexcept;       // beside the shaft
   void follow_tip(double depth, double tip_force, double wall_stiffness) noexcept;
 
-  double follow_;  // share of the way in a tick
+  double follow_;  // share of the displacement in a tick
   NeedleCouplingParams params_;
   NeedleCompliance compliance_;
   NeedleLoad load_;

@@ -91,7 +91,7 @@ class NeedleModel {
   Vec3 carried_to_ = Vec3::Zero();  // by the newest packet
   double compliance_scale_ = 1;     // NeedlePacket::give, followed as carried_ is
   double compliance_scale_to_ = 1;
-  double follow_;    // share of the way in a tick
+  double follow_;    // share of the displacement in a tick
   NeedleTick felt_;  // the contact's tick, with tip and depth as the hand has them
   double grip_ = 0;  // friction's level g(v), followed within its relaxation time
   Vec3 last_tip_ = Vec3::Zero();

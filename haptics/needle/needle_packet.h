@@ -12,8 +12,8 @@ struct NeedlePacket {
   std::array<double, 3> carried{};  ///< m, frame J: how far the tissue at the tip is from its rest,
                                     ///< without what the needle itself pushed it
   NeedleCompliance compliance;      ///< along the track; no points: the tissue is rigid to it
-  double compliance_scale = 1;  ///< 0 to 1: of the way that the compliance says, what the tissue at
-                                ///< the tip goes: pressed far it is stiffer
+  double compliance_scale = 1;  ///< 0 to 1: of the displacement that the compliance says, what the
+                                ///< tissue at the tip goes: pressed far it is stiffer
 };
 
 }  // namespace artus

@@ -9,7 +9,7 @@ namespace artus {
 
 ARTUS_FIELDS(MotionParams, band, moving_band, time);
 
-ARTUS_FIELDS(LineParams, withdrawal, deviation, angle, advance, way, near_skin, play);
+ARTUS_FIELDS(LineParams, withdrawal, deviation, angle, advance, drag, near_skin, play);
 
 ARTUS_FIELDS(ContactParams, needle_length, line, behind_skin, lookahead, approach, membrane_margin,
              membrane_edge, layer_edge, bevel, motion, velocity_window);

@@ -79,11 +79,12 @@ struct PlungerParams {
   double unbalanced = 0.05;  ///< of the thumb's force goes into the needle; assumed: 0.05 for the
                              ///< skilled to 0.2, 0 with an extension line
   double max_force = 100;    ///< N; assumed: the limit of one hand
-  double reopen_distance = 0.5e-3;   ///< m the tip may move before its place is closed to it again
-  double reopen_time = 30;           ///< s without flow before it is
-  double lost_resistance = 1e9;      ///< Pa s/m^3 from a torn place to its surroundings; assumed
-  double grip = 35e3;                ///< Pa from which on liquid follows the needle out; assumed
-  double track_resistance = 1.1e11;  ///< Pa s/m^3 of that way; assumed: 0.1 mm around 20 mm of 22 G
+  double reopen_distance = 0.5e-3;  ///< m the tip may move before its place is closed to it again
+  double reopen_time = 30;          ///< s without flow before it is
+  double lost_resistance = 1e9;     ///< Pa s/m^3 from a torn place to its surroundings; assumed
+  double grip = 35e3;               ///< Pa from which on liquid follows the needle out; assumed
+  double track_resistance =
+      1.1e11;             ///< Pa s/m^3 of that path; assumed: 0.1 mm around 20 mm of 22 G
   double clog_time = 20;  ///< s at rest after which grains clog 27 G and thinner, in the mean;
                           ///< assumed
   std::uint64_t seed = 1;
@@ -134,7 +135,8 @@ class Plunger {
     double lag;   // Pa s/m^3
     double step;  // s
   };
-  /// The thumb in a step: its force runs from one to the other, less what the stopper's way takes.
+  /// The thumb in a step: its force runs from one to the other, less what the stopper's travel
+  /// takes.
   struct Push {
     double from;       // N
     double to;         // N, if the stopper stayed
@@ -144,7 +146,7 @@ class Plunger {
       return {from, from + share * (to - from), stiffness, share * step};
     }
   };
-  /// The stopper's mean speed in the way it goes, in its last step.
+  /// The stopper's mean speed in the direction it goes, in its last step.
   struct StopperMotion {
     double speed = 0;  // m/s
     double step = 0;   // s

@@ -47,7 +47,7 @@ double Plunger::gliding(double thumb, double stiffness) const noexcept {
   return (net + soft * state_.pressure) / (area_ + soft);
 }
 
-/// The stopper's mean speed in the way it goes; not above 0: then it sticks, and nothing has
+/// The stopper's mean speed in the direction it goes; not above 0: then it sticks, and nothing has
 /// changed.
 double Plunger::glide(const PlungerInput& input, const Push& push) noexcept {
   const double soft = push.stiffness * softness_ / area_;
@@ -95,7 +95,7 @@ void Plunger::meet(const PlungerInput& input) noexcept {
   state_.bevel_pressure = state_.flow == 0 ? state_.pressure : now.pressure;
 }
 
-/// The way in which a resting stopper breaks loose under a net force on it (N); 0: it holds.
+/// The direction in which a resting stopper breaks loose under a net force on it (N); 0: it holds.
 int Plunger::breaks_loose(double net) const noexcept {
   if (net > hold_ && state_.travel < in_end_) return 1;
   return -net > hold_ && state_.travel > out_end_ ? -1 : 0;

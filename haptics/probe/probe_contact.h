@@ -43,7 +43,7 @@ struct ProbeContact {
                                    ///< under the edges holds against sliding there
   Vec3 turning = Vec3::Zero();     ///< N m, part of the wrench, frame J: of what lies askew below
   Vec3 friction = Vec3::Zero();    ///< N, part of the wrench: tangential, frame J
-  double slip = 0;                 ///< m, way slid over the skin since the face touched it
+  double slip = 0;                 ///< m, path slid over the skin since the face touched it
   double stiffness = 0;            ///< N/m, K_c: d normal force / d indentation, for the actuator
   double indentation = 0;          ///< m, of the deepest column
   double contact_share = 0;        ///< of the face that presses on skin, 0..1
@@ -58,8 +58,8 @@ struct ProbeContact {
 /// stands on the skin, not on the face. One instance per probe; not thread safe; deterministic.
 class ProbeContactModel {
  public:
-  /// Requires: a scene; a footprint with positive size, at least one column each way and one
-  /// element (std::invalid_argument).
+  /// Requires: a scene; a footprint with positive size, at least one column in each direction and
+  /// one element (std::invalid_argument).
   ProbeContactModel(std::shared_ptr<const Scene> scene, const ProbeContactParams& params);
 
   /// Forgets friction; the next step starts where the probe then is.

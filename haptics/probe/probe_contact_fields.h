@@ -10,7 +10,7 @@ namespace artus {
 
 ARTUS_FIELDS(ProbeFootprint, length, width, columns_x, columns_y, elements);
 
-ARTUS_FIELDS(ColumnParams, strain_limit, stop_stiffness, least_modulus);
+ARTUS_FIELDS(ColumnParams, strain_limit, stop_stiffness, min_modulus);
 
 ARTUS_FIELDS(ProbeContactParams, footprint, column, column_depth, max_indentation, gel,
              gel_friction, dry_friction, gel_gap, shear_stiffness);

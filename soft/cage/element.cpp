@@ -338,7 +338,8 @@ CellMatrix cell_tangent(const CellMaterial& m, double edge, const CellVector& u,
     const Gradients d = gauss_gradients(g) / edge;
     const double w = volume * m.weight[g];
     const Matrix9 H = w * point_tangent(m, g, k, law.pressure, plane);
-    // B, which takes the nodes' ways to grad u, is d in each of the three directions by itself.
+    // B, which takes the nodes' displacements to grad u, is d in each of the three directions by
+    // itself.
     Eigen::Matrix<double, 24, 9> BH = Eigen::Matrix<double, 24, 9>::Zero();
     for (int r = 0; r < 9; ++r) {
       for (int a = 0; a < 8; ++a) {

@@ -220,7 +220,7 @@ class Push {
     shadow_.spread();
   }
 
-  /// The liquid's surface; `way`: unit.
+  /// The liquid's surface; `direction`: unit.
   [[nodiscard]] Vec3 surface(const Vec3& displacement) const {
     return centre_ + out_ * (std::cbrt(cube_toward(shadow_.nearness(displacement),
                                                    outline_.reach(displacement))) *
@@ -235,7 +235,7 @@ class Push {
     const double near = is_far ? 0 : shadow_.nearness(y);
     const double cube = rho * rho * rho;
     if (cube * near >= 1) return p;
-    // From afar an outline looks smooth; evenly less over so long a way that
+    // From afar an outline looks smooth; evenly less over so long a path that
     // nothing passes.
     constexpr double kSmooth = 2;
     const double seen =

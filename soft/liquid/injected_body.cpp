@@ -121,7 +121,7 @@ class Walls {
     }
     return out ? nearest : 0;
   }
-  /// The shorter of the two ways.
+  /// The shorter of the two paths.
   [[nodiscard]] double reach_both(const Vec3& p, const Vec3& d) const {
     return std::min(reach(p, d), reach(p, -d));
   }

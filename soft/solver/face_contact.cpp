@@ -189,7 +189,7 @@ Eigen::VectorXd FaceContact::forces_of(const std::vector<Vec3>& by_piece) const 
 }
 
 /// Changes `force` (3 n_points, where the search starts) to what holds the points before the face
-/// when they go the share `alpha` of their way.
+/// when they go the share `alpha` of their displacement.
 void FaceContact::balance(const Eigen::VectorXd& step_root, std::span<const Vec3> u, double alpha,
                           Eigen::VectorXd& force) const {
   const auto n = static_cast<Index>(points_.size());

@@ -92,7 +92,8 @@ class FaceContact {
   [[nodiscard]] ContactForce force() const;
 
   /// Finds the forces with which the face would press at rest, where the points moved by
-  /// `step_root` go the whole way: what relaxes is not in them. Changes neither forces nor points.
+  /// `step_root` go the whole displacement: what relaxes is not in them. Changes neither forces nor
+  /// points.
   void settle(const Eigen::VectorXd& step_root, std::span<const Vec3> u);
   /// The same as force(), of those at rest.
   [[nodiscard]] ContactForce force_at_rest() const { return sum(at_rest_); }

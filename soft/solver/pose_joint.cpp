@@ -19,7 +19,8 @@
 namespace artus {
 namespace {
 
-using Twist = Eigen::Matrix<double, 6, 1>;  // turn (rad), then the way of the frame's origin (m)
+using Twist =
+    Eigen::Matrix<double, 6, 1>;  // turn (rad), then the displacement of the frame's origin (m)
 
 constexpr double kUnitModulus = 15e3;  // Pa, muscle's: conductance 1
 constexpr double kMinConductance = 0.2;

@@ -68,8 +68,8 @@ double RestPath::to_face(const RestKnot& left) const noexcept {
   return std::clamp(distance + 1e-6, piece.whole ? kMinStep : kMinLayerStep, kFarthestFace);
 }
 
-/// Whether the line meets cubes of several tissues between two ways from the left knot, m: there it
-/// bends and comes back.
+/// Whether the line meets cubes of several tissues between two distances from the left knot, m:
+/// there it bends and comes back.
 bool RestPath::meets_layers(const RestKnot& left, double from, double to) const noexcept {
   const SoftModel& model = *body_->map().model;
   for (const double distance : {from + kMinStep, 0.5 * (from + to), to}) {

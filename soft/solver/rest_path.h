@@ -27,7 +27,7 @@ struct RestKnot {
 };
 
 /// A straight line through a body that gives way, and the way that its tissue had at rest: knots
-/// where it passes from cube to cube, between which the way is straight to 8 um. Keeps references.
+/// where it passes from cube to cube, between which the path is straight to 8 um. Keeps references.
 class RestPath {
  public:
   /// `direction_J`: unit.

@@ -68,8 +68,9 @@ class SoftBody {
 
   /// Moves bones from where they are at rest, each as a rigid body, and lets the tissue follow;
   /// those that are not named are at rest. In `parts`, so that no cube is torn at once. Bones do
-  /// not meet each other: where two share a cube the way is short. Errors: not_found (no such bone
-  /// in the cage), failed (the tissue did not follow: the state is at rest again). Cost: some s.
+  /// not meet each other: where two share a cube the displacement is short. Errors: not_found (no
+  /// such bone in the cage), failed (the tissue did not follow: the state is at rest again). Cost:
+  /// some s.
   [[nodiscard]] Result<void> move_bones(std::span<const BoneMotion> motions, int parts = 10);
 
   /// The present state; `before` as in DeformedBody. Cost: some ms.

@@ -219,10 +219,10 @@ bool SoftSolver::stands() const {
          forces_.min_volume >= params_.min_volume;
 }
 
-/// Goes the share `alpha` of `way`, but no node farther than `limit`, and half as far as long as it
-/// squeezes too much or goes beyond where nothing pulls along it any more: stretched fibres and
-/// crushed tissue are stiffer than the tangent knows, and whole steps would go to and fro. `pull`:
-/// the forces that `way` balances by the tangent, N.
+/// Goes the share `alpha` of `displacement`, but no node farther than `limit`, and half as far as
+/// long as it squeezes too much or goes beyond where nothing pulls along it any more: stretched
+/// fibres and crushed tissue are stiffer than the tangent knows, and whole steps would go to and
+/// fro. `pull`: the forces that `displacement` balances by the tangent, N.
 double SoftSolver::apply(const Eigen::VectorXd& offset, double alpha, const Eigen::VectorXd& pull,
                          double limit, std::uint32_t& status) {
   const Eigen::VectorXd step = alpha * offset;
@@ -290,7 +290,7 @@ const SoftStep& SoftSolver::step(const std::optional<Pose>& X_CP, double dt) {
   return go(X_CP, 1 - std::exp(-dt / params_.relaxation));
 }
 
-/// A step by the share `alpha` of its way.
+/// A step by the share `alpha` of its displacement.
 const SoftStep& SoftSolver::go(const std::optional<Pose>& X_CP, double alpha) {
   SoftStep out;
   const Eigen::VectorXd before = x_;

@@ -59,8 +59,8 @@ struct SoftStep {
 
 /// The body as it gives way: displacement of the nodes, forces of the face, and the factor of a
 /// tangent that is refreshed when asked. Quasi-static with one relaxation time: a step of dt goes
-/// the share 1 - exp(-dt/tau) of the way. Quasi-Newton: the factor may be older than the state. The
-/// state is finite always. One thread; the same calls give the same bytes.
+/// the share 1 - exp(-dt/tau) of the displacement. Quasi-Newton: the factor may be older than the
+/// state. The state is finite always. One thread; the same calls give the same bytes.
 class SoftSolver {
  public:
   /// `contact_unknowns`: those that a face may press (contact_unknowns below), ascending.
@@ -107,10 +107,10 @@ class SoftSolver {
   /// infinite: without relaxation.
   const SoftStep& step(const std::optional<Pose>& X_CP, double dt);
 
-  /// Steps without relaxation, refreshing before each, until the way left is below `tolerance` (m)
-  /// at every node. A step that turns back on the one before goes half of its way, since between
-  /// two states of contact whole ones may go to and fro for ever. False when `max_steps` are not
-  /// enough.
+  /// Steps without relaxation, refreshing before each, until the displacement left is below
+  /// `tolerance` (m) at every node. A step that turns back on the one before goes half as far,
+  /// since between two states of contact whole ones may go to and fro for ever. False when
+  /// `max_steps` are not enough.
   bool settle(const std::optional<Pose>& X_CP, double tolerance = 1e-7, int max_steps = 200);
 
   [[nodiscard]] std::span<const Vec3> displacements() const noexcept { return u_; }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The list of commands: groups, help, names of before.
 #include <algorithm>
+#include <filesystem>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -24,8 +25,14 @@ using testing::Not;
 
 using Commands = test::TemporaryFolder;
 
-/// "check", "image labels", ...: all that --help lists, with those of commands that have some.
-std::vector<std::string> listed_commands() {
+/// A command that --help lists, "check" or "image labels", and what its own --help gives.
+struct Listed {
+  std::string name;
+  test::ProcessResult help;
+};
+
+/// All that --help lists, with those of commands that have some; each is started once.
+std::vector<Listed> listed_commands(const std::string& help_of_all) {
   const auto names_in = [](const std::string& help) {
     std::vector<std::string> names;
     std::istringstream lines(help);
@@ -38,49 +45,45 @@ std::vector<std::string> listed_commands() {
     }
     return names;
   };
-  std::vector<std::string> all;
-  for (const std::string& name : names_in(artus({"--help"}).out)) {
-    all.push_back(name);
-    for (const std::string& own : names_in(artus({name, "--help"}).out))
-      all.push_back(name + " " + own);
+  std::vector<Listed> all;
+  for (const std::string& name : names_in(help_of_all)) {
+    all.push_back({name, artus({name, "--help"})});
+    for (const std::string& own : names_in(all.back().help.out))
+      all.push_back({name + " " + own, artus({name, own, "--help"})});
   }
   return all;
 }
 
-std::vector<std::string> words_of(const std::string& text) {
-  std::istringstream in(text);
-  return {std::istream_iterator<std::string>(in), {}};
+void expect_examples_once(const Listed& command) {
+  EXPECT_EQ(command.help.exit_code, 0) << command.name;
+  EXPECT_EQ(command.help.err, "") << command.name;
+  const std::string& text = command.help.out;
+  for (const char* once : {"Usage:", "Examples:"}) {
+    const auto at = text.find(once);
+    ASSERT_NE(at, std::string::npos) << command.name << ' ' << once;
+    EXPECT_EQ(text.find(once, at + 1), std::string::npos) << command.name << ' ' << once;
+  }
+  EXPECT_THAT(text, HasSubstr("\n  artus " + command.name));
 }
 
-TEST_F(Commands, AreAboutTwentyInGroupsByWhoUsesThem) {
+TEST_F(Commands, AreAboutTwentyInGroupsByWhoUsesThemEachWithExamplesOnce) {
   const std::string help = artus({"--help"}).out;
   for (const char* group : {"For anatomists:", "For trainees and teachers:", "For researchers:",
                             "For haptics labs:", "For developers:"})
     EXPECT_THAT(help, HasSubstr(group));
-  const auto all = listed_commands();
-  const auto alone = std::count_if(all.begin(), all.end(), [](const std::string& name) {
+  const auto all = listed_commands(help);
+  std::vector<std::string> names;
+  for (const Listed& one : all) {
+    names.push_back(one.name);
+    expect_examples_once(one);
+  }
+  const auto alone = std::count_if(names.begin(), names.end(), [](const std::string& name) {
     return name.find(' ') == std::string::npos;
   });
   EXPECT_GE(alone, 20);
   EXPECT_LE(alone, 24) << "merge what is one thing";
   for (const char* one : {"image labels", "sweep merge", "learners rate", "serve monitor"})
-    EXPECT_THAT(all, testing::Contains(one));
-}
-
-TEST_F(Commands, EachHasHelpWithExamplesOnce) {
-  for (const std::string& name : listed_commands()) {
-    auto line = words_of(name);
-    line.emplace_back("--help");
-    const auto r = artus(line);
-    EXPECT_EQ(r.exit_code, 0) << name;
-    EXPECT_EQ(r.err, "") << name;
-    for (const std::string& once : {std::string("Usage:"), std::string("Examples:")}) {
-      const auto at = r.out.find(once);
-      ASSERT_NE(at, std::string::npos) << name << ' ' << once;
-      EXPECT_EQ(r.out.find(once, at + 1), std::string::npos) << name << ' ' << once;
-    }
-    EXPECT_THAT(r.out, HasSubstr("\n  artus " + name)) << name;
-  }
+    EXPECT_THAT(names, testing::Contains(one));
 }
 
 TEST_F(Commands, FlagsOfACommandAreNotAskedOfItsOwnCommands) {
@@ -89,6 +92,23 @@ TEST_F(Commands, FlagsOfACommandAreNotAskedOfItsOwnCommands) {
   const auto sweep = artus({"sweep"});
   EXPECT_EQ(sweep.exit_code, 2);
   EXPECT_THAT(sweep.err, HasSubstr("--joint"));
+}
+
+TEST_F(Commands, WhatThereIsNotIsToldByName) {
+  const auto told = [](const std::vector<std::string>& line) {
+    const auto r = artus(line);
+    EXPECT_NE(r.exit_code, 0) << line.front();
+    return r.err;
+  };
+  EXPECT_THAT(told({"imgae", "-j", "shoulder"}), HasSubstr("no command 'imgae'"));
+  EXPECT_THAT(told({"imgae"}), HasSubstr("'image'"));
+  EXPECT_THAT(told({"needle", "-j", "elbow"}), HasSubstr("elbow: there is no such joint"));
+  EXPECT_THAT(told({"serve", "-j", test::kSimple, "--rigid", "--input", "banana"}),
+              HasSubstr("'banana' is neither shared-memory"));
+  EXPECT_THAT(told({"replay", in("none.rec")}), HasSubstr("name the joint, or the scenario"));
+  EXPECT_THAT(told({"replay", in("none.rec"), "--scenario", "gel-fnd"}), HasSubstr("gel-find"));
+  EXPECT_THAT(told({"learners", "show", "--records", in("none.db")}), HasSubstr("none.db"));
+  EXPECT_FALSE(std::filesystem::exists(in("none.db"))) << "looking makes nothing";
 }
 
 TEST_F(Commands, AnOldNameWorksAndSaysItsNewOne) {

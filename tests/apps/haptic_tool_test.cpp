@@ -80,7 +80,7 @@ TEST(HapticTool, HandsTakeAWorkspaceAndThePassivityController) {
   const auto run = artus(hands("0.1", {"--workspace-mm", "0", "0", "60", "100",
                                        "--workspace-push-n", "2", "--passivity-control"}));
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_GT(nlohmann::json::parse(run.out).at("most_force_n").get<double>(), 0);
+  EXPECT_GT(nlohmann::json::parse(run.out).at("max_force_n").get<double>(), 0);
   for (const char* radius : {"0", "-5", "nan", "inf"}) {
     const auto refused = artus(hands("0.1", {"--workspace-mm", "0", "0", "60", radius}));
     EXPECT_EQ(refused.exit_code, 2) << radius;

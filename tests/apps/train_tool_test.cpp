@@ -372,6 +372,7 @@ TEST(TrainTask, AReviewHasTheExpertsRunAndTheTruthOfEachMoment) {
   ASSERT_TRUE(scene);
   PlayOptions options;
   options.seed = 2;
+  options.tissue_rate = 10;
   auto played = play(*scenario, *scene, novice_skill(), options);
   ASSERT_TRUE(played);
   TrainTask task{"someone", *scenario, *scene, {}};

@@ -127,14 +127,14 @@ void expect_replays(const Shown& shown) {
 // One after the other: two virtual displays that begin at once may take the same number.
 TEST(View, RecordsWhatReplaysToTheSameBytesForFlagsAndKnobs) {
   if (!test::has_virtual_display()) GTEST_SKIP() << "xvfb-run is not installed";
-  const std::vector<Shown> all{{"Feel",
-                                {"--cutting", "voigt", "--bone-tap", "impulse", "--patient",
-                                 "cutting=1.3", "--needle-length-mm", "50", "--device", "delta"}},
-                               {"Rates", {"--haptic-rate", "700", "--image-rate", "11"}},
-                               {"Window",
-                                {"--expert", "--plain", "--left-handed", "--font-scale", "1.5",
-                                 "--window-rate", "7", "--language", "fr"}},
-                               {"Knobs", {}, "wait 0.4\nkey G\nkey G\nkey D\nwait 0.4\n"}};
+  const std::vector<Shown> all{
+      {"FeelAndWindow",
+       {"--cutting", "voigt", "--bone-tap", "impulse", "--patient", "cutting=1.3",
+        "--needle-length-mm", "50", "--device", "delta", "--expert", "--plain", "--left-handed",
+        "--font-scale", "1.5", "--window-rate", "7", "--language", "fr"}},
+      {"RatesAndKnobs",
+       {"--haptic-rate", "700", "--image-rate", "11"},
+       "wait 0.4\nkey G\nkey G\nkey D\nwait 0.4\n"}};
   for (const Shown& shown : all) {
     SCOPED_TRACE(shown.name);
     expect_replays(shown);

@@ -187,7 +187,7 @@ TEST_F(Shards, StatisticsCountWhatIsInTheSet) {
   const auto& x = statistics->values.at("probe x, mm");
   ASSERT_EQ(x.size(), 10U);
   EXPECT_NEAR(x[4], 1e3 * source_.frame(4).X_JP.translation().x(), 1e-9);
-  const auto summary = to_json(*statistics)["least_quartiles_most"]["probe x, mm"];
+  const auto summary = to_json(*statistics)["min_quartiles_max"]["probe x, mm"];
   EXPECT_EQ(summary[0], *std::min_element(x.begin(), x.end()));
   EXPECT_EQ(summary[4], *std::max_element(x.begin(), x.end()));
   const cv::Mat page = histogram_page(*statistics);

@@ -26,9 +26,9 @@ void fields_of(P& params, F&& visit) {
 
 template <Like<PlungerParams> P, class F>
 void fields_of(P& params, F&& visit) {
-  auto& [syringe, needle, liquid, liquids, entry_loss, unbalanced, most_force, reopen_distance,
+  auto& [syringe, needle, liquid, liquids, entry_loss, unbalanced, max_force, reopen_distance,
          reopen_time, lost_resistance, grip, track_resistance, clog_time, seed] = params;
-  ARTUS_VISIT_FIELDS(visit, syringe, needle, liquid, entry_loss, unbalanced, most_force,
+  ARTUS_VISIT_FIELDS(visit, syringe, needle, liquid, entry_loss, unbalanced, max_force,
                      reopen_distance, reopen_time, lost_resistance, grip, track_resistance,
                      clog_time, seed);
 }

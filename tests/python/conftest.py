@@ -32,5 +32,11 @@ def simple():
 
 
 @pytest.fixture(scope="session")
+def bundled_cache():
+    """Where the bodies of bundled joints are kept that the other tests have."""
+    return SIMPLE.parent / "cache"
+
+
+@pytest.fixture(scope="session")
 def source():
     return SOURCE

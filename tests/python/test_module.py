@@ -147,7 +147,7 @@ def test_surfaces_from_memory_are_compiled(source, tmp_path):
         artus.compile(folder, {"bone": (np.zeros(3), np.zeros((1, 3)))})
 
 
-def test_the_surfaces_of_a_joint_compile_from_arrays_as_from_files(source, tmp_path):
+def test_the_surfaces_of_a_joint_compile_from_arrays_as_from_files(source, bundled_cache, tmp_path):
     """Read by hand, given back as arrays: the same body, and so the same picture."""
     folder = source / "meshes/simple-shoulder"
     table = tomllib.loads((folder / "joint.toml").read_text())
@@ -155,7 +155,7 @@ def test_the_surfaces_of_a_joint_compile_from_arrays_as_from_files(source, tmp_p
                                                if "file" in s}
     surfaces = {n: read_ply(folder / table.get("surfaces", ".") / f) for n, f in files.items()}
     from_arrays = artus.compile(folder, surfaces, cache=tmp_path / "a")
-    from_files = artus.load(folder, cache=tmp_path / "b")
+    from_files = artus.load(folder, cache=bundled_cache)
     assert from_arrays.regions == from_files.regions
     settings = {"lines": 64, "planes": 1, "samples": 256}
     images = [artus.Renderer(j, **settings).render(j.probe, j.needle).image

@@ -29,12 +29,16 @@ def wait_until_it_listens(number, server):
             time.sleep(0.1)
 
 
+# What is asked here does not depend on how often and by how many threads a picture is drawn.
+FEW_PICTURES = ["--image-rate", "10", "--threads", "1"]
+
+
 @contextlib.contextmanager
 def serving(tool, simple):
     number = free_port()
     server = subprocess.Popen(
         [tool, "serve", "-j", str(simple), "--rigid", "--input", "injection", "--igtl", str(number),
-         "--prefix", f"artus-py-{number}-", "--json"],
+         "--prefix", f"artus-py-{number}-", "--json", *FEW_PICTURES],
         stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     wait_until_it_listens(number, server)
     yield number, server
@@ -188,7 +192,7 @@ def test_a_scenario_of_artus_begins_by_command(tool, simple):
     number = free_port()
     server = subprocess.Popen(
         [tool, "serve", "-j", str(simple), "--rigid", "--input", "igtl", "--probe-hold-ms", "60000", "--igtl",
-         str(number), "--prefix", f"artus-ps-{os.getpid()}-", "--json"],
+         str(number), "--prefix", f"artus-ps-{os.getpid()}-", "--json", *FEW_PICTURES],
         stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
     wait_until_it_listens(number, server)
     client = Client(number)
@@ -234,7 +238,7 @@ def test_a_scenario_that_cannot_start_leaves_the_session_as_it_was(tool, simple)
     number = free_port()
     server = subprocess.Popen(
         [tool, "serve", "-j", str(simple), "--rigid", "--input", "injection", "--injection", "2", "--igtl",
-         str(number), "--prefix", f"artus-pf-{os.getpid()}-", "--json"],
+         str(number), "--prefix", f"artus-pf-{os.getpid()}-", "--json", *FEW_PICTURES],
         stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
     wait_until_it_listens(number, server)
     client = Client(number)
@@ -313,7 +317,7 @@ def test_a_thumb_is_answered_with_force_pressure_flow_and_volumes(tool, simple):
     number = free_port()
     server = subprocess.Popen(
         [tool, "serve", "-j", str(simple), "--rigid", "--input", "igtl", "--needle-hold-ms", "1000", "--syringe-ml", "50", "--igtl",
-         str(number), "--prefix", f"artus-pt-{os.getpid()}-", "--json"],
+         str(number), "--prefix", f"artus-pt-{os.getpid()}-", "--json", *FEW_PICTURES],
         stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     wait_until_it_listens(number, server)
     client = Client(number)

@@ -140,7 +140,7 @@ TEST(WildTissue, StaysFiniteWithinLimitsAndMeteredAndComesBackToRest) {
   EXPECT_GT(faults, n / 200);
   EXPECT_GT(max_moved, 5e-3) << "the probe pressed";
   EXPECT_LE(max_given, 1e-6);
-  RecordProperty("most_moved_um", static_cast<int>(1e6 * max_moved));
+  RecordProperty("max_moved_um", static_cast<int>(1e6 * max_moved));
   Pose away = X_JP;
   away.translate(Vec3(0, 0, -40e-3));
   for (std::uint64_t i = n; i < n + 4000; ++i) {

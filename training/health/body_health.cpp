@@ -19,17 +19,17 @@
 namespace artus {
 namespace {
 
-constexpr double kWallJump = 0.5;         // mm
-constexpr double kLiftShare = 1.1;        // of the liquid, what the skin may be lifted by
-constexpr double kRayVolume = 0.01e-6;    // m^3 that rays so far from each other may miss
-constexpr double kLiftRest = 0.1e-6;      // m^3 beside that: steps of rays, the press
-constexpr double kVolume = 2;             // %
-constexpr double kStrips = 2;             // %
-constexpr std::size_t kRays = 20000;      // through the liquid
-constexpr double kLeastPiece = 1e-6;      // m^2
-constexpr double kLabelPixel = 0.2e-3;    // m
-constexpr double kMargin = 10e-3;         // m of label picture around what is shown
-constexpr double kLeastLiquid = 0.05e-6;  // m^3, of less no share is told
+constexpr double kWallJump = 0.5;       // mm
+constexpr double kLiftShare = 1.1;      // of the liquid, what the skin may be lifted by
+constexpr double kRayVolume = 0.01e-6;  // m^3 that rays so far from each other may miss
+constexpr double kLiftRest = 0.1e-6;    // m^3 beside that: steps of rays, the press
+constexpr double kVolume = 2;           // %
+constexpr double kStrips = 2;           // %
+constexpr std::size_t kRays = 20000;    // through the liquid
+constexpr double kMinPiece = 1e-6;      // m^2
+constexpr double kLabelPixel = 0.2e-3;  // m
+constexpr double kMargin = 10e-3;       // m of label picture around what is shown
+constexpr double kMinLiquid = 0.05e-6;  // m^3, of less no share is told
 
 std::string place(const Vec3& p_J) {
   return printed("%.1f, %.1f, %.1f mm", p_J.x() / kMillimetre, p_J.y() / kMillimetre,
@@ -98,7 +98,7 @@ class Examination {
                     {},
                     kVolume,
                     ""};
-    if (!has_liquid() || q_.liquid.volume < kLeastLiquid) return m;
+    if (!has_liquid() || q_.liquid.volume < kMinLiquid) return m;
     std::vector<Vec3> points = points_of(now_, liquid_after_);
     if (points.empty()) return m;
     const std::vector<Vec3> rest = points_of(was_, liquid_before_);
@@ -127,7 +127,7 @@ class Examination {
       const auto pixels = static_cast<int>(margin / kLabelPixel);
       const auto deep = static_cast<int>(kMargin / kLabelPixel);
       return find_layout(labels, {pixels, labels.width - pixels, 0, labels.height - deep},
-                         kLeastPiece);
+                         kMinPiece);
     };
     return compare_layouts(layout_of(*q_.before, liquid_before_),
                            layout_of(*q_.after, liquid_after_), now_,

@@ -68,14 +68,14 @@ void join_liquid(LabelImage& labels, const std::vector<bool>& liquid) {
     if (region < liquid.size() && liquid[region]) region = kLiquidRegion;
 }
 
-RegionLayout find_layout(const LabelImage& labels, const LabelWindow& window, double least_area) {
+RegionLayout find_layout(const LabelImage& labels, const LabelWindow& window, double min_area) {
   RegionLayout layout;
   std::vector<bool> seen(labels.regions.size(), false);
   const double pixel_area = labels.pixel * labels.pixel;
   for (std::size_t i = 0; i < labels.regions.size(); ++i) {
     if (seen[i]) continue;
     const std::size_t pixels = walk(labels, window, i, seen);
-    if (pixels > 0 && static_cast<double>(pixels) * pixel_area >= least_area)
+    if (pixels > 0 && static_cast<double>(pixels) * pixel_area >= min_area)
       ++layout.pieces[labels.regions[i]];
   }
   const auto touch = [&](RegionId a, RegionId b) {

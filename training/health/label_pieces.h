@@ -32,10 +32,10 @@ struct RegionLayout {
                                                              ///< id first
 };
 
-/// Pieces that have at least `least_area` m^2 in the window, and who touches whom in it. Cost:
+/// Pieces that have at least `min_area` m^2 in the window, and who touches whom in it. Cost:
 /// linear in pixels.
 [[nodiscard]] RegionLayout find_layout(const LabelImage& labels, const LabelWindow& window,
-                                       double least_area);
+                                       double min_area);
 
 /// What is otherwise than before, in words: "deltoid 1 -> 3".
 struct LayoutChange {

@@ -13,7 +13,7 @@ namespace {
 using Fields = std::vector<const DistanceField*>;
 
 constexpr double kOpposed = -0.5;  // cosine; gradients more opposed than this have full thickness
-constexpr double kFarOut = 2;      // rims; the way to an edge is told no farther
+constexpr double kFarOut = 2;      // rims; the path to an edge is told no farther
 
 Fields fields_of(const NamedFields& fields, const std::vector<std::string>& names) {
   Fields found;

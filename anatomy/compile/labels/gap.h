@@ -24,7 +24,8 @@ struct GapField {
 /// - with roof and floor on opposite sides: what lies beyond the edge of either, or on the outer
 ///   side of a thin one, is no place between them. A point stands beyond an edge as far as it
 ///   stands away from the straight line between its nearest points of roof and floor;
-/// - ended by a rim where that way exceeds `edge` / 2, where d_roof + d_floor comes to `within` and
+/// - ended by a rim where that path exceeds `edge` / 2, where d_roof + d_floor comes to `within`
+/// and
 ///   where the ball ends: over the length `edge` (0: the thickness) it thins out as an ellipse
 ///   does;
 /// - never in `others`, which keep their place; and in one part, the largest.

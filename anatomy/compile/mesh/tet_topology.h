@@ -30,7 +30,7 @@ struct TetParts {
 [[nodiscard]] TetParts find_tet_parts(const TetMesh& mesh, const TetNeighbours& neighbours);
 
 /// Gives parts smaller than `smallest(region)` (m^3) to the neighbour they share most area with,
-/// unless a part is the largest of its region. Such crumbs appear where two surfaces nearly
+/// unless a part is the largest of its region. Such fragments appear where two surfaces nearly
 /// coincide. Returns how many changed hands.
 std::size_t merge_fragments(TetMesh& mesh, const TetNeighbours& neighbours,
                             const std::function<double(RegionId)>& smallest);

@@ -66,7 +66,7 @@ Result<Gate> measure_experiment(std::string_view name, RunExperiment run,
   const auto layers = laws.layers > 0 ? numbered_layers(laws.layers) : table_layer_names();
   ARTUS_TRY(
       check(options.feel, {std::string(name), layers, laws.takes, std::string(laws.why_not)}));
-  ExperimentOptions how{options.seed, options.feel, {}};
+  ExperimentOptions how{options.seed, options.feel, {}, {}};
   Gate gate = to_gate(name, run(how, *device));
   if (!options.tissue) return gate;
   how.tissue = NeedledBlock().compliance(kRadius21);

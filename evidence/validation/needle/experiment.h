@@ -8,16 +8,16 @@
 #include "artus/detail/evidence/gate.h"
 #include "artus/detail/evidence/runs/needle_trace.h"
 #include "artus/detail/haptics/needle/needle_packet.h"
+#include "artus/haptics/device.h"
 #include "artus/haptics/needle_feel.h"
 
 namespace artus {
 
-struct DeviceLimits;
-
 struct ExperimentOptions {
   std::uint64_t seed = 1;
-  NeedleFeel feel;          ///< what is not set is as published
-  NeedleCompliance tissue;  ///< around the needle's track; no points: rigid, as published
+  NeedleFeel feel;                    ///< what is not set is as published
+  NeedleCompliance tissue;            ///< around the needle's track; no points: rigid, as published
+  std::vector<DeviceLimits> devices;  ///< that `rates` compares; none: all of device_table()
 };
 
 /// A trace of an experiment that has one or several.

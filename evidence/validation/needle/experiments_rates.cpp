@@ -236,9 +236,15 @@ Shares together(const std::vector<Shares>& all) {
   return sum;
 }
 
+std::vector<DeviceLimits> compared_devices(const ExperimentOptions& options) {
+  if (!options.devices.empty()) return options.devices;
+  const auto all = device_table();
+  return {all.begin(), all.end()};
+}
+
 // One insertion on all devices: without tremor, then the tremors and all of them together.
 void compare_rates(const Insertion& insertion, const ExperimentOptions& options, Experiment& out) {
-  for (const DeviceLimits& device : device_table()) {
+  for (const DeviceLimits& device : compared_devices(options)) {
     HandParams hand;
     hand.tremor_rms = 0;
     const Shares calm = differences(insertion, options, device, hand);
@@ -262,7 +268,7 @@ void compare_rates(const Insertion& insertion, const ExperimentOptions& options,
 void compare_rates_on_drawn_bodies(const ExperimentOptions& options, Experiment& out) {
   constexpr std::uint64_t kBodies = 8;
   const std::uint64_t draw = mix_bits(options.seed);
-  for (const DeviceLimits& device : device_table()) {
+  for (const DeviceLimits& device : compared_devices(options)) {
     std::vector<Shares> bodies;
     for (std::uint64_t i = 0; i < kBodies; ++i) {
       const Insertion insertion = draw_insertion(draw, i);

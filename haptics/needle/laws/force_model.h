@@ -18,7 +18,7 @@ struct ShaftLayer {
   RegionId region = kOutside;
 };
 
-/// Which way the needle moves along its line, by position alone (see MotionDetector).
+/// Which direction the needle moves in along its line, by position alone (see MotionDetector).
 enum class Motion { still, inward, outward };
 
 /// All that a force law may look at in one tick. Frame J, SI.
@@ -52,7 +52,7 @@ struct NeedleTick {
   double needle_length = 0.035;  ///< m
 
   /// Sum over the layers that the shaft is in of value(layer) * length, up to the tip. What the
-  /// tissue is pushed in is a longer way through the layer at the tip: the hand's depth in all.
+  /// tissue is pushed in is a longer path through the layer at the tip: the hand's depth in all.
   template <class F>
   [[nodiscard]] double sum_over_shaft(F value) const noexcept {
     double sum = 0;

@@ -17,9 +17,9 @@ struct MotionParams {
   double time = 0.11;  ///< s over which the range is taken: eps = 1.4 to 2.8 mm/s; assumed
 };
 
-/// Says how still the needle is and which way it moves, from positions alone: by the range of all
-/// of its last positions over a time. The source's |dx/dt| < eps, in a form that neither the loop's
-/// rate nor an encoder's step changes, and with a band instead of an edge: stillness is a
+/// Says how still the needle is and which direction it moves in, from positions alone: by the range
+/// of all of its last positions over a time. The source's |dx/dt| < eps, in a form that neither the
+/// loop's rate nor an encoder's step changes, and with a band instead of an edge: stillness is a
 /// continuous function of the path, so paths that differ by micrometres come to rest nearly alike,
 /// where an edge would let one rest and the other not. Requires: dt below MotionParams::time.
 class MotionDetector {

@@ -19,7 +19,7 @@ struct NeedlePlace {
 /// left, and where it was a tick ago, so that a puncture is placed where it happened and not at
 /// the next tick. A needle that left by a hair finds its hole; the skin is whole for one that was
 /// `edge` above it, or as much farther aside than the skin goes with a tip. In between its strength
-/// grows with the way, so that a hair more or less is none.
+/// grows with the path, so that a hair more or less is none.
 class SkinPuncture {
  public:
   /// Requires: edge > 0 m.

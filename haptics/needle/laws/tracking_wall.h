@@ -13,7 +13,7 @@ struct TrackingWallParams {
 
 /// The tracking wall: a spring whose anchor `w` follows the tip at the distance D = f_R / K_t, so
 /// that the force never exceeds the layer's cutting force and the needle stays where it stops.
-/// One anchor serves both ways: w in [x - D, x + D_a], D_a = f_A / K_t, resists withdrawal.
+/// One anchor serves both directions: w in [x - D, x + D_a], D_a = f_A / K_t, resists withdrawal.
 /// The deepest anchor is the cut front: in front of it tissue is cut, behind it the track is open
 /// and only withdrawal is resisted. A hard layer cannot be cut: past its surface a spring adds to
 /// the soft force, up to the hard layer's f_R, and relaxes neither by stops nor by cutting.

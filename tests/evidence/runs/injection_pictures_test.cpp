@@ -38,6 +38,7 @@ TEST_F(InjectionVideo, ShowsTheWholeCourseAndNoneOfARunThatGaveNothing) {
   InjectionPictureOptions options;
   options.transducer.n_lines = 48;
   options.settings.depth = 16e-3;
+  options.settings.n_planes = 1;
 
   const auto file = write_injection_video(scene, *run, options, folder_);
   ASSERT_TRUE(file) << file.error().message;

@@ -46,7 +46,7 @@ TEST(InsertionLine, ATipFarBackDragsItAtTheDistanceThatItBears) {
   const LineChange change = line.follow(far, kDown);
   EXPECT_NEAR(off(line, far), bears, 1e-5);
   EXPECT_NEAR(change.turned, 2e-3 - bears, 2e-5);
-  EXPECT_NEAR(change.kept, std::exp(-change.turned / params.way), 1e-12);
+  EXPECT_NEAR(change.kept, std::exp(-change.turned / params.drag), 1e-12);
   EXPECT_LT(line.entry().norm(), 1e-15) << "it turns about its entry";
 }
 

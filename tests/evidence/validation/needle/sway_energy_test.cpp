@@ -78,12 +78,12 @@ TEST(SwayEnergy, TheMovingLineHasGivenTheHandNothingAtAnyInstant) {
     for (int p = 0; p < 20; ++p) {
       for (const int rate : {1000, 2000, 5000}) {
         const double given = max_given(paths[w], kTwoPi * p / 20, rate, &exchanged);
-        EXPECT_LT(given, kNothing) << "way " << w << ", phase " << p << ", " << rate << " Hz";
+        EXPECT_LT(given, kNothing) << "path " << w << ", phase " << p << ", " << rate << " Hz";
         worst = std::max(worst, given);
       }
     }
     EXPECT_GT(exchanged / kRuns, 1e-4) << "J to and fro in a run";
-    RecordProperty("most_given_" + std::to_string(w), std::to_string(1e6 * worst) + " uJ");
+    RecordProperty("max_given_" + std::to_string(w), std::to_string(1e6 * worst) + " uJ");
     RecordProperty("exchanged_" + std::to_string(w),
                    std::to_string(1e6 * exchanged / kRuns) + " uJ");
   }

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+#include "artus/detail/soft/solver/rest_path.h"
+
 #include <array>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "artus/detail/soft/solver/rest_path.h"
 #include "tests/support/moved_block.h"
 
 namespace artus {
