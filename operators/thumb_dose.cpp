@@ -15,10 +15,10 @@ double run_out_time(const PlungerParams& params) {
 }
 
 /// Falling from p to q takes the softness times the integral of dp/Q from q to p; over the
-/// logarithm of the pressure that is p/Q, summed up from the lowest. What is below it is gone.
+/// logarithm of the pressure that is p/Q, summed up from the lowest. What is below it is gone. The
+/// bevel is taken to lie at the atmosphere's pressure, which is 20 times what tissue adds.
 HeldBarrel::HeldBarrel(const PlungerParams& params, double seconds)
-    : softness_(params.syringe.softness()),
-      points_per_octave_((kPoints - 1) / std::log2(kMax / kMin)) {
+    : syringe_(params.syringe), points_per_octave_((kPoints - 1) / std::log2(kMax / kMin)) {
   const NeedleFlow bore(params.needle, params.liquid.viscosity, params.liquid.density,
                         params.entry_loss);
   const auto pressure_at = [this](double point) {
@@ -31,7 +31,7 @@ HeldBarrel::HeldBarrel(const PlungerParams& params, double seconds)
     since[i] = since[i - 1];
     for (int k = 0; k < kSubsteps; ++k) {
       const double p = pressure_at(static_cast<double>(i - 1) + (k + 0.5) / kSubsteps);
-      since[i] += softness_ * p / bore.flow(p) * step;
+      since[i] += syringe_.softness(p) * p / bore.flow(p) * step;
     }
   }
   for (std::size_t i = 0; i < kPoints; ++i) {
@@ -41,7 +41,8 @@ HeldBarrel::HeldBarrel(const PlungerParams& params, double seconds)
     std::size_t low = i - 1;
     while (since[low] > left) --low;
     const double part = (left - since[low]) / (since[low + 1] - since[low]);
-    share_[i] -= pressure_at(static_cast<double>(low) + part) / pressure_at(static_cast<double>(i));
+    share_[i] -= syringe_.squeezed(pressure_at(static_cast<double>(low) + part)) /
+                 syringe_.squeezed(pressure_at(static_cast<double>(i)));
   }
 }
 
@@ -51,7 +52,7 @@ double HeldBarrel::gives(double over) const noexcept {
   const double at = std::clamp(std::log2(over / kMin) * points_per_octave_, 0.0, last);
   const auto low = static_cast<std::size_t>(std::min(at, last - 1));
   const double part = at - static_cast<double>(low);
-  return softness_ * over * (share_[low] + part * (share_[low + 1] - share_[low]));
+  return syringe_.squeezed(over) * (share_[low] + part * (share_[low + 1] - share_[low]));
 }
 
 ThumbDose::ThumbDose(const PlungerParams& params, double volume)

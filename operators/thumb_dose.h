@@ -23,7 +23,7 @@ class HeldBarrel {
   static constexpr std::size_t kPoints = 128;
   static constexpr double kMin = 1;    // Pa, the first
   static constexpr double kMax = 1e7;  // Pa, the last
-  double softness_;                    // m^3/Pa
+  Syringe syringe_;
   double points_per_octave_;
   std::array<double, kPoints> share_{};  // that runs out, by the logarithm of the pressure
 };

@@ -41,14 +41,13 @@ Plunger::Plunger(const PlungerParams& params, std::vector<Space> spaces, double 
       area_(params.syringe.area()),
       in_end_(params.syringe.filled / area_),
       out_end_(in_end_ - params.syringe.volume / area_),
-      softness_(params.syringe.softness()),
       bevel_share_(
           std::min(0.5, bevel_length(params.needle.outer_diameter) / params.needle.length)),
       own_(params.needle, params.liquid.viscosity, params.liquid.density, params.entry_loss),
       spaces_(std::move(spaces)) {
   ARTUS_REQUIRE(dt > 0 && dt <= 0.01, "the period must be above 0 and at most 0.01 s");
   ARTUS_REQUIRE(!spaces_.empty(), "there must be a space");
-  ARTUS_REQUIRE(softness_ > 0 && area_ > 0, "a barrel has an area and gives way");
+  ARTUS_REQUIRE(params.syringe.softness() > 0 && area_ > 0, "a barrel has an area and gives way");
   const auto air = std::find_if(spaces_.begin(), spaces_.end(),
                                 [](const Space& space) { return space.like == kOutsideSpace; });
   outside_ = static_cast<std::uint32_t>(air - spaces_.begin());

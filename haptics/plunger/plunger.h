@@ -184,6 +184,9 @@ class Plunger {
                                bool out) const noexcept;
   [[nodiscard]] BevelFlow flow_out(const PlungerInput& input, const Drive& drive) const noexcept;
   [[nodiscard]] double instant(double slope, double step) const noexcept;
+  [[nodiscard]] double pressed(double volume) const noexcept;
+  [[nodiscard]] double taken(double pressure) const noexcept;
+  [[nodiscard]] double softness() const noexcept;
   [[nodiscard]] double gliding(double thumb, double stiffness) const noexcept;
   double glide(const PlungerInput& input, const Push& push) noexcept;
   void rest(const PlungerInput& input, double step) noexcept;
@@ -204,9 +207,8 @@ class Plunger {
   PlungerParams params_;
   double dt_;
   double area_;
-  double in_end_;   // m of travel, the barrel's end
-  double out_end_;  // m, its rim
-  double softness_;
+  double in_end_;       // m of travel, the barrel's end
+  double out_end_;      // m, its rim
   double bevel_share_;  // of the needle's length
   NeedleFlow own_;
   std::vector<NeedleFlow> others_;      // of contents

@@ -39,18 +39,37 @@ double Plunger::instant(double slope, double step) const noexcept {
   return std::max(0.5, 1 - own_.resistance() / (slope * step));
 }
 
+/// Pa in the barrel once `volume` m^3 more are squeezed into it.
+double Plunger::pressed(double volume) const noexcept {
+  const Syringe& syringe = params_.syringe;
+  if (syringe.air == 0) return state_.pressure + volume / syringe.compliance;
+  return syringe.pressure_of(syringe.squeezed(state_.pressure) + volume);
+}
+
+/// m^3 more that it takes at another pressure.
+double Plunger::taken(double pressure) const noexcept {
+  const Syringe& syringe = params_.syringe;
+  if (syringe.air == 0) return syringe.compliance * (pressure - state_.pressure);
+  return syringe.squeezed(pressure) - syringe.squeezed(state_.pressure);
+}
+
+/// m^3/Pa now.
+double Plunger::softness() const noexcept {
+  return params_.syringe.softness(state_.pressure);
+}
+
 /// Pa in the barrel of a gliding stopper but for what flows: the thumb's spring beside the
 /// barrel's. Without a spring the pressure is what the thumb's force leaves.
 double Plunger::gliding(double thumb, double stiffness) const noexcept {
   const double net = thumb - direction_ * params_.syringe.glide;
-  const double soft = stiffness * softness_ / area_;  // m^2
+  const double soft = stiffness * softness() / area_;  // m^2
   return (net + soft * state_.pressure) / (area_ + soft);
 }
 
 /// The stopper's mean speed in the direction it goes; not above 0: then it sticks, and nothing has
 /// changed.
 double Plunger::glide(const PlungerInput& input, const Push& push) noexcept {
-  const double soft = push.stiffness * softness_ / area_;
+  const double soft = push.stiffness * softness() / area_;
   const double slope = push.stiffness / (area_ * (area_ + soft));  // Pa/m^3 that is out
   const double at = slope > 0 ? instant(slope, push.step) : 0.5;
   const Drive drive{gliding(push.from + at * (push.to - push.from), push.stiffness),
@@ -58,13 +77,13 @@ double Plunger::glide(const PlungerInput& input, const Push& push) noexcept {
   const BevelFlow bevel_flow = flow_out(input, drive);
   const double out = (bevel_flow.flows[0] + bevel_flow.flows[1]) * push.step;
   double next = gliding(push.to, push.stiffness) - slope * out;
-  double dx = (softness_ * (next - state_.pressure) + out) / area_;
+  double dx = (taken(next) + out) / area_;
   const double speed = dx * direction_ / push.step;
   if (!(speed > 0)) return speed;
   const double x = std::clamp(state_.travel + dx, out_end_, in_end_);
   if (x != state_.travel + dx) {
     dx = x - state_.travel;
-    next = state_.pressure + (area_ * dx - out) / softness_;
+    next = pressed(area_ * dx - out);
     direction_ = 0;
   }
   state_.travel = x;
@@ -75,9 +94,10 @@ double Plunger::glide(const PlungerInput& input, const Push& push) noexcept {
 
 void Plunger::rest(const PlungerInput& input, double step) noexcept {
   direction_ = 0;
-  const double lag = instant(1 / softness_, step) * step / softness_;
+  const double soft = softness();
+  const double lag = instant(1 / soft, step) * step / soft;
   const BevelFlow bevel_flow = flow_out(input, {state_.pressure, lag, step});
-  state_.pressure -= (bevel_flow.flows[0] + bevel_flow.flows[1]) * step / softness_;
+  state_.pressure = pressed(-(bevel_flow.flows[0] + bevel_flow.flows[1]) * step);
   take_flows(input, bevel_flow, step);
 }
 
@@ -105,9 +125,9 @@ int Plunger::breaks_loose(double net) const noexcept {
 void Plunger::break_loose(int direction, double thumb, double stiffness) noexcept {
   direction_ = direction;
   const double pressure = gliding(thumb, stiffness);
-  const double dx = softness_ * (pressure - state_.pressure) / area_;
+  const double dx = taken(pressure) / area_;
   const double x = std::clamp(state_.travel + dx, out_end_, in_end_);
-  state_.pressure += area_ * (x - state_.travel) / softness_;
+  state_.pressure = pressed(area_ * (x - state_.travel));
   state_.travel = x;
   motion_ = {};
   if (state_.flow == 0) state_.bevel_pressure = state_.pressure;

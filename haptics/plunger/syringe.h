@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <cmath>
 #include <numbers>
 
 namespace artus {
@@ -16,8 +17,24 @@ struct Syringe {
   double dead_space = 0.07e-6;  ///< m^3 of hub and needle
   double filled = 5e-6;         ///< m^3 at the start
   [[nodiscard]] double area() const noexcept { return std::numbers::pi * diameter * diameter / 4; }
-  /// m^3/Pa with the trapped air.
-  [[nodiscard]] double softness() const noexcept { return compliance + air / kAtmosphere; }
+  /// m^3 by which stopper, barrel and trapped air give way to a gauge pressure (Pa, above a
+  /// vacuum): Boyle's law, the air as warm as what is around it.
+  [[nodiscard]] double squeezed(double pressure) const noexcept {
+    return compliance * pressure + air * pressure / (kAtmosphere + pressure);
+  }
+  /// Its slope, m^3/Pa.
+  [[nodiscard]] double softness(double pressure = 0) const noexcept {
+    const double whole = kAtmosphere + pressure;
+    return compliance + air * kAtmosphere / (whole * whole);
+  }
+  /// Pa at which it gives way by `taken` m^3: the inverse of squeezed().
+  [[nodiscard]] double pressure_of(double taken) const noexcept {
+    if (air == 0) return taken / compliance;
+    const double half = (compliance * kAtmosphere + air - taken) / 2;
+    const double root = std::sqrt(half * half + compliance * taken * kAtmosphere);
+    // The form that does not take alike numbers from each other.
+    return half > 0 ? taken * kAtmosphere / (half + root) : (root - half) / compliance;
+  }
   static constexpr double kAtmosphere = 101325;  ///< Pa
 };
 

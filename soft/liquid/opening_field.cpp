@@ -335,12 +335,12 @@ void OpeningField::solve(const std::atomic<bool>* stop) {
 
 /// xx, yy, zz, xy, xz, yz of how easily something spreads in a cube.
 std::array<double, 6> OpeningField::conduction_of(const SidedCage::Copy& copy) const {
-  Vec3 way = Vec3::Zero();
-  for (const std::uint32_t node : copy.nodes) way += motion_[node];
-  const double size = way.norm();
-  if (size > 0) way *= std::sqrt(kAlong) / size;
-  return {1 + way.x() * way.x(), 1 + way.y() * way.y(), 1 + way.z() * way.z(),
-          way.x() * way.y(),     way.x() * way.z(),     way.y() * way.z()};
+  Vec3 along = Vec3::Zero();
+  for (const std::uint32_t node : copy.nodes) along += motion_[node];
+  const double size = along.norm();
+  if (size > 0) along *= std::sqrt(kAlong) / size;
+  return {1 + along.x() * along.x(), 1 + along.y() * along.y(), 1 + along.z() * along.z(),
+          along.x() * along.y(),     along.x() * along.z(),     along.y() * along.z()};
 }
 
 void OpeningField::join_nodes() {

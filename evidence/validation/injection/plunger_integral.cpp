@@ -30,8 +30,8 @@ class Integral {
       : thumb_(setup.thumb),
         law_(setup.law),
         area_(std::numbers::pi * std::pow(setup.plunger.syringe.diameter, 2) / 4),
-        softness_(setup.plunger.syringe.compliance +
-                  setup.plunger.syringe.air / Syringe::kAtmosphere),
+        compliance_(setup.plunger.syringe.compliance),
+        air_(setup.plunger.syringe.air),
         glide_(setup.plunger.syringe.glide),
         break_loose_(setup.plunger.syringe.break_loose),
         viscosity_(setup.plunger.liquid.viscosity.zero) {
@@ -96,14 +96,31 @@ class Integral {
                             : std::abs(dp) / b;
     return dp < 0 ? -root : root;
   }
+  /// m^3 by which the barrel and its air, by Boyle's law, give way.
+  [[nodiscard]] double squeezed(double p) const {
+    return compliance_ * p + air_ * (1 - Syringe::kAtmosphere / (Syringe::kAtmosphere + p));
+  }
+  /// Where a p + b squeezed(p) = c, by Newton.
+  [[nodiscard]] double pressure_where(double a, double b, double c) const {
+    double p = 0;
+    for (int k = 0; k < 50; ++k) {
+      const double whole = Syringe::kAtmosphere + p;
+      const double slope = a + b * (compliance_ + air_ * Syringe::kAtmosphere / (whole * whole));
+      const double by = (c - a * p - b * squeezed(p)) / slope;
+      // Never across the vacuum.
+      p = std::max(p + by, (p - Syringe::kAtmosphere) / 2);
+      if (std::abs(by) < 1e-9) break;
+    }
+    return p;
+  }
   [[nodiscard]] double pressure(double t, const Scalars& s) const {
-    if (direction_ == 0) return (area_ * travel_ - s.volume) / softness_;
+    if (direction_ == 0) return pressure_where(0, 1, area_ * travel_ - s.volume);
     const double push = thumb_.force(t) + thumb_.stiffness * thumb_.place(t) - direction_ * glide_;
-    return (push - thumb_.stiffness * s.volume / area_) /
-           (area_ + thumb_.stiffness * softness_ / area_);
+    return pressure_where(area_, thumb_.stiffness / area_,
+                          push - thumb_.stiffness * s.volume / area_);
   }
   [[nodiscard]] double travel(double t, const Scalars& s) const {
-    return direction_ == 0 ? travel_ : (s.volume + softness_ * pressure(t, s)) / area_;
+    return direction_ == 0 ? travel_ : (s.volume + squeezed(pressure(t, s))) / area_;
   }
   [[nodiscard]] double push(double t, const Scalars& s) const {
     return thumb_.force(t) + thumb_.stiffness * (thumb_.place(t) - travel(t, s));
@@ -181,7 +198,8 @@ class Integral {
   ThumbCourse thumb_;
   SpaceLaw law_;
   double area_;         // m^2
-  double softness_;     // m^3/Pa
+  double compliance_;   // m^3/Pa
+  double air_;          // m^3
   double glide_;        // N
   double break_loose_;  // N
   double viscosity_;    // Pa s

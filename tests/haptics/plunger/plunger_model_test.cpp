@@ -44,8 +44,8 @@ PlungerParams params_of(const OracleCase& row) {
   params.syringe.diameter = row.at("diameter");
   params.syringe.break_loose = row.at("break_loose");
   params.syringe.glide = row.at("glide");
-  params.syringe.compliance = row.at("compliance");
-  params.syringe.air = row.at("air");
+  // The model's air is as soft as it is at rest.
+  params.syringe.compliance = row.at("compliance") + row.at("air") / Syringe::kAtmosphere;
   params.needle.diameter = row.at("bore");
   params.needle.length = row.at("length");
   params.liquid.viscosity = {row.at("viscosity"), row.at("viscosity"), 0, 1};

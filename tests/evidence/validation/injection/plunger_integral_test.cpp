@@ -43,7 +43,7 @@ TEST(PlungerIntegral, FillsAComplianceAsItsClosedFormSays) {
 TEST(PlungerIntegral, AStoppedPlungersPressureFallsAsItsClosedFormSays) {
   IntegralSetup setup = setup_into_a_compliance();
   setup.law.rest = 0;
-  setup.plunger.syringe.air = 0.2e-6;
+  setup.plunger.syringe.compliance = 2e-12;
   setup.plunger.syringe.break_loose = 7;
   setup.plunger.syringe.glide = 0;
   // Pressed for 10 ms, then let go to where friction alone holds it.
