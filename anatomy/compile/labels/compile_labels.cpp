@@ -435,7 +435,8 @@ Result<LabelledSpace> make_labelled_space(const JointFile& file, const PreparedS
     const RegionId region = region_of_structure(i);
     space.resolve.sizing[region] = maker.sizing(i);
     finest = std::min(finest, maker.sizing(i).facet_size);
-    space.labels.layers.push_back({region, maker.take_field(i)});
+    const auto [partition, film] = partition_of(file, file.structures[i]);
+    space.labels.layers.push_back({region, maker.take_field(i), partition, film});
   }
   space.cuts = maker.take_cuts();
   space.labels.body = maker.take_body();

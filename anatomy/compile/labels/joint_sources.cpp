@@ -71,6 +71,8 @@ bool JointSources::contains(const std::filesystem::path& file) const {
     if (const auto* surface = std::get_if<SurfaceFile>(&s.shape))
       all.push_back(joint_.surface_folder / surface->file);
   };
+  if (const auto& cuts = std::get<SurfaceFile>(joint_.body.shape).cuts; !cuts.empty())
+    all.push_back(joint_.surface_folder / cuts);
   add(joint_.body);
   for (const Structure& s : joint_.structures) add(s);
   std::error_code ignored;
@@ -91,6 +93,12 @@ Result<std::string> compute_source_digest(const JointSources& sources) {
     const auto of_file = sources.digest(*surface);
     ARTUS_TRY(of_file);
     digest.add(*of_file);
+    if (surface->cuts.empty()) continue;
+    SurfaceFile cuts = *surface;
+    cuts.file = surface->cuts;
+    const auto of_cuts = sources.digest(cuts);
+    ARTUS_TRY(of_cuts);
+    digest.add(*of_cuts);
   }
   return digest.hex();
 }
