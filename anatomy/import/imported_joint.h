@@ -60,6 +60,8 @@ struct ImportOptions {
   std::string side;                  ///< empty: by the structures' names
   StructureNames names;              ///< of --labels
   std::optional<ImageVolume> image;  ///< the scan, for the skin
+  double surface_unit = 1e-3;        ///< m, of surface files that do not say their own
+  double threshold = 0.5;            ///< of a fractional DICOM segmentation
   std::vector<std::string> between;  ///< two structures between which the joint lies; or none
 };
 

@@ -25,6 +25,13 @@ bool is_volume(SourceKind kind) noexcept {
          kind == SourceKind::dicom;
 }
 
+Result<LabelVolume> read_labels(std::string_view bytes, const std::string& name,
+                                const StructureNames& names) {
+  const auto volume = parse_volume(bytes, name);
+  ARTUS_TRY(volume);
+  return make_label_volume(*volume, names, name);
+}
+
 Result<ImageVolume> parse_volume(std::string_view bytes, const std::string& name) {
   switch (kind_of_source(bytes, name)) {
     case SourceKind::nifti:

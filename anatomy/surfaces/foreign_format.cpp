@@ -67,7 +67,11 @@ std::string advice_for_format(std::string_view bytes, std::string_view name) {
     return "it is a volume mesh (" + std::string(format) +
            "), not a surface; take the boundary of each material (ParaView: Extract Surface; Gmsh: "
            "export the surfaces) and save it as STL or PLY";
-  if (format == "VTK" || format == "VTK XML")
+  if (format == "VTK XML")
+    return "it is a file of VTK's XML form; save its surface as legacy .vtk, STL or PLY (ParaView, "
+           "3D "
+           "Slicer)";
+  if (format == "VTK")
     return "it is a file of VTK; `artus import FILE -o DIR` reads its surface, or save it as STL "
            "or PLY (ParaView, 3D Slicer)";
   if (format == "glTF")
