@@ -24,7 +24,7 @@ bool is_same_grid(const ImageVolume& a, const ImageVolume& b) {
 
 Result<ImportedJoint> import_volume(const std::string& bytes, const std::string& name,
                                     const ImportOptions& options, const Progress& progress) {
-  auto labels = read_labels(bytes, name, options.names);
+  auto labels = read_labels(bytes, name, options.names, options.threshold);
   ARTUS_TRY(labels);
   return import_labels(std::move(*labels), options, name, progress);
 }

@@ -50,12 +50,6 @@ Result<SegmentRoles> find_roles(const LabelVolume& volume, const ImportOptions& 
                   "\"', 'tissue = \"bone\"' and give it with --labels names.toml");
 }
 
-/// The net's vertices in the middles of their cells: the faces of voxels.
-std::vector<LabelSurface> voxel_surfaces(const SurfaceNet& net, std::size_t n,
-                                         const IndexFrame& X_LI) {
-  return make_label_surfaces(net, n, X_LI);
-}
-
 void take_surfaces(ImportedJoint& joint, std::vector<ImportedStructure> structures,
                    const SegmentRoles& roles, std::vector<LabelSurface> surfaces,
                    std::vector<LabelSurface> before) {
@@ -141,7 +135,7 @@ Result<ImportedJoint> import_labels(LabelVolume volume, const ImportOptions& opt
   step("making surfaces", 0.3);
   SurfaceNet net = make_surface_net(volume.labels, volume.size);
   volume.labels = {};
-  auto before = voxel_surfaces(net, structures.size(), volume.X_LI);
+  auto before = make_label_surfaces(net, structures.size(), volume.X_LI);  // voxel faces
   step("smoothing surfaces", 0.5);
   smooth(net);
   std::vector<std::size_t> counts;
@@ -151,7 +145,7 @@ Result<ImportedJoint> import_labels(LabelVolume volume, const ImportOptions& opt
   const auto volumes = fit_volumes(net, counts, volume.X_LI);
   for (std::size_t i = 0; i < structures.size(); ++i) structures[i].volumes = volumes[i];
   step("taking surfaces apart", 0.7);
-  auto surfaces = make_label_surfaces(net, structures.size() + 1, volume.X_LI);
+  auto surfaces = make_label_surfaces(net, structures.size(), volume.X_LI);
   take_surfaces(joint, std::move(structures), *roles, std::move(surfaces), std::move(before));
   take_body(joint, make_outer_surface(net, volume.X_LI));
   tell(joint, volume, *outline);

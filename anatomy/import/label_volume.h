@@ -47,7 +47,7 @@ struct LabelVolume {
 /// The labels of any segmentation that is read: NIfTI, NRRD, MetaImage, and DICOM where the build
 /// has it. Errors: those of the parsers and make_label_volume.
 [[nodiscard]] Result<LabelVolume> read_labels(std::string_view bytes, const std::string& name,
-                                              const StructureNames& names);
+                                              const StructureNames& names, double threshold = 0.5);
 
 /// The kind of file that the first bytes are of.
 enum class SourceKind { nifti, nrrd, metaimage, dicom, gltf, vtk_legacy, vtk_xml, gmsh, other };

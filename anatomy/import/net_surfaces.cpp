@@ -138,8 +138,8 @@ std::vector<LabelSurface> make_label_surfaces(const SurfaceNet& net, std::size_t
   const auto places = places_of(net, X_LI);
   std::vector<std::vector<std::uint32_t>> faces(n_labels + 1);
   for (std::uint32_t f = 0; f < net.faces.size(); ++f) {
-    faces[net.faces[f].below].push_back(f);
-    faces[net.faces[f].above].push_back(f);
+    for (const std::size_t label : {net.faces[f].below, net.faces[f].above})
+      if (label != 0 && label <= n_labels) faces[label].push_back(f);
   }
   const bool mirrored = X_LI.linear().determinant() < 0;
   std::vector<LabelSurface> surfaces(n_labels);

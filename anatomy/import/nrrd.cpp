@@ -213,6 +213,13 @@ Result<ImageVolume> parse_nrrd(std::string_view bytes, const std::string& name) 
   ARTUS_TRY(axes);
   const std::size_t first = axes->list ? 1 : 0;
   if (axes->list) volume.layers = axes->sizes[0];
+  constexpr std::size_t kMostLayers = 256;
+  if (volume.layers > kMostLayers)
+    return fail(ErrorCode::unsupported,
+                printed("%zu layers are more than are read (%zu); export the segments as one label "
+                        "map",
+                        volume.layers, kMostLayers),
+                name);
   for (std::size_t i = 0; i < 3; ++i) volume.size[i] = axes->sizes[first + i];
   ARTUS_TRY(count_voxels(volume.size, name));
   const auto frame = nrrd_frame(*text, volume, name);

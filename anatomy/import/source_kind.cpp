@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <filesystem>
 
-#include "artus/detail/anatomy/import/inflate.h"
+#include "artus/detail/anatomy/import/dicom_seg.h"
 #include "artus/detail/anatomy/import/label_volume.h"
 #include "artus/detail/anatomy/surfaces/foreign_format.h"
 
@@ -26,7 +26,9 @@ bool is_volume(SourceKind kind) noexcept {
 }
 
 Result<LabelVolume> read_labels(std::string_view bytes, const std::string& name,
-                                const StructureNames& names) {
+                                const StructureNames& names, double threshold) {
+  if (kind_of_source(bytes, name) == SourceKind::dicom)
+    return parse_dicom_seg(bytes, name, names, threshold);
   const auto volume = parse_volume(bytes, name);
   ARTUS_TRY(volume);
   return make_label_volume(*volume, names, name);

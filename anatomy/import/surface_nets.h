@@ -67,7 +67,7 @@ struct LabelSurface {
 
 /// The closed surface of each label from 1 to `n_labels`. Labels that touch have the same triangles
 /// there, bit by bit. Where a label meets itself in an edge or a corner the two sides get vertices
-/// of their own at one place, so that every surface is a manifold. Requires: labels up to n_labels.
+/// of their own at one place, so that every surface is a manifold. Labels above are passed over.
 [[nodiscard]] std::vector<LabelSurface> make_label_surfaces(const SurfaceNet& net,
                                                             std::size_t n_labels,
                                                             const IndexFrame& X_LI);

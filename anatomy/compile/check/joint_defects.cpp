@@ -7,7 +7,7 @@ namespace artus {
 namespace {
 
 /// The partition of a structure. An untouched body beside a single partition is its outer border.
-std::string partition_of(const JointFile& joint, const Structure& structure) {
+std::string borders_of(const JointFile& joint, const Structure& structure) {
   if (&structure != &joint.body) return structure.partition;
   const auto* surface = std::get_if<SurfaceFile>(&structure.shape);
   const bool is_border =
@@ -30,7 +30,7 @@ void append_defects_of(const JointSources& sources, const Structure& structure,
                        "the tissue '" + structure.tissue + "' is not in the library"});
   const auto* surface = std::get_if<SurfaceFile>(&structure.shape);
   if (surface == nullptr) return;
-  const std::string partition = partition_of(joint, structure);
+  const std::string partition = borders_of(joint, structure);
   const auto mesh = sources.mesh(*surface);
   if (!mesh) {
     defects.push_back({DefectKind::unreadable_file,
