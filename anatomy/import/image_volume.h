@@ -95,8 +95,8 @@ void with_samples(const ImageVolume& volume, Use&& use) {
 void swap_bytes(std::string& samples, std::size_t width) noexcept;
 
 /// NIfTI-1 and -2, as they are or compressed (.nii, .nii.gz): sform if its code is above 0, else
-/// qform. Labels' names from a label table in the header's extensions (LabelTable, as TotalSegmentator
-/// writes it). Errors: malformed, corrupt (truncated, more promised than there
+/// qform. Labels' names from a label table in the header's extensions (LabelTable, as
+/// TotalSegmentator writes it). Errors: malformed, corrupt (truncated, more promised than there
 /// is), invalid (singular frame, sform and qform more than 0.1 voxel apart, sizes), unsupported
 /// (RGB, complex, time series, .hdr/.img pairs). Source: [Cox2004].
 [[nodiscard]] Result<ImageVolume> parse_nifti(std::string_view bytes, const std::string& name);

@@ -30,8 +30,9 @@ Result<SegmentRoles> find_roles(const LabelVolume& volume, const ImportOptions& 
     } else {
       s.by = "no tissue is known for this name";
     }
-    roles.is_outline.push_back(known && known->tissue == kBodyOutline);
-    roles.is_skin.push_back(known && known->tissue == "skin");
+    const bool is_there = segment.n_voxels > 0;
+    roles.is_outline.push_back(is_there && known && known->tissue == kBodyOutline);
+    roles.is_skin.push_back(is_there && known && known->tissue == "skin");
     // Fat is what no structure claims.
     roles.is_left_out.push_back(!known || known->tissue == "fat");
     if (s.tissue == "fat") s.by += "; fat is the rest of the body";

@@ -104,7 +104,7 @@ void move_along_normals(SurfaceNet& net, std::span<const Vec3> places, const Eig
 
 std::vector<LabelVolumes> fit_volumes(SurfaceNet& net, std::span<const std::size_t> counts,
                                       const IndexFrame& X_LI, std::size_t least) {
-  constexpr int kRounds = 2;
+  constexpr int kRounds = 4;
   const double handedness = X_LI.linear().determinant() < 0 ? -1 : 1;
   const double voxel = std::abs(X_LI.linear().determinant());
   std::vector<LabelVolumes> told(counts.size());

@@ -11,7 +11,14 @@ namespace {
 
 constexpr double kReach = 0.45;  // voxel, from the middle of the cell; 0.5 lets vertices coincide
 
-/// Labels with a rim of nothing around them.
+constexpr std::uint16_t kOutsideVolume = 0xffff;
+
+/// What a voxel counts for in surfaces: beyond the volume there is nothing.
+constexpr std::uint16_t label_of(std::uint16_t raw) noexcept {
+  return raw == kOutsideVolume ? std::uint16_t{0} : raw;
+}
+
+/// Labels with a rim of kOutsideVolume around them.
 class RimmedLabels {
  public:
   RimmedLabels(std::span<const std::uint16_t> labels, const std::array<std::size_t, 3>& size)
@@ -19,18 +26,13 @@ class RimmedLabels {
         nx_(static_cast<std::ptrdiff_t>(size[0])),
         ny_(static_cast<std::ptrdiff_t>(size[1])),
         nz_(static_cast<std::ptrdiff_t>(size[2])) {}
-  [[nodiscard]] std::uint16_t at(std::ptrdiff_t x, std::ptrdiff_t y,
-                                 std::ptrdiff_t z) const noexcept {
-    if (x < 0 || y < 0 || z < 0 || x >= nx_ || y >= ny_ || z >= nz_) return 0;
-    return labels_[static_cast<std::size_t>((z * ny_ + y) * nx_ + x)];
-  }
   [[nodiscard]] bool is_outside(std::ptrdiff_t x, std::ptrdiff_t y,
                                 std::ptrdiff_t z) const noexcept {
     return x < 0 || y < 0 || z < 0 || x >= nx_ || y >= ny_ || z >= nz_;
   }
-  /// A row of nx + 2 labels from x = -1 on; `empty` where it lies beyond.
+  /// A row of nx + 2 labels from x = -1 on.
   void row(std::ptrdiff_t y, std::ptrdiff_t z, std::vector<std::uint16_t>& out) const {
-    std::fill(out.begin(), out.end(), std::uint16_t{0});
+    std::fill(out.begin(), out.end(), kOutsideVolume);
     if (y < 0 || z < 0 || y >= ny_ || z >= nz_) return;
     std::memcpy(out.data() + 1, labels_.data() + (z * ny_ + y) * nx_,
                 static_cast<std::size_t>(nx_) * sizeof(std::uint16_t));
@@ -86,7 +88,10 @@ class NetMaker {
         corners[2 * k + 1] = rows_[k][x + 1];
         same = same && corners[2 * k] == corners[0] && corners[2 * k + 1] == corners[0];
       }
-      if (!same) add_cell(x, y, z, corners);
+      if (same) continue;
+      bool is_empty = true;
+      for (const std::uint16_t c : corners) is_empty = is_empty && label_of(c) == 0;
+      if (!is_empty) add_cell(x, y, z, corners);
     }
   }
 
@@ -112,8 +117,11 @@ class NetMaker {
   /// `face` are the four voxels between the two cells.
   void link(std::uint32_t v, std::size_t axis, std::uint32_t other,
             const std::array<std::uint16_t, 4>& face) {
+    // The border of the volume counts as a label: what it cuts keeps its outline there.
     const std::size_t n = count_distinct({face[0], face[1], face[2], face[3], 0, 0, 0, 0}, 4);
-    if (n < 2 || other == kNoVertex) return;
+    bool is_surface = false;
+    for (const std::uint16_t c : face) is_surface = is_surface || label_of(c) != label_of(face[0]);
+    if (!is_surface || other == kNoVertex) return;
     if (!is_line_[v] || n > 2) net_.neighbours[v][2 * axis] = other;
     if (!is_line_[other] || n > 2) net_.neighbours[other][2 * axis + 1] = v;
   }
@@ -121,6 +129,8 @@ class NetMaker {
   /// The face between the lower voxel of cell (x, y, z) and the next along `axis`.
   void add_face(std::size_t x, std::size_t y, std::size_t z, std::uint8_t axis, std::uint16_t below,
                 std::uint16_t above) {
+    below = label_of(below);
+    above = label_of(above);
     if (below == above) return;
     const std::size_t w = nx_ + 1;
     const auto vertex = [&](std::size_t dx, std::size_t dy, std::size_t dz) {

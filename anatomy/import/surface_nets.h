@@ -32,7 +32,8 @@ struct SurfaceNet {
 inline constexpr std::uint32_t kNoVertex = 0xffffffffU;
 
 /// The net with its vertices in the middles of their cells. Beyond the volume there is nothing.
-/// Where three labels meet, a vertex has its neighbours along that line alone.
+/// Where three labels meet (the border of the volume counts as one), a vertex has its neighbours
+/// along that line alone.
 /// Requires: labels as many as size says. Cost: linear, about 0.5 s for 24 million voxels.
 /// Source: [Frisken2022], section 3.
 [[nodiscard]] SurfaceNet make_surface_net(std::span<const std::uint16_t> labels,

@@ -58,8 +58,10 @@ TEST(SurfaceNets, ASingleVoxelIsACubeOfOneVoxelsVolume) {
 TEST(SurfaceNets, SurfacesAreClosedManifoldAndOutward) {
   const Made made = make(ball_and_cap());
   for (const LabelSurface& s : made.surfaces)
-    for (const Defect& d : find_defects(s.mesh)) EXPECT_EQ(to_string(d.kind), "") << d.message;
-  for (const Defect& d : find_defects(made.outer.mesh)) EXPECT_EQ(to_string(d.kind), "");
+    for (const Defect& d : find_defects(s.mesh))
+      if (d.kind != DefectKind::several_components)  // fat has an inner side
+        ADD_FAILURE() << d.message;
+  for (const Defect& d : find_defects(made.outer.mesh)) ADD_FAILURE() << d.message;
 }
 
 TEST(SurfaceNets, MirroredAxesStayOutward) {
@@ -139,7 +141,8 @@ TEST(SurfaceNets, ATiltedSheetOfOneVoxelIsKept) {
                                        return h < 0.2e-3 ? 1 : 0;
                                      });
   const Made made = make(volume);
-  EXPECT_NEAR(made.volumes[0].fitted / made.volumes[0].counted, 1, 0.05);
+  EXPECT_NEAR(made.volumes[0].fitted / made.volumes[0].counted, 1, 0.05)
+      << made.volumes[0].smoothed / made.volumes[0].counted;
   EXPECT_EQ(make_surface_net(volume.labels, volume.size).size, volume.size);
 }
 

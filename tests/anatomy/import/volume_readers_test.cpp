@@ -122,7 +122,7 @@ TEST(VolumeReaders, TerminologyOfSlicerGivesCodes) {
 
 TEST(VolumeReaders, UnnamedLabelsAreListedWithWhatToWrite) {
   const std::string told = refusal(test::nifti_of(two_boxes(), false), "a.nii");
-  EXPECT_THAT(told, HasSubstr("does not name its labels: 2 ("));
+  EXPECT_THAT(told, HasSubstr("does not name its labels: 1 ("));
   EXPECT_THAT(told, HasSubstr("--labels names.toml"));
 }
 
