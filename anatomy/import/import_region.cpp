@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "artus/detail/anatomy/import/imported_joint.h"
-#include "artus/detail/anatomy/surfaces/distance_tree.h"
 #include "artus/detail/core/known_names.h"
 #include "artus/detail/core/units.h"
 
@@ -16,6 +16,21 @@ constexpr double kLeast = 60 * kMillimetre;  // a ball's radius: hands and probe
 constexpr double kMost = 130 * kMillimetre;
 constexpr double kBehindSkin = 30 * kMillimetre;
 constexpr std::size_t kSamples = 1500;
+constexpr std::size_t kSkinSamples = 20000;
+
+/// Evenly chosen vertices of a surface: millimetres apart, which is enough to say where a joint is.
+std::vector<Vec3> samples_of_surface(const SurfaceMesh& mesh, std::size_t n) {
+  std::vector<Vec3> samples;
+  const std::size_t step = mesh.vertices.size() / n + 1;
+  for (std::size_t i = 0; i < mesh.vertices.size(); i += step) samples.push_back(mesh.vertices[i]);
+  return samples;
+}
+
+double distance_to(const std::vector<Vec3>& samples, const Vec3& p) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Vec3& q : samples) least = std::min(least, (p - q).squaredNorm());
+  return std::sqrt(least);
+}
 
 /// Where two surfaces are nearest.
 struct Nearest {
@@ -23,28 +38,35 @@ struct Nearest {
   Vec3 centre = Vec3::Zero();
 };
 
-Nearest nearest_of(const DistanceTree& tree, const SurfaceMesh& mesh, double limit) {
+Nearest nearest_of(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
   constexpr double kAround = 3 * kMillimetre;
-  const std::size_t step = mesh.vertices.size() / kSamples + 1;
   std::vector<double> distances;
   Nearest nearest;
-  for (std::size_t i = 0; i < mesh.vertices.size(); i += step) {
-    distances.push_back(tree.distance(mesh.vertices[i], limit));
+  for (const Vec3& p : a) {
+    distances.push_back(distance_to(b, p));
     nearest.distance = std::min(nearest.distance, distances.back());
   }
   double n = 0;
   for (std::size_t k = 0; k < distances.size(); ++k) {
     if (distances[k] > nearest.distance + kAround) continue;
-    nearest.centre += mesh.vertices[k * step];
+    nearest.centre += a[k];
     ++n;
   }
   if (n > 0) nearest.centre /= n;
   return nearest;
 }
 
+/// Whether the boxes of two sets of points are farther apart than bones of a joint are.
+bool are_far(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+  Eigen::AlignedBox3d of_a, of_b;
+  for (const Vec3& p : a) of_a.extend(p);
+  for (const Vec3& p : b) of_b.extend(p);
+  return of_a.exteriorDistance(of_b) > kNear;
+}
+
 /// The two bones that make the joint: of the near ones those whose smaller is largest.
 std::optional<std::pair<std::size_t, std::size_t>> find_bones(
-    const ImportedJoint& joint, const std::vector<DistanceTree>& trees) {
+    const ImportedJoint& joint, const std::vector<std::vector<Vec3>>& samples) {
   std::optional<std::pair<std::size_t, std::size_t>> best;
   double most = 0;
   const auto& all = joint.structures;
@@ -53,7 +75,8 @@ std::optional<std::pair<std::size_t, std::size_t>> find_bones(
       if (all[a].tissue != "bone" || all[b].tissue != "bone") continue;
       const double smaller = std::min(signed_volume(all[a].mesh), signed_volume(all[b].mesh));
       if (smaller <= most) continue;
-      if (nearest_of(trees[b], all[a].mesh, 2 * kNear).distance > kNear) continue;
+      if (are_far(samples[a], samples[b])) continue;
+      if (nearest_of(samples[a], samples[b]).distance > kNear) continue;
       most = smaller;
       best = {a, b};
     }
@@ -95,17 +118,16 @@ Result<void> choose_region(ImportedJoint& joint, const std::vector<std::string>&
   Eigen::AlignedBox3d box;
   for (const Vec3& p : joint.body.vertices) box.extend(p);
   if (between.size() != 2 && (box.isEmpty() || box.diagonal().norm() / 2 <= kWhole)) return {};
-  std::vector<DistanceTree> trees(joint.structures.size(), DistanceTree(SurfaceMesh{}));
-  for (std::size_t i = 0; i < trees.size(); ++i)
-    if (joint.structures[i].tissue == "bone" || between.size() == 2)
-      trees[i] = DistanceTree(joint.structures[i].mesh);
+  std::vector<std::vector<Vec3>> samples;
+  for (const ImportedStructure& s : joint.structures)
+    samples.push_back(samples_of_surface(s.mesh, kSamples));
   std::optional<std::pair<std::size_t, std::size_t>> pair;
   if (between.size() == 2) {
     const auto named = find_named(joint, between);
     ARTUS_TRY(named);
     pair = *named;
   } else {
-    pair = find_bones(joint, trees);
+    pair = find_bones(joint, samples);
   }
   if (!pair) {
     joint.notes.push_back(
@@ -115,9 +137,8 @@ Result<void> choose_region(ImportedJoint& joint, const std::vector<std::string>&
   }
   const auto& [a, b] = *pair;
   ImportedRegion region;
-  region.centre =
-      nearest_of(trees[b], joint.structures[a].mesh, std::numeric_limits<double>::max()).centre;
-  const double to_skin = DistanceTree(joint.body).distance(region.centre, kMost);
+  region.centre = nearest_of(samples[a], samples[b]).centre;
+  const double to_skin = distance_to(samples_of_surface(joint.body, kSkinSamples), region.centre);
   region.radius = std::clamp(to_skin + kBehindSkin, kLeast, kMost);
   region.by = "the ball around where '" + joint.structures[a].name + "' and '" +
               joint.structures[b].name + "' are nearest";
