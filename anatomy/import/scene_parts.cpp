@@ -83,6 +83,41 @@ std::optional<std::string> why_too_open(const SurfaceMesh& mesh) {
          " (in joint.toml: thicken = 1 for a sheet; a landmark for a mark)";
 }
 
+/// Each part becomes the body, a structure, or is left out with the reason.
+void sort_parts(std::vector<ScenePart>& parts, const ImportOptions& options,
+                const StructureNames& bundled, const Progress& progress, ImportedJoint& joint) {
+  double largest_outline = 0;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    ScenePart& part = parts[i];
+    if (progress)
+      progress("looking at " + part.name,
+               0.1 + 0.7 * static_cast<double>(i) / static_cast<double>(parts.size()));
+    for (const std::string& note : part.notes) joint.notes.push_back(part.name + ": " + note);
+    ImportedStructure s;
+    s.source = part.name;
+    const auto known = find_tissue(options.names, bundled, part.name, {});
+    s.by = known ? known->by : "no tissue is known for this name";
+    if (known) s.tissue = known->tissue;
+    s.volumes.fitted = signed_volume(part.mesh);
+    const double volume = std::abs(s.volumes.fitted);
+    if (known && (known->tissue == kBodyOutline || known->tissue == "skin")) {
+      if (volume > largest_outline) {
+        largest_outline = volume;
+        joint.body = std::move(part.mesh);
+        joint.body_by = "surface '" + part.name + "'";
+      }
+      continue;
+    }
+    if (const auto why = known ? why_too_open(part.mesh) : std::nullopt) {
+      s.by = *why;
+      joint.left_out.push_back(std::move(s));
+      continue;
+    }
+    s.mesh = std::move(part.mesh);
+    (known ? joint.structures : joint.left_out).push_back(std::move(s));
+  }
+}
+
 }  // namespace
 
 Result<std::vector<ScenePart>> read_scene_parts(std::string_view bytes, const std::string& name,
@@ -115,36 +150,7 @@ Result<ImportedJoint> import_parts(std::vector<ScenePart> parts, const ImportOpt
   joint.title = std::filesystem::path(file).filename().string();
   joint.format = "surfaces";
   joint.side = options.side;
-  double largest_outline = 0;
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    ScenePart& part = parts[i];
-    if (progress)
-      progress("looking at " + part.name,
-               0.1 + 0.7 * static_cast<double>(i) / static_cast<double>(parts.size()));
-    for (const std::string& note : part.notes) joint.notes.push_back(part.name + ": " + note);
-    ImportedStructure s;
-    s.source = part.name;
-    const auto known = find_tissue(options.names, *bundled, part.name, {});
-    s.by = known ? known->by : "no tissue is known for this name";
-    if (known) s.tissue = known->tissue;
-    s.volumes.fitted = signed_volume(part.mesh);
-    const double volume = std::abs(s.volumes.fitted);
-    if (known && (known->tissue == kBodyOutline || known->tissue == "skin")) {
-      if (volume > largest_outline) {
-        largest_outline = volume;
-        joint.body = std::move(part.mesh);
-        joint.body_by = "surface '" + part.name + "'";
-      }
-      continue;
-    }
-    if (const auto why = known ? why_too_open(part.mesh) : std::nullopt) {
-      s.by = *why;
-      joint.left_out.push_back(std::move(s));
-      continue;
-    }
-    s.mesh = std::move(part.mesh);
-    (known ? joint.structures : joint.left_out).push_back(std::move(s));
-  }
+  sort_parts(parts, options, *bundled, progress, joint);
   if (joint.structures.empty())
     return fail(
         ErrorCode::invalid,
