@@ -48,7 +48,7 @@ std::string_view foreign_format(std::string_view bytes, std::string_view name) n
   const std::string_view head = bytes.substr(0, 2048);
   if (head.starts_with("# vtk DataFile")) return "VTK";
   if (head.find("<VTKFile") != std::string_view::npos) return "VTK XML";
-  if (head.find("$MeshFormat") != std::string_view::npos) return "Gmsh";
+  if (head.find("$MeshFormat") != std::string_view::npos || head.starts_with("$NOD")) return "Gmsh";
   if (head.find("<COLLADA") != std::string_view::npos) return "COLLADA";
   if (bytes.starts_with("Kaydara FBX")) return "FBX";
   if (bytes.starts_with("PK\x03\x04") && name.ends_with(".3mf")) return "3MF";
