@@ -169,12 +169,12 @@ TEST_F(ImportTool, ASegmentationBecomesAJointWithoutAnEdit) {
   EXPECT_EQ(artus({"check", in("limb")}).exit_code, 0) << artus({"check", in("limb")}).out;
   const auto compiled = artus({"compile", in("limb"), "-o", in("limb.artus"), "--fresh", "--json"});
   ASSERT_EQ(compiled.exit_code, 0) << compiled.err;
-  for (const auto& s : nlohmann::json::parse(compiled.out).at("structures"))
-    if (s.at("kind") == "surface")
-      EXPECT_NEAR(s.at("resolved_volume_cm3").get<double>(),
-                  s.at("surface_volume_cm3").get<double>(),
-                  0.02 * s.at("surface_volume_cm3").get<double>())
-          << s.at("name");
+  const auto report = nlohmann::json::parse(compiled.out);
+  for (const auto& s : report.at("structures")) {
+    if (s.at("kind") != "surface") continue;
+    const double volume = s.at("surface_volume_cm3").get<double>();
+    EXPECT_NEAR(s.at("resolved_volume_cm3").get<double>(), volume, 0.02 * volume) << s.at("name");
+  }
   EXPECT_EQ(artus({"import", in("limb.nii"), "-o", in("limb")}).exit_code, 1) << "not over a joint";
   // The frame of a NIfTI has single precision, so that its bytes are its own.
   ASSERT_EQ(artus({"import", in("limb.seg.nrrd"), "-o", in("again")}).exit_code, 0);

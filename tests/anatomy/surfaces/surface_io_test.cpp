@@ -256,11 +256,12 @@ TEST(SurfaceIo, OtherFormatsAreNamedWithTheWayToWhatIsRead) {
   EXPECT_EQ(foreign_format("ply\n", "a.ply"), "");
   const auto folder = test::source_dir() / "../shared/cases/06-volume-meshes-and-label-maps";
   if (!std::filesystem::exists(folder)) return;
-  for (const auto& entry : std::filesystem::directory_iterator(folder))
-    if (entry.path().filename() != "README")
-      EXPECT_THAT(read_surface(entry.path(), 1e-3).error().message,
-                  testing::AnyOf(HasSubstr("artus import"), HasSubstr("volume mesh")))
-          << entry.path();
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().filename() == "README") continue;
+    EXPECT_THAT(read_surface(entry.path(), 1e-3).error().message,
+                testing::AnyOf(HasSubstr("artus import"), HasSubstr("volume mesh")))
+        << entry.path();
+  }
 }
 
 TEST(SurfaceIo, EverySurfaceOfTheRealShoulderIsRead) {
