@@ -5,6 +5,7 @@ namespace artus {
 
 void add_commands(Command& app, ExitCode& code) {
   app.group("For anatomists");
+  add_import_command(app, code);
   add_check_command(app, code);
   add_compile_command(app, code);
   add_needle_command(app, code);

@@ -16,6 +16,7 @@ void add_elastogram_command(Command& image, ExitCode& code);
 void add_export_command(Command& app, ExitCode& code);
 void add_force_command(Command& app, ExitCode& code);
 void add_image_command(Command& app, ExitCode& code);
+void add_import_command(Command& app, ExitCode& code);
 void add_inject_command(Command& app, ExitCode& code);
 void add_laws_command(Command& app, ExitCode& code);
 void add_learners_command(Command& app, ExitCode& code);

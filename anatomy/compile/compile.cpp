@@ -75,13 +75,17 @@ std::vector<StructureReport> start_reports(const JointFile& file) {
 }
 
 // One error that names all that must be mended before anything is made.
-Result<void> check_refusals(const JointFile& file, const std::vector<StructureReport>& reports,
+Result<void> check_refusals(const JointSources& sources,
+                            const std::vector<StructureReport>& reports,
                             const PreparedSurfaces& surfaces, const CompileOptions& options) {
+  const JointFile& file = sources.joint();
   std::vector<std::string> refusals;
   if (!options.skip_refused)
     for (const StructureReport& r : reports)
       if (!r.refused.empty()) refusals.push_back(r.name + ": " + r.refused);
   if (options.check_plans) {
+    for (const Finding& f : find_foreign_frames(sources))
+      refusals.push_back(f.what + ": " + f.message);
     for (const Finding& f : find_misplaced(file, surfaces))
       if (f.verdict == Verdict::refused && !(options.skip_refused && f.kind == "lost"))
         refusals.push_back(f.what + ": " + f.message);
@@ -194,7 +198,7 @@ Result<CompileOutcome> compile_joint(const JointSources& sources, const CompileO
   auto surfaces = steps.run("reading and repairing surfaces", 0,
                             [&] { return prepare_surfaces(sources, reports, parts); });
   ARTUS_TRY(surfaces);
-  ARTUS_TRY(check_refusals(file, reports, *surfaces, options));
+  ARTUS_TRY(check_refusals(sources, reports, *surfaces, options));
   StructureReport filler;
   filler.name = file.filler_name;
   filler.tissue = file.body.tissue;

@@ -183,6 +183,7 @@ void read_structures(TomlTable& toml, double unit, JointFile& joint) {
         read_structure(*table, joint.structures.size() + 1, unit, toml.problems()));
     places.push_back(table->source());
   }
+  joint.partitions = read_partitions(toml, unit);
   if (joint.structures.empty()) toml.problem("there is no [[structure]]");
   check_structures(joint, places, toml.problems());
 }
@@ -228,6 +229,10 @@ void check_file(const JointFile& joint, const Structure& structure, Problems& pr
     problems.add(toml::source_region{}, "structure '" + structure.name + "': there is no file '" +
                                             surface->file.string() + "' in " +
                                             joint.surface_folder.string());
+  if (surface != nullptr && !surface->cuts.empty() &&
+      !std::filesystem::is_regular_file(joint.surface_folder / surface->cuts, ignored))
+    problems.add(toml::source_region{}, "body: there is no file '" + surface->cuts.string() +
+                                            "' of its cuts in " + joint.surface_folder.string());
 }
 
 Result<void> check_files(const JointFile& joint, const std::string& where) {

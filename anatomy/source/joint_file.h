@@ -66,6 +66,9 @@ struct SurfaceFile {
   /// m, how far its side that faces the skin is moved outward, along the skin's normal; negative:
   /// inward. Of the body: all of its skin.
   double grow = 0;
+  /// Of the body: the part of its surface where it was cut, which is no skin; empty: found by what
+  /// repair closes. Relative to the surface folder.
+  std::filesystem::path cuts;
 };
 
 /// One thing of the body: where it comes from, what it is made of. Earlier in the list wins where
@@ -78,7 +81,15 @@ struct Structure {
   double facet_distance = 0;       ///< m, 0 = the joint's default
   std::optional<Vec3> fibre_axis;  ///< along the fibres, if one axis is a fair description
   FibreCourse fibre_course = FibreCourse::ends;  ///< how they follow that axis
+  std::string partition;  ///< of the joint file; empty: of none
   int line = 0;                                  ///< of joint.toml; 0: of no file
+};
+
+/// Structures that share their borders without overlap: they are not checked for crossing each
+/// other, and a film of nothing between two of them is none.
+struct Partition {
+  std::string name;
+  double film = 0;  ///< m, a gap narrower than this belongs to the nearer neighbour
 };
 
 /// The region that is meshed: a ball, or a box when `half_extent` is set.
@@ -99,6 +110,7 @@ struct JointFile {
   Structure body;                        ///< the outer skin; its tissue is the filler's
   std::string filler_name;               ///< region name of what no structure claims
   std::vector<Structure> structures;     ///< priority order, first wins
+  std::vector<Partition> partitions;     ///< that structures name
   std::vector<Tissue> tissues;           ///< library with the joint's overrides applied
   std::optional<RegionOfInterest> region_of_interest;
   double facet_size = 0;      ///< m

@@ -10,7 +10,8 @@
 namespace artus {
 namespace {
 
-constexpr double kLongest = 1e4;            // units of the file; no length of a joint is longer
+constexpr double kThickestFilm = 10;  // units of the file; no film between neighbours is thicker
+constexpr double kLongest = 1e4;      // units of the file; no length of a joint is longer
 constexpr double kLargestInflation = 1000;  // ml, more than any space of a joint takes
 
 /// A length key of the file: positive, in metres.
@@ -195,6 +196,9 @@ Structure read_structure(const toml::table& table, std::size_t number, double un
   structure.tissue = toml.required_text("tissue");
   read_shape(toml, unit, structure);
   read_facets(toml, unit, structure);
+  structure.partition = toml.text("partition").value_or("");
+  if (!structure.partition.empty() && !std::holds_alternative<SurfaceFile>(structure.shape))
+    toml.problem_at("partition", "is for structures with a file: a construct has no borders yet");
   structure.fibre_axis = toml.vector("fibre_axis");
   if (structure.fibre_axis) {
     if (structure.fibre_axis->norm() > 0)
@@ -220,13 +224,33 @@ Structure read_body(const toml::table& table, double unit, std::string& filler_n
   body.line = static_cast<int>(table.source().begin.line);
   body.name = "body";
   body.tissue = toml.required_text("tissue");
-  body.shape = read_surface_file(toml, unit);
+  SurfaceFile surface = read_surface_file(toml, unit);
+  surface.cuts = toml.text("cuts").value_or("");
+  body.shape = std::move(surface);
   read_facets(toml, unit, body);
   filler_name = toml.text("filler").value_or(body.tissue);
   if (!filler_name.empty() && !is_plain_name(filler_name, '_'))
     toml.problem_at("filler", "may contain only a-z, 0-9 and _");
   toml.finish();
   return body;
+}
+
+std::vector<Partition> read_partitions(TomlTable& toml, double unit) {
+  std::vector<Partition> partitions;
+  const toml::table* all = toml.table("partition");
+  if (all == nullptr) return partitions;
+  for (const auto& [key, node] : *all) {
+    const toml::table* table = node.as_table();
+    if (table == nullptr) {
+      toml.problems().add(node, "partition: give it as [partition.NAME] with film = 0.1");
+      continue;
+    }
+    TomlTable one(*table, "partition '" + std::string(key.str()) + "'", toml.problems());
+    partitions.push_back(
+        {std::string(key.str()), one.required_number("film", 0, kThickestFilm, unit)});
+    one.finish();
+  }
+  return partitions;
 }
 
 void check_structures(const JointFile& joint, const std::vector<toml::source_region>& places,
@@ -249,6 +273,12 @@ void check_structures(const JointFile& joint, const std::vector<toml::source_reg
     if (!s.tissue.empty() && !tissues.contains(s.tissue))
       add("unknown tissue '" + s.tissue + "'" + did_you_mean(s.tissue, tissues) +
           "; add it to the tissue library or under [tissue." + s.tissue + "] in this file");
+    const auto partitions = item_names(joint.partitions);
+    if (!s.partition.empty() &&
+        std::find(partitions.begin(), partitions.end(), s.partition) == partitions.end())
+      add("names the partition '" + s.partition + "', which is not one of this file" +
+          did_you_mean(s.partition, partitions) + "; declare it by [partition." + s.partition +
+          "] with film = 0.1");
     for (const auto& name : names_of(s)) {
       if (name.empty()) continue;
       if (name == s.name)

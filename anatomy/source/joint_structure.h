@@ -21,8 +21,11 @@ double length_unit(TomlTable& toml, std::string_view key, double default_unit);
 [[nodiscard]] Structure read_body(const toml::table& table, double unit, std::string& filler_name,
                                   Problems& problems);
 
-/// What can be said only when all structures are known: unique names, known tissues, constructs
-/// that name structures of the file and do not run in a circle.
+/// The [partition.NAME] tables, by name.
+[[nodiscard]] std::vector<Partition> read_partitions(TomlTable& toml, double unit);
+
+/// What can be said only when all structures are known: unique names, known tissues and partitions,
+/// constructs that name structures of the file and do not run in a circle.
 void check_structures(const JointFile& joint, const std::vector<toml::source_region>& places,
                       Problems& problems);
 

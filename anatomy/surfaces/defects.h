@@ -81,6 +81,7 @@ struct NamedSurface {
   std::string tissue;
   SurfaceMesh mesh;
   bool has_own_unit = false;  ///< its size is not doubted
+  std::string partition;      ///< two of one are not asked whether they cross; empty: of none
 };
 
 /// Structures out of scale or place with respect to the others; `surfaces` may hold the body.

@@ -124,6 +124,8 @@ std::vector<Defect> find_crossings(const std::vector<NamedSurface>& surfaces) {
   CGAL::box_self_intersection_d(
       boxes.begin(), boxes.end(), [&](const FaceBox& a, const FaceBox& b) {
         if (a.surface() == b.surface()) return;
+        const auto& partition = surfaces[a.surface()].partition;
+        if (!partition.empty() && partition == surfaces[b.surface()].partition) return;
         const auto p = corners(surfaces[a.surface()].mesh, a.face());
         const auto q = corners(surfaces[b.surface()].mesh, b.face());
         if (!CGAL::do_intersect(CgalTriangle(p[0], p[1], p[2]), CgalTriangle(q[0], q[1], q[2])))

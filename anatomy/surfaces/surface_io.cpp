@@ -6,6 +6,7 @@
 #include <fstream>
 #include <optional>
 
+#include "artus/detail/anatomy/surfaces/foreign_format.h"
 #include "artus/detail/anatomy/surfaces/surface_io_formats.h"
 #include "artus/detail/core/check.h"
 #include "artus/detail/core/text_cursor.h"
@@ -61,8 +62,8 @@ Result<SurfaceMesh> parse_any(std::string_view bytes, const std::string& name) {
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // before text, of some editors
   if (bytes.starts_with(kByteOrderMark)) bytes.remove_prefix(kByteOrderMark.size());
   if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) return parse_ply(bytes, name);
-  if (bytes.starts_with("glTF") || std::filesystem::path(name).extension() == ".gltf")
-    return fail(ErrorCode::unsupported, "glTF is not read; export the surface as STL or PLY", name);
+  if (std::string advice = advice_for_format(bytes, name); !advice.empty())
+    return fail(ErrorCode::unsupported, std::move(advice), name);
   if (is_binary_stl(bytes)) return parse_stl_binary(bytes, name);
   const auto extension = format_of_extension(name);
   const bool is_text = bytes.substr(0, 1024).find('\0') == std::string_view::npos;

@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "tests/anatomy/import/label_samples.h"
 #include "tests/apps/run_tool.h"
 #include "tests/support/open_counter.h"
 #include "tests/support/paths.h"
@@ -146,6 +147,38 @@ TEST_F(ImportTool, RefusalsComeFirstWithOneExitCodeAndTheirMendWorks) {
   toml.replace(toml.find("-60.0, 0.0, -13.9"), 17, entry);
   folder = write_joint(toml);
   EXPECT_EQ(artus({"check", folder.string()}).exit_code, 0);
+}
+
+TEST_F(ImportTool, ASegmentationBecomesAJointWithoutAnEdit) {
+  // Two bones with cartilage between them, in a limb that leaves the volume at both ends.
+  const LabelVolume limb = test::painted(
+      {50, 50, 40}, test::oblique_frame({1, 1, 1}),
+      {"femur_left", "tibia_left", "cartilage", "body"}, [](const Vec3& p) -> std::uint16_t {
+        const double r = p.head<2>().norm();
+        if (r < 8e-3) return std::abs(p.z()) < 1.6e-3 ? 3 : p.z() > 0 ? 1 : 2;
+        return r < 22e-3 ? 4 : 0;
+      });
+  std::ofstream(in("limb.nii"), std::ios::binary) << test::nifti_of(limb);
+  std::ofstream(in("limb.seg.nrrd"), std::ios::binary) << test::nrrd_of(limb);
+  const auto imported = artus({"import", in("limb.nii"), "-o", in("limb"), "--json"});
+  ASSERT_EQ(imported.exit_code, 0) << imported.err;
+  const auto json = nlohmann::json::parse(imported.out);
+  EXPECT_EQ(json.at("side"), "left");
+  EXPECT_EQ(json.at("structures").size(), 3U);
+  EXPECT_NE(content(folder_ / "limb/import.html").find("before and after"), std::string::npos);
+  EXPECT_EQ(artus({"check", in("limb")}).exit_code, 0) << artus({"check", in("limb")}).out;
+  const auto compiled = artus({"compile", in("limb"), "-o", in("limb.artus"), "--fresh", "--json"});
+  ASSERT_EQ(compiled.exit_code, 0) << compiled.err;
+  const auto report = nlohmann::json::parse(compiled.out);
+  for (const auto& s : report.at("structures")) {
+    if (s.at("kind") != "surface") continue;
+    const double volume = s.at("surface_volume_cm3").get<double>();
+    EXPECT_NEAR(s.at("resolved_volume_cm3").get<double>(), volume, 0.02 * volume) << s.at("name");
+  }
+  EXPECT_EQ(artus({"import", in("limb.nii"), "-o", in("limb")}).exit_code, 1) << "not over a joint";
+  // The frame of a NIfTI has single precision, so that its bytes are its own.
+  ASSERT_EQ(artus({"import", in("limb.seg.nrrd"), "-o", in("again")}).exit_code, 0);
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "again/surfaces/femur.ply"));
 }
 
 }  // namespace

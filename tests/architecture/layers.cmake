@@ -11,6 +11,7 @@ set(may_anatomy/compile/labels core anatomy/surfaces anatomy/body anatomy/source
 set(may_anatomy/compile/mesh ${may_anatomy/compile/labels} anatomy/compile/labels)
 set(may_anatomy/compile/check ${may_anatomy/compile/mesh} anatomy/compile/mesh)
 set(may_anatomy/compile ${may_anatomy/compile/check} anatomy/compile/check)
+set(may_anatomy/import core anatomy/surfaces anatomy/body anatomy/source)
 set(may_soft/cage core anatomy/body)
 set(may_soft/solver ${may_soft/cage} soft/cage)
 set(may_soft/liquid ${may_soft/solver} soft/solver)
@@ -51,7 +52,8 @@ set(validation evidence/validation/needle evidence/validation/probe evidence/val
 set(may_evidence/validation ${may_evidence} evidence evidence/runs ${validation})
 set(may_exchange/igtl core)
 set(may_exchange ${may_simulation} simulation dataset ${session} exchange/igtl)
-set(may_reports ${may_evidence} evidence evidence/runs viewer/words anatomy/surfaces anatomy/source anatomy/compile anatomy/compile/labels anatomy/compile/check)
+set(may_reports ${may_evidence} evidence evidence/runs viewer/words anatomy/surfaces anatomy/source anatomy/compile anatomy/compile/labels anatomy/compile/check
+  anatomy/import)
 set(window ${may_simulation} simulation dataset ${session})
 set(may_viewer/words ${may_raycast} raycast)
 set(may_viewer/input ${window} viewer/words)
@@ -66,14 +68,15 @@ set(may_meshes/generate core anatomy/surfaces)
 set(may_apps/options ${may_trainer} ${may_reports} trainer)
 set(may_apps ${may_apps/options} anatomy/compile/mesh apps/options)
 set(may_apps/validate ${may_apps} ${validation} evidence/validation)
-set(rooms core anatomy/surfaces anatomy/body anatomy/source anatomy/compile/labels anatomy/compile/mesh anatomy/compile/check anatomy/compile ${soft} raycast
+set(rooms core anatomy/surfaces anatomy/body anatomy/source anatomy/compile/labels anatomy/compile/mesh anatomy/compile/check anatomy/compile anatomy/import
+  ${soft} raycast
   ${haptics} ${echo} operators dataset simulation ${session} ${training} evidence evidence/runs ${validation}
   evidence/validation exchange/igtl exchange reports ${viewer} trainer python meshes/generate apps/options apps apps/validate)
 
 # folder lists that may include headers starting with the pattern
 set(outside "embree:raycast" "CGAL/:anatomy/surfaces,anatomy/compile,meshes/generate" "tetgen:anatomy/compile"
-  "toml:core,anatomy/body,anatomy/source,echo/probe,soft/cage,haptics/actuator,training" "opencv2/:echo,dataset,evidence,reports,apps,trainer,viewer"
-  "CLI/:apps,meshes/generate" "boost/interprocess:session/shm" "GLFW/:viewer" "imgui:viewer" "epoxy/:viewer" "gtest/:tests" "pybind11/:python" "dcmtk/:exchange"
+  "toml:core,anatomy/body,anatomy/source,anatomy/import,echo/probe,soft/cage,haptics/actuator,training" "opencv2/:echo,dataset,evidence,reports,apps,trainer,viewer"
+  "CLI/:apps,meshes/generate" "boost/interprocess:session/shm" "GLFW/:viewer" "imgui:viewer" "epoxy/:viewer" "gtest/:tests" "pybind11/:python" "dcmtk/:exchange,anatomy/import" "assimp/:anatomy/import" "zlib:anatomy/import"
   "sqlite3:training" "SQLiteCpp/:training"
   "nlohmann/:anatomy/compile,python,simulation,session,training,dataset,exchange,evidence,reports,trainer,apps,meshes/generate")
 

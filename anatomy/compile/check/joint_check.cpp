@@ -60,6 +60,7 @@ class Collector {
 
   JointCheck run() {
     add_refusals();
+    for (Finding& f : find_foreign_frames(sources_)) check_.findings.push_back(std::move(f));
     add_defects();
     take_surfaces();
     if (!check_.prepared.body.mesh.triangles.empty()) add_places();

@@ -6,6 +6,15 @@
 namespace artus {
 namespace {
 
+/// The partition of a structure. An untouched body beside a single partition is its outer border.
+std::string borders_of(const JointFile& joint, const Structure& structure) {
+  if (&structure != &joint.body) return structure.partition;
+  const auto* surface = std::get_if<SurfaceFile>(&structure.shape);
+  const bool is_border =
+      joint.partitions.size() == 1 && surface != nullptr && surface->repair == "none";
+  return is_border ? joint.partitions.front().name : std::string();
+}
+
 void append_defects_of(const JointSources& sources, const Structure& structure,
                        const DefectOptions& options, std::vector<NamedSurface>& surfaces,
                        std::vector<Defect>& defects) {
@@ -21,6 +30,7 @@ void append_defects_of(const JointSources& sources, const Structure& structure,
                        "the tissue '" + structure.tissue + "' is not in the library"});
   const auto* surface = std::get_if<SurfaceFile>(&structure.shape);
   if (surface == nullptr) return;
+  const std::string partition = borders_of(joint, structure);
   const auto mesh = sources.mesh(*surface);
   if (!mesh) {
     defects.push_back({DefectKind::unreadable_file,
@@ -31,11 +41,14 @@ void append_defects_of(const JointSources& sources, const Structure& structure,
                        mesh.error().to_string()});
     return;
   }
-  for (auto& d : find_defects(**mesh, options)) {
+  DefectOptions own = options;
+  // What shares its borders with its neighbours was cut from a grid, and is no tangle.
+  own.self_intersections = options.self_intersections && partition.empty();
+  for (auto& d : find_defects(**mesh, own)) {
     d.structure = structure.name;
     defects.push_back(std::move(d));
   }
-  surfaces.push_back({structure.name, structure.tissue, **mesh, surface->has_own_unit});
+  surfaces.push_back({structure.name, structure.tissue, **mesh, surface->has_own_unit, partition});
 }
 
 }  // namespace

@@ -314,4 +314,24 @@ std::vector<Finding> find_misplaced(const JointFile& file, const PreparedSurface
   return Finder(file, surfaces).run();
 }
 
+std::vector<Finding> find_foreign_frames(const JointSources& sources) {
+  const JointFile& file = sources.joint();
+  std::vector<Finding> found;
+  const auto look_at = [&](const Structure& s) {
+    const auto* surface = std::get_if<SurfaceFile>(&s.shape);
+    const auto axes =
+        surface == nullptr ? std::string() : sources.declared_axes(*surface).value_or("");
+    if (axes.empty() || axes == file.axes) return;
+    found.push_back(
+        {Verdict::refused, "frame", s.name, s.line,
+         printed("the header of %s says SPACE=%s, and joint.toml says axes = \"%s\": it would be "
+                 "compiled mirrored to the other side; save it again in %s (3D Slicer: coordinate "
+                 "system of the export)",
+                 surface->file.c_str(), axes.c_str(), file.axes.c_str(), file.axes.c_str())});
+  };
+  look_at(file.body);
+  for (const Structure& s : file.structures) look_at(s);
+  return found;
+}
+
 }  // namespace artus

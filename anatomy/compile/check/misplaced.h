@@ -21,4 +21,8 @@ namespace artus {
 [[nodiscard]] std::vector<Finding> find_mirrored(const JointFile& file,
                                                  const PreparedSurfaces& surfaces);
 
+/// Surfaces whose header names another frame than joint.toml's axes: refused, with both. A file
+/// that cannot be read is told elsewhere. Errors: none. Cost: reads the files.
+[[nodiscard]] std::vector<Finding> find_foreign_frames(const JointSources& sources);
+
 }  // namespace artus

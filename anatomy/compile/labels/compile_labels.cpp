@@ -435,15 +435,15 @@ Result<LabelledSpace> make_labelled_space(const JointFile& file, const PreparedS
     const RegionId region = region_of_structure(i);
     space.resolve.sizing[region] = maker.sizing(i);
     finest = std::min(finest, maker.sizing(i).facet_size);
-    space.labels.layers.push_back({region, maker.take_field(i)});
+    const auto [partition, film] = partition_of(file, file.structures[i]);
+    space.labels.layers.push_back({region, maker.take_field(i), partition, film});
   }
   space.cuts = maker.take_cuts();
   space.labels.body = maker.take_body();
   space.labels.region_of_interest = file.region_of_interest;
   space.labels.make_index(box);
-  const double volume = (box.upper - box.lower).prod();
-  constexpr double kMaxSeedPoints = 6e7;
-  space.resolve.seed_spacing = std::max(finest / 2, std::cbrt(volume / kMaxSeedPoints));
+  const double per_seed = (box.upper - box.lower).prod() / 6e7;  // m^3, so many at most
+  space.resolve.seed_spacing = std::max(finest / 2, std::cbrt(per_seed));
   return space;
 }
 

@@ -110,6 +110,10 @@ ContentDigest digest_of(const JointSources& sources, const SurfaceFile& surface,
   ContentDigest digest(kCompilerVersion);
   digest.add_value(is_body);
   if (const auto of_file = sources.digest(surface)) digest.add(*of_file);
+  if (SurfaceFile cuts = surface; is_body && !surface.cuts.empty()) {
+    cuts.file = surface.cuts;
+    if (const auto of_file = sources.digest(cuts)) digest.add(*of_file);
+  }
   digest.add(std::filesystem::path(surface.file).extension().string());
   digest.add_value(surface.unit);
   digest.add_value(surface.has_own_unit);
@@ -152,7 +156,14 @@ Result<RepairedSurface> read_and_repair(const JointSources& sources, const Surfa
   RepairedSurface repaired;
   repaired.mesh = std::move(outcome->mesh);
   for (const RepairAction& action : outcome->actions) repaired.repairs.push_back(action.message);
-  if (is_body && !repaired.repairs.empty()) repaired.is_cut = find_cut_faces(mesh, repaired.mesh);
+  if (is_body && !surface.cuts.empty()) {
+    SurfaceFile file = surface;
+    file.file = surface.cuts;
+    const auto cuts = sources.mesh(file);
+    ARTUS_TRY(cuts);
+    repaired.is_cut = find_given_cuts(repaired.mesh, **cuts);
+  } else if (is_body && !repaired.repairs.empty())
+    repaired.is_cut = find_cut_faces(mesh, repaired.mesh);
   return repaired;
 }
 

@@ -22,6 +22,18 @@ Vec3 area_vector(const SurfaceMesh& mesh, const Triangle& t) {
   return (mesh.vertices[t[1]] - a).cross(mesh.vertices[t[2]] - a) / 2;
 }
 
+/// Without faces that are none, which no tree takes.
+SurfaceMesh sound_part(const SurfaceMesh& mesh) {
+  SurfaceMesh sound;
+  sound.vertices = mesh.vertices;
+  for (const Triangle& t : mesh.triangles)
+    if (std::all_of(t.begin(), t.end(), [&](std::uint32_t v) {
+          return v < mesh.vertices.size() && mesh.vertices[v].allFinite();
+        }))
+      sound.triangles.push_back(t);
+  return sound;
+}
+
 /// The area of one piece's faces and what of it looks where the piece does as a whole.
 struct Flatness {
   Vec3 sum = Vec3::Zero();
@@ -40,15 +52,18 @@ SurfaceMesh without_cuts(const SurfaceMesh& mesh, const std::vector<std::uint8_t
   return rest;
 }
 
+std::vector<std::uint8_t> find_given_cuts(const SurfaceMesh& body, const SurfaceMesh& cuts) {
+  constexpr double kOn = 1e-5;  // m
+  const DistanceTree tree(sound_part(cuts));
+  std::vector<std::uint8_t> is_cut(body.triangles.size(), 0);
+  tbb::parallel_for(std::size_t{0}, is_cut.size(), [&](std::size_t i) {
+    is_cut[i] = tree.distance(triangle_centre(body, body.triangles[i]), 2 * kOn) < kOn ? 1 : 0;
+  });
+  return is_cut;
+}
+
 std::vector<std::uint8_t> find_cut_faces(const SurfaceMesh& read, const SurfaceMesh& repaired) {
-  SurfaceMesh sound;  // a tree takes no face that is none
-  sound.vertices = read.vertices;
-  for (const Triangle& t : read.triangles)
-    if (std::all_of(t.begin(), t.end(), [&](std::uint32_t v) {
-          return v < read.vertices.size() && read.vertices[v].allFinite();
-        }))
-      sound.triangles.push_back(t);
-  const DistanceTree tree(sound);
+  const DistanceTree tree(sound_part(read));
   std::vector<std::uint8_t> is_away(repaired.triangles.size(), 0);
   tbb::parallel_for(std::size_t{0}, is_away.size(), [&](std::size_t i) {
     const Vec3 centre = triangle_centre(repaired, repaired.triangles[i]);

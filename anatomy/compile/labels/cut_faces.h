@@ -15,6 +15,11 @@ namespace artus {
 [[nodiscard]] std::vector<std::uint8_t> find_cut_faces(const SurfaceMesh& read,
                                                        const SurfaceMesh& repaired);
 
+/// The same of a body whose author gives its cuts as a surface: 1 where a face of `body` lies on it
+/// (its middle within 10 um). Cost: a distance for each face.
+[[nodiscard]] std::vector<std::uint8_t> find_given_cuts(const SurfaceMesh& body,
+                                                        const SurfaceMesh& cuts);
+
 /// The faces of `mesh` that are no cut (or, with `cut`, those that are); all of them where
 /// `is_cut` is empty. The vertices are those of `mesh`.
 [[nodiscard]] SurfaceMesh without_cuts(const SurfaceMesh& mesh,

@@ -9,6 +9,19 @@
 #include "artus/detail/core/text_file.h"
 
 namespace artus {
+namespace {
+
+std::string axes_of_header(std::string_view bytes) {
+  constexpr std::size_t kHeader = 256;  // bytes: the 80 of an STL, the comments of others
+  constexpr std::string_view kKey = "SPACE=";
+  const std::string_view head = bytes.substr(0, kHeader);
+  const auto at = head.find(kKey);
+  if (at == std::string_view::npos) return {};
+  const std::string_view axes = head.substr(at + kKey.size(), 3);
+  return axes == "RAS" || axes == "LPS" ? std::string(axes) : std::string();
+}
+
+}  // namespace
 
 struct JointSources::File {
   std::mutex mutex;
@@ -16,6 +29,7 @@ struct JointSources::File {
   std::string bytes;  // until they are parsed
   std::optional<Error> unreadable;
   ContentDigest digest{0};
+  std::string axes;  // that its header names
   std::optional<Result<std::shared_ptr<const SurfaceMesh>>> mesh;
 };
 
@@ -39,6 +53,15 @@ void JointSources::read(const SurfaceFile& surface, File& file) const {
   }
   file.bytes = std::move(*bytes);
   file.digest.add(file.bytes);
+  file.axes = axes_of_header(file.bytes);
+}
+
+Result<std::string> JointSources::declared_axes(const SurfaceFile& surface) const {
+  File& file = file_of(surface);
+  const std::scoped_lock lock(file.mutex);
+  read(surface, file);
+  if (file.unreadable) return tl::unexpected(*file.unreadable);
+  return file.axes;
 }
 
 Result<ContentDigest> JointSources::digest(const SurfaceFile& surface) const {
@@ -71,6 +94,8 @@ bool JointSources::contains(const std::filesystem::path& file) const {
     if (const auto* surface = std::get_if<SurfaceFile>(&s.shape))
       all.push_back(joint_.surface_folder / surface->file);
   };
+  if (const auto& cuts = std::get<SurfaceFile>(joint_.body.shape).cuts; !cuts.empty())
+    all.push_back(joint_.surface_folder / cuts);
   add(joint_.body);
   for (const Structure& s : joint_.structures) add(s);
   std::error_code ignored;
@@ -91,6 +116,12 @@ Result<std::string> compute_source_digest(const JointSources& sources) {
     const auto of_file = sources.digest(*surface);
     ARTUS_TRY(of_file);
     digest.add(*of_file);
+    if (surface->cuts.empty()) continue;
+    SurfaceFile cuts = *surface;
+    cuts.file = surface->cuts;
+    const auto of_cuts = sources.digest(cuts);
+    ARTUS_TRY(of_cuts);
+    digest.add(*of_cuts);
   }
   return digest.hex();
 }

@@ -32,6 +32,10 @@ class JointSources {
   /// Over the bytes of a surface's file. Errors: not_found, unreadable.
   [[nodiscard]] Result<ContentDigest> digest(const SurfaceFile& surface) const;
 
+  /// The frame that a surface's file says it is in: "RAS" or "LPS" by SPACE= of its header, as 3D
+  /// Slicer writes it; empty: it says none. Errors: not_found, unreadable.
+  [[nodiscard]] Result<std::string> declared_axes(const SurfaceFile& surface) const;
+
   /// The surface as its file has it, in metres; never null. Errors: those of read_surface.
   [[nodiscard]] Result<std::shared_ptr<const SurfaceMesh>> mesh(const SurfaceFile& surface) const;
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <tbb/parallel_for.h>
 
@@ -38,6 +39,12 @@ bool holds(const RegionOfInterest& roi, const Box& box) {
 
 }  // namespace
 
+std::pair<std::size_t, double> partition_of(const JointFile& file, const Structure& structure) {
+  for (std::size_t i = 0; i < file.partitions.size(); ++i)
+    if (file.partitions[i].name == structure.partition) return {i + 1, file.partitions[i].film};
+  return {0, 0};
+}
+
 double signed_distance(const RegionOfInterest& roi, const Vec3& p) {
   if (!roi.half_extent) return (p - roi.centre).norm() - roi.radius;
   const Vec3 q = (p - roi.centre).cwiseAbs() - *roi.half_extent;
@@ -54,14 +61,36 @@ RegionId RegionLabels::at(const Vec3& p) const {
     for (const Layer& layer : layers) {
       if (layer.field.value(p) < 0) return layer.region;
     }
-    return filler;
+    return at_film(p);
   }
   const auto b = static_cast<std::size_t>(block);
+  bool is_near_film = false;
   for (std::uint32_t k = index.first[b]; k < index.first[b + 1]; ++k) {
     const Layer& layer = layers[index.layers[k]];
     if (layer.field.value(p) < 0) return layer.region;
+    is_near_film = is_near_film || layer.partition != 0;
   }
-  return filler;
+  return is_near_film ? at_film(p) : filler;
+}
+
+RegionId RegionLabels::at_film(const Vec3& p) const {
+  const double to_skin = -body.value(p);
+  RegionId best = filler;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < layers.size(); ++i) {
+    const Layer& layer = layers[i];
+    if (layer.partition == 0) continue;
+    const double own = layer.field.value(p);
+    if (own >= layer.film || own >= least) continue;
+    double other = to_skin;
+    for (std::size_t k = 0; k < layers.size(); ++k)
+      if (k != i && layers[k].partition == layer.partition)
+        other = std::min(other, layers[k].field.value(p));
+    if (own > other || own + other >= layer.film) continue;
+    least = own;
+    best = layer.region;
+  }
+  return best;
 }
 
 void RegionLabels::make_index(const Box& box) {
@@ -89,7 +118,8 @@ void RegionLabels::make_index(const Box& box) {
     index.meshed[b] =
         body.side_of(around) < 0 && (!region_of_interest || holds(*region_of_interest, around));
     for (std::size_t i = 0; i < layers.size(); ++i) {
-      const int side = layers[i].field.side_of(around);
+      const Vec3 film = Vec3::Constant(layers[i].film);
+      const int side = layers[i].field.side_of({around.lower - film, around.upper + film});
       if (side > 0) continue;
       candidates[b].push_back(static_cast<std::uint16_t>(i));
       if (side < 0) break;

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "artus/anatomy/joint_file.h"
@@ -13,6 +14,10 @@ namespace artus {
 
 /// Signed distance to the region of interest's boundary, negative inside, m.
 [[nodiscard]] double signed_distance(const RegionOfInterest& roi, const Vec3& p);
+
+/// The number (from 1 on) and film of a structure's partition; 0 of none.
+[[nodiscard]] std::pair<std::size_t, double> partition_of(const JointFile& file,
+                                                          const Structure& structure);
 
 /// For each block of a box, the layers that can hold a point of it, in priority order, and whether
 /// it lies deep in the body.
@@ -26,12 +31,15 @@ struct LayerIndex {
 };
 
 /// Which region every point of space belongs to: the layers in priority order, the filler in what
-/// they leave of the body, outside and beyond around it. A pure function of position, so the
-/// regions can neither overlap nor leave gaps.
+/// they leave of the body, outside and beyond around it. Between two members of a partition (or a
+/// member and the body's surface) that are nearer than its film, the nearer one. A pure function of
+/// position, so the regions can neither overlap nor leave gaps.
 struct RegionLabels {
   struct Layer {
     RegionId region = 0;
     DistanceField field;
+    std::size_t partition = 0;  ///< its number; 0: of none
+    double film = 0;            ///< m, of the partition
   };
 
   DistanceField body;
@@ -50,6 +58,9 @@ struct RegionLabels {
   /// Signed distance to the surface that separates two regions there: the field of whichever of
   /// them comes first in priority, so that it is negative in that one.
   [[nodiscard]] double separation(RegionId a, RegionId b, const Vec3& p) const;
+
+  /// The member of a partition that has the film of nothing at `p`; filler where there is none.
+  [[nodiscard]] RegionId at_film(const Vec3& p) const;
 
   /// The layer of a region, or null for filler, outside and beyond.
   [[nodiscard]] const Layer* layer_of(RegionId region) const;

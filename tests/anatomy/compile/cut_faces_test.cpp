@@ -35,6 +35,15 @@ double area_of(const SurfaceMesh& mesh) {
   return surface_area(mesh);
 }
 
+TEST(CutFaces, AreThoseThatTheAuthorGives) {
+  const auto repaired = repair_surface(make_half_ball());
+  ASSERT_TRUE(repaired);
+  const auto found = find_cut_faces(make_half_ball(), repaired->mesh);
+  const SurfaceMesh cuts = without_cuts(repaired->mesh, found, true);
+  EXPECT_EQ(find_given_cuts(repaired->mesh, cuts), found);
+  EXPECT_THAT(find_given_cuts(repaired->mesh, {}), testing::Each(0));
+}
+
 TEST(CutFaces, AreThoseThatCloseAFlatCut) {
   const SurfaceMesh half = make_half_ball();
   const auto repaired = repair_surface(half);

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/anatomy/compile/balls_joint.h"
+#include "tests/anatomy/compile/joint_folder.h"
 
 namespace artus {
 namespace {
@@ -149,6 +150,36 @@ TEST(Mirrored, AWrongSideAndWrongAxesAreNoticed) {
   const auto axes = mirrored("right", "RAS");  // x and y are the other way round
   ASSERT_EQ(axes.size(), 2U);
   EXPECT_THAT(axes[1].message, HasSubstr("'patella' lies posterior of 'tibia'"));
+}
+
+TEST(ForeignFrames, AHeaderThatContradictsTheJointIsRefusedWithBoth) {
+  const test::JointFolder folder("frames");
+  folder.add_sphere("body", Vec3::Zero(), 30);
+  for (const char* space : {"RAS", "LPS", "none"}) {
+    const auto file = folder.path() / (std::string(space) + ".stl");
+    ASSERT_TRUE(write_surface(make_sphere(Vec3::Zero(), 0.01), file, 1e-3));
+    std::fstream out(file, std::ios::in | std::ios::out | std::ios::binary);
+    out << "3D Slicer output. SPACE=" << space;
+  }
+  folder.write_toml(
+      "[[structure]]\nname = \"a\"\ntissue = \"nerve\"\nfile = \"RAS.stl\"\n"
+      "[[structure]]\nname = \"b\"\ntissue = \"bone\"\nfile = \"LPS.stl\"\n"
+      "[[structure]]\nname = \"c\"\ntissue = \"bone\"\nfile = \"none.stl\"\n");
+  const JointSources sources(read_joint(folder.path()).value());
+  const auto found = find_foreign_frames(sources);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].what, "a");
+  EXPECT_EQ(found[0].verdict, Verdict::refused);
+  EXPECT_THAT(found[0].message, HasSubstr("SPACE=RAS, and joint.toml says axes = \"LPS\""));
+}
+
+TEST(ForeignFrames, TheNerveOfACaseIsRefused) {
+  const auto folder = test::source_dir() / "../shared/cases/02-slicer-space-ignored";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no shared cases here";
+  const JointSources sources(read_joint(folder).value());
+  const auto found = find_foreign_frames(sources);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].what, "axillary_nerve");
 }
 
 }  // namespace

@@ -97,5 +97,43 @@ TEST(SignedDistance, OfABoxAndABallOfInterestIsExact) {
   EXPECT_DOUBLE_EQ(signed_distance(box, Vec3(4, 6, 3)), 5) << "to the nearest edge";
 }
 
+/// Two balls that touch but for a film of 0.1 mm, in one partition of 0.2 mm.
+RegionLabels with_film(double film) {
+  RegionLabels labels;
+  labels.body = ball(Vec3::Zero(), 0.03);
+  labels.layers.push_back({kFirst, ball(-kApart, 0.00795), film > 0 ? 1U : 0U, film});
+  labels.layers.push_back({kSecond, ball(kApart, 0.00795), film > 0 ? 1U : 0U, film});
+  return labels;
+}
+
+TEST(RegionLabels, AFilmBetweenMembersOfAPartitionBelongsToTheNearer) {
+  RegionLabels labels = with_film(0.2e-3);
+  labels.make_index({Vec3::Constant(-0.035), Vec3::Constant(0.035)});
+  EXPECT_EQ(with_film(0).at(Vec3(0.02e-3, 0, 0)), kFirstRegion);
+  EXPECT_EQ(labels.at(Vec3(0.02e-3, 0, 0)), kSecond);
+  EXPECT_EQ(labels.at(Vec3(-0.02e-3, 0, 0)), kFirst);
+  EXPECT_EQ(labels.at(Vec3(0, 2e-3, 0)), kFirstRegion);  // 0.6 mm apart there
+  EXPECT_EQ(labels.at(Vec3(0.02e-3, 0, 0)), labels.at_film(Vec3(0.02e-3, 0, 0)));
+}
+
+TEST(RegionLabels, TheIndexKnowsFilmsToo) {
+  const RegionLabels plain = with_film(0.2e-3);
+  RegionLabels indexed = with_film(0.2e-3);
+  indexed.make_index({Vec3::Constant(-0.035), Vec3::Constant(0.035)});
+  for (std::uint64_t i = 0; i < 20000; ++i) {
+    const Vec3 p = 0.2 * random_point(i);
+    ASSERT_EQ(indexed.at(p), plain.at(p)) << p.transpose();
+  }
+}
+
+TEST(RegionLabels, PartitionsAreNumberedInTheOrderOfTheFile) {
+  JointFile file;
+  file.partitions = {{"a", 1e-3}, {"b", 2e-3}};
+  Structure s;
+  EXPECT_EQ(partition_of(file, s).first, 0U);
+  s.partition = "b";
+  EXPECT_EQ(partition_of(file, s), (std::pair<std::size_t, double>{2, 2e-3}));
+}
+
 }  // namespace
 }  // namespace artus

@@ -44,6 +44,26 @@ TEST(ReadStructure, TellsHowFibresFollowTheirAxis) {
   EXPECT_THAT(said, HasSubstr("must be \"ends\" or \"layer\", not \"straight\""));
 }
 
+TEST(ReadPartitions, AreDeclaredOnceAndNamedByStructuresWithFiles) {
+  const auto told = [](const std::string& more) {
+    const auto file = parse_joint(
+        "format = 1\nname = 'a'\nunits = 'mm'\naxes = 'LPS'\n[body]\nfile = 'b.ply'\n"
+        "tissue = 'fat'\ncuts = 'c.ply'\n[partition.labels]\nfilm = 0.2\n"
+        "[[structure]]\nname = 'femur'\ntissue = 'bone'\n" +
+            more,
+        "j");
+    return file ? "partition " + file->structures[0].partition +
+                      (file->partitions.at(0).film == 0.2e-3 ? " of 0.2 mm" : "") + ", cuts " +
+                      std::get<SurfaceFile>(file->body.shape).cuts.string()
+                : file.error().message;
+  };
+  EXPECT_EQ(told("file = 'f.ply'\npartition = 'labels'\n"),
+            "partition labels of 0.2 mm, cuts c.ply");
+  EXPECT_THAT(told("file = 'f.ply'\npartition = 'label'\n"), HasSubstr("did you mean 'labels'"));
+  EXPECT_THAT(told("shell = { thickness = 1 }\npartition = 'labels'\n"),
+              HasSubstr("structures with a file"));
+}
+
 TEST(LengthUnit, KnowsThreeAndReportsOthers) {
   Problems problems;
   const toml::table table = *parse_toml("a = 'mm'\nb = 'cm'\nc = 'm'\nd = 'inch'\n", "t");

@@ -167,7 +167,7 @@ TEST(Defects, TheRealManubriumInItsWrongUnitIsAnOutlier) {
                            "b_rib1", "b_rib2", "m_supraspinatus", "m_deltoid_acromial"}) {
     auto mesh = read_surface(folder / (std::string(name) + ".ply"), 1e-3);
     ASSERT_TRUE(mesh) << mesh.error().to_string();
-    surfaces.push_back({name, name[0] == 'b' ? "bone" : "muscle", std::move(*mesh)});
+    surfaces.push_back({name, name[0] == 'b' ? "bone" : "muscle", std::move(*mesh), false, {}});
   }
   EXPECT_TRUE(find_outliers(surfaces).empty());
   for (Vec3& p : surfaces[0].mesh.vertices) p /= 27.66;
@@ -196,11 +196,22 @@ TEST(Defects, APatchAlongASeamIsNoSheet) {
 
 TEST(Defects, WhatSticksOutOfTheBodyIsSaidToBeCutOff) {
   const std::vector<NamedSurface> surfaces{
-      {"body", "fat", make_cube(Vec3::Zero(), 0.02)},
-      {"knee", "bone", make_cube(Vec3(0.02, 0.001, 0.002), 0.01)}};
+      {"body", "fat", make_cube(Vec3::Zero(), 0.02), false, {}},
+      {"knee", "bone", make_cube(Vec3(0.02, 0.001, 0.002), 0.01), false, {}}};
   const auto defects = find_crossings(surfaces);
   ASSERT_EQ(defects.size(), 1U);
   EXPECT_THAT(defects[0].message, HasSubstr("outside the body's surface is cut off"));
+}
+
+TEST(FindCrossings, MembersOfOnePartitionAreNotAsked) {
+  const auto crossings = [](const char* a, const char* b) {
+    return find_crossings({{"a", "bone", make_cube(Vec3::Zero(), 0.02), false, a},
+                           {"b", "bone", make_cube(Vec3(0.02, 0.001, 0.002), 0.01), false, b}})
+        .size();
+  };
+  EXPECT_EQ(crossings("labels", "labels"), 0U);
+  EXPECT_EQ(crossings("labels", "others"), 1U);
+  EXPECT_EQ(crossings("", ""), 1U);
 }
 
 }  // namespace

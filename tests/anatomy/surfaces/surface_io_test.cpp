@@ -8,6 +8,7 @@
 
 #include <gmock/gmock.h>
 
+#include "artus/detail/anatomy/surfaces/foreign_format.h"
 #include "artus/detail/anatomy/surfaces/surface_io_formats.h"
 #include "artus/detail/core/text_file.h"
 #include "tests/anatomy/surfaces/surface_samples.h"
@@ -239,6 +240,28 @@ TEST(SurfaceIo, WhatIsNoSurfaceIsRefusedWithWhatToDo) {
   EXPECT_EQ(read_surface("/no/such/file.stl", 1).error().code, ErrorCode::not_found);
   EXPECT_EQ(read_surface(testing::TempDir(), 1).error().code, ErrorCode::unreadable);
   EXPECT_EQ(write_surface({}, "a.xyz", 1).error().code, ErrorCode::unsupported);
+}
+
+TEST(SurfaceIo, OtherFormatsAreNamedWithTheWayToWhatIsRead) {
+  const auto told = [](const std::string& bytes, const std::string& name) {
+    return parse_surface(bytes, name, 1).error().message;
+  };
+  EXPECT_THAT(told("NRRD0004\ntype: short\n", "a.nrrd"), HasSubstr("artus import"));
+  EXPECT_THAT(told("\x1f\x8b\x08 and so on", "a.nii.gz"), HasSubstr("volume of voxels (NIfTI)"));
+  EXPECT_THAT(told("<VTKFile type=\"UnstructuredGrid\">", "a.vtu"), HasSubstr("volume mesh"));
+  EXPECT_THAT(told("$MeshFormat\n4.1 0 8\n", "a.msh"), HasSubstr("volume mesh (Gmsh)"));
+  EXPECT_THAT(told("# vtk DataFile Version 3.0\n", "a.vtk"), HasSubstr("VTK"));
+  EXPECT_THAT(told(std::string(128, '\0') + "DICM", "a"), HasSubstr("DICOM"));
+  EXPECT_EQ(foreign_format("solid a\nfacet normal 0 0 1\n", "a.stl"), "");
+  EXPECT_EQ(foreign_format("ply\n", "a.ply"), "");
+  const auto folder = test::source_dir() / "../shared/cases/06-volume-meshes-and-label-maps";
+  if (!std::filesystem::exists(folder)) return;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().filename() == "README") continue;
+    EXPECT_THAT(read_surface(entry.path(), 1e-3).error().message,
+                testing::AnyOf(HasSubstr("artus import"), HasSubstr("volume mesh")))
+        << entry.path();
+  }
 }
 
 TEST(SurfaceIo, EverySurfaceOfTheRealShoulderIsRead) {
