@@ -16,7 +16,7 @@ namespace {
 constexpr double kShapeTime = 0.06;    // s that the first shape may take: a flow is seen at once
 constexpr double kGrowthTime = 0.3;    // s that a later one may: images need not wait for it
 constexpr double kVisible = 1e-9;      // m^3, of a shape's first liquid and least growth
-constexpr double kGrowth = 0.01;       // of what is there
+constexpr double kGrowth = 0.03;       // of what is there: 0.1 mm of a bursa that is 10 mm open
 constexpr double kPressForce = 0.05;   // N by which a press is another
 constexpr double kPressGrowth = 0.05;  // of the force
 constexpr double kPressDistance = 0.5e-3;  // m of its middle

@@ -80,7 +80,7 @@ TEST(Plunger, TrappedAirIsPressedAndDrawnByBoylesLaw) {
     for (const double p : {-95e3, -35e3, -1.0, 0.0, 1e-3, 1.0, 192e3, 5e6}) {
       syringe.compliance = compliance;
       EXPECT_NEAR(syringe.pressure_of(syringe.squeezed(p)), p, 1e-9 * std::abs(p)) << p;
-      const double h = 1e-3;
+      const double h = 1;  // Pa
       EXPECT_NEAR((syringe.squeezed(p + h) - syringe.squeezed(p - h)) / (2 * h),
                   syringe.softness(p), 1e-6 * syringe.softness(p));
     }
