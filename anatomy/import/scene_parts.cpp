@@ -77,6 +77,7 @@ std::optional<std::string> why_too_open(const SurfaceMesh& mesh) {
   RepairOptions options;
   options.largest_fill_share = kMostOpen;
   options.wrap = WrapPolicy::never;
+  options.remove_self_intersections = false;  // compile does; here only openings matter
   const auto outcome = repair_surface(mesh, options);
   if (outcome) return std::nullopt;
   return outcome.error().message +
