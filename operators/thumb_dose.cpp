@@ -15,8 +15,8 @@ double run_out_time(const PlungerParams& params) {
 }
 
 /// Falling from p to q takes the softness times the integral of dp/Q from q to p; over the
-/// logarithm of the pressure that is p/Q, summed up from the lowest. What is below it is gone. The
-/// bevel is taken to lie at the atmosphere's pressure, which is 20 times what tissue adds.
+/// logarithm of the pressure that is p/Q, summed up from the lowest. What is below it is gone. How
+/// soft trapped air is while it falls is taken of the atmosphere around the bevel.
 HeldBarrel::HeldBarrel(const PlungerParams& params, double seconds)
     : syringe_(params.syringe), points_per_octave_((kPoints - 1) / std::log2(kMax / kMin)) {
   const NeedleFlow bore(params.needle, params.liquid.viscosity, params.liquid.density,
@@ -41,18 +41,18 @@ HeldBarrel::HeldBarrel(const PlungerParams& params, double seconds)
     std::size_t low = i - 1;
     while (since[low] > left) --low;
     const double part = (left - since[low]) / (since[low + 1] - since[low]);
-    share_[i] -= syringe_.squeezed(pressure_at(static_cast<double>(low) + part)) /
-                 syringe_.squeezed(pressure_at(static_cast<double>(i)));
+    share_[i] -= pressure_at(static_cast<double>(low) + part) / pressure_at(static_cast<double>(i));
   }
 }
 
-double HeldBarrel::gives(double over) const noexcept {
+double HeldBarrel::gives(double over, double around) const noexcept {
   if (!(over > 0)) return 0;
   const double last = static_cast<double>(kPoints - 1);
   const double at = std::clamp(std::log2(over / kMin) * points_per_octave_, 0.0, last);
   const auto low = static_cast<std::size_t>(std::min(at, last - 1));
   const double part = at - static_cast<double>(low);
-  return syringe_.squeezed(over) * (share_[low] + part * (share_[low + 1] - share_[low]));
+  const double share = share_[low] + part * (share_[low + 1] - share_[low]);
+  return syringe_.squeezed(around + over) - syringe_.squeezed(around + (1 - share) * over);
 }
 
 ThumbDose::ThumbDose(const PlungerParams& params, double volume)
@@ -68,7 +68,7 @@ void ThumbDose::step(bool pushes, double given, double pressure, double tip_pres
   }
   if (!pushes) return;
   in_vain_ = flow > kFlows ? 0 : in_vain_ + dt;
-  const double rest = flow > kFlows ? barrel_.gives(pressure - tip_pressure) : 0;
+  const double rest = flow > kFlows ? barrel_.gives(pressure - tip_pressure, tip_pressure) : 0;
   enough_ = given - before_ + rest >= volume_ || in_vain_ > kPatience;
 }
 

@@ -16,8 +16,8 @@ class HeldBarrel {
   /// `seconds`: of holding. Cost: 20 us.
   HeldBarrel(const PlungerParams& params, double seconds);
 
-  /// m^3, from a pressure of `over` Pa in the barrel above that around the bevel.
-  [[nodiscard]] ARTUS_REALTIME double gives(double over) const noexcept;
+  /// m^3, from a pressure of `over` Pa in the barrel above that around the bevel, `around` (gauge).
+  [[nodiscard]] ARTUS_REALTIME double gives(double over, double around = 0) const noexcept;
 
  private:
   static constexpr std::size_t kPoints = 128;

@@ -15,7 +15,7 @@ namespace {
 // Tissue keeps its volume along the whole flow; that cubes so stiff lock a little makes each of
 // them keep it in each of its points. Fitted: 0.45 leaves 0.14 of a volume beside a hip's bone at
 // 20 ml.
-constexpr double kPoisson = 0.4975;
+constexpr double kPoisson = 0.497;
 constexpr double kSoftest = 30e3;  // Pa, of tissue; fitted: softer fat takes all of it in one bulge
 constexpr double kStiffest = 300e3;  // Pa
 constexpr double kAir = 100;         // Pa: next to nothing, so that skin moves out into a field

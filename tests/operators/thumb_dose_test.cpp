@@ -29,7 +29,8 @@ double given_while_held(const PlungerParams& params, double push, double place, 
     plunger.step(input);
   }
   const double after = plunger.states()[0].volume - before;
-  const double told = HeldBarrel(params, kHeld).gives(at.pressure - at.tip_pressure);
+  const double told =
+      HeldBarrel(params, kHeld).gives(at.pressure - at.tip_pressure, at.tip_pressure);
   // Where the barrel's compliance is most of what is given, the stopper rests from the first tick.
   EXPECT_NEAR(told, after, 0.01 * after + 1e-11) << params.liquid.name << ' ' << push;
   return after;
