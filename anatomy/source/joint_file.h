@@ -81,7 +81,7 @@ struct Structure {
   double facet_distance = 0;       ///< m, 0 = the joint's default
   std::optional<Vec3> fibre_axis;  ///< along the fibres, if one axis is a fair description
   FibreCourse fibre_course = FibreCourse::ends;  ///< how they follow that axis
-  std::string partition;  ///< of the joint file; empty: of none
+  std::string partition;                         ///< of the joint file; empty: of none
   int line = 0;                                  ///< of joint.toml; 0: of no file
 };
 

@@ -33,12 +33,16 @@ std::string cubic_centimetres(double volume) {
 
 void warn_of_outliers(const JointFile& file, const PreparedSurfaces& surfaces,
                       CompileReport& report) {
-  std::vector<NamedSurface> named{{file.body.name, file.body.tissue, surfaces.body.mesh, false, {}}};
+  std::vector<NamedSurface> named{
+      {file.body.name, file.body.tissue, surfaces.body.mesh, false, {}}};
   for (std::size_t i = 0; i < file.structures.size(); ++i) {
     const Structure& s = file.structures[i];
     if (surfaces.structures[i])
-      named.push_back({s.name, s.tissue, surfaces.structures[i]->mesh,
-                       std::get<SurfaceFile>(s.shape).has_own_unit, {}});
+      named.push_back({s.name,
+                       s.tissue,
+                       surfaces.structures[i]->mesh,
+                       std::get<SurfaceFile>(s.shape).has_own_unit,
+                       {}});
   }
   for (const Defect& defect : find_outliers(named)) {
     const auto at =
