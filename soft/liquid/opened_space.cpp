@@ -227,7 +227,9 @@ static std::vector<std::uint32_t> corners_of(
   return corners;
 }
 
-OpenedSpace::Flow OpenedSpace::flow_in(const TetMesh& mesh, const Filling& filling) const {
+OpenedSpace::Flow OpenedSpace::flow_in(const TetMesh& mesh,
+                                       std::span<const SidedCage::Place> places,
+                                       const Filling& filling) const {
   ARTUS_REQUIRE(filling.volume >= 0, "a volume of at least 0");
   Flow flow;
   flow.cage_ = &cage_;
@@ -239,7 +241,6 @@ OpenedSpace::Flow OpenedSpace::flow_in(const TetMesh& mesh, const Filling& filli
   for (std::size_t i = 0; i < flow.nodes_.size(); ++i) flow.nodes_[i].from = from[i];
   flow.reach_ = reach_of(flow, filling.volume);
   const std::vector<Triangle> walls = walls_of(mesh);
-  const std::vector<SidedCage::Place> places = places_in(mesh);
   const std::vector<std::uint32_t> moving = corners_of(walls);
   std::vector<Vec3> moved = mesh.vertices;
   const auto held = [&] {
@@ -269,7 +270,7 @@ OpenedSpace::Flow OpenedSpace::flow_in(const TetMesh& mesh, const Filling& filli
         [&](double value) { return value > 0 ? more_with(changed, value) : -filling.volume; }, 0.0,
         high, -filling.volume, at_high, boost::math::tools::eps_tolerance<double>(50), tries);
     const double off = more_with(changed, low);
-    if (std::abs(more_with(changed, up)) > std::abs(off)) more_with(changed, low);
+    if (std::abs(more_with(changed, up)) > std::abs(off)) changed = low;
   };
   flow.length_ = filling.volume / rate;
   flow.steps_ = steps_for(flow);
@@ -288,10 +289,10 @@ OpenedSpace::Flow OpenedSpace::flow_in(const TetMesh& mesh, const Filling& filli
 
 std::vector<Vec3> OpenedSpace::vertices(const TetMesh& mesh, const Filling& filling) const {
   ARTUS_REQUIRE(mesh.vertices.size() >= places_.size(), "the joint's mesh");
-  const Flow flow = flow_in(mesh, filling);
+  const std::vector<SidedCage::Place> places = places_in(mesh);
+  const Flow flow = flow_in(mesh, places, filling);
   std::vector<Vec3> moved = mesh.vertices;
   if (!(flow.length_ > 0)) return moved;
-  const std::vector<SidedCage::Place> places = places_in(mesh);
   for (std::size_t i = 0; i < moved.size(); ++i)
     if (places[i].copy >= 0) moved[i] = flow.forth(places[i]).p;
   fill_inside(mesh, moved);

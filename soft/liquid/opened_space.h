@@ -68,7 +68,9 @@ class OpenedSpace {
     int steps_ = 1;
   };
   /// Of the joint at rest. Cost: as vertices().
-  [[nodiscard]] Flow flow(const Filling& filling) const { return flow_in(mesh_, filling); }
+  [[nodiscard]] Flow flow(const Filling& filling) const {
+    return flow_in(mesh_, places_in(mesh_), filling);
+  }
 
   /// m by which the walls are apart more than at rest where they are most so.
   [[nodiscard]] double largest_opening(const Vec3& tip, double volume) const;
@@ -92,7 +94,8 @@ class OpenedSpace {
   [[nodiscard]] double thickness(const Flow& flow, double volume) const;
   [[nodiscard]] double reach_of(const Flow& flow, double volume) const;
   [[nodiscard]] int steps_for(const Flow& flow) const;
-  [[nodiscard]] Flow flow_in(const TetMesh& mesh, const Filling& filling) const;
+  [[nodiscard]] Flow flow_in(const TetMesh& mesh, std::span<const SidedCage::Place> places,
+                             const Filling& filling) const;
   void fill_inside(const TetMesh& mesh, std::vector<Vec3>& moved) const;
 
   std::vector<RegionId> regions_;
