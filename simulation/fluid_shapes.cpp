@@ -60,11 +60,12 @@ std::shared_ptr<const BodyMap> map_of(const CompiledJoint& shape, const Deformed
 }  // namespace
 
 FluidShapes::FluidShapes(std::shared_ptr<const CompiledJoint> joint, Liquid liquid,
-                         double image_rate)
-    : joint_(std::move(joint)), liquid_(std::move(liquid)) {
+                         double image_rate, std::shared_ptr<const OpenedSpaces> opened)
+    : joint_(std::move(joint)), opened_(std::move(opened)), liquid_(std::move(liquid)) {
   ARTUS_REQUIRE(joint_ != nullptr && image_rate > 0, "needs a joint and an image rate above 0");
+  ARTUS_REQUIRE(!opened_ || &opened_->joint() == joint_.get(), "spaces of this joint");
   spaces_ = spaces_of(*joint_);
-  opened_ = std::make_shared<const OpenedSpaces>(joint_, true);
+  if (!opened_) opened_ = std::make_shared<const OpenedSpaces>(joint_, true);
   images_to_change_ = static_cast<std::uint64_t>(std::ceil(kShapeTime * image_rate));
   images_to_grow_ =
       static_cast<std::uint64_t>(kGrowthTime / kShapeTime * static_cast<double>(images_to_change_));

@@ -47,8 +47,10 @@ struct FluidState {
 /// made. One thread.
 class FluidShapes {
  public:
-  /// Requires: a joint whose spaces are valid, an image rate above 0.
-  FluidShapes(std::shared_ptr<const CompiledJoint> joint, Liquid liquid, double image_rate);
+  /// `opened`: the joint's, shared with others; null: its own. Requires: a joint whose spaces are
+  /// valid, an image rate above 0.
+  FluidShapes(std::shared_ptr<const CompiledJoint> joint, Liquid liquid, double image_rate,
+              std::shared_ptr<const OpenedSpaces> opened = {});
 
   /// Of the next image, before its tissue's step. Waits where a shape is due and not ready.
   [[nodiscard]] const FluidState& step(std::span<const InjectedSite> sites);

@@ -26,14 +26,14 @@ Liquid liquid_of(const SessionParams& params) {
 
 ImageCore::ImageCore(std::shared_ptr<const Scene> scene, const SessionParams& params,
                      std::size_t extra_scene_holders, const std::optional<Pose>& X_JP,
-                     const SoftBody* beside)
+                     const PreparedBody& prepared)
     : probe_(params.transducer),
       image_(params.image),
       needle_shape_(params.needle_shape),
       controls_(controls_of(params)),
       rest_(scene),
       drawn_(scene),
-      shapes_(scene->shared_joint(), liquid_of(params), params.image_rate),
+      shapes_(scene->shared_joint(), liquid_of(params), params.image_rate, prepared.spaces),
       fluid_(MovingScene::kGoingRound + extra_scene_holders),
       plume_(liquid_of(params)),
       image_time_(1 / params.image_rate),
@@ -44,9 +44,9 @@ ImageCore::ImageCore(std::shared_ptr<const Scene> scene, const SessionParams& pa
     const auto face = pressing_face(params.transducer);
     ARTUS_TRY(face);
     const Pose X_JC = X_JP.value_or(scene->joint().X_JP_default);
-    if (beside != nullptr && beside->cage_pose().matrix() == X_JC.matrix())
-      return TissueCore::make_beside(*beside, params.image_rate, *face, params.wait_for_cage,
-                                     extra_scene_holders);
+    if (prepared.tissue && prepared.tissue->cage_pose().matrix() == X_JC.matrix())
+      return TissueCore::make_beside(*prepared.tissue, params.image_rate, *face,
+                                     params.wait_for_cage, extra_scene_holders);
     return TissueCore::make(scene->shared_joint(), X_JC, params.image_rate, *face,
                             params.wait_for_cage, extra_scene_holders);
   };

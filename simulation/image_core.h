@@ -26,11 +26,11 @@ namespace artus {
 class ImageCore {
  public:
   /// `extra_scene_holders` keep a drawn scene each while the next are made. What gives way is made
-  /// around the probe at `X_JP`; none: the joint's default; in the cage of `beside` where that is
-  /// around it, too. Requires: valid params, a scene.
+  /// around the probe at `X_JP`; none: the joint's default; in the cage of `prepared` where that
+  /// is around it, too. Requires: valid params, a scene.
   ImageCore(std::shared_ptr<const Scene> scene, const SessionParams& params,
             std::size_t extra_scene_holders = 0, const std::optional<Pose>& X_JP = {},
-            const SoftBody* beside = nullptr);
+            const PreparedBody& prepared = {});
 
   /// The tissue's step to this image's instant, when it gives way: what the hands feel need not
   /// wait for the picture. Skin that liquid lifts is where the probe meets it. May run beside

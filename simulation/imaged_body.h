@@ -18,4 +18,10 @@ struct ImagedBody {
   FluidState fluid;                    ///< what was injected
 };
 
+/// What sessions of one joint can share, so that each need not make it again.
+struct PreparedBody {
+  std::shared_ptr<const SoftBody> tissue;      ///< used where the probe begins at its cage's pose
+  std::shared_ptr<const OpenedSpaces> spaces;  ///< of the scene's joint
+};
+
 }  // namespace artus

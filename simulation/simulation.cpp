@@ -41,11 +41,11 @@ Simulation::Simulation(CompiledJoint joint, const SimulationOptions& options)
       controls_(controls_of(params_)) {}
 
 Simulation::Simulation(std::shared_ptr<const Scene> scene, const SessionParams& params,
-                       std::size_t extra_scene_holders, std::shared_ptr<const SoftBody> beside)
+                       std::size_t extra_scene_holders, PreparedBody prepared)
     : scene_(std::move(scene)),
       params_(params),
       extra_scene_holders_(extra_scene_holders),
-      beside_(std::move(beside)),
+      prepared_(std::move(prepared)),
       haptics_(std::make_unique<HapticCore>(scene_, params_)),
       controls_(controls_of(params_)) {}
 
@@ -59,7 +59,7 @@ ImageCore& Simulation::imaging(const FrameInput* first) {
   std::optional<Pose> X_JP = params_.X_JC;
   if (!X_JP && params_.wait_for_cage && first != nullptr && first->has_probe != 0)
     X_JP = to_pose(first->X_JP);
-  images_ = std::make_unique<ImageCore>(scene_, params_, extra_scene_holders_, X_JP, beside_.get());
+  images_ = std::make_unique<ImageCore>(scene_, params_, extra_scene_holders_, X_JP, prepared_);
   return *images_;
 }
 

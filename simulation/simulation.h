@@ -19,7 +19,6 @@ namespace artus {
 class HapticCore;
 class ImageCore;
 class NeedleModel;
-class SoftBody;
 
 /// What both hands do in one tick, world frame W.
 struct Hands {
@@ -67,12 +66,12 @@ class Simulation {
   /// Requires: a valid joint; a device of that name, rates in their ranges. Cost: some seconds when
   /// tissue gives way.
   explicit Simulation(CompiledJoint joint, const SimulationOptions& options = {});
-  /// `extra_scene_holders` keep a drawn scene each while the next are made. `beside`: a body of
-  /// this joint for this probe, whose cage is used again where it is around the same pose.
+  /// `extra_scene_holders` keep a drawn scene each while the next are made. `prepared`: of this
+  /// joint and this probe; what is null is made.
   /// Requires: a scene, valid params. Cost: that of the tables; what gives way is made by the first
   /// image.
   Simulation(std::shared_ptr<const Scene> scene, const SessionParams& params,
-             std::size_t extra_scene_holders = 0, std::shared_ptr<const SoftBody> beside = {});
+             std::size_t extra_scene_holders = 0, PreparedBody prepared = {});
   ~Simulation();
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
@@ -148,7 +147,7 @@ class Simulation {
   std::shared_ptr<const Scene> scene_;
   SessionParams params_;
   std::size_t extra_scene_holders_;
-  std::shared_ptr<const SoftBody> beside_;
+  PreparedBody prepared_;
   std::unique_ptr<HapticCore> haptics_;
   std::unique_ptr<ImageCore> images_;  // empty: not yet
   ImageControls controls_;

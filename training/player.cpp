@@ -107,15 +107,17 @@ Result<MeterOptions> make_meter_options(const Scenario& scenario, const Compiled
   return options;
 }
 
-std::shared_ptr<const SoftBody> make_played_body(const Scenario& scenario, const Scene& scene) {
+PreparedBody make_played_body(const Scenario& scenario, const Scene& scene) {
   const auto transducer = find_transducer(scenario.transducer);
-  if (!transducer || !gives_way(scene.joint())) return nullptr;
+  if (!transducer || !gives_way(scene.joint())) return {};
   const auto face = pressing_face(transducer->transducer);
-  if (!face) return nullptr;
+  if (!face) return {};
   SoftBodyParams params;
   params.face = *face;
   auto body = SoftBody::make(scene.shared_joint(), scenario.X_JP, params);
-  return body ? std::make_shared<const SoftBody>(std::move(*body)) : nullptr;
+  if (!body) return {};
+  return {std::make_shared<const SoftBody>(std::move(*body)),
+          std::make_shared<const OpenedSpaces>(scene.shared_joint(), scenario.syringe.volume > 0)};
 }
 
 Result<PlayedAttempt> play(const Scenario& with_aids, const std::shared_ptr<const Scene>& scene,

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "artus/detail/operators/scanning_operator.h"
+#include "artus/detail/simulation/imaged_body.h"
 #include "artus/detail/soft/solver/soft_body.h"
 #include "artus/detail/training/health/body_health.h"
 #include "artus/detail/training/metrics/attempt_meter.h"
@@ -45,13 +46,13 @@ struct PlayOptions {
   bool rigid = false;       ///< tissue does not give way, though the joint could
   double picture_rate = 0;  ///< Hz, pictures kept in the recording; 0: none
   double tissue_rate = 20;  ///< Hz of the tissue's steps, 10 or more; pictures may ask for more
-  std::shared_ptr<const SoftBody> beside;  ///< make_played_body of the scenario: saves its seconds
+  PreparedBody prepared;    ///< make_played_body of the scenario: saves its seconds
 };
 
-/// The body that all attempts at a scenario begin with, around the probe as it is meant to lie.
-/// Null: tissue cannot give way there. Cost: of SoftBody::make.
-[[nodiscard]] std::shared_ptr<const SoftBody> make_played_body(const Scenario& scenario,
-                                                               const Scene& scene);
+/// What all attempts at a scenario begin with: the body around the probe as it is meant to lie, and
+/// its spaces where the scenario gives liquid. Empty: tissue cannot give way there. Cost: of
+/// SoftBody::make.
+[[nodiscard]] PreparedBody make_played_body(const Scenario& scenario, const Scene& scene);
 
 /// Plays a scenario with simulated hands, without its aids and without a clock: hands, device and
 /// forces in a closed loop at 1 kHz, in tissue that gives way where the joint can. The same bytes

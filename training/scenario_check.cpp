@@ -110,7 +110,7 @@ class Players {
     options_.record = false;
     options_.rigid = rigid;
     options_.tissue_rate = kTissueRate;
-    if (!rigid) options_.beside = make_played_body(scenario, *scene_);
+    if (!rigid) options_.prepared = make_played_body(scenario, *scene_);
   }
 
   /// The next `count` seeds of one operator, after those that are in `out`.

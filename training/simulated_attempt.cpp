@@ -69,7 +69,7 @@ class PlayedSimulation {
   PlayedSimulation(std::shared_ptr<const Scene> scene, const SessionParams& params,
                    const PlayOptions& options, Recording& recording)
       : options_(options),
-        simulation_(std::move(scene), params, 0, options.beside),
+        simulation_(std::move(scene), params, 0, options.prepared),
         recorder_(simulation_, recording,
                   options.picture_rate > 0 ? RecordedPictures::drawn : RecordedPictures::none) {
     recorder_.set_keeping(options.record);

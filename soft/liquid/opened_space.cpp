@@ -32,8 +32,9 @@ constexpr int kSmoothings = 60;
 constexpr double kSteepestPatch = 1.55;  // of (1 - q^2)^2, per q
 constexpr double kMargin = 1.3;          // of a first guess at how long the flow is
 
-double profile(double q) {
-  return q < 1 ? (1 - q * q) * (1 - q * q) : 0;
+/// Of the square of a distance, in reaches.
+double profile(double square) {
+  return square < 1 ? (1 - square) * (1 - square) : 0;
 }
 
 }  // namespace
@@ -129,7 +130,7 @@ Vec3 OpenedSpace::Flow::velocity(const SidedCage::Place& place) const {
     from += weights[k] * node.from;
     press += weights[k] * node.press;
   }
-  return profile(std::max(from, 0.0) / reach_) * std::max(0.0, lambda_ - press) * motion;
+  return profile(from / (reach_ * reach_)) * std::max(0.0, lambda_ - press) * motion;
 }
 
 SidedCage::Place OpenedSpace::Flow::place_of(const Vec3& p, const Vec3& into) const {
@@ -237,7 +238,7 @@ OpenedSpace::Flow OpenedSpace::flow_in(const TetMesh& mesh,
   flow.nodes_.resize(cage_.n_nodes());
   for (std::size_t i = 0; i < flow.nodes_.size(); ++i) flow.nodes_[i].motion = field_.motion()[i];
   if (!(filling.volume > 0)) return flow;
-  const auto from = field_.carry_on([&](const Vec3& p) { return (p - filling.tip).norm(); });
+  const std::vector<double> from = field_.squared_distance(filling.tip);
   for (std::size_t i = 0; i < flow.nodes_.size(); ++i) flow.nodes_[i].from = from[i];
   flow.reach_ = reach_of(flow, filling.volume);
   const std::vector<Triangle> walls = walls_of(mesh);

@@ -56,7 +56,7 @@ class OpenedSpace {
     friend class OpenedSpace;
     struct Node {
       Vec3 motion;      // m/Pa
-      double from = 0;  // m, the tip
+      double from = 0;  // m^2, the square of the tip's distance
       double press = 0;
     };
     [[nodiscard]] Vec3 velocity(const SidedCage::Place& place) const;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <Eigen/Dense>
+#include <Eigen/IterativeLinearSolvers>
 
 #include "artus/detail/core/check.h"
 #include "artus/detail/soft/cage/material.h"
@@ -27,7 +28,8 @@ constexpr double kLoose = 1e-3;  // the same, of a shell around a body; assumed:
 constexpr double kExact = 3e-5;  // of the load
 constexpr int kMaxPasses = 3000;
 constexpr int kPassesToAsk = 16;
-constexpr double kExactScalar = 1e-4;
+constexpr double kExactScalar = 1e-5;  // of what the walls give
+constexpr double kTiny = 1e-9;         // of a node's own: tissue that touches no wall
 constexpr double kAlong = 10;  // by which a number on the walls spreads more easily along motion
 
 using Element = Eigen::Matrix<float, 24, 24>;  // as exact as the passes need
@@ -99,6 +101,7 @@ OpeningField::OpeningField(const CompiledJoint& joint, const SidedCage& cage,
   load();
   solve(stop);
   join_nodes();
+  carry_distances();
 }
 
 /// A copy is as stiff as a whole cube of its tissue: slivers at the walls do not run ahead.
@@ -343,83 +346,84 @@ std::array<double, 6> OpeningField::conduction_of(const SidedCage::Copy& copy) c
           along.x() * along.y(),     along.x() * along.z(),     along.y() * along.z()};
 }
 
+struct OpeningField::Solver {
+  Eigen::ConjugateGradient<Matrix, Eigen::Lower | Eigen::Upper, Eigen::IncompleteCholesky<double>>
+      passes;
+};
+
 void OpeningField::join_nodes() {
   const std::array<Conduction, 6> unit = unit_conduction();
-  std::vector<std::vector<Beside>> rows(cage_->n_nodes());
+  std::vector<Eigen::Triplet<double>> inner;
+  std::vector<Eigen::Triplet<double>> outer;
   for (const SidedCage::Copy& copy : cage_->copies()) {
     const std::array<double, 6> d = conduction_of(copy);
     Conduction k = Conduction::Zero();
     for (std::size_t i = 0; i < 6; ++i) k += d[i] * unit[i];
-    for (std::size_t i = 0; i < 8; ++i)
-      for (std::size_t j = 0; j < 8; ++j)
-        rows[copy.nodes[i]].push_back({copy.nodes[j], k(static_cast<int>(i), static_cast<int>(j))});
+    for (int i = 0; i < 8; ++i)
+      for (int j = 0; j < 8; ++j) {
+        const auto row = copy.nodes[static_cast<std::size_t>(i)];
+        const auto column = copy.nodes[static_cast<std::size_t>(j)];
+        if (on_wall_[row]) continue;
+        (on_wall_[column] ? outer : inner)
+            .emplace_back(static_cast<int>(row), static_cast<int>(column), k(i, j));
+      }
   }
-  start_.assign(1, 0);
-  for (std::uint32_t i = 0; i < rows.size(); ++i) {
-    std::sort(rows[i].begin(), rows[i].end(),
-              [](const Beside& x, const Beside& y) { return x.node < y.node; });
-    diagonal_.push_back(1);
-    for (std::size_t k = 0; k < rows[i].size();) {
-      Beside sum{rows[i][k].node, 0};
-      for (; k < rows[i].size() && rows[i][k].node == sum.node; ++k)
-        sum.weight += rows[i][k].weight;
-      beside_.push_back(sum);
-      if (sum.node == i) diagonal_.back() = sum.weight;
-    }
-    start_.push_back(static_cast<std::uint32_t>(beside_.size()));
-  }
+  for (std::size_t i = 0; i < on_wall_.size(); ++i)
+    inner.emplace_back(static_cast<int>(i), static_cast<int>(i), on_wall_[i] ? 1 : kTiny);
+  const auto n = static_cast<Eigen::Index>(on_wall_.size());
+  inner_ = Matrix(n, n);
+  outer_ = Matrix(n, n);
+  inner_.setFromTriplets(inner.begin(), inner.end());
+  outer_.setFromTriplets(outer.begin(), outer.end());
+  auto solver = std::make_shared<Solver>();
+  solver->passes.setTolerance(kExactScalar);
+  solver->passes.setMaxIterations(kMaxPasses);
+  solver->passes.compute(inner_);
+  solver_ = std::move(solver);
+}
+
+Vec3 OpeningField::middle() const {
+  Vec3 sum = Vec3::Zero();
+  for (const SidedCage::Wall& wall : cage_->walls()) sum += wall.p[0];
+  return sum / static_cast<double>(cage_->walls().size());
+}
+
+void OpeningField::carry_distances() {
+  const Vec3 from = middle();
+  for (int a = 0; a < 3; ++a)
+    carried_[static_cast<std::size_t>(a)] = carry_on([&](const Vec3& p) { return p[a] - from[a]; });
+  carried_[3] = carry_on([&](const Vec3& p) { return (p - from).squaredNorm(); });
 }
 
 std::vector<double> OpeningField::carry_on(
     const std::function<double(const Vec3& p_J)>& on_walls) const {
   const std::size_t n = cage_->n_nodes();
-  std::vector<double> x(n, 0);
-  double mean = 0;
+  Eigen::VectorXd walls = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(n));
   double known = 0;
   for (std::size_t i = 0; i < n; ++i) {
     if (!on_wall_[i]) continue;
-    mean += x[i] = on_walls(cage_->node(i));
+    walls[static_cast<Eigen::Index>(i)] = on_walls(cage_->node(i));
     known += 1;
   }
-  mean /= std::max(known, 1.0);
+  const double mean = walls.sum() / std::max(known, 1.0);
   for (std::size_t i = 0; i < n; ++i)
-    if (!on_wall_[i]) x[i] = mean;
-  const auto residual = [&](const std::vector<double>& v, std::vector<double>& out) {
-    for (std::size_t i = 0; i < n; ++i) {
-      out[i] = 0;
-      if (on_wall_[i]) continue;
-      for (std::uint32_t k = start_[i]; k < start_[i + 1]; ++k)
-        out[i] += beside_[k].weight * v[beside_[k].node];
-    }
-  };
-  const auto dot = [&](const std::vector<double>& a, const std::vector<double>& b) {
-    double sum = 0;
-    for (std::size_t i = 0; i < n; ++i) sum += a[i] * b[i];
-    return sum;
-  };
-  std::vector<double> r(n);
-  residual(x, r);
-  for (double& value : r) value = -value;
-  std::vector<double> z(n);
-  const auto precondition = [&] {
-    for (std::size_t i = 0; i < n; ++i) z[i] = r[i] / diagonal_[i];
-  };
-  precondition();
-  std::vector<double> p = z;
-  std::vector<double> q(n);
-  double rz = dot(r, z);
-  const double enough = kExactScalar * kExactScalar * rz;
-  for (int pass = 0; pass < kMaxPasses && rz > enough; ++pass) {
-    residual(p, q);
-    const double alpha = rz / dot(p, q);
-    for (std::size_t i = 0; i < n; ++i) x[i] += alpha * p[i];
-    for (std::size_t i = 0; i < n; ++i) r[i] -= alpha * q[i];
-    precondition();
-    const double before = rz;
-    rz = dot(r, z);
-    for (std::size_t i = 0; i < n; ++i) p[i] = z[i] + rz / before * p[i];
+    if (on_wall_[i]) walls[static_cast<Eigen::Index>(i)] -= mean;
+  const Eigen::VectorXd given = walls - outer_ * walls;
+  const Eigen::VectorXd x = solver_->passes.solveWithGuess(given, walls);
+  std::vector<double> out(n);
+  for (std::size_t i = 0; i < n; ++i) out[i] = mean + x[static_cast<Eigen::Index>(i)];
+  return out;
+}
+
+/// |p - a|^2 = |p|^2 - 2 p.a + |a|^2: what is carried on is linear in what is told on the walls.
+std::vector<double> OpeningField::squared_distance(const Vec3& from_J) const {
+  const Vec3 a = from_J - middle();
+  std::vector<double> out(carried_[3]);
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const Vec3 p(carried_[0][i], carried_[1][i], carried_[2][i]);
+    out[i] = std::max(0.0, out[i] - 2 * p.dot(a) + a.squaredNorm());
   }
-  return x;
+  return out;
 }
 
 }  // namespace artus

@@ -3,7 +3,10 @@
 #include <array>
 #include <atomic>
 #include <functional>
+#include <memory>
 #include <vector>
+
+#include <Eigen/SparseCore>
 
 #include "artus/detail/soft/liquid/sided_cage.h"
 
@@ -24,9 +27,11 @@ class OpeningField {
 
   /// What is told on the walls, carried on into tissue so that it has no steps: Laplace's equation,
   /// nothing through the border, ten times as easily the way that tissue moves, so that what is
-  /// multiplied by a function of it keeps its volume. (n_nodes). Cost: some 10 ms.
+  /// multiplied by a function of it keeps its volume. (n_nodes). Cost: some 50 ms.
   [[nodiscard]] std::vector<double> carry_on(
       const std::function<double(const Vec3& p_J)>& on_walls) const;
+  /// m^2, the same of the square of the walls' distance from a point. (n_nodes). Cost: one pass.
+  [[nodiscard]] std::vector<double> squared_distance(const Vec3& from_J) const;
 
  private:
   void find_held(const CompiledJoint& joint);
@@ -38,6 +43,8 @@ class OpeningField {
   void load();
   void solve(const std::atomic<bool>* stop);
   void join_nodes();
+  void carry_distances();
+  [[nodiscard]] Vec3 middle() const;
   [[nodiscard]] std::array<double, 6> conduction_of(const SidedCage::Copy& copy) const;
   [[nodiscard]] std::vector<double> times(const std::vector<double>& x) const;
 
@@ -53,14 +60,14 @@ class OpeningField {
   std::vector<bool> held_;             // by node
   std::vector<double> force_;          // (n_nodes, 3), m^2
   std::vector<Vec3> motion_;
-  std::vector<bool> on_wall_;         // by node
-  std::vector<std::uint32_t> start_;  // (n_nodes + 1), of beside_
-  struct Beside {
-    std::uint32_t node;
-    double weight;
-  };
-  std::vector<Beside> beside_;    // what a node is coupled to, itself among them
-  std::vector<double> diagonal_;  // of that
+  std::vector<bool> on_wall_;  // by node
+  using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+  Matrix inner_;  // (n_nodes, n_nodes), of what spreads; walls: themselves
+  Matrix outer_;  // the same, what walls give to others
+  struct Solver;
+  std::shared_ptr<const Solver> solver_;  // of inner_
+  // x, y, z, m, and the square of all three, m^2, from the cage's middle, carried on by node
+  std::array<std::vector<double>, 4> carried_;
 };
 
 }  // namespace artus

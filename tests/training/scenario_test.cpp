@@ -234,8 +234,8 @@ TEST(Player, TheSameSeedGivesTheSameBytesInACageOfItsOwnOrAnothers) {
   PlayOptions options = coarse();
   options.seed = 4;
   const auto one = play(align(), scene, novice_skill(), options);
-  options.beside = make_played_body(align(), *scene);
-  ASSERT_NE(options.beside, nullptr);
+  options.prepared = make_played_body(align(), *scene);
+  ASSERT_NE(options.prepared.tissue, nullptr);
   const auto two = play(align(), scene, novice_skill(), options);
   ASSERT_TRUE(one && two);
   EXPECT_EQ(to_json(one->measures.metrics).dump(), to_json(two->measures.metrics).dump());
