@@ -30,6 +30,7 @@ constexpr int kBackPasses = 40;
 constexpr double kExactBack = 1e-12;  // m
 constexpr int kSmoothings = 60;
 constexpr double kSteepestPatch = 1.55;  // of (1 - q^2)^2, per q
+constexpr double kExactPress = 1e-3;     // of how a press is carried on into tissue
 constexpr double kMargin = 1.3;          // of a first guess at how long the flow is
 
 /// Of the square of a distance, in reaches.
@@ -82,6 +83,7 @@ void OpenedSpace::find_places() {
   for (std::size_t t = 0; t < mesh_.tetrahedra.size(); ++t)
     if (is_in(mesh_.regions[t]))
       for (const std::uint32_t v : mesh_.tetrahedra[t]) mark(v);
+  edges_ = edges_inside(mesh_);
   for (const SidedCage::Wall& wall : cage_.walls())
     wall_places_.push_back(cage_.locate((wall.p[0] + wall.p[1] + wall.p[2]) / 3, wall.into));
   places_.resize(p.size());
@@ -277,7 +279,7 @@ OpenedSpace::Flow OpenedSpace::flow_in(const TetMesh& mesh,
   flow.steps_ = steps_for(flow);
   find(flow.length_, flow.length_);
   if (!filling.press) return flow;
-  const auto press = field_.carry_on(filling.press);
+  const auto press = field_.carry_on(filling.press, kExactPress);
   double most = 0;
   for (std::size_t i = 0; i < flow.nodes_.size(); ++i) {
     flow.nodes_[i].press = std::max(press[i], 0.0);
@@ -302,7 +304,14 @@ std::vector<Vec3> OpenedSpace::vertices(const TetMesh& mesh, const Filling& fill
 
 /// What the space has between its walls goes along with them, drawn out evenly.
 void OpenedSpace::fill_inside(const TetMesh& mesh, std::vector<Vec3>& moved) const {
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
+  const bool same = mesh.interfaces.size() == mesh_.interfaces.size();
+  const std::vector<Edge> edges = same ? std::vector<Edge>() : edges_inside(mesh);
+  smooth(same ? edges_ : edges, mesh, moved);
+}
+
+/// From a vertex between the walls to one beside it, in order.
+std::vector<OpenedSpace::Edge> OpenedSpace::edges_inside(const TetMesh& mesh) const {
+  std::vector<Edge> edges;
   const auto add = [&](std::uint32_t a, std::uint32_t b) {
     if (a < inside_.size() && inside_[a]) edges.emplace_back(a, b);
     if (b < inside_.size() && inside_[b]) edges.emplace_back(b, a);
@@ -316,6 +325,11 @@ void OpenedSpace::fill_inside(const TetMesh& mesh, std::vector<Vec3>& moved) con
         for (std::size_t j = i + 1; j < 4; ++j) add(mesh.tetrahedra[t][i], mesh.tetrahedra[t][j]);
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  return edges;
+}
+
+void OpenedSpace::smooth(std::span<const Edge> edges, const TetMesh& mesh,
+                         std::vector<Vec3>& moved) {
   for (int pass = 0; pass < kSmoothings; ++pass)
     for (std::size_t k = 0; k < edges.size();) {
       const std::uint32_t v = edges[k].first;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "artus/anatomy/compiled_joint.h"
@@ -96,6 +97,9 @@ class OpenedSpace {
   [[nodiscard]] int steps_for(const Flow& flow) const;
   [[nodiscard]] Flow flow_in(const TetMesh& mesh, std::span<const SidedCage::Place> places,
                              const Filling& filling) const;
+  using Edge = std::pair<std::uint32_t, std::uint32_t>;
+  [[nodiscard]] std::vector<Edge> edges_inside(const TetMesh& mesh) const;
+  static void smooth(std::span<const Edge> edges, const TetMesh& mesh, std::vector<Vec3>& moved);
   void fill_inside(const TetMesh& mesh, std::vector<Vec3>& moved) const;
 
   std::vector<RegionId> regions_;
@@ -105,6 +109,7 @@ class OpenedSpace {
   std::vector<SidedCage::Place> places_;  // by vertex at rest; no copy: outside the cage, or inside
   std::vector<SidedCage::Place> wall_places_;  // by the cage's walls, of their middles
   std::vector<bool> inside_;                   // by vertex: the space, off its walls
+  std::vector<Edge> edges_;                    // edges_inside of mesh_
 };
 
 }  // namespace artus

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include <Eigen/Dense>
-#include <Eigen/IterativeLinearSolvers>
 
 #include "artus/detail/core/check.h"
 #include "artus/detail/soft/cage/material.h"
@@ -28,8 +27,8 @@ constexpr double kLoose = 1e-3;  // the same, of a shell around a body; assumed:
 constexpr double kExact = 3e-5;  // of the load
 constexpr int kMaxPasses = 3000;
 constexpr int kPassesToAsk = 16;
-constexpr double kExactScalar = 1e-5;  // of what the walls give
-constexpr double kTiny = 1e-9;         // of a node's own: tissue that touches no wall
+constexpr double kExactDistance = 1e-6;  // of the first error
+constexpr double kTiny = 1e-9;           // of a node's own: tissue that touches no wall
 constexpr double kAlong = 10;  // by which a number on the walls spreads more easily along motion
 
 using Element = Eigen::Matrix<float, 24, 24>;  // as exact as the passes need
@@ -346,11 +345,6 @@ std::array<double, 6> OpeningField::conduction_of(const SidedCage::Copy& copy) c
           along.x() * along.y(),     along.x() * along.z(),     along.y() * along.z()};
 }
 
-struct OpeningField::Solver {
-  Eigen::ConjugateGradient<Matrix, Eigen::Lower | Eigen::Upper, Eigen::IncompleteCholesky<double>>
-      passes;
-};
-
 void OpeningField::join_nodes() {
   const std::array<Conduction, 6> unit = unit_conduction();
   std::vector<Eigen::Triplet<double>> inner;
@@ -375,11 +369,7 @@ void OpeningField::join_nodes() {
   outer_ = Matrix(n, n);
   inner_.setFromTriplets(inner.begin(), inner.end());
   outer_.setFromTriplets(outer.begin(), outer.end());
-  auto solver = std::make_shared<Solver>();
-  solver->passes.setTolerance(kExactScalar);
-  solver->passes.setMaxIterations(kMaxPasses);
-  solver->passes.compute(inner_);
-  solver_ = std::move(solver);
+  nearly_ = std::make_shared<const Preconditioner>(inner_);
 }
 
 Vec3 OpeningField::middle() const {
@@ -391,12 +381,13 @@ Vec3 OpeningField::middle() const {
 void OpeningField::carry_distances() {
   const Vec3 from = middle();
   for (int a = 0; a < 3; ++a)
-    carried_[static_cast<std::size_t>(a)] = carry_on([&](const Vec3& p) { return p[a] - from[a]; });
-  carried_[3] = carry_on([&](const Vec3& p) { return (p - from).squaredNorm(); });
+    carried_[static_cast<std::size_t>(a)] =
+        carry_on([&](const Vec3& p) { return p[a] - from[a]; }, kExactDistance);
+  carried_[3] = carry_on([&](const Vec3& p) { return (p - from).squaredNorm(); }, kExactDistance);
 }
 
-std::vector<double> OpeningField::carry_on(
-    const std::function<double(const Vec3& p_J)>& on_walls) const {
+std::vector<double> OpeningField::carry_on(const std::function<double(const Vec3& p_J)>& on_walls,
+                                           double exactness) const {
   const std::size_t n = cage_->n_nodes();
   Eigen::VectorXd walls = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(n));
   double known = 0;
@@ -408,11 +399,31 @@ std::vector<double> OpeningField::carry_on(
   const double mean = walls.sum() / std::max(known, 1.0);
   for (std::size_t i = 0; i < n; ++i)
     if (on_wall_[i]) walls[static_cast<Eigen::Index>(i)] -= mean;
-  const Eigen::VectorXd given = walls - outer_ * walls;
-  const Eigen::VectorXd x = solver_->passes.solveWithGuess(given, walls);
+  const Eigen::VectorXd x = carried(walls, exactness);
   std::vector<double> out(n);
   for (std::size_t i = 0; i < n; ++i) out[i] = mean + x[static_cast<Eigen::Index>(i)];
   return out;
+}
+
+/// Conjugate gradients. What is kept is not written to: any number of threads.
+Eigen::VectorXd OpeningField::carried(const Eigen::VectorXd& walls, double exactness) const {
+  Eigen::VectorXd x = walls;
+  Eigen::VectorXd r = walls - outer_ * walls - inner_ * x;
+  Eigen::VectorXd z = nearly_->solve(r);
+  Eigen::VectorXd p = z;
+  double rz = r.dot(z);
+  const double enough = exactness * exactness * rz;
+  for (int pass = 0; pass < kMaxPasses && rz > enough; ++pass) {
+    const Eigen::VectorXd q = inner_ * p;
+    const double alpha = rz / p.dot(q);
+    x += alpha * p;
+    r -= alpha * q;
+    z = nearly_->solve(r);
+    const double before = rz;
+    rz = r.dot(z);
+    p = z + rz / before * p;
+  }
+  return x;
 }
 
 /// |p - a|^2 = |p|^2 - 2 p.a + |a|^2: what is carried on is linear in what is told on the walls.

@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include <Eigen/IterativeLinearSolvers>
 #include <Eigen/SparseCore>
 
 #include "artus/detail/soft/liquid/sided_cage.h"
@@ -27,9 +28,10 @@ class OpeningField {
 
   /// What is told on the walls, carried on into tissue so that it has no steps: Laplace's equation,
   /// nothing through the border, ten times as easily the way that tissue moves, so that what is
-  /// multiplied by a function of it keeps its volume. (n_nodes). Cost: some 50 ms.
-  [[nodiscard]] std::vector<double> carry_on(
-      const std::function<double(const Vec3& p_J)>& on_walls) const;
+  /// multiplied by a function of it keeps its volume. `exactness`: of the first error, what may be
+  /// left. (n_nodes). Cost: some 50 ms.
+  [[nodiscard]] std::vector<double> carry_on(const std::function<double(const Vec3& p_J)>& on_walls,
+                                             double exactness) const;
   /// m^2, the same of the square of the walls' distance from a point. (n_nodes). Cost: one pass.
   [[nodiscard]] std::vector<double> squared_distance(const Vec3& from_J) const;
 
@@ -44,6 +46,7 @@ class OpeningField {
   void solve(const std::atomic<bool>* stop);
   void join_nodes();
   void carry_distances();
+  [[nodiscard]] Eigen::VectorXd carried(const Eigen::VectorXd& walls, double exactness) const;
   [[nodiscard]] Vec3 middle() const;
   [[nodiscard]] std::array<double, 6> conduction_of(const SidedCage::Copy& copy) const;
   [[nodiscard]] std::vector<double> times(const std::vector<double>& x) const;
@@ -64,8 +67,8 @@ class OpeningField {
   using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
   Matrix inner_;  // (n_nodes, n_nodes), of what spreads; walls: themselves
   Matrix outer_;  // the same, what walls give to others
-  struct Solver;
-  std::shared_ptr<const Solver> solver_;  // of inner_
+  using Preconditioner = Eigen::IncompleteCholesky<double>;
+  std::shared_ptr<const Preconditioner> nearly_;  // of inner_
   // x, y, z, m, and the square of all three, m^2, from the cage's middle, carried on by node
   std::array<std::vector<double>, 4> carried_;
 };
