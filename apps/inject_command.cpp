@@ -13,6 +13,7 @@
 #include "artus/detail/evidence/runs/injection_pictures.h"
 #include "artus/detail/evidence/runs/injection_report.h"
 #include "artus/detail/evidence/runs/injection_request.h"
+#include "artus/detail/evidence/runs/picture_plate.h"
 #include "artus/detail/training/health/body_health.h"
 
 namespace artus {
@@ -86,13 +87,14 @@ void print_report(const nlohmann::json& report) {
 struct Outcome {
   nlohmann::json report;
   std::vector<Claim> claims;
+  std::string broken;  // what of the body is not whole, a line each; empty: it is
 };
 
-/// Whether a body is whole: into the report, as `state`. Told, not judged: spaces that open by
-/// columns do not hold all of it yet.
+/// Whether a body is whole: into the report, as `state`.
 void examine(const HealthQuestion& question, const std::string& state, Outcome& outcome) {
   const BodyHealth health = measure_body_health(question);
   outcome.report["body"][state] = to_json(health);
+  if (!health.sound()) outcome.broken += "the body " + state + ":\n" + to_text(health);
 }
 
 /// The body as it is pressed in the end. Errors: those of files.
@@ -128,6 +130,7 @@ Result<Outcome> write_run(const std::shared_ptr<const Scene>& scene, const Injec
     }
     for (Claim& claim : claims_of(run, *pictures)) outcome.claims.push_back(std::move(claim));
     outcome.report["pictures"] = pictures->files;
+    for (const std::string& line : pictures->overflow) outcome.report["notes"].push_back(line);
     outcome.report["opening_mm"] = pictures->opening / kMillimetre;
     outcome.report["opening_length_mm"] = pictures->length / kMillimetre;
     outcome.report["opening_width_mm"] = pictures->width / kMillimetre;
@@ -184,7 +187,8 @@ Result<ExitCode> inject(const InjectOptions& options) {
     if (!options.hand.json) print_report(outcome->report);
     for (const Claim& claim : outcome->claims)
       if (!options.hand.json) std::printf("%s\n", to_line(claim).c_str());
-    holds = holds && all_hold(outcome->claims);
+    if (!options.hand.json) std::fputs(outcome->broken.c_str(), stdout);
+    holds = holds && all_hold(outcome->claims) && outcome->broken.empty();
     reports.push_back(outcome->report);
     runs.push_back(*run);
   }
@@ -207,7 +211,7 @@ void add_inject_command(Command& app, ExitCode& code) {
       "the skin, and tissue gives way to both; the pictures show it at rest, with what was "
       "injected,\n"
       "pressed-before.png and pressed-after.png as it is pressed in the end.\n"
-      "Exit code 1 when a claim does not hold.\n"
+      "Exit code 1 when a claim does not hold, or the body is not whole afterwards.\n"
       "Examples:\n"
       "  artus inject -j meshes/shoulder --volume-ml 5 --rate 0.1 --gauge 22 -o out/bursa\n"
       "  artus inject -j shoulder.artus --technique through-and-back --volume-ml 5 -o out/back\n"

@@ -153,7 +153,8 @@ ExitCode run_play(const PlayCommandOptions& options) {
     std::cout << to_json(*scenario, *attempt).dump(2) << '\n';
   else
     print(*attempt);
-  return ExitCode::ok;
+  const bool whole = !attempt->health || attempt->health->sound();
+  return whole ? ExitCode::ok : ExitCode::failed;
 }
 
 }  // namespace
@@ -163,7 +164,8 @@ void add_play_command(Command& app, ExitCode& code) {
   Command* command = add_command(
       app, "play", "Let simulated hands do a scenario, without a window",
       "The same scenario, operator and seed give the same bytes. It tells whether liquid left the\n"
-      "body whole. Exit code 0 whether the attempt is passed or not.\n"
+      "body whole. Exit code 0 whether the attempt is passed or not; 1 when the body is not whole."
+      "\n"
       "Examples:\n"
       "  artus play gel-align --operator expert --seed 3 --record out/attempt\n"
       "  artus play gel-align --operator novice:20 --json\n"

@@ -16,6 +16,7 @@ namespace {
 constexpr double kShapeTime = 0.06;    // s that the first shape may take: a flow is seen at once
 constexpr double kGrowthTime = 0.3;    // s that a later one may: images need not wait for it
 constexpr double kVisible = 1e-9;      // m^3, of a shape's first liquid and least growth
+constexpr double kStill = 1e-12;       // m^3 from image to image, of liquid that rests
 constexpr double kGrowth = 0.03;       // of what is there: 0.1 mm of a bursa that is 10 mm open
 constexpr double kPressForce = 0.05;   // N by which a press is another
 constexpr double kPressGrowth = 0.05;  // of the force
@@ -99,6 +100,18 @@ bool FluidShapes::has_changed(std::span<const InjectedSite> sites, const Press& 
          (press.into - begun_under_.into).norm() > kPressTurn;
 }
 
+/// Whether no liquid came since the image before, and the newest shape does not have all of it.
+bool FluidShapes::is_at_rest(std::span<const InjectedSite> sites) const {
+  const auto differ = [](std::span<const InjectedSite> a, std::span<const InjectedSite> b,
+                         double by) {
+    if (a.size() != b.size()) return true;
+    for (std::size_t k = 0; k < a.size(); ++k)
+      if (std::abs(a[k].volume - b[k].volume) >= by) return true;
+    return false;
+  };
+  return !differ(sites, seen_, kStill) && differ(sites, begun_, kVisible);
+}
+
 /// Another shape of the same vertices is gone over into; what has others is there at once.
 void FluidShapes::take() {
   std::shared_ptr<const FluidShape> before = std::move(state_.shape);
@@ -130,7 +143,9 @@ const FluidState& FluidShapes::step(std::span<const InjectedSite> sites) {
 void FluidShapes::follow(std::span<const InjectedSite> sites,
                          const std::shared_ptr<const DeformedBody>& tissue) {
   const Press press = press_of(tissue.get());
-  if (sites.empty() || next_.valid() || !has_changed(sites, press)) return;
+  const bool at_rest = is_at_rest(sites);
+  seen_.assign(sites.begin(), sites.end());
+  if (sites.empty() || next_.valid() || !(at_rest || has_changed(sites, press))) return;
   due_ = images_ + (begun_.empty() ? images_to_change_ : images_to_grow_);
   begun_.assign(sites.begin(), sites.end());
   begun_under_ = press;

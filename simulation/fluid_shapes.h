@@ -54,7 +54,8 @@ class FluidShapes {
 
   /// Of the next image, before its tissue's step. Waits where a shape is due and not ready.
   [[nodiscard]] const FluidState& step(std::span<const InjectedSite> sites);
-  /// After that step: begins a shape where there is more liquid, or the probe presses otherwise.
+  /// After that step: begins a shape where there is more liquid, or the probe presses otherwise;
+  /// where no more comes, one of all that there is.
   /// `tissue`: the body as it gives way in this image; null: rigid.
   void follow(std::span<const InjectedSite> sites,
               const std::shared_ptr<const DeformedBody>& tissue);
@@ -71,6 +72,7 @@ class FluidShapes {
   };
   [[nodiscard]] static Press press_of(const DeformedBody* tissue);
   [[nodiscard]] bool has_changed(std::span<const InjectedSite> sites, const Press& press) const;
+  [[nodiscard]] bool is_at_rest(std::span<const InjectedSite> sites) const;
   void take();
 
   std::shared_ptr<const CompiledJoint> joint_;
@@ -84,6 +86,7 @@ class FluidShapes {
   std::uint64_t taken_ = 0;          // image of the present shape's first
   std::vector<InjectedSite> begun_;  // of the newest shape, made or being made
   Press begun_under_;                // the same
+  std::vector<InjectedSite> seen_;   // of the image before
   std::future<FluidShape> next_;
   FluidState state_;
 };

@@ -9,7 +9,6 @@
 #include <optional>
 #include <utility>
 
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "artus/detail/anatomy/body/space.h"
@@ -19,6 +18,7 @@
 #include "artus/detail/evidence/runs/injection_plume.h"
 #include "artus/detail/evidence/runs/injection_view.h"
 #include "artus/detail/soft/liquid/injected_body.h"
+#include "artus/detail/soft/liquid/overflow.h"
 #include "artus/echo/image_io.h"
 #include "artus/echo/labels.h"
 #include "artus/echo/renderer.h"
@@ -376,6 +376,12 @@ Result<InjectionPictures> write_injection_pictures(const std::shared_ptr<const S
     ARTUS_TRY(write_image(draw(body, run, X_JP, deep, plume, row->time), folder / file));
     out.files.emplace_back(file);
   }
+  const std::size_t given = last.size();
+  last = with_overflow(spaces, std::move(last));
+  for (std::size_t k = given; k < last.size(); ++k)
+    out.overflow.push_back(printed("%.2f ml are more than the space takes, and part ",
+                                   last[k].volume / kCubicCentimetre) +
+                           last[k].region);
   for (const Injected& place : last) {
     out.drawn_volume += place.volume;
     if (place.cavity)
@@ -394,27 +400,6 @@ Result<InjectionPictures> write_injection_pictures(const std::shared_ptr<const S
   out.at_rest.after = body;
   out.at_rest.X_JP = X_JP;
   return out;
-}
-
-Result<void> write_plate(std::span<const std::filesystem::path> pictures,
-                         std::span<const std::string> names, const std::filesystem::path& file) {
-  std::vector<cv::Mat> columns;
-  int height = 0;
-  for (std::size_t k = 0; k < pictures.size(); ++k) {
-    cv::Mat picture = cv::imread(pictures[k].string());
-    if (picture.empty())
-      return fail(ErrorCode::not_found, "there is no picture", pictures[k].string());
-    cv::copyMakeBorder(picture, picture, 28, 0, 4, 4, cv::BORDER_CONSTANT);
-    cv::putText(picture, names[k], {10, 20}, cv::FONT_HERSHEY_SIMPLEX, 0.55, {255, 255, 255}, 1,
-                cv::LINE_AA);
-    height = std::max(height, picture.rows);
-    columns.push_back(std::move(picture));
-  }
-  for (cv::Mat& column : columns)
-    cv::copyMakeBorder(column, column, 0, height - column.rows, 0, 0, cv::BORDER_CONSTANT);
-  cv::Mat plate;
-  cv::hconcat(columns, plate);
-  return write_image(plate, file);
 }
 
 std::vector<Claim> claims_of(const InjectionRun& run, const InjectionPictures& pictures) {

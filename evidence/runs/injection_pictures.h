@@ -31,7 +31,9 @@ struct InjectionPictures {
       0;                  ///< m of the same square to the layer: at the slant at which it is least
   double seen_width = 0;  ///< m across the plane, at that slant, where it is at least half as much
   double drawn_volume = 0;  ///< m^3 that the shapes were made of
-  HealthQuestion at_rest;   ///< the body after beside that before
+  std::vector<std::string>
+      overflow;            ///< what a space could not take, and where it went, a line each
+  HealthQuestion at_rest;  ///< the body after beside that before
 };
 
 struct InjectionPictureOptions {
@@ -54,11 +56,6 @@ struct InjectionPictureOptions {
                                                         const InjectionRun& run,
                                                         const InjectionPictureOptions& options,
                                                         const std::filesystem::path& folder);
-
-/// The pictures after several injections beside each other, named. Errors: not_found, unreadable.
-[[nodiscard]] Result<void> write_plate(std::span<const std::filesystem::path> pictures,
-                                       std::span<const std::string> names,
-                                       const std::filesystem::path& file);
 
 /// That rays and labels find what was given, within 5 %; of a bursa, that it opens by 2 to 6 mm.
 [[nodiscard]] std::vector<Claim> claims_of(const InjectionRun& run,

@@ -179,7 +179,9 @@ class Trial {
     out_.pressed = draw_health_question(simulation_);
   }
 
-  void aim_at(RegionId region) {
+  void aim_at(RegionId region, const LineLayer& planned) {
+    target_region_ = region;
+    planned_ = planned;
     target_ = of_region_[region];
     out_.target = plunger().spaces()[target_].name;
     out_.target_like = plunger().spaces()[target_].like;
@@ -222,10 +224,22 @@ class Trial {
   /// What the hand goes by: the picture, what flows, and the thumb.
   [[nodiscard]] OperatorView view() {
     OperatorView view = view_of(simulation_.needle());
-    if (contact().inserted()) view.depth = contact().tick().depth;
+    look();
+    if (contact().inserted()) view.depth = contact().tick().depth - deeper_;
     view.flows = flows_into_target();
     view.given = hands_.thumb().enough();
     return view;
+  }
+
+  /// Tissue that is pressed has its layers elsewhere: a picture tells by how much deeper the target
+  /// lies along the needle than it was planned.
+  void look() {
+    if (!contact().inserted() || body_ == simulation_.scene()) return;
+    body_ = simulation_.scene();
+    const NeedleTick& needle = contact().tick();
+    const Vec3 skin = needle.tip - needle.depth * needle.axis;
+    const auto layer = find_layer(*body_, skin, needle.axis, target_region_);
+    if (layer) deeper_ = (layer->from + layer->to - planned_.from - planned_.to) / 2;
   }
 
   /// What goes in while the target does not open goes elsewhere: the hand lets go, draws back some
@@ -295,6 +309,10 @@ class Trial {
   std::optional<SeatedProbe> probe_;  // empty: the body is rigid
   double bevel_;                      // m
   std::size_t target_ = 0;
+  RegionId target_region_ = kOutside;
+  LineLayer planned_;                  // the target on the line at rest
+  std::shared_ptr<const Scene> body_;  // last looked at
+  double deeper_ = 0;                  // m along the needle, the target there
   std::vector<std::size_t> shown_;
   std::vector<std::vector<double>> history_;
   double target_volume_ = 0;
@@ -439,7 +457,7 @@ Result<InjectionRun> run_injection(const Scene& scene, const InjectionSpec& spec
   InjectionOperator person(spec.entry, direction, -kStartOutside,
                            phases_of(out, plan->layer, target, through));
   Trial trial(scene, *params, std::move(spaces->of_region), out, recording);
-  trial.aim_at(plan->region);
+  trial.aim_at(plan->region, plan->layer);
   ARTUS_TRY(trial.run(person));
   trial.finish();
   out.reached = std::any_of(out.rows.begin(), out.rows.end(),

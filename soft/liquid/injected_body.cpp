@@ -13,6 +13,7 @@
 #include "artus/detail/core/check.h"
 #include "artus/detail/core/noise.h"
 #include "artus/detail/soft/liquid/bolus_opening.h"
+#include "artus/detail/soft/liquid/overflow.h"
 
 namespace artus {
 namespace {
@@ -303,9 +304,10 @@ void open_spaces(std::vector<Filled>& filled, TetMesh& mesh) {
 
 }  // namespace
 
-CompiledJoint with_injected(const CompiledJoint& joint, const std::vector<Injected>& places,
+CompiledJoint with_injected(const CompiledJoint& joint, const std::vector<Injected>& given,
                             const Liquid& liquid, const StressAt& stress,
                             const OpenedSpaces& spaces) {
+  const std::vector<Injected> places = with_overflow(spaces, given);
   CompiledJoint with = joint;
   std::vector<Filled> filled;
   // Tissue first: where it is parted is told of the body at rest, and is lifted with what opens.

@@ -51,10 +51,10 @@ struct Injected {
 using StressAt = std::function<double(const Vec3&)>;
 
 /// All of them: tissue first, then spaces, each whole (all regions of the space that a place is in
-/// become of `liquid`), squeezed by `stress`, where one is given. What is less than 1 mm^3 is not
-/// drawn, nor what went outside, nor what is more than a space's shape can take
-/// (OpenedSpace::max_volume). `spaces`: of the joint, or of one with the same surfaces. Cost: a
-/// tenth of a second for a place, and for a space that was not opened before what OpenedSpace says.
+/// become of `liquid`), squeezed by `stress`, where one is given. What a space cannot take goes
+/// where with_overflow says. What is less than 1 mm^3 is not drawn, nor what went outside.
+/// `spaces`: of the joint, or of one with the same surfaces. Cost: a tenth of a second for a place,
+/// and for a space that was not opened before what OpenedSpace says.
 [[nodiscard]] CompiledJoint with_injected(const CompiledJoint& joint,
                                           const std::vector<Injected>& places, const Liquid& liquid,
                                           const StressAt& stress, const OpenedSpaces& spaces);

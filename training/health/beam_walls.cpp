@@ -10,6 +10,8 @@
 namespace artus {
 namespace {
 
+constexpr double kSteeper = 3;  // from beam to beam, of a round wall where it grows steep
+
 /// The stretch of the next beam that lies beside this one for longest; null: none does.
 const BeamStretch* beside(const BeamStretch& one, const std::vector<BeamStretch>& next) {
   const BeamStretch* found = nullptr;
@@ -23,14 +25,28 @@ const BeamStretch* beside(const BeamStretch& one, const std::vector<BeamStretch>
   return found;
 }
 
-double step_to(const std::vector<BeamStretch>& beam, const std::vector<BeamStretch>& next) {
+/// By how much a wall goes on too far: a round one grows steep before it does so, a cut does not.
+double sudden(double step, double before, double behind) {
+  const double sign = step < 0 ? -1 : 1;
+  return std::max(0.0, std::abs(step) - kSteeper * std::max({0.0, sign * before, sign * behind}));
+}
+
+/// The largest from one beam to the next, `before` and `behind` the beams that go on from there.
+double step_to(const std::vector<BeamStretch>& before, const std::vector<BeamStretch>& beam,
+               const std::vector<BeamStretch>& next, const std::vector<BeamStretch>& behind) {
   double step = 0;
   for (const BeamStretch& one : beam) {
+    const BeamStretch* last = beside(one, before);
     const BeamStretch* other = beside(one, next);
-    const double here = other == nullptr ? (one.floor - one.roof) / 2
-                                         : std::max(std::abs(one.roof - other->roof),
-                                                    std::abs(one.floor - other->floor));
-    step = std::max(step, here);
+    const double roof = last == nullptr ? 0 : one.roof - last->roof;
+    const double floor = last == nullptr ? 0 : one.floor - last->floor;
+    if (other == nullptr) {  // both walls meet
+      step = std::max(step, sudden((one.floor - one.roof) / 2, std::max(roof, -floor), 0));
+      continue;
+    }
+    const BeamStretch* far = beside(*other, behind);
+    step = std::max({step, sudden(other->roof - one.roof, roof, far ? far->roof - other->roof : 0),
+                     sudden(other->floor - one.floor, floor, far ? far->floor - other->floor : 0)});
   }
   return step;
 }
@@ -60,8 +76,13 @@ BeamWalls find_walls(const Scene& scene, const Pose& X_JP, const Transducer& tra
 
 std::vector<double> wall_steps(const BeamWalls& walls) {
   std::vector<double> steps;
-  for (std::size_t i = 0; i + 1 < walls.size(); ++i)
-    steps.push_back(std::max(step_to(walls[i], walls[i + 1]), step_to(walls[i + 1], walls[i])));
+  const std::vector<BeamStretch> none;
+  for (std::size_t i = 0; i + 1 < walls.size(); ++i) {
+    const auto& left = i > 0 ? walls[i - 1] : none;
+    const auto& right = i + 2 < walls.size() ? walls[i + 2] : none;
+    steps.push_back(std::max(step_to(left, walls[i], walls[i + 1], right),
+                             step_to(right, walls[i + 1], walls[i], left)));
+  }
   return steps;
 }
 

@@ -54,7 +54,7 @@ class Examination {
 
   [[nodiscard]] HealthMeasure inverted() const {
     HealthMeasure m{"inverted", "inverted tetrahedra", "", {}, 0, ""};
-    const LeastRatio least = find_least_ratio(q_.before->joint().mesh, now_.mesh);
+    const LeastRatio least = find_least_ratio(q_.before->joint().mesh, now_.mesh, liquid_before_);
     if (least.compared == 0) return m;
     m.value = static_cast<double>(least.inverted);
     m.where = printed("least volume %.3f of that at rest in ", least.ratio) +

@@ -66,12 +66,15 @@ bool has_same_skin(const TetMesh& a, const TetMesh& b) {
 
 }  // namespace
 
-LeastRatio find_least_ratio(const TetMesh& rest, const TetMesh& now) {
+LeastRatio find_least_ratio(const TetMesh& rest, const TetMesh& now,
+                            const std::vector<bool>& liquid) {
   LeastRatio least;
   const bool same =
       rest.vertices.size() == now.vertices.size() && rest.tetrahedra == now.tetrahedra;
   if (!same) return least;
   for (std::size_t i = 0; i < rest.tetrahedra.size(); ++i) {
+    const RegionId region = rest.regions[i];
+    if (region < liquid.size() && liquid[region]) continue;
     const double volume = volume_of_whole(rest, i);
     if (!(volume > 0)) continue;
     ++least.compared;

@@ -20,8 +20,10 @@ struct LeastRatio {
 };
 
 /// Compares a mesh with the same at rest. Slivers are left out: a smooth map of the body may turn
-/// one over. Cost: linear.
-[[nodiscard]] LeastRatio find_least_ratio(const TetMesh& rest, const TetMesh& now);
+/// one over. So is what is in regions of `liquid` (by RegionId, or empty): it has no shape of its
+/// own. Cost: linear.
+[[nodiscard]] LeastRatio find_least_ratio(const TetMesh& rest, const TetMesh& now,
+                                          const std::vector<bool>& liquid = {});
 
 /// How many points have a coordinate that is not finite.
 [[nodiscard]] std::size_t count_not_finite(std::span<const Vec3> points);

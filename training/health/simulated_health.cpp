@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "artus/detail/anatomy/body/find_region.h"
 #include "artus/detail/anatomy/body/space.h"
 #include "artus/detail/simulation/plain_pose.h"
 
@@ -16,14 +17,25 @@ void add_site(const CompiledJoint& joint, const JointSpaces& spaces, const Injec
   if (site.volume < kDrawn || site.region >= joint.regions.size()) return;
   if (liquid.volume == 0) liquid.p_J = Vec3(site.p_J[0], site.p_J[1], site.p_J[2]);
   liquid.volume += site.volume;
-  if (site.cavity == 0) {
-    liquid.regions.emplace_back("injected");
-    liquid.parted.push_back(joint.regions[site.region].name);
-    return;
-  }
+  if (site.cavity == 0) return;
   const Space& space = spaces.spaces[spaces.of_region[site.region]];
   liquid.regions.insert(liquid.regions.end(), space.regions.begin(), space.regions.end());
   liquid.regions.push_back(joint.regions[site.region].name);
+}
+
+/// What liquid parts, which may be more than where it came in: a full space gives to what is
+/// around.
+void add_parted(const CompiledJoint& drawn, GivenLiquid& liquid) {
+  const auto injected = find_region(drawn, "injected");
+  if (!injected) return;
+  liquid.regions.emplace_back("injected");
+  for (const Interface& f : drawn.mesh.interfaces) {
+    if ((f.front == *injected) == (f.back == *injected)) continue;
+    const RegionId beside = f.front == *injected ? f.back : f.front;
+    liquid.parted.push_back(drawn.regions[beside].name);
+  }
+  std::sort(liquid.parted.begin(), liquid.parted.end());
+  liquid.parted.erase(std::unique(liquid.parted.begin(), liquid.parted.end()), liquid.parted.end());
 }
 
 }  // namespace
@@ -38,6 +50,7 @@ std::optional<HealthQuestion> find_health_question(const Simulation& simulation,
   for (const InjectedSite& site : sites)
     add_site(simulation.joint(), *spaces, site, question.liquid);
   if (!(question.liquid.volume > 0)) return std::nullopt;
+  add_parted(simulation.drawn_scene()->joint(), question.liquid);
   question.before = simulation.scene();
   question.after = simulation.drawn_scene();
   question.X_JP = X_JP;

@@ -39,6 +39,24 @@ TEST(BeamWalls, ABlockThatEndsSquareIsAJumpOfHalfItsHeight) {
   EXPECT_NEAR(find_wall_jump(lens_walls(0), block).jump, 5e-3, 0.1e-3);
 }
 
+TEST(BeamWalls, ARoundWallThatLiesAlongABeamIsNoJump) {
+  for (const double off : {0.0, 0.2, 0.5, 0.8}) {
+    BeamWalls ball(200);
+    for (std::size_t i = 0; i < 200; ++i) {
+      const double x = (static_cast<double>(i) - 100 + off) * kBeamSpacing;
+      const double square = 100e-6 - x * x;
+      if (square > 0) ball[i] = {{20e-3 - std::sqrt(square), 20e-3 + std::sqrt(square)}};
+    }
+    EXPECT_LT(find_wall_jump(lens_walls(0), ball).jump, 0.5e-3) << off;
+  }
+}
+
+TEST(BeamWalls, AStripOfOneBeamIsAJump) {
+  BeamWalls strips = lens_walls(6e-3);
+  for (std::size_t i = 80; i < 120; i += 2) strips[i][0].roof -= 2e-3;
+  EXPECT_GT(find_wall_jump(lens_walls(0), strips).jump, 1.5e-3);
+}
+
 TEST(BeamWalls, AnIslandOfTissueInLiquidIsAJump) {
   BeamWalls island = lens_walls(6e-3);
   island[100] = {{14e-3, 15e-3}, {17e-3, 20.05e-3}};
