@@ -8,6 +8,7 @@
 #include "artus/detail/core/check.h"
 #include "artus/detail/haptics/plunger/space_pressure.h"
 #include "artus/detail/soft/liquid/injected_body.h"
+#include "artus/detail/soft/liquid/kept_volume.h"
 #include "artus/detail/soft/solver/face_stress.h"
 
 namespace artus {
@@ -16,6 +17,8 @@ namespace {
 constexpr double kShapeTime = 0.06;    // s that the first shape may take: a flow is seen at once
 constexpr double kGrowthTime = 0.3;    // s that a later one may: images need not wait for it
 constexpr double kVisible = 1e-9;      // m^3, of a shape's first liquid and least growth
+constexpr double kLeastKept = 0.5;     // of a volume, by a press; less is not made up for
+constexpr double kMissed = 5e-3;       // of a volume, by which a shape may be wrong
 constexpr double kStill = 1e-12;       // m^3 from image to image, of liquid that rests
 constexpr double kGrowth = 0.03;       // of what is there: 0.1 mm of a bursa that is 10 mm open
 constexpr double kPressForce = 0.05;   // N by which a press is another
@@ -56,6 +59,28 @@ std::shared_ptr<const BodyMap> map_of(const CompiledJoint& shape, const Deformed
   if (before != nullptr && before->map && before->map->model == tissue.map().model)
     others.push_back({before->joint, before->map});
   return make_body_map(shape, others);
+}
+
+FluidShape make_shape(const std::shared_ptr<const CompiledJoint>& joint,
+                      std::vector<Injected> places, const Liquid& liquid,
+                      const OpenedSpaces& opened, const std::shared_ptr<const DeformedBody>& tissue,
+                      const FluidShape* before) {
+  FluidShape shape;
+  StressAt stress;
+  if (tissue && !tissue->contact().pieces.empty()) stress = FaceStress(tissue);
+  const double more = before != nullptr && stress ? before->more : 1;
+  for (Injected& place : places)
+    if (place.cavity) place.volume *= more;
+  shape.joint =
+      std::make_shared<const CompiledJoint>(with_injected(*joint, places, liquid, stress, opened));
+  if (!tissue) {
+    shape.scene = std::make_shared<const Scene>(shape.joint);
+    return shape;
+  }
+  shape.made = more;
+  shape.more = 1 / std::max(kLeastKept, kept_volume(*shape.joint, *joint, *tissue));
+  shape.map = map_of(*shape.joint, *tissue, before);
+  return shape;
 }
 
 }  // namespace
@@ -112,6 +137,11 @@ bool FluidShapes::is_at_rest(std::span<const InjectedSite> sites) const {
   return !differ(sites, seen_, kStill) && differ(sites, begun_, kVisible);
 }
 
+/// Whether a press takes so much of the newest shape that another should make up for it.
+bool FluidShapes::misses_volume() const {
+  return state_.shape && std::abs(state_.shape->more / state_.shape->made - 1) > kMissed;
+}
+
 /// Another shape of the same vertices is gone over into; what has others is there at once.
 void FluidShapes::take() {
   std::shared_ptr<const FluidShape> before = std::move(state_.shape);
@@ -143,25 +173,16 @@ const FluidState& FluidShapes::step(std::span<const InjectedSite> sites) {
 void FluidShapes::follow(std::span<const InjectedSite> sites,
                          const std::shared_ptr<const DeformedBody>& tissue) {
   const Press press = press_of(tissue.get());
-  const bool at_rest = is_at_rest(sites);
+  const bool wanted = is_at_rest(sites) || has_changed(sites, press) || misses_volume();
   seen_.assign(sites.begin(), sites.end());
-  if (sites.empty() || next_.valid() || !(at_rest || has_changed(sites, press))) return;
+  if (sites.empty() || next_.valid() || !wanted) return;
   due_ = images_ + (begun_.empty() ? images_to_change_ : images_to_grow_);
   begun_.assign(sites.begin(), sites.end());
   begun_under_ = press;
   next_ = std::async(std::launch::async,
                      [joint = joint_, liquid = liquid_, opened = opened_, tissue,
                       before = state_.shape, places = injected_of(*joint_, spaces_, begun_)] {
-                       FluidShape shape;
-                       StressAt stress;
-                       if (tissue && !tissue->contact().pieces.empty()) stress = FaceStress(tissue);
-                       shape.joint = std::make_shared<const CompiledJoint>(
-                           with_injected(*joint, places, liquid, stress, *opened));
-                       if (tissue)
-                         shape.map = map_of(*shape.joint, *tissue, before.get());
-                       else
-                         shape.scene = std::make_shared<const Scene>(shape.joint);
-                       return shape;
+                       return make_shape(joint, places, liquid, *opened, tissue, before.get());
                      });
 }
 

@@ -21,6 +21,8 @@ struct FluidShape {
   std::shared_ptr<const CompiledJoint> joint;
   std::shared_ptr<const Scene> scene;  ///< rigid; null: it gives way
   std::shared_ptr<const BodyMap> map;  ///< null: rigid
+  double made = 1;                     ///< times what was given that its spaces were opened by
+  double more = 1;  ///< times what was given that its spaces' next shape is opened by: see below
 };
 
 /// What there is of it in one image: one shape, or one on its way to the next.
@@ -43,8 +45,9 @@ struct FluidState {
 /// The shapes that liquid gives the body, image by image: spaces that open, squeezed by what the
 /// probe puts on them, and tissue that parts, as with_injected says. Each shape is made on a thread
 /// of its own and taken a fixed number of images later, never "when ready": a pure function of what
-/// it was given. Where tissue gives way a space goes over into its next shape as long as that is
-/// made. One thread.
+/// it was given. A press takes volume from an open space that liquid does not give: the next shape
+/// makes up for it (kept_volume). Where tissue gives way a space goes over into its next shape as
+/// long as that is made. One thread.
 class FluidShapes {
  public:
   /// `opened`: the joint's, shared with others; null: its own. Requires: a joint whose spaces are
@@ -72,6 +75,7 @@ class FluidShapes {
   };
   [[nodiscard]] static Press press_of(const DeformedBody* tissue);
   [[nodiscard]] bool has_changed(std::span<const InjectedSite> sites, const Press& press) const;
+  [[nodiscard]] bool misses_volume() const;
   [[nodiscard]] bool is_at_rest(std::span<const InjectedSite> sites) const;
   void take();
 

@@ -10,6 +10,7 @@
 
 #include "artus/detail/simulation/haptic_core.h"
 #include "artus/detail/simulation/image_core.h"
+#include "artus/detail/soft/liquid/kept_volume.h"
 #include "tests/session/session_support.h"
 #include "tests/support/layered_body.h"
 #include "tests/support/meshed_block.h"
@@ -193,6 +194,20 @@ TEST(FluidCore, IsInABodyThatGivesWayToTheProbeToo) {
   EXPECT_NE(filled.back(), empty.back());
 }
 
+/// m^3 of a region as its walls are in this scene.
+double volume(const Scene& scene, const std::string& name) {
+  const CompiledJoint body = scene.tissue() ? scene.tissue()->moved_joint() : scene.joint();
+  const RegionId region = test::region_named(body, name);
+  const auto& p = body.mesh.vertices;
+  double six = 0;
+  for (const Interface& f : body.mesh.interfaces)
+    if ((f.front == region) != (f.back == region))
+      six +=
+          (f.back == region ? 1 : -1) *
+          (p[f.vertices[0]] - p[0]).dot((p[f.vertices[1]] - p[0]).cross(p[f.vertices[2]] - p[0]));
+  return six / 6;
+}
+
 TEST(FluidCore, AProbeThatPressesSqueezesTheBursaAndMeetsTheSkinThatItLifts) {
   const auto scene = make_soft_scene();
   SessionParams params = test::make_small_session();
@@ -220,6 +235,8 @@ TEST(FluidCore, AProbeThatPressesSqueezesTheBursaAndMeetsTheSkinThatItLifts) {
   EXPECT_GT(force_at_rest(core.packet()->probe, scene->joint().X_JP_default).force, 0.02)
       << "the lens lifts the skin to the face";
   const double pressed = press(4e-3, 90);
+  EXPECT_NEAR(volume(*core.drawn_scene(), "bursa") - volume(*core.scene(), "bursa"), 3e-6, 0.03e-6)
+      << "a press takes no liquid";
   EXPECT_LT(pressed, 0.9 * touching);
   EXPECT_NEAR(press(-5e-3, 90), open, 0.02e-3) << "it comes back";
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "artus/detail/core/check.h"
 
@@ -25,10 +26,14 @@ const BeamStretch* beside(const BeamStretch& one, const std::vector<BeamStretch>
   return found;
 }
 
-/// By how much a wall goes on too far: a round one grows steep before it does so, a cut does not.
-double sudden(double step, double before, double behind) {
+/// By how much a wall goes too far from a beam to the next: a round one grows steep before it does
+/// so, a cut does not. `before`, `behind`: the same a beam away; none: it ends there.
+double sudden(double step, std::optional<double> before, std::optional<double> behind) {
   const double sign = step < 0 ? -1 : 1;
-  return std::max(0.0, std::abs(step) - kSteeper * std::max({0.0, sign * before, sign * behind}));
+  double least = before || behind ? std::abs(step) : 0;
+  for (const auto& other : {before, behind})
+    if (other) least = std::min(least, std::max(0.0, sign * *other));
+  return std::max(0.0, std::abs(step) - kSteeper * least);
 }
 
 /// The largest from one beam to the next, `before` and `behind` the beams that go on from there.
@@ -38,15 +43,19 @@ double step_to(const std::vector<BeamStretch>& before, const std::vector<BeamStr
   for (const BeamStretch& one : beam) {
     const BeamStretch* last = beside(one, before);
     const BeamStretch* other = beside(one, next);
-    const double roof = last == nullptr ? 0 : one.roof - last->roof;
-    const double floor = last == nullptr ? 0 : one.floor - last->floor;
+    using Step = std::optional<double>;
+    const Step roof = last ? Step(one.roof - last->roof) : Step();
+    const Step floor = last ? Step(one.floor - last->floor) : Step();
     if (other == nullptr) {  // both walls meet
-      step = std::max(step, sudden((one.floor - one.roof) / 2, std::max(roof, -floor), 0));
+      const Step narrower = last ? Step(std::max(*roof, -*floor)) : Step();
+      step = std::max(step, sudden((one.floor - one.roof) / 2, narrower, {}));
       continue;
     }
     const BeamStretch* far = beside(*other, behind);
-    step = std::max({step, sudden(other->roof - one.roof, roof, far ? far->roof - other->roof : 0),
-                     sudden(other->floor - one.floor, floor, far ? far->floor - other->floor : 0)});
+    const Step far_roof = far ? Step(far->roof - other->roof) : Step();
+    const Step far_floor = far ? Step(far->floor - other->floor) : Step();
+    step = std::max({step, sudden(other->roof - one.roof, roof, far_roof),
+                     sudden(other->floor - one.floor, floor, far_floor)});
   }
   return step;
 }

@@ -27,8 +27,8 @@ inline constexpr double kBeamSpacing = 0.2e-3;
 /// By how much a wall jumps from each beam to the next, m (n_beams - 1): the largest of roofs and
 /// floors of stretches that lie beside each other; of a stretch that has none beside it, half of
 /// its length, since its walls meet at once. Less three times what the same wall rises or falls
-/// the same way a beam before or behind: where a round wall lies along the beams it is as steep as
-/// one likes, but comes to it.
+/// the same way a beam before and behind, whichever is less: where a round wall lies along the
+/// beams it is as steep as one likes, but comes to it.
 [[nodiscard]] std::vector<double> wall_steps(const BeamWalls& walls);
 
 /// A wall that jumps though the body at rest does not.

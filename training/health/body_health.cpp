@@ -117,12 +117,14 @@ class Examination {
     Transducer wide = q_.transducer;
     ImageSettings settings = q_.settings;
     settings.pixel = kLabelPixel;
-    settings.depth += kMargin;
+    settings.depth += 2 * kMargin;
+    Pose X_JP = q_.X_JP;  // skin that rises past the face is seen
+    X_JP.translation() -= kMargin * X_JP.linear().col(2);
     const double margin = wide.radius == 0 ? kMargin : 0;
     wide.width += 2 * margin;
     const LabelRenderer renderer(wide, settings);
     const auto layout_of = [&](const Scene& scene, const std::vector<bool>& liquid) {
-      LabelImage labels = renderer.render(scene, q_.X_JP);
+      LabelImage labels = renderer.render(scene, X_JP);
       join_liquid(labels, liquid);
       const auto pixels = static_cast<int>(margin / kLabelPixel);
       const auto deep = static_cast<int>(kMargin / kLabelPixel);

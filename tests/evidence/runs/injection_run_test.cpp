@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "artus/detail/evidence/runs/injection_plan.h"
 #include "artus/detail/evidence/runs/injection_report.h"
 #include "artus/session/recording.h"
 #include "artus/session/replay.h"
@@ -33,6 +34,21 @@ InjectionSpec spec_into(const Scene& scene, const char* region, double volume) {
   spec.volume = volume;
   spec.rate = 0.2e-6;
   return spec;
+}
+
+TEST(InjectionPlan, ABursaOnTheLineIsMeantAndHasTheBevelInIt) {
+  const auto scene = shoulder_like();
+  InjectionSpec spec = spec_into(*scene, "bursa", 1e-6);
+  spec.into.reset();
+  const auto plan = plan_line(*scene, spec);
+  const auto spaces = make_joint_spaces(scene->joint());
+  ASSERT_TRUE(plan && spaces);
+  EXPECT_EQ(plan->region, test::region_named(scene->joint(), "bursa"));
+  EXPECT_NEAR(plan->layer.from, 14e-3, 1e-9);
+  EXPECT_NEAR(plan->layer.to, 16e-3, 1e-9);
+  EXPECT_NEAR(stop_on(*plan, spec, *spaces, 1e-3), 15.5e-3, 1e-9);
+  spec.press = -1;
+  EXPECT_FALSE(plan_line(*scene, spec));
 }
 
 TEST(InjectionRun, ATendonTakesAHandsForceAndABursaDoesNot) {

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#pragma once
+#include "artus/core/result.h"
+#include "artus/detail/anatomy/body/space.h"
+#include "artus/detail/evidence/runs/injection_run.h"
+#include "artus/raycast/scene.h"
+
+namespace artus {
+
+/// What lies on the line of an injection.
+struct LinePlan {
+  Vec3 direction = Vec3::UnitZ();
+  RegionId region = kOutside;  ///< to inject
+  bool by_name = false;        ///< or the target's own
+  LineLayer layer;             ///< of it, at rest
+};
+
+/// Where a spec's line goes. As in three-injections a bursa on it is what is meant, unless the
+/// target is in a cavity already. Errors: invalid (volume or rate not above 0, a press below 0,
+/// entry and target the same point, a target outside of the meshed body, a line that does not meet
+/// the structure).
+[[nodiscard]] Result<LinePlan> plan_line(const Scene& scene, const InjectionSpec& spec);
+
+/// m along the line where the tip stops, the bevel's opening (m) in the layer.
+[[nodiscard]] double stop_on(const LinePlan& plan, const InjectionSpec& spec,
+                             const JointSpaces& spaces, double opening);
+
+}  // namespace artus
