@@ -91,6 +91,8 @@ class OpenedSpace {
   [[nodiscard]] bool is_in(RegionId region) const;
   [[nodiscard]] std::vector<Triangle> walls_of(const TetMesh& mesh) const;
   [[nodiscard]] std::vector<SidedCage::Place> places_in(const TetMesh& mesh) const;
+  void place_boluses(const TetMesh& mesh, std::vector<bool>& known,
+                     std::vector<SidedCage::Place>& places) const;
   void find_places();
   [[nodiscard]] double thickness(const Flow& flow, double volume) const;
   [[nodiscard]] double reach_of(const Flow& flow, double volume) const;
