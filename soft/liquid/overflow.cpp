@@ -2,15 +2,21 @@
 #include "artus/detail/soft/liquid/overflow.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
-#include <map>
+#include <numbers>
 #include <optional>
+#include <span>
 
 #include "artus/detail/anatomy/body/find_region.h"
+#include "artus/detail/anatomy/body/space.h"
 
 namespace artus {
 namespace {
 
+constexpr int kRounds = 4;        // a full space spills into what may tear the next
+constexpr double kDrawn = 1e-9;   // m^3
 constexpr double kInto = 0.5e-3;  // m behind the wall, where it begins to part tissue
 
 /// What parts, next to a space.
@@ -47,24 +53,104 @@ std::optional<Beyond> tissue_beyond(const CompiledJoint& joint, const OpenedSpac
   return found;
 }
 
-}  // namespace
+/// m from a point to a triangle: across it, or to the nearest corner.
+double distance_to(const std::array<Vec3, 3>& t, const Vec3& p) {
+  const Vec3 normal = (t[1] - t[0]).cross(t[2] - t[0]);
+  bool over = normal.norm() > 0;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < 3; ++k) {
+    over = over && (t[(k + 1) % 3] - t[k]).cross(p - t[k]).dot(normal) >= 0;
+    nearest = std::min(nearest, (p - t[k]).norm());
+  }
+  return over ? std::abs((p - t[0]).dot(normal.normalized())) : nearest;
+}
 
-std::vector<Injected> with_overflow(const OpenedSpaces& spaces, std::vector<Injected> places) {
+/// m to either side of the tip, of liquid that parts tissue there.
+double half_thickness(const CompiledJoint& joint, RegionId region, const Injected& place) {
+  const Bolus bolus = make_boluses(joint, region, place.tip, place.volume).back();
+  constexpr double kBall = 4 * std::numbers::pi / 3;
+  return std::cbrt(bolus.volume / (kBall * bolus.proportion.prod())) * bolus.proportion.z();
+}
+
+/// The cavity that it tears, and where its walls are nearest.
+std::optional<Beyond> cavity_beside(const CompiledJoint& joint, const JointSpaces& spaces,
+                                    const Vec3& tip, double reach) {
+  const auto is_cavity = [&](RegionId r) {
+    return r >= kFirstRegion && spaces.spaces[spaces.of_region[r]].law.kind == SpaceKind::cavity;
+  };
+  std::optional<Beyond> found;
+  for (const Interface& f : joint.mesh.interfaces) {
+    if (is_cavity(f.front) == is_cavity(f.back)) continue;
+    const auto& p = joint.mesh.vertices;
+    const std::array<Vec3, 3> t{p[f.vertices[0]], p[f.vertices[1]], p[f.vertices[2]]};
+    const double away = distance_to(t, tip);
+    if (away >= reach) continue;
+    reach = away;
+    found = Beyond{is_cavity(f.front) ? f.front : f.back, (t[0] + t[1] + t[2]) / 3};
+  }
+  return found;
+}
+
+/// m^3 that a cavity still takes.
+double room_in(const OpenedSpace& space, const CompiledJoint& joint,
+               std::span<const Injected> places) {
+  double room = space.max_volume();
+  for (const Injected& place : places) {
+    const auto region = find_region(joint, place.region);
+    const auto in = space.regions();
+    if (place.cavity && region && std::find(in.begin(), in.end(), *region) != in.end())
+      room -= place.volume;
+  }
+  return room;
+}
+
+/// Whether one did.
+bool tear_films(const OpenedSpaces& spaces, const JointSpaces& laws,
+                std::vector<Injected>& places) {
   const CompiledJoint& joint = spaces.joint();
-  std::map<const OpenedSpace*, double> room;
-  const std::size_t n = places.size();
-  for (std::size_t k = 0; k < n; ++k) {
+  bool torn = false;
+  for (Injected& place : places) {
+    const auto region = find_region(joint, place.region);
+    if (place.cavity || !region || !(place.volume > kDrawn)) continue;
+    const double half = half_thickness(joint, *region, place);
+    const auto beside = cavity_beside(joint, laws, place.tip, half);
+    if (!beside || room_in(spaces.of(beside->region), joint, places) < place.volume) continue;
+    place.region = joint.regions[beside->region].name;
+    place.cavity = true;
+    place.tip = beside->p;
+    torn = true;
+  }
+  return torn;
+}
+
+/// Whether one did.
+bool spill(const OpenedSpaces& spaces, std::vector<Injected>& places) {
+  const CompiledJoint& joint = spaces.joint();
+  bool spilt = false;
+  for (std::size_t k = places.size(); k-- > 0;) {
     const auto region = find_region(joint, places[k].region);
     if (!places[k].cavity || !region) continue;
     const OpenedSpace& space = spaces.of(*region);
-    double& left = room.try_emplace(&space, space.max_volume()).first->second;
-    const double more = places[k].volume - left;
-    left = std::max(0.0, -more);
-    if (!(more > 0)) continue;
+    const double more = std::min(-room_in(space, joint, places), places[k].volume);
+    if (!(more > kDrawn)) continue;
     const auto beyond = tissue_beyond(joint, space, places[k].tip);
     if (!beyond) continue;
     places[k].volume -= more;
     places.push_back({joint.regions[beyond->region].name, more, false, beyond->p, 0});
+    spilt = true;
+  }
+  return spilt;
+}
+
+}  // namespace
+
+std::vector<Injected> with_overflow(const OpenedSpaces& spaces, std::vector<Injected> places) {
+  const auto laws = make_joint_spaces(spaces.joint());
+  if (!laws) return places;
+  for (int round = 0; round < kRounds; ++round) {
+    const bool torn = tear_films(spaces, *laws, places);
+    const bool spilt = spill(spaces, places);
+    if (!torn && !spilt) break;
   }
   return places;
 }
