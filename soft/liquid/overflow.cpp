@@ -15,9 +15,10 @@
 namespace artus {
 namespace {
 
-constexpr int kRounds = 4;        // a full space spills into what may tear the next
-constexpr double kDrawn = 1e-9;   // m^3
-constexpr double kInto = 0.5e-3;  // m behind the wall, where it begins to part tissue
+constexpr int kRounds = 4;               // a full space spills into what may tear the next
+constexpr double kHoldingFilm = 0.5e-3;  // m of tissue that tears; assumed
+constexpr double kDrawn = 1e-9;          // m^3
+constexpr double kInto = 0.5e-3;         // m behind the wall, where it begins to part tissue
 
 /// What parts, next to a space.
 struct Beyond {
@@ -112,8 +113,8 @@ bool tear_films(const OpenedSpaces& spaces, const JointSpaces& laws,
   for (Injected& place : places) {
     const auto region = find_region(joint, place.region);
     if (place.cavity || !region || !(place.volume > kDrawn)) continue;
-    const double half = half_thickness(joint, *region, place);
-    const auto beside = cavity_beside(joint, laws, place.tip, half);
+    const double reach = half_thickness(joint, *region, place) + kHoldingFilm;
+    const auto beside = cavity_beside(joint, laws, place.tip, reach);
     if (!beside || room_in(spaces.of(beside->region), joint, places) < place.volume) continue;
     place.region = joint.regions[beside->region].name;
     place.cavity = true;
