@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+#include <algorithm>
 #include <array>
 #include <mutex>
 #include <optional>
@@ -44,6 +45,15 @@ std::string_view short_name(std::string_view name) {
   return name;
 }
 
+/// Look by its name.
+Look look_of(const py::handle& value) {
+  const auto name = py::cast<std::string>(value);
+  const auto at = std::find(kLookNames.begin(), kLookNames.end(), name);
+  if (at == kLookNames.end())
+    throw py::value_error("look must be raw, clinical or compound, not '" + name + "'");
+  return static_cast<Look>(at - kLookNames.begin());
+}
+
 /// A value by keyword, given to the setting of that name. Unknown ones are refused with all names.
 void take_setting(const std::string& key, const py::handle& value, Transducer& transducer,
                   ImageSettings& settings) {
@@ -54,6 +64,12 @@ void take_setting(const std::string& key, const py::handle& value, Transducer& t
     names += (names.empty() ? "" : ", ") + std::string(shown);
     if (key != shown) return;
     try {
+      using Member = std::remove_reference_t<decltype(member)>;
+      if constexpr (std::is_same_v<Member, Look>) {
+        member = look_of(value);
+        taken = true;
+        return;
+      }
       member = py::cast<std::remove_reference_t<decltype(member)>>(value);
     } catch (const py::cast_error&) {
       throw py::type_error(key + " cannot be " + std::string(py::repr(value)));
