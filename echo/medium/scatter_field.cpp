@@ -102,6 +102,48 @@ void add_scatterers(const Scatterers& scatterers, const LatticeRows& rows, const
     add_scatterer(scatterers, {rows.x[i], rows.y[i], rows.z[i]}, gain[i], re[i], im[i]);
 }
 
+/// Another hash of a cell, from its first.
+inline std::uint32_t hash_again(std::uint32_t h, std::uint32_t factor) noexcept {
+  h = (h ^ (h >> 16U)) * factor;
+  return h ^ (h >> 15U);
+}
+
+/// Parts of the echoes of one line's further sets.
+struct MoreRows {
+  float* re1;
+  float* im1;
+  float* re2;
+  float* im2;
+};
+
+/// Along any walk, with the differences that two other sets make.
+ARTUS_SIMD
+void add_scatterer_sets(const Scatterers& scatterers, const LatticeRows& rows, const float* gain,
+                        float* re, float* im, const MoreRows& more, std::size_t n) noexcept {
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::uint32_t z = rows.z[i] >> 16U;
+    const float behind = static_cast<float>(rows.z[i] & 0xffffU) * (1.0F / 65536);
+    const float before = 1 - behind;
+    const float g = gain[i] * (scatterers.unit / std::sqrt(before * before + behind * behind));
+    const float g0 = g * before;
+    const float g1 = g * behind;
+    const std::uint32_t a = hash_row(rows.x[i], rows.y[i], z, scatterers.seed);
+    const std::uint32_t b = hash_row(rows.x[i], rows.y[i], z + 1, scatterers.seed);
+    const float own_re = g0 * difference(a) + g1 * difference(b);
+    const float own_im = g0 * difference(a >> 16U) + g1 * difference(b >> 16U);
+    re[i] += own_re;
+    im[i] += own_im;
+    const std::uint32_t a1 = hash_again(a, 0x7feb352dU);
+    const std::uint32_t b1 = hash_again(b, 0x7feb352dU);
+    more.re1[i] += g0 * difference(a1) + g1 * difference(b1) - own_re;
+    more.im1[i] += g0 * difference(a1 >> 16U) + g1 * difference(b1 >> 16U) - own_im;
+    const std::uint32_t a2 = hash_again(a, 0x846ca68bU);
+    const std::uint32_t b2 = hash_again(b, 0x846ca68bU);
+    more.re2[i] += g0 * difference(a2) + g1 * difference(b2) - own_re;
+    more.im2[i] += g0 * difference(a2 >> 16U) + g1 * difference(b2 >> 16U) - own_im;
+  }
+}
+
 constexpr std::uint32_t kWalkLanes = 16;
 
 /// A straight walk's coordinates, up to a full multiple of kWalkLanes.
@@ -205,28 +247,63 @@ void ScatterRoom::resize(std::size_t n) {
   for (auto& row : cells_) row.resize(n + kWalkLanes);
 }
 
+namespace {
+
+/// For each lattice and each stretch of it that is covered without a gap, up to `n` samples long:
+/// add_stretch(scatterers, rows, begin, end) with the stretch's cells in `rows`.
+template <class AddStretch>
+void for_stretches(const ScatterView& view, std::span<const ScatterPiece> pieces,
+                   const std::array<std::uint32_t*, 3>& cells,
+                   const AddStretch& add_stretch) noexcept {
+  const auto [x, y, z] = cells;
+  for (std::size_t k = 0; k < view.size; ++k) {
+    const ScatterView::Lattice& lattice = view.lattices[k];
+    const Scatterers scatterers{lattice.seed, kUnitPower * lattice.weight};
+    for (std::size_t i = 0; i < pieces.size();) {
+      const std::size_t begin = pieces[i].begin;
+      std::size_t end = begin;
+      for (; i < pieces.size() && pieces[i].begin == end; ++i) {
+        const LatticeWalk walk = make_walk(lattice, pieces[i].p_J, pieces[i].step_J);
+        const std::size_t n = pieces[i].end - end;
+        walk_rows(walk, x + end, y + end, z + end, n);
+        end = pieces[i].end;
+      }
+      add_stretch(scatterers, LatticeRows{x + begin, y + begin, z + begin}, begin, end);
+    }
+  }
+}
+
+}  // namespace
+
 void ScatterField::add(const ScatterView& view, std::span<const ScatterPiece> pieces,
                        std::span<const float> gain, ScatterRoom& room, std::span<float> re,
                        std::span<float> im) noexcept {
   ARTUS_ASSERT(gain.size() == re.size() && gain.size() == im.size());
   ARTUS_ASSERT(room.cells_[0].size() >= gain.size() + kWalkLanes);
   auto& [x, y, z] = room.cells_;
-  for (std::size_t k = 0; k < view.size; ++k) {
-    const ScatterView::Lattice& lattice = view.lattices[k];
-    const Scatterers scatterers{lattice.seed, kUnitPower * lattice.weight};
-    for (std::size_t i = 0; i < pieces.size();) {
-      const std::size_t begin = pieces[i].begin;  // of what is covered without a gap
-      std::size_t end = begin;
-      for (; i < pieces.size() && pieces[i].begin == end; ++i) {
-        const LatticeWalk walk = make_walk(lattice, pieces[i].p_J, pieces[i].step_J);
-        const std::size_t n = pieces[i].end - end;
-        walk_rows(walk, x.data() + end, y.data() + end, z.data() + end, n);
-        end = pieces[i].end;
-      }
-      add_scatterers(scatterers, LatticeRows{x.data() + begin, y.data() + begin, z.data() + begin},
-                     gain.data() + begin, re.data() + begin, im.data() + begin, end - begin);
-    }
-  }
+  for_stretches(view, pieces, {x.data(), y.data(), z.data()},
+                [&](const Scatterers& scatterers, const LatticeRows& rows, std::size_t begin,
+                    std::size_t end) {
+                  add_scatterers(scatterers, rows, gain.data() + begin, re.data() + begin,
+                                 im.data() + begin, end - begin);
+                });
+}
+
+void ScatterField::add(const ScatterView& view, std::span<const ScatterPiece> pieces,
+                       std::span<const float> gain, ScatterRoom& room, EchoSpan echoes,
+                       const MoreSets& more) noexcept {
+  ARTUS_ASSERT(gain.size() == echoes.size());
+  ARTUS_ASSERT(room.cells_[0].size() >= gain.size() + kWalkLanes);
+  auto& [x, y, z] = room.cells_;
+  for_stretches(view, pieces, {x.data(), y.data(), z.data()},
+                [&](const Scatterers& scatterers, const LatticeRows& rows, std::size_t begin,
+                    std::size_t end) {
+                  const MoreRows others{more[0].re.data() + begin, more[0].im.data() + begin,
+                                        more[1].re.data() + begin, more[1].im.data() + begin};
+                  add_scatterer_sets(scatterers, rows, gain.data() + begin,
+                                     echoes.re.data() + begin, echoes.im.data() + begin, others,
+                                     end - begin);
+                });
 }
 
 double ScatterField::shared(double distance, double cell) noexcept {
