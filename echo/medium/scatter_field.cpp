@@ -108,18 +108,12 @@ inline std::uint32_t hash_again(std::uint32_t h, std::uint32_t factor) noexcept 
   return h ^ (h >> 15U);
 }
 
-/// Parts of the echoes of one line's further sets.
-struct MoreRows {
-  float* re1;
-  float* im1;
-  float* re2;
-  float* im2;
-};
-
 /// Along any walk, with the differences that two other sets make.
 ARTUS_SIMD
-void add_scatterer_sets(const Scatterers& scatterers, const LatticeRows& rows, const float* gain,
-                        float* re, float* im, const MoreRows& more, std::size_t n) noexcept {
+void add_scatterer_sets(const Scatterers& scatterers, const LatticeRows& rows,
+                        const float* __restrict gain, float* __restrict re, float* __restrict im,
+                        float* __restrict re1, float* __restrict im1, float* __restrict re2,
+                        float* __restrict im2, std::size_t n) noexcept {
   for (std::size_t i = 0; i < n; ++i) {
     const std::uint32_t z = rows.z[i] >> 16U;
     const float behind = static_cast<float>(rows.z[i] & 0xffffU) * (1.0F / 65536);
@@ -135,12 +129,12 @@ void add_scatterer_sets(const Scatterers& scatterers, const LatticeRows& rows, c
     im[i] += own_im;
     const std::uint32_t a1 = hash_again(a, 0x7feb352dU);
     const std::uint32_t b1 = hash_again(b, 0x7feb352dU);
-    more.re1[i] += g0 * difference(a1) + g1 * difference(b1) - own_re;
-    more.im1[i] += g0 * difference(a1 >> 16U) + g1 * difference(b1 >> 16U) - own_im;
+    re1[i] += g0 * difference(a1) + g1 * difference(b1) - own_re;
+    im1[i] += g0 * difference(a1 >> 16U) + g1 * difference(b1 >> 16U) - own_im;
     const std::uint32_t a2 = hash_again(a, 0x846ca68bU);
     const std::uint32_t b2 = hash_again(b, 0x846ca68bU);
-    more.re2[i] += g0 * difference(a2) + g1 * difference(b2) - own_re;
-    more.im2[i] += g0 * difference(a2 >> 16U) + g1 * difference(b2 >> 16U) - own_im;
+    re2[i] += g0 * difference(a2) + g1 * difference(b2) - own_re;
+    im2[i] += g0 * difference(a2 >> 16U) + g1 * difference(b2 >> 16U) - own_im;
   }
 }
 
@@ -298,10 +292,10 @@ void ScatterField::add(const ScatterView& view, std::span<const ScatterPiece> pi
   for_stretches(view, pieces, {x.data(), y.data(), z.data()},
                 [&](const Scatterers& scatterers, const LatticeRows& rows, std::size_t begin,
                     std::size_t end) {
-                  const MoreRows others{more[0].re.data() + begin, more[0].im.data() + begin,
-                                        more[1].re.data() + begin, more[1].im.data() + begin};
                   add_scatterer_sets(scatterers, rows, gain.data() + begin,
-                                     echoes.re.data() + begin, echoes.im.data() + begin, others,
+                                     echoes.re.data() + begin, echoes.im.data() + begin,
+                                     more[0].re.data() + begin, more[0].im.data() + begin,
+                                     more[1].re.data() + begin, more[1].im.data() + begin,
                                      end - begin);
                 });
 }
