@@ -10,6 +10,7 @@
 #include <pybind11/stl.h>
 
 #include "artus/detail/echo/display/image_fields.h"
+#include "artus/detail/echo/probe/grey_curve_file.h"
 #include "artus/detail/python/borders.h"
 #include "artus/echo/labels.h"
 #include "artus/echo/renderer.h"
@@ -57,6 +58,10 @@ Look look_of(const py::handle& value) {
 /// A value by keyword, given to the setting of that name. Unknown ones are refused with all names.
 void take_setting(const std::string& key, const py::handle& value, Transducer& transducer,
                   ImageSettings& settings) {
+  if (key == "grey_curve") {
+    settings.grey_curve = value_of(find_grey_curve(py::cast<std::string>(value))).curve;
+    return;
+  }
   bool taken = false;
   std::string names;
   const auto visit = [&](const std::string& name, auto& member) {

@@ -66,6 +66,23 @@ void add_threads_option(Command* command, int& threads) {
       ->capture_default_str();
 }
 
+namespace {
+
+void add_look_options(Command* command, ViewOptions& options) {
+  command
+      ->add_option("--look", options.look,
+                   "what the scanner makes of the echoes: raw, clinical (clutter, grey curve, "
+                   "speckle reduction, grain) or compound (clinical with averaged speckle)")
+      ->one_of({"raw", "clinical", "compound"})
+      ->capture_default_str();
+  command
+      ->add_option("--grey-curve", options.grey_curve,
+                   "clinical, linear, hard, or a .toml file; not of the raw look")
+      ->capture_default_str();
+}
+
+}  // namespace
+
 void add_imaging_options(Command* command, ViewOptions& options) {
   command
       ->add_option("--transducer", options.transducer,
@@ -109,16 +126,7 @@ void add_imaging_options(Command* command, ViewOptions& options) {
   command->add_option("--smoothing", options.smoothing, "0 none .. 1, of the compressed lines")
       ->check(within(ImageRanges::smoothing))
       ->capture_default_str();
-  command
-      ->add_option("--look", options.look,
-                   "what the scanner makes of the echoes: raw, clinical (clutter, grey curve, "
-                   "speckle reduction, grain) or compound (clinical with averaged speckle)")
-      ->one_of({"raw", "clinical", "compound"})
-      ->capture_default_str();
-  command
-      ->add_option("--grey-curve", options.grey_curve,
-                   "clinical, linear, hard, or a .toml file; not of the raw look")
-      ->capture_default_str();
+  add_look_options(command, options);
   command
       ->add_option("--compound", options.compound,
                    "steered frames that are averaged, an odd number; 1: none")

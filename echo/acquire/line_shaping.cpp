@@ -22,13 +22,19 @@ void detect(const float* re, const float* im, const float* gain, float* envelope
   }
 }
 
-/// Adds the envelope of (re + more_re, im + more_im) to the one there, and scales the sum.
+/// A line's echoes.
+struct EchoRow {
+  const float* re;
+  const float* im;
+};
+
+/// Adds the envelope of `own` plus `more` to the one there, and scales the sum.
 ARTUS_SIMD
-void add_detected(const float* re, const float* im, const float* more_re, const float* more_im,
-                  const float* gain, float scale, float* envelope, std::size_t n) noexcept {
+void add_detected(const EchoRow& own, const EchoRow& more, const float* gain, float scale,
+                  float* envelope, std::size_t n) noexcept {
   for (std::size_t i = 0; i < n; ++i) {
-    const float a = re[i] + more_re[i];
-    const float b = im[i] + more_im[i];
+    const float a = own.re[i] + more.re[i];
+    const float b = own.im[i] + more.im[i];
     envelope[i] = scale * (envelope[i] + gain[i] * std::sqrt(a * a + b * b));
   }
 }
@@ -108,8 +114,9 @@ void LineShaping::average(const Acquisition& acquired, int l, Frame& frame) {
     shape_->across(acquired.more_quadrature()[k], acquired.n_lines(), l, wide);
     shape_->along(wide, im);
     const float scale = k + 1 == sets ? 1 / static_cast<float>(sets + 1) : 1.0F;
-    add_detected(row(frame.in_phase, l, n).data(), row(frame.quadrature, l, n).data(), re.data(),
-                 im.data(), time_gain_.data(), scale, row(frame.envelope, l, n).data(), n);
+    add_detected({row(frame.in_phase, l, n).data(), row(frame.quadrature, l, n).data()},
+                 {re.data(), im.data()}, time_gain_.data(), scale, row(frame.envelope, l, n).data(),
+                 n);
   }
 }
 

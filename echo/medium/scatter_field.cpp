@@ -108,33 +108,44 @@ inline std::uint32_t hash_again(std::uint32_t h, std::uint32_t factor) noexcept 
   return h ^ (h >> 15U);
 }
 
-/// Along any walk, with the differences that two other sets make.
+/// Where the echoes go: in phase and quadrature of the first set, then of the others' differences.
+using SetRows = std::array<float*, 2 + 2 * ScatterField::kMoreSets>;
+
+constexpr std::size_t kSetLanes = 64;
+
+/// Along any walk, with the differences that two other sets make. What a few samples get is held
+/// apart until it is added: six rows that might overlap would not vectorise.
 ARTUS_SIMD
-void add_scatterer_sets(const Scatterers& scatterers, const LatticeRows& rows,
-                        const float* __restrict gain, float* __restrict re, float* __restrict im,
-                        float* __restrict re1, float* __restrict im1, float* __restrict re2,
-                        float* __restrict im2, std::size_t n) noexcept {
-  for (std::size_t i = 0; i < n; ++i) {
-    const std::uint32_t z = rows.z[i] >> 16U;
-    const float behind = static_cast<float>(rows.z[i] & 0xffffU) * (1.0F / 65536);
-    const float before = 1 - behind;
-    const float g = gain[i] * (scatterers.unit / std::sqrt(before * before + behind * behind));
-    const float g0 = g * before;
-    const float g1 = g * behind;
-    const std::uint32_t a = hash_row(rows.x[i], rows.y[i], z, scatterers.seed);
-    const std::uint32_t b = hash_row(rows.x[i], rows.y[i], z + 1, scatterers.seed);
-    const float own_re = g0 * difference(a) + g1 * difference(b);
-    const float own_im = g0 * difference(a >> 16U) + g1 * difference(b >> 16U);
-    re[i] += own_re;
-    im[i] += own_im;
-    const std::uint32_t a1 = hash_again(a, 0x7feb352dU);
-    const std::uint32_t b1 = hash_again(b, 0x7feb352dU);
-    re1[i] += g0 * difference(a1) + g1 * difference(b1) - own_re;
-    im1[i] += g0 * difference(a1 >> 16U) + g1 * difference(b1 >> 16U) - own_im;
-    const std::uint32_t a2 = hash_again(a, 0x846ca68bU);
-    const std::uint32_t b2 = hash_again(b, 0x846ca68bU);
-    re2[i] += g0 * difference(a2) + g1 * difference(b2) - own_re;
-    im2[i] += g0 * difference(a2 >> 16U) + g1 * difference(b2 >> 16U) - own_im;
+void add_scatterer_sets(const Scatterers& scatterers, const LatticeRows& rows, const float* gain,
+                        const SetRows& out, std::size_t n) noexcept {
+  float held[6][kSetLanes];
+  for (std::size_t from = 0; from < n; from += kSetLanes) {
+    const std::size_t lanes = std::min(kSetLanes, n - from);
+    for (std::size_t j = 0; j < lanes; ++j) {
+      const std::size_t i = from + j;
+      const std::uint32_t z = rows.z[i] >> 16U;
+      const float behind = static_cast<float>(rows.z[i] & 0xffffU) * (1.0F / 65536);
+      const float before = 1 - behind;
+      const float g = gain[i] * (scatterers.unit / std::sqrt(before * before + behind * behind));
+      const float g0 = g * before;
+      const float g1 = g * behind;
+      const std::uint32_t a = hash_row(rows.x[i], rows.y[i], z, scatterers.seed);
+      const std::uint32_t b = hash_row(rows.x[i], rows.y[i], z + 1, scatterers.seed);
+      const float re = g0 * difference(a) + g1 * difference(b);
+      const float im = g0 * difference(a >> 16U) + g1 * difference(b >> 16U);
+      const std::uint32_t a1 = hash_again(a, 0x7feb352dU);
+      const std::uint32_t b1 = hash_again(b, 0x7feb352dU);
+      const std::uint32_t a2 = hash_again(a, 0x846ca68bU);
+      const std::uint32_t b2 = hash_again(b, 0x846ca68bU);
+      held[0][j] = re;
+      held[1][j] = im;
+      held[2][j] = g0 * difference(a1) + g1 * difference(b1) - re;
+      held[3][j] = g0 * difference(a1 >> 16U) + g1 * difference(b1 >> 16U) - im;
+      held[4][j] = g0 * difference(a2) + g1 * difference(b2) - re;
+      held[5][j] = g0 * difference(a2 >> 16U) + g1 * difference(b2 >> 16U) - im;
+    }
+    for (std::size_t k = 0; k < out.size(); ++k)
+      for (std::size_t j = 0; j < lanes; ++j) out[k][from + j] += held[k][j];
   }
 }
 
@@ -292,11 +303,12 @@ void ScatterField::add(const ScatterView& view, std::span<const ScatterPiece> pi
   for_stretches(view, pieces, {x.data(), y.data(), z.data()},
                 [&](const Scatterers& scatterers, const LatticeRows& rows, std::size_t begin,
                     std::size_t end) {
-                  add_scatterer_sets(scatterers, rows, gain.data() + begin,
-                                     echoes.re.data() + begin, echoes.im.data() + begin,
-                                     more[0].re.data() + begin, more[0].im.data() + begin,
-                                     more[1].re.data() + begin, more[1].im.data() + begin,
-                                     end - begin);
+                  SetRows out{echoes.re.data() + begin, echoes.im.data() + begin};
+                  for (std::size_t k = 0; k < more.size(); ++k) {
+                    out[2 + 2 * k] = more[k].re.data() + begin;
+                    out[3 + 2 * k] = more[k].im.data() + begin;
+                  }
+                  add_scatterer_sets(scatterers, rows, gain.data() + begin, out, end - begin);
                 });
 }
 
