@@ -13,7 +13,7 @@ namespace artus {
 namespace {
 
 constexpr double kHeardBeside = 0.25;  // of the aperture, to either side of a line. assumed
-constexpr double kMostRaised = 10;     // a ray that lost more than 20 dB has lost its way
+constexpr double kMostRaised = 2;      // beyond 6 dB other planes already carry the echo. assumed
 constexpr double kUnheard = 1.03;      // gains up to this are not worth applying
 constexpr int kEvery = 2;              // lines between those that are asked
 constexpr float kEnded = -1;
