@@ -37,7 +37,9 @@ constexpr double kTe7Pixel = 0.0977e-3;
 
 Result<cv::Mat> read_real(const std::filesystem::path& folder, const RealPicture& real) {
   const std::filesystem::path file = folder / real.file;
-  const cv::Mat whole = cv::imread(file.string(), cv::IMREAD_GRAYSCALE);
+  cv::Mat whole;
+  if (std::filesystem::is_regular_file(file))
+    whole = cv::imread(file.string(), cv::IMREAD_GRAYSCALE);
   if (whole.empty())
     return fail(ErrorCode::not_found, "no picture there; give the folder that holds it",
                 file.string());
