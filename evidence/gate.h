@@ -26,12 +26,12 @@ struct GateOptions {
   bool tissue = false;  ///< needle experiments also in tissue that gives way, reported beside
   std::filesystem::path mock;  ///< TOML file of the pneumatic probe mock; empty: the bundled one
   std::shared_ptr<const CompiledJoint> joint;  ///< for gates of a joint; may be null
-  std::filesystem::path reference;             ///< table of real muscle images; empty: none
+  std::filesystem::path reference;             ///< real pictures: a folder, or their table
   std::vector<std::string> reference_rows;     ///< how the names of its images begin; empty: all
 };
 
 /// What a gate cannot be measured without.
-enum class GateNeeds : std::uint8_t { nothing, joint, joint_and_reference };
+enum class GateNeeds : std::uint8_t { nothing, joint, joint_and_reference, reference };
 
 /// An entry of the table of all gates.
 struct GateEntry {

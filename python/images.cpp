@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+#include <algorithm>
 #include <array>
 #include <mutex>
 #include <optional>
@@ -9,6 +10,7 @@
 #include <pybind11/stl.h>
 
 #include "artus/detail/echo/display/image_fields.h"
+#include "artus/detail/echo/probe/grey_curve_file.h"
 #include "artus/detail/python/borders.h"
 #include "artus/echo/labels.h"
 #include "artus/echo/renderer.h"
@@ -44,9 +46,22 @@ std::string_view short_name(std::string_view name) {
   return name;
 }
 
+/// Look by its name.
+Look look_of(const py::handle& value) {
+  const auto name = py::cast<std::string>(value);
+  const auto at = std::find(kLookNames.begin(), kLookNames.end(), name);
+  if (at == kLookNames.end())
+    throw py::value_error("look must be raw, clinical or compound, not '" + name + "'");
+  return static_cast<Look>(at - kLookNames.begin());
+}
+
 /// A value by keyword, given to the setting of that name. Unknown ones are refused with all names.
 void take_setting(const std::string& key, const py::handle& value, Transducer& transducer,
                   ImageSettings& settings) {
+  if (key == "grey_curve") {
+    settings.grey_curve = value_of(find_grey_curve(py::cast<std::string>(value))).curve;
+    return;
+  }
   bool taken = false;
   std::string names;
   const auto visit = [&](const std::string& name, auto& member) {
@@ -54,6 +69,12 @@ void take_setting(const std::string& key, const py::handle& value, Transducer& t
     names += (names.empty() ? "" : ", ") + std::string(shown);
     if (key != shown) return;
     try {
+      using Member = std::remove_reference_t<decltype(member)>;
+      if constexpr (std::is_same_v<Member, Look>) {
+        member = look_of(value);
+        taken = true;
+        return;
+      }
       member = py::cast<std::remove_reference_t<decltype(member)>>(value);
     } catch (const py::cast_error&) {
       throw py::type_error(key + " cannot be " + std::string(py::repr(value)));

@@ -7,6 +7,7 @@
 #include "artus/detail/apps/options/arguments.h"
 #include "artus/detail/apps/options/command.h"
 #include "artus/detail/core/units.h"
+#include "artus/detail/echo/probe/grey_curve_file.h"
 #include "artus/detail/echo/probe/setting_ranges.h"
 #include "artus/echo/transducer_file.h"
 
@@ -23,6 +24,11 @@ FlagCheck within(const Range& range, double unit = 1) {
 }
 FlagCheck whole_within(const Range& range) {
   return whole_number_in(std::lround(range.low), std::lround(range.high));
+}
+
+Look look_of(const std::string& name) {
+  const auto at = std::find(kLookNames.begin(), kLookNames.end(), name);
+  return static_cast<Look>(at - kLookNames.begin());
 }
 
 Result<Transducer> make_transducer(const ViewOptions& options) {
@@ -59,6 +65,23 @@ void add_threads_option(Command* command, int& threads) {
       ->check(whole_within(ImageRanges::n_threads))
       ->capture_default_str();
 }
+
+namespace {
+
+void add_look_options(Command* command, ViewOptions& options) {
+  command
+      ->add_option("--look", options.look,
+                   "what the scanner makes of the echoes: raw, clinical (clutter, grey curve, "
+                   "speckle reduction, grain) or compound (clinical with averaged speckle)")
+      ->one_of({"raw", "clinical", "compound"})
+      ->capture_default_str();
+  command
+      ->add_option("--grey-curve", options.grey_curve,
+                   "clinical, linear, hard, or a .toml file; not of the raw look")
+      ->capture_default_str();
+}
+
+}  // namespace
 
 void add_imaging_options(Command* command, ViewOptions& options) {
   command
@@ -103,6 +126,7 @@ void add_imaging_options(Command* command, ViewOptions& options) {
   command->add_option("--smoothing", options.smoothing, "0 none .. 1, of the compressed lines")
       ->check(within(ImageRanges::smoothing))
       ->capture_default_str();
+  add_look_options(command, options);
   command
       ->add_option("--compound", options.compound,
                    "steered frames that are averaged, an odd number; 1: none")
@@ -159,6 +183,10 @@ Result<View> make_view(const ViewOptions& options) {
   view.settings.pixel = options.pixel_mm * kMillimetre;
   view.settings.smoothing = options.smoothing;
   view.settings.compound_angles = options.compound;
+  view.settings.look = look_of(options.look);
+  const auto curve = find_grey_curve(options.grey_curve);
+  ARTUS_TRY(curve);
+  view.settings.grey_curve = curve->curve;
   view.settings.n_planes = options.planes;
   view.settings.n_threads = options.threads;
   view.settings.seed = options.seed;

@@ -31,6 +31,8 @@ struct ViewOptions {
   double dynamic_range_db = ImageSettings{}.dynamic_range_db;
   double pixel_mm = 0.1;
   double smoothing = 0;
+  std::string look = look_name(ImageSettings{}.look);
+  std::string grey_curve = "clinical";
   int compound = 1;
   int planes = ImageSettings{}.n_planes;
   int threads = 0;

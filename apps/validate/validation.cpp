@@ -147,10 +147,21 @@ void print_list() {
       if (entry.set == set.name)
         std::printf("  %-20s %s%s\n", std::string(entry.name).c_str(),
                     std::string(entry.title).c_str(),
-                    entry.needs == GateNeeds::nothing ? ""
-                    : entry.needs == GateNeeds::joint ? " (with -j)"
-                                                      : " (with -j and --reference)");
+                    entry.needs == GateNeeds::nothing     ? ""
+                    : entry.needs == GateNeeds::joint     ? " (with -j)"
+                    : entry.needs == GateNeeds::reference ? " (with --reference DIR)"
+                                                          : " (with -j and --reference)");
   }
+}
+
+/// Says what of the sets cannot be measured for want of real pictures.
+void tell_skipped(const std::vector<Plan>& plans, const GateOptions& options) {
+  if (std::filesystem::is_directory(options.reference)) return;
+  for (const Plan& plan : plans)
+    for (const GateEntry& entry : gate_entries())
+      if (entry.set == plan.set->name && entry.needs == GateNeeds::reference)
+        std::fprintf(stderr, "%s skipped: it needs --reference DIR, a folder of real pictures\n",
+                     std::string(entry.name).c_str());
 }
 
 ExitCode run(const ValidationOptions& options, const std::string& command) {
@@ -168,6 +179,7 @@ ExitCode run(const ValidationOptions& options, const std::string& command) {
   with_joint.gates = *gates;
   const auto plans = plan_of(with_joint);
   if (!plans) return report_error(plans.error(), options.json);
+  tell_skipped(*plans, *gates);
   const auto measured = measure(*plans, *gates, options.json, progress);
   if (!measured) {
     Error error = at_flag(measured.error());
@@ -219,21 +231,22 @@ void add_validation(Command& app, ExitCode& code) {
       "Examples:\n"
       "  artus validate --list\n"
       "  artus validate echo --only needle-angle --only tendon --out out/echo --json\n"
+      "  artus validate realism --reference us_reference --out out/realism\n"
       "  artus validate soft -j meshes/shoulder --out out/soft\n"
       "  artus validate needle --only wall-stop --cutting voigt --out out/stop-voigt\n"
       "  artus validate echo -j shoulder.artus --reference stats.tsv --out out/echo\n"
       "  artus validate injection --results docs/results");
-  app.add_option("what", options->what, "needle, echo, soft, injection, probe (default: all)");
+  app.add_option("what", options->what,
+                 "needle, echo, realism, soft, injection, probe (default: all)");
   app.add_option("--only", options->only, "a gate, may be given several times (default: all)");
   app.add_flag("--all", options->all, "all gates of the sets, as without --only");
   app.add_flag("--list", options->list, "tell the gates of each set, and measure none");
   app.add_option("--joint,-j", options->joint,
                  "joint folder or compiled .artus file: gates of a joint are measured, too");
-  Option* reference =
-      app.add_option("--reference", options->gates.reference,
-                     "table of real muscle images (stats.tsv) to compare the joint's muscle with: "
-                     "all its claims are fitted");
-  reference->needs(app.get_option("--joint"));
+  Option* reference = app.add_option(
+      "--reference", options->gates.reference,
+      "real pictures: the folder that holds them, for realism's plates, or, with -j, "
+      "their table (stats.tsv) to compare the joint's muscle with");
   app.add_option("--reference-rows", options->gates.reference_rows,
                  "how the names of its muscle images begin, several (default: all rows)")
       ->needs(reference);

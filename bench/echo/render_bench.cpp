@@ -7,6 +7,7 @@
 // Peer:     PLUS UsSimulator, 256 x 1000 samples and 100 k triangles: 38-40 ms without slice
 //           thickness, pulse shape or refraction (measured on a shared two-core machine).
 // Budget:   256 lines x 1024 samples x 5 planes, refraction and needle on: p50 8 ms, p99 16 ms.
+//           clinical 1.1, compound 1.5 times the raw look (.../look:NAME, p50_ratio, by turns).
 //           With injected liquid, bubbles and a cloud that settles (fluid/...): 1.3 times the same
 //           picture without, p50_ratio and p99_ratio; frames of both alternate, so what else runs
 //           meets both alike.
@@ -144,6 +145,7 @@ Filled fill(const View& view, const std::vector<Injected>& places) {
 /// Frames of the same view without and with liquid, by turns.
 void render_by_turns(benchmark::State& state, const View& view, const Filled& filled) {
   ImageSettings settings;
+  settings.look = Look::raw;
   settings.n_threads = 1;
   Renderer dry(view.scene, Transducer{}, settings);
   Renderer wet(view.scene, Transducer{}, settings);
@@ -174,6 +176,49 @@ void render_by_turns(benchmark::State& state, const View& view, const Filled& fi
     state.counters[name + "_ratio"] = percentile(times[1], share) / percentile(times[0], share);
   }
   state.counters["points"] = static_cast<double>(filled.plume.points().size());
+}
+
+/// Frames of the same view in the raw look and in another, by turns.
+void render_looks(benchmark::State& state, const View& view, Look look) {
+  std::array<std::unique_ptr<Renderer>, 2> renderers;
+  for (const std::size_t k : {0U, 1U}) {
+    ImageSettings settings;
+    settings.look = k == 0 ? Look::raw : look;
+    settings.n_threads = 1;
+    renderers[k] = std::make_unique<Renderer>(view.scene, Transducer{}, settings);
+  }
+  const Pose X_PN = view.X_JP.inverse() * view.X_JN;
+  std::array<std::vector<double>, 2> times;
+  int step = 0;
+  for (auto _ : state) {
+    const double sway = 3e-3 * std::sin(0.05 * ++step);
+    const Pose X_JP = view.X_JP * Eigen::Translation3d(sway, 0.3 * sway, 0);
+    const NeedleView needle{X_JP * X_PN, NeedleShape{}};
+    for (const std::size_t k : {0U, 1U}) {
+      const auto start = std::chrono::steady_clock::now();
+      benchmark::DoNotOptimize(renderers[k]->render(X_JP, needle).image.data());
+      const std::chrono::duration<double, std::milli> time =
+          std::chrono::steady_clock::now() - start;
+      times[k].push_back(time.count());
+    }
+  }
+  for (const double share : {0.5, 0.99}) {
+    const std::string name = share == 0.5 ? "p50" : "p99";
+    state.counters[name + "_raw_ms"] = percentile(times[0], share);
+    state.counters[name + "_ms"] = percentile(times[1], share);
+    state.counters[name + "_ratio"] = percentile(times[1], share) / percentile(times[0], share);
+  }
+}
+
+void add_looks(const std::string& body, const View& view) {
+  for (const Look look : {Look::clinical, Look::compound}) {
+    benchmark::RegisterBenchmark(
+        (body + "/look:" + look_name(look)).c_str(),
+        [view, look](benchmark::State& state) { render_looks(state, view, look); })
+        ->Unit(benchmark::kMillisecond)
+        ->UseRealTime()
+        ->Iterations(300);
+  }
 }
 
 void add_filled(const std::string& name, const View& view, const std::vector<Injected>& places) {
@@ -223,6 +268,7 @@ void add_case(const std::string& body, const View& view, const Case& c) {
     Transducer transducer;
     transducer.n_lines = c.lines;
     ImageSettings settings;
+    settings.look = Look::raw;
     settings.n_samples = c.samples;
     settings.n_planes = c.planes;
     settings.n_threads = c.threads;
@@ -257,6 +303,7 @@ void add_cases(const std::string& body, const View& view) {
                                          {256, 1024, 9, 1}}) {
     add_case(body, view, c);
   }
+  add_looks(body, view);
 }
 
 }  // namespace

@@ -47,13 +47,19 @@ Acquisition::Acquisition(const Transducer& transducer, const ImageSettings& sett
       synthesis_(shape, scatter_, texture_, transducer, settings),
       coupling_(transducer),
       spread_(transducer, settings.depth, settings.n_samples),
-      drifting_(transducer, shape) {
+      light_(transducer, settings.depth, settings.n_samples),
+      drifting_(transducer, shape),
+      n_more_(settings.look == Look::compound ? ScatterField::kMoreSets : 0) {
   const auto lines = static_cast<std::size_t>(n_lines_);
   lines_.resize(lines);
   tips_.resize(lines);
   scratch_.resize(static_cast<std::size_t>(BlockWorkers::blocks_of(n_lines_)));
   re_.resize(lines * n_samples_);
   im_.resize(lines * n_samples_);
+  for (std::size_t k = 0; k < n_more_; ++k) {
+    more_re_[k].resize(lines * n_samples_);
+    more_im_[k].resize(lines * n_samples_);
+  }
   if (settings.doppler) {
     moving_re_.resize(lines * n_samples_);
     moving_im_.resize(lines * n_samples_);
@@ -65,6 +71,12 @@ EchoSpan Acquisition::line_of(std::vector<float>& re, std::vector<float>& im, in
   return {std::span(re).subspan(first, n_samples_), std::span(im).subspan(first, n_samples_)};
 }
 
+/// change(echoes) for line l of each further set of scatterers.
+template <class Change>
+void Acquisition::for_more(int l, const Change& change) {
+  for (std::size_t k = 0; k < n_more_; ++k) change(line_of(more_re_[k], more_im_[k], l));
+}
+
 void Acquisition::place_tracks(const EchoBody& body, const EchoView& view) {
   tracks_.clear();
   for (const NeedleTrack& track : body.tracks) {
@@ -74,7 +86,8 @@ void Acquisition::place_tracks(const EchoBody& body, const EchoView& view) {
     thread.shape.length = displacement.norm();
     if (thread.shape.length < kTrackWidth) continue;
     thread.X_JN = make_pose(track.p_JTip, displacement, displacement.unitOrthogonal());
-    tracks_.push_back({NeedleEcho(thread, view.X_JP, view.probe, *shape_), track.amplitude});
+    tracks_.push_back(
+        {NeedleEcho(thread, view.X_JP, view.probe, *shape_, settings_.look), track.amplitude});
   }
 }
 
@@ -87,7 +100,7 @@ void Acquisition::run(const EchoBody& body, const EchoView& view, BlockWorkers& 
   Pass pass{view, BeamTracer(*body.scene, tissue, body.regions, view.probe, settings_),
             std::nullopt, frame};
   if (view.needle) {
-    pass.needle.emplace(*view.needle, view.X_JP, view.probe, *shape_);
+    pass.needle.emplace(*view.needle, view.X_JP, view.probe, *shape_, settings_.look);
   } else {
     std::fill(frame.needle_light.begin(), frame.needle_light.end(), 1.0F);
     std::fill(tips_.begin(), tips_.end(), NeedleEcho::Tip{});
@@ -104,8 +117,16 @@ void Acquisition::run(const EchoBody& body, const EchoView& view, BlockWorkers& 
   workers.for_blocks(n_lines_, [&](int, int first, int last) {
     for (int l = first; l < last; ++l) {
       const EchoSpan echoes = line_of(re_, im_, l);
-      spread_.apply(l, echoes);
-      add_penumbra(view.probe, shape_->sample_depth(), frame.shadow_from, l, echoes);
+      const bool on_screen = settings_.look != Look::raw;
+      const auto dim = [&](EchoSpan line) {
+        if (on_screen)
+          light_.apply(l, line);
+        else
+          spread_.apply(l, line);
+        add_penumbra(view.probe, shape_->sample_depth(), frame.shadow_from, l, line);
+      };
+      dim(echoes);
+      for_more(l, dim);
     }
   });
 }
@@ -116,13 +137,18 @@ void Acquisition::listen(const Pass& pass, std::span<const PlacedLine> row, std:
   const int l = placed.index;
   const auto at = static_cast<std::size_t>(l);
   const EchoSpan echoes = line_of(re_, im_, l);
-  synthesis_.synthesise(pass.tracer, row, of_row, scratch, echoes);
+  ScatterField::MoreSets more;
+  std::size_t k = 0;
+  for_more(l, [&](EchoSpan line) { more[k++] = line; });
+  synthesis_.synthesise(pass.tracer, row, of_row, scratch, echoes, n_more_ > 0 ? &more : nullptr);
   spread_.note(l, scratch.path());
+  light_.note(l, scratch.central());
   const SoundedLine sounded{placed, scratch.central(), scratch.path()};
   for (const Track& track : tracks_) track.echo.add_track(track.amplitude, sounded, echoes);
   drifting_.add(sounded, echoes);
   if (pass.needle) add_needle(pass, sounded);
   coupling_.apply(l, shape_->sample_depth(), echoes);
+  for_more(l, [&](EchoSpan line) { coupling_.apply(l, shape_->sample_depth(), line); });
   const bool touches = scratch.central().contact;
   add_lens_ringing(touches ? 1 - coupling_.at_line(l) : 1, shape_->sample_depth(), echoes.re);
   pass.frame.contact[at] = static_cast<float>(touches ? coupling_.at_line(l) : 0);
@@ -139,6 +165,9 @@ void Acquisition::add_needle(const Pass& pass, const SoundedLine& sounded) {
   std::fill(light.begin(), light.end(), 1.0F);
   if (sounded.trace.contact) needle.shade(sounded.placed, light);
   multiply(light.data(), echoes.re.data(), echoes.im.data(), light.size());
+  for_more(l, [&](EchoSpan line) {
+    multiply(light.data(), line.re.data(), line.im.data(), light.size());
+  });
   NeedleEcho::Tip& tip = tips_[static_cast<std::size_t>(l)];
   tip = needle.find_tip(sounded);
   if (moving_re_.empty()) {

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <array>
 #include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "artus/detail/echo/acquire/aperture_coupling.h"
+#include "artus/detail/echo/acquire/aperture_light.h"
 #include "artus/detail/echo/acquire/beam_shape.h"
 #include "artus/detail/echo/acquire/beam_spread.h"
 #include "artus/detail/echo/acquire/block_workers.h"
@@ -58,6 +60,14 @@ class Acquisition {
   /// The needle's own share of them; empty unless Doppler is on.
   [[nodiscard]] std::span<const float> moving_in_phase() const noexcept { return moving_re_; }
   [[nodiscard]] std::span<const float> moving_quadrature() const noexcept { return moving_im_; }
+  /// What further sets of scatterers, all alike but for that, make different in each sample, as
+  /// in_phase; none but in the compound look.
+  [[nodiscard]] std::span<const std::vector<float>> more_in_phase() const noexcept {
+    return std::span(more_re_).first(n_more_);
+  }
+  [[nodiscard]] std::span<const std::vector<float>> more_quadrature() const noexcept {
+    return std::span(more_im_).first(n_more_);
+  }
   /// (n_lines) as the last run placed them.
   [[nodiscard]] std::span<const PlacedLine> lines() const noexcept { return lines_; }
 
@@ -80,6 +90,8 @@ class Acquisition {
   void listen(const Pass& pass, std::span<const PlacedLine> row, std::size_t of_row,
               LineScratch& scratch);
   void add_needle(const Pass& pass, const SoundedLine& sounded);
+  template <class Change>
+  void for_more(int l, const Change& change);
   [[nodiscard]] EchoSpan line_of(std::vector<float>& re, std::vector<float>& im, int l) const;
 
   int n_lines_;
@@ -91,6 +103,7 @@ class Acquisition {
   LineSynthesis synthesis_;
   ApertureCoupling coupling_;
   BeamSpread spread_;
+  ApertureLight light_;  // looks other than raw
   DriftingEcho drifting_;
   Pose X_PJ_ = Pose::Identity();
   std::vector<PlacedLine> lines_;     // (n_lines)
@@ -99,6 +112,9 @@ class Acquisition {
   std::vector<NeedleEcho::Tip> tips_;  // (n_lines)
   std::vector<float> re_;              // (n_lines, n_samples), as the next three
   std::vector<float> im_;
+  std::size_t n_more_;  // 0, or all of the next two
+  std::array<std::vector<float>, ScatterField::kMoreSets> more_re_;
+  std::array<std::vector<float>, ScatterField::kMoreSets> more_im_;
   std::vector<float> moving_re_;
   std::vector<float> moving_im_;
 };

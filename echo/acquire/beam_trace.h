@@ -52,6 +52,7 @@ struct BeamEcho {
   double amplitude = 0;        ///< mirror = 1
   double diffuse_share = 0;    ///< 0..1 of it comes from roughness and glitters
   double cosine = 1;           ///< of the incidence angle
+  bool is_cortex = false;      ///< shown as thick as scanners show bone, see BeamTracer
   Vec3 rest_J = Vec3::Zero();  ///< m, where the tissue there was at rest
   Vec3 step_J = Vec3::Zero();  ///< m per sample, onward, at rest
 };

@@ -22,6 +22,23 @@ void detect(const float* re, const float* im, const float* gain, float* envelope
   }
 }
 
+/// A line's echoes.
+struct EchoRow {
+  const float* re;
+  const float* im;
+};
+
+/// Adds the envelope of `own` plus `more` to the one there, and scales the sum.
+ARTUS_SIMD
+void add_detected(const EchoRow& own, const EchoRow& more, const float* gain, float scale,
+                  float* envelope, std::size_t n) noexcept {
+  for (std::size_t i = 0; i < n; ++i) {
+    const float a = own.re[i] + more.re[i];
+    const float b = own.im[i] + more.im[i];
+    envelope[i] = scale * (envelope[i] + gain[i] * std::sqrt(a * a + b * b));
+  }
+}
+
 std::span<float> row(std::vector<float>& data, int l, std::size_t n) {
   return std::span(data).subspan(static_cast<std::size_t>(l) * n, n);
 }
@@ -50,6 +67,10 @@ LineShaping::LineShaping(const Transducer& transducer, const ImageSettings& sett
   const auto size =
       static_cast<std::size_t>(transducer.n_lines) * static_cast<std::size_t>(settings.n_samples);
   wide_.resize(size);
+  if (settings.look == Look::compound) {
+    set_re_.resize(size);
+    set_im_.resize(size);
+  }
   if (settings.doppler) motion_.resize(size);
 }
 
@@ -74,8 +95,29 @@ void LineShaping::run(const Acquisition& acquired, const EchoBody& body, BlockWo
       shape_->along(wide, im);
       add_white_noise(mix_bits(settings_.seed), l, noise_gain_, re, im);
       detect(re.data(), im.data(), time_gain_.data(), row(frame.envelope, l, n).data(), n);
+      average(acquired, l, frame);
     }
   });
+}
+
+/// Makes the envelope of line `l` the mean over all sets of scatterers; the beam and the pulse are
+/// linear, so they need to see the differences between sets alone.
+void LineShaping::average(const Acquisition& acquired, int l, Frame& frame) {
+  const std::size_t n = time_gain_.size();
+  const std::size_t sets = acquired.more_in_phase().size();
+  for (std::size_t k = 0; k < sets; ++k) {
+    const auto wide = row(wide_, l, n);
+    const auto re = row(set_re_, l, n);
+    const auto im = row(set_im_, l, n);
+    shape_->across(acquired.more_in_phase()[k], acquired.n_lines(), l, wide);
+    shape_->along(wide, re);
+    shape_->across(acquired.more_quadrature()[k], acquired.n_lines(), l, wide);
+    shape_->along(wide, im);
+    const float scale = k + 1 == sets ? 1 / static_cast<float>(sets + 1) : 1.0F;
+    add_detected({row(frame.in_phase, l, n).data(), row(frame.quadrature, l, n).data()},
+                 {re.data(), im.data()}, time_gain_.data(), scale, row(frame.envelope, l, n).data(),
+                 n);
+  }
 }
 
 void LineShaping::find_motion(const Acquisition& acquired, const std::optional<Vec3>& v_P,

@@ -16,7 +16,7 @@ namespace artus {
                                                 const ImageSettings& settings);
 
 /// The second stage: beam and pulse spread the echoes, electronic noise joins, and the envelope is
-/// what is left of them.
+/// what is left of them; of several sets of scatterers, the mean of their envelopes.
 class LineShaping {
  public:
   /// Requires: valid transducer and settings; `shape` outlives this object.
@@ -34,13 +34,17 @@ class LineShaping {
                    BlockWorkers& workers, Frame& frame);
 
  private:
+  void average(const Acquisition& acquired, int l, Frame& frame);
+
   Transducer transducer_;
   ImageSettings settings_;
   const BeamShape* shape_;
   std::vector<float> time_gain_;   // (n_samples)
   std::vector<float> noise_gain_;  // (n_samples)
   std::vector<float> wide_;        // (n_lines, n_samples), spread sideways
-  std::vector<float> motion_;      // the same, quadrature of what moves; empty without Doppler
+  std::vector<float> set_re_;      // the same, of a further set of scatterers; only of compounds
+  std::vector<float> set_im_;
+  std::vector<float> motion_;  // the same, quadrature of what moves; empty without Doppler
 };
 
 }  // namespace artus

@@ -17,12 +17,26 @@ constexpr double kTailShare = 0.35;       // assumed: scattering just behind a r
 constexpr float kTailDecay = 0.8F;        // per sample
 constexpr std::size_t kTailGap = 3;       // samples behind the surface
 constexpr std::size_t kTailSamples = 16;  // samples
-constexpr double kHaze = 0.1;       // assumed: -20 dB at the face, +6 for both orders of the path,
-                                    // -6 because its second leg is out of focus
+constexpr double kHaze = 0.1;  // assumed: -20 dB at the face, +6 for both orders of the path,
+                               // -6 because its second leg is out of focus
+// bone's line on screens. assumed: from pictures of bone under muscle
+constexpr double kCortex = 1.19e-3;      // m thick with the pulse, at the display's speed
+constexpr double kCortexStep = 0.8;      // of the pulse's length
+constexpr double kCortexEven = 0.3;      // of its thickness that is as bright as its surface
+constexpr double kCortexFall = 2.5;      // Np over the rest
+constexpr double kCortexGlitter = 0.2;   // rms unevenness
+constexpr double kCortexSlope = 0.6;     // power of the cosine by which it is deeper
+constexpr double kSteepestCortex = 0.3;  // cosine
+constexpr std::size_t kCortexEchoes = 32;
 constexpr float kSheet = 1.6F;      // texture above which a sheet reflects coherently
 constexpr double kGuided = 0.8e-3;  // m from a beam, where the tissue is by its displacement and
                                     // gradient there
 constexpr double kSheetEcho = 1.5;  // assumed: coherent amplitude over scattered, per unit above
+
+/// m, half amplitude.
+double pulse_length(const Transducer& transducer) noexcept {
+  return transducer.pulse_cycles * transducer.wavelength() / 2;
+}
 
 /// gain = weight * the straight lines between nodes kNodeStride samples apart. Reads and writes up
 /// to the end of the last stride.
@@ -109,10 +123,13 @@ LineSynthesis::LineSynthesis(const BeamShape& shape, const ScatterField& scatter
       texture_(&texture),
       speckle_(std::pow(10.0, settings.speckle_db / 20)),
       has_texture_(settings.texture),
-      reverberates_(settings.reverberation),
+      reverberates_(settings.reverberation && settings.look == Look::raw),
       n_planes_(settings.n_planes),
       n_beside_(static_cast<int>(kGuided / shape.line_spacing(settings.depth))),
-      pitch_(transducer.pitch()) {}
+      pitch_(transducer.pitch()),
+      cortex_step_(static_cast<std::size_t>(std::max(
+          1L, std::lround(kCortexStep * pulse_length(transducer) / shape.sample_depth())))),
+      cortex_((kCortex - pulse_length(transducer)) / shape.sample_depth()) {}
 
 /// The nodes of a run whose tissue lay in `pieces`; those behind the last sample go on straight.
 void LineSynthesis::sample_moved_texture(const BeamRun& run, const RegionAcoustics& region,
@@ -198,8 +215,11 @@ void LineSynthesis::add_plane(int plane, const BeamTrace& trace, Ground& ground,
   for (std::size_t i = 0; i < trace.n_runs; ++i) {
     add_run(trace.runs[i], ground, speckle, echoes);
   }
-  ScatterField::add(ground.view, ground.pieces, ground.gain.first(echoes.size()), ground.room,
-                    echoes.re, echoes.im);
+  const auto gain = ground.gain.first(echoes.size());
+  if (ground.more == nullptr)
+    ScatterField::add(ground.view, ground.pieces, gain, ground.room, echoes.re, echoes.im);
+  else
+    ScatterField::add(ground.view, ground.pieces, gain, ground.room, echoes, *ground.more);
   for (std::size_t i = 0; i < trace.n_echoes; ++i) {
     add_echo(trace.echoes[i], ground.view, share, echoes);
   }
@@ -211,6 +231,7 @@ void LineSynthesis::add_echo(const BeamEcho& echo, const ScatterView& view,
                              std::span<const float> share, EchoSpan echoes) const {
   const auto end = static_cast<double>(echoes.size()) - 1;
   if (!(echo.sample >= 0) || echo.sample >= end) return;
+  if (echo.is_cortex) return add_cortex(echo, view, share, echoes);
   const auto first = static_cast<std::size_t>(echo.sample);
   const double slope = std::sqrt(std::max(0.0, 1 - echo.cosine * echo.cosine)) /
                        std::max(kSteepestFacet, echo.cosine);
@@ -239,6 +260,33 @@ void LineSynthesis::add_echo(const BeamEcho& echo, const ScatterView& view,
   const EchoSpan tail = echoes.part(from, std::min(gain.size(), echoes.size() - from));
   ScatterField::add(view, echo.rest_J + static_cast<double>(kTailGap) * echo.step_J, echo.step_J,
                     std::span(gain).first(tail.size()), tail.re, tail.im);
+}
+
+/// Bone as screens show it: a line as thick as cortex lets the sound in and out again, even along
+/// itself, made of echoes closer to each other than the pulse is long.
+void LineSynthesis::add_cortex(const BeamEcho& echo, const ScatterView& view,
+                               std::span<const float> share, EchoSpan echoes) const {
+  std::array<float, kCortexEchoes> one{};
+  one.fill(1);
+  std::array<float, kCortexEchoes> n_re{};
+  std::array<float, kCortexEchoes> n_im{};
+  const double step = static_cast<double>(cortex_step_);
+  // across itself the line is as thick at a slope as where it is flat; the beam's width adds to it
+  const double length = cortex_ / std::pow(std::max(kSteepestCortex, echo.cosine), kCortexSlope);
+  const auto n = std::min(kCortexEchoes, static_cast<std::size_t>(length / step) + 1);
+  ScatterField::add(view, echo.rest_J, step * echo.step_J, std::span(one).first(n),
+                    std::span(n_re).first(n), std::span(n_im).first(n));
+  const auto first = static_cast<std::size_t>(echo.sample);
+  const double amplitude = echo.amplitude * static_cast<double>(share[first]);
+  for (std::size_t k = 0; k < n; ++k) {
+    const double into = static_cast<double>(k) * step;
+    const double fall = std::exp(-kCortexFall * std::max(0.0, into / length - kCortexEven));
+    const auto glitter = static_cast<double>(kCortexGlitter);
+    add_point_echo(echo.sample + into,
+                   amplitude * fall * (1 + glitter * static_cast<double>(n_re[k])), echoes.re);
+    add_point_echo(echo.sample + into, amplitude * fall * glitter * static_cast<double>(n_im[k]),
+                   echoes.im);
+  }
 }
 
 /// What shows inside a shadow: sound that bone threw back, that the face reflected and that went
@@ -275,18 +323,24 @@ void LineSynthesis::trace_middle(const BeamTracer& tracer, std::span<const Place
 }
 
 void LineSynthesis::synthesise(const BeamTracer& tracer, std::span<const PlacedLine> row,
-                               std::size_t l, LineScratch& scratch, EchoSpan echoes) const {
+                               std::size_t l, LineScratch& scratch, EchoSpan echoes,
+                               const ScatterField::MoreSets* more) const {
   const PlacedLine& placed = row[l];
   scratch.gain.resize(3 * echoes.size() + 8 * kNodeStride);
   scratch.pieces.reserve(BeamTrace::kMax + BeamTrace::kMaxKnots);
   scratch.room.resize(echoes.size());
   std::fill(echoes.re.begin(), echoes.re.end(), 0.0F);
   std::fill(echoes.im.begin(), echoes.im.end(), 0.0F);
+  for (std::size_t k = 0; more != nullptr && k < more->size(); ++k) {
+    std::fill((*more)[k].re.begin(), (*more)[k].re.end(), 0.0F);
+    std::fill((*more)[k].im.begin(), (*more)[k].im.end(), 0.0F);
+  }
   trace_middle(tracer, row, l, scratch);
   const BeamTrace& central = scratch.central();
   const Vec3& elevation = placed.elevation_J;
   scratch.view = scatter_->make_view(placed.direction_J, elevation);
-  Ground ground{tracer.regions(), scratch.view, scratch.gain, scratch.pieces, scratch.room, {}};
+  Ground ground{
+      tracer.regions(), scratch.view, scratch.gain, scratch.pieces, scratch.room, more, {}};
   for (int p = 0; p < n_planes_; ++p) {
     if (shape_->plane_offset(p) == 0) {
       add_plane(p, central, ground, echoes);

@@ -52,9 +52,11 @@ class LineSynthesis {
 
   /// Fills `echoes`, n_samples long, with those of line `l` of a row of neighbours and leaves its
   /// central beam in `scratch`. In tissue that gives way lines near each other are guided by one of
-  /// them: the lines of a row are asked for in order, after LineScratch::begin_row.
+  /// them: the lines of a row are asked for in order, after LineScratch::begin_row. Fills `more`,
+  /// where given, with the differences that further sets of scatterers make.
   void synthesise(const BeamTracer& tracer, std::span<const PlacedLine> row, std::size_t l,
-                  LineScratch& scratch, EchoSpan echoes) const;
+                  LineScratch& scratch, EchoSpan echoes,
+                  const ScatterField::MoreSets* more = nullptr) const;
 
  private:
   /// What the runs of one scanline have in common.
@@ -64,7 +66,8 @@ class LineSynthesis {
     std::span<float> gain;              // a plane's gains, and room for nodes and sheets
     std::vector<ScatterPiece>& pieces;  // of the plane at hand, ascending
     ScatterRoom& room;
-    std::span<const BeamKnot> knots;  // of the plane at hand
+    const ScatterField::MoreSets* more;  // null: one set of scatterers
+    std::span<const BeamKnot> knots;     // of the plane at hand
   };
   void trace_middle(const BeamTracer& tracer, std::span<const PlacedLine> row, std::size_t l,
                     LineScratch& scratch) const noexcept;
@@ -76,6 +79,8 @@ class LineSynthesis {
                EchoSpan echoes) const;
   void add_echo(const BeamEcho& echo, const ScatterView& view, std::span<const float> share,
                 EchoSpan echoes) const;
+  void add_cortex(const BeamEcho& echo, const ScatterView& view, std::span<const float> share,
+                  EchoSpan echoes) const;
   static void add_haze(const BeamTrace& trace, EchoSpan echoes) noexcept;
 
   const BeamShape* shape_;
@@ -85,8 +90,10 @@ class LineSynthesis {
   bool has_texture_;
   bool reverberates_;
   int n_planes_;
-  int n_beside_;  // lines on either side of one that it guides
-  double pitch_;  // m between scanlines
+  int n_beside_;             // lines on either side of one that it guides
+  double pitch_;             // m between scanlines
+  std::size_t cortex_step_;  // samples between the echoes of which bone's line is made
+  double cortex_;  // samples along the beam that it is thick where flat, without the pulse
 };
 
 }  // namespace artus

@@ -19,6 +19,16 @@ constexpr double kRingLobe = 14;     // degrees from perpendicular within which 
 constexpr double kFirstRing = 0.4;   // assumed: of the shaft's echo
 constexpr double kRingDecay = 0.62;  // assumed: per round trip in the bore
 constexpr int kMaxRings = 24;
+// on screens one sees two or three tapering lines, and a copy at twice the depth of a needle that
+// lies flat alone. assumed: from pictures of needles in tissue
+constexpr double kScreenRing = 0.36;
+constexpr double kScreenDecay = 0.42;
+constexpr int kScreenRings = 3;
+constexpr double kCopyLobe = 2;         // degrees
+constexpr double kScreenCopy = 0.35;    // of the sound that comes back from the face
+constexpr double kBevel = 2.7;          // outer diameters long
+constexpr double kBevelEcho = 2;        // of the shaft's: its ground faces scatter more
+constexpr double kBevelMost = 0.25;     // mirror = 1, of a shaft that lies flat no more than that
 constexpr double kTipEcho = 0.09;       // assumed: -21 dB, the bevel's point seen from any side
 constexpr double kShadow = 0.8;         // assumed: share of the blocked aperture that is lost
 constexpr double kSideLobe = 0.016;     // assumed: -36 dB, of an apodised aperture, both ways
@@ -52,9 +62,10 @@ struct NeedleEcho::Extent {
 };
 
 NeedleEcho::NeedleEcho(const NeedleView& needle, const Pose& X_JP, const Transducer& transducer,
-                       const BeamShape& shape) noexcept
+                       const BeamShape& shape, Look look) noexcept
     : shape_(&shape),
       needle_(needle.shape),
+      on_screen_(look != Look::raw),
       X_PJ_(X_JP.inverse()),
       pitch_(transducer.pitch()),
       pulse_sigma_(transducer.pulse_cycles * transducer.wavelength() / 2 * kSigmaPerWidth),
@@ -169,7 +180,7 @@ void NeedleEcho::add_side_lobe(const Place& place, const BeamTrace& trace,
   const double angle = std::asin(std::min(1.0, place.sine));
   add_point_echo(sample,
                  kSideLobe / (1 + u * u) * elevation_share(place.elevation, place.depth) *
-                     needle_reflectivity(needle_, angle, phase_) * std::exp(log_gain),
+                     reflectivity(angle) * std::exp(log_gain),
                  line);
 }
 
@@ -268,18 +279,37 @@ void NeedleEcho::add(const SoundedLine& sounded, const Tip& tip, EchoSpan echoes
   double log_gain = 0;
   if (!trace.find_sample(place.depth - to_surface, sample, log_gain)) return;
 
-  const double sample_depth = shape_->sample_depth();
   const double angle = std::asin(std::min(1.0, place.sine));
   const double heard = coverage * share * std::exp(log_gain);
-  const double shaft = heard * needle_reflectivity(needle_, angle, phase_);
+  double strength = reflectivity(angle);
+  if (on_screen_ && place.along < kBevel * needle_.outer_diameter)
+    strength = std::max(strength, std::min(kBevelMost, kBevelEcho * strength));
+  const double shaft = heard * strength;
   add_shaft(place, sample, shaft, re);
-  add_point_echo(2 * sample, shaft * shaft * kFaceReflection, re);
+  add_rings(sample, shaft, angle, re);
+}
+
+double NeedleEcho::reflectivity(double angle) const noexcept {
+  return on_screen_ ? needle_on_screen(needle_, angle)
+                    : needle_reflectivity(needle_, angle, phase_);
+}
+
+/// What comes later than the shaft: its repeat against the face, the lines that ring in the bore.
+void NeedleEcho::add_rings(double sample, double shaft, double angle,
+                           std::span<float> line) const noexcept {
+  double copy = shaft * shaft * kFaceReflection;
+  if (on_screen_) {
+    const double flat = angle / kDegree / kCopyLobe;
+    copy *= kScreenCopy * std::exp(-flat * flat);
+  }
+  add_point_echo(2 * sample, copy, line);
   const double off = angle / kDegree / kRingLobe;
-  double ring = shaft * kFirstRing * std::exp(-off * off);
-  const double pitch = reverberation_pitch(needle_) / sample_depth;
-  for (int k = 1; k <= kMaxRings && ring > 1e-9; ++k) {
-    add_point_echo(sample + k * pitch, ring, re);
-    ring *= kRingDecay;
+  double ring = shaft * (on_screen_ ? kScreenRing : kFirstRing) * std::exp(-off * off);
+  const double pitch = reverberation_pitch(needle_) / shape_->sample_depth();
+  const int rings = on_screen_ ? kScreenRings : kMaxRings;
+  for (int k = 1; k <= rings && ring > 1e-9; ++k) {
+    add_point_echo(sample + k * pitch, ring, line);
+    ring *= on_screen_ ? kScreenDecay : kRingDecay;
   }
 }
 

@@ -24,7 +24,7 @@ class NeedleEcho {
  public:
   /// Requires: `shape` outlives this object.
   NeedleEcho(const NeedleView& needle, const Pose& X_JP, const Transducer& transducer,
-             const BeamShape& shape) noexcept;
+             const BeamShape& shape, Look look) noexcept;
 
   /// The tip as one scanline shows it.
   struct Tip {
@@ -57,9 +57,12 @@ class NeedleEcho {
   void add_side_lobe(const Place& place, const BeamTrace& trace,
                      std::span<float> line) const noexcept;
   [[nodiscard]] double elevation_share(double y, double z) const noexcept;
+  [[nodiscard]] double reflectivity(double angle) const noexcept;
+  void add_rings(double sample, double shaft, double angle, std::span<float> line) const noexcept;
 
   const BeamShape* shape_;
   NeedleShape needle_;
+  bool on_screen_;  // as looks other than raw show it
   Pose X_PJ_;
   Vec3 p_PTip_;
   Vec3 axis_P_;         // unit, from tip to hub

@@ -16,6 +16,8 @@ namespace artus {
 /// scatterers, texture and fibres belong to the material and are found where it was at rest. How
 /// surfaces and fibres lie is what the smooth gradient makes of them at rest: the moved facets'
 /// own normals jump from cube to cube, and so would echoes, refraction and brightness.
+/// In looks other than raw bone's surface is as scanners show it: a line of a millimetre that is
+/// even at any slope, and nothing repeats but what the back end's haze stands for.
 class BeamTracer {
  public:
   /// `tissue`: how the scene's gives way; null: it is at rest.
@@ -69,6 +71,7 @@ class BeamTracer {
   double max_path_;        // m, longest path a beam can go within the displayed time
   bool refraction_;
   bool reverberation_;
+  bool on_screen_;  // a look other than raw
 };
 
 }  // namespace artus

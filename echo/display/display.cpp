@@ -26,6 +26,15 @@ inline float fast_log2(std::uint32_t bits) noexcept {
 }
 
 ARTUS_SIMD
+void compress_powers(float* power, float gain_db, std::size_t n) noexcept {
+  constexpr auto kFloor = std::bit_cast<std::int32_t>(1e-20F);
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::int32_t bits = std::max(std::bit_cast<std::int32_t>(power[i]), kFloor);
+    power[i] = 3.010299957F * fast_log2(static_cast<std::uint32_t>(bits)) + gain_db;
+  }
+}
+
+ARTUS_SIMD
 void compress_all(const float* envelope, float gain_db, float* decibel, std::size_t n) noexcept {
   constexpr auto kFloor = std::bit_cast<std::int32_t>(1e-10F);
   for (std::size_t i = 0; i < n; ++i) {
@@ -39,6 +48,10 @@ void compress_all(const float* envelope, float gain_db, float* decibel, std::siz
 
 void compress(std::span<const float> envelope, float gain_db, std::span<float> decibel) noexcept {
   compress_all(envelope.data(), gain_db, decibel.data(), envelope.size());
+}
+
+void compress_power(std::span<float> power, float gain_db) noexcept {
+  compress_powers(power.data(), gain_db, power.size());
 }
 
 void smooth_line(std::span<const float> decibel, int n_lines, int l, float share,
@@ -59,36 +72,69 @@ void smooth_line(std::span<const float> decibel, int n_lines, int l, float share
 }
 
 Display::Display(const Transducer& transducer, const ImageSettings& settings)
-    : n_lines_(transducer.n_lines),
+    : look_(settings.look),
+      n_lines_(transducer.n_lines),
       n_samples_(settings.n_samples),
-      converter_(transducer, settings) {
+      converter_(transducer, settings),
+      reduction_(settings.n_samples, settings.depth / settings.n_samples) {
+  if (look_ != Look::raw) clutter_.emplace(transducer, settings);
   set(settings);
 }
 
 void Display::set(const LiveSettings& live) {
   live_ = live;
   converter_.set_dynamic_range(live.dynamic_range_db);
-  if (live.smoothing > 0)
+  if (look_ != Look::raw) converter_.set_curve(live.grey_curve, live.grain);
+  if (live.smoothing > 0 || (look_ != Look::raw && live.speckle_reduction))
     smooth_.resize(static_cast<std::size_t>(n_lines_) * static_cast<std::size_t>(n_samples_));
 }
 
-void Display::show(BlockWorkers& workers, Frame& frame) {
+/// Compresses, with the clutter in it.
+void Display::level(BlockWorkers& workers, const Pose& X_JP, Frame& frame) {
   const auto n = static_cast<std::size_t>(n_samples_);
   const auto gain = static_cast<float>(live_.gain_db);
-  workers.for_blocks(n_lines_, [&](int, int first, int last) {
-    const std::size_t begin = static_cast<std::size_t>(first) * n;
-    const std::size_t size = static_cast<std::size_t>(last - first) * n;
-    compress(std::span(frame.envelope).subspan(begin, size), gain,
-             std::span(frame.decibel).subspan(begin, size));
-  });
-  if (live_.smoothing > 0) {
+  if (!clutter_ || !live_.clutter) {
     workers.for_blocks(n_lines_, [&](int, int first, int last) {
-      for (int l = first; l < last; ++l) {
-        smooth_line(frame.decibel, n_lines_, l, static_cast<float>(live_.smoothing),
-                    std::span(smooth_).subspan(static_cast<std::size_t>(l) * n, n));
-      }
+      const std::size_t begin = static_cast<std::size_t>(first) * n;
+      const std::size_t size = static_cast<std::size_t>(last - first) * n;
+      compress(std::span(frame.envelope).subspan(begin, size), gain,
+               std::span(frame.decibel).subspan(begin, size));
     });
-    std::swap(smooth_, frame.decibel);
+    return;
+  }
+  clutter_->place(X_JP);
+  clutter_->gather(workers, frame.envelope);
+  workers.for_blocks(n_lines_, [&](int, int first, int last) {
+    for (int l = first; l < last; ++l) {
+      const std::size_t begin = static_cast<std::size_t>(l) * n;
+      const auto power = std::span(frame.decibel).subspan(begin, n);
+      clutter_->add(std::span(frame.envelope).subspan(begin, n), l, power);
+      compress_power(power, gain);
+    }
+  });
+}
+
+template <class Change>
+void Display::replace_lines(BlockWorkers& workers, Frame& frame, const Change& change) {
+  const auto n = static_cast<std::size_t>(n_samples_);
+  workers.for_blocks(n_lines_, [&](int, int first, int last) {
+    for (int l = first; l < last; ++l)
+      change(l, std::span(smooth_).subspan(static_cast<std::size_t>(l) * n, n));
+  });
+  std::swap(smooth_, frame.decibel);
+}
+
+void Display::show(BlockWorkers& workers, const Pose& X_JP, Frame& frame) {
+  level(workers, X_JP, frame);
+  if (look_ != Look::raw && live_.speckle_reduction) {
+    replace_lines(workers, frame, [&](int l, std::span<float> out) {
+      reduction_.reduce(frame.decibel, n_lines_, l, out);
+    });
+  }
+  if (live_.smoothing > 0) {
+    replace_lines(workers, frame, [&](int l, std::span<float> out) {
+      smooth_line(frame.decibel, n_lines_, l, static_cast<float>(live_.smoothing), out);
+    });
   }
   const bool persists = live_.persistence > 0 && has_previous_;
   if (persists) previous_ = frame.image;

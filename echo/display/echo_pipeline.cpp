@@ -103,7 +103,7 @@ void EchoPipeline::render(const EchoBody& body, const Pose& X_JP,
     acquisition_.colour_drifting(frame_);
   }
   const StageClock clock(times_.display);
-  display_.show(workers_, frame_);
+  display_.show(workers_, X_JP, frame_);
 }
 
 void EchoPipeline::render_nothing(std::uint32_t status) noexcept {

@@ -8,8 +8,14 @@
 
 namespace artus {
 
-ImageSettings bare_settings() {
+ImageSettings raw_settings() {
   ImageSettings settings;
+  settings.look = Look::raw;
+  return settings;
+}
+
+ImageSettings bare_settings() {
+  ImageSettings settings = raw_settings();
   settings.tgc_db_cm_mhz = 0;
   settings.noise_db = -300;
   settings.texture = false;

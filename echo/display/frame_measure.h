@@ -9,7 +9,11 @@
 /// What an acoustician reads off a frame: the measuring that gates, phantoms and tests share.
 namespace artus {
 
-/// Settings that show bare physics: no compensation, texture, repeats, downshift or noise.
+/// The default settings in the raw look: the echoes as physics has them.
+[[nodiscard]] ImageSettings raw_settings();
+
+/// Settings that show bare physics: no compensation, texture, repeats, downshift or noise,
+/// in the raw look.
 [[nodiscard]] ImageSettings bare_settings();
 
 /// 20 log10 of an amplitude, 10 log10 of an intensity, dB.

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <cstddef>
+#include <string>
 #include <type_traits>
 
 #include "artus/detail/core/fields.h"
@@ -11,12 +13,19 @@ namespace artus {
 
 // The named members of all that an image is made by, for visit_fields (core/fields.h).
 
-ARTUS_FIELDS(LiveSettings, gain_db, dynamic_range_db, tgc_db_cm_mhz, tgc_limit_db, smoothing,
-             persistence);
+/// The knots of the curve, "at_0" to "at_8".
+template <Like<GreyCurve> P, class F>
+void fields_of(P& curve, F&& visit) {
+  for (std::size_t k = 0; k < GreyCurve::kKnots; ++k)
+    visit("at_" + std::to_string(k), curve.grey[k]);
+}
 
-ARTUS_FIELDS(TableSettings, depth, n_samples, n_planes, speckle_db, noise_db, gel_limit, pixel,
-             compound_angles, compound_spread, doppler, doppler_limit, refraction, reverberation,
-             frequency_downshift, texture, seed, n_threads);
+ARTUS_FIELDS(LiveSettings, gain_db, dynamic_range_db, tgc_db_cm_mhz, tgc_limit_db, smoothing,
+             persistence, clutter, speckle_reduction, grain, grey_curve);
+
+ARTUS_FIELDS(TableSettings, look, depth, n_samples, n_planes, speckle_db, noise_db, gel_limit,
+             pixel, compound_angles, compound_spread, doppler, doppler_limit, refraction,
+             reverberation, frequency_downshift, texture, seed, n_threads);
 
 template <Like<ImageSettings> P, class F>
 void fields_of(P& settings, F&& visit) {

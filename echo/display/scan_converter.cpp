@@ -5,7 +5,15 @@
 #include <cmath>
 #include <cstddef>
 
+#include "artus/detail/core/noise.h"
+
 namespace artus {
+namespace {
+
+constexpr double kGrain = 6;  // levels of 1024 to either side. assumed: 0.35 dB of a range of 60
+constexpr std::uint64_t kGrainSeed = 0x677261696e;
+
+}  // namespace
 
 ScanConverter::ScanConverter(const Transducer& transducer, const ImageSettings& settings)
     : pixel_(settings.pixel),
@@ -40,6 +48,22 @@ void ScanConverter::set_dynamic_range(double decibel) noexcept {
   dynamic_range_ = static_cast<float>(decibel);
 }
 
+void ScanConverter::set_curve(const GreyCurve& curve, bool grain) {
+  has_curve_ = true;
+  constexpr auto kPieces = static_cast<double>(GreyCurve::kKnots - 1);
+  for (int level = 0; level < kLevels; ++level) {
+    const double at = kPieces * level / (kLevels - 1);
+    const std::size_t k = std::min(static_cast<std::size_t>(at), GreyCurve::kKnots - 2);
+    const double share = at - static_cast<double>(k);
+    const double grey = curve.grey[k] + share * (curve.grey[k + 1] - curve.grey[k]);
+    grey_[static_cast<std::size_t>(level)] = static_cast<std::uint8_t>(std::lround(255 * grey));
+  }
+  grain_.resize(grain ? samples_.size() : 0);
+  for (std::size_t k = 0; k < grain_.size(); ++k)
+    grain_[k] =
+        static_cast<std::int8_t>(std::lround(kGrain * (2 * uniform_noise(kGrainSeed, k) - 1)));
+}
+
 /// Where a point of the image's plane lies among lines and samples.
 ScanConverter::Sample ScanConverter::find_sample(const Transducer& transducer, double sample_depth,
                                                  const Vec3& p) const noexcept {
@@ -71,6 +95,7 @@ void ScanConverter::convert(std::span<const float> decibel, int first_row, int l
                             std::span<std::uint8_t> image) const noexcept {
   const auto begin = static_cast<std::size_t>(first_row) * static_cast<std::size_t>(width_);
   const auto end = static_cast<std::size_t>(last_row) * static_cast<std::size_t>(width_);
+  if (has_curve_) return convert_by_curve(decibel, begin, end, image);
   const std::ptrdiff_t next_line = single_line_ ? 0 : n_samples_;
   const float offset = dynamic_range_ * grey_per_db_ + 0.5F;  // black, and rounding to the nearest
   for (std::size_t k = begin; k < end; ++k) {
@@ -86,6 +111,28 @@ void ScanConverter::convert(std::span<const float> decibel, int first_row, int l
     const float db = near + s.line * (far - near);
     const auto grey = static_cast<int>(db * grey_per_db_ + offset);
     image[k] = static_cast<std::uint8_t>(std::clamp(grey, 0, 255));
+  }
+}
+
+void ScanConverter::convert_by_curve(std::span<const float> decibel, std::size_t begin,
+                                     std::size_t end,
+                                     std::span<std::uint8_t> image) const noexcept {
+  const std::ptrdiff_t next_line = single_line_ ? 0 : n_samples_;
+  const float level_per_db = static_cast<float>(kLevels - 1) / dynamic_range_;
+  for (std::size_t k = begin; k < end; ++k) {
+    const Sample& s = samples_[k];
+    if (s.index < 0) {
+      image[k] = 0;
+      continue;
+    }
+    const float* a = decibel.data() + s.index;
+    const float* b = a + next_line;
+    const float near = a[0] + s.sample * (a[1] - a[0]);
+    const float far = b[0] + s.sample * (b[1] - b[0]);
+    const float above = near + s.line * (far - near) + dynamic_range_;
+    const int grain = grain_.empty() ? 0 : grain_[k];
+    const int level = static_cast<int>(above * level_per_db + 0.5F) + grain;
+    image[k] = grey_[static_cast<std::size_t>(std::clamp(level, 0, kLevels - 1))];
   }
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -19,10 +20,15 @@ class ScanConverter {
   /// dB between black and white of later images. Requires: positive.
   void set_dynamic_range(double decibel) noexcept;
 
+  /// Later images are as grey as `curve` says, not as their decibels; with the `grain` of pixels,
+  /// which stands still, or without.
+  void set_curve(const GreyCurve& curve, bool grain);
+
   [[nodiscard]] int width() const noexcept { return width_; }
   [[nodiscard]] int height() const noexcept { return height_; }
 
-  /// Grey of every pixel: black at -dynamic range, white at 0 dB, black off the sector.
+  /// Grey of every pixel: black at -dynamic range, white at 0 dB, black off the sector; in between
+  /// straight in decibels, or by the curve.
   /// `rows` picks pixel rows [first, last), so that threads may share the work.
   void convert(std::span<const float> decibel, int first_row, int last_row,
                std::span<std::uint8_t> image) const noexcept;
@@ -44,6 +50,10 @@ class ScanConverter {
   [[nodiscard]] Sample find_sample(const Transducer& transducer, double sample_depth,
                                    const Vec3& p) const noexcept;
 
+  void convert_by_curve(std::span<const float> decibel, std::size_t begin, std::size_t end,
+                        std::span<std::uint8_t> image) const noexcept;
+
+  static constexpr int kLevels = 1024;
   int width_ = 0;
   int height_ = 0;
   double pixel_ = 0;  // m
@@ -53,7 +63,10 @@ class ScanConverter {
   float grey_per_db_ = 0;
   float dynamic_range_ = 0;
   bool single_line_ = false;
-  std::vector<Sample> samples_;  // (height, width)
+  bool has_curve_ = false;
+  std::array<std::uint8_t, kLevels> grey_{};  // of the levels of the dynamic range
+  std::vector<std::int8_t> grain_;            // (height, width), levels; empty: none
+  std::vector<Sample> samples_;               // (height, width)
 };
 
 }  // namespace artus

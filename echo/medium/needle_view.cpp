@@ -2,6 +2,7 @@
 #include "artus/echo/needle_view.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -15,6 +16,32 @@ constexpr double kBoreSpeed = 1480;                  // m/s, water in the bore
 constexpr double kSteelReflection = 0.933;           // -0.6 dB, muscle on steel
 constexpr double kPlainSlopes = 5.7 * kDegree;       // rad, mean of a drawn shaft. assumed
 constexpr double kEchogenicSlopes = 13.0 * kDegree;  // rad, of a dimpled one. assumed
+
+/// dB over the mirror at an angle to the face; straight in between.
+struct ScreenLevel {
+  double degrees;
+  double decibel;
+};
+constexpr std::array<ScreenLevel, 9> kPlainLevels{{{0, -7},
+                                                   {5, -11},
+                                                   {10, -16.5},
+                                                   {15, -21},
+                                                   {20, -25},
+                                                   {30, -26.5},
+                                                   {50, -29.5},
+                                                   {75, -35},
+                                                   {90, -38}}};
+constexpr std::array<ScreenLevel, 3> kDimpledLevels{{{0, -7}, {10, -11}, {90, -22}}};
+
+template <std::size_t N>
+double level_at(const std::array<ScreenLevel, N>& levels, double degrees) noexcept {
+  std::size_t k = 1;
+  while (k + 1 < N && levels[k].degrees < degrees) ++k;
+  const ScreenLevel& from = levels[k - 1];
+  const ScreenLevel& to = levels[k];
+  return from.decibel +
+         (to.decibel - from.decibel) * (degrees - from.degrees) / (to.degrees - from.degrees);
+}
 
 double normal_share(double x) noexcept {
   return 0.5 * std::erfc(-x / std::numbers::sqrt2);
@@ -69,6 +96,13 @@ double needle_reflectivity(const NeedleShape& shape, double angle, double specul
   const double share =
       blurred_exponential(tilt, spread, blur) / blurred_exponential(0, spread, blur);
   return kSteelReflection * std::sqrt(share);
+}
+
+double needle_on_screen(const NeedleShape& shape, double angle) noexcept {
+  const double degrees = std::min(std::abs(angle) / kDegree, 90.0);
+  const double decibel =
+      shape.echogenic ? level_at(kDimpledLevels, degrees) : level_at(kPlainLevels, degrees);
+  return std::pow(10.0, decibel / 20);
 }
 
 }  // namespace artus

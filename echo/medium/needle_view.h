@@ -46,4 +46,10 @@ struct NeedleTrack {
 [[nodiscard]] double needle_reflectivity(const NeedleShape& shape, double angle,
                                          double specular_phase) noexcept;
 
+/// The same as scanners show it, for looks other than raw: a narrow peak on a plateau. A plain
+/// shaft has the contrasts that were measured on screens at 10 to 50 degrees, read back through the
+/// default grey curve at the default gain [VanDeBerg2019]; a dimpled one has the value of
+/// [Nichols2003] at 75 degrees, and in between a straight line (assumed).
+[[nodiscard]] double needle_on_screen(const NeedleShape& shape, double angle) noexcept;
+
 }  // namespace artus

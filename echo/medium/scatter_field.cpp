@@ -102,6 +102,53 @@ void add_scatterers(const Scatterers& scatterers, const LatticeRows& rows, const
     add_scatterer(scatterers, {rows.x[i], rows.y[i], rows.z[i]}, gain[i], re[i], im[i]);
 }
 
+/// Another hash of a cell, from its first.
+inline std::uint32_t hash_again(std::uint32_t h, std::uint32_t factor) noexcept {
+  h = (h ^ (h >> 16U)) * factor;
+  return h ^ (h >> 15U);
+}
+
+/// Where the echoes go: in phase and quadrature of the first set, then of the others' differences.
+using SetRows = std::array<float*, 2 + 2 * ScatterField::kMoreSets>;
+
+constexpr std::size_t kSetLanes = 64;
+
+/// Along any walk, with the differences that two other sets make. What a few samples get is held
+/// apart until it is added: six rows that might overlap would not vectorise.
+ARTUS_SIMD
+void add_scatterer_sets(const Scatterers& scatterers, const LatticeRows& rows, const float* gain,
+                        const SetRows& out, std::size_t n) noexcept {
+  float held[6][kSetLanes];
+  for (std::size_t from = 0; from < n; from += kSetLanes) {
+    const std::size_t lanes = std::min(kSetLanes, n - from);
+    for (std::size_t j = 0; j < lanes; ++j) {
+      const std::size_t i = from + j;
+      const std::uint32_t z = rows.z[i] >> 16U;
+      const float behind = static_cast<float>(rows.z[i] & 0xffffU) * (1.0F / 65536);
+      const float before = 1 - behind;
+      const float g = gain[i] * (scatterers.unit / std::sqrt(before * before + behind * behind));
+      const float g0 = g * before;
+      const float g1 = g * behind;
+      const std::uint32_t a = hash_row(rows.x[i], rows.y[i], z, scatterers.seed);
+      const std::uint32_t b = hash_row(rows.x[i], rows.y[i], z + 1, scatterers.seed);
+      const float re = g0 * difference(a) + g1 * difference(b);
+      const float im = g0 * difference(a >> 16U) + g1 * difference(b >> 16U);
+      const std::uint32_t a1 = hash_again(a, 0x7feb352dU);
+      const std::uint32_t b1 = hash_again(b, 0x7feb352dU);
+      const std::uint32_t a2 = hash_again(a, 0x846ca68bU);
+      const std::uint32_t b2 = hash_again(b, 0x846ca68bU);
+      held[0][j] = re;
+      held[1][j] = im;
+      held[2][j] = g0 * difference(a1) + g1 * difference(b1) - re;
+      held[3][j] = g0 * difference(a1 >> 16U) + g1 * difference(b1 >> 16U) - im;
+      held[4][j] = g0 * difference(a2) + g1 * difference(b2) - re;
+      held[5][j] = g0 * difference(a2 >> 16U) + g1 * difference(b2 >> 16U) - im;
+    }
+    for (std::size_t k = 0; k < out.size(); ++k)
+      for (std::size_t j = 0; j < lanes; ++j) out[k][from + j] += held[k][j];
+  }
+}
+
 constexpr std::uint32_t kWalkLanes = 16;
 
 /// A straight walk's coordinates, up to a full multiple of kWalkLanes.
@@ -205,28 +252,64 @@ void ScatterRoom::resize(std::size_t n) {
   for (auto& row : cells_) row.resize(n + kWalkLanes);
 }
 
+namespace {
+
+/// For each lattice and each stretch of it that is covered without a gap, up to `n` samples long:
+/// add_stretch(scatterers, rows, begin, end) with the stretch's cells in `rows`.
+template <class AddStretch>
+void for_stretches(const ScatterView& view, std::span<const ScatterPiece> pieces,
+                   const std::array<std::uint32_t*, 3>& cells,
+                   const AddStretch& add_stretch) noexcept {
+  const auto [x, y, z] = cells;
+  for (std::size_t k = 0; k < view.size; ++k) {
+    const ScatterView::Lattice& lattice = view.lattices[k];
+    const Scatterers scatterers{lattice.seed, kUnitPower * lattice.weight};
+    for (std::size_t i = 0; i < pieces.size();) {
+      const std::size_t begin = pieces[i].begin;
+      std::size_t end = begin;
+      for (; i < pieces.size() && pieces[i].begin == end; ++i) {
+        const LatticeWalk walk = make_walk(lattice, pieces[i].p_J, pieces[i].step_J);
+        const std::size_t n = pieces[i].end - end;
+        walk_rows(walk, x + end, y + end, z + end, n);
+        end = pieces[i].end;
+      }
+      add_stretch(scatterers, LatticeRows{x + begin, y + begin, z + begin}, begin, end);
+    }
+  }
+}
+
+}  // namespace
+
 void ScatterField::add(const ScatterView& view, std::span<const ScatterPiece> pieces,
                        std::span<const float> gain, ScatterRoom& room, std::span<float> re,
                        std::span<float> im) noexcept {
   ARTUS_ASSERT(gain.size() == re.size() && gain.size() == im.size());
   ARTUS_ASSERT(room.cells_[0].size() >= gain.size() + kWalkLanes);
   auto& [x, y, z] = room.cells_;
-  for (std::size_t k = 0; k < view.size; ++k) {
-    const ScatterView::Lattice& lattice = view.lattices[k];
-    const Scatterers scatterers{lattice.seed, kUnitPower * lattice.weight};
-    for (std::size_t i = 0; i < pieces.size();) {
-      const std::size_t begin = pieces[i].begin;  // of what is covered without a gap
-      std::size_t end = begin;
-      for (; i < pieces.size() && pieces[i].begin == end; ++i) {
-        const LatticeWalk walk = make_walk(lattice, pieces[i].p_J, pieces[i].step_J);
-        const std::size_t n = pieces[i].end - end;
-        walk_rows(walk, x.data() + end, y.data() + end, z.data() + end, n);
-        end = pieces[i].end;
-      }
-      add_scatterers(scatterers, LatticeRows{x.data() + begin, y.data() + begin, z.data() + begin},
-                     gain.data() + begin, re.data() + begin, im.data() + begin, end - begin);
-    }
-  }
+  for_stretches(view, pieces, {x.data(), y.data(), z.data()},
+                [&](const Scatterers& scatterers, const LatticeRows& rows, std::size_t begin,
+                    std::size_t end) {
+                  add_scatterers(scatterers, rows, gain.data() + begin, re.data() + begin,
+                                 im.data() + begin, end - begin);
+                });
+}
+
+void ScatterField::add(const ScatterView& view, std::span<const ScatterPiece> pieces,
+                       std::span<const float> gain, ScatterRoom& room, EchoSpan echoes,
+                       const MoreSets& more) noexcept {
+  ARTUS_ASSERT(gain.size() == echoes.size());
+  ARTUS_ASSERT(room.cells_[0].size() >= gain.size() + kWalkLanes);
+  auto& [x, y, z] = room.cells_;
+  for_stretches(view, pieces, {x.data(), y.data(), z.data()},
+                [&](const Scatterers& scatterers, const LatticeRows& rows, std::size_t begin,
+                    std::size_t end) {
+                  SetRows out{echoes.re.data() + begin, echoes.im.data() + begin};
+                  for (std::size_t k = 0; k < more.size(); ++k) {
+                    out[2 + 2 * k] = more[k].re.data() + begin;
+                    out[3 + 2 * k] = more[k].im.data() + begin;
+                  }
+                  add_scatterer_sets(scatterers, rows, gain.data() + begin, out, end - begin);
+                });
 }
 
 double ScatterField::shared(double distance, double cell) noexcept {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "artus/core/geometry.h"
+#include "artus/detail/echo/probe/placed_line.h"
 
 namespace artus {
 
@@ -90,6 +91,16 @@ class ScatterField {
   static void add(const ScatterView& view, std::span<const ScatterPiece> pieces,
                   std::span<const float> gain, ScatterRoom& room, std::span<float> re,
                   std::span<float> im) noexcept;
+
+  /// How many more sets of scatterers a compound image averages over.
+  static constexpr std::size_t kMoreSets = 2;
+  using MoreSets = std::array<EchoSpan, kMoreSets>;
+
+  /// The same, and to each of `more` what another set of scatterers in the same cells, independent
+  /// of this one, would have given instead: the difference between the two.
+  static void add(const ScatterView& view, std::span<const ScatterPiece> pieces,
+                  std::span<const float> gain, ScatterRoom& room, EchoSpan echoes,
+                  const MoreSets& more) noexcept;
 
   /// Share of samples `distance` apart (m) that lie in the same cell of size `cell`: their
   /// correlation.

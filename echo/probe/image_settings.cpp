@@ -5,6 +5,10 @@
 
 namespace artus {
 
+std::string grey_knot_name(std::size_t knot) {
+  return "grey_curve.at_" + std::to_string(knot);
+}
+
 Result<void> validate(const ImageSettings& s) {
   RangeCheck check("image settings");
   check.in_range("depth", s.depth, ImageRanges::depth);
@@ -24,6 +28,14 @@ Result<void> validate(const ImageSettings& s) {
   check.in_range("compound_angles modulo 2", s.compound_angles % 2, {1, 1});
   check.in_range("compound_spread", s.compound_spread, ImageRanges::compound_spread);
   check.in_range("doppler_limit", s.doppler_limit, ImageRanges::doppler_limit);
+  check.in_range("look", static_cast<double>(s.look), ImageRanges::look);
+  for (std::size_t k = 0; k < GreyCurve::kKnots; ++k) {
+    const double least = k == 0 ? 0 : s.grey_curve.grey[k - 1];
+    const std::string name = grey_knot_name(k);
+    check.in_range(name.c_str(), s.grey_curve.grey[k], ImageRanges::grey);
+    check.in_range((name + " over the one before").c_str(), s.grey_curve.grey[k] - least,
+                   ImageRanges::grey);
+  }
   check.in_range("n_threads", s.n_threads, ImageRanges::n_threads);
   return check.result();
 }

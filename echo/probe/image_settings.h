@@ -1,12 +1,38 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "artus/core/geometry.h"
 #include "artus/core/result.h"
 
 namespace artus {
+
+/// What the scanner's back end makes of the echoes.
+enum class Look : std::uint8_t {
+  raw,       ///< the echoes as physics has them, log-compressed, linear in grey
+  clinical,  ///< as a scanner shows them: clutter, grey curve, speckle reduction, grain; bone and
+             ///< needle as measured on screens
+  compound,  ///< clinical, of several sets of speckle on one course of the sound, averaged
+};
+
+/// "raw", "clinical", "compound": as the tool, Python and metadata call them.
+inline constexpr std::array<const char*, 3> kLookNames{"raw", "clinical", "compound"};
+[[nodiscard]] constexpr const char* look_name(Look look) noexcept {
+  return kLookNames[static_cast<std::size_t>(look)];
+}
+
+/// Grey over the level of an echo, of any look but raw: one value for each eighth of the dynamic
+/// range, 0 black .. 1 white, straight in between. Values of `devices/grey-curves/clinical.toml`;
+/// see grey_curve_file.h.
+struct GreyCurve {
+  static constexpr std::size_t kKnots = 9;
+  std::array<double, kKnots> grey{0.022, 0.045, 0.095, 0.180, 0.295, 0.445, 0.630, 0.830, 1.0};
+  friend bool operator==(const GreyCurve&, const GreyCurve&) = default;
+};
 
 /// The settings that a running renderer takes in its next frame: they need no new table.
 struct LiveSettings {
@@ -17,11 +43,17 @@ struct LiveSettings {
   double tgc_limit_db = 70;  ///< dB, the receiver's largest compensation
   double smoothing = 0;      ///< 0 none .. 1: share of a 3 x 3 mean in the compressed lines
   double persistence = 0;    ///< 0 none .. <1 share of the previous image kept
+  // stages of a look other than raw; raw has none of them
+  bool clutter = true;            ///< side lobes, reverberation haze, the receiver's noise
+  bool speckle_reduction = true;  ///< smoothing that keeps edges and fills the dark of speckle
+  bool grain = true;              ///< of the scan converter's pixels
+  GreyCurve grey_curve;
   friend bool operator==(const LiveSettings&, const LiveSettings&) = default;
 };
 
 /// The settings that a renderer's tables and buffers are made for; see EchoPipeline.
 struct TableSettings {
+  Look look = Look::clinical;
   double depth = 40e-3;  ///< m, of the image at the display's speed of sound
   int n_samples = 1024;  ///< along a scanline
   int n_planes = 5;      ///< elevation planes that make up the slice's thickness
@@ -49,7 +81,10 @@ struct ImageSettings : LiveSettings, TableSettings {
   friend bool operator==(const ImageSettings&, const ImageSettings&) = default;
 };
 
-/// Errors: invalid, naming the value and its range.
+/// The name of a knot of the grey curve in messages and recordings.
+[[nodiscard]] std::string grey_knot_name(std::size_t knot);
+
+/// Errors: invalid, naming the value and its range; a grey curve that falls.
 [[nodiscard]] Result<void> validate(const ImageSettings& settings);
 
 /// A small reflector fixed in the body (wire phantoms, calcifications).

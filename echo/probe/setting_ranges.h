@@ -38,6 +38,8 @@ struct ImageRanges {
   static constexpr Range compound_angles{1, 9};
   static constexpr Range compound_spread{0, 0.7};  // rad
   static constexpr Range doppler_limit{1e-3, 10};  // m/s
+  static constexpr Range look{0, 2};
+  static constexpr Range grey{0, 1};
   static constexpr Range n_threads{0, 1024};
 };
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // All that artus claims of itself against theory and published figures, in one table.
 #include <array>
+#include <filesystem>
 
 #include "artus/detail/evidence/validation/echo/echo_gates.h"
 #include "artus/detail/evidence/validation/echo/echo_patch.h"
+#include "artus/detail/evidence/validation/echo/realism_gates.h"
 #include "artus/detail/evidence/validation/gates.h"
 #include "artus/detail/evidence/validation/injection/injection_gates.h"
 #include "artus/detail/evidence/validation/needle/experiments.h"
@@ -13,11 +15,13 @@
 namespace artus {
 namespace {
 
-constexpr std::array<GateSet, 5> kSets{{
+constexpr std::array<GateSet, 6> kSets{{
     {"needle", "Published needle experiments, closed loop with a simulated hand",
      "the figures and equations of [Alamilla2020]; each experiment names its own", true},
     {"echo", "The image's physics on test objects",
      "the wave model and the literature; each gate names its own", false, "gates.json"},
+    {"realism", "The picture in the clinical look beside scanners'",
+     "bands from published pictures of three scanners; [VanDeBerg2019]"},
     {"soft", "Tissue that gives way, on blocks with known answers: mechanics and picture",
      "closed forms of elasticity; each gate names its own"},
     {"injection", "The syringe and the places that liquid goes to, against known answers",
@@ -66,8 +70,15 @@ Result<Gate> of_joint(std::string_view /*name*/, const GateOptions& options) {
   return kMeasure(options.joint);
 }
 
+Result<Gate> plates(std::string_view /*name*/, const GateOptions& options) {
+  return measure_plates(options.reference);
+}
+
 Result<Gate> muscle_patch(std::string_view /*name*/, const GateOptions& options) {
-  const auto range = read_patch_range(options.reference, options.reference_rows);
+  const auto table = std::filesystem::is_directory(options.reference)
+                         ? options.reference / "stats.tsv"
+                         : options.reference;
+  const auto range = read_patch_range(table, options.reference_rows);
   ARTUS_TRY(range);
   return measure_muscle(std::make_shared<const Scene>(options.joint), *range);
 }
@@ -120,6 +131,11 @@ constexpr auto kEntries = std::to_array<GateEntry>({
     {"echo", "motion", "rigid motion, sideways motion, number of threads", plain<gate_motion>},
     {"echo", "muscle-patch", "grey and grain of a joint's muscle against real images", muscle_patch,
      GateNeeds::joint_and_reference},
+    {"realism", "bone", "bone's line by its slope, and its shadow", plain<gate_screen_bone>},
+    {"realism", "needle", "contrast of a needle by its angle", plain<gate_screen_needle>},
+    {"realism", "lumen", "clutter in a lumen", plain<gate_screen_lumen>},
+    {"realism", "muscle", "grey and grain of muscle", plain<gate_screen_muscle>},
+    {"realism", "plates", "our pictures beside real ones", plates, GateNeeds::reference},
     {"soft", "patch", "linear field in a graded cage", plain<gate_patch>},
     {"soft", "uniaxial", "compression with free sides", plain<gate_uniaxial>},
     {"soft", "point-force", "Boussinesq's far displacement", plain<gate_point_force>},

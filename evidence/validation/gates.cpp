@@ -2,6 +2,7 @@
 #include "artus/detail/evidence/validation/gates.h"
 
 #include <algorithm>
+#include <filesystem>
 
 #include "artus/detail/core/known_names.h"
 
@@ -10,6 +11,7 @@ namespace {
 
 bool has_enough(const GateEntry& entry, const GateOptions& options) {
   if (entry.needs == GateNeeds::nothing) return true;
+  if (entry.needs == GateNeeds::reference) return std::filesystem::is_directory(options.reference);
   return options.joint != nullptr &&
          (entry.needs == GateNeeds::joint || !options.reference.empty());
 }
@@ -46,7 +48,9 @@ Result<Gate> run_gate(std::string_view set, std::string_view name, const GateOpt
     return fail(ErrorCode::malformed,
                 "gate \"" + std::string(name) +
                     (found->needs == GateNeeds::joint ? "\" measures a joint: needs -j"
-                                                      : "\" needs -j and --reference"));
+                     : found->needs == GateNeeds::reference
+                         ? "\" needs the folder of real pictures: --reference DIR"
+                         : "\" needs -j and --reference"));
   if (set != "needle")
     ARTUS_TRY(
         check(options.feel, {std::string(name), {}, 0, "has no law of the needle to choose"}));

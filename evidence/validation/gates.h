@@ -9,7 +9,7 @@
 
 namespace artus {
 
-/// needle, echo, soft, injection, probe.
+/// needle, echo, realism, soft, injection, probe.
 [[nodiscard]] std::span<const GateSet> gate_sets() noexcept;
 /// All gates of all sets, in the order of the reports.
 [[nodiscard]] std::span<const GateEntry> gate_entries() noexcept;

@@ -63,7 +63,8 @@ class Labels:
 class Renderer:
     """Turns probe poses into B-mode images of one joint. `transducer`: a bundled name or a .toml
     file; `keep_lines`: frames keep (lines, samples) in_phase, quadrature, envelope and decibel;
-    `gauge`: of the needle that is drawn."""
+    `gauge`: of the needle that is drawn; `look`: "raw", "clinical" or "compound";
+    `grey_curve`: a bundled name or a .toml file."""
 
     def __init__(
         self,
@@ -90,6 +91,11 @@ class Renderer:
         tgc_limit_db: float = 70,
         smoothing: float = 0,
         persistence: float = 0,
+        clutter: bool = True,
+        speckle_reduction: bool = True,
+        grain: bool = True,
+        grey_curve: str = "clinical",
+        look: str = "clinical",
         depth: float = 40e-3,
         samples: int = 1024,
         planes: int = 5,

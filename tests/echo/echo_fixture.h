@@ -27,6 +27,7 @@ using artus::decibel;
 using artus::envelope_line;
 using artus::find_peak;
 using artus::mean_intensity;
+using artus::raw_settings;
 
 /// A probe on the block's top looking along +z, moved by (x, y, z) m.
 [[nodiscard]] Pose probe_at(double x = 0, double y = 0, double z = 0);

@@ -35,7 +35,7 @@ TEST(Interface, NothingReturnsFromBehindBone) {
 TEST(Interface, WithoutContactTheImageIsBlackBelowTheRingingLens) {
   const std::array<FlatLayer, 1> layers{{{"muscle", 40e-3}}};
   const auto scene = test::make_block_scene(layers);
-  Renderer renderer(scene, Transducer{}, ImageSettings{});
+  Renderer renderer(scene, Transducer{}, test::raw_settings());
   const Frame& frame = renderer.render(test::probe_at(0, 0, -20e-3));
   EXPECT_GT(test::envelope_line(frame, 128)[1], 0.5F);
   const auto below = static_cast<std::size_t>(20e-3 / frame.pixel);

@@ -53,7 +53,7 @@ TEST(Renderer, BadSettingsAreRefusedAndOddPosesAreBlack) {
   settings.depth = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(validate(settings).has_value());
 
-  Renderer renderer(scene, Transducer{}, ImageSettings{});
+  Renderer renderer(scene, Transducer{}, test::raw_settings());
   const Frame& inside_bone = renderer.render(test::probe_at(0, 0, 30e-3));
   EXPECT_EQ(*std::max_element(inside_bone.image.begin(), inside_bone.image.end()), 0);
   const Frame& far_off = renderer.render(test::probe_at(1, 1, -1));
@@ -75,7 +75,7 @@ TEST(Renderer, CompressionIsTwentyTimesTheLogarithm) {
 TEST(Renderer, GainAndDynamicRangeMoveTheGreyScale) {
   const auto scene = test::make_block_scene(kLayers);
   const auto mean_grey = [&](double gain, double range) {
-    ImageSettings settings;
+    ImageSettings settings = test::raw_settings();
     settings.gain_db = gain;
     settings.dynamic_range_db = range;
     const Frame frame = render_bmode(scene, test::probe_at(), std::nullopt, {}, settings);

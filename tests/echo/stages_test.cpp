@@ -132,6 +132,8 @@ std::set<std::string> change_each(const P& original) {
       using Member = std::remove_cvref_t<decltype(member)>;
       if constexpr (std::is_same_v<Member, bool>)
         member = !member;
+      else if constexpr (std::is_enum_v<Member>)
+        member = member == Member{} ? Member{1} : Member{};
       else
         member = static_cast<Member>(member + 1);
     });
@@ -142,7 +144,7 @@ std::set<std::string> change_each(const P& original) {
 }
 
 TEST(ImageFields, EveryNameIsAMemberOfItsOwn) {
-  EXPECT_EQ(change_each(ImageSettings{}).size(), 23U);
+  EXPECT_EQ(change_each(ImageSettings{}).size(), 36U);
   EXPECT_EQ(change_each(Transducer{}).size(), 12U);
   EXPECT_EQ(change_each(ImageSettings{}).count("gain_db"), 1U);
 }

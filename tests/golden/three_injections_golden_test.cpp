@@ -19,6 +19,7 @@
 #include <nlohmann/json.hpp>
 
 #include "artus/anatomy/compiled_joint.h"
+#include "artus/detail/echo/display/frame_measure.h"
 #include "artus/detail/evidence/runs/three_injections.h"
 #include "artus/echo/image_io.h"
 #include "artus/echo/labels.h"
@@ -204,7 +205,7 @@ TEST_P(ImageGolden, ShowsNothingThatASonographerWouldSee) {
   shape.length = run.needle_length;
   const NeedleView needle{moment->X_JN, shape};
   const auto scene = simple_shoulder();
-  Renderer renderer(scene, Transducer{}, ImageSettings{});
+  Renderer renderer(scene, Transducer{}, raw_settings());
   renderer.set_contact(moment->coverage);
   const cv::Mat actual = grey_image(renderer.render(moment->X_JP, needle));
 

@@ -84,7 +84,9 @@ TEST(ProbeHand, ElementsThatLiftAreBlackInThePicture) {
   ProbeContactParams params;
   ProbeContactModel contact(scene, params);
   static_cast<void>(contact.step(on_top(0, 8 * kDegree, 0.5e-3)));
-  Renderer renderer(scene, Transducer{}, ImageSettings{});
+  ImageSettings raw;
+  raw.look = Look::raw;
+  Renderer renderer(scene, Transducer{}, raw);
   renderer.set_contact(contact.coverage());
   const Frame& frame = renderer.render(on_top(0, 8 * kDegree, 0.5e-3));
   const auto n = static_cast<std::size_t>(frame.n_samples);

@@ -125,6 +125,23 @@ def test_what_the_engine_refuses_is_an_exception_with_its_message(joint, tmp_pat
         artus.Renderer(joint, lines=32, planes=1).render(joint.probe).envelope
 
 
+def test_a_look_is_chosen_by_its_name(joint):
+    settings = {"lines": 64, "planes": 1, "samples": 256}
+
+    def picture(**look):
+        return artus.Renderer(joint, **settings, **look).render(joint.probe).image
+
+    assert (picture() == picture(look="clinical")).all()
+    assert (picture(look="raw") != picture()).any()
+    assert (picture(look="compound") != picture()).any()
+    assert (picture(grey_curve="linear") != picture()).any()
+    assert (picture(clutter=False) != picture()).any()
+    with pytest.raises(ValueError, match="raw, clinical or compound"):
+        picture(look="pretty")
+    with pytest.raises(FileNotFoundError, match="hard"):
+        picture(grey_curve="pretty")
+
+
 def test_sweep_shares_its_list_between_workers(joint):
     settings = {"lines": 64, "planes": 1, "samples": 256}
     poses = [(joint.probe, joint.needle if i % 2 else None) for i in range(6)]

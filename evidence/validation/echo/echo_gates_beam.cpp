@@ -93,7 +93,7 @@ PlotSeries over_depth(std::string label, const std::vector<double>& widths,
 
 cv::Mat picture_of(const std::string& phantom_name) {
   const auto phantom = make_echo_phantom(phantom_name);
-  Renderer renderer(phantom->scene, Transducer{}, ImageSettings{});
+  Renderer renderer(phantom->scene, Transducer{}, raw_settings());
   renderer.set_point_reflectors(phantom->reflectors);
   return annotated_image(renderer.render(phantom->X_JP, phantom->needle), Transducer{});
 }

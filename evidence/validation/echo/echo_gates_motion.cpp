@@ -59,7 +59,7 @@ Gate gate_motion() {
   const auto scene = layered_block();
   const Pose X_JP = make_pose(Vec3(1e-3, 2e-3, 0), Vec3(0.1, 0.05, 1), Vec3(1, 0.2, 0));
   const NeedleView needle = needle_in_plane(X_JP, Vec3(2e-3, 0, 14e-3), 0.4);
-  Renderer renderer(scene, Transducer{}, ImageSettings{});
+  Renderer renderer(scene, Transducer{}, raw_settings());
   const Frame still = renderer.render(probe_in_joint(Pose::Identity(), X_JP), needle);
   double different = 0;
   for (int k = 1; k <= 3; ++k) {
@@ -76,7 +76,7 @@ Gate gate_motion() {
                                        shifted_correlation(), 0.999, ""));
   different = 0;
   for (const int threads : {1, 2, 7}) {
-    ImageSettings settings;
+    ImageSettings settings = raw_settings();
     settings.n_threads = threads;
     const Frame frame =
         render_bmode(scene, probe_in_joint(Pose::Identity(), X_JP), needle, {}, settings);

@@ -99,6 +99,7 @@ ReferenceView reference_view() {
   const auto preset = find_transducer("linear-4-9");
   ARTUS_REQUIRE(preset.has_value(), "the bundled transducer is missing");
   ReferenceView view;
+  view.settings.look = Look::raw;
   view.transducer = preset->transducer;
   view.settings.pixel = kPixel;
   view.settings.depth = 50e-3;

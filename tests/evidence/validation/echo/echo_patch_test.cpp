@@ -141,6 +141,7 @@ TEST(EchoPatch, LooksWhereFibresRunAlongTheFaceAsInTheReference) {
   const auto preset = find_transducer("linear-4-9");
   ASSERT_TRUE(preset.has_value());
   ImageSettings settings;
+  settings.look = Look::raw;
   settings.pixel = 0.0854e-3;
   settings.depth = 50e-3;
   const std::array<FlatLayer, 2> layers{{{"fat", 8e-3}, {"muscle", 60e-3}}};
