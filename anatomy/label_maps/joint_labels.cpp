@@ -101,7 +101,10 @@ class TetPainter {
     for (auto z = index(low.z()); z <= high.z(); ++z)
       for (auto y = index(low.y()); y <= high.y(); ++y) {
         const Eigen::Vector4d row = at_zero + slope.col(1) * y + slope.col(2) * z;
-        paint_row(row, slope.col(0), low.x(), high.x(), y, z, label);
+        paint_row(row, slope.col(0), {low.x(), high.x()},
+                  (static_cast<std::size_t>(z) * volume_.size[1] + static_cast<std::size_t>(y)) *
+                      volume_.size[0],
+                  label);
       }
   }
 
@@ -112,8 +115,10 @@ class TetPainter {
   /// The first index that is not below a coordinate of the box.
   [[nodiscard]] static double index(double low) { return std::max(0.0, std::ceil(low)); }
 
-  void paint_row(const Eigen::Vector4d& row, const Eigen::Vector4d& slope, double low, double high,
-                 double y, double z, std::uint16_t label) {
+  /// The voxels of a row between two indices; `start` is the row's first.
+  void paint_row(const Eigen::Vector4d& row, const Eigen::Vector4d& slope,
+                 std::pair<double, double> reach, std::size_t start, std::uint16_t label) {
+    auto& [low, high] = reach;
     for (int k = 0; k < 4; ++k) {
       if (std::abs(slope[k]) < kFlat) {
         if (row[k] < -kSlack) return;
@@ -123,9 +128,6 @@ class TetPainter {
         high = std::min(high, (-kSlack - row[k]) / slope[k]);
       }
     }
-    const auto start =
-        (static_cast<std::size_t>(z) * volume_.size[1] + static_cast<std::size_t>(y)) *
-        volume_.size[0];
     for (double x = std::max(0.0, std::ceil(low)); x <= high; ++x) {
       std::uint16_t& at = volume_.labels[start + static_cast<std::size_t>(x)];
       if (at != 0) continue;

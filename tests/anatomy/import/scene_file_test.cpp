@@ -71,6 +71,22 @@ struct GlbNode {
   double scale = 1;
 };
 
+/// What a file says of a mesh's indices and places.
+std::string accessor_pair(const SurfaceMesh& mesh, const std::string& index_view,
+                          const std::string& place_view) {
+  Eigen::AlignedBox3d box;
+  for (const Vec3& p : mesh.vertices) box.extend(p);
+  return "{" + index_view +
+         printed("\"componentType\":5125,\"count\":%zu,\"type\":\"SCALAR\"},{",
+                 3 * mesh.triangles.size()) +
+         place_view +
+         printed(
+             "\"componentType\":5126,\"count\":%zu,\"type\":\"VEC3\",\"min\":[%.9g,%.9g,"
+             "%.9g],\"max\":[%.9g,%.9g,%.9g]}",
+             mesh.vertices.size(), box.min().x(), box.min().y(), box.min().z(), box.max().x(),
+             box.max().y(), box.max().z());
+}
+
 /// A binary glTF: one root node, which is turned and scaled, too, over nodes of a mesh each.
 std::string to_glb(const GlbNode& root, const std::vector<GlbNode>& nodes, bool draco) {
   std::string views, accessors, meshes, list, children, binary;
@@ -106,19 +122,9 @@ std::string to_glb(const GlbNode& root, const std::vector<GlbNode>& nodes, bool 
       add_view(start + indices, binary.size() - start - indices);
     }
     while (binary.size() % 4 != 0) binary += '\0';
-    const std::string index_view = draco ? "" : printed("\"bufferView\":%zu,", 2 * k);
-    const std::string place_view = draco ? "" : printed("\"bufferView\":%zu,", 2 * k + 1);
-    Eigen::AlignedBox3d box;
-    for (const Vec3& p : mesh.vertices) box.extend(p);
-    accessors += (k > 0 ? ",{" : "{") + index_view +
-                 printed("\"componentType\":5125,\"count\":%zu,\"type\":\"SCALAR\"},{",
-                         3 * mesh.triangles.size()) +
-                 place_view +
-                 printed(
-                     "\"componentType\":5126,\"count\":%zu,\"type\":\"VEC3\",\"min\":[%.9g,%.9g,"
-                     "%.9g],\"max\":[%.9g,%.9g,%.9g]}",
-                     mesh.vertices.size(), box.min().x(), box.min().y(), box.min().z(),
-                     box.max().x(), box.max().y(), box.max().z());
+    accessors +=
+        (k > 0 ? "," : "") + accessor_pair(mesh, draco ? "" : printed("\"bufferView\":%zu,", 2 * k),
+                                           draco ? "" : printed("\"bufferView\":%zu,", 2 * k + 1));
     meshes += printed("%s{\"primitives\":[{\"attributes\":{\"POSITION\":%zu},\"indices\":%zu%s}]}",
                       k > 0 ? "," : "", 2 * k + 1, 2 * k, extension.c_str());
     children += printed("%s%zu", k > 0 ? "," : "", k + 1);
