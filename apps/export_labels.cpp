@@ -100,7 +100,7 @@ void add_label_export_options(Command* command, LabelExportOptions& options) {
 
 ExitCode export_labels(const LabelExportOptions& options, const JointOptions& joint_options,
                        bool json) {
-  const auto joint = load(joint_options, json);
+  const auto joint = load(joint_options, make_progress_printer(json));
   if (!joint) return report_error(joint.error(), json);
   const auto labels = write_labels(options, **joint);
   if (!labels) return report_error(labels.error(), json);
