@@ -34,11 +34,11 @@ void print_structures(const CompileReport& report) {
       std::printf("%-42s refused: %s\n", s.name.c_str(), s.refused.c_str());
       continue;
     }
-    std::printf("%-42s %-8s %9.3f %9.3f %9.3f %7.2f %6.3f %6.3f %5zu\n", s.name.c_str(),
+    std::printf("%-42s %-8s %9.3f %9.3f %9.3f %7.2f %6.3f %6.3f %5zu%s\n", s.name.c_str(),
                 s.kind.c_str(), s.region_volume / kCubicCentimetre,
                 s.lost_volume / kCubicCentimetre, s.resolved_volume / kCubicCentimetre,
                 100 * s.volume_error(), s.distance.mean / kMillimetre,
-                s.distance.percentile95 / kMillimetre, s.parts);
+                s.distance.percentile95 / kMillimetre, s.parts, s.is_changed() ? "  !" : "");
     for (const auto& repair : s.repairs) std::printf("    %s\n", repair.c_str());
     for (const auto& warning : s.warnings) std::printf("    ! %s\n", warning.c_str());
   }

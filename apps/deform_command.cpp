@@ -8,6 +8,7 @@
 #include "artus/detail/apps/options/arguments.h"
 #include "artus/detail/apps/options/command.h"
 #include "artus/detail/apps/options/press_options.h"
+#include "artus/detail/apps/options/view_options.h"
 #include "artus/detail/core/units.h"
 #include "artus/detail/raycast/layers_below.h"
 #include "artus/detail/raycast/moving_scene.h"
@@ -80,8 +81,10 @@ nlohmann::json to_json(const Press& press, const SoftBody& body) {
 Result<void> write_slices(const std::shared_ptr<const DeformedBody>& tissue,
                           const Pose& X_JP_before, const Pose& X_JP, const Transducer& transducer,
                           const std::filesystem::path& file) {
+  ImageSettings settings;
+  settings.depth = depth_for(tissue->joint());
   const auto draw = [&](const Scene& scene, const Pose& pose) {
-    return colour_labels(render_labels(scene, pose, transducer, ImageSettings{}), tissue->joint());
+    return colour_labels(render_labels(scene, pose, transducer, settings), tissue->joint());
   };
   const cv::Mat before = draw(Scene(tissue->shared_joint()), X_JP_before);
   const cv::Mat after = draw(*make_scene(tissue), X_JP);

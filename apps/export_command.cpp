@@ -7,6 +7,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "artus/detail/apps/export_labels.h"
 #include "artus/detail/apps/options/pose_files.h"
 #include "artus/detail/core/units.h"
 #include "artus/detail/exchange/sequence_maker.h"
@@ -28,6 +29,7 @@ struct ExportOptions : PoseListOptions {
   std::filesystem::path dicom;
   std::filesystem::path report;
   double rate = 0;
+  LabelExportOptions labels;
 };
 
 /// The images to be written, and the page about a recording.
@@ -143,7 +145,9 @@ std::optional<Error> find_mistake(const ExportOptions& options) {
                       static_cast<int>(!options.recording.empty()) +
                       static_cast<int>(!options.sweep.empty());
   if (sources != 1)
-    return Error{ErrorCode::invalid, "give a recording, a list of poses or a sweep", "--recording"};
+    return Error{ErrorCode::invalid,
+                 "give a recording, a list of poses or a sweep; or --labels for a label map",
+                 "--recording"};
   if (options.mha.empty() && options.dicom.empty() && options.report.empty())
     return Error{ErrorCode::invalid, "say which file to write, --mha, --dicom or --report",
                  "--mha"};
@@ -153,6 +157,13 @@ std::optional<Error> find_mistake(const ExportOptions& options) {
 }
 
 ExitCode run_export(const ExportOptions& options) {
+  if (!options.labels.file.empty()) {
+    if (!options.poses.empty() || !options.recording.empty() || !options.sweep.empty())
+      return report_error(
+          {ErrorCode::invalid, "a label map is of a joint alone: no images go with it", "--labels"},
+          options.json);
+    return export_labels(options.labels, options.joint, options.json);
+  }
   if (const auto mistake = find_mistake(options)) return report_error(*mistake, options.json);
   const auto loaded = load_view(options.joint, options.view, options.json);
   if (!loaded) return report_error(loaded.error(), options.json);
@@ -181,7 +192,7 @@ ExitCode run_export(const ExportOptions& options) {
 void add_export_command(Command& app, ExitCode& code) {
   auto options = std::make_shared<ExportOptions>();
   Command* command = add_command(
-      app, "export", "Images with their places as other programs read them",
+      app, "export", "Images with their places, or a joint's regions, as other programs read them",
       "A sequence (.igs.mha) has ImageToReference, ProbeToReference and "
       "NeedleToReference for each\n"
       "frame, RAS in millimetres; 3D Slicer and PLUS read it.\n"
@@ -191,7 +202,8 @@ void add_export_command(Command& app, ExitCode& code) {
       "report.dcm\n"
       "  artus export -j shoulder.artus --poses path.csv --rate 25 --mha path.igs.mha\n"
       "  artus export -j shoulder.artus --poses out/run/poses.csv --rate 25 --mha run.igs.mha\n"
-      "  artus export -j shoulder.artus --sweep out/sweep --mha sweep.igs.mha");
+      "  artus export -j shoulder.artus --sweep out/sweep --mha sweep.igs.mha\n"
+      "  artus export -j shoulder.artus --labels shoulder.seg.nrrd --spacing 0.4,0.4,0.7");
   add_pose_list_options(command, *options);
   command->add_option("--recording", options->recording,
                       "of serve or view, or poses that lead a session (.jsonl, .csv, .mha)");
@@ -202,6 +214,7 @@ void add_export_command(Command& app, ExitCode& code) {
   command->add_option("--dicom", options->dicom, "Ultrasound Multi-frame Image for a PACS");
   command->add_option("--report", options->report,
                       "a page about the recording: DICOM Secondary Capture, or .png");
+  add_label_export_options(command, options->labels);
   on_run(command, code, [options] { return run_export(*options); });
 }
 

@@ -153,23 +153,26 @@ void add_table(HtmlPage& page, const CompileReport& report) {
       rows.push_back({s.name, "refused", "-", "-", "-", "-", "-", "-", "-"});
       continue;
     }
-    rows.push_back(
-        {s.name, s.kind, fixed_number(s.region_volume / kCubicCentimetre, 3),
-         fixed_number(s.lost_volume / kCubicCentimetre, 3),
-         fixed_number(s.resolved_volume / kCubicCentimetre, 3),
-         fixed_number(100 * s.volume_error(), 2), fixed_number(s.distance.mean / kMillimetre, 3),
-         fixed_number(s.distance.percentile95 / kMillimetre, 3), std::to_string(s.parts)});
+    rows.push_back({s.name, s.kind, fixed_number(s.region_volume / kCubicCentimetre, 3),
+                    fixed_number(s.lost_volume / kCubicCentimetre, 3),
+                    fixed_number(s.resolved_volume / kCubicCentimetre, 3),
+                    fixed_number(100 * s.volume_error(), 2) + (s.is_changed() ? " !" : ""),
+                    fixed_number(s.distance.mean / kMillimetre, 3),
+                    fixed_number(s.distance.percentile95 / kMillimetre, 3),
+                    std::to_string(s.parts)});
   }
-  page.table({{"structure", "the first line is what no structure claims"},
-              {"kind", "surface: of a file; shell, cap, gap, end: made by artus; filler"},
-              {"input cm3", "its volume inside skin and region of interest"},
-              {"lost cm3", "of that to structures before it in joint.toml"},
-              {"is cm3", "of its tetrahedra"},
-              {"error %", "is, over input less lost; 3 % and more is for you to look at"},
-              {"mean mm", "distance of its triangles to its surface, weighted by area"},
-              {"p95 mm", "95 % of its area is nearer than this"},
-              {"parts", "connected pieces; more than one where others cut through it"}},
-             rows);
+  page.table(
+      {{"structure", "the first line is what no structure claims"},
+       {"kind", "surface: of a file; shell, cap, gap, end: made by artus; filler"},
+       {"input cm3", "its volume inside skin and region of interest"},
+       {"lost cm3", "of that to structures before it in joint.toml"},
+       {"is cm3", "of its tetrahedra"},
+       {"error %", "is, over input less lost; '!': this or what is lost is more than 5 %"},
+       {"mean mm",
+        "distance of its triangles to its surface, mean of what lies inside the region, by area"},
+       {"p95 mm", "95 % of its area inside the region is nearer than this"},
+       {"parts", "connected pieces; more than one where others cut through it"}},
+      rows);
   page.paragraph(std::to_string(report.tetrahedra) + " tetrahedra, " +
                  std::to_string(report.quality.inverted) + " inverted, " +
                  fixed_number(report.quality.above_8_deg_percent(), 3) +

@@ -22,6 +22,8 @@
 #include "artus/detail/anatomy/compile/mesh/isolated.h"
 #include "artus/detail/anatomy/compile/mesh/tet_topology.h"
 #include "artus/detail/anatomy/compile/mesh/tetrahedralize.h"
+#include "artus/detail/core/printed.h"
+#include "artus/detail/core/units.h"
 
 namespace artus {
 namespace {
@@ -69,6 +71,9 @@ std::vector<StructureReport> start_reports(const JointFile& file) {
     report.name = s.name;
     report.tissue = s.tissue;
     report.kind = kind_of(s);
+    report.is_hard = std::any_of(file.tissues.begin(), file.tissues.end(), [&](const Tissue& t) {
+      return t.name == s.tissue && t.haptic.hard;
+    });
     reports.push_back(std::move(report));
   }
   return reports;
@@ -89,10 +94,33 @@ Result<void> check_refusals(const JointSources& sources,
     for (const Finding& f : find_misplaced(file, surfaces))
       if (f.verdict == Verdict::refused && !(options.skip_refused && f.kind == "lost"))
         refusals.push_back(f.what + ": " + f.message);
+    for (const Finding& f : find_pressed_bones(file, surfaces))
+      refusals.push_back("pose '" + f.what + "': " + f.message);
     for (const Finding& f : find_unheld(file, surfaces))
       refusals.push_back(f.what + ": " + f.message);
     for (const PlanProblem& p : find_plan_problems(file, make_ground(file, surfaces)))
       refusals.push_back(to_line(p));
+  }
+  return refuse_all(refusals, file);
+}
+
+// What was given and of which nothing is there is no joint that its author meant.
+Result<void> check_lost(const JointFile& file, const CompileReport& report,
+                        const CompileOptions& options) {
+  constexpr double kNothing = 0.02;  // of what lies in the body and the region
+  std::vector<std::string> refusals;
+  if (!options.check_plans || options.skip_refused) return {};
+  for (const StructureReport& r : report.structures) {
+    if (r.kind != "surface" || !r.refused.empty()) continue;
+    if (r.resolved_volume > kNothing * r.region_volume) continue;
+    refusals.push_back(
+        r.name +
+        printed(": %.3g of its %.3g cm3 would be in the joint",
+                r.resolved_volume / kCubicCentimetre, r.surface_volume / kCubicCentimetre) +
+        (r.lost_to.empty() ? std::string("; check its unit, frame and position, or remove it")
+                           : ": '" + r.lost_to +
+                                 "' stands before it and takes it; put it before "
+                                 "that, or remove it"));
   }
   return refuse_all(refusals, file);
 }
@@ -228,6 +256,7 @@ Result<CompileOutcome> compile_joint(const JointSources& sources, const CompileO
     report.notes.push_back("body: " + warning);
   append_warnings(file, space->labels, *surfaces, report);
   append_gap_cuts(file, *space, report);
+  ARTUS_TRY(check_lost(file, report, options));
   outcome.joint = attach_metadata(file, std::move(complex->mesh), std::move(*digest), report.notes);
   report.seconds = seconds_since(start);
   report.peak_memory = peak_memory();

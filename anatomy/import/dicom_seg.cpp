@@ -204,7 +204,13 @@ class SegReader {
     const double slices = std::round((heights.back() - heights.front()) / step_) + 1;
     if (!(slices < 1e5)) return missing("sound positions");
     out_.size[2] = static_cast<std::size_t>(slices);
-    out_.X_LI.linear().col(2) = kMillimetre * step_ * n;
+    // From the lowest slice to the highest, which is finer than the distance of two of them.
+    const auto high = std::max_element(
+        frames_.begin(), frames_.end(),
+        [&](const Frame& a, const Frame& b) { return a.position.dot(n) < b.position.dot(n); });
+    const Vec3 up =
+        slices > 1 ? Vec3((high->position - low->position) / (slices - 1)) : Vec3(step_ * n);
+    out_.X_LI.linear().col(2) = kMillimetre * up;
     out_.X_LI.translation() = kMillimetre * low->position;
     ARTUS_TRY(count_voxels(out_.size, name_));
     ARTUS_TRY(check_frame(out_.X_LI, name_));
@@ -221,6 +227,7 @@ class SegReader {
             name_);
       slices_.push_back(static_cast<std::size_t>(slice));
     }
+    out_.X_LI = rounded_frame(out_.X_LI);
     return {};
   }
 

@@ -67,6 +67,15 @@ Result<void> check_frame(const IndexFrame& X_LI, const std::string& where) {
   return {};
 }
 
+IndexFrame rounded_frame(const IndexFrame& X_LI) noexcept {
+  constexpr double kEdge = 1e-9;    // m
+  constexpr double kOrigin = 1e-6;  // m
+  IndexFrame out = X_LI;
+  out.linear() = (X_LI.linear() / kEdge).array().round() * kEdge;
+  out.translation() = (X_LI.translation() / kOrigin).array().round() * kOrigin;
+  return out;
+}
+
 void swap_bytes(std::string& samples, std::size_t width) noexcept {
   for (std::size_t i = 0; i + width <= samples.size(); i += width)
     std::reverse(samples.begin() + static_cast<std::ptrdiff_t>(i),

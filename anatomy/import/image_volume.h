@@ -91,6 +91,10 @@ void with_samples(const ImageVolume& volume, Use&& use) {
 /// (1 um to 50 mm). Errors: invalid, naming `where`.
 [[nodiscard]] Result<void> check_frame(const IndexFrame& X_LI, const std::string& where);
 
+/// A frame as single precision and decimal texts keep it, too: edges in steps of 1e-6 mm, the
+/// origin in steps of 1e-3 mm, so that one segmentation gives the same surfaces from every format.
+[[nodiscard]] IndexFrame rounded_frame(const IndexFrame& X_LI) noexcept;
+
 /// Turns samples of another byte order round.
 void swap_bytes(std::string& samples, std::size_t width) noexcept;
 

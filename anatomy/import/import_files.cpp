@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "artus/detail/anatomy/import/scene_parts.h"
+#include "artus/detail/anatomy/import/swept_tube.h"
 #include "artus/detail/core/printed.h"
 #include "artus/detail/core/text_file.h"
 
@@ -60,7 +61,9 @@ Result<LabelVolume> join_masks(const std::vector<ImageVolume>& masks,
       return fail(ErrorCode::invalid,
                   "its grid is not that of " + names.front() + "; export all masks of one scan",
                   names[i]);
-    const auto one = make_label_volume(masks[i], {{{1, stem_of(names[i]), {}}}, {}, {}}, names[i]);
+    StructureNames named;
+    named.labels = {{1, stem_of(names[i]), {}}};
+    const auto one = make_label_volume(masks[i], named, names[i]);
     if (!one && one.error().message.find("it is empty") != std::string::npos) {
       out.notes.push_back("'" + stem_of(names[i]) + "' has no voxels and is left out");
       continue;
@@ -89,8 +92,11 @@ Result<LabelVolume> join_masks(const std::vector<ImageVolume>& masks,
   return out;
 }
 
-Result<ImportedJoint> import_files(const std::vector<std::filesystem::path>& files,
-                                   const ImportOptions& options, const Progress& progress) {
+namespace {
+
+/// The joint without what was typed.
+Result<ImportedJoint> import_structures(const std::vector<std::filesystem::path>& files,
+                                        const ImportOptions& options, const Progress& progress) {
   std::vector<std::string> contents;
   std::vector<std::string> names;
   std::size_t n_volumes = 0;
@@ -117,6 +123,16 @@ Result<ImportedJoint> import_files(const std::vector<std::filesystem::path>& fil
     for (ScenePart& part : *more) parts.push_back(std::move(part));
   }
   return import_parts(std::move(parts), options, names.front(), progress);
+}
+
+}  // namespace
+
+Result<ImportedJoint> import_files(const std::vector<std::filesystem::path>& files,
+                                   const ImportOptions& options, const Progress& progress) {
+  auto joint = import_structures(files, options, progress);
+  ARTUS_TRY(joint);
+  ARTUS_TRY(add_tubes(*joint, options.names.tubes));
+  return joint;
 }
 
 }  // namespace artus

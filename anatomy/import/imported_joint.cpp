@@ -85,7 +85,7 @@ std::string to_joint_toml(const ImportedJoint& joint) {
     out += "\n" + comment(s.source + ": " + s.by);
     out += "[[structure]]\nname = \"" + s.name + "\"\ntissue = \"" + s.tissue + "\"\nfile = \"" +
            s.name + ".ply\"\n";
-    if (joint.is_partition) out += "repair = \"none\"\npartition = \"labels\"\n";
+    if (joint.is_partition && !s.is_swept) out += "repair = \"none\"\npartition = \"labels\"\n";
   }
   if (joint.region)
     out += "\n[[landmark]]\nname = \"joint_centre\"\nposition = " + place_of(joint.region->centre) +

@@ -22,9 +22,10 @@ struct ImportedStructure {
   std::string by;      ///< how the tissue is known, or why it is left out
   double value = 0;    ///< label in the file
   std::size_t n_voxels = 0;
-  LabelVolumes volumes;  ///< of a label; a surface has `fitted` alone
-  SurfaceMesh mesh;      ///< LPS, m
-  SurfaceMesh before;    ///< as the file has it: the faces of its voxels
+  LabelVolumes volumes;   ///< of a label; a surface has `fitted` alone
+  bool is_swept = false;  ///< made of points that were typed: no member of the partition
+  SurfaceMesh mesh;       ///< LPS, m
+  SurfaceMesh before;     ///< as the file has it: the faces of its voxels
 };
 
 /// A region of interest that was chosen.

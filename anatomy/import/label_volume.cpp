@@ -101,17 +101,6 @@ Result<void> fill_labels(const ImageVolume& volume, Segments& segments, LabelVol
               name);
 }
 
-/// A frame as single precision keeps it, too: edges in steps of 1e-6 mm, the origin of 1e-3 mm, so
-/// that one segmentation gives the same surfaces from every format.
-IndexFrame rounded(const IndexFrame& frame) {
-  constexpr double kEdge = 1e-9;    // m
-  constexpr double kOrigin = 1e-6;  // m
-  IndexFrame out = frame;
-  out.linear() = (frame.linear() / kEdge).array().round() * kEdge;
-  out.translation() = (frame.translation() / kOrigin).array().round() * kOrigin;
-  return out;
-}
-
 /// What to write so that labels have names.
 tl::unexpected<Error> ask_for_names(const Segments& segments, const std::string& name) {
   constexpr std::size_t kMost = 12;
@@ -171,7 +160,7 @@ Result<LabelVolume> make_label_volume(const ImageVolume& volume, const Structure
   LabelVolume out;
   out.format = volume.format;
   out.size = volume.size;
-  out.X_LI = rounded(volume.X_LI);
+  out.X_LI = rounded_frame(volume.X_LI);
   out.notes = volume.notes;
   out.labels.assign(volume.n_voxels(), 0);
   Segments segments(volume, names);

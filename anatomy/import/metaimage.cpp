@@ -18,17 +18,13 @@ struct MetaText {
 
 Result<MetaText> split_meta(std::string_view bytes, const std::string& name) {
   MetaText text;
-  for (std::size_t line = 1;; ++line) {
-    const auto end = bytes.find('\n');
-    const std::string_view one = trimmed(bytes.substr(0, end));
-    bytes.remove_prefix(end == std::string_view::npos ? bytes.size() : end + 1);
-    const auto equals = one.find('=');
-    if (equals == std::string_view::npos)
-      return fail(ErrorCode::malformed,
-                  "a line of a MetaImage header is 'Key = value', this one is not",
-                  name + ":" + std::to_string(line));
-    const std::string key = to_lower(trimmed(one.substr(0, equals)));
-    text.fields[key] = trimmed(one.substr(equals + 1));
+  std::size_t number = 0;
+  while (const auto line = take_line(bytes)) {
+    const auto parts = key_and_value(*line, '=', "a MetaImage header is 'Key = value'",
+                                     name + ":" + std::to_string(++number));
+    ARTUS_TRY(parts);
+    const std::string key = to_lower(parts->first);
+    text.fields[key] = parts->second;
     if (key == "elementdatafile") break;
   }
   text.data = bytes;
@@ -47,12 +43,7 @@ Result<SampleType> meta_type(const std::string& word, const std::string& name) {
        {"met_long_long", SampleType::i64},
        {"met_float", SampleType::f32},
        {"met_double", SampleType::f64}}};
-  for (const auto& [known, type] : kTypes)
-    if (known == word) return type;
-  return fail(ErrorCode::unsupported,
-              "samples of type " + quoted(std::string_view(word)) +
-                  " are no labels; save it with whole numbers",
-              name);
+  return sample_type_of(word, kTypes, name);
 }
 
 bool is_true(const HeaderText& fields, std::string_view key) {

@@ -1,33 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <algorithm>
-#include <numeric>
 
 #include <tbb/parallel_for.h>
 
 #include "artus/detail/anatomy/import/surface_nets.h"
+#include "artus/detail/core/disjoint_sets.h"
 
 namespace artus {
 namespace {
-
-/// Which corners of faces are one vertex of a surface.
-class CornerSets {
- public:
-  explicit CornerSets(std::size_t n) : parent_(n) {
-    std::iota(parent_.begin(), parent_.end(), std::uint32_t{0});
-  }
-  std::uint32_t find(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void unite(std::uint32_t a, std::uint32_t b) {
-    a = find(a);
-    b = find(b);
-    if (a != b) parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 /// A side of a face: its two vertices in order, and where it is.
 struct Side {
@@ -48,7 +28,7 @@ class LabelFaces {
       : net_(net), places_(places), faces_(faces), label_(label), mirrored_(mirrored) {}
 
   LabelSurface run() {
-    CornerSets sets(4 * faces_.size());
+    DisjointSets sets(4 * faces_.size());
     join_sides(sets);
     std::vector<std::uint32_t> vertex(4 * faces_.size(), kNoVertex);
     LabelSurface& out = out_;
@@ -87,7 +67,7 @@ class LabelFaces {
   }
 
   /// Corners that meet at sides become one. Four faces at a side belong in pairs to two voxels.
-  void join_sides(CornerSets& sets) {
+  void join_sides(DisjointSets& sets) {
     std::vector<Side> sides;
     sides.reserve(4 * faces_.size());
     for (std::uint32_t f = 0; f < faces_.size(); ++f) {
@@ -112,14 +92,14 @@ class LabelFaces {
     }
   }
 
-  void join(const Side& a, const Side& b, CornerSets& sets) const {
+  void join(const Side& a, const Side& b, DisjointSets& sets) const {
     const auto& v = net_.faces[faces_[a.face]].vertices;
     const auto& w = net_.faces[faces_[b.face]].vertices;
     for (std::uint32_t i = 0; i < 2; ++i)
       for (std::uint32_t k = 0; k < 2; ++k) {
         const std::uint32_t m = (a.corner + i) % 4;
         const std::uint32_t n = (b.corner + k) % 4;
-        if (v.at(m) == w.at(n)) sets.unite(4 * a.face + m, 4 * b.face + n);
+        if (v.at(m) == w.at(n)) sets.join(4 * a.face + m, 4 * b.face + n);
       }
   }
 

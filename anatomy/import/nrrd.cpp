@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <algorithm>
+#include <array>
 #include <map>
 
 #include "artus/detail/anatomy/import/image_volume.h"
@@ -21,60 +22,71 @@ struct NrrdText {
 
 Result<NrrdText> split_header(std::string_view bytes, const std::string& name) {
   NrrdText text;
-  std::size_t line = 0;
-  while (true) {
-    const auto end = bytes.find('\n');
-    if (end == std::string_view::npos) {
-      // A header without data ends with the file.
+  for (std::size_t number = 1;; ++number) {
+    const auto line = take_line(bytes);
+    if (!line)  // a header without data ends with the file
       return fail(ErrorCode::corrupt,
                   "no voxels follow its header; it is not complete, or its voxels are in another "
                   "file: save it as one .nrrd",
                   name);
-    }
-    const std::string_view one = trimmed(bytes.substr(0, end));
-    bytes.remove_prefix(end + 1);
-    ++line;
-    if (one.empty()) break;
-    if (line == 1 || one.front() == '#') continue;
-    const auto colon = one.find(':');
-    if (colon == std::string_view::npos)
-      return fail(ErrorCode::malformed,
-                  "a line of an NRRD header is 'field: value', this one has "
-                  "no colon",
-                  name + ":" + std::to_string(line));
-    const std::string_view key = trimmed(one.substr(0, colon));
-    if (one.substr(colon).starts_with(":="))
-      text.pairs[std::string(key)] = trimmed(one.substr(colon + 2));
+    if (line->empty()) break;
+    if (number == 1 || line->front() == '#') continue;
+    const auto parts = key_and_value(*line, ':', "an NRRD header is 'field: value'",
+                                     name + ":" + std::to_string(number));
+    ARTUS_TRY(parts);
+    const auto& [key, value] = *parts;
+    if (value.starts_with('=') && line->find(":=") == line->find(':'))
+      text.pairs[std::string(key)] = trimmed(value.substr(1));
     else
-      text.fields[to_lower(key)] = trimmed(one.substr(colon + 1));
+      text.fields[to_lower(key)] = value;
   }
   text.data = bytes;
   return text;
 }
 
 Result<SampleType> nrrd_type(const std::string& word, const std::string& name) {
-  using Names = std::initializer_list<std::string_view>;
-  const std::vector<std::pair<SampleType, Names>> types{
-      {SampleType::i8, {"signed char", "int8", "int8_t"}},
-      {SampleType::u8, {"uchar", "unsigned char", "uint8", "uint8_t"}},
-      {SampleType::i16,
-       {"short", "short int", "signed short", "signed short int", "int16", "int16_t"}},
-      {SampleType::u16, {"ushort", "unsigned short", "unsigned short int", "uint16", "uint16_t"}},
-      {SampleType::i32, {"int", "signed int", "int32", "int32_t"}},
-      {SampleType::u32, {"uint", "unsigned int", "uint32", "uint32_t"}},
-      {SampleType::i64,
-       {"longlong", "long long", "long long int", "signed long long", "signed long long int",
-        "int64", "int64_t"}},
-      {SampleType::u64,
-       {"ulonglong", "unsigned long long", "unsigned long long int", "uint64", "uint64_t"}},
-      {SampleType::f32, {"float"}},
-      {SampleType::f64, {"double"}}};
-  for (const auto& [type, names] : types)
-    if (std::find(names.begin(), names.end(), word) != names.end()) return type;
-  return fail(ErrorCode::unsupported,
-              "samples of type " + quoted(std::string_view(word)) +
-                  " are no labels; save it with whole numbers",
-              name);
+  constexpr std::array<std::pair<std::string_view, SampleType>, 40> kTypes{
+      {{"signed char", SampleType::i8},
+       {"int8", SampleType::i8},
+       {"int8_t", SampleType::i8},
+       {"uchar", SampleType::u8},
+       {"unsigned char", SampleType::u8},
+       {"uint8", SampleType::u8},
+       {"uint8_t", SampleType::u8},
+       {"short", SampleType::i16},
+       {"short int", SampleType::i16},
+       {"signed short", SampleType::i16},
+       {"signed short int", SampleType::i16},
+       {"int16", SampleType::i16},
+       {"int16_t", SampleType::i16},
+       {"ushort", SampleType::u16},
+       {"unsigned short", SampleType::u16},
+       {"unsigned short int", SampleType::u16},
+       {"uint16", SampleType::u16},
+       {"uint16_t", SampleType::u16},
+       {"int", SampleType::i32},
+       {"signed int", SampleType::i32},
+       {"int32", SampleType::i32},
+       {"int32_t", SampleType::i32},
+       {"uint", SampleType::u32},
+       {"unsigned int", SampleType::u32},
+       {"uint32", SampleType::u32},
+       {"uint32_t", SampleType::u32},
+       {"longlong", SampleType::i64},
+       {"long long", SampleType::i64},
+       {"long long int", SampleType::i64},
+       {"signed long long", SampleType::i64},
+       {"signed long long int", SampleType::i64},
+       {"int64", SampleType::i64},
+       {"int64_t", SampleType::i64},
+       {"ulonglong", SampleType::u64},
+       {"unsigned long long", SampleType::u64},
+       {"unsigned long long int", SampleType::u64},
+       {"uint64", SampleType::u64},
+       {"uint64_t", SampleType::u64},
+       {"float", SampleType::f32},
+       {"double", SampleType::f64}}};
+  return sample_type_of(word, kTypes, name);
 }
 
 /// Axes of space as the file has them; the list axis, if any, is its place among all axes.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/detail/anatomy/import/scene_reader.h"
 
+#include "artus/detail/anatomy/import/draco_scene.h"
 #include "artus/detail/core/byte_stream.h"
 
 #ifdef ARTUS_HAS_ASSIMP
@@ -133,7 +134,8 @@ std::string read_here(std::string_view bytes, const std::string& name, double un
   setrlimit(RLIMIT_CPU, &seconds);
   std::string answer;
   try {
-    answer = read_here(bytes, name, unit);
+    const auto plain = expand_draco(bytes, name);
+    answer = plain ? read_here(*plain, name, unit) : kBad + plain.error().message;
   } catch (const std::exception& e) {
     answer = kBad + std::string(e.what());
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <limits>
 
 #include "artus/detail/anatomy/body/tissue.h"
 #include "artus/detail/anatomy/import/bundled_names.h"
@@ -12,6 +13,7 @@
 #include "artus/detail/core/text_file.h"
 #include "artus/detail/core/text_lines.h"
 #include "artus/detail/core/toml_table.h"
+#include "artus/detail/core/units.h"
 
 namespace artus {
 namespace {
@@ -50,6 +52,31 @@ class NamesReader {
     const std::string tissue = known(toml.required_text("tissue"), table);
     toml.finish();
     for (const std::string& value : values) names.codes.push_back({scheme + " " + value, tissue});
+  }
+
+  void read_tube(const toml::table& table) {
+    TomlTable toml(table, "tube", problems);
+    NamedTube tube;
+    tube.name = toml.required_text("name");
+    tube.tissue = known(toml.required_text("tissue"), table);
+    tube.radius = kMillimetre * toml.required_number("radius", 0.2, 30);
+    const auto* list = table.get_as<toml::array>("points");
+    for (std::size_t i = 0; list != nullptr && i < list->size(); ++i) {
+      const auto* place = list->get_as<toml::array>(i);
+      Vec3 p = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
+      for (std::size_t k = 0; place != nullptr && place->size() == 3 && k < 3; ++k)
+        p[static_cast<Eigen::Index>(k)] =
+            kMillimetre *
+            place->get(k)->value<double>().value_or(std::numeric_limits<double>::quiet_NaN());
+      tube.points.push_back(p);
+    }
+    const bool is_sound =
+        tube.points.size() >= 2 && std::all_of(tube.points.begin(), tube.points.end(),
+                                               [](const Vec3& p) { return p.allFinite(); });
+    if (!is_sound)
+      problems.add(table,
+                   "tube '" + tube.name + "' needs points = [[x, y, z], ...], two or more, in mm");
+    names.tubes.push_back(std::move(tube));
   }
 
   Problems problems;
@@ -153,6 +180,7 @@ Result<StructureNames> parse_structure_names(std::string_view text, const std::s
   for (const auto* table : toml.tables("label")) reader.read_label(*table);
   for (const auto* table : toml.tables("map")) reader.read_map(*table);
   for (const auto* table : toml.tables("code")) reader.read_code(*table);
+  for (const auto* table : toml.tables("tube")) reader.read_tube(*table);
   toml.finish();
   if (!reader.problems.empty()) return reader.problems.refusal(ErrorCode::invalid, name);
   return std::move(reader.names);

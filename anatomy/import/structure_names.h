@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "artus/core/geometry.h"
 #include "artus/core/result.h"
 
 namespace artus {
@@ -18,6 +19,14 @@ struct NamedLabel {
   double value = 0;
   std::string name;
   std::string tissue;  ///< empty: by its name
+};
+
+/// A nerve or vessel that the user typed points of.
+struct NamedTube {
+  std::string name;
+  std::string tissue;
+  double radius = 0;         ///< m
+  std::vector<Vec3> points;  ///< m, LPS
 };
 
 /// What names and codes mean, in the order in which they are asked.
@@ -33,10 +42,12 @@ struct StructureNames {
   std::vector<NamedLabel> labels;
   std::vector<Map> maps;
   std::vector<Code> codes;
+  std::vector<NamedTube> tubes;
 };
 
 /// A table of names (meshes/structure_names.toml says its form), or a user's file, which may have
-/// [[label]] with value, name and tissue, too. Errors: malformed, invalid (all problems at once;
+/// [[label]] with value, name and tissue, and [[tube]] with name, tissue, radius and points (mm,
+/// LPS), too. Errors: malformed, invalid (all problems at once;
 /// tissues that the bundled library does not have, with the nearest).
 [[nodiscard]] Result<StructureNames> parse_structure_names(std::string_view text,
                                                            const std::string& name);

@@ -8,8 +8,37 @@
 #include "artus/detail/anatomy/import/inflate.h"
 #include "artus/detail/core/printed.h"
 #include "artus/detail/core/text_cursor.h"
+#include "artus/detail/core/text_lines.h"
 
 namespace artus {
+
+std::optional<std::string_view> take_line(std::string_view& bytes) {
+  if (bytes.empty()) return std::nullopt;
+  const auto end = bytes.find('\n');
+  const std::string_view line = trimmed(bytes.substr(0, end));
+  bytes.remove_prefix(end == std::string_view::npos ? bytes.size() : end + 1);
+  return line;
+}
+
+Result<std::pair<std::string_view, std::string_view>> key_and_value(std::string_view line,
+                                                                    char separator,
+                                                                    const char* form,
+                                                                    const std::string& where) {
+  const auto at = line.find(separator);
+  if (at == std::string_view::npos)
+    return fail(ErrorCode::malformed,
+                std::string("a line of ") + form + ", this one has no '" + separator + "'", where);
+  return std::pair{trimmed(line.substr(0, at)), trimmed(line.substr(at + 1))};
+}
+
+Result<SampleType> sample_type_of(std::string_view word, SampleTypeNames known,
+                                  const std::string& where) {
+  for (const auto& [name, type] : known)
+    if (name == word) return type;
+  return fail(ErrorCode::unsupported,
+              "samples of type " + quoted(word) + " are no labels; save it with whole numbers",
+              where);
+}
 
 std::string text_of(const HeaderText& header, std::string_view key) {
   const auto found = header.find(key);

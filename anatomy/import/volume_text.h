@@ -2,8 +2,10 @@
 #pragma once
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "artus/core/result.h"
@@ -13,6 +15,21 @@ namespace artus {
 
 /// Keys in lower case and their texts, of a header that is lines of text.
 using HeaderText = std::map<std::string, std::string, std::less<>>;
+
+/// Takes the first line off `bytes`, without spaces around it. nullopt: there is no further line.
+[[nodiscard]] std::optional<std::string_view> take_line(std::string_view& bytes);
+
+/// What stands before and after the first `separator` of a line, without spaces around.
+/// Errors: malformed, naming `where` and the form that a line of such a header has.
+[[nodiscard]] Result<std::pair<std::string_view, std::string_view>> key_and_value(
+    std::string_view line, char separator, const char* form, const std::string& where);
+
+/// How a format's words name types of samples.
+using SampleTypeNames = std::span<const std::pair<std::string_view, SampleType>>;
+
+/// The type that a word of a header names. Errors: unsupported, naming `where`.
+[[nodiscard]] Result<SampleType> sample_type_of(std::string_view word, SampleTypeNames known,
+                                                const std::string& where);
 
 /// The text of a key; empty when it is not there.
 [[nodiscard]] std::string text_of(const HeaderText& header, std::string_view key);

@@ -79,6 +79,10 @@ class Repair {
           "no triangle is left when the bad ones are dropped; export it again, or leave it out "
           "(--skip-refused)");
     outcome_.volume_before = Sums(mesh()).volume;
+    if (options_.wrap == WrapPolicy::always && options_.thicken == 0 && has_sheets()) {
+      ARTUS_TRY(wrap_sheets());
+      return finish();
+    }
     ARTUS_TRY(close());
     if (options_.wrap == WrapPolicy::always) ARTUS_TRY(wrap());
     note(RepairKind::turned_pieces, turn_pieces(mesh()), 0,
@@ -294,6 +298,47 @@ class Repair {
       if (wrapped && signed_volume(*wrapped) > kHollow * std::abs(volume)) break;
     }
     return wrapped;
+  }
+
+  [[nodiscard]] bool has_sheets() {
+    const auto uses = make_edge_uses(mesh());
+    const auto measures = measure_pieces(mesh(), uses, find_pieces(mesh(), uses));
+    return std::any_of(measures.begin(), measures.end(),
+                       [](const PieceMeasure& m) { return m.is_sheet(); });
+  }
+
+  /// Plates, and open shells beside each other, are wrapped as they are: the body that they enclose
+  /// where they stand around one (the finest wrap that does not enter by their gaps), else plates
+  /// of 1 mm.
+  Result<void> wrap_sheets() {
+    constexpr double kHalfPlate = 0.5 * kMillimetre;
+    constexpr double kFinest = 0.5 * kMillimetre;
+    constexpr double kWhole = 0.8;  // of the coarsest wrap's volume
+    const SurfaceMesh open = mesh();
+    Eigen::AlignedBox3d box;
+    for (const Vec3& p : open.vertices) box.extend(p);
+    const double diagonal = box.diagonal().norm();
+    auto wrapped =
+        make_wrap(open, std::max(diagonal / 10, kFinest), kHalfPlate, WrapPlace::outside);
+    if (!wrapped) return fail(ErrorCode::defective, wrapped.error().message);
+    const double whole = signed_volume(*wrapped);
+    for (const double details : {120, 60, 30}) {
+      auto finer =
+          make_wrap(open, std::max(diagonal / details, kFinest), kHalfPlate, WrapPlace::outside);
+      if (!finer || signed_volume(*finer) < kWhole * whole) continue;
+      wrapped = std::move(finer);
+      break;
+    }
+    const DistanceStatistics moved = measure_distance(open, *wrapped);
+    const std::string text = printed(
+        "wrapped, being plates: 0.5 mm outside of them, %.3g mm away in the mean, 95 %% within "
+        "%.3g mm, at most %.3g mm (both ways), volume %.4g cm3",
+        moved.mean / kMillimetre, moved.percentile95 / kMillimetre, moved.max / kMillimetre,
+        signed_volume(*wrapped) / kCubicCentimetre);
+    mesh() = std::move(*wrapped);
+    outcome_.actions.push_back({RepairKind::wrapped, 1, moved.max, text});
+    outcome_.self_intersections = 0;
+    return {};
   }
 
   Result<void> wrap() {

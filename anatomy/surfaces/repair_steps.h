@@ -68,11 +68,16 @@ bool untangle(SurfaceMesh& mesh);
 /// hundred. For the folded lips of cracks that untangle cannot part.
 bool cut_out_tangles(SurfaceMesh& mesh);
 
+/// Where a wrap's vertices stand in the end.
+enum class WrapPlace { on_surface, outside };
+
 /// The shrink-wrap of a surface, laid onto it; `detail` is the size of the openings it does not
 /// enter, m. The wrap is made `offset` outside the surface (m) and its vertices are then moved to
 /// the nearest point of it, each as far as no face folds or crosses another: left outside, a wrap
-/// makes a slender bone some percent thicker. Closed, manifold, outward. Errors: failed.
+/// makes a slender bone some percent thicker, and laid onto plates it has no thickness. Closed,
+/// manifold, outward. Errors: failed.
 /// Cost: some seconds, most of them for the self-intersections of the result.
-[[nodiscard]] Result<SurfaceMesh> make_wrap(const SurfaceMesh& mesh, double detail, double offset);
+[[nodiscard]] Result<SurfaceMesh> make_wrap(const SurfaceMesh& mesh, double detail, double offset,
+                                            WrapPlace place = WrapPlace::on_surface);
 
 }  // namespace artus

@@ -157,13 +157,14 @@ bool untangle(SurfaceMesh& mesh) {
   }
 }
 
-Result<SurfaceMesh> make_wrap(const SurfaceMesh& mesh, double detail, double offset) {
+Result<SurfaceMesh> make_wrap(const SurfaceMesh& mesh, double detail, double offset,
+                              WrapPlace place) {
   try {
     CgalMesh wrap;
     CGAL::alpha_wrap_3(points_of(mesh), faces_of(mesh), detail, offset, wrap);
     SurfaceMesh out = from_cgal(wrap);
     if (out.triangles.empty()) return fail(ErrorCode::failed, "the wrap is empty");
-    lay_onto(out, mesh);
+    if (place == WrapPlace::on_surface) lay_onto(out, mesh);
     return out;
   } catch (const std::exception& error) {
     return fail(ErrorCode::failed, std::string("the surface cannot be wrapped: ") + error.what());

@@ -2,6 +2,7 @@
 #include "artus/detail/apps/options/view_options.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "artus/detail/apps/options/arguments.h"
@@ -209,10 +210,7 @@ std::optional<NeedleView> View::needle(const CompiledJoint& joint) const {
   return std::nullopt;
 }
 
-namespace {
-
-/// Deep enough to show the joint's needle as planned, in steps of 10 mm.
-double find_depth(const CompiledJoint& joint) {
+double depth_for(const CompiledJoint& joint) {
   constexpr double kBeyondTip = 8e-3;  // m
   constexpr double kStep = 10e-3;      // m
   const Vec3 p_PN = joint.X_JP_default.inverse() * joint.X_JN_default.translation();
@@ -220,10 +218,24 @@ double find_depth(const CompiledJoint& joint) {
   return std::clamp(depth, kUsualDepth * kMillimetre, ImageRanges::depth.high);
 }
 
-}  // namespace
+double needle_length_for(const Scene& scene, const Pose& X_JN) {
+  constexpr double kFarthest = 0.3;    // m, more than any needle
+  constexpr double kOutOfSkin = 8e-3;  // m of shaft between hub and skin
+  // Those that are sold, m.
+  constexpr std::array<double, 7> kLengths{35e-3, 50e-3, 80e-3, 100e-3, 120e-3, 150e-3, 200e-3};
+  const Vec3 tip = X_JN.translation();
+  const Vec3 axis = X_JN.linear().col(2);
+  double entry = kFarthest;  // from the far end to the skin
+  for (const TissueInterval& s : tissue_intervals(scene, {tip - kFarthest * axis, tip}))
+    if (s.region < kFirstRegion) entry = s.exit;
+  const double way = kFarthest - entry;
+  const auto fits = std::find_if(kLengths.begin(), kLengths.end(),
+                                 [&](double length) { return length >= way + kOutOfSkin; });
+  return fits != kLengths.end() ? *fits : kLengths.back();
+}
 
 void take_depth(const ViewOptions& options, const CompiledJoint& joint, View& view) {
-  if (!options.depth_mm) view.settings.depth = find_depth(joint);
+  if (!options.depth_mm) view.settings.depth = depth_for(joint);
 }
 
 Result<LoadedView> load_view(const JointOptions& joint_options, const ViewOptions& options,
@@ -238,6 +250,9 @@ Result<LoadedView> load_view(const JointOptions& joint_options, const ViewOption
   loaded.view = std::move(*view);
   take_depth(options, **joint, loaded.view);
   loaded.scene = std::make_shared<const Scene>(*joint);
+  if (loaded.needle && !options.needle_length_mm)
+    loaded.needle->shape.length = loaded.view.needle_shape.length =
+        needle_length_for(*loaded.scene, loaded.needle->X_JN);
   return loaded;
 }
 

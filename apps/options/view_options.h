@@ -19,7 +19,7 @@ struct ViewOptions {
   std::string needle;
   int gauge = 22;
   bool echogenic = false;
-  std::optional<double> needle_length_mm;  ///< else 35
+  std::optional<double> needle_length_mm;  ///< else 35, or more where the way needs it
   std::string transducer = "linear-6-18";
   std::optional<double> frequency_mhz;  ///< empty: the transducer's, as the next four
   std::optional<double> focus_mm;
@@ -67,6 +67,13 @@ struct View {
 
 /// Errors: malformed or invalid, with the flag as place; those of the transducer's file.
 [[nodiscard]] Result<View> make_view(const ViewOptions& options);
+
+/// Deep enough to show the joint's needle as planned, in steps of 10 mm; 40 mm or more, m.
+[[nodiscard]] double depth_for(const CompiledJoint& joint);
+
+/// The shortest needle of those that are sold (35 to 200 mm) whose hub stays 8 mm out of the skin
+/// with its tip at X_JN, m.
+[[nodiscard]] double needle_length_for(const Scene& scene, const Pose& X_JN);
 
 /// Without --depth: deep enough for the joint's needle as planned.
 void take_depth(const ViewOptions& options, const CompiledJoint& joint, View& view);

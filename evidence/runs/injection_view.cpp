@@ -83,6 +83,16 @@ std::optional<double> merit_of(const Scene& scene, const Pose& X_JP, const Pose&
 
 }  // namespace
 
+namespace {
+
+/// The same view with its left and right as the joint's own probe has them, as every other picture.
+Pose faced_as(const Pose& own, const Pose& X_JP) {
+  if (own.linear().col(0).dot(X_JP.linear().col(0)) >= 0) return X_JP;
+  return X_JP * Eigen::AngleAxisd(std::numbers::pi, Vec3::UnitZ());
+}
+
+}  // namespace
+
 FoundView find_view_of(const Scene& scene, const Pose& X_JN, double width, ViewSearch search) {
   constexpr std::array kTilts{50.0, 65.0, 35.0, 80.0};
   constexpr std::array kAsides{0.0, -kAside, kAside};
@@ -108,6 +118,7 @@ FoundView find_view_of(const Scene& scene, const Pose& X_JN, double width, ViewS
         if (merit && *merit > best.merit) best = {there, *merit};
       }
     }
+  best.X_JP = faced_as(scene.joint().X_JP_default, best.X_JP);
   return best;
 }
 

@@ -18,7 +18,9 @@ enum class ViewSearch { fine, coarse };
 /// the joint's own way of looking, turned to the needle, or a better one. Better is, in this order
 /// of weight: that the tip is seen at all, more of the face on the skin, fewer beams beside the tip
 /// that end in bone or leave from the air, a shorter way, a needle that runs across the beam.
-/// Deterministic. Cost: some ten thousand rays; coarse: five hundred.
+/// Its lateral axis is that of the two that the joint's own probe pose is nearer to, so that left
+/// and right are as in its other pictures. Deterministic. Cost: some ten thousand rays; coarse:
+/// five hundred.
 [[nodiscard]] FoundView find_view_of(const Scene& scene, const Pose& X_JN, double width,
                                      ViewSearch search = ViewSearch::fine);
 

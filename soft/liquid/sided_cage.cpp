@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "artus/detail/core/check.h"
+#include "artus/detail/core/disjoint_sets.h"
 
 namespace artus {
 namespace {
@@ -21,24 +21,6 @@ constexpr double kFilm = 2.5e-3;      // m between walls that lie on each other
 Vec3 shift() {
   return {0.137, 0.211, 0.173};
 }
-
-/// Of the graph's nodes, those that hang together.
-class Sets {
- public:
-  explicit Sets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0U); }
-  std::uint32_t find(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = find(a);
-    b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 }  // namespace
 
@@ -268,7 +250,7 @@ void SidedCage::make_copies() {
           at[static_cast<std::size_t>(i)] = sample_index({c[0] * kSamples + i % kSamples,
                                                           c[1] * kSamples + i / kSamples % kSamples,
                                                           c[2] * kSamples + i / kStep[2]});
-        Sets sets(kAll);
+        DisjointSets sets(kAll);
         for (int i = 0; i < kAll; ++i)
           for (std::size_t a = 0; a < 3; ++a) {
             if (i / kStep[a] % kSamples == kSamples - 1) continue;
@@ -299,7 +281,7 @@ void SidedCage::make_copies() {
 
 /// Copies whose tissue goes on over the face between them share that face's nodes.
 void SidedCage::join_copies() {
-  Sets sets(8 * copies_.size());
+  DisjointSets sets(8 * copies_.size());
   Index s{};
   for (std::size_t a = 0; a < 3; ++a)
     for (s[2] = 0; s[2] < cubes_[2] * kSamples; ++s[2])

@@ -99,7 +99,7 @@ TEST_F(ImportTool, TheTutorialLeadsFromBareSurfacesToAnInjection) {
   const std::string text = content(in("report.html"));
   expect_self_contained(text);
   for (const char* expected : {"What to do next", "in the probe's plane", "distance to bone.ply",
-                               "p95 mm", "95 % of its area is nearer than this"})
+                               "p95 mm", "95 % of its area inside the region is nearer than this"})
     EXPECT_NE(text.find(expected), std::string::npos) << expected;
   const std::string seen = seen_by_browser(in("report.html"));
   if (seen.empty()) GTEST_SKIP() << "there is no Chromium to open the page in";

@@ -7,7 +7,7 @@ while(public)
   list(POP_FRONT public name file)
   set(name_of_${file} artus/${name})
 endwhile()
-set(rooms core anatomy/surfaces anatomy/body anatomy/source anatomy/compile/labels anatomy/compile/mesh anatomy/compile/check anatomy/compile anatomy/import raycast
+set(rooms core anatomy/surfaces anatomy/body anatomy/source anatomy/compile/labels anatomy/compile/mesh anatomy/compile/check anatomy/compile anatomy/import anatomy/label_maps raycast
   haptics haptics/needle/laws haptics/needle haptics/probe haptics/plunger haptics/actuator)
 # What only the source files of one header include, and whose tests are that header's.
 set(inner raycast/embree_api.h anatomy/compile/labels/distance_field_blocks.h)

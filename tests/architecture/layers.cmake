@@ -12,6 +12,7 @@ set(may_anatomy/compile/mesh ${may_anatomy/compile/labels} anatomy/compile/label
 set(may_anatomy/compile/check ${may_anatomy/compile/mesh} anatomy/compile/mesh)
 set(may_anatomy/compile ${may_anatomy/compile/check} anatomy/compile/check)
 set(may_anatomy/import core anatomy/surfaces anatomy/body anatomy/source)
+set(may_anatomy/label_maps core anatomy/surfaces anatomy/body anatomy/source anatomy/import)
 set(may_soft/cage core anatomy/body)
 set(may_soft/solver ${may_soft/cage} soft/cage)
 set(may_soft/liquid ${may_soft/solver} soft/solver)
@@ -66,9 +67,9 @@ set(may_trainer ${may_evidence} exchange exchange/igtl reports ${viewer})
 set(may_python ${may_reports} anatomy/compile/mesh)
 set(may_meshes/generate core anatomy/surfaces)
 set(may_apps/options ${may_trainer} ${may_reports} trainer)
-set(may_apps ${may_apps/options} anatomy/compile/mesh apps/options)
+set(may_apps ${may_apps/options} anatomy/compile/mesh anatomy/label_maps apps/options)
 set(may_apps/validate ${may_apps} ${validation} evidence/validation)
-set(rooms core anatomy/surfaces anatomy/body anatomy/source anatomy/compile/labels anatomy/compile/mesh anatomy/compile/check anatomy/compile anatomy/import
+set(rooms core anatomy/surfaces anatomy/body anatomy/source anatomy/compile/labels anatomy/compile/mesh anatomy/compile/check anatomy/compile anatomy/import anatomy/label_maps
   ${soft} raycast
   ${haptics} ${echo} operators dataset simulation ${session} ${training} evidence evidence/runs ${validation}
   evidence/validation exchange/igtl exchange reports ${viewer} trainer python meshes/generate apps/options apps apps/validate)
@@ -76,9 +77,9 @@ set(rooms core anatomy/surfaces anatomy/body anatomy/source anatomy/compile/labe
 # folder lists that may include headers starting with the pattern
 set(outside "embree:raycast" "CGAL/:anatomy/surfaces,anatomy/compile,meshes/generate" "tetgen:anatomy/compile"
   "toml:core,anatomy/body,anatomy/source,anatomy/import,echo/probe,soft/cage,haptics/actuator,training" "opencv2/:echo,dataset,evidence,reports,apps,trainer,viewer"
-  "CLI/:apps,meshes/generate" "boost/interprocess:session/shm" "GLFW/:viewer" "imgui:viewer" "epoxy/:viewer" "gtest/:tests" "pybind11/:python" "dcmtk/:exchange,anatomy/import" "assimp/:anatomy/import" "zlib:anatomy/import"
+  "CLI/:apps,meshes/generate" "boost/interprocess:session/shm" "GLFW/:viewer" "imgui:viewer" "epoxy/:viewer" "gtest/:tests" "pybind11/:python" "dcmtk/:exchange,anatomy/import,anatomy/label_maps" "assimp/:anatomy/import" "draco/:anatomy/import" "zlib:anatomy/import"
   "sqlite3:training" "SQLiteCpp/:training"
-  "nlohmann/:anatomy/compile,python,simulation,session,training,dataset,exchange,evidence,reports,trainer,apps,meshes/generate")
+  "nlohmann/:anatomy/compile,anatomy/import,python,simulation,session,training,dataset,exchange,evidence,reports,trainer,apps,meshes/generate")
 
 # The rooms of public headers, which are included by their short names.
 include(${ROOT}/cmake/public_header_list.cmake)

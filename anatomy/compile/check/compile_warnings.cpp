@@ -87,16 +87,47 @@ std::string explain_nothing(const Structure& s, const CompileReport& report) {
          "that they lie where they should, and enlarge its lengths only if they do";
 }
 
+/// Whether a recess lies on that structure.
+bool is_wall(const Structure& s, const std::string& name) {
+  const auto* gap = std::get_if<GapConstruct>(&s.shape);
+  return gap != nullptr &&
+         (std::find(gap->roof.begin(), gap->roof.end(), name) != gap->roof.end() ||
+          std::find(gap->floor.begin(), gap->floor.end(), name) != gap->floor.end());
+}
+
+/// A structure that gives much to what stands before it; a bone that gives anything to tissue.
+void warn_of_losses(const Structure& s, const CompileReport& report, StructureReport& mine) {
+  const auto taker = std::find_if(report.structures.begin(), report.structures.end(),
+                                  [&](const StructureReport& o) { return o.name == mine.lost_to; });
+  const bool of_bone = mine.is_hard && taker != report.structures.end() && !taker->is_hard &&
+                       mine.lost_volume > kBoneLost;
+  if (of_bone) {
+    mine.warnings.push_back(printed("%.2g cm3 of this bone goes to '%s', which stands before it in "
+                                    "the file, around ",
+                                    mine.lost_volume / kCubicCentimetre, mine.lost_to.c_str()) +
+                            at(mine.lost_at) + "; a bone keeps its shape: put the bone before it");
+    return;
+  }
+  if (!(mine.lost_volume > kMuchLost * mine.region_volume)) return;
+  const std::string lost = percent(mine.lost_volume / mine.region_volume);
+  if (is_wall(s, mine.lost_to))
+    mine.warnings.push_back(lost + " of it would lie in its own wall '" + mine.lost_to +
+                            "', which stands before it and keeps its shape, around " +
+                            at(mine.lost_at) +
+                            "; a recess lies half in each of two walls that touch: where it is "
+                            "too thin, double its 'thickness', and leave the order as it is");
+  else
+    mine.warnings.push_back(lost + " of it goes to structures before it in the file, most to '" +
+                            mine.lost_to + "' around " + at(mine.lost_at) +
+                            "; if that is not meant, put it before them");
+}
+
 void warn_of_volumes(const Structure& s, const CompileReport& report, StructureReport& mine) {
   if (!(mine.resolved_volume > 0)) {
     mine.warnings.push_back(explain_nothing(s, report));
     return;
   }
-  if (mine.lost_volume > kMuchLost * mine.region_volume)
-    mine.warnings.push_back(percent(mine.lost_volume / mine.region_volume) +
-                            " of it goes to structures before it in the file, most to '" +
-                            mine.lost_to + "' around " + at(mine.lost_at) +
-                            "; if that is not meant, put it before them");
+  warn_of_losses(s, report, mine);
   if (mine.kind == "gap" && mine.parts > 1)
     mine.warnings.push_back("it is in " + std::to_string(mine.parts) +
                             " separate pieces, since structures before it in the file lie "
@@ -122,7 +153,8 @@ void append_gap_cuts(const JointFile& file, const LabelledSpace& space, CompileR
         mine.warnings.push_back(
             cubic_centimetres(cut.part.volume) + " between its roof and its floor is '" + cut.by +
             "', around " + at(cut.part.centre) +
-            ", and remains so; if fluid is meant there, name '" + cut.by + "' as roof or floor");
+            ", and remains so; where fluid is meant on it, name '" + cut.by +
+            "' as roof or floor, too, and double 'thickness': the recess lies half in each wall");
       }
     }
     if (apart.volume > kMuchCut * mine.region_volume)

@@ -115,6 +115,8 @@ class Collector {
       for (Finding& f : more) check_.findings.push_back(std::move(f));
     };
     add(find_misplaced(joint_, check_.prepared));
+    add(find_other_frames(joint_, check_.prepared));
+    add(find_pressed_bones(joint_, check_.prepared));
     add(find_mirrored(joint_, check_.prepared));
     add(find_unheld(joint_, check_.prepared));
     check_.held_by = describe(find_holders(joint_, check_.prepared));

@@ -26,7 +26,7 @@ enum class Verdict {
 struct Finding {
   Verdict verdict = Verdict::note;
   std::string kind;  ///< of a defect or a repair, "refused_surface", "surface", "plan",
-                     ///< "misplaced", "lost", "frame", "mirrored", "unheld"
+                     ///< "misplaced", "lost", "frame", "other_frame", "pose", "mirrored", "unheld"
   std::string what;  ///< the structure or plan
   int line = 0;      ///< of joint.toml; 0: of no line
   std::string message;

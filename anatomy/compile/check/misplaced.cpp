@@ -223,19 +223,23 @@ class Finder {
       if (lie.inside <= kAll) continue;
       const char* name = file_.structures[k].name.c_str();
       if (!in_bone) {
-        add(Verdict::look, file_.structures[i],
+        add_lost(
+            i,
             printed("all of it lies inside '%s', which stands before it in the file and takes all "
                     "of it: put it before '%s'",
                     name, name));
         return;
       }
-      add(Verdict::look, file_.structures[i],
-          printed("all of it lies inside the bone '%s', %.1f mm or more under its surface; %s",
-                  name, lie.least / kMillimetre,
-                  k < i
-                      ? "the bone stands before it in the file and takes all of it: put it before "
-                        "the bone if it is meant, otherwise check its frame"
-                      : "check its frame if that is not meant"));
+      const std::string text = printed(
+          "all of it lies inside the bone '%s', %.1f mm or more under its surface; %s", name,
+          lie.least / kMillimetre,
+          k < i ? "the bone stands before it in the file and takes all of it: put it before "
+                  "the bone if it is meant, otherwise check its frame"
+                : "check its frame if that is not meant");
+      if (k < i)
+        add_lost(i, text);
+      else
+        add(Verdict::look, file_.structures[i], text);
       return;
     }
     tell_shared_out(i);
@@ -292,7 +296,8 @@ class Finder {
   void tell_twin(std::size_t i) {
     for (std::size_t k = 0; k < i; ++k) {
       if (!surfaces_.structures[k] || samples_[k].empty() || !is_twin(i, k)) continue;
-      add(Verdict::look, file_.structures[i],
+      add_lost(
+          i,
           printed("it is the same surface as '%s' (%.2f and %.2f cm3), which stands before it and "
                   "takes all of it; remove one of them",
                   file_.structures[k].name.c_str(),

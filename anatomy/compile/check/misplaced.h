@@ -21,6 +21,20 @@ namespace artus {
 [[nodiscard]] std::vector<Finding> find_mirrored(const JointFile& file,
                                                  const PreparedSurfaces& surfaces);
 
+/// Structures that lie outside of the skin or in bone, and would not if they were mirrored along an
+/// axis, turned from RAS to LPS, or 10, 25.4, 100 or 1000 times as large or small: named with that
+/// number and the distance. A mirrored structure that lies in soft tissue cannot be told from one
+/// that is meant. Requires: `surfaces` of `file`. Cost: two hundred points of each structure in
+/// the trees of body and bones, twelve times for one that does not fit.
+[[nodiscard]] std::vector<Finding> find_other_frames(const JointFile& file,
+                                                     const PreparedSurfaces& surfaces);
+
+/// Poses ([pose.NAME]) that press a bone more than 1 mm deeper into another than it lies at rest:
+/// refused, with depth and place. Requires: `surfaces` of `file`. Cost: four thousand points of
+/// each bone that moves against another, in its tree.
+[[nodiscard]] std::vector<Finding> find_pressed_bones(const JointFile& file,
+                                                      const PreparedSurfaces& surfaces);
+
 /// Surfaces whose header names another frame than joint.toml's axes: refused, with both. A file
 /// that cannot be read is told elsewhere. Errors: none. Cost: reads the files.
 [[nodiscard]] std::vector<Finding> find_foreign_frames(const JointSources& sources);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/detail/anatomy/compile/labels/compile_report.h"
 
+#include <cmath>
+
 #include <nlohmann/json.hpp>
 
 #include "artus/detail/core/plain_reason.h"
@@ -110,6 +112,11 @@ CompileReport read_report(const Json& value) {
 double StructureReport::volume_error() const noexcept {
   const double expected = region_volume - lost_volume;
   return expected > 0 ? resolved_volume / expected - 1 : 0;
+}
+
+bool StructureReport::is_changed() const noexcept {
+  constexpr double kMuch = 0.05;
+  return std::abs(volume_error()) > kMuch || lost_volume > kMuch * region_volume;
 }
 
 std::string to_json(const CompileReport& report) {

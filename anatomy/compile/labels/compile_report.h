@@ -14,6 +14,7 @@ struct StructureReport {
   std::string name;
   std::string tissue;
   std::string kind;                   ///< "surface", "shell", "cap", "gap", "end", "filler"
+  bool is_hard = false;               ///< bone: keeps its shape
   std::vector<std::string> repairs;   ///< what was done to its surface, in words
   std::string refused;                ///< why it is not in the joint; empty: it is
   std::vector<std::string> warnings;  ///< what its author should look at, in words
@@ -30,6 +31,9 @@ struct StructureReport {
 
   /// resolved / (region - lost) - 1; zero when nothing was expected.
   [[nodiscard]] double volume_error() const noexcept;
+
+  /// Whether it is more than 5 % from what was given: by its tetrahedra, or by what others take.
+  [[nodiscard]] bool is_changed() const noexcept;
 };
 
 struct StepTime {

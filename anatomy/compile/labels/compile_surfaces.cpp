@@ -2,6 +2,8 @@
 #include "artus/detail/anatomy/compile/labels/compile_surfaces.h"
 
 #include <algorithm>
+#include <map>
+#include <numbers>
 #include <utility>
 
 #include <tbb/blocked_range.h>
@@ -103,6 +105,7 @@ struct RepairedSurface {
   SurfaceMesh mesh;
   std::vector<std::string> repairs;  ///< in words
   std::vector<std::uint8_t> is_cut;  ///< see PreparedSurface
+  bool is_cropped = false;           ///< to the region of interest: true of this region alone
 };
 
 /// Over the file and all that its entry asks for; what cannot be read is told where it is read.
@@ -145,6 +148,71 @@ std::optional<RepairedSurface> read_repaired(const std::optional<std::string>& b
   return repaired;
 }
 
+/// Faces that reach to within `beyond` of the region of interest.
+SurfaceMesh cropped(const SurfaceMesh& mesh, const RegionOfInterest& roi, double beyond) {
+  SurfaceMesh near = mesh;
+  std::erase_if(near.triangles, [&](const Triangle& t) {
+    return std::none_of(t.begin(), t.end(), [&](std::uint32_t v) {
+      return v < mesh.vertices.size() && mesh.vertices[v].allFinite() &&
+             signed_distance(roi, mesh.vertices[v]) <= beyond;
+    });
+  });
+  return near;
+}
+
+/// About the area that openings in the region of interest span, m^2: rims are taken as circles.
+double openings_within(const SurfaceMesh& mesh, const RegionOfInterest& roi) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> uses;
+  for (const Triangle& t : mesh.triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [low, high] = std::minmax(t[k], t[(k + 1) % 3]);
+      ++uses[{low, high}];
+    }
+  double length = 0;
+  for (const auto& [edge, n] : uses) {
+    if (n != 1 || edge.second >= mesh.vertices.size()) continue;
+    const Vec3& a = mesh.vertices[edge.first];
+    const Vec3& b = mesh.vertices[edge.second];
+    if (signed_distance(roi, (a + b) / 2) <= 0) length += (a - b).norm();
+  }
+  return length * length / (4 * std::numbers::pi);
+}
+
+/// What cannot be mended where it is of no matter: a structure whose defect lies beyond the region
+/// of interest is cut there first. nullopt: that is no help.
+std::optional<RepairedSurface> repair_near(const SurfaceMesh& mesh, const SurfaceFile& surface,
+                                           const JointFile& file, const Error& refusal) {
+  constexpr double kLeastBeyond = 10 * kMillimetre;
+  constexpr double kBeyond = 0.25;  // of the region's radius: what closes the cut bulges inward
+  constexpr double kAnyShare = 10;  // of the area may be closed: it lies beyond
+  if (!file.region_of_interest || !check_size(mesh, DefectOptions().smallest, "") ||
+      !check_place(mesh))
+    return std::nullopt;
+  const RegionOfInterest& roi = *file.region_of_interest;
+  const double reach = roi.half_extent ? roi.half_extent->norm() : roi.radius;
+  const double beyond = std::max(kLeastBeyond, kBeyond * reach);
+  const SurfaceMesh near = cropped(mesh, roi, beyond);
+  if (near.triangles.empty() || near.triangles.size() == mesh.triangles.size()) return std::nullopt;
+  RepairOptions options;
+  options.thicken = surface.thicken;
+  if (surface.repair == "wrap") options.wrap = WrapPolicy::always;
+  // Openings within the region are as large as they may be elsewhere.
+  options.largest_fill_share = kAnyShare;
+  if (openings_within(near, roi) > RepairOptions().largest_fill_share * surface_area(near))
+    return std::nullopt;
+  auto outcome = repair_surface(near, options);
+  if (!outcome) return std::nullopt;
+  RepairedSurface repaired;
+  repaired.mesh = std::move(outcome->mesh);
+  repaired.is_cropped = true;
+  repaired.repairs.push_back(
+      printed("cut %.0f mm outside of the region of interest, since it cannot be mended there: ",
+              beyond / kMillimetre) +
+      refusal.message);
+  for (const RepairAction& action : outcome->actions) repaired.repairs.push_back(action.message);
+  return repaired;
+}
+
 Result<RepairedSurface> read_and_repair(const JointSources& sources, const SurfaceFile& surface,
                                         bool is_body) {
   const auto read = sources.mesh(surface);
@@ -152,6 +220,9 @@ Result<RepairedSurface> read_and_repair(const JointSources& sources, const Surfa
   const SurfaceMesh& mesh = **read;
   if (is_body && !surface.has_own_unit) ARTUS_TRY(check_size(mesh, kSmallestBody, "body"));
   Result<RepairOutcome> outcome = repair_as_declared(mesh, surface);
+  if (!outcome && !is_body && outcome.error().code == ErrorCode::defective)
+    if (auto near = repair_near(mesh, surface, sources.joint(), outcome.error()))
+      return std::move(*near);
   ARTUS_TRY(outcome);
   RepairedSurface repaired;
   repaired.mesh = std::move(outcome->mesh);
@@ -177,7 +248,7 @@ Result<PreparedSurface> prepare(const JointSources& sources, const SurfaceFile& 
     Result<RepairedSurface> made = read_and_repair(sources, surface, is_body);
     ARTUS_TRY(made);
     repaired = std::move(*made);
-    if (parts.keeps()) parts.keep(digest, to_bytes(*repaired));
+    if (parts.keeps() && !repaired->is_cropped) parts.keep(digest, to_bytes(*repaired));
   }
   report.repairs = std::move(repaired->repairs);
   PreparedSurface prepared;

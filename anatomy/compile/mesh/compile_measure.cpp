@@ -88,7 +88,9 @@ struct Taken {
 // Which earlier layer takes most of a layer, when all together take much.
 void find_taker(const RegionLabels& labels, std::size_t layer, CompileReport& report) {
   StructureReport& mine = report.structures[labels.layers[layer].region - kFirstRegion];
-  if (mine.lost_volume <= kMuchLost * mine.region_volume) return;
+  const bool is_told = mine.lost_volume > kMuchLost * mine.region_volume ||
+                       (mine.is_hard && mine.lost_volume > kBoneLost);
+  if (!is_told) return;
   const RegionId own_region = labels.layers[layer].region;
   std::vector<Taken> taken(kFirstRegion + report.structures.size());
   const DistanceField::Weights tally = [&](const Vec3& p, double own) {
@@ -234,8 +236,12 @@ SamplesOf measure_surfaces(const TetMesh& mesh, const RegionLabels& labels,
       samples.clear();
       const auto& v = surface->mesh.vertices;
       append_samples({v[t[0]], v[t[1]], v[t[2]]}, spacing, samples);
+      const Vec3 across = (v[t[1]] - v[t[0]]).cross(v[t[2]] - v[t[0]]);
+      const double length = across.norm();
+      if (!(length > 0)) continue;
+      const Vec3 inward = -labels.layers[layer].field.spacing() / 2 / length * across;
       for (const SurfaceSample& s : samples)
-        if (is_exposed(labels, layer, s.position))
+        if (is_exposed(labels, layer, s.position) && labels.at(s.position + inward) == region)
           measured[structure].push_back({distance(s.position), s.area});
     }
   });

@@ -9,6 +9,8 @@ namespace artus {
 
 /// The share of its volume from which on a structure is said to lose much to those before it.
 inline constexpr double kMuchLost = 0.2;
+/// What of a bone may go to others without a word, m^3.
+inline constexpr double kBoneLost = 0.02e-6;
 
 /// Fills the measured part of `report` (structures: filler first, then file order; quality; counts)
 /// from the finished mesh. Volumes expected of a structure are integrals over its field.

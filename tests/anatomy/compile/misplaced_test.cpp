@@ -70,7 +70,7 @@ TEST(Misplaced, WhatAnEarlierStructureTakesWholeIsToldAndTheOtherOrderMendsIt) {
   const auto found = misplaced({kBone, kMuscle, nerve});
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].what, "nerve");
-  EXPECT_EQ(found[0].verdict, Verdict::look);
+  EXPECT_EQ(found[0].verdict, Verdict::refused) << "nothing of it would be in the joint";
   EXPECT_THAT(found[0].message, HasSubstr("put it before 'vastus'"));
   EXPECT_TRUE(misplaced({kBone, nerve, kMuscle}).empty());
 }

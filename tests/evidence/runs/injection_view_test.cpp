@@ -26,6 +26,8 @@ TEST(FindView, HasTheNeedleInItsPlaneTheTipBeforeItsFaceAndTheFaceOnTheSkin) {
       const Pose X_JP = find_view_of(scene, X_JN, kWidth).X_JP;
       const Vec3 tip = X_JP.inverse() * X_JN.translation();
       EXPECT_NEAR(tip.y(), 0, 1e-6);
+      EXPECT_GE(X_JP.linear().col(0).dot(scene.joint().X_JP_default.linear().col(0)), 0)
+          << "left and right as in the joint's other pictures";
       EXPECT_NEAR((X_JP.linear().transpose() * axis).y(), 0, 1e-6);
       EXPECT_GT(tip.z(), 5e-3);
       EXPECT_LT(std::abs(tip.x()), kWidth / 2);
