@@ -14,17 +14,17 @@
 namespace artus {
 namespace {
 
-constexpr double kShapeTime = 0.06;    // s that the first shape may take: a flow is seen at once
-constexpr double kGrowthTime = 0.3;    // s that a later one may: images need not wait for it
-constexpr double kVisible = 1e-9;      // m^3, of a shape's first liquid and least growth
-constexpr double kLeastKept = 0.5;     // of a volume, by a press; less is not made up for
-constexpr double kMissed = 5e-3;       // of a volume, by which a shape may be wrong
-constexpr double kStill = 1e-12;       // m^3 from image to image, of liquid that rests
-constexpr double kGrowth = 0.03;       // of what is there: 0.1 mm of a bursa that is 10 mm open
-constexpr double kPressForce = 0.05;   // N by which a press is another
-constexpr double kPressGrowth = 0.05;  // of the force
-constexpr double kPressDistance = 0.5e-3;  // m of its middle
-constexpr double kPressTurn = 0.02;        // rad
+constexpr double kShapeTime = 0.06;      // s that the first shape may take: a flow is seen at once
+constexpr double kGrowthTime = 0.3;      // s that a later one may: images need not wait for it
+constexpr double kVisible = 1e-9;        // m^3, of a shape's first liquid and least growth
+constexpr double kLeastKept = 0.5;       // of a volume, by a press; less is not made up for
+constexpr double kMissed = 5e-3;         // of a volume, by which a shape may be wrong
+constexpr double kStill = 1e-12;         // m^3 from image to image, of liquid that rests
+constexpr double kGrowth = 0.03;         // of what is there: 0.1 mm of a bursa that is 10 mm open
+constexpr double kPressForce = 0.05;     // N by which a press is another
+constexpr double kPressGrowth = 0.1;     // of the force
+constexpr double kPressDistance = 1e-3;  // m of its middle
+constexpr double kPressTurn = 0.04;      // rad
 
 /// Whether the region is anywhere in the body; a recording may name one that a gap left empty.
 bool is_there(const CompiledJoint& joint, std::uint32_t region) {

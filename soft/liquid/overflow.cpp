@@ -9,8 +9,11 @@
 #include <optional>
 #include <span>
 
+#include <Eigen/Dense>
+
 #include "artus/detail/anatomy/body/find_region.h"
 #include "artus/detail/anatomy/body/space.h"
+#include "artus/detail/anatomy/body/tissue.h"
 
 namespace artus {
 namespace {
@@ -26,31 +29,60 @@ struct Beyond {
   Vec3 p = Vec3::Zero();
 };
 
-/// Of the space's walls with soft tissue behind them the one that is nearest to the skin's side of
-/// the tip: as far as it is away, and twice as far where it is not above.
-std::optional<Beyond> tissue_beyond(const CompiledJoint& joint, const OpenedSpace& space,
-                                    const Vec3& tip) {
-  const auto in_space = [&](RegionId r) {
-    return std::find(space.regions().begin(), space.regions().end(), r) != space.regions().end();
+/// m to either side of the tip, of liquid that parts tissue there.
+double half_thickness(const CompiledJoint& joint, RegionId region, const Injected& place) {
+  const Bolus bolus = make_boluses(joint, region, place.tip, place.volume).back();
+  constexpr double kBall = 4 * std::numbers::pi / 3;
+  return std::cbrt(bolus.volume / (kBall * bolus.proportion.prod())) * bolus.proportion.z();
+}
+
+/// Of the tetrahedron that holds a point; outside where none does.
+RegionId region_at(const TetMesh& mesh, const Vec3& p) {
+  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
+    const auto& v = mesh.tetrahedra[t];
+    const Vec3& a = mesh.vertices[v[0]];
+    Eigen::Matrix3d edges;
+    for (int k = 0; k < 3; ++k)
+      edges.col(k) = mesh.vertices[v[static_cast<std::size_t>(k + 1)]] - a;
+    if ((p - a).cwiseAbs().maxCoeff() > edges.cwiseAbs().maxCoeff()) continue;
+    const Vec3 share = edges.inverse() * (p - a);
+    if (share.minCoeff() >= 0 && share.sum() <= 1) return mesh.regions[t];
+  }
+  return kOutside;
+}
+
+/// Fat or muscle, which gives way: where it begins nearest to the tip, as far as that is away, and
+/// twice as far where it is not above. In it far enough that liquid of `volume` does not come back.
+std::optional<Beyond> tissue_beyond(const CompiledJoint& joint, const Vec3& tip, double volume) {
+  const auto gives_way = [&](RegionId r) {
+    if (r < kFirstRegion) return false;
+    const TissueKind kind = joint.tissue_of(r).acoustic.kind;
+    return kind == TissueKind::fat || kind == TissueKind::muscle;
   };
   const Vec3 up = -joint.X_JP_default.linear().col(2);
   double nearest = std::numeric_limits<double>::infinity();
-  std::optional<Beyond> found;
+  Beyond found;
+  Vec3 into = up;
   for (const Interface& f : joint.mesh.interfaces) {
-    if (in_space(f.front) == in_space(f.back)) continue;
-    const RegionId beyond = in_space(f.front) ? f.back : f.front;
-    if (beyond < kFirstRegion || joint.tissue_of(beyond).haptic.hard) continue;
+    if (gives_way(f.front) == gives_way(f.back)) continue;
     const auto& p = joint.mesh.vertices;
     const Vec3& a = p[f.vertices[0]];
     const Vec3 middle = (a + p[f.vertices[1]] + p[f.vertices[2]]) / 3;
     const Vec3 normal = (p[f.vertices[1]] - a).cross(p[f.vertices[2]] - a);
     if (!(normal.norm() > 0)) continue;
-    const Vec3 out = (in_space(f.back) ? 1 : -1) * normal.normalized();
-    const double away = (middle - tip).norm() * (1.5 - 0.5 * out.dot(up));
+    const bool front = gives_way(f.front);
+    const Vec3 inward = (front ? 1 : -1) * normal.normalized();
+    const double away = (middle - tip).norm() * (1.5 - 0.5 * inward.dot(up));
     if (away >= nearest) continue;
     nearest = away;
-    found = Beyond{beyond, middle + kInto * out};
+    into = inward;
+    found = {front ? f.front : f.back, middle + kInto * inward};
   }
+  if (found.region < kFirstRegion) return std::nullopt;
+  const Injected there{joint.regions[found.region].name, volume, false, found.p, 0};
+  const Vec3 deep = found.p + (half_thickness(joint, found.region, there) + kHoldingFilm) * into;
+  if (const RegionId region = region_at(joint.mesh, deep); gives_way(region))
+    found = {region, deep};
   return found;
 }
 
@@ -64,13 +96,6 @@ double distance_to(const std::array<Vec3, 3>& t, const Vec3& p) {
     nearest = std::min(nearest, (p - t[k]).norm());
   }
   return over ? std::abs((p - t[0]).dot(normal.normalized())) : nearest;
-}
-
-/// m to either side of the tip, of liquid that parts tissue there.
-double half_thickness(const CompiledJoint& joint, RegionId region, const Injected& place) {
-  const Bolus bolus = make_boluses(joint, region, place.tip, place.volume).back();
-  constexpr double kBall = 4 * std::numbers::pi / 3;
-  return std::cbrt(bolus.volume / (kBall * bolus.proportion.prod())) * bolus.proportion.z();
 }
 
 /// The cavity that it tears, and where its walls are nearest.
@@ -134,7 +159,7 @@ bool spill(const OpenedSpaces& spaces, std::vector<Injected>& places) {
     const OpenedSpace& space = spaces.of(*region);
     const double more = std::min(-room_in(space, joint, places), places[k].volume);
     if (!(more > kDrawn)) continue;
-    const auto beyond = tissue_beyond(joint, space, places[k].tip);
+    const auto beyond = tissue_beyond(joint, places[k].tip, more);
     if (!beyond) continue;
     places[k].volume -= more;
     places.push_back({joint.regions[beyond->region].name, more, false, beyond->p, 0});
