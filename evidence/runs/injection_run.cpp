@@ -33,7 +33,7 @@ constexpr double kPull = -6;       // N of aspiration; assumed
 constexpr double kReady = 0.5;     // s while the guard ramps up
 constexpr double kSeated = 1;      // s until the probe is on the skin and presses
 constexpr double kImageRate = 20;  // 1/s of the tissue's steps
-constexpr double kSpare = 5e-3;          // m of shaft that stay outside
+constexpr double kSpare = 5e-3;    // m of shaft that stay outside
 
 OperatorPhase named(OperatorPhase phase, const char* label) {
   phase.label = label;
