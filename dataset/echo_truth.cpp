@@ -31,7 +31,7 @@ cv::Mat mask_where(const Frame& frame, const ScanConverter& converter, const Con
   std::vector<float> levels(frame.envelope.size());
   for (std::size_t i = 0; i < levels.size(); ++i) levels[i] = condition(i) ? kWhite : kBlack;
   cv::Mat grey(converter.height(), converter.width(), CV_8UC1);
-  converter.convert(levels, 0, converter.height(), {grey.data, grey.total()});
+  converter.convert_straight(levels, {grey.data, grey.total()});
   return grey > kMiddle;
 }
 

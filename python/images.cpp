@@ -65,6 +65,10 @@ void take_setting(const std::string& key, const py::handle& value, Transducer& t
   bool taken = false;
   std::string names;
   const auto visit = [&](const std::string& name, auto& member) {
+    if (name.starts_with("grey_curve.")) {  // all of it, by its name
+      if (name.ends_with(".at_0")) names += ", grey_curve";
+      return;
+    }
     const std::string_view shown = short_name(name);
     names += (names.empty() ? "" : ", ") + std::string(shown);
     if (key != shown) return;

@@ -57,6 +57,11 @@ std::vector<const GateSet*> chosen_sets(const ValidationOptions& options,
 Result<std::vector<Plan>> plan_of(const ValidationOptions& options) {
   std::vector<std::string> only = options.only;
   const std::vector<const GateSet*> sets = chosen_sets(options, only);
+  const auto& reference = options.gates.reference;
+  if (!reference.empty() && options.joint.empty() && !std::filesystem::is_directory(reference))
+    return fail(ErrorCode::invalid,
+                "a table of real pictures needs --joint; for plates give the folder",
+                "--reference");
   if (options.all && !only.empty())
     return fail(ErrorCode::invalid, "either gates by name or --all", "--all");
   std::vector<std::string_view> known;

@@ -22,7 +22,7 @@ std::vector<std::uint8_t> motion_picture(const Frame& frame, const ScanConverter
   }
   std::vector<std::uint8_t> picture(static_cast<std::size_t>(frame.width) *
                                     static_cast<std::size_t>(frame.height));
-  converter.convert(levels, 0, frame.height, picture);
+  converter.convert_straight(levels, picture);
   return picture;
 }
 

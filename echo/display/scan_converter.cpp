@@ -96,6 +96,17 @@ void ScanConverter::convert(std::span<const float> decibel, int first_row, int l
   const auto begin = static_cast<std::size_t>(first_row) * static_cast<std::size_t>(width_);
   const auto end = static_cast<std::size_t>(last_row) * static_cast<std::size_t>(width_);
   if (has_curve_) return convert_by_curve(decibel, begin, end, image);
+  convert_straight(decibel, begin, end, image);
+}
+
+void ScanConverter::convert_straight(std::span<const float> decibel,
+                                     std::span<std::uint8_t> image) const noexcept {
+  convert_straight(decibel, 0, samples_.size(), image);
+}
+
+void ScanConverter::convert_straight(std::span<const float> decibel, std::size_t begin,
+                                     std::size_t end,
+                                     std::span<std::uint8_t> image) const noexcept {
   const std::ptrdiff_t next_line = single_line_ ? 0 : n_samples_;
   const float offset = dynamic_range_ * grey_per_db_ + 0.5F;  // black, and rounding to the nearest
   for (std::size_t k = begin; k < end; ++k) {

@@ -33,6 +33,10 @@ class ScanConverter {
   void convert(std::span<const float> decibel, int first_row, int last_row,
                std::span<std::uint8_t> image) const noexcept;
 
+  /// The same of every row, straight in decibels whatever the curve is: of what is no echo.
+  void convert_straight(std::span<const float> decibel,
+                        std::span<std::uint8_t> image) const noexcept;
+
   /// Pixel of a point in frame P (its elevation does not matter); geometric, without the
   /// displacement that the tissues' speeds of sound cause.
   [[nodiscard]] PixelPoint pixel_of(const Vec3& p_P) const noexcept;
@@ -50,6 +54,8 @@ class ScanConverter {
   [[nodiscard]] Sample find_sample(const Transducer& transducer, double sample_depth,
                                    const Vec3& p) const noexcept;
 
+  void convert_straight(std::span<const float> decibel, std::size_t begin, std::size_t end,
+                        std::span<std::uint8_t> image) const noexcept;
   void convert_by_curve(std::span<const float> decibel, std::size_t begin, std::size_t end,
                         std::span<std::uint8_t> image) const noexcept;
 

@@ -39,6 +39,7 @@ EchoSetup small_picture() {
   setup.image.n_planes = 3;
   setup.image.pixel = 0.4e-3;
   setup.image.n_threads = 1;
+  setup.image.grey_curve.grey.back() = 0.95;  // so that it can rise
   setup.image.texture = false;  // most of a small picture's time, and made anew for each change
   return setup;
 }
@@ -106,6 +107,9 @@ TEST(Mutations, EveryParameterOfBeamAndImageIsNoticed) {
   setup.image.texture = true;
   add("compound", setup);
   add("lifted", small_picture(), 5.1e-3);
+  setup = small_picture();
+  setup.image.look = Look::raw;
+  add("raw", setup);
   auto mutations = try_mutations(subjects);
   expect_noticed("echo", mutations,
                  {{"image.n_threads", "the image does not depend on how many threads draw it"}});
