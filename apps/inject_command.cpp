@@ -9,11 +9,11 @@
 #include "artus/detail/apps/options/session_options.h"
 #include "artus/detail/core/text_file.h"
 #include "artus/detail/core/units.h"
+#include "artus/detail/evidence/picture_plate.h"
 #include "artus/detail/evidence/runs/body_pictures.h"
 #include "artus/detail/evidence/runs/injection_pictures.h"
 #include "artus/detail/evidence/runs/injection_report.h"
 #include "artus/detail/evidence/runs/injection_request.h"
-#include "artus/detail/evidence/runs/picture_plate.h"
 #include "artus/detail/training/health/body_health.h"
 
 namespace artus {

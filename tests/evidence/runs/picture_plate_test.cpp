@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "artus/detail/evidence/runs/picture_plate.h"
+#include "artus/detail/evidence/picture_plate.h"
 
 #include <array>
 #include <filesystem>
