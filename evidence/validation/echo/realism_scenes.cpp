@@ -23,8 +23,8 @@ std::shared_ptr<const Scene> scene_of(CompiledJoint joint) {
 }
 
 CompiledJoint arm(double fibre_degrees) {
-  const std::array<FlatLayer, 3> arm{{{"skin", 1.5e-3}, {"fat", 4e-3}, {"muscle", 80e-3}}};
-  CompiledJoint joint = make_layered_block(make_phantom_tissues(), arm, 160e-3, 60e-3);
+  const std::array<FlatLayer, 3> layers{{{"skin", 1.5e-3}, {"fat", 4e-3}, {"muscle", 80e-3}}};
+  CompiledJoint joint = make_layered_block(make_phantom_tissues(), layers, 160e-3, 60e-3);
   joint.regions.back().fibre_axis =
       Vec3(std::cos(fibre_degrees * kDegree), 0, std::sin(fibre_degrees * kDegree));
   return joint;
