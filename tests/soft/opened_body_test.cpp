@@ -12,6 +12,7 @@
 #include "artus/detail/anatomy/body/space.h"
 #include "artus/detail/soft/liquid/bone_shadow.h"
 #include "artus/detail/soft/liquid/injected_body.h"
+#include "artus/detail/soft/liquid/overflow.h"
 #include "tests/support/paths.h"
 
 namespace artus {
@@ -200,6 +201,9 @@ TEST_P(OpenedBody, NoPlaceMovesBoneOrLosesVolumeOrPassesAWall) {
     const std::string what = std::string(GetParam()) + ": " + joint->regions[region].name;
     const bool cavity = kind == SpaceKind::cavity;
     const double volume = 1e-6;
+    // What tears the film to a cavity opens that; Overflow's tests hold it.
+    const Injected place{joint->regions[region].name, volume, cavity, tip};
+    if (!cavity && with_overflow(opened_spaces, {place}).front().cavity) continue;
     const CompiledJoint with = with_injected(
         *joint, {{joint->regions[region].name, volume, cavity, tip}}, Liquid{}, {}, opened_spaces);
     EXPECT_EQ(max_moved_bone(*joint, with), 0) << what;
