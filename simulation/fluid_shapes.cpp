@@ -68,7 +68,7 @@ FluidShape make_shape(const std::shared_ptr<const CompiledJoint>& joint,
   FluidShape shape;
   StressAt stress;
   if (tissue && !tissue->contact().pieces.empty()) stress = FaceStress(tissue);
-  const double more = before != nullptr && stress ? before->more : 1;
+  const double more = before != nullptr && tissue ? before->more : 1;
   for (Injected& place : places)
     if (place.cavity) place.volume *= more;
   shape.joint =

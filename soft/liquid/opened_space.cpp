@@ -6,12 +6,12 @@
 #include <limits>
 #include <map>
 #include <numbers>
-#include <numeric>
 #include <utility>
 
 #include <boost/math/tools/roots.hpp>
 
 #include "artus/detail/core/check.h"
+#include "artus/detail/core/disjoint_sets.h"
 
 namespace artus {
 namespace {
@@ -124,24 +124,14 @@ std::vector<SidedCage::Place> OpenedSpace::places_in(const TetMesh& mesh) const 
 /// aside: all of it belongs to the tissue that its middle is in.
 void OpenedSpace::place_boluses(const TetMesh& mesh, std::vector<bool>& known,
                                 std::vector<SidedCage::Place>& places) const {
-  std::vector<std::uint32_t> first;  // by interface vertex that is not known, of its bolus
-  first.resize(places.size());
-  std::iota(first.begin(), first.end(), 0U);
-  const auto root = [&](std::uint32_t v) {
-    while (first[v] != v) v = first[v] = first[first[v]];
-    return v;
-  };
+  DisjointSets walls(places.size());
   for (const Interface& f : mesh.interfaces) {
     if (known[f.vertices[0]] || known[f.vertices[1]] || known[f.vertices[2]]) continue;
-    for (const std::uint32_t v : {f.vertices[1], f.vertices[2]}) {
-      const std::uint32_t a = root(f.vertices[0]);
-      const std::uint32_t b = root(v);
-      first[std::max(a, b)] = std::min(a, b);
-    }
+    for (const std::uint32_t v : {f.vertices[1], f.vertices[2]}) walls.join(f.vertices[0], v);
   }
   std::map<std::uint32_t, std::vector<std::uint32_t>> boluses;
   for (std::uint32_t i = 0; i < places.size(); ++i)
-    if (!known[i]) boluses[root(i)].push_back(i);
+    if (!known[i]) boluses[walls.find(i)].push_back(i);
   for (const auto& [corner, vertices] : boluses) {
     Vec3 middle = Vec3::Zero();
     for (const std::uint32_t v : vertices) middle += mesh.vertices[v];
