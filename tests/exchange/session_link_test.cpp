@@ -357,8 +357,9 @@ TEST_F(SessionLinkTest, HostileClientsLeaveTheSessionUnharmed) {
     liar.send(transform("ProbeToReference", igtl::Matrix::Constant(1e30)));
   }
   const std::uint64_t before = session_->frames();
-  std::this_thread::sleep_for(std::chrono::milliseconds(500));
-  EXPECT_GT(session_->frames(), before + 5);
+  for (int i = 0; i < 200 && session_->frames() <= before + 5; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  EXPECT_GT(session_->frames(), before + 5) << "within 10 s, on a machine of any speed";
   EXPECT_TRUE(session_->notices().empty());
   IgtlClient honest(port());
   EXPECT_TRUE(honest.wait_for("IMAGE"));

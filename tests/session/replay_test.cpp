@@ -116,7 +116,7 @@ std::vector<Change> all_changes() {
                            else if constexpr (std::is_same_v<Member, std::string>)
                              member = "hyaluronic_light";
                            else if constexpr (std::is_enum_v<Member>)
-                             member = static_cast<Member>(1);
+                             member = static_cast<Member>(static_cast<int>(member) == 1 ? 0 : 1);
                            else if constexpr (std::is_same_v<Member, Vec3>) {
                              if (name == "gesture.axis_W")
                                member = Vec3(0, 0.6, 0.8);
