@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <utility>
 
 #include "artus/detail/anatomy/body/joint_digest.h"
 #include "artus/simulation/simulation.h"
@@ -36,7 +37,7 @@ bool none_was_drawn(const Recording& recording) {
 }
 
 Result<ReplayReport> replay(const Recording& recording, const std::shared_ptr<const Scene>& scene,
-                            const ReplayListener& listener, int n_threads) {
+                            const ReplayListener& listener, int n_threads, PreparedBody prepared) {
   if (compute_joint_digest(scene->joint()) != recording.head.joint_digest)
     return fail(ErrorCode::invalid,
                 "the session was recorded with another joint, or another version of it: " +
@@ -47,7 +48,7 @@ Result<ReplayReport> replay(const Recording& recording, const std::shared_ptr<co
   ReplayReport report;
   report.dropped = recording.dropped;
   report.complete = recording.complete;
-  Simulation simulation(scene, params);
+  Simulation simulation(scene, params, 0, std::move(prepared));
   auto packet = recording.packets.begin();
   for (const TickRecord& recorded : recording.ticks) {
     for (; packet != recording.packets.end() && packet->tick <= recorded.input.tick; ++packet)

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "artus/detail/simulation/imaged_body.h"
 #include "artus/session/recording.h"
 
 namespace artus {
@@ -43,10 +44,11 @@ struct ReplayListener {
 /// params in its head, and compares each force bit for bit and each image by digest. Images that
 /// were not drawn are tissue's steps alone, unless none was and `listener` wants to see them. Ticks
 /// that the recording lacks make later ones differ. `n_threads`: of the imaging, which the images
-/// do not depend on; 0: all processors. Errors: invalid when `scene` is another joint than the one
+/// do not depend on; 0: all processors. `prepared`: of the scene's joint. Errors: invalid when `scene` is another joint than the one
 /// recorded.
 [[nodiscard]] Result<ReplayReport> replay(const Recording& recording,
                                           const std::shared_ptr<const Scene>& scene,
-                                          const ReplayListener& listener = {}, int n_threads = 0);
+                                          const ReplayListener& listener = {}, int n_threads = 0,
+                                          PreparedBody prepared = {});
 
 }  // namespace artus

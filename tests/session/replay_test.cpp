@@ -37,10 +37,11 @@ SessionParams small_session() {
 
 /// A session without threads and clocks: in to bone, out, in again beside the first line, a rest
 /// and on, the plunger pushed all the while, with two images on the way.
-std::string record(const std::shared_ptr<const Scene>& scene, const SessionParams& params) {
+std::string record(const std::shared_ptr<const Scene>& scene, const SessionParams& params,
+                   const PreparedBody& prepared = {}) {
   std::ostringstream out;
   out << to_line(make_head(scene->joint(), params)) << '\n';
-  Simulation simulation(scene, params);
+  Simulation simulation(scene, params, 0, prepared);
   std::uint64_t n = 0;
   std::uint64_t frames = 0;
   const double period = 1e9 / params.haptic_rate;  // ns
@@ -166,6 +167,11 @@ class EachParameter : public ::testing::TestWithParam<Change> {
     static const auto kScene = test::make_layered_scene();
     return kScene;
   }
+  /// A space takes seconds to be made ready and depends on the joint alone.
+  static PreparedBody prepared() {
+    static const auto kSpaces = std::make_shared<const OpenedSpaces>(scene()->shared_joint());
+    return {nullptr, kSpaces};
+  }
 };
 
 TEST_P(EachParameter, IsInTheRecordingAndReplaysToTheSameBytes) {
@@ -174,10 +180,10 @@ TEST_P(EachParameter, IsInTheRecordingAndReplaysToTheSameBytes) {
   ASSERT_TRUE(validate(params)) << validate(params).error().to_string();
   const std::string line = to_line(make_head(scene()->joint(), params));
   EXPECT_NE(line, to_line(make_head(scene()->joint(), small_session())));
-  const auto recording = test::parse_recording(record(scene(), params));
+  const auto recording = test::parse_recording(record(scene(), params, prepared()));
   ASSERT_TRUE(recording) << recording.error().to_string();
   EXPECT_EQ(to_line(recording->head), line) << "read and written again";
-  const auto report = replay(*recording, scene(), {}, 1);
+  const auto report = replay(*recording, scene(), {}, 1, prepared());
   ASSERT_TRUE(report) << report.error().to_string();
   EXPECT_TRUE(report->identical());
   EXPECT_EQ(report->ticks, 1420U);

@@ -26,7 +26,7 @@ inline std::shared_ptr<const Scene> make_layered_scene() {
                                          {"tendon", 5e-3},
                                          {"bone", 10e-3}}};
   return std::make_shared<const Scene>(
-      std::make_shared<const CompiledJoint>(make_layered_block(layers, 0.12, 0.12)));
+      std::make_shared<const CompiledJoint>(make_layered_block(layers, 0.06, 0.06)));
 }
 
 /// A session small enough for a test: narrow probe, few lines, no texture.

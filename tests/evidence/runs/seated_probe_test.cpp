@@ -24,7 +24,7 @@ std::shared_ptr<const Scene> soft_layers() {
   const std::vector<FlatLayer> layers{{"skin", .004},   {"muscle", .018},    {"bursa", .003},
                                       {"tendon", .006}, {"cartilage", .003}, {"bone", .02}};
   static const auto kScene = std::make_shared<const Scene>(
-      std::make_shared<const CompiledJoint>(test::make_meshed_block(layers, .12, .08, 4e-3)));
+      std::make_shared<const CompiledJoint>(test::make_meshed_block(layers, .08, .06, 4e-3)));
   return kScene;
 }
 
