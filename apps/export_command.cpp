@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+#include <chrono>
 #include <cstdio>
+#include <ctime>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -9,6 +11,7 @@
 
 #include "artus/detail/apps/export_labels.h"
 #include "artus/detail/apps/options/pose_files.h"
+#include "artus/detail/core/printed.h"
 #include "artus/detail/core/units.h"
 #include "artus/detail/exchange/sequence_maker.h"
 #include "artus/detail/reports/recording_page.h"
@@ -110,6 +113,19 @@ Result<ImageSequence> sequence_of(const ExportOptions& options, const LoadedView
 }
 
 #ifdef ARTUS_HAS_DICOM
+/// Day and time (UTC) of the file or folder that is exported.
+void date(const std::filesystem::path& source, DicomSeries& series) {
+  std::error_code error;
+  const auto written = std::filesystem::last_write_time(source, error);
+  if (error) return;
+  const std::time_t seconds =
+      std::chrono::system_clock::to_time_t(std::chrono::file_clock::to_sys(written));
+  std::tm utc{};
+  if (gmtime_r(&seconds, &utc) == nullptr) return;
+  series.date = printed("%04d%02d%02d", utc.tm_year + 1900, utc.tm_mon + 1, utc.tm_mday);
+  series.time = printed("%02d%02d%02d", utc.tm_hour, utc.tm_min, utc.tm_sec);
+}
+
 Result<void> write_dicom_files(const ExportOptions& options, const Export& out) {
   const ImageSequence& sequence = out.sequence;
   DicomSeries series;
@@ -117,6 +133,8 @@ Result<void> write_dicom_files(const ExportOptions& options, const Export& out) 
   series.side = out.side;
   series.engine = ARTUS_VERSION;
   series.pixel = sequence.frames.front().image_to_reference.col(0).norm() * kMillimetre;
+  for (const auto* source : {&options.recording, &options.poses, &options.sweep})
+    if (!source->empty()) date(*source, series);
   if (!options.dicom.empty()) ARTUS_TRY(write_dicom(options.dicom, sequence, series));
   if (options.report.empty()) return {};
   cv::Mat colours;

@@ -34,8 +34,7 @@ Result<nlohmann::json> draw_phantom(const EchoPhantom& phantom, const View& view
   Renderer renderer(phantom.scene, view.transducer, view.settings);
   renderer.set_point_reflectors(phantom.reflectors);
   const Frame& frame = renderer.render(phantom.X_JP, phantom.needle);
-  const LabelImage labels =
-      render_labels(*phantom.scene, phantom.X_JP, view.transducer, view.settings, phantom.needle);
+  const LabelImage labels = render_shown_labels(renderer, phantom.X_JP, phantom.needle);
   nlohmann::json truth{{"phantom", phantom.name},
                        {"title", phantom.title},
                        {"object", phantom.truth},

@@ -9,6 +9,7 @@
 #include "artus/detail/dataset/echo_truth.h"
 #include "artus/echo/image_io.h"
 #include "artus/echo/labels.h"
+#include "artus/echo/renderer.h"
 
 namespace artus {
 namespace {
@@ -19,6 +20,7 @@ struct SliceOptions {
   PressOptions press;
   std::filesystem::path out;
   std::filesystem::path ids;
+  std::string truth = "shown";
   bool json = false;
 };
 
@@ -36,8 +38,13 @@ ExitCode run_slice(const SliceOptions& options) {
   const auto pressed = press(*loaded, options.press);
   if (!pressed) return report_error(pressed.error(), options.json);
   const CompiledJoint& joint = loaded->joint();
-  const LabelImage labels = render_labels(*loaded->scene, loaded->X_JP, loaded->view.transducer,
-                                          loaded->view.settings, loaded->needle);
+  const View& view = loaded->view;
+  const LabelImage labels =
+      options.truth == "true"
+          ? render_labels(*loaded->scene, loaded->X_JP, view.transducer, view.settings,
+                          loaded->needle)
+          : render_shown_labels(Renderer(loaded->scene, view.transducer, view.settings),
+                                loaded->X_JP, loaded->needle);
   if (const auto written = write_image(colour_labels(labels, joint), options.out); !written)
     return report_error(written.error(), options.json);
   if (!options.ids.empty())
@@ -49,6 +56,7 @@ ExitCode run_slice(const SliceOptions& options) {
     nlohmann::json report{{"joint", joint.name},
                           {"image", options.out.string()},
                           {"pixel_mm", labels.pixel / kMillimetre},
+                          {"truth", options.truth},
                           {"regions", legend}};
     if (!pressed->is_null()) report["press"] = *pressed;
     std::cout << report.dump(2) << '\n';
@@ -70,7 +78,7 @@ void add_slice_command(Command& image, ExitCode& code) {
   auto options = std::make_shared<SliceOptions>();
   Command* command =
       add_command(image, "labels",
-                  "The regions that truly lie in the probe's plane, at the B-mode image's scale",
+                  "The regions in the probe's plane, at the B-mode image's scale",
                   "Examples:\n"
                   "  artus image labels -j meshes/simple-shoulder -o labels.png\n"
                   "  artus image labels -j meshes/shoulder --press-mm 5 -o pressed.png\n"
@@ -83,6 +91,12 @@ void add_slice_command(Command& image, ExitCode& code) {
   add_drag_option(command, options->press);
   command->add_option("-o,--out", options->out, "colour image (.png)")->required();
   command->add_option("--ids", options->ids, "also write region ids (16-bit .png)");
+  command
+      ->add_option("--truth", options->truth,
+                   "shown: where the picture has them, by the speeds and bends of sound; true: "
+                   "where they are")
+      ->one_of({"shown", "true"})
+      ->capture_default_str();
   command->add_flag("--json", options->json, "machine-readable output");
   on_run(command, code, [options] { return run_slice(*options); });
 }

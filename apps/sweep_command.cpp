@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <iostream>
 #include <memory>
+#include <string>
 #include <utility>
 
 #include "artus/dataset/sweep.h"
@@ -23,6 +25,7 @@ struct SweepCommandOptions : PoseListOptions {
   int frames_per_shard = 1000;
   std::int64_t draw = 0;
   std::filesystem::path ranges;
+  std::string truth{kSweepTruthNames[0]};
   bool restart = false;
 };
 
@@ -31,6 +34,8 @@ SweepOptions sweep_options_of(const SweepCommandOptions& options, const LoadedVi
   sweep.transducer = loaded.view.transducer;
   sweep.settings = loaded.view.settings;
   sweep.needle = loaded.view.needle_shape;
+  const auto named = std::find(kSweepTruthNames.begin(), kSweepTruthNames.end(), options.truth);
+  sweep.truth = static_cast<SweepTruth>(named - kSweepTruthNames.begin());
   sweep.restart = options.restart;
   return sweep;
 }
@@ -93,13 +98,21 @@ Result<FrameSource> frames_of(const SweepCommandOptions& options, const LoadedVi
       options.ranges.empty() ? Result<DrawRanges>(DrawRanges()) : read_draw_ranges(options.ranges);
   ARTUS_TRY(ranges);
   ARTUS_TRY(load_drawn(options, *ranges, sweep));
-  DrawBase base{{loaded.scene}, sweep.needle};
+  DrawBase base{{loaded.scene}, sweep.needle, {sweep.transducer}, sweep.settings};
+  if (!sweep.transducers.empty()) base.transducers.clear();
+  for (const TransducerPreset& preset : sweep.transducers)
+    base.transducers.push_back(preset.transducer);
   base.patients.insert(base.patients.end(), sweep.patients.begin(), sweep.patients.end());
   for (const auto& patient : base.patients)
     if (ranges->press_share > 0 && patient->joint().mesh.tetrahedra.empty())
       return fail(ErrorCode::invalid, "a joint without tetrahedra cannot be pressed",
                   patient->joint().name);
   if (ranges->press_share > 0) ARTUS_TRY(check_faces(sweep));
+  if (!options.ranges.empty())
+    for (const std::string& name : unknown_places(base, *ranges))
+      if (ranges->not_in != DrawRanges().not_in)
+        return fail(ErrorCode::not_found, "no tissue or structure has this name in not_in",
+                    options.ranges.string() + ": " + name);
   return drawn_frames(base, *ranges, options.view.seed, static_cast<std::size_t>(options.draw));
 }
 
@@ -214,6 +227,11 @@ void add_sweep_command(Command& app, ExitCode& code) {
   add_pose_list_options(command, *options);
   add_shard_options(command, *options);
   command->add_option("-o,--out", options->out, "folder for the results")->required();
+  command
+      ->add_option("--truth", options->truth,
+                   "labels and masks where the picture shows things, where they truly are, or both")
+      ->one_of({"shown", "true", "both"})
+      ->capture_default_str();
   command->add_flag("--restart", options->restart, "throw away an earlier sweep of the folder");
   on_run(command, code, [options] { return run_sweep_command(*options); });
 }

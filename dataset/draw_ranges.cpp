@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/detail/dataset/draw_ranges.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -73,6 +74,16 @@ void read_needle(TomlTable& table, DrawRanges& ranges) {
   read_range(table, "along_mm", kMillimetre, ranges.along);
   read_range(table, "aside_mm", kMillimetre, ranges.aside);
   read_range(table, "slant_deg", kDegree, ranges.slant);
+  if (const auto tip = table.text("tip")) {
+    const auto named = std::find(kTipPlaceNames.begin(), kTipPlaceNames.end(), *tip);
+    if (named == kTipPlaceNames.end())
+      table.problem_at("tip", "must be anywhere, in_picture or visible");
+    else
+      ranges.tip = static_cast<TipPlace>(named - kTipPlaceNames.begin());
+  }
+  read_share(table, "tip_share", ranges.tip_share);
+  if (table.has("not_in")) ranges.not_in = table.required_texts("not_in");
+  read_share(table, "not_in_share", ranges.not_in_share);
   read_gauges(table, ranges);
   ranges.length = range_at(table, "length_mm", kMillimetre, kShortest);
   ranges.echogenic_share = table.number("echogenic", 0, 1);
@@ -129,8 +140,11 @@ std::uint64_t hash_of(const DrawRanges& r) {
     out.put(range.high);
   }
   for (const double share :
-       {r.needle_share, r.in_plane_share, r.echogenic_share.value_or(-1), r.press_share})
+       {r.needle_share, r.in_plane_share, r.echogenic_share.value_or(-1), r.press_share,
+        r.tip_share, r.not_in_share})
     out.put(share);
+  out.put(static_cast<std::uint64_t>(r.tip));
+  for (const std::string& name : r.not_in) out.put(std::string_view(name));
   out.put_array(r.gauges);
   for (const std::string& transducer : r.transducers) out.put(std::string_view(transducer));
   // Their digests are in the sidecar.

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -17,6 +19,15 @@ struct DrawRange {
   double high = 0;
 };
 
+/// Where a drawn needle's tip must be.
+enum class TipPlace : std::uint8_t {
+  anywhere,
+  in_picture,  ///< between the outermost lines and in the slice
+  visible      ///< and neither bone nor gas nor a gap lies between the face and the tip
+};
+inline constexpr std::array<std::string_view, 3> kTipPlaceNames{"anywhere", "in_picture",
+                                                                "visible"};
+
 /// How far drawn frames spread. Probe: about the joint's default pose, in its own axes, then set
 /// down on the skin. Needle: about a planned injection (all are as likely; the default needle where
 /// none is planned), for a share of the frames turned into the picture's plane. What is empty is
@@ -28,11 +39,16 @@ struct DrawRanges {
   DrawRange tilt{-10 * kDegree, 10 * kDegree};  ///< rad, about x
   DrawRange rock{-10 * kDegree, 10 * kDegree};  ///< rad, about y
   double needle_share = 0.7;                    ///< of the frames with a needle
-  double in_plane_share = 0.5;                  ///< of the needles that lie in the picture's plane
+  double in_plane_share = 0.7;                  ///< of the needles that lie in the picture's plane
   DrawRange along{-20e-3, 5e-3};  ///< m, of the tip from the target, deeper is positive
   DrawRange aside{-3e-3, 3e-3};   ///< m, of the tip off the planned line, both ways
   DrawRange slant{-10 * kDegree,
                   10 * kDegree};          ///< rad, of the needle off the planned line, both ways
+  TipPlace tip = TipPlace::in_picture;
+  double tip_share = 1;  ///< of the needles for which `tip` holds
+  /// Tissues or structures that neither tip nor shaft may be in.
+  std::vector<std::string> not_in{"bone", "cartilage"};
+  double not_in_share = 1;                ///< of the needles for which `not_in` holds
   std::vector<int> gauges;                ///< as likely as often they are named
   std::optional<DrawRange> length;        ///< m, hub to tip
   std::optional<double> echogenic_share;  ///< of the needles that are dimpled

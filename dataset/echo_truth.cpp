@@ -68,14 +68,22 @@ cv::Mat needle_mask(const LabelImage& labels) {
   return mask;
 }
 
-cv::Mat shadow_mask(const Frame& frame, const ScanConverter& converter) {
+cv::Mat shadow_mask(const Frame& frame, const ScanConverter& converter,
+                    const ShownPlaces* places) {
   constexpr float kHalf = 0.5F;  // share of the sound
   const auto n = static_cast<std::size_t>(frame.n_samples);
+  // the sample that shows what truly lies at one of the same line
+  const auto shown_of = [&](std::size_t i) {
+    if (places == nullptr) return static_cast<double>(i % n);
+    return places->sample_of(static_cast<int>(i / n),
+                             static_cast<double>(i % n) * frame.sample_depth);
+  };
   const auto below = [&](std::size_t i) {
-    return static_cast<float>(i % n) >= frame.shadow_from[i / n];
+    return shown_of(i) >= frame.shadow_from[i / n];
   };
   const auto dimmed = [&](std::size_t i) {
-    return frame.needle_light[i] < kHalf;
+    const double sample = std::clamp(shown_of(i), 0.0, static_cast<double>(n - 1));
+    return frame.needle_light[i - i % n + static_cast<std::size_t>(sample)] < kHalf;
   };
   const cv::Mat full = mask_where(frame, converter, below);
   const cv::Mat needle = mask_where(frame, converter, dimmed);
@@ -100,8 +108,10 @@ cv::Mat doppler_image(const Frame& frame, const ScanConverter& converter,
 nlohmann::json to_json(const NeedleTruth& truth, const std::optional<PixelPoint>& tip_shown) {
   nlohmann::json shown;
   if (tip_shown) shown = {tip_shown->x, tip_shown->y};
-  return {{"tip_px", {truth.tip.x, truth.tip.y}},
+  return {{"tip_true_px", {truth.tip.x, truth.tip.y}},
           {"tip_shown_px", shown},
+          {"tip_in_picture", truth.in_picture},
+          {"tip_visible", truth.in_slice && tip_shown.has_value()},
           {"tip_offset_mm", truth.tip_offset / kMillimetre},
           {"plane_angle_deg", truth.plane_angle / kDegree},
           {"face_angle_deg", truth.face_angle / kDegree},

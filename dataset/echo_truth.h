@@ -8,6 +8,7 @@
 
 #include "artus/anatomy/compiled_joint.h"
 #include "artus/detail/echo/display/scan_converter.h"
+#include "artus/detail/echo/display/shown_places.h"
 #include "artus/echo/frame.h"
 #include "artus/echo/image_settings.h"
 #include "artus/echo/labels.h"
@@ -23,9 +24,11 @@ namespace artus {
 [[nodiscard]] cv::Mat needle_mask(const LabelImage& labels);
 
 /// 255 where no sound returns (behind bone or gas, or without contact), 128 where less than half of
-/// it passes the needle, else 0; (height, width) CV_8UC1. Requires: `converter` is of the frame's
-/// transducer and settings.
-[[nodiscard]] cv::Mat shadow_mask(const Frame& frame, const ScanConverter& converter);
+/// it passes the needle, else 0; (height, width) CV_8UC1; as the picture shows it, or where it truly
+/// is by the `places` that the frame shows. Requires: `converter` is of the frame's transducer and
+/// settings.
+[[nodiscard]] cv::Mat shadow_mask(const Frame& frame, const ScanConverter& converter,
+                                  const ShownPlaces* places = nullptr);
 
 /// The grey image (CV_8UC3) with what moves in colour: red toward the probe, blue away, the
 /// brighter the faster. Requires: a frame with velocities; `converter` and `settings` are the
@@ -33,8 +36,8 @@ namespace artus {
 [[nodiscard]] cv::Mat doppler_image(const Frame& frame, const ScanConverter& converter,
                                     const ImageSettings& settings);
 
-/// Tip in pixels, where it is and where it shows (Frame::tip_shown; null when it does not), offset
-/// from the plane in mm, angles in degrees, in_plane.
+/// Tip in pixels, where it is (tip_true_px) and where it shows (Frame::tip_shown; null when it does not), offset
+/// from the plane in mm, angles in degrees, in_plane; tip_visible: it shows and lies in the slice.
 [[nodiscard]] nlohmann::json to_json(const NeedleTruth& truth,
                                      const std::optional<PixelPoint>& tip_shown);
 

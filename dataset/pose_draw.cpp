@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/detail/dataset/pose_draw.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
+#include <span>
 
 #include "artus/detail/core/noise.h"
 #include "artus/detail/core/printed.h"
+#include "artus/detail/echo/display/scan_converter.h"
+#include "artus/detail/echo/medium/region_acoustics.h"
+#include "artus/detail/echo/probe/beam_profile.h"
+#include "artus/detail/echo/probe/placed_line.h"
 
 namespace artus {
 namespace {
@@ -14,6 +21,12 @@ namespace {
 class Dice {
  public:
   Dice(std::uint64_t seed, std::size_t frame) : seed_(mix_bits(mix_bits(seed) ^ frame)) {}
+  /// The same frame's, thrown again; the first time as they were.
+  [[nodiscard]] Dice again(std::uint64_t attempt) const {
+    Dice other = *this;
+    if (attempt > 0) other.seed_ = mix_bits(seed_ ^ mix_bits(attempt));
+    return other;
+  }
   [[nodiscard]] double uniform(std::uint64_t place) const { return uniform_noise(seed_, place); }
   [[nodiscard]] double in(const DrawRange& range, std::uint64_t place) const {
     return range.low + (range.high - range.low) * uniform(place);
@@ -47,7 +60,10 @@ enum Place : std::uint64_t {
   kLength,
   kEchogenic,
   kPresses,
-  kPress
+  kPress,
+  kTip,
+  kNotIn,
+  kOffset
 };
 
 /// Moves a probe along its beam until the middle of its face lies on the skin; where it looks past
@@ -111,7 +127,145 @@ NeedleShape draw_shape(const NeedleShape& own, const DrawRanges& ranges, const D
   return shape;
 }
 
+/// A probe's picture: what can be in it.
+class PictureFrame {
+ public:
+  PictureFrame(const Transducer& transducer, const ImageSettings& settings)
+      : transducer_(transducer),
+        converter_(transducer, settings),
+        profile_(transducer, settings.depth),
+        gel_limit_(settings.gel_limit) {}
+
+  [[nodiscard]] double half_slice(double depth) const {
+    return profile_.elevation_width(std::max(0.0, depth)) / 2;
+  }
+  [[nodiscard]] bool shows(const Vec3& tip_P) const {
+    return converter_.inside(converter_.pixel_of(tip_P)) &&
+           std::abs(tip_P.y()) <= half_slice(tip_P.z());
+  }
+  /// Whether sound comes straight to a tip that the picture shows.
+  [[nodiscard]] bool reaches(const Scene& scene, const std::vector<bool>& opaque,
+                             const Pose& X_JP, const Vec3& tip_P) const {
+    const PixelPoint at = converter_.pixel_of(tip_P);
+    const int line =
+        converter_.line_at(static_cast<int>(std::round(at.x)), static_cast<int>(std::round(at.y)))
+            .line;
+    const Vec3 face = place_line(transducer_, line, X_JP).origin_J;
+    std::array<TissueInterval, kMostIntervals> intervals;
+    const QueryCount found = scene.find_intervals({face, X_JP * tip_P}, intervals);
+    for (std::size_t k = 0; k < found.size; ++k) {
+      const TissueInterval& piece = intervals[k];
+      if (piece.region < kFirstRegion && (k > 0 || piece.exit - piece.entry > gel_limit_))
+        return false;
+      if (opaque[piece.region]) return false;
+    }
+    return true;
+  }
+
+  static constexpr std::size_t kMostIntervals = 128;
+
+ private:
+  Transducer transducer_;
+  ScanConverter converter_;
+  BeamProfile profile_;
+  double gel_limit_;
+};
+
+/// By region, whether `names` has its structure or its tissue.
+std::vector<bool> named_regions(const CompiledJoint& joint, std::span<const std::string> names) {
+  std::vector<bool> named(joint.regions.size());
+  for (std::size_t r = 0; r < named.size(); ++r)
+    for (const std::string& name : names)
+      named[r] = named[r] || joint.regions[r].name == name ||
+                 joint.tissue_of(static_cast<RegionId>(r)).name == name;
+  return named;
+}
+
+std::vector<bool> opaque_regions(const CompiledJoint& joint) {
+  std::vector<bool> opaque;
+  for (const RegionAcoustics& region : make_region_acoustics(joint, Transducer{}))
+    opaque.push_back(region.opaque);
+  return opaque;
+}
+
+bool passes(const Scene& scene, const Pose& X_JN, double length, const std::vector<bool>& barred) {
+  std::array<TissueInterval, PictureFrame::kMostIntervals> intervals;
+  const Vec3 tip = X_JN.translation();
+  const QueryCount found =
+      scene.find_intervals({tip - length * X_JN.linear().col(2), tip}, intervals);
+  for (std::size_t k = 0; k < found.size; ++k)
+    if (barred[intervals[k].region]) return true;
+  return barred[scene.region_at(tip)];
+}
+
+/// Everything that a draw needs, made once.
+struct DrawTables {
+  DrawBase base;
+  DrawRanges ranges;
+  std::uint64_t seed = 0;
+  std::vector<PictureFrame> pictures;     // by transducer
+  std::vector<std::vector<bool>> barred;  // by patient and region
+  std::vector<std::vector<bool>> opaque;  // likewise
+};
+
+/// One throw of probe and needle; false: the needle may not be there.
+bool throw_needle(const DrawTables& tables, const Dice& first, const Dice& dice, FrameOrder& frame) {
+  const DrawRanges& ranges = tables.ranges;
+  const Scene& scene = *tables.base.patients[frame.patient];
+  const PictureFrame& picture = tables.pictures[std::max<std::size_t>(frame.transducer, 1) - 1];
+  frame.X_JP = draw_probe(scene, ranges, dice);
+  Pose X_JN = draw_needle(scene.joint(), ranges, dice);
+  const bool shown = ranges.tip != TipPlace::anywhere && first.uniform(kTip) < ranges.tip_share;
+  if (first.uniform(kInPlane) < ranges.in_plane_share) {
+    X_JN = laid_in_plane(X_JN, frame.X_JP);
+  } else if (shown) {
+    Vec3 tip = frame.X_JP.inverse() * X_JN.translation();
+    tip.y() = (2 * dice.uniform(kOffset) - 1) * picture.half_slice(tip.z());
+    X_JN.translation() = frame.X_JP * tip;
+  }
+  frame.X_JN = X_JN;
+  frame.needle = draw_shape(tables.base.needle, ranges, first);
+  const Vec3 tip = frame.X_JP.inverse() * X_JN.translation();
+  if (shown && !picture.shows(tip)) return false;
+  if (shown && ranges.tip == TipPlace::visible &&
+      !picture.reaches(scene, tables.opaque[frame.patient], frame.X_JP, tip))
+    return false;
+  return !(first.uniform(kNotIn) < ranges.not_in_share &&
+           passes(scene, X_JN, frame.needle->length, tables.barred[frame.patient]));
+}
+
+FrameOrder draw_frame(const DrawTables& tables, std::size_t i) {
+  constexpr std::uint64_t kAttempts = 200;
+  const DrawRanges& ranges = tables.ranges;
+  const Dice dice(tables.seed, i);
+  FrameOrder frame;
+  frame.patient = dice.of(tables.base.patients.size(), kPatient);
+  if (!ranges.transducers.empty())
+    frame.transducer = 1 + dice.of(ranges.transducers.size(), kTransducer);
+  if (dice.uniform(kPresses) < ranges.press_share)
+    frame.press = dice.in(ranges.press_depth, kPress);
+  if (dice.uniform(kHasNeedle) < ranges.needle_share)
+    for (std::uint64_t attempt = 0; attempt < kAttempts; ++attempt)
+      if (throw_needle(tables, dice, dice.again(attempt), frame)) return frame;
+  frame.X_JN.reset();
+  frame.needle.reset();
+  frame.X_JP = draw_probe(*tables.base.patients[frame.patient], ranges, dice);
+  return frame;
+}
+
 }  // namespace
+
+std::vector<std::string> unknown_places(const DrawBase& base, const DrawRanges& ranges) {
+  std::vector<std::string> unknown;
+  for (const std::string& name : ranges.not_in) {
+    const auto has = [&](const std::shared_ptr<const Scene>& patient) {
+      const auto named = named_regions(patient->joint(), std::span(&name, 1));
+      return std::find(named.begin(), named.end(), true) != named.end();
+    };
+    if (std::none_of(base.patients.begin(), base.patients.end(), has)) unknown.push_back(name);
+  }
+  return unknown;
+}
 
 FrameSource drawn_frames(const DrawBase& base, const DrawRanges& ranges, std::uint64_t seed,
                          std::size_t count) {
@@ -119,22 +273,15 @@ FrameSource drawn_frames(const DrawBase& base, const DrawRanges& ranges, std::ui
   source.count = count;
   source.digest =
       "drawn-" + in_hexadecimal(mix_bits(mix_bits(mix_bits(seed) ^ count) ^ hash_of(ranges)));
-  source.frame = [base, ranges, seed](std::size_t i) {
-    const Dice dice(seed, i);
-    FrameOrder frame;
-    frame.patient = dice.of(base.patients.size(), kPatient);
-    const Scene& scene = *base.patients[frame.patient];
-    if (!ranges.transducers.empty())
-      frame.transducer = 1 + dice.of(ranges.transducers.size(), kTransducer);
-    frame.X_JP = draw_probe(scene, ranges, dice);
-    if (dice.uniform(kPresses) < ranges.press_share)
-      frame.press = dice.in(ranges.press_depth, kPress);
-    if (!(dice.uniform(kHasNeedle) < ranges.needle_share)) return frame;
-    frame.X_JN = draw_needle(scene.joint(), ranges, dice);
-    if (dice.uniform(kInPlane) < ranges.in_plane_share)
-      frame.X_JN = laid_in_plane(*frame.X_JN, frame.X_JP);
-    frame.needle = draw_shape(base.needle, ranges, dice);
-    return frame;
+  const auto tables = std::make_shared<DrawTables>(DrawTables{base, ranges, seed, {}, {}, {}});
+  for (const Transducer& transducer : base.transducers)
+    tables->pictures.emplace_back(transducer, base.settings);
+  for (const auto& patient : base.patients) {
+    tables->barred.push_back(named_regions(patient->joint(), ranges.not_in));
+    tables->opaque.push_back(opaque_regions(patient->joint()));
+  }
+  source.frame = [tables = std::shared_ptr<const DrawTables>(tables)](std::size_t i) {
+    return draw_frame(*tables, i);
   };
   return source;
 }

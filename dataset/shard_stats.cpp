@@ -32,8 +32,11 @@ void take_needle(const json& needle, SetStatistics& out) {
   ++out.with_needle;
   out.in_plane += needle.at("in_plane").get<bool>() ? 1 : 0;
   out.tip_shown += needle.at("tip_shown_px").is_array() ? 1 : 0;
-  out.values["tip x, px"].push_back(needle.at("tip_px").at(0).get<double>());
-  out.values["tip y, px"].push_back(needle.at("tip_px").at(1).get<double>());
+  out.tip_in_picture += needle.at("tip_in_picture").get<bool>() ? 1 : 0;
+  out.tip_visible += needle.at("tip_visible").get<bool>() ? 1 : 0;
+  ++out.tip_in[needle.at("tip_tissue").get<std::string>()];
+  out.values["tip x, px"].push_back(needle.at("tip_true_px").at(0).get<double>());
+  out.values["tip y, px"].push_back(needle.at("tip_true_px").at(1).get<double>());
   for (const char* key : {"tip_offset_mm", "plane_angle_deg", "face_angle_deg"})
     out.values[key].push_back(needle.at(key).get<double>());
 }
@@ -152,8 +155,13 @@ Result<SetStatistics> read_statistics(const std::vector<fs::path>& folders,
 json to_json(const SetStatistics& statistics) {
   json values;
   for (const auto& [name, list] : statistics.values) values[name] = five_numbers(list);
-  return {{"frames", statistics.frames},     {"with_needle", statistics.with_needle},
-          {"in_plane", statistics.in_plane}, {"tip_shown", statistics.tip_shown},
+  return {{"frames", statistics.frames},
+          {"with_needle", statistics.with_needle},
+          {"in_plane", statistics.in_plane},
+          {"tip_in_picture", statistics.tip_in_picture},
+          {"tip_shown", statistics.tip_shown},
+          {"tip_visible", statistics.tip_visible},
+          {"tip_in", statistics.tip_in},
           {"regions", statistics.regions},   {"min_quartiles_max", values}};
 }
 
@@ -164,8 +172,10 @@ cv::Mat histogram_page(const SetStatistics& statistics) {
   const int height = regions_top + 60 + 18 * static_cast<int>(statistics.regions.size());
   cv::Mat page(height, kStatColumns * kWidth, CV_8UC3, cv::Scalar::all(255));
   const std::string head =
-      printed("%zu frames, %zu with a needle, of these %zu in plane, %zu with the tip shown",
-              statistics.frames, statistics.with_needle, statistics.in_plane, statistics.tip_shown);
+      printed("%zu frames, %zu with a needle, of these %zu in plane, %zu tips in the picture, %zu "
+              "visible",
+              statistics.frames, statistics.with_needle, statistics.in_plane,
+              statistics.tip_in_picture, statistics.tip_visible);
   write_at(page, head, {kMargin, 28}, 0.6);
   int box = 0;
   for (const auto& [name, list] : statistics.values) {

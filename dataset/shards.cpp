@@ -40,15 +40,13 @@ std::string png_of(const cv::Mat& picture) {
 
 /// The members of one frame, the first of each key being what WebDataset calls a sample.
 void append_frame(std::string& archive, std::size_t index, const SweepFrame& frame) {
-  constexpr std::array<const char*, 4> kEndings{".png", ".labels.png", ".shadow.png",
-                                                ".needle.png"};
   const std::string key = printed("%09zu", index);
   append_member(archive, key + ".json",
                 frame.truth.dump(-1, ' ', false, json::error_handler_t::replace));
   for (std::size_t i = 0; i < frame.pictures.size(); ++i) {
     cv::Mat picture = frame.pictures[i].second;
-    if (i == 1) picture.convertTo(picture, CV_8U);
-    append_member(archive, key + kEndings[i], png_of(picture));
+    if (picture.depth() != CV_8U) picture.convertTo(picture, CV_8U);
+    append_member(archive, key + ending_of(frame.pictures[i].first, '.'), png_of(picture));
   }
 }
 

@@ -68,13 +68,11 @@ Result<void> write_whole(const fs::path& file, const Write& write) {
   return {};
 }
 
-constexpr std::array<const char*, 4> kPictureKeys{"image", "labels", "shadow_mask", "needle_mask"};
-
 /// Whether a line of truth.jsonl is that of frame `index`, with all its pictures.
 bool is_finished(std::string_view line, std::size_t index, const fs::path& folder) {
   const json truth = json::parse(line, nullptr, false);
   if (!truth.is_object() || truth.value("index", json()) != json(index)) return false;
-  for (const char* key : kPictureKeys) {
+  for (const std::string_view key : kPictureKeys) {
     const auto place = truth.find(key);
     if (place == truth.end()) continue;
     std::error_code error;
@@ -140,10 +138,8 @@ Result<void> claim_folder(const fs::path& folder, const json& description, bool 
 /// Writes a frame's pictures and returns its line.
 Result<json> write_frame(SweepFrame frame, std::size_t index, const fs::path& folder) {
   const std::string stem = printed("frames/%06zu", index);
-  constexpr std::array<const char*, 4> kEndings{".png", "-labels.png", "-shadow.png",
-                                                "-needle.png"};
   for (std::size_t i = 0; i < frame.pictures.size(); ++i) {
-    const std::string name = stem + kEndings[i];
+    const std::string name = stem + ending_of(frame.pictures[i].first, '-');
     const auto picture = [&](const fs::path& part) {
       return write_image(frame.pictures[i].second, part);
     };

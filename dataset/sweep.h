@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <string_view>
 #include <vector>
 
 #include "artus/core/result.h"
@@ -17,12 +20,17 @@
 
 namespace artus {
 
+/// Which truth goes with a frame: where the picture shows things, where they are, or both.
+enum class SweepTruth : std::uint8_t { shown, real, both };
+inline constexpr std::array<std::string_view, 3> kSweepTruthNames{"shown", "true", "both"};
+
 struct SweepOptions {
   Transducer transducer;
   ImageSettings settings;  ///< without persistence: a frame must not depend on the one before
   NeedleShape needle;
   std::vector<std::shared_ptr<const Scene>> patients{};  ///< further joints that frames may name
   std::vector<TransducerPreset> transducers{};           ///< further probes that frames may name
+  SweepTruth truth = SweepTruth::shown;
   bool restart = false;          ///< throw away what an earlier sweep left in the folder
   std::function<bool()> stop{};  ///< asked before each frame; true ends the sweep, to be continued
 };
@@ -40,7 +48,8 @@ struct SweepResult {
 ///   sweep.json            what was asked for; another sweep is not mixed into the same folder
 ///   truth.jsonl           a line for each finished frame, in the order of the list
 ///   frames/NNNNNN.png     B-mode, 8 bit
-///   frames/NNNNNN-labels.png, -shadow.png, -needle.png   region ids (16 bit), masks
+///   frames/NNNNNN-labels_shown.png, -shadow_shown.png, -needle_shown.png   region ids (16 bit) and
+///                         masks where the picture shows things; -labels_true.png ... where they are
 /// A sweep that was stopped, killed even, continues where it was: a frame counts when its line and
 /// all its pictures are there. The files are the same bytes at any number of threads and stops.
 /// Errors: invalid (persistence; the folder holds another sweep; another process draws there),

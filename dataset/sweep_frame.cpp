@@ -5,6 +5,7 @@
 
 #include "artus/detail/core/units.h"
 #include "artus/detail/dataset/echo_truth.h"
+#include "artus/detail/echo/display/shown_places.h"
 #include "artus/detail/echo/probe/pressing_face.h"
 #include "artus/detail/raycast/pressed_scene.h"
 #include "artus/echo/image_io.h"
@@ -27,12 +28,15 @@ nlohmann::json to_json(const NeedleShape& shape) {
 
 /// Truth of the needle: in the picture, and in the joint as lists of poses have it.
 nlohmann::json needle_truth(const NeedleView& needle, const NeedleTruth& truth,
-                            const std::optional<PixelPoint>& tip_shown) {
+                            const std::optional<PixelPoint>& tip_shown, const Scene& scene) {
   nlohmann::json out = to_json(truth, tip_shown);
   const auto triple = [](const Vec3& p) {
     return nlohmann::json{p.x() / kMillimetre, p.y() / kMillimetre, p.z() / kMillimetre};
   };
   const Vec3 tip = needle.X_JN.translation();
+  const RegionId region = scene.region_at(tip);
+  out["tip_region"] = scene.joint().regions[region].name;
+  out["tip_tissue"] = scene.joint().tissue_of(region).name;
   out["tip_mm"] = triple(tip);
   out["entry_mm"] = triple(tip - needle.shape.length * needle.X_JN.linear().col(2));
   out.update(to_json(needle.shape));
@@ -41,11 +45,17 @@ nlohmann::json needle_truth(const NeedleView& needle, const NeedleTruth& truth,
 
 }  // namespace
 
+std::string ending_of(std::string_view key, char separator) {
+  if (key == kPictureKeys[0]) return ".png";
+  return separator + std::string(key) + ".png";
+}
+
 nlohmann::json describe_sweep(const CompiledJoint& joint, const SweepOptions& options) {
   nlohmann::json out{{"joint", identity_of(joint)},
                      {"transducer", to_json(options.transducer)},
                      {"settings", to_json(options.settings)},
-                     {"needle", to_json(options.needle)}};
+                     {"needle", to_json(options.needle)},
+                     {"truth", kSweepTruthNames[static_cast<std::size_t>(options.truth)]}};
   for (const auto& patient : options.patients)
     out["patients"].push_back(identity_of(patient->joint()));
   for (const TransducerPreset& preset : options.transducers)
@@ -107,24 +117,32 @@ SweepFrame SweepDrawer::draw(std::size_t index, const FrameOrder& order) {
   std::optional<NeedleView> needle;
   if (order.X_JN) needle = NeedleView{*order.X_JN, order.needle.value_or(options_.needle)};
   const Frame& frame = scanner.renderer.render(X_JP, needle);
-  const LabelImage labels = scanner.truth.render(*scanner.scene, X_JP, needle);
   const CompiledJoint& joint = scanner.scene->joint();
+  out.pictures = {{"image", grey_image(frame)}};
+  const ShownPlaces places = scanner.renderer.shown_places(X_JP);
+  const auto add = [&](const std::string& kind, const LabelImage& labels,
+                       const ShownPlaces* shown_at) {
+    out.pictures.emplace_back("labels_" + kind, id_image(labels));
+    out.pictures.emplace_back("shadow_" + kind,
+                              shadow_mask(frame, scanner.truth.converter(), shown_at));
+    out.pictures.emplace_back("needle_" + kind, needle_mask(labels));
+    if (!out.truth.contains("regions")) out.truth["regions"] = region_list(labels, joint);
+  };
+  if (options_.truth != SweepTruth::real)
+    add("shown", scanner.truth.render_shown(places, X_JP, needle), nullptr);
+  if (options_.truth != SweepTruth::shown)
+    add("true", scanner.truth.render(*scanner.scene, X_JP, needle), &places);
   out.truth["probe"] = probe_json(X_JP);
   out.truth["pixel_mm"] = frame.pixel / kMillimetre;
   out.truth["contact"] = contact_json(frame);
-  out.truth["regions"] = region_list(labels, joint);
   if (!options_.patients.empty()) out.truth["joint"] = joint.name;
   if (order.transducer > 0)
     out.truth["transducer"] = options_.transducers[order.transducer - 1].name;
   if (!order.name.empty()) out.truth["name"] = order.name;
   if (order.time) out.truth["time_s"] = *order.time;
   if (needle)
-    out.truth["needle"] =
-        needle_truth(*needle, scanner.truth.locate(*needle, X_JP), frame.tip_shown);
-  out.pictures = {{"image", grey_image(frame)},
-                  {"labels", id_image(labels)},
-                  {"shadow_mask", shadow_mask(frame, scanner.truth.converter())}};
-  if (needle) out.pictures.emplace_back("needle_mask", needle_mask(labels));
+    out.truth["needle"] = needle_truth(*needle, scanner.truth.locate(*needle, X_JP),
+                                       frame.tip_shown, *scanner.scene);
   return out;
 }
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <array>
 #include <cstddef>
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -16,8 +18,17 @@
 
 namespace artus {
 
-/// A frame of a sweep before it is a file: its line of truth and its pictures by their keys there
-/// ("image", "labels", "shadow_mask", and "needle_mask" with a needle).
+/// The keys of a frame's pictures in its line of truth: masks and region ids where the picture shows
+/// things, and where they truly are.
+inline constexpr std::array<std::string_view, 7> kPictureKeys{
+    "image",       "labels_shown", "shadow_shown", "needle_shown",
+    "labels_true", "shadow_true",  "needle_true"};
+
+/// How a picture's file ends: ".png" of the image, "-labels_shown.png" and so on of the others.
+[[nodiscard]] std::string ending_of(std::string_view key, char separator);
+
+/// A frame of a sweep before it is a file: its line of truth and its pictures by kPictureKeys, the
+/// image first.
 struct SweepFrame {
   nlohmann::json truth;
   std::vector<std::pair<std::string, cv::Mat>> pictures;

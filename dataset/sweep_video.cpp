@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "artus/detail/dataset/video_file.h"
+#include "artus/detail/echo/display/shown_places.h"
 #include "artus/echo/image_io.h"
 #include "artus/echo/labels.h"
 #include "artus/echo/renderer.h"
@@ -14,12 +15,13 @@ namespace artus {
 namespace {
 
 /// The image, and beside it the labels of the same height when they are asked for.
-cv::Mat picture_of(Renderer& renderer, const LabelRenderer* truth, const Scene& scene,
+cv::Mat picture_of(Renderer& renderer, const LabelRenderer* truth, const CompiledJoint& joint,
                    const Pose& X_JP, const std::optional<NeedleView>& needle) {
   const Frame& frame = renderer.render(X_JP, needle);
   cv::Mat image = annotated_image(frame, renderer.transducer());
   if (truth == nullptr) return image;
-  const cv::Mat labels = colour_labels(truth->render(scene, X_JP, needle), scene.joint());
+  const cv::Mat labels =
+      colour_labels(truth->render_shown(renderer.shown_places(X_JP), X_JP, needle), joint);
   cv::Mat both(image.rows, image.cols + labels.cols, CV_8UC3, cv::Scalar(0, 0, 0));
   cv::cvtColor(image, both(cv::Rect(0, 0, image.cols, image.rows)), cv::COLOR_GRAY2BGR);
   labels.copyTo(
@@ -46,7 +48,7 @@ Result<SweepVideo> write_sweep_video(const std::shared_ptr<const Scene>& scene,
     std::optional<NeedleView> needle;
     if (pose.X_JN) needle = NeedleView{*pose.X_JN, options.needle};
     const cv::Mat picture =
-        picture_of(renderer, truth ? &*truth : nullptr, *scene, pose.X_JP, needle);
+        picture_of(renderer, truth ? &*truth : nullptr, scene->joint(), pose.X_JP, needle);
     if (!video) {
       auto opened =
           VideoFile::open(file, picture.size(), options.labels, options.frames_per_second);

@@ -67,9 +67,10 @@ void put_people_and_series(ElementWriter& out, const DicomSeries& series, const 
   out.text(DCM_StudyInstanceUID, identifier(kind.digest ^ 1U));
   out.text(DCM_SeriesInstanceUID, identifier(kind.digest ^ 2U ^ number));
   for (const DcmTagKey& empty :
-       {DCM_StudyDate, DCM_StudyTime, DCM_ContentDate, DCM_ContentTime, DCM_AccessionNumber,
-        DCM_ReferringPhysicianName, DCM_PatientBirthDate, DCM_PatientSex, DCM_PatientOrientation})
+       {DCM_AccessionNumber, DCM_ReferringPhysicianName, DCM_PatientBirthDate, DCM_PatientSex, DCM_PatientOrientation})
     out.text(empty, "");
+  for (const DcmTagKey& date : {DCM_StudyDate, DCM_ContentDate}) out.text(date, series.date);
+  for (const DcmTagKey& time : {DCM_StudyTime, DCM_ContentTime}) out.text(time, series.time);
   out.text(DCM_Modality, kind.modality);
   out.text(DCM_Manufacturer, "artus");
   out.text(DCM_ManufacturerModelName, "simulated ultrasound");
@@ -101,18 +102,26 @@ void put_raster(ElementWriter& out, int width, int height, int samples) {
   out.number(DCM_PixelRepresentation, 0);
 }
 
+/// Frames that have no times: their numbers.
+void put_labels(ElementWriter& out, DcmItem& dataset, std::size_t n_frames) {
+  std::string labels = "1";
+  for (std::size_t i = 2; i <= n_frames; ++i) labels += "\\" + std::to_string(i);
+  out.note(dataset.putAndInsertTagKey(DCM_FrameIncrementPointer, DCM_FrameLabelVector));
+  out.text(DCM_FrameLabelVector, labels);
+}
+
 /// When the frames were: one time apart, or the list of them where they differ.
-void put_times(ElementWriter& out, DcmItem& dataset, const ImageSequence& sequence,
-               double frame_time) {
+void put_times(ElementWriter& out, DcmItem& dataset, const ImageSequence& sequence) {
   const std::vector<SequenceFrame>& frames = sequence.frames;
   const double whole = frames.back().time - frames.front().time;
-  if (whole > 0) frame_time = whole / static_cast<double>(frames.size() - 1);
+  if (!(whole > 0)) return put_labels(out, dataset, frames.size());
+  const double frame_time = whole / static_cast<double>(frames.size() - 1);
   bool even = true;
   std::string vector = "0";
   for (std::size_t i = 1; i < frames.size(); ++i) {
     constexpr double kNoticed = 0.5e-6;  // s, below the six digits that are written
     const double apart = frames[i].time - frames[i - 1].time;
-    even = even && (whole <= 0 || std::abs(apart - frame_time) < kNoticed);
+    even = even && std::abs(apart - frame_time) < kNoticed;
     vector += "\\" + decimal(1e3 * apart);
   }
   out.note(dataset.putAndInsertTagKey(DCM_FrameIncrementPointer,
@@ -125,12 +134,14 @@ void put_times(ElementWriter& out, DcmItem& dataset, const ImageSequence& sequen
 }
 
 void put_pixels(ElementWriter& out, DcmItem& dataset, const ImageSequence& sequence,
-                double frame_time) {
+                double pixel) {
   put_raster(out, sequence.width, sequence.height, 1);
   out.text(DCM_BurnedInAnnotation, "NO");
   out.text(DCM_LossyImageCompression, "00");
   out.text(DCM_NumberOfFrames, std::to_string(sequence.frames.size()));
-  put_times(out, dataset, sequence, frame_time);
+  const std::string spacing = decimal(1e3 * pixel);
+  out.text(DCM_PixelSpacing, spacing + "\\" + spacing);
+  put_times(out, dataset, sequence);
   std::vector<Uint8> pixels;
   for (const SequenceFrame& frame : sequence.frames)
     pixels.insert(pixels.end(), frame.grey.begin(), frame.grey.end());
@@ -179,8 +190,7 @@ Result<void> save(DcmFileFormat& out, const OFCondition& filled,
 Result<void> write_dicom(const std::filesystem::path& file, const ImageSequence& sequence,
                          const DicomSeries& series) {
   ARTUS_REQUIRE(!sequence.frames.empty(), "the sequence must have frames");
-  ARTUS_REQUIRE(series.pixel > 0 && series.frame_time > 0,
-                "pixel size and frame time must be above 0");
+  ARTUS_REQUIRE(series.pixel > 0, "the pixel's size must be above 0");
   DcmFileFormat out;
   DcmDataset& dataset = *out.getDataset();
   ElementWriter writer(dataset);
@@ -188,7 +198,7 @@ Result<void> write_dicom(const std::filesystem::path& file, const ImageSequence&
       writer, series,
       {UID_UltrasoundMultiframeImageStorage, "DERIVED\\PRIMARY\\MUSCULOSKELETAL\\0001", "US",
        "simulated ultrasound", study_of(sequence, series), 1});
-  put_pixels(writer, dataset, sequence, series.frame_time);
+  put_pixels(writer, dataset, sequence, series.pixel);
   put_region(writer, dataset, sequence, series.pixel);
   return save(out, writer.condition(), file);
 }

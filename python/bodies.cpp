@@ -14,19 +14,53 @@ namespace {
 
 constexpr double kFarthest = 10;  // m; what is farther off was meant in millimetres
 
-Joint load(const std::filesystem::path& path, const std::filesystem::path& surfaces,
-           const std::filesystem::path& cache, bool skip_refused) {
+Joint load_from(JointSource source) {
   LoadOptions options;
-  options.surfaces = surfaces;
-  options.cache = cache;
-  options.compile.skip_refused = skip_refused;
+  options.surfaces = source.surfaces;
+  options.cache = source.cache;
+  options.compile.skip_refused = source.skip_refused;
   const py::gil_scoped_release others_may_run;
-  auto joint = load_joint(path, options);
+  auto joint = load_joint(source.path, options);
   if (!joint) {
     const py::gil_scoped_acquire back;
     raise(joint.error());
   }
-  return {std::make_shared<const Scene>(std::make_shared<const CompiledJoint>(std::move(*joint)))};
+  // another process may stand in another folder
+  std::error_code none;
+  for (std::filesystem::path* path : {&source.path, &source.surfaces, &source.cache})
+    if (!path->empty() && std::filesystem::exists(*path, none))
+      *path = std::filesystem::absolute(*path, none);
+  return {std::make_shared<const Scene>(std::make_shared<const CompiledJoint>(std::move(*joint))),
+          std::move(source)};
+}
+
+Joint load(const std::filesystem::path& path, const std::filesystem::path& surfaces,
+           const std::filesystem::path& cache, bool skip_refused) {
+  return load_from({path, surfaces, cache, skip_refused});
+}
+
+std::string digest_of(const Joint& joint) {
+  return joint.data().source_digest + (joint.scene->tissue() ? "-pressed" : "");
+}
+
+py::tuple joint_state(const Joint& joint) {
+  if (!joint.source || joint.scene->tissue())
+    throw py::type_error("joint '" + joint.data().name +
+                         "' was made in memory and cannot be pickled: send what it was made of");
+  const JointSource& source = *joint.source;
+  return py::make_tuple(source.path, source.surfaces, source.cache, source.skip_refused,
+                        digest_of(joint));
+}
+
+Joint joint_of_state(const py::tuple& state) {
+  if (state.size() != 5) throw py::value_error("this is no pickled joint");
+  const auto path = state[0].cast<std::filesystem::path>();
+  Joint joint = load(path, state[1].cast<std::filesystem::path>(),
+                     state[2].cast<std::filesystem::path>(), state[3].cast<bool>());
+  if (digest_of(joint) != state[4].cast<std::string>())
+    throw py::value_error("the joint at " + path.string() +
+                          " is not the one that was pickled: its file has changed");
+  return joint;
 }
 
 py::list region_names(const Joint& joint) {
@@ -152,11 +186,7 @@ void add_bodies(py::module_& module) {
       .def_property_readonly("name", [](const Joint& j) { return j.data().name; })
       .def_property_readonly("regions", &region_names, "Names by region id.")
       .def_property_readonly("tissues", &region_tissues, "Tissue of each region, by region id.")
-      .def_property_readonly("digest",
-                             [](const Joint& j) {
-                               return j.data().source_digest +
-                                      (j.scene->tissue() ? "-pressed" : "");
-                             })
+      .def_property_readonly("digest", &digest_of)
       .def_property_readonly(
           "probe", [](const Joint& j) { return array_of(j.data().X_JP_default); },
           "(4, 4) m: the default pose of the probe.")
@@ -165,6 +195,8 @@ void add_bodies(py::module_& module) {
           "(4, 4) m: the default pose of the needle, origin at the tip.")
       .def_property_readonly("injections", &injections, "[(entry, target)], (3,) m each.")
       .def_property_readonly("landmarks", &landmarks, "{name: (3,) m}.")
+      .def("_forget_source", [](Joint& j) { j.source.reset(); })
+      .def(py::pickle(&joint_state, &joint_of_state))
       .def("__repr__", [](const Joint& j) {
         return "<artus.Joint '" + j.data().name + "' of " +
                std::to_string(j.data().regions.size()) + " regions>";

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,11 +18,21 @@
 namespace artus::python {
 
 namespace py = pybind11;
-using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
+/// Without a cast that loses something: complex numbers are refused with a TypeError.
+using Numbers = py::array_t<double, py::array::c_style>;
+
+/// Where a joint came from, so that another process can load it again.
+struct JointSource {
+  std::filesystem::path path;
+  std::filesystem::path surfaces;
+  std::filesystem::path cache;
+  bool skip_refused = false;
+};
 
 /// A loaded joint with its index of surfaces.
 struct Joint {
   std::shared_ptr<const Scene> scene;
+  std::optional<JointSource> source{};  ///< empty: it was made in memory
   [[nodiscard]] const CompiledJoint& data() const noexcept { return scene->joint(); }
 };
 

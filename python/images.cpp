@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <mutex>
 #include <optional>
 #include <string_view>
@@ -10,6 +11,7 @@
 #include <pybind11/stl.h>
 
 #include "artus/detail/echo/display/image_fields.h"
+#include "artus/detail/echo/display/shown_places.h"
 #include "artus/detail/echo/probe/grey_curve_file.h"
 #include "artus/detail/python/borders.h"
 #include "artus/echo/labels.h"
@@ -95,8 +97,13 @@ class PyRenderer {
  public:
   PyRenderer(const Joint& joint, const std::string& transducer, bool keep_lines, int gauge,
              const py::kwargs& settings)
-      : scene_(joint.scene), keep_lines_(keep_lines) {
-    transducer_ = value_of(find_transducer(transducer)).transducer;
+      : joint_(joint),
+        scene_(joint.scene),
+        made_of_(py::make_tuple(transducer, keep_lines, gauge, settings)),
+        keep_lines_(keep_lines) {
+    const bool is_file = transducer.ends_with(".toml");
+    transducer_ = is_file ? value_of(find_transducer(transducer)).transducer
+                          : value_by_name(find_transducer(transducer)).transducer;
     const auto shape = needle_of_gauge(gauge);
     if (!shape) throw py::value_error("gauge must be 18, 20, 21, 22, 23 or 25");
     needle_ = *shape;
@@ -119,12 +126,17 @@ class PyRenderer {
     return picture;
   }
 
-  std::shared_ptr<Labels> labels(const Numbers& probe, const std::optional<Numbers>& needle) {
+  std::shared_ptr<Labels> labels(const Numbers& probe, const std::optional<Numbers>& needle,
+                                 const std::string& truth) {
+    if (truth != "shown" && truth != "true")
+      throw py::value_error("truth must be shown or true, not '" + truth + "'");
     const Pose X_JP = pose_of(probe, "probe");
     const std::optional<NeedleView> view = needle_of(needle);
     auto out = std::make_shared<Labels>();
     const py::gil_scoped_release others_may_run;
-    out->image = labels_->render(*scene_, X_JP, view);
+    out->image = truth == "true"
+                     ? labels_->render(*scene_, X_JP, view)
+                     : labels_->render_shown(renderer_->shown_places(X_JP), X_JP, view);
     return out;
   }
 
@@ -132,12 +144,23 @@ class PyRenderer {
     const Pose X_JP = pose_of(probe, "probe");
     const NeedleTruth truth = labels_->locate(*needle_of(needle), X_JP);
     py::dict out;
-    out["tip"] = py::make_tuple(truth.tip.x, truth.tip.y);
+    out["tip_true"] = py::make_tuple(truth.tip.x, truth.tip.y);
+    out["tip_in_picture"] = truth.in_picture;
+    out["tip_in_slice"] = truth.in_slice;
     out["tip_offset"] = truth.tip_offset;
     out["plane_angle"] = truth.plane_angle;
     out["face_angle"] = truth.face_angle;
     out["in_plane"] = truth.in_plane;
     return out;
+  }
+
+  [[nodiscard]] py::tuple state() const { return py::make_tuple(joint_, made_of_); }
+  static std::unique_ptr<PyRenderer> of_state(const py::tuple& state) {
+    const auto made_of = state[1].cast<py::tuple>();
+    const auto joint = state[0].cast<Joint>();
+    return std::make_unique<PyRenderer>(joint, made_of[0].cast<std::string>(),
+                                        made_of[1].cast<bool>(), made_of[2].cast<int>(),
+                                        py::kwargs(made_of[3]));
   }
 
  private:
@@ -168,7 +191,9 @@ class PyRenderer {
     out.tip_shown = from.tip_shown;
   }
 
+  Joint joint_;
   std::shared_ptr<const Scene> scene_;
+  py::tuple made_of_;  // transducer, keep_lines, gauge, settings
   Transducer transducer_;
   ImageSettings settings_;
   bool keep_lines_;
@@ -177,6 +202,65 @@ class PyRenderer {
   std::unique_ptr<LabelRenderer> labels_;
   std::mutex mutex_;  // between Python's threads
 };
+
+template <class T>
+py::bytes bytes_of(const std::vector<T>& values) {
+  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
+}
+
+template <class T>
+std::vector<T> vector_of(const py::handle& bytes) {
+  const auto text = bytes.cast<std::string>();
+  std::vector<T> values(text.size() / sizeof(T));
+  std::memcpy(values.data(), text.data(), values.size() * sizeof(T));
+  return values;
+}
+
+py::tuple picture_state(const Picture& picture) {
+  const Frame& f = picture.frame;
+  py::object tip = py::none();
+  if (f.tip_shown) tip = py::make_tuple(f.tip_shown->x, f.tip_shown->y);
+  return py::make_tuple(f.status, f.n_lines, f.n_samples, f.sample_depth, f.width, f.height,
+                        f.pixel, tip, bytes_of(f.image), bytes_of(f.contact), picture.has_lines,
+                        bytes_of(f.in_phase), bytes_of(f.quadrature), bytes_of(f.envelope),
+                        bytes_of(f.decibel));
+}
+
+PicturePtr picture_of_state(const py::tuple& state) {
+  auto picture = std::make_shared<Picture>();
+  Frame& f = picture->frame;
+  f.status = state[0].cast<std::uint32_t>();
+  f.n_lines = state[1].cast<int>();
+  f.n_samples = state[2].cast<int>();
+  f.sample_depth = state[3].cast<double>();
+  f.width = state[4].cast<int>();
+  f.height = state[5].cast<int>();
+  f.pixel = state[6].cast<double>();
+  if (!state[7].is_none()) {
+    const auto [x, y] = state[7].cast<std::pair<double, double>>();
+    f.tip_shown = PixelPoint{x, y};
+  }
+  f.image = vector_of<std::uint8_t>(state[8]);
+  f.contact = vector_of<float>(state[9]);
+  picture->has_lines = state[10].cast<bool>();
+  std::size_t at = 11;
+  for (auto* lines : {&f.in_phase, &f.quadrature, &f.envelope, &f.decibel})
+    *lines = vector_of<float>(state[at++]);
+  return picture;
+}
+
+py::tuple labels_state(const Labels& labels) {
+  const LabelImage& image = labels.image;
+  return py::make_tuple(image.width, image.height, image.pixel, bytes_of(image.regions),
+                        bytes_of(image.needle));
+}
+
+std::shared_ptr<Labels> labels_of_state(const py::tuple& state) {
+  auto labels = std::make_shared<Labels>();
+  labels->image = {state[0].cast<int>(), state[1].cast<int>(), state[2].cast<double>(),
+                   vector_of<RegionId>(state[3]), vector_of<std::uint8_t>(state[4])};
+  return labels;
+}
 
 template <class T>
 py::array lines_view(const py::object& self, const std::vector<T> Frame::*member) {
@@ -226,8 +310,9 @@ void add_pictures(py::module_& module) {
       .def_property_readonly(
           "sample_depth", [](const Picture& p) { return p.frame.sample_depth; },
           "m between samples.")
-      .def_property_readonly("tip_shown", &tip_shown, "(x, y) in pixels, or None.");
-  py::class_<Labels, std::shared_ptr<Labels>>(module, "Labels", "What truly lies in the plane.")
+      .def_property_readonly("tip_shown", &tip_shown, "(x, y) in pixels, or None.")
+      .def(py::pickle(&picture_state, &picture_of_state));
+  py::class_<Labels, std::shared_ptr<Labels>>(module, "Labels", "What lies in the plane.")
       .def_property_readonly(
           "regions",
           [](const py::object& self) {
@@ -243,7 +328,8 @@ void add_pictures(py::module_& module) {
           },
           "(height, width) uint8, 255 where the shaft is in the plane.")
       .def_property_readonly(
-          "pixel", [](const Labels& l) { return l.image.pixel; }, "m, the side of a pixel.");
+          "pixel", [](const Labels& l) { return l.image.pixel; }, "m, the side of a pixel.")
+      .def(py::pickle(&labels_state, &labels_of_state));
 }
 
 }  // namespace
@@ -257,12 +343,14 @@ void add_images(py::module_& module) {
            py::arg("gauge") = 22)
       .def("render", &PyRenderer::render, py::arg("probe"), py::arg("needle") = py::none(),
            "The Frame of a probe at (4, 4) m in J, with a needle at (4, 4) m, origin at its tip.")
+      .def(py::pickle([](const PyRenderer& r) { return r.state(); }, &PyRenderer::of_state))
       .def("labels", &PyRenderer::labels, py::arg("probe"), py::arg("needle") = py::none(),
-           "The Labels of the same view: what truly lies in the plane.")
+           py::arg("truth") = "shown",
+           "The Labels of the same view: where the picture shows things, or with truth=\"true\" "
+           "where they are.")
       .def("truth", &PyRenderer::truth, py::arg("probe"), py::arg("needle"),
-           "Where the needle truly is: tip (x, y) in pixels, tip_offset m from the plane, "
-           "plane_angle "
-           "and face_angle rad, in_plane.");
+           "Where the needle truly is: tip_true (x, y) in pixels, tip_offset m from the plane, "
+           "plane_angle and face_angle rad, tip_in_picture, tip_in_slice, in_plane.");
 }
 
 }  // namespace artus::python

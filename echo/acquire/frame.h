@@ -52,7 +52,7 @@ struct Frame {
   /// geometry alone; gain and noise do not show in it.
   std::vector<float> needle_light;
   /// Where the needle's tip shows, displaced as all echoes are by refraction and the tissues'
-  /// speeds of sound. Empty without a needle, and where no sound reaches it.
+  /// speeds of sound. Empty without a needle, where no sound reaches it, and outside the picture.
   std::optional<PixelPoint> tip_shown;
   /// As in_phase: m/s toward the probe of what moves, wrapped at doppler_limit; NaN where nothing
   /// does. Empty unless doppler is on.

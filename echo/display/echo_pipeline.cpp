@@ -93,8 +93,10 @@ void EchoPipeline::render(const EchoBody& body, const Pose& X_JP,
     compound_.write(frame_.envelope);
   }
   frame_.tip_shown.reset();
-  if (const auto tip = acquisition_.find_shown_tip())
-    frame_.tip_shown = display_.converter().pixel_of(*tip);
+  if (const auto tip = acquisition_.find_shown_tip()) {
+    const PixelPoint place = display_.converter().pixel_of(*tip);
+    if (display_.converter().inside(place)) frame_.tip_shown = place;
+  }
   if (settings_.doppler) {
     const StageClock clock(times_.beam);
     std::optional<Vec3> v_P;

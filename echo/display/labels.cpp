@@ -4,10 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include <opencv2/core/types.hpp>
+
 #include "artus/detail/core/check.h"
 #include "artus/detail/core/units.h"
+#include "artus/detail/echo/display/shown_places.h"
 #include "artus/detail/echo/medium/region_acoustics.h"
 #include "artus/detail/echo/probe/range_check.h"
+#include "artus/echo/renderer.h"
 
 namespace artus {
 namespace {
@@ -34,25 +38,43 @@ void label_column(const Scene& scene, const Pose& X_JP, const ScanConverter& con
   }
 }
 
-/// Marks pixels whose place in the plane is inside the shaft, widened by half the slice.
+/// Where a shaft is in the image, pixels, with room for what bends the sound.
+cv::Rect frame_of(const NeedleView& needle, const Pose& X_JP, const ScanConverter& converter) {
+  constexpr double kRoom = 4e-3;  // m
+  const Vec3 tip = X_JP.inverse() * needle.X_JN.translation();
+  const Vec3 hub = X_JP.inverse() * (needle.X_JN * Vec3(0, 0, -needle.shape.length));
+  const Vec3 room = Vec3::Constant(kRoom + needle.shape.outer_diameter);
+  const PixelPoint first = converter.pixel_of(tip.cwiseMin(hub) - room);
+  const PixelPoint last = converter.pixel_of(tip.cwiseMax(hub) + room);
+  const auto whole = [](double x, int most) {
+    return static_cast<int>(std::clamp(x, 0.0, static_cast<double>(most)));
+  };
+  const cv::Point from(whole(first.x, converter.width()), whole(first.y, converter.height()));
+  const cv::Point to(whole(last.x, converter.width()), whole(last.y, converter.height()));
+  return {from, to};
+}
+
+/// Marks pixels that show a place inside the shaft, widened by `more` m, and across the plane by
+/// half the slice. `place_P`: of a pixel (x, y) in the sector, m, frame P.
+template <class PlaceOf>
 void mark_needle(const NeedleView& needle, const Pose& X_JP, const ScanConverter& converter,
-                 const BeamProfile& profile, LabelImage& labels) {
+                 const BeamProfile& profile, double more, const PlaceOf& place_P,
+                 LabelImage& labels) {
   const Pose X_NP = needle.X_JN.inverse() * X_JP;
-  const Vec3 axis_P = X_NP.linear().transpose().col(2);
-  const double radius = needle.shape.outer_diameter / 2;
-  for (int y = 0; y < labels.height; ++y) {
-    for (int x = 0; x < labels.width; ++x) {
-      const Vec3 p_P = converter.point_of(x, y);
+  const double radius = needle.shape.outer_diameter / 2 + more;
+  const cv::Rect frame = frame_of(needle, X_JP, converter);
+  for (int y = frame.y; y < frame.y + frame.height; ++y) {
+    for (int x = frame.x; x < frame.x + frame.width; ++x) {
+      if (!converter.inside(x, y)) continue;
+      const Vec3 p_P = place_P(x, y);
       const Vec3 p_N = X_NP * p_P;
       if (p_N.z() > 0 || p_N.z() < -needle.shape.length) continue;
       const Vec3 off_P = X_NP.linear().transpose() * Vec3(p_N.x(), p_N.y(), 0);
       const double elevation = std::abs(off_P.y()) - profile.elevation_width(p_P.z()) / 2;
       const double across = std::hypot(off_P.x(), off_P.z());
-      if (across <= radius && elevation <= radius && converter.inside(x, y) &&
-          std::abs(axis_P.z()) <= 1) {
+      if (across <= radius && elevation <= radius)
         labels.needle[static_cast<std::size_t>(y) * static_cast<std::size_t>(labels.width) +
                       static_cast<std::size_t>(x)] = 255;
-      }
     }
   }
 }
@@ -84,11 +106,10 @@ std::array<std::uint8_t, 3> base_colour(TissueKind kind) {
 LabelRenderer::LabelRenderer(const Transducer& transducer, const ImageSettings& settings)
     : converter_(require_valid(transducer), require_valid(settings)),
       profile_(transducer, settings.depth),
+      half_pulse_(transducer.pulse_cycles * transducer.wavelength() / 4),
       pixel_(settings.pixel) {}
 
-LabelImage LabelRenderer::render(const Scene& scene, const Pose& X_JP,
-                                 const std::optional<NeedleView>& needle) const {
-  ARTUS_REQUIRE(X_JP.matrix().allFinite(), "the probe's pose is not finite");
+LabelImage LabelRenderer::empty() const {
   LabelImage labels;
   labels.width = converter_.width();
   labels.height = converter_.height();
@@ -97,8 +118,41 @@ LabelImage LabelRenderer::render(const Scene& scene, const Pose& X_JP,
       static_cast<std::size_t>(labels.width) * static_cast<std::size_t>(labels.height);
   labels.regions.assign(size, kOutside);
   labels.needle.assign(size, 0);
+  return labels;
+}
+
+LabelImage LabelRenderer::render(const Scene& scene, const Pose& X_JP,
+                                 const std::optional<NeedleView>& needle) const {
+  ARTUS_REQUIRE(X_JP.matrix().allFinite(), "the probe's pose is not finite");
+  LabelImage labels = empty();
   for (int x = 0; x < labels.width; ++x) label_column(scene, X_JP, converter_, x, labels);
-  if (needle) mark_needle(*needle, X_JP, converter_, profile_, labels);
+  if (needle)
+    mark_needle(*needle, X_JP, converter_, profile_, 0,
+                [&](int x, int y) { return converter_.point_of(x, y); }, labels);
+  return labels;
+}
+
+LabelImage LabelRenderer::render_shown(const ShownPlaces& places, const Pose& X_JP,
+                                       const std::optional<NeedleView>& needle) const {
+  LabelImage labels = empty();
+  for (int y = 0; y < labels.height; ++y) {
+    for (int x = 0; x < labels.width; ++x) {
+      if (!converter_.inside(x, y)) continue;
+      const ScanConverter::LinePlace at = converter_.line_at(x, y);
+      labels.regions[static_cast<std::size_t>(y) * static_cast<std::size_t>(labels.width) +
+                     static_cast<std::size_t>(x)] =
+          places.region(at.share < 0.5 ? at.line : at.line + 1, at.sample);
+    }
+  }
+  if (!needle) return labels;
+  const Pose X_PJ = X_JP.inverse();
+  const auto place_P = [&](int x, int y) -> Vec3 {
+    const ScanConverter::LinePlace at = converter_.line_at(x, y);
+    Vec3 place = places.place(at.line, at.sample);
+    if (at.share > 0) place += at.share * (places.place(at.line + 1, at.sample) - place);
+    return X_PJ * place;
+  };
+  mark_needle(*needle, X_JP, converter_, profile_, half_pulse_, place_P, labels);
   return labels;
 }
 
@@ -108,11 +162,12 @@ NeedleTruth LabelRenderer::locate(const NeedleView& needle, const Pose& X_JP) co
   const Vec3 axis = X_PN.linear().col(2);
   NeedleTruth truth;
   truth.tip = converter_.pixel_of(tip);
+  truth.in_picture = converter_.inside(truth.tip);
   truth.tip_offset = tip.y();
   truth.plane_angle = std::asin(std::min(1.0, std::abs(axis.y())));
   truth.face_angle = std::asin(std::min(1.0, std::abs(axis.z())));
-  truth.in_plane = truth.plane_angle < kInPlaneAngle &&
-                   std::abs(tip.y()) <= profile_.elevation_width(std::max(0.0, tip.z())) / 2;
+  truth.in_slice = std::abs(tip.y()) <= profile_.elevation_width(std::max(0.0, tip.z())) / 2;
+  truth.in_plane = truth.plane_angle < kInPlaneAngle && truth.in_slice;
   return truth;
 }
 
@@ -124,6 +179,12 @@ LabelImage render_labels(const Scene& scene, const Pose& X_JP, const Transducer&
 NeedleTruth locate_needle(const NeedleView& needle, const Pose& X_JP, const Transducer& transducer,
                           const ImageSettings& settings) {
   return LabelRenderer(transducer, settings).locate(needle, X_JP);
+}
+
+LabelImage render_shown_labels(const Renderer& renderer, const Pose& X_JP,
+                               const std::optional<NeedleView>& needle) {
+  return LabelRenderer(renderer.transducer(), renderer.settings())
+      .render_shown(renderer.shown_places(X_JP), X_JP, needle);
 }
 
 std::vector<std::array<std::uint8_t, 3>> region_palette(const CompiledJoint& joint) {

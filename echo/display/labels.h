@@ -15,7 +15,11 @@
 
 namespace artus {
 
-/// What truly lies in the probe's plane, pixel by pixel, at the scale of the B-mode image.
+class Renderer;
+class ShownPlaces;
+
+/// What lies in the probe's plane, pixel by pixel, at the scale of the B-mode image: where it truly
+/// is, or where the picture shows it.
 struct LabelImage {
   int width = 0;                     ///< pixels
   int height = 0;                    ///< pixels
@@ -30,6 +34,8 @@ struct NeedleTruth {
   double tip_offset = 0;   ///< m, elevation of the tip; positive along +y of the probe
   double plane_angle = 0;  ///< rad between the needle and the image plane
   double face_angle = 0;   ///< rad between the needle and the probe's face
+  bool in_picture = false;  ///< the tip, projected, lies between the outermost lines
+  bool in_slice = false;    ///< the tip lies within the slice's thickness
   bool in_plane = false;   ///< tip and visible shaft lie within the slice's thickness
 };
 
@@ -39,9 +45,16 @@ class LabelRenderer {
   /// Requires: valid transducer and settings (validate tells what is wrong). Cost: about 0.1 s.
   LabelRenderer(const Transducer& transducer, const ImageSettings& settings);
 
-  /// The region of every pixel. Requires: a finite pose. Cost: one query per pixel column.
+  /// Where everything truly is. Requires: a finite pose. Cost: one query per pixel column.
   [[nodiscard]] LabelImage render(const Scene& scene, const Pose& X_JP,
                                   const std::optional<NeedleView>& needle = std::nullopt) const;
+
+  /// Where a picture shows everything; a needle with the half pulse by which its echo begins before
+  /// its near wall. `places`: of a renderer of the same probe and settings at
+  /// X_JP.
+  [[nodiscard]] LabelImage render_shown(
+      const ShownPlaces& places, const Pose& X_JP,
+      const std::optional<NeedleView>& needle = std::nullopt) const;
 
   /// Tip position and angles of a needle.
   [[nodiscard]] NeedleTruth locate(const NeedleView& needle, const Pose& X_JP) const;
@@ -49,9 +62,12 @@ class LabelRenderer {
   [[nodiscard]] const ScanConverter& converter() const noexcept { return converter_; }
 
  private:
+  [[nodiscard]] LabelImage empty() const;
+
   ScanConverter converter_;
   BeamProfile profile_;
-  double pixel_;  // m
+  double half_pulse_;  // m, of its echo's length
+  double pixel_;       // m
 };
 
 /// One-shot forms for a first try.
@@ -61,6 +77,11 @@ class LabelRenderer {
 [[nodiscard]] NeedleTruth locate_needle(const NeedleView& needle, const Pose& X_JP,
                                         const Transducer& transducer,
                                         const ImageSettings& settings);
+
+/// Where a renderer's picture from X_JP shows everything.
+[[nodiscard]] LabelImage render_shown_labels(
+    const Renderer& renderer, const Pose& X_JP,
+    const std::optional<NeedleView>& needle = std::nullopt);
 
 /// A colour for each region (red, green, blue), by tissue with a shade per structure.
 [[nodiscard]] std::vector<std::array<std::uint8_t, 3>> region_palette(const CompiledJoint& joint);

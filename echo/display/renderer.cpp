@@ -7,6 +7,7 @@
 #include "artus/detail/core/check.h"
 #include "artus/detail/core/rigid.h"
 #include "artus/detail/echo/display/echo_pipeline.h"
+#include "artus/detail/echo/display/shown_places.h"
 
 namespace artus {
 namespace {
@@ -102,6 +103,13 @@ const Frame& Renderer::render(const Pose& X_JP, const std::optional<NeedleView>&
     pipeline.render_nothing(status | FrameStatus::kBadProbe);
   }
   return pipeline.frame();
+}
+
+ShownPlaces Renderer::shown_places(const Pose& X_JP) const {
+  const EchoBody& body = impl_->body;
+  return {*body.scene,    body.tissue ? &*body.tissue : nullptr,
+          body.regions,   impl_->pipeline->transducer(),
+          impl_->pipeline->settings(), X_JP};
 }
 
 void Renderer::set_contact(std::span<const float> coverage) {

@@ -155,10 +155,24 @@ Vec3 ScanConverter::point_of(int x, int y) const noexcept {
   return {left_ + (x + 0.5) * pixel_, 0, top_ + (y + 0.5) * pixel_};
 }
 
+ScanConverter::LinePlace ScanConverter::line_at(int x, int y) const noexcept {
+  const Sample& s = samples_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+                             static_cast<std::size_t>(x)];
+  return {s.index / n_samples_, static_cast<double>(s.line),
+          s.index % n_samples_ + static_cast<double>(s.sample)};
+}
+
 bool ScanConverter::inside(int x, int y) const noexcept {
   return samples_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
                   static_cast<std::size_t>(x)]
              .index >= 0;
+}
+
+bool ScanConverter::inside(const PixelPoint& place) const noexcept {
+  const double x = std::round(place.x);
+  const double y = std::round(place.y);
+  return x >= 0 && x < width_ && y >= 0 && y < height_ &&
+         inside(static_cast<int>(x), static_cast<int>(y));
 }
 
 }  // namespace artus

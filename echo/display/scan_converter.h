@@ -42,8 +42,17 @@ class ScanConverter {
   [[nodiscard]] PixelPoint pixel_of(const Vec3& p_P) const noexcept;
   /// The point in frame P at a pixel's centre.
   [[nodiscard]] Vec3 point_of(int x, int y) const noexcept;
+  /// Where a pixel lies among lines and samples. Requires: inside(x, y).
+  struct LinePlace {
+    int line = 0;
+    double share = 0;   ///< 0..1 of the way to the next line
+    double sample = 0;
+  };
+  [[nodiscard]] LinePlace line_at(int x, int y) const noexcept;
   /// Whether a pixel lies between the outermost scanlines.
   [[nodiscard]] bool inside(int x, int y) const noexcept;
+  /// Whether a place does, anywhere at all.
+  [[nodiscard]] bool inside(const PixelPoint& place) const noexcept;
 
  private:
   struct Sample {

@@ -228,8 +228,7 @@ cv::Mat draw(const std::shared_ptr<const Scene>& scene, const InjectionRun& run,
   const Frame& frame = renderer.render(X_JP, needle);
   cv::Mat bmode;
   cv::cvtColor(annotated_image(frame, options.transducer), bmode, cv::COLOR_GRAY2BGR);
-  const LabelImage labels =
-      render_labels(*scene, X_JP, options.transducer, options.settings, needle);
+  const LabelImage labels = render_shown_labels(renderer, X_JP, needle);
   cv::Mat colours = colour_labels(labels, scene->joint());
   const int border = bmode.cols - colours.cols;
   cv::copyMakeBorder(colours, colours, 4, 4, border / 2, border - border / 2, cv::BORDER_CONSTANT);

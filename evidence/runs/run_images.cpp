@@ -104,7 +104,7 @@ class RunPainter {
                       locate_needle(needle, X_JP, transducer, renderer_.settings())};
     const Frame& frame = renderer_.render(X_JP, needle);
     ARTUS_TRY(write_image(annotated_image(frame, transducer), image.bmode));
-    const auto labels = render_labels(*body_, X_JP, transducer, renderer_.settings(), needle);
+    const auto labels = render_shown_labels(renderer_, X_JP, needle);
     ARTUS_TRY(write_image(colour_labels(labels, scene_->joint()), image.labels));
     return image;
   }
@@ -263,7 +263,7 @@ nlohmann::json summarize(const RunImages& images) {
                        {"injection", m.pass},
                        {"bmode", m.bmode.filename().string()},
                        {"labels", m.labels.filename().string()},
-                       {"tip_px", {m.needle.tip.x, m.needle.tip.y}},
+                       {"tip_true_px", {m.needle.tip.x, m.needle.tip.y}},
                        {"tip_offset_mm", m.needle.tip_offset / kMillimetre},
                        {"plane_angle_deg", m.needle.plane_angle / kDegree},
                        {"needle_in_plane", m.needle.in_plane}});

@@ -10,6 +10,7 @@ import json
 import shutil
 import tempfile
 import tomllib
+from itertools import islice as _islice
 from pathlib import Path
 
 import numpy as _np
@@ -94,28 +95,56 @@ def compile(folder, surfaces, *, cache=""):
             if target.suffix.lower() != ".ply":
                 raise ValueError(f"{name}: only .ply files can be replaced, not {file}")
             _write_ply(target, *surfaces[name])
-        return load(folder, surfaces=temporary, cache=cache)
+        joint = load(folder, surfaces=temporary, cache=cache)
+        joint._forget_source()  # its surfaces are in memory alone
+        return joint
 
 
-def sweep(joint, poses, *, start=0, stop=None, step=1, **settings):
+def _truth_of(renderer, frame, probe, needle):
+    nowhere = _np.full(2, _np.nan, _np.float32)
+    out = {"has_needle": needle is not None, "tip_true": nowhere.copy(), "tip_shown": nowhere.copy(),
+           "tip_offset": _np.nan, "plane_angle": _np.nan, "face_angle": _np.nan,
+           "tip_in_picture": False, "tip_in_slice": False, "in_plane": False}
+    if needle is not None:
+        out.update(renderer.truth(probe, needle))
+        out["tip_true"] = _np.array(out["tip_true"], _np.float32)
+    if frame.tip_shown is not None:
+        out["tip_shown"] = _np.array(frame.tip_shown, _np.float32)
+    return out
+
+
+def sweep(joint, poses, *, start=0, stop=None, step=1, truth="shown", **settings):
     """Images and their truth, pose by pose: an iterator of dicts, for a training loop.
 
-    `poses`: (probe (4, 4), needle (4, 4) or None) for each frame. With `start` and `step` several
-    workers share one list: frame i does not depend on who draws it. `settings`: of Renderer.
+    `poses`: (probe (4, 4), needle (4, 4) or None) for each frame, a list or any iterable. With `start`
+    and `step` several workers share one list: frame i does not depend on who draws it. `truth`: "shown",
+    where the picture has things, "true", where they are, or "both". `settings`: of Renderer.
+
+    Each dict can be batched as it is: index, image (height, width) uint8, regions_shown int32 ids and
+    needle_shown uint8 masks (and the same _true), arrays that may be written to; tip_true and tip_shown
+    (2,) float32 pixels, tip_offset m, plane_angle and face_angle rad, NaN where there is none;
+    has_needle, tip_in_picture, tip_in_slice, in_plane.
     """
+    if start < 0 or step < 1:
+        raise ValueError("start must be at least 0 and step at least 1")
+    if truth not in ("shown", "true", "both"):
+        raise ValueError(f"truth must be shown, true or both, not {truth!r}")
+    kinds = ("shown", "true") if truth == "both" else (truth,)
     renderer = Renderer(joint, **settings)
-    for i in range(start, len(poses) if stop is None else stop, step):
-        probe, needle = poses[i]
+    return _sweep(renderer, poses, start, stop, step, kinds)
+
+
+def _sweep(renderer, poses, start, stop, step, kinds):
+    for i, (probe, needle) in enumerate(_islice(poses, stop)):
+        if i < start or (i - start) % step:
+            continue
         frame = renderer.render(probe, needle)
-        labels = renderer.labels(probe, needle)
-        yield {
-            "index": i,
-            "image": frame.image,
-            "regions": labels.regions,
-            "needle": labels.needle,
-            "tip_shown": frame.tip_shown,
-            "truth": None if needle is None else renderer.truth(probe, needle),
-        }
+        item = {"index": i, "image": frame.image.copy()}
+        for kind in kinds:
+            labels = renderer.labels(probe, needle, truth=kind)
+            item["regions_" + kind] = labels.regions.astype(_np.int32)
+            item["needle_" + kind] = labels.needle.copy()
+        yield {**item, **_truth_of(renderer, frame, probe, needle)}
 
 
 def inject(joint, entry=None, target=None, *, injection="", into="", volume=5e-6, rate=1e-7,

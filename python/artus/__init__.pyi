@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from os import PathLike
 from typing import Any
 
@@ -51,7 +51,7 @@ class Frame:
     def tip_shown(self) -> tuple[float, float] | None: ...
 
 class Labels:
-    """What truly lies in the plane, at the scale of the image."""
+    """What lies in the plane, at the scale of the image."""
 
     @property
     def regions(self) -> NDArray[np.uint16]: ...
@@ -115,7 +115,9 @@ class Renderer:
         threads: int = 0,
     ) -> None: ...
     def render(self, probe: ArrayLike, needle: ArrayLike | None = None) -> Frame: ...
-    def labels(self, probe: ArrayLike, needle: ArrayLike | None = None) -> Labels: ...
+    def labels(
+        self, probe: ArrayLike, needle: ArrayLike | None = None, truth: str = "shown"
+    ) -> Labels: ...
     def truth(self, probe: ArrayLike, needle: ArrayLike) -> dict[str, Any]: ...
 
 def load(
@@ -191,11 +193,12 @@ def pose(
 ) -> NDArray[np.float64]: ...
 def sweep(
     joint: Joint,
-    poses: Sequence[tuple[ArrayLike, ArrayLike | None]],
+    poses: Iterable[tuple[ArrayLike, ArrayLike | None]],
     *,
     start: int = 0,
     stop: int | None = None,
     step: int = 1,
+    truth: str = "shown",
     **settings: Any,
 ) -> Iterator[dict[str, Any]]: ...
 def inject(

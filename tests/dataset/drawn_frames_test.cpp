@@ -17,6 +17,7 @@
 #include "artus/detail/dataset/draw_ranges.h"
 #include "artus/detail/dataset/frame_order.h"
 #include "artus/detail/dataset/sweep_frame.h"
+#include "artus/echo/labels.h"
 #include "tests/dataset/shards_fixture.h"
 
 namespace artus {
@@ -44,6 +45,9 @@ TEST_F(Shards, ADrawnPoseDependsOnItsNumberAndTheSeedAlone) {
 TEST_F(Shards, DrawnPosesFillTheirRangesAndStandOnTheSkin) {
   DrawRanges ranges;
   ranges.tilt = ranges.rock = {0, 0};
+  ranges.tip = TipPlace::anywhere;
+  ranges.not_in.clear();
+  ranges.in_plane_share = 0.5;
   const FrameSource source = drawn_frames({{scene_}, {}}, ranges, 3, 2000);
   const Pose& middle = scene_->joint().X_JP_default;
   std::size_t needles = 0;
@@ -75,11 +79,81 @@ DrawRanges every_range() {
   ranges.length = DrawRange{30e-3, 90e-3};
   ranges.echogenic_share = 0.5;
   ranges.transducers = {"linear-6-18", "hockey-7-15"};
+  ranges.tip = TipPlace::anywhere;  // which needles are thrown again depends on the probe
+  ranges.not_in.clear();
   return ranges;
 }
 
+DrawBase with_two_probes(std::vector<std::shared_ptr<const Scene>> patients) {
+  return {std::move(patients), {}, {Transducer{}, find_transducer("hockey-7-15")->transducer}};
+}
+
+/// Where a frame's tip is in its probe's picture.
+NeedleTruth truth_of(const FrameOrder& frame) {
+  return locate_needle({*frame.X_JN, *frame.needle}, frame.X_JP, Transducer{}, ImageSettings{});
+}
+
+TEST_F(Shards, ADrawnTipIsInThePictureAndNeitherItNorItsShaftInBone) {
+  const FrameSource source = drawn_frames({{scene_}, {}}, DrawRanges(), 5, 120);
+  std::size_t needles = 0;
+  for (std::size_t i = 0; i < source.count; ++i) {
+    const FrameOrder frame = source.frame(i);
+    if (!frame.X_JN) continue;
+    ++needles;
+    EXPECT_TRUE(truth_of(frame).in_picture) << i;
+    EXPECT_TRUE(truth_of(frame).in_slice) << i;
+    const Vec3 tip = frame.X_JN->translation();
+    for (const double back : {0.0, 5e-3, 10e-3, 20e-3}) {
+      const RegionId region = scene_->region_at(tip - back * frame.X_JN->linear().col(2));
+      EXPECT_NE(scene_->joint().tissue_of(region).name, "bone") << i;
+    }
+  }
+  EXPECT_GT(needles, 70U) << "of the 0.7 that shall have one";
+}
+
+TEST_F(Shards, AShareOfTheTipsMayBeAnywhere) {
+  DrawRanges ranges;
+  ranges.tip_share = 0.5;
+  ranges.not_in = {"muscle"};
+  ranges.along = {0, 10e-3};
+  const FrameSource source = drawn_frames({{scene_}, {}}, ranges, 5, 150);
+  std::size_t needles = 0;
+  std::size_t shown = 0;
+  for (std::size_t i = 0; i < source.count; ++i) {
+    const FrameOrder frame = source.frame(i);
+    if (!frame.X_JN) continue;
+    ++needles;
+    const NeedleTruth truth = truth_of(frame);
+    shown += truth.in_picture && truth.in_slice ? 1 : 0;
+    EXPECT_NE(scene_->joint().tissue_of(scene_->region_at(frame.X_JN->translation())).name,
+              "muscle");
+  }
+  EXPECT_GT(shown, needles / 2);
+  EXPECT_LT(shown, needles);
+  DrawRanges unknown;
+  unknown.not_in = {"muscle", "femur"};
+  EXPECT_THAT(unknown_places({{scene_}, {}}, unknown), ElementsAre("femur"));
+}
+
+TEST_F(Shards, ATipThatShallBeVisibleIsReachedBySound) {
+  DrawRanges ranges;
+  ranges.tip = TipPlace::visible;
+  const FrameSource source = drawn_frames({{scene_}, {}}, ranges, 5, 60);
+  SweepDrawer drawer(scene_, options_.sweep);
+  std::size_t needles = 0;
+  std::size_t visible = 0;
+  for (std::size_t i = 0; i < source.count; ++i) {
+    const FrameOrder frame = source.frame(i);
+    if (!frame.X_JN) continue;
+    ++needles;
+    visible += drawer.draw(i, frame).truth["needle"]["tip_visible"].get<bool>() ? 1 : 0;
+  }
+  EXPECT_GT(needles, 30U);
+  EXPECT_GE(20 * visible, 19 * needles);
+}
+
 TEST_F(Shards, ANeedleATransducerAndAPatientAreDrawnEachForItself) {
-  const FrameSource source = drawn_frames({{scene_, scene_}, {}}, every_range(), 3, 3000);
+  const FrameSource source = drawn_frames(with_two_probes({scene_, scene_}), every_range(), 3, 3000);
   std::map<std::string, std::size_t> counts;
   double shortest = 1;
   double longest = 0;
@@ -108,8 +182,11 @@ TEST_F(Shards, ANeedleATransducerAndAPatientAreDrawnEachForItself) {
 }
 
 TEST_F(Shards, WhatIsDrawnBesidesLeavesThePosesAsTheyWere) {
-  const FrameSource plain = drawn_frames({{scene_}, {}}, DrawRanges(), 7, 50);
-  const FrameSource rich = drawn_frames({{scene_}, {}}, every_range(), 7, 50);
+  DrawRanges anywhere;
+  anywhere.tip = TipPlace::anywhere;
+  anywhere.not_in.clear();
+  const FrameSource plain = drawn_frames({{scene_}, {}}, anywhere, 7, 50);
+  const FrameSource rich = drawn_frames(with_two_probes({scene_}), every_range(), 7, 50);
   EXPECT_NE(plain.digest, rich.digest);
   for (std::size_t i = 0; i < 50; ++i) {
     EXPECT_EQ(plain.frame(i).X_JP.matrix(), rich.frame(i).X_JP.matrix());
@@ -129,7 +206,7 @@ class DrawnShards : public Shards {
       options_.sweep.transducers.push_back(*find_transducer(name));
       options_.sweep.transducers.back().transducer.n_lines = 32;
     }
-    source_ = drawn_frames({{scene_, options_.sweep.patients[0]}, {}}, every_range(), 7, 10);
+    source_ = drawn_frames(with_two_probes({scene_, options_.sweep.patients[0]}), every_range(), 7, 10);
   }
 };
 
@@ -191,11 +268,13 @@ TEST(DrawRanges, AreReadWithEverythingThatIsWrong) {
   EXPECT_DOUBLE_EQ(ranges->needle_share, 0.25);
   EXPECT_DOUBLE_EQ(ranges->turn.high, DrawRanges{}.turn.high);
   const auto rich = parse_draw_ranges(
-      "[needle]\ngauge = [20]\nlength_mm = [40, 60]\nechogenic = 0.3\n[press]\nshare = 0.2\n"
+      "[needle]\ntip = \"visible\"\nnot_in = [\"bone\"]\ngauge = [20]\nlength_mm = [40, 60]\nechogenic = 0.3\n[press]\nshare = 0.2\n"
       "depth_mm = [1, 3]\n[transducer]\nnames = [\"a\", \"b\"]\n[patient]\njoints = [\"c\"]\ndrawn "
       "= 5\n",
       "there/ranges.toml");
   ASSERT_TRUE(rich) << rich.error().to_string();
+  EXPECT_EQ(rich->tip, TipPlace::visible);
+  EXPECT_THAT(rich->not_in, ElementsAre("bone"));
   EXPECT_THAT(rich->gauges, ElementsAre(20));
   EXPECT_DOUBLE_EQ(rich->length->high, 60e-3);
   EXPECT_DOUBLE_EQ(rich->press_depth.low, 1e-3);
@@ -204,11 +283,11 @@ TEST(DrawRanges, AreReadWithEverythingThatIsWrong) {
   EXPECT_EQ(rich->drawn_patients, 5U);
   const auto bad = parse_draw_ranges(
       "[probe]\nlateral_mm = [4, -3]\nlaterl_mm = [0, 1]\n[patients]\n[needle]\nshare = 2\n"
-      "gauge = [22, 24]\nlength_mm = [5, 50]\n[press]\ndepth_mm = [-1, 2]\n",
+      "tip = \"here\"\ngauge = [22, 24]\nlength_mm = [5, 50]\n[press]\ndepth_mm = [-1, 2]\n",
       "ranges.toml");
   ASSERT_FALSE(bad);
   for (const char* says :
-       {"[low, high]", "laterl_mm", "patients", "share", "gauge", "from 10", "'depth_mm'"})
+       {"[low, high]", "laterl_mm", "patients", "share", "gauge", "in_picture", "from 10", "'depth_mm'"})
     EXPECT_THAT(bad.error().message, HasSubstr(says));
 }
 

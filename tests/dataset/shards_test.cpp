@@ -81,7 +81,7 @@ TEST_F(Shards, HoldASampleForEachFrameAsWebDatasetGroupsThem) {
     if (member.name == "000000003.png") {
       EXPECT_EQ(cv::norm(cv::imdecode(bytes, cv::IMREAD_UNCHANGED), frame.pictures[0].second), 0);
     }
-    if (member.name == "000000003.labels.png") {
+    if (member.name == "000000003.labels_shown.png") {
       const cv::Mat labels = cv::imdecode(bytes, cv::IMREAD_UNCHANGED);
       EXPECT_EQ(labels.type(), CV_8UC1);
       cv::Mat wide;

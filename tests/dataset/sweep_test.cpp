@@ -80,9 +80,9 @@ TEST_F(Sweep, DrawsEveryPoseWithItsTruth) {
     const cv::Mat image = cv::imread(
         (folder_ / "a" / truth.at("image").get<std::string>()).string(), cv::IMREAD_UNCHANGED);
     const cv::Mat labels = cv::imread(
-        (folder_ / "a" / truth.at("labels").get<std::string>()).string(), cv::IMREAD_UNCHANGED);
+        (folder_ / "a" / truth.at("labels_shown").get<std::string>()).string(), cv::IMREAD_UNCHANGED);
     const cv::Mat shadow =
-        cv::imread((folder_ / "a" / truth.at("shadow_mask").get<std::string>()).string(),
+        cv::imread((folder_ / "a" / truth.at("shadow_shown").get<std::string>()).string(),
                    cv::IMREAD_UNCHANGED);
     EXPECT_NEAR(truth.at("contact").at("share").get<double>(), 1, 1e-6);
     EXPECT_EQ(image.size(), labels.size());
@@ -136,7 +136,7 @@ TEST_F(Sweep, WhatAKilledRunLeftHalfDoneIsDrawnAgain) {
   EXPECT_EQ(actual, expected);
 
   fs::copy(folder_ / "whole", folder_ / "lost", fs::copy_options::recursive);
-  fs::remove(folder_ / "lost/frames/000001-labels.png");
+  fs::remove(folder_ / "lost/frames/000001-labels_shown.png");
   EXPECT_EQ(run("lost")->found, 1U);
   EXPECT_EQ(content("lost"), expected);
 }

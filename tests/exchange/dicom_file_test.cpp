@@ -32,7 +32,7 @@ class DicomFile : public test::TemporaryFolder {
     }
     return sequence;
   }
-  const DicomSeries series_{"shoulder", "1.0", "right", 0.1e-3, 0.04};
+  const DicomSeries series_{"shoulder", "1.0", "right", 0.1e-3, "20260301", "101500"};
 };
 
 TEST_F(DicomFile, HasThePixelsTheScaleAndTheWord) {
@@ -51,8 +51,14 @@ TEST_F(DicomFile, HasThePixelsTheScaleAndTheWord) {
   OFString text;
   ASSERT_TRUE(dataset.findAndGetOFString(DCM_ImageComments, text).good());
   EXPECT_THAT(text.c_str(), testing::HasSubstr("simulated"));
-  ASSERT_TRUE(dataset.findAndGetOFString(DCM_FrameTime, text).good());
-  EXPECT_STREQ(text.c_str(), "40");
+  EXPECT_FALSE(dataset.tagExists(DCM_FrameTime)) << "the frames have no times";
+  EXPECT_FALSE(dataset.tagExists(DCM_CineRate));
+  ASSERT_TRUE(dataset.findAndGetOFStringArray(DCM_FrameLabelVector, text).good());
+  EXPECT_STREQ(text.c_str(), "1\\2\\3\\4\\5");
+  ASSERT_TRUE(dataset.findAndGetOFStringArray(DCM_PixelSpacing, text).good());
+  EXPECT_STREQ(text.c_str(), "0.1\\0.1");  // mm
+  ASSERT_TRUE(dataset.findAndGetOFString(DCM_StudyDate, text).good());
+  EXPECT_STREQ(text.c_str(), "20260301");
   DcmItem* region = nullptr;
   ASSERT_TRUE(dataset.findAndGetSequenceItem(DCM_SequenceOfUltrasoundRegions, region).good());
   Float64 delta = 0;

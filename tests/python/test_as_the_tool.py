@@ -26,7 +26,7 @@ def test_labels_have_the_bytes_of_the_tool(joint, tool, simple, tmp_path):
     )
     run(tool, "sweep", "-j", simple, "--poses", tmp_path / "poses.jsonl", "-o", tmp_path / "s")
     renderer = artus.Renderer(joint)
-    expected = read_png((tmp_path / "s/frames/000000-labels.png").read_bytes())
+    expected = read_png((tmp_path / "s/frames/000000-labels_shown.png").read_bytes())
     assert np.array_equal(renderer.labels(joint.probe).regions, expected)
     image = read_png((tmp_path / "s/frames/000000.png").read_bytes())
     assert np.array_equal(renderer.render(joint.probe).image, image)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
 """Arrays, threads, compiling, pressing: the module by itself, and what its border refuses."""
 
+import pickle
 import gc
 import resource
 import threading
@@ -150,10 +151,74 @@ def test_sweep_shares_its_list_between_workers(joint):
     shared.sort(key=lambda f: f["index"])
     for a, b in zip(whole, shared, strict=True):
         assert np.array_equal(a["image"], b["image"])
-        assert np.array_equal(a["regions"], b["regions"])
-        assert a["truth"] == b["truth"]
-    assert whole[0]["truth"] is None
-    assert whole[1]["truth"]["tip"]
+        assert np.array_equal(a["regions_shown"], b["regions_shown"])
+        assert np.array_equal(a["tip_true"], b["tip_true"], equal_nan=True)
+    assert not whole[0]["has_needle"] and np.isnan(whole[0]["tip_true"]).all()
+    assert not whole[0]["needle_shown"].any() and whole[1]["needle_shown"].any()
+    drawn = list(artus.sweep(joint, (p for p in poses), start=1, stop=4, step=2, **settings))
+    assert [f["index"] for f in drawn] == [1, 3]
+    with pytest.raises(ValueError, match="start must be at least 0"):
+        artus.sweep(joint, poses, start=-1, **settings)
+    with pytest.raises(ValueError, match="shown, true or both"):
+        artus.sweep(joint, poses, truth="real", **settings)
+
+
+def test_a_sweeps_items_can_be_batched_as_they_are(joint):
+    # what torch.utils.data.default_collate and from_numpy take: no None, no uint16, arrays that may
+    # be written to, the same keys, kinds and shapes in each
+    poses = [(joint.probe, joint.needle if i % 2 else None) for i in range(3)]
+    items = list(artus.sweep(joint, poses, truth="both", lines=32, planes=1, samples=128))
+    kinds = {np.dtype(np.uint8), np.dtype(np.int32), np.dtype(np.float32)}
+    assert {"needle_shown", "needle_true", "regions_shown", "regions_true"} < set(items[0])
+    for key, first in items[0].items():
+        values = [item[key] for item in items]
+        assert all(type(v) is type(first) for v in values), key
+        if isinstance(first, np.ndarray):
+            assert all(v.flags.writeable and v.dtype in kinds for v in values), key
+            np.stack(values)
+        else:
+            assert isinstance(first, bool | int | float), key
+    torch = pytest.importorskip("torch")
+    batch = torch.utils.data.default_collate(items)
+    assert batch["regions_shown"].shape == (3, *items[0]["regions_shown"].shape)
+
+
+def test_what_is_pickled_comes_back_the_same(joint, tmp_path):
+    renderer = artus.Renderer(joint, lines=32, planes=1, samples=128, gauge=20, keep_lines=True)
+    frame = renderer.render(joint.probe, joint.needle)
+    labels = renderer.labels(joint.probe, joint.needle)
+    again = pickle.loads(pickle.dumps(renderer))
+    for other in (pickle.loads(pickle.dumps(frame)), again.render(joint.probe, joint.needle)):
+        assert np.array_equal(other.image, frame.image)
+        assert np.array_equal(other.envelope, frame.envelope)
+        assert other.tip_shown == frame.tip_shown and other.pixel == frame.pixel
+    kept = pickle.loads(pickle.dumps(labels))
+    assert np.array_equal(kept.regions, labels.regions) and np.array_equal(kept.needle, labels.needle)
+    assert pickle.loads(pickle.dumps(joint)).digest == joint.digest
+    with pytest.raises(TypeError, match="made in memory"):
+        pickle.dumps(artus.press(joint, depth=1e-3)["joint"])
+
+
+def test_truth_is_where_the_picture_shows_it_unless_it_is_asked_for(joint):
+    renderer = artus.Renderer(joint, lines=64, planes=1, samples=512, look="raw")
+    frame = renderer.render(joint.probe, joint.needle)
+    truth = renderer.truth(joint.probe, joint.needle)
+    moved = frame.tip_shown[1] - truth["tip_true"][1]
+    shown = renderer.labels(joint.probe, joint.needle)
+    real = renderer.labels(joint.probe, joint.needle, truth="true")
+    lowest = [np.flatnonzero(l.needle.any(axis=1)).max() for l in (shown, real)]
+    assert lowest[0] - lowest[1] == pytest.approx(moved, abs=1.5)
+    with pytest.raises(ValueError, match="shown or true"):
+        renderer.labels(joint.probe, truth="both")
+
+
+def test_wrong_names_and_kinds_are_refused(joint):
+    with pytest.raises(ValueError, match="linear-6-18"):
+        artus.Renderer(joint, "linear-6-19")
+    with pytest.raises(FileNotFoundError):
+        artus.Renderer(joint, "nowhere.toml")
+    with pytest.raises(TypeError):
+        artus.Renderer(joint).render(joint.probe.astype(complex))
 
 
 def test_surfaces_from_memory_are_compiled(source, tmp_path):

@@ -18,7 +18,7 @@ import pytest
 from pictures import read_png
 from tooling import run
 
-KEYS = {"json", "png", "labels.png", "shadow.png"}
+KEYS = {"json", "png", "labels_shown.png", "shadow_shown.png", "needle_shown.png"}
 
 
 def samples_of(path):
@@ -58,9 +58,9 @@ def test_each_frame_is_one_sample_in_order(shards):
     for i, sample in enumerate(samples):
         truth = json.loads(sample["json"])
         assert truth["index"] == i
-        needle = {"needle.png"} if "needle" in truth else set()
-        assert set(sample) - {"__key__"} == KEYS | needle
-    assert {"needle.png" in s for s in samples} == {True, False}
+        assert set(sample) - {"__key__"} == KEYS
+        assert "needle" in truth or not read_png(sample["needle_shown.png"]).any()
+    assert {"needle" in json.loads(s["json"]) for s in samples} == {True, False}
 
 
 def test_pictures_decode_as_eight_bits_of_one_channel(shards):
@@ -72,7 +72,7 @@ def test_pictures_decode_as_eight_bits_of_one_channel(shards):
             assert data[24] == 8 and data[25] == 0  # bits, grey: "pil" makes 16 bits into colours
             shapes.add(read_png(data).shape)
         assert len(shapes) == 1  # image and masks can be stacked
-        labels = read_png(sample["labels.png"])
+        labels = read_png(sample["labels_shown.png"])
         listed = {r["id"] for r in json.loads(sample["json"])["regions"]}
         assert set(np.unique(labels)) == listed
 
