@@ -17,18 +17,17 @@ std::int64_t nanoseconds(double milliseconds) {
 
 void add_igtl_options(Command* command, IgtlOptions& options) {
   const char* group = "OpenIGTLink";
-  Option* listen =
-      command
-          ->add_option("--igtl", options.listen,
-                       "[address:]port that 3D Slicer, PLUS and others connect to (18944 by "
-                       "custom), this machine alone unless an address says otherwise; or "
-                       "connect:HOST:PORT, a server (PlusServer, a tracker) to connect to")
-          ->group(group);
+  command
+      ->add_option("--igtl", options.listen,
+                   "[address:]port that 3D Slicer, PLUS and others connect to (18944 by "
+                   "custom), this machine alone unless an address says otherwise; or "
+                   "connect:HOST:PORT, a server (PlusServer, a tracker) to connect to")
+      ->group(group);
   command
       ->add_option("--calibration", options.calibration,
-                   "how the tracker's sensors sit on probe, needle and joint (.toml)")
-      ->group(group)
-      ->needs(listen);
+                   "how the tracker's sensors sit on probe, needle and joint, and where a device "
+                   "lets a needle in (.toml)")
+      ->group(group);
   command->add_option("--tracker-probe", options.probe, "name of the probe's TRANSFORM")
       ->group(group)
       ->capture_default_str();

@@ -201,6 +201,26 @@ TEST(TrackerCalibration, SaysEverythingThatIsWrong) {
   EXPECT_THAT(bad.error().message, HasSubstr("'needle'"));
 }
 
+TEST(TrackerCalibration, TheInsertionPointComesBackAndIsRefusedWithAReason) {
+  const auto read = parse_tracker_calibration(
+      "[insertion_point]\npoint_mm = [10, -20, 30]\naxis = [0, 0, -2]\nsteepness_deg = 30\n", "t");
+  ASSERT_TRUE(read) << read.error().to_string();
+  ASSERT_TRUE(read->insertion);
+  EXPECT_TRUE(read->insertion->p_W.isApprox(Vec3(0.01, -0.02, 0.03)));
+  EXPECT_TRUE(read->insertion->axis_W.isApprox(Vec3(0, 0, -1)));
+  EXPECT_NEAR(read->insertion->steepness, 0.5235987755982988, 1e-12);
+  EXPECT_EQ(read->insertion->beside_probe, GestureParams().beside_probe);
+  const auto again = parse_tracker_calibration(to_toml(*read), "t");
+  ASSERT_TRUE(again) << again.error().to_string();
+  EXPECT_TRUE(again->insertion->p_W.isApprox(read->insertion->p_W));
+  EXPECT_FALSE(TrackerCalibration().insertion);
+  for (const char* bad : {"axis = [0, 0, 1]", "point_mm = [0, 0, 0]\naxis = [0, 0, 0]",
+                          "point_mm = [0, 0, 1e9]\naxis = [0, 0, 1]",
+                          "point_mm = [0, 0, 0]\naxis = [0, 0, 1]\nsteepness_deg = 99",
+                          "point_mm = [0, 0, 0]\naxis = [0, 0, 1]\nother = 1"})
+    EXPECT_FALSE(parse_tracker_calibration(std::string("[insertion_point]\n") + bad, "t")) << bad;
+}
+
 TEST(TrackerInbox, PutsCalibrationsAndRegistrationTogether) {
   TrackerCalibration calibration;
   calibration.X_ProbeP = some_pose();
