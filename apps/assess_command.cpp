@@ -13,9 +13,11 @@
 #include "artus/detail/apps/options/view_options.h"
 #include "artus/detail/core/text_file.h"
 #include "artus/detail/core/units.h"
+#include "artus/detail/exchange/tracker_table.h"
 #include "artus/detail/training/assessment.h"
 #include "artus/detail/training/patient_plans.h"
 #include "artus/detail/training/player.h"
+#include "artus/detail/training/tracked_list.h"
 
 namespace artus {
 namespace {
@@ -23,6 +25,7 @@ namespace {
 struct AssessOptions {
   std::filesystem::path recording;
   std::filesystem::path poses;
+  TrackerFileOptions tracker;
   JointOptions joint;
   std::filesystem::path tissue;
   std::string scenario;
@@ -81,14 +84,26 @@ Result<Goals> goals_of(const AssessOptions& options, const CompiledJoint& joint)
   return make_goals(joint, names);
 }
 
-/// Timed poses of a list, or of a tracker's sequence.
+/// Timed poses of a list, which may be sorted, or of what a tracker wrote.
 Result<TrackedList> read_list(const AssessOptions& options) {
-  if (options.poses.extension() != ".mha") return read_tracked_list(options.poses, {options.sort});
-  const auto poses = read_any_poses(options.poses);
-  ARTUS_TRY(poses);
+  if (options.tracker.calibration.empty()) {
+    const std::string extension = options.poses.extension().string();
+    const bool text = extension == ".csv" || extension == ".jsonl";
+    const auto bytes = text ? read_bytes(options.poses) : Result<std::string>();
+    ARTUS_TRY(bytes);
+    if (text && (is_pose_list(options.poses, *bytes) || !is_tracker_table(*bytes)))
+      return parse_tracked_list(*bytes, options.poses.string(), {options.sort});
+  }
+  auto file = read_pose_file_of(options.poses, options.tracker, PoseHand::either);
+  ARTUS_TRY(file);
   TrackedList list;
-  for (const ListedPose& pose : *poses)
-    list.poses.push_back({pose.time.value_or(0), pose.X_JN, pose.X_JP});
+  list.notices = std::move(file->notices);
+  for (const ListedPose& pose : file->poses) {
+    if (!pose.time)
+      return fail(ErrorCode::invalid, "every pose needs its time_s", options.poses.string());
+    list.poses.push_back(
+        {*pose.time, pose.X_JN, pose.has_probe ? std::optional(pose.X_JP) : std::nullopt});
+  }
   return list;
 }
 
@@ -134,7 +149,7 @@ Result<Assessment> assess_attempt(const AssessOptions& options) {
       load_scene(*scenario, options.joint.joint, make_progress_printer(options.json));
   ARTUS_TRY(scene);
   follow_patient(*scenario, **scene);
-  const auto recording = read_any_recording(options.recording, *scene);
+  const auto recording = read_any_recording(options.recording, *scene, options.tracker);
   ARTUS_TRY(recording);
   tell_pictures(options, *recording);
   auto meter = make_meter_options(*scenario, (*scene)->joint(), recording->head.params);
@@ -147,7 +162,7 @@ Result<Assessment> assess_file(const AssessOptions& options) {
   const auto scene = load_body(options);
   ARTUS_TRY(scene);
   const auto recording =
-      read_any_recording(options.recording, *scene,
+      read_any_recording(options.recording, *scene, options.tracker,
                          options.no_pictures ? RecordedPictures::none : RecordedPictures::listed);
   ARTUS_TRY(recording);
   tell_pictures(options, *recording);
@@ -223,7 +238,9 @@ void add_assess_command(Command& app, ExitCode& code) {
       "    --avoid axillary_nerve:3 --json");
   command->add_option("recording", options->recording,
                       "file of --record, or a list of poses that leads a session");
-  command->add_option("--poses", options->poses, "timed poses of needle and probe");
+  command->add_option("--poses", options->poses,
+                      "timed poses of needle and probe: a list, or a tracker's file");
+  add_tracker_file_options(command, options->tracker);
   add_joint_options(command, options->joint);
   command->get_option("--joint")->required(false);
   command->add_option("--tissue", options->tissue, "closed surface in place of a joint");

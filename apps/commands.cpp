@@ -40,6 +40,7 @@ void add_commands(Command& app, ExitCode& code) {
   app.group("For haptics labs");
   add_serve_command(app, code);
   add_shm_monitor_command(app.subcommand("serve"), code);
+  add_bridge_command(app, code);
   add_register_command(app, code);
   add_laws_command(app, code);
 

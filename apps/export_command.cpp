@@ -32,6 +32,7 @@ struct ExportOptions : PoseListOptions {
   std::filesystem::path dicom;
   std::filesystem::path report;
   double rate = 0;
+  bool compress = false;
   LabelExportOptions labels;
 };
 
@@ -50,7 +51,7 @@ PlacedPicture placed(const Frame& frame, double time, const Pose& X_JP,
 
 Result<ImageSequence> sequence_of_poses(const ExportOptions& options, const LoadedView& loaded) {
   constexpr double kApart = 0.04;  // s between poses that have no time
-  auto poses = read_any_poses(options.poses);
+  auto poses = read_any_poses(options.poses, options.tracker);
   if (poses && options.rate > 0) poses = sample_path(*poses, options.rate);
   ARTUS_TRY(poses);
   Renderer renderer(loaded.scene, loaded.view.transducer, loaded.view.settings);
@@ -75,7 +76,7 @@ double time_of(const FrameInput& input, std::int64_t start, double rate) {
 Result<ImageSequence> sequence_of_recording(const ExportOptions& options,
                                             const std::shared_ptr<const Scene>& scene,
                                             cv::Mat& page) {
-  const auto recording = read_any_recording(options.recording, scene);
+  const auto recording = read_any_recording(options.recording, scene, options.tracker);
   ARTUS_TRY(recording);
   if (recording->frames.empty())
     return fail(ErrorCode::invalid, "the recording has no images", options.recording.string());
@@ -150,7 +151,9 @@ Result<void> write_dicom_files(const ExportOptions& /*options*/, const Export& /
 #endif
 
 Result<void> write_files(const ExportOptions& options, const Export& out) {
-  if (!options.mha.empty()) ARTUS_TRY(write_mha(options.mha, out.sequence));
+  if (!options.mha.empty())
+    ARTUS_TRY(write_mha(options.mha, out.sequence,
+                        options.compress ? PixelCoding::zlib : PixelCoding::raw));
   const bool picture = options.report.extension() == ".png";
   if (picture) ARTUS_TRY(write_image(out.page, options.report));
   if (options.dicom.empty() && (options.report.empty() || picture)) return {};
@@ -229,6 +232,8 @@ void add_export_command(Command& app, ExitCode& code) {
   command->add_option("--rate", options->rate, "images a second of a path with times; 0: as listed")
       ->check(number_in(0, 1000));
   command->add_option("--mha", options->mha, "sequence for 3D Slicer and PLUS");
+  command->add_flag("--compress", options->compress,
+                    "pixels of --mha compressed, as PLUS writes them");
   command->add_option("--dicom", options->dicom, "Ultrasound Multi-frame Image for a PACS");
   command->add_option("--report", options->report,
                       "a page about the recording: DICOM Secondary Capture, or .png");

@@ -22,6 +22,7 @@ struct ForceOptions {
   JointOptions joint;
   FeelOptions feel;
   std::filesystem::path poses;
+  TrackerFileOptions tracker;
   std::filesystem::path out;
   std::string device = "ideal";
   double rate = 1000;
@@ -32,7 +33,7 @@ struct ForceOptions {
 /// The needle at every tick. Errors: those of read_any_poses and sample_path; invalid, a pose
 /// without needle or time.
 Result<std::vector<TrajectoryPose>> needle_path(const ForceOptions& options) {
-  const auto listed = read_any_poses(options.poses, PoseHand::needle);
+  const auto listed = read_any_poses(options.poses, options.tracker, PoseHand::needle);
   ARTUS_TRY(listed);
   const auto ticks = sample_path(*listed, options.rate);
   if (!ticks) return fail(ticks.error().code, ticks.error().message, options.poses.string());
@@ -103,7 +104,8 @@ void add_force_command(Command& app, ExitCode& code) {
       "  artus force -j shoulder.artus --poses path.jsonl --rate 4000 --device touch -o force.csv");
   add_joint_options(command, options->joint);
   add_feel_options(command, options->feel);
-  command->add_option("--poses", options->poses, "list of poses (.jsonl, .csv, .mha)")->required();
+  command->add_option("--poses", options->poses, "list of poses, or a tracker's file")->required();
+  add_tracker_file_options(command, options->tracker);
   add_haptic_rate_option(command, options->rate, "--rate,--haptic-rate");
   add_device_option(command, options->device);
   command->add_option("-o,--out", options->out, "CSV")->required();

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "artus/detail/apps/bridge_command.h"
 #include "artus/detail/apps/commands.h"
 #include "artus/detail/apps/options/old_names.h"
 #include "artus/detail/apps/validate_command.h"
@@ -28,6 +29,8 @@ int run(const std::vector<std::string>& arguments) {
   using artus::ExitCode;
   if (!arguments.empty() && arguments.front() == "validate")
     return static_cast<int>(artus::run_validation({arguments.begin() + 1, arguments.end()}));
+  if (!arguments.empty() && arguments.front() == "bridge")
+    return static_cast<int>(artus::run_bridge({arguments.begin() + 1, arguments.end()}));
   artus::Command app(
       "artus - anatomy, B-mode echography and needle haptics from one layered model of a joint.\n"
       "Not a medical device.");

@@ -21,6 +21,7 @@ struct ReplayOptions {
   JointOptions joint;
   std::string scenario;
   std::filesystem::path recording;
+  TrackerFileOptions tracker;
   std::filesystem::path trace;
   std::filesystem::path frames;
   std::filesystem::path body;
@@ -160,7 +161,7 @@ ExitCode run_replay(const ReplayOptions& options) {
   const auto body = find_body(options);
   if (!body) return report_error(body.error(), options.json);
   const std::shared_ptr<const Scene>& scene = *body;
-  const auto recording = read_any_recording(options.recording, scene);
+  const auto recording = read_any_recording(options.recording, scene, options.tracker);
   if (!recording) return report_error(recording.error(), options.json);
   Trace trace;
   if (!options.trace.empty()) {
@@ -204,8 +205,9 @@ void add_replay_command(Command& app, ExitCode& code) {
       "  artus replay tracked.igs.mha -j real.artus --trace forces.csv");
   command
       ->add_option("recording", options->recording,
-                   "file of --record, or poses (.jsonl, .csv, .mha) that lead a session")
+                   "file of --record, or poses (a list, a tracker's file) that lead a session")
       ->required();
+  add_tracker_file_options(command, options->tracker);
   add_joint_options(command, options->joint);
   command->get_option("--joint")->required(false);
   command->add_option("--scenario", options->scenario,

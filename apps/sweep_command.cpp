@@ -90,7 +90,7 @@ Result<void> load_drawn(const SweepCommandOptions& options, const DrawRanges& ra
 Result<FrameSource> frames_of(const SweepCommandOptions& options, const LoadedView& loaded,
                               SweepOptions& sweep) {
   if (options.draw == 0) {
-    auto poses = read_any_poses(options.poses);
+    auto poses = read_any_poses(options.poses, options.tracker);
     ARTUS_TRY(poses);
     return source_of(std::move(*poses));
   }
@@ -153,7 +153,7 @@ ExitCode run_sweep_command(const SweepCommandOptions& options) {
                         options.json);
   if (options.draw > 0 || !options.shard.empty() || !options.frames.empty())
     return run_shards(options);
-  const auto poses = read_any_poses(options.poses);
+  const auto poses = read_any_poses(options.poses, options.tracker);
   if (!poses) return report_error(poses.error(), options.json);
   const auto loaded = load_view(options.joint, options.view, options.json);
   if (!loaded) return report_error(loaded.error(), options.json);

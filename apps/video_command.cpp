@@ -13,6 +13,7 @@ struct VideoOptions {
   JointOptions joint;
   ViewOptions view;
   std::filesystem::path path;
+  TrackerFileOptions tracker;
   std::filesystem::path out;
   double frames_per_second = 25;
   bool labels = false;
@@ -20,7 +21,7 @@ struct VideoOptions {
 };
 
 ExitCode run_video(const VideoOptions& options) {
-  const auto poses = read_any_poses(options.path);
+  const auto poses = read_any_poses(options.path, options.tracker);
   if (!poses) return report_error(poses.error(), options.json);
   const auto loaded = load_view(options.joint, options.view, options.json);
   if (!loaded) return report_error(loaded.error(), options.json);
@@ -61,7 +62,8 @@ void add_video_command(Command& image, ExitCode& code) {
       "  artus image video -j shoulder.artus --path path.csv --labels --fps 15 -o out/path.avi");
   add_joint_options(command, options->joint);
   add_patient_option(command, options->joint.patient);
-  command->add_option("--path", options->path, "list of poses (.jsonl, .csv, .mha)")->required();
+  command->add_option("--path", options->path, "list of poses, or a tracker's file")->required();
+  add_tracker_file_options(command, options->tracker);
   add_imaging_options(command, options->view);
   command->add_option("-o,--out", options->out, "video file (.mp4, .avi)")->required();
   command->add_option("--fps", options->frames_per_second, "frames a second")

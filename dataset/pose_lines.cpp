@@ -67,7 +67,10 @@ Result<KeyPlace> csv_place(const std::string& column, const std::string& where) 
 
 Result<void> read_hand(const json& object, const std::string& hand, PoseLine& line,
                        const std::string& where) {
-  if (object.is_null()) return {};
+  if (object.is_null()) {
+    line.unseen.insert(hand);
+    return {};
+  }
   if (!object.is_object())
     return fail(ErrorCode::invalid, "'" + hand + "' must be an object", where);
   for (const auto& [name, value] : object.items()) {
@@ -90,6 +93,30 @@ Result<void> read_hand(const json& object, const std::string& hand, PoseLine& li
   return {};
 }
 
+/// Takes a hand's numbers out when they are seven zeros: so trackers write what they do not see.
+void forget_zeros(PoseLine& line) {
+  for (const char* hand : {"probe", "needle"}) {
+    const auto position = line.numbers.find(std::string(hand) + ".position");
+    const auto rotation = line.numbers.find(std::string(hand) + ".quaternion_wxyz");
+    if (position == line.numbers.end() || rotation == line.numbers.end()) continue;
+    const auto zero = [](double v) {
+      return v == 0;
+    };
+    if (!std::all_of(position->second.begin(), position->second.end(), zero) ||
+        !std::all_of(rotation->second.begin(), rotation->second.end(), zero))
+      continue;
+    line.numbers.erase(position);
+    line.numbers.erase(rotation);
+    line.unseen.insert(hand);
+  }
+}
+
+/// The hand that a column is of: directions are the probe's, entry and tip the needle's.
+std::string hand_of(const PoseKey& key) {
+  const std::string name = key.name;
+  return name.substr(0, name.find('.'));
+}
+
 Result<PoseLine> parse_json(std::string_view text, const std::string& where) {
   const json object = json::parse(text, nullptr, false);
   if (!object.is_object())
@@ -107,6 +134,7 @@ Result<PoseLine> parse_json(std::string_view text, const std::string& where) {
                   where);
     }
   }
+  forget_zeros(line);
   return line;
 }
 
@@ -165,6 +193,14 @@ Result<PoseLine> parse_row(const PoseHeader& header, std::string_view text,
       return fail(ErrorCode::invalid,
                   key + " is incomplete: a companion of a filled column is empty or missing",
                   where);
+  forget_zeros(line);
+  for (const KeyPlace& place : header.places) {
+    if (place.key == nullptr) continue;
+    const std::string hand = hand_of(*place.key);
+    const auto at = line.numbers.lower_bound(hand + ".");
+    if (at == line.numbers.end() || at->first.compare(0, hand.size() + 1, hand + ".") != 0)
+      line.unseen.insert(hand);
+  }
   return line;
 }
 

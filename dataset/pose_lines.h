@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +21,9 @@ struct PoseLine {
   std::optional<double> time;  ///< s
   /// By their key in JSON without its unit, as "needle.tip"; SI.
   std::map<std::string, std::vector<double>> numbers;
+  /// Hands that the line (or the header above it) names and that it has no numbers of: empty cells,
+  /// seven zeros, null. A tracker did not see them.
+  std::set<std::string> unseen;
 };
 
 enum class PoseFormat { json_lines, csv };

@@ -24,31 +24,49 @@ Result<void> check_place(const std::optional<Pose>& pose, const char* hand,
               where);
 }
 
-Result<void> append(std::vector<ListedPose>& poses, const PoseLine& line, PoseHand needed,
+/// Whether a line without the hand that is needed says that a tracker did not see it.
+bool was_not_seen(const PoseLine& line, PoseHand needed) {
+  if (needed == PoseHand::either) return !line.unseen.empty();
+  return line.unseen.count(needed == PoseHand::probe ? "probe" : "needle") > 0;
+}
+
+/// Whether the line was taken: one in which the needed hand was not seen is not.
+Result<bool> append(std::vector<ListedPose>& poses, const PoseLine& line, PoseHand needed,
                     const std::string& where) {
   const auto probe = probe_of(line, where);
   ARTUS_TRY(probe);
-  if (!*probe && needed == PoseHand::probe)
-    return fail(ErrorCode::invalid, "a pose needs the probe's position_mm and direction", where);
   const auto needle = needle_of(line, where);
   ARTUS_TRY(needle);
-  if (!*needle && needed == PoseHand::needle)
+  const bool lacks = needed == PoseHand::either ? !*probe && !*needle
+                                                : !(needed == PoseHand::probe ? *probe : *needle);
+  if (lacks && was_not_seen(line, needed)) return false;
+  if (lacks && needed == PoseHand::probe)
+    return fail(ErrorCode::invalid, "a pose needs the probe's position_mm and direction", where);
+  if (lacks && needed == PoseHand::needle)
     return fail(ErrorCode::invalid, "a pose needs the needle's entry_mm and tip_mm", where);
+  if (lacks) return fail(ErrorCode::invalid, "the line has neither needle nor probe", where);
   ARTUS_TRY(check_place(*probe, "probe", where));
   ARTUS_TRY(check_place(*needle, "needle", where));
   if (line.time && !poses.empty() && poses.back().time && *line.time <= *poses.back().time)
     return fail(ErrorCode::invalid, "time_s must rise from pose to pose", where);
   poses.push_back(
       {line.name, line.time, probe->value_or(Pose::Identity()), *needle, probe->has_value()});
-  return {};
+  return true;
 }
 
 Result<std::vector<ListedPose>> parse(std::string_view text, const std::string& name,
-                                      PoseFormat format, PoseHand needed) {
+                                      PoseFormat format, PoseHand needed, std::size_t* left_out) {
   std::vector<ListedPose> poses;
-  ARTUS_TRY(for_pose_lines(text, name, format, [&](const PoseLine& line, const std::string& where) {
-    return append(poses, line, needed, where);
-  }));
+  std::size_t unseen = 0;
+  const auto read = for_pose_lines(
+      text, name, format, [&](const PoseLine& line, const std::string& where) -> Result<void> {
+        const auto taken = append(poses, line, needed, where);
+        ARTUS_TRY(taken);
+        unseen += *taken ? 0U : 1U;
+        return {};
+      });
+  ARTUS_TRY(read);
+  if (left_out != nullptr) *left_out = unseen;
   if (poses.empty()) return fail(ErrorCode::invalid, "the file has no pose", name);
   return poses;
 }
@@ -66,21 +84,22 @@ Pose between(const Pose& a, const Pose& b, double t) {
 }  // namespace
 
 Result<std::vector<ListedPose>> parse_poses_jsonl(std::string_view text, const std::string& name,
-                                                  PoseHand needed) {
-  return parse(text, name, PoseFormat::json_lines, needed);
+                                                  PoseHand needed, std::size_t* left_out) {
+  return parse(text, name, PoseFormat::json_lines, needed, left_out);
 }
 
 Result<std::vector<ListedPose>> parse_poses_csv(std::string_view text, const std::string& name,
-                                                PoseHand needed) {
-  return parse(text, name, PoseFormat::csv, needed);
+                                                PoseHand needed, std::size_t* left_out) {
+  return parse(text, name, PoseFormat::csv, needed, left_out);
 }
 
-Result<std::vector<ListedPose>> read_poses(const std::filesystem::path& file, PoseHand needed) {
+Result<std::vector<ListedPose>> read_poses(const std::filesystem::path& file, PoseHand needed,
+                                           std::size_t* left_out) {
   const auto format = pose_format_of(file);
   ARTUS_TRY(format);
   const auto bytes = read_bytes(file);
   ARTUS_TRY(bytes);
-  return parse(*bytes, file.string(), *format, needed);
+  return parse(*bytes, file.string(), *format, needed, left_out);
 }
 
 Result<std::vector<ListedPose>> sample_path(const std::vector<ListedPose>& poses, double rate,

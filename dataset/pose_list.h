@@ -22,7 +22,7 @@ struct ListedPose {
 };
 
 /// Which hand every pose of a list must have.
-enum class PoseHand { probe, needle };
+enum class PoseHand { probe, needle, either };
 
 /// The most poses that sample_path makes: some 30 min at 1 kHz.
 inline constexpr std::size_t kMaxSamples = 2'000'000;
@@ -31,16 +31,21 @@ inline constexpr std::size_t kMaxSamples = 2'000'000;
 /// Errors: not_found, unreadable, unsupported (extension), malformed or invalid with file:line
 /// (unknown key, missing or not finite number, zero or parallel directions, times that do not rise,
 /// no pose at all, a place beyond 10 m from the origin, a pose without the hand that is needed).
+/// Lines that name the needed hand and do not have it (a tracker did not see it) are left out;
+/// `left_out` gets their number.
 [[nodiscard]] Result<std::vector<ListedPose>> read_poses(const std::filesystem::path& file,
-                                                         PoseHand needed = PoseHand::probe);
+                                                         PoseHand needed = PoseHand::probe,
+                                                         std::size_t* left_out = nullptr);
 
 /// The same from memory; `name` stands in messages.
 [[nodiscard]] Result<std::vector<ListedPose>> parse_poses_jsonl(std::string_view text,
                                                                 const std::string& name,
-                                                                PoseHand needed = PoseHand::probe);
+                                                                PoseHand needed = PoseHand::probe,
+                                                                std::size_t* left_out = nullptr);
 [[nodiscard]] Result<std::vector<ListedPose>> parse_poses_csv(std::string_view text,
                                                               const std::string& name,
-                                                              PoseHand needed = PoseHand::probe);
+                                                              PoseHand needed = PoseHand::probe,
+                                                              std::size_t* left_out = nullptr);
 
 /// The poses at `rate` per second: between two listed ones the probe and the needle move straight
 /// and turn evenly, and a needle is there when both have one. Without times each listed pose is

@@ -11,8 +11,10 @@ namespace {
 TickInput input_of(const ListedPose& pose, const SessionParams& params, std::uint64_t tick) {
   TickInput input;
   input.tick = tick;
-  input.device.X_WP = to_plain(params.X_WJ * pose.X_JP);
-  input.device.has_probe = 1;
+  if (pose.has_probe) {
+    input.device.X_WP = to_plain(params.X_WJ * pose.X_JP);
+    input.device.has_probe = 1;
+  }
   if (pose.X_JN) {
     input.device.X_WN = to_plain(params.X_WJ * *pose.X_JN);
     input.device.has_needle = 1;

@@ -28,8 +28,22 @@ std::string unescaped(std::string_view text) {
   return out;
 }
 
-/// What stands in quotes of either kind behind `name` in the first tag, blanks about '=' or not;
-/// up to the end where the quote is not closed.
+/// The first tag up to its '>', which may stand in quotes; nullopt when tag or quote has no end.
+std::optional<std::string_view> first_tag(std::string_view text) {
+  char quote = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (quote != 0)
+      quote = c == quote ? '\0' : quote;
+    else if (c == '"' || c == '\'')
+      quote = c;
+    else if (c == '>')
+      return text.substr(0, i + 1);
+  }
+  return std::nullopt;
+}
+
+/// What stands in quotes of either kind behind `name` in a whole tag, blanks about '=' or not.
 std::optional<std::string_view> attribute(std::string_view tag, std::string_view name) {
   constexpr std::string_view kBlank = " \t\r\n";
   const auto skip = [&](std::size_t n) {
@@ -55,15 +69,17 @@ std::optional<std::string_view> attribute(std::string_view tag, std::string_view
 
 }  // namespace
 
-RemoteCommand remote_command_of(const igtl::CommandText& command) {
+Result<RemoteCommand> remote_command_of(const igtl::CommandText& command) {
   RemoteCommand out{command.name, {}};
   const std::string_view content = trimmed(command.content);
   if (content.empty() || content.front() != '<') {
     out.value = std::string(content);
     return out;
   }
+  const auto tag = first_tag(content);
+  if (!tag) return fail(ErrorCode::malformed, "the command's XML has no end");
   for (const std::string_view key : {"Value", "value"}) {
-    const auto value = attribute(content, key);
+    const auto value = attribute(*tag, key);
     if (!value) continue;
     out.value = unescaped(trimmed(*value));
     break;

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include "artus/core/result.h"
 #include "artus/detail/exchange/igtl/contents.h"
 #include "artus/detail/exchange/igtl/message.h"
 
@@ -17,7 +18,8 @@ struct RemoteCommand {
   /// content where that is no XML.
   std::string value;
 };
-[[nodiscard]] RemoteCommand remote_command_of(const igtl::CommandText& command);
+/// Errors: malformed, XML whose first tag or quote has no end.
+[[nodiscard]] Result<RemoteCommand> remote_command_of(const igtl::CommandText& command);
 
 /// What is said to it.
 struct RemoteAnswer {

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/detail/exchange/sequence_file.h"
 
-#include <algorithm>
-#include <map>
 #include <utility>
+
+#include <zlib.h>
 
 #include "artus/detail/core/check.h"
 #include "artus/detail/core/printed.h"
 #include "artus/detail/core/text_cursor.h"
 #include "artus/detail/core/text_file.h"
-#include "artus/detail/core/text_lines.h"
-#include "artus/detail/exchange/reference_frame.h"
+#include "artus/detail/exchange/faults.h"
+#include "artus/detail/exchange/sequence_header.h"
 
 namespace artus {
 namespace {
@@ -18,7 +18,7 @@ namespace {
 constexpr int kLargestSide = 16384;          // pixels
 constexpr std::size_t kMaxFrames = 1000000;  // that a file is believed to have
 
-using Fields = std::map<std::string, std::string, std::less<>>;
+using Fields = SequenceHeader::Fields;
 
 std::string frame_key(std::size_t i, const char* what) {
   return printed("Seq_Frame%04zu_%s", i, what);
@@ -42,23 +42,6 @@ void put_matrix(std::string& out, std::size_t i, const char* name, const igtl::M
   put(out, frame_key(i, (key + "Status").c_str()), matrix != nullptr ? "OK" : "INVALID");
 }
 
-/// The header's fields; `bytes` goes on behind it.
-Result<Fields> take_fields(std::string_view& bytes, const std::string& name) {
-  Fields fields;
-  for (std::size_t line = 1;; ++line) {
-    const std::size_t end = bytes.find('\n');
-    const std::string_view text = bytes.substr(0, end);
-    const std::size_t equals = text.find('=');
-    if (end == std::string_view::npos || equals == std::string_view::npos)
-      return fail(ErrorCode::malformed, "a header line must be 'key = value'",
-                  name + ":" + std::to_string(line));
-    bytes.remove_prefix(end + 1);
-    const std::string key(trimmed(text.substr(0, equals)));
-    fields[key] = std::string(trimmed(text.substr(equals + 1)));
-    if (key == "ElementDataFile") return fields;
-  }
-}
-
 std::vector<double> numbers_of(const Fields& fields, std::string_view key) {
   std::vector<double> numbers;
   const auto found = fields.find(key);
@@ -74,13 +57,16 @@ std::string_view text_of(const Fields& fields, std::string_view key) {
 }
 
 /// nullopt when the tracker did not see it, or it is not there.
-Result<std::optional<igtl::Matrix>> matrix_of(const Fields& fields, std::size_t i,
-                                              const std::string& name) {
-  const std::string key = frame_key(i, (name + "ToReferenceTransform").c_str());
+std::optional<igtl::Matrix> matrix_of(const Fields& fields, const std::string& name,
+                                      const std::string& where, Faults& faults) {
+  const std::string key = name + "ToReferenceTransform";
   const std::string_view status = text_of(fields, key + "Status");
   if (fields.count(key) == 0 || (!status.empty() && status != "OK")) return std::nullopt;
   const std::vector<double> numbers = numbers_of(fields, key);
-  if (numbers.size() != 16) return fail(ErrorCode::malformed, "a matrix must have 16 numbers", key);
+  if (numbers.size() != 16) {
+    faults.add(where + key, "a matrix must have 16 numbers");
+    return std::nullopt;
+  }
   igtl::Matrix matrix;
   for (Eigen::Index row = 0; row < 3; ++row)
     for (Eigen::Index column = 0; column < 4; ++column)
@@ -90,50 +76,86 @@ Result<std::optional<igtl::Matrix>> matrix_of(const Fields& fields, std::size_t 
 
 /// Width, height and number of frames, when the file is of the kind that is read.
 Result<std::vector<std::size_t>> size_of(const Fields& fields, const std::string& name) {
-  const auto refuse = [&](const char* why) {
-    return fail(ErrorCode::unsupported, why, name);
-  };
+  Faults kind;
   if (text_of(fields, "ElementType") != "MET_UCHAR")
-    return refuse("only 8-bit grey images can be read");
-  if (text_of(fields, "CompressedData") == "True") return refuse("compressed data cannot be read");
+    kind.add("ElementType", "only the pixels of 8-bit grey images can be read");
   if (text_of(fields, "ElementDataFile") != "LOCAL")
-    return refuse("only sequences with their data in the same file can be read");
+    kind.add("ElementDataFile", "only sequences with their data in the same file can be read");
   const std::string_view channels = text_of(fields, "ElementNumberOfChannels");
   if (!channels.empty() && channels != "1")
-    return refuse("only grey images can be read, not colour");
+    kind.add("ElementNumberOfChannels", "only grey images can be read, not colour");
   const std::vector<double> numbers = numbers_of(fields, "DimSize");
   std::vector<std::size_t> size;
   for (const double n : numbers)
     if (n >= 1 && n <= static_cast<double>(kMaxFrames)) size.push_back(static_cast<std::size_t>(n));
-  if (size.size() != numbers.size() || (size.size() != 3 && size.size() != 4) ||
-      size[0] > kLargestSide || size[1] > kLargestSide || (size.size() == 4 && size[2] != 1))
-    return fail(ErrorCode::malformed, "DimSize must be width, height and number of frames", name);
+  const bool wrong = size.size() != numbers.size() || (size.size() != 3 && size.size() != 4) ||
+                     size[0] > kLargestSide || size[1] > kLargestSide ||
+                     (size.size() == 4 && size[2] != 1);
+  if (wrong) kind.add("DimSize", "it must be width, height and number of frames");
+  if (!kind.empty())
+    return kind.refusal(wrong ? ErrorCode::malformed : ErrorCode::unsupported, name);
   return std::vector<std::size_t>{size[0], size[1], size.back()};
 }
 
-Result<SequenceFrame> frame_of(const Fields& fields, std::size_t i) {
+SequenceFrame frame_of(const SequenceHeader& header, std::size_t i, Faults& faults) {
   SequenceFrame frame;
-  const auto image = matrix_of(fields, i, "Image");
-  ARTUS_TRY(image);
-  const auto probe = matrix_of(fields, i, "Probe");
-  ARTUS_TRY(probe);
-  const auto needle = matrix_of(fields, i, "Needle");
-  ARTUS_TRY(needle);
-  if (*image) frame.image_to_reference = **image;
-  if (*probe) frame.probe_to_reference = **probe;
-  frame.needle_to_reference = *needle;
-  const std::vector<double> time = numbers_of(fields, frame_key(i, "Timestamp"));
+  const auto found = header.frames.find(i);
+  if (found == header.frames.end()) return frame;
+  const std::string where = frame_key(i, "");
+  const Fields& fields = found->second;
+  if (const auto image = matrix_of(fields, "Image", where, faults))
+    frame.image_to_reference = *image;
+  if (const auto probe = matrix_of(fields, "Probe", where, faults))
+    frame.probe_to_reference = *probe;
+  frame.needle_to_reference = matrix_of(fields, "Needle", where, faults);
+  const std::vector<double> time = numbers_of(fields, "Timestamp");
   if (!time.empty()) frame.time = time.front();
   return frame;
 }
 
+/// The pixels as one run of bytes, expanded where they are compressed.
+Result<std::string> pixels_of(const Fields& fields, std::string_view bytes, std::size_t wanted,
+                              const std::string& name) {
+  if (text_of(fields, "CompressedData") != "True") {
+    if (bytes.size() < wanted)
+      return fail(ErrorCode::corrupt, "there are fewer pixels than DimSize says", name);
+    return std::string(bytes.substr(0, wanted));
+  }
+  constexpr std::size_t kMostExpanded = 1032;  // times, the most that deflate can do
+  if (wanted / kMostExpanded > bytes.size())
+    return fail(ErrorCode::corrupt, "there are fewer pixels than DimSize says", name);
+  std::string out(wanted, '\0');
+  uLongf size = wanted;
+  const int code = uncompress(reinterpret_cast<Bytef*>(out.data()), &size,
+                              reinterpret_cast<const Bytef*>(bytes.data()), bytes.size());
+  if (code != Z_OK || size != wanted)
+    return fail(ErrorCode::corrupt,
+                "the compressed pixels are damaged, or not as many as DimSize says", name);
+  return out;
+}
+
+std::string compressed(const std::string& bytes) {
+  uLongf size = compressBound(bytes.size());
+  std::string out(size, '\0');
+  const int code = compress(reinterpret_cast<Bytef*>(out.data()), &size,
+                            reinterpret_cast<const Bytef*>(bytes.data()), bytes.size());
+  out.resize(code == Z_OK ? size : 0);
+  return out;
+}
+
 }  // namespace
 
-std::string to_mha(const ImageSequence& sequence) {
+std::string to_mha(const ImageSequence& sequence, PixelCoding coding) {
   ARTUS_REQUIRE(!sequence.frames.empty(), "the sequence must have frames");
+  std::string grey;
+  for (const SequenceFrame& frame : sequence.frames)
+    grey.append(frame.grey.begin(), frame.grey.end());
+  if (coding == PixelCoding::zlib) grey = compressed(grey);
   std::string out =
       "ObjectType = Image\nNDims = 3\nAnatomicalOrientation = RAI\nBinaryData = True\n"
-      "BinaryDataByteOrderMSB = False\nCenterOfRotation = 0 0 0\nCompressedData = False\n";
+      "BinaryDataByteOrderMSB = False\nCenterOfRotation = 0 0 0\n";
+  put(out, "CompressedData", coding == PixelCoding::zlib ? "True" : "False");
+  if (coding == PixelCoding::zlib) put(out, "CompressedDataSize", std::to_string(grey.size()));
   put(out, "DimSize",
       std::to_string(sequence.width) + " " + std::to_string(sequence.height) + " " +
           std::to_string(sequence.frames.size()));
@@ -157,33 +179,34 @@ std::string to_mha(const ImageSequence& sequence) {
     put_matrix(out, i, "Needle", frame.needle_to_reference ? &*frame.needle_to_reference : nullptr);
   }
   out += "ElementDataFile = LOCAL\n";
-  for (const SequenceFrame& frame : sequence.frames)
-    out.append(frame.grey.begin(), frame.grey.end());
-  return out;
+  return out + grey;
 }
 
-Result<void> write_mha(const std::filesystem::path& file, const ImageSequence& sequence) {
-  return write_text(file, to_mha(sequence));
+Result<void> write_mha(const std::filesystem::path& file, const ImageSequence& sequence,
+                       PixelCoding coding) {
+  return write_text(file, to_mha(sequence, coding));
 }
 
 Result<ImageSequence> parse_mha(std::string_view bytes, const std::string& name) {
-  const auto fields = take_fields(bytes, name);
-  ARTUS_TRY(fields);
-  const auto size = size_of(*fields, name);
+  const auto header = parse_sequence_header(bytes, name);
+  ARTUS_TRY(header);
+  const auto size = size_of(header->fields, name);
   ARTUS_TRY(size);
   const std::size_t pixels = (*size)[0] * (*size)[1];
-  if (bytes.size() / pixels < (*size)[2])
-    return fail(ErrorCode::corrupt, "there are fewer pixels than DimSize says", name);
+  const auto greys =
+      pixels_of(header->fields, bytes.substr(header->bytes), pixels * (*size)[2], name);
+  ARTUS_TRY(greys);
   ImageSequence sequence;
   sequence.width = static_cast<int>((*size)[0]);
   sequence.height = static_cast<int>((*size)[1]);
+  Faults faults;
   for (std::size_t i = 0; i < (*size)[2]; ++i) {
-    auto frame = frame_of(*fields, i);
-    ARTUS_TRY(frame);
-    const std::string_view grey = bytes.substr(i * pixels, pixels);
-    frame->grey.assign(grey.begin(), grey.end());
-    sequence.frames.push_back(std::move(*frame));
+    SequenceFrame frame = frame_of(*header, i, faults);
+    const std::string_view grey = std::string_view(*greys).substr(i * pixels, pixels);
+    frame.grey.assign(grey.begin(), grey.end());
+    sequence.frames.push_back(std::move(frame));
   }
+  if (!faults.empty()) return faults.refusal(ErrorCode::malformed, name);
   return sequence;
 }
 
@@ -191,32 +214,6 @@ Result<ImageSequence> read_mha(const std::filesystem::path& file) {
   const auto bytes = read_bytes(file);
   ARTUS_TRY(bytes);
   return parse_mha(*bytes, file.string());
-}
-
-Result<std::vector<ListedPose>> poses_of(const ImageSequence& sequence) {
-  const ReferenceFrame reference;
-  std::vector<ListedPose> poses;
-  for (std::size_t i = 0; i < sequence.frames.size(); ++i) {
-    const SequenceFrame& frame = sequence.frames[i];
-    if (frame.probe_to_reference.isZero()) continue;  // not seen
-    const std::string where = "frame " + std::to_string(i);
-    const auto probe = reference.from_reference(frame.probe_to_reference);
-    if (!probe) return fail(ErrorCode::invalid, probe.error().message, where);
-    ListedPose pose;
-    pose.X_JP = *probe;
-    pose.time = frame.time;
-    if (poses.size() > 0 && *poses.back().time >= frame.time)
-      return fail(ErrorCode::invalid, "the time must rise from frame to frame", where);
-    if (frame.needle_to_reference) {
-      const auto needle = reference.from_reference(*frame.needle_to_reference);
-      if (!needle) return fail(ErrorCode::invalid, needle.error().message, where);
-      pose.X_JN = *needle;
-    }
-    poses.push_back(std::move(pose));
-  }
-  if (poses.empty())
-    return fail(ErrorCode::invalid, "no frame has a ProbeToReferenceTransform that is OK");
-  return poses;
 }
 
 }  // namespace artus

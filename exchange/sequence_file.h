@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "artus/core/result.h"
-#include "artus/dataset/pose_list.h"
 #include "artus/detail/exchange/igtl/contents.h"
 
 namespace artus {
@@ -29,21 +28,23 @@ struct ImageSequence {
   std::vector<SequenceFrame> frames;
 };
 
+/// How pixels are kept in a file.
+enum class PixelCoding { raw, zlib };
+
 /// The sequence as a MetaImage with a frame's transforms in its header (.igs.mha). Requires: at
 /// least one frame, all of the same size.
-[[nodiscard]] std::string to_mha(const ImageSequence& sequence);
+[[nodiscard]] std::string to_mha(const ImageSequence& sequence,
+                                 PixelCoding coding = PixelCoding::raw);
 /// The same as a file. Errors: unreadable.
 [[nodiscard]] Result<void> write_mha(const std::filesystem::path& file,
-                                     const ImageSequence& sequence);
+                                     const ImageSequence& sequence,
+                                     PixelCoding coding = PixelCoding::raw);
 
-/// Reads such a sequence: 8-bit grey, uncompressed, data in the file. Transforms that are not "OK"
-/// are left out: a frame without a probe has a zero matrix. Errors: not_found, unreadable;
-/// malformed, unsupported or corrupt, naming the key.
+/// Reads such a sequence with its pixels: 8-bit grey, raw or compressed, data in the file.
+/// Transforms that are not "OK" are left out: a frame without a probe has a zero matrix. Poses
+/// alone are read of any sequence by read_sequence_header and track_of. Errors: not_found,
+/// unreadable; malformed, unsupported or corrupt, naming every key that is at fault.
 [[nodiscard]] Result<ImageSequence> read_mha(const std::filesystem::path& file);
 [[nodiscard]] Result<ImageSequence> parse_mha(std::string_view bytes, const std::string& name);
-
-/// The poses of a sequence in J, with Reference as RAS. Errors: invalid (no frame has a probe, or
-/// a matrix that is no rigid pose, with the frame's number).
-[[nodiscard]] Result<std::vector<ListedPose>> poses_of(const ImageSequence& sequence);
 
 }  // namespace artus

@@ -97,9 +97,10 @@ void append_forces(std::vector<igtl::Message>& messages, const HapticSnapshot& h
 }
 
 std::vector<std::string> known_types() {
-  return {"IMAGE",      "TRANSFORM",  "STRING",      "SENSOR",     "STATUS",
-          "CAPABILITY", "COMMAND",    "RTS_COMMAND", "GET_STATUS", "GET_CAPABIL",
-          "STT_STRING", "STP_STRING", "STT_SENSOR",  "STP_SENSOR"};
+  return {"IMAGE",       "TRANSFORM",  "POSITION",    "TDATA",      "QTDATA",
+          "STRING",      "SENSOR",     "STATUS",      "CAPABILITY", "COMMAND",
+          "RTS_COMMAND", "GET_STATUS", "GET_CAPABIL", "STT_STRING", "STP_STRING",
+          "STT_SENSOR",  "STP_SENSOR", "STT_TDATA",   "STP_TDATA"};
 }
 
 igtl::Message status_message(const Session* session) {
@@ -143,6 +144,11 @@ std::vector<igtl::Message> messages_of(const ImageSnapshot& image, const HapticS
     messages.push_back(
         message_of("TRANSFORM", "NeedleToReference", time,
                    igtl::pack_transform(reference.to_reference(to_pose(image.input.X_JN)))));
+  std::vector<igtl::TrackedTool> tools;
+  for (const igtl::Message& pose : messages)
+    if (pose.type == "TRANSFORM")
+      tools.push_back({pose.device, *igtl::parse_transform(pose.content)});
+  messages.push_back(message_of("TDATA", "artus", time, igtl::pack_tdata(tools)));
   if (haptic != nullptr) {
     append_forces(messages, *haptic, reference, time);
     append_syringe(messages, haptic->feedback.plunger, time);
@@ -185,7 +191,9 @@ std::vector<igtl::Message> SessionLink::answer(const igtl::Message& message) {
   if (message.type == "COMMAND") {
     const auto command = igtl::parse_command(message.content);
     if (!command) return {};
-    return {answer_message(message, *command, obey(remote_command_of(*command)))};
+    const auto wish = remote_command_of(*command);
+    return {answer_message(message, *command,
+                           wish ? obey(*wish) : RemoteAnswer{false, wish.error().message})};
   }
   if (message.type == "GET_CAPABIL")
     return {message_of("CAPABILITY", "artus", igtl::utc_time_now(),
@@ -196,9 +204,10 @@ std::vector<igtl::Message> SessionLink::answer(const igtl::Message& message) {
   }
   if (options_.inbox) {
     const auto taken = options_.inbox->take(message, monotonic_ns());
-    if (taken) return {};
+    const std::string said = taken ? options_.inbox->take_notice() : taken.error().message;
+    if (said.empty()) return {};
     const std::lock_guard<std::mutex> lock(mutex_);
-    server_->tell(taken.error().message);
+    server_->tell(said);
   }
   return {};
 }

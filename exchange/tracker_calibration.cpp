@@ -6,6 +6,7 @@
 #include "artus/detail/core/text_cursor.h"
 #include "artus/detail/core/text_file.h"
 #include "artus/detail/core/toml_table.h"
+#include "artus/detail/core/units.h"
 #include "artus/detail/exchange/reference_frame.h"
 
 namespace artus {
@@ -50,6 +51,48 @@ bool read_matrix(TomlTable& root, std::string_view key, Pose& pose) {
   return true;
 }
 
+/// The table insertion_point; nullopt without it.
+std::optional<GestureParams> read_insertion(TomlTable& root, Problems& problems) {
+  const toml::table* found = root.table("insertion_point");
+  if (found == nullptr) return std::nullopt;
+  constexpr double kFarthest = 100;  // mm beside the probe
+  constexpr double kSteepest = 89;   // degrees
+  TomlTable table(*found, "insertion_point", problems);
+  GestureParams gesture;
+  gesture.p_W = table.required_vector("point_mm", kMillimetre);
+  const Vec3 axis = table.required_vector("axis");
+  gesture.beside_probe =
+      table.number("beside_probe_mm", 0, kFarthest, kMillimetre).value_or(gesture.beside_probe);
+  gesture.steepness =
+      table.number("steepness_deg", 1, kSteepest, kDegree).value_or(gesture.steepness);
+  table.finish();
+  if (!(axis.norm() > 1e-9) || !(gesture.p_W.norm() < kDeviceReach))
+    table.problem("'axis' must be a direction, and 'point_mm' within 10 m");
+  else
+    gesture.axis_W = axis.normalized();
+  return gesture;
+}
+
+std::string vector_text(const Vec3& v) {
+  std::string text = "[";
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    std::string number;
+    append_number(number, v[i]);
+    text += (i == 0 ? "" : ", ") + number;
+  }
+  return text + "]";
+}
+
+void append_insertion(std::string& out, const GestureParams& gesture) {
+  std::string beside;
+  std::string steepness;
+  append_number(beside, gesture.beside_probe / kMillimetre);
+  append_number(steepness, gesture.steepness / kDegree);
+  out += "\n[insertion_point]\npoint_mm = " + vector_text(gesture.p_W / kMillimetre) +
+         "\naxis = " + vector_text(gesture.axis_W) + "\nbeside_probe_mm = " + beside +
+         "\nsteepness_deg = " + steepness + "\n";
+}
+
 void append_matrix(std::string& out, const char* key, const Pose& pose) {
   const igtl::Matrix matrix = millimetres_of(pose);
   out += std::string("\n[") + key + "]\nmatrix = [\n";
@@ -79,6 +122,7 @@ Result<TrackerCalibration> parse_tracker_calibration(std::string_view text,
   read_matrix(root, "transducer_to_probe", calibration.X_ProbeP);
   read_matrix(root, "needle_tip_to_needle", calibration.X_NeedleN);
   calibration.registered = read_matrix(root, "reference_to_joint", calibration.X_JR);
+  calibration.insertion = read_insertion(root, problems);
   root.finish();
   if (!problems.empty()) return problems.refusal(ErrorCode::invalid, name);
   return calibration;
@@ -97,6 +141,7 @@ std::string to_toml(const TrackerCalibration& calibration) {
   append_matrix(out, "transducer_to_probe", calibration.X_ProbeP);
   append_matrix(out, "needle_tip_to_needle", calibration.X_NeedleN);
   if (calibration.registered) append_matrix(out, "reference_to_joint", calibration.X_JR);
+  if (calibration.insertion) append_insertion(out, *calibration.insertion);
   return out;
 }
 

@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
 #include "artus/core/geometry.h"
 #include "artus/core/result.h"
+#include "artus/detail/simulation/two_phase_gesture.h"
 
 namespace artus {
 
 /// How a tracker's sensors sit on the probe, the needle and the joint. As a file: TOML with the
 /// tables transducer_to_probe, needle_tip_to_needle and reference_to_joint, each of which may be
-/// missing and has `matrix`, four rows of four numbers in millimetres (docs/openigtlink.md).
+/// missing and has `matrix`, four rows of four numbers in millimetres; and insertion_point with
+/// point_mm, axis and, optional, beside_probe_mm and steepness_deg (docs/openigtlink.md). Of all
+/// hands: of trackers, of devices, of recorded files.
 struct TrackerCalibration {
   /// The transducer's frame P (x lateral, z into the body) on the probe's sensor.
   Pose X_ProbeP = Pose::Identity();
@@ -20,6 +24,8 @@ struct TrackerCalibration {
   /// The tracker's reference in the joint.
   Pose X_JR;
   bool registered = false;  ///< reference_to_joint is known; else Reference is the joint in RAS
+  /// Where the device's mechanics let a needle in, in W, and how it is laid beside the probe.
+  std::optional<GestureParams> insertion;
 
   TrackerCalibration();
 };

@@ -2,6 +2,8 @@
 #pragma once
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <set>
 #include <string>
 
 #include "artus/core/result.h"
@@ -37,12 +39,18 @@ class TrackerInbox {
   };
   TrackerInbox(const TrackerCalibration& calibration, const Names& names);
 
-  /// A message of one of the two names; others are left alone. A pose with metadata
+  /// A TRANSFORM or POSITION of one of the two names, or a TDATA or QTDATA with a tool of such a
+  /// name (or of what stands before its "To"); others are left alone. A pose with metadata
   /// TransformStatus other than OK was not seen by the tracker: it is not taken. The plunger's
   /// SENSOR has one number, the thumb's force in newton (at most 1000) or the plunger's travel in
   /// metres (at most 1), positive in. Errors: as ReferenceFrame::from_reference, what is no
   /// TRANSFORM, a plunger that cannot be; then the thumb lets go.
   [[nodiscard]] Result<void> take(const igtl::Message& message, std::int64_t now_ns);
+
+  /// What is to be told of the message that was taken last: a pose that flipped (its axis turned by
+  /// more than a right angle in a quarter of a second) or leapt (faster than 2 m/s), told when the
+  /// number of them doubles; names that nobody asked for, once. Empty: nothing.
+  [[nodiscard]] std::string take_notice() { return std::exchange(notice_, {}); }
 
   [[nodiscard]] ARTUS_REALTIME bool load(TrackedPoses& out) const noexcept {
     return poses_.load(out);
@@ -50,12 +58,28 @@ class TrackerInbox {
 
  private:
   [[nodiscard]] Result<void> take_plunger(const igtl::Message& message, std::int64_t now_ns);
+  [[nodiscard]] Result<void> take_tools(const igtl::Message& message, std::int64_t now_ns);
+  [[nodiscard]] Result<void> take_pose(const std::string& device,
+                                       const Result<igtl::Matrix>& matrix,
+                                       const igtl::Message& message, std::int64_t now_ns);
+  void watch(bool probe, const Pose& pose, const igtl::Message& message, std::int64_t now_ns);
+  void tell_unknown(const std::string& names);
+
+  /// One hand as it was last, to see whether it flips or leaps.
+  struct Watched {
+    std::optional<Pose> pose;
+    double time = 0;  // s, by the sender's clock, or by ours where it has none
+    std::uint64_t odd = 0;
+  };
 
   TrackerCalibration calibration_;
   ReferenceFrame reference_;
   Names names_;
   TrackedPoses newest_;  // as stored last; of the filling thread
   Seqlock<TrackedPoses> poses_;
+  Watched watched_[2];  // NOLINT(*-avoid-c-arrays): needle, probe
+  std::set<std::string> told_;
+  std::string notice_;
 };
 
 /// Needle and probe of a tracker, or of another program that sends its poses. A probe that is

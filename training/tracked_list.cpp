@@ -28,6 +28,10 @@ class Builder {
     ARTUS_TRY(probe);
     auto needle = needle_of(line, where);
     ARTUS_TRY(needle);
+    if (!*probe && !*needle && !line.unseen.empty()) {
+      ++unseen_;
+      return {};
+    }
     if (!*probe && !*needle)
       return fail(ErrorCode::invalid, "the line has neither needle nor probe", where);
     if (*needle && last_needle_ && line.numbers.count("needle.tip") > 0)
@@ -52,6 +56,9 @@ class Builder {
                   "the times span " + std::to_string(poses.back().time - poses.front().time) +
                       " s; is time_s in seconds?",
                   name_);
+    if (unseen_ > 0)
+      list_.notices.push_back(std::to_string(unseen_) +
+                              " rows were left out: the tracker saw neither needle nor probe");
     tell_gaps();
     return std::move(list_);
   }
@@ -93,6 +100,7 @@ class Builder {
   std::string name_;
   TrackedList list_;
   std::optional<Pose> last_needle_;
+  std::size_t unseen_ = 0;
 };
 
 }  // namespace

@@ -17,17 +17,17 @@ std::int64_t nanoseconds(double milliseconds) {
 
 void add_igtl_options(Command* command, IgtlOptions& options) {
   const char* group = "OpenIGTLink";
-  Option* listen =
-      command
-          ->add_option("--igtl", options.listen,
-                       "[address:]port that 3D Slicer, PLUS and others connect to (18944 by "
-                       "custom); this machine alone unless an address says otherwise")
-          ->group(group);
+  command
+      ->add_option("--igtl", options.listen,
+                   "[address:]port that 3D Slicer, PLUS and others connect to (18944 by "
+                   "custom), this machine alone unless an address says otherwise; or "
+                   "connect:HOST:PORT, a server (PlusServer, a tracker) to connect to")
+      ->group(group);
   command
       ->add_option("--calibration", options.calibration,
-                   "how the tracker's sensors sit on probe, needle and joint (.toml)")
-      ->group(group)
-      ->needs(listen);
+                   "how the tracker's sensors sit on probe, needle and joint, and where a device "
+                   "lets a needle in (.toml)")
+      ->group(group);
   command->add_option("--tracker-probe", options.probe, "name of the probe's TRANSFORM")
       ->group(group)
       ->capture_default_str();
@@ -75,10 +75,16 @@ Result<std::unique_ptr<SessionLink>> open_session_link(
     std::function<void(double ImageControls::*, double)> turn,
     std::function<RemoteAnswer(const std::string&)> begin) {
   if (options.listen.empty()) return std::unique_ptr<SessionLink>();
-  const auto where = igtl::parse_address(options.listen, "--igtl");
+  constexpr std::string_view kConnect = "connect:";
+  const bool out = options.listen.compare(0, kConnect.size(), kConnect) == 0;
+  const auto where =
+      igtl::parse_address(out ? options.listen.substr(kConnect.size()) : options.listen, "--igtl");
   ARTUS_TRY(where);
   SessionLink::Options link_options;
-  link_options.server.where = *where;
+  if (out)
+    link_options.server.connect_to = *where;
+  else
+    link_options.server.where = *where;
   link_options.reference = ReferenceFrame(input.calibration.X_JR);
   link_options.inbox = input.inbox;
   link_options.version = ARTUS_VERSION;
@@ -86,6 +92,11 @@ Result<std::unique_ptr<SessionLink>> open_session_link(
   link_options.begin = std::move(begin);
   auto link = SessionLink::open(link_options);
   ARTUS_TRY(link);
+  if (out) {
+    std::fprintf(stderr, "OpenIGTLink: connecting to %s port %d\n", where->address.c_str(),
+                 where->port);
+    return link;
+  }
   std::fprintf(stderr, "OpenIGTLink: listening on %s port %d\n", where->address.c_str(),
                (*link)->server().port());
   return link;

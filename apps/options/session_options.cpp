@@ -168,6 +168,11 @@ Result<SessionParams> make_session_params(const SessionOptions& options,
     params.gesture.p_W = (*plan)->entry;
     params.gesture.axis_W = ((*plan)->target - (*plan)->entry).normalized();
   }
+  if (!options.igtl.calibration.empty()) {
+    const auto calibration = read_tracker_calibration(options.igtl.calibration);
+    ARTUS_TRY(calibration);
+    if (calibration->insertion) params.gesture = *calibration->insertion;
+  }
   ARTUS_TRY(validate(params));
   return params;
 }

@@ -4,8 +4,14 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstring>
+#include <optional>
 #include <system_error>
 
+#include <linux/sockios.h>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <sys/ioctl.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -19,6 +25,20 @@ bool would_block(int error) noexcept {
 tl::unexpected<Error> gone(int error) {
   return fail(ErrorCode::not_found, error == 0 ? "the client closed the connection"
                                                : std::generic_category().message(error));
+}
+
+/// Bytes that the other side's system says it can still take; nullopt where the system does not
+/// tell (Linux before 5.4).
+std::optional<std::uint32_t> window_of(int socket) {
+  constexpr std::size_t kPlace = 228;  // bytes, of tcpi_snd_wnd in Linux' struct tcp_info
+  std::array<char, 256> info{};
+  socklen_t size = info.size();
+  std::uint32_t window = 0;
+  if (getsockopt(socket, IPPROTO_TCP, TCP_INFO, info.data(), &size) != 0 ||
+      size < kPlace + sizeof window)
+    return std::nullopt;
+  std::memcpy(&window, info.data() + kPlace, sizeof window);
+  return window;
 }
 
 }  // namespace
@@ -57,14 +77,45 @@ Result<void> ClientLink::receive(const std::function<void(const Message&)>& on_m
   return {};
 }
 
-bool ClientLink::take_next() {
+bool ClientLink::reader_lags(std::int64_t now_ns) {
+  constexpr std::int64_t kAtMost = 1'000'000'000;  // ns; whatever the system says of the other side
+  if (largest_sent_ == 0 || now_ns - picture_ns_ > kAtMost) return false;
+  int unacknowledged = 0;
+  if (ioctl(socket_, SIOCOUTQ, &unacknowledged) != 0) return false;
+  const auto held = static_cast<std::size_t>(unacknowledged);
+  const std::optional<std::uint32_t> window = window_of(socket_);
+  if (!window) return held > largest_sent_;
+  if (*window > window_) progress_ns_ = now_ns;  // it has read
+  window_ = *window;
+  widest_window_ = std::max(widest_window_, window_);
+  return held + widest_window_ - window_ > largest_sent_;
+}
+
+bool ClientLink::take_next(std::int64_t now_ns) {
   sent_ = 0;
+  waits_for_reader_ = false;
   if (!answers_.empty()) {
     sending_ = std::make_shared<const std::string>(std::move(answers_.front()));
     answers_.pop_front();
   } else if (!newest_.empty()) {
-    sending_ = newest_.front()->packed(version_);
-    newest_.pop_front();
+    const auto is_picture = [](const auto& waiting) {
+      return waiting->message().type == "IMAGE";
+    };
+    auto next = newest_.begin();
+    if (is_picture(*next) && reader_lags(now_ns)) {
+      waits_for_reader_ = true;
+      next = std::find_if_not(newest_.begin(), newest_.end(), is_picture);
+      if (next == newest_.end()) {
+        sending_.reset();
+        return false;
+      }
+    }
+    sending_ = (*next)->packed(version_);
+    if (is_picture(*next)) {
+      picture_ns_ = now_ns;
+      largest_sent_ = std::max(largest_sent_, sending_->size());
+    }
+    newest_.erase(next);
   } else {
     sending_.reset();
   }
@@ -75,7 +126,7 @@ Result<void> ClientLink::send(std::int64_t now_ns) {
   if (asks_too_fast_)
     return fail(ErrorCode::failed, "the client sends requests faster than it reads the answers");
   if (!has_to_send()) progress_ns_ = now_ns;
-  while (sending_ || take_next()) {
+  while (sending_ || take_next(now_ns)) {
     const ssize_t n =
         ::send(socket_, sending_->data() + sent_, sending_->size() - sent_, MSG_NOSIGNAL);
     if (n < 0 && !would_block(errno)) return gone(errno);

@@ -60,13 +60,17 @@ class ClientLink {
   [[nodiscard]] bool has_to_send() const noexcept {
     return sending_ || !answers_.empty() || !newest_.empty();
   }
+  /// Whether a picture waits until the other side has read the one before: it is replaced by newer
+  /// ones meanwhile, where the system would have kept it.
+  [[nodiscard]] bool waits_for_reader() const noexcept { return waits_for_reader_; }
   [[nodiscard]] int socket() const noexcept { return socket_; }
   [[nodiscard]] const std::string& peer() const noexcept { return peer_; }
   [[nodiscard]] std::uint64_t dropped() const noexcept { return dropped_; }
   [[nodiscard]] int version() const noexcept { return version_; }
 
  private:
-  [[nodiscard]] bool take_next();
+  [[nodiscard]] bool take_next(std::int64_t now_ns);
+  [[nodiscard]] bool reader_lags(std::int64_t now_ns);
 
   int socket_;
   std::string peer_;
@@ -79,6 +83,11 @@ class ClientLink {
   std::set<std::string> subscriptions_;
   std::int64_t progress_ns_ = 0;  // when the last byte went, or nothing waited
   std::uint64_t dropped_ = 0;
+  std::size_t largest_sent_ = 0;     // bytes of the largest picture
+  std::uint32_t widest_window_ = 0;  // bytes that the other side was ever ready to take
+  std::uint32_t window_ = 0;         // the same now
+  std::int64_t picture_ns_ = 0;      // when the last picture was begun
+  bool waits_for_reader_ = false;
   bool asks_too_fast_ = false;
   int version_ = 1;  // of the headers that it understands, as far as it has shown
 };

@@ -33,6 +33,35 @@ Matrix get_matrix(BigEndianReader& in) {
   return matrix;
 }
 
+constexpr std::size_t kToolNameSize = 20;  // bytes of a tool in TDATA and QTDATA
+
+/// The rest of a quaternion that is sent without its w has a positive one.
+Result<Matrix> placed(const std::array<double, 3>& p, double x, double y, double z, double w,
+                      const char* type) {
+  Matrix matrix;
+  const Eigen::Quaterniond q(w, x, y, z);
+  const double norm = q.norm();
+  if (!(norm >= 0.9 && norm <= 1.1))
+    return fail(ErrorCode::invalid, std::string(type) + ": a quaternion's norm is not 1");
+  matrix.leftCols<3>() = q.normalized().toRotationMatrix();
+  matrix.col(3) = Vec3(p[0], p[1], p[2]);
+  if (!matrix.allFinite())
+    return fail(ErrorCode::invalid, std::string(type) + ": a number is not finite");
+  return matrix;
+}
+
+std::array<double, 3> get_place(BigEndianReader& in) {
+  std::array<double, 3> p{};
+  for (double& value : p) value = static_cast<double>(in.get<float>());
+  return p;
+}
+
+void put_quaternion(BigEndianWriter& out, const Matrix& matrix) {
+  for (Eigen::Index i = 0; i < 3; ++i) out.put(static_cast<float>(matrix(i, 3)));
+  const Eigen::Quaterniond q(Eigen::Matrix3d(matrix.leftCols<3>()));
+  for (const double value : {q.x(), q.y(), q.z(), q.w()}) out.put(static_cast<float>(value));
+}
+
 /// From the corner pixel to the picture's middle, in the matrix's own lengths.
 Vec3 corner_to_middle(const Matrix& m, int width, int height) {
   return 0.5 * (width - 1) * m.col(0) + 0.5 * (height - 1) * m.col(1);
@@ -52,6 +81,91 @@ Result<Matrix> parse_transform(std::string_view content) {
   if (!in.ok() || !in.at_end()) return wrong_length("TRANSFORM");
   if (!matrix.allFinite()) return fail(ErrorCode::invalid, "TRANSFORM: a number is not finite");
   return matrix;
+}
+
+std::string pack_position(const Matrix& matrix) {
+  BigEndianWriter out;
+  put_quaternion(out, matrix);
+  return std::move(out.bytes());
+}
+
+Result<Matrix> parse_position(std::string_view content) {
+  constexpr std::size_t kPlace = 12;   // bytes
+  constexpr std::size_t kPacked = 24;  // with x, y, z of the quaternion
+  constexpr std::size_t kWhole = 28;
+  BigEndianReader in(content);
+  const auto p = get_place(in);
+  std::array<double, 4> q{0, 0, 0, 1};
+  if (content.size() == kPacked || content.size() == kWhole)
+    for (std::size_t i = 0; i < (content.size() - kPlace) / 4; ++i)
+      q[i] = static_cast<double>(in.get<float>());
+  if (content.size() == kPacked)
+    q[3] = std::sqrt(std::max(0.0, 1 - q[0] * q[0] - q[1] * q[1] - q[2] * q[2]));
+  if (!in.ok() || !in.at_end()) return wrong_length("POSITION");
+  return placed(p, q[0], q[1], q[2], q[3], "POSITION");
+}
+
+std::string pack_tdata(const std::vector<TrackedTool>& tools) {
+  BigEndianWriter out;
+  for (const TrackedTool& tool : tools) {
+    out.put_padded(tool.name, kToolNameSize);
+    out.put(std::uint8_t{2});  // a tool with six degrees of freedom
+    out.put(std::uint8_t{0});
+    put_matrix(out, tool.matrix);
+  }
+  return std::move(out.bytes());
+}
+
+Result<std::vector<TrackedTool>> parse_tdata(std::string_view content) {
+  BigEndianReader in(content);
+  std::vector<TrackedTool> tools;
+  while (!in.at_end()) {
+    TrackedTool tool;
+    tool.name = in.get_padded(kToolNameSize);
+    static_cast<void>(in.get_bytes(2));
+    tool.matrix = get_matrix(in);
+    if (!in.ok()) return wrong_length("TDATA");
+    if (!tool.matrix.allFinite()) return fail(ErrorCode::invalid, "TDATA: a number is not finite");
+    tools.push_back(std::move(tool));
+  }
+  return tools;
+}
+
+std::string pack_qtdata(const std::vector<TrackedTool>& tools) {
+  BigEndianWriter out;
+  for (const TrackedTool& tool : tools) {
+    out.put_padded(tool.name, kToolNameSize);
+    out.put(std::uint8_t{2});
+    out.put(std::uint8_t{0});
+    put_quaternion(out, tool.matrix);
+  }
+  return std::move(out.bytes());
+}
+
+Result<std::vector<TrackedTool>> parse_qtdata(std::string_view content) {
+  BigEndianReader in(content);
+  std::vector<TrackedTool> tools;
+  while (!in.at_end()) {
+    TrackedTool tool;
+    tool.name = in.get_padded(kToolNameSize);
+    static_cast<void>(in.get_bytes(2));
+    const auto p = get_place(in);
+    std::array<double, 4> q{};
+    for (double& value : q) value = static_cast<double>(in.get<float>());
+    if (!in.ok()) return wrong_length("QTDATA");
+    const auto matrix = placed(p, q[0], q[1], q[2], q[3], "QTDATA");
+    ARTUS_TRY(matrix);
+    tool.matrix = *matrix;
+    tools.push_back(std::move(tool));
+  }
+  return tools;
+}
+
+std::string pack_start_tracking(std::string_view of, std::int32_t milliseconds) {
+  BigEndianWriter out;
+  out.put(milliseconds);
+  out.put_padded("", of == "QTDATA" ? 128 : 32);
+  return std::move(out.bytes());
 }
 
 std::string pack_image(const Image& image) {
@@ -212,6 +326,9 @@ Result<void> check_form(std::string_view type, std::string_view content) {
     return tl::unexpected<Error>(parsed.error());
   };
   if (type == "TRANSFORM") return form(parse_transform(content));
+  if (type == "POSITION") return form(parse_position(content));
+  if (type == "TDATA") return form(parse_tdata(content));
+  if (type == "QTDATA") return form(parse_qtdata(content));
   if (type == "STRING") return form(parse_string(content));
   if (type == "SENSOR") return form(parse_sensor(content));
   if (type == "STATUS") return form(parse_status(content));

@@ -22,6 +22,24 @@ using Matrix = Eigen::Matrix<double, 3, 4>;
 [[nodiscard]] std::string pack_transform(const Matrix& matrix);
 [[nodiscard]] Result<Matrix> parse_transform(std::string_view content);
 
+/// POSITION: a place and a quaternion, which may be left out (12 bytes) or packed without its w
+/// (24). invalid: a number that is not finite, a quaternion whose norm is not 0.9 to 1.1.
+[[nodiscard]] std::string pack_position(const Matrix& matrix);
+[[nodiscard]] Result<Matrix> parse_position(std::string_view content);
+
+/// TDATA and QTDATA: the tools of a tracker, each with its name and place. invalid: as above.
+struct TrackedTool {
+  std::string name;  ///< at most 20 bytes
+  Matrix matrix = Matrix::Zero();
+};
+[[nodiscard]] std::string pack_tdata(const std::vector<TrackedTool>& tools);
+[[nodiscard]] Result<std::vector<TrackedTool>> parse_tdata(std::string_view content);
+[[nodiscard]] std::string pack_qtdata(const std::vector<TrackedTool>& tools);
+[[nodiscard]] Result<std::vector<TrackedTool>> parse_qtdata(std::string_view content);
+/// STT_TDATA and STT_QTDATA: "send at most every so many milliseconds". `of`: "TDATA" or "QTDATA";
+/// the frame's name has 32 bytes in the first and 128 in the second.
+[[nodiscard]] std::string pack_start_tracking(std::string_view of, std::int32_t milliseconds);
+
 /// IMAGE: an 8-bit grey picture and where it lies.
 struct Image {
   int width = 0;   ///< pixels

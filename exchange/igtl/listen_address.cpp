@@ -9,6 +9,7 @@
 
 #include <netdb.h>
 #include <netinet/in.h>
+#include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -72,6 +73,36 @@ Result<int> open_listener(const ListenAddress& where) {
   if (socket >= 0) close(socket);
   return fail(error == EADDRINUSE ? ErrorCode::unreadable : ErrorCode::invalid,
               "cannot listen there: " + std::generic_category().message(error), text_of(where));
+}
+
+Result<int> open_connection(const ListenAddress& where, const std::function<bool()>& give_up) {
+  const auto refuse = [&](const std::string& why) {
+    return fail(ErrorCode::not_found, "cannot connect to " + text_of(where) + ": " + why);
+  };
+  addrinfo hints{};
+  hints.ai_socktype = SOCK_STREAM;
+  addrinfo* found = nullptr;
+  const std::string port = std::to_string(where.port);
+  const int code = getaddrinfo(where.address.c_str(), port.c_str(), &hints, &found);
+  if (code != 0) return refuse(gai_strerror(code));
+  const std::unique_ptr<addrinfo, decltype(&freeaddrinfo)> keep(found, &freeaddrinfo);
+  std::string why = "no answer";
+  for (const addrinfo* at = found; at != nullptr; at = at->ai_next) {
+    const int socket = ::socket(at->ai_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
+    if (socket < 0) continue;
+    int error = connect(socket, at->ai_addr, at->ai_addrlen) == 0 ? 0 : errno;
+    constexpr int kTurns = 20;  // of 100 ms
+    for (int turn = 0; error == EINPROGRESS && turn < kTurns && !give_up(); ++turn) {
+      pollfd waiting{socket, POLLOUT, 0};
+      if (poll(&waiting, 1, 100) <= 0) continue;
+      socklen_t size = sizeof error;
+      getsockopt(socket, SOL_SOCKET, SO_ERROR, &error, &size);
+    }
+    if (error == 0) return socket;
+    close(socket);
+    if (error != EINPROGRESS) why = std::generic_category().message(error);
+  }
+  return refuse(why);
 }
 
 int port_of(int socket) noexcept {

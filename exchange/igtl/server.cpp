@@ -62,7 +62,8 @@ Message started(const std::string& type, const std::string& device, bool can) {
 std::size_t largest_body(std::string_view type) noexcept {
   constexpr std::size_t kText = 256U << 10U;
   constexpr std::size_t kCommand = 1U << 20U;
-  constexpr std::array<std::string_view, 4> kTaken{"TRANSFORM", "STRING", "STATUS", "SENSOR"};
+  constexpr std::array<std::string_view, 7> kTaken{"TRANSFORM", "POSITION", "TDATA", "QTDATA",
+                                                   "STRING",    "STATUS",   "SENSOR"};
   if (type == "COMMAND") return kCommand;
   const std::string_view prefix = type.substr(0, 4);
   const bool question = prefix == "GET_" || prefix == "STT_" || prefix == "STP_";
@@ -78,12 +79,12 @@ Server::Server(int listener, int waker, Options options, OnMessage on_message)
       on_message_(std::move(on_message)) {}
 
 Result<std::unique_ptr<Server>> Server::listen(const Options& options, OnMessage on_message) {
-  const auto listener = open_listener(options.where);
+  const auto listener = options.connect_to ? Result<int>(-1) : open_listener(options.where);
   ARTUS_TRY(listener);
   const int waker = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
   if (waker < 0) {
     const int error = errno;
-    close(*listener);
+    if (*listener >= 0) close(*listener);
     return fail(ErrorCode::failed, std::generic_category().message(error));
   }
   std::unique_ptr<Server> server(new Server(*listener, waker, options, std::move(on_message)));
@@ -95,7 +96,7 @@ Server::~Server() {
   stop_ = true;
   eventfd_write(waker_, 1);
   if (thread_.joinable()) thread_.join();
-  close(listener_);
+  if (listener_ >= 0) close(listener_);
   close(waker_);
 }
 
@@ -166,14 +167,47 @@ void Server::accept_clients() {
            " clients are connected already");
       continue;
     }
-    const int on = 1;
-    const int buffer = 1 << 20;  // bytes that the system keeps for a slow client
-    setsockopt(socket, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
-    setsockopt(socket, SOL_SOCKET, SO_SNDBUF, &buffer, sizeof buffer);
-    links_.push_back(std::make_unique<ClientLink>(socket, name, largest_body, options_.limits));
-    n_clients_ = links_.size();
+    add_client(socket, name);
     tell(name + " connected");
   }
+}
+
+void Server::add_client(int socket, const std::string& name) {
+  const int on = 1;
+  const int buffer = 1 << 20;  // bytes that the system keeps for a slow client
+  setsockopt(socket, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
+  setsockopt(socket, SOL_SOCKET, SO_SNDBUF, &buffer, sizeof buffer);
+  links_.push_back(std::make_unique<ClientLink>(socket, name, largest_body, options_.limits));
+  n_clients_ = links_.size();
+}
+
+void Server::connect_out() {
+  constexpr std::int64_t kAgain = 1'000'000'000;  // ns
+  if (!options_.connect_to || !links_.empty() || now_ns() < next_try_ns_) return;
+  const ListenAddress& where = *options_.connect_to;
+  const auto socket = open_connection(where, [this] { return stop_.load(); });
+  next_try_ns_ = now_ns() + kAgain;
+  if (stop_) return;
+  if (!socket) return tell(socket.error().message + "; it is tried again each second");
+  const std::string name = where.address + ":" + std::to_string(where.port);
+  add_client(*socket, name);
+  tell("connected to " + name);
+  for (const char* type : {"TDATA", "QTDATA"}) {
+    Message ask;
+    ask.type = std::string("STT_") + type;
+    ask.device = "artus";
+    ask.time = utc_time_now();
+    ask.content = pack_start_tracking(type, 10);
+    links_.back()->answer(std::move(ask));
+  }
+}
+
+int Server::wait_ms() const {
+  constexpr int kLook = 4;  // ms, at what a slow reader has taken
+  constexpr int kTry = 100;
+  for (const auto& link : links_)
+    if (link->waits_for_reader()) return kLook;
+  return options_.connect_to && links_.empty() ? kTry : kPollMs;
 }
 
 void Server::answer(ClientLink& client, const Message& message) {
@@ -182,6 +216,8 @@ void Server::answer(ClientLink& client, const Message& message) {
   if (prefix == "STT_" || prefix == "STP_") {
     const auto& known = options_.on_request;
     const bool can = std::find(known.begin(), known.end(), of) != known.end();
+    if (!can && prefix == "STT_")
+      tell(client.peer() + " asked for " + of + ", which is not sent; TDATA, STRING, SENSOR are");
     if (can && prefix == "STT_") client.subscriptions().insert(of);
     if (prefix == "STP_") client.subscriptions().erase(of);
     client.answer(started(of, message.device, can));
@@ -217,9 +253,12 @@ void Server::run() {
     waiting.assign({{listener_, POLLIN, 0}, {waker_, POLLIN, 0}});
     for (const auto& link : links_)
       waiting.push_back(
-          {link->socket(), static_cast<short>(link->has_to_send() ? POLLIN | POLLOUT : POLLIN), 0});
+          {link->socket(),
+           static_cast<short>(link->has_to_send() && !link->waits_for_reader() ? POLLIN | POLLOUT
+                                                                               : POLLIN),
+           0});
     processor_ns_ = thread_processor_ns();
-    poll(waiting.data(), waiting.size(), kPollMs);
+    poll(waiting.data(), waiting.size(), wait_ms());
     eventfd_t count = 0;
     eventfd_read(waker_, &count);
     hand_out();
@@ -233,6 +272,7 @@ void Server::run() {
       }
     }
     if ((waiting[0].revents & POLLIN) != 0) accept_clients();
+    connect_out();
   }
 }
 

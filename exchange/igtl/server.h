@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -26,12 +27,15 @@ class Server {
     ClientLink::Limits limits;
     std::size_t max_clients = 64;
     /// Types that only those get who asked with STT_ (and until STP_).
-    std::vector<std::string> on_request{"STRING", "SENSOR"};
+    std::vector<std::string> on_request{"STRING", "SENSOR", "TDATA"};
+    /// Connects to a server of somebody else in place of listening (again each second while there
+    /// is none), and asks it for TDATA and QTDATA, which trackers send only when asked.
+    std::optional<ListenAddress> connect_to;
   };
   /// Called in the server's thread with each message that came whole; returns the answers.
   using OnMessage = std::function<std::vector<Message>(const Message&)>;
 
-  /// Errors: as open_listener.
+  /// Errors: as open_listener; none when it connects out.
   [[nodiscard]] static Result<std::unique_ptr<Server>> listen(const Options& options,
                                                               OnMessage on_message);
   /// Closes all connections.
@@ -58,18 +62,22 @@ class Server {
   Server(int listener, int waker, Options options, OnMessage on_message);
   void run();
   void accept_clients();
+  void connect_out();
+  void add_client(int socket, const std::string& name);
+  [[nodiscard]] int wait_ms() const;
   void serve(ClientLink& client, short events);
   void answer(ClientLink& client, const Message& message);
   void close_client(const ClientLink* client, const Error& why);
   void hand_out();
   [[nodiscard]] bool goes_to(const ClientLink& client, const std::string& type) const;
 
-  int listener_;
+  int listener_;  // -1: it connects out
   int waker_;
   int port_;
   Options options_;
   OnMessage on_message_;
   std::vector<std::unique_ptr<ClientLink>> links_;  // of the server's thread
+  std::int64_t next_try_ns_ = 0;                    // to connect out
   std::mutex mutex_;                                // of the three below
   std::vector<Message> published_;
   std::vector<std::string> notices_;

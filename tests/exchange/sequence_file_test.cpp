@@ -58,22 +58,17 @@ TEST(SequenceFile, HasTheFieldsThatOthersLookFor) {
   EXPECT_EQ(text.substr(text.find("ElementDataFile")).size(), 24U + 36U);
 }
 
-TEST(SequenceFile, GivesItsPosesBack) {
-  const auto poses = poses_of(some_sequence());
-  ASSERT_TRUE(poses) << poses.error().to_string();
-  ASSERT_EQ(poses->size(), 3U);
-  EXPECT_TRUE((*poses)[2].X_JP.translation().isApprox(Vec3(0.01, 0.004, 0)));
-  EXPECT_TRUE((*poses)[0].X_JN.has_value());
-  EXPECT_FALSE((*poses)[1].X_JN.has_value());
-}
-
-TEST(SequenceFile, AFrameThatTheTrackerDidNotSeeHasNoPose) {
-  std::string text = to_mha(some_sequence());
-  const std::string seen = "Seq_Frame0001_ProbeToReferenceTransformStatus = OK";
-  text.replace(text.find(seen), seen.size(), seen.substr(0, seen.size() - 2) + "INVALID");
-  const auto sequence = parse_mha(text, "x.igs.mha");
-  ASSERT_TRUE(sequence);
-  EXPECT_EQ(poses_of(*sequence)->size(), 2U);
+TEST(SequenceFile, IsTheSameCompressedAndSmaller) {
+  ImageSequence sent = some_sequence();
+  for (SequenceFrame& frame : sent.frames) frame.grey.assign(12, 9);
+  const std::string packed = to_mha(sent, PixelCoding::zlib);
+  const auto got = parse_mha(packed, "x.igs.mha");
+  ASSERT_TRUE(got) << got.error().to_string();
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(got->frames[i].grey, sent.frames[i].grey);
+  EXPECT_THAT(packed, HasSubstr("CompressedData = True\nCompressedDataSize = "));
+  std::string cut = packed;
+  cut.resize(cut.size() - 3);
+  EXPECT_THAT(parse_mha(cut, "x").error().message, HasSubstr("damaged"));
 }
 
 TEST(SequenceFile, SaysWhatItCannotRead) {
@@ -85,7 +80,7 @@ TEST(SequenceFile, SaysWhatItCannotRead) {
     return got ? std::string("taken") : got.error().to_string();
   };
   EXPECT_THAT(refusal("MET_UCHAR", "MET_SHORT"), HasSubstr("8-bit"));
-  EXPECT_THAT(refusal("CompressedData = False", "CompressedData = True"), HasSubstr("compressed"));
+  EXPECT_THAT(refusal("CompressedData = False", "CompressedData = True"), HasSubstr("damaged"));
   EXPECT_THAT(refusal("= LOCAL", "= x.raw"), HasSubstr("same file"));
   EXPECT_THAT(refusal("4 3 3", "4 3 4"), HasSubstr("fewer pixels"));
   EXPECT_THAT(refusal("4 3 3", "4 3"), HasSubstr("DimSize"));
@@ -93,6 +88,11 @@ TEST(SequenceFile, SaysWhatItCannotRead) {
   EXPECT_THAT(refusal("4 3 3", "1e9 1e9 9"), HasSubstr("DimSize"));
   EXPECT_THAT(refusal("-1 0 0 -10", "x"), HasSubstr("16 numbers"));
   EXPECT_THAT(refusal("NDims = 3", "NDims"), HasSubstr("x.igs.mha:2"));
+  std::string two = good;
+  two.replace(two.find("MET_UCHAR"), 9, "MET_SHORT");
+  two.replace(two.find("= LOCAL"), 7, "= x.raw");
+  EXPECT_THAT(parse_mha(two, "x").error().message,
+              testing::AllOf(HasSubstr("8-bit"), HasSubstr("same file")));
   EXPECT_FALSE(parse_mha("", "empty"));
   EXPECT_FALSE(parse_mha(good.substr(0, 100), "cut"));
 }
