@@ -11,6 +11,7 @@
 #include "artus/detail/reports/mark_words.h"
 #include "artus/detail/trainer/lesson.h"
 #include "artus/detail/viewer/words/anatomy_names.h"
+#include "artus/detail/viewer/words/system_words.h"
 
 namespace artus {
 namespace {
@@ -121,6 +122,21 @@ void add_verdict(const TrainOutcome& outcome, Language language, std::vector<Pag
                                translate(language, mark.held ? msgid("met") : msgid("missed"))}),
                      mark.held ? Tone::good : Tone::bad});
   }
+}
+
+/// What was left out of the numbers, so that nobody wonders.
+void add_left_out(const AttemptMeasures& measures, Language language,
+                  std::vector<PageLine>& lines) {
+  const auto poses = static_cast<long>(measures.needle_left_out + measures.probe_left_out);
+  if (poses == 0) return;
+  lines.push_back({fill(translate_count(language,
+                                        "{} pose was left out: no hand moves so fast. A tracker "
+                                        "that flips its marker does this.",
+                                        "{} poses were left out: no hand moves so fast. A tracker "
+                                        "that flips its marker does this.",
+                                        poses),
+                        {std::to_string(poses)}),
+                   Tone::dim});
 }
 
 }  // namespace
@@ -281,6 +297,7 @@ Page make_end_page(const TrainOutcome& outcome, const std::string& next, Languag
                           : all_held && judgement.with_aids ? msgid("Not passed: aids were on")
                                                             : msgid("Not passed"));
   add_verdict(outcome, language, page.lines);
+  add_left_out(outcome.played.measures, language, page.lines);
   page.lines.push_back(
       {fill(translate(language, "Report: {}"), {outcome.report.string()}), Tone::dim});
   std::vector<PageLine> about;
@@ -302,6 +319,19 @@ Page make_end_page(const TrainOutcome& outcome, const std::string& next, Languag
         msgid("Someone else"), msgid("Leave")})
     page.choices.push_back(
         {fill(translate(language, choice), {next}), "", Tone::plain, about, nullptr});
+  return page;
+}
+
+Page make_preparing_page(TrainBodies& bodies, std::function<bool()> done, Language language) {
+  Page page = make_busy_page(msgid("The body is being prepared ..."), std::move(done), language);
+  page.lines = {
+      {translate(language, "This is done once for each patient, and kept. It can take minutes.")}};
+  page.bar = [&bodies, language] {
+    const auto [step, fraction] = bodies.progress();
+    return std::pair(said_by_system(language, step), fraction);
+  };
+  page.may_back = true;
+  page.choices = {{translate(language, "Cancel"), "", Tone::plain, {}, nullptr}};
   return page;
 }
 

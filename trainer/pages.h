@@ -59,5 +59,8 @@ enum class AfterAttempt { review, again, next, other, who, leave };
 
 /// "Wait": until `done`.
 [[nodiscard]] Page make_busy_page(const char* what, std::function<bool()> done, Language language);
+/// The same while a body is made: with a bar, and a way to give it up.
+[[nodiscard]] Page make_preparing_page(TrainBodies& bodies, std::function<bool()> done,
+                                       Language language);
 
 }  // namespace artus

@@ -18,8 +18,6 @@
 namespace artus {
 namespace {
 
-constexpr int kBusyTimeout = 10000;  // ms
-
 /// What brings a file from one form to the next; user_version counts how many were run.
 constexpr auto kMigrations = record_schemas();
 
@@ -150,12 +148,12 @@ Records::~Records() = default;
 Records::Records(Records&&) noexcept = default;
 Records& Records::operator=(Records&&) noexcept = default;
 
-Result<Records> Records::open(const std::filesystem::path& file) {
+Result<Records> Records::open(const std::filesystem::path& file, int patience_ms) {
   std::error_code ignored;
   if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), ignored);
   return guarded(file.string(), [&]() -> Result<Records> {
     auto db = std::make_unique<SQLite::Database>(
-        file.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, kBusyTimeout);
+        file.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, patience_ms);
     for (const char* choice : {"foreign_keys = ON", "journal_mode = WAL", "synchronous = FULL"})
       db->exec(std::string("PRAGMA ") + choice);
     ARTUS_TRY(migrate(*db));

@@ -114,6 +114,7 @@ class PageWindow::Shown {
     ImGui::SetWindowFontScale(1);
     ImGui::Dummy(ImVec2(0, 4 * gui_.scale()));
     draw_lines(page_.lines);
+    draw_bar();
     ImGui::Dummy(ImVec2(0, 4 * gui_.scale()));
     const float right = ImGui::GetWindowContentRegionMax().x;
     for (std::size_t i = 0; i < page_.choices.size(); ++i) {
@@ -132,6 +133,15 @@ class PageWindow::Shown {
       ImGui::PopStyleColor();
     }
     scroll_ = false;
+  }
+
+  /// How far what is waited for has come, and since when.
+  void draw_bar() {
+    if (!page_.bar) return;
+    const auto [step, fraction] = page_.bar();
+    ImGui::ProgressBar(static_cast<float>(std::clamp(fraction, 0.0, 1.0)),
+                       ImVec2(0.9F * ImGui::GetContentRegionAvail().x, 0));
+    draw_lines({{step, Tone::dim}});
   }
 
   void draw_right() {
