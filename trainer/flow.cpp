@@ -337,6 +337,12 @@ class TrainFlow {
     return *back ? Next::end : Next::leave;
   }
 
+  /// The report in whatever shows pages on this machine; the verdict stays.
+  Result<Next> open_report() {
+    ARTUS_TRY(open_file(outcome_.report));
+    return Next::end;
+  }
+
   Result<Next> end() {
     const auto next = next_task();
     ARTUS_TRY(next);
@@ -358,6 +364,8 @@ class TrainFlow {
         return Next::what;
       case AfterAttempt::who:
         return Next::who;
+      case AfterAttempt::report:
+        return open_report();
       case AfterAttempt::leave:
         break;
     }

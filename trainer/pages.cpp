@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <ctime>
+#include <iomanip>
+#include <sstream>
 #include <utility>
 
 #include "artus/detail/core/units.h"
@@ -124,6 +127,20 @@ void add_verdict(const TrainOutcome& outcome, Language language, std::vector<Pag
   }
 }
 
+/// "2026-01-31 13:00" by this machine's clock of "2026-01-31T12:00:00Z".
+std::string local_time(const std::string& utc) {
+  std::tm parts{};
+  std::istringstream text(utc);
+  text >> std::get_time(&parts, "%Y-%m-%dT%H:%M:%SZ");
+  if (text.fail()) return utc;
+  const std::time_t time = timegm(&parts);
+  std::tm here{};
+  localtime_r(&time, &here);
+  std::ostringstream out;
+  out << std::put_time(&here, "%Y-%m-%d %H:%M");
+  return out.str();
+}
+
 /// What was left out of the numbers, so that nobody wonders.
 void add_left_out(const AttemptMeasures& measures, Language language,
                   std::vector<PageLine>& lines) {
@@ -155,7 +172,7 @@ Page make_who_page(const std::vector<KnownLearner>& learners, Language language)
          {{fill(translate_count(language, "{} attempt, {} passed; last: {}",
                                 "{} attempts, {} passed; last: {}", tally.attempts),
                 {std::to_string(tally.attempts), std::to_string(tally.passes),
-                 tally.last.empty() ? "-" : tally.last})}},
+                 tally.last.empty() ? "-" : local_time(tally.last)})}},
          nullptr});
   }
   page.choices.push_back({translate(language, "Someone new"), "", Tone::good, {}, nullptr});
@@ -213,10 +230,8 @@ Page make_earlier_page(const std::vector<EarlierAttempt>& attempts, Language lan
     const char* const how = record.passed  ? msgid("Passed")
                             : record.aided ? msgid("Not passed: aids were on")
                                            : msgid("Not passed");
-    std::string when = record.started;
-    std::replace(when.begin(), when.end(), 'T', ' ');
     page.choices.push_back({title,
-                            when,
+                            local_time(record.started),
                             record.passed ? Tone::good : Tone::plain,
                             {{translate(language, how)},
                              {fill(translate(language, "Score {} of 100, {} s"),
@@ -316,7 +331,7 @@ Page make_end_page(const TrainOutcome& outcome, const std::string& next, Languag
   about.push_back({in_words(feedback.next)});
   for (const char* const choice :
        {msgid("Review the attempt"), msgid("Try again"), msgid("Next: {}"), msgid("Another task"),
-        msgid("Someone else"), msgid("Leave")})
+        msgid("Someone else"), msgid("Open the report"), msgid("Leave")})
     page.choices.push_back(
         {fill(translate(language, choice), {next}), "", Tone::plain, about, nullptr});
   return page;

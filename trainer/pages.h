@@ -52,7 +52,7 @@ struct BriefingChoice {
                                       const KeyMap& keys, Language language);
 
 /// What can be done after an attempt, in the page's order.
-enum class AfterAttempt { review, again, next, other, who, leave };
+enum class AfterAttempt { review, again, next, other, who, report, leave };
 /// How it went; `next`: title of the task that follows.
 [[nodiscard]] Page make_end_page(const TrainOutcome& outcome, const std::string& next,
                                  Language language);

@@ -2,7 +2,14 @@
 #include "artus/detail/trainer/trouble.h"
 
 #include <algorithm>
+#include <array>
 #include <initializer_list>
+#include <string>
+#include <thread>
+
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "artus/detail/viewer/words/system_words.h"
 
@@ -47,6 +54,21 @@ Page make_trouble_page(const Error& error, const char* safe, bool may_go_on, Lan
     page.choices.push_back({translate(language, "Another task"), "", Tone::plain, {}, nullptr});
   page.choices.push_back({translate(language, "Leave"), "", Tone::plain, {}, nullptr});
   return page;
+}
+
+Result<void> open_file(const std::filesystem::path& file) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(file, ignored))
+    return fail(ErrorCode::not_found, "there is no such file", file.string());
+  std::string opener = "xdg-open";
+  std::string name = file.string();
+  std::array<char*, 3> arguments{opener.data(), name.data(), nullptr};
+  pid_t child = 0;
+  if (posix_spawnp(&child, opener.c_str(), nullptr, nullptr, arguments.data(), environ) != 0)
+    return fail(ErrorCode::failed, "no program opens it here (xdg-open is not installed)",
+                file.string());
+  std::thread([child] { waitpid(child, nullptr, 0); }).detach();
+  return {};
 }
 
 Result<TrainDesk> open_desk(Screen& screen, const PageOptions& pages,

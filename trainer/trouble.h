@@ -18,6 +18,10 @@ enum class AfterTrouble { again, other, leave };
 /// What to do about a failure, in English: the first step that a person can take.
 [[nodiscard]] const char* remedy_of(const Error& error) noexcept;
 
+/// Opens a file in the desktop's own program, and does not wait for it. Errors: not_found (the
+/// file), failed (there is no desktop program that opens it).
+[[nodiscard]] Result<void> open_file(const std::filesystem::path& file);
+
 /// The records, asked for in the window until they open. Errors: those of TrainDesk::open, when
 /// someone leaves.
 [[nodiscard]] Result<TrainDesk> open_desk(Screen& screen, const PageOptions& pages,

@@ -147,6 +147,12 @@ TEST(Trouble, EachFailureHasItsRemedy) {
   EXPECT_EQ(page.name, "trouble");
 }
 
+TEST(Trouble, AReportThatIsGoneIsToldAndNotOpened) {
+  const auto opened = open_file("/nowhere/report.html");
+  ASSERT_FALSE(opened);
+  EXPECT_EQ(opened.error().code, ErrorCode::not_found);
+}
+
 TEST(TrainBodies, WhatIsGivenUpEndsAtItsNextStepAndIsMadeAnewWhenAskedFor) {
   using namespace std::chrono_literals;
   const auto gel = find_scenario("gel-find");

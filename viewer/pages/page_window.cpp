@@ -121,6 +121,11 @@ class PageWindow::Shown {
       const PageChoice& choice = page_.choices[i];
       const std::string name = choice.name + "###choice" + std::to_string(i);
       ImGui::PushStyleColor(ImGuiCol_Text, colour_of(choice.tone));
+      // What is chosen stands out more than what the pointer passes.
+      ImGui::PushStyleColor(ImGuiCol_Header, ImVec4(0.22F, 0.42F, 0.75F, 0.95F));
+      ImGui::PushStyleColor(ImGuiCol_HeaderHovered, i == page_.at
+                                                        ? ImVec4(0.24F, 0.46F, 0.80F, 1)
+                                                        : ImVec4(0.20F, 0.24F, 0.32F, 0.8F));
       if (ImGui::Selectable(name.c_str(), i == page_.at))
         answer_ = PageAnswer{PageAnswer::Kind::chosen, i};
       const ImVec2 path = ImGui::GetIO().MouseDelta;
@@ -130,7 +135,7 @@ class PageWindow::Shown {
         ImGui::SameLine(right - ImGui::CalcTextSize(choice.beside.c_str()).x);
         ImGui::TextUnformatted(choice.beside.c_str());
       }
-      ImGui::PopStyleColor();
+      ImGui::PopStyleColor(3);
     }
     scroll_ = false;
   }
