@@ -26,6 +26,7 @@ void add_commands(Command& app, ExitCode& code) {
   add_assess_command(app, code);
   add_learners_command(app, code);
   add_rate_command(app.subcommand("learners"), code);
+  add_study_command(app.subcommand("learners"), code);
 
   app.group("For researchers");
   add_sweep_command(app, code);

@@ -33,6 +33,7 @@ void add_scenario_command(Command& app, ExitCode& code);
 void add_serve_command(Command& app, ExitCode& code);
 void add_shm_monitor_command(Command& serve, ExitCode& code);
 void add_slice_command(Command& image, ExitCode& code);
+void add_study_command(Command& learners, ExitCode& code);
 void add_sweep_command(Command& app, ExitCode& code);
 void add_sweep_merge_command(Command& sweep, ExitCode& code);
 void add_sweep_stats_command(Command& sweep, ExitCode& code);

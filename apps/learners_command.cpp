@@ -8,6 +8,7 @@
 #include "artus/detail/apps/options/window_options.h"
 #include "artus/detail/core/text_file.h"
 #include "artus/detail/reports/attempt_page.h"
+#include "artus/detail/training/judgement.h"
 #include "artus/detail/training/norms.h"
 #include "artus/detail/training/record_export.h"
 
@@ -49,10 +50,10 @@ Result<void> show(Records& records, const LearnersOptions& options) {
     return {};
   }
   for (const AttemptRecord& a : *attempts)
-    std::printf("%s  %s  %-16s %-18s %s  score %.0f%s\n", a.id.c_str(), a.started.c_str(),
+    std::printf("%s  %s  %-16s %-18s %s  score %d%s\n", a.id.c_str(), a.started.c_str(),
                 a.person.empty() ? "(forgotten)" : a.person.c_str(), a.scenario.c_str(),
-                a.ended.empty() ? "unfinished" : (a.passed ? "passed" : "failed"), a.score,
-                a.aided ? "  with aids" : "");
+                a.ended.empty() ? "unfinished" : (a.passed ? "passed" : "failed"),
+                whole_points(a.score), a.aided ? "  with aids" : "");
   return {};
 }
 
@@ -80,8 +81,9 @@ Result<void> list(Records& records, const LearnersOptions& options) {
                       {"passed", passed},
                       {"unfinished", unfinished}});
     else
-      std::printf("%-18s %-8s %-12s %4d attempts, %d passed, %d unfinished\n", p.id.c_str(),
-                  p.role.c_str(), p.cohort.c_str(), total, passed, unfinished);
+      std::printf("%-18s %-8s %-12s %4d %s, %d passed, %d unfinished\n", p.id.c_str(),
+                  p.role.c_str(), p.cohort.c_str(), total, total == 1 ? "attempt" : "attempts",
+                  passed, unfinished);
   }
   if (options.json) std::cout << json.dump(2) << '\n';
   return {};

@@ -48,7 +48,7 @@ Result<OperatorSkill> skill_of(const std::string& text) {
 
 void print(const PlayedAttempt& attempt) {
   const Judgement& j = attempt.judgement;
-  std::printf("%s, score %.0f, %.1f s\n", j.passed ? "passed" : "not passed", j.score,
+  std::printf("%s, score %d, %.1f s\n", j.passed ? "passed" : "not passed", whole_points(j.score),
               attempt.duration);
   for (const JudgedMark& m : j.marks)
     std::printf("  %-20s %-8s %10.3f  %s\n", m.mark.metric.c_str(), m.mark.text.c_str(),

@@ -68,6 +68,7 @@ nlohmann::json to_json(const Difficulty& d) {
           {"expert_played", d.expert.played},
           {"expert_passes", d.expert.passes},
           {"expert_score", d.expert.score},
+          {"expert_missed", d.expert.missed},
           {"novice_played", d.novice.played},
           {"novice_passes", d.novice.passes},
           {"novice_score", d.novice.score},
@@ -109,6 +110,10 @@ void print(const Checked& c) {
   }
   std::printf("%s\n", c.good() ? "good" : "NOT GOOD");
   for (const std::string& problem : c.problems) std::printf("  %s\n", problem.c_str());
+  if (c.difficulty && !c.good())
+    for (const Fared* fared : {&c.difficulty->rigid.expert, &c.difficulty->soft.expert})
+      for (const std::string& missed : fared->missed)
+        std::printf("  experts: %s\n", missed.c_str());
   if (c.difficulty && c.difficulty->soft.broken() > 0)
     std::printf("  liquid leaves the body broken in %d of %d attempts; the first:\n%s",
                 c.difficulty->soft.broken(),

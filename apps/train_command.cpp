@@ -11,6 +11,7 @@
 #include "artus/detail/apps/training_commands.h"
 #include "artus/detail/core/text_file.h"
 #include "artus/detail/trainer/flow.h"
+#include "artus/detail/trainer/trouble.h"
 #include "artus/detail/training/patient_plans.h"
 #include "artus/detail/viewer/input/window_events.h"
 
@@ -112,8 +113,6 @@ Result<void> train(TrainCommandOptions options) {
   }
   auto scenarios = scenarios_of(options);
   ARTUS_TRY(scenarios);
-  auto desk = TrainDesk::open(options.records, options.attempts);
-  ARTUS_TRY(desk);
   options.window.language = language_of(options.language);
   Interrupts interrupts;
   options.window.asked_to_close = [&interrupts] {
@@ -125,6 +124,10 @@ Result<void> train(TrainCommandOptions options) {
   ARTUS_TRY(screen);
   auto keys = keys_of(options.window);
   ARTUS_TRY(keys);
+  PageOptions pages{options.window.language, std::move(*keys), options.window.font_scale, &script,
+                    options.window.asked_to_close};
+  auto desk = open_desk(**screen, pages, options.records, options.attempts);
+  ARTUS_TRY(desk);
   RemoteTurns turns;
   RemoteScenario remote;
   remote.refuse("nobody has said yet who trains");
@@ -135,13 +138,12 @@ Result<void> train(TrainCommandOptions options) {
   ARTUS_TRY(link);
   const auto setup = setup_of(options.session, *tracker);
   ARTUS_TRY(setup);
-  const SceneLoader load = [](const Scenario& scenario, const std::filesystem::path& joint) {
-    return load_scene(scenario, joint, make_progress_printer(true));
+  const SceneLoader load = [](const Scenario& scenario, const std::filesystem::path& joint,
+                              const Progress& progress) {
+    return load_scene(scenario, joint, progress);
   };
   const TrainContext room{screen->get(),   &*desk,  &*setup,     load,
                           &options.window, &script, link->get(), &turns};
-  PageOptions pages{options.window.language, std::move(*keys), options.window.font_scale, &script,
-                    options.window.asked_to_close};
   return run_training(options.train, room, std::move(pages), std::move(*scenarios), remote);
 }
 

@@ -9,7 +9,10 @@ namespace {
 constexpr const char* kSentences[] = {
     // NOLINT(*-avoid-c-arrays)
     // what, before its value
+    msgid("entered a structure that must never be entered"),
     msgid("entered a structure to avoid"),
+    msgid("time until the needle was out"),
+    msgid("the needle was left in the patient"),
     msgid("advanced without seeing the tip"),
     msgid("bone contacts"),
     msgid("distance from the target"),
@@ -29,6 +32,8 @@ constexpr const char* kSentences[] = {
     msgid("it was in the picture for {} s, and not in its middle for {} s on end"),
     msgid("it was never in the picture while it was asked for"),
     msgid("the tip was not seen"),
+    msgid("the tip was {} mm deep at the end"),
+    msgid("the time limit was over"),
     msgid("the tip was {} mm in front of the plane"),
     msgid("the tip was {} mm behind the plane"),
     msgid("the needle stood at {} degrees to the probe's face: {} dB lost to the angle"),
@@ -54,6 +59,8 @@ constexpr const char* kSentences[] = {
     msgid(
         "Stop when you lose the tip. Find the needle with the beam: move the probe, then advance."),
     msgid("Stop when you lose the tip. Tilt the probe until it is back, then advance."),
+    msgid("Find this structure in the picture first. Choose a path that passes it."),
+    msgid("Withdraw the needle before you end the attempt."),
     msgid("Slow down to less than 5 mm/s in the last centimetre."),
     msgid("Before you stop, look where the tip is, not where it should be."),
     msgid("Inject half a ml and look: the line must open."),
@@ -73,6 +80,7 @@ constexpr const char* kSentences[] = {
     msgid("You reached the target in a single pass."),
     msgid("Your probe hand was steady."),
     // what is next
+    msgid("Repeat this task with the aids until all marks hold."),
     msgid("Do the same task again without aids: only that counts."),
     msgid("Repeat it once to make sure, then go to the next level."),
     msgid("Repeat this task."),

@@ -108,6 +108,14 @@ void HtmlPage::close_card() {
   body_ += "</div>\n";
 }
 
+void HtmlPage::open_details(const std::string& summary) {
+  body_ += "<details><summary>" + escape_markup(summary) + "</summary>\n";
+}
+
+void HtmlPage::close_details() {
+  body_ += "</details>\n";
+}
+
 void HtmlPage::table(const std::vector<Column>& columns,
                      const std::vector<std::vector<std::string>>& rows) {
   const bool told =

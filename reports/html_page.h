@@ -33,6 +33,9 @@ class HtmlPage {
   /// A card that pictures and points stand in, with a heading.
   void open_card(const std::string& text);
   void close_card();
+  /// What most need not see: it opens by a click, without script.
+  void open_details(const std::string& summary);
+  void close_details();
   /// Head cells with what they mean, shown below the table.
   struct Column {
     std::string name;

@@ -5,15 +5,18 @@
 #include <map>
 #include <memory>
 #include <numeric>
+#include <set>
 
 #include "artus/detail/core/plot.h"
 #include "artus/detail/core/text_file.h"
 #include "artus/detail/reports/attempt_page.h"
 #include "artus/detail/reports/html_page.h"
+#include "artus/detail/reports/mark_words.h"
 #include "artus/detail/training/judgement.h"
 #include "artus/detail/training/learning_curve.h"
 #include "artus/detail/training/learning_fit.h"
 #include "artus/detail/training/metrics/sight_course.h"
+#include "artus/detail/training/scenario.h"
 
 namespace artus {
 namespace {
@@ -189,6 +192,97 @@ void add_curve(HtmlPage& page, const std::string& scenario, const std::vector<Tr
                translate(page, "share of the learners who failed at their n-th attempt"));
 }
 
+/// The scenarios that come with artus by name, for their titles and order.
+std::vector<Scenario> offered() {
+  std::vector<Scenario> all;
+  for (const std::string_view text : bundled_scenario_texts())
+    if (auto scenario = parse_scenario(text, "bundled")) all.push_back(std::move(*scenario));
+  return all;
+}
+
+std::string title_of(const std::vector<Scenario>& all, const std::string& name, Language language) {
+  for (const Scenario& scenario : all)
+    if (scenario.name == name) return title_words(language, scenario);
+  return name;
+}
+
+/// The first scenario after one that someone has not passed.
+std::string next_of(const std::vector<Scenario>& all, const std::set<std::string>& passed) {
+  for (const Scenario& scenario : all)
+    if (passed.count(scenario.name) == 0) return scenario.name;
+  return "";
+}
+
+/// The mark that most of the last failures missed: what someone is stuck on. Empty: none.
+Result<std::string> stuck_on(Records& records, const std::vector<AttemptRecord>& own,
+                             const Scenario& scenario, Language language) {
+  constexpr std::size_t kLast = 5;
+  const auto values = records.metrics({own.back().person, "", scenario.name});
+  ARTUS_TRY(values);
+  std::map<std::string, std::vector<Metric>> metrics;
+  for (const MetricValue& m : *values)
+    metrics[m.attempt].push_back({m.name, m.role, m.unit, m.value, "", {}});
+  std::map<std::string, int> missed;
+  std::size_t looked = 0;
+  for (auto a = own.rbegin(); a != own.rend() && looked < kLast; ++a) {
+    if (a->ended.empty() || a->passed) continue;
+    ++looked;
+    for (const JudgedMark& mark : judge(metrics[a->id], scenario.pass, {}, false).marks)
+      missed[mark.mark.metric] += mark.held ? 0 : 1;
+  }
+  const auto most =
+      std::max_element(missed.begin(), missed.end(),
+                       [](const auto& a, const auto& b) { return a.second < b.second; });
+  if (most == missed.end() || most->second == 0) return std::string();
+  return metric_words(language, most->first);
+}
+
+using Groups = std::map<std::pair<std::string, std::string>, std::vector<AttemptRecord>>;
+
+/// What a teacher decides by: for each learner the scenario of the last attempt, whether it is
+/// passed, what most of its failures missed, and what is next.
+Result<void> add_stuck(HtmlPage& page, Records& records, const Groups& groups) {
+  const Language language = page.language();
+  const std::vector<Scenario> all = offered();
+  std::map<std::string, std::set<std::string>> passed;
+  std::map<std::string, const std::vector<AttemptRecord>*> latest;
+  for (const auto& [key, own] : groups) {
+    if (key.second.empty()) continue;
+    for (const AttemptRecord& a : own)
+      if (a.passed) passed[key.second].insert(a.scenario);
+    const auto*& last = latest[key.second];
+    if (last == nullptr || last->back().started < own.back().started) last = &own;
+  }
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& [person, own] : latest) {
+    const std::string& name = own->back().scenario;
+    const bool done = passed[person].count(name) != 0;
+    std::string why;
+    const auto known =
+        std::find_if(all.begin(), all.end(), [&](const Scenario& s) { return s.name == name; });
+    if (!done && known != all.end()) {
+      auto told = stuck_on(records, *own, *known, language);
+      ARTUS_TRY(told);
+      why = *told;
+    }
+    const std::string next = done ? next_of(all, passed[person]) : name;
+    rows.push_back({person, title_of(all, name, language), std::to_string(own->size()),
+                    done          ? translate(page, "passed")
+                    : why.empty() ? "-"
+                                  : why,
+                    next.empty() ? "-" : title_of(all, next, language)});
+  }
+  page.heading(translate(page, "Where each one stands"));
+  page.table({{translate(page, "learner"), ""},
+              {translate(page, "last task"), "", true},
+              {translate(page, "attempts"), translate(page, "unfinished and aided ones, too")},
+              {translate(page, "stuck on"),
+               translate(page, "the mark that most of the last five failures missed"), true},
+              {translate(page, "next task"), "", true}},
+             rows);
+  return {};
+}
+
 }  // namespace
 
 Result<void> write_learner_page(Records& records, const std::string& person, Language language,
@@ -218,6 +312,7 @@ Result<void> write_cohort_page(Records& records, const std::string& cohort, Lang
   std::map<std::string, std::map<std::string, std::vector<AttemptRecord>>> scenarios;
   for (const auto& [key, own] : groups)
     if (!key.second.empty()) scenarios[key.first][key.second] = own;
+  ARTUS_TRY(add_stuck(page, records, groups));
   for (const auto& [scenario, learners] : scenarios)
     add_curve(page, scenario, count_trials(learners));
   std::vector<std::vector<std::string>> rows;
@@ -249,13 +344,14 @@ Result<void> write_cohort_page(Records& records, const std::string& cohort, Lang
                     number(language, percentile(values, 0.1).value_or(0), 2),
                     number(language, percentile(values, 0.5).value_or(0), 2),
                     number(language, percentile(values, 0.9).value_or(0), 2)});
-  page.heading(translate(page, "Numbers of all attempts"));
+  page.open_details(translate(page, "Numbers of all attempts"));
   page.table({{translate(page, "metric"), ""},
               {"n", ""},
               {"p10", ""},
               {translate(page, "median"), ""},
               {"p90", ""}},
              rows);
+  page.close_details();
   return write_text(file, page.text());
 }
 

@@ -13,7 +13,7 @@ struct Named {
   const char* words;
 };
 
-constexpr std::array<Named, 27> kMetrics{{
+constexpr std::array<Named, 29> kMetrics{{
     {"found", msgid("structures shown")},
     {"find_s", msgid("time until all were shown, s")},
     {"distance_mm", msgid("tip from the target, mm")},
@@ -22,6 +22,8 @@ constexpr std::array<Named, 27> kMetrics{{
     {"unseen_mm", msgid("advanced without seeing the tip, mm")},
     {"passes", msgid("passes of the needle")},
     {"redirections", msgid("redirections of the needle")},
+    {"withdrawn", msgid("needle withdrawn at the end")},
+    {"done_s", msgid("time until the needle was out, s")},
     {"time_s", msgid("time with the needle in, s")},
     {"bone_contacts", msgid("bone contacts")},
     {"bone_peak_n", msgid("force on bone, N")},

@@ -48,9 +48,11 @@ Result<bool> show(const TrainContext& room, const TrainTask& task, TrainLesson& 
   return report.finished;
 }
 
-/// The session from its start to its end; what was measured rests then.
+/// The session from its start to its end; what was measured rests then. `unrecorded`: why its
+/// recording is not whole.
 Result<bool> work(const TrainContext& room, const TrainTask& task, const SessionParams& params,
-                  LiveAttempt& meter, const std::filesystem::path& recording) {
+                  LiveAttempt& meter, const std::filesystem::path& recording,
+                  std::string& unrecorded) {
   HandDevice* hand = nullptr;
   std::unique_ptr<InputDevice> device;
   if (room.setup->make_device) {
@@ -80,7 +82,8 @@ Result<bool> work(const TrainContext& room, const TrainTask& task, const Session
   auto finished = show(room, task, lesson, **session, hand);
   if (room.link != nullptr) room.link->attach(nullptr);
   (*session)->stop();
-  ARTUS_TRY((*session)->recorded());
+  if (const auto recorded = (*session)->recorded(); !recorded)
+    unrecorded = recorded.error().message;
   return finished;
 }
 
@@ -90,6 +93,8 @@ Result<void> judge_outcome(TrainDesk& desk, const Scenario& scenario, TrainOutco
   played.judgement =
       judge(played.measures.metrics, scenario.pass, scenario.score, out.record.aided);
   const auto& ticks = played.recording.ticks;
+  const auto& needle = played.measures.needle;
+  if (ticks.empty() && !needle.empty()) played.duration = needle.back().time - needle.front().time;
   if (!ticks.empty())
     played.duration = static_cast<double>(ticks.back().input.tick - ticks.front().input.tick) /
                       played.recording.head.params.haptic_rate;
@@ -114,16 +119,24 @@ Result<TrainOutcome> run_attempt(const TrainContext& room, const TrainTask& task
   ARTUS_TRY(record);
   out.record = *record;
   const std::filesystem::path folder = out.record.folder;
-  const auto finished = work(room, task, *params, meter, folder / "session.rec");
+  const auto finished = work(room, task, *params, meter, folder / "session.rec", out.unrecorded);
   ARTUS_TRY(finished);
   out.finished = *finished;
   if (!out.finished) return out;
-  auto recording = read_recording(folder / "session.rec");
-  ARTUS_TRY(recording);
-  out.played.recording = std::move(*recording);
+  if (auto recording = read_recording(folder / "session.rec")) {
+    out.played.recording = std::move(*recording);
+  } else {
+    out.played.recording.head = make_head(task.scene->joint(), *params);
+    if (out.unrecorded.empty()) out.unrecorded = recording.error().message;
+  }
   out.played.measures = meter.measure();
   for (const std::string& step : task.asked)
     out.played.measures.events.push_back({0, step, "", 0, "answered before the attempt"});
+  return out;
+}
+
+Result<void> keep_attempt(const TrainContext& room, const TrainTask& task, TrainOutcome& out) {
+  const std::filesystem::path folder = out.record.folder;
   ARTUS_TRY(judge_outcome(*room.desk, task.scenario, out));
   ARTUS_TRY(write_attempt_files(task.scenario, out.played, folder));
   const auto norms = room.desk->norms(out.record);
@@ -131,8 +144,7 @@ Result<TrainOutcome> run_attempt(const TrainContext& room, const TrainTask& task
   ARTUS_TRY(write_attempt_page(
       {task.scenario, task.scene, out.played, out.feedback, *norms, room.window->language},
       out.report));
-  ARTUS_TRY(room.desk->finish(out.record, out.played));
-  return out;
+  return room.desk->finish(out.record, out.played);
 }
 
 Result<TrainOutcome> read_attempt(TrainDesk& desk, const TrainTask& task,

@@ -60,12 +60,17 @@ struct TrainOutcome {
   PlayedAttempt played;
   Feedback feedback;             ///< with what this person did before
   std::filesystem::path report;  ///< the page that was written
+  std::string unrecorded;        ///< why the recording is not whole; empty: it is
 };
 
-/// Lets a person do a task in the window, judges it by what was measured meanwhile, and keeps
-/// recording, numbers, page and record. Errors: those of the session, the window, the files and the
-/// records.
+/// Lets a person do a task in the window; what was measured meanwhile is in the outcome, whatever
+/// becomes of its recording. Errors: those of the session, the window and the records.
 [[nodiscard]] Result<TrainOutcome> run_attempt(const TrainContext& room, const TrainTask& task);
+
+/// Judges an attempt that was finished and stores numbers, page and record. One that failed may be
+/// called again: nothing of the outcome is lost. Errors: those of the files and the records.
+[[nodiscard]] Result<void> keep_attempt(const TrainContext& room, const TrainTask& task,
+                                        TrainOutcome& outcome);
 
 /// A finished attempt as its folder has it: replayed and measured again (the same numbers; those of
 /// its pictures are the kept ones), told with what came before it. Errors: those of the files, the

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/detail/trainer/bodies.h"
 
+#include <algorithm>
 #include <chrono>
+#include <exception>
 #include <utility>
 
 #include "artus/detail/training/patient_plans.h"
@@ -10,6 +12,9 @@
 
 namespace artus {
 namespace {
+
+/// Ends work whose result nobody waits for.
+class GivenUp : public std::exception {};
 
 constexpr std::size_t kMaxBodies = 3;  // some 200 MB each
 
@@ -46,6 +51,7 @@ void TrainBodies::collect() {
   if (!making_.valid() || making_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
     return;
   Made made = making_.get();
+  if (watch_->given_up) return;
   pictures_.insert_or_assign(made.scenario, made.picture);
   if (bodies_.count(made.body) == 0) kept_.push_back(made.body);
   bodies_.insert_or_assign(made.body, std::move(made.scene));
@@ -61,7 +67,31 @@ void TrainBodies::want(const Scenario& scenario) {
 
 void TrainBodies::prepare(const Scenario& scenario) {
   collect();
-  if (!making_.valid() && bodies_.count(key_of(scenario)) == 0) begin(scenario);
+  const std::string key = key_of(scenario);
+  if (bodies_.count(key) != 0) return;
+  if (!making_.valid())
+    begin(scenario);
+  else if (making_key_ != key)
+    give_up();
+}
+
+std::pair<std::string, double> TrainBodies::progress() const {
+  if (watch_ == nullptr) return {"", 0};
+  const std::lock_guard<std::mutex> lock(watch_->mutex);
+  return {watch_->step, watch_->fraction};
+}
+
+void TrainBodies::give_up() {
+  if (making_.valid() && watch_ != nullptr) watch_->given_up = true;
+}
+
+void TrainBodies::forget(const Scenario& scenario) {
+  const std::string key = key_of(scenario);
+  const auto known = bodies_.find(key);
+  if (known == bodies_.end() || known->second) return;
+  bodies_.erase(known);
+  kept_.erase(std::find(kept_.begin(), kept_.end(), key));
+  pictures_.erase(scenario.name);
 }
 
 void TrainBodies::begin(const Scenario& scenario) {
@@ -69,11 +99,27 @@ void TrainBodies::begin(const Scenario& scenario) {
   const auto known = bodies_.find(key);
   const std::optional<Body> body =
       known != bodies_.end() ? std::optional(known->second) : std::nullopt;
-  making_ = std::async(std::launch::async, [scenario, key, body, joint = joint_, load = load_] {
-    Made made{key, body ? *body : load(scenario, joint), scenario.name, nullptr};
-    if (made.scene) made.picture = draw(scenario, *made.scene);
-    return made;
-  });
+  making_key_ = key;
+  watch_ = std::make_shared<Watch>();
+  making_ = std::async(
+      std::launch::async, [scenario, key, body, joint = joint_, load = load_, watch = watch_] {
+        const Progress progress = [&watch](std::string_view step, double fraction) {
+          if (watch->given_up) throw GivenUp();
+          const std::lock_guard<std::mutex> lock(watch->mutex);
+          watch->step = step;
+          watch->fraction = fraction;
+        };
+        Made made{key, fail(ErrorCode::failed, "it was given up"), scenario.name, nullptr};
+        try {
+          made.scene = body ? *body : load(scenario, joint, progress);
+          if (made.scene && !watch->given_up) made.picture = draw(scenario, *made.scene);
+        } catch (const GivenUp&) {
+          return made;
+        } catch (const std::exception& e) {
+          made.scene = fail(ErrorCode::failed, e.what());
+        }
+        return made;
+      });
 }
 
 bool TrainBodies::ready(const Scenario& scenario) {

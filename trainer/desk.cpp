@@ -35,7 +35,8 @@ Result<TrainDesk> TrainDesk::open(const std::filesystem::path& records,
                                   std::filesystem::path attempts) {
   std::error_code error;
   if (records.has_parent_path()) std::filesystem::create_directories(records.parent_path(), error);
-  auto file = Records::open(records);
+  constexpr int kPatience = 1000;  // ms: who waits is told, and tries again
+  auto file = Records::open(records, kPatience);
   ARTUS_TRY(file);
   return TrainDesk(std::move(*file), std::move(attempts));
 }

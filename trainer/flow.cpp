@@ -11,6 +11,7 @@
 #include "artus/detail/reports/mark_words.h"
 #include "artus/detail/trainer/pages.h"
 #include "artus/detail/trainer/review.h"
+#include "artus/detail/trainer/trouble.h"
 #include "artus/detail/training/patient_plans.h"
 
 namespace artus {
@@ -34,6 +35,7 @@ class TrainFlow {
     Next next = Next::who;
     while (next != Next::leave) {
       auto after = step(next);
+      if (!after) after = tell_trouble(next, after.error());
       ARTUS_TRY(after);
       next = *after;
     }
@@ -41,7 +43,25 @@ class TrainFlow {
   }
 
  private:
-  enum class Next { who, what, earlier, briefing, attempt, end, leave };
+  enum class Next { who, what, earlier, briefing, attempt, keep, end, leave };
+
+  /// A page in place of what failed: the same again, another task, or out, with the failure as the
+  /// program's. What the command line or a script says wrongly ends the program.
+  Result<Next> tell_trouble(Next now, const Error& error) {
+    const bool asked = error.where.rfind("--", 0) == 0 || error.where == "script";
+    if (asked) return tl::unexpected<Error>(error);
+    bodies_.forget(scenario_);
+    const char* safe =
+        now == Next::keep
+            ? msgid("Your attempt is over and measured. It is kept here until it is stored.")
+            : msgid("What was finished before is stored.");
+    const bool may_go_on = !person_.empty() && now != Next::what;
+    const auto answer = show(make_trouble_page(error, safe, may_go_on, language_));
+    if (!answer || answer->kind != PageAnswer::Kind::chosen) return tl::unexpected<Error>(error);
+    if (answer->choice == 0) return now;
+    if (may_go_on && answer->choice == 1) return Next::what;
+    return tl::unexpected<Error>(error);
+  }
 
   Result<Next> step(Next now) {
     switch (now) {
@@ -55,6 +75,8 @@ class TrainFlow {
         return brief();
       case Next::attempt:
         return attempt();
+      case Next::keep:
+        return keep();
       case Next::end:
         return end();
       case Next::leave:
@@ -179,7 +201,7 @@ class TrainFlow {
     choose(*scenario);
     const auto there = prepare();
     ARTUS_TRY(there);
-    if (!*there) return Next::leave;
+    if (*there != Prepared::there) return *there == Prepared::closed ? Next::leave : Next::what;
     task_ = {person_, scenario_, scene_, {}};
     auto outcome = meanwhile(msgid("The attempt is being read ..."),
                              [&] { return read_attempt(*room_.desk, task_, record); });
@@ -205,41 +227,43 @@ class TrainFlow {
     return std::optional(std::move(*made));
   }
 
-  /// The scenario's body, with a page that asks to wait while it is made. False: the window was
-  /// closed meanwhile.
-  Result<bool> prepare() {
-    bodies_.prepare(scenario_);
+  enum class Prepared { there, given_up, closed };
+
+  /// The scenario's body, with a page that shows how far it is while it is made.
+  Result<Prepared> prepare() {
     const auto done = [this] {
       bodies_.prepare(scenario_);
       return bodies_.ready(scenario_);
     };
     if (!done()) {
-      const auto waited =
-          show(make_busy_page(msgid("The body is being prepared ..."), done, language_));
+      const auto waited = show(make_preparing_page(bodies_, done, language_));
       ARTUS_TRY(waited);
-      if (waited->kind != PageAnswer::Kind::done) return false;
+      if (waited->kind != PageAnswer::Kind::done) {
+        bodies_.give_up();
+        return waited->kind == PageAnswer::Kind::closed ? Prepared::closed : Prepared::given_up;
+      }
     }
     auto scene = bodies_.scene(scenario_);
     ARTUS_TRY(scene);
     scene_ = *scene;
     follow_patient(scenario_, *scene_);
-    return true;
+    return Prepared::there;
   }
 
+  /// The body is made while the briefing is read.
   Result<Next> brief() {
-    const auto there = prepare();
-    ARTUS_TRY(there);
-    if (!*there) return Next::leave;
+    scene_.reset();
     auto tally = room_.desk->tally(person_, scenario_.name);
     ARTUS_TRY(tally);
     const Scenario offered = with_faded_aids(scenario_, *tally, true);
     const std::vector<BriefingChoice> choices = briefing_choices(offered);
     std::size_t at = 0;
     for (;;) {
-      Page page = make_briefing_page(offered, asked_, scene_->joint().side,
+      Page page = make_briefing_page(offered, asked_, scene_ == nullptr ? "" : scene_->joint().side,
                                      bodies_.picture(scenario_), page_options_.keys, language_);
       page.at = at;
       page.refresh = [this](Page& shown) {
+        bodies_.prepare(scenario_);
         bodies_.want(scenario_);
         for (PageChoice& choice : shown.choices) choice.picture = bodies_.picture(scenario_);
       };
@@ -250,6 +274,10 @@ class TrainFlow {
       if (answer->kind == PageAnswer::Kind::back) return Next::what;
       if (answer->kind != PageAnswer::Kind::chosen) return Next::leave;
       const BriefingChoice& choice = choices[answer->choice];
+      const auto there = scene_ == nullptr ? prepare() : Result<Prepared>(Prepared::there);
+      ARTUS_TRY(there);
+      if (*there == Prepared::closed) return Next::leave;
+      if (*there == Prepared::given_up) continue;
       if (choice.kind != BriefingChoice::Kind::ask) {
         task_ = {
             person_,
@@ -267,7 +295,17 @@ class TrainFlow {
     auto outcome = run_attempt(room_, task_);
     ARTUS_TRY(outcome);
     outcome_ = std::move(*outcome);
-    return outcome_.finished ? Next::end : Next::leave;
+    return outcome_.finished ? Next::keep : Next::leave;
+  }
+
+  /// What was measured is stored, as often as it takes.
+  Result<Next> keep() {
+    const auto kept = meanwhile(msgid("The attempt is being stored ..."), [this]() -> Result<bool> {
+      ARTUS_TRY(keep_attempt(room_, task_, outcome_));
+      return true;
+    });
+    ARTUS_TRY(kept);
+    return *kept ? Next::end : Next::leave;
   }
 
   /// The one that the feedback names; else the first above this one that was not passed, when this
@@ -285,6 +323,10 @@ class TrainFlow {
   }
 
   Result<Next> review() {
+    if (outcome_.played.recording.ticks.empty())
+      return fail(ErrorCode::unreadable,
+                  "there is no recording of this attempt: " + outcome_.unrecorded,
+                  outcome_.record.folder);
     const auto made = meanwhile(msgid("The review is being prepared ..."),
                                 [this] { return make_review(task_, outcome_, language_); });
     ARTUS_TRY(made);
@@ -293,6 +335,12 @@ class TrainFlow {
     const auto back = run_review(*room_.screen, page_options_, **made);
     ARTUS_TRY(back);
     return *back ? Next::end : Next::leave;
+  }
+
+  /// The report in whatever shows pages on this machine; the verdict stays.
+  Result<Next> open_report() {
+    ARTUS_TRY(open_file(outcome_.report));
+    return Next::end;
   }
 
   Result<Next> end() {
@@ -316,6 +364,8 @@ class TrainFlow {
         return Next::what;
       case AfterAttempt::who:
         return Next::who;
+      case AfterAttempt::report:
+        return open_report();
       case AfterAttempt::leave:
         break;
     }

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <ctime>
+#include <iomanip>
+#include <sstream>
 #include <utility>
 
 #include "artus/detail/core/units.h"
@@ -11,6 +14,7 @@
 #include "artus/detail/reports/mark_words.h"
 #include "artus/detail/trainer/lesson.h"
 #include "artus/detail/viewer/words/anatomy_names.h"
+#include "artus/detail/viewer/words/system_words.h"
 
 namespace artus {
 namespace {
@@ -123,6 +127,35 @@ void add_verdict(const TrainOutcome& outcome, Language language, std::vector<Pag
   }
 }
 
+/// "2026-01-31 13:00" by this machine's clock of "2026-01-31T12:00:00Z".
+std::string local_time(const std::string& utc) {
+  std::tm parts{};
+  std::istringstream text(utc);
+  text >> std::get_time(&parts, "%Y-%m-%dT%H:%M:%SZ");
+  if (text.fail()) return utc;
+  const std::time_t time = timegm(&parts);
+  std::tm here{};
+  localtime_r(&time, &here);
+  std::ostringstream out;
+  out << std::put_time(&here, "%Y-%m-%d %H:%M");
+  return out.str();
+}
+
+/// What was left out of the numbers, so that nobody wonders.
+void add_left_out(const AttemptMeasures& measures, Language language,
+                  std::vector<PageLine>& lines) {
+  const auto poses = static_cast<long>(measures.needle_left_out + measures.probe_left_out);
+  if (poses == 0) return;
+  lines.push_back({fill(translate_count(language,
+                                        "{} pose was left out: no hand moves so fast. A tracker "
+                                        "that flips its marker does this.",
+                                        "{} poses were left out: no hand moves so fast. A tracker "
+                                        "that flips its marker does this.",
+                                        poses),
+                        {std::to_string(poses)}),
+                   Tone::dim});
+}
+
 }  // namespace
 
 Page make_who_page(const std::vector<KnownLearner>& learners, Language language) {
@@ -139,7 +172,7 @@ Page make_who_page(const std::vector<KnownLearner>& learners, Language language)
          {{fill(translate_count(language, "{} attempt, {} passed; last: {}",
                                 "{} attempts, {} passed; last: {}", tally.attempts),
                 {std::to_string(tally.attempts), std::to_string(tally.passes),
-                 tally.last.empty() ? "-" : tally.last})}},
+                 tally.last.empty() ? "-" : local_time(tally.last)})}},
          nullptr});
   }
   page.choices.push_back({translate(language, "Someone new"), "", Tone::good, {}, nullptr});
@@ -197,10 +230,8 @@ Page make_earlier_page(const std::vector<EarlierAttempt>& attempts, Language lan
     const char* const how = record.passed  ? msgid("Passed")
                             : record.aided ? msgid("Not passed: aids were on")
                                            : msgid("Not passed");
-    std::string when = record.started;
-    std::replace(when.begin(), when.end(), 'T', ' ');
     page.choices.push_back({title,
-                            when,
+                            local_time(record.started),
                             record.passed ? Tone::good : Tone::plain,
                             {{translate(language, how)},
                              {fill(translate(language, "Score {} of 100, {} s"),
@@ -281,6 +312,7 @@ Page make_end_page(const TrainOutcome& outcome, const std::string& next, Languag
                           : all_held && judgement.with_aids ? msgid("Not passed: aids were on")
                                                             : msgid("Not passed"));
   add_verdict(outcome, language, page.lines);
+  add_left_out(outcome.played.measures, language, page.lines);
   page.lines.push_back(
       {fill(translate(language, "Report: {}"), {outcome.report.string()}), Tone::dim});
   std::vector<PageLine> about;
@@ -299,9 +331,22 @@ Page make_end_page(const TrainOutcome& outcome, const std::string& next, Languag
   about.push_back({in_words(feedback.next)});
   for (const char* const choice :
        {msgid("Review the attempt"), msgid("Try again"), msgid("Next: {}"), msgid("Another task"),
-        msgid("Someone else"), msgid("Leave")})
+        msgid("Someone else"), msgid("Open the report"), msgid("Leave")})
     page.choices.push_back(
         {fill(translate(language, choice), {next}), "", Tone::plain, about, nullptr});
+  return page;
+}
+
+Page make_preparing_page(TrainBodies& bodies, std::function<bool()> done, Language language) {
+  Page page = make_busy_page(msgid("The body is being prepared ..."), std::move(done), language);
+  page.lines = {
+      {translate(language, "This is done once for each patient, and kept. It can take minutes.")}};
+  page.bar = [&bodies, language] {
+    const auto [step, fraction] = bodies.progress();
+    return std::pair(said_by_system(language, step), fraction);
+  };
+  page.may_back = true;
+  page.choices = {{translate(language, "Cancel"), "", Tone::plain, {}, nullptr}};
   return page;
 }
 

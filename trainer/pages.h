@@ -52,12 +52,15 @@ struct BriefingChoice {
                                       const KeyMap& keys, Language language);
 
 /// What can be done after an attempt, in the page's order.
-enum class AfterAttempt { review, again, next, other, who, leave };
+enum class AfterAttempt { review, again, next, other, who, report, leave };
 /// How it went; `next`: title of the task that follows.
 [[nodiscard]] Page make_end_page(const TrainOutcome& outcome, const std::string& next,
                                  Language language);
 
 /// "Wait": until `done`.
 [[nodiscard]] Page make_busy_page(const char* what, std::function<bool()> done, Language language);
+/// The same while a body is made: with a bar, and a way to give it up.
+[[nodiscard]] Page make_preparing_page(TrainBodies& bodies, std::function<bool()> done,
+                                       Language language);
 
 }  // namespace artus

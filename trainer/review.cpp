@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/detail/trainer/review.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "artus/detail/core/units.h"
@@ -13,9 +15,34 @@
 namespace artus {
 namespace {
 
-/// What the truth says of the tip: where it is, and why it is seen or not.
+/// By how much the tip stood out in the pictures of a recording, by their samples' time.
+class ShownTips {
+ public:
+  explicit ShownTips(const Recording& recording) {
+    for (const FrameRecord& frame : recording.frames)
+      if (frame.input.has_needle != 0 && frame.digest != 0)
+        pictures_.emplace_back(frame.input.sample_time_ns, static_cast<double>(frame.tip_contrast));
+  }
+
+  /// dB in the last picture before a moment; 0 where there was none within a quarter second.
+  [[nodiscard]] double at(std::int64_t time_ns) const {
+    constexpr std::int64_t kLately = 250'000'000;  // ns
+    const auto after = std::upper_bound(
+        pictures_.begin(), pictures_.end(), time_ns,
+        [](std::int64_t time, const auto& picture) { return time < picture.first; });
+    if (after == pictures_.begin() || time_ns - std::prev(after)->first > kLately) return 0;
+    const double contrast = std::prev(after)->second;
+    return std::isnan(contrast) ? 0 : contrast;
+  }
+
+ private:
+  std::vector<std::pair<std::int64_t, double>> pictures_;
+};
+
+/// What the truth says of the tip: where it is, and why it is seen or not. `shown`: dB by which it
+/// stood out in the picture.
 std::string why_of(const TipSightFinder& finder, const Scene& scene, const HapticSnapshot& state,
-                   Language language) {
+                   double shown, Language language) {
   if (state.inserted == 0) return translate(language, "The needle is not in the body here");
   const TipSight sight = finder.look(scene, to_pose(state.X_JP), to_pose(state.X_JN));
   const auto mm = [&](double length) {
@@ -27,6 +54,7 @@ std::string why_of(const TipSightFinder& finder, const Scene& scene, const Hapti
                 "The tip is in: {}. It lies {} mm beside the picture's plane, whose slice is {} mm "
                 "thick to either side there"),
       {clinical_name(language, region.name), mm(std::abs(sight.offset)), mm(sight.half_width)});
+  if (shown >= kVisibleContrast) return where + ". " + translate(language, "It can be seen.");
   switch (sight.loss) {
     case SightLoss::none:
       return where + ". " + translate(language, "It can be seen.");
@@ -125,8 +153,9 @@ Result<Review> make_review(const TrainTask& task, const TrainOutcome& outcome, L
                              feedback_words(language, fault.mend)});
   const TipSightFinder finder(review.params.transducer, review.params.image.depth,
                               review.params.needle_shape);
-  review.why = [finder, scene = task.scene, language](const HapticSnapshot& state) {
-    return why_of(finder, *scene, state, language);
+  const ShownTips tips(played.recording);
+  review.why = [finder, tips, scene = task.scene, language](const HapticSnapshot& state) {
+    return why_of(finder, *scene, state, tips.at(state.input.device.time_ns), language);
   };
   return review;
 }

@@ -25,26 +25,38 @@ Result<Goals> make_goals(const CompiledJoint& joint, const GoalNames& names) {
   return goals;
 }
 
+void add_left_out(const AttemptMeasures& measures, std::vector<std::string>& notices) {
+  for (const std::string& notice : {left_out_notice("needle", measures.needle_left_out),
+                                    left_out_notice("probe", measures.probe_left_out)})
+    if (!notice.empty()) notices.push_back(notice);
+}
+
 Assessment assess_list(const TrackedList& list, const std::shared_ptr<const Scene>& scene,
                        MeterOptions options) {
   options.longest = list.poses.back().time - list.poses.front().time + 1;
   AttemptMeter meter(scene, std::move(options));
   RawMotion needle(scene, true);
   RawMotion probe(nullptr, false);
+  MotionGate needle_gate;
+  MotionGate probe_gate;
   for (const TrackedPose& pose : list.poses) {
     if (pose.X_JN) {
-      meter.add_needle(pose.time, pose.X_JN->translation(),
-                       Eigen::Quaterniond(pose.X_JN->linear()));
-      needle.add(pose.time, *pose.X_JN);
+      const Vec3 p = pose.X_JN->translation();
+      const Eigen::Quaterniond q(pose.X_JN->linear());
+      meter.add_needle(pose.time, p, q);
+      if (needle_gate.passes(pose.time, p, q)) needle.add(pose.time, *pose.X_JN);
     }
     if (pose.X_JP) {
-      meter.add_probe(pose.time, pose.X_JP->translation(), Eigen::Quaterniond(pose.X_JP->linear()));
-      probe.add(pose.time, *pose.X_JP);
+      const Vec3 p = pose.X_JP->translation();
+      const Eigen::Quaterniond q(pose.X_JP->linear());
+      meter.add_probe(pose.time, p, q);
+      if (probe_gate.passes(pose.time, p, q)) probe.add(pose.time, *pose.X_JP);
     }
   }
   AttemptMeasures measures = meter.measure();
   Assessment out{std::move(measures.metrics), needle.metrics("Needle"), std::move(measures.events),
                  list.notices};
+  add_left_out(measures, out.notices);
   for (Metric& m : probe.metrics("Probe")) out.table.push_back(std::move(m));
   return out;
 }
@@ -58,6 +70,7 @@ Result<Assessment> assess_recording(const Recording& recording,
   ARTUS_TRY(measures);
   Assessment out{
       std::move(measures->metrics), std::move(measures->raw), std::move(measures->events), {}};
+  add_left_out(*measures, out.notices);
   if (recording.dropped > 0)
     out.notices.push_back(std::to_string(recording.dropped) +
                           " ticks or pictures are missing in the recording");

@@ -34,6 +34,9 @@ struct Assessment {
   std::vector<std::string> notices;  ///< for people
 };
 
+/// Adds what is to be told of poses that were left out of an attempt.
+void add_left_out(const AttemptMeasures& measures, std::vector<std::string>& notices);
+
 /// Measures tracked poses: a stream for the metrics, unfiltered for the table. Requires: at least
 /// one pose, times that do not fall. Cost: linear in poses.
 [[nodiscard]] Assessment assess_list(const TrackedList& list,

@@ -32,6 +32,8 @@ constexpr Kind kMisplaced{"misplaced_ml", 5, 0.5};  // given_ml beside in_target
 constexpr Kind kUnaspirated{"aspirated_first", 4, 1};
 constexpr Kind kPressure{"pressure_peak_kpa", 4, 100};
 constexpr Kind kFast{"flow_peak_ml_s", 2, 0.3};
+constexpr double kLeftIn = 12;    // weight: the worst that a hand can leave behind
+constexpr double kLate = 3;       // weight
 constexpr double kNotFound = 6;   // weight: without a view there is no needle
 constexpr double kGiven = 0.1;    // ml from which something was injected
 constexpr double kAgain = 1.5;    // weight of a fault that was in the attempt before
@@ -104,7 +106,36 @@ std::string mend_of_unseen(const std::string& cause) {
   return "Stop when you lose the tip. Find the needle with the beam: move the probe, then advance.";
 }
 
+const JudgedMark* mark_of(const Judgement& judgement, const char* metric) {
+  for (const JudgedMark& mark : judgement.marks)
+    if (mark.mark.metric == metric) return &mark;
+  return nullptr;
+}
+bool missed(const Judgement& judgement, const char* metric) {
+  const JudgedMark* mark = mark_of(judgement, metric);
+  return mark != nullptr && !mark->held;
+}
+
+/// What the end of the attempt was, where the task asks for another.
+void add_end_faults(const AttemptMeasures& m, const Judgement& judgement, std::vector<Fault>& out) {
+  if (const AttemptEvent* e = worst_event(m, "left_in");
+      e != nullptr && missed(judgement, "withdrawn"))
+    out.push_back({"left_in", e->time, kLeftIn, "the needle was left in the patient", e->text,
+                   "Withdraw the needle before you end the attempt."});
+  const JudgedMark* late = mark_of(judgement, "done_s");
+  if (late != nullptr && late->value && !late->held)
+    out.push_back({"late", late->mark.bound, kLate,
+                   beside("time until the needle was out", *late->value, "s", late->mark.bound),
+                   "the time limit was over",
+                   "Look and decide before you enter the skin, then go."});
+}
+
 void add_needle_faults(const AttemptMeasures& m, std::vector<Fault>& out) {
+  if (const AttemptEvent* e = worst_event(m, "fatal:"))
+    out.push_back({e->kind, e->time, weight_of(kAvoid, 3 * kAvoid.band),
+                   beside("entered a structure that must never be entered", e->value, "mm", 0),
+                   e->text,
+                   "Find this structure in the picture first. Choose a path that passes it."});
   if (const AttemptEvent* e = worst_event(m, "avoid:"))
     out.push_back({e->kind, e->time, weight_of(kAvoid, std::max(e->value, kAvoid.band)),
                    beside("entered a structure to avoid", e->value, "mm", 0), e->text,
@@ -146,6 +177,26 @@ void add_look_faults(const AttemptMeasures& m, std::vector<Fault>& out) {
                  e->text,
                  "Sweep the whole area slowly. Stop when you see it, bring it to the middle and "
                  "hold still."});
+}
+
+/// What harms goes before what misses the purpose, and that before style.
+constexpr int kHarm = 2;
+constexpr int kDeadly = 3;
+int rank_of(const std::string& kind) {
+  if (kind.rfind("fatal:", 0) == 0) return kDeadly;
+  constexpr std::array<const char*, 5> kHarms{"left_in", "misplaced", "unaspirated", "pressure",
+                                              "bone"};
+  if (kind.rfind("avoid:", 0) == 0 || std::find(kHarms.begin(), kHarms.end(), kind) != kHarms.end())
+    return kHarm;
+  return kind == "off_target" || kind == "unseen" || kind == "not_found" ? 1 : 0;
+}
+
+/// Whether the needle came where it should.
+bool reached(const AttemptMeasures& m, const Judgement& judgement) {
+  const Metric* distance = find_metric(m.metrics, kOffTarget.metric);
+  if (worst_event(m, "contact") == nullptr || distance == nullptr || !distance->value) return false;
+  const JudgedMark* mark = mark_of(judgement, kOffTarget.metric);
+  return mark != nullptr ? mark->held : *distance->value <= kOffTarget.band;
 }
 
 /// The moment at which the probe was fastest while the tip moved inside, and its speed there.
@@ -225,19 +276,35 @@ void add_hand_faults(const AttemptMeasures& m, std::vector<Fault>& out) {
                    "Hold the needle flatter: enter further from the probe."});
 }
 
-std::string praise(const AttemptMeasures& m) {
+/// One thing done well. Nothing of an attempt that harmed, and nothing that a mark or a fault
+/// contradicts.
+std::string praise(const AttemptMeasures& m, const Judgement& judgement,
+                   const std::vector<Fault>& faults) {
+  for (const JudgedMark& mark : judgement.marks)
+    if (!mark.held && kind_of_mark(mark.mark.metric) >= MarkKind::danger) return "";
+  const auto faulty = [&](const char* kind) {
+    return std::any_of(faults.begin(), faults.end(),
+                       [&](const Fault& fault) { return fault.kind == kind; });
+  };
+  if (std::any_of(faults.begin(), faults.end(),
+                  [](const Fault& fault) { return rank_of(fault.kind) >= kHarm; }))
+    return "";
+  const bool blind = faulty("unseen") || missed(judgement, "unseen_advances") ||
+                     missed(judgement, "unseen_mm") || missed(judgement, "tip_seen");
   const Metric* seen = find_metric(m.metrics, "tip_seen");
   if (const std::size_t n = m.sought.size();
       n > 0 && value_of(m, "found") == static_cast<double>(n))
     return "You found all that was asked for.";
   const Metric* plane = find_metric(m.metrics, "in_plane_fraction");
-  if (seen != nullptr && seen->value && *seen->value >= 0.9)
+  if (!blind && seen != nullptr && seen->value && *seen->value >= 0.9)
     return "You kept the tip in sight nearly all the time.";
-  if (plane != nullptr && plane->value && *plane->value >= 0.9)
+  if (!blind && plane != nullptr && plane->value && *plane->value >= 0.9 &&
+      !missed(judgement, "plane_offset_p90_mm"))
     return "You kept the needle in the plane while you advanced.";
-  if (worst_event(m, "contact") != nullptr && value_of(m, "passes") == 1)
+  if (reached(m, judgement) && value_of(m, "passes") == 1 && !faulty("off_target"))
     return "You reached the target in a single pass.";
-  if (value_of(m, "drift_mm_s") < kDrift.band && !m.probe.empty())
+  if (m.sought.empty() && worst_event(m, "contact") != nullptr && !blind && !m.probe.empty() &&
+      value_of(m, "drift_mm_s") < kDrift.band && !missed(judgement, "drift_mm_s"))
     return "Your probe hand was steady.";
   return "";
 }
@@ -292,6 +359,10 @@ SkillTask task_of(Skill skill) {
 }
 
 SkillTask next_task(const Judgement& judgement, const std::optional<Skill>& weakest) {
+  const bool all_held = std::all_of(judgement.marks.begin(), judgement.marks.end(),
+                                    [](const JudgedMark& mark) { return mark.held; });
+  if (judgement.with_aids && !all_held)
+    return {"Repeat this task with the aids until all marks hold.", ""};
   if (judgement.with_aids) return {"Do the same task again without aids: only that counts.", ""};
   if (weakest) return task_of(*weakest);
   if (judgement.passed) return {"Repeat it once to make sure, then go to the next level.", ""};
@@ -304,6 +375,7 @@ Skill skill_of_fault(const std::string& kind) noexcept {
   if (kind == "not_found") return Skill::look;
   if (kind == "unseen" || kind == "angle") return Skill::view;
   if (kind == "drift" || kind == "passes") return Skill::align;
+  if (kind == "late" || kind == "left_in") return Skill::steer;
   if (kind == "misplaced" || kind == "unaspirated" || kind == "pressure" || kind == "fast")
     return Skill::inject;
   return Skill::steer;
@@ -343,6 +415,7 @@ Feedback make_feedback(const AttemptMeasures& measures, const Judgement& judgeme
         missed += (missed.empty() ? ": " : ", ") + m.mark.metric + " should be " + m.mark.text;
     out.verdict += missed.empty() && judgement.with_aids ? ": aids were on." : missed + ".";
   }
+  add_end_faults(measures, judgement, out.faults);
   add_look_faults(measures, out.faults);
   add_needle_faults(measures, out.faults);
   add_hand_faults(measures, out.faults);
@@ -355,15 +428,18 @@ Feedback make_feedback(const AttemptMeasures& measures, const Judgement& judgeme
     now.kinds.push_back(fault.kind);
     if (context.before.empty()) continue;
     const auto& last = context.before.back().kinds;
-    if (std::find(last.begin(), last.end(), fault.kind) != last.end()) fault.weight *= kAgain;
+    const std::string kind =
+        fault.kind.rfind("fatal:", 0) == 0 ? "avoid" + fault.kind.substr(5) : fault.kind;
+    if (std::find(last.begin(), last.end(), kind) != last.end()) fault.weight *= kAgain;
   }
-  std::stable_sort(out.faults.begin(), out.faults.end(),
-                   [](const Fault& a, const Fault& b) { return a.weight > b.weight; });
+  std::stable_sort(out.faults.begin(), out.faults.end(), [](const Fault& a, const Fault& b) {
+    return std::pair(rank_of(a.kind), a.weight) > std::pair(rank_of(b.kind), b.weight);
+  });
   const SkillTask next = next_task(judgement, weakest_skill(now, context));
   out.next = next.what;
   out.next_scenario = next.scenario;
+  out.good = praise(measures, judgement, out.faults);
   if (out.faults.size() > kMax) out.faults.resize(kMax);
-  out.good = praise(measures);
   return out;
 }
 

@@ -11,8 +11,9 @@ namespace artus {
 
 /// One thing that went wrong, with what a learner needs to see it and to mend it.
 struct Fault {
-  std::string kind;   ///< "unseen", "bone", "avoid:<name>", "drift", "passes", "off_target",
-                      ///< "angle", "idle", "misplaced", "unaspirated", "pressure", "fast"
+  std::string kind;   ///< "fatal:<name>", "left_in", "late", "unseen", "bone", "avoid:<name>",
+                      ///< "drift", "passes", "off_target", "angle", "idle", "misplaced",
+                      ///< "unaspirated", "pressure", "fast"
   double time = 0;    ///< s, of the moment to look at
   double weight = 0;  ///< severity of the kind times size beside its band, 0 to 3; half as much
                       ///< again for a fault of the attempt before, too
@@ -24,8 +25,9 @@ struct Fault {
 /// What a learner is told after an attempt.
 struct Feedback {
   std::string verdict;        ///< passed or not, and the mark that was missed
-  std::vector<Fault> faults;  ///< three at most, worst first; those of one cause are one
-  std::string good;           ///< one thing done well; may be empty
+  std::vector<Fault> faults;  ///< three at most: harm first, then what misses the purpose, then
+                              ///< style, each by weight; those of one cause are one
+  std::string good;           ///< one thing done well; empty: there is none, or it harmed
   std::string next;           ///< one next task
   std::string next_scenario;  ///< its name among the bundled ones; empty: none is named
 };

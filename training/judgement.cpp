@@ -27,6 +27,13 @@ double part_of(const Mark& mark, double value) {
   return std::clamp(1 - std::abs(value - mark.bound) / scale, 0.0, 1.0);
 }
 
+constexpr double kGrave = 3;  // weight of a mark of danger or purpose
+
+double most_of(MarkKind kind) {
+  if (kind == MarkKind::fatal) return kFatalScore;
+  return kind == MarkKind::danger ? kDangerScore : kFailedScore;
+}
+
 }  // namespace
 
 Result<Mark> parse_mark(const std::string& metric, const std::string& text) {
@@ -66,6 +73,20 @@ int whole_points(double score) noexcept {
   return static_cast<int>(std::floor(score + kRounding));
 }
 
+MarkKind kind_of_mark(std::string_view metric) noexcept {
+  constexpr std::array<std::string_view, 6> kDangers{"withdrawn",       "bone_contacts",
+                                                     "bone_peak_n",     "pressure_peak_kpa",
+                                                     "aspirated_first", "in_target"};
+  constexpr std::array<std::string_view, 6> kPurposes{
+      "distance_mm", "found", "given_ml", "given_distance_mm", "unseen_advances", "unseen_mm"};
+  const auto among = [&](const auto& names) {
+    return std::find(names.begin(), names.end(), metric) != names.end();
+  };
+  if (metric == "avoid_fatal") return MarkKind::fatal;
+  if (metric.substr(0, 6) == "avoid_" || among(kDangers)) return MarkKind::danger;
+  return among(kPurposes) ? MarkKind::purpose : MarkKind::style;
+}
+
 Judgement judge(std::span<const Metric> metrics, std::span<const Mark> marks,
                 std::span<const ScoreWeight> weights, bool with_aids) {
   Judgement out;
@@ -73,6 +94,7 @@ Judgement judge(std::span<const Metric> metrics, std::span<const Mark> marks,
   out.passed = !with_aids && !marks.empty();
   double sum = 0;
   double total = 0;
+  double most = 100;
   for (const Mark& mark : marks) {
     JudgedMark judged;
     judged.mark = mark;
@@ -80,14 +102,21 @@ Judgement judge(std::span<const Metric> metrics, std::span<const Mark> marks,
     if (metric != nullptr) judged.value = metric->value;
     judged.held = judged.value && holds(mark, *judged.value);
     judged.part = judged.value ? part_of(mark, *judged.value) : 0;
+    judged.weight = kind_of_mark(mark.metric) == MarkKind::style ? 1 : kGrave;
     for (const ScoreWeight& w : weights)
       if (w.metric == mark.metric) judged.weight = w.weight;
     out.passed = out.passed && judged.held;
+    if (!judged.held) most = std::min(most, most_of(kind_of_mark(mark.metric)));
     sum += judged.weight * judged.part;
     total += judged.weight;
     out.marks.push_back(std::move(judged));
   }
-  out.score = total > 0 ? 100 * sum / total : 0;
+  const Metric* fatal = find_metric(metrics, "avoid_fatal");
+  if (fatal != nullptr && fatal->value.value_or(0) > 0) {
+    out.passed = false;
+    most = kFatalScore;
+  }
+  out.score = total > 0 ? most * sum / total : 0;
   return out;
 }
 

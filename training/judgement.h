@@ -3,6 +3,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "artus/core/result.h"
@@ -36,9 +37,21 @@ struct JudgedMark {
 struct Judgement {
   bool passed = false;
   bool with_aids = false;
-  double score = 0;  ///< 0 to 100, the parts' weighted mean
+  /// 0 to 100: the parts' weighted mean; of kFailedScore when a mark did not hold, kDangerScore
+  /// when it was one of danger, kFatalScore when what must never be entered was: no failure scores
+  /// more than a pass.
+  double score = 0;
   std::vector<JudgedMark> marks;
 };
+
+inline constexpr double kFailedScore = 60;
+inline constexpr double kDangerScore = 40;
+inline constexpr double kFatalScore = 20;
+
+/// What a mark is about. Danger costs more than style: where a scenario gives no weight of its own,
+/// a mark of danger or purpose weighs 3, one of style 1 (assumed).
+enum class MarkKind { style, purpose, danger, fatal };
+[[nodiscard]] MarkKind kind_of_mark(std::string_view metric) noexcept;
 
 /// Whole points of a score for people: rounded down, so that 100 means that every mark held.
 [[nodiscard]] int whole_points(double score) noexcept;
@@ -49,6 +62,7 @@ struct ScoreWeight {
   double weight = 1;
 };
 
+/// `metrics` against `marks`. An entry into what is fatal fails, marked or not.
 [[nodiscard]] Judgement judge(std::span<const Metric> metrics, std::span<const Mark> marks,
                               std::span<const ScoreWeight> weights, bool with_aids);
 

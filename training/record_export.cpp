@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "artus/detail/training/record_export.h"
 
+#include <algorithm>
 #include <map>
 
 #include "artus/detail/core/csv.h"
+#include "artus/detail/core/printed.h"
 
 namespace artus {
 namespace {
@@ -109,6 +111,30 @@ Result<std::string> export_tsv(Records& records, const AttemptFilter& filter) {
   return out;
 }
 
+namespace {
+
+/// A statement's UUID: the same for the same attempt, so that one sent twice is one.
+std::string statement_id(const std::string& attempt) {
+  constexpr std::size_t kDigits = 16;
+  std::string hex = text_hash("statement " + attempt).substr(0, kDigits) +
+                    text_hash("of artus " + attempt).substr(0, kDigits);
+  hex.resize(2 * kDigits, '0');
+  hex[12] = '5';
+  hex[16] = 'a';
+  return hex.substr(0, 8) + '-' + hex.substr(8, 4) + '-' + hex.substr(12, 4) + '-' +
+         hex.substr(16, 4) + '-' + hex.substr(20);
+}
+
+/// By ISO 8601, to the hundredth of a second: "PT12.5S".
+std::string duration_of(double seconds) {
+  std::string digits = printed("%.2f", std::max(0.0, seconds));
+  digits.erase(digits.find_last_not_of('0') + 1);
+  if (digits.back() == '.') digits.pop_back();
+  return "PT" + digits + "S";
+}
+
+}  // namespace
+
 Result<nlohmann::json> export_xapi(Records& records, const AttemptFilter& filter,
                                    const std::string& home) {
   const std::string iri = home + (home.empty() || home.back() != '/' ? "/" : "");
@@ -123,17 +149,23 @@ Result<nlohmann::json> export_xapi(Records& records, const AttemptFilter& filter
     auto extensions = nlohmann::json::object();
     for (const MetricValue& m : (*metrics)[a.id])
       if (m.value) extensions[iri + "metric/" + m.name + "/" + m.role] = *m.value;
-    nlohmann::json result = {{"duration", "PT" + to_exact_csv(a.duration) + "S"},
-                             {"extensions", extensions}};
+    nlohmann::json result = {{"duration", duration_of(a.duration)}, {"extensions", extensions}};
     if (!a.aided) {
-      result["score"] = {{"scaled", a.score / 100}};
+      result["score"] = {{"scaled", a.score / 100}, {"raw", a.score}, {"min", 0}, {"max", 100}};
       result["success"] = a.passed;
     }
     out.push_back(
-        {{"actor",
+        {{"id", statement_id(a.id)},
+         {"version", "1.0.3"},
+         {"actor",
           {{"objectType", "Agent"}, {"account", {{"homePage", home}, {"name", a.person}}}}},
          {"verb", {{"id", "http://adlnet.gov/expapi/verbs/" + verb}, {"display", {{"en", verb}}}}},
-         {"object", {{"objectType", "Activity"}, {"id", iri + "scenario/" + a.scenario}}},
+         {"object",
+          {{"objectType", "Activity"},
+           {"id", iri + "scenario/" + a.scenario},
+           {"definition",
+            {{"type", "http://adlnet.gov/expapi/activities/simulation"},
+             {"name", {{"en", a.scenario}}}}}}},
          {"result", result},
          {"timestamp", a.ended}});
   }

@@ -18,8 +18,6 @@
 namespace artus {
 namespace {
 
-constexpr int kBusyTimeout = 10000;  // ms
-
 /// What brings a file from one form to the next; user_version counts how many were run.
 constexpr auto kMigrations = record_schemas();
 
@@ -137,7 +135,20 @@ Result<void> require_person(const SQLite::Database& db, const std::string& id) {
   return require_row(db, "SELECT 1 FROM person WHERE id = ?", id, "person");
 }
 Result<void> require_rater(const SQLite::Database& db, const std::string& id) {
-  return require_row(db, "SELECT 1 FROM person WHERE role = 'rater' AND id = ?", id, "rater");
+  auto known = require_row(db, "SELECT 1 FROM person WHERE role = 'rater' AND id = ?", id, "rater");
+  if (!known)
+    return fail(
+        known.error().code,
+        known.error().message + ": artus learners add --role rater --person " + id + " makes one",
+        known.error().where);
+  return known;
+}
+/// The form that artus knows takes its own values alone.
+Result<void> require_in_form(const RatingRecord& r) {
+  constexpr double kOsausLeast = 1;
+  constexpr double kOsausMost = 5;
+  if (r.instrument != "OSAUS" || (r.value >= kOsausLeast && r.value <= kOsausMost)) return {};
+  return fail(ErrorCode::invalid, "an item of OSAUS is rated from 1 to 5", "--value");
 }
 Result<void> require_attempt(const SQLite::Database& db, const std::string& id) {
   return require_row(db, "SELECT 1 FROM attempt WHERE id = ?", id, "attempt");
@@ -150,12 +161,12 @@ Records::~Records() = default;
 Records::Records(Records&&) noexcept = default;
 Records& Records::operator=(Records&&) noexcept = default;
 
-Result<Records> Records::open(const std::filesystem::path& file) {
+Result<Records> Records::open(const std::filesystem::path& file, int patience_ms) {
   std::error_code ignored;
   if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), ignored);
   return guarded(file.string(), [&]() -> Result<Records> {
     auto db = std::make_unique<SQLite::Database>(
-        file.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, kBusyTimeout);
+        file.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, patience_ms);
     for (const char* choice : {"foreign_keys = ON", "journal_mode = WAL", "synchronous = FULL"})
       db->exec(std::string("PRAGMA ") + choice);
     ARTUS_TRY(migrate(*db));
@@ -287,6 +298,7 @@ Result<void> Records::rate(const RatingRecord& r) {
   return in_transaction(*db_, [&]() -> Result<void> {
     ARTUS_TRY(require_attempt(*db_, r.attempt));
     ARTUS_TRY(require_rater(*db_, r.rater));
+    ARTUS_TRY(require_in_form(r));
     run(*db_,
         "INSERT INTO rating(attempt, rater, instrument, item, value, blinded, at) "
         "VALUES(?, ?, ?, ?, ?, ?, ?)",

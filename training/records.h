@@ -101,8 +101,10 @@ class Records {
   Records& operator=(Records&& other) noexcept;
 
   /// Opens or makes the file and brings an older one to the present form. Errors: unsupported (made
-  /// by a newer artus).
-  [[nodiscard]] static Result<Records> open(const std::filesystem::path& file);
+  /// by a newer artus). `patience_ms`: how long another program that holds the file is waited for.
+  static constexpr int kPatience = 10000;  ///< ms
+  [[nodiscard]] static Result<Records> open(const std::filesystem::path& file,
+                                            int patience_ms = kPatience);
 
   [[nodiscard]] Result<void> add_person(const PersonRecord& person);
   [[nodiscard]] Result<std::vector<PersonRecord>> persons();

@@ -174,7 +174,7 @@ bool is_metric(const std::string& name, const std::vector<std::string>& known) {
 }
 
 /// The entry's radius and angles as marks, where the file has none of its own on these metrics.
-void add_entry_marks(Scenario& s) {
+void add_own_marks(Scenario& s) {
   const auto own = [&s](const std::string& metric) {
     return std::any_of(s.pass.begin(), s.pass.end(),
                        [&](const Mark& mark) { return mark.metric == metric; });
@@ -185,6 +185,11 @@ void add_entry_marks(Scenario& s) {
     text << relation << ' ' << bound;
     if (const auto mark = parse_mark(metric, text.str())) s.pass.push_back(*mark);
   };
+  const bool fatal = std::any_of(s.avoid.begin(), s.avoid.end(),
+                                 [](const ScenarioAvoid& avoid) { return avoid.fatal; });
+  if (fatal && !own("avoid_fatal")) add("avoid_fatal", "==", 0);
+  if (!own("withdrawn")) add("withdrawn", "==", 1);
+  if (!own("done_s")) add("done_s", "<=", s.time_limit);
   if (!own("entry_offset_mm")) add("entry_offset_mm", "<=", s.entry.radius / kMillimetre);
   if (judge_angle && s.entry.min_angle > 0)
     add("entry_angle_deg", ">=", s.entry.min_angle / kDegree);
@@ -208,7 +213,7 @@ void read_marks(TomlTable& toml, Scenario& s, Problems& problems) {
     }
   }
   if (s.pass.empty()) toml.problem("[pass] must hold at least one mark");
-  if (s.find.empty()) add_entry_marks(s);
+  if (s.find.empty()) add_own_marks(s);
   if (const toml::table* table = toml.table("score")) {
     for (const auto& [key, node] : *table) {
       const std::string name(key.str());

@@ -56,6 +56,35 @@ void check_path(const Scenario& s, const Scene& scene, std::vector<std::string>&
                           std::abs(target_P.y()) / kMillimetre));
 }
 
+/// Into which zones the planned line goes, as the metrics look at an attempt.
+void check_zones(const Scenario& s, const Goals& goals, std::vector<std::string>& out) {
+  std::vector<CoursePoint> line(2);
+  line[0].tip = s.entry.centre;
+  line[1].tip = s.target.point;
+  line[1].region = kFirstRegion;
+  line[1].step = (s.target.point - s.entry.centre).norm();
+  line[1].time = 1;
+  for (const AvoidZone& zone : goals.avoid) {
+    const Intrusion in = find_intrusion(zone, line);
+    if (in.entries > 0)
+      out.push_back(printed("the line from entry to target goes %.1f mm into the zone around ",
+                            in.depth / kMillimetre) +
+                    zone.name + (zone.fatal ? ", which must never be entered" : ""));
+  }
+}
+
+/// Whether this probe shows the tip at the target.
+void check_sight(const Scenario& s, const Scene& scene, const MeterOptions& options,
+                 std::vector<std::string>& out) {
+  if (s.entry.plane != "in") return;
+  const TipSightFinder finder(options.transducer, options.image_depth, options.needle);
+  const TipSight sight = finder.look(
+      scene, s.X_JP, make_pose(s.target.point, s.target.point - s.entry.centre, Vec3::Zero()));
+  if (!sight.in_picture)
+    out.push_back("the target is beside or below the picture of " + s.transducer +
+                  printed(" at a depth of %.0f mm", s.depth / kMillimetre));
+}
+
 }  // namespace
 
 std::vector<std::string> find_problems(const Scenario& s,
@@ -83,6 +112,8 @@ std::vector<std::string> find_problems(const Scenario& s,
   const double face = scene->signed_distance_to_skin(s.X_JP.translation(), 0.2);
   if (!(std::abs(face) <= kOnSkin)) out.push_back(off_skin("the probe's face is", face));
   check_path(s, *scene, out);
+  check_zones(s, goals, out);
+  check_sight(s, *scene, *options, out);
   return out;
 }
 
@@ -155,10 +186,33 @@ Result<Verdicts> play_novices(const Players& players, std::size_t tries) {
   return out;
 }
 
+/// Each mark that some missed, with how many and the figure of the first.
+std::vector<std::string> missed_marks(const Verdicts& verdicts) {
+  std::vector<std::string> out;
+  if (verdicts.empty()) return out;
+  for (std::size_t k = 0; k < verdicts.front().judgement.marks.size(); ++k) {
+    int missed = 0;
+    std::string figure;
+    for (const Played& one : verdicts) {
+      const JudgedMark& mark = one.judgement.marks[k];
+      if (mark.held || missed++ > 0) continue;
+      figure = mark.value ? printed("%.2f", *mark.value) : "not known";
+    }
+    const Mark& mark = verdicts.front().judgement.marks[k].mark;
+    if (missed > 0)
+      out.push_back(mark.metric + " should be " + mark.text +
+                    printed(": missed by %.0f of %.0f, first with ", static_cast<double>(missed),
+                            static_cast<double>(verdicts.size())) +
+                    figure);
+  }
+  return out;
+}
+
 Fared fared(const Verdicts& verdicts) {
   Fared out;
   out.played = static_cast<int>(verdicts.size());
   out.passes = static_cast<int>(passes_of(verdicts));
+  out.missed = missed_marks(verdicts);
   for (const Played& one : verdicts) {
     out.score += one.judgement.score / out.played;
     if (!one.breakage.empty() && out.broken++ == 0) out.breakage = one.breakage;

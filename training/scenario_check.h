@@ -11,7 +11,8 @@ namespace artus {
 
 /// What in a scenario cannot be done in its body, a line each: names that are missing, an entry off
 /// the skin, a needle too short, bone on the path, an angle out of its range, a path out of plane,
-/// a target in a zone to avoid or outside its structure, a probe off the skin. Empty: none.
+/// a target in a zone to avoid or outside its structure, a path through such a zone, a probe off
+/// the skin or one that does not show the target. Empty: none. Cost: some queries, no play.
 [[nodiscard]] std::vector<std::string> find_problems(const Scenario& scenario,
                                                      const std::shared_ptr<const Scene>& scene);
 
@@ -19,9 +20,10 @@ namespace artus {
 struct Fared {
   int played = 0;  ///< seeds, from 1 on
   int passes = 0;
-  double score = 0;      ///< mean
-  int broken = 0;        ///< attempts after which the body is not whole
-  std::string breakage;  ///< what the first of them shows
+  double score = 0;                 ///< mean
+  std::vector<std::string> missed;  ///< marks that were missed, a line each with its figure
+  int broken = 0;                   ///< attempts after which the body is not whole
+  std::string breakage;             ///< what the first of them shows
 };
 
 /// How simulated hands fare: the scenario's difficulty.

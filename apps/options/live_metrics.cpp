@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "artus/detail/core/text_file.h"
+#include "artus/detail/training/assessment.h"
 #include "artus/detail/training/session_meter.h"
 
 namespace artus {
@@ -38,7 +39,12 @@ Result<void> write_live_metrics(const std::filesystem::path& file, LiveAttempt* 
   if (meter->full())
     std::fprintf(stderr, "%s: the numbers are of the session's first %.0f minutes\n",
                  file.string().c_str(), meter->longest() / 60);
-  return write_text(file, to_json(meter->measure().metrics).dump(2) + "\n");
+  const AttemptMeasures measures = meter->measure();
+  std::vector<std::string> notices;
+  add_left_out(measures, notices);
+  for (const std::string& notice : notices)
+    std::fprintf(stderr, "%s: %s\n", file.string().c_str(), notice.c_str());
+  return write_text(file, to_json(measures.metrics).dump(2) + "\n");
 }
 
 }  // namespace artus

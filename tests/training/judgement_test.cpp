@@ -31,14 +31,49 @@ TEST(Judgement, AMarkOnWhatIsNotKnownDoesNotHold) {
   const Judgement judged = judge(measured(0, std::nullopt), marks(), {}, false);
   EXPECT_FALSE(judged.passed);
   EXPECT_FALSE(judged.marks[1].held);
-  EXPECT_EQ(judged.score, 50);
+  EXPECT_EQ(judged.score, kFailedScore * 3 / 4);  // distance weighs 3, sight 1
 }
 
 TEST(Judgement, TheScoreIsTheWeightedMeanOfItsParts) {
   const std::vector<ScoreWeight> weights{{"distance_mm", 3}};
   const Judgement judged = judge(measured(3, 1), marks(), weights, false);
   EXPECT_DOUBLE_EQ(judged.marks[0].part, 0.5);
-  EXPECT_DOUBLE_EQ(judged.score, 100 * (3 * 0.5 + 1) / 4);
+  EXPECT_DOUBLE_EQ(judged.score, kFailedScore * (3 * 0.5 + 1) / 4);
+}
+
+TEST(Judgement, NoFailureScoresAsMuchAsAPassAndDangerCostsMost) {
+  const std::vector<Mark> all{*parse_mark("distance_mm", "<= 2"), *parse_mark("drift_mm_s", "<= 1"),
+                              *parse_mark("bone_contacts", "== 0"),
+                              *parse_mark("avoid_fatal", "== 0"), *parse_mark("withdrawn", "== 1")};
+  const auto score = [&](double distance, double drift, double bone, double fatal, double out) {
+    const std::vector<Metric> m{{"distance_mm", "needle", "mm", distance, "", {}},
+                                {"drift_mm_s", "probe", "mm/s", drift, "", {}},
+                                {"bone_contacts", "needle", "count", bone, "", {}},
+                                {"avoid_fatal", "needle", "count", fatal, "", {}},
+                                {"withdrawn", "needle", "-", out, "", {}}};
+    return judge(m, all, {}, false).score;
+  };
+  const double pass = score(2, 1, 0, 0, 1);
+  const double style = score(2, 1.5, 0, 0, 1);
+  const double off = score(3, 1, 0, 0, 1);
+  const double bone = score(2, 1, 1, 0, 1);
+  const double left = score(2, 1, 0, 0, 0);
+  const double fatal = score(2, 1, 0, 1, 1);
+  EXPECT_EQ(pass, 100);
+  EXPECT_LT(style, kFailedScore);
+  EXPECT_LT(off, style);
+  EXPECT_LT(bone, off);
+  EXPECT_LE(left, bone);
+  EXPECT_LT(fatal, left);
+  EXPECT_LT(fatal, kFatalScore);
+}
+
+TEST(Judgement, WhatIsFatalFailsMarkedOrNot) {
+  std::vector<Metric> m = measured(1, 1);
+  m.push_back({"avoid_fatal", "needle", "count", 1.0, "", {}});
+  const Judgement judged = judge(m, marks(), {}, false);
+  EXPECT_FALSE(judged.passed);
+  EXPECT_LE(judged.score, kFatalScore);
 }
 
 TEST(Judgement, WithoutMarksNothingPasses) {

@@ -6,6 +6,7 @@
 #include <thread>
 
 #include <SQLiteCpp/SQLiteCpp.h>
+#include <gmock/gmock.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -72,6 +73,11 @@ TEST_F(RecordsTest, NobodyUnknownHasAttemptsOrRates) {
   EXPECT_FALSE(records.rate({"a1", "p1", "OSAUS", "overall", 4, true}));
   ASSERT_TRUE(records.add_person({"r1", "rater", ""}));
   EXPECT_TRUE(records.rate({"a1", "r1", "OSAUS", "overall", 4, true}));
+  EXPECT_FALSE(records.rate({"a1", "r1", "OSAUS", "overall", 7, true})) << "a form of 1 to 5";
+  const auto nobody = records.rate({"a1", "r9", "OSAUS", "overall", 4, true});
+  ASSERT_FALSE(nobody);
+  EXPECT_NE(nobody.error().message.find("learners add --role rater --person r9"),
+            std::string::npos);
   EXPECT_EQ(records.ratings("a1")->size(), 1U);
   EXPECT_FALSE(records.finish(attempt("a2"), {}, {}));
   EXPECT_FALSE(records.add_person({"p2", "king", ""}));
@@ -218,6 +224,10 @@ TEST_F(RecordsTest, ExportsSayTheSame) {
   EXPECT_EQ(statement["actor"]["account"]["name"], "p1");
   EXPECT_EQ(statement["result"]["score"]["scaled"], 0.8);
   EXPECT_EQ(statement["result"]["duration"], "PT60S");
+  EXPECT_THAT(
+      statement["id"].get<std::string>(),
+      testing::MatchesRegex("[0-9a-f]{8}-[0-9a-f]{4}-5[0-9a-f]{3}-a[0-9a-f]{3}-[0-9a-f]{12}"));
+  EXPECT_EQ(statement["id"], (*export_xapi(records, {}, "https://school.example"))[0]["id"]);
   EXPECT_EQ(statement["result"]["success"], true);
 }
 

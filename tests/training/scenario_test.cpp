@@ -227,6 +227,13 @@ TEST(ScenarioCheck, SaysWhatCannotBeDone) {
   EXPECT_NE(problems_of("[pass]", "[[avoid]]\nstructure = \"muscle\"\n[pass]")
                 .find("contains the target"),
             std::string::npos);
+  EXPECT_NE(problems_of("[probe]", "[probe]\ndepth = 15").find("below the picture"),
+            std::string::npos);
+  EXPECT_NE(problems_of("[pass]",
+                        "[[gel.ball]]\ntissue = \"artery\"\ncentre = [-10.5, 0, 10]\nradius = 3\n"
+                        "[[avoid]]\nstructure = \"artery\"\nfatal = true\n[pass]")
+                .find("into the zone around artery, which must never be entered"),
+            std::string::npos);
 }
 
 TEST(Player, TheSameSeedGivesTheSameBytesInACageOfItsOwnOrAnothers) {

@@ -57,6 +57,23 @@ TEST(HandControl, AnInsertedNeedleTurnsAboutItsEntry) {
               1e-6);
 }
 
+TEST(HandControl, AFlickedMouseDoesWhatAHandCan) {
+  for (const auto& [dx, dy] : {std::pair{900.0, 0.0}, {0.0, -900.0}, {1700.0, 1200.0}}) {
+    HandControl control(start_target());
+    control.handle(request(Action::take_needle), kNotInside);
+    control.handle(ScrollEvent{50, false}, kNotInside);  // tip 15 mm beyond the skin at z = 0
+    control.handle(MoveEvent{0, 0}, inside_at(Vec3::Zero()));
+    control.handle(MoveEvent{dx, dy}, inside_at(Vec3::Zero()));
+    control.handle(MoveEvent{2 * dx, 2 * dy}, inside_at(Vec3::Zero()));
+    const Pose X_WN = to_pose(control.target().X_WN);
+    EXPECT_LE(std::acos(X_WN.linear()(2, 2)), HandControl::kMostTurn + 1e-9);
+    EXPECT_GT(X_WN.translation().z(), 12e-3) << "the tip stays in the body";
+    EXPECT_NEAR(X_WN.translation().norm(), 15e-3, 1e-9);
+    control.handle(ScrollEvent{-60, false}, inside_at(Vec3::Zero()));
+    control.handle(MoveEvent{2 * dx, 2 * dy}, kNotInside);  // out: the next entry is its own
+  }
+}
+
 TEST(HandControl, TheWheelPressesThePlungerUnderTheThumbAndNothingElse) {
   HandControl control(start_target());
   EXPECT_EQ(control.target().has_plunger, 0U);

@@ -7,6 +7,7 @@
 
 #include "artus/detail/core/printed.h"
 #include "artus/detail/core/units.h"
+#include "artus/detail/training/metrics/placement.h"
 
 namespace artus {
 namespace {
@@ -133,22 +134,25 @@ std::vector<AttemptEvent> find_events(const AttemptView& view) {
   for (const AvoidZone& zone : view.options.goals.avoid) {
     const Intrusion in = find_intrusion(zone, m.course);
     if (in.first)
-      put(*in.first, "avoid:" + zone.name, in.depth / kMillimetre,
+      put(*in.first, (zone.fatal ? "fatal:" : "avoid:") + zone.name, in.depth / kMillimetre,
           printed("the tip went %.1f mm into the zone around ", in.depth / kMillimetre) +
               zone.name);
   }
   const auto passes = find_passes(m.course);
   for (std::size_t i = 1; i < passes.size(); ++i)
     put(passes[i], "pass", static_cast<double>(i + 1), "the needle was brought forward again");
-  for (const Run& run : find_idle(m.course))
+  for (const Run& run : find_idle(m.course, m.probe))
     put(run.from, "idle", run.amount, printed("nothing moved for %.1f s", run.amount));
-  if (const auto placed = find_placement(m.course)) {
-    const auto& target = view.options.goals.target;
-    const double off = target ? distance_to(*target, m.course[*placed].tip) / kMillimetre : 0;
+  const auto& goal = view.options.goals.target;
+  if (const auto placed = find_placement(m.course, goal ? &*goal : nullptr, m.doses)) {
+    const double off = goal ? distance_to(*goal, m.course[*placed].tip) / kMillimetre : 0;
     put(m.course[*placed].time, "placed", off,
-        target ? printed("the needle was placed %.1f mm from the target", off)
-               : "the needle was placed");
+        goal ? printed("the needle was placed %.1f mm from the target", off)
+             : "the needle was placed");
   }
+  if (m.course.back().inside())
+    put(m.course.back().time, "left_in", m.course.back().depth / kMillimetre,
+        printed("the tip was %.1f mm deep at the end", m.course.back().depth / kMillimetre));
   add_syringe_events(view, put);
   std::stable_sort(events.begin(), events.end(),
                    [](const auto& a, const auto& b) { return a.time < b.time; });

@@ -33,8 +33,11 @@ AttemptMeasures AttemptMeter::measure() const {
   AttemptMeasures out;
   out.needle = smooth(needle_.points());
   out.probe = smooth(probe_.points());
+  out.needle_left_out = needle_gate_.left_out();
+  out.probe_left_out = probe_gate_.left_out();
   out.course = make_course(*scene_, out.needle);
   out.sights = look_along(*scene_, finder_, out.needle, out.probe);
+  look_at_pictures(out.course, images_, out.sights);
   out.layers = forces_.layers();
   out.touches = forces_.touches();
   out.syringe = syringe_.totals();

@@ -7,6 +7,7 @@
 #include "artus/detail/training/metrics/goals.h"
 #include "artus/detail/training/metrics/image_sight.h"
 #include "artus/detail/training/metrics/metric.h"
+#include "artus/detail/training/metrics/motion_gate.h"
 #include "artus/detail/training/metrics/needle_course.h"
 #include "artus/detail/training/metrics/raw_motion.h"
 #include "artus/detail/training/metrics/sight_course.h"
@@ -28,8 +29,9 @@ struct MeterOptions {
 /// Something that happened at a moment, for the report's clips and the record's events.
 struct AttemptEvent {
   double time = 0;     ///< s
-  std::string kind;    ///< "contact", "unseen", "bone", "avoid:<name>", "pass", "placed", "idle",
-                       ///< "flow", "misplaced", "pressure", "fastest", "found", "not_found"
+  std::string kind;    ///< "contact", "unseen", "bone", "avoid:<name>", "fatal:<name>", "pass",
+                       ///< "placed", "idle", "left_in", "flow", "misplaced", "pressure", "fastest",
+                       ///< "found", "not_found"
   std::string region;  ///< at the tip
   double value = 0;    ///< mm, N, s, ml, kPa or ml/s, as the kind says
   std::string text;    ///< with the cause, from the truth
@@ -46,6 +48,8 @@ struct AttemptMeasures {
   SyringeTotals syringe;
   std::vector<Dose> doses;
   std::vector<Sought> sought;
+  std::uint64_t needle_left_out = 0;  ///< poses that no hand makes (MotionGate)
+  std::uint64_t probe_left_out = 0;
   std::vector<Metric> metrics;
   std::vector<Metric> raw;  ///< PerkTutor's rows from the 20 Hz tracks
   std::vector<AttemptEvent> events;
@@ -61,10 +65,10 @@ class AttemptMeter {
   AttemptMeter(std::shared_ptr<const Scene> scene, MeterOptions options);
 
   ARTUS_REALTIME void add_needle(double time, const Vec3& p, const Eigen::Quaterniond& q) noexcept {
-    needle_.add(time, p, q);
+    needle_gate_.add(time, p, q, needle_);
   }
   ARTUS_REALTIME void add_probe(double time, const Vec3& p, const Eigen::Quaterniond& q) noexcept {
-    probe_.add(time, p, q);
+    probe_gate_.add(time, p, q, probe_);
   }
   ARTUS_REALTIME void add_felt(const FeltTick& tick) noexcept { forces_.add(tick); }
   ARTUS_REALTIME void add_syringe(const SyringeTick& tick) noexcept { syringe_.add(tick); }
@@ -81,6 +85,8 @@ class AttemptMeter {
   TipSightFinder finder_;
   PoseSampler needle_;
   PoseSampler probe_;
+  MotionGate needle_gate_;
+  MotionGate probe_gate_;
   ForceLayers forces_;
   SyringeCourse syringe_;
   std::vector<ImageSight> images_;

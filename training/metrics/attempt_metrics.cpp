@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "artus/detail/core/units.h"
+#include "artus/detail/training/metrics/placement.h"
 #include "artus/detail/training/metrics/smoothness.h"
 
 namespace artus {
@@ -62,7 +63,8 @@ Value correlation(std::vector<double> a, std::vector<double> b) {
   return ab / std::sqrt(aa * bb);
 }
 
-void put_hand(Sheet& sheet, const char* role, const std::vector<TrackPoint>& track) {
+void put_hand(Sheet& sheet, const char* role, const std::vector<TrackPoint>& track,
+              std::uint64_t left_out) {
   const std::vector<double> speeds = speeds_of(track);
   const std::vector<double> turns = turn_rates_of(track);
   const bool there = !speeds.empty();
@@ -76,6 +78,9 @@ void put_hand(Sheet& sheet, const char* role, const std::vector<TrackPoint>& tra
   };
   sheet.put(role, "path_length_mm", "mm", when(sum(speeds) / kMillimetre),
             "sum of the steps of the pose's origin");
+  sheet.put(role, "left_out", "count", when(static_cast<double>(left_out)),
+            "poses that were left out: further from the one before than 2 m/s or 20 rad/s reach, "
+            "and not there for 0.3 s");
   sheet.put(role, "rotation_deg", "deg", when(sum(turns) / kDegree), "sum of the steps' angles");
   sheet.put(role, "movements", "count", when(count_movements(speeds, kFastMove, kHold)),
             "runs faster than 50 mm/s for 0.2 s or more, closed after 0.2 s below");
@@ -113,11 +118,18 @@ void put_course(Sheet& sheet, const AttemptView& view) {
             "swept area times the needle's outer diameter");
   sheet.put("needle", "deepest_mm", "mm", sum.deepest / kMillimetre,
             "largest distance from the skin to the tip along the needle");
-  const auto idle = find_idle(course);
+  const auto idle = find_idle(course, view.measures.probe);
   double still = 0;
   for (const Run& run : idle) still += run.amount;
+  const double start = course.empty() ? 0 : course.front().time;
+  sheet.put("needle", "done_s", "s", when(sum.last_inside.value_or(start) - start),
+            "start to the last instant with the tip inside");
+  sheet.put("needle", "withdrawn", "-",
+            course.empty() ? Value() : Value(course.back().inside() ? 0 : 1),
+            "1 when the tip was outside the body at the end");
   sheet.put("needle", "idle", "count", static_cast<double>(idle.size()),
-            "times slower than 2 mm/s inside for more than 3 s");
+            "times inside, longer than 3 s, with the tip slower than 2 mm/s and the probe, too, "
+            "which turns slower than 2 deg/s");
   sheet.put("needle", "idle_s", "s", still, "sum of those times");
   sheet.put("needle", "passes", "count", static_cast<double>(find_passes(course).size()),
             "1 and every advance of 5 mm or more after a withdrawal of 5 mm or more");
@@ -149,12 +161,14 @@ void put_sight(Sheet& sheet, const AttemptView& view) {
   sheet.put(
       "both", "tip_seen", "-", there ? Value(sum.time_seen / sum.time) : Value(),
       "share of the time in tissue with the tip between the outermost lines, not shadowed, and "
-      "its echo 6 dB above muscle after what angle and distance to the plane take");
+      "its echo 6 dB above muscle after what angle and distance to the plane take, or with the tip "
+      "6 dB above what is around it in the pictures of that moment");
   double unseen = 0;
   for (const Run& run : sum.unseen) unseen += run.amount;
   sheet.put("both", "unseen_advances", "count",
-            there ? Value(static_cast<double>(sum.unseen.size())) : Value(),
-            "runs of 1 mm or more advanced in tissue while the tip is not seen");
+            there ? Value(static_cast<double>(sum.unseen_advances)) : Value(),
+            "runs of 1 mm or more advanced in tissue while the tip is not seen, ended by 3 s "
+            "without advance; each 5 mm of one beyond the way to the picture's edge is one more");
   sheet.put("both", "unseen_mm", "mm", there ? Value(unseen / kMillimetre) : Value(),
             "distance advanced in those runs");
   sheet.put(
@@ -207,12 +221,13 @@ void put_goals(Sheet& sheet, const AttemptView& view) {
   const Goals& goals = view.options.goals;
   const auto& course = view.measures.course;
   if (goals.target) {
-    const auto placed = find_placement(course);
+    const auto placed = find_placement(course, &*goals.target, view.measures.doses);
     sheet.put(
         "needle", "distance_mm", "mm",
         placed ? Value(distance_to(*goals.target, course[*placed].tip) / kMillimetre) : Value(),
         "tip to " + goals.target->name +
-            " where the needle was placed: its last rest inside of 0.5 s, else its deepest");
+            " where the needle was placed: where half of what was given had been, else its stay of "
+            "0.5 s or more that came nearest, those on the way out aside, else its deepest");
   }
   double time = 0;
   double depth = 0;
@@ -373,8 +388,8 @@ void put_images(Sheet& sheet, const AttemptView& view) {
 std::vector<Metric> compute_metrics(const AttemptView& view) {
   Sheet sheet;
   put_course(sheet, view);
-  put_hand(sheet, "needle", view.measures.needle);
-  put_hand(sheet, "probe", view.measures.probe);
+  put_hand(sheet, "needle", view.measures.needle, view.measures.needle_left_out);
+  put_hand(sheet, "probe", view.measures.probe, view.measures.probe_left_out);
   put_sight(sheet, view);
   put_entry(sheet, view);
   put_goals(sheet, view);

@@ -8,7 +8,6 @@ namespace artus {
 namespace {
 
 constexpr double kFar = 0.5;            // m within which structures are looked for
-constexpr double kRestTime = 0.5;       // s
 constexpr double kLookEvery = 0.25e-3;  // m
 
 /// m beyond the zone's edge; negative outside.
@@ -22,23 +21,6 @@ double distance_to(const Target& target, const Vec3& p_J) noexcept {
   if (target.point) return (p_J - *target.point).norm();
   if (target.body == nullptr) return 0;
   return std::max(0.0, target.body->signed_distance_to_skin(p_J, kFar));
-}
-
-std::optional<std::size_t> find_placement(std::span<const CoursePoint> course) {
-  std::optional<std::size_t> rest;
-  std::optional<std::size_t> deepest;
-  std::size_t since = 0;
-  bool still = false;
-  for (std::size_t i = 1; i < course.size(); ++i) {
-    const CoursePoint& now = course[i];
-    const double dt = now.time - course[i - 1].time;
-    if (now.inside() && (!deepest || now.depth > course[*deepest].depth)) deepest = i;
-    const bool slow = now.inside() && now.step < kRestSpeed * dt;
-    if (slow && !still) since = i - 1;
-    still = slow;
-    if (still && now.time - course[since].time >= kRestTime) rest = i;
-  }
-  return rest ? rest : deepest;
 }
 
 Intrusion find_intrusion(const AvoidZone& zone, std::span<const CoursePoint> course) {

@@ -36,10 +36,6 @@ struct Goals {
 /// m from a point to the target's point, or to its structure's surface: 0 inside.
 [[nodiscard]] double distance_to(const Target& target, const Vec3& p_J) noexcept;
 
-/// Where the needle was placed: the last rest inside (slower than 2 mm/s for 0.5 s or more), else
-/// the deepest point. Empty when it never was inside.
-[[nodiscard]] std::optional<std::size_t> find_placement(std::span<const CoursePoint> course);
-
 /// What happened in one zone. Between points the tip is taken as going straight and looked at every
 /// 0.25 mm or finer.
 struct Intrusion {

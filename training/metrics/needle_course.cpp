@@ -90,7 +90,16 @@ CourseTotals sum_course(std::span<const CoursePoint> course) {
   return sum;
 }
 
-std::vector<Run> find_idle(std::span<const CoursePoint> course, double speed, double longest) {
+std::vector<Run> find_idle(std::span<const CoursePoint> course, std::span<const TrackPoint> probe,
+                           double speed, double longest) {
+  std::size_t k = 1;
+  const auto sweeps = [&](double time) {
+    while (k + 1 < probe.size() && probe[k].time < time - 0.5 / kTrackRate) ++k;
+    if (k >= probe.size() || std::abs(probe[k].time - time) > 1 / kTrackRate) return false;
+    const TrackPoint& before = probe[k - 1];
+    return (probe[k].p - before.p).norm() * kTrackRate >= speed ||
+           before.q.angularDistance(probe[k].q) * kTrackRate >= kRestTurn;
+  };
   std::vector<Run> runs;
   std::optional<double> since;
   const auto close = [&](double at) {
@@ -98,7 +107,7 @@ std::vector<Run> find_idle(std::span<const CoursePoint> course, double speed, do
     since.reset();
   };
   for (std::size_t i = 1; i < course.size(); ++i) {
-    const bool still = course[i].inside() && speed_at(course, i) < speed;
+    const bool still = course[i].inside() && speed_at(course, i) < speed && !sweeps(course[i].time);
     if (still && !since) since = course[i - 1].time;
     if (!still) close(course[i - 1].time);
   }

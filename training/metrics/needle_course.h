@@ -11,6 +11,8 @@ namespace artus {
 
 /// m/s below which a tip is at rest; assumed.
 inline constexpr double kRestSpeed = 2e-3;
+/// rad/s below which a probe is at rest: 2 degrees; assumed.
+inline constexpr double kRestTurn = 0.034906585039886591;
 
 /// Where the needle is at an even step of time, in the body as it rests.
 struct CoursePoint {
@@ -51,8 +53,10 @@ struct Run {
 };
 
 /// Stretches inside the body, longer than `longest` s, in which the tip goes slower than `speed`
-/// m/s.
+/// m/s, and so does the probe, which turns slower than kRestTurn, too: who sweeps is not idle.
+/// `probe`: on the same steps; empty: there is none.
 [[nodiscard]] std::vector<Run> find_idle(std::span<const CoursePoint> course,
+                                         std::span<const TrackPoint> probe = {},
                                          double speed = kRestSpeed, double longest = 3);
 
 /// When each pass of the needle began: the first advance inside, and every advance of at least

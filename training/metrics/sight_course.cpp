@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace artus {
 
@@ -19,47 +20,101 @@ std::vector<std::optional<TipSight>> look_along(const Scene& scene, const TipSig
   return sights;
 }
 
+void look_at_pictures(std::span<const CoursePoint> course, std::span<const ImageSight> images,
+                      std::span<std::optional<TipSight>> sights) {
+  constexpr double kNothing = -60;  // dB, of a tip that is not in the picture
+  std::size_t first = 0;
+  for (std::size_t i = 0; i < course.size(); ++i) {
+    while (first < images.size() && images[first].time < course[i].time - kGlance) ++first;
+    std::vector<double> contrasts;
+    for (std::size_t k = first; k < images.size() && images[k].time <= course[i].time + kGlance;
+         ++k)
+      contrasts.push_back(images[k].contrast_db.value_or(kNothing));
+    if (sights[i]) sights[i]->shown_db = percentile(std::move(contrasts), 0.5);
+  }
+}
+
+namespace {
+
+/// Runs that are advanced unseen, and how many advances they are.
+class UnseenRuns {
+ public:
+  explicit UnseenRuns(SightTotals& sum) : sum_(sum) {}
+
+  void close() {
+    if (run_.amount >= kUnseenDistance) {
+      sum_.unseen.push_back(run_);
+      const double beyond = run_.amount - entry_;
+      sum_.unseen_advances += 1 + std::max(0, static_cast<int>(beyond / kBlind));
+    }
+    run_ = {};
+    entry_ = 0;
+    at_ = front_ = 0;
+  }
+  /// `moved`: m along the needle from one instant to the other. `entering`: before the picture's
+  /// edge. Only what goes beyond where the run has been counts, so that tremor is no advance.
+  void go(double from, double to, double moved, bool entering) {
+    if (run_.amount > 0 && to - run_.to > kUnseenRest) close();
+    at_ += moved;
+    front_ = std::min(front_, at_ + kWithdrawn);
+    const double distance = at_ - front_;
+    if (distance <= 0) return;
+    front_ = at_;
+    if (run_.amount == 0) run_.from = from;
+    run_.to = to;
+    run_.amount += distance;
+    if (entering) entry_ += distance;
+  }
+
+ private:
+  SightTotals& sum_;
+  Run run_;
+  double entry_ = 0;                          // m of the run
+  double at_ = 0;                             // m along the needle since the run began
+  double front_ = 0;                          // m, the farthest of it
+  static constexpr double kWithdrawn = 1e-3;  // m, after which it may advance anew
+};
+
+/// When the tip first came between the picture's edges; the end when it never did.
+std::size_t find_coming(std::span<const CoursePoint> course,
+                        std::span<const std::optional<TipSight>> sights) {
+  std::size_t i = 1;
+  while (i < course.size() && (!course[i].inside() || !sights[i] || !sights[i]->in_picture)) ++i;
+  return i;
+}
+
+}  // namespace
+
 SightTotals sum_sight(std::span<const CoursePoint> course,
                       std::span<const std::optional<TipSight>> sights) {
   SightTotals sum;
-  Run run;
-  double coming = 0;  // m inside, and never yet between the picture's edges
-  bool came = false;
-  const auto close = [&] {
-    if (run.amount >= kUnseenDistance) sum.unseen.push_back(run);
-    run = {};
-  };
+  UnseenRuns unseen(sum);
+  const std::size_t coming = find_coming(course, sights);
+  const bool came = coming < course.size();
   for (std::size_t i = 1; i < course.size(); ++i) {
     const CoursePoint& now = course[i];
     if (!now.inside() || !sights[i]) {
-      close();
+      unseen.close();
       continue;
     }
     const TipSight& sight = *sights[i];
-    const double dt = now.time - course[i - 1].time;
+    const double before = course[i - 1].time;
     const double distance = std::max(0.0, now.advance);
-    sum.time += dt;
+    sum.time += now.time - before;
     sum.advanced += distance;
     if (std::abs(sight.offset) <= sight.half_width && std::abs(sight.plane_angle) <= kInPlane)
       sum.advanced_in_plane += distance;
     sum.offsets.push_back(std::abs(sight.offset));
     sum.angles.push_back(std::abs(sight.plane_angle));
-    if (sight.loss == SightLoss::off_sector && !came) {
-      coming += distance;
-    } else if (!came) {
-      came = true;
-      sum.outside_picture = coming;
-    }
+    if (came && i < coming) sum.outside_picture += distance;
     if (sight.seen()) {
-      sum.time_seen += dt;
-      close();
-      continue;
+      sum.time_seen += now.time - before;
+      unseen.close();
+    } else {
+      unseen.go(before, now.time, now.advance, came && i < coming);
     }
-    if (run.amount == 0) run.from = course[i - 1].time;
-    run.to = now.time;
-    run.amount += distance;
   }
-  close();
+  unseen.close();
   return sum;
 }
 

@@ -16,6 +16,13 @@ namespace artus {
                                                               std::span<const TrackPoint> needle,
                                                               std::span<const TrackPoint> probe);
 
+/// What the pictures of each moment showed of the tip: the median of those within kGlance of it;
+/// one without contrast shows nothing. Moments without a picture keep what geometry says. `images`:
+/// by time. Requires: spans of one length.
+void look_at_pictures(std::span<const CoursePoint> course, std::span<const ImageSight> images,
+                      std::span<std::optional<TipSight>> sights);
+inline constexpr double kGlance = 0.125;  ///< s; assumed: what the eye takes together
+
 /// How the needle was kept in the picture.
 struct SightTotals {
   double advanced = 0;           ///< m forward inside, with a probe there
@@ -24,11 +31,15 @@ struct SightTotals {
   double time_seen = 0;          ///< s of it with the tip seen
   std::vector<double> offsets;   ///< m, |tip - plane| inside
   std::vector<double> angles;    ///< rad, |shaft to plane| inside
-  std::vector<Run> unseen;       ///< runs of at least kUnseenDistance advanced unseen; amount in m
-  double outside_picture = 0;    ///< m of the first run before the tip came between its edges
+  std::vector<Run> unseen;       ///< runs of at least kUnseenDistance advanced unseen; amount in m,
+                                 ///< from the first advance to the last
+  int unseen_advances = 0;     ///< those runs, each whole kBlind of one beyond the entry a further
+  double outside_picture = 0;  ///< m of the first run before the tip came between its edges
 };
 inline constexpr double kInPlane = 0.08726646259971647;  ///< rad: 5 degrees
 inline constexpr double kUnseenDistance = 1e-3;          ///< m
+inline constexpr double kUnseenRest = 3;                 ///< s without advance that end a run
+inline constexpr double kBlind = 5e-3;                   ///< m; assumed
 
 /// Requires: spans of one length.
 [[nodiscard]] SightTotals sum_sight(std::span<const CoursePoint> course,

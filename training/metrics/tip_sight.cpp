@@ -92,12 +92,13 @@ TipSight TipSightFinder::look(const Scene& scene, const Pose& X_JP, const Pose& 
   }
   const double heard = beam_.elevation_amplitude(sight.offset, std::clamp(tip.z(), 0.0, depth_));
   const double aside_db = decibels(heard);
+  sight.in_picture = in_sector(tip);
   const bool faint = sight.contrast_db + aside_db < kMinContrast;
   if (air > kMaxAir)
     sight.loss = SightLoss::no_contact;
   else if (faint && aside_db < -kMinContrast)
     sight.loss = SightLoss::off_plane;
-  else if (!in_sector(tip))
+  else if (!sight.in_picture)
     sight.loss = SightLoss::off_sector;
   else if (sight.shadow != kOutside)
     sight.loss = SightLoss::shadow;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #pragma once
+#include <optional>
+
 #include "artus/detail/echo/probe/beam_profile.h"
+#include "artus/detail/training/metrics/image_sight.h"
 #include "artus/echo/needle_view.h"
 #include "artus/echo/transducer.h"
 #include "artus/raycast/scene.h"
@@ -11,7 +14,7 @@ namespace artus {
 enum class SightLoss { none, no_contact, off_plane, off_sector, shadow, angle };
 [[nodiscard]] const char* to_string(SightLoss loss) noexcept;
 
-/// How a needle lies in the picture, from geometry alone.
+/// How a needle lies in the picture, from geometry alone but for `shown`.
 struct TipSight {
   SightLoss loss = SightLoss::none;
   double offset = 0;           ///< m, of the tip from the image plane, along +y of the probe
@@ -21,7 +24,14 @@ struct TipSight {
   double contrast_db = 0;      ///< of the shaft's echo over muscle's speckle
   double angle_db = 0;         ///< of that echo, lost to the angle beside a shaft that lies flat
   RegionId shadow = kOutside;  ///< the region that shadows the tip
-  [[nodiscard]] bool seen() const noexcept { return loss == SightLoss::none; }
+  bool in_picture = false;     ///< the tip lies between the outermost lines, within the depth
+  /// dB by which the tip stands out in the pictures of that moment; empty where there were none.
+  std::optional<double> shown_db;
+  /// What geometry says, and whatever it says, what the picture shows. (A shaft that runs on beside
+  /// the tip takes its contrast, so that little contrast alone hides nothing.)
+  [[nodiscard]] bool seen() const noexcept {
+    return loss == SightLoss::none || shown_db.value_or(0) >= kVisibleContrast;
+  }
 };
 
 /// Tells whether a tip can be seen: the face couples (less than 5 mm of air on the beam to the

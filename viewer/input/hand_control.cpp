@@ -87,6 +87,22 @@ void HandControl::press_probe(double length, const HandGround& ground) {
   target_.X_WP = to_plain(X_WP);
 }
 
+void HandControl::follow_entry(const HandGround& ground) {
+  if (!ground.entry_W)
+    entered_axis_W_.reset();
+  else if (!entered_axis_W_)
+    entered_axis_W_ = to_pose(target_.X_WN).linear().col(2);
+}
+
+void HandControl::keep_turn(Pose& X_WN, const Vec3& entry_W) const {
+  if (!entered_axis_W_) return;
+  const Vec3 axis = X_WN.linear().col(2);
+  const Vec3 back = axis.cross(*entered_axis_W_);
+  const double angle = std::atan2(back.norm(), axis.dot(*entered_axis_W_));
+  if (angle > kMostTurn && back.norm() > 1e-9)
+    X_WN = turned_about(X_WN, entry_W, back.normalized(), angle - kMostTurn);
+}
+
 // In the image plane with x, out of it with y: a turn about the entry, or a shift while outside.
 void HandControl::steer_needle(double x, double y, double slide, double turn,
                                const HandGround& ground) {
@@ -95,6 +111,7 @@ void HandControl::steer_needle(double x, double y, double slide, double turn,
   if (ground.entry_W) {
     X_WN = turned_about(X_WN, *ground.entry_W, X_WP.linear().col(1), -turn * x);
     X_WN = turned_about(X_WN, *ground.entry_W, X_WP.linear().col(0), turn * y);
+    keep_turn(X_WN, *ground.entry_W);
   } else {
     X_WN.translation() += X_WP.linear() * Vec3(slide * x, slide * y, 0);
   }
@@ -267,6 +284,7 @@ bool HandControl::handle_pad(const PadEvent& pad, const HandGround& ground) {
 }
 
 bool HandControl::handle(const UserEvent& event, const HandGround& ground) {
+  follow_entry(ground);
   if (const auto* request = std::get_if<ActionEvent>(&event))
     return handle(request->action, request->fine, ground);
   refusal_ = nullptr;

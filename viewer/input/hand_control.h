@@ -43,7 +43,10 @@ class HandControl {
   static constexpr double kPadSlide = 30e-3;                   ///< m/s, stick held
   static constexpr double kPadTurn = 0.35;                     ///< rad/s, stick held
   static constexpr double kBeyondBone = 5e-3;                  ///< m of the hand's way that press
-  static constexpr double kDeepestPress = 15e-3;               ///< m, of the probe
+  /// rad from how it went in that tissue lets a shaft be turned; assumed. A hand that is flicked
+  /// bends no needle across the body.
+  static constexpr double kMostTurn = 35 * 0.017453292519943295;
+  static constexpr double kDeepestPress = 15e-3;  ///< m, of the probe
 
   explicit HandControl(const HandTarget& start, double needle_length = 1)
       : start_(start), target_(start), needle_length_(needle_length) {}
@@ -76,6 +79,7 @@ class HandControl {
   bool handle_scroll(const ScrollEvent& scroll, const HandGround& ground);
   bool handle_pad(const PadEvent& pad, const HandGround& ground);
   void move_in_hand(double dx, double dy, bool tilt, const HandGround& ground);
+  void keep_turn(Pose& X_WN, const Vec3& entry_W) const;
   void go_home();
   bool undo(const HandGround& ground);
   void push(double length, const HandGround& ground);
@@ -84,6 +88,8 @@ class HandControl {
   void turn_probe(double angle);
   void press_probe(double length, const HandGround& ground);
   void steer_needle(double x, double y, double slide, double turn, const HandGround& ground);
+  /// Remembers how the shaft went in, while it is in.
+  void follow_entry(const HandGround& ground);
 
   HandTarget start_;
   HandTarget target_;
@@ -95,6 +101,7 @@ class HandControl {
   bool have_cursor_ = false;
   double x_ = 0;
   double y_ = 0;
+  std::optional<Vec3> entered_axis_W_;  // of the shaft when it went in; empty: it is outside
 };
 
 }  // namespace artus

@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "artus/core/result.h"
@@ -43,8 +44,10 @@ struct Page {
   std::string title;
   std::vector<PageLine> lines;
   std::vector<PageChoice> choices;
-  std::size_t at = 0;                  ///< the choice that is marked
-  bool may_back = false;               ///< one can go back from here
+  std::size_t at = 0;     ///< the choice that is marked
+  bool may_back = false;  ///< one can go back from here
+  /// How far something has come that is waited for, in words and 0 to 1; empty: there is no bar.
+  std::function<std::pair<std::string, double>()> bar;
   std::function<void(Page&)> refresh;  ///< called before each look; empty: it stays as it is
   std::function<bool()> done;          ///< ends the page without a choice; empty: only choices do
 };

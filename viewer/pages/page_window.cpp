@@ -114,12 +114,18 @@ class PageWindow::Shown {
     ImGui::SetWindowFontScale(1);
     ImGui::Dummy(ImVec2(0, 4 * gui_.scale()));
     draw_lines(page_.lines);
+    draw_bar();
     ImGui::Dummy(ImVec2(0, 4 * gui_.scale()));
     const float right = ImGui::GetWindowContentRegionMax().x;
     for (std::size_t i = 0; i < page_.choices.size(); ++i) {
       const PageChoice& choice = page_.choices[i];
       const std::string name = choice.name + "###choice" + std::to_string(i);
       ImGui::PushStyleColor(ImGuiCol_Text, colour_of(choice.tone));
+      // What is chosen stands out more than what the pointer passes.
+      ImGui::PushStyleColor(ImGuiCol_Header, ImVec4(0.22F, 0.42F, 0.75F, 0.95F));
+      ImGui::PushStyleColor(ImGuiCol_HeaderHovered, i == page_.at
+                                                        ? ImVec4(0.24F, 0.46F, 0.80F, 1)
+                                                        : ImVec4(0.20F, 0.24F, 0.32F, 0.8F));
       if (ImGui::Selectable(name.c_str(), i == page_.at))
         answer_ = PageAnswer{PageAnswer::Kind::chosen, i};
       const ImVec2 path = ImGui::GetIO().MouseDelta;
@@ -129,9 +135,18 @@ class PageWindow::Shown {
         ImGui::SameLine(right - ImGui::CalcTextSize(choice.beside.c_str()).x);
         ImGui::TextUnformatted(choice.beside.c_str());
       }
-      ImGui::PopStyleColor();
+      ImGui::PopStyleColor(3);
     }
     scroll_ = false;
+  }
+
+  /// How far what is waited for has come, and since when.
+  void draw_bar() {
+    if (!page_.bar) return;
+    const auto [step, fraction] = page_.bar();
+    ImGui::ProgressBar(static_cast<float>(std::clamp(fraction, 0.0, 1.0)),
+                       ImVec2(0.9F * ImGui::GetContentRegionAvail().x, 0));
+    draw_lines({{step, Tone::dim}});
   }
 
   void draw_right() {

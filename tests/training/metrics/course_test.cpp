@@ -57,6 +57,82 @@ TEST(Course, IdleIsInsideAndLongerThanThreeSeconds) {
   EXPECT_EQ(find_idle(course_of({-5, -5, -5}, 100)).size(), 0U);
 }
 
+TEST(Course, WhoSweepsTheProbeIsNotIdle) {
+  const auto course = course_of({-5, 20, 20, 30}, 200);  // ten seconds of rest
+  std::vector<TrackPoint> probe;
+  for (const CoursePoint& at : course) {
+    TrackPoint p;
+    p.time = at.time;
+    probe.push_back(p);
+  }
+  EXPECT_EQ(find_idle(course, probe).size(), 1U);
+  for (std::size_t i = 0; i < probe.size(); ++i) probe[i].p.x() = 5e-3 * probe[i].time;
+  EXPECT_EQ(find_idle(course, probe).size(), 0U);
+  for (std::size_t i = 0; i < probe.size(); ++i) {
+    probe[i].p.setZero();
+    probe[i].q = Eigen::AngleAxisd(0.1 * probe[i].time, Vec3::UnitX());
+  }
+  EXPECT_EQ(find_idle(course, probe).size(), 0U);
+}
+
+TEST(Course, ARunUnseenIsItsAdvancesNotItsRests) {
+  const auto course = course_of({-5, 4, 4, 8, 8, 8, 10}, 80);  // 4 s each
+  std::vector<std::optional<TipSight>> sights(course.size());
+  for (std::size_t i = 0; i < course.size(); ++i) {
+    sights[i] = TipSight{};
+    sights[i]->in_picture = true;
+    sights[i]->loss = SightLoss::off_plane;
+  }
+  const SightTotals sum = sum_sight(course, sights);
+  ASSERT_EQ(sum.unseen.size(), 3U);
+  double shaded = 0;
+  for (const auto& run : sum.unseen) shaded += run.to - run.from;
+  EXPECT_NEAR(shaded, 4.0 * 4 / 9 + 4 + 4, 0.3);
+  EXPECT_EQ(sum.unseen_advances, 3);
+}
+
+TEST(Course, ABlindAdvanceIsMoreThanOne) {
+  for (const auto& [depth, advances] : {std::pair{4.0, 1}, {9.0, 2}, {50.5, 11}}) {
+    const auto course = course_of({-5, depth}, 200);
+    std::vector<std::optional<TipSight>> sights(course.size());
+    for (auto& sight : sights) {
+      sight = TipSight{};
+      sight->loss = SightLoss::off_plane;
+    }
+    EXPECT_EQ(sum_sight(course, sights).unseen_advances, advances) << depth;
+  }
+}
+
+TEST(Course, TheWayToThePicturesEdgeIsOneAdvance) {
+  const auto course = course_of({-5, 20}, 200);
+  std::vector<std::optional<TipSight>> sights(course.size());
+  for (std::size_t i = 0; i < course.size(); ++i) {
+    sights[i] = TipSight{};
+    sights[i]->in_picture = course[i].depth > 15e-3;
+    sights[i]->loss = course[i].depth > 16e-3 ? SightLoss::none : SightLoss::off_sector;
+  }
+  const SightTotals sum = sum_sight(course, sights);
+  EXPECT_EQ(sum.unseen_advances, 1);
+  EXPECT_NEAR(sum.outside_picture, 15e-3, 0.3e-3);
+}
+
+TEST(Course, WhatThePicturesShowIsSeen) {
+  const auto course = course_of({-5, 20, 20, 20}, 100);
+  std::vector<std::optional<TipSight>> sights(course.size(), TipSight{});
+  sights[150]->loss = SightLoss::off_plane;  // geometry says no, the picture yes
+  std::vector<ImageSight> images;
+  for (const double time : {7.45, 7.5, 7.55}) images.push_back({time, true, 9.0});
+  for (const double time : {10.0, 10.05, 10.1}) images.push_back({time, false, 2.0});
+  images.push_back({12, false, std::nullopt});
+  look_at_pictures(course, images, sights);
+  EXPECT_TRUE(sights[150]->seen());
+  EXPECT_TRUE(sights[201]->seen());  // little contrast hides nothing
+  sights[202]->loss = SightLoss::shadow;
+  EXPECT_FALSE(sights[202]->seen());
+  EXPECT_TRUE(sights[20]->seen());  // no picture: geometry
+  EXPECT_FALSE(sights[20]->shown_db);
+}
+
 TEST(Course, MovementsLastAFifthOfASecond) {
   const auto count = [](std::initializer_list<std::pair<double, int>> runs) {
     std::vector<double> speeds;
@@ -149,16 +225,6 @@ TEST(Course, ALongTurnAtRestIsOneRedirection) {
   turn(23, 300, 20);
   turn(-23, 325, 20);  // there and back with hardly a rest
   EXPECT_EQ(find_redirections(course).size(), 3U);
-}
-
-TEST(Goals, ARestBeforeTheWithdrawalIsThePlacement) {
-  const auto course = course_of({-5, 30, 28, 28, 0, -5}, 20);
-  const auto placed = find_placement(course);
-  ASSERT_TRUE(placed);
-  EXPECT_NEAR(course[*placed].depth, 28e-3, 1e-9);
-  const auto restless = course_of({-5, 30, 0, -5}, 20);
-  EXPECT_NEAR(restless[*find_placement(restless)].depth, 30e-3, 1e-9);
-  EXPECT_FALSE(find_placement(course_of({-5, -2}, 20)));
 }
 
 TEST(Goals, IntrusionsAreMeasuredFromTheZonesEdge) {
