@@ -11,6 +11,7 @@
 namespace artus {
 namespace {
 
+constexpr int kRow = 16;                // lines that one worker follows one after the other
 constexpr double kTrackWidth = 0.3e-3;  // m, of a withdrawn needle's track. assumed
 
 ARTUS_SIMD
@@ -53,7 +54,6 @@ Acquisition::Acquisition(const Transducer& transducer, const ImageSettings& sett
   const auto lines = static_cast<std::size_t>(n_lines_);
   lines_.resize(lines);
   tips_.resize(lines);
-  scratch_.resize(static_cast<std::size_t>(BlockWorkers::blocks_of(n_lines_)));
   re_.resize(lines * n_samples_);
   im_.resize(lines * n_samples_);
   for (std::size_t k = 0; k < n_more_; ++k) {
@@ -94,6 +94,8 @@ void Acquisition::place_tracks(const EchoBody& body, const EchoView& view) {
 void Acquisition::run(const EchoBody& body, const EchoView& view, BlockWorkers& workers,
                       Frame& frame) {
   X_PJ_ = view.X_JP.inverse();
+  const auto workers_needed = static_cast<std::size_t>(workers.workers());
+  if (scratch_.size() < workers_needed) scratch_.resize(workers_needed);
   place_tracks(body, view);
   drifting_.place(body.drifting, view.X_JP, view.probe);
   const SmoothGradient* const tissue = body.tissue ? &*body.tissue : nullptr;
@@ -105,15 +107,18 @@ void Acquisition::run(const EchoBody& body, const EchoView& view, BlockWorkers& 
     std::fill(frame.needle_light.begin(), frame.needle_light.end(), 1.0F);
     std::fill(tips_.begin(), tips_.end(), NeedleEcho::Tip{});
   }
-  workers.for_blocks(n_lines_, [&](int block, int first, int last) {
-    LineScratch& scratch = scratch_[static_cast<std::size_t>(block)];
-    scratch.begin_row();
-    for (int l = first; l < last; ++l)
-      lines_[static_cast<std::size_t>(l)] = place_line(pass.view.probe, l, pass.view.X_JP);
-    const auto row = std::span(lines_).subspan(static_cast<std::size_t>(first),
-                                               static_cast<std::size_t>(last - first));
-    for (std::size_t l = 0; l < row.size(); ++l) listen(pass, row, l, scratch);
-  });
+  workers.for_blocks(
+      n_lines_,
+      [&](int worker, int first, int last) {
+        LineScratch& scratch = scratch_[static_cast<std::size_t>(worker)];
+        scratch.beams.begin_row(settings_.n_planes);
+        for (int l = first; l < last; ++l)
+          lines_[static_cast<std::size_t>(l)] = place_line(pass.view.probe, l, pass.view.X_JP);
+        const auto row = std::span(lines_).subspan(static_cast<std::size_t>(first),
+                                                   static_cast<std::size_t>(last - first));
+        for (std::size_t l = 0; l < row.size(); ++l) listen(pass, row, l, scratch);
+      },
+      kRow);
   workers.for_blocks(n_lines_, [&](int, int first, int last) {
     for (int l = first; l < last; ++l) {
       const EchoSpan echoes = line_of(re_, im_, l);
@@ -141,19 +146,20 @@ void Acquisition::listen(const Pass& pass, std::span<const PlacedLine> row, std:
   std::size_t k = 0;
   for_more(l, [&](EchoSpan line) { more[k++] = line; });
   synthesis_.synthesise(pass.tracer, row, of_row, scratch, echoes, n_more_ > 0 ? &more : nullptr);
-  spread_.note(l, scratch.path());
-  light_.note(l, scratch.central());
-  const SoundedLine sounded{placed, scratch.central(), scratch.path()};
+  spread_.note(l, scratch.beams.path());
+  const BeamTrace& central = scratch.beams.central();
+  light_.note(l, central);
+  const SoundedLine sounded{placed, central, scratch.beams.path()};
   for (const Track& track : tracks_) track.echo.add_track(track.amplitude, sounded, echoes);
   drifting_.add(sounded, echoes);
   if (pass.needle) add_needle(pass, sounded);
   coupling_.apply(l, shape_->sample_depth(), echoes);
   for_more(l, [&](EchoSpan line) { coupling_.apply(l, shape_->sample_depth(), line); });
-  const bool touches = scratch.central().contact;
+  const bool touches = central.contact;
   add_lens_ringing(touches ? 1 - coupling_.at_line(l) : 1, shape_->sample_depth(), echoes.re);
   pass.frame.contact[at] = static_cast<float>(touches ? coupling_.at_line(l) : 0);
-  pass.frame.shadow_from[at] = static_cast<float>(
-      std::clamp(scratch.central().shadow_from, 0.0, static_cast<double>(n_samples_)));
+  pass.frame.shadow_from[at] =
+      static_cast<float>(std::clamp(central.shadow_from, 0.0, static_cast<double>(n_samples_)));
 }
 
 void Acquisition::add_needle(const Pass& pass, const SoundedLine& sounded) {

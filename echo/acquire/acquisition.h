@@ -107,7 +107,7 @@ class Acquisition {
   DriftingEcho drifting_;
   Pose X_PJ_ = Pose::Identity();
   std::vector<PlacedLine> lines_;     // (n_lines)
-  std::vector<LineScratch> scratch_;  // (blocks)
+  std::vector<LineScratch> scratch_;  // (workers)
   std::vector<Track> tracks_;
   std::vector<NeedleEcho::Tip> tips_;  // (n_lines)
   std::vector<float> re_;              // (n_lines, n_samples), as the next three

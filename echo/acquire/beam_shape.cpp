@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <type_traits>
 
 #include "artus/detail/echo/medium/scatter_field.h"
 #include "artus/detail/echo/medium/simd.h"
@@ -19,9 +21,48 @@ constexpr std::size_t kPadding = 8;  // floats behind the last weight that may b
 constexpr int kMaxReach = 16;        // lines
 constexpr double kSmallest = 10e-6;  // m, of a scatterer
 
+constexpr std::size_t kAcross = 32;  // samples whose sums stay in registers
+
+/// What the beam mixes of the lines around one.
+struct AcrossLines {
+  const float* kernel;  // (reach + 1, n), of lines 0, 1.. beside it
+  const float* middle;  // the line's own samples
+  std::ptrdiff_t n;     // samples a line
+  int before;           // lines before it that are mixed
+  int behind;
+};
+
+/// out[first..] = the weighted sum over the lines, `count` <= kAcross samples.
+template <class Count>
+[[gnu::always_inline]] inline void mix_some(const AcrossLines& lines, std::ptrdiff_t first,
+                                            Count count, float* out) noexcept {
+  float sum[kAcross];
+  const float* const own = lines.middle + first;
+  for (std::size_t i = 0; i < count; ++i)
+    sum[i] = lines.kernel[first + static_cast<std::ptrdiff_t>(i)] * own[i];
+  const int both = std::min(lines.before, lines.behind);
+  for (int k = 1; k <= both; ++k) {
+    const float* const weight = lines.kernel + k * lines.n + first;
+    const float* const left = own - k * lines.n;
+    const float* const right = own + k * lines.n;
+    for (std::size_t i = 0; i < count; ++i) sum[i] += weight[i] * (left[i] + right[i]);
+  }
+  const int side = lines.before > lines.behind ? -1 : 1;
+  for (int k = both + 1; k <= std::max(lines.before, lines.behind); ++k) {
+    const float* const weight = lines.kernel + k * lines.n + first;
+    const float* const one = own + side * k * lines.n;
+    for (std::size_t i = 0; i < count; ++i) sum[i] += weight[i] * one[i];
+  }
+  for (std::size_t i = 0; i < count; ++i) out[first + static_cast<std::ptrdiff_t>(i)] = sum[i];
+}
+
 ARTUS_SIMD
-void multiply_add(const float* weight, const float* in, float* out, std::size_t n) noexcept {
-  for (std::size_t i = 0; i < n; ++i) out[i] += weight[i] * in[i];
+void mix_lines(const AcrossLines& lines, float* out) noexcept {
+  constexpr auto kStep = static_cast<std::ptrdiff_t>(kAcross);
+  std::ptrdiff_t first = 0;
+  for (; first + kStep <= lines.n; first += kStep)
+    mix_some(lines, first, std::integral_constant<std::size_t, kAcross>{}, out);
+  if (first < lines.n) mix_some(lines, first, static_cast<std::size_t>(lines.n - first), out);
 }
 
 ARTUS_SIMD
@@ -107,6 +148,18 @@ void BeamShape::tabulate_lateral(int n_lines) {
   }
 }
 
+/// The weight of plane `p`'s scatterers: with the power of half of what lies between it and the
+/// next planes that are heard.
+double BeamShape::heard_weight(int p, std::span<const double> weight) const noexcept {
+  const auto power = [&](int q) {
+    const auto at = static_cast<std::size_t>(q);
+    return q < 0 || at >= weight.size() || hears_speckle(q) ? 0 : weight[at] * weight[at];
+  };
+  const double own = weight[static_cast<std::size_t>(p)];
+  if (!hears_speckle(p)) return 0;
+  return std::sqrt(own * own + 0.5 * (power(p - 1) + power(p + 1)));
+}
+
 void BeamShape::tabulate_planes(const ImageSettings& settings) {
   const int planes = settings.n_planes;
   const auto n = static_cast<std::size_t>(n_samples_);
@@ -119,6 +172,7 @@ void BeamShape::tabulate_planes(const ImageSettings& settings) {
       shared_power(pulse_, sample_depth_, scatterer_.axial, ScatterField::shared_axially);
   std::vector<double> lateral(static_cast<std::size_t>(2 * reach_ + 1));
   std::vector<double> weight(static_cast<std::size_t>(planes));
+  std::vector<double> heard(weight.size());
   for (std::size_t i = 0; i < n; ++i) {
     const double z = static_cast<double>(i) * sample_depth_;
     double sum = 0;
@@ -127,10 +181,14 @@ void BeamShape::tabulate_planes(const ImageSettings& settings) {
       const auto at = static_cast<std::size_t>(p);
       weight[at] = std::max(1e-3, profile_.elevation_amplitude(plane_elevation(p, z), z));
       sum += weight[at];
-      plane_power += weight[at] * weight[at];
+    }
+    for (int p = 0; p < planes; ++p) heard[static_cast<std::size_t>(p)] = heard_weight(p, weight);
+    for (int p = 0; p < planes; ++p) {
+      const double own = heard[static_cast<std::size_t>(p)];
+      plane_power += own * own;
       for (int q = 0; q < p; ++q) {
         const double apart = plane_elevation(p, z) - plane_elevation(q, z);
-        plane_power += 2 * weight[at] * weight[static_cast<std::size_t>(q)] *
+        plane_power += 2 * own * heard[static_cast<std::size_t>(q)] *
                        ScatterField::shared(apart, scatterer_.elevation);
       }
     }
@@ -144,7 +202,7 @@ void BeamShape::tabulate_planes(const ImageSettings& settings) {
     const double unit = 1 / std::sqrt(plane_power * lateral_power * pulse_power);
     for (std::size_t p = 0; p < weight.size(); ++p) {
       echo_weight_[p * n + i] = static_cast<float>(weight[p] / sum);
-      speckle_weight_[p * n + i] = static_cast<float>(weight[p] * unit);
+      speckle_weight_[p * n + i] = static_cast<float>(heard[p] * unit);
     }
   }
 }
@@ -172,14 +230,10 @@ double BeamShape::lateral_amplitude(double offset, double z) const noexcept {
 
 void BeamShape::across(std::span<const float> lines, int n_lines, int line,
                        std::span<float> out) const noexcept {
-  const auto n = static_cast<std::size_t>(n_samples_);
-  std::fill(out.begin(), out.end(), 0.0F);
-  for (int k = -reach_; k <= reach_; ++k) {
-    const int from = line + k;
-    if (from < 0 || from >= n_lines) continue;
-    multiply_add(kernel_.data() + static_cast<std::size_t>(std::abs(k)) * n,
-                 lines.data() + static_cast<std::size_t>(from) * n, out.data(), n);
-  }
+  const auto n = static_cast<std::ptrdiff_t>(n_samples_);
+  mix_lines({kernel_.data(), lines.data() + line * n, n, std::min(reach_, line),
+             std::min(reach_, n_lines - 1 - line)},
+            out.data());
 }
 
 void BeamShape::along(std::span<const float> in, std::span<float> out) const noexcept {

@@ -35,6 +35,13 @@ class BeamShape {
   /// Elevation (m) of plane `p` at beam depth `z`: the planes follow the beam's waist in straight
   /// pieces between the face, the focus and the end.
   [[nodiscard]] double plane_elevation(int p, double z) const noexcept;
+  /// Whether scatterers are heard in plane `p`: of five planes and more in every second one, the
+  /// middle among them. Those between lie closer to both neighbours than scatterers are large, so
+  /// that they would hear the same ones again; interfaces are heard in all.
+  [[nodiscard]] bool hears_speckle(int p) const noexcept {
+    const int planes = static_cast<int>(offsets_.size());
+    return planes < kAllHear || planes % 2 == 0 || p % 2 == planes / 2 % 2;
+  }
   /// Beam lengths where the planes bend, m, ascending: face, focus, the longest path.
   [[nodiscard]] std::span<const double> plane_nodes() const noexcept { return nodes_; }
 
@@ -67,7 +74,9 @@ class BeamShape {
   void along(std::span<const float> in, std::span<float> out) const noexcept;
 
  private:
+  static constexpr int kAllHear = 5;  // planes from which on only some hear scatterers
   void size_scatterers(const Transducer& transducer);
+  [[nodiscard]] double heard_weight(int p, std::span<const double> weight) const noexcept;
   void tabulate_planes(const ImageSettings& settings);
   void tabulate_lateral(int n_lines);
   void tabulate_pulse(const Transducer& transducer);

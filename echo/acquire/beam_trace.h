@@ -2,6 +2,8 @@
 #pragma once
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "artus/detail/echo/medium/material_map.h"
 #include "artus/detail/raycast/plane_cache.h"
@@ -18,6 +20,7 @@ struct BeamRun {
   Vec3 step_J = Vec3::Zero();        ///< m per sample
   Vec3 direction_J = Vec3::UnitZ();  ///< unit, of the wave (without the elevation tilt)
   RegionId region = kOutside;
+  std::uint16_t n_pieces = 1;         ///< that the way through the region was cut into
   double log_gain_begin = 0;          ///< ln of the two-way amplitude at `begin`
   double log_gain_end = 0;            ///< at `end`
   double path_begin = 0;              ///< m along the beam from the face to `begin`
@@ -28,6 +31,7 @@ struct BeamRun {
   double across = 1;                  ///< |cosine| between wave and the normal of sheets
   Vec3 rest_middle_J = Vec3::Zero();  ///< m, the run's middle, where its tissue was at rest
   MaterialPoint middle;               ///< the region's own coordinates there
+  bool has_middle = false;            ///< whether it was asked for
   std::size_t first_knot = 0;         ///< of BeamTrace::knots, the last one before the run
   std::size_t n_knots = 0;            ///< to the first behind it; 0: the tissue is at rest
 };
@@ -49,12 +53,14 @@ struct KnotFrame {
 /// An echo of an interface.
 struct BeamEcho {
   double sample = 0;
-  double amplitude = 0;        ///< mirror = 1
-  double diffuse_share = 0;    ///< 0..1 of it comes from roughness and glitters
-  double cosine = 1;           ///< of the incidence angle
-  bool is_cortex = false;      ///< shown as thick as scanners show bone, see BeamTracer
-  Vec3 rest_J = Vec3::Zero();  ///< m, where the tissue there was at rest
-  Vec3 step_J = Vec3::Zero();  ///< m per sample, onward, at rest
+  double amplitude = 0;          ///< mirror = 1
+  double diffuse_share = 0;      ///< 0..1 of it comes from roughness and glitters
+  double cosine = 1;             ///< of the incidence angle
+  bool is_cortex = false;        ///< shown as thick as scanners show bone, see BeamTracer
+  Vec3 p_J = Vec3::Zero();       ///< m
+  Vec3 normal_J = Vec3::Zero();  ///< unit, against the wave
+  Vec3 rest_J = Vec3::Zero();    ///< m, where the tissue there was at rest
+  Vec3 step_J = Vec3::Zero();    ///< m per sample, onward, at rest
 };
 
 /// Everything one beam meets on its path.
@@ -64,16 +70,18 @@ struct BeamTrace {
   static constexpr std::size_t kMaxKnots = 512;
   std::array<BeamRun, kMax> runs;
   std::array<BeamKnot, kMaxKnots> knots;
-  std::array<KnotFrame, kMaxKnots> frames;  ///< of the knots, where there is no guide
-  const BeamTrace* guide = nullptr;         ///< beam near by of whose frames the knots are made
-  bool outran = false;                      ///< its guide ended before
+  std::vector<KnotFrame> frames;     ///< (kMaxKnots) of the knots, where there is no guide
+  const BeamTrace* guide = nullptr;  ///< beam near by of whose frames the knots are made
+  bool outran = false;               ///< its guide ended before
   std::array<BeamEcho, kMax> echoes;
   std::size_t n_runs = 0;
   std::size_t n_echoes = 0;
   std::size_t n_knots = 0;
+  std::size_t n_first = 0;   ///< of the echoes that are no repeats; those come first
   double shadow_from = 0;    ///< sample behind which nothing returns; large when there is none
   double end_sample = 0;     ///< where bone or gas ended the beam
   double end_amplitude = 0;  ///< of its echo there; 0: nothing did
+  bool is_beside = false;    ///< of another plane than the middle one
   bool contact = true;       ///< false: air between face and skin
   /// Room for one query, kept with the trace because clearing it would cost as much as the query.
   std::array<TissueInterval, kMaxIntervals> intervals;
@@ -84,10 +92,12 @@ struct BeamTrace {
     n_runs = 0;
     n_echoes = 0;
     n_knots = 0;
+    n_first = 0;
     guide = nullptr;
     outran = false;
     end_amplitude = 0;
     contact = true;
+    is_beside = false;
   }
 
   /// Displayed sample and ln gain at a distance along the beam; false behind the end of the sound.

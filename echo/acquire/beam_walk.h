@@ -45,6 +45,7 @@ struct BeamTracer::Walk {
   double bend_loss = 0;                    // Np, see kBendLobe
   const BeamTrace* central = nullptr;      // of the middle plane, for the others
   std::size_t central_run = 0;             // the one beside this beam's place
+  const BeamTrace* like = nullptr;         // runs are cut as in this one, where it is near
   std::size_t guide_knot = 0;              // the first behind the last one made
   Vec3 line_start = {};                    // of the straight piece, as the next four
   Vec3 line_direction = {};                // unit
@@ -91,6 +92,15 @@ struct BeamTracer::Walk {
   [[nodiscard]] double log_gain(double sigma) const noexcept {
     const double shift = slope * sigma;
     return log_transmission - bend_loss - attenuation + 0.5 * shift * shift;
+  }
+  /// The middle plane's run beside a run, of the same region; null: none. Only ever asked for runs
+  /// farther on.
+  [[nodiscard]] const BeamRun* run_beside(const BeamRun& run) noexcept {
+    std::size_t& i = central_run;
+    while (i + 1 < central->n_runs && central->runs[i].path_end <= run.path_begin) ++i;
+    for (std::size_t k = i; k < std::min(i + 2, central->n_runs); ++k)
+      if (central->runs[k].region == run.region) return &central->runs[k];
+    return nullptr;
   }
   /// m of this line from its start to a place on the beam.
   [[nodiscard]] double along(double at_path) const noexcept {

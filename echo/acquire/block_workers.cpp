@@ -17,13 +17,20 @@ BlockWorkers::BlockWorkers(int n_threads)
     : arena_(new Arena{tbb::task_arena(n_threads == 0 ? tbb::task_arena::automatic : n_threads)}) {}
 BlockWorkers::~BlockWorkers() = default;
 
-void BlockWorkers::run(int n, const void* body, void (*call)(const void*, int, int, int)) {
+int BlockWorkers::workers() const noexcept {
+  return arena_->tasks.max_concurrency();
+}
+
+void BlockWorkers::run(const Work& work, const void* body,
+                       void (*call)(const void*, int, int, int)) {
+  const auto [n, size] = work;
   arena_->tasks.execute([&] {
     tbb::parallel_for(
-        tbb::blocked_range<int>(0, blocks_of(n), 1),
-        [&](const tbb::blocked_range<int>& range) {
+        tbb::blocked_range<int>(0, blocks_of(n, size), 1),
+        [n = n, size = size, body, call](const tbb::blocked_range<int>& range) {
           for (int b = range.begin(); b < range.end(); ++b) {
-            call(body, b, b * kBlock, std::min(n, (b + 1) * kBlock));
+            call(body, tbb::this_task_arena::current_thread_index(), b * size,
+                 std::min(n, (b + 1) * size));
           }
         },
         tbb::simple_partitioner{});

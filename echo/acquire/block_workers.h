@@ -19,12 +19,18 @@ class BlockWorkers {
   BlockWorkers(BlockWorkers&&) = delete;
   BlockWorkers& operator=(BlockWorkers&&) = delete;
 
-  [[nodiscard]] static int blocks_of(int n) noexcept { return (n + kBlock - 1) / kBlock; }
+  [[nodiscard]] static int blocks_of(int n, int size = kBlock) noexcept {
+    return (n + size - 1) / size;
+  }
 
-  /// Runs body(block, first, last) over [0, n) and waits.
+  /// How many threads may work at once.
+  [[nodiscard]] int workers() const noexcept;
+
+  /// Runs body(worker, first, last), worker < workers(), over [0, n), `size` (> 0) a block, and
+  /// waits.
   template <class Body>
-  void for_blocks(int n, const Body& body) {
-    run(n, &body, [](const void* what, int block, int first, int last) {
+  void for_blocks(int n, const Body& body, int size = kBlock) {
+    run({n, size}, &body, [](const void* what, int block, int first, int last) {
       (*static_cast<const Body*>(what))(block, first, last);
     });
   }
@@ -35,7 +41,11 @@ class BlockWorkers {
   }
 
  private:
-  void run(int n, const void* body, void (*call)(const void*, int, int, int));
+  struct Work {
+    int n;
+    int block;
+  };
+  void run(const Work& work, const void* body, void (*call)(const void*, int, int, int));
   void enter(const void* task, void (*call)(const void*));
 
   struct Arena;

@@ -29,8 +29,6 @@ constexpr double kCortexSlope = 0.6;     // power of the cosine by which it is d
 constexpr double kSteepestCortex = 0.3;  // cosine
 constexpr std::size_t kCortexEchoes = 32;
 constexpr float kSheet = 1.6F;      // texture above which a sheet reflects coherently
-constexpr double kGuided = 0.8e-3;  // m from a beam, where the tissue is by its displacement and
-                                    // gradient there
 constexpr double kSheetEcho = 1.5;  // assumed: coherent amplitude over scattered, per unit above
 
 /// m, half amplitude.
@@ -125,7 +123,6 @@ LineSynthesis::LineSynthesis(const BeamShape& shape, const ScatterField& scatter
       has_texture_(settings.texture),
       reverberates_(settings.reverberation && settings.look == Look::raw),
       n_planes_(settings.n_planes),
-      n_beside_(static_cast<int>(kGuided / shape.line_spacing(settings.depth))),
       pitch_(transducer.pitch()),
       cortex_step_(static_cast<std::size_t>(std::max(
           1L, std::lround(kCortexStep * pulse_length(transducer) / shape.sample_depth())))),
@@ -225,6 +222,24 @@ void LineSynthesis::add_plane(int plane, const BeamTrace& trace, Ground& ground,
   }
 }
 
+/// The interfaces of a plane that lies between two others: between those of both, or, where both
+/// met others, some of each.
+void LineSynthesis::add_between(int plane, const Between& planes, LineScratch& scratch,
+                                EchoSpan echoes) const {
+  const std::span<const float> share = shape_->echo_weight(plane);
+  const auto add = [&](const BeamTrace& trace, double part) {
+    for (std::size_t i = 0; i < trace.n_echoes; ++i) {
+      BeamEcho echo = trace.echoes[i];
+      echo.amplitude *= part;
+      add_echo(echo, scratch.view, share, echoes);
+    }
+  };
+  if (BeamTracer::blend_echoes(planes.a, planes.b, planes.share, scratch.between))
+    return add(scratch.between, 1);
+  add(planes.a, 1 - planes.share);
+  add(planes.b, planes.share);
+}
+
 /// An interface seen by one beam: steep ones reach over several samples within the beam's pitch,
 /// and rough ones glitter and scatter on from just behind their surface.
 void LineSynthesis::add_echo(const BeamEcho& echo, const ScatterView& view,
@@ -301,27 +316,6 @@ void LineSynthesis::add_haze(const BeamTrace& trace, EchoSpan echoes) noexcept {
   scale_add(share, echoes.im.data(), echoes.im.data() + shift, n);
 }
 
-void LineSynthesis::trace_middle(const BeamTracer& tracer, std::span<const PlacedLine> row,
-                                 std::size_t l, LineScratch& scratch) const noexcept {
-  const PlacedLine& placed = row[l];
-  scratch.own = 0;
-  const auto guide_by = [&](const PlacedLine& line) {
-    scratch.guide = line.index;
-    tracer.trace_bent(line.origin_J, line.direction_J, scratch.middle.front(),
-                      scratch.bent.front());
-  };
-  if (!tracer.gives_way()) return guide_by(placed);
-  if (scratch.guide == LineScratch::kNoLine || placed.index > scratch.guide + n_beside_)
-    guide_by(row[std::min(l + static_cast<std::size_t>(n_beside_), row.size() - 1)]);
-  if (placed.index == scratch.guide) return;
-  scratch.own = 1;
-  tracer.trace_bent(placed.origin_J, placed.direction_J, scratch.central(), scratch.path(),
-                    &scratch.middle.front());
-  if (!scratch.central().outran) return;
-  scratch.own = 0;
-  guide_by(placed);
-}
-
 void LineSynthesis::synthesise(const BeamTracer& tracer, std::span<const PlacedLine> row,
                                std::size_t l, LineScratch& scratch, EchoSpan echoes,
                                const ScatterField::MoreSets* more) const {
@@ -335,27 +329,24 @@ void LineSynthesis::synthesise(const BeamTracer& tracer, std::span<const PlacedL
     std::fill((*more)[k].re.begin(), (*more)[k].re.end(), 0.0F);
     std::fill((*more)[k].im.begin(), (*more)[k].im.end(), 0.0F);
   }
-  trace_middle(tracer, row, l, scratch);
-  const BeamTrace& central = scratch.central();
+  LineBeams& beams = scratch.beams;
+  beams.go_to(tracer, *shape_, row, l);
   const Vec3& elevation = placed.elevation_J;
   scratch.view = scatter_->make_view(placed.direction_J, elevation);
   Ground ground{
       tracer.regions(), scratch.view, scratch.gain, scratch.pieces, scratch.room, more, {}};
+  const BeamTrace* before = nullptr;
+  int last = 0;
   for (int p = 0; p < n_planes_; ++p) {
-    if (shape_->plane_offset(p) == 0) {
-      add_plane(p, central, ground, echoes);
-      continue;
-    }
-    scratch.plane.size = 0;
-    for (const double z : shape_->plane_nodes()) {
-      scratch.plane.p_J[scratch.plane.size] =
-          scratch.path().at(z) + shape_->plane_elevation(p, z) * elevation;
-      scratch.plane.length[scratch.plane.size++] = z;
-    }
-    tracer.trace_along(scratch.plane, elevation, central, scratch.side);
-    add_plane(p, scratch.side, ground, echoes);
+    if (!shape_->hears_speckle(p)) continue;
+    const BeamTrace& trace = beams.plane(p);
+    add_plane(p, trace, ground, echoes);
+    for (int q = last + 1; q < p && before != nullptr; ++q)
+      add_between(q, {*before, trace, (q - last) / static_cast<double>(p - last)}, scratch, echoes);
+    before = &trace;
+    last = p;
   }
-  if (reverberates_) add_haze(central, echoes);
+  if (reverberates_) add_haze(beams.central(), echoes);
 }
 
 }  // namespace artus

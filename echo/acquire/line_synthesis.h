@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "artus/detail/echo/acquire/beam_shape.h"
+#include "artus/detail/echo/acquire/line_beams.h"
 #include "artus/detail/echo/acquire/propagation.h"
 #include "artus/detail/echo/medium/region_acoustics.h"
 #include "artus/detail/echo/medium/scatter_field.h"
@@ -19,27 +20,12 @@ namespace artus {
 
 /// What one worker needs to synthesise a line; reused so that rendering does not allocate.
 struct LineScratch {
-  static constexpr int kNoLine = -1;
-  std::array<BeamTrace, 2> middle;  // of the line that guides, and of this one
-  std::size_t own = 0;              // of the two
-  int guide = kNoLine;              // line whose beam is the first
-  BeamTrace side;
-  std::array<BeamPath, 2> bent;  // paths of `middle`
-  BeamPath plane;
+  LineBeams beams;
+  BeamTrace between;  // echoes of a plane between two
   ScatterView view;
   std::vector<float> gain;
   std::vector<ScatterPiece> pieces;
   ScatterRoom room;
-
-  /// Forgets the lines before: of another scene, or not beside the next ones.
-  void begin_row() noexcept {
-    guide = kNoLine;
-    for (BeamTrace* trace : {&middle.front(), &middle.back(), &side}) trace->planes.forget();
-  }
-  /// The line's beam in the middle plane.
-  [[nodiscard]] BeamTrace& central() noexcept { return middle[own]; }
-  /// Its path.
-  [[nodiscard]] BeamPath& path() noexcept { return bent[own]; }
 };
 
 /// Makes the echoes of one scanline before the beam's shape spreads them: every elevation plane is
@@ -51,8 +37,7 @@ class LineSynthesis {
                 const Transducer& transducer, const ImageSettings& settings) noexcept;
 
   /// Fills `echoes`, n_samples long, with those of line `l` of a row of neighbours and leaves its
-  /// central beam in `scratch`. In tissue that gives way lines near each other are guided by one of
-  /// them: the lines of a row are asked for in order, after LineScratch::begin_row. Fills `more`,
+  /// beams in `scratch`: the lines of a row are asked for in order, see LineBeams. Fills `more`,
   /// where given, with the differences that further sets of scatterers make.
   void synthesise(const BeamTracer& tracer, std::span<const PlacedLine> row, std::size_t l,
                   LineScratch& scratch, EchoSpan echoes,
@@ -69,14 +54,19 @@ class LineSynthesis {
     const ScatterField::MoreSets* more;  // null: one set of scatterers
     std::span<const BeamKnot> knots;     // of the plane at hand
   };
-  void trace_middle(const BeamTracer& tracer, std::span<const PlacedLine> row, std::size_t l,
-                    LineScratch& scratch) const noexcept;
   void add_plane(int plane, const BeamTrace& trace, Ground& ground, EchoSpan echoes) const;
   void sample_moved_texture(const BeamRun& run, const RegionAcoustics& region,
                             std::span<const ScatterPiece> pieces,
                             std::span<float> nodes) const noexcept;
   void add_run(const BeamRun& run, const Ground& ground, std::span<const float> weight,
                EchoSpan echoes) const;
+  /// A plane at `share` (0..1) of the way from one to another.
+  struct Between {
+    const BeamTrace& a;
+    const BeamTrace& b;
+    double share;
+  };
+  void add_between(int plane, const Between& planes, LineScratch& scratch, EchoSpan echoes) const;
   void add_echo(const BeamEcho& echo, const ScatterView& view, std::span<const float> share,
                 EchoSpan echoes) const;
   void add_cortex(const BeamEcho& echo, const ScatterView& view, std::span<const float> share,
@@ -90,7 +80,6 @@ class LineSynthesis {
   bool has_texture_;
   bool reverberates_;
   int n_planes_;
-  int n_beside_;             // lines on either side of one that it guides
   double pitch_;             // m between scanlines
   std::size_t cortex_step_;  // samples between the echoes of which bone's line is made
   double cortex_;  // samples along the beam that it is thick where flat, without the pulse

@@ -14,9 +14,10 @@ constexpr double kStraight = 2e-3;    // sine of a bend that is not worth anothe
 constexpr double kSidewards = 25e-6;  // m that a bend may lead aside within a thin layer
 constexpr double kPiece = 4e-3;       // m, longest run: the downshift curves the loss slowly
 constexpr double kAlongSurface =
-    0.17;                         // cosine of 80 degrees: along a faceted surface, go straight
-constexpr double kSilence = -20;  // ln: 174 dB down, below any receiver
-constexpr double kMargin = 1.25;  // tissue as fast as tendon reaches deeper in the same time
+    0.17;                           // cosine of 80 degrees: along a faceted surface, go straight
+constexpr double kLongPiece = 1.4;  // of that, where it is to be cut like a neighbour's
+constexpr double kSilence = -20;    // ln: 174 dB down, below any receiver
+constexpr double kMargin = 1.25;    // tissue as fast as tendon reaches deeper in the same time
 constexpr double kTiny = 1e-12;
 constexpr double kStill = 1e-9;  // m; tissue that moved less is where it was
 // Bone on screens: its line is seen at any slope, so it is rougher than its facets are. assumed,
@@ -94,6 +95,8 @@ bool BeamTracer::enter(Walk& walk, const TissueInterval& interval,
     echo.diffuse_share = diffuse > 0 ? diffuse / (specular + diffuse) : 0;
     echo.cosine = cosine;
     echo.is_cortex = on_screen_ && to.opaque;
+    echo.p_J = point;
+    echo.normal_J = normal;
     echo.rest_J = point;
     echo.step_J = walk.wave * (sample_depth_ * to.speed / kDisplaySpeedOfSound);
     if (tissue_ != nullptr && place_knots(walk, walk.path)) {
@@ -132,14 +135,9 @@ bool BeamTracer::start(Walk& walk, RegionId region, double length) const noexcep
 MaterialPoint BeamTracer::find_material(Walk& walk, const RegionAcoustics& region,
                                         const BeamRun& run) noexcept {
   if (walk.central != nullptr && region.course) {
-    const BeamTrace& central = *walk.central;
-    std::size_t& i = walk.central_run;
-    while (i + 1 < central.n_runs && central.runs[i].path_end <= run.path_begin) ++i;
-    for (std::size_t k = i; k < std::min(i + 2, central.n_runs); ++k) {
-      const BeamRun& beside = central.runs[k];
-      if (beside.region != run.region) continue;
-      MaterialPoint point = beside.middle;
-      point.place += point.gradient * (run.rest_middle_J - beside.rest_middle_J);
+    if (const BeamRun* const beside = walk.run_beside(run)) {
+      MaterialPoint point = beside->middle;
+      point.place += point.gradient * (run.rest_middle_J - beside->rest_middle_J);
       return point;
     }
   }
@@ -218,6 +216,7 @@ double BeamTracer::follow_fibres(Walk& walk, const RegionAcoustics& region, Beam
   run.along = 0;
   run.across = 1;
   run.n_knots = 0;
+  run.has_middle = false;
   if (tissue_ != nullptr && walk.region >= kFirstRegion && region.backscatter > 0)
     find_rest(walk, run);
   const bool moved = run.n_knots > 0;
@@ -231,6 +230,7 @@ double BeamTracer::follow_fibres(Walk& walk, const RegionAcoustics& region, Beam
       return 1;
   }
   if (!moved) run.rest_middle_J = run.p_J + half_displacement;
+  run.has_middle = true;
   run.middle = find_material(walk, region, run);
   const MaterialPoint& middle = run.middle;
   run.material = middle.place - middle.gradient * half_displacement;
@@ -246,13 +246,26 @@ double BeamTracer::follow_fibres(Walk& walk, const RegionAcoustics& region, Beam
   return fibre_attenuation(region.kind, run.along);
 }
 
+/// Into how many runs a way of `length` (m) through the current region is cut: as many as a
+/// neighbour's there, where that is nearly right.
+int BeamTracer::cut(const Walk& walk, double length) noexcept {
+  const int pieces = std::max(1, static_cast<int>(std::ceil(length / kPiece)));
+  const std::size_t at = walk.trace.n_runs;
+  if (walk.like == nullptr || at >= walk.like->n_runs) return pieces;
+  const BeamRun& beside = walk.like->runs[at];
+  const int wanted = beside.n_pieces;
+  const bool fits = beside.region == walk.region && std::abs(wanted - pieces) <= 1 &&
+                    length < kLongPiece * kPiece * wanted;
+  return fits ? wanted : pieces;
+}
+
 /// Goes `length` (m of beam) through the current region from `point`. False when the sound ended.
 bool BeamTracer::cross(Walk& walk, const Vec3& point, const Vec3& direction, double length,
                        double time_scale) const noexcept {
   walk.touched = walk.touched || walk.region >= kFirstRegion;
   const RegionAcoustics& region = regions_[walk.region];
   const double samples_per_m = kDisplaySpeedOfSound / region.speed / sample_depth_;
-  const int pieces = static_cast<int>(std::ceil(length / kPiece));
+  const int pieces = cut(walk, length);
   const double piece = length / pieces;
   for (int j = 0; j < pieces; ++j) {
     if (walk.trace.n_runs == BeamTrace::kMax) return false;
@@ -262,6 +275,7 @@ bool BeamTracer::cross(Walk& walk, const Vec3& point, const Vec3& direction, dou
     run.step_J = direction / (time_scale * samples_per_m);
     run.direction_J = walk.wave;
     run.region = walk.region;
+    run.n_pieces = static_cast<std::uint16_t>(pieces);
     run.log_gain_begin = walk.log_gain(spectrum_sigma_);
     run.path_begin = walk.path;
     run.path_end = walk.path + piece;
@@ -303,11 +317,14 @@ bool BeamTracer::pass(Walk& walk, const Vec3& from, const Vec3& direction, doubl
 }
 
 void BeamTracer::trace_bent(const Vec3& origin_J, const Vec3& direction_J, BeamTrace& trace,
-                            BeamPath& path, const BeamTrace* guide) const noexcept {
+                            BeamPath& path, const BeamTrace* guide,
+                            const BeamTrace* like) const noexcept {
   trace.clear();
+  if (tissue_ != nullptr) trace.frames.resize(BeamTrace::kMaxKnots);
   if (guide != nullptr && guide->n_knots > 0) trace.guide = guide;
   path.size = 0;
   Walk walk{trace, direction_J, direction_J, refraction_};
+  walk.like = like;
   Vec3 point = origin_J;
   bool alive = true;
   while (alive && walk.path < max_path_ && path.size + 2 < BeamPath::kMax) {
@@ -327,7 +344,8 @@ void BeamTracer::trace_bent(const Vec3& origin_J, const Vec3& direction_J, BeamT
 }
 
 void BeamTracer::trace_along(const BeamPath& path, const Vec3& elevation_axis_J,
-                             const BeamTrace& central, BeamTrace& trace) const noexcept {
+                             const BeamTrace& central, BeamTrace& trace,
+                             const BeamTrace* like) const noexcept {
   trace.clear();
   const auto without_elevation = [&](const Vec3& direction) {
     return Vec3((direction - elevation_axis_J * elevation_axis_J.dot(direction)).normalized());
@@ -335,8 +353,11 @@ void BeamTracer::trace_along(const BeamPath& path, const Vec3& elevation_axis_J,
   const Vec3 straight = without_elevation(path.p_J[1] - path.p_J[0]);
   Walk walk{trace, straight, straight};
   walk.central = &central;
+  trace.is_beside = true;
+  walk.like = like;
   const BeamTrace& guide = central.guide != nullptr ? *central.guide : central;
   if (guide.n_knots > 0) trace.guide = &guide;
+  if (tissue_ != nullptr && trace.guide == nullptr) trace.frames.resize(BeamTrace::kMaxKnots);
   bool alive = true;
   for (std::size_t i = 0; alive && i + 1 < path.size; ++i) {
     const Vec3 step = path.p_J[i + 1] - path.p_J[i];
@@ -352,6 +373,7 @@ void BeamTracer::trace_along(const BeamPath& path, const Vec3& elevation_axis_J,
 
 /// First repeats: sound that went from the face to a strong interface and back twice.
 void BeamTracer::add_repeats(BeamTrace& trace) const noexcept {
+  trace.n_first = trace.n_echoes;
   if (!trace.contact || !reverberation_) return;
   const std::size_t n = trace.n_echoes;
   for (std::size_t i = 0; i < n && trace.n_echoes < BeamTrace::kMax; ++i) {
