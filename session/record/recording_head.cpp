@@ -19,7 +19,8 @@ namespace {
 // 13: the probe's contact is the tick's: packets of skin and curve in place of a tangent; the
 // device's own limits of the probe's hand and its boxes, how long a device's pose is held,
 // and `given` counts what left the needle forward, so that a replay of before would differ.
-constexpr int kVersion = 14;
+// 15: beams between beams, and every second plane's scatterers: pictures are others.
+constexpr int kVersion = 15;
 constexpr const char* kName = "artus_recording";
 constexpr const char* kDigest = "digest";
 

@@ -134,7 +134,9 @@ TEST_P(ShownNeedle, IsWhereItsBrightestRowIs) {
   }
   EXPECT_GT(columns, 60);
   EXPECT_GE(in_shown, 0.95 * columns);
-  if (degrees < 20) EXPECT_LT(in_real, 0.6 * columns) << "the echo is 1.2 mm too deep";
+  if (degrees < 20) {
+    EXPECT_LT(in_real, 0.6 * columns) << "the echo is 1.2 mm too deep";
+  }
 }
 INSTANTIATE_TEST_SUITE_P(LooksAndAngles, ShownNeedle,
                          ::testing::Combine(::testing::Values(Look::raw, Look::clinical),

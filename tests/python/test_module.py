@@ -75,7 +75,7 @@ def test_others_run_while_the_engine_works(joint):
     thread = threading.Thread(target=count)
     thread.start()
     before = ticks[0]
-    artus.insert(joint, entry, target, speed=0.0005)
+    artus.insert(joint, entry, target, speed=0.01)
     during = ticks[0] - before
     stop.set()
     thread.join()
