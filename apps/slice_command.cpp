@@ -77,8 +77,7 @@ ExitCode run_slice(const SliceOptions& options) {
 void add_slice_command(Command& image, ExitCode& code) {
   auto options = std::make_shared<SliceOptions>();
   Command* command =
-      add_command(image, "labels",
-                  "The regions in the probe's plane, at the B-mode image's scale",
+      add_command(image, "labels", "The regions in the probe's plane, at the B-mode image's scale",
                   "Examples:\n"
                   "  artus image labels -j meshes/simple-shoulder -o labels.png\n"
                   "  artus image labels -j meshes/shoulder --press-mm 5 -o pressed.png\n"

@@ -139,9 +139,8 @@ std::uint64_t hash_of(const DrawRanges& r) {
     out.put(range.low);
     out.put(range.high);
   }
-  for (const double share :
-       {r.needle_share, r.in_plane_share, r.echogenic_share.value_or(-1), r.press_share,
-        r.tip_share, r.not_in_share})
+  for (const double share : {r.needle_share, r.in_plane_share, r.echogenic_share.value_or(-1),
+                             r.press_share, r.tip_share, r.not_in_share})
     out.put(share);
   out.put(static_cast<std::uint64_t>(r.tip));
   for (const std::string& name : r.not_in) out.put(std::string_view(name));

@@ -43,16 +43,16 @@ struct DrawRanges {
   DrawRange along{-20e-3, 5e-3};  ///< m, of the tip from the target, deeper is positive
   DrawRange aside{-3e-3, 3e-3};   ///< m, of the tip off the planned line, both ways
   DrawRange slant{-10 * kDegree,
-                  10 * kDegree};          ///< rad, of the needle off the planned line, both ways
+                  10 * kDegree};  ///< rad, of the needle off the planned line, both ways
   TipPlace tip = TipPlace::in_picture;
   double tip_share = 1;  ///< of the needles for which `tip` holds
   /// Tissues or structures that neither tip nor shaft may be in.
   std::vector<std::string> not_in{"bone", "cartilage"};
-  double not_in_share = 1;                ///< of the needles for which `not_in` holds
-  std::vector<int> gauges;                ///< as likely as often they are named
-  std::optional<DrawRange> length;        ///< m, hub to tip
-  std::optional<double> echogenic_share;  ///< of the needles that are dimpled
-  std::vector<std::string> transducers;   ///< names or .toml files
+  double not_in_share = 1;                    ///< of the needles for which `not_in` holds
+  std::vector<int> gauges;                    ///< as likely as often they are named
+  std::optional<DrawRange> length;            ///< m, hub to tip
+  std::optional<double> echogenic_share;      ///< of the needles that are dimpled
+  std::vector<std::string> transducers;       ///< names or .toml files
   std::vector<std::filesystem::path> joints;  ///< further patients beside the sweep's joint
   std::size_t drawn_patients = 0;             ///< so many of the sweep's joint, drawn by its seed
   double press_share = 0;                     ///< of the frames in which the probe presses

@@ -68,8 +68,7 @@ cv::Mat needle_mask(const LabelImage& labels) {
   return mask;
 }
 
-cv::Mat shadow_mask(const Frame& frame, const ScanConverter& converter,
-                    const ShownPlaces* places) {
+cv::Mat shadow_mask(const Frame& frame, const ScanConverter& converter, const ShownPlaces* places) {
   constexpr float kHalf = 0.5F;  // share of the sound
   const auto n = static_cast<std::size_t>(frame.n_samples);
   // the sample that shows what truly lies at one of the same line

@@ -24,9 +24,9 @@ namespace artus {
 [[nodiscard]] cv::Mat needle_mask(const LabelImage& labels);
 
 /// 255 where no sound returns (behind bone or gas, or without contact), 128 where less than half of
-/// it passes the needle, else 0; (height, width) CV_8UC1; as the picture shows it, or where it truly
-/// is by the `places` that the frame shows. Requires: `converter` is of the frame's transducer and
-/// settings.
+/// it passes the needle, else 0; (height, width) CV_8UC1; as the picture shows it, or where it
+/// truly is by the `places` that the frame shows. Requires: `converter` is of the frame's
+/// transducer and settings.
 [[nodiscard]] cv::Mat shadow_mask(const Frame& frame, const ScanConverter& converter,
                                   const ShownPlaces* places = nullptr);
 
@@ -36,8 +36,9 @@ namespace artus {
 [[nodiscard]] cv::Mat doppler_image(const Frame& frame, const ScanConverter& converter,
                                     const ImageSettings& settings);
 
-/// Tip in pixels, where it is (tip_true_px) and where it shows (Frame::tip_shown; null when it does not), offset
-/// from the plane in mm, angles in degrees, in_plane; tip_visible: it shows and lies in the slice.
+/// Tip in pixels, where it is (tip_true_px) and where it shows (Frame::tip_shown; null when it does
+/// not), offset from the plane in mm, angles in degrees, in_plane; tip_visible: it shows and lies
+/// in the slice.
 [[nodiscard]] nlohmann::json to_json(const NeedleTruth& truth,
                                      const std::optional<PixelPoint>& tip_shown);
 

@@ -144,8 +144,8 @@ class PictureFrame {
            std::abs(tip_P.y()) <= half_slice(tip_P.z());
   }
   /// Whether sound comes straight to a tip that the picture shows.
-  [[nodiscard]] bool reaches(const Scene& scene, const std::vector<bool>& opaque,
-                             const Pose& X_JP, const Vec3& tip_P) const {
+  [[nodiscard]] bool reaches(const Scene& scene, const std::vector<bool>& opaque, const Pose& X_JP,
+                             const Vec3& tip_P) const {
     const PixelPoint at = converter_.pixel_of(tip_P);
     const int line =
         converter_.line_at(static_cast<int>(std::round(at.x)), static_cast<int>(std::round(at.y)))
@@ -209,7 +209,8 @@ struct DrawTables {
 };
 
 /// One throw of probe and needle; false: the needle may not be there.
-bool throw_needle(const DrawTables& tables, const Dice& first, const Dice& dice, FrameOrder& frame) {
+bool throw_needle(const DrawTables& tables, const Dice& first, const Dice& dice,
+                  FrameOrder& frame) {
   const DrawRanges& ranges = tables.ranges;
   const Scene& scene = *tables.base.patients[frame.patient];
   const PictureFrame& picture = tables.pictures[std::max<std::size_t>(frame.transducer, 1) - 1];

@@ -15,8 +15,8 @@
 
 namespace artus {
 
-/// What is not drawn, or drawn from: the patients, of which each is as likely, the needle of a frame
-/// whose ranges draw none, and the probes that the ranges name, or the one of all frames.
+/// What is not drawn, or drawn from: the patients, of which each is as likely, the needle of a
+/// frame whose ranges draw none, and the probes that the ranges name, or the one of all frames.
 struct DrawBase {
   std::vector<std::shared_ptr<const Scene>> patients;
   NeedleShape needle;

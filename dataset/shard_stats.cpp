@@ -155,14 +155,11 @@ Result<SetStatistics> read_statistics(const std::vector<fs::path>& folders,
 json to_json(const SetStatistics& statistics) {
   json values;
   for (const auto& [name, list] : statistics.values) values[name] = five_numbers(list);
-  return {{"frames", statistics.frames},
-          {"with_needle", statistics.with_needle},
-          {"in_plane", statistics.in_plane},
-          {"tip_in_picture", statistics.tip_in_picture},
-          {"tip_shown", statistics.tip_shown},
-          {"tip_visible", statistics.tip_visible},
-          {"tip_in", statistics.tip_in},
-          {"regions", statistics.regions},   {"min_quartiles_max", values}};
+  return {{"frames", statistics.frames},       {"with_needle", statistics.with_needle},
+          {"in_plane", statistics.in_plane},   {"tip_in_picture", statistics.tip_in_picture},
+          {"tip_shown", statistics.tip_shown}, {"tip_visible", statistics.tip_visible},
+          {"tip_in", statistics.tip_in},       {"regions", statistics.regions},
+          {"min_quartiles_max", values}};
 }
 
 cv::Mat histogram_page(const SetStatistics& statistics) {
@@ -171,11 +168,11 @@ cv::Mat histogram_page(const SetStatistics& statistics) {
   const int regions_top = rows * kHeight + 50;
   const int height = regions_top + 60 + 18 * static_cast<int>(statistics.regions.size());
   cv::Mat page(height, kStatColumns * kWidth, CV_8UC3, cv::Scalar::all(255));
-  const std::string head =
-      printed("%zu frames, %zu with a needle, of these %zu in plane, %zu tips in the picture, %zu "
-              "visible",
-              statistics.frames, statistics.with_needle, statistics.in_plane,
-              statistics.tip_in_picture, statistics.tip_visible);
+  const std::string head = printed(
+      "%zu frames, %zu with a needle, of these %zu in plane, %zu tips in the picture, %zu "
+      "visible",
+      statistics.frames, statistics.with_needle, statistics.in_plane, statistics.tip_in_picture,
+      statistics.tip_visible);
   write_at(page, head, {kMargin, 28}, 0.6);
   int box = 0;
   for (const auto& [name, list] : statistics.values) {

@@ -19,10 +19,10 @@ namespace artus {
 struct SetStatistics {
   std::size_t frames = 0;
   std::size_t with_needle = 0;
-  std::size_t in_plane = 0;   ///< of those with a needle
-  std::size_t tip_in_picture = 0;  ///< of those with a needle, as the next two
-  std::size_t tip_shown = 0;       ///< sound reaches it
-  std::size_t tip_visible = 0;     ///< and it lies in the slice
+  std::size_t in_plane = 0;                   ///< of those with a needle
+  std::size_t tip_in_picture = 0;             ///< of those with a needle, as the next two
+  std::size_t tip_shown = 0;                  ///< sound reaches it
+  std::size_t tip_visible = 0;                ///< and it lies in the slice
   std::map<std::string, std::size_t> tip_in;  ///< needles whose tip is in a tissue, by its name
   std::map<std::string, std::vector<double>>
       values;                                  ///< by name with unit, one a frame that has it

@@ -49,7 +49,8 @@ struct SweepResult {
 ///   truth.jsonl           a line for each finished frame, in the order of the list
 ///   frames/NNNNNN.png     B-mode, 8 bit
 ///   frames/NNNNNN-labels_shown.png, -shadow_shown.png, -needle_shown.png   region ids (16 bit) and
-///                         masks where the picture shows things; -labels_true.png ... where they are
+///                         masks where the picture shows things; -labels_true.png ... where they
+///                         are
 /// A sweep that was stopped, killed even, continues where it was: a frame counts when its line and
 /// all its pictures are there. The files are the same bytes at any number of threads and stops.
 /// Errors: invalid (persistence; the folder holds another sweep; another process draws there),

@@ -141,8 +141,8 @@ SweepFrame SweepDrawer::draw(std::size_t index, const FrameOrder& order) {
   if (!order.name.empty()) out.truth["name"] = order.name;
   if (order.time) out.truth["time_s"] = *order.time;
   if (needle)
-    out.truth["needle"] = needle_truth(*needle, scanner.truth.locate(*needle, X_JP),
-                                       frame.tip_shown, *scanner.scene);
+    out.truth["needle"] =
+        needle_truth(*needle, scanner.truth.locate(*needle, X_JP), frame.tip_shown, *scanner.scene);
   return out;
 }
 

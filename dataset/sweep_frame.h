@@ -18,8 +18,8 @@
 
 namespace artus {
 
-/// The keys of a frame's pictures in its line of truth: masks and region ids where the picture shows
-/// things, and where they truly are.
+/// The keys of a frame's pictures in its line of truth: masks and region ids where the picture
+/// shows things, and where they truly are.
 inline constexpr std::array<std::string_view, 7> kPictureKeys{
     "image",       "labels_shown", "shadow_shown", "needle_shown",
     "labels_true", "shadow_true",  "needle_true"};

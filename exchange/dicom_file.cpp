@@ -66,8 +66,8 @@ void put_people_and_series(ElementWriter& out, const DicomSeries& series, const 
   out.text(DCM_SOPInstanceUID, identifier(kind.digest ^ number));
   out.text(DCM_StudyInstanceUID, identifier(kind.digest ^ 1U));
   out.text(DCM_SeriesInstanceUID, identifier(kind.digest ^ 2U ^ number));
-  for (const DcmTagKey& empty :
-       {DCM_AccessionNumber, DCM_ReferringPhysicianName, DCM_PatientBirthDate, DCM_PatientSex, DCM_PatientOrientation})
+  for (const DcmTagKey& empty : {DCM_AccessionNumber, DCM_ReferringPhysicianName,
+                                 DCM_PatientBirthDate, DCM_PatientSex, DCM_PatientOrientation})
     out.text(empty, "");
   for (const DcmTagKey& date : {DCM_StudyDate, DCM_ContentDate}) out.text(date, series.date);
   for (const DcmTagKey& time : {DCM_StudyTime, DCM_ContentTime}) out.text(time, series.time);
@@ -133,8 +133,7 @@ void put_times(ElementWriter& out, DcmItem& dataset, const ImageSequence& sequen
   out.text(DCM_CineRate, std::to_string(std::max(1L, std::lround(1 / frame_time))));
 }
 
-void put_pixels(ElementWriter& out, DcmItem& dataset, const ImageSequence& sequence,
-                double pixel) {
+void put_pixels(ElementWriter& out, DcmItem& dataset, const ImageSequence& sequence, double pixel) {
   put_raster(out, sequence.width, sequence.height, 1);
   out.text(DCM_BurnedInAnnotation, "NO");
   out.text(DCM_LossyImageCompression, "00");

@@ -12,12 +12,12 @@ namespace artus {
 
 /// What is said of a series besides its pixels.
 struct DicomSeries {
-  std::string joint;         ///< of the image's comment
-  std::string engine;        ///< version
-  std::string side;          ///< of the joint, "left" or "right"; else not said
-  double pixel = 0;          ///< m, square
-  std::string date{};        ///< of study and content, YYYYMMDD; empty: not said
-  std::string time{};        ///< HHMMSS
+  std::string joint;   ///< of the image's comment
+  std::string engine;  ///< version
+  std::string side;    ///< of the joint, "left" or "right"; else not said
+  double pixel = 0;    ///< m, square
+  std::string date{};  ///< of study and content, YYYYMMDD; empty: not said
+  std::string time{};  ///< HHMMSS
 };
 
 /// Writes a sequence as one DICOM Ultrasound Multi-frame Image with its region's calibration. It is
@@ -25,8 +25,9 @@ struct DicomSeries {
 /// truth is not in it. The same sequence has the same bytes and identifiers. Frames that are evenly
 /// apart (within half of a microsecond) have FrameTime; others FrameTimeVector, each the time since
 /// the one before; frames without times, as of a sweep, have FrameLabelVector, their numbers, and
-/// no rate. PixelSpacing stands beside the region's calibration for readers that know no regions. Requires: frames of one size. Errors: unreadable (cannot be written), failed
-/// (DCMTK's reason). Source [DICOM] PS3.3 A.7, C.7.6.5, C.8.5.5, C.8.5.6.
+/// no rate. PixelSpacing stands beside the region's calibration for readers that know no regions.
+/// Requires: frames of one size. Errors: unreadable (cannot be written), failed (DCMTK's reason).
+/// Source [DICOM] PS3.3 A.7, C.7.6.5, C.8.5.5, C.8.5.6.
 [[nodiscard]] Result<void> write_dicom(const std::filesystem::path& file,
                                        const ImageSequence& sequence, const DicomSeries& series);
 

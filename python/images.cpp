@@ -134,9 +134,8 @@ class PyRenderer {
     const std::optional<NeedleView> view = needle_of(needle);
     auto out = std::make_shared<Labels>();
     const py::gil_scoped_release others_may_run;
-    out->image = truth == "true"
-                     ? labels_->render(*scene_, X_JP, view)
-                     : labels_->render_shown(renderer_->shown_places(X_JP), X_JP, view);
+    out->image = truth == "true" ? labels_->render(*scene_, X_JP, view)
+                                 : labels_->render_shown(renderer_->shown_places(X_JP), X_JP, view);
     return out;
   }
 

@@ -127,8 +127,9 @@ LabelImage LabelRenderer::render(const Scene& scene, const Pose& X_JP,
   LabelImage labels = empty();
   for (int x = 0; x < labels.width; ++x) label_column(scene, X_JP, converter_, x, labels);
   if (needle)
-    mark_needle(*needle, X_JP, converter_, profile_, 0,
-                [&](int x, int y) { return converter_.point_of(x, y); }, labels);
+    mark_needle(
+        *needle, X_JP, converter_, profile_, 0,
+        [&](int x, int y) { return converter_.point_of(x, y); }, labels);
   return labels;
 }
 

@@ -30,13 +30,13 @@ struct LabelImage {
 
 /// Where the needle is with respect to the image.
 struct NeedleTruth {
-  PixelPoint tip;          ///< the tip projected into the plane, pixels; see Frame::tip_shown
-  double tip_offset = 0;   ///< m, elevation of the tip; positive along +y of the probe
-  double plane_angle = 0;  ///< rad between the needle and the image plane
-  double face_angle = 0;   ///< rad between the needle and the probe's face
+  PixelPoint tip;           ///< the tip projected into the plane, pixels; see Frame::tip_shown
+  double tip_offset = 0;    ///< m, elevation of the tip; positive along +y of the probe
+  double plane_angle = 0;   ///< rad between the needle and the image plane
+  double face_angle = 0;    ///< rad between the needle and the probe's face
   bool in_picture = false;  ///< the tip, projected, lies between the outermost lines
   bool in_slice = false;    ///< the tip lies within the slice's thickness
-  bool in_plane = false;   ///< tip and visible shaft lie within the slice's thickness
+  bool in_plane = false;    ///< tip and visible shaft lie within the slice's thickness
 };
 
 /// Makes the truth of one probe's images, again and again: keeps the tables of beam and pixels.

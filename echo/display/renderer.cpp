@@ -107,9 +107,12 @@ const Frame& Renderer::render(const Pose& X_JP, const std::optional<NeedleView>&
 
 ShownPlaces Renderer::shown_places(const Pose& X_JP) const {
   const EchoBody& body = impl_->body;
-  return {*body.scene,    body.tissue ? &*body.tissue : nullptr,
-          body.regions,   impl_->pipeline->transducer(),
-          impl_->pipeline->settings(), X_JP};
+  return {*body.scene,
+          body.tissue ? &*body.tissue : nullptr,
+          body.regions,
+          impl_->pipeline->transducer(),
+          impl_->pipeline->settings(),
+          X_JP};
 }
 
 void Renderer::set_contact(std::span<const float> coverage) {

@@ -45,7 +45,7 @@ class ScanConverter {
   /// Where a pixel lies among lines and samples. Requires: inside(x, y).
   struct LinePlace {
     int line = 0;
-    double share = 0;   ///< 0..1 of the way to the next line
+    double share = 0;  ///< 0..1 of the way to the next line
     double sample = 0;
   };
   [[nodiscard]] LinePlace line_at(int x, int y) const noexcept;

@@ -95,9 +95,8 @@ RegionId ShownPlaces::region(int index, double sample) const noexcept {
 
 double ShownPlaces::sample_of(int index, double depth) const noexcept {
   const std::span<const Piece> pieces = line(index);
-  const auto behind =
-      std::upper_bound(pieces.begin() + 1, pieces.end(), depth,
-                       [](double d, const Piece& piece) { return d < piece.path; });
+  const auto behind = std::upper_bound(pieces.begin() + 1, pieces.end(), depth,
+                                       [](double d, const Piece& piece) { return d < piece.path; });
   const Piece& piece = *(behind - 1);
   return piece.begin + (depth - piece.path) / piece.step_J.norm();
 }

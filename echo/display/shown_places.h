@@ -22,10 +22,10 @@ class ShownPlaces {
  public:
   /// A straight piece of a line in one region.
   struct Piece {
-    double begin = 0;              ///< sample
-    double path = 0;               ///< m along the sound from the face to `begin`
-    Vec3 p_J = Vec3::Zero();       ///< m, at `begin`
-    Vec3 step_J = Vec3::UnitZ();   ///< m per sample
+    double begin = 0;             ///< sample
+    double path = 0;              ///< m along the sound from the face to `begin`
+    Vec3 p_J = Vec3::Zero();      ///< m, at `begin`
+    Vec3 step_J = Vec3::UnitZ();  ///< m per sample
     RegionId region = kOutside;
   };
 
@@ -46,8 +46,8 @@ class ShownPlaces {
  private:
   [[nodiscard]] const Piece& piece_at(int index, double sample) const noexcept;
 
-  std::vector<Piece> pieces_;        // line by line
-  std::vector<std::size_t> first_;   // (n_lines + 1), into pieces_
+  std::vector<Piece> pieces_;       // line by line
+  std::vector<std::size_t> first_;  // (n_lines + 1), into pieces_
 };
 
 }  // namespace artus

@@ -44,8 +44,8 @@ struct ReplayListener {
 /// params in its head, and compares each force bit for bit and each image by digest. Images that
 /// were not drawn are tissue's steps alone, unless none was and `listener` wants to see them. Ticks
 /// that the recording lacks make later ones differ. `n_threads`: of the imaging, which the images
-/// do not depend on; 0: all processors. `prepared`: of the scene's joint. Errors: invalid when `scene` is another joint than the one
-/// recorded.
+/// do not depend on; 0: all processors. `prepared`: of the scene's joint. Errors: invalid when
+/// `scene` is another joint than the one recorded.
 [[nodiscard]] Result<ReplayReport> replay(const Recording& recording,
                                           const std::shared_ptr<const Scene>& scene,
                                           const ReplayListener& listener = {}, int n_threads = 0,

@@ -153,7 +153,8 @@ TEST_F(Shards, ATipThatShallBeVisibleIsReachedBySound) {
 }
 
 TEST_F(Shards, ANeedleATransducerAndAPatientAreDrawnEachForItself) {
-  const FrameSource source = drawn_frames(with_two_probes({scene_, scene_}), every_range(), 3, 3000);
+  const FrameSource source =
+      drawn_frames(with_two_probes({scene_, scene_}), every_range(), 3, 3000);
   std::map<std::string, std::size_t> counts;
   double shortest = 1;
   double longest = 0;
@@ -206,7 +207,8 @@ class DrawnShards : public Shards {
       options_.sweep.transducers.push_back(*find_transducer(name));
       options_.sweep.transducers.back().transducer.n_lines = 32;
     }
-    source_ = drawn_frames(with_two_probes({scene_, options_.sweep.patients[0]}), every_range(), 7, 10);
+    source_ =
+        drawn_frames(with_two_probes({scene_, options_.sweep.patients[0]}), every_range(), 7, 10);
   }
 };
 
@@ -268,7 +270,8 @@ TEST(DrawRanges, AreReadWithEverythingThatIsWrong) {
   EXPECT_DOUBLE_EQ(ranges->needle_share, 0.25);
   EXPECT_DOUBLE_EQ(ranges->turn.high, DrawRanges{}.turn.high);
   const auto rich = parse_draw_ranges(
-      "[needle]\ntip = \"visible\"\nnot_in = [\"bone\"]\ngauge = [20]\nlength_mm = [40, 60]\nechogenic = 0.3\n[press]\nshare = 0.2\n"
+      "[needle]\ntip = \"visible\"\nnot_in = [\"bone\"]\ngauge = [20]\nlength_mm = [40, "
+      "60]\nechogenic = 0.3\n[press]\nshare = 0.2\n"
       "depth_mm = [1, 3]\n[transducer]\nnames = [\"a\", \"b\"]\n[patient]\njoints = [\"c\"]\ndrawn "
       "= 5\n",
       "there/ranges.toml");
@@ -286,8 +289,8 @@ TEST(DrawRanges, AreReadWithEverythingThatIsWrong) {
       "tip = \"here\"\ngauge = [22, 24]\nlength_mm = [5, 50]\n[press]\ndepth_mm = [-1, 2]\n",
       "ranges.toml");
   ASSERT_FALSE(bad);
-  for (const char* says :
-       {"[low, high]", "laterl_mm", "patients", "share", "gauge", "in_picture", "from 10", "'depth_mm'"})
+  for (const char* says : {"[low, high]", "laterl_mm", "patients", "share", "gauge", "in_picture",
+                           "from 10", "'depth_mm'"})
     EXPECT_THAT(bad.error().message, HasSubstr(says));
 }
 

@@ -79,8 +79,9 @@ TEST_F(Sweep, DrawsEveryPoseWithItsTruth) {
     EXPECT_EQ(truth.contains("needle"), i != 2);
     const cv::Mat image = cv::imread(
         (folder_ / "a" / truth.at("image").get<std::string>()).string(), cv::IMREAD_UNCHANGED);
-    const cv::Mat labels = cv::imread(
-        (folder_ / "a" / truth.at("labels_shown").get<std::string>()).string(), cv::IMREAD_UNCHANGED);
+    const cv::Mat labels =
+        cv::imread((folder_ / "a" / truth.at("labels_shown").get<std::string>()).string(),
+                   cv::IMREAD_UNCHANGED);
     const cv::Mat shadow =
         cv::imread((folder_ / "a" / truth.at("shadow_shown").get<std::string>()).string(),
                    cv::IMREAD_UNCHANGED);
