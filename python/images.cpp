@@ -48,6 +48,13 @@ std::string_view short_name(std::string_view name) {
   return name;
 }
 
+/// What a name or a .toml file stands for: a missing file is a FileNotFoundError, an unknown name a
+/// ValueError.
+template <class T>
+T found_by(const std::string& name, Result<T> result) {
+  return name.ends_with(".toml") ? value_of(std::move(result)) : value_by_name(std::move(result));
+}
+
 /// Look by its name.
 Look look_of(const py::handle& value) {
   const auto name = py::cast<std::string>(value);
@@ -61,7 +68,8 @@ Look look_of(const py::handle& value) {
 void take_setting(const std::string& key, const py::handle& value, Transducer& transducer,
                   ImageSettings& settings) {
   if (key == "grey_curve") {
-    settings.grey_curve = value_of(find_grey_curve(py::cast<std::string>(value))).curve;
+    const auto name = py::cast<std::string>(value);
+    settings.grey_curve = found_by(name, find_grey_curve(name)).curve;
     return;
   }
   bool taken = false;
@@ -101,9 +109,7 @@ class PyRenderer {
         scene_(joint.scene),
         made_of_(py::make_tuple(transducer, keep_lines, gauge, settings)),
         keep_lines_(keep_lines) {
-    const bool is_file = transducer.ends_with(".toml");
-    transducer_ = is_file ? value_of(find_transducer(transducer)).transducer
-                          : value_by_name(find_transducer(transducer)).transducer;
+    transducer_ = found_by(transducer, find_transducer(transducer)).transducer;
     const auto shape = needle_of_gauge(gauge);
     if (!shape) throw py::value_error("gauge must be 18, 20, 21, 22, 23 or 25");
     needle_ = *shape;

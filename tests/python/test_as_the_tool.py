@@ -72,9 +72,9 @@ def test_forces_have_the_digits_of_the_tool(joint, tool, simple, tmp_path):
 
 
 def test_an_injection_has_the_digits_of_the_tool(joint, tool, simple, tmp_path):
-    run(tool, "inject", "-j", simple, "--volume-ml", "0.2", "--rate", "0.1", "--gauge", "23",
+    run(tool, "inject", "-j", simple, "--volume-ml", "0.1", "--rate", "0.1", "--gauge", "23",
         "--aspirate", "0.5", "--seed", "4", "--no-images", "-o", tmp_path)
-    ours = artus.inject(joint, volume=0.2e-6, rate=1e-7, gauge=23, aspirate=0.5, seed=4)
+    ours = artus.inject(joint, volume=0.1e-6, rate=1e-7, gauge=23, aspirate=0.5, seed=4)
     lines = (tmp_path / "trace.csv").read_text().splitlines()
     names = lines[0].split(",")
     rows = [dict(zip(names, line.split(","))) for line in lines[1:]]
@@ -95,7 +95,7 @@ def test_an_injection_has_the_digits_of_the_tool(joint, tool, simple, tmp_path):
     assert told.pop("body")["pressed"]["measures"]  # which the tool alone measures
     assert {k: v for k, v in told.items() if k != "verdict"} == {
         k: v for k, v in ours["summary"].items() if k != "verdict"}
-    assert told["given_ml"] > 0.1
+    assert told["given_ml"] > 0.05
 
 
 def test_metrics_are_those_of_the_tool(joint, tool, simple, tmp_path):

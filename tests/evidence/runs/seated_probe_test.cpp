@@ -41,11 +41,13 @@ struct SoftRun {
   std::vector<Seen> seen;
 };
 
-/// With `press` N on the probe.
-SoftRun run_soft(double press = ThreeInjectionsOptions{}.probe.press_force) {
+/// With `press` N on the probe, the first two needles at `speed` m/s.
+SoftRun run_soft(double press = ThreeInjectionsOptions{}.probe.press_force,
+                 double speed = ThreeInjectionsOptions{}.slow_speed) {
   SoftRun out;
   ThreeInjectionsOptions options;
   options.probe.press_force = press;
+  options.slow_speed = speed;
   RunTissueOptions tissue;
   tissue.on_image = [&out](const ThreeInjections& run, const std::shared_ptr<const Scene>& body,
                            const FluidState& /*fluid*/) {
@@ -132,9 +134,8 @@ TEST(SeatedProbe, SkinThatLiquidLiftsLiesOnTheFace) {
 }
 
 TEST(SeatedProbe, SameSeedGivesTheSameBytes) {
-  const SoftRun again = run_soft();
-  const ThreeInjections& a = soft_run().run;
-  const ThreeInjections& b = again.run;
+  const ThreeInjections a = run_soft(3, 0.05).run;
+  const ThreeInjections b = run_soft(3, 0.05).run;
   ASSERT_EQ(a.rows.size(), b.rows.size());
   for (std::size_t i = 0; i < a.rows.size(); ++i) {
     ASSERT_EQ(needle_csv_line(a.rows[i], a.region_names),
