@@ -54,31 +54,6 @@ cv::Rect frame_of(const NeedleView& needle, const Pose& X_JP, const ScanConverte
   return {from, to};
 }
 
-/// Marks pixels that show a place inside the shaft, widened by `more` m, and across the plane by
-/// half the slice. `place_P`: of a pixel (x, y) in the sector, m, frame P.
-template <class PlaceOf>
-void mark_needle(const NeedleView& needle, const Pose& X_JP, const ScanConverter& converter,
-                 const BeamProfile& profile, double more, const PlaceOf& place_P,
-                 LabelImage& labels) {
-  const Pose X_NP = needle.X_JN.inverse() * X_JP;
-  const double radius = needle.shape.outer_diameter / 2 + more;
-  const cv::Rect frame = frame_of(needle, X_JP, converter);
-  for (int y = frame.y; y < frame.y + frame.height; ++y) {
-    for (int x = frame.x; x < frame.x + frame.width; ++x) {
-      if (!converter.inside(x, y)) continue;
-      const Vec3 p_P = place_P(x, y);
-      const Vec3 p_N = X_NP * p_P;
-      if (p_N.z() > 0 || p_N.z() < -needle.shape.length) continue;
-      const Vec3 off_P = X_NP.linear().transpose() * Vec3(p_N.x(), p_N.y(), 0);
-      const double elevation = std::abs(off_P.y()) - profile.elevation_width(p_P.z()) / 2;
-      const double across = std::hypot(off_P.x(), off_P.z());
-      if (across <= radius && elevation <= radius)
-        labels.needle[static_cast<std::size_t>(y) * static_cast<std::size_t>(labels.width) +
-                      static_cast<std::size_t>(x)] = 255;
-    }
-  }
-}
-
 std::array<std::uint8_t, 3> base_colour(TissueKind kind) {
   switch (kind) {
     case TissueKind::fat:
@@ -121,6 +96,30 @@ LabelImage LabelRenderer::empty() const {
   return labels;
 }
 
+/// Marks pixels that show a place inside the shaft, widened by `more` m, and across the plane by
+/// half the slice. `place_P`: of a pixel (x, y) in the sector, m, frame P.
+template <class PlaceOf>
+void LabelRenderer::mark_needle(const NeedleView& needle, const Pose& X_JP, double more,
+                                const PlaceOf& place_P, LabelImage& labels) const {
+  const Pose X_NP = needle.X_JN.inverse() * X_JP;
+  const double radius = needle.shape.outer_diameter / 2 + more;
+  const cv::Rect frame = frame_of(needle, X_JP, converter_);
+  for (int y = frame.y; y < frame.y + frame.height; ++y) {
+    for (int x = frame.x; x < frame.x + frame.width; ++x) {
+      if (!converter_.inside(x, y)) continue;
+      const Vec3 p_P = place_P(x, y);
+      const Vec3 p_N = X_NP * p_P;
+      if (p_N.z() > 0 || p_N.z() < -needle.shape.length) continue;
+      const Vec3 off_P = X_NP.linear().transpose() * Vec3(p_N.x(), p_N.y(), 0);
+      const double elevation = std::abs(off_P.y()) - profile_.elevation_width(p_P.z()) / 2;
+      const double across = std::hypot(off_P.x(), off_P.z());
+      if (across <= radius && elevation <= radius)
+        labels.needle[static_cast<std::size_t>(y) * static_cast<std::size_t>(labels.width) +
+                      static_cast<std::size_t>(x)] = 255;
+    }
+  }
+}
+
 LabelImage LabelRenderer::render(const Scene& scene, const Pose& X_JP,
                                  const std::optional<NeedleView>& needle) const {
   ARTUS_REQUIRE(X_JP.matrix().allFinite(), "the probe's pose is not finite");
@@ -128,8 +127,7 @@ LabelImage LabelRenderer::render(const Scene& scene, const Pose& X_JP,
   for (int x = 0; x < labels.width; ++x) label_column(scene, X_JP, converter_, x, labels);
   if (needle)
     mark_needle(
-        *needle, X_JP, converter_, profile_, 0,
-        [&](int x, int y) { return converter_.point_of(x, y); }, labels);
+        *needle, X_JP, 0, [&](int x, int y) { return converter_.point_of(x, y); }, labels);
   return labels;
 }
 
@@ -153,7 +151,7 @@ LabelImage LabelRenderer::render_shown(const ShownPlaces& places, const Pose& X_
     if (at.share > 0) place += at.share * (places.place(at.line + 1, at.sample) - place);
     return X_PJ * place;
   };
-  mark_needle(*needle, X_JP, converter_, profile_, half_pulse_, place_P, labels);
+  mark_needle(*needle, X_JP, half_pulse_, place_P, labels);
   return labels;
 }
 

@@ -63,6 +63,9 @@ class LabelRenderer {
 
  private:
   [[nodiscard]] LabelImage empty() const;
+  template <class PlaceOf>
+  void mark_needle(const NeedleView& needle, const Pose& X_JP, double more, const PlaceOf& place_P,
+                   LabelImage& labels) const;
 
   ScanConverter converter_;
   BeamProfile profile_;

@@ -164,7 +164,7 @@ std::vector<Change> all_changes() {
 class EachParameter : public ::testing::TestWithParam<Change> {
  protected:
   static std::shared_ptr<const Scene> scene() {
-    static const auto kScene = test::make_layered_scene();
+    static const auto kScene = test::make_layered_scene(0.06);
     return kScene;
   }
   /// A space takes seconds to be made ready and depends on the joint alone.
@@ -201,7 +201,7 @@ INSTANTIATE_TEST_SUITE_P(All, EachParameter, ::testing::ValuesIn(all_changes()),
 TEST(Replay, WithOtherParamsThanThoseOfTheHeadManyResultsAreOthers) {
   // Not every parameter shows in every session (a law that is not chosen); those of the first rank
   // must. What a knob turns, as the gain, is an input of each frame and is taken from there.
-  const auto scene = test::make_layered_scene();
+  const auto scene = test::make_layered_scene(0.06);
   const auto recording = test::parse_recording(record(scene, test::make_small_session()));
   ASSERT_TRUE(recording);
   for (const Change& change : all_changes()) {
@@ -222,7 +222,7 @@ TEST(Replay, WithOtherParamsThanThoseOfTheHeadManyResultsAreOthers) {
 }
 
 TEST(Replay, AHeadThatWasChangedOrLacksAFieldIsRefused) {
-  const auto scene = test::make_layered_scene();
+  const auto scene = test::make_layered_scene(0.06);
   const std::string line = to_line(make_head(scene->joint(), small_session()));
   ASSERT_TRUE(parse_head(line));
   const auto json = nlohmann::json::parse(line);
@@ -242,7 +242,7 @@ TEST(Replay, AHeadThatWasChangedOrLacksAFieldIsRefused) {
 }
 
 TEST(Replay, AnotherBodyIsRefused) {
-  const auto scene = test::make_layered_scene();
+  const auto scene = test::make_layered_scene(0.06);
   const auto recording = test::parse_recording(record(scene, test::make_small_session()));
   CompiledJoint joint = scene->joint();
   joint.tissues.back().haptic.friction *= 1.001;

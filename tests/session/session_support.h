@@ -17,8 +17,8 @@ namespace artus::test {
 
 inline constexpr std::int64_t kTickTime = 1'000'000;  // ns, at 1 kHz
 
-/// Six flat layers from skin to bone, 31 mm, entry at the origin, +z into the body.
-inline std::shared_ptr<const Scene> make_layered_scene() {
+/// Six flat layers from skin to bone, 31 mm, `width` m wide, entry at the origin, +z into the body.
+inline std::shared_ptr<const Scene> make_layered_scene(double width = 0.12) {
   const std::array<FlatLayer, 6> layers{{{"skin", 2e-3},
                                          {"fat", 5e-3},
                                          {"muscle", 15e-3},
@@ -26,7 +26,7 @@ inline std::shared_ptr<const Scene> make_layered_scene() {
                                          {"tendon", 5e-3},
                                          {"bone", 10e-3}}};
   return std::make_shared<const Scene>(
-      std::make_shared<const CompiledJoint>(make_layered_block(layers, 0.06, 0.06)));
+      std::make_shared<const CompiledJoint>(make_layered_block(layers, width, width)));
 }
 
 /// A session small enough for a test: narrow probe, few lines, no texture.
