@@ -96,6 +96,7 @@ double shared_power(const std::vector<T>& weights, double spacing, double cell,
 
 BeamShape::BeamShape(const Transducer& transducer, const ImageSettings& settings)
     : profile_(transducer, settings.depth * kLongest),
+      is_raw_(settings.look == Look::raw),
       n_samples_(settings.n_samples),
       sample_depth_(settings.depth / settings.n_samples),
       pitch_(transducer.pitch()),

@@ -111,9 +111,10 @@ TEST(BeamBlend, RefusesBeamsThatMetSomethingElse) {
 }
 
 TEST(BeamShape, HearsScatterersInEverySecondPlaneOfFiveAndMore) {
-  const auto heard = [](int planes) {
+  const auto heard = [](int planes, Look look = Look::clinical) {
     ImageSettings settings;
     settings.n_planes = planes;
+    settings.look = look;
     const BeamShape shape(Transducer{}, settings);
     std::vector<int> list;
     for (int p = 0; p < planes; ++p) {
@@ -127,6 +128,7 @@ TEST(BeamShape, HearsScatterersInEverySecondPlaneOfFiveAndMore) {
   EXPECT_EQ(heard(3), (std::vector<int>{0, 1, 2}));
   EXPECT_EQ(heard(4), (std::vector<int>{0, 1, 2, 3}));
   EXPECT_EQ(heard(5), (std::vector<int>{0, 2, 4}));
+  EXPECT_EQ(heard(5, Look::raw), (std::vector<int>{0, 1, 2, 3, 4}));
   EXPECT_EQ(heard(7), (std::vector<int>{1, 3, 5}));
   EXPECT_EQ(heard(9), (std::vector<int>{0, 2, 4, 6, 8}));
 }
