@@ -67,12 +67,13 @@ set(may_trainer ${may_evidence} exchange exchange/igtl reports ${viewer})
 set(may_python ${may_reports} anatomy/compile/mesh)
 set(may_meshes/generate core anatomy/surfaces)
 set(may_apps/options ${may_trainer} ${may_reports} trainer)
+set(may_apps/sweep ${may_apps/options} apps/options)
 set(may_apps ${may_apps/options} anatomy/compile/mesh anatomy/label_maps apps/options)
 set(may_apps/validate ${may_apps} ${validation} evidence/validation)
 set(rooms core anatomy/surfaces anatomy/body anatomy/source anatomy/compile/labels anatomy/compile/mesh anatomy/compile/check anatomy/compile anatomy/import anatomy/label_maps
   ${soft} raycast
   ${haptics} ${echo} operators dataset simulation ${session} ${training} evidence evidence/runs ${validation}
-  evidence/validation exchange/igtl exchange reports ${viewer} trainer python meshes/generate apps/options apps apps/validate)
+  evidence/validation exchange/igtl exchange reports ${viewer} trainer python meshes/generate apps/options apps/sweep apps apps/validate)
 
 # folder lists that may include headers starting with the pattern
 set(outside "embree:raycast" "CGAL/:anatomy/surfaces,anatomy/compile,meshes/generate" "tetgen:anatomy/compile"

@@ -112,13 +112,13 @@ TEST_P(ShownNeedle, IsWhereItsBrightestRowIs) {
   ImageSettings settings = test::bare_settings();
   settings.look = look;
   settings.refraction = true;
-  Renderer renderer(fat_over_muscle(26e-3), Transducer{}, settings);
+  Renderer renderer(fat_over_muscle(58e-3), Transducer{}, settings);
   const Pose X_JP = test::probe_at();
   const NeedleView needle = test::needle_at(X_JP, Vec3(8e-3, 0, 31e-3), degrees * kDegree);
   const std::vector<std::uint8_t> without = renderer.render(X_JP).image;  // borders are bright, too
   const Frame& frame = renderer.render(X_JP, needle);
   const LabelImage shown = render_shown_labels(renderer, X_JP, needle);
-  const LabelImage real = render_labels(*fat_over_muscle(26e-3), X_JP, {}, settings, needle);
+  const LabelImage real = render_labels(*fat_over_muscle(58e-3), X_JP, {}, settings, needle);
   int columns = 0;
   int in_shown = 0;
   int in_real = 0;
@@ -140,7 +140,7 @@ TEST_P(ShownNeedle, IsWhereItsBrightestRowIs) {
   EXPECT_GT(columns, 60);
   EXPECT_GE(in_shown, 0.95 * columns);
   if (degrees < 20) {
-    EXPECT_LT(in_real, 0.6 * columns) << "the echo is 1.2 mm too deep";
+    EXPECT_LT(in_real, 0.6 * columns) << "the echo is 1.6 mm too deep";
   }
 }
 INSTANTIATE_TEST_SUITE_P(LooksAndAngles, ShownNeedle,
